@@ -87,9 +87,10 @@
 //   It is about the surfaces of the two meshes and the motion as described at nsvcd_sweep, and is
 //   tested by replaying certificates in double precision (tests/test_proof.c). UNDECIDED says that
 //   surfaces come within 1e-9 of all lengths without meeting (of coarse bodies: within what these
-//   are off, nsvcd_body_facts.quantum), that of eight rays none could tell whether one is inside
-//   the other, that one seems to be inside of what is nearly a solid (nsvcd_encode_options.open),
-//   or that the work allowed was not enough; then the network's opinion is added where it has one.
+//   are off, nsvcd_body_facts.quantization_error), that of eight rays none could tell whether one
+//   is inside the other, that one seems to be inside of what is nearly a solid
+//   (nsvcd_encode_options.open), or that the work allowed was not enough; then the network's
+//   opinion is added where it has one.
 //   A component of a mesh is closed if every edge has its reverse, whichever way it is wound as a
 //   whole. What does no harm to that is mended, or rather not looked at: faces that are there twice
 //   or turned round, fins, walls within, slivers, and gaps between corners that are no farther
@@ -158,7 +159,7 @@
 //     points          vectors of three, of floats and of doubles
 //     rotations       quaternions and matrices, of floats and of doubles
 //     triangles       two triangles: where they meet, or are nearest
-//     spheres         spheres and discs, as bodies store them
+//     spheres         spheres and slabs, as bodies store them
 //     random          random numbers
 //     memory          the allocator; the rows of a workspace
 //     slices          how many of 16 lanes a register holds
@@ -180,17 +181,17 @@
 //     pieces          triangles cut by the cells of the centres
 //     runs            points, segments and triangles, in runs of neighbours
 //     balls           the least ball that holds all points
-//     discs           a direction in which the points are thin
+//     slabs           a direction in which the points are thin
 //     hulls           16 vertices about a patch
-//     sorted          pieces by patch; eight tips of each, for the network
-//     surface         patch by patch: ball, disc, hull, triangles
+//     sorted          pieces by patch; eight extremes of each, for the network
+//     surface         patch by patch: ball, slab, hull, triangles
 //   encoder: what the network keeps of a patch
 //     model           does weights.h fit?
 //     encoder         a patch -> its latent
 //   body: the blob
 //     body            balls in groups of 16, and levels of spheres above
-//     walk            a walk through the groups; load, scale, describe
-//     facets          the blob of the proof: discs, hulls, triangles
+//     traversal       a traversal of the groups; load, scale, describe
+//     geometry        the blob of the proof: slabs, hulls, triangles
 //     trust           is a blob sound? load it, scale it, describe it
 //     write           a surface -> the blob of the proof
 //     encode          nsvcd_encode
@@ -200,17 +201,17 @@
 //     turns           rotations, lane by lane
 //   motion: where bodies are
 //     motion          the moving body's poses as the fixed one sees them
-//     segments        how far a point strays from a straight line
+//     segments        how far a point deviates from a straight line
 //     choice          which segments a motion is cut into, and a long one which intervals
 //   search: which patches may meet
-//     apart           pairs of patches that a plane separates, by their tips
+//     apart           pairs of patches that a plane separates, by their extremes
 //     intervals       when the balls of two patches meet, for the network
 //     search          which groups and patches meet, and in which segments
 //   proof: whether surfaces meet
 //     proof           the theorem; what a proof asks, knows and remembers
 //     poses           poses in double
-//     spans           a stretch of time, and how far points stray in it
-//     discs           planes across discs, of patches and of groups
+//     motion_bounds   a interval of time, and how far points deviate in it
+//     slabs           planes across slabs, of patches and of groups
 //     hulls           planes between hulls
 //     triangle_pairs  a triangle of each body, in double
 //     blocks          16 triangles at a time
@@ -268,18 +269,19 @@
 //                     time in which two balls meet
 //   try               a search of a larger interval with few units
 //   chord             of a point: the straight line from its start to its end in a segment
-//   deviation         how far a point may stray from its chord: by bulge (rotation) and drift
+//   deviation         how far a point may leave its chord: by the rotation, per metre from the
+//                     moving origin (bend), and as that origin does (origin bend)
 //   candidate         two patches and a contact interval, in which their balls meet
 //   pair              two patches, as the decoder sees them
 //   ranker            the tiny decoder, which chooses the candidates that the chosen one sees
 //   patch pair        two patches that the proof has yet to separate in a segment
 //   triangle pair     two listed triangles, one of each body
-//   disc              of a patch: what it reaches along a normal, and across
-//   hull, slack       of a patch: 16 vertices at most, and how far the surface sticks out
-//   listing           a triangle, or a part of one, that a patch stores
-//   facets            what a body stores for the proof: discs, hulls, listings
-//   quantum           how far a coarse triangle may be off the mesh's
-//   span              a segment, or a part of one, as the proof bounds its motion
+//   slab              of a patch: what it reaches along a normal, and across
+//   hull, margin       of a patch: 16 vertices at most, and how far the surface sticks out
+//   entry           a triangle, or a part of one, that a patch stores
+//   geometry            what a body stores for the proof: slabs, hulls, entries
+//   quantization error           how far a coarse triangle may be off the mesh's
+//   interval              a segment, or a part of one, as the proof bounds its motion
 //   keyframe, arc     when one of the poses given is reached; the motion from one to the next
 //   tick              the unit of a motion's time: every keyframe is at a whole number of ticks
 //   work              units that a proof takes
@@ -401,7 +403,7 @@ typedef enum nsvcd_result {
   // `ask` is none of its values
   NSVCD_ERROR_ASK,
   // `method` is none of its values, or cannot answer this: the network knows no FIRST, to,
-  // clearance or skin, and no proof has a gradient
+  // clearance or slop, and no proof has a gradient
   NSVCD_ERROR_METHOD,
   // `to` is negative, not finite, too large, or set where HIT is asked
   NSVCD_ERROR_TO,
@@ -409,8 +411,8 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_TO_TIME,
   // `clearance` is negative, not finite or too large
   NSVCD_ERROR_CLEARANCE,
-  // `skin` is negative, not finite or too large, or set for a certificate
-  NSVCD_ERROR_SKIN,
+  // `slop` is negative, not finite or too large, or set for a certificate
+  NSVCD_ERROR_SLOP,
   // `tolerance` is negative, not finite or too large
   NSVCD_ERROR_TOLERANCE,
   // `manifold` is set where FIRST is not asked
@@ -425,8 +427,8 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_PRECISION,
   // `network.recall` is none of those there are
   NSVCD_ERROR_RECALL,
-  // `network.swell` is negative or not finite
-  NSVCD_ERROR_SWELL,
+  // `network.inflate` is negative or not finite
+  NSVCD_ERROR_INFLATE,
 
   // ---- joints
   // a joint's kind is none of its values, or its parent does not come before it
@@ -450,7 +452,7 @@ typedef enum nsvcd_result {
   // `finest` is negative or not finite
   NSVCD_ERROR_FINEST,
   // `within` or `deepest` is negative, not finite or too large
-  NSVCD_ERROR_WITHIN,
+  NSVCD_ERROR_DISTANCE,
   // `farthest` is negative, not finite or too large
   NSVCD_ERROR_FARTHEST,
   // `nodes` or `shortcuts` is too large, or `edge` negative
@@ -673,7 +675,7 @@ typedef struct nsvcd_encode_options {
   // metres: the body is all that is no farther from the mesh than this. If > 0, triangles need no
   // area: one of the same vertex thrice is a ball, one of two vertices a capsule. Such a body has
   // no latents
-  float round;
+  float convex_radius;
   // 1: the mesh is not closed (a sheet, or a part cut out): nothing counts as inside it. Where it
   // is not said, a part that is nearly a solid leaves undecided what seems to be inside of it: its
   // surface goes on across each of its holes, as it does not at the rim of a bin, a tube or a
@@ -686,7 +688,8 @@ typedef struct nsvcd_encode_options {
   int no_triangles;
   // 1: for flash that is scarce: the proof's triangles in 16 bits a coordinate, in some 5 % fewer
   // bytes, 10 to 40 % of a fine mesh. Verdicts are then about these, which are within
-  // nsvcd_body_facts.quantum of the mesh's own: HIT says that the mesh comes as near as that
+  // nsvcd_body_facts.quantization error of the mesh's own: HIT says that the mesh comes as near as
+  // that
   int coarse;
   // NULL, or told how much is done
   nsvcd_progress *progress;
@@ -715,8 +718,8 @@ NSVCDDEF size_t nsvcd_body_size(size_t patches);
 //              from the allocator, and nsvcd_body_free gives it back
 //   body       not NULL; set to the body; left as it was on failure
 //   allocates  working memory, which is given back, and the body where memory is NULL
-//   errors     ARGUMENT, PATCHES, RADIUS (`round`), LATENTS, INDEX, NUMBER, EMPTY, TOO_LARGE,
-//              MEMORY, WORKSPACE, CANCELLED
+//   errors     ARGUMENT, PATCHES, RADIUS (`convex_radius`), LATENTS, INDEX, NUMBER, EMPTY,
+//              TOO_LARGE, MEMORY, WORKSPACE, CANCELLED
 //   source     the latents: NeuralSVCD, appendix F; the triangles: this library
 NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
                                    const nsvcd_allocator *allocator, void *memory,
@@ -743,7 +746,7 @@ NSVCDDEF nsvcd_result nsvcd_encode_sphere(float radius, const nsvcd_allocator *a
 NSVCDDEF nsvcd_result nsvcd_encode_capsule(const float from[3], const float to[3],
                                            float radius, const nsvcd_allocator *allocator,
                                            const nsvcd_body **body);
-NSVCDDEF nsvcd_result nsvcd_encode_box(const float half[3], float round,
+NSVCDDEF nsvcd_result nsvcd_encode_box(const float half[3], float convex_radius,
                                        const nsvcd_allocator *allocator,
                                        const nsvcd_body **body);
 NSVCDDEF nsvcd_result nsvcd_encode_cloud(const float *points, size_t count, float radius,
@@ -804,12 +807,12 @@ typedef struct nsvcd_body_facts {
   // of the mesh; 0: none are stored
   size_t triangles;
   // triangles and parts of them that are stored, patch by patch
-  size_t listings;
+  size_t stored_triangles;
   // metres: the triangles that verdicts are about are within this of the mesh's. 0: they are the
   // mesh's own floats. Else the body is coarse, or nsvcd_body_scale has rounded it
-  float quantum;
+  float quantization_error;
   // metres that the body goes beyond its mesh
-  float round;
+  float convex_radius;
   // 1: the network can answer
   int latents;
   // parts of the surface, and how many of these are not closed once what does no harm is mended
@@ -889,11 +892,11 @@ typedef struct nsvcd_network_options {
   nsvcd_precision precision;
   // share of collisions that it is to find: 0 (balanced errors), 0.99f, 0.999f or 0.9999f
   float recall;
-  // Patches swell by this share of their radii before planes separate them, so that patches which
-  // only come near are looked at too: the logit rises before contact, and has a gradient there. It
-  // calls more of what is near a hit. 0: as much as `recall` needs, or, where a distance is asked
-  // for, 1
-  float swell;
+  // Patches are inflated by this share of their radii before planes separate them, so that patches
+  // which only come near are looked at too: the logit rises before contact, and has a gradient
+  // there. It calls more of what is near a hit. 0: as much as `recall` needs, or, where a distance
+  // is asked for, 1
+  float inflate;
 } nsvcd_network_options;
 
 // units; HIT and FIRST, whose verdict on a close fit may take as many, and nothing else does
@@ -949,12 +952,12 @@ typedef struct nsvcd_question {
   float clearance;
   // metres: initial penetration, or violation of the clearance, up to this is ignored (their sum,
   // if both). So a body may rest on another, slide along it or leave it. The question is asked as
-  // if a were lifted off b by this much along the normals of all that it touches: see answer.lift.
-  // What is nearer than a twentieth of this is lifted off as if it touched. With FIRST, so is what
-  // is nearer than `to`, up to half of this, so that a body that was stopped before a contact goes
-  // on: entering it by less than this is FREE, though HIT, which has no `to`, tells of a contact.
-  // answer.depth is 0 for what was so near and did not touch
-  float skin;
+  // if a were pushed out of b by this much along the normals of all that it touches: see
+  // answer.lift. What is nearer than a twentieth of this is pushed out of as if it touched. With
+  // FIRST, so is what is nearer than `to`, up to half of this, so that a body that was stopped
+  // before a contact goes on: entering it by less than this is FREE, though HIT, which has no `to`,
+  // tells of a contact. answer.depth is 0 for what was so near and did not touch
+  float slop;
   // metres: surfaces that come closer than this, or than this and the clearance, and do not meet,
   // may be left undecided
   float tolerance;
@@ -969,14 +972,14 @@ typedef struct nsvcd_question {
   // then is told; of DISTANCE each interval has the share that is its part of the time left. An
   // eighth is left once surfaces have come too near to tell. Of FIRST an eighth is kept for what
   // has not been decided by then: what of the motion is free until when, and whether they meet at
-  // all. A manifold, and the place of a lifted body, may take an eighth each besides. By default an
-  // eighth is one of NSVCD_DEFAULT_WORK. Before that, a question takes as many units whatever is
-  // allowed
+  // all. A manifold, and the place of a pushed out body, may take an eighth each besides. By
+  // default an eighth is one of NSVCD_DEFAULT_WORK. Before that, a question takes as many units
+  // whatever is allowed
   size_t work;
   // a motion, or each interval of a long one, is cut into at most so many, a multiple of 16 up to
   // 64; 0: 64. Fewer take less memory, and make intervals shorter
   size_t segments;
-  // where it is the network that answers. It knows nothing of FIRST, a clearance or a skin, and has
+  // where it is the network that answers. It knows nothing of FIRST, a clearance or a slop, and has
   // no bounds of a DISTANCE: `to` is a proof's
   nsvcd_network_options network;
 } nsvcd_question;
@@ -1051,17 +1054,17 @@ typedef struct nsvcd_contact {
 } nsvcd_contact;
 
 // Where the bodies may go: to where they are at a time until which they are free of each other,
-// lifted off what they touch. There is no such place where they are in contact at the start and no
-// lift ends that (depth is HUGE_VALF), or where one is, or may be, inside of the other: then it is
-// where they are at the start, as the caller has them.
-typedef struct nsvcd_safe_place {
+// pushed out of what they touch. There is no such place where they are in contact at the start and
+// no lift ends that (depth is HUGE_VALF), or where one is, or may be, inside of the other: then it
+// is where they are at the start, as the caller has them.
+typedef struct nsvcd_safe_pose {
   // time.low, or, where they are about to touch then, a little before: by as much as poses in
   // float, and coarse triangles, are off. Never later than time.low
   float time;
-  // of both, world. The lift is in the pose of a; where only b moves, in that of b. A skin that is
-  // less than what floats resolve so far from the origin is too little for them
+  // of both, world. The push-out is in the pose of a; where only b moves, in that of b. A slop that
+  // is less than what floats resolve so far from the origin is too little for them
   nsvcd_pose a, b;
-} nsvcd_safe_place;
+} nsvcd_safe_pose;
 
 // What the network thinks.
 typedef struct nsvcd_opinion {
@@ -1081,7 +1084,7 @@ typedef struct nsvcd_opinion {
   // that pair
   uint32_t patch_a, patch_b;
   // pairs of patches whose spheres meet and that no plane between them parts, each counted once for
-  // each stretch of time, until the search ends
+  // each interval of time, until the search ends
   size_t candidates;
   // 1: there were more of these than `pairs` let through
   int limited;
@@ -1105,21 +1108,21 @@ typedef struct nsvcd_answer {
   // clearance or less that they come, if they hit. What stored triangles are off by is allowed for,
   // and so `high` is not 0 where they meet
   nsvcd_range distance;
-  nsvcd_safe_place safe;
-  // metres: of a contact at the start, the smallest lift of a off b, up to the skin or where it is
-  // made of several normals their sum, that ends it: of those along normals of what touches, or
+  nsvcd_safe_pose safe;
+  // metres: of a contact at the start, the smallest push-out of a off b, up to the slop or where it
+  // is made of several normals their sum, that ends it: of those along normals of what touches, or
   // across two of its edges; to a few per cent, and what stored triangles are off by. 0: there is
   // no contact at the start
   float depth;
-  // metres, world, at the start: by what a was lifted off b for the skin; it turns with b, or,
+  // metres, world, at the start: by what a was pushed out of b for the slop; it turns with b, or,
   // where a rests, or both move and a reaches farther from its origin, round and all, with a. The
   // answer is about the motion so displaced, which touches nothing at the start. 0: nothing was
-  // touched, nor so near that it is lifted off; or no lift does that, since a is pressed in deeper
-  // than the skin, or held from all sides: then the contact counts
-  float lift[3];
+  // touched, nor so near that it is pushed out of; or no push-out does that, since a is pressed in
+  // deeper than the slop, or held from all sides: then the contact counts
+  float push_out[3];
   // of a HIT whose triangles are known, at time.high: one, or a manifold, in the order of its ids.
   // That is of all places that are no farther apart than `to` (or the default, where only to_time
-  // is given) and the clearance the four that span most
+  // is given) and the clearance the four that interval most
   size_t contact_count;
   nsvcd_contact contacts[NSVCD_MAX_CONTACTS];
   // the triangles that distance.high is about, whatever the verdict: of a HIT the contact that
@@ -1155,11 +1158,11 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 // FREE and HIT hold for the meshes' own floats: the triangles of a HIT meet, or come within the
 // clearance, to 1e-12 of all lengths (both extents and how far the bodies are apart). UNDECIDED are
 // surfaces that come within 1e-9 of these without meeting, or more work than was allowed. Of bodies
-// whose nsvcd_body_facts.quantum is not 0 a HIT is one to within both quanta, and nearer than these
-// it is undecided whether surfaces meet: they are coarse, or were scaled. More work never leaves
-// undecided what less decides, nor takes more units for it, but where less has come to its last
-// eighth, or half of DISTANCE. By FIRST time.low rises with it, and is 0 only where the first
-// moments of the motion take more than a sixteenth of it.
+// whose nsvcd_body_facts.quantization error is not 0 a HIT is one to within both quantization
+// errors, and nearer than these it is undecided whether surfaces meet: they are coarse, or were
+// scaled. More work never leaves undecided what less decides, nor takes more units for it, but
+// where less has come to its last eighth, or half of DISTANCE. By FIRST time.low rises with it, and
+// is 0 only where the first moments of the motion take more than a sixteenth of it.
 //
 // A motion of any length, up to NSVCD_MAX_POSES poses of each body, is one question, and takes no
 // more memory than a short one. If it has more than 64 poses, or turns by more than 1,280 degrees,
@@ -1228,13 +1231,13 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
 //   source     reverse mode; this library
 //
 // Zero where no decoder was needed, and for poses that the decisive pair does not pass. It is the
-// gradient of the pair and the stretch of time that decided: its logit is the greatest of several,
+// gradient of the pair and the interval of time that decided: its logit is the greatest of several,
 // and so has kinks, also where the network (ReLU) and the frame of a pair have theirs, and where a
-// flat patch does not turn. At rest it is the mean of both sides. The ends of the stretch move with
-// the poses, but for those at t = 0 or 1 and where a segment of the search begins or ends. The unit
-// of length, and the spheres' allowance for what the motion does between its keyframes, are taken
-// as constant. In int8 arithmetic it is the derivative of the float decoder, or, without that, of
-// the function that the int8 one rounds.
+// flat patch does not turn. At rest it is the mean of both sides. The ends of the interval move
+// with the poses, but for those at t = 0 or 1 and where a segment of the search begins or ends. The
+// unit of length, and the spheres' allowance for what the motion does between its keyframes, are
+// taken as constant. In int8 arithmetic it is the derivative of the float decoder, or, without
+// that, of the function that the int8 one rounds.
 NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace,
                                            size_t workspace_size, nsvcd_answer *answer,
                                            float *gradient_a, float *gradient_b);
@@ -1266,8 +1269,8 @@ NSVCDDEF void nsvcd_spline(const float *control, size_t via_points, size_t joint
 
 typedef enum nsvcd_plan_status {
   // the trajectory is within the limits and free of collision: certified where bodies have
-  // triangles, else as far as the network knows; but for what it strays from the last check's
-  // motion, answer.stray
+  // triangles, else as far as the network knows; but for what it deviates from the last check's
+  // motion, answer.deviate
   NSVCD_PLAN_CONVERGED = 0,
   // the iterations ended before one was found; this is the best
   NSVCD_PLAN_LIMIT,
@@ -1317,9 +1320,9 @@ typedef struct nsvcd_plan_problem {
   size_t pair_count;
   // joints (F) -> poses (B), in the world. What is grasped moves with the hand because this says
   // so: nothing is encoded anew
-  void (*place)(void *user, const float *joints, nsvcd_pose *poses);
+  void (*kinematics)(void *user, const float *joints, nsvcd_pose *poses);
   // joints (F) -> jacobian (B, 6, F): of each body, by a joint, the displacement of its origin and
-  // its rotation vector, in the world's axes. NULL: by differences of `place`
+  // its rotation vector, in the world's axes. NULL: by differences of `kinematics`
   void (*jacobian)(void *user, const float *joints, float *jacobian);
   // Instead of the network: the cost of collision of poses (T, B) at T times along the trajectory.
   // It may end at the first sum above `limit`. Sets *collides if there is a collision. Unless
@@ -1373,10 +1376,10 @@ typedef struct nsvcd_plan_options {
   int discrete;
   // segments of the last check, up to 4 NSVCD_MAX_PLAN_SEGMENTS; 16 times the finest stage's, or
   // that limit. Limits are looked at between these and at via points. Twice as many take
-  // answer.stray to a quarter
+  // answer.deviate to a quarter
   size_t check;
   // how all questions are asked; sweep.network.recall = 0.999f keeps more distance. The search asks
-  // the network. `method` is that of start, goal and the last check, and so are `clearance`, `skin`
+  // the network. `method` is that of start, goal and the last check, and so are `clearance`, `slop`
   // and the like. Not read: a, b, ask, to and to_time
   nsvcd_question sweep;
 } nsvcd_plan_options;
@@ -1393,12 +1396,12 @@ typedef struct nsvcd_plan_answer {
   float logit;
   // of that logit, in [0,1]
   float time;
-  // metres that the spline strays from the motion of the last check, through whose poses it goes:
+  // metres that the spline deviates from the motion of the last check, through whose poses it goes:
   // the farthest of any point of a's bounding sphere, as b sees it. Of all pairs whose a is given,
   // with a custom cost of collision too. Measured, not proven: half way between two poses, where a
-  // smooth curve strays most, at 16 places or more of each piece of the spline. 0 where no
+  // smooth curve deviates most, at 16 places or more of each piece of the spline. 0 where no
   // trajectory was sought
-  float stray;
+  float deviation;
   // of the trajectory, the latter without collision and limits; 0 where none was sought
   float cost, smoothness;
   // M of `control`
@@ -1432,14 +1435,14 @@ NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
 //   errors     ARGUMENT (NULL), COUNT, PAIR, BODY, VERSION, STAGE, PLAN (of the options), LIMITS
 //              (low above high), VALUE (limits, start or goal not finite or beyond
 //              NSVCD_MAX_COORDINATE), NUMBER (a cost beyond the range of float), POSE and
-//              QUATERNION (from `place`), WORKSPACE, TOO_LARGE, and those of the queries
+//              QUATERNION (from `kinematics`), WORKSPACE, TOO_LARGE, and those of the queries
 //   source     MPPI (Williams et al. 2017), then L-BFGS with bundled gradients (Suh et al. 2022);
 //              NeuralSVCD, appendix D
 //
 // Start, goal and the trajectory at the end are proven free where bodies have triangles: for the
 // motion of each pair as seen from b between the poses of the check's segments, position linear and
-// rotation slerp. The spline goes through these poses, and in between strays from that motion by
-// answer.stray, which nothing proves: to have the spline itself clear, by measure, ask for a
+// rotation slerp. The spline goes through these poses, and in between deviates from that motion by
+// answer.deviate, which nothing proves: to have the spline itself clear, by measure, ask for a
 // sweep.clearance above that. With `discrete`, or a cost of collision of one's own, nothing is
 // proven between the poses.
 //
@@ -1568,8 +1571,7 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
       "low or high is not finite, or low is not less than high on each axis\0"
       "patches is more than 65536, or "
       "patch_radius is negative or not finite\0"
-      "radius, round or half is negative, zero where it must not be, not finite or too "
-      "large\0"
+      "radius, convex_radius or half is negative, wrongly zero, not finite or too large\0"
       "this is not a body: its first bytes are others, or it is damaged, cut short or "
       "misaligned\0"
       "the body is of another version, model or byte order: "
@@ -1577,7 +1579,7 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
       "a body holds no triangles, "
       "which a proof needs: encode it without no_triangles\0"
       "a body holds no latents, which the network needs: encode it with latents, and "
-      "without round\0"
+      "without convex_radius\0"
       "poses and count "
       "do not agree: count is 0 where poses is NULL, else 1 to 65536\0"
       "times do not rise, or, of poses, not from 0 to 1 by 1e-7 or more\0"
@@ -1588,12 +1590,12 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
       "both sides are the same body in the same motion\0"
       "ask is none of its values\0"
       "method is none of its values, or cannot answer this: the network knows no FIRST, "
-      "to, clearance or skin, and no proof has a gradient\0"
+      "to, clearance or slop, and no proof has a gradient\0"
       "to is negative, not finite or beyond a million metres, or set where HIT is "
       "asked, which has no use for it\0"
       "to_time is not in 0 to 1, or set where FIRST is not asked\0"
       "clearance is negative, not finite or too large\0"
-      "skin is negative, not finite or too large, or set for a certificate, which knows "
+      "slop is negative, not finite or too large, or set for a certificate, which knows "
       "none\0"
       "tolerance is negative, not finite or beyond a million metres\0"
       "manifold is set where FIRST is not asked\0"
@@ -1602,7 +1604,7 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
       "network.model is none of its values, or not compiled in\0"
       "network.precision is none of its values, or not compiled in\0"
       "network.recall is none of 0, 0.99, 0.999 and 0.9999\0"
-      "network.swell is negative or not finite\0"
+      "network.inflate is negative or not finite\0"
       "a joint's kind is none of its values, or its parent does not come before it\0"
       "a joint's axis has no length, or is not finite\0"
       "a joint's limits are not finite or too large, or low is above high\0"
@@ -1614,7 +1616,7 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
       "degree is not 1 to 5, or pieces are more than can be counted\0"
       "joints turn too far in a piece of the motion to be certified\0"
       "finest is negative or not finite\0"
-      "within or deepest is negative, not finite or too large\0"
+      "max_distance or deepest is negative, not finite or too large\0"
       "farthest is negative, not finite or too large\0"
       "nodes or shortcuts is too large, or edge is negative or no number\0"
       "explore or refine: via_points, segments, iterations, draws or noise is out of "
@@ -1744,7 +1746,7 @@ static int nsvcd__is_aligned(const void *memory) {
 
 // Are numbers finite, and their absolute values no greater than `most`? By their bits, so that it
 // holds under -ffast-math too.
-static int nsvcd__within(const float *values, size_t count, float most) {
+static int nsvcd__in_range(const float *values, size_t count, float most) {
   for (size_t i = 0; i < count; i++) {
     if (!nsvcd__is_finite(values[i]) || fabsf(values[i]) > most) return 0;
   }
@@ -1783,7 +1785,7 @@ static nsvcd_result nsvcd__poses_check(const nsvcd_pose *poses, size_t count) {
   if (is_unit && most <= nsvcd__magnitude(NSVCD_MAX_COORDINATE)) return NSVCD_OK;
   // which of both?
   for (size_t k = 0; k < count; k++) {
-    if (!nsvcd__within(poses[k].position, 3, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_POSE;
+    if (!nsvcd__in_range(poses[k].position, 3, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_POSE;
   }
   return NSVCD_ERROR_QUATERNION;
 }
@@ -2305,7 +2307,7 @@ static inline nsvcd__nearest nsvcd__nearest_of(const nsvcd__d3 *a, const nsvcd__
 // ---------------------------------------------------------------------------------- ground/spheres
 #ifndef NSVCD__HAS_GROUND_SPHERES
 #define NSVCD__HAS_GROUND_SPHERES
-// In: rows of floats, as a body stores them. Out: one sphere, or one disc, as a value.
+// In: rows of floats, as a body stores them. Out: one sphere, or one slab, as a value.
 
 typedef struct nsvcd__sphere {
   nsvcd__f3 centre;
@@ -2339,36 +2341,36 @@ static inline void nsvcd__sphere_store(nsvcd__sphere sphere, float *first, size_
   first[3 * slots + i] = sphere.radius;
 }
 
-// ---- tips
+// ---- extremes
 
 // points of a patch's surface that reach about as far as all of it does: surface/sorted
-#define NSVCD__TIPS 8
+#define NSVCD__EXTREMES 8
 
-// ---- discs
+// ---- slabs
 
 // Points x about a centre have low <= normal.x <= high, and are no farther than `across` from the
 // line along the normal, which is no longer than 1.
-typedef struct nsvcd__disc {
+typedef struct nsvcd__slab {
   nsvcd__f3 normal;
   float low, high, across;
-} nsvcd__disc;
+} nsvcd__slab;
 
-// Disc i of (6, stride).
-static inline nsvcd__disc nsvcd__disc_at(const float *discs, size_t stride, size_t i) {
-  const float *d = discs + i;
-  nsvcd__disc out;
+// Slab i of (6, stride).
+static inline nsvcd__slab nsvcd__slab_at(const float *slabs, size_t stride, size_t i) {
+  const float *d = slabs + i;
+  nsvcd__slab out;
   out.normal = nsvcd__f3_get(d, stride);
   out.low = d[3 * stride];
   out.high = d[4 * stride];
   out.across = d[5 * stride];
   return out;
 }
-static inline void nsvcd__disc_store(nsvcd__disc disc, float *discs, size_t stride, size_t i) {
-  float *d = discs + i;
-  nsvcd__f3_put(disc.normal, d, stride);
-  d[3 * stride] = disc.low;
-  d[4 * stride] = disc.high;
-  d[5 * stride] = disc.across;
+static inline void nsvcd__slab_store(nsvcd__slab slab, float *slabs, size_t stride, size_t i) {
+  float *d = slabs + i;
+  nsvcd__f3_put(slab.normal, d, stride);
+  d[3 * stride] = slab.low;
+  d[4 * stride] = slab.high;
+  d[5 * stride] = slab.across;
 }
 #endif  // NSVCD__HAS_GROUND_SPHERES
 
@@ -2489,10 +2491,10 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
 // it is looked for in blobs, also where constants are computed in double (FLT_EVAL_METHOD).
 #define NSVCD__NOWHERE (-999999986991104.0f)
 #define NSVCD__HULL NSVCD__LANES  // vertices of a patch's hull, at most
-// What the triangle of a listing belongs to: a sheet; a closed surface, by how often it winds; one
+// What the triangle of a entry belongs to: a sheet; a closed surface, by how often it winds; one
 // by how many of its triangles a ray crosses, whichever way; or what is nearly a solid. Beside the
 // triangle's number, which has the lower bits, they are the upper ones.
-enum { NSVCD__SHEET, NSVCD__NEARLY, NSVCD__CLOSED, NSVCD__EITHER_WAY };
+enum { NSVCD__SHEET, NSVCD__NEARLY, NSVCD__CLOSED, NSVCD__EITHER_DIRECTION };
 #define NSVCD__KIND_SHIFT 30
 #define NSVCD__NUMBER 0x3fffffffu
 
@@ -2724,7 +2726,7 @@ static int nsvcd__polygon_alloc(nsvcd__polygon *polygon, uint32_t corners,
 static double nsvcd__d2_cross(nsvcd__d2 a, nsvcd__d2 b, nsvcd__d2 c) {
   return (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
 }
-static int nsvcd__same_place(nsvcd__d2 a, nsvcd__d2 b) {
+static int nsvcd__same_position(nsvcd__d2 a, nsvcd__d2 b) {
   return !(a.x < b.x || a.x > b.x || a.y < b.y || a.y > b.y);
 }
 
@@ -2830,13 +2832,13 @@ static int nsvcd__ear_holds(const nsvcd__ear *ear, nsvcd__d2 p) {
   for (size_t k = 0; k < 3; k++) {
     if (nsvcd__d2_cross(ear->at[k], ear->at[(k + 1) % 3], p) < 0) return 0;
   }
-  if (nsvcd__same_place(p, ear->at[0]) || nsvcd__same_place(p, ear->at[1])) return 0;
-  return !nsvcd__same_place(p, ear->at[2]);
+  if (nsvcd__same_position(p, ear->at[0]) || nsvcd__same_position(p, ear->at[1])) return 0;
+  return !nsvcd__same_position(p, ear->at[2]);
 }
 
 // May an ear hold a corner in a box?
 static int nsvcd__ear_meets(const nsvcd__ear *ear, const nsvcd__corner_box *box) {
-  if (nsvcd__same_place(box->low, box->high)) return nsvcd__ear_holds(ear, box->low);
+  if (nsvcd__same_position(box->low, box->high)) return nsvcd__ear_holds(ear, box->low);
   if (ear->box.high.x < box->low.x || ear->box.high.y < box->low.y) return 0;
   if (ear->box.low.x > box->high.x || ear->box.low.y > box->high.y) return 0;
   for (size_t k = 0; k < 3; k++) {
@@ -3426,7 +3428,7 @@ static nsvcd_result nsvcd__stl_text(nsvcd__obj *text, float *corners, size_t *co
 }
 
 // Vertices by their places.
-typedef struct nsvcd__stl_places {
+typedef struct nsvcd__stl_positions {
   // (slots), a power of two: numbers + 1, 0 where none is
   uint32_t *table;
   size_t slots;
@@ -3434,20 +3436,20 @@ typedef struct nsvcd__stl_places {
   uint64_t seed;
   // along the table, past vertices elsewhere
   size_t steps;
-} nsvcd__stl_places;
+} nsvcd__stl_positions;
 
 // The slot of the vertex at this place, or where it belongs.
-static uint32_t *nsvcd__stl_find(nsvcd__stl_places *places, const float *positions,
+static uint32_t *nsvcd__stl_find(nsvcd__stl_positions *found, const float *positions,
                                  const float *corner) {
   uint32_t bits[3];
-  uint64_t hash = places->seed;
+  uint64_t hash = found->seed;
   memcpy(bits, corner, sizeof bits);
   for (size_t k = 0; k < 3; k++) {
     hash = (hash ^ bits[k]) * UINT64_C(0x9e3779b97f4a7c15);
     hash ^= hash >> 32;
   }
-  for (size_t slot = (size_t)hash;; slot++, places->steps++) {
-    uint32_t *at = &places->table[slot & (places->slots - 1)];
+  for (size_t slot = (size_t)hash;; slot++, found->steps++) {
+    uint32_t *at = &found->table[slot & (found->slots - 1)];
     if (!*at || memcmp(positions + 3 * (size_t)(*at - 1), corner, sizeof bits) == 0) return at;
   }
 }
@@ -3455,7 +3457,7 @@ static uint32_t *nsvcd__stl_find(nsvcd__stl_places *places, const float *positio
 // Makes one vertex of corners at the same place: corners (3 triangles, 3) become positions, and
 // their numbers indices. Where it takes many steps, as of corners that are chosen to share a hash,
 // another hash is taken. The table is of zeros.
-static void nsvcd__stl_weld(nsvcd_mesh *mesh, nsvcd__stl_places *places) {
+static void nsvcd__stl_weld(nsvcd_mesh *mesh, nsvcd__stl_positions *found) {
   const size_t corners = mesh->vertex_count;
   float *positions = mesh->positions;
   size_t count = 0;
@@ -3463,19 +3465,19 @@ static void nsvcd__stl_weld(nsvcd_mesh *mesh, nsvcd__stl_places *places) {
     const size_t most = 8 * i + 1024;
     float corner[3];
     for (size_t k = 0; k < 3; k++) corner[k] = positions[3 * i + k] + 0.0f;  // -0 is 0
-    uint32_t *at = nsvcd__stl_find(places, positions, corner);
+    uint32_t *at = nsvcd__stl_find(found, positions, corner);
     if (!*at) {
       memcpy(positions + 3 * count, corner, sizeof corner);
       *at = (uint32_t)++count;
     }
     mesh->indices[i] = *at - 1;
-    while (places->steps > most) {
+    while (found->steps > most) {
       // where memory lies is not known to who made the file
-      places->seed += UINT64_C(0xd1342543de82ef95) + (uint64_t)(size_t)places->table;
-      places->steps = 0;
-      memset(places->table, 0, places->slots * sizeof *places->table);
-      for (size_t v = 0; v < count && places->steps <= most; v++)
-        *nsvcd__stl_find(places, positions, positions + 3 * v) = (uint32_t)v + 1;
+      found->seed += UINT64_C(0xd1342543de82ef95) + (uint64_t)(size_t)found->table;
+      found->steps = 0;
+      memset(found->table, 0, found->slots * sizeof *found->table);
+      for (size_t v = 0; v < count && found->steps <= most; v++)
+        *nsvcd__stl_find(found, positions, positions + 3 * v) = (uint32_t)v + 1;
     }
   }
   mesh->vertex_count = count;
@@ -3513,11 +3515,11 @@ static nsvcd_result nsvcd__stl_read(const void *data, size_t size,
   nsvcd_mesh out;
   nsvcd__arena arena = nsvcd__arena_of(allocator);
   memset(&out, 0, sizeof out);
-  nsvcd__stl_places places = {NULL, 16, 0, 0};
-  while (places.slots < 2 * corners) places.slots *= 2;
+  nsvcd__stl_positions positions = {NULL, 16, 0, 0};
+  while (positions.slots < 2 * corners) positions.slots *= 2;
   if (!result) {
-    places.table = NSVCD__TAKE(&arena, uint32_t, places.slots);
-    if (!places.table || !nsvcd__mesh_alloc(&out, corners, corners / 3, allocator)) {
+    positions.table = NSVCD__TAKE(&arena, uint32_t, positions.slots);
+    if (!positions.table || !nsvcd__mesh_alloc(&out, corners, corners / 3, allocator)) {
       text.line = 0;
       result = NSVCD_ERROR_MEMORY;
     }
@@ -3532,7 +3534,7 @@ static nsvcd_result nsvcd__stl_read(const void *data, size_t size,
     const size_t facet = NSVCD__STL_HEADER + NSVCD__STL_FACET * (i / 3);
     result = nsvcd__stl_corner(bytes + facet + 12 * (1 + i % 3), &o, out.positions + 3 * i);
   }
-  if (!result) nsvcd__stl_weld(&out, &places);
+  if (!result) nsvcd__stl_weld(&out, &positions);
   nsvcd__arena_free(&arena);
   if (result) {
     if (error_line && !is_binary) *error_line = text.line;
@@ -4763,7 +4765,7 @@ static void nsvcd__mark_parts(const nsvcd__mending *m, nsvcd__component *wholes,
     nsvcd__component *whole = &wholes[m->wholes[n]];
     const int is_most = part->area >= 0.5 * whole->area;
     const int kind = part->turned == 0           ? NSVCD__CLOSED
-                     : part->odd == 0 && is_most ? NSVCD__EITHER_WAY
+                     : part->odd == 0 && is_most ? NSVCD__EITHER_DIRECTION
                                                  : NSVCD__SHEET;
     out->kinds[m->triangles[n]] = (uint8_t)kind;
     if (kind == NSVCD__SHEET) whole->fails = 1;
@@ -4793,7 +4795,7 @@ static void nsvcd__mark_wholes(const nsvcd__mending *m, nsvcd__component *wholes
       out->open_edges += is_closed ? 0 : whole->odd;
     }
     if (!is_closed && is_nearly && *kind == NSVCD__SHEET) *kind = NSVCD__NEARLY;
-    out->is_mixed |= *kind == NSVCD__EITHER_WAY || *kind == NSVCD__NEARLY;
+    out->is_mixed |= *kind == NSVCD__EITHER_DIRECTION || *kind == NSVCD__NEARLY;
   }
 }
 
@@ -5167,14 +5169,14 @@ static void nsvcd__region_end(nsvcd__regions *r, const nsvcd__region *region) {
 //
 // What holds. Every point of the mesh lies in a piece. Every piece is a convex part of one
 // triangle, and belongs to one patch. That patch lists the piece's triangle, or the piece itself
-// where the triangle is large beside the patches. Its ball, its disc and its hull swollen by the
-// slack contain the piece. Triangles without area are surface like others.
+// where the triangle is large beside the patches. Its ball, its slab and its hull inflated by the
+// margin contain the piece. Triangles without area are surface like others.
 //
 // Why it holds. A piece is only ever divided in two parts that share the corners between them, and
 // both parts are kept. So the pieces cover the mesh whatever the cuts are, and poor cuts can make a
 // description only larger. Each number is taken from the corners of the pieces, about what is
 // stored in float, and then rounded outwards. A piece is the convex hull of its corners, and so are
-// ball, disc and swollen hull convex: what contains the corners contains the piece. The corners
+// ball, slab and inflated hull convex: what contains the corners contains the piece. The corners
 // themselves are off by roundings of double: all bounds are wider by NSVCD__SURFACE_MARGIN.
 
 #ifndef NSVCD_NO_ENCODER
@@ -5240,14 +5242,14 @@ typedef struct nsvcd__surface {
   // (N) about c; an empty patch has radius NSVCD__NOWHERE
   nsvcd__sphere *balls;
   // (N) about c
-  nsvcd__disc *discs;
+  nsvcd__slab *slabs;
   // (N) metres per integer: a stored vertex is c + step * (x, y, z)
   float *steps;
   // (N) metres: every point of a piece is within this of the convex hull of the first
   // hull_counts[i] stored vertices
-  float *slacks;
+  float *margins;
   // (N) metres: every corner that is stored as integers is within this of them
-  float *quanta;
+  float *errors;
   // (N) 1..NSVCD__HULL; 0 where empty
   uint8_t *hull_counts;
   // (N + 1)
@@ -5313,7 +5315,7 @@ typedef struct nsvcd__pieces {
   double longest_edge;
   // metres, added to all bounds
   double margin;
-  // metres: discs need not be thinner
+  // metres: slabs need not be thinner
   double thin;
 } nsvcd__pieces;
 
@@ -5502,7 +5504,7 @@ static int nsvcd__pieces_build(const nsvcd__region *region, const nsvcd__patches
 #define NSVCD__RUN_LENGTH 16
 // runs that are worked on at a time, in memory that stays near
 #define NSVCD__RUNS_AT_ONCE 256
-// of how round a body is: where its discs are thinner, they are not made thinner still
+// of how round a body is: where its slabs are thinner, they are not made thinner still
 #define NSVCD__RUN_THIN 0.5
 
 // Is some triangle of a mesh a point or a segment? One without indices is a cloud.
@@ -5564,8 +5566,8 @@ typedef struct nsvcd__curve {
   uint32_t *met;
   uint32_t met_count;
   nsvcd__solids solids;
-  double greatest;  // coordinate of the mesh
-  double round;     // metres
+  double greatest;       // coordinate of the mesh
+  double convex_radius;  // metres
 } nsvcd__curve;
 
 // Marks what the triangles belong to. 0 without memory.
@@ -5584,12 +5586,12 @@ static int nsvcd__curve_mark(nsvcd__curve *curve, nsvcd__arena *kept) {
 }
 
 // 0 without memory.
-static int nsvcd__curve_build(const nsvcd_mesh *mesh, float round, nsvcd__arena *arena,
+static int nsvcd__curve_build(const nsvcd_mesh *mesh, float convex_radius, nsvcd__arena *arena,
                               nsvcd__curve *curve) {
   const size_t count = mesh->triangle_count;
   memset(curve, 0, sizeof *curve);
   curve->mesh = mesh;
-  curve->round = (double)round;
+  curve->convex_radius = (double)convex_radius;
   curve->keys = NSVCD__TAKE(arena, uint64_t, 2 * count);
   curve->met = NSVCD__TAKE(arena, uint32_t, mesh->indices ? mesh->vertex_count : 0);
   if (arena->failed) return 0;
@@ -5651,7 +5653,7 @@ static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, siz
   pieces->region = block;
   pieces->patches = patches;
   pieces->margin = NSVCD__SURFACE_MARGIN * block->greatest + NSVCD__SURFACE_TINY;
-  pieces->thin = NSVCD__RUN_THIN * curve->round;
+  pieces->thin = NSVCD__RUN_THIN * curve->convex_radius;
   if (!nsvcd__list_reserve(&pieces->list, count, sizeof(nsvcd__piece), arena)) return 0;
   if (arena->failed) return 0;
   nsvcd__piece *out = (nsvcd__piece *)pieces->list.items;
@@ -5826,8 +5828,8 @@ static nsvcd__d3 nsvcd__ball_centre(nsvcd__points points) {
 #endif  // NSVCD_NO_PROOF
 #endif  // NSVCD_NO_ENCODER
 
-// ----------------------------------------------------------------------------------- surface/discs
-// In: points. Out: a disc: a direction in which the points are thin, what they reach along it, and
+// ----------------------------------------------------------------------------------- surface/slabs
+// In: points. Out: a slab: a direction in which the points are thin, what they reach along it, and
 // across.
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
@@ -5928,7 +5930,7 @@ static nsvcd__d3 nsvcd__thinner(nsvcd__points points, nsvcd__d3 direction, doubl
 
 // points: about the centre of the patch's ball. normal: the mean one of its pieces, of any length.
 // thin: metres; thinner than that is of no use.
-static nsvcd__disc nsvcd__fit_disc(nsvcd__points points, nsvcd__d3 normal, double margin,
+static nsvcd__slab nsvcd__fit_slab(nsvcd__points points, nsvcd__d3 normal, double margin,
                                    double thin) {
   nsvcd__d3 best = nsvcd__least_axis(points);
   const nsvcd__d3 mean = nsvcd__d3_unit(normal, best);
@@ -5946,17 +5948,17 @@ static nsvcd__disc nsvcd__fit_disc(nsvcd__points points, nsvcd__d3 normal, doubl
     squared = nsvcd__max(squared, nsvcd__d3_dot(moment, moment));
   }
   const double across = sqrt(squared / nsvcd__d3_dot(stored, stored));
-  nsvcd__disc disc;
-  disc.normal = n;
-  disc.low = -nsvcd__float_above(-(range.low - margin));
-  disc.high = nsvcd__float_above(range.high + margin);
-  disc.across = nsvcd__float_above(across * (1 + 1e-6) + margin);
-  return disc;
+  nsvcd__slab slab;
+  slab.normal = n;
+  slab.low = -nsvcd__float_above(-(range.low - margin));
+  slab.high = nsvcd__float_above(range.high + margin);
+  slab.across = nsvcd__float_above(across * (1 + 1e-6) + margin);
+  return slab;
 }
 #endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
 
 // ----------------------------------------------------------------------------------- surface/hulls
-// In: points. Out: some of them whose hull, swollen by a slack, holds all.
+// In: points. Out: some of them whose hull, inflated by a margin, holds all.
 
 #ifndef NSVCD_NO_ENCODER
 // The point of a simplex nearest to the origin: weights are positive and sum to 1.
@@ -5976,17 +5978,18 @@ static int nsvcd__simplex_resolve(nsvcd__simplex *s) {
     double target[4] = {1};
     if (!nsvcd__solve_shares(s->points, s->count, 0, edges, target + 1)) return 0;
     for (size_t i = 1; i < s->count; i++) target[0] -= target[i];
-    double way = 1;
+    double fraction = 1;
     size_t blocks = s->count;
     for (size_t i = 0; i < s->count; i++) {
       const double weight = s->weights[i];
       if (target[i] > 0) continue;
       const double to_zero = weight > 0 ? weight / (weight - target[i]) : 0;
-      if (to_zero > way) continue;
-      way = to_zero;
+      if (to_zero > fraction) continue;
+      fraction = to_zero;
       blocks = i;
     }
-    for (size_t i = 0; i < s->count; i++) s->weights[i] += way * (target[i] - s->weights[i]);
+    for (size_t i = 0; i < s->count; i++)
+      s->weights[i] += fraction * (target[i] - s->weights[i]);
     if (blocks == s->count) return 1;
     s->count--;
     s->points[blocks] = s->points[s->count];
@@ -6038,7 +6041,7 @@ static size_t nsvcd__choose_hull(nsvcd__points points, size_t most, double enoug
   nsvcd__d3 at[NSVCD__HULL];
   nsvcd__points hull = {at, 0};
   size_t next = 0;
-  double reach = 0;
+  double most_distant = 0;
   *farthest = 0;
   if (points.count <= most) {
     for (size_t i = 0; i < points.count; i++) chosen[i] = i;
@@ -6047,8 +6050,8 @@ static size_t nsvcd__choose_hull(nsvcd__points points, size_t most, double enoug
   for (size_t i = 0; i < points.count; i++) {
     // from the centre, to begin with
     const double distance = nsvcd__d3_length(points.at[i]);
-    if (distance > reach) next = i;
-    reach = nsvcd__max(reach, distance);
+    if (distance > most_distant) next = i;
+    most_distant = nsvcd__max(most_distant, distance);
     bounds[i] = HUGE_VAL;
   }
   *farthest = HUGE_VAL;
@@ -6073,7 +6076,7 @@ static size_t nsvcd__choose_hull(nsvcd__points points, size_t most, double enoug
 #endif  // NSVCD_NO_ENCODER
 
 // ---------------------------------------------------------------------------------- surface/sorted
-// In: pieces. Out: the same patch by patch; and for the network the tips of each patch: eight
+// In: pieces. Out: the same patch by patch; and for the network the extremes of each patch: eight
 // points of its surface whose hull is nearly that of all of it.
 
 #ifndef NSVCD_NO_ENCODER
@@ -6091,8 +6094,8 @@ typedef struct nsvcd__sorted {
   // (met_count) the points of the pass
   uint32_t *met;
   size_t met_count;
-  nsvcd__d3 *places;  // the same, about the centre
-  double *bounds;     // of the same
+  nsvcd__d3 *positions;  // the same, about the centre
+  double *bounds;        // of the same
   // (N, NSVCD__HULL) points that the hulls consist of
   uint32_t *hulls;
 } nsvcd__sorted;
@@ -6133,7 +6136,7 @@ static int nsvcd__sorted_build(const nsvcd__pieces *pieces, nsvcd__arena *arena,
     most = corners > most ? corners : most;
   }
   sorted->met = NSVCD__TAKE(arena, uint32_t, most);
-  sorted->places = NSVCD__TAKE(arena, nsvcd__d3, most);
+  sorted->positions = NSVCD__TAKE(arena, nsvcd__d3, most);
   sorted->bounds = NSVCD__TAKE(arena, double, most);
   return !arena->failed;
 }
@@ -6148,17 +6151,19 @@ static void nsvcd__number_point(nsvcd__sorted *sorted, uint32_t point) {
 
 // The points of the pass, about a centre.
 static nsvcd__points nsvcd__place_points(nsvcd__sorted *sorted, nsvcd__d3 centre) {
-  const nsvcd__points out = {sorted->places, sorted->met_count};
+  const nsvcd__points out = {sorted->positions, sorted->met_count};
   for (size_t j = 0; j < sorted->met_count; j++) {
     const nsvcd__d3 at = nsvcd__point_at(sorted->pieces, sorted->met[j]);
-    sorted->places[j] = nsvcd__d3_sub(at, centre);
+    sorted->positions[j] = nsvcd__d3_sub(at, centre);
   }
   return out;
 }
 
 #ifndef NSVCD_NO_NETWORK
-// The tips of patch i, as a body stores them: (TIPS, 3), from its centre in steps of radius / 127.
-static void nsvcd__tips_of(nsvcd__sorted *sorted, size_t i, float radius, int8_t *tips) {
+// The extremes of patch i, as a body stores them: (TIPS, 3), from its centre in steps of radius /
+// 127.
+static void nsvcd__extremes_of(nsvcd__sorted *sorted, size_t i, float radius,
+                               int8_t *extremes) {
   const double inverse = radius > 0 ? 127 / (double)radius : 0;
   sorted->pass++;
   sorted->met_count = 0;
@@ -6172,23 +6177,23 @@ static void nsvcd__tips_of(nsvcd__sorted *sorted, size_t i, float radius, int8_t
   size_t chosen[NSVCD__HULL] = {0};
   double farthest;
   const size_t count =
-      nsvcd__choose_hull(points, NSVCD__TIPS, 0, sorted->bounds, chosen, &farthest);
-  for (size_t k = 0; k < 3 * NSVCD__TIPS; k++) {
-    const size_t tip = chosen[count ? k / 3 % count : 0];
-    const double along = count ? nsvcd__d3_axis(points.at[tip], k % 3) * inverse : 0;
-    tips[k] = (int8_t)lrint(nsvcd__max(-127, nsvcd__min(along, 127)));
+      nsvcd__choose_hull(points, NSVCD__EXTREMES, 0, sorted->bounds, chosen, &farthest);
+  for (size_t k = 0; k < 3 * NSVCD__EXTREMES; k++) {
+    const size_t extreme = chosen[count ? k / 3 % count : 0];
+    const double along = count ? nsvcd__d3_axis(points.at[extreme], k % 3) * inverse : 0;
+    extremes[k] = (int8_t)lrint(nsvcd__max(-127, nsvcd__min(along, 127)));
   }
 }
 #endif  // NSVCD_NO_NETWORK
 #endif  // NSVCD_NO_ENCODER
 
 // --------------------------------------------------------------------------------- surface/surface
-// In: pieces, sorted by patch. Out: nsvcd__surface: of each patch a ball, a disc, a hull, its
+// In: pieces, sorted by patch. Out: nsvcd__surface: of each patch a ball, a slab, a hull, its
 // triangles, all rounded outwards.
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
-// Ball, disc and hull of patch i of the region, which is `to` of all. What the vertices will be off
-// by as integers is not in the slack yet.
+// Ball, slab and hull of patch i of the region, which is `to` of all. What the vertices will be off
+// by as integers is not in the margin yet.
 static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *s) {
   const nsvcd__pieces *pieces = sorted->pieces;
   const nsvcd__region *region = pieces->region;
@@ -6236,14 +6241,14 @@ static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surfac
   for (size_t j = 0; j < about.count; j++)
     radius = nsvcd__max(radius, nsvcd__d3_length(about.at[j]));
   ball->radius = nsvcd__float_above(radius + pieces->margin);
-  s->discs[to] = nsvcd__fit_disc(about, normal, pieces->margin, pieces->thin);
+  s->slabs[to] = nsvcd__fit_slab(about, normal, pieces->margin, pieces->thin);
 
   size_t chosen[NSVCD__HULL];
   double farthest;
   const double enough = NSVCD__HULL_FRACTION * (double)ball->radius;
   const size_t count =
       nsvcd__choose_hull(about, NSVCD__HULL, enough, sorted->bounds, chosen, &farthest);
-  s->slacks[to] = nsvcd__float_above(farthest + pieces->margin);
+  s->margins[to] = nsvcd__float_above(farthest + pieces->margin);
   s->hull_counts[to] = (uint8_t)count;
   for (size_t k = 0; k < count; k++)
     sorted->hulls[NSVCD__HULL * i + k] = sorted->met[chosen[k]];
@@ -6334,7 +6339,7 @@ static void nsvcd__store_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *
     if (j < hull_count) worst_of_hull = nsvcd__max(worst_of_hull, sorted->bounds[j]);
   }
   // Each point of the hull is off by no more than its vertices are.
-  s->slacks[to] = nsvcd__float_above((double)s->slacks[to] + worst_of_hull);
+  s->margins[to] = nsvcd__float_above((double)s->margins[to] + worst_of_hull);
 
   for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
     const uint32_t triangle = nsvcd__sorted_piece(sorted, k)->triangle;
@@ -6353,7 +6358,7 @@ static void nsvcd__store_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *
     }
   }
   worst += sorted->pieces->margin;
-  s->quanta[to] = has_stored ? nsvcd__float_above(worst) : 0;
+  s->errors[to] = has_stored ? nsvcd__float_above(worst) : 0;
 }
 
 // ---- all of it
@@ -6367,10 +6372,10 @@ static int nsvcd__surface_begin(size_t n, size_t components, int coarse, nsvcd__
   s->coarse = coarse;
   s->component_count = components;
   s->balls = NSVCD__TAKE(arena, nsvcd__sphere, n);
-  s->discs = NSVCD__TAKE(arena, nsvcd__disc, n);
+  s->slabs = NSVCD__TAKE(arena, nsvcd__slab, n);
   s->steps = NSVCD__TAKE(arena, float, n);
-  s->slacks = NSVCD__TAKE(arena, float, n);
-  s->quanta = NSVCD__TAKE(arena, float, n);
+  s->margins = NSVCD__TAKE(arena, float, n);
+  s->errors = NSVCD__TAKE(arena, float, n);
   s->hull_counts = NSVCD__TAKE(arena, uint8_t, n);
   s->first_vertex = NSVCD__TAKE(arena, uint32_t, n + 1);
   s->first_named = NSVCD__TAKE(arena, uint32_t, n + 1);
@@ -6380,7 +6385,7 @@ static int nsvcd__surface_begin(size_t n, size_t components, int coarse, nsvcd__
   return !arena->failed;
 }
 
-// Makes room for more points, stored and named, and listings. 0 without memory.
+// Makes room for more points, stored and named, and entries. 0 without memory.
 static int nsvcd__surface_room(nsvcd__surface *s, size_t vertices, size_t named,
                                size_t triangles) {
   nsvcd__list *lists[] = {&s->vertex_list, &s->named_list, &s->corner_list, &s->id_list};
@@ -6756,10 +6761,10 @@ static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
 //                        zero
 //   x, y, z      (3, G), (3, H), (3, I)  float: if there are more than 32 groups, their sums over
 //                        the members of the spheres above
-//   tips         (P / 16, 8, 3, 16)  int8: eight points of each patch of a group of 16, from its
+//   extremes     (P / 16, 8, 3, 16)  int8: eight points of each patch of a group of 16, from its
 //                        centre in steps of r / 127; padding is zero
 //   latents      (N, NSVCD__LATENT)  int8, free of scale
-// and a body of triangles, for the proof, with what body/facets says. A body that has both is
+// and a body of triangles, for the proof, with what body/geometry says. A body that has both is
 // one of latents with one of triangles behind it, at `inner`: each part has spheres that suit it,
 // and patches have the same numbers in both. Each part ends in zeros up to a multiple of
 // NSVCD_ALIGNMENT.
@@ -6856,8 +6861,8 @@ static nsvcd__sphere nsvcd__body_sphere(const nsvcd_body *body) {
 }
 
 // The same place of a body that is being written.
-static void *nsvcd__writable(nsvcd_body *body, const void *place) {
-  return (char *)body + ((const char *)place - (const char *)body);
+static void *nsvcd__writable(nsvcd_body *body, const void *address) {
+  return (char *)body + ((const char *)address - (const char *)body);
 }
 
 // Spheres with their padding: of the patches and all levels.
@@ -6885,7 +6890,7 @@ static const float *nsvcd__body_areas(const nsvcd_body *body) {
 // Bytes of a body of latents up to these.
 static size_t nsvcd__latents_begin(size_t padded) {
   return nsvcd__spheres_size(padded) + 12 * nsvcd__area_slots(padded) +
-         3 * NSVCD__TIPS * padded;
+         3 * NSVCD__EXTREMES * padded;
 }
 
 #ifndef NSVCD_NO_NETWORK
@@ -6895,9 +6900,9 @@ static const float *nsvcd__level_areas(const nsvcd_body *body, nsvcd__level leve
   return nsvcd__body_areas(body) + level.first / 4 * 3;
 }
 // Of the 16 patches of a group: (TIPS, 3, 16).
-static const int8_t *nsvcd__group_tips(const nsvcd_body *body, size_t g) {
+static const int8_t *nsvcd__group_extremes(const nsvcd_body *body, size_t g) {
   const float *areas_end = nsvcd__body_areas(body) + 3 * nsvcd__area_slots(body->padded);
-  return (const int8_t *)areas_end + 3 * NSVCD__TIPS * NSVCD__GROUP * g;
+  return (const int8_t *)areas_end + 3 * NSVCD__EXTREMES * NSVCD__GROUP * g;
 }
 // (N, LATENT)
 static const int8_t *nsvcd__body_latents(const nsvcd_body *body) {
@@ -7061,11 +7066,11 @@ static nsvcd__sphere nsvcd__cover_spheres(nsvcd__spheres all, size_t count) {
       best.centre = centre;
       best.radius = reach;
     }
-    const nsvcd__f3 way = nsvcd__f3_sub(nsvcd__centre_of(all, farthest), centre);
+    const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__centre_of(all, farthest), centre);
     const float steps = (float)(step + 3);
-    centre.x += way.x / steps;
-    centre.y += way.y / steps;
-    centre.z += way.z / steps;
+    centre.x += offset.x / steps;
+    centre.y += offset.y / steps;
+    centre.z += offset.z / steps;
   }
   best.radius *= 1.000002f;
   return best;
@@ -7108,8 +7113,8 @@ static void nsvcd__body_finish(nsvcd_body *body) {
 
 // Are the area vectors of a body of latents in range?
 static int nsvcd__areas_are_sound(const nsvcd_body *body) {
-  return nsvcd__within(nsvcd__body_areas(body), 3 * nsvcd__area_slots(body->padded),
-                       NSVCD__MAX_LENGTH * NSVCD__MAX_LENGTH);
+  return nsvcd__in_range(nsvcd__body_areas(body), 3 * nsvcd__area_slots(body->padded),
+                         NSVCD__MAX_LENGTH * NSVCD__MAX_LENGTH);
 }
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_NETWORK)
@@ -7119,7 +7124,7 @@ typedef struct nsvcd__latents_source {
   const nsvcd__f3 *centres;  // (N)
   const float *radii;        // (N)
   const nsvcd__f3 *areas;    // (N)
-  const int8_t *tips;        // (N, TIPS, 3)
+  const int8_t *extremes;    // (N, TIPS, 3)
   const int8_t *latents;     // (N, LATENT)
   // (N) of the patches
   const uint16_t *order;
@@ -7135,16 +7140,16 @@ static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void 
   b->weights_id = NSVCD_WEIGHTS_ID;
   float *spheres = (float *)(b + 1);
   float *areas = (float *)nsvcd__writable(b, nsvcd__body_areas(b));
-  int8_t *tips = (int8_t *)nsvcd__writable(b, nsvcd__group_tips(b, 0));
+  int8_t *extremes = (int8_t *)nsvcd__writable(b, nsvcd__group_extremes(b, 0));
   int8_t *latents = (int8_t *)nsvcd__writable(b, nsvcd__body_latents(b));
   for (size_t i = 0; i < count; i++) {
     const size_t from = source->order[i];
     const nsvcd__sphere sphere = {source->centres[from], source->radii[from]};
     nsvcd__sphere_store(sphere, spheres, padded, i);
     nsvcd__f3_put(source->areas[from], areas + i, padded);
-    int8_t *group = tips + 3 * NSVCD__TIPS * (i - i % NSVCD__GROUP) + i % NSVCD__GROUP;
-    for (size_t k = 0; k < 3 * NSVCD__TIPS; k++)
-      group[NSVCD__GROUP * k] = source->tips[3 * NSVCD__TIPS * from + k];
+    int8_t *group = extremes + 3 * NSVCD__EXTREMES * (i - i % NSVCD__GROUP) + i % NSVCD__GROUP;
+    for (size_t k = 0; k < 3 * NSVCD__EXTREMES; k++)
+      group[NSVCD__GROUP * k] = source->extremes[3 * NSVCD__EXTREMES * from + k];
     memcpy(latents, source->latents + NSVCD__LATENT * from, NSVCD__LATENT);
     latents += NSVCD__LATENT;
   }
@@ -7160,8 +7165,8 @@ static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void 
     below = sums;
     stride = level.slots;
   }
-  int sound = nsvcd__within(spheres, 3 * padded, NSVCD_MAX_COORDINATE);
-  sound = sound && nsvcd__within(nsvcd__body_r(b), count, 4 * NSVCD_MAX_COORDINATE);
+  int sound = nsvcd__in_range(spheres, 3 * padded, NSVCD_MAX_COORDINATE);
+  sound = sound && nsvcd__in_range(nsvcd__body_r(b), count, 4 * NSVCD_MAX_COORDINATE);
   if (!sound || !nsvcd__areas_are_sound(b)) return NSVCD_ERROR_NUMBER;
   nsvcd__cover_level(b, 0, nsvcd__body_patches(b), count);
   nsvcd__body_finish(b);
@@ -7170,14 +7175,14 @@ static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void 
 }
 #endif
 
-// --------------------------------------------------------------------------------------- body/walk
+// ---------------------------------------------------------------------------------- body/traversal
 // In: a body and a filter of spheres. Out: the groups whose spheres pass.
 
 // Which of 16 spheres are of interest? Bits of lanes.
 typedef uint32_t nsvcd__filter(const void *what, nsvcd__spheres spheres);
 
 // Finds the groups whose spheres, and all spheres over them, pass a filter, in their order.
-typedef struct nsvcd__walk {
+typedef struct nsvcd__traversal {
   const nsvcd_body *body;
   nsvcd__filter *filter;
   const void *what;
@@ -7186,83 +7191,86 @@ typedef struct nsvcd__walk {
   uint32_t first[NSVCD__LEVELS];
   // and those of them that passed, and are still to be visited
   uint32_t left[NSVCD__LEVELS];
-} nsvcd__walk;
+} nsvcd__traversal;
 
 // Which of 16 spheres of a level pass? Bits of lanes.
-static uint32_t nsvcd__walk_look(const nsvcd__walk *walk, size_t level, size_t first) {
-  const nsvcd__level at = nsvcd__level_of(walk->body->padded, level);
-  const nsvcd__spheres all = nsvcd__level_spheres(walk->body, at);
-  return walk->filter(walk->what, nsvcd__spheres_from(all, first));
+static uint32_t nsvcd__traversal_filter(const nsvcd__traversal *traversal, size_t level,
+                                        size_t first) {
+  const nsvcd__level at = nsvcd__level_of(traversal->body->padded, level);
+  const nsvcd__spheres all = nsvcd__level_spheres(traversal->body, at);
+  return traversal->filter(traversal->what, nsvcd__spheres_from(all, first));
 }
 
-static void nsvcd__walk_begin(nsvcd__walk *walk, const nsvcd_body *body, nsvcd__filter *filter,
-                              const void *what) {
-  walk->body = body;
-  walk->filter = filter;
-  walk->what = what;
-  walk->levels = nsvcd__level_count(body->padded);
-  walk->level = walk->levels - 1;
-  walk->first[walk->level] = 0;
+static void nsvcd__traversal_begin(nsvcd__traversal *traversal, const nsvcd_body *body,
+                                   nsvcd__filter *filter, const void *what) {
+  traversal->body = body;
+  traversal->filter = filter;
+  traversal->what = what;
+  traversal->levels = nsvcd__level_count(body->padded);
+  traversal->level = traversal->levels - 1;
+  traversal->first[traversal->level] = 0;
   uint32_t left = 0;
-  const size_t slots = nsvcd__level_of(body->padded, walk->level).slots;
+  const size_t slots = nsvcd__level_of(body->padded, traversal->level).slots;
   for (size_t first = 0; first < slots; first += NSVCD__GROUP)
-    left |= nsvcd__walk_look(walk, walk->level, first) << first;
-  walk->left[walk->level] = left;
+    left |= nsvcd__traversal_filter(traversal, traversal->level, first) << first;
+  traversal->left[traversal->level] = left;
 }
 
 // The next group; 0 if there is none.
-static int nsvcd__walk_next(nsvcd__walk *walk, size_t *group) {
+static int nsvcd__traversal_next(nsvcd__traversal *traversal, size_t *group) {
   for (;;) {
-    while (!walk->left[walk->level]) {
-      if (walk->level + 1 == walk->levels) return 0;
-      walk->level++;
+    while (!traversal->left[traversal->level]) {
+      if (traversal->level + 1 == traversal->levels) return 0;
+      traversal->level++;
     }
-    uint32_t *left = &walk->left[walk->level];
-    const size_t found = walk->first[walk->level] + nsvcd__low_bit(*left);
+    uint32_t *left = &traversal->left[traversal->level];
+    const size_t found = traversal->first[traversal->level] + nsvcd__low_bit(*left);
     *left &= *left - 1;
-    if (walk->level == 0) {
+    if (traversal->level == 0) {
       *group = found;
       return 1;
     }
-    walk->level--;
-    walk->first[walk->level] = (uint32_t)(NSVCD__GROUP * found);
-    walk->left[walk->level] = nsvcd__walk_look(walk, walk->level, NSVCD__GROUP * found);
+    traversal->level--;
+    traversal->first[traversal->level] = (uint32_t)(NSVCD__GROUP * found);
+    traversal->left[traversal->level] =
+        nsvcd__traversal_filter(traversal, traversal->level, NSVCD__GROUP * found);
   }
 }
 
-// ------------------------------------------------------------------------------------- body/facets
+// ----------------------------------------------------------------------------------- body/geometry
 // In: the surface of each patch. Out: the blob of the proof, and what it says of a patch.
 //
 // The body of triangles. Its spheres are the least about each patch's pieces of the surface. Behind
 // them stand
 //
 //   counts          (4)      uint32: triangles listed L, points stored V, components C, bytes of
-//                            listings B
-//   round           (1)      float: metres that the body goes beyond its triangles
+//                            entries B
+//   convex_radius   (1)      float: metres that the body goes beyond its triangles
 //   counts          (3)      uint32: vertices of the mesh W, references to them R, triangles that
 //                            are listed in pieces K. 0, 0, 0: the body is coarse
 //   solids          (4)      uint32: components as they are told, how many of these are open, open
-//                            edges; 1: listings have kinds of two bits
+//                            edges; 1: entries have kinds of two bits
 //   gap             (1)      float: metres: corners no farther apart count as one where
 //                            it is asked what is closed
 //   box             (2, 3)   float: least and greatest coordinates of the surface
-//   widest          (2)      float: the greatest of the quanta; and metres that the mesh's vertices
-//                            are off by: 0, but in a body that was scaled, or is coarse
-//   discs           (6, P)   float: normal n, low, high, across: points x of a piece have
+//   widest          (2)      float: the greatest of the quantization errors; and metres that the
+//                            mesh's vertices are off by: 0, but in a body that was scaled, or is
+//                            coarse
+//   slabs           (6, P)   float: normal n, low, high, across: points x of a piece have
 //                            low <= n.(x - c) <= high, and are no farther than `across` from the
 //                            line along n; c: centre of the patch's sphere
-//   group discs     (6, G)   float: the same over the members of each group; c: centre of the
+//   group slabs     (6, G)   float: the same over the members of each group; c: centre of the
 //                            group's sphere
 //   steps           (P)      float: metres per integer: a stored point is c + step (x, y, z)
-//   slacks          (P)      float: pieces are within this of the hull of the first points
-//   quanta          (P)      float: corners that are stored points are within this of these
+//   margins         (P)      float: pieces are within this of the hull of the first points
+//   errors (P)  float: corners that are stored points are within this of the mesh's
 //   first_vertex, first_own, first_reference, first_triangle, first_byte
 //                   (5, N + 1) uint32: where a patch's stored points, the vertices that it is the
-//                            first to have, references to others, triangles and listings begin
+//                            first to have, references to others, triangles and entries begin
 //   first_seed      (G' + 1) uint32: where the seeds of a group begin; G': groups, without the
 //                            padding
 //   seeds           (C, 3)   float: a point of each component, group by group, within its sphere
-//   places          (W, 3)   float: the mesh's vertices as the caller gave them, each place once:
+//   positions       (W, 3)   float: the mesh's vertices as the caller gave them, each place once:
 //                            of each patch its own, then those of no patch
 //   cut             (K)      uint32: triangles of the caller's that are listed in pieces, in order
 //   cut_corners     (K, 3)   uint32: their corners, numbers of vertices
@@ -7271,7 +7279,7 @@ static int nsvcd__walk_next(nsvcd__walk *walk, size_t *group) {
 //   vertices        (3 V)    int16: patch by patch x, y, z of its stored points: the hull's, then
 //                            corners of pieces
 //                   (16)     int16: so that 16 can be read from any point on
-//   listings        (B)      bytes: patch by patch, of its T triangles
+//   entries        (B)      bytes: patch by patch, of its T triangles
 //     corners       (T, 3)   uint8, or uint16 in patches of more than 256: points within the patch:
 //                            its stored ones, its own vertices, its references. A triangle of
 //                            vertices alone is one of the caller's; another is a piece of one
@@ -7280,35 +7288,35 @@ static int nsvcd__walk_next(nsvcd__walk *walk, size_t *group) {
 
 #ifndef NSVCD_NO_PROOF
 #define NSVCD__HULLS (NSVCD__GROUP * NSVCD__HULL)  // vertices of a group, at most
-#define NSVCD__FACET_BOX 8                         // with the greatest quantum
+#define NSVCD__GEOMETRY_BOX 8                      // with the greatest quantization error
 
-typedef struct nsvcd__facet_counts {
-  uint32_t listed, vertices, components, listings_size;
-  float round;
-  uint32_t places, references, cut;
+typedef struct nsvcd__geometry_counts {
+  uint32_t listed, vertices, components, triangle_codes_size;
+  float convex_radius;
+  uint32_t positions, references, cut;
   uint32_t solids, open_solids, open_edges, is_mixed;
   float gap;
-} nsvcd__facet_counts;
+} nsvcd__geometry_counts;
 
-typedef struct nsvcd__facets {
+typedef struct nsvcd__geometry {
   // of triangles
   const nsvcd_body *body;
-  const float *box, *discs, *group_discs, *steps, *slacks, *quanta;
+  const float *box, *slabs, *group_slabs, *steps, *margins, *errors;
   const uint32_t *first_vertex, *first_own, *first_reference, *first_triangle, *first_byte;
   const uint32_t *first_seed;
-  const float *seeds, *places;
+  const float *seeds, *positions;
   const uint32_t *cut, *cut_corners;
   // of 16 bits or 32
   const unsigned char *references;
   const int16_t *vertices;
-  const unsigned char *listings;
+  const unsigned char *triangle_codes;
   const uint8_t *hull_counts;
-  size_t listed, vertex_count, components, listings_size;
-  size_t place_count, reference_count, cut_count;
-  float round, gap;
-  // bits of a listing's code that are its kind
+  size_t listed, vertex_count, components, triangle_codes_size;
+  size_t position_count, reference_count, cut_count;
+  float convex_radius, gap;
+  // bits of a entry's code that are its kind
   unsigned kind_bits;
-} nsvcd__facets;
+} nsvcd__geometry;
 
 // The body of triangles in a body, or NULL.
 static const nsvcd_body *nsvcd__triangles_of(const nsvcd_body *body) {
@@ -7316,9 +7324,9 @@ static const nsvcd_body *nsvcd__triangles_of(const nsvcd_body *body) {
   return (const nsvcd_body *)(const void *)((const char *)body + body->inner);
 }
 
-static const nsvcd__facet_counts *nsvcd__counts_of(const nsvcd_body *body) {
+static const nsvcd__geometry_counts *nsvcd__counts_of(const nsvcd_body *body) {
   const char *at = (const char *)body + nsvcd__spheres_size(body->padded);
-  return (const nsvcd__facet_counts *)(const void *)at;
+  return (const nsvcd__geometry_counts *)(const void *)at;
 }
 
 // The next `count` numbers in a body, or, where that is NULL, only counts them.
@@ -7330,14 +7338,15 @@ static const void *nsvcd__pass(const nsvcd_body *body, uint64_t *at, uint64_t co
   return out;
 }
 
-static size_t nsvcd__reference_bytes(const nsvcd__facets *f) {
-  return f->place_count <= 65536 ? 2 : 4;
+static size_t nsvcd__reference_bytes(const nsvcd__geometry *f) {
+  return f->position_count <= 65536 ? 2 : 4;
 }
 
 // Where all is in a body of so many patches. body: NULL to know only how large it is to be. Returns
 // its bytes; 0 if they cannot be counted in 32 bits.
-static size_t nsvcd__facets_lay(const nsvcd_body *body, size_t patches,
-                                const nsvcd__facet_counts *counts, nsvcd__facets *f) {
+static size_t nsvcd__geometry_layout(const nsvcd_body *body, size_t patches,
+                                     const nsvcd__geometry_counts *counts,
+                                     nsvcd__geometry *f) {
   const size_t padded = nsvcd__round_up(patches, NSVCD__GROUP);
   const size_t starts = patches + 1;
   uint64_t at = nsvcd__spheres_size(padded) + sizeof *counts;
@@ -7345,19 +7354,19 @@ static size_t nsvcd__facets_lay(const nsvcd_body *body, size_t patches,
   f->listed = counts->listed;
   f->vertex_count = counts->vertices;
   f->components = counts->components;
-  f->listings_size = counts->listings_size;
-  f->round = counts->round;
-  f->place_count = counts->places;
+  f->triangle_codes_size = counts->triangle_codes_size;
+  f->convex_radius = counts->convex_radius;
+  f->position_count = counts->positions;
   f->reference_count = counts->references;
   f->cut_count = counts->cut;
   f->gap = counts->gap;
   f->kind_bits = 1 + (counts->is_mixed != 0);
-  f->box = NSVCD__PASS(float, NSVCD__FACET_BOX);
-  f->discs = NSVCD__PASS(float, 6 * padded);
-  f->group_discs = NSVCD__PASS(float, 6 * nsvcd__group_slots(padded));
+  f->box = NSVCD__PASS(float, NSVCD__GEOMETRY_BOX);
+  f->slabs = NSVCD__PASS(float, 6 * padded);
+  f->group_slabs = NSVCD__PASS(float, 6 * nsvcd__group_slots(padded));
   f->steps = NSVCD__PASS(float, padded);
-  f->slacks = NSVCD__PASS(float, padded);
-  f->quanta = NSVCD__PASS(float, padded);
+  f->margins = NSVCD__PASS(float, padded);
+  f->errors = NSVCD__PASS(float, padded);
   f->first_vertex = NSVCD__PASS(uint32_t, starts);
   f->first_own = NSVCD__PASS(uint32_t, starts);
   f->first_reference = NSVCD__PASS(uint32_t, starts);
@@ -7365,29 +7374,29 @@ static size_t nsvcd__facets_lay(const nsvcd_body *body, size_t patches,
   f->first_byte = NSVCD__PASS(uint32_t, starts);
   f->first_seed = NSVCD__PASS(uint32_t, padded / NSVCD__GROUP + 1);
   f->seeds = NSVCD__PASS(float, (uint64_t)3 * f->components);
-  f->places = NSVCD__PASS(float, (uint64_t)3 * f->place_count);
+  f->positions = NSVCD__PASS(float, (uint64_t)3 * f->position_count);
   f->cut = NSVCD__PASS(uint32_t, f->cut_count);
   f->cut_corners = NSVCD__PASS(uint32_t, (uint64_t)3 * f->cut_count);
   const size_t wide = nsvcd__reference_bytes(f);
   f->references = NSVCD__PASS(unsigned char, (uint64_t)wide * f->reference_count);
   f->vertices = NSVCD__PASS(int16_t, (uint64_t)3 * f->vertex_count + NSVCD__LANES);
-  f->listings = NSVCD__PASS(unsigned char, f->listings_size);
+  f->triangle_codes = NSVCD__PASS(unsigned char, f->triangle_codes_size);
   f->hull_counts = NSVCD__PASS(uint8_t, patches);
   at += NSVCD_ALIGNMENT - at % NSVCD_ALIGNMENT;
   return at > 0xffffffffu ? 0 : (size_t)at;
 }
 
-static nsvcd__facets nsvcd__facets_of(const nsvcd_body *body) {
-  nsvcd__facets f;
-  (void)nsvcd__facets_lay(body, body->patches, nsvcd__counts_of(body), &f);
+static nsvcd__geometry nsvcd__geometry_of(const nsvcd_body *body) {
+  nsvcd__geometry f;
+  (void)nsvcd__geometry_layout(body, body->patches, nsvcd__counts_of(body), &f);
   return f;
 }
 
-static float nsvcd__widest_quantum(const nsvcd__facets *f) {
+static float nsvcd__widest_quantization(const nsvcd__geometry *f) {
   return f->box[6];
 }
-// How far nsvcd__facet_triangle may be off the mesh's.
-static float nsvcd__off_mesh(const nsvcd__facets *f) {
+// How far nsvcd__patch_triangle may be off the mesh's.
+static float nsvcd__off_mesh(const nsvcd__geometry *f) {
   return f->box[7];
 }
 
@@ -7400,7 +7409,7 @@ typedef struct nsvcd__vertices {
   size_t count;
 } nsvcd__vertices;
 
-NSVCD__INLINE nsvcd__vertices nsvcd__vertices_of(const nsvcd__facets *f, size_t patch) {
+NSVCD__INLINE nsvcd__vertices nsvcd__vertices_of(const nsvcd__geometry *f, size_t patch) {
   const size_t first = f->first_vertex[patch];
   nsvcd__vertices out;
   out.count = f->first_vertex[patch + 1] - first;
@@ -7419,7 +7428,7 @@ typedef struct nsvcd__patch_points {
   size_t stored, own, all;
 } nsvcd__patch_points;
 
-NSVCD__INLINE nsvcd__patch_points nsvcd__points_of(const nsvcd__facets *f, size_t patch) {
+NSVCD__INLINE nsvcd__patch_points nsvcd__points_of(const nsvcd__geometry *f, size_t patch) {
   nsvcd__patch_points out;
   out.stored = f->first_vertex[patch + 1] - f->first_vertex[patch];
   out.own = f->first_own[patch + 1] - f->first_own[patch];
@@ -7433,7 +7442,7 @@ static size_t nsvcd__corner_bytes(size_t points) {
 }
 
 // The number of a vertex that reference n is.
-NSVCD__INLINE size_t nsvcd__reference_at(const nsvcd__facets *f, size_t n) {
+NSVCD__INLINE size_t nsvcd__reference_at(const nsvcd__geometry *f, size_t n) {
   uint32_t number;
   uint16_t narrow;
   if (nsvcd__reference_bytes(f) == 4) {
@@ -7445,17 +7454,18 @@ NSVCD__INLINE size_t nsvcd__reference_at(const nsvcd__facets *f, size_t n) {
 }
 
 // The place of point i of a patch, which is no stored one, (3).
-NSVCD__INLINE const float *nsvcd__place_of(const nsvcd__facets *f, size_t patch,
-                                           nsvcd__patch_points points, size_t i) {
+NSVCD__INLINE const float *nsvcd__position_of(const nsvcd__geometry *f, size_t patch,
+                                              nsvcd__patch_points points, size_t i) {
   i -= points.stored;
-  if (i < points.own) return f->places + 3 * (f->first_own[patch] + i);
+  if (i < points.own) return f->positions + 3 * (f->first_own[patch] + i);
   const size_t at = f->first_reference[patch] + i - points.own;
-  return f->places + 3 * nsvcd__reference_at(f, at);
+  return f->positions + 3 * nsvcd__reference_at(f, at);
 }
 
-// The point, of its patch, of corner k (0..2) of listing n.
-static size_t nsvcd__facet_corner(const nsvcd__facets *f, size_t patch, size_t n, size_t k) {
-  const unsigned char *corners = f->listings + f->first_byte[patch];
+// The point, of its patch, of corner k (0..2) of entry n.
+static size_t nsvcd__triangle_corner(const nsvcd__geometry *f, size_t patch, size_t n,
+                                     size_t k) {
+  const unsigned char *corners = f->triangle_codes + f->first_byte[patch];
   const size_t at = 3 * (n - f->first_triangle[patch]) + k;
   if (nsvcd__corner_bytes(nsvcd__points_of(f, patch).all) == 1) return corners[at];
   uint16_t corner;
@@ -7481,17 +7491,17 @@ static uint32_t nsvcd__read_code(const unsigned char **at) {
 // The numbers of a patch's triangles, read one after another.
 typedef struct nsvcd__numbers {
   const unsigned char *at;
-  size_t next;      // listing
+  size_t next;      // entry
   uint32_t number;  // of the one before
   uint32_t kind;
   unsigned kind_bits;
 } nsvcd__numbers;
 
-static nsvcd__numbers nsvcd__numbers_of(const nsvcd__facets *f, size_t patch) {
+static nsvcd__numbers nsvcd__numbers_of(const nsvcd__geometry *f, size_t patch) {
   const size_t bytes = nsvcd__corner_bytes(nsvcd__points_of(f, patch).all);
   const size_t triangles = f->first_triangle[patch + 1] - f->first_triangle[patch];
   nsvcd__numbers out;
-  out.at = f->listings + f->first_byte[patch] + 3 * triangles * bytes;
+  out.at = f->triangle_codes + f->first_byte[patch] + 3 * triangles * bytes;
   out.next = f->first_triangle[patch];
   out.number = 0;
   out.kind = NSVCD__SHEET;
@@ -7499,7 +7509,7 @@ static nsvcd__numbers nsvcd__numbers_of(const nsvcd__facets *f, size_t patch) {
   return out;
 }
 
-// Reads on until listing n, which has not been read before.
+// Reads on until entry n, which has not been read before.
 static void nsvcd__read_number(nsvcd__numbers *numbers, size_t n) {
   for (; numbers->next <= n; numbers->next++) {
     const uint32_t code = nsvcd__read_code(&numbers->at);
@@ -7510,30 +7520,30 @@ static void nsvcd__read_number(nsvcd__numbers *numbers, size_t n) {
   }
 }
 
-// The triangle, in the caller's mesh, of listing n.
-static uint32_t nsvcd__facet_number(const nsvcd__facets *f, size_t patch, size_t n) {
+// The triangle, in the caller's mesh, of entry n.
+static uint32_t nsvcd__triangle_number(const nsvcd__geometry *f, size_t patch, size_t n) {
   nsvcd__numbers numbers = nsvcd__numbers_of(f, patch);
   nsvcd__read_number(&numbers, n);
   return numbers.number;
 }
 
-// Does listing n belong to a closed surface?
-static int nsvcd__facet_encloses(const nsvcd__facets *f, size_t patch, size_t n) {
+// Does entry n belong to a closed surface?
+static int nsvcd__is_in_solid(const nsvcd__geometry *f, size_t patch, size_t n) {
   nsvcd__numbers numbers = nsvcd__numbers_of(f, patch);
   nsvcd__read_number(&numbers, n);
   return numbers.kind >= NSVCD__CLOSED && !f->body->open;
 }
 
-static nsvcd__f3 nsvcd__facet_centre(const nsvcd__facets *f, size_t patch) {
+static nsvcd__f3 nsvcd__patch_centre(const nsvcd__geometry *f, size_t patch) {
   return nsvcd__centre_of(nsvcd__body_patches(f->body), patch);
 }
 // The same in double: what the vertices are counted from.
-static nsvcd__d3 nsvcd__facet_origin(const nsvcd__facets *f, size_t patch) {
-  return nsvcd__d3_widen(nsvcd__facet_centre(f, patch));
+static nsvcd__d3 nsvcd__patch_origin(const nsvcd__geometry *f, size_t patch) {
+  return nsvcd__d3_widen(nsvcd__patch_centre(f, patch));
 }
 
 // The corners (3) of a triangle that is listed in pieces, by its number in the caller's mesh.
-static void nsvcd__whole_triangle(const nsvcd__facets *f, uint32_t number,
+static void nsvcd__whole_triangle(const nsvcd__geometry *f, uint32_t number,
                                   nsvcd__d3 *corners) {
   size_t first = 0;
   for (size_t left = f->cut_count; left > 1;) {
@@ -7542,26 +7552,26 @@ static void nsvcd__whole_triangle(const nsvcd__facets *f, uint32_t number,
     left -= half;
   }
   for (size_t k = 0; k < 3; k++)
-    corners[k] = nsvcd__d3_row(f->places, f->cut_corners[3 * first + k]);
+    corners[k] = nsvcd__d3_row(f->positions, f->cut_corners[3 * first + k]);
 }
 
-// The corners (3) of the caller's triangle that listing n of a patch is, or is a piece of. Of a
-// coarse body, those of the listing itself.
-static void nsvcd__facet_triangle(const nsvcd__facets *f, size_t patch, size_t n,
+// The corners (3) of the caller's triangle that entry n of a patch is, or is a piece of. Of a
+// coarse body, those of the entry itself.
+static void nsvcd__patch_triangle(const nsvcd__geometry *f, size_t patch, size_t n,
                                   nsvcd__d3 *corners) {
   const nsvcd__patch_points points = nsvcd__points_of(f, patch);
   for (size_t k = 0; k < 3; k++) {
-    const size_t i = nsvcd__facet_corner(f, patch, n, k);
+    const size_t i = nsvcd__triangle_corner(f, patch, n, k);
     if (i >= points.stored) {
-      corners[k] = nsvcd__d3_load(nsvcd__place_of(f, patch, points, i));
+      corners[k] = nsvcd__d3_load(nsvcd__position_of(f, patch, points, i));
     } else if (f->cut_count > 0) {
-      nsvcd__whole_triangle(f, nsvcd__facet_number(f, patch, n), corners);
+      nsvcd__whole_triangle(f, nsvcd__triangle_number(f, patch, n), corners);
       return;
     } else {
       const nsvcd__vertices vertices = nsvcd__vertices_of(f, patch);
       const nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, i);
       corners[k] =
-          nsvcd__d3_fma((double)f->steps[patch], vertex, nsvcd__facet_origin(f, patch));
+          nsvcd__d3_fma((double)f->steps[patch], vertex, nsvcd__patch_origin(f, patch));
     }
   }
 }
@@ -7570,50 +7580,50 @@ static void nsvcd__facet_triangle(const nsvcd__facets *f, size_t patch, size_t n
 
 // What the members of a group extend to along a direction and across it, from the centre of the
 // group's sphere. One that is seen to be no thinner than `most` is not measured to the end.
-typedef struct nsvcd__slab {
+typedef struct nsvcd__slab_of_hulls {
   double low, high, across;
-} nsvcd__slab;
+} nsvcd__slab_of_hulls;
 
-static nsvcd__slab nsvcd__slab_of_group(const nsvcd__facets *f, size_t g, nsvcd__d3 normal,
-                                        double most) {
+static nsvcd__slab_of_hulls nsvcd__slab_of_group(const nsvcd__geometry *f, size_t g,
+                                                 nsvcd__d3 normal, double most) {
   const size_t first = NSVCD__GROUP * g;
   const nsvcd__spheres groups = nsvcd__groups_of(f->body);
   const nsvcd__d3 centre = nsvcd__d3_widen(nsvcd__centre_of(groups, g));
-  nsvcd__slab slab = {HUGE_VAL, -HUGE_VAL, 0};
+  nsvcd__slab_of_hulls slab = {HUGE_VAL, -HUGE_VAL, 0};
   for (size_t i = first; i < first + NSVCD__GROUP && i < f->body->patches; i++) {
     if (slab.high - slab.low >= most) break;
     const nsvcd__vertices vertices = nsvcd__vertices_of(f, i);
-    const nsvcd__d3 own = nsvcd__d3_sub(nsvcd__facet_origin(f, i), centre);
+    const nsvcd__d3 own = nsvcd__d3_sub(nsvcd__patch_origin(f, i), centre);
     const double step = (double)f->steps[i];
-    const double slack = (double)f->slacks[i];
+    const double margin = (double)f->margins[i];
     double farthest = 0;
     for (size_t k = 0; k < f->hull_counts[i]; k++) {
       const nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, k);
       const nsvcd__d3 v = nsvcd__d3_fma(step, vertex, own);
       const double height = nsvcd__d3_dot(normal, v);
       farthest = nsvcd__max(farthest, nsvcd__d3_dot(v, v) - height * height);
-      slab.low = nsvcd__min(slab.low, height - slack);
-      slab.high = nsvcd__max(slab.high, height + slack);
+      slab.low = nsvcd__min(slab.low, height - margin);
+      slab.high = nsvcd__max(slab.high, height + margin);
     }
-    if (f->hull_counts[i]) slab.across = nsvcd__max(slab.across, sqrt(farthest) + slack);
+    if (f->hull_counts[i]) slab.across = nsvcd__max(slab.across, sqrt(farthest) + margin);
   }
   return slab;
 }
 
-// Writes a group's disc. Its normal is the mean of the members', or that of every fourth member:
+// Writes a group's slab. Its normal is the mean of the members', or that of every fourth member:
 // the one in which the group is thinnest.
 static void nsvcd__finish_group(nsvcd_body *b, size_t g) {
-  const nsvcd__facets f = nsvcd__facets_of(b);
+  const nsvcd__geometry f = nsvcd__geometry_of(b);
   nsvcd__d3 normals[1 + NSVCD__GROUP] = {{0, 0, 0}};
   for (size_t k = 0; k < NSVCD__GROUP; k++) {
-    const float *n = f.discs + NSVCD__GROUP * g + k;
+    const float *n = f.slabs + NSVCD__GROUP * g + k;
     const nsvcd__d3 normal = nsvcd__d3_widen(nsvcd__f3_get(n, b->padded));
     normals[1 + k] = normal;
     const double sign = nsvcd__d3_dot(normal, normals[1]) < 0 ? -1 : 1;
     normals[0] = nsvcd__d3_fma(sign, normal, normals[0]);
   }
   nsvcd__d3 best = {0, 0, 1};
-  nsvcd__slab thinnest = {0, HUGE_VAL, 0};
+  nsvcd__slab_of_hulls thinnest = {0, HUGE_VAL, 0};
   for (size_t k = 0; k < 1 + NSVCD__GROUP; k += k == 0 ? 1 : 4) {
     const double length = nsvcd__d3_length(normals[k]);
     if (!(length > 1e-3)) continue;
@@ -7621,20 +7631,20 @@ static void nsvcd__finish_group(nsvcd_body *b, size_t g) {
     const nsvcd__d3 shorter = nsvcd__d3_scale(normals[k], 0.9999998 / length);
     const nsvcd__d3 unit = nsvcd__d3_widen(nsvcd__f3_round(shorter));
     const double most = thinnest.high - thinnest.low;
-    const nsvcd__slab slab = nsvcd__slab_of_group(&f, g, unit, most);
+    const nsvcd__slab_of_hulls slab = nsvcd__slab_of_group(&f, g, unit, most);
     if (!(slab.high - slab.low < most)) continue;
     thinnest = slab;
     best = unit;
   }
   // float rounding, and that `across` takes |n| to be 1
   const double margin = 1e-6 * (double)b->extent;
-  nsvcd__disc disc;
-  disc.normal = nsvcd__f3_round(best);
-  disc.low = (float)(thinnest.low - margin);
-  disc.high = thinnest.high < HUGE_VAL ? (float)(thinnest.high + margin) : 0;
-  disc.across = nsvcd__above(thinnest.across + margin);
-  float *discs = (float *)nsvcd__writable(b, f.group_discs);
-  nsvcd__disc_store(disc, discs, nsvcd__group_slots(b->padded), g);
+  nsvcd__slab slab;
+  slab.normal = nsvcd__f3_round(best);
+  slab.low = (float)(thinnest.low - margin);
+  slab.high = thinnest.high < HUGE_VAL ? (float)(thinnest.high + margin) : 0;
+  slab.across = nsvcd__above(thinnest.across + margin);
+  float *slabs = (float *)nsvcd__writable(b, f.group_slabs);
+  nsvcd__slab_store(slab, slabs, nsvcd__group_slots(b->padded), g);
 }
 
 // The surface in a group: spheres about the vertices of its patches' hulls. A patch without surface
@@ -7644,12 +7654,12 @@ typedef struct nsvcd__hulls {
   float spheres[4][NSVCD__HULLS];  // x, y, z, r
 } nsvcd__hulls;
 
-static void nsvcd__collect_hulls(const nsvcd__facets *f, size_t g, nsvcd__hulls *out) {
+static void nsvcd__collect_hulls(const nsvcd__geometry *f, size_t g, nsvcd__hulls *out) {
   const size_t end = NSVCD__GROUP * (g + 1);
   out->count = 0;
   for (size_t i = end - NSVCD__GROUP; i < end && i < f->body->patches; i++) {
     const nsvcd__vertices vertices = nsvcd__vertices_of(f, i);
-    const nsvcd__d3 origin = nsvcd__facet_origin(f, i);
+    const nsvcd__d3 origin = nsvcd__patch_origin(f, i);
     const double step = (double)f->steps[i];
     const size_t count = f->hull_counts[i];
     for (size_t k = 0; k < count + !count; k++) {
@@ -7658,7 +7668,7 @@ static void nsvcd__collect_hulls(const nsvcd__facets *f, size_t g, nsvcd__hulls 
       v = nsvcd__d3_fma(step, v, origin);
       // as float rounds it
       const double rounding = 1.1e-7 * nsvcd__d3_length(v);
-      const double radius = (double)f->slacks[i] + rounding;
+      const double radius = (double)f->margins[i] + rounding;
       const size_t n = out->count++;
       out->spheres[3][n] = nsvcd__above(radius);
       nsvcd__f3_put(nsvcd__f3_round(v), &out->spheres[0][n], NSVCD__HULLS);
@@ -7671,10 +7681,10 @@ static nsvcd__spheres nsvcd__hull_spheres(const nsvcd__hulls *hulls) {
 }
 
 // What is computed from the patches of a body of triangles, when these are in place: the spheres
-// above them, the box with the greatest of the quanta, and the groups' discs. off: metres that the
-// mesh's vertices are off by.
-static void nsvcd__facets_finish(nsvcd_body *b, float off) {
-  const nsvcd__facets f = nsvcd__facets_of(b);
+// above them, the box with the greatest of the quantization errors, and the groups' slabs. off:
+// metres that the mesh's vertices are off by.
+static void nsvcd__geometry_finish(nsvcd_body *b, float off) {
+  const nsvcd__geometry f = nsvcd__geometry_of(b);
   const nsvcd__level groups = nsvcd__level_of(b->padded, 0);
   float *out = (float *)(b + 1) + groups.first;
   for (size_t g = 0; g < groups.slots; g++) {
@@ -7691,20 +7701,20 @@ static void nsvcd__facets_finish(nsvcd_body *b, float off) {
   nsvcd__d3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
   nsvcd__d3 high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   float widest = 0;
-  for (size_t n = 0; n < f.place_count; n++) {
-    low = nsvcd__d3_min(low, nsvcd__d3_row(f.places, n));
-    high = nsvcd__d3_max(high, nsvcd__d3_row(f.places, n));
+  for (size_t n = 0; n < f.position_count; n++) {
+    low = nsvcd__d3_min(low, nsvcd__d3_row(f.positions, n));
+    high = nsvcd__d3_max(high, nsvcd__d3_row(f.positions, n));
   }
   for (size_t i = 0; i < b->patches; i++) {
     const nsvcd__vertices vertices = nsvcd__vertices_of(&f, i);
-    const nsvcd__d3 origin = nsvcd__facet_origin(&f, i);
-    const double quantum = (double)f.quanta[i];
-    widest = f.quanta[i] > widest ? f.quanta[i] : widest;
-    for (size_t k = 0; k < vertices.count && f.place_count == 0; k++) {
+    const nsvcd__d3 origin = nsvcd__patch_origin(&f, i);
+    const double quantization_error = (double)f.errors[i];
+    widest = f.errors[i] > widest ? f.errors[i] : widest;
+    for (size_t k = 0; k < vertices.count && f.position_count == 0; k++) {
       nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, k);
       vertex = nsvcd__d3_fma((double)f.steps[i], vertex, origin);
-      low = nsvcd__d3_min(low, nsvcd__d3_fma(-quantum, all, vertex));
-      high = nsvcd__d3_max(high, nsvcd__d3_fma(quantum, all, vertex));
+      low = nsvcd__d3_min(low, nsvcd__d3_fma(-quantization_error, all, vertex));
+      high = nsvcd__d3_max(high, nsvcd__d3_fma(quantization_error, all, vertex));
     }
   }
   // float rounding
@@ -7713,7 +7723,7 @@ static void nsvcd__facets_finish(nsvcd_body *b, float off) {
   nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_fma(-margin, all, low)), box);
   nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_fma(margin, all, high)), box + 3);
   box[6] = widest;
-  box[7] = f.place_count > 0 ? off : widest;
+  box[7] = f.position_count > 0 ? off : widest;
   for (size_t g = 0; g < nsvcd__body_groups(b); g++) nsvcd__finish_group(b, g);
   b->checksum = nsvcd__body_checksum(b);
 }
@@ -7723,7 +7733,7 @@ static void nsvcd__facets_finish(nsvcd_body *b, float off) {
 static float nsvcd__whole_radius(const nsvcd_body *body) {
 #ifndef NSVCD_NO_PROOF
   const nsvcd_body *triangles = nsvcd__triangles_of(body);
-  if (triangles) return body->radius + nsvcd__counts_of(triangles)->round;
+  if (triangles) return body->radius + nsvcd__counts_of(triangles)->convex_radius;
 #endif
   return body->radius;
 }
@@ -7743,9 +7753,9 @@ static int nsvcd__covers(nsvcd__sphere sphere, nsvcd__spheres all, size_t count)
 // Are the first `count` of (4, slots) spheres finite and within bounds, their radii not negative,
 // and the others exactly what padding is? most: of the coordinates.
 static int nsvcd__are_spheres(nsvcd__spheres all, size_t count, size_t slots, float most) {
-  if (!nsvcd__within(all.x, 3 * slots, most)) return 0;
-  if (!nsvcd__within(all.r, count, NSVCD__MAX_LENGTH)) return 0;
-  if (!nsvcd__within(all.r, slots, -NSVCD__NOWHERE)) return 0;
+  if (!nsvcd__in_range(all.x, 3 * slots, most)) return 0;
+  if (!nsvcd__in_range(all.r, count, NSVCD__MAX_LENGTH)) return 0;
+  if (!nsvcd__in_range(all.r, slots, -NSVCD__NOWHERE)) return 0;
   for (size_t i = 0; i < count; i++) {
     if (all.r[i] < 0) return 0;
   }
@@ -7773,9 +7783,9 @@ static int nsvcd__spheres_are_sound(const nsvcd_body *b) {
   const nsvcd__spheres patches = nsvcd__body_patches(b);
   const nsvcd__sphere about_origin = {nsvcd__f3_of(0, 0, 0), b->extent};
   if (!nsvcd__are_spheres(patches, b->patches, b->padded, NSVCD_MAX_COORDINATE)) return 0;
-  if (!nsvcd__within(b->centre, 3, NSVCD__MAX_LENGTH)) return 0;
-  if (!nsvcd__within(&b->radius, 1, NSVCD__MAX_LENGTH)) return 0;
-  if (!nsvcd__within(&b->extent, 1, NSVCD__MAX_LENGTH)) return 0;
+  if (!nsvcd__in_range(b->centre, 3, NSVCD__MAX_LENGTH)) return 0;
+  if (!nsvcd__in_range(&b->radius, 1, NSVCD__MAX_LENGTH)) return 0;
+  if (!nsvcd__in_range(&b->extent, 1, NSVCD__MAX_LENGTH)) return 0;
   if (b->radius < 0) return 0;
   const nsvcd__spheres groups = nsvcd__groups_of(b);
   nsvcd__spheres below = groups;
@@ -7808,13 +7818,13 @@ static int nsvcd__spheres_fit(const nsvcd_body *b, float radius, float scale) {
 }
 
 #ifndef NSVCD_NO_NETWORK
-// Are tips in range, and is their padding zero?
-static int nsvcd__tips_are_sound(const nsvcd_body *b) {
-  const int8_t *tips = nsvcd__group_tips(b, 0);
-  for (size_t n = 0; n < (size_t)3 * NSVCD__TIPS * b->padded; n++) {
-    const size_t group = n / (3 * NSVCD__TIPS * NSVCD__GROUP);
+// Are extremes in range, and is their padding zero?
+static int nsvcd__extremes_are_sound(const nsvcd_body *b) {
+  const int8_t *extremes = nsvcd__group_extremes(b, 0);
+  for (size_t n = 0; n < (size_t)3 * NSVCD__EXTREMES * b->padded; n++) {
+    const size_t group = n / (3 * NSVCD__EXTREMES * NSVCD__GROUP);
     const int exists = NSVCD__GROUP * group + n % NSVCD__GROUP < b->patches;
-    if (tips[n] == -128 || (!exists && tips[n] != 0)) return 0;
+    if (extremes[n] == -128 || (!exists && extremes[n] != 0)) return 0;
   }
   return 1;
 }
@@ -7824,13 +7834,13 @@ static int nsvcd__tips_are_sound(const nsvcd_body *b) {
 
 #ifndef NSVCD_NO_PROOF
 // Are counts and indices of a patch right? Those of the patches before it are.
-static int nsvcd__patch_is_laid_out(const nsvcd__facets *f, size_t i) {
+static int nsvcd__patch_is_laid_out(const nsvcd__geometry *f, size_t i) {
   const uint32_t *vertex = f->first_vertex + i;
   const uint32_t *own = f->first_own + i;
   const uint32_t *reference = f->first_reference + i;
   const uint32_t *triangle = f->first_triangle + i;
   if (vertex[1] < vertex[0] || vertex[1] > f->vertex_count) return 0;
-  if (own[1] < own[0] || own[1] > f->place_count) return 0;
+  if (own[1] < own[0] || own[1] > f->position_count) return 0;
   if (reference[1] < reference[0] || reference[1] > f->reference_count) return 0;
   if (triangle[1] < triangle[0] || triangle[1] > f->listed) return 0;
   const nsvcd__patch_points points = nsvcd__points_of(f, i);
@@ -7842,13 +7852,14 @@ static int nsvcd__patch_is_laid_out(const nsvcd__facets *f, size_t i) {
 
   const uint64_t corners = (uint64_t)3 * triangles * nsvcd__corner_bytes(points.all);
   const uint64_t corners_end = f->first_byte[i] + corners;
-  if (corners_end > f->first_byte[i + 1] || f->first_byte[i + 1] > f->listings_size) return 0;
+  if (corners_end > f->first_byte[i + 1] || f->first_byte[i + 1] > f->triangle_codes_size)
+    return 0;
   for (size_t n = 0; n < 3 * triangles; n++) {
-    if (nsvcd__facet_corner(f, i, triangle[0] + n / 3, n % 3) >= points.all) return 0;
+    if (nsvcd__triangle_corner(f, i, triangle[0] + n / 3, n % 3) >= points.all) return 0;
   }
   // Behind them are just as many codes, and all of triangles that there are.
-  const unsigned char *at = f->listings + (size_t)corners_end;
-  const unsigned char *end = f->listings + f->first_byte[i + 1];
+  const unsigned char *at = f->triangle_codes + (size_t)corners_end;
+  const unsigned char *end = f->triangle_codes + f->first_byte[i + 1];
   uint32_t number = 0;
   for (size_t n = 0; n < triangles; n++) {
     const size_t left = (size_t)(end - at);
@@ -7864,13 +7875,13 @@ static int nsvcd__patch_is_laid_out(const nsvcd__facets *f, size_t i) {
 
 #ifndef NSVCD_NO_PROOF
 // Are all numbers of vertices, and of triangles that are listed in pieces, of some that there are?
-static int nsvcd__numbers_are_sound(const nsvcd__facets *f) {
+static int nsvcd__numbers_are_sound(const nsvcd__geometry *f) {
   for (size_t n = 0; n < f->reference_count; n++)
-    if (nsvcd__reference_at(f, n) >= f->place_count) return 0;
+    if (nsvcd__reference_at(f, n) >= f->position_count) return 0;
   for (size_t n = 0; n < f->cut_count; n++) {
     if (f->cut[n] >= f->body->triangles || (n > 0 && f->cut[n] <= f->cut[n - 1])) return 0;
     for (size_t k = 0; k < 3; k++)
-      if (f->cut_corners[3 * n + k] >= f->place_count) return 0;
+      if (f->cut_corners[3 * n + k] >= f->position_count) return 0;
   }
   return 1;
 }
@@ -7898,17 +7909,19 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
   const size_t padded = b->padded;
   const size_t groups = nsvcd__body_groups(b);
   const size_t slots = nsvcd__group_slots(padded);
-  const nsvcd__facet_counts *counts = nsvcd__counts_of(b);
+  const nsvcd__geometry_counts *counts = nsvcd__counts_of(b);
   if (nsvcd__spheres_size(padded) + sizeof *counts > size) return 0;
   if (b->triangles == 0) return 0;
   if (counts->open_solids > counts->solids || counts->is_mixed > 1) return 0;
-  if (!nsvcd__within(&counts->gap, 1, NSVCD_MAX_COORDINATE) || counts->gap < 0) return 0;
-  if (!nsvcd__within(&counts->round, 1, NSVCD_MAX_COORDINATE) || counts->round < 0) return 0;
-  if (b->radius + counts->round < NSVCD_MIN_RADIUS) return 0;
-  nsvcd__facets f;
-  if (b->size != nsvcd__facets_lay(NULL, patches, counts, &f) || b->size > size) return 0;
+  if (!nsvcd__in_range(&counts->gap, 1, NSVCD_MAX_COORDINATE) || counts->gap < 0) return 0;
+  if (!nsvcd__in_range(&counts->convex_radius, 1, NSVCD_MAX_COORDINATE) ||
+      counts->convex_radius < 0)
+    return 0;
+  if (b->radius + counts->convex_radius < NSVCD_MIN_RADIUS) return 0;
+  nsvcd__geometry f;
+  if (b->size != nsvcd__geometry_layout(NULL, patches, counts, &f) || b->size > size) return 0;
 
-  f = nsvcd__facets_of(b);
+  f = nsvcd__geometry_of(b);
   if (f.first_vertex[0] != 0 || f.first_triangle[0] != 0) return 0;
   if (f.first_own[0] != 0 || f.first_reference[0] != 0) return 0;
   if (f.first_byte[0] != 0 || f.first_seed[0] != 0) return 0;
@@ -7920,7 +7933,7 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
   }
   if (f.first_vertex[patches] != f.vertex_count || f.first_triangle[patches] != f.listed)
     return 0;
-  if (f.first_byte[patches] != f.listings_size || f.first_seed[groups] != f.components)
+  if (f.first_byte[patches] != f.triangle_codes_size || f.first_seed[groups] != f.components)
     return 0;
   if (f.first_reference[patches] != f.reference_count || !nsvcd__numbers_are_sound(&f))
     return 0;
@@ -7934,20 +7947,20 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
   }
 
   const float most = NSVCD__MAX_LENGTH;
-  if (!nsvcd__within(f.box, NSVCD__FACET_BOX, most)) return 0;
-  if (!nsvcd__within(f.discs, 3 * padded, 1.000001f)) return 0;
-  if (!nsvcd__within(f.discs + 3 * padded, 3 * padded, most)) return 0;
-  if (!nsvcd__within(f.group_discs, 3 * slots, 1.000001f)) return 0;
-  if (!nsvcd__within(f.group_discs + 3 * slots, 3 * slots, most)) return 0;
-  if (!nsvcd__within(f.steps, padded, most / 32768)) return 0;
-  if (!nsvcd__within(f.slacks, padded, most)) return 0;
-  if (!nsvcd__within(f.quanta, padded, most)) return 0;
-  if (!nsvcd__within(f.seeds, 3 * f.components, most)) return 0;
-  if (!nsvcd__within(f.places, 3 * f.place_count, most) || f.box[7] < 0) return 0;
+  if (!nsvcd__in_range(f.box, NSVCD__GEOMETRY_BOX, most)) return 0;
+  if (!nsvcd__in_range(f.slabs, 3 * padded, 1.000001f)) return 0;
+  if (!nsvcd__in_range(f.slabs + 3 * padded, 3 * padded, most)) return 0;
+  if (!nsvcd__in_range(f.group_slabs, 3 * slots, 1.000001f)) return 0;
+  if (!nsvcd__in_range(f.group_slabs + 3 * slots, 3 * slots, most)) return 0;
+  if (!nsvcd__in_range(f.steps, padded, most / 32768)) return 0;
+  if (!nsvcd__in_range(f.margins, padded, most)) return 0;
+  if (!nsvcd__in_range(f.errors, padded, most)) return 0;
+  if (!nsvcd__in_range(f.seeds, 3 * f.components, most)) return 0;
+  if (!nsvcd__in_range(f.positions, 3 * f.position_count, most) || f.box[7] < 0) return 0;
   for (size_t i = 0; i < padded; i++) {
-    const nsvcd__disc disc = nsvcd__disc_at(f.discs, padded, i);
-    if (disc.across < 0 || f.steps[i] < 0 || f.slacks[i] < 0 || f.quanta[i] < 0) return 0;
-    if (f.quanta[i] > nsvcd__widest_quantum(&f)) return 0;
+    const nsvcd__slab slab = nsvcd__slab_at(f.slabs, padded, i);
+    if (slab.across < 0 || f.steps[i] < 0 || f.margins[i] < 0 || f.errors[i] < 0) return 0;
+    if (f.errors[i] > nsvcd__widest_quantization(&f)) return 0;
   }
 #else
   (void)b;
@@ -7972,7 +7985,7 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
 #ifndef NSVCD_NO_NETWORK
   if (b->weights_id != NSVCD_WEIGHTS_ID) return 0;
   const size_t latents = nsvcd_body_size(b->patches);
-  if (b->size < latents || !nsvcd__tips_are_sound(b)) return 0;
+  if (b->size < latents || !nsvcd__extremes_are_sound(b)) return 0;
   if (b->inner == 0) return b->size == latents && b->triangles == 0;
   if (b->inner != latents) return 0;
 #else
@@ -8042,43 +8055,43 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
     return;
   }
 #ifndef NSVCD_NO_PROOF
-  // What rounding does to a vertex, and to how round the body is, goes to the slacks and quanta,
-  // and is what the vertices are off by.
-  const nsvcd__facets f = nsvcd__facets_of(b);
+  // What rounding does to a vertex, and to how round the body is, goes to the margins and
+  // quantization errors, and is what the vertices are off by.
+  const nsvcd__geometry f = nsvcd__geometry_of(b);
   const double by = (double)scale;
-  float *round = (float *)nsvcd__writable(b, &nsvcd__counts_of(b)->round);
-  const double exact = (double)*round * by;
-  *round *= scale;
-  const double off = fabs(exact - (double)*round);
+  float *convex_radius = (float *)nsvcd__writable(b, &nsvcd__counts_of(b)->convex_radius);
+  const double exact = (double)*convex_radius * by;
+  *convex_radius *= scale;
+  const double off = fabs(exact - (double)*convex_radius);
   float *gap = (float *)nsvcd__writable(b, &nsvcd__counts_of(b)->gap);
   if (*gap > 0) *gap = nsvcd__above((double)*gap * by);
-  float *discs = (float *)nsvcd__writable(b, f.discs);
+  float *slabs = (float *)nsvcd__writable(b, f.slabs);
   float *steps = (float *)nsvcd__writable(b, f.steps);
-  float *slacks = (float *)nsvcd__writable(b, f.slacks);
-  float *quanta = (float *)nsvcd__writable(b, f.quanta);
+  float *margins = (float *)nsvcd__writable(b, f.margins);
+  float *errors = (float *)nsvcd__writable(b, f.errors);
   float *seeds = (float *)nsvcd__writable(b, f.seeds);
-  float *places = (float *)nsvcd__writable(b, f.places);
+  float *positions = (float *)nsvcd__writable(b, f.positions);
   double worst = off;
-  for (size_t i = 0; i < 3 * f.place_count; i++) {
-    const double whole = (double)places[i] * by;
-    places[i] *= scale;
-    worst = nsvcd__max(worst, 1.8 * fabs(whole - (double)places[i]) + off);
+  for (size_t i = 0; i < 3 * f.position_count; i++) {
+    const double whole = (double)positions[i] * by;
+    positions[i] *= scale;
+    worst = nsvcd__max(worst, 1.8 * fabs(whole - (double)positions[i]) + off);
   }
   const double off_mesh = worst + (double)nsvcd__off_mesh(&f) * by;
   for (size_t i = 0; i < b->patches; i++) {
-    const double distance = (double)nsvcd__f3_length(nsvcd__facet_centre(&f, i));
-    nsvcd__disc disc = nsvcd__disc_at(f.discs, padded, i);
+    const double distance = (double)nsvcd__f3_length(nsvcd__patch_centre(&f, i));
+    nsvcd__slab slab = nsvcd__slab_at(f.slabs, padded, i);
     steps[i] *= scale;
     const double rounding = 2e-7 * (distance + 6e4 * (double)steps[i]) + off;
-    slacks[i] = nsvcd__above((double)slacks[i] * by + rounding);
-    quanta[i] = nsvcd__above((double)quanta[i] * by + rounding + worst);
-    disc.low = (float)((double)disc.low * by - rounding);
-    disc.high = (float)((double)disc.high * by + rounding);
-    disc.across = nsvcd__above((double)disc.across * by + rounding);
-    nsvcd__disc_store(disc, discs, padded, i);
+    margins[i] = nsvcd__above((double)margins[i] * by + rounding);
+    errors[i] = nsvcd__above((double)errors[i] * by + rounding + worst);
+    slab.low = (float)((double)slab.low * by - rounding);
+    slab.high = (float)((double)slab.high * by + rounding);
+    slab.across = nsvcd__above((double)slab.across * by + rounding);
+    nsvcd__slab_store(slab, slabs, padded, i);
   }
   for (size_t i = 0; i < 3 * f.components; i++) seeds[i] *= scale;
-  nsvcd__facets_finish(b, off_mesh > 0 ? nsvcd__above(off_mesh) : 0);
+  nsvcd__geometry_finish(b, off_mesh > 0 ? nsvcd__above(off_mesh) : 0);
 #endif
 }
 
@@ -8132,13 +8145,13 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
 #ifndef NSVCD_NO_PROOF
   const nsvcd_body *triangles = nsvcd__triangles_of(body);
   if (triangles) {
-    const nsvcd__facets f = nsvcd__facets_of(triangles);
+    const nsvcd__geometry f = nsvcd__geometry_of(triangles);
     facts.triangles = triangles->triangles;
-    facts.listings = f.listed;
+    facts.stored_triangles = f.listed;
     memcpy(facts.low, f.box, sizeof facts.low);
     memcpy(facts.high, f.box + 3, sizeof facts.high);
-    facts.quantum = nsvcd__off_mesh(&f);
-    facts.round = f.round;
+    facts.quantization_error = nsvcd__off_mesh(&f);
+    facts.convex_radius = f.convex_radius;
     facts.components = nsvcd__counts_of(triangles)->solids;
     facts.open_components = nsvcd__counts_of(triangles)->open_solids;
     facts.open_edges = nsvcd__counts_of(triangles)->open_edges;
@@ -8157,7 +8170,7 @@ NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float cent
 }
 
 // -------------------------------------------------------------------------------------- body/write
-// In: a surface, and the mesh it is of. Out: the body of triangles that body/facets reads.
+// In: a surface, and the mesh it is of. Out: the body of triangles that body/geometry reads.
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
 // Writes the numbers of patch i as codes; NULL: only counts their bytes. Returns how many.
@@ -8180,15 +8193,15 @@ static size_t nsvcd__numbers_write(const nsvcd__surface *s, size_t i, unsigned c
 }
 
 // What a body of triangles is written from.
-typedef struct nsvcd__facets_source {
+typedef struct nsvcd__geometry_source {
   nsvcd__surface *surface;
   const nsvcd_mesh *mesh;
   // (vertices of the mesh) the number of each in the body, from 1; 0: none yet
   uint32_t *numbers;
   // (triangles) 1: listed in pieces
   uint8_t *cut;
-  nsvcd__facet_counts counts;
-} nsvcd__facets_source;
+  nsvcd__geometry_counts counts;
+} nsvcd__geometry_source;
 
 static size_t nsvcd__source_corner(const nsvcd_mesh *mesh, size_t t, size_t k) {
   return mesh->indices ? mesh->indices[3 * t + k] : t;
@@ -8196,10 +8209,10 @@ static size_t nsvcd__source_corner(const nsvcd_mesh *mesh, size_t t, size_t k) {
 
 // Counts all that the body of a surface is to have, which is all there: fills in the source. 0
 // without memory.
-static int nsvcd__facets_count(nsvcd__facets_source *source, nsvcd__arena *arena) {
+static int nsvcd__geometry_count(nsvcd__geometry_source *source, nsvcd__arena *arena) {
   const nsvcd__surface *s = source->surface;
   const nsvcd_mesh *mesh = source->mesh;
-  nsvcd__facet_counts *counts = &source->counts;
+  nsvcd__geometry_counts *counts = &source->counts;
   source->numbers = NSVCD__TAKE(arena, uint32_t, s->coarse ? 0 : mesh->vertex_count);
   source->cut = NSVCD__TAKE(arena, uint8_t, s->coarse ? 0 : mesh->triangle_count);
   if (arena->failed) return 0;
@@ -8227,37 +8240,38 @@ static int nsvcd__facets_count(nsvcd__facets_source *source, nsvcd__arena *arena
       if (s->corners[n] < stored) source->cut[s->ids[n / 3] & NSVCD__NUMBER] = 1;
   }
   for (size_t n = 0; n < s->named_count; n++) {
-    counts->places += !source->numbers[s->named[n]];
+    counts->positions += !source->numbers[s->named[n]];
     source->numbers[s->named[n]] = 1;
   }
-  counts->references = (uint32_t)s->named_count - counts->places;
+  counts->references = (uint32_t)s->named_count - counts->positions;
   for (size_t n = 0; n < 3 * mesh->triangle_count && !s->coarse; n++) {
     if (!source->cut[n / 3]) continue;
     const size_t v = nsvcd__source_corner(mesh, n / 3, n % 3);
-    counts->places += !source->numbers[v];
+    counts->positions += !source->numbers[v];
     source->numbers[v] = 1;
     counts->cut += n % 3 == 0;
   }
   if (!s->coarse) memset(source->numbers, 0, mesh->vertex_count * sizeof *source->numbers);
   // then the body is refused as too large
-  counts->listings_size = bytes < 0xffffffffu ? (uint32_t)bytes : 0xffffffffu;
+  counts->triangle_codes_size = bytes < 0xffffffffu ? (uint32_t)bytes : 0xffffffffu;
   return 1;
 }
 
 // Gives a vertex the next number, and its place in the body. Returns the number, from 0.
-static uint32_t nsvcd__place_write(nsvcd__facets_source *source, nsvcd_body *b,
-                                   const nsvcd__facets *f, size_t vertex, uint32_t *count) {
-  float *places = (float *)nsvcd__writable(b, f->places);
+static uint32_t nsvcd__position_write(nsvcd__geometry_source *source, nsvcd_body *b,
+                                      const nsvcd__geometry *f, size_t vertex,
+                                      uint32_t *count) {
+  float *positions = (float *)nsvcd__writable(b, f->positions);
   const float *from = source->mesh->positions + 3 * vertex;
-  memcpy(places + 3 * (size_t)*count, from, 3 * sizeof *places);
+  memcpy(positions + 3 * (size_t)*count, from, 3 * sizeof *positions);
   source->numbers[vertex] = ++*count;
   return *count - 1;
 }
 
 // Writes the places and references of patch `to`, from patch `from` of a surface, whose names
 // become numbers in the body's patch.
-static void nsvcd__named_write(nsvcd__facets_source *source, size_t from, nsvcd_body *b,
-                               const nsvcd__facets *f, size_t to) {
+static void nsvcd__named_write(nsvcd__geometry_source *source, size_t from, nsvcd_body *b,
+                               const nsvcd__geometry *f, size_t to) {
   nsvcd__surface *s = source->surface;
   uint32_t *first_own = (uint32_t *)nsvcd__writable(b, f->first_own + to);
   uint32_t *first_reference = (uint32_t *)nsvcd__writable(b, f->first_reference + to);
@@ -8273,7 +8287,7 @@ static void nsvcd__named_write(nsvcd__facets_source *source, size_t from, nsvcd_
   for (size_t n = 0; n < count; n++) {
     const uint32_t number = source->numbers[named[n]];
     if (!number) {
-      (void)nsvcd__place_write(source, b, f, named[n], &first_own[1]);
+      (void)nsvcd__position_write(source, b, f, named[n], &first_own[1]);
       named[n] = own++;
       continue;
     }
@@ -8287,8 +8301,8 @@ static void nsvcd__named_write(nsvcd__facets_source *source, size_t from, nsvcd_
 }
 
 // Writes the triangles that are listed in pieces, once all patches are written.
-static void nsvcd__cut_write(nsvcd__facets_source *source, nsvcd_body *b,
-                             const nsvcd__facets *f) {
+static void nsvcd__cut_write(nsvcd__geometry_source *source, nsvcd_body *b,
+                             const nsvcd__geometry *f) {
   const nsvcd_mesh *mesh = source->mesh;
   uint32_t *cut = (uint32_t *)nsvcd__writable(b, f->cut);
   uint32_t *corners = (uint32_t *)nsvcd__writable(b, f->cut_corners);
@@ -8299,23 +8313,23 @@ static void nsvcd__cut_write(nsvcd__facets_source *source, nsvcd_body *b,
     for (size_t k = 0; k < 3; k++) {
       const size_t v = nsvcd__source_corner(mesh, t, k);
       const uint32_t known = source->numbers[v];
-      *corners++ = known ? known - 1 : nsvcd__place_write(source, b, f, v, &count);
+      *corners++ = known ? known - 1 : nsvcd__position_write(source, b, f, v, &count);
     }
   }
 }
 
 // Writes patch `to`, from patch `from` of a surface. One without surface is a point.
-static void nsvcd__patch_write(nsvcd__facets_source *source, size_t from, nsvcd_body *b,
-                               nsvcd__facets f, size_t to) {
+static void nsvcd__patch_write(nsvcd__geometry_source *source, size_t from, nsvcd_body *b,
+                               nsvcd__geometry f, size_t to) {
   const nsvcd__surface *s = source->surface;
   const size_t padded = b->padded;
   nsvcd__sphere ball = s->balls[from];
   if (s->hull_counts[from] == 0) ball.radius = 0;
   nsvcd__sphere_store(ball, (float *)(b + 1), padded, to);
-  nsvcd__disc_store(s->discs[from], (float *)nsvcd__writable(b, f.discs), padded, to);
+  nsvcd__slab_store(s->slabs[from], (float *)nsvcd__writable(b, f.slabs), padded, to);
   *(float *)nsvcd__writable(b, f.steps + to) = s->steps[from];
-  *(float *)nsvcd__writable(b, f.slacks + to) = s->slacks[from];
-  *(float *)nsvcd__writable(b, f.quanta + to) = s->quanta[from];
+  *(float *)nsvcd__writable(b, f.margins + to) = s->margins[from];
+  *(float *)nsvcd__writable(b, f.errors + to) = s->errors[from];
   *(uint8_t *)nsvcd__writable(b, f.hull_counts + to) = s->hull_counts[from];
 
   const size_t vertex = s->first_vertex[from];
@@ -8327,7 +8341,7 @@ static void nsvcd__patch_write(nsvcd__facets_source *source, size_t from, nsvcd_
   uint32_t *first_byte = (uint32_t *)nsvcd__writable(b, f.first_byte + to);
   void *integers = nsvcd__writable(b, f.vertices + 3 * (size_t)first_vertex[0]);
   memcpy(integers, s->vertices + 3 * vertex, 6 * vertices);
-  unsigned char *begin = (unsigned char *)nsvcd__writable(b, f.listings + first_byte[0]);
+  unsigned char *begin = (unsigned char *)nsvcd__writable(b, f.triangle_codes + first_byte[0]);
   unsigned char *at = begin;
   nsvcd__named_write(source, from, b, &f, to);
   const uint32_t *named = s->named + s->first_named[from];
@@ -8348,46 +8362,47 @@ static void nsvcd__patch_write(nsvcd__facets_source *source, size_t from, nsvcd_
 
 // Writes the seeds of a body of triangles, group by group (counting sort). order: of the patches.
 static void nsvcd__seeds_write(const nsvcd__surface *s, const uint16_t *order, nsvcd_body *b) {
-  const nsvcd__facets f = nsvcd__facets_of(b);
+  const nsvcd__geometry f = nsvcd__geometry_of(b);
   uint32_t *first_seed = (uint32_t *)nsvcd__writable(b, f.first_seed);
   float *seeds = (float *)nsvcd__writable(b, f.seeds);
   // Until the body is whole, the places of patches are kept where their first vertices will be.
-  uint32_t *places = (uint32_t *)nsvcd__writable(b, f.first_vertex);
+  uint32_t *positions = (uint32_t *)nsvcd__writable(b, f.first_vertex);
   const size_t groups = nsvcd__body_groups(b);
-  for (size_t i = 0; i < b->patches; i++) places[order[i]] = (uint32_t)i;
+  for (size_t i = 0; i < b->patches; i++) positions[order[i]] = (uint32_t)i;
   for (size_t n = 0; n < s->seed_count; n++) {
-    const size_t g = places[s->seed_patches[n]] / NSVCD__GROUP;
+    const size_t g = positions[s->seed_patches[n]] / NSVCD__GROUP;
     first_seed[g + 1]++;
   }
   for (size_t g = 0; g < groups; g++) first_seed[g + 1] += first_seed[g];
   for (size_t n = s->seed_count; n-- > 0;) {
-    const size_t g = places[s->seed_patches[n]] / NSVCD__GROUP;
+    const size_t g = positions[s->seed_patches[n]] / NSVCD__GROUP;
     const size_t to = --first_seed[g + 1];
     nsvcd__f3_store(s->seeds[n], seeds + 3 * to);
   }
   // Now first_seed[g + 1] is where group g begins.
   memmove(first_seed, first_seed + 1, groups * sizeof *first_seed);
   first_seed[groups] = (uint32_t)s->seed_count;
-  memset(places, 0, b->patches * sizeof *places);
+  memset(positions, 0, b->patches * sizeof *positions);
 }
 
 // Builds a body of triangles of `size` bytes in `memory`. order: (N) of the patches. Afterwards the
 // source is of no use. NUMBER if it would be too large, EMPTY if it would be too small.
-static nsvcd_result nsvcd__facets_build(nsvcd__facets_source *source, const uint16_t *order,
-                                        int open, void *memory, size_t size) {
+static nsvcd_result nsvcd__geometry_build(nsvcd__geometry_source *source,
+                                          const uint16_t *order, int open, void *memory,
+                                          size_t size) {
   const nsvcd__surface *s = source->surface;
-  const nsvcd__facet_counts *counts = &source->counts;
+  const nsvcd__geometry_counts *counts = &source->counts;
   nsvcd_body *b = nsvcd__body_begin(memory, size, s->count, open);
   b->triangles = (uint32_t)source->mesh->triangle_count;
   memcpy(nsvcd__writable(b, nsvcd__counts_of(b)), counts, sizeof *counts);
   nsvcd__seeds_write(s, order, b);
-  const nsvcd__facets f = nsvcd__facets_of(b);
+  const nsvcd__geometry f = nsvcd__geometry_of(b);
   for (size_t i = 0; i < s->count; i++) nsvcd__patch_write(source, order[i], b, f, i);
   if (!s->coarse) nsvcd__cut_write(source, b, &f);
-  if (!nsvcd__within(nsvcd__body_r(b), b->patches, 4 * NSVCD_MAX_COORDINATE))
+  if (!nsvcd__in_range(nsvcd__body_r(b), b->patches, 4 * NSVCD_MAX_COORDINATE))
     return NSVCD_ERROR_NUMBER;
-  nsvcd__facets_finish(b, 0);
-  return b->radius + counts->round < NSVCD_MIN_RADIUS ? NSVCD_ERROR_EMPTY : NSVCD_OK;
+  nsvcd__geometry_finish(b, 0);
+  return b->radius + counts->convex_radius < NSVCD_MIN_RADIUS ? NSVCD_ERROR_EMPTY : NSVCD_OK;
 }
 #endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
 
@@ -8412,12 +8427,12 @@ typedef struct nsvcd__parts {
   // Of a body with latents, else empty:
   float *radii;      // (N)
   nsvcd__f3 *areas;  // (N)
-  int8_t *tips;      // (N, TIPS, 3)
+  int8_t *extremes;  // (N, TIPS, 3)
   int8_t *latents;   // (N, LATENT)
 #endif
 #ifndef NSVCD_NO_PROOF
   nsvcd__surface surface;
-  nsvcd__facets_source source;
+  nsvcd__geometry_source source;
 #endif
 } nsvcd__parts;
 
@@ -8463,7 +8478,8 @@ static nsvcd_result nsvcd__parts_add(nsvcd__parts *parts, nsvcd__regions *region
     const double wider = ((double)radius + margin) * (1 + 1e-7);
     parts->radii[to] = region.cut_count > 0 ? (float)wider : radius;
     parts->areas[to] = patches.area_vectors[i];
-    nsvcd__tips_of(&sorted, i, parts->radii[to], parts->tips + 3 * NSVCD__TIPS * to);
+    nsvcd__extremes_of(&sorted, i, parts->radii[to],
+                       parts->extremes + 3 * NSVCD__EXTREMES * to);
   }
 #endif
 #ifndef NSVCD_NO_PROOF
@@ -8488,7 +8504,7 @@ static nsvcd_result nsvcd__parts_of_runs(nsvcd__parts *parts) {
   nsvcd__curve curve;
   int ok = nsvcd__surface_begin(runs, mesh->vertex_count, parts->options->coarse,
                                 &parts->arena, surface);
-  ok = ok && nsvcd__curve_build(mesh, parts->options->round, &spare, &curve);
+  ok = ok && nsvcd__curve_build(mesh, parts->options->convex_radius, &spare, &curve);
   ok = ok && nsvcd__surface_room(surface, mesh->vertex_count, mesh->vertex_count, triangles);
   if (ok) surface->solids = curve.solids;
   nsvcd_result result = ok ? NSVCD_OK : NSVCD_ERROR_MEMORY;
@@ -8530,7 +8546,7 @@ static nsvcd_result nsvcd__parts_of_regions(nsvcd__parts *parts) {
   const size_t latents = options->latents ? patches : 0;
   parts->radii = NSVCD__TAKE(arena, float, latents);
   parts->areas = NSVCD__TAKE(arena, nsvcd__f3, latents);
-  parts->tips = NSVCD__TAKE(arena, int8_t, 3 * NSVCD__TIPS * latents);
+  parts->extremes = NSVCD__TAKE(arena, int8_t, 3 * NSVCD__EXTREMES * latents);
   parts->latents = NSVCD__TAKE(arena, int8_t, NSVCD__LATENT * latents);
 #endif
 #ifndef NSVCD_NO_PROOF
@@ -8562,7 +8578,7 @@ static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh,
   if (nsvcd__is_cancelled(options, 0)) return NSVCD_ERROR_CANCELLED;
   nsvcd_result result = NSVCD_OK;
 #ifndef NSVCD_NO_PROOF
-  parts->in_runs = options->round > 0 && nsvcd__has_points(mesh);
+  parts->in_runs = options->convex_radius > 0 && nsvcd__has_points(mesh);
   if (parts->in_runs) result = nsvcd__parts_of_runs(parts);
 #endif
   if (!parts->in_runs) result = nsvcd__parts_of_regions(parts);
@@ -8571,12 +8587,13 @@ static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh,
 #endif
 #ifndef NSVCD_NO_PROOF
   if (!result && !options->no_triangles) {
-    nsvcd__facets none;
+    nsvcd__geometry none;
     parts->source.surface = &parts->surface;
     parts->source.mesh = mesh;
-    if (!nsvcd__facets_count(&parts->source, &parts->arena)) result = NSVCD_ERROR_MEMORY;
-    parts->source.counts.round = options->round;
-    parts->facets_size = nsvcd__facets_lay(NULL, parts->count, &parts->source.counts, &none);
+    if (!nsvcd__geometry_count(&parts->source, &parts->arena)) result = NSVCD_ERROR_MEMORY;
+    parts->source.counts.convex_radius = options->convex_radius;
+    parts->facets_size =
+        nsvcd__geometry_layout(NULL, parts->count, &parts->source.counts, &none);
     if (!result && !parts->facets_size) result = NSVCD_ERROR_TOO_LARGE;
   }
 #endif
@@ -8604,7 +8621,7 @@ static nsvcd_result nsvcd__parts_write(nsvcd__parts *parts, void *memory) {
     source.centres = parts->centres;
     source.radii = parts->radii;
     source.areas = parts->areas;
-    source.tips = parts->tips;
+    source.extremes = parts->extremes;
     source.latents = parts->latents;
     source.order = order;
     source.open = open;
@@ -8614,7 +8631,7 @@ static nsvcd_result nsvcd__parts_write(nsvcd__parts *parts, void *memory) {
 #ifndef NSVCD_NO_PROOF
   if (!result && parts->facets_size) {
     void *to = (char *)memory + parts->latents_size;
-    result = nsvcd__facets_build(&parts->source, order, open, to, parts->facets_size);
+    result = nsvcd__geometry_build(&parts->source, order, open, to, parts->facets_size);
   }
 #endif
   if (result || !parts->latents_size || !parts->facets_size) return result;
@@ -8658,19 +8675,19 @@ static nsvcd_result nsvcd__encode_resolve(const nsvcd_mesh *mesh, nsvcd_encode_o
 #endif
   if (!nsvcd__is_finite(o->patch_radius)) return NSVCD_ERROR_PATCHES;
   if (o->patch_radius < 0) return NSVCD_ERROR_PATCHES;
-  if (!nsvcd__within(&o->round, 1, NSVCD_MAX_COORDINATE) || o->round < 0)
+  if (!nsvcd__in_range(&o->convex_radius, 1, NSVCD_MAX_COORDINATE) || o->convex_radius < 0)
     return NSVCD_ERROR_RADIUS;
-  if (o->round > 0 && o->latents) return NSVCD_ERROR_LATENTS;
+  if (o->convex_radius > 0 && o->latents) return NSVCD_ERROR_LATENTS;
   if (o->patches > NSVCD_MAX_PATCHES) return NSVCD_ERROR_PATCHES;
   const nsvcd_result checked = mesh->indices ? nsvcd__mesh_check(mesh) : NSVCD_OK;
   if (checked) return checked;
 #ifndef NSVCD_NO_PROOF
-  if (o->patches == 0 && o->round > 0 && nsvcd__has_points(mesh))
+  if (o->patches == 0 && o->convex_radius > 0 && nsvcd__has_points(mesh))
     o->patches = nsvcd__runs_for(mesh);
 #endif
-  if (o->patches > 0 && o->round > 0) return NSVCD_OK;
+  if (o->patches > 0 && o->convex_radius > 0) return NSVCD_OK;
   const double area = nsvcd__mesh_area(mesh);
-  if (!(area > 0) && !(o->round > 0)) return NSVCD_ERROR_EMPTY;
+  if (!(area > 0) && !(o->convex_radius > 0)) return NSVCD_ERROR_EMPTY;
   if (o->patches == 0)
     o->patches = nsvcd__patches_for(mesh, o->patch_radius, area, !o->no_triangles);
   return NSVCD_OK;
@@ -8731,12 +8748,12 @@ NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *all
 // is.
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
-static nsvcd_result nsvcd__encode_round(const nsvcd_mesh *mesh, float round,
-                                        const nsvcd_allocator *allocator,
-                                        const nsvcd_body **body) {
+static nsvcd_result nsvcd__encode_rounded(const nsvcd_mesh *mesh, float convex_radius,
+                                          const nsvcd_allocator *allocator,
+                                          const nsvcd_body **body) {
   nsvcd_encode_options options;
   memset(&options, 0, sizeof options);
-  options.round = round;
+  options.convex_radius = convex_radius;
   return nsvcd__encode_mesh(mesh, &options, allocator, NULL, 0, body);
 }
 
@@ -8746,7 +8763,7 @@ NSVCDDEF nsvcd_result nsvcd_encode_sphere(float radius, const nsvcd_allocator *a
   uint32_t point[3] = {0, 0, 0};
   const nsvcd_mesh mesh = {centre, point, 1, 1};
   if (!(radius > 0)) return NSVCD_ERROR_RADIUS;
-  return nsvcd__encode_round(&mesh, radius, allocator, body);
+  return nsvcd__encode_rounded(&mesh, radius, allocator, body);
 }
 
 NSVCDDEF nsvcd_result nsvcd_encode_capsule(const float from[3], const float to[3],
@@ -8759,10 +8776,10 @@ NSVCDDEF nsvcd_result nsvcd_encode_capsule(const float from[3], const float to[3
   if (!(radius > 0)) return NSVCD_ERROR_RADIUS;
   memcpy(ends, from, 3 * sizeof *from);
   memcpy(ends + 3, to, 3 * sizeof *to);
-  return nsvcd__encode_round(&mesh, radius, allocator, body);
+  return nsvcd__encode_rounded(&mesh, radius, allocator, body);
 }
 
-NSVCDDEF nsvcd_result nsvcd_encode_box(const float half[3], float round,
+NSVCDDEF nsvcd_result nsvcd_encode_box(const float half[3], float convex_radius,
                                        const nsvcd_allocator *allocator,
                                        const nsvcd_body **body) {
   // corner n is on the far side of axis k if bit k of n is set
@@ -8771,13 +8788,13 @@ NSVCDDEF nsvcd_result nsvcd_encode_box(const float half[3], float round,
   float corners[24];
   const nsvcd_mesh mesh = {corners, faces, 8, 12};
   if (!half) return NSVCD_ERROR_ARGUMENT;
-  if (!(round >= 0)) return NSVCD_ERROR_RADIUS;
+  if (!(convex_radius >= 0)) return NSVCD_ERROR_RADIUS;
   for (size_t k = 0; k < 3; k++) {
-    if (!(half[k] > 0) || !(half[k] >= round)) return NSVCD_ERROR_RADIUS;
+    if (!(half[k] > 0) || !(half[k] >= convex_radius)) return NSVCD_ERROR_RADIUS;
     for (size_t n = 0; n < 8; n++)
-      corners[3 * n + k] = n >> k & 1 ? half[k] - round : round - half[k];
+      corners[3 * n + k] = n >> k & 1 ? half[k] - convex_radius : convex_radius - half[k];
   }
-  return nsvcd__encode_round(&mesh, round, allocator, body);
+  return nsvcd__encode_rounded(&mesh, convex_radius, allocator, body);
 }
 
 NSVCDDEF nsvcd_result nsvcd_encode_cloud(const float *points, size_t count, float radius,
@@ -8788,10 +8805,10 @@ NSVCDDEF nsvcd_result nsvcd_encode_cloud(const float *points, size_t count, floa
   if (!(radius > 0)) return NSVCD_ERROR_RADIUS;
   if (count == 0) return NSVCD_ERROR_EMPTY;
   if (count > NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
-  if (!nsvcd__within(points, 3 * count, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_NUMBER;
+  if (!nsvcd__in_range(points, 3 * count, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_NUMBER;
   // a cast would take away a const; nothing is written
   memcpy(&mesh.positions, &points, sizeof points);
-  return nsvcd__encode_round(&mesh, radius, allocator, body);
+  return nsvcd__encode_rounded(&mesh, radius, allocator, body);
 }
 #endif
 
@@ -9139,7 +9156,7 @@ typedef struct nsvcd__beam {
   float width;
 } nsvcd__beam;
 
-// A filter of a walk: spheres that a beam meets.
+// A filter of a traversal: spheres that a beam meets.
 static uint32_t nsvcd__is_on_beam(const void *what, nsvcd__spheres all) {
   const nsvcd__beam *beam = (const nsvcd__beam *)what;
   uint32_t met = 0;
@@ -9387,7 +9404,7 @@ typedef struct nsvcd__motion {
   // of the moving body's origin less the fixed one's, in world axes, metres
   nsvcd__f3 low, high;
   // by which the moving body is held off its poses, as the fixed one sees it, in its units
-  nsvcd__f3 lift;
+  nsvcd__f3 push_out;
   // of an interval: the tick at which it begins, and how many arcs a segment has; 0, 0: it is all
   // of the motion
   uint32_t from, arcs;
@@ -9529,7 +9546,7 @@ static void nsvcd__motion_init(const nsvcd_mover *moving, const nsvcd_mover *fix
   motion->ratio = (double)nsvcd__scale_of(moving) / (double)motion->unit;
   motion->scale = (float)motion->ratio;
   motion->per_scale = 1 / motion->scale;
-  motion->lift = nsvcd__f3_of(0, 0, 0);
+  motion->push_out = nsvcd__f3_of(0, 0, 0);
   motion->begin = 0;
   motion->duration = 1;
   nsvcd__motion_set_tracks(motion, nsvcd__track_of(moving), nsvcd__track_of(fixed));
@@ -9627,7 +9644,7 @@ static nsvcd__v_pose nsvcd__v_seen(const nsvcd__motion *motion, const nsvcd__v_p
   const nsvcd__v3 metres = nsvcd__vmat3_apply(matrix, at->offset);
   nsvcd__v_pose out;
   out.rotation = nsvcd__vquat_mul(to_fixed, at->moving);
-  out.position = nsvcd__v3_fma(per_metre, metres, nsvcd__v3_set(motion->lift));
+  out.position = nsvcd__v3_fma(per_metre, metres, nsvcd__v3_set(motion->push_out));
   return out;
 }
 
@@ -9669,7 +9686,7 @@ static nsvcd__transform nsvcd__motion_pose(const nsvcd__motion *motion, float t)
   const nsvcd__f3 offset = nsvcd__d3_narrow(nsvcd__d3_over(metres, (double)motion->unit));
   nsvcd__transform out;
   out.rotation = nsvcd__mat3_mul(&to_fixed, &rotation);
-  out.position = nsvcd__f3_add(nsvcd__mat3_apply(&to_fixed, offset), motion->lift);
+  out.position = nsvcd__f3_add(nsvcd__mat3_apply(&to_fixed, offset), motion->push_out);
   return out;
 }
 #endif
@@ -9682,7 +9699,7 @@ static nsvcd__transform nsvcd__motion_pose(const nsvcd__motion *motion, float t)
 // Time is cut into S segments. Within one, every sphere centre c of the moving body (its frame) is
 // taken along the chord between its places at the two ends, x0 + tau v, tau in [0,1], and the
 // radius grows by
-//   dev(c) = spread + bulge |c|
+//   dev(c) = margin + bend |c|
 // so that it covers the true place (M(t) c + p(t)) at every t, M being the rotation times the
 // scale. Why: let L(t) be the linear interpolation of M between the segment's ends, K(t) the
 // piecewise linear one through the keyframes inside. Between two keyframes a chord misses a curve
@@ -9690,16 +9707,16 @@ static nsvcd__transform nsvcd__motion_pose(const nsvcd__motion *motion, float t)
 // that is h^2 |c| / 8 on an arc of angle h, and its origin goes straight. Where both do, what the
 // fixed body sees bends more: nsvcd__cut_double_arc. K - L is piecewise linear, its norm convex, so
 // it is largest at a keyframe. Hence
-//   bulge  = max over arcs of what they bend by per metre  +  max over keyframes ||M_k - L(t_k)||
-//          (Frobenius >= 2-norm)
-//   drift  = max over arcs of what the origin bends by  +  max over keyframes |p_k - its linear
-//                                                       interpolation|
-//   spread = drift + rounding + the clearance that is asked for
+//   bend   = max over arcs of what they bend by per metre
+//                      + max over keyframes ||M_k - L(t_k)||  (Frobenius >= 2-norm)
+//   origin_bend = max over arcs of what the origin bends by
+//                      + max over keyframes |p_k - its linear interpolation|
+//   margin           = origin_bend + rounding + the clearance that is asked for
 // Along a direction n, |n| <= 1, it is less. A turn by h about the unit axis a bends the way of a
 // point x by a x (a x y) h^2, y being x, turned; and n.(a x (a x y)) = (n x a).(a x y), which is no
-// more than |n x a| |x|: nothing along the axis. So `bulge_along_axis` and `drift_along_axis` are
-// what is left along the axis of the whole segment's turn, off which the arcs' axes may be, and
-// nsvcd__deviation_of puts them together.
+// more than |n x a| |x|: nothing along the axis. So `bend_along_axis` and
+// `origin_along_axis` are what is left along the axis of the whole segment's turn, off
+// which the arcs' axes may be, and nsvcd__deviation_of puts them together.
 //
 // A group or a whole body is a sphere like any other: its sphere, truly posed, contains its
 // members', truly posed.
@@ -9711,7 +9728,7 @@ static nsvcd__transform nsvcd__motion_pose(const nsvcd__motion *motion, float t)
 // it meets longest, because a deep collision is then found before the rest is searched.
 //
 // A *tile* is up to 32 groups of one body and up to 32 of the other, which are searched together.
-// Bodies of up to 512 patches make one tile. Of larger ones, a walk through the levels of spheres
+// Bodies of up to 512 patches make one tile. Of larger ones, a traversal of the levels of spheres
 // above the groups finds those that the other body comes near, and they are searched tile after
 // tile: each moving tile against all tiles of the fixed body.
 
@@ -9745,20 +9762,21 @@ typedef struct nsvcd__candidate {
 // Chords start + tau way of 16 moving spheres, their radii plus deviation, and -1 / |way|^2.
 typedef struct nsvcd__chords {
   float start[3][NSVCD__LANES];
-  float way[3][NSVCD__LANES];
+  float travel[3][NSVCD__LANES];
   float inverse[NSVCD__LANES];
-  float reach[NSVCD__LANES];
+  float radius[NSVCD__LANES];
 } nsvcd__chords;
 
 // 16 segments: pose at the start, change of the pose until the end, deviation.
 typedef struct nsvcd__segments {
   float rotation[9][NSVCD__LANES], position[3][NSVCD__LANES], turned[9][NSVCD__LANES],
       moved[3][NSVCD__LANES];
-  float spread[NSVCD__LANES], bulge[NSVCD__LANES];
+  float margin[NSVCD__LANES], bend[NSVCD__LANES];
   // For the proof, the same along directions: see nsvcd__deviation_of.
-  float rounding[NSVCD__LANES], drift[NSVCD__LANES], axis[3][NSVCD__LANES],
-      bulge_along_axis[NSVCD__LANES];
-  float drift_along_axis[NSVCD__LANES], way[3][NSVCD__LANES], drift_off_way[NSVCD__LANES];
+  float rounding[NSVCD__LANES], origin_bend[NSVCD__LANES], axis[3][NSVCD__LANES],
+      bend_along_axis[NSVCD__LANES];
+  float origin_along_axis[NSVCD__LANES], heading[3][NSVCD__LANES],
+      origin_off_heading[NSVCD__LANES];
 } nsvcd__segments;
 
 // Poses of both bodies at 16 ticks, and one more, in the world; and quaternions as the fixed body
@@ -9778,12 +9796,12 @@ typedef struct nsvcd__bends {
   float sum[NSVCD__LANES];  // of the turns of arcs
   // The greatest so far of what arcs leave their chords by: per metre from the moving body's
   // origin, along the axis too, and that origin itself.
-  float arc_bulge[NSVCD__LANES], axis_turn[NSVCD__LANES], arc_drift[NSVCD__LANES];
+  float arc_bend[NSVCD__LANES], arc_bend_along_axis[NSVCD__LANES], arc_origin[NSVCD__LANES];
   // The greatest so far, squared, of what keyframes are off their chord by: the rotation and the
   // position, and both along the axis, or across the way.
-  float bulge[NSVCD__LANES], spread[NSVCD__LANES], axis_bulge[NSVCD__LANES],
-      axis_drift[NSVCD__LANES];
-  float way_drift[NSVCD__LANES];
+  float bend[NSVCD__LANES], margin[NSVCD__LANES], keyframe_bend_along_axis[NSVCD__LANES],
+      keyframe_origin_along_axis[NSVCD__LANES];
+  float keyframe_origin_off_heading[NSVCD__LANES];
 } nsvcd__bends;
 
 typedef struct nsvcd__cut {
@@ -9839,7 +9857,7 @@ typedef struct nsvcd__search {
   nsvcd__cut *cut;
   uint64_t near_segments;  // in which the bodies' spheres meet
   // through the groups that come near; where a body is large
-  nsvcd__walk moving_walk, fixed_walk;
+  nsvcd__traversal moving_traversal, fixed_traversal;
   nsvcd__box near_box;  // about the way of the moving tile
   // the groups that are searched now; below, places in these
   nsvcd__tile moving_tile, fixed_tile;
@@ -9857,7 +9875,7 @@ typedef struct nsvcd__search {
   size_t at;
   uint64_t posed;  // segments for which members[] is filled
   // no part of these members is farther from the body's origin
-  float remote;
+  float extent;
 #ifndef NSVCD_NO_NETWORK
   // what is known of planes that part patches, and (GROUP, S) lanes of a group that meet each of
   // another: search/apart
@@ -10059,7 +10077,7 @@ static NSVCD__NOINLINE void nsvcd__cut_ends(const nsvcd__motion *motion, nsvcd__
     nsvcd__vmat3_store(out->turned, l, nsvcd__vmat3_sub(end, start));
     nsvcd__v3_store(out->moved, l, moved);
     nsvcd__v3_store(out->axis, l, nsvcd__v3_unit(turn));
-    nsvcd__v3_store(out->way, l, nsvcd__v3_unit(moved));
+    nsvcd__v3_store(out->heading, l, nsvcd__v3_unit(moved));
   }
 }
 
@@ -10094,15 +10112,15 @@ static void nsvcd__cut_double_arc(const nsvcd__motion *motion, const nsvcd__v_po
   turn = nsvcd__v_fma(nsvcd__v_set(2e-6f), sines, turn);
   const nsvcd__v fixed_turn = nsvcd__v_arc(from->fixed, to->fixed);
   const nsvcd__v squares = nsvcd__v_mul(turn, nsvcd__v_add(turn, fixed_turn));
-  nsvcd__v_keep_most(cut->most.arc_bulge + l, nsvcd__v_mul(squares, eighth));
+  nsvcd__v_keep_most(cut->most.arc_bend + l, nsvcd__v_mul(squares, eighth));
 
   const nsvcd__v remote_start = nsvcd__v3_length(from->offset);
-  const nsvcd__v remote = nsvcd__v_max(remote_start, nsvcd__v3_length(to->offset));
-  const nsvcd__v way = nsvcd__v3_length(nsvcd__v3_sub(to->offset, from->offset));
-  const nsvcd__v both = nsvcd__v_fma(fixed_turn, remote, nsvcd__v_add(way, way));
+  const nsvcd__v extent = nsvcd__v_max(remote_start, nsvcd__v3_length(to->offset));
+  const nsvcd__v travel = nsvcd__v3_length(nsvcd__v3_sub(to->offset, from->offset));
+  const nsvcd__v both = nsvcd__v_fma(fixed_turn, extent, nsvcd__v_add(travel, travel));
   const nsvcd__v metres = nsvcd__v_mul(nsvcd__v_mul(fixed_turn, both), eighth);
-  const nsvcd__v drift = nsvcd__v_div(metres, nsvcd__v_set(motion->unit));
-  nsvcd__v_keep_most(cut->most.arc_drift + l, drift);
+  const nsvcd__v origin_bend = nsvcd__v_div(metres, nsvcd__v_set(motion->unit));
+  nsvcd__v_keep_most(cut->most.arc_origin + l, origin_bend);
   nsvcd__v_add_to(cut->most.sum + l, fixed_turn);
 }
 
@@ -10119,10 +10137,10 @@ static void nsvcd__cut_arc(const nsvcd__motion *motion, const nsvcd__v_poses *at
   } else {
     const nsvcd__v3 axis = nsvcd__v3_load(out->axis, l);
     const nsvcd__vquat last_seen = nsvcd__vquat_load(cut->last.seen + l, NSVCD__KEYFRAMES);
-    const nsvcd__v bulge = nsvcd__v_scale(nsvcd__v_mul(arc, arc), 0.125f);
+    const nsvcd__v bend = nsvcd__v_scale(nsvcd__v_mul(arc, arc), 0.125f);
     const nsvcd__v off_axis = nsvcd__v_turn_off_axis(axis, last_seen, seen, arc);
-    nsvcd__v_keep_most(cut->most.arc_bulge + l, bulge);
-    nsvcd__v_keep_most(cut->most.axis_turn + l, off_axis);
+    nsvcd__v_keep_most(cut->most.arc_bend + l, bend);
+    nsvcd__v_keep_most(cut->most.arc_bend_along_axis + l, off_axis);
   }
   nsvcd__keyframes_keep(motion, at, seen, l, &cut->last);
 }
@@ -10153,16 +10171,16 @@ static NSVCD__NOINLINE void nsvcd__cut_keyframe(const nsvcd__motion *motion,
     const nsvcd__v3 position = nsvcd__v3_load(out->position, l);
     const nsvcd__v3 chord = nsvcd__v3_fma(u, nsvcd__v3_load(out->moved, l), position);
     const nsvcd__v3 aside = nsvcd__v3_sub(seen.position, chord);
-    nsvcd__v_keep_most(most->bulge + l, nsvcd__vmat3_square(off));
-    nsvcd__v_keep_most(most->spread + l, nsvcd__v3_dot(aside, aside));
+    nsvcd__v_keep_most(most->bend + l, nsvcd__vmat3_square(off));
+    nsvcd__v_keep_most(most->margin + l, nsvcd__v3_dot(aside, aside));
 
     const nsvcd__v3 axis = nsvcd__v3_load(out->axis, l);
     const nsvcd__v3 along = nsvcd__vmat3_apply_transpose(off, axis);
-    const nsvcd__v3 off_way = nsvcd__v3_cross(nsvcd__v3_load(out->way, l), aside);
+    const nsvcd__v3 off_way = nsvcd__v3_cross(nsvcd__v3_load(out->heading, l), aside);
     const nsvcd__v off_axis = nsvcd__v3_dot(axis, aside);
-    nsvcd__v_keep_most(most->axis_bulge + l, nsvcd__v3_dot(along, along));
-    nsvcd__v_keep_most(most->axis_drift + l, nsvcd__v_mul(off_axis, off_axis));
-    nsvcd__v_keep_most(most->way_drift + l, nsvcd__v3_dot(off_way, off_way));
+    nsvcd__v_keep_most(most->keyframe_bend_along_axis + l, nsvcd__v3_dot(along, along));
+    nsvcd__v_keep_most(most->keyframe_origin_along_axis + l, nsvcd__v_mul(off_axis, off_axis));
+    nsvcd__v_keep_most(most->keyframe_origin_off_heading + l, nsvcd__v3_dot(off_way, off_way));
   }
 }
 
@@ -10171,34 +10189,36 @@ static void nsvcd__cut_deviations(const nsvcd__motion *motion, float lengths, si
                                   nsvcd__segments *out, const nsvcd__cut *cut) {
   const nsvcd__bends *most = &cut->most;
   const nsvcd__v scale = nsvcd__v_set(motion->scale);
-  const nsvcd__v off_chord = nsvcd__v_sqrt(nsvcd__v_load(most->spread + l));
-  const nsvcd__v drift = nsvcd__v_add(off_chord, nsvcd__v_load(most->arc_drift + l));
-  const nsvcd__v arc_bulge = nsvcd__v_mul(scale, nsvcd__v_load(most->arc_bulge + l));
-  const nsvcd__v keyframe_bulge = nsvcd__v_sqrt(nsvcd__v_load(most->bulge + l));
-  const nsvcd__v bulge = nsvcd__v_add(arc_bulge, keyframe_bulge);
-  nsvcd__v bulge_along_axis = bulge;
-  nsvcd__v drift_along_axis = drift;
-  nsvcd__v drift_off_way = drift;
+  const nsvcd__v off_chord = nsvcd__v_sqrt(nsvcd__v_load(most->margin + l));
+  const nsvcd__v origin_bend = nsvcd__v_add(off_chord, nsvcd__v_load(most->arc_origin + l));
+  const nsvcd__v arc_bend = nsvcd__v_mul(scale, nsvcd__v_load(most->arc_bend + l));
+  const nsvcd__v keyframe_bulge = nsvcd__v_sqrt(nsvcd__v_load(most->bend + l));
+  const nsvcd__v bend = nsvcd__v_add(arc_bend, keyframe_bulge);
+  nsvcd__v bend_along_axis = bend;
+  nsvcd__v origin_along_axis = origin_bend;
+  nsvcd__v origin_off_heading = origin_bend;
   if (!motion->fixed_moves) {
-    const nsvcd__v axis_turn = nsvcd__v_mul(scale, nsvcd__v_load(most->axis_turn + l));
-    const nsvcd__v axis_bulge = nsvcd__v_sqrt(nsvcd__v_load(most->axis_bulge + l));
-    bulge_along_axis = nsvcd__v_add(axis_bulge, axis_turn);
-    drift_along_axis = nsvcd__v_sqrt(nsvcd__v_load(most->axis_drift + l));
-    drift_off_way = nsvcd__v_sqrt(nsvcd__v_load(most->way_drift + l));
+    const nsvcd__v arc_bend_along_axis =
+        nsvcd__v_mul(scale, nsvcd__v_load(most->arc_bend_along_axis + l));
+    const nsvcd__v keyframe_bend_along_axis =
+        nsvcd__v_sqrt(nsvcd__v_load(most->keyframe_bend_along_axis + l));
+    bend_along_axis = nsvcd__v_add(keyframe_bend_along_axis, arc_bend_along_axis);
+    origin_along_axis = nsvcd__v_sqrt(nsvcd__v_load(most->keyframe_origin_along_axis + l));
+    origin_off_heading = nsvcd__v_sqrt(nsvcd__v_load(most->keyframe_origin_off_heading + l));
   }
-  nsvcd__v_store(out->bulge + l, bulge);
-  nsvcd__v_store(out->drift + l, drift);
-  nsvcd__v_store(out->bulge_along_axis + l, bulge_along_axis);
-  nsvcd__v_store(out->drift_along_axis + l, drift_along_axis);
-  nsvcd__v_store(out->drift_off_way + l, drift_off_way);
+  nsvcd__v_store(out->bend + l, bend);
+  nsvcd__v_store(out->origin_bend + l, origin_bend);
+  nsvcd__v_store(out->bend_along_axis + l, bend_along_axis);
+  nsvcd__v_store(out->origin_along_axis + l, origin_along_axis);
+  nsvcd__v_store(out->origin_off_heading + l, origin_off_heading);
 
   const nsvcd__v3 start = nsvcd__v3_load(out->position, l);
   const nsvcd__v3 end = nsvcd__v3_add(start, nsvcd__v3_load(out->moved, l));
-  const nsvcd__v remote = nsvcd__v_add(nsvcd__v3_length(start), nsvcd__v3_length(end));
-  const nsvcd__v all = nsvcd__v_add(remote, nsvcd__v_plus(drift, lengths));
+  const nsvcd__v extent = nsvcd__v_add(nsvcd__v3_length(start), nsvcd__v3_length(end));
+  const nsvcd__v all = nsvcd__v_add(extent, nsvcd__v_plus(origin_bend, lengths));
   const nsvcd__v rounding = nsvcd__v_scale(all, NSVCD__ROUNDING);
   nsvcd__v_store(out->rounding + l, rounding);
-  nsvcd__v_store(out->spread + l, nsvcd__v_add(rounding, drift));
+  nsvcd__v_store(out->margin + l, nsvcd__v_add(rounding, origin_bend));
 }
 
 // Cuts 16 segments, of which `count` exist. begin: (17) ticks at which they begin, and the last one
@@ -10228,7 +10248,7 @@ static void nsvcd__cut_block(const nsvcd__motion *motion, const uint32_t *begin,
   }
   memcpy(turn, cut->most.sum, sizeof cut->most.sum);
   // these meet nothing
-  for (size_t l = count; l < NSVCD__LANES; l++) out->spread[l] = NSVCD__NOWHERE;
+  for (size_t l = count; l < NSVCD__LANES; l++) out->margin[l] = NSVCD__NOWHERE;
 }
 
 // Fills the blocks: the chosen segments' poses in the fixed body's frame, and deviations. lengths:
@@ -10245,20 +10265,20 @@ static void nsvcd__cut_segments(const nsvcd__motion *motion, float lengths, floa
       ends[l] = search->begin[first + (l < count ? l : count)];
     nsvcd__segments *block = &search->blocks[first / NSVCD__LANES];
     nsvcd__cut_block(motion, ends, count, lengths, block, search->cut, turn);
-    for (size_t l = 0; l < count; l++) block->spread[l] += clearance;
+    for (size_t l = 0; l < count; l++) block->margin[l] += clearance;
     for (size_t l = 0; l < count; l++)
       search->turn[first + l + 1] = search->turn[first + l] + turn[l];
   }
 }
 
 // Stores a slice of chords, from lane l on. FLT_MIN keeps a chord of no length finite.
-static void nsvcd__chords_store(nsvcd__chords *c, size_t l, nsvcd__v3 start, nsvcd__v3 way,
-                                nsvcd__v reach) {
-  const nsvcd__v square = nsvcd__v_max(nsvcd__v3_dot(way, way), nsvcd__v_set(1.2e-38f));
+static void nsvcd__chords_store(nsvcd__chords *c, size_t l, nsvcd__v3 start, nsvcd__v3 travel,
+                                nsvcd__v radius) {
+  const nsvcd__v square = nsvcd__v_max(nsvcd__v3_dot(travel, travel), nsvcd__v_set(1.2e-38f));
   nsvcd__v3_store(c->start, l, start);
-  nsvcd__v3_store(c->way, l, way);
+  nsvcd__v3_store(c->travel, l, travel);
   nsvcd__v_store(c->inverse + l, nsvcd__v_div(nsvcd__v_set(-1), square));
-  nsvcd__v_store(c->reach + l, reach);
+  nsvcd__v_store(c->radius + l, radius);
 }
 
 // Chords of one sphere, body frame, in the segments of a block.
@@ -10273,20 +10293,20 @@ static void nsvcd__chords_of_sphere(nsvcd__segments *b, nsvcd__sphere sphere,
     const nsvcd__v3 position = nsvcd__v3_load(b->position, l);
     const nsvcd__v3 moved = nsvcd__v3_load(b->moved, l);
     const nsvcd__v3 start = nsvcd__vmat3_apply_add(rotation, centre, position);
-    const nsvcd__v3 way = nsvcd__vmat3_apply_add(turned, centre, moved);
-    const nsvcd__v spread = nsvcd__v_load(b->spread + l);
-    const nsvcd__v deviation = nsvcd__v_fma(nsvcd__v_load(b->bulge + l), length, spread);
-    nsvcd__chords_store(out, l, start, way, nsvcd__v_add(deviation, radius));
+    const nsvcd__v3 travel = nsvcd__vmat3_apply_add(turned, centre, moved);
+    const nsvcd__v margin = nsvcd__v_load(b->margin + l);
+    const nsvcd__v deviation = nsvcd__v_fma(nsvcd__v_load(b->bend + l), length, margin);
+    nsvcd__chords_store(out, l, start, travel, nsvcd__v_add(deviation, radius));
   }
 }
 
 // Chords of 16 spheres in one segment: lane s of a block. The patches that they contain are no
-// farther than `remote` from the body's origin, in its own frame and units; scale: of the body. The
+// farther than `extent` from the body's origin, in its own frame and units; scale: of the body. The
 // centre of a sphere over patches may be farther: on their chords points of a body do not move
 // apart, so that it is enough to allow for what the patches deviate.
 static void nsvcd__chords_of_members(nsvcd__segments *b, size_t s, nsvcd__spheres members,
-                                     float scale, float remote, nsvcd__chords *out) {
-  const nsvcd__v deviation = nsvcd__v_set(b->spread[s] + b->bulge[s] * remote);
+                                     float scale, float extent, nsvcd__chords *out) {
+  const nsvcd__v deviation = nsvcd__v_set(b->margin[s] + b->bend[s] * extent);
   const nsvcd__mat3 rotation = nsvcd__mat3_lane(b->rotation, s);
   const nsvcd__mat3 turned = nsvcd__mat3_lane(b->turned, s);
   const nsvcd__v3 position = nsvcd__v3_set(nsvcd__lane_of(b->position, s));
@@ -10296,33 +10316,33 @@ static void nsvcd__chords_of_members(nsvcd__segments *b, size_t s, nsvcd__sphere
     const nsvcd__vmat3 rotations = nsvcd__vmat3_set(&rotation);
     const nsvcd__vmat3 turns = nsvcd__vmat3_set(&turned);
     const nsvcd__v3 start = nsvcd__vmat3_apply_add(rotations, centre, position);
-    const nsvcd__v3 way = nsvcd__vmat3_apply_add(turns, centre, moved);
+    const nsvcd__v3 travel = nsvcd__vmat3_apply_add(turns, centre, moved);
     const nsvcd__v radius = nsvcd__v_load(members.r + l);
-    const nsvcd__v reach = nsvcd__v_fma(nsvcd__v_set(scale), radius, deviation);
-    nsvcd__chords_store(out, l, start, way, reach);
+    const nsvcd__v grown = nsvcd__v_fma(nsvcd__v_set(scale), radius, deviation);
+    nsvcd__chords_store(out, l, start, travel, grown);
   }
 }
 
 // Squared distance of the chord from the resting centre. d: from that centre to the start of the
 // chord.
-NSVCD__INLINE nsvcd__v nsvcd__nearest2(nsvcd__v3 d, nsvcd__v3 way, nsvcd__v inverse) {
-  const nsvcd__v tau = nsvcd__v_clamp(nsvcd__v_mul(nsvcd__v3_dot(d, way), inverse), 0, 1);
-  const nsvcd__v3 nearest = nsvcd__v3_fma(tau, way, d);
+NSVCD__INLINE nsvcd__v nsvcd__nearest2(nsvcd__v3 d, nsvcd__v3 travel, nsvcd__v inverse) {
+  const nsvcd__v tau = nsvcd__v_clamp(nsvcd__v_mul(nsvcd__v3_dot(d, travel), inverse), 0, 1);
+  const nsvcd__v3 nearest = nsvcd__v3_fma(tau, travel, d);
   return nsvcd__v3_dot(nearest, nearest);
 }
 
-// The test. A bit for each lane of the slice: does the chord come within `reach` of the resting
+// The test. A bit for each lane of the slice: does the chord come within `radius` of the resting
 // centre? d: from that to the start of the chord.
-NSVCD__INLINE uint32_t nsvcd__comes_within(nsvcd__v3 d, nsvcd__v3 way, nsvcd__v inverse,
-                                           nsvcd__v reach) {
-  return nsvcd__v_le(nsvcd__nearest2(d, way, inverse), nsvcd__v_signed_square(reach));
+NSVCD__INLINE uint32_t nsvcd__comes_within(nsvcd__v3 d, nsvcd__v3 travel, nsvcd__v inverse,
+                                           nsvcd__v radius) {
+  return nsvcd__v_le(nsvcd__nearest2(d, travel, inverse), nsvcd__v_signed_square(radius));
 }
 
 NSVCD__INLINE nsvcd__v3 nsvcd__chords_start(const nsvcd__chords *c, size_t l) {
   return nsvcd__v3_rows(c->start[0] + l);
 }
-NSVCD__INLINE nsvcd__v3 nsvcd__chords_way(const nsvcd__chords *c, size_t l) {
-  return nsvcd__v3_rows(c->way[0] + l);
+NSVCD__INLINE nsvcd__v3 nsvcd__chords_travel(const nsvcd__chords *c, size_t l) {
+  return nsvcd__v3_rows(c->travel[0] + l);
 }
 
 // 16 moving spheres, or one in 16 segments, against one resting sphere.
@@ -10333,9 +10353,9 @@ static uint32_t nsvcd__meet(const nsvcd__chords *c, nsvcd__sphere resting) {
   NSVCD__TALLY(tests, 1);
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__chords_start(c, l), centre);
-    const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(c->reach + l), radius);
+    const nsvcd__v sum = nsvcd__v_add(nsvcd__v_load(c->radius + l), radius);
     const nsvcd__v inverse = nsvcd__v_load(c->inverse + l);
-    met |= nsvcd__comes_within(d, nsvcd__chords_way(c, l), inverse, reach) << l;
+    met |= nsvcd__comes_within(d, nsvcd__chords_travel(c, l), inverse, sum) << l;
   }
   return met;
 }
@@ -10344,15 +10364,15 @@ static uint32_t nsvcd__meet(const nsvcd__chords *c, nsvcd__sphere resting) {
 NSVCD__INLINE uint32_t nsvcd__meet_members(const nsvcd__chords *c, size_t s,
                                            nsvcd__spheres resting) {
   const nsvcd__v3 start = nsvcd__v3_set(nsvcd__f3_get(c->start[0] + s, NSVCD__LANES));
-  const nsvcd__v3 way = nsvcd__v3_set(nsvcd__f3_get(c->way[0] + s, NSVCD__LANES));
+  const nsvcd__v3 travel = nsvcd__v3_set(nsvcd__f3_get(c->travel[0] + s, NSVCD__LANES));
   const nsvcd__v inverse = nsvcd__v_set(c->inverse[s]);
-  const nsvcd__v own = nsvcd__v_set(c->reach[s]);
+  const nsvcd__v own = nsvcd__v_set(c->radius[s]);
   uint32_t met = 0;
   NSVCD__TALLY(tests, 1);
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_centres(resting, l));
-    const nsvcd__v reach = nsvcd__v_add(own, nsvcd__v_load(resting.r + l));
-    met |= nsvcd__comes_within(d, way, inverse, reach) << l;
+    const nsvcd__v radius = nsvcd__v_add(own, nsvcd__v_load(resting.r + l));
+    met |= nsvcd__comes_within(d, travel, inverse, radius) << l;
   }
   return met;
 }
@@ -10597,33 +10617,35 @@ static NSVCD__NOINLINE void nsvcd__cut_motion(nsvcd__motion *motion, float lengt
 
 // ------------------------------------------------------------------------------------ search/apart
 // In: 16 moving patches whose balls meet that of a resting one in a segment. Out: those that no
-// plane separates from it all the time, by the hulls of their tips.
+// plane separates from it all the time, by the hulls of their extremes.
 //
 // Planes are tried along the resting patch's normal, the moving patches', both together, the lines
 // between the centres, and the last few that separated others of the same query: what stands on a
-// table is separated from all of it by one plane, whole groups at a time. The tips go on chords, as
-// centres do, and what points stray from theirs is allowed for. But tips are not all of a patch, so
-// that this is no proof: where a greater recall is asked for, patches swell before.
+// table is separated from all of it by one plane, whole groups at a time. The extremes go on
+// chords, as centres do, and what points deviate from theirs is allowed for. But extremes are not
+// all of a patch, so that this is no proof: where a greater recall is asked for, patches swell
+// before.
 
 #ifndef NSVCD_NO_NETWORK
-// A resting patch: its tips, from its centre, metres; and the mean normal.
+// A resting patch: its extremes, from its centre, metres; and the mean normal.
 typedef struct nsvcd__resting {
   nsvcd__f3 centre;
   float radius;
-  nsvcd__f3 tips[NSVCD__TIPS];
+  nsvcd__f3 extremes[NSVCD__EXTREMES];
   nsvcd__f3 normal;
 } nsvcd__resting;
 
 static nsvcd__resting nsvcd__resting_of(const nsvcd_body *body, size_t j) {
-  const int8_t *tips = nsvcd__group_tips(body, j / NSVCD__GROUP) + j % NSVCD__GROUP;
+  const int8_t *extremes = nsvcd__group_extremes(body, j / NSVCD__GROUP) + j % NSVCD__GROUP;
   nsvcd__resting out;
   const nsvcd__sphere ball = nsvcd__sphere_of(nsvcd__body_patches(body), j);
   const float step = ball.radius / 127;
   out.centre = ball.centre;
   out.radius = ball.radius;
-  for (size_t k = 0; k < NSVCD__TIPS; k++, tips += 3 * NSVCD__GROUP) {
-    const nsvcd__f3 tip = nsvcd__f3_of(tips[0], tips[NSVCD__GROUP], tips[2 * NSVCD__GROUP]);
-    out.tips[k] = nsvcd__f3_scale(tip, step);
+  for (size_t k = 0; k < NSVCD__EXTREMES; k++, extremes += 3 * NSVCD__GROUP) {
+    const nsvcd__f3 extreme =
+        nsvcd__f3_of(extremes[0], extremes[NSVCD__GROUP], extremes[2 * NSVCD__GROUP]);
+    out.extremes[k] = nsvcd__f3_scale(extreme, step);
   }
   const nsvcd__f3 area = nsvcd__f3_get(nsvcd__body_areas(body) + j, body->padded);
   const float length = nsvcd__f3_length(area);
@@ -10634,24 +10656,24 @@ static nsvcd__resting nsvcd__resting_of(const nsvcd_body *body, size_t j) {
 // A slice of moving patches, over a segment.
 typedef struct nsvcd__passing {
   // (TIPS, 3, 16) and lane l: of the moving group
-  const int8_t *tips;
-  // steps of the tips, in the body's units
+  const int8_t *extremes;
+  // steps of the extremes, in the body's units
   nsvcd__v step;
   // from the resting centre to the moving one, and its way
-  nsvcd__v3 from, way;
+  nsvcd__v3 from, travel;
   // at the start and at the end, times the scale
   nsvcd__vmat3 start, end;
-  // what points stray from their chords, and patches swell
-  nsvcd__v stray;
+  // what points deviate from their chords, and patches swell
+  nsvcd__v deviation;
 } nsvcd__passing;
 
-// A slice of tips (TIPS, 3, 16) along u.
-NSVCD__INLINE void nsvcd__tips_along(const int8_t *tips, nsvcd__v3 u, nsvcd__v *low,
-                                     nsvcd__v *high) {
+// A slice of extremes (TIPS, 3, 16) along u.
+NSVCD__INLINE void nsvcd__extremes_along(const int8_t *extremes, nsvcd__v3 u, nsvcd__v *low,
+                                         nsvcd__v *high) {
   *low = nsvcd__v_set(1e30f);
   *high = nsvcd__v_set(-1e30f);
-  for (size_t k = 0; k < NSVCD__TIPS; k++, tips += 3 * NSVCD__LANES) {
-    const nsvcd__v3 q = nsvcd__v3_load_int8(tips, NSVCD__LANES);
+  for (size_t k = 0; k < NSVCD__EXTREMES; k++, extremes += 3 * NSVCD__LANES) {
+    const nsvcd__v3 q = nsvcd__v3_load_int8(extremes, NSVCD__LANES);
     const nsvcd__v along = nsvcd__v3_dot(q, u);
     *low = nsvcd__v_min(*low, along);
     *high = nsvcd__v_max(*high, along);
@@ -10664,14 +10686,14 @@ NSVCD__INLINE uint32_t nsvcd__separated_along(const nsvcd__passing *p,
   const nsvcd__v3 at_start = nsvcd__vmat3_apply_transpose(p->start, u);
   const nsvcd__v3 at_end = nsvcd__vmat3_apply_transpose(p->end, u);
   const nsvcd__v height = nsvcd__v3_dot(u, p->from);
-  const nsvcd__v height_end = nsvcd__v3_dot_add(u, p->way, height);
+  const nsvcd__v height_end = nsvcd__v3_dot_add(u, p->travel, height);
   nsvcd__v low, high, low_end, high_end;
   nsvcd__v below = nsvcd__v_set(1e30f);
   nsvcd__v above = nsvcd__v_set(-1e30f);
-  nsvcd__tips_along(p->tips, at_start, &low, &high);
-  nsvcd__tips_along(p->tips, at_end, &low_end, &high_end);
-  for (size_t k = 0; k < NSVCD__TIPS; k++) {
-    const nsvcd__v along = nsvcd__v3_dot(nsvcd__v3_set(rest->tips[k]), u);
+  nsvcd__extremes_along(p->extremes, at_start, &low, &high);
+  nsvcd__extremes_along(p->extremes, at_end, &low_end, &high_end);
+  for (size_t k = 0; k < NSVCD__EXTREMES; k++) {
+    const nsvcd__v along = nsvcd__v3_dot(nsvcd__v3_set(rest->extremes[k]), u);
     below = nsvcd__v_min(below, along);
     above = nsvcd__v_max(above, along);
   }
@@ -10679,8 +10701,8 @@ NSVCD__INLINE uint32_t nsvcd__separated_along(const nsvcd__passing *p,
   low_end = nsvcd__v_fma(p->step, low_end, height_end);
   high = nsvcd__v_fma(p->step, high, height);
   high_end = nsvcd__v_fma(p->step, high_end, height_end);
-  const nsvcd__v least = nsvcd__v_sub(nsvcd__v_min(low, low_end), p->stray);
-  const nsvcd__v most = nsvcd__v_add(nsvcd__v_max(high, high_end), p->stray);
+  const nsvcd__v least = nsvcd__v_sub(nsvcd__v_min(low, low_end), p->deviation);
+  const nsvcd__v most = nsvcd__v_add(nsvcd__v_max(high, high_end), p->deviation);
   return nsvcd__v_lt(above, least) | nsvcd__v_lt(most, below);
 }
 
@@ -10699,19 +10721,19 @@ typedef struct nsvcd__plane_cache {
   // normals; how many were found, of which the last ones are kept; the one that separated last
   nsvcd__f3 planes[NSVCD__PLANES];
   uint32_t found, best;
-  float swell;  // of patches, shares of their radii
-  int unasked;  // balls that meet are all that counts
+  float inflate;  // of patches, shares of their radii
+  int unasked;    // balls that meet are all that counts
   nsvcd__ranges moving[NSVCD__PLANES], resting[NSVCD__PLANES];
   // bits of planes
   uint16_t moving_known, resting_known;
 } nsvcd__plane_cache;
 
 // Begins the search of a motion.
-static void nsvcd__plane_cache_begin(nsvcd__search *search, float swell) {
+static void nsvcd__plane_cache_begin(nsvcd__search *search, float inflate) {
   search->cache->found = search->cache->best = 0;
-  search->cache->swell = swell;
+  search->cache->inflate = inflate;
   // patches whose balls meet are then no farther apart than that
-  search->cache->unasked = swell >= 1;
+  search->cache->unasked = inflate >= 1;
   search->balls_met = 0;
 }
 
@@ -10726,22 +10748,22 @@ static void nsvcd__resting_ranges(const nsvcd_body *body, size_t h, nsvcd__f3 no
     nsvcd__v high;
     const nsvcd__v step = nsvcd__v_scale(nsvcd__v_load(patches.r + l), 1.0f / 127);
     const nsvcd__v height = nsvcd__v3_dot(u, nsvcd__v3_centres(patches, l));
-    nsvcd__tips_along(nsvcd__group_tips(body, h) + l, u, &low, &high);
-    const nsvcd__v swell = nsvcd__v_scale(step, 127 * fraction);
-    nsvcd__v_store(out->low + l, nsvcd__v_sub(nsvcd__v_fma(step, low, height), swell));
-    nsvcd__v_store(out->high + l, nsvcd__v_add(nsvcd__v_fma(step, high, height), swell));
+    nsvcd__extremes_along(nsvcd__group_extremes(body, h) + l, u, &low, &high);
+    const nsvcd__v inflate = nsvcd__v_scale(step, 127 * fraction);
+    nsvcd__v_store(out->low + l, nsvcd__v_sub(nsvcd__v_fma(step, low, height), inflate));
+    nsvcd__v_store(out->high + l, nsvcd__v_add(nsvcd__v_fma(step, high, height), inflate));
   }
 }
 
-// What the points of the members that are posed stray from their chords in segment s.
-static float nsvcd__segment_stray(const nsvcd__search *search, size_t s) {
+// What the points of the members that are posed deviate from their chords in segment s.
+static float nsvcd__segment_deviation(const nsvcd__search *search, size_t s) {
   const nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
-  return block->spread[s % NSVCD__LANES] + block->bulge[s % NSVCD__LANES] * search->remote;
+  return block->margin[s % NSVCD__LANES] + block->bend[s % NSVCD__LANES] * search->extent;
 }
 
-// Of moving group g in segment s, with what points stray.
-static void nsvcd__moving_ranges(const nsvcd__search *search, size_t g, size_t s, float stray,
-                                 nsvcd__f3 normal, nsvcd__ranges *out) {
+// Of moving group g in segment s, with what points deviate.
+static void nsvcd__moving_ranges(const nsvcd__search *search, size_t g, size_t s,
+                                 float deviation, nsvcd__f3 normal, nsvcd__ranges *out) {
   nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
   const nsvcd__chords *c = &search->members[s];
   const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, s % NSVCD__LANES);
@@ -10750,21 +10772,22 @@ static void nsvcd__moving_ranges(const nsvcd__search *search, size_t g, size_t s
   const nsvcd__f3 by = nsvcd__mat3_apply_transpose(&turned, normal);
   const nsvcd__v3 u = nsvcd__v3_set(normal);
   const float *radii = nsvcd__body_r(search->moving) + NSVCD__GROUP * g;
-  const int8_t *tips = nsvcd__group_tips(search->moving, g);
+  const int8_t *extremes = nsvcd__group_extremes(search->moving, g);
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v step = nsvcd__v_scale(nsvcd__v_load(radii + l), 1.0f / 127);
     const nsvcd__v height = nsvcd__v3_dot(u, nsvcd__chords_start(c, l));
-    const nsvcd__v height_end = nsvcd__v3_dot_add(u, nsvcd__chords_way(c, l), height);
+    const nsvcd__v height_end = nsvcd__v3_dot_add(u, nsvcd__chords_travel(c, l), height);
     nsvcd__v low, high, low_end, high_end;
-    nsvcd__tips_along(tips + l, nsvcd__v3_set(at_start), &low, &high);
-    nsvcd__tips_along(tips + l, nsvcd__v3_set(nsvcd__f3_add(at_start, by)), &low_end,
-                      &high_end);
+    nsvcd__extremes_along(extremes + l, nsvcd__v3_set(at_start), &low, &high);
+    nsvcd__extremes_along(extremes + l, nsvcd__v3_set(nsvcd__f3_add(at_start, by)), &low_end,
+                          &high_end);
     low = nsvcd__v_fma(step, low, height);
     high = nsvcd__v_fma(step, high, height);
     low = nsvcd__v_min(low, nsvcd__v_fma(step, low_end, height_end));
     high = nsvcd__v_max(high, nsvcd__v_fma(step, high_end, height_end));
-    const nsvcd__v swell = nsvcd__v_scale(step, 127 * search->scale * search->cache->swell);
-    const nsvcd__v off = nsvcd__v_plus(swell, stray);
+    const nsvcd__v inflate =
+        nsvcd__v_scale(step, 127 * search->scale * search->cache->inflate);
+    const nsvcd__v off = nsvcd__v_plus(inflate, deviation);
     nsvcd__v_store(out->low + l, nsvcd__v_sub(low, off));
     nsvcd__v_store(out->high + l, nsvcd__v_add(high, off));
   }
@@ -10774,18 +10797,19 @@ static void nsvcd__moving_ranges(const nsvcd__search *search, size_t g, size_t s
 static void nsvcd__resting_know(const nsvcd__search *search, size_t h, size_t n) {
   nsvcd__plane_cache *cache = search->cache;
   if (cache->resting_known >> n & 1) return;
-  nsvcd__resting_ranges(search->fixed, h, cache->planes[n], cache->swell, &cache->resting[n]);
+  nsvcd__resting_ranges(search->fixed, h, cache->planes[n], cache->inflate,
+                        &cache->resting[n]);
   cache->resting_known = (uint16_t)(cache->resting_known | 1u << n);
 }
 
 // The same, and those of moving group g in segment s.
 static void nsvcd__plane_cache_knows(const nsvcd__search *search, size_t g, size_t s, size_t h,
-                                     size_t n, float stray) {
+                                     size_t n, float deviation) {
   nsvcd__plane_cache *cache = search->cache;
   const nsvcd__f3 normal = cache->planes[n];
   nsvcd__resting_know(search, h, n);
   if (!(cache->moving_known >> n & 1))
-    nsvcd__moving_ranges(search, g, s, stray, normal, &cache->moving[n]);
+    nsvcd__moving_ranges(search, g, s, deviation, normal, &cache->moving[n]);
   cache->moving_known = (uint16_t)(cache->moving_known | 1u << n);
 }
 
@@ -10819,10 +10843,10 @@ static uint64_t nsvcd__unparted_segments(const nsvcd__search *search, size_t h,
     const nsvcd__chords *c = &search->group[s / NSVCD__LANES];
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v start = nsvcd__v3_dot(u, nsvcd__chords_start(c, l));
-      const nsvcd__v end = nsvcd__v3_dot_add(u, nsvcd__chords_way(c, l), start);
-      const nsvcd__v reach = nsvcd__v_scale(nsvcd__v_load(c->reach + l), 1 + cache->swell);
-      const nsvcd__v low = nsvcd__v_sub(nsvcd__v_min(start, end), reach);
-      const nsvcd__v high = nsvcd__v_add(nsvcd__v_max(start, end), reach);
+      const nsvcd__v end = nsvcd__v3_dot_add(u, nsvcd__chords_travel(c, l), start);
+      const nsvcd__v radius = nsvcd__v_scale(nsvcd__v_load(c->radius + l), 1 + cache->inflate);
+      const nsvcd__v low = nsvcd__v_sub(nsvcd__v_min(start, end), radius);
+      const nsvcd__v high = nsvcd__v_add(nsvcd__v_max(start, end), radius);
       const uint32_t here = nsvcd__v_lt(above, low) | nsvcd__v_lt(high, below);
       separated |= (uint64_t)here << (s + l);
     }
@@ -10833,11 +10857,11 @@ static uint64_t nsvcd__unparted_segments(const nsvcd__search *search, size_t h,
 // Of the members `bits` of group h of the fixed body, those that the same plane does not separate
 // from all of moving group g, in segment s.
 static uint32_t nsvcd__unparted_members(const nsvcd__search *search, size_t g, size_t s,
-                                        size_t h, float stray, uint32_t bits) {
+                                        size_t h, float deviation, uint32_t bits) {
   nsvcd__plane_cache *cache = search->cache;
   const size_t n = cache->best;
   if (n >= nsvcd__planes_known(search)) return bits;
-  nsvcd__plane_cache_knows(search, g, s, h, n, stray);
+  nsvcd__plane_cache_knows(search, g, s, h, n, deviation);
   const nsvcd__ranges *resting = &cache->resting[n];
   const nsvcd__v low = nsvcd__v_set(nsvcd__least_lane(cache->moving[n].low, 1));
   const nsvcd__v high = nsvcd__v_set(-nsvcd__least_lane(cache->moving[n].high, -1));
@@ -10851,13 +10875,13 @@ static uint32_t nsvcd__unparted_members(const nsvcd__search *search, size_t g, s
 // Of the lanes `met` of moving group g in segment s, those that no plane remembered parts from
 // member k of group h of the fixed body.
 static uint32_t nsvcd__not_separated_again(nsvcd__search *search, size_t g, size_t s, size_t h,
-                                           size_t k, float stray, uint32_t met) {
+                                           size_t k, float deviation, uint32_t met) {
   nsvcd__plane_cache *cache = search->cache;
   const size_t planes = nsvcd__planes_known(search);
   for (size_t m = 0; m < planes && met; m++) {
     // the one that separated last, first
     const size_t n = (cache->best + m) % planes;
-    nsvcd__plane_cache_knows(search, g, s, h, n, stray);
+    nsvcd__plane_cache_knows(search, g, s, h, n, deviation);
     const nsvcd__ranges *moving = &cache->moving[n];
     const nsvcd__v low = nsvcd__v_set(cache->resting[n].low[k]);
     const nsvcd__v high = nsvcd__v_set(cache->resting[n].high[k]);
@@ -10896,11 +10920,11 @@ static NSVCD__NOINLINE void nsvcd__passing_turns(const nsvcd__search *search, si
 // Of the lanes `met` of moving group g in segment s, those that no plane of their own parts from a
 // patch j of the fixed body. A plane that does is remembered, in place of the oldest.
 static NSVCD__NOINLINE uint32_t nsvcd__not_separated_anew(nsvcd__search *search, size_t g,
-                                                          size_t s, size_t j, float stray,
+                                                          size_t s, size_t j, float deviation,
                                                           uint32_t met) {
   nsvcd__plane_cache *cache = search->cache;
   const nsvcd__resting rest = nsvcd__resting_of(search->fixed, j);
-  const int8_t *tips = nsvcd__group_tips(search->moving, g);
+  const int8_t *extremes = nsvcd__group_extremes(search->moving, g);
   const nsvcd_body *moving = search->moving;
   const nsvcd__chords *c = &search->members[s];
   nsvcd__passing p;
@@ -10911,15 +10935,15 @@ static NSVCD__NOINLINE uint32_t nsvcd__not_separated_anew(nsvcd__search *search,
     NSVCD__EACH_SLICE(l) {
       const size_t i = NSVCD__GROUP * g + l;
       if (!(met >> l & NSVCD__SLICE_MASK)) continue;
-      p.tips = tips + l;
+      p.extremes = extremes + l;
       p.step = nsvcd__v_scale(nsvcd__v_load(nsvcd__body_r(moving) + i), 1.0f / 127);
       p.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(rest.centre));
-      p.way = nsvcd__chords_way(c, l);
-      const nsvcd__v swell = nsvcd__v_scale(p.step, 127 * search->scale * cache->swell);
-      p.stray = nsvcd__v_plus(swell, stray + rest.radius * cache->swell);
+      p.travel = nsvcd__chords_travel(c, l);
+      const nsvcd__v inflate = nsvcd__v_scale(p.step, 127 * search->scale * cache->inflate);
+      p.deviation = nsvcd__v_plus(inflate, deviation + rest.radius * cache->inflate);
       nsvcd__v3 u = nsvcd__v3_set(rest.normal);
       if (n == NSVCD__ALONG_LINE) {
-        u = nsvcd__v3_unit(nsvcd__v3_fma(nsvcd__v_set(0.5f), p.way, p.from));
+        u = nsvcd__v3_unit(nsvcd__v3_fma(nsvcd__v_set(0.5f), p.travel, p.from));
       } else if (n != NSVCD__ALONG_RESTING) {
         const float *areas = nsvcd__body_areas(moving) + i;
         const nsvcd__v3 area = nsvcd__v3_load_rows(areas, moving->padded);
@@ -10952,16 +10976,16 @@ static NSVCD__NOINLINE uint32_t nsvcd__not_separated_anew(nsvcd__search *search,
 // balls do, and that nothing parts. before: those that met it in the segment before, which own
 // planes will not part either, as a rule.
 static uint32_t nsvcd__members_meet(nsvcd__search *search, size_t g, size_t s, size_t h,
-                                    size_t k, nsvcd__sphere ball, float stray,
+                                    size_t k, nsvcd__sphere ball, float deviation,
                                     uint32_t before) {
   uint32_t met = nsvcd__meet(&search->members[s], ball);
   search->balls_met |= met != 0;
   if (search->cache->unasked) return met;
-  if (met) met = nsvcd__not_separated_again(search, g, s, h, k, stray, met);
+  if (met) met = nsvcd__not_separated_again(search, g, s, h, k, deviation, met);
   const uint32_t fresh = met & ~before;
   if (!fresh) return met;
   const size_t j = NSVCD__GROUP * h + k;
-  return (met & before) | nsvcd__not_separated_anew(search, g, s, j, stray, fresh);
+  return (met & before) | nsvcd__not_separated_anew(search, g, s, j, deviation, fresh);
 }
 #endif  // NSVCD_NO_NETWORK
 
@@ -11121,15 +11145,15 @@ static NSVCD__NOINLINE void nsvcd__slice_against_patch(const nsvcd__search *sear
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__low_bit(wanted);
     const nsvcd__chords *c = &search->members[s];
-    const nsvcd__v3 way = nsvcd__chords_way(c, l);
+    const nsvcd__v3 travel = nsvcd__chords_travel(c, l);
     const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__chords_start(c, l), centre);
     const nsvcd__v inverse = nsvcd__v_load(c->inverse + l);
-    const nsvcd__v reach = nsvcd__v_plus(nsvcd__v_load(c->reach + l), patch.radius);
+    const nsvcd__v radius = nsvcd__v_plus(nsvcd__v_load(c->radius + l), patch.radius);
     // the square of the sum of radii; the line's nearest point, and the chord's, as places on them
-    const nsvcd__v limit = nsvcd__v_signed_square(reach);
-    const nsvcd__v nearest = nsvcd__v_mul(nsvcd__v3_dot(d, way), inverse);
+    const nsvcd__v limit = nsvcd__v_signed_square(radius);
+    const nsvcd__v nearest = nsvcd__v_mul(nsvcd__v3_dot(d, travel), inverse);
     const nsvcd__v tau = nsvcd__v_clamp(nearest, 0, 1);
-    const nsvcd__v3 chord = nsvcd__v3_fma(tau, way, d);
+    const nsvcd__v3 chord = nsvcd__v3_fma(tau, travel, d);
     const nsvcd__v square = nsvcd__v3_dot(chord, chord);
     const uint32_t met = all_met[s] >> l & NSVCD__SLICE_MASK;
     uint32_t ended = at.open & ~met;
@@ -11146,7 +11170,7 @@ static NSVCD__NOINLINE void nsvcd__slice_against_patch(const nsvcd__search *sear
     // Intervals go on, or begin. |d + tau way| = reach, solved from the nearest point of the line
     // outwards: b^2 - ac would cancel on long chords.
     const nsvcd__v segment = nsvcd__v_set((float)s);
-    const nsvcd__v3 line = nsvcd__v3_fma(nearest, way, d);
+    const nsvcd__v3 line = nsvcd__v3_fma(nearest, travel, d);
     const nsvcd__v half2 =
         nsvcd__v_mul(nsvcd__v_sub(nsvcd__v3_dot(line, line), limit), inverse);
     const nsvcd__v before = nsvcd__v_pick(half, at.fresh, nsvcd__v_set(1e38f), at.square);
@@ -11189,10 +11213,10 @@ static void nsvcd__chords_of_group(nsvcd__search *search, size_t g) {
 
 // Chords of 16 spheres of the moving body in segment s. remote: as nsvcd__chords_of_members has it.
 static void nsvcd__chords_in_segment(const nsvcd__search *search, size_t s,
-                                     nsvcd__spheres spheres, float remote,
+                                     nsvcd__spheres spheres, float extent,
                                      nsvcd__chords *out) {
   nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
-  nsvcd__chords_of_members(block, s % NSVCD__LANES, spheres, search->scale, remote, out);
+  nsvcd__chords_of_members(block, s % NSVCD__LANES, spheres, search->scale, extent, out);
 }
 
 // Boxes in which 16 groups of the moving tile, from `first`, stay as long as they are near the
@@ -11214,14 +11238,14 @@ static void nsvcd__boxes_of_groups(const nsvcd__search *search, size_t first, ui
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v nowhere = nsvcd__v_set(NSVCD__NOWHERE);
       const nsvcd__v3 start = nsvcd__chords_start(c, l);
-      const nsvcd__v3 way = nsvcd__chords_way(c, l);
+      const nsvcd__v3 travel = nsvcd__chords_travel(c, l);
       const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_set(fixed.centre));
-      const nsvcd__v reach = nsvcd__v_load(c->reach + l);
-      const nsvcd__v sum = nsvcd__v_plus(reach, fixed.radius);
-      const nsvcd__v square = nsvcd__nearest2(d, way, nsvcd__v_load(c->inverse + l));
+      const nsvcd__v radius = nsvcd__v_load(c->radius + l);
+      const nsvcd__v sum = nsvcd__v_plus(radius, fixed.radius);
+      const nsvcd__v square = nsvcd__nearest2(d, travel, nsvcd__v_load(c->inverse + l));
       const nsvcd__v nearby =
-          nsvcd__v_pick(square, nsvcd__v_signed_square(sum), reach, nowhere);
-      const nsvcd__v3 end = nsvcd__v3_add(start, way);
+          nsvcd__v_pick(square, nsvcd__v_signed_square(sum), radius, nowhere);
+      const nsvcd__v3 end = nsvcd__v3_add(start, travel);
       const nsvcd__v3 around = nsvcd__v3_of(nearby, nearby, nearby);
       const nsvcd__v3 low = nsvcd__v3_sub(nsvcd__v3_min(start, end), around);
       const nsvcd__v3 high = nsvcd__v3_add(nsvcd__v3_max(start, end), around);
@@ -11240,8 +11264,8 @@ static uint32_t nsvcd__spheres_at_box(nsvcd__box box, nsvcd__spheres all) {
     const nsvcd__v3 below = nsvcd__v3_sub(nsvcd__v3_set(box.low), centre);
     const nsvcd__v3 above = nsvcd__v3_sub(centre, nsvcd__v3_set(box.high));
     const nsvcd__v3 d = nsvcd__v3_max(nsvcd__v3_max(below, above), none);
-    const nsvcd__v reach = nsvcd__v_load(all.r + l);
-    touched |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(reach)) << l;
+    const nsvcd__v radius = nsvcd__v_load(all.r + l);
+    touched |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(radius)) << l;
   }
   return touched;
 }
@@ -11298,15 +11322,15 @@ static int nsvcd__is_tiled(const nsvcd_body *a, const nsvcd_body *b) {
   return nsvcd__is_large(a) || nsvcd__is_large(b);
 }
 
-// Fills a tile with the next groups that a walk finds.
-static void nsvcd__tile_fill(nsvcd__tile *tile, nsvcd__walk *walk) {
+// Fills a tile with the next groups that a traversal finds.
+static void nsvcd__tile_fill(nsvcd__tile *tile, nsvcd__traversal *traversal) {
   size_t g;
   tile->spheres = nsvcd__spheres_of(tile->gathered, NSVCD__TILE_SLOTS);
   for (size_t n = 0; n < 4 * NSVCD__TILE_SLOTS; n++)
     tile->gathered[n] = n < 3 * NSVCD__TILE_SLOTS ? 0 : NSVCD__NOWHERE;
   tile->count = 0;
-  while (tile->count < NSVCD__TILE && nsvcd__walk_next(walk, &g)) {
-    const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__groups_of(walk->body), g);
+  while (tile->count < NSVCD__TILE && nsvcd__traversal_next(traversal, &g)) {
+    const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__groups_of(traversal->body), g);
     nsvcd__sphere_store(group, tile->gathered, NSVCD__TILE_SLOTS, tile->count);
     tile->groups[tile->count++] = (uint16_t)g;
   }
@@ -11319,7 +11343,7 @@ static void nsvcd__tile_fill_all(nsvcd__tile *tile, const nsvcd_body *body) {
   tile->spheres = nsvcd__groups_of(body);
 }
 
-// ---- filters of a walk, which are given the search
+// ---- filters of a traversal, which are given the search
 
 // All spheres that there are.
 static uint32_t nsvcd__exists(const void *what, nsvcd__spheres all) {
@@ -11366,11 +11390,11 @@ static void nsvcd__chords_of_tile(nsvcd__search *search) {
   nsvcd__chords_in_all(search, sphere);
 }
 
-// Finds the next moving tile, an empty one if there is none, and starts the walk through the fixed
+// Finds the next moving tile, an empty one if there is none, and starts the traversal of the fixed
 // body's groups that come near it: that touch a box about its chords.
 static void nsvcd__search_moving_tile(nsvcd__search *search) {
   nsvcd__box box = {{HUGE_VALF, HUGE_VALF, HUGE_VALF}, {-HUGE_VALF, -HUGE_VALF, -HUGE_VALF}};
-  nsvcd__tile_fill(&search->moving_tile, &search->moving_walk);
+  nsvcd__tile_fill(&search->moving_tile, &search->moving_traversal);
   if (search->moving_tile.count == 0) return;
   nsvcd__chords_of_tile(search);
   for (uint64_t left = search->near_segments; left; left &= left - 1) {
@@ -11378,16 +11402,17 @@ static void nsvcd__search_moving_tile(nsvcd__search *search) {
     const nsvcd__chords *c = &search->group[s / NSVCD__LANES];
     const size_t l = s % NSVCD__LANES;
     const nsvcd__f3 start = nsvcd__f3_get(c->start[0] + l, NSVCD__LANES);
-    const nsvcd__f3 way = nsvcd__f3_get(c->way[0] + l, NSVCD__LANES);
-    const nsvcd__f3 end = nsvcd__f3_add(start, way);
-    const nsvcd__f3 around = nsvcd__f3_of(c->reach[l], c->reach[l], c->reach[l]);
+    const nsvcd__f3 travel = nsvcd__f3_get(c->travel[0] + l, NSVCD__LANES);
+    const nsvcd__f3 end = nsvcd__f3_add(start, travel);
+    const nsvcd__f3 around = nsvcd__f3_of(c->radius[l], c->radius[l], c->radius[l]);
     const nsvcd__f3 low = nsvcd__f3_sub(nsvcd__f3_min(start, end), around);
     const nsvcd__f3 high = nsvcd__f3_add(nsvcd__f3_max(start, end), around);
     box.low = nsvcd__f3_min(box.low, low);
     box.high = nsvcd__f3_max(box.high, high);
   }
   search->near_box = box;
-  nsvcd__walk_begin(&search->fixed_walk, search->fixed, nsvcd__is_approached, search);
+  nsvcd__traversal_begin(&search->fixed_traversal, search->fixed, nsvcd__is_approached,
+                         search);
 }
 
 // Goes on to the next tile that has a step. 0 if there is none.
@@ -11395,7 +11420,7 @@ static int nsvcd__search_next_tile(nsvcd__search *search) {
   if (!nsvcd__is_tiled(search->moving, search->fixed)) return 0;
   while (search->moving_tile.count > 0) {
     nsvcd__chords_of_tile(search);
-    nsvcd__tile_fill(&search->fixed_tile, &search->fixed_walk);
+    nsvcd__tile_fill(&search->fixed_tile, &search->fixed_traversal);
     if (search->fixed_tile.count == 0) {
       nsvcd__search_moving_tile(search);
       continue;
@@ -11429,7 +11454,7 @@ static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed
   search->moving_tile.count = 0;
   if (!wanted) return 0;
   nsvcd__filter *filter = nsvcd__is_large(moving) ? nsvcd__comes_near : nsvcd__exists;
-  nsvcd__walk_begin(&search->moving_walk, moving, filter, search);
+  nsvcd__traversal_begin(&search->moving_traversal, moving, filter, search);
   nsvcd__search_moving_tile(search);
   return nsvcd__search_next_tile(search);
 }
@@ -11445,10 +11470,10 @@ static void nsvcd__pose_members(nsvcd__search *search, size_t g, uint64_t wanted
   if (!(wanted & ~search->posed)) return;
   const nsvcd__spheres patches = nsvcd__body_patches(search->moving);
   const nsvcd__spheres members = nsvcd__spheres_from(patches, NSVCD__GROUP * g);
-  search->remote = nsvcd__group_reach(search->moving, g);
+  search->extent = nsvcd__group_reach(search->moving, g);
   for (uint64_t missing = wanted & ~search->posed; missing; missing &= missing - 1) {
     const size_t s = nsvcd__low_bit(missing);
-    nsvcd__chords_in_segment(search, s, members, search->remote, &search->members[s]);
+    nsvcd__chords_in_segment(search, s, members, search->extent, &search->members[s]);
   }
   search->posed |= wanted;
 }
@@ -11515,7 +11540,7 @@ static void nsvcd__group_against_group(nsvcd__search *search, size_t g, size_t h
     uint32_t bits = which & nsvcd__meet_members(chords, s % NSVCD__LANES, members);
     if (!bits) continue;
     nsvcd__pose_members(search, g, (uint64_t)1 << s);
-    const float stray = nsvcd__segment_stray(search, s);
+    const float stray = nsvcd__segment_deviation(search, s);
     cache->moving_known = 0;
     bits = nsvcd__unparted_members(search, g, s, h, stray, bits);
     for (; bits; bits &= bits - 1) {
@@ -11603,23 +11628,23 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 //   2. The broad phase leaves out only patches and segments of time in which the spheres over the
 //      pieces stay apart. What it leaves is a *patch pair*: two patches in one segment. Every patch
 //      pair is separated by one of the steps below, or the verdict is not FREE.
-//   3. A *span* is a stretch of the motion: a segment or a part of one. In it the true place of a
-//      point x of the moving body (body frame) leaves the chord between its places at the ends by
-//      no more than nsvcd__deviation_of along any direction: that is the bulge of motion/segments,
-//      taken along a plane's normal (within one arc of angle h of one body it is h^2 / 8 |x|, and
-//      nothing along the axis). A plane that has the moving side's places at both ends on one side,
+//   3. An *interval* of the motion is a segment or a part of one. Within it, a point x of the
+//      moving body (body frame) leaves the chord between its positions at the two ends by no more
+//      than nsvcd__deviation_of along any direction: the deviation of motion/segments, taken along
+//      a plane's normal (within one arc of angle h of one body it is h^2 / 8 |x|, and nothing along
+//      the axis). A plane that has the moving side's places at both ends on one side,
 //      by more than that and the clearance, has their chords there too, for a chord is convex, and
 //      so all places between.
-//   4. Discs: the plane is normal to a patch, or to a group of 16; what each side reaches along it
-//      follows from its disc. Hulls: any plane; a patch's pieces are within its slack of the hull
+//   4. Slabs: the plane is normal to a patch, or to a group of 16; what each side reaches along it
+//      follows from its slab. Hulls: any plane; a patch's pieces are within its margin of the hull
 //      of its first vertices. Triangles: a plane for a triangle pair, two listed triangles. A patch
 //      lists all triangles of its pieces, whole or in parts.
 //   5. Rounding: every plane allows for NSVCD__ROUNDING of all lengths that enter a float
-//      computation: that is `rounding`, in spans and segments alike. Stored points are off by the
-//      patch's slack or quantum, which every plane in float allows for too. Triangle pairs are
-//      separated in double, whole and as the caller gave them, whatever pieces are listed. No NaN
-//      comes into it: questions and bodies are checked to be finite and within bounds. Where floats
-//      could overflow all the same, in hulls, it is seen to that a NaN parts nothing.
+//      computation: that is `rounding`, in intervals and segments alike. Stored points are off by
+//      the patch's margin or quantization error, which every plane in float allows for too.
+//      Triangle pairs are separated in double, whole and as the caller gave them, whatever pieces
+//      are stored. No NaN occurs: questions and bodies are checked to be finite and within bounds.
+//      Where floats could overflow all the same, in hulls, a NaN separates nothing.
 //   6. Containment is decided at t = 0, component by component: a component that is inside of the
 //      other body then, and not later, or the other way about, has crossed a surface in between. A
 //      component is asked about by one of its vertices, its seed. A ray from the seed counts, with
@@ -11673,7 +11698,7 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 //
 // Work is counted in units: a plane sought for two hulls, 16 triangles against the box of 16, one
 // of them against these, a triangle pair at one time, a ray against 16 triangles or one. Spheres,
-// discs and planes that held before are not counted. A query stops within one patch's listings, or
+// slabs and planes that held before are not counted. A query stops within one patch's entries, or
 // one ray, of its limit: nsvcd__is_exhausted.
 
 #ifndef NSVCD_NO_PROOF
@@ -11702,19 +11727,19 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__PATCH_PAIRS 256
 // Blocks of a resting patch that are loaded at once.
 #define NSVCD__WINDOW 8
-// A span is halved for all its triangle pairs once these have asked for more parts than this, if
-// it is longer than this fraction of an arc.
+// A interval is halved for all its triangle pairs once these have asked for more parts than this,
+// if it is longer than this fraction of an arc.
 #define NSVCD__PATIENCE_TO_PART 1
 #define NSVCD__SHORTEST 0.015
 // A plane is tried on all of two patches once it has separated so many of their triangle pairs in
 // a row.
 #define NSVCD__SHARED 4
-// Parts of an arc that wait; halvings of a span for one triangle pair; remembered poses.
+// Parts of an arc that wait; halvings of a interval for one triangle pair; remembered poses.
 #define NSVCD__ARC_PARTS 8
 #define NSVCD__HALVINGS 40
 #define NSVCD__PLACED 8
 // In units of all lengths: a distance in double that is none; and one too short to halve for.
-#define NSVCD__SAME_PLACE 1e-13
+#define NSVCD__SAME_POSITION 1e-13
 #define NSVCD__TOO_NEAR 1e-9
 // After an unresolved pair 1 / this of the budget is left; where the first contact is sought, so
 // many units.
@@ -11725,9 +11750,9 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // The budget of the first attempt, before the two ends of the motion are tried by themselves.
 #define NSVCD__LONG 6000
 // The budget at each end.
-#define NSVCD__LOOK 1000
+#define NSVCD__END_BUDGET 1000
 // The budget for triangles that meet where one body is inside the other.
-#define NSVCD__GLANCE 200
+#define NSVCD__INSIDE_BUDGET 200
 // Times that the search for a first bound of the distance alternates between when and where the
 // bodies are nearest.
 #define NSVCD__TURNS 2
@@ -11748,11 +11773,11 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__FIRST_PART 0.0625
 #define NSVCD__PART_BUDGET 250
 
-// Where there is a skin: contacts at the start that are looked at together; directions in which
-// they are undone; looks at what is touched on the way off; and the share of the skin that is kept
+// Where there is a slop: contacts at the start that are looked at together; directions in which
+// they are undone; looks at what is touched on the way off; and the share of the slop that is kept
 // where a body is set down.
 #define NSVCD__TOUCHES 26
-#define NSVCD__LIFTS 6
+#define NSVCD__PUSH_OUTS 6
 #define NSVCD__DEEPEN 16
 #define NSVCD__SET_DOWN 0.02
 // An epsilon, of all lengths, is what a float of an answer can tell. A safe place is so many of
@@ -11760,8 +11785,8 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__LEAST_EPSILON 1.2e-7
 #define NSVCD__EPSILONS 3
 
-// Contact points are sought along so many directions, and along two across the line that they span
-// if their width is less than so much of its length; in so many patch pairs.
+// Contact points are sought along so many directions, and along two across the line that they
+// interval if their width is less than so much of its length; in so many patch pairs.
 #define NSVCD__AROUND 8
 #define NSVCD__SUPPORTS 10
 #define NSVCD__SLIM 0.3
@@ -11800,16 +11825,16 @@ typedef struct nsvcd__arc {
   // from the fixed body's origin to the moving one's, and how it changes; in the same axes
   nsvcd__d3 from, moved;
   // what is added to that as the fixed body sees it
-  nsvcd__d3 lift;
+  nsvcd__d3 push_out;
   // of the turn where the arc begins, unit: as the fixed body has it, and as the moving one has it;
-  // and by how much it strays from either, an angle, where both bodies turn
+  // and by how much it deviates from either, an angle, where both bodies turn
   nsvcd__d3 axis, own_axis;
   double waver;
   // over the arc, as the fixed body sees it: radians, and the way of the moving origin, at most
   double turn, speed;
   // What points leave their chord by: a metre from the turn's axis; a metre from the moving body's
   // origin besides, where both bodies turn; and that origin itself.
-  double bulge, twist, drift;
+  double bend, twist, origin_bend;
 } nsvcd__arc;
 
 // A pose in double.
@@ -11818,24 +11843,25 @@ typedef struct nsvcd__dtransform {
   nsvcd__d3 position;
 } nsvcd__dtransform;
 
-// A stretch of the motion. t in [0,1]. In it the true place of a point of the moving body at r
-// metres from its origin is off the chord between its places at both ends by no more than drift +
-// bulge r, and what float computation of it is off by is no more than `rounding`.
-typedef struct nsvcd__span {
+// A interval of the motion. t in [0,1]. In it the true place of a point of the moving body at r
+// metres from its origin is off the chord between its places at both ends by no more than origin
+// deviation + bend r, and what float computation of it is off by is no more than
+// `rounding`.
+typedef struct nsvcd__interval {
   nsvcd__transform start, end;
   double t_start, t_end;
-  float rounding, drift, bulge;
+  float rounding, origin_bend, bend;
   // unit; of the turn from start to end, and of the origin's way
-  nsvcd__f3 axis, way;
-  // the same along the axis; and drift across the way
-  float bulge_along_axis, drift_along_axis, drift_off_way;
-} nsvcd__span;
+  nsvcd__f3 axis, heading;
+  // the same along the axis; and origin bend across the way
+  float bend_along_axis, origin_along_axis, origin_off_heading;
+} nsvcd__interval;
 
 // 16 triangles of a patch, lane by lane: corners (corner, axis, lane), and their boxes.
 typedef struct nsvcd__block {
   float corners[3][3][NSVCD__LANES];
   float low[3][NSVCD__LANES], high[3][NSVCD__LANES];
-  size_t first, count;  // listings
+  size_t first, count;  // entries
 } nsvcd__block;
 
 typedef struct nsvcd__pair_contact {
@@ -11844,7 +11870,7 @@ typedef struct nsvcd__pair_contact {
   // the fixed body's frame; out of the fixed body
   nsvcd__d3 point, normal;
   uint32_t moving_triangle, fixed_triangle;
-  uint32_t moving_listing, fixed_listing;
+  uint32_t moving_entry, fixed_entry;
   uint16_t moving_patch, fixed_patch;
 } nsvcd__pair_contact;
 
@@ -11854,20 +11880,20 @@ typedef struct nsvcd__twist {
 } nsvcd__twist;
 
 // Two triangles that touch at the start, as the fixed body sees them.
-typedef struct nsvcd__touch {
+typedef struct nsvcd__triangle_contact {
   nsvcd__d3 moving[3], fixed[3];
   // directions that may undo it, unit: against the normal of the moving one; the normal of the
   // fixed one; and from its nearest point to that of the moving one, 0 if they meet
-  nsvcd__d3 ways[3];
-} nsvcd__touch;
+  nsvcd__d3 directions[3];
+} nsvcd__triangle_contact;
 
 // Places where the bodies touch when a contact is: proof/manifold.
 typedef struct nsvcd__manifold {
   // unit: the contact's, and directions across it
   nsvcd__d3 normal, along[NSVCD__SUPPORTS];
   nsvcd__twist twist;
-  // nearer than `reach` is touching; nearer to each other than `same` is the same place
-  double reach, same;
+  // nearer than `tolerance` is touching; nearer to each other than `same` is the same place
+  double tolerance, same;
   // the farthest along each: how far that is, -HUGE_VAL: there is none, HUGE_VAL: it is not
   // sought; and the number of the corner or the edges
   nsvcd__pair_contact supports[NSVCD__SUPPORTS];
@@ -11891,7 +11917,7 @@ typedef enum nsvcd__finding {
   NSVCD__FOUND_NEITHER
 } nsvcd__finding;
 
-// What becomes of a part of it: a pair of patches, or of triangles, over a stretch of the motion.
+// What becomes of a part of it: a pair of patches, or of triangles, over a interval of the motion.
 typedef enum nsvcd__outcome {
   // separated, or kept as an unresolved pair, or no longer asked about
   NSVCD__RESOLVED,
@@ -11903,7 +11929,7 @@ typedef enum nsvcd__outcome {
   NSVCD__ANSWERED,
   // a contact was found that shrinks the question: ask again
   NSVCD__SHRUNK,
-  // the stretch is to be looked at again: in halves, or with a clearance that is less
+  // the interval is to be looked at again: in halves, or with a clearance that is less
   NSVCD__TOO_LONG,
   // the work allowed is: from then on it always is
   NSVCD__EXHAUSTED
@@ -11926,11 +11952,11 @@ typedef struct nsvcd__height {
 typedef struct nsvcd__given {
   // extents of both bodies
   float lengths;
-  // beyond the quanta
+  // beyond the quantization errors
   double tolerance;
-  double clearance, skin;
+  double clearance, slop;
   // how far both bodies together go beyond their triangles: the clearance has that in it
-  double round;
+  double radius;
   // to which share of the motion the first contact is asked for, and to which width the least
   // distance; 0: it is not
   double fraction, width;
@@ -11963,7 +11989,7 @@ typedef struct nsvcd__asked {
   int is_brief;
   nsvcd__collecting collects;
   // how deep touches may be
-  double skin;
+  double slop;
 } nsvcd__asked;
 
 // What is known, of a motion.
@@ -11984,8 +12010,8 @@ typedef struct nsvcd__memo {
   // poses in arcs, the next to be forgotten
   nsvcd__placed placed[NSVCD__PLACED];
   size_t next_placed;
-  // segments that have been made spans
-  uint64_t spans;
+  // segments that have been made intervals
+  uint64_t intervals;
   // the normal of the plane between hulls that held last, how many held before, 0: none; and over
   // it the heights of patches, moving ones and resting ones
   nsvcd__f3 held;
@@ -12001,7 +12027,7 @@ typedef struct nsvcd__memo {
 } nsvcd__memo;
 
 typedef struct nsvcd__proof {
-  nsvcd__facets moving, fixed;
+  nsvcd__geometry moving, fixed;
   nsvcd__given given;
   nsvcd__asked ask;
   nsvcd__known known;
@@ -12014,7 +12040,7 @@ typedef struct nsvcd__proof {
 
   // Containment, at the start: a component seems to be within the other body, but close to its
   // surface; a point of it, in the fixed body's frame; or that could not be told.
-  int within;
+  int inside;
   nsvcd__d3 enclosed;
   int unclear;
   // it could not, since the other is nearly a solid, but not closed
@@ -12024,20 +12050,20 @@ typedef struct nsvcd__proof {
   // FIRST: nothing of the motion is proven free but its start
   int starts_free;
 
-  // With a skin: how many touches have been gathered that a lift along no normal known undoes; the
-  // normals, unit, of what the moving body touches, towards it.
-  size_t touch_count, normal_count;
+  // With a slop: how many touches have been gathered that a push-out along no normal known undoes;
+  // the normals, unit, of what the moving body touches, towards it.
+  size_t contact_count, normal_count;
   // one has been found that nothing undoes; of directions that undo as many, which have more faces
   // counts, not which is shorter
   int too_deep, by_faces;
-  nsvcd__d3 normals[NSVCD__LIFTS];
-  // how deep it is in contact along each; and by how much a plane normal to one is to be lifted
-  double depths[NSVCD__LIFTS];
+  nsvcd__d3 normals[NSVCD__PUSH_OUTS];
+  // how deep it is in contact along each; and by how much a plane normal to one is to be pushed out
+  double depths[NSVCD__PUSH_OUTS];
   double needed;
 
-  // Segments as spans (S), where the memo says so; which have been cut off, and the end, ticks,
+  // Segments as intervals (S), where the memo says so; which have been cut off, and the end, ticks,
   // when that was done last.
-  nsvcd__span *spans;
+  nsvcd__interval *intervals;
   uint64_t clipped;
   double clipped_end;
 
@@ -12053,19 +12079,19 @@ typedef struct nsvcd__proof {
       nsvcd__manifold manifold;
     } kept;
     // gathered before there are any
-    nsvcd__touch touches[NSVCD__TOUCHES];
+    nsvcd__triangle_contact touches[NSVCD__TOUCHES];
   } of;
 
   // A patch pair: its hulls, posed, and its triangles, block by block, with boxes about the fixed
-  // blocks; corners of the moving block at the ends of a span.
+  // blocks; corners of the moving block at the ends of a interval.
   float hull_start[3][NSVCD__LANES], hull_end[3][NSVCD__LANES], hull_rest[3][NSVCD__LANES];
   nsvcd__block moving_block, fixed_blocks[NSVCD__WINDOW];
   nsvcd__box bounds[NSVCD__WINDOW];
   float posed[2][3][3][NSVCD__LANES];
 
   // A patch pair over an arc, and a triangle pair: later ends of the parts to come, the last one
-  // first; and how many parts of the span its triangle pairs asked for.
-  nsvcd__span span;
+  // first; and how many parts of the interval its triangle pairs asked for.
+  nsvcd__interval interval;
   double arc_ends[NSVCD__ARC_PARTS];
   double pair_ends[NSVCD__HALVINGS + 2];
   size_t parts;
@@ -12080,7 +12106,7 @@ typedef struct nsvcd__proof {
 static void nsvcd__forget(nsvcd__memo *memo) {
   for (size_t n = 0; n < NSVCD__PLACED; n++) memo->placed[n].ticks = 0;
   memo->next_placed = 0;
-  memo->spans = 0;
+  memo->intervals = 0;
   memo->held = nsvcd__f3_of(0, 0, 0);
   memo->plane = 0;
   memo->separating = nsvcd__d3_of(0, 0, 0);
@@ -12132,13 +12158,14 @@ static double nsvcd__off_meshes(const nsvcd__proof *p) {
 
 // What stored points of two patches may be off by, both together.
 static float nsvcd__quanta_of(const nsvcd__proof *p, size_t i, size_t j) {
-  return p->ask.motion->scale * p->moving.quanta[i] + p->fixed.quanta[j];
+  return p->ask.motion->scale * p->moving.errors[i] + p->fixed.errors[j];
 }
 
-// How far points of the moving body are, in its own units, as bulges have it: none is farther from
-// its origin than `reach`, nor from the line through that along the axis of a turn than `radial`.
+// How far points of the moving body are, in its own units, as bends have it: none is
+// farther from its origin than `from_origin`, nor from the line through that along the axis of a
+// turn than `from_axis`.
 typedef struct nsvcd__arm {
-  float reach, radial;
+  float from_origin, from_axis;
 } nsvcd__arm;
 
 // Of a sphere. axis: unit, as the body has it; radial is rounded for that, too.
@@ -12150,15 +12177,15 @@ static nsvcd__arm nsvcd__arm_of(nsvcd__f3 centre, float radius, nsvcd__f3 axis) 
   return out;
 }
 
-// Tests hear of every plane of discs, hulls and triangles (spheres and boxes have tests of their
-// own): kind, patches, listings (or NSVCD_NONE), times, and the plane's normal (3), fixed body's
+// Tests hear of every plane of slabs, hulls and triangles (spheres and boxes have tests of their
+// own): kind, patches, entries (or NSVCD_NONE), times, and the plane's normal (3), fixed body's
 // frame, which points to the moving side.
 #ifndef NSVCD__CERTIFY
-#define NSVCD__CERTIFY(kind, moving, fixed, moving_listing, fixed_listing, t_start, t_end, \
+#define NSVCD__CERTIFY(kind, moving, fixed, moving_entry, fixed_entry, t_start, t_end, \
                        normal) \
   ((void)0)
 #endif
-enum { NSVCD__BY_DISC, NSVCD__BY_HULL, NSVCD__BY_TRIANGLES };
+enum { NSVCD__BY_SLAB, NSVCD__BY_HULL, NSVCD__BY_TRIANGLES };
 #endif  // NSVCD_NO_PROOF
 
 // ------------------------------------------------------------------------------------- proof/poses
@@ -12178,13 +12205,13 @@ static nsvcd__d3 nsvcd__place_point(const nsvcd__dtransform *at, nsvcd__d3 a) {
 
 // The rotation a share u in [0,1] of the arc later than its start; unit.
 static nsvcd__dquat nsvcd__slerp_at(const nsvcd__slerp *slerp, double u) {
-  const double way = slerp->from + slerp->fraction * u;
-  double before = 1 - way;
-  double after = way;
+  const double along = slerp->from + slerp->fraction * u;
+  double before = 1 - along;
+  double after = along;
   // below, the difference is less than rounding
   if (slerp->half_angle > 1e-7) {
-    before = nsvcd__sin((1 - way) * slerp->half_angle);
-    after = nsvcd__sin(way * slerp->half_angle);
+    before = nsvcd__sin((1 - along) * slerp->half_angle);
+    after = nsvcd__sin(along * slerp->half_angle);
   }
   const nsvcd__dquat start = nsvcd__dquat_scale(slerp->start, before);
   return nsvcd__dquat_unit(nsvcd__dquat_fma(after, slerp->end, start));
@@ -12211,9 +12238,9 @@ static void nsvcd__slerp_init(const nsvcd__track *track, uint32_t first, uint32_
   slerp->fraction = (double)ticks * per_tick;
   slerp->from = (double)(first - begin) * per_tick;
   const nsvcd__d3 start = nsvcd__d3_load(a->position);
-  const nsvcd__d3 way = nsvcd__d3_sub(nsvcd__d3_load(b->position), start);
-  ends[0] = nsvcd__d3_add(start, nsvcd__d3_scale(way, slerp->from));
-  ends[1] = nsvcd__d3_add(start, nsvcd__d3_scale(way, slerp->from + slerp->fraction));
+  const nsvcd__d3 along = nsvcd__d3_sub(nsvcd__d3_load(b->position), start);
+  ends[0] = nsvcd__d3_add(start, nsvcd__d3_scale(along, slerp->from));
+  ends[1] = nsvcd__d3_add(start, nsvcd__d3_scale(along, slerp->from + slerp->fraction));
 
   const double sign = nsvcd__poses_opposed(a, b) ? -1 : 1;
   slerp->start = nsvcd__unit_rotation(a);
@@ -12249,7 +12276,7 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   arc->ticks = ticks;
   arc->fixed_moves = motion->fixed_moves;
   arc->scale = motion->ratio;
-  arc->lift = nsvcd__d3_widen(motion->lift);
+  arc->push_out = nsvcd__d3_widen(motion->push_out);
   nsvcd__slerp_init(&motion->moving, first, ticks, &arc->moving, ends);
   nsvcd__slerp_init(&motion->fixed, first, ticks, &arc->fixed, fixed_ends);
   const nsvcd__d3 from = nsvcd__d3_sub(ends[0], fixed_ends[0]);
@@ -12273,11 +12300,11 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
     arc->turn = nsvcd__d3_length(turn);
     arc->speed = nsvcd__d3_length(arc->moved) + swing;
     arc->twist = 0.1250001 * arc->scale * twist;
-    arc->drift = 0.1250001 * (2 * across + angle * swing);
+    arc->origin_bend = 0.1250001 * (2 * across + angle * swing);
     arc->axis = nsvcd__dmat3_apply_transpose(&fixed, axis);
     arc->own_axis = nsvcd__dmat3_apply_transpose(&moving, axis);
     arc->waver = arc->turn > 0 ? nsvcd__min(1, twist / arc->turn) : 0;
-    arc->bulge = 0.1250001 * arc->scale * arc->turn * arc->turn;
+    arc->bend = 0.1250001 * arc->scale * arc->turn * arc->turn;
     return arc;
   }
 
@@ -12292,14 +12319,14 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   arc->own_axis = nsvcd__dmat3_apply_transpose(&moving, arc->axis);
   arc->turn = 2 * arc->moving.half_angle * arc->moving.fraction;
   arc->speed = nsvcd__d3_length(arc->moved);
-  arc->bulge = 0.1250001 * arc->scale * arc->turn * arc->turn;
-  arc->waver = arc->twist = arc->drift = 0;
+  arc->bend = 0.1250001 * arc->scale * arc->turn * arc->turn;
+  arc->waver = arc->twist = arc->origin_bend = 0;
   return arc;
 }
 
 // Do all points of the moving body go along straight lines, seen from the fixed one?
 static int nsvcd__is_straight(const nsvcd__arc *arc) {
-  return !(arc->bulge > 0 || arc->twist > 0 || arc->drift > 0);
+  return !(arc->bend > 0 || arc->twist > 0 || arc->origin_bend > 0);
 }
 
 // The true pose, seen from the fixed body, a share u in [0,1] of the arc later than its start. Its
@@ -12316,7 +12343,7 @@ static nsvcd__dtransform nsvcd__dtransform_at(const nsvcd__arc *arc, double u) {
   }
   const nsvcd__dmat3 rotation = nsvcd__dmat3_of(q);
   at.rotation = nsvcd__dmat3_scale(&rotation, arc->scale);
-  at.position = nsvcd__d3_add(at.position, arc->lift);
+  at.position = nsvcd__d3_add(at.position, arc->push_out);
   return at;
 }
 
@@ -12335,7 +12362,7 @@ static nsvcd__twist nsvcd__twist_at(const nsvcd__arc *arc, double u) {
     own = nsvcd__dmat3_apply_transpose(&fixed, own);
     turn = nsvcd__dmat3_apply_transpose(&fixed, turn);
     out.along = nsvcd__dmat3_apply_transpose(&fixed, out.along);
-    out.along = nsvcd__d3_add(out.along, nsvcd__d3_cross(own, arc->lift));
+    out.along = nsvcd__d3_add(out.along, nsvcd__d3_cross(own, arc->push_out));
     out.turn = nsvcd__d3_sub(turn, own);
   }
   out.along = nsvcd__d3_sub(out.along, nsvcd__d3_cross(turn, at.position));
@@ -12377,9 +12404,9 @@ static nsvcd__transform nsvcd__transform_of(const nsvcd__dtransform *at) {
 }
 #endif  // NSVCD_NO_PROOF
 
-// ------------------------------------------------------------------------------------- proof/spans
-// In: a segment, or an arc and two shares of it. Out: a span: the poses at both ends, and by how
-// much a point may leave the chord in between.
+// ----------------------------------------------------------------------------- proof/motion_bounds
+// In: a segment, or an arc and two shares of it. Out: a interval: the poses at both ends, and by
+// how much a point may leave the chord in between.
 
 #ifndef NSVCD_NO_PROOF
 // The time at which so many ticks have gone by.
@@ -12411,77 +12438,80 @@ static void nsvcd__narrow_segments(nsvcd__search *search, double from, double to
   begin[search->segments] = (uint32_t)(finer * end);
 }
 
-static nsvcd__span nsvcd__span_of_segment(const nsvcd__motion *motion,
-                                          const nsvcd__search *search, size_t s) {
+static nsvcd__interval nsvcd__interval_of_segment(const nsvcd__motion *motion,
+                                                  const nsvcd__search *search, size_t s) {
   nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
   const size_t l = s % NSVCD__LANES;
   const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, l);
-  nsvcd__span span;
-  span.start.rotation = nsvcd__mat3_lane(block->rotation, l);
-  span.end.rotation = nsvcd__mat3_mix(1, &span.start.rotation, 1, &turned);
-  span.start.position = nsvcd__lane_of(block->position, l);
-  span.end.position = nsvcd__f3_add(span.start.position, nsvcd__lane_of(block->moved, l));
-  span.bulge = block->bulge[l];
-  span.rounding = block->rounding[l];
-  span.drift = block->drift[l];
-  span.axis = nsvcd__lane_of(block->axis, l);
-  span.way = nsvcd__lane_of(block->way, l);
-  span.bulge_along_axis = block->bulge_along_axis[l];
-  span.drift_along_axis = block->drift_along_axis[l];
-  span.drift_off_way = block->drift_off_way[l];
-  span.t_start = nsvcd__time_of(motion, (double)search->begin[s]);
-  span.t_end = nsvcd__time_of(motion, (double)search->begin[s + 1]);
-  return span;
+  nsvcd__interval interval;
+  interval.start.rotation = nsvcd__mat3_lane(block->rotation, l);
+  interval.end.rotation = nsvcd__mat3_mix(1, &interval.start.rotation, 1, &turned);
+  interval.start.position = nsvcd__lane_of(block->position, l);
+  interval.end.position =
+      nsvcd__f3_add(interval.start.position, nsvcd__lane_of(block->moved, l));
+  interval.bend = block->bend[l];
+  interval.rounding = block->rounding[l];
+  interval.origin_bend = block->origin_bend[l];
+  interval.axis = nsvcd__lane_of(block->axis, l);
+  interval.heading = nsvcd__lane_of(block->heading, l);
+  interval.bend_along_axis = block->bend_along_axis[l];
+  interval.origin_along_axis = block->origin_along_axis[l];
+  interval.origin_off_heading = block->origin_off_heading[l];
+  interval.t_start = nsvcd__time_of(motion, (double)search->begin[s]);
+  interval.t_end = nsvcd__time_of(motion, (double)search->begin[s + 1]);
+  return interval;
 }
 
 // Kept once it has been made.
-static const nsvcd__span *nsvcd__segment_span(nsvcd__proof *p, const nsvcd__search *search,
-                                              size_t s) {
-  if (!(p->memo.spans >> s & 1)) {
-    p->spans[s] = nsvcd__span_of_segment(p->ask.motion, search, s);
-    p->spans[s].t_end =
-        nsvcd__min(p->spans[s].t_end, nsvcd__time_of(p->ask.motion, p->ask.end));
+static const nsvcd__interval *nsvcd__segment_interval(nsvcd__proof *p,
+                                                      const nsvcd__search *search, size_t s) {
+  if (!(p->memo.intervals >> s & 1)) {
+    p->intervals[s] = nsvcd__interval_of_segment(p->ask.motion, search, s);
+    p->intervals[s].t_end =
+        nsvcd__min(p->intervals[s].t_end, nsvcd__time_of(p->ask.motion, p->ask.end));
   }
-  p->memo.spans |= (uint64_t)1 << s;
-  return &p->spans[s];
+  p->memo.intervals |= (uint64_t)1 << s;
+  return &p->intervals[s];
 }
 
-// The span from u0 to u1 of the arc that begins at the keyframe `first`.
-static nsvcd__span nsvcd__span_of_arc(nsvcd__proof *p, uint32_t first, double u0, double u1) {
+// The interval from u0 to u1 of the arc that begins at the keyframe `first`.
+static nsvcd__interval nsvcd__interval_of_arc(nsvcd__proof *p, uint32_t first, double u0,
+                                              double u1) {
   const nsvcd__arc *arc = nsvcd__arc_at(p, first);
   const nsvcd__dtransform start = nsvcd__dtransform_at(arc, u0);
   const nsvcd__dtransform end = nsvcd__dtransform_at(arc, u1);
   const double square = (u1 - u0) * (u1 - u0);
-  nsvcd__span span;
-  span.start = nsvcd__transform_of(&start);
-  span.end = nsvcd__transform_of(&end);
-  const float remote_start = nsvcd__f3_length(span.start.position);
-  const float remote = remote_start + nsvcd__f3_length(span.end.position);
-  span.bulge = (float)(square * (arc->bulge + arc->twist) * 1.000001);
-  span.drift = (float)(square * arc->drift * 1.000001);
-  span.rounding = NSVCD__ROUNDING * (remote + p->given.lengths);
-  span.drift_along_axis = span.drift_off_way = span.drift;
-  span.axis = nsvcd__f3_round(arc->axis);
-  span.way = span.axis;  // any
-  const double wavers = square * (arc->bulge * arc->waver + arc->twist);
-  span.bulge_along_axis = fminf((float)wavers + 1e-6f * span.bulge, span.bulge);
-  span.t_start = nsvcd__time_in_arc(p, u0);
-  span.t_end = nsvcd__time_in_arc(p, u1);
-  return span;
+  nsvcd__interval interval;
+  interval.start = nsvcd__transform_of(&start);
+  interval.end = nsvcd__transform_of(&end);
+  const float extent_start = nsvcd__f3_length(interval.start.position);
+  const float extent = extent_start + nsvcd__f3_length(interval.end.position);
+  interval.bend = (float)(square * (arc->bend + arc->twist) * 1.000001);
+  interval.origin_bend = (float)(square * arc->origin_bend * 1.000001);
+  interval.rounding = NSVCD__ROUNDING * (extent + p->given.lengths);
+  interval.origin_along_axis = interval.origin_off_heading = interval.origin_bend;
+  interval.axis = nsvcd__f3_round(arc->axis);
+  interval.heading = interval.axis;  // any
+  const double wavers = square * (arc->bend * arc->waver + arc->twist);
+  interval.bend_along_axis = fminf((float)wavers + 1e-6f * interval.bend, interval.bend);
+  interval.t_start = nsvcd__time_in_arc(p, u0);
+  interval.t_end = nsvcd__time_in_arc(p, u1);
+  return interval;
 }
 
 // The axis as the moving body has it, unit.
-static nsvcd__f3 nsvcd__own_axis(const nsvcd__span *span) {
-  const nsvcd__f3 axis = nsvcd__mat3_apply_transpose(&span->start.rotation, span->axis);
+static nsvcd__f3 nsvcd__own_axis(const nsvcd__interval *interval) {
+  const nsvcd__f3 axis =
+      nsvcd__mat3_apply_transpose(&interval->start.rotation, interval->axis);
   const float length = nsvcd__f3_length(axis);
   return nsvcd__f3_scale(axis, length > 0 ? 1 / length : 0);
 }
 
 // Of a patch's pieces.
-static nsvcd__arm nsvcd__patch_arm(const nsvcd__facets *f, size_t patch,
-                                   const nsvcd__span *span) {
+static nsvcd__arm nsvcd__patch_arm(const nsvcd__geometry *f, size_t patch,
+                                   const nsvcd__interval *interval) {
   const float radius = nsvcd__body_r(f->body)[patch];
-  return nsvcd__arm_of(nsvcd__facet_centre(f, patch), radius, nsvcd__own_axis(span));
+  return nsvcd__arm_of(nsvcd__patch_centre(f, patch), radius, nsvcd__own_axis(interval));
 }
 
 // What points leave their chords by for the turn's sake, along any direction: |D x|, with D the
@@ -12489,9 +12519,10 @@ static nsvcd__arm nsvcd__patch_arm(const nsvcd__facets *f, size_t patch,
 // a', the axis as the moving body has it, and across it: then
 //   |D x| <= |D| |x x a'| + |D a'| |x.a'|
 // and |D a'| is |D^T axis|, since both ends of the chord take a' to the axis.
-static float nsvcd__bulge_of(const nsvcd__span *span, nsvcd__arm arm) {
-  const float by_axis = span->bulge * arm.radial + span->bulge_along_axis * arm.reach;
-  return fminf(span->bulge * arm.reach, by_axis);
+static float nsvcd__bend_of(const nsvcd__interval *interval, nsvcd__arm arm) {
+  const float by_axis =
+      interval->bend * arm.from_axis + interval->bend_along_axis * arm.from_origin;
+  return fminf(interval->bend * arm.from_origin, by_axis);
 }
 
 // What the points of the moving body leave their chords by along a direction n, times its length,
@@ -12499,91 +12530,94 @@ static float nsvcd__bulge_of(const nsvcd__span *span, nsvcd__arm arm) {
 // off by n.(D x + d). Split n into its parts along the axis and across it: then
 //   |n.D x| <= |n.axis| |D^T axis| |x| + |n x axis| |D x|
 // and |n.d| is bounded in the same way, or with the way of the origin in place of the axis.
-static float nsvcd__deviation_of(const nsvcd__span *span, nsvcd__f3 n, nsvcd__arm arm) {
-  const float along = fabsf(nsvcd__f3_dot(n, span->axis));
-  const float across = nsvcd__f3_length(nsvcd__f3_cross(n, span->axis));
-  const float along_way = fabsf(nsvcd__f3_dot(n, span->way));
-  const float across_way = nsvcd__f3_length(nsvcd__f3_cross(n, span->way));
-  const float by_axis = along * span->drift_along_axis + across * span->drift;
-  const float by_way = along_way * span->drift + across_way * span->drift_off_way;
-  const float drift = by_axis < by_way ? by_axis : by_way;
-  const float turn = along * span->bulge_along_axis * arm.reach;
-  return drift + turn + across * nsvcd__bulge_of(span, arm);
+static float nsvcd__deviation_of(const nsvcd__interval *interval, nsvcd__f3 n,
+                                 nsvcd__arm arm) {
+  const float along = fabsf(nsvcd__f3_dot(n, interval->axis));
+  const float across = nsvcd__f3_length(nsvcd__f3_cross(n, interval->axis));
+  const float along_heading = fabsf(nsvcd__f3_dot(n, interval->heading));
+  const float across_heading = nsvcd__f3_length(nsvcd__f3_cross(n, interval->heading));
+  const float by_axis = along * interval->origin_along_axis + across * interval->origin_bend;
+  const float by_heading =
+      along_heading * interval->origin_bend + across_heading * interval->origin_off_heading;
+  const float origin_bend = by_axis < by_heading ? by_axis : by_heading;
+  const float turn = along * interval->bend_along_axis * arm.from_origin;
+  return origin_bend + turn + across * nsvcd__bend_of(interval, arm);
 }
 
-// The same for a slice of directions, or one direction in a slice of spans.
-typedef struct nsvcd__v_span {
-  nsvcd__v3 axis, way;
-  nsvcd__v rounding, drift, bulge, bulge_along_axis, drift_along_axis, drift_off_way;
-} nsvcd__v_span;
+// The same for a slice of directions, or one direction in a slice of intervals.
+typedef struct nsvcd__v_interval {
+  nsvcd__v3 axis, heading;
+  nsvcd__v rounding, origin_bend, bend, bend_along_axis, origin_along_axis, origin_off_heading;
+} nsvcd__v_interval;
 
-NSVCD__INLINE nsvcd__v_span nsvcd__v_span_set(const nsvcd__span *span) {
-  nsvcd__v_span out;
-  out.axis = nsvcd__v3_set(span->axis);
-  out.way = nsvcd__v3_set(span->way);
-  out.rounding = nsvcd__v_set(span->rounding);
-  out.drift = nsvcd__v_set(span->drift);
-  out.bulge = nsvcd__v_set(span->bulge);
-  out.bulge_along_axis = nsvcd__v_set(span->bulge_along_axis);
-  out.drift_along_axis = nsvcd__v_set(span->drift_along_axis);
-  out.drift_off_way = nsvcd__v_set(span->drift_off_way);
+NSVCD__INLINE nsvcd__v_interval nsvcd__v_interval_set(const nsvcd__interval *interval) {
+  nsvcd__v_interval out;
+  out.axis = nsvcd__v3_set(interval->axis);
+  out.heading = nsvcd__v3_set(interval->heading);
+  out.rounding = nsvcd__v_set(interval->rounding);
+  out.origin_bend = nsvcd__v_set(interval->origin_bend);
+  out.bend = nsvcd__v_set(interval->bend);
+  out.bend_along_axis = nsvcd__v_set(interval->bend_along_axis);
+  out.origin_along_axis = nsvcd__v_set(interval->origin_along_axis);
+  out.origin_off_heading = nsvcd__v_set(interval->origin_off_heading);
   return out;
 }
 // Lanes l and on of a block.
-NSVCD__INLINE nsvcd__v_span nsvcd__v_span_load(const nsvcd__segments *block, size_t l) {
-  nsvcd__v_span out;
+NSVCD__INLINE nsvcd__v_interval nsvcd__v_interval_load(const nsvcd__segments *block,
+                                                       size_t l) {
+  nsvcd__v_interval out;
   out.axis = nsvcd__v3_rows(block->axis[0] + l);
-  out.way = nsvcd__v3_rows(block->way[0] + l);
+  out.heading = nsvcd__v3_rows(block->heading[0] + l);
   out.rounding = nsvcd__v_load(block->rounding + l);
-  out.drift = nsvcd__v_load(block->drift + l);
-  out.bulge = nsvcd__v_load(block->bulge + l);
-  out.bulge_along_axis = nsvcd__v_load(block->bulge_along_axis + l);
-  out.drift_along_axis = nsvcd__v_load(block->drift_along_axis + l);
-  out.drift_off_way = nsvcd__v_load(block->drift_off_way + l);
+  out.origin_bend = nsvcd__v_load(block->origin_bend + l);
+  out.bend = nsvcd__v_load(block->bend + l);
+  out.bend_along_axis = nsvcd__v_load(block->bend_along_axis + l);
+  out.origin_along_axis = nsvcd__v_load(block->origin_along_axis + l);
+  out.origin_off_heading = nsvcd__v_load(block->origin_off_heading + l);
   return out;
 }
-NSVCD__INLINE nsvcd__v nsvcd__v_deviation(const nsvcd__v_span *span, nsvcd__v3 n,
-                                          float reach) {
-  const nsvcd__v along = nsvcd__v_abs(nsvcd__v3_dot(n, span->axis));
-  const nsvcd__v across = nsvcd__v3_length(nsvcd__v3_cross(n, span->axis));
-  const nsvcd__v along_way = nsvcd__v_abs(nsvcd__v3_dot(n, span->way));
-  const nsvcd__v across_way = nsvcd__v3_length(nsvcd__v3_cross(n, span->way));
-  nsvcd__v by_axis = nsvcd__v_mul(across, span->drift);
-  by_axis = nsvcd__v_fma(along, span->drift_along_axis, by_axis);
-  nsvcd__v by_way = nsvcd__v_mul(across_way, span->drift_off_way);
-  by_way = nsvcd__v_fma(along_way, span->drift, by_way);
-  nsvcd__v turn = nsvcd__v_mul(across, span->bulge);
-  turn = nsvcd__v_fma(along, span->bulge_along_axis, turn);
-  return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));
+NSVCD__INLINE nsvcd__v nsvcd__v_deviation(const nsvcd__v_interval *interval, nsvcd__v3 n,
+                                          float from_origin) {
+  const nsvcd__v along = nsvcd__v_abs(nsvcd__v3_dot(n, interval->axis));
+  const nsvcd__v across = nsvcd__v3_length(nsvcd__v3_cross(n, interval->axis));
+  const nsvcd__v along_heading = nsvcd__v_abs(nsvcd__v3_dot(n, interval->heading));
+  const nsvcd__v across_heading = nsvcd__v3_length(nsvcd__v3_cross(n, interval->heading));
+  nsvcd__v by_axis = nsvcd__v_mul(across, interval->origin_bend);
+  by_axis = nsvcd__v_fma(along, interval->origin_along_axis, by_axis);
+  nsvcd__v by_heading = nsvcd__v_mul(across_heading, interval->origin_off_heading);
+  by_heading = nsvcd__v_fma(along_heading, interval->origin_bend, by_heading);
+  nsvcd__v turn = nsvcd__v_mul(across, interval->bend);
+  turn = nsvcd__v_fma(along, interval->bend_along_axis, turn);
+  return nsvcd__v_fma(turn, nsvcd__v_set(from_origin), nsvcd__v_min(by_axis, by_heading));
 }
 #endif  // NSVCD_NO_PROOF
 
-// ------------------------------------------------------------------------------------- proof/discs
-// In: patch pairs, a slice at a time. Out: those that a plane along a disc's normal does not
+// ------------------------------------------------------------------------------------- proof/slabs
+// In: patch pairs, a slice at a time. Out: those that a plane along a slab's normal does not
 // separate.
 
 #ifndef NSVCD_NO_PROOF
-// A slice of discs.
-typedef struct nsvcd__v_disc {
+// A slice of slabs.
+typedef struct nsvcd__v_slab {
   nsvcd__v3 normal;
   nsvcd__v low, high, across;
-} nsvcd__v_disc;
+} nsvcd__v_slab;
 
-NSVCD__INLINE nsvcd__v_disc nsvcd__v_disc_set(const nsvcd__disc *disc) {
-  nsvcd__v_disc out;
-  out.normal = nsvcd__v3_set(disc->normal);
-  out.low = nsvcd__v_set(disc->low);
-  out.high = nsvcd__v_set(disc->high);
-  out.across = nsvcd__v_set(disc->across);
+NSVCD__INLINE nsvcd__v_slab nsvcd__v_slab_set(const nsvcd__slab *slab) {
+  nsvcd__v_slab out;
+  out.normal = nsvcd__v3_set(slab->normal);
+  out.low = nsvcd__v_set(slab->low);
+  out.high = nsvcd__v_set(slab->high);
+  out.across = nsvcd__v_set(slab->across);
   return out;
 }
 // From (6, stride).
-NSVCD__INLINE nsvcd__v_disc nsvcd__v_disc_load(const float *discs, size_t stride) {
-  nsvcd__v_disc out;
-  out.normal = nsvcd__v3_load_rows(discs, stride);
-  out.low = nsvcd__v_load(discs + 3 * stride);
-  out.high = nsvcd__v_load(discs + 4 * stride);
-  out.across = nsvcd__v_load(discs + 5 * stride);
+NSVCD__INLINE nsvcd__v_slab nsvcd__v_slab_load(const float *slabs, size_t stride) {
+  nsvcd__v_slab out;
+  out.normal = nsvcd__v3_load_rows(slabs, stride);
+  out.low = nsvcd__v_load(slabs + 3 * stride);
+  out.high = nsvcd__v_load(slabs + 4 * stride);
+  out.across = nsvcd__v_load(slabs + 5 * stride);
   return out;
 }
 
@@ -12592,46 +12626,46 @@ typedef struct nsvcd__v_range {
   nsvcd__v low, high;
 } nsvcd__v_range;
 
-// By discs, from their centres, along directions whose parts along the discs' normals are `along`,
+// By slabs, from their centres, along directions whose parts along the slabs' normals are `along`,
 // and whose lengths across these are `across`.
-NSVCD__INLINE nsvcd__v_range nsvcd__v_disc_along(const nsvcd__v_disc *disc, nsvcd__v along,
+NSVCD__INLINE nsvcd__v_range nsvcd__v_slab_along(const nsvcd__v_slab *slab, nsvcd__v along,
                                                  nsvcd__v across) {
-  const nsvcd__v a = nsvcd__v_mul(disc->low, along);
-  const nsvcd__v b = nsvcd__v_mul(disc->high, along);
-  const nsvcd__v side = nsvcd__v_mul(disc->across, across);
+  const nsvcd__v a = nsvcd__v_mul(slab->low, along);
+  const nsvcd__v b = nsvcd__v_mul(slab->high, along);
+  const nsvcd__v side = nsvcd__v_mul(slab->across, across);
   nsvcd__v_range out;
   out.low = nsvcd__v_sub(nsvcd__v_min(a, b), side);
   out.high = nsvcd__v_add(nsvcd__v_max(a, b), side);
   return out;
 }
 
-// The extent of discs along directions given in their own frame.
-NSVCD__INLINE nsvcd__v_range nsvcd__v_disc_range(const nsvcd__v_disc *disc,
+// The extent of slabs along directions given in their own frame.
+NSVCD__INLINE nsvcd__v_range nsvcd__v_slab_range(const nsvcd__v_slab *slab,
                                                  nsvcd__v3 direction) {
-  const nsvcd__v along = nsvcd__v3_dot(direction, disc->normal);
-  const nsvcd__v across = nsvcd__v3_length(nsvcd__v3_cross(direction, disc->normal));
-  return nsvcd__v_disc_along(disc, along, across);
+  const nsvcd__v along = nsvcd__v3_dot(direction, slab->normal);
+  const nsvcd__v across = nsvcd__v3_length(nsvcd__v3_cross(direction, slab->normal));
+  return nsvcd__v_slab_along(slab, along, across);
 }
 
-// Moving discs that approach resting ones over a span; either of them, and the span, may be one in
-// all lanes.
+// Moving slabs that approach resting ones over a interval; either of them, and the interval, may be
+// one in all lanes.
 typedef struct nsvcd__v_approach {
   // in its body's frame and units
-  nsvcd__v_disc moving;
-  nsvcd__v_disc fixed;
+  nsvcd__v_slab moving;
+  nsvcd__v_slab fixed;
   // from the resting centre to the moving one, and its way
   nsvcd__v3 from, chord;
-  // the resting disc's normal in the moving body's frame, at both ends
+  // the resting slab's normal in the moving body's frame, at both ends
   nsvcd__v3 at_start, at_end;
-  // the mean of the moving disc's normals at both ends, and half of what they differ by
+  // the mean of the moving slab's normals at both ends, and half of what they differ by
   nsvcd__v3 mean, turned;
   // of the moving body
   nsvcd__v scale;
-  nsvcd__v_span span;
+  nsvcd__v_interval interval;
   float clearance;
   // no point of the moving side is farther from its body's origin, in its body's units
-  float reach;
-  // nsvcd__v_off, of the fixed disc's normal
+  float radius;
+  // nsvcd__v_off, of the fixed slab's normal
   nsvcd__v fixed_off;
 } nsvcd__v_approach;
 
@@ -12643,8 +12677,8 @@ typedef struct nsvcd__v_separated {
 
 // Along a plane's normal: what a moving point may be off by, and the clearance.
 NSVCD__INLINE nsvcd__v nsvcd__v_off(const nsvcd__v_approach *a, nsvcd__v3 plane) {
-  const nsvcd__v allowed = nsvcd__v_plus(a->span.rounding, a->clearance);
-  return nsvcd__v_add(allowed, nsvcd__v_deviation(&a->span, plane, a->reach));
+  const nsvcd__v allowed = nsvcd__v_plus(a->interval.rounding, a->clearance);
+  return nsvcd__v_add(allowed, nsvcd__v_deviation(&a->interval, plane, a->radius));
 }
 
 NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate(nsvcd__v3 plane, nsvcd__v_range moving,
@@ -12656,12 +12690,12 @@ NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate(nsvcd__v3 plane, nsvcd__v_ran
   return out;
 }
 
-// By planes normal to the resting discs.
+// By planes normal to the resting slabs.
 NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_fixed(const nsvcd__v_approach *a) {
   const nsvcd__v3 plane = a->fixed.normal;
   const nsvcd__v_range fixed = {a->fixed.low, a->fixed.high};
-  const nsvcd__v_range start = nsvcd__v_disc_range(&a->moving, a->at_start);
-  const nsvcd__v_range end = nsvcd__v_disc_range(&a->moving, a->at_end);
+  const nsvcd__v_range start = nsvcd__v_slab_range(&a->moving, a->at_start);
+  const nsvcd__v_range end = nsvcd__v_slab_range(&a->moving, a->at_end);
   const nsvcd__v height = nsvcd__v3_dot(plane, a->from);
   const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(plane, a->chord));
   nsvcd__v_range moving;
@@ -12672,32 +12706,32 @@ NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_fixed(const nsvcd__v_appro
   return nsvcd__v_separate(plane, moving, fixed, a->fixed_off);
 }
 
-// By planes normal to the mean w of the moving discs' normals. |w| <= 1. Both normals make the same
+// By planes normal to the mean w of the moving slabs' normals. |w| <= 1. Both normals make the same
 // angle with w: along it they are |w|^2, across it no more than |turned|.
 NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_moving(const nsvcd__v_approach *a) {
   const nsvcd__v3 w = a->mean;
   const nsvcd__v along = nsvcd__v_mul(a->scale, nsvcd__v3_dot(w, w));
   const nsvcd__v across = nsvcd__v_mul(a->scale, nsvcd__v3_length(a->turned));
-  const nsvcd__v_range own = nsvcd__v_disc_along(&a->moving, along, across);
+  const nsvcd__v_range own = nsvcd__v_slab_along(&a->moving, along, across);
   const nsvcd__v height = nsvcd__v3_dot(w, a->from);
   const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(w, a->chord));
   nsvcd__v_range moving;
   moving.low = nsvcd__v_add(nsvcd__v_min(height, height_end), own.low);
   moving.high = nsvcd__v_add(nsvcd__v_max(height, height_end), own.high);
-  return nsvcd__v_separate(w, moving, nsvcd__v_disc_range(&a->fixed, w), nsvcd__v_off(a, w));
+  return nsvcd__v_separate(w, moving, nsvcd__v_slab_range(&a->fixed, w), nsvcd__v_off(a, w));
 }
 
 #ifdef NSVCD__CERTIFIES
 // Patches i and j, by the plane in lane l of a slice.
-static void nsvcd__certify_disc(size_t i, size_t j, const nsvcd__v_separated *separated,
-                                size_t l, const nsvcd__span *span) {
+static void nsvcd__certify_slab(size_t i, size_t j, const nsvcd__v_separated *separated,
+                                size_t l, const nsvcd__interval *interval) {
   float lanes[3][NSVCD__LANES];
   float normal[3];
   nsvcd__v3_store(lanes, 0, separated->plane);
   const float sign = separated->below >> l & 1 ? -1.0f : 1.0f;
   nsvcd__f3_store(nsvcd__f3_scale(nsvcd__lane_of(lanes, l), sign), normal);
-  NSVCD__CERTIFY(NSVCD__BY_DISC, i, j, NSVCD_NONE, NSVCD_NONE, span->t_start, span->t_end,
-                 normal);
+  NSVCD__CERTIFY(NSVCD__BY_SLAB, i, j, NSVCD_NONE, NSVCD_NONE, interval->t_start,
+                 interval->t_end, normal);
 }
 // All pairs of members of groups g and h, in the segments `apart` of a slice that begins with
 // segment `first`.
@@ -12707,23 +12741,24 @@ static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__search *se
                                   const nsvcd__v_separated *by_moving) {
   for (; apart; apart &= apart - 1) {
     const size_t l = nsvcd__low_bit(apart);
-    const nsvcd__span span = nsvcd__span_of_segment(p->ask.motion, search, first + l);
+    const nsvcd__interval interval =
+        nsvcd__interval_of_segment(p->ask.motion, search, first + l);
     const int is_fixed = (by_fixed->below | by_fixed->above) >> l & 1;
     for (size_t k = 0; k < NSVCD__GROUP * NSVCD__GROUP; k++) {
       const size_t i = NSVCD__GROUP * g + k / NSVCD__GROUP;
       const size_t j = NSVCD__GROUP * h + k % NSVCD__GROUP;
       if (i < p->moving.body->patches && j < p->fixed.body->patches)
-        nsvcd__certify_disc(i, j, is_fixed ? by_fixed : by_moving, l, &span);
+        nsvcd__certify_slab(i, j, is_fixed ? by_fixed : by_moving, l, &interval);
     }
   }
 }
-#define NSVCD__CERTIFY_DISC(i, j, separated, l, span) \
-  nsvcd__certify_disc(i, j, separated, l, span)
+#define NSVCD__CERTIFY_SLAB(i, j, separated, l, interval) \
+  nsvcd__certify_slab(i, j, separated, l, interval)
 #define NSVCD__CERTIFY_GROUPS(p, search, g, h, first, apart, by_fixed, by_moving) \
   nsvcd__certify_groups(p, search, g, h, first, apart, by_fixed, by_moving)
 #else
-#define NSVCD__CERTIFY_DISC(i, j, separated, l, span) \
-  ((void)(i), (void)(j), (void)(separated), (void)(l), (void)(span))
+#define NSVCD__CERTIFY_SLAB(i, j, separated, l, interval) \
+  ((void)(i), (void)(j), (void)(separated), (void)(l), (void)(interval))
 #define NSVCD__CERTIFY_GROUPS(p, search, g, h, first, apart, by_fixed, by_moving) ((void)0)
 #endif
 
@@ -12733,83 +12768,84 @@ static inline uint32_t nsvcd__lanes_of_slice(uint32_t lanes, size_t l) {
 }
 
 // Lanes of `wanted` that are not separated: pairs of moving patches from the i-th on and patch j.
-static inline uint32_t nsvcd__not_separated(size_t i, size_t j, const nsvcd__span *span,
+static inline uint32_t nsvcd__not_separated(size_t i, size_t j,
+                                            const nsvcd__interval *interval,
                                             const nsvcd__v_separated *separated,
                                             uint32_t wanted) {
   const uint32_t apart = (separated->above | separated->below) & wanted;
   for (uint32_t k = apart; k; k &= k - 1) {
     const size_t l = nsvcd__low_bit(k);
-    NSVCD__CERTIFY_DISC(i + l, j, separated, l, span);
+    NSVCD__CERTIFY_SLAB(i + l, j, separated, l, interval);
   }
   return wanted & ~apart;
 }
 
-// Of the lanes `met` of moving group g in a segment, those that discs do not part from resting
+// Of the lanes `met` of moving group g in a segment, those that slabs do not part from resting
 // patch j. c: the chords of the group's patches; reach: no point of the group is farther from the
 // body's origin.
-static uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c, size_t g,
-                                  size_t j, const nsvcd__span *span, float reach,
+static uint32_t nsvcd__slabs_meet(const nsvcd__proof *p, const nsvcd__chords *c, size_t g,
+                                  size_t j, const nsvcd__interval *interval, float radius,
                                   uint32_t met) {
-  const nsvcd__disc fixed = nsvcd__disc_at(p->fixed.discs, p->fixed.body->padded, j);
-  const nsvcd__f3 centre = nsvcd__facet_centre(&p->fixed, j);
-  const nsvcd__mat3 *from = &span->start.rotation;
-  const nsvcd__mat3 *to = &span->end.rotation;
+  const nsvcd__slab fixed = nsvcd__slab_at(p->fixed.slabs, p->fixed.body->padded, j);
+  const nsvcd__f3 centre = nsvcd__patch_centre(&p->fixed, j);
+  const nsvcd__mat3 *from = &interval->start.rotation;
+  const nsvcd__mat3 *to = &interval->end.rotation;
   uint32_t left = 0;
   nsvcd__v_approach a;
-  a.fixed = nsvcd__v_disc_set(&fixed);
+  a.fixed = nsvcd__v_slab_set(&fixed);
   a.at_start = nsvcd__v3_set(nsvcd__mat3_apply_transpose(from, fixed.normal));
   a.at_end = nsvcd__v3_set(nsvcd__mat3_apply_transpose(to, fixed.normal));
   a.scale = nsvcd__v_set(p->ask.motion->scale);
-  a.span = nsvcd__v_span_set(span);
+  a.interval = nsvcd__v_interval_set(interval);
   a.clearance = nsvcd__clearance(p);
-  a.reach = reach;
+  a.radius = radius;
   a.fixed_off = nsvcd__v_off(&a, a.fixed.normal);
   NSVCD__EACH_SLICE(l) {
     const size_t i = NSVCD__GROUP * g + l;
     uint32_t wanted = nsvcd__lanes_of_slice(met, l);
     if (!wanted) continue;
     a.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(centre));
-    a.chord = nsvcd__chords_way(c, l);
-    a.moving = nsvcd__v_disc_load(p->moving.discs + i, p->moving.body->padded);
+    a.chord = nsvcd__chords_travel(c, l);
+    a.moving = nsvcd__v_slab_load(p->moving.slabs + i, p->moving.body->padded);
     nsvcd__v_separated separated = nsvcd__v_separate_by_fixed(&a);
-    wanted = nsvcd__not_separated(i, j, span, &separated, wanted);
+    wanted = nsvcd__not_separated(i, j, interval, &separated, wanted);
     if (!wanted) continue;
-    // rotations in a span are times the scale
+    // rotations in a interval are times the scale
     const float half = 0.5f * p->ask.motion->per_scale;
     const nsvcd__mat3 middle = nsvcd__mat3_mix(half, to, 1, from);
     const nsvcd__mat3 half_turn = nsvcd__mat3_mix(half, to, -1, from);
     a.mean = nsvcd__vmat3_apply(nsvcd__vmat3_set(&middle), a.moving.normal);
     a.turned = nsvcd__vmat3_apply(nsvcd__vmat3_set(&half_turn), a.moving.normal);
     separated = nsvcd__v_separate_by_moving(&a);
-    left |= nsvcd__not_separated(i, j, span, &separated, wanted) << l;
+    left |= nsvcd__not_separated(i, j, interval, &separated, wanted) << l;
   }
   return left;
 }
 
-// Clears the segments in which discs part the moving group that is searched, whose chords are in
+// Clears the segments in which slabs part the moving group that is searched, whose chords are in
 // search->group, from the resting ones that it meets: 16 segments at a time. The planes are those
-// of single discs, with all in lanes but the discs.
+// of single slabs, with all in lanes but the slabs.
 static NSVCD__NOINLINE void nsvcd__separate_groups(const nsvcd__proof *p,
                                                    nsvcd__search *search) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
   const size_t next = search->order[search->step];
   const size_t g = search->moving_tile.groups[next];
-  const nsvcd__disc own =
-      nsvcd__disc_at(p->moving.group_discs, nsvcd__group_slots(moving->padded), g);
+  const nsvcd__slab own =
+      nsvcd__slab_at(p->moving.group_slabs, nsvcd__group_slots(moving->padded), g);
   nsvcd__v_approach a;
-  a.moving = nsvcd__v_disc_set(&own);
+  a.moving = nsvcd__v_slab_set(&own);
   a.scale = nsvcd__v_set(search->scale);
   a.clearance = nsvcd__clearance(p);
-  a.reach = nsvcd__group_reach(moving, g);
+  a.radius = nsvcd__group_reach(moving, g);
   for (uint32_t waiting = search->waiting; waiting; waiting &= waiting - 1) {
     const size_t at = nsvcd__low_bit(waiting);
     const size_t h = search->fixed_tile.groups[at];
-    const nsvcd__disc other =
-        nsvcd__disc_at(p->fixed.group_discs, nsvcd__group_slots(fixed->padded), h);
+    const nsvcd__slab other =
+        nsvcd__slab_at(p->fixed.group_slabs, nsvcd__group_slots(fixed->padded), h);
     const nsvcd__f3 centre = nsvcd__centre_of(nsvcd__groups_of(fixed), h);
     uint64_t *met = &nsvcd__nearby(search, next)[at];
-    a.fixed = nsvcd__v_disc_set(&other);
+    a.fixed = nsvcd__v_slab_set(&other);
     for (size_t first = 0; first < NSVCD__MAX_SEGMENTS; first += NSVCD__SLICE) {
       const uint32_t wanted = nsvcd__lanes_of_slice((uint32_t)(*met >> first & 0xffff), 0);
       nsvcd__segments *block = &search->blocks[first / NSVCD__LANES];
@@ -12823,10 +12859,10 @@ static NSVCD__NOINLINE void nsvcd__separate_groups(const nsvcd__proof *p,
       const nsvcd__v whole = nsvcd__v_set(1 / search->scale);
       const nsvcd__v3 n = a.fixed.normal;
       const nsvcd__v3 m = a.moving.normal;
-      a.span = nsvcd__v_span_load(block, l);
+      a.interval = nsvcd__v_interval_load(block, l);
       a.fixed_off = nsvcd__v_off(&a, n);
       a.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(centre));
-      a.chord = nsvcd__chords_way(c, l);
+      a.chord = nsvcd__chords_travel(c, l);
       a.at_start = nsvcd__vmat3_apply_transpose(rotation, n);
       a.at_end = nsvcd__v3_add(a.at_start, nsvcd__vmat3_apply_transpose(turn, n));
       a.turned = nsvcd__v3_scale(nsvcd__vmat3_apply(turn, m), half);
@@ -12844,13 +12880,14 @@ static NSVCD__NOINLINE void nsvcd__separate_groups(const nsvcd__proof *p,
 #endif  // NSVCD_NO_PROOF
 
 // ------------------------------------------------------------------------------------- proof/hulls
-// In: a patch pair and a span. Out: is there a plane between the two hulls, over all of the span?
+// In: a patch pair and a interval. Out: is there a plane between the two hulls, over all of the
+// interval?
 
 #ifndef NSVCD_NO_PROOF
 // Vertices first .. first + 15 of a patch, of which `count` are wanted: the slice of them that
 // begins with lane l. The last one wanted is repeated in the lanes that are left.
-NSVCD__INLINE nsvcd__v3 nsvcd__facet_vertices(const nsvcd__facets *f, size_t patch,
-                                              size_t first, size_t count, size_t l) {
+NSVCD__INLINE nsvcd__v3 nsvcd__hull_vertices(const nsvcd__geometry *f, size_t patch,
+                                             size_t first, size_t count, size_t l) {
   static const float lane[NSVCD__LANES] = {0, 1, 2,  3,  4,  5,  6,  7,
                                            8, 9, 10, 11, 12, 13, 14, 15};
   const nsvcd__vertices all = nsvcd__vertices_of(f, patch);
@@ -12870,16 +12907,16 @@ NSVCD__INLINE nsvcd__v3 nsvcd__facet_vertices(const nsvcd__facets *f, size_t pat
     q.z = nsvcd__v_pick(index, end, q.z, nsvcd__v_set((float)z[last]));
   }
   const nsvcd__v step = nsvcd__v_set(f->steps[patch]);
-  return nsvcd__v3_fma(step, q, nsvcd__v3_set(nsvcd__facet_centre(f, patch)));
+  return nsvcd__v3_fma(step, q, nsvcd__v3_set(nsvcd__patch_centre(f, patch)));
 }
 
 // A slice of a patch's hull, the last vertex repeated; its body's frame and units.
-NSVCD__INLINE nsvcd__v3 nsvcd__hull_of(const nsvcd__facets *f, size_t patch, size_t l) {
-  return nsvcd__facet_vertices(f, patch, 0, f->hull_counts[patch], l);
+NSVCD__INLINE nsvcd__v3 nsvcd__hull_of(const nsvcd__geometry *f, size_t patch, size_t l) {
+  return nsvcd__hull_vertices(f, patch, 0, f->hull_counts[patch], l);
 }
 
-// Posed hulls along a direction: how far the moving one, at both ends of the span, stays ahead of
-// the resting one, and the difference of the two vertices that say so.
+// Posed hulls along a direction: how far the moving one, at both ends of the interval, stays ahead
+// of the resting one, and the difference of the two vertices that say so.
 typedef struct nsvcd__support {
   float gap;
   nsvcd__f3 difference;
@@ -12946,32 +12983,32 @@ static void nsvcd__remember_plane(nsvcd__memo *memo, nsvcd__f3 normal) {
   memo->plane++;
 }
 
-// Is there a plane between two patches over the whole span? A direction is tried by the gap that it
-// finds between the hulls, which must be more than the slack and what the span deviates. First
-// guesses: the last plane that held, the discs' normals, and the line of centres. Then Gilbert's
-// iteration (1966) from there towards the point nearest to 0 of the differences of the two hulls.
-// p->memo.held is the one that held.
+// Is there a plane between two patches over the whole interval? A direction is tried by the gap
+// that it finds between the hulls, which must be more than the margin and what the interval
+// deviates. First guesses: the last plane that held, the slabs' normals, and the line of centres.
+// Then Gilbert's iteration (1966) from there towards the point nearest to 0 of the differences of
+// the two hulls. p->memo.held is the one that held.
 #define NSVCD__GUESSES 4
 static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j,
-                                                  const nsvcd__span *span) {
-  const float slacks = p->ask.motion->scale * p->moving.slacks[i] + p->fixed.slacks[j];
-  const float slack = slacks + span->rounding + nsvcd__clearance(p);
-  const nsvcd__arm arm = nsvcd__patch_arm(&p->moving, i, span);
+                                                  const nsvcd__interval *interval) {
+  const float margins = p->ask.motion->scale * p->moving.margins[i] + p->fixed.margins[j];
+  const float margin = margins + interval->rounding + nsvcd__clearance(p);
+  const nsvcd__arm arm = nsvcd__patch_arm(&p->moving, i, interval);
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 moving = nsvcd__hull_of(&p->moving, i, l);
-    nsvcd__v3_store(p->hull_start, l, nsvcd__v3_transform(&span->start, moving));
-    nsvcd__v3_store(p->hull_end, l, nsvcd__v3_transform(&span->end, moving));
+    nsvcd__v3_store(p->hull_start, l, nsvcd__v3_transform(&interval->start, moving));
+    nsvcd__v3_store(p->hull_end, l, nsvcd__v3_transform(&interval->end, moving));
     nsvcd__v3_store(p->hull_rest, l, nsvcd__hull_of(&p->fixed, j, l));
   }
-  const nsvcd__disc moving = nsvcd__disc_at(p->moving.discs, p->moving.body->padded, i);
-  const nsvcd__disc fixed = nsvcd__disc_at(p->fixed.discs, p->fixed.body->padded, j);
-  const nsvcd__f3 centre = nsvcd__facet_centre(&p->moving, i);
-  const nsvcd__f3 start = nsvcd__f3_transform(&span->start, centre);
-  const nsvcd__f3 end = nsvcd__f3_transform(&span->end, centre);
+  const nsvcd__slab moving = nsvcd__slab_at(p->moving.slabs, p->moving.body->padded, i);
+  const nsvcd__slab fixed = nsvcd__slab_at(p->fixed.slabs, p->fixed.body->padded, j);
+  const nsvcd__f3 centre = nsvcd__patch_centre(&p->moving, i);
+  const nsvcd__f3 start = nsvcd__f3_transform(&interval->start, centre);
+  const nsvcd__f3 end = nsvcd__f3_transform(&interval->end, centre);
   const nsvcd__f3 middle = nsvcd__f3_scale(nsvcd__f3_add(start, end), 0.5f);
-  const nsvcd__f3 line = nsvcd__f3_sub(middle, nsvcd__facet_centre(&p->fixed, j));
-  const nsvcd__f3 tip = nsvcd__f3_transform(&span->start, moving.normal);
-  const nsvcd__f3 turned = nsvcd__f3_sub(tip, span->start.position);
+  const nsvcd__f3 line = nsvcd__f3_sub(middle, nsvcd__patch_centre(&p->fixed, j));
+  const nsvcd__f3 extreme = nsvcd__f3_transform(&interval->start, moving.normal);
+  const nsvcd__f3 turned = nsvcd__f3_sub(extreme, interval->start.position);
   const nsvcd__f3 guesses[NSVCD__GUESSES] = {p->memo.held,
                                              nsvcd__f3_towards(fixed.normal, line),
                                              nsvcd__f3_towards(turned, line), line};
@@ -12982,26 +13019,28 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, siz
     const nsvcd__f3 normal = step < NSVCD__GUESSES ? guesses[step] : nearest;
     const nsvcd__support found = nsvcd__support_along(p, normal);
     const float length = nsvcd__f3_length(normal);
-    if (found.gap > 0 && found.gap > slack * length + nsvcd__deviation_of(span, normal, arm)) {
+    if (found.gap > 0 &&
+        found.gap > margin * length + nsvcd__deviation_of(interval, normal, arm)) {
       nsvcd__remember_plane(&p->memo, normal);
       return 1;
     }
     if (step + 1 < NSVCD__GUESSES) continue;
-    const nsvcd__f3 way = nsvcd__f3_sub(found.difference, nearest);
-    const float square = nsvcd__f3_dot(way, way);
+    const nsvcd__f3 toward = nsvcd__f3_sub(found.difference, nearest);
+    const float square = nsvcd__f3_dot(toward, toward);
     const float fraction =
-        square > 0 ? nsvcd__clamp01(-nsvcd__f3_dot(nearest, way) / square) : 0;
-    const nsvcd__f3 nearer = nsvcd__f3_add(nearest, nsvcd__f3_scale(way, fraction));
+        square > 0 ? nsvcd__clamp01(-nsvcd__f3_dot(nearest, toward) / square) : 0;
+    const nsvcd__f3 nearer = nsvcd__f3_add(nearest, nsvcd__f3_scale(toward, fraction));
     nearest = step < NSVCD__GUESSES ? found.difference : nearer;
     // these hulls come this near
-    if (nsvcd__f3_dot(nearest, nearest) <= slack * slack) return 0;
+    if (nsvcd__f3_dot(nearest, nearest) <= margin * margin) return 0;
   }
   return 0;
 }
 #endif  // NSVCD_NO_PROOF
 
 // ---------------------------------------------------------------------------- proof/triangle_pairs
-// In: two triangles and a span. Out: separated, or in contact, or neither as long as it is halved.
+// In: two triangles and a interval. Out: separated, or in contact, or neither as long as it is
+// halved.
 
 #ifndef NSVCD_NO_PROOF
 static void nsvcd__place_triangle(const nsvcd__dtransform *at, const nsvcd__d3 *corners,
@@ -13009,16 +13048,16 @@ static void nsvcd__place_triangle(const nsvcd__dtransform *at, const nsvcd__d3 *
   for (size_t k = 0; k < 3; k++) out[k] = nsvcd__place_point(at, corners[k]);
 }
 
-// Two triangles, one of each body, in their frames: the caller's own, of which listings may be
+// Two triangles, one of each body, in their frames: the caller's own, of which entries may be
 // pieces. What separates a triangle separates its pieces, and what it meets the mesh meets.
 typedef struct nsvcd__triangle_pair {
-  size_t moving_patch, fixed_patch, moving_listing, fixed_listing;
+  size_t moving_patch, fixed_patch, moving_entry, fixed_entry;
   nsvcd__d3 moving[3], fixed[3];
   // of the moving one, in its body's units: no point of it is farther from its body's origin, nor,
   // at any time of the arc, from the axis of its turn
-  double reach, radial;
+  double from_origin, from_axis;
   // how far the meshes' own may be off, with rounding in double; and that
-  double slack;
+  double margin;
   double rounding;
   // a part of the arc in which they come so near is not worth halving
   double close;
@@ -13026,37 +13065,37 @@ typedef struct nsvcd__triangle_pair {
 
 // How far its moving triangle is from the origin and from the axis.
 static void nsvcd__pair_reaches(const nsvcd__arc *arc, nsvcd__triangle_pair *pair) {
-  pair->reach = pair->radial = 0;
+  pair->from_origin = pair->from_axis = 0;
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__d3 corner = pair->moving[k];
     const nsvcd__d3 across = nsvcd__d3_cross(corner, arc->own_axis);
-    pair->reach = nsvcd__max(pair->reach, nsvcd__d3_length(corner));
-    pair->radial = nsvcd__max(pair->radial, nsvcd__d3_length(across));
+    pair->from_origin = nsvcd__max(pair->from_origin, nsvcd__d3_length(corner));
+    pair->from_axis = nsvcd__max(pair->from_axis, nsvcd__d3_length(across));
   }
-  pair->radial += (arc->waver + 1e-6) * pair->reach;
-  pair->radial = nsvcd__min(pair->radial, pair->reach);
+  pair->from_axis += (arc->waver + 1e-6) * pair->from_origin;
+  pair->from_axis = nsvcd__min(pair->from_axis, pair->from_origin);
 }
 
 static nsvcd__triangle_pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size_t j, size_t a,
                                            size_t b) {
   nsvcd__triangle_pair pair = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0, 0, 0};
-  nsvcd__facet_triangle(&p->moving, i, a, pair.moving);
-  nsvcd__facet_triangle(&p->fixed, j, b, pair.fixed);
+  nsvcd__patch_triangle(&p->moving, i, a, pair.moving);
+  nsvcd__patch_triangle(&p->fixed, j, b, pair.fixed);
   nsvcd__pair_reaches(&p->arc, &pair);
   pair.rounding =
-      NSVCD__SAME_PLACE * ((double)p->given.lengths + nsvcd__d3_length(p->arc.from));
-  pair.slack = pair.rounding + nsvcd__off_meshes(p);
-  pair.slack += NSVCD__SAME_PLACE * nsvcd__d3_length(p->arc.moved);
-  pair.close = pair.slack + NSVCD__TOO_NEAR * (double)p->given.lengths + p->given.tolerance;
+      NSVCD__SAME_POSITION * ((double)p->given.lengths + nsvcd__d3_length(p->arc.from));
+  pair.margin = pair.rounding + nsvcd__off_meshes(p);
+  pair.margin += NSVCD__SAME_POSITION * nsvcd__d3_length(p->arc.moved);
+  pair.close = pair.margin + NSVCD__TOO_NEAR * (double)p->given.lengths + p->given.tolerance;
   return pair;
 }
 
 // Are these of closed surfaces, of which the winding says which side is out?
 static int nsvcd__moving_closed(const nsvcd__proof *p, const nsvcd__triangle_pair *c) {
-  return nsvcd__facet_encloses(&p->moving, c->moving_patch, c->moving_listing);
+  return nsvcd__is_in_solid(&p->moving, c->moving_patch, c->moving_entry);
 }
 static int nsvcd__fixed_closed(const nsvcd__proof *p, const nsvcd__triangle_pair *c) {
-  return nsvcd__facet_encloses(&p->fixed, c->fixed_patch, c->fixed_listing);
+  return nsvcd__is_in_solid(&p->fixed, c->fixed_patch, c->fixed_entry);
 }
 
 // What is said of two triangles a share u of the arc later than its start.
@@ -13073,10 +13112,10 @@ static nsvcd__pair_contact nsvcd__contact_at(const nsvcd__proof *p,
   out.point = nearest->on_b;
   out.normal = touches ? face : nsvcd__d3_unit(apart, nsvcd__d3_of(0, 0, 0));
   out.moving_triangle =
-      nsvcd__facet_number(&p->moving, pair->moving_patch, pair->moving_listing);
-  out.fixed_triangle = nsvcd__facet_number(&p->fixed, pair->fixed_patch, pair->fixed_listing);
-  out.moving_listing = (uint32_t)pair->moving_listing;
-  out.fixed_listing = (uint32_t)pair->fixed_listing;
+      nsvcd__triangle_number(&p->moving, pair->moving_patch, pair->moving_entry);
+  out.fixed_triangle = nsvcd__triangle_number(&p->fixed, pair->fixed_patch, pair->fixed_entry);
+  out.moving_entry = (uint32_t)pair->moving_entry;
+  out.fixed_entry = (uint32_t)pair->fixed_entry;
   out.moving_patch = (uint16_t)pair->moving_patch;
   out.fixed_patch = (uint16_t)pair->fixed_patch;
   return out;
@@ -13126,14 +13165,15 @@ static double nsvcd__arc_limit(const nsvcd__proof *p) {
 
 // By how much the points of a triangle pair's moving triangle are off their chords along a unit
 // direction n, at most, over all of the arc; over a share of it by the square of that share. A
-// point at r metres from the origin and rho from the axis a of the turn is off by bulge rho |n x a|
-// + twist r + drift; where both bodies turn, a strays by `waver`, and so do both distances from it.
+// point at r metres from the origin and rho from the axis a of the turn is off by bend
+// rho |n x a| + twist r + origin bend; where both bodies turn, a deviates by `waver`, and so
+// do both distances from it.
 static double nsvcd__off_chord_along(const nsvcd__arc *arc, const nsvcd__triangle_pair *pair,
                                      nsvcd__d3 n) {
   const double across = nsvcd__d3_length(nsvcd__d3_cross(n, arc->axis));
   const double off_axis = nsvcd__min(1, across + arc->waver + 1e-6);
-  const double turn = arc->bulge * pair->radial * off_axis;
-  return turn + arc->twist * pair->reach + arc->drift;
+  const double turn = arc->bend * pair->from_axis * off_axis;
+  return turn + arc->twist * pair->from_origin + arc->origin_bend;
 }
 
 // Does the plane with this unit normal part the triangle pair from u0 to u1 of the arc?
@@ -13153,7 +13193,7 @@ static int nsvcd__plane_separates(nsvcd__proof *p, const nsvcd__triangle_pair *p
   }
   const double off = nsvcd__off_chord_along(arc, pair, normal);
   const double deviation = (u1 - u0) * (u1 - u0) * off;
-  return lowest - highest > p->ask.clearance + pair->slack + deviation;
+  return lowest - highest > p->ask.clearance + pair->margin + deviation;
 }
 
 // Is the foot of x on the plane of a triangle within it, farther than `margin` from its edges?
@@ -13191,7 +13231,7 @@ static int nsvcd__changes_sides(nsvcd__d3 x0, const nsvcd__d3 *t0, nsvcd__d3 x1,
 typedef struct nsvcd__passage {
   nsvcd__d3 corners[3][3];
   // no point of it moves farther between these times, seen from the fixed one
-  double way;
+  double travel;
 } nsvcd__passage;
 
 // Do two edges pass through each other: do they change sides, and are their lines nearest to each
@@ -13217,7 +13257,7 @@ static int nsvcd__edges_cross(const nsvcd__passage *passage, size_t k, nsvcd__d3
   const double s = nsvcd__d3_dot(nsvcd__d3_cross(from[1], v), across[1]) / square;
   const double t = nsvcd__d3_dot(nsvcd__d3_cross(from[1], u), across[1]) / square;
   // the lines' nearest points move no farther along them
-  const double room = 4 * passage->way * lengths / size;
+  const double room = 4 * passage->travel * lengths / size;
   const double room_s = room / nsvcd__d3_length(u);
   const double room_t = room / nsvcd__d3_length(v);
   return s > room_s && s < 1 - room_s && t > room_t && t < 1 - room_t;
@@ -13237,8 +13277,8 @@ static int nsvcd__pair_passes(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
   const nsvcd__d3 *start = passage.corners[0];
   const nsvcd__d3 *middle = passage.corners[1];
   const nsvcd__d3 *end = passage.corners[2];
-  passage.way = speed * (u1 - u0);
-  const double room = 2 * passage.way;
+  passage.travel = speed * (u1 - u0);
+  const double room = 2 * passage.travel;
   for (size_t k = 0; k < 3; k++) {
     const int is_over = nsvcd__foot_well_within(middle[k], fixed, room);
     if (is_over && nsvcd__changes_sides(start[k], fixed, end[k], fixed, margin)) return 1;
@@ -13257,7 +13297,7 @@ static void nsvcd__certify_triangle_pair(const nsvcd__proof *p,
   const nsvcd__f3 plane = nsvcd__d3_narrow(p->memo.separating);
   const float normal[3] = {plane.x, plane.y, plane.z};
   NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, pair->moving_patch, pair->fixed_patch,
-                 pair->moving_listing, pair->fixed_listing, nsvcd__time_in_arc(p, u0),
+                 pair->moving_entry, pair->fixed_entry, nsvcd__time_in_arc(p, u0),
                  nsvcd__time_in_arc(p, u1), normal);
   (void)pair;
   (void)normal;
@@ -13317,7 +13357,7 @@ static NSVCD__NOINLINE double nsvcd__aim_plane(nsvcd__proof *p,
   nsvcd__d3 posed[3];
   nsvcd__place_triangle(nsvcd__placed_at(p, u), pair->moving, posed);
   double best = nsvcd__beyond(guess, posed, fixed);
-  const double limit = p->ask.clearance + pair->slack;
+  const double limit = p->ask.clearance + pair->margin;
   if (best - limit > 0.5 * (distance - limit)) return best;
   for (size_t k = 0; k < 17; k++) {
     const nsvcd__d3 *of = k % 2 ? fixed : posed;
@@ -13385,12 +13425,12 @@ static nsvcd__outcome nsvcd__take_nearest(nsvcd__proof *p, const nsvcd__triangle
   for (size_t n = 0; n < NSVCD__HALVINGS / 2; n++) {
     const double middle = 0.5 * (u0 + u1);
     const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
-    const nsvcd__d3 way = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+    const nsvcd__d3 travel = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
     p->work++;
     if (sqrt(nearest.square) < p->high &&
         nsvcd__take_contact(p, pair, middle, &nearest) == NSVCD__ANSWERED)
       return NSVCD__ANSWERED;
-    const double slope = nsvcd__d3_dot(way, moved) / sqrt(nearest.square);
+    const double slope = nsvcd__d3_dot(travel, moved) / sqrt(nearest.square);
     // a tangent is nowhere above it
     if (!(fabs(slope) * (u1 - u0) > p->ask.measure)) break;
     if (slope < 0)
@@ -13443,7 +13483,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
     }
     const double beyond = nsvcd__aim_plane(p, pair, at, &nearest);
     const double fall = -nsvcd__d3_dot(*plane, moved);
-    const double room = beyond - p->ask.clearance - pair->slack - pair->rounding;
+    const double room = beyond - p->ask.clearance - pair->margin - pair->rounding;
     const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;
     if (u < until && nsvcd__plane_separates(p, pair, u, until, *plane)) {
       nsvcd__certify_triangle_pair(p, pair, u, until);
@@ -13472,7 +13512,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
                                                           double u0, double u1) {
   const nsvcd__arc *arc = &p->arc;
   if (nsvcd__is_straight(arc)) return nsvcd__resolve_straight(p, pair, u0, u1);
-  const double speed = arc->speed + arc->turn * arc->scale * pair->radial;
+  const double speed = arc->speed + arc->turn * arc->scale * pair->from_axis;
   const double close = pair->close;
   nsvcd__d3 *plane = &p->memo.separating;
   double *ends = p->pair_ends;
@@ -13528,13 +13568,13 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
 // In: 16 triangles of a patch, and a plane or other triangles. Out: which of them may meet.
 
 #ifndef NSVCD_NO_PROOF
-// Corner k of listings first .. first + count - 1, as vertices of their patch: what
-// nsvcd__facet_corner says of each, the patch asked once.
-static void nsvcd__block_corners(const nsvcd__facets *f, size_t patch, size_t first,
+// Corner k of entries first .. first + count - 1, as vertices of their patch: what
+// nsvcd__triangle_corner says of each, the patch asked once.
+static void nsvcd__block_corners(const nsvcd__geometry *f, size_t patch, size_t first,
                                  size_t count, size_t k, uint16_t *vertices) {
   const size_t bytes = nsvcd__corner_bytes(nsvcd__points_of(f, patch).all);
   const size_t at = 3 * (first - f->first_triangle[patch]) + k;
-  const unsigned char *corners = f->listings + f->first_byte[patch] + bytes * at;
+  const unsigned char *corners = f->triangle_codes + f->first_byte[patch] + bytes * at;
   for (size_t l = 0; l < count; l++) {
     if (bytes == 1)
       vertices[l] = corners[3 * l];
@@ -13544,12 +13584,12 @@ static void nsvcd__block_corners(const nsvcd__facets *f, size_t patch, size_t fi
 }
 
 // Listings first .. first + count - 1 of a patch, at most 16; the last is repeated. Stored points
-// are off by no more than a quantum, and what NSVCD__ROUNDING allows.
-static void nsvcd__block_load(const nsvcd__facets *f, size_t patch, size_t first, size_t count,
-                              nsvcd__block *out) {
+// are off by no more than a quantization error, and what NSVCD__ROUNDING allows.
+static void nsvcd__block_load(const nsvcd__geometry *f, size_t patch, size_t first,
+                              size_t count, nsvcd__block *out) {
   const nsvcd__patch_points points = nsvcd__points_of(f, patch);
   const nsvcd__vertices stored = nsvcd__vertices_of(f, patch);
-  const nsvcd__f3 centre = nsvcd__facet_centre(f, patch);
+  const nsvcd__f3 centre = nsvcd__patch_centre(f, patch);
   const float step = f->steps[patch];
   out->first = first;
   out->count = count;
@@ -13565,10 +13605,10 @@ static void nsvcd__block_load(const nsvcd__facets *f, size_t patch, size_t first
         to[2][l] = centre.z + step * (float)stored.z[i];
         continue;
       }
-      const float *place = nsvcd__place_of(f, patch, points, i);
-      to[0][l] = place[0];
-      to[1][l] = place[1];
-      to[2][l] = place[2];
+      const float *position = nsvcd__position_of(f, patch, points, i);
+      to[0][l] = position[0];
+      to[1][l] = position[1];
+      to[2][l] = position[2];
     }
     for (size_t l = count; l < NSVCD__LANES; l++)
       for (size_t axis = 0; axis < 3; axis++) to[axis][l] = to[axis][count - 1];
@@ -13594,20 +13634,22 @@ static NSVCD__NOINLINE void nsvcd__block_pose(nsvcd__proof *p, const nsvcd__tran
 }
 
 // Of the moving block's corners. axis: unit, as the body has it.
-static nsvcd__arm nsvcd__block_arm(nsvcd__proof *p, nsvcd__f3 axis, float quantum) {
-  nsvcd__v remote = nsvcd__v_set(0);
-  nsvcd__v aside = remote;
+static nsvcd__arm nsvcd__block_arm(nsvcd__proof *p, nsvcd__f3 axis, float quantization_error) {
+  nsvcd__v farthest2 = nsvcd__v_set(0);
+  nsvcd__v aside = farthest2;
   for (size_t k = 0; k < 3; k++) {
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v3 corner = nsvcd__v3_load(p->moving_block.corners[k], l);
       const nsvcd__v3 across = nsvcd__v3_cross(corner, nsvcd__v3_set(axis));
-      remote = nsvcd__v_max(remote, nsvcd__v3_dot(corner, corner));
+      farthest2 = nsvcd__v_max(farthest2, nsvcd__v3_dot(corner, corner));
       aside = nsvcd__v_max(aside, nsvcd__v3_dot(across, across));
     }
   }
-  const float reach = 1.00001f * sqrtf(-nsvcd__v_least(nsvcd__v_negate(remote))) + quantum;
-  const float radial = 1.00001f * sqrtf(-nsvcd__v_least(nsvcd__v_negate(aside))) + quantum;
-  const nsvcd__arm out = {reach, radial + 1e-6f * reach};
+  const float from_origin =
+      1.00001f * sqrtf(-nsvcd__v_least(nsvcd__v_negate(farthest2))) + quantization_error;
+  const float from_axis =
+      1.00001f * sqrtf(-nsvcd__v_least(nsvcd__v_negate(aside))) + quantization_error;
+  const nsvcd__arm out = {from_origin, from_axis + 1e-6f * from_origin};
   return out;
 }
 
@@ -13644,7 +13686,7 @@ static nsvcd__box nsvcd__block_bounds(const nsvcd__block *block) {
   return out;
 }
 
-// Loads up to NSVCD__WINDOW blocks of resting patch j, from listing `first` on, and what they
+// Loads up to NSVCD__WINDOW blocks of resting patch j, from entry `first` on, and what they
 // extend to. The same patch is often asked for again.
 static void nsvcd__window_load(nsvcd__proof *p, size_t j, size_t first) {
   const size_t end = p->fixed.first_triangle[j + 1];
@@ -13658,7 +13700,7 @@ static void nsvcd__window_load(nsvcd__proof *p, size_t j, size_t first) {
   }
 }
 
-// The lanes of a block that are listings of their own.
+// The lanes of a block that are entries of their own.
 static inline uint32_t nsvcd__block_lanes(const nsvcd__block *block) {
   return ((uint32_t)1 << (block->count - 1) << 1) - 1;
 }
@@ -13753,7 +13795,7 @@ NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__b
 // All triangle pairs of lane l and the `apart` lanes of a block, by the planes of their slice, from
 // s on, or, where that is NULL, by their boxes.
 static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l,
-                                 const nsvcd__block *b, const nsvcd__span *span,
+                                 const nsvcd__block *b, const nsvcd__interval *interval,
                                  uint32_t apart, size_t s, const nsvcd__v3 *plane,
                                  uint32_t below) {
   float lanes[3][NSVCD__LANES];
@@ -13773,14 +13815,14 @@ static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l,
       normal[0] = normal[1] = normal[2] = 0;
       normal[k] = above > under ? 1.0f : -1.0f;
     }
-    NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, i, j, a->first + l, b->first + n, span->t_start,
-                   span->t_end, normal);
+    NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, i, j, a->first + l, b->first + n, interval->t_start,
+                   interval->t_end, normal);
   }
 }
-#define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, span, apart, s, plane, below) \
-  nsvcd__certify_block(p, i, j, l, b, span, apart, s, plane, below)
+#define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, interval, apart, s, plane, below) \
+  nsvcd__certify_block(p, i, j, l, b, interval, apart, s, plane, below)
 #else
-#define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, span, apart, s, plane, below) ((void)0)
+#define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, interval, apart, s, plane, below) ((void)0)
 #endif
 
 // Of these lanes of a fixed block, those that the plane which separated a triangle pair last does
@@ -13789,15 +13831,16 @@ static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l,
 // same direction.
 static NSVCD__NOINLINE uint32_t nsvcd__left_by_last(nsvcd__proof *p, size_t i, size_t j,
                                                     size_t l, nsvcd__block *fixed, size_t ends,
-                                                    const nsvcd__span *span, float margin,
-                                                    uint32_t met) {
+                                                    const nsvcd__interval *interval,
+                                                    float margin, uint32_t met) {
   const nsvcd__v3 normal = nsvcd__v3_set(nsvcd__f3_round(p->memo.separating));
   NSVCD__EACH_SLICE(s) {
     uint32_t below;
     if (!(met >> s & NSVCD__SLICE_MASK)) continue;
     const uint32_t apart =
         nsvcd__normals_separate(p, l, fixed, s, ends, margin, normal, &below) << s & met;
-    if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, s, &normal, below << s);
+    if (interval)
+      NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, interval, apart, s, &normal, below << s);
     met &= ~apart;
   }
   (void)i;
@@ -13809,7 +13852,7 @@ static NSVCD__NOINLINE uint32_t nsvcd__left_by_last(nsvcd__proof *p, size_t i, s
 // does not separate from all of a fixed block, by more than `margin`, at `ends` poses.
 static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, size_t i, size_t j,
                                                           nsvcd__block *fixed, size_t ends,
-                                                          const nsvcd__span *span,
+                                                          const nsvcd__interval *interval,
                                                           float margin, uint32_t lanes) {
   const nsvcd__f3 last = nsvcd__f3_round(p->memo.separating);
   const nsvcd__v3 normal = nsvcd__v3_set(last);
@@ -13832,10 +13875,10 @@ static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, size_
     apart |= nsvcd__v_lt(limit, height) << s;
   }
   apart &= lanes;
-  for (uint32_t told = span ? apart : 0; told; told &= told - 1) {
+  for (uint32_t told = interval ? apart : 0; told; told &= told - 1) {
     NSVCD__EACH_SLICE(s)
-    NSVCD__CERTIFY_BLOCK(p, i, j, nsvcd__low_bit(told), fixed, span, NSVCD__SLICE_MASK << s, s,
-                         &normal, 0);
+    NSVCD__CERTIFY_BLOCK(p, i, j, nsvcd__low_bit(told), fixed, interval,
+                         NSVCD__SLICE_MASK << s, s, &normal, 0);
   }
   (void)i;
   (void)j;
@@ -13843,14 +13886,15 @@ static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, size_
 }
 
 // Lanes of a fixed block that neither boxes nor planes separate from lane l of the moving one, at
-// `ends` poses. span: of patches i and j, for the certificates; NULL for none.
+// `ends` poses. interval: of patches i and j, for the certificates; NULL for none.
 static NSVCD__NOINLINE uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j, size_t l,
                                                 nsvcd__block *fixed, size_t ends,
-                                                const nsvcd__span *span, float margin) {
+                                                const nsvcd__interval *interval,
+                                                float margin) {
   uint32_t met = nsvcd__lanes_near(fixed, nsvcd__box_of_lane(&p->moving_block, l), margin);
-  if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, ~met, 0, NULL, 0);
+  if (interval) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, interval, ~met, 0, NULL, 0);
   if (p->ask.clearance > 0)
-    met = nsvcd__left_by_last(p, i, j, l, fixed, ends, span, margin, met);
+    met = nsvcd__left_by_last(p, i, j, l, fixed, ends, interval, margin, met);
   for (size_t k = 0; met && k < NSVCD__NORMALS; k++) {
     NSVCD__EACH_SLICE(s) {
       uint32_t below;
@@ -13858,7 +13902,8 @@ static NSVCD__NOINLINE uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_
       const nsvcd__v3 normal = nsvcd__normal_to_try(p, l, fixed, s, ends, k);
       const uint32_t apart =
           nsvcd__normals_separate(p, l, fixed, s, ends, margin, normal, &below) << s & met;
-      if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, s, &normal, below << s);
+      if (interval)
+        NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, interval, apart, s, &normal, below << s);
       met &= ~apart;
     }
   }
@@ -13870,7 +13915,7 @@ static NSVCD__NOINLINE uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_
 
 // ---------------------------------------------------------------------------------- proof/manifold
 // In: triangle pairs that are near each other when a contact is. Out: up to four contact
-// points that hold the body: those that span the largest area seen along the contact's normal.
+// points that hold the body: those that interval the largest area seen along the contact's normal.
 //
 // Two triangles touch where a corner of one is over the other, or where two edges cross. Of all
 // such places the farthest along eight directions are kept, of what is slim those across it too,
@@ -13881,8 +13926,8 @@ static NSVCD__NOINLINE uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_
 
 #ifndef NSVCD_NO_PROOF
 // Prepares a manifold of contacts with about this normal, unit, of bodies that go like this.
-static void nsvcd__begin_places(nsvcd__proof *p, nsvcd__d3 n, const nsvcd__twist *twist,
-                                double reach, double same) {
+static void nsvcd__begin_positions(nsvcd__proof *p, nsvcd__d3 n, const nsvcd__twist *twist,
+                                   double tolerance, double same) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   const int flattest = fabs(n.x) < fabs(n.y) ? 0 : 1;
   const nsvcd__d3 aside = nsvcd__d3_of(flattest == 0, flattest == 1, 0);
@@ -13890,7 +13935,7 @@ static void nsvcd__begin_places(nsvcd__proof *p, nsvcd__d3 n, const nsvcd__twist
   memset(m, 0, sizeof *m);
   m->normal = n;
   m->twist = *twist;
-  m->reach = reach;
+  m->tolerance = tolerance;
   m->same = same;
   // by an eighth of a turn each: the sum of one and the one a quarter on, shortened
   nsvcd__d3 along = u;
@@ -13902,14 +13947,14 @@ static void nsvcd__begin_places(nsvcd__proof *p, nsvcd__d3 n, const nsvcd__twist
   for (int k = NSVCD__AROUND; k < NSVCD__SUPPORTS; k++) m->farthest[k] = HUGE_VAL;
 }
 
-// Where what has been found spans little, for how long it is, prepares to look across it, both
+// Where what has been found intervals little, for how long it is, prepares to look across it, both
 // ways, for what is between the eight directions. area: twice what is spanned. Returns 1 if so.
-static int nsvcd__look_across(nsvcd__manifold *m, double area) {
+static int nsvcd__seek_across(nsvcd__manifold *m, double area) {
   nsvcd__d3 longest = {0, 0, 0};
   for (int k = 0; k < NSVCD__AROUND; k++) {
     for (int n = 0; n < k && m->farthest[k] > -HUGE_VAL && m->farthest[n] > -HUGE_VAL; n++) {
-      const nsvcd__d3 way = nsvcd__d3_sub(m->supports[k].point, m->supports[n].point);
-      if (nsvcd__d3_dot(way, way) > nsvcd__d3_dot(longest, longest)) longest = way;
+      const nsvcd__d3 offset = nsvcd__d3_sub(m->supports[k].point, m->supports[n].point);
+      if (nsvcd__d3_dot(offset, offset) > nsvcd__d3_dot(longest, longest)) longest = offset;
     }
   }
   const double square = nsvcd__d3_dot(longest, longest);
@@ -13919,9 +13964,9 @@ static int nsvcd__look_across(nsvcd__manifold *m, double area) {
     m->along[k] = nsvcd__d3_scale(across, k == NSVCD__AROUND ? 1 : -1);
     m->farthest[k] = -HUGE_VAL;
     for (int n = 0; n < NSVCD__AROUND; n++) {
-      const double place = nsvcd__d3_dot(m->along[k], m->supports[n].point);
-      if (!(m->farthest[n] > -HUGE_VAL) || !(place > m->farthest[k])) continue;
-      m->farthest[k] = place;
+      const double along_it = nsvcd__d3_dot(m->along[k], m->supports[n].point);
+      if (!(m->farthest[n] > -HUGE_VAL) || !(along_it > m->farthest[k])) continue;
+      m->farthest[k] = along_it;
       m->supports[k] = m->supports[n];
       m->numbers[k] = m->numbers[n];
     }
@@ -13967,14 +14012,14 @@ static int nsvcd__is_left(const nsvcd__twist *twist, nsvcd__d3 x, nsvcd__d3 norm
 
 // Takes a place where a triangle pair touches, if it is farther than those that are kept. normal:
 // of a face, or across two edges, either way round.
-static NSVCD__NOINLINE void nsvcd__keep_place(nsvcd__proof *p, const nsvcd__facing *f,
-                                              nsvcd__d3 on_moving, nsvcd__d3 on_fixed,
-                                              nsvcd__d3 normal, uint32_t number) {
+static NSVCD__NOINLINE void nsvcd__keep_position(nsvcd__proof *p, const nsvcd__facing *f,
+                                                 nsvcd__d3 on_moving, nsvcd__d3 on_fixed,
+                                                 nsvcd__d3 normal, uint32_t number) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   const double side = nsvcd__d3_dot(normal, m->normal) < 0 ? -1 : 1;
-  const nsvcd__d3 way = nsvcd__d3_sub(on_moving, on_fixed);
-  const double gap = side * nsvcd__d3_dot(way, normal);
-  const double aside = nsvcd__d3_dot(way, way) - gap * gap;
+  const nsvcd__d3 offset = nsvcd__d3_sub(on_moving, on_fixed);
+  const double gap = side * nsvcd__d3_dot(offset, normal);
+  const double aside = nsvcd__d3_dot(offset, offset) - gap * gap;
   nsvcd__d3 point;
   // past the end of an edge they are not over each other
   if (aside > 0.01 * m->same * m->same) return;
@@ -13987,35 +14032,36 @@ static NSVCD__NOINLINE void nsvcd__keep_place(nsvcd__proof *p, const nsvcd__faci
   nsvcd__pair_contact contact;
   int known = 0;
   for (int k = 0; k < NSVCD__SUPPORTS; k++) {
-    const double place = nsvcd__d3_dot(m->along[k], on_fixed);
-    const double more = place - m->farthest[k];
+    const double along_it = nsvcd__d3_dot(m->along[k], on_fixed);
+    const double more = along_it - m->farthest[k];
     if (!(more > m->same || (more >= -m->same && number < m->numbers[k]))) continue;
     if (!known) contact = nsvcd__contact_at(p, f->pair, 0, &nearest);
     known = 1;
     contact.normal = nsvcd__d3_scale(normal, side);
     m->supports[k] = contact;
     m->numbers[k] = number;
-    m->farthest[k] = place;
+    m->farthest[k] = along_it;
   }
 }
 
 // The number of a corner or an edge of a listed triangle: kind 0, of the moving body; 1, of the
 // fixed one.
-static uint32_t nsvcd__id_of(size_t listing, size_t corner, uint32_t kind) {
-  return (uint32_t)(3 * listing + corner) << 2 | kind;
+static uint32_t nsvcd__id_of(size_t entry, size_t corner, uint32_t kind) {
+  return (uint32_t)(3 * entry + corner) << 2 | kind;
 }
 
 // All places where a triangle pair touches, to within the reach. posed: the moving triangle.
-static NSVCD__NOINLINE void nsvcd__collect_places(nsvcd__proof *p,
-                                                  const nsvcd__triangle_pair *pair,
-                                                  const nsvcd__d3 *posed) {
+static NSVCD__NOINLINE void nsvcd__collect_positions(nsvcd__proof *p,
+                                                     const nsvcd__triangle_pair *pair,
+                                                     const nsvcd__d3 *posed) {
   const nsvcd__manifold *m = &p->of.kept.manifold;
   const nsvcd__d3 *fixed = pair->fixed;
   nsvcd__d3 foot;
   int farther = 0;
   for (int k = 0; k < NSVCD__SUPPORTS && !farther; k++) {
     for (int i = 0; i < 3; i++)
-      farther |= nsvcd__d3_dot(m->along[k], posed[i]) + m->reach >= m->farthest[k] - m->same;
+      farther |=
+          nsvcd__d3_dot(m->along[k], posed[i]) + m->tolerance >= m->farthest[k] - m->same;
   }
   if (!farther) return;
   // faces look at each other, along the normal
@@ -14023,14 +14069,14 @@ static NSVCD__NOINLINE void nsvcd__collect_places(nsvcd__proof *p,
   const int moving_faces = nsvcd__d3_dot(facing.faces[0], m->normal) >= 0.8;
   const int fixed_faces = nsvcd__d3_dot(facing.faces[1], m->normal) >= 0.8;
   for (size_t k = 0; k < 3; k++) {
-    const uint32_t moving_id = nsvcd__id_of(pair->moving_listing, k, 0);
-    const uint32_t fixed_id = nsvcd__id_of(pair->fixed_listing, k, 1);
+    const uint32_t moving_id = nsvcd__id_of(pair->moving_entry, k, 0);
+    const uint32_t fixed_id = nsvcd__id_of(pair->fixed_entry, k, 1);
     if (fixed_faces && nsvcd__foot_within(posed[k], fixed, &foot) &&
-        nsvcd__d3_distance2(posed[k], foot) <= m->reach * m->reach)
-      nsvcd__keep_place(p, &facing, posed[k], foot, facing.faces[1], moving_id);
+        nsvcd__d3_distance2(posed[k], foot) <= m->tolerance * m->tolerance)
+      nsvcd__keep_position(p, &facing, posed[k], foot, facing.faces[1], moving_id);
     if (moving_faces && nsvcd__foot_within(fixed[k], posed, &foot) &&
-        nsvcd__d3_distance2(fixed[k], foot) <= m->reach * m->reach)
-      nsvcd__keep_place(p, &facing, foot, fixed[k], facing.faces[0], fixed_id);
+        nsvcd__d3_distance2(fixed[k], foot) <= m->tolerance * m->tolerance)
+      nsvcd__keep_position(p, &facing, foot, fixed[k], facing.faces[0], fixed_id);
     for (size_t i = 0; i < 3; i++) {
       const nsvcd__d3 a = posed[(k + 1) % 3];
       const nsvcd__d3 b = fixed[(i + 1) % 3];
@@ -14044,15 +14090,15 @@ static NSVCD__NOINLINE void nsvcd__collect_places(nsvcd__proof *p,
       if (!(square > 1e-4 * lengths)) continue;
       if (along * along < 0.64 * square) continue;
       nsvcd__edges_nearest(posed[k], a, fixed[i], b, &nearest);
-      if (!(nearest.square <= m->reach * m->reach)) continue;
+      if (!(nearest.square <= m->tolerance * m->tolerance)) continue;
       const uint32_t number = moving_id * 3 + fixed_id * 5 + (uint32_t)(1 + i) * 0x9e3779b9u;
-      nsvcd__keep_place(p, &facing, nearest.on_a, nearest.on_b,
-                        nsvcd__d3_unit(across, facing.faces[1]), number | 2);
+      nsvcd__keep_position(p, &facing, nearest.on_a, nearest.on_b,
+                           nsvcd__d3_unit(across, facing.faces[1]), number | 2);
     }
   }
 }
 
-// Twice the area that four places span, seen along the normal.
+// Twice the area that four places interval, seen along the normal.
 static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
   double most = 0;
   for (int k = 0; k < 3; k++) {
@@ -14066,8 +14112,8 @@ static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
   return most;
 }
 
-// Chooses the contacts: the numbers of those supports, and twice the area that they span. Returns
-// how many.
+// Chooses the contacts: the numbers of those supports, and twice the area that they interval.
+// Returns how many.
 static NSVCD__NOINLINE int nsvcd__choose_four(const nsvcd__manifold *m, int *chosen,
                                               double *area) {
   int kept[NSVCD__SUPPORTS];
@@ -14107,7 +14153,7 @@ static NSVCD__NOINLINE int nsvcd__choose_four(const nsvcd__manifold *m, int *cho
 
 // --------------------------------------------------------------------------------- proof/witnesses
 // In: a patch pair, an arc and a share of it. Out: a contact: two triangles that meet there, or
-// come within the clearance; with a skin, what touches at the start and which directions undo it.
+// come within the clearance; with a slop, what touches at the start and which directions undo it.
 
 #ifndef NSVCD_NO_PROOF
 // Nearer to each other than this nothing that is told in float is separate.
@@ -14117,50 +14163,54 @@ static double nsvcd__epsilon(const nsvcd__proof *p) {
 
 // How far the moving triangle of a touch must go along n until it is beyond the other; negative if
 // it is already.
-static double nsvcd__lift_along(nsvcd__d3 n, const nsvcd__touch *t) {
+static double nsvcd__push_out_along(nsvcd__d3 n, const nsvcd__triangle_contact *t) {
   return -nsvcd__beyond(n, t->moving, t->fixed);
 }
 
-// Is a touch too deep for the skin in every direction? Two triangles are separated soonest along a
+// Is a touch too deep for the slop in every direction? Two triangles are separated soonest along a
 // normal of one, or across an edge of each (the separating axes).
-static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__touch *t) {
-  const nsvcd__d3 lift = nsvcd__d3_widen(p->ask.motion->lift);
-  const double most = p->ask.skin - p->given.clearance;
+static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__triangle_contact *t) {
+  const nsvcd__d3 push_out = nsvcd__d3_widen(p->ask.motion->push_out);
+  const double most = p->ask.slop - p->given.clearance;
   for (size_t k = 0; k < 12; k++) {
-    nsvcd__d3 n = k < 3 ? t->ways[k] : nsvcd__across_edges(t->moving, t->fixed, k - 3);
+    nsvcd__d3 n = k < 3 ? t->directions[k] : nsvcd__across_edges(t->moving, t->fixed, k - 3);
     if (!(nsvcd__d3_dot(n, n) > 0.5)) continue;
     for (int side = 0; side < 2; side++) {
-      const double lifted = nsvcd__d3_dot(lift, n);
-      if (lifted + nsvcd__lift_along(n, t) <= most) return 0;
+      const double pushed_out = nsvcd__d3_dot(push_out, n);
+      if (pushed_out + nsvcd__push_out_along(n, t) <= most) return 0;
       n = nsvcd__d3_scale(n, -1);
     }
   }
   return 1;
 }
 
-// Does a lift along n, by what is left of the skin in that direction, undo a touch? If it has to
-// push anything, then not through both faces. Through one of them is no harm: a side that rises
+// Does a push-out along n, by what is left of the slop in that direction, undo a touch? If it has
+// to push anything, then not through both faces. Through one of them is no harm: a side that rises
 // from the rim on which a cone stands looks up, and the floor under it looks up too.
-static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n, const nsvcd__touch *t) {
-  const double lift = nsvcd__lift_along(n, t);
-  const double lifted = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->lift), n);
-  if (!(nsvcd__d3_dot(n, n) > 0.5) || lifted + lift + p->given.clearance > p->ask.skin)
+static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n,
+                         const nsvcd__triangle_contact *t) {
+  const double push_out = nsvcd__push_out_along(n, t);
+  const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->push_out), n);
+  if (!(nsvcd__d3_dot(n, n) > 0.5) || pushed_out + push_out + p->given.clearance > p->ask.slop)
     return 0;
-  if (lift < 0) return 1;
-  return nsvcd__d3_dot(n, t->ways[0]) > -0.3 || nsvcd__d3_dot(n, t->ways[1]) > -0.3;
+  if (push_out < 0) return 1;
+  return nsvcd__d3_dot(n, t->directions[0]) > -0.3 ||
+         nsvcd__d3_dot(n, t->directions[1]) > -0.3;
 }
 
 // The square of the distance of two triangles, the moving one gone so far along n.
-static double nsvcd__gap_after(const nsvcd__touch *t, nsvcd__d3 n, double way) {
+static double nsvcd__gap_after(const nsvcd__triangle_contact *t, nsvcd__d3 n,
+                               double distance) {
   nsvcd__d3 moved[3];
-  for (int k = 0; k < 3; k++) moved[k] = nsvcd__d3_add(t->moving[k], nsvcd__d3_scale(n, way));
+  for (int k = 0; k < 3; k++)
+    moved[k] = nsvcd__d3_add(t->moving[k], nsvcd__d3_scale(n, distance));
   return nsvcd__nearest_of(moved, t->fixed).square;
 }
 
 // How far along n the moving triangle of a touch must go until it is beyond the clearance for good,
 // if it is so after `most`; -HUGE_VAL: it is all the way. The distance is convex on it: thirds
 // find where it is least, and halves where it is the clearance.
-static NSVCD__NOINLINE double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n,
+static NSVCD__NOINLINE double nsvcd__way_out(const nsvcd__triangle_contact *t, nsvcd__d3 n,
                                              double clearance, double most, double grain) {
   // parallel faces meet at one time only
   const double reach = clearance + nsvcd__min(0.003 * most, grain);
@@ -14191,20 +14241,20 @@ static NSVCD__NOINLINE double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n,
 }
 
 // Remembers how deep a touch is along normal k.
-static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__touch *t) {
+static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__triangle_contact *t) {
   const nsvcd__d3 n = p->normals[k];
-  const double lifted = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->lift), n);
-  const double most = nsvcd__lift_along(n, t) + p->given.clearance;
-  p->needed = nsvcd__max(p->needed, lifted + most);
-  if (!(most > 0) || !(lifted + most > p->depths[k])) return;
+  const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->push_out), n);
+  const double most = nsvcd__push_out_along(n, t) + p->given.clearance;
+  p->needed = nsvcd__max(p->needed, pushed_out + most);
+  if (!(most > 0) || !(pushed_out + most > p->depths[k])) return;
   // depths are told in double
   const double grain = nsvcd__off_meshes(p) + NSVCD__TOO_NEAR * (double)p->given.lengths;
-  const double depth = lifted + nsvcd__way_out(t, n, p->given.clearance, most, grain);
+  const double depth = pushed_out + nsvcd__way_out(t, n, p->given.clearance, most, grain);
   p->depths[k] = nsvcd__max(p->depths[k], depth);
 }
 
 // Does normal k undo a touch? How far it has to is remembered.
-static int nsvcd__undone_by(nsvcd__proof *p, size_t k, const nsvcd__touch *t) {
+static int nsvcd__undone_by(nsvcd__proof *p, size_t k, const nsvcd__triangle_contact *t) {
   if (!nsvcd__undoes(p, p->normals[k], t)) return 0;
   nsvcd__note_depth(p, k, t);
   return 1;
@@ -14212,22 +14262,22 @@ static int nsvcd__undone_by(nsvcd__proof *p, size_t k, const nsvcd__touch *t) {
 
 // Keeps two triangles that are within the clearance at the start, unless a direction that is known
 // undoes that.
-static void nsvcd__collect_touch(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
-                                 const nsvcd__d3 *posed) {
-  nsvcd__touch touch;
-  memcpy(touch.moving, posed, sizeof touch.moving);
-  memcpy(touch.fixed, pair->fixed, sizeof touch.fixed);
+static void nsvcd__collect_contact(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
+                                   const nsvcd__d3 *posed) {
+  nsvcd__triangle_contact contact;
+  memcpy(contact.moving, posed, sizeof contact.moving);
+  memcpy(contact.fixed, pair->fixed, sizeof contact.fixed);
   const nsvcd__nearest nearest = nsvcd__nearest_of(posed, pair->fixed);
   const int are_apart = nearest.square > 1e6 * pair->rounding * pair->rounding;
-  const nsvcd__d3 way = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
-  touch.ways[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
-  touch.ways[1] = nsvcd__face_direction(pair->fixed);
-  touch.ways[2] = nsvcd__d3_scale(way, are_apart ? 1 / sqrt(nearest.square) : 0);
+  const nsvcd__d3 distance = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+  contact.directions[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
+  contact.directions[1] = nsvcd__face_direction(pair->fixed);
+  contact.directions[2] = nsvcd__d3_scale(distance, are_apart ? 1 / sqrt(nearest.square) : 0);
   for (size_t k = 0; k < p->normal_count; k++) {
-    if (nsvcd__undone_by(p, k, &touch)) return;
+    if (nsvcd__undone_by(p, k, &contact)) return;
   }
-  p->too_deep = p->too_deep || nsvcd__is_deep(p, &touch);
-  if (p->touch_count < NSVCD__TOUCHES) p->of.touches[p->touch_count++] = touch;
+  p->too_deep = p->too_deep || nsvcd__is_deep(p, &contact);
+  if (p->contact_count < NSVCD__TOUCHES) p->of.touches[p->contact_count++] = contact;
 }
 
 // Among the moving block, posed `at`, and a block of the window: looks for a contact a share u of
@@ -14246,15 +14296,15 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
     for (; met; met &= met - 1) {
       if (clearance > 0) met = nsvcd__left_by_last(p, i, j, l, fixed, 1, NULL, margin, met);
       if (!met) break;
-      const size_t listing = p->moving_block.first + l;
+      const size_t entry = p->moving_block.first + l;
       const nsvcd__triangle_pair pair =
-          nsvcd__pair_of(p, i, j, listing, fixed->first + nsvcd__low_bit(met));
+          nsvcd__pair_of(p, i, j, entry, fixed->first + nsvcd__low_bit(met));
       nsvcd__d3 posed[3];
       nsvcd__nearest nearest = {0, {0, 0, 0}, {0, 0, 0}};
       nsvcd__place_triangle(at, pair.moving, posed);
       p->work++;
       if (p->ask.collects == NSVCD__SUPPORTING) {
-        nsvcd__collect_places(p, &pair, posed);
+        nsvcd__collect_positions(p, &pair, posed);
         continue;
       }
       if (nsvcd__triangles_meet(posed, pair.fixed, &nearest.on_b)) {
@@ -14263,13 +14313,13 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
         if (!(clearance > 0)) continue;
         nearest = nsvcd__nearest_of(posed, pair.fixed);
         if (!(nearest.square <= clearance * clearance)) {
-          const nsvcd__d3 way = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
-          p->memo.separating = nsvcd__d3_scale(way, 1 / sqrt(nearest.square));
+          const nsvcd__d3 distance = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+          p->memo.separating = nsvcd__d3_scale(distance, 1 / sqrt(nearest.square));
           continue;
         }
       }
       if (p->ask.collects == NSVCD__TOUCHING) {
-        nsvcd__collect_touch(p, &pair, posed);
+        nsvcd__collect_contact(p, &pair, posed);
         continue;
       }
       const nsvcd__outcome contact = nsvcd__take_contact(p, &pair, u, &nearest);
@@ -14282,7 +14332,7 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
   return NSVCD__NOTHING;
 }
 
-// Loads 16 triangles of moving patch i, from listing `first` on. The same are often asked for
+// Loads 16 triangles of moving patch i, from entry `first` on. The same are often asked for
 // again.
 static void nsvcd__moving_block_load(nsvcd__proof *p, size_t i, size_t first) {
   const size_t left = p->moving.first_triangle[i + 1] - first;
@@ -14366,7 +14416,7 @@ static NSVCD__NOINLINE int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_
   double highest = -HUGE_VAL;
   for (size_t b = fixed_first; b < fixed_end; b++) {
     nsvcd__d3 corners[3];
-    nsvcd__facet_triangle(&p->fixed, j, b, corners);
+    nsvcd__patch_triangle(&p->fixed, j, b, corners);
     for (size_t k = 0; k < 3; k++) {
       const double height = nsvcd__d3_dot(p->memo.separating, corners[k]);
       if (height > highest) top = b;
@@ -14390,32 +14440,33 @@ static NSVCD__NOINLINE int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_
   return 1;
 }
 
-// Lane l of the moving block, posed at both ends of a span from u0 to u1 of the arc, and block n of
-// the window: triangle pairs that planes do not part are resolved one by one, and what parts one
-// may part others, or, ALL_SETTLED, all of both patches. TOO_LONG when they have asked for more
-// than `patience` parts of the span; without any, when there is such a triangle pair.
+// Lane l of the moving block, posed at both ends of a interval from u0 to u1 of the arc, and block
+// n of the window: triangle pairs that planes do not part are resolved one by one, and what parts
+// one may part others, or, ALL_SETTLED, all of both patches. TOO_LONG when they have asked for more
+// than `patience` parts of the interval; without any, when there is such a triangle pair.
 static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t i, size_t j, size_t l,
-                                         size_t n, const nsvcd__span *span, nsvcd__arm arm,
-                                         float margin, double u0, double u1, size_t patience) {
+                                         size_t n, const nsvcd__interval *interval,
+                                         nsvcd__arm arm, float margin, double u0, double u1,
+                                         size_t patience) {
   nsvcd__block *fixed = &p->fixed_blocks[n];
-  const float quanta = nsvcd__quanta_of(p, i, j);
+  const float errors = nsvcd__quanta_of(p, i, j);
   p->work++;
-  uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 2, span, margin);
+  uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 2, interval, margin);
   for (; met; met &= met - 1) {
     const nsvcd__d3 before = p->memo.separating;
     const nsvcd__f3 last = nsvcd__f3_round(before);
-    const float along =
-        quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation_of(span, last, arm);
-    met = nsvcd__left_by_last(p, i, j, l, fixed, 2, span, along, met);
+    const float along = errors + interval->rounding + nsvcd__clearance(p) +
+                        nsvcd__deviation_of(interval, last, arm);
+    met = nsvcd__left_by_last(p, i, j, l, fixed, 2, interval, along, met);
     if (!met) break;
     if (patience == 0) return NSVCD__TOO_LONG;
     if (p->memo.shared > NSVCD__SHARED * p->all_tried) {
       p->all_tried++;
       if (nsvcd__patches_apart(p, i, j, u0, u1)) return NSVCD__ALL_RESOLVED;
     }
-    const size_t listing = p->moving_block.first + l;
+    const size_t entry = p->moving_block.first + l;
     const nsvcd__triangle_pair pair =
-        nsvcd__pair_of(p, i, j, listing, fixed->first + nsvcd__low_bit(met));
+        nsvcd__pair_of(p, i, j, entry, fixed->first + nsvcd__low_bit(met));
     const nsvcd__outcome one = nsvcd__resolve_pair(p, &pair, u0, u1);
     if (one != NSVCD__RESOLVED) return one;
     if (p->parts > patience) return NSVCD__TOO_LONG;
@@ -14425,21 +14476,21 @@ static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t i, size_t j, si
   return NSVCD__RESOLVED;
 }
 
-// All triangle pairs of a patch pair's patches over a span from u0 to u1 of the arc.
+// All triangle pairs of a patch pair's patches over a interval from u0 to u1 of the arc.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, size_t i,
                                                                size_t j,
-                                                               const nsvcd__span *span,
+                                                               const nsvcd__interval *interval,
                                                                double u0, double u1,
                                                                size_t patience) {
   const size_t moving_end = p->moving.first_triangle[i + 1];
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
-  const nsvcd__f3 axis = nsvcd__own_axis(span);
-  const float stays =
-      nsvcd__quanta_of(p, i, j) + (span->rounding + span->drift) + nsvcd__clearance(p);
-  const float extent = p->moving.body->extent + p->moving.quanta[i];
+  const nsvcd__f3 axis = nsvcd__own_axis(interval);
+  const float stays = nsvcd__quanta_of(p, i, j) +
+                      (interval->rounding + interval->origin_bend) + nsvcd__clearance(p);
+  const float extent = p->moving.body->extent + p->moving.errors[i];
   const nsvcd__arm all = {extent, extent};
   const int bends =
-      span->bulge * extent > 0.25f * stays;  // else it is not worth to look closely
+      interval->bend * extent > 0.25f * stays;  // else it is not worth to look closely
   p->parts = 0;
   p->all_tried = 0;
   for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
@@ -14447,24 +14498,24 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
     nsvcd__window_load(p, j, b);
     for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
       nsvcd__moving_block_load(p, i, a);
-      const nsvcd__arm arm = bends ? nsvcd__block_arm(p, axis, p->moving.quanta[i]) : all;
-      const float margin = stays + nsvcd__bulge_of(span, arm);
-      nsvcd__block_pose(p, &span->start, 0);
-      nsvcd__block_pose(p, &span->end, 1);
+      const nsvcd__arm arm = bends ? nsvcd__block_arm(p, axis, p->moving.errors[i]) : all;
+      const float margin = stays + nsvcd__bend_of(interval, arm);
+      nsvcd__block_pose(p, &interval->start, 0);
+      nsvcd__block_pose(p, &interval->end, 1);
       nsvcd__block_box(p, 2);
       for (size_t n = 0; n < p->memo.window; n++) {
         nsvcd__block *fixed = &p->fixed_blocks[n];
         const uint32_t nearby = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
         const uint32_t lanes =
-            nsvcd__lanes_left_by_last(p, i, j, fixed, 2, span, margin, nearby);
+            nsvcd__lanes_left_by_last(p, i, j, fixed, 2, interval, margin, nearby);
         p->work++;
         if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
         for (size_t l = 0; l < p->moving_block.count; l++) {
           if (!(nearby >> l & 1))
-            NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, 0xffff, 0, NULL, 0);
+            NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, interval, 0xffff, 0, NULL, 0);
           if (!(lanes >> l & 1)) continue;
           const nsvcd__outcome row =
-              nsvcd__resolve_row(p, i, j, l, n, span, arm, margin, u0, u1, patience);
+              nsvcd__resolve_row(p, i, j, l, n, interval, arm, margin, u0, u1, patience);
           if (row == NSVCD__ALL_RESOLVED) return NSVCD__RESOLVED;
           if (row != NSVCD__RESOLVED) return row;
         }
@@ -14474,13 +14525,13 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
   return NSVCD__RESOLVED;
 }
 
-static void nsvcd__certify_patch_pair(const nsvcd__proof *p, const nsvcd__span *span,
+static void nsvcd__certify_patch_pair(const nsvcd__proof *p, const nsvcd__interval *interval,
                                       const nsvcd__patch_pair *item) {
   const float normal[3] = {p->memo.held.x, p->memo.held.y, p->memo.held.z};
   NSVCD__CERTIFY(NSVCD__BY_HULL, item->moving, item->fixed, NSVCD_NONE, NSVCD_NONE,
-                 span->t_start, span->t_end, normal);
+                 interval->t_start, interval->t_end, normal);
   (void)normal;
-  (void)span;
+  (void)interval;
   (void)item;
 }
 
@@ -14504,17 +14555,17 @@ static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__se
       nsvcd__arc_at(p, first);
       const double end = nsvcd__min(ends[left - 1], nsvcd__arc_limit(p));
       if (!(u < end)) break;
-      p->span = nsvcd__span_of_arc(p, first, u, end);
+      p->interval = nsvcd__interval_of_arc(p, first, u, end);
       const int apart =
-          !is_tried && nsvcd__hulls_are_apart(p, item->moving, item->fixed, &p->span);
+          !is_tried && nsvcd__hulls_are_apart(p, item->moving, item->fixed, &p->interval);
       is_tried = 0;
       if (apart) {
-        nsvcd__certify_patch_pair(p, &p->span, item);
+        nsvcd__certify_patch_pair(p, &p->interval, item);
       } else {
         const int may_halve = end - u > NSVCD__SHORTEST && left < NSVCD__ARC_PARTS;
         const size_t patience = may_halve ? NSVCD__PATIENCE_TO_PART : (size_t)-1;
-        const nsvcd__outcome part =
-            nsvcd__resolve_triangles(p, item->moving, item->fixed, &p->span, u, end, patience);
+        const nsvcd__outcome part = nsvcd__resolve_triangles(p, item->moving, item->fixed,
+                                                             &p->interval, u, end, patience);
         if (part == NSVCD__ANSWERED || part == NSVCD__EXHAUSTED) return part;
         if (part == NSVCD__TOO_LONG) ends[left++] = 0.5 * (u + end);
         if (part != NSVCD__RESOLVED) continue;
@@ -14535,7 +14586,7 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
   const size_t i = item->moving;
   const size_t j = item->fixed;
   const size_t s = item->segment;
-  const nsvcd__span *span = nsvcd__segment_span(p, search, s);
+  const nsvcd__interval *interval = nsvcd__segment_interval(p, search, s);
   nsvcd__memo *memo = &p->memo;
   const nsvcd__f3 n = memo->held;
   const float length = nsvcd__f3_length(n);
@@ -14548,15 +14599,18 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, i, l);
       const nsvcd__v3 normal = nsvcd__v3_set(n);
-      const nsvcd__v at_start = nsvcd__v3_dot(normal, nsvcd__v3_transform(&span->start, hull));
-      const nsvcd__v at_end = nsvcd__v3_dot(normal, nsvcd__v3_transform(&span->end, hull));
+      const nsvcd__v at_start =
+          nsvcd__v3_dot(normal, nsvcd__v3_transform(&interval->start, hull));
+      const nsvcd__v at_end = nsvcd__v3_dot(normal, nsvcd__v3_transform(&interval->end, hull));
       lowest = nsvcd__least_of(lowest, nsvcd__v_least(nsvcd__v_min(at_start, at_end)));
     }
-    const float slack = (p->ask.motion->scale * p->moving.slacks[i] + span->rounding) * length;
+    const float margin =
+        (p->ask.motion->scale * p->moving.margins[i] + interval->rounding) * length;
     above->plane = memo->plane;
     above->key = key;
     above->height =
-        lowest - slack - nsvcd__deviation_of(span, n, nsvcd__patch_arm(&p->moving, i, span));
+        lowest - margin -
+        nsvcd__deviation_of(interval, n, nsvcd__patch_arm(&p->moving, i, interval));
   }
   if (below->plane != memo->plane || below->key != j) {
     // negated
@@ -14567,19 +14621,19 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
     }
     below->plane = memo->plane;
     below->key = (uint32_t)j;
-    below->height = p->fixed.slacks[j] * length - highest;
+    below->height = p->fixed.margins[j] * length - highest;
   }
   if (!(above->height > below->height + nsvcd__clearance(p) * length)) return 0;
-  nsvcd__certify_patch_pair(p, span, item);
+  nsvcd__certify_patch_pair(p, interval, item);
   return 1;
 }
 
 // Is there any plane that does?
 static int nsvcd__is_separated(nsvcd__proof *p, const nsvcd__search *search,
                                const nsvcd__patch_pair *item) {
-  const nsvcd__span *span = nsvcd__segment_span(p, search, item->segment);
-  if (!nsvcd__hulls_are_apart(p, item->moving, item->fixed, span)) return 0;
-  nsvcd__certify_patch_pair(p, span, item);
+  const nsvcd__interval *interval = nsvcd__segment_interval(p, search, item->segment);
+  if (!nsvcd__hulls_are_apart(p, item->moving, item->fixed, interval)) return 0;
+  nsvcd__certify_patch_pair(p, interval, item);
   return 1;
 }
 
@@ -14631,15 +14685,15 @@ static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *
   nsvcd__lane_set(turned.y, block->turned + 3, l);
   nsvcd__lane_set(turned.z, block->turned + 6, l);
   if (!(p->clipped >> s & 1)) {
-    block->spread[l] += block->drift[l];
-    block->bulge[l] *= 2;
-    block->drift[l] *= 2;
-    block->bulge_along_axis[l] *= 2;
-    block->drift_along_axis[l] *= 2;
-    block->drift_off_way[l] *= 2;
+    block->margin[l] += block->origin_bend[l];
+    block->bend[l] *= 2;
+    block->origin_bend[l] *= 2;
+    block->bend_along_axis[l] *= 2;
+    block->origin_along_axis[l] *= 2;
+    block->origin_off_heading[l] *= 2;
   }
   p->clipped |= (uint64_t)1 << s;
-  p->memo.spans &= ~((uint64_t)1 << s);
+  p->memo.intervals &= ~((uint64_t)1 << s);
   search->posed &= ~((uint64_t)1 << s);
   // heights over the plane that held last are not what they were
   p->memo.plane += p->memo.plane > 0;
@@ -14699,9 +14753,9 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
       continue;
     }
     if (p->misses >= NSVCD__HOPE) {
-      const nsvcd__span *span = nsvcd__segment_span(p, search, item->segment);
+      const nsvcd__interval *interval = nsvcd__segment_interval(p, search, item->segment);
       const nsvcd__outcome by_triangles =
-          nsvcd__resolve_triangles(p, item->moving, item->fixed, span, 0, 0, 0);
+          nsvcd__resolve_triangles(p, item->moving, item->fixed, interval, 0, 0, 0);
       if (by_triangles == NSVCD__RESOLVED) continue;
     }
     const int has_hope = tells_more || p->misses < NSVCD__DESPAIR;
@@ -14720,7 +14774,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
 
 // Is there room for touches, and a way out of those that were gathered?
 static int nsvcd__collects_on(const nsvcd__proof *p) {
-  return p->touch_count < NSVCD__TOUCHES && !p->too_deep;
+  return p->contact_count < NSVCD__TOUCHES && !p->too_deep;
 }
 
 // Gathers what fresh patch pairs touch at the start, or the patch pairs where contact points may
@@ -14733,7 +14787,7 @@ static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *se
     if (nsvcd__is_separated(p, search, item)) continue;
     if (p->ask.collects == NSVCD__TOUCHING) {
       if (p->normal_count > 0) {
-        // what was lifted off just so is farther than the clearance by less than floats tell
+        // what was pushed out of just so is farther than the clearance by less than floats tell
         (void)nsvcd__arc_at(p, 0);
         if (nsvcd__patches_apart(p, item->moving, item->fixed, 0, 0)) continue;
       }
@@ -14752,8 +14806,8 @@ static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
                             const nsvcd__patch_pair *item, int first, int last, float *most) {
   const nsvcd__manifold *m = &p->of.kept.manifold;
   const float scale = p->ask.motion->scale;
-  const float moving_more = scale * p->moving.slacks[item->moving] + (float)m->reach;
-  const float fixed_more = p->fixed.slacks[item->fixed];
+  const float moving_more = scale * p->moving.margins[item->moving] + (float)m->tolerance;
+  const float fixed_more = p->fixed.margins[item->fixed];
   for (int k = first; k < last; k++) {
     const nsvcd__v3 back = nsvcd__v3_set(nsvcd__d3_narrow(nsvcd__d3_scale(m->along[k], -1)));
     float by_moving = HUGE_VALF;
@@ -14773,7 +14827,7 @@ static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
 // those that may be farthest along one, then of what may still be farther. Where bodies are deep in
 // each other there are many, and few of their places are like a contact: so many are looked at, and
 // no more.
-static NSVCD__NOINLINE void nsvcd__seek_places(nsvcd__proof *p, int first, int last) {
+static NSVCD__NOINLINE void nsvcd__seek_positions(nsvcd__proof *p, int first, int last) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   nsvcd__patch_pair *items = p->of.kept.items;
   const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(p, 0), 0);
@@ -14876,11 +14930,11 @@ static int nsvcd__is_new(nsvcd__proof *p, size_t *count, uint32_t number, int *u
 static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, float margin,
                                     float rounding) {
   const nsvcd__f3 start = nsvcd__f3_round(ray->from);
-  const nsvcd__f3 way = nsvcd__f3_round(ray->direction);
+  const nsvcd__f3 heading = nsvcd__f3_round(ray->direction);
   uint32_t missed = 0;
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 from = nsvcd__v3_set(start);
-    const nsvcd__v3 direction = nsvcd__v3_set(way);
+    const nsvcd__v3 direction = nsvcd__v3_set(heading);
     const nsvcd__v3 a = nsvcd__v3_load(block->corners[0], l);
     const nsvcd__v3 b = nsvcd__v3_load(block->corners[1], l);
     const nsvcd__v3 c = nsvcd__v3_load(block->corners[2], l);
@@ -14918,26 +14972,26 @@ typedef struct nsvcd__crossings {
 // than 1.155 |a| |b| together) = 12.7 u E. A place on it, up to R from the ray's, by 3 u R. The
 // volume then by 12.7 u E R + 2 E x 3 u R, and by 3 roundings of up to 2 E R: 24.7 u E R, less than
 // 1.5e-6 E R. NSVCD__ROUNDING is more.
-static nsvcd__crossings nsvcd__cross_all(nsvcd__proof *p, const nsvcd__facets *f,
+static nsvcd__crossings nsvcd__cross_all(nsvcd__proof *p, const nsvcd__geometry *f,
                                          const nsvcd__ray *ray) {
   nsvcd__block *block = &p->fixed_blocks[0];
   p->memo.window = 0;
-  const float remote = (float)nsvcd__d3_length(ray->from) + f->body->extent;
-  const float rounding = NSVCD__ROUNDING * remote * f->body->extent;
+  const float extent = (float)nsvcd__d3_length(ray->from) + f->body->extent;
+  const float rounding = NSVCD__ROUNDING * extent * f->body->extent;
   nsvcd__crossings sum = {0, 0, 0, 0};
   size_t count = 0;
   size_t g;
   const nsvcd__beam beam = {nsvcd__f3_round(ray->from), nsvcd__f3_round(ray->direction),
                             ray->rounding};
-  nsvcd__walk walk;
-  nsvcd__walk_begin(&walk, f->body, nsvcd__is_on_beam, &beam);
-  while (!sum.unclear && nsvcd__walk_next(&walk, &g)) {
+  nsvcd__traversal traversal;
+  nsvcd__traversal_begin(&traversal, f->body, nsvcd__is_on_beam, &beam);
+  while (!sum.unclear && nsvcd__traversal_next(&traversal, &g)) {
     const nsvcd__spheres all = nsvcd__body_patches(f->body);
     uint32_t patches = nsvcd__is_on_beam(&beam, nsvcd__spheres_from(all, NSVCD__GROUP * g));
     for (; patches && !sum.unclear; patches &= patches - 1) {
       const size_t i = NSVCD__GROUP * g + nsvcd__low_bit(patches);
       if (i >= f->body->patches) break;
-      const float about = 2 * (f->quanta[i] + (float)ray->margin);
+      const float about = 2 * (f->errors[i] + (float)ray->margin);
       const size_t end = f->first_triangle[i + 1];
       nsvcd__numbers numbers = nsvcd__numbers_of(f, i);
       for (size_t n = f->first_triangle[i]; n < end; n += NSVCD__LANES) {
@@ -14945,16 +14999,16 @@ static nsvcd__crossings nsvcd__cross_all(nsvcd__proof *p, const nsvcd__facets *f
         p->work++;
         uint32_t lanes = nsvcd__lanes_on_ray(block, ray, about, rounding);
         for (; lanes; lanes &= lanes - 1) {
-          const size_t listing = n + nsvcd__low_bit(lanes);
+          const size_t entry = n + nsvcd__low_bit(lanes);
           nsvcd__d3 corners[3];
-          nsvcd__read_number(&numbers, listing);
+          nsvcd__read_number(&numbers, entry);
           if (numbers.kind == NSVCD__SHEET) continue;
           p->work++;
-          nsvcd__facet_triangle(f, i, listing, corners);
+          nsvcd__patch_triangle(f, i, entry, corners);
           const int crossing = nsvcd__ray_crosses(ray, corners, ray->margin, &sum.unclear);
           if (!crossing || !nsvcd__is_new(p, &count, numbers.number, &sum.unclear)) continue;
           if (numbers.kind == NSVCD__CLOSED) sum.winds += crossing;
-          sum.either_way += numbers.kind == NSVCD__EITHER_WAY;
+          sum.either_way += numbers.kind == NSVCD__EITHER_DIRECTION;
           sum.nearly += numbers.kind == NSVCD__NEARLY;
         }
       }
@@ -14965,45 +15019,46 @@ static nsvcd__crossings nsvcd__cross_all(nsvcd__proof *p, const nsvcd__facets *f
 
 // A place in a body's frame, and a distance from it.
 typedef struct nsvcd__surroundings {
-  nsvcd__f3 place;
+  nsvcd__f3 position;
   float distance;
 } nsvcd__surroundings;
 
-// Lanes of 16 spheres that come within that; a filter of a walk.
+// Lanes of 16 spheres that come within that; a filter of a traversal.
 static uint32_t nsvcd__is_around(const void *what, nsvcd__spheres all) {
   const nsvcd__surroundings *here = (const nsvcd__surroundings *)what;
   uint32_t met = 0;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(all, l), nsvcd__v3_set(here->place));
-    const nsvcd__v reach = nsvcd__v_plus(nsvcd__v_load(all.r + l), here->distance);
-    met |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(reach)) << l;
+    const nsvcd__v3 d =
+        nsvcd__v3_sub(nsvcd__v3_centres(all, l), nsvcd__v3_set(here->position));
+    const nsvcd__v radius = nsvcd__v_plus(nsvcd__v_load(all.r + l), here->distance);
+    met |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(radius)) << l;
   }
   return met;
 }
 
 // Is a triangle so close to the place that the mesh's own may be on its other side?
-static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd__d3 place,
-                                  double tolerance) {
+static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__geometry *f,
+                                  nsvcd__d3 position, double tolerance) {
   const nsvcd_body *b = f->body;
-  const nsvcd__d3 point[3] = {place, place, place};
-  const nsvcd__f3 rounded = nsvcd__f3_round(place);
+  const nsvcd__d3 point[3] = {position, position, position};
+  const nsvcd__f3 rounded = nsvcd__f3_round(position);
   const nsvcd__box at = {rounded, rounded};
-  const float remote = nsvcd__f3_length(rounded) + b->extent;
-  const float distance =
-      2 * nsvcd__widest_quantum(f) + (float)tolerance * 1.0001f + 4 * NSVCD__ROUNDING * remote;
+  const float extent = nsvcd__f3_length(rounded) + b->extent;
+  const float distance = 2 * nsvcd__widest_quantization(f) + (float)tolerance * 1.0001f +
+                         4 * NSVCD__ROUNDING * extent;
   const nsvcd__surroundings here = {rounded, distance};
   nsvcd__block *block = &p->fixed_blocks[0];
   size_t g;
-  nsvcd__walk walk;
+  nsvcd__traversal traversal;
   p->memo.window = 0;
-  nsvcd__walk_begin(&walk, b, nsvcd__is_around, &here);
-  while (nsvcd__walk_next(&walk, &g)) {
+  nsvcd__traversal_begin(&traversal, b, nsvcd__is_around, &here);
+  while (nsvcd__traversal_next(&traversal, &g)) {
     const size_t first = NSVCD__GROUP * g;
     const nsvcd__spheres members = nsvcd__spheres_from(nsvcd__body_patches(b), first);
     for (uint32_t met = nsvcd__is_around(&here, members); met; met &= met - 1) {
       const size_t i = first + nsvcd__low_bit(met);
       if (i >= b->patches) break;
-      const double off = (double)nsvcd__off_mesh(f) + NSVCD__SAME_PLACE * (double)remote;
+      const double off = (double)nsvcd__off_mesh(f) + NSVCD__SAME_POSITION * (double)extent;
       const double limit = 2 * off + tolerance;
       const size_t end = f->first_triangle[i + 1];
       for (size_t n = f->first_triangle[i]; n < end; n += NSVCD__LANES) {
@@ -15012,7 +15067,7 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd
         uint32_t lanes = nsvcd__lanes_near(block, at, distance);
         for (; lanes; lanes &= lanes - 1) {
           nsvcd__d3 corners[3];
-          nsvcd__facet_triangle(f, i, n + nsvcd__low_bit(lanes), corners);
+          nsvcd__patch_triangle(f, i, n + nsvcd__low_bit(lanes), corners);
           if (nsvcd__nearest_of(point, corners).square <= limit * limit) return 1;
         }
       }
@@ -15026,20 +15081,20 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd
 // which the place is. One is enough where all is closed. Of what is nearly a solid most are asked,
 // which is whether it winds about the place by more than a half (Jacobson 2013): then it is not
 // known to be outside. unit: of its frame.
-static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, double unit,
-                              nsvcd__d3 place) {
+static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__geometry *f, double unit,
+                              nsvcd__d3 position) {
   static const double directions[8][3] = {
       {0.5359, 0.6013, 0.5927},   {-0.5741, 0.6229, 0.5314},  {0.6127, -0.5531, 0.5644},
       {-0.5477, -0.5923, 0.5909}, {0.6311, 0.5573, -0.5396},  {-0.6053, 0.5297, -0.5941},
       {0.5623, -0.6217, -0.5452}, {-0.5849, -0.5407, -0.6047}};
   const nsvcd__d3 centre = nsvcd__d3_load(f->body->centre);
-  const nsvcd__d3 off = nsvcd__d3_sub(place, centre);
+  const nsvcd__d3 off = nsvcd__d3_sub(position, centre);
   const double radius = (double)f->body->radius;
   if (f->body->open || nsvcd__d3_dot(off, off) > 1.00001 * radius * radius) return 0;
   const size_t best = (off.x < 0 ? 1u : 0u) + (off.y < 0 ? 2u : 0u) + (off.z < 0 ? 4u : 0u);
   nsvcd__ray ray;
-  ray.from = place;
-  ray.margin = NSVCD__SAME_PLACE * (double)p->given.lengths / unit;
+  ray.from = position;
+  ray.margin = NSVCD__SAME_POSITION * (double)p->given.lengths / unit;
   ray.margin += (double)nsvcd__off_mesh(f) + (double)f->gap;
   ray.rounding = (float)ray.margin + 4 * NSVCD__ROUNDING * f->body->extent;
   int clear = 0;
@@ -15064,7 +15119,7 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, double un
 
 // Does some surface of a body lie outside of a sphere about the other? start: from the frame of the
 // first to that of the second, in which the first is of this scale.
-static int nsvcd__sticks_out(const nsvcd__facets *inner, const nsvcd__transform *start,
+static int nsvcd__sticks_out(const nsvcd__geometry *inner, const nsvcd__transform *start,
                              float scale, const nsvcd_body *outer) {
   const nsvcd_body *b = inner->body;
   const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_load(outer->centre));
@@ -15090,9 +15145,9 @@ static int nsvcd__sticks_out(const nsvcd__facets *inner, const nsvcd__transform 
 }
 
 // Seeds first .. first + 15 that may be in the sphere and in the box about the other body.
-static uint32_t nsvcd__seeds_near(const nsvcd__facets *inner, size_t first,
+static uint32_t nsvcd__seeds_near(const nsvcd__geometry *inner, size_t first,
                                   const nsvcd__transform *start, float scale,
-                                  const nsvcd__facets *outer) {
+                                  const nsvcd__geometry *outer) {
   const nsvcd_body *o = outer->body;
   const size_t left = inner->components - first;
   float lanes[3][NSVCD__LANES];
@@ -15101,9 +15156,9 @@ static uint32_t nsvcd__seeds_near(const nsvcd__facets *inner, size_t first,
     for (size_t k = 0; k < 3; k++) lanes[k][l] = seed[k];
   }
   const nsvcd__f3 centre = nsvcd__f3_of(o->centre[0], o->centre[1], o->centre[2]);
-  const float remote =
+  const float extent =
       nsvcd__f3_length(start->position) + scale * inner->body->extent + o->extent;
-  const float rounding = 4 * NSVCD__ROUNDING * remote;
+  const float rounding = 4 * NSVCD__ROUNDING * extent;
   uint32_t nearby = 0;
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 seen = nsvcd__v3_transform(start, nsvcd__v3_load(lanes, l));
@@ -15133,7 +15188,7 @@ static nsvcd__dtransform nsvcd__inverse_dtransform(const nsvcd__dtransform *at, 
 
 // One body at the start of the motion, as the other sees it.
 typedef struct nsvcd__enclosure {
-  const nsvcd__facets *inner, *outer;
+  const nsvcd__geometry *inner, *outer;
   // of the inner body in the outer one's frame, the same rounded, and the other way round
   nsvcd__dtransform start;
   nsvcd__transform rounded;
@@ -15162,7 +15217,7 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
     const nsvcd__d3 seen = nsvcd__place_point(&e->start, seed);
     if (!nsvcd__is_enclosed(p, e->outer, e->unit, seen)) continue;
     p->enclosed = e->inner_moves ? seen : seed;
-    p->within = 1;
+    p->inside = 1;
     const double room = p->given.tolerance / e->unit + (double)e->outer->gap;
     if (!nsvcd__surface_is_near(p, e->outer, seen, room)) return 1;
   }
@@ -15181,13 +15236,13 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
     return nsvcd__encloses_seeds(p, e, 0, e->inner->components);
   const nsvcd__f3 centre =
       nsvcd__f3_round(nsvcd__place_point(&e->back, nsvcd__d3_load(outer->centre)));
-  const float remote = nsvcd__f3_length(centre) + inner->extent + outer->extent / e->scale;
+  const float extent = nsvcd__f3_length(centre) + inner->extent + outer->extent / e->scale;
   const nsvcd__surroundings here = {centre,
-                                    outer->radius / e->scale + 4 * NSVCD__ROUNDING * remote};
+                                    outer->radius / e->scale + 4 * NSVCD__ROUNDING * extent};
   size_t g;
-  nsvcd__walk walk;
-  nsvcd__walk_begin(&walk, inner, nsvcd__is_around, &here);
-  while (!p->unclear && nsvcd__walk_next(&walk, &g)) {
+  nsvcd__traversal traversal;
+  nsvcd__traversal_begin(&traversal, inner, nsvcd__is_around, &here);
+  while (!p->unclear && nsvcd__traversal_next(&traversal, &g)) {
     if (nsvcd__encloses_seeds(p, e, e->inner->first_seed[g], e->inner->first_seed[g + 1]))
       return 1;
   }
@@ -15198,7 +15253,7 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
 // point. Where that is so close to the surface that what that is off by matters, 0 is returned and
 // p->within is set: if planes then separate all patches at t = 0, the point, the surface that was
 // looked at and the true one, patch by patch on one side of a plane, agree, and it is within.
-static NSVCD__NOINLINE int nsvcd__starts_within(nsvcd__proof *p) {
+static NSVCD__NOINLINE int nsvcd__is_contained_at_start(nsvcd__proof *p) {
   nsvcd__enclosure moving, fixed;
   moving.start = nsvcd__dtransform_at(nsvcd__arc_at(p, 0), 0);
   moving.back = nsvcd__inverse_dtransform(&moving.start, p->arc.scale);
@@ -15238,7 +15293,7 @@ static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *search,
                                    size_t j, uint64_t *left) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
-  const nsvcd__f3 place = nsvcd__facet_centre(&p->fixed, j);
+  const nsvcd__f3 centre = nsvcd__patch_centre(&p->fixed, j);
   const float radius = nsvcd__body_r(fixed)[j];
   const float *own = nsvcd__body_r(moving) + NSVCD__GROUP * g;
   *left &= nsvcd__segments_that_matter(p, search);
@@ -15250,21 +15305,21 @@ static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *search,
     uint32_t met = 0;
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v3 start = nsvcd__v3_rows(c->start[0] + l);
-      const nsvcd__v3 v = nsvcd__v3_rows(c->way[0] + l);
-      const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_set(place));
+      const nsvcd__v3 v = nsvcd__v3_rows(c->travel[0] + l);
+      const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_set(centre));
       const nsvcd__v tau = nsvcd__v_clamp(
           nsvcd__v_mul(nsvcd__v3_dot(d, v), nsvcd__v_load(c->inverse + l)), 0, 1);
       const nsvcd__v3 closest = nsvcd__v3_fma(tau, v, d);
       const nsvcd__v square = nsvcd__v3_dot(closest, closest);
-      const nsvcd__v reach = nsvcd__v_plus(nsvcd__v_load(c->reach + l), radius);
-      met |= nsvcd__v_le(square, nsvcd__v_signed_square(reach)) << l;
+      const nsvcd__v sum = nsvcd__v_plus(nsvcd__v_load(c->radius + l), radius);
+      met |= nsvcd__v_le(square, nsvcd__v_signed_square(sum)) << l;
       nsvcd__v_store(squares + l, square);
       nsvcd__v_store(fraction + l, tau);
     }
     NSVCD__TALLY(tests, 1);
     if (!met) continue;
-    const nsvcd__span *span = nsvcd__segment_span(p, search, s);
-    met = nsvcd__discs_meet(p, c, g, j, span, search->remote, met);
+    const nsvcd__interval *interval = nsvcd__segment_interval(p, search, s);
+    met = nsvcd__slabs_meet(p, c, g, j, interval, search->extent, met);
     for (; met; met &= met - 1) {
       const size_t l = nsvcd__low_bit(met);
       const size_t i = NSVCD__GROUP * g + l;
@@ -15285,7 +15340,7 @@ static nsvcd__outcome nsvcd__see_to_patch_pairs(nsvcd__proof *p, nsvcd__search *
 }
 
 // THE LOOP: point 2 of the theorem. A tile's groups, of the moving body and of the resting one, are
-// separated by spheres and by discs; of those left, patches by spheres and by discs; what is left
+// separated by spheres and by slabs; of those left, patches by spheres and by slabs; what is left
 // of these are patch pairs, which nsvcd__sift_patch_pairs and nsvcd__resolve_patch_pairs see to. In
 // the end each pair of patches, in each segment that is wanted and still matters, has been
 // separated, or has given a contact that answers or shrinks the question, or is an unresolved pair,
@@ -15367,7 +15422,7 @@ static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search)
 
 #ifndef NSVCD_NO_PROOF
 // What is said of a component that is within the other body, whatever contacts were found since.
-static nsvcd__finding nsvcd__is_within(nsvcd__proof *p) {
+static nsvcd__finding nsvcd__found_inside(nsvcd__proof *p) {
   memset(&p->known.found, 0, sizeof p->known.found);
   p->known.found.point = p->enclosed;
   p->known.found.moving_triangle = NSVCD_NO_TRIANGLE;
@@ -15390,7 +15445,7 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
   p->ask.unresolved_ends = 0;
   p->clipped = 0;
   p->arc.ticks = 0;
-  p->count = p->fresh_count = p->misses = p->touch_count = 0;
+  p->count = p->fresh_count = p->misses = p->contact_count = 0;
   p->too_deep = 0;
   nsvcd__forget(&p->memo);
 }
@@ -15459,7 +15514,7 @@ static nsvcd__outcome nsvcd__prove_and_look(nsvcd__proof *p, nsvcd__search *sear
   if (p->known.unresolved < NSVCD__NEVER)
     p->ask.after_unresolved -= p->ask.after_unresolved / 2;
   for (int at_end = 0; at_end < 2; at_end++) {
-    if (nsvcd__meets_at(p, search, at_end, NSVCD__LOOK)) return NSVCD__ANSWERED;
+    if (nsvcd__meets_at(p, search, at_end, NSVCD__END_BUDGET)) return NSVCD__ANSWERED;
   }
   p->ask.is_brief = 0;
   p->ask.limit = limit;
@@ -15566,7 +15621,7 @@ static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search)
 
 // Of the patches with a surface, the one whose centre is nearest to a place of the body's frame; of
 // a large body one near it, found by going down the levels of spheres, always to the nearest.
-static size_t nsvcd__patch_towards(const nsvcd__facets *f, nsvcd__f3 place) {
+static size_t nsvcd__patch_towards(const nsvcd__geometry *f, nsvcd__f3 position) {
   const nsvcd_body *body = f->body;
   size_t from = 0;
   size_t count = body->patches;
@@ -15581,7 +15636,7 @@ static size_t nsvcd__patch_towards(const nsvcd__facets *f, nsvcd__f3 place) {
     size_t nearest = from;
     float best = HUGE_VALF;
     for (size_t n = from; n < from + count && n < level.count; n++) {
-      const nsvcd__f3 off = nsvcd__f3_sub(nsvcd__centre_of(all, n), place);
+      const nsvcd__f3 off = nsvcd__f3_sub(nsvcd__centre_of(all, n), position);
       const float distance = nsvcd__f3_length(off) - all.r[n];
       if (distance >= best) continue;
       best = distance;
@@ -15596,7 +15651,7 @@ static size_t nsvcd__patch_towards(const nsvcd__facets *f, nsvcd__f3 place) {
     uint32_t nearer = 0;
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v3 off =
-          nsvcd__v3_sub(nsvcd__v3_centres(patches, first + l), nsvcd__v3_set(place));
+          nsvcd__v3_sub(nsvcd__v3_centres(patches, first + l), nsvcd__v3_set(position));
       const nsvcd__v square = nsvcd__v3_dot(off, off);
       nearer |= nsvcd__v_lt(square, nsvcd__v_set(least)) << l;
       nsvcd__v_store(squares + l, square);
@@ -15623,14 +15678,14 @@ static int nsvcd__nearest_tick(const nsvcd__search *search, nsvcd__sphere fixed,
     float gaps[NSVCD__LANES], fraction[NSVCD__LANES];
     uint32_t nearer = 0;
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 way = nsvcd__chords_way(c, l);
+      const nsvcd__v3 travel = nsvcd__chords_travel(c, l);
       const nsvcd__v3 d =
           nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(fixed.centre));
       const nsvcd__v tau = nsvcd__v_clamp(
-          nsvcd__v_mul(nsvcd__v3_dot(d, way), nsvcd__v_load(c->inverse + l)), 0, 1);
-      const nsvcd__v3 off = nsvcd__v3_fma(tau, way, d);
+          nsvcd__v_mul(nsvcd__v3_dot(d, travel), nsvcd__v_load(c->inverse + l)), 0, 1);
+      const nsvcd__v3 off = nsvcd__v3_fma(tau, travel, d);
       const nsvcd__v between =
-          nsvcd__v_sub(nsvcd__v3_length(off), nsvcd__v_load(c->reach + l));
+          nsvcd__v_sub(nsvcd__v3_length(off), nsvcd__v_load(c->radius + l));
       nearer |= nsvcd__v_lt(between, nsvcd__v_set(*gap + fixed.radius)) << l;
       nsvcd__v_store(gaps + l, between);
       nsvcd__v_store(fraction + l, tau);
@@ -15739,7 +15794,7 @@ static NSVCD__NOINLINE double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__sea
   }
   if (!(least <= p->given.clearance)) return least;
   p->ask.clearance = least;
-  p->ask.limit = p->work + NSVCD__LOOK;
+  p->ask.limit = p->work + NSVCD__END_BUDGET;
   (void)nsvcd__find_witness(p, nearest[0], nearest[1], from, fraction);
   return p->known.has_contact ? p->known.found.distance : least;
 }
@@ -15832,8 +15887,8 @@ static void nsvcd__next_interval(nsvcd__motion *motion, nsvcd__search *search, u
 // How near the surfaces come in the interval that is chosen, at least, by where the bodies are.
 static float nsvcd__apart_until(const nsvcd__proof *p, uint32_t until) {
   const nsvcd__motion *motion = p->ask.motion;
-  const float lifted = 1.0001f * nsvcd__f3_length(motion->lift);
-  return nsvcd__interval_gap(motion, motion->from, until) - p->given.lengths - lifted;
+  const float pushed_out = 1.0001f * nsvcd__f3_length(motion->push_out);
+  return nsvcd__interval_gap(motion, motion->from, until) - p->given.lengths - pushed_out;
 }
 
 // Searches an interval, or tries a larger one. share: as p->ask.share, of an interval; 0: any
@@ -15852,7 +15907,7 @@ static nsvcd__outcome nsvcd__prove_interval(nsvcd__proof *p, nsvcd__search *sear
 // A look at the ends of a motion.
 static int nsvcd__meets_at_ends(nsvcd__proof *p, nsvcd__search *search) {
   const size_t fraction = p->given.aside;
-  const size_t units = fraction < NSVCD__LOOK ? fraction : NSVCD__LOOK;
+  const size_t units = fraction < NSVCD__END_BUDGET ? fraction : NSVCD__END_BUDGET;
   return nsvcd__meets_at(p, search, 0, units) || nsvcd__meets_at(p, search, 1, units);
 }
 
@@ -15906,17 +15961,17 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
 static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__motion *motion = p->ask.motion;
   const int in_order = p->ask.fraction > 0;
-  const float lifted = nsvcd__f3_length(motion->lift);
-  const float apart = p->given.lengths + nsvcd__clearance(p) + 1.0001f * lifted;
+  const float pushed_out = nsvcd__f3_length(motion->push_out);
+  const float apart = p->given.lengths + nsvcd__clearance(p) + 1.0001f * pushed_out;
   nsvcd__outcome outcome;
   p->ask.limit = p->given.work;
   p->ask.after_unresolved = in_order ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.aside;
   if (nsvcd__motion_gap(motion) > apart) return NSVCD__FOUND_FREE;
   const int is_long = nsvcd__is_long(motion, search);
-  if (nsvcd__starts_within(p)) {
+  if (nsvcd__is_contained_at_start(p)) {
     // a hit, whatever else; who asks for more than that is told of triangles, if some meet as well
-    const int meets = p->given.tells && nsvcd__meets_at(p, search, 0, NSVCD__GLANCE);
-    return meets ? NSVCD__FOUND_CONTACT : nsvcd__is_within(p);
+    const int meets = p->given.tells && nsvcd__meets_at(p, search, 0, NSVCD__INSIDE_BUDGET);
+    return meets ? NSVCD__FOUND_CONTACT : nsvcd__found_inside(p);
   }
   if (is_long)
     outcome = nsvcd__prove_intervals(p, search);
@@ -15926,7 +15981,7 @@ static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
     outcome = nsvcd__prove_and_look(p, search, p->given.work);
   const double clear = nsvcd__clear_until(p);
   if (outcome == NSVCD__ANSWERED) return NSVCD__FOUND_CONTACT;
-  if (p->within && clear > 0) return nsvcd__is_within(p);
+  if (p->inside && clear > 0) return nsvcd__found_inside(p);
   if (p->known.has_contact) return NSVCD__FOUND_CONTACT;
   if (p->known.unresolved < NSVCD__NEVER) p->known.found = p->known.unresolved_pair;
   return clear < NSVCD__NEVER ? NSVCD__FOUND_NEITHER : NSVCD__FOUND_FREE;
@@ -15982,8 +16037,8 @@ static NSVCD__NOINLINE void nsvcd__measure(nsvcd__proof *p, nsvcd__search *searc
                                            nsvcd__finding verdict, double finest) {
   nsvcd__motion *motion = p->ask.motion;
   int is_named = p->known.has_contact || p->known.unresolved < NSVCD__NEVER;
-  const float lifted = nsvcd__f3_length(motion->lift);
-  const float gap = nsvcd__motion_gap(motion) - p->given.lengths - 1.0001f * lifted;
+  const float pushed_out = nsvcd__f3_length(motion->push_out);
+  const float gap = nsvcd__motion_gap(motion) - p->given.lengths - 1.0001f * pushed_out;
   p->low = nsvcd__max(verdict == NSVCD__FOUND_FREE ? p->given.clearance : 0, (double)gap);
   const int is_long = nsvcd__is_long(motion, search);
   nsvcd__pace pace = {0, 0};
@@ -15999,33 +16054,33 @@ static NSVCD__NOINLINE void nsvcd__measure(nsvcd__proof *p, nsvcd__search *searc
 #endif  // NSVCD_NO_PROOF
 
 // ------------------------------------------------------------------------------------- proof/leave
-// In: a question with a skin. Out: the question about a body lifted off what it touches at the
+// In: a question with a slop. Out: the question about a body pushed out of what it touches at the
 // start.
 //
 // What carries a body must not stop it. Which contacts are those? The body is asked about as if it
-// were lifted off all that it touches at the start, by a vector v that has the skin's length along
-// every normal there. That is a motion like any other, and what is proven of it is proven: the body
-// stays clear of everything when displaced by v, so that, undisplaced, it goes no deeper than |v|
-// into anything. What presses in deeper than the skin at the start has no such v, nor has what is
-// held from opposite sides, and is hit as ever. v is constant as the fixed body sees it.
+// were pushed out of all that it touches at the start, by a vector v that has the slop's length
+// along every normal there. That is a motion like any other, and what is proven of it is proven:
+// the body stays clear of everything when displaced by v, so that, undisplaced, it goes no deeper
+// than |v| into anything. What presses in deeper than the slop at the start has no such v, nor has
+// what is held from opposite sides, and is hit as ever. v is constant as the fixed body sees it.
 
 #ifndef NSVCD_NO_PROOF
-// How good a lift along a direction is: twice how many touches it undoes, how far it has to go for
-// that, and how many of these have a face that says so. A touch counts once where the lift goes
-// against its faces: what is beyond a face already, or round and its middle is, would go further
-// in.
+// How good a push-out along a direction is: twice how many touches it undoes, how far it has to go
+// for that, and how many of these have a face that says so. A touch counts once where the push-out
+// goes against its faces: what is beyond a face already, or round and its middle is, would go
+// further in.
 typedef struct nsvcd__undoing {
   nsvcd__d3 n;
   size_t count, faces;
-  double way;
+  double distance;
 } nsvcd__undoing;
 
-// Does a lift along n go against all faces of a touch? What has no area has none.
-static int nsvcd__is_against(nsvcd__d3 n, const nsvcd__touch *t) {
+// Does a push-out along n go against all faces of a touch? What has no area has none.
+static int nsvcd__is_against(nsvcd__d3 n, const nsvcd__triangle_contact *t) {
   int against = 0;
   for (size_t i = 0; i < 2; i++) {
-    const int is_face = nsvcd__d3_dot(t->ways[i], t->ways[i]) > 0.5;
-    if (is_face && nsvcd__d3_dot(n, t->ways[i]) > -0.3) return 0;
+    const int is_face = nsvcd__d3_dot(t->directions[i], t->directions[i]) > 0.5;
+    if (is_face && nsvcd__d3_dot(n, t->directions[i]) > -0.3) return 0;
     against |= is_face;
   }
   return against;
@@ -16033,183 +16088,186 @@ static int nsvcd__is_against(nsvcd__d3 n, const nsvcd__touch *t) {
 
 // Takes a direction, unit, that is better than the best so far: that undoes more; of equals, that
 // goes less far; and of those that go as far, that more faces say.
-static void nsvcd__try_lift(const nsvcd__proof *p, nsvcd__d3 n, nsvcd__undoing *best) {
-  const double same = nsvcd__epsilon(p) + 0.01 * nsvcd__max(best->way, 0);
+static void nsvcd__try_push_out(const nsvcd__proof *p, nsvcd__d3 n, nsvcd__undoing *best) {
+  const double same = nsvcd__epsilon(p) + 0.01 * nsvcd__max(best->distance, 0);
   nsvcd__undoing by = {n, 0, 0, -HUGE_VAL};
   if (best->count > 0 && nsvcd__d3_dot(n, best->n) > 0.99999) return;
-  for (size_t k = 0; k < p->touch_count; k++) {
-    const nsvcd__touch *t = &p->of.touches[k];
-    const size_t left = 2 * (p->touch_count - k);
+  for (size_t k = 0; k < p->contact_count; k++) {
+    const nsvcd__triangle_contact *t = &p->of.touches[k];
+    const size_t left = 2 * (p->contact_count - k);
     if (by.count + left < best->count) return;
-    if (by.count + left == best->count && by.way > best->way + same) return;
+    if (by.count + left == best->count && by.distance > best->distance + same) return;
     if (!nsvcd__undoes(p, n, t)) continue;
-    const double way = nsvcd__lift_along(n, t);
-    by.count += way < 0 && !p->by_faces && nsvcd__is_against(n, t) ? 1u : 2u;
-    by.faces += nsvcd__d3_dot(n, t->ways[0]) > 0.9 || nsvcd__d3_dot(n, t->ways[1]) > 0.9;
-    by.way = p->by_faces ? 0 : nsvcd__max(by.way, way);
+    const double distance = nsvcd__push_out_along(n, t);
+    by.count += distance < 0 && !p->by_faces && nsvcd__is_against(n, t) ? 1u : 2u;
+    by.faces +=
+        nsvcd__d3_dot(n, t->directions[0]) > 0.9 || nsvcd__d3_dot(n, t->directions[1]) > 0.9;
+    by.distance = p->by_faces ? 0 : nsvcd__max(by.distance, distance);
   }
   if (by.count == 0 || by.count < best->count) return;
-  const int is_as_far = by.way > best->way - same;
-  if (by.count == best->count && by.way > best->way + same) return;
+  const int is_as_far = by.distance > best->distance - same;
+  if (by.count == best->count && by.distance > best->distance + same) return;
   if (by.count == best->count && is_as_far && by.faces <= best->faces) return;
   *best = by;
 }
 
 // Of the normals of what touches, and the directions across an edge of each, the one that undoes
 // the most touches, by the shortest way; its count is 0 if none undoes any.
-static nsvcd__undoing nsvcd__best_lift(const nsvcd__proof *p) {
+static nsvcd__undoing nsvcd__best_push_out(const nsvcd__proof *p) {
   nsvcd__undoing best = {{0, 0, 0}, 0, 0, HUGE_VAL};
-  for (size_t k = 0; k < p->touch_count; k++) {
-    for (size_t i = 0; i < 3; i++) nsvcd__try_lift(p, p->of.touches[k].ways[i], &best);
+  for (size_t k = 0; k < p->contact_count; k++) {
+    for (size_t i = 0; i < 3; i++)
+      nsvcd__try_push_out(p, p->of.touches[k].directions[i], &best);
   }
   // an edge on an edge
-  for (size_t k = 0; k < 9 * p->touch_count && best.way > nsvcd__epsilon(p); k++) {
-    const nsvcd__touch *t = &p->of.touches[k / 9];
+  for (size_t k = 0; k < 9 * p->contact_count && best.distance > nsvcd__epsilon(p); k++) {
+    const nsvcd__triangle_contact *t = &p->of.touches[k / 9];
     const nsvcd__d3 n = nsvcd__across_edges(t->moving, t->fixed, k % 9);
-    const nsvcd__d3 out = nsvcd__d3_add(t->ways[0], t->ways[1]);
+    const nsvcd__d3 out = nsvcd__d3_add(t->directions[0], t->directions[1]);
     const double side = nsvcd__d3_dot(n, out) < 0 ? -1 : 1;
-    nsvcd__try_lift(p, nsvcd__d3_scale(n, side), &best);
+    nsvcd__try_push_out(p, nsvcd__d3_scale(n, side), &best);
   }
   return best;
 }
 
 // Finds directions that undo all that was gathered. 0: there are none for something, or too many.
-static int nsvcd__choose_lifts(nsvcd__proof *p) {
+static int nsvcd__choose_push_outs(nsvcd__proof *p) {
   if (p->too_deep) return 0;
-  while (p->touch_count > 0) {
+  while (p->contact_count > 0) {
     const size_t k = p->normal_count;
-    if (k == NSVCD__LIFTS) return 0;
-    const nsvcd__undoing best = nsvcd__best_lift(p);
+    if (k == NSVCD__PUSH_OUTS) return 0;
+    const nsvcd__undoing best = nsvcd__best_push_out(p);
     if (best.count == 0) return 0;
     p->normals[k] = best.n;
     p->depths[k] = 0;
     p->normal_count++;
     size_t left = 0;
-    for (size_t n = 0; n < p->touch_count; n++) {
+    for (size_t n = 0; n < p->contact_count; n++) {
       if (!nsvcd__undone_by(p, k, &p->of.touches[n])) p->of.touches[left++] = p->of.touches[n];
     }
-    p->touch_count = left;
+    p->contact_count = left;
   }
   return 1;
 }
 
 // The shortest vector, nearly, that has `least`, and as much more as the depths say if these count,
 // along all normals that were gathered. 0 if there is none of less than four times the longest.
-static nsvcd__d3 nsvcd__lift_off(const nsvcd__proof *p, double least, int by_depth) {
-  nsvcd__d3 lift = {0, 0, 0};
+static nsvcd__d3 nsvcd__push_out(const nsvcd__proof *p, double least, int by_depth) {
+  nsvcd__d3 push_out = {0, 0, 0};
   double longest = 0;
   for (size_t round = 0; round < 64; round++) {
     double most = 0;
     for (size_t k = 0; k < p->normal_count; k++) {
       const double along = least + (by_depth ? p->depths[k] : 0);
-      const double lacks = along - nsvcd__d3_dot(lift, p->normals[k]);
+      const double lacks = along - nsvcd__d3_dot(push_out, p->normals[k]);
       longest = nsvcd__max(longest, along);
       most = nsvcd__max(most, lacks);
-      if (lacks > 0) lift = nsvcd__d3_add(lift, nsvcd__d3_scale(p->normals[k], lacks));
+      if (lacks > 0) push_out = nsvcd__d3_add(push_out, nsvcd__d3_scale(p->normals[k], lacks));
     }
-    if (nsvcd__d3_length(lift) > 4 * longest) break;
-    if (most <= 0.005 * longest) return lift;
+    if (nsvcd__d3_length(push_out) > 4 * longest) break;
+    if (most <= 0.005 * longest) return push_out;
   }
   return nsvcd__d3_of(0, 0, 0);
 }
 
 // Lifts what rests off what it touches: by nothing at first, and whenever something touches when so
-// lifted, by more, until nothing does. Triangles smaller than the skin can be separated along a
+// pushed out, by more, until nothing does. Triangles smaller than the slop can be separated along a
 // wall that others of them stay in touch with, and there may be too many touches to look at
 // together: so what has been found is tried. If there is no way off all that was found, then what
 // was found first may have been the wrong way, and is forgotten, once. Returns 0 if there is no way
 // off.
-static int nsvcd__lift_still(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion *still) {
+static int nsvcd__push_out_still(nsvcd__proof *p, nsvcd__search *search,
+                                 nsvcd__motion *still) {
   p->normal_count = 0;
-  still->lift = nsvcd__f3_of(0, 0, 0);
-  // what is about to touch, or where a motion may have ended before, is lifted off too; and may not
-  // touch afterwards
-  const double size = (double)p->given.lengths + p->given.round;
-  const double near_by = nsvcd__min(0.05 * p->ask.skin, 0.02 * size);
-  double beside = nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * p->ask.skin));
-  for (int turns = 0;; beside = 0.01 * p->ask.skin) {
+  still->push_out = nsvcd__f3_of(0, 0, 0);
+  // what is about to touch, or where a motion may have ended before, is pushed out of too; and may
+  // not touch afterwards
+  const double size = (double)p->given.lengths + p->given.radius;
+  const double near_by = nsvcd__min(0.05 * p->ask.slop, 0.02 * size);
+  double beside = nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * p->ask.slop));
+  for (int turns = 0;; beside = 0.01 * p->ask.slop) {
     p->ask.clearance = p->given.clearance + beside + nsvcd__epsilon(p);
     (void)nsvcd__prove_anew(p, search);
-    if (p->touch_count == 0) return 1;
+    if (p->contact_count == 0) return 1;
     const size_t known = p->normal_count;
-    if (!nsvcd__choose_lifts(p) || p->normal_count == known) return 0;
-    nsvcd__d3 lift = nsvcd__lift_off(p, p->ask.skin, 0);
-    if (!(nsvcd__d3_dot(lift, lift) > 0) && turns++ == 0) {
+    if (!nsvcd__choose_push_outs(p) || p->normal_count == known) return 0;
+    nsvcd__d3 push_out = nsvcd__push_out(p, p->ask.slop, 0);
+    if (!(nsvcd__d3_dot(push_out, push_out) > 0) && turns++ == 0) {
       memmove(p->normals, p->normals + 1, --p->normal_count * sizeof *p->normals);
       memmove(p->depths, p->depths + 1, p->normal_count * sizeof *p->depths);
-      lift = nsvcd__lift_off(p, p->ask.skin, 0);
+      push_out = nsvcd__push_out(p, p->ask.slop, 0);
     }
-    if (!(nsvcd__d3_dot(lift, lift) > 0)) return 0;
-    still->lift = nsvcd__f3_round(lift);
+    if (!(nsvcd__d3_dot(push_out, push_out) > 0)) return 0;
+    still->push_out = nsvcd__f3_round(push_out);
   }
 }
 
 // The normal along which a touch is undone first, by planes normal to it.
-static size_t nsvcd__way_of(const nsvcd__proof *p, const nsvcd__touch *t) {
+static size_t nsvcd__way_of(const nsvcd__proof *p, const nsvcd__triangle_contact *t) {
   size_t best = 0;
   double least = HUGE_VAL;
   for (size_t k = 0; k < p->normal_count; k++) {
-    const double way = nsvcd__lift_along(p->normals[k], t);
-    if (way < least) best = k;
-    least = nsvcd__min(least, way);
+    const double distance = nsvcd__push_out_along(p->normals[k], t);
+    if (distance < least) best = k;
+    least = nsvcd__min(least, distance);
   }
   return best;
 }
 
-// What is not in touch at the start may be where the body is lifted to, and there may have been too
-// many touches: so it is lifted by little more than the depths that are known, to see what it
-// touches there, until that is no more. Triangles that follow each other, as on a slope, each come
-// free soon: so that little more doubles as long as the depth grows.
+// What is not in touch at the start may be where the body is pushed out to, and there may have been
+// too many touches: so it is pushed out by little more than the depths that are known, to see what
+// it touches there, until that is no more. Triangles that follow each other, as on a slope, each
+// come free soon: so that little more doubles as long as the depth grows.
 static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion *still) {
-  const nsvcd__f3 lift = still->lift;
+  const nsvcd__f3 push_out = still->push_out;
   const double least_more = 0.5 * nsvcd__epsilon(p);
   double more = least_more;
   p->ask.clearance = p->given.clearance;
   for (int round = 0; round < NSVCD__DEEPEN; round++) {
-    const nsvcd__d3 least = nsvcd__lift_off(p, more, 1);
+    const nsvcd__d3 least = nsvcd__push_out(p, more, 1);
     double before = 0;
     double after = 0;
     for (size_t k = 0; k < p->normal_count; k++) before += p->depths[k];
-    still->lift = nsvcd__f3_round(least);
+    still->push_out = nsvcd__f3_round(least);
     (void)nsvcd__prove_anew(p, search);
-    // what no plane normal to a lift parts is out of the way after it all the same
-    for (size_t n = 0; n < p->touch_count; n++)
+    // what no plane normal to a push-out parts is out of the way after it all the same
+    for (size_t n = 0; n < p->contact_count; n++)
       nsvcd__note_depth(p, nsvcd__way_of(p, &p->of.touches[n]), &p->of.touches[n]);
     for (size_t k = 0; k < p->normal_count; k++) after += p->depths[k];
     const int is_deeper = after > before;
     if (!is_deeper && more <= nsvcd__max(least_more, 0.002 * after)) break;
     more = is_deeper ? 2 * more : nsvcd__max(least_more, 0.125 * more);
   }
-  still->lift = lift;
+  still->push_out = push_out;
 }
 
-// Lifts the motion off what it touches at its start, by the skin. Where something is in the way of
+// Lifts the motion off what it touches at its start, by the slop. Where something is in the way of
 // that, and nothing is too deep, by what is needed.
-static NSVCD__NOINLINE void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *search) {
+static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__motion *whole = p->ask.motion;
   nsvcd__motion start = nsvcd__end_of(whole, 0);
   p->ask.motion = &start;
   p->ask.collects = NSVCD__TOUCHING;
-  p->ask.skin = p->given.skin;
+  p->ask.slop = p->given.slop;
   p->by_faces = 0;
   p->needed = 0;
-  int is_free = nsvcd__lift_still(p, search, &start);
+  int is_free = nsvcd__push_out_still(p, search, &start);
   if (!is_free && !p->too_deep) {
     // the shortest ways may not go together
     p->by_faces = 1;
     p->needed = 0;
-    is_free = nsvcd__lift_still(p, search, &start);
+    is_free = nsvcd__push_out_still(p, search, &start);
   }
   const double least = 1.1 * p->needed + 4 * nsvcd__epsilon(p);
-  if (!is_free && p->touch_count == 0 && least < 0.9 * p->given.skin) {
-    p->ask.skin = least;
-    is_free = nsvcd__lift_still(p, search, &start);
+  if (!is_free && p->contact_count == 0 && least < 0.9 * p->given.slop) {
+    p->ask.slop = least;
+    is_free = nsvcd__push_out_still(p, search, &start);
   }
   if (is_free && p->normal_count > 0) nsvcd__deepen(p, search, &start);
   p->ask.collects = NSVCD__CONTACTS;
   p->ask.clearance = p->given.clearance;
   p->ask.motion = whole;
-  whole->lift = is_free ? start.lift : nsvcd__f3_of(0, 0, 0);
+  whole->push_out = is_free ? start.push_out : nsvcd__f3_of(0, 0, 0);
   nsvcd__proof_restart(p);
 }
 #endif  // NSVCD_NO_PROOF
@@ -16243,7 +16301,7 @@ static const nsvcd__arc *nsvcd__arc_before(nsvcd__proof *p, double tick, double 
 // The triangles of a contact at a time, and how the bodies go then.
 typedef struct nsvcd__approach {
   nsvcd__triangle_pair pair;
-  nsvcd__touch touch;
+  nsvcd__triangle_contact contact;
   nsvcd__twist twist;
   double u;
 } nsvcd__approach;
@@ -16253,12 +16311,12 @@ static NSVCD__NOINLINE void nsvcd__approach_at(nsvcd__proof *p,
                                                nsvcd__approach *out) {
   const nsvcd__arc *arc = nsvcd__arc_before(p, tick, &out->u);
   const nsvcd__dtransform at = nsvcd__dtransform_at(arc, out->u);
-  out->pair = nsvcd__pair_of(p, found->moving_patch, found->fixed_patch, found->moving_listing,
-                             found->fixed_listing);
-  nsvcd__place_triangle(&at, out->pair.moving, out->touch.moving);
-  memcpy(out->touch.fixed, out->pair.fixed, sizeof out->touch.fixed);
-  out->touch.ways[0] = nsvcd__d3_scale(nsvcd__face_direction(out->touch.moving), -1);
-  out->touch.ways[1] = nsvcd__face_direction(out->touch.fixed);
+  out->pair = nsvcd__pair_of(p, found->moving_patch, found->fixed_patch, found->moving_entry,
+                             found->fixed_entry);
+  nsvcd__place_triangle(&at, out->pair.moving, out->contact.moving);
+  memcpy(out->contact.fixed, out->pair.fixed, sizeof out->contact.fixed);
+  out->contact.directions[0] = nsvcd__d3_scale(nsvcd__face_direction(out->contact.moving), -1);
+  out->contact.directions[1] = nsvcd__face_direction(out->contact.fixed);
   out->twist = nsvcd__twist_at(arc, out->u);
 }
 
@@ -16281,7 +16339,7 @@ static NSVCD__NOINLINE void nsvcd__turn_back(nsvcd__proof *p, double since) {
   for (size_t k = 0; k < NSVCD__HALVINGS && early < late; k++) {
     nsvcd__approach then;
     nsvcd__approach_at(p, found, tick, &then);
-    const nsvcd__nearest nearest = nsvcd__nearest_of(then.touch.moving, then.touch.fixed);
+    const nsvcd__nearest nearest = nsvcd__nearest_of(then.contact.moving, then.contact.fixed);
     const double gap = sqrt(nearest.square);
     const int are_near = k == 0 || gap <= found->distance + then.pair.rounding;
     const int nearing = gap > then.pair.rounding && !nsvcd__recede(&then.twist, &nearest);
@@ -16296,60 +16354,62 @@ static NSVCD__NOINLINE void nsvcd__turn_back(nsvcd__proof *p, double since) {
 // The directions along which two triangles that touch may be separated: two normals and nine
 // products of edges, both ways. 0: none.
 enum { NSVCD__AXES = 22 };
-static nsvcd__d3 nsvcd__axis_apart(const nsvcd__touch *t, size_t k) {
+static nsvcd__d3 nsvcd__axis_apart(const nsvcd__triangle_contact *t, size_t k) {
   const nsvcd__d3 n =
-      k < 4 ? t->ways[1 - k / 2] : nsvcd__across_edges(t->moving, t->fixed, k / 2 - 2);
+      k < 4 ? t->directions[1 - k / 2] : nsvcd__across_edges(t->moving, t->fixed, k / 2 - 2);
   return nsvcd__d3_scale(n, k % 2 ? -1 : 1);
 }
 
 // The direction at which two triangles met that touch, if the moving one came straight along so
-// much of `way` or less. 0: it did not. Nearer than they are known it cannot be told which of them
-// a corner met: so it is that a little before.
+// much of `direction` or less. 0: it did not. Nearer than they are known it cannot be told which of
+// them a corner met: so it is that a little before.
 static NSVCD__NOINLINE int nsvcd__met_along(const nsvcd__proof *p, const nsvcd__approach *a,
-                                            nsvcd__d3 way, double most, nsvcd__d3 *normal) {
-  const nsvcd__touch *t = &a->touch;
-  const double close = 16 * nsvcd__epsilon(p) / nsvcd__d3_length(way);
+                                            nsvcd__d3 direction, double most,
+                                            nsvcd__d3 *normal) {
+  const nsvcd__triangle_contact *t = &a->contact;
+  const double close = 16 * nsvcd__epsilon(p) / nsvcd__d3_length(direction);
   double back = HUGE_VAL;  // where they met, as a share of the way
   double before = 0;
   nsvcd__d3 moved[3];
   for (size_t k = 0; k < NSVCD__AXES; k++) {
     const nsvcd__d3 n = nsvcd__axis_apart(t, k);
-    const double fall = -nsvcd__d3_dot(n, way);
-    const double deep = nsvcd__lift_along(n, t);
+    const double fall = -nsvcd__d3_dot(n, direction);
+    const double deep = nsvcd__push_out_along(n, t);
     if (!(fall > 0) || !(deep < back * fall)) continue;
     back = deep / fall;
     before = nsvcd__max(close, 1e4 * a->pair.rounding / fall);
     *normal = n;
   }
   if (!(back < most)) return 0;
-  const nsvcd__d3 off = nsvcd__d3_scale(way, back + before);
+  const nsvcd__d3 off = nsvcd__d3_scale(direction, back + before);
   for (int n = 0; n < 3; n++) moved[n] = nsvcd__d3_sub(t->moving[n], off);
   const nsvcd__nearest nearest = nsvcd__nearest_of(moved, t->fixed);
   const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
-  if (nsvcd__d3_dot(apart, way) < 0) *normal = nsvcd__d3_unit(apart, *normal);
+  if (nsvcd__d3_dot(apart, direction) < 0) *normal = nsvcd__d3_unit(apart, *normal);
   return 1;
 }
 
 // The direction along which two triangles that touch are the least deep in each other; of several
-// the one most against `way`. A face of a closed surface has one side, and no direction is against
-// both faces.
+// the one most against `direction`. A face of a closed surface has one side, and no direction is
+// against both faces.
 static NSVCD__NOINLINE nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p,
-                                                   const nsvcd__approach *a, nsvcd__d3 way) {
+                                                   const nsvcd__approach *a,
+                                                   nsvcd__d3 direction) {
   const int moving_closed = nsvcd__moving_closed(p, &a->pair);
   const int fixed_closed = nsvcd__fixed_closed(p, &a->pair);
-  const nsvcd__touch *t = &a->touch;
+  const nsvcd__triangle_contact *t = &a->contact;
   const double same = 1e4 * a->pair.rounding;
-  nsvcd__d3 best = t->ways[1];
+  nsvcd__d3 best = t->directions[1];
   double least = HUGE_VAL;
   for (size_t k = 0; k < NSVCD__AXES; k++) {
     const nsvcd__d3 n = nsvcd__axis_apart(t, k);
-    const int out_of_a = !moving_closed || nsvcd__d3_dot(n, t->ways[0]) >= -1e-9;
-    const int out_of_b = !fixed_closed || nsvcd__d3_dot(n, t->ways[1]) >= -1e-9;
+    const int out_of_a = !moving_closed || nsvcd__d3_dot(n, t->directions[0]) >= -1e-9;
+    const int out_of_b = !fixed_closed || nsvcd__d3_dot(n, t->directions[1]) >= -1e-9;
     int is_out = out_of_a || out_of_b;
     if (k < 4) is_out = k < 2 ? out_of_b : out_of_a;
     if (!is_out || !(nsvcd__d3_dot(n, n) > 0.5)) continue;
-    const double depth = nsvcd__lift_along(n, t);
-    const double more = nsvcd__d3_dot(nsvcd__d3_sub(best, n), way);
+    const double depth = nsvcd__push_out_along(n, t);
+    const double more = nsvcd__d3_dot(nsvcd__d3_sub(best, n), direction);
     if (depth > least - same && !(depth < least + same && more > 0)) continue;
     best = n;
     least = nsvcd__min(least, depth);
@@ -16364,8 +16424,8 @@ static int nsvcd__normal_met(nsvcd__proof *p, double since, int is_free,
   nsvcd__pair_contact *found = &p->known.found;
   nsvcd__approach_at(p, found, found->tick, now);
   const nsvcd__d3 speed = nsvcd__twist_of(&now->twist, found->point);
-  const nsvcd__d3 way = nsvcd__d3_scale(speed, found->tick - since);
-  return nsvcd__met_along(p, now, way, is_free ? HUGE_VAL : 1, &found->normal);
+  const nsvcd__d3 direction = nsvcd__d3_scale(speed, found->tick - since);
+  return nsvcd__met_along(p, now, direction, is_free ? HUGE_VAL : 1, &found->normal);
 }
 
 // Do two times, in ticks, fall into different arcs?
@@ -16389,7 +16449,7 @@ static NSVCD__NOINLINE void nsvcd__resolve_normal(nsvcd__proof *p) {
   if (has_turned && nsvcd__has_turned(p, since, found->tick)) {
     // these met on the way back alone: but others of the bodies on the way there
     nsvcd__approach_at(p, found, since, &now);
-    const nsvcd__nearest nearest = nsvcd__nearest_of(now.touch.moving, now.touch.fixed);
+    const nsvcd__nearest nearest = nsvcd__nearest_of(now.contact.moving, now.contact.fixed);
     const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
     found->normal = nsvcd__d3_unit(apart, found->normal);
     return;
@@ -16508,24 +16568,24 @@ static NSVCD__NOINLINE void nsvcd__rotate_latent(const int8_t *z, float (*turn)[
 // (Jacobson et al. 2013), and far from the surface each patch is as good as a dipole of its area
 // vector (Barill et al. 2018):
 //   w(x) = sum_i A_i . (p_i - x) / (4 pi |p_i - x|^3)     1 inside, 0 outside
-// Near the surface it is not: a flat disc seen from its covering radius gives 0.25 where 0.146 is
+// Near the surface it is not: a flat slab seen from its covering radius gives 0.25 where 0.146 is
 // true, from half of it 1.0 where 0.28 is true. So the place asked about is the patch centre of the
-// inner body (of NSVCD__PLACES) that is farthest from the outer patches in units of their radii,
-// or, as bodies may be of several parts, up to NSVCD__LOOKS_INSIDE that are far from each other.
+// inner body (of NSVCD__POSITIONS) that is farthest from the outer patches in units of their radii,
+// or, as bodies may be of several parts, up to NSVCD__INSIDE_SAMPLES that are far from each other.
 // Nearer than NSVCD__FAR_ENOUGH the number is not asked for, but inside of a flat patch from
 // NSVCD__FAR_INSIDE on; and where all places are on the inner side of the patch that is nearest, as
 // those of a chip in a table top are, they are inside. Measured at a million places about spheres
 // of 32 to 512 patches, the worst error of w is 0.55 from 0.75 radii on, 0.52 from 1, 0.06 from
-// 1.5; from 1 on, fewer than 1 in 1,000 exceed 0.3.
-// In bodies of more than a tile's patches the sums of area vectors stand for those of whole groups,
-// and of what is above them, where the place is farther than NSVCD__DIPOLE of their spheres' radii:
-// w is then within 0.05 of the sum over all patches (tests/test_level.c).
-// Cost: at most NSVCD__PLACES * N distances each way, where one body's centres lie in the other's
-// sphere and the straight way out of it is barred; of large bodies only those of groups nearby.
+// 1.5; from 1 on, fewer than 1 in 1,000 exceed 0.3. In bodies of more than a tile's patches the
+// sums of area vectors stand for those of whole groups, and of what is above them, where the place
+// is farther than NSVCD__DIPOLE of their spheres' radii: w is then within 0.05 of the sum over all
+// patches (tests/test_level.c). Cost: at most NSVCD__POSITIONS * N distances each way, where one
+// body's centres lie in the other's sphere and the straight way out of it is barred; of large
+// bodies only those of groups nearby.
 
 #ifndef NSVCD_NO_NETWORK
 // places of the inner body that are looked at
-#define NSVCD__PLACES NSVCD__LANES
+#define NSVCD__POSITIONS NSVCD__LANES
 // Distances, in radii. A place is far enough if no patch is nearer than this,
 #define NSVCD__FAR_ENOUGH 1.0f
 // or than this, on the inner side of the nearest one,
@@ -16534,20 +16594,20 @@ static NSVCD__NOINLINE void nsvcd__rotate_latent(const int8_t *z, float (*turn)[
 #define NSVCD__AMPLE 2.0f
 // and the patches of a sphere that is farther than this count as one
 #define NSVCD__DIPOLE 3.0f
-// A patch is flat if its area vector is at least this share of its ball's disc.
+// A patch is flat if its area vector is at least this share of its ball's slab.
 #define NSVCD__FLAT 0.4f
 // places that are far enough, and asked about: bodies may be of several parts
-#define NSVCD__LOOKS_INSIDE 4
+#define NSVCD__INSIDE_SAMPLES 4
 
-// A filter of a walk: spheres whose members may be nearer to one of the places than NSVCD__AMPLE of
-// their radii. A member (p, r) of a sphere (c, R) has |p - c| + r <= R, so that |p - x| / r is at
-// least |c - x| / R.
+// A filter of a traversal: spheres whose members may be nearer to one of the places than
+// NSVCD__AMPLE of their radii. A member (p, r) of a sphere (c, R) has |p - c| + r <= R, so that |p
+// - x| / r is at least |c - x| / R.
 static uint32_t nsvcd__may_be_close(const void *what, nsvcd__spheres all) {
-  const nsvcd__sphere *places = (const nsvcd__sphere *)what;
-  const nsvcd__v radius = nsvcd__v_set(places->radius);
+  const nsvcd__sphere *positions = (const nsvcd__sphere *)what;
+  const nsvcd__v radius = nsvcd__v_set(positions->radius);
   uint32_t close = 0;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 centre = nsvcd__v3_set(places->centre);
+    const nsvcd__v3 centre = nsvcd__v3_set(positions->centre);
     const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(all, l), centre);
     const nsvcd__v r = nsvcd__v_load(all.r + l);
     const nsvcd__v ample = nsvcd__v_fma(r, nsvcd__v_set(NSVCD__AMPLE), radius);
@@ -16557,24 +16617,24 @@ static uint32_t nsvcd__may_be_close(const void *what, nsvcd__spheres all) {
 }
 
 // Where places lie about a body.
-typedef struct nsvcd__places {
-  float at[3][NSVCD__PLACES];
+typedef struct nsvcd__positions {
+  float at[3][NSVCD__POSITIONS];
   // Least |p_i - x| / r_i, squared, over its patches, AMPLE squared at most
-  float square[NSVCD__PLACES];
-  // of the patch nearest, as a disc of its area: the squared distance, and the height over it,
+  float square[NSVCD__POSITIONS];
+  // of the patch nearest, as a slab of its area: the squared distance, and the height over it,
   // which is negative inside, but where the patch is not flat
-  float nearest[NSVCD__PLACES], height[NSVCD__PLACES];
-} nsvcd__places;
+  float nearest[NSVCD__POSITIONS], height[NSVCD__POSITIONS];
+} nsvcd__positions;
 
 // Fills in what follows from where they are.
-static void nsvcd__places_measure(const nsvcd_body *body, nsvcd__places *out) {
+static void nsvcd__positions_measure(const nsvcd_body *body, nsvcd__positions *out) {
   const nsvcd__spheres patches = nsvcd__body_patches(body);
   const nsvcd__v zero = nsvcd__v_set(0);
   nsvcd__f3 low = nsvcd__f3_of(HUGE_VALF, HUGE_VALF, HUGE_VALF);
   nsvcd__f3 high = nsvcd__f3_scale(low, -1);
-  nsvcd__walk walk;
+  nsvcd__traversal traversal;
   size_t g;
-  for (size_t k = 0; k < NSVCD__PLACES; k++) {
+  for (size_t k = 0; k < NSVCD__POSITIONS; k++) {
     low = nsvcd__f3_min(low, nsvcd__lane_of(out->at, k));
     high = nsvcd__f3_max(high, nsvcd__lane_of(out->at, k));
     out->square[k] = NSVCD__AMPLE * NSVCD__AMPLE;
@@ -16584,12 +16644,12 @@ static void nsvcd__places_measure(const nsvcd_body *body, nsvcd__places *out) {
   nsvcd__sphere over;  // all places
   over.centre = nsvcd__f3_add(nsvcd__f3_scale(low, 0.5f), nsvcd__f3_scale(high, 0.5f));
   over.radius = nsvcd__f3_length(nsvcd__f3_sub(high, over.centre));
-  nsvcd__walk_begin(&walk, body, nsvcd__may_be_close, &over);
-  while (nsvcd__walk_next(&walk, &g)) {
+  nsvcd__traversal_begin(&traversal, body, nsvcd__may_be_close, &over);
+  while (nsvcd__traversal_next(&traversal, &g)) {
     const size_t next = NSVCD__GROUP * (g + 1);
     const size_t end = next < body->patches ? next : body->patches;
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 place = nsvcd__v3_load(out->at, l);
+      const nsvcd__v3 position = nsvcd__v3_load(out->at, l);
       nsvcd__v least = nsvcd__v_load(out->square + l);
       nsvcd__v nearest = nsvcd__v_load(out->nearest + l);
       nsvcd__v height = nsvcd__v_load(out->height + l);
@@ -16598,7 +16658,7 @@ static void nsvcd__places_measure(const nsvcd_body *body, nsvcd__places *out) {
         const nsvcd__f3 area = nsvcd__f3_get(nsvcd__body_areas(body) + i, body->padded);
         const float size = nsvcd__f3_length(area);
         const nsvcd__f3 normal = nsvcd__f3_scale(area, size > 0 ? 1 / size : 0);
-        const nsvcd__v3 d = nsvcd__v3_sub(place, nsvcd__v3_set(patch.centre));
+        const nsvcd__v3 d = nsvcd__v3_sub(position, nsvcd__v3_set(patch.centre));
         const nsvcd__v square = nsvcd__v3_dot(d, d);
         const float own = patch.radius * patch.radius;
         const float inverse = 1 / (own > 1e-37f ? own : 1e-37f);
@@ -16678,16 +16738,16 @@ static float nsvcd__winding_number(const nsvcd_body *body, nsvcd__f3 point) {
 }
 
 // The place that is far enough from the surface and farthest from those marked; none: PLACES.
-static size_t nsvcd__next_place(nsvcd__places *places, uint32_t marked) {
-  size_t next = NSVCD__PLACES;
+static size_t nsvcd__next_position(nsvcd__positions *positions, uint32_t marked) {
+  size_t next = NSVCD__POSITIONS;
   float most = -1;
-  for (size_t k = 0; k < NSVCD__PLACES; k++) {
-    float least = places->square[k];
-    const float needed = places->height[k] < 0 ? NSVCD__FAR_INSIDE : NSVCD__FAR_ENOUGH;
+  for (size_t k = 0; k < NSVCD__POSITIONS; k++) {
+    float least = positions->square[k];
+    const float needed = positions->height[k] < 0 ? NSVCD__FAR_INSIDE : NSVCD__FAR_ENOUGH;
     if (least < needed * needed || marked >> k & 1) continue;
     for (uint32_t left = marked; left; left &= left - 1) {
-      const nsvcd__f3 other = nsvcd__lane_of(places->at, nsvcd__low_bit(left));
-      const nsvcd__f3 d = nsvcd__f3_sub(nsvcd__lane_of(places->at, k), other);
+      const nsvcd__f3 other = nsvcd__lane_of(positions->at, nsvcd__low_bit(left));
+      const nsvcd__f3 d = nsvcd__f3_sub(nsvcd__lane_of(positions->at, k), other);
       const float square = nsvcd__f3_dot(d, d);
       least = square < least || left == marked ? square : least;
     }
@@ -16699,16 +16759,16 @@ static size_t nsvcd__next_place(nsvcd__places *places, uint32_t marked) {
 
 // Does a patch's ball lie on the straight way out of a body, from its centre on? A place from which
 // there is none is outside: a closed surface would bar the way.
-static int nsvcd__way_out_is_barred(const nsvcd_body *body, nsvcd__f3 place) {
-  const nsvcd__f3 away = nsvcd__f3_sub(place, nsvcd__f3_load(body->centre));
+static int nsvcd__way_out_is_barred(const nsvcd_body *body, nsvcd__f3 position) {
+  const nsvcd__f3 away = nsvcd__f3_sub(position, nsvcd__f3_load(body->centre));
   const float length = nsvcd__f3_length(away);
   const nsvcd__f3 along = nsvcd__f3_scale(away, length > 0 ? 1 / length : 0);
-  const nsvcd__beam out = {place, along, NSVCD__ROUNDING * body->extent};
+  const nsvcd__beam out = {position, along, NSVCD__ROUNDING * body->extent};
   const nsvcd__spheres patches = nsvcd__body_patches(body);
-  nsvcd__walk walk;
+  nsvcd__traversal traversal;
   size_t g;
-  nsvcd__walk_begin(&walk, body, nsvcd__is_on_beam, &out);
-  while (nsvcd__walk_next(&walk, &g)) {
+  nsvcd__traversal_begin(&traversal, body, nsvcd__is_on_beam, &out);
+  while (nsvcd__traversal_next(&traversal, &g)) {
     if (nsvcd__is_on_beam(&out, nsvcd__spheres_from(patches, NSVCD__GROUP * g))) return 1;
   }
   return 0;
@@ -16720,40 +16780,41 @@ static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, fl
                             const nsvcd__transform *pose) {
   const nsvcd__spheres patches = nsvcd__body_patches(inner);
   const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_load(outer->centre));
-  nsvcd__places places;
-  uint32_t within = 0;
+  nsvcd__positions positions;
+  uint32_t inside = 0;
   uint32_t marked = 0;
   uint32_t below = 0;
   if (outer->open) return 0;
-  for (size_t k = 0; k < NSVCD__PLACES; k++) {
+  for (size_t k = 0; k < NSVCD__POSITIONS; k++) {
     // neighbours are stored together: equal steps spread over it
-    const nsvcd__f3 own = nsvcd__centre_of(patches, k * inner->patches / NSVCD__PLACES);
+    const nsvcd__f3 own = nsvcd__centre_of(patches, k * inner->patches / NSVCD__POSITIONS);
     const nsvcd__f3 turned = nsvcd__mat3_apply(&pose->rotation, own);
-    const nsvcd__f3 place = nsvcd__f3_add(nsvcd__f3_scale(turned, scale), pose->position);
-    nsvcd__lane_set(place, places.at, k);
+    const nsvcd__f3 position = nsvcd__f3_add(nsvcd__f3_scale(turned, scale), pose->position);
+    nsvcd__lane_set(position, positions.at, k);
   }
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_load(places.at, l), centre);
-    within |= nsvcd__v_le(nsvcd__v3_length(off), nsvcd__v_set(outer->radius)) << l;
+    const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_load(positions.at, l), centre);
+    inside |= nsvcd__v_le(nsvcd__v3_length(off), nsvcd__v_set(outer->radius)) << l;
   }
-  for (uint32_t left = within; left; left &= left - 1) {
+  for (uint32_t left = inside; left; left &= left - 1) {
     const size_t k = nsvcd__low_bit(left);
-    if (!nsvcd__way_out_is_barred(outer, nsvcd__lane_of(places.at, k))) within &= ~(1u << k);
+    if (!nsvcd__way_out_is_barred(outer, nsvcd__lane_of(positions.at, k)))
+      inside &= ~(1u << k);
   }
-  if (!within) return 0;
-  nsvcd__places_measure(outer, &places);
-  for (size_t k = 0; k < NSVCD__PLACES; k++) {
-    if (!(within >> k & 1)) places.square[k] = 0;
-    below |= (uint32_t)(places.height[k] < 0) << k;
+  if (!inside) return 0;
+  nsvcd__positions_measure(outer, &positions);
+  for (size_t k = 0; k < NSVCD__POSITIONS; k++) {
+    if (!(inside >> k & 1)) positions.square[k] = 0;
+    below |= (uint32_t)(positions.height[k] < 0) << k;
   }
   // near the surface everywhere, and on the inner side
-  if (within == 0xffff && below == 0xffff) return 1;
-  for (size_t n = 0; n < NSVCD__LOOKS_INSIDE; n++) {
-    const size_t k = nsvcd__next_place(&places, marked);
-    if (k == NSVCD__PLACES) break;
+  if (inside == 0xffff && below == 0xffff) return 1;
+  for (size_t n = 0; n < NSVCD__INSIDE_SAMPLES; n++) {
+    const size_t k = nsvcd__next_position(&positions, marked);
+    if (k == NSVCD__POSITIONS) break;
     marked |= 1u << k;
     // -1 where the mesh is inside out
-    if (fabsf(nsvcd__winding_number(outer, nsvcd__lane_of(places.at, k))) > 0.5f) return 1;
+    if (fabsf(nsvcd__winding_number(outer, nsvcd__lane_of(positions.at, k))) > 0.5f) return 1;
   }
   return 0;
 }
@@ -16820,7 +16881,7 @@ enum {
   NSVCD__FACT_TURN = 7,
   NSVCD__FACT_SPEED = 10,  // the lengths of these two
   NSVCD__FACT_SPIN = 11,
-  // of the gaps between the tips: (GAPS, MOMENTS), and the widest at each moment
+  // of the gaps between the extremes: (GAPS, MOMENTS), and the widest at each moment
   NSVCD__FACT_GAPS = 12,
   NSVCD__FACT_WIDEST = 24,
   // products of the normals: of both, of the larger patch's and the smaller one's with the line
@@ -16868,12 +16929,12 @@ typedef struct nsvcd__pairs {
   nsvcd__v3 v;
   nsvcd__v3 w;  // half rotation vector
   // of both patches, in the bodies' frames: unit normals, or 0 where a patch has none; how flat
-  // they are, which is the normal area over that of the ball's greatest disc; latents; and tips,
-  // (TIPS, 3) at a stride of GROUP
+  // they are, which is the normal area over that of the ball's greatest slab; latents; and
+  // extremes, (TIPS, 3) at a stride of GROUP
   nsvcd__v3 normal[2];
   nsvcd__v flat[2];
   const int8_t *z[2][NSVCD__SLICE];
-  const int8_t *tips[2][NSVCD__SLICE];
+  const int8_t *extremes[2][NSVCD__SLICE];
 } nsvcd__pairs;
 
 // Half the rotation vector of a unit quaternion, from the sine s of half the angle: asin(s) / s
@@ -16941,10 +17002,10 @@ static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const floa
   const nsvcd__v u = nsvcd__v_load(fraction);
   const nsvcd__vquat start = nsvcd__vquat_load(rotation, NSVCD__SLICE);
   const nsvcd__vquat chord = nsvcd__vquat_load(turned, NSVCD__SLICE);
-  const nsvcd__v3 way = nsvcd__v3_load_rows(moved, NSVCD__SLICE);
+  const nsvcd__v3 travel = nsvcd__v3_load_rows(moved, NSVCD__SLICE);
   nsvcd__v_pose out;
   out.rotation = nsvcd__vquat_unit(nsvcd__vquat_fma(u, chord, start));
-  out.position = nsvcd__v3_fma(u, way, nsvcd__v3_load_rows(position, NSVCD__SLICE));
+  out.position = nsvcd__v3_fma(u, travel, nsvcd__v3_load_rows(position, NSVCD__SLICE));
   return out;
 }
 
@@ -17005,7 +17066,7 @@ static NSVCD__NOINLINE void nsvcd__pairs_of(const nsvcd_body *moving, const nsvc
       nsvcd__f3_put(nsvcd__f3_scale(patch.centre, scale), centres[n] + l, NSVCD__SLICE);
       radii[n][l] = scale * patch.radius;
       pairs->z[n][l] = nsvcd__body_latents(body) + NSVCD__LATENT * i;
-      pairs->tips[n][l] = nsvcd__group_tips(body, i / NSVCD__GROUP) + i % NSVCD__GROUP;
+      pairs->extremes[n][l] = nsvcd__group_extremes(body, i / NSVCD__GROUP) + i % NSVCD__GROUP;
       // a patch that is closed has no normal; bodies that were loaded may hold any numbers
       const float inverse = patch.radius > 0 ? 1 / patch.radius : 0;
       const nsvcd__f3 area = nsvcd__f3_get(nsvcd__body_areas(body) + i, body->padded);
@@ -17135,7 +17196,7 @@ static NSVCD__NOINLINE void nsvcd__views_of(const nsvcd__pairs *pairs, nsvcd__vi
 
 // ---- gaps
 
-// Where gaps between tips are measured.
+// Where gaps between extremes are measured.
 typedef struct nsvcd__gap_axes {
   // from the fixed patches to the moving ones
   nsvcd__v3 u[NSVCD__GAPS];
@@ -17155,13 +17216,14 @@ static void nsvcd__gap_axes_of(const nsvcd__pairs *pairs, const nsvcd__views *vi
   axes->u[NSVCD__GAP_BOTH] = nsvcd__v_unit_or(nsvcd__v3_add(fixed, moving), 1e-3f, line);
 }
 
-// The tips of the first `count` pairs of a slice, of the moving patches and of the fixed ones: (2,
-// TIPS, 3, SLICE) steps of 1/127 of the radii, from the centres, in the bodies' frames.
-static void nsvcd__tips_collect(const nsvcd__pairs *pairs, size_t count, int8_t *tips) {
-  memset(tips, 0, 2 * 3 * NSVCD__TIPS * NSVCD__SLICE);
+// The extremes of the first `count` pairs of a slice, of the moving patches and of the fixed ones:
+// (2, TIPS, 3, SLICE) steps of 1/127 of the radii, from the centres, in the bodies' frames.
+static void nsvcd__extremes_collect(const nsvcd__pairs *pairs, size_t count,
+                                    int8_t *extremes) {
+  memset(extremes, 0, 2 * 3 * NSVCD__EXTREMES * NSVCD__SLICE);
   for (size_t n = 0; n < 2; n++) {
-    for (size_t k = 0; k < 3 * NSVCD__TIPS; k++, tips += NSVCD__SLICE) {
-      for (size_t l = 0; l < count; l++) tips[l] = pairs->tips[n][l][NSVCD__GROUP * k];
+    for (size_t k = 0; k < 3 * NSVCD__EXTREMES; k++, extremes += NSVCD__SLICE) {
+      for (size_t l = 0; l < count; l++) extremes[l] = pairs->extremes[n][l][NSVCD__GROUP * k];
     }
   }
 }
@@ -17178,9 +17240,9 @@ static nsvcd__v3 nsvcd__turned_back(nsvcd__v3 u, nsvcd__v3 w) {
 // The gaps along the axes, wide (GAPS), in the fixed body's units, at tau: -1 and 1 are the ends of
 // the interval. Seen from a frame that turns half as fast as the moving patch, in which either
 // patch may be called the one that moves: the line between the centres goes by v, one patch turns
-// by half of w, and the other the opposite way. tips: nsvcd__tips_collect.
+// by half of w, and the other the opposite way. extremes: nsvcd__extremes_collect.
 static NSVCD__NOINLINE void nsvcd__gaps_at(const nsvcd__pairs *pairs,
-                                           const nsvcd__gap_axes *axes, const int8_t *tips,
+                                           const nsvcd__gap_axes *axes, const int8_t *extremes,
                                            nsvcd__v tau, nsvcd__v *wide) {
   const size_t size = 3 * NSVCD__SLICE;
   const nsvcd__v3 half = nsvcd__v3_scale(pairs->w, nsvcd__v_scale(tau, 0.5f));
@@ -17194,9 +17256,9 @@ static NSVCD__NOINLINE void nsvcd__gaps_at(const nsvcd__pairs *pairs,
     low[d] = nsvcd__v_set(1e30f);
     high[d] = nsvcd__v_set(-1e30f);
   }
-  for (size_t k = 0; k < NSVCD__TIPS; k++, tips += size) {
-    const nsvcd__v3 q = nsvcd__v3_load_int8(tips, NSVCD__SLICE);
-    const nsvcd__v3 x = nsvcd__v3_load_int8(tips + NSVCD__TIPS * size, NSVCD__SLICE);
+  for (size_t k = 0; k < NSVCD__EXTREMES; k++, extremes += size) {
+    const nsvcd__v3 q = nsvcd__v3_load_int8(extremes, NSVCD__SLICE);
+    const nsvcd__v3 x = nsvcd__v3_load_int8(extremes + NSVCD__EXTREMES * size, NSVCD__SLICE);
     for (size_t d = 0; d < NSVCD__GAPS; d++) {
       low[d] = nsvcd__v_min(low[d], nsvcd__v3_dot(own[d], q));
       high[d] = nsvcd__v_max(high[d], nsvcd__v3_dot(other[d], x));
@@ -17222,15 +17284,15 @@ static nsvcd__v nsvcd__gap_told(nsvcd__v gap, float steep) {
 static NSVCD__NOINLINE void nsvcd__tell_gaps(const nsvcd__pairs *pairs,
                                              const nsvcd__views *view, size_t count,
                                              float (*facts)[NSVCD__SLICE]) {
-  int8_t tips[2 * 3 * NSVCD__TIPS * NSVCD__SLICE];
+  int8_t extremes[2 * 3 * NSVCD__EXTREMES * NSVCD__SLICE];
   nsvcd__gap_axes axes;
   nsvcd__gap_axes_of(pairs, view, &axes);
-  nsvcd__tips_collect(pairs, count, tips);
+  nsvcd__extremes_collect(pairs, count, extremes);
   for (size_t m = 0; m < NSVCD__MOMENTS; m++) {
     const nsvcd__v tau = nsvcd__v_scale(view->time, (float)m - 1);
     nsvcd__v wide[NSVCD__GAPS];
     nsvcd__v widest = nsvcd__v_set(-1e30f);
-    nsvcd__gaps_at(pairs, &axes, tips, tau, wide);
+    nsvcd__gaps_at(pairs, &axes, extremes, tau, wide);
     for (size_t d = 0; d < NSVCD__GAPS; d++) {
       const nsvcd__v gap = nsvcd__v_mul(view->inverse, wide[d]);
       float *to = facts[NSVCD__FACT_GAPS + NSVCD__MOMENTS * d + m];
@@ -17318,8 +17380,8 @@ static NSVCD__NOINLINE void nsvcd__inputs_in(const nsvcd__scenes *scene,
   for (size_t n = 0; n < 2; n++) {
     nsvcd__wigner(&scene->turn[n], nsvcd__v_mul(scene->k[n], step), wigner);
     for (size_t l = 0; l < count; l++) {
-      const size_t place = (scene->keep >> l & 1) == n;
-      nsvcd__rotate_latent(pairs->z[n][l], wigner, l, place, x + NSVCD__DECODER_IN * l);
+      const size_t slot = (scene->keep >> l & 1) == n;
+      nsvcd__rotate_latent(pairs->z[n][l], wigner, l, slot, x + NSVCD__DECODER_IN * l);
     }
   }
   for (size_t l = 0; l < count; l++) {
@@ -17649,18 +17711,18 @@ static void nsvcd__decoder_says(const nsvcd__decoder *decoder, const float *x, s
 #define NSVCD__SHORTLIST 4
 // new pairs that are worth the first look by the ranker, before the search is done. Later looks
 // wait for NSVCD__BATCH: nsvcd__search_and_judge
-#define NSVCD__FIRST_LOOK 8
+#define NSVCD__FIRST_BATCH 8
 // pairs that such looks may take, times the shortlist: nsvcd__search_and_judge
-#define NSVCD__LOOKS 2
+#define NSVCD__RANKED_TWICE 2
 // pairs that the chosen decoder sees at once, until one is clear: nsvcd__judge; and pairs that are
 // kept where the last of a batch collided: nsvcd__collides_again
 #define NSVCD__PORTION 4
 // that patches swell before planes separate them, shares of their radii, at N = 32 and less the
 // more there are: at a recall of 0.999, and of 0.9999
-#define NSVCD__SWELL 0.04f
-#define NSVCD__SWELL_MOST 0.1f
+#define NSVCD__INFLATE 0.04f
+#define NSVCD__MOST_INFLATE 0.1f
 // and where a distance is asked for: patches are told of within their radii
-#define NSVCD__SWELL_DISTANCE 1.0f
+#define NSVCD__INFLATE_DISTANCE 1.0f
 // a logit so far from 0 is clear. A clear collision needs no second pair (nsvcd__judge), and what
 // is clear to the ranker no second decoder (nsvcd__is_clear): 37,000 answers on held-out
 // sets, N = 128 to 512, are the same as with twice this and the next, but for four
@@ -17682,7 +17744,7 @@ typedef struct nsvcd__settings {
   // subtracted from the decoder's logit
   float threshold;
   // of patches, shares of their radii, before planes separate them
-  float swell;
+  float inflate;
 } nsvcd__settings;
 
 // The candidate that an answer is about, and the decoder that gave its logit.
@@ -17728,7 +17790,7 @@ typedef struct nsvcd__query {
 #endif
 #ifndef NSVCD_NO_PROOF
   nsvcd__proof *proof;
-  nsvcd__span *spans;  // (S)
+  nsvcd__interval *intervals;  // (S)
 #endif
 } nsvcd__query;
 
@@ -17743,7 +17805,7 @@ typedef char nsvcd__constants_hold
          : -1];
 #ifndef NSVCD_NO_PROOF
 typedef char nsvcd__proof_constants_hold
-    [sizeof(nsvcd__proof) <= 24832 && sizeof(nsvcd__span) <= 168 ? 1 : -1];
+    [sizeof(nsvcd__proof) <= 24832 && sizeof(nsvcd__interval) <= 168 ? 1 : -1];
 #endif
 #ifndef NSVCD_NO_NETWORK
 typedef char
@@ -17779,10 +17841,11 @@ static size_t nsvcd__query_layout(const nsvcd__needs *needs, char *base) {
 #endif
 #ifndef NSVCD_NO_PROOF
   uint64_t proof = used;
-  const size_t spans = needs->proof ? needs->segments : 0;
+  const size_t intervals = needs->proof ? needs->segments : 0;
   query->proof =
       (nsvcd__proof *)nsvcd__take(base, &proof, needs->proof != 0, sizeof(nsvcd__proof));
-  query->spans = (nsvcd__span *)nsvcd__take(base, &proof, spans, sizeof(nsvcd__span));
+  query->intervals =
+      (nsvcd__interval *)nsvcd__take(base, &proof, intervals, sizeof(nsvcd__interval));
   end = proof > end ? proof : end;
 #endif
   return (size_t)end;
@@ -17830,7 +17893,7 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t po
                                        size_t points2, nsvcd__settings *settings) {
   if (o->pairs > NSVCD_MAX_PAIRS) return NSVCD_ERROR_PAIRS;
   if ((unsigned)o->model > (unsigned)NSVCD_MODEL_BASE) return NSVCD_ERROR_MODEL;
-  if (!nsvcd__is_finite(o->swell) || o->swell < 0) return NSVCD_ERROR_SWELL;
+  if (!nsvcd__is_finite(o->inflate) || o->inflate < 0) return NSVCD_ERROR_INFLATE;
   if (o->precision != NSVCD_PRECISION_FLOAT && o->precision != NSVCD_PRECISION_INT8)
     return NSVCD_ERROR_PRECISION;
   const nsvcd_model model = o->model ? o->model : NSVCD__LARGEST_MODEL;
@@ -17860,9 +17923,9 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t po
     const float high = nsvcd_w_threshold[decoder][row + 1][k];
     settings->threshold = low + (at - (float)row) * (high - low);
     float least = 0;
-    if (k == 2) least = NSVCD__SWELL * 32 / n;
-    if (k == 3) least = NSVCD__SWELL_MOST * 32 / n;
-    settings->swell = fmaxf(o->swell, least);
+    if (k == 2) least = NSVCD__INFLATE * 32 / n;
+    if (k == 3) least = NSVCD__MOST_INFLATE * 32 / n;
+    settings->inflate = fmaxf(o->inflate, least);
     return NSVCD_OK;
   }
   return NSVCD_ERROR_RECALL;
@@ -18023,7 +18086,7 @@ static NSVCD__NOINLINE int nsvcd__collides_again(nsvcd__query *query, const nsvc
   const nsvcd__settings *settings = &task->settings;
   nsvcd__candidates kept;
   nsvcd__candidates_start(&kept, query->kept, NSVCD__PORTION);
-  nsvcd__plane_cache_begin(&query->broad_phase, settings->swell);
+  nsvcd__plane_cache_begin(&query->broad_phase, settings->inflate);
   nsvcd__search_patch(&query->broad_phase, task->moving, hint->moving / NSVCD__GROUP,
                       task->fixed, hint->fixed, &kept);
   if (!nsvcd__score(task, &kept, 1, kept.count)) return 0;
@@ -18042,10 +18105,10 @@ static NSVCD__NOINLINE void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_o
   const size_t shortlist = task->settings.shortlist;
   nsvcd__search *search = &query->broad_phase;
   nsvcd__candidates kept;
-  size_t worth = shortlist < NSVCD__FIRST_LOOK ? shortlist : NSVCD__FIRST_LOOK;
-  size_t left = NSVCD__LOOKS * shortlist;
+  size_t worth = shortlist < NSVCD__FIRST_BATCH ? shortlist : NSVCD__FIRST_BATCH;
+  size_t left = NSVCD__RANKED_TWICE * shortlist;
   int clear = 0;
-  nsvcd__plane_cache_begin(search, task->settings.swell);
+  nsvcd__plane_cache_begin(search, task->settings.inflate);
   int more = nsvcd__search_begin(task->moving, task->fixed, ~(uint64_t)0, search);
   if (more && !nsvcd__of_distance(task)) {
     // What collides deeply shows in the first pair of groups, whether or not a plane separates any
@@ -18068,7 +18131,7 @@ static NSVCD__NOINLINE void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_o
     if (!more || left < worth || !nsvcd__score(task, &kept, worth, worth)) continue;
     left -= worth;
     clear = nsvcd__is_clear(task, &kept, 0, NSVCD__CLEAR_LOGIT, out);
-    if (worth == NSVCD__FIRST_LOOK) worth = NSVCD__BATCH;
+    if (worth == NSVCD__FIRST_BATCH) worth = NSVCD__BATCH;
   }
 
   out->candidates = kept.total;
@@ -18080,7 +18143,7 @@ static NSVCD__NOINLINE void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_o
 }
 
 // Is a part of one body inside of the other at the start?
-static NSVCD__NOINLINE int nsvcd__starts_inside(const nsvcd__task *task) {
+static NSVCD__NOINLINE int nsvcd__looks_contained_at_start(const nsvcd__task *task) {
   const nsvcd__transform pose = nsvcd__motion_pose(&task->motion, 0);
   return nsvcd__is_contained(task->moving, task->fixed, task->motion.scale, &pose);
 }
@@ -18103,8 +18166,8 @@ static int nsvcd__ask_network(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opin
   // checked before
   (void)nsvcd__settings_of(&task->question->network, task->moving->patches,
                            task->fixed->patches, &task->settings);
-  if (nsvcd__of_distance(task) && task->question->network.swell <= 0)
-    task->settings.swell = NSVCD__SWELL_DISTANCE;
+  if (nsvcd__of_distance(task) && task->question->network.inflate <= 0)
+    task->settings.inflate = NSVCD__INFLATE_DISTANCE;
   *out = nsvcd__certain_opinion(-NSVCD_LOGIT_CERTAIN);
   query->broad_phase.balls_met = 0;
   if (nsvcd__motion_gap(&task->motion) > task->lengths) return 0;
@@ -18120,7 +18183,7 @@ static int nsvcd__ask_network(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opin
   }
 
   // a body inside another need not touch anything
-  if (out->logit > 0 || !nsvcd__starts_inside(task)) return 0;
+  if (out->logit > 0 || !nsvcd__looks_contained_at_start(task)) return 0;
   const size_t candidates = out->candidates;
   *out = nsvcd__certain_opinion(NSVCD_LOGIT_CERTAIN);
   out->candidates = candidates;
@@ -18210,30 +18273,30 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   const nsvcd_question *q = task->question;
   const double unit = (double)task->motion.unit;
   nsvcd__proof *p = query->proof;
-  p->spans = query->spans;
+  p->intervals = query->intervals;
   p->ask.motion = &query->task.motion;
-  p->moving = nsvcd__facets_of(nsvcd__triangles_of(task->moving));
-  p->fixed = nsvcd__facets_of(nsvcd__triangles_of(task->fixed));
+  p->moving = nsvcd__geometry_of(nsvcd__triangles_of(task->moving));
+  p->fixed = nsvcd__geometry_of(nsvcd__triangles_of(task->fixed));
   p->given.lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
   p->given.tolerance = (double)q->tolerance / unit;
-  const double moving_round = (double)p->moving.round * task->motion.ratio;
-  p->given.round = moving_round + (double)p->fixed.round;
-  p->given.clearance = (double)q->clearance / unit + p->given.round;
+  const double moving_radius = (double)p->moving.convex_radius * task->motion.ratio;
+  p->given.radius = moving_radius + (double)p->fixed.convex_radius;
+  p->given.clearance = (double)q->clearance / unit + p->given.radius;
   p->ask.clearance = p->given.clearance;
-  p->given.skin = (double)q->skin / unit;
+  p->given.slop = (double)q->slop / unit;
   const int is_verdict = q->ask != NSVCD_ASK_DISTANCE;
   const size_t most = is_verdict ? NSVCD_DEFAULT_VERDICT_WORK : NSVCD_DEFAULT_WORK;
   p->given.work = p->ask.limit = p->ask.most = q->work ? q->work : most;
   p->given.aside = (q->work ? q->work : NSVCD_DEFAULT_WORK) / NSVCD__AFTER_UNRESOLVED;
   p->given.grows = q->work == 0;
-  p->given.tells = q->ask != NSVCD_ASK_HIT || p->given.skin > 0;
+  p->given.tells = q->ask != NSVCD_ASK_HIT || p->given.slop > 0;
   p->ask.measure = p->ask.first = p->ask.fraction = p->low = p->given.fraction =
       p->given.width = 0;
   p->normal_count = 0;
   p->high = HUGE_VAL;
   p->work = 0;
   p->ask.collects = NSVCD__CONTACTS;
-  p->ask.is_brief = p->within = p->unclear = p->wide = p->starts_free = 0;
+  p->ask.is_brief = p->inside = p->unclear = p->wide = p->starts_free = 0;
   p->in_open = 0;
   const double to = nsvcd__to_of(task);
   p->given.to = q->to > 0 && q->ask == NSVCD_ASK_FIRST ? to : 0;
@@ -18252,7 +18315,7 @@ static float nsvcd__time_above(double time) {
 }
 
 // The contact that a proof has found: when, where, and of what. Where the two were swapped it is
-// the fixed body that counts as lifted, the other way.
+// the fixed body that counts as pushed out, the other way.
 static NSVCD__NOINLINE void nsvcd__tell_contact(const nsvcd__query *query,
                                                 const nsvcd__pair_contact *found,
                                                 nsvcd_contact *out) {
@@ -18262,16 +18325,16 @@ static NSVCD__NOINLINE void nsvcd__tell_contact(const nsvcd__query *query,
   const int rests = motion->moving.count == 1 && !motion->fixed_moves;
   const double time = rests ? 0 : found->tick / (double)motion->ticks;
   const nsvcd__to_world world = nsvcd__to_world_at(motion, time);
-  const nsvcd__d3 lift = nsvcd__d3_scale(nsvcd__d3_widen(motion->lift), task->swapped);
-  const double beyond = fmin((double)p->fixed.round, found->distance);
+  const nsvcd__d3 push_out = nsvcd__d3_scale(nsvcd__d3_widen(motion->push_out), task->swapped);
+  const double beyond = fmin((double)p->fixed.convex_radius, found->distance);
   const nsvcd__d3 on = nsvcd__d3_fma(beyond, found->normal, found->point);
-  const nsvcd__d3 seen = nsvcd__d3_scale(nsvcd__d3_sub(on, lift), world.unit);
+  const nsvcd__d3 seen = nsvcd__d3_scale(nsvcd__d3_sub(on, push_out), world.unit);
   const nsvcd__d3 point =
       nsvcd__d3_add(nsvcd__dmat3_apply(&world.rotation, seen), world.position);
   const nsvcd__d3 normal = nsvcd__dmat3_apply(&world.rotation, found->normal);
   nsvcd__f3_store(nsvcd__f3_round(point), out->point);
   nsvcd__f3_store(nsvcd__f3_round(normal), out->normal);
-  out->gap = (float)(fmax(found->distance - p->given.round, 0) * world.unit);
+  out->gap = (float)(fmax(found->distance - p->given.radius, 0) * world.unit);
   out->time = nsvcd__time_above(time);
   out->triangle_a = found->moving_triangle;
   out->triangle_b = found->fixed_triangle;
@@ -18279,76 +18342,77 @@ static NSVCD__NOINLINE void nsvcd__tell_contact(const nsvcd__query *query,
   out->patch_b = found->fixed_patch;
 }
 
-static nsvcd_pose nsvcd__pose_of(nsvcd__dquat turn, nsvcd__d3 place) {
+static nsvcd_pose nsvcd__pose_of(nsvcd__dquat turn, nsvcd__d3 position) {
   nsvcd_pose out;
   float *q = out.rotation;
   q[0] = (float)turn.x;
   q[1] = (float)turn.y;
   q[2] = (float)turn.z;
   q[3] = (float)turn.w;
-  nsvcd__f3_store(nsvcd__f3_round(place), out.position);
+  nsvcd__f3_store(nsvcd__f3_round(position), out.position);
   return out;
 }
 
-// Where both bodies are at time t, the one that takes the lift displaced by so much, in the fixed
-// one's frame and units. The one that moves takes it; if both do, a.
-static int nsvcd__takes_lift(const nsvcd__task *task) {
+// Where both bodies are at time t, the one that takes the push-out displaced by so much, in the
+// fixed one's frame and units. The one that moves takes it; if both do, a.
+static int nsvcd__takes_push_out(const nsvcd__task *task) {
   return !task->swapped || !(task->motion.fixed_moves || task->motion.moving.count == 1);
 }
-static NSVCD__NOINLINE void nsvcd__poses_at(const nsvcd__task *task, double t, nsvcd__d3 lift,
-                                            nsvcd_pose *moving, nsvcd_pose *fixed) {
+static NSVCD__NOINLINE void nsvcd__poses_at(const nsvcd__task *task, double t,
+                                            nsvcd__d3 push_out, nsvcd_pose *moving,
+                                            nsvcd_pose *fixed) {
   const nsvcd__motion *motion = &task->motion;
-  const int moving_takes_it = nsvcd__takes_lift(task);
+  const int moving_takes_it = nsvcd__takes_push_out(task);
   const nsvcd__to_world world = nsvcd__to_world_at(motion, t);
-  const nsvcd__d3 seen = nsvcd__dmat3_apply(&world.rotation, lift);
+  const nsvcd__d3 seen = nsvcd__dmat3_apply(&world.rotation, push_out);
   for (int n = 0; n < 2; n++) {
     const double by = n == moving_takes_it ? 0 : n ? -world.unit : world.unit;
-    nsvcd__d3 place;
+    nsvcd__d3 position;
     const nsvcd__dquat turn =
-        nsvcd__turn_at(motion, n ? &motion->fixed : &motion->moving, t, &place);
-    place = nsvcd__d3_add(place, nsvcd__d3_scale(seen, by));
-    *(n ? fixed : moving) = nsvcd__pose_of(turn, place);
+        nsvcd__turn_at(motion, n ? &motion->fixed : &motion->moving, t, &position);
+    position = nsvcd__d3_add(position, nsvcd__d3_scale(seen, by));
+    *(n ? fixed : moving) = nsvcd__pose_of(turn, position);
   }
 }
 
 // How far the told poses at time t are from the bodies' own, at most: floats of positions and
 // quaternions are off by 6e-8. In the fixed body's units.
-static double nsvcd__told_within(const nsvcd__proof *p, double t) {
+static double nsvcd__told_allowance(const nsvcd__proof *p, double t) {
   const nsvcd__motion *motion = p->ask.motion;
   nsvcd__d3 moving, fixed;
   (void)nsvcd__turn_at(motion, &motion->moving, t, &moving);
   (void)nsvcd__turn_at(motion, &motion->fixed, t, &fixed);
-  const double places = nsvcd__d3_length(moving) + nsvcd__d3_length(fixed);
-  return 1.3e-7 * (2 * places / (double)motion->unit + (double)p->given.lengths);
+  const double positions = nsvcd__d3_length(moving) + nsvcd__d3_length(fixed);
+  return 1.3e-7 * (2 * positions / (double)motion->unit + (double)p->given.lengths);
 }
 
-// Sets the bodies down at time t, where they are free of each other when lifted as the motion is:
-// to a little more than what they are pressed in by at the start, or to a little before they are in
-// contact. Returns how far they are lifted then, which is proven to be free, and all the way down
-// to it. All else that was known of the question is lost.
+// Sets the bodies down at time t, where they are free of each other when pushed out as the motion
+// is: to a little more than what they are pressed in by at the start, or to a little before they
+// are in contact. Returns how far they are pushed out then, which is proven to be free, and all the
+// way down to it. All else that was known of the question is lost.
 static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
   nsvcd__proof *p = query->proof;
   const nsvcd__task *task = &query->task;
   nsvcd__motion *whole = p->ask.motion;
   nsvcd__motion down = *whole;
   nsvcd_pose moving[2], fixed[2];
-  const int takes_it = nsvcd__takes_lift(task);
+  const int takes_it = nsvcd__takes_push_out(task);
   const nsvcd__track moves = {moving, NULL, takes_it ? 2u : 1u, 0, 0};
   const nsvcd__track rests = {fixed, NULL, takes_it ? 1u : 2u, 0, 0};
-  const nsvcd__d3 lift = nsvcd__d3_widen(whole->lift);
+  const nsvcd__d3 push_out = nsvcd__d3_widen(whole->push_out);
   // nearer to each other than stored triangles are known, nothing would be separated
-  const double epsilons = 4 * nsvcd__epsilon(p) + nsvcd__told_within(p, t);
-  const double kept = fmax(NSVCD__SET_DOWN * p->ask.skin, epsilons);
-  const nsvcd__d3 least = nsvcd__lift_off(p, kept, 1);
-  const nsvcd__d3 by = nsvcd__d3_sub(lift, least);
-  const double way = nsvcd__d3_length(by);
-  if (!(nsvcd__d3_dot(by, lift) > 0) || !(way > kept)) return lift;
-  nsvcd__poses_at(task, t, lift, &moving[0], &fixed[0]);
+  const double epsilons = 4 * nsvcd__epsilon(p) + nsvcd__told_allowance(p, t);
+  const double kept = fmax(NSVCD__SET_DOWN * p->ask.slop, epsilons);
+  const nsvcd__d3 least = nsvcd__push_out(p, kept, 1);
+  const nsvcd__d3 by = nsvcd__d3_sub(push_out, least);
+  const double length = nsvcd__d3_length(by);
+  if (!(nsvcd__d3_dot(by, push_out) > 0) || !(length > kept)) return push_out;
+  nsvcd__poses_at(task, t, push_out, &moving[0], &fixed[0]);
   nsvcd__poses_at(task, t, least, &moving[1], &fixed[1]);
   nsvcd__motion_set_tracks(&down, moves, rests);
-  down.lift = nsvcd__f3_of(0, 0, 0);
+  down.push_out = nsvcd__f3_of(0, 0, 0);
   p->ask.motion = &down;
-  p->ask.fraction = kept / way;
+  p->ask.fraction = kept / length;
   p->ask.measure = 0;
   p->ask.clearance = p->given.clearance;
   p->ask.limit = p->work + p->given.aside;
@@ -18358,7 +18422,7 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) 
   // up to an unresolved pair it is proven, but not so that it is proven anew from there
   const double clear =
       p->known.unresolved < p->ask.end ? until - 0.5 * p->ask.fraction : until;
-  return nsvcd__d3_sub(lift, nsvcd__d3_scale(by, fmin(fmax(clear, 0), 1)));
+  return nsvcd__d3_sub(push_out, nsvcd__d3_scale(by, fmin(fmax(clear, 0), 1)));
 }
 
 // The bodies as they are at time t, as a motion of its own, with the fixed one's origin in the
@@ -18367,17 +18431,17 @@ static nsvcd__motion nsvcd__rest_at(const nsvcd__task *task, double t, nsvcd_pos
   nsvcd__motion still = task->motion;
   const nsvcd__track tracks[2] = {{&poses[0], NULL, 1, 0, 0}, {&poses[1], NULL, 1, 0, 0}};
   const nsvcd__d3 here = {0, 0, 0};
-  nsvcd__d3 place, origin;
-  const nsvcd__dquat turn = nsvcd__turn_at(&still, &still.moving, t, &place);
+  nsvcd__d3 position, origin;
+  const nsvcd__dquat turn = nsvcd__turn_at(&still, &still.moving, t, &position);
   const nsvcd__dquat fixed_turn = nsvcd__turn_at(&still, &still.fixed, t, &origin);
   const nsvcd__dmat3 rotation = nsvcd__dmat3_of(fixed_turn);
-  const nsvcd__d3 lift = nsvcd__dmat3_apply(&rotation, nsvcd__d3_widen(still.lift));
-  place = nsvcd__d3_sub(place, origin);
-  place = nsvcd__d3_add(place, nsvcd__d3_scale(lift, (double)still.unit));
-  poses[0] = nsvcd__pose_of(turn, place);
+  const nsvcd__d3 push_out = nsvcd__dmat3_apply(&rotation, nsvcd__d3_widen(still.push_out));
+  position = nsvcd__d3_sub(position, origin);
+  position = nsvcd__d3_add(position, nsvcd__d3_scale(push_out, (double)still.unit));
+  poses[0] = nsvcd__pose_of(turn, position);
   poses[1] = nsvcd__pose_of(fixed_turn, here);
   nsvcd__motion_set_tracks(&still, tracks[0], tracks[1]);
-  still.lift = nsvcd__f3_of(0, 0, 0);
+  still.push_out = nsvcd__f3_of(0, 0, 0);
   return still;
 }
 
@@ -18393,7 +18457,7 @@ static NSVCD__NOINLINE int nsvcd__manifold_normals(nsvcd__proof *p,
   memset(twist, 0, sizeof *twist);
   if (found->tick > 0) *twist = now.twist;
   p->of.kept.manifold.normal = normals[0] = found->normal;
-  const nsvcd__facing facing = nsvcd__facing_of(p, &now.pair, now.touch.moving);
+  const nsvcd__facing facing = nsvcd__facing_of(p, &now.pair, now.contact.moving);
   for (int k = 1; k >= 0; k--) {
     const nsvcd__d3 n = facing.faces[k];
     const nsvcd__d3 all[2] = {found->normal, found->normal};
@@ -18406,8 +18470,8 @@ static NSVCD__NOINLINE int nsvcd__manifold_normals(nsvcd__proof *p,
 }
 
 // The manifold of the contact that was found. Where a body stands, that may be one of a side that
-// rises from what it stands on: the normal of either triangle is tried, and what spans more counts.
-// All else that was known of the question is lost.
+// rises from what it stands on: the normal of either triangle is tried, and what intervals more
+// counts. All else that was known of the question is lost.
 static NSVCD__NOINLINE void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer *answer) {
   nsvcd__proof *p = query->proof;
   const nsvcd__task *task = &query->task;
@@ -18432,11 +18496,11 @@ static NSVCD__NOINLINE void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answ
   for (int k = 0; k < tries; k++) {
     int chosen[NSVCD_MAX_CONTACTS];
     double area;
-    nsvcd__begin_places(p, normals[k], &twist, p->ask.clearance, same);
-    nsvcd__seek_places(p, 0, NSVCD__AROUND);
+    nsvcd__begin_positions(p, normals[k], &twist, p->ask.clearance, same);
+    nsvcd__seek_positions(p, 0, NSVCD__AROUND);
     int count = nsvcd__choose_four(m, chosen, &area);
-    if (nsvcd__look_across(&p->of.kept.manifold, area)) {
-      nsvcd__seek_places(p, NSVCD__AROUND, NSVCD__SUPPORTS);
+    if (nsvcd__seek_across(&p->of.kept.manifold, area)) {
+      nsvcd__seek_positions(p, NSVCD__AROUND, NSVCD__SUPPORTS);
       count = nsvcd__choose_four(m, chosen, &area);
     }
     if (count == 0 || !(area > 1.001 * widest)) continue;
@@ -18455,24 +18519,24 @@ static NSVCD__NOINLINE void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answ
 }
 
 // Where the bodies may go, which are proven free until answer->time.low; and how deep they are in
-// contact at the start. Where one may be inside of the other no lift helps, and they stay.
-static NSVCD__NOINLINE void nsvcd__tell_safe_place(nsvcd__query *query, nsvcd_answer *answer) {
+// contact at the start. Where one may be inside of the other no push-out helps, and they stay.
+static NSVCD__NOINLINE void nsvcd__tell_safe_pose(nsvcd__query *query, nsvcd_answer *answer) {
   const nsvcd__task *task = &query->task;
   const nsvcd__proof *p = query->proof;
   const double t = (double)answer->safe.time;
-  nsvcd__d3 lift = nsvcd__d3_widen(task->motion.lift);
-  const int is_lifted = nsvcd__d3_dot(lift, lift) > 0;
-  const int may_go = is_lifted && !p->within && !p->unclear;
-  if (is_lifted && !p->within) {
-    const double depth = nsvcd__d3_length(nsvcd__lift_off(p, 0, 1));
+  nsvcd__d3 push_out = nsvcd__d3_widen(task->motion.push_out);
+  const int is_lifted = nsvcd__d3_dot(push_out, push_out) > 0;
+  const int may_go = is_lifted && !p->inside && !p->unclear;
+  if (is_lifted && !p->inside) {
+    const double depth = nsvcd__d3_length(nsvcd__push_out(p, 0, 1));
     answer->depth = (float)(depth * (double)task->motion.unit);
   } else if (!is_lifted && (answer->time.low > 0 || p->starts_free)) {
     answer->depth = 0;
   }
-  if (may_go) lift = nsvcd__set_down(query, t);
+  if (may_go) push_out = nsvcd__set_down(query, t);
   // at the ends they are as the caller has them: nsvcd__answer_begin
   if (may_go || (t > 0 && t < 1))
-    nsvcd__poses_at(task, t, lift, &answer->safe.a, &answer->safe.b);
+    nsvcd__poses_at(task, t, push_out, &answer->safe.a, &answer->safe.b);
 }
 
 // Why not all is answered. More work, or finer triangles, would not tell what is in an open solid.
@@ -18491,14 +18555,14 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   nsvcd__search *search = &query->broad_phase;
   nsvcd__proof *p = query->proof;
   nsvcd__proof_begin(query);
-  if (p->given.skin > 0) nsvcd__lift_motion(p, search);
+  if (p->given.slop > 0) nsvcd__push_out_motion(p, search);
   nsvcd__finding verdict = nsvcd__prove(p, search);
   if (p->given.width > 0 && verdict != NSVCD__FOUND_INSIDE) {
     nsvcd__measure(p, search, verdict, p->given.width);
     // A distance decides what was left undecided, but tells nothing of what is inside of what.
     const int meets = p->known.has_contact && p->known.found.distance <= p->given.clearance;
     const int is_clear =
-        p->low > 0 && p->low >= p->given.clearance && !p->unclear && !p->within;
+        p->low > 0 && p->low >= p->given.clearance && !p->unclear && !p->inside;
     if (verdict == NSVCD__FOUND_NEITHER && (meets || is_clear))
       verdict = meets ? NSVCD__FOUND_CONTACT : NSVCD__FOUND_FREE;
   }
@@ -18507,24 +18571,24 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   const int has_unresolved = p->known.unresolved < NSVCD__NEVER;
   const int names =
       p->known.has_contact || (verdict == NSVCD__FOUND_NEITHER && has_unresolved);
-  const int is_within = verdict == NSVCD__FOUND_INSIDE;
-  if (names && !is_within) nsvcd__resolve_normal(p);
+  const int is_inside = verdict == NSVCD__FOUND_INSIDE;
+  if (names && !is_inside) nsvcd__resolve_normal(p);
   const int is_free = verdict == NSVCD__FOUND_FREE;
-  const int is_hit = is_within || verdict == NSVCD__FOUND_CONTACT;
+  const int is_hit = is_inside || verdict == NSVCD__FOUND_CONTACT;
   nsvcd__answer_begin(task,
                       is_free  ? NSVCD_FREE
                       : is_hit ? NSVCD_HIT
                                : NSVCD_UNDECIDED,
                       answer);
-  answer->inside = is_within;
-  if (names || is_within) nsvcd__tell_contact(query, &p->known.found, &answer->nearest);
-  if (is_within) answer->nearest.gap = HUGE_VALF;
+  answer->inside = is_inside;
+  if (names || is_inside) nsvcd__tell_contact(query, &p->known.found, &answer->nearest);
+  if (is_inside) answer->nearest.gap = HUGE_VALF;
   if (is_hit) answer->time.high = answer->nearest.time;
   if (verdict == NSVCD__FOUND_CONTACT)
     answer->contacts[answer->contact_count++] = answer->nearest;
 
   // What is proven of times and distances.
-  if (p->given.fraction > 0 && !is_free && !is_within) {
+  if (p->given.fraction > 0 && !is_free && !is_inside) {
     const nsvcd__motion *motion = p->ask.motion;
     const double ticks = (double)motion->ticks;
     const double until = fmin(fmax(nsvcd__clear_until(p) / ticks, 0), 1);
@@ -18534,33 +18598,34 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
     // Closer poses are proven free here, but a new query from there could not prove it again.
     double u;
     const nsvcd__arc *arc = nsvcd__arc_at(p, nsvcd__arc_of(motion, until * ticks, &u));
-    const double way = nsvcd__way_in(p, arc) * ticks / (double)arc->ticks;
-    const double epsilons = NSVCD__EPSILONS * nsvcd__epsilon(p) + nsvcd__told_within(p, until);
-    const double back = way > epsilons ? epsilons / way : p->given.fraction;
+    const double length = nsvcd__way_in(p, arc) * ticks / (double)arc->ticks;
+    const double epsilons =
+        NSVCD__EPSILONS * nsvcd__epsilon(p) + nsvcd__told_allowance(p, until);
+    const double back = length > epsilons ? epsilons / length : p->given.fraction;
     answer->safe.time = (float)(fmax(0, until - back) * (1 - 1e-7));
   }
-  const double low = (is_free ? fmax(p->given.clearance, p->low) : p->low) - p->given.round;
+  const double low = (is_free ? fmax(p->given.clearance, p->low) : p->low) - p->given.radius;
   double high = names ? p->known.found.distance : p->high;
   // what was found, or moved to where it is nearer, may have made it narrow enough
   p->wide = p->wide && high - p->low > p->given.width;
   if (names) {
     const double off = nsvcd__off_meshes(p) + 1e-12 * (double)p->given.lengths;
-    high = fmax(high, p->given.round) + off;
+    high = fmax(high, p->given.radius) + off;
   }
-  high = fmax(high - p->given.round, 0);
+  high = fmax(high - p->given.radius, 0);
   answer->distance.low = (float)(fmax(low, 0) * unit * (1 - 1e-6));
-  answer->distance.high = is_within ? 0 : (float)(high * unit * (1 + 1e-6));
+  answer->distance.high = is_inside ? 0 : (float)(high * unit * (1 + 1e-6));
   nsvcd__resolve_why(p, answer);
 
-  // By what the moving body was lifted, in the world at the start.
-  const nsvcd__d3 lift = nsvcd__d3_widen(task->motion.lift);
-  if (nsvcd__d3_dot(lift, lift) > 0) {
+  // By what the moving body was pushed out, in the world at the start.
+  const nsvcd__d3 push_out = nsvcd__d3_widen(task->motion.push_out);
+  if (nsvcd__d3_dot(push_out, push_out) > 0) {
     const nsvcd__to_world start = nsvcd__to_world_at(&task->motion, 0);
-    const nsvcd__d3 turned = nsvcd__dmat3_apply(&start.rotation, lift);
-    nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_scale(turned, start.unit)), answer->lift);
+    const nsvcd__d3 turned = nsvcd__dmat3_apply(&start.rotation, push_out);
+    nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_scale(turned, start.unit)), answer->push_out);
   }
   if (q->manifold && verdict == NSVCD__FOUND_CONTACT) nsvcd__tell_manifold(query, answer);
-  nsvcd__tell_safe_place(query, answer);
+  nsvcd__tell_safe_pose(query, answer);
   answer->work = p->work;
 }
 #endif  // NSVCD_NO_PROOF
@@ -18608,7 +18673,7 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
     return NSVCD_ERROR_SEGMENTS;
   if (!nsvcd__is_length(q->tolerance)) return NSVCD_ERROR_TOLERANCE;
   if (!nsvcd__is_length(q->clearance)) return NSVCD_ERROR_CLEARANCE;
-  if (!nsvcd__is_length(q->skin)) return NSVCD_ERROR_SKIN;
+  if (!nsvcd__is_length(q->slop)) return NSVCD_ERROR_SLOP;
   const int is_first = q->ask == NSVCD_ASK_FIRST;
   if (!nsvcd__is_length(q->to) || (q->to > 0 && q->ask == NSVCD_ASK_HIT))
     return NSVCD_ERROR_TO;
@@ -18617,7 +18682,7 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
   if (q->manifold && !is_first) return NSVCD_ERROR_MANIFOLD;
   // of these the network knows nothing
   const int by_network = q->method == NSVCD_METHOD_NETWORK;
-  int needs_proof = q->clearance > 0 || q->skin > 0;
+  int needs_proof = q->clearance > 0 || q->slop > 0;
   needs_proof |= is_first || q->to > 0;
   needs_proof |= q->ask == NSVCD_ASK_DISTANCE && !by_network;
   if (needs_proof && by_network) return NSVCD_ERROR_METHOD;
@@ -18758,7 +18823,7 @@ static void nsvcd__swap_answer(nsvcd_answer *answer) {
   nsvcd__swap_patches(&answer->opinion.patch_a, &answer->opinion.patch_b);
   nsvcd__swap_contact(&answer->nearest);
   for (size_t n = 0; n < answer->contact_count; n++) nsvcd__swap_contact(&answer->contacts[n]);
-  for (size_t k = 0; k < 3; k++) answer->lift[k] = 0 - answer->lift[k];
+  for (size_t k = 0; k < 3; k++) answer->push_out[k] = 0 - answer->push_out[k];
 }
 
 // Answers a question that has been checked and laid out. hint: NULL, or that of a batch, for the
@@ -18774,7 +18839,7 @@ static void nsvcd__answer_query(nsvcd__query *query, nsvcd__hint *hint, nsvcd_an
   // asked.
   const nsvcd_question *q = task->question;
   const int knows = task->moving->weights_id && task->fixed->weights_id &&
-                    !(q->clearance > 0 || q->ask == NSVCD_ASK_DISTANCE || q->skin > 0);
+                    !(q->clearance > 0 || q->ask == NSVCD_ASK_DISTANCE || q->slop > 0);
   if (task->method == NSVCD_METHOD_PROOF && answer->verdict == NSVCD_UNDECIDED && knows)
     (void)nsvcd__ask_network(query, NULL, &answer->opinion);
 #endif
@@ -18814,7 +18879,7 @@ static nsvcd_result nsvcd__run_batch(const nsvcd_question *questions, size_t cou
 
 // As nsvcd_self_test. The place of a body's point (1, 0, 0) at 16 ticks: the body turns by 90
 // degrees about z on its way from (4, 0, 0) to (-4, 0, 0), and is seen by one at (1, 2, 3) whose x,
-// y, z are y, z, x. Then two triangles that meet, and, as one is lifted, are apart.
+// y, z are y, z, x. Then two triangles that meet, and, as one is pushed out, are apart.
 static nsvcd_result nsvcd__run_self_test(void) {
   // or the compiler would compute instead
   const volatile float half = 0.70710678f;
@@ -18823,7 +18888,7 @@ static nsvcd_result nsvcd__run_self_test(void) {
   const nsvcd_pose rest = {{1, 2, 3}, {0.5f, 0.5f, 0.5f, 0.5f}};
   const nsvcd_mover moving = {NULL, path, 2, NULL, 0};
   const nsvcd_mover fixed = {NULL, &rest, 1, NULL, 0};
-  float places[3][NSVCD__LANES];
+  float positions[3][NSVCD__LANES];
   // in a block: the stack is shared with what comes after it
   {
     nsvcd__motion motion;
@@ -18838,13 +18903,13 @@ static nsvcd_result nsvcd__run_self_test(void) {
       const nsvcd__v_pose seen = nsvcd__v_seen(&motion, &at);
       const nsvcd__v3 arm = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
       const nsvcd__vmat3 rotation = nsvcd__vmat3_of(seen.rotation);
-      nsvcd__v3_store(places, l, nsvcd__vmat3_apply_add(rotation, arm, seen.position));
+      nsvcd__v3_store(positions, l, nsvcd__vmat3_apply_add(rotation, arm, seen.position));
     }
   }
   nsvcd__chords chords;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 way = nsvcd__v3_set(nsvcd__f3_of(0, 0, -0.5f));
-    nsvcd__chords_store(&chords, l, nsvcd__v3_load(places, l), way, nsvcd__v_set(0.1f));
+    const nsvcd__v3 travel = nsvcd__v3_set(nsvcd__f3_of(0, 0, -0.5f));
+    nsvcd__chords_store(&chords, l, nsvcd__v3_load(positions, l), travel, nsvcd__v_set(0.1f));
   }
   int right = 1;
   for (size_t l = 0; l < NSVCD__LANES; l++) {
@@ -18860,12 +18925,12 @@ static nsvcd_result nsvcd__run_self_test(void) {
   resting.centre.y += 1;
   right &= nsvcd__meet(&chords, resting) == 0;
 #ifndef NSVCD_NO_PROOF
-  const double lift = 4 * (double)half;
+  const double height = 4 * (double)half;
   const nsvcd__d3 a[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   nsvcd__d3 b[3] = {{0.25, 0.25, -1}, {0.25, 0.25, 1}, {2, 2, 1}};
   right &= !(nsvcd__nearest_of(a, b).square > 0);
-  for (size_t k = 0; k < 3; k++) b[k].z += 1 + lift;
-  right &= fabs(nsvcd__nearest_of(a, b).square - lift * lift) < 1e-9;
+  for (size_t k = 0; k < 3; k++) b[k].z += 1 + height;
+  right &= fabs(nsvcd__nearest_of(a, b).square - height * height) < 1e-9;
 #endif
 #ifdef NSVCD_ONE_PATH
   // a product that has been rounded: of one that is fused, 2^-24 would be left
@@ -19179,12 +19244,13 @@ static nsvcd__f3 nsvcd__turned_back_by_w(nsvcd__f3 u, nsvcd__f3 w, float tau, ns
   return nsvcd__f3_fma(-2 * half * nsvcd__f3_dot(u, q), w, out);
 }
 
-// Of a body's tips, from the first on, the farthest along u, in steps.
-static nsvcd__f3 nsvcd__farthest_tip(const int8_t *tips, nsvcd__f3 u) {
+// Of a body's extremes, from the first on, the farthest along u, in steps.
+static nsvcd__f3 nsvcd__farthest_extreme(const int8_t *extremes, nsvcd__f3 u) {
   nsvcd__f3 best = {0, 0, 0};
-  for (size_t k = 0; k < NSVCD__TIPS; k++, tips += 3 * NSVCD__GROUP) {
-    const nsvcd__f3 tip = nsvcd__f3_of(tips[0], tips[NSVCD__GROUP], tips[2 * NSVCD__GROUP]);
-    if (k == 0 || nsvcd__f3_dot(tip, u) > nsvcd__f3_dot(best, u)) best = tip;
+  for (size_t k = 0; k < NSVCD__EXTREMES; k++, extremes += 3 * NSVCD__GROUP) {
+    const nsvcd__f3 extreme =
+        nsvcd__f3_of(extremes[0], extremes[NSVCD__GROUP], extremes[2 * NSVCD__GROUP]);
+    if (k == 0 || nsvcd__f3_dot(extreme, u) > nsvcd__f3_dot(best, u)) best = extreme;
   }
   return best;
 }
@@ -19194,7 +19260,7 @@ typedef struct nsvcd__gap_pair {
   nsvcd__f3 between, v, w;
   float radii[2];
   nsvcd__mat3 rotation;
-  const int8_t *tips[2];
+  const int8_t *extremes[2];
 } nsvcd__gap_pair;
 
 // The adjoint of a gap along u at tau, times `by`, added to `out`, and returned by u. moves: 0 at
@@ -19207,8 +19273,9 @@ static nsvcd__f3 nsvcd__by_gap(const nsvcd__gap_pair *pair, nsvcd__f3 u, float t
   const nsvcd__f3 back = nsvcd__f3_turned_back(u, w, half);
   const nsvcd__f3 forth = nsvcd__f3_turned_back(u, w, -half);
   const nsvcd__f3 own = nsvcd__mat3_apply_transpose(&pair->rotation, back);
-  const nsvcd__f3 lowest = nsvcd__farthest_tip(pair->tips[0], nsvcd__f3_scale(own, -1));
-  const nsvcd__f3 highest = nsvcd__farthest_tip(pair->tips[1], forth);
+  const nsvcd__f3 lowest =
+      nsvcd__farthest_extreme(pair->extremes[0], nsvcd__f3_scale(own, -1));
+  const nsvcd__f3 highest = nsvcd__farthest_extreme(pair->extremes[1], forth);
   const nsvcd__f3 turned = nsvcd__mat3_apply(&pair->rotation, lowest);
   const nsvcd__f3 q = nsvcd__f3_scale(turned, pair->radii[0] / 127);
   const nsvcd__f3 x = nsvcd__f3_scale(highest, pair->radii[1] / 127);
@@ -19235,24 +19302,24 @@ static NSVCD__NOINLINE void nsvcd__by_gaps(const nsvcd__pairs *pairs,
   nsvcd__gap_axes axes;
   nsvcd__gap_axis made[NSVCD__GAPS];
   nsvcd__f3 by_u[NSVCD__GAPS];
-  int8_t tips[2 * 3 * NSVCD__TIPS * NSVCD__SLICE];
+  int8_t extremes[2 * 3 * NSVCD__EXTREMES * NSVCD__SLICE];
   pair.between = nsvcd__f3_sub(nsvcd__first_f3(pairs->p1), nsvcd__first_f3(pairs->p2));
   pair.v = nsvcd__first_f3(pairs->v);
   pair.w = nsvcd__first_f3(pairs->w);
-  pair.tips[0] = pairs->tips[0][0];
-  pair.tips[1] = pairs->tips[1][0];
+  pair.extremes[0] = pairs->extremes[0][0];
+  pair.extremes[1] = pairs->extremes[1][0];
   nsvcd__first_lanes(&pairs->r1, 1, &pair.radii[0]);
   nsvcd__first_lanes(&pairs->r2, 1, &pair.radii[1]);
   nsvcd__first_lanes(&pairs->rotation, 9, &pair.rotation);
   nsvcd__gap_axes_of(pairs, views, &axes);
-  nsvcd__tips_collect(pairs, 1, tips);
+  nsvcd__extremes_collect(pairs, 1, extremes);
   memset(by_u, 0, sizeof by_u);
   for (size_t m = 0; m < NSVCD__MOMENTS; m++) {
     const float tau = view->time * ((float)m - 1);
     nsvcd__v at[NSVCD__GAPS];
     float wide[NSVCD__GAPS];
     size_t widest = 0;
-    nsvcd__gaps_at(pairs, &axes, tips, nsvcd__v_set(tau), at);
+    nsvcd__gaps_at(pairs, &axes, extremes, nsvcd__v_set(tau), at);
     nsvcd__first_lanes(at, NSVCD__GAPS, wide);
     for (size_t d = 1; d < NSVCD__GAPS; d++) widest = wide[d] > wide[widest] ? d : widest;
     for (size_t d = 0; d < NSVCD__GAPS; d++) {
@@ -19400,7 +19467,7 @@ typedef struct nsvcd__instants {
   float t[NSVCD__INSTANTS];
   // from the body's origin to its centre
   float arm[3][NSVCD__LANES];
-  float place[3][NSVCD__LANES];  // its centre
+  float position[3][NSVCD__LANES];  // its centre
   // does it within the segment? else at one of its ends, and these do not move
   int enters, leaves;
 } nsvcd__instants;
@@ -19428,7 +19495,7 @@ static void nsvcd__instants_of(const nsvcd__task *task, const nsvcd__candidate *
     const nsvcd__v_pose pose = nsvcd__v_poses_at(motion, t + first, count);
     const nsvcd__v3 arm = nsvcd__vmat3_apply(nsvcd__vmat3_of(pose.rotation), centre);
     nsvcd__v3_store(at->arm, first, arm);
-    nsvcd__v3_store(at->place, first, nsvcd__v3_add(arm, pose.position));
+    nsvcd__v3_store(at->position, first, nsvcd__v3_add(arm, pose.position));
   }
 }
 
@@ -19463,9 +19530,9 @@ static void nsvcd__by_contact(const nsvcd__motion *motion, nsvcd__instants *at, 
   const nsvcd__f3 none = {0, 0, 0};
   const size_t s = l == NSVCD__AT_ENTRY ? NSVCD__ENTRY_BEGIN : NSVCD__EXIT_BEGIN;
   const float length = at->t[s + 1] - at->t[s];
-  const nsvcd__f3 start = nsvcd__lane_of(at->place, s);
+  const nsvcd__f3 start = nsvcd__lane_of(at->position, s);
   const float tau = (at->t[l] - at->t[s]) / length;
-  const nsvcd__f3 chord = nsvcd__f3_sub(nsvcd__lane_of(at->place, s + 1), start);
+  const nsvcd__f3 chord = nsvcd__f3_sub(nsvcd__lane_of(at->position, s + 1), start);
   const nsvcd__f3 from = nsvcd__f3_sub(start, centre);
   const nsvcd__f3 y = nsvcd__f3_fma(tau, chord, from);
   const float least = 1e-3f * nsvcd__f3_length(y) * nsvcd__f3_length(chord);
@@ -19505,7 +19572,7 @@ static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *deci
   // centre half way to the other.
   const nsvcd__f3 w = nsvcd__first_f3(pairs.w);
   const nsvcd__f3 centre = nsvcd__first_f3(pairs.p2);
-  const nsvcd__f3 line = nsvcd__f3_sub(centre, nsvcd__lane_of(at.place, NSVCD__AT_MIDDLE));
+  const nsvcd__f3 line = nsvcd__f3_sub(centre, nsvcd__lane_of(at.position, NSVCD__AT_MIDDLE));
   const nsvcd__f3 arm = nsvcd__f3_scale(line, 0.5f);
   const nsvcd__f3 p1 = nsvcd__f3_fma(-0.5f, nsvcd__f3_cross(by.v, w), by.p1);
   const nsvcd__f3 turn = nsvcd__f3_add(by.w, nsvcd__f3_cross(arm, by.v));
@@ -19595,8 +19662,8 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define NSVCD__AT_EXIT NSVCD__NUMBER_AT(AT_EXIT)
 #define NSVCD__AT_MIDDLE NSVCD__NUMBER_AT(AT_MIDDLE)
 #define NSVCD__AXES NSVCD__NUMBER_AT(AXES)
-#define NSVCD__BY_DISC NSVCD__NUMBER_AT(BY_DISC)
 #define NSVCD__BY_HULL NSVCD__NUMBER_AT(BY_HULL)
+#define NSVCD__BY_SLAB NSVCD__NUMBER_AT(BY_SLAB)
 #define NSVCD__BY_TRIANGLES NSVCD__NUMBER_AT(BY_TRIANGLES)
 #define NSVCD__CONTACTS NSVCD__NUMBER_AT(CONTACTS)
 #define NSVCD__DIRECTIONS NSVCD__NUMBER_AT(DIRECTIONS)
@@ -19665,9 +19732,10 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__asked NSVCD__AT(asked)
 #define nsvcd__axis_apart NSVCD__AT(axis_apart)
 #define nsvcd__beam NSVCD__AT(beam)
-#define nsvcd__begin_places NSVCD__AT(begin_places)
+#define nsvcd__begin_positions NSVCD__AT(begin_positions)
+#define nsvcd__bend_of NSVCD__AT(bend_of)
 #define nsvcd__bends NSVCD__AT(bends)
-#define nsvcd__best_lift NSVCD__AT(best_lift)
+#define nsvcd__best_push_out NSVCD__AT(best_push_out)
 #define nsvcd__beyond NSVCD__AT(beyond)
 #define nsvcd__block NSVCD__AT(block)
 #define nsvcd__block_arm NSVCD__AT(block_arm)
@@ -19681,7 +19749,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__box_of_lane NSVCD__AT(box_of_lane)
 #define nsvcd__boxes NSVCD__AT(boxes)
 #define nsvcd__boxes_of_groups NSVCD__AT(boxes_of_groups)
-#define nsvcd__bulge_of NSVCD__AT(bulge_of)
 #define nsvcd__by_contact NSVCD__AT(by_contact)
 #define nsvcd__by_facts NSVCD__AT(by_facts)
 #define nsvcd__by_frame NSVCD__AT(by_frame)
@@ -19700,9 +19767,9 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__candidates_start NSVCD__AT(candidates_start)
 #define nsvcd__certain_opinion NSVCD__AT(certain_opinion)
 #define nsvcd__certify_block NSVCD__AT(certify_block)
-#define nsvcd__certify_disc NSVCD__AT(certify_disc)
 #define nsvcd__certify_groups NSVCD__AT(certify_groups)
 #define nsvcd__certify_patch_pair NSVCD__AT(certify_patch_pair)
+#define nsvcd__certify_slab NSVCD__AT(certify_slab)
 #define nsvcd__certify_triangle_pair NSVCD__AT(certify_triangle_pair)
 #define nsvcd__changes_sides NSVCD__AT(changes_sides)
 #define nsvcd__choose_all NSVCD__AT(choose_all)
@@ -19710,7 +19777,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__choose_in_all NSVCD__AT(choose_in_all)
 #define nsvcd__choose_in_interval NSVCD__AT(choose_in_interval)
 #define nsvcd__choose_interval NSVCD__AT(choose_interval)
-#define nsvcd__choose_lifts NSVCD__AT(choose_lifts)
+#define nsvcd__choose_push_outs NSVCD__AT(choose_push_outs)
 #define nsvcd__choose_segments NSVCD__AT(choose_segments)
 #define nsvcd__chords NSVCD__AT(chords)
 #define nsvcd__chords_in_all NSVCD__AT(chords_in_all)
@@ -19721,15 +19788,15 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__chords_of_tile NSVCD__AT(chords_of_tile)
 #define nsvcd__chords_start NSVCD__AT(chords_start)
 #define nsvcd__chords_store NSVCD__AT(chords_store)
-#define nsvcd__chords_way NSVCD__AT(chords_way)
+#define nsvcd__chords_travel NSVCD__AT(chords_travel)
 #define nsvcd__clamp01 NSVCD__AT(clamp01)
 #define nsvcd__clear_until NSVCD__AT(clear_until)
 #define nsvcd__clearance NSVCD__AT(clearance)
 #define nsvcd__clip_segment NSVCD__AT(clip_segment)
 #define nsvcd__closeness NSVCD__AT(closeness)
+#define nsvcd__collect_contact NSVCD__AT(collect_contact)
 #define nsvcd__collect_contacts NSVCD__AT(collect_contacts)
-#define nsvcd__collect_places NSVCD__AT(collect_places)
-#define nsvcd__collect_touch NSVCD__AT(collect_touch)
+#define nsvcd__collect_positions NSVCD__AT(collect_positions)
 #define nsvcd__collecting NSVCD__AT(collecting)
 #define nsvcd__collects_on NSVCD__AT(collects_on)
 #define nsvcd__collides_again NSVCD__AT(collides_again)
@@ -19757,7 +19824,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__decoder_says NSVCD__AT(decoder_says)
 #define nsvcd__deepen NSVCD__AT(deepen)
 #define nsvcd__deviation_of NSVCD__AT(deviation_of)
-#define nsvcd__discs_meet NSVCD__AT(discs_meet)
 #define nsvcd__dot_tile NSVCD__AT(dot_tile)
 #define nsvcd__dtransform NSVCD__AT(dtransform)
 #define nsvcd__dtransform_at NSVCD__AT(dtransform_at)
@@ -19768,13 +19834,14 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__end_of NSVCD__AT(end_of)
 #define nsvcd__epsilon NSVCD__AT(epsilon)
 #define nsvcd__exists NSVCD__AT(exists)
+#define nsvcd__extremes_along NSVCD__AT(extremes_along)
+#define nsvcd__extremes_collect NSVCD__AT(extremes_collect)
 #define nsvcd__f3_across NSVCD__AT(f3_across)
 #define nsvcd__f3_towards NSVCD__AT(f3_towards)
 #define nsvcd__f3_turned_back NSVCD__AT(f3_turned_back)
-#define nsvcd__facet_vertices NSVCD__AT(facet_vertices)
 #define nsvcd__facing NSVCD__AT(facing)
 #define nsvcd__facing_of NSVCD__AT(facing_of)
-#define nsvcd__farthest_tip NSVCD__AT(farthest_tip)
+#define nsvcd__farthest_extreme NSVCD__AT(farthest_extreme)
 #define nsvcd__find_witness NSVCD__AT(find_witness)
 #define nsvcd__find_witness_in NSVCD__AT(find_witness_in)
 #define nsvcd__finding NSVCD__AT(finding)
@@ -19784,6 +19851,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__fixed_closed NSVCD__AT(fixed_closed)
 #define nsvcd__foot_well_within NSVCD__AT(foot_well_within)
 #define nsvcd__forget NSVCD__AT(forget)
+#define nsvcd__found_inside NSVCD__AT(found_inside)
 #define nsvcd__fraction_of NSVCD__AT(fraction_of)
 #define nsvcd__gap_after NSVCD__AT(gap_after)
 #define nsvcd__gap_axes NSVCD__AT(gap_axes)
@@ -19805,13 +19873,17 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__held_again NSVCD__AT(held_again)
 #define nsvcd__hint NSVCD__AT(hint)
 #define nsvcd__hull_of NSVCD__AT(hull_of)
+#define nsvcd__hull_vertices NSVCD__AT(hull_vertices)
 #define nsvcd__hulls_are_apart NSVCD__AT(hulls_are_apart)
 #define nsvcd__id_of NSVCD__AT(id_of)
 #define nsvcd__inputs_in NSVCD__AT(inputs_in)
 #define nsvcd__instants NSVCD__AT(instants)
 #define nsvcd__instants_of NSVCD__AT(instants_of)
+#define nsvcd__interval NSVCD__AT(interval)
 #define nsvcd__interval_cuts NSVCD__AT(interval_cuts)
 #define nsvcd__interval_gap NSVCD__AT(interval_gap)
+#define nsvcd__interval_of_arc NSVCD__AT(interval_of_arc)
+#define nsvcd__interval_of_segment NSVCD__AT(interval_of_segment)
 #define nsvcd__intervals NSVCD__AT(intervals)
 #define nsvcd__intervals_close NSVCD__AT(intervals_close)
 #define nsvcd__invariants NSVCD__AT(invariants)
@@ -19822,6 +19894,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__is_before NSVCD__AT(is_before)
 #define nsvcd__is_clear NSVCD__AT(is_clear)
 #define nsvcd__is_contained NSVCD__AT(is_contained)
+#define nsvcd__is_contained_at_start NSVCD__AT(is_contained_at_start)
 #define nsvcd__is_deep NSVCD__AT(is_deep)
 #define nsvcd__is_enclosed NSVCD__AT(is_enclosed)
 #define nsvcd__is_exhausted NSVCD__AT(is_exhausted)
@@ -19837,9 +19910,8 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__is_straight NSVCD__AT(is_straight)
 #define nsvcd__is_swapped NSVCD__AT(is_swapped)
 #define nsvcd__is_tiled NSVCD__AT(is_tiled)
-#define nsvcd__is_within NSVCD__AT(is_within)
 #define nsvcd__judge NSVCD__AT(judge)
-#define nsvcd__keep_place NSVCD__AT(keep_place)
+#define nsvcd__keep_position NSVCD__AT(keep_position)
 #define nsvcd__keep_unresolved NSVCD__AT(keep_unresolved)
 #define nsvcd__keyframes NSVCD__AT(keyframes)
 #define nsvcd__keyframes_after NSVCD__AT(keyframes_after)
@@ -19861,13 +19933,9 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__least_lane NSVCD__AT(least_lane)
 #define nsvcd__least_of NSVCD__AT(least_of)
 #define nsvcd__left_by_last NSVCD__AT(left_by_last)
-#define nsvcd__lift_along NSVCD__AT(lift_along)
-#define nsvcd__lift_motion NSVCD__AT(lift_motion)
-#define nsvcd__lift_off NSVCD__AT(lift_off)
-#define nsvcd__lift_still NSVCD__AT(lift_still)
 #define nsvcd__limit_after NSVCD__AT(limit_after)
 #define nsvcd__limit_of_first NSVCD__AT(limit_of_first)
-#define nsvcd__look_across NSVCD__AT(look_across)
+#define nsvcd__looks_contained_at_start NSVCD__AT(looks_contained_at_start)
 #define nsvcd__manifold NSVCD__AT(manifold)
 #define nsvcd__manifold_normals NSVCD__AT(manifold_normals)
 #define nsvcd__margin_along NSVCD__AT(margin_along)
@@ -19912,8 +19980,8 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__network_constants_hold NSVCD__AT(network_constants_hold)
 #define nsvcd__next_interval NSVCD__AT(next_interval)
 #define nsvcd__next_keyframe NSVCD__AT(next_keyframe)
-#define nsvcd__next_place NSVCD__AT(next_place)
 #define nsvcd__next_pose NSVCD__AT(next_pose)
+#define nsvcd__next_position NSVCD__AT(next_position)
 #define nsvcd__normal_met NSVCD__AT(normal_met)
 #define nsvcd__normal_to_try NSVCD__AT(normal_to_try)
 #define nsvcd__normals_separate NSVCD__AT(normals_separate)
@@ -19947,8 +20015,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__place_triangle NSVCD__AT(place_triangle)
 #define nsvcd__placed NSVCD__AT(placed)
 #define nsvcd__placed_at NSVCD__AT(placed_at)
-#define nsvcd__places NSVCD__AT(places)
-#define nsvcd__places_measure NSVCD__AT(places_measure)
 #define nsvcd__plane_cache NSVCD__AT(plane_cache)
 #define nsvcd__plane_cache_begin NSVCD__AT(plane_cache_begin)
 #define nsvcd__plane_cache_knows NSVCD__AT(plane_cache_knows)
@@ -19960,6 +20026,8 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__pose_of NSVCD__AT(pose_of)
 #define nsvcd__poses_at NSVCD__AT(poses_at)
 #define nsvcd__poses_opposed NSVCD__AT(poses_opposed)
+#define nsvcd__positions NSVCD__AT(positions)
+#define nsvcd__positions_measure NSVCD__AT(positions_measure)
 #define nsvcd__proof NSVCD__AT(proof)
 #define nsvcd__proof_begin NSVCD__AT(proof_begin)
 #define nsvcd__proof_constants_hold NSVCD__AT(proof_constants_hold)
@@ -19975,6 +20043,10 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__prove_part NSVCD__AT(prove_part)
 #define nsvcd__prove_segments NSVCD__AT(prove_segments)
 #define nsvcd__prove_tiles NSVCD__AT(prove_tiles)
+#define nsvcd__push_out NSVCD__AT(push_out)
+#define nsvcd__push_out_along NSVCD__AT(push_out_along)
+#define nsvcd__push_out_motion NSVCD__AT(push_out_motion)
+#define nsvcd__push_out_still NSVCD__AT(push_out_still)
 #define nsvcd__quanta_of NSVCD__AT(quanta_of)
 #define nsvcd__query NSVCD__AT(query)
 #define nsvcd__query_layout NSVCD__AT(query_layout)
@@ -20024,11 +20096,12 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__search_tile NSVCD__AT(search_tile)
 #define nsvcd__see_to_patch_pairs NSVCD__AT(see_to_patch_pairs)
 #define nsvcd__seeds_near NSVCD__AT(seeds_near)
+#define nsvcd__seek_across NSVCD__AT(seek_across)
 #define nsvcd__seek_in_patch_pair NSVCD__AT(seek_in_patch_pair)
-#define nsvcd__seek_places NSVCD__AT(seek_places)
+#define nsvcd__seek_positions NSVCD__AT(seek_positions)
 #define nsvcd__segment_count NSVCD__AT(segment_count)
-#define nsvcd__segment_span NSVCD__AT(segment_span)
-#define nsvcd__segment_stray NSVCD__AT(segment_stray)
+#define nsvcd__segment_deviation NSVCD__AT(segment_deviation)
+#define nsvcd__segment_interval NSVCD__AT(segment_interval)
 #define nsvcd__segments NSVCD__AT(segments)
 #define nsvcd__segments_in NSVCD__AT(segments_in)
 #define nsvcd__segments_that_matter NSVCD__AT(segments_that_matter)
@@ -20039,21 +20112,17 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__settings_of NSVCD__AT(settings_of)
 #define nsvcd__shallowest NSVCD__AT(shallowest)
 #define nsvcd__sift_patch_pairs NSVCD__AT(sift_patch_pairs)
+#define nsvcd__slabs_meet NSVCD__AT(slabs_meet)
 #define nsvcd__slerp NSVCD__AT(slerp)
 #define nsvcd__slerp_at NSVCD__AT(slerp_at)
 #define nsvcd__slerp_init NSVCD__AT(slerp_init)
 #define nsvcd__slerp_turn NSVCD__AT(slerp_turn)
 #define nsvcd__slice_against_patch NSVCD__AT(slice_against_patch)
 #define nsvcd__sort_patch_pairs NSVCD__AT(sort_patch_pairs)
-#define nsvcd__span NSVCD__AT(span)
-#define nsvcd__span_of_arc NSVCD__AT(span_of_arc)
-#define nsvcd__span_of_segment NSVCD__AT(span_of_segment)
 #define nsvcd__spanned NSVCD__AT(spanned)
 #define nsvcd__spare_boxes NSVCD__AT(spare_boxes)
 #define nsvcd__spare_chords NSVCD__AT(spare_chords)
 #define nsvcd__spheres_at_box NSVCD__AT(spheres_at_box)
-#define nsvcd__starts_inside NSVCD__AT(starts_inside)
-#define nsvcd__starts_within NSVCD__AT(starts_within)
 #define nsvcd__sticks_out NSVCD__AT(sticks_out)
 #define nsvcd__support NSVCD__AT(support)
 #define nsvcd__support_along NSVCD__AT(support_along)
@@ -20066,12 +20135,12 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__take_contact NSVCD__AT(take_contact)
 #define nsvcd__take_nearest NSVCD__AT(take_nearest)
 #define nsvcd__take_to_line NSVCD__AT(take_to_line)
-#define nsvcd__takes_lift NSVCD__AT(takes_lift)
+#define nsvcd__takes_push_out NSVCD__AT(takes_push_out)
 #define nsvcd__task NSVCD__AT(task)
 #define nsvcd__tell_contact NSVCD__AT(tell_contact)
 #define nsvcd__tell_gaps NSVCD__AT(tell_gaps)
 #define nsvcd__tell_manifold NSVCD__AT(tell_manifold)
-#define nsvcd__tell_safe_place NSVCD__AT(tell_safe_place)
+#define nsvcd__tell_safe_pose NSVCD__AT(tell_safe_pose)
 #define nsvcd__tick_of NSVCD__AT(tick_of)
 #define nsvcd__tile NSVCD__AT(tile)
 #define nsvcd__tile_fill NSVCD__AT(tile_fill)
@@ -20080,13 +20149,10 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__time_in_arc NSVCD__AT(time_in_arc)
 #define nsvcd__time_in_segment NSVCD__AT(time_in_segment)
 #define nsvcd__time_of NSVCD__AT(time_of)
-#define nsvcd__tips_along NSVCD__AT(tips_along)
-#define nsvcd__tips_collect NSVCD__AT(tips_collect)
 #define nsvcd__to_of NSVCD__AT(to_of)
 #define nsvcd__to_world NSVCD__AT(to_world)
 #define nsvcd__to_world_at NSVCD__AT(to_world_at)
-#define nsvcd__told_within NSVCD__AT(told_within)
-#define nsvcd__touch NSVCD__AT(touch)
+#define nsvcd__told_allowance NSVCD__AT(told_allowance)
 #define nsvcd__track NSVCD__AT(track)
 #define nsvcd__track_box NSVCD__AT(track_box)
 #define nsvcd__track_of NSVCD__AT(track_of)
@@ -20095,8 +20161,9 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__track_poses_at NSVCD__AT(track_poses_at)
 #define nsvcd__track_within NSVCD__AT(track_within)
 #define nsvcd__transform_of NSVCD__AT(transform_of)
+#define nsvcd__triangle_contact NSVCD__AT(triangle_contact)
 #define nsvcd__triangle_pair NSVCD__AT(triangle_pair)
-#define nsvcd__try_lift NSVCD__AT(try_lift)
+#define nsvcd__try_push_out NSVCD__AT(try_push_out)
 #define nsvcd__turn_at NSVCD__AT(turn_at)
 #define nsvcd__turn_back NSVCD__AT(turn_back)
 #define nsvcd__turn_within NSVCD__AT(turn_within)
@@ -20147,12 +20214,10 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__v_clamp NSVCD__AT(v_clamp)
 #define nsvcd__v_degree2 NSVCD__AT(v_degree2)
 #define nsvcd__v_deviation NSVCD__AT(v_deviation)
-#define nsvcd__v_disc NSVCD__AT(v_disc)
-#define nsvcd__v_disc_along NSVCD__AT(v_disc_along)
-#define nsvcd__v_disc_load NSVCD__AT(v_disc_load)
-#define nsvcd__v_disc_range NSVCD__AT(v_disc_range)
-#define nsvcd__v_disc_set NSVCD__AT(v_disc_set)
 #define nsvcd__v_half_rotation NSVCD__AT(v_half_rotation)
+#define nsvcd__v_interval NSVCD__AT(v_interval)
+#define nsvcd__v_interval_load NSVCD__AT(v_interval_load)
+#define nsvcd__v_interval_set NSVCD__AT(v_interval_set)
 #define nsvcd__v_keep_most NSVCD__AT(v_keep_most)
 #define nsvcd__v_least NSVCD__AT(v_least)
 #define nsvcd__v_load_int16 NSVCD__AT(v_load_int16)
@@ -20176,9 +20241,11 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__v_shorter_turn_between NSVCD__AT(v_shorter_turn_between)
 #define nsvcd__v_sign NSVCD__AT(v_sign)
 #define nsvcd__v_signed_square NSVCD__AT(v_signed_square)
-#define nsvcd__v_span NSVCD__AT(v_span)
-#define nsvcd__v_span_load NSVCD__AT(v_span_load)
-#define nsvcd__v_span_set NSVCD__AT(v_span_set)
+#define nsvcd__v_slab NSVCD__AT(v_slab)
+#define nsvcd__v_slab_along NSVCD__AT(v_slab_along)
+#define nsvcd__v_slab_load NSVCD__AT(v_slab_load)
+#define nsvcd__v_slab_range NSVCD__AT(v_slab_range)
+#define nsvcd__v_slab_set NSVCD__AT(v_slab_set)
 #define nsvcd__v_turn_between NSVCD__AT(v_turn_between)
 #define nsvcd__v_turn_off_axis NSVCD__AT(v_turn_off_axis)
 #define nsvcd__v_unit_or NSVCD__AT(v_unit_or)
@@ -20498,7 +20565,7 @@ static void nsvcd__solve_upper(const double *l, size_t n, double *x) {
 // cost: of a joint's range, kept free at both limits
 #define NSVCD__LIMIT_MARGIN 0.005f
 // search: of patches that are looked at, shares of their radii: nsvcd_network_options.swell
-#define NSVCD__PLAN_SWELL 0.25f
+#define NSVCD__PLAN_INFLATE 0.25f
 // collision: logits over which the cost grows from a slope of 0 to one of 1
 #define NSVCD__SOFT_LOGITS 2
 // collision: segments that one query asks about, where a first look may do
@@ -20521,8 +20588,8 @@ static void nsvcd__solve_upper(const double *l, size_t n, double *x) {
 #define NSVCD__PUSHES 3
 // plan: segments of the last check to one of the finest stage
 #define NSVCD__CHECKS 16
-// plan: looks, at least, at how far a piece of the spline strays
-#define NSVCD__STRAY_LOOKS 16
+// plan: looks, at least, at how far a piece of the spline deviates
+#define NSVCD__DEVIATION_SAMPLES 16
 
 // A body, in its own axes: its bounding sphere, and the box of its patches.
 typedef struct nsvcd__shape {
@@ -20665,7 +20732,7 @@ static int nsvcd__stage_of(const nsvcd_plan_stage *given, nsvcd_plan_stage defau
 
 // Is the problem one that can be stated?
 static nsvcd_result nsvcd__problem_check(const nsvcd_plan_problem *problem) {
-  if (!problem || !problem->place) return NSVCD_ERROR_ARGUMENT;
+  if (!problem || !problem->kinematics) return NSVCD_ERROR_ARGUMENT;
   if (problem->joints < 1 || problem->joints > NSVCD_MAX_JOINTS) return NSVCD_ERROR_COUNT;
   if (problem->body_count > 65536) return NSVCD_ERROR_COUNT;
   if (!problem->low || !problem->high || !problem->start || !problem->goal)
@@ -20833,15 +20900,16 @@ static void nsvcd__stage_init(const nsvcd_plan_options *o, nsvcd__stage *stage) 
 // certify it free.
 //
 // Nothing is missed, for the box about the ends of a sphere's way is grown by all that the way may
-// stray. The motion is the query's: as b sees it, a's origin goes straight, and a turns evenly
+// deviate. The motion is the query's: as b sees it, a's origin goes straight, and a turns evenly
 // about one axis by an angle c, no more than what a and b turn in the world. Two tests rule out:
 //
 //   a's sphere against b's box. Its centre turns about a's origin on an arc of radius `arm` or
-//   less, and strays by no more than the arc's height, arm (1 - cos(c / 2)).
+//   less, and deviates by no more than the arc's height, arm (1 - cos(c / 2)).
 //
-//   b's sphere against a's box. As a sees it, its centre v goes and turns at once. It strays by no
-//   more than an eighth of its acceleration, c^2 |v| + 2 c |u|: u is its way in b's axes, and no
-//   longer than its way in a's axes + c |v|. In all c (c |v| 3 / 8 + its way in a's axes / 4).
+//   b's sphere against a's box. As a sees it, its centre v moves and turns at once. It deviates by
+//   no more than an eighth of its acceleration, c^2 |v| + 2 c |u|, u being its displacement in b's
+//   axes, which is no longer than that in a's axes + c |v|. In all: c (c |v| 3 / 8 + displacement
+//   in a's axes / 4).
 
 #ifndef NSVCD_NO_OPTIMIZER
 // The shapes of all bodies.
@@ -20850,15 +20918,15 @@ static void nsvcd__find_shapes(nsvcd__planner *p) {
     const nsvcd_body *body = p->problem->bodies[b];
     nsvcd__shape shape = {{{0, 0, 0}, 0},
                           {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}}};
-    float place[3];
+    float position[3];
     float r;
     if (!body) continue;
     const nsvcd_body_facts facts = nsvcd_body_describe(body);
     shape.sphere.centre = nsvcd__f3_load(facts.centre);
     shape.sphere.radius = facts.radius;
-    for (uint32_t i = 0; nsvcd_body_patch(body, i, place, &r); i++) {
+    for (uint32_t i = 0; nsvcd_body_patch(body, i, position, &r); i++) {
       const nsvcd__f3 about = nsvcd__f3_of(r, r, r);
-      const nsvcd__f3 centre = nsvcd__f3_load(place);
+      const nsvcd__f3 centre = nsvcd__f3_load(position);
       shape.box.low = nsvcd__f3_min(shape.box.low, nsvcd__f3_sub(centre, about));
       shape.box.high = nsvcd__f3_max(shape.box.high, nsvcd__f3_add(centre, about));
     }
@@ -20907,14 +20975,14 @@ static inline int nsvcd__passes_by(const nsvcd__planner *p, size_t body, size_t 
 
   // That root of the sum of two angles is no more than the sum of the roots, and c < 3.15 bend.
   const float bend = now[body].bend + now[other].bend;
-  float strays = nsvcd__f3_length(sphere->centre) * bend * bend;
+  float deviations = nsvcd__f3_length(sphere->centre) * bend * bend;
   if (rests) {
-    const nsvcd__f3 way = nsvcd__f3_sub(seen[1], seen[0]);
-    const float length = fabsf(way.x) + fabsf(way.y) + fabsf(way.z);
-    strays = (3.75f * bend * distance + 0.8f * length) * bend;
+    const nsvcd__f3 travel = nsvcd__f3_sub(seen[1], seen[0]);
+    const float length = fabsf(travel.x) + fabsf(travel.y) + fabsf(travel.z);
+    deviations = (3.75f * bend * distance + 0.8f * length) * bend;
   }
   const float apart = 1.00001f * sphere->radius + p->options.sweep.clearance;
-  const float grown = apart + (float)stride * strays + NSVCD__ROUNDING * distance;
+  const float grown = apart + (float)stride * deviations + NSVCD__ROUNDING * distance;
   const nsvcd__f3 about = nsvcd__f3_of(grown, grown, grown);
   const nsvcd__f3 low = nsvcd__f3_min(seen[0], seen[1]);
   const nsvcd__f3 high = nsvcd__f3_max(seen[0], seen[1]);
@@ -21003,9 +21071,9 @@ static nsvcd_answer nsvcd__ask_segments(nsvcd__planner *p, uint32_t k, size_t fi
   if (!at_end) {
     question.method = NSVCD_METHOD_NETWORK;
     question.clearance = 0;
-    question.skin = 0;
+    question.slop = 0;
     // a slope before contact
-    if (question.network.swell <= 0) question.network.swell = NSVCD__PLAN_SWELL;
+    if (question.network.inflate <= 0) question.network.inflate = NSVCD__PLAN_INFLATE;
   }
 
   nsvcd_answer answer;
@@ -21066,14 +21134,14 @@ static void nsvcd__add_segment(nsvcd__planner *p, uint32_t k, size_t s,
 // Adds what pair k costs along the trajectory.
 static void nsvcd__add_pair(nsvcd__planner *p, uint32_t k, const nsvcd__asking *how,
                             nsvcd__cost *cost) {
-  const int looks_ahead = how->stride && !how->at_end;
+  const int skips_ahead = how->stride && !how->at_end;
   const size_t end = how->moments - how->stride;
   // up to here segments have had a first look
   size_t seen = 0;
   nsvcd__find_meetings(p, &p->problem->pairs[k], how->moments, how->stride);
   for (size_t s = 0; s < end && cost->collision <= how->limit && !p->error; s++) {
     if (!p->meets[s]) continue;
-    if (looks_ahead && s >= seen) {
+    if (skips_ahead && s >= seen) {
       // The segments that follow in which the pair may meet, at once: if they are far from a
       // collision, that is all.
       size_t run = 1;
@@ -21124,7 +21192,7 @@ static void nsvcd__add_collision(nsvcd__planner *p, size_t moments, float limit,
 
 #ifndef NSVCD_NO_OPTIMIZER
 // The derivative by the joints of one moment, p->by_path (F), from the wrenches (B, 6) there, by
-// differences of `place`. poses: (B), at these joints.
+// differences of `kinematics`. poses: (B), at these joints.
 static void nsvcd__by_differences(nsvcd__planner *p, const float *joints,
                                   const nsvcd_pose *poses, const float *wrenches) {
   const nsvcd_plan_problem *problem = p->problem;
@@ -21133,7 +21201,7 @@ static void nsvcd__by_differences(nsvcd__planner *p, const float *joints,
   for (size_t j = 0; j < problem->joints; j++) {
     moved[j] = joints[j] + (NSVCD__JOINT_STEP + NSVCD__JOINT_STEP_FRACTION * fabsf(joints[j]));
     const float step = moved[j] - joints[j];  // as rounded
-    problem->place(problem->user, moved, p->moved);
+    problem->kinematics(problem->user, moved, p->moved);
     moved[j] = joints[j];
     p->by_path[j] = 0;
     for (size_t b = 0; b < problem->body_count; b++) {
@@ -21142,8 +21210,8 @@ static void nsvcd__by_differences(nsvcd__planner *p, const float *joints,
       const float twice = nsvcd__quat_dot(q, r) < 0 ? -2.0f : 2.0f;
       const nsvcd__f3 turn = nsvcd__f3_scale(nsvcd__quat_turn(q, r), twice / step);
       const nsvcd__f3 from = nsvcd__f3_load(poses[b].position);
-      const nsvcd__f3 way = nsvcd__f3_sub(nsvcd__f3_load(p->moved[b].position), from);
-      p->by_path[j] += nsvcd__f3_dot(nsvcd__f3_row(wrenches, 2 * b), way) / step;
+      const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__f3_load(p->moved[b].position), from);
+      p->by_path[j] += nsvcd__f3_dot(nsvcd__f3_row(wrenches, 2 * b), offset) / step;
       p->by_path[j] += nsvcd__f3_dot(nsvcd__f3_row(wrenches, 2 * b + 1), turn);
     }
   }
@@ -21157,7 +21225,7 @@ static void nsvcd__place(nsvcd__planner *p, const float *joints, size_t moments,
   const size_t bodies = problem->body_count;
   const size_t count = moments * bodies;
   for (size_t s = 0; s < moments; s++)
-    problem->place(problem->user, joints + s * problem->joints, poses + s * bodies);
+    problem->kinematics(problem->user, joints + s * problem->joints, poses + s * bodies);
   const nsvcd_result placed = count > 0 ? nsvcd__poses_check(poses, count) : NSVCD_OK;
   if (placed) {
     p->error = placed;
@@ -21641,35 +21709,35 @@ static void nsvcd__planner_begin(nsvcd__planner *p) {
 // How far a point of a's bounding sphere is, at most, from where the check has it, as b sees it,
 // some share of the way from the poses `from` (B) to the next ones, where those on the spline are
 // p->moved.
-static float nsvcd__pair_strays(const nsvcd__planner *p, const nsvcd_body_pair *pair,
-                                const nsvcd_pose *from, double fraction) {
+static float nsvcd__pair_deviations(const nsvcd__planner *p, const nsvcd_body_pair *pair,
+                                    const nsvcd_pose *from, double fraction) {
   const nsvcd_pose *to = from + p->problem->body_count;
   const nsvcd__sphere *sphere = &p->shapes[pair->a].sphere;
   const nsvcd_pose start = nsvcd__relative_pose(&from[pair->a], &from[pair->b]);
   const nsvcd_pose end = nsvcd__relative_pose(&to[pair->a], &to[pair->b]);
   const nsvcd_pose there = nsvcd__relative_pose(&p->moved[pair->a], &p->moved[pair->b]);
   const nsvcd__d3 begin = nsvcd__d3_load(start.position);
-  const nsvcd__d3 place = nsvcd__d3_mix(begin, nsvcd__d3_load(end.position), fraction);
+  const nsvcd__d3 position = nsvcd__d3_mix(begin, nsvcd__d3_load(end.position), fraction);
   const nsvcd__quat q = nsvcd__quat_load(start.rotation);
   const nsvcd__quat r = nsvcd__quat_load(end.rotation);
   const nsvcd__quat checked = nsvcd__quat_slerp(q, r, (float)fraction);
   const nsvcd__quat is = nsvcd__quat_load(there.rotation);
   const nsvcd__transform at = {nsvcd__mat3_of(is), nsvcd__f3_load(there.position)};
-  const nsvcd__transform was = {nsvcd__mat3_of(checked), nsvcd__d3_narrow(place)};
+  const nsvcd__transform was = {nsvcd__mat3_of(checked), nsvcd__d3_narrow(position)};
   const nsvcd__f3 x = nsvcd__f3_transform(&at, sphere->centre);
   const nsvcd__f3 y = nsvcd__f3_transform(&was, sphere->centre);
-  const float way = nsvcd__f3_length(nsvcd__f3_sub(x, y));
-  return way + 2 * nsvcd__f3_length(nsvcd__quat_turn(checked, is)) * sphere->radius;
+  const float shift = nsvcd__f3_length(nsvcd__f3_sub(x, y));
+  return shift + 2 * nsvcd__f3_length(nsvcd__quat_turn(checked, is)) * sphere->radius;
 }
 
-// How far the spline strays from the motion of the last check, whose poses p->poses are: of all
-// pairs whose a is given. A smooth curve strays most half way between two of these: there it is
+// How far the spline deviates from the motion of the last check, whose poses p->poses are: of all
+// pairs whose a is given. A smooth curve deviates most half way between two of these: there it is
 // looked at, beside every so many of them. Where they are few, it is looked at in more places, for
-// an S crosses its chord half way. It is no bound: nothing is known of `place` but what it says.
-static float nsvcd__stray(nsvcd__planner *p, const float *control) {
+// an S crosses its chord half way. It is no bound: nothing is known of `position` but what it says.
+static float nsvcd__plan_deviation(nsvcd__planner *p, const float *control) {
   const nsvcd_plan_problem *problem = p->problem;
   const size_t segments = p->check.moments - 1;
-  const size_t wanted = NSVCD__STRAY_LOOKS * (p->check.via + 1);
+  const size_t wanted = NSVCD__DEVIATION_SAMPLES * (p->check.via + 1);
   const size_t stride = wanted < segments ? segments / wanted : 1;
   const size_t looks = 2 * (wanted / segments) + 1;
   float joints[NSVCD_MAX_JOINTS];
@@ -21685,7 +21753,7 @@ static float nsvcd__stray(nsvcd__planner *p, const float *control) {
       const nsvcd_body_pair *pair = &problem->pairs[k];
       const nsvcd_pose *from = p->poses + s * problem->body_count;
       if (problem->bodies[pair->a])
-        most = fmaxf(nsvcd__pair_strays(p, pair, from, fraction), most);
+        most = fmaxf(nsvcd__pair_deviations(p, pair, from, fraction), most);
     }
   }
   return most;
@@ -21732,7 +21800,7 @@ static int nsvcd__try_seed(nsvcd__planner *p, nsvcd_plan_answer *found) {
     memcpy(p->result, p->best, p->refine.bytes);
     found->cost = cost.total;
     found->smoothness = cost.smoothness;
-    found->stray = nsvcd__stray(p, p->result);
+    found->deviation = nsvcd__plan_deviation(p, p->result);
     found->collides = cost.collides;
     found->joint = cost.joint;
     found->logit = cost.logit;

@@ -203,7 +203,7 @@ static void write_problem(const game *g, const nsvcd_question *q, const nsvcd_an
   fprintf(g->problems, "problem f%zu.%zu.%d %zu %.9g %zu %.9g 0 0 0 0 0 0 1 -1 nan %zu %zu\n",
           g->frame, g->asked, answer->verdict != NSVCD_FREE, a, (double)q->a.scale, b,
           (double)q->b.scale, q->a.count, q->b.count);
-  for (size_t i = 0; i < q->a.count; i++) write_pose(g->problems, &q->a.poses[i], answer->lift);
+  for (size_t i = 0; i < q->a.count; i++) write_pose(g->problems, &q->a.poses[i], answer->push_out);
   for (size_t i = 0; i < q->b.count; i++) write_pose(g->problems, &q->b.poses[i], none);
 }
 

@@ -60,7 +60,7 @@ int main(void) {
   problem.body_count = BODIES;
   problem.pairs = &pair;
   problem.pair_count = 1;
-  problem.place = place;
+  problem.kinematics = place;
 
   nsvcd_plan_options options = {0};
   options.sweep.clearance = clearance;
@@ -75,10 +75,10 @@ int main(void) {
     return 1;
   }
 
-  const int is_free = answer.status == NSVCD_PLAN_CONVERGED && answer.stray < clearance;
+  const int is_free = answer.status == NSVCD_PLAN_CONVERGED && answer.deviation < clearance;
   printf("%s: %s by %.1f mm, from which the spline strays %.3f mm\n",
          nsvcd_plan_status_string(answer.status), is_free ? "certified free" : "not free",
-         1000 * (double)clearance, 1000 * (double)answer.stray);
+         1000 * (double)clearance, 1000 * (double)answer.deviation);
   for (size_t k = 0; k < answer.via_points + 2; k++)
     printf("%5.2f %5.2f %5.2f\n", (double)control[JOINTS * k], (double)control[JOINTS * k + 1],
            (double)control[JOINTS * k + 2]);

@@ -59,7 +59,7 @@ static const option options[] = {
      "NSVCD_MAX_COORDINATE", "METRES", "to come as near as this is a hit (0: to meet is)"},
     {"--measure", SWEEP, OPTION_NUMBER, AT(measure), 1e-9, METRES, "NSVCD_MAX_COORDINATE", "METRES",
      "if they are free: how near do they come? to this"},
-    {"--skin", CHECK | SWEEP, OPTION_NUMBER, AT(sweep.skin), 0, METRES, "NSVCD_MAX_COORDINATE",
+    {"--skin", CHECK | SWEEP, OPTION_NUMBER, AT(sweep.slop), 0, METRES, "NSVCD_MAX_COORDINATE",
      "METRES", "to touch at the start, no deeper than this, is no hit (0)"},
     {"--first", CHECK, OPTION_LENGTH, AT(first), 0, 1, "or metres: 0.001m", "T|METRESm",
      "the time of the contact is that of the first one, to this share of the motion, or to metres: "

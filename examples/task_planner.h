@@ -78,7 +78,7 @@ PLANNER_DEF int planner_plan(planner_user *user, const nsvcd_body *const *bodies
   task_statement statement;
   task_state(scene, bodies, &statement);
   nsvcd_plan_problem problem = statement.problem;
-  problem.place = planner_place;
+  problem.kinematics = planner_place;
   problem.progress = progress;
   problem.user = user;
 

@@ -20,7 +20,7 @@
 //     points          vectors of three, of floats and of doubles
 //     rotations       quaternions and matrices, of floats and of doubles
 //     triangles       two triangles: where they meet, or are nearest
-//     spheres         spheres and discs, as bodies store them
+//     spheres         spheres and slabs, as bodies store them
 //     random          random numbers
 //     memory          the allocator; the rows of a workspace
 //   certificate: a proof that others can check
@@ -28,11 +28,11 @@
 //     law             where a body is, how far points leave their chords
 //     planes          one that separates two nodes for a while
 //     rays            what a ray crosses
-//     certify         the walk, and its bits
+//     certify         the traversal, and its bits
 //
 // GLOSSARY
 //   tree, node   boxes over a mesh's triangles; a run of these
-//   certificate  bytes that prove an answer: a walk over two trees and time, and rays
+//   certificate  bytes that prove an answer: a traversal over two trees and time, and rays
 #ifndef NEURALSVCD_CERTIFY_H
 #define NEURALSVCD_CERTIFY_H
 #ifndef NEURALSVCD_H  // include it first where it stands elsewhere
@@ -66,10 +66,10 @@ NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, siz
                                        const nsvcd_tree **tree);
 
 // A pose in double: takes a corner x of the mesh to position + scale * x turned by rotation.
-typedef struct nsvcd_placement {
+typedef struct nsvcd_pose64 {
   double position[3];  // metres
   double rotation[4];  // x y z w, of any length but 0
-} nsvcd_placement;
+} nsvcd_pose64;
 
 // By how much a point leaves the chord between its places at two times, at most, along a unit
 // direction n: base + per_metre r + turn rho |n x R axis|. It is r metres from the mesh's origin,
@@ -85,12 +85,12 @@ typedef struct nsvcd_deviation {
 // proven is true if that is.
 typedef struct nsvcd_motion_model {
   double scale;
-  nsvcd_placement (*place)(const void *motion, double t);
+  nsvcd_pose64 (*pose_at)(const void *motion, double t);
   // the next keyframe after a time before 1
   double (*next)(const void *motion, double t);
   nsvcd_deviation (*deviation)(const void *motion, double t0, double t1);
   const void *motion;  // handed to these
-  double reach;        // metres: what its places are computed from is no farther off
+  double extent;       // metres: what its places are computed from is no farther off
   uint32_t digest;     // of the scale and the motion, as a checker computes it
 } nsvcd_motion_model;
 
@@ -102,7 +102,7 @@ typedef struct nsvcd_certify_options {
   // but that something is, or seems to be, inside of a mesh that is not closed: then nothing is
   // written that says FREE
   const nsvcd_answer *answer;
-  // that may be taken, steps of the walk that a certificate is; 0: NSVCD_DEFAULT_VISITS
+  // that may be taken, steps of the traversal that a certificate is; 0: NSVCD_DEFAULT_VISITS
   size_t visits;
 } nsvcd_certify_options;
 
@@ -146,7 +146,7 @@ NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
 //   allocates  nothing
 //   errors     ARGUMENT, SKIN (if there is one), SCALE, POSES, TIMES, POSE, QUATERNION, CLEARANCE,
 //              WORKSPACE
-//   source     this library; the walk is described in examples/verify/nsvcd_verify.h. Planes by
+//   source     this library; examples/verify/nsvcd_verify.h describes the traversal. Planes by
 //              Gilbert 1966
 NSVCDDEF nsvcd_result nsvcd_certify(const nsvcd_question *question, const nsvcd_tree *a,
                                     const nsvcd_tree *b, const nsvcd_certify_options *options,
@@ -361,7 +361,7 @@ static int nsvcd__is_aligned(const void *memory) {
 
 // Are numbers finite, and their absolute values no greater than `most`? By their bits, so that it
 // holds under -ffast-math too.
-static int nsvcd__within(const float *values, size_t count, float most) {
+static int nsvcd__in_range(const float *values, size_t count, float most) {
   for (size_t i = 0; i < count; i++) {
     if (!nsvcd__is_finite(values[i]) || fabsf(values[i]) > most) return 0;
   }
@@ -400,7 +400,7 @@ static nsvcd_result nsvcd__poses_check(const nsvcd_pose *poses, size_t count) {
   if (is_unit && most <= nsvcd__magnitude(NSVCD_MAX_COORDINATE)) return NSVCD_OK;
   // which of both?
   for (size_t k = 0; k < count; k++) {
-    if (!nsvcd__within(poses[k].position, 3, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_POSE;
+    if (!nsvcd__in_range(poses[k].position, 3, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_POSE;
   }
   return NSVCD_ERROR_QUATERNION;
 }
@@ -922,7 +922,7 @@ static inline nsvcd__nearest nsvcd__nearest_of(const nsvcd__d3 *a, const nsvcd__
 // ---------------------------------------------------------------------------------- ground/spheres
 #ifndef NSVCD__HAS_GROUND_SPHERES
 #define NSVCD__HAS_GROUND_SPHERES
-// In: rows of floats, as a body stores them. Out: one sphere, or one disc, as a value.
+// In: rows of floats, as a body stores them. Out: one sphere, or one slab, as a value.
 
 typedef struct nsvcd__sphere {
   nsvcd__f3 centre;
@@ -956,36 +956,36 @@ static inline void nsvcd__sphere_store(nsvcd__sphere sphere, float *first, size_
   first[3 * slots + i] = sphere.radius;
 }
 
-// ---- tips
+// ---- extremes
 
 // points of a patch's surface that reach about as far as all of it does: surface/sorted
-#define NSVCD__TIPS 8
+#define NSVCD__EXTREMES 8
 
-// ---- discs
+// ---- slabs
 
 // Points x about a centre have low <= normal.x <= high, and are no farther than `across` from the
 // line along the normal, which is no longer than 1.
-typedef struct nsvcd__disc {
+typedef struct nsvcd__slab {
   nsvcd__f3 normal;
   float low, high, across;
-} nsvcd__disc;
+} nsvcd__slab;
 
-// Disc i of (6, stride).
-static inline nsvcd__disc nsvcd__disc_at(const float *discs, size_t stride, size_t i) {
-  const float *d = discs + i;
-  nsvcd__disc out;
+// Slab i of (6, stride).
+static inline nsvcd__slab nsvcd__slab_at(const float *slabs, size_t stride, size_t i) {
+  const float *d = slabs + i;
+  nsvcd__slab out;
   out.normal = nsvcd__f3_get(d, stride);
   out.low = d[3 * stride];
   out.high = d[4 * stride];
   out.across = d[5 * stride];
   return out;
 }
-static inline void nsvcd__disc_store(nsvcd__disc disc, float *discs, size_t stride, size_t i) {
-  float *d = discs + i;
-  nsvcd__f3_put(disc.normal, d, stride);
-  d[3 * stride] = disc.low;
-  d[4 * stride] = disc.high;
-  d[5 * stride] = disc.across;
+static inline void nsvcd__slab_store(nsvcd__slab slab, float *slabs, size_t stride, size_t i) {
+  float *d = slabs + i;
+  nsvcd__f3_put(slab.normal, d, stride);
+  d[3 * stride] = slab.low;
+  d[4 * stride] = slab.high;
+  d[5 * stride] = slab.across;
 }
 #endif  // NSVCD__HAS_GROUND_SPHERES
 
@@ -1102,9 +1102,9 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
 //
 //   tree        boxes, and components
 //   law         where a body is at a time, and how far points leave their chords
-//   planes      one that separates two nodes over a stretch of time; its normal in a few bits
+//   planes      one that separates two nodes over a interval of time; its normal in a few bits
 //   rays        what is inside of what at one time
-//   certify     the walk that a certificate is
+//   certify     the traversal that a certificate is
 //
 // What is built and computed here examples/verify builds and computes again, by code of its own:
 // the rules by which nodes are cut and opened, and the form of the bits, are the same in both.
@@ -1214,7 +1214,7 @@ static void nsvcd__children(const nsvcd__node *node, nsvcd__node *left, nsvcd__n
 // ---- components
 
 // Below 0, 0 or above it: the place of vertex i is before, at or after that of vertex j.
-static int nsvcd__place_order(const nsvcd_tree *tree, uint32_t i, uint32_t j) {
+static int nsvcd__position_order(const nsvcd_tree *tree, uint32_t i, uint32_t j) {
   const float *x = tree->mesh.positions + 3 * (size_t)i;
   const float *y = tree->mesh.positions + 3 * (size_t)j;
   for (size_t k = 0; k < 3; k++) {
@@ -1270,15 +1270,15 @@ static void nsvcd__sort_numbers(const nsvcd_tree *tree, nsvcd__tree_compare *ord
 }
 
 // weld: the lowest vertex at each vertex's place. numbers: (vertices), to work with.
-static void nsvcd__weld_places(nsvcd_tree *tree, uint32_t *numbers) {
+static void nsvcd__weld_positions(nsvcd_tree *tree, uint32_t *numbers) {
   const size_t count = tree->mesh.vertex_count;
   size_t end;
   for (size_t v = 0; v < count; v++) numbers[v] = (uint32_t)v;
-  nsvcd__sort_numbers(tree, nsvcd__place_order, numbers, count);
+  nsvcd__sort_numbers(tree, nsvcd__position_order, numbers, count);
   for (size_t i = 0; i < count; i = end) {
     uint32_t lowest = numbers[i];
     end = i;
-    while (end < count && nsvcd__place_order(tree, numbers[i], numbers[end]) == 0) {
+    while (end < count && nsvcd__position_order(tree, numbers[i], numbers[end]) == 0) {
       lowest = numbers[end] < lowest ? numbers[end] : lowest;
       end++;
     }
@@ -1306,7 +1306,7 @@ static void nsvcd__find_parts(nsvcd_tree *tree, uint32_t *edges) {
   const uint32_t *indices = tree->mesh.indices;
   const size_t corners = 3 * tree->mesh.triangle_count;
   size_t end;
-  nsvcd__weld_places(tree, tree->part);
+  nsvcd__weld_positions(tree, tree->part);
   for (size_t v = 0; v < tree->mesh.vertex_count; v++) {
     tree->part[v] = NSVCD_NO_TRIANGLE;
     tree->open[v] = 0;
@@ -1401,10 +1401,10 @@ NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, siz
 // is a second opinion.
 
 // Takes a corner x to turn scale x + at.
-typedef struct nsvcd__posed {
+typedef struct nsvcd__pose_matrix {
   nsvcd__dmat3 turn;
   nsvcd__d3 at;
-} nsvcd__posed;
+} nsvcd__pose_matrix;
 
 // A mesh that moves.
 typedef struct nsvcd__moving_tree {
@@ -1412,11 +1412,11 @@ typedef struct nsvcd__moving_tree {
   nsvcd_motion_model model;
 } nsvcd__moving_tree;
 
-static nsvcd__posed nsvcd__posed_at(const nsvcd__moving_tree *moving, double t) {
-  const nsvcd_placement at = moving->model.place(moving->model.motion, t);
+static nsvcd__pose_matrix nsvcd__pose_matrix_at(const nsvcd__moving_tree *moving, double t) {
+  const nsvcd_pose64 at = moving->model.pose_at(moving->model.motion, t);
   const double *q = at.rotation;
   const nsvcd__dquat turn = {q[0], q[1], q[2], q[3]};
-  const nsvcd__posed out = {
+  const nsvcd__pose_matrix out = {
       nsvcd__dmat3_of(nsvcd__dquat_unit(turn)),
       nsvcd__d3_of(at.position[0], at.position[1], at.position[2]),
   };
@@ -1474,16 +1474,16 @@ static nsvcd__turning nsvcd__turning_of(const nsvcd_pose *a, const nsvcd_pose *b
   return out;
 }
 
-static nsvcd_placement nsvcd__placement_of(nsvcd__dquat q, nsvcd__d3 at) {
-  const nsvcd_placement out = {{at.x, at.y, at.z}, {q.x, q.y, q.z, q.w}};
+static nsvcd_pose64 nsvcd__pose64_of(nsvcd__dquat q, nsvcd__d3 at) {
+  const nsvcd_pose64 out = {{at.x, at.y, at.z}, {q.x, q.y, q.z, q.w}};
   return out;
 }
 
-static nsvcd_placement nsvcd__mover_place(const void *motion, double t) {
+static nsvcd_pose64 nsvcd__mover_position(const void *motion, double t) {
   const nsvcd_mover *mover = (const nsvcd_mover *)motion;
   if (mover->count == 1)
-    return nsvcd__placement_of(nsvcd__pose_rotation(mover->poses),
-                               nsvcd__d3_load(mover->poses->position));
+    return nsvcd__pose64_of(nsvcd__pose_rotation(mover->poses),
+                            nsvcd__d3_load(mover->poses->position));
   const size_t k = nsvcd__mover_pose(mover, t);
   const nsvcd_pose *a = &mover->poses[k];
   const double from = nsvcd__mover_keyframe(mover, k);
@@ -1498,8 +1498,7 @@ static nsvcd_placement nsvcd__mover_place(const void *motion, double t) {
   }
   const nsvcd__dquat q = nsvcd__dquat_fma(after, arc.to, nsvcd__dquat_scale(arc.from, before));
   const nsvcd__d3 from_position = nsvcd__d3_load(a->position);
-  return nsvcd__placement_of(q,
-                             nsvcd__d3_mix(from_position, nsvcd__d3_load(a[1].position), u));
+  return nsvcd__pose64_of(q, nsvcd__d3_mix(from_position, nsvcd__d3_load(a[1].position), u));
 }
 
 static double nsvcd__mover_next(const void *motion, double t) {
@@ -1545,14 +1544,14 @@ static nsvcd_result nsvcd__model_of(const nsvcd_mover *mover, nsvcd_mover *meant
   }
   if (meant->count == 1) meant->times = NULL;
   model->scale = (double)scale;
-  model->place = nsvcd__mover_place;
+  model->pose_at = nsvcd__mover_position;
   model->next = nsvcd__mover_next;
   model->deviation = nsvcd__mover_deviation;
   model->motion = meant;
-  model->reach = 0;
+  model->extent = 0;
   for (size_t k = 0; k < meant->count; k++) {
     const nsvcd__d3 at = nsvcd__d3_load(meant->poses[k].position);
-    model->reach = nsvcd__max(model->reach, fabs(at.x) + fabs(at.y) + fabs(at.z));
+    model->extent = nsvcd__max(model->extent, fabs(at.x) + fabs(at.y) + fabs(at.z));
   }
   model->digest = nsvcd__digest((uint32_t)meant->count, meant->poses, 7 * meant->count);
   model->digest = nsvcd__digest(model->digest, &scale, 1);
@@ -1561,8 +1560,8 @@ static nsvcd_result nsvcd__model_of(const nsvcd_mover *mover, nsvcd_mover *meant
 }
 
 // ------------------------------------------------------------------------------ certificate/planes
-// In: two nodes, and a stretch of time. Out: a plane that separates them all the while, by a normal
-// that takes a few bits; or none.
+// In: two nodes, and a interval of time. Out: a plane that separates them all the while, by a
+// normal that takes a few bits; or none.
 
 // What is asked for beyond what numbers say, of all lengths: the checker's, and a little more.
 #define NSVCD__CERTIFIED_MARGIN 1.01e-10
@@ -1576,13 +1575,13 @@ static nsvcd_result nsvcd__model_of(const nsvcd_mover *mover, nsvcd_mover *meant
 // A time, where both bodies are then, and by how much points leave their chords to the next one.
 typedef struct nsvcd__instant {
   double t;
-  nsvcd__posed a, b;
+  nsvcd__pose_matrix a, b;
   double lengths;  // of both places, and what they are computed from
   nsvcd_deviation off_a, off_b;
 } nsvcd__instant;
 
-// A stretch of time: both ends, and all keyframes between.
-typedef struct nsvcd__stretch {
+// A interval of time: both ends, and all keyframes between.
+typedef struct nsvcd__tree_interval {
   const nsvcd__moving_tree *a, *b;
   double clearance;
   nsvcd__instant *instants;  // (capacity)
@@ -1590,7 +1589,7 @@ typedef struct nsvcd__stretch {
   double t0, t1;
   // half way; its time is -1 before it is needed
   nsvcd__instant middle;
-} nsvcd__stretch;
+} nsvcd__tree_interval;
 
 // A node of each tree. No point of them is farther from its body's origin than the radii say.
 typedef struct nsvcd__nodes {
@@ -1605,7 +1604,7 @@ typedef struct nsvcd__written_normal {
   int bits;  // of each number: 8, 16 or 24
 } nsvcd__written_normal;
 
-static double nsvcd__lengths_at(const nsvcd__posed *a, const nsvcd__posed *b) {
+static double nsvcd__lengths_at(const nsvcd__pose_matrix *a, const nsvcd__pose_matrix *b) {
   return fabs(a->at.x) + fabs(a->at.y) + fabs(a->at.z) + fabs(b->at.x) + fabs(b->at.y) +
          fabs(b->at.z);
 }
@@ -1615,14 +1614,14 @@ static nsvcd__instant nsvcd__instant_at(const nsvcd__moving_tree *a,
   nsvcd__instant at;
   memset(&at, 0, sizeof at);
   at.t = t;
-  at.a = nsvcd__posed_at(a, t);
-  at.b = nsvcd__posed_at(b, t);
-  at.lengths = a->model.reach + b->model.reach + nsvcd__lengths_at(&at.a, &at.b);
+  at.a = nsvcd__pose_matrix_at(a, t);
+  at.b = nsvcd__pose_matrix_at(b, t);
+  at.lengths = a->model.extent + b->model.extent + nsvcd__lengths_at(&at.a, &at.b);
   return at;
 }
 
 // Returns 0 where there are more keyframes than there is room for.
-static int nsvcd__stretch_to(nsvcd__stretch *s, double t0, double t1) {
+static int nsvcd__tree_interval_to(nsvcd__tree_interval *s, double t0, double t1) {
   if (s->count > 0 && !(s->t0 < t0) && !(s->t0 > t0) && !(s->t1 < t1) && !(s->t1 > t1))
     return 1;
   const nsvcd_motion_model *a = &s->a->model;
@@ -1644,7 +1643,7 @@ static int nsvcd__stretch_to(nsvcd__stretch *s, double t0, double t1) {
 }
 
 // The instant half way.
-static const nsvcd__instant *nsvcd__stretch_middle(nsvcd__stretch *s) {
+static const nsvcd__instant *nsvcd__tree_interval_middle(nsvcd__tree_interval *s) {
   if (s->middle.t < 0) s->middle = nsvcd__instant_at(s->a, s->b, 0.5 * (s->t0 + s->t1));
   return &s->middle;
 }
@@ -1654,31 +1653,31 @@ static const nsvcd__instant *nsvcd__stretch_middle(nsvcd__stretch *s) {
 // The corner of a node's box, or of its few triangles, that is farthest along a direction in its
 // frame.
 static nsvcd__d3 nsvcd__farthest(const nsvcd_tree *tree, const nsvcd__node *node,
-                                 nsvcd__d3 way) {
+                                 nsvcd__d3 direction) {
   if (node->count > NSVCD__EXACT) {
     const nsvcd__box *box = &tree->boxes[node->box];
-    return nsvcd__d3_of((double)(way.x > 0 ? box->high.x : box->low.x),
-                        (double)(way.y > 0 ? box->high.y : box->low.y),
-                        (double)(way.z > 0 ? box->high.z : box->low.z));
+    return nsvcd__d3_of((double)(direction.x > 0 ? box->high.x : box->low.x),
+                        (double)(direction.y > 0 ? box->high.y : box->low.y),
+                        (double)(direction.z > 0 ? box->high.z : box->low.z));
   }
   const float *corners = tree->corners + 9 * (size_t)node->first;
   double most = -HUGE_VAL;
   size_t farthest = 0;
   for (size_t i = 0; i < 3 * (size_t)node->count; i++) {
-    const double along = nsvcd__d3_dot(nsvcd__d3_row(corners, i), way);
+    const double along = nsvcd__d3_dot(nsvcd__d3_row(corners, i), direction);
     farthest = along > most ? i : farthest;
     most = along > most ? along : most;
   }
   return nsvcd__d3_row(corners, farthest);
 }
 
-static nsvcd__d3 nsvcd__turned_by(const nsvcd__moving_tree *moving, const nsvcd__posed *at,
-                                  nsvcd__d3 x) {
+static nsvcd__d3 nsvcd__turned_by(const nsvcd__moving_tree *moving,
+                                  const nsvcd__pose_matrix *at, nsvcd__d3 x) {
   return nsvcd__d3_scale(nsvcd__dmat3_apply(&at->turn, x), moving->model.scale);
 }
 
 // Of all points of two nodes, one of each, the difference a - b that goes least along a direction.
-static nsvcd__d3 nsvcd__least_apart(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
+static nsvcd__d3 nsvcd__least_apart(const nsvcd__tree_interval *s, const nsvcd__nodes *nodes,
                                     const nsvcd__instant *at, nsvcd__d3 along) {
   const nsvcd__d3 back = nsvcd__d3_scale(along, -1);
   const nsvcd__d3 way_a = nsvcd__dmat3_apply_transpose(&at->a.turn, back);
@@ -1693,19 +1692,21 @@ static nsvcd__d3 nsvcd__least_apart(const nsvcd__stretch *s, const nsvcd__nodes 
 // How far along a direction, in its frame, a node reaches. Three corners at a time: a maximum waits
 // for the one before.
 static double nsvcd__most_along(const nsvcd_tree *tree, const nsvcd__node *node,
-                                nsvcd__d3 way) {
-  if (node->count > NSVCD__EXACT) return nsvcd__d3_dot(nsvcd__farthest(tree, node, way), way);
+                                nsvcd__d3 direction) {
+  if (node->count > NSVCD__EXACT)
+    return nsvcd__d3_dot(nsvcd__farthest(tree, node, direction), direction);
   const float *corners = tree->corners + 9 * (size_t)node->first;
   double most[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   for (size_t i = 0; i < node->count; i++) {
     for (size_t k = 0; k < 3; k++)
-      most[k] = nsvcd__max(nsvcd__d3_dot(nsvcd__d3_row(corners, 3 * i + k), way), most[k]);
+      most[k] =
+          nsvcd__max(nsvcd__d3_dot(nsvcd__d3_row(corners, 3 * i + k), direction), most[k]);
   }
   return nsvcd__max(most[0], nsvcd__max(most[1], most[2]));
 }
 
 // How far that difference goes.
-static double nsvcd__gap_along(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
+static double nsvcd__gap_along(const nsvcd__tree_interval *s, const nsvcd__nodes *nodes,
                                const nsvcd__instant *at, nsvcd__d3 along) {
   const nsvcd__d3 way_a = nsvcd__dmat3_apply_transpose(&at->a.turn, along);
   const nsvcd__d3 way_b = nsvcd__dmat3_apply_transpose(&at->b.turn, along);
@@ -1747,8 +1748,8 @@ static double nsvcd__node_aside(const nsvcd__moving_tree *moving, const nsvcd__n
 
 // By how much the points of a node, at r metres at most, leave their chords along a normal.
 static double nsvcd__node_leaves(const nsvcd__moving_tree *moving, const nsvcd__node *node,
-                                 double r, const nsvcd__posed *at, const nsvcd_deviation *off,
-                                 nsvcd__d3 along) {
+                                 double r, const nsvcd__pose_matrix *at,
+                                 const nsvcd_deviation *off, nsvcd__d3 along) {
   double leaves = nsvcd__d3_length(along) * (off->base + off->per_metre * r);
   if (off->turn > 0) {
     const nsvcd__d3 own = nsvcd__d3_of(off->axis[0], off->axis[1], off->axis[2]);
@@ -1760,8 +1761,8 @@ static double nsvcd__node_leaves(const nsvcd__moving_tree *moving, const nsvcd__
 }
 
 // Does a plane of this normal part two nodes, at all instants and between them?
-static int nsvcd__plane_separates_nodes(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
-                                        nsvcd__d3 along) {
+static int nsvcd__plane_separates_nodes(const nsvcd__tree_interval *s,
+                                        const nsvcd__nodes *nodes, nsvcd__d3 along) {
   const double length = nsvcd__d3_length(along);
   const double ra = nodes->radius_a;
   const double rb = nodes->radius_b;
@@ -1818,7 +1819,7 @@ typedef struct nsvcd__best {
 } nsvcd__best;
 
 // Gilbert's iteration towards the point of a - b that is nearest to the origin.
-static nsvcd__best nsvcd__gilbert(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
+static nsvcd__best nsvcd__gilbert(const nsvcd__tree_interval *s, const nsvcd__nodes *nodes,
                                   const nsvcd__instant *at, nsvcd__d3 along) {
   nsvcd__best best = {along, -HUGE_VAL};
   nsvcd__d3 v = nsvcd__least_apart(s, nodes, at, along);
@@ -1844,16 +1845,17 @@ static nsvcd__best nsvcd__gilbert(const nsvcd__stretch *s, const nsvcd__nodes *n
 
 // A leaf's triangle in the world, as seen from the origin of b.
 static void nsvcd__leaf_corners(const nsvcd__moving_tree *moving, const nsvcd__node *node,
-                                const nsvcd__posed *at, nsvcd__d3 offset, nsvcd__d3 *corners) {
+                                const nsvcd__pose_matrix *at, nsvcd__d3 offset,
+                                nsvcd__d3 *corners) {
   const float *x = moving->tree->corners + 9 * (size_t)node->first;
   for (size_t k = 0; k < 3; k++)
     corners[k] = nsvcd__d3_add(nsvcd__turned_by(moving, at, nsvcd__d3_row(x, k)), offset);
 }
 
 // Looks for a plane that separates two nodes all the while.
-static int nsvcd__find_normal(nsvcd__stretch *s, const nsvcd__nodes *nodes, nsvcd__d3 last,
-                              nsvcd__written_normal *normal) {
-  const nsvcd__instant *at = nsvcd__stretch_middle(s);
+static int nsvcd__find_normal(nsvcd__tree_interval *s, const nsvcd__nodes *nodes,
+                              nsvcd__d3 last, nsvcd__written_normal *normal) {
+  const nsvcd__instant *at = nsvcd__tree_interval_middle(s);
   nsvcd__best best = {last, 0};
   if (nodes->a.count == 1 && nodes->b.count == 1) {
     nsvcd__d3 a[3], b[3];
@@ -1880,9 +1882,10 @@ static int nsvcd__find_normal(nsvcd__stretch *s, const nsvcd__nodes *nodes, nsvc
 #define NSVCD__UNCLEAR 2
 
 // A vertex of one body in the frame of another, in units of that one's scale.
-static nsvcd__d3 nsvcd__vertex_seen(const nsvcd__moving_tree *of, const nsvcd__posed *of_at,
-                                    const nsvcd__moving_tree *by, const nsvcd__posed *by_at,
-                                    uint32_t vertex) {
+static nsvcd__d3 nsvcd__vertex_seen(const nsvcd__moving_tree *of,
+                                    const nsvcd__pose_matrix *of_at,
+                                    const nsvcd__moving_tree *by,
+                                    const nsvcd__pose_matrix *by_at, uint32_t vertex) {
   const nsvcd__d3 x = nsvcd__d3_row(of->tree->mesh.positions, vertex);
   const nsvcd__d3 offset = nsvcd__d3_sub(of_at->at, by_at->at);
   const nsvcd__d3 world = nsvcd__d3_add(nsvcd__turned_by(of, of_at, x), offset);
@@ -1896,16 +1899,17 @@ typedef struct nsvcd__extent {
 } nsvcd__extent;
 
 static nsvcd__extent nsvcd__extent_seen(const nsvcd__moving_tree *of,
-                                        const nsvcd__posed *of_at,
+                                        const nsvcd__pose_matrix *of_at,
                                         const nsvcd__moving_tree *by,
-                                        const nsvcd__posed *by_at) {
+                                        const nsvcd__pose_matrix *by_at) {
   const nsvcd__node root = {0, 0, 1};
   const double radii = nsvcd__node_radius(of, &root) + nsvcd__node_radius(by, &root);
   const double apart = nsvcd__d3_length(nsvcd__d3_sub(of_at->at, by_at->at));
-  const double places = of->model.reach + by->model.reach + nsvcd__lengths_at(of_at, by_at);
+  const double positions =
+      of->model.extent + by->model.extent + nsvcd__lengths_at(of_at, by_at);
   nsvcd__extent out;
   out.lengths = 1.000001 * (radii + apart) / by->model.scale;
-  out.margin = NSVCD__CERTIFIED_MARGIN * (out.lengths + places / by->model.scale);
+  out.margin = NSVCD__CERTIFIED_MARGIN * (out.lengths + positions / by->model.scale);
   return out;
 }
 
@@ -1991,19 +1995,19 @@ static int nsvcd__sum_of_closed(const nsvcd_tree *tree, const int32_t *sums) {
 //
 //   all       version 1 (6 bits), kind (2), digests of both meshes (8 each), of motions, scales and
 //             the clearance (16)
-//   FREE      the walk, a code a visit, as examples/verify/nsvcd_verify.h has it: 0 open the node
-//             whose box is longer; 11 separated by the last normal; 101 by another, which follows;
-//             100 halve the time. Where the roots are nowhere separated: a ray for each part of a,
-//             then of b, at t = 0: 1 along the last normal, or 0, and a normal
+//   FREE      the traversal, a code a visit, as examples/verify/nsvcd_verify.h has it: 0 open the
+//             node whose box is longer; 11 separated by the last normal; 101 by another, which
+//             follows; 100 halve the time. Where the roots are nowhere separated: a ray for each
+//             part of a, then of b, at t = 0: 1 along the last normal, or 0, and a normal
 //   others    the time (32), then HIT: two triangles (32 each), whose edge (1), which (2); NEAR:
 //             two triangles, a point on each (16, 16); INSIDE: whose corner (1), which (32), a
 //             normal
 //   a normal  the last eight are remembered: k zeros and a 1 are the one k + 1 before the last;
 //             seven zeros a new one: 0, two numbers of 8 bits; 10, two of 16; 11, two of 24
 
-#define NSVCD__WALK_STACK 128  // nodes that wait
+#define NSVCD__TRAVERSAL_STACK 128  // nodes that wait
 #define NSVCD__NO_EDGE 3u
-#define NSVCD__SHORTEST_STRETCH 1e-12
+#define NSVCD__SHORTEST_INTERVAL 1e-12
 #define NSVCD__REMEMBERED 8  // normals
 #define NSVCD__RAYS 64       // that are tried for a part
 // of the sum of both nodes' lengths: where they go farther the time is halved
@@ -2018,7 +2022,7 @@ typedef struct nsvcd__visit {
 
 typedef struct nsvcd__certifier {
   nsvcd__moving_tree a, b;
-  nsvcd__stretch stretch;
+  nsvcd__tree_interval interval;
   // the last ones, the last first
   nsvcd__d3 normals[NSVCD__REMEMBERED];
   uint8_t *bytes;
@@ -2082,17 +2086,21 @@ static double nsvcd__coded_time(uint32_t code) {
 // ---- what meets
 
 // A triangle's corner k in another body's frame.
-static nsvcd__d3 nsvcd__corner_seen(const nsvcd__moving_tree *of, const nsvcd__posed *of_at,
-                                    const nsvcd__moving_tree *by, const nsvcd__posed *by_at,
-                                    uint32_t triangle, uint32_t k) {
+static nsvcd__d3 nsvcd__corner_seen(const nsvcd__moving_tree *of,
+                                    const nsvcd__pose_matrix *of_at,
+                                    const nsvcd__moving_tree *by,
+                                    const nsvcd__pose_matrix *by_at, uint32_t triangle,
+                                    uint32_t k) {
   const uint32_t vertex = of->tree->mesh.indices[3 * (size_t)triangle + k];
   return nsvcd__vertex_seen(of, of_at, by, by_at, vertex);
 }
 
 // Does an edge of a triangle of one pass through one of the other? Which.
-static uint32_t nsvcd__piercing_edge(const nsvcd__moving_tree *of, const nsvcd__posed *of_at,
-                                     const nsvcd__moving_tree *by, const nsvcd__posed *by_at,
-                                     uint32_t own, uint32_t other) {
+static uint32_t nsvcd__piercing_edge(const nsvcd__moving_tree *of,
+                                     const nsvcd__pose_matrix *of_at,
+                                     const nsvcd__moving_tree *by,
+                                     const nsvcd__pose_matrix *by_at, uint32_t own,
+                                     uint32_t other) {
   const nsvcd__extent e = nsvcd__extent_seen(of, of_at, by, by_at);
   for (uint32_t k = 0; k < 3; k++) {
     const nsvcd__d3 from = nsvcd__corner_seen(of, of_at, by, by_at, own, k);
@@ -2138,7 +2146,7 @@ static int nsvcd__near_at(const nsvcd__certifier *c, const nsvcd__instant *at, u
   const nsvcd__d3 on_a = nsvcd__point_code(a, nearest.on_a, codes);
   const nsvcd__d3 on_b = nsvcd__point_code(b, nearest.on_b, codes + 2);
   const double distance = sqrt(nsvcd__d3_distance2(on_a, on_b)) + e.margin;
-  return c->b.model.scale * distance < c->stretch.clearance;
+  return c->b.model.scale * distance < c->interval.clearance;
 }
 
 // Do two triangles meet at a time, or come within the clearance? Then it writes the certificate.
@@ -2154,7 +2162,7 @@ static int nsvcd__meet_at(nsvcd__certifier *c, double when, uint32_t ta, uint32_
     edge = nsvcd__piercing_edge(&c->b, &at.b, &c->a, &at.a, tb, ta);
   }
   const int pierced = edge != NSVCD__NO_EDGE;
-  if (!pierced && !(c->stretch.clearance > 0 && nsvcd__near_at(c, &at, ta, tb, points)))
+  if (!pierced && !(c->interval.clearance > 0 && nsvcd__near_at(c, &at, ta, tb, points)))
     return 0;
   nsvcd__write_head(c, pierced ? NSVCD__PROVES_HIT : NSVCD__PROVES_NEAR);
   nsvcd__write_bits(c, code, 32);
@@ -2170,7 +2178,7 @@ static int nsvcd__meet_at(nsvcd__certifier *c, double when, uint32_t ta, uint32_
   return 1;
 }
 
-// ---- the walk
+// ---- the traversal
 
 // The longest side of a node's box.
 static double nsvcd__node_side(const nsvcd__moving_tree *moving, const nsvcd__node *node) {
@@ -2181,15 +2189,15 @@ static double nsvcd__node_side(const nsvcd__moving_tree *moving, const nsvcd__no
 }
 
 static nsvcd__d3 nsvcd__node_middle(const nsvcd__moving_tree *moving, const nsvcd__node *node,
-                                    const nsvcd__posed *at) {
+                                    const nsvcd__pose_matrix *at) {
   const nsvcd__box *box = &moving->tree->boxes[node->box];
   const nsvcd__d3 sum = nsvcd__d3_add(nsvcd__d3_widen(box->low), nsvcd__d3_widen(box->high));
   return nsvcd__turned_by(moving, at, nsvcd__d3_scale(sum, 0.5));
 }
 
-// The way of one node's middle as the other's sees it, over the stretch, from instant to instant.
-static double nsvcd__way_apart(const nsvcd__stretch *s, const nsvcd__nodes *nodes) {
-  double way = 0;
+// The way of one node's middle as the other's sees it, over the interval, from instant to instant.
+static double nsvcd__way_apart(const nsvcd__tree_interval *s, const nsvcd__nodes *nodes) {
+  double travel = 0;
   nsvcd__d3 last = nsvcd__d3_of(0, 0, 0);
   for (size_t i = 0; i < s->count; i++) {
     const nsvcd__instant *at = &s->instants[i];
@@ -2197,10 +2205,10 @@ static double nsvcd__way_apart(const nsvcd__stretch *s, const nsvcd__nodes *node
     const nsvcd__d3 b = nsvcd__node_middle(s->b, &nodes->b, &at->b);
     const nsvcd__d3 offset = nsvcd__d3_sub(at->a.at, at->b.at);
     const nsvcd__d3 now = nsvcd__d3_add(nsvcd__d3_sub(a, b), offset);
-    if (i > 0) way += sqrt(nsvcd__d3_distance2(now, last));
+    if (i > 0) travel += sqrt(nsvcd__d3_distance2(now, last));
     last = now;
   }
-  return way;
+  return travel;
 }
 
 // Replaces a visit by two, pushed in reverse order: of the children of the node whose box is
@@ -2211,12 +2219,12 @@ static int nsvcd__divide_visit(nsvcd__certifier *c, nsvcd__visit *v) {
   const double side_b = nsvcd__node_side(&c->b, &nodes->b);
   const int leaves = nodes->a.count == 1 && nodes->b.count == 1;
   const int halves =
-      leaves || nsvcd__way_apart(&c->stretch, nodes) > NSVCD__FAR_TO_GO * (side_a + side_b);
+      leaves || nsvcd__way_apart(&c->interval, nodes) > NSVCD__FAR_TO_GO * (side_a + side_b);
   v[1] = *v;
   nsvcd__write_bits(c, halves ? 4 : 0, halves ? 3 : 1);
   if (halves) {
     v[1].t1 = v->t0 = 0.5 * (v->t0 + v->t1);
-    return v->t1 - v[1].t0 >= NSVCD__SHORTEST_STRETCH;
+    return v->t1 - v[1].t0 >= NSVCD__SHORTEST_INTERVAL;
   }
   if (nodes->b.count == 1 || (nodes->a.count > 1 && side_a >= side_b))
     nsvcd__children(&nodes->a, &v[1].nodes.a, &nodes->a);
@@ -2226,8 +2234,8 @@ static int nsvcd__divide_visit(nsvcd__certifier *c, nsvcd__visit *v) {
 }
 
 // FREE, HIT, or UNDECIDED.
-static nsvcd_verdict nsvcd__prove_walk(nsvcd__certifier *c, size_t visits) {
-  nsvcd__visit stack[NSVCD__WALK_STACK];
+static nsvcd_verdict nsvcd__prove_traversal(nsvcd__certifier *c, size_t visits) {
+  nsvcd__visit stack[NSVCD__TRAVERSAL_STACK];
   size_t height = 1;
   int is_unresolved = 0;
   memset(stack, 0, sizeof *stack);
@@ -2246,13 +2254,13 @@ static nsvcd_verdict nsvcd__prove_walk(nsvcd__certifier *c, size_t visits) {
       return NSVCD_UNDECIDED;
     }
     c->made->visits++;
-    if (!nsvcd__stretch_to(&c->stretch, v->t0, v->t1)) return NSVCD_UNDECIDED;
+    if (!nsvcd__tree_interval_to(&c->interval, v->t0, v->t1)) return NSVCD_UNDECIDED;
     size_t k = 0;
     while (k < NSVCD__REMEMBERED &&
-           !nsvcd__plane_separates_nodes(&c->stretch, nodes, c->normals[k]))
+           !nsvcd__plane_separates_nodes(&c->interval, nodes, c->normals[k]))
       k++;
     if (k < NSVCD__REMEMBERED ||
-        nsvcd__find_normal(&c->stretch, nodes, c->normals[0], &normal)) {
+        nsvcd__find_normal(&c->interval, nodes, c->normals[0], &normal)) {
       nsvcd__write_bits(c, k > 0 ? 5 : 3, k > 0 ? 3 : 2);
       if (k > 0) nsvcd__write_normal(c, k, &normal);
       if (nodes->a.box == 0 && nodes->b.box == 0) c->apart = 1;
@@ -2264,7 +2272,7 @@ static nsvcd_verdict nsvcd__prove_walk(nsvcd__certifier *c, size_t visits) {
       const uint32_t tb = c->b.tree->order[nodes->b.first];
       if (nsvcd__meet_at(c, 0.5 * (v->t0 + v->t1), ta, tb)) return NSVCD_HIT;
     }
-    if (height == NSVCD__WALK_STACK) return NSVCD_UNDECIDED;
+    if (height == NSVCD__TRAVERSAL_STACK) return NSVCD_UNDECIDED;
     // they touch, or nearly so: no proof that they are free, but others may still meet
     const int goes_on = nsvcd__divide_visit(c, v);
     height += goes_on ? 1 : (size_t)-1;
@@ -2294,8 +2302,8 @@ static nsvcd__written_normal nsvcd__ray_to_try(size_t k, uint64_t *random) {
 static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
   const nsvcd__moving_tree *of = whose ? &c->b : &c->a;
   const nsvcd__moving_tree *by = whose ? &c->a : &c->b;
-  const nsvcd__posed of_at = nsvcd__posed_at(of, 0);
-  const nsvcd__posed by_at = nsvcd__posed_at(by, 0);
+  const nsvcd__pose_matrix of_at = nsvcd__pose_matrix_at(of, 0);
+  const nsvcd__pose_matrix by_at = nsvcd__pose_matrix_at(by, 0);
   const nsvcd__extent e = nsvcd__extent_seen(of, &of_at, by, &by_at);
   uint64_t random = 1;
   for (uint32_t v = 0; v < of->tree->mesh.vertex_count; v++) {
@@ -2364,8 +2372,8 @@ static uint64_t nsvcd__certifier_layout(size_t instants, const nsvcd_tree *a,
   uint64_t used = 0;
   const size_t vertices = a->mesh.vertex_count > b->mesh.vertex_count ? a->mesh.vertex_count
                                                                       : b->mesh.vertex_count;
-  c->stretch.capacity = instants;
-  c->stretch.instants =
+  c->interval.capacity = instants;
+  c->interval.instants =
       (nsvcd__instant *)nsvcd__take(base, &used, instants, sizeof(nsvcd__instant));
   c->sums = (int32_t *)nsvcd__take(base, &used, vertices, sizeof *c->sums);
   return used;
@@ -2400,15 +2408,15 @@ NSVCDDEF nsvcd_result nsvcd_certify_models(
   c.b.tree = b;
   c.a.model = models[0];
   c.b.model = models[1];
-  c.stretch.a = &c.a;
-  c.stretch.b = &c.b;
-  c.stretch.clearance = (double)clearance;
+  c.interval.a = &c.a;
+  c.interval.b = &c.b;
+  c.interval.clearance = (double)clearance;
   c.bytes = bytes;
   c.capacity = capacity;
   c.digest = nsvcd__digest(c.a.model.digest + 31 * c.b.model.digest, &clearance, 1);
   c.made = &out;
   if (!(o->answer && nsvcd__meet_as_told(&c, o->answer))) {
-    out.verdict = nsvcd__prove_walk(&c, o->visits ? o->visits : NSVCD_DEFAULT_VISITS);
+    out.verdict = nsvcd__prove_traversal(&c, o->visits ? o->visits : NSVCD_DEFAULT_VISITS);
     if (out.verdict == NSVCD_FREE && !c.apart) out.verdict = nsvcd__cast_all(&c, 0);
     if (out.verdict == NSVCD_FREE && !c.apart) out.verdict = nsvcd__cast_all(&c, 1);
   }
@@ -2446,7 +2454,7 @@ NSVCDDEF nsvcd_result nsvcd_certify(const nsvcd_question *question, const nsvcd_
   nsvcd_result result = nsvcd__model_of(&question->a, &movers[0], &models[0]);
   if (!result) result = nsvcd__model_of(&question->b, &movers[1], &models[1]);
   if (result) return result;
-  if (!(question->skin <= 0 && question->skin >= 0)) return NSVCD_ERROR_SKIN;
+  if (!(question->slop <= 0 && question->slop >= 0)) return NSVCD_ERROR_SLOP;
   return nsvcd_certify_models(models, nsvcd__keyframes_of(question), question->clearance, a, b,
                               options, workspace, workspace_size, bytes, capacity, made);
 }

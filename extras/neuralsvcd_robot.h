@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // nsvcd_check proves that a motion of the joints is free, as the joints make it; nsvcd_route finds
-// one; nsvcd_gaps tells what is near a configuration. On top of neuralsvcd.h, of which it uses what
-// any program can. In ONE C or C++ file:
+// one; nsvcd_proximities tells what is near a configuration. On top of neuralsvcd.h, of which it
+// uses what any program can. In ONE C or C++ file:
 //
 //   #define NEURALSVCD_ROBOT_IMPLEMENTATION
 //   #include "extras/neuralsvcd_robot.h"
@@ -13,7 +13,7 @@
 // CONTENTS: a room's name ends a line of dashes. Each uses only those above it.
 //   interface: what a program sees
 //     robots          joints, parts, checks of motions; nsvcd_check
-//     postures        one configuration: what is near, a way out; nsvcd_gaps
+//     configurations  one configuration: pairs that are near, a way out
 //     routes          a start and goals; nsvcd_route
 //     pairs           a certificate of a pair of parts; nsvcd_certify_pair
 //   ground: numbers and memory
@@ -29,11 +29,11 @@
 //   robot: is a motion of joints free?
 //     chain           what moves what; where everything is
 //     steps           what the joints do between two times
-//     stray           by how much a part leaves the line and the slerp between two samples
+//     deviation       how far a part leaves the motion between two samples
 //     path            pieces, pair by pair
 //     proofs          certificates of pairs
-//     trees           configurations, and the nearest of them
-//     postures        one configuration: gaps and their slopes, a way out, who can meet
+//     rrt             configurations, and the nearest of them
+//     configurations  proximities, the nearest free one, pairs that can meet
 //     blends          from one state to another, within limits of speed and acceleration
 //     smooth          a way in time, then smooth
 //     route           two trees of proven edges, shortcuts
@@ -41,8 +41,8 @@
 // GLOSSARY
 //   part, link, piece a body of a scene; what a joint carries; of a motion of joints, one curve
 //   step, sample      of a piece, between two samples; a configuration in which parts are placed
-//   stray             by how much a part leaves, in a step, the line and the slerp between samples
-//   moment arm             how far a point of a part can be from a joint's axis
+//   deviation         by how much a part leaves, in a step, the line and slerp between samples
+//   moment arm        how far a point of a part can be from a joint's axis
 #ifndef NEURALSVCD_ROBOT_H
 #define NEURALSVCD_ROBOT_H
 #ifndef NEURALSVCD_H  // include it first where it stands elsewhere
@@ -61,7 +61,7 @@ extern "C" {
 // In: a robot among obstacles, and a motion of its joints. Out: is it free, as the joints make it?
 //
 // Between two samples of a joint motion a link leaves the line and the slerp that nsvcd_sweep is
-// about. By how much, at most, follows from the joints (robot/stray): with that as clearance the
+// about. By how much, at most, follows from the joints (robot/deviate): with that as clearance the
 // sweep proves the joints' own motion, at all times.
 
 // of a piece of a motion
@@ -189,8 +189,8 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
 // its origin is more than what nsvcd_check answers to.
 //   joints     (F), radians or metres; not looked at: NaN gives poses that are none
 //   poses      (B), in the world
-NSVCDDEF void nsvcd_checker_place(const nsvcd_checker *checker, const double *joints,
-                                  nsvcd_pose *poses);
+NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const double *joints,
+                                       nsvcd_pose *poses);
 
 // Is a motion free?
 //   checker    not NULL; where things are hit is remembered: it is asked there first
@@ -200,7 +200,7 @@ NSVCDDEF void nsvcd_checker_place(const nsvcd_checker *checker, const double *jo
 //   allocates  nothing
 //   errors     ARGUMENT, DEGREE, VALUE (points not finite or beyond NSVCD_MAX_COORDINATE), TIMES,
 //              CLEARANCE, FINEST
-//   source     this library: robot/stray; slerps and lines against joints, by second derivatives
+//   source     this library: robot/deviate; slerps and lines against joints, by second derivatives
 //
 // What FREE says holds for the joints' own motion, with all joint values and frames exact, and
 // bodies as nsvcd_sweep says. A HIT is one of the configuration named, to what a pose in float is
@@ -211,12 +211,12 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
                                   const nsvcd_check_options *options,
                                   nsvcd_check_answer *answer);
 
-// ------------------------------------------------------------------------------ interface/postures
+// ------------------------------------------------------------------------ interface/configurations
 // In: a robot in one configuration. Out: what is near, how that changes with the joints, a way out;
 // who can meet whom at all; a part as another link would carry it.
 
 // Two parts of a pair that are near each other.
-typedef struct nsvcd_gap {
+typedef struct nsvcd_proximity {
   // of the scene's
   size_t pair;
   // HIT: they touch, or one is inside of the other, as nsvcd_check has it; FREE: they are proven to
@@ -225,30 +225,30 @@ typedef struct nsvcd_gap {
   nsvcd_why why;
   // metres: no less than `low`, no more than `high`
   nsvcd_range distance;
-  // metres, of a HIT: a lift of a by this along the contact's normal is proven to separate them;
-  // hardly less does, along that normal. HUGE_VALF: none up to options.deepest along each normal
-  // was found, as where one is inside of the other or held from all sides. 0 of all others
+  // metres, of a HIT: a push-out of a by this along the contact's normal is proven to separate
+  // them; hardly less does, along that normal. HUGE_VALF: none up to options.deepest along each
+  // normal was found, as where one is inside of the other or held from all sides. 0 of all others
   float depth;
   // where they are nearest, as nsvcd_answer.nearest has it; of a HIT, where they are once they are
-  // lifted, with the lift's direction as the normal
+  // pushed out, with the push-out's direction as the normal
   nsvcd_contact contact;
   // (F), metres by radian or metre: how the distance between the two places of the contact grows
   // with each joint; of a HIT, how its depth along that normal shrinks. Where other places are as
   // near, or as deep, it is that of one of them. 0 without a normal
   double slope[NSVCD_MAX_JOINTS];
-} nsvcd_gap;
+} nsvcd_proximity;
 
 // What is zero is the default. Up to NSVCD_MAX_COORDINATE.
-typedef struct nsvcd_gap_options {
+typedef struct nsvcd_proximity_options {
   // metres: pairs that are as near as this are told; 0.05
-  float within;
+  float max_distance;
   // metres: how wide a bracket of a distance may be, beside what poses in float are off; 20 um
   float to;
   // metres: how large a depth is told; 20 mm. Much more than there is makes it no better
   float deepest;
   // units that each question may take; NSVCD_DEFAULT_WORK
   size_t work;
-} nsvcd_gap_options;
+} nsvcd_proximity_options;
 
 // All pairs that are near in a configuration: what is wrong with a start or a goal, or what a
 // controller is to keep away from.
@@ -264,12 +264,12 @@ typedef struct nsvcd_gap_options {
 //   errors     ARGUMENT, VALUE (joints not finite or beyond NSVCD_MAX_COORDINATE), WITHIN, TO;
 //              POSE, SCALE (a part is, or is carried, beyond NSVCD_MAX_COORDINATE)
 //   source     this library; slopes as any Jacobian's, by the product of axis and moment arm
-NSVCDDEF nsvcd_result nsvcd_gaps(nsvcd_checker *checker, const double *joints,
-                                 const nsvcd_gap_options *options, nsvcd_gap *gaps,
-                                 size_t capacity, size_t *count);
+NSVCDDEF nsvcd_result nsvcd_proximities(nsvcd_checker *checker, const double *joints,
+                                        const nsvcd_proximity_options *options,
+                                        nsvcd_proximity *gaps, size_t capacity, size_t *count);
 
 // What is zero is the default.
-typedef struct nsvcd_escape_options {
+typedef struct nsvcd_nearest_free_options {
   // metres: the configuration that is sought stays farther apart than this
   float clearance;
   // radians and metres alike: how far it may be, as the root of the sum of squares; 0.5
@@ -279,7 +279,7 @@ typedef struct nsvcd_escape_options {
   // asked before each question and each draw; not 0 ends it with what is found by then. May be NULL
   int (*stop)(void *user);
   void *user;
-} nsvcd_escape_options;
+} nsvcd_nearest_free_options;
 
 // A configuration near another one that is proven free, within the limits: a way out of a start or
 // a goal that is not. It is sought at random, nearer and nearer, with some hundred configurations,
@@ -292,11 +292,11 @@ typedef struct nsvcd_escape_options {
 //              is found
 //   is_found   not NULL
 //   allocates  nothing
-//   errors     ARGUMENT, VALUE, CLEARANCE, FARTHEST; POSE, SCALE, as nsvcd_gaps
+//   errors     ARGUMENT, VALUE, CLEARANCE, FARTHEST; POSE, SCALE, as nsvcd_proximities
 //   source     this library
-NSVCDDEF nsvcd_result nsvcd_escape(nsvcd_checker *checker, const double *joints,
-                                   const nsvcd_escape_options *options, double *out,
-                                   int *is_found);
+NSVCDDEF nsvcd_result nsvcd_nearest_free(nsvcd_checker *checker, const double *joints,
+                                         const nsvcd_nearest_free_options *options,
+                                         double *out, int *is_found);
 
 // What nsvcd_find_pairs says of pairs: how many of which kind, in this order.
 typedef struct nsvcd_pair_counts {
@@ -321,7 +321,7 @@ typedef struct nsvcd_pair_counts {
 //   capacity   B (B - 1) / 2 is always enough, of B parts
 //   counts     not NULL; left as it was on failure
 //   allocates  nothing
-//   errors     ARGUMENT, WORKSPACE (capacity); POSE, SCALE, as nsvcd_gaps
+//   errors     ARGUMENT, WORKSPACE (capacity); POSE, SCALE, as nsvcd_proximities
 //   source     as setup assistants do (MoveIt's), but none is left out as "never" or "always"
 NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, uint64_t seed,
                                        nsvcd_body_pair *pairs, size_t capacity,
@@ -336,8 +336,8 @@ NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, u
 //              off: 1e-7 of its distance from the link
 //   errors     ARGUMENT, VALUE, LINK (or no such part), POSE (farther than NSVCD_MAX_COORDINATE
 //              from the link)
-NSVCDDEF nsvcd_result nsvcd_hand_over(const nsvcd_checker *checker, const double *joints,
-                                      size_t part, uint32_t link, nsvcd_part *out);
+NSVCDDEF nsvcd_result nsvcd_reparent(const nsvcd_checker *checker, const double *joints,
+                                     size_t part, uint32_t link, nsvcd_part *out);
 
 // -------------------------------------------------------------------------------- interface/routes
 // In: a robot among obstacles, a configuration and others to get to. Out: a motion, proven free.
@@ -672,7 +672,7 @@ static int nsvcd__is_aligned(const void *memory) {
 
 // Are numbers finite, and their absolute values no greater than `most`? By their bits, so that it
 // holds under -ffast-math too.
-static int nsvcd__within(const float *values, size_t count, float most) {
+static int nsvcd__in_range(const float *values, size_t count, float most) {
   for (size_t i = 0; i < count; i++) {
     if (!nsvcd__is_finite(values[i]) || fabsf(values[i]) > most) return 0;
   }
@@ -711,7 +711,7 @@ static nsvcd_result nsvcd__poses_check(const nsvcd_pose *poses, size_t count) {
   if (is_unit && most <= nsvcd__magnitude(NSVCD_MAX_COORDINATE)) return NSVCD_OK;
   // which of both?
   for (size_t k = 0; k < count; k++) {
-    if (!nsvcd__within(poses[k].position, 3, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_POSE;
+    if (!nsvcd__in_range(poses[k].position, 3, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_POSE;
   }
   return NSVCD_ERROR_QUATERNION;
 }
@@ -1207,11 +1207,11 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
 //
 //   chain       what moves what; where everything is
 //   steps       what the joints do between two times
-//   stray       how far points of a part can be from an axis; by how much a part leaves its sweep
+//   deviate       how far points of a part can be from an axis; by how much a part leaves its sweep
 //   path        is a motion of the joints free?
 //   proofs      a certificate of a pair, as the joints move it
 //   trees       configurations, and the nearest of them
-//   postures    one configuration: what is near, a way out; which pairs can meet
+//   configurations    one configuration: what is near, a way out; which pairs can meet
 //   blends       from one state to another, within limits of speed and acceleration
 //   smooth      a way in time, then smooth
 //   route       a start and goals: two trees of proven edges, shortcuts
@@ -1227,9 +1227,10 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
 #define NSVCD__FIRST_STEPS 4
 // radians or metres: where the way bends by less, steps go on across
 #define NSVCD__CORNER 1e-3
-// metres that a part may stray at first; each time a pair is asked again it may by this share of it
+// metres that a part may deviate at first; each time a pair is asked again it may by this share of
+// it
 #define NSVCD__COARSE 2e-3
-#define NSVCD__STRAY_FRACTION 8
+#define NSVCD__DEVIATION_FRACTION 8
 #define NSVCD__FINEST 1e-5f
 // units that a look for a hit may take, before the last
 #define NSVCD__PAIR_TRY 200
@@ -1239,7 +1240,7 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
 // A joint, as the checker has it; and the link that it carries.
 typedef struct nsvcd__link {
   // in the parent link: where the joint is, and how it is turned, unit
-  nsvcd__d3 place;
+  nsvcd__d3 position;
   nsvcd__dquat turn;
   // unit, in the joint's frame
   nsvcd__d3 axis;
@@ -1250,7 +1251,7 @@ typedef struct nsvcd__link {
 // Where a link is, in the world.
 typedef struct nsvcd__frame {
   nsvcd__dquat turn;
-  nsvcd__d3 place;
+  nsvcd__d3 position;
 } nsvcd__frame;
 
 // Joint values, and what follows from them.
@@ -1282,7 +1283,7 @@ typedef struct nsvcd__member {
   size_t row;
   // metres, at most: by how much it leaves the way between its samples, and what frames in double
   // are off
-  double stray, rounding;
+  double deviation, rounding;
 } nsvcd__member;
 
 struct nsvcd_checker {
@@ -1291,15 +1292,15 @@ struct nsvcd_checker {
   nsvcd__member *members;  // (B)
   // (P): the pairs, as they are asked: what was hit last first
   uint32_t *order;
-  // (P): those of a stretch that are not proven yet
+  // (P): those of a interval that are not proven yet
   uint32_t *left;
   // (movers, NSVCD__MOST_STEPS + 1): samples, in the world, and boxes about the parts there
   nsvcd__frame *frames;
   nsvcd__bounds *boxes;
   // (NSVCD__MOST_STEPS + 1): of both parts of a pair, as it is asked about; see nsvcd__sight
   nsvcd_pose *seen[2];
-  // the times of the samples, and the most that a part strays in the step after each
-  double times[NSVCD__MOST_STEPS + 1], strays[NSVCD__MOST_STEPS + 1];
+  // the times of the samples, and the most that a part deviates in the step after each
+  double times[NSVCD__MOST_STEPS + 1], deviations[NSVCD__MOST_STEPS + 1];
   nsvcd__configuration at, next;
   void *query;
   size_t query_size;
@@ -1325,25 +1326,25 @@ static nsvcd__frame nsvcd__frame_of(const nsvcd_pose *pose) {
 
 // What is `inner` in a frame, in the world.
 static nsvcd__frame nsvcd__frame_in(const nsvcd__frame *frame, const nsvcd__frame *inner) {
-  const nsvcd__d3 place = nsvcd__dquat_rotate(frame->turn, inner->place);
+  const nsvcd__d3 position = nsvcd__dquat_rotate(frame->turn, inner->position);
   const nsvcd__frame out = {nsvcd__dquat_mul(frame->turn, inner->turn),
-                            nsvcd__d3_add(frame->place, place)};
+                            nsvcd__d3_add(frame->position, position)};
   return out;
 }
 
 // What is `frame` in the world, as seen from another one.
 static nsvcd__frame nsvcd__frame_from(const nsvcd__frame *from, const nsvcd__frame *frame) {
   const nsvcd__dquat back = {-from->turn.x, -from->turn.y, -from->turn.z, from->turn.w};
-  const nsvcd__d3 way = nsvcd__d3_sub(frame->place, from->place);
+  const nsvcd__d3 offset = nsvcd__d3_sub(frame->position, from->position);
   const nsvcd__frame out = {nsvcd__dquat_inverse_mul(from->turn, frame->turn),
-                            nsvcd__dquat_rotate(back, way)};
+                            nsvcd__dquat_rotate(back, offset)};
   return out;
 }
 
 static nsvcd_pose nsvcd__pose_in(const nsvcd__frame *frame) {
   const nsvcd__dquat turn = nsvcd__dquat_unit(frame->turn);
   nsvcd_pose out;
-  nsvcd__f3_store(nsvcd__f3_round(frame->place), out.position);
+  nsvcd__f3_store(nsvcd__f3_round(frame->position), out.position);
   out.rotation[0] = (float)turn.x;
   out.rotation[1] = (float)turn.y;
   out.rotation[2] = (float)turn.z;
@@ -1356,17 +1357,17 @@ static int nsvcd__slides(const nsvcd_checker *c, size_t joint) {
 }
 
 // Places the links where c->joints says.
-static void nsvcd__place_links(const nsvcd_checker *checker, nsvcd__configuration *c) {
+static void nsvcd__pose_links(const nsvcd_checker *checker, nsvcd__configuration *c) {
   const nsvcd__frame world = {{0, 0, 0, 1}, {0, 0, 0}};
   c->frames[0] = world;
   for (size_t i = 0; i < checker->scene->joint_count; i++) {
     const nsvcd__link *link = &checker->links[i];
-    const nsvcd__frame origin = {link->turn, link->place};
+    const nsvcd__frame origin = {link->turn, link->position};
     nsvcd__frame frame =
         nsvcd__frame_in(&c->frames[checker->scene->joints[i].parent], &origin);
     c->axes[i] = nsvcd__dquat_rotate(frame.turn, link->axis);
     if (nsvcd__slides(checker, i)) {
-      frame.place = nsvcd__d3_fma(c->joints[i], c->axes[i], frame.place);
+      frame.position = nsvcd__d3_fma(c->joints[i], c->axes[i], frame.position);
     } else {
       const double half = 0.5 * c->joints[i];
       const nsvcd__d3 axis = nsvcd__d3_scale(link->axis, sin(half));
@@ -1383,11 +1384,11 @@ static nsvcd__frame nsvcd__frame_of_part(const nsvcd_checker *checker,
                          &checker->members[part].frame);
 }
 
-NSVCDDEF void nsvcd_checker_place(const nsvcd_checker *checker, const double *joints,
-                                  nsvcd_pose *poses) {
+NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const double *joints,
+                                       nsvcd_pose *poses) {
   nsvcd__configuration c;
   memcpy(c.joints, joints, checker->scene->joint_count * sizeof *joints);
-  nsvcd__place_links(checker, &c);
+  nsvcd__pose_links(checker, &c);
   for (size_t n = 0; n < checker->scene->part_count; n++) {
     const nsvcd__frame frame = nsvcd__frame_of_part(checker, &c, n);
     poses[n] = nsvcd__pose_in(&frame);
@@ -1402,8 +1403,8 @@ typedef struct nsvcd__step {
   // joints at both ends
   double from[NSVCD_MAX_JOINTS], to[NSVCD_MAX_JOINTS];
   // |d|, d = to - from; max |q - from|
-  double way[NSVCD_MAX_JOINTS], reach[NSVCD_MAX_JOINTS];
-  // how much each joint bends: 8 |e| is no more, see robot/stray
+  double travel[NSVCD_MAX_JOINTS], farthest[NSVCD_MAX_JOINTS];
+  // how much each joint bends: 8 |e| is no more, see robot/deviate
   double bend[NSVCD_MAX_JOINTS];
 } nsvcd__step;
 
@@ -1515,7 +1516,7 @@ static void nsvcd__step_of(const nsvcd_joint_motion *motion, size_t joints, doub
   nsvcd__joints_at(motion, joints, last, end, step->to, v1);
   for (size_t j = 0; j < joints; j++) {
     const double d = step->to[j] - step->from[j];
-    step->way[j] = step->reach[j] = fabs(d);
+    step->travel[j] = step->farthest[j] = fabs(d);
     step->bend[j] = 0;
     if (degree > 1) along += d * h * (v1[j] - v0[j]);
     square += d * d;
@@ -1538,7 +1539,7 @@ static void nsvcd__step_of(const nsvcd_joint_motion *motion, size_t joints, doub
       if (degree >= 2) nsvcd__cut_curve(second, degree - 2, s0, s1);
       nsvcd__cut_curve(p, degree, s0, s1);
       for (size_t i = 0; i <= degree; i++)
-        step->reach[j] = nsvcd__max(step->reach[j], fabs(p[i] - from));
+        step->farthest[j] = nsvcd__max(step->farthest[j], fabs(p[i] - from));
       for (size_t i = 0; i + 2 <= degree; i++)
         step->bend[j] = nsvcd__max(step->bend[j], fabs(second[i] - g * d));
       if (piece > first) jumps += nsvcd__jump_at(motion, joints, piece, j);
@@ -1547,7 +1548,7 @@ static void nsvcd__step_of(const nsvcd_joint_motion *motion, size_t joints, doub
   }
 }
 
-// ------------------------------------------------------------------------------------- robot/stray
+// --------------------------------------------------------------------------------- robot/deviation
 // In: a part, and a step of the joints between two samples. Out: by how much it leaves, at most,
 // the line and the slerp between them.
 //
@@ -1565,7 +1566,7 @@ static void nsvcd__step_of(const nsvcd_joint_motion *motion, size_t joints, doub
 // and what slides has no square. The sweep goes through the same places at both ends, by a line of
 // the origin and a slerp by an angle w, and is off that chord by w^2 R / 8, R the point's distance
 // from the origin. All together, for any u, and so at all times:
-//   stray <= (sum_j max |e''_j| r_j + |y''| + w^2 R) / 8
+//   deviate <= (sum_j max |e''_j| r_j + |y''| + w^2 R) / 8
 // r_j is that of the sample q0, and what joints beyond j can add while they move.
 // Source: this library.
 
@@ -1577,16 +1578,17 @@ static double nsvcd__angle_between(nsvcd__dquat a, nsvcd__dquat b) {
 }
 
 // The bound of the banner, from moment arms r (F) on the path of joints. turn: w.
-static double nsvcd__stray_by(const nsvcd_checker *c, const nsvcd__step *step, uint32_t path,
-                              const double *moment_arms, double turn, double extent) {
+static double nsvcd__deviation_by(const nsvcd_checker *c, const nsvcd__step *step,
+                                  uint32_t path, const double *moment_arms, double turn,
+                                  double extent) {
   double bend = 0;
   double second = 0;
   double inner = 0;
   for (; path; path &= path - 1) {
     const size_t j = nsvcd__low_bit(path);
-    const double own = nsvcd__slides(c, j) ? 0 : step->way[j];
+    const double own = nsvcd__slides(c, j) ? 0 : step->travel[j];
     bend += step->bend[j] * moment_arms[j];
-    second += step->way[j] * moment_arms[j] * (2 * inner + own);
+    second += step->travel[j] * moment_arms[j] * (2 * inner + own);
     inner += own;
   }
   return (bend + second + turn * turn * extent) / 8;
@@ -1601,30 +1603,30 @@ static void nsvcd__moment_arms_of(const nsvcd_checker *c, size_t part, const nsv
   const uint32_t path = c->links[link - 1].path;
   const nsvcd__frame *frame = &from->frames[link];
   const nsvcd__d3 centre =
-      nsvcd__d3_add(nsvcd__dquat_rotate(frame->turn, m->centre), frame->place);
+      nsvcd__d3_add(nsvcd__dquat_rotate(frame->turn, m->centre), frame->position);
   double moved = 0;  // by joints beyond this one
   for (size_t j = link; j-- > 0;) {
     if (!(path >> j & 1)) continue;
     moment_arms[j] = 1;
     if (!nsvcd__slides(c, j)) {
-      const nsvcd__d3 off = nsvcd__d3_sub(centre, from->frames[j + 1].place);
+      const nsvcd__d3 off = nsvcd__d3_sub(centre, from->frames[j + 1].position);
       moment_arms[j] =
           nsvcd__d3_length(nsvcd__d3_cross(from->axes[j], off)) + m->radius + moved;
     }
-    moved += step->reach[j] * moment_arms[j];
+    moved += step->farthest[j] * moment_arms[j];
   }
 }
 
-// What a part strays at most in a step from one configuration to another.
-static double nsvcd__stray_of(const nsvcd_checker *c, size_t part, const nsvcd__step *step,
-                              const nsvcd__configuration *from,
-                              const nsvcd__configuration *to) {
+// What a part deviates at most in a step from one configuration to another.
+static double nsvcd__part_deviation(const nsvcd_checker *c, size_t part,
+                                    const nsvcd__step *step, const nsvcd__configuration *from,
+                                    const nsvcd__configuration *to) {
   const size_t link = c->scene->parts[part].link;
   double moment_arms[NSVCD_MAX_JOINTS];
   const double turn = nsvcd__angle_between(from->frames[link].turn, to->frames[link].turn);
   nsvcd__moment_arms_of(c, part, step, from, moment_arms);
-  return nsvcd__stray_by(c, step, c->links[link - 1].path, moment_arms, turn,
-                         c->members[part].extent);
+  return nsvcd__deviation_by(c, step, c->links[link - 1].path, moment_arms, turn,
+                             c->members[part].extent);
 }
 
 // -------------------------------------------------------------------------------------- robot/path
@@ -1704,7 +1706,8 @@ static nsvcd__bounds nsvcd__box_of(const nsvcd__member *m, const nsvcd__frame *f
     const nsvcd__d3 row = {fabs(rows[k]->x), fabs(rows[k]->y), fabs(rows[k]->z)};
     nsvcd__d3_set_axis(&half, k, nsvcd__d3_dot(row, m->half));
   }
-  const nsvcd__d3 middle = nsvcd__d3_add(nsvcd__dmat3_apply(&axes, m->middle), frame->place);
+  const nsvcd__d3 middle =
+      nsvcd__d3_add(nsvcd__dmat3_apply(&axes, m->middle), frame->position);
   const nsvcd__bounds out = {nsvcd__d3_sub(middle, half), nsvcd__d3_add(middle, half)};
   return out;
 }
@@ -1768,7 +1771,7 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
     const nsvcd_joint *joint = &scene->joints[i];
     const nsvcd__frame origin = nsvcd__frame_of(&joint->origin);
     nsvcd__link *link = &c->links[i];
-    link->place = origin.place;
+    link->position = origin.position;
     link->turn = origin.turn;
     link->axis = nsvcd__d3_unit(nsvcd__d3_load(joint->axis), nsvcd__d3_of(0, 0, 1));
     link->path = (uint32_t)1 << i | (joint->parent ? c->links[joint->parent - 1].path : 0);
@@ -1782,19 +1785,19 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
     m->frame = nsvcd__frame_of(&part->pose);
     const nsvcd__d3 centre = nsvcd__d3_scale(nsvcd__d3_load(facts.centre), scale);
     const nsvcd__frame sphere = {{0, 0, 0, 1}, centre};
-    m->centre = nsvcd__frame_in(&m->frame, &sphere).place;
+    m->centre = nsvcd__frame_in(&m->frame, &sphere).position;
     // spheres are computed in float
-    m->radius = 1.000001 * scale * (double)(facts.radius - facts.round);
+    m->radius = 1.000001 * scale * (double)(facts.radius - facts.convex_radius);
     m->extent = 1.000001 * scale * (double)facts.extent;
     const nsvcd__d3 low = nsvcd__d3_load(facts.low);
     const nsvcd__d3 high = nsvcd__d3_load(facts.high);
     const nsvcd__d3 all = {1, 1, 1};
     m->middle = nsvcd__d3_scale(nsvcd__d3_add(low, high), 0.5 * scale);
     // what is round goes beyond
-    m->half = nsvcd__d3_fma(scale * (double)facts.round, all,
+    m->half = nsvcd__d3_fma(scale * (double)facts.convex_radius, all,
                             nsvcd__d3_scale(nsvcd__d3_sub(high, low), 0.5 * scale));
     m->box = nsvcd__box_of(m, &m->frame);
-    m->stray = 0;
+    m->deviation = 0;
     m->rounding = 0;
     m->row = part->link ? NSVCD__MOST_STEPS + 1 : 0;
     m->row *= row;
@@ -1812,7 +1815,7 @@ static void nsvcd__sample_put(nsvcd_checker *c, const nsvcd__configuration *at, 
   const nsvcd_scene *scene = c->scene;
   double reach = 0;
   for (size_t link = 1; link <= scene->joint_count; link++)
-    reach = nsvcd__max(reach, nsvcd__d3_length(at->frames[link].place));
+    reach = nsvcd__max(reach, nsvcd__d3_length(at->frames[link].position));
   for (size_t n = 0; n < scene->part_count; n++) {
     nsvcd__member *m = &c->members[n];
     if (!scene->parts[n].link) continue;
@@ -1822,35 +1825,35 @@ static void nsvcd__sample_put(nsvcd_checker *c, const nsvcd__configuration *at, 
     c->boxes[m->row + k] = box;
     m->box = k ? nsvcd__box_over(&m->box, &box) : box;
     // some 5e-16 of its moment arm for each joint
-    const double arm = reach + nsvcd__d3_length(frame.place) + m->extent;
+    const double arm = reach + nsvcd__d3_length(frame.position) + m->extent;
     m->rounding = nsvcd__max(k ? m->rounding : 0, NSVCD__FRAME_ROUNDING * arm);
   }
 }
 
 // Fills in, for each part that moves, its samples at c->times, one more than steps, and by how much
-// it strays between them.
+// it deviates between them.
 static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, size_t steps) {
   const nsvcd_scene *scene = c->scene;
   const size_t bytes = scene->joint_count * sizeof(double);
   nsvcd__step step;
   nsvcd__configuration *from = &c->at;
   nsvcd__configuration *to = &c->next;
-  for (size_t n = 0; n < scene->part_count; n++) c->members[n].stray = 0;
+  for (size_t n = 0; n < scene->part_count; n++) c->members[n].deviation = 0;
   nsvcd_motion_at(motion, scene->joint_count, c->times[0], from->joints);
-  nsvcd__place_links(c, from);
+  nsvcd__pose_links(c, from);
   nsvcd__sample_put(c, from, 0);
   for (size_t k = 0; k < steps; k++) {
     nsvcd__step_of(motion, scene->joint_count, c->times[k], c->times[k + 1], &step);
     memcpy(to->joints, step.to, bytes);
-    nsvcd__place_links(c, to);
+    nsvcd__pose_links(c, to);
     nsvcd__sample_put(c, to, k + 1);
-    c->strays[k] = 0;
+    c->deviations[k] = 0;
     for (size_t n = 0; n < scene->part_count; n++) {
       nsvcd__member *m = &c->members[n];
       if (!scene->parts[n].link) continue;
-      const double stray = nsvcd__stray_of(c, n, &step, from, to) * (1 + 1e-9);
-      c->strays[k] = nsvcd__max(c->strays[k], stray);
-      m->stray = nsvcd__max(m->stray, stray);
+      const double deviation = nsvcd__part_deviation(c, n, &step, from, to) * (1 + 1e-9);
+      c->deviations[k] = nsvcd__max(c->deviations[k], deviation);
+      m->deviation = nsvcd__max(m->deviation, deviation);
     }
     nsvcd__configuration *other = from;
     from = to;
@@ -1858,13 +1861,13 @@ static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, si
   }
 }
 
-// Cuts steps so that no part strays by more than is allowed, as far as can be foreseen: strays go
-// by the square of a step. Returns how many there are then, more than NSVCD__MOST_STEPS if there
+// Cuts steps so that no part deviates by more than is allowed, as far as can be foreseen: deviates
+// go by the square of a step. Returns how many there are then, more than NSVCD__MOST_STEPS if there
 // were too many: then nothing is done.
 static size_t nsvcd__refine_steps(nsvcd_checker *c, size_t steps, double allowed) {
   size_t total = 0;
   for (size_t k = 0; k < steps; k++) {
-    const double pieces = ceil(sqrt(c->strays[k] / allowed));
+    const double pieces = ceil(sqrt(c->deviations[k] / allowed));
     if (!(pieces <= NSVCD__MOST_STEPS)) return NSVCD__MOST_STEPS + 1;
     total += pieces > 1 ? (size_t)pieces : 1;
   }
@@ -1872,10 +1875,11 @@ static size_t nsvcd__refine_steps(nsvcd_checker *c, size_t steps, double allowed
   size_t at = total;
   c->times[total] = c->times[steps];
   for (size_t k = steps; k-- > 0;) {
-    const double pieces = nsvcd__max(ceil(sqrt(c->strays[k] / allowed)), 1);
+    const double pieces = nsvcd__max(ceil(sqrt(c->deviations[k] / allowed)), 1);
     const double from = c->times[k];
-    const double way = c->times[at] - from;
-    for (size_t i = (size_t)pieces; i-- > 0;) c->times[--at] = from + way * (double)i / pieces;
+    const double duration = c->times[at] - from;
+    for (size_t i = (size_t)pieces; i-- > 0;)
+      c->times[--at] = from + duration * (double)i / pieces;
   }
   return total;
 }
@@ -1886,7 +1890,7 @@ static nsvcd__bounds nsvcd__bounds_at(const nsvcd_checker *c, size_t part, size_
   const nsvcd__member *m = &c->members[part];
   return c->scene->parts[part].link ? c->boxes[m->row + k] : m->box;
 }
-// A box about a part in a step: it goes no farther from it than it strays.
+// A box about a part in a step: it goes no farther from it than it deviates.
 static nsvcd__bounds nsvcd__bounds_in(const nsvcd_checker *c, size_t part, size_t step) {
   const nsvcd__bounds from = nsvcd__bounds_at(c, part, step);
   const nsvcd__bounds to = nsvcd__bounds_at(c, part, step + 1);
@@ -1926,8 +1930,9 @@ typedef struct nsvcd__sight {
 } nsvcd__sight;
 
 // Fills in c->seen. frames: of a and of b, (count) each, but one of a part that rests.
-static void nsvcd__look(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                        const nsvcd__frame *const *frames, size_t count, nsvcd__sight *view) {
+static void nsvcd__view_pair(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                             const nsvcd__frame *const *frames, size_t count,
+                             nsvcd__sight *view) {
   const size_t parts[2] = {pair->a, pair->b};
   view->from = c->scene->parts[pair->a].link ? frames[1][0] : frames[0][0];
   if (c->scene->parts[pair->a].link && c->scene->parts[pair->b].link)
@@ -1939,7 +1944,7 @@ static void nsvcd__look(nsvcd_checker *c, const nsvcd_body_pair *pair,
     for (size_t k = 0; k < (moves ? count : 1); k++) {
       const nsvcd__frame in = nsvcd__frame_from(&view->from, &frames[n][k]);
       c->seen[n][k] = nsvcd__pose_in(&in);
-      most = nsvcd__max(most, nsvcd__d3_length(in.place));
+      most = nsvcd__max(most, nsvcd__d3_length(in.position));
     }
     // places and quaternions as floats are off by no more
     if (moves) view->rounding += 2 * (1.1e-7 * most + 1.3e-7 * c->members[parts[n]].extent);
@@ -1947,24 +1952,24 @@ static void nsvcd__look(nsvcd_checker *c, const nsvcd_body_pair *pair,
 }
 
 // A direction and a point as they are seen, in the world.
-static nsvcd__d3 nsvcd__seen_way(const nsvcd__sight *view, nsvcd__d3 way) {
+static nsvcd__d3 nsvcd__seen_direction(const nsvcd__sight *view, nsvcd__d3 way) {
   return nsvcd__dquat_rotate(view->from.turn, way);
 }
 static nsvcd__d3 nsvcd__seen_point(const nsvcd__sight *view, nsvcd__d3 point) {
-  return nsvcd__d3_add(nsvcd__seen_way(view, point), view->from.place);
+  return nsvcd__d3_add(nsvcd__seen_direction(view, point), view->from.position);
 }
 
 // Takes a contact as it is seen to the world.
 static void nsvcd__set_contact(const nsvcd__sight *view, nsvcd_contact *contact) {
   const nsvcd__d3 point = nsvcd__seen_point(view, nsvcd__d3_load(contact->point));
-  const nsvcd__d3 normal = nsvcd__seen_way(view, nsvcd__d3_load(contact->normal));
+  const nsvcd__d3 normal = nsvcd__seen_direction(view, nsvcd__d3_load(contact->normal));
   nsvcd__f3_store(nsvcd__f3_round(point), contact->point);
   nsvcd__f3_store(nsvcd__f3_round(normal), contact->normal);
 }
 
 // By how much a part is off the way that its samples say, at most.
 static double nsvcd__off(const nsvcd_checker *c, size_t part) {
-  return c->members[part].stray + 2 * c->members[part].rounding;
+  return c->members[part].deviation + 2 * c->members[part].rounding;
 }
 
 // Of two parts as they are seen, in so many poses each; what rests has one.
@@ -2026,9 +2031,9 @@ static nsvcd_result nsvcd__ask_pair(nsvcd_checker *c, const nsvcd_body_pair *pai
   }
   const nsvcd__frame *const frames[2] = {nsvcd__frames_at(c, pair->a, range->first),
                                          nsvcd__frames_at(c, pair->b, range->first)};
-  nsvcd__look(c, pair, frames, range->steps + 1, &view);
-  const double strays = is_proof ? off + view.rounding : 0;
-  const double clearance = (double)options->clearance + strays;
+  nsvcd__view_pair(c, pair, frames, range->steps + 1, &view);
+  const double deviations = is_proof ? off + view.rounding : 0;
+  const double clearance = (double)options->clearance + deviations;
   return nsvcd__ask_seen(c, pair, range->steps + 1,
                          clearance > 0 ? nsvcd__above(clearance) : 0, options, found, answer);
 }
@@ -2043,11 +2048,11 @@ static nsvcd_result nsvcd__ask_at(nsvcd_checker *c, size_t pair, const double *j
   const nsvcd__frame *const frames[2] = {&at[0], &at[1]};
   const nsvcd_body_pair *both = &c->scene->pairs[pair];
   memcpy(c->at.joints, joints, c->scene->joint_count * sizeof *joints);
-  nsvcd__place_links(c, &c->at);
+  nsvcd__pose_links(c, &c->at);
   answer->placed++;
   at[0] = nsvcd__frame_of_part(c, &c->at, both->a);
   at[1] = nsvcd__frame_of_part(c, &c->at, both->b);
-  nsvcd__look(c, both, frames, 1, &view);
+  nsvcd__view_pair(c, both, frames, 1, &view);
   const nsvcd_result result =
       nsvcd__ask_seen(c, both, 1, options->clearance, options, &found, answer);
   if (result || found.verdict != NSVCD_HIT) return result;
@@ -2081,9 +2086,9 @@ static nsvcd_result nsvcd__seek_hit(nsvcd_checker *c, const nsvcd_joint_motion *
       // times of a sweep go by samples
       const double at =
           (double)range->steps * nsvcd__max(0, nsvcd__min(1, (double)found->nearest.time));
-      const size_t within = (size_t)at < range->steps ? (size_t)at : range->steps - 1;
-      const size_t k = range->first + within;
-      const double fraction = at - (double)within;
+      const size_t step = (size_t)at < range->steps ? (size_t)at : range->steps - 1;
+      const size_t k = range->first + step;
+      const double fraction = at - (double)step;
       const double time = c->times[k] + fraction * (c->times[k + 1] - c->times[k]);
       answer->piece = nsvcd__piece_at(motion, time);
       answer->fraction = nsvcd__fraction_at(motion, answer->piece, time);
@@ -2098,12 +2103,12 @@ static nsvcd_result nsvcd__seek_hit(nsvcd_checker *c, const nsvcd_joint_motion *
   return result;
 }
 
-// A stretch of a motion from time t0 to t1 in so many steps at first, or, with none, one
+// A interval of a motion from time t0 to t1 in so many steps at first, or, with none, one
 // configuration. What takes too many steps is halved, so often at most.
-static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const nsvcd_joint_motion *motion,
-                                         double t0, double t1, size_t steps, int halvings,
-                                         const nsvcd_check_options *options,
-                                         nsvcd_check_answer *answer) {
+static nsvcd_result nsvcd__check_interval(nsvcd_checker *c, const nsvcd_joint_motion *motion,
+                                          double t0, double t1, size_t steps, int halvings,
+                                          const nsvcd_check_options *options,
+                                          nsvcd_check_answer *answer) {
   size_t left = c->scene->pair_count;
   double allowed = NSVCD__COARSE;
   nsvcd_answer found;
@@ -2124,10 +2129,11 @@ static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const nsvcd_joint_mot
       answer->why = NSVCD_WHY_WORK;
       if (halvings == 0 || !(middle > t0 && middle < t1)) return NSVCD_OK;
       const nsvcd_result result =
-          nsvcd__check_stretch(c, motion, t0, middle, steps, halvings - 1, options, answer);
+          nsvcd__check_interval(c, motion, t0, middle, steps, halvings - 1, options, answer);
       if (result || answer->verdict != NSVCD_FREE) return result;
       answer->verdict = NSVCD_UNDECIDED;
-      return nsvcd__check_stretch(c, motion, middle, t1, steps, halvings - 1, options, answer);
+      return nsvcd__check_interval(c, motion, middle, t1, steps, halvings - 1, options,
+                                   answer);
     }
     if (finer > steps) {
       steps = finer;
@@ -2156,7 +2162,7 @@ static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const nsvcd_joint_mot
     left = kept;
     if (left == 0) break;
     if (steps == 0 || allowed <= (double)options->finest) return NSVCD_OK;
-    allowed = nsvcd__max(allowed / NSVCD__STRAY_FRACTION, (double)options->finest);
+    allowed = nsvcd__max(allowed / NSVCD__DEVIATION_FRACTION, (double)options->finest);
   }
   answer->pair = NSVCD_NONE;
   answer->verdict = NSVCD_FREE;
@@ -2182,9 +2188,9 @@ static double nsvcd__limit_off(const nsvcd_joint *joint) {
 static int nsvcd__leaves(const double *points, size_t degree, double low, double high,
                          int depth) {
   double first[NSVCD_MAX_DEGREE + 1], second[NSVCD_MAX_DEGREE + 1];
-  int within = 1;
-  for (size_t i = 0; i <= degree; i++) within &= points[i] >= low && points[i] <= high;
-  if (within) return 0;
+  int step = 1;
+  for (size_t i = 0; i <= degree; i++) step &= points[i] >= low && points[i] <= high;
+  if (step) return 0;
   if (depth == 0 || !(points[0] >= low && points[0] <= high)) return 1;
   if (!(points[degree] >= low && points[degree] <= high)) return 1;
   memcpy(first, points, (degree + 1) * sizeof *points);
@@ -2246,16 +2252,16 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
   for (size_t p = 0; p < m.pieces + !m.pieces && found.joint == NSVCD_NONE; p++)
     found.joint = nsvcd__joint_outside(scene, &m, p);
   found.verdict = NSVCD_UNDECIDED;
-  if (m.pieces == 0) result = nsvcd__check_stretch(checker, &m, 0, 0, 0, 0, &o, &found);
+  if (m.pieces == 0) result = nsvcd__check_interval(checker, &m, 0, 0, 0, 0, &o, &found);
   // from corner to corner
   for (size_t p = 0, next; p < m.pieces && !result; p = next) {
     next = p + 1;
     while (next < m.pieces && !nsvcd__is_corner(&m, joints, next)) next++;
     const size_t steps = next - p == 1 && m.degree == 1 ? 1 : NSVCD__FIRST_STEPS;
     found.verdict = NSVCD_UNDECIDED;
-    result = nsvcd__check_stretch(checker, &m, nsvcd__piece_start(&m, p),
-                                  nsvcd__piece_start(&m, next), steps, NSVCD__STRETCHES, &o,
-                                  &found);
+    result = nsvcd__check_interval(checker, &m, nsvcd__piece_start(&m, p),
+                                   nsvcd__piece_start(&m, next), steps, NSVCD__STRETCHES, &o,
+                                   &found);
     if (found.verdict != NSVCD_FREE) break;
   }
   if (result) return result;
@@ -2273,14 +2279,13 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
 // two never meet, as the joints move them.
 //
 // THE CHORDS. Two parts are seen from the last link that carries both. Let x in [0,1] be the share
-// of a stretch of a piece that has gone by, V_j and A_j bounds of |q_j'| and |q_j''| by x, and L_j
+// of a interval of a piece that has gone by, V_j and A_j bounds of |q_j'| and |q_j''| by x, and L_j
 // one of the distance of a point y from joint j: the sum of what stands between them; of a joint
 // that slides 1. Then
 //   |y''| <= sum over j of A_j L_j + V_j (2 sum over outer k of V_k L_k + V_j L_j)
 // the second term of joints that turn alone, and y leaves its chord by an eighth of it at most. The
-// bound of robot/stray is a better one, from where the links are; this one a checker can compute
-// again in a few lines.
-// Source: this library.
+// bound of robot/deviation is a better one, from where the links are; this one a checker can
+// compute again in a few lines. Source: this library.
 
 #ifdef NEURALSVCD_CERTIFY_H
 // A part, as its motion model sees it.
@@ -2312,7 +2317,7 @@ static size_t nsvcd__keyframe_before(const nsvcd_joint_motion *m, double t) {
 }
 
 // The points of a joint's curve from one time of [0,1] to another, both in a piece. Returns by how
-// much they, and their differences as the stray has them, are off at most, and a hundredth more:
+// much they, and their differences as the deviate has them, are off at most, and a hundredth more:
 // ROUNDINGS of examples/verify/nsvcd_verify_robot.h.
 static double nsvcd__curve_of(const nsvcd__carried *c, size_t joint, double t0, double t1,
                               double *p) {
@@ -2329,7 +2334,7 @@ static double nsvcd__curve_of(const nsvcd__carried *c, size_t joint, double t0, 
   return 5.05e-13 * most;
 }
 
-static nsvcd_placement nsvcd__carried_place(const void *motion, double t) {
+static nsvcd_pose64 nsvcd__carried_position(const void *motion, double t) {
   const nsvcd__carried *c = (const nsvcd__carried *)motion;
   const nsvcd_scene *scene = c->checker->scene;
   nsvcd__frame at = c->checker->members[c->part].frame;
@@ -2345,12 +2350,12 @@ static nsvcd_placement nsvcd__carried_place(const void *motion, double t) {
       const nsvcd__frame slid = {{0, 0, 0, 1}, axis};
       joint = slid;
     }
-    const nsvcd__frame origin = {carrier->turn, carrier->place};
+    const nsvcd__frame origin = {carrier->turn, carrier->position};
     at = nsvcd__frame_in(&joint, &at);
     at = nsvcd__frame_in(&origin, &at);
   }
-  const nsvcd_placement out = {{at.place.x, at.place.y, at.place.z},
-                               {at.turn.x, at.turn.y, at.turn.z, at.turn.w}};
+  const nsvcd_pose64 out = {{at.position.x, at.position.y, at.position.z},
+                            {at.turn.x, at.turn.y, at.turn.z, at.turn.w}};
   return out;
 }
 
@@ -2365,7 +2370,7 @@ static nsvcd_deviation nsvcd__carried_deviation(const void *motion, double t0, d
   const nsvcd__carried *c = (const nsvcd__carried *)motion;
   const nsvcd_scene *scene = c->checker->scene;
   const double n = (double)c->motion.degree;
-  double reach = nsvcd__d3_length(c->checker->members[c->part].frame.place);
+  double reach = nsvcd__d3_length(c->checker->members[c->part].frame.position);
   nsvcd_deviation outer, out;
   memset(&outer, 0, sizeof outer);
   memset(&out, 0, sizeof out);
@@ -2392,7 +2397,7 @@ static nsvcd_deviation nsvcd__carried_deviation(const void *motion, double t0, d
     out.per_metre += bend * per_metre + own * (2 * outer.per_metre + own * per_metre);
     outer.base += speed * base;
     outer.per_metre += speed * per_metre;
-    const nsvcd__d3 offset = c->checker->links[link - 1].place;
+    const nsvcd__d3 offset = c->checker->links[link - 1].position;
     reach += nsvcd__d3_length(offset) + (slides ? most : 0);
   }
   out.base *= 0.1250001;
@@ -2415,7 +2420,7 @@ static nsvcd_motion_model nsvcd__carried_model(const nsvcd__carried *c) {
   const nsvcd_part *part = &scene->parts[c->part];
   const nsvcd_joint_motion *m = &c->motion;
   const float scale = part->scale > 0 ? part->scale : 1;
-  double reach = nsvcd__d3_length(c->checker->members[c->part].frame.place);
+  double reach = nsvcd__d3_length(c->checker->members[c->part].frame.position);
   uint32_t d = nsvcd__digest((uint32_t)c->base, part->pose.position, 7);
   d = nsvcd__digest(d, &scale, 1);
   for (size_t link = part->link; link != c->base; link = scene->joints[link - 1].parent) {
@@ -2429,14 +2434,14 @@ static nsvcd_motion_model nsvcd__carried_model(const nsvcd__carried *c) {
       d = nsvcd__digest_double(d, *value);
       most = nsvcd__max(most, fabs(*value));
     }
-    reach += nsvcd__d3_length(c->checker->links[link - 1].place) + (slides ? most : 0);
+    reach += nsvcd__d3_length(c->checker->links[link - 1].position) + (slides ? most : 0);
   }
   d += (uint32_t)m->degree;
   for (size_t i = 0; i <= m->pieces; i++) {
     d = nsvcd__digest_double(d, nsvcd__piece_start(m, i));
   }
   const nsvcd_motion_model model = {(double)scale,
-                                    nsvcd__carried_place,
+                                    nsvcd__carried_position,
                                     nsvcd__carried_next,
                                     nsvcd__carried_deviation,
                                     c,
@@ -2511,7 +2516,7 @@ NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
 }
 #endif  // NEURALSVCD_CERTIFY_H
 
-// ------------------------------------------------------------------------------------- robot/trees
+// --------------------------------------------------------------------------------------- robot/rrt
 // In: configurations. Out: a tree of them, and the one that is nearest to another.
 //
 // Distances are Euclidean, radians and metres alike. A k-d tree that grows: a leaf of more points
@@ -2536,7 +2541,7 @@ typedef struct nsvcd__rrt {
   nsvcd__cell *cells;  // (2 nodes)
 } nsvcd__rrt;
 
-static double nsvcd__way2(const double *a, const double *b, size_t joints) {
+static double nsvcd__distance2(const double *a, const double *b, size_t joints) {
   double sum = 0;
   for (size_t j = 0; j < joints; j++) sum += (a[j] - b[j]) * (a[j] - b[j]);
   return sum;
@@ -2609,9 +2614,9 @@ static void nsvcd__nearest_in(const nsvcd__rrt *t, size_t index, const double *a
   if (cell->joint == NSVCD_MAX_JOINTS) {
     uint32_t node = cell->first;
     for (uint32_t n = 0; n < cell->count; n++, node = t->next[node]) {
-      const double way = nsvcd__way2(&t->points[node * t->joints], at, t->joints);
-      if (!(way < *best)) continue;
-      *best = way;
+      const double distance = nsvcd__distance2(&t->points[node * t->joints], at, t->joints);
+      if (!(distance < *best)) continue;
+      *best = distance;
       *nearest = node;
     }
     return;
@@ -2634,29 +2639,29 @@ static size_t nsvcd__tree_nearest(const nsvcd__rrt *t, const double *at) {
   return nearest;
 }
 
-// ---------------------------------------------------------------------------------- robot/postures
+// ---------------------------------------------------------------------------- robot/configurations
 // In: a robot in one configuration. Out: pairs that are near, and how that changes with the joints;
 // a configuration near by that is free; which pairs can meet.
 
 #define NSVCD__GAP_WITHIN 0.05f
 #define NSVCD__GAP_TO 2e-5f
 #define NSVCD__GAP_DEEPEST 0.02f
-// of `deepest`: the first skin that is tried; and how often a lift is halved
-#define NSVCD__LEAST_SKIN 0.015625f
+// of `deepest`: the first slop that is tried; and how often a push-out is halved
+#define NSVCD__LEAST_SLOP 0.015625f
 #define NSVCD__DEPTH_HALVINGS 12
-// of the depth: what is looked at to see which faces part last; and the least share of a lift that
-// separates them, of which a slope is told
+// of the depth: what is looked at to see which faces part last; and the least share of a push-out
+// that separates them, of which a slope is told
 #define NSVCD__DEPTH_BEYOND 1.01
 #define NSVCD__LEAST_RATE 0.1
-#define NSVCD__FARTHEST_ESCAPE 0.5
+#define NSVCD__FARTHEST_FREE 0.5
 // metres that an escape leaves beside the clearance, so that a route can begin there
-#define NSVCD__ESCAPE_ROOM 5e-4f
+#define NSVCD__FREE_ROOM 5e-4f
 // spheres about the joints that random configurations are drawn on, and how many on each; how much
 // nearer than the best the next is drawn; halvings of the way back
-#define NSVCD__ESCAPE_RINGS 8
-#define NSVCD__ESCAPE_DRAWS 64
-#define NSVCD__ESCAPE_NEARER 0.9
-#define NSVCD__ESCAPE_HALVINGS 10
+#define NSVCD__FREE_RINGS 8
+#define NSVCD__FREE_DRAWS 64
+#define NSVCD__FREE_NEARER 0.9
+#define NSVCD__FREE_HALVINGS 10
 #define NSVCD__PAIR_SAMPLES 64
 
 static nsvcd_result nsvcd__check_joints(const nsvcd_checker *checker, const double *joints) {
@@ -2668,18 +2673,18 @@ static nsvcd_result nsvcd__check_joints(const nsvcd_checker *checker, const doub
 }
 
 // Places all parts where the joints say, as the first of their samples.
-static void nsvcd__stand(nsvcd_checker *c, const double *joints) {
+static void nsvcd__set_configuration(nsvcd_checker *c, const double *joints) {
   memcpy(c->at.joints, joints, c->scene->joint_count * sizeof *joints);
-  nsvcd__place_links(c, &c->at);
+  nsvcd__pose_links(c, &c->at);
   nsvcd__sample_put(c, &c->at, 0);
 }
 
 // Of two parts where they stand.
-static nsvcd_question nsvcd__ask_standing(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                                          size_t work, nsvcd__sight *view) {
+static nsvcd_question nsvcd__ask_configuration(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                               size_t work, nsvcd__sight *view) {
   const nsvcd__frame *const frames[2] = {nsvcd__frames_at(c, pair->a, 0),
                                          nsvcd__frames_at(c, pair->b, 0)};
-  nsvcd__look(c, pair, frames, 1, view);
+  nsvcd__view_pair(c, pair, frames, 1, view);
   return nsvcd__question_of(c, pair, 1, work);
 }
 
@@ -2690,62 +2695,63 @@ static nsvcd_question nsvcd__ask_standing(nsvcd_checker *c, const nsvcd_body_pai
 static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, const nsvcd__sight *view,
                              nsvcd__d3 at, nsvcd__d3 along, double sign, double *slope) {
   const nsvcd__d3 point = nsvcd__seen_point(view, at);
-  const nsvcd__d3 normal = nsvcd__seen_way(view, along);
+  const nsvcd__d3 normal = nsvcd__seen_direction(view, along);
   const uint32_t link = c->scene->parts[part].link;
   for (uint32_t path = link ? c->links[link - 1].path : 0; path; path &= path - 1) {
     const size_t j = nsvcd__low_bit(path);
-    const nsvcd__d3 arm = nsvcd__d3_sub(point, c->at.frames[j + 1].place);
+    const nsvcd__d3 arm = nsvcd__d3_sub(point, c->at.frames[j + 1].position);
     const nsvcd__d3 speed =
         nsvcd__slides(c, j) ? c->at.axes[j] : nsvcd__d3_cross(c->at.axes[j], arm);
     slope[j] += sign * nsvcd__d3_dot(normal, speed);
   }
 }
 
-// Asks a question with a lifted by so much.
+// Asks a question with a pushed out by so much.
 static nsvcd_result nsvcd__ask_lifted(nsvcd_checker *c, const nsvcd_question *question,
-                                      nsvcd__d3 lift, nsvcd_answer *found) {
-  nsvcd_pose lifted = *question->a.poses;
+                                      nsvcd__d3 push_out, nsvcd_answer *found) {
+  nsvcd_pose pushed_out = *question->a.poses;
   nsvcd_question asked = *question;
-  const nsvcd__d3 place = nsvcd__d3_add(nsvcd__d3_load(lifted.position), lift);
-  asked.a.poses = &lifted;
-  nsvcd__f3_store(nsvcd__f3_round(place), lifted.position);
+  const nsvcd__d3 position = nsvcd__d3_add(nsvcd__d3_load(pushed_out.position), push_out);
+  asked.a.poses = &pushed_out;
+  nsvcd__f3_store(nsvcd__f3_round(position), pushed_out.position);
   return nsvcd_sweep(&asked, c->query, c->query_size, found);
 }
 
-// A lift of a off b that separates them, by the least of some skins, each four times the one
+// A push-out of a off b that separates them, by the least of some slops, each four times the one
 // before, that is enough. 0: none up to `deepest` is.
-static nsvcd_result nsvcd__separating_lift(nsvcd_checker *c, nsvcd_question question,
-                                           float deepest, nsvcd__d3 *lift) {
+static nsvcd_result nsvcd__separating_push_out(nsvcd_checker *c, nsvcd_question question,
+                                               float deepest, nsvcd__d3 *push_out) {
   nsvcd_answer found;
-  for (float fraction = NSVCD__LEAST_SKIN; fraction <= 1; fraction *= 4) {
-    question.skin = fraction * deepest;
+  for (float fraction = NSVCD__LEAST_SLOP; fraction <= 1; fraction *= 4) {
+    question.slop = fraction * deepest;
     const nsvcd_result result = nsvcd_sweep(&question, c->query, c->query_size, &found);
     if (result) return result;
-    *lift = nsvcd__d3_load(found.lift);
+    *push_out = nsvcd__d3_load(found.push_out);
     if (found.verdict == NSVCD_FREE) return NSVCD_OK;
   }
-  *lift = nsvcd__d3_of(0, 0, 0);
+  *push_out = nsvcd__d3_of(0, 0, 0);
   return NSVCD_OK;
 }
 
 // Of parts that touch: how deep, where, along which normal, and how that shrinks. question: with
 // all that poses are off as its clearance.
 static nsvcd_result nsvcd__touching_gap(nsvcd_checker *c, nsvcd_question question,
-                                        const nsvcd__sight *view, const nsvcd_gap_options *o,
-                                        nsvcd_gap *gap) {
+                                        const nsvcd__sight *view,
+                                        const nsvcd_proximity_options *o,
+                                        nsvcd_proximity *gap) {
   const nsvcd_body_pair *both = &c->scene->pairs[gap->pair];
   nsvcd_answer found;
-  nsvcd__d3 lift = {0, 0, 0};
-  double low = 0;  // share of the lift: they touch there; and they do not
+  nsvcd__d3 push_out = {0, 0, 0};
+  double low = 0;  // share of the push-out: they touch there; and they do not
   double high = 1;
   question.ask = NSVCD_ASK_HIT;
   question.to = 0;
-  nsvcd_result result = nsvcd__separating_lift(c, question, o->deepest, &lift);
-  const double length = nsvcd__d3_length(lift);
+  nsvcd_result result = nsvcd__separating_push_out(c, question, o->deepest, &push_out);
+  const double length = nsvcd__d3_length(push_out);
   if (result || !(length > 0)) return result;
   for (size_t n = 0; n < NSVCD__DEPTH_HALVINGS && !result; n++) {
     const double middle = 0.5 * (low + high);
-    result = nsvcd__ask_lifted(c, &question, nsvcd__d3_scale(lift, middle), &found);
+    result = nsvcd__ask_lifted(c, &question, nsvcd__d3_scale(push_out, middle), &found);
     *(!result && found.verdict == NSVCD_FREE ? &high : &low) = middle;
   }
   if (result) return result;
@@ -2754,9 +2760,9 @@ static nsvcd_result nsvcd__touching_gap(nsvcd_checker *c, nsvcd_question questio
   question.clearance = 0;
   question.ask = NSVCD_ASK_DISTANCE;
   question.to = 0.1f * o->to;
-  result = nsvcd__ask_lifted(c, &question, nsvcd__d3_scale(lift, beyond), &found);
+  result = nsvcd__ask_lifted(c, &question, nsvcd__d3_scale(push_out, beyond), &found);
   if (result) return result;
-  const nsvcd__d3 along = nsvcd__d3_scale(lift, 1 / length);
+  const nsvcd__d3 along = nsvcd__d3_scale(push_out, 1 / length);
   const nsvcd__d3 normal = nsvcd__d3_load(found.nearest.normal);
   const nsvcd__d3 point = nsvcd__d3_load(found.nearest.point);
   gap->depth = nsvcd__above(high * length);
@@ -2764,32 +2770,33 @@ static nsvcd_result nsvcd__touching_gap(nsvcd_checker *c, nsvcd_question questio
   gap->contact.gap = 0;
   nsvcd__f3_store(nsvcd__f3_round(along), gap->contact.normal);
   nsvcd__set_contact(view, &gap->contact);
-  // a lift parts the two faces slower than it goes, unless it is along their normal
+  // a push-out parts the two faces slower than it goes, unless it is along their normal
   const double rate = nsvcd__d3_dot(along, normal);
   if (!(rate > NSVCD__LEAST_RATE)) return NSVCD_OK;
-  const nsvcd__d3 on_a = nsvcd__d3_fma(-high, lift, point);
+  const nsvcd__d3 on_a = nsvcd__d3_fma(-high, push_out, point);
   nsvcd__slope_add(c, both->a, view, on_a, normal, 1 / rate, gap->slope);
   nsvcd__slope_add(c, both->b, view, point, normal, -1 / rate, gap->slope);
   return NSVCD_OK;
 }
 
 // The gap of a pair where it stands. *is_near: it is within.
-static nsvcd_result nsvcd__gap_of(nsvcd_checker *c, size_t pair, const nsvcd_gap_options *o,
-                                  nsvcd_gap *gap, int *is_near) {
+static nsvcd_result nsvcd__gap_of(nsvcd_checker *c, size_t pair,
+                                  const nsvcd_proximity_options *o, nsvcd_proximity *gap,
+                                  int *is_near) {
   const nsvcd_body_pair *both = &c->scene->pairs[pair];
   const nsvcd__member *members[2] = {&c->members[both->a], &c->members[both->b]};
   nsvcd_answer found;
   nsvcd__sight view;
   const double frames_off = 2 * (members[0]->rounding + members[1]->rounding);
-  const double within = (double)o->within + frames_off;
+  const double max_distance = (double)o->max_distance + frames_off;
   *is_near = 0;
-  if (nsvcd__boxes_apart(&members[0]->box, &members[1]->box, 1.000001 * within))
+  if (nsvcd__boxes_apart(&members[0]->box, &members[1]->box, 1.000001 * max_distance))
     return NSVCD_OK;
-  nsvcd_question question = nsvcd__ask_standing(c, both, o->work, &view);
-  // places are off by so much, at most, and a lift that is told in floats
+  nsvcd_question question = nsvcd__ask_configuration(c, both, o->work, &view);
+  // places are off by so much, at most, and a push-out that is told in floats
   const double off = frames_off + view.rounding;
   const float deepest_off = nsvcd__above(off + 2e-7 * (double)o->deepest);
-  question.clearance = nsvcd__above((double)o->within + off);
+  question.clearance = nsvcd__above((double)o->max_distance + off);
   nsvcd_result result = nsvcd_sweep(&question, c->query, c->query_size, &found);
   if (result || found.verdict == NSVCD_FREE) return result;
   question.clearance = 0;
@@ -2830,25 +2837,26 @@ static nsvcd_result nsvcd__gap_of(nsvcd_checker *c, size_t pair, const nsvcd_gap
   return NSVCD_OK;
 }
 
-NSVCDDEF nsvcd_result nsvcd_gaps(nsvcd_checker *checker, const double *joints,
-                                 const nsvcd_gap_options *options, nsvcd_gap *gaps,
-                                 size_t capacity, size_t *count) {
-  nsvcd_gap_options o;
+NSVCDDEF nsvcd_result nsvcd_proximities(nsvcd_checker *checker, const double *joints,
+                                        const nsvcd_proximity_options *options,
+                                        nsvcd_proximity *gaps, size_t capacity,
+                                        size_t *count) {
+  nsvcd_proximity_options o;
   size_t near_ones = 0;
   nsvcd_result result = nsvcd__check_joints(checker, joints);
   if (!result && (!count || (!gaps && capacity > 0))) result = NSVCD_ERROR_ARGUMENT;
   if (result) return result;
   memset(&o, 0, sizeof o);
   if (options) o = *options;
-  if (!nsvcd__is_length(o.within)) return NSVCD_ERROR_WITHIN;
-  if (!nsvcd__is_length(o.deepest)) return NSVCD_ERROR_WITHIN;
+  if (!nsvcd__is_length(o.max_distance)) return NSVCD_ERROR_DISTANCE;
+  if (!nsvcd__is_length(o.deepest)) return NSVCD_ERROR_DISTANCE;
   if (!nsvcd__is_length(o.to)) return NSVCD_ERROR_TO;
-  o.within = o.within > 0 ? o.within : NSVCD__GAP_WITHIN;
+  o.max_distance = o.max_distance > 0 ? o.max_distance : NSVCD__GAP_WITHIN;
   o.to = o.to > 0 ? o.to : NSVCD__GAP_TO;
   o.deepest = o.deepest > 0 ? o.deepest : NSVCD__GAP_DEEPEST;
-  nsvcd__stand(checker, joints);
+  nsvcd__set_configuration(checker, joints);
   for (size_t n = 0; n < checker->scene->pair_count && !result; n++) {
-    nsvcd_gap gap;
+    nsvcd_proximity gap;
     int is_near;
     result = nsvcd__gap_of(checker, n, &o, &gap, &is_near);
     if (result || !is_near) continue;
@@ -2872,7 +2880,7 @@ static void nsvcd__take_into_limits(const nsvcd_scene *scene, double *joints) {
 }
 
 static nsvcd_result nsvcd__is_free_at(nsvcd_checker *c, const double *joints,
-                                      const nsvcd_escape_options *o, int *is_free) {
+                                      const nsvcd_nearest_free_options *o, int *is_free) {
   const nsvcd_joint_motion still = {0, 0, joints, NULL};
   const nsvcd_check_options options = {o->clearance, 0, 0, o->stop, o->user};
   nsvcd_check_answer answer;
@@ -2883,12 +2891,12 @@ static nsvcd_result nsvcd__is_free_at(nsvcd_checker *c, const double *joints,
 
 // From a place that is free back towards `from`, which is not, as far as that stays free.
 static nsvcd_result nsvcd__draw_back(nsvcd_checker *c, const double *from,
-                                     const nsvcd_escape_options *o, double *at) {
+                                     const nsvcd_nearest_free_options *o, double *at) {
   const size_t joints = c->scene->joint_count;
   double blocked[NSVCD_MAX_JOINTS];
   nsvcd_result result = NSVCD_OK;
   memcpy(blocked, from, joints * sizeof *at);
-  for (size_t n = 0; n < NSVCD__ESCAPE_HALVINGS && !result; n++) {
+  for (size_t n = 0; n < NSVCD__FREE_HALVINGS && !result; n++) {
     double middle[NSVCD_MAX_JOINTS];
     int is_free;
     for (size_t j = 0; j < joints; j++) middle[j] = 0.5 * (blocked[j] + at[j]);
@@ -2900,16 +2908,16 @@ static nsvcd_result nsvcd__draw_back(nsvcd_checker *c, const double *from,
 
 // Draws on spheres about `from`, from the inside to the outside, until one is free; then on ever
 // smaller ones, nearer than the best.
-static nsvcd_result nsvcd__seek_escape(nsvcd_checker *c, const double *from,
-                                       const nsvcd_escape_options *o, double *out,
-                                       int *is_found) {
+static nsvcd_result nsvcd__seek_nearest_free(nsvcd_checker *c, const double *from,
+                                             const nsvcd_nearest_free_options *o, double *out,
+                                             int *is_found) {
   const size_t joints = c->scene->joint_count;
   uint64_t random = o->seed;
   double best = o->farthest;
   *is_found = 0;
-  for (size_t n = 0; n < NSVCD__ESCAPE_RINGS * NSVCD__ESCAPE_DRAWS; n++) {
-    const double ring = (double)(n / NSVCD__ESCAPE_DRAWS + 1) / NSVCD__ESCAPE_RINGS;
-    const double radius = *is_found ? NSVCD__ESCAPE_NEARER * best : ring * o->farthest;
+  for (size_t n = 0; n < NSVCD__FREE_RINGS * NSVCD__FREE_DRAWS; n++) {
+    const double ring = (double)(n / NSVCD__FREE_DRAWS + 1) / NSVCD__FREE_RINGS;
+    const double radius = *is_found ? NSVCD__FREE_NEARER * best : ring * o->farthest;
     double at[NSVCD_MAX_JOINTS];
     double square = 0;
     int is_free;
@@ -2926,16 +2934,16 @@ static nsvcd_result nsvcd__seek_escape(nsvcd_checker *c, const double *from,
     result = nsvcd__draw_back(c, from, o, at);
     if (result) return result;
     *is_found = 1;
-    best = sqrt(nsvcd__way2(at, from, joints));
+    best = sqrt(nsvcd__distance2(at, from, joints));
     memcpy(out, at, joints * sizeof *at);
   }
   return NSVCD_OK;
 }
 
-NSVCDDEF nsvcd_result nsvcd_escape(nsvcd_checker *checker, const double *joints,
-                                   const nsvcd_escape_options *options, double *out,
-                                   int *is_found) {
-  nsvcd_escape_options o;
+NSVCDDEF nsvcd_result nsvcd_nearest_free(nsvcd_checker *checker, const double *joints,
+                                         const nsvcd_nearest_free_options *options,
+                                         double *out, int *is_found) {
+  nsvcd_nearest_free_options o;
   double from[NSVCD_MAX_JOINTS], at[NSVCD_MAX_JOINTS];
   nsvcd_result result = nsvcd__check_joints(checker, joints);
   if (!result && (!out || !is_found)) result = NSVCD_ERROR_ARGUMENT;
@@ -2943,18 +2951,18 @@ NSVCDDEF nsvcd_result nsvcd_escape(nsvcd_checker *checker, const double *joints,
   const size_t bytes = checker->scene->joint_count * sizeof(double);
   memset(&o, 0, sizeof o);
   if (options) o = *options;
-  if (!nsvcd__within(&o.clearance, 1, 0.5f * NSVCD_MAX_COORDINATE) || o.clearance < 0)
+  if (!nsvcd__in_range(&o.clearance, 1, 0.5f * NSVCD_MAX_COORDINATE) || o.clearance < 0)
     return NSVCD_ERROR_CLEARANCE;
   if (!nsvcd__is_number(o.farthest, (double)NSVCD_MAX_COORDINATE) || o.farthest < 0)
     return NSVCD_ERROR_FARTHEST;
-  o.farthest = o.farthest > 0 ? o.farthest : NSVCD__FARTHEST_ESCAPE;
+  o.farthest = o.farthest > 0 ? o.farthest : NSVCD__FARTHEST_FREE;
   memcpy(from, joints, bytes);
   nsvcd__take_into_limits(checker->scene, from);
   int is_free;
   memcpy(at, from, bytes);
   result = nsvcd__is_free_at(checker, from, &o, &is_free);
-  o.clearance += NSVCD__ESCAPE_ROOM;
-  if (!result && !is_free) result = nsvcd__seek_escape(checker, from, &o, at, &is_free);
+  o.clearance += NSVCD__FREE_ROOM;
+  if (!result && !is_free) result = nsvcd__seek_nearest_free(checker, from, &o, at, &is_free);
   if (result) return result;
   *is_found = is_free;
   if (is_free) memcpy(out, at, bytes);
@@ -2964,8 +2972,8 @@ NSVCDDEF nsvcd_result nsvcd_escape(nsvcd_checker *checker, const double *joints,
 // ---- pairs
 
 // Do two parts touch in all of so many configurations, drawn within the limits?
-static nsvcd_result nsvcd__touch_in_all(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                                        size_t samples, uint64_t random, int *in_all) {
+static nsvcd_result nsvcd__contact_in_all(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                          size_t samples, uint64_t random, int *in_all) {
   nsvcd_answer found;
   nsvcd__sight view;
   nsvcd_result result = NSVCD_OK;
@@ -2979,8 +2987,8 @@ static nsvcd_result nsvcd__touch_in_all(nsvcd_checker *c, const nsvcd_body_pair 
       const double high = is_endless ? 6.283185307179586 : joint->high;
       joints[j] = low + (high - low) * nsvcd__random(&random);
     }
-    nsvcd__stand(c, joints);
-    const nsvcd_question question = nsvcd__ask_standing(c, pair, 0, &view);
+    nsvcd__set_configuration(c, joints);
+    const nsvcd_question question = nsvcd__ask_configuration(c, pair, 0, &view);
     result = nsvcd_sweep(&question, c->query, c->query_size, &found);
     *in_all = !result && found.verdict == NSVCD_HIT;
   }
@@ -3023,7 +3031,7 @@ NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, u
   while (nsvcd__next_pair(scene, &pair)) {
     int in_all;
     if (nsvcd__are_adjacent(scene, &pair)) continue;
-    const nsvcd_result result = nsvcd__touch_in_all(
+    const nsvcd_result result = nsvcd__contact_in_all(
         checker, &pair, samples ? samples : NSVCD__PAIR_SAMPLES, seed, &in_all);
     if (result) return result;
     pairs[in_all ? total - ++found.touching : found.asked++] = pair;
@@ -3043,8 +3051,8 @@ NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, u
   return NSVCD_OK;
 }
 
-NSVCDDEF nsvcd_result nsvcd_hand_over(const nsvcd_checker *checker, const double *joints,
-                                      size_t part, uint32_t link, nsvcd_part *out) {
+NSVCDDEF nsvcd_result nsvcd_reparent(const nsvcd_checker *checker, const double *joints,
+                                     size_t part, uint32_t link, nsvcd_part *out) {
   nsvcd__configuration c;
   const nsvcd_result result = nsvcd__check_joints(checker, joints);
   if (result) return result;
@@ -3052,7 +3060,7 @@ NSVCDDEF nsvcd_result nsvcd_hand_over(const nsvcd_checker *checker, const double
   if (!out) return NSVCD_ERROR_ARGUMENT;
   if (part >= scene->part_count || link > scene->joint_count) return NSVCD_ERROR_LINK;
   memcpy(c.joints, joints, scene->joint_count * sizeof *joints);
-  nsvcd__place_links(checker, &c);
+  nsvcd__pose_links(checker, &c);
   const nsvcd__frame at = nsvcd__frame_of_part(checker, &c, part);
   const nsvcd__frame inner = nsvcd__frame_from(&c.frames[link], &at);
   nsvcd_part moved = scene->parts[part];
@@ -3097,26 +3105,27 @@ typedef struct nsvcd__blend_joint {
 // The least time from place x0 and speed v0 to x1 and v1, both within the limits.
 static double nsvcd__blend_time(double x0, double v0, double x1, double v1, double speed,
                                 double most) {
-  const double way = x1 - x0;
+  const double distance = x1 - x0;
   // changing speed takes this way: is there more to go, or less?
   const double least = 0.5 * (v0 + v1) * fabs(v1 - v0) / most;
-  const double side = way >= least ? 1 : -1;
-  const double peak2 = side * most * way + 0.5 * (v0 * v0 + v1 * v1);
+  const double side = distance >= least ? 1 : -1;
+  const double peak2 = side * most * distance + 0.5 * (v0 * v0 + v1 * v1);
   const double peak = side * sqrt(nsvcd__max(peak2, 0));
   if (fabs(peak) <= speed) return (fabs(peak - v0) + fabs(peak - v1)) / most;
   const double fast = side * speed;
   const double changing = (speed * speed - 0.5 * (v0 * v0 + v1 * v1)) / (side * most);
-  return (fabs(fast - v0) + fabs(fast - v1)) / most + nsvcd__max((way - changing) / fast, 0);
+  return (fabs(fast - v0) + fabs(fast - v1)) / most +
+         nsvcd__max((distance - changing) / fast, 0);
 }
 
 // The way with the least acceleration that takes this time. Returns 0 if there is none within the
 // limits.
 static int nsvcd__blend_solve(double x0, double v0, double x1, double v1, double speed,
                               double most, double time, nsvcd__blend_joint *out) {
-  const double way = x1 - x0;
+  const double distance = x1 - x0;
   const double change = v1 - v0;
   // time^2 a^2 + b a - change^2 = 0: the root of the greater size
-  const double b = 2 * time * (v0 + v1) - 4 * way;
+  const double b = 2 * time * (v0 + v1) - 4 * distance;
   const double root = sqrt(b * b + 4 * time * time * change * change);
   double a = -(b + (b > 0 ? root : -root)) / (2 * time * time);
   out->t1 = 0.5 * time;
@@ -3127,7 +3136,7 @@ static int nsvcd__blend_solve(double x0, double v0, double x1, double v1, double
   if (fabs(peak) > speed) {
     const double fast = peak > 0 ? speed : -speed;
     const double up = (fast - v0) * (fast - v0) + (fast - v1) * (fast - v1);
-    a = up / (2 * (fast * time - way));
+    a = up / (2 * (fast * time - distance));
     if (!(a * fast > 0)) return 0;
     out->t1 = (fast - v0) / a;
     out->t2 = time - (fast - v1) / a;
@@ -3246,17 +3255,17 @@ static size_t nsvcd__blend_write(const nsvcd_scene *scene, double states[4][NSVC
 #define NSVCD__WORTHY_GAIN 0.02
 // metres that the search stays farther away than asked for, so that the whole is proven anew
 #define NSVCD__SPARE 1e-4f
-// metres that a part may stray from its sweeps, at least, in the search
+// metres that a part may deviate from its sweeps, at least, in the search
 #define NSVCD__SEEK_FINEST 5e-4f
 // units that a question of the search may take
 #define NSVCD__SEEK_WORK 1000
 
 // A motion of degree 2 that is being made.
-typedef struct nsvcd__course {
+typedef struct nsvcd__trajectory {
   double *points;  // (2 NSVCD__MOST_PIECES + 1, F)
   double *times;   // (NSVCD__MOST_PIECES + 1)
   size_t pieces;
-} nsvcd__course;
+} nsvcd__trajectory;
 
 typedef struct nsvcd__router {
   nsvcd_checker *checker;
@@ -3273,14 +3282,15 @@ typedef struct nsvcd__router {
   // (F): the range of their roots
   double low[NSVCD_MAX_JOINTS], high[NSVCD_MAX_JOINTS];
   size_t *goals;  // (G): of those that are free, which; the roots of trees[1]
-  double *way;    // (nodes of both trees + shortcuts, F)
-  size_t way_count;
-  nsvcd__course course, other, blend;
+  double *path;   // (nodes of both trees + shortcuts, F)
+  size_t path_count;
+  nsvcd__trajectory trajectory, other, blend;
   nsvcd_route_answer answer;
 } nsvcd__router;
 
-static nsvcd_joint_motion nsvcd__motion_of(const nsvcd__course *course) {
-  const nsvcd_joint_motion out = {course->pieces, 2, course->points, course->times};
+static nsvcd_joint_motion nsvcd__motion_of(const nsvcd__trajectory *trajectory) {
+  const nsvcd_joint_motion out = {trajectory->pieces, 2, trajectory->points,
+                                  trajectory->times};
   return out;
 }
 
@@ -3313,9 +3323,9 @@ static nsvcd_result nsvcd__prove_edge(nsvcd__router *r, const double *from, cons
   return nsvcd__ask_motion(r, &motion, is_free);
 }
 
-// Adds a piece of degree 2 from where the course is; the times rise by `time`.
-static void nsvcd__course_add(nsvcd__course *c, size_t joints, const double *middle,
-                              const double *end, double time) {
+// Adds a piece of degree 2 from where the trajectory is; the times rise by `time`.
+static void nsvcd__trajectory_add(nsvcd__trajectory *c, size_t joints, const double *middle,
+                                  const double *end, double time) {
   double *at = c->points + (2 * c->pieces + 1) * joints;
   memcpy(at, middle, joints * sizeof *at);
   memcpy(at + joints, end, joints * sizeof *at);
@@ -3323,7 +3333,7 @@ static void nsvcd__course_add(nsvcd__course *c, size_t joints, const double *mid
   c->pieces++;
 }
 
-static void nsvcd__course_begin(nsvcd__course *c, size_t joints, const double *at) {
+static void nsvcd__trajectory_begin(nsvcd__trajectory *c, size_t joints, const double *at) {
   c->pieces = 0;
   c->times[0] = 0;
   memcpy(c->points, at, joints * sizeof *at);
@@ -3331,13 +3341,13 @@ static void nsvcd__course_begin(nsvcd__course *c, size_t joints, const double *a
 
 // Goes along the way, with a rest at each corner. Returns 0 where there are too many. A way of one
 // place is a rest, of no pieces.
-static int nsvcd__course_along(nsvcd__router *r) {
-  nsvcd__course *c = &r->course;
+static int nsvcd__trajectory_along(nsvcd__router *r) {
+  nsvcd__trajectory *c = &r->trajectory;
   const size_t joints = r->joints;
-  if (3 * r->way_count > NSVCD__MOST_PIECES) return 0;
-  nsvcd__course_begin(c, joints, r->way);
-  for (size_t k = 0; k + 1 < r->way_count; k++) {
-    const double *from = r->way + k * joints;
+  if (3 * r->path_count > NSVCD__MOST_PIECES) return 0;
+  nsvcd__trajectory_begin(c, joints, r->path);
+  for (size_t k = 0; k + 1 < r->path_count; k++) {
+    const double *from = r->path + k * joints;
     const double *to = from + joints;
     // of the share of the edge that has been gone along
     double speed = HUGE_VAL;
@@ -3366,14 +3376,14 @@ static int nsvcd__course_along(nsvcd__router *r) {
         middle[j] = from[j] + middles[n] * (to[j] - from[j]);
         end[j] = n == 2 ? to[j] : from[j] + shares[n + 1] * (to[j] - from[j]);
       }
-      nsvcd__course_add(c, joints, middle, end, lasts[n]);
+      nsvcd__trajectory_add(c, joints, middle, end, lasts[n]);
     }
   }
   return 1;
 }
 
 // Is the motion at rest where a piece begins?
-static int nsvcd__rests_at(const nsvcd__course *c, size_t joints, size_t piece) {
+static int nsvcd__rests_at(const nsvcd__trajectory *c, size_t joints, size_t piece) {
   const double *at = c->points + 2 * piece * joints;
   for (size_t j = 0; j < joints; j++) {
     if (fabs(at[j + joints] - at[j]) > 1e-12 * (1 + fabs(at[j]))) return 0;
@@ -3381,10 +3391,10 @@ static int nsvcd__rests_at(const nsvcd__course *c, size_t joints, size_t piece) 
   return 1;
 }
 
-// Copies the course from time t0 to t1 to the end of another. Returns 0 where a sliver would be
+// Copies the trajectory from time t0 to t1 to the end of another. Returns 0 where a sliver would be
 // left, or there is no room.
-static int nsvcd__course_copy(const nsvcd__course *c, size_t joints, double t0, double t1,
-                              nsvcd__course *out) {
+static int nsvcd__trajectory_copy(const nsvcd__trajectory *c, size_t joints, double t0,
+                                  double t1, nsvcd__trajectory *out) {
   const nsvcd_joint_motion motion = nsvcd__motion_of(c);
   for (size_t p = nsvcd__piece_at(&motion, t0); p < c->pieces && c->times[p] < t1; p++) {
     const double from = nsvcd__max(t0, c->times[p]);
@@ -3400,51 +3410,51 @@ static int nsvcd__course_copy(const nsvcd__course *c, size_t joints, double t0, 
       middle[j] = points[1];
       end[j] = points[2];
     }
-    nsvcd__course_add(out, joints, middle, end, to - from);
+    nsvcd__trajectory_add(out, joints, middle, end, to - from);
   }
   return 1;
 }
 
-// Replaces the course from time t0 to t1 by a blend, if that is quicker by `gain` and proven.
+// Replaces the trajectory from time t0 to t1 by a blend, if that is quicker by `gain` and proven.
 static nsvcd_result nsvcd__smooth_once(nsvcd__router *r, double t0, double t1, double gain) {
   const size_t joints = r->joints;
   double states[4][NSVCD_MAX_JOINTS];
-  const nsvcd_joint_motion motion = nsvcd__motion_of(&r->course);
+  const nsvcd_joint_motion motion = nsvcd__motion_of(&r->trajectory);
   const double times[2] = {t0, t1};
   for (size_t n = 0; n < 2; n++) {
     const size_t piece = nsvcd__piece_at(&motion, times[n]);
     nsvcd__joints_at(&motion, joints, piece, nsvcd__fraction_at(&motion, piece, times[n]),
                      states[n], states[n + 2]);
   }
-  nsvcd__course *blend = &r->blend;
+  nsvcd__trajectory *blend = &r->blend;
   blend->pieces =
       nsvcd__blend_write(r->scene, states, t1 - t0 - gain, blend->points, blend->times);
   if (!blend->pieces) return NSVCD_OK;
-  // the whole as it would be: what is left of the course, and the blend between
-  nsvcd__course *out = &r->other;
-  nsvcd__course_begin(out, joints, r->course.points);
-  const double end = r->course.times[r->course.pieces];
-  if (!nsvcd__course_copy(&r->course, joints, 0, t0, out)) return NSVCD_OK;
+  // the whole as it would be: what is left of the trajectory, and the blend between
+  nsvcd__trajectory *out = &r->other;
+  nsvcd__trajectory_begin(out, joints, r->trajectory.points);
+  const double end = r->trajectory.times[r->trajectory.pieces];
+  if (!nsvcd__trajectory_copy(&r->trajectory, joints, 0, t0, out)) return NSVCD_OK;
   if (out->pieces + blend->pieces > NSVCD__MOST_PIECES) return NSVCD_OK;
   for (size_t p = 0; p < blend->pieces; p++) {
     const double *middle = blend->points + (2 * p + 1) * joints;
-    nsvcd__course_add(out, joints, middle, middle + joints,
-                      blend->times[p + 1] - blend->times[p]);
+    nsvcd__trajectory_add(out, joints, middle, middle + joints,
+                          blend->times[p + 1] - blend->times[p]);
   }
-  if (!nsvcd__course_copy(&r->course, joints, t1, end, out)) return NSVCD_OK;
+  if (!nsvcd__trajectory_copy(&r->trajectory, joints, t1, end, out)) return NSVCD_OK;
   int is_free;
   const nsvcd_joint_motion asked = nsvcd__motion_of(blend);
   const nsvcd_result result = nsvcd__ask_motion(r, &asked, &is_free);
   if (result || !is_free) return result;
-  const nsvcd__course was = r->course;
-  r->course = r->other;
+  const nsvcd__trajectory was = r->trajectory;
+  r->trajectory = r->other;
   r->other = was;
   return NSVCD_OK;
 }
 
 static nsvcd_result nsvcd__smooth(nsvcd__router *r) {
   for (size_t n = 0; n < r->options.smoothings && !r->is_stopped; n++) {
-    const nsvcd__course *c = &r->course;
+    const nsvcd__trajectory *c = &r->trajectory;
     const double end = c->times[c->pieces];
     if (end <= NSVCD__FAST_ENOUGH * r->answer.unhindered) return NSVCD_OK;
     double t0 = end * nsvcd__random(&r->random);
@@ -3511,8 +3521,8 @@ static nsvcd_result nsvcd__route_check(const nsvcd_checker *checker,
   return NSVCD_OK;
 }
 
-static void nsvcd__course_take(nsvcd__course *c, char *base, uint64_t *used, size_t pieces,
-                               size_t joints) {
+static void nsvcd__trajectory_take(nsvcd__trajectory *c, char *base, uint64_t *used,
+                                   size_t pieces, size_t joints) {
   c->points = (double *)nsvcd__take(base, used, (2 * pieces + 1) * joints, sizeof(double));
   c->times = (double *)nsvcd__take(base, used, pieces + 1, sizeof(double));
 }
@@ -3551,10 +3561,10 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
   r->goals = (size_t *)nsvcd__take(base, &used, problem->goal_count, sizeof(size_t));
   // a shortcut from an edge to the next adds a corner
   const size_t rows = 2 * nodes + o->shortcuts;
-  r->way = (double *)nsvcd__take(base, &used, rows, joints * sizeof(double));
-  nsvcd__course_take(&r->course, base, &used, NSVCD__MOST_PIECES, joints);
-  nsvcd__course_take(&r->other, base, &used, NSVCD__MOST_PIECES, joints);
-  nsvcd__course_take(&r->blend, base, &used, NSVCD__BLEND_PIECES, joints);
+  r->path = (double *)nsvcd__take(base, &used, rows, joints * sizeof(double));
+  nsvcd__trajectory_take(&r->trajectory, base, &used, NSVCD__MOST_PIECES, joints);
+  nsvcd__trajectory_take(&r->other, base, &used, NSVCD__MOST_PIECES, joints);
+  nsvcd__trajectory_take(&r->blend, base, &used, NSVCD__BLEND_PIECES, joints);
   *router = (nsvcd__router *)at;
   return used <= SIZE_MAX ? (size_t)used : 0;
 }
@@ -3615,11 +3625,11 @@ static nsvcd_result nsvcd__grow(nsvcd__router *r, nsvcd__rrt *t, const double *t
   do {
     double next[NSVCD_MAX_JOINTS];
     const double *from = t->points + *node * joints;
-    const double way = sqrt(nsvcd__way2(from, to, joints));
-    const int ends = way <= r->options.edge;
+    const double length = sqrt(nsvcd__distance2(from, to, joints));
+    const int ends = length <= r->options.edge;
     for (size_t j = 0; j < joints; j++)
-      next[j] = ends ? to[j] : from[j] + r->options.edge / way * (to[j] - from[j]);
-    if (!(way > 0)) {
+      next[j] = ends ? to[j] : from[j] + r->options.edge / length * (to[j] - from[j]);
+    if (!(length > 0)) {
       *is_there = 1;
       return NSVCD_OK;
     }
@@ -3634,19 +3644,20 @@ static nsvcd_result nsvcd__grow(nsvcd__router *r, nsvcd__rrt *t, const double *t
 }
 
 // Writes the way through nodes of both trees that are at the same place.
-static void nsvcd__way_through(nsvcd__router *r, size_t from_start, size_t from_goal) {
+static void nsvcd__path_through(nsvcd__router *r, size_t from_start, size_t from_goal) {
   const size_t joints = r->joints;
   const size_t bytes = joints * sizeof(double);
   const nsvcd__rrt *start = &r->trees[0];
   const nsvcd__rrt *goal = &r->trees[1];
   size_t count = 1;
   for (size_t n = from_start; start->parents[n] != n; n = start->parents[n]) count++;
-  r->way_count = count;
+  r->path_count = count;
   for (size_t n = from_start; count-- > 0; n = start->parents[n])
-    memcpy(r->way + count * joints, start->points + n * joints, bytes);
+    memcpy(r->path + count * joints, start->points + n * joints, bytes);
   size_t n = from_goal;
   for (; goal->parents[n] != n; n = goal->parents[n])
-    memcpy(r->way + r->way_count++ * joints, goal->points + goal->parents[n] * joints, bytes);
+    memcpy(r->path + r->path_count++ * joints, goal->points + goal->parents[n] * joints,
+           bytes);
   r->answer.goal = r->goals[n];
 }
 
@@ -3680,7 +3691,7 @@ static nsvcd_result nsvcd__take_guess(nsvcd__router *r, int *is_found) {
                         r->trees[1].points + nodes[1] * joints, is_found);
   if (result || !*is_found) return result;
   nodes[0] = nsvcd__tree_add(&r->trees[0], r->trees[1].points + nodes[1] * joints, nodes[0]);
-  nsvcd__way_through(r, nodes[0], nodes[1]);
+  nsvcd__path_through(r, nodes[0], nodes[1]);
   return NSVCD_OK;
 }
 
@@ -3696,7 +3707,7 @@ static nsvcd_result nsvcd__seek(nsvcd__router *r) {
     result = nsvcd__prove_edge(r, r->trees[0].points, goal, &is_found);
     if (result) return result;
     if (!is_found) continue;
-    nsvcd__way_through(r, nsvcd__tree_add(&r->trees[0], goal, 0), g);
+    nsvcd__path_through(r, nsvcd__tree_add(&r->trees[0], goal, 0), g);
     return NSVCD_OK;
   }
   for (size_t turn = 0; !r->is_stopped; turn++) {
@@ -3715,7 +3726,7 @@ static nsvcd_result nsvcd__seek(nsvcd__router *r) {
     result = nsvcd__grow(r, other, grown->points + node * joints, 1, &met, &is_there);
     if (result) return result;
     if (!is_there) continue;
-    nsvcd__way_through(r, turn % 2 ? met : node, turn % 2 ? node : met);
+    nsvcd__path_through(r, turn % 2 ? met : node, turn % 2 ? node : met);
     return NSVCD_OK;
   }
   return NSVCD_OK;
@@ -3724,17 +3735,17 @@ static nsvcd_result nsvcd__seek(nsvcd__router *r) {
 // ---- shortcuts
 
 // A place on the way, this far along it: the corner before and the place.
-static size_t nsvcd__way_at(const nsvcd__router *r, double gone, double *at) {
+static size_t nsvcd__path_at(const nsvcd__router *r, double gone, double *at) {
   const size_t joints = r->joints;
   size_t k = 0;
-  for (; k + 2 < r->way_count; k++) {
-    const double *from = r->way + k * joints;
-    const double length = sqrt(nsvcd__way2(from, from + joints, joints));
+  for (; k + 2 < r->path_count; k++) {
+    const double *from = r->path + k * joints;
+    const double length = sqrt(nsvcd__distance2(from, from + joints, joints));
     if (gone <= length) break;
     gone -= length;
   }
-  const double *from = r->way + k * joints;
-  const double length = sqrt(nsvcd__way2(from, from + joints, joints));
+  const double *from = r->path + k * joints;
+  const double length = sqrt(nsvcd__distance2(from, from + joints, joints));
   const double fraction = length > 0 ? nsvcd__min(gone / length, 1) : 0;
   for (size_t j = 0; j < joints; j++)
     at[j] = from[j] + fraction * (from[j + joints] - from[j]);
@@ -3744,15 +3755,16 @@ static size_t nsvcd__way_at(const nsvcd__router *r, double gone, double *at) {
 // Replaces what is between two places on the way by an edge, again and again, where that is free.
 static nsvcd_result nsvcd__shorten(nsvcd__router *r) {
   const size_t joints = r->joints;
-  for (size_t n = 0; n < r->options.shortcuts && r->way_count > 2 && !r->is_stopped; n++) {
+  for (size_t n = 0; n < r->options.shortcuts && r->path_count > 2 && !r->is_stopped; n++) {
     double at[2][NSVCD_MAX_JOINTS];
     double length = 0;
-    for (size_t k = 0; k + 1 < r->way_count; k++)
-      length += sqrt(nsvcd__way2(r->way + k * joints, r->way + (k + 1) * joints, joints));
+    for (size_t k = 0; k + 1 < r->path_count; k++)
+      length +=
+          sqrt(nsvcd__distance2(r->path + k * joints, r->path + (k + 1) * joints, joints));
     const double a = length * nsvcd__random(&r->random);
     const double b = length * nsvcd__random(&r->random);
-    const size_t first = nsvcd__way_at(r, nsvcd__min(a, b), at[0]);
-    const size_t last = nsvcd__way_at(r, nsvcd__max(a, b), at[1]);
+    const size_t first = nsvcd__path_at(r, nsvcd__min(a, b), at[0]);
+    const size_t last = nsvcd__path_at(r, nsvcd__max(a, b), at[1]);
     // on one edge there is nothing to win, and the way grows by a corner where none is cut off
     if (first == last) continue;
     int is_free;
@@ -3760,32 +3772,32 @@ static nsvcd_result nsvcd__shorten(nsvcd__router *r) {
     if (result) return result;
     if (!is_free) continue;
     // corners first + 1 to last make way for two
-    const size_t rest = r->way_count - (last + 1);
-    memmove(r->way + (first + 3) * joints, r->way + (last + 1) * joints,
+    const size_t rest = r->path_count - (last + 1);
+    memmove(r->path + (first + 3) * joints, r->path + (last + 1) * joints,
             rest * joints * sizeof(double));
-    memcpy(r->way + (first + 1) * joints, at[0], joints * sizeof(double));
-    memcpy(r->way + (first + 2) * joints, at[1], joints * sizeof(double));
-    r->way_count = first + 3 + rest;
+    memcpy(r->path + (first + 1) * joints, at[0], joints * sizeof(double));
+    memcpy(r->path + (first + 2) * joints, at[1], joints * sizeof(double));
+    r->path_count = first + 3 + rest;
   }
   return NSVCD_OK;
 }
 
 // Drops corners that are nearly at the one before: of so short an edge rounding would say what its
 // acceleration is. What is timed is proven as a whole.
-static void nsvcd__thin_way(nsvcd__router *r) {
+static void nsvcd__simplify_path(nsvcd__router *r) {
   const size_t joints = r->joints;
   const size_t bytes = joints * sizeof(double);
   const double least = NSVCD__SAME_CORNER * NSVCD__SAME_CORNER;
-  const double *last = r->way + (r->way_count - 1) * joints;
+  const double *last = r->path + (r->path_count - 1) * joints;
   size_t kept = 1;
-  for (size_t k = 1; k < r->way_count; k++) {
-    const double *at = r->way + k * joints;
-    if (nsvcd__way2(r->way + (kept - 1) * joints, at, joints) < least) continue;
-    memmove(r->way + kept++ * joints, at, bytes);
+  for (size_t k = 1; k < r->path_count; k++) {
+    const double *at = r->path + k * joints;
+    if (nsvcd__distance2(r->path + (kept - 1) * joints, at, joints) < least) continue;
+    memmove(r->path + kept++ * joints, at, bytes);
   }
   // the end stays where it is
-  memmove(r->way + (kept - 1) * joints, last, bytes);
-  r->way_count = kept;
+  memmove(r->path + (kept - 1) * joints, last, bytes);
+  r->path_count = kept;
 }
 
 // ---- a route
@@ -3871,12 +3883,12 @@ static nsvcd_result nsvcd__plant(nsvcd__router *r) {
 }
 
 // From the way to a motion, proven as it is: smooth, else with a rest at each corner.
-static nsvcd_result nsvcd__time_way(nsvcd__router *r) {
+static nsvcd_result nsvcd__time_path(nsvcd__router *r) {
   const size_t joints = r->joints;
-  const double *last = r->way + (r->way_count - 1) * joints;
+  const double *last = r->path + (r->path_count - 1) * joints;
   for (size_t j = 0; j < joints; j++) {
     const nsvcd_joint *joint = &r->scene->joints[j];
-    const double time = nsvcd__blend_time(r->way[j], 0, last[j], 0, nsvcd__speed_of(joint),
+    const double time = nsvcd__blend_time(r->path[j], 0, last[j], 0, nsvcd__speed_of(joint),
                                           nsvcd__acceleration_of(joint));
     r->answer.unhindered = nsvcd__max(r->answer.unhindered, time);
   }
@@ -3888,21 +3900,21 @@ static nsvcd_result nsvcd__time_way(nsvcd__router *r) {
   whole.user = r->check.user;
   for (int rests = 0; rests < 2 && !is_free; rests++) {
     nsvcd_result result = NSVCD_OK;
-    if (!nsvcd__course_along(r)) break;
+    if (!nsvcd__trajectory_along(r)) break;
     if (!rests) result = nsvcd__smooth(r);
     if (result) return result;
     // though the search is stopped: what it has found by then is not given up
-    const nsvcd_joint_motion motion = nsvcd__motion_of(&r->course);
+    const nsvcd_joint_motion motion = nsvcd__motion_of(&r->trajectory);
     result = nsvcd__prove_by(r, &motion, &whole, &is_free);
     if (result) return result;
   }
   if (!is_free) return NSVCD_OK;
   nsvcd_route_answer *answer = &r->answer;
   answer->status = NSVCD_ROUTE_FOUND;
-  answer->motion = nsvcd__motion_of(&r->course);
-  answer->duration = r->course.times[r->course.pieces];
-  for (size_t p = 1; p < r->course.pieces; p++)
-    answer->stops += (size_t)nsvcd__rests_at(&r->course, joints, p);
+  answer->motion = nsvcd__motion_of(&r->trajectory);
+  answer->duration = r->trajectory.times[r->trajectory.pieces];
+  for (size_t p = 1; p < r->trajectory.pieces; p++)
+    answer->stops += (size_t)nsvcd__rests_at(&r->trajectory, joints, p);
   return NSVCD_OK;
 }
 
@@ -3932,10 +3944,10 @@ NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_prob
   r->answer.status = NSVCD_ROUTE_LIMIT;
   result = nsvcd__plant(r);
   if (!result && r->trees[1].count > 0) result = nsvcd__seek(r);
-  if (!result && r->way_count > 0) result = nsvcd__shorten(r);
-  if (!result && r->way_count > 0) {
-    nsvcd__thin_way(r);
-    result = nsvcd__time_way(r);
+  if (!result && r->path_count > 0) result = nsvcd__shorten(r);
+  if (!result && r->path_count > 0) {
+    nsvcd__simplify_path(r);
+    result = nsvcd__time_path(r);
   }
   if (result) return result;
   if (r->is_stopped && r->answer.status != NSVCD_ROUTE_FOUND)

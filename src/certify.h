@@ -12,7 +12,7 @@
 //
 // GLOSSARY
 //   tree, node   boxes over a mesh's triangles; a run of these
-//   certificate  bytes that prove an answer: a walk over two trees and time, and rays
+//   certificate  bytes that prove an answer: a traversal over two trees and time, and rays
 #ifndef NEURALSVCD_CERTIFY_H
 #define NEURALSVCD_CERTIFY_H
 #ifndef NEURALSVCD_H  // include it first where it stands elsewhere
@@ -46,7 +46,7 @@ extern "C" {
 #include "ground/points.h"     // vectors of three, of floats and of doubles
 #include "ground/rotations.h"  // quaternions and matrices, of floats and of doubles
 #include "ground/triangles.h"  // two triangles: where they meet, or are nearest
-#include "ground/spheres.h"    // spheres and discs, as bodies store them
+#include "ground/spheres.h"    // spheres and slabs, as bodies store them
 #include "ground/random.h"     // random numbers
 #include "ground/memory.h"     // the allocator; the rows of a workspace
 
@@ -55,7 +55,7 @@ extern "C" {
 #include "certificate/law.h"      // where a body is, how far points leave their chords
 #include "certificate/planes.h"   // one that separates two nodes for a while
 #include "certificate/rays.h"     // what a ray crosses
-#include "certificate/certify.h"  // the walk, and its bits
+#include "certificate/certify.h"  // the traversal, and its bits
 
 #if defined(__GNUC__) || defined(__clang__)
 #pragma GCC diagnostic pop

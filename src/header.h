@@ -87,9 +87,10 @@
 //   It is about the surfaces of the two meshes and the motion as described at nsvcd_sweep, and is
 //   tested by replaying certificates in double precision (tests/test_proof.c). UNDECIDED says that
 //   surfaces come within 1e-9 of all lengths without meeting (of coarse bodies: within what these
-//   are off, nsvcd_body_facts.quantum), that of eight rays none could tell whether one is inside
-//   the other, that one seems to be inside of what is nearly a solid (nsvcd_encode_options.open),
-//   or that the work allowed was not enough; then the network's opinion is added where it has one.
+//   are off, nsvcd_body_facts.quantization_error), that of eight rays none could tell whether one
+//   is inside the other, that one seems to be inside of what is nearly a solid
+//   (nsvcd_encode_options.open), or that the work allowed was not enough; then the network's
+//   opinion is added where it has one.
 //   A component of a mesh is closed if every edge has its reverse, whichever way it is wound as a
 //   whole. What does no harm to that is mended, or rather not looked at: faces that are there twice
 //   or turned round, fins, walls within, slivers, and gaps between corners that are no farther
@@ -163,18 +164,19 @@
 //                     time in which two balls meet
 //   try               a search of a larger interval with few units
 //   chord             of a point: the straight line from its start to its end in a segment
-//   deviation         how far a point may stray from its chord: by bulge (rotation) and drift
+//   deviation         how far a point may leave its chord: by the rotation, per metre from the
+//                     moving origin (bend), and as that origin does (origin bend)
 //   candidate         two patches and a contact interval, in which their balls meet
 //   pair              two patches, as the decoder sees them
 //   ranker            the tiny decoder, which chooses the candidates that the chosen one sees
 //   patch pair        two patches that the proof has yet to separate in a segment
 //   triangle pair     two listed triangles, one of each body
-//   disc              of a patch: what it reaches along a normal, and across
-//   hull, slack       of a patch: 16 vertices at most, and how far the surface sticks out
-//   listing           a triangle, or a part of one, that a patch stores
-//   facets            what a body stores for the proof: discs, hulls, listings
-//   quantum           how far a coarse triangle may be off the mesh's
-//   span              a segment, or a part of one, as the proof bounds its motion
+//   slab              of a patch: what it reaches along a normal, and across
+//   hull, margin       of a patch: 16 vertices at most, and how far the surface sticks out
+//   entry           a triangle, or a part of one, that a patch stores
+//   geometry            what a body stores for the proof: slabs, hulls, entries
+//   quantization error           how far a coarse triangle may be off the mesh's
+//   interval              a segment, or a part of one, as the proof bounds its motion
 //   keyframe, arc     when one of the poses given is reached; the motion from one to the next
 //   tick              the unit of a motion's time: every keyframe is at a whole number of ticks
 //   work              units that a proof takes
@@ -216,7 +218,7 @@ extern "C" {
 #include "ground/points.h"     // vectors of three, of floats and of doubles
 #include "ground/rotations.h"  // quaternions and matrices, of floats and of doubles
 #include "ground/triangles.h"  // two triangles: where they meet, or are nearest
-#include "ground/spheres.h"    // spheres and discs, as bodies store them
+#include "ground/spheres.h"    // spheres and slabs, as bodies store them
 #include "ground/random.h"     // random numbers
 #include "ground/memory.h"     // the allocator; the rows of a workspace
 #include "ground/slices.h"     // how many of 16 lanes a register holds
@@ -241,23 +243,23 @@ extern "C" {
 #include "surface/pieces.h"   // triangles cut by the cells of the centres
 #include "surface/runs.h"     // points, segments and triangles, in runs of neighbours
 #include "surface/balls.h"    // the least ball that holds all points
-#include "surface/discs.h"    // a direction in which the points are thin
+#include "surface/slabs.h"    // a direction in which the points are thin
 #include "surface/hulls.h"    // 16 vertices about a patch
-#include "surface/sorted.h"   // pieces by patch; eight tips of each, for the network
-#include "surface/surface.h"  // patch by patch: ball, disc, hull, triangles
+#include "surface/sorted.h"   // pieces by patch; eight extremes of each, for the network
+#include "surface/surface.h"  // patch by patch: ball, slab, hull, triangles
 
 // ====================================================== encoder: what the network keeps of a patch
 #include "encoder/model.h"    // does weights.h fit?
 #include "encoder/encoder.h"  // a patch -> its latent
 
 // ================================================================================== body: the blob
-#include "body/body.h"    // balls in groups of 16, and levels of spheres above
-#include "body/walk.h"    // a walk through the groups; load, scale, describe
-#include "body/facets.h"  // the blob of the proof: discs, hulls, triangles
-#include "body/trust.h"   // is a blob sound? load it, scale it, describe it
-#include "body/write.h"   // a surface -> the blob of the proof
-#include "body/encode.h"  // nsvcd_encode
-#include "body/shapes.h"  // spheres, capsules, boxes, clouds
+#include "body/body.h"       // balls in groups of 16, and levels of spheres above
+#include "body/traversal.h"  // a traversal of the groups; load, scale, describe
+#include "body/geometry.h"   // the blob of the proof: slabs, hulls, triangles
+#include "body/trust.h"      // is a blob sound? load it, scale it, describe it
+#include "body/write.h"      // a surface -> the blob of the proof
+#include "body/encode.h"     // nsvcd_encode
+#include "body/shapes.h"     // spheres, capsules, boxes, clouds
 
 #endif  // NSVCD__ISA
 
@@ -267,19 +269,19 @@ extern "C" {
 
 // ======================================================================== motion: where bodies are
 #include "motion/motion.h"    // the moving body's poses as the fixed one sees them
-#include "motion/segments.h"  // how far a point strays from a straight line
+#include "motion/segments.h"  // how far a point deviates from a straight line
 #include "motion/choice.h"  // which segments a motion is cut into, and a long one which intervals
 
 // ================================================================== search: which patches may meet
-#include "search/apart.h"      // pairs of patches that a plane separates, by their tips
+#include "search/apart.h"      // pairs of patches that a plane separates, by their extremes
 #include "search/intervals.h"  // when the balls of two patches meet, for the network
 #include "search/search.h"     // which groups and patches meet, and in which segments
 
 // ==================================================================== proof: whether surfaces meet
 #include "proof/proof.h"           // the theorem; what a proof asks, knows and remembers
 #include "proof/poses.h"           // poses in double
-#include "proof/spans.h"           // a stretch of time, and how far points stray in it
-#include "proof/discs.h"           // planes across discs, of patches and of groups
+#include "proof/motion_bounds.h"   // a interval of time, and how far points deviate in it
+#include "proof/slabs.h"           // planes across slabs, of patches and of groups
 #include "proof/hulls.h"           // planes between hulls
 #include "proof/triangle_pairs.h"  // a triangle of each body, in double
 #include "proof/blocks.h"          // 16 triangles at a time

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // nsvcd_check proves that a motion of the joints is free, as the joints make it; nsvcd_route finds
-// one; nsvcd_gaps tells what is near a configuration. On top of neuralsvcd.h, of which it uses what
-// any program can. In ONE C or C++ file:
+// one; nsvcd_proximities tells what is near a configuration. On top of neuralsvcd.h, of which it
+// uses what any program can. In ONE C or C++ file:
 //
 //   #define NEURALSVCD_ROBOT_IMPLEMENTATION
 //   #include "extras/neuralsvcd_robot.h"
@@ -15,8 +15,8 @@
 // GLOSSARY
 //   part, link, piece a body of a scene; what a joint carries; of a motion of joints, one curve
 //   step, sample      of a piece, between two samples; a configuration in which parts are placed
-//   stray             by how much a part leaves, in a step, the line and the slerp between samples
-//   moment arm             how far a point of a part can be from a joint's axis
+//   deviation         by how much a part leaves, in a step, the line and slerp between samples
+//   moment arm        how far a point of a part can be from a joint's axis
 #ifndef NEURALSVCD_ROBOT_H
 #define NEURALSVCD_ROBOT_H
 #ifndef NEURALSVCD_H  // include it first where it stands elsewhere
@@ -30,9 +30,9 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-#include "interface/robots.h"    // joints, parts, checks of motions; nsvcd_check
-#include "interface/postures.h"  // one configuration: what is near, a way out; nsvcd_gaps
-#include "interface/routes.h"    // a start and goals; nsvcd_route
+#include "interface/robots.h"          // joints, parts, checks of motions; nsvcd_check
+#include "interface/configurations.h"  // one configuration: pairs that are near, a way out
+#include "interface/routes.h"          // a start and goals; nsvcd_route
 #ifdef __cplusplus
 }
 #endif
@@ -69,13 +69,13 @@ extern "C" {
 #include "ground/memory.h"     // the allocator; the rows of a workspace
 
 // ============================================================ robot: is a motion of joints free?
-#include "robot/chain.h"  // what moves what; where everything is
-#include "robot/steps.h"  // what the joints do between two times
-#include "robot/stray.h"  // by how much a part leaves the line and the slerp between two samples
-#include "robot/path.h"      // pieces, pair by pair
-#include "robot/proofs.h"    // certificates of pairs
-#include "robot/trees.h"     // configurations, and the nearest of them
-#include "robot/postures.h"  // one configuration: gaps and their slopes, a way out, who can meet
+#include "robot/chain.h"           // what moves what; where everything is
+#include "robot/steps.h"           // what the joints do between two times
+#include "robot/deviation.h"       // how far a part leaves the motion between two samples
+#include "robot/path.h"            // pieces, pair by pair
+#include "robot/proofs.h"          // certificates of pairs
+#include "robot/rrt.h"             // configurations, and the nearest of them
+#include "robot/configurations.h"  // proximities, the nearest free one, pairs that can meet
 #include "robot/blends.h"  // from one state to another, within limits of speed and acceleration
 #include "robot/smooth.h"  // a way in time, then smooth
 #include "robot/route.h"   // two trees of proven edges, shortcuts

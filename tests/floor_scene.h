@@ -219,7 +219,7 @@ static void floor_make(floor_scene *s, shapes_rng *rng) {
   q->b.poses = &s->floor_pose;
   q->b.count = 1;
   q->clearance = (float)s->clearance;
-  if (s->act == FLOOR_STANDS || s->act == FLOOR_LEAVES) q->skin = (float)s->skin;
+  if (s->act == FLOOR_STANDS || s->act == FLOOR_LEAVES) q->slop = (float)s->skin;
   if (falls && s->act != FLOOR_COMES) q->ask = NSVCD_ASK_FIRST;
   if (s->act == FLOOR_MEASURED) q->ask = NSVCD_ASK_DISTANCE;
   if (q->ask) q->to = (float)s->to;
@@ -270,7 +270,7 @@ static const char *floor_fault(const floor_scene *s, const nsvcd_answer *answer,
   const double rounded = 1.2e-7 * s->speed;  // a time in float
   const double depth = -s->nearest;
   const double gap = s->nearest - (double)s->question.clearance;
-  const double skin = (double)s->question.skin;
+  const double skin = (double)s->question.slop;
   const int ask = s->question.ask;
   *first = 0;
   if (skin > 0) {

@@ -20,7 +20,7 @@ typedef struct reference_pair {
   double c1[3], c2[3], r1, r2, unit;  // centres, each in its body's axes; radii
   double z1[NSVCD__LATENT], z2[NSVCD__LATENT];
   // each in its body's axes: unit normals, or 0; tips from the centres, metres
-  double n1[3], n2[3], flat1, flat2, tips1[NSVCD__TIPS][3], tips2[NSVCD__TIPS][3];
+  double n1[3], n2[3], flat1, flat2, tips1[NSVCD__EXTREMES][3], tips2[NSVCD__EXTREMES][3];
   double to_fixed[9];
   // in which the spheres meet, and part: from, to; the distance at which they do
   double segment[2][2], reach[2];
@@ -241,7 +241,7 @@ static double reference_gap(const reference_pair *pair, const double *between, c
     back[k] = -forth[k];
     apart[k] = between[k] + tau * v[k];
   }
-  for (int n = 0; n < NSVCD__TIPS; n++) {
+  for (int n = 0; n < NSVCD__EXTREMES; n++) {
     double tip[3], turned[3];
     reference_mul(m, pair->tips1[n], tip);
     reference_turned_tip(tip, forth, turned);
@@ -468,10 +468,10 @@ static void reference_open(const nsvcd_body *moving, const nsvcd_pose *poses, co
     const double radius = n == 0 ? pair->r1 : pair->r2;
     double(*tips)[3] = n == 0 ? pair->tips1 : pair->tips2;
     double *normal = n == 0 ? pair->n1 : pair->n2;
-    const int8_t *stored = nsvcd__group_tips(body, patch / NSVCD__GROUP) + patch % NSVCD__GROUP;
+    const int8_t *stored = nsvcd__group_extremes(body, patch / NSVCD__GROUP) + patch % NSVCD__GROUP;
     for (int k = 0; k < 3; k++) {
       normal[k] = (double)nsvcd__body_areas(body)[patch + (size_t)k * body->padded];
-      for (int t = 0; t < NSVCD__TIPS; t++)
+      for (int t = 0; t < NSVCD__EXTREMES; t++)
         tips[t][k] = radius / 127 * stored[NSVCD__GROUP * (3 * t + k)];
     }
     const double area = reference_length(normal);
@@ -498,7 +498,7 @@ static void reference_open(const nsvcd_body *moving, const nsvcd_pose *poses, co
     const size_t l = s[end] % NSVCD__LANES;
     pair->segment[end][0] = (double)work->time[s[end]];
     pair->segment[end][1] = (double)work->time[s[end] + 1];
-    pair->reach[end] = pair->unit + (double)block->spread[l] + (double)block->bulge[l] * far;
+    pair->reach[end] = pair->unit + (double)block->margin[l] + (double)block->bend[l] * far;
   }
 }
 

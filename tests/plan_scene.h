@@ -256,7 +256,7 @@ static void plan_begin(plan_scene *s, plan_kind kind, size_t bodies) {
   s->problem.bodies = s->bodies;
   s->problem.body_count = bodies;
   s->problem.pairs = s->pairs;
-  s->problem.place = plan_place;
+  s->problem.kinematics = plan_place;
   s->problem.progress = plan_progress;
   s->problem.user = s;
 }

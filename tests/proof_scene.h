@@ -152,13 +152,13 @@ static void proof_corners(const proof_body *b, size_t triangle, double corners[3
   }
 }
 
-static void proof_read_patch(const nsvcd__facets *f, size_t i, proof_patch *out) {
+static void proof_read_patch(const nsvcd__geometry *f, size_t i, proof_patch *out) {
   const size_t padded = f->body->padded;
   const float *spheres = (const float *)(const void *)(f->body + 1);
   const size_t all = f->first_vertex[i + 1] - f->first_vertex[i];
   const int16_t *x = f->vertices + 3 * (size_t)f->first_vertex[i];
   for (size_t k = 0; k < 3; k++) out->centre[k] = (double)spheres[k * padded + i];
-  for (size_t k = 0; k < 3; k++) out->normal[k] = (double)f->discs[k * padded + i];
+  for (size_t k = 0; k < 3; k++) out->normal[k] = (double)f->slabs[k * padded + i];
   out->radius = (double)spheres[3 * padded + i];
   const nsvcd__sphere above[2] = {nsvcd__sphere_of(nsvcd__groups_of(f->body), i / 16),
                                   nsvcd__body_sphere(f->body)};
@@ -166,11 +166,11 @@ static void proof_read_patch(const nsvcd__facets *f, size_t i, proof_patch *out)
     const float *sphere = &above[n].centre.x;
     for (size_t k = 0; k < 4; k++) out->above[n][k] = (double)sphere[k];
   }
-  out->low = (double)f->discs[3 * padded + i];
-  out->high = (double)f->discs[4 * padded + i];
-  out->across = (double)f->discs[5 * padded + i];
-  out->slack = (double)f->slacks[i];
-  out->quantum = (double)f->quanta[i];
+  out->low = (double)f->slabs[3 * padded + i];
+  out->high = (double)f->slabs[4 * padded + i];
+  out->across = (double)f->slabs[5 * padded + i];
+  out->slack = (double)f->margins[i];
+  out->quantum = (double)f->errors[i];
   out->hull_count = f->hull_counts[i];
   out->first = f->first_triangle[i];
   out->end = f->first_triangle[i + 1];
@@ -189,19 +189,19 @@ static size_t proof_stored_number(const unsigned char *at, size_t bytes) {
 }
 
 // Points of a patch: stored ones, its own vertices, references to others.
-static size_t proof_points(const nsvcd__facets *f, size_t i) {
+static size_t proof_points(const nsvcd__geometry *f, size_t i) {
   const size_t stored = f->first_vertex[i + 1] - f->first_vertex[i];
   const size_t own = f->first_own[i + 1] - f->first_own[i];
   return stored + own + f->first_reference[i + 1] - f->first_reference[i];
 }
 
 // The place of one of them. Returns 1 if it is a vertex of the mesh.
-static int proof_point(const proof_body *b, const nsvcd__facets *f, size_t i, size_t number,
+static int proof_point(const proof_body *b, const nsvcd__geometry *f, size_t i, size_t number,
                        double place[3]) {
   const size_t stored = f->first_vertex[i + 1] - f->first_vertex[i];
   const size_t own = f->first_own[i + 1] - f->first_own[i];
   const int16_t *x = f->vertices + 3 * (size_t)f->first_vertex[i];
-  const size_t bytes = f->place_count > 65536 ? 4 : 2;
+  const size_t bytes = f->position_count > 65536 ? 4 : 2;
   if (number < stored) {
     for (size_t k = 0; k < 3; k++)
       place[k] = b->patches[i].centre[k] + (double)f->steps[i] * x[k * stored + number];
@@ -212,19 +212,19 @@ static int proof_point(const proof_body *b, const nsvcd__facets *f, size_t i, si
     at = f->first_reference[i] + number - stored - own;
     at = proof_stored_number(f->references + bytes * at, bytes);
   }
-  for (size_t k = 0; k < 3; k++) place[k] = (double)f->places[3 * at + k];
+  for (size_t k = 0; k < 3; k++) place[k] = (double)f->positions[3 * at + k];
   return 1;
 }
 
 // Where the numbers of a patch's triangles are: behind their corners.
-static const unsigned char *proof_numbers(const nsvcd__facets *f, size_t i) {
+static const unsigned char *proof_numbers(const nsvcd__geometry *f, size_t i) {
   const size_t triangles = f->first_triangle[i + 1] - f->first_triangle[i];
-  return f->listings + f->first_byte[i] + (proof_points(f, i) <= 256 ? 3 : 6) * triangles;
+  return f->triangle_codes + f->first_byte[i] + (proof_points(f, i) <= 256 ? 3 : 6) * triangles;
 }
 
 // The number of the patch's n-th triangle: the sum of what n + 1 codes say, each in groups of seven
 // bits.
-static size_t proof_triangle_number(const nsvcd__facets *f, size_t i, size_t n) {
+static size_t proof_triangle_number(const nsvcd__geometry *f, size_t i, size_t n) {
   const unsigned char *at = proof_numbers(f, i);
   size_t sum = 0;
   for (size_t k = 0; k <= n; k++) {
@@ -239,7 +239,7 @@ static size_t proof_triangle_number(const nsvcd__facets *f, size_t i, size_t n) 
   return sum % ((size_t)1 << 31);
 }
 
-static void proof_read_listing(const proof_body *b, const nsvcd__facets *f, size_t i, size_t n,
+static void proof_read_listing(const proof_body *b, const nsvcd__geometry *f, size_t i, size_t n,
                                proof_listing *out) {
   const size_t bytes = proof_points(f, i) <= 256 ? 1 : 2;
   out->patch = i;
@@ -248,11 +248,11 @@ static void proof_read_listing(const proof_body *b, const nsvcd__facets *f, size
   out->whole = 1;
   for (size_t c = 0; c < 3; c++) {
     const size_t corner = 3 * (n - f->first_triangle[i]) + c;
-    const unsigned char *at = f->listings + f->first_byte[i] + bytes * corner;
+    const unsigned char *at = f->triangle_codes + f->first_byte[i] + bytes * corner;
     const size_t number = proof_stored_number(at, bytes);
     if (!proof_point(b, f, i, number, out->stored[c])) out->whole = 0;
   }
-  for (size_t c = 0; c < 3 && out->whole && f->round <= 0; c++) {
+  for (size_t c = 0; c < 3 && out->whole && f->convex_radius <= 0; c++) {
     for (size_t k = 0; k < 3; k++) CHECK_NEAR(out->stored[c][k], out->corners[c][k], 0);
   }
   if (!out->whole) memcpy(out->corners, out->stored, sizeof out->corners);
@@ -347,7 +347,7 @@ static void proof_sort_listings(proof_body *b) {
 }
 
 static void proof_read_body(proof_body *b) {
-  const nsvcd__facets f = nsvcd__facets_of(nsvcd__triangles_of(b->body));
+  const nsvcd__geometry f = nsvcd__geometry_of(nsvcd__triangles_of(b->body));
   shapes_rng rng = {b->triangles};
   b->count = f.body->patches;
   b->listed = f.listed;

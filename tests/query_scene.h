@@ -200,7 +200,7 @@ static int query_same_proof(const nsvcd_answer *a, const nsvcd_answer *b) {
          memcmp(&a->nearest, &b->nearest, sizeof a->nearest) == 0 &&
          memcmp(&a->distance, &b->distance, sizeof a->distance) == 0 &&
          memcmp(&a->safe, &b->safe, sizeof a->safe) == 0 &&
-         memcmp(a->lift, b->lift, sizeof a->lift) == 0;
+         memcmp(a->push_out, b->push_out, sizeof a->push_out) == 0;
 }
 
 #endif

@@ -23,7 +23,7 @@ static float centres[3 * NSVCD_SMALL_PATCHES], radii[NSVCD_SMALL_PATCHES],
     areas[3 * NSVCD_SMALL_PATCHES];
 
 static int8_t latents[NSVCD_SMALL_PATCHES * NSVCD__LATENT];
-static int8_t tips[NSVCD_SMALL_PATCHES * 3 * NSVCD__TIPS];
+static int8_t tips[NSVCD_SMALL_PATCHES * 3 * NSVCD__EXTREMES];
 static int random_tips;
 
 // Puts the patches of `centres` in order (points).
@@ -48,7 +48,7 @@ static const nsvcd_body *build(size_t points, blob *memory) {
   source.centres = (const nsvcd__f3 *)(const void *)centres;
   source.radii = radii;
   source.areas = (const nsvcd__f3 *)(const void *)areas;
-  source.tips = tips;
+  source.extremes = tips;
   source.latents = latents;
   source.order = order;
   source.open = 0;

@@ -95,7 +95,7 @@ static double asks_length(const float *v) {
 static void asks_check_safe(const nsvcd_question *question, const nsvcd_answer *answer) {
   nsvcd_question still = *question;
   still.ask = NSVCD_ASK_HIT;
-  still.to = still.to_time = still.skin = 0;
+  still.to = still.to_time = still.slop = 0;
   still.clearance *= 0.99f;
   still.manifold = 0;
   still.a.poses = &answer->safe.a;
@@ -111,10 +111,10 @@ static void asks_skin_lifts_what_stands(void) {
   const double skin = 1e-3;
   shapes_rng rng = {25};
   const nsvcd_body *tables[2] = {asks_table(0, 1), asks_table(0, 16)};
-  const double table_hair = (double)nsvcd_body_describe(tables[0]).quantum;
+  const double table_hair = (double)nsvcd_body_describe(tables[0]).quantization_error;
   for (int n = 0; n < 3 * STANDING; n++) {
     const nsvcd_body *body = asks_standing(n % STANDING, &rng);
-    const double epsilon = 2 * (table_hair + (double)nsvcd_body_describe(body).quantum);
+    const double epsilon = 2 * (table_hair + (double)nsvcd_body_describe(body).quantization_error);
     for (int trial = 0; trial < 4 * 8; trial++) {
       const int k = trial % 8;
       const double depth = k < 7 ? depths[k] : 1.7 * skin;
@@ -125,7 +125,7 @@ static void asks_skin_lifts_what_stands(void) {
                                   asks_pose(x + way, 0.01, -depth, turn)};
       nsvcd_question question =
           question_of(body, path, trial & 8 ? 2 : 1, tables[trial / 16], NULL, NULL);
-      question.skin = (float)skin;
+      question.slop = (float)skin;
       // the table may move as well, though it stays
       const nsvcd_pose stays[2] = {asks_pose(0, 0, 0, 0), asks_pose(0, 0, 0, 0)};
       question.b.poses = stays;
@@ -133,8 +133,8 @@ static void asks_skin_lifts_what_stands(void) {
       const nsvcd_answer answer = asks(&question);
       if (k < 7) asks_check_safe(&question, &answer);
       CHECK_EQ(answer.verdict == NSVCD_FREE, k < 7);
-      CHECK_NEAR(answer.lift[2], k < 7 ? skin : 0, 1e-6);
-      CHECK_NEAR(asks_length(answer.lift), k < 7 ? skin : 0, 1e-6);
+      CHECK_NEAR(answer.push_out[2], k < 7 ? skin : 0, 1e-6);
+      CHECK_NEAR(asks_length(answer.push_out), k < 7 ? skin : 0, 1e-6);
       if (k < 7) CHECK_NEAR(answer.depth, fmax(depth, 0), 0.01 * fmax(depth, 0) + epsilon);
       // it is set down to a little above the table
       if (k < 7)
@@ -146,7 +146,7 @@ static void asks_skin_lifts_what_stands(void) {
       question.b = mover;
       const nsvcd_answer swapped = asks(&question);
       CHECK_EQ(status_of(&swapped), status_of(&answer));
-      CHECK_EQ(swapped.lift[2], -answer.lift[2]);
+      CHECK_EQ(swapped.push_out[2], -answer.push_out[2]);
       if (k < 7) asks_check_safe(&question, &swapped);
     }
     nsvcd_body_free(body, NULL);
@@ -168,15 +168,15 @@ static void asks_skin_of_what_is_near(void) {
     const double into = shapes_uniform(&rng, 0.1, 0.9) * (double)skin;
     const nsvcd_pose path[2] = {asks_pose(0, 0, gap, 0.1 * n), asks_pose(0.1, 0, -into, 0.1 * n)};
     nsvcd_question question = question_of(box, path, 2, table, NULL, NULL);
-    question.skin = skin;
+    question.slop = skin;
     const nsvcd_answer plain = asks(&question);
     CHECK_EQ(plain.verdict, NSVCD_HIT);
-    CHECK_EQ(asks_length(plain.lift), 0);
+    CHECK_EQ(asks_length(plain.push_out), 0);
     question.ask = NSVCD_ASK_FIRST;
     question.to = 0.4f * skin;
     const nsvcd_answer first = asks(&question);
     CHECK_EQ(first.verdict, n % 2 ? NSVCD_FREE : NSVCD_HIT);
-    CHECK_NEAR(first.lift[2], n % 2 ? skin : 0, 1e-6);
+    CHECK_NEAR(first.push_out[2], n % 2 ? skin : 0, 1e-6);
     CHECK_EQ(first.depth, 0);
     asks_check_safe(&question, &first);
   }
@@ -200,11 +200,11 @@ static void asks_skin_of_boxes_in_a_corner(void) {
     const double in = skin * pow(10, shapes_uniform(&rng, -3, -0.3));
     const nsvcd_pose pose = asks_pose(0.3 - half[0] + in, 0.3 - half[1] + in, half[2] - in, 0);
     nsvcd_question question = question_of(box, &pose, 1, corner, NULL, NULL);
-    question.skin = (float)skin;
+    question.slop = (float)skin;
     question.clearance = n % 2 ? 1e-3f : 0;
     const nsvcd_answer answer = asks(&question);
     CHECK_EQ(answer.verdict, NSVCD_FREE);
-    for (int k = 0; k < 3; k++) CHECK_NEAR(answer.lift[k], k < 2 ? -skin : skin, 0.02 * skin);
+    for (int k = 0; k < 3; k++) CHECK_NEAR(answer.push_out[k], k < 2 ? -skin : skin, 0.02 * skin);
     asks_check_safe(&question, &answer);
     nsvcd_body_free(box, NULL);
   }
@@ -221,18 +221,18 @@ static void asks_skin_in_a_corner(void) {
     memset(&shape, 0, sizeof shape);
     shapes_box(&shape, 0.1, 0.1, 0.1, fine ? 16 : 1);
     const nsvcd_body *box = asks_body(&shape, 0);
-    const double epsilon =
-        4 * (double)(nsvcd_body_describe(corner).quantum + nsvcd_body_describe(box).quantum);
+    const double epsilon = 4 * (double)(nsvcd_body_describe(corner).quantization_error +
+                                        nsvcd_body_describe(box).quantization_error);
     for (int k = 0; k < 4; k++) {
       const double in = 0.2 * k * skin;
       const nsvcd_pose pose = asks_pose(0.25 + in, 0.25 + in, 0.05 - in, 0);
       nsvcd_question question = question_of(box, &pose, 1, corner, NULL, NULL);
-      question.skin = (float)skin;
+      question.slop = (float)skin;
       const nsvcd_answer answer = asks(&question);
       CHECK_EQ(answer.verdict, NSVCD_FREE);
-      CHECK_NEAR(answer.lift[0], -skin, 0.02 * skin);
-      CHECK_NEAR(answer.lift[1], -skin, 0.02 * skin);
-      CHECK_NEAR(answer.lift[2], skin, 0.02 * skin);
+      CHECK_NEAR(answer.push_out[0], -skin, 0.02 * skin);
+      CHECK_NEAR(answer.push_out[1], -skin, 0.02 * skin);
+      CHECK_NEAR(answer.push_out[2], skin, 0.02 * skin);
       // each wall by its own depth
       CHECK_NEAR(answer.depth, sqrt(3) * in, 0.01 * in + epsilon);
       asks_check_safe(&question, &answer);
@@ -252,10 +252,10 @@ static void asks_skin_in_a_corner(void) {
     shapes_box_at(&shape, -0.05, 0, 0, 0.1, 0.1, 0.1);
     const nsvcd_body *held = asks_body(&shape, 0);
     nsvcd_question question = question_of(held, NULL, 0, slot, NULL, NULL);
-    question.skin = (float)skin;
+    question.slop = (float)skin;
     const nsvcd_answer answer = asks(&question);
     CHECK_EQ(answer.verdict, NSVCD_HIT);
-    CHECK_EQ(asks_length(answer.lift), 0);
+    CHECK_EQ(asks_length(answer.push_out), 0);
     nsvcd_body_free(held, NULL);
     nsvcd_body_free(slot, NULL);
   }
@@ -277,11 +277,11 @@ static void asks_skin_under_a_ceiling(void) {
     const double depth = k < 4 ? 1e-4 * k : 1.2e-3;
     const nsvcd_pose path[2] = {asks_pose(0, 0, -depth, 0), asks_pose(0.2, 0, -depth, 0)};
     nsvcd_question question = question_of(box, path, 2, gap, NULL, NULL);
-    question.skin = 1e-3f;
+    question.slop = 1e-3f;
     const nsvcd_answer answer = asks(&question);
     CHECK_EQ(answer.verdict, k < 4 ? NSVCD_FREE : NSVCD_HIT);
     if (k < 4) CHECK_NEAR(answer.depth, depth, 0.01 * depth + 4e-5);
-    CHECK_LE(answer.lift[2], 4e-4 + depth);
+    CHECK_LE(answer.push_out[2], 4e-4 + depth);
     if (k < 4) asks_check_safe(&question, &answer);
   }
   nsvcd_body_free(box, NULL);
@@ -312,10 +312,10 @@ static void asks_skin_of_edge_on_edge(void) {
       path[n].position[2] = (float)(2 * down - depth);
     }
     nsvcd_question question = question_of(bar, path, k < 32 ? 1 : 2, bar, &lies, NULL);
-    question.skin = 1e-3f;
+    question.slop = 1e-3f;
     const nsvcd_answer answer = asks(&question);
     CHECK_EQ(answer.verdict, NSVCD_FREE);
-    CHECK_NEAR(answer.lift[2], 1e-3, 5e-6);
+    CHECK_NEAR(answer.push_out[2], 1e-3, 5e-6);
     CHECK_NEAR(answer.depth, depth, 0.01 * depth + 5e-5);
     asks_check_safe(&question, &answer);
   }
@@ -424,8 +424,8 @@ static void asks_depth_is_the_least(void) {
       bodies[k] = asks_body(&shape, 0);
       size = fmin(size, width);
     }
-    const double quanta = (double)nsvcd_body_describe(bodies[0]).quantum +
-                          (double)nsvcd_body_describe(bodies[1]).quantum;
+    const double quanta = (double)nsvcd_body_describe(bodies[0]).quantization_error +
+                          (double)nsvcd_body_describe(bodies[1]).quantization_error;
     // pressed in so deep along some way
     const double depth = size * pow(10, shapes_uniform(&rng, -2.5, -0.8));
     double way[3], place[3];
@@ -455,7 +455,7 @@ static void asks_depth_is_the_least(void) {
     for (int k = 0; k < 4; k++) {
       nsvcd_question question = question_of(bodies[0], &poses[0], 1, bodies[1], &poses[1], NULL);
       question.a.scale = question.b.scale = scale;
-      question.skin = scale * (float)skins[k];
+      question.slop = scale * (float)skins[k];
       if (n % 2) question.ask = NSVCD_ASK_FIRST;
       const nsvcd_answer answer = asks(&question);
       const double told = (double)answer.depth / (double)scale;
@@ -503,7 +503,7 @@ static void asks_measure_loses_nothing(void) {
           CHECK_LE(answer.distance.low, gap + 0.002);
           CHECK_GE(answer.distance.high, gap);
           CHECK_GE(answer.distance.low, gap - 0.2);  // the balls about their boxes' corners
-          const double quanta = 2 * (double)nsvcd_body_describe(ball).quantum;
+          const double quanta = 2 * (double)nsvcd_body_describe(ball).quantization_error;
           const double wide = fmax((double)question.to, 2 * quanta) + quanta;
           const double allowed = wide + 3e-6 * distances[k];
           const double high = (double)answer.distance.high;
@@ -536,14 +536,14 @@ static void asks_first_keeps_what_is_proven(void) {
   const nsvcd_encode_options coarse = {.patches = 192, .coarse = 1};
   const nsvcd_body *table = asks_body_with(&shape, &coarse);
   const nsvcd_body_facts facts = nsvcd_body_describe(table);
-  CHECK_GE(facts.quantum, 1e-9);
+  CHECK_GE(facts.quantization_error, 1e-9);
   memset(&shape, 0, sizeof shape);
   shapes_box_at(&shape, 0, 0, 0.05, 0.1, 0.1, 0.1);
   const nsvcd_body *box = asks_body(&shape, 192);
   for (int start = 0; start < 2; start++) {
     nsvcd_pose path[33];
     float until = 0;
-    const double epsilon = 0.5 * (double)facts.quantum;
+    const double epsilon = 0.5 * (double)facts.quantization_error;
     for (int n = 0; n < 33; n++) {
       const double down = start ? fmax(0, 0.2 - 0.02 * n) : 0;  // set down, or there already
       path[n] = asks_pose(-0.4 + 0.8 * fmax(0, (n - 12) / 20.0), 0, epsilon + down, 0);
@@ -581,7 +581,7 @@ static void asks_first_within_the_motion(void) {
       nsvcd_question question = question_of(body, path, 2, table, NULL, NULL);
       question.ask = NSVCD_ASK_FIRST;
       question.to_time = m % 4 < 2 ? 0.1f : 1e-3f;
-      question.skin = m % 2 ? 0 : 1e-2f;
+      question.slop = m % 2 ? 0 : 1e-2f;
       question.clearance = m % 8 == 1 ? 1e-2f : 0;
       question.work = (size_t)(16 * pow(1.15, m));
       const nsvcd_answer answer = asks(&question);
@@ -674,7 +674,7 @@ static void asks_names_what_meets_inside(void) {
     question.ask = k == 1 ? NSVCD_ASK_FIRST : k == 2 ? NSVCD_ASK_DISTANCE : NSVCD_ASK_HIT;
     question.to_time = k == 1 ? 0.01f : 0;
     question.to = k == 2 ? 0.01f : 0;
-    question.skin = k == 3 ? 0.001f : 0;
+    question.slop = k == 3 ? 0.001f : 0;
     const nsvcd_answer answer = asks(&question);
     CHECK_EQ(answer.verdict, NSVCD_HIT);
     CHECK_EQ(answer.nearest.time, 0);
@@ -712,8 +712,8 @@ static void asks_check_first(const nsvcd_question *question, const nsvcd_answer 
   CHECK(answer->why != NSVCD_WHY_WORK);
   CHECK(late > 0);
   if (question->to > 0) {
-    const double quanta = (double)nsvcd_body_describe(question->a.body).quantum +
-                          (double)nsvcd_body_describe(question->b.body).quantum;
+    const double quanta = (double)nsvcd_body_describe(question->a.body).quantization_error +
+                          (double)nsvcd_body_describe(question->b.body).quantization_error;
     const double wider = answer->why == NSVCD_WHY_TOO_NEAR ? 2 * quanta : 0;
     CHECK_LE(late * way, 1.001 * (double)question->to + 1e-6 * way + wider);
   }
@@ -918,10 +918,10 @@ static void asks_manifold_too_deep_for_a_skin(void) {
     question.manifold = 1;
     question.to = 5e-4f;
     const nsvcd_answer bare = asks(&question);
-    question.skin = 1e-3f;
+    question.slop = 1e-3f;
     const nsvcd_answer answer = asks(&question);
     CHECK_EQ(answer.verdict, NSVCD_HIT);
-    CHECK_EQ(answer.lift[2], 0);
+    CHECK_EQ(answer.push_out[2], 0);
     CHECK_EQ(answer.contact_count, bare.contact_count);
     CHECK_EQ(memcmp(answer.contacts, bare.contacts, sizeof bare.contacts), 0);
     nsvcd_body_free(body, NULL);
@@ -940,7 +940,7 @@ static void asks_safe_with_a_distance(void) {
     const nsvcd_pose path[2] = {asks_pose(x, 0.01, -depth, 0.1 * n),
                                 asks_pose(x + 0.01, 0.01, -depth - 1.2e-3, 0.1 * n)};
     nsvcd_question question = question_of(body, path, 2, tables[n % 2], NULL, NULL);
-    question.skin = 2e-3f;
+    question.slop = 2e-3f;
     question.ask = NSVCD_ASK_DISTANCE;
     question.to = n % 3 ? 1e-4f : 1e-3f;
     question.clearance = n % 4 > 1 ? 1e-4f : 0;
@@ -971,7 +971,7 @@ static void asks_goes_on_for_frames(void) {
       question.ask = NSVCD_ASK_FIRST;
       question.manifold = 1;
       question.clearance = round % 2 ? 5e-4f : 0;
-      question.skin = skin;
+      question.slop = skin;
       question.to = shares[round / 2] * skin;
       for (int k = 0; k < 60; k++) {
         speed[2] -= 9.81 * frame;
@@ -1088,7 +1088,7 @@ static void asks_safe_of_long_ways(void) {
     slides[1].position[0] += 0.1f;
     question.a.poses = slides;
     question.to = 0;
-    question.skin = 5e-3f;
+    question.slop = 5e-3f;
     const nsvcd_answer down = asks(&question);
     CHECK_EQ(down.verdict, NSVCD_FREE);
     asks_check_safe(&question, &down);
@@ -1112,11 +1112,11 @@ static void asks_safe_inside(void) {
     const nsvcd_pose path[2] = {asks_pose(0.1, 0, z, 0), asks_pose(0.2, 0, z, 0.1)};
     nsvcd_question question = question_of(box, path, 2, solid, NULL, NULL);
     question.ask = n / 8 == 0 ? NSVCD_ASK_HIT : n / 8 == 1 ? NSVCD_ASK_FIRST : NSVCD_ASK_DISTANCE;
-    question.skin = n % 4 < 2 ? 2e-3f : 0;
+    question.slop = n % 4 < 2 ? 2e-3f : 0;
     const nsvcd_answer answer = asks(&question);
     CHECK_EQ(answer.verdict, NSVCD_HIT);
     if (n % 2) CHECK_EQ(answer.inside, 1);
-    lifted += answer.inside && asks_length(answer.lift) > 0;
+    lifted += answer.inside && asks_length(answer.push_out) > 0;
     CHECK_EQ(answer.safe.time, 0);
     CHECK_EQ(answer.depth, HUGE_VALF);
     CHECK_EQ(memcmp(&answer.safe.a, &path[0], sizeof path[0]), 0);

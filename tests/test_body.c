@@ -97,7 +97,7 @@ static void body_malice(void) {
   const nsvcd_body *body = random_body(9, 1, 0, &blob_a_memory);
   const nsvcd_body *loaded = NULL;
   size_t size = body_bytes(body);
-  size_t floats_end = size - 9 * NSVCD__LATENT - 16 * 3 * NSVCD__TIPS;
+  size_t floats_end = size - 9 * NSVCD__LATENT - 16 * 3 * NSVCD__EXTREMES;
   char *copy = aligned(&blob_b_memory);
   for (size_t at = offsetof(struct nsvcd_body, centre); at + 4 <= floats_end; at += 4) {
     if (at >= offsetof(struct nsvcd_body, open) && at < sizeof *body) continue;

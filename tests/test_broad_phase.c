@@ -67,10 +67,10 @@ typedef struct tally {
 // The tips of a patch where its body is at a pose, seen by the fixed body; NULL: that one's own.
 static void tips_at(const nsvcd_body *body, size_t i, const pose64 *at, const pose64 *fixed,
                     double (*out)[3]) {
-  const int8_t *from = nsvcd__group_tips(body, i / 16) + i % 16;
+  const int8_t *from = nsvcd__group_extremes(body, i / 16) + i % 16;
   const nsvcd__spheres all = nsvcd__body_patches(body);
   const double centre[3] = {(double)all.x[i], (double)all.y[i], (double)all.z[i]};
-  for (size_t k = 0; k < NSVCD__TIPS; k++) {
+  for (size_t k = 0; k < NSVCD__EXTREMES; k++) {
     double tip[3];
     for (size_t axis = 0; axis < 3; axis++)
       tip[axis] = centre[axis] + (double)all.r[i] / 127 * from[48 * k + 16 * axis];
@@ -86,9 +86,9 @@ static int hulls_meet(double (*a)[3], double (*b)[3], double reach) {
   for (int step = 0; step < 3000; step++) {
     double least = HUGE_VAL;
     double next[3] = {0, 0, 0};
-    for (size_t k = 0; k < NSVCD__TIPS * NSVCD__TIPS; k++) {
-      const double *p = a[k / NSVCD__TIPS];
-      const double *q = b[k % NSVCD__TIPS];
+    for (size_t k = 0; k < NSVCD__EXTREMES * NSVCD__EXTREMES; k++) {
+      const double *p = a[k / NSVCD__EXTREMES];
+      const double *q = b[k % NSVCD__EXTREMES];
       const double d[3] = {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
       const double along = d[0] * x[0] + d[1] * x[1] + d[2] * x[2];
       if (along < least) memcpy(next, d, sizeof d);
@@ -160,8 +160,8 @@ static void try_motion(const nsvcd_body *moving, const nsvcd_body *fixed, size_t
         sum->overlaps++;
         pair_met[i][j] = 1;
         if (is_covered(items, all.count, i, j, t)) continue;
-        double own[NSVCD__TIPS][3];
-        double other[NSVCD__TIPS][3];
+        double own[NSVCD__EXTREMES][3];
+        double other[NSVCD__EXTREMES][3];
         tips_at(moving, i, &at, &f, own);
         tips_at(fixed, j, NULL, NULL, other);
         const int meet = hulls_meet(own, other, r * (double)swollen);
@@ -306,10 +306,10 @@ static void deviation_is_bounded(void) {
       const nsvcd__sphere point = {{c[0], c[1], c[2]}, 0};
       nsvcd__chords_of_sphere(b, point, &chords);
       const float x[3] = {chords.start[0][l], chords.start[1][l], chords.start[2][l]};
-      const float v[3] = {chords.way[0][l], chords.way[1][l], chords.way[2][l]};
+      const float v[3] = {chords.travel[0][l], chords.travel[1][l], chords.travel[2][l]};
       for (int k = 0; k < 3; k++) square += pow((double)x[k] + tau * (double)v[k] - p[k], 2);
-      CHECK_LE(sqrt(square), chords.reach[l]);
-      if (trial % 4 == 3) most = fmax(most, sqrt(square) / (double)chords.reach[l]);
+      CHECK_LE(sqrt(square), chords.radius[l]);
+      if (trial % 4 == 3) most = fmax(most, sqrt(square) / (double)chords.radius[l]);
     }
   }
   printf("  the bound is attained to %.4f\n", most);

@@ -219,7 +219,7 @@ static void cost_threads_agree_by_proof(void) {
       options.ask = NSVCD_ASK_DISTANCE;
       options.to = 0.001f;
     }
-    options.skin = seed % 4 == 3 ? 0.001f : 0;
+    options.slop = seed % 4 == 3 ? 0.001f : 0;
     cost_check_threads(&b, &options);
     nsvcd_body_free(bodies[0], NULL);
     nsvcd_body_free(bodies[1], NULL);
@@ -374,7 +374,7 @@ static void cost_is_bounded(void) {
     for (size_t n = 0; n < 12; n++) {
       const size_t k = pairs[n / 3];
       nsvcd_question options = query_options(k, models[n % 3], seed % 2 ? 0.9999f : 0);
-      options.network.swell = seed % 4 ? 1.0f : 0.0f;  // 1: planes part nothing
+      options.network.inflate = seed % 4 ? 1.0f : 0.0f;  // 1: planes part nothing
       memset(&tally, 0, sizeof tally);
       query_ask(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, &options);
       CHECK_GE(bound + 18 * segments, tally.tests);  // the first pair of groups twice

@@ -103,8 +103,8 @@ static void inputs_in_lane(const pair_data *pair, size_t lane, float *x) {  // (
   for (size_t l = 0; l < NSVCD__SLICE; l++) {
     pairs.z[0][l] = pair->z1;
     pairs.z[1][l] = pair->z2;
-    pairs.tips[0][l] = pair->tips1;
-    pairs.tips[1][l] = pair->tips2;
+    pairs.extremes[0][l] = pair->tips1;
+    pairs.extremes[1][l] = pair->tips2;
   }
   nsvcd__invariants(&pairs, NSVCD__SLICE, batch);
   memcpy(x, batch + NSVCD__DECODER_IN * lane, NSVCD__DECODER_IN * sizeof *x);
@@ -201,7 +201,7 @@ static void int8_heads_follow_fp32(void) {
 }
 
 // A random pair: latents (2, LATENT) and tips (2, TIPS, 3, GROUP) in the caller's memory.
-#define TIPS_SIZE (NSVCD__TIPS * 3 * NSVCD__GROUP)
+#define TIPS_SIZE (NSVCD__EXTREMES * 3 * NSVCD__GROUP)
 static void random_pair(size_t n, int8_t (*z)[NSVCD__LATENT], int8_t (*tips)[TIPS_SIZE],
                         pair_data *pair) {
   float *normals[2] = {pair->normal1, pair->normal2};

@@ -186,7 +186,7 @@ static int edge_encode(edge_body *b) {
   nsvcd_encode_options options;
   const nsvcd_mesh mesh = {b->corners[0], indices, 3 * (size_t)b->triangles, (size_t)b->triangles};
   memset(&options, 0, sizeof options);
-  options.round = b->round;
+  options.convex_radius = b->round;
   return nsvcd_encode(&mesh, &options, NULL, NULL, 0, &b->body) == NSVCD_OK;
 }
 

@@ -54,19 +54,19 @@ static void query_scaled_bodies_are_bodies_of_scaled_meshes(void) {
 // body's: bounds of patch i are multiplied outward.
 static int facets_are_outward(const nsvcd_body *body, const nsvcd_body *scaled, double scale,
                               size_t i) {
-  const nsvcd__facets a = nsvcd__facets_of(nsvcd__triangles_of(body));
-  const nsvcd__facets b = nsvcd__facets_of(nsvcd__triangles_of(scaled));
-  const nsvcd__disc from = nsvcd__disc_at(a.discs, body->padded, i);
-  const nsvcd__disc to = nsvcd__disc_at(b.discs, body->padded, i);
+  const nsvcd__geometry a = nsvcd__geometry_of(nsvcd__triangles_of(body));
+  const nsvcd__geometry b = nsvcd__geometry_of(nsvcd__triangles_of(scaled));
+  const nsvcd__slab from = nsvcd__slab_at(a.slabs, body->padded, i);
+  const nsvcd__slab to = nsvcd__slab_at(b.slabs, body->padded, i);
   // half a unit in the last place of a scaled vertex, as far as one can be
   const double far =
-      (double)nsvcd__f3_length(nsvcd__facet_centre(&b, i)) + 32768.0 * (double)b.steps[i];
+      (double)nsvcd__f3_length(nsvcd__patch_centre(&b, i)) + 32768.0 * (double)b.steps[i];
   const double least = 6e-8 * far;
   return (double)to.low <= scale * (double)from.low - least &&
          (double)to.high >= scale * (double)from.high + least &&
          (double)to.across >= scale * (double)from.across + least &&
-         (double)b.slacks[i] >= scale * (double)a.slacks[i] + least &&
-         (double)b.quanta[i] >= scale * (double)a.quanta[i] + least;
+         (double)b.margins[i] >= scale * (double)a.margins[i] + least &&
+         (double)b.errors[i] >= scale * (double)a.errors[i] + least;
 }
 
 // One patch may reach farther than its middle: what is scaled so far can be loaded.
@@ -144,14 +144,14 @@ static void proof_expect_refusal(const nsvcd_body *body, size_t offset, const vo
   free(f.memory);
 }
 
-static size_t proof_offset(const nsvcd__facets *f, const void *at) {
+static size_t proof_offset(const nsvcd__geometry *f, const void *at) {
   return (size_t)((const char *)at - (const char *)f->body);
 }
 
-static void proof_forge_floats(const nsvcd_body *body, const nsvcd__facets *f) {
+static void proof_forge_floats(const nsvcd_body *body, const nsvcd__geometry *f) {
   const float bad[3] = {NAN, INFINITY, -1e30f};
   const size_t padded = f->body->padded;
-  const float *arrays[5] = {f->discs, f->steps, f->slacks, f->quanta, f->seeds};
+  const float *arrays[5] = {f->slabs, f->steps, f->margins, f->errors, f->seeds};
   const size_t counts[5] = {6 * padded, padded, padded, padded, 3 * f->components};
   for (int k = 0; k < 5; k++) {
     for (size_t n = 0; n < counts[k]; n += 1 + counts[k] / 40) {
@@ -161,16 +161,16 @@ static void proof_forge_floats(const nsvcd_body *body, const nsvcd__facets *f) {
   }
   const float negative = -1e-6f;
   for (int k = 1; k < 4; k++) proof_expect_refusal(body, proof_offset(f, arrays[k]), &negative, 4);
-  proof_expect_refusal(body, proof_offset(f, f->discs + 5 * padded), &negative, 4);
+  proof_expect_refusal(body, proof_offset(f, f->slabs + 5 * padded), &negative, 4);
 }
 
-static void proof_forge_counts(const nsvcd_body *body, const nsvcd__facets *f) {
+static void proof_forge_counts(const nsvcd_body *body, const nsvcd__geometry *f) {
   const size_t counts = nsvcd__spheres_size(f->body->padded);
   // what is told of components is not known to be wrong
-  for (size_t k = 0; k < offsetof(nsvcd__facet_counts, solids) / 4; k++) {
+  for (size_t k = 0; k < offsetof(nsvcd__geometry_counts, solids) / 4; k++) {
     uint32_t value;
     // how round it is has tests of its own, in test_round.c
-    if (4 * k == offsetof(nsvcd__facet_counts, round)) continue;
+    if (4 * k == offsetof(nsvcd__geometry_counts, convex_radius)) continue;
     memcpy(&value, (const char *)f->body + counts + 4 * k, 4);
     const uint32_t bad[6] = {value + 1,   value - 1,   0xffffffffu,
                              0x80000000u, 0x55555556u, value ^ 0x10000u};
@@ -193,14 +193,14 @@ static void proof_forge_counts(const nsvcd_body *body, const nsvcd__facets *f) {
   const unsigned char endless[5] = {0x80, 0x80, 0x80, 0x80, 0x80};
   for (size_t i = 0; i < f->body->patches; i++) {
     const unsigned char *at = proof_numbers(f, i);
-    const unsigned char *end = f->listings + f->first_byte[i + 1];
+    const unsigned char *end = f->triangle_codes + f->first_byte[i + 1];
     if (end - at >= 5) proof_expect_refusal(body, proof_offset(f, at), far, 5);
     if (end - at >= 5) proof_expect_refusal(body, proof_offset(f, at), endless, 5);
     if (end > at) proof_expect_refusal(body, proof_offset(f, end - 1), endless, 1);
   }
 }
 
-static void proof_forge_header(const nsvcd_body *body, const nsvcd__facets *f) {
+static void proof_forge_header(const nsvcd_body *body, const nsvcd__geometry *f) {
   const uint32_t bad[4] = {0, 1, 0x7fffffffu, 0xfffffff8u};
   const size_t fields[6] = {
       offsetof(struct nsvcd_body, size),    offsetof(struct nsvcd_body, weights_id),
@@ -283,7 +283,7 @@ static void proof_forged_blobs(void) {
     const nsvcd_body *body = proof_shared(0, makes[k])->body;
     forgery f = proof_forge(body);
     CHECK_EQ(proof_load(&f), NSVCD_OK);
-    const nsvcd__facets facets = nsvcd__facets_of(nsvcd__triangles_of(body));
+    const nsvcd__geometry facets = nsvcd__geometry_of(nsvcd__triangles_of(body));
     proof_forge_floats(body, &facets);
     proof_forge_counts(body, &facets);
     proof_forge_header(body, &facets);

@@ -123,7 +123,7 @@ static void floor_channel_is_slid_along(void) {
     q.ask = NSVCD_ASK_FIRST;
     q.to = 5e-5f;
     q.clearance = 5e-4f;
-    q.skin = 1e-3f;
+    q.slop = 1e-3f;
     q.manifold = 1;
     for (int k = 0; k < 120; k++) {
       float left = 1;
@@ -171,7 +171,7 @@ static void floor_clearance_is_the_gap(void) {
     path[0].position[2] += gap;
     path[1] = path[0];
     path[1].position[0] = 0.05f;
-    q.clearance = q.skin = gap;
+    q.clearance = q.slop = gap;
     CHECK_EQ(nsvcd_sweep(&q, floor_workspace(), nsvcd_sweep_workspace_size(NULL), &answer), 0);
     CHECK_EQ(answer.verdict, NSVCD_FREE);
     CHECK_LE(answer.work, 1000);

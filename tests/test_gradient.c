@@ -312,10 +312,10 @@ static int without_lean(scene *s, shapes_rng *rng, size_t n) {
     float at[3] = {0, 0, 0};
     float radius = 0;
     int8_t latent[NSVCD__LATENT];
-    int8_t own_tips[3 * NSVCD__TIPS];
+    int8_t own_tips[3 * NSVCD__EXTREMES];
     CHECK(nsvcd_body_patch(from, 0, at, &radius));
     for (size_t i = 0; i < sizeof own_tips; i++)
-      own_tips[i] = nsvcd__group_tips(from, 0)[NSVCD__GROUP * i];
+      own_tips[i] = nsvcd__group_extremes(from, 0)[NSVCD__GROUP * i];
     const nsvcd__f3 centre = nsvcd__f3_load(at);
     memcpy(latent, nsvcd__body_latents(from), sizeof latent);
     for (size_t i = 0; i < 3; i++) latent[NSVCD_W_CHANNELS * i] = 0;
@@ -431,7 +431,7 @@ static int scene_of(size_t f, size_t n, scene *s, nsvcd_answer *answer, nsvcd__d
   s->fixed = pool[0][shapes_pick(&rng, POOL)];
   // Most scenes pass by: their pairs must be looked at to have a gradient. Without it the logit
   // jumps where planes part a pair.
-  s->options.network.swell = 1;
+  s->options.network.inflate = 1;
   s->options.method = NSVCD_METHOD_NETWORK;
   s->options.ask = n % 2 ? NSVCD_ASK_HIT : NSVCD_ASK_DISTANCE;  // of the logit, of the distance
   if (!families[f].make(s, &rng, n)) return 0;

@@ -371,7 +371,7 @@ static void level_planning(void) {
   problem.body_count = 2;
   problem.pairs = &pair;
   problem.pair_count = 1;
-  problem.place = level_place;
+  problem.kinematics = level_place;
   problem.start = start;
   problem.goal = goal;
   const size_t size = nsvcd_plan_workspace_size(&problem, &options);
@@ -622,8 +622,8 @@ static void level_walks_find_all(void) {
     const float ball[4] = {(float)shapes_uniform(&rng, -11, 11),
                            (float)shapes_uniform(&rng, -11, 11), (float)shapes_uniform(&rng, -2, 3),
                            (float)pow(10, shapes_uniform(&rng, -2, 1.3))};
-    nsvcd__walk walk;
-    nsvcd__walk_begin(&walk, body, level_touch, ball);
+    nsvcd__traversal walk;
+    nsvcd__traversal_begin(&walk, body, level_touch, ball);
     for (size_t g = 0; g < nsvcd__body_groups(body); g++) {
       const float d[3] = {nsvcd__groups_of(body).x[g] - ball[0],
                           nsvcd__groups_of(body).y[g] - ball[1],
@@ -631,12 +631,12 @@ static void level_walks_find_all(void) {
       const float reach = nsvcd__groups_of(body).r[g] + ball[3];
       size_t next = 0;
       if (level_square(d) > reach * reach) continue;
-      CHECK(nsvcd__walk_next(&walk, &next));
+      CHECK(nsvcd__traversal_next(&walk, &next));
       CHECK_EQ(next, g);
       found++;
     }
     size_t more;
-    CHECK(!nsvcd__walk_next(&walk, &more));
+    CHECK(!nsvcd__traversal_next(&walk, &more));
   }
   CHECK_LE(1000, found);
 }
@@ -688,7 +688,7 @@ static void level_components_are_found(void) {
   const nsvcd_encode_options options = level_options(2000);
   CHECK_EQ(nsvcd_encode(&pebbles.mesh, &options, NULL, NULL, 0, &pebbles.body), NSVCD_OK);
   CHECK_EQ(nsvcd_encode(&box.mesh, NULL, NULL, NULL, 0, &box.body), NSVCD_OK);
-  const nsvcd__facets f = nsvcd__facets_of(nsvcd__triangles_of(pebbles.body));
+  const nsvcd__geometry f = nsvcd__geometry_of(nsvcd__triangles_of(pebbles.body));
   CHECK_EQ(f.components, PEBBLES);
   for (int i = 0; i < PEBBLES; i += 41) {
     const float x = 0.2f * (float)(i % 30);
@@ -795,17 +795,17 @@ static void level_winding_numbers_are_those_of_the_patches(void) {
   size_t clear = 0;
   shapes_rng rng = {9};
   for (int trial = 0; trial < 1000; trial++) {
-    nsvcd__places all;
+    nsvcd__positions all;
     const double spread = pow(10, shapes_uniform(&rng, -2, 0.5));
     double middle[3];
     for (int k = 0; k < 3; k++)
       middle[k] = k == 2 ? shapes_uniform(&rng, -1.2, 2) : shapes_uniform(&rng, -10.5, 10.5);
-    for (size_t n = 0; n < NSVCD__PLACES; n++) {
+    for (size_t n = 0; n < NSVCD__POSITIONS; n++) {
       for (int k = 0; k < 3; k++)
         all.at[k][n] = (float)(middle[k] + spread * shapes_uniform(&rng, -0.5, 0.5));
     }
-    nsvcd__places_measure(body, &all);
-    for (size_t n = 0; n < NSVCD__PLACES; n++) {
+    nsvcd__positions_measure(body, &all);
+    for (size_t n = 0; n < NSVCD__POSITIONS; n++) {
       const float place[3] = {all.at[0][n], all.at[1][n], all.at[2][n]};
       double least = (double)(NSVCD__AMPLE * NSVCD__AMPLE);
       double w = 0;

@@ -317,11 +317,11 @@ static void long_slides(void) {
   }
   nsvcd_question q = question_of(box, poses, 700, slab, NULL, NULL);
   q.ask = NSVCD_ASK_FIRST;
-  q.skin = 0.001f;
+  q.slop = 0.001f;
   CHECK_EQ(long_ask(&q).verdict, NSVCD_FREE);
   q = question_of(box, poses, 700, wall, &wall_at, NULL);
   q.ask = NSVCD_ASK_FIRST;
-  q.skin = 0.001f;
+  q.slop = 0.001f;
   const nsvcd_answer stopped = long_ask(&q);
   CHECK_EQ(stopped.verdict, NSVCD_HIT);
   // at x = 0.7 - 0.03
@@ -358,9 +358,9 @@ static void long_lifts_are_kept(void) {
   }
   for (int trial = 0; trial < 2; trial++) {
     nsvcd_question q = question_of(bodies[0], poses, 1501, bodies[1], NULL, NULL);
-    q.skin = trial ? 0.008f : 0.002f;
+    q.slop = trial ? 0.008f : 0.002f;
     const nsvcd_answer answer = long_ask(&q);
-    CHECK_NEAR((double)answer.lift[2], (double)q.skin, 0.01 * (double)q.skin);
+    CHECK_NEAR((double)answer.push_out[2], (double)q.slop, 0.01 * (double)q.slop);
     CHECK_EQ(answer.verdict, trial ? NSVCD_HIT : NSVCD_FREE);
   }
   for (int n = 0; n < 2; n++) nsvcd_body_free(bodies[n], NULL);

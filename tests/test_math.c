@@ -421,7 +421,7 @@ static void math_rows(void) {
   const nsvcd__f3 vector = {1, 2, 3};
   const nsvcd__quat quat = {1, 2, 3, 4};
   const nsvcd__sphere sphere = {{1, 2, 3}, 4};
-  const nsvcd__disc disc = {{1, 2, 3}, 4, 5, 6};
+  const nsvcd__slab disc = {{1, 2, 3}, 4, 5, 6};
   for (size_t i = 0; i < MATH_STRIDE; i++) {
     math_clear(rows);
     nsvcd__f3_put(vector, rows + i, MATH_STRIDE);
@@ -443,9 +443,9 @@ static void math_rows(void) {
     CHECK(memcmp(&centre, &vector, sizeof centre) == 0);
 
     math_clear(rows);
-    nsvcd__disc_store(disc, rows, MATH_STRIDE, i);
+    nsvcd__slab_store(disc, rows, MATH_STRIDE, i);
     math_check_rows(rows, i, MATH_STRIDE, 6);
-    const nsvcd__disc d = nsvcd__disc_at(rows, MATH_STRIDE, i);
+    const nsvcd__slab d = nsvcd__slab_at(rows, MATH_STRIDE, i);
     CHECK(memcmp(&d, &disc, sizeof d) == 0);
   }
   math_clear(rows);

@@ -675,7 +675,7 @@ static void mesh_stl_shares_no_hash(void) {
   static float positions[3 * CORNERS];
   static uint32_t indices[CORNERS], table[SLOTS];
   nsvcd_mesh mesh = {positions, indices, CORNERS, CORNERS / 3};
-  nsvcd__stl_places places = {table, SLOTS, 0, 0};
+  nsvcd__stl_positions places = {table, SLOTS, 0, 0};
   mesh_rng = 6;
   for (size_t n = 0; n < CORNERS;) {
     float *corner = positions + 3 * n;

@@ -34,7 +34,7 @@ static normals_body normals_encode(const shapes_mesh *mesh, int closed, int open
   const nsvcd_mesh given = {positions, mesh->indices, mesh->vertices, mesh->triangles};
   memset(&options, 0, sizeof options);
   options.open = open;
-  options.round = (float)round;
+  options.convex_radius = (float)round;
   CHECK_EQ(nsvcd_encode(&given, &options, NULL, NULL, 0, &out.body), NSVCD_OK);
   free(positions);
   return out;
@@ -220,7 +220,7 @@ static void normals_are_against_the_motion(void) {
       q->manifold = round % 4 && round % 2;
       if (round % 4) q->to = tos[shapes_pick(&rng, 4)];
       if (round % 8 > 3) q->clearance = (float)shapes_uniform(&rng, 0.001, 0.03);
-      if (round % 5 == 0) q->skin = 0.002f;
+      if (round % 5 == 0) q->slop = 0.002f;
       const nsvcd_answer answer = normals_ask(q);
       const int starts_free = q->ask == NSVCD_ASK_HIT || answer.time.low > 0;
       if (answer.verdict != NSVCD_HIT || answer.inside || !starts_free) continue;

@@ -299,7 +299,7 @@ static plan_outcome plan_run(plan_scene *s) {
            a->seeds * (explore * tries + rounds * (refine * (bundle + 5) + 2) + 1));
   CHECK(isfinite(a->cost) && isfinite(a->smoothness) && isfinite(a->logit) && a->time >= 0 &&
         a->time <= 1);
-  CHECK(isfinite(a->stray) && a->stray >= 0);
+  CHECK(isfinite(a->deviation) && a->deviation >= 0);
   CHECK(a->pair == NSVCD_NONE || a->pair < s->problem.pair_count);
   CHECK(a->joint == NSVCD_NONE || a->joint < f);
   if (a->status == NSVCD_PLAN_CONVERGED) CHECK(!a->collides && a->joint == NSVCD_NONE);
@@ -386,7 +386,7 @@ static void plan_goes_round_a_wall(void) {
 
 static int plan_same(const plan_outcome *a, const plan_outcome *b, size_t joints) {  // to the bit
   return a->result == b->result && a->answer.status == b->answer.status &&
-         a->answer.cost == b->answer.cost && a->answer.stray == b->answer.stray &&
+         a->answer.cost == b->answer.cost && a->answer.deviation == b->answer.deviation &&
          a->answer.logit == b->answer.logit && a->answer.sweeps == b->answer.sweeps &&
          a->answer.iterations == b->answer.iterations &&
          a->answer.trajectories == b->answer.trajectories &&
@@ -853,7 +853,7 @@ static void plan_refuses_problems(void) {
     if (k == 5) p->goal = NULL;
     if (k == 6) p->bodies = NULL;
     if (k == 7) p->pairs = NULL;
-    if (k == 8) p->place = NULL;
+    if (k == 8) p->kinematics = NULL;
     if (k == 9) p->body_count = 1;  // of which the pair's b is none
     if (k == 10) p->body_count = 65537;
     if (k == 11) s.pairs[0].b = 0;  // itself
@@ -1457,7 +1457,7 @@ static void plan_strays_as_far_as_it_says(void) {
     CHECK_EQ(out.result, NSVCD_OK);
     CHECK(out.answer.seeds > 0);
     const double exact = plan_exact_stray(&s, &out, checks[c] ? checks[c] : 384, shapes);
-    const double stray = (double)out.answer.stray;
+    const double stray = (double)out.answer.deviation;
     most[c] = fmax(most[c], exact);
     ratio[0] = fmin(ratio[0], stray / exact);
     ratio[1] = fmax(ratio[1], stray / exact);
@@ -1473,10 +1473,10 @@ static void plan_strays_as_far_as_it_says(void) {
   CHECK_GE(ratio[0], 0.98);
   CHECK_LE(ratio[1], 1.6);
   s.problem.bodies = NULL;  // of which nothing is known
-  CHECK_EQ(plan_run(&s).answer.stray, 0);
+  CHECK_EQ(plan_run(&s).answer.deviation, 0);
   s.problem.bodies = s.bodies;
   s.start[0] = 3;  // out of its limits
-  CHECK_EQ(plan_run(&s).answer.stray, 0);
+  CHECK_EQ(plan_run(&s).answer.deviation, 0);
 }
 
 // Between coarse moments a trajectory may leave its limits unseen; its via points do not.

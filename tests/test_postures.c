@@ -82,7 +82,7 @@ static double depth_along(const robot *r, size_t pair, const double *q, const do
 // are free of each other when a is lifted by the depth; slopes are those of the two places.
 static void postures_gaps(void) {
   static robot r;
-  static nsvcd_gap gaps[MOST_GAPS];
+  static nsvcd_proximity gaps[MOST_GAPS];
   shapes_rng rng = {91};
   size_t apart_count = 0;
   size_t touching = 0;
@@ -95,9 +95,9 @@ static void postures_gaps(void) {
     robot_arm(&r, &rng, 20);
     for (int n = 0; n < 6; n++) {
       double q[NSVCD_MAX_JOINTS];
-      nsvcd_gap_options options;
+      nsvcd_proximity_options options;
       memset(&options, 0, sizeof options);
-      if (n % 2) options.within = 0.2f;
+      if (n % 2) options.max_distance = 0.2f;
       if (n % 2) options.to = 3e-5f;
       const double within = n % 2 ? 0.2 : 0.05;
       const double to = n % 2 ? 3e-5 : 1e-4;
@@ -106,7 +106,7 @@ static void postures_gaps(void) {
         stuck_joints(&r, &rng, q);
       else
         random_joints(&rng, q);
-      CHECK_EQ(nsvcd_gaps(r.checker, q, &options, gaps, MOST_GAPS, &count), NSVCD_OK);
+      CHECK_EQ(nsvcd_proximities(r.checker, q, &options, gaps, MOST_GAPS, &count), NSVCD_OK);
       size_t told = 0;
       for (size_t p = 0; p < r.scene.pair_count; p++) {
         const double apart = robot_apart(&r, &r.pairs[p], q, within + 0.01);
@@ -114,7 +114,7 @@ static void postures_gaps(void) {
         if (apart < within - 1e-5) CHECK(is_told);
         if (apart > within + 1e-5) CHECK(!is_told);
         if (!is_told) continue;
-        const nsvcd_gap *gap = &gaps[told++];
+        const nsvcd_proximity *gap = &gaps[told++];
         const double gap_low = (double)gap->distance.low;
         const double gap_high = (double)gap->distance.high;
         double normal[3], on_a[3], on_b[3];
@@ -181,10 +181,10 @@ static void postures_gaps(void) {
       }
       CHECK_EQ(told, count);
       // as many as there is room for
-      nsvcd_gap first;
+      nsvcd_proximity first;
       size_t all = 0;
       memset(&first, 0, sizeof first);
-      CHECK_EQ(nsvcd_gaps(r.checker, q, &options, &first, 1, &all), NSVCD_OK);
+      CHECK_EQ(nsvcd_proximities(r.checker, q, &options, &first, 1, &all), NSVCD_OK);
       CHECK_EQ(all, count);
       if (count > 0) CHECK_EQ(memcmp(&first, &gaps[0], sizeof first), 0);
     }
@@ -231,10 +231,10 @@ static void postures_corner(void) {
     // half of a side is 0.05
     const double in[2] = {shapes_uniform(&rng, -0.004, 0.004), shapes_uniform(&rng, 1e-4, 0.008)};
     const double q[2] = {0.05 - in[0], 0.05 - in[1]};
-    nsvcd_gap gap;
+    nsvcd_proximity gap;
     size_t count = 0;
     memset(&gap, 0, sizeof gap);
-    CHECK_EQ(nsvcd_gaps(r.checker, q, NULL, &gap, 1, &count), NSVCD_OK);
+    CHECK_EQ(nsvcd_proximities(r.checker, q, NULL, &gap, 1, &count), NSVCD_OK);
     CHECK_EQ(count, 1);
     CHECK_EQ(gap.verdict, NSVCD_HIT);
     CHECK(gap.depth < HUGE_VALF);
@@ -274,10 +274,10 @@ static void postures_far(void) {
     const double apart = shapes_uniform(&rng, 1e-4, 0.04);
     const double at = pow(10, shapes_uniform(&rng, 0, 4)) + shapes_uniform(&rng, 0, 1);
     const double q[2] = {at, at + 0.25 + apart};
-    nsvcd_gap gap;
+    nsvcd_proximity gap;
     size_t count = 0;
     memset(&gap, 0, sizeof gap);
-    CHECK_EQ(nsvcd_gaps(r.checker, q, NULL, &gap, 1, &count), NSVCD_OK);
+    CHECK_EQ(nsvcd_proximities(r.checker, q, NULL, &gap, 1, &count), NSVCD_OK);
     CHECK_EQ(count, 1);
     CHECK_LE((double)gap.distance.low, apart + 1e-7);
     CHECK_LE(apart, (double)gap.distance.high + 1e-7);
@@ -310,7 +310,7 @@ static void far_rails(robot *r, shapes_rng *rng, int boxes, double far) {
 }
 
 // A lift of the first, from where they overlap by so much, that is said to separate them: does it?
-static int separates(const robot *r, int boxes, double overlap, const nsvcd_gap *gap) {
+static int separates(const robot *r, int boxes, double overlap, const nsvcd_proximity *gap) {
   const oracle_pose base = pose_widened(&r->joints[0].origin);
   double m[9], lift[3], along[3];
   oracle_matrix(base.rotation, m);
@@ -331,12 +331,12 @@ static void postures_far_parts_are_told_as_near_ones(void) {
     // 0.05 has this as a float; a box's half is 0.05 and some rounding
     const double size = 2 * (double)0.05f;
     far_rails(&r, &rng, boxes, far);
-    const double quanta = 2 * (double)nsvcd_body_describe(r.parts[0].body).quantum;
+    const double quanta = 2 * (double)nsvcd_body_describe(r.parts[0].body).quantization_error;
     const double overlap = 2e-13 * far + pow(10, shapes_uniform(&rng, -9.5, -3));
     const double apart = 2 * quanta + pow(10, shapes_uniform(&rng, -6, -3));
     for (int is_apart = 0; is_apart < 2; is_apart++) {
       nsvcd_check_answer answer;
-      nsvcd_gap gap;
+      nsvcd_proximity gap;
       size_t count = 0;
       const double from = shapes_uniform(&rng, -1, 1);
       const double off = is_apart ? apart : -overlap;
@@ -344,7 +344,7 @@ static void postures_far_parts_are_told_as_near_ones(void) {
       const double q[2][2] = {{from, from + size + off}, {from + 0.3, from + 0.3 + size + off}};
       const nsvcd_joint_motion still = {0, 1, q[0], NULL};
       const nsvcd_joint_motion motion = {1, 1, q[0], NULL};
-      CHECK_EQ(nsvcd_gaps(r.checker, q[0], NULL, &gap, 1, &count), NSVCD_OK);
+      CHECK_EQ(nsvcd_proximities(r.checker, q[0], NULL, &gap, 1, &count), NSVCD_OK);
       CHECK_EQ(count, 1);
       for (int moves = 0; moves < 2; moves++) {
         CHECK_EQ(nsvcd_check(r.checker, moves ? &motion : &still, NULL, &answer), NSVCD_OK);
@@ -385,7 +385,7 @@ static void postures_far_from_their_origins(void) {
     nsvcd_encode_options options;
     memset(&r, 0, sizeof r);
     memset(&options, 0, sizeof options);
-    options.round = 0.05f;
+    options.convex_radius = 0.05f;
     r.scene.joints = r.joints;
     r.scene.parts = r.parts;
     r.scene.joint_count = r.scene.part_count = 2;
@@ -421,13 +421,13 @@ static void postures_far_from_their_origins(void) {
     const double fraction = out * pow(10, shapes_uniform(&rng, -3, 0));
     for (int is_apart = 0; is_apart < 2; is_apart++) {
       const double far = reach + (is_apart ? 2e-6 * out : -1e-7 * fraction);
-      nsvcd_gap gap;
+      nsvcd_proximity gap;
       nsvcd_check_answer answer;
       size_t count = 0;
       q[1] = sqrt(far * far - across) - off[0];
       const nsvcd_joint_motion still = {0, 1, q, NULL};
       CHECK_EQ(nsvcd_check(r.checker, &still, NULL, &answer), NSVCD_OK);
-      CHECK_EQ(nsvcd_gaps(r.checker, q, NULL, &gap, 1, &count), NSVCD_OK);
+      CHECK_EQ(nsvcd_proximities(r.checker, q, NULL, &gap, 1, &count), NSVCD_OK);
       CHECK_EQ(count, 1);
       if (is_apart) CHECK(answer.verdict == NSVCD_FREE && gap.verdict == NSVCD_FREE);
       if (!is_apart) CHECK(answer.verdict != NSVCD_FREE && gap.verdict != NSVCD_FREE);
@@ -451,7 +451,7 @@ static void postures_far_slopes_and_pairs(void) {
   for (int trial = 0; trial < 40; trial++) {
     nsvcd_pair_counts counts = {0, 0, 0};
     nsvcd_body_pair pair;
-    nsvcd_gap gap;
+    nsvcd_proximity gap;
     size_t count = 0;
     far_rails(&r, &rng, 0, pow(10, shapes_uniform(&rng, 3, 5.7)));
     // the first turns about an axis 0.3 m beside it, across the way between them
@@ -466,7 +466,7 @@ static void postures_far_slopes_and_pairs(void) {
     free(r.memory);
     robot_open(&r);
     const double q[2] = {0, 0.101};
-    CHECK_EQ(nsvcd_gaps(r.checker, q, NULL, &gap, 1, &count), NSVCD_OK);
+    CHECK_EQ(nsvcd_proximities(r.checker, q, NULL, &gap, 1, &count), NSVCD_OK);
     CHECK_EQ(count, 1);
     // it goes towards the other by its lever
     CHECK_NEAR(gap.slope[0], -0.3, 1e-5);
@@ -491,7 +491,7 @@ static void postures_escape(void) {
     robot_arm(&r, &rng, 20);
     for (int n = 0; n < 8; n++) {
       double q[6], out[6];
-      nsvcd_escape_options options;
+      nsvcd_nearest_free_options options;
       int is_found = -1;
       memset(&options, 0, sizeof options);
       options.clearance = n % 2 ? 0.005f : 0;
@@ -504,7 +504,7 @@ static void postures_escape(void) {
       if (n == 7) q[2] = 3.2;  // out of its limits
       memset(out, 0x55, sizeof out);
       const double untouched = out[0];
-      CHECK_EQ(nsvcd_escape(r.checker, q, &options, out, &is_found), NSVCD_OK);
+      CHECK_EQ(nsvcd_nearest_free(r.checker, q, &options, out, &is_found), NSVCD_OK);
       if (n == 7) q[2] = 3.1;  // taken in
       double least = 1;
       for (size_t p = 0; p < r.scene.pair_count; p++)
@@ -607,7 +607,7 @@ static void postures_hand_over(void) {
     const size_t part = (size_t)shapes_pick(&rng, (int)r.scene.part_count);
     const uint32_t link = (uint32_t)shapes_pick(&rng, 7);
     const placed before = placed_part(&r.scene, part, q);
-    CHECK_EQ(nsvcd_hand_over(r.checker, q, part, link, &out), NSVCD_OK);
+    CHECK_EQ(nsvcd_reparent(r.checker, q, part, link, &out), NSVCD_OK);
     CHECK_EQ(out.link, link);
     CHECK(out.body == r.parts[part].body);
     CHECK(!(out.scale < r.parts[part].scale) && !(out.scale > r.parts[part].scale));
@@ -621,10 +621,10 @@ static void postures_hand_over(void) {
 
 static void postures_refuse(void) {
   static robot r;
-  static nsvcd_gap gaps[MOST_GAPS];
+  static nsvcd_proximity gaps[MOST_GAPS];
   shapes_rng rng = {95};
-  nsvcd_gap_options near_options;
-  nsvcd_escape_options options;
+  nsvcd_proximity_options near_options;
+  nsvcd_nearest_free_options options;
   double q[6] = {0}, out[6];
   size_t count = 77;
   int is_found = 77;
@@ -633,26 +633,26 @@ static void postures_refuse(void) {
   memset(&near_options, 0, sizeof near_options);
   memset(&options, 0, sizeof options);
   q[3] = NAN;
-  CHECK_EQ(nsvcd_gaps(r.checker, q, NULL, gaps, MOST_GAPS, &count), NSVCD_ERROR_VALUE);
-  CHECK_EQ(nsvcd_escape(r.checker, q, NULL, out, &is_found), NSVCD_ERROR_VALUE);
-  CHECK_EQ(nsvcd_hand_over(r.checker, q, 0, 0, &part), NSVCD_ERROR_VALUE);
+  CHECK_EQ(nsvcd_proximities(r.checker, q, NULL, gaps, MOST_GAPS, &count), NSVCD_ERROR_VALUE);
+  CHECK_EQ(nsvcd_nearest_free(r.checker, q, NULL, out, &is_found), NSVCD_ERROR_VALUE);
+  CHECK_EQ(nsvcd_reparent(r.checker, q, 0, 0, &part), NSVCD_ERROR_VALUE);
   q[3] = 0;
-  CHECK_EQ(nsvcd_gaps(NULL, q, NULL, gaps, MOST_GAPS, &count), NSVCD_ERROR_ARGUMENT);
-  CHECK_EQ(nsvcd_gaps(r.checker, q, NULL, NULL, 1, &count), NSVCD_ERROR_ARGUMENT);
-  CHECK_EQ(nsvcd_gaps(r.checker, q, NULL, gaps, 1, NULL), NSVCD_ERROR_ARGUMENT);
-  near_options.within = NAN;
-  CHECK_EQ(nsvcd_gaps(r.checker, q, &near_options, gaps, 1, &count), NSVCD_ERROR_WITHIN);
+  CHECK_EQ(nsvcd_proximities(NULL, q, NULL, gaps, MOST_GAPS, &count), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_proximities(r.checker, q, NULL, NULL, 1, &count), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_proximities(r.checker, q, NULL, gaps, 1, NULL), NSVCD_ERROR_ARGUMENT);
+  near_options.max_distance = NAN;
+  CHECK_EQ(nsvcd_proximities(r.checker, q, &near_options, gaps, 1, &count), NSVCD_ERROR_DISTANCE);
   CHECK_EQ(count, 77);
   options.clearance = -1;
-  CHECK_EQ(nsvcd_escape(r.checker, q, &options, out, &is_found), NSVCD_ERROR_CLEARANCE);
+  CHECK_EQ(nsvcd_nearest_free(r.checker, q, &options, out, &is_found), NSVCD_ERROR_CLEARANCE);
   options.clearance = 0;
   options.farthest = NAN;
-  CHECK_EQ(nsvcd_escape(r.checker, q, &options, out, &is_found), NSVCD_ERROR_FARTHEST);
-  CHECK_EQ(nsvcd_escape(r.checker, q, NULL, NULL, &is_found), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_nearest_free(r.checker, q, &options, out, &is_found), NSVCD_ERROR_FARTHEST);
+  CHECK_EQ(nsvcd_nearest_free(r.checker, q, NULL, NULL, &is_found), NSVCD_ERROR_ARGUMENT);
   CHECK_EQ(is_found, 77);
-  CHECK_EQ(nsvcd_hand_over(r.checker, q, 99, 0, &part), NSVCD_ERROR_LINK);
-  CHECK_EQ(nsvcd_hand_over(r.checker, q, 0, 7, &part), NSVCD_ERROR_LINK);
-  CHECK_EQ(nsvcd_hand_over(r.checker, q, 0, 0, NULL), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_reparent(r.checker, q, 99, 0, &part), NSVCD_ERROR_LINK);
+  CHECK_EQ(nsvcd_reparent(r.checker, q, 0, 7, &part), NSVCD_ERROR_LINK);
+  CHECK_EQ(nsvcd_reparent(r.checker, q, 0, 0, NULL), NSVCD_ERROR_ARGUMENT);
   free(r.memory);
 }
 

@@ -13,8 +13,8 @@ static unsigned forgotten;  // how often it was
 static int proof_forgets(void);
 #define NSVCD__PAUSE(p) \
   (proof_forgets() ? ((p)->arc.ticks = 0, nsvcd__forget(&(p)->memo)) : (void)0)
-#define NSVCD__CERTIFY(kind, moving, fixed, moving_listing, fixed_listing, t_start, t_end, normal) \
-  proof_certified(kind, moving, fixed, moving_listing, fixed_listing, t_start, t_end, normal)
+#define NSVCD__CERTIFY(kind, moving, fixed, moving_entry, fixed_entry, t_start, t_end, normal) \
+  proof_certified(kind, moving, fixed, moving_entry, fixed_entry, t_start, t_end, normal)
 #include "../src/ground/strings.h"
 #include "../src/body/trust.h"
 #include "../src/body/encode.h"
@@ -592,8 +592,9 @@ static void proof_check_triangles(const attack *a, int meets) {
   const oracle_triangle point = proof_point_triangle(w->nearest.point);
   const double far = oracle_length(fixed.position) + oracle_length(pose.position);
   const double size = scale * a->moving->size + fixed_scale * a->fixed->size;
-  const double quantum_x = scale * (double)nsvcd_body_describe(a->moving->body).quantum;
-  const double quantum_y = fixed_scale * (double)nsvcd_body_describe(a->fixed->body).quantum;
+  const double quantum_x = scale * (double)nsvcd_body_describe(a->moving->body).quantization_error;
+  const double quantum_y =
+      fixed_scale * (double)nsvcd_body_describe(a->fixed->body).quantization_error;
   // A unit in the last place of a float in [0.5, 1]: times of contacts are rounded up.
   const double moved = proof_speed_bound(a, (double)w->nearest.time, 6e-8) + 1e-12 * (size + far);
   const double rounded = 6e-8 * (oracle_length(point.v[0])) + 1e-30;
@@ -640,7 +641,7 @@ static void proof_check_manifold(attack *a, const nsvcd_question *asked) {
   for (int k = 0; k < 2; k++) {
     const nsvcd_body_facts facts = nsvcd_body_describe(k ? a->fixed->body : a->moving->body);
     radii[k] = scales[k] * (double)facts.radius;
-    quanta += scales[k] * (double)facts.quantum;
+    quanta += scales[k] * (double)facts.quantization_error;
   }
   const double epsilon = quanta + moved;
   const double to = (double)NSVCD_DEFAULT_TO * fmin(radii[0], radii[1]);
@@ -939,7 +940,7 @@ static void proof_motion_init(const proof_motion *m, nsvcd__motion *motion) {
 
 // How far points of the moving body are from their chord in one segment, less the bulge, over the
 // spread; the worst found.
-static double proof_span_use(const proof_motion *m, const nsvcd__span *span, double reach,
+static double proof_span_use(const proof_motion *m, const nsvcd__interval *span, double reach,
                              shapes_rng *rng) {
   double worst = 0;
   for (int k = 0; k < 6; k++) {
@@ -963,8 +964,9 @@ static double proof_span_use(const proof_motion *m, const nsvcd__span *span, dou
       off[i] = place[i] - start - fraction * (end - start);
     }
     // At the ends there is no bulge: what is off there is rounding.
-    const double bulge = fraction > 0 && fraction < 1 ? (double)span->bulge * length : 0;
-    worst = fmax(worst, (oracle_length(off) - bulge) / (double)(span->rounding + span->drift));
+    const double bulge = fraction > 0 && fraction < 1 ? (double)span->bend * length : 0;
+    worst =
+        fmax(worst, (oracle_length(off) - bulge) / (double)(span->rounding + span->origin_bend));
   }
   return worst;
 }
@@ -1008,14 +1010,14 @@ static void proof_any_motion_of_both(shapes_rng *rng, proof_motion *m) {
 }
 
 // A segment that is cut off somewhere, as where a first contact ends the motion.
-static nsvcd__span proof_any_clip(shapes_rng *rng, nsvcd__motion *motion, nsvcd__search *work) {
+static nsvcd__interval proof_any_clip(shapes_rng *rng, nsvcd__motion *motion, nsvcd__search *work) {
   static nsvcd__proof proof;
-  static nsvcd__span spans[NSVCD__MAX_SEGMENTS];
+  static nsvcd__interval spans[NSVCD__MAX_SEGMENTS];
   size_t s = 0;
-  proof.spans = spans;
+  proof.intervals = spans;
   proof.ask.motion = motion;
   proof.arc.ticks = 0;
-  proof.clipped = proof.memo.spans = 0;
+  proof.clipped = proof.memo.intervals = 0;
   proof.memo.plane = 0;
   proof.clipped_end = HUGE_VAL;
   for (int k = 0; k < 3; k++) {  // more than once: what is allowed doubles only once
@@ -1023,11 +1025,11 @@ static nsvcd__span proof_any_clip(shapes_rng *rng, nsvcd__motion *motion, nsvcd_
     nsvcd__clip_segment(&proof, work);
   }
   while (s + 1 < work->segments && (double)work->begin[s + 1] <= proof.ask.end) s++;
-  return *nsvcd__segment_span(&proof, work, s);
+  return *nsvcd__segment_interval(&proof, work, s);
 }
 
 // A part of some arc, as the proof halves them.
-static nsvcd__span proof_any_arc(shapes_rng *rng, nsvcd__motion *motion, float lengths) {
+static nsvcd__interval proof_any_arc(shapes_rng *rng, nsvcd__motion *motion, float lengths) {
   static nsvcd__proof proof;
   double u;
   proof.ask.motion = motion;
@@ -1037,7 +1039,7 @@ static nsvcd__span proof_any_arc(shapes_rng *rng, nsvcd__motion *motion, float l
       nsvcd__arc_of(motion, shapes_uniform(rng, 0, 1) * (double)motion->ticks, &u);
   const double length = pow(2, -shapes_pick(rng, 12));
   const double start = shapes_uniform(rng, 0, 1 - length);
-  return nsvcd__span_of_arc(&proof, first, start, start + length);
+  return nsvcd__interval_of_arc(&proof, first, start, start + length);
 }
 
 // Part 3 of the theorem, by itself: between the ends of a segment every point is as near to its
@@ -1057,7 +1059,7 @@ static void proof_spans_hold_the_motion(void) {
     nsvcd__cut_motion(&motion, lengths, work);
     const double reach = (double)lengths / (double)fmaxf(motion.scale, 1);
     for (size_t s = 0; s < work->segments; s++) {
-      const nsvcd__span span = nsvcd__span_of_segment(&motion, work, s);
+      const nsvcd__interval span = nsvcd__interval_of_segment(&motion, work, s);
       const double use = proof_span_use(&m, &span, reach, &rng);
       const int has_samples =
           work->begin[s + 1] - work->begin[s] > 1;  // else the spread is for rounding alone
@@ -1065,9 +1067,9 @@ static void proof_spans_hold_the_motion(void) {
       worst[kind] = fmax(worst[kind], use);
       segments++;
     }
-    const nsvcd__span clipped = proof_any_clip(&rng, &motion, work);
+    const nsvcd__interval clipped = proof_any_clip(&rng, &motion, work);
     worst[4] = fmax(worst[4], proof_span_use(&m, &clipped, reach, &rng));
-    const nsvcd__span part = proof_any_arc(&rng, &motion, lengths);
+    const nsvcd__interval part = proof_any_arc(&rng, &motion, lengths);
     worst[3] = fmax(worst[3], proof_span_use(&m, &part, reach, &rng));
   }
   printf(
@@ -1083,7 +1085,7 @@ static void proof_spans_hold_the_motion(void) {
 }
 
 // What points are off along a direction, over what the span allows for it; the worst found.
-static double proof_direction_use(const proof_motion *m, const nsvcd__span *span, double reach,
+static double proof_direction_use(const proof_motion *m, const nsvcd__interval *span, double reach,
                                   shapes_rng *rng) {
   const nsvcd__f3 own = nsvcd__own_axis(span);
   const double own_axis[3] = {(double)own.x, (double)own.y, (double)own.z};
@@ -1092,7 +1094,8 @@ static double proof_direction_use(const proof_motion *m, const nsvcd__span *span
     const double fraction = shapes_uniform(rng, 0, 1);
     const double t = span->t_start + fraction * (span->t_end - span->t_start);
     const proof_place at = proof_place_at(m, t);
-    const nsvcd__f3 special[3] = {span->axis, span->way, nsvcd__f3_cross(span->axis, span->way)};
+    const nsvcd__f3 special[3] = {span->axis, span->heading,
+                                  nsvcd__f3_cross(span->axis, span->heading)};
     double x[3], aside[3], place[3], n[3];
     double off = 0;
     shapes_direction(rng, x);
@@ -1129,8 +1132,8 @@ static double proof_direction_use(const proof_motion *m, const nsvcd__span *span
     const nsvcd__f3 unit =
         nsvcd__f3_of((float)(n[0] / length), (float)(n[1] / length), (float)(n[2] / length));
     const double allowed = (double)span->rounding + (double)nsvcd__deviation_of(span, unit, arm);
-    const nsvcd__v_span spans = nsvcd__v_span_set(span);
-    const nsvcd__v lanes = nsvcd__v_deviation(&spans, nsvcd__v3_set(unit), arm.reach);
+    const nsvcd__v_interval spans = nsvcd__v_interval_set(span);
+    const nsvcd__v lanes = nsvcd__v_deviation(&spans, nsvcd__v3_set(unit), arm.from_origin);
     const double in_lanes = (double)span->rounding + (double)nsvcd__v_least(lanes);
     worst = fmax(worst, fabs(off) / fmin(allowed, in_lanes));
   }
@@ -1139,7 +1142,7 @@ static double proof_direction_use(const proof_motion *m, const nsvcd__span *span
 
 // The turn's part alone, for the point that is off the most: |D^T n| over what is allowed for it, n
 // the axis or any.
-static double proof_turn_use(const proof_motion *m, const nsvcd__span *span, shapes_rng *rng) {
+static double proof_turn_use(const proof_motion *m, const nsvcd__interval *span, shapes_rng *rng) {
   double worst = 0;
   for (int k = 0; k < 8; k++) {
     const double fraction = shapes_uniform(rng, 0, 1);
@@ -1163,8 +1166,8 @@ static double proof_turn_use(const proof_motion *m, const nsvcd__span *span, sha
       }
     }
     oracle_cross(n, axis, across);
-    const double allowed = fabs(oracle_dot(n, axis)) * (double)span->bulge_along_axis +
-                           oracle_length(across) * (double)span->bulge;
+    const double allowed = fabs(oracle_dot(n, axis)) * (double)span->bend_along_axis +
+                           oracle_length(across) * (double)span->bend;
     worst = fmax(worst, oracle_length(off) / (allowed + 1e-6));
   }
   return worst;
@@ -1257,7 +1260,7 @@ static void proof_spans_hold_along_directions(void) {
     proof_motion_init(&m, &motion);
     nsvcd__cut_motion(&motion, 2 * reach, work);
     for (size_t k = 0; k < work->segments; k++, segments++) {
-      const nsvcd__span span = nsvcd__span_of_segment(&motion, work, k);
+      const nsvcd__interval span = nsvcd__interval_of_segment(&motion, work, k);
       worst = fmax(worst, proof_direction_use(&m, &span, (double)reach, &rng));
       turned = fmax(turned, proof_turn_use(&m, &span, &rng));
     }
@@ -1337,7 +1340,7 @@ static double proof_arc_use(const proof_motion *m, nsvcd__motion *motion, shapes
   const nsvcd__d3 unit = nsvcd__d3_of(n[0] / size, n[1] / size, n[2] / size);
   const double allowed = length * length * nsvcd__off_chord_along(arc, &pair, unit);
   const double lengths = 1 + oracle_length(ends[0]) + oracle_length(ends[2]);
-  const nsvcd__span span = nsvcd__span_of_arc(&proof, first, u0, u0 + length);
+  const nsvcd__interval span = nsvcd__interval_of_arc(&proof, first, u0, u0 + length);
   const nsvcd__arm arm = nsvcd__arm_of(nsvcd__d3_narrow(pair.moving[0]), 0, nsvcd__own_axis(&span));
   const double by_span = (double)nsvcd__deviation_of(&span, nsvcd__d3_narrow(unit), arm);
   const double use = fabs(off) / (by_span + 2e-6 * lengths);
@@ -1434,8 +1437,8 @@ static void proof_count(timing_sum *sum, status said) {
 
 // Both bodies' quanta together, without their scales.
 static double proof_quanta(const attack *a) {
-  return (double)nsvcd_body_describe(a->moving->body).quantum +
-         (double)nsvcd_body_describe(a->fixed->body).quantum;
+  return (double)nsvcd_body_describe(a->moving->body).quantization_error +
+         (double)nsvcd_body_describe(a->fixed->body).quantization_error;
 }
 
 // A witness is as late as was allowed, or what comes before it begins with a doubt: surfaces that
@@ -1707,7 +1710,7 @@ static void proof_may_forget(void) {
     options.work = 0xffffffffu;
     if (asked % 5 == 1) options.clearance = (float)(size * shapes_uniform(&rng, 0, 0.2));
     if (asked % 5 == 2) proof_ask_first(&options, 0.01f);
-    if (asked % 5 == 3) options.skin = (float)(size * shapes_uniform(&rng, 0, 0.1));
+    if (asked % 5 == 3) options.slop = (float)(size * shapes_uniform(&rng, 0, 0.1));
     if (asked % 5 == 4) proof_ask_distance(&options, (float)(0.01 * size));
     CHECK_EQ(proof_ask_with(&a, &options), NSVCD_OK);
     const nsvcd_answer whole = a.answer;
@@ -1781,7 +1784,7 @@ static nsvcd_answer proof_push(attack *a, shapes_rng *rng, double x0, double x1,
   }
   proof_motion_set(&a->motion, poses, 3, &fixed);
   if (shapes_pick(rng, 2)) proof_carry(rng, a, 0, 1);  // a turn would press it in between poses
-  options.skin = skin;
+  options.slop = skin;
   options.clearance = clearance;
   if (first > 0) proof_ask_first(&options, first);
   CHECK_EQ(proof_ask_with(a, &options), NSVCD_OK);
@@ -1811,9 +1814,9 @@ static void proof_leaves_contacts(void) {
       const nsvcd_answer answer =
           proof_push(&a, &rng, k == 1 ? -0.3 : 0, k == 1 ? -0.3 : far_end, heights[k][0],
                      heights[k][1], k == 9 ? 2 * skin : skin, clearance, 0.01f);
-      const double lift =
-          sqrt((double)(answer.lift[0] * answer.lift[0] + answer.lift[1] * answer.lift[1] +
-                        answer.lift[2] * answer.lift[2]));
+      const double lift = sqrt((double)(answer.push_out[0] * answer.push_out[0] +
+                                        answer.push_out[1] * answer.push_out[1] +
+                                        answer.push_out[2] * answer.push_out[2]));
       const int pressed = k == 4 || k == 10;
       const int hits = pressed || k == 5 || (k == 8 && wall);
       CHECK_EQ(answer.verdict == NSVCD_HIT, hits);
@@ -1839,7 +1842,7 @@ static void proof_points_are_of_the_lifted(void) {
   nsvcd_answer answers[2];
   memset(&question, 0, sizeof question);
   question.method = NSVCD_METHOD_PROOF;
-  question.skin = 0.01f;
+  question.slop = 0.01f;
   question.ask = NSVCD_ASK_FIRST;
   question.to_time = 1e-3f;
   for (int swapped = 0; swapped < 2; swapped++) {
@@ -1855,11 +1858,12 @@ static void proof_points_are_of_the_lifted(void) {
              NSVCD_OK);
     CHECK_EQ(status_of(&answers[swapped]), STATUS_WITNESS);
   }
-  CHECK_NEAR(answers[0].lift[2], 0.01, 1e-5);
+  CHECK_NEAR(answers[0].push_out[2], 0.01, 1e-5);
   CHECK_NEAR(answers[0].nearest.point[0], 0.5, 5e-5);  // the wall, to its quantum
   for (int k = 0; k < 3; k++) {
-    CHECK_EQ(answers[1].lift[k], -answers[0].lift[k]);
-    CHECK_NEAR(answers[1].nearest.point[k], answers[0].nearest.point[k] + answers[1].lift[k], 1e-6);
+    CHECK_EQ(answers[1].push_out[k], -answers[0].push_out[k]);
+    CHECK_NEAR(answers[1].nearest.point[k], answers[0].nearest.point[k] + answers[1].push_out[k],
+               1e-6);
   }
   proof_free(&floor);
   proof_free(&crate);
@@ -1938,9 +1942,9 @@ static void proof_lifts_are_true(void) {
     }
     proof_motion_set(&a.motion, poses, 3, &fixed);
     if (shapes_pick(&rng, 2)) proof_carry(&rng, &a, 1, size);
-    options.skin = skin;
+    options.slop = skin;
     CHECK_EQ(proof_ask_with(&a, &options), NSVCD_OK);
-    for (int k = 0; k < 3; k++) lift[k] = (double)a.answer.lift[k];
+    for (int k = 0; k < 3; k++) lift[k] = (double)a.answer.push_out[k];
     asked++;
     const double length = oracle_length(lift);
     lifted += length > 0;
@@ -2086,7 +2090,7 @@ static void proof_knows_what_is_within(void) {
 }
 
 // As nsvcd__cross_all, of closed surfaces, but all triangles of a patch whose sphere the ray meets are asked in double.
-static int proof_crossings(const nsvcd__facets *f, const nsvcd__ray *ray, int *unclear) {
+static int proof_crossings(const nsvcd__geometry *f, const nsvcd__ray *ray, int *unclear) {
   static uint32_t crossed[1000];
   const nsvcd__beam beam = {nsvcd__f3_round(ray->from), nsvcd__f3_round(ray->direction),
                             ray->rounding};
@@ -2101,7 +2105,7 @@ static int proof_crossings(const nsvcd__facets *f, const nsvcd__ray *ray, int *u
       nsvcd__d3 corners[3];
       nsvcd__read_number(&numbers, n);
       if (numbers.kind != NSVCD__CLOSED) continue;
-      nsvcd__facet_triangle(f, i, n, corners);
+      nsvcd__patch_triangle(f, i, n, corners);
       const int crossing = nsvcd__ray_crosses(ray, corners, ray->margin, unclear);
       size_t known = 0;
       while (known < count && crossed[known] != numbers.number) known++;
@@ -2114,14 +2118,14 @@ static int proof_crossings(const nsvcd__facets *f, const nsvcd__ray *ray, int *u
 }
 
 // A ray from somewhere about a body that passes close to an edge.
-static nsvcd__ray proof_ray_at_edge(shapes_rng *rng, const nsvcd__facets *f, double margin) {
-  const size_t listing = shapes_next(rng) % f->listed;
+static nsvcd__ray proof_ray_at_edge(shapes_rng *rng, const nsvcd__geometry *f, double margin) {
+  const size_t entry = shapes_next(rng) % f->listed;
   const double radius = (double)f->body->radius;
   size_t patch = 0;
   nsvcd__d3 t[3];
   nsvcd__ray ray;
-  while (f->first_triangle[patch + 1] <= listing) patch++;
-  nsvcd__facet_triangle(f, patch, listing, t);
+  while (f->first_triangle[patch + 1] <= entry) patch++;
+  nsvcd__patch_triangle(f, patch, entry, t);
   const nsvcd__d3 aim = nsvcd__d3_mix(t[0], t[1], shapes_uniform(rng, 0, 1));
   const double sign = shapes_pick(rng, 2) ? 1 : -1;
   const double off = sign * pow(10, shapes_uniform(rng, -15, -1));
@@ -2148,7 +2152,7 @@ static void proof_rays_miss_nothing(void) {
     shapes_ellipsoid(&shape, 0.02, 0.02, 0.02, 40);
     shapes_place(&shape, 0, NULL, n == 0 ? 0 : 3, n == 2 ? 100 : 0, 1);
     proof_body ball = proof_of_shape(&shape, 1, 256);
-    const nsvcd__facets f = nsvcd__facets_of(nsvcd__triangles_of(ball.body));
+    const nsvcd__geometry f = nsvcd__geometry_of(nsvcd__triangles_of(ball.body));
     for (int trial = 0; trial < 6000; trial++) {
       const nsvcd__ray ray = proof_ray_at_edge(&rng, &f, 1e-13);
       int unclear_in_double = 0;
@@ -2254,7 +2258,7 @@ static void proof_sides_do_not_matter(void) {
     a.motion.fixed.scale = trial % 5 ? 1 : 0.7f;
     if (trial % 2) proof_ask_first(&options, 0.01f);
     if (trial % 7 == 0) options.clearance = 0.003f;
-    if (trial % 4 == 0) options.skin = 0.001f;
+    if (trial % 4 == 0) options.slop = 0.001f;
     const nsvcd_question question = proof_question(&a, &options);
     nsvcd_question turned = question;
     turned.a = question.b;
@@ -2269,7 +2273,7 @@ static void proof_sides_do_not_matter(void) {
     other.nearest.patch_a = other.nearest.patch_b;
     other.nearest.patch_b = patch;
     for (int k = 0; k < 3; k++) {
-      CHECK_EQ(a.answer.lift[k], 0 - other.lift[k]);
+      CHECK_EQ(a.answer.push_out[k], 0 - other.push_out[k]);
       other.nearest.normal[k] = 0 - other.nearest.normal[k] + 0.0f;
       a.answer.nearest.normal[k] += 0.0f;  // no zero with a sign
       // the place is on b, whichever that is
@@ -2281,7 +2285,7 @@ static void proof_sides_do_not_matter(void) {
     }
     CHECK(proof_same_answer(&a.answer, &other));
     CHECK_EQ(a.answer.time.low, other.time.low);
-    if (status_of(&a.answer) != STATUS_WITNESS || !(options.clearance > 0) || options.skin > 0)
+    if (status_of(&a.answer) != STATUS_WITNESS || !(options.clearance > 0) || options.slop > 0)
       continue;
     // The normal goes from b to a: along it a leaves b.
     const oracle_pose pose = proof_pose_at(&a.motion.moving, (double)a.answer.nearest.time);
@@ -2393,10 +2397,10 @@ static void proof_refuses(void) {
   for (int k = 0; k < 4; k++) {
     for (int which = 0; which < 5; which++) {
       static const nsvcd_result codes[5] = {NSVCD_ERROR_TOLERANCE, NSVCD_ERROR_CLEARANCE,
-                                            NSVCD_ERROR_TO, NSVCD_ERROR_SKIN, NSVCD_ERROR_TO_TIME};
+                                            NSVCD_ERROR_TO, NSVCD_ERROR_SLOP, NSVCD_ERROR_TO_TIME};
       options = proof_options();
       options.ask = which == 2 && k % 2 ? NSVCD_ASK_DISTANCE : NSVCD_ASK_FIRST;
-      float *const numbers[5] = {&options.tolerance, &options.clearance, &options.to, &options.skin,
+      float *const numbers[5] = {&options.tolerance, &options.clearance, &options.to, &options.slop,
                                  &options.to_time};
       float *number = numbers[which];
       *number = bad[k];
@@ -2440,7 +2444,7 @@ static void proof_in_doubt_ends_soon(void) {
   proof_body crate = proof_crate(6);
   const nsvcd_encode_options coarse = {.coarse = 1};
   proof_body floor = proof_floor_with(&coarse, 0, 8);
-  const double quantum = (double)nsvcd_body_describe(floor.body).quantum;
+  const double quantum = (double)nsvcd_body_describe(floor.body).quantization_error;
   size_t undecided = 0;
   size_t most = 0;
   a.moving = &crate;
@@ -2550,7 +2554,7 @@ static nsvcd_question proof_cost_options(cost_kind kind, double size) {
   if (kind == COST_FIRST) proof_ask_first(&options, 0.001f);
   options.clearance = kind == COST_CLEARANCE ? (float)(0.01 * size) : 0;
   if (kind == COST_MEASURE) proof_ask_distance(&options, (float)(0.001 * size));
-  options.skin = kind == COST_SKIN ? (float)(0.001 * size) : 0;
+  options.slop = kind == COST_SKIN ? (float)(0.001 * size) : 0;
   return options;
 }
 
@@ -2708,7 +2712,7 @@ static void proof_tells_more_with_more_work(void) {
     proof_bowl_falls(&a, 0.05, 0.0055, kind & 4 ? 0.2 : 0);
     proof_ask_first(&options, 1e-4f);
     options.manifold = kind & 1;
-    options.skin = kind & 2 ? 1e-4f : 0;
+    options.slop = kind & 2 ? 1e-4f : 0;
     options.clearance = kind & 2 ? 0 : 1e-3f;
     options.work = 1000000;
     CHECK_EQ(proof_ask_with(&a, &options), NSVCD_OK);

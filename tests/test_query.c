@@ -606,7 +606,7 @@ static void query_names_the_field_at_fault(void) {
   FAULT(bad.to_time = 0.5f, NSVCD_ERROR_TO_TIME);
   FAULT((bad.ask = NSVCD_ASK_FIRST, bad.to_time = 1.5f), NSVCD_ERROR_TO_TIME);
   FAULT(bad.clearance = -1, NSVCD_ERROR_CLEARANCE);
-  FAULT(bad.skin = INFINITY, NSVCD_ERROR_SKIN);
+  FAULT(bad.slop = INFINITY, NSVCD_ERROR_SLOP);
   FAULT(bad.tolerance = -1, NSVCD_ERROR_TOLERANCE);
   FAULT(bad.manifold = 1, NSVCD_ERROR_MANIFOLD);
   FAULT(bad.segments = 17, NSVCD_ERROR_SEGMENTS);
@@ -615,9 +615,9 @@ static void query_names_the_field_at_fault(void) {
   FAULT(bad.ask = (nsvcd_ask)-1, NSVCD_ERROR_ASK);
   FAULT(bad.method = (nsvcd_method)-1, NSVCD_ERROR_METHOD);
   FAULT(bad.method = (nsvcd_method)3, NSVCD_ERROR_METHOD);
-  FAULT((bad.method = NSVCD_METHOD_NETWORK, bad.skin = 0.1f), NSVCD_ERROR_METHOD);
+  FAULT((bad.method = NSVCD_METHOD_NETWORK, bad.slop = 0.1f), NSVCD_ERROR_METHOD);
   FAULT(bad.method = NSVCD_METHOD_PROOF, NSVCD_ERROR_TRIANGLES);
-  FAULT(bad.network.swell = -1, NSVCD_ERROR_SWELL);
+  FAULT(bad.network.inflate = -1, NSVCD_ERROR_INFLATE);
 #undef FAULT
 #ifndef NSVCD_NO_GRADIENT
   float gradient[6 * QUERY_POSES];
@@ -999,7 +999,7 @@ static void query_proofs_stay_within_their_workspace(void) {
       question.ask = NSVCD_ASK_DISTANCE;
       question.to = 0.001f;
     }
-    question.skin = n % 7 == 3 ? 0.002f : 0;
+    question.slop = n % 7 == 3 ? 0.002f : 0;
     question.clearance = n % 7 == 4 ? 0.01f : 0;
     question.work = n % 7 == 5 ? 10 : 0;
     const size_t left = query_stays_within(&question);
@@ -1193,7 +1193,7 @@ static void query_the_distance_is_the_least(void) {
       before = a.opinion.distance;
       told += before < HUGE_VALF;
       options.ask = NSVCD_ASK_HIT;
-      options.network.swell = 1;  // the same pairs
+      options.network.inflate = 1;  // the same pairs
       a = query_ask(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, &options);
       nearer += before < a.opinion.distance;
       // one that is clear has not looked at all of them

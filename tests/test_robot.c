@@ -20,7 +20,7 @@ void test_robot(void);
 
 // A sample of a checker.
 static oracle_pose pose_of_frame(const nsvcd__frame *frame) {
-  const oracle_pose out = {{frame->place.x, frame->place.y, frame->place.z},
+  const oracle_pose out = {{frame->position.x, frame->position.y, frame->position.z},
                            {frame->turn.x, frame->turn.y, frame->turn.z, frame->turn.w}};
   return out;
 }
@@ -319,7 +319,7 @@ static void robot_parts_are_where_joints_say(void) {
     robot_random(&r, &rng);
     robot_open(&r);
     for (size_t j = 0; j < r.scene.joint_count; j++) q[j] = shapes_uniform(&rng, -3, 3);
-    nsvcd_checker_place(r.checker, q, poses);
+    nsvcd_forward_kinematics(r.checker, q, poses);
     for (size_t n = 0; n < r.scene.part_count; n++) {
       const placed at = placed_part(&r.scene, n, q);
       const oracle_pose pose = pose_widened(&poses[n]);
@@ -787,7 +787,7 @@ static void robot_routes_are_abandoned(void) {
   asked_route a;
   nsvcd_check_answer checked;
   nsvcd_check_options options;
-  nsvcd_escape_options escape;
+  nsvcd_nearest_free_options escape;
   countdown count = {1 << 20, 0};
   memset(&a, 0, sizeof a);
   memset(&options, 0, sizeof options);
@@ -822,11 +822,11 @@ static void robot_routes_are_abandoned(void) {
   // the forearm in the first link
   memset(a.start, 0, sizeof a.start);
   a.start[2] = 3.1;
-  CHECK_EQ(nsvcd_escape(r.checker, a.start, &escape, out, &is_found), NSVCD_OK);
+  CHECK_EQ(nsvcd_nearest_free(r.checker, a.start, &escape, out, &is_found), NSVCD_OK);
   CHECK_EQ(is_found, 0);
   count.left = 1 << 20;
   count.is_over = 0;
-  CHECK_EQ(nsvcd_escape(r.checker, a.start, &escape, out, &is_found), NSVCD_OK);
+  CHECK_EQ(nsvcd_nearest_free(r.checker, a.start, &escape, out, &is_found), NSVCD_OK);
   CHECK_EQ(is_found, 1);
   free(a.memory);
   free(r.memory);
@@ -947,12 +947,12 @@ static void robot_strays_no_farther(void) {
           farthest = fmax(farthest, off);
         }
       }
-      if (m->stray < 1e-5) continue;
+      if (m->deviation < 1e-5) continue;
       if (pieces == 1)
-        most[degree] = fmax(most[degree], farthest / m->stray);
+        most[degree] = fmax(most[degree], farthest / m->deviation);
       else
-        most_across[jumps] = fmax(most_across[jumps], farthest / m->stray);
-      often += farthest / m->stray;
+        most_across[jumps] = fmax(most_across[jumps], farthest / m->deviation);
+      often += farthest / m->deviation;
       looks++;
     }
     free(r.memory);
@@ -988,7 +988,7 @@ static void robot_levers_reach(void) {
     const nsvcd_joint_motion motion = {1, 1, flat, NULL};
     nsvcd__step_of(&motion, joints, 0, 1, &step);
     memcpy(from.joints, flat, joints * sizeof *flat);
-    nsvcd__place_links(r.checker, &from);
+    nsvcd__pose_links(r.checker, &from);
     const size_t part = joints - 1;
     nsvcd__moment_arms_of(r.checker, part, &step, &from, moment_arms);
     for (int k = 0; k <= 20; k++) {
@@ -1041,9 +1041,9 @@ static void robot_trees_find_the_nearest(void) {
       if (n > 0) {
         double best = HUGE_VAL;
         for (size_t k = 0; k < n; k++)
-          best = fmin(best, nsvcd__way2(tree.points + k * joints, at, joints));
+          best = fmin(best, nsvcd__distance2(tree.points + k * joints, at, joints));
         const size_t nearest = nsvcd__tree_nearest(&tree, at);
-        CHECK_EQ(nsvcd__way2(tree.points + nearest * joints, at, joints), best);
+        CHECK_EQ(nsvcd__distance2(tree.points + nearest * joints, at, joints), best);
       }
       CHECK_EQ(nsvcd__tree_add(&tree, at, n), n);
     }

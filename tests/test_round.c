@@ -95,7 +95,7 @@ static round_body round_make(shapes_rng *rng, int kind) {
     round_parts(&out, p, corners, count);
   } else {
     // some triangles, and some that are segments
-    const nsvcd_encode_options options = {.round = round};
+    const nsvcd_encode_options options = {.convex_radius = round};
     nsvcd_mesh mesh = {p, corners, 40, 5};
     for (uint32_t i = 0; i < 15; i++) corners[i] = i % 6 == 5 ? i - 1 : i;
     result = nsvcd_encode(&mesh, &options, NULL, NULL, 0, &out.body);
@@ -103,7 +103,7 @@ static round_body round_make(shapes_rng *rng, int kind) {
   }
   CHECK_EQ(result, NSVCD_OK);
   const nsvcd_body_facts facts = nsvcd_body_describe(out.body);
-  CHECK_EQ(facts.round, round);
+  CHECK_EQ(facts.convex_radius, round);
   CHECK_LE(facts.radius, out.reach * 2 + 1e-6);
   return out;
 }
@@ -194,8 +194,9 @@ static void round_judge(const nsvcd_question *q, const round_body *a, const roun
                         round_sum *sum) {
   const nsvcd_answer answer = round_ask(q);
   const double clearance = (double)q->clearance;
-  const double quanta = (double)q->a.scale * (double)nsvcd_body_describe(a->body).quantum +
-                        (double)q->b.scale * (double)nsvcd_body_describe(b->body).quantum;
+  const double quanta =
+      (double)q->a.scale * (double)nsvcd_body_describe(a->body).quantization_error +
+      (double)q->b.scale * (double)nsvcd_body_describe(b->body).quantization_error;
   const double reach = (double)q->a.scale * a->reach + (double)q->b.scale * b->reach;
   const double off = 1e-6 * (reach + 1) + 2 * quanta;
   double least = DBL_MAX;
@@ -318,7 +319,7 @@ static void round_spheres_in_clouds(void) {
   for (size_t i = 0; i < 3 * POINTS; i++) points[i] = (float)shapes_uniform(&rng, -1, 1);
   CHECK_EQ(nsvcd_encode_sphere(0.02f, NULL, &sphere), NSVCD_OK);
   CHECK_EQ(nsvcd_encode_cloud(points, POINTS, 0.01f, NULL, &cloud), NSVCD_OK);
-  const double quanta = (double)nsvcd_body_describe(cloud).quantum + 1e-6;
+  const double quanta = (double)nsvcd_body_describe(cloud).quantization_error + 1e-6;
   for (int n = 0; n < 400; n++) {
     double ends[2][3];
     nsvcd_pose path[2];
@@ -486,15 +487,15 @@ static void round_bodies_lie_on_a_table(void) {
     nsvcd_pose path[2] = {at, at};
     path[1].position[0] += 0.1f;
     nsvcd_question q = question_of(bodies[kind], path, 2, table, NULL, NULL);
-    q.skin = 1e-3f;
+    q.slop = 1e-3f;
     nsvcd_answer answer = round_ask(&q);
     CHECK_EQ(answer.verdict, NSVCD_FREE);
-    CHECK_NEAR(answer.lift[2], 1e-3, 1e-5);
+    CHECK_NEAR(answer.push_out[2], 1e-3, 1e-5);
     // half of the table's quantum
     CHECK_NEAR(answer.depth, depth, 0.01 * depth + 1.2e-5);
     q.a.poses = &answer.safe.a;
     q.a.count = 1;
-    q.skin = 0;
+    q.slop = 0;
     CHECK_EQ(round_ask(&q).verdict, NSVCD_FREE);
 
     path[0].position[2] = 0.21f;
@@ -556,14 +557,14 @@ static void round_lifts_turn_with_the_larger(void) {
     q.a.scale = scale;
     q.b.poses = turns;
     q.b.count = 3;
-    q.skin = 2e-3f;
+    q.slop = 2e-3f;
     if (ball_is_a) {
       const nsvcd_mover mover = q.a;
       q.a = q.b;
       q.b = mover;
     }
     const nsvcd_answer answer = round_ask(&q);
-    CHECK_NEAR(answer.lift[2], ball_is_a ? -2e-3 : 2e-3, 2e-5);
+    CHECK_NEAR(answer.push_out[2], ball_is_a ? -2e-3 : 2e-3, 2e-5);
     CHECK_EQ(answer.verdict, box_is_larger ? NSVCD_FREE : NSVCD_HIT);
   }
   nsvcd_body_free(ball, NULL);
@@ -592,7 +593,7 @@ static void round_boxes_enclose(void) {
     nsvcd_mesh mesh = {positions, corners, 11, extra ? 13 : 12};
     nsvcd_encode_options options;
     memset(&options, 0, sizeof options);
-    options.round = 1e-3f;
+    options.convex_radius = 1e-3f;
     options.patches = patches[n / 12];
     for (int k = 0; k < 24; k++) positions[k] = k / 3 >> (2 - k % 3) & 1 ? 0.5f : -0.5f;
     // far from it, but for the last one
@@ -640,7 +641,7 @@ static void round_scales_are_exact(void) {
     if (kind == 2) {
       CHECK_EQ(nsvcd_body_scale(balls[0], scales[0], room, sizeof room, &q.a.body), NSVCD_OK);
       q.a.scale = 0;
-      quantum = (double)nsvcd_body_describe(q.a.body).quantum;
+      quantum = (double)nsvcd_body_describe(q.a.body).quantization_error;
     }
     double way[3];
     for (int k = 0; k < 3; k++) way[k] = shapes_uniform(&rng, -1, 1);
@@ -766,11 +767,11 @@ static void round_refuses_bad_input(void) {
   if (!mesh.positions || !mesh.indices) exit(1);
   memcpy(mesh.positions, good, sizeof good);
   memcpy(mesh.indices, corners, sizeof corners);
-  nsvcd_encode_options options = {.round = -1};
+  nsvcd_encode_options options = {.convex_radius = -1};
   CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body), NSVCD_ERROR_RADIUS);
-  options.round = 0;
+  options.convex_radius = 0;
   CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body), NSVCD_ERROR_EMPTY);
-  options.round = 1;
+  options.convex_radius = 1;
   options.no_triangles = 1;
   CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body), NSVCD_ERROR_LATENTS);
   CHECK(body == NULL);
@@ -797,13 +798,13 @@ static void round_bodies_are_saved_and_scaled(void) {
     CHECK_EQ(nsvcd_body_scale(b.body, 2, copy, facts.size, &loaded), NSVCD_OK);
     CHECK_EQ(nsvcd_body_load(copy, facts.size, &loaded), NSVCD_OK);
     const nsvcd_body_facts scaled = nsvcd_body_describe(loaded);
-    CHECK_EQ(scaled.round, 2 * facts.round);
+    CHECK_EQ(scaled.convex_radius, 2 * facts.convex_radius);
     CHECK_NEAR(scaled.radius, 2 * (double)facts.radius, 1e-5 * (double)scaled.radius);
     // what is round is checked as all else is
     for (int k = 0; k < 3; k++) {
       const float forged[3] = {-1, NAN, 1e30f};
       nsvcd_body *own = (nsvcd_body *)copy;
-      float *round = (float *)nsvcd__writable(own, &nsvcd__counts_of(own)->round);
+      float *round = (float *)nsvcd__writable(own, &nsvcd__counts_of(own)->convex_radius);
       *round = forged[k];
       own->checksum = nsvcd__body_checksum(own);
       CHECK_EQ(nsvcd_body_load(copy, facts.size, &loaded), NSVCD_ERROR_BODY);

@@ -158,12 +158,12 @@ typedef struct reader {
   vec *vertices;     // patch by patch: points stored as integers, then vertices named
   size_t *listings;  // (T + 1) listings of a triangle
   uint32_t *sorted;  // (L) by triangle
-  uint32_t *patch;   // (L) of a listing
+  uint32_t *patch;   // (L) of a entry
   double tolerance;  // 1e-12 of the greatest coordinate: of this test's own roundings
 } reader;
 
-static uint32_t reader_id(const reader *r, size_t listing) {
-  return r->surface.ids[listing] & NSVCD__NUMBER;
+static uint32_t reader_id(const reader *r, size_t entry) {
+  return r->surface.ids[entry] & NSVCD__NUMBER;
 }
 
 // Where the points of a patch begin.
@@ -237,11 +237,11 @@ static void reader_close(reader *r) {
   free(r->patch);
 }
 
-static void reader_corners(const reader *r, size_t listing, vec *corners) {
+static void reader_corners(const reader *r, size_t entry, vec *corners) {
   const nsvcd__surface *s = &r->surface;
   for (size_t k = 0; k < 3; k++) {
-    const size_t number = s->corners[3 * listing + k];
-    corners[k] = r->vertices[reader_first(s, r->patch[listing]) + number];
+    const size_t number = s->corners[3 * entry + k];
+    corners[k] = r->vertices[reader_first(s, r->patch[entry]) + number];
   }
 }
 
@@ -259,7 +259,7 @@ static int check_ranges(const reader *r) {
   for (size_t i = 0; i < 3 * s->vertex_count; i++) bad += s->vertices[i] < -32767;
   for (size_t i = 0; i < s->count; i++) {
     const float *ball = &s->balls[i].centre.x;
-    const float *disc = &s->discs[i].normal.x;
+    const float *disc = &s->slabs[i].normal.x;
     bad += s->first_vertex[i] > s->first_vertex[i + 1];
     bad += s->first_triangle[i] > s->first_triangle[i + 1];
     const size_t n = s->first_vertex[i + 1] - s->first_vertex[i];
@@ -272,7 +272,7 @@ static int check_ranges(const reader *r) {
     const vec normal = vec_load(disc);
     bad += s->hull_counts[i] < 1 || s->hull_counts[i] > NSVCD__HULL || s->hull_counts[i] > n;
     bad += vec_length(normal) > 1 || vec_length(normal) < 1 - 1e-6;
-    bad += !(ball[3] > 0) || !(s->steps[i] > 0) || !(s->slacks[i] > 0) || !(s->quanta[i] >= 0);
+    bad += !(ball[3] > 0) || !(s->steps[i] > 0) || !(s->margins[i] > 0) || !(s->errors[i] >= 0);
     const size_t named = s->first_named[i + 1] - s->first_named[i];
     size_t stored = 0;
     bad += !(disc[3] <= disc[4]) || !(disc[5] >= 0);
@@ -281,7 +281,7 @@ static int check_ranges(const reader *r) {
       stored += s->corners[k] < n;
     }
     // what is the caller's own is exact
-    bad += stored ? !(s->quanta[i] > 0) : s->quanta[i] > 0;
+    bad += stored ? !(s->errors[i] > 0) : s->errors[i] > 0;
   }
   for (size_t l = 0; l < s->listed; l++) bad += reader_id(r, l) >= r->mesh->triangle_count;
   CHECK_EQ(bad, 0);
@@ -296,7 +296,7 @@ typedef struct misses {
 static int patch_holds(const reader *r, size_t i, vec x, misses *m) {
   const nsvcd__surface *s = &r->surface;
   const float *ball = &s->balls[i].centre.x;
-  const float *disc = &s->discs[i].normal.x;
+  const float *disc = &s->slabs[i].normal.x;
   const vec offset = vec_sub(x, vec_load(ball));
   if (vec_length(offset) > (double)ball[3] + r->tolerance) {
     m->ball++;
@@ -311,7 +311,7 @@ static int patch_holds(const reader *r, size_t i, vec x, misses *m) {
     return 0;
   }
   const vec *hull = r->vertices + reader_first(s, i);
-  const double reach = (double)s->slacks[i] + r->tolerance;
+  const double reach = (double)s->margins[i] + r->tolerance;
   if (hull_reaches(hull, s->hull_counts[i], x, reach)) return 1;
   m->hull++;
   return 0;
@@ -327,7 +327,7 @@ static void check_point(const reader *r, size_t t, vec x, misses *m) {
     const size_t l = r->sorted[k];
     vec corners[3];
     reader_corners(r, l, corners);
-    const double quantum = (double)r->surface.quanta[r->patch[l]];
+    const double quantum = (double)r->surface.errors[r->patch[l]];
     // Tolerances in the triangle's own plane are only as good as its shape.
     const double rounding = 1e-6 * (double)r->surface.balls[r->patch[l]].radius;
     if (triangle_distance(corners, x) > quantum + rounding + 10 * r->tolerance) continue;
@@ -378,7 +378,7 @@ static void check_quanta(const reader *r) {
     vec corners[3];
     vec mesh_corners[3];
     const size_t t = reader_id(r, l);
-    const double quantum = (double)r->surface.quanta[r->patch[l]] * (1 + 1e-6) + 10 * r->tolerance;
+    const double quantum = (double)r->surface.errors[r->patch[l]] * (1 + 1e-6) + 10 * r->tolerance;
     reader_corners(r, l, corners);
     for (size_t i = 0; i < 3; i++) mesh_corners[i] = surface_corner(r->mesh, t, i);
     for (size_t i = 0; i < 3; i++) bad += triangle_distance(mesh_corners, corners[i]) > quantum;
@@ -390,17 +390,17 @@ static vec area_vector(const vec *c) {
   return vec_scale(vec_cross(vec_sub(c[1], c[0]), vec_sub(c[2], c[0])), 0.5);
 }
 
-// Does a listing of the same triangle before number k list the same corners? Halves of large
+// Does a entry of the same triangle before number k list the same corners? Halves of large
 // triangles, whole where several patches share them.
 static int is_listed_before(const reader *r, size_t first, size_t k) {
   vec own[3];
   reader_corners(r, r->sorted[k], own);
-  const double quantum = (double)r->surface.quanta[r->patch[r->sorted[k]]];
+  const double quantum = (double)r->surface.errors[r->patch[r->sorted[k]]];
   for (size_t i = first; i < k; i++) {
     vec other[3];
     double most = 0;
     reader_corners(r, r->sorted[i], other);
-    const double both = quantum + (double)r->surface.quanta[r->patch[r->sorted[i]]];
+    const double both = quantum + (double)r->surface.errors[r->patch[r->sorted[i]]];
     for (size_t j = 0; j < 3; j++) most = fmax(most, vec_length(vec_sub(own[j], other[j])));
     if (most <= both + 10 * r->tolerance) return 1;
   }
@@ -434,7 +434,7 @@ static void check_enclosing(const reader *r) {
       flags += r->surface.ids[l] >> NSVCD__KIND_SHIFT >= NSVCD__CLOSED;
       if (!closed || is_listed_before(r, r->listings[t], k)) continue;
       reader_corners(r, l, part);
-      const double quantum = (double)r->surface.quanta[r->patch[l]];
+      const double quantum = (double)r->surface.errors[r->patch[l]];
       const double perimeter = vec_length(vec_sub(part[1], part[0])) +
                                vec_length(vec_sub(part[2], part[1])) +
                                vec_length(vec_sub(part[0], part[2]));
@@ -546,8 +546,8 @@ static void surface_of_a_fine_mesh(void) {
   for (size_t i = 0; i < s->count; i++) {
     const double fraction = 1 / (double)s->count;
     const double own = (double)s->balls[i].radius;
-    const double thick = (double)(s->discs[i].high - s->discs[i].low);
-    slack += fraction * (double)s->slacks[i] / own;
+    const double thick = (double)(s->slabs[i].high - s->slabs[i].low);
+    slack += fraction * (double)s->margins[i] / own;
     thickness += fraction * thick / own;
     radius += fraction * own;
   }
@@ -570,8 +570,8 @@ static void surface_of_large_faces(void) {
     double radius = 0;
     for (size_t i = 0; i < r.surface.count; i++) {
       radius += (double)r.surface.balls[i].radius / (double)r.surface.count;
-      CHECK_LE(r.surface.slacks[i], 1e-3f * r.surface.balls[i].radius);
-      CHECK_LE(r.surface.quanta[i], 1e-3f * r.surface.balls[i].radius);
+      CHECK_LE(r.surface.margins[i], 1e-3f * r.surface.balls[i].radius);
+      CHECK_LE(r.surface.errors[i], 1e-3f * r.surface.balls[i].radius);
     }
     CHECK_LE(radius, 1.1 * r.patch_radius);
     reader_close(&r);

@@ -186,10 +186,10 @@ class Queries(unittest.TestCase):
         # A box stands on another, 0.01 in it, and slides along.
         slide = at(0, 0, 1.99) + at(0.5, 0, 1.99)
         self.assertEqual(nsvcd.sweep(BOX, BOX, slide).verdict, "hit")
-        answer = nsvcd.sweep(BOX, BOX, slide, options=Options(skin=0.02))
+        answer = nsvcd.sweep(BOX, BOX, slide, options=Options(slop=0.02))
         self.assertEqual(answer.verdict, "free")
         self.assertAlmostEqual(answer.depth, 0.01, delta=1e-4)
-        np.testing.assert_allclose(answer.lift, [0, 0, 0.02], atol=1e-3)
+        np.testing.assert_allclose(answer.push_out, [0, 0, 0.02], atol=1e-3)
         np.testing.assert_allclose(answer.safe.a, [0.5, 0, 2, 0, 0, 0, 1], atol=1e-3)  # set down on it
         inside = nsvcd.sweep(BOX, BOX, REST, scale_a=0.1)
         self.assertEqual((inside.verdict, inside.inside, inside.time), ("hit", True, (0, 0)))
@@ -227,11 +227,11 @@ class Queries(unittest.TestCase):
     def test_depth(self) -> None:
         """Of a box that rests on another, pressed into it by a part of the skin."""
         for share in (0.25, 0.5, 0.75):
-            answer = nsvcd.sweep(BOX, BOX, at(0, 0, 2 - 0.02 * share), options=Options(skin=0.02))
+            answer = nsvcd.sweep(BOX, BOX, at(0, 0, 2 - 0.02 * share), options=Options(slop=0.02))
             self.assertEqual(answer.verdict, "free")
             self.assertAlmostEqual(answer.depth, 0.02 * share, delta=1e-4)
-        self.assertEqual(nsvcd.sweep(BOX, BOX, at(0, 0, 1.97), options=Options(skin=0.02)).depth, np.inf)
-        self.assertEqual(nsvcd.sweep(BOX, BOX, at(0, 0, 2.03), options=Options(skin=0.02)).depth, 0)
+        self.assertEqual(nsvcd.sweep(BOX, BOX, at(0, 0, 1.97), options=Options(slop=0.02)).depth, np.inf)
+        self.assertEqual(nsvcd.sweep(BOX, BOX, at(0, 0, 2.03), options=Options(slop=0.02)).depth, 0)
 
     def test_poses_and_scales(self) -> None:
         self.assertFalse(nsvcd.sweep(BOX, BOX, at(2.5, 0, 0)))
@@ -350,7 +350,7 @@ class Batches(unittest.TestCase):
 
     def test_answers_are_those_of_sweep(self) -> None:
         for options in (Options(), Options(ask="first", to_time=0.01), Options(ask="distance", to=0.001),
-                        Options(ask="first", to=0.001, manifold=True, skin=0.01), Options(work=1)):
+                        Options(ask="first", to=0.001, manifold=True, slop=0.01), Options(work=1)):
             answers = nsvcd.sweep_batch(MUG, RACK, self.paths, options=options)
             self.assertEqual(answers.shape, (60,))
             for row, path in zip(answers, self.paths):
@@ -476,7 +476,7 @@ class Arrays(unittest.TestCase):
         self.assertEqual(str(answers), str(nsvcd.sweep_batch(MUG, RACK, [LOW, LOW[::-1]])))
         robots = [nsvcd.Robot([nsvcd.Joint(0, origin)], [nsvcd.Part(BOX, 1, origin), nsvcd.Part(BOX)])
                   for origin in (low[0], LOW[0])]
-        self.assertEqual(*(robot.place([0.3]).tolist() for robot in robots))
+        self.assertEqual(*(robot.forward_kinematics([0.3]).tolist() for robot in robots))
 
         def refused(change, words: str) -> None:
             matrix = np.eye(4)
@@ -760,8 +760,8 @@ class Bodies(unittest.TestCase):
         self.assertEqual((facts.triangles, facts.latents, facts.size), (12, False, len(bytes(BOX))))
         self.assertTrue(3**0.5 <= facts.radius and max(map(abs, facts.centre)) < 0.1)
         self.assertLess(Body(CUBE, FACES, patches=192).facts.radius, 2)
-        self.assertTrue(facts.listings >= 12 and facts.quantum == 0 and facts.mean_patch_radius > 0)
-        self.assertTrue(0 < Body(CUBE, FACES, coarse=True).facts.quantum < 1e-3)
+        self.assertTrue(facts.stored_triangles >= 12 and facts.quantization_error == 0 and facts.mean_patch_radius > 0)
+        self.assertTrue(0 < Body(CUBE, FACES, coarse=True).facts.quantization_error < 1e-3)
         self.assertEqual(Body(CUBE, FACES, patches=50).facts.patches, 50)
         self.assertGreater(Body(CUBE, FACES, patch_radius=0.1).facts.patches, 192)
         alone = Body(CUBE, FACES, no_triangles=True).facts
@@ -781,7 +781,7 @@ class Bodies(unittest.TestCase):
             for gap in (1e-4, -1e-4):
                 answer = nsvcd.sweep(ball, body, [[0, 3, 0, 0, 0, 0, 1], [0, 0.25 + reach + gap, 0, 0, 0, 0, 1]])
                 self.assertEqual(answer.verdict, nsvcd.Verdict.FREE if gap > 0 else nsvcd.Verdict.HIT)
-        self.assertEqual(raised(Body, CUBE, FACES, round=-1).code, Code.RADIUS)
+        self.assertEqual(raised(Body, CUBE, FACES, convex_radius=-1).code, Code.RADIUS)
         self.assertEqual(raised(Body.sphere, 0).code, Code.RADIUS)
 
     def test_patches(self) -> None:
@@ -930,7 +930,7 @@ def place(joints: np.ndarray) -> np.ndarray:
 
 
 def gantry(**named) -> nsvcd.Plan:
-    given = {"bodies": [MUG, RACK], "pairs": [[0, 1]], "place": place, "start": [0, -0.5, 0], "goal": [0, 0.5, 0],
+    given = {"bodies": [MUG, RACK], "pairs": [[0, 1]], "kinematics": place, "start": [0, -0.5, 0], "goal": [0, 0.5, 0],
              "low": [-1, -1, 0], "high": [1, 1, 1]}
     return nsvcd.plan(**{**given, **named})
 
@@ -981,16 +981,16 @@ class Planning(unittest.TestCase):
         for kind in (ZeroDivisionError, KeyboardInterrupt):
             for calls in (0, 1, 500):
                 with self.assertRaises(kind):
-                    gantry(place=after(calls, kind))
+                    gantry(kinematics=after(calls, kind))
             with self.assertRaises(kind):
                 gantry(jacobian=after(0, kind))
             with self.assertRaises(kind):
                 gantry(progress=after(0, kind))
         with self.assertRaises(ValueError):
-            gantry(place=lambda joints: place(joints)[0])  # which numpy would repeat
+            gantry(kinematics=lambda joints: place(joints)[0])  # which numpy would repeat
         with self.assertRaises(TypeError):
-            gantry(place=lambda joints: None)
-        self.assertEqual(raised(gantry, place=lambda joints: np.zeros((2, 7))).code, Code.QUATERNION)
+            gantry(kinematics=lambda joints: None)
+        self.assertEqual(raised(gantry, kinematics=lambda joints: np.zeros((2, 7))).code, Code.QUATERNION)
 
     def test_refused(self) -> None:
         for named in ({"goal": [0, 0]}, {"start": [[0, 0, 0]]}, {"pairs": [0, 1]}):
@@ -1015,7 +1015,7 @@ class Planning(unittest.TestCase):
                 gc.collect()
             seen.append(all(ref() is not None for ref in gone))
             return place(joints)
-        gantry(bodies=bodies, place=forget, options=PlanOptions(seeds=1, explore=Stage(iterations=nsvcd.LEAVE_OUT),
+        gantry(bodies=bodies, kinematics=forget, options=PlanOptions(seeds=1, explore=Stage(iterations=nsvcd.LEAVE_OUT),
                                                                 refine=Stage(iterations=1, draws=1)))
         self.assertTrue(seen and all(seen))
         gc.collect()
@@ -1059,25 +1059,25 @@ class Robots(unittest.TestCase):
         self.assertEqual(self.robot.check([[0, 0], [0, 0.3], [0, 0.5]], degree=2, times=[0, 2]).verdict, "free")
         self.assertEqual(self.robot.check([0, 3.1]).joint, 1)
         turned = [1, 0, 0, 0, 0, 0.5 ** 0.5, 0.5 ** 0.5]
-        self.assertLess(np.abs(self.robot.place([1, np.pi / 2])[0] - turned).max(), 1e-6)
+        self.assertLess(np.abs(self.robot.forward_kinematics([1, np.pi / 2])[0] - turned).max(), 1e-6)
 
     def test_postures(self) -> None:
-        self.assertEqual(self.robot.gaps([0, 0]), [])
+        self.assertEqual(self.robot.proximities([0, 0]), [])
         # the arm along y = 0.5 x: how near the post is, and how that changes
-        gap, = self.robot.gaps([0, 0], within=1, to=2e-5)
+        gap, = self.robot.proximities([0, 0], max_distance=1, to=2e-5)
         self.assertAlmostEqual(gap.distance.low, 0.8 - 0.25, delta=5e-5)
         self.assertLess(gap.distance.high - gap.distance.low, 4e-5)
         np.testing.assert_allclose(gap.normal, [0, -1, 0], atol=1e-3)
-        turned = [self.robot.gaps([0, a], within=1, to=2e-5)[0].distance.low for a in (0.499, 0.501)]
-        gap, = self.robot.gaps([0, 0.5], within=1, to=2e-5)
+        turned = [self.robot.proximities([0, a], max_distance=1, to=2e-5)[0].distance.low for a in (0.499, 0.501)]
+        gap, = self.robot.proximities([0, 0.5], max_distance=1, to=2e-5)
         self.assertAlmostEqual(gap.slope[1], (turned[1] - turned[0]) / 0.002, delta=0.05)
-        gap, = self.robot.gaps([-0.1, np.pi / 2], deepest=1)
+        gap, = self.robot.proximities([-0.1, np.pi / 2], deepest=1)
         self.assertEqual((gap.pair, gap.verdict, gap.distance.low), (0, "hit", 0))
         self.assertAlmostEqual(gap.depth, 0.15, delta=0.01)
-        out = self.robot.escape([-0.1, np.pi / 2], clearance=0.01)
+        out = self.robot.nearest_free([-0.1, np.pi / 2], clearance=0.01)
         assert out is not None
         self.assertEqual(self.robot.check(out, clearance=0.01).verdict, "free")
-        self.assertIsNone(self.robot.escape([0, np.pi / 2], farthest=0.01))
+        self.assertIsNone(self.robot.nearest_free([0, np.pi / 2], farthest=0.01))
 
     def test_pairs(self) -> None:
         kind = nsvcd.JointKind
@@ -1094,7 +1094,7 @@ class Robots(unittest.TestCase):
         held = robot.handed_over([0.5, 0.3, 0.2], 0, 3)
         self.assertEqual(held.link, 3)
         carried = nsvcd.Robot(joints, [held, *parts[1:]])
-        np.testing.assert_allclose(carried.place([0.5, 0.3, 0.2])[0], robot.place([0.5, 0.3, 0.2])[0], atol=1e-6)
+        np.testing.assert_allclose(carried.forward_kinematics([0.5, 0.3, 0.2])[0], robot.forward_kinematics([0.5, 0.3, 0.2])[0], atol=1e-6)
         with self.assertRaises(Error):
             robot.handed_over([0, 0, 0], 9, 0)
 

@@ -55,7 +55,7 @@ static const oracle_mesh *robot_picture_mesh(const robot_picture *p, size_t part
 static void robot_picture_add(const robot_picture *p, draw_list *list, const double *joints,
                               size_t first, size_t end, const draw_colour *colour, double opacity) {
   nsvcd_pose *poses = (nsvcd_pose *)allocate(p->in->scene.part_count * sizeof *poses);
-  nsvcd_checker_place(p->in->checker, joints, poses);
+  nsvcd_forward_kinematics(p->in->checker, joints, poses);
   for (size_t n = first; n < end; n++) {
     const oracle_pose pose = pose_widened(&poses[n]);
     draw_solid(list, robot_picture_mesh(p, n), &pose, colour, opacity);
@@ -78,7 +78,7 @@ static void robot_picture_fit(robot_picture *p, const nsvcd_joint_motion *m) {
       double joints[NSVCD_MAX_JOINTS];
       const double end = m->pieces ? m->times[m->pieces] : 0;
       nsvcd_motion_at(m, p->in->scene.joint_count, end * (double)look / 16, joints);
-      nsvcd_checker_place(p->in->checker, joints, poses);
+      nsvcd_forward_kinematics(p->in->checker, joints, poses);
       for (size_t n = 0; n < 8 * parts; n++) {
         const oracle_mesh *mesh = robot_picture_mesh(p, n / 8);
         const oracle_pose pose = pose_widened(&poses[n / 8]);
@@ -117,7 +117,7 @@ static void robot_picture_way(FILE *svg, const robot_picture *p, const nsvcd_joi
   for (int look = 0; look <= ROBOT_LOOKS; look++) {
     double joints[NSVCD_MAX_JOINTS], world[3];
     nsvcd_motion_at(m, p->in->scene.joint_count, end * look / ROBOT_LOOKS, joints);
-    nsvcd_checker_place(p->in->checker, joints, poses);
+    nsvcd_forward_kinematics(p->in->checker, joints, poses);
     const oracle_pose pose = pose_widened(&poses[last]);
     oracle_transform(&pose, robot_picture_mesh(p, last)->center, world);
     draw_to(svg, &p->view, look == 0, world);

@@ -83,8 +83,8 @@ static void print_facts(const char *path, const nsvcd_body *body) {
   patch_radii(body, &least, &most);
   printf("%s: %zu points, %zu bytes\n", path, facts.patches, facts.size);
   if (facts.triangles)
-    printf("triangles: %zu, in %zu listings, within %g m\n", facts.triangles, facts.listings,
-           (double)facts.quantum);
+    printf("triangles: %zu, in %zu listings, within %g m\n", facts.triangles,
+           facts.stored_triangles, (double)facts.quantization_error);
   printf("bounding sphere: centre %g %g %g, radius %g m\n", (double)facts.centre[0],
          (double)facts.centre[1], (double)facts.centre[2], (double)facts.radius);
   printf("patch radius: mean %g, least %g, most %g m\n", (double)facts.mean_patch_radius,
@@ -98,7 +98,7 @@ static void json_facts(json_out *j, const nsvcd_body *body) {
   json_count(j, "patches", facts.patches);
   json_count(j, "bytes", facts.size);
   json_count(j, "triangles", facts.triangles);
-  json_float(j, "quantum", (double)facts.quantum);
+  json_float(j, "quantum", (double)facts.quantization_error);
   json_floats(j, "centre", facts.centre, 3);
   json_float(j, "radius", (double)facts.radius);
   json_close(j, '}');

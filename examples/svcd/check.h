@@ -151,11 +151,11 @@ static int check_options(settings *options) {
   if (options->int8) sweep->network.precision = NSVCD_PRECISION_INT8;
   options->encode.no_triangles = sweep->method == NSVCD_METHOD_NETWORK;
   if (options->encode.no_triangles &&
-      (sweep->clearance > 0 || wants_first(options) || sweep->skin > 0))
+      (sweep->clearance > 0 || wants_first(options) || sweep->slop > 0))
     return usage_error("--method network", "it knows neither --clearance, --first nor --skin");
   if (options->details && !ends_with(options->details, ".tsv"))
     return usage_error("--details", "a file that ends in .tsv is wanted");
-  if (options->certificates && (options->encode.no_triangles || sweep->skin > 0))
+  if (options->certificates && (options->encode.no_triangles || sweep->slop > 0))
     return usage_error("--certificates", "not with --method network, nor with --skin");
   if (!recall_is_known(sweep)) return usage_error("--recall", "none of 0, 0.99, 0.999, 0.9999");
   return DONE;

@@ -60,22 +60,23 @@ static double route_length(const nsvcd_joint_motion *m, size_t joints) {
 // standard error.
 static void tell_way_out(const robot_in_room *in, const char *from, const double *joints,
                          const nsvcd_route_problem *problem, float clearance) {
-  nsvcd_gap_options options;
-  nsvcd_escape_options escape;
+  nsvcd_proximity_options options;
+  nsvcd_nearest_free_options escape;
   size_t count = 0;
   int is_found = 0;
   double out[NSVCD_MAX_JOINTS];
-  nsvcd_gap *gaps = (nsvcd_gap *)allocate((in->scene.pair_count + 1) * sizeof *gaps);
+  nsvcd_proximity *gaps = (nsvcd_proximity *)allocate((in->scene.pair_count + 1) * sizeof *gaps);
   memset(&options, 0, sizeof options);
   memset(&escape, 0, sizeof escape);
-  options.within = clearance > 0 ? clearance : 1e-6f;
+  options.max_distance = clearance > 0 ? clearance : 1e-6f;
   options.deepest = 0.1f;
   escape.clearance = clearance;
   escape.stop = problem->abandon;
   escape.user = problem->user;
-  if (nsvcd_gaps(in->checker, joints, &options, gaps, in->scene.pair_count, &count)) count = 0;
+  if (nsvcd_proximities(in->checker, joints, &options, gaps, in->scene.pair_count, &count))
+    count = 0;
   for (size_t k = 0; k < count; k++) {
-    const nsvcd_gap *gap = &gaps[k];
+    const nsvcd_proximity *gap = &gaps[k];
     const nsvcd_body_pair *pair = &in->scene.pairs[gap->pair];
     const char *a = robot_name(in, pair->a);
     const char *b = robot_name(in, pair->b);
@@ -87,7 +88,7 @@ static void tell_way_out(const robot_in_room *in, const char *from, const double
     else
       complain("%s: %s and %s meet, no lift of 100 mm parts them", from, a, b);
   }
-  if (!nsvcd_escape(in->checker, joints, &escape, out, &is_found) && is_found) {
+  if (!nsvcd_nearest_free(in->checker, joints, &escape, out, &is_found) && is_found) {
     char list[32 * NSVCD_MAX_JOINTS] = "";
     for (size_t j = 0; j < in->file->joint_count; j++)
       snprintf(list + strlen(list), sizeof list - strlen(list), " %.9g", out[j]);

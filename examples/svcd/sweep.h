@@ -31,7 +31,7 @@ static int sweep_method(sweep_job *job, settings *options) {
     complain("%s: it holds no triangles, and so there is no proof", bare->path);
     return REFUSED;
   }
-  if (sweep->clearance > 0 || options->measure > 0 || sweep->skin > 0) {
+  if (sweep->clearance > 0 || options->measure > 0 || sweep->slop > 0) {
     complain("%s: the network knows neither --clearance, --measure nor --skin",
              proof ? bare->path : "--method network");
     return proof ? REFUSED : USAGE;
@@ -385,7 +385,7 @@ static int sweep(settings *options) {
   if (options->picture && !ends_with(options->picture, ".svg"))
     return complain("--picture: %s does not end in .svg", options->picture), USAGE;
   if (options->certificate && (!ends_with(options->certificate, ".cert") ||
-                               options->sweep.skin > 0 || piped || options->recentre))
+                               options->sweep.slop > 0 || piped || options->recentre))
     return usage_error("--certificate",
                        "a file that ends in .cert; without --skin and --recentre, of files");
   for (int i = 0; i < 2 && options->certificate; i++)

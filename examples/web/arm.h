@@ -99,7 +99,7 @@ const nsvcd_mesh *EXPORT(arm_mesh)(size_t part) {
 const nsvcd_pose *EXPORT(arm_place)(double time) {
   double at[NSVCD_MAX_JOINTS];
   nsvcd_motion_at(&arm_way, arm_scene.joint_count, time, at);
-  nsvcd_checker_place(arm_checker, at, arm_poses);
+  nsvcd_forward_kinematics(arm_checker, at, arm_poses);
   return arm_poses;
 }
 

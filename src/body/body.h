@@ -18,10 +18,10 @@
 //                        zero
 //   x, y, z      (3, G), (3, H), (3, I)  float: if there are more than 32 groups, their sums over
 //                        the members of the spheres above
-//   tips         (P / 16, 8, 3, 16)  int8: eight points of each patch of a group of 16, from its
+//   extremes     (P / 16, 8, 3, 16)  int8: eight points of each patch of a group of 16, from its
 //                        centre in steps of r / 127; padding is zero
 //   latents      (N, NSVCD__LATENT)  int8, free of scale
-// and a body of triangles, for the proof, with what body/facets says. A body that has both is
+// and a body of triangles, for the proof, with what body/geometry says. A body that has both is
 // one of latents with one of triangles behind it, at `inner`: each part has spheres that suit it,
 // and patches have the same numbers in both. Each part ends in zeros up to a multiple of
 // NSVCD_ALIGNMENT.
@@ -125,8 +125,8 @@ static nsvcd__sphere nsvcd__body_sphere(const nsvcd_body *body) {
 }
 
 // The same place of a body that is being written.
-static void *nsvcd__writable(nsvcd_body *body, const void *place) {
-  return (char *)body + ((const char *)place - (const char *)body);
+static void *nsvcd__writable(nsvcd_body *body, const void *address) {
+  return (char *)body + ((const char *)address - (const char *)body);
 }
 
 // Spheres with their padding: of the patches and all levels.
@@ -154,7 +154,7 @@ static const float *nsvcd__body_areas(const nsvcd_body *body) {
 // Bytes of a body of latents up to these.
 static size_t nsvcd__latents_begin(size_t padded) {
   return nsvcd__spheres_size(padded) + 12 * nsvcd__area_slots(padded) +
-         3 * NSVCD__TIPS * padded;
+         3 * NSVCD__EXTREMES * padded;
 }
 
 #ifndef NSVCD_NO_NETWORK
@@ -164,9 +164,9 @@ static const float *nsvcd__level_areas(const nsvcd_body *body, nsvcd__level leve
   return nsvcd__body_areas(body) + level.first / 4 * 3;
 }
 // Of the 16 patches of a group: (TIPS, 3, 16).
-static const int8_t *nsvcd__group_tips(const nsvcd_body *body, size_t g) {
+static const int8_t *nsvcd__group_extremes(const nsvcd_body *body, size_t g) {
   const float *areas_end = nsvcd__body_areas(body) + 3 * nsvcd__area_slots(body->padded);
-  return (const int8_t *)areas_end + 3 * NSVCD__TIPS * NSVCD__GROUP * g;
+  return (const int8_t *)areas_end + 3 * NSVCD__EXTREMES * NSVCD__GROUP * g;
 }
 // (N, LATENT)
 static const int8_t *nsvcd__body_latents(const nsvcd_body *body) {
@@ -330,11 +330,11 @@ static nsvcd__sphere nsvcd__cover_spheres(nsvcd__spheres all, size_t count) {
       best.centre = centre;
       best.radius = reach;
     }
-    const nsvcd__f3 way = nsvcd__f3_sub(nsvcd__centre_of(all, farthest), centre);
+    const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__centre_of(all, farthest), centre);
     const float steps = (float)(step + 3);
-    centre.x += way.x / steps;
-    centre.y += way.y / steps;
-    centre.z += way.z / steps;
+    centre.x += offset.x / steps;
+    centre.y += offset.y / steps;
+    centre.z += offset.z / steps;
   }
   best.radius *= 1.000002f;
   return best;
@@ -377,8 +377,8 @@ static void nsvcd__body_finish(nsvcd_body *body) {
 
 // Are the area vectors of a body of latents in range?
 static int nsvcd__areas_are_sound(const nsvcd_body *body) {
-  return nsvcd__within(nsvcd__body_areas(body), 3 * nsvcd__area_slots(body->padded),
-                       NSVCD__MAX_LENGTH * NSVCD__MAX_LENGTH);
+  return nsvcd__in_range(nsvcd__body_areas(body), 3 * nsvcd__area_slots(body->padded),
+                         NSVCD__MAX_LENGTH * NSVCD__MAX_LENGTH);
 }
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_NETWORK)
@@ -388,7 +388,7 @@ typedef struct nsvcd__latents_source {
   const nsvcd__f3 *centres;  // (N)
   const float *radii;        // (N)
   const nsvcd__f3 *areas;    // (N)
-  const int8_t *tips;        // (N, TIPS, 3)
+  const int8_t *extremes;    // (N, TIPS, 3)
   const int8_t *latents;     // (N, LATENT)
   // (N) of the patches
   const uint16_t *order;
@@ -404,16 +404,16 @@ static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void 
   b->weights_id = NSVCD_WEIGHTS_ID;
   float *spheres = (float *)(b + 1);
   float *areas = (float *)nsvcd__writable(b, nsvcd__body_areas(b));
-  int8_t *tips = (int8_t *)nsvcd__writable(b, nsvcd__group_tips(b, 0));
+  int8_t *extremes = (int8_t *)nsvcd__writable(b, nsvcd__group_extremes(b, 0));
   int8_t *latents = (int8_t *)nsvcd__writable(b, nsvcd__body_latents(b));
   for (size_t i = 0; i < count; i++) {
     const size_t from = source->order[i];
     const nsvcd__sphere sphere = {source->centres[from], source->radii[from]};
     nsvcd__sphere_store(sphere, spheres, padded, i);
     nsvcd__f3_put(source->areas[from], areas + i, padded);
-    int8_t *group = tips + 3 * NSVCD__TIPS * (i - i % NSVCD__GROUP) + i % NSVCD__GROUP;
-    for (size_t k = 0; k < 3 * NSVCD__TIPS; k++)
-      group[NSVCD__GROUP * k] = source->tips[3 * NSVCD__TIPS * from + k];
+    int8_t *group = extremes + 3 * NSVCD__EXTREMES * (i - i % NSVCD__GROUP) + i % NSVCD__GROUP;
+    for (size_t k = 0; k < 3 * NSVCD__EXTREMES; k++)
+      group[NSVCD__GROUP * k] = source->extremes[3 * NSVCD__EXTREMES * from + k];
     memcpy(latents, source->latents + NSVCD__LATENT * from, NSVCD__LATENT);
     latents += NSVCD__LATENT;
   }
@@ -429,8 +429,8 @@ static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void 
     below = sums;
     stride = level.slots;
   }
-  int sound = nsvcd__within(spheres, 3 * padded, NSVCD_MAX_COORDINATE);
-  sound = sound && nsvcd__within(nsvcd__body_r(b), count, 4 * NSVCD_MAX_COORDINATE);
+  int sound = nsvcd__in_range(spheres, 3 * padded, NSVCD_MAX_COORDINATE);
+  sound = sound && nsvcd__in_range(nsvcd__body_r(b), count, 4 * NSVCD_MAX_COORDINATE);
   if (!sound || !nsvcd__areas_are_sound(b)) return NSVCD_ERROR_NUMBER;
   nsvcd__cover_level(b, 0, nsvcd__body_patches(b), count);
   nsvcd__body_finish(b);

@@ -23,12 +23,12 @@ typedef struct nsvcd__parts {
   // Of a body with latents, else empty:
   float *radii;      // (N)
   nsvcd__f3 *areas;  // (N)
-  int8_t *tips;      // (N, TIPS, 3)
+  int8_t *extremes;  // (N, TIPS, 3)
   int8_t *latents;   // (N, LATENT)
 #endif
 #ifndef NSVCD_NO_PROOF
   nsvcd__surface surface;
-  nsvcd__facets_source source;
+  nsvcd__geometry_source source;
 #endif
 } nsvcd__parts;
 
@@ -74,7 +74,8 @@ static nsvcd_result nsvcd__parts_add(nsvcd__parts *parts, nsvcd__regions *region
     const double wider = ((double)radius + margin) * (1 + 1e-7);
     parts->radii[to] = region.cut_count > 0 ? (float)wider : radius;
     parts->areas[to] = patches.area_vectors[i];
-    nsvcd__tips_of(&sorted, i, parts->radii[to], parts->tips + 3 * NSVCD__TIPS * to);
+    nsvcd__extremes_of(&sorted, i, parts->radii[to],
+                       parts->extremes + 3 * NSVCD__EXTREMES * to);
   }
 #endif
 #ifndef NSVCD_NO_PROOF
@@ -99,7 +100,7 @@ static nsvcd_result nsvcd__parts_of_runs(nsvcd__parts *parts) {
   nsvcd__curve curve;
   int ok = nsvcd__surface_begin(runs, mesh->vertex_count, parts->options->coarse,
                                 &parts->arena, surface);
-  ok = ok && nsvcd__curve_build(mesh, parts->options->round, &spare, &curve);
+  ok = ok && nsvcd__curve_build(mesh, parts->options->convex_radius, &spare, &curve);
   ok = ok && nsvcd__surface_room(surface, mesh->vertex_count, mesh->vertex_count, triangles);
   if (ok) surface->solids = curve.solids;
   nsvcd_result result = ok ? NSVCD_OK : NSVCD_ERROR_MEMORY;
@@ -141,7 +142,7 @@ static nsvcd_result nsvcd__parts_of_regions(nsvcd__parts *parts) {
   const size_t latents = options->latents ? patches : 0;
   parts->radii = NSVCD__TAKE(arena, float, latents);
   parts->areas = NSVCD__TAKE(arena, nsvcd__f3, latents);
-  parts->tips = NSVCD__TAKE(arena, int8_t, 3 * NSVCD__TIPS * latents);
+  parts->extremes = NSVCD__TAKE(arena, int8_t, 3 * NSVCD__EXTREMES * latents);
   parts->latents = NSVCD__TAKE(arena, int8_t, NSVCD__LATENT * latents);
 #endif
 #ifndef NSVCD_NO_PROOF
@@ -173,7 +174,7 @@ static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh,
   if (nsvcd__is_cancelled(options, 0)) return NSVCD_ERROR_CANCELLED;
   nsvcd_result result = NSVCD_OK;
 #ifndef NSVCD_NO_PROOF
-  parts->in_runs = options->round > 0 && nsvcd__has_points(mesh);
+  parts->in_runs = options->convex_radius > 0 && nsvcd__has_points(mesh);
   if (parts->in_runs) result = nsvcd__parts_of_runs(parts);
 #endif
   if (!parts->in_runs) result = nsvcd__parts_of_regions(parts);
@@ -182,12 +183,13 @@ static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh,
 #endif
 #ifndef NSVCD_NO_PROOF
   if (!result && !options->no_triangles) {
-    nsvcd__facets none;
+    nsvcd__geometry none;
     parts->source.surface = &parts->surface;
     parts->source.mesh = mesh;
-    if (!nsvcd__facets_count(&parts->source, &parts->arena)) result = NSVCD_ERROR_MEMORY;
-    parts->source.counts.round = options->round;
-    parts->facets_size = nsvcd__facets_lay(NULL, parts->count, &parts->source.counts, &none);
+    if (!nsvcd__geometry_count(&parts->source, &parts->arena)) result = NSVCD_ERROR_MEMORY;
+    parts->source.counts.convex_radius = options->convex_radius;
+    parts->facets_size =
+        nsvcd__geometry_layout(NULL, parts->count, &parts->source.counts, &none);
     if (!result && !parts->facets_size) result = NSVCD_ERROR_TOO_LARGE;
   }
 #endif
@@ -215,7 +217,7 @@ static nsvcd_result nsvcd__parts_write(nsvcd__parts *parts, void *memory) {
     source.centres = parts->centres;
     source.radii = parts->radii;
     source.areas = parts->areas;
-    source.tips = parts->tips;
+    source.extremes = parts->extremes;
     source.latents = parts->latents;
     source.order = order;
     source.open = open;
@@ -225,7 +227,7 @@ static nsvcd_result nsvcd__parts_write(nsvcd__parts *parts, void *memory) {
 #ifndef NSVCD_NO_PROOF
   if (!result && parts->facets_size) {
     void *to = (char *)memory + parts->latents_size;
-    result = nsvcd__facets_build(&parts->source, order, open, to, parts->facets_size);
+    result = nsvcd__geometry_build(&parts->source, order, open, to, parts->facets_size);
   }
 #endif
   if (result || !parts->latents_size || !parts->facets_size) return result;
@@ -269,19 +271,19 @@ static nsvcd_result nsvcd__encode_resolve(const nsvcd_mesh *mesh, nsvcd_encode_o
 #endif
   if (!nsvcd__is_finite(o->patch_radius)) return NSVCD_ERROR_PATCHES;
   if (o->patch_radius < 0) return NSVCD_ERROR_PATCHES;
-  if (!nsvcd__within(&o->round, 1, NSVCD_MAX_COORDINATE) || o->round < 0)
+  if (!nsvcd__in_range(&o->convex_radius, 1, NSVCD_MAX_COORDINATE) || o->convex_radius < 0)
     return NSVCD_ERROR_RADIUS;
-  if (o->round > 0 && o->latents) return NSVCD_ERROR_LATENTS;
+  if (o->convex_radius > 0 && o->latents) return NSVCD_ERROR_LATENTS;
   if (o->patches > NSVCD_MAX_PATCHES) return NSVCD_ERROR_PATCHES;
   const nsvcd_result checked = mesh->indices ? nsvcd__mesh_check(mesh) : NSVCD_OK;
   if (checked) return checked;
 #ifndef NSVCD_NO_PROOF
-  if (o->patches == 0 && o->round > 0 && nsvcd__has_points(mesh))
+  if (o->patches == 0 && o->convex_radius > 0 && nsvcd__has_points(mesh))
     o->patches = nsvcd__runs_for(mesh);
 #endif
-  if (o->patches > 0 && o->round > 0) return NSVCD_OK;
+  if (o->patches > 0 && o->convex_radius > 0) return NSVCD_OK;
   const double area = nsvcd__mesh_area(mesh);
-  if (!(area > 0) && !(o->round > 0)) return NSVCD_ERROR_EMPTY;
+  if (!(area > 0) && !(o->convex_radius > 0)) return NSVCD_ERROR_EMPTY;
   if (o->patches == 0)
     o->patches = nsvcd__patches_for(mesh, o->patch_radius, area, !o->no_triangles);
   return NSVCD_OK;

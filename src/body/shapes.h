@@ -4,12 +4,12 @@
 #include "encode.h"
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
-static nsvcd_result nsvcd__encode_round(const nsvcd_mesh *mesh, float round,
-                                        const nsvcd_allocator *allocator,
-                                        const nsvcd_body **body) {
+static nsvcd_result nsvcd__encode_rounded(const nsvcd_mesh *mesh, float convex_radius,
+                                          const nsvcd_allocator *allocator,
+                                          const nsvcd_body **body) {
   nsvcd_encode_options options;
   memset(&options, 0, sizeof options);
-  options.round = round;
+  options.convex_radius = convex_radius;
   return nsvcd__encode_mesh(mesh, &options, allocator, NULL, 0, body);
 }
 
@@ -19,7 +19,7 @@ NSVCDDEF nsvcd_result nsvcd_encode_sphere(float radius, const nsvcd_allocator *a
   uint32_t point[3] = {0, 0, 0};
   const nsvcd_mesh mesh = {centre, point, 1, 1};
   if (!(radius > 0)) return NSVCD_ERROR_RADIUS;
-  return nsvcd__encode_round(&mesh, radius, allocator, body);
+  return nsvcd__encode_rounded(&mesh, radius, allocator, body);
 }
 
 NSVCDDEF nsvcd_result nsvcd_encode_capsule(const float from[3], const float to[3],
@@ -32,10 +32,10 @@ NSVCDDEF nsvcd_result nsvcd_encode_capsule(const float from[3], const float to[3
   if (!(radius > 0)) return NSVCD_ERROR_RADIUS;
   memcpy(ends, from, 3 * sizeof *from);
   memcpy(ends + 3, to, 3 * sizeof *to);
-  return nsvcd__encode_round(&mesh, radius, allocator, body);
+  return nsvcd__encode_rounded(&mesh, radius, allocator, body);
 }
 
-NSVCDDEF nsvcd_result nsvcd_encode_box(const float half[3], float round,
+NSVCDDEF nsvcd_result nsvcd_encode_box(const float half[3], float convex_radius,
                                        const nsvcd_allocator *allocator,
                                        const nsvcd_body **body) {
   // corner n is on the far side of axis k if bit k of n is set
@@ -44,13 +44,13 @@ NSVCDDEF nsvcd_result nsvcd_encode_box(const float half[3], float round,
   float corners[24];
   const nsvcd_mesh mesh = {corners, faces, 8, 12};
   if (!half) return NSVCD_ERROR_ARGUMENT;
-  if (!(round >= 0)) return NSVCD_ERROR_RADIUS;
+  if (!(convex_radius >= 0)) return NSVCD_ERROR_RADIUS;
   for (size_t k = 0; k < 3; k++) {
-    if (!(half[k] > 0) || !(half[k] >= round)) return NSVCD_ERROR_RADIUS;
+    if (!(half[k] > 0) || !(half[k] >= convex_radius)) return NSVCD_ERROR_RADIUS;
     for (size_t n = 0; n < 8; n++)
-      corners[3 * n + k] = n >> k & 1 ? half[k] - round : round - half[k];
+      corners[3 * n + k] = n >> k & 1 ? half[k] - convex_radius : convex_radius - half[k];
   }
-  return nsvcd__encode_round(&mesh, round, allocator, body);
+  return nsvcd__encode_rounded(&mesh, convex_radius, allocator, body);
 }
 
 NSVCDDEF nsvcd_result nsvcd_encode_cloud(const float *points, size_t count, float radius,
@@ -61,9 +61,9 @@ NSVCDDEF nsvcd_result nsvcd_encode_cloud(const float *points, size_t count, floa
   if (!(radius > 0)) return NSVCD_ERROR_RADIUS;
   if (count == 0) return NSVCD_ERROR_EMPTY;
   if (count > NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
-  if (!nsvcd__within(points, 3 * count, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_NUMBER;
+  if (!nsvcd__in_range(points, 3 * count, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_NUMBER;
   // a cast would take away a const; nothing is written
   memcpy(&mesh.positions, &points, sizeof points);
-  return nsvcd__encode_round(&mesh, radius, allocator, body);
+  return nsvcd__encode_rounded(&mesh, radius, allocator, body);
 }
 #endif

@@ -1,7 +1,7 @@
 // In: bytes that somebody hands over. Out: a body, if all in it is as nsvcd_encode would have it,
 // or could have it.
 #pragma once
-#include "facets.h"
+#include "geometry.h"
 
 // ---- the spheres, with which both kinds of bodies begin
 
@@ -14,9 +14,9 @@ static int nsvcd__covers(nsvcd__sphere sphere, nsvcd__spheres all, size_t count)
 // Are the first `count` of (4, slots) spheres finite and within bounds, their radii not negative,
 // and the others exactly what padding is? most: of the coordinates.
 static int nsvcd__are_spheres(nsvcd__spheres all, size_t count, size_t slots, float most) {
-  if (!nsvcd__within(all.x, 3 * slots, most)) return 0;
-  if (!nsvcd__within(all.r, count, NSVCD__MAX_LENGTH)) return 0;
-  if (!nsvcd__within(all.r, slots, -NSVCD__NOWHERE)) return 0;
+  if (!nsvcd__in_range(all.x, 3 * slots, most)) return 0;
+  if (!nsvcd__in_range(all.r, count, NSVCD__MAX_LENGTH)) return 0;
+  if (!nsvcd__in_range(all.r, slots, -NSVCD__NOWHERE)) return 0;
   for (size_t i = 0; i < count; i++) {
     if (all.r[i] < 0) return 0;
   }
@@ -44,9 +44,9 @@ static int nsvcd__spheres_are_sound(const nsvcd_body *b) {
   const nsvcd__spheres patches = nsvcd__body_patches(b);
   const nsvcd__sphere about_origin = {nsvcd__f3_of(0, 0, 0), b->extent};
   if (!nsvcd__are_spheres(patches, b->patches, b->padded, NSVCD_MAX_COORDINATE)) return 0;
-  if (!nsvcd__within(b->centre, 3, NSVCD__MAX_LENGTH)) return 0;
-  if (!nsvcd__within(&b->radius, 1, NSVCD__MAX_LENGTH)) return 0;
-  if (!nsvcd__within(&b->extent, 1, NSVCD__MAX_LENGTH)) return 0;
+  if (!nsvcd__in_range(b->centre, 3, NSVCD__MAX_LENGTH)) return 0;
+  if (!nsvcd__in_range(&b->radius, 1, NSVCD__MAX_LENGTH)) return 0;
+  if (!nsvcd__in_range(&b->extent, 1, NSVCD__MAX_LENGTH)) return 0;
   if (b->radius < 0) return 0;
   const nsvcd__spheres groups = nsvcd__groups_of(b);
   nsvcd__spheres below = groups;
@@ -79,13 +79,13 @@ static int nsvcd__spheres_fit(const nsvcd_body *b, float radius, float scale) {
 }
 
 #ifndef NSVCD_NO_NETWORK
-// Are tips in range, and is their padding zero?
-static int nsvcd__tips_are_sound(const nsvcd_body *b) {
-  const int8_t *tips = nsvcd__group_tips(b, 0);
-  for (size_t n = 0; n < (size_t)3 * NSVCD__TIPS * b->padded; n++) {
-    const size_t group = n / (3 * NSVCD__TIPS * NSVCD__GROUP);
+// Are extremes in range, and is their padding zero?
+static int nsvcd__extremes_are_sound(const nsvcd_body *b) {
+  const int8_t *extremes = nsvcd__group_extremes(b, 0);
+  for (size_t n = 0; n < (size_t)3 * NSVCD__EXTREMES * b->padded; n++) {
+    const size_t group = n / (3 * NSVCD__EXTREMES * NSVCD__GROUP);
     const int exists = NSVCD__GROUP * group + n % NSVCD__GROUP < b->patches;
-    if (tips[n] == -128 || (!exists && tips[n] != 0)) return 0;
+    if (extremes[n] == -128 || (!exists && extremes[n] != 0)) return 0;
   }
   return 1;
 }
@@ -95,13 +95,13 @@ static int nsvcd__tips_are_sound(const nsvcd_body *b) {
 
 #ifndef NSVCD_NO_PROOF
 // Are counts and indices of a patch right? Those of the patches before it are.
-static int nsvcd__patch_is_laid_out(const nsvcd__facets *f, size_t i) {
+static int nsvcd__patch_is_laid_out(const nsvcd__geometry *f, size_t i) {
   const uint32_t *vertex = f->first_vertex + i;
   const uint32_t *own = f->first_own + i;
   const uint32_t *reference = f->first_reference + i;
   const uint32_t *triangle = f->first_triangle + i;
   if (vertex[1] < vertex[0] || vertex[1] > f->vertex_count) return 0;
-  if (own[1] < own[0] || own[1] > f->place_count) return 0;
+  if (own[1] < own[0] || own[1] > f->position_count) return 0;
   if (reference[1] < reference[0] || reference[1] > f->reference_count) return 0;
   if (triangle[1] < triangle[0] || triangle[1] > f->listed) return 0;
   const nsvcd__patch_points points = nsvcd__points_of(f, i);
@@ -113,13 +113,14 @@ static int nsvcd__patch_is_laid_out(const nsvcd__facets *f, size_t i) {
 
   const uint64_t corners = (uint64_t)3 * triangles * nsvcd__corner_bytes(points.all);
   const uint64_t corners_end = f->first_byte[i] + corners;
-  if (corners_end > f->first_byte[i + 1] || f->first_byte[i + 1] > f->listings_size) return 0;
+  if (corners_end > f->first_byte[i + 1] || f->first_byte[i + 1] > f->triangle_codes_size)
+    return 0;
   for (size_t n = 0; n < 3 * triangles; n++) {
-    if (nsvcd__facet_corner(f, i, triangle[0] + n / 3, n % 3) >= points.all) return 0;
+    if (nsvcd__triangle_corner(f, i, triangle[0] + n / 3, n % 3) >= points.all) return 0;
   }
   // Behind them are just as many codes, and all of triangles that there are.
-  const unsigned char *at = f->listings + (size_t)corners_end;
-  const unsigned char *end = f->listings + f->first_byte[i + 1];
+  const unsigned char *at = f->triangle_codes + (size_t)corners_end;
+  const unsigned char *end = f->triangle_codes + f->first_byte[i + 1];
   uint32_t number = 0;
   for (size_t n = 0; n < triangles; n++) {
     const size_t left = (size_t)(end - at);
@@ -135,13 +136,13 @@ static int nsvcd__patch_is_laid_out(const nsvcd__facets *f, size_t i) {
 
 #ifndef NSVCD_NO_PROOF
 // Are all numbers of vertices, and of triangles that are listed in pieces, of some that there are?
-static int nsvcd__numbers_are_sound(const nsvcd__facets *f) {
+static int nsvcd__numbers_are_sound(const nsvcd__geometry *f) {
   for (size_t n = 0; n < f->reference_count; n++)
-    if (nsvcd__reference_at(f, n) >= f->place_count) return 0;
+    if (nsvcd__reference_at(f, n) >= f->position_count) return 0;
   for (size_t n = 0; n < f->cut_count; n++) {
     if (f->cut[n] >= f->body->triangles || (n > 0 && f->cut[n] <= f->cut[n - 1])) return 0;
     for (size_t k = 0; k < 3; k++)
-      if (f->cut_corners[3 * n + k] >= f->place_count) return 0;
+      if (f->cut_corners[3 * n + k] >= f->position_count) return 0;
   }
   return 1;
 }
@@ -169,17 +170,19 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
   const size_t padded = b->padded;
   const size_t groups = nsvcd__body_groups(b);
   const size_t slots = nsvcd__group_slots(padded);
-  const nsvcd__facet_counts *counts = nsvcd__counts_of(b);
+  const nsvcd__geometry_counts *counts = nsvcd__counts_of(b);
   if (nsvcd__spheres_size(padded) + sizeof *counts > size) return 0;
   if (b->triangles == 0) return 0;
   if (counts->open_solids > counts->solids || counts->is_mixed > 1) return 0;
-  if (!nsvcd__within(&counts->gap, 1, NSVCD_MAX_COORDINATE) || counts->gap < 0) return 0;
-  if (!nsvcd__within(&counts->round, 1, NSVCD_MAX_COORDINATE) || counts->round < 0) return 0;
-  if (b->radius + counts->round < NSVCD_MIN_RADIUS) return 0;
-  nsvcd__facets f;
-  if (b->size != nsvcd__facets_lay(NULL, patches, counts, &f) || b->size > size) return 0;
+  if (!nsvcd__in_range(&counts->gap, 1, NSVCD_MAX_COORDINATE) || counts->gap < 0) return 0;
+  if (!nsvcd__in_range(&counts->convex_radius, 1, NSVCD_MAX_COORDINATE) ||
+      counts->convex_radius < 0)
+    return 0;
+  if (b->radius + counts->convex_radius < NSVCD_MIN_RADIUS) return 0;
+  nsvcd__geometry f;
+  if (b->size != nsvcd__geometry_layout(NULL, patches, counts, &f) || b->size > size) return 0;
 
-  f = nsvcd__facets_of(b);
+  f = nsvcd__geometry_of(b);
   if (f.first_vertex[0] != 0 || f.first_triangle[0] != 0) return 0;
   if (f.first_own[0] != 0 || f.first_reference[0] != 0) return 0;
   if (f.first_byte[0] != 0 || f.first_seed[0] != 0) return 0;
@@ -191,7 +194,7 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
   }
   if (f.first_vertex[patches] != f.vertex_count || f.first_triangle[patches] != f.listed)
     return 0;
-  if (f.first_byte[patches] != f.listings_size || f.first_seed[groups] != f.components)
+  if (f.first_byte[patches] != f.triangle_codes_size || f.first_seed[groups] != f.components)
     return 0;
   if (f.first_reference[patches] != f.reference_count || !nsvcd__numbers_are_sound(&f))
     return 0;
@@ -205,20 +208,20 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
   }
 
   const float most = NSVCD__MAX_LENGTH;
-  if (!nsvcd__within(f.box, NSVCD__FACET_BOX, most)) return 0;
-  if (!nsvcd__within(f.discs, 3 * padded, 1.000001f)) return 0;
-  if (!nsvcd__within(f.discs + 3 * padded, 3 * padded, most)) return 0;
-  if (!nsvcd__within(f.group_discs, 3 * slots, 1.000001f)) return 0;
-  if (!nsvcd__within(f.group_discs + 3 * slots, 3 * slots, most)) return 0;
-  if (!nsvcd__within(f.steps, padded, most / 32768)) return 0;
-  if (!nsvcd__within(f.slacks, padded, most)) return 0;
-  if (!nsvcd__within(f.quanta, padded, most)) return 0;
-  if (!nsvcd__within(f.seeds, 3 * f.components, most)) return 0;
-  if (!nsvcd__within(f.places, 3 * f.place_count, most) || f.box[7] < 0) return 0;
+  if (!nsvcd__in_range(f.box, NSVCD__GEOMETRY_BOX, most)) return 0;
+  if (!nsvcd__in_range(f.slabs, 3 * padded, 1.000001f)) return 0;
+  if (!nsvcd__in_range(f.slabs + 3 * padded, 3 * padded, most)) return 0;
+  if (!nsvcd__in_range(f.group_slabs, 3 * slots, 1.000001f)) return 0;
+  if (!nsvcd__in_range(f.group_slabs + 3 * slots, 3 * slots, most)) return 0;
+  if (!nsvcd__in_range(f.steps, padded, most / 32768)) return 0;
+  if (!nsvcd__in_range(f.margins, padded, most)) return 0;
+  if (!nsvcd__in_range(f.errors, padded, most)) return 0;
+  if (!nsvcd__in_range(f.seeds, 3 * f.components, most)) return 0;
+  if (!nsvcd__in_range(f.positions, 3 * f.position_count, most) || f.box[7] < 0) return 0;
   for (size_t i = 0; i < padded; i++) {
-    const nsvcd__disc disc = nsvcd__disc_at(f.discs, padded, i);
-    if (disc.across < 0 || f.steps[i] < 0 || f.slacks[i] < 0 || f.quanta[i] < 0) return 0;
-    if (f.quanta[i] > nsvcd__widest_quantum(&f)) return 0;
+    const nsvcd__slab slab = nsvcd__slab_at(f.slabs, padded, i);
+    if (slab.across < 0 || f.steps[i] < 0 || f.margins[i] < 0 || f.errors[i] < 0) return 0;
+    if (f.errors[i] > nsvcd__widest_quantization(&f)) return 0;
   }
 #else
   (void)b;
@@ -243,7 +246,7 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
 #ifndef NSVCD_NO_NETWORK
   if (b->weights_id != NSVCD_WEIGHTS_ID) return 0;
   const size_t latents = nsvcd_body_size(b->patches);
-  if (b->size < latents || !nsvcd__tips_are_sound(b)) return 0;
+  if (b->size < latents || !nsvcd__extremes_are_sound(b)) return 0;
   if (b->inner == 0) return b->size == latents && b->triangles == 0;
   if (b->inner != latents) return 0;
 #else
@@ -313,43 +316,43 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
     return;
   }
 #ifndef NSVCD_NO_PROOF
-  // What rounding does to a vertex, and to how round the body is, goes to the slacks and quanta,
-  // and is what the vertices are off by.
-  const nsvcd__facets f = nsvcd__facets_of(b);
+  // What rounding does to a vertex, and to how round the body is, goes to the margins and
+  // quantization errors, and is what the vertices are off by.
+  const nsvcd__geometry f = nsvcd__geometry_of(b);
   const double by = (double)scale;
-  float *round = (float *)nsvcd__writable(b, &nsvcd__counts_of(b)->round);
-  const double exact = (double)*round * by;
-  *round *= scale;
-  const double off = fabs(exact - (double)*round);
+  float *convex_radius = (float *)nsvcd__writable(b, &nsvcd__counts_of(b)->convex_radius);
+  const double exact = (double)*convex_radius * by;
+  *convex_radius *= scale;
+  const double off = fabs(exact - (double)*convex_radius);
   float *gap = (float *)nsvcd__writable(b, &nsvcd__counts_of(b)->gap);
   if (*gap > 0) *gap = nsvcd__above((double)*gap * by);
-  float *discs = (float *)nsvcd__writable(b, f.discs);
+  float *slabs = (float *)nsvcd__writable(b, f.slabs);
   float *steps = (float *)nsvcd__writable(b, f.steps);
-  float *slacks = (float *)nsvcd__writable(b, f.slacks);
-  float *quanta = (float *)nsvcd__writable(b, f.quanta);
+  float *margins = (float *)nsvcd__writable(b, f.margins);
+  float *errors = (float *)nsvcd__writable(b, f.errors);
   float *seeds = (float *)nsvcd__writable(b, f.seeds);
-  float *places = (float *)nsvcd__writable(b, f.places);
+  float *positions = (float *)nsvcd__writable(b, f.positions);
   double worst = off;
-  for (size_t i = 0; i < 3 * f.place_count; i++) {
-    const double whole = (double)places[i] * by;
-    places[i] *= scale;
-    worst = nsvcd__max(worst, 1.8 * fabs(whole - (double)places[i]) + off);
+  for (size_t i = 0; i < 3 * f.position_count; i++) {
+    const double whole = (double)positions[i] * by;
+    positions[i] *= scale;
+    worst = nsvcd__max(worst, 1.8 * fabs(whole - (double)positions[i]) + off);
   }
   const double off_mesh = worst + (double)nsvcd__off_mesh(&f) * by;
   for (size_t i = 0; i < b->patches; i++) {
-    const double distance = (double)nsvcd__f3_length(nsvcd__facet_centre(&f, i));
-    nsvcd__disc disc = nsvcd__disc_at(f.discs, padded, i);
+    const double distance = (double)nsvcd__f3_length(nsvcd__patch_centre(&f, i));
+    nsvcd__slab slab = nsvcd__slab_at(f.slabs, padded, i);
     steps[i] *= scale;
     const double rounding = 2e-7 * (distance + 6e4 * (double)steps[i]) + off;
-    slacks[i] = nsvcd__above((double)slacks[i] * by + rounding);
-    quanta[i] = nsvcd__above((double)quanta[i] * by + rounding + worst);
-    disc.low = (float)((double)disc.low * by - rounding);
-    disc.high = (float)((double)disc.high * by + rounding);
-    disc.across = nsvcd__above((double)disc.across * by + rounding);
-    nsvcd__disc_store(disc, discs, padded, i);
+    margins[i] = nsvcd__above((double)margins[i] * by + rounding);
+    errors[i] = nsvcd__above((double)errors[i] * by + rounding + worst);
+    slab.low = (float)((double)slab.low * by - rounding);
+    slab.high = (float)((double)slab.high * by + rounding);
+    slab.across = nsvcd__above((double)slab.across * by + rounding);
+    nsvcd__slab_store(slab, slabs, padded, i);
   }
   for (size_t i = 0; i < 3 * f.components; i++) seeds[i] *= scale;
-  nsvcd__facets_finish(b, off_mesh > 0 ? nsvcd__above(off_mesh) : 0);
+  nsvcd__geometry_finish(b, off_mesh > 0 ? nsvcd__above(off_mesh) : 0);
 #endif
 }
 
@@ -403,13 +406,13 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
 #ifndef NSVCD_NO_PROOF
   const nsvcd_body *triangles = nsvcd__triangles_of(body);
   if (triangles) {
-    const nsvcd__facets f = nsvcd__facets_of(triangles);
+    const nsvcd__geometry f = nsvcd__geometry_of(triangles);
     facts.triangles = triangles->triangles;
-    facts.listings = f.listed;
+    facts.stored_triangles = f.listed;
     memcpy(facts.low, f.box, sizeof facts.low);
     memcpy(facts.high, f.box + 3, sizeof facts.high);
-    facts.quantum = nsvcd__off_mesh(&f);
-    facts.round = f.round;
+    facts.quantization_error = nsvcd__off_mesh(&f);
+    facts.convex_radius = f.convex_radius;
     facts.components = nsvcd__counts_of(triangles)->solids;
     facts.open_components = nsvcd__counts_of(triangles)->open_solids;
     facts.open_edges = nsvcd__counts_of(triangles)->open_edges;

@@ -1,6 +1,6 @@
-// In: a surface, and the mesh it is of. Out: the body of triangles that body/facets reads.
+// In: a surface, and the mesh it is of. Out: the body of triangles that body/geometry reads.
 #pragma once
-#include "facets.h"
+#include "geometry.h"
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
 // Writes the numbers of patch i as codes; NULL: only counts their bytes. Returns how many.
@@ -23,15 +23,15 @@ static size_t nsvcd__numbers_write(const nsvcd__surface *s, size_t i, unsigned c
 }
 
 // What a body of triangles is written from.
-typedef struct nsvcd__facets_source {
+typedef struct nsvcd__geometry_source {
   nsvcd__surface *surface;
   const nsvcd_mesh *mesh;
   // (vertices of the mesh) the number of each in the body, from 1; 0: none yet
   uint32_t *numbers;
   // (triangles) 1: listed in pieces
   uint8_t *cut;
-  nsvcd__facet_counts counts;
-} nsvcd__facets_source;
+  nsvcd__geometry_counts counts;
+} nsvcd__geometry_source;
 
 static size_t nsvcd__source_corner(const nsvcd_mesh *mesh, size_t t, size_t k) {
   return mesh->indices ? mesh->indices[3 * t + k] : t;
@@ -39,10 +39,10 @@ static size_t nsvcd__source_corner(const nsvcd_mesh *mesh, size_t t, size_t k) {
 
 // Counts all that the body of a surface is to have, which is all there: fills in the source. 0
 // without memory.
-static int nsvcd__facets_count(nsvcd__facets_source *source, nsvcd__arena *arena) {
+static int nsvcd__geometry_count(nsvcd__geometry_source *source, nsvcd__arena *arena) {
   const nsvcd__surface *s = source->surface;
   const nsvcd_mesh *mesh = source->mesh;
-  nsvcd__facet_counts *counts = &source->counts;
+  nsvcd__geometry_counts *counts = &source->counts;
   source->numbers = NSVCD__TAKE(arena, uint32_t, s->coarse ? 0 : mesh->vertex_count);
   source->cut = NSVCD__TAKE(arena, uint8_t, s->coarse ? 0 : mesh->triangle_count);
   if (arena->failed) return 0;
@@ -70,37 +70,38 @@ static int nsvcd__facets_count(nsvcd__facets_source *source, nsvcd__arena *arena
       if (s->corners[n] < stored) source->cut[s->ids[n / 3] & NSVCD__NUMBER] = 1;
   }
   for (size_t n = 0; n < s->named_count; n++) {
-    counts->places += !source->numbers[s->named[n]];
+    counts->positions += !source->numbers[s->named[n]];
     source->numbers[s->named[n]] = 1;
   }
-  counts->references = (uint32_t)s->named_count - counts->places;
+  counts->references = (uint32_t)s->named_count - counts->positions;
   for (size_t n = 0; n < 3 * mesh->triangle_count && !s->coarse; n++) {
     if (!source->cut[n / 3]) continue;
     const size_t v = nsvcd__source_corner(mesh, n / 3, n % 3);
-    counts->places += !source->numbers[v];
+    counts->positions += !source->numbers[v];
     source->numbers[v] = 1;
     counts->cut += n % 3 == 0;
   }
   if (!s->coarse) memset(source->numbers, 0, mesh->vertex_count * sizeof *source->numbers);
   // then the body is refused as too large
-  counts->listings_size = bytes < 0xffffffffu ? (uint32_t)bytes : 0xffffffffu;
+  counts->triangle_codes_size = bytes < 0xffffffffu ? (uint32_t)bytes : 0xffffffffu;
   return 1;
 }
 
 // Gives a vertex the next number, and its place in the body. Returns the number, from 0.
-static uint32_t nsvcd__place_write(nsvcd__facets_source *source, nsvcd_body *b,
-                                   const nsvcd__facets *f, size_t vertex, uint32_t *count) {
-  float *places = (float *)nsvcd__writable(b, f->places);
+static uint32_t nsvcd__position_write(nsvcd__geometry_source *source, nsvcd_body *b,
+                                      const nsvcd__geometry *f, size_t vertex,
+                                      uint32_t *count) {
+  float *positions = (float *)nsvcd__writable(b, f->positions);
   const float *from = source->mesh->positions + 3 * vertex;
-  memcpy(places + 3 * (size_t)*count, from, 3 * sizeof *places);
+  memcpy(positions + 3 * (size_t)*count, from, 3 * sizeof *positions);
   source->numbers[vertex] = ++*count;
   return *count - 1;
 }
 
 // Writes the places and references of patch `to`, from patch `from` of a surface, whose names
 // become numbers in the body's patch.
-static void nsvcd__named_write(nsvcd__facets_source *source, size_t from, nsvcd_body *b,
-                               const nsvcd__facets *f, size_t to) {
+static void nsvcd__named_write(nsvcd__geometry_source *source, size_t from, nsvcd_body *b,
+                               const nsvcd__geometry *f, size_t to) {
   nsvcd__surface *s = source->surface;
   uint32_t *first_own = (uint32_t *)nsvcd__writable(b, f->first_own + to);
   uint32_t *first_reference = (uint32_t *)nsvcd__writable(b, f->first_reference + to);
@@ -116,7 +117,7 @@ static void nsvcd__named_write(nsvcd__facets_source *source, size_t from, nsvcd_
   for (size_t n = 0; n < count; n++) {
     const uint32_t number = source->numbers[named[n]];
     if (!number) {
-      (void)nsvcd__place_write(source, b, f, named[n], &first_own[1]);
+      (void)nsvcd__position_write(source, b, f, named[n], &first_own[1]);
       named[n] = own++;
       continue;
     }
@@ -130,8 +131,8 @@ static void nsvcd__named_write(nsvcd__facets_source *source, size_t from, nsvcd_
 }
 
 // Writes the triangles that are listed in pieces, once all patches are written.
-static void nsvcd__cut_write(nsvcd__facets_source *source, nsvcd_body *b,
-                             const nsvcd__facets *f) {
+static void nsvcd__cut_write(nsvcd__geometry_source *source, nsvcd_body *b,
+                             const nsvcd__geometry *f) {
   const nsvcd_mesh *mesh = source->mesh;
   uint32_t *cut = (uint32_t *)nsvcd__writable(b, f->cut);
   uint32_t *corners = (uint32_t *)nsvcd__writable(b, f->cut_corners);
@@ -142,23 +143,23 @@ static void nsvcd__cut_write(nsvcd__facets_source *source, nsvcd_body *b,
     for (size_t k = 0; k < 3; k++) {
       const size_t v = nsvcd__source_corner(mesh, t, k);
       const uint32_t known = source->numbers[v];
-      *corners++ = known ? known - 1 : nsvcd__place_write(source, b, f, v, &count);
+      *corners++ = known ? known - 1 : nsvcd__position_write(source, b, f, v, &count);
     }
   }
 }
 
 // Writes patch `to`, from patch `from` of a surface. One without surface is a point.
-static void nsvcd__patch_write(nsvcd__facets_source *source, size_t from, nsvcd_body *b,
-                               nsvcd__facets f, size_t to) {
+static void nsvcd__patch_write(nsvcd__geometry_source *source, size_t from, nsvcd_body *b,
+                               nsvcd__geometry f, size_t to) {
   const nsvcd__surface *s = source->surface;
   const size_t padded = b->padded;
   nsvcd__sphere ball = s->balls[from];
   if (s->hull_counts[from] == 0) ball.radius = 0;
   nsvcd__sphere_store(ball, (float *)(b + 1), padded, to);
-  nsvcd__disc_store(s->discs[from], (float *)nsvcd__writable(b, f.discs), padded, to);
+  nsvcd__slab_store(s->slabs[from], (float *)nsvcd__writable(b, f.slabs), padded, to);
   *(float *)nsvcd__writable(b, f.steps + to) = s->steps[from];
-  *(float *)nsvcd__writable(b, f.slacks + to) = s->slacks[from];
-  *(float *)nsvcd__writable(b, f.quanta + to) = s->quanta[from];
+  *(float *)nsvcd__writable(b, f.margins + to) = s->margins[from];
+  *(float *)nsvcd__writable(b, f.errors + to) = s->errors[from];
   *(uint8_t *)nsvcd__writable(b, f.hull_counts + to) = s->hull_counts[from];
 
   const size_t vertex = s->first_vertex[from];
@@ -170,7 +171,7 @@ static void nsvcd__patch_write(nsvcd__facets_source *source, size_t from, nsvcd_
   uint32_t *first_byte = (uint32_t *)nsvcd__writable(b, f.first_byte + to);
   void *integers = nsvcd__writable(b, f.vertices + 3 * (size_t)first_vertex[0]);
   memcpy(integers, s->vertices + 3 * vertex, 6 * vertices);
-  unsigned char *begin = (unsigned char *)nsvcd__writable(b, f.listings + first_byte[0]);
+  unsigned char *begin = (unsigned char *)nsvcd__writable(b, f.triangle_codes + first_byte[0]);
   unsigned char *at = begin;
   nsvcd__named_write(source, from, b, &f, to);
   const uint32_t *named = s->named + s->first_named[from];
@@ -191,45 +192,46 @@ static void nsvcd__patch_write(nsvcd__facets_source *source, size_t from, nsvcd_
 
 // Writes the seeds of a body of triangles, group by group (counting sort). order: of the patches.
 static void nsvcd__seeds_write(const nsvcd__surface *s, const uint16_t *order, nsvcd_body *b) {
-  const nsvcd__facets f = nsvcd__facets_of(b);
+  const nsvcd__geometry f = nsvcd__geometry_of(b);
   uint32_t *first_seed = (uint32_t *)nsvcd__writable(b, f.first_seed);
   float *seeds = (float *)nsvcd__writable(b, f.seeds);
   // Until the body is whole, the places of patches are kept where their first vertices will be.
-  uint32_t *places = (uint32_t *)nsvcd__writable(b, f.first_vertex);
+  uint32_t *positions = (uint32_t *)nsvcd__writable(b, f.first_vertex);
   const size_t groups = nsvcd__body_groups(b);
-  for (size_t i = 0; i < b->patches; i++) places[order[i]] = (uint32_t)i;
+  for (size_t i = 0; i < b->patches; i++) positions[order[i]] = (uint32_t)i;
   for (size_t n = 0; n < s->seed_count; n++) {
-    const size_t g = places[s->seed_patches[n]] / NSVCD__GROUP;
+    const size_t g = positions[s->seed_patches[n]] / NSVCD__GROUP;
     first_seed[g + 1]++;
   }
   for (size_t g = 0; g < groups; g++) first_seed[g + 1] += first_seed[g];
   for (size_t n = s->seed_count; n-- > 0;) {
-    const size_t g = places[s->seed_patches[n]] / NSVCD__GROUP;
+    const size_t g = positions[s->seed_patches[n]] / NSVCD__GROUP;
     const size_t to = --first_seed[g + 1];
     nsvcd__f3_store(s->seeds[n], seeds + 3 * to);
   }
   // Now first_seed[g + 1] is where group g begins.
   memmove(first_seed, first_seed + 1, groups * sizeof *first_seed);
   first_seed[groups] = (uint32_t)s->seed_count;
-  memset(places, 0, b->patches * sizeof *places);
+  memset(positions, 0, b->patches * sizeof *positions);
 }
 
 // Builds a body of triangles of `size` bytes in `memory`. order: (N) of the patches. Afterwards the
 // source is of no use. NUMBER if it would be too large, EMPTY if it would be too small.
-static nsvcd_result nsvcd__facets_build(nsvcd__facets_source *source, const uint16_t *order,
-                                        int open, void *memory, size_t size) {
+static nsvcd_result nsvcd__geometry_build(nsvcd__geometry_source *source,
+                                          const uint16_t *order, int open, void *memory,
+                                          size_t size) {
   const nsvcd__surface *s = source->surface;
-  const nsvcd__facet_counts *counts = &source->counts;
+  const nsvcd__geometry_counts *counts = &source->counts;
   nsvcd_body *b = nsvcd__body_begin(memory, size, s->count, open);
   b->triangles = (uint32_t)source->mesh->triangle_count;
   memcpy(nsvcd__writable(b, nsvcd__counts_of(b)), counts, sizeof *counts);
   nsvcd__seeds_write(s, order, b);
-  const nsvcd__facets f = nsvcd__facets_of(b);
+  const nsvcd__geometry f = nsvcd__geometry_of(b);
   for (size_t i = 0; i < s->count; i++) nsvcd__patch_write(source, order[i], b, f, i);
   if (!s->coarse) nsvcd__cut_write(source, b, &f);
-  if (!nsvcd__within(nsvcd__body_r(b), b->patches, 4 * NSVCD_MAX_COORDINATE))
+  if (!nsvcd__in_range(nsvcd__body_r(b), b->patches, 4 * NSVCD_MAX_COORDINATE))
     return NSVCD_ERROR_NUMBER;
-  nsvcd__facets_finish(b, 0);
-  return b->radius + counts->round < NSVCD_MIN_RADIUS ? NSVCD_ERROR_EMPTY : NSVCD_OK;
+  nsvcd__geometry_finish(b, 0);
+  return b->radius + counts->convex_radius < NSVCD_MIN_RADIUS ? NSVCD_ERROR_EMPTY : NSVCD_OK;
 }
 #endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF

@@ -2,10 +2,10 @@
 //
 //   all       version 1 (6 bits), kind (2), digests of both meshes (8 each), of motions, scales and
 //             the clearance (16)
-//   FREE      the walk, a code a visit, as examples/verify/nsvcd_verify.h has it: 0 open the node
-//             whose box is longer; 11 separated by the last normal; 101 by another, which follows;
-//             100 halve the time. Where the roots are nowhere separated: a ray for each part of a,
-//             then of b, at t = 0: 1 along the last normal, or 0, and a normal
+//   FREE      the traversal, a code a visit, as examples/verify/nsvcd_verify.h has it: 0 open the
+//             node whose box is longer; 11 separated by the last normal; 101 by another, which
+//             follows; 100 halve the time. Where the roots are nowhere separated: a ray for each
+//             part of a, then of b, at t = 0: 1 along the last normal, or 0, and a normal
 //   others    the time (32), then HIT: two triangles (32 each), whose edge (1), which (2); NEAR:
 //             two triangles, a point on each (16, 16); INSIDE: whose corner (1), which (32), a
 //             normal
@@ -15,9 +15,9 @@
 #include "../ground/random.h"
 #include "rays.h"
 
-#define NSVCD__WALK_STACK 128  // nodes that wait
+#define NSVCD__TRAVERSAL_STACK 128  // nodes that wait
 #define NSVCD__NO_EDGE 3u
-#define NSVCD__SHORTEST_STRETCH 1e-12
+#define NSVCD__SHORTEST_INTERVAL 1e-12
 #define NSVCD__REMEMBERED 8  // normals
 #define NSVCD__RAYS 64       // that are tried for a part
 // of the sum of both nodes' lengths: where they go farther the time is halved
@@ -32,7 +32,7 @@ typedef struct nsvcd__visit {
 
 typedef struct nsvcd__certifier {
   nsvcd__moving_tree a, b;
-  nsvcd__stretch stretch;
+  nsvcd__tree_interval interval;
   // the last ones, the last first
   nsvcd__d3 normals[NSVCD__REMEMBERED];
   uint8_t *bytes;
@@ -96,17 +96,21 @@ static double nsvcd__coded_time(uint32_t code) {
 // ---- what meets
 
 // A triangle's corner k in another body's frame.
-static nsvcd__d3 nsvcd__corner_seen(const nsvcd__moving_tree *of, const nsvcd__posed *of_at,
-                                    const nsvcd__moving_tree *by, const nsvcd__posed *by_at,
-                                    uint32_t triangle, uint32_t k) {
+static nsvcd__d3 nsvcd__corner_seen(const nsvcd__moving_tree *of,
+                                    const nsvcd__pose_matrix *of_at,
+                                    const nsvcd__moving_tree *by,
+                                    const nsvcd__pose_matrix *by_at, uint32_t triangle,
+                                    uint32_t k) {
   const uint32_t vertex = of->tree->mesh.indices[3 * (size_t)triangle + k];
   return nsvcd__vertex_seen(of, of_at, by, by_at, vertex);
 }
 
 // Does an edge of a triangle of one pass through one of the other? Which.
-static uint32_t nsvcd__piercing_edge(const nsvcd__moving_tree *of, const nsvcd__posed *of_at,
-                                     const nsvcd__moving_tree *by, const nsvcd__posed *by_at,
-                                     uint32_t own, uint32_t other) {
+static uint32_t nsvcd__piercing_edge(const nsvcd__moving_tree *of,
+                                     const nsvcd__pose_matrix *of_at,
+                                     const nsvcd__moving_tree *by,
+                                     const nsvcd__pose_matrix *by_at, uint32_t own,
+                                     uint32_t other) {
   const nsvcd__extent e = nsvcd__extent_seen(of, of_at, by, by_at);
   for (uint32_t k = 0; k < 3; k++) {
     const nsvcd__d3 from = nsvcd__corner_seen(of, of_at, by, by_at, own, k);
@@ -152,7 +156,7 @@ static int nsvcd__near_at(const nsvcd__certifier *c, const nsvcd__instant *at, u
   const nsvcd__d3 on_a = nsvcd__point_code(a, nearest.on_a, codes);
   const nsvcd__d3 on_b = nsvcd__point_code(b, nearest.on_b, codes + 2);
   const double distance = sqrt(nsvcd__d3_distance2(on_a, on_b)) + e.margin;
-  return c->b.model.scale * distance < c->stretch.clearance;
+  return c->b.model.scale * distance < c->interval.clearance;
 }
 
 // Do two triangles meet at a time, or come within the clearance? Then it writes the certificate.
@@ -168,7 +172,7 @@ static int nsvcd__meet_at(nsvcd__certifier *c, double when, uint32_t ta, uint32_
     edge = nsvcd__piercing_edge(&c->b, &at.b, &c->a, &at.a, tb, ta);
   }
   const int pierced = edge != NSVCD__NO_EDGE;
-  if (!pierced && !(c->stretch.clearance > 0 && nsvcd__near_at(c, &at, ta, tb, points)))
+  if (!pierced && !(c->interval.clearance > 0 && nsvcd__near_at(c, &at, ta, tb, points)))
     return 0;
   nsvcd__write_head(c, pierced ? NSVCD__PROVES_HIT : NSVCD__PROVES_NEAR);
   nsvcd__write_bits(c, code, 32);
@@ -184,7 +188,7 @@ static int nsvcd__meet_at(nsvcd__certifier *c, double when, uint32_t ta, uint32_
   return 1;
 }
 
-// ---- the walk
+// ---- the traversal
 
 // The longest side of a node's box.
 static double nsvcd__node_side(const nsvcd__moving_tree *moving, const nsvcd__node *node) {
@@ -195,15 +199,15 @@ static double nsvcd__node_side(const nsvcd__moving_tree *moving, const nsvcd__no
 }
 
 static nsvcd__d3 nsvcd__node_middle(const nsvcd__moving_tree *moving, const nsvcd__node *node,
-                                    const nsvcd__posed *at) {
+                                    const nsvcd__pose_matrix *at) {
   const nsvcd__box *box = &moving->tree->boxes[node->box];
   const nsvcd__d3 sum = nsvcd__d3_add(nsvcd__d3_widen(box->low), nsvcd__d3_widen(box->high));
   return nsvcd__turned_by(moving, at, nsvcd__d3_scale(sum, 0.5));
 }
 
-// The way of one node's middle as the other's sees it, over the stretch, from instant to instant.
-static double nsvcd__way_apart(const nsvcd__stretch *s, const nsvcd__nodes *nodes) {
-  double way = 0;
+// The way of one node's middle as the other's sees it, over the interval, from instant to instant.
+static double nsvcd__way_apart(const nsvcd__tree_interval *s, const nsvcd__nodes *nodes) {
+  double travel = 0;
   nsvcd__d3 last = nsvcd__d3_of(0, 0, 0);
   for (size_t i = 0; i < s->count; i++) {
     const nsvcd__instant *at = &s->instants[i];
@@ -211,10 +215,10 @@ static double nsvcd__way_apart(const nsvcd__stretch *s, const nsvcd__nodes *node
     const nsvcd__d3 b = nsvcd__node_middle(s->b, &nodes->b, &at->b);
     const nsvcd__d3 offset = nsvcd__d3_sub(at->a.at, at->b.at);
     const nsvcd__d3 now = nsvcd__d3_add(nsvcd__d3_sub(a, b), offset);
-    if (i > 0) way += sqrt(nsvcd__d3_distance2(now, last));
+    if (i > 0) travel += sqrt(nsvcd__d3_distance2(now, last));
     last = now;
   }
-  return way;
+  return travel;
 }
 
 // Replaces a visit by two, pushed in reverse order: of the children of the node whose box is
@@ -225,12 +229,12 @@ static int nsvcd__divide_visit(nsvcd__certifier *c, nsvcd__visit *v) {
   const double side_b = nsvcd__node_side(&c->b, &nodes->b);
   const int leaves = nodes->a.count == 1 && nodes->b.count == 1;
   const int halves =
-      leaves || nsvcd__way_apart(&c->stretch, nodes) > NSVCD__FAR_TO_GO * (side_a + side_b);
+      leaves || nsvcd__way_apart(&c->interval, nodes) > NSVCD__FAR_TO_GO * (side_a + side_b);
   v[1] = *v;
   nsvcd__write_bits(c, halves ? 4 : 0, halves ? 3 : 1);
   if (halves) {
     v[1].t1 = v->t0 = 0.5 * (v->t0 + v->t1);
-    return v->t1 - v[1].t0 >= NSVCD__SHORTEST_STRETCH;
+    return v->t1 - v[1].t0 >= NSVCD__SHORTEST_INTERVAL;
   }
   if (nodes->b.count == 1 || (nodes->a.count > 1 && side_a >= side_b))
     nsvcd__children(&nodes->a, &v[1].nodes.a, &nodes->a);
@@ -240,8 +244,8 @@ static int nsvcd__divide_visit(nsvcd__certifier *c, nsvcd__visit *v) {
 }
 
 // FREE, HIT, or UNDECIDED.
-static nsvcd_verdict nsvcd__prove_walk(nsvcd__certifier *c, size_t visits) {
-  nsvcd__visit stack[NSVCD__WALK_STACK];
+static nsvcd_verdict nsvcd__prove_traversal(nsvcd__certifier *c, size_t visits) {
+  nsvcd__visit stack[NSVCD__TRAVERSAL_STACK];
   size_t height = 1;
   int is_unresolved = 0;
   memset(stack, 0, sizeof *stack);
@@ -260,13 +264,13 @@ static nsvcd_verdict nsvcd__prove_walk(nsvcd__certifier *c, size_t visits) {
       return NSVCD_UNDECIDED;
     }
     c->made->visits++;
-    if (!nsvcd__stretch_to(&c->stretch, v->t0, v->t1)) return NSVCD_UNDECIDED;
+    if (!nsvcd__tree_interval_to(&c->interval, v->t0, v->t1)) return NSVCD_UNDECIDED;
     size_t k = 0;
     while (k < NSVCD__REMEMBERED &&
-           !nsvcd__plane_separates_nodes(&c->stretch, nodes, c->normals[k]))
+           !nsvcd__plane_separates_nodes(&c->interval, nodes, c->normals[k]))
       k++;
     if (k < NSVCD__REMEMBERED ||
-        nsvcd__find_normal(&c->stretch, nodes, c->normals[0], &normal)) {
+        nsvcd__find_normal(&c->interval, nodes, c->normals[0], &normal)) {
       nsvcd__write_bits(c, k > 0 ? 5 : 3, k > 0 ? 3 : 2);
       if (k > 0) nsvcd__write_normal(c, k, &normal);
       if (nodes->a.box == 0 && nodes->b.box == 0) c->apart = 1;
@@ -278,7 +282,7 @@ static nsvcd_verdict nsvcd__prove_walk(nsvcd__certifier *c, size_t visits) {
       const uint32_t tb = c->b.tree->order[nodes->b.first];
       if (nsvcd__meet_at(c, 0.5 * (v->t0 + v->t1), ta, tb)) return NSVCD_HIT;
     }
-    if (height == NSVCD__WALK_STACK) return NSVCD_UNDECIDED;
+    if (height == NSVCD__TRAVERSAL_STACK) return NSVCD_UNDECIDED;
     // they touch, or nearly so: no proof that they are free, but others may still meet
     const int goes_on = nsvcd__divide_visit(c, v);
     height += goes_on ? 1 : (size_t)-1;
@@ -308,8 +312,8 @@ static nsvcd__written_normal nsvcd__ray_to_try(size_t k, uint64_t *random) {
 static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
   const nsvcd__moving_tree *of = whose ? &c->b : &c->a;
   const nsvcd__moving_tree *by = whose ? &c->a : &c->b;
-  const nsvcd__posed of_at = nsvcd__posed_at(of, 0);
-  const nsvcd__posed by_at = nsvcd__posed_at(by, 0);
+  const nsvcd__pose_matrix of_at = nsvcd__pose_matrix_at(of, 0);
+  const nsvcd__pose_matrix by_at = nsvcd__pose_matrix_at(by, 0);
   const nsvcd__extent e = nsvcd__extent_seen(of, &of_at, by, &by_at);
   uint64_t random = 1;
   for (uint32_t v = 0; v < of->tree->mesh.vertex_count; v++) {
@@ -378,8 +382,8 @@ static uint64_t nsvcd__certifier_layout(size_t instants, const nsvcd_tree *a,
   uint64_t used = 0;
   const size_t vertices = a->mesh.vertex_count > b->mesh.vertex_count ? a->mesh.vertex_count
                                                                       : b->mesh.vertex_count;
-  c->stretch.capacity = instants;
-  c->stretch.instants =
+  c->interval.capacity = instants;
+  c->interval.instants =
       (nsvcd__instant *)nsvcd__take(base, &used, instants, sizeof(nsvcd__instant));
   c->sums = (int32_t *)nsvcd__take(base, &used, vertices, sizeof *c->sums);
   return used;
@@ -414,15 +418,15 @@ NSVCDDEF nsvcd_result nsvcd_certify_models(
   c.b.tree = b;
   c.a.model = models[0];
   c.b.model = models[1];
-  c.stretch.a = &c.a;
-  c.stretch.b = &c.b;
-  c.stretch.clearance = (double)clearance;
+  c.interval.a = &c.a;
+  c.interval.b = &c.b;
+  c.interval.clearance = (double)clearance;
   c.bytes = bytes;
   c.capacity = capacity;
   c.digest = nsvcd__digest(c.a.model.digest + 31 * c.b.model.digest, &clearance, 1);
   c.made = &out;
   if (!(o->answer && nsvcd__meet_as_told(&c, o->answer))) {
-    out.verdict = nsvcd__prove_walk(&c, o->visits ? o->visits : NSVCD_DEFAULT_VISITS);
+    out.verdict = nsvcd__prove_traversal(&c, o->visits ? o->visits : NSVCD_DEFAULT_VISITS);
     if (out.verdict == NSVCD_FREE && !c.apart) out.verdict = nsvcd__cast_all(&c, 0);
     if (out.verdict == NSVCD_FREE && !c.apart) out.verdict = nsvcd__cast_all(&c, 1);
   }
@@ -460,7 +464,7 @@ NSVCDDEF nsvcd_result nsvcd_certify(const nsvcd_question *question, const nsvcd_
   nsvcd_result result = nsvcd__model_of(&question->a, &movers[0], &models[0]);
   if (!result) result = nsvcd__model_of(&question->b, &movers[1], &models[1]);
   if (result) return result;
-  if (!(question->skin <= 0 && question->skin >= 0)) return NSVCD_ERROR_SKIN;
+  if (!(question->slop <= 0 && question->slop >= 0)) return NSVCD_ERROR_SLOP;
   return nsvcd_certify_models(models, nsvcd__keyframes_of(question), question->clearance, a, b,
                               options, workspace, workspace_size, bytes, capacity, made);
 }

@@ -6,10 +6,10 @@
 #include "tree.h"
 
 // Takes a corner x to turn scale x + at.
-typedef struct nsvcd__posed {
+typedef struct nsvcd__pose_matrix {
   nsvcd__dmat3 turn;
   nsvcd__d3 at;
-} nsvcd__posed;
+} nsvcd__pose_matrix;
 
 // A mesh that moves.
 typedef struct nsvcd__moving_tree {
@@ -17,11 +17,11 @@ typedef struct nsvcd__moving_tree {
   nsvcd_motion_model model;
 } nsvcd__moving_tree;
 
-static nsvcd__posed nsvcd__posed_at(const nsvcd__moving_tree *moving, double t) {
-  const nsvcd_placement at = moving->model.place(moving->model.motion, t);
+static nsvcd__pose_matrix nsvcd__pose_matrix_at(const nsvcd__moving_tree *moving, double t) {
+  const nsvcd_pose64 at = moving->model.pose_at(moving->model.motion, t);
   const double *q = at.rotation;
   const nsvcd__dquat turn = {q[0], q[1], q[2], q[3]};
-  const nsvcd__posed out = {
+  const nsvcd__pose_matrix out = {
       nsvcd__dmat3_of(nsvcd__dquat_unit(turn)),
       nsvcd__d3_of(at.position[0], at.position[1], at.position[2]),
   };
@@ -79,16 +79,16 @@ static nsvcd__turning nsvcd__turning_of(const nsvcd_pose *a, const nsvcd_pose *b
   return out;
 }
 
-static nsvcd_placement nsvcd__placement_of(nsvcd__dquat q, nsvcd__d3 at) {
-  const nsvcd_placement out = {{at.x, at.y, at.z}, {q.x, q.y, q.z, q.w}};
+static nsvcd_pose64 nsvcd__pose64_of(nsvcd__dquat q, nsvcd__d3 at) {
+  const nsvcd_pose64 out = {{at.x, at.y, at.z}, {q.x, q.y, q.z, q.w}};
   return out;
 }
 
-static nsvcd_placement nsvcd__mover_place(const void *motion, double t) {
+static nsvcd_pose64 nsvcd__mover_position(const void *motion, double t) {
   const nsvcd_mover *mover = (const nsvcd_mover *)motion;
   if (mover->count == 1)
-    return nsvcd__placement_of(nsvcd__pose_rotation(mover->poses),
-                               nsvcd__d3_load(mover->poses->position));
+    return nsvcd__pose64_of(nsvcd__pose_rotation(mover->poses),
+                            nsvcd__d3_load(mover->poses->position));
   const size_t k = nsvcd__mover_pose(mover, t);
   const nsvcd_pose *a = &mover->poses[k];
   const double from = nsvcd__mover_keyframe(mover, k);
@@ -103,8 +103,7 @@ static nsvcd_placement nsvcd__mover_place(const void *motion, double t) {
   }
   const nsvcd__dquat q = nsvcd__dquat_fma(after, arc.to, nsvcd__dquat_scale(arc.from, before));
   const nsvcd__d3 from_position = nsvcd__d3_load(a->position);
-  return nsvcd__placement_of(q,
-                             nsvcd__d3_mix(from_position, nsvcd__d3_load(a[1].position), u));
+  return nsvcd__pose64_of(q, nsvcd__d3_mix(from_position, nsvcd__d3_load(a[1].position), u));
 }
 
 static double nsvcd__mover_next(const void *motion, double t) {
@@ -150,14 +149,14 @@ static nsvcd_result nsvcd__model_of(const nsvcd_mover *mover, nsvcd_mover *meant
   }
   if (meant->count == 1) meant->times = NULL;
   model->scale = (double)scale;
-  model->place = nsvcd__mover_place;
+  model->pose_at = nsvcd__mover_position;
   model->next = nsvcd__mover_next;
   model->deviation = nsvcd__mover_deviation;
   model->motion = meant;
-  model->reach = 0;
+  model->extent = 0;
   for (size_t k = 0; k < meant->count; k++) {
     const nsvcd__d3 at = nsvcd__d3_load(meant->poses[k].position);
-    model->reach = nsvcd__max(model->reach, fabs(at.x) + fabs(at.y) + fabs(at.z));
+    model->extent = nsvcd__max(model->extent, fabs(at.x) + fabs(at.y) + fabs(at.z));
   }
   model->digest = nsvcd__digest((uint32_t)meant->count, meant->poses, 7 * meant->count);
   model->digest = nsvcd__digest(model->digest, &scale, 1);

@@ -1,5 +1,5 @@
-// In: two nodes, and a stretch of time. Out: a plane that separates them all the while, by a normal
-// that takes a few bits; or none.
+// In: two nodes, and a interval of time. Out: a plane that separates them all the while, by a
+// normal that takes a few bits; or none.
 #pragma once
 #include "../ground/triangles.h"
 #include "law.h"
@@ -16,13 +16,13 @@
 // A time, where both bodies are then, and by how much points leave their chords to the next one.
 typedef struct nsvcd__instant {
   double t;
-  nsvcd__posed a, b;
+  nsvcd__pose_matrix a, b;
   double lengths;  // of both places, and what they are computed from
   nsvcd_deviation off_a, off_b;
 } nsvcd__instant;
 
-// A stretch of time: both ends, and all keyframes between.
-typedef struct nsvcd__stretch {
+// A interval of time: both ends, and all keyframes between.
+typedef struct nsvcd__tree_interval {
   const nsvcd__moving_tree *a, *b;
   double clearance;
   nsvcd__instant *instants;  // (capacity)
@@ -30,7 +30,7 @@ typedef struct nsvcd__stretch {
   double t0, t1;
   // half way; its time is -1 before it is needed
   nsvcd__instant middle;
-} nsvcd__stretch;
+} nsvcd__tree_interval;
 
 // A node of each tree. No point of them is farther from its body's origin than the radii say.
 typedef struct nsvcd__nodes {
@@ -45,7 +45,7 @@ typedef struct nsvcd__written_normal {
   int bits;  // of each number: 8, 16 or 24
 } nsvcd__written_normal;
 
-static double nsvcd__lengths_at(const nsvcd__posed *a, const nsvcd__posed *b) {
+static double nsvcd__lengths_at(const nsvcd__pose_matrix *a, const nsvcd__pose_matrix *b) {
   return fabs(a->at.x) + fabs(a->at.y) + fabs(a->at.z) + fabs(b->at.x) + fabs(b->at.y) +
          fabs(b->at.z);
 }
@@ -55,14 +55,14 @@ static nsvcd__instant nsvcd__instant_at(const nsvcd__moving_tree *a,
   nsvcd__instant at;
   memset(&at, 0, sizeof at);
   at.t = t;
-  at.a = nsvcd__posed_at(a, t);
-  at.b = nsvcd__posed_at(b, t);
-  at.lengths = a->model.reach + b->model.reach + nsvcd__lengths_at(&at.a, &at.b);
+  at.a = nsvcd__pose_matrix_at(a, t);
+  at.b = nsvcd__pose_matrix_at(b, t);
+  at.lengths = a->model.extent + b->model.extent + nsvcd__lengths_at(&at.a, &at.b);
   return at;
 }
 
 // Returns 0 where there are more keyframes than there is room for.
-static int nsvcd__stretch_to(nsvcd__stretch *s, double t0, double t1) {
+static int nsvcd__tree_interval_to(nsvcd__tree_interval *s, double t0, double t1) {
   if (s->count > 0 && !(s->t0 < t0) && !(s->t0 > t0) && !(s->t1 < t1) && !(s->t1 > t1))
     return 1;
   const nsvcd_motion_model *a = &s->a->model;
@@ -84,7 +84,7 @@ static int nsvcd__stretch_to(nsvcd__stretch *s, double t0, double t1) {
 }
 
 // The instant half way.
-static const nsvcd__instant *nsvcd__stretch_middle(nsvcd__stretch *s) {
+static const nsvcd__instant *nsvcd__tree_interval_middle(nsvcd__tree_interval *s) {
   if (s->middle.t < 0) s->middle = nsvcd__instant_at(s->a, s->b, 0.5 * (s->t0 + s->t1));
   return &s->middle;
 }
@@ -94,31 +94,31 @@ static const nsvcd__instant *nsvcd__stretch_middle(nsvcd__stretch *s) {
 // The corner of a node's box, or of its few triangles, that is farthest along a direction in its
 // frame.
 static nsvcd__d3 nsvcd__farthest(const nsvcd_tree *tree, const nsvcd__node *node,
-                                 nsvcd__d3 way) {
+                                 nsvcd__d3 direction) {
   if (node->count > NSVCD__EXACT) {
     const nsvcd__box *box = &tree->boxes[node->box];
-    return nsvcd__d3_of((double)(way.x > 0 ? box->high.x : box->low.x),
-                        (double)(way.y > 0 ? box->high.y : box->low.y),
-                        (double)(way.z > 0 ? box->high.z : box->low.z));
+    return nsvcd__d3_of((double)(direction.x > 0 ? box->high.x : box->low.x),
+                        (double)(direction.y > 0 ? box->high.y : box->low.y),
+                        (double)(direction.z > 0 ? box->high.z : box->low.z));
   }
   const float *corners = tree->corners + 9 * (size_t)node->first;
   double most = -HUGE_VAL;
   size_t farthest = 0;
   for (size_t i = 0; i < 3 * (size_t)node->count; i++) {
-    const double along = nsvcd__d3_dot(nsvcd__d3_row(corners, i), way);
+    const double along = nsvcd__d3_dot(nsvcd__d3_row(corners, i), direction);
     farthest = along > most ? i : farthest;
     most = along > most ? along : most;
   }
   return nsvcd__d3_row(corners, farthest);
 }
 
-static nsvcd__d3 nsvcd__turned_by(const nsvcd__moving_tree *moving, const nsvcd__posed *at,
-                                  nsvcd__d3 x) {
+static nsvcd__d3 nsvcd__turned_by(const nsvcd__moving_tree *moving,
+                                  const nsvcd__pose_matrix *at, nsvcd__d3 x) {
   return nsvcd__d3_scale(nsvcd__dmat3_apply(&at->turn, x), moving->model.scale);
 }
 
 // Of all points of two nodes, one of each, the difference a - b that goes least along a direction.
-static nsvcd__d3 nsvcd__least_apart(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
+static nsvcd__d3 nsvcd__least_apart(const nsvcd__tree_interval *s, const nsvcd__nodes *nodes,
                                     const nsvcd__instant *at, nsvcd__d3 along) {
   const nsvcd__d3 back = nsvcd__d3_scale(along, -1);
   const nsvcd__d3 way_a = nsvcd__dmat3_apply_transpose(&at->a.turn, back);
@@ -133,19 +133,21 @@ static nsvcd__d3 nsvcd__least_apart(const nsvcd__stretch *s, const nsvcd__nodes 
 // How far along a direction, in its frame, a node reaches. Three corners at a time: a maximum waits
 // for the one before.
 static double nsvcd__most_along(const nsvcd_tree *tree, const nsvcd__node *node,
-                                nsvcd__d3 way) {
-  if (node->count > NSVCD__EXACT) return nsvcd__d3_dot(nsvcd__farthest(tree, node, way), way);
+                                nsvcd__d3 direction) {
+  if (node->count > NSVCD__EXACT)
+    return nsvcd__d3_dot(nsvcd__farthest(tree, node, direction), direction);
   const float *corners = tree->corners + 9 * (size_t)node->first;
   double most[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   for (size_t i = 0; i < node->count; i++) {
     for (size_t k = 0; k < 3; k++)
-      most[k] = nsvcd__max(nsvcd__d3_dot(nsvcd__d3_row(corners, 3 * i + k), way), most[k]);
+      most[k] =
+          nsvcd__max(nsvcd__d3_dot(nsvcd__d3_row(corners, 3 * i + k), direction), most[k]);
   }
   return nsvcd__max(most[0], nsvcd__max(most[1], most[2]));
 }
 
 // How far that difference goes.
-static double nsvcd__gap_along(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
+static double nsvcd__gap_along(const nsvcd__tree_interval *s, const nsvcd__nodes *nodes,
                                const nsvcd__instant *at, nsvcd__d3 along) {
   const nsvcd__d3 way_a = nsvcd__dmat3_apply_transpose(&at->a.turn, along);
   const nsvcd__d3 way_b = nsvcd__dmat3_apply_transpose(&at->b.turn, along);
@@ -187,8 +189,8 @@ static double nsvcd__node_aside(const nsvcd__moving_tree *moving, const nsvcd__n
 
 // By how much the points of a node, at r metres at most, leave their chords along a normal.
 static double nsvcd__node_leaves(const nsvcd__moving_tree *moving, const nsvcd__node *node,
-                                 double r, const nsvcd__posed *at, const nsvcd_deviation *off,
-                                 nsvcd__d3 along) {
+                                 double r, const nsvcd__pose_matrix *at,
+                                 const nsvcd_deviation *off, nsvcd__d3 along) {
   double leaves = nsvcd__d3_length(along) * (off->base + off->per_metre * r);
   if (off->turn > 0) {
     const nsvcd__d3 own = nsvcd__d3_of(off->axis[0], off->axis[1], off->axis[2]);
@@ -200,8 +202,8 @@ static double nsvcd__node_leaves(const nsvcd__moving_tree *moving, const nsvcd__
 }
 
 // Does a plane of this normal part two nodes, at all instants and between them?
-static int nsvcd__plane_separates_nodes(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
-                                        nsvcd__d3 along) {
+static int nsvcd__plane_separates_nodes(const nsvcd__tree_interval *s,
+                                        const nsvcd__nodes *nodes, nsvcd__d3 along) {
   const double length = nsvcd__d3_length(along);
   const double ra = nodes->radius_a;
   const double rb = nodes->radius_b;
@@ -258,7 +260,7 @@ typedef struct nsvcd__best {
 } nsvcd__best;
 
 // Gilbert's iteration towards the point of a - b that is nearest to the origin.
-static nsvcd__best nsvcd__gilbert(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
+static nsvcd__best nsvcd__gilbert(const nsvcd__tree_interval *s, const nsvcd__nodes *nodes,
                                   const nsvcd__instant *at, nsvcd__d3 along) {
   nsvcd__best best = {along, -HUGE_VAL};
   nsvcd__d3 v = nsvcd__least_apart(s, nodes, at, along);
@@ -284,16 +286,17 @@ static nsvcd__best nsvcd__gilbert(const nsvcd__stretch *s, const nsvcd__nodes *n
 
 // A leaf's triangle in the world, as seen from the origin of b.
 static void nsvcd__leaf_corners(const nsvcd__moving_tree *moving, const nsvcd__node *node,
-                                const nsvcd__posed *at, nsvcd__d3 offset, nsvcd__d3 *corners) {
+                                const nsvcd__pose_matrix *at, nsvcd__d3 offset,
+                                nsvcd__d3 *corners) {
   const float *x = moving->tree->corners + 9 * (size_t)node->first;
   for (size_t k = 0; k < 3; k++)
     corners[k] = nsvcd__d3_add(nsvcd__turned_by(moving, at, nsvcd__d3_row(x, k)), offset);
 }
 
 // Looks for a plane that separates two nodes all the while.
-static int nsvcd__find_normal(nsvcd__stretch *s, const nsvcd__nodes *nodes, nsvcd__d3 last,
-                              nsvcd__written_normal *normal) {
-  const nsvcd__instant *at = nsvcd__stretch_middle(s);
+static int nsvcd__find_normal(nsvcd__tree_interval *s, const nsvcd__nodes *nodes,
+                              nsvcd__d3 last, nsvcd__written_normal *normal) {
+  const nsvcd__instant *at = nsvcd__tree_interval_middle(s);
   nsvcd__best best = {last, 0};
   if (nodes->a.count == 1 && nodes->b.count == 1) {
     nsvcd__d3 a[3], b[3];

@@ -6,9 +6,10 @@
 #define NSVCD__UNCLEAR 2
 
 // A vertex of one body in the frame of another, in units of that one's scale.
-static nsvcd__d3 nsvcd__vertex_seen(const nsvcd__moving_tree *of, const nsvcd__posed *of_at,
-                                    const nsvcd__moving_tree *by, const nsvcd__posed *by_at,
-                                    uint32_t vertex) {
+static nsvcd__d3 nsvcd__vertex_seen(const nsvcd__moving_tree *of,
+                                    const nsvcd__pose_matrix *of_at,
+                                    const nsvcd__moving_tree *by,
+                                    const nsvcd__pose_matrix *by_at, uint32_t vertex) {
   const nsvcd__d3 x = nsvcd__d3_row(of->tree->mesh.positions, vertex);
   const nsvcd__d3 offset = nsvcd__d3_sub(of_at->at, by_at->at);
   const nsvcd__d3 world = nsvcd__d3_add(nsvcd__turned_by(of, of_at, x), offset);
@@ -22,16 +23,17 @@ typedef struct nsvcd__extent {
 } nsvcd__extent;
 
 static nsvcd__extent nsvcd__extent_seen(const nsvcd__moving_tree *of,
-                                        const nsvcd__posed *of_at,
+                                        const nsvcd__pose_matrix *of_at,
                                         const nsvcd__moving_tree *by,
-                                        const nsvcd__posed *by_at) {
+                                        const nsvcd__pose_matrix *by_at) {
   const nsvcd__node root = {0, 0, 1};
   const double radii = nsvcd__node_radius(of, &root) + nsvcd__node_radius(by, &root);
   const double apart = nsvcd__d3_length(nsvcd__d3_sub(of_at->at, by_at->at));
-  const double places = of->model.reach + by->model.reach + nsvcd__lengths_at(of_at, by_at);
+  const double positions =
+      of->model.extent + by->model.extent + nsvcd__lengths_at(of_at, by_at);
   nsvcd__extent out;
   out.lengths = 1.000001 * (radii + apart) / by->model.scale;
-  out.margin = NSVCD__CERTIFIED_MARGIN * (out.lengths + places / by->model.scale);
+  out.margin = NSVCD__CERTIFIED_MARGIN * (out.lengths + positions / by->model.scale);
   return out;
 }
 

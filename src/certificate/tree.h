@@ -3,9 +3,9 @@
 //
 //   tree        boxes, and components
 //   law         where a body is at a time, and how far points leave their chords
-//   planes      one that separates two nodes over a stretch of time; its normal in a few bits
+//   planes      one that separates two nodes over a interval of time; its normal in a few bits
 //   rays        what is inside of what at one time
-//   certify     the walk that a certificate is
+//   certify     the traversal that a certificate is
 //
 // What is built and computed here examples/verify builds and computes again, by code of its own:
 // the rules by which nodes are cut and opened, and the form of the bits, are the same in both.
@@ -121,7 +121,7 @@ static void nsvcd__children(const nsvcd__node *node, nsvcd__node *left, nsvcd__n
 // ---- components
 
 // Below 0, 0 or above it: the place of vertex i is before, at or after that of vertex j.
-static int nsvcd__place_order(const nsvcd_tree *tree, uint32_t i, uint32_t j) {
+static int nsvcd__position_order(const nsvcd_tree *tree, uint32_t i, uint32_t j) {
   const float *x = tree->mesh.positions + 3 * (size_t)i;
   const float *y = tree->mesh.positions + 3 * (size_t)j;
   for (size_t k = 0; k < 3; k++) {
@@ -177,15 +177,15 @@ static void nsvcd__sort_numbers(const nsvcd_tree *tree, nsvcd__tree_compare *ord
 }
 
 // weld: the lowest vertex at each vertex's place. numbers: (vertices), to work with.
-static void nsvcd__weld_places(nsvcd_tree *tree, uint32_t *numbers) {
+static void nsvcd__weld_positions(nsvcd_tree *tree, uint32_t *numbers) {
   const size_t count = tree->mesh.vertex_count;
   size_t end;
   for (size_t v = 0; v < count; v++) numbers[v] = (uint32_t)v;
-  nsvcd__sort_numbers(tree, nsvcd__place_order, numbers, count);
+  nsvcd__sort_numbers(tree, nsvcd__position_order, numbers, count);
   for (size_t i = 0; i < count; i = end) {
     uint32_t lowest = numbers[i];
     end = i;
-    while (end < count && nsvcd__place_order(tree, numbers[i], numbers[end]) == 0) {
+    while (end < count && nsvcd__position_order(tree, numbers[i], numbers[end]) == 0) {
       lowest = numbers[end] < lowest ? numbers[end] : lowest;
       end++;
     }
@@ -213,7 +213,7 @@ static void nsvcd__find_parts(nsvcd_tree *tree, uint32_t *edges) {
   const uint32_t *indices = tree->mesh.indices;
   const size_t corners = 3 * tree->mesh.triangle_count;
   size_t end;
-  nsvcd__weld_places(tree, tree->part);
+  nsvcd__weld_positions(tree, tree->part);
   for (size_t v = 0; v < tree->mesh.vertex_count; v++) {
     tree->part[v] = NSVCD_NO_TRIANGLE;
     tree->open[v] = 0;

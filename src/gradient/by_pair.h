@@ -298,12 +298,13 @@ static nsvcd__f3 nsvcd__turned_back_by_w(nsvcd__f3 u, nsvcd__f3 w, float tau, ns
   return nsvcd__f3_fma(-2 * half * nsvcd__f3_dot(u, q), w, out);
 }
 
-// Of a body's tips, from the first on, the farthest along u, in steps.
-static nsvcd__f3 nsvcd__farthest_tip(const int8_t *tips, nsvcd__f3 u) {
+// Of a body's extremes, from the first on, the farthest along u, in steps.
+static nsvcd__f3 nsvcd__farthest_extreme(const int8_t *extremes, nsvcd__f3 u) {
   nsvcd__f3 best = {0, 0, 0};
-  for (size_t k = 0; k < NSVCD__TIPS; k++, tips += 3 * NSVCD__GROUP) {
-    const nsvcd__f3 tip = nsvcd__f3_of(tips[0], tips[NSVCD__GROUP], tips[2 * NSVCD__GROUP]);
-    if (k == 0 || nsvcd__f3_dot(tip, u) > nsvcd__f3_dot(best, u)) best = tip;
+  for (size_t k = 0; k < NSVCD__EXTREMES; k++, extremes += 3 * NSVCD__GROUP) {
+    const nsvcd__f3 extreme =
+        nsvcd__f3_of(extremes[0], extremes[NSVCD__GROUP], extremes[2 * NSVCD__GROUP]);
+    if (k == 0 || nsvcd__f3_dot(extreme, u) > nsvcd__f3_dot(best, u)) best = extreme;
   }
   return best;
 }
@@ -313,7 +314,7 @@ typedef struct nsvcd__gap_pair {
   nsvcd__f3 between, v, w;
   float radii[2];
   nsvcd__mat3 rotation;
-  const int8_t *tips[2];
+  const int8_t *extremes[2];
 } nsvcd__gap_pair;
 
 // The adjoint of a gap along u at tau, times `by`, added to `out`, and returned by u. moves: 0 at
@@ -326,8 +327,9 @@ static nsvcd__f3 nsvcd__by_gap(const nsvcd__gap_pair *pair, nsvcd__f3 u, float t
   const nsvcd__f3 back = nsvcd__f3_turned_back(u, w, half);
   const nsvcd__f3 forth = nsvcd__f3_turned_back(u, w, -half);
   const nsvcd__f3 own = nsvcd__mat3_apply_transpose(&pair->rotation, back);
-  const nsvcd__f3 lowest = nsvcd__farthest_tip(pair->tips[0], nsvcd__f3_scale(own, -1));
-  const nsvcd__f3 highest = nsvcd__farthest_tip(pair->tips[1], forth);
+  const nsvcd__f3 lowest =
+      nsvcd__farthest_extreme(pair->extremes[0], nsvcd__f3_scale(own, -1));
+  const nsvcd__f3 highest = nsvcd__farthest_extreme(pair->extremes[1], forth);
   const nsvcd__f3 turned = nsvcd__mat3_apply(&pair->rotation, lowest);
   const nsvcd__f3 q = nsvcd__f3_scale(turned, pair->radii[0] / 127);
   const nsvcd__f3 x = nsvcd__f3_scale(highest, pair->radii[1] / 127);
@@ -354,24 +356,24 @@ static NSVCD__NOINLINE void nsvcd__by_gaps(const nsvcd__pairs *pairs,
   nsvcd__gap_axes axes;
   nsvcd__gap_axis made[NSVCD__GAPS];
   nsvcd__f3 by_u[NSVCD__GAPS];
-  int8_t tips[2 * 3 * NSVCD__TIPS * NSVCD__SLICE];
+  int8_t extremes[2 * 3 * NSVCD__EXTREMES * NSVCD__SLICE];
   pair.between = nsvcd__f3_sub(nsvcd__first_f3(pairs->p1), nsvcd__first_f3(pairs->p2));
   pair.v = nsvcd__first_f3(pairs->v);
   pair.w = nsvcd__first_f3(pairs->w);
-  pair.tips[0] = pairs->tips[0][0];
-  pair.tips[1] = pairs->tips[1][0];
+  pair.extremes[0] = pairs->extremes[0][0];
+  pair.extremes[1] = pairs->extremes[1][0];
   nsvcd__first_lanes(&pairs->r1, 1, &pair.radii[0]);
   nsvcd__first_lanes(&pairs->r2, 1, &pair.radii[1]);
   nsvcd__first_lanes(&pairs->rotation, 9, &pair.rotation);
   nsvcd__gap_axes_of(pairs, views, &axes);
-  nsvcd__tips_collect(pairs, 1, tips);
+  nsvcd__extremes_collect(pairs, 1, extremes);
   memset(by_u, 0, sizeof by_u);
   for (size_t m = 0; m < NSVCD__MOMENTS; m++) {
     const float tau = view->time * ((float)m - 1);
     nsvcd__v at[NSVCD__GAPS];
     float wide[NSVCD__GAPS];
     size_t widest = 0;
-    nsvcd__gaps_at(pairs, &axes, tips, nsvcd__v_set(tau), at);
+    nsvcd__gaps_at(pairs, &axes, extremes, nsvcd__v_set(tau), at);
     nsvcd__first_lanes(at, NSVCD__GAPS, wide);
     for (size_t d = 1; d < NSVCD__GAPS; d++) widest = wide[d] > wide[widest] ? d : widest;
     for (size_t d = 0; d < NSVCD__GAPS; d++) {

@@ -70,7 +70,7 @@ typedef struct nsvcd__instants {
   float t[NSVCD__INSTANTS];
   // from the body's origin to its centre
   float arm[3][NSVCD__LANES];
-  float place[3][NSVCD__LANES];  // its centre
+  float position[3][NSVCD__LANES];  // its centre
   // does it within the segment? else at one of its ends, and these do not move
   int enters, leaves;
 } nsvcd__instants;
@@ -98,7 +98,7 @@ static void nsvcd__instants_of(const nsvcd__task *task, const nsvcd__candidate *
     const nsvcd__v_pose pose = nsvcd__v_poses_at(motion, t + first, count);
     const nsvcd__v3 arm = nsvcd__vmat3_apply(nsvcd__vmat3_of(pose.rotation), centre);
     nsvcd__v3_store(at->arm, first, arm);
-    nsvcd__v3_store(at->place, first, nsvcd__v3_add(arm, pose.position));
+    nsvcd__v3_store(at->position, first, nsvcd__v3_add(arm, pose.position));
   }
 }
 
@@ -133,9 +133,9 @@ static void nsvcd__by_contact(const nsvcd__motion *motion, nsvcd__instants *at, 
   const nsvcd__f3 none = {0, 0, 0};
   const size_t s = l == NSVCD__AT_ENTRY ? NSVCD__ENTRY_BEGIN : NSVCD__EXIT_BEGIN;
   const float length = at->t[s + 1] - at->t[s];
-  const nsvcd__f3 start = nsvcd__lane_of(at->place, s);
+  const nsvcd__f3 start = nsvcd__lane_of(at->position, s);
   const float tau = (at->t[l] - at->t[s]) / length;
-  const nsvcd__f3 chord = nsvcd__f3_sub(nsvcd__lane_of(at->place, s + 1), start);
+  const nsvcd__f3 chord = nsvcd__f3_sub(nsvcd__lane_of(at->position, s + 1), start);
   const nsvcd__f3 from = nsvcd__f3_sub(start, centre);
   const nsvcd__f3 y = nsvcd__f3_fma(tau, chord, from);
   const float least = 1e-3f * nsvcd__f3_length(y) * nsvcd__f3_length(chord);
@@ -175,7 +175,7 @@ static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *deci
   // centre half way to the other.
   const nsvcd__f3 w = nsvcd__first_f3(pairs.w);
   const nsvcd__f3 centre = nsvcd__first_f3(pairs.p2);
-  const nsvcd__f3 line = nsvcd__f3_sub(centre, nsvcd__lane_of(at.place, NSVCD__AT_MIDDLE));
+  const nsvcd__f3 line = nsvcd__f3_sub(centre, nsvcd__lane_of(at.position, NSVCD__AT_MIDDLE));
   const nsvcd__f3 arm = nsvcd__f3_scale(line, 0.5f);
   const nsvcd__f3 p1 = nsvcd__f3_fma(-0.5f, nsvcd__f3_cross(by.v, w), by.p1);
   const nsvcd__f3 turn = nsvcd__f3_add(by.w, nsvcd__f3_cross(arm, by.v));

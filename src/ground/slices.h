@@ -11,10 +11,10 @@
 // it is looked for in blobs, also where constants are computed in double (FLT_EVAL_METHOD).
 #define NSVCD__NOWHERE (-999999986991104.0f)
 #define NSVCD__HULL NSVCD__LANES  // vertices of a patch's hull, at most
-// What the triangle of a listing belongs to: a sheet; a closed surface, by how often it winds; one
+// What the triangle of a entry belongs to: a sheet; a closed surface, by how often it winds; one
 // by how many of its triangles a ray crosses, whichever way; or what is nearly a solid. Beside the
 // triangle's number, which has the lower bits, they are the upper ones.
-enum { NSVCD__SHEET, NSVCD__NEARLY, NSVCD__CLOSED, NSVCD__EITHER_WAY };
+enum { NSVCD__SHEET, NSVCD__NEARLY, NSVCD__CLOSED, NSVCD__EITHER_DIRECTION };
 #define NSVCD__KIND_SHIFT 30
 #define NSVCD__NUMBER 0x3fffffffu
 

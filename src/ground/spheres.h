@@ -1,4 +1,4 @@
-// In: rows of floats, as a body stores them. Out: one sphere, or one disc, as a value.
+// In: rows of floats, as a body stores them. Out: one sphere, or one slab, as a value.
 #pragma once
 #include "points.h"
 
@@ -34,34 +34,34 @@ static inline void nsvcd__sphere_store(nsvcd__sphere sphere, float *first, size_
   first[3 * slots + i] = sphere.radius;
 }
 
-// ---- tips
+// ---- extremes
 
 // points of a patch's surface that reach about as far as all of it does: surface/sorted
-#define NSVCD__TIPS 8
+#define NSVCD__EXTREMES 8
 
-// ---- discs
+// ---- slabs
 
 // Points x about a centre have low <= normal.x <= high, and are no farther than `across` from the
 // line along the normal, which is no longer than 1.
-typedef struct nsvcd__disc {
+typedef struct nsvcd__slab {
   nsvcd__f3 normal;
   float low, high, across;
-} nsvcd__disc;
+} nsvcd__slab;
 
-// Disc i of (6, stride).
-static inline nsvcd__disc nsvcd__disc_at(const float *discs, size_t stride, size_t i) {
-  const float *d = discs + i;
-  nsvcd__disc out;
+// Slab i of (6, stride).
+static inline nsvcd__slab nsvcd__slab_at(const float *slabs, size_t stride, size_t i) {
+  const float *d = slabs + i;
+  nsvcd__slab out;
   out.normal = nsvcd__f3_get(d, stride);
   out.low = d[3 * stride];
   out.high = d[4 * stride];
   out.across = d[5 * stride];
   return out;
 }
-static inline void nsvcd__disc_store(nsvcd__disc disc, float *discs, size_t stride, size_t i) {
-  float *d = discs + i;
-  nsvcd__f3_put(disc.normal, d, stride);
-  d[3 * stride] = disc.low;
-  d[4 * stride] = disc.high;
-  d[5 * stride] = disc.across;
+static inline void nsvcd__slab_store(nsvcd__slab slab, float *slabs, size_t stride, size_t i) {
+  float *d = slabs + i;
+  nsvcd__f3_put(slab.normal, d, stride);
+  d[3 * stride] = slab.low;
+  d[4 * stride] = slab.high;
+  d[5 * stride] = slab.across;
 }

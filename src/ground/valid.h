@@ -11,7 +11,7 @@ static int nsvcd__is_aligned(const void *memory) {
 
 // Are numbers finite, and their absolute values no greater than `most`? By their bits, so that it
 // holds under -ffast-math too.
-static int nsvcd__within(const float *values, size_t count, float most) {
+static int nsvcd__in_range(const float *values, size_t count, float most) {
   for (size_t i = 0; i < count; i++) {
     if (!nsvcd__is_finite(values[i]) || fabsf(values[i]) > most) return 0;
   }
@@ -50,7 +50,7 @@ static nsvcd_result nsvcd__poses_check(const nsvcd_pose *poses, size_t count) {
   if (is_unit && most <= nsvcd__magnitude(NSVCD_MAX_COORDINATE)) return NSVCD_OK;
   // which of both?
   for (size_t k = 0; k < count; k++) {
-    if (!nsvcd__within(poses[k].position, 3, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_POSE;
+    if (!nsvcd__in_range(poses[k].position, 3, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_POSE;
   }
   return NSVCD_ERROR_QUATERNION;
 }

@@ -51,7 +51,7 @@ typedef struct nsvcd_encode_options {
   // metres: the body is all that is no farther from the mesh than this. If > 0, triangles need no
   // area: one of the same vertex thrice is a ball, one of two vertices a capsule. Such a body has
   // no latents
-  float round;
+  float convex_radius;
   // 1: the mesh is not closed (a sheet, or a part cut out): nothing counts as inside it. Where it
   // is not said, a part that is nearly a solid leaves undecided what seems to be inside of it: its
   // surface goes on across each of its holes, as it does not at the rim of a bin, a tube or a
@@ -64,7 +64,8 @@ typedef struct nsvcd_encode_options {
   int no_triangles;
   // 1: for flash that is scarce: the proof's triangles in 16 bits a coordinate, in some 5 % fewer
   // bytes, 10 to 40 % of a fine mesh. Verdicts are then about these, which are within
-  // nsvcd_body_facts.quantum of the mesh's own: HIT says that the mesh comes as near as that
+  // nsvcd_body_facts.quantization error of the mesh's own: HIT says that the mesh comes as near as
+  // that
   int coarse;
   // NULL, or told how much is done
   nsvcd_progress *progress;
@@ -93,8 +94,8 @@ NSVCDDEF size_t nsvcd_body_size(size_t patches);
 //              from the allocator, and nsvcd_body_free gives it back
 //   body       not NULL; set to the body; left as it was on failure
 //   allocates  working memory, which is given back, and the body where memory is NULL
-//   errors     ARGUMENT, PATCHES, RADIUS (`round`), LATENTS, INDEX, NUMBER, EMPTY, TOO_LARGE,
-//              MEMORY, WORKSPACE, CANCELLED
+//   errors     ARGUMENT, PATCHES, RADIUS (`convex_radius`), LATENTS, INDEX, NUMBER, EMPTY,
+//              TOO_LARGE, MEMORY, WORKSPACE, CANCELLED
 //   source     the latents: NeuralSVCD, appendix F; the triangles: this library
 NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
                                    const nsvcd_allocator *allocator, void *memory,
@@ -121,7 +122,7 @@ NSVCDDEF nsvcd_result nsvcd_encode_sphere(float radius, const nsvcd_allocator *a
 NSVCDDEF nsvcd_result nsvcd_encode_capsule(const float from[3], const float to[3],
                                            float radius, const nsvcd_allocator *allocator,
                                            const nsvcd_body **body);
-NSVCDDEF nsvcd_result nsvcd_encode_box(const float half[3], float round,
+NSVCDDEF nsvcd_result nsvcd_encode_box(const float half[3], float convex_radius,
                                        const nsvcd_allocator *allocator,
                                        const nsvcd_body **body);
 NSVCDDEF nsvcd_result nsvcd_encode_cloud(const float *points, size_t count, float radius,
@@ -182,12 +183,12 @@ typedef struct nsvcd_body_facts {
   // of the mesh; 0: none are stored
   size_t triangles;
   // triangles and parts of them that are stored, patch by patch
-  size_t listings;
+  size_t stored_triangles;
   // metres: the triangles that verdicts are about are within this of the mesh's. 0: they are the
   // mesh's own floats. Else the body is coarse, or nsvcd_body_scale has rounded it
-  float quantum;
+  float quantization_error;
   // metres that the body goes beyond its mesh
-  float round;
+  float convex_radius;
   // 1: the network can answer
   int latents;
   // parts of the surface, and how many of these are not closed once what does no harm is mended

@@ -21,10 +21,10 @@ NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, siz
                                        const nsvcd_tree **tree);
 
 // A pose in double: takes a corner x of the mesh to position + scale * x turned by rotation.
-typedef struct nsvcd_placement {
+typedef struct nsvcd_pose64 {
   double position[3];  // metres
   double rotation[4];  // x y z w, of any length but 0
-} nsvcd_placement;
+} nsvcd_pose64;
 
 // By how much a point leaves the chord between its places at two times, at most, along a unit
 // direction n: base + per_metre r + turn rho |n x R axis|. It is r metres from the mesh's origin,
@@ -40,12 +40,12 @@ typedef struct nsvcd_deviation {
 // proven is true if that is.
 typedef struct nsvcd_motion_model {
   double scale;
-  nsvcd_placement (*place)(const void *motion, double t);
+  nsvcd_pose64 (*pose_at)(const void *motion, double t);
   // the next keyframe after a time before 1
   double (*next)(const void *motion, double t);
   nsvcd_deviation (*deviation)(const void *motion, double t0, double t1);
   const void *motion;  // handed to these
-  double reach;        // metres: what its places are computed from is no farther off
+  double extent;       // metres: what its places are computed from is no farther off
   uint32_t digest;     // of the scale and the motion, as a checker computes it
 } nsvcd_motion_model;
 
@@ -57,7 +57,7 @@ typedef struct nsvcd_certify_options {
   // but that something is, or seems to be, inside of a mesh that is not closed: then nothing is
   // written that says FREE
   const nsvcd_answer *answer;
-  // that may be taken, steps of the walk that a certificate is; 0: NSVCD_DEFAULT_VISITS
+  // that may be taken, steps of the traversal that a certificate is; 0: NSVCD_DEFAULT_VISITS
   size_t visits;
 } nsvcd_certify_options;
 
@@ -101,7 +101,7 @@ NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
 //   allocates  nothing
 //   errors     ARGUMENT, SKIN (if there is one), SCALE, POSES, TIMES, POSE, QUATERNION, CLEARANCE,
 //              WORKSPACE
-//   source     this library; the walk is described in examples/verify/nsvcd_verify.h. Planes by
+//   source     this library; examples/verify/nsvcd_verify.h describes the traversal. Planes by
 //              Gilbert 1966
 NSVCDDEF nsvcd_result nsvcd_certify(const nsvcd_question *question, const nsvcd_tree *a,
                                     const nsvcd_tree *b, const nsvcd_certify_options *options,

@@ -25,8 +25,8 @@ NSVCDDEF void nsvcd_spline(const float *control, size_t via_points, size_t joint
 
 typedef enum nsvcd_plan_status {
   // the trajectory is within the limits and free of collision: certified where bodies have
-  // triangles, else as far as the network knows; but for what it strays from the last check's
-  // motion, answer.stray
+  // triangles, else as far as the network knows; but for what it deviates from the last check's
+  // motion, answer.deviate
   NSVCD_PLAN_CONVERGED = 0,
   // the iterations ended before one was found; this is the best
   NSVCD_PLAN_LIMIT,
@@ -76,9 +76,9 @@ typedef struct nsvcd_plan_problem {
   size_t pair_count;
   // joints (F) -> poses (B), in the world. What is grasped moves with the hand because this says
   // so: nothing is encoded anew
-  void (*place)(void *user, const float *joints, nsvcd_pose *poses);
+  void (*kinematics)(void *user, const float *joints, nsvcd_pose *poses);
   // joints (F) -> jacobian (B, 6, F): of each body, by a joint, the displacement of its origin and
-  // its rotation vector, in the world's axes. NULL: by differences of `place`
+  // its rotation vector, in the world's axes. NULL: by differences of `kinematics`
   void (*jacobian)(void *user, const float *joints, float *jacobian);
   // Instead of the network: the cost of collision of poses (T, B) at T times along the trajectory.
   // It may end at the first sum above `limit`. Sets *collides if there is a collision. Unless
@@ -132,10 +132,10 @@ typedef struct nsvcd_plan_options {
   int discrete;
   // segments of the last check, up to 4 NSVCD_MAX_PLAN_SEGMENTS; 16 times the finest stage's, or
   // that limit. Limits are looked at between these and at via points. Twice as many take
-  // answer.stray to a quarter
+  // answer.deviate to a quarter
   size_t check;
   // how all questions are asked; sweep.network.recall = 0.999f keeps more distance. The search asks
-  // the network. `method` is that of start, goal and the last check, and so are `clearance`, `skin`
+  // the network. `method` is that of start, goal and the last check, and so are `clearance`, `slop`
   // and the like. Not read: a, b, ask, to and to_time
   nsvcd_question sweep;
 } nsvcd_plan_options;
@@ -152,12 +152,12 @@ typedef struct nsvcd_plan_answer {
   float logit;
   // of that logit, in [0,1]
   float time;
-  // metres that the spline strays from the motion of the last check, through whose poses it goes:
+  // metres that the spline deviates from the motion of the last check, through whose poses it goes:
   // the farthest of any point of a's bounding sphere, as b sees it. Of all pairs whose a is given,
   // with a custom cost of collision too. Measured, not proven: half way between two poses, where a
-  // smooth curve strays most, at 16 places or more of each piece of the spline. 0 where no
+  // smooth curve deviates most, at 16 places or more of each piece of the spline. 0 where no
   // trajectory was sought
-  float stray;
+  float deviation;
   // of the trajectory, the latter without collision and limits; 0 where none was sought
   float cost, smoothness;
   // M of `control`
@@ -191,14 +191,14 @@ NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
 //   errors     ARGUMENT (NULL), COUNT, PAIR, BODY, VERSION, STAGE, PLAN (of the options), LIMITS
 //              (low above high), VALUE (limits, start or goal not finite or beyond
 //              NSVCD_MAX_COORDINATE), NUMBER (a cost beyond the range of float), POSE and
-//              QUATERNION (from `place`), WORKSPACE, TOO_LARGE, and those of the queries
+//              QUATERNION (from `kinematics`), WORKSPACE, TOO_LARGE, and those of the queries
 //   source     MPPI (Williams et al. 2017), then L-BFGS with bundled gradients (Suh et al. 2022);
 //              NeuralSVCD, appendix D
 //
 // Start, goal and the trajectory at the end are proven free where bodies have triangles: for the
 // motion of each pair as seen from b between the poses of the check's segments, position linear and
-// rotation slerp. The spline goes through these poses, and in between strays from that motion by
-// answer.stray, which nothing proves: to have the spline itself clear, by measure, ask for a
+// rotation slerp. The spline goes through these poses, and in between deviates from that motion by
+// answer.deviate, which nothing proves: to have the spline itself clear, by measure, ask for a
 // sweep.clearance above that. With `discrete`, or a cost of collision of one's own, nothing is
 // proven between the poses.
 //

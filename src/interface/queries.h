@@ -55,11 +55,11 @@ typedef struct nsvcd_network_options {
   nsvcd_precision precision;
   // share of collisions that it is to find: 0 (balanced errors), 0.99f, 0.999f or 0.9999f
   float recall;
-  // Patches swell by this share of their radii before planes separate them, so that patches which
-  // only come near are looked at too: the logit rises before contact, and has a gradient there. It
-  // calls more of what is near a hit. 0: as much as `recall` needs, or, where a distance is asked
-  // for, 1
-  float swell;
+  // Patches are inflated by this share of their radii before planes separate them, so that patches
+  // which only come near are looked at too: the logit rises before contact, and has a gradient
+  // there. It calls more of what is near a hit. 0: as much as `recall` needs, or, where a distance
+  // is asked for, 1
+  float inflate;
 } nsvcd_network_options;
 
 // units; HIT and FIRST, whose verdict on a close fit may take as many, and nothing else does
@@ -115,12 +115,12 @@ typedef struct nsvcd_question {
   float clearance;
   // metres: initial penetration, or violation of the clearance, up to this is ignored (their sum,
   // if both). So a body may rest on another, slide along it or leave it. The question is asked as
-  // if a were lifted off b by this much along the normals of all that it touches: see answer.lift.
-  // What is nearer than a twentieth of this is lifted off as if it touched. With FIRST, so is what
-  // is nearer than `to`, up to half of this, so that a body that was stopped before a contact goes
-  // on: entering it by less than this is FREE, though HIT, which has no `to`, tells of a contact.
-  // answer.depth is 0 for what was so near and did not touch
-  float skin;
+  // if a were pushed out of b by this much along the normals of all that it touches: see
+  // answer.lift. What is nearer than a twentieth of this is pushed out of as if it touched. With
+  // FIRST, so is what is nearer than `to`, up to half of this, so that a body that was stopped
+  // before a contact goes on: entering it by less than this is FREE, though HIT, which has no `to`,
+  // tells of a contact. answer.depth is 0 for what was so near and did not touch
+  float slop;
   // metres: surfaces that come closer than this, or than this and the clearance, and do not meet,
   // may be left undecided
   float tolerance;
@@ -135,14 +135,14 @@ typedef struct nsvcd_question {
   // then is told; of DISTANCE each interval has the share that is its part of the time left. An
   // eighth is left once surfaces have come too near to tell. Of FIRST an eighth is kept for what
   // has not been decided by then: what of the motion is free until when, and whether they meet at
-  // all. A manifold, and the place of a lifted body, may take an eighth each besides. By default an
-  // eighth is one of NSVCD_DEFAULT_WORK. Before that, a question takes as many units whatever is
-  // allowed
+  // all. A manifold, and the place of a pushed out body, may take an eighth each besides. By
+  // default an eighth is one of NSVCD_DEFAULT_WORK. Before that, a question takes as many units
+  // whatever is allowed
   size_t work;
   // a motion, or each interval of a long one, is cut into at most so many, a multiple of 16 up to
   // 64; 0: 64. Fewer take less memory, and make intervals shorter
   size_t segments;
-  // where it is the network that answers. It knows nothing of FIRST, a clearance or a skin, and has
+  // where it is the network that answers. It knows nothing of FIRST, a clearance or a slop, and has
   // no bounds of a DISTANCE: `to` is a proof's
   nsvcd_network_options network;
 } nsvcd_question;
@@ -217,17 +217,17 @@ typedef struct nsvcd_contact {
 } nsvcd_contact;
 
 // Where the bodies may go: to where they are at a time until which they are free of each other,
-// lifted off what they touch. There is no such place where they are in contact at the start and no
-// lift ends that (depth is HUGE_VALF), or where one is, or may be, inside of the other: then it is
-// where they are at the start, as the caller has them.
-typedef struct nsvcd_safe_place {
+// pushed out of what they touch. There is no such place where they are in contact at the start and
+// no lift ends that (depth is HUGE_VALF), or where one is, or may be, inside of the other: then it
+// is where they are at the start, as the caller has them.
+typedef struct nsvcd_safe_pose {
   // time.low, or, where they are about to touch then, a little before: by as much as poses in
   // float, and coarse triangles, are off. Never later than time.low
   float time;
-  // of both, world. The lift is in the pose of a; where only b moves, in that of b. A skin that is
-  // less than what floats resolve so far from the origin is too little for them
+  // of both, world. The push-out is in the pose of a; where only b moves, in that of b. A slop that
+  // is less than what floats resolve so far from the origin is too little for them
   nsvcd_pose a, b;
-} nsvcd_safe_place;
+} nsvcd_safe_pose;
 
 // What the network thinks.
 typedef struct nsvcd_opinion {
@@ -247,7 +247,7 @@ typedef struct nsvcd_opinion {
   // that pair
   uint32_t patch_a, patch_b;
   // pairs of patches whose spheres meet and that no plane between them parts, each counted once for
-  // each stretch of time, until the search ends
+  // each interval of time, until the search ends
   size_t candidates;
   // 1: there were more of these than `pairs` let through
   int limited;
@@ -271,21 +271,21 @@ typedef struct nsvcd_answer {
   // clearance or less that they come, if they hit. What stored triangles are off by is allowed for,
   // and so `high` is not 0 where they meet
   nsvcd_range distance;
-  nsvcd_safe_place safe;
-  // metres: of a contact at the start, the smallest lift of a off b, up to the skin or where it is
-  // made of several normals their sum, that ends it: of those along normals of what touches, or
+  nsvcd_safe_pose safe;
+  // metres: of a contact at the start, the smallest push-out of a off b, up to the slop or where it
+  // is made of several normals their sum, that ends it: of those along normals of what touches, or
   // across two of its edges; to a few per cent, and what stored triangles are off by. 0: there is
   // no contact at the start
   float depth;
-  // metres, world, at the start: by what a was lifted off b for the skin; it turns with b, or,
+  // metres, world, at the start: by what a was pushed out of b for the slop; it turns with b, or,
   // where a rests, or both move and a reaches farther from its origin, round and all, with a. The
   // answer is about the motion so displaced, which touches nothing at the start. 0: nothing was
-  // touched, nor so near that it is lifted off; or no lift does that, since a is pressed in deeper
-  // than the skin, or held from all sides: then the contact counts
-  float lift[3];
+  // touched, nor so near that it is pushed out of; or no push-out does that, since a is pressed in
+  // deeper than the slop, or held from all sides: then the contact counts
+  float push_out[3];
   // of a HIT whose triangles are known, at time.high: one, or a manifold, in the order of its ids.
   // That is of all places that are no farther apart than `to` (or the default, where only to_time
-  // is given) and the clearance the four that span most
+  // is given) and the clearance the four that interval most
   size_t contact_count;
   nsvcd_contact contacts[NSVCD_MAX_CONTACTS];
   // the triangles that distance.high is about, whatever the verdict: of a HIT the contact that
@@ -321,11 +321,11 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 // FREE and HIT hold for the meshes' own floats: the triangles of a HIT meet, or come within the
 // clearance, to 1e-12 of all lengths (both extents and how far the bodies are apart). UNDECIDED are
 // surfaces that come within 1e-9 of these without meeting, or more work than was allowed. Of bodies
-// whose nsvcd_body_facts.quantum is not 0 a HIT is one to within both quanta, and nearer than these
-// it is undecided whether surfaces meet: they are coarse, or were scaled. More work never leaves
-// undecided what less decides, nor takes more units for it, but where less has come to its last
-// eighth, or half of DISTANCE. By FIRST time.low rises with it, and is 0 only where the first
-// moments of the motion take more than a sixteenth of it.
+// whose nsvcd_body_facts.quantization error is not 0 a HIT is one to within both quantization
+// errors, and nearer than these it is undecided whether surfaces meet: they are coarse, or were
+// scaled. More work never leaves undecided what less decides, nor takes more units for it, but
+// where less has come to its last eighth, or half of DISTANCE. By FIRST time.low rises with it, and
+// is 0 only where the first moments of the motion take more than a sixteenth of it.
 //
 // A motion of any length, up to NSVCD_MAX_POSES poses of each body, is one question, and takes no
 // more memory than a short one. If it has more than 64 poses, or turns by more than 1,280 degrees,
@@ -394,13 +394,13 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
 //   source     reverse mode; this library
 //
 // Zero where no decoder was needed, and for poses that the decisive pair does not pass. It is the
-// gradient of the pair and the stretch of time that decided: its logit is the greatest of several,
+// gradient of the pair and the interval of time that decided: its logit is the greatest of several,
 // and so has kinks, also where the network (ReLU) and the frame of a pair have theirs, and where a
-// flat patch does not turn. At rest it is the mean of both sides. The ends of the stretch move with
-// the poses, but for those at t = 0 or 1 and where a segment of the search begins or ends. The unit
-// of length, and the spheres' allowance for what the motion does between its keyframes, are taken
-// as constant. In int8 arithmetic it is the derivative of the float decoder, or, without that, of
-// the function that the int8 one rounds.
+// flat patch does not turn. At rest it is the mean of both sides. The ends of the interval move
+// with the poses, but for those at t = 0 or 1 and where a segment of the search begins or ends. The
+// unit of length, and the spheres' allowance for what the motion does between its keyframes, are
+// taken as constant. In int8 arithmetic it is the derivative of the float decoder, or, without
+// that, of the function that the int8 one rounds.
 NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace,
                                            size_t workspace_size, nsvcd_answer *answer,
                                            float *gradient_a, float *gradient_b);

@@ -67,7 +67,7 @@ typedef enum nsvcd_result {
   // `ask` is none of its values
   NSVCD_ERROR_ASK,
   // `method` is none of its values, or cannot answer this: the network knows no FIRST, to,
-  // clearance or skin, and no proof has a gradient
+  // clearance or slop, and no proof has a gradient
   NSVCD_ERROR_METHOD,
   // `to` is negative, not finite, too large, or set where HIT is asked
   NSVCD_ERROR_TO,
@@ -75,8 +75,8 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_TO_TIME,
   // `clearance` is negative, not finite or too large
   NSVCD_ERROR_CLEARANCE,
-  // `skin` is negative, not finite or too large, or set for a certificate
-  NSVCD_ERROR_SKIN,
+  // `slop` is negative, not finite or too large, or set for a certificate
+  NSVCD_ERROR_SLOP,
   // `tolerance` is negative, not finite or too large
   NSVCD_ERROR_TOLERANCE,
   // `manifold` is set where FIRST is not asked
@@ -91,8 +91,8 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_PRECISION,
   // `network.recall` is none of those there are
   NSVCD_ERROR_RECALL,
-  // `network.swell` is negative or not finite
-  NSVCD_ERROR_SWELL,
+  // `network.inflate` is negative or not finite
+  NSVCD_ERROR_INFLATE,
 
   // ---- joints
   // a joint's kind is none of its values, or its parent does not come before it
@@ -116,7 +116,7 @@ typedef enum nsvcd_result {
   // `finest` is negative or not finite
   NSVCD_ERROR_FINEST,
   // `within` or `deepest` is negative, not finite or too large
-  NSVCD_ERROR_WITHIN,
+  NSVCD_ERROR_DISTANCE,
   // `farthest` is negative, not finite or too large
   NSVCD_ERROR_FARTHEST,
   // `nodes` or `shortcuts` is too large, or `edge` negative

@@ -1,7 +1,7 @@
 // In: a robot among obstacles, and a motion of its joints. Out: is it free, as the joints make it?
 //
 // Between two samples of a joint motion a link leaves the line and the slerp that nsvcd_sweep is
-// about. By how much, at most, follows from the joints (robot/stray): with that as clearance the
+// about. By how much, at most, follows from the joints (robot/deviate): with that as clearance the
 // sweep proves the joints' own motion, at all times.
 #pragma once
 #include "queries.h"
@@ -131,8 +131,8 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
 // its origin is more than what nsvcd_check answers to.
 //   joints     (F), radians or metres; not looked at: NaN gives poses that are none
 //   poses      (B), in the world
-NSVCDDEF void nsvcd_checker_place(const nsvcd_checker *checker, const double *joints,
-                                  nsvcd_pose *poses);
+NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const double *joints,
+                                       nsvcd_pose *poses);
 
 // Is a motion free?
 //   checker    not NULL; where things are hit is remembered: it is asked there first
@@ -142,7 +142,7 @@ NSVCDDEF void nsvcd_checker_place(const nsvcd_checker *checker, const double *jo
 //   allocates  nothing
 //   errors     ARGUMENT, DEGREE, VALUE (points not finite or beyond NSVCD_MAX_COORDINATE), TIMES,
 //              CLEARANCE, FINEST
-//   source     this library: robot/stray; slerps and lines against joints, by second derivatives
+//   source     this library: robot/deviate; slerps and lines against joints, by second derivatives
 //
 // What FREE says holds for the joints' own motion, with all joint values and frames exact, and
 // bodies as nsvcd_sweep says. A HIT is one of the configuration named, to what a pose in float is

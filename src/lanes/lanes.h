@@ -340,7 +340,7 @@ typedef struct nsvcd__beam {
   float width;
 } nsvcd__beam;
 
-// A filter of a walk: spheres that a beam meets.
+// A filter of a traversal: spheres that a beam meets.
 static uint32_t nsvcd__is_on_beam(const void *what, nsvcd__spheres all) {
   const nsvcd__beam *beam = (const nsvcd__beam *)what;
   uint32_t met = 0;

@@ -75,7 +75,7 @@ static int nsvcd__polygon_alloc(nsvcd__polygon *polygon, uint32_t corners,
 static double nsvcd__d2_cross(nsvcd__d2 a, nsvcd__d2 b, nsvcd__d2 c) {
   return (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
 }
-static int nsvcd__same_place(nsvcd__d2 a, nsvcd__d2 b) {
+static int nsvcd__same_position(nsvcd__d2 a, nsvcd__d2 b) {
   return !(a.x < b.x || a.x > b.x || a.y < b.y || a.y > b.y);
 }
 
@@ -181,13 +181,13 @@ static int nsvcd__ear_holds(const nsvcd__ear *ear, nsvcd__d2 p) {
   for (size_t k = 0; k < 3; k++) {
     if (nsvcd__d2_cross(ear->at[k], ear->at[(k + 1) % 3], p) < 0) return 0;
   }
-  if (nsvcd__same_place(p, ear->at[0]) || nsvcd__same_place(p, ear->at[1])) return 0;
-  return !nsvcd__same_place(p, ear->at[2]);
+  if (nsvcd__same_position(p, ear->at[0]) || nsvcd__same_position(p, ear->at[1])) return 0;
+  return !nsvcd__same_position(p, ear->at[2]);
 }
 
 // May an ear hold a corner in a box?
 static int nsvcd__ear_meets(const nsvcd__ear *ear, const nsvcd__corner_box *box) {
-  if (nsvcd__same_place(box->low, box->high)) return nsvcd__ear_holds(ear, box->low);
+  if (nsvcd__same_position(box->low, box->high)) return nsvcd__ear_holds(ear, box->low);
   if (ear->box.high.x < box->low.x || ear->box.high.y < box->low.y) return 0;
   if (ear->box.low.x > box->high.x || ear->box.low.y > box->high.y) return 0;
   for (size_t k = 0; k < 3; k++) {

@@ -81,7 +81,7 @@ static nsvcd_result nsvcd__stl_text(nsvcd__obj *text, float *corners, size_t *co
 }
 
 // Vertices by their places.
-typedef struct nsvcd__stl_places {
+typedef struct nsvcd__stl_positions {
   // (slots), a power of two: numbers + 1, 0 where none is
   uint32_t *table;
   size_t slots;
@@ -89,20 +89,20 @@ typedef struct nsvcd__stl_places {
   uint64_t seed;
   // along the table, past vertices elsewhere
   size_t steps;
-} nsvcd__stl_places;
+} nsvcd__stl_positions;
 
 // The slot of the vertex at this place, or where it belongs.
-static uint32_t *nsvcd__stl_find(nsvcd__stl_places *places, const float *positions,
+static uint32_t *nsvcd__stl_find(nsvcd__stl_positions *found, const float *positions,
                                  const float *corner) {
   uint32_t bits[3];
-  uint64_t hash = places->seed;
+  uint64_t hash = found->seed;
   memcpy(bits, corner, sizeof bits);
   for (size_t k = 0; k < 3; k++) {
     hash = (hash ^ bits[k]) * UINT64_C(0x9e3779b97f4a7c15);
     hash ^= hash >> 32;
   }
-  for (size_t slot = (size_t)hash;; slot++, places->steps++) {
-    uint32_t *at = &places->table[slot & (places->slots - 1)];
+  for (size_t slot = (size_t)hash;; slot++, found->steps++) {
+    uint32_t *at = &found->table[slot & (found->slots - 1)];
     if (!*at || memcmp(positions + 3 * (size_t)(*at - 1), corner, sizeof bits) == 0) return at;
   }
 }
@@ -110,7 +110,7 @@ static uint32_t *nsvcd__stl_find(nsvcd__stl_places *places, const float *positio
 // Makes one vertex of corners at the same place: corners (3 triangles, 3) become positions, and
 // their numbers indices. Where it takes many steps, as of corners that are chosen to share a hash,
 // another hash is taken. The table is of zeros.
-static void nsvcd__stl_weld(nsvcd_mesh *mesh, nsvcd__stl_places *places) {
+static void nsvcd__stl_weld(nsvcd_mesh *mesh, nsvcd__stl_positions *found) {
   const size_t corners = mesh->vertex_count;
   float *positions = mesh->positions;
   size_t count = 0;
@@ -118,19 +118,19 @@ static void nsvcd__stl_weld(nsvcd_mesh *mesh, nsvcd__stl_places *places) {
     const size_t most = 8 * i + 1024;
     float corner[3];
     for (size_t k = 0; k < 3; k++) corner[k] = positions[3 * i + k] + 0.0f;  // -0 is 0
-    uint32_t *at = nsvcd__stl_find(places, positions, corner);
+    uint32_t *at = nsvcd__stl_find(found, positions, corner);
     if (!*at) {
       memcpy(positions + 3 * count, corner, sizeof corner);
       *at = (uint32_t)++count;
     }
     mesh->indices[i] = *at - 1;
-    while (places->steps > most) {
+    while (found->steps > most) {
       // where memory lies is not known to who made the file
-      places->seed += UINT64_C(0xd1342543de82ef95) + (uint64_t)(size_t)places->table;
-      places->steps = 0;
-      memset(places->table, 0, places->slots * sizeof *places->table);
-      for (size_t v = 0; v < count && places->steps <= most; v++)
-        *nsvcd__stl_find(places, positions, positions + 3 * v) = (uint32_t)v + 1;
+      found->seed += UINT64_C(0xd1342543de82ef95) + (uint64_t)(size_t)found->table;
+      found->steps = 0;
+      memset(found->table, 0, found->slots * sizeof *found->table);
+      for (size_t v = 0; v < count && found->steps <= most; v++)
+        *nsvcd__stl_find(found, positions, positions + 3 * v) = (uint32_t)v + 1;
     }
   }
   mesh->vertex_count = count;
@@ -168,11 +168,11 @@ static nsvcd_result nsvcd__stl_read(const void *data, size_t size,
   nsvcd_mesh out;
   nsvcd__arena arena = nsvcd__arena_of(allocator);
   memset(&out, 0, sizeof out);
-  nsvcd__stl_places places = {NULL, 16, 0, 0};
-  while (places.slots < 2 * corners) places.slots *= 2;
+  nsvcd__stl_positions positions = {NULL, 16, 0, 0};
+  while (positions.slots < 2 * corners) positions.slots *= 2;
   if (!result) {
-    places.table = NSVCD__TAKE(&arena, uint32_t, places.slots);
-    if (!places.table || !nsvcd__mesh_alloc(&out, corners, corners / 3, allocator)) {
+    positions.table = NSVCD__TAKE(&arena, uint32_t, positions.slots);
+    if (!positions.table || !nsvcd__mesh_alloc(&out, corners, corners / 3, allocator)) {
       text.line = 0;
       result = NSVCD_ERROR_MEMORY;
     }
@@ -187,7 +187,7 @@ static nsvcd_result nsvcd__stl_read(const void *data, size_t size,
     const size_t facet = NSVCD__STL_HEADER + NSVCD__STL_FACET * (i / 3);
     result = nsvcd__stl_corner(bytes + facet + 12 * (1 + i % 3), &o, out.positions + 3 * i);
   }
-  if (!result) nsvcd__stl_weld(&out, &places);
+  if (!result) nsvcd__stl_weld(&out, &positions);
   nsvcd__arena_free(&arena);
   if (result) {
     if (error_line && !is_binary) *error_line = text.line;

@@ -74,7 +74,7 @@ typedef struct nsvcd__motion {
   // of the moving body's origin less the fixed one's, in world axes, metres
   nsvcd__f3 low, high;
   // by which the moving body is held off its poses, as the fixed one sees it, in its units
-  nsvcd__f3 lift;
+  nsvcd__f3 push_out;
   // of an interval: the tick at which it begins, and how many arcs a segment has; 0, 0: it is all
   // of the motion
   uint32_t from, arcs;
@@ -216,7 +216,7 @@ static void nsvcd__motion_init(const nsvcd_mover *moving, const nsvcd_mover *fix
   motion->ratio = (double)nsvcd__scale_of(moving) / (double)motion->unit;
   motion->scale = (float)motion->ratio;
   motion->per_scale = 1 / motion->scale;
-  motion->lift = nsvcd__f3_of(0, 0, 0);
+  motion->push_out = nsvcd__f3_of(0, 0, 0);
   motion->begin = 0;
   motion->duration = 1;
   nsvcd__motion_set_tracks(motion, nsvcd__track_of(moving), nsvcd__track_of(fixed));
@@ -314,7 +314,7 @@ static nsvcd__v_pose nsvcd__v_seen(const nsvcd__motion *motion, const nsvcd__v_p
   const nsvcd__v3 metres = nsvcd__vmat3_apply(matrix, at->offset);
   nsvcd__v_pose out;
   out.rotation = nsvcd__vquat_mul(to_fixed, at->moving);
-  out.position = nsvcd__v3_fma(per_metre, metres, nsvcd__v3_set(motion->lift));
+  out.position = nsvcd__v3_fma(per_metre, metres, nsvcd__v3_set(motion->push_out));
   return out;
 }
 
@@ -356,7 +356,7 @@ static nsvcd__transform nsvcd__motion_pose(const nsvcd__motion *motion, float t)
   const nsvcd__f3 offset = nsvcd__d3_narrow(nsvcd__d3_over(metres, (double)motion->unit));
   nsvcd__transform out;
   out.rotation = nsvcd__mat3_mul(&to_fixed, &rotation);
-  out.position = nsvcd__f3_add(nsvcd__mat3_apply(&to_fixed, offset), motion->lift);
+  out.position = nsvcd__f3_add(nsvcd__mat3_apply(&to_fixed, offset), motion->push_out);
   return out;
 }
 #endif

@@ -5,7 +5,7 @@
 // Time is cut into S segments. Within one, every sphere centre c of the moving body (its frame) is
 // taken along the chord between its places at the two ends, x0 + tau v, tau in [0,1], and the
 // radius grows by
-//   dev(c) = spread + bulge |c|
+//   dev(c) = margin + bend |c|
 // so that it covers the true place (M(t) c + p(t)) at every t, M being the rotation times the
 // scale. Why: let L(t) be the linear interpolation of M between the segment's ends, K(t) the
 // piecewise linear one through the keyframes inside. Between two keyframes a chord misses a curve
@@ -13,16 +13,16 @@
 // that is h^2 |c| / 8 on an arc of angle h, and its origin goes straight. Where both do, what the
 // fixed body sees bends more: nsvcd__cut_double_arc. K - L is piecewise linear, its norm convex, so
 // it is largest at a keyframe. Hence
-//   bulge  = max over arcs of what they bend by per metre  +  max over keyframes ||M_k - L(t_k)||
-//          (Frobenius >= 2-norm)
-//   drift  = max over arcs of what the origin bends by  +  max over keyframes |p_k - its linear
-//                                                       interpolation|
-//   spread = drift + rounding + the clearance that is asked for
+//   bend   = max over arcs of what they bend by per metre
+//                      + max over keyframes ||M_k - L(t_k)||  (Frobenius >= 2-norm)
+//   origin_bend = max over arcs of what the origin bends by
+//                      + max over keyframes |p_k - its linear interpolation|
+//   margin           = origin_bend + rounding + the clearance that is asked for
 // Along a direction n, |n| <= 1, it is less. A turn by h about the unit axis a bends the way of a
 // point x by a x (a x y) h^2, y being x, turned; and n.(a x (a x y)) = (n x a).(a x y), which is no
-// more than |n x a| |x|: nothing along the axis. So `bulge_along_axis` and `drift_along_axis` are
-// what is left along the axis of the whole segment's turn, off which the arcs' axes may be, and
-// nsvcd__deviation_of puts them together.
+// more than |n x a| |x|: nothing along the axis. So `bend_along_axis` and
+// `origin_along_axis` are what is left along the axis of the whole segment's turn, off
+// which the arcs' axes may be, and nsvcd__deviation_of puts them together.
 //
 // A group or a whole body is a sphere like any other: its sphere, truly posed, contains its
 // members', truly posed.
@@ -34,12 +34,12 @@
 // it meets longest, because a deep collision is then found before the rest is searched.
 //
 // A *tile* is up to 32 groups of one body and up to 32 of the other, which are searched together.
-// Bodies of up to 512 patches make one tile. Of larger ones, a walk through the levels of spheres
+// Bodies of up to 512 patches make one tile. Of larger ones, a traversal of the levels of spheres
 // above the groups finds those that the other body comes near, and they are searched tile after
 // tile: each moving tile against all tiles of the fixed body.
 #pragma once
 #include "../ground/memory.h"
-#include "../body/walk.h"
+#include "../body/traversal.h"
 #include "motion.h"
 
 // of a motion, as long as none then turns by more than NSVCD__SEGMENT_TURN
@@ -72,20 +72,21 @@ typedef struct nsvcd__candidate {
 // Chords start + tau way of 16 moving spheres, their radii plus deviation, and -1 / |way|^2.
 typedef struct nsvcd__chords {
   float start[3][NSVCD__LANES];
-  float way[3][NSVCD__LANES];
+  float travel[3][NSVCD__LANES];
   float inverse[NSVCD__LANES];
-  float reach[NSVCD__LANES];
+  float radius[NSVCD__LANES];
 } nsvcd__chords;
 
 // 16 segments: pose at the start, change of the pose until the end, deviation.
 typedef struct nsvcd__segments {
   float rotation[9][NSVCD__LANES], position[3][NSVCD__LANES], turned[9][NSVCD__LANES],
       moved[3][NSVCD__LANES];
-  float spread[NSVCD__LANES], bulge[NSVCD__LANES];
+  float margin[NSVCD__LANES], bend[NSVCD__LANES];
   // For the proof, the same along directions: see nsvcd__deviation_of.
-  float rounding[NSVCD__LANES], drift[NSVCD__LANES], axis[3][NSVCD__LANES],
-      bulge_along_axis[NSVCD__LANES];
-  float drift_along_axis[NSVCD__LANES], way[3][NSVCD__LANES], drift_off_way[NSVCD__LANES];
+  float rounding[NSVCD__LANES], origin_bend[NSVCD__LANES], axis[3][NSVCD__LANES],
+      bend_along_axis[NSVCD__LANES];
+  float origin_along_axis[NSVCD__LANES], heading[3][NSVCD__LANES],
+      origin_off_heading[NSVCD__LANES];
 } nsvcd__segments;
 
 // Poses of both bodies at 16 ticks, and one more, in the world; and quaternions as the fixed body
@@ -105,12 +106,12 @@ typedef struct nsvcd__bends {
   float sum[NSVCD__LANES];  // of the turns of arcs
   // The greatest so far of what arcs leave their chords by: per metre from the moving body's
   // origin, along the axis too, and that origin itself.
-  float arc_bulge[NSVCD__LANES], axis_turn[NSVCD__LANES], arc_drift[NSVCD__LANES];
+  float arc_bend[NSVCD__LANES], arc_bend_along_axis[NSVCD__LANES], arc_origin[NSVCD__LANES];
   // The greatest so far, squared, of what keyframes are off their chord by: the rotation and the
   // position, and both along the axis, or across the way.
-  float bulge[NSVCD__LANES], spread[NSVCD__LANES], axis_bulge[NSVCD__LANES],
-      axis_drift[NSVCD__LANES];
-  float way_drift[NSVCD__LANES];
+  float bend[NSVCD__LANES], margin[NSVCD__LANES], keyframe_bend_along_axis[NSVCD__LANES],
+      keyframe_origin_along_axis[NSVCD__LANES];
+  float keyframe_origin_off_heading[NSVCD__LANES];
 } nsvcd__bends;
 
 typedef struct nsvcd__cut {
@@ -166,7 +167,7 @@ typedef struct nsvcd__search {
   nsvcd__cut *cut;
   uint64_t near_segments;  // in which the bodies' spheres meet
   // through the groups that come near; where a body is large
-  nsvcd__walk moving_walk, fixed_walk;
+  nsvcd__traversal moving_traversal, fixed_traversal;
   nsvcd__box near_box;  // about the way of the moving tile
   // the groups that are searched now; below, places in these
   nsvcd__tile moving_tile, fixed_tile;
@@ -184,7 +185,7 @@ typedef struct nsvcd__search {
   size_t at;
   uint64_t posed;  // segments for which members[] is filled
   // no part of these members is farther from the body's origin
-  float remote;
+  float extent;
 #ifndef NSVCD_NO_NETWORK
   // what is known of planes that part patches, and (GROUP, S) lanes of a group that meet each of
   // another: search/apart
@@ -386,7 +387,7 @@ static NSVCD__NOINLINE void nsvcd__cut_ends(const nsvcd__motion *motion, nsvcd__
     nsvcd__vmat3_store(out->turned, l, nsvcd__vmat3_sub(end, start));
     nsvcd__v3_store(out->moved, l, moved);
     nsvcd__v3_store(out->axis, l, nsvcd__v3_unit(turn));
-    nsvcd__v3_store(out->way, l, nsvcd__v3_unit(moved));
+    nsvcd__v3_store(out->heading, l, nsvcd__v3_unit(moved));
   }
 }
 
@@ -421,15 +422,15 @@ static void nsvcd__cut_double_arc(const nsvcd__motion *motion, const nsvcd__v_po
   turn = nsvcd__v_fma(nsvcd__v_set(2e-6f), sines, turn);
   const nsvcd__v fixed_turn = nsvcd__v_arc(from->fixed, to->fixed);
   const nsvcd__v squares = nsvcd__v_mul(turn, nsvcd__v_add(turn, fixed_turn));
-  nsvcd__v_keep_most(cut->most.arc_bulge + l, nsvcd__v_mul(squares, eighth));
+  nsvcd__v_keep_most(cut->most.arc_bend + l, nsvcd__v_mul(squares, eighth));
 
   const nsvcd__v remote_start = nsvcd__v3_length(from->offset);
-  const nsvcd__v remote = nsvcd__v_max(remote_start, nsvcd__v3_length(to->offset));
-  const nsvcd__v way = nsvcd__v3_length(nsvcd__v3_sub(to->offset, from->offset));
-  const nsvcd__v both = nsvcd__v_fma(fixed_turn, remote, nsvcd__v_add(way, way));
+  const nsvcd__v extent = nsvcd__v_max(remote_start, nsvcd__v3_length(to->offset));
+  const nsvcd__v travel = nsvcd__v3_length(nsvcd__v3_sub(to->offset, from->offset));
+  const nsvcd__v both = nsvcd__v_fma(fixed_turn, extent, nsvcd__v_add(travel, travel));
   const nsvcd__v metres = nsvcd__v_mul(nsvcd__v_mul(fixed_turn, both), eighth);
-  const nsvcd__v drift = nsvcd__v_div(metres, nsvcd__v_set(motion->unit));
-  nsvcd__v_keep_most(cut->most.arc_drift + l, drift);
+  const nsvcd__v origin_bend = nsvcd__v_div(metres, nsvcd__v_set(motion->unit));
+  nsvcd__v_keep_most(cut->most.arc_origin + l, origin_bend);
   nsvcd__v_add_to(cut->most.sum + l, fixed_turn);
 }
 
@@ -446,10 +447,10 @@ static void nsvcd__cut_arc(const nsvcd__motion *motion, const nsvcd__v_poses *at
   } else {
     const nsvcd__v3 axis = nsvcd__v3_load(out->axis, l);
     const nsvcd__vquat last_seen = nsvcd__vquat_load(cut->last.seen + l, NSVCD__KEYFRAMES);
-    const nsvcd__v bulge = nsvcd__v_scale(nsvcd__v_mul(arc, arc), 0.125f);
+    const nsvcd__v bend = nsvcd__v_scale(nsvcd__v_mul(arc, arc), 0.125f);
     const nsvcd__v off_axis = nsvcd__v_turn_off_axis(axis, last_seen, seen, arc);
-    nsvcd__v_keep_most(cut->most.arc_bulge + l, bulge);
-    nsvcd__v_keep_most(cut->most.axis_turn + l, off_axis);
+    nsvcd__v_keep_most(cut->most.arc_bend + l, bend);
+    nsvcd__v_keep_most(cut->most.arc_bend_along_axis + l, off_axis);
   }
   nsvcd__keyframes_keep(motion, at, seen, l, &cut->last);
 }
@@ -480,16 +481,16 @@ static NSVCD__NOINLINE void nsvcd__cut_keyframe(const nsvcd__motion *motion,
     const nsvcd__v3 position = nsvcd__v3_load(out->position, l);
     const nsvcd__v3 chord = nsvcd__v3_fma(u, nsvcd__v3_load(out->moved, l), position);
     const nsvcd__v3 aside = nsvcd__v3_sub(seen.position, chord);
-    nsvcd__v_keep_most(most->bulge + l, nsvcd__vmat3_square(off));
-    nsvcd__v_keep_most(most->spread + l, nsvcd__v3_dot(aside, aside));
+    nsvcd__v_keep_most(most->bend + l, nsvcd__vmat3_square(off));
+    nsvcd__v_keep_most(most->margin + l, nsvcd__v3_dot(aside, aside));
 
     const nsvcd__v3 axis = nsvcd__v3_load(out->axis, l);
     const nsvcd__v3 along = nsvcd__vmat3_apply_transpose(off, axis);
-    const nsvcd__v3 off_way = nsvcd__v3_cross(nsvcd__v3_load(out->way, l), aside);
+    const nsvcd__v3 off_way = nsvcd__v3_cross(nsvcd__v3_load(out->heading, l), aside);
     const nsvcd__v off_axis = nsvcd__v3_dot(axis, aside);
-    nsvcd__v_keep_most(most->axis_bulge + l, nsvcd__v3_dot(along, along));
-    nsvcd__v_keep_most(most->axis_drift + l, nsvcd__v_mul(off_axis, off_axis));
-    nsvcd__v_keep_most(most->way_drift + l, nsvcd__v3_dot(off_way, off_way));
+    nsvcd__v_keep_most(most->keyframe_bend_along_axis + l, nsvcd__v3_dot(along, along));
+    nsvcd__v_keep_most(most->keyframe_origin_along_axis + l, nsvcd__v_mul(off_axis, off_axis));
+    nsvcd__v_keep_most(most->keyframe_origin_off_heading + l, nsvcd__v3_dot(off_way, off_way));
   }
 }
 
@@ -498,34 +499,36 @@ static void nsvcd__cut_deviations(const nsvcd__motion *motion, float lengths, si
                                   nsvcd__segments *out, const nsvcd__cut *cut) {
   const nsvcd__bends *most = &cut->most;
   const nsvcd__v scale = nsvcd__v_set(motion->scale);
-  const nsvcd__v off_chord = nsvcd__v_sqrt(nsvcd__v_load(most->spread + l));
-  const nsvcd__v drift = nsvcd__v_add(off_chord, nsvcd__v_load(most->arc_drift + l));
-  const nsvcd__v arc_bulge = nsvcd__v_mul(scale, nsvcd__v_load(most->arc_bulge + l));
-  const nsvcd__v keyframe_bulge = nsvcd__v_sqrt(nsvcd__v_load(most->bulge + l));
-  const nsvcd__v bulge = nsvcd__v_add(arc_bulge, keyframe_bulge);
-  nsvcd__v bulge_along_axis = bulge;
-  nsvcd__v drift_along_axis = drift;
-  nsvcd__v drift_off_way = drift;
+  const nsvcd__v off_chord = nsvcd__v_sqrt(nsvcd__v_load(most->margin + l));
+  const nsvcd__v origin_bend = nsvcd__v_add(off_chord, nsvcd__v_load(most->arc_origin + l));
+  const nsvcd__v arc_bend = nsvcd__v_mul(scale, nsvcd__v_load(most->arc_bend + l));
+  const nsvcd__v keyframe_bulge = nsvcd__v_sqrt(nsvcd__v_load(most->bend + l));
+  const nsvcd__v bend = nsvcd__v_add(arc_bend, keyframe_bulge);
+  nsvcd__v bend_along_axis = bend;
+  nsvcd__v origin_along_axis = origin_bend;
+  nsvcd__v origin_off_heading = origin_bend;
   if (!motion->fixed_moves) {
-    const nsvcd__v axis_turn = nsvcd__v_mul(scale, nsvcd__v_load(most->axis_turn + l));
-    const nsvcd__v axis_bulge = nsvcd__v_sqrt(nsvcd__v_load(most->axis_bulge + l));
-    bulge_along_axis = nsvcd__v_add(axis_bulge, axis_turn);
-    drift_along_axis = nsvcd__v_sqrt(nsvcd__v_load(most->axis_drift + l));
-    drift_off_way = nsvcd__v_sqrt(nsvcd__v_load(most->way_drift + l));
+    const nsvcd__v arc_bend_along_axis =
+        nsvcd__v_mul(scale, nsvcd__v_load(most->arc_bend_along_axis + l));
+    const nsvcd__v keyframe_bend_along_axis =
+        nsvcd__v_sqrt(nsvcd__v_load(most->keyframe_bend_along_axis + l));
+    bend_along_axis = nsvcd__v_add(keyframe_bend_along_axis, arc_bend_along_axis);
+    origin_along_axis = nsvcd__v_sqrt(nsvcd__v_load(most->keyframe_origin_along_axis + l));
+    origin_off_heading = nsvcd__v_sqrt(nsvcd__v_load(most->keyframe_origin_off_heading + l));
   }
-  nsvcd__v_store(out->bulge + l, bulge);
-  nsvcd__v_store(out->drift + l, drift);
-  nsvcd__v_store(out->bulge_along_axis + l, bulge_along_axis);
-  nsvcd__v_store(out->drift_along_axis + l, drift_along_axis);
-  nsvcd__v_store(out->drift_off_way + l, drift_off_way);
+  nsvcd__v_store(out->bend + l, bend);
+  nsvcd__v_store(out->origin_bend + l, origin_bend);
+  nsvcd__v_store(out->bend_along_axis + l, bend_along_axis);
+  nsvcd__v_store(out->origin_along_axis + l, origin_along_axis);
+  nsvcd__v_store(out->origin_off_heading + l, origin_off_heading);
 
   const nsvcd__v3 start = nsvcd__v3_load(out->position, l);
   const nsvcd__v3 end = nsvcd__v3_add(start, nsvcd__v3_load(out->moved, l));
-  const nsvcd__v remote = nsvcd__v_add(nsvcd__v3_length(start), nsvcd__v3_length(end));
-  const nsvcd__v all = nsvcd__v_add(remote, nsvcd__v_plus(drift, lengths));
+  const nsvcd__v extent = nsvcd__v_add(nsvcd__v3_length(start), nsvcd__v3_length(end));
+  const nsvcd__v all = nsvcd__v_add(extent, nsvcd__v_plus(origin_bend, lengths));
   const nsvcd__v rounding = nsvcd__v_scale(all, NSVCD__ROUNDING);
   nsvcd__v_store(out->rounding + l, rounding);
-  nsvcd__v_store(out->spread + l, nsvcd__v_add(rounding, drift));
+  nsvcd__v_store(out->margin + l, nsvcd__v_add(rounding, origin_bend));
 }
 
 // Cuts 16 segments, of which `count` exist. begin: (17) ticks at which they begin, and the last one
@@ -555,7 +558,7 @@ static void nsvcd__cut_block(const nsvcd__motion *motion, const uint32_t *begin,
   }
   memcpy(turn, cut->most.sum, sizeof cut->most.sum);
   // these meet nothing
-  for (size_t l = count; l < NSVCD__LANES; l++) out->spread[l] = NSVCD__NOWHERE;
+  for (size_t l = count; l < NSVCD__LANES; l++) out->margin[l] = NSVCD__NOWHERE;
 }
 
 // Fills the blocks: the chosen segments' poses in the fixed body's frame, and deviations. lengths:
@@ -572,20 +575,20 @@ static void nsvcd__cut_segments(const nsvcd__motion *motion, float lengths, floa
       ends[l] = search->begin[first + (l < count ? l : count)];
     nsvcd__segments *block = &search->blocks[first / NSVCD__LANES];
     nsvcd__cut_block(motion, ends, count, lengths, block, search->cut, turn);
-    for (size_t l = 0; l < count; l++) block->spread[l] += clearance;
+    for (size_t l = 0; l < count; l++) block->margin[l] += clearance;
     for (size_t l = 0; l < count; l++)
       search->turn[first + l + 1] = search->turn[first + l] + turn[l];
   }
 }
 
 // Stores a slice of chords, from lane l on. FLT_MIN keeps a chord of no length finite.
-static void nsvcd__chords_store(nsvcd__chords *c, size_t l, nsvcd__v3 start, nsvcd__v3 way,
-                                nsvcd__v reach) {
-  const nsvcd__v square = nsvcd__v_max(nsvcd__v3_dot(way, way), nsvcd__v_set(1.2e-38f));
+static void nsvcd__chords_store(nsvcd__chords *c, size_t l, nsvcd__v3 start, nsvcd__v3 travel,
+                                nsvcd__v radius) {
+  const nsvcd__v square = nsvcd__v_max(nsvcd__v3_dot(travel, travel), nsvcd__v_set(1.2e-38f));
   nsvcd__v3_store(c->start, l, start);
-  nsvcd__v3_store(c->way, l, way);
+  nsvcd__v3_store(c->travel, l, travel);
   nsvcd__v_store(c->inverse + l, nsvcd__v_div(nsvcd__v_set(-1), square));
-  nsvcd__v_store(c->reach + l, reach);
+  nsvcd__v_store(c->radius + l, radius);
 }
 
 // Chords of one sphere, body frame, in the segments of a block.
@@ -600,20 +603,20 @@ static void nsvcd__chords_of_sphere(nsvcd__segments *b, nsvcd__sphere sphere,
     const nsvcd__v3 position = nsvcd__v3_load(b->position, l);
     const nsvcd__v3 moved = nsvcd__v3_load(b->moved, l);
     const nsvcd__v3 start = nsvcd__vmat3_apply_add(rotation, centre, position);
-    const nsvcd__v3 way = nsvcd__vmat3_apply_add(turned, centre, moved);
-    const nsvcd__v spread = nsvcd__v_load(b->spread + l);
-    const nsvcd__v deviation = nsvcd__v_fma(nsvcd__v_load(b->bulge + l), length, spread);
-    nsvcd__chords_store(out, l, start, way, nsvcd__v_add(deviation, radius));
+    const nsvcd__v3 travel = nsvcd__vmat3_apply_add(turned, centre, moved);
+    const nsvcd__v margin = nsvcd__v_load(b->margin + l);
+    const nsvcd__v deviation = nsvcd__v_fma(nsvcd__v_load(b->bend + l), length, margin);
+    nsvcd__chords_store(out, l, start, travel, nsvcd__v_add(deviation, radius));
   }
 }
 
 // Chords of 16 spheres in one segment: lane s of a block. The patches that they contain are no
-// farther than `remote` from the body's origin, in its own frame and units; scale: of the body. The
+// farther than `extent` from the body's origin, in its own frame and units; scale: of the body. The
 // centre of a sphere over patches may be farther: on their chords points of a body do not move
 // apart, so that it is enough to allow for what the patches deviate.
 static void nsvcd__chords_of_members(nsvcd__segments *b, size_t s, nsvcd__spheres members,
-                                     float scale, float remote, nsvcd__chords *out) {
-  const nsvcd__v deviation = nsvcd__v_set(b->spread[s] + b->bulge[s] * remote);
+                                     float scale, float extent, nsvcd__chords *out) {
+  const nsvcd__v deviation = nsvcd__v_set(b->margin[s] + b->bend[s] * extent);
   const nsvcd__mat3 rotation = nsvcd__mat3_lane(b->rotation, s);
   const nsvcd__mat3 turned = nsvcd__mat3_lane(b->turned, s);
   const nsvcd__v3 position = nsvcd__v3_set(nsvcd__lane_of(b->position, s));
@@ -623,33 +626,33 @@ static void nsvcd__chords_of_members(nsvcd__segments *b, size_t s, nsvcd__sphere
     const nsvcd__vmat3 rotations = nsvcd__vmat3_set(&rotation);
     const nsvcd__vmat3 turns = nsvcd__vmat3_set(&turned);
     const nsvcd__v3 start = nsvcd__vmat3_apply_add(rotations, centre, position);
-    const nsvcd__v3 way = nsvcd__vmat3_apply_add(turns, centre, moved);
+    const nsvcd__v3 travel = nsvcd__vmat3_apply_add(turns, centre, moved);
     const nsvcd__v radius = nsvcd__v_load(members.r + l);
-    const nsvcd__v reach = nsvcd__v_fma(nsvcd__v_set(scale), radius, deviation);
-    nsvcd__chords_store(out, l, start, way, reach);
+    const nsvcd__v grown = nsvcd__v_fma(nsvcd__v_set(scale), radius, deviation);
+    nsvcd__chords_store(out, l, start, travel, grown);
   }
 }
 
 // Squared distance of the chord from the resting centre. d: from that centre to the start of the
 // chord.
-NSVCD__INLINE nsvcd__v nsvcd__nearest2(nsvcd__v3 d, nsvcd__v3 way, nsvcd__v inverse) {
-  const nsvcd__v tau = nsvcd__v_clamp(nsvcd__v_mul(nsvcd__v3_dot(d, way), inverse), 0, 1);
-  const nsvcd__v3 nearest = nsvcd__v3_fma(tau, way, d);
+NSVCD__INLINE nsvcd__v nsvcd__nearest2(nsvcd__v3 d, nsvcd__v3 travel, nsvcd__v inverse) {
+  const nsvcd__v tau = nsvcd__v_clamp(nsvcd__v_mul(nsvcd__v3_dot(d, travel), inverse), 0, 1);
+  const nsvcd__v3 nearest = nsvcd__v3_fma(tau, travel, d);
   return nsvcd__v3_dot(nearest, nearest);
 }
 
-// The test. A bit for each lane of the slice: does the chord come within `reach` of the resting
+// The test. A bit for each lane of the slice: does the chord come within `radius` of the resting
 // centre? d: from that to the start of the chord.
-NSVCD__INLINE uint32_t nsvcd__comes_within(nsvcd__v3 d, nsvcd__v3 way, nsvcd__v inverse,
-                                           nsvcd__v reach) {
-  return nsvcd__v_le(nsvcd__nearest2(d, way, inverse), nsvcd__v_signed_square(reach));
+NSVCD__INLINE uint32_t nsvcd__comes_within(nsvcd__v3 d, nsvcd__v3 travel, nsvcd__v inverse,
+                                           nsvcd__v radius) {
+  return nsvcd__v_le(nsvcd__nearest2(d, travel, inverse), nsvcd__v_signed_square(radius));
 }
 
 NSVCD__INLINE nsvcd__v3 nsvcd__chords_start(const nsvcd__chords *c, size_t l) {
   return nsvcd__v3_rows(c->start[0] + l);
 }
-NSVCD__INLINE nsvcd__v3 nsvcd__chords_way(const nsvcd__chords *c, size_t l) {
-  return nsvcd__v3_rows(c->way[0] + l);
+NSVCD__INLINE nsvcd__v3 nsvcd__chords_travel(const nsvcd__chords *c, size_t l) {
+  return nsvcd__v3_rows(c->travel[0] + l);
 }
 
 // 16 moving spheres, or one in 16 segments, against one resting sphere.
@@ -660,9 +663,9 @@ static uint32_t nsvcd__meet(const nsvcd__chords *c, nsvcd__sphere resting) {
   NSVCD__TALLY(tests, 1);
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__chords_start(c, l), centre);
-    const nsvcd__v reach = nsvcd__v_add(nsvcd__v_load(c->reach + l), radius);
+    const nsvcd__v sum = nsvcd__v_add(nsvcd__v_load(c->radius + l), radius);
     const nsvcd__v inverse = nsvcd__v_load(c->inverse + l);
-    met |= nsvcd__comes_within(d, nsvcd__chords_way(c, l), inverse, reach) << l;
+    met |= nsvcd__comes_within(d, nsvcd__chords_travel(c, l), inverse, sum) << l;
   }
   return met;
 }
@@ -671,15 +674,15 @@ static uint32_t nsvcd__meet(const nsvcd__chords *c, nsvcd__sphere resting) {
 NSVCD__INLINE uint32_t nsvcd__meet_members(const nsvcd__chords *c, size_t s,
                                            nsvcd__spheres resting) {
   const nsvcd__v3 start = nsvcd__v3_set(nsvcd__f3_get(c->start[0] + s, NSVCD__LANES));
-  const nsvcd__v3 way = nsvcd__v3_set(nsvcd__f3_get(c->way[0] + s, NSVCD__LANES));
+  const nsvcd__v3 travel = nsvcd__v3_set(nsvcd__f3_get(c->travel[0] + s, NSVCD__LANES));
   const nsvcd__v inverse = nsvcd__v_set(c->inverse[s]);
-  const nsvcd__v own = nsvcd__v_set(c->reach[s]);
+  const nsvcd__v own = nsvcd__v_set(c->radius[s]);
   uint32_t met = 0;
   NSVCD__TALLY(tests, 1);
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_centres(resting, l));
-    const nsvcd__v reach = nsvcd__v_add(own, nsvcd__v_load(resting.r + l));
-    met |= nsvcd__comes_within(d, way, inverse, reach) << l;
+    const nsvcd__v radius = nsvcd__v_add(own, nsvcd__v_load(resting.r + l));
+    met |= nsvcd__comes_within(d, travel, inverse, radius) << l;
   }
   return met;
 }

@@ -49,7 +49,7 @@ enum {
   NSVCD__FACT_TURN = 7,
   NSVCD__FACT_SPEED = 10,  // the lengths of these two
   NSVCD__FACT_SPIN = 11,
-  // of the gaps between the tips: (GAPS, MOMENTS), and the widest at each moment
+  // of the gaps between the extremes: (GAPS, MOMENTS), and the widest at each moment
   NSVCD__FACT_GAPS = 12,
   NSVCD__FACT_WIDEST = 24,
   // products of the normals: of both, of the larger patch's and the smaller one's with the line
@@ -97,12 +97,12 @@ typedef struct nsvcd__pairs {
   nsvcd__v3 v;
   nsvcd__v3 w;  // half rotation vector
   // of both patches, in the bodies' frames: unit normals, or 0 where a patch has none; how flat
-  // they are, which is the normal area over that of the ball's greatest disc; latents; and tips,
-  // (TIPS, 3) at a stride of GROUP
+  // they are, which is the normal area over that of the ball's greatest slab; latents; and
+  // extremes, (TIPS, 3) at a stride of GROUP
   nsvcd__v3 normal[2];
   nsvcd__v flat[2];
   const int8_t *z[2][NSVCD__SLICE];
-  const int8_t *tips[2][NSVCD__SLICE];
+  const int8_t *extremes[2][NSVCD__SLICE];
 } nsvcd__pairs;
 
 // Half the rotation vector of a unit quaternion, from the sine s of half the angle: asin(s) / s
@@ -170,10 +170,10 @@ static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const floa
   const nsvcd__v u = nsvcd__v_load(fraction);
   const nsvcd__vquat start = nsvcd__vquat_load(rotation, NSVCD__SLICE);
   const nsvcd__vquat chord = nsvcd__vquat_load(turned, NSVCD__SLICE);
-  const nsvcd__v3 way = nsvcd__v3_load_rows(moved, NSVCD__SLICE);
+  const nsvcd__v3 travel = nsvcd__v3_load_rows(moved, NSVCD__SLICE);
   nsvcd__v_pose out;
   out.rotation = nsvcd__vquat_unit(nsvcd__vquat_fma(u, chord, start));
-  out.position = nsvcd__v3_fma(u, way, nsvcd__v3_load_rows(position, NSVCD__SLICE));
+  out.position = nsvcd__v3_fma(u, travel, nsvcd__v3_load_rows(position, NSVCD__SLICE));
   return out;
 }
 
@@ -234,7 +234,7 @@ static NSVCD__NOINLINE void nsvcd__pairs_of(const nsvcd_body *moving, const nsvc
       nsvcd__f3_put(nsvcd__f3_scale(patch.centre, scale), centres[n] + l, NSVCD__SLICE);
       radii[n][l] = scale * patch.radius;
       pairs->z[n][l] = nsvcd__body_latents(body) + NSVCD__LATENT * i;
-      pairs->tips[n][l] = nsvcd__group_tips(body, i / NSVCD__GROUP) + i % NSVCD__GROUP;
+      pairs->extremes[n][l] = nsvcd__group_extremes(body, i / NSVCD__GROUP) + i % NSVCD__GROUP;
       // a patch that is closed has no normal; bodies that were loaded may hold any numbers
       const float inverse = patch.radius > 0 ? 1 / patch.radius : 0;
       const nsvcd__f3 area = nsvcd__f3_get(nsvcd__body_areas(body) + i, body->padded);
@@ -364,7 +364,7 @@ static NSVCD__NOINLINE void nsvcd__views_of(const nsvcd__pairs *pairs, nsvcd__vi
 
 // ---- gaps
 
-// Where gaps between tips are measured.
+// Where gaps between extremes are measured.
 typedef struct nsvcd__gap_axes {
   // from the fixed patches to the moving ones
   nsvcd__v3 u[NSVCD__GAPS];
@@ -384,13 +384,14 @@ static void nsvcd__gap_axes_of(const nsvcd__pairs *pairs, const nsvcd__views *vi
   axes->u[NSVCD__GAP_BOTH] = nsvcd__v_unit_or(nsvcd__v3_add(fixed, moving), 1e-3f, line);
 }
 
-// The tips of the first `count` pairs of a slice, of the moving patches and of the fixed ones: (2,
-// TIPS, 3, SLICE) steps of 1/127 of the radii, from the centres, in the bodies' frames.
-static void nsvcd__tips_collect(const nsvcd__pairs *pairs, size_t count, int8_t *tips) {
-  memset(tips, 0, 2 * 3 * NSVCD__TIPS * NSVCD__SLICE);
+// The extremes of the first `count` pairs of a slice, of the moving patches and of the fixed ones:
+// (2, TIPS, 3, SLICE) steps of 1/127 of the radii, from the centres, in the bodies' frames.
+static void nsvcd__extremes_collect(const nsvcd__pairs *pairs, size_t count,
+                                    int8_t *extremes) {
+  memset(extremes, 0, 2 * 3 * NSVCD__EXTREMES * NSVCD__SLICE);
   for (size_t n = 0; n < 2; n++) {
-    for (size_t k = 0; k < 3 * NSVCD__TIPS; k++, tips += NSVCD__SLICE) {
-      for (size_t l = 0; l < count; l++) tips[l] = pairs->tips[n][l][NSVCD__GROUP * k];
+    for (size_t k = 0; k < 3 * NSVCD__EXTREMES; k++, extremes += NSVCD__SLICE) {
+      for (size_t l = 0; l < count; l++) extremes[l] = pairs->extremes[n][l][NSVCD__GROUP * k];
     }
   }
 }
@@ -407,9 +408,9 @@ static nsvcd__v3 nsvcd__turned_back(nsvcd__v3 u, nsvcd__v3 w) {
 // The gaps along the axes, wide (GAPS), in the fixed body's units, at tau: -1 and 1 are the ends of
 // the interval. Seen from a frame that turns half as fast as the moving patch, in which either
 // patch may be called the one that moves: the line between the centres goes by v, one patch turns
-// by half of w, and the other the opposite way. tips: nsvcd__tips_collect.
+// by half of w, and the other the opposite way. extremes: nsvcd__extremes_collect.
 static NSVCD__NOINLINE void nsvcd__gaps_at(const nsvcd__pairs *pairs,
-                                           const nsvcd__gap_axes *axes, const int8_t *tips,
+                                           const nsvcd__gap_axes *axes, const int8_t *extremes,
                                            nsvcd__v tau, nsvcd__v *wide) {
   const size_t size = 3 * NSVCD__SLICE;
   const nsvcd__v3 half = nsvcd__v3_scale(pairs->w, nsvcd__v_scale(tau, 0.5f));
@@ -423,9 +424,9 @@ static NSVCD__NOINLINE void nsvcd__gaps_at(const nsvcd__pairs *pairs,
     low[d] = nsvcd__v_set(1e30f);
     high[d] = nsvcd__v_set(-1e30f);
   }
-  for (size_t k = 0; k < NSVCD__TIPS; k++, tips += size) {
-    const nsvcd__v3 q = nsvcd__v3_load_int8(tips, NSVCD__SLICE);
-    const nsvcd__v3 x = nsvcd__v3_load_int8(tips + NSVCD__TIPS * size, NSVCD__SLICE);
+  for (size_t k = 0; k < NSVCD__EXTREMES; k++, extremes += size) {
+    const nsvcd__v3 q = nsvcd__v3_load_int8(extremes, NSVCD__SLICE);
+    const nsvcd__v3 x = nsvcd__v3_load_int8(extremes + NSVCD__EXTREMES * size, NSVCD__SLICE);
     for (size_t d = 0; d < NSVCD__GAPS; d++) {
       low[d] = nsvcd__v_min(low[d], nsvcd__v3_dot(own[d], q));
       high[d] = nsvcd__v_max(high[d], nsvcd__v3_dot(other[d], x));
@@ -451,15 +452,15 @@ static nsvcd__v nsvcd__gap_told(nsvcd__v gap, float steep) {
 static NSVCD__NOINLINE void nsvcd__tell_gaps(const nsvcd__pairs *pairs,
                                              const nsvcd__views *view, size_t count,
                                              float (*facts)[NSVCD__SLICE]) {
-  int8_t tips[2 * 3 * NSVCD__TIPS * NSVCD__SLICE];
+  int8_t extremes[2 * 3 * NSVCD__EXTREMES * NSVCD__SLICE];
   nsvcd__gap_axes axes;
   nsvcd__gap_axes_of(pairs, view, &axes);
-  nsvcd__tips_collect(pairs, count, tips);
+  nsvcd__extremes_collect(pairs, count, extremes);
   for (size_t m = 0; m < NSVCD__MOMENTS; m++) {
     const nsvcd__v tau = nsvcd__v_scale(view->time, (float)m - 1);
     nsvcd__v wide[NSVCD__GAPS];
     nsvcd__v widest = nsvcd__v_set(-1e30f);
-    nsvcd__gaps_at(pairs, &axes, tips, tau, wide);
+    nsvcd__gaps_at(pairs, &axes, extremes, tau, wide);
     for (size_t d = 0; d < NSVCD__GAPS; d++) {
       const nsvcd__v gap = nsvcd__v_mul(view->inverse, wide[d]);
       float *to = facts[NSVCD__FACT_GAPS + NSVCD__MOMENTS * d + m];
@@ -547,8 +548,8 @@ static NSVCD__NOINLINE void nsvcd__inputs_in(const nsvcd__scenes *scene,
   for (size_t n = 0; n < 2; n++) {
     nsvcd__wigner(&scene->turn[n], nsvcd__v_mul(scene->k[n], step), wigner);
     for (size_t l = 0; l < count; l++) {
-      const size_t place = (scene->keep >> l & 1) == n;
-      nsvcd__rotate_latent(pairs->z[n][l], wigner, l, place, x + NSVCD__DECODER_IN * l);
+      const size_t slot = (scene->keep >> l & 1) == n;
+      nsvcd__rotate_latent(pairs->z[n][l], wigner, l, slot, x + NSVCD__DECODER_IN * l);
     }
   }
   for (size_t l = 0; l < count; l++) {

@@ -3,26 +3,26 @@
 // (Jacobson et al. 2013), and far from the surface each patch is as good as a dipole of its area
 // vector (Barill et al. 2018):
 //   w(x) = sum_i A_i . (p_i - x) / (4 pi |p_i - x|^3)     1 inside, 0 outside
-// Near the surface it is not: a flat disc seen from its covering radius gives 0.25 where 0.146 is
+// Near the surface it is not: a flat slab seen from its covering radius gives 0.25 where 0.146 is
 // true, from half of it 1.0 where 0.28 is true. So the place asked about is the patch centre of the
-// inner body (of NSVCD__PLACES) that is farthest from the outer patches in units of their radii,
-// or, as bodies may be of several parts, up to NSVCD__LOOKS_INSIDE that are far from each other.
+// inner body (of NSVCD__POSITIONS) that is farthest from the outer patches in units of their radii,
+// or, as bodies may be of several parts, up to NSVCD__INSIDE_SAMPLES that are far from each other.
 // Nearer than NSVCD__FAR_ENOUGH the number is not asked for, but inside of a flat patch from
 // NSVCD__FAR_INSIDE on; and where all places are on the inner side of the patch that is nearest, as
 // those of a chip in a table top are, they are inside. Measured at a million places about spheres
 // of 32 to 512 patches, the worst error of w is 0.55 from 0.75 radii on, 0.52 from 1, 0.06 from
-// 1.5; from 1 on, fewer than 1 in 1,000 exceed 0.3.
-// In bodies of more than a tile's patches the sums of area vectors stand for those of whole groups,
-// and of what is above them, where the place is farther than NSVCD__DIPOLE of their spheres' radii:
-// w is then within 0.05 of the sum over all patches (tests/test_level.c).
-// Cost: at most NSVCD__PLACES * N distances each way, where one body's centres lie in the other's
-// sphere and the straight way out of it is barred; of large bodies only those of groups nearby.
+// 1.5; from 1 on, fewer than 1 in 1,000 exceed 0.3. In bodies of more than a tile's patches the
+// sums of area vectors stand for those of whole groups, and of what is above them, where the place
+// is farther than NSVCD__DIPOLE of their spheres' radii: w is then within 0.05 of the sum over all
+// patches (tests/test_level.c). Cost: at most NSVCD__POSITIONS * N distances each way, where one
+// body's centres lie in the other's sphere and the straight way out of it is barred; of large
+// bodies only those of groups nearby.
 #pragma once
 #include "../motion/segments.h"
 
 #ifndef NSVCD_NO_NETWORK
 // places of the inner body that are looked at
-#define NSVCD__PLACES NSVCD__LANES
+#define NSVCD__POSITIONS NSVCD__LANES
 // Distances, in radii. A place is far enough if no patch is nearer than this,
 #define NSVCD__FAR_ENOUGH 1.0f
 // or than this, on the inner side of the nearest one,
@@ -31,20 +31,20 @@
 #define NSVCD__AMPLE 2.0f
 // and the patches of a sphere that is farther than this count as one
 #define NSVCD__DIPOLE 3.0f
-// A patch is flat if its area vector is at least this share of its ball's disc.
+// A patch is flat if its area vector is at least this share of its ball's slab.
 #define NSVCD__FLAT 0.4f
 // places that are far enough, and asked about: bodies may be of several parts
-#define NSVCD__LOOKS_INSIDE 4
+#define NSVCD__INSIDE_SAMPLES 4
 
-// A filter of a walk: spheres whose members may be nearer to one of the places than NSVCD__AMPLE of
-// their radii. A member (p, r) of a sphere (c, R) has |p - c| + r <= R, so that |p - x| / r is at
-// least |c - x| / R.
+// A filter of a traversal: spheres whose members may be nearer to one of the places than
+// NSVCD__AMPLE of their radii. A member (p, r) of a sphere (c, R) has |p - c| + r <= R, so that |p
+// - x| / r is at least |c - x| / R.
 static uint32_t nsvcd__may_be_close(const void *what, nsvcd__spheres all) {
-  const nsvcd__sphere *places = (const nsvcd__sphere *)what;
-  const nsvcd__v radius = nsvcd__v_set(places->radius);
+  const nsvcd__sphere *positions = (const nsvcd__sphere *)what;
+  const nsvcd__v radius = nsvcd__v_set(positions->radius);
   uint32_t close = 0;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 centre = nsvcd__v3_set(places->centre);
+    const nsvcd__v3 centre = nsvcd__v3_set(positions->centre);
     const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(all, l), centre);
     const nsvcd__v r = nsvcd__v_load(all.r + l);
     const nsvcd__v ample = nsvcd__v_fma(r, nsvcd__v_set(NSVCD__AMPLE), radius);
@@ -54,24 +54,24 @@ static uint32_t nsvcd__may_be_close(const void *what, nsvcd__spheres all) {
 }
 
 // Where places lie about a body.
-typedef struct nsvcd__places {
-  float at[3][NSVCD__PLACES];
+typedef struct nsvcd__positions {
+  float at[3][NSVCD__POSITIONS];
   // Least |p_i - x| / r_i, squared, over its patches, AMPLE squared at most
-  float square[NSVCD__PLACES];
-  // of the patch nearest, as a disc of its area: the squared distance, and the height over it,
+  float square[NSVCD__POSITIONS];
+  // of the patch nearest, as a slab of its area: the squared distance, and the height over it,
   // which is negative inside, but where the patch is not flat
-  float nearest[NSVCD__PLACES], height[NSVCD__PLACES];
-} nsvcd__places;
+  float nearest[NSVCD__POSITIONS], height[NSVCD__POSITIONS];
+} nsvcd__positions;
 
 // Fills in what follows from where they are.
-static void nsvcd__places_measure(const nsvcd_body *body, nsvcd__places *out) {
+static void nsvcd__positions_measure(const nsvcd_body *body, nsvcd__positions *out) {
   const nsvcd__spheres patches = nsvcd__body_patches(body);
   const nsvcd__v zero = nsvcd__v_set(0);
   nsvcd__f3 low = nsvcd__f3_of(HUGE_VALF, HUGE_VALF, HUGE_VALF);
   nsvcd__f3 high = nsvcd__f3_scale(low, -1);
-  nsvcd__walk walk;
+  nsvcd__traversal traversal;
   size_t g;
-  for (size_t k = 0; k < NSVCD__PLACES; k++) {
+  for (size_t k = 0; k < NSVCD__POSITIONS; k++) {
     low = nsvcd__f3_min(low, nsvcd__lane_of(out->at, k));
     high = nsvcd__f3_max(high, nsvcd__lane_of(out->at, k));
     out->square[k] = NSVCD__AMPLE * NSVCD__AMPLE;
@@ -81,12 +81,12 @@ static void nsvcd__places_measure(const nsvcd_body *body, nsvcd__places *out) {
   nsvcd__sphere over;  // all places
   over.centre = nsvcd__f3_add(nsvcd__f3_scale(low, 0.5f), nsvcd__f3_scale(high, 0.5f));
   over.radius = nsvcd__f3_length(nsvcd__f3_sub(high, over.centre));
-  nsvcd__walk_begin(&walk, body, nsvcd__may_be_close, &over);
-  while (nsvcd__walk_next(&walk, &g)) {
+  nsvcd__traversal_begin(&traversal, body, nsvcd__may_be_close, &over);
+  while (nsvcd__traversal_next(&traversal, &g)) {
     const size_t next = NSVCD__GROUP * (g + 1);
     const size_t end = next < body->patches ? next : body->patches;
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 place = nsvcd__v3_load(out->at, l);
+      const nsvcd__v3 position = nsvcd__v3_load(out->at, l);
       nsvcd__v least = nsvcd__v_load(out->square + l);
       nsvcd__v nearest = nsvcd__v_load(out->nearest + l);
       nsvcd__v height = nsvcd__v_load(out->height + l);
@@ -95,7 +95,7 @@ static void nsvcd__places_measure(const nsvcd_body *body, nsvcd__places *out) {
         const nsvcd__f3 area = nsvcd__f3_get(nsvcd__body_areas(body) + i, body->padded);
         const float size = nsvcd__f3_length(area);
         const nsvcd__f3 normal = nsvcd__f3_scale(area, size > 0 ? 1 / size : 0);
-        const nsvcd__v3 d = nsvcd__v3_sub(place, nsvcd__v3_set(patch.centre));
+        const nsvcd__v3 d = nsvcd__v3_sub(position, nsvcd__v3_set(patch.centre));
         const nsvcd__v square = nsvcd__v3_dot(d, d);
         const float own = patch.radius * patch.radius;
         const float inverse = 1 / (own > 1e-37f ? own : 1e-37f);
@@ -175,16 +175,16 @@ static float nsvcd__winding_number(const nsvcd_body *body, nsvcd__f3 point) {
 }
 
 // The place that is far enough from the surface and farthest from those marked; none: PLACES.
-static size_t nsvcd__next_place(nsvcd__places *places, uint32_t marked) {
-  size_t next = NSVCD__PLACES;
+static size_t nsvcd__next_position(nsvcd__positions *positions, uint32_t marked) {
+  size_t next = NSVCD__POSITIONS;
   float most = -1;
-  for (size_t k = 0; k < NSVCD__PLACES; k++) {
-    float least = places->square[k];
-    const float needed = places->height[k] < 0 ? NSVCD__FAR_INSIDE : NSVCD__FAR_ENOUGH;
+  for (size_t k = 0; k < NSVCD__POSITIONS; k++) {
+    float least = positions->square[k];
+    const float needed = positions->height[k] < 0 ? NSVCD__FAR_INSIDE : NSVCD__FAR_ENOUGH;
     if (least < needed * needed || marked >> k & 1) continue;
     for (uint32_t left = marked; left; left &= left - 1) {
-      const nsvcd__f3 other = nsvcd__lane_of(places->at, nsvcd__low_bit(left));
-      const nsvcd__f3 d = nsvcd__f3_sub(nsvcd__lane_of(places->at, k), other);
+      const nsvcd__f3 other = nsvcd__lane_of(positions->at, nsvcd__low_bit(left));
+      const nsvcd__f3 d = nsvcd__f3_sub(nsvcd__lane_of(positions->at, k), other);
       const float square = nsvcd__f3_dot(d, d);
       least = square < least || left == marked ? square : least;
     }
@@ -196,16 +196,16 @@ static size_t nsvcd__next_place(nsvcd__places *places, uint32_t marked) {
 
 // Does a patch's ball lie on the straight way out of a body, from its centre on? A place from which
 // there is none is outside: a closed surface would bar the way.
-static int nsvcd__way_out_is_barred(const nsvcd_body *body, nsvcd__f3 place) {
-  const nsvcd__f3 away = nsvcd__f3_sub(place, nsvcd__f3_load(body->centre));
+static int nsvcd__way_out_is_barred(const nsvcd_body *body, nsvcd__f3 position) {
+  const nsvcd__f3 away = nsvcd__f3_sub(position, nsvcd__f3_load(body->centre));
   const float length = nsvcd__f3_length(away);
   const nsvcd__f3 along = nsvcd__f3_scale(away, length > 0 ? 1 / length : 0);
-  const nsvcd__beam out = {place, along, NSVCD__ROUNDING * body->extent};
+  const nsvcd__beam out = {position, along, NSVCD__ROUNDING * body->extent};
   const nsvcd__spheres patches = nsvcd__body_patches(body);
-  nsvcd__walk walk;
+  nsvcd__traversal traversal;
   size_t g;
-  nsvcd__walk_begin(&walk, body, nsvcd__is_on_beam, &out);
-  while (nsvcd__walk_next(&walk, &g)) {
+  nsvcd__traversal_begin(&traversal, body, nsvcd__is_on_beam, &out);
+  while (nsvcd__traversal_next(&traversal, &g)) {
     if (nsvcd__is_on_beam(&out, nsvcd__spheres_from(patches, NSVCD__GROUP * g))) return 1;
   }
   return 0;
@@ -217,40 +217,41 @@ static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, fl
                             const nsvcd__transform *pose) {
   const nsvcd__spheres patches = nsvcd__body_patches(inner);
   const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_load(outer->centre));
-  nsvcd__places places;
-  uint32_t within = 0;
+  nsvcd__positions positions;
+  uint32_t inside = 0;
   uint32_t marked = 0;
   uint32_t below = 0;
   if (outer->open) return 0;
-  for (size_t k = 0; k < NSVCD__PLACES; k++) {
+  for (size_t k = 0; k < NSVCD__POSITIONS; k++) {
     // neighbours are stored together: equal steps spread over it
-    const nsvcd__f3 own = nsvcd__centre_of(patches, k * inner->patches / NSVCD__PLACES);
+    const nsvcd__f3 own = nsvcd__centre_of(patches, k * inner->patches / NSVCD__POSITIONS);
     const nsvcd__f3 turned = nsvcd__mat3_apply(&pose->rotation, own);
-    const nsvcd__f3 place = nsvcd__f3_add(nsvcd__f3_scale(turned, scale), pose->position);
-    nsvcd__lane_set(place, places.at, k);
+    const nsvcd__f3 position = nsvcd__f3_add(nsvcd__f3_scale(turned, scale), pose->position);
+    nsvcd__lane_set(position, positions.at, k);
   }
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_load(places.at, l), centre);
-    within |= nsvcd__v_le(nsvcd__v3_length(off), nsvcd__v_set(outer->radius)) << l;
+    const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_load(positions.at, l), centre);
+    inside |= nsvcd__v_le(nsvcd__v3_length(off), nsvcd__v_set(outer->radius)) << l;
   }
-  for (uint32_t left = within; left; left &= left - 1) {
+  for (uint32_t left = inside; left; left &= left - 1) {
     const size_t k = nsvcd__low_bit(left);
-    if (!nsvcd__way_out_is_barred(outer, nsvcd__lane_of(places.at, k))) within &= ~(1u << k);
+    if (!nsvcd__way_out_is_barred(outer, nsvcd__lane_of(positions.at, k)))
+      inside &= ~(1u << k);
   }
-  if (!within) return 0;
-  nsvcd__places_measure(outer, &places);
-  for (size_t k = 0; k < NSVCD__PLACES; k++) {
-    if (!(within >> k & 1)) places.square[k] = 0;
-    below |= (uint32_t)(places.height[k] < 0) << k;
+  if (!inside) return 0;
+  nsvcd__positions_measure(outer, &positions);
+  for (size_t k = 0; k < NSVCD__POSITIONS; k++) {
+    if (!(inside >> k & 1)) positions.square[k] = 0;
+    below |= (uint32_t)(positions.height[k] < 0) << k;
   }
   // near the surface everywhere, and on the inner side
-  if (within == 0xffff && below == 0xffff) return 1;
-  for (size_t n = 0; n < NSVCD__LOOKS_INSIDE; n++) {
-    const size_t k = nsvcd__next_place(&places, marked);
-    if (k == NSVCD__PLACES) break;
+  if (inside == 0xffff && below == 0xffff) return 1;
+  for (size_t n = 0; n < NSVCD__INSIDE_SAMPLES; n++) {
+    const size_t k = nsvcd__next_position(&positions, marked);
+    if (k == NSVCD__POSITIONS) break;
     marked |= 1u << k;
     // -1 where the mesh is inside out
-    if (fabsf(nsvcd__winding_number(outer, nsvcd__lane_of(places.at, k))) > 0.5f) return 1;
+    if (fabsf(nsvcd__winding_number(outer, nsvcd__lane_of(positions.at, k))) > 0.5f) return 1;
   }
   return 0;
 }

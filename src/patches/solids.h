@@ -500,7 +500,7 @@ static void nsvcd__mark_parts(const nsvcd__mending *m, nsvcd__component *wholes,
     nsvcd__component *whole = &wholes[m->wholes[n]];
     const int is_most = part->area >= 0.5 * whole->area;
     const int kind = part->turned == 0           ? NSVCD__CLOSED
-                     : part->odd == 0 && is_most ? NSVCD__EITHER_WAY
+                     : part->odd == 0 && is_most ? NSVCD__EITHER_DIRECTION
                                                  : NSVCD__SHEET;
     out->kinds[m->triangles[n]] = (uint8_t)kind;
     if (kind == NSVCD__SHEET) whole->fails = 1;
@@ -530,7 +530,7 @@ static void nsvcd__mark_wholes(const nsvcd__mending *m, nsvcd__component *wholes
       out->open_edges += is_closed ? 0 : whole->odd;
     }
     if (!is_closed && is_nearly && *kind == NSVCD__SHEET) *kind = NSVCD__NEARLY;
-    out->is_mixed |= *kind == NSVCD__EITHER_WAY || *kind == NSVCD__NEARLY;
+    out->is_mixed |= *kind == NSVCD__EITHER_DIRECTION || *kind == NSVCD__NEARLY;
   }
 }
 

@@ -5,7 +5,7 @@
 
 #ifndef NSVCD_NO_OPTIMIZER
 // The derivative by the joints of one moment, p->by_path (F), from the wrenches (B, 6) there, by
-// differences of `place`. poses: (B), at these joints.
+// differences of `kinematics`. poses: (B), at these joints.
 static void nsvcd__by_differences(nsvcd__planner *p, const float *joints,
                                   const nsvcd_pose *poses, const float *wrenches) {
   const nsvcd_plan_problem *problem = p->problem;
@@ -14,7 +14,7 @@ static void nsvcd__by_differences(nsvcd__planner *p, const float *joints,
   for (size_t j = 0; j < problem->joints; j++) {
     moved[j] = joints[j] + (NSVCD__JOINT_STEP + NSVCD__JOINT_STEP_FRACTION * fabsf(joints[j]));
     const float step = moved[j] - joints[j];  // as rounded
-    problem->place(problem->user, moved, p->moved);
+    problem->kinematics(problem->user, moved, p->moved);
     moved[j] = joints[j];
     p->by_path[j] = 0;
     for (size_t b = 0; b < problem->body_count; b++) {
@@ -23,8 +23,8 @@ static void nsvcd__by_differences(nsvcd__planner *p, const float *joints,
       const float twice = nsvcd__quat_dot(q, r) < 0 ? -2.0f : 2.0f;
       const nsvcd__f3 turn = nsvcd__f3_scale(nsvcd__quat_turn(q, r), twice / step);
       const nsvcd__f3 from = nsvcd__f3_load(poses[b].position);
-      const nsvcd__f3 way = nsvcd__f3_sub(nsvcd__f3_load(p->moved[b].position), from);
-      p->by_path[j] += nsvcd__f3_dot(nsvcd__f3_row(wrenches, 2 * b), way) / step;
+      const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__f3_load(p->moved[b].position), from);
+      p->by_path[j] += nsvcd__f3_dot(nsvcd__f3_row(wrenches, 2 * b), offset) / step;
       p->by_path[j] += nsvcd__f3_dot(nsvcd__f3_row(wrenches, 2 * b + 1), turn);
     }
   }
@@ -38,7 +38,7 @@ static void nsvcd__place(nsvcd__planner *p, const float *joints, size_t moments,
   const size_t bodies = problem->body_count;
   const size_t count = moments * bodies;
   for (size_t s = 0; s < moments; s++)
-    problem->place(problem->user, joints + s * problem->joints, poses + s * bodies);
+    problem->kinematics(problem->user, joints + s * problem->joints, poses + s * bodies);
   const nsvcd_result placed = count > 0 ? nsvcd__poses_check(poses, count) : NSVCD_OK;
   if (placed) {
     p->error = placed;

@@ -7,15 +7,16 @@
 // certify it free.
 //
 // Nothing is missed, for the box about the ends of a sphere's way is grown by all that the way may
-// stray. The motion is the query's: as b sees it, a's origin goes straight, and a turns evenly
+// deviate. The motion is the query's: as b sees it, a's origin goes straight, and a turns evenly
 // about one axis by an angle c, no more than what a and b turn in the world. Two tests rule out:
 //
 //   a's sphere against b's box. Its centre turns about a's origin on an arc of radius `arm` or
-//   less, and strays by no more than the arc's height, arm (1 - cos(c / 2)).
+//   less, and deviates by no more than the arc's height, arm (1 - cos(c / 2)).
 //
-//   b's sphere against a's box. As a sees it, its centre v goes and turns at once. It strays by no
-//   more than an eighth of its acceleration, c^2 |v| + 2 c |u|: u is its way in b's axes, and no
-//   longer than its way in a's axes + c |v|. In all c (c |v| 3 / 8 + its way in a's axes / 4).
+//   b's sphere against a's box. As a sees it, its centre v moves and turns at once. It deviates by
+//   no more than an eighth of its acceleration, c^2 |v| + 2 c |u|, u being its displacement in b's
+//   axes, which is no longer than that in a's axes + c |v|. In all: c (c |v| 3 / 8 + displacement
+//   in a's axes / 4).
 #pragma once
 #include "../body/trust.h"
 #include "problem.h"
@@ -27,15 +28,15 @@ static void nsvcd__find_shapes(nsvcd__planner *p) {
     const nsvcd_body *body = p->problem->bodies[b];
     nsvcd__shape shape = {{{0, 0, 0}, 0},
                           {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}}};
-    float place[3];
+    float position[3];
     float r;
     if (!body) continue;
     const nsvcd_body_facts facts = nsvcd_body_describe(body);
     shape.sphere.centre = nsvcd__f3_load(facts.centre);
     shape.sphere.radius = facts.radius;
-    for (uint32_t i = 0; nsvcd_body_patch(body, i, place, &r); i++) {
+    for (uint32_t i = 0; nsvcd_body_patch(body, i, position, &r); i++) {
       const nsvcd__f3 about = nsvcd__f3_of(r, r, r);
-      const nsvcd__f3 centre = nsvcd__f3_load(place);
+      const nsvcd__f3 centre = nsvcd__f3_load(position);
       shape.box.low = nsvcd__f3_min(shape.box.low, nsvcd__f3_sub(centre, about));
       shape.box.high = nsvcd__f3_max(shape.box.high, nsvcd__f3_add(centre, about));
     }
@@ -84,14 +85,14 @@ static inline int nsvcd__passes_by(const nsvcd__planner *p, size_t body, size_t 
 
   // That root of the sum of two angles is no more than the sum of the roots, and c < 3.15 bend.
   const float bend = now[body].bend + now[other].bend;
-  float strays = nsvcd__f3_length(sphere->centre) * bend * bend;
+  float deviations = nsvcd__f3_length(sphere->centre) * bend * bend;
   if (rests) {
-    const nsvcd__f3 way = nsvcd__f3_sub(seen[1], seen[0]);
-    const float length = fabsf(way.x) + fabsf(way.y) + fabsf(way.z);
-    strays = (3.75f * bend * distance + 0.8f * length) * bend;
+    const nsvcd__f3 travel = nsvcd__f3_sub(seen[1], seen[0]);
+    const float length = fabsf(travel.x) + fabsf(travel.y) + fabsf(travel.z);
+    deviations = (3.75f * bend * distance + 0.8f * length) * bend;
   }
   const float apart = 1.00001f * sphere->radius + p->options.sweep.clearance;
-  const float grown = apart + (float)stride * strays + NSVCD__ROUNDING * distance;
+  const float grown = apart + (float)stride * deviations + NSVCD__ROUNDING * distance;
   const nsvcd__f3 about = nsvcd__f3_of(grown, grown, grown);
   const nsvcd__f3 low = nsvcd__f3_min(seen[0], seen[1]);
   const nsvcd__f3 high = nsvcd__f3_max(seen[0], seen[1]);
@@ -180,9 +181,9 @@ static nsvcd_answer nsvcd__ask_segments(nsvcd__planner *p, uint32_t k, size_t fi
   if (!at_end) {
     question.method = NSVCD_METHOD_NETWORK;
     question.clearance = 0;
-    question.skin = 0;
+    question.slop = 0;
     // a slope before contact
-    if (question.network.swell <= 0) question.network.swell = NSVCD__PLAN_SWELL;
+    if (question.network.inflate <= 0) question.network.inflate = NSVCD__PLAN_INFLATE;
   }
 
   nsvcd_answer answer;
@@ -243,14 +244,14 @@ static void nsvcd__add_segment(nsvcd__planner *p, uint32_t k, size_t s,
 // Adds what pair k costs along the trajectory.
 static void nsvcd__add_pair(nsvcd__planner *p, uint32_t k, const nsvcd__asking *how,
                             nsvcd__cost *cost) {
-  const int looks_ahead = how->stride && !how->at_end;
+  const int skips_ahead = how->stride && !how->at_end;
   const size_t end = how->moments - how->stride;
   // up to here segments have had a first look
   size_t seen = 0;
   nsvcd__find_meetings(p, &p->problem->pairs[k], how->moments, how->stride);
   for (size_t s = 0; s < end && cost->collision <= how->limit && !p->error; s++) {
     if (!p->meets[s]) continue;
-    if (looks_ahead && s >= seen) {
+    if (skips_ahead && s >= seen) {
       // The segments that follow in which the pair may meet, at once: if they are far from a
       // collision, that is all.
       size_t run = 1;

@@ -63,35 +63,35 @@ static void nsvcd__planner_begin(nsvcd__planner *p) {
 // How far a point of a's bounding sphere is, at most, from where the check has it, as b sees it,
 // some share of the way from the poses `from` (B) to the next ones, where those on the spline are
 // p->moved.
-static float nsvcd__pair_strays(const nsvcd__planner *p, const nsvcd_body_pair *pair,
-                                const nsvcd_pose *from, double fraction) {
+static float nsvcd__pair_deviations(const nsvcd__planner *p, const nsvcd_body_pair *pair,
+                                    const nsvcd_pose *from, double fraction) {
   const nsvcd_pose *to = from + p->problem->body_count;
   const nsvcd__sphere *sphere = &p->shapes[pair->a].sphere;
   const nsvcd_pose start = nsvcd__relative_pose(&from[pair->a], &from[pair->b]);
   const nsvcd_pose end = nsvcd__relative_pose(&to[pair->a], &to[pair->b]);
   const nsvcd_pose there = nsvcd__relative_pose(&p->moved[pair->a], &p->moved[pair->b]);
   const nsvcd__d3 begin = nsvcd__d3_load(start.position);
-  const nsvcd__d3 place = nsvcd__d3_mix(begin, nsvcd__d3_load(end.position), fraction);
+  const nsvcd__d3 position = nsvcd__d3_mix(begin, nsvcd__d3_load(end.position), fraction);
   const nsvcd__quat q = nsvcd__quat_load(start.rotation);
   const nsvcd__quat r = nsvcd__quat_load(end.rotation);
   const nsvcd__quat checked = nsvcd__quat_slerp(q, r, (float)fraction);
   const nsvcd__quat is = nsvcd__quat_load(there.rotation);
   const nsvcd__transform at = {nsvcd__mat3_of(is), nsvcd__f3_load(there.position)};
-  const nsvcd__transform was = {nsvcd__mat3_of(checked), nsvcd__d3_narrow(place)};
+  const nsvcd__transform was = {nsvcd__mat3_of(checked), nsvcd__d3_narrow(position)};
   const nsvcd__f3 x = nsvcd__f3_transform(&at, sphere->centre);
   const nsvcd__f3 y = nsvcd__f3_transform(&was, sphere->centre);
-  const float way = nsvcd__f3_length(nsvcd__f3_sub(x, y));
-  return way + 2 * nsvcd__f3_length(nsvcd__quat_turn(checked, is)) * sphere->radius;
+  const float shift = nsvcd__f3_length(nsvcd__f3_sub(x, y));
+  return shift + 2 * nsvcd__f3_length(nsvcd__quat_turn(checked, is)) * sphere->radius;
 }
 
-// How far the spline strays from the motion of the last check, whose poses p->poses are: of all
-// pairs whose a is given. A smooth curve strays most half way between two of these: there it is
+// How far the spline deviates from the motion of the last check, whose poses p->poses are: of all
+// pairs whose a is given. A smooth curve deviates most half way between two of these: there it is
 // looked at, beside every so many of them. Where they are few, it is looked at in more places, for
-// an S crosses its chord half way. It is no bound: nothing is known of `place` but what it says.
-static float nsvcd__stray(nsvcd__planner *p, const float *control) {
+// an S crosses its chord half way. It is no bound: nothing is known of `position` but what it says.
+static float nsvcd__plan_deviation(nsvcd__planner *p, const float *control) {
   const nsvcd_plan_problem *problem = p->problem;
   const size_t segments = p->check.moments - 1;
-  const size_t wanted = NSVCD__STRAY_LOOKS * (p->check.via + 1);
+  const size_t wanted = NSVCD__DEVIATION_SAMPLES * (p->check.via + 1);
   const size_t stride = wanted < segments ? segments / wanted : 1;
   const size_t looks = 2 * (wanted / segments) + 1;
   float joints[NSVCD_MAX_JOINTS];
@@ -107,7 +107,7 @@ static float nsvcd__stray(nsvcd__planner *p, const float *control) {
       const nsvcd_body_pair *pair = &problem->pairs[k];
       const nsvcd_pose *from = p->poses + s * problem->body_count;
       if (problem->bodies[pair->a])
-        most = fmaxf(nsvcd__pair_strays(p, pair, from, fraction), most);
+        most = fmaxf(nsvcd__pair_deviations(p, pair, from, fraction), most);
     }
   }
   return most;
@@ -154,7 +154,7 @@ static int nsvcd__try_seed(nsvcd__planner *p, nsvcd_plan_answer *found) {
     memcpy(p->result, p->best, p->refine.bytes);
     found->cost = cost.total;
     found->smoothness = cost.smoothness;
-    found->stray = nsvcd__stray(p, p->result);
+    found->deviation = nsvcd__plan_deviation(p, p->result);
     found->collides = cost.collides;
     found->joint = cost.joint;
     found->logit = cost.logit;

@@ -30,7 +30,7 @@
 // cost: of a joint's range, kept free at both limits
 #define NSVCD__LIMIT_MARGIN 0.005f
 // search: of patches that are looked at, shares of their radii: nsvcd_network_options.swell
-#define NSVCD__PLAN_SWELL 0.25f
+#define NSVCD__PLAN_INFLATE 0.25f
 // collision: logits over which the cost grows from a slope of 0 to one of 1
 #define NSVCD__SOFT_LOGITS 2
 // collision: segments that one query asks about, where a first look may do
@@ -53,8 +53,8 @@
 #define NSVCD__PUSHES 3
 // plan: segments of the last check to one of the finest stage
 #define NSVCD__CHECKS 16
-// plan: looks, at least, at how far a piece of the spline strays
-#define NSVCD__STRAY_LOOKS 16
+// plan: looks, at least, at how far a piece of the spline deviates
+#define NSVCD__DEVIATION_SAMPLES 16
 
 // A body, in its own axes: its bounding sphere, and the box of its patches.
 typedef struct nsvcd__shape {
@@ -197,7 +197,7 @@ static int nsvcd__stage_of(const nsvcd_plan_stage *given, nsvcd_plan_stage defau
 
 // Is the problem one that can be stated?
 static nsvcd_result nsvcd__problem_check(const nsvcd_plan_problem *problem) {
-  if (!problem || !problem->place) return NSVCD_ERROR_ARGUMENT;
+  if (!problem || !problem->kinematics) return NSVCD_ERROR_ARGUMENT;
   if (problem->joints < 1 || problem->joints > NSVCD_MAX_JOINTS) return NSVCD_ERROR_COUNT;
   if (problem->body_count > 65536) return NSVCD_ERROR_COUNT;
   if (!problem->low || !problem->high || !problem->start || !problem->goal)

@@ -3,13 +3,13 @@
 #include "hulls.h"
 
 #ifndef NSVCD_NO_PROOF
-// Corner k of listings first .. first + count - 1, as vertices of their patch: what
-// nsvcd__facet_corner says of each, the patch asked once.
-static void nsvcd__block_corners(const nsvcd__facets *f, size_t patch, size_t first,
+// Corner k of entries first .. first + count - 1, as vertices of their patch: what
+// nsvcd__triangle_corner says of each, the patch asked once.
+static void nsvcd__block_corners(const nsvcd__geometry *f, size_t patch, size_t first,
                                  size_t count, size_t k, uint16_t *vertices) {
   const size_t bytes = nsvcd__corner_bytes(nsvcd__points_of(f, patch).all);
   const size_t at = 3 * (first - f->first_triangle[patch]) + k;
-  const unsigned char *corners = f->listings + f->first_byte[patch] + bytes * at;
+  const unsigned char *corners = f->triangle_codes + f->first_byte[patch] + bytes * at;
   for (size_t l = 0; l < count; l++) {
     if (bytes == 1)
       vertices[l] = corners[3 * l];
@@ -19,12 +19,12 @@ static void nsvcd__block_corners(const nsvcd__facets *f, size_t patch, size_t fi
 }
 
 // Listings first .. first + count - 1 of a patch, at most 16; the last is repeated. Stored points
-// are off by no more than a quantum, and what NSVCD__ROUNDING allows.
-static void nsvcd__block_load(const nsvcd__facets *f, size_t patch, size_t first, size_t count,
-                              nsvcd__block *out) {
+// are off by no more than a quantization error, and what NSVCD__ROUNDING allows.
+static void nsvcd__block_load(const nsvcd__geometry *f, size_t patch, size_t first,
+                              size_t count, nsvcd__block *out) {
   const nsvcd__patch_points points = nsvcd__points_of(f, patch);
   const nsvcd__vertices stored = nsvcd__vertices_of(f, patch);
-  const nsvcd__f3 centre = nsvcd__facet_centre(f, patch);
+  const nsvcd__f3 centre = nsvcd__patch_centre(f, patch);
   const float step = f->steps[patch];
   out->first = first;
   out->count = count;
@@ -40,10 +40,10 @@ static void nsvcd__block_load(const nsvcd__facets *f, size_t patch, size_t first
         to[2][l] = centre.z + step * (float)stored.z[i];
         continue;
       }
-      const float *place = nsvcd__place_of(f, patch, points, i);
-      to[0][l] = place[0];
-      to[1][l] = place[1];
-      to[2][l] = place[2];
+      const float *position = nsvcd__position_of(f, patch, points, i);
+      to[0][l] = position[0];
+      to[1][l] = position[1];
+      to[2][l] = position[2];
     }
     for (size_t l = count; l < NSVCD__LANES; l++)
       for (size_t axis = 0; axis < 3; axis++) to[axis][l] = to[axis][count - 1];
@@ -69,20 +69,22 @@ static NSVCD__NOINLINE void nsvcd__block_pose(nsvcd__proof *p, const nsvcd__tran
 }
 
 // Of the moving block's corners. axis: unit, as the body has it.
-static nsvcd__arm nsvcd__block_arm(nsvcd__proof *p, nsvcd__f3 axis, float quantum) {
-  nsvcd__v remote = nsvcd__v_set(0);
-  nsvcd__v aside = remote;
+static nsvcd__arm nsvcd__block_arm(nsvcd__proof *p, nsvcd__f3 axis, float quantization_error) {
+  nsvcd__v farthest2 = nsvcd__v_set(0);
+  nsvcd__v aside = farthest2;
   for (size_t k = 0; k < 3; k++) {
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v3 corner = nsvcd__v3_load(p->moving_block.corners[k], l);
       const nsvcd__v3 across = nsvcd__v3_cross(corner, nsvcd__v3_set(axis));
-      remote = nsvcd__v_max(remote, nsvcd__v3_dot(corner, corner));
+      farthest2 = nsvcd__v_max(farthest2, nsvcd__v3_dot(corner, corner));
       aside = nsvcd__v_max(aside, nsvcd__v3_dot(across, across));
     }
   }
-  const float reach = 1.00001f * sqrtf(-nsvcd__v_least(nsvcd__v_negate(remote))) + quantum;
-  const float radial = 1.00001f * sqrtf(-nsvcd__v_least(nsvcd__v_negate(aside))) + quantum;
-  const nsvcd__arm out = {reach, radial + 1e-6f * reach};
+  const float from_origin =
+      1.00001f * sqrtf(-nsvcd__v_least(nsvcd__v_negate(farthest2))) + quantization_error;
+  const float from_axis =
+      1.00001f * sqrtf(-nsvcd__v_least(nsvcd__v_negate(aside))) + quantization_error;
+  const nsvcd__arm out = {from_origin, from_axis + 1e-6f * from_origin};
   return out;
 }
 
@@ -119,7 +121,7 @@ static nsvcd__box nsvcd__block_bounds(const nsvcd__block *block) {
   return out;
 }
 
-// Loads up to NSVCD__WINDOW blocks of resting patch j, from listing `first` on, and what they
+// Loads up to NSVCD__WINDOW blocks of resting patch j, from entry `first` on, and what they
 // extend to. The same patch is often asked for again.
 static void nsvcd__window_load(nsvcd__proof *p, size_t j, size_t first) {
   const size_t end = p->fixed.first_triangle[j + 1];
@@ -133,7 +135,7 @@ static void nsvcd__window_load(nsvcd__proof *p, size_t j, size_t first) {
   }
 }
 
-// The lanes of a block that are listings of their own.
+// The lanes of a block that are entries of their own.
 static inline uint32_t nsvcd__block_lanes(const nsvcd__block *block) {
   return ((uint32_t)1 << (block->count - 1) << 1) - 1;
 }
@@ -228,7 +230,7 @@ NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__b
 // All triangle pairs of lane l and the `apart` lanes of a block, by the planes of their slice, from
 // s on, or, where that is NULL, by their boxes.
 static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l,
-                                 const nsvcd__block *b, const nsvcd__span *span,
+                                 const nsvcd__block *b, const nsvcd__interval *interval,
                                  uint32_t apart, size_t s, const nsvcd__v3 *plane,
                                  uint32_t below) {
   float lanes[3][NSVCD__LANES];
@@ -248,14 +250,14 @@ static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l,
       normal[0] = normal[1] = normal[2] = 0;
       normal[k] = above > under ? 1.0f : -1.0f;
     }
-    NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, i, j, a->first + l, b->first + n, span->t_start,
-                   span->t_end, normal);
+    NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, i, j, a->first + l, b->first + n, interval->t_start,
+                   interval->t_end, normal);
   }
 }
-#define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, span, apart, s, plane, below) \
-  nsvcd__certify_block(p, i, j, l, b, span, apart, s, plane, below)
+#define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, interval, apart, s, plane, below) \
+  nsvcd__certify_block(p, i, j, l, b, interval, apart, s, plane, below)
 #else
-#define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, span, apart, s, plane, below) ((void)0)
+#define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, interval, apart, s, plane, below) ((void)0)
 #endif
 
 // Of these lanes of a fixed block, those that the plane which separated a triangle pair last does
@@ -264,15 +266,16 @@ static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l,
 // same direction.
 static NSVCD__NOINLINE uint32_t nsvcd__left_by_last(nsvcd__proof *p, size_t i, size_t j,
                                                     size_t l, nsvcd__block *fixed, size_t ends,
-                                                    const nsvcd__span *span, float margin,
-                                                    uint32_t met) {
+                                                    const nsvcd__interval *interval,
+                                                    float margin, uint32_t met) {
   const nsvcd__v3 normal = nsvcd__v3_set(nsvcd__f3_round(p->memo.separating));
   NSVCD__EACH_SLICE(s) {
     uint32_t below;
     if (!(met >> s & NSVCD__SLICE_MASK)) continue;
     const uint32_t apart =
         nsvcd__normals_separate(p, l, fixed, s, ends, margin, normal, &below) << s & met;
-    if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, s, &normal, below << s);
+    if (interval)
+      NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, interval, apart, s, &normal, below << s);
     met &= ~apart;
   }
   (void)i;
@@ -284,7 +287,7 @@ static NSVCD__NOINLINE uint32_t nsvcd__left_by_last(nsvcd__proof *p, size_t i, s
 // does not separate from all of a fixed block, by more than `margin`, at `ends` poses.
 static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, size_t i, size_t j,
                                                           nsvcd__block *fixed, size_t ends,
-                                                          const nsvcd__span *span,
+                                                          const nsvcd__interval *interval,
                                                           float margin, uint32_t lanes) {
   const nsvcd__f3 last = nsvcd__f3_round(p->memo.separating);
   const nsvcd__v3 normal = nsvcd__v3_set(last);
@@ -307,10 +310,10 @@ static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, size_
     apart |= nsvcd__v_lt(limit, height) << s;
   }
   apart &= lanes;
-  for (uint32_t told = span ? apart : 0; told; told &= told - 1) {
+  for (uint32_t told = interval ? apart : 0; told; told &= told - 1) {
     NSVCD__EACH_SLICE(s)
-    NSVCD__CERTIFY_BLOCK(p, i, j, nsvcd__low_bit(told), fixed, span, NSVCD__SLICE_MASK << s, s,
-                         &normal, 0);
+    NSVCD__CERTIFY_BLOCK(p, i, j, nsvcd__low_bit(told), fixed, interval,
+                         NSVCD__SLICE_MASK << s, s, &normal, 0);
   }
   (void)i;
   (void)j;
@@ -318,14 +321,15 @@ static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, size_
 }
 
 // Lanes of a fixed block that neither boxes nor planes separate from lane l of the moving one, at
-// `ends` poses. span: of patches i and j, for the certificates; NULL for none.
+// `ends` poses. interval: of patches i and j, for the certificates; NULL for none.
 static NSVCD__NOINLINE uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j, size_t l,
                                                 nsvcd__block *fixed, size_t ends,
-                                                const nsvcd__span *span, float margin) {
+                                                const nsvcd__interval *interval,
+                                                float margin) {
   uint32_t met = nsvcd__lanes_near(fixed, nsvcd__box_of_lane(&p->moving_block, l), margin);
-  if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, ~met, 0, NULL, 0);
+  if (interval) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, interval, ~met, 0, NULL, 0);
   if (p->ask.clearance > 0)
-    met = nsvcd__left_by_last(p, i, j, l, fixed, ends, span, margin, met);
+    met = nsvcd__left_by_last(p, i, j, l, fixed, ends, interval, margin, met);
   for (size_t k = 0; met && k < NSVCD__NORMALS; k++) {
     NSVCD__EACH_SLICE(s) {
       uint32_t below;
@@ -333,7 +337,8 @@ static NSVCD__NOINLINE uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_
       const nsvcd__v3 normal = nsvcd__normal_to_try(p, l, fixed, s, ends, k);
       const uint32_t apart =
           nsvcd__normals_separate(p, l, fixed, s, ends, margin, normal, &below) << s & met;
-      if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, s, &normal, below << s);
+      if (interval)
+        NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, interval, apart, s, &normal, below << s);
       met &= ~apart;
     }
   }

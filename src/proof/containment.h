@@ -68,11 +68,11 @@ static int nsvcd__is_new(nsvcd__proof *p, size_t *count, uint32_t number, int *u
 static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, float margin,
                                     float rounding) {
   const nsvcd__f3 start = nsvcd__f3_round(ray->from);
-  const nsvcd__f3 way = nsvcd__f3_round(ray->direction);
+  const nsvcd__f3 heading = nsvcd__f3_round(ray->direction);
   uint32_t missed = 0;
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 from = nsvcd__v3_set(start);
-    const nsvcd__v3 direction = nsvcd__v3_set(way);
+    const nsvcd__v3 direction = nsvcd__v3_set(heading);
     const nsvcd__v3 a = nsvcd__v3_load(block->corners[0], l);
     const nsvcd__v3 b = nsvcd__v3_load(block->corners[1], l);
     const nsvcd__v3 c = nsvcd__v3_load(block->corners[2], l);
@@ -110,26 +110,26 @@ typedef struct nsvcd__crossings {
 // than 1.155 |a| |b| together) = 12.7 u E. A place on it, up to R from the ray's, by 3 u R. The
 // volume then by 12.7 u E R + 2 E x 3 u R, and by 3 roundings of up to 2 E R: 24.7 u E R, less than
 // 1.5e-6 E R. NSVCD__ROUNDING is more.
-static nsvcd__crossings nsvcd__cross_all(nsvcd__proof *p, const nsvcd__facets *f,
+static nsvcd__crossings nsvcd__cross_all(nsvcd__proof *p, const nsvcd__geometry *f,
                                          const nsvcd__ray *ray) {
   nsvcd__block *block = &p->fixed_blocks[0];
   p->memo.window = 0;
-  const float remote = (float)nsvcd__d3_length(ray->from) + f->body->extent;
-  const float rounding = NSVCD__ROUNDING * remote * f->body->extent;
+  const float extent = (float)nsvcd__d3_length(ray->from) + f->body->extent;
+  const float rounding = NSVCD__ROUNDING * extent * f->body->extent;
   nsvcd__crossings sum = {0, 0, 0, 0};
   size_t count = 0;
   size_t g;
   const nsvcd__beam beam = {nsvcd__f3_round(ray->from), nsvcd__f3_round(ray->direction),
                             ray->rounding};
-  nsvcd__walk walk;
-  nsvcd__walk_begin(&walk, f->body, nsvcd__is_on_beam, &beam);
-  while (!sum.unclear && nsvcd__walk_next(&walk, &g)) {
+  nsvcd__traversal traversal;
+  nsvcd__traversal_begin(&traversal, f->body, nsvcd__is_on_beam, &beam);
+  while (!sum.unclear && nsvcd__traversal_next(&traversal, &g)) {
     const nsvcd__spheres all = nsvcd__body_patches(f->body);
     uint32_t patches = nsvcd__is_on_beam(&beam, nsvcd__spheres_from(all, NSVCD__GROUP * g));
     for (; patches && !sum.unclear; patches &= patches - 1) {
       const size_t i = NSVCD__GROUP * g + nsvcd__low_bit(patches);
       if (i >= f->body->patches) break;
-      const float about = 2 * (f->quanta[i] + (float)ray->margin);
+      const float about = 2 * (f->errors[i] + (float)ray->margin);
       const size_t end = f->first_triangle[i + 1];
       nsvcd__numbers numbers = nsvcd__numbers_of(f, i);
       for (size_t n = f->first_triangle[i]; n < end; n += NSVCD__LANES) {
@@ -137,16 +137,16 @@ static nsvcd__crossings nsvcd__cross_all(nsvcd__proof *p, const nsvcd__facets *f
         p->work++;
         uint32_t lanes = nsvcd__lanes_on_ray(block, ray, about, rounding);
         for (; lanes; lanes &= lanes - 1) {
-          const size_t listing = n + nsvcd__low_bit(lanes);
+          const size_t entry = n + nsvcd__low_bit(lanes);
           nsvcd__d3 corners[3];
-          nsvcd__read_number(&numbers, listing);
+          nsvcd__read_number(&numbers, entry);
           if (numbers.kind == NSVCD__SHEET) continue;
           p->work++;
-          nsvcd__facet_triangle(f, i, listing, corners);
+          nsvcd__patch_triangle(f, i, entry, corners);
           const int crossing = nsvcd__ray_crosses(ray, corners, ray->margin, &sum.unclear);
           if (!crossing || !nsvcd__is_new(p, &count, numbers.number, &sum.unclear)) continue;
           if (numbers.kind == NSVCD__CLOSED) sum.winds += crossing;
-          sum.either_way += numbers.kind == NSVCD__EITHER_WAY;
+          sum.either_way += numbers.kind == NSVCD__EITHER_DIRECTION;
           sum.nearly += numbers.kind == NSVCD__NEARLY;
         }
       }
@@ -157,45 +157,46 @@ static nsvcd__crossings nsvcd__cross_all(nsvcd__proof *p, const nsvcd__facets *f
 
 // A place in a body's frame, and a distance from it.
 typedef struct nsvcd__surroundings {
-  nsvcd__f3 place;
+  nsvcd__f3 position;
   float distance;
 } nsvcd__surroundings;
 
-// Lanes of 16 spheres that come within that; a filter of a walk.
+// Lanes of 16 spheres that come within that; a filter of a traversal.
 static uint32_t nsvcd__is_around(const void *what, nsvcd__spheres all) {
   const nsvcd__surroundings *here = (const nsvcd__surroundings *)what;
   uint32_t met = 0;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(all, l), nsvcd__v3_set(here->place));
-    const nsvcd__v reach = nsvcd__v_plus(nsvcd__v_load(all.r + l), here->distance);
-    met |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(reach)) << l;
+    const nsvcd__v3 d =
+        nsvcd__v3_sub(nsvcd__v3_centres(all, l), nsvcd__v3_set(here->position));
+    const nsvcd__v radius = nsvcd__v_plus(nsvcd__v_load(all.r + l), here->distance);
+    met |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(radius)) << l;
   }
   return met;
 }
 
 // Is a triangle so close to the place that the mesh's own may be on its other side?
-static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd__d3 place,
-                                  double tolerance) {
+static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__geometry *f,
+                                  nsvcd__d3 position, double tolerance) {
   const nsvcd_body *b = f->body;
-  const nsvcd__d3 point[3] = {place, place, place};
-  const nsvcd__f3 rounded = nsvcd__f3_round(place);
+  const nsvcd__d3 point[3] = {position, position, position};
+  const nsvcd__f3 rounded = nsvcd__f3_round(position);
   const nsvcd__box at = {rounded, rounded};
-  const float remote = nsvcd__f3_length(rounded) + b->extent;
-  const float distance =
-      2 * nsvcd__widest_quantum(f) + (float)tolerance * 1.0001f + 4 * NSVCD__ROUNDING * remote;
+  const float extent = nsvcd__f3_length(rounded) + b->extent;
+  const float distance = 2 * nsvcd__widest_quantization(f) + (float)tolerance * 1.0001f +
+                         4 * NSVCD__ROUNDING * extent;
   const nsvcd__surroundings here = {rounded, distance};
   nsvcd__block *block = &p->fixed_blocks[0];
   size_t g;
-  nsvcd__walk walk;
+  nsvcd__traversal traversal;
   p->memo.window = 0;
-  nsvcd__walk_begin(&walk, b, nsvcd__is_around, &here);
-  while (nsvcd__walk_next(&walk, &g)) {
+  nsvcd__traversal_begin(&traversal, b, nsvcd__is_around, &here);
+  while (nsvcd__traversal_next(&traversal, &g)) {
     const size_t first = NSVCD__GROUP * g;
     const nsvcd__spheres members = nsvcd__spheres_from(nsvcd__body_patches(b), first);
     for (uint32_t met = nsvcd__is_around(&here, members); met; met &= met - 1) {
       const size_t i = first + nsvcd__low_bit(met);
       if (i >= b->patches) break;
-      const double off = (double)nsvcd__off_mesh(f) + NSVCD__SAME_PLACE * (double)remote;
+      const double off = (double)nsvcd__off_mesh(f) + NSVCD__SAME_POSITION * (double)extent;
       const double limit = 2 * off + tolerance;
       const size_t end = f->first_triangle[i + 1];
       for (size_t n = f->first_triangle[i]; n < end; n += NSVCD__LANES) {
@@ -204,7 +205,7 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd
         uint32_t lanes = nsvcd__lanes_near(block, at, distance);
         for (; lanes; lanes &= lanes - 1) {
           nsvcd__d3 corners[3];
-          nsvcd__facet_triangle(f, i, n + nsvcd__low_bit(lanes), corners);
+          nsvcd__patch_triangle(f, i, n + nsvcd__low_bit(lanes), corners);
           if (nsvcd__nearest_of(point, corners).square <= limit * limit) return 1;
         }
       }
@@ -218,20 +219,20 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd
 // which the place is. One is enough where all is closed. Of what is nearly a solid most are asked,
 // which is whether it winds about the place by more than a half (Jacobson 2013): then it is not
 // known to be outside. unit: of its frame.
-static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, double unit,
-                              nsvcd__d3 place) {
+static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__geometry *f, double unit,
+                              nsvcd__d3 position) {
   static const double directions[8][3] = {
       {0.5359, 0.6013, 0.5927},   {-0.5741, 0.6229, 0.5314},  {0.6127, -0.5531, 0.5644},
       {-0.5477, -0.5923, 0.5909}, {0.6311, 0.5573, -0.5396},  {-0.6053, 0.5297, -0.5941},
       {0.5623, -0.6217, -0.5452}, {-0.5849, -0.5407, -0.6047}};
   const nsvcd__d3 centre = nsvcd__d3_load(f->body->centre);
-  const nsvcd__d3 off = nsvcd__d3_sub(place, centre);
+  const nsvcd__d3 off = nsvcd__d3_sub(position, centre);
   const double radius = (double)f->body->radius;
   if (f->body->open || nsvcd__d3_dot(off, off) > 1.00001 * radius * radius) return 0;
   const size_t best = (off.x < 0 ? 1u : 0u) + (off.y < 0 ? 2u : 0u) + (off.z < 0 ? 4u : 0u);
   nsvcd__ray ray;
-  ray.from = place;
-  ray.margin = NSVCD__SAME_PLACE * (double)p->given.lengths / unit;
+  ray.from = position;
+  ray.margin = NSVCD__SAME_POSITION * (double)p->given.lengths / unit;
   ray.margin += (double)nsvcd__off_mesh(f) + (double)f->gap;
   ray.rounding = (float)ray.margin + 4 * NSVCD__ROUNDING * f->body->extent;
   int clear = 0;
@@ -256,7 +257,7 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, double un
 
 // Does some surface of a body lie outside of a sphere about the other? start: from the frame of the
 // first to that of the second, in which the first is of this scale.
-static int nsvcd__sticks_out(const nsvcd__facets *inner, const nsvcd__transform *start,
+static int nsvcd__sticks_out(const nsvcd__geometry *inner, const nsvcd__transform *start,
                              float scale, const nsvcd_body *outer) {
   const nsvcd_body *b = inner->body;
   const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_load(outer->centre));
@@ -282,9 +283,9 @@ static int nsvcd__sticks_out(const nsvcd__facets *inner, const nsvcd__transform 
 }
 
 // Seeds first .. first + 15 that may be in the sphere and in the box about the other body.
-static uint32_t nsvcd__seeds_near(const nsvcd__facets *inner, size_t first,
+static uint32_t nsvcd__seeds_near(const nsvcd__geometry *inner, size_t first,
                                   const nsvcd__transform *start, float scale,
-                                  const nsvcd__facets *outer) {
+                                  const nsvcd__geometry *outer) {
   const nsvcd_body *o = outer->body;
   const size_t left = inner->components - first;
   float lanes[3][NSVCD__LANES];
@@ -293,9 +294,9 @@ static uint32_t nsvcd__seeds_near(const nsvcd__facets *inner, size_t first,
     for (size_t k = 0; k < 3; k++) lanes[k][l] = seed[k];
   }
   const nsvcd__f3 centre = nsvcd__f3_of(o->centre[0], o->centre[1], o->centre[2]);
-  const float remote =
+  const float extent =
       nsvcd__f3_length(start->position) + scale * inner->body->extent + o->extent;
-  const float rounding = 4 * NSVCD__ROUNDING * remote;
+  const float rounding = 4 * NSVCD__ROUNDING * extent;
   uint32_t nearby = 0;
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 seen = nsvcd__v3_transform(start, nsvcd__v3_load(lanes, l));
@@ -325,7 +326,7 @@ static nsvcd__dtransform nsvcd__inverse_dtransform(const nsvcd__dtransform *at, 
 
 // One body at the start of the motion, as the other sees it.
 typedef struct nsvcd__enclosure {
-  const nsvcd__facets *inner, *outer;
+  const nsvcd__geometry *inner, *outer;
   // of the inner body in the outer one's frame, the same rounded, and the other way round
   nsvcd__dtransform start;
   nsvcd__transform rounded;
@@ -354,7 +355,7 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
     const nsvcd__d3 seen = nsvcd__place_point(&e->start, seed);
     if (!nsvcd__is_enclosed(p, e->outer, e->unit, seen)) continue;
     p->enclosed = e->inner_moves ? seen : seed;
-    p->within = 1;
+    p->inside = 1;
     const double room = p->given.tolerance / e->unit + (double)e->outer->gap;
     if (!nsvcd__surface_is_near(p, e->outer, seen, room)) return 1;
   }
@@ -373,13 +374,13 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
     return nsvcd__encloses_seeds(p, e, 0, e->inner->components);
   const nsvcd__f3 centre =
       nsvcd__f3_round(nsvcd__place_point(&e->back, nsvcd__d3_load(outer->centre)));
-  const float remote = nsvcd__f3_length(centre) + inner->extent + outer->extent / e->scale;
+  const float extent = nsvcd__f3_length(centre) + inner->extent + outer->extent / e->scale;
   const nsvcd__surroundings here = {centre,
-                                    outer->radius / e->scale + 4 * NSVCD__ROUNDING * remote};
+                                    outer->radius / e->scale + 4 * NSVCD__ROUNDING * extent};
   size_t g;
-  nsvcd__walk walk;
-  nsvcd__walk_begin(&walk, inner, nsvcd__is_around, &here);
-  while (!p->unclear && nsvcd__walk_next(&walk, &g)) {
+  nsvcd__traversal traversal;
+  nsvcd__traversal_begin(&traversal, inner, nsvcd__is_around, &here);
+  while (!p->unclear && nsvcd__traversal_next(&traversal, &g)) {
     if (nsvcd__encloses_seeds(p, e, e->inner->first_seed[g], e->inner->first_seed[g + 1]))
       return 1;
   }
@@ -390,7 +391,7 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
 // point. Where that is so close to the surface that what that is off by matters, 0 is returned and
 // p->within is set: if planes then separate all patches at t = 0, the point, the surface that was
 // looked at and the true one, patch by patch on one side of a plane, agree, and it is within.
-static NSVCD__NOINLINE int nsvcd__starts_within(nsvcd__proof *p) {
+static NSVCD__NOINLINE int nsvcd__is_contained_at_start(nsvcd__proof *p) {
   nsvcd__enclosure moving, fixed;
   moving.start = nsvcd__dtransform_at(nsvcd__arc_at(p, 0), 0);
   moving.back = nsvcd__inverse_dtransform(&moving.start, p->arc.scale);

@@ -1,12 +1,13 @@
-// In: a patch pair and a span. Out: is there a plane between the two hulls, over all of the span?
+// In: a patch pair and a interval. Out: is there a plane between the two hulls, over all of the
+// interval?
 #pragma once
-#include "spans.h"
+#include "motion_bounds.h"
 
 #ifndef NSVCD_NO_PROOF
 // Vertices first .. first + 15 of a patch, of which `count` are wanted: the slice of them that
 // begins with lane l. The last one wanted is repeated in the lanes that are left.
-NSVCD__INLINE nsvcd__v3 nsvcd__facet_vertices(const nsvcd__facets *f, size_t patch,
-                                              size_t first, size_t count, size_t l) {
+NSVCD__INLINE nsvcd__v3 nsvcd__hull_vertices(const nsvcd__geometry *f, size_t patch,
+                                             size_t first, size_t count, size_t l) {
   static const float lane[NSVCD__LANES] = {0, 1, 2,  3,  4,  5,  6,  7,
                                            8, 9, 10, 11, 12, 13, 14, 15};
   const nsvcd__vertices all = nsvcd__vertices_of(f, patch);
@@ -26,16 +27,16 @@ NSVCD__INLINE nsvcd__v3 nsvcd__facet_vertices(const nsvcd__facets *f, size_t pat
     q.z = nsvcd__v_pick(index, end, q.z, nsvcd__v_set((float)z[last]));
   }
   const nsvcd__v step = nsvcd__v_set(f->steps[patch]);
-  return nsvcd__v3_fma(step, q, nsvcd__v3_set(nsvcd__facet_centre(f, patch)));
+  return nsvcd__v3_fma(step, q, nsvcd__v3_set(nsvcd__patch_centre(f, patch)));
 }
 
 // A slice of a patch's hull, the last vertex repeated; its body's frame and units.
-NSVCD__INLINE nsvcd__v3 nsvcd__hull_of(const nsvcd__facets *f, size_t patch, size_t l) {
-  return nsvcd__facet_vertices(f, patch, 0, f->hull_counts[patch], l);
+NSVCD__INLINE nsvcd__v3 nsvcd__hull_of(const nsvcd__geometry *f, size_t patch, size_t l) {
+  return nsvcd__hull_vertices(f, patch, 0, f->hull_counts[patch], l);
 }
 
-// Posed hulls along a direction: how far the moving one, at both ends of the span, stays ahead of
-// the resting one, and the difference of the two vertices that say so.
+// Posed hulls along a direction: how far the moving one, at both ends of the interval, stays ahead
+// of the resting one, and the difference of the two vertices that say so.
 typedef struct nsvcd__support {
   float gap;
   nsvcd__f3 difference;
@@ -102,32 +103,32 @@ static void nsvcd__remember_plane(nsvcd__memo *memo, nsvcd__f3 normal) {
   memo->plane++;
 }
 
-// Is there a plane between two patches over the whole span? A direction is tried by the gap that it
-// finds between the hulls, which must be more than the slack and what the span deviates. First
-// guesses: the last plane that held, the discs' normals, and the line of centres. Then Gilbert's
-// iteration (1966) from there towards the point nearest to 0 of the differences of the two hulls.
-// p->memo.held is the one that held.
+// Is there a plane between two patches over the whole interval? A direction is tried by the gap
+// that it finds between the hulls, which must be more than the margin and what the interval
+// deviates. First guesses: the last plane that held, the slabs' normals, and the line of centres.
+// Then Gilbert's iteration (1966) from there towards the point nearest to 0 of the differences of
+// the two hulls. p->memo.held is the one that held.
 #define NSVCD__GUESSES 4
 static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j,
-                                                  const nsvcd__span *span) {
-  const float slacks = p->ask.motion->scale * p->moving.slacks[i] + p->fixed.slacks[j];
-  const float slack = slacks + span->rounding + nsvcd__clearance(p);
-  const nsvcd__arm arm = nsvcd__patch_arm(&p->moving, i, span);
+                                                  const nsvcd__interval *interval) {
+  const float margins = p->ask.motion->scale * p->moving.margins[i] + p->fixed.margins[j];
+  const float margin = margins + interval->rounding + nsvcd__clearance(p);
+  const nsvcd__arm arm = nsvcd__patch_arm(&p->moving, i, interval);
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 moving = nsvcd__hull_of(&p->moving, i, l);
-    nsvcd__v3_store(p->hull_start, l, nsvcd__v3_transform(&span->start, moving));
-    nsvcd__v3_store(p->hull_end, l, nsvcd__v3_transform(&span->end, moving));
+    nsvcd__v3_store(p->hull_start, l, nsvcd__v3_transform(&interval->start, moving));
+    nsvcd__v3_store(p->hull_end, l, nsvcd__v3_transform(&interval->end, moving));
     nsvcd__v3_store(p->hull_rest, l, nsvcd__hull_of(&p->fixed, j, l));
   }
-  const nsvcd__disc moving = nsvcd__disc_at(p->moving.discs, p->moving.body->padded, i);
-  const nsvcd__disc fixed = nsvcd__disc_at(p->fixed.discs, p->fixed.body->padded, j);
-  const nsvcd__f3 centre = nsvcd__facet_centre(&p->moving, i);
-  const nsvcd__f3 start = nsvcd__f3_transform(&span->start, centre);
-  const nsvcd__f3 end = nsvcd__f3_transform(&span->end, centre);
+  const nsvcd__slab moving = nsvcd__slab_at(p->moving.slabs, p->moving.body->padded, i);
+  const nsvcd__slab fixed = nsvcd__slab_at(p->fixed.slabs, p->fixed.body->padded, j);
+  const nsvcd__f3 centre = nsvcd__patch_centre(&p->moving, i);
+  const nsvcd__f3 start = nsvcd__f3_transform(&interval->start, centre);
+  const nsvcd__f3 end = nsvcd__f3_transform(&interval->end, centre);
   const nsvcd__f3 middle = nsvcd__f3_scale(nsvcd__f3_add(start, end), 0.5f);
-  const nsvcd__f3 line = nsvcd__f3_sub(middle, nsvcd__facet_centre(&p->fixed, j));
-  const nsvcd__f3 tip = nsvcd__f3_transform(&span->start, moving.normal);
-  const nsvcd__f3 turned = nsvcd__f3_sub(tip, span->start.position);
+  const nsvcd__f3 line = nsvcd__f3_sub(middle, nsvcd__patch_centre(&p->fixed, j));
+  const nsvcd__f3 extreme = nsvcd__f3_transform(&interval->start, moving.normal);
+  const nsvcd__f3 turned = nsvcd__f3_sub(extreme, interval->start.position);
   const nsvcd__f3 guesses[NSVCD__GUESSES] = {p->memo.held,
                                              nsvcd__f3_towards(fixed.normal, line),
                                              nsvcd__f3_towards(turned, line), line};
@@ -138,19 +139,20 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, siz
     const nsvcd__f3 normal = step < NSVCD__GUESSES ? guesses[step] : nearest;
     const nsvcd__support found = nsvcd__support_along(p, normal);
     const float length = nsvcd__f3_length(normal);
-    if (found.gap > 0 && found.gap > slack * length + nsvcd__deviation_of(span, normal, arm)) {
+    if (found.gap > 0 &&
+        found.gap > margin * length + nsvcd__deviation_of(interval, normal, arm)) {
       nsvcd__remember_plane(&p->memo, normal);
       return 1;
     }
     if (step + 1 < NSVCD__GUESSES) continue;
-    const nsvcd__f3 way = nsvcd__f3_sub(found.difference, nearest);
-    const float square = nsvcd__f3_dot(way, way);
+    const nsvcd__f3 toward = nsvcd__f3_sub(found.difference, nearest);
+    const float square = nsvcd__f3_dot(toward, toward);
     const float fraction =
-        square > 0 ? nsvcd__clamp01(-nsvcd__f3_dot(nearest, way) / square) : 0;
-    const nsvcd__f3 nearer = nsvcd__f3_add(nearest, nsvcd__f3_scale(way, fraction));
+        square > 0 ? nsvcd__clamp01(-nsvcd__f3_dot(nearest, toward) / square) : 0;
+    const nsvcd__f3 nearer = nsvcd__f3_add(nearest, nsvcd__f3_scale(toward, fraction));
     nearest = step < NSVCD__GUESSES ? found.difference : nearer;
     // these hulls come this near
-    if (nsvcd__f3_dot(nearest, nearest) <= slack * slack) return 0;
+    if (nsvcd__f3_dot(nearest, nearest) <= margin * margin) return 0;
   }
   return 0;
 }

@@ -1,32 +1,32 @@
-// In: a question with a skin. Out: the question about a body lifted off what it touches at the
+// In: a question with a slop. Out: the question about a body pushed out of what it touches at the
 // start.
 //
 // What carries a body must not stop it. Which contacts are those? The body is asked about as if it
-// were lifted off all that it touches at the start, by a vector v that has the skin's length along
-// every normal there. That is a motion like any other, and what is proven of it is proven: the body
-// stays clear of everything when displaced by v, so that, undisplaced, it goes no deeper than |v|
-// into anything. What presses in deeper than the skin at the start has no such v, nor has what is
-// held from opposite sides, and is hit as ever. v is constant as the fixed body sees it.
+// were pushed out of all that it touches at the start, by a vector v that has the slop's length
+// along every normal there. That is a motion like any other, and what is proven of it is proven:
+// the body stays clear of everything when displaced by v, so that, undisplaced, it goes no deeper
+// than |v| into anything. What presses in deeper than the slop at the start has no such v, nor has
+// what is held from opposite sides, and is hit as ever. v is constant as the fixed body sees it.
 #pragma once
 #include "verdict.h"
 
 #ifndef NSVCD_NO_PROOF
-// How good a lift along a direction is: twice how many touches it undoes, how far it has to go for
-// that, and how many of these have a face that says so. A touch counts once where the lift goes
-// against its faces: what is beyond a face already, or round and its middle is, would go further
-// in.
+// How good a push-out along a direction is: twice how many touches it undoes, how far it has to go
+// for that, and how many of these have a face that says so. A touch counts once where the push-out
+// goes against its faces: what is beyond a face already, or round and its middle is, would go
+// further in.
 typedef struct nsvcd__undoing {
   nsvcd__d3 n;
   size_t count, faces;
-  double way;
+  double distance;
 } nsvcd__undoing;
 
-// Does a lift along n go against all faces of a touch? What has no area has none.
-static int nsvcd__is_against(nsvcd__d3 n, const nsvcd__touch *t) {
+// Does a push-out along n go against all faces of a touch? What has no area has none.
+static int nsvcd__is_against(nsvcd__d3 n, const nsvcd__triangle_contact *t) {
   int against = 0;
   for (size_t i = 0; i < 2; i++) {
-    const int is_face = nsvcd__d3_dot(t->ways[i], t->ways[i]) > 0.5;
-    if (is_face && nsvcd__d3_dot(n, t->ways[i]) > -0.3) return 0;
+    const int is_face = nsvcd__d3_dot(t->directions[i], t->directions[i]) > 0.5;
+    if (is_face && nsvcd__d3_dot(n, t->directions[i]) > -0.3) return 0;
     against |= is_face;
   }
   return against;
@@ -34,183 +34,186 @@ static int nsvcd__is_against(nsvcd__d3 n, const nsvcd__touch *t) {
 
 // Takes a direction, unit, that is better than the best so far: that undoes more; of equals, that
 // goes less far; and of those that go as far, that more faces say.
-static void nsvcd__try_lift(const nsvcd__proof *p, nsvcd__d3 n, nsvcd__undoing *best) {
-  const double same = nsvcd__epsilon(p) + 0.01 * nsvcd__max(best->way, 0);
+static void nsvcd__try_push_out(const nsvcd__proof *p, nsvcd__d3 n, nsvcd__undoing *best) {
+  const double same = nsvcd__epsilon(p) + 0.01 * nsvcd__max(best->distance, 0);
   nsvcd__undoing by = {n, 0, 0, -HUGE_VAL};
   if (best->count > 0 && nsvcd__d3_dot(n, best->n) > 0.99999) return;
-  for (size_t k = 0; k < p->touch_count; k++) {
-    const nsvcd__touch *t = &p->of.touches[k];
-    const size_t left = 2 * (p->touch_count - k);
+  for (size_t k = 0; k < p->contact_count; k++) {
+    const nsvcd__triangle_contact *t = &p->of.touches[k];
+    const size_t left = 2 * (p->contact_count - k);
     if (by.count + left < best->count) return;
-    if (by.count + left == best->count && by.way > best->way + same) return;
+    if (by.count + left == best->count && by.distance > best->distance + same) return;
     if (!nsvcd__undoes(p, n, t)) continue;
-    const double way = nsvcd__lift_along(n, t);
-    by.count += way < 0 && !p->by_faces && nsvcd__is_against(n, t) ? 1u : 2u;
-    by.faces += nsvcd__d3_dot(n, t->ways[0]) > 0.9 || nsvcd__d3_dot(n, t->ways[1]) > 0.9;
-    by.way = p->by_faces ? 0 : nsvcd__max(by.way, way);
+    const double distance = nsvcd__push_out_along(n, t);
+    by.count += distance < 0 && !p->by_faces && nsvcd__is_against(n, t) ? 1u : 2u;
+    by.faces +=
+        nsvcd__d3_dot(n, t->directions[0]) > 0.9 || nsvcd__d3_dot(n, t->directions[1]) > 0.9;
+    by.distance = p->by_faces ? 0 : nsvcd__max(by.distance, distance);
   }
   if (by.count == 0 || by.count < best->count) return;
-  const int is_as_far = by.way > best->way - same;
-  if (by.count == best->count && by.way > best->way + same) return;
+  const int is_as_far = by.distance > best->distance - same;
+  if (by.count == best->count && by.distance > best->distance + same) return;
   if (by.count == best->count && is_as_far && by.faces <= best->faces) return;
   *best = by;
 }
 
 // Of the normals of what touches, and the directions across an edge of each, the one that undoes
 // the most touches, by the shortest way; its count is 0 if none undoes any.
-static nsvcd__undoing nsvcd__best_lift(const nsvcd__proof *p) {
+static nsvcd__undoing nsvcd__best_push_out(const nsvcd__proof *p) {
   nsvcd__undoing best = {{0, 0, 0}, 0, 0, HUGE_VAL};
-  for (size_t k = 0; k < p->touch_count; k++) {
-    for (size_t i = 0; i < 3; i++) nsvcd__try_lift(p, p->of.touches[k].ways[i], &best);
+  for (size_t k = 0; k < p->contact_count; k++) {
+    for (size_t i = 0; i < 3; i++)
+      nsvcd__try_push_out(p, p->of.touches[k].directions[i], &best);
   }
   // an edge on an edge
-  for (size_t k = 0; k < 9 * p->touch_count && best.way > nsvcd__epsilon(p); k++) {
-    const nsvcd__touch *t = &p->of.touches[k / 9];
+  for (size_t k = 0; k < 9 * p->contact_count && best.distance > nsvcd__epsilon(p); k++) {
+    const nsvcd__triangle_contact *t = &p->of.touches[k / 9];
     const nsvcd__d3 n = nsvcd__across_edges(t->moving, t->fixed, k % 9);
-    const nsvcd__d3 out = nsvcd__d3_add(t->ways[0], t->ways[1]);
+    const nsvcd__d3 out = nsvcd__d3_add(t->directions[0], t->directions[1]);
     const double side = nsvcd__d3_dot(n, out) < 0 ? -1 : 1;
-    nsvcd__try_lift(p, nsvcd__d3_scale(n, side), &best);
+    nsvcd__try_push_out(p, nsvcd__d3_scale(n, side), &best);
   }
   return best;
 }
 
 // Finds directions that undo all that was gathered. 0: there are none for something, or too many.
-static int nsvcd__choose_lifts(nsvcd__proof *p) {
+static int nsvcd__choose_push_outs(nsvcd__proof *p) {
   if (p->too_deep) return 0;
-  while (p->touch_count > 0) {
+  while (p->contact_count > 0) {
     const size_t k = p->normal_count;
-    if (k == NSVCD__LIFTS) return 0;
-    const nsvcd__undoing best = nsvcd__best_lift(p);
+    if (k == NSVCD__PUSH_OUTS) return 0;
+    const nsvcd__undoing best = nsvcd__best_push_out(p);
     if (best.count == 0) return 0;
     p->normals[k] = best.n;
     p->depths[k] = 0;
     p->normal_count++;
     size_t left = 0;
-    for (size_t n = 0; n < p->touch_count; n++) {
+    for (size_t n = 0; n < p->contact_count; n++) {
       if (!nsvcd__undone_by(p, k, &p->of.touches[n])) p->of.touches[left++] = p->of.touches[n];
     }
-    p->touch_count = left;
+    p->contact_count = left;
   }
   return 1;
 }
 
 // The shortest vector, nearly, that has `least`, and as much more as the depths say if these count,
 // along all normals that were gathered. 0 if there is none of less than four times the longest.
-static nsvcd__d3 nsvcd__lift_off(const nsvcd__proof *p, double least, int by_depth) {
-  nsvcd__d3 lift = {0, 0, 0};
+static nsvcd__d3 nsvcd__push_out(const nsvcd__proof *p, double least, int by_depth) {
+  nsvcd__d3 push_out = {0, 0, 0};
   double longest = 0;
   for (size_t round = 0; round < 64; round++) {
     double most = 0;
     for (size_t k = 0; k < p->normal_count; k++) {
       const double along = least + (by_depth ? p->depths[k] : 0);
-      const double lacks = along - nsvcd__d3_dot(lift, p->normals[k]);
+      const double lacks = along - nsvcd__d3_dot(push_out, p->normals[k]);
       longest = nsvcd__max(longest, along);
       most = nsvcd__max(most, lacks);
-      if (lacks > 0) lift = nsvcd__d3_add(lift, nsvcd__d3_scale(p->normals[k], lacks));
+      if (lacks > 0) push_out = nsvcd__d3_add(push_out, nsvcd__d3_scale(p->normals[k], lacks));
     }
-    if (nsvcd__d3_length(lift) > 4 * longest) break;
-    if (most <= 0.005 * longest) return lift;
+    if (nsvcd__d3_length(push_out) > 4 * longest) break;
+    if (most <= 0.005 * longest) return push_out;
   }
   return nsvcd__d3_of(0, 0, 0);
 }
 
 // Lifts what rests off what it touches: by nothing at first, and whenever something touches when so
-// lifted, by more, until nothing does. Triangles smaller than the skin can be separated along a
+// pushed out, by more, until nothing does. Triangles smaller than the slop can be separated along a
 // wall that others of them stay in touch with, and there may be too many touches to look at
 // together: so what has been found is tried. If there is no way off all that was found, then what
 // was found first may have been the wrong way, and is forgotten, once. Returns 0 if there is no way
 // off.
-static int nsvcd__lift_still(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion *still) {
+static int nsvcd__push_out_still(nsvcd__proof *p, nsvcd__search *search,
+                                 nsvcd__motion *still) {
   p->normal_count = 0;
-  still->lift = nsvcd__f3_of(0, 0, 0);
-  // what is about to touch, or where a motion may have ended before, is lifted off too; and may not
-  // touch afterwards
-  const double size = (double)p->given.lengths + p->given.round;
-  const double near_by = nsvcd__min(0.05 * p->ask.skin, 0.02 * size);
-  double beside = nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * p->ask.skin));
-  for (int turns = 0;; beside = 0.01 * p->ask.skin) {
+  still->push_out = nsvcd__f3_of(0, 0, 0);
+  // what is about to touch, or where a motion may have ended before, is pushed out of too; and may
+  // not touch afterwards
+  const double size = (double)p->given.lengths + p->given.radius;
+  const double near_by = nsvcd__min(0.05 * p->ask.slop, 0.02 * size);
+  double beside = nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * p->ask.slop));
+  for (int turns = 0;; beside = 0.01 * p->ask.slop) {
     p->ask.clearance = p->given.clearance + beside + nsvcd__epsilon(p);
     (void)nsvcd__prove_anew(p, search);
-    if (p->touch_count == 0) return 1;
+    if (p->contact_count == 0) return 1;
     const size_t known = p->normal_count;
-    if (!nsvcd__choose_lifts(p) || p->normal_count == known) return 0;
-    nsvcd__d3 lift = nsvcd__lift_off(p, p->ask.skin, 0);
-    if (!(nsvcd__d3_dot(lift, lift) > 0) && turns++ == 0) {
+    if (!nsvcd__choose_push_outs(p) || p->normal_count == known) return 0;
+    nsvcd__d3 push_out = nsvcd__push_out(p, p->ask.slop, 0);
+    if (!(nsvcd__d3_dot(push_out, push_out) > 0) && turns++ == 0) {
       memmove(p->normals, p->normals + 1, --p->normal_count * sizeof *p->normals);
       memmove(p->depths, p->depths + 1, p->normal_count * sizeof *p->depths);
-      lift = nsvcd__lift_off(p, p->ask.skin, 0);
+      push_out = nsvcd__push_out(p, p->ask.slop, 0);
     }
-    if (!(nsvcd__d3_dot(lift, lift) > 0)) return 0;
-    still->lift = nsvcd__f3_round(lift);
+    if (!(nsvcd__d3_dot(push_out, push_out) > 0)) return 0;
+    still->push_out = nsvcd__f3_round(push_out);
   }
 }
 
 // The normal along which a touch is undone first, by planes normal to it.
-static size_t nsvcd__way_of(const nsvcd__proof *p, const nsvcd__touch *t) {
+static size_t nsvcd__way_of(const nsvcd__proof *p, const nsvcd__triangle_contact *t) {
   size_t best = 0;
   double least = HUGE_VAL;
   for (size_t k = 0; k < p->normal_count; k++) {
-    const double way = nsvcd__lift_along(p->normals[k], t);
-    if (way < least) best = k;
-    least = nsvcd__min(least, way);
+    const double distance = nsvcd__push_out_along(p->normals[k], t);
+    if (distance < least) best = k;
+    least = nsvcd__min(least, distance);
   }
   return best;
 }
 
-// What is not in touch at the start may be where the body is lifted to, and there may have been too
-// many touches: so it is lifted by little more than the depths that are known, to see what it
-// touches there, until that is no more. Triangles that follow each other, as on a slope, each come
-// free soon: so that little more doubles as long as the depth grows.
+// What is not in touch at the start may be where the body is pushed out to, and there may have been
+// too many touches: so it is pushed out by little more than the depths that are known, to see what
+// it touches there, until that is no more. Triangles that follow each other, as on a slope, each
+// come free soon: so that little more doubles as long as the depth grows.
 static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion *still) {
-  const nsvcd__f3 lift = still->lift;
+  const nsvcd__f3 push_out = still->push_out;
   const double least_more = 0.5 * nsvcd__epsilon(p);
   double more = least_more;
   p->ask.clearance = p->given.clearance;
   for (int round = 0; round < NSVCD__DEEPEN; round++) {
-    const nsvcd__d3 least = nsvcd__lift_off(p, more, 1);
+    const nsvcd__d3 least = nsvcd__push_out(p, more, 1);
     double before = 0;
     double after = 0;
     for (size_t k = 0; k < p->normal_count; k++) before += p->depths[k];
-    still->lift = nsvcd__f3_round(least);
+    still->push_out = nsvcd__f3_round(least);
     (void)nsvcd__prove_anew(p, search);
-    // what no plane normal to a lift parts is out of the way after it all the same
-    for (size_t n = 0; n < p->touch_count; n++)
+    // what no plane normal to a push-out parts is out of the way after it all the same
+    for (size_t n = 0; n < p->contact_count; n++)
       nsvcd__note_depth(p, nsvcd__way_of(p, &p->of.touches[n]), &p->of.touches[n]);
     for (size_t k = 0; k < p->normal_count; k++) after += p->depths[k];
     const int is_deeper = after > before;
     if (!is_deeper && more <= nsvcd__max(least_more, 0.002 * after)) break;
     more = is_deeper ? 2 * more : nsvcd__max(least_more, 0.125 * more);
   }
-  still->lift = lift;
+  still->push_out = push_out;
 }
 
-// Lifts the motion off what it touches at its start, by the skin. Where something is in the way of
+// Lifts the motion off what it touches at its start, by the slop. Where something is in the way of
 // that, and nothing is too deep, by what is needed.
-static NSVCD__NOINLINE void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *search) {
+static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__motion *whole = p->ask.motion;
   nsvcd__motion start = nsvcd__end_of(whole, 0);
   p->ask.motion = &start;
   p->ask.collects = NSVCD__TOUCHING;
-  p->ask.skin = p->given.skin;
+  p->ask.slop = p->given.slop;
   p->by_faces = 0;
   p->needed = 0;
-  int is_free = nsvcd__lift_still(p, search, &start);
+  int is_free = nsvcd__push_out_still(p, search, &start);
   if (!is_free && !p->too_deep) {
     // the shortest ways may not go together
     p->by_faces = 1;
     p->needed = 0;
-    is_free = nsvcd__lift_still(p, search, &start);
+    is_free = nsvcd__push_out_still(p, search, &start);
   }
   const double least = 1.1 * p->needed + 4 * nsvcd__epsilon(p);
-  if (!is_free && p->touch_count == 0 && least < 0.9 * p->given.skin) {
-    p->ask.skin = least;
-    is_free = nsvcd__lift_still(p, search, &start);
+  if (!is_free && p->contact_count == 0 && least < 0.9 * p->given.slop) {
+    p->ask.slop = least;
+    is_free = nsvcd__push_out_still(p, search, &start);
   }
   if (is_free && p->normal_count > 0) nsvcd__deepen(p, search, &start);
   p->ask.collects = NSVCD__CONTACTS;
   p->ask.clearance = p->given.clearance;
   p->ask.motion = whole;
-  whole->lift = is_free ? start.lift : nsvcd__f3_of(0, 0, 0);
+  whole->push_out = is_free ? start.push_out : nsvcd__f3_of(0, 0, 0);
   nsvcd__proof_restart(p);
 }
 #endif  // NSVCD_NO_PROOF

@@ -53,8 +53,8 @@ static void nsvcd__next_interval(nsvcd__motion *motion, nsvcd__search *search, u
 // How near the surfaces come in the interval that is chosen, at least, by where the bodies are.
 static float nsvcd__apart_until(const nsvcd__proof *p, uint32_t until) {
   const nsvcd__motion *motion = p->ask.motion;
-  const float lifted = 1.0001f * nsvcd__f3_length(motion->lift);
-  return nsvcd__interval_gap(motion, motion->from, until) - p->given.lengths - lifted;
+  const float pushed_out = 1.0001f * nsvcd__f3_length(motion->push_out);
+  return nsvcd__interval_gap(motion, motion->from, until) - p->given.lengths - pushed_out;
 }
 
 // Searches an interval, or tries a larger one. share: as p->ask.share, of an interval; 0: any
@@ -73,7 +73,7 @@ static nsvcd__outcome nsvcd__prove_interval(nsvcd__proof *p, nsvcd__search *sear
 // A look at the ends of a motion.
 static int nsvcd__meets_at_ends(nsvcd__proof *p, nsvcd__search *search) {
   const size_t fraction = p->given.aside;
-  const size_t units = fraction < NSVCD__LOOK ? fraction : NSVCD__LOOK;
+  const size_t units = fraction < NSVCD__END_BUDGET ? fraction : NSVCD__END_BUDGET;
   return nsvcd__meets_at(p, search, 0, units) || nsvcd__meets_at(p, search, 1, units);
 }
 
@@ -127,17 +127,17 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
 static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__motion *motion = p->ask.motion;
   const int in_order = p->ask.fraction > 0;
-  const float lifted = nsvcd__f3_length(motion->lift);
-  const float apart = p->given.lengths + nsvcd__clearance(p) + 1.0001f * lifted;
+  const float pushed_out = nsvcd__f3_length(motion->push_out);
+  const float apart = p->given.lengths + nsvcd__clearance(p) + 1.0001f * pushed_out;
   nsvcd__outcome outcome;
   p->ask.limit = p->given.work;
   p->ask.after_unresolved = in_order ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.aside;
   if (nsvcd__motion_gap(motion) > apart) return NSVCD__FOUND_FREE;
   const int is_long = nsvcd__is_long(motion, search);
-  if (nsvcd__starts_within(p)) {
+  if (nsvcd__is_contained_at_start(p)) {
     // a hit, whatever else; who asks for more than that is told of triangles, if some meet as well
-    const int meets = p->given.tells && nsvcd__meets_at(p, search, 0, NSVCD__GLANCE);
-    return meets ? NSVCD__FOUND_CONTACT : nsvcd__is_within(p);
+    const int meets = p->given.tells && nsvcd__meets_at(p, search, 0, NSVCD__INSIDE_BUDGET);
+    return meets ? NSVCD__FOUND_CONTACT : nsvcd__found_inside(p);
   }
   if (is_long)
     outcome = nsvcd__prove_intervals(p, search);
@@ -147,7 +147,7 @@ static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
     outcome = nsvcd__prove_and_look(p, search, p->given.work);
   const double clear = nsvcd__clear_until(p);
   if (outcome == NSVCD__ANSWERED) return NSVCD__FOUND_CONTACT;
-  if (p->within && clear > 0) return nsvcd__is_within(p);
+  if (p->inside && clear > 0) return nsvcd__found_inside(p);
   if (p->known.has_contact) return NSVCD__FOUND_CONTACT;
   if (p->known.unresolved < NSVCD__NEVER) p->known.found = p->known.unresolved_pair;
   return clear < NSVCD__NEVER ? NSVCD__FOUND_NEITHER : NSVCD__FOUND_FREE;
@@ -203,8 +203,8 @@ static NSVCD__NOINLINE void nsvcd__measure(nsvcd__proof *p, nsvcd__search *searc
                                            nsvcd__finding verdict, double finest) {
   nsvcd__motion *motion = p->ask.motion;
   int is_named = p->known.has_contact || p->known.unresolved < NSVCD__NEVER;
-  const float lifted = nsvcd__f3_length(motion->lift);
-  const float gap = nsvcd__motion_gap(motion) - p->given.lengths - 1.0001f * lifted;
+  const float pushed_out = nsvcd__f3_length(motion->push_out);
+  const float gap = nsvcd__motion_gap(motion) - p->given.lengths - 1.0001f * pushed_out;
   p->low = nsvcd__max(verdict == NSVCD__FOUND_FREE ? p->given.clearance : 0, (double)gap);
   const int is_long = nsvcd__is_long(motion, search);
   nsvcd__pace pace = {0, 0};

@@ -2,7 +2,7 @@
 // contact that answers the question, or the budget exhausted.
 #pragma once
 #include "containment.h"
-#include "discs.h"
+#include "slabs.h"
 #include "patch_pairs.h"
 
 #ifndef NSVCD_NO_PROOF
@@ -21,7 +21,7 @@ static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *search,
                                    size_t j, uint64_t *left) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
-  const nsvcd__f3 place = nsvcd__facet_centre(&p->fixed, j);
+  const nsvcd__f3 centre = nsvcd__patch_centre(&p->fixed, j);
   const float radius = nsvcd__body_r(fixed)[j];
   const float *own = nsvcd__body_r(moving) + NSVCD__GROUP * g;
   *left &= nsvcd__segments_that_matter(p, search);
@@ -33,21 +33,21 @@ static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *search,
     uint32_t met = 0;
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v3 start = nsvcd__v3_rows(c->start[0] + l);
-      const nsvcd__v3 v = nsvcd__v3_rows(c->way[0] + l);
-      const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_set(place));
+      const nsvcd__v3 v = nsvcd__v3_rows(c->travel[0] + l);
+      const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_set(centre));
       const nsvcd__v tau = nsvcd__v_clamp(
           nsvcd__v_mul(nsvcd__v3_dot(d, v), nsvcd__v_load(c->inverse + l)), 0, 1);
       const nsvcd__v3 closest = nsvcd__v3_fma(tau, v, d);
       const nsvcd__v square = nsvcd__v3_dot(closest, closest);
-      const nsvcd__v reach = nsvcd__v_plus(nsvcd__v_load(c->reach + l), radius);
-      met |= nsvcd__v_le(square, nsvcd__v_signed_square(reach)) << l;
+      const nsvcd__v sum = nsvcd__v_plus(nsvcd__v_load(c->radius + l), radius);
+      met |= nsvcd__v_le(square, nsvcd__v_signed_square(sum)) << l;
       nsvcd__v_store(squares + l, square);
       nsvcd__v_store(fraction + l, tau);
     }
     NSVCD__TALLY(tests, 1);
     if (!met) continue;
-    const nsvcd__span *span = nsvcd__segment_span(p, search, s);
-    met = nsvcd__discs_meet(p, c, g, j, span, search->remote, met);
+    const nsvcd__interval *interval = nsvcd__segment_interval(p, search, s);
+    met = nsvcd__slabs_meet(p, c, g, j, interval, search->extent, met);
     for (; met; met &= met - 1) {
       const size_t l = nsvcd__low_bit(met);
       const size_t i = NSVCD__GROUP * g + l;
@@ -68,7 +68,7 @@ static nsvcd__outcome nsvcd__see_to_patch_pairs(nsvcd__proof *p, nsvcd__search *
 }
 
 // THE LOOP: point 2 of the theorem. A tile's groups, of the moving body and of the resting one, are
-// separated by spheres and by discs; of those left, patches by spheres and by discs; what is left
+// separated by spheres and by slabs; of those left, patches by spheres and by slabs; what is left
 // of these are patch pairs, which nsvcd__sift_patch_pairs and nsvcd__resolve_patch_pairs see to. In
 // the end each pair of patches, in each segment that is wanted and still matters, has been
 // separated, or has given a contact that answers or shrinks the question, or is an unresolved pair,

@@ -1,5 +1,5 @@
 // In: triangle pairs that are near each other when a contact is. Out: up to four contact
-// points that hold the body: those that span the largest area seen along the contact's normal.
+// points that hold the body: those that interval the largest area seen along the contact's normal.
 //
 // Two triangles touch where a corner of one is over the other, or where two edges cross. Of all
 // such places the farthest along eight directions are kept, of what is slim those across it too,
@@ -12,8 +12,8 @@
 
 #ifndef NSVCD_NO_PROOF
 // Prepares a manifold of contacts with about this normal, unit, of bodies that go like this.
-static void nsvcd__begin_places(nsvcd__proof *p, nsvcd__d3 n, const nsvcd__twist *twist,
-                                double reach, double same) {
+static void nsvcd__begin_positions(nsvcd__proof *p, nsvcd__d3 n, const nsvcd__twist *twist,
+                                   double tolerance, double same) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   const int flattest = fabs(n.x) < fabs(n.y) ? 0 : 1;
   const nsvcd__d3 aside = nsvcd__d3_of(flattest == 0, flattest == 1, 0);
@@ -21,7 +21,7 @@ static void nsvcd__begin_places(nsvcd__proof *p, nsvcd__d3 n, const nsvcd__twist
   memset(m, 0, sizeof *m);
   m->normal = n;
   m->twist = *twist;
-  m->reach = reach;
+  m->tolerance = tolerance;
   m->same = same;
   // by an eighth of a turn each: the sum of one and the one a quarter on, shortened
   nsvcd__d3 along = u;
@@ -33,14 +33,14 @@ static void nsvcd__begin_places(nsvcd__proof *p, nsvcd__d3 n, const nsvcd__twist
   for (int k = NSVCD__AROUND; k < NSVCD__SUPPORTS; k++) m->farthest[k] = HUGE_VAL;
 }
 
-// Where what has been found spans little, for how long it is, prepares to look across it, both
+// Where what has been found intervals little, for how long it is, prepares to look across it, both
 // ways, for what is between the eight directions. area: twice what is spanned. Returns 1 if so.
-static int nsvcd__look_across(nsvcd__manifold *m, double area) {
+static int nsvcd__seek_across(nsvcd__manifold *m, double area) {
   nsvcd__d3 longest = {0, 0, 0};
   for (int k = 0; k < NSVCD__AROUND; k++) {
     for (int n = 0; n < k && m->farthest[k] > -HUGE_VAL && m->farthest[n] > -HUGE_VAL; n++) {
-      const nsvcd__d3 way = nsvcd__d3_sub(m->supports[k].point, m->supports[n].point);
-      if (nsvcd__d3_dot(way, way) > nsvcd__d3_dot(longest, longest)) longest = way;
+      const nsvcd__d3 offset = nsvcd__d3_sub(m->supports[k].point, m->supports[n].point);
+      if (nsvcd__d3_dot(offset, offset) > nsvcd__d3_dot(longest, longest)) longest = offset;
     }
   }
   const double square = nsvcd__d3_dot(longest, longest);
@@ -50,9 +50,9 @@ static int nsvcd__look_across(nsvcd__manifold *m, double area) {
     m->along[k] = nsvcd__d3_scale(across, k == NSVCD__AROUND ? 1 : -1);
     m->farthest[k] = -HUGE_VAL;
     for (int n = 0; n < NSVCD__AROUND; n++) {
-      const double place = nsvcd__d3_dot(m->along[k], m->supports[n].point);
-      if (!(m->farthest[n] > -HUGE_VAL) || !(place > m->farthest[k])) continue;
-      m->farthest[k] = place;
+      const double along_it = nsvcd__d3_dot(m->along[k], m->supports[n].point);
+      if (!(m->farthest[n] > -HUGE_VAL) || !(along_it > m->farthest[k])) continue;
+      m->farthest[k] = along_it;
       m->supports[k] = m->supports[n];
       m->numbers[k] = m->numbers[n];
     }
@@ -98,14 +98,14 @@ static int nsvcd__is_left(const nsvcd__twist *twist, nsvcd__d3 x, nsvcd__d3 norm
 
 // Takes a place where a triangle pair touches, if it is farther than those that are kept. normal:
 // of a face, or across two edges, either way round.
-static NSVCD__NOINLINE void nsvcd__keep_place(nsvcd__proof *p, const nsvcd__facing *f,
-                                              nsvcd__d3 on_moving, nsvcd__d3 on_fixed,
-                                              nsvcd__d3 normal, uint32_t number) {
+static NSVCD__NOINLINE void nsvcd__keep_position(nsvcd__proof *p, const nsvcd__facing *f,
+                                                 nsvcd__d3 on_moving, nsvcd__d3 on_fixed,
+                                                 nsvcd__d3 normal, uint32_t number) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   const double side = nsvcd__d3_dot(normal, m->normal) < 0 ? -1 : 1;
-  const nsvcd__d3 way = nsvcd__d3_sub(on_moving, on_fixed);
-  const double gap = side * nsvcd__d3_dot(way, normal);
-  const double aside = nsvcd__d3_dot(way, way) - gap * gap;
+  const nsvcd__d3 offset = nsvcd__d3_sub(on_moving, on_fixed);
+  const double gap = side * nsvcd__d3_dot(offset, normal);
+  const double aside = nsvcd__d3_dot(offset, offset) - gap * gap;
   nsvcd__d3 point;
   // past the end of an edge they are not over each other
   if (aside > 0.01 * m->same * m->same) return;
@@ -118,35 +118,36 @@ static NSVCD__NOINLINE void nsvcd__keep_place(nsvcd__proof *p, const nsvcd__faci
   nsvcd__pair_contact contact;
   int known = 0;
   for (int k = 0; k < NSVCD__SUPPORTS; k++) {
-    const double place = nsvcd__d3_dot(m->along[k], on_fixed);
-    const double more = place - m->farthest[k];
+    const double along_it = nsvcd__d3_dot(m->along[k], on_fixed);
+    const double more = along_it - m->farthest[k];
     if (!(more > m->same || (more >= -m->same && number < m->numbers[k]))) continue;
     if (!known) contact = nsvcd__contact_at(p, f->pair, 0, &nearest);
     known = 1;
     contact.normal = nsvcd__d3_scale(normal, side);
     m->supports[k] = contact;
     m->numbers[k] = number;
-    m->farthest[k] = place;
+    m->farthest[k] = along_it;
   }
 }
 
 // The number of a corner or an edge of a listed triangle: kind 0, of the moving body; 1, of the
 // fixed one.
-static uint32_t nsvcd__id_of(size_t listing, size_t corner, uint32_t kind) {
-  return (uint32_t)(3 * listing + corner) << 2 | kind;
+static uint32_t nsvcd__id_of(size_t entry, size_t corner, uint32_t kind) {
+  return (uint32_t)(3 * entry + corner) << 2 | kind;
 }
 
 // All places where a triangle pair touches, to within the reach. posed: the moving triangle.
-static NSVCD__NOINLINE void nsvcd__collect_places(nsvcd__proof *p,
-                                                  const nsvcd__triangle_pair *pair,
-                                                  const nsvcd__d3 *posed) {
+static NSVCD__NOINLINE void nsvcd__collect_positions(nsvcd__proof *p,
+                                                     const nsvcd__triangle_pair *pair,
+                                                     const nsvcd__d3 *posed) {
   const nsvcd__manifold *m = &p->of.kept.manifold;
   const nsvcd__d3 *fixed = pair->fixed;
   nsvcd__d3 foot;
   int farther = 0;
   for (int k = 0; k < NSVCD__SUPPORTS && !farther; k++) {
     for (int i = 0; i < 3; i++)
-      farther |= nsvcd__d3_dot(m->along[k], posed[i]) + m->reach >= m->farthest[k] - m->same;
+      farther |=
+          nsvcd__d3_dot(m->along[k], posed[i]) + m->tolerance >= m->farthest[k] - m->same;
   }
   if (!farther) return;
   // faces look at each other, along the normal
@@ -154,14 +155,14 @@ static NSVCD__NOINLINE void nsvcd__collect_places(nsvcd__proof *p,
   const int moving_faces = nsvcd__d3_dot(facing.faces[0], m->normal) >= 0.8;
   const int fixed_faces = nsvcd__d3_dot(facing.faces[1], m->normal) >= 0.8;
   for (size_t k = 0; k < 3; k++) {
-    const uint32_t moving_id = nsvcd__id_of(pair->moving_listing, k, 0);
-    const uint32_t fixed_id = nsvcd__id_of(pair->fixed_listing, k, 1);
+    const uint32_t moving_id = nsvcd__id_of(pair->moving_entry, k, 0);
+    const uint32_t fixed_id = nsvcd__id_of(pair->fixed_entry, k, 1);
     if (fixed_faces && nsvcd__foot_within(posed[k], fixed, &foot) &&
-        nsvcd__d3_distance2(posed[k], foot) <= m->reach * m->reach)
-      nsvcd__keep_place(p, &facing, posed[k], foot, facing.faces[1], moving_id);
+        nsvcd__d3_distance2(posed[k], foot) <= m->tolerance * m->tolerance)
+      nsvcd__keep_position(p, &facing, posed[k], foot, facing.faces[1], moving_id);
     if (moving_faces && nsvcd__foot_within(fixed[k], posed, &foot) &&
-        nsvcd__d3_distance2(fixed[k], foot) <= m->reach * m->reach)
-      nsvcd__keep_place(p, &facing, foot, fixed[k], facing.faces[0], fixed_id);
+        nsvcd__d3_distance2(fixed[k], foot) <= m->tolerance * m->tolerance)
+      nsvcd__keep_position(p, &facing, foot, fixed[k], facing.faces[0], fixed_id);
     for (size_t i = 0; i < 3; i++) {
       const nsvcd__d3 a = posed[(k + 1) % 3];
       const nsvcd__d3 b = fixed[(i + 1) % 3];
@@ -175,15 +176,15 @@ static NSVCD__NOINLINE void nsvcd__collect_places(nsvcd__proof *p,
       if (!(square > 1e-4 * lengths)) continue;
       if (along * along < 0.64 * square) continue;
       nsvcd__edges_nearest(posed[k], a, fixed[i], b, &nearest);
-      if (!(nearest.square <= m->reach * m->reach)) continue;
+      if (!(nearest.square <= m->tolerance * m->tolerance)) continue;
       const uint32_t number = moving_id * 3 + fixed_id * 5 + (uint32_t)(1 + i) * 0x9e3779b9u;
-      nsvcd__keep_place(p, &facing, nearest.on_a, nearest.on_b,
-                        nsvcd__d3_unit(across, facing.faces[1]), number | 2);
+      nsvcd__keep_position(p, &facing, nearest.on_a, nearest.on_b,
+                           nsvcd__d3_unit(across, facing.faces[1]), number | 2);
     }
   }
 }
 
-// Twice the area that four places span, seen along the normal.
+// Twice the area that four places interval, seen along the normal.
 static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
   double most = 0;
   for (int k = 0; k < 3; k++) {
@@ -197,8 +198,8 @@ static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
   return most;
 }
 
-// Chooses the contacts: the numbers of those supports, and twice the area that they span. Returns
-// how many.
+// Chooses the contacts: the numbers of those supports, and twice the area that they interval.
+// Returns how many.
 static NSVCD__NOINLINE int nsvcd__choose_four(const nsvcd__manifold *m, int *chosen,
                                               double *area) {
   int kept[NSVCD__SUPPORTS];

@@ -17,7 +17,7 @@ static NSVCD__NOINLINE int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_
   double highest = -HUGE_VAL;
   for (size_t b = fixed_first; b < fixed_end; b++) {
     nsvcd__d3 corners[3];
-    nsvcd__facet_triangle(&p->fixed, j, b, corners);
+    nsvcd__patch_triangle(&p->fixed, j, b, corners);
     for (size_t k = 0; k < 3; k++) {
       const double height = nsvcd__d3_dot(p->memo.separating, corners[k]);
       if (height > highest) top = b;
@@ -41,32 +41,33 @@ static NSVCD__NOINLINE int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_
   return 1;
 }
 
-// Lane l of the moving block, posed at both ends of a span from u0 to u1 of the arc, and block n of
-// the window: triangle pairs that planes do not part are resolved one by one, and what parts one
-// may part others, or, ALL_SETTLED, all of both patches. TOO_LONG when they have asked for more
-// than `patience` parts of the span; without any, when there is such a triangle pair.
+// Lane l of the moving block, posed at both ends of a interval from u0 to u1 of the arc, and block
+// n of the window: triangle pairs that planes do not part are resolved one by one, and what parts
+// one may part others, or, ALL_SETTLED, all of both patches. TOO_LONG when they have asked for more
+// than `patience` parts of the interval; without any, when there is such a triangle pair.
 static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t i, size_t j, size_t l,
-                                         size_t n, const nsvcd__span *span, nsvcd__arm arm,
-                                         float margin, double u0, double u1, size_t patience) {
+                                         size_t n, const nsvcd__interval *interval,
+                                         nsvcd__arm arm, float margin, double u0, double u1,
+                                         size_t patience) {
   nsvcd__block *fixed = &p->fixed_blocks[n];
-  const float quanta = nsvcd__quanta_of(p, i, j);
+  const float errors = nsvcd__quanta_of(p, i, j);
   p->work++;
-  uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 2, span, margin);
+  uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 2, interval, margin);
   for (; met; met &= met - 1) {
     const nsvcd__d3 before = p->memo.separating;
     const nsvcd__f3 last = nsvcd__f3_round(before);
-    const float along =
-        quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation_of(span, last, arm);
-    met = nsvcd__left_by_last(p, i, j, l, fixed, 2, span, along, met);
+    const float along = errors + interval->rounding + nsvcd__clearance(p) +
+                        nsvcd__deviation_of(interval, last, arm);
+    met = nsvcd__left_by_last(p, i, j, l, fixed, 2, interval, along, met);
     if (!met) break;
     if (patience == 0) return NSVCD__TOO_LONG;
     if (p->memo.shared > NSVCD__SHARED * p->all_tried) {
       p->all_tried++;
       if (nsvcd__patches_apart(p, i, j, u0, u1)) return NSVCD__ALL_RESOLVED;
     }
-    const size_t listing = p->moving_block.first + l;
+    const size_t entry = p->moving_block.first + l;
     const nsvcd__triangle_pair pair =
-        nsvcd__pair_of(p, i, j, listing, fixed->first + nsvcd__low_bit(met));
+        nsvcd__pair_of(p, i, j, entry, fixed->first + nsvcd__low_bit(met));
     const nsvcd__outcome one = nsvcd__resolve_pair(p, &pair, u0, u1);
     if (one != NSVCD__RESOLVED) return one;
     if (p->parts > patience) return NSVCD__TOO_LONG;
@@ -76,21 +77,21 @@ static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t i, size_t j, si
   return NSVCD__RESOLVED;
 }
 
-// All triangle pairs of a patch pair's patches over a span from u0 to u1 of the arc.
+// All triangle pairs of a patch pair's patches over a interval from u0 to u1 of the arc.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, size_t i,
                                                                size_t j,
-                                                               const nsvcd__span *span,
+                                                               const nsvcd__interval *interval,
                                                                double u0, double u1,
                                                                size_t patience) {
   const size_t moving_end = p->moving.first_triangle[i + 1];
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
-  const nsvcd__f3 axis = nsvcd__own_axis(span);
-  const float stays =
-      nsvcd__quanta_of(p, i, j) + (span->rounding + span->drift) + nsvcd__clearance(p);
-  const float extent = p->moving.body->extent + p->moving.quanta[i];
+  const nsvcd__f3 axis = nsvcd__own_axis(interval);
+  const float stays = nsvcd__quanta_of(p, i, j) +
+                      (interval->rounding + interval->origin_bend) + nsvcd__clearance(p);
+  const float extent = p->moving.body->extent + p->moving.errors[i];
   const nsvcd__arm all = {extent, extent};
   const int bends =
-      span->bulge * extent > 0.25f * stays;  // else it is not worth to look closely
+      interval->bend * extent > 0.25f * stays;  // else it is not worth to look closely
   p->parts = 0;
   p->all_tried = 0;
   for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
@@ -98,24 +99,24 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
     nsvcd__window_load(p, j, b);
     for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
       nsvcd__moving_block_load(p, i, a);
-      const nsvcd__arm arm = bends ? nsvcd__block_arm(p, axis, p->moving.quanta[i]) : all;
-      const float margin = stays + nsvcd__bulge_of(span, arm);
-      nsvcd__block_pose(p, &span->start, 0);
-      nsvcd__block_pose(p, &span->end, 1);
+      const nsvcd__arm arm = bends ? nsvcd__block_arm(p, axis, p->moving.errors[i]) : all;
+      const float margin = stays + nsvcd__bend_of(interval, arm);
+      nsvcd__block_pose(p, &interval->start, 0);
+      nsvcd__block_pose(p, &interval->end, 1);
       nsvcd__block_box(p, 2);
       for (size_t n = 0; n < p->memo.window; n++) {
         nsvcd__block *fixed = &p->fixed_blocks[n];
         const uint32_t nearby = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
         const uint32_t lanes =
-            nsvcd__lanes_left_by_last(p, i, j, fixed, 2, span, margin, nearby);
+            nsvcd__lanes_left_by_last(p, i, j, fixed, 2, interval, margin, nearby);
         p->work++;
         if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
         for (size_t l = 0; l < p->moving_block.count; l++) {
           if (!(nearby >> l & 1))
-            NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, 0xffff, 0, NULL, 0);
+            NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, interval, 0xffff, 0, NULL, 0);
           if (!(lanes >> l & 1)) continue;
           const nsvcd__outcome row =
-              nsvcd__resolve_row(p, i, j, l, n, span, arm, margin, u0, u1, patience);
+              nsvcd__resolve_row(p, i, j, l, n, interval, arm, margin, u0, u1, patience);
           if (row == NSVCD__ALL_RESOLVED) return NSVCD__RESOLVED;
           if (row != NSVCD__RESOLVED) return row;
         }
@@ -125,13 +126,13 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
   return NSVCD__RESOLVED;
 }
 
-static void nsvcd__certify_patch_pair(const nsvcd__proof *p, const nsvcd__span *span,
+static void nsvcd__certify_patch_pair(const nsvcd__proof *p, const nsvcd__interval *interval,
                                       const nsvcd__patch_pair *item) {
   const float normal[3] = {p->memo.held.x, p->memo.held.y, p->memo.held.z};
   NSVCD__CERTIFY(NSVCD__BY_HULL, item->moving, item->fixed, NSVCD_NONE, NSVCD_NONE,
-                 span->t_start, span->t_end, normal);
+                 interval->t_start, interval->t_end, normal);
   (void)normal;
-  (void)span;
+  (void)interval;
   (void)item;
 }
 
@@ -155,17 +156,17 @@ static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__se
       nsvcd__arc_at(p, first);
       const double end = nsvcd__min(ends[left - 1], nsvcd__arc_limit(p));
       if (!(u < end)) break;
-      p->span = nsvcd__span_of_arc(p, first, u, end);
+      p->interval = nsvcd__interval_of_arc(p, first, u, end);
       const int apart =
-          !is_tried && nsvcd__hulls_are_apart(p, item->moving, item->fixed, &p->span);
+          !is_tried && nsvcd__hulls_are_apart(p, item->moving, item->fixed, &p->interval);
       is_tried = 0;
       if (apart) {
-        nsvcd__certify_patch_pair(p, &p->span, item);
+        nsvcd__certify_patch_pair(p, &p->interval, item);
       } else {
         const int may_halve = end - u > NSVCD__SHORTEST && left < NSVCD__ARC_PARTS;
         const size_t patience = may_halve ? NSVCD__PATIENCE_TO_PART : (size_t)-1;
-        const nsvcd__outcome part =
-            nsvcd__resolve_triangles(p, item->moving, item->fixed, &p->span, u, end, patience);
+        const nsvcd__outcome part = nsvcd__resolve_triangles(p, item->moving, item->fixed,
+                                                             &p->interval, u, end, patience);
         if (part == NSVCD__ANSWERED || part == NSVCD__EXHAUSTED) return part;
         if (part == NSVCD__TOO_LONG) ends[left++] = 0.5 * (u + end);
         if (part != NSVCD__RESOLVED) continue;
@@ -186,7 +187,7 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
   const size_t i = item->moving;
   const size_t j = item->fixed;
   const size_t s = item->segment;
-  const nsvcd__span *span = nsvcd__segment_span(p, search, s);
+  const nsvcd__interval *interval = nsvcd__segment_interval(p, search, s);
   nsvcd__memo *memo = &p->memo;
   const nsvcd__f3 n = memo->held;
   const float length = nsvcd__f3_length(n);
@@ -199,15 +200,18 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, i, l);
       const nsvcd__v3 normal = nsvcd__v3_set(n);
-      const nsvcd__v at_start = nsvcd__v3_dot(normal, nsvcd__v3_transform(&span->start, hull));
-      const nsvcd__v at_end = nsvcd__v3_dot(normal, nsvcd__v3_transform(&span->end, hull));
+      const nsvcd__v at_start =
+          nsvcd__v3_dot(normal, nsvcd__v3_transform(&interval->start, hull));
+      const nsvcd__v at_end = nsvcd__v3_dot(normal, nsvcd__v3_transform(&interval->end, hull));
       lowest = nsvcd__least_of(lowest, nsvcd__v_least(nsvcd__v_min(at_start, at_end)));
     }
-    const float slack = (p->ask.motion->scale * p->moving.slacks[i] + span->rounding) * length;
+    const float margin =
+        (p->ask.motion->scale * p->moving.margins[i] + interval->rounding) * length;
     above->plane = memo->plane;
     above->key = key;
     above->height =
-        lowest - slack - nsvcd__deviation_of(span, n, nsvcd__patch_arm(&p->moving, i, span));
+        lowest - margin -
+        nsvcd__deviation_of(interval, n, nsvcd__patch_arm(&p->moving, i, interval));
   }
   if (below->plane != memo->plane || below->key != j) {
     // negated
@@ -218,19 +222,19 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
     }
     below->plane = memo->plane;
     below->key = (uint32_t)j;
-    below->height = p->fixed.slacks[j] * length - highest;
+    below->height = p->fixed.margins[j] * length - highest;
   }
   if (!(above->height > below->height + nsvcd__clearance(p) * length)) return 0;
-  nsvcd__certify_patch_pair(p, span, item);
+  nsvcd__certify_patch_pair(p, interval, item);
   return 1;
 }
 
 // Is there any plane that does?
 static int nsvcd__is_separated(nsvcd__proof *p, const nsvcd__search *search,
                                const nsvcd__patch_pair *item) {
-  const nsvcd__span *span = nsvcd__segment_span(p, search, item->segment);
-  if (!nsvcd__hulls_are_apart(p, item->moving, item->fixed, span)) return 0;
-  nsvcd__certify_patch_pair(p, span, item);
+  const nsvcd__interval *interval = nsvcd__segment_interval(p, search, item->segment);
+  if (!nsvcd__hulls_are_apart(p, item->moving, item->fixed, interval)) return 0;
+  nsvcd__certify_patch_pair(p, interval, item);
   return 1;
 }
 
@@ -282,15 +286,15 @@ static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *
   nsvcd__lane_set(turned.y, block->turned + 3, l);
   nsvcd__lane_set(turned.z, block->turned + 6, l);
   if (!(p->clipped >> s & 1)) {
-    block->spread[l] += block->drift[l];
-    block->bulge[l] *= 2;
-    block->drift[l] *= 2;
-    block->bulge_along_axis[l] *= 2;
-    block->drift_along_axis[l] *= 2;
-    block->drift_off_way[l] *= 2;
+    block->margin[l] += block->origin_bend[l];
+    block->bend[l] *= 2;
+    block->origin_bend[l] *= 2;
+    block->bend_along_axis[l] *= 2;
+    block->origin_along_axis[l] *= 2;
+    block->origin_off_heading[l] *= 2;
   }
   p->clipped |= (uint64_t)1 << s;
-  p->memo.spans &= ~((uint64_t)1 << s);
+  p->memo.intervals &= ~((uint64_t)1 << s);
   search->posed &= ~((uint64_t)1 << s);
   // heights over the plane that held last are not what they were
   p->memo.plane += p->memo.plane > 0;
@@ -350,9 +354,9 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
       continue;
     }
     if (p->misses >= NSVCD__HOPE) {
-      const nsvcd__span *span = nsvcd__segment_span(p, search, item->segment);
+      const nsvcd__interval *interval = nsvcd__segment_interval(p, search, item->segment);
       const nsvcd__outcome by_triangles =
-          nsvcd__resolve_triangles(p, item->moving, item->fixed, span, 0, 0, 0);
+          nsvcd__resolve_triangles(p, item->moving, item->fixed, interval, 0, 0, 0);
       if (by_triangles == NSVCD__RESOLVED) continue;
     }
     const int has_hope = tells_more || p->misses < NSVCD__DESPAIR;
@@ -371,7 +375,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
 
 // Is there room for touches, and a way out of those that were gathered?
 static int nsvcd__collects_on(const nsvcd__proof *p) {
-  return p->touch_count < NSVCD__TOUCHES && !p->too_deep;
+  return p->contact_count < NSVCD__TOUCHES && !p->too_deep;
 }
 
 // Gathers what fresh patch pairs touch at the start, or the patch pairs where contact points may
@@ -384,7 +388,7 @@ static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *se
     if (nsvcd__is_separated(p, search, item)) continue;
     if (p->ask.collects == NSVCD__TOUCHING) {
       if (p->normal_count > 0) {
-        // what was lifted off just so is farther than the clearance by less than floats tell
+        // what was pushed out of just so is farther than the clearance by less than floats tell
         (void)nsvcd__arc_at(p, 0);
         if (nsvcd__patches_apart(p, item->moving, item->fixed, 0, 0)) continue;
       }
@@ -403,8 +407,8 @@ static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
                             const nsvcd__patch_pair *item, int first, int last, float *most) {
   const nsvcd__manifold *m = &p->of.kept.manifold;
   const float scale = p->ask.motion->scale;
-  const float moving_more = scale * p->moving.slacks[item->moving] + (float)m->reach;
-  const float fixed_more = p->fixed.slacks[item->fixed];
+  const float moving_more = scale * p->moving.margins[item->moving] + (float)m->tolerance;
+  const float fixed_more = p->fixed.margins[item->fixed];
   for (int k = first; k < last; k++) {
     const nsvcd__v3 back = nsvcd__v3_set(nsvcd__d3_narrow(nsvcd__d3_scale(m->along[k], -1)));
     float by_moving = HUGE_VALF;
@@ -424,7 +428,7 @@ static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
 // those that may be farthest along one, then of what may still be farther. Where bodies are deep in
 // each other there are many, and few of their places are like a contact: so many are looked at, and
 // no more.
-static NSVCD__NOINLINE void nsvcd__seek_places(nsvcd__proof *p, int first, int last) {
+static NSVCD__NOINLINE void nsvcd__seek_positions(nsvcd__proof *p, int first, int last) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   nsvcd__patch_pair *items = p->of.kept.items;
   const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(p, 0), 0);

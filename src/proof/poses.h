@@ -16,13 +16,13 @@ static nsvcd__d3 nsvcd__place_point(const nsvcd__dtransform *at, nsvcd__d3 a) {
 
 // The rotation a share u in [0,1] of the arc later than its start; unit.
 static nsvcd__dquat nsvcd__slerp_at(const nsvcd__slerp *slerp, double u) {
-  const double way = slerp->from + slerp->fraction * u;
-  double before = 1 - way;
-  double after = way;
+  const double along = slerp->from + slerp->fraction * u;
+  double before = 1 - along;
+  double after = along;
   // below, the difference is less than rounding
   if (slerp->half_angle > 1e-7) {
-    before = nsvcd__sin((1 - way) * slerp->half_angle);
-    after = nsvcd__sin(way * slerp->half_angle);
+    before = nsvcd__sin((1 - along) * slerp->half_angle);
+    after = nsvcd__sin(along * slerp->half_angle);
   }
   const nsvcd__dquat start = nsvcd__dquat_scale(slerp->start, before);
   return nsvcd__dquat_unit(nsvcd__dquat_fma(after, slerp->end, start));
@@ -49,9 +49,9 @@ static void nsvcd__slerp_init(const nsvcd__track *track, uint32_t first, uint32_
   slerp->fraction = (double)ticks * per_tick;
   slerp->from = (double)(first - begin) * per_tick;
   const nsvcd__d3 start = nsvcd__d3_load(a->position);
-  const nsvcd__d3 way = nsvcd__d3_sub(nsvcd__d3_load(b->position), start);
-  ends[0] = nsvcd__d3_add(start, nsvcd__d3_scale(way, slerp->from));
-  ends[1] = nsvcd__d3_add(start, nsvcd__d3_scale(way, slerp->from + slerp->fraction));
+  const nsvcd__d3 along = nsvcd__d3_sub(nsvcd__d3_load(b->position), start);
+  ends[0] = nsvcd__d3_add(start, nsvcd__d3_scale(along, slerp->from));
+  ends[1] = nsvcd__d3_add(start, nsvcd__d3_scale(along, slerp->from + slerp->fraction));
 
   const double sign = nsvcd__poses_opposed(a, b) ? -1 : 1;
   slerp->start = nsvcd__unit_rotation(a);
@@ -87,7 +87,7 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   arc->ticks = ticks;
   arc->fixed_moves = motion->fixed_moves;
   arc->scale = motion->ratio;
-  arc->lift = nsvcd__d3_widen(motion->lift);
+  arc->push_out = nsvcd__d3_widen(motion->push_out);
   nsvcd__slerp_init(&motion->moving, first, ticks, &arc->moving, ends);
   nsvcd__slerp_init(&motion->fixed, first, ticks, &arc->fixed, fixed_ends);
   const nsvcd__d3 from = nsvcd__d3_sub(ends[0], fixed_ends[0]);
@@ -111,11 +111,11 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
     arc->turn = nsvcd__d3_length(turn);
     arc->speed = nsvcd__d3_length(arc->moved) + swing;
     arc->twist = 0.1250001 * arc->scale * twist;
-    arc->drift = 0.1250001 * (2 * across + angle * swing);
+    arc->origin_bend = 0.1250001 * (2 * across + angle * swing);
     arc->axis = nsvcd__dmat3_apply_transpose(&fixed, axis);
     arc->own_axis = nsvcd__dmat3_apply_transpose(&moving, axis);
     arc->waver = arc->turn > 0 ? nsvcd__min(1, twist / arc->turn) : 0;
-    arc->bulge = 0.1250001 * arc->scale * arc->turn * arc->turn;
+    arc->bend = 0.1250001 * arc->scale * arc->turn * arc->turn;
     return arc;
   }
 
@@ -130,14 +130,14 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   arc->own_axis = nsvcd__dmat3_apply_transpose(&moving, arc->axis);
   arc->turn = 2 * arc->moving.half_angle * arc->moving.fraction;
   arc->speed = nsvcd__d3_length(arc->moved);
-  arc->bulge = 0.1250001 * arc->scale * arc->turn * arc->turn;
-  arc->waver = arc->twist = arc->drift = 0;
+  arc->bend = 0.1250001 * arc->scale * arc->turn * arc->turn;
+  arc->waver = arc->twist = arc->origin_bend = 0;
   return arc;
 }
 
 // Do all points of the moving body go along straight lines, seen from the fixed one?
 static int nsvcd__is_straight(const nsvcd__arc *arc) {
-  return !(arc->bulge > 0 || arc->twist > 0 || arc->drift > 0);
+  return !(arc->bend > 0 || arc->twist > 0 || arc->origin_bend > 0);
 }
 
 // The true pose, seen from the fixed body, a share u in [0,1] of the arc later than its start. Its
@@ -154,7 +154,7 @@ static nsvcd__dtransform nsvcd__dtransform_at(const nsvcd__arc *arc, double u) {
   }
   const nsvcd__dmat3 rotation = nsvcd__dmat3_of(q);
   at.rotation = nsvcd__dmat3_scale(&rotation, arc->scale);
-  at.position = nsvcd__d3_add(at.position, arc->lift);
+  at.position = nsvcd__d3_add(at.position, arc->push_out);
   return at;
 }
 
@@ -173,7 +173,7 @@ static nsvcd__twist nsvcd__twist_at(const nsvcd__arc *arc, double u) {
     own = nsvcd__dmat3_apply_transpose(&fixed, own);
     turn = nsvcd__dmat3_apply_transpose(&fixed, turn);
     out.along = nsvcd__dmat3_apply_transpose(&fixed, out.along);
-    out.along = nsvcd__d3_add(out.along, nsvcd__d3_cross(own, arc->lift));
+    out.along = nsvcd__d3_add(out.along, nsvcd__d3_cross(own, arc->push_out));
     out.turn = nsvcd__d3_sub(turn, own);
   }
   out.along = nsvcd__d3_sub(out.along, nsvcd__d3_cross(turn, at.position));

@@ -12,23 +12,23 @@
 //   2. The broad phase leaves out only patches and segments of time in which the spheres over the
 //      pieces stay apart. What it leaves is a *patch pair*: two patches in one segment. Every patch
 //      pair is separated by one of the steps below, or the verdict is not FREE.
-//   3. A *span* is a stretch of the motion: a segment or a part of one. In it the true place of a
-//      point x of the moving body (body frame) leaves the chord between its places at the ends by
-//      no more than nsvcd__deviation_of along any direction: that is the bulge of motion/segments,
-//      taken along a plane's normal (within one arc of angle h of one body it is h^2 / 8 |x|, and
-//      nothing along the axis). A plane that has the moving side's places at both ends on one side,
+//   3. An *interval* of the motion is a segment or a part of one. Within it, a point x of the
+//      moving body (body frame) leaves the chord between its positions at the two ends by no more
+//      than nsvcd__deviation_of along any direction: the deviation of motion/segments, taken along
+//      a plane's normal (within one arc of angle h of one body it is h^2 / 8 |x|, and nothing along
+//      the axis). A plane that has the moving side's places at both ends on one side,
 //      by more than that and the clearance, has their chords there too, for a chord is convex, and
 //      so all places between.
-//   4. Discs: the plane is normal to a patch, or to a group of 16; what each side reaches along it
-//      follows from its disc. Hulls: any plane; a patch's pieces are within its slack of the hull
+//   4. Slabs: the plane is normal to a patch, or to a group of 16; what each side reaches along it
+//      follows from its slab. Hulls: any plane; a patch's pieces are within its margin of the hull
 //      of its first vertices. Triangles: a plane for a triangle pair, two listed triangles. A patch
 //      lists all triangles of its pieces, whole or in parts.
 //   5. Rounding: every plane allows for NSVCD__ROUNDING of all lengths that enter a float
-//      computation: that is `rounding`, in spans and segments alike. Stored points are off by the
-//      patch's slack or quantum, which every plane in float allows for too. Triangle pairs are
-//      separated in double, whole and as the caller gave them, whatever pieces are listed. No NaN
-//      comes into it: questions and bodies are checked to be finite and within bounds. Where floats
-//      could overflow all the same, in hulls, it is seen to that a NaN parts nothing.
+//      computation: that is `rounding`, in intervals and segments alike. Stored points are off by
+//      the patch's margin or quantization error, which every plane in float allows for too.
+//      Triangle pairs are separated in double, whole and as the caller gave them, whatever pieces
+//      are stored. No NaN occurs: questions and bodies are checked to be finite and within bounds.
+//      Where floats could overflow all the same, in hulls, a NaN separates nothing.
 //   6. Containment is decided at t = 0, component by component: a component that is inside of the
 //      other body then, and not later, or the other way about, has crossed a surface in between. A
 //      component is asked about by one of its vertices, its seed. A ray from the seed counts, with
@@ -82,10 +82,10 @@
 //
 // Work is counted in units: a plane sought for two hulls, 16 triangles against the box of 16, one
 // of them against these, a triangle pair at one time, a ray against 16 triangles or one. Spheres,
-// discs and planes that held before are not counted. A query stops within one patch's listings, or
+// slabs and planes that held before are not counted. A query stops within one patch's entries, or
 // one ray, of its limit: nsvcd__is_exhausted.
 #pragma once
-#include "../body/facets.h"
+#include "../body/geometry.h"
 #include "../motion/motion.h"
 
 #ifndef NSVCD_NO_PROOF
@@ -114,19 +114,19 @@
 #define NSVCD__PATCH_PAIRS 256
 // Blocks of a resting patch that are loaded at once.
 #define NSVCD__WINDOW 8
-// A span is halved for all its triangle pairs once these have asked for more parts than this, if
-// it is longer than this fraction of an arc.
+// A interval is halved for all its triangle pairs once these have asked for more parts than this,
+// if it is longer than this fraction of an arc.
 #define NSVCD__PATIENCE_TO_PART 1
 #define NSVCD__SHORTEST 0.015
 // A plane is tried on all of two patches once it has separated so many of their triangle pairs in
 // a row.
 #define NSVCD__SHARED 4
-// Parts of an arc that wait; halvings of a span for one triangle pair; remembered poses.
+// Parts of an arc that wait; halvings of a interval for one triangle pair; remembered poses.
 #define NSVCD__ARC_PARTS 8
 #define NSVCD__HALVINGS 40
 #define NSVCD__PLACED 8
 // In units of all lengths: a distance in double that is none; and one too short to halve for.
-#define NSVCD__SAME_PLACE 1e-13
+#define NSVCD__SAME_POSITION 1e-13
 #define NSVCD__TOO_NEAR 1e-9
 // After an unresolved pair 1 / this of the budget is left; where the first contact is sought, so
 // many units.
@@ -137,9 +137,9 @@
 // The budget of the first attempt, before the two ends of the motion are tried by themselves.
 #define NSVCD__LONG 6000
 // The budget at each end.
-#define NSVCD__LOOK 1000
+#define NSVCD__END_BUDGET 1000
 // The budget for triangles that meet where one body is inside the other.
-#define NSVCD__GLANCE 200
+#define NSVCD__INSIDE_BUDGET 200
 // Times that the search for a first bound of the distance alternates between when and where the
 // bodies are nearest.
 #define NSVCD__TURNS 2
@@ -160,11 +160,11 @@
 #define NSVCD__FIRST_PART 0.0625
 #define NSVCD__PART_BUDGET 250
 
-// Where there is a skin: contacts at the start that are looked at together; directions in which
-// they are undone; looks at what is touched on the way off; and the share of the skin that is kept
+// Where there is a slop: contacts at the start that are looked at together; directions in which
+// they are undone; looks at what is touched on the way off; and the share of the slop that is kept
 // where a body is set down.
 #define NSVCD__TOUCHES 26
-#define NSVCD__LIFTS 6
+#define NSVCD__PUSH_OUTS 6
 #define NSVCD__DEEPEN 16
 #define NSVCD__SET_DOWN 0.02
 // An epsilon, of all lengths, is what a float of an answer can tell. A safe place is so many of
@@ -172,8 +172,8 @@
 #define NSVCD__LEAST_EPSILON 1.2e-7
 #define NSVCD__EPSILONS 3
 
-// Contact points are sought along so many directions, and along two across the line that they span
-// if their width is less than so much of its length; in so many patch pairs.
+// Contact points are sought along so many directions, and along two across the line that they
+// interval if their width is less than so much of its length; in so many patch pairs.
 #define NSVCD__AROUND 8
 #define NSVCD__SUPPORTS 10
 #define NSVCD__SLIM 0.3
@@ -212,16 +212,16 @@ typedef struct nsvcd__arc {
   // from the fixed body's origin to the moving one's, and how it changes; in the same axes
   nsvcd__d3 from, moved;
   // what is added to that as the fixed body sees it
-  nsvcd__d3 lift;
+  nsvcd__d3 push_out;
   // of the turn where the arc begins, unit: as the fixed body has it, and as the moving one has it;
-  // and by how much it strays from either, an angle, where both bodies turn
+  // and by how much it deviates from either, an angle, where both bodies turn
   nsvcd__d3 axis, own_axis;
   double waver;
   // over the arc, as the fixed body sees it: radians, and the way of the moving origin, at most
   double turn, speed;
   // What points leave their chord by: a metre from the turn's axis; a metre from the moving body's
   // origin besides, where both bodies turn; and that origin itself.
-  double bulge, twist, drift;
+  double bend, twist, origin_bend;
 } nsvcd__arc;
 
 // A pose in double.
@@ -230,24 +230,25 @@ typedef struct nsvcd__dtransform {
   nsvcd__d3 position;
 } nsvcd__dtransform;
 
-// A stretch of the motion. t in [0,1]. In it the true place of a point of the moving body at r
-// metres from its origin is off the chord between its places at both ends by no more than drift +
-// bulge r, and what float computation of it is off by is no more than `rounding`.
-typedef struct nsvcd__span {
+// A interval of the motion. t in [0,1]. In it the true place of a point of the moving body at r
+// metres from its origin is off the chord between its places at both ends by no more than origin
+// deviation + bend r, and what float computation of it is off by is no more than
+// `rounding`.
+typedef struct nsvcd__interval {
   nsvcd__transform start, end;
   double t_start, t_end;
-  float rounding, drift, bulge;
+  float rounding, origin_bend, bend;
   // unit; of the turn from start to end, and of the origin's way
-  nsvcd__f3 axis, way;
-  // the same along the axis; and drift across the way
-  float bulge_along_axis, drift_along_axis, drift_off_way;
-} nsvcd__span;
+  nsvcd__f3 axis, heading;
+  // the same along the axis; and origin bend across the way
+  float bend_along_axis, origin_along_axis, origin_off_heading;
+} nsvcd__interval;
 
 // 16 triangles of a patch, lane by lane: corners (corner, axis, lane), and their boxes.
 typedef struct nsvcd__block {
   float corners[3][3][NSVCD__LANES];
   float low[3][NSVCD__LANES], high[3][NSVCD__LANES];
-  size_t first, count;  // listings
+  size_t first, count;  // entries
 } nsvcd__block;
 
 typedef struct nsvcd__pair_contact {
@@ -256,7 +257,7 @@ typedef struct nsvcd__pair_contact {
   // the fixed body's frame; out of the fixed body
   nsvcd__d3 point, normal;
   uint32_t moving_triangle, fixed_triangle;
-  uint32_t moving_listing, fixed_listing;
+  uint32_t moving_entry, fixed_entry;
   uint16_t moving_patch, fixed_patch;
 } nsvcd__pair_contact;
 
@@ -266,20 +267,20 @@ typedef struct nsvcd__twist {
 } nsvcd__twist;
 
 // Two triangles that touch at the start, as the fixed body sees them.
-typedef struct nsvcd__touch {
+typedef struct nsvcd__triangle_contact {
   nsvcd__d3 moving[3], fixed[3];
   // directions that may undo it, unit: against the normal of the moving one; the normal of the
   // fixed one; and from its nearest point to that of the moving one, 0 if they meet
-  nsvcd__d3 ways[3];
-} nsvcd__touch;
+  nsvcd__d3 directions[3];
+} nsvcd__triangle_contact;
 
 // Places where the bodies touch when a contact is: proof/manifold.
 typedef struct nsvcd__manifold {
   // unit: the contact's, and directions across it
   nsvcd__d3 normal, along[NSVCD__SUPPORTS];
   nsvcd__twist twist;
-  // nearer than `reach` is touching; nearer to each other than `same` is the same place
-  double reach, same;
+  // nearer than `tolerance` is touching; nearer to each other than `same` is the same place
+  double tolerance, same;
   // the farthest along each: how far that is, -HUGE_VAL: there is none, HUGE_VAL: it is not
   // sought; and the number of the corner or the edges
   nsvcd__pair_contact supports[NSVCD__SUPPORTS];
@@ -303,7 +304,7 @@ typedef enum nsvcd__finding {
   NSVCD__FOUND_NEITHER
 } nsvcd__finding;
 
-// What becomes of a part of it: a pair of patches, or of triangles, over a stretch of the motion.
+// What becomes of a part of it: a pair of patches, or of triangles, over a interval of the motion.
 typedef enum nsvcd__outcome {
   // separated, or kept as an unresolved pair, or no longer asked about
   NSVCD__RESOLVED,
@@ -315,7 +316,7 @@ typedef enum nsvcd__outcome {
   NSVCD__ANSWERED,
   // a contact was found that shrinks the question: ask again
   NSVCD__SHRUNK,
-  // the stretch is to be looked at again: in halves, or with a clearance that is less
+  // the interval is to be looked at again: in halves, or with a clearance that is less
   NSVCD__TOO_LONG,
   // the work allowed is: from then on it always is
   NSVCD__EXHAUSTED
@@ -338,11 +339,11 @@ typedef struct nsvcd__height {
 typedef struct nsvcd__given {
   // extents of both bodies
   float lengths;
-  // beyond the quanta
+  // beyond the quantization errors
   double tolerance;
-  double clearance, skin;
+  double clearance, slop;
   // how far both bodies together go beyond their triangles: the clearance has that in it
-  double round;
+  double radius;
   // to which share of the motion the first contact is asked for, and to which width the least
   // distance; 0: it is not
   double fraction, width;
@@ -375,7 +376,7 @@ typedef struct nsvcd__asked {
   int is_brief;
   nsvcd__collecting collects;
   // how deep touches may be
-  double skin;
+  double slop;
 } nsvcd__asked;
 
 // What is known, of a motion.
@@ -396,8 +397,8 @@ typedef struct nsvcd__memo {
   // poses in arcs, the next to be forgotten
   nsvcd__placed placed[NSVCD__PLACED];
   size_t next_placed;
-  // segments that have been made spans
-  uint64_t spans;
+  // segments that have been made intervals
+  uint64_t intervals;
   // the normal of the plane between hulls that held last, how many held before, 0: none; and over
   // it the heights of patches, moving ones and resting ones
   nsvcd__f3 held;
@@ -413,7 +414,7 @@ typedef struct nsvcd__memo {
 } nsvcd__memo;
 
 typedef struct nsvcd__proof {
-  nsvcd__facets moving, fixed;
+  nsvcd__geometry moving, fixed;
   nsvcd__given given;
   nsvcd__asked ask;
   nsvcd__known known;
@@ -426,7 +427,7 @@ typedef struct nsvcd__proof {
 
   // Containment, at the start: a component seems to be within the other body, but close to its
   // surface; a point of it, in the fixed body's frame; or that could not be told.
-  int within;
+  int inside;
   nsvcd__d3 enclosed;
   int unclear;
   // it could not, since the other is nearly a solid, but not closed
@@ -436,20 +437,20 @@ typedef struct nsvcd__proof {
   // FIRST: nothing of the motion is proven free but its start
   int starts_free;
 
-  // With a skin: how many touches have been gathered that a lift along no normal known undoes; the
-  // normals, unit, of what the moving body touches, towards it.
-  size_t touch_count, normal_count;
+  // With a slop: how many touches have been gathered that a push-out along no normal known undoes;
+  // the normals, unit, of what the moving body touches, towards it.
+  size_t contact_count, normal_count;
   // one has been found that nothing undoes; of directions that undo as many, which have more faces
   // counts, not which is shorter
   int too_deep, by_faces;
-  nsvcd__d3 normals[NSVCD__LIFTS];
-  // how deep it is in contact along each; and by how much a plane normal to one is to be lifted
-  double depths[NSVCD__LIFTS];
+  nsvcd__d3 normals[NSVCD__PUSH_OUTS];
+  // how deep it is in contact along each; and by how much a plane normal to one is to be pushed out
+  double depths[NSVCD__PUSH_OUTS];
   double needed;
 
-  // Segments as spans (S), where the memo says so; which have been cut off, and the end, ticks,
+  // Segments as intervals (S), where the memo says so; which have been cut off, and the end, ticks,
   // when that was done last.
-  nsvcd__span *spans;
+  nsvcd__interval *intervals;
   uint64_t clipped;
   double clipped_end;
 
@@ -465,19 +466,19 @@ typedef struct nsvcd__proof {
       nsvcd__manifold manifold;
     } kept;
     // gathered before there are any
-    nsvcd__touch touches[NSVCD__TOUCHES];
+    nsvcd__triangle_contact touches[NSVCD__TOUCHES];
   } of;
 
   // A patch pair: its hulls, posed, and its triangles, block by block, with boxes about the fixed
-  // blocks; corners of the moving block at the ends of a span.
+  // blocks; corners of the moving block at the ends of a interval.
   float hull_start[3][NSVCD__LANES], hull_end[3][NSVCD__LANES], hull_rest[3][NSVCD__LANES];
   nsvcd__block moving_block, fixed_blocks[NSVCD__WINDOW];
   nsvcd__box bounds[NSVCD__WINDOW];
   float posed[2][3][3][NSVCD__LANES];
 
   // A patch pair over an arc, and a triangle pair: later ends of the parts to come, the last one
-  // first; and how many parts of the span its triangle pairs asked for.
-  nsvcd__span span;
+  // first; and how many parts of the interval its triangle pairs asked for.
+  nsvcd__interval interval;
   double arc_ends[NSVCD__ARC_PARTS];
   double pair_ends[NSVCD__HALVINGS + 2];
   size_t parts;
@@ -492,7 +493,7 @@ typedef struct nsvcd__proof {
 static void nsvcd__forget(nsvcd__memo *memo) {
   for (size_t n = 0; n < NSVCD__PLACED; n++) memo->placed[n].ticks = 0;
   memo->next_placed = 0;
-  memo->spans = 0;
+  memo->intervals = 0;
   memo->held = nsvcd__f3_of(0, 0, 0);
   memo->plane = 0;
   memo->separating = nsvcd__d3_of(0, 0, 0);
@@ -544,13 +545,14 @@ static double nsvcd__off_meshes(const nsvcd__proof *p) {
 
 // What stored points of two patches may be off by, both together.
 static float nsvcd__quanta_of(const nsvcd__proof *p, size_t i, size_t j) {
-  return p->ask.motion->scale * p->moving.quanta[i] + p->fixed.quanta[j];
+  return p->ask.motion->scale * p->moving.errors[i] + p->fixed.errors[j];
 }
 
-// How far points of the moving body are, in its own units, as bulges have it: none is farther from
-// its origin than `reach`, nor from the line through that along the axis of a turn than `radial`.
+// How far points of the moving body are, in its own units, as bends have it: none is
+// farther from its origin than `from_origin`, nor from the line through that along the axis of a
+// turn than `from_axis`.
 typedef struct nsvcd__arm {
-  float reach, radial;
+  float from_origin, from_axis;
 } nsvcd__arm;
 
 // Of a sphere. axis: unit, as the body has it; radial is rounded for that, too.
@@ -562,13 +564,13 @@ static nsvcd__arm nsvcd__arm_of(nsvcd__f3 centre, float radius, nsvcd__f3 axis) 
   return out;
 }
 
-// Tests hear of every plane of discs, hulls and triangles (spheres and boxes have tests of their
-// own): kind, patches, listings (or NSVCD_NONE), times, and the plane's normal (3), fixed body's
+// Tests hear of every plane of slabs, hulls and triangles (spheres and boxes have tests of their
+// own): kind, patches, entries (or NSVCD_NONE), times, and the plane's normal (3), fixed body's
 // frame, which points to the moving side.
 #ifndef NSVCD__CERTIFY
-#define NSVCD__CERTIFY(kind, moving, fixed, moving_listing, fixed_listing, t_start, t_end, \
+#define NSVCD__CERTIFY(kind, moving, fixed, moving_entry, fixed_entry, t_start, t_end, \
                        normal) \
   ((void)0)
 #endif
-enum { NSVCD__BY_DISC, NSVCD__BY_HULL, NSVCD__BY_TRIANGLES };
+enum { NSVCD__BY_SLAB, NSVCD__BY_HULL, NSVCD__BY_TRIANGLES };
 #endif  // NSVCD_NO_PROOF

@@ -1,7 +1,8 @@
-// In: two triangles and a span. Out: separated, or in contact, or neither as long as it is halved.
+// In: two triangles and a interval. Out: separated, or in contact, or neither as long as it is
+// halved.
 #pragma once
 #include "../ground/triangles.h"
-#include "spans.h"
+#include "motion_bounds.h"
 
 #ifndef NSVCD_NO_PROOF
 static void nsvcd__place_triangle(const nsvcd__dtransform *at, const nsvcd__d3 *corners,
@@ -9,16 +10,16 @@ static void nsvcd__place_triangle(const nsvcd__dtransform *at, const nsvcd__d3 *
   for (size_t k = 0; k < 3; k++) out[k] = nsvcd__place_point(at, corners[k]);
 }
 
-// Two triangles, one of each body, in their frames: the caller's own, of which listings may be
+// Two triangles, one of each body, in their frames: the caller's own, of which entries may be
 // pieces. What separates a triangle separates its pieces, and what it meets the mesh meets.
 typedef struct nsvcd__triangle_pair {
-  size_t moving_patch, fixed_patch, moving_listing, fixed_listing;
+  size_t moving_patch, fixed_patch, moving_entry, fixed_entry;
   nsvcd__d3 moving[3], fixed[3];
   // of the moving one, in its body's units: no point of it is farther from its body's origin, nor,
   // at any time of the arc, from the axis of its turn
-  double reach, radial;
+  double from_origin, from_axis;
   // how far the meshes' own may be off, with rounding in double; and that
-  double slack;
+  double margin;
   double rounding;
   // a part of the arc in which they come so near is not worth halving
   double close;
@@ -26,37 +27,37 @@ typedef struct nsvcd__triangle_pair {
 
 // How far its moving triangle is from the origin and from the axis.
 static void nsvcd__pair_reaches(const nsvcd__arc *arc, nsvcd__triangle_pair *pair) {
-  pair->reach = pair->radial = 0;
+  pair->from_origin = pair->from_axis = 0;
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__d3 corner = pair->moving[k];
     const nsvcd__d3 across = nsvcd__d3_cross(corner, arc->own_axis);
-    pair->reach = nsvcd__max(pair->reach, nsvcd__d3_length(corner));
-    pair->radial = nsvcd__max(pair->radial, nsvcd__d3_length(across));
+    pair->from_origin = nsvcd__max(pair->from_origin, nsvcd__d3_length(corner));
+    pair->from_axis = nsvcd__max(pair->from_axis, nsvcd__d3_length(across));
   }
-  pair->radial += (arc->waver + 1e-6) * pair->reach;
-  pair->radial = nsvcd__min(pair->radial, pair->reach);
+  pair->from_axis += (arc->waver + 1e-6) * pair->from_origin;
+  pair->from_axis = nsvcd__min(pair->from_axis, pair->from_origin);
 }
 
 static nsvcd__triangle_pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size_t j, size_t a,
                                            size_t b) {
   nsvcd__triangle_pair pair = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0, 0, 0};
-  nsvcd__facet_triangle(&p->moving, i, a, pair.moving);
-  nsvcd__facet_triangle(&p->fixed, j, b, pair.fixed);
+  nsvcd__patch_triangle(&p->moving, i, a, pair.moving);
+  nsvcd__patch_triangle(&p->fixed, j, b, pair.fixed);
   nsvcd__pair_reaches(&p->arc, &pair);
   pair.rounding =
-      NSVCD__SAME_PLACE * ((double)p->given.lengths + nsvcd__d3_length(p->arc.from));
-  pair.slack = pair.rounding + nsvcd__off_meshes(p);
-  pair.slack += NSVCD__SAME_PLACE * nsvcd__d3_length(p->arc.moved);
-  pair.close = pair.slack + NSVCD__TOO_NEAR * (double)p->given.lengths + p->given.tolerance;
+      NSVCD__SAME_POSITION * ((double)p->given.lengths + nsvcd__d3_length(p->arc.from));
+  pair.margin = pair.rounding + nsvcd__off_meshes(p);
+  pair.margin += NSVCD__SAME_POSITION * nsvcd__d3_length(p->arc.moved);
+  pair.close = pair.margin + NSVCD__TOO_NEAR * (double)p->given.lengths + p->given.tolerance;
   return pair;
 }
 
 // Are these of closed surfaces, of which the winding says which side is out?
 static int nsvcd__moving_closed(const nsvcd__proof *p, const nsvcd__triangle_pair *c) {
-  return nsvcd__facet_encloses(&p->moving, c->moving_patch, c->moving_listing);
+  return nsvcd__is_in_solid(&p->moving, c->moving_patch, c->moving_entry);
 }
 static int nsvcd__fixed_closed(const nsvcd__proof *p, const nsvcd__triangle_pair *c) {
-  return nsvcd__facet_encloses(&p->fixed, c->fixed_patch, c->fixed_listing);
+  return nsvcd__is_in_solid(&p->fixed, c->fixed_patch, c->fixed_entry);
 }
 
 // What is said of two triangles a share u of the arc later than its start.
@@ -73,10 +74,10 @@ static nsvcd__pair_contact nsvcd__contact_at(const nsvcd__proof *p,
   out.point = nearest->on_b;
   out.normal = touches ? face : nsvcd__d3_unit(apart, nsvcd__d3_of(0, 0, 0));
   out.moving_triangle =
-      nsvcd__facet_number(&p->moving, pair->moving_patch, pair->moving_listing);
-  out.fixed_triangle = nsvcd__facet_number(&p->fixed, pair->fixed_patch, pair->fixed_listing);
-  out.moving_listing = (uint32_t)pair->moving_listing;
-  out.fixed_listing = (uint32_t)pair->fixed_listing;
+      nsvcd__triangle_number(&p->moving, pair->moving_patch, pair->moving_entry);
+  out.fixed_triangle = nsvcd__triangle_number(&p->fixed, pair->fixed_patch, pair->fixed_entry);
+  out.moving_entry = (uint32_t)pair->moving_entry;
+  out.fixed_entry = (uint32_t)pair->fixed_entry;
   out.moving_patch = (uint16_t)pair->moving_patch;
   out.fixed_patch = (uint16_t)pair->fixed_patch;
   return out;
@@ -126,14 +127,15 @@ static double nsvcd__arc_limit(const nsvcd__proof *p) {
 
 // By how much the points of a triangle pair's moving triangle are off their chords along a unit
 // direction n, at most, over all of the arc; over a share of it by the square of that share. A
-// point at r metres from the origin and rho from the axis a of the turn is off by bulge rho |n x a|
-// + twist r + drift; where both bodies turn, a strays by `waver`, and so do both distances from it.
+// point at r metres from the origin and rho from the axis a of the turn is off by bend
+// rho |n x a| + twist r + origin bend; where both bodies turn, a deviates by `waver`, and so
+// do both distances from it.
 static double nsvcd__off_chord_along(const nsvcd__arc *arc, const nsvcd__triangle_pair *pair,
                                      nsvcd__d3 n) {
   const double across = nsvcd__d3_length(nsvcd__d3_cross(n, arc->axis));
   const double off_axis = nsvcd__min(1, across + arc->waver + 1e-6);
-  const double turn = arc->bulge * pair->radial * off_axis;
-  return turn + arc->twist * pair->reach + arc->drift;
+  const double turn = arc->bend * pair->from_axis * off_axis;
+  return turn + arc->twist * pair->from_origin + arc->origin_bend;
 }
 
 // Does the plane with this unit normal part the triangle pair from u0 to u1 of the arc?
@@ -153,7 +155,7 @@ static int nsvcd__plane_separates(nsvcd__proof *p, const nsvcd__triangle_pair *p
   }
   const double off = nsvcd__off_chord_along(arc, pair, normal);
   const double deviation = (u1 - u0) * (u1 - u0) * off;
-  return lowest - highest > p->ask.clearance + pair->slack + deviation;
+  return lowest - highest > p->ask.clearance + pair->margin + deviation;
 }
 
 // Is the foot of x on the plane of a triangle within it, farther than `margin` from its edges?
@@ -191,7 +193,7 @@ static int nsvcd__changes_sides(nsvcd__d3 x0, const nsvcd__d3 *t0, nsvcd__d3 x1,
 typedef struct nsvcd__passage {
   nsvcd__d3 corners[3][3];
   // no point of it moves farther between these times, seen from the fixed one
-  double way;
+  double travel;
 } nsvcd__passage;
 
 // Do two edges pass through each other: do they change sides, and are their lines nearest to each
@@ -217,7 +219,7 @@ static int nsvcd__edges_cross(const nsvcd__passage *passage, size_t k, nsvcd__d3
   const double s = nsvcd__d3_dot(nsvcd__d3_cross(from[1], v), across[1]) / square;
   const double t = nsvcd__d3_dot(nsvcd__d3_cross(from[1], u), across[1]) / square;
   // the lines' nearest points move no farther along them
-  const double room = 4 * passage->way * lengths / size;
+  const double room = 4 * passage->travel * lengths / size;
   const double room_s = room / nsvcd__d3_length(u);
   const double room_t = room / nsvcd__d3_length(v);
   return s > room_s && s < 1 - room_s && t > room_t && t < 1 - room_t;
@@ -237,8 +239,8 @@ static int nsvcd__pair_passes(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
   const nsvcd__d3 *start = passage.corners[0];
   const nsvcd__d3 *middle = passage.corners[1];
   const nsvcd__d3 *end = passage.corners[2];
-  passage.way = speed * (u1 - u0);
-  const double room = 2 * passage.way;
+  passage.travel = speed * (u1 - u0);
+  const double room = 2 * passage.travel;
   for (size_t k = 0; k < 3; k++) {
     const int is_over = nsvcd__foot_well_within(middle[k], fixed, room);
     if (is_over && nsvcd__changes_sides(start[k], fixed, end[k], fixed, margin)) return 1;
@@ -257,7 +259,7 @@ static void nsvcd__certify_triangle_pair(const nsvcd__proof *p,
   const nsvcd__f3 plane = nsvcd__d3_narrow(p->memo.separating);
   const float normal[3] = {plane.x, plane.y, plane.z};
   NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, pair->moving_patch, pair->fixed_patch,
-                 pair->moving_listing, pair->fixed_listing, nsvcd__time_in_arc(p, u0),
+                 pair->moving_entry, pair->fixed_entry, nsvcd__time_in_arc(p, u0),
                  nsvcd__time_in_arc(p, u1), normal);
   (void)pair;
   (void)normal;
@@ -317,7 +319,7 @@ static NSVCD__NOINLINE double nsvcd__aim_plane(nsvcd__proof *p,
   nsvcd__d3 posed[3];
   nsvcd__place_triangle(nsvcd__placed_at(p, u), pair->moving, posed);
   double best = nsvcd__beyond(guess, posed, fixed);
-  const double limit = p->ask.clearance + pair->slack;
+  const double limit = p->ask.clearance + pair->margin;
   if (best - limit > 0.5 * (distance - limit)) return best;
   for (size_t k = 0; k < 17; k++) {
     const nsvcd__d3 *of = k % 2 ? fixed : posed;
@@ -385,12 +387,12 @@ static nsvcd__outcome nsvcd__take_nearest(nsvcd__proof *p, const nsvcd__triangle
   for (size_t n = 0; n < NSVCD__HALVINGS / 2; n++) {
     const double middle = 0.5 * (u0 + u1);
     const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
-    const nsvcd__d3 way = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+    const nsvcd__d3 travel = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
     p->work++;
     if (sqrt(nearest.square) < p->high &&
         nsvcd__take_contact(p, pair, middle, &nearest) == NSVCD__ANSWERED)
       return NSVCD__ANSWERED;
-    const double slope = nsvcd__d3_dot(way, moved) / sqrt(nearest.square);
+    const double slope = nsvcd__d3_dot(travel, moved) / sqrt(nearest.square);
     // a tangent is nowhere above it
     if (!(fabs(slope) * (u1 - u0) > p->ask.measure)) break;
     if (slope < 0)
@@ -443,7 +445,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
     }
     const double beyond = nsvcd__aim_plane(p, pair, at, &nearest);
     const double fall = -nsvcd__d3_dot(*plane, moved);
-    const double room = beyond - p->ask.clearance - pair->slack - pair->rounding;
+    const double room = beyond - p->ask.clearance - pair->margin - pair->rounding;
     const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;
     if (u < until && nsvcd__plane_separates(p, pair, u, until, *plane)) {
       nsvcd__certify_triangle_pair(p, pair, u, until);
@@ -472,7 +474,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
                                                           double u0, double u1) {
   const nsvcd__arc *arc = &p->arc;
   if (nsvcd__is_straight(arc)) return nsvcd__resolve_straight(p, pair, u0, u1);
-  const double speed = arc->speed + arc->turn * arc->scale * pair->radial;
+  const double speed = arc->speed + arc->turn * arc->scale * pair->from_axis;
   const double close = pair->close;
   nsvcd__d3 *plane = &p->memo.separating;
   double *ends = p->pair_ends;

@@ -6,7 +6,7 @@
 
 #ifndef NSVCD_NO_PROOF
 // What is said of a component that is within the other body, whatever contacts were found since.
-static nsvcd__finding nsvcd__is_within(nsvcd__proof *p) {
+static nsvcd__finding nsvcd__found_inside(nsvcd__proof *p) {
   memset(&p->known.found, 0, sizeof p->known.found);
   p->known.found.point = p->enclosed;
   p->known.found.moving_triangle = NSVCD_NO_TRIANGLE;
@@ -29,7 +29,7 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
   p->ask.unresolved_ends = 0;
   p->clipped = 0;
   p->arc.ticks = 0;
-  p->count = p->fresh_count = p->misses = p->touch_count = 0;
+  p->count = p->fresh_count = p->misses = p->contact_count = 0;
   p->too_deep = 0;
   nsvcd__forget(&p->memo);
 }
@@ -98,7 +98,7 @@ static nsvcd__outcome nsvcd__prove_and_look(nsvcd__proof *p, nsvcd__search *sear
   if (p->known.unresolved < NSVCD__NEVER)
     p->ask.after_unresolved -= p->ask.after_unresolved / 2;
   for (int at_end = 0; at_end < 2; at_end++) {
-    if (nsvcd__meets_at(p, search, at_end, NSVCD__LOOK)) return NSVCD__ANSWERED;
+    if (nsvcd__meets_at(p, search, at_end, NSVCD__END_BUDGET)) return NSVCD__ANSWERED;
   }
   p->ask.is_brief = 0;
   p->ask.limit = limit;
@@ -205,7 +205,7 @@ static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search)
 
 // Of the patches with a surface, the one whose centre is nearest to a place of the body's frame; of
 // a large body one near it, found by going down the levels of spheres, always to the nearest.
-static size_t nsvcd__patch_towards(const nsvcd__facets *f, nsvcd__f3 place) {
+static size_t nsvcd__patch_towards(const nsvcd__geometry *f, nsvcd__f3 position) {
   const nsvcd_body *body = f->body;
   size_t from = 0;
   size_t count = body->patches;
@@ -220,7 +220,7 @@ static size_t nsvcd__patch_towards(const nsvcd__facets *f, nsvcd__f3 place) {
     size_t nearest = from;
     float best = HUGE_VALF;
     for (size_t n = from; n < from + count && n < level.count; n++) {
-      const nsvcd__f3 off = nsvcd__f3_sub(nsvcd__centre_of(all, n), place);
+      const nsvcd__f3 off = nsvcd__f3_sub(nsvcd__centre_of(all, n), position);
       const float distance = nsvcd__f3_length(off) - all.r[n];
       if (distance >= best) continue;
       best = distance;
@@ -235,7 +235,7 @@ static size_t nsvcd__patch_towards(const nsvcd__facets *f, nsvcd__f3 place) {
     uint32_t nearer = 0;
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v3 off =
-          nsvcd__v3_sub(nsvcd__v3_centres(patches, first + l), nsvcd__v3_set(place));
+          nsvcd__v3_sub(nsvcd__v3_centres(patches, first + l), nsvcd__v3_set(position));
       const nsvcd__v square = nsvcd__v3_dot(off, off);
       nearer |= nsvcd__v_lt(square, nsvcd__v_set(least)) << l;
       nsvcd__v_store(squares + l, square);
@@ -262,14 +262,14 @@ static int nsvcd__nearest_tick(const nsvcd__search *search, nsvcd__sphere fixed,
     float gaps[NSVCD__LANES], fraction[NSVCD__LANES];
     uint32_t nearer = 0;
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 way = nsvcd__chords_way(c, l);
+      const nsvcd__v3 travel = nsvcd__chords_travel(c, l);
       const nsvcd__v3 d =
           nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(fixed.centre));
       const nsvcd__v tau = nsvcd__v_clamp(
-          nsvcd__v_mul(nsvcd__v3_dot(d, way), nsvcd__v_load(c->inverse + l)), 0, 1);
-      const nsvcd__v3 off = nsvcd__v3_fma(tau, way, d);
+          nsvcd__v_mul(nsvcd__v3_dot(d, travel), nsvcd__v_load(c->inverse + l)), 0, 1);
+      const nsvcd__v3 off = nsvcd__v3_fma(tau, travel, d);
       const nsvcd__v between =
-          nsvcd__v_sub(nsvcd__v3_length(off), nsvcd__v_load(c->reach + l));
+          nsvcd__v_sub(nsvcd__v3_length(off), nsvcd__v_load(c->radius + l));
       nearer |= nsvcd__v_lt(between, nsvcd__v_set(*gap + fixed.radius)) << l;
       nsvcd__v_store(gaps + l, between);
       nsvcd__v_store(fraction + l, tau);
@@ -378,7 +378,7 @@ static NSVCD__NOINLINE double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__sea
   }
   if (!(least <= p->given.clearance)) return least;
   p->ask.clearance = least;
-  p->ask.limit = p->work + NSVCD__LOOK;
+  p->ask.limit = p->work + NSVCD__END_BUDGET;
   (void)nsvcd__find_witness(p, nearest[0], nearest[1], from, fraction);
   return p->known.has_contact ? p->known.found.distance : least;
 }

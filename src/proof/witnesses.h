@@ -1,5 +1,5 @@
 // In: a patch pair, an arc and a share of it. Out: a contact: two triangles that meet there, or
-// come within the clearance; with a skin, what touches at the start and which directions undo it.
+// come within the clearance; with a slop, what touches at the start and which directions undo it.
 #pragma once
 #include "manifold.h"
 #include "blocks.h"
@@ -12,50 +12,54 @@ static double nsvcd__epsilon(const nsvcd__proof *p) {
 
 // How far the moving triangle of a touch must go along n until it is beyond the other; negative if
 // it is already.
-static double nsvcd__lift_along(nsvcd__d3 n, const nsvcd__touch *t) {
+static double nsvcd__push_out_along(nsvcd__d3 n, const nsvcd__triangle_contact *t) {
   return -nsvcd__beyond(n, t->moving, t->fixed);
 }
 
-// Is a touch too deep for the skin in every direction? Two triangles are separated soonest along a
+// Is a touch too deep for the slop in every direction? Two triangles are separated soonest along a
 // normal of one, or across an edge of each (the separating axes).
-static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__touch *t) {
-  const nsvcd__d3 lift = nsvcd__d3_widen(p->ask.motion->lift);
-  const double most = p->ask.skin - p->given.clearance;
+static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__triangle_contact *t) {
+  const nsvcd__d3 push_out = nsvcd__d3_widen(p->ask.motion->push_out);
+  const double most = p->ask.slop - p->given.clearance;
   for (size_t k = 0; k < 12; k++) {
-    nsvcd__d3 n = k < 3 ? t->ways[k] : nsvcd__across_edges(t->moving, t->fixed, k - 3);
+    nsvcd__d3 n = k < 3 ? t->directions[k] : nsvcd__across_edges(t->moving, t->fixed, k - 3);
     if (!(nsvcd__d3_dot(n, n) > 0.5)) continue;
     for (int side = 0; side < 2; side++) {
-      const double lifted = nsvcd__d3_dot(lift, n);
-      if (lifted + nsvcd__lift_along(n, t) <= most) return 0;
+      const double pushed_out = nsvcd__d3_dot(push_out, n);
+      if (pushed_out + nsvcd__push_out_along(n, t) <= most) return 0;
       n = nsvcd__d3_scale(n, -1);
     }
   }
   return 1;
 }
 
-// Does a lift along n, by what is left of the skin in that direction, undo a touch? If it has to
-// push anything, then not through both faces. Through one of them is no harm: a side that rises
+// Does a push-out along n, by what is left of the slop in that direction, undo a touch? If it has
+// to push anything, then not through both faces. Through one of them is no harm: a side that rises
 // from the rim on which a cone stands looks up, and the floor under it looks up too.
-static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n, const nsvcd__touch *t) {
-  const double lift = nsvcd__lift_along(n, t);
-  const double lifted = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->lift), n);
-  if (!(nsvcd__d3_dot(n, n) > 0.5) || lifted + lift + p->given.clearance > p->ask.skin)
+static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n,
+                         const nsvcd__triangle_contact *t) {
+  const double push_out = nsvcd__push_out_along(n, t);
+  const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->push_out), n);
+  if (!(nsvcd__d3_dot(n, n) > 0.5) || pushed_out + push_out + p->given.clearance > p->ask.slop)
     return 0;
-  if (lift < 0) return 1;
-  return nsvcd__d3_dot(n, t->ways[0]) > -0.3 || nsvcd__d3_dot(n, t->ways[1]) > -0.3;
+  if (push_out < 0) return 1;
+  return nsvcd__d3_dot(n, t->directions[0]) > -0.3 ||
+         nsvcd__d3_dot(n, t->directions[1]) > -0.3;
 }
 
 // The square of the distance of two triangles, the moving one gone so far along n.
-static double nsvcd__gap_after(const nsvcd__touch *t, nsvcd__d3 n, double way) {
+static double nsvcd__gap_after(const nsvcd__triangle_contact *t, nsvcd__d3 n,
+                               double distance) {
   nsvcd__d3 moved[3];
-  for (int k = 0; k < 3; k++) moved[k] = nsvcd__d3_add(t->moving[k], nsvcd__d3_scale(n, way));
+  for (int k = 0; k < 3; k++)
+    moved[k] = nsvcd__d3_add(t->moving[k], nsvcd__d3_scale(n, distance));
   return nsvcd__nearest_of(moved, t->fixed).square;
 }
 
 // How far along n the moving triangle of a touch must go until it is beyond the clearance for good,
 // if it is so after `most`; -HUGE_VAL: it is all the way. The distance is convex on it: thirds
 // find where it is least, and halves where it is the clearance.
-static NSVCD__NOINLINE double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n,
+static NSVCD__NOINLINE double nsvcd__way_out(const nsvcd__triangle_contact *t, nsvcd__d3 n,
                                              double clearance, double most, double grain) {
   // parallel faces meet at one time only
   const double reach = clearance + nsvcd__min(0.003 * most, grain);
@@ -86,20 +90,20 @@ static NSVCD__NOINLINE double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n,
 }
 
 // Remembers how deep a touch is along normal k.
-static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__touch *t) {
+static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__triangle_contact *t) {
   const nsvcd__d3 n = p->normals[k];
-  const double lifted = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->lift), n);
-  const double most = nsvcd__lift_along(n, t) + p->given.clearance;
-  p->needed = nsvcd__max(p->needed, lifted + most);
-  if (!(most > 0) || !(lifted + most > p->depths[k])) return;
+  const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->push_out), n);
+  const double most = nsvcd__push_out_along(n, t) + p->given.clearance;
+  p->needed = nsvcd__max(p->needed, pushed_out + most);
+  if (!(most > 0) || !(pushed_out + most > p->depths[k])) return;
   // depths are told in double
   const double grain = nsvcd__off_meshes(p) + NSVCD__TOO_NEAR * (double)p->given.lengths;
-  const double depth = lifted + nsvcd__way_out(t, n, p->given.clearance, most, grain);
+  const double depth = pushed_out + nsvcd__way_out(t, n, p->given.clearance, most, grain);
   p->depths[k] = nsvcd__max(p->depths[k], depth);
 }
 
 // Does normal k undo a touch? How far it has to is remembered.
-static int nsvcd__undone_by(nsvcd__proof *p, size_t k, const nsvcd__touch *t) {
+static int nsvcd__undone_by(nsvcd__proof *p, size_t k, const nsvcd__triangle_contact *t) {
   if (!nsvcd__undoes(p, p->normals[k], t)) return 0;
   nsvcd__note_depth(p, k, t);
   return 1;
@@ -107,22 +111,22 @@ static int nsvcd__undone_by(nsvcd__proof *p, size_t k, const nsvcd__touch *t) {
 
 // Keeps two triangles that are within the clearance at the start, unless a direction that is known
 // undoes that.
-static void nsvcd__collect_touch(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
-                                 const nsvcd__d3 *posed) {
-  nsvcd__touch touch;
-  memcpy(touch.moving, posed, sizeof touch.moving);
-  memcpy(touch.fixed, pair->fixed, sizeof touch.fixed);
+static void nsvcd__collect_contact(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
+                                   const nsvcd__d3 *posed) {
+  nsvcd__triangle_contact contact;
+  memcpy(contact.moving, posed, sizeof contact.moving);
+  memcpy(contact.fixed, pair->fixed, sizeof contact.fixed);
   const nsvcd__nearest nearest = nsvcd__nearest_of(posed, pair->fixed);
   const int are_apart = nearest.square > 1e6 * pair->rounding * pair->rounding;
-  const nsvcd__d3 way = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
-  touch.ways[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
-  touch.ways[1] = nsvcd__face_direction(pair->fixed);
-  touch.ways[2] = nsvcd__d3_scale(way, are_apart ? 1 / sqrt(nearest.square) : 0);
+  const nsvcd__d3 distance = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+  contact.directions[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
+  contact.directions[1] = nsvcd__face_direction(pair->fixed);
+  contact.directions[2] = nsvcd__d3_scale(distance, are_apart ? 1 / sqrt(nearest.square) : 0);
   for (size_t k = 0; k < p->normal_count; k++) {
-    if (nsvcd__undone_by(p, k, &touch)) return;
+    if (nsvcd__undone_by(p, k, &contact)) return;
   }
-  p->too_deep = p->too_deep || nsvcd__is_deep(p, &touch);
-  if (p->touch_count < NSVCD__TOUCHES) p->of.touches[p->touch_count++] = touch;
+  p->too_deep = p->too_deep || nsvcd__is_deep(p, &contact);
+  if (p->contact_count < NSVCD__TOUCHES) p->of.touches[p->contact_count++] = contact;
 }
 
 // Among the moving block, posed `at`, and a block of the window: looks for a contact a share u of
@@ -141,15 +145,15 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
     for (; met; met &= met - 1) {
       if (clearance > 0) met = nsvcd__left_by_last(p, i, j, l, fixed, 1, NULL, margin, met);
       if (!met) break;
-      const size_t listing = p->moving_block.first + l;
+      const size_t entry = p->moving_block.first + l;
       const nsvcd__triangle_pair pair =
-          nsvcd__pair_of(p, i, j, listing, fixed->first + nsvcd__low_bit(met));
+          nsvcd__pair_of(p, i, j, entry, fixed->first + nsvcd__low_bit(met));
       nsvcd__d3 posed[3];
       nsvcd__nearest nearest = {0, {0, 0, 0}, {0, 0, 0}};
       nsvcd__place_triangle(at, pair.moving, posed);
       p->work++;
       if (p->ask.collects == NSVCD__SUPPORTING) {
-        nsvcd__collect_places(p, &pair, posed);
+        nsvcd__collect_positions(p, &pair, posed);
         continue;
       }
       if (nsvcd__triangles_meet(posed, pair.fixed, &nearest.on_b)) {
@@ -158,13 +162,13 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
         if (!(clearance > 0)) continue;
         nearest = nsvcd__nearest_of(posed, pair.fixed);
         if (!(nearest.square <= clearance * clearance)) {
-          const nsvcd__d3 way = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
-          p->memo.separating = nsvcd__d3_scale(way, 1 / sqrt(nearest.square));
+          const nsvcd__d3 distance = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+          p->memo.separating = nsvcd__d3_scale(distance, 1 / sqrt(nearest.square));
           continue;
         }
       }
       if (p->ask.collects == NSVCD__TOUCHING) {
-        nsvcd__collect_touch(p, &pair, posed);
+        nsvcd__collect_contact(p, &pair, posed);
         continue;
       }
       const nsvcd__outcome contact = nsvcd__take_contact(p, &pair, u, &nearest);
@@ -177,7 +181,7 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
   return NSVCD__NOTHING;
 }
 
-// Loads 16 triangles of moving patch i, from listing `first` on. The same are often asked for
+// Loads 16 triangles of moving patch i, from entry `first` on. The same are often asked for
 // again.
 static void nsvcd__moving_block_load(nsvcd__proof *p, size_t i, size_t first) {
   const size_t left = p->moving.first_triangle[i + 1] - first;

@@ -15,7 +15,7 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t po
                                        size_t points2, nsvcd__settings *settings) {
   if (o->pairs > NSVCD_MAX_PAIRS) return NSVCD_ERROR_PAIRS;
   if ((unsigned)o->model > (unsigned)NSVCD_MODEL_BASE) return NSVCD_ERROR_MODEL;
-  if (!nsvcd__is_finite(o->swell) || o->swell < 0) return NSVCD_ERROR_SWELL;
+  if (!nsvcd__is_finite(o->inflate) || o->inflate < 0) return NSVCD_ERROR_INFLATE;
   if (o->precision != NSVCD_PRECISION_FLOAT && o->precision != NSVCD_PRECISION_INT8)
     return NSVCD_ERROR_PRECISION;
   const nsvcd_model model = o->model ? o->model : NSVCD__LARGEST_MODEL;
@@ -45,9 +45,9 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t po
     const float high = nsvcd_w_threshold[decoder][row + 1][k];
     settings->threshold = low + (at - (float)row) * (high - low);
     float least = 0;
-    if (k == 2) least = NSVCD__SWELL * 32 / n;
-    if (k == 3) least = NSVCD__SWELL_MOST * 32 / n;
-    settings->swell = fmaxf(o->swell, least);
+    if (k == 2) least = NSVCD__INFLATE * 32 / n;
+    if (k == 3) least = NSVCD__MOST_INFLATE * 32 / n;
+    settings->inflate = fmaxf(o->inflate, least);
     return NSVCD_OK;
   }
   return NSVCD_ERROR_RECALL;
@@ -208,7 +208,7 @@ static NSVCD__NOINLINE int nsvcd__collides_again(nsvcd__query *query, const nsvc
   const nsvcd__settings *settings = &task->settings;
   nsvcd__candidates kept;
   nsvcd__candidates_start(&kept, query->kept, NSVCD__PORTION);
-  nsvcd__plane_cache_begin(&query->broad_phase, settings->swell);
+  nsvcd__plane_cache_begin(&query->broad_phase, settings->inflate);
   nsvcd__search_patch(&query->broad_phase, task->moving, hint->moving / NSVCD__GROUP,
                       task->fixed, hint->fixed, &kept);
   if (!nsvcd__score(task, &kept, 1, kept.count)) return 0;
@@ -227,10 +227,10 @@ static NSVCD__NOINLINE void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_o
   const size_t shortlist = task->settings.shortlist;
   nsvcd__search *search = &query->broad_phase;
   nsvcd__candidates kept;
-  size_t worth = shortlist < NSVCD__FIRST_LOOK ? shortlist : NSVCD__FIRST_LOOK;
-  size_t left = NSVCD__LOOKS * shortlist;
+  size_t worth = shortlist < NSVCD__FIRST_BATCH ? shortlist : NSVCD__FIRST_BATCH;
+  size_t left = NSVCD__RANKED_TWICE * shortlist;
   int clear = 0;
-  nsvcd__plane_cache_begin(search, task->settings.swell);
+  nsvcd__plane_cache_begin(search, task->settings.inflate);
   int more = nsvcd__search_begin(task->moving, task->fixed, ~(uint64_t)0, search);
   if (more && !nsvcd__of_distance(task)) {
     // What collides deeply shows in the first pair of groups, whether or not a plane separates any
@@ -253,7 +253,7 @@ static NSVCD__NOINLINE void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_o
     if (!more || left < worth || !nsvcd__score(task, &kept, worth, worth)) continue;
     left -= worth;
     clear = nsvcd__is_clear(task, &kept, 0, NSVCD__CLEAR_LOGIT, out);
-    if (worth == NSVCD__FIRST_LOOK) worth = NSVCD__BATCH;
+    if (worth == NSVCD__FIRST_BATCH) worth = NSVCD__BATCH;
   }
 
   out->candidates = kept.total;
@@ -265,7 +265,7 @@ static NSVCD__NOINLINE void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_o
 }
 
 // Is a part of one body inside of the other at the start?
-static NSVCD__NOINLINE int nsvcd__starts_inside(const nsvcd__task *task) {
+static NSVCD__NOINLINE int nsvcd__looks_contained_at_start(const nsvcd__task *task) {
   const nsvcd__transform pose = nsvcd__motion_pose(&task->motion, 0);
   return nsvcd__is_contained(task->moving, task->fixed, task->motion.scale, &pose);
 }
@@ -288,8 +288,8 @@ static int nsvcd__ask_network(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opin
   // checked before
   (void)nsvcd__settings_of(&task->question->network, task->moving->patches,
                            task->fixed->patches, &task->settings);
-  if (nsvcd__of_distance(task) && task->question->network.swell <= 0)
-    task->settings.swell = NSVCD__SWELL_DISTANCE;
+  if (nsvcd__of_distance(task) && task->question->network.inflate <= 0)
+    task->settings.inflate = NSVCD__INFLATE_DISTANCE;
   *out = nsvcd__certain_opinion(-NSVCD_LOGIT_CERTAIN);
   query->broad_phase.balls_met = 0;
   if (nsvcd__motion_gap(&task->motion) > task->lengths) return 0;
@@ -305,7 +305,7 @@ static int nsvcd__ask_network(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opin
   }
 
   // a body inside another need not touch anything
-  if (out->logit > 0 || !nsvcd__starts_inside(task)) return 0;
+  if (out->logit > 0 || !nsvcd__looks_contained_at_start(task)) return 0;
   const size_t candidates = out->candidates;
   *out = nsvcd__certain_opinion(NSVCD_LOGIT_CERTAIN);
   out->candidates = candidates;

@@ -43,7 +43,7 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
     return NSVCD_ERROR_SEGMENTS;
   if (!nsvcd__is_length(q->tolerance)) return NSVCD_ERROR_TOLERANCE;
   if (!nsvcd__is_length(q->clearance)) return NSVCD_ERROR_CLEARANCE;
-  if (!nsvcd__is_length(q->skin)) return NSVCD_ERROR_SKIN;
+  if (!nsvcd__is_length(q->slop)) return NSVCD_ERROR_SLOP;
   const int is_first = q->ask == NSVCD_ASK_FIRST;
   if (!nsvcd__is_length(q->to) || (q->to > 0 && q->ask == NSVCD_ASK_HIT))
     return NSVCD_ERROR_TO;
@@ -52,7 +52,7 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
   if (q->manifold && !is_first) return NSVCD_ERROR_MANIFOLD;
   // of these the network knows nothing
   const int by_network = q->method == NSVCD_METHOD_NETWORK;
-  int needs_proof = q->clearance > 0 || q->skin > 0;
+  int needs_proof = q->clearance > 0 || q->slop > 0;
   needs_proof |= is_first || q->to > 0;
   needs_proof |= q->ask == NSVCD_ASK_DISTANCE && !by_network;
   if (needs_proof && by_network) return NSVCD_ERROR_METHOD;
@@ -193,7 +193,7 @@ static void nsvcd__swap_answer(nsvcd_answer *answer) {
   nsvcd__swap_patches(&answer->opinion.patch_a, &answer->opinion.patch_b);
   nsvcd__swap_contact(&answer->nearest);
   for (size_t n = 0; n < answer->contact_count; n++) nsvcd__swap_contact(&answer->contacts[n]);
-  for (size_t k = 0; k < 3; k++) answer->lift[k] = 0 - answer->lift[k];
+  for (size_t k = 0; k < 3; k++) answer->push_out[k] = 0 - answer->push_out[k];
 }
 
 // Answers a question that has been checked and laid out. hint: NULL, or that of a batch, for the
@@ -209,7 +209,7 @@ static void nsvcd__answer_query(nsvcd__query *query, nsvcd__hint *hint, nsvcd_an
   // asked.
   const nsvcd_question *q = task->question;
   const int knows = task->moving->weights_id && task->fixed->weights_id &&
-                    !(q->clearance > 0 || q->ask == NSVCD_ASK_DISTANCE || q->skin > 0);
+                    !(q->clearance > 0 || q->ask == NSVCD_ASK_DISTANCE || q->slop > 0);
   if (task->method == NSVCD_METHOD_PROOF && answer->verdict == NSVCD_UNDECIDED && knows)
     (void)nsvcd__ask_network(query, NULL, &answer->opinion);
 #endif

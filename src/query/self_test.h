@@ -4,7 +4,7 @@
 
 // As nsvcd_self_test. The place of a body's point (1, 0, 0) at 16 ticks: the body turns by 90
 // degrees about z on its way from (4, 0, 0) to (-4, 0, 0), and is seen by one at (1, 2, 3) whose x,
-// y, z are y, z, x. Then two triangles that meet, and, as one is lifted, are apart.
+// y, z are y, z, x. Then two triangles that meet, and, as one is pushed out, are apart.
 static nsvcd_result nsvcd__run_self_test(void) {
   // or the compiler would compute instead
   const volatile float half = 0.70710678f;
@@ -13,7 +13,7 @@ static nsvcd_result nsvcd__run_self_test(void) {
   const nsvcd_pose rest = {{1, 2, 3}, {0.5f, 0.5f, 0.5f, 0.5f}};
   const nsvcd_mover moving = {NULL, path, 2, NULL, 0};
   const nsvcd_mover fixed = {NULL, &rest, 1, NULL, 0};
-  float places[3][NSVCD__LANES];
+  float positions[3][NSVCD__LANES];
   // in a block: the stack is shared with what comes after it
   {
     nsvcd__motion motion;
@@ -28,13 +28,13 @@ static nsvcd_result nsvcd__run_self_test(void) {
       const nsvcd__v_pose seen = nsvcd__v_seen(&motion, &at);
       const nsvcd__v3 arm = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
       const nsvcd__vmat3 rotation = nsvcd__vmat3_of(seen.rotation);
-      nsvcd__v3_store(places, l, nsvcd__vmat3_apply_add(rotation, arm, seen.position));
+      nsvcd__v3_store(positions, l, nsvcd__vmat3_apply_add(rotation, arm, seen.position));
     }
   }
   nsvcd__chords chords;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 way = nsvcd__v3_set(nsvcd__f3_of(0, 0, -0.5f));
-    nsvcd__chords_store(&chords, l, nsvcd__v3_load(places, l), way, nsvcd__v_set(0.1f));
+    const nsvcd__v3 travel = nsvcd__v3_set(nsvcd__f3_of(0, 0, -0.5f));
+    nsvcd__chords_store(&chords, l, nsvcd__v3_load(positions, l), travel, nsvcd__v_set(0.1f));
   }
   int right = 1;
   for (size_t l = 0; l < NSVCD__LANES; l++) {
@@ -50,12 +50,12 @@ static nsvcd_result nsvcd__run_self_test(void) {
   resting.centre.y += 1;
   right &= nsvcd__meet(&chords, resting) == 0;
 #ifndef NSVCD_NO_PROOF
-  const double lift = 4 * (double)half;
+  const double height = 4 * (double)half;
   const nsvcd__d3 a[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   nsvcd__d3 b[3] = {{0.25, 0.25, -1}, {0.25, 0.25, 1}, {2, 2, 1}};
   right &= !(nsvcd__nearest_of(a, b).square > 0);
-  for (size_t k = 0; k < 3; k++) b[k].z += 1 + lift;
-  right &= fabs(nsvcd__nearest_of(a, b).square - lift * lift) < 1e-9;
+  for (size_t k = 0; k < 3; k++) b[k].z += 1 + height;
+  right &= fabs(nsvcd__nearest_of(a, b).square - height * height) < 1e-9;
 #endif
 #ifdef NSVCD_ONE_PATH
   // a product that has been rounded: of one that is fused, 2^-24 would be left

@@ -35,18 +35,18 @@
 #define NSVCD__SHORTLIST 4
 // new pairs that are worth the first look by the ranker, before the search is done. Later looks
 // wait for NSVCD__BATCH: nsvcd__search_and_judge
-#define NSVCD__FIRST_LOOK 8
+#define NSVCD__FIRST_BATCH 8
 // pairs that such looks may take, times the shortlist: nsvcd__search_and_judge
-#define NSVCD__LOOKS 2
+#define NSVCD__RANKED_TWICE 2
 // pairs that the chosen decoder sees at once, until one is clear: nsvcd__judge; and pairs that are
 // kept where the last of a batch collided: nsvcd__collides_again
 #define NSVCD__PORTION 4
 // that patches swell before planes separate them, shares of their radii, at N = 32 and less the
 // more there are: at a recall of 0.999, and of 0.9999
-#define NSVCD__SWELL 0.04f
-#define NSVCD__SWELL_MOST 0.1f
+#define NSVCD__INFLATE 0.04f
+#define NSVCD__MOST_INFLATE 0.1f
 // and where a distance is asked for: patches are told of within their radii
-#define NSVCD__SWELL_DISTANCE 1.0f
+#define NSVCD__INFLATE_DISTANCE 1.0f
 // a logit so far from 0 is clear. A clear collision needs no second pair (nsvcd__judge), and what
 // is clear to the ranker no second decoder (nsvcd__is_clear): 37,000 answers on held-out
 // sets, N = 128 to 512, are the same as with twice this and the next, but for four
@@ -68,7 +68,7 @@ typedef struct nsvcd__settings {
   // subtracted from the decoder's logit
   float threshold;
   // of patches, shares of their radii, before planes separate them
-  float swell;
+  float inflate;
 } nsvcd__settings;
 
 // The candidate that an answer is about, and the decoder that gave its logit.
@@ -114,7 +114,7 @@ typedef struct nsvcd__query {
 #endif
 #ifndef NSVCD_NO_PROOF
   nsvcd__proof *proof;
-  nsvcd__span *spans;  // (S)
+  nsvcd__interval *intervals;  // (S)
 #endif
 } nsvcd__query;
 
@@ -129,7 +129,7 @@ typedef char nsvcd__constants_hold
          : -1];
 #ifndef NSVCD_NO_PROOF
 typedef char nsvcd__proof_constants_hold
-    [sizeof(nsvcd__proof) <= 24832 && sizeof(nsvcd__span) <= 168 ? 1 : -1];
+    [sizeof(nsvcd__proof) <= 24832 && sizeof(nsvcd__interval) <= 168 ? 1 : -1];
 #endif
 #ifndef NSVCD_NO_NETWORK
 typedef char
@@ -165,10 +165,11 @@ static size_t nsvcd__query_layout(const nsvcd__needs *needs, char *base) {
 #endif
 #ifndef NSVCD_NO_PROOF
   uint64_t proof = used;
-  const size_t spans = needs->proof ? needs->segments : 0;
+  const size_t intervals = needs->proof ? needs->segments : 0;
   query->proof =
       (nsvcd__proof *)nsvcd__take(base, &proof, needs->proof != 0, sizeof(nsvcd__proof));
-  query->spans = (nsvcd__span *)nsvcd__take(base, &proof, spans, sizeof(nsvcd__span));
+  query->intervals =
+      (nsvcd__interval *)nsvcd__take(base, &proof, intervals, sizeof(nsvcd__interval));
   end = proof > end ? proof : end;
 #endif
   return (size_t)end;

@@ -6,7 +6,7 @@
 // it goes on at the limit. What it does is of degree 2 piece by piece.
 // Source: Hauser and Ng-Thow-Hing (2010).
 #pragma once
-#include "trees.h"
+#include "rrt.h"
 
 // of a blend: each joint has two times at which its acceleration changes
 #define NSVCD__BLEND_PIECES (2 * NSVCD_MAX_JOINTS + 1)
@@ -33,26 +33,27 @@ typedef struct nsvcd__blend_joint {
 // The least time from place x0 and speed v0 to x1 and v1, both within the limits.
 static double nsvcd__blend_time(double x0, double v0, double x1, double v1, double speed,
                                 double most) {
-  const double way = x1 - x0;
+  const double distance = x1 - x0;
   // changing speed takes this way: is there more to go, or less?
   const double least = 0.5 * (v0 + v1) * fabs(v1 - v0) / most;
-  const double side = way >= least ? 1 : -1;
-  const double peak2 = side * most * way + 0.5 * (v0 * v0 + v1 * v1);
+  const double side = distance >= least ? 1 : -1;
+  const double peak2 = side * most * distance + 0.5 * (v0 * v0 + v1 * v1);
   const double peak = side * sqrt(nsvcd__max(peak2, 0));
   if (fabs(peak) <= speed) return (fabs(peak - v0) + fabs(peak - v1)) / most;
   const double fast = side * speed;
   const double changing = (speed * speed - 0.5 * (v0 * v0 + v1 * v1)) / (side * most);
-  return (fabs(fast - v0) + fabs(fast - v1)) / most + nsvcd__max((way - changing) / fast, 0);
+  return (fabs(fast - v0) + fabs(fast - v1)) / most +
+         nsvcd__max((distance - changing) / fast, 0);
 }
 
 // The way with the least acceleration that takes this time. Returns 0 if there is none within the
 // limits.
 static int nsvcd__blend_solve(double x0, double v0, double x1, double v1, double speed,
                               double most, double time, nsvcd__blend_joint *out) {
-  const double way = x1 - x0;
+  const double distance = x1 - x0;
   const double change = v1 - v0;
   // time^2 a^2 + b a - change^2 = 0: the root of the greater size
-  const double b = 2 * time * (v0 + v1) - 4 * way;
+  const double b = 2 * time * (v0 + v1) - 4 * distance;
   const double root = sqrt(b * b + 4 * time * time * change * change);
   double a = -(b + (b > 0 ? root : -root)) / (2 * time * time);
   out->t1 = 0.5 * time;
@@ -63,7 +64,7 @@ static int nsvcd__blend_solve(double x0, double v0, double x1, double v1, double
   if (fabs(peak) > speed) {
     const double fast = peak > 0 ? speed : -speed;
     const double up = (fast - v0) * (fast - v0) + (fast - v1) * (fast - v1);
-    a = up / (2 * (fast * time - way));
+    a = up / (2 * (fast * time - distance));
     if (!(a * fast > 0)) return 0;
     out->t1 = (fast - v0) / a;
     out->t2 = time - (fast - v1) / a;

@@ -3,11 +3,11 @@
 //
 //   chain       what moves what; where everything is
 //   steps       what the joints do between two times
-//   stray       how far points of a part can be from an axis; by how much a part leaves its sweep
+//   deviate       how far points of a part can be from an axis; by how much a part leaves its sweep
 //   path        is a motion of the joints free?
 //   proofs      a certificate of a pair, as the joints move it
 //   trees       configurations, and the nearest of them
-//   postures    one configuration: what is near, a way out; which pairs can meet
+//   configurations    one configuration: what is near, a way out; which pairs can meet
 //   blends       from one state to another, within limits of speed and acceleration
 //   smooth      a way in time, then smooth
 //   route       a start and goals: two trees of proven edges, shortcuts
@@ -28,9 +28,10 @@
 #define NSVCD__FIRST_STEPS 4
 // radians or metres: where the way bends by less, steps go on across
 #define NSVCD__CORNER 1e-3
-// metres that a part may stray at first; each time a pair is asked again it may by this share of it
+// metres that a part may deviate at first; each time a pair is asked again it may by this share of
+// it
 #define NSVCD__COARSE 2e-3
-#define NSVCD__STRAY_FRACTION 8
+#define NSVCD__DEVIATION_FRACTION 8
 #define NSVCD__FINEST 1e-5f
 // units that a look for a hit may take, before the last
 #define NSVCD__PAIR_TRY 200
@@ -40,7 +41,7 @@
 // A joint, as the checker has it; and the link that it carries.
 typedef struct nsvcd__link {
   // in the parent link: where the joint is, and how it is turned, unit
-  nsvcd__d3 place;
+  nsvcd__d3 position;
   nsvcd__dquat turn;
   // unit, in the joint's frame
   nsvcd__d3 axis;
@@ -51,7 +52,7 @@ typedef struct nsvcd__link {
 // Where a link is, in the world.
 typedef struct nsvcd__frame {
   nsvcd__dquat turn;
-  nsvcd__d3 place;
+  nsvcd__d3 position;
 } nsvcd__frame;
 
 // Joint values, and what follows from them.
@@ -83,7 +84,7 @@ typedef struct nsvcd__member {
   size_t row;
   // metres, at most: by how much it leaves the way between its samples, and what frames in double
   // are off
-  double stray, rounding;
+  double deviation, rounding;
 } nsvcd__member;
 
 struct nsvcd_checker {
@@ -92,15 +93,15 @@ struct nsvcd_checker {
   nsvcd__member *members;  // (B)
   // (P): the pairs, as they are asked: what was hit last first
   uint32_t *order;
-  // (P): those of a stretch that are not proven yet
+  // (P): those of a interval that are not proven yet
   uint32_t *left;
   // (movers, NSVCD__MOST_STEPS + 1): samples, in the world, and boxes about the parts there
   nsvcd__frame *frames;
   nsvcd__bounds *boxes;
   // (NSVCD__MOST_STEPS + 1): of both parts of a pair, as it is asked about; see nsvcd__sight
   nsvcd_pose *seen[2];
-  // the times of the samples, and the most that a part strays in the step after each
-  double times[NSVCD__MOST_STEPS + 1], strays[NSVCD__MOST_STEPS + 1];
+  // the times of the samples, and the most that a part deviates in the step after each
+  double times[NSVCD__MOST_STEPS + 1], deviations[NSVCD__MOST_STEPS + 1];
   nsvcd__configuration at, next;
   void *query;
   size_t query_size;
@@ -126,25 +127,25 @@ static nsvcd__frame nsvcd__frame_of(const nsvcd_pose *pose) {
 
 // What is `inner` in a frame, in the world.
 static nsvcd__frame nsvcd__frame_in(const nsvcd__frame *frame, const nsvcd__frame *inner) {
-  const nsvcd__d3 place = nsvcd__dquat_rotate(frame->turn, inner->place);
+  const nsvcd__d3 position = nsvcd__dquat_rotate(frame->turn, inner->position);
   const nsvcd__frame out = {nsvcd__dquat_mul(frame->turn, inner->turn),
-                            nsvcd__d3_add(frame->place, place)};
+                            nsvcd__d3_add(frame->position, position)};
   return out;
 }
 
 // What is `frame` in the world, as seen from another one.
 static nsvcd__frame nsvcd__frame_from(const nsvcd__frame *from, const nsvcd__frame *frame) {
   const nsvcd__dquat back = {-from->turn.x, -from->turn.y, -from->turn.z, from->turn.w};
-  const nsvcd__d3 way = nsvcd__d3_sub(frame->place, from->place);
+  const nsvcd__d3 offset = nsvcd__d3_sub(frame->position, from->position);
   const nsvcd__frame out = {nsvcd__dquat_inverse_mul(from->turn, frame->turn),
-                            nsvcd__dquat_rotate(back, way)};
+                            nsvcd__dquat_rotate(back, offset)};
   return out;
 }
 
 static nsvcd_pose nsvcd__pose_in(const nsvcd__frame *frame) {
   const nsvcd__dquat turn = nsvcd__dquat_unit(frame->turn);
   nsvcd_pose out;
-  nsvcd__f3_store(nsvcd__f3_round(frame->place), out.position);
+  nsvcd__f3_store(nsvcd__f3_round(frame->position), out.position);
   out.rotation[0] = (float)turn.x;
   out.rotation[1] = (float)turn.y;
   out.rotation[2] = (float)turn.z;
@@ -157,17 +158,17 @@ static int nsvcd__slides(const nsvcd_checker *c, size_t joint) {
 }
 
 // Places the links where c->joints says.
-static void nsvcd__place_links(const nsvcd_checker *checker, nsvcd__configuration *c) {
+static void nsvcd__pose_links(const nsvcd_checker *checker, nsvcd__configuration *c) {
   const nsvcd__frame world = {{0, 0, 0, 1}, {0, 0, 0}};
   c->frames[0] = world;
   for (size_t i = 0; i < checker->scene->joint_count; i++) {
     const nsvcd__link *link = &checker->links[i];
-    const nsvcd__frame origin = {link->turn, link->place};
+    const nsvcd__frame origin = {link->turn, link->position};
     nsvcd__frame frame =
         nsvcd__frame_in(&c->frames[checker->scene->joints[i].parent], &origin);
     c->axes[i] = nsvcd__dquat_rotate(frame.turn, link->axis);
     if (nsvcd__slides(checker, i)) {
-      frame.place = nsvcd__d3_fma(c->joints[i], c->axes[i], frame.place);
+      frame.position = nsvcd__d3_fma(c->joints[i], c->axes[i], frame.position);
     } else {
       const double half = 0.5 * c->joints[i];
       const nsvcd__d3 axis = nsvcd__d3_scale(link->axis, sin(half));
@@ -184,11 +185,11 @@ static nsvcd__frame nsvcd__frame_of_part(const nsvcd_checker *checker,
                          &checker->members[part].frame);
 }
 
-NSVCDDEF void nsvcd_checker_place(const nsvcd_checker *checker, const double *joints,
-                                  nsvcd_pose *poses) {
+NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const double *joints,
+                                       nsvcd_pose *poses) {
   nsvcd__configuration c;
   memcpy(c.joints, joints, checker->scene->joint_count * sizeof *joints);
-  nsvcd__place_links(checker, &c);
+  nsvcd__pose_links(checker, &c);
   for (size_t n = 0; n < checker->scene->part_count; n++) {
     const nsvcd__frame frame = nsvcd__frame_of_part(checker, &c, n);
     poses[n] = nsvcd__pose_in(&frame);

@@ -1,6 +1,6 @@
 // In: a checker and a motion of its joints. Out: is it free, as the joints make it, at all times?
 #pragma once
-#include "stray.h"
+#include "deviation.h"
 
 // ---- a checker
 
@@ -76,7 +76,8 @@ static nsvcd__bounds nsvcd__box_of(const nsvcd__member *m, const nsvcd__frame *f
     const nsvcd__d3 row = {fabs(rows[k]->x), fabs(rows[k]->y), fabs(rows[k]->z)};
     nsvcd__d3_set_axis(&half, k, nsvcd__d3_dot(row, m->half));
   }
-  const nsvcd__d3 middle = nsvcd__d3_add(nsvcd__dmat3_apply(&axes, m->middle), frame->place);
+  const nsvcd__d3 middle =
+      nsvcd__d3_add(nsvcd__dmat3_apply(&axes, m->middle), frame->position);
   const nsvcd__bounds out = {nsvcd__d3_sub(middle, half), nsvcd__d3_add(middle, half)};
   return out;
 }
@@ -140,7 +141,7 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
     const nsvcd_joint *joint = &scene->joints[i];
     const nsvcd__frame origin = nsvcd__frame_of(&joint->origin);
     nsvcd__link *link = &c->links[i];
-    link->place = origin.place;
+    link->position = origin.position;
     link->turn = origin.turn;
     link->axis = nsvcd__d3_unit(nsvcd__d3_load(joint->axis), nsvcd__d3_of(0, 0, 1));
     link->path = (uint32_t)1 << i | (joint->parent ? c->links[joint->parent - 1].path : 0);
@@ -154,19 +155,19 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
     m->frame = nsvcd__frame_of(&part->pose);
     const nsvcd__d3 centre = nsvcd__d3_scale(nsvcd__d3_load(facts.centre), scale);
     const nsvcd__frame sphere = {{0, 0, 0, 1}, centre};
-    m->centre = nsvcd__frame_in(&m->frame, &sphere).place;
+    m->centre = nsvcd__frame_in(&m->frame, &sphere).position;
     // spheres are computed in float
-    m->radius = 1.000001 * scale * (double)(facts.radius - facts.round);
+    m->radius = 1.000001 * scale * (double)(facts.radius - facts.convex_radius);
     m->extent = 1.000001 * scale * (double)facts.extent;
     const nsvcd__d3 low = nsvcd__d3_load(facts.low);
     const nsvcd__d3 high = nsvcd__d3_load(facts.high);
     const nsvcd__d3 all = {1, 1, 1};
     m->middle = nsvcd__d3_scale(nsvcd__d3_add(low, high), 0.5 * scale);
     // what is round goes beyond
-    m->half = nsvcd__d3_fma(scale * (double)facts.round, all,
+    m->half = nsvcd__d3_fma(scale * (double)facts.convex_radius, all,
                             nsvcd__d3_scale(nsvcd__d3_sub(high, low), 0.5 * scale));
     m->box = nsvcd__box_of(m, &m->frame);
-    m->stray = 0;
+    m->deviation = 0;
     m->rounding = 0;
     m->row = part->link ? NSVCD__MOST_STEPS + 1 : 0;
     m->row *= row;
@@ -184,7 +185,7 @@ static void nsvcd__sample_put(nsvcd_checker *c, const nsvcd__configuration *at, 
   const nsvcd_scene *scene = c->scene;
   double reach = 0;
   for (size_t link = 1; link <= scene->joint_count; link++)
-    reach = nsvcd__max(reach, nsvcd__d3_length(at->frames[link].place));
+    reach = nsvcd__max(reach, nsvcd__d3_length(at->frames[link].position));
   for (size_t n = 0; n < scene->part_count; n++) {
     nsvcd__member *m = &c->members[n];
     if (!scene->parts[n].link) continue;
@@ -194,35 +195,35 @@ static void nsvcd__sample_put(nsvcd_checker *c, const nsvcd__configuration *at, 
     c->boxes[m->row + k] = box;
     m->box = k ? nsvcd__box_over(&m->box, &box) : box;
     // some 5e-16 of its moment arm for each joint
-    const double arm = reach + nsvcd__d3_length(frame.place) + m->extent;
+    const double arm = reach + nsvcd__d3_length(frame.position) + m->extent;
     m->rounding = nsvcd__max(k ? m->rounding : 0, NSVCD__FRAME_ROUNDING * arm);
   }
 }
 
 // Fills in, for each part that moves, its samples at c->times, one more than steps, and by how much
-// it strays between them.
+// it deviates between them.
 static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, size_t steps) {
   const nsvcd_scene *scene = c->scene;
   const size_t bytes = scene->joint_count * sizeof(double);
   nsvcd__step step;
   nsvcd__configuration *from = &c->at;
   nsvcd__configuration *to = &c->next;
-  for (size_t n = 0; n < scene->part_count; n++) c->members[n].stray = 0;
+  for (size_t n = 0; n < scene->part_count; n++) c->members[n].deviation = 0;
   nsvcd_motion_at(motion, scene->joint_count, c->times[0], from->joints);
-  nsvcd__place_links(c, from);
+  nsvcd__pose_links(c, from);
   nsvcd__sample_put(c, from, 0);
   for (size_t k = 0; k < steps; k++) {
     nsvcd__step_of(motion, scene->joint_count, c->times[k], c->times[k + 1], &step);
     memcpy(to->joints, step.to, bytes);
-    nsvcd__place_links(c, to);
+    nsvcd__pose_links(c, to);
     nsvcd__sample_put(c, to, k + 1);
-    c->strays[k] = 0;
+    c->deviations[k] = 0;
     for (size_t n = 0; n < scene->part_count; n++) {
       nsvcd__member *m = &c->members[n];
       if (!scene->parts[n].link) continue;
-      const double stray = nsvcd__stray_of(c, n, &step, from, to) * (1 + 1e-9);
-      c->strays[k] = nsvcd__max(c->strays[k], stray);
-      m->stray = nsvcd__max(m->stray, stray);
+      const double deviation = nsvcd__part_deviation(c, n, &step, from, to) * (1 + 1e-9);
+      c->deviations[k] = nsvcd__max(c->deviations[k], deviation);
+      m->deviation = nsvcd__max(m->deviation, deviation);
     }
     nsvcd__configuration *other = from;
     from = to;
@@ -230,13 +231,13 @@ static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, si
   }
 }
 
-// Cuts steps so that no part strays by more than is allowed, as far as can be foreseen: strays go
-// by the square of a step. Returns how many there are then, more than NSVCD__MOST_STEPS if there
+// Cuts steps so that no part deviates by more than is allowed, as far as can be foreseen: deviates
+// go by the square of a step. Returns how many there are then, more than NSVCD__MOST_STEPS if there
 // were too many: then nothing is done.
 static size_t nsvcd__refine_steps(nsvcd_checker *c, size_t steps, double allowed) {
   size_t total = 0;
   for (size_t k = 0; k < steps; k++) {
-    const double pieces = ceil(sqrt(c->strays[k] / allowed));
+    const double pieces = ceil(sqrt(c->deviations[k] / allowed));
     if (!(pieces <= NSVCD__MOST_STEPS)) return NSVCD__MOST_STEPS + 1;
     total += pieces > 1 ? (size_t)pieces : 1;
   }
@@ -244,10 +245,11 @@ static size_t nsvcd__refine_steps(nsvcd_checker *c, size_t steps, double allowed
   size_t at = total;
   c->times[total] = c->times[steps];
   for (size_t k = steps; k-- > 0;) {
-    const double pieces = nsvcd__max(ceil(sqrt(c->strays[k] / allowed)), 1);
+    const double pieces = nsvcd__max(ceil(sqrt(c->deviations[k] / allowed)), 1);
     const double from = c->times[k];
-    const double way = c->times[at] - from;
-    for (size_t i = (size_t)pieces; i-- > 0;) c->times[--at] = from + way * (double)i / pieces;
+    const double duration = c->times[at] - from;
+    for (size_t i = (size_t)pieces; i-- > 0;)
+      c->times[--at] = from + duration * (double)i / pieces;
   }
   return total;
 }
@@ -258,7 +260,7 @@ static nsvcd__bounds nsvcd__bounds_at(const nsvcd_checker *c, size_t part, size_
   const nsvcd__member *m = &c->members[part];
   return c->scene->parts[part].link ? c->boxes[m->row + k] : m->box;
 }
-// A box about a part in a step: it goes no farther from it than it strays.
+// A box about a part in a step: it goes no farther from it than it deviates.
 static nsvcd__bounds nsvcd__bounds_in(const nsvcd_checker *c, size_t part, size_t step) {
   const nsvcd__bounds from = nsvcd__bounds_at(c, part, step);
   const nsvcd__bounds to = nsvcd__bounds_at(c, part, step + 1);
@@ -298,8 +300,9 @@ typedef struct nsvcd__sight {
 } nsvcd__sight;
 
 // Fills in c->seen. frames: of a and of b, (count) each, but one of a part that rests.
-static void nsvcd__look(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                        const nsvcd__frame *const *frames, size_t count, nsvcd__sight *view) {
+static void nsvcd__view_pair(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                             const nsvcd__frame *const *frames, size_t count,
+                             nsvcd__sight *view) {
   const size_t parts[2] = {pair->a, pair->b};
   view->from = c->scene->parts[pair->a].link ? frames[1][0] : frames[0][0];
   if (c->scene->parts[pair->a].link && c->scene->parts[pair->b].link)
@@ -311,7 +314,7 @@ static void nsvcd__look(nsvcd_checker *c, const nsvcd_body_pair *pair,
     for (size_t k = 0; k < (moves ? count : 1); k++) {
       const nsvcd__frame in = nsvcd__frame_from(&view->from, &frames[n][k]);
       c->seen[n][k] = nsvcd__pose_in(&in);
-      most = nsvcd__max(most, nsvcd__d3_length(in.place));
+      most = nsvcd__max(most, nsvcd__d3_length(in.position));
     }
     // places and quaternions as floats are off by no more
     if (moves) view->rounding += 2 * (1.1e-7 * most + 1.3e-7 * c->members[parts[n]].extent);
@@ -319,24 +322,24 @@ static void nsvcd__look(nsvcd_checker *c, const nsvcd_body_pair *pair,
 }
 
 // A direction and a point as they are seen, in the world.
-static nsvcd__d3 nsvcd__seen_way(const nsvcd__sight *view, nsvcd__d3 way) {
+static nsvcd__d3 nsvcd__seen_direction(const nsvcd__sight *view, nsvcd__d3 way) {
   return nsvcd__dquat_rotate(view->from.turn, way);
 }
 static nsvcd__d3 nsvcd__seen_point(const nsvcd__sight *view, nsvcd__d3 point) {
-  return nsvcd__d3_add(nsvcd__seen_way(view, point), view->from.place);
+  return nsvcd__d3_add(nsvcd__seen_direction(view, point), view->from.position);
 }
 
 // Takes a contact as it is seen to the world.
 static void nsvcd__set_contact(const nsvcd__sight *view, nsvcd_contact *contact) {
   const nsvcd__d3 point = nsvcd__seen_point(view, nsvcd__d3_load(contact->point));
-  const nsvcd__d3 normal = nsvcd__seen_way(view, nsvcd__d3_load(contact->normal));
+  const nsvcd__d3 normal = nsvcd__seen_direction(view, nsvcd__d3_load(contact->normal));
   nsvcd__f3_store(nsvcd__f3_round(point), contact->point);
   nsvcd__f3_store(nsvcd__f3_round(normal), contact->normal);
 }
 
 // By how much a part is off the way that its samples say, at most.
 static double nsvcd__off(const nsvcd_checker *c, size_t part) {
-  return c->members[part].stray + 2 * c->members[part].rounding;
+  return c->members[part].deviation + 2 * c->members[part].rounding;
 }
 
 // Of two parts as they are seen, in so many poses each; what rests has one.
@@ -398,9 +401,9 @@ static nsvcd_result nsvcd__ask_pair(nsvcd_checker *c, const nsvcd_body_pair *pai
   }
   const nsvcd__frame *const frames[2] = {nsvcd__frames_at(c, pair->a, range->first),
                                          nsvcd__frames_at(c, pair->b, range->first)};
-  nsvcd__look(c, pair, frames, range->steps + 1, &view);
-  const double strays = is_proof ? off + view.rounding : 0;
-  const double clearance = (double)options->clearance + strays;
+  nsvcd__view_pair(c, pair, frames, range->steps + 1, &view);
+  const double deviations = is_proof ? off + view.rounding : 0;
+  const double clearance = (double)options->clearance + deviations;
   return nsvcd__ask_seen(c, pair, range->steps + 1,
                          clearance > 0 ? nsvcd__above(clearance) : 0, options, found, answer);
 }
@@ -415,11 +418,11 @@ static nsvcd_result nsvcd__ask_at(nsvcd_checker *c, size_t pair, const double *j
   const nsvcd__frame *const frames[2] = {&at[0], &at[1]};
   const nsvcd_body_pair *both = &c->scene->pairs[pair];
   memcpy(c->at.joints, joints, c->scene->joint_count * sizeof *joints);
-  nsvcd__place_links(c, &c->at);
+  nsvcd__pose_links(c, &c->at);
   answer->placed++;
   at[0] = nsvcd__frame_of_part(c, &c->at, both->a);
   at[1] = nsvcd__frame_of_part(c, &c->at, both->b);
-  nsvcd__look(c, both, frames, 1, &view);
+  nsvcd__view_pair(c, both, frames, 1, &view);
   const nsvcd_result result =
       nsvcd__ask_seen(c, both, 1, options->clearance, options, &found, answer);
   if (result || found.verdict != NSVCD_HIT) return result;
@@ -453,9 +456,9 @@ static nsvcd_result nsvcd__seek_hit(nsvcd_checker *c, const nsvcd_joint_motion *
       // times of a sweep go by samples
       const double at =
           (double)range->steps * nsvcd__max(0, nsvcd__min(1, (double)found->nearest.time));
-      const size_t within = (size_t)at < range->steps ? (size_t)at : range->steps - 1;
-      const size_t k = range->first + within;
-      const double fraction = at - (double)within;
+      const size_t step = (size_t)at < range->steps ? (size_t)at : range->steps - 1;
+      const size_t k = range->first + step;
+      const double fraction = at - (double)step;
       const double time = c->times[k] + fraction * (c->times[k + 1] - c->times[k]);
       answer->piece = nsvcd__piece_at(motion, time);
       answer->fraction = nsvcd__fraction_at(motion, answer->piece, time);
@@ -470,12 +473,12 @@ static nsvcd_result nsvcd__seek_hit(nsvcd_checker *c, const nsvcd_joint_motion *
   return result;
 }
 
-// A stretch of a motion from time t0 to t1 in so many steps at first, or, with none, one
+// A interval of a motion from time t0 to t1 in so many steps at first, or, with none, one
 // configuration. What takes too many steps is halved, so often at most.
-static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const nsvcd_joint_motion *motion,
-                                         double t0, double t1, size_t steps, int halvings,
-                                         const nsvcd_check_options *options,
-                                         nsvcd_check_answer *answer) {
+static nsvcd_result nsvcd__check_interval(nsvcd_checker *c, const nsvcd_joint_motion *motion,
+                                          double t0, double t1, size_t steps, int halvings,
+                                          const nsvcd_check_options *options,
+                                          nsvcd_check_answer *answer) {
   size_t left = c->scene->pair_count;
   double allowed = NSVCD__COARSE;
   nsvcd_answer found;
@@ -496,10 +499,11 @@ static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const nsvcd_joint_mot
       answer->why = NSVCD_WHY_WORK;
       if (halvings == 0 || !(middle > t0 && middle < t1)) return NSVCD_OK;
       const nsvcd_result result =
-          nsvcd__check_stretch(c, motion, t0, middle, steps, halvings - 1, options, answer);
+          nsvcd__check_interval(c, motion, t0, middle, steps, halvings - 1, options, answer);
       if (result || answer->verdict != NSVCD_FREE) return result;
       answer->verdict = NSVCD_UNDECIDED;
-      return nsvcd__check_stretch(c, motion, middle, t1, steps, halvings - 1, options, answer);
+      return nsvcd__check_interval(c, motion, middle, t1, steps, halvings - 1, options,
+                                   answer);
     }
     if (finer > steps) {
       steps = finer;
@@ -528,7 +532,7 @@ static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const nsvcd_joint_mot
     left = kept;
     if (left == 0) break;
     if (steps == 0 || allowed <= (double)options->finest) return NSVCD_OK;
-    allowed = nsvcd__max(allowed / NSVCD__STRAY_FRACTION, (double)options->finest);
+    allowed = nsvcd__max(allowed / NSVCD__DEVIATION_FRACTION, (double)options->finest);
   }
   answer->pair = NSVCD_NONE;
   answer->verdict = NSVCD_FREE;
@@ -554,9 +558,9 @@ static double nsvcd__limit_off(const nsvcd_joint *joint) {
 static int nsvcd__leaves(const double *points, size_t degree, double low, double high,
                          int depth) {
   double first[NSVCD_MAX_DEGREE + 1], second[NSVCD_MAX_DEGREE + 1];
-  int within = 1;
-  for (size_t i = 0; i <= degree; i++) within &= points[i] >= low && points[i] <= high;
-  if (within) return 0;
+  int step = 1;
+  for (size_t i = 0; i <= degree; i++) step &= points[i] >= low && points[i] <= high;
+  if (step) return 0;
   if (depth == 0 || !(points[0] >= low && points[0] <= high)) return 1;
   if (!(points[degree] >= low && points[degree] <= high)) return 1;
   memcpy(first, points, (degree + 1) * sizeof *points);
@@ -618,16 +622,16 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
   for (size_t p = 0; p < m.pieces + !m.pieces && found.joint == NSVCD_NONE; p++)
     found.joint = nsvcd__joint_outside(scene, &m, p);
   found.verdict = NSVCD_UNDECIDED;
-  if (m.pieces == 0) result = nsvcd__check_stretch(checker, &m, 0, 0, 0, 0, &o, &found);
+  if (m.pieces == 0) result = nsvcd__check_interval(checker, &m, 0, 0, 0, 0, &o, &found);
   // from corner to corner
   for (size_t p = 0, next; p < m.pieces && !result; p = next) {
     next = p + 1;
     while (next < m.pieces && !nsvcd__is_corner(&m, joints, next)) next++;
     const size_t steps = next - p == 1 && m.degree == 1 ? 1 : NSVCD__FIRST_STEPS;
     found.verdict = NSVCD_UNDECIDED;
-    result = nsvcd__check_stretch(checker, &m, nsvcd__piece_start(&m, p),
-                                  nsvcd__piece_start(&m, next), steps, NSVCD__STRETCHES, &o,
-                                  &found);
+    result = nsvcd__check_interval(checker, &m, nsvcd__piece_start(&m, p),
+                                   nsvcd__piece_start(&m, next), steps, NSVCD__STRETCHES, &o,
+                                   &found);
     if (found.verdict != NSVCD_FREE) break;
   }
   if (result) return result;

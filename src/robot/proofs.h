@@ -2,14 +2,13 @@
 // two never meet, as the joints move them.
 //
 // THE CHORDS. Two parts are seen from the last link that carries both. Let x in [0,1] be the share
-// of a stretch of a piece that has gone by, V_j and A_j bounds of |q_j'| and |q_j''| by x, and L_j
+// of a interval of a piece that has gone by, V_j and A_j bounds of |q_j'| and |q_j''| by x, and L_j
 // one of the distance of a point y from joint j: the sum of what stands between them; of a joint
 // that slides 1. Then
 //   |y''| <= sum over j of A_j L_j + V_j (2 sum over outer k of V_k L_k + V_j L_j)
 // the second term of joints that turn alone, and y leaves its chord by an eighth of it at most. The
-// bound of robot/stray is a better one, from where the links are; this one a checker can compute
-// again in a few lines.
-// Source: this library.
+// bound of robot/deviation is a better one, from where the links are; this one a checker can
+// compute again in a few lines. Source: this library.
 #pragma once
 #include "../interface/pairs.h"
 #include "../ground/digests.h"
@@ -45,7 +44,7 @@ static size_t nsvcd__keyframe_before(const nsvcd_joint_motion *m, double t) {
 }
 
 // The points of a joint's curve from one time of [0,1] to another, both in a piece. Returns by how
-// much they, and their differences as the stray has them, are off at most, and a hundredth more:
+// much they, and their differences as the deviate has them, are off at most, and a hundredth more:
 // ROUNDINGS of examples/verify/nsvcd_verify_robot.h.
 static double nsvcd__curve_of(const nsvcd__carried *c, size_t joint, double t0, double t1,
                               double *p) {
@@ -62,7 +61,7 @@ static double nsvcd__curve_of(const nsvcd__carried *c, size_t joint, double t0, 
   return 5.05e-13 * most;
 }
 
-static nsvcd_placement nsvcd__carried_place(const void *motion, double t) {
+static nsvcd_pose64 nsvcd__carried_position(const void *motion, double t) {
   const nsvcd__carried *c = (const nsvcd__carried *)motion;
   const nsvcd_scene *scene = c->checker->scene;
   nsvcd__frame at = c->checker->members[c->part].frame;
@@ -78,12 +77,12 @@ static nsvcd_placement nsvcd__carried_place(const void *motion, double t) {
       const nsvcd__frame slid = {{0, 0, 0, 1}, axis};
       joint = slid;
     }
-    const nsvcd__frame origin = {carrier->turn, carrier->place};
+    const nsvcd__frame origin = {carrier->turn, carrier->position};
     at = nsvcd__frame_in(&joint, &at);
     at = nsvcd__frame_in(&origin, &at);
   }
-  const nsvcd_placement out = {{at.place.x, at.place.y, at.place.z},
-                               {at.turn.x, at.turn.y, at.turn.z, at.turn.w}};
+  const nsvcd_pose64 out = {{at.position.x, at.position.y, at.position.z},
+                            {at.turn.x, at.turn.y, at.turn.z, at.turn.w}};
   return out;
 }
 
@@ -98,7 +97,7 @@ static nsvcd_deviation nsvcd__carried_deviation(const void *motion, double t0, d
   const nsvcd__carried *c = (const nsvcd__carried *)motion;
   const nsvcd_scene *scene = c->checker->scene;
   const double n = (double)c->motion.degree;
-  double reach = nsvcd__d3_length(c->checker->members[c->part].frame.place);
+  double reach = nsvcd__d3_length(c->checker->members[c->part].frame.position);
   nsvcd_deviation outer, out;
   memset(&outer, 0, sizeof outer);
   memset(&out, 0, sizeof out);
@@ -125,7 +124,7 @@ static nsvcd_deviation nsvcd__carried_deviation(const void *motion, double t0, d
     out.per_metre += bend * per_metre + own * (2 * outer.per_metre + own * per_metre);
     outer.base += speed * base;
     outer.per_metre += speed * per_metre;
-    const nsvcd__d3 offset = c->checker->links[link - 1].place;
+    const nsvcd__d3 offset = c->checker->links[link - 1].position;
     reach += nsvcd__d3_length(offset) + (slides ? most : 0);
   }
   out.base *= 0.1250001;
@@ -148,7 +147,7 @@ static nsvcd_motion_model nsvcd__carried_model(const nsvcd__carried *c) {
   const nsvcd_part *part = &scene->parts[c->part];
   const nsvcd_joint_motion *m = &c->motion;
   const float scale = part->scale > 0 ? part->scale : 1;
-  double reach = nsvcd__d3_length(c->checker->members[c->part].frame.place);
+  double reach = nsvcd__d3_length(c->checker->members[c->part].frame.position);
   uint32_t d = nsvcd__digest((uint32_t)c->base, part->pose.position, 7);
   d = nsvcd__digest(d, &scale, 1);
   for (size_t link = part->link; link != c->base; link = scene->joints[link - 1].parent) {
@@ -162,14 +161,14 @@ static nsvcd_motion_model nsvcd__carried_model(const nsvcd__carried *c) {
       d = nsvcd__digest_double(d, *value);
       most = nsvcd__max(most, fabs(*value));
     }
-    reach += nsvcd__d3_length(c->checker->links[link - 1].place) + (slides ? most : 0);
+    reach += nsvcd__d3_length(c->checker->links[link - 1].position) + (slides ? most : 0);
   }
   d += (uint32_t)m->degree;
   for (size_t i = 0; i <= m->pieces; i++) {
     d = nsvcd__digest_double(d, nsvcd__piece_start(m, i));
   }
   const nsvcd_motion_model model = {(double)scale,
-                                    nsvcd__carried_place,
+                                    nsvcd__carried_position,
                                     nsvcd__carried_next,
                                     nsvcd__carried_deviation,
                                     c,

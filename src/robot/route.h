@@ -38,8 +38,8 @@ static nsvcd_result nsvcd__route_check(const nsvcd_checker *checker,
   return NSVCD_OK;
 }
 
-static void nsvcd__course_take(nsvcd__course *c, char *base, uint64_t *used, size_t pieces,
-                               size_t joints) {
+static void nsvcd__trajectory_take(nsvcd__trajectory *c, char *base, uint64_t *used,
+                                   size_t pieces, size_t joints) {
   c->points = (double *)nsvcd__take(base, used, (2 * pieces + 1) * joints, sizeof(double));
   c->times = (double *)nsvcd__take(base, used, pieces + 1, sizeof(double));
 }
@@ -78,10 +78,10 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
   r->goals = (size_t *)nsvcd__take(base, &used, problem->goal_count, sizeof(size_t));
   // a shortcut from an edge to the next adds a corner
   const size_t rows = 2 * nodes + o->shortcuts;
-  r->way = (double *)nsvcd__take(base, &used, rows, joints * sizeof(double));
-  nsvcd__course_take(&r->course, base, &used, NSVCD__MOST_PIECES, joints);
-  nsvcd__course_take(&r->other, base, &used, NSVCD__MOST_PIECES, joints);
-  nsvcd__course_take(&r->blend, base, &used, NSVCD__BLEND_PIECES, joints);
+  r->path = (double *)nsvcd__take(base, &used, rows, joints * sizeof(double));
+  nsvcd__trajectory_take(&r->trajectory, base, &used, NSVCD__MOST_PIECES, joints);
+  nsvcd__trajectory_take(&r->other, base, &used, NSVCD__MOST_PIECES, joints);
+  nsvcd__trajectory_take(&r->blend, base, &used, NSVCD__BLEND_PIECES, joints);
   *router = (nsvcd__router *)at;
   return used <= SIZE_MAX ? (size_t)used : 0;
 }
@@ -142,11 +142,11 @@ static nsvcd_result nsvcd__grow(nsvcd__router *r, nsvcd__rrt *t, const double *t
   do {
     double next[NSVCD_MAX_JOINTS];
     const double *from = t->points + *node * joints;
-    const double way = sqrt(nsvcd__way2(from, to, joints));
-    const int ends = way <= r->options.edge;
+    const double length = sqrt(nsvcd__distance2(from, to, joints));
+    const int ends = length <= r->options.edge;
     for (size_t j = 0; j < joints; j++)
-      next[j] = ends ? to[j] : from[j] + r->options.edge / way * (to[j] - from[j]);
-    if (!(way > 0)) {
+      next[j] = ends ? to[j] : from[j] + r->options.edge / length * (to[j] - from[j]);
+    if (!(length > 0)) {
       *is_there = 1;
       return NSVCD_OK;
     }
@@ -161,19 +161,20 @@ static nsvcd_result nsvcd__grow(nsvcd__router *r, nsvcd__rrt *t, const double *t
 }
 
 // Writes the way through nodes of both trees that are at the same place.
-static void nsvcd__way_through(nsvcd__router *r, size_t from_start, size_t from_goal) {
+static void nsvcd__path_through(nsvcd__router *r, size_t from_start, size_t from_goal) {
   const size_t joints = r->joints;
   const size_t bytes = joints * sizeof(double);
   const nsvcd__rrt *start = &r->trees[0];
   const nsvcd__rrt *goal = &r->trees[1];
   size_t count = 1;
   for (size_t n = from_start; start->parents[n] != n; n = start->parents[n]) count++;
-  r->way_count = count;
+  r->path_count = count;
   for (size_t n = from_start; count-- > 0; n = start->parents[n])
-    memcpy(r->way + count * joints, start->points + n * joints, bytes);
+    memcpy(r->path + count * joints, start->points + n * joints, bytes);
   size_t n = from_goal;
   for (; goal->parents[n] != n; n = goal->parents[n])
-    memcpy(r->way + r->way_count++ * joints, goal->points + goal->parents[n] * joints, bytes);
+    memcpy(r->path + r->path_count++ * joints, goal->points + goal->parents[n] * joints,
+           bytes);
   r->answer.goal = r->goals[n];
 }
 
@@ -207,7 +208,7 @@ static nsvcd_result nsvcd__take_guess(nsvcd__router *r, int *is_found) {
                         r->trees[1].points + nodes[1] * joints, is_found);
   if (result || !*is_found) return result;
   nodes[0] = nsvcd__tree_add(&r->trees[0], r->trees[1].points + nodes[1] * joints, nodes[0]);
-  nsvcd__way_through(r, nodes[0], nodes[1]);
+  nsvcd__path_through(r, nodes[0], nodes[1]);
   return NSVCD_OK;
 }
 
@@ -223,7 +224,7 @@ static nsvcd_result nsvcd__seek(nsvcd__router *r) {
     result = nsvcd__prove_edge(r, r->trees[0].points, goal, &is_found);
     if (result) return result;
     if (!is_found) continue;
-    nsvcd__way_through(r, nsvcd__tree_add(&r->trees[0], goal, 0), g);
+    nsvcd__path_through(r, nsvcd__tree_add(&r->trees[0], goal, 0), g);
     return NSVCD_OK;
   }
   for (size_t turn = 0; !r->is_stopped; turn++) {
@@ -242,7 +243,7 @@ static nsvcd_result nsvcd__seek(nsvcd__router *r) {
     result = nsvcd__grow(r, other, grown->points + node * joints, 1, &met, &is_there);
     if (result) return result;
     if (!is_there) continue;
-    nsvcd__way_through(r, turn % 2 ? met : node, turn % 2 ? node : met);
+    nsvcd__path_through(r, turn % 2 ? met : node, turn % 2 ? node : met);
     return NSVCD_OK;
   }
   return NSVCD_OK;
@@ -251,17 +252,17 @@ static nsvcd_result nsvcd__seek(nsvcd__router *r) {
 // ---- shortcuts
 
 // A place on the way, this far along it: the corner before and the place.
-static size_t nsvcd__way_at(const nsvcd__router *r, double gone, double *at) {
+static size_t nsvcd__path_at(const nsvcd__router *r, double gone, double *at) {
   const size_t joints = r->joints;
   size_t k = 0;
-  for (; k + 2 < r->way_count; k++) {
-    const double *from = r->way + k * joints;
-    const double length = sqrt(nsvcd__way2(from, from + joints, joints));
+  for (; k + 2 < r->path_count; k++) {
+    const double *from = r->path + k * joints;
+    const double length = sqrt(nsvcd__distance2(from, from + joints, joints));
     if (gone <= length) break;
     gone -= length;
   }
-  const double *from = r->way + k * joints;
-  const double length = sqrt(nsvcd__way2(from, from + joints, joints));
+  const double *from = r->path + k * joints;
+  const double length = sqrt(nsvcd__distance2(from, from + joints, joints));
   const double fraction = length > 0 ? nsvcd__min(gone / length, 1) : 0;
   for (size_t j = 0; j < joints; j++)
     at[j] = from[j] + fraction * (from[j + joints] - from[j]);
@@ -271,15 +272,16 @@ static size_t nsvcd__way_at(const nsvcd__router *r, double gone, double *at) {
 // Replaces what is between two places on the way by an edge, again and again, where that is free.
 static nsvcd_result nsvcd__shorten(nsvcd__router *r) {
   const size_t joints = r->joints;
-  for (size_t n = 0; n < r->options.shortcuts && r->way_count > 2 && !r->is_stopped; n++) {
+  for (size_t n = 0; n < r->options.shortcuts && r->path_count > 2 && !r->is_stopped; n++) {
     double at[2][NSVCD_MAX_JOINTS];
     double length = 0;
-    for (size_t k = 0; k + 1 < r->way_count; k++)
-      length += sqrt(nsvcd__way2(r->way + k * joints, r->way + (k + 1) * joints, joints));
+    for (size_t k = 0; k + 1 < r->path_count; k++)
+      length +=
+          sqrt(nsvcd__distance2(r->path + k * joints, r->path + (k + 1) * joints, joints));
     const double a = length * nsvcd__random(&r->random);
     const double b = length * nsvcd__random(&r->random);
-    const size_t first = nsvcd__way_at(r, nsvcd__min(a, b), at[0]);
-    const size_t last = nsvcd__way_at(r, nsvcd__max(a, b), at[1]);
+    const size_t first = nsvcd__path_at(r, nsvcd__min(a, b), at[0]);
+    const size_t last = nsvcd__path_at(r, nsvcd__max(a, b), at[1]);
     // on one edge there is nothing to win, and the way grows by a corner where none is cut off
     if (first == last) continue;
     int is_free;
@@ -287,32 +289,32 @@ static nsvcd_result nsvcd__shorten(nsvcd__router *r) {
     if (result) return result;
     if (!is_free) continue;
     // corners first + 1 to last make way for two
-    const size_t rest = r->way_count - (last + 1);
-    memmove(r->way + (first + 3) * joints, r->way + (last + 1) * joints,
+    const size_t rest = r->path_count - (last + 1);
+    memmove(r->path + (first + 3) * joints, r->path + (last + 1) * joints,
             rest * joints * sizeof(double));
-    memcpy(r->way + (first + 1) * joints, at[0], joints * sizeof(double));
-    memcpy(r->way + (first + 2) * joints, at[1], joints * sizeof(double));
-    r->way_count = first + 3 + rest;
+    memcpy(r->path + (first + 1) * joints, at[0], joints * sizeof(double));
+    memcpy(r->path + (first + 2) * joints, at[1], joints * sizeof(double));
+    r->path_count = first + 3 + rest;
   }
   return NSVCD_OK;
 }
 
 // Drops corners that are nearly at the one before: of so short an edge rounding would say what its
 // acceleration is. What is timed is proven as a whole.
-static void nsvcd__thin_way(nsvcd__router *r) {
+static void nsvcd__simplify_path(nsvcd__router *r) {
   const size_t joints = r->joints;
   const size_t bytes = joints * sizeof(double);
   const double least = NSVCD__SAME_CORNER * NSVCD__SAME_CORNER;
-  const double *last = r->way + (r->way_count - 1) * joints;
+  const double *last = r->path + (r->path_count - 1) * joints;
   size_t kept = 1;
-  for (size_t k = 1; k < r->way_count; k++) {
-    const double *at = r->way + k * joints;
-    if (nsvcd__way2(r->way + (kept - 1) * joints, at, joints) < least) continue;
-    memmove(r->way + kept++ * joints, at, bytes);
+  for (size_t k = 1; k < r->path_count; k++) {
+    const double *at = r->path + k * joints;
+    if (nsvcd__distance2(r->path + (kept - 1) * joints, at, joints) < least) continue;
+    memmove(r->path + kept++ * joints, at, bytes);
   }
   // the end stays where it is
-  memmove(r->way + (kept - 1) * joints, last, bytes);
-  r->way_count = kept;
+  memmove(r->path + (kept - 1) * joints, last, bytes);
+  r->path_count = kept;
 }
 
 // ---- a route
@@ -398,12 +400,12 @@ static nsvcd_result nsvcd__plant(nsvcd__router *r) {
 }
 
 // From the way to a motion, proven as it is: smooth, else with a rest at each corner.
-static nsvcd_result nsvcd__time_way(nsvcd__router *r) {
+static nsvcd_result nsvcd__time_path(nsvcd__router *r) {
   const size_t joints = r->joints;
-  const double *last = r->way + (r->way_count - 1) * joints;
+  const double *last = r->path + (r->path_count - 1) * joints;
   for (size_t j = 0; j < joints; j++) {
     const nsvcd_joint *joint = &r->scene->joints[j];
-    const double time = nsvcd__blend_time(r->way[j], 0, last[j], 0, nsvcd__speed_of(joint),
+    const double time = nsvcd__blend_time(r->path[j], 0, last[j], 0, nsvcd__speed_of(joint),
                                           nsvcd__acceleration_of(joint));
     r->answer.unhindered = nsvcd__max(r->answer.unhindered, time);
   }
@@ -415,21 +417,21 @@ static nsvcd_result nsvcd__time_way(nsvcd__router *r) {
   whole.user = r->check.user;
   for (int rests = 0; rests < 2 && !is_free; rests++) {
     nsvcd_result result = NSVCD_OK;
-    if (!nsvcd__course_along(r)) break;
+    if (!nsvcd__trajectory_along(r)) break;
     if (!rests) result = nsvcd__smooth(r);
     if (result) return result;
     // though the search is stopped: what it has found by then is not given up
-    const nsvcd_joint_motion motion = nsvcd__motion_of(&r->course);
+    const nsvcd_joint_motion motion = nsvcd__motion_of(&r->trajectory);
     result = nsvcd__prove_by(r, &motion, &whole, &is_free);
     if (result) return result;
   }
   if (!is_free) return NSVCD_OK;
   nsvcd_route_answer *answer = &r->answer;
   answer->status = NSVCD_ROUTE_FOUND;
-  answer->motion = nsvcd__motion_of(&r->course);
-  answer->duration = r->course.times[r->course.pieces];
-  for (size_t p = 1; p < r->course.pieces; p++)
-    answer->stops += (size_t)nsvcd__rests_at(&r->course, joints, p);
+  answer->motion = nsvcd__motion_of(&r->trajectory);
+  answer->duration = r->trajectory.times[r->trajectory.pieces];
+  for (size_t p = 1; p < r->trajectory.pieces; p++)
+    answer->stops += (size_t)nsvcd__rests_at(&r->trajectory, joints, p);
   return NSVCD_OK;
 }
 
@@ -459,10 +461,10 @@ NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_prob
   r->answer.status = NSVCD_ROUTE_LIMIT;
   result = nsvcd__plant(r);
   if (!result && r->trees[1].count > 0) result = nsvcd__seek(r);
-  if (!result && r->way_count > 0) result = nsvcd__shorten(r);
-  if (!result && r->way_count > 0) {
-    nsvcd__thin_way(r);
-    result = nsvcd__time_way(r);
+  if (!result && r->path_count > 0) result = nsvcd__shorten(r);
+  if (!result && r->path_count > 0) {
+    nsvcd__simplify_path(r);
+    result = nsvcd__time_path(r);
   }
   if (result) return result;
   if (r->is_stopped && r->answer.status != NSVCD_ROUTE_FOUND)

@@ -21,17 +21,17 @@
 #define NSVCD__WORTHY_GAIN 0.02
 // metres that the search stays farther away than asked for, so that the whole is proven anew
 #define NSVCD__SPARE 1e-4f
-// metres that a part may stray from its sweeps, at least, in the search
+// metres that a part may deviate from its sweeps, at least, in the search
 #define NSVCD__SEEK_FINEST 5e-4f
 // units that a question of the search may take
 #define NSVCD__SEEK_WORK 1000
 
 // A motion of degree 2 that is being made.
-typedef struct nsvcd__course {
+typedef struct nsvcd__trajectory {
   double *points;  // (2 NSVCD__MOST_PIECES + 1, F)
   double *times;   // (NSVCD__MOST_PIECES + 1)
   size_t pieces;
-} nsvcd__course;
+} nsvcd__trajectory;
 
 typedef struct nsvcd__router {
   nsvcd_checker *checker;
@@ -48,14 +48,15 @@ typedef struct nsvcd__router {
   // (F): the range of their roots
   double low[NSVCD_MAX_JOINTS], high[NSVCD_MAX_JOINTS];
   size_t *goals;  // (G): of those that are free, which; the roots of trees[1]
-  double *way;    // (nodes of both trees + shortcuts, F)
-  size_t way_count;
-  nsvcd__course course, other, blend;
+  double *path;   // (nodes of both trees + shortcuts, F)
+  size_t path_count;
+  nsvcd__trajectory trajectory, other, blend;
   nsvcd_route_answer answer;
 } nsvcd__router;
 
-static nsvcd_joint_motion nsvcd__motion_of(const nsvcd__course *course) {
-  const nsvcd_joint_motion out = {course->pieces, 2, course->points, course->times};
+static nsvcd_joint_motion nsvcd__motion_of(const nsvcd__trajectory *trajectory) {
+  const nsvcd_joint_motion out = {trajectory->pieces, 2, trajectory->points,
+                                  trajectory->times};
   return out;
 }
 
@@ -88,9 +89,9 @@ static nsvcd_result nsvcd__prove_edge(nsvcd__router *r, const double *from, cons
   return nsvcd__ask_motion(r, &motion, is_free);
 }
 
-// Adds a piece of degree 2 from where the course is; the times rise by `time`.
-static void nsvcd__course_add(nsvcd__course *c, size_t joints, const double *middle,
-                              const double *end, double time) {
+// Adds a piece of degree 2 from where the trajectory is; the times rise by `time`.
+static void nsvcd__trajectory_add(nsvcd__trajectory *c, size_t joints, const double *middle,
+                                  const double *end, double time) {
   double *at = c->points + (2 * c->pieces + 1) * joints;
   memcpy(at, middle, joints * sizeof *at);
   memcpy(at + joints, end, joints * sizeof *at);
@@ -98,7 +99,7 @@ static void nsvcd__course_add(nsvcd__course *c, size_t joints, const double *mid
   c->pieces++;
 }
 
-static void nsvcd__course_begin(nsvcd__course *c, size_t joints, const double *at) {
+static void nsvcd__trajectory_begin(nsvcd__trajectory *c, size_t joints, const double *at) {
   c->pieces = 0;
   c->times[0] = 0;
   memcpy(c->points, at, joints * sizeof *at);
@@ -106,13 +107,13 @@ static void nsvcd__course_begin(nsvcd__course *c, size_t joints, const double *a
 
 // Goes along the way, with a rest at each corner. Returns 0 where there are too many. A way of one
 // place is a rest, of no pieces.
-static int nsvcd__course_along(nsvcd__router *r) {
-  nsvcd__course *c = &r->course;
+static int nsvcd__trajectory_along(nsvcd__router *r) {
+  nsvcd__trajectory *c = &r->trajectory;
   const size_t joints = r->joints;
-  if (3 * r->way_count > NSVCD__MOST_PIECES) return 0;
-  nsvcd__course_begin(c, joints, r->way);
-  for (size_t k = 0; k + 1 < r->way_count; k++) {
-    const double *from = r->way + k * joints;
+  if (3 * r->path_count > NSVCD__MOST_PIECES) return 0;
+  nsvcd__trajectory_begin(c, joints, r->path);
+  for (size_t k = 0; k + 1 < r->path_count; k++) {
+    const double *from = r->path + k * joints;
     const double *to = from + joints;
     // of the share of the edge that has been gone along
     double speed = HUGE_VAL;
@@ -141,14 +142,14 @@ static int nsvcd__course_along(nsvcd__router *r) {
         middle[j] = from[j] + middles[n] * (to[j] - from[j]);
         end[j] = n == 2 ? to[j] : from[j] + shares[n + 1] * (to[j] - from[j]);
       }
-      nsvcd__course_add(c, joints, middle, end, lasts[n]);
+      nsvcd__trajectory_add(c, joints, middle, end, lasts[n]);
     }
   }
   return 1;
 }
 
 // Is the motion at rest where a piece begins?
-static int nsvcd__rests_at(const nsvcd__course *c, size_t joints, size_t piece) {
+static int nsvcd__rests_at(const nsvcd__trajectory *c, size_t joints, size_t piece) {
   const double *at = c->points + 2 * piece * joints;
   for (size_t j = 0; j < joints; j++) {
     if (fabs(at[j + joints] - at[j]) > 1e-12 * (1 + fabs(at[j]))) return 0;
@@ -156,10 +157,10 @@ static int nsvcd__rests_at(const nsvcd__course *c, size_t joints, size_t piece) 
   return 1;
 }
 
-// Copies the course from time t0 to t1 to the end of another. Returns 0 where a sliver would be
+// Copies the trajectory from time t0 to t1 to the end of another. Returns 0 where a sliver would be
 // left, or there is no room.
-static int nsvcd__course_copy(const nsvcd__course *c, size_t joints, double t0, double t1,
-                              nsvcd__course *out) {
+static int nsvcd__trajectory_copy(const nsvcd__trajectory *c, size_t joints, double t0,
+                                  double t1, nsvcd__trajectory *out) {
   const nsvcd_joint_motion motion = nsvcd__motion_of(c);
   for (size_t p = nsvcd__piece_at(&motion, t0); p < c->pieces && c->times[p] < t1; p++) {
     const double from = nsvcd__max(t0, c->times[p]);
@@ -175,51 +176,51 @@ static int nsvcd__course_copy(const nsvcd__course *c, size_t joints, double t0, 
       middle[j] = points[1];
       end[j] = points[2];
     }
-    nsvcd__course_add(out, joints, middle, end, to - from);
+    nsvcd__trajectory_add(out, joints, middle, end, to - from);
   }
   return 1;
 }
 
-// Replaces the course from time t0 to t1 by a blend, if that is quicker by `gain` and proven.
+// Replaces the trajectory from time t0 to t1 by a blend, if that is quicker by `gain` and proven.
 static nsvcd_result nsvcd__smooth_once(nsvcd__router *r, double t0, double t1, double gain) {
   const size_t joints = r->joints;
   double states[4][NSVCD_MAX_JOINTS];
-  const nsvcd_joint_motion motion = nsvcd__motion_of(&r->course);
+  const nsvcd_joint_motion motion = nsvcd__motion_of(&r->trajectory);
   const double times[2] = {t0, t1};
   for (size_t n = 0; n < 2; n++) {
     const size_t piece = nsvcd__piece_at(&motion, times[n]);
     nsvcd__joints_at(&motion, joints, piece, nsvcd__fraction_at(&motion, piece, times[n]),
                      states[n], states[n + 2]);
   }
-  nsvcd__course *blend = &r->blend;
+  nsvcd__trajectory *blend = &r->blend;
   blend->pieces =
       nsvcd__blend_write(r->scene, states, t1 - t0 - gain, blend->points, blend->times);
   if (!blend->pieces) return NSVCD_OK;
-  // the whole as it would be: what is left of the course, and the blend between
-  nsvcd__course *out = &r->other;
-  nsvcd__course_begin(out, joints, r->course.points);
-  const double end = r->course.times[r->course.pieces];
-  if (!nsvcd__course_copy(&r->course, joints, 0, t0, out)) return NSVCD_OK;
+  // the whole as it would be: what is left of the trajectory, and the blend between
+  nsvcd__trajectory *out = &r->other;
+  nsvcd__trajectory_begin(out, joints, r->trajectory.points);
+  const double end = r->trajectory.times[r->trajectory.pieces];
+  if (!nsvcd__trajectory_copy(&r->trajectory, joints, 0, t0, out)) return NSVCD_OK;
   if (out->pieces + blend->pieces > NSVCD__MOST_PIECES) return NSVCD_OK;
   for (size_t p = 0; p < blend->pieces; p++) {
     const double *middle = blend->points + (2 * p + 1) * joints;
-    nsvcd__course_add(out, joints, middle, middle + joints,
-                      blend->times[p + 1] - blend->times[p]);
+    nsvcd__trajectory_add(out, joints, middle, middle + joints,
+                          blend->times[p + 1] - blend->times[p]);
   }
-  if (!nsvcd__course_copy(&r->course, joints, t1, end, out)) return NSVCD_OK;
+  if (!nsvcd__trajectory_copy(&r->trajectory, joints, t1, end, out)) return NSVCD_OK;
   int is_free;
   const nsvcd_joint_motion asked = nsvcd__motion_of(blend);
   const nsvcd_result result = nsvcd__ask_motion(r, &asked, &is_free);
   if (result || !is_free) return result;
-  const nsvcd__course was = r->course;
-  r->course = r->other;
+  const nsvcd__trajectory was = r->trajectory;
+  r->trajectory = r->other;
   r->other = was;
   return NSVCD_OK;
 }
 
 static nsvcd_result nsvcd__smooth(nsvcd__router *r) {
   for (size_t n = 0; n < r->options.smoothings && !r->is_stopped; n++) {
-    const nsvcd__course *c = &r->course;
+    const nsvcd__trajectory *c = &r->trajectory;
     const double end = c->times[c->pieces];
     if (end <= NSVCD__FAST_ENOUGH * r->answer.unhindered) return NSVCD_OK;
     double t0 = end * nsvcd__random(&r->random);

@@ -7,8 +7,8 @@ typedef struct nsvcd__step {
   // joints at both ends
   double from[NSVCD_MAX_JOINTS], to[NSVCD_MAX_JOINTS];
   // |d|, d = to - from; max |q - from|
-  double way[NSVCD_MAX_JOINTS], reach[NSVCD_MAX_JOINTS];
-  // how much each joint bends: 8 |e| is no more, see robot/stray
+  double travel[NSVCD_MAX_JOINTS], farthest[NSVCD_MAX_JOINTS];
+  // how much each joint bends: 8 |e| is no more, see robot/deviate
   double bend[NSVCD_MAX_JOINTS];
 } nsvcd__step;
 
@@ -120,7 +120,7 @@ static void nsvcd__step_of(const nsvcd_joint_motion *motion, size_t joints, doub
   nsvcd__joints_at(motion, joints, last, end, step->to, v1);
   for (size_t j = 0; j < joints; j++) {
     const double d = step->to[j] - step->from[j];
-    step->way[j] = step->reach[j] = fabs(d);
+    step->travel[j] = step->farthest[j] = fabs(d);
     step->bend[j] = 0;
     if (degree > 1) along += d * h * (v1[j] - v0[j]);
     square += d * d;
@@ -143,7 +143,7 @@ static void nsvcd__step_of(const nsvcd_joint_motion *motion, size_t joints, doub
       if (degree >= 2) nsvcd__cut_curve(second, degree - 2, s0, s1);
       nsvcd__cut_curve(p, degree, s0, s1);
       for (size_t i = 0; i <= degree; i++)
-        step->reach[j] = nsvcd__max(step->reach[j], fabs(p[i] - from));
+        step->farthest[j] = nsvcd__max(step->farthest[j], fabs(p[i] - from));
       for (size_t i = 0; i + 2 <= degree; i++)
         step->bend[j] = nsvcd__max(step->bend[j], fabs(second[i] - g * d));
       if (piece > first) jumps += nsvcd__jump_at(motion, joints, piece, j);

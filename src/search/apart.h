@@ -1,33 +1,35 @@
 // In: 16 moving patches whose balls meet that of a resting one in a segment. Out: those that no
-// plane separates from it all the time, by the hulls of their tips.
+// plane separates from it all the time, by the hulls of their extremes.
 //
 // Planes are tried along the resting patch's normal, the moving patches', both together, the lines
 // between the centres, and the last few that separated others of the same query: what stands on a
-// table is separated from all of it by one plane, whole groups at a time. The tips go on chords, as
-// centres do, and what points stray from theirs is allowed for. But tips are not all of a patch, so
-// that this is no proof: where a greater recall is asked for, patches swell before.
+// table is separated from all of it by one plane, whole groups at a time. The extremes go on
+// chords, as centres do, and what points deviate from theirs is allowed for. But extremes are not
+// all of a patch, so that this is no proof: where a greater recall is asked for, patches swell
+// before.
 #pragma once
 #include "../motion/segments.h"
 
 #ifndef NSVCD_NO_NETWORK
-// A resting patch: its tips, from its centre, metres; and the mean normal.
+// A resting patch: its extremes, from its centre, metres; and the mean normal.
 typedef struct nsvcd__resting {
   nsvcd__f3 centre;
   float radius;
-  nsvcd__f3 tips[NSVCD__TIPS];
+  nsvcd__f3 extremes[NSVCD__EXTREMES];
   nsvcd__f3 normal;
 } nsvcd__resting;
 
 static nsvcd__resting nsvcd__resting_of(const nsvcd_body *body, size_t j) {
-  const int8_t *tips = nsvcd__group_tips(body, j / NSVCD__GROUP) + j % NSVCD__GROUP;
+  const int8_t *extremes = nsvcd__group_extremes(body, j / NSVCD__GROUP) + j % NSVCD__GROUP;
   nsvcd__resting out;
   const nsvcd__sphere ball = nsvcd__sphere_of(nsvcd__body_patches(body), j);
   const float step = ball.radius / 127;
   out.centre = ball.centre;
   out.radius = ball.radius;
-  for (size_t k = 0; k < NSVCD__TIPS; k++, tips += 3 * NSVCD__GROUP) {
-    const nsvcd__f3 tip = nsvcd__f3_of(tips[0], tips[NSVCD__GROUP], tips[2 * NSVCD__GROUP]);
-    out.tips[k] = nsvcd__f3_scale(tip, step);
+  for (size_t k = 0; k < NSVCD__EXTREMES; k++, extremes += 3 * NSVCD__GROUP) {
+    const nsvcd__f3 extreme =
+        nsvcd__f3_of(extremes[0], extremes[NSVCD__GROUP], extremes[2 * NSVCD__GROUP]);
+    out.extremes[k] = nsvcd__f3_scale(extreme, step);
   }
   const nsvcd__f3 area = nsvcd__f3_get(nsvcd__body_areas(body) + j, body->padded);
   const float length = nsvcd__f3_length(area);
@@ -38,24 +40,24 @@ static nsvcd__resting nsvcd__resting_of(const nsvcd_body *body, size_t j) {
 // A slice of moving patches, over a segment.
 typedef struct nsvcd__passing {
   // (TIPS, 3, 16) and lane l: of the moving group
-  const int8_t *tips;
-  // steps of the tips, in the body's units
+  const int8_t *extremes;
+  // steps of the extremes, in the body's units
   nsvcd__v step;
   // from the resting centre to the moving one, and its way
-  nsvcd__v3 from, way;
+  nsvcd__v3 from, travel;
   // at the start and at the end, times the scale
   nsvcd__vmat3 start, end;
-  // what points stray from their chords, and patches swell
-  nsvcd__v stray;
+  // what points deviate from their chords, and patches swell
+  nsvcd__v deviation;
 } nsvcd__passing;
 
-// A slice of tips (TIPS, 3, 16) along u.
-NSVCD__INLINE void nsvcd__tips_along(const int8_t *tips, nsvcd__v3 u, nsvcd__v *low,
-                                     nsvcd__v *high) {
+// A slice of extremes (TIPS, 3, 16) along u.
+NSVCD__INLINE void nsvcd__extremes_along(const int8_t *extremes, nsvcd__v3 u, nsvcd__v *low,
+                                         nsvcd__v *high) {
   *low = nsvcd__v_set(1e30f);
   *high = nsvcd__v_set(-1e30f);
-  for (size_t k = 0; k < NSVCD__TIPS; k++, tips += 3 * NSVCD__LANES) {
-    const nsvcd__v3 q = nsvcd__v3_load_int8(tips, NSVCD__LANES);
+  for (size_t k = 0; k < NSVCD__EXTREMES; k++, extremes += 3 * NSVCD__LANES) {
+    const nsvcd__v3 q = nsvcd__v3_load_int8(extremes, NSVCD__LANES);
     const nsvcd__v along = nsvcd__v3_dot(q, u);
     *low = nsvcd__v_min(*low, along);
     *high = nsvcd__v_max(*high, along);
@@ -68,14 +70,14 @@ NSVCD__INLINE uint32_t nsvcd__separated_along(const nsvcd__passing *p,
   const nsvcd__v3 at_start = nsvcd__vmat3_apply_transpose(p->start, u);
   const nsvcd__v3 at_end = nsvcd__vmat3_apply_transpose(p->end, u);
   const nsvcd__v height = nsvcd__v3_dot(u, p->from);
-  const nsvcd__v height_end = nsvcd__v3_dot_add(u, p->way, height);
+  const nsvcd__v height_end = nsvcd__v3_dot_add(u, p->travel, height);
   nsvcd__v low, high, low_end, high_end;
   nsvcd__v below = nsvcd__v_set(1e30f);
   nsvcd__v above = nsvcd__v_set(-1e30f);
-  nsvcd__tips_along(p->tips, at_start, &low, &high);
-  nsvcd__tips_along(p->tips, at_end, &low_end, &high_end);
-  for (size_t k = 0; k < NSVCD__TIPS; k++) {
-    const nsvcd__v along = nsvcd__v3_dot(nsvcd__v3_set(rest->tips[k]), u);
+  nsvcd__extremes_along(p->extremes, at_start, &low, &high);
+  nsvcd__extremes_along(p->extremes, at_end, &low_end, &high_end);
+  for (size_t k = 0; k < NSVCD__EXTREMES; k++) {
+    const nsvcd__v along = nsvcd__v3_dot(nsvcd__v3_set(rest->extremes[k]), u);
     below = nsvcd__v_min(below, along);
     above = nsvcd__v_max(above, along);
   }
@@ -83,8 +85,8 @@ NSVCD__INLINE uint32_t nsvcd__separated_along(const nsvcd__passing *p,
   low_end = nsvcd__v_fma(p->step, low_end, height_end);
   high = nsvcd__v_fma(p->step, high, height);
   high_end = nsvcd__v_fma(p->step, high_end, height_end);
-  const nsvcd__v least = nsvcd__v_sub(nsvcd__v_min(low, low_end), p->stray);
-  const nsvcd__v most = nsvcd__v_add(nsvcd__v_max(high, high_end), p->stray);
+  const nsvcd__v least = nsvcd__v_sub(nsvcd__v_min(low, low_end), p->deviation);
+  const nsvcd__v most = nsvcd__v_add(nsvcd__v_max(high, high_end), p->deviation);
   return nsvcd__v_lt(above, least) | nsvcd__v_lt(most, below);
 }
 
@@ -103,19 +105,19 @@ typedef struct nsvcd__plane_cache {
   // normals; how many were found, of which the last ones are kept; the one that separated last
   nsvcd__f3 planes[NSVCD__PLANES];
   uint32_t found, best;
-  float swell;  // of patches, shares of their radii
-  int unasked;  // balls that meet are all that counts
+  float inflate;  // of patches, shares of their radii
+  int unasked;    // balls that meet are all that counts
   nsvcd__ranges moving[NSVCD__PLANES], resting[NSVCD__PLANES];
   // bits of planes
   uint16_t moving_known, resting_known;
 } nsvcd__plane_cache;
 
 // Begins the search of a motion.
-static void nsvcd__plane_cache_begin(nsvcd__search *search, float swell) {
+static void nsvcd__plane_cache_begin(nsvcd__search *search, float inflate) {
   search->cache->found = search->cache->best = 0;
-  search->cache->swell = swell;
+  search->cache->inflate = inflate;
   // patches whose balls meet are then no farther apart than that
-  search->cache->unasked = swell >= 1;
+  search->cache->unasked = inflate >= 1;
   search->balls_met = 0;
 }
 
@@ -130,22 +132,22 @@ static void nsvcd__resting_ranges(const nsvcd_body *body, size_t h, nsvcd__f3 no
     nsvcd__v high;
     const nsvcd__v step = nsvcd__v_scale(nsvcd__v_load(patches.r + l), 1.0f / 127);
     const nsvcd__v height = nsvcd__v3_dot(u, nsvcd__v3_centres(patches, l));
-    nsvcd__tips_along(nsvcd__group_tips(body, h) + l, u, &low, &high);
-    const nsvcd__v swell = nsvcd__v_scale(step, 127 * fraction);
-    nsvcd__v_store(out->low + l, nsvcd__v_sub(nsvcd__v_fma(step, low, height), swell));
-    nsvcd__v_store(out->high + l, nsvcd__v_add(nsvcd__v_fma(step, high, height), swell));
+    nsvcd__extremes_along(nsvcd__group_extremes(body, h) + l, u, &low, &high);
+    const nsvcd__v inflate = nsvcd__v_scale(step, 127 * fraction);
+    nsvcd__v_store(out->low + l, nsvcd__v_sub(nsvcd__v_fma(step, low, height), inflate));
+    nsvcd__v_store(out->high + l, nsvcd__v_add(nsvcd__v_fma(step, high, height), inflate));
   }
 }
 
-// What the points of the members that are posed stray from their chords in segment s.
-static float nsvcd__segment_stray(const nsvcd__search *search, size_t s) {
+// What the points of the members that are posed deviate from their chords in segment s.
+static float nsvcd__segment_deviation(const nsvcd__search *search, size_t s) {
   const nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
-  return block->spread[s % NSVCD__LANES] + block->bulge[s % NSVCD__LANES] * search->remote;
+  return block->margin[s % NSVCD__LANES] + block->bend[s % NSVCD__LANES] * search->extent;
 }
 
-// Of moving group g in segment s, with what points stray.
-static void nsvcd__moving_ranges(const nsvcd__search *search, size_t g, size_t s, float stray,
-                                 nsvcd__f3 normal, nsvcd__ranges *out) {
+// Of moving group g in segment s, with what points deviate.
+static void nsvcd__moving_ranges(const nsvcd__search *search, size_t g, size_t s,
+                                 float deviation, nsvcd__f3 normal, nsvcd__ranges *out) {
   nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
   const nsvcd__chords *c = &search->members[s];
   const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, s % NSVCD__LANES);
@@ -154,21 +156,22 @@ static void nsvcd__moving_ranges(const nsvcd__search *search, size_t g, size_t s
   const nsvcd__f3 by = nsvcd__mat3_apply_transpose(&turned, normal);
   const nsvcd__v3 u = nsvcd__v3_set(normal);
   const float *radii = nsvcd__body_r(search->moving) + NSVCD__GROUP * g;
-  const int8_t *tips = nsvcd__group_tips(search->moving, g);
+  const int8_t *extremes = nsvcd__group_extremes(search->moving, g);
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v step = nsvcd__v_scale(nsvcd__v_load(radii + l), 1.0f / 127);
     const nsvcd__v height = nsvcd__v3_dot(u, nsvcd__chords_start(c, l));
-    const nsvcd__v height_end = nsvcd__v3_dot_add(u, nsvcd__chords_way(c, l), height);
+    const nsvcd__v height_end = nsvcd__v3_dot_add(u, nsvcd__chords_travel(c, l), height);
     nsvcd__v low, high, low_end, high_end;
-    nsvcd__tips_along(tips + l, nsvcd__v3_set(at_start), &low, &high);
-    nsvcd__tips_along(tips + l, nsvcd__v3_set(nsvcd__f3_add(at_start, by)), &low_end,
-                      &high_end);
+    nsvcd__extremes_along(extremes + l, nsvcd__v3_set(at_start), &low, &high);
+    nsvcd__extremes_along(extremes + l, nsvcd__v3_set(nsvcd__f3_add(at_start, by)), &low_end,
+                          &high_end);
     low = nsvcd__v_fma(step, low, height);
     high = nsvcd__v_fma(step, high, height);
     low = nsvcd__v_min(low, nsvcd__v_fma(step, low_end, height_end));
     high = nsvcd__v_max(high, nsvcd__v_fma(step, high_end, height_end));
-    const nsvcd__v swell = nsvcd__v_scale(step, 127 * search->scale * search->cache->swell);
-    const nsvcd__v off = nsvcd__v_plus(swell, stray);
+    const nsvcd__v inflate =
+        nsvcd__v_scale(step, 127 * search->scale * search->cache->inflate);
+    const nsvcd__v off = nsvcd__v_plus(inflate, deviation);
     nsvcd__v_store(out->low + l, nsvcd__v_sub(low, off));
     nsvcd__v_store(out->high + l, nsvcd__v_add(high, off));
   }
@@ -178,18 +181,19 @@ static void nsvcd__moving_ranges(const nsvcd__search *search, size_t g, size_t s
 static void nsvcd__resting_know(const nsvcd__search *search, size_t h, size_t n) {
   nsvcd__plane_cache *cache = search->cache;
   if (cache->resting_known >> n & 1) return;
-  nsvcd__resting_ranges(search->fixed, h, cache->planes[n], cache->swell, &cache->resting[n]);
+  nsvcd__resting_ranges(search->fixed, h, cache->planes[n], cache->inflate,
+                        &cache->resting[n]);
   cache->resting_known = (uint16_t)(cache->resting_known | 1u << n);
 }
 
 // The same, and those of moving group g in segment s.
 static void nsvcd__plane_cache_knows(const nsvcd__search *search, size_t g, size_t s, size_t h,
-                                     size_t n, float stray) {
+                                     size_t n, float deviation) {
   nsvcd__plane_cache *cache = search->cache;
   const nsvcd__f3 normal = cache->planes[n];
   nsvcd__resting_know(search, h, n);
   if (!(cache->moving_known >> n & 1))
-    nsvcd__moving_ranges(search, g, s, stray, normal, &cache->moving[n]);
+    nsvcd__moving_ranges(search, g, s, deviation, normal, &cache->moving[n]);
   cache->moving_known = (uint16_t)(cache->moving_known | 1u << n);
 }
 
@@ -223,10 +227,10 @@ static uint64_t nsvcd__unparted_segments(const nsvcd__search *search, size_t h,
     const nsvcd__chords *c = &search->group[s / NSVCD__LANES];
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v start = nsvcd__v3_dot(u, nsvcd__chords_start(c, l));
-      const nsvcd__v end = nsvcd__v3_dot_add(u, nsvcd__chords_way(c, l), start);
-      const nsvcd__v reach = nsvcd__v_scale(nsvcd__v_load(c->reach + l), 1 + cache->swell);
-      const nsvcd__v low = nsvcd__v_sub(nsvcd__v_min(start, end), reach);
-      const nsvcd__v high = nsvcd__v_add(nsvcd__v_max(start, end), reach);
+      const nsvcd__v end = nsvcd__v3_dot_add(u, nsvcd__chords_travel(c, l), start);
+      const nsvcd__v radius = nsvcd__v_scale(nsvcd__v_load(c->radius + l), 1 + cache->inflate);
+      const nsvcd__v low = nsvcd__v_sub(nsvcd__v_min(start, end), radius);
+      const nsvcd__v high = nsvcd__v_add(nsvcd__v_max(start, end), radius);
       const uint32_t here = nsvcd__v_lt(above, low) | nsvcd__v_lt(high, below);
       separated |= (uint64_t)here << (s + l);
     }
@@ -237,11 +241,11 @@ static uint64_t nsvcd__unparted_segments(const nsvcd__search *search, size_t h,
 // Of the members `bits` of group h of the fixed body, those that the same plane does not separate
 // from all of moving group g, in segment s.
 static uint32_t nsvcd__unparted_members(const nsvcd__search *search, size_t g, size_t s,
-                                        size_t h, float stray, uint32_t bits) {
+                                        size_t h, float deviation, uint32_t bits) {
   nsvcd__plane_cache *cache = search->cache;
   const size_t n = cache->best;
   if (n >= nsvcd__planes_known(search)) return bits;
-  nsvcd__plane_cache_knows(search, g, s, h, n, stray);
+  nsvcd__plane_cache_knows(search, g, s, h, n, deviation);
   const nsvcd__ranges *resting = &cache->resting[n];
   const nsvcd__v low = nsvcd__v_set(nsvcd__least_lane(cache->moving[n].low, 1));
   const nsvcd__v high = nsvcd__v_set(-nsvcd__least_lane(cache->moving[n].high, -1));
@@ -255,13 +259,13 @@ static uint32_t nsvcd__unparted_members(const nsvcd__search *search, size_t g, s
 // Of the lanes `met` of moving group g in segment s, those that no plane remembered parts from
 // member k of group h of the fixed body.
 static uint32_t nsvcd__not_separated_again(nsvcd__search *search, size_t g, size_t s, size_t h,
-                                           size_t k, float stray, uint32_t met) {
+                                           size_t k, float deviation, uint32_t met) {
   nsvcd__plane_cache *cache = search->cache;
   const size_t planes = nsvcd__planes_known(search);
   for (size_t m = 0; m < planes && met; m++) {
     // the one that separated last, first
     const size_t n = (cache->best + m) % planes;
-    nsvcd__plane_cache_knows(search, g, s, h, n, stray);
+    nsvcd__plane_cache_knows(search, g, s, h, n, deviation);
     const nsvcd__ranges *moving = &cache->moving[n];
     const nsvcd__v low = nsvcd__v_set(cache->resting[n].low[k]);
     const nsvcd__v high = nsvcd__v_set(cache->resting[n].high[k]);
@@ -300,11 +304,11 @@ static NSVCD__NOINLINE void nsvcd__passing_turns(const nsvcd__search *search, si
 // Of the lanes `met` of moving group g in segment s, those that no plane of their own parts from a
 // patch j of the fixed body. A plane that does is remembered, in place of the oldest.
 static NSVCD__NOINLINE uint32_t nsvcd__not_separated_anew(nsvcd__search *search, size_t g,
-                                                          size_t s, size_t j, float stray,
+                                                          size_t s, size_t j, float deviation,
                                                           uint32_t met) {
   nsvcd__plane_cache *cache = search->cache;
   const nsvcd__resting rest = nsvcd__resting_of(search->fixed, j);
-  const int8_t *tips = nsvcd__group_tips(search->moving, g);
+  const int8_t *extremes = nsvcd__group_extremes(search->moving, g);
   const nsvcd_body *moving = search->moving;
   const nsvcd__chords *c = &search->members[s];
   nsvcd__passing p;
@@ -315,15 +319,15 @@ static NSVCD__NOINLINE uint32_t nsvcd__not_separated_anew(nsvcd__search *search,
     NSVCD__EACH_SLICE(l) {
       const size_t i = NSVCD__GROUP * g + l;
       if (!(met >> l & NSVCD__SLICE_MASK)) continue;
-      p.tips = tips + l;
+      p.extremes = extremes + l;
       p.step = nsvcd__v_scale(nsvcd__v_load(nsvcd__body_r(moving) + i), 1.0f / 127);
       p.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(rest.centre));
-      p.way = nsvcd__chords_way(c, l);
-      const nsvcd__v swell = nsvcd__v_scale(p.step, 127 * search->scale * cache->swell);
-      p.stray = nsvcd__v_plus(swell, stray + rest.radius * cache->swell);
+      p.travel = nsvcd__chords_travel(c, l);
+      const nsvcd__v inflate = nsvcd__v_scale(p.step, 127 * search->scale * cache->inflate);
+      p.deviation = nsvcd__v_plus(inflate, deviation + rest.radius * cache->inflate);
       nsvcd__v3 u = nsvcd__v3_set(rest.normal);
       if (n == NSVCD__ALONG_LINE) {
-        u = nsvcd__v3_unit(nsvcd__v3_fma(nsvcd__v_set(0.5f), p.way, p.from));
+        u = nsvcd__v3_unit(nsvcd__v3_fma(nsvcd__v_set(0.5f), p.travel, p.from));
       } else if (n != NSVCD__ALONG_RESTING) {
         const float *areas = nsvcd__body_areas(moving) + i;
         const nsvcd__v3 area = nsvcd__v3_load_rows(areas, moving->padded);
@@ -356,15 +360,15 @@ static NSVCD__NOINLINE uint32_t nsvcd__not_separated_anew(nsvcd__search *search,
 // balls do, and that nothing parts. before: those that met it in the segment before, which own
 // planes will not part either, as a rule.
 static uint32_t nsvcd__members_meet(nsvcd__search *search, size_t g, size_t s, size_t h,
-                                    size_t k, nsvcd__sphere ball, float stray,
+                                    size_t k, nsvcd__sphere ball, float deviation,
                                     uint32_t before) {
   uint32_t met = nsvcd__meet(&search->members[s], ball);
   search->balls_met |= met != 0;
   if (search->cache->unasked) return met;
-  if (met) met = nsvcd__not_separated_again(search, g, s, h, k, stray, met);
+  if (met) met = nsvcd__not_separated_again(search, g, s, h, k, deviation, met);
   const uint32_t fresh = met & ~before;
   if (!fresh) return met;
   const size_t j = NSVCD__GROUP * h + k;
-  return (met & before) | nsvcd__not_separated_anew(search, g, s, j, stray, fresh);
+  return (met & before) | nsvcd__not_separated_anew(search, g, s, j, deviation, fresh);
 }
 #endif  // NSVCD_NO_NETWORK

@@ -155,15 +155,15 @@ static NSVCD__NOINLINE void nsvcd__slice_against_patch(const nsvcd__search *sear
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__low_bit(wanted);
     const nsvcd__chords *c = &search->members[s];
-    const nsvcd__v3 way = nsvcd__chords_way(c, l);
+    const nsvcd__v3 travel = nsvcd__chords_travel(c, l);
     const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__chords_start(c, l), centre);
     const nsvcd__v inverse = nsvcd__v_load(c->inverse + l);
-    const nsvcd__v reach = nsvcd__v_plus(nsvcd__v_load(c->reach + l), patch.radius);
+    const nsvcd__v radius = nsvcd__v_plus(nsvcd__v_load(c->radius + l), patch.radius);
     // the square of the sum of radii; the line's nearest point, and the chord's, as places on them
-    const nsvcd__v limit = nsvcd__v_signed_square(reach);
-    const nsvcd__v nearest = nsvcd__v_mul(nsvcd__v3_dot(d, way), inverse);
+    const nsvcd__v limit = nsvcd__v_signed_square(radius);
+    const nsvcd__v nearest = nsvcd__v_mul(nsvcd__v3_dot(d, travel), inverse);
     const nsvcd__v tau = nsvcd__v_clamp(nearest, 0, 1);
-    const nsvcd__v3 chord = nsvcd__v3_fma(tau, way, d);
+    const nsvcd__v3 chord = nsvcd__v3_fma(tau, travel, d);
     const nsvcd__v square = nsvcd__v3_dot(chord, chord);
     const uint32_t met = all_met[s] >> l & NSVCD__SLICE_MASK;
     uint32_t ended = at.open & ~met;
@@ -180,7 +180,7 @@ static NSVCD__NOINLINE void nsvcd__slice_against_patch(const nsvcd__search *sear
     // Intervals go on, or begin. |d + tau way| = reach, solved from the nearest point of the line
     // outwards: b^2 - ac would cancel on long chords.
     const nsvcd__v segment = nsvcd__v_set((float)s);
-    const nsvcd__v3 line = nsvcd__v3_fma(nearest, way, d);
+    const nsvcd__v3 line = nsvcd__v3_fma(nearest, travel, d);
     const nsvcd__v half2 =
         nsvcd__v_mul(nsvcd__v_sub(nsvcd__v3_dot(line, line), limit), inverse);
     const nsvcd__v before = nsvcd__v_pick(half, at.fresh, nsvcd__v_set(1e38f), at.square);

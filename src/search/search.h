@@ -17,10 +17,10 @@ static void nsvcd__chords_of_group(nsvcd__search *search, size_t g) {
 
 // Chords of 16 spheres of the moving body in segment s. remote: as nsvcd__chords_of_members has it.
 static void nsvcd__chords_in_segment(const nsvcd__search *search, size_t s,
-                                     nsvcd__spheres spheres, float remote,
+                                     nsvcd__spheres spheres, float extent,
                                      nsvcd__chords *out) {
   nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
-  nsvcd__chords_of_members(block, s % NSVCD__LANES, spheres, search->scale, remote, out);
+  nsvcd__chords_of_members(block, s % NSVCD__LANES, spheres, search->scale, extent, out);
 }
 
 // Boxes in which 16 groups of the moving tile, from `first`, stay as long as they are near the
@@ -42,14 +42,14 @@ static void nsvcd__boxes_of_groups(const nsvcd__search *search, size_t first, ui
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v nowhere = nsvcd__v_set(NSVCD__NOWHERE);
       const nsvcd__v3 start = nsvcd__chords_start(c, l);
-      const nsvcd__v3 way = nsvcd__chords_way(c, l);
+      const nsvcd__v3 travel = nsvcd__chords_travel(c, l);
       const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_set(fixed.centre));
-      const nsvcd__v reach = nsvcd__v_load(c->reach + l);
-      const nsvcd__v sum = nsvcd__v_plus(reach, fixed.radius);
-      const nsvcd__v square = nsvcd__nearest2(d, way, nsvcd__v_load(c->inverse + l));
+      const nsvcd__v radius = nsvcd__v_load(c->radius + l);
+      const nsvcd__v sum = nsvcd__v_plus(radius, fixed.radius);
+      const nsvcd__v square = nsvcd__nearest2(d, travel, nsvcd__v_load(c->inverse + l));
       const nsvcd__v nearby =
-          nsvcd__v_pick(square, nsvcd__v_signed_square(sum), reach, nowhere);
-      const nsvcd__v3 end = nsvcd__v3_add(start, way);
+          nsvcd__v_pick(square, nsvcd__v_signed_square(sum), radius, nowhere);
+      const nsvcd__v3 end = nsvcd__v3_add(start, travel);
       const nsvcd__v3 around = nsvcd__v3_of(nearby, nearby, nearby);
       const nsvcd__v3 low = nsvcd__v3_sub(nsvcd__v3_min(start, end), around);
       const nsvcd__v3 high = nsvcd__v3_add(nsvcd__v3_max(start, end), around);
@@ -68,8 +68,8 @@ static uint32_t nsvcd__spheres_at_box(nsvcd__box box, nsvcd__spheres all) {
     const nsvcd__v3 below = nsvcd__v3_sub(nsvcd__v3_set(box.low), centre);
     const nsvcd__v3 above = nsvcd__v3_sub(centre, nsvcd__v3_set(box.high));
     const nsvcd__v3 d = nsvcd__v3_max(nsvcd__v3_max(below, above), none);
-    const nsvcd__v reach = nsvcd__v_load(all.r + l);
-    touched |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(reach)) << l;
+    const nsvcd__v radius = nsvcd__v_load(all.r + l);
+    touched |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(radius)) << l;
   }
   return touched;
 }
@@ -126,15 +126,15 @@ static int nsvcd__is_tiled(const nsvcd_body *a, const nsvcd_body *b) {
   return nsvcd__is_large(a) || nsvcd__is_large(b);
 }
 
-// Fills a tile with the next groups that a walk finds.
-static void nsvcd__tile_fill(nsvcd__tile *tile, nsvcd__walk *walk) {
+// Fills a tile with the next groups that a traversal finds.
+static void nsvcd__tile_fill(nsvcd__tile *tile, nsvcd__traversal *traversal) {
   size_t g;
   tile->spheres = nsvcd__spheres_of(tile->gathered, NSVCD__TILE_SLOTS);
   for (size_t n = 0; n < 4 * NSVCD__TILE_SLOTS; n++)
     tile->gathered[n] = n < 3 * NSVCD__TILE_SLOTS ? 0 : NSVCD__NOWHERE;
   tile->count = 0;
-  while (tile->count < NSVCD__TILE && nsvcd__walk_next(walk, &g)) {
-    const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__groups_of(walk->body), g);
+  while (tile->count < NSVCD__TILE && nsvcd__traversal_next(traversal, &g)) {
+    const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__groups_of(traversal->body), g);
     nsvcd__sphere_store(group, tile->gathered, NSVCD__TILE_SLOTS, tile->count);
     tile->groups[tile->count++] = (uint16_t)g;
   }
@@ -147,7 +147,7 @@ static void nsvcd__tile_fill_all(nsvcd__tile *tile, const nsvcd_body *body) {
   tile->spheres = nsvcd__groups_of(body);
 }
 
-// ---- filters of a walk, which are given the search
+// ---- filters of a traversal, which are given the search
 
 // All spheres that there are.
 static uint32_t nsvcd__exists(const void *what, nsvcd__spheres all) {
@@ -194,11 +194,11 @@ static void nsvcd__chords_of_tile(nsvcd__search *search) {
   nsvcd__chords_in_all(search, sphere);
 }
 
-// Finds the next moving tile, an empty one if there is none, and starts the walk through the fixed
+// Finds the next moving tile, an empty one if there is none, and starts the traversal of the fixed
 // body's groups that come near it: that touch a box about its chords.
 static void nsvcd__search_moving_tile(nsvcd__search *search) {
   nsvcd__box box = {{HUGE_VALF, HUGE_VALF, HUGE_VALF}, {-HUGE_VALF, -HUGE_VALF, -HUGE_VALF}};
-  nsvcd__tile_fill(&search->moving_tile, &search->moving_walk);
+  nsvcd__tile_fill(&search->moving_tile, &search->moving_traversal);
   if (search->moving_tile.count == 0) return;
   nsvcd__chords_of_tile(search);
   for (uint64_t left = search->near_segments; left; left &= left - 1) {
@@ -206,16 +206,17 @@ static void nsvcd__search_moving_tile(nsvcd__search *search) {
     const nsvcd__chords *c = &search->group[s / NSVCD__LANES];
     const size_t l = s % NSVCD__LANES;
     const nsvcd__f3 start = nsvcd__f3_get(c->start[0] + l, NSVCD__LANES);
-    const nsvcd__f3 way = nsvcd__f3_get(c->way[0] + l, NSVCD__LANES);
-    const nsvcd__f3 end = nsvcd__f3_add(start, way);
-    const nsvcd__f3 around = nsvcd__f3_of(c->reach[l], c->reach[l], c->reach[l]);
+    const nsvcd__f3 travel = nsvcd__f3_get(c->travel[0] + l, NSVCD__LANES);
+    const nsvcd__f3 end = nsvcd__f3_add(start, travel);
+    const nsvcd__f3 around = nsvcd__f3_of(c->radius[l], c->radius[l], c->radius[l]);
     const nsvcd__f3 low = nsvcd__f3_sub(nsvcd__f3_min(start, end), around);
     const nsvcd__f3 high = nsvcd__f3_add(nsvcd__f3_max(start, end), around);
     box.low = nsvcd__f3_min(box.low, low);
     box.high = nsvcd__f3_max(box.high, high);
   }
   search->near_box = box;
-  nsvcd__walk_begin(&search->fixed_walk, search->fixed, nsvcd__is_approached, search);
+  nsvcd__traversal_begin(&search->fixed_traversal, search->fixed, nsvcd__is_approached,
+                         search);
 }
 
 // Goes on to the next tile that has a step. 0 if there is none.
@@ -223,7 +224,7 @@ static int nsvcd__search_next_tile(nsvcd__search *search) {
   if (!nsvcd__is_tiled(search->moving, search->fixed)) return 0;
   while (search->moving_tile.count > 0) {
     nsvcd__chords_of_tile(search);
-    nsvcd__tile_fill(&search->fixed_tile, &search->fixed_walk);
+    nsvcd__tile_fill(&search->fixed_tile, &search->fixed_traversal);
     if (search->fixed_tile.count == 0) {
       nsvcd__search_moving_tile(search);
       continue;
@@ -257,7 +258,7 @@ static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed
   search->moving_tile.count = 0;
   if (!wanted) return 0;
   nsvcd__filter *filter = nsvcd__is_large(moving) ? nsvcd__comes_near : nsvcd__exists;
-  nsvcd__walk_begin(&search->moving_walk, moving, filter, search);
+  nsvcd__traversal_begin(&search->moving_traversal, moving, filter, search);
   nsvcd__search_moving_tile(search);
   return nsvcd__search_next_tile(search);
 }
@@ -273,10 +274,10 @@ static void nsvcd__pose_members(nsvcd__search *search, size_t g, uint64_t wanted
   if (!(wanted & ~search->posed)) return;
   const nsvcd__spheres patches = nsvcd__body_patches(search->moving);
   const nsvcd__spheres members = nsvcd__spheres_from(patches, NSVCD__GROUP * g);
-  search->remote = nsvcd__group_reach(search->moving, g);
+  search->extent = nsvcd__group_reach(search->moving, g);
   for (uint64_t missing = wanted & ~search->posed; missing; missing &= missing - 1) {
     const size_t s = nsvcd__low_bit(missing);
-    nsvcd__chords_in_segment(search, s, members, search->remote, &search->members[s]);
+    nsvcd__chords_in_segment(search, s, members, search->extent, &search->members[s]);
   }
   search->posed |= wanted;
 }
@@ -343,7 +344,7 @@ static void nsvcd__group_against_group(nsvcd__search *search, size_t g, size_t h
     uint32_t bits = which & nsvcd__meet_members(chords, s % NSVCD__LANES, members);
     if (!bits) continue;
     nsvcd__pose_members(search, g, (uint64_t)1 << s);
-    const float stray = nsvcd__segment_stray(search, s);
+    const float stray = nsvcd__segment_deviation(search, s);
     cache->moving_known = 0;
     bits = nsvcd__unparted_members(search, g, s, h, stray, bits);
     for (; bits; bits &= bits - 1) {

@@ -1,4 +1,4 @@
-// In: points. Out: some of them whose hull, swollen by a slack, holds all.
+// In: points. Out: some of them whose hull, inflated by a margin, holds all.
 #pragma once
 #include "../ground/slices.h"
 #include "balls.h"
@@ -21,17 +21,18 @@ static int nsvcd__simplex_resolve(nsvcd__simplex *s) {
     double target[4] = {1};
     if (!nsvcd__solve_shares(s->points, s->count, 0, edges, target + 1)) return 0;
     for (size_t i = 1; i < s->count; i++) target[0] -= target[i];
-    double way = 1;
+    double fraction = 1;
     size_t blocks = s->count;
     for (size_t i = 0; i < s->count; i++) {
       const double weight = s->weights[i];
       if (target[i] > 0) continue;
       const double to_zero = weight > 0 ? weight / (weight - target[i]) : 0;
-      if (to_zero > way) continue;
-      way = to_zero;
+      if (to_zero > fraction) continue;
+      fraction = to_zero;
       blocks = i;
     }
-    for (size_t i = 0; i < s->count; i++) s->weights[i] += way * (target[i] - s->weights[i]);
+    for (size_t i = 0; i < s->count; i++)
+      s->weights[i] += fraction * (target[i] - s->weights[i]);
     if (blocks == s->count) return 1;
     s->count--;
     s->points[blocks] = s->points[s->count];
@@ -83,7 +84,7 @@ static size_t nsvcd__choose_hull(nsvcd__points points, size_t most, double enoug
   nsvcd__d3 at[NSVCD__HULL];
   nsvcd__points hull = {at, 0};
   size_t next = 0;
-  double reach = 0;
+  double most_distant = 0;
   *farthest = 0;
   if (points.count <= most) {
     for (size_t i = 0; i < points.count; i++) chosen[i] = i;
@@ -92,8 +93,8 @@ static size_t nsvcd__choose_hull(nsvcd__points points, size_t most, double enoug
   for (size_t i = 0; i < points.count; i++) {
     // from the centre, to begin with
     const double distance = nsvcd__d3_length(points.at[i]);
-    if (distance > reach) next = i;
-    reach = nsvcd__max(reach, distance);
+    if (distance > most_distant) next = i;
+    most_distant = nsvcd__max(most_distant, distance);
     bounds[i] = HUGE_VAL;
   }
   *farthest = HUGE_VAL;

@@ -5,14 +5,14 @@
 //
 // What holds. Every point of the mesh lies in a piece. Every piece is a convex part of one
 // triangle, and belongs to one patch. That patch lists the piece's triangle, or the piece itself
-// where the triangle is large beside the patches. Its ball, its disc and its hull swollen by the
-// slack contain the piece. Triangles without area are surface like others.
+// where the triangle is large beside the patches. Its ball, its slab and its hull inflated by the
+// margin contain the piece. Triangles without area are surface like others.
 //
 // Why it holds. A piece is only ever divided in two parts that share the corners between them, and
 // both parts are kept. So the pieces cover the mesh whatever the cuts are, and poor cuts can make a
 // description only larger. Each number is taken from the corners of the pieces, about what is
 // stored in float, and then rounded outwards. A piece is the convex hull of its corners, and so are
-// ball, disc and swollen hull convex: what contains the corners contains the piece. The corners
+// ball, slab and inflated hull convex: what contains the corners contains the piece. The corners
 // themselves are off by roundings of double: all bounds are wider by NSVCD__SURFACE_MARGIN.
 #pragma once
 #include "../ground/spheres.h"
@@ -81,14 +81,14 @@ typedef struct nsvcd__surface {
   // (N) about c; an empty patch has radius NSVCD__NOWHERE
   nsvcd__sphere *balls;
   // (N) about c
-  nsvcd__disc *discs;
+  nsvcd__slab *slabs;
   // (N) metres per integer: a stored vertex is c + step * (x, y, z)
   float *steps;
   // (N) metres: every point of a piece is within this of the convex hull of the first
   // hull_counts[i] stored vertices
-  float *slacks;
+  float *margins;
   // (N) metres: every corner that is stored as integers is within this of them
-  float *quanta;
+  float *errors;
   // (N) 1..NSVCD__HULL; 0 where empty
   uint8_t *hull_counts;
   // (N + 1)
@@ -154,7 +154,7 @@ typedef struct nsvcd__pieces {
   double longest_edge;
   // metres, added to all bounds
   double margin;
-  // metres: discs need not be thinner
+  // metres: slabs need not be thinner
   double thin;
 } nsvcd__pieces;
 

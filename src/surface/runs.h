@@ -8,7 +8,7 @@
 #define NSVCD__RUN_LENGTH 16
 // runs that are worked on at a time, in memory that stays near
 #define NSVCD__RUNS_AT_ONCE 256
-// of how round a body is: where its discs are thinner, they are not made thinner still
+// of how round a body is: where its slabs are thinner, they are not made thinner still
 #define NSVCD__RUN_THIN 0.5
 
 // Is some triangle of a mesh a point or a segment? One without indices is a cloud.
@@ -70,8 +70,8 @@ typedef struct nsvcd__curve {
   uint32_t *met;
   uint32_t met_count;
   nsvcd__solids solids;
-  double greatest;  // coordinate of the mesh
-  double round;     // metres
+  double greatest;       // coordinate of the mesh
+  double convex_radius;  // metres
 } nsvcd__curve;
 
 // Marks what the triangles belong to. 0 without memory.
@@ -90,12 +90,12 @@ static int nsvcd__curve_mark(nsvcd__curve *curve, nsvcd__arena *kept) {
 }
 
 // 0 without memory.
-static int nsvcd__curve_build(const nsvcd_mesh *mesh, float round, nsvcd__arena *arena,
+static int nsvcd__curve_build(const nsvcd_mesh *mesh, float convex_radius, nsvcd__arena *arena,
                               nsvcd__curve *curve) {
   const size_t count = mesh->triangle_count;
   memset(curve, 0, sizeof *curve);
   curve->mesh = mesh;
-  curve->round = (double)round;
+  curve->convex_radius = (double)convex_radius;
   curve->keys = NSVCD__TAKE(arena, uint64_t, 2 * count);
   curve->met = NSVCD__TAKE(arena, uint32_t, mesh->indices ? mesh->vertex_count : 0);
   if (arena->failed) return 0;
@@ -157,7 +157,7 @@ static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, siz
   pieces->region = block;
   pieces->patches = patches;
   pieces->margin = NSVCD__SURFACE_MARGIN * block->greatest + NSVCD__SURFACE_TINY;
-  pieces->thin = NSVCD__RUN_THIN * curve->round;
+  pieces->thin = NSVCD__RUN_THIN * curve->convex_radius;
   if (!nsvcd__list_reserve(&pieces->list, count, sizeof(nsvcd__piece), arena)) return 0;
   if (arena->failed) return 0;
   nsvcd__piece *out = (nsvcd__piece *)pieces->list.items;

@@ -1,4 +1,4 @@
-// In: pieces. Out: the same patch by patch; and for the network the tips of each patch: eight
+// In: pieces. Out: the same patch by patch; and for the network the extremes of each patch: eight
 // points of its surface whose hull is nearly that of all of it.
 #pragma once
 #include "pieces.h"
@@ -19,8 +19,8 @@ typedef struct nsvcd__sorted {
   // (met_count) the points of the pass
   uint32_t *met;
   size_t met_count;
-  nsvcd__d3 *places;  // the same, about the centre
-  double *bounds;     // of the same
+  nsvcd__d3 *positions;  // the same, about the centre
+  double *bounds;        // of the same
   // (N, NSVCD__HULL) points that the hulls consist of
   uint32_t *hulls;
 } nsvcd__sorted;
@@ -61,7 +61,7 @@ static int nsvcd__sorted_build(const nsvcd__pieces *pieces, nsvcd__arena *arena,
     most = corners > most ? corners : most;
   }
   sorted->met = NSVCD__TAKE(arena, uint32_t, most);
-  sorted->places = NSVCD__TAKE(arena, nsvcd__d3, most);
+  sorted->positions = NSVCD__TAKE(arena, nsvcd__d3, most);
   sorted->bounds = NSVCD__TAKE(arena, double, most);
   return !arena->failed;
 }
@@ -76,17 +76,19 @@ static void nsvcd__number_point(nsvcd__sorted *sorted, uint32_t point) {
 
 // The points of the pass, about a centre.
 static nsvcd__points nsvcd__place_points(nsvcd__sorted *sorted, nsvcd__d3 centre) {
-  const nsvcd__points out = {sorted->places, sorted->met_count};
+  const nsvcd__points out = {sorted->positions, sorted->met_count};
   for (size_t j = 0; j < sorted->met_count; j++) {
     const nsvcd__d3 at = nsvcd__point_at(sorted->pieces, sorted->met[j]);
-    sorted->places[j] = nsvcd__d3_sub(at, centre);
+    sorted->positions[j] = nsvcd__d3_sub(at, centre);
   }
   return out;
 }
 
 #ifndef NSVCD_NO_NETWORK
-// The tips of patch i, as a body stores them: (TIPS, 3), from its centre in steps of radius / 127.
-static void nsvcd__tips_of(nsvcd__sorted *sorted, size_t i, float radius, int8_t *tips) {
+// The extremes of patch i, as a body stores them: (TIPS, 3), from its centre in steps of radius /
+// 127.
+static void nsvcd__extremes_of(nsvcd__sorted *sorted, size_t i, float radius,
+                               int8_t *extremes) {
   const double inverse = radius > 0 ? 127 / (double)radius : 0;
   sorted->pass++;
   sorted->met_count = 0;
@@ -100,11 +102,11 @@ static void nsvcd__tips_of(nsvcd__sorted *sorted, size_t i, float radius, int8_t
   size_t chosen[NSVCD__HULL] = {0};
   double farthest;
   const size_t count =
-      nsvcd__choose_hull(points, NSVCD__TIPS, 0, sorted->bounds, chosen, &farthest);
-  for (size_t k = 0; k < 3 * NSVCD__TIPS; k++) {
-    const size_t tip = chosen[count ? k / 3 % count : 0];
-    const double along = count ? nsvcd__d3_axis(points.at[tip], k % 3) * inverse : 0;
-    tips[k] = (int8_t)lrint(nsvcd__max(-127, nsvcd__min(along, 127)));
+      nsvcd__choose_hull(points, NSVCD__EXTREMES, 0, sorted->bounds, chosen, &farthest);
+  for (size_t k = 0; k < 3 * NSVCD__EXTREMES; k++) {
+    const size_t extreme = chosen[count ? k / 3 % count : 0];
+    const double along = count ? nsvcd__d3_axis(points.at[extreme], k % 3) * inverse : 0;
+    extremes[k] = (int8_t)lrint(nsvcd__max(-127, nsvcd__min(along, 127)));
   }
 }
 #endif  // NSVCD_NO_NETWORK

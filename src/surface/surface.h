@@ -1,14 +1,14 @@
-// In: pieces, sorted by patch. Out: nsvcd__surface: of each patch a ball, a disc, a hull, its
+// In: pieces, sorted by patch. Out: nsvcd__surface: of each patch a ball, a slab, a hull, its
 // triangles, all rounded outwards.
 #pragma once
 #include "../mesh/mesh.h"
 #include "runs.h"
-#include "discs.h"
+#include "slabs.h"
 #include "sorted.h"
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
-// Ball, disc and hull of patch i of the region, which is `to` of all. What the vertices will be off
-// by as integers is not in the slack yet.
+// Ball, slab and hull of patch i of the region, which is `to` of all. What the vertices will be off
+// by as integers is not in the margin yet.
 static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *s) {
   const nsvcd__pieces *pieces = sorted->pieces;
   const nsvcd__region *region = pieces->region;
@@ -56,14 +56,14 @@ static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surfac
   for (size_t j = 0; j < about.count; j++)
     radius = nsvcd__max(radius, nsvcd__d3_length(about.at[j]));
   ball->radius = nsvcd__float_above(radius + pieces->margin);
-  s->discs[to] = nsvcd__fit_disc(about, normal, pieces->margin, pieces->thin);
+  s->slabs[to] = nsvcd__fit_slab(about, normal, pieces->margin, pieces->thin);
 
   size_t chosen[NSVCD__HULL];
   double farthest;
   const double enough = NSVCD__HULL_FRACTION * (double)ball->radius;
   const size_t count =
       nsvcd__choose_hull(about, NSVCD__HULL, enough, sorted->bounds, chosen, &farthest);
-  s->slacks[to] = nsvcd__float_above(farthest + pieces->margin);
+  s->margins[to] = nsvcd__float_above(farthest + pieces->margin);
   s->hull_counts[to] = (uint8_t)count;
   for (size_t k = 0; k < count; k++)
     sorted->hulls[NSVCD__HULL * i + k] = sorted->met[chosen[k]];
@@ -154,7 +154,7 @@ static void nsvcd__store_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *
     if (j < hull_count) worst_of_hull = nsvcd__max(worst_of_hull, sorted->bounds[j]);
   }
   // Each point of the hull is off by no more than its vertices are.
-  s->slacks[to] = nsvcd__float_above((double)s->slacks[to] + worst_of_hull);
+  s->margins[to] = nsvcd__float_above((double)s->margins[to] + worst_of_hull);
 
   for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
     const uint32_t triangle = nsvcd__sorted_piece(sorted, k)->triangle;
@@ -173,7 +173,7 @@ static void nsvcd__store_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *
     }
   }
   worst += sorted->pieces->margin;
-  s->quanta[to] = has_stored ? nsvcd__float_above(worst) : 0;
+  s->errors[to] = has_stored ? nsvcd__float_above(worst) : 0;
 }
 
 // ---- all of it
@@ -187,10 +187,10 @@ static int nsvcd__surface_begin(size_t n, size_t components, int coarse, nsvcd__
   s->coarse = coarse;
   s->component_count = components;
   s->balls = NSVCD__TAKE(arena, nsvcd__sphere, n);
-  s->discs = NSVCD__TAKE(arena, nsvcd__disc, n);
+  s->slabs = NSVCD__TAKE(arena, nsvcd__slab, n);
   s->steps = NSVCD__TAKE(arena, float, n);
-  s->slacks = NSVCD__TAKE(arena, float, n);
-  s->quanta = NSVCD__TAKE(arena, float, n);
+  s->margins = NSVCD__TAKE(arena, float, n);
+  s->errors = NSVCD__TAKE(arena, float, n);
   s->hull_counts = NSVCD__TAKE(arena, uint8_t, n);
   s->first_vertex = NSVCD__TAKE(arena, uint32_t, n + 1);
   s->first_named = NSVCD__TAKE(arena, uint32_t, n + 1);
@@ -200,7 +200,7 @@ static int nsvcd__surface_begin(size_t n, size_t components, int coarse, nsvcd__
   return !arena->failed;
 }
 
-// Makes room for more points, stored and named, and listings. 0 without memory.
+// Makes room for more points, stored and named, and entries. 0 without memory.
 static int nsvcd__surface_room(nsvcd__surface *s, size_t vertices, size_t named,
                                size_t triangles) {
   nsvcd__list *lists[] = {&s->vertex_list, &s->named_list, &s->corner_list, &s->id_list};

@@ -61,7 +61,7 @@ int main(int argc, char **argv) {
   ways[5].options.clearance += 0.01f;
   ways[6].options.ask = NSVCD_ASK_DISTANCE;
   ways[6].options.to = 0.001f;
-  ways[7].options.skin = 0.001f;
+  ways[7].options.slop = 0.001f;
 
   const nsvcd_body **bodies = (const nsvcd_body **)allocate(file.mesh_count * sizeof *bodies);
   void *workspace = allocate(nsvcd_sweep_workspace_size(NULL));

@@ -113,8 +113,8 @@ static int one(const problem_file *file, const problem *p, const scene_mesh *mes
   nsvcd_certificate beyond = made;
   if (made.verdict == NSVCD_FREE && answer.verdict == NSVCD_HIT) {
     nsvcd_question wider = q;
-    wider.clearance += 2 * (nsvcd_body_describe(a->body).quantum * q.a.scale +
-                            nsvcd_body_describe(b->body).quantum * q.b.scale);
+    wider.clearance += 2 * (nsvcd_body_describe(a->body).quantization_error * q.a.scale +
+                            nsvcd_body_describe(b->body).quantization_error * q.b.scale);
     workspace = allocate(size);
     result = nsvcd_certify(&wider, a->tree, b->tree, &options, workspace, size, NULL, 0, &beyond);
     free(workspace);

@@ -84,7 +84,7 @@ static int network_force(const judge *j, const nsvcd_question *q, int of_logit, 
   float gradient[6 * MOST_POSES];
   nsvcd_answer answer;
   nsvcd_question asked = told(j, *q, of_logit);
-  asked.network.swell = SWELL;
+  asked.network.inflate = SWELL;
   if (nsvcd_sweep_gradient(&asked, workspace, workspace_size, &answer, gradient, NULL)) return 0;
   for (size_t n = 0; n < 6 * q->a.count; n++)
     if (n % 6 < 3) force[n % 6] += (double)gradient[n] * (of_logit ? -1 : 1);

@@ -150,7 +150,7 @@ int main(int argc, char **argv) {
       "%.1f MB, %.1f bytes a "
       "triangle; quantum %.1f um\n",
       level.mesh.triangle_count, facts.patches, 1e3 * took, per * (double)h.most,
-      1e-6 * (double)facts.size, per * (double)facts.size, 1e6 * (double)facts.quantum);
+      1e-6 * (double)facts.size, per * (double)facts.size, 1e6 * (double)facts.quantization_error);
 
   const size_t size = nsvcd_sweep_workspace_size(NULL);
   void *workspace = malloc(size);

@@ -168,8 +168,9 @@ int main(int argc, char **argv) {
       free(positions);
       read_track(mover, s.meshes[side], &s.tracks[side]);
     }
-    const double quanta = (double)(question.a.scale * nsvcd_body_describe(question.a.body).quantum +
-                                   question.b.scale * nsvcd_body_describe(question.b.body).quantum);
+    const double quanta =
+        (double)(question.a.scale * nsvcd_body_describe(question.a.body).quantization_error +
+                 question.b.scale * nsvcd_body_describe(question.b.body).quantization_error);
     check_one(p, &answer, &s, clearance, first, quanta, &sum);
     for (int side = 0; side < 2; side++) {
       oracle_mesh_free(s.meshes[side]);

@@ -727,11 +727,11 @@ static void describe(const ask *k, char *out, size_t size) {
   snprintf(out, size,
            "[clearance %g first %g measure %g skin %g tolerance %g segments %zu work %zu%s] %s "
            "t %.7g until %.7g low %.6g high %.6g work %zu lift %.4g %.4g %.4g",
-           (double)o->clearance, (double)first_of(o), (double)measure_of(o), (double)o->skin,
+           (double)o->clearance, (double)first_of(o), (double)measure_of(o), (double)o->slop,
            (double)o->tolerance, o->segments, o->work, k->swapped ? " swapped" : "",
            status_string(status_of(w)), (double)w->nearest.time, (double)w->time.low,
-           (double)w->distance.low, (double)w->distance.high, w->work, (double)w->lift[0],
-           (double)w->lift[1], (double)w->lift[2]);
+           (double)w->distance.low, (double)w->distance.high, w->work, (double)w->push_out[0],
+           (double)w->push_out[1], (double)w->push_out[2]);
 }
 
 static const char *name_of(const solid *of) {
@@ -792,9 +792,9 @@ static const ask *put(const scene *s, const nsvcd_question *options, int swapped
   if (swapped) {
     turn_contact(&w->nearest);
     for (size_t i = 0; i < w->contact_count; i++) turn_contact(&w->contacts[i]);
-    for (int i = 0; i < 3; i++) w->lift[i] = 0 - w->lift[i];
+    for (int i = 0; i < 3; i++) w->push_out[i] = 0 - w->push_out[i];
   }
-  k->world = world_of(s, w->lift);
+  k->world = world_of(s, w->push_out);
   questions++;
   verdicts[(unsigned)status_of(w) % 6]++;
   if (telling) {
@@ -819,7 +819,7 @@ static void put_all(const scene *s) {
     if (o.to_time > 0) o.ask = NSVCD_ASK_FIRST;
     if (o.to > 0) o.ask = NSVCD_ASK_DISTANCE;
     o.clearance = (float)clearances[n / 5 % 3];
-    o.skin = n / 15 % 2 ? (float)s->skin : 0;
+    o.slop = n / 15 % 2 ? (float)s->skin : 0;
     o.tolerance = other == 1 ? (float)s->tolerance : 0;
     o.segments = other == 2 ? 16 : 0;
     o.work = s->work;
@@ -884,7 +884,7 @@ static const char *broken(const scene *s, const ask *k) {
   if (!is_within(logit_of(w), -100, 100)) return "logit";
   for (int i = 0; i < 3; i++) {
     if (!is_within(w->nearest.point[i], -1e6, 1e6) || !is_within(w->nearest.normal[i], -1.1, 1.1) ||
-        !is_within(w->lift[i], -10, 10))
+        !is_within(w->push_out[i], -10, 10))
       return "point, normal or lift";
   }
   if (is_free ? collides_of(w) || w->time.low < 1 : 0) return "FREE, but collides, or not until 1";
@@ -920,7 +920,7 @@ static const char *broken(const scene *s, const ask *k) {
   if (w->verdict == NSVCD_HIT && (w->time.high < w->nearest.time || w->time.high > w->nearest.time))
     return "time.high";
   if (w->verdict == NSVCD_UNDECIDED && !w->why) return "UNDECIDED, but not why";
-  if (!(o->skin > 0) && (w->lift[0] != 0 || w->lift[1] != 0 || w->lift[2] != 0))
+  if (!(o->slop > 0) && (w->push_out[0] != 0 || w->push_out[1] != 0 || w->push_out[2] != 0))
     return "lift without skin";
   return NULL;
 }
@@ -941,7 +941,7 @@ static void judge_place(const scene *s, const ask *k, const oracle_triangle *a,
                           oracle_triangles(b, &point, DBL_MAX, x, unused));
   const double most = fmax(apart + s->epsilon, (double)w->distance.high);
   const double allowed = most + s->epsilon + moved + 1e-6 * oracle_length(point.v[0]);
-  if (sqrt(off) > allowed && !(k->swapped && k->options.skin > 0))
+  if (sqrt(off) > allowed && !(k->swapped && k->options.slop > 0))
     find(s, BAD_PLACE, k, NULL, sqrt(off) - allowed);
 }
 
@@ -1000,11 +1000,11 @@ static void judge_inside(const scene *s, const ask *k) {
     oracle_rotate_back(m, d, at);
     most = fmax(most, fabs(oracle_winding(&s->parts[n].mesh, at)));
   }
-  if (start > s->epsilon && most < 0.4 && !(k->swapped && k->options.skin > 0))
+  if (start > s->epsilon && most < 0.4 && !(k->swapped && k->options.slop > 0))
     find(s, INSIDE_POINT, k, NULL, most);
   if (start > 1e-9 * s->size && !k->world->inside) find(s, INSIDE_FALSE, k, NULL, start);
   // who asks for yes or no alone is told what is known first; a witness is sought for some units only
-  const int tells = first_of(&k->options) > 0 || measure_of(&k->options) > 0 || k->options.skin > 0;
+  const int tells = first_of(&k->options) > 0 || measure_of(&k->options) > 0 || k->options.slop > 0;
   if (!(start > 0) && tells && !k->ladder) find(s, INSIDE_MEETS, k, NULL, start);
 }
 
@@ -1021,7 +1021,7 @@ static void judge_effort(const scene *s, const ask *k) {
       k->world->least > allowed + 1e-3 && (w->work < o->work || o->work >= NSVCD_DEFAULT_WORK))
     find(s, CLEAR_UNDECIDED, k, NULL, k->world->least);
   if (w->verdict == NSVCD_UNDECIDED && !(k->world->at_start > 0) && !k->ladder && !s->rests &&
-      !(o->skin > 0))
+      !(o->slop > 0))
     find(s, START_UNDECIDED, k, NULL, 0);
   if (status_of(w) == STATUS_WITNESS && first_of(o) > 0) {
     const double late = (double)(w->nearest.time - w->time.low);
@@ -1041,9 +1041,9 @@ static void judge_effort(const scene *s, const ask *k) {
 
 static void judge_skin(const scene *s, const ask *k) {
   const nsvcd_answer *w = &k->answer;
-  const double lift[3] = {(double)w->lift[0], (double)w->lift[1], (double)w->lift[2]};
+  const double lift[3] = {(double)w->push_out[0], (double)w->push_out[1], (double)w->push_out[2]};
   const double clearance = (double)k->options.clearance;
-  const double skin = (double)k->options.skin;
+  const double skin = (double)k->options.slop;
   const double start = k->world->at_start;
   if (!(skin > 0) || k->ladder) return;
   if (oracle_length(lift) > 4.001 * skin) find(s, SKIN_LONG, k, NULL, oracle_length(lift) / skin);
@@ -1072,7 +1072,7 @@ static int differences(const ask *i, const ask *j) {
   const nsvcd_question *y = &j->options;
   return differ(first_of(x), first_of(y), BY_FIRST) |
          differ(measure_of(x), measure_of(y), BY_MEASURE) |
-         differ(x->clearance, y->clearance, BY_CLEARANCE) | differ(x->skin, y->skin, BY_SKIN) |
+         differ(x->clearance, y->clearance, BY_CLEARANCE) | differ(x->slop, y->slop, BY_SKIN) |
          differ(x->tolerance, y->tolerance, BY_TOLERANCE) |
          (x->segments != y->segments ? BY_SEGMENTS : 0) |
          (i->swapped != j->swapped ? BY_SWAPPING : 0) | (x->work != y->work ? BY_WORK : 0);
@@ -1092,7 +1092,7 @@ static void judge_contradictions(const scene *s, const ask *i, const ask *j) {
       x->distance.low > y->distance.high)
     find(s, CONTRADICTION, i, j, 2);
   if (status_of(y) == STATUS_WITNESS && status_of(x) == STATUS_WITNESS &&
-      !(j->options.skin > 0 && i->options.skin <= 0) && status_of(y) != status_of(x))
+      !(j->options.slop > 0 && i->options.slop <= 0) && status_of(y) != status_of(x))
     find(s, CONTRADICTION, i, j, 3);
 }
 
@@ -1108,7 +1108,7 @@ static void judge_losses(const scene *s, const ask *i, const ask *j, int by) {
   if (by == BY_FIRST && !(first_of(x) > 0) && 10 * i->answer.work < y->work) lost = LOST_BY_FIRST;
   if (by == BY_MEASURE && !(measure_of(x) > 0))
     lost = y->clearance > 0 ? LOST_BY_BOTH : LOST_BY_MEASURE;
-  if (by == BY_SKIN && !(x->skin > 0) && i->world == j->world && 10 * i->answer.work < y->work)
+  if (by == BY_SKIN && !(x->slop > 0) && i->world == j->world && 10 * i->answer.work < y->work)
     lost = LOST_BY_SKIN;
   if (by == BY_SEGMENTS && !x->segments && s->turn < 5) lost = LOST_BY_SEGMENTS;
   if (by == BY_CLEARANCE && !(first_of(x) > 0) && !(measure_of(x) > 0) && i->world == j->world &&
@@ -1156,7 +1156,7 @@ static void judge_pair(const scene *s, const ask *i, const ask *j) {
                !differ(x->distance.high, y->distance.high, 1);
     for (int k = 0; k < 3; k++)
       same = same && !differ(x->nearest.normal[k], y->nearest.normal[k], 1) &&
-             !differ(x->lift[k], y->lift[k], 1);
+             !differ(x->push_out[k], y->push_out[k], 1);
     if (!same) find(s, SWAP_DIFFERS, i, j, 0);
   }
   if (by && !(by & (BY_CLEARANCE | BY_SKIN | BY_SWAPPING)) && i < j && i->world != j->world)

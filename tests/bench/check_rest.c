@@ -233,7 +233,7 @@ static void check_skin(const resting *r, const double *up, shapes_rng *rng, doub
   const double deepest = clearance - fmin(lowest_of(r, &path[0]), lowest_of(r, &path[1]));
   const double depth = fmax(clearance - lowest_of(r, &path[0]), 0);
   nsvcd_question question = question_about(r, path, tables[shapes_pick(rng, TABLES)], clearance);
-  question.skin = (float)SKIN;
+  question.slop = (float)SKIN;
   const nsvcd_answer answer = ask(&question);
   const int is_free = deepest < SKIN - HAIR;
   if (!is_free && deepest < SKIN + HAIR) return;
@@ -244,8 +244,8 @@ static void check_skin(const resting *r, const double *up, shapes_rng *rng, doub
   worst_depth = depth > 0 ? fmax(worst_depth, off / depth) : worst_depth;
   if (off > 0.01 * depth) blame(r, "depth", (double)answer.depth, depth);
   // of a body that stands on an edge it may be along a side's normal
-  if ((double)answer.lift[2] < 0.8 * SKIN && press > -1e-7)
-    blame(r, "lift upward", (double)answer.lift[2], SKIN);
+  if ((double)answer.push_out[2] < 0.8 * SKIN && press > -1e-7)
+    blame(r, "lift upward", (double)answer.push_out[2], SKIN);
   const double above = lowest_of(r, &answer.safe.a) - clearance;
   const double kept = fmax(0.02 * SKIN, 2 * HAIR);
   if (above < -1e-7) blame(r, "safe place below", above, 0);

@@ -58,7 +58,7 @@ static void mix_answer(uint64_t *sum, const nsvcd_answer *a) {
   mix(sum, &a->distance, 2);
   mix(sum, &a->safe, sizeof a->safe / 4);
   mix(sum, &a->depth, 1);
-  mix(sum, a->lift, 3);
+  mix(sum, a->push_out, 3);
   mix(sum, a->contacts, a->contact_count * (sizeof a->contacts[0] / 4));
   mix(sum, &a->nearest, sizeof a->nearest / 4);
 }
@@ -88,7 +88,7 @@ static nsvcd_question ask(int kind, const nsvcd_body *const *bodies, size_t coun
   if (kind == DISTANCE) q.ask = NSVCD_ASK_DISTANCE;
   if (kind == TIMES) q.a.times = times;
   q.manifold = kind == SKIN;
-  if (kind == SKIN) q.skin = q.clearance = 0.01f * reach;
+  if (kind == SKIN) q.slop = q.clearance = 0.01f * reach;
   q.to = q.ask == NSVCD_ASK_HIT ? 0 : 0.001f * reach;
   return q;
 }

@@ -165,7 +165,7 @@ static void run_motion(int task, const planner *planner, uint64_t seed, size_t c
   nsvcd_plan_answer answer;
   task_state(scene, bodies, &statement);
   nsvcd_plan_problem problem = statement.problem;
-  problem.place = place;
+  problem.kinematics = place;
   problem.user = &both;
   if (planner->kind == SPHERES_FEW || planner->kind == SPHERES_MANY)
     problem.collision = sphere_cost;
@@ -198,7 +198,7 @@ static void run_motion(int task, const planner *planner, uint64_t seed, size_t c
   out->motions++;
   out->solved += solved;
   if (answer.status == NSVCD_PLAN_CONVERGED)
-    out->strays[out->converged] = 1000 * (double)answer.stray;
+    out->strays[out->converged] = 1000 * (double)answer.deviation;
   out->converged += answer.status == NSVCD_PLAN_CONVERGED;
   out->wrong += answer.status == NSVCD_PLAN_CONVERGED && !solved;
   out->start += answer.status == NSVCD_PLAN_START;

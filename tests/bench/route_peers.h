@@ -89,7 +89,7 @@ static int peer_hits(const nsvcd_body_pair *pair, const nsvcd_pose *poses) {
 static int peer_hits_at(const nsvcd_checker *c, const double *joints) {
   nsvcd_pose poses[ARM_MOST_PARTS];
   const nsvcd_body_pair last = {peer_last[0], peer_last[1]};
-  nsvcd_checker_place(c, joints, poses);
+  nsvcd_forward_kinematics(c, joints, poses);
   if (last.a != last.b && peer_hits(&last, poses)) return 1;
   for (size_t p = 0; p < c->scene->pair_count; p++) {
     const nsvcd_body_pair *pair = &c->scene->pairs[p];

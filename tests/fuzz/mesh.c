@@ -219,7 +219,7 @@ static void check_truth(const nsvcd_question *question, const solid *a, const so
   oracle_triangle p, q;
   if (!track_of(&question->a, &at_a) || !track_of(&question->b, &at_b))
     return;
-  if (question->skin > 0)
+  if (question->slop > 0)
     return;
   if (status_of(answer) == STATUS_CERTIFIED_FREE)
     check_free(a, &at_a, b, &at_b, (double)question->clearance);

@@ -124,7 +124,7 @@ static void read_scene(fuzz_input *in, scene *s) {
   p->bodies = s->bodies;
   p->body_count = BODIES;
   p->pairs = s->pairs;
-  p->place = place;
+  p->kinematics = place;
   p->progress = report;
   p->user = s;
   read_options(in, &s->options);
@@ -141,7 +141,7 @@ static void check_answer(const scene *s, const nsvcd_plan_answer *answer, const 
   FUZZ_CHECK(scene_finite(control, rows * s->joints));
   FUZZ_CHECK(scene_share(answer->time));
   FUZZ_CHECK(scene_finite(&answer->cost, 1) && scene_finite(&answer->smoothness, 1));
-  FUZZ_CHECK(scene_finite(&answer->stray, 1) && answer->stray >= 0);
+  FUZZ_CHECK(scene_finite(&answer->deviation, 1) && answer->deviation >= 0);
   FUZZ_CHECK(answer->joint < s->joints || answer->joint == NSVCD_NONE);
   FUZZ_CHECK(answer->pair < s->problem.pair_count || answer->pair == NSVCD_NONE);
   for (size_t k = 0; k < s->joints; k++) {

@@ -185,7 +185,7 @@ static void scene_options(fuzz_input *in, nsvcd_question *options) {
       options->ask = NSVCD_ASK_DISTANCE;
     if (options->to_time > 0)
       options->ask = NSVCD_ASK_FIRST;
-    options->skin = fuzz_length(in);
+    options->slop = fuzz_length(in);
     options->tolerance = fuzz_length(in);
   }
   if (odd < 128)
@@ -272,7 +272,7 @@ static void scene_check(const nsvcd_question *question, const nsvcd_answer *answ
   FUZZ_CHECK(scene_share(answer->safe.time));
   FUZZ_CHECK(scene_finite(answer->safe.a.position, 3) && scene_finite(answer->safe.a.rotation, 4));
   FUZZ_CHECK(scene_finite(answer->safe.b.position, 3) && scene_finite(answer->safe.b.rotation, 4));
-  FUZZ_CHECK(scene_finite(nearest->point, 3) && scene_finite(answer->lift, 3));
+  FUZZ_CHECK(scene_finite(nearest->point, 3) && scene_finite(answer->push_out, 3));
   FUZZ_CHECK(scene_normal(nearest->normal));
   if (status_of(answer) == STATUS_WITNESS)
     FUZZ_CHECK(logit_of(answer) >= NSVCD_LOGIT_CERTAIN);
@@ -315,7 +315,7 @@ static int scene_same(const nsvcd_answer *p, const nsvcd_answer *q) {
          memcmp(&p->time, &q->time, sizeof p->time) == 0 &&
          memcmp(&p->distance, &q->distance, sizeof p->distance) == 0 &&
          memcmp(&p->safe, &q->safe, sizeof p->safe) == 0 &&
-         memcmp(p->lift, q->lift, sizeof p->lift) == 0 &&
+         memcmp(p->push_out, q->push_out, sizeof p->push_out) == 0 &&
          scene_same_contact(&p->nearest, &q->nearest);
 }
 

@@ -118,7 +118,7 @@ static void what_a_body_says_of_itself_is_so(void) {
   const nsvcd_body_facts facts = nsvcd_body_describe(body);
   CHECK(facts.triangles == mesh.triangle_count && facts.components > 0);
   CHECK_EQ(facts.open_components, 0);
-  CHECK(facts.quantum == 0 && !facts.latents && !facts.open);
+  CHECK(facts.quantization_error == 0 && !facts.latents && !facts.open);
   for (size_t i = 0; i < mesh.vertex_count; i++) {
     const float *p = mesh.positions + 3 * i;
     int covered = 0;

@@ -134,9 +134,9 @@ static void a_certificate_is_refused_by_the_field_at_fault(void) {
   nsvcd_question question = question_about(NULL, past, 2, NULL);
   CHECK_EQ(nsvcd_certify(&question, cart.tree, cart.tree, NULL, workspace, 0, bytes, ROOM, &made),
            NSVCD_ERROR_WORKSPACE);
-  question.skin = 0.01f;
+  question.slop = 0.01f;
   CHECK_EQ(nsvcd_certify(&question, cart.tree, cart.tree, NULL, workspace, 0, bytes, ROOM, &made),
-           NSVCD_ERROR_SKIN);
+           NSVCD_ERROR_SLOP);
   CHECK_EQ(nsvcd_certify(&question, NULL, cart.tree, NULL, workspace, 0, bytes, ROOM, &made),
            NSVCD_ERROR_ARGUMENT);
   certified_free(&cart);
@@ -149,9 +149,9 @@ typedef struct swing {
   size_t keyframes;
 } swing;
 
-static nsvcd_placement swing_place(const void *motion, double t) {
+static nsvcd_pose64 swing_place(const void *motion, double t) {
   const swing *s = (const swing *)motion;
-  const nsvcd_placement out = {{s->way * sin(FULL_TURN * t), 0, s->height}, {0, 0, 0, 1}};
+  const nsvcd_pose64 out = {{s->way * sin(FULL_TURN * t), 0, s->height}, {0, 0, 0, 1}};
   return out;
 }
 static double swing_next(const void *motion, double t) {

@@ -34,7 +34,7 @@ static void floor_open(floor_plan *f) {
                                     .body_count = 2,
                                     .pairs = crate_and_wall,
                                     .pair_count = 1,
-                                    .place = place};
+                                    .kinematics = place};
 }
 static void floor_close(floor_plan *f) {
   nsvcd_body_free(f->bodies[0], NULL);
@@ -89,7 +89,7 @@ static void a_plan_that_converged_is_free(void) {
   floor_plan f;
   floor_open(&f);
   const nsvcd_plan_answer answer = plan_of(&f.problem, control);
-  CHECK(answer.status == NSVCD_PLAN_CONVERGED && !answer.collides && answer.stray < 1e-3f);
+  CHECK(answer.status == NSVCD_PLAN_CONVERGED && !answer.collides && answer.deviation < 1e-3f);
   for (int i = 0; i < POSES; i++) {
     float joints[JOINTS];
     nsvcd_spline(control, answer.via_points, JOINTS, (float)i / (POSES - 1), 0, joints);

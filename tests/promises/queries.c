@@ -262,7 +262,7 @@ static void at_the_safe_place_they_are_apart(void) {
   const nsvcd_pose poses[2] = {at(-7, 0, 0), turned(3, 0, 0, 1)};
   nsvcd_question question = question_about(cube, poses, 2, wall);
   question.ask = NSVCD_ASK_FIRST;
-  const nsvcd_safe_place safe = answer_to(&question).safe;
+  const nsvcd_safe_pose safe = answer_to(&question).safe;
   CHECK(safe.time > 0.5f && safe.time < 0.6f);
   question = question_about(cube, &safe.a, 1, wall);
   CHECK_EQ(verdict_of(&question), NSVCD_FREE);
@@ -333,12 +333,12 @@ static void with_a_skin_what_rests_may_slide(void) {
   const nsvcd_pose sink[2] = {at(-1, 0, 0.2998f), at(1, 0, 0.29f)};
   nsvcd_question question = question_about(crate, slide, 2, table);
   CHECK_EQ(verdict_of(&question), NSVCD_HIT);
-  question.skin = 1e-3f;
+  question.slop = 1e-3f;
   const nsvcd_answer answer = answer_to(&question);
   CHECK_EQ(answer.verdict, NSVCD_FREE);
   CHECK_NEAR(answer.depth, 2e-4, 1e-5);
-  CHECK_NEAR(answer.lift[2], 1e-3, 1e-6);
-  CHECK_EQ(answer.lift[0], 0);
+  CHECK_NEAR(answer.push_out[2], 1e-3, 1e-6);
+  CHECK_EQ(answer.push_out[0], 0);
   question.a.poses = sink;
   CHECK_EQ(verdict_of(&question), NSVCD_HIT);
   nsvcd_body_free(crate, NULL);
@@ -352,7 +352,7 @@ static void what_was_stopped_goes_on(void) {
   nsvcd_question question = question_about(crate, drop, 2, table);
   question.ask = NSVCD_ASK_FIRST;
   question.to = 5e-4f;
-  question.skin = 1e-3f;
+  question.slop = 1e-3f;
   nsvcd_answer answer = answer_to(&question);
   CHECK_EQ(answer.verdict, NSVCD_HIT);
   for (int frame = 0; frame < 20; frame++) {
@@ -372,10 +372,10 @@ static void a_lift_by_the_depth_ends_a_contact(void) {
   const nsvcd_body *crate = box(0.5f, 0.5f, 0.5f), *table = box(4, 4, 0.1f);
   nsvcd_pose pose = at(0.3f, 0, 0.29f);  // 1 cm deep
   nsvcd_question question = question_about(crate, &pose, 1, table);
-  question.skin = 0.02f;
+  question.slop = 0.02f;
   const nsvcd_answer answer = answer_to(&question);
   CHECK_NEAR(answer.depth, 0.01, 4e-4);
-  question.skin = 0;
+  question.slop = 0;
   pose.position[2] = 0.29f + 1.001f * answer.depth;
   CHECK_EQ(verdict_of(&question), NSVCD_FREE);
   pose.position[2] = 0.29f + 0.9f * answer.depth;

@@ -34,7 +34,7 @@ static void a_hit_is_one_in_the_configuration_that_is_named(void) {
   const nsvcd_check_answer hit = check_of(&a, &motion, 0);
   CHECK_EQ(hit.verdict, NSVCD_HIT);
   nsvcd_motion_at(&motion, ARM_JOINTS, (double)hit.piece + hit.fraction, joints);
-  nsvcd_checker_place(a.checker, joints, poses);
+  nsvcd_forward_kinematics(a.checker, joints, poses);
   const nsvcd_body_pair pair = a.pairs[hit.pair];
   nsvcd_question question = question_about(a.parts[pair.a].body, &poses[pair.a], 1, a.post);
   question.b.poses = &poses[pair.b];
@@ -49,7 +49,7 @@ static void links_are_where_the_joints_place_them(void) {
   nsvcd_pose poses[ARM_PARTS];
   arm a;
   arm_open(&a, at(5, 0, 0));
-  nsvcd_checker_place(a.checker, corner, poses);
+  nsvcd_forward_kinematics(a.checker, corner, poses);
   CHECK_NEAR(poses[UPPER].position[0], 0, 1e-6);
   CHECK_NEAR(poses[UPPER].position[1], 0.55, 1e-6);
   CHECK_NEAR(poses[FORE].position[0], -0.55, 1e-6);

@@ -222,31 +222,31 @@ def _struct(name: str, /, **kinds: Any) -> Any:
 
 _Mesh = _struct("nsvcd_mesh", positions=c_void_p, indices=c_void_p, vertex_count=c_size_t, triangle_count=c_size_t)
 _EncodeOptions = _struct(
-    "nsvcd_encode_options", patches=c_size_t, patch_radius=c_float, round=c_float, open=c_int, latents=c_int,
+    "nsvcd_encode_options", patches=c_size_t, patch_radius=c_float, convex_radius=c_float, open=c_int, latents=c_int,
     no_triangles=c_int, coarse=c_int, progress=_PROGRESS, user=c_void_p)
 _BodyFacts = _struct(
     "nsvcd_body_facts", size=c_size_t, patches=c_size_t, centre=c_float * 3, radius=c_float, extent=c_float,
     low=c_float * 3, high=c_float * 3, mean_patch_radius=c_float,
-    triangles=c_size_t, listings=c_size_t, quantum=c_float, round=c_float, latents=c_int,
+    triangles=c_size_t, stored_triangles=c_size_t, quantization_error=c_float, convex_radius=c_float, latents=c_int,
     components=c_size_t, open_components=c_size_t, open_edges=c_size_t, open=c_int)
 _Pose = _struct("nsvcd_pose", position=c_float * 3, rotation=c_float * 4)
 _NetworkOptions = _struct("nsvcd_network_options", pairs=c_size_t, model=c_int, precision=c_int, recall=c_float,
-                          swell=c_float)
+                          inflate=c_float)
 _Mover = _struct("nsvcd_mover", body=c_void_p, poses=c_void_p, count=c_size_t, times=c_void_p, scale=c_float)
 _Question = _struct(
-    "nsvcd_question", a=_Mover, b=_Mover, ask=c_int, to=c_float, to_time=c_float, clearance=c_float, skin=c_float,
+    "nsvcd_question", a=_Mover, b=_Mover, ask=c_int, to=c_float, to_time=c_float, clearance=c_float, slop=c_float,
     tolerance=c_float, manifold=c_int, method=c_int, work=c_size_t, segments=c_size_t, network=_NetworkOptions)
 _Range = _struct("nsvcd_range", low=c_float, high=c_float)
 _Contact = _struct(
     "nsvcd_contact", point=c_float * 3, normal=c_float * 3, gap=c_float, time=c_float, triangle_a=c_uint32,
     triangle_b=c_uint32, patch_a=c_uint32, patch_b=c_uint32, id=c_uint32)
-_SafePlace = _struct("nsvcd_safe_place", time=c_float, a=_Pose, b=_Pose)
+_SafePlace = _struct("nsvcd_safe_pose", time=c_float, a=_Pose, b=_Pose)
 _Opinion = _struct(
     "nsvcd_opinion", asked=c_int, logit=c_float, distance=c_float, time=c_float, patch_a=c_uint32, patch_b=c_uint32,
     candidates=c_size_t, limited=c_int)
 _Answer = _struct(
     "nsvcd_answer", verdict=c_int, by=c_int, why=c_int, inside=c_int, time=_Range, distance=_Range, safe=_SafePlace,
-    depth=c_float, lift=c_float * 3, contact_count=c_size_t, contacts=_Contact * _MAX_CONTACTS, nearest=_Contact,
+    depth=c_float, push_out=c_float * 3, contact_count=c_size_t, contacts=_Contact * _MAX_CONTACTS, nearest=_Contact,
     opinion=_Opinion, work=c_size_t)
 _BodyPair = _struct("nsvcd_body_pair", a=c_uint32, b=c_uint32)
 _PlanProgress = _struct(
@@ -254,7 +254,7 @@ _PlanProgress = _struct(
     collision=c_float, control=c_void_p, via_points=c_size_t)
 _PlanProblem = _struct(
     "nsvcd_plan_problem", joints=c_size_t, low=c_void_p, high=c_void_p, start=c_void_p, goal=c_void_p, bodies=c_void_p,
-    body_count=c_size_t, pairs=c_void_p, pair_count=c_size_t, place=_PLACE, jacobian=_PLACE, collision=c_void_p,
+    body_count=c_size_t, pairs=c_void_p, pair_count=c_size_t, kinematics=_PLACE, jacobian=_PLACE, collision=c_void_p,
     progress=_PLAN_PROGRESS, user=c_void_p)
 _PlanStage = _struct("nsvcd_plan_stage", via_points=c_size_t, segments=c_size_t, iterations=c_size_t, draws=c_size_t,
                      noise=c_float)
@@ -264,7 +264,7 @@ _PlanOptions = _struct(
     discrete=c_int, check=c_size_t, sweep=_Question)
 _PlanAnswer = _struct(
     "nsvcd_plan_answer", status=c_int, collides=c_int, joint=c_size_t, pair=c_size_t, logit=c_float, time=c_float,
-    stray=c_float, cost=c_float, smoothness=c_float, via_points=c_size_t, seeds=c_size_t, iterations=c_size_t, trajectories=c_size_t,
+    deviation=c_float, cost=c_float, smoothness=c_float, via_points=c_size_t, seeds=c_size_t, iterations=c_size_t, trajectories=c_size_t,
     sweeps=c_size_t)
 _STOP = ctypes.CFUNCTYPE(c_int, c_void_p)
 _Joint = _struct("nsvcd_joint", kind=c_int, parent=c_uint32, origin=_Pose, axis=c_float * 3, low=c_double,
@@ -278,10 +278,10 @@ _CheckOptions = _struct("nsvcd_check_options", clearance=c_float, finest=c_float
 _CheckAnswer = _struct(
     "nsvcd_check_answer", verdict=c_int, why=c_int, pair=c_size_t, piece=c_size_t, fraction=c_double, contact=_Contact,
     joint=c_size_t, placed=c_size_t, sweeps=c_size_t)
-_Gap = _struct("nsvcd_gap", pair=c_size_t, verdict=c_int, why=c_int, distance=_Range, depth=c_float, contact=_Contact,
+_Proximity = _struct("nsvcd_proximity", pair=c_size_t, verdict=c_int, why=c_int, distance=_Range, depth=c_float, contact=_Contact,
                slope=c_double * _MAX_JOINTS)
-_GapOptions = _struct("nsvcd_gap_options", within=c_float, to=c_float, deepest=c_float, work=c_size_t)
-_EscapeOptions = _struct("nsvcd_escape_options", clearance=c_float, farthest=c_double, seed=c_uint64, stop=_STOP,
+_ProximityOptions = _struct("nsvcd_proximity_options", max_distance=c_float, to=c_float, deepest=c_float, work=c_size_t)
+_NearestFreeOptions = _struct("nsvcd_nearest_free_options", clearance=c_float, farthest=c_double, seed=c_uint64, stop=_STOP,
                          user=c_void_p)
 _PairCounts = _struct("nsvcd_pair_counts", asked=c_size_t, adjacent=c_size_t, touching=c_size_t)
 _RouteProblem = _struct("nsvcd_route_problem", start=c_void_p, goals=c_void_p, goal_count=c_size_t, guess=c_void_p,
@@ -294,7 +294,7 @@ _RouteAnswer = _struct(
 _CertifyOptions = _struct("nsvcd_certify_options", answer=c_void_p, visits=c_size_t)
 _Certificate = _struct(
     "nsvcd_certificate", verdict=c_int, why=c_int, inside=c_int, time=c_double, size=c_size_t, visits=c_size_t)
-_STRUCTS = (_CertifyOptions, _Certificate, _Joint, _Part, _Scene, _JointMotion, _CheckOptions, _CheckAnswer, _Gap, _GapOptions, _EscapeOptions,
+_STRUCTS = (_CertifyOptions, _Certificate, _Joint, _Part, _Scene, _JointMotion, _CheckOptions, _CheckAnswer, _Proximity, _ProximityOptions, _NearestFreeOptions,
             _PairCounts, _RouteProblem, _RouteOptions, _RouteAnswer, _Mesh, _EncodeOptions, _BodyFacts, _Pose, _NetworkOptions, _Mover, _Question, _Range, _Contact,
             _SafePlace, _Opinion, _Answer, _BodyPair, _PlanProgress, _PlanProblem, _PlanStage, _PlanOptions, _PlanAnswer)
 _Layout = _struct("neuralsvcd_layout", name=c_char_p, place=c_size_t, size=c_size_t)
@@ -320,12 +320,12 @@ _PROTOTYPES = {
     "nsvcd_stl_parse": (c_int, c_char_p, c_size_t, c_void_p, c_void_p, c_void_p),
     "nsvcd_checker_size": (c_size_t, c_void_p),
     "nsvcd_checker_open": (c_int, c_void_p, c_void_p, c_size_t, c_void_p),
-    "nsvcd_checker_place": (None, c_void_p, c_void_p, c_void_p),
+    "nsvcd_forward_kinematics": (None, c_void_p, c_void_p, c_void_p),
     "nsvcd_check": (c_int, c_void_p, c_void_p, c_void_p, c_void_p),
-    "nsvcd_gaps": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p),
-    "nsvcd_escape": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p),
+    "nsvcd_proximities": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p),
+    "nsvcd_nearest_free": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p),
     "nsvcd_find_pairs": (c_int, c_void_p, c_size_t, c_uint64, c_void_p, c_size_t, c_void_p),
-    "nsvcd_hand_over": (c_int, c_void_p, c_void_p, c_size_t, c_uint32, c_void_p),
+    "nsvcd_reparent": (c_int, c_void_p, c_void_p, c_size_t, c_uint32, c_void_p),
     "nsvcd_route_size": (c_size_t, c_void_p, c_void_p, c_void_p),
     "nsvcd_route": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p),
     "nsvcd_tree_size": (c_size_t, c_void_p),
@@ -641,9 +641,9 @@ class Facts(NamedTuple):
     low, high          a box that contains the mesh, metres; zeros: no triangles are stored
     mean_patch_radius  metres
     triangles          of the mesh; 0: none are stored
-    listings           triangles and parts of them that are stored
-    quantum            0: answers are about the mesh's own floats; else triangles are within this of its, metres
-    round              how far it goes beyond its mesh, metres
+    stored_triangles           triangles and parts of them that are stored
+    quantization_error            0: answers are about the mesh's own floats; else triangles are within this of its, metres
+    convex_radius              how far it goes beyond its mesh, metres
     latents            the network can answer
     components         parts of the surface
     open_components    of these: not closed, once what does no harm is mended; 0: it is a solid
@@ -659,9 +659,9 @@ class Facts(NamedTuple):
     high: Vector
     mean_patch_radius: float
     triangles: int
-    listings: int
-    quantum: float
-    round: float
+    stored_triangles: int
+    quantization_error: float
+    convex_radius: float
     latents: bool
     components: int
     open_components: int
@@ -677,12 +677,12 @@ class Body:
     scale, origin of a file: see load_mesh
     patches       1 to 65536; 0: by the number of triangles
     patch_radius  metres; with patches = 0: as many as have about this radius; 0: unasked
-    round         the body is all that is within so many metres of the mesh. If > 0, triangles may be points (one
+    convex_radius         the body is all that is within so many metres of the mesh. If > 0, triangles may be points (one
                   vertex thrice) and segments, and there are no latents
     open          the mesh is not closed: nothing counts as inside it
     latents       for the network, the planner and gradients too
     no_triangles  for them alone
-    coarse        in fewer bytes: answers are then about triangles within facts.quantum of the mesh's
+    coarse        in fewer bytes: answers are then about triangles within facts.quantization_error of the mesh's
     progress      called now and then with what is done, in [0, 1]. If it returns something true, Error(CANCELLED);
                   what it raises ends the encoding
     """
@@ -692,7 +692,7 @@ class Body:
     _address: int
 
     def __init__(self, vertices: Union[ArrayLike, os.PathLike[str]], triangles: Optional[ArrayLike] = None, *,
-                 scale: float = 1, origin: Optional[ArrayLike] = None, patches: int = 0, patch_radius: float = 0, round: float = 0, open: bool = False,
+                 scale: float = 1, origin: Optional[ArrayLike] = None, patches: int = 0, patch_radius: float = 0, convex_radius: float = 0, open: bool = False,
                  latents: bool = False, no_triangles: bool = False, coarse: bool = False,
                  progress: Optional[Callable[[float], Any]] = None) -> None:
         if isinstance(vertices, (str, os.PathLike)):
@@ -706,7 +706,7 @@ class Body:
             raise TypeError("triangles are missing" if triangles is None else "scale, origin: only of a file")
         else:
             mesh = _c_mesh(vertices, triangles)
-        options = _filled(_EncodeOptions, patches=patches, patch_radius=patch_radius, round=round, open=open,
+        options = _filled(_EncodeOptions, patches=patches, patch_radius=patch_radius, convex_radius=convex_radius, open=open,
                           latents=latents, no_triangles=no_triangles, coarse=coarse)
         caught: list[BaseException] = []
         if progress:
@@ -727,18 +727,18 @@ class Body:
     @classmethod
     def sphere(cls, radius: float) -> Body:
         _check_radius(radius)
-        return cls([[0, 0, 0]], [[0, 0, 0]], round=radius)
+        return cls([[0, 0, 0]], [[0, 0, 0]], convex_radius=radius)
 
     @classmethod
     def capsule(cls, start: ArrayLike, end: ArrayLike, radius: float) -> Body:
         _check_radius(radius)
-        return cls(np.array([start, end]), [[0, 1, 1]], round=radius)
+        return cls(np.array([start, end]), [[0, 1, 1]], convex_radius=radius)
 
     @classmethod
     def cloud(cls, points: ArrayLike, radius: float) -> Body:
         """All that is within a radius of (n, 3) points, metres."""
         _check_radius(radius)
-        return cls(points, np.repeat(np.arange(len(np.asarray(points))), 3).reshape(-1, 3), round=radius)
+        return cls(points, np.repeat(np.arange(len(np.asarray(points))), 3).reshape(-1, 3), convex_radius=radius)
 
     def _keep(self, memory: NDArray[np.uint8]) -> None:
         self._address = _address(memory)
@@ -790,7 +790,7 @@ class Body:
         facts = _library.nsvcd_body_describe(self._address)
         return Facts(facts.size, facts.patches, _vector(facts.centre), facts.radius, facts.extent,
                      _vector(facts.low), _vector(facts.high), facts.mean_patch_radius,
-                     facts.triangles, facts.listings, facts.quantum, facts.round,
+                     facts.triangles, facts.stored_triangles, facts.quantization_error, facts.convex_radius,
                      bool(facts.latents), facts.components, facts.open_components, facts.open_edges,
                      bool(facts.open))
 
@@ -841,23 +841,23 @@ class Options(_Options):
                may be; 0: a thousandth of the smaller body's radius
     to_time    first: the same as a share of the motion, up to 1
     clearance  metres: to come as near as this is a hit
-    skin       metres: a contact at the start that is no deeper does not count
+    slop       metres: a contact at the start that is no deeper does not count
     tolerance  metres: what comes closer and does not meet may be left undecided
     manifold   first: up to four contacts, which hold the body, are told, where else one is
     method     proof where both bodies have triangles, else network, which knows neither first, nor a clearance or a
-               skin, and of a distance, where it is named, has an opinion: Answer.opinion.distance
+               slop, and of a distance, where it is named, has an opinion: Answer.opinion.distance
     work       units that a proof may take; 10000000, of a distance 100000
     segments   a motion is cut into at most so many, a multiple of 16 up to 64; 64
     Of the network:
     pairs      of patches that it looks at, 1 to 256; 8
     model, precision, recall  its decoder; recall: 0, 0.99, 0.999 or 0.9999
-    swell      of patches, a share of their radii, so that the logit rises before contact; 0, or, asked for a distance, 1
+    inflate      of patches, a share of their radii, so that the logit rises before contact; 0, or, asked for a distance, 1
     """
     ask: Union[Ask, str] = Ask.HIT
     to: float = 0
     to_time: float = 0
     clearance: float = 0
-    skin: float = 0
+    slop: float = 0
     tolerance: float = 0
     manifold: bool = False
     method: Union[Method, str] = Method.DEFAULT
@@ -867,7 +867,7 @@ class Options(_Options):
     model: Union[Model, str] = Model.DEFAULT
     precision: Union[Precision, str] = Precision.FLOAT
     recall: float = 0
-    swell: float = 0
+    inflate: float = 0
     _struct = _Question
 
     def __post_init__(self) -> None:
@@ -914,7 +914,7 @@ class Contact(NamedTuple):
 
 
 class SafePlace(NamedTuple):
-    """Where the bodies may go: nsvcd_safe_place. Poses x y z, quaternion x y z w, lifted off what they touch."""
+    """Where the bodies may go: nsvcd_safe_pose. Poses x y z, quaternion x y z w, lifted off what they touch."""
     time: float
     a: Pose
     b: Pose
@@ -951,9 +951,9 @@ class Answer(NamedTuple):
               else low is 0, and high the time of a contact, before which there may be others
     distance  metres: the least; of a hit, up to time.high
     safe      where the bodies may go: poses at time.low
-    depth     metres: of a contact at the start, the smallest lift of a off b, up to options.skin or so, that ends it;
+    depth     metres: of a contact at the start, the smallest push_out of a off b, up to options.slop or so, that ends it;
               0: there is no such contact; inf: it is not known
-    lift      metres, world: by what a was lifted off b for options.skin
+    push_out      metres, world: by what a was lifted off b for options.slop
     contacts  of a hit whose triangles are known, at time.high: one, or a manifold, in the order of their ids
     nearest   the triangles that distance.high is about, whatever the verdict
     opinion   of the network, where it was asked
@@ -967,7 +967,7 @@ class Answer(NamedTuple):
     distance: Range
     safe: SafePlace
     depth: float
-    lift: Vector
+    push_out: Vector
     contacts: list[Contact]
     nearest: Contact
     opinion: Optional[Opinion]
@@ -1432,11 +1432,11 @@ class Plan(NamedTuple):
     """nsvcd_plan_answer, and the trajectory.
 
     control       (M + 2, F) start, via points, goal: see spline
-    status        CONVERGED: within the limits, and proven free where bodies have triangles, but for `stray`
+    status        CONVERGED: within the limits, and proven free where bodies have triangles, but for `deviation`
     collides      by the last check, or of the start or the goal where the status says so
     joint, pair   that leaves its limits; of the greatest logit; or None
     logit, time   the greatest of the last check, and when
-    stray         metres that the spline strays from what the last check is about, the motion that is straight and
+    deviation         metres that the spline strays from what the last check is about, the motion that is straight and
                   slerped between its poses; measured, not proven. To have the spline clear too, ask for more clearance
     cost, smoothness  of the trajectory; the latter without collision and limits
     seeds, iterations, trajectories, sweeps  how many it took
@@ -1448,7 +1448,7 @@ class Plan(NamedTuple):
     pair: Optional[int]
     logit: float
     time: float
-    stray: float
+    deviation: float
     cost: float
     smoothness: float
     seeds: int
@@ -1462,7 +1462,7 @@ def _view(address: int, *shape: int) -> Floats:
     return np.frombuffer(floats, np.float32).reshape(shape)
 
 
-def plan(bodies: Sequence[Optional[Body]], pairs: ArrayLike, place: Callable[[Floats], ArrayLike], start: ArrayLike,
+def plan(bodies: Sequence[Optional[Body]], pairs: ArrayLike, kinematics: Callable[[Floats], ArrayLike], start: ArrayLike,
          goal: ArrayLike, low: ArrayLike, high: ArrayLike, *,
          jacobian: Optional[Callable[[Floats], ArrayLike]] = None,
          progress: Optional[Callable[[Progress], Any]] = None, options: PlanOptions = PlanOptions()) -> Plan:
@@ -1470,12 +1470,12 @@ def plan(bodies: Sequence[Optional[Body]], pairs: ArrayLike, place: Callable[[Fl
 
     bodies       B; one in no pair may be None
     pairs        (P, 2) bodies that can meet, by their indices; the one that rests, or the larger one, second
-    place        joints (F) -> poses (B, 7), world: forward kinematics, which must depend on nothing else. It is called
+    kinematics        joints (F) -> poses (B, 7), world: forward kinematics, which must depend on nothing else. It is called
                  some ten thousand times
     start, goal  (F)
     low, high    (F) limits
     jacobian     joints (F) -> (B, 6, F): of each body by a joint, displacement of the origin and rotation vector, world
-                 axes; None: by differences of place
+                 axes; None: by differences of kinematics
     progress     called once in an iteration; if it returns something true, the plan is CANCELLED
     What a callback raises ends the planning, and is raised here. A cost of collision of one's own is not bound.
     """
@@ -1507,7 +1507,7 @@ def plan(bodies: Sequence[Optional[Body]], pairs: ArrayLike, place: Callable[[Fl
     problem = _PlanProblem(
         joints=joints, start=_address(rows[0]), goal=_address(rows[1]), low=_address(rows[2]), high=_address(rows[3]),
         bodies=ctypes.addressof(addresses), body_count=len(kept), pairs=_address(met), pair_count=len(met),
-        place=_PLACE(lambda _, given, out: call(place, "place", given, out, len(kept), 7)),
+        kinematics=_PLACE(lambda _, given, out: call(kinematics, "kinematics", given, out, len(kept), 7)),
         progress=_PLAN_PROGRESS(lambda user, address: _cancels(tell, caught, address, user)))
     if jacobian:
         derive = jacobian
@@ -1523,7 +1523,7 @@ def plan(bodies: Sequence[Optional[Body]], pairs: ArrayLike, place: Callable[[Fl
     _check(code)
     joint, pair = (None if index == LEAVE_OUT else index for index in (answer.joint, answer.pair))
     return Plan(control[:answer.via_points + 2].copy(), PlanStatus(answer.status), bool(answer.collides), joint, pair,
-                answer.logit, answer.time, answer.stray, answer.cost, answer.smoothness, answer.seeds, answer.iterations,
+                answer.logit, answer.time, answer.deviation, answer.cost, answer.smoothness, answer.seeds, answer.iterations,
                 answer.trajectories, answer.sweeps)
 
 # -------------------------------------------------------------------------------------------------------------- robots
@@ -1580,12 +1580,12 @@ class Checked(NamedTuple):
     sweeps: int
 
 
-class Gap(NamedTuple):
-    """nsvcd_gap: two parts of a pair that are near each other.
+class Proximity(NamedTuple):
+    """nsvcd_proximity: two parts of a pair that are near each other.
 
     verdict, why   HIT: they touch
     distance       a bracket, metres
-    depth          of a HIT: a lift of the first by this along the normal parts them; inf: none was found. Else 0
+    depth          of a HIT: a push_out of the first by this along the normal parts them; inf: none was found. Else 0
     point, normal  on the second part, and from it to the first
     slope          (F): how the distance grows with each joint, or the depth shrinks
     """
@@ -1693,39 +1693,39 @@ class Robot:
         ends = np.cumsum([counts.asked, counts.adjacent, counts.touching]).tolist()
         return tuple(found[first:last].copy() for first, last in zip([0, *ends], ends))
 
-    def gaps(self, joints: ArrayLike, *, within: float = 0, to: float = 0, deepest: float = 0, work: int = 0) -> list[Gap]:
-        """All pairs that are near in a configuration: nsvcd_gaps."""
+    def proximities(self, joints: ArrayLike, *, max_distance: float = 0, to: float = 0, deepest: float = 0, work: int = 0) -> list[Proximity]:
+        """All pairs that are near in a configuration: nsvcd_proximities."""
         row = _doubles(joints, (self.joint_count,), "joints")
-        rows = (_Gap * max(len(self._pairs), 1))()
+        rows = (_Proximity * max(len(self._pairs), 1))()
         count = c_size_t()
-        options = _filled(_GapOptions, within=within, to=to, deepest=deepest, work=work)
-        _check(_library.nsvcd_gaps(self._checker, _address(row), byref(options), rows, len(self._pairs), byref(count)))
-        return [Gap(g.pair, _VERDICTS[g.verdict], _WHYS[g.why], Range(g.distance.low, g.distance.high), g.depth, _vector(g.contact.point),
+        options = _filled(_ProximityOptions, max_distance=max_distance, to=to, deepest=deepest, work=work)
+        _check(_library.nsvcd_proximities(self._checker, _address(row), byref(options), rows, len(self._pairs), byref(count)))
+        return [Proximity(g.pair, _VERDICTS[g.verdict], _WHYS[g.why], Range(g.distance.low, g.distance.high), g.depth, _vector(g.contact.point),
                     _vector(g.contact.normal), np.array(g.slope[:self.joint_count])) for g in rows[:count.value]]
 
-    def escape(self, joints: ArrayLike, *, clearance: float = 0, farthest: float = 0, seed: int = 0) -> Optional[Doubles]:
-        """A configuration near by that is proven free, or None: nsvcd_escape."""
+    def nearest_free(self, joints: ArrayLike, *, clearance: float = 0, farthest: float = 0, seed: int = 0) -> Optional[Doubles]:
+        """A configuration near by that is proven free, or None: nsvcd_nearest_free."""
         row = _doubles(joints, (self.joint_count,), "joints")
         out = np.empty(self.joint_count)
         is_found = c_int()
-        options = _filled(_EscapeOptions, clearance=clearance, seed=seed)
+        options = _filled(_NearestFreeOptions, clearance=clearance, seed=seed)
         options.farthest = farthest
-        _check(_library.nsvcd_escape(self._checker, _address(row), byref(options), _address(out), byref(is_found)))
+        _check(_library.nsvcd_nearest_free(self._checker, _address(row), byref(options), _address(out), byref(is_found)))
         return out if is_found.value else None
 
     def handed_over(self, joints: ArrayLike, part: int, link: int) -> Part:
-        """A part as another link would carry it from where it is, for a Robot to come: nsvcd_hand_over."""
+        """A part as another link would carry it from where it is, for a Robot to come: nsvcd_reparent."""
         row = _doubles(joints, (self.joint_count,), "joints")
         out = _Part()
-        _check(_library.nsvcd_hand_over(self._checker, _address(row), _number(c_size_t, part, "part"),
+        _check(_library.nsvcd_reparent(self._checker, _address(row), _number(c_size_t, part, "part"),
                                         _number(c_uint32, link, "link"), byref(out)))
         return Part(self._bodies[part], out.link, [*out.pose.position, *out.pose.rotation], out.scale)
 
-    def place(self, joints: ArrayLike) -> Floats:
+    def forward_kinematics(self, joints: ArrayLike) -> Floats:
         """Where the parts are: poses (B, 7)."""
         row = _doubles(joints, (self.joint_count,), "joints")
         poses = np.empty((self.part_count, 7), np.float32)
-        _library.nsvcd_checker_place(self._checker, _address(row), _address(poses))
+        _library.nsvcd_forward_kinematics(self._checker, _address(row), _address(poses))
         return poses
 
     def check(self, points: ArrayLike, *, degree: int = 1, times: Optional[ArrayLike] = None, clearance: float = 0,

@@ -25,7 +25,7 @@ typedef struct nsvcd__rrt {
   nsvcd__cell *cells;  // (2 nodes)
 } nsvcd__rrt;
 
-static double nsvcd__way2(const double *a, const double *b, size_t joints) {
+static double nsvcd__distance2(const double *a, const double *b, size_t joints) {
   double sum = 0;
   for (size_t j = 0; j < joints; j++) sum += (a[j] - b[j]) * (a[j] - b[j]);
   return sum;
@@ -98,9 +98,9 @@ static void nsvcd__nearest_in(const nsvcd__rrt *t, size_t index, const double *a
   if (cell->joint == NSVCD_MAX_JOINTS) {
     uint32_t node = cell->first;
     for (uint32_t n = 0; n < cell->count; n++, node = t->next[node]) {
-      const double way = nsvcd__way2(&t->points[node * t->joints], at, t->joints);
-      if (!(way < *best)) continue;
-      *best = way;
+      const double distance = nsvcd__distance2(&t->points[node * t->joints], at, t->joints);
+      if (!(distance < *best)) continue;
+      *best = distance;
       *nearest = node;
     }
     return;

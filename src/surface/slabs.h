@@ -1,4 +1,4 @@
-// In: points. Out: a disc: a direction in which the points are thin, what they reach along it, and
+// In: points. Out: a slab: a direction in which the points are thin, what they reach along it, and
 // across.
 #pragma once
 #include "../ground/rotations.h"
@@ -103,7 +103,7 @@ static nsvcd__d3 nsvcd__thinner(nsvcd__points points, nsvcd__d3 direction, doubl
 
 // points: about the centre of the patch's ball. normal: the mean one of its pieces, of any length.
 // thin: metres; thinner than that is of no use.
-static nsvcd__disc nsvcd__fit_disc(nsvcd__points points, nsvcd__d3 normal, double margin,
+static nsvcd__slab nsvcd__fit_slab(nsvcd__points points, nsvcd__d3 normal, double margin,
                                    double thin) {
   nsvcd__d3 best = nsvcd__least_axis(points);
   const nsvcd__d3 mean = nsvcd__d3_unit(normal, best);
@@ -121,11 +121,11 @@ static nsvcd__disc nsvcd__fit_disc(nsvcd__points points, nsvcd__d3 normal, doubl
     squared = nsvcd__max(squared, nsvcd__d3_dot(moment, moment));
   }
   const double across = sqrt(squared / nsvcd__d3_dot(stored, stored));
-  nsvcd__disc disc;
-  disc.normal = n;
-  disc.low = -nsvcd__float_above(-(range.low - margin));
-  disc.high = nsvcd__float_above(range.high + margin);
-  disc.across = nsvcd__float_above(across * (1 + 1e-6) + margin);
-  return disc;
+  nsvcd__slab slab;
+  slab.normal = n;
+  slab.low = -nsvcd__float_above(-(range.low - margin));
+  slab.high = nsvcd__float_above(range.high + margin);
+  slab.across = nsvcd__float_above(across * (1 + 1e-6) + margin);
+  return slab;
 }
 #endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF

@@ -15,7 +15,7 @@
 // and what slides has no square. The sweep goes through the same places at both ends, by a line of
 // the origin and a slerp by an angle w, and is off that chord by w^2 R / 8, R the point's distance
 // from the origin. All together, for any u, and so at all times:
-//   stray <= (sum_j max |e''_j| r_j + |y''| + w^2 R) / 8
+//   deviate <= (sum_j max |e''_j| r_j + |y''| + w^2 R) / 8
 // r_j is that of the sample q0, and what joints beyond j can add while they move.
 // Source: this library.
 #pragma once
@@ -29,16 +29,17 @@ static double nsvcd__angle_between(nsvcd__dquat a, nsvcd__dquat b) {
 }
 
 // The bound of the banner, from moment arms r (F) on the path of joints. turn: w.
-static double nsvcd__stray_by(const nsvcd_checker *c, const nsvcd__step *step, uint32_t path,
-                              const double *moment_arms, double turn, double extent) {
+static double nsvcd__deviation_by(const nsvcd_checker *c, const nsvcd__step *step,
+                                  uint32_t path, const double *moment_arms, double turn,
+                                  double extent) {
   double bend = 0;
   double second = 0;
   double inner = 0;
   for (; path; path &= path - 1) {
     const size_t j = nsvcd__low_bit(path);
-    const double own = nsvcd__slides(c, j) ? 0 : step->way[j];
+    const double own = nsvcd__slides(c, j) ? 0 : step->travel[j];
     bend += step->bend[j] * moment_arms[j];
-    second += step->way[j] * moment_arms[j] * (2 * inner + own);
+    second += step->travel[j] * moment_arms[j] * (2 * inner + own);
     inner += own;
   }
   return (bend + second + turn * turn * extent) / 8;
@@ -53,28 +54,28 @@ static void nsvcd__moment_arms_of(const nsvcd_checker *c, size_t part, const nsv
   const uint32_t path = c->links[link - 1].path;
   const nsvcd__frame *frame = &from->frames[link];
   const nsvcd__d3 centre =
-      nsvcd__d3_add(nsvcd__dquat_rotate(frame->turn, m->centre), frame->place);
+      nsvcd__d3_add(nsvcd__dquat_rotate(frame->turn, m->centre), frame->position);
   double moved = 0;  // by joints beyond this one
   for (size_t j = link; j-- > 0;) {
     if (!(path >> j & 1)) continue;
     moment_arms[j] = 1;
     if (!nsvcd__slides(c, j)) {
-      const nsvcd__d3 off = nsvcd__d3_sub(centre, from->frames[j + 1].place);
+      const nsvcd__d3 off = nsvcd__d3_sub(centre, from->frames[j + 1].position);
       moment_arms[j] =
           nsvcd__d3_length(nsvcd__d3_cross(from->axes[j], off)) + m->radius + moved;
     }
-    moved += step->reach[j] * moment_arms[j];
+    moved += step->farthest[j] * moment_arms[j];
   }
 }
 
-// What a part strays at most in a step from one configuration to another.
-static double nsvcd__stray_of(const nsvcd_checker *c, size_t part, const nsvcd__step *step,
-                              const nsvcd__configuration *from,
-                              const nsvcd__configuration *to) {
+// What a part deviates at most in a step from one configuration to another.
+static double nsvcd__part_deviation(const nsvcd_checker *c, size_t part,
+                                    const nsvcd__step *step, const nsvcd__configuration *from,
+                                    const nsvcd__configuration *to) {
   const size_t link = c->scene->parts[part].link;
   double moment_arms[NSVCD_MAX_JOINTS];
   const double turn = nsvcd__angle_between(from->frames[link].turn, to->frames[link].turn);
   nsvcd__moment_arms_of(c, part, step, from, moment_arms);
-  return nsvcd__stray_by(c, step, c->links[link - 1].path, moment_arms, turn,
-                         c->members[part].extent);
+  return nsvcd__deviation_by(c, step, c->links[link - 1].path, moment_arms, turn,
+                             c->members[part].extent);
 }

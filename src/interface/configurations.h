@@ -4,7 +4,7 @@
 #include "robots.h"
 
 // Two parts of a pair that are near each other.
-typedef struct nsvcd_gap {
+typedef struct nsvcd_proximity {
   // of the scene's
   size_t pair;
   // HIT: they touch, or one is inside of the other, as nsvcd_check has it; FREE: they are proven to
@@ -13,30 +13,30 @@ typedef struct nsvcd_gap {
   nsvcd_why why;
   // metres: no less than `low`, no more than `high`
   nsvcd_range distance;
-  // metres, of a HIT: a lift of a by this along the contact's normal is proven to separate them;
-  // hardly less does, along that normal. HUGE_VALF: none up to options.deepest along each normal
-  // was found, as where one is inside of the other or held from all sides. 0 of all others
+  // metres, of a HIT: a push-out of a by this along the contact's normal is proven to separate
+  // them; hardly less does, along that normal. HUGE_VALF: none up to options.deepest along each
+  // normal was found, as where one is inside of the other or held from all sides. 0 of all others
   float depth;
   // where they are nearest, as nsvcd_answer.nearest has it; of a HIT, where they are once they are
-  // lifted, with the lift's direction as the normal
+  // pushed out, with the push-out's direction as the normal
   nsvcd_contact contact;
   // (F), metres by radian or metre: how the distance between the two places of the contact grows
   // with each joint; of a HIT, how its depth along that normal shrinks. Where other places are as
   // near, or as deep, it is that of one of them. 0 without a normal
   double slope[NSVCD_MAX_JOINTS];
-} nsvcd_gap;
+} nsvcd_proximity;
 
 // What is zero is the default. Up to NSVCD_MAX_COORDINATE.
-typedef struct nsvcd_gap_options {
+typedef struct nsvcd_proximity_options {
   // metres: pairs that are as near as this are told; 0.05
-  float within;
+  float max_distance;
   // metres: how wide a bracket of a distance may be, beside what poses in float are off; 20 um
   float to;
   // metres: how large a depth is told; 20 mm. Much more than there is makes it no better
   float deepest;
   // units that each question may take; NSVCD_DEFAULT_WORK
   size_t work;
-} nsvcd_gap_options;
+} nsvcd_proximity_options;
 
 // All pairs that are near in a configuration: what is wrong with a start or a goal, or what a
 // controller is to keep away from.
@@ -52,12 +52,12 @@ typedef struct nsvcd_gap_options {
 //   errors     ARGUMENT, VALUE (joints not finite or beyond NSVCD_MAX_COORDINATE), WITHIN, TO;
 //              POSE, SCALE (a part is, or is carried, beyond NSVCD_MAX_COORDINATE)
 //   source     this library; slopes as any Jacobian's, by the product of axis and moment arm
-NSVCDDEF nsvcd_result nsvcd_gaps(nsvcd_checker *checker, const double *joints,
-                                 const nsvcd_gap_options *options, nsvcd_gap *gaps,
-                                 size_t capacity, size_t *count);
+NSVCDDEF nsvcd_result nsvcd_proximities(nsvcd_checker *checker, const double *joints,
+                                        const nsvcd_proximity_options *options,
+                                        nsvcd_proximity *gaps, size_t capacity, size_t *count);
 
 // What is zero is the default.
-typedef struct nsvcd_escape_options {
+typedef struct nsvcd_nearest_free_options {
   // metres: the configuration that is sought stays farther apart than this
   float clearance;
   // radians and metres alike: how far it may be, as the root of the sum of squares; 0.5
@@ -67,7 +67,7 @@ typedef struct nsvcd_escape_options {
   // asked before each question and each draw; not 0 ends it with what is found by then. May be NULL
   int (*stop)(void *user);
   void *user;
-} nsvcd_escape_options;
+} nsvcd_nearest_free_options;
 
 // A configuration near another one that is proven free, within the limits: a way out of a start or
 // a goal that is not. It is sought at random, nearer and nearer, with some hundred configurations,
@@ -80,11 +80,11 @@ typedef struct nsvcd_escape_options {
 //              is found
 //   is_found   not NULL
 //   allocates  nothing
-//   errors     ARGUMENT, VALUE, CLEARANCE, FARTHEST; POSE, SCALE, as nsvcd_gaps
+//   errors     ARGUMENT, VALUE, CLEARANCE, FARTHEST; POSE, SCALE, as nsvcd_proximities
 //   source     this library
-NSVCDDEF nsvcd_result nsvcd_escape(nsvcd_checker *checker, const double *joints,
-                                   const nsvcd_escape_options *options, double *out,
-                                   int *is_found);
+NSVCDDEF nsvcd_result nsvcd_nearest_free(nsvcd_checker *checker, const double *joints,
+                                         const nsvcd_nearest_free_options *options,
+                                         double *out, int *is_found);
 
 // What nsvcd_find_pairs says of pairs: how many of which kind, in this order.
 typedef struct nsvcd_pair_counts {
@@ -109,7 +109,7 @@ typedef struct nsvcd_pair_counts {
 //   capacity   B (B - 1) / 2 is always enough, of B parts
 //   counts     not NULL; left as it was on failure
 //   allocates  nothing
-//   errors     ARGUMENT, WORKSPACE (capacity); POSE, SCALE, as nsvcd_gaps
+//   errors     ARGUMENT, WORKSPACE (capacity); POSE, SCALE, as nsvcd_proximities
 //   source     as setup assistants do (MoveIt's), but none is left out as "never" or "always"
 NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, uint64_t seed,
                                        nsvcd_body_pair *pairs, size_t capacity,
@@ -124,5 +124,5 @@ NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, u
 //              off: 1e-7 of its distance from the link
 //   errors     ARGUMENT, VALUE, LINK (or no such part), POSE (farther than NSVCD_MAX_COORDINATE
 //              from the link)
-NSVCDDEF nsvcd_result nsvcd_hand_over(const nsvcd_checker *checker, const double *joints,
-                                      size_t part, uint32_t link, nsvcd_part *out);
+NSVCDDEF nsvcd_result nsvcd_reparent(const nsvcd_checker *checker, const double *joints,
+                                     size_t part, uint32_t link, nsvcd_part *out);
