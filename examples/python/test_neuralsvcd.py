@@ -393,7 +393,7 @@ class Batches(unittest.TestCase):
     def test_none(self) -> None:
         for k in (1, 2):
             answers = nsvcd.sweep_batch(MUG, RACK, np.zeros((0, k, 7)))
-            self.assertEqual((answers.shape, answers["lift"].shape), ((0,), (0, 3)))
+            self.assertEqual((answers.shape, answers["push_out"].shape), ((0,), (0, 3)))
         self.assertEqual(len(nsvcd.sweep_batch([], RACK)), 0)
 
     def test_strides(self) -> None:
@@ -600,7 +600,7 @@ class Arrays(unittest.TestCase):
         for named, code in (({"pairs": 257}, Code.PAIRS), ({"segments": 17}, Code.SEGMENTS),
                             ({"recall": 0.5}, Code.RECALL), ({**first, "to_time": 2}, Code.TO_TIME),
                             ({**first, "to": -1}, Code.TO), ({**first, "to_time": np.nan}, Code.TO_TIME),
-                            ({"clearance": -1}, Code.CLEARANCE), ({"skin": np.nan}, Code.SKIN),
+                            ({"clearance": -1}, Code.CLEARANCE), ({"slop": np.nan}, Code.SLOP),
                             ({**distance, "to": 1e300}, Code.TO), ({"tolerance": -1}, Code.TOLERANCE),
                             ({"to": 0.1}, Code.TO), ({"to_time": 0.1}, Code.TO_TIME),
                             ({**distance, "to_time": 0.1}, Code.TO_TIME),
@@ -775,7 +775,7 @@ class Bodies(unittest.TestCase):
         ball = Body.sphere(0.25)
         pole = Body.capsule((0, 0, -1), (0, 0, 1), 0.5)
         cloud = Body.cloud(np.array([[x, 0, 0] for x in range(100)]), 0.125)
-        self.assertEqual((ball.facts.round, pole.facts.round, cloud.facts.triangles), (0.25, 0.5, 100))
+        self.assertEqual((ball.facts.convex_radius, pole.facts.convex_radius, cloud.facts.triangles), (0.25, 0.5, 100))
         self.assertFalse(cloud.facts.latents)
         for body, reach in ((pole, 0.5), (cloud, 0.125)):
             for gap in (1e-4, -1e-4):

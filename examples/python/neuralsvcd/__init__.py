@@ -85,7 +85,7 @@ class Code(enum.IntEnum):
     TO = 29
     TO_TIME = 30
     CLEARANCE = 31
-    SKIN = 32
+    SLOP = 32
     TOLERANCE = 33
     MANIFOLD = 34
     SEGMENTS = 35
@@ -93,7 +93,7 @@ class Code(enum.IntEnum):
     MODEL = 37
     PRECISION = 38
     RECALL = 39
-    SWELL = 40
+    INFLATE = 40
     JOINT = 41
     AXIS = 42
     LIMITS = 43
@@ -104,7 +104,7 @@ class Code(enum.IntEnum):
     DEGREE = 48
     TURN = 49
     FINEST = 50
-    WITHIN = 51
+    DISTANCE = 51
     FARTHEST = 52
     ROUTE = 53
     STAGE = 54
