@@ -1,21 +1,21 @@
 // neuralsvcd.h - v0.3.0 - does this body, moving along this trajectory, hit that body?
 // SPDX-License-Identifier: MIT
 //
-// The answer is proven: a witness (two triangles that meet, and when) or a certificate that the
-// surfaces never do, at any time, rotation included. Where memory is short, or a gradient is
-// needed, a small neural network answers instead (NeuralSVCD: Son, Jung, Kim, CoRL 2025), whose
+// The answer is a proof: a witness (two triangles that meet, and when) or a certificate that the
+// surfaces never do, at any time, rotation included. Where memory is short or a gradient is needed,
+// a small neural network estimates the answer instead (NeuralSVCD: Son, Jung, Kim, CoRL 2025). Its
 // weights, trained by this project, are in weights.h. C99 or C++11, libc and libm, nothing else.
-// MIT licence (LICENSE), which covers the weights too.
+// MIT licence, weights included: LICENSE, or the end of this file.
 //
-// Do this in ONE C or C++ file, with weights.h beside this header; include the header alone
-// everywhere else:
+// In ONE C or C++ file, with weights.h beside this header:
 //
 //   #define NEURALSVCD_IMPLEMENTATION
 //   #include "neuralsvcd.h"
 //
-// With NSVCD_NO_NETWORK defined before that the proof is all there is, and weights.h is not needed.
+// Include the header alone everywhere else. With NSVCD_NO_NETWORK there is the proof alone, and
+// weights.h is not needed.
 //
-// Ask a question, a program as it stands:
+// Ask a question. This is a whole program:
 //
 //   #define NEURALSVCD_IMPLEMENTATION
 //   #include "neuralsvcd.h"
@@ -24,7 +24,7 @@
 //
 //   int main(void) {
 //     nsvcd_mesh mesh;
-//     const nsvcd_body *mug;  // once per mesh
+//     const nsvcd_body *mug;  // encoded once per mesh
 //     nsvcd_result result = nsvcd_obj_load("mug.obj", NULL, &mesh, NULL);
 //     if (!result) result = nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &mug);
 //     if (result) return fprintf(stderr, "mug.obj: %s\n", nsvcd_result_string(result)), 1;
@@ -36,7 +36,7 @@
 //     question.a.count = 2;
 //     question.b.body = mug;  // the same mesh, twice as large, rests at the origin
 //     question.b.scale = 2;
-//     question.ask = NSVCD_ASK_FIRST;  // and when first: the default, HIT, tells of any contact
+//     question.ask = NSVCD_ASK_FIRST;  // the first contact; the default, HIT, is yes or no
 //     question.to = 0.001f;            // metres
 //
 //     nsvcd_answer answer;
@@ -46,255 +46,59 @@
 //     return 0;
 //   }
 //
-// Or plan a motion that hits nothing: nsvcd_plan, below. Two headers stand on this one: for robots,
-// whose joints move bodies, extras/neuralsvcd_robot.h; and for answers that others can check,
-// extras/neuralsvcd_certify.h.
+// Or plan a motion that hits nothing: nsvcd_plan. A larger program is examples/quickstart.c.
 //
-// What can fail returns a nsvcd_result: 0 is success, and on failure the outputs are left as they
-// were. Exceptions are sizes and nsvcd_body_patch, which return 0 where there is none, and
-// nsvcd_spline, which then writes nothing. examples/quickstart.c is a larger program.
+// FUNCTIONS, each with its contract below
+//   nsvcd_obj_load        a file -> a mesh; so do nsvcd_stl_load and nsvcd_mesh_load
+//   nsvcd_mesh_of_faces   faces in memory -> a mesh
+//   nsvcd_encode          a mesh -> a body; nsvcd_encode_sphere, _capsule, _box, _cloud: a shape
+//   nsvcd_body_load       bytes -> a body, every byte checked
+//   nsvcd_body_describe   a body -> its size, box, triangles; is it closed?
+//   nsvcd_sweep           a question -> an answer; nsvcd_sweep_batch: many
+//   nsvcd_sweep_gradient  the same by the network, with derivatives by the poses
+//   nsvcd_plan            joints -> a smooth motion that hits nothing
+//   extras/neuralsvcd_robot.h    is a motion of a robot's joints free? Find one that is
+//   extras/neuralsvcd_certify.h  answers as bytes that others can check
 //
 // OPTIONS, defined before the implementation is included
 //   NSVCD_STATIC      all functions static, in a file that has the implementation
-//   NSVCD_NO_STDIO    no file access: nsvcd_obj_load goes, nsvcd_obj_parse stays
-//   NSVCD_NO_OBJ      no OBJ and STL reader at all
-//   NSVCD_NO_ENCODER  no nsvcd_encode, no nsvcd_mesh_cut and no OBJ reader: bodies come from
+//   NSVCD_NO_STDIO    no file access: no nsvcd_obj_load and the like; nsvcd_obj_parse stays
+//   NSVCD_NO_OBJ      no readers of OBJ, STL and faces
+//   NSVCD_NO_ENCODER  no readers, no nsvcd_mesh_cut, no nsvcd_encode: bodies come from
 //                     nsvcd_body_load
-//   NSVCD_NO_PROOF    no proof: the network answers; triangles are neither stored nor looked at
-//   NSVCD_NO_NETWORK  no network, and weights.h is not needed: the proof alone; no gradient, no
-//                     optimizer
+//   NSVCD_NO_PROOF    the network alone: triangles are neither stored nor read
+//   NSVCD_NO_NETWORK  the proof alone: no weights.h, no gradient, no optimizer
 //   NSVCD_NO_SMALL, NSVCD_NO_BASE   without these decoders; the default is the largest that is left
-//   NSVCD_NO_GRADIENT no nsvcd_sweep_gradient, and no optimizer
-//   NSVCD_NO_OPTIMIZER  no trajectory optimizer
-//   NSVCD_NO_INT8, NSVCD_NO_FLOAT   without this arithmetic of the decoders; without float, int8 is
-//                                   the default
-//   NSVCD_NO_SIMD     plain C where there are AVX-512, AVX2 with FMA, SSE2, NEON or SIMD128
-//   NSVCD_ONE_PATH    the same bits everywhere: see DETERMINISM
-//   NSVCD_NO_DISPATCH on x86-64 what the compiler's flags allow, SSE2 by default; without it a
-//                     build for SSE2 holds queries for AVX2 and AVX-512 too, and the processor
+//   NSVCD_NO_INT8, NSVCD_NO_FLOAT   without this arithmetic of the decoders; the default is float
+//                                   where there is float
+//   NSVCD_NO_GRADIENT    no nsvcd_sweep_gradient, no optimizer
+//   NSVCD_NO_OPTIMIZER   no nsvcd_plan, no nsvcd_spline
+//   NSVCD_NO_SIMD     plain C in place of AVX-512, AVX2 with FMA, SSE2, NEON and SIMD128
+//   NSVCD_ONE_PATH    the same bits on all machines: see DETERMINISM
+//   NSVCD_NO_DISPATCH    on x86-64 only what the compiler's flags allow, SSE2 by default. Otherwise
+//                     a build for SSE2 also holds queries for AVX2 and AVX-512, and the processor
 //                     decides
 //
 // CONVENTIONS
 //   Metres, radians, right-handed; quaternions x y z w of unit length; time in [0,1]; arrays
-//   row-major with their shape beside the pointer. Meshes are triangles, counter-clockwise seen
-//   from outside: the winding gives the normals, and flipping it costs accuracy. Options are
-//   structs whose zero value means the defaults. Functions are re-entrant, there are no global
-//   variables, and memory is the caller's, or, in the functions that take an allocator, comes from
-//   that.
+//   row-major, their shape beside the pointer. Triangles are counter-clockwise seen from outside:
+//   the winding gives the normals, and flipping it costs accuracy. Options are structs in which
+//   zero means the default. What can fail returns an nsvcd_result, 0 on success, and on failure
+//   leaves its outputs as they were. (Sizes and nsvcd_body_patch return 0 instead; nsvcd_spline
+//   then writes nothing.) Functions are re-entrant, and there are no global variables. Memory is
+//   the caller's, or comes from the allocator that a function takes.
 //
-// WHAT AN ANSWER IS WORTH
-//   By proof, the default, FREE and HIT are facts, not opinions; the theorem stands in proof/proof.
-//   It is about the surfaces of the two meshes and the motion as described at nsvcd_sweep, and is
-//   tested by replaying certificates in double precision (tests/test_proof.c). UNDECIDED says that
-//   surfaces come within 1e-9 of all lengths without meeting (of coarse bodies: within what these
-//   are off, nsvcd_body_facts.quantization_error), that of eight rays none could tell whether one
-//   is inside the other, that one seems to be inside of what is nearly a solid
-//   (nsvcd_encode_options.open), or that the work allowed was not enough; then the network's
-//   opinion is added where it has one.
-//   A component of a mesh is closed if every edge has its reverse, whichever way it is wound as a
-//   whole. What does no harm to that is mended, or rather not looked at: faces that are there twice
-//   or turned round, fins, walls within, slivers, and gaps between corners that are no farther
-//   apart than a ten-thousandth of the diagonal of the mesh's box, nor than a hundredth of the
-//   longest edge at either. (What is thinner than such a gap may slip through it.) What is still
-//   open encloses nothing for certain: nsvcd_body_facts tells of it. By the network all is an
-//   opinion, whose measured error rates are in tests/bench/RESULTS.md. Where bodies of 0.1 to 0.4 m
-//   come within a millimetre of each other it is wrong in two to six of a hundred answers: where
-//   that harms, ask for a proof. What is inside is an estimate, a winding number of patches:
-//   reliable for closed meshes.
-//
-// NUMERIC ROBUSTNESS, as measured by `make race`, `make bench`, tests/test_proof.c and
-// tests/bench/extremes.sh
-//   A query computes in float32, but with triangle pairs and with what is inside of what in
-//   double.
-//   Range         coordinates up to NSVCD_MAX_COORDINATE; bodies from NSVCD_MIN_RADIUS, below which
-//                 squares underflow. Proofs are tested from 3e-11 to 3e5 m.
-//   Quantum       a stored triangle is off by this: a few micrometres at most on bodies of 0.3 m.
-//   Rounding      proofs allow for NSVCD__ROUNDING, two millionths, of the distances and extents
-//                 involved: 2 um for bodies of 0.3 m, 80 um where one measures 20 m. So much room,
-//                 and little more, must be between surfaces that are to be certified free.
-//   Far away      positions are taken relative to the fixed body first: a scene 10 km from the
-//                 origin loses what its own coordinates lose, about 1 mm. All is computed in the
-//                 frame of one body, the one that rests or is the larger, in units of its scale.
-//   Resolution    the network's limit: a patch must not be much larger than the clearance in
-//                 question. A body of 5 cm against one of 20 m, with 256 patches each, is judged
-//                 right in 62 % of problems near contact (RESULTS.md, *mixed*): cut the large mesh
-//                 to what the motion can reach (nsvcd_mesh_cut). For the proof, the size of patches
-//                 decides only what an answer costs.
-//   Bad numbers   NaN and infinity are refused on their bits, also under -ffast-math.
-//
-// DETERMINISM
-//   One binary on one processor gives the same blob of a mesh, the same answer to a question and
-//   the same plan, to the bit, whatever the workspace held, and in any thread. Only what
-//   nsvcd_sweep_batch answers may depend on the question before.
-//   Another compiler, other flags, another processor where that decides on vectors, and another
-//   libm round otherwise. Of the same blobs, what one of these proves no other refutes: by the
-//   theorem each verdict of a proof is true. But one may leave undecided what another proves, and
-//   times, points, patches and work differ.
-//   Logits differ, and by more than rounding: the search ends at the first pair that is clear, and
-//   a pair near that bound, or near another in rank, lets another pair or another decoder answer.
-//   So the network's verdict may differ, where logits are near 0 or that of the ranker near its
-//   bounds of +-3. The same holds for bodies that two builds encode, and for plans.
-//   Joints (nsvcd_plan, neuralsvcd_robot.h) are placed by libm's sines.
-//   With NSVCD_ONE_PATH blobs without latents and answers by proof are the same to the bit with
-//   SSE2, AVX2, AVX-512, NEON, SIMD128 and plain C, so that two machines replay a game alike: the
-//   same operations in the same order, no products fused into sums, sines and angles of this
-//   header's own. gcc fuses where it is told neither -std=c99 or the like nor -ffp-contract=off,
-//   clang with -ffp-contract=fast: then nsvcd_self_test says BUILD. It costs 4 to 14 %
-//   (`make bench-one-path`).
-//
-// CONTENTS: a room's name ends a line of dashes. Each uses only those above it.
-//   interface: what a program sees
-//     options         what is compiled; the version
-//     results         codes, what they say, the caller's allocator
-//     meshes          OBJ files, parts of a mesh
-//     bodies          encoding, loading, scaling, facts
-//     queries         movers, options, answers; nsvcd_sweep and its kin
-//     plans           splines, planning problems; nsvcd_plan
-//   ground: numbers and memory
-//     compiler        what is asked of the compiler; libc and libm
-//     strings         what codes and statuses say
-//     angles          sines and angles, by libm or computed here
-//     bits            bits and sizes
-//     valid           is what a caller hands over in order?
-//     points          vectors of three, of floats and of doubles
-//     rotations       quaternions and matrices, of floats and of doubles
-//     triangles       two triangles: where they meet, or are nearest
-//     spheres         spheres and slabs, as bodies store them
-//     random          random numbers
-//     memory          the allocator; the rows of a workspace
-//     slices          how many of 16 lanes a register holds
-//   mesh: files and triangles
-//     mesh            checks, cuts at a box
-//     polygons        polygons into triangles
-//     faces           faces of any number of corners
-//     obj             Wavefront OBJ
-//     stl             STL, binary and text
-//     files           either, of a map or in millimetres
-//   patches: a mesh in parts
-//     samples         points of the surface, in equal share
-//     clusters        farthest point sampling, then Lloyd's algorithm
-//     covering        balls that cover the surface; patches as a whole
-//     topology        welded vertices, components, which of them are closed
-//     solids          what flaws leave of the others
-//     regions         a large mesh in regions, each with its own patches
-//   surface: each patch described from outside
-//     pieces          triangles cut by the cells of the centres
-//     runs            points, segments and triangles, in runs of neighbours
-//     balls           the least ball that holds all points
-//     slabs           a direction in which the points are thin
-//     hulls           16 vertices about a patch
-//     sorted          pieces by patch; eight extremes of each, for the network
-//     surface         patch by patch: ball, slab, hull, triangles
-//   encoder: what the network keeps of a patch
-//     model           does weights.h fit?
-//     encoder         a patch -> its latent
-//   body: the blob
-//     body            balls in groups of 16, and levels of spheres above
-//     traversal       a traversal of the groups; load, scale, describe
-//     geometry        the blob of the proof: slabs, hulls, triangles
-//     trust           is a blob sound? load it, scale it, describe it
-//     write           a surface -> the blob of the proof
-//     encode          nsvcd_encode
-//     shapes          spheres, capsules, boxes, clouds
-//   lanes: 16 numbers at a time
-//     lanes           AVX-512, AVX2, SSE2, NEON, SIMD128 or plain C
-//     turns           rotations, lane by lane
-//   motion: where bodies are
-//     motion          the moving body's poses as the fixed one sees them
-//     segments        how far a point deviates from a straight line
-//     choice          which segments a motion is cut into, and a long one which intervals
-//   search: which patches may meet
-//     apart           pairs of patches that a plane separates, by their extremes
-//     intervals       when the balls of two patches meet, for the network
-//     search          which groups and patches meet, and in which segments
-//   proof: whether surfaces meet
-//     proof           the theorem; what a proof asks, knows and remembers
-//     poses           poses in double
-//     motion_bounds   a interval of time, and how far points deviate in it
-//     slabs           planes across slabs, of patches and of groups
-//     hulls           planes between hulls
-//     triangle_pairs  a triangle of each body, in double
-//     blocks          16 triangles at a time
-//     manifold        contact points that hold a body
-//     witnesses       two triangles that meet at one time
-//     patch_pairs     two patches: separated by planes or by triangles, or in contact
-//     containment     what is inside of what, exactly
-//     loop            the loop: all that a search finds is resolved
-//     verdict         what one search says: do they meet, when first, how near
-//     long            the verdict, whatever the length of the motion
-//     leave           leaving a contact, and how deep it is
-//     normals         a contact's normal, against the motion
-//   network: an opinion
-//     latent_rotation Wigner matrices; latents turned by them
-//     winding_number  what is inside of what, for the network
-//     pairs           pairs of patches -> invariants
-//     decoder         invariants -> logits and distances, in float or int8
-//   query: a question, and its answer
-//     task            a question that has been checked, and its memory
-//     by_network      an answer by the network
-//     by_proof        an answer by proof
-//     question        check, who moves, lay out, answer, write
-//     self_test       a question by hand, whose answer is known
-//   gradient: of distance or logit, by poses
-//     by_pair         by the decoder's inputs, and by the pair
-//     gradient        by the poses, and by the times of contact
-//   entry: the processor decides
-//     processor       SSE2, AVX2 or AVX-512; the public functions of queries
-//   plan: a motion that hits nothing
-//     spline          quintic Hermite
-//     problem         a planning problem in the caller's workspace
-//     culling         which bodies may meet when; what a collision costs
-//     cost            control points -> cost, and its derivative
-//     explore         MPPI
-//     refine          L-BFGS, with bundled gradients
-//     plan            several seeds, and the last check
-//
-// GLOSSARY
-//   patch             a part of the surface about a representative point; N of them make a body
-//   sample            a point of the surface, with its normal, drawn to find the patches
-//   piece             a triangle, or a part of one, that belongs to one patch
-//   ball              of a patch: a sphere that contains it
-//   group             16 neighbouring patches
-//   level             of spheres: over 16 groups each, over 16 of these, ...; and a large body,
-//                     which has such levels
-//   tile              up to 32 groups of a body that are searched together
-//   lane, slice       one of 16 numbers that are worked on together; those that fill a register
-//   block             16 segments of a motion, or 16 triangles of a patch, one in each lane
-//   latent            what the encoder makes of a patch: vectors of degree 1 and 2, and scalars
-//   moving, fixed     the bodies of a query: all is computed in the frame of the fixed one, which
-//                     is also said to rest
-//   segment           a part of the motion, up to 20 degrees of turn; 64 at most. The planner has
-//                     its own: see plan/problem
-//   interval          a part of a long motion, which is searched by itself; in search/intervals, a
-//                     time in which two balls meet
-//   try               a search of a larger interval with few units
-//   chord             of a point: the straight line from its start to its end in a segment
-//   deviation         how far a point may leave its chord: by the rotation, per metre from the
-//                     moving origin (bend), and as that origin does (origin bend)
-//   candidate         two patches and a contact interval, in which their balls meet
-//   pair              two patches, as the decoder sees them
-//   ranker            the tiny decoder, which chooses the candidates that the chosen one sees
-//   patch pair        two patches that the proof has yet to separate in a segment
-//   triangle pair     two listed triangles, one of each body
-//   slab              of a patch: what it reaches along a normal, and across
-//   hull, margin       of a patch: 16 vertices at most, and how far the surface sticks out
-//   entry           a triangle, or a part of one, that a patch stores
-//   geometry            what a body stores for the proof: slabs, hulls, entries
-//   quantization error           how far a coarse triangle may be off the mesh's
-//   interval              a segment, or a part of one, as the proof bounds its motion
-//   keyframe, arc     when one of the poses given is reached; the motion from one to the next
-//   tick              the unit of a motion's time: every keyframe is at a whole number of ticks
-//   work              units that a proof takes
-//   twist             how the moving body goes at a time: a velocity and an angular velocity
+// What an answer is worth, numeric limits and determinism stand with the queries below; which
+// meshes count as closed, with the bodies; what was measured, in tests/bench/RESULTS.md.
 #ifndef NEURALSVCD_H
 #define NEURALSVCD_H
 
 // ================================================================== interface: what a program sees
 
 // ------------------------------------------------------------------------------- interface/options
-// In: what is defined before the header. Out: what follows from it, and how functions are declared.
+// In: the switches that a program defines. Out: the version, switches that follow, NSVCDDEF.
 
-// as the first line says; before 1.0 a minor version may change what a program sees
+// as in the first line; before 1.0 a minor version may change what a program sees
 #define NSVCD_VERSION "0.3.0"
 #define NSVCD_VERSION_MAJOR 0
 #define NSVCD_VERSION_MINOR 3
@@ -318,14 +122,14 @@
 #if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ && \
     defined(NEURALSVCD_IMPLEMENTATION) && defined(__GNUC__)
 #pragma GCC warning \
-    "neuralsvcd.h: -ffinite-math-only: bad input is still refused, but results are not tested so"
+    "neuralsvcd.h: -ffinite-math-only: bad input is still refused, but results are untested"
 #endif
 
 #include <stddef.h>
 #include <stdint.h>
 
 #if defined(NSVCD_STATIC) && (defined(__GNUC__) || defined(__clang__))
-#define NSVCDDEF static __attribute__((unused))  // nobody calls all of them
+#define NSVCDDEF static __attribute__((unused))  // few programs call all of them
 #elif defined(NSVCD_STATIC)
 #define NSVCDDEF static
 #else
@@ -336,65 +140,65 @@ extern "C" {
 #endif
 
 // ------------------------------------------------------------------------------- interface/results
-// In: nothing. Out: codes of what may fail, what they say, and the caller's allocator.
+// In: nothing. Out: result codes, their texts, and the caller's allocator.
 
 typedef enum nsvcd_result {
   NSVCD_OK = 0,
-  // NULL where it is not allowed
+  // a pointer is NULL that must not be
   NSVCD_ERROR_ARGUMENT,
   // the file is missing or cannot be read
   NSVCD_ERROR_IO,
   // the allocator returned NULL
   NSVCD_ERROR_MEMORY,
-  // the memory given is NULL, not aligned to NSVCD_ALIGNMENT bytes, or too small: size, capacity
+  // the memory given is NULL, not aligned to NSVCD_ALIGNMENT, or too small: size, capacity
   NSVCD_ERROR_WORKSPACE,
-  // by the caller's progress function
+  // the caller's progress function cancelled
   NSVCD_ERROR_CANCELLED,
-  // a count is 0, or larger than the library takes: of joints, parts, goals or what a guess has
+  // a count is 0, or larger than the library takes: of joints, parts, goals, points of a guess
   NSVCD_ERROR_COUNT,
 
   // ---- files and meshes
-  // the file is of another format, or, of what is binary, cut short
+  // the file has another format, or is a binary one that is cut short
   NSVCD_ERROR_FORMAT,
-  // a line that cannot be understood, or a face of one or two vertices
+  // a line cannot be understood, or a face has one or two vertices
   NSVCD_ERROR_SYNTAX,
-  // an index that is zero, or refers to no vertex
+  // an index is zero, or refers to no vertex
   NSVCD_ERROR_INDEX,
   // a coordinate is not finite, or larger than NSVCD_MAX_COORDINATE
   NSVCD_ERROR_NUMBER,
-  // no triangle, no area, or all of it within NSVCD_MIN_RADIUS
+  // the mesh has no triangle, no area, or a radius below NSVCD_MIN_RADIUS
   NSVCD_ERROR_EMPTY,
   // more vertices, triangles or bytes than can be counted
   NSVCD_ERROR_TOO_LARGE,
-  // sizes of faces: fewer than three, or in all not corner_count
+  // a face's size is below three, or the sizes do not add up to corner_count
   NSVCD_ERROR_SIZES,
   // low or high is not finite, or low is not less than high
   NSVCD_ERROR_BOX,
-  // more patches than NSVCD_MAX_PATCHES, or a patch_radius that is negative or not finite
+  // more patches than NSVCD_MAX_PATCHES, or patch_radius is negative or not finite
   NSVCD_ERROR_PATCHES,
-  // a radius, `round` or `half` is not positive where it must be, not finite, or beyond
-  // NSVCD_MAX_COORDINATE
+  // a radius, `convex_radius` or `half` is negative, zero where it must not be, not finite, or
+  // beyond NSVCD_MAX_COORDINATE
   NSVCD_ERROR_RADIUS,
 
   // ---- bodies
-  // what is passed as a body is none, is damaged, cut short or misaligned
+  // what is passed as a body is not one, or is damaged, cut short or misaligned
   NSVCD_ERROR_BODY,
-  // a body of another version, model or byte order
+  // the body has another version, model or byte order
   NSVCD_ERROR_VERSION,
-  // a body without triangles, which a proof needs
+  // the body has no triangles, which a proof needs
   NSVCD_ERROR_TRIANGLES,
-  // a body without latents, which the network needs; or they were asked for where there are none:
-  // without the network, or of what is round
+  // the body has no latents, which the network needs; or latents were asked for in a build without
+  // the network, or of a body with a convex radius
   NSVCD_ERROR_LATENTS,
 
   // ---- questions
-  // poses that are NULL have a count of 0, others one of 1 to NSVCD_MAX_POSES
+  // count must be 0 where poses is NULL, else 1 to NSVCD_MAX_POSES
   NSVCD_ERROR_POSES,
-  // times that do not rise, or, of poses, not from 0 to 1
+  // times do not rise, or those of poses do not go from 0 to 1
   NSVCD_ERROR_TIMES,
   // a pose's position is not finite, or beyond NSVCD_MAX_COORDINATE
   NSVCD_ERROR_POSE,
-  // a quaternion's length is not 1, to NSVCD_UNIT_TOLERANCE
+  // a quaternion's length differs from 1 by more than NSVCD_UNIT_TOLERANCE
   NSVCD_ERROR_QUATERNION,
   // a scale is not finite, negative or out of range, or makes a body too small or too large
   NSVCD_ERROR_SCALE,
@@ -402,12 +206,12 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_SAME,
   // `ask` is none of its values
   NSVCD_ERROR_ASK,
-  // `method` is none of its values, or cannot answer this: the network knows no FIRST, to,
-  // clearance or slop, and no proof has a gradient
+  // `method` is none of its values, or cannot answer this: the network has no FIRST, `to`,
+  // clearance or slop, and a proof has no gradient
   NSVCD_ERROR_METHOD,
-  // `to` is negative, not finite, too large, or set where HIT is asked
+  // `to` is negative, not finite or too large, or set with HIT
   NSVCD_ERROR_TO,
-  // `to_time` is not in [0,1], or set where FIRST is not asked
+  // `to_time` is not in [0,1], or set without FIRST
   NSVCD_ERROR_TO_TIME,
   // `clearance` is negative, not finite or too large
   NSVCD_ERROR_CLEARANCE,
@@ -415,7 +219,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_SLOP,
   // `tolerance` is negative, not finite or too large
   NSVCD_ERROR_TOLERANCE,
-  // `manifold` is set where FIRST is not asked
+  // `manifold` is set without FIRST
   NSVCD_ERROR_MANIFOLD,
   // `segments` is not a multiple of 16 up to 64
   NSVCD_ERROR_SEGMENTS,
@@ -425,7 +229,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_MODEL,
   // `network.precision` is none of its values, or not compiled in
   NSVCD_ERROR_PRECISION,
-  // `network.recall` is none of those there are
+  // `network.recall` is none of its values
   NSVCD_ERROR_RECALL,
   // `network.inflate` is negative or not finite
   NSVCD_ERROR_INFLATE,
@@ -439,19 +243,19 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_LIMITS,
   // a joint's speed or acceleration is negative, not finite or too large
   NSVCD_ERROR_SPEED,
-  // a link is no joint of the scene, or a part none of its parts
+  // a link or a part is not one of the scene's
   NSVCD_ERROR_LINK,
-  // a pair that is not there, or that names a part that is not there, or two that never move apart
+  // a pair is not one of the scene's, names a part that is not, or two parts that never move apart
   NSVCD_ERROR_PAIR,
-  // a joint's value is not finite or too large: in a start, a goal, a motion's points
+  // a joint's value in a start, a goal or a motion is not finite or too large
   NSVCD_ERROR_VALUE,
-  // `degree` is not 1 to NSVCD_MAX_DEGREE, or pieces are more than can be counted
+  // `degree` is not 1 to NSVCD_MAX_DEGREE, or there are more pieces than can be counted
   NSVCD_ERROR_DEGREE,
-  // a motion whose joints turn too far in a piece to be certified
+  // the joints turn too far in a piece of the motion to be certified
   NSVCD_ERROR_TURN,
   // `finest` is negative or not finite
   NSVCD_ERROR_FINEST,
-  // `within` or `deepest` is negative, not finite or too large
+  // `max_distance` or `deepest` is negative, not finite or too large
   NSVCD_ERROR_DISTANCE,
   // `farthest` is negative, not finite or too large
   NSVCD_ERROR_FARTHEST,
@@ -459,29 +263,29 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_ROUTE,
   // a planner's stage is out of range
   NSVCD_ERROR_STAGE,
-  // a planner's weight, duration or margin is not finite, or its seeds or checks are too many
+  // a planner's weight, duration or margin is not finite, or it has too many seeds or checks
   NSVCD_ERROR_PLAN,
 
   // ---- this build
-  // the compiler, or its flags, made a program that computes wrongly
+  // the compiler or its flags made a program that computes wrongly
   NSVCD_ERROR_BUILD
 } nsvcd_result;
 
-// What a result says, for a person: a sentence without a full stop, never NULL. It names the field
+// The text of a result, for people: a sentence without a full stop, never NULL. It names the field
 // at fault, as it is called here.
 NSVCDDEF const char *nsvcd_result_string(nsvcd_result result);
 
-// Does this build compute rightly, on this processor? Certificates of one that does not are false.
-// To be called once, at the start, where the compiler is not gcc, clang or MSVC, or where its flags
-// are unusual. It looks at how structs and floats are passed, at vectors, rotations, the test that
-// certificates rest on, and two triangles. What it does not look at may be wrong still.
+// Does this build compute correctly on this processor? If not, what it proves may be false. Call
+// this once at the start if the compiler is not gcc, clang or MSVC, or if its flags are unusual. It
+// tests how structs and floats are passed, vectors, rotations, the test of a plane that proofs rest
+// on, and two triangles; anything else may still be wrong.
 //   allocates  nothing, and takes a microsecond (tests/test_processor.c)
 //   errors     BUILD
 NSVCDDEF nsvcd_result nsvcd_self_test(void);
 
-// Where memory comes from. NULL in place of an allocator means malloc and free.
+// Where memory comes from. A NULL allocator means malloc and free.
 //   alloc      returns memory aligned as malloc's, or NULL on failure
-//   user       handed to both
+//   user       passed to both
 typedef struct nsvcd_allocator {
   void *(*alloc)(size_t size, void *user);
   void (*free)(void *memory, void *user);
@@ -489,84 +293,83 @@ typedef struct nsvcd_allocator {
 } nsvcd_allocator;
 
 // -------------------------------------------------------------------------------- interface/meshes
-// In: an OBJ or STL file, or faces of the caller. Out: nsvcd_mesh, or a part of one.
+// In: an OBJ or STL file, or the caller's faces. Out: nsvcd_mesh, or a part of one.
 
 typedef struct nsvcd_mesh {
   // (vertex_count, 3) metres
   float *positions;
-  // (triangle_count, 3) vertices, counter-clockwise from outside
+  // (triangle_count, 3) vertex numbers, counter-clockwise seen from outside
   uint32_t *indices;
   size_t vertex_count;
   size_t triangle_count;
 } nsvcd_mesh;
 
 #ifndef NSVCD_NO_OBJ
-// Reads OBJ text into a mesh. Only lines v and f matter; they end in LF, CR or CR LF. Corners of a
-// face are v, v/vt, v//vn or v/vt/vn, what follows a slash may be missing, and they may refer to
-// vertices further down. Faces of any number of corners are cut into triangles, concave ones too: a
-// face of n corners into n - 2, whatever its shape, and so triangles are numbered as faces follow
-// each other. What follows x y z (a weight, a colour) is skipped, NaNs too.
-//   text       (size) characters, not NULL; they need not end in a NUL or a newline
+// Reads OBJ text into a mesh. Only the lines v and f are read; lines end in LF, CR or CR LF. A
+// face's corners are v, v/vt, v//vn or v/vt/vn. The number after a slash may be missing, and a
+// corner may refer to a vertex further down. Faces of any number of corners are triangulated,
+// concave ones too: n corners always make n - 2 triangles, numbered in the order of the faces.
+// Whatever follows x y z (a weight, a colour) is skipped, even NaN.
+//   text       (size) characters, not NULL; no final NUL or newline is needed
 //   allocator  NULL: malloc and free
-//   mesh       not NULL; nsvcd_mesh_free gives it back; left as it was on failure
-//   error_line NULL, or set to the line at fault, from 1; 0 where no line is at fault
-//   allocates  the mesh, and working memory that is given back; time is linear in size, but for
-//              concave faces of thousands of corners: of n corners, n^1.5 in the worst shapes that
+//   mesh       not NULL; free it with nsvcd_mesh_free; left as it was on failure
+//   error_line NULL, or set to the line at fault, from 1; 0 if no line is at fault
+//   allocates  the mesh, and working memory that is freed again. Time is linear in size, except for
+//              concave faces of thousands of corners: n^1.5 for n corners in the worst shapes that
 //              tests/test_mesh.c tries
-//   errors     ARGUMENT, MEMORY, FORMAT (no line is one of OBJ's), SYNTAX, INDEX, NUMBER (of
-//              what becomes of it: a coordinate in metres), EMPTY, TOO_LARGE. Of several faults the
-//              one that is found first: statements and counts come before vertices, these before
-//              faces
+//   errors     ARGUMENT, MEMORY, FORMAT (no line is one of OBJ's), SYNTAX, INDEX, NUMBER (a
+//              coordinate in metres), EMPTY, TOO_LARGE. Of several faults the first one found:
+//              statements and counts are checked before vertices, vertices before faces
 //   source     Wavefront, "Object Files", version 3.0; ear clipping after Meisters 1975
 NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
                                       const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
                                       size_t *error_line);
 #ifndef NSVCD_NO_STDIO
-// nsvcd_obj_parse on what a file holds.
+// nsvcd_obj_parse of a file.
 //   path       not NULL, as fopen takes it; on Windows in the code page of the process
 //   errors     those of nsvcd_obj_parse, and IO
 NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator,
                                      nsvcd_mesh *mesh, size_t *error_line);
 #endif
 
-// Reads STL, binary or text, into a mesh. Corners at the same place become one vertex; normals and
-// attributes are skipped.
+// Reads STL, binary or text, into a mesh. Corners at the same position become one vertex; normals
+// and attributes are skipped.
 //   data       (size) bytes, not NULL
-//   allocator, mesh, error_line  as above; of what is binary no line is at fault
+//   allocator, mesh, error_line  as above; in a binary file no line is at fault
 //   allocates  the mesh, with room for three vertices a triangle, and working memory
-//   errors     ARGUMENT, MEMORY, FORMAT (neither text that begins with "solid", nor as long
-//              as its count of triangles says), SYNTAX, NUMBER, EMPTY, TOO_LARGE
+//   errors     ARGUMENT, MEMORY, FORMAT (neither text that begins with "solid" nor as long as its
+//              count of triangles says), SYNTAX, NUMBER, EMPTY, TOO_LARGE
 //   source     3D Systems, "StereoLithography Interface Specification", 1989
 NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
                                       const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
                                       size_t *error_line);
 #ifndef NSVCD_NO_STDIO
-// nsvcd_stl_parse on what a file holds.
+// nsvcd_stl_parse of a file.
 NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *allocator,
                                      nsvcd_mesh *mesh, size_t *error_line);
 #endif
 
 typedef enum nsvcd_mesh_format {
-  // STL where it begins with "solid", or has the size that its count of triangles says; else OBJ
+  // STL if it begins with "solid" or is as long as its count of triangles says, else OBJ
   NSVCD_MESH_ANY = 0,
   NSVCD_MESH_OBJ,
   NSVCD_MESH_STL
 } nsvcd_mesh_format;
 
-// How the numbers of a file become metres, in double, before they are rounded to float and held
-// against NSVCD_MAX_COORDINATE. What is zero is the default.
+// How a file's numbers become metres: in double, before they are rounded to float and compared with
+// NSVCD_MAX_COORDINATE. Zero means the default.
 typedef struct nsvcd_mesh_options {
   nsvcd_mesh_format format;
-  // in the file's units: this place becomes the mesh's origin. Of a map, whose coordinates are
-  // millions, a place near what is asked about: floats near 5,400,000 are half a metre apart
+  // in the file's units: this point becomes the mesh's origin. In a map, whose coordinates are in
+  // the millions, choose one near the objects: floats near 5,400,000 are half a metre apart
   double origin[3];
-  // then to metres: 0.001 of millimetres; 0: 1
+  // then to metres: 0.001 for millimetres; 0: 1
   double scale;
 } nsvcd_mesh_options;
 
 // Reads OBJ or STL into a mesh: nsvcd_obj_parse or nsvcd_stl_parse, with options.
 //   data       (size) bytes, not NULL
-//   options    NULL: by what it is, and the numbers are metres
+//   options    NULL: either format, in metres
 //   allocator, mesh, error_line  as above
 //   errors     those of both, SCALE, and NUMBER for an origin that is not finite
 NSVCDDEF nsvcd_result nsvcd_mesh_parse(const void *data, size_t size,
@@ -574,78 +377,92 @@ NSVCDDEF nsvcd_result nsvcd_mesh_parse(const void *data, size_t size,
                                        const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
                                        size_t *error_line);
 #ifndef NSVCD_NO_STDIO
-// nsvcd_mesh_parse on what a file holds.
+// nsvcd_mesh_parse of a file.
 NSVCDDEF nsvcd_result nsvcd_mesh_load(const char *path, const nsvcd_mesh_options *options,
                                       const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
                                       size_t *error_line);
 #endif
 
-// Faces of any number of corners: what readers of other formats, and engines, have.
+// Faces of any number of corners, as engines and readers of other formats have them.
 typedef struct nsvcd_faces {
   // (vertex_count, 3) metres
   const float *positions;
-  // (corner_count) vertices: those of the first face, counter-clockwise from outside, of the second
+  // (corner_count) vertex numbers, face after face, counter-clockwise seen from outside
   const uint32_t *corners;
-  // (face_count), 3 or more each, corner_count in all; NULL: all are triangles
+  // (face_count), 3 or more each, corner_count in all; NULL: all faces are triangles
   const uint32_t *sizes;
   size_t vertex_count;
   size_t corner_count;
   size_t face_count;
 } nsvcd_faces;
 
-// Cuts faces into triangles, concave ones too, as nsvcd_obj_parse does.
+// Triangulates faces, concave ones too, as nsvcd_obj_parse does.
 //   faces      not NULL
 //   allocator  NULL: malloc and free
-//   mesh       not NULL; nsvcd_mesh_free gives it back; left as it was on failure
-//   allocates  the mesh, and working memory that is given back; time as of nsvcd_obj_parse
+//   mesh       not NULL; free it with nsvcd_mesh_free; left as it was on failure
+//   allocates  the mesh, and working memory that is freed again; takes as long as nsvcd_obj_parse
 //   errors     ARGUMENT, SIZES, INDEX, NUMBER, EMPTY, TOO_LARGE, MEMORY
 NSVCDDEF nsvcd_result nsvcd_mesh_of_faces(const nsvcd_faces *faces,
                                           const nsvcd_allocator *allocator, nsvcd_mesh *mesh);
 #endif
 #ifndef NSVCD_NO_ENCODER
-// Cuts out the part of a mesh within a box: triangles are cut at the box, vertices are not shared.
-// For a large mesh that changes all the time, or that the network is to judge, whose patches must
-// not be much larger than the gap in question: encode what the moving body can reach, the box over
-// its sweep grown a little, as an `open` body. A mesh that stays is better encoded whole, once.
+// Cuts out the part of a mesh that lies in a box. Triangles are cut at the box; vertices are not
+// shared. Use it for a large mesh that keeps changing, or that is for the network, whose patches
+// must not be much larger than the gap in question: encode the part that the moving body can reach
+// (the box of its sweep, grown a little) as an `open` body. A mesh that does not change is better
+// encoded whole, once.
 //   mesh       not NULL
 //   low, high  the box in the mesh's frame, metres, not NULL, finite, low < high on each axis
 //   allocator  NULL: malloc and free
-//   part       not NULL; nsvcd_mesh_free gives it back; left as it was on failure
+//   part       not NULL; free it with nsvcd_mesh_free; left as it was on failure
 //   allocates  the part
-//   errors     ARGUMENT, BOX, EMPTY (nothing of it is in the box), INDEX, NUMBER, TOO_LARGE, MEMORY
+//   errors     ARGUMENT, BOX, EMPTY (nothing is in the box), INDEX, NUMBER, TOO_LARGE, MEMORY
 //   source     Sutherland and Hodgman 1974
 NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
                                      const float high[3], const nsvcd_allocator *allocator,
                                      nsvcd_mesh *part);
-// Gives back what the functions above allocated, and empties *mesh.
+// Frees what the functions above allocated, and empties *mesh.
 //   mesh       may be NULL
-//   allocator  the one that it came from
+//   allocator  the one that the mesh came from
 NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator);
 #endif
 
 // -------------------------------------------------------------------------------- interface/bodies
 // In: a mesh, or bytes that were a body. Out: nsvcd_body, and facts about it.
+//
+// CLOSED MESHES
+//   Only a closed component of a mesh has an inside. A component is closed if every edge has its
+//   reverse, whichever way it is wound as a whole. Flaws that do no harm to that are set aside:
+//   faces that occur twice or turned round, fins, inner walls, slivers, and gaps between corners
+//   that are no farther apart than a ten-thousandth of the diagonal of the mesh's box and a
+//   hundredth of the longest edge at either. (What is thinner than such a gap may slip through it.)
+//   A component that is still open encloses nothing for certain: nsvcd_body_facts counts these.
+//
+//   Nearly a solid is an open component with small holes: its surface goes on across each hole, as
+//   it does not at the rim of a bin, a tube or a floor, and either each hole is a slit or a single
+//   triangle, and together they are less than half of the area; or the component is wound outwards,
+//   and its holes are less than a fiftieth of its area. What seems to be inside of one is UNDECIDED,
+//   unless the mesh is said to be `open`.
 
 // An encoded body: one relocatable blob without pointers, aligned to NSVCD_ALIGNMENT. Copy it with
-// memcpy, write it with fwrite, map it, or bake it into flash as a const array. IEEE 754, in the
-// byte order of the machine that encoded it, and refused by one of the other order: it begins with
-// "NSVB" where that is little-endian, with "BVSN" where it is big-endian. nsvcd_body_facts.size is
-// its size. Threads may share it. Whatever takes one looks at its first bytes, and says BODY or
-// VERSION of what is none; it trusts the rest.
+// memcpy, write it with fwrite, map it, or bake it into flash as a const array;
+// nsvcd_body_facts.size is its size. Floats are IEEE 754, and all is in the byte order of the
+// machine that encoded it: the blob begins with "NSVB" on a little-endian one and with "BVSN" on a
+// big-endian one, and machines of the other order refuse it. Threads may share it. Functions that
+// take a body check its first bytes (errors BODY, VERSION) and trust the rest.
 typedef struct nsvcd_body nsvcd_body;
 
 #define NSVCD_ALIGNMENT 8
-// Patches of a body, where the options do not say: of one with triangles, and of one for the
-// network alone, which needs finer patches than a proof.
+// Default number of patches: of a body with triangles, and of one for the network alone, which needs
+// finer patches than a proof.
 #define NSVCD_DEFAULT_PATCHES 192
 #define NSVCD_DEFAULT_NETWORK_PATCHES 256
 #define NSVCD_MAX_PATCHES 65536
 // A body of more patches is a level: its patches are in a tree.
 #define NSVCD_SMALL_PATCHES 512
-// Where the options do not say, a mesh of up to VERY_FEW triangles has a patch for each, but no
-// fewer than LEAST; of up to MANY, a patch for each NSVCD_PATCH_TRIANGLES, but no fewer than
-// NSVCD_DEFAULT_PATCHES and no more than NSVCD_SMALL_PATCHES. A mesh of more is a level, with a
-// patch for each 12 triangles.
+// By default, a mesh of up to VERY_FEW triangles has one patch per triangle, but at least LEAST; one
+// of up to MANY has one per NSVCD_PATCH_TRIANGLES, but at least NSVCD_DEFAULT_PATCHES and at most
+// NSVCD_SMALL_PATCHES. A larger mesh is a level, with one patch per NSVCD_LEVEL_TRIANGLES.
 #define NSVCD_LEAST_PATCHES 12
 #define NSVCD_VERY_FEW_TRIANGLES 48
 #define NSVCD_PATCH_TRIANGLES 50
@@ -653,52 +470,49 @@ typedef struct nsvcd_body nsvcd_body;
 #define NSVCD_LEVEL_TRIANGLES 12
 // metres
 #define NSVCD_MAX_COORDINATE 1e6f
-// metres, of the sphere about a body
+// metres, of a body's bounding sphere
 #define NSVCD_MIN_RADIUS 1e-12f
-// per motion
+// of a motion
 #define NSVCD_MAX_POSES 65536
 // of a body in a question
 #define NSVCD_MIN_SCALE 1e-6f
 #define NSVCD_MAX_SCALE 1e6f
 
-// Told now and then how much is done, in [0,1]. Returns 0 to go on; otherwise the work is given up,
-// and the result is NSVCD_ERROR_CANCELLED.
+// Called now and then with the fraction done, in [0,1]. Return 0 to go on; anything else ends the
+// work with NSVCD_ERROR_CANCELLED.
 typedef int nsvcd_progress(float done, void *user);
 
-// What is zero is the default.
+// Zero means the default.
 typedef struct nsvcd_encode_options {
   // N, 1..NSVCD_MAX_PATCHES; 0: by the number of triangles, see above
   size_t patches;
-  // metres; if > 0 and patches is 0: as many patches as have about this radius. For a level about
-  // half the size of the bodies that move in it
+  // metres; if > 0 and patches is 0: as many patches as give each about this radius. For a level,
+  // take half the size of the bodies that move in it
   float patch_radius;
-  // metres: the body is all that is no farther from the mesh than this. If > 0, triangles need no
-  // area: one of the same vertex thrice is a ball, one of two vertices a capsule. Such a body has
-  // no latents
+  // metres: the body is everything within this distance of the mesh. If > 0, triangles need no
+  // area: one vertex three times makes a ball, two vertices make a capsule. Such a body has no
+  // latents
   float convex_radius;
-  // 1: the mesh is not closed (a sheet, or a part cut out): nothing counts as inside it. Where it
-  // is not said, a part that is nearly a solid leaves undecided what seems to be inside of it: its
-  // surface goes on across each of its holes, as it does not at the rim of a bin, a tube or a
-  // floor; each is a slit, or a single triangle, and these are less than half of its area; or it is
-  // wound outwards, and all holes are less than a fiftieth
+  // 1: the mesh is not closed (a sheet, or a part cut out), and nothing is inside it. 0: what seems
+  // to be inside of nearly a solid is undecided, see CLOSED MESHES
   int open;
-  // 1: for the network too, of which the proof needs nothing: 93 bytes more a patch, and time
+  // 1: for the network as well. The proof needs no latents; they take 93 bytes a patch, and time
   int latents;
-  // 1: for the network alone, in fewer bytes; then there is no proof
+  // 1: for the network alone, in fewer bytes; there is then no proof
   int no_triangles;
-  // 1: for flash that is scarce: the proof's triangles in 16 bits a coordinate, in some 5 % fewer
-  // bytes, 10 to 40 % of a fine mesh. Verdicts are then about these, which are within
-  // nsvcd_body_facts.quantization error of the mesh's own: HIT says that the mesh comes as near as
-  // that
+  // 1: store the proof's triangles with 16 bits a coordinate, for scarce flash: about 5 % fewer
+  // bytes, 10 to 40 % fewer for a fine mesh. Verdicts are then about these triangles, which are
+  // within nsvcd_body_facts.quantization_error of the mesh's own: a HIT says that the mesh comes
+  // that near
   int coarse;
-  // NULL, or told how much is done
+  // NULL, or called with the fraction done
   nsvcd_progress *progress;
-  // handed to progress
+  // passed to progress
   void *user;
 } nsvcd_encode_options;
 
 #ifndef NSVCD_NO_NETWORK
-// Bytes of a body without triangles; 0 if there can be no such body. One with triangles is larger:
+// Bytes of a body without triangles; 0 if there can be no such body. A body with triangles is larger:
 // let nsvcd_encode allocate it.
 NSVCDDEF size_t nsvcd_body_size(size_t patches);
 // The same as a constant, for 1 to NSVCD_SMALL_PATCHES patches.
@@ -709,15 +523,15 @@ NSVCDDEF size_t nsvcd_body_size(size_t patches);
 #endif
 
 #ifndef NSVCD_NO_ENCODER
-// Encodes a mesh into a body. The body may have fewer patches than asked, where the surface has too
-// few points to tell apart. Same mesh, same bytes, in one build: see DETERMINISM above.
+// Encodes a mesh into a body, which may have fewer patches than asked for if the surface has too few
+// distinct points. Same mesh, same bytes, in one build: see DETERMINISM below.
 //   mesh       not NULL; not kept
 //   options    NULL: the defaults, for the proof
 //   allocator  NULL: malloc and free
 //   memory     (capacity) bytes, aligned to NSVCD_ALIGNMENT, for the body. NULL: the body comes
-//              from the allocator, and nsvcd_body_free gives it back
+//              from the allocator; free it with nsvcd_body_free
 //   body       not NULL; set to the body; left as it was on failure
-//   allocates  working memory, which is given back, and the body where memory is NULL
+//   allocates  working memory, which is freed again, and the body if memory is NULL
 //   errors     ARGUMENT, PATCHES, RADIUS (`convex_radius`), LATENTS, INDEX, NUMBER, EMPTY,
 //              TOO_LARGE, MEMORY, WORKSPACE, CANCELLED
 //   source     the latents: NeuralSVCD, appendix F; the triangles: this library
@@ -725,21 +539,22 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
                                    const nsvcd_allocator *allocator, void *memory,
                                    size_t capacity, const nsvcd_body **body);
 #ifndef NSVCD_NO_PROOF
-// Bodies of a shape, for the proof, exact but for the roundings of float: what nsvcd_encode makes
-// of a point, a segment, a box or points and options.round. Where time matters they are better than
-// meshes of many triangles: a capsule is one segment. Voxels are a cloud of their centres: with a
-// radius of 0.8661 edges it contains the cubes, with half an edge it is within them; exact are only
-// their faces, as a mesh. A map that changes is best kept in chunks of some 16 x 16 x 16 cells, a
-// body each, of which only those with changes are encoded anew; nsvcd_sweep_batch asks all that are
-// near.
-//   radius, round   metres, > 0; that of a box may be 0
+// Bodies of simple shapes, for the proof, exact but for rounding to float: what nsvcd_encode makes of
+// a point, a segment, a box or points with options.convex_radius. They are faster to query than
+// meshes of many triangles: a capsule is a single segment.
+//
+// Voxels: a cloud of their centres with a radius of 0.8661 edges contains the cubes, with half an
+// edge it lies within them; only a mesh of their faces is exact. Keep a map that changes in chunks
+// of about 16 x 16 x 16 cells, a body each, encode only those that changed anew, and ask all that
+// are near with nsvcd_sweep_batch.
+//   radius, convex_radius  metres, > 0; a box's may be 0
 //   from, to        the ends of the capsule's axis, not NULL, metres; may be the same
-//   half            half-extents including the rounding radius; each >= round; not NULL, metres
+//   half            half-extents including convex_radius, each >= that; not NULL, metres
 //   points          (count, 3) metres, not NULL, not kept
 //   allocator       NULL: malloc and free
-//   body            not NULL; set to the body, about the origin or where its ends and points are;
-//                   left as it was on failure; nsvcd_body_free gives it back
-//   allocates       the body, and working memory, which is given back
+//   body            not NULL; set to the body, which is centred at the origin, or lies where its
+//                   ends or points do; free it with nsvcd_body_free; left as it was on failure
+//   allocates       the body, and working memory, which is freed again
 //   errors          ARGUMENT, RADIUS, NUMBER, EMPTY, TOO_LARGE, MEMORY
 NSVCDDEF nsvcd_result nsvcd_encode_sphere(float radius, const nsvcd_allocator *allocator,
                                           const nsvcd_body **body);
@@ -753,52 +568,51 @@ NSVCDDEF nsvcd_result nsvcd_encode_cloud(const float *points, size_t count, floa
                                          const nsvcd_allocator *allocator,
                                          const nsvcd_body **body);
 #endif
-// Gives back a body that nsvcd_encode allocated.
-//   body       may be NULL; what does not begin as a body does is left alone
-//   allocator  the one that it came from
+// Frees a body that nsvcd_encode or one of the shapes allocated.
+//   body       may be NULL; memory that does not begin as a body does is left alone
+//   allocator  the one that the body came from
 NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *allocator);
 #endif
 
-// Checks a blob that nobody vouches for, every byte of it, and takes it for a body.
+// Takes untrusted bytes for a body, after checking every one of them.
 //   memory     (size) bytes, not NULL, aligned to NSVCD_ALIGNMENT; the body stays in it
 //   body       not NULL; set to the body; left as it was on failure
 //   allocates  nothing
-//   errors     ARGUMENT (NULL), VERSION (it is a body, but of another version, other weights or the
-//              other byte order), BODY (anything else is wrong with it)
+//   errors     ARGUMENT (NULL), VERSION (a body, but of another version, other weights or the other
+//              byte order), BODY (anything else is wrong)
 NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size,
                                       const nsvcd_body **body);
 
-// nsvcd_body_load for bytes that are known to be what nsvcd_encode made. Only the header is read:
-// is it a body of this version and these weights, and is all of it there? For an array baked into
-// the program, and for a large mapped file that was loaded once before: its pages are then read as
-// queries need them. Bytes that were changed since do harm: wrong answers, or reads anywhere.
-// Arguments and errors are those of nsvcd_body_load.
+// nsvcd_body_load for bytes that are known to be as nsvcd_encode made them. Only the header is
+// checked: version, weights and size. For an array baked into the program, or a large mapped file
+// that was loaded once before: its pages are then read as queries need them. Bytes that have changed
+// since do harm: wrong answers, or reads out of bounds. Arguments and errors are those of
+// nsvcd_body_load.
 NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size,
                                        const nsvcd_body **body);
 
-// Writes a copy of a body, scaled about its origin: for a planner's bodies, or to bake one; a
-// question has scales of its own. Latents do not depend on scale, and answers scale along, to
-// rounding.
+// Writes a copy of a body, scaled about its origin: for a planner, or to bake one. (A question has
+// scales of its own.) Latents do not depend on scale, and answers scale along, up to rounding.
 //   body       not NULL
 //   scale      > 0
-//   memory     (capacity) bytes, not NULL, aligned to NSVCD_ALIGNMENT; may be where the body is
+//   memory     (capacity) bytes, not NULL, aligned to NSVCD_ALIGNMENT; may be the body's own
 //   scaled     not NULL; set to the copy; left as it was on failure
 //   allocates  nothing
-//   errors     ARGUMENT, BODY, VERSION, SCALE (also if the copy were smaller or larger than a body
-//              may be), WORKSPACE; with NSVCD_NO_PROOF also TRIANGLES: it has some, which that
-//              cannot scale
+//   errors     ARGUMENT, BODY, VERSION, SCALE (also if the copy would be smaller or larger than a
+//              body may be), WORKSPACE; with NSVCD_NO_PROOF also TRIANGLES: that build cannot scale
+//              them
 NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void *memory,
                                        size_t capacity, const nsvcd_body **scaled);
 
 typedef struct nsvcd_body_facts {
-  // bytes: what to save
+  // bytes to save
   size_t size;
   // N
   size_t patches;
   // metres: a sphere that contains the body
   float centre[3];
   float radius;
-  // metres: no point of the mesh is farther from the origin
+  // metres: no point of the mesh is farther from its origin
   float extent;
   // metres: a box that contains the mesh; 0 where no triangles are stored
   float low[3], high[3];
@@ -806,30 +620,29 @@ typedef struct nsvcd_body_facts {
   float mean_patch_radius;
   // of the mesh; 0: none are stored
   size_t triangles;
-  // triangles and parts of them that are stored, patch by patch
+  // entries: triangles, and parts of them, patch by patch
   size_t stored_triangles;
   // metres: the triangles that verdicts are about are within this of the mesh's. 0: they are the
-  // mesh's own floats. Else the body is coarse, or nsvcd_body_scale has rounded it
+  // mesh's own floats. Otherwise the body is coarse, or nsvcd_body_scale has rounded it
   float quantization_error;
-  // metres that the body goes beyond its mesh
+  // metres by which the body exceeds its mesh
   float convex_radius;
   // 1: the network can answer
   int latents;
-  // parts of the surface, and how many of these are not closed once what does no harm is mended
-  // (see WHAT AN ANSWER IS WORTH): 0: all is a solid. 0, 0 where no triangles are stored
+  // of the mesh, and how many of them are open, see CLOSED MESHES; none: all of it is solid. 0, 0
+  // if no triangles are stored
   size_t components, open_components;
-  // of these: edges of a single triangle, or of another odd number
+  // of the open components: edges with an odd number of triangles, mostly one
   size_t open_edges;
-  // 1: it was said to be open
+  // 1: options.open was set
   int open;
 } nsvcd_body_facts;
 
-// What a body is; all 0 where it is none.
+// Describes a body; all 0 if it is none.
 //   body       may be NULL
 NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body);
 
-// The sphere of one patch. Returns 1, or, if there is no such patch or no body, 0: then nothing is
-// written.
+// The sphere of one patch. Returns 1; or 0, writing nothing, if there is no such patch or body.
 //   patch      as in nsvcd_answer
 //   centre     not NULL, metres, body frame
 //   radius     not NULL, metres
@@ -1461,8 +1274,138 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 #endif  // NEURALSVCD_H
 
 // ================================================================================== IMPLEMENTATION
-// Where entry/processor takes this file in once more, for AVX2 and for AVX-512, NSVCD__ISA is
-// defined: then only those rooms are compiled that use vectors, under names of their own.
+// CONTENTS: a room's name ends a line of dashes. Each uses only those above it.
+//   interface: what a program sees
+//     options         the version, and what is compiled
+//     results         result codes, the caller's allocator
+//     meshes          OBJ and STL, faces, parts of a mesh
+//     bodies          encoding, loading, scaling, facts
+//     queries         movers, questions, answers; nsvcd_sweep and its kin
+//     plans           splines, planning problems; nsvcd_plan
+//   ground: numbers and memory
+//     compiler        what is asked of the compiler; libc and libm
+//     strings         the texts of codes and statuses
+//     angles          sines and angles, by libm or computed here
+//     bits            bits and sizes
+//     valid           checks of what a caller passes
+//     points          vectors of three, of floats and of doubles
+//     rotations       quaternions and matrices, of floats and of doubles
+//     triangles       two triangles: where they meet, or are nearest
+//     spheres         spheres and slabs, as bodies store them
+//     random          random numbers
+//     memory          the allocator; the rows of a workspace
+//     slices          how many of 16 lanes a register holds
+//   mesh: files and triangles
+//     mesh            checks; cuts at a box
+//     polygons        one face into triangles
+//     faces           faces of any number of corners into a mesh
+//     obj             Wavefront OBJ
+//     stl             STL, binary and text
+//     files           either, with an origin and a scale
+//   patches: the surface divided in parts
+//     samples         random points of the surface
+//     clusters        farthest point sampling, then Lloyd's algorithm
+//     covering        balls that cover the surface; patches as a whole
+//     topology        welded vertices, components, which of them are closed
+//     solids          what still encloses something despite its flaws
+//     regions         a large mesh in regions, each with its own patches
+//   surface: the shape of each patch, bounded
+//     pieces          triangles cut by the cells of the centres
+//     runs            points, segments and triangles, in runs of neighbours
+//     balls           the smallest ball around points
+//     slabs           a direction in which points are thin
+//     hulls           up to 16 vertices around a patch
+//     sorted          pieces by patch; eight extremes of each, for the network
+//     surface         of each patch a ball, a slab, a hull, its triangles
+//   encoder: what the network keeps of a patch
+//     model           does weights.h fit?
+//     encoder         a patch -> its latent
+//   body: the blob
+//     body            balls in groups of 16, and levels of spheres above
+//     traversal       the groups whose spheres pass a test
+//     geometry        what the proof reads: slabs, hulls, triangles
+//     trust           is a blob sound? load it, scale it, describe it
+//     write           a surface -> what the proof reads
+//     encode          nsvcd_encode
+//     shapes          spheres, capsules, boxes, clouds
+//   lanes: 16 numbers at a time
+//     lanes           AVX-512, AVX2, SSE2, NEON, SIMD128 or plain C
+//     turns           rotations, lane by lane
+//   motion: where bodies are
+//     motion          the moving body's poses as the fixed one sees them
+//     segments        how far a point leaves a straight line
+//     choice          how a motion is cut into segments, and a long one into intervals
+//   search: which patches may meet
+//     apart           patches that a plane between their extremes separates
+//     intervals       when the balls of two patches meet, for the network
+//     search          which groups and patches meet, and in which segments
+//   proof: whether surfaces meet
+//     proof           the theorem; what a proof is asked, knows and remembers
+//     poses           poses in double
+//     motion_bounds   an interval of time, and how far points deviate in it
+//     slabs           planes along the slabs of patches and of groups
+//     hulls           planes between hulls
+//     triangle_pairs  two triangles, in double: separated, or in contact
+//     blocks          16 triangles at a time
+//     manifold        up to four contact points
+//     witnesses       two triangles that meet at one time
+//     patch_pairs     two patches: separated by planes or by triangles, or in contact
+//     containment     whether one body is inside the other, by rays
+//     loop            the loop: every patch pair that a search finds is resolved
+//     verdict         of one search: do they meet, when first, how near
+//     long            the same of a motion of any length
+//     leave           pushing out of a contact, and how deep it is
+//     normals         a contact's normal, against the motion
+//   network: an opinion
+//     latent_rotation Wigner matrices; latents rotated by them
+//     winding_number  whether one body is inside the other, estimated
+//     pairs           pairs of patches -> invariants
+//     decoder         invariants -> logits and distances, in float or int8
+//   query: a question, and its answer
+//     task            a question that has been checked, and its memory
+//     by_network      an answer by the network
+//     by_proof        an answer by proof
+//     question        check, choose who moves, lay out the workspace, answer
+//     self_test       a question whose answer is known
+//   gradient: of distance or logit, by poses
+//     by_pair         by the decoder's inputs, and by the pair
+//     gradient        by the poses, and by the times of contact
+//   entry: the processor picks the vectors
+//     processor       SSE2, AVX2 or AVX-512; the public functions of queries
+//   plan: a motion that hits nothing
+//     spline          quintic Hermite
+//     problem         a planning problem in the caller's workspace
+//     culling         which bodies may meet when; what a collision costs
+//     cost            control points -> cost, and its derivative
+//     explore         MPPI
+//     refine          L-BFGS, with bundled gradients
+//     plan            several seeds, and the last check
+//
+// GLOSSARY of what is this library's own; the rest is the field's
+//   patch             a part of the surface around one point; N of them make a body
+//   group, tile       16 neighbouring patches; up to 32 groups that are searched together
+//   level             spheres over 16 groups each, over 16 of these, ...; a body that has them
+//   piece, entry      a triangle, or a part of one, that belongs to one patch; the same as stored
+//   latent            what the network keeps of a patch: vectors of degree 1 and 2, and scalars
+//   geometry          what the proof keeps of a body: slabs, hulls and entries
+//   slab, hull        of a patch: its extent along a direction and across it; up to 16 vertices
+//   margin            how far a patch may stick out of its hull
+//   moving, fixed     the bodies of a query: all is computed in the frame of the fixed one
+//   segment           a part of a motion, of up to 20 degrees of turn; 64 at most
+//   interval          a segment or a part of one, as the proof bounds it; in motion/choice, a part
+//                     of a long motion; in search/intervals, a time in which two balls meet
+//   try               a search of a larger interval with little work
+//   bend, origin_bend how far a point leaves its chord, the straight line through a segment: per
+//                     metre from the moving origin, by the rotation, and with that origin
+//   lane, block       one of 16 numbers that are worked on together; 16 segments, or 16 entries
+//   candidate         two patches, and the interval in which their balls meet
+//   ranker            the tiny decoder, which picks the candidates that the chosen decoder sees
+//   patch pair, triangle pair   two patches, two entries, that the proof has yet to separate
+//   tick              the unit of time: keyframes are at whole numbers of ticks
+//   work              the units that question.work counts
+//
+// entry/processor includes this file again for AVX2 and for AVX-512, with NSVCD__ISA defined: then
+// only the rooms that use vectors are compiled, under names of their own.
 #if defined(NEURALSVCD_IMPLEMENTATION) && \
     (!defined(NEURALSVCD_IMPLEMENTED) || defined(NSVCD__ISA))
 #define NEURALSVCD_IMPLEMENTED
@@ -3631,7 +3574,7 @@ NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *al
 #endif  // NSVCD_NO_STDIO
 #endif  // NSVCD_NO_OBJ
 
-// ======================================================================== patches: a mesh in parts
+// =========================================================== patches: the surface divided in parts
 
 // --------------------------------------------------------------------------------- patches/samples
 // In: a checked mesh. Out: S samples, which are oriented points of the surface; and what its N
@@ -5159,7 +5102,7 @@ static void nsvcd__region_end(nsvcd__regions *r, const nsvcd__region *region) {
 }
 #endif  // NSVCD_NO_ENCODER
 
-// ====================================================== surface: each patch described from outside
+// ======================================================= surface: the shape of each patch, bounded
 
 // ---------------------------------------------------------------------------------- surface/pieces
 // In: a mesh, region by region, and the centres of each region's patches, N in all. Out: pieces:
@@ -19621,7 +19564,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #endif  // NSVCD_NO_GRADIENT
 
 #ifndef NSVCD__ISA
-// ==================================================================== entry: the processor decides
+// ========================================================== entry: the processor picks the vectors
 
 // --------------------------------------------------------------------------------- entry/processor
 // In: a question. Out: its answer, by the functions for the best vectors that the processor has.

@@ -1,27 +1,40 @@
 // In: a mesh, or bytes that were a body. Out: nsvcd_body, and facts about it.
+//
+// CLOSED MESHES
+//   Only a closed component of a mesh has an inside. A component is closed if every edge has its
+//   reverse, whichever way it is wound as a whole. Flaws that do no harm to that are set aside:
+//   faces that occur twice or turned round, fins, inner walls, slivers, and gaps between corners
+//   that are no farther apart than a ten-thousandth of the diagonal of the mesh's box and a
+//   hundredth of the longest edge at either. (What is thinner than such a gap may slip through it.)
+//   A component that is still open encloses nothing for certain: nsvcd_body_facts counts these.
+//
+//   Nearly a solid is an open component with small holes: its surface goes on across each hole, as
+//   it does not at the rim of a bin, a tube or a floor, and either each hole is a slit or a single
+//   triangle, and together they are less than half of the area; or the component is wound outwards,
+//   and its holes are less than a fiftieth of its area. What seems to be inside of one is UNDECIDED,
+//   unless the mesh is said to be `open`.
 #pragma once
 #include "meshes.h"
 
 // An encoded body: one relocatable blob without pointers, aligned to NSVCD_ALIGNMENT. Copy it with
-// memcpy, write it with fwrite, map it, or bake it into flash as a const array. IEEE 754, in the
-// byte order of the machine that encoded it, and refused by one of the other order: it begins with
-// "NSVB" where that is little-endian, with "BVSN" where it is big-endian. nsvcd_body_facts.size is
-// its size. Threads may share it. Whatever takes one looks at its first bytes, and says BODY or
-// VERSION of what is none; it trusts the rest.
+// memcpy, write it with fwrite, map it, or bake it into flash as a const array;
+// nsvcd_body_facts.size is its size. Floats are IEEE 754, and all is in the byte order of the
+// machine that encoded it: the blob begins with "NSVB" on a little-endian one and with "BVSN" on a
+// big-endian one, and machines of the other order refuse it. Threads may share it. Functions that
+// take a body check its first bytes (errors BODY, VERSION) and trust the rest.
 typedef struct nsvcd_body nsvcd_body;
 
 #define NSVCD_ALIGNMENT 8
-// Patches of a body, where the options do not say: of one with triangles, and of one for the
-// network alone, which needs finer patches than a proof.
+// Default number of patches: of a body with triangles, and of one for the network alone, which needs
+// finer patches than a proof.
 #define NSVCD_DEFAULT_PATCHES 192
 #define NSVCD_DEFAULT_NETWORK_PATCHES 256
 #define NSVCD_MAX_PATCHES 65536
 // A body of more patches is a level: its patches are in a tree.
 #define NSVCD_SMALL_PATCHES 512
-// Where the options do not say, a mesh of up to VERY_FEW triangles has a patch for each, but no
-// fewer than LEAST; of up to MANY, a patch for each NSVCD_PATCH_TRIANGLES, but no fewer than
-// NSVCD_DEFAULT_PATCHES and no more than NSVCD_SMALL_PATCHES. A mesh of more is a level, with a
-// patch for each 12 triangles.
+// By default, a mesh of up to VERY_FEW triangles has one patch per triangle, but at least LEAST; one
+// of up to MANY has one per NSVCD_PATCH_TRIANGLES, but at least NSVCD_DEFAULT_PATCHES and at most
+// NSVCD_SMALL_PATCHES. A larger mesh is a level, with one patch per NSVCD_LEVEL_TRIANGLES.
 #define NSVCD_LEAST_PATCHES 12
 #define NSVCD_VERY_FEW_TRIANGLES 48
 #define NSVCD_PATCH_TRIANGLES 50
@@ -29,52 +42,49 @@ typedef struct nsvcd_body nsvcd_body;
 #define NSVCD_LEVEL_TRIANGLES 12
 // metres
 #define NSVCD_MAX_COORDINATE 1e6f
-// metres, of the sphere about a body
+// metres, of a body's bounding sphere
 #define NSVCD_MIN_RADIUS 1e-12f
-// per motion
+// of a motion
 #define NSVCD_MAX_POSES 65536
 // of a body in a question
 #define NSVCD_MIN_SCALE 1e-6f
 #define NSVCD_MAX_SCALE 1e6f
 
-// Told now and then how much is done, in [0,1]. Returns 0 to go on; otherwise the work is given up,
-// and the result is NSVCD_ERROR_CANCELLED.
+// Called now and then with the fraction done, in [0,1]. Return 0 to go on; anything else ends the
+// work with NSVCD_ERROR_CANCELLED.
 typedef int nsvcd_progress(float done, void *user);
 
-// What is zero is the default.
+// Zero means the default.
 typedef struct nsvcd_encode_options {
   // N, 1..NSVCD_MAX_PATCHES; 0: by the number of triangles, see above
   size_t patches;
-  // metres; if > 0 and patches is 0: as many patches as have about this radius. For a level about
-  // half the size of the bodies that move in it
+  // metres; if > 0 and patches is 0: as many patches as give each about this radius. For a level,
+  // take half the size of the bodies that move in it
   float patch_radius;
-  // metres: the body is all that is no farther from the mesh than this. If > 0, triangles need no
-  // area: one of the same vertex thrice is a ball, one of two vertices a capsule. Such a body has
-  // no latents
+  // metres: the body is everything within this distance of the mesh. If > 0, triangles need no
+  // area: one vertex three times makes a ball, two vertices make a capsule. Such a body has no
+  // latents
   float convex_radius;
-  // 1: the mesh is not closed (a sheet, or a part cut out): nothing counts as inside it. Where it
-  // is not said, a part that is nearly a solid leaves undecided what seems to be inside of it: its
-  // surface goes on across each of its holes, as it does not at the rim of a bin, a tube or a
-  // floor; each is a slit, or a single triangle, and these are less than half of its area; or it is
-  // wound outwards, and all holes are less than a fiftieth
+  // 1: the mesh is not closed (a sheet, or a part cut out), and nothing is inside it. 0: what seems
+  // to be inside of nearly a solid is undecided, see CLOSED MESHES
   int open;
-  // 1: for the network too, of which the proof needs nothing: 93 bytes more a patch, and time
+  // 1: for the network as well. The proof needs no latents; they take 93 bytes a patch, and time
   int latents;
-  // 1: for the network alone, in fewer bytes; then there is no proof
+  // 1: for the network alone, in fewer bytes; there is then no proof
   int no_triangles;
-  // 1: for flash that is scarce: the proof's triangles in 16 bits a coordinate, in some 5 % fewer
-  // bytes, 10 to 40 % of a fine mesh. Verdicts are then about these, which are within
-  // nsvcd_body_facts.quantization error of the mesh's own: HIT says that the mesh comes as near as
-  // that
+  // 1: store the proof's triangles with 16 bits a coordinate, for scarce flash: about 5 % fewer
+  // bytes, 10 to 40 % fewer for a fine mesh. Verdicts are then about these triangles, which are
+  // within nsvcd_body_facts.quantization_error of the mesh's own: a HIT says that the mesh comes
+  // that near
   int coarse;
-  // NULL, or told how much is done
+  // NULL, or called with the fraction done
   nsvcd_progress *progress;
-  // handed to progress
+  // passed to progress
   void *user;
 } nsvcd_encode_options;
 
 #ifndef NSVCD_NO_NETWORK
-// Bytes of a body without triangles; 0 if there can be no such body. One with triangles is larger:
+// Bytes of a body without triangles; 0 if there can be no such body. A body with triangles is larger:
 // let nsvcd_encode allocate it.
 NSVCDDEF size_t nsvcd_body_size(size_t patches);
 // The same as a constant, for 1 to NSVCD_SMALL_PATCHES patches.
@@ -85,15 +95,15 @@ NSVCDDEF size_t nsvcd_body_size(size_t patches);
 #endif
 
 #ifndef NSVCD_NO_ENCODER
-// Encodes a mesh into a body. The body may have fewer patches than asked, where the surface has too
-// few points to tell apart. Same mesh, same bytes, in one build: see DETERMINISM above.
+// Encodes a mesh into a body, which may have fewer patches than asked for if the surface has too few
+// distinct points. Same mesh, same bytes, in one build: see DETERMINISM below.
 //   mesh       not NULL; not kept
 //   options    NULL: the defaults, for the proof
 //   allocator  NULL: malloc and free
 //   memory     (capacity) bytes, aligned to NSVCD_ALIGNMENT, for the body. NULL: the body comes
-//              from the allocator, and nsvcd_body_free gives it back
+//              from the allocator; free it with nsvcd_body_free
 //   body       not NULL; set to the body; left as it was on failure
-//   allocates  working memory, which is given back, and the body where memory is NULL
+//   allocates  working memory, which is freed again, and the body if memory is NULL
 //   errors     ARGUMENT, PATCHES, RADIUS (`convex_radius`), LATENTS, INDEX, NUMBER, EMPTY,
 //              TOO_LARGE, MEMORY, WORKSPACE, CANCELLED
 //   source     the latents: NeuralSVCD, appendix F; the triangles: this library
@@ -101,21 +111,22 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
                                    const nsvcd_allocator *allocator, void *memory,
                                    size_t capacity, const nsvcd_body **body);
 #ifndef NSVCD_NO_PROOF
-// Bodies of a shape, for the proof, exact but for the roundings of float: what nsvcd_encode makes
-// of a point, a segment, a box or points and options.round. Where time matters they are better than
-// meshes of many triangles: a capsule is one segment. Voxels are a cloud of their centres: with a
-// radius of 0.8661 edges it contains the cubes, with half an edge it is within them; exact are only
-// their faces, as a mesh. A map that changes is best kept in chunks of some 16 x 16 x 16 cells, a
-// body each, of which only those with changes are encoded anew; nsvcd_sweep_batch asks all that are
-// near.
-//   radius, round   metres, > 0; that of a box may be 0
+// Bodies of simple shapes, for the proof, exact but for rounding to float: what nsvcd_encode makes of
+// a point, a segment, a box or points with options.convex_radius. They are faster to query than
+// meshes of many triangles: a capsule is a single segment.
+//
+// Voxels: a cloud of their centres with a radius of 0.8661 edges contains the cubes, with half an
+// edge it lies within them; only a mesh of their faces is exact. Keep a map that changes in chunks
+// of about 16 x 16 x 16 cells, a body each, encode only those that changed anew, and ask all that
+// are near with nsvcd_sweep_batch.
+//   radius, convex_radius  metres, > 0; a box's may be 0
 //   from, to        the ends of the capsule's axis, not NULL, metres; may be the same
-//   half            half-extents including the rounding radius; each >= round; not NULL, metres
+//   half            half-extents including convex_radius, each >= that; not NULL, metres
 //   points          (count, 3) metres, not NULL, not kept
 //   allocator       NULL: malloc and free
-//   body            not NULL; set to the body, about the origin or where its ends and points are;
-//                   left as it was on failure; nsvcd_body_free gives it back
-//   allocates       the body, and working memory, which is given back
+//   body            not NULL; set to the body, which is centred at the origin, or lies where its
+//                   ends or points do; free it with nsvcd_body_free; left as it was on failure
+//   allocates       the body, and working memory, which is freed again
 //   errors          ARGUMENT, RADIUS, NUMBER, EMPTY, TOO_LARGE, MEMORY
 NSVCDDEF nsvcd_result nsvcd_encode_sphere(float radius, const nsvcd_allocator *allocator,
                                           const nsvcd_body **body);
@@ -129,52 +140,51 @@ NSVCDDEF nsvcd_result nsvcd_encode_cloud(const float *points, size_t count, floa
                                          const nsvcd_allocator *allocator,
                                          const nsvcd_body **body);
 #endif
-// Gives back a body that nsvcd_encode allocated.
-//   body       may be NULL; what does not begin as a body does is left alone
-//   allocator  the one that it came from
+// Frees a body that nsvcd_encode or one of the shapes allocated.
+//   body       may be NULL; memory that does not begin as a body does is left alone
+//   allocator  the one that the body came from
 NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *allocator);
 #endif
 
-// Checks a blob that nobody vouches for, every byte of it, and takes it for a body.
+// Takes untrusted bytes for a body, after checking every one of them.
 //   memory     (size) bytes, not NULL, aligned to NSVCD_ALIGNMENT; the body stays in it
 //   body       not NULL; set to the body; left as it was on failure
 //   allocates  nothing
-//   errors     ARGUMENT (NULL), VERSION (it is a body, but of another version, other weights or the
-//              other byte order), BODY (anything else is wrong with it)
+//   errors     ARGUMENT (NULL), VERSION (a body, but of another version, other weights or the other
+//              byte order), BODY (anything else is wrong)
 NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size,
                                       const nsvcd_body **body);
 
-// nsvcd_body_load for bytes that are known to be what nsvcd_encode made. Only the header is read:
-// is it a body of this version and these weights, and is all of it there? For an array baked into
-// the program, and for a large mapped file that was loaded once before: its pages are then read as
-// queries need them. Bytes that were changed since do harm: wrong answers, or reads anywhere.
-// Arguments and errors are those of nsvcd_body_load.
+// nsvcd_body_load for bytes that are known to be as nsvcd_encode made them. Only the header is
+// checked: version, weights and size. For an array baked into the program, or a large mapped file
+// that was loaded once before: its pages are then read as queries need them. Bytes that have changed
+// since do harm: wrong answers, or reads out of bounds. Arguments and errors are those of
+// nsvcd_body_load.
 NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size,
                                        const nsvcd_body **body);
 
-// Writes a copy of a body, scaled about its origin: for a planner's bodies, or to bake one; a
-// question has scales of its own. Latents do not depend on scale, and answers scale along, to
-// rounding.
+// Writes a copy of a body, scaled about its origin: for a planner, or to bake one. (A question has
+// scales of its own.) Latents do not depend on scale, and answers scale along, up to rounding.
 //   body       not NULL
 //   scale      > 0
-//   memory     (capacity) bytes, not NULL, aligned to NSVCD_ALIGNMENT; may be where the body is
+//   memory     (capacity) bytes, not NULL, aligned to NSVCD_ALIGNMENT; may be the body's own
 //   scaled     not NULL; set to the copy; left as it was on failure
 //   allocates  nothing
-//   errors     ARGUMENT, BODY, VERSION, SCALE (also if the copy were smaller or larger than a body
-//              may be), WORKSPACE; with NSVCD_NO_PROOF also TRIANGLES: it has some, which that
-//              cannot scale
+//   errors     ARGUMENT, BODY, VERSION, SCALE (also if the copy would be smaller or larger than a
+//              body may be), WORKSPACE; with NSVCD_NO_PROOF also TRIANGLES: that build cannot scale
+//              them
 NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void *memory,
                                        size_t capacity, const nsvcd_body **scaled);
 
 typedef struct nsvcd_body_facts {
-  // bytes: what to save
+  // bytes to save
   size_t size;
   // N
   size_t patches;
   // metres: a sphere that contains the body
   float centre[3];
   float radius;
-  // metres: no point of the mesh is farther from the origin
+  // metres: no point of the mesh is farther from its origin
   float extent;
   // metres: a box that contains the mesh; 0 where no triangles are stored
   float low[3], high[3];
@@ -182,30 +192,29 @@ typedef struct nsvcd_body_facts {
   float mean_patch_radius;
   // of the mesh; 0: none are stored
   size_t triangles;
-  // triangles and parts of them that are stored, patch by patch
+  // entries: triangles, and parts of them, patch by patch
   size_t stored_triangles;
   // metres: the triangles that verdicts are about are within this of the mesh's. 0: they are the
-  // mesh's own floats. Else the body is coarse, or nsvcd_body_scale has rounded it
+  // mesh's own floats. Otherwise the body is coarse, or nsvcd_body_scale has rounded it
   float quantization_error;
-  // metres that the body goes beyond its mesh
+  // metres by which the body exceeds its mesh
   float convex_radius;
   // 1: the network can answer
   int latents;
-  // parts of the surface, and how many of these are not closed once what does no harm is mended
-  // (see WHAT AN ANSWER IS WORTH): 0: all is a solid. 0, 0 where no triangles are stored
+  // of the mesh, and how many of them are open, see CLOSED MESHES; none: all of it is solid. 0, 0
+  // if no triangles are stored
   size_t components, open_components;
-  // of these: edges of a single triangle, or of another odd number
+  // of the open components: edges with an odd number of triangles, mostly one
   size_t open_edges;
-  // 1: it was said to be open
+  // 1: options.open was set
   int open;
 } nsvcd_body_facts;
 
-// What a body is; all 0 where it is none.
+// Describes a body; all 0 if it is none.
 //   body       may be NULL
 NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body);
 
-// The sphere of one patch. Returns 1, or, if there is no such patch or no body, 0: then nothing is
-// written.
+// The sphere of one patch. Returns 1; or 0, writing nothing, if there is no such patch or body.
 //   patch      as in nsvcd_answer
 //   centre     not NULL, metres, body frame
 //   radius     not NULL, metres

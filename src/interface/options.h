@@ -1,7 +1,7 @@
-// In: what is defined before the header. Out: what follows from it, and how functions are declared.
+// In: the switches that a program defines. Out: the version, switches that follow, NSVCDDEF.
 #pragma once
 
-// as the first line says; before 1.0 a minor version may change what a program sees
+// as in the first line; before 1.0 a minor version may change what a program sees
 #define NSVCD_VERSION "0.3.0"
 #define NSVCD_VERSION_MAJOR 0
 #define NSVCD_VERSION_MINOR 3
@@ -25,14 +25,14 @@
 #if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ && \
     defined(NEURALSVCD_IMPLEMENTATION) && defined(__GNUC__)
 #pragma GCC warning \
-    "neuralsvcd.h: -ffinite-math-only: bad input is still refused, but results are not tested so"
+    "neuralsvcd.h: -ffinite-math-only: bad input is still refused, but results are untested"
 #endif
 
 #include <stddef.h>
 #include <stdint.h>
 
 #if defined(NSVCD_STATIC) && (defined(__GNUC__) || defined(__clang__))
-#define NSVCDDEF static __attribute__((unused))  // nobody calls all of them
+#define NSVCDDEF static __attribute__((unused))  // few programs call all of them
 #elif defined(NSVCD_STATIC)
 #define NSVCDDEF static
 #else

@@ -1,64 +1,64 @@
-// In: nothing. Out: codes of what may fail, what they say, and the caller's allocator.
+// In: nothing. Out: result codes, their texts, and the caller's allocator.
 #pragma once
 #include "options.h"
 
 typedef enum nsvcd_result {
   NSVCD_OK = 0,
-  // NULL where it is not allowed
+  // a pointer is NULL that must not be
   NSVCD_ERROR_ARGUMENT,
   // the file is missing or cannot be read
   NSVCD_ERROR_IO,
   // the allocator returned NULL
   NSVCD_ERROR_MEMORY,
-  // the memory given is NULL, not aligned to NSVCD_ALIGNMENT bytes, or too small: size, capacity
+  // the memory given is NULL, not aligned to NSVCD_ALIGNMENT, or too small: size, capacity
   NSVCD_ERROR_WORKSPACE,
-  // by the caller's progress function
+  // the caller's progress function cancelled
   NSVCD_ERROR_CANCELLED,
-  // a count is 0, or larger than the library takes: of joints, parts, goals or what a guess has
+  // a count is 0, or larger than the library takes: of joints, parts, goals, points of a guess
   NSVCD_ERROR_COUNT,
 
   // ---- files and meshes
-  // the file is of another format, or, of what is binary, cut short
+  // the file has another format, or is a binary one that is cut short
   NSVCD_ERROR_FORMAT,
-  // a line that cannot be understood, or a face of one or two vertices
+  // a line cannot be understood, or a face has one or two vertices
   NSVCD_ERROR_SYNTAX,
-  // an index that is zero, or refers to no vertex
+  // an index is zero, or refers to no vertex
   NSVCD_ERROR_INDEX,
   // a coordinate is not finite, or larger than NSVCD_MAX_COORDINATE
   NSVCD_ERROR_NUMBER,
-  // no triangle, no area, or all of it within NSVCD_MIN_RADIUS
+  // the mesh has no triangle, no area, or a radius below NSVCD_MIN_RADIUS
   NSVCD_ERROR_EMPTY,
   // more vertices, triangles or bytes than can be counted
   NSVCD_ERROR_TOO_LARGE,
-  // sizes of faces: fewer than three, or in all not corner_count
+  // a face's size is below three, or the sizes do not add up to corner_count
   NSVCD_ERROR_SIZES,
   // low or high is not finite, or low is not less than high
   NSVCD_ERROR_BOX,
-  // more patches than NSVCD_MAX_PATCHES, or a patch_radius that is negative or not finite
+  // more patches than NSVCD_MAX_PATCHES, or patch_radius is negative or not finite
   NSVCD_ERROR_PATCHES,
-  // a radius, `round` or `half` is not positive where it must be, not finite, or beyond
-  // NSVCD_MAX_COORDINATE
+  // a radius, `convex_radius` or `half` is negative, zero where it must not be, not finite, or
+  // beyond NSVCD_MAX_COORDINATE
   NSVCD_ERROR_RADIUS,
 
   // ---- bodies
-  // what is passed as a body is none, is damaged, cut short or misaligned
+  // what is passed as a body is not one, or is damaged, cut short or misaligned
   NSVCD_ERROR_BODY,
-  // a body of another version, model or byte order
+  // the body has another version, model or byte order
   NSVCD_ERROR_VERSION,
-  // a body without triangles, which a proof needs
+  // the body has no triangles, which a proof needs
   NSVCD_ERROR_TRIANGLES,
-  // a body without latents, which the network needs; or they were asked for where there are none:
-  // without the network, or of what is round
+  // the body has no latents, which the network needs; or latents were asked for in a build without
+  // the network, or of a body with a convex radius
   NSVCD_ERROR_LATENTS,
 
   // ---- questions
-  // poses that are NULL have a count of 0, others one of 1 to NSVCD_MAX_POSES
+  // count must be 0 where poses is NULL, else 1 to NSVCD_MAX_POSES
   NSVCD_ERROR_POSES,
-  // times that do not rise, or, of poses, not from 0 to 1
+  // times do not rise, or those of poses do not go from 0 to 1
   NSVCD_ERROR_TIMES,
   // a pose's position is not finite, or beyond NSVCD_MAX_COORDINATE
   NSVCD_ERROR_POSE,
-  // a quaternion's length is not 1, to NSVCD_UNIT_TOLERANCE
+  // a quaternion's length differs from 1 by more than NSVCD_UNIT_TOLERANCE
   NSVCD_ERROR_QUATERNION,
   // a scale is not finite, negative or out of range, or makes a body too small or too large
   NSVCD_ERROR_SCALE,
@@ -66,12 +66,12 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_SAME,
   // `ask` is none of its values
   NSVCD_ERROR_ASK,
-  // `method` is none of its values, or cannot answer this: the network knows no FIRST, to,
-  // clearance or slop, and no proof has a gradient
+  // `method` is none of its values, or cannot answer this: the network has no FIRST, `to`,
+  // clearance or slop, and a proof has no gradient
   NSVCD_ERROR_METHOD,
-  // `to` is negative, not finite, too large, or set where HIT is asked
+  // `to` is negative, not finite or too large, or set with HIT
   NSVCD_ERROR_TO,
-  // `to_time` is not in [0,1], or set where FIRST is not asked
+  // `to_time` is not in [0,1], or set without FIRST
   NSVCD_ERROR_TO_TIME,
   // `clearance` is negative, not finite or too large
   NSVCD_ERROR_CLEARANCE,
@@ -79,7 +79,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_SLOP,
   // `tolerance` is negative, not finite or too large
   NSVCD_ERROR_TOLERANCE,
-  // `manifold` is set where FIRST is not asked
+  // `manifold` is set without FIRST
   NSVCD_ERROR_MANIFOLD,
   // `segments` is not a multiple of 16 up to 64
   NSVCD_ERROR_SEGMENTS,
@@ -89,7 +89,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_MODEL,
   // `network.precision` is none of its values, or not compiled in
   NSVCD_ERROR_PRECISION,
-  // `network.recall` is none of those there are
+  // `network.recall` is none of its values
   NSVCD_ERROR_RECALL,
   // `network.inflate` is negative or not finite
   NSVCD_ERROR_INFLATE,
@@ -103,19 +103,19 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_LIMITS,
   // a joint's speed or acceleration is negative, not finite or too large
   NSVCD_ERROR_SPEED,
-  // a link is no joint of the scene, or a part none of its parts
+  // a link or a part is not one of the scene's
   NSVCD_ERROR_LINK,
-  // a pair that is not there, or that names a part that is not there, or two that never move apart
+  // a pair is not one of the scene's, names a part that is not, or two parts that never move apart
   NSVCD_ERROR_PAIR,
-  // a joint's value is not finite or too large: in a start, a goal, a motion's points
+  // a joint's value in a start, a goal or a motion is not finite or too large
   NSVCD_ERROR_VALUE,
-  // `degree` is not 1 to NSVCD_MAX_DEGREE, or pieces are more than can be counted
+  // `degree` is not 1 to NSVCD_MAX_DEGREE, or there are more pieces than can be counted
   NSVCD_ERROR_DEGREE,
-  // a motion whose joints turn too far in a piece to be certified
+  // the joints turn too far in a piece of the motion to be certified
   NSVCD_ERROR_TURN,
   // `finest` is negative or not finite
   NSVCD_ERROR_FINEST,
-  // `within` or `deepest` is negative, not finite or too large
+  // `max_distance` or `deepest` is negative, not finite or too large
   NSVCD_ERROR_DISTANCE,
   // `farthest` is negative, not finite or too large
   NSVCD_ERROR_FARTHEST,
@@ -123,29 +123,29 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_ROUTE,
   // a planner's stage is out of range
   NSVCD_ERROR_STAGE,
-  // a planner's weight, duration or margin is not finite, or its seeds or checks are too many
+  // a planner's weight, duration or margin is not finite, or it has too many seeds or checks
   NSVCD_ERROR_PLAN,
 
   // ---- this build
-  // the compiler, or its flags, made a program that computes wrongly
+  // the compiler or its flags made a program that computes wrongly
   NSVCD_ERROR_BUILD
 } nsvcd_result;
 
-// What a result says, for a person: a sentence without a full stop, never NULL. It names the field
+// The text of a result, for people: a sentence without a full stop, never NULL. It names the field
 // at fault, as it is called here.
 NSVCDDEF const char *nsvcd_result_string(nsvcd_result result);
 
-// Does this build compute rightly, on this processor? Certificates of one that does not are false.
-// To be called once, at the start, where the compiler is not gcc, clang or MSVC, or where its flags
-// are unusual. It looks at how structs and floats are passed, at vectors, rotations, the test that
-// certificates rest on, and two triangles. What it does not look at may be wrong still.
+// Does this build compute correctly on this processor? If not, what it proves may be false. Call
+// this once at the start if the compiler is not gcc, clang or MSVC, or if its flags are unusual. It
+// tests how structs and floats are passed, vectors, rotations, the test of a plane that proofs rest
+// on, and two triangles; anything else may still be wrong.
 //   allocates  nothing, and takes a microsecond (tests/test_processor.c)
 //   errors     BUILD
 NSVCDDEF nsvcd_result nsvcd_self_test(void);
 
-// Where memory comes from. NULL in place of an allocator means malloc and free.
+// Where memory comes from. A NULL allocator means malloc and free.
 //   alloc      returns memory aligned as malloc's, or NULL on failure
-//   user       handed to both
+//   user       passed to both
 typedef struct nsvcd_allocator {
   void *(*alloc)(size_t size, void *user);
   void (*free)(void *memory, void *user);
