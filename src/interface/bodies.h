@@ -11,8 +11,8 @@
 //   Nearly a solid is an open component with small holes: its surface goes on across each hole, as
 //   it does not at the rim of a bin, a tube or a floor, and either each hole is a slit or a single
 //   triangle, and together they are less than half of the area; or the component is wound outwards,
-//   and its holes are less than a fiftieth of its area. What seems to be inside of one is UNDECIDED,
-//   unless the mesh is said to be `open`.
+//   and its holes are less than a fiftieth of its area. What seems to be inside of one is
+//   UNDECIDED, unless the mesh is said to be `open`.
 #pragma once
 #include "meshes.h"
 
@@ -25,16 +25,16 @@
 typedef struct nsvcd_body nsvcd_body;
 
 #define NSVCD_ALIGNMENT 8
-// Default number of patches: of a body with triangles, and of one for the network alone, which needs
-// finer patches than a proof.
+// Default number of patches: of a body with triangles, and of one for the network alone, which
+// needs finer patches than a proof.
 #define NSVCD_DEFAULT_PATCHES 192
 #define NSVCD_DEFAULT_NETWORK_PATCHES 256
 #define NSVCD_MAX_PATCHES 65536
 // A body of more patches is a level: its patches are in a tree.
 #define NSVCD_SMALL_PATCHES 512
-// By default, a mesh of up to VERY_FEW triangles has one patch per triangle, but at least LEAST; one
-// of up to MANY has one per NSVCD_PATCH_TRIANGLES, but at least NSVCD_DEFAULT_PATCHES and at most
-// NSVCD_SMALL_PATCHES. A larger mesh is a level, with one patch per NSVCD_LEVEL_TRIANGLES.
+// By default, a mesh of up to VERY_FEW triangles has one patch per triangle, but at least LEAST;
+// one of up to MANY has one per NSVCD_PATCH_TRIANGLES, but at least NSVCD_DEFAULT_PATCHES and at
+// most NSVCD_SMALL_PATCHES. A larger mesh is a level, with one patch per NSVCD_LEVEL_TRIANGLES.
 #define NSVCD_LEAST_PATCHES 12
 #define NSVCD_VERY_FEW_TRIANGLES 48
 #define NSVCD_PATCH_TRIANGLES 50
@@ -84,8 +84,8 @@ typedef struct nsvcd_encode_options {
 } nsvcd_encode_options;
 
 #ifndef NSVCD_NO_NETWORK
-// Bytes of a body without triangles; 0 if there can be no such body. A body with triangles is larger:
-// let nsvcd_encode allocate it.
+// Bytes of a body without triangles; 0 if there can be no such body. A body with triangles is
+// larger: let nsvcd_encode allocate it.
 NSVCDDEF size_t nsvcd_body_size(size_t patches);
 // The same as a constant, for 1 to NSVCD_SMALL_PATCHES patches.
 #define NSVCD_BODY_BYTES(patches) \
@@ -95,8 +95,8 @@ NSVCDDEF size_t nsvcd_body_size(size_t patches);
 #endif
 
 #ifndef NSVCD_NO_ENCODER
-// Encodes a mesh into a body, which may have fewer patches than asked for if the surface has too few
-// distinct points. Same mesh, same bytes, in one build: see DETERMINISM below.
+// Encodes a mesh into a body, which may have fewer patches than asked for if the surface has too
+// few distinct points. Same mesh, same bytes, in one build: see DETERMINISM below.
 //   mesh       not NULL; not kept
 //   options    NULL: the defaults, for the proof
 //   allocator  NULL: malloc and free
@@ -111,8 +111,8 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
                                    const nsvcd_allocator *allocator, void *memory,
                                    size_t capacity, const nsvcd_body **body);
 #ifndef NSVCD_NO_PROOF
-// Bodies of simple shapes, for the proof, exact but for rounding to float: what nsvcd_encode makes of
-// a point, a segment, a box or points with options.convex_radius. They are faster to query than
+// Bodies of simple shapes, for the proof, exact but for rounding to float: what nsvcd_encode makes
+// of a point, a segment, a box or points with options.convex_radius. They are faster to query than
 // meshes of many triangles: a capsule is a single segment.
 //
 // Voxels: a cloud of their centres with a radius of 0.8661 edges contains the cubes, with half an
@@ -157,8 +157,8 @@ NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size,
 
 // nsvcd_body_load for bytes that are known to be as nsvcd_encode made them. Only the header is
 // checked: version, weights and size. For an array baked into the program, or a large mapped file
-// that was loaded once before: its pages are then read as queries need them. Bytes that have changed
-// since do harm: wrong answers, or reads out of bounds. Arguments and errors are those of
+// that was loaded once before: its pages are then read as queries need them. Bytes that have
+// changed since do harm: wrong answers, or reads out of bounds. Arguments and errors are those of
 // nsvcd_body_load.
 NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size,
                                        const nsvcd_body **body);

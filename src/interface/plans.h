@@ -1,9 +1,9 @@
-// In: a planning problem, or control points. Out: control points, or what the joints are at a time.
+// In: a planning problem, or control points. Out: control points, or the joints at a time.
 //
-// A trajectory of F joints is a spline through control points: the start, M via points, the goal,
-// control (M + 2, F), uniform in t in [0,1]. Between two points it is of degree five. At via points
-// it has the velocity and the acceleration of central differences, and it is at rest at both ends;
-// so both are continuous everywhere.
+// A trajectory of F joints is a spline through control points: the start, M via points, the goal;
+// control (M + 2, F), uniform in t in [0,1]. It has degree five between two points. At via points
+// its velocity and acceleration are those of central differences, and it rests at both ends, so
+// both are continuous everywhere.
 #pragma once
 #include "queries.h"
 
@@ -14,9 +14,9 @@
 
 // The joints at a time, or their derivatives by t.
 //   control    (via_points + 2, joints), not NULL
-//   via_points M, up to NSVCD_MAX_VIA_POINTS; of more, nothing is written
-//   t          taken into [0,1]
-//   derivative 0: the joints; 1, 2, 3: velocity, acceleration, jerk; of more, nothing is written
+//   via_points M, up to NSVCD_MAX_VIA_POINTS; if more, nothing is written
+//   t          clamped to [0,1]
+//   derivative 0: the joints; 1, 2, 3: velocity, acceleration, jerk; if more, nothing is written
 //   out        (joints), not NULL
 //   allocates  nothing
 //   source     quintic Hermite interpolation, as the paper's authors use it
@@ -24,42 +24,42 @@ NSVCDDEF void nsvcd_spline(const float *control, size_t via_points, size_t joint
                            size_t derivative, float *out);
 
 typedef enum nsvcd_plan_status {
-  // the trajectory is within the limits and free of collision: certified where bodies have
-  // triangles, else as far as the network knows; but for what it deviates from the last check's
-  // motion, answer.deviate
+  // the trajectory is within the limits and free of collision: proven where bodies have triangles,
+  // otherwise as far as the network knows; up to its deviation from the last check's motion,
+  // answer.deviation
   NSVCD_PLAN_CONVERGED = 0,
-  // the iterations ended before one was found; this is the best
+  // the iterations ended before a free one was found; this is the best
   NSVCD_PLAN_LIMIT,
   // by the progress callback; this is the best so far
   NSVCD_PLAN_CANCELLED,
-  // the start is out of the limits or in collision: control is the smoothest way to the goal
+  // the start is out of the limits or in collision; control is the smoothest path to the goal
   NSVCD_PLAN_START,
-  // the goal is out of the limits or in collision: so again
+  // the same of the goal
   NSVCD_PLAN_GOAL
 } nsvcd_plan_status;
 
-// A status in a word or two, for a person; never NULL.
+// The status in a word or two, for people; never NULL.
 NSVCDDEF const char *nsvcd_plan_status_string(nsvcd_plan_status status);
 
 typedef struct nsvcd_plan_progress {
   // from 0
   size_t seed, iteration;
-  // of this stage; L-BFGS begins anew where the proof found a hit
+  // of this stage; L-BFGS starts again if the proof finds a hit
   size_t iterations;
   // 0: MPPI, 1: L-BFGS
   int refining;
-  // of the best trajectory of this stage. Stages look at different poses: their costs do not
+  // of the best trajectory of this stage. Stages evaluate different poses, so their costs do not
   // compare
   float cost;
-  // the part of it that is due to collision: at 0 it is free, as far as the stage's segments show
+  // the part of the cost due to collision; 0: free, as far as the stage's segments show
   float collision;
   // (via_points + 2, F), valid during the call
   const float *control;
   size_t via_points;
 } nsvcd_plan_progress;
 
-// A scene: who moves how, and who can meet whom. Nothing else is looked at. One `user` serves all
-// callbacks; these must depend on nothing but their arguments and it.
+// A scene: how bodies move, and which pairs can meet; no others are checked. All callbacks get the
+// same `user`, and must depend on nothing but that and their arguments.
 typedef struct nsvcd_plan_problem {
   // F, 1..NSVCD_MAX_JOINTS
   size_t joints;
@@ -67,127 +67,127 @@ typedef struct nsvcd_plan_problem {
   const float *low, *high;
   // (F)
   const float *start, *goal;
-  // (B), up to 65536, with latents; ones in no pair may be NULL
+  // (B), up to 65536, with latents; those in no pair may be NULL
   const nsvcd_body *const *bodies;
   size_t body_count;
-  // (P). The planner asks about a's motion as seen from b: take the body that rests, or else the
-  // larger one, as b, for the other way round costs a little accuracy
+  // (P). The planner asks about a's motion as seen from b. Let b be the body that rests, or else
+  // the larger: the other way round is a little less accurate
   const nsvcd_body_pair *pairs;
   size_t pair_count;
-  // joints (F) -> poses (B), in the world. What is grasped moves with the hand because this says
-  // so: nothing is encoded anew
+  // joints (F) -> poses (B), in the world. To grasp a thing, let this move it with the hand;
+  // nothing is encoded again
   void (*kinematics)(void *user, const float *joints, nsvcd_pose *poses);
-  // joints (F) -> jacobian (B, 6, F): of each body, by a joint, the displacement of its origin and
-  // its rotation vector, in the world's axes. NULL: by differences of `kinematics`
+  // joints (F) -> jacobian (B, 6, F): for each body and joint, the displacement of the body's
+  // origin and its rotation vector, in world axes. NULL: by differences of `kinematics`
   void (*jacobian)(void *user, const float *joints, float *jacobian);
-  // Instead of the network: the cost of collision of poses (T, B) at T times along the trajectory.
-  // It may end at the first sum above `limit`. Sets *collides if there is a collision. Unless
-  // `gradient` is NULL, adds the cost's derivative to it, (T, B, 6), as nsvcd_sweep_gradient has
-  // it. NULL: the network
+  // NULL: the network. Otherwise the cost of collision of poses (T, B) at T times along the
+  // trajectory. It may return as soon as the sum exceeds `limit`. Sets *collides if there is a
+  // collision. Unless `gradient` is NULL, adds the cost's derivative to it, (T, B, 6), as
+  // nsvcd_sweep_gradient has it
   float (*collision)(void *user, const nsvcd_pose *poses, size_t times, float limit,
                      int *collides, float *gradient);
-  // once in each iteration; not 0 cancels. May be NULL
+  // called once per iteration; not 0 cancels. May be NULL
   int (*progress)(void *user, const nsvcd_plan_progress *progress);
   void *user;
 } nsvcd_plan_problem;
 
-// What is zero is the stage's default.
+// Zero means the stage's default.
 typedef struct nsvcd_plan_stage {
   // M, up to NSVCD_MAX_VIA_POINTS
   size_t via_points;
-  // of the trajectory, each swept as one motion; with `discrete`, their ends are looked at; up to
+  // of the trajectory, each swept as one motion; with `discrete`, their ends are checked; up to
   // NSVCD_MAX_PLAN_SEGMENTS
   size_t segments;
-  // at most, up to 100000; NSVCD_NONE: leave the stage out
+  // at most, up to 100000; NSVCD_NONE: skip the stage
   size_t iterations;
   // random trajectories in an iteration of MPPI, or gradients in a bundle of L-BFGS; up to 10000
   size_t draws;
-  // their standard deviation about the trajectory, radians or metres: MPPI's at mid-motion, at
-  // first; of L-BFGS's bundle at all via points. Negative: 0
+  // their standard deviation around the trajectory, radians or metres: for MPPI at mid-motion, in
+  // the first iteration; for L-BFGS's bundle at all via points. Negative: 0
   float noise;
 } nsvcd_plan_stage;
 
-// What is zero is the default, which stands last; weights that are negative count as zero. If an
-// exact check finds contacts, raise sweep.network.recall, `collision` or the bodies' number of
-// patches; if the status is LIMIT, `seeds` or explore.draws. The smoothness counts radians and
-// metres alike: for ways of hundreds of metres, raise `duration` or `collision`.
+// Zero means the default, which is given last; negative weights count as zero. If an exact check
+// finds contacts, raise sweep.network.recall, `collision` or the bodies' number of patches; if the
+// status is LIMIT, raise `seeds` or explore.draws. Smoothness counts radians and metres alike: for
+// paths of hundreds of metres, raise `duration` or `collision`.
 typedef struct nsvcd_plan_options {
   // of all random numbers
   uint64_t seed;
-  // starts, tried until one ends free, up to 1000; 6
+  // initial trajectories, tried until one ends free, up to 1000; 6
   size_t seeds;
   // MPPI: 5 via points, 24 segments, 40 iterations, 100 draws, noise 0.3
   nsvcd_plan_stage explore;
   // L-BFGS: 10, 22, 10, 10, 0.01
   nsvcd_plan_stage refine;
-  // weights of the means of squares over the motion: 10, 2, 10
+  // weights of the mean squares over the motion: 10, 2, 10
   float velocity, acceleration, jerk;
-  // weight of the logits' sum over pairs and segments: 20; the paper's is 1
+  // weight of the sum of logits over pairs and segments: 20; the paper's is 1
   float collision;
-  // seconds from start to goal, which only weights the terms above: 20
+  // seconds from start to goal; they only weight the terms above: 20
   float duration;
   // logits above minus this cost: 2
   float margin;
-  // 1: poses instead of sweeps
+  // 1: check poses instead of sweeps
   int discrete;
   // segments of the last check, up to 4 NSVCD_MAX_PLAN_SEGMENTS; 16 times the finest stage's, or
-  // that limit. Limits are looked at between these and at via points. Twice as many take
-  // answer.deviate to a quarter
+  // that limit. Joint limits are checked between segments and at via points. Twice as many make
+  // answer.deviation a quarter
   size_t check;
-  // how all questions are asked; sweep.network.recall = 0.999f keeps more distance. The search asks
-  // the network. `method` is that of start, goal and the last check, and so are `clearance`, `slop`
-  // and the like. Not read: a, b, ask, to and to_time
+  // how questions are asked; sweep.network.recall = 0.999f keeps more distance. The search asks the
+  // network; `method`, `clearance`, `slop` and the like apply to the start, the goal and the last
+  // check. Not read: a, b, ask, to and to_time
   nsvcd_question sweep;
 } nsvcd_plan_options;
 
 typedef struct nsvcd_plan_answer {
   nsvcd_plan_status status;
-  // by the last check, or of the start or the goal where the status says so
+  // by the last check, or of the start or the goal if the status names it
   int collides;
-  // that leaves its limits, or NSVCD_NONE
+  // a joint that leaves its limits, or NSVCD_NONE
   size_t joint;
-  // of the greatest logit, or NSVCD_NONE
+  // the pair with the largest logit, or NSVCD_NONE
   size_t pair;
-  // greatest of the last check; with a custom cost of collision that cost
+  // the largest of the last check; with a custom cost of collision, that cost
   float logit;
   // of that logit, in [0,1]
   float time;
-  // metres that the spline deviates from the motion of the last check, through whose poses it goes:
-  // the farthest of any point of a's bounding sphere, as b sees it. Of all pairs whose a is given,
-  // with a custom cost of collision too. Measured, not proven: half way between two poses, where a
-  // smooth curve deviates most, at 16 places or more of each piece of the spline. 0 where no
-  // trajectory was sought
+  // metres: how far the spline leaves the motion of the last check, through whose poses it goes:
+  // the largest deviation of any point of a's bounding sphere, as b sees it, over all pairs whose a
+  // is given, also with a custom cost of collision. Measured, not proven: half way between two
+  // poses, where a smooth curve deviates most, at 16 or more times in each piece of the spline. 0
+  // if no trajectory was sought
   float deviation;
-  // of the trajectory, the latter without collision and limits; 0 where none was sought
+  // of the trajectory; smoothness is without collision and limits. 0 if none was sought
   float cost, smoothness;
   // M of `control`
   size_t via_points;
-  // used; the latter of both stages
+  // used; iterations of both stages
   size_t seeds, iterations;
-  // that were costed
+  // whose cost was computed
   size_t trajectories;
   // queries asked
   size_t sweeps;
 } nsvcd_plan_answer;
 
-// Bytes of the workspace that nsvcd_plan needs; 0 if problem or options are refused, or if it were
+// Bytes of workspace that nsvcd_plan needs; 0 if problem or options are refused, or if it would be
 // more than SIZE_MAX.
 //   options    NULL: the defaults
 NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
                                           const nsvcd_plan_options *options);
 
-// Finds a smooth trajectory from start to goal on which no pair meets. The same problem, the same
+// Finds a smooth trajectory from start to goal on which no pair meets. Same problem, same
 // trajectory, in one build: see DETERMINISM above.
 //   problem    not NULL
 //   options    NULL: the defaults
 //   workspace  (workspace_size) bytes, nsvcd_plan_workspace_size(problem, options) or more, not
 //              NULL, aligned to NSVCD_ALIGNMENT
-//   control    (M + 2, F), not NULL, with the M of options.refine, or of explore if that is left
-//              out; NSVCD_MAX_VIA_POINTS + 2 rows are always enough. Written whatever the status
-//              is; not on failure
+//   control    (M + 2, F), not NULL, with the M of options.refine, or of explore if that is
+//              skipped; NSVCD_MAX_VIA_POINTS + 2 rows are always enough. Written whatever the
+//              status, but not on failure
 //   answer     not NULL; left as it was on failure
 //   allocates  nothing
-//   threads    each with its own workspace; they may share bodies
+//   threads    each needs a workspace of its own; bodies may be shared
 //   errors     ARGUMENT (NULL), COUNT, PAIR, BODY, VERSION, STAGE, PLAN (of the options), LIMITS
 //              (low above high), VALUE (limits, start or goal not finite or beyond
 //              NSVCD_MAX_COORDINATE), NUMBER (a cost beyond the range of float), POSE and
@@ -195,16 +195,16 @@ NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
 //   source     MPPI (Williams et al. 2017), then L-BFGS with bundled gradients (Suh et al. 2022);
 //              NeuralSVCD, appendix D
 //
-// Start, goal and the trajectory at the end are proven free where bodies have triangles: for the
-// motion of each pair as seen from b between the poses of the check's segments, position linear and
-// rotation slerp. The spline goes through these poses, and in between deviates from that motion by
-// answer.deviate, which nothing proves: to have the spline itself clear, by measure, ask for a
-// sweep.clearance above that. With `discrete`, or a cost of collision of one's own, nothing is
-// proven between the poses.
+// If bodies have triangles, the start, the goal and the final trajectory are proven free. The proof
+// is about the motion of each pair, as seen from b, between the poses of the check's segments, with
+// linear positions and slerped rotations. The spline goes through these poses, and deviates from
+// that motion in between by answer.deviation, which is not proven: to clear the spline itself, as
+// measured, ask for a larger sweep.clearance than that. With `discrete`, or a custom cost of
+// collision, nothing is proven between the poses.
 //
-// Where the proof finds a hit, the refinement goes on from there with twice the margin and a little
-// more, three times at most. It ends within seeds * (iterations of MPPI + 4 times those of L-BFGS)
-// iterations, each of `draws` trajectories, and for L-BFGS of 5 more.
+// If the proof finds a hit, the refinement goes on from there with twice the margin and a little
+// more, three times at most. The planner ends within seeds * (iterations of MPPI + 4 times those of
+// L-BFGS) iterations of `draws` trajectories each, and 5 more each for L-BFGS.
 NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
                                  const nsvcd_plan_options *options, void *workspace,
                                  size_t workspace_size, float *control,
