@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// svcd.c - neuralsvcd.h on the command line: does this body, moving so, hit that one? What is wrong
-// with a mesh? Encodes meshes, answers whole files of problems, plans motions of robots.
+// svcd.c - neuralsvcd.h on the command line: does this body, moving along this trajectory, hit that
+// one? What is wrong with a mesh? Encodes meshes, answers files of problems, plans robot motions.
 //
 // `svcd --help` says how to use it, FORMATS.md what it reads and prints. Exit status: 0 done, 1 a
 // file or a line was refused (file, line and reason on standard error), 2 usage. With sweep
-// --exit-code: 0 free, 1 hit, 3 undecided, 2 all else.
+// --exit-code: 0 free, 1 hit, 3 undecided, 2 anything else.
 #define _POSIX_C_SOURCE 200112L  // scenery/clock.h
 #define NEURALSVCD_IMPLEMENTATION
 #define NEURALSVCD_CERTIFY_IMPLEMENTATION
@@ -30,43 +30,41 @@ enum { CHECK = 1, ENCODE = 2, INFO = 4, SWEEP = 8, PLAN = 16, PATH = 32, PAIRS =
 #define DIGITS(macro) TEXT_OF(macro)
 static const option options[] = {
     {"--from", SWEEP, OPTION_TEXT, AT(from), 0, 0, NULL, "POSE",
-     "x,y,z[,qx,qy,qz,qw]: where A's origin is at t = 0, and how it is turned (as the file has "
-     "it)"},
+     "x,y,z[,qx,qy,qz,qw]: the pose of A at t = 0 (as its file has it)"},
     {"--to", SWEEP, OPTION_TEXT, AT(to), 0, 0, NULL, "POSE", "the same at t = 1"},
     {"--rotate", SWEEP, OPTION_TEXT, AT(rotate), 0, 0, NULL, "AXIS,DEG",
-     "turn on the way, about A's origin: z,90"},
+     "A turns by this on its way, about its origin: z,90"},
     {"--scale", ENCODE | INFO | SWEEP, OPTION_TEXT, AT(scale), 0, 0, NULL, "S[,S]",
-     "to metres: 0.001 of millimetres; where there are two files, of both, or of A and of B (1)"},
+     "converts to metres: 0.001 for millimetres; with two files, one for both or one for each (1)"},
     {"--recentre", ENCODE | INFO | SWEEP, OPTION_FLAG, AT(recentre), 0, 0, NULL, NULL,
-     "takes the middle of each mesh's box, in whole units of the file, off its coordinates, as "
-     "those "
-     "of a map need it; poses stay as they are for the files, but A turns about its middle"},
+     "subtracts the centre of each mesh's box, in whole units of its file, from its coordinates, "
+     "as a map needs it; poses mean what they do without, but A turns about its centre"},
     {"--picture", SWEEP, OPTION_TEXT, AT(picture), 0, 0, NULL, "OUT.svg",
      "draws B, and A at the start, at the contact and at the end"},
     {"--picture", PLAN, OPTION_TEXT, AT(picture), 0, 0, NULL, "OUT.svg",
-     "the motion of one plan, which is named by --only"},
+     "draws the motion of the one plan that --only names"},
     {"--film", PLAN, OPTION_TEXT, AT(film), 0, 0, NULL, "OUT.svg", "the same, moving"},
     {"--certificate", SWEEP, OPTION_TEXT, AT(certificate), 0, 0, NULL, "OUT.cert",
-     "writes a proof of the answer, and what it is about to OUT.txt: svcd-verify OUT.txt FOLDER "
+     "writes a proof of the answer, and what it is about to OUT.txt; svcd-verify OUT.txt FOLDER "
      "checks it"},
     {"--certificates", CHECK | PLAN, OPTION_TEXT, AT(certificates), 0, 0, NULL, "FOLDER",
-     "writes a proof of each answer, ID.cert, into a folder that is there: svcd-verify FILE FOLDER "
+     "writes a proof of each answer, ID.cert, into an existing folder; svcd-verify FILE FOLDER "
      "checks them"},
     {"--visits", CHECK | SWEEP | PLAN, OPTION_COUNT, AT(visits), 1, 1000000000, NULL, "N",
-     "steps that a certificate, of a plan that of a pair, may take (" DIGITS(
+     "steps that a certificate may take; for plan, that of a pair (" DIGITS(
          NSVCD_DEFAULT_VISITS) ")"},
     {"--clearance", CHECK | SWEEP | PLAN | PATH, OPTION_NUMBER, AT(sweep.clearance), 0, METRES,
-     "NSVCD_MAX_COORDINATE", "METRES", "to come as near as this is a hit (0: to meet is)"},
+     "NSVCD_MAX_COORDINATE", "METRES", "coming within this distance is a hit (0: only meeting is)"},
     {"--measure", SWEEP, OPTION_NUMBER, AT(measure), 1e-9, METRES, "NSVCD_MAX_COORDINATE", "METRES",
-     "if they are free: how near do they come? to this"},
+     "if they are free: how near do they come? to this precision"},
     {"--skin", CHECK | SWEEP, OPTION_NUMBER, AT(sweep.slop), 0, METRES, "NSVCD_MAX_COORDINATE",
-     "METRES", "to touch at the start, no deeper than this, is no hit (0)"},
+     "METRES", "contact at the start up to this depth is no hit (0)"},
     {"--first", CHECK, OPTION_LENGTH, AT(first), 0, 1, "or metres: 0.001m", "T|METRESm",
-     "the time of the contact is that of the first one, to this share of the motion, or to metres: "
-     "0.001m (0: of any contact)"},
+     "finds the first contact, to this fraction of the motion, or to metres: 0.001m (0: any "
+     "contact)"},
     {"--first", SWEEP, OPTION_LENGTH, AT(first), 0, 1, "or metres: 0.001m", "T|METRESm",
-     "the time of the contact is that of the first one, to this share of the motion, or to metres: "
-     "0.001m (0.001; 0: of any contact)"},
+     "finds the first contact, to this fraction of the motion, or to metres: 0.001m (0.001; 0: any "
+     "contact)"},
     {"--method", CHECK | SWEEP, OPTION_WORD, AT(sweep.method), NSVCD_METHOD_PROOF, 0,
      "proof|network", NULL, "a witness or a certificate; or an opinion (proof)"},
     {"--points", CHECK | ENCODE | SWEEP, OPTION_COUNT, AT(encode.patches), 1, POINTS,
@@ -74,95 +72,90 @@ static const option options[] = {
      "patches of a body, up to " DIGITS(NSVCD_MAX_PATCHES) " (" DIGITS(
          NSVCD_LEAST_PATCHES) " and more, by the number of triangles; " DIGITS(NSVCD_DEFAULT_NETWORK_PATCHES) " for the network)"},
     {"--radius", ENCODE, OPTION_NUMBER, AT(encode.patch_radius), 1e-12, METRES,
-     "NSVCD_MAX_COORDINATE", "METRES", "as many as make patches of this radius"},
+     "NSVCD_MAX_COORDINATE", "METRES", "as many patches as give each about this radius"},
     {"--latents", ENCODE, OPTION_FLAG, AT(encode.latents), 0, 0, NULL, NULL,
-     "for the network too, not for the proof alone"},
+     "for the network as well as for the proof"},
     {"--no-triangles", ENCODE, OPTION_FLAG, AT(encode.no_triangles), 0, 0, NULL, NULL,
      "for the network alone"},
     {"--open", ALL, OPTION_FLAG, AT(encode.open), 0, 0, NULL, NULL,
      "a mesh that is not closed is a sheet: nothing is inside of it"},
     {"--pairs", CHECK, OPTION_COUNT, AT(sweep.network.pairs), 1, NSVCD_MAX_PAIRS, "NSVCD_MAX_PAIRS",
-     "K", "pairs of patches that the network looks at, up to " DIGITS(NSVCD_MAX_PAIRS) " (8)"},
+     "K", "pairs of patches that the network decodes, up to " DIGITS(NSVCD_MAX_PAIRS) " (8)"},
     {"--model", CHECK, OPTION_WORD, AT(sweep.network.model), NSVCD_MODEL_TINY, 0, "tiny|small|base",
-     NULL, "decoder (base)"},
-    {"--int8", CHECK, OPTION_FLAG, AT(int8), 0, 0, NULL, NULL, "the decoder in 8-bit integers"},
+     NULL, "the network's decoder (base)"},
+    {"--int8", CHECK, OPTION_FLAG, AT(int8), 0, 0, NULL, NULL, "run it in 8-bit integers"},
     {"--recall", CHECK, OPTION_NUMBER, AT(sweep.network.recall), 0, 1, NULL, "R",
-     "share of collisions to be found: 0.99, 0.999, 0.9999 or 0: balanced errors (0)"},
+     "fraction of collisions to find: 0.99, 0.999, 0.9999; 0: balanced errors (0)"},
     {"--work", SWEEP | PATH, OPTION_COUNT, AT(sweep.work), 1, 1000000000, NULL, "N",
-     "units that a proof may take, of a path that of a pair (as many as there is time for)"},
+     "units that a proof may take; for path, that of a pair (as many as there is time for)"},
     {"--work", CHECK, OPTION_COUNT, AT(sweep.work), 1, 1000000000, NULL, "N",
      "units that a proof may take (" DIGITS(NSVCD_DEFAULT_VERDICT_WORK) ")"},
     {"--repeat", CHECK | SWEEP, OPTION_COUNT, AT(repeat), 1, 1000000, NULL, "R",
-     "times that a query is timed: check reports the least (5), sweep the median (101, or as often "
-     "as "
-     "a second allows)"},
+     "timed runs of a query: check reports the shortest (5), sweep the median (101, or as many as "
+     "fit into a second)"},
     {"--details", CHECK, OPTION_TEXT, AT(details), 0, 0, NULL, "OUT.tsv",
-     "writes all that is known, a line a problem: brackets of time and distance, depth, where it "
-     "is "
-     "safe to go, contacts"},
-    {"--only", PLAN | PATH, OPTION_TEXT, AT(only), 0, 0, NULL, "ID,ID", "these alone"},
+     "writes all that is known, one line per problem: brackets of time and distance, depth, where "
+     "it is safe to go, contacts"},
+    {"--only", PLAN | PATH, OPTION_TEXT, AT(only), 0, 0, NULL, "ID,ID", "only these"},
     {"--seed", PLAN | PAIRS, OPTION_COUNT, AT(seed), 0, 1000000000, NULL, "S",
      "of the random numbers (0)"},
     {"--seconds", SWEEP | PATH, OPTION_NUMBER, AT(seconds), 1e-3, 1e9, NULL, "S",
-     "what is undecided for want of work is asked again with more, for so many at most (10)"},
+     "asks again, with more work, what is undecided for want of work, for up to S seconds (10)"},
     {"--seconds", PLAN, OPTION_NUMBER, AT(seconds), 1e-3, 1e9, NULL, "S",
-     "each plan ends within so many, with the best motion that is proven by then, or with 'limit'"},
+     "ends each plan within S seconds, with the best motion proven by then, or with 'limit'"},
     {"--samples", PLAN, OPTION_COUNT, AT(samples), 2, 10000000, NULL, "N",
-     "with --joints: the joints at so many times"},
+     "with --joints: the number of times at which the joints are written"},
     {"--joints", PLAN, OPTION_TEXT, AT(joints), 0, 0, NULL, "OUT.tsv",
-     "with --samples: where they are written, a line each: ID K JOINTS"},
+     "with --samples: writes the joints, one line per time: ID K JOINTS"},
     {"--exit-code", SWEEP, OPTION_FLAG, AT(exit_code), 0, 0, NULL, NULL,
      "the exit status is the answer: 0 free, 1 hit, 3 undecided; 2 if there is none"},
-    {"--json", ALL, OPTION_FLAG, AT(json), 0, 0, NULL, NULL, "a line of JSON for each answer"},
-    {"--help", ALL, OPTION_FLAG, AT(help), 0, 0, NULL, NULL, "these lines"},
+    {"--json", ALL, OPTION_FLAG, AT(json), 0, 0, NULL, NULL, "one line of JSON per answer"},
+    {"--help", ALL, OPTION_FLAG, AT(help), 0, 0, NULL, NULL, "this text"},
     {"-h", ALL, OPTION_FLAG, AT(help), 0, 0, NULL, NULL, NULL},
 };
 
 static const command commands[] = {
-    {"sweep", SWEEP, sweep, 2, "A B ", "A moves, B rests: do they hit, when and where",
+    {"sweep", SWEEP, sweep, 2, "A B ", "A moves, B rests: do they hit, when and where?",
      "A moves, B rests where its file has it: do they hit each other? Both are meshes (OBJ, STL, "
-     "PLY, "
-     "GLB) or .body files; - is standard input. Without --from and --to A passes straight through "
-     "the middle of B's box, from outside to outside, downwards along the axis along which B is "
-     "thinnest. The first line begins with hit, free or undecided; the exit status is 0 for all of "
-     "them, but with --exit-code."},
+     "PLY, GLB) or .body files; - is standard input. Without --from and --to, A passes straight "
+     "through the middle of B's box, from outside to outside, downwards along the axis along which "
+     "B is thinnest. The first line begins with hit, free or undecided; the exit status is 0 for "
+     "each of them, unless --exit-code is given."},
     {"info", INFO, info, (size_t)-1, "FILE... ", "what a mesh is, and what is wrong with it",
-     "Of a mesh: triangles, box, components, area and volume, the body that it makes, and what is "
-     "wrong with it: a size that is hardly meant, inside out, open edges, winding that does not "
-     "agree, non-manifold edges, triangles without area or too large for the patches. Of a body: "
-     "patches, bytes, triangles, sphere."},
+     "For a mesh: triangles, box, components, area and volume, the body that it makes, and its "
+     "faults: an unlikely size, inside out, open edges, inconsistent winding, non-manifold edges, "
+     "triangles without area or too large for the patches. For a body: patches, bytes, triangles, "
+     "sphere."},
     {"encode", ENCODE, encode, 2, "IN OUT.body|OUT.h ", "a body, ready to be loaded, or a C array",
      "Encodes a mesh, to a file or to a C array."},
     {"check", CHECK, check, 1, "PROBLEMS ", "answers a file of problems",
-     "Answers the problems of a file, a line each on standard output, separated by tabs: ID LOGIT "
-     "COLLIDES TIME MOVING_PATCH FIXED_PATCH STATUS MICROSECONDS; a summary on standard error."},
-    {"plan", PLAN, plan, 1, "ROBOT ", "motions of a robot, sought and proven",
-     "Seeks a motion for each plan of a planning file, and proves it. A line each, separated by "
-     "tabs: "
-     "ID certified|start|goal|limit|undecided SECONDS DURATION LENGTH. A clearance is kept from "
-     "all "
-     "that it must not touch. The exit status is 1 if a certificate that is asked for is not "
-     "written."},
+     "Answers the problems of a file, one line each on standard output, separated by tabs: ID "
+     "LOGIT COLLIDES TIME MOVING_PATCH FIXED_PATCH STATUS MICROSECONDS. A summary goes to standard "
+     "error."},
+    {"plan", PLAN, plan, 1, "ROBOT ", "motions of a robot, found and proven",
+     "Finds a motion for each plan of a planning file, and proves it. One line each, separated by "
+     "tabs: ID certified|start|goal|limit|undecided SECONDS DURATION LENGTH. The motion keeps the "
+     "clearance from all that it must not touch. The exit status is 1 if a certificate could not "
+     "be written."},
     {"path", PATH, path, 1, "ROBOT ", "are paths of a robot free, between their points too?",
-     "Is each path of a planning file free, between its points as well? A line each, separated by "
+     "Is each path of a planning file free, between its points too? One line each, separated by "
      "tabs: ID free|hit|undecided EDGE T NAME NAME MICROSECONDS: the first edge that is not free, "
-     "when, and which two bodies; the mean of an edge."},
+     "when, and which two bodies; the mean time of an edge."},
     {"pairs", PAIRS, pairs, 1, "ROBOT ", "which bodies of a robot can meet each other?",
-     "Which bodies of a planning file's robot can meet each other? A line 'pair NAME NAME' for "
-     "each "
-     "two, to stand in the file; in comments those that one joint separates. Two that touch in all "
-     "of 64 random samples are among the pairs, and their lines say so: whether they always touch "
-     "is not known, and who knows it deletes the line."},
+     "Which bodies of a planning file's robot can meet each other? Prints a line 'pair NAME NAME' "
+     "for each two, to put into the file, and comments for those that one joint separates. Two "
+     "that touch in all of 64 random samples are among the pairs, and their lines say so: samples "
+     "do not prove that they always touch. Delete such a line only if you know that they do."},
 };
 static const manual svcd = {
     "svcd",
     NSVCD_VERSION,
-    "does a body, moving so, hit another one? (neuralsvcd.h)",
-    "'svcd COMMAND --help' lists a command's options, 'svcd --version' says which svcd this is, "
+    "does a body, moving along a trajectory, hit another one? (neuralsvcd.h)",
+    "'svcd COMMAND --help' lists a command's options, 'svcd --version' prints the version, "
     "'svcd --manual man' prints a man page, and 'svcd --manual bash', zsh or fish completions. "
-    "Files may be -, standard input. Exit status: 0 done, 1 a file or a line was refused, 2 usage; "
-    "of 'svcd sweep --exit-code' the answer. What it reads and prints: FORMATS.md, in examples or "
-    "share/doc/neuralsvcd. 'svcd-verify' (build/verify) checks its certificates.",
+    "A file may be -, standard input. Exit status: 0 done, 1 a file or a line was refused, 2 "
+    "usage; for 'svcd sweep --exit-code' the answer. What it reads and prints: FORMATS.md, in "
+    "examples or share/doc/neuralsvcd. 'svcd-verify' (build/verify) checks its certificates.",
     commands,
     sizeof commands / sizeof commands[0],
     options,
@@ -170,11 +163,10 @@ static const manual svcd = {
     "svcd-verify",
     "FILE.txt FOLDER [--clearance METRES] [--only ID,ID]",
     "Checks certificates without the library: FILE.txt is a problem file or a planning file, "
-    "FOLDER "
-    "holds ID.cert for each of its problems or plans. A line each, separated by tabs: ID "
-    "accepted|refused REASON BYTES MICROSECONDS. --clearance: that of svcd; --only: these alone. "
-    "Exit status: 0 each proves what its line says, which may be a hit, 1 one is refused or not "
-    "there, 2 a file cannot be read, or usage. In the repository it is build/verify."};
+    "FOLDER holds ID.cert for each of its problems or plans. Prints one line each, separated by "
+    "tabs: ID accepted|refused REASON BYTES MICROSECONDS. --clearance: that of svcd; --only: only "
+    "these. Exit status: 0 each proves what its line says, which may be a hit; 1 one is refused or "
+    "missing; 2 a file cannot be read, or usage. In the repository it is build/verify."};
 
 // -------------------------------------------------------------------------------------------- main
 
@@ -204,7 +196,7 @@ static int no_command(const char *name) {
   return USAGE;
 }
 
-// Is all out that was printed?
+// Has everything printed been written?
 static int is_written(void) {
   return fflush(stdout) == 0 && !ferror(stdout);
 }

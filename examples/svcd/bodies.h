@@ -1,5 +1,5 @@
-// bodies.h - svcd encode: a mesh becomes a body, in a file or as a C array; svcd info: what a mesh is,
-// and what is wrong with it.
+// bodies.h - svcd encode: a mesh becomes a body, in a file or as a C array. svcd info: what a mesh
+// is, and what is wrong with it.
 #ifndef NSVCD_SVCD_BODIES_H
 #define NSVCD_SVCD_BODIES_H
 
@@ -8,7 +8,7 @@
 // "parts/my-mug.h" -> "my_mug_body".
 static void array_name(const char *path, char *name, size_t size) {
   const char *base = file_name(path);
-  int digit = isdigit((unsigned char)base[0]);  // no C name begins with one
+  int digit = isdigit((unsigned char)base[0]);  // a C name cannot begin with one
   snprintf(name, size, "%s%.*s_body", digit ? "_" : "",
            (int)(strlen(base) < 40 ? strlen(base) - 2 : 40), base);
   for (char *c = name; *c; c++)
@@ -38,8 +38,8 @@ static void write_header(FILE *file, const char *in, const char *name, const nsv
   fprintf(file, "\n};\n");
 }
 
-// May a body be written there? Not over what is there and is none: it may be the input, by whatever
-// name. Returns 0 after a complaint.
+// May a body be written there? Only a body is overwritten: any other file may be the input, under
+// another name. Returns 0 after a complaint.
 static int may_write_body(const char *path) {
   char begin[5000] = "";
   FILE *file = open_file(path, "rb");
@@ -66,7 +66,7 @@ static int write_body(const char *in, const char *out, const nsvcd_body *body) {
   return close_written(file, out);
 }
 
-// The radii of the patches: the least and the greatest.
+// The least and the greatest radius of the patches.
 static void patch_radii(const nsvcd_body *body, float *least, float *most) {
   float centre[3], radius;
   *least = nsvcd_body_describe(body).radius;
@@ -109,7 +109,7 @@ static void json_faults(json_out *j, const thing *t) {
   json_close(j, ']');
 }
 
-// With --recentre: what became the origin.
+// With --recentre: the new origin.
 static void print_origin(const thing *t) {
   if (t->recentre)
     printf("origin: %.0f %.0f %.0f, in the file's units\n", t->origin[0], t->origin[1],
@@ -125,7 +125,7 @@ static void json_origin(json_out *j, const thing *t) {
 static int encode_options(const settings *options) {
   const nsvcd_encode_options *encode = &options->encode;
   if (options->path_count != 2)
-    return usage_error("encode", "IN and OUT.body or OUT.h are wanted ('svcd encode --help')");
+    return usage_error("encode", "expected IN and OUT.body or OUT.h ('svcd encode --help')");
   if (!ends_with(options->paths[1], ".body") && !ends_with(options->paths[1], ".h"))
     return usage_error(options->paths[1], "neither .body nor .h");
   if (encode->patches && encode->patch_radius > 0)
@@ -141,7 +141,7 @@ static int encode(settings *options) {
   const char *out = options->paths[1];
   if (!may_write_body(out)) return REFUSED;
   int good = open_thing(options->paths[0], &t);
-  if (good && t.is_body) good = complain("%s: a body already", t.path);
+  if (good && t.is_body) good = complain("%s: this is a body already", t.path);
   t.recentre = options->recentre;
   good = good && take_mesh(&t, scales[0]) && encode_thing(&t, &options->encode) &&
          write_body(t.path, out, t.body);
@@ -199,14 +199,14 @@ static void json_mesh(json_out *j, const thing *t) {
   json_faults(j, t);
 }
 
-// Of one file: a mesh, or a body. Returns 0 after a complaint.
+// Prints the facts of one file, a mesh or a body. Returns 0 after a complaint.
 static int info_of(const char *path, float scale, const settings *options) {
   const nsvcd_encode_options defaults = {.open = options->encode.open};
   json_out j = {stdout, 0};
   thing t;
   int good = open_thing(path, &t);
   if (good && t.is_body && options->scale)
-    good = complain("--scale: of a mesh; %s is a body, in metres", t.path);
+    good = complain("--scale is for meshes; %s is a body, in metres", t.path);
   t.recentre = options->recentre && !t.is_body;
   if (good) good = t.is_body ? take_body(&t, 1) : take_mesh(&t, scale);
   const int is_mesh = good && !t.is_body;
@@ -231,7 +231,7 @@ static int info(settings *options) {
   float scales[2];
   int good = 1;
   if (options->path_count == 0)
-    return usage_error("info", "a mesh or a .body file is wanted ('svcd info --help')");
+    return usage_error("info", "expected a mesh or a .body file ('svcd info --help')");
   if (!take_scales(options->scale, 1, scales)) return USAGE;
   for (size_t i = 0; i < options->path_count; i++) {
     if (i && !options->json) printf("\n");

@@ -4,8 +4,8 @@
 
 #include "settings.h"
 
-// Every mesh once, in the units of its file: a question has its scale. bodies: (mesh_count),
-// zeroed.
+// Encodes every mesh once, in the units of its file; questions have its scale. bodies:
+// (mesh_count), zeroed.
 static int encode_meshes(const problem_file *file, const nsvcd_encode_options *options,
                          encoded *bodies) {
   progress_bar working = {"meshes encoded", file->mesh_count, 0, 0};
@@ -22,7 +22,7 @@ static int encode_meshes(const problem_file *file, const nsvcd_encode_options *o
 }
 
 // Answers one problem: once to warm up, then --repeat times by the clock. The shortest time counts:
-// what is longer is the machine doing something else.
+// longer ones include other work of the machine.
 static int answer(const session *s, const settings *options, void *workspace, const problem *p,
                   outcome *out) {
   const nsvcd_question movers = question_of_problem(&s->file, p);
@@ -89,7 +89,7 @@ static int print_answers(const session *s, int is_json) {
   return complain("standard output: %s", strerror(errno));
 }
 
-// What is not known is no number.
+// Prints nan for what is unknown.
 static void print_numbers(FILE *out, const float *numbers, size_t count) {
   for (size_t k = 0; k < count; k++) {
     if (isinf(numbers[k])) fprintf(out, "\tnan");
@@ -97,7 +97,7 @@ static void print_numbers(FILE *out, const float *numbers, size_t count) {
   }
 }
 
-// All that an answer says, a line a problem.
+// Writes all that is known of each answer, one line per problem.
 static int write_details(const session *s, const char *path) {
   FILE *out = open_file(path, "w");
   if (!out) return complain("%s: %s", path, strerror(errno));
@@ -120,8 +120,8 @@ static int write_details(const session *s, const char *path) {
   return close_written(out, path);
 }
 
-// The library knows which recalls it was calibrated for: ask it before any work is done. A body of
-// one triangle serves.
+// The library knows which recalls it was calibrated for: ask it, with a body of one triangle,
+// before any work is done.
 static int recall_is_known(const nsvcd_question *asked) {
   float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   uint32_t indices[3] = {0, 1, 2};
@@ -147,21 +147,22 @@ static int recall_is_known(const nsvcd_question *asked) {
 static int check_options(settings *options) {
   nsvcd_question *sweep = &options->sweep;
   if (options->path_count != 1)
-    return usage_error("check", "a problem file is wanted ('svcd check --help')");
+    return usage_error("check", "expected a problem file ('svcd check --help')");
   if (options->int8) sweep->network.precision = NSVCD_PRECISION_INT8;
   options->encode.no_triangles = sweep->method == NSVCD_METHOD_NETWORK;
   if (options->encode.no_triangles &&
       (sweep->clearance > 0 || wants_first(options) || sweep->slop > 0))
-    return usage_error("--method network", "it knows neither --clearance, --first nor --skin");
+    return usage_error("--method network",
+                       "the network knows neither --clearance, --first nor --skin");
   if (options->details && !ends_with(options->details, ".tsv"))
-    return usage_error("--details", "a file that ends in .tsv is wanted");
+    return usage_error("--details", "expected a file that ends in .tsv");
   if (options->certificates && (options->encode.no_triangles || sweep->slop > 0))
     return usage_error("--certificates", "not with --method network, nor with --skin");
   if (!recall_is_known(sweep)) return usage_error("--recall", "none of 0, 0.99, 0.999, 0.9999");
   return DONE;
 }
 
-// Has each answer a certificate, and is there one? Returns 0 after a complaint.
+// Is there a certificate, and one for each answer? Returns 0 after a complaint.
 static int all_are_certified(const session *s, size_t made) {
   size_t answered = 0;
   for (size_t i = 0; i < s->file.problem_count; i++)

@@ -1,15 +1,15 @@
-// robots.h - svcd plan, path and pairs: motions of a robot, sought and proven; which of its bodies can
-// meet.
+// robots.h - svcd plan, path and pairs: motions of a robot, found and proven; which of its bodies
+// can meet.
 #ifndef NSVCD_SVCD_ROBOTS_H
 #define NSVCD_SVCD_ROBOTS_H
 
 #include "settings.h"
 
 #define PLAN_NODES 100000
-// random configurations that `pairs` looks at
+// random configurations that `pairs` tries
 #define PAIR_SAMPLES 64
 
-// Is an ID one of a list "a,b"? NULL: all are.
+// Is an ID in a list "a,b"? In NULL all are.
 static int is_listed(const char *list, const char *id) {
   const size_t length = strlen(id);
   while (list && *list) {
@@ -22,30 +22,30 @@ static int is_listed(const char *list, const char *id) {
 
 static int plan_options(const settings *options, const char *command) {
   if (options->path_count != 1)
-    return usage_error(command, "a planning file is wanted ('svcd plan --help')");
+    return usage_error(command, "expected a planning file ('svcd plan --help')");
   if ((options->samples > 0) != (options->joints != NULL))
     return usage_error("--samples", "together with --joints OUT.tsv");
   if (options->joints && !ends_with(options->joints, ".tsv"))
-    return usage_error("--joints", "a file that ends in .tsv is wanted");
+    return usage_error("--joints", "expected a file that ends in .tsv");
   const char *pictures[2] = {options->picture, options->film};
   for (size_t k = 0; k < 2; k++) {
     const char *name = k ? "--film" : "--picture";
     if (!pictures[k]) continue;
     if (!ends_with(pictures[k], ".svg"))
-      return usage_error(name, "a file that ends in .svg is wanted");
+      return usage_error(name, "expected a file that ends in .svg");
     if (!options->only || strchr(options->only, ',')) return usage_error(name, "--only one plan");
     if (!draw_may_write(pictures[k])) return REFUSED;
   }
   return DONE;
 }
 
-// How far the joints go, radians and metres alike: their ways added up as in space.
+// The length of a motion in joint space, radians and metres alike, by 16 chords a piece.
 static double route_length(const nsvcd_joint_motion *m, size_t joints) {
   double length = 0;
   double q[2][NSVCD_MAX_JOINTS];
-  const size_t looks = 16 * m->pieces;
+  const size_t chords = 16 * m->pieces;
   nsvcd_motion_at(m, joints, 0, q[0]);
-  for (size_t k = 1; k <= looks; k++) {
+  for (size_t k = 1; k <= chords; k++) {
     double sum = 0;
     const double *times = m->times + (k - 1) / 16;
     nsvcd_motion_at(m, joints, times[0] + (times[1] - times[0]) * (double)((k - 1) % 16 + 1) / 16,
@@ -56,23 +56,23 @@ static double route_length(const nsvcd_joint_motion *m, size_t joints) {
   return length;
 }
 
-// All pairs that are as near as the clearance, and the nearest place that was found to be free, on
-// standard error.
+// Prints all pairs that are as near as the clearance, and the nearest free configuration that was
+// found, on standard error.
 static void tell_way_out(const robot_in_room *in, const char *from, const double *joints,
                          const nsvcd_route_problem *problem, float clearance) {
   nsvcd_proximity_options options;
-  nsvcd_nearest_free_options escape;
+  nsvcd_nearest_free_options nearest;
   size_t count = 0;
   int is_found = 0;
   double out[NSVCD_MAX_JOINTS];
   nsvcd_proximity *gaps = (nsvcd_proximity *)allocate((in->scene.pair_count + 1) * sizeof *gaps);
   memset(&options, 0, sizeof options);
-  memset(&escape, 0, sizeof escape);
+  memset(&nearest, 0, sizeof nearest);
   options.max_distance = clearance > 0 ? clearance : 1e-6f;
   options.deepest = 0.1f;
-  escape.clearance = clearance;
-  escape.stop = problem->abandon;
-  escape.user = problem->user;
+  nearest.clearance = clearance;
+  nearest.stop = problem->abandon;
+  nearest.user = problem->user;
   if (nsvcd_proximities(in->checker, joints, &options, gaps, in->scene.pair_count, &count))
     count = 0;
   for (size_t k = 0; k < count; k++) {
@@ -86,9 +86,9 @@ static void tell_way_out(const robot_in_room *in, const char *from, const double
     else if (gap->depth < HUGE_VALF)
       complain("%s: %s and %s meet, %.2f mm deep", from, a, b, 1e3 * (double)gap->depth);
     else
-      complain("%s: %s and %s meet, no lift of 100 mm parts them", from, a, b);
+      complain("%s: %s and %s meet, no push-out of 100 mm separates them", from, a, b);
   }
-  if (!nsvcd_nearest_free(in->checker, joints, &escape, out, &is_found) && is_found) {
+  if (!nsvcd_nearest_free(in->checker, joints, &nearest, out, &is_found) && is_found) {
     char list[32 * NSVCD_MAX_JOINTS] = "";
     for (size_t j = 0; j < in->file->joint_count; j++)
       snprintf(list + strlen(list), sizeof list - strlen(list), " %.9g", out[j]);
@@ -99,8 +99,9 @@ static void tell_way_out(const robot_in_room *in, const char *from, const double
   free(gaps);
 }
 
-// Why it is not known of two bodies whether they meet, on standard error.
-static void tell_doubt(const robot_in_room *in, const char *from, const nsvcd_check_answer *found) {
+// Says on standard error why it is unknown whether two bodies meet.
+static void tell_undecided(const robot_in_room *in, const char *from,
+                           const nsvcd_check_answer *found) {
   const nsvcd_body_pair *pair = &in->scene.pairs[found->pair];
   const char *a = robot_name(in, pair->a);
   const char *b = robot_name(in, pair->b);
@@ -115,7 +116,7 @@ static void tell_doubt(const robot_in_room *in, const char *from, const nsvcd_ch
     complain("%s: %s and %s are too near each other to tell", from, a, b);
 }
 
-// What is wrong with a start or a goal, on standard error.
+// Says on standard error what is wrong with a start or a goal.
 static void tell_check(const robot_in_room *in, const robot_task *task, const char *where,
                        const double *joints, const nsvcd_check_answer *found,
                        const nsvcd_route_problem *problem, float clearance) {
@@ -124,21 +125,21 @@ static void tell_check(const robot_in_room *in, const robot_task *task, const ch
   if (found->joint != NSVCD_NONE) {
     complain("%s: joint %s is out of its limits", from, in->file->joint_names[found->joint]);
   } else if (found->verdict == NSVCD_UNDECIDED && found->pair != NSVCD_NONE) {
-    tell_doubt(in, from, found);
+    tell_undecided(in, from, found);
   }
   tell_way_out(in, from, joints, problem, clearance);
 }
 
 static const char *plan_word(const nsvcd_route_answer *answer) {
-  const int is_doubt =
+  const int is_undecided =
       answer->check.verdict == NSVCD_UNDECIDED && answer->check.joint == NSVCD_NONE;
   if (answer->status == NSVCD_ROUTE_FOUND) return "certified";
-  if (answer->status == NSVCD_ROUTE_START) return is_doubt ? "undecided" : "start";
-  if (answer->status == NSVCD_ROUTE_GOAL) return is_doubt ? "undecided" : "goal";
+  if (answer->status == NSVCD_ROUTE_START) return is_undecided ? "undecided" : "start";
+  if (answer->status == NSVCD_ROUTE_GOAL) return is_undecided ? "undecided" : "goal";
   return "limit";
 }
 
-// When the search for a motion ends, and when all does; what is left in between is for its proof.
+// When the search for a motion ends, and when everything does; the proof has the time in between.
 #define SEARCH_SHARE 0.8
 typedef struct plan_clock {
   double search_end, end;
@@ -169,7 +170,7 @@ static void print_plan(const robot_in_room *in, const robot_task *task, const se
   } else {
     printf("%s\t%s\t%.6f\tnan\tnan\n", task->id, plan_word(answer), taken);
   }
-  // whoever reads along need not wait for the next plan
+  // a reader need not wait for the next plan
   fflush(stdout);
 }
 
@@ -234,7 +235,7 @@ static int plan_one(const robot_in_room *in, const robot_task *task, const setti
   return !result && good;
 }
 
-// An edge, until it is decided or there is no more time.
+// Asks about an edge until it is decided or time is up.
 static nsvcd_result path_edge(const robot_in_room *in, const nsvcd_joint_motion *motion,
                               const settings *options, waiting *wait, nsvcd_check_answer *answer) {
   nsvcd_check_options asked;
@@ -246,7 +247,7 @@ static nsvcd_result path_edge(const robot_in_room *in, const nsvcd_joint_motion 
     const double start = seconds();
     nsvcd_check_answer last;
     const nsvcd_result result = nsvcd_check(in->checker, motion, &asked, &last);
-    // what time cuts short names no pair: then what was known before stands
+    // a check cut short by time names no pair: the answer before it is kept
     if (result || !asked.stop || last.verdict != NSVCD_UNDECIDED) *answer = last;
     if (result || last.verdict != NSVCD_UNDECIDED || last.why != NSVCD_WHY_WORK) return result;
     const size_t work = asked.work ? asked.work : NSVCD_DEFAULT_WORK;
@@ -258,7 +259,7 @@ static nsvcd_result path_edge(const robot_in_room *in, const nsvcd_joint_motion 
   }
 }
 
-// Edge by edge.
+// Answers a path, edge by edge.
 static int path_one(const robot_in_room *in, const robot_task *task, const settings *options,
                     FILE *out) {
   waiting wait = wait_for(options);
@@ -287,7 +288,7 @@ static int path_one(const robot_in_room *in, const robot_task *task, const setti
   if (pair && answer.verdict == NSVCD_UNDECIDED) {
     char from[1024];
     snprintf(from, sizeof from, "%s:%zu: %s", in->file->path, task->line, task->id);
-    tell_doubt(in, from, &answer);
+    tell_undecided(in, from, &answer);
   }
   const char *names[2] = {pair ? robot_name(in, pair->a) : "-",
                           pair ? robot_name(in, pair->b) : "-"};
@@ -319,8 +320,8 @@ static int is_asked(const robot_task *task, const settings *options, int is_path
   return (task->points > 0) == is_path && is_listed(options->only, task->id);
 }
 
-// Plans, or paths, one after another; what goes wrong with one does not keep the others from being
-// answered. A checker is opened where the scene is another one.
+// Answers plans, or paths, one after another; a failure of one does not stop the others. A checker
+// is opened for each plan, and for paths whenever the scene changes.
 static int robot_tasks(const robot_file *file, const settings *options, int is_path, FILE *out) {
   robot_in_room in;
   int good = 1;
@@ -328,7 +329,7 @@ static int robot_tasks(const robot_file *file, const settings *options, int is_p
   for (size_t i = 0; i < file->task_count; i++) {
     const robot_task *task = &file->tasks[i];
     if (!is_asked(task, options, is_path)) continue;
-    // a plan does not depend on those before: a checker remembers what was hit
+    // a checker remembers what was hit, and a plan must not depend on those before it
     if ((!is_path || in.room != &file->rooms[task->room]) && !enter_room(file, task->room, &in)) {
       good = 0;
       break;
@@ -371,7 +372,7 @@ static int pairs(settings *options) {
       json_out j = {stdout, 0};
       if (!options->json) {
         printf("%s %s %s", words[0][kind], a, b);
-        // samples prove nothing: it is asked like the others until its line is deleted
+        // samples prove nothing: the pair is checked until its line is deleted
         if (kind == 2) printf("  # touching in all of %d samples", PAIR_SAMPLES);
         printf("\n");
         continue;

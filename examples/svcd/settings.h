@@ -1,10 +1,10 @@
-// settings.h - what all commands of svcd are told, and what they use beside scenery.
+// settings.h - the options of all commands of svcd, and what the commands share beyond scenery.
 #ifndef NSVCD_SVCD_SETTINGS_H
 #define NSVCD_SVCD_SETTINGS_H
 
 #include "../scenery/problem_file.h"
 #include "../scenery/status_of.h"
-// these call problem_file.h's
+// these call functions of problem_file.h
 #include "../scenery/load.h"
 #include "../scenery/options.h"
 #include "../scenery/manual.h"
@@ -12,7 +12,7 @@
 #include "../scenery/robot_file.h"
 #include "../scenery/problem_summary.h"
 #include "../scenery/sweep_motion.h"
-// and these the oracle
+// and these of the oracle
 #include "../scenery/poses.h"
 #include "../scenery/sweep_picture.h"
 #include "../scenery/robot_picture.h"
@@ -20,12 +20,12 @@
 
 struct settings {
   nsvcd_encode_options encode;
-  nsvcd_question sweep;  // what is asked, of whatever bodies
-  float first[2];        // a share of the motion, or metres; 0: not asked for
+  nsvcd_question sweep;  // without bodies
+  float first[2];        // a fraction of the motion, or metres; 0: not asked for
   float measure;         // metres
-  float seconds;         // of a plan, 0: as long as it takes; of one question, 0: DECIDE_SECONDS
-  size_t visits;         // of certificates; 0: as the library has it
-  size_t repeat;         // 0: as the command has it
+  float seconds;         // 0: for a plan as long as it takes, for a question DECIDE_SECONDS
+  size_t visits;         // of certificates; 0: the library's default
+  size_t repeat;         // 0: the command's default
   const char *from, *to, *rotate, *scale, *picture, *film, *details, *only, *joints;
   const char *certificate, *certificates;
   size_t seed, samples;
@@ -41,7 +41,7 @@ static int usage_error(const char *what, const char *reason) {
   return USAGE;
 }
 
-// Asks for the first contact, to a share of the motion or to metres, or, if both are 0, for any.
+// Asks for the first contact, to a fraction of the motion or to metres; if both are 0, for any.
 static int wants_first(const settings *options) {
   return options->first[0] > 0 || options->first[1] > 0;
 }
@@ -51,13 +51,13 @@ static void ask_first(nsvcd_question *question, const settings *options) {
   question->to = options->first[1];
 }
 
-// Whoever asks one question waits for its answer: it is asked again with eight times the work, as
-// long as that is what it lacks and there is time, unless --work says how much there is.
+// Whoever asks one question waits for its answer: if it is undecided for want of work, it is asked
+// again with eight times as much while there is time, unless --work limits the work.
 #define DECIDE_SECONDS 10
 typedef struct waiting {
   double began, end;
   int is_bounded;  // by --work
-  int is_told;     // that it takes long, in a line of a terminal
+  int is_told;     // a line on the terminal says that it takes long
 } waiting;
 
 static waiting wait_for(const settings *options) {
@@ -67,8 +67,8 @@ static waiting wait_for(const settings *options) {
   return out;
 }
 
-// The work with which a question is asked again that took `work` units and so many seconds, and was
-// not decided; 0: it is not. Not more than there is time for, as far as that can be told.
+// The work for asking again a question that was undecided after `work` units and `taken` seconds:
+// no more than there is time for, by estimate. 0: it is not asked again.
 static size_t more_work(waiting *w, size_t work, double taken) {
   const double now = seconds();
   const double least = (double)work;
@@ -82,14 +82,14 @@ static size_t more_work(waiting *w, size_t work, double taken) {
   return (size_t)most;
 }
 
-// Clears the line.
+// Clears that line.
 static void wait_no_more(waiting *w) {
   if (w->is_told) fprintf(stderr, "\r%60s\r", "");
   w->is_told = 0;
 }
 
-// Is a contact known, but not whether it is the first one, if that was asked for? Surfaces that come
-// nearer than triangles are stored can hide that.
+// Is a contact known, but not whether it is the first, though that was asked? Surfaces that come
+// nearer than the precision of stored triangles can hide it.
 static int hides_first(const nsvcd_answer *answer) {
   return answer->verdict == NSVCD_HIT && answer->why != NSVCD_WHY_NOTHING;
 }

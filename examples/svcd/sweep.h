@@ -1,4 +1,4 @@
-// sweep.h - svcd sweep: one question of two files, its answer, its picture, its proof.
+// sweep.h - svcd sweep: one question about two files, its answer, its picture, its proof.
 #ifndef NSVCD_SVCD_SWEEP_H
 #define NSVCD_SVCD_SWEEP_H
 
@@ -12,15 +12,15 @@ typedef struct sweep_job {
   int by_proof;
   void *workspace;
   nsvcd_answer answer;
-  nsvcd_answer nearest;  // where --measure asks for it and they are free of each other
+  nsvcd_answer nearest;  // with --measure, if they are free of each other
   waiting wait;
-  size_t repeated;            // times that it was timed
+  size_t repeated;            // timed runs
   double microseconds;        // median, to know whether they meet
-  double microseconds_first;  // and when
+  double microseconds_first;  // and when first
 } sweep_job;
 
-// The network answers where a body holds no triangles: then nothing may be asked that it does not
-// know. Returns a status.
+// The network answers if a body holds no triangles; then nothing may be asked that only a proof
+// answers. Returns a status.
 static int sweep_method(sweep_job *job, settings *options) {
   const nsvcd_question *sweep = &options->sweep;
   const thing *bare = nsvcd_body_describe(job->a.body).triangles ? &job->b : &job->a;
@@ -28,7 +28,7 @@ static int sweep_method(sweep_job *job, settings *options) {
   job->by_proof = proof && nsvcd_body_describe(bare->body).triangles;
   if (job->by_proof) return DONE;
   if (sweep->method == NSVCD_METHOD_PROOF) {
-    complain("%s: it holds no triangles, and so there is no proof", bare->path);
+    complain("%s: it holds no triangles, so there is no proof", bare->path);
     return REFUSED;
   }
   if (sweep->clearance > 0 || options->measure > 0 || sweep->slop > 0) {
@@ -54,7 +54,7 @@ static int sweep_once(sweep_job *job, nsvcd_answer *answer) {
   return result ? complain("%s", reason_of(result)) : 1;
 }
 
-// The same, until it is decided or there is no more time. The work that it took is the question's.
+// The same, until it is decided or time is up. The question keeps the work that it took.
 static int sweep_decided(sweep_job *job, size_t work, nsvcd_answer *answer) {
   int good = 1;
   for (int again = 1; again && good;) {
@@ -71,8 +71,8 @@ static int sweep_decided(sweep_job *job, size_t work, nsvcd_answer *answer) {
   return good;
 }
 
-// Once to warm up, and then by the clock, as often as a second allows: the median, in microseconds.
-// Negative after a complaint.
+// Asks once to warm up, then by the clock as often as a second allows. Returns the median in
+// microseconds, negative after a complaint.
 static double sweep_timed(sweep_job *job, const settings *options, nsvcd_answer *answer) {
   double *times = (double *)allocate(options->repeat * sizeof *times);
   int good = sweep_decided(job, options->sweep.work, answer);
@@ -90,7 +90,7 @@ static double sweep_timed(sweep_job *job, const settings *options, nsvcd_answer 
   return median;
 }
 
-// The answer, and, where they are free of each other, how near they come.
+// Asks the question, and, if the bodies are free of each other, how near they come.
 static int sweep_ask(sweep_job *job, const settings *options) {
   nsvcd_question *question = &job->question;
   *question = options->sweep;
@@ -116,7 +116,7 @@ static int sweep_ask(sweep_job *job, const settings *options) {
   return sweep_decided(job, options->sweep.work, &job->nearest);
 }
 
-// How it was decided.
+// Says how it was decided.
 static void sweep_reason(const sweep_job *job, const settings *options, char *out, size_t size) {
   const int proof = job->by_proof;
   const char *reason = "the network's opinion";
@@ -133,7 +133,7 @@ static void sweep_reason(const sweep_job *job, const settings *options, char *ou
     reason = job->answer.why == NSVCD_WHY_OPEN
                  ? "one seems to be inside of what is nearly a solid, but not closed"
              : job->answer.why == NSVCD_WHY_WORK ? "more work than --work or --seconds allow"
-                                                 : "nearer to each other than what can be told";
+                                                 : "too near each other to tell";
   snprintf(out, size, "%s", reason);
   if (job->answer.by == NSVCD_BY_NETWORK && !job->answer.inside)
     snprintf(out, size, "%s, logit %.3g", reason, (double)job->answer.opinion.logit);
@@ -166,7 +166,7 @@ static void sweep_verdict(const sweep_job *job, const settings *options, char *o
   snprintf(out, size, "%s%s%s: %s", word, when, near_by, reason);
 }
 
-// size: what is less than a millionth of it is rounding, and printed as 0.
+// Prints as 0 what is less than a millionth of `size`: it is rounding.
 static void print_vector(const char *name, const float *v, double size, const char *unit) {
   printf("%-10s", name);
   for (int k = 0; k < 3; k++)
@@ -184,7 +184,7 @@ static void print_answer(const sweep_job *job, const settings *options) {
   const int is_proven = a->verdict == NSVCD_HIT && a->by == NSVCD_BY_PROOF;
   if (is_proven) print_vector("point", a->nearest.point, size, " m");
   if (a->contact_count > 0) {
-    // what is met of a sheet has a normal by its winding, on whichever side A is
+    // the normal of a sheet follows its winding, on whichever side A is
     const int sure = is_solid(&job->a) && is_solid(&job->b);
     print_vector("normal", a->contacts[0].normal, 1, sure ? ", from B to A" : "");
     printf("triangles  %lu of A, %lu of B, counted from 0\n",
@@ -267,13 +267,13 @@ static void print_json(const sweep_job *job) {
 
 // ------------------------------------------------------------------------------------- its picture
 
-// The mesh, or, of a .body file, the balls of its patches. Returns 0 after a complaint.
+// The mesh; for a .body file, the balls of its patches. Returns 0 after a complaint.
 static int picture_body(const thing *t, sweep_body *out) {
   shapes_mesh balls;
   float centre[3], radius;
   memset(&balls, 0, sizeof balls);
   out->name = t->path;
-  out->pale = t->is_body ? 0.12 : 0.35;  // balls overlap
+  out->pale = t->is_body ? 0.12 : 0.35;  // paler, since balls overlap
   out->sheet = !t->is_body && !is_solid(t);
   for (uint32_t i = 0; t->is_body && nsvcd_body_patch(t->body, i, centre, &radius); i++) {
     const size_t first = balls.vertices;
@@ -324,7 +324,7 @@ static int draw_job(const sweep_job *job, const settings *options) {
   return good;
 }
 
-// One of them may be in millimetres, and the other not. Of no body file is it known.
+// Warns if one of them may be in millimetres and the other not; a body file is always in metres.
 static void warn_of_sizes(const sweep_job *job, const float *scales) {
   const thing *t[2] = {&job->a, &job->b};
   double extents[2];
@@ -345,11 +345,11 @@ static int sweep_run(sweep_job *job, settings *options, const float *scales) {
   if (!open_thing(options->paths[0], &job->a) || !open_thing(options->paths[1], &job->b))
     return REFUSED;
   if (options->certificate && (job->a.is_body || job->b.is_body))
-    return usage_error("--certificate", "of meshes alone");
+    return usage_error("--certificate", "for meshes only");
   job->a.recentre = options->recentre && !job->a.is_body;
   job->b.recentre = options->recentre && !job->b.is_body;
   if (options->sweep.method == NSVCD_METHOD_NETWORK) options->encode.no_triangles = 1;
-  // a body may hold no triangles: then the network answers
+  // a body without triangles is answered by the network
   options->encode.latents = job->a.is_body || job->b.is_body;
   if (!take_thing(&job->a, scales[0], &options->encode) ||
       !take_thing(&job->b, scales[1], &options->encode))
@@ -378,19 +378,20 @@ static int sweep_run(sweep_job *job, settings *options, const float *scales) {
 static int sweep(settings *options) {
   float scales[2];
   if (options->path_count != 2)
-    return usage_error("sweep", "two files are wanted, A and B ('svcd sweep --help')");
+    return usage_error("sweep", "expected two files, A and B ('svcd sweep --help')");
   const int piped = is_standard_input(options->paths[0]) + is_standard_input(options->paths[1]);
-  if (piped == 2) return usage_error("sweep", "one of both files may be -, standard input");
+  if (piped == 2) return usage_error("sweep", "only one of the two files may be -, standard input");
   if (!options->is_first_given) options->first[0] = 0.001f;
   if (options->picture && !ends_with(options->picture, ".svg"))
     return complain("--picture: %s does not end in .svg", options->picture), USAGE;
   if (options->certificate && (!ends_with(options->certificate, ".cert") ||
                                options->sweep.slop > 0 || piped || options->recentre))
     return usage_error("--certificate",
-                       "a file that ends in .cert; without --skin and --recentre, of files");
+                       "expected a file that ends in .cert, without --skin and --recentre, and no "
+                       "standard input");
   for (int i = 0; i < 2 && options->certificate; i++)
     if (strpbrk(options->paths[i], " \t#"))
-      return usage_error("--certificate", "its problem file holds no blank and no # in names");
+      return usage_error("--certificate", "a problem file can have no blank and no # in names");
   if (!take_scales(options->scale, 2, scales)) return USAGE;
   if (options->picture && !draw_may_write(options->picture)) return REFUSED;
   sweep_job *job = (sweep_job *)allocate(sizeof *job);
