@@ -179,15 +179,17 @@ typedef struct nsvcd_question {
   nsvcd_method method;
   // Units that a proof may take, approximately. 0: NSVCD_DEFAULT_VERDICT_WORK, for DISTANCE
   // NSVCD_DEFAULT_WORK; each interval of a long motion (see nsvcd_sweep) may then take as much, so
-  // that the limit grows with the length. A unit is one search for a plane between two patches, 16
-  // triangles against the box of 16, one triangle against 16, two triangles at one time, or a ray
-  // against 16 triangles or one. A limit that is given is for the whole motion, in the order of
-  // time. When it is reached, the answer tells what was proven by then; for DISTANCE, each interval
-  // gets a part of what is left in proportion to its length. Once surfaces have come too near to
-  // tell, an eighth of the limit is left. FIRST keeps an eighth for what is undecided by then:
-  // until when the motion is free, and whether the bodies meet at all. A manifold, and the pose of
-  // a pushed-out body, may take another eighth each. With 0, these eighths are of
-  // NSVCD_DEFAULT_WORK. Short of these, a question takes the same work whatever the limit
+  // that the limit grows with the length.
+  //   A unit is one search for a plane between two patches, 16 triangles against the box of 16, one
+  // triangle against 16, two triangles at one time, or a ray against 16 triangles or one.
+  //   A limit that is given is for the whole motion, in the order of time. When it is reached, the
+  // answer tells what was proven by then. DISTANCE divides what is left among the intervals by
+  // their length.
+  //   Once surfaces have come too near to tell, an eighth of the limit is left. FIRST keeps an
+  // eighth for what is undecided by then: until when the motion is free, and whether the bodies
+  // meet at all. A manifold, and the pose of a pushed-out body, may take another eighth each. With
+  // 0, these eighths are of NSVCD_DEFAULT_WORK. Apart from them, a question takes the same work
+  // whatever the limit
   size_t work;
   // the most segments that a motion, or each interval of a long one, is cut into: a multiple of 16
   // up to 64; 0: 64. Fewer take less memory, and make intervals shorter
@@ -249,10 +251,10 @@ typedef struct nsvcd_contact {
   // that meet it is the direction in which they met, by their velocities at that time. A corner on
   // a face: the face's normal, on the side that the corner came from, whatever the winding. An edge
   // across an edge: the direction across both. A corner on a corner or an edge, or an edge along an
-  // edge: of all directions that still separated them, the one most against v. Two kinds of
-  // contacts may point along v: triangles that touch from the start, which have the direction of
-  // least depth, out of closed surfaces; and points of a manifold where both faces are being left.
-  // 0 if no triangles are named, or if they have no area and so no direction
+  // edge: of all directions that still separated them, the one most against v.
+  //   Two kinds of contacts may point along v: triangles that touch from the start, which have the
+  // direction of least depth, out of closed surfaces; and points of a manifold where both faces are
+  // being left. 0 if no triangles are named, or if they have no area and so no direction
   float normal[3];
   // metres between the stored triangles, less convex radii; in a manifold, at that point. 0: they
   // meet
