@@ -1356,7 +1356,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     stl             STL, binary and text
 //     files           either, with an origin and a scale
 //   patches: the surface divided in parts
-//     samples         random points of the surface
+//     samples         oriented points of the surface, in proportion to area
 //     clusters        farthest point sampling, then Lloyd's algorithm
 //     covering        balls that cover the surface; patches as a whole
 //     topology        welded vertices, components, which of them are closed

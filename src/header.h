@@ -166,7 +166,7 @@ extern "C" {
 #include "mesh/files.h"     // either, with an origin and a scale
 
 // =========================================================== patches: the surface divided in parts
-#include "patches/samples.h"   // random points of the surface
+#include "patches/samples.h"   // oriented points of the surface, in proportion to area
 #include "patches/clusters.h"  // farthest point sampling, then Lloyd's algorithm
 #include "patches/covering.h"  // balls that cover the surface; patches as a whole
 #include "patches/topology.h"  // welded vertices, components, which of them are closed
