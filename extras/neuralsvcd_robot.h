@@ -27,22 +27,27 @@
 //     random          random numbers
 //     memory          the allocator; the rows of a workspace
 //   robot: is a motion of joints free?
-//     chain           what moves what; where everything is
+//     chain           links, joints and frames: where everything is
 //     steps           what the joints do between two times
-//     deviation       how far a part leaves the motion between two samples
-//     path            pieces, pair by pair
+//     deviation       how far a part leaves its sweep between two samples
+//     checker         the checker of a scene
+//     samples         configurations of a motion, and boxes about the parts in them
+//     local_queries   two parts, in the frame of one of them
+//     check           is a motion of the joints free?
 //     proofs          certificates of pairs
-//     rrt             configurations, and the nearest of them
+//     rrt             trees of configurations, and the nearest node
 //     configurations  proximities, the nearest free one, pairs that can meet
 //     blends          from one state to another, within limits of speed and acceleration
-//     smooth          a way in time, then smooth
+//     smooth          a path, timed, then smooth
 //     route           two trees of proven edges, shortcuts
 //
 // GLOSSARY
-//   part, link, piece a body of a scene; what a joint carries; of a motion of joints, one curve
-//   step, sample      of a piece, between two samples; a configuration in which parts are placed
-//   deviation         by how much a part leaves, in a step, the line and slerp between samples
-//   moment arm        how far a point of a part can be from a joint's axis
+//   part, link    a body of a scene; what a joint carries
+//   piece         one of the curves that a motion of the joints is made of
+//   sample, step  a configuration at a time of a motion, with all parts placed; from one to the next
+//   sweep         the line and the slerp of a part between its poses at two samples
+//   deviation     how far a part leaves its sweep in a step
+//   moment arm    how far a point of a part can be from a joint's axis
 #ifndef NEURALSVCD_ROBOT_H
 #define NEURALSVCD_ROBOT_H
 #ifndef NEURALSVCD_H  // include it first where it stands elsewhere
@@ -1205,84 +1210,60 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
 // In: a scene, and joint values. Out: a checker, and where links and parts are, in double. The
 // floor, top to bottom:
 //
-//   chain       what moves what; where everything is
-//   steps       what the joints do between two times
-//   deviate       how far points of a part can be from an axis; by how much a part leaves its sweep
-//   path        is a motion of the joints free?
-//   proofs      a certificate of a pair, as the joints move it
-//   trees       configurations, and the nearest of them
-//   configurations    one configuration: what is near, a way out; which pairs can meet
-//   blends       from one state to another, within limits of speed and acceleration
-//   smooth      a way in time, then smooth
-//   route       a start and goals: two trees of proven edges, shortcuts
+//   chain            links, joints and frames: forward kinematics
+//   steps            what the joints do between two times
+//   deviation        how far points of a part can be from an axis; how far a part leaves its sweep
+//   checker          the checker of a scene
+//   samples          configurations of a motion, and boxes about the parts in them
+//   local_queries    two parts, in the frame of one of them
+//   check            is a motion of the joints free?
+//   proofs           a certificate of a pair, as the joints move it
+//   rrt              trees of configurations, and the nearest node
+//   configurations   one configuration: proximities, the nearest free one; which pairs can meet
+//   blends           from one state to another, within limits of speed and acceleration
+//   smooth           a path, timed, then smooth
+//   route            a start and goals: two trees of proven edges, shortcuts
 //
-// It asks as any program does, by nsvcd_sweep.
+// All questions about bodies are asked by nsvcd_sweep, as any program asks them.
 
-// The schedule of a check.
-// steps that are looked at together, at most, and how often a motion is halved where that is too
-// few
+// steps of a check that are asked about together, at most
 #define NSVCD__MOST_STEPS 256
-#define NSVCD__STRETCHES 24
-// steps of what bends, at first
-#define NSVCD__FIRST_STEPS 4
-// radians or metres: where the way bends by less, steps go on across
-#define NSVCD__CORNER 1e-3
-// metres that a part may deviate at first; each time a pair is asked again it may by this share of
-// it
-#define NSVCD__COARSE 2e-3
-#define NSVCD__DEVIATION_FRACTION 8
-#define NSVCD__FINEST 1e-5f
-// units that a look for a hit may take, before the last
-#define NSVCD__PAIR_TRY 200
-// what frames in double are off, as a share of the lengths that they are computed from
-#define NSVCD__FRAME_ROUNDING 1e-13
 
-// A joint, as the checker has it; and the link that it carries.
-typedef struct nsvcd__link {
-  // in the parent link: where the joint is, and how it is turned, unit
-  nsvcd__d3 position;
-  nsvcd__dquat turn;
-  // unit, in the joint's frame
-  nsvcd__d3 axis;
-  // joints between the world and this link, itself included: bit i is joint i
-  uint32_t path;
-} nsvcd__link;
-
-// Where a link is, in the world.
+// A rotation and a position, in double.
 typedef struct nsvcd__frame {
-  nsvcd__dquat turn;
+  nsvcd__dquat turn;  // unit
   nsvcd__d3 position;
 } nsvcd__frame;
 
-// Joint values, and what follows from them.
+// A joint, as the checker has it, and the link that it carries.
+typedef struct nsvcd__link {
+  nsvcd__frame origin;  // of the joint, in its parent link
+  nsvcd__d3 axis;       // unit, in the joint's frame
+  uint32_t chain;       // joints from the world to this link, its own too: bit i is joint i
+} nsvcd__link;
+
+// Where the joints' values put the links, in the world.
 typedef struct nsvcd__configuration {
-  double joints[NSVCD_MAX_JOINTS];
-  // of the links, the world first
-  nsvcd__frame frames[NSVCD_MAX_JOINTS + 1];
-  // of the joints, in the world: unit
-  nsvcd__d3 axes[NSVCD_MAX_JOINTS];
+  nsvcd__frame frames[NSVCD_MAX_JOINTS + 1];  // of the links, the world first
+  nsvcd__d3 axes[NSVCD_MAX_JOINTS];           // of the joints: unit
 } nsvcd__configuration;
 
-// Sides along the world's axes.
+// A box along the world's axes, in double.
 typedef struct nsvcd__bounds {
   nsvcd__d3 low, high;
 } nsvcd__bounds;
 
 // A part, as the checker has it.
 typedef struct nsvcd__member {
-  // in its link
-  nsvcd__frame frame;
-  // of a sphere about its triangles, in its link; from its origin
+  nsvcd__frame frame;  // in its link
+  // a sphere about its triangles, in its link; and no point is farther from its origin
   nsvcd__d3 centre;
   double radius, extent;
-  // of a box about all of it, in its own axes, scaled; and half of its sides
+  // a box about all of it, in its own axes, scaled
   nsvcd__d3 middle, half;
-  // about all samples, or where it rests
-  nsvcd__bounds box;
-  // of a part that moves: where its samples begin
-  size_t row;
-  // metres, at most: by how much it leaves the way between its samples, and what frames in double
-  // are off
+  nsvcd__bounds bounds;  // of all samples, or where it rests
+  size_t row;            // its first sample, if it moves
+  // metres, at most: how far it leaves the sweep between its samples; errors of frames in double
   double deviation, rounding;
 } nsvcd__member;
 
@@ -1290,16 +1271,13 @@ struct nsvcd_checker {
   const nsvcd_scene *scene;
   nsvcd__link links[NSVCD_MAX_JOINTS];
   nsvcd__member *members;  // (B)
-  // (P): the pairs, as they are asked: what was hit last first
-  uint32_t *order;
-  // (P): those of a interval that are not proven yet
-  uint32_t *left;
-  // (movers, NSVCD__MOST_STEPS + 1): samples, in the world, and boxes about the parts there
+  uint32_t *order;         // (P): the pairs, as they are asked about: what was hit last first
+  uint32_t *left;          // (P): those of an interval that are not proven yet
+  // (moving parts, NSVCD__MOST_STEPS + 1): samples, in the world
   nsvcd__frame *frames;
-  nsvcd__bounds *boxes;
-  // (NSVCD__MOST_STEPS + 1): of both parts of a pair, as it is asked about; see nsvcd__sight
-  nsvcd_pose *seen[2];
-  // the times of the samples, and the most that a part deviates in the step after each
+  nsvcd__bounds *bounds;
+  nsvcd_pose *local[2];  // (NSVCD__MOST_STEPS + 1): of both parts of a pair, see local_queries
+  // of the samples; and the most that a part deviates in the step after each
   double times[NSVCD__MOST_STEPS + 1], deviations[NSVCD__MOST_STEPS + 1];
   nsvcd__configuration at, next;
   void *query;
@@ -1324,24 +1302,27 @@ static nsvcd__frame nsvcd__frame_of(const nsvcd_pose *pose) {
   return out;
 }
 
-// What is `inner` in a frame, in the world.
-static nsvcd__frame nsvcd__frame_in(const nsvcd__frame *frame, const nsvcd__frame *inner) {
-  const nsvcd__d3 position = nsvcd__dquat_rotate(frame->turn, inner->position);
-  const nsvcd__frame out = {nsvcd__dquat_mul(frame->turn, inner->turn),
-                            nsvcd__d3_add(frame->position, position)};
+static nsvcd__d3 nsvcd__frame_apply(const nsvcd__frame *frame, nsvcd__d3 a) {
+  return nsvcd__d3_add(nsvcd__dquat_rotate(frame->turn, a), frame->position);
+}
+
+static nsvcd__frame nsvcd__frame_mul(const nsvcd__frame *a, const nsvcd__frame *b) {
+  const nsvcd__d3 position = nsvcd__dquat_rotate(a->turn, b->position);
+  const nsvcd__frame out = {nsvcd__dquat_mul(a->turn, b->turn),
+                            nsvcd__d3_add(a->position, position)};
   return out;
 }
 
-// What is `frame` in the world, as seen from another one.
-static nsvcd__frame nsvcd__frame_from(const nsvcd__frame *from, const nsvcd__frame *frame) {
-  const nsvcd__dquat back = {-from->turn.x, -from->turn.y, -from->turn.z, from->turn.w};
-  const nsvcd__d3 offset = nsvcd__d3_sub(frame->position, from->position);
-  const nsvcd__frame out = {nsvcd__dquat_inverse_mul(from->turn, frame->turn),
+// b, as seen from a.
+static nsvcd__frame nsvcd__frame_inverse_mul(const nsvcd__frame *a, const nsvcd__frame *b) {
+  const nsvcd__dquat back = {-a->turn.x, -a->turn.y, -a->turn.z, a->turn.w};
+  const nsvcd__d3 offset = nsvcd__d3_sub(b->position, a->position);
+  const nsvcd__frame out = {nsvcd__dquat_inverse_mul(a->turn, b->turn),
                             nsvcd__dquat_rotate(back, offset)};
   return out;
 }
 
-static nsvcd_pose nsvcd__pose_in(const nsvcd__frame *frame) {
+static nsvcd_pose nsvcd__frame_pose(const nsvcd__frame *frame) {
   const nsvcd__dquat turn = nsvcd__dquat_unit(frame->turn);
   nsvcd_pose out;
   nsvcd__f3_store(nsvcd__f3_round(frame->position), out.position);
@@ -1356,59 +1337,56 @@ static int nsvcd__slides(const nsvcd_checker *c, size_t joint) {
   return c->scene->joints[joint].kind == NSVCD_JOINT_PRISMATIC;
 }
 
-// Places the links where c->joints says.
-static void nsvcd__pose_links(const nsvcd_checker *checker, nsvcd__configuration *c) {
+// Forward kinematics.
+static void nsvcd__place_links(const nsvcd_checker *c, const double *joints,
+                               nsvcd__configuration *out) {
   const nsvcd__frame world = {{0, 0, 0, 1}, {0, 0, 0}};
-  c->frames[0] = world;
-  for (size_t i = 0; i < checker->scene->joint_count; i++) {
-    const nsvcd__link *link = &checker->links[i];
-    const nsvcd__frame origin = {link->turn, link->position};
-    nsvcd__frame frame =
-        nsvcd__frame_in(&c->frames[checker->scene->joints[i].parent], &origin);
-    c->axes[i] = nsvcd__dquat_rotate(frame.turn, link->axis);
-    if (nsvcd__slides(checker, i)) {
-      frame.position = nsvcd__d3_fma(c->joints[i], c->axes[i], frame.position);
+  out->frames[0] = world;
+  for (size_t i = 0; i < c->scene->joint_count; i++) {
+    const nsvcd__link *link = &c->links[i];
+    const nsvcd__frame *parent = &out->frames[c->scene->joints[i].parent];
+    nsvcd__frame frame = nsvcd__frame_mul(parent, &link->origin);
+    out->axes[i] = nsvcd__dquat_rotate(frame.turn, link->axis);
+    if (nsvcd__slides(c, i)) {
+      frame.position = nsvcd__d3_fma(joints[i], out->axes[i], frame.position);
     } else {
-      const double half = 0.5 * c->joints[i];
+      const double half = 0.5 * joints[i];
       const nsvcd__d3 axis = nsvcd__d3_scale(link->axis, sin(half));
       const nsvcd__dquat turn = {axis.x, axis.y, axis.z, cos(half)};
       frame.turn = nsvcd__dquat_mul(frame.turn, turn);
     }
-    c->frames[i + 1] = frame;
+    out->frames[i + 1] = frame;
   }
 }
 
-static nsvcd__frame nsvcd__frame_of_part(const nsvcd_checker *checker,
-                                         const nsvcd__configuration *c, size_t part) {
-  return nsvcd__frame_in(&c->frames[checker->scene->parts[part].link],
-                         &checker->members[part].frame);
+static nsvcd__frame nsvcd__frame_of_part(const nsvcd_checker *c,
+                                         const nsvcd__configuration *at, size_t part) {
+  const uint32_t link = c->scene->parts[part].link;
+  return nsvcd__frame_mul(&at->frames[link], &c->members[part].frame);
 }
 
 NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const double *joints,
                                        nsvcd_pose *poses) {
-  nsvcd__configuration c;
-  memcpy(c.joints, joints, checker->scene->joint_count * sizeof *joints);
-  nsvcd__pose_links(checker, &c);
+  nsvcd__configuration at;
+  nsvcd__place_links(checker, joints, &at);
   for (size_t n = 0; n < checker->scene->part_count; n++) {
-    const nsvcd__frame frame = nsvcd__frame_of_part(checker, &c, n);
-    poses[n] = nsvcd__pose_in(&frame);
+    const nsvcd__frame frame = nsvcd__frame_of_part(checker, &at, n);
+    poses[n] = nsvcd__frame_pose(&frame);
   }
 }
 
 // ------------------------------------------------------------------------------------- robot/steps
 // In: a motion of the joints, and two times. Out: what the joints do between them.
 
-// A step of a motion, from one time to another, h later; x is the share of it that has gone by.
+// A step of a motion: from one time to another, h later.
 typedef struct nsvcd__step {
-  // joints at both ends
-  double from[NSVCD_MAX_JOINTS], to[NSVCD_MAX_JOINTS];
+  double from[NSVCD_MAX_JOINTS], to[NSVCD_MAX_JOINTS];  // the joints at both
   // |d|, d = to - from; max |q - from|
   double travel[NSVCD_MAX_JOINTS], farthest[NSVCD_MAX_JOINTS];
-  // how much each joint bends: 8 |e| is no more, see robot/deviate
-  double bend[NSVCD_MAX_JOINTS];
+  double bend[NSVCD_MAX_JOINTS];  // at least 8 |e|, see robot/deviation.h
 } nsvcd__step;
 
-// A motion as it is meant: of no pieces, a point and nothing else.
+// A motion of no pieces is its first point, whatever else it says.
 static nsvcd_joint_motion nsvcd__motion_meant(const nsvcd_joint_motion *motion) {
   const nsvcd_joint_motion still = {0, 0, motion->points, NULL};
   return motion->pieces ? *motion : still;
@@ -1422,35 +1400,32 @@ static double nsvcd__piece_time(const nsvcd_joint_motion *motion, size_t piece) 
   return nsvcd__piece_start(motion, piece + 1) - nsvcd__piece_start(motion, piece);
 }
 
-// The piece that a time is in; of two, the later one.
+// The piece that a time is in; where two pieces meet, the later one.
 static size_t nsvcd__piece_at(const nsvcd_joint_motion *motion, double time) {
   size_t low = 0;
   size_t high = motion->pieces;
   while (high - low > 1) {
     const size_t middle = low + (high - low) / 2;
-    if (nsvcd__piece_start(motion, middle) <= time)
-      low = middle;
-    else
-      high = middle;
+    *(nsvcd__piece_start(motion, middle) <= time ? &low : &high) = middle;
   }
   return low;
 }
 
-// The share of a piece that has gone by at a time.
+// How much of a piece has gone by at a time: in [0,1].
 static double nsvcd__fraction_at(const nsvcd_joint_motion *motion, size_t piece, double time) {
   const double start = nsvcd__piece_start(motion, piece);
   if (time >= nsvcd__piece_start(motion, piece + 1)) return 1;
   return time > start ? (time - start) / nsvcd__piece_time(motion, piece) : 0;
 }
 
-// Points of one joint in a piece.
+// The control points of one joint in a piece.
 static void nsvcd__joint_points(const nsvcd_joint_motion *motion, size_t piece, size_t joints,
                                 size_t joint, double *p) {
   const double *first = motion->points + piece * motion->degree * joints + joint;
   for (size_t i = 0; i <= motion->degree; i++) p[i] = first[i * joints];
 }
 
-// The part of a piece from share s0 to s1: de Casteljau's algorithm, twice.
+// Cuts a curve to its fractions from s0 to s1: de Casteljau's algorithm, twice.
 static void nsvcd__cut_curve(double *p, size_t degree, double s0, double s1) {
   const double before = s1 > 0 ? s0 / s1 : 0;
   // the first s1 of it: p[i] becomes the point of level i
@@ -1463,7 +1438,7 @@ static void nsvcd__cut_curve(double *p, size_t degree, double s0, double s1) {
   }
 }
 
-// The joints in a piece at a share of it, and, unless NULL, their speeds.
+// The joints at a fraction of a piece, and, unless NULL, their speeds.
 static void nsvcd__joints_at(const nsvcd_joint_motion *motion, size_t joints, size_t piece,
                              double fraction, double *at, double *speeds) {
   const size_t degree = motion->degree;
@@ -1481,11 +1456,18 @@ static void nsvcd__joints_at(const nsvcd_joint_motion *motion, size_t joints, si
   }
 }
 
+// The same at a time.
+static void nsvcd__joints_at_time(const nsvcd_joint_motion *motion, size_t joints, double time,
+                                  double *at, double *speeds) {
+  const size_t piece = nsvcd__piece_at(motion, time);
+  const double fraction = nsvcd__fraction_at(motion, piece, time);
+  nsvcd__joints_at(motion, joints, piece, fraction, at, speeds);
+}
+
 NSVCDDEF void nsvcd_motion_at(const nsvcd_joint_motion *motion, size_t joints, double time,
                               double *out) {
   const nsvcd_joint_motion m = nsvcd__motion_meant(motion);
-  const size_t piece = nsvcd__piece_at(&m, time);
-  nsvcd__joints_at(&m, joints, piece, nsvcd__fraction_at(&m, piece, time), out, NULL);
+  nsvcd__joints_at_time(&m, joints, time, out, NULL);
 }
 
 // By how much the speed of a joint jumps where a piece begins.
@@ -1497,8 +1479,8 @@ static double nsvcd__jump_at(const nsvcd_joint_motion *motion, size_t joints, si
   return fabs((double)motion->degree * (after - before));
 }
 
-// What the joints do from time t0 to t1, through as many pieces as there are. Where the speed jumps
-// by v, e has a corner: |e| is more by h v / 4 at most.
+// What the joints do from time t0 to t1, which may span several pieces. Where the speed jumps by v,
+// e has a corner, and |e| grows by h v / 4 at most.
 static void nsvcd__step_of(const nsvcd_joint_motion *motion, size_t joints, double t0,
                            double t1, nsvcd__step *step) {
   const size_t degree = motion->degree;
@@ -1510,9 +1492,9 @@ static void nsvcd__step_of(const nsvcd_joint_motion *motion, size_t joints, doub
   double square = 0;
   const double h = t1 - t0;
   while (last + 1 < motion->pieces && nsvcd__piece_start(motion, last + 1) < t1) last++;
+  const double begin = nsvcd__fraction_at(motion, first, t0);
   const double end = nsvcd__fraction_at(motion, last, t1);
-  nsvcd__joints_at(motion, joints, first, nsvcd__fraction_at(motion, first, t0), step->from,
-                   v0);
+  nsvcd__joints_at(motion, joints, first, begin, step->from, v0);
   nsvcd__joints_at(motion, joints, last, end, step->to, v1);
   for (size_t j = 0; j < joints; j++) {
     const double d = step->to[j] - step->from[j];
@@ -1530,12 +1512,12 @@ static void nsvcd__step_of(const nsvcd_joint_motion *motion, size_t joints, doub
     double jumps = 0;
     for (size_t piece = first; piece <= last; piece++) {
       double p[NSVCD_MAX_DEGREE + 1], second[NSVCD_MAX_DEGREE + 1];
-      const double s0 = piece == first ? nsvcd__fraction_at(motion, piece, t0) : 0;
+      const double s0 = piece == first ? begin : 0;
       const double s1 = piece == last ? end : 1;
-      const double steps = h / nsvcd__piece_time(motion, piece);
+      const double per_piece = h / nsvcd__piece_time(motion, piece);
       nsvcd__joint_points(motion, piece, joints, j, p);
       for (size_t i = 0; i + 2 <= degree; i++)
-        second[i] = steps * steps * twice * (p[i] - 2 * p[i + 1] + p[i + 2]);
+        second[i] = per_piece * per_piece * twice * (p[i] - 2 * p[i + 1] + p[i + 2]);
       if (degree >= 2) nsvcd__cut_curve(second, degree - 2, s0, s1);
       nsvcd__cut_curve(p, degree, s0, s1);
       for (size_t i = 0; i <= degree; i++)
@@ -1552,22 +1534,21 @@ static void nsvcd__step_of(const nsvcd_joint_motion *motion, size_t joints, doub
 // In: a part, and a step of the joints between two samples. Out: by how much it leaves, at most,
 // the line and the slerp between them.
 //
-// THE BOUND. A step goes from joints q0 to q1 = q0 + d in a time h; x is the share of it that has
-// gone by, and u = x - g x (1 - x) / 2 for a number |g| <= 2 of our choice: it goes from 0 to 1 as
-// well, and never back. Each joint is q0 + u d + e, with e = 0 at both ends and e'' = h^2 q'' -
-// g d, derivatives by x: |e| <= max |e''| / 8; where q' jumps by v, e' does by h v, and |e| may be
-// more by h v / 4. What a point y of the part is, at most, off where
-// q0 + u d has it:
+// THE BOUND. A step goes from joints q0 to q1 = q0 + d in a time h; x in [0,1] is the fraction of
+// it that has gone by. Let u = x - g x (1 - x) / 2 for a number |g| <= 2 of our choice: u goes from
+// 0 to 1 too, and never back. Each joint is q0 + u d + e, with e = 0 at both ends and e'' = h^2 q''
+// - g d, derivatives by x. So |e| <= max |e''| / 8; where q' jumps by v, e' jumps by h v, and |e|
+// may be more by h v / 4. From where q0 + u d has it, a point y of the part is off by at most
 //   sum over joints j of |e_j| r_j           r_j: no point is farther from the axis of j
-// On the straight way q0 + u d the point is off its chord by max |y''| / 8, derivatives by u. With
-// d^2 y / dq_j dq_k no more than r of the outer one of j and k, as long as both turn (an outer one
-// that slides has 1 in place of r; an inner one that slides, 0),
+// On the straight line q0 + u d the point leaves its chord by max |y''| / 8 at most, derivatives by
+// u. While both turn, d^2 y / dq_j dq_k is no more than r of the outer one of j and k. For an outer
+// one that slides r is 1; where the inner one slides, the derivative is 0. So
 //   |y''| <= sum_j |d_j| r_j (2 sum over inner k that turn of |d_k| + |d_j|)
-// and what slides has no square. The sweep goes through the same places at both ends, by a line of
-// the origin and a slerp by an angle w, and is off that chord by w^2 R / 8, R the point's distance
-// from the origin. All together, for any u, and so at all times:
-//   deviate <= (sum_j max |e''_j| r_j + |y''| + w^2 R) / 8
-// r_j is that of the sample q0, and what joints beyond j can add while they move.
+// and a joint that slides has no square. The sweep has the same poses at both ends, and between
+// them a line of the origin and a slerp by an angle w: it leaves that chord by w^2 R / 8, R the
+// point's distance from the origin. All together, for any u, and so at all times:
+//   deviation <= (sum_j max |e''_j| r_j + |y''| + w^2 R) / 8
+// r_j is that of the sample q0, and what the joints beyond j can add while they move.
 // Source: this library.
 
 // The angle of the turn from a to b, radians: the shorter one.
@@ -1577,69 +1558,64 @@ static double nsvcd__angle_between(nsvcd__dquat a, nsvcd__dquat b) {
   return 4 * asin(nsvcd__min(0.5 * sqrt(nsvcd__dquat_dot(chord, chord)), 1));
 }
 
-// The bound of the banner, from moment arms r (F) on the path of joints. turn: w.
-static double nsvcd__deviation_by(const nsvcd_checker *c, const nsvcd__step *step,
-                                  uint32_t path, const double *moment_arms, double turn,
-                                  double extent) {
-  double bend = 0;
-  double second = 0;
-  double inner = 0;
-  for (; path; path &= path - 1) {
-    const size_t j = nsvcd__low_bit(path);
-    const double own = nsvcd__slides(c, j) ? 0 : step->travel[j];
-    bend += step->bend[j] * moment_arms[j];
-    second += step->travel[j] * moment_arms[j] * (2 * inner + own);
-    inner += own;
-  }
-  return (bend + second + turn * turn * extent) / 8;
-}
-
-// r of the banner: how far points of a part can be from the axes of the joints on its path, during
-// a step that begins in a configuration; 1 of what slides.
+// r of the banner, (F): how far points of a part can be from the axes of the joints of its chain,
+// during a step that begins in a configuration.
 static void nsvcd__moment_arms_of(const nsvcd_checker *c, size_t part, const nsvcd__step *step,
-                                  const nsvcd__configuration *from, double *moment_arms) {
+                                  const nsvcd__configuration *from, double *arms) {
   const nsvcd__member *m = &c->members[part];
   const size_t link = c->scene->parts[part].link;
-  const uint32_t path = c->links[link - 1].path;
-  const nsvcd__frame *frame = &from->frames[link];
-  const nsvcd__d3 centre =
-      nsvcd__d3_add(nsvcd__dquat_rotate(frame->turn, m->centre), frame->position);
+  const uint32_t chain = c->links[link - 1].chain;
+  const nsvcd__d3 centre = nsvcd__frame_apply(&from->frames[link], m->centre);
   double moved = 0;  // by joints beyond this one
   for (size_t j = link; j-- > 0;) {
-    if (!(path >> j & 1)) continue;
-    moment_arms[j] = 1;
+    if (!(chain >> j & 1)) continue;
+    arms[j] = 1;
     if (!nsvcd__slides(c, j)) {
       const nsvcd__d3 off = nsvcd__d3_sub(centre, from->frames[j + 1].position);
-      moment_arms[j] =
-          nsvcd__d3_length(nsvcd__d3_cross(from->axes[j], off)) + m->radius + moved;
+      const nsvcd__d3 across = nsvcd__d3_cross(from->axes[j], off);
+      arms[j] = nsvcd__d3_length(across) + m->radius + moved;
     }
-    moved += step->farthest[j] * moment_arms[j];
+    moved += step->farthest[j] * arms[j];
   }
 }
 
-// What a part deviates at most in a step from one configuration to another.
+// The bound of the banner, for a part that moves.
 static double nsvcd__part_deviation(const nsvcd_checker *c, size_t part,
                                     const nsvcd__step *step, const nsvcd__configuration *from,
                                     const nsvcd__configuration *to) {
   const size_t link = c->scene->parts[part].link;
-  double moment_arms[NSVCD_MAX_JOINTS];
-  const double turn = nsvcd__angle_between(from->frames[link].turn, to->frames[link].turn);
-  nsvcd__moment_arms_of(c, part, step, from, moment_arms);
-  return nsvcd__deviation_by(c, step, c->links[link - 1].path, moment_arms, turn,
-                             c->members[part].extent);
+  const double w = nsvcd__angle_between(from->frames[link].turn, to->frames[link].turn);
+  double arms[NSVCD_MAX_JOINTS];
+  double bend = 0;
+  double second = 0;
+  double inner = 0;
+  nsvcd__moment_arms_of(c, part, step, from, arms);
+  for (uint32_t chain = c->links[link - 1].chain; chain; chain &= chain - 1) {
+    const size_t j = nsvcd__low_bit(chain);
+    const double own = nsvcd__slides(c, j) ? 0 : step->travel[j];
+    bend += step->bend[j] * arms[j];
+    second += step->travel[j] * arms[j] * (2 * inner + own);
+    inner += own;
+  }
+  return (bend + second + w * w * c->members[part].extent) / 8;
 }
 
-// -------------------------------------------------------------------------------------- robot/path
-// In: a checker and a motion of its joints. Out: is it free, as the joints make it, at all times?
+// ----------------------------------------------------------------------------------- robot/checker
+// In: a scene. Out: its checker, in the caller's memory; or what is wrong with it.
 
-// ---- a checker
+// ---- is a scene in order?
 
-// Is x a number, and no larger? By the bits, which are in the order of what is not negative.
-static int nsvcd__is_number(double x, double most) {
+// Finite, and no larger than a coordinate may be? By their bits, so that it holds under -ffast-math
+// too: those of numbers that are not negative are in the order of the numbers.
+static int nsvcd__are_numbers(const double *x, size_t count) {
+  const double most = (double)NSVCD_MAX_COORDINATE;
   uint64_t bits, limit;
-  memcpy(&bits, &x, sizeof bits);
   memcpy(&limit, &most, sizeof limit);
-  return (bits & ~(uint64_t)0 >> 1) <= limit;
+  for (size_t i = 0; i < count; i++) {
+    memcpy(&bits, &x[i], sizeof bits);
+    if ((bits & ~(uint64_t)0 >> 1) > limit) return 0;
+  }
+  return 1;
 }
 
 static nsvcd_result nsvcd__joint_check(const nsvcd_joint *joint, size_t i) {
@@ -1653,14 +1629,12 @@ static nsvcd_result nsvcd__joint_check(const nsvcd_joint *joint, size_t i) {
   if (!(axis > 1e-15) || axis > 1e15) return NSVCD_ERROR_AXIS;
   const nsvcd_result result = nsvcd__poses_check(&joint->origin, 1);
   if (result) return result;
-  const double most = (double)NSVCD_MAX_COORDINATE;
-  if (!nsvcd__is_number(joint->speed, most) || !nsvcd__is_number(joint->acceleration, most))
-    return NSVCD_ERROR_SPEED;
-  if (joint->speed < 0 || joint->acceleration < 0) return NSVCD_ERROR_SPEED;
+  const double rates[2] = {joint->speed, joint->acceleration};
+  if (!nsvcd__are_numbers(rates, 2) || rates[0] < 0 || rates[1] < 0) return NSVCD_ERROR_SPEED;
+  const double limits[2] = {joint->low, joint->high};
   if (joint->kind == NSVCD_JOINT_CONTINUOUS) return NSVCD_OK;
-  if (!nsvcd__is_number(joint->low, most) || !nsvcd__is_number(joint->high, most))
-    return NSVCD_ERROR_LIMITS;
-  return joint->low <= joint->high ? NSVCD_OK : NSVCD_ERROR_LIMITS;
+  const int fits = nsvcd__are_numbers(limits, 2) && limits[0] <= limits[1];
+  return fits ? NSVCD_OK : NSVCD_ERROR_LIMITS;
 }
 
 static nsvcd_result nsvcd__part_check(const nsvcd_scene *scene, const nsvcd_part *part) {
@@ -1678,27 +1652,30 @@ static nsvcd_result nsvcd__part_check(const nsvcd_scene *scene, const nsvcd_part
 static nsvcd_result nsvcd__scene_check(const nsvcd_scene *scene) {
   nsvcd_result result = NSVCD_OK;
   if (!scene) return NSVCD_ERROR_ARGUMENT;
-  if (scene->joint_count < 1 || scene->joint_count > NSVCD_MAX_JOINTS)
+  const size_t parts = scene->part_count;
+  if (scene->joint_count < 1 || scene->joint_count > NSVCD_MAX_JOINTS ||
+      parts > NSVCD_MAX_PARTS)
     return NSVCD_ERROR_COUNT;
-  if (scene->part_count > NSVCD_MAX_PARTS) return NSVCD_ERROR_COUNT;
-  if (!scene->joints) return NSVCD_ERROR_ARGUMENT;
-  if ((scene->part_count > 0 && !scene->parts) || (scene->pair_count > 0 && !scene->pairs))
+  if (!scene->joints || (parts > 0 && !scene->parts) ||
+      (scene->pair_count > 0 && !scene->pairs))
     return NSVCD_ERROR_ARGUMENT;
   for (size_t i = 0; i < scene->joint_count && !result; i++)
     result = nsvcd__joint_check(&scene->joints[i], i);
-  for (size_t n = 0; n < scene->part_count && !result; n++)
+  for (size_t n = 0; n < parts && !result; n++)
     result = nsvcd__part_check(scene, &scene->parts[n]);
   for (size_t k = 0; k < scene->pair_count && !result; k++) {
     const nsvcd_body_pair *pair = &scene->pairs[k];
-    if (pair->a >= scene->part_count) return NSVCD_ERROR_PAIR;
-    if (pair->b >= scene->part_count) return NSVCD_ERROR_PAIR;
-    if (scene->parts[pair->a].link == scene->parts[pair->b].link) return NSVCD_ERROR_PAIR;
+    if (pair->a >= parts || pair->b >= parts ||
+        scene->parts[pair->a].link == scene->parts[pair->b].link)
+      return NSVCD_ERROR_PAIR;
   }
   return result;
 }
 
-// A box about a part that is in this frame.
-static nsvcd__bounds nsvcd__box_of(const nsvcd__member *m, const nsvcd__frame *frame) {
+// ---- boxes
+
+// Of a part whose frame in the world this is.
+static nsvcd__bounds nsvcd__bounds_of(const nsvcd__member *m, const nsvcd__frame *frame) {
   const nsvcd__dmat3 axes = nsvcd__dmat3_of(frame->turn);
   const nsvcd__d3 *rows[3] = {&axes.x, &axes.y, &axes.z};
   nsvcd__d3 half = {0, 0, 0};
@@ -1712,17 +1689,19 @@ static nsvcd__bounds nsvcd__box_of(const nsvcd__member *m, const nsvcd__frame *f
   return out;
 }
 
-static nsvcd__bounds nsvcd__box_over(const nsvcd__bounds *a, const nsvcd__bounds *b) {
+static nsvcd__bounds nsvcd__bounds_over(const nsvcd__bounds *a, const nsvcd__bounds *b) {
   const nsvcd__bounds out = {nsvcd__d3_min(a->low, b->low), nsvcd__d3_max(a->high, b->high)};
   return out;
 }
 
-// Are two boxes apart by more than `room` along an axis?
-static int nsvcd__boxes_apart(const nsvcd__bounds *a, const nsvcd__bounds *b, double room) {
+// Are two boxes more than `room` apart along an axis?
+static int nsvcd__bounds_apart(const nsvcd__bounds *a, const nsvcd__bounds *b, double room) {
   return a->low.x - b->high.x > room || b->low.x - a->high.x > room ||
          a->low.y - b->high.y > room || b->low.y - a->high.y > room ||
          a->low.z - b->high.z > room || b->low.z - a->high.z > room;
 }
+
+// ---- a checker
 
 // Lays a checker out at base, which is aligned, or, where that is NULL, only counts. Returns the
 // bytes; 0 if they are more than can be counted.
@@ -1737,14 +1716,14 @@ static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
   const size_t parts = scene->part_count;
   const size_t pairs = scene->pair_count;
   const size_t samples = NSVCD__MOST_STEPS + 1;
+  const size_t rows = movers * samples;
   c->members = (nsvcd__member *)nsvcd__take(base, &used, parts, sizeof(nsvcd__member));
   c->order = (uint32_t *)nsvcd__take(base, &used, pairs, sizeof(uint32_t));
   c->left = (uint32_t *)nsvcd__take(base, &used, pairs, sizeof(uint32_t));
-  c->frames = (nsvcd__frame *)nsvcd__take(base, &used, movers * samples, sizeof(nsvcd__frame));
-  c->boxes =
-      (nsvcd__bounds *)nsvcd__take(base, &used, movers * samples, sizeof(nsvcd__bounds));
+  c->frames = (nsvcd__frame *)nsvcd__take(base, &used, rows, sizeof(nsvcd__frame));
+  c->bounds = (nsvcd__bounds *)nsvcd__take(base, &used, rows, sizeof(nsvcd__bounds));
   for (size_t n = 0; n < 2; n++)
-    c->seen[n] = (nsvcd_pose *)nsvcd__take(base, &used, samples, sizeof(nsvcd_pose));
+    c->local[n] = (nsvcd_pose *)nsvcd__take(base, &used, samples, sizeof(nsvcd_pose));
   c->query_size = nsvcd_sweep_workspace_size(NULL);
   c->query = nsvcd__take(base, &used, 1, c->query_size);
   *checker = (nsvcd_checker *)at;
@@ -1754,6 +1733,28 @@ static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
 NSVCDDEF size_t nsvcd_checker_size(const nsvcd_scene *scene) {
   nsvcd_checker *unused;
   return nsvcd__scene_check(scene) ? 0 : nsvcd__checker_layout(scene, NULL, &unused);
+}
+
+static nsvcd__member nsvcd__member_of(const nsvcd_part *part) {
+  const double scale = part->scale > 0 ? (double)part->scale : 1;
+  const nsvcd_body_facts facts = nsvcd_body_describe(part->body);
+  const nsvcd__d3 low = nsvcd__d3_load(facts.low);
+  const nsvcd__d3 high = nsvcd__d3_load(facts.high);
+  const nsvcd__d3 ones = {1, 1, 1};
+  const nsvcd__d3 centre = nsvcd__d3_scale(nsvcd__d3_load(facts.centre), scale);
+  const nsvcd__d3 half = nsvcd__d3_scale(nsvcd__d3_sub(high, low), 0.5 * scale);
+  nsvcd__member m;
+  memset(&m, 0, sizeof m);
+  m.frame = nsvcd__frame_of(&part->pose);
+  m.centre = nsvcd__frame_apply(&m.frame, centre);
+  // spheres are computed in float
+  m.radius = 1.000001 * scale * (double)(facts.radius - facts.convex_radius);
+  m.extent = 1.000001 * scale * (double)facts.extent;
+  m.middle = nsvcd__d3_scale(nsvcd__d3_add(low, high), 0.5 * scale);
+  // a rounded body goes beyond its triangles
+  m.half = nsvcd__d3_fma(scale * (double)facts.convex_radius, ones, half);
+  m.bounds = nsvcd__bounds_of(&m, &m.frame);
+  return m;
 }
 
 NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory, size_t size,
@@ -1769,84 +1770,63 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
   c->scene = scene;
   for (size_t i = 0; i < scene->joint_count; i++) {
     const nsvcd_joint *joint = &scene->joints[i];
-    const nsvcd__frame origin = nsvcd__frame_of(&joint->origin);
     nsvcd__link *link = &c->links[i];
-    link->position = origin.position;
-    link->turn = origin.turn;
+    link->origin = nsvcd__frame_of(&joint->origin);
     link->axis = nsvcd__d3_unit(nsvcd__d3_load(joint->axis), nsvcd__d3_of(0, 0, 1));
-    link->path = (uint32_t)1 << i | (joint->parent ? c->links[joint->parent - 1].path : 0);
+    link->chain = (uint32_t)1 << i | (joint->parent ? c->links[joint->parent - 1].chain : 0);
   }
   size_t row = 0;
   for (size_t n = 0; n < scene->part_count; n++) {
-    const nsvcd_part *part = &scene->parts[n];
-    const double scale = part->scale > 0 ? (double)part->scale : 1;
-    const nsvcd_body_facts facts = nsvcd_body_describe(part->body);
-    nsvcd__member *m = &c->members[n];
-    m->frame = nsvcd__frame_of(&part->pose);
-    const nsvcd__d3 centre = nsvcd__d3_scale(nsvcd__d3_load(facts.centre), scale);
-    const nsvcd__frame sphere = {{0, 0, 0, 1}, centre};
-    m->centre = nsvcd__frame_in(&m->frame, &sphere).position;
-    // spheres are computed in float
-    m->radius = 1.000001 * scale * (double)(facts.radius - facts.convex_radius);
-    m->extent = 1.000001 * scale * (double)facts.extent;
-    const nsvcd__d3 low = nsvcd__d3_load(facts.low);
-    const nsvcd__d3 high = nsvcd__d3_load(facts.high);
-    const nsvcd__d3 all = {1, 1, 1};
-    m->middle = nsvcd__d3_scale(nsvcd__d3_add(low, high), 0.5 * scale);
-    // what is round goes beyond
-    m->half = nsvcd__d3_fma(scale * (double)facts.convex_radius, all,
-                            nsvcd__d3_scale(nsvcd__d3_sub(high, low), 0.5 * scale));
-    m->box = nsvcd__box_of(m, &m->frame);
-    m->deviation = 0;
-    m->rounding = 0;
-    m->row = part->link ? NSVCD__MOST_STEPS + 1 : 0;
-    m->row *= row;
-    row += part->link > 0;
+    c->members[n] = nsvcd__member_of(&scene->parts[n]);
+    c->members[n].row = row;
+    row += scene->parts[n].link ? NSVCD__MOST_STEPS + 1 : 0;
   }
   for (size_t k = 0; k < scene->pair_count; k++) c->order[k] = (uint32_t)k;
   *checker = c;
   return NSVCD_OK;
 }
 
-// ---- samples
+// ----------------------------------------------------------------------------------- robot/samples
+// In: times of a motion. Out: its samples, where all parts are placed, and how far each part
+// deviates in the steps between them; boxes about parts in a step.
 
-// Places the parts that move, at a configuration, as sample k.
-static void nsvcd__sample_put(nsvcd_checker *c, const nsvcd__configuration *at, size_t k) {
+// errors of frames in double, as a fraction of the lengths that they are computed from
+#define NSVCD__FRAME_ROUNDING 1e-13
+
+// Places the parts that move, in a configuration, as sample k.
+static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__configuration *at, size_t k) {
   const nsvcd_scene *scene = c->scene;
-  double reach = 0;
+  double most = 0;
   for (size_t link = 1; link <= scene->joint_count; link++)
-    reach = nsvcd__max(reach, nsvcd__d3_length(at->frames[link].position));
+    most = nsvcd__max(most, nsvcd__d3_length(at->frames[link].position));
   for (size_t n = 0; n < scene->part_count; n++) {
     nsvcd__member *m = &c->members[n];
     if (!scene->parts[n].link) continue;
     const nsvcd__frame frame = nsvcd__frame_of_part(c, at, n);
-    const nsvcd__bounds box = nsvcd__box_of(m, &frame);
+    const nsvcd__bounds bounds = nsvcd__bounds_of(m, &frame);
     c->frames[m->row + k] = frame;
-    c->boxes[m->row + k] = box;
-    m->box = k ? nsvcd__box_over(&m->box, &box) : box;
-    // some 5e-16 of its moment arm for each joint
-    const double arm = reach + nsvcd__d3_length(frame.position) + m->extent;
+    c->bounds[m->row + k] = bounds;
+    m->bounds = k ? nsvcd__bounds_over(&m->bounds, &bounds) : bounds;
+    // a joint adds some 5e-16 of its moment arm
+    const double arm = most + nsvcd__d3_length(frame.position) + m->extent;
     m->rounding = nsvcd__max(k ? m->rounding : 0, NSVCD__FRAME_ROUNDING * arm);
   }
 }
 
-// Fills in, for each part that moves, its samples at c->times, one more than steps, and by how much
-// it deviates between them.
+// Places the parts that move at c->times, one more than steps, and computes how far they deviate.
 static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, size_t steps) {
   const nsvcd_scene *scene = c->scene;
-  const size_t bytes = scene->joint_count * sizeof(double);
   nsvcd__step step;
   nsvcd__configuration *from = &c->at;
   nsvcd__configuration *to = &c->next;
   for (size_t n = 0; n < scene->part_count; n++) c->members[n].deviation = 0;
-  nsvcd_motion_at(motion, scene->joint_count, c->times[0], from->joints);
-  nsvcd__pose_links(c, from);
-  nsvcd__sample_put(c, from, 0);
+  nsvcd_motion_at(motion, scene->joint_count, c->times[0], step.from);
+  nsvcd__place_links(c, step.from, from);
+  nsvcd__place_sample(c, from, 0);
   for (size_t k = 0; k < steps; k++) {
     nsvcd__step_of(motion, scene->joint_count, c->times[k], c->times[k + 1], &step);
-    memcpy(to->joints, step.to, bytes);
-    nsvcd__pose_links(c, to);
-    nsvcd__sample_put(c, to, k + 1);
+    nsvcd__place_links(c, step.to, to);
+    nsvcd__place_sample(c, to, k + 1);
     c->deviations[k] = 0;
     for (size_t n = 0; n < scene->part_count; n++) {
       nsvcd__member *m = &c->members[n];
@@ -1861,40 +1841,34 @@ static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, si
   }
 }
 
-// Cuts steps so that no part deviates by more than is allowed, as far as can be foreseen: deviates
-// go by the square of a step. Returns how many there are then, more than NSVCD__MOST_STEPS if there
-// were too many: then nothing is done.
+// Cuts steps so that no part deviates by more than is allowed, as far as can be foreseen: the
+// deviation goes with the square of a step. Returns how many steps there are then; where they are
+// more than NSVCD__MOST_STEPS, the times stay as they were.
 static size_t nsvcd__refine_steps(nsvcd_checker *c, size_t steps, double allowed) {
   size_t total = 0;
   for (size_t k = 0; k < steps; k++) {
-    const double pieces = ceil(sqrt(c->deviations[k] / allowed));
-    if (!(pieces <= NSVCD__MOST_STEPS)) return NSVCD__MOST_STEPS + 1;
-    total += pieces > 1 ? (size_t)pieces : 1;
+    const double cuts = ceil(sqrt(c->deviations[k] / allowed));
+    if (!(cuts <= NSVCD__MOST_STEPS)) return NSVCD__MOST_STEPS + 1;
+    total += cuts > 1 ? (size_t)cuts : 1;
   }
   if (total > NSVCD__MOST_STEPS) return total;
   size_t at = total;
   c->times[total] = c->times[steps];
   for (size_t k = steps; k-- > 0;) {
-    const double pieces = nsvcd__max(ceil(sqrt(c->deviations[k] / allowed)), 1);
+    const double cuts = nsvcd__max(ceil(sqrt(c->deviations[k] / allowed)), 1);
     const double from = c->times[k];
     const double duration = c->times[at] - from;
-    for (size_t i = (size_t)pieces; i-- > 0;)
-      c->times[--at] = from + duration * (double)i / pieces;
+    for (size_t i = (size_t)cuts; i-- > 0;)
+      c->times[--at] = from + duration * (double)i / cuts;
   }
   return total;
 }
 
-// ---- pairs
-
-static nsvcd__bounds nsvcd__bounds_at(const nsvcd_checker *c, size_t part, size_t k) {
-  const nsvcd__member *m = &c->members[part];
-  return c->scene->parts[part].link ? c->boxes[m->row + k] : m->box;
-}
-// A box about a part in a step: it goes no farther from it than it deviates.
+// A box about a part at both ends of a step; in between it goes no farther than it deviates.
 static nsvcd__bounds nsvcd__bounds_in(const nsvcd_checker *c, size_t part, size_t step) {
-  const nsvcd__bounds from = nsvcd__bounds_at(c, part, step);
-  const nsvcd__bounds to = nsvcd__bounds_at(c, part, step + 1);
-  return nsvcd__box_over(&from, &to);
+  const nsvcd__member *m = &c->members[part];
+  const nsvcd__bounds *at = c->bounds + m->row + step;
+  return c->scene->parts[part].link ? nsvcd__bounds_over(at, at + 1) : m->bounds;
 }
 
 // The steps outside of which the boxes of a pair stay apart; none for a single configuration.
@@ -1906,12 +1880,13 @@ typedef struct nsvcd__step_range {
 static int nsvcd__steps_near(const nsvcd_checker *c, const nsvcd_body_pair *pair, size_t steps,
                              double room, nsvcd__step_range *range) {
   size_t last = 0;
-  if (nsvcd__boxes_apart(&c->members[pair->a].box, &c->members[pair->b].box, room)) return 0;
+  if (nsvcd__bounds_apart(&c->members[pair->a].bounds, &c->members[pair->b].bounds, room))
+    return 0;
   range->first = steps;
   for (size_t k = 0; k < steps; k++) {
     const nsvcd__bounds a = nsvcd__bounds_in(c, pair->a, k);
     const nsvcd__bounds b = nsvcd__bounds_in(c, pair->b, k);
-    if (nsvcd__boxes_apart(&a, &b, room)) continue;
+    if (nsvcd__bounds_apart(&a, &b, room)) continue;
     if (range->first == steps) range->first = k;
     last = k + 1;
   }
@@ -1919,60 +1894,68 @@ static int nsvcd__steps_near(const nsvcd_checker *c, const nsvcd_body_pair *pair
   return steps == 0 || last > 0;
 }
 
-// A pair as one of its parts sees it: so places are small where the two are near each other,
-// however far from the world's origin they are, and a float has digits left. That is the part that
-// rests, if one does; else b, where it is half way.
-typedef struct nsvcd__sight {
-  // the frame that both are seen from, in the world
-  nsvcd__frame from;
-  // metres: what poses in float are off there, at most, of both together
-  double rounding;
-} nsvcd__sight;
+// By how much a part can be off its sweep between samples, in the frames of these.
+static double nsvcd__part_error(const nsvcd_checker *c, size_t part) {
+  return c->members[part].deviation + 2 * c->members[part].rounding;
+}
 
-// Fills in c->seen. frames: of a and of b, (count) each, but one of a part that rests.
-static void nsvcd__view_pair(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                             const nsvcd__frame *const *frames, size_t count,
-                             nsvcd__sight *view) {
+// The frames of a part from a sample on; of one that rests there is only one.
+static const nsvcd__frame *nsvcd__frames_at(const nsvcd_checker *c, size_t part,
+                                            size_t sample) {
+  const nsvcd__member *m = &c->members[part];
+  return c->scene->parts[part].link ? c->frames + m->row + sample : &m->frame;
+}
+
+// ----------------------------------------------------------------------------- robot/local_queries
+// In: two parts of a pair, and their frames. Out: a question about them, as one of them sees it.
+//
+// Two parts that are near each other have small coordinates in a frame of one of them, however far
+// from the world's origin they are: there a float has digits left. That is the frame of the part
+// that rests, if one does; else b's, half way.
+
+typedef struct nsvcd__local {
+  nsvcd__frame frame;  // in the world
+  double rounding;     // metres: errors of both parts' poses in float, in sum, at most
+} nsvcd__local;
+
+// Fills in c->local. frames: of a and of b, (count) each, but one of a part that rests.
+static nsvcd__local nsvcd__localize(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                    const nsvcd__frame *const *frames, size_t count) {
   const size_t parts[2] = {pair->a, pair->b};
-  view->from = c->scene->parts[pair->a].link ? frames[1][0] : frames[0][0];
-  if (c->scene->parts[pair->a].link && c->scene->parts[pair->b].link)
-    view->from = frames[1][count / 2];
-  view->rounding = 0;
+  const int moves[2] = {c->scene->parts[pair->a].link > 0, c->scene->parts[pair->b].link > 0};
+  nsvcd__local local = {moves[0] ? frames[1][moves[1] ? count / 2 : 0] : frames[0][0], 0};
   for (size_t n = 0; n < 2; n++) {
-    const int moves = c->scene->parts[parts[n]].link > 0;
     double most = 0;
-    for (size_t k = 0; k < (moves ? count : 1); k++) {
-      const nsvcd__frame in = nsvcd__frame_from(&view->from, &frames[n][k]);
-      c->seen[n][k] = nsvcd__pose_in(&in);
+    for (size_t k = 0; k < (moves[n] ? count : 1); k++) {
+      const nsvcd__frame in = nsvcd__frame_inverse_mul(&local.frame, &frames[n][k]);
+      c->local[n][k] = nsvcd__frame_pose(&in);
       most = nsvcd__max(most, nsvcd__d3_length(in.position));
     }
-    // places and quaternions as floats are off by no more
-    if (moves) view->rounding += 2 * (1.1e-7 * most + 1.3e-7 * c->members[parts[n]].extent);
+    // of positions and of quaternions as floats
+    if (moves[n]) local.rounding += 2 * (1.1e-7 * most + 1.3e-7 * c->members[parts[n]].extent);
   }
+  return local;
 }
 
-// A direction and a point as they are seen, in the world.
-static nsvcd__d3 nsvcd__seen_direction(const nsvcd__sight *view, nsvcd__d3 way) {
-  return nsvcd__dquat_rotate(view->from.turn, way);
-}
-static nsvcd__d3 nsvcd__seen_point(const nsvcd__sight *view, nsvcd__d3 point) {
-  return nsvcd__d3_add(nsvcd__seen_direction(view, point), view->from.position);
+// The same of two parts in a configuration.
+static nsvcd__local nsvcd__localize_at(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                       const nsvcd__configuration *at) {
+  const nsvcd__frame a = nsvcd__frame_of_part(c, at, pair->a);
+  const nsvcd__frame b = nsvcd__frame_of_part(c, at, pair->b);
+  const nsvcd__frame *const frames[2] = {&a, &b};
+  return nsvcd__localize(c, pair, frames, 1);
 }
 
-// Takes a contact as it is seen to the world.
-static void nsvcd__set_contact(const nsvcd__sight *view, nsvcd_contact *contact) {
-  const nsvcd__d3 point = nsvcd__seen_point(view, nsvcd__d3_load(contact->point));
-  const nsvcd__d3 normal = nsvcd__seen_direction(view, nsvcd__d3_load(contact->normal));
+// Takes a contact from the local frame to the world.
+static void nsvcd__contact_to_world(const nsvcd__local *local, nsvcd_contact *contact) {
+  const nsvcd__frame *frame = &local->frame;
+  const nsvcd__d3 point = nsvcd__frame_apply(frame, nsvcd__d3_load(contact->point));
+  const nsvcd__d3 normal = nsvcd__dquat_rotate(frame->turn, nsvcd__d3_load(contact->normal));
   nsvcd__f3_store(nsvcd__f3_round(point), contact->point);
   nsvcd__f3_store(nsvcd__f3_round(normal), contact->normal);
 }
 
-// By how much a part is off the way that its samples say, at most.
-static double nsvcd__off(const nsvcd_checker *c, size_t part) {
-  return c->members[part].deviation + 2 * c->members[part].rounding;
-}
-
-// Of two parts as they are seen, in so many poses each; what rests has one.
+// Of two parts in their local poses, so many each; of a part that rests, one.
 static nsvcd_question nsvcd__question_of(const nsvcd_checker *c, const nsvcd_body_pair *pair,
                                          size_t count, size_t work) {
   const size_t parts[2] = {pair->a, pair->b};
@@ -1983,7 +1966,7 @@ static nsvcd_question nsvcd__question_of(const nsvcd_checker *c, const nsvcd_bod
     nsvcd_mover *mover = n ? &question.b : &question.a;
     mover->body = part->body;
     mover->scale = part->scale;
-    mover->poses = c->seen[n];
+    mover->poses = c->local[n];
     mover->count = part->link ? count : 1;
   }
   question.method = NSVCD_METHOD_PROOF;
@@ -1991,74 +1974,129 @@ static nsvcd_question nsvcd__question_of(const nsvcd_checker *c, const nsvcd_bod
   return question;
 }
 
-// Asks whether two parts, as they are seen, come as near as the clearance.
-static nsvcd_result nsvcd__ask_seen(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                                    size_t count, float clearance,
-                                    const nsvcd_check_options *options, nsvcd_answer *found,
-                                    nsvcd_check_answer *answer) {
-  nsvcd_question question = nsvcd__question_of(c, pair, count, options->work);
+static nsvcd_result nsvcd__ask(nsvcd_checker *c, const nsvcd_question *question,
+                               nsvcd_answer *found) {
+  return nsvcd_sweep(question, c->query, c->query_size, found);
+}
+
+// ------------------------------------------------------------------------------------- robot/check
+// In: a checker and a motion of its joints. Out: is it free, as the joints make it, at all times?
+//
+// A motion is asked about from corner to corner. Each such interval is cut into steps in which no
+// part deviates by more than is allowed; each pair is asked about in all steps at once, with the
+// deviations added to the clearance. What is not proven is asked about again in finer steps.
+
+// how often an interval that takes more than NSVCD__MOST_STEPS may be halved
+#define NSVCD__CHECK_HALVINGS 24
+// steps of an interval that is no straight line, at first
+#define NSVCD__FIRST_STEPS 4
+// radians or metres: no sample is put where a motion bends by less
+#define NSVCD__CORNER 1e-3
+// metres that a part may deviate at first; by how much less each time that pairs are asked again;
+// and at last, by default
+#define NSVCD__COARSE 2e-3
+#define NSVCD__CHECK_FINER 8
+#define NSVCD__FINEST 1e-5f
+// units to look for a hit, before the last time
+#define NSVCD__HIT_TRY 200
+
+typedef struct nsvcd__check_state {
+  nsvcd_checker *checker;
+  const nsvcd_joint_motion *motion;
+  const nsvcd_check_options *options;
+  nsvcd_check_answer *answer;
+  size_t steps;  // between samples; 0: one configuration
+} nsvcd__check_state;
+
+// ---- pairs
+
+// Do two parts, in their local poses, come as near as the clearance?
+static nsvcd_result nsvcd__ask_local(nsvcd__check_state *s, const nsvcd_body_pair *pair,
+                                     size_t count, float clearance, size_t work,
+                                     nsvcd_answer *found) {
+  const nsvcd_check_options *o = s->options;
+  nsvcd_question question = nsvcd__question_of(s->checker, pair, count, work);
   question.clearance = clearance;
-  if (options->stop && options->stop(options->user)) {
+  if (o->stop && o->stop(o->user)) {
     memset(found, 0, sizeof *found);
     found->why = NSVCD_WHY_WORK;
     return NSVCD_OK;
   }
-  answer->sweeps++;
-  return nsvcd_sweep(&question, c->query, c->query_size, found);
+  s->answer->sweeps++;
+  return nsvcd__ask(s->checker, &question, found);
 }
 
-// The frames of a part from a sample on.
-static const nsvcd__frame *nsvcd__frames_at(const nsvcd_checker *c, size_t part,
-                                            size_t sample) {
-  const nsvcd__member *m = &c->members[part];
-  return c->scene->parts[part].link ? c->frames + m->row + sample : &m->frame;
-}
-
-// Asks about a pair, in the poses of so many steps, whether it comes as near as the clearance and,
-// if a proof is wanted, all that these may be off. range: what was asked about; the times of *found
-// are of it.
-static nsvcd_result nsvcd__ask_pair(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                                    size_t steps, int is_proof,
-                                    const nsvcd_check_options *options,
-                                    nsvcd__step_range *range, nsvcd_answer *found,
-                                    nsvcd_check_answer *answer) {
-  nsvcd__sight view;
-  const double off = nsvcd__off(c, pair->a) + nsvcd__off(c, pair->b);
-  const double room = (double)options->clearance + off;
-  if (!nsvcd__steps_near(c, pair, steps, room * (1 + 1e-9), range)) {
+// Does a pair, on its sweeps between samples, come as near as the clearance? With is_proof, the
+// clearance has all that these may be off added. range: the steps that were asked about; the times
+// of *found are of it.
+static nsvcd_result nsvcd__ask_pair(nsvcd__check_state *s, const nsvcd_body_pair *pair,
+                                    int is_proof, size_t work, nsvcd__step_range *range,
+                                    nsvcd_answer *found) {
+  nsvcd_checker *c = s->checker;
+  const double error = nsvcd__part_error(c, pair->a) + nsvcd__part_error(c, pair->b);
+  const double room = (double)s->options->clearance + error;
+  if (!nsvcd__steps_near(c, pair, s->steps, room * (1 + 1e-9), range)) {
     found->verdict = NSVCD_FREE;
     return NSVCD_OK;
   }
+  const size_t count = range->steps + 1;
   const nsvcd__frame *const frames[2] = {nsvcd__frames_at(c, pair->a, range->first),
                                          nsvcd__frames_at(c, pair->b, range->first)};
-  nsvcd__view_pair(c, pair, frames, range->steps + 1, &view);
-  const double deviations = is_proof ? off + view.rounding : 0;
-  const double clearance = (double)options->clearance + deviations;
-  return nsvcd__ask_seen(c, pair, range->steps + 1,
-                         clearance > 0 ? nsvcd__above(clearance) : 0, options, found, answer);
+  const nsvcd__local local = nsvcd__localize(c, pair, frames, count);
+  const double errors = is_proof ? error + local.rounding : 0;
+  const double clearance = (double)s->options->clearance + errors;
+  const float rounded = clearance > 0 ? nsvcd__above(clearance) : 0;
+  return nsvcd__ask_local(s, pair, count, rounded, work, found);
 }
 
-// Is a pair hit at joints of its motion? Then the answer says so.
-static nsvcd_result nsvcd__ask_at(nsvcd_checker *c, size_t pair, const double *joints,
-                                  const nsvcd_check_options *options,
-                                  nsvcd_check_answer *answer) {
+// Is the answer's pair hit in the configuration that it names? Then the answer says so.
+static nsvcd_result nsvcd__ask_there(nsvcd__check_state *s, size_t work) {
+  nsvcd_checker *c = s->checker;
+  nsvcd_check_answer *answer = s->answer;
+  const nsvcd_body_pair *pair = &c->scene->pairs[answer->pair];
+  double joints[NSVCD_MAX_JOINTS];
   nsvcd_answer found;
-  nsvcd__sight view;
-  nsvcd__frame at[2];
-  const nsvcd__frame *const frames[2] = {&at[0], &at[1]};
-  const nsvcd_body_pair *both = &c->scene->pairs[pair];
-  memcpy(c->at.joints, joints, c->scene->joint_count * sizeof *joints);
-  nsvcd__pose_links(c, &c->at);
+  nsvcd__joints_at(s->motion, c->scene->joint_count, answer->piece, answer->fraction, joints,
+                   NULL);
+  nsvcd__place_links(c, joints, &c->at);
   answer->placed++;
-  at[0] = nsvcd__frame_of_part(c, &c->at, both->a);
-  at[1] = nsvcd__frame_of_part(c, &c->at, both->b);
-  nsvcd__view_pair(c, both, frames, 1, &view);
+  const nsvcd__local local = nsvcd__localize_at(c, pair, &c->at);
   const nsvcd_result result =
-      nsvcd__ask_seen(c, both, 1, options->clearance, options, &found, answer);
+      nsvcd__ask_local(s, pair, 1, s->options->clearance, work, &found);
   if (result || found.verdict != NSVCD_HIT) return result;
   answer->verdict = NSVCD_HIT;
   answer->contact = found.nearest;
-  nsvcd__set_contact(&view, &answer->contact);
+  nsvcd__contact_to_world(&local, &answer->contact);
+  return NSVCD_OK;
+}
+
+// Is a pair that is not proven hit in some configuration? Tries two: where it came nearest in its
+// proof, which is *found; then where its sweeps between samples hit.
+static nsvcd_result nsvcd__seek_hit(nsvcd__check_state *s, size_t pair,
+                                    nsvcd__step_range *range, nsvcd_answer *found,
+                                    size_t work) {
+  nsvcd_checker *c = s->checker;
+  nsvcd_check_answer *answer = s->answer;
+  nsvcd_result result = NSVCD_OK;
+  answer->pair = pair;
+  answer->why = found->why;
+  for (int attempt = 0; attempt < 2 && found->verdict != NSVCD_FREE; attempt++) {
+    if (s->steps > 0) {
+      // a sweep takes all steps to be equally long
+      const double u = nsvcd__max(0, nsvcd__min(1, (double)found->nearest.time));
+      const double at = (double)range->steps * u;
+      const size_t step = (size_t)at < range->steps ? (size_t)at : range->steps - 1;
+      const double *times = c->times + range->first + step;
+      const double time = times[0] + (at - (double)step) * (times[1] - times[0]);
+      answer->piece = nsvcd__piece_at(s->motion, time);
+      answer->fraction = nsvcd__fraction_at(s->motion, answer->piece, time);
+    }
+    result = nsvcd__ask_there(s, work);
+    if (result || answer->verdict == NSVCD_HIT) return result;
+    if (attempt == 0)
+      result = nsvcd__ask_pair(s, &c->scene->pairs[pair], 0, work, range, found);
+    if (result) return result;
+  }
   return NSVCD_OK;
 }
 
@@ -2070,106 +2108,78 @@ static void nsvcd__put_first(nsvcd_checker *c, size_t pair) {
   c->order[0] = (uint32_t)pair;
 }
 
-// Is a pair that is not proven hit in one configuration? Asked about where it is as near as its
-// proof reached, then about where the samples' own way hits. found: what the proof said.
-static nsvcd_result nsvcd__seek_hit(nsvcd_checker *c, const nsvcd_joint_motion *motion,
-                                    size_t pair, size_t steps, nsvcd__step_range *range,
-                                    nsvcd_answer *found, const nsvcd_check_options *options,
-                                    nsvcd_check_answer *answer) {
-  const nsvcd_body_pair *both = &c->scene->pairs[pair];
-  double joints[NSVCD_MAX_JOINTS];
-  nsvcd_result result = NSVCD_OK;
-  answer->pair = pair;
-  answer->why = found->why;
-  for (int look = 0; look < 2 && !result && found->verdict != NSVCD_FREE; look++) {
-    if (steps > 0) {
-      // times of a sweep go by samples
-      const double at =
-          (double)range->steps * nsvcd__max(0, nsvcd__min(1, (double)found->nearest.time));
-      const size_t step = (size_t)at < range->steps ? (size_t)at : range->steps - 1;
-      const size_t k = range->first + step;
-      const double fraction = at - (double)step;
-      const double time = c->times[k] + fraction * (c->times[k + 1] - c->times[k]);
-      answer->piece = nsvcd__piece_at(motion, time);
-      answer->fraction = nsvcd__fraction_at(motion, answer->piece, time);
+// Asks about the first *left pairs of c->left, until one is hit; keeps those that stay unproven.
+static nsvcd_result nsvcd__ask_pairs(nsvcd__check_state *s, int is_last, size_t *left) {
+  nsvcd_checker *c = s->checker;
+  const size_t work = s->options->work;
+  const size_t brief = work && work < NSVCD__HIT_TRY ? work : NSVCD__HIT_TRY;
+  size_t kept = 0;
+  for (size_t n = 0; n < *left; n++) {
+    const size_t pair = c->left[n];
+    nsvcd__step_range range;
+    nsvcd_answer found;
+    nsvcd_result result = nsvcd__ask_pair(s, &c->scene->pairs[pair], 1, work, &range, &found);
+    if (!result && found.verdict == NSVCD_FREE) continue;
+    if (!result) result = nsvcd__seek_hit(s, pair, &range, &found, is_last ? work : brief);
+    if (result) return result;
+    if (s->answer->verdict == NSVCD_HIT) {
+      nsvcd__put_first(c, pair);
+      return NSVCD_OK;
     }
-    nsvcd__joints_at(motion, c->scene->joint_count, answer->piece, answer->fraction, joints,
-                     NULL);
-    result = nsvcd__ask_at(c, pair, joints, options, answer);
-    if (answer->verdict == NSVCD_HIT) return result;
-    if (look == 0 && !result)
-      result = nsvcd__ask_pair(c, both, steps, 0, options, range, found, answer);
+    c->left[kept++] = (uint32_t)pair;
   }
-  return result;
+  *left = kept;
+  return NSVCD_OK;
 }
 
-// A interval of a motion from time t0 to t1 in so many steps at first, or, with none, one
-// configuration. What takes too many steps is halved, so often at most.
-static nsvcd_result nsvcd__check_interval(nsvcd_checker *c, const nsvcd_joint_motion *motion,
-                                          double t0, double t1, size_t steps, int halvings,
-                                          const nsvcd_check_options *options,
-                                          nsvcd_check_answer *answer) {
+// ---- intervals
+
+static void nsvcd__take_samples(nsvcd__check_state *s, size_t steps) {
+  s->steps = steps;
+  nsvcd__sample(s->checker, s->motion, steps);
+  s->answer->placed += steps + 1;
+}
+
+// From time t0 to t1, in so many steps at first; with none it is one configuration. An interval
+// that takes too many steps is halved, so often at most.
+static nsvcd_result nsvcd__check_interval(nsvcd__check_state *s, double t0, double t1,
+                                          size_t steps, int halvings) {
+  nsvcd_checker *c = s->checker;
+  nsvcd_check_answer *answer = s->answer;
+  const double finest = (double)s->options->finest;
   size_t left = c->scene->pair_count;
-  double allowed = NSVCD__COARSE;
-  nsvcd_answer found;
-  nsvcd__step_range range;
-  nsvcd_check_options brief = *options;
-  if (!brief.work || brief.work > NSVCD__PAIR_TRY) brief.work = NSVCD__PAIR_TRY;
+  answer->verdict = NSVCD_UNDECIDED;
+  answer->piece = nsvcd__piece_at(s->motion, t0);
+  answer->fraction = nsvcd__fraction_at(s->motion, answer->piece, t0);
   memcpy(c->left, c->order, left * sizeof *c->left);
-  answer->piece = nsvcd__piece_at(motion, t0);
-  answer->fraction = nsvcd__fraction_at(motion, answer->piece, t0);
   for (size_t k = 0; k <= steps; k++)
     c->times[k] = k < steps ? t0 + (t1 - t0) * (double)k / (double)steps : t1;
-  nsvcd__sample(c, motion, steps);
-  answer->placed += steps + 1;
+  nsvcd__take_samples(s, steps);
+  double allowed = NSVCD__COARSE;
   while (left > 0) {
-    const size_t finer = nsvcd__refine_steps(c, steps, allowed);
+    const size_t finer = nsvcd__refine_steps(c, s->steps, allowed);
     if (finer > NSVCD__MOST_STEPS) {
       const double middle = 0.5 * (t0 + t1);
+      const size_t coarse = s->steps;
       answer->why = NSVCD_WHY_WORK;
       if (halvings == 0 || !(middle > t0 && middle < t1)) return NSVCD_OK;
-      const nsvcd_result result =
-          nsvcd__check_interval(c, motion, t0, middle, steps, halvings - 1, options, answer);
+      const nsvcd_result result = nsvcd__check_interval(s, t0, middle, coarse, halvings - 1);
       if (result || answer->verdict != NSVCD_FREE) return result;
-      answer->verdict = NSVCD_UNDECIDED;
-      return nsvcd__check_interval(c, motion, middle, t1, steps, halvings - 1, options,
-                                   answer);
+      return nsvcd__check_interval(s, middle, t1, coarse, halvings - 1);
     }
-    if (finer > steps) {
-      steps = finer;
-      nsvcd__sample(c, motion, steps);
-      answer->placed += steps + 1;
-    }
-    size_t kept = 0;
-    for (size_t n = 0; n < left; n++) {
-      const size_t pair = c->left[n];
-      const nsvcd_body_pair *both = &c->scene->pairs[pair];
-      nsvcd_result result =
-          nsvcd__ask_pair(c, both, steps, 1, options, &range, &found, answer);
-      if (!result && found.verdict == NSVCD_FREE) continue;
-      // with a small budget, but for the last time
-      const int is_last = steps == 0 || allowed <= (double)options->finest;
-      if (!result)
-        result = nsvcd__seek_hit(c, motion, pair, steps, &range, &found,
-                                 is_last ? options : &brief, answer);
-      if (result) return result;
-      if (answer->verdict == NSVCD_HIT) {
-        nsvcd__put_first(c, pair);
-        return NSVCD_OK;
-      }
-      c->left[kept++] = (uint32_t)pair;
-    }
-    left = kept;
-    if (left == 0) break;
-    if (steps == 0 || allowed <= (double)options->finest) return NSVCD_OK;
-    allowed = nsvcd__max(allowed / NSVCD__DEVIATION_FRACTION, (double)options->finest);
+    if (finer > s->steps) nsvcd__take_samples(s, finer);
+    const int is_last = s->steps == 0 || allowed <= finest;
+    const nsvcd_result result = nsvcd__ask_pairs(s, is_last, &left);
+    if (result || answer->verdict == NSVCD_HIT) return result;
+    if (is_last && left > 0) return NSVCD_OK;
+    allowed = nsvcd__max(allowed / NSVCD__CHECK_FINER, finest);
   }
   answer->pair = NSVCD_NONE;
   answer->verdict = NSVCD_FREE;
   return NSVCD_OK;
 }
 
-// Does the motion turn sharply where a piece begins? There a sample belongs.
+// Does the motion turn sharply where a piece begins? Then a sample belongs there.
 static int nsvcd__is_corner(const nsvcd_joint_motion *motion, size_t joints, size_t piece) {
   const double before = nsvcd__piece_time(motion, piece - 1);
   const double after = nsvcd__piece_time(motion, piece);
@@ -2178,57 +2188,65 @@ static int nsvcd__is_corner(const nsvcd_joint_motion *motion, size_t joints, siz
   return !(jumps * nsvcd__min(before, after) <= NSVCD__CORNER);
 }
 
-// What a joint may be out of its limits by rounding.
-static double nsvcd__limit_off(const nsvcd_joint *joint) {
+// ---- limits
+
+// By how much a joint may be out of its limits: rounding.
+static double nsvcd__limit_error(const nsvcd_joint *joint) {
   return 1e-9 * (1 + fabs(joint->low) + fabs(joint->high));
 }
 
-// Does a joint leave its limits in a piece? Halved until it is within at all its points, or out at
-// an end.
-static int nsvcd__leaves(const double *points, size_t degree, double low, double high,
-                         int depth) {
-  double first[NSVCD_MAX_DEGREE + 1], second[NSVCD_MAX_DEGREE + 1];
-  int step = 1;
-  for (size_t i = 0; i <= degree; i++) step &= points[i] >= low && points[i] <= high;
-  if (step) return 0;
+// Does a curve leave the interval from low to high? Halved until all its control points are in it,
+// or an end is out.
+static int nsvcd__curve_leaves(const double *points, size_t degree, double low, double high,
+                               int depth) {
+  double half[2][NSVCD_MAX_DEGREE + 1];
+  int inside = 1;
+  for (size_t i = 0; i <= degree; i++) inside &= points[i] >= low && points[i] <= high;
+  if (inside) return 0;
   if (depth == 0 || !(points[0] >= low && points[0] <= high)) return 1;
   if (!(points[degree] >= low && points[degree] <= high)) return 1;
-  memcpy(first, points, (degree + 1) * sizeof *points);
-  memcpy(second, points, (degree + 1) * sizeof *points);
-  nsvcd__cut_curve(first, degree, 0, 0.5);
-  nsvcd__cut_curve(second, degree, 0.5, 1);
-  return nsvcd__leaves(first, degree, low, high, depth - 1) ||
-         nsvcd__leaves(second, degree, low, high, depth - 1);
+  for (size_t k = 0; k < 2; k++) {
+    memcpy(half[k], points, (degree + 1) * sizeof *points);
+    nsvcd__cut_curve(half[k], degree, k ? 0.5 : 0, k ? 1 : 0.5);
+    if (nsvcd__curve_leaves(half[k], degree, low, high, depth - 1)) return 1;
+  }
+  return 0;
 }
 
 // A joint that leaves its limits in a piece by more than rounding, or NSVCD_NONE.
 static size_t nsvcd__joint_outside(const nsvcd_scene *scene, const nsvcd_joint_motion *motion,
                                    size_t piece) {
-  double own[NSVCD_MAX_DEGREE + 1];
+  double p[NSVCD_MAX_DEGREE + 1];
   for (size_t j = 0; j < scene->joint_count; j++) {
     const nsvcd_joint *joint = &scene->joints[j];
     if (joint->kind == NSVCD_JOINT_CONTINUOUS) continue;
-    nsvcd__joint_points(motion, piece, scene->joint_count, j, own);
-    const double off = nsvcd__limit_off(joint);
-    if (nsvcd__leaves(own, motion->degree, joint->low - off, joint->high + off, 30)) return j;
+    nsvcd__joint_points(motion, piece, scene->joint_count, j, p);
+    const double error = nsvcd__limit_error(joint);
+    if (nsvcd__curve_leaves(p, motion->degree, joint->low - error, joint->high + error, 30))
+      return j;
   }
   return NSVCD_NONE;
 }
 
-// Is a motion, as it is meant, in order?
+// ---- a check
+
+// Is a motion in order? Of no pieces it must be as nsvcd__motion_meant has it.
 static nsvcd_result nsvcd__motion_check(const nsvcd_joint_motion *m, size_t joints) {
-  const double most = (double)NSVCD_MAX_COORDINATE;
   if (m->pieces && (m->degree < 1 || m->degree > NSVCD_MAX_DEGREE)) return NSVCD_ERROR_DEGREE;
   if (m->pieces > SIZE_MAX / sizeof(double) / (NSVCD_MAX_DEGREE + 1) / joints)
     return NSVCD_ERROR_DEGREE;
-  for (size_t k = 0; k < (m->pieces * m->degree + 1) * joints; k++) {
-    if (!nsvcd__is_number(m->points[k], most)) return NSVCD_ERROR_VALUE;
-  }
-  for (size_t p = 0; p <= m->pieces && m->times; p++) {
-    if (!nsvcd__is_number(m->times[p], most)) return NSVCD_ERROR_TIMES;
-    if (p > 0 && !(m->times[p] > m->times[p - 1])) return NSVCD_ERROR_TIMES;
+  if (!nsvcd__are_numbers(m->points, (m->pieces * m->degree + 1) * joints))
+    return NSVCD_ERROR_VALUE;
+  if (m->times && !nsvcd__are_numbers(m->times, m->pieces + 1)) return NSVCD_ERROR_TIMES;
+  for (size_t p = 0; p < m->pieces && m->times; p++) {
+    if (!(m->times[p + 1] > m->times[p])) return NSVCD_ERROR_TIMES;
   }
   return NSVCD_OK;
+}
+
+// Is it free, and within the limits?
+static int nsvcd__proves_free(const nsvcd_check_answer *answer) {
+  return answer->verdict == NSVCD_FREE && answer->joint == NSVCD_NONE;
 }
 
 NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,
@@ -2237,8 +2255,7 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
   nsvcd_check_answer found;
   nsvcd_check_options o;
   if (!checker || !motion || !answer || !motion->points) return NSVCD_ERROR_ARGUMENT;
-  const nsvcd_scene *scene = checker->scene;
-  const size_t joints = scene->joint_count;
+  const size_t joints = checker->scene->joint_count;
   const nsvcd_joint_motion m = nsvcd__motion_meant(motion);
   nsvcd_result result = nsvcd__motion_check(&m, joints);
   if (result) return result;
@@ -2250,18 +2267,16 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
   memset(&found, 0, sizeof found);
   found.joint = found.pair = found.piece = NSVCD_NONE;
   for (size_t p = 0; p < m.pieces + !m.pieces && found.joint == NSVCD_NONE; p++)
-    found.joint = nsvcd__joint_outside(scene, &m, p);
-  found.verdict = NSVCD_UNDECIDED;
-  if (m.pieces == 0) result = nsvcd__check_interval(checker, &m, 0, 0, 0, 0, &o, &found);
+    found.joint = nsvcd__joint_outside(checker->scene, &m, p);
+  nsvcd__check_state s = {checker, &m, &o, &found, 0};
+  if (m.pieces == 0) result = nsvcd__check_interval(&s, 0, 0, 0, 0);
   // from corner to corner
   for (size_t p = 0, next; p < m.pieces && !result; p = next) {
     next = p + 1;
     while (next < m.pieces && !nsvcd__is_corner(&m, joints, next)) next++;
     const size_t steps = next - p == 1 && m.degree == 1 ? 1 : NSVCD__FIRST_STEPS;
-    found.verdict = NSVCD_UNDECIDED;
-    result = nsvcd__check_interval(checker, &m, nsvcd__piece_start(&m, p),
-                                   nsvcd__piece_start(&m, next), steps, NSVCD__STRETCHES, &o,
-                                   &found);
+    result = nsvcd__check_interval(&s, nsvcd__piece_start(&m, p), nsvcd__piece_start(&m, next),
+                                   steps, NSVCD__CHECK_HALVINGS);
     if (found.verdict != NSVCD_FREE) break;
   }
   if (result) return result;
@@ -2278,14 +2293,14 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
 // In: a pair of parts, a motion of the joints, and their meshes' trees. Out: a certificate that the
 // two never meet, as the joints move them.
 //
-// THE CHORDS. Two parts are seen from the last link that carries both. Let x in [0,1] be the share
-// of a interval of a piece that has gone by, V_j and A_j bounds of |q_j'| and |q_j''| by x, and L_j
-// one of the distance of a point y from joint j: the sum of what stands between them; of a joint
-// that slides 1. Then
+// THE CHORDS. Two parts are seen from the last link that carries both, the base. Let x in [0,1] be
+// the fraction of an interval of a piece that has gone by, V_j and A_j bounds of |q_j'| and |q_j''|
+// by x, and L_j one of the distance of a point y from joint j: the sum of what stands between them.
+// Of a joint that slides L_j is 1. Then
 //   |y''| <= sum over j of A_j L_j + V_j (2 sum over outer k of V_k L_k + V_j L_j)
-// the second term of joints that turn alone, and y leaves its chord by an eighth of it at most. The
-// bound of robot/deviation is a better one, from where the links are; this one a checker can
-// compute again in a few lines. Source: this library.
+// the second term only for joints that turn, and y leaves its chord by an eighth of it at most. The
+// bound of robot/deviation.h, from where the links are, is closer; a checker can compute this one
+// again in a few lines. Source: this library.
 
 #ifdef NEURALSVCD_CERTIFY_H
 // A part, as its motion model sees it.
@@ -2293,32 +2308,30 @@ typedef struct nsvcd__carried {
   const nsvcd_checker *checker;
   nsvcd_joint_motion motion;
   size_t part;
-  // from which it is seen
-  size_t base;
+  size_t base;  // the link that it is seen from
 } nsvcd__carried;
 
-static double nsvcd__keyframe_of(const nsvcd_joint_motion *m, size_t k) {
+// The time in [0,1] at which a piece begins.
+static double nsvcd__keyframe_of(const nsvcd_joint_motion *m, size_t piece) {
   const double first = nsvcd__piece_start(m, 0);
   const double whole = nsvcd__piece_start(m, m->pieces) - first;
-  return nsvcd__stored((nsvcd__piece_start(m, k) - first) / whole);
+  return nsvcd__stored((nsvcd__piece_start(m, piece) - first) / whole);
 }
 
+// The piece that a time in [0,1] is in.
 static size_t nsvcd__keyframe_before(const nsvcd_joint_motion *m, double t) {
   size_t low = 0;
   size_t high = m->pieces;
   while (high - low > 1) {
     const size_t middle = low + (high - low) / 2;
-    if (nsvcd__keyframe_of(m, middle) <= t)
-      low = middle;
-    else
-      high = middle;
+    *(nsvcd__keyframe_of(m, middle) <= t ? &low : &high) = middle;
   }
   return low;
 }
 
-// The points of a joint's curve from one time of [0,1] to another, both in a piece. Returns by how
-// much they, and their differences as the deviate has them, are off at most, and a hundredth more:
-// ROUNDINGS of examples/verify/nsvcd_verify_robot.h.
+// The control points of a joint's curve from one time of [0,1] to another, both in a piece. Returns
+// a bound of their error, and of that of their differences as the deviation has them, and a
+// hundredth more: see ROUNDINGS of examples/verify/nsvcd_verify_robot.h.
 static double nsvcd__curve_of(const nsvcd__carried *c, size_t joint, double t0, double t1,
                               double *p) {
   const nsvcd_joint_motion *m = &c->motion;
@@ -2334,25 +2347,21 @@ static double nsvcd__curve_of(const nsvcd__carried *c, size_t joint, double t0, 
   return 5.05e-13 * most;
 }
 
-static nsvcd_pose64 nsvcd__carried_position(const void *motion, double t) {
+static nsvcd_pose64 nsvcd__carried_pose(const void *motion, double t) {
   const nsvcd__carried *c = (const nsvcd__carried *)motion;
   const nsvcd_scene *scene = c->checker->scene;
   nsvcd__frame at = c->checker->members[c->part].frame;
   for (size_t link = scene->parts[c->part].link; link != c->base;
        link = scene->joints[link - 1].parent) {
     const nsvcd__link *carrier = &c->checker->links[link - 1];
-    double p[NSVCD_MAX_DEGREE + 1];
-    (void)nsvcd__curve_of(c, link - 1, t, t, p);
     const int slides = nsvcd__slides(c->checker, link - 1);
-    const nsvcd__d3 axis = nsvcd__d3_scale(carrier->axis, slides ? p[0] : sin(0.5 * p[0]));
-    nsvcd__frame joint = {{axis.x, axis.y, axis.z, cos(0.5 * p[0])}, {0, 0, 0}};
-    if (slides) {
-      const nsvcd__frame slid = {{0, 0, 0, 1}, axis};
-      joint = slid;
-    }
-    const nsvcd__frame origin = {carrier->turn, carrier->position};
-    at = nsvcd__frame_in(&joint, &at);
-    at = nsvcd__frame_in(&origin, &at);
+    double q[NSVCD_MAX_DEGREE + 1];
+    (void)nsvcd__curve_of(c, link - 1, t, t, q);
+    const nsvcd__d3 axis = nsvcd__d3_scale(carrier->axis, slides ? q[0] : sin(0.5 * q[0]));
+    const nsvcd__frame slid = {{0, 0, 0, 1}, axis};
+    const nsvcd__frame turned = {{axis.x, axis.y, axis.z, cos(0.5 * q[0])}, {0, 0, 0}};
+    at = nsvcd__frame_mul(slides ? &slid : &turned, &at);
+    at = nsvcd__frame_mul(&carrier->origin, &at);
   }
   const nsvcd_pose64 out = {{at.position.x, at.position.y, at.position.z},
                             {at.turn.x, at.turn.y, at.turn.z, at.turn.w}};
@@ -2364,13 +2373,14 @@ static double nsvcd__carried_next(const void *motion, double t) {
   return nsvcd__keyframe_of(m, nsvcd__keyframe_before(m, t) + 1);
 }
 
-// THE CHORDS of the banner: all in pairs, what does not depend on the distance from the part's
-// origin, and what goes with it.
+// THE CHORDS of the banner. Each sum is a pair: `base` does not depend on the distance from the
+// part's origin, `per_metre` goes with it.
 static nsvcd_deviation nsvcd__carried_deviation(const void *motion, double t0, double t1) {
   const nsvcd__carried *c = (const nsvcd__carried *)motion;
   const nsvcd_scene *scene = c->checker->scene;
-  const double n = (double)c->motion.degree;
-  double reach = nsvcd__d3_length(c->checker->members[c->part].frame.position);
+  const size_t degree = c->motion.degree;
+  const double n = (double)degree;
+  double between = nsvcd__d3_length(c->checker->members[c->part].frame.position);
   nsvcd_deviation outer, out;
   memset(&outer, 0, sizeof outer);
   memset(&out, 0, sizeof out);
@@ -2378,27 +2388,27 @@ static nsvcd_deviation nsvcd__carried_deviation(const void *motion, double t0, d
        link = scene->joints[link - 1].parent) {
     const int slides = nsvcd__slides(c->checker, link - 1);
     const double per_metre = slides ? 0 : 1;
-    const double base = slides ? 1 : reach;
+    const double base = slides ? 1 : between;
     double p[NSVCD_MAX_DEGREE + 1];
     double most = 0;
     double speed = 0;
     double bend = 0;
-    const double off = nsvcd__curve_of(c, link - 1, t0, t1, p);
-    for (size_t i = 0; i <= c->motion.degree; i++) most = nsvcd__max(most, fabs(p[i]));
-    for (size_t i = 0; i + 1 <= c->motion.degree; i++)
-      speed = nsvcd__max(speed, n * fabs(p[i + 1] - p[i]));
-    for (size_t i = 0; i + 2 <= c->motion.degree; i++)
-      bend = nsvcd__max(bend, n * (n - 1) * fabs(p[i + 2] - 2 * p[i + 1] + p[i]));
-    most += off;
-    speed += off;
-    bend += off;
+    const double error = nsvcd__curve_of(c, link - 1, t0, t1, p);
+    for (size_t i = 0; i <= degree; i++) {
+      most = nsvcd__max(most, fabs(p[i]));
+      if (i >= 1) speed = nsvcd__max(speed, n * fabs(p[i] - p[i - 1]));
+      if (i >= 2) bend = nsvcd__max(bend, n * (n - 1) * fabs(p[i] - 2 * p[i - 1] + p[i - 2]));
+    }
+    most += error;
+    speed += error;
+    bend += error;
     const double own = slides ? 0 : speed;
     out.base += bend * base + own * (2 * outer.base + own * base);
     out.per_metre += bend * per_metre + own * (2 * outer.per_metre + own * per_metre);
     outer.base += speed * base;
     outer.per_metre += speed * per_metre;
-    const nsvcd__d3 offset = c->checker->links[link - 1].position;
-    reach += nsvcd__d3_length(offset) + (slides ? most : 0);
+    const nsvcd__link *carrier = &c->checker->links[link - 1];
+    between += nsvcd__d3_length(carrier->origin.position) + (slides ? most : 0);
   }
   out.base *= 0.1250001;
   out.per_metre *= 0.1250001;
@@ -2413,14 +2423,14 @@ static uint32_t nsvcd__digest_double(uint32_t digest, double x) {
   return nsvcd__digest(digest, halves, 2);
 }
 
-// A digest of what carries a part, and by how much its places can be off: lengths that they are
-// computed from.
+// With a digest of what carries the part, and as `extent` a bound of all lengths between it and the
+// base.
 static nsvcd_motion_model nsvcd__carried_model(const nsvcd__carried *c) {
   const nsvcd_scene *scene = c->checker->scene;
   const nsvcd_part *part = &scene->parts[c->part];
   const nsvcd_joint_motion *m = &c->motion;
   const float scale = part->scale > 0 ? part->scale : 1;
-  double reach = nsvcd__d3_length(c->checker->members[c->part].frame.position);
+  double extent = nsvcd__d3_length(c->checker->members[c->part].frame.position);
   uint32_t d = nsvcd__digest((uint32_t)c->base, part->pose.position, 7);
   d = nsvcd__digest(d, &scale, 1);
   for (size_t link = part->link; link != c->base; link = scene->joints[link - 1].parent) {
@@ -2430,27 +2440,27 @@ static nsvcd_motion_model nsvcd__carried_model(const nsvcd__carried *c) {
     d = nsvcd__digest(d + slides, joint->origin.position, 7);
     d = nsvcd__digest(d + (uint32_t)link, joint->axis, 3);
     for (size_t i = 0; i <= m->pieces * m->degree; i++) {
-      const double *value = &m->points[i * scene->joint_count + link - 1];
-      d = nsvcd__digest_double(d, *value);
-      most = nsvcd__max(most, fabs(*value));
+      const double value = m->points[i * scene->joint_count + link - 1];
+      d = nsvcd__digest_double(d, value);
+      most = nsvcd__max(most, fabs(value));
     }
-    reach += nsvcd__d3_length(c->checker->links[link - 1].position) + (slides ? most : 0);
+    const nsvcd__link *carrier = &c->checker->links[link - 1];
+    extent += nsvcd__d3_length(carrier->origin.position) + (slides ? most : 0);
   }
   d += (uint32_t)m->degree;
-  for (size_t i = 0; i <= m->pieces; i++) {
+  for (size_t i = 0; i <= m->pieces; i++)
     d = nsvcd__digest_double(d, nsvcd__piece_start(m, i));
-  }
   const nsvcd_motion_model model = {(double)scale,
-                                    nsvcd__carried_position,
+                                    nsvcd__carried_pose,
                                     nsvcd__carried_next,
                                     nsvcd__carried_deviation,
                                     c,
-                                    reach,
+                                    extent,
                                     d};
   return model;
 }
 
-// Are there pieces, and are they such that a double has digits left for angles and for times?
+// Are there pieces, and has a double digits left for their angles and times?
 static int nsvcd__is_provable(const nsvcd_checker *c, const nsvcd_joint_motion *m) {
   const size_t joints = c->scene->joint_count;
   if (m->pieces < 1 || m->pieces > NSVCD_MAX_POSES) return 0;
@@ -2460,9 +2470,9 @@ static int nsvcd__is_provable(const nsvcd_checker *c, const nsvcd_joint_motion *
     if (!(whole >= 1.001e-9)) return 0;
     for (size_t j = 0; j < joints; j++) {
       const double *value = &m->points[i * joints + j];
-      const double step = i > 0 ? (double)m->degree * fabs(*value - *(value - joints)) : 0;
+      const double speed = i > 0 ? (double)m->degree * fabs(*value - *(value - joints)) : 0;
       if (!nsvcd__slides(c, j) && !(fabs(*value) <= 1e3)) return 0;
-      if (!(step <= 0.999e5 * whole)) return 0;
+      if (!(speed <= 0.999e5 * whole)) return 0;
     }
   }
   return 1;
@@ -2471,10 +2481,8 @@ static int nsvcd__is_provable(const nsvcd_checker *c, const nsvcd_joint_motion *
 // The last link that carries two others.
 static size_t nsvcd__common_link(const nsvcd_scene *scene, size_t a, size_t b) {
   while (a != b) {
-    if (a > b)
-      a = scene->joints[a - 1].parent;
-    else
-      b = scene->joints[b - 1].parent;
+    size_t *later = a > b ? &a : &b;
+    *later = scene->joints[*later - 1].parent;
   }
   return a;
 }
@@ -2491,8 +2499,6 @@ NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
                                          const nsvcd_certify_options *options, void *workspace,
                                          size_t workspace_size, uint8_t *bytes,
                                          size_t capacity, nsvcd_certificate *made) {
-  nsvcd__carried carried[2];
-  nsvcd_motion_model models[2];
   if (!checker || !motion || !a || !b || !made || (capacity > 0 && !bytes))
     return NSVCD_ERROR_ARGUMENT;
   const nsvcd_scene *scene = checker->scene;
@@ -2504,32 +2510,29 @@ NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
   const nsvcd_body_pair *parts = &scene->pairs[pair];
   const size_t base =
       nsvcd__common_link(scene, scene->parts[parts->a].link, scene->parts[parts->b].link);
-  for (size_t k = 0; k < 2; k++) {
-    carried[k].checker = checker;
-    carried[k].motion = *motion;
-    carried[k].part = k ? parts->b : parts->a;
-    carried[k].base = base;
-    models[k] = nsvcd__carried_model(&carried[k]);
-  }
+  const nsvcd__carried carried[2] = {{checker, *motion, parts->a, base},
+                                     {checker, *motion, parts->b, base}};
+  const nsvcd_motion_model models[2] = {nsvcd__carried_model(&carried[0]),
+                                        nsvcd__carried_model(&carried[1])};
   return nsvcd_certify_models(models, motion->pieces + 1, clearance, a, b, options, workspace,
                               workspace_size, bytes, capacity, made);
 }
 #endif  // NEURALSVCD_CERTIFY_H
 
 // --------------------------------------------------------------------------------------- robot/rrt
-// In: configurations. Out: a tree of them, and the one that is nearest to another.
+// In: configurations. Out: a tree of them, and the node that is nearest to another configuration.
 //
-// Distances are Euclidean, radians and metres alike. A k-d tree that grows: a leaf of more points
-// than it may hold is cut half way along the joint in which they are widest apart.
+// Distances are Euclidean, radians and metres alike. The nearest node is found by a k-d tree that
+// grows: a leaf with too many nodes is cut half way along the joint in which they are widest apart.
 
+// nodes of a leaf, at most
 #define NSVCD__LEAF 8
 
+// A cell of the k-d tree.
 typedef struct nsvcd__cell {
-  // where it is cut, or of a leaf: nothing
-  double at;
-  // by which joint; NSVCD_MAX_JOINTS: a leaf
-  uint32_t joint;
-  // the two halves, one after another; of a leaf: a node and, by `next`, the others, and how many
+  double at;       // where it is cut; unused in a leaf
+  uint32_t joint;  // by which; NSVCD_MAX_JOINTS: a leaf
+  // its halves, one after another; of a leaf: its nodes, by `next`
   uint32_t first, count;
 } nsvcd__cell;
 
@@ -2547,8 +2550,12 @@ static double nsvcd__distance2(const double *a, const double *b, size_t joints) 
   return sum;
 }
 
+static double *nsvcd__node_at(const nsvcd__rrt *t, size_t node) {
+  return t->points + node * t->joints;
+}
+
 // Cuts a leaf, unless all its points are the same.
-static void nsvcd__leaf_cut(nsvcd__rrt *t, size_t index) {
+static void nsvcd__cut_leaf(nsvcd__rrt *t, size_t index) {
   nsvcd__cell *cell = &t->cells[index];
   size_t widest = 0;
   double width = 0;
@@ -2558,8 +2565,8 @@ static void nsvcd__leaf_cut(nsvcd__rrt *t, size_t index) {
     double high = -HUGE_VAL;
     uint32_t node = cell->first;
     for (uint32_t n = 0; n < cell->count; n++, node = t->next[node]) {
-      low = nsvcd__min(low, t->points[node * t->joints + j]);
-      high = nsvcd__max(high, t->points[node * t->joints + j]);
+      low = nsvcd__min(low, nsvcd__node_at(t, node)[j]);
+      high = nsvcd__max(high, nsvcd__node_at(t, node)[j]);
     }
     if (!(high - low > width)) continue;
     widest = j;
@@ -2567,16 +2574,14 @@ static void nsvcd__leaf_cut(nsvcd__rrt *t, size_t index) {
     middle = 0.5 * (low + high);
   }
   if (!(width > 0)) return;
+  const nsvcd__cell empty = {0, NSVCD_MAX_JOINTS, 0, 0};
   nsvcd__cell *halves = &t->cells[t->cell_count];
+  halves[0] = halves[1] = empty;
   t->cell_count += 2;
-  for (size_t k = 0; k < 2; k++) {
-    halves[k].joint = NSVCD_MAX_JOINTS;
-    halves[k].count = 0;
-  }
   uint32_t node = cell->first;
   for (uint32_t n = 0; n < cell->count; n++) {
     const uint32_t following = t->next[node];
-    nsvcd__cell *half = &halves[t->points[node * t->joints + widest] > middle];
+    nsvcd__cell *half = &halves[nsvcd__node_at(t, node)[widest] > middle];
     t->next[node] = half->first;
     half->first = node;
     half->count++;
@@ -2589,24 +2594,22 @@ static void nsvcd__leaf_cut(nsvcd__rrt *t, size_t index) {
 
 // parent: t->count of a root. Returns the node.
 static size_t nsvcd__tree_add(nsvcd__rrt *t, const double *at, size_t parent) {
+  const nsvcd__cell empty = {0, NSVCD_MAX_JOINTS, 0, 0};
   const size_t node = t->count++;
   size_t index = 0;
-  memcpy(&t->points[node * t->joints], at, t->joints * sizeof *at);
+  memcpy(nsvcd__node_at(t, node), at, t->joints * sizeof *at);
   t->parents[node] = (uint32_t)parent;
-  if (t->cell_count == 0) {
-    t->cell_count = 1;
-    t->cells[0].joint = NSVCD_MAX_JOINTS;
-    t->cells[0].count = 0;
-  }
+  if (t->cell_count == 0) t->cells[t->cell_count++] = empty;
   while (t->cells[index].joint < NSVCD_MAX_JOINTS)
     index = t->cells[index].first + (at[t->cells[index].joint] > t->cells[index].at);
   t->next[node] = t->cells[index].first;
   t->cells[index].first = (uint32_t)node;
-  if (++t->cells[index].count > NSVCD__LEAF) nsvcd__leaf_cut(t, index);
+  if (++t->cells[index].count > NSVCD__LEAF) nsvcd__cut_leaf(t, index);
   return node;
 }
 
-// Looks in a cell, which is `off` from the point, joint by joint, for what is nearer than *best.
+// Looks in a cell for a node nearer than *best, a squared distance. off: from the point to the
+// cell, joint by joint, and its square.
 static void nsvcd__nearest_in(const nsvcd__rrt *t, size_t index, const double *at, double *off,
                               double off2, size_t *nearest, double *best) {
   const nsvcd__cell *cell = &t->cells[index];
@@ -2614,9 +2617,9 @@ static void nsvcd__nearest_in(const nsvcd__rrt *t, size_t index, const double *a
   if (cell->joint == NSVCD_MAX_JOINTS) {
     uint32_t node = cell->first;
     for (uint32_t n = 0; n < cell->count; n++, node = t->next[node]) {
-      const double distance = nsvcd__distance2(&t->points[node * t->joints], at, t->joints);
-      if (!(distance < *best)) continue;
-      *best = distance;
+      const double distance2 = nsvcd__distance2(nsvcd__node_at(t, node), at, t->joints);
+      if (!(distance2 < *best)) continue;
+      *best = distance2;
       *nearest = node;
     }
     return;
@@ -2640,65 +2643,49 @@ static size_t nsvcd__tree_nearest(const nsvcd__rrt *t, const double *at) {
 }
 
 // ---------------------------------------------------------------------------- robot/configurations
-// In: a robot in one configuration. Out: pairs that are near, and how that changes with the joints;
-// a configuration near by that is free; which pairs can meet.
+// In: a robot in one configuration. Out: pairs that are near each other, and how their distances
+// change with the joints; the nearest configuration that is free; which pairs can meet.
 
-#define NSVCD__GAP_WITHIN 0.05f
-#define NSVCD__GAP_TO 2e-5f
-#define NSVCD__GAP_DEEPEST 0.02f
+// defaults
+#define NSVCD__MAX_DISTANCE 0.05f
+#define NSVCD__DISTANCE_TO 2e-5f
+#define NSVCD__DEEPEST 0.02f
+#define NSVCD__FARTHEST_FREE 0.5
+#define NSVCD__PAIR_DRAWS 64
 // of `deepest`: the first slop that is tried; and how often a push-out is halved
 #define NSVCD__LEAST_SLOP 0.015625f
 #define NSVCD__DEPTH_HALVINGS 12
-// of the depth: what is looked at to see which faces part last; and the least share of a push-out
-// that separates them, of which a slope is told
+// of the depth: how far parts are pushed out to see which faces separate last
 #define NSVCD__DEPTH_BEYOND 1.01
+// below this cosine between a push-out and the normal no slope is told
 #define NSVCD__LEAST_RATE 0.1
-#define NSVCD__FARTHEST_FREE 0.5
-// metres that an escape leaves beside the clearance, so that a route can begin there
+// metres that the nearest free configuration has beside the clearance, so that a route can begin
+// there
 #define NSVCD__FREE_ROOM 5e-4f
-// spheres about the joints that random configurations are drawn on, and how many on each; how much
-// nearer than the best the next is drawn; halvings of the way back
-#define NSVCD__FREE_RINGS 8
+// spheres about the joints on which configurations are drawn, and how many on each
+#define NSVCD__FREE_SPHERES 8
 #define NSVCD__FREE_DRAWS 64
+// how much nearer than the best the next one is drawn; halvings of the line back
 #define NSVCD__FREE_NEARER 0.9
 #define NSVCD__FREE_HALVINGS 10
-#define NSVCD__PAIR_SAMPLES 64
 
 static nsvcd_result nsvcd__check_joints(const nsvcd_checker *checker, const double *joints) {
   if (!checker || !joints) return NSVCD_ERROR_ARGUMENT;
-  for (size_t j = 0; j < checker->scene->joint_count; j++) {
-    if (!nsvcd__is_number(joints[j], (double)NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_VALUE;
-  }
-  return NSVCD_OK;
+  const int are_numbers = nsvcd__are_numbers(joints, checker->scene->joint_count);
+  return are_numbers ? NSVCD_OK : NSVCD_ERROR_VALUE;
 }
 
-// Places all parts where the joints say, as the first of their samples.
-static void nsvcd__set_configuration(nsvcd_checker *c, const double *joints) {
-  memcpy(c->at.joints, joints, c->scene->joint_count * sizeof *joints);
-  nsvcd__pose_links(c, &c->at);
-  nsvcd__sample_put(c, &c->at, 0);
-}
+// ---- proximities
 
-// Of two parts where they stand.
-static nsvcd_question nsvcd__ask_configuration(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                                               size_t work, nsvcd__sight *view) {
-  const nsvcd__frame *const frames[2] = {nsvcd__frames_at(c, pair->a, 0),
-                                         nsvcd__frames_at(c, pair->b, 0)};
-  nsvcd__view_pair(c, pair, frames, 1, view);
-  return nsvcd__question_of(c, pair, 1, work);
-}
-
-// ---- gaps
-
-// How the point of a part that is seen at `at` now moves along a normal, by each joint: added to
-// the slope, times `sign`.
-static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, const nsvcd__sight *view,
+// Adds to the slope how fast a point of a part moves along a direction by each joint, times `sign`.
+// The point and the direction are in the local frame.
+static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, const nsvcd__local *local,
                              nsvcd__d3 at, nsvcd__d3 along, double sign, double *slope) {
-  const nsvcd__d3 point = nsvcd__seen_point(view, at);
-  const nsvcd__d3 normal = nsvcd__seen_direction(view, along);
+  const nsvcd__d3 point = nsvcd__frame_apply(&local->frame, at);
+  const nsvcd__d3 normal = nsvcd__dquat_rotate(local->frame.turn, along);
   const uint32_t link = c->scene->parts[part].link;
-  for (uint32_t path = link ? c->links[link - 1].path : 0; path; path &= path - 1) {
-    const size_t j = nsvcd__low_bit(path);
+  for (uint32_t chain = link ? c->links[link - 1].chain : 0; chain; chain &= chain - 1) {
+    const size_t j = nsvcd__low_bit(chain);
     const nsvcd__d3 arm = nsvcd__d3_sub(point, c->at.frames[j + 1].position);
     const nsvcd__d3 speed =
         nsvcd__slides(c, j) ? c->at.axes[j] : nsvcd__d3_cross(c->at.axes[j], arm);
@@ -2706,25 +2693,25 @@ static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, const nsvcd__s
   }
 }
 
-// Asks a question with a pushed out by so much.
-static nsvcd_result nsvcd__ask_lifted(nsvcd_checker *c, const nsvcd_question *question,
+// Asks a question with a moved by so much.
+static nsvcd_result nsvcd__ask_pushed(nsvcd_checker *c, const nsvcd_question *question,
                                       nsvcd__d3 push_out, nsvcd_answer *found) {
-  nsvcd_pose pushed_out = *question->a.poses;
-  nsvcd_question asked = *question;
-  const nsvcd__d3 position = nsvcd__d3_add(nsvcd__d3_load(pushed_out.position), push_out);
-  asked.a.poses = &pushed_out;
-  nsvcd__f3_store(nsvcd__f3_round(position), pushed_out.position);
-  return nsvcd_sweep(&asked, c->query, c->query_size, found);
+  nsvcd_pose pose = *question->a.poses;
+  nsvcd_question pushed = *question;
+  const nsvcd__d3 position = nsvcd__d3_add(nsvcd__d3_load(pose.position), push_out);
+  pushed.a.poses = &pose;
+  nsvcd__f3_store(nsvcd__f3_round(position), pose.position);
+  return nsvcd__ask(c, &pushed, found);
 }
 
-// A push-out of a off b that separates them, by the least of some slops, each four times the one
-// before, that is enough. 0: none up to `deepest` is.
+// A push-out of a off b that separates them. Slops are tried, each four times the one before, up to
+// `deepest`; 0 where none is enough.
 static nsvcd_result nsvcd__separating_push_out(nsvcd_checker *c, nsvcd_question question,
                                                float deepest, nsvcd__d3 *push_out) {
   nsvcd_answer found;
   for (float fraction = NSVCD__LEAST_SLOP; fraction <= 1; fraction *= 4) {
     question.slop = fraction * deepest;
-    const nsvcd_result result = nsvcd_sweep(&question, c->query, c->query_size, &found);
+    const nsvcd_result result = nsvcd__ask(c, &question, &found);
     if (result) return result;
     *push_out = nsvcd__d3_load(found.push_out);
     if (found.verdict == NSVCD_FREE) return NSVCD_OK;
@@ -2733,143 +2720,139 @@ static nsvcd_result nsvcd__separating_push_out(nsvcd_checker *c, nsvcd_question 
   return NSVCD_OK;
 }
 
-// Of parts that touch: how deep, where, along which normal, and how that shrinks. question: with
-// all that poses are off as its clearance.
-static nsvcd_result nsvcd__touching_gap(nsvcd_checker *c, nsvcd_question question,
-                                        const nsvcd__sight *view,
-                                        const nsvcd_proximity_options *o,
-                                        nsvcd_proximity *gap) {
-  const nsvcd_body_pair *both = &c->scene->pairs[gap->pair];
+// Of parts that touch: the depth, its normal and place, and its slope. question: HIT, with all
+// errors of the poses as its clearance.
+static nsvcd_result nsvcd__depth_of(nsvcd_checker *c, nsvcd_question question,
+                                    const nsvcd__local *local,
+                                    const nsvcd_proximity_options *o, nsvcd_proximity *out) {
+  const nsvcd_body_pair *pair = &c->scene->pairs[out->pair];
   nsvcd_answer found;
   nsvcd__d3 push_out = {0, 0, 0};
-  double low = 0;  // share of the push-out: they touch there; and they do not
+  // fractions of the push-out: they touch at the first, and are apart at the second
+  double low = 0;
   double high = 1;
-  question.ask = NSVCD_ASK_HIT;
-  question.to = 0;
   nsvcd_result result = nsvcd__separating_push_out(c, question, o->deepest, &push_out);
   const double length = nsvcd__d3_length(push_out);
   if (result || !(length > 0)) return result;
-  for (size_t n = 0; n < NSVCD__DEPTH_HALVINGS && !result; n++) {
+  for (size_t n = 0; n < NSVCD__DEPTH_HALVINGS; n++) {
     const double middle = 0.5 * (low + high);
-    result = nsvcd__ask_lifted(c, &question, nsvcd__d3_scale(push_out, middle), &found);
-    *(!result && found.verdict == NSVCD_FREE ? &high : &low) = middle;
+    result = nsvcd__ask_pushed(c, &question, nsvcd__d3_scale(push_out, middle), &found);
+    if (result) return result;
+    *(found.verdict == NSVCD_FREE ? &high : &low) = middle;
   }
-  if (result) return result;
-  // a little beyond, which faces are near
+  // a little beyond: which faces are near?
   const double beyond = NSVCD__DEPTH_BEYOND * high + (double)o->to / length;
   question.clearance = 0;
   question.ask = NSVCD_ASK_DISTANCE;
   question.to = 0.1f * o->to;
-  result = nsvcd__ask_lifted(c, &question, nsvcd__d3_scale(push_out, beyond), &found);
+  result = nsvcd__ask_pushed(c, &question, nsvcd__d3_scale(push_out, beyond), &found);
   if (result) return result;
   const nsvcd__d3 along = nsvcd__d3_scale(push_out, 1 / length);
   const nsvcd__d3 normal = nsvcd__d3_load(found.nearest.normal);
   const nsvcd__d3 point = nsvcd__d3_load(found.nearest.point);
-  gap->depth = nsvcd__above(high * length);
-  gap->contact = found.nearest;
-  gap->contact.gap = 0;
-  nsvcd__f3_store(nsvcd__f3_round(along), gap->contact.normal);
-  nsvcd__set_contact(view, &gap->contact);
-  // a push-out parts the two faces slower than it goes, unless it is along their normal
+  out->depth = nsvcd__above(high * length);
+  out->contact = found.nearest;
+  out->contact.gap = 0;
+  nsvcd__f3_store(nsvcd__f3_round(along), out->contact.normal);
+  nsvcd__contact_to_world(local, &out->contact);
+  // a push-out separates the two faces at this fraction of its own speed
   const double rate = nsvcd__d3_dot(along, normal);
   if (!(rate > NSVCD__LEAST_RATE)) return NSVCD_OK;
   const nsvcd__d3 on_a = nsvcd__d3_fma(-high, push_out, point);
-  nsvcd__slope_add(c, both->a, view, on_a, normal, 1 / rate, gap->slope);
-  nsvcd__slope_add(c, both->b, view, point, normal, -1 / rate, gap->slope);
+  nsvcd__slope_add(c, pair->a, local, on_a, normal, 1 / rate, out->slope);
+  nsvcd__slope_add(c, pair->b, local, point, normal, -1 / rate, out->slope);
   return NSVCD_OK;
 }
 
-// The gap of a pair where it stands. *is_near: it is within.
-static nsvcd_result nsvcd__gap_of(nsvcd_checker *c, size_t pair,
-                                  const nsvcd_proximity_options *o, nsvcd_proximity *gap,
-                                  int *is_near) {
-  const nsvcd_body_pair *both = &c->scene->pairs[pair];
-  const nsvcd__member *members[2] = {&c->members[both->a], &c->members[both->b]};
+// The proximity of a pair in the configuration c->at. *is_near: it is within max_distance.
+static nsvcd_result nsvcd__proximity_of(nsvcd_checker *c, size_t index,
+                                        const nsvcd_proximity_options *o, nsvcd_proximity *out,
+                                        int *is_near) {
+  const nsvcd_body_pair *pair = &c->scene->pairs[index];
+  const nsvcd__member *a = &c->members[pair->a];
+  const nsvcd__member *b = &c->members[pair->b];
   nsvcd_answer found;
-  nsvcd__sight view;
-  const double frames_off = 2 * (members[0]->rounding + members[1]->rounding);
-  const double max_distance = (double)o->max_distance + frames_off;
+  const double frames_error = 2 * (a->rounding + b->rounding);
+  const double max_distance = (double)o->max_distance + frames_error;
   *is_near = 0;
-  if (nsvcd__boxes_apart(&members[0]->box, &members[1]->box, 1.000001 * max_distance))
-    return NSVCD_OK;
-  nsvcd_question question = nsvcd__ask_configuration(c, both, o->work, &view);
-  // places are off by so much, at most, and a push-out that is told in floats
-  const double off = frames_off + view.rounding;
-  const float deepest_off = nsvcd__above(off + 2e-7 * (double)o->deepest);
-  question.clearance = nsvcd__above((double)o->max_distance + off);
-  nsvcd_result result = nsvcd_sweep(&question, c->query, c->query_size, &found);
+  if (nsvcd__bounds_apart(&a->bounds, &b->bounds, 1.000001 * max_distance)) return NSVCD_OK;
+  const nsvcd__local local = nsvcd__localize_at(c, pair, &c->at);
+  nsvcd_question question = nsvcd__question_of(c, pair, 1, o->work);
+  const double error = frames_error + local.rounding;
+  question.clearance = nsvcd__above((double)o->max_distance + error);
+  nsvcd_result result = nsvcd__ask(c, &question, &found);
   if (result || found.verdict == NSVCD_FREE) return result;
   question.clearance = 0;
   question.ask = NSVCD_ASK_DISTANCE;
   question.to = o->to;
-  result = nsvcd_sweep(&question, c->query, c->query_size, &found);
+  result = nsvcd__ask(c, &question, &found);
   if (result) return result;
   *is_near = 1;
-  memset(gap, 0, sizeof *gap);
-  gap->pair = pair;
-  gap->verdict = found.verdict;
-  gap->why = found.why;
-  gap->contact = found.nearest;
-  if (found.verdict == NSVCD_HIT) {
-    nsvcd__set_contact(&view, &gap->contact);
-    gap->distance.high = nsvcd__above(off);
-    gap->depth = HUGE_VALF;
-    question.clearance = deepest_off;
-    return found.inside ? NSVCD_OK : nsvcd__touching_gap(c, question, &view, o, gap);
-  }
-  gap->distance.high = nsvcd__above((double)found.distance.high + off);
-  gap->distance.low = (float)nsvcd__max((double)found.distance.low * (1 - 1e-7) - off, 0);
-  // of both at the point on b: that on a is off it along the normal, and no turn changes that
-  const nsvcd__d3 normal = nsvcd__d3_load(gap->contact.normal);
-  const nsvcd__d3 point = nsvcd__d3_load(gap->contact.point);
-  nsvcd__slope_add(c, both->a, &view, point, normal, 1, gap->slope);
-  nsvcd__slope_add(c, both->b, &view, point, normal, -1, gap->slope);
-  nsvcd__set_contact(&view, &gap->contact);
-  if (gap->verdict != NSVCD_FREE || gap->distance.low > 0) return NSVCD_OK;
-  // the poses are free of each other: are the parts?
+  memset(out, 0, sizeof *out);
+  out->pair = index;
+  out->verdict = found.verdict;
+  out->why = found.why;
+  out->contact = found.nearest;
+  nsvcd__contact_to_world(&local, &out->contact);
   question.ask = NSVCD_ASK_HIT;
   question.to = 0;
-  question.clearance = nsvcd__above(off);
-  result = nsvcd_sweep(&question, c->query, c->query_size, &found);
+  if (found.verdict == NSVCD_HIT) {
+    out->distance.high = nsvcd__above(error);
+    out->depth = HUGE_VALF;
+    // a push-out is told in floats
+    question.clearance = nsvcd__above(error + 2e-7 * (double)o->deepest);
+    return found.inside ? NSVCD_OK : nsvcd__depth_of(c, question, &local, o, out);
+  }
+  out->distance.high = nsvcd__above((double)found.distance.high + error);
+  out->distance.low = (float)nsvcd__max((double)found.distance.low * (1 - 1e-7) - error, 0);
+  // of both at the point on b: that on a is off it along the normal, and no turn changes that
+  const nsvcd__d3 normal = nsvcd__d3_load(found.nearest.normal);
+  const nsvcd__d3 point = nsvcd__d3_load(found.nearest.point);
+  nsvcd__slope_add(c, pair->a, &local, point, normal, 1, out->slope);
+  nsvcd__slope_add(c, pair->b, &local, point, normal, -1, out->slope);
+  if (out->verdict != NSVCD_FREE || out->distance.low > 0) return NSVCD_OK;
+  // the poses in float are free of each other: are the parts?
+  question.clearance = nsvcd__above(error);
+  result = nsvcd__ask(c, &question, &found);
   if (result || found.verdict == NSVCD_FREE) return result;
-  gap->verdict = NSVCD_UNDECIDED;
-  gap->why = NSVCD_WHY_TOO_NEAR;
+  out->verdict = NSVCD_UNDECIDED;
+  out->why = NSVCD_WHY_TOO_NEAR;
   return NSVCD_OK;
 }
 
 NSVCDDEF nsvcd_result nsvcd_proximities(nsvcd_checker *checker, const double *joints,
                                         const nsvcd_proximity_options *options,
-                                        nsvcd_proximity *gaps, size_t capacity,
-                                        size_t *count) {
+                                        nsvcd_proximity *out, size_t capacity, size_t *count) {
   nsvcd_proximity_options o;
-  size_t near_ones = 0;
+  size_t written = 0;
   nsvcd_result result = nsvcd__check_joints(checker, joints);
-  if (!result && (!count || (!gaps && capacity > 0))) result = NSVCD_ERROR_ARGUMENT;
+  if (!result && (!count || (!out && capacity > 0))) result = NSVCD_ERROR_ARGUMENT;
   if (result) return result;
   memset(&o, 0, sizeof o);
   if (options) o = *options;
-  if (!nsvcd__is_length(o.max_distance)) return NSVCD_ERROR_DISTANCE;
-  if (!nsvcd__is_length(o.deepest)) return NSVCD_ERROR_DISTANCE;
+  if (!nsvcd__is_length(o.max_distance) || !nsvcd__is_length(o.deepest))
+    return NSVCD_ERROR_DISTANCE;
   if (!nsvcd__is_length(o.to)) return NSVCD_ERROR_TO;
-  o.max_distance = o.max_distance > 0 ? o.max_distance : NSVCD__GAP_WITHIN;
-  o.to = o.to > 0 ? o.to : NSVCD__GAP_TO;
-  o.deepest = o.deepest > 0 ? o.deepest : NSVCD__GAP_DEEPEST;
-  nsvcd__set_configuration(checker, joints);
+  o.max_distance = o.max_distance > 0 ? o.max_distance : NSVCD__MAX_DISTANCE;
+  o.to = o.to > 0 ? o.to : NSVCD__DISTANCE_TO;
+  o.deepest = o.deepest > 0 ? o.deepest : NSVCD__DEEPEST;
+  nsvcd__place_links(checker, joints, &checker->at);
+  nsvcd__place_sample(checker, &checker->at, 0);
   for (size_t n = 0; n < checker->scene->pair_count && !result; n++) {
-    nsvcd_proximity gap;
+    nsvcd_proximity found;
     int is_near;
-    result = nsvcd__gap_of(checker, n, &o, &gap, &is_near);
+    result = nsvcd__proximity_of(checker, n, &o, &found, &is_near);
     if (result || !is_near) continue;
-    if (near_ones < capacity) gaps[near_ones] = gap;
-    near_ones++;
+    if (written < capacity) out[written] = found;
+    written++;
   }
-  if (!result) *count = near_ones;
+  if (!result) *count = written;
   return result;
 }
 
-// ---- a way out
+// ---- the nearest free configuration
 
-static void nsvcd__take_into_limits(const nsvcd_scene *scene, double *joints) {
+static void nsvcd__clamp_to_limits(const nsvcd_scene *scene, double *joints) {
   for (size_t j = 0; j < scene->joint_count; j++) {
     const nsvcd_joint *joint = &scene->joints[j];
     const int is_endless = joint->kind == NSVCD_JOINT_CONTINUOUS;
@@ -2885,28 +2868,27 @@ static nsvcd_result nsvcd__is_free_at(nsvcd_checker *c, const double *joints,
   const nsvcd_check_options options = {o->clearance, 0, 0, o->stop, o->user};
   nsvcd_check_answer answer;
   const nsvcd_result result = nsvcd_check(c, &still, &options, &answer);
-  *is_free = !result && answer.verdict == NSVCD_FREE && answer.joint == NSVCD_NONE;
+  *is_free = !result && nsvcd__proves_free(&answer);
   return result;
 }
 
-// From a place that is free back towards `from`, which is not, as far as that stays free.
+// Moves a free configuration towards `from`, which is not free, as far as that stays free.
 static nsvcd_result nsvcd__draw_back(nsvcd_checker *c, const double *from,
                                      const nsvcd_nearest_free_options *o, double *at) {
   const size_t joints = c->scene->joint_count;
-  double blocked[NSVCD_MAX_JOINTS];
-  nsvcd_result result = NSVCD_OK;
+  double blocked[NSVCD_MAX_JOINTS], middle[NSVCD_MAX_JOINTS];
   memcpy(blocked, from, joints * sizeof *at);
-  for (size_t n = 0; n < NSVCD__FREE_HALVINGS && !result; n++) {
-    double middle[NSVCD_MAX_JOINTS];
+  for (size_t n = 0; n < NSVCD__FREE_HALVINGS; n++) {
     int is_free;
     for (size_t j = 0; j < joints; j++) middle[j] = 0.5 * (blocked[j] + at[j]);
-    result = nsvcd__is_free_at(c, middle, o, &is_free);
-    if (!result) memcpy(is_free ? at : blocked, middle, joints * sizeof *at);
+    const nsvcd_result result = nsvcd__is_free_at(c, middle, o, &is_free);
+    if (result) return result;
+    memcpy(is_free ? at : blocked, middle, joints * sizeof *at);
   }
-  return result;
+  return NSVCD_OK;
 }
 
-// Draws on spheres about `from`, from the inside to the outside, until one is free; then on ever
+// Draws on spheres about `from`, the innermost first, until a configuration is free; then on ever
 // smaller ones, nearer than the best.
 static nsvcd_result nsvcd__seek_nearest_free(nsvcd_checker *c, const double *from,
                                              const nsvcd_nearest_free_options *o, double *out,
@@ -2915,9 +2897,9 @@ static nsvcd_result nsvcd__seek_nearest_free(nsvcd_checker *c, const double *fro
   uint64_t random = o->seed;
   double best = o->farthest;
   *is_found = 0;
-  for (size_t n = 0; n < NSVCD__FREE_RINGS * NSVCD__FREE_DRAWS; n++) {
-    const double ring = (double)(n / NSVCD__FREE_DRAWS + 1) / NSVCD__FREE_RINGS;
-    const double radius = *is_found ? NSVCD__FREE_NEARER * best : ring * o->farthest;
+  for (size_t n = 0; n < NSVCD__FREE_SPHERES * NSVCD__FREE_DRAWS; n++) {
+    const double sphere = (double)(n / NSVCD__FREE_DRAWS + 1) / NSVCD__FREE_SPHERES;
+    const double radius = *is_found ? NSVCD__FREE_NEARER * best : sphere * o->farthest;
     double at[NSVCD_MAX_JOINTS];
     double square = 0;
     int is_free;
@@ -2927,12 +2909,11 @@ static nsvcd_result nsvcd__seek_nearest_free(nsvcd_checker *c, const double *fro
       square += at[j] * at[j];
     }
     for (size_t j = 0; j < joints; j++) at[j] = from[j] + radius / sqrt(square) * at[j];
-    nsvcd__take_into_limits(c->scene, at);
+    nsvcd__clamp_to_limits(c->scene, at);
     nsvcd_result result = nsvcd__is_free_at(c, at, o, &is_free);
+    if (!result && is_free) result = nsvcd__draw_back(c, from, o, at);
     if (result) return result;
     if (!is_free) continue;
-    result = nsvcd__draw_back(c, from, o, at);
-    if (result) return result;
     *is_found = 1;
     best = sqrt(nsvcd__distance2(at, from, joints));
     memcpy(out, at, joints * sizeof *at);
@@ -2953,11 +2934,10 @@ NSVCDDEF nsvcd_result nsvcd_nearest_free(nsvcd_checker *checker, const double *j
   if (options) o = *options;
   if (!nsvcd__in_range(&o.clearance, 1, 0.5f * NSVCD_MAX_COORDINATE) || o.clearance < 0)
     return NSVCD_ERROR_CLEARANCE;
-  if (!nsvcd__is_number(o.farthest, (double)NSVCD_MAX_COORDINATE) || o.farthest < 0)
-    return NSVCD_ERROR_FARTHEST;
+  if (!nsvcd__are_numbers(&o.farthest, 1) || o.farthest < 0) return NSVCD_ERROR_FARTHEST;
   o.farthest = o.farthest > 0 ? o.farthest : NSVCD__FARTHEST_FREE;
   memcpy(from, joints, bytes);
-  nsvcd__take_into_limits(checker->scene, from);
+  nsvcd__clamp_to_limits(checker->scene, from);
   int is_free;
   memcpy(at, from, bytes);
   result = nsvcd__is_free_at(checker, from, &o, &is_free);
@@ -2972,13 +2952,12 @@ NSVCDDEF nsvcd_result nsvcd_nearest_free(nsvcd_checker *checker, const double *j
 // ---- pairs
 
 // Do two parts touch in all of so many configurations, drawn within the limits?
-static nsvcd_result nsvcd__contact_in_all(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                                          size_t samples, uint64_t random, int *in_all) {
+static nsvcd_result nsvcd__touches_in_all(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                          size_t draws, uint64_t random, int *in_all) {
   nsvcd_answer found;
-  nsvcd__sight view;
   nsvcd_result result = NSVCD_OK;
   *in_all = 1;
-  for (size_t n = 0; n < samples && *in_all && !result; n++) {
+  for (size_t n = 0; n < draws && *in_all && !result; n++) {
     double joints[NSVCD_MAX_JOINTS];
     for (size_t j = 0; j < c->scene->joint_count; j++) {
       const nsvcd_joint *joint = &c->scene->joints[j];
@@ -2987,15 +2966,16 @@ static nsvcd_result nsvcd__contact_in_all(nsvcd_checker *c, const nsvcd_body_pai
       const double high = is_endless ? 6.283185307179586 : joint->high;
       joints[j] = low + (high - low) * nsvcd__random(&random);
     }
-    nsvcd__set_configuration(c, joints);
-    const nsvcd_question question = nsvcd__ask_configuration(c, pair, 0, &view);
-    result = nsvcd_sweep(&question, c->query, c->query_size, &found);
+    nsvcd__place_links(c, joints, &c->at);
+    (void)nsvcd__localize_at(c, pair, &c->at);
+    const nsvcd_question question = nsvcd__question_of(c, pair, 1, 0);
+    result = nsvcd__ask(c, &question, &found);
     *in_all = !result && found.verdict == NSVCD_HIT;
   }
   return result;
 }
 
-// Does one joint separate two links, neither of them the world?
+// Are two links those of one joint, and neither of them the world?
 static int nsvcd__are_adjacent(const nsvcd_scene *scene, const nsvcd_body_pair *pair) {
   const size_t a = scene->parts[pair->a].link;
   const size_t b = scene->parts[pair->b].link;
@@ -3016,7 +2996,7 @@ static int nsvcd__next_pair(const nsvcd_scene *scene, nsvcd_body_pair *pair) {
   return 1;
 }
 
-NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, uint64_t seed,
+NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t draws, uint64_t seed,
                                        nsvcd_body_pair *pairs, size_t capacity,
                                        nsvcd_pair_counts *counts) {
   if (!checker || !counts || (!pairs && capacity > 0)) return NSVCD_ERROR_ARGUMENT;
@@ -3026,13 +3006,13 @@ NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, u
   size_t total = 0;
   while (nsvcd__next_pair(scene, &pair)) total++;
   if (capacity < total) return NSVCD_ERROR_WORKSPACE;
-  // what is asked from the front, what touches in all samples from the back
+  if (!draws) draws = NSVCD__PAIR_DRAWS;
+  // what is to be asked from the front, what touches in all from the back
   pair.a = pair.b = 0;
   while (nsvcd__next_pair(scene, &pair)) {
     int in_all;
     if (nsvcd__are_adjacent(scene, &pair)) continue;
-    const nsvcd_result result = nsvcd__contact_in_all(
-        checker, &pair, samples ? samples : NSVCD__PAIR_SAMPLES, seed, &in_all);
+    const nsvcd_result result = nsvcd__touches_in_all(checker, &pair, draws, seed, &in_all);
     if (result) return result;
     pairs[in_all ? total - ++found.touching : found.asked++] = pair;
   }
@@ -3040,6 +3020,7 @@ NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, u
   while (nsvcd__next_pair(scene, &pair)) {
     if (nsvcd__are_adjacent(scene, &pair)) pairs[found.asked + found.adjacent++] = pair;
   }
+  // what touches, in order
   for (size_t n = 0; n < found.touching / 2; n++) {
     nsvcd_body_pair *first = &pairs[total - found.touching + n];
     nsvcd_body_pair *last = &pairs[total - 1 - n];
@@ -3053,42 +3034,68 @@ NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, u
 
 NSVCDDEF nsvcd_result nsvcd_reparent(const nsvcd_checker *checker, const double *joints,
                                      size_t part, uint32_t link, nsvcd_part *out) {
-  nsvcd__configuration c;
-  const nsvcd_result result = nsvcd__check_joints(checker, joints);
+  nsvcd__configuration at;
+  nsvcd_result result = nsvcd__check_joints(checker, joints);
   if (result) return result;
   const nsvcd_scene *scene = checker->scene;
   if (!out) return NSVCD_ERROR_ARGUMENT;
   if (part >= scene->part_count || link > scene->joint_count) return NSVCD_ERROR_LINK;
-  memcpy(c.joints, joints, scene->joint_count * sizeof *joints);
-  nsvcd__pose_links(checker, &c);
-  const nsvcd__frame at = nsvcd__frame_of_part(checker, &c, part);
-  const nsvcd__frame inner = nsvcd__frame_from(&c.frames[link], &at);
+  nsvcd__place_links(checker, joints, &at);
+  const nsvcd__frame world = nsvcd__frame_of_part(checker, &at, part);
+  const nsvcd__frame frame = nsvcd__frame_inverse_mul(&at.frames[link], &world);
   nsvcd_part moved = scene->parts[part];
   moved.link = link;
-  moved.pose = nsvcd__pose_in(&inner);
-  const nsvcd_result placed = nsvcd__poses_check(&moved.pose, 1);
-  if (!placed) *out = moved;
-  return placed;
+  moved.pose = nsvcd__frame_pose(&frame);
+  result = nsvcd__poses_check(&moved.pose, 1);
+  if (!result) *out = moved;
+  return result;
 }
 
 // ------------------------------------------------------------------------------------ robot/blends
-// In: two states, places and speeds of the joints, and limits of speed and acceleration. Out: a
-// motion from one to the other in the least time of the slowest joint, each of the others with the
-// least acceleration that takes as long.
+// In: two states, positions and speeds of the joints, and limits of speed and acceleration. Out: a
+// motion from one to the other in the least time of the slowest joint; each other joint takes as
+// long, with the least acceleration that does.
 //
-// A joint speeds up, and down again, or the other way round; where it would be too fast in between,
-// it goes on at the limit. What it does is of degree 2 piece by piece.
+// A joint speeds up, and slows down again, or the other way round; where it would be too fast in
+// between, it goes on at the limit. So it is of degree 2, piece by piece.
 // Source: Hauser and Ng-Thow-Hing (2010).
 
 // of a blend: each joint has two times at which its acceleration changes
 #define NSVCD__BLEND_PIECES (2 * NSVCD_MAX_JOINTS + 1)
-// share of the limits of speed and acceleration that is asked for: the rest is for rounding
+// fractions of the limits of speed and acceleration that are asked for: the rest is for rounding
 #define NSVCD__BLEND_FRACTION (1 - 1e-6)
 #define NSVCD__BLEND_MOST (1 - 5e-7)
-// seconds: of shorter pieces rounding would say what their acceleration is; there are none. And two
-// changes no farther apart than that are one
+// seconds: no piece is shorter, for rounding would say what its acceleration is; changes of
+// acceleration that are no farther apart than NSVCD__SAME_TIME are one
 #define NSVCD__SLIVER 1e-4
 #define NSVCD__SAME_TIME 1e-12
+
+// A motion of degree 2 that is being made: `motion` has its arrays.
+typedef struct nsvcd__trajectory {
+  nsvcd_joint_motion motion;
+  double *points;  // (2 most pieces + 1, F)
+  double *times;   // (most pieces + 1)
+} nsvcd__trajectory;
+
+static void nsvcd__trajectory_begin(nsvcd__trajectory *t, size_t joints, const double *at) {
+  const nsvcd_joint_motion motion = {0, 2, t->points, t->times};
+  t->motion = motion;
+  t->times[0] = 0;
+  memcpy(t->points, at, joints * sizeof *at);
+}
+
+static double nsvcd__trajectory_end(const nsvcd__trajectory *t) {
+  return t->times[t->motion.pieces];
+}
+
+// Adds a piece that ends at a time.
+static void nsvcd__trajectory_add(nsvcd__trajectory *t, size_t joints, const double *middle,
+                                  const double *end, double time) {
+  double *at = t->points + (2 * t->motion.pieces + 1) * joints;
+  memcpy(at, middle, joints * sizeof *at);
+  memcpy(at + joints, end, joints * sizeof *at);
+  t->times[++t->motion.pieces] = time;
+}
 
 static double nsvcd__speed_of(const nsvcd_joint *joint) {
   return joint->speed > 0 ? joint->speed : 1;
@@ -3097,16 +3104,17 @@ static double nsvcd__acceleration_of(const nsvcd_joint *joint) {
   return joint->acceleration > 0 ? joint->acceleration : 1;
 }
 
-// A joint's way in a blend: acceleration a until t1, none until t2, -a after that.
+// A joint in a blend: from position x0 at speed v0, acceleration a until t1, none until t2, -a
+// after that.
 typedef struct nsvcd__blend_joint {
-  double a, t1, t2;
+  double x0, v0, a, t1, t2;
 } nsvcd__blend_joint;
 
-// The least time from place x0 and speed v0 to x1 and v1, both within the limits.
+// The least time from position x0 and speed v0 to x1 and v1, both within the limits.
 static double nsvcd__blend_time(double x0, double v0, double x1, double v1, double speed,
                                 double most) {
   const double distance = x1 - x0;
-  // changing speed takes this way: is there more to go, or less?
+  // a change of speed alone goes this far: is there more to go, or less?
   const double least = 0.5 * (v0 + v1) * fabs(v1 - v0) / most;
   const double side = distance >= least ? 1 : -1;
   const double peak2 = side * most * distance + 0.5 * (v0 * v0 + v1 * v1);
@@ -3118,8 +3126,8 @@ static double nsvcd__blend_time(double x0, double v0, double x1, double v1, doub
          nsvcd__max((distance - changing) / fast, 0);
 }
 
-// The way with the least acceleration that takes this time. Returns 0 if there is none within the
-// limits.
+// The blend with the least acceleration that takes this time. Returns 0 if there is none within
+// the limits.
 static int nsvcd__blend_solve(double x0, double v0, double x1, double v1, double speed,
                               double most, double time, nsvcd__blend_joint *out) {
   const double distance = x1 - x0;
@@ -3128,144 +3136,145 @@ static int nsvcd__blend_solve(double x0, double v0, double x1, double v1, double
   const double b = 2 * time * (v0 + v1) - 4 * distance;
   const double root = sqrt(b * b + 4 * time * time * change * change);
   double a = -(b + (b > 0 ? root : -root)) / (2 * time * time);
-  out->t1 = 0.5 * time;
-  if (a > 0 || a < 0) out->t1 += 0.5 * change / a;
-  out->t1 = nsvcd__max(0, nsvcd__min(time, out->t1));
-  out->t2 = out->t1;
-  const double peak = v0 + a * out->t1;
+  double t1 = 0.5 * time;
+  if (a > 0 || a < 0) t1 += 0.5 * change / a;
+  t1 = nsvcd__max(0, nsvcd__min(time, t1));
+  double t2 = t1;
+  const double peak = v0 + a * t1;
   if (fabs(peak) > speed) {
     const double fast = peak > 0 ? speed : -speed;
     const double up = (fast - v0) * (fast - v0) + (fast - v1) * (fast - v1);
     a = up / (2 * (fast * time - distance));
     if (!(a * fast > 0)) return 0;
-    out->t1 = (fast - v0) / a;
-    out->t2 = time - (fast - v1) / a;
-    if (!(out->t1 >= 0 && out->t2 >= out->t1 && out->t2 <= time)) return 0;
+    t1 = (fast - v0) / a;
+    t2 = time - (fast - v1) / a;
+    if (!(t1 >= 0 && t2 >= t1 && t2 <= time)) return 0;
   }
-  out->a = a;
+  const nsvcd__blend_joint solved = {x0, v0, a, t1, t2};
+  *out = solved;
   return fabs(a) <= most;
 }
 
-// Place and speed at a time of a way that begins with x0 and v0.
-static void nsvcd__blend_at(const nsvcd__blend_joint *r, double x0, double v0, double t,
-                            double *x, double *v) {
+// Position and speed at a time.
+static void nsvcd__blend_at(const nsvcd__blend_joint *r, double t, double *x, double *v) {
   const double up = nsvcd__min(t, r->t1);
   const double even = nsvcd__max(nsvcd__min(t, r->t2) - r->t1, 0);
   const double down = nsvcd__max(t - r->t2, 0);
-  const double fast = v0 + r->a * up;
-  *x = x0 + (0.5 * (v0 + fast)) * up + fast * even + (fast - 0.5 * r->a * down) * down;
+  const double fast = r->v0 + r->a * up;
+  *x = r->x0 + (0.5 * (r->v0 + fast)) * up + fast * even + (fast - 0.5 * r->a * down) * down;
   *v = fast - r->a * down;
 }
 
-// Does a joint turn round out of its limits on the way? Its ends are within.
+// Does a joint leave its limits in between, where it turns round? Both its ends are in them.
 static int nsvcd__blend_leaves(const nsvcd_joint *joint, const nsvcd__blend_joint *r,
-                               double x0, double v0, double time) {
+                               double time) {
   if (joint->kind == NSVCD_JOINT_CONTINUOUS) return 0;
-  // where it stands still
-  const double turns[2] = {
-      r->a * v0 < 0 ? -v0 / r->a : 0,
-      r->a * (v0 + r->a * r->t1) > 0 ? r->t2 + (v0 + r->a * r->t1) / r->a : 0};
+  // where its speed is 0
+  const double fast = r->v0 + r->a * r->t1;
+  const double turns[2] = {r->a * r->v0 < 0 ? -r->v0 / r->a : 0,
+                           r->a * fast > 0 ? r->t2 + fast / r->a : 0};
   for (size_t k = 0; k < 2; k++) {
     double x, v;
     const int is_there = k ? turns[k] > r->t2 && turns[k] < time : turns[k] < r->t1;
     if (!is_there || !(turns[k] > 0)) continue;
-    nsvcd__blend_at(r, x0, v0, turns[k], &x, &v);
+    nsvcd__blend_at(r, turns[k], &x, &v);
     if (x < joint->low || x > joint->high) return 1;
   }
   return 0;
 }
 
-// Writes a blend of all joints as pieces: points (2 pieces + 1, F), times from 0. state: the joints
-// at the start and the end, and their speeds (4, F). Returns the pieces; 0 if there is no blend
-// within the limits that takes less than `longest`, or two of its changes nearly coincide.
-static size_t nsvcd__blend_write(const nsvcd_scene *scene, double states[4][NSVCD_MAX_JOINTS],
-                                 double longest, double *points, double *times) {
-  const size_t joints = scene->joint_count;
-  nsvcd__blend_joint blends[NSVCD_MAX_JOINTS];
-  double changes[NSVCD__BLEND_PIECES + 1];
-  size_t count = 0;
+// Joints and their speeds, (F).
+typedef struct nsvcd__state {
+  double x[NSVCD_MAX_JOINTS], v[NSVCD_MAX_JOINTS];
+} nsvcd__state;
+
+// Solves the blends of all joints. Returns the time that they take; 0 if there are none within the
+// limits that take less than `longest`.
+static double nsvcd__blend_joints(const nsvcd_scene *scene, const nsvcd__state *from,
+                                  const nsvcd__state *to, double longest,
+                                  nsvcd__blend_joint *out) {
   double time = 0;
-  for (size_t j = 0; j < joints; j++) {
-    const nsvcd_joint *joint = &scene->joints[j];
-    time = nsvcd__max(
-        time, nsvcd__blend_time(states[0][j], states[2][j], states[1][j], states[3][j],
-                                NSVCD__BLEND_FRACTION * nsvcd__speed_of(joint),
-                                NSVCD__BLEND_FRACTION * nsvcd__acceleration_of(joint)));
+  for (size_t j = 0; j < scene->joint_count; j++) {
+    const double speed = NSVCD__BLEND_FRACTION * nsvcd__speed_of(&scene->joints[j]);
+    const double most = NSVCD__BLEND_FRACTION * nsvcd__acceleration_of(&scene->joints[j]);
+    const double own =
+        nsvcd__blend_time(from->x[j], from->v[j], to->x[j], to->v[j], speed, most);
+    time = nsvcd__max(time, own);
   }
   if (!(time < longest)) return 0;
-  for (size_t j = 0; j < joints; j++) {
+  for (size_t j = 0; j < scene->joint_count; j++) {
     const nsvcd_joint *joint = &scene->joints[j];
     const double speed = NSVCD__BLEND_FRACTION * nsvcd__speed_of(joint);
     const double most = NSVCD__BLEND_MOST * nsvcd__acceleration_of(joint);
-    if (!nsvcd__blend_solve(states[0][j], states[2][j], states[1][j], states[3][j], speed,
-                            most, time, &blends[j]))
+    if (!nsvcd__blend_solve(from->x[j], from->v[j], to->x[j], to->v[j], speed, most, time,
+                            &out[j]) ||
+        nsvcd__blend_leaves(joint, &out[j], time))
       return 0;
-    if (nsvcd__blend_leaves(joint, &blends[j], states[0][j], states[2][j], time)) return 0;
-    changes[count++] = blends[j].t1;
-    changes[count++] = blends[j].t2;
   }
-  changes[count++] = time;
+  return time;
+}
+
+// Writes a blend of all joints. Returns 0 if there is none within the limits that takes less than
+// `longest`, or two of its changes nearly coincide.
+static int nsvcd__blend_write(const nsvcd_scene *scene, const nsvcd__state *from,
+                              const nsvcd__state *to, double longest, nsvcd__trajectory *out) {
+  const size_t joints = scene->joint_count;
+  nsvcd__blend_joint blends[NSVCD_MAX_JOINTS];
+  double changes[NSVCD__BLEND_PIECES];
+  size_t count = 0;
+  const double time = nsvcd__blend_joints(scene, from, to, longest, blends);
+  if (!(time > 0)) return 0;
   // sorted, by insertion
-  for (size_t k = 1; k < count; k++) {
-    const double own = changes[k];
-    size_t at = k;
-    for (; at > 0 && changes[at - 1] > own; at--) changes[at] = changes[at - 1];
-    changes[at] = own;
+  for (size_t n = 0; n <= 2 * joints; n++) {
+    const double change = n == 2 * joints ? time : n % 2 ? blends[n / 2].t2 : blends[n / 2].t1;
+    size_t at = count++;
+    for (; at > 0 && changes[at - 1] > change; at--) changes[at] = changes[at - 1];
+    changes[at] = change;
   }
-  size_t pieces = 0;
-  times[0] = 0;
-  memcpy(points, states[0], joints * sizeof *points);
+  nsvcd__trajectory_begin(out, joints, from->x);
   for (size_t k = 0; k < count; k++) {
-    if (changes[k] - times[pieces] <= NSVCD__SAME_TIME) continue;
-    if (changes[k] - times[pieces] < NSVCD__SLIVER) return 0;
-    const double before = times[pieces];
+    const double before = nsvcd__trajectory_end(out);
     const double half = 0.5 * (changes[k] - before);
-    double *to = points + 2 * pieces * joints;
+    const double *last = out->points + 2 * out->motion.pieces * joints;
+    double middle[NSVCD_MAX_JOINTS], end[NSVCD_MAX_JOINTS];
+    if (changes[k] - before <= NSVCD__SAME_TIME) continue;
+    if (changes[k] - before < NSVCD__SLIVER) return 0;
     for (size_t j = 0; j < joints; j++) {
-      double x, v;
-      nsvcd__blend_at(&blends[j], states[0][j], states[2][j], before, &x, &v);
-      to[joints + j] = to[j] + half * v;
-      nsvcd__blend_at(&blends[j], states[0][j], states[2][j], changes[k], &x, &v);
-      to[2 * joints + j] = x;
+      double v;
+      nsvcd__blend_at(&blends[j], before, &end[j], &v);
+      middle[j] = last[j] + half * v;
+      nsvcd__blend_at(&blends[j], changes[k], &end[j], &v);
     }
-    times[++pieces] = changes[k];
+    nsvcd__trajectory_add(out, joints, middle, end, changes[k]);
   }
-  memcpy(points + 2 * pieces * joints, states[1], joints * sizeof *points);
-  return pieces;
+  memcpy(out->points + 2 * out->motion.pieces * joints, to->x, joints * sizeof *to->x);
+  return out->motion.pieces > 0;
 }
 
 // ------------------------------------------------------------------------------------ robot/smooth
-// In: a way, a polyline that is proven. Out: a motion in time along it, then one that is smooth.
+// In: a path, a polyline that is proven. Out: a motion along it, timed, and then smooth.
 //
-// Each edge is gone along from rest to rest. Then, again and again, two times are drawn: the motion
-// between them is replaced by a blend, if that is quicker and proven. Where it still rests, the two
-// times are drawn about that.
+// At first each edge begins and ends at rest. Then, again and again, two times are drawn: the
+// motion between them is replaced by a blend, if that is quicker and proven. Every other time,
+// where it still rests, they are drawn about a rest.
 // Source: Hauser and Ng-Thow-Hing (2010).
 
 // of a motion, at most
 #define NSVCD__MOST_PIECES 2048
-// seconds: half of the windows about a rest, the widest, and how often it may be halved
+// seconds: half of the widest window about a rest; how often it may be halved
 #define NSVCD__HALF_WINDOW 0.8
 #define NSVCD__WINDOWS 6
-// of the duration without obstacles: there is nothing to win
+// of the duration without obstacles: no more can be won
 #define NSVCD__FAST_ENOUGH 1.001
-// what a blend is to win, to be worth its proof: a share of its own time, and, unless a rest goes
-// with it, of what the motion takes longer than without obstacles
+// what a blend must win, to be worth its proof: a fraction of its own time, and, unless a rest goes
+// with it, one of what the motion takes longer than without obstacles
 #define NSVCD__LEAST_GAIN 1e-4
 #define NSVCD__WORTHY_GAIN 0.02
-// metres that the search stays farther away than asked for, so that the whole is proven anew
+// metres that the search adds to the clearance, so that the proof of the whole succeeds
 #define NSVCD__SPARE 1e-4f
-// metres that a part may deviate from its sweeps, at least, in the search
-#define NSVCD__SEEK_FINEST 5e-4f
-// units that a question of the search may take
-#define NSVCD__SEEK_WORK 1000
-
-// A motion of degree 2 that is being made.
-typedef struct nsvcd__trajectory {
-  double *points;  // (2 NSVCD__MOST_PIECES + 1, F)
-  double *times;   // (NSVCD__MOST_PIECES + 1)
-  size_t pieces;
-} nsvcd__trajectory;
+// check_options.finest and .work of the search
+#define NSVCD__SEARCH_FINEST 5e-4f
+#define NSVCD__SEARCH_WORK 1000
 
 typedef struct nsvcd__router {
   nsvcd_checker *checker;
@@ -3276,37 +3285,40 @@ typedef struct nsvcd__router {
   nsvcd_check_options check;
   uint64_t random;
   int is_stopped;
-  // turns since each tree has grown
-  size_t idle[2];
+  size_t idle[2];       // turns since each tree has grown
   nsvcd__rrt trees[2];  // from the start, from the goals
   // (F): the range of their roots
   double low[NSVCD_MAX_JOINTS], high[NSVCD_MAX_JOINTS];
-  size_t *goals;  // (G): of those that are free, which; the roots of trees[1]
-  double *path;   // (nodes of both trees + shortcuts, F)
-  size_t path_count;
+  size_t *goals;  // (G): of each root of trees[1], its goal
+  double *path;   // (nodes of both trees + shortcuts, F): corners
+  size_t corners;
   nsvcd__trajectory trajectory, other, blend;
   nsvcd_route_answer answer;
 } nsvcd__router;
 
-static nsvcd_joint_motion nsvcd__motion_of(const nsvcd__trajectory *trajectory) {
-  const nsvcd_joint_motion out = {trajectory->pieces, 2, trajectory->points,
-                                  trajectory->times};
-  return out;
+static double *nsvcd__corner_at(const nsvcd__router *r, size_t k) {
+  return r->path + k * r->joints;
 }
+
+static double nsvcd__edge_length(const nsvcd__router *r, const double *from,
+                                 const double *to) {
+  return sqrt(nsvcd__distance2(from, to, r->joints));
+}
+
+// ---- proofs
 
 // Is a motion proven free, and within the limits? answer.check says what is wrong.
 static nsvcd_result nsvcd__prove_by(nsvcd__router *r, const nsvcd_joint_motion *motion,
                                     const nsvcd_check_options *options, int *is_free) {
   r->answer.checks++;
   const nsvcd_result result = nsvcd_check(r->checker, motion, options, &r->answer.check);
-  *is_free =
-      !result && r->answer.check.verdict == NSVCD_FREE && r->answer.check.joint == NSVCD_NONE;
+  *is_free = !result && nsvcd__proves_free(&r->answer.check);
   r->answer.proven += (size_t)*is_free;
   if (!*is_free && options->stop && options->stop(options->user)) r->is_stopped = 1;
   return result;
 }
 
-// The same by what the search asks for. What the caller stops is not free.
+// The same with the search's own options. Once the caller has stopped the search, nothing is free.
 static nsvcd_result nsvcd__ask_motion(nsvcd__router *r, const nsvcd_joint_motion *motion,
                                       int *is_free) {
   *is_free = 0;
@@ -3323,128 +3335,117 @@ static nsvcd_result nsvcd__prove_edge(nsvcd__router *r, const double *from, cons
   return nsvcd__ask_motion(r, &motion, is_free);
 }
 
-// Adds a piece of degree 2 from where the trajectory is; the times rise by `time`.
-static void nsvcd__trajectory_add(nsvcd__trajectory *c, size_t joints, const double *middle,
-                                  const double *end, double time) {
-  double *at = c->points + (2 * c->pieces + 1) * joints;
-  memcpy(at, middle, joints * sizeof *at);
-  memcpy(at + joints, end, joints * sizeof *at);
-  c->times[c->pieces + 1] = c->times[c->pieces] + time;
-  c->pieces++;
-}
+// ---- from rest to rest
 
-static void nsvcd__trajectory_begin(nsvcd__trajectory *c, size_t joints, const double *at) {
-  c->pieces = 0;
-  c->times[0] = 0;
-  memcpy(c->points, at, joints * sizeof *at);
-}
-
-// Goes along the way, with a rest at each corner. Returns 0 where there are too many. A way of one
-// place is a rest, of no pieces.
-static int nsvcd__trajectory_along(nsvcd__router *r) {
-  nsvcd__trajectory *c = &r->trajectory;
-  const size_t joints = r->joints;
-  if (3 * r->path_count > NSVCD__MOST_PIECES) return 0;
-  nsvcd__trajectory_begin(c, joints, r->path);
-  for (size_t k = 0; k + 1 < r->path_count; k++) {
-    const double *from = r->path + k * joints;
-    const double *to = from + joints;
-    // of the share of the edge that has been gone along
-    double speed = HUGE_VAL;
-    double most = HUGE_VAL;
-    for (size_t j = 0; j < joints; j++) {
-      const nsvcd_joint *joint = &r->scene->joints[j];
-      const double d = fabs(to[j] - from[j]);
-      if (!(d > 0)) continue;
-      speed = nsvcd__min(speed, NSVCD__BLEND_FRACTION * nsvcd__speed_of(joint) / d);
-      most = nsvcd__min(most, NSVCD__BLEND_FRACTION * nsvcd__acceleration_of(joint) / d);
-    }
-    if (!(speed < HUGE_VAL)) continue;
-    const double up = nsvcd__min(speed / most, sqrt(1 / most));
-    const double fast = most * up;
-    const double even = (1 - fast * up) / fast;
-    const double changed = 0.5 * fast * up;  // share of the edge
-    const int is_even = even > NSVCD__SLIVER;
-    // 0, changed, 1 - changed, 1; without an even part, a half
-    const double shares[4] = {0, is_even ? changed : 0.5, is_even ? 1 - changed : 0.5, 1};
-    const double middles[3] = {0, 0.5, 1};
-    const double lasts[3] = {is_even ? up : 1 / fast, even, is_even ? up : 1 / fast};
-    for (size_t n = 0; n < 3; n++) {
-      double middle[NSVCD_MAX_JOINTS], end[NSVCD_MAX_JOINTS];
-      if (n == 1 && !is_even) continue;
-      for (size_t j = 0; j < joints; j++) {
-        middle[j] = from[j] + middles[n] * (to[j] - from[j]);
-        end[j] = n == 2 ? to[j] : from[j] + shares[n + 1] * (to[j] - from[j]);
-      }
-      nsvcd__trajectory_add(c, joints, middle, end, lasts[n]);
-    }
+// Adds pieces along an edge: speeds up, goes on, slows down, all joints in proportion.
+static void nsvcd__add_edge(nsvcd__router *r, const double *from, const double *to) {
+  nsvcd__trajectory *t = &r->trajectory;
+  // of the fraction of the edge
+  double speed = HUGE_VAL;
+  double most = HUGE_VAL;
+  for (size_t j = 0; j < r->joints; j++) {
+    const nsvcd_joint *joint = &r->scene->joints[j];
+    const double d = fabs(to[j] - from[j]);
+    if (!(d > 0)) continue;
+    speed = nsvcd__min(speed, NSVCD__BLEND_FRACTION * nsvcd__speed_of(joint) / d);
+    most = nsvcd__min(most, NSVCD__BLEND_FRACTION * nsvcd__acceleration_of(joint) / d);
   }
+  if (!(speed < HUGE_VAL)) return;
+  const double up = nsvcd__min(speed / most, sqrt(1 / most));
+  const double fast = most * up;
+  const double even = (1 - fast * up) / fast;
+  const int is_even = even > NSVCD__SLIVER;
+  // fractions where pieces end, and how long they take
+  const double first = is_even ? 0.5 * fast * up : 0.5;
+  const double ends[3] = {first, is_even ? 1 - first : 0.5, 1};
+  const double middles[3] = {0, 0.5, 1};
+  const double lasts[3] = {is_even ? up : 1 / fast, even, is_even ? up : 1 / fast};
+  for (size_t n = 0; n < 3; n += is_even ? 1 : 2) {
+    double middle[NSVCD_MAX_JOINTS], end[NSVCD_MAX_JOINTS];
+    for (size_t j = 0; j < r->joints; j++) {
+      middle[j] = from[j] + middles[n] * (to[j] - from[j]);
+      end[j] = n == 2 ? to[j] : from[j] + ends[n] * (to[j] - from[j]);
+    }
+    const double time = nsvcd__trajectory_end(t) + lasts[n];
+    nsvcd__trajectory_add(t, r->joints, middle, end, time);
+  }
+}
+
+// A motion along the path, with a rest at each corner. Returns 0 where there are too many. A path
+// of one corner becomes a motion of no pieces.
+static int nsvcd__trajectory_along(nsvcd__router *r) {
+  if (3 * r->corners > NSVCD__MOST_PIECES) return 0;
+  nsvcd__trajectory_begin(&r->trajectory, r->joints, r->path);
+  for (size_t k = 0; k + 1 < r->corners; k++)
+    nsvcd__add_edge(r, nsvcd__corner_at(r, k), nsvcd__corner_at(r, k + 1));
   return 1;
 }
 
 // Is the motion at rest where a piece begins?
-static int nsvcd__rests_at(const nsvcd__trajectory *c, size_t joints, size_t piece) {
-  const double *at = c->points + 2 * piece * joints;
+static int nsvcd__rests_at(const nsvcd__trajectory *t, size_t joints, size_t piece) {
+  const double *at = t->points + 2 * piece * joints;
   for (size_t j = 0; j < joints; j++) {
     if (fabs(at[j + joints] - at[j]) > 1e-12 * (1 + fabs(at[j]))) return 0;
   }
   return 1;
 }
 
-// Copies the trajectory from time t0 to t1 to the end of another. Returns 0 where a sliver would be
-// left, or there is no room.
-static int nsvcd__trajectory_copy(const nsvcd__trajectory *c, size_t joints, double t0,
-                                  double t1, nsvcd__trajectory *out) {
-  const nsvcd_joint_motion motion = nsvcd__motion_of(c);
-  for (size_t p = nsvcd__piece_at(&motion, t0); p < c->pieces && c->times[p] < t1; p++) {
-    const double from = nsvcd__max(t0, c->times[p]);
-    const double to = nsvcd__min(t1, c->times[p + 1]);
+// ---- smooth
+
+// Adds a trajectory from time t0 to t1 to another one. Returns 0 where a sliver would be left, or
+// there is no room.
+static int nsvcd__trajectory_append(const nsvcd__trajectory *t, size_t joints, double t0,
+                                    double t1, nsvcd__trajectory *out) {
+  const nsvcd_joint_motion *m = &t->motion;
+  for (size_t p = nsvcd__piece_at(m, t0); p < m->pieces && t->times[p] < t1; p++) {
+    const double from = nsvcd__max(t0, t->times[p]);
+    const double to = nsvcd__min(t1, t->times[p + 1]);
     double middle[NSVCD_MAX_JOINTS], end[NSVCD_MAX_JOINTS];
     if (to - from <= NSVCD__SAME_TIME) continue;
-    if (to - from < NSVCD__SLIVER || out->pieces == NSVCD__MOST_PIECES) return 0;
+    if (to - from < NSVCD__SLIVER || out->motion.pieces == NSVCD__MOST_PIECES) return 0;
     for (size_t j = 0; j < joints; j++) {
       double points[NSVCD_MAX_DEGREE + 1];
-      nsvcd__joint_points(&motion, p, joints, j, points);
-      nsvcd__cut_curve(points, 2, nsvcd__fraction_at(&motion, p, from),
-                       nsvcd__fraction_at(&motion, p, to));
+      nsvcd__joint_points(m, p, joints, j, points);
+      nsvcd__cut_curve(points, 2, nsvcd__fraction_at(m, p, from),
+                       nsvcd__fraction_at(m, p, to));
       middle[j] = points[1];
       end[j] = points[2];
     }
-    nsvcd__trajectory_add(out, joints, middle, end, to - from);
+    const double time = nsvcd__trajectory_end(out) + (to - from);
+    nsvcd__trajectory_add(out, joints, middle, end, time);
   }
   return 1;
 }
 
+// Writes what the trajectory would be with the blend in place of what is from time t0 to t1. Returns
+// 0 as nsvcd__trajectory_append does.
+static int nsvcd__splice(const nsvcd__router *r, double t0, double t1,
+                         nsvcd__trajectory *out) {
+  const size_t joints = r->joints;
+  const nsvcd__trajectory *t = &r->trajectory;
+  const nsvcd__trajectory *blend = &r->blend;
+  nsvcd__trajectory_begin(out, joints, t->points);
+  if (!nsvcd__trajectory_append(t, joints, 0, t0, out)) return 0;
+  if (out->motion.pieces + blend->motion.pieces > NSVCD__MOST_PIECES) return 0;
+  for (size_t p = 0; p < blend->motion.pieces; p++) {
+    const double *middle = blend->points + (2 * p + 1) * joints;
+    const double time = blend->times[p + 1] - blend->times[p];
+    nsvcd__trajectory_add(out, joints, middle, middle + joints,
+                          nsvcd__trajectory_end(out) + time);
+  }
+  return nsvcd__trajectory_append(t, joints, t1, nsvcd__trajectory_end(t), out);
+}
+
 // Replaces the trajectory from time t0 to t1 by a blend, if that is quicker by `gain` and proven.
 static nsvcd_result nsvcd__smooth_once(nsvcd__router *r, double t0, double t1, double gain) {
-  const size_t joints = r->joints;
-  double states[4][NSVCD_MAX_JOINTS];
-  const nsvcd_joint_motion motion = nsvcd__motion_of(&r->trajectory);
-  const double times[2] = {t0, t1};
-  for (size_t n = 0; n < 2; n++) {
-    const size_t piece = nsvcd__piece_at(&motion, times[n]);
-    nsvcd__joints_at(&motion, joints, piece, nsvcd__fraction_at(&motion, piece, times[n]),
-                     states[n], states[n + 2]);
-  }
-  nsvcd__trajectory *blend = &r->blend;
-  blend->pieces =
-      nsvcd__blend_write(r->scene, states, t1 - t0 - gain, blend->points, blend->times);
-  if (!blend->pieces) return NSVCD_OK;
-  // the whole as it would be: what is left of the trajectory, and the blend between
-  nsvcd__trajectory *out = &r->other;
-  nsvcd__trajectory_begin(out, joints, r->trajectory.points);
-  const double end = r->trajectory.times[r->trajectory.pieces];
-  if (!nsvcd__trajectory_copy(&r->trajectory, joints, 0, t0, out)) return NSVCD_OK;
-  if (out->pieces + blend->pieces > NSVCD__MOST_PIECES) return NSVCD_OK;
-  for (size_t p = 0; p < blend->pieces; p++) {
-    const double *middle = blend->points + (2 * p + 1) * joints;
-    nsvcd__trajectory_add(out, joints, middle, middle + joints,
-                          blend->times[p + 1] - blend->times[p]);
-  }
-  if (!nsvcd__trajectory_copy(&r->trajectory, joints, t1, end, out)) return NSVCD_OK;
+  const nsvcd_joint_motion *m = &r->trajectory.motion;
+  nsvcd__state from, to;
   int is_free;
-  const nsvcd_joint_motion asked = nsvcd__motion_of(blend);
-  const nsvcd_result result = nsvcd__ask_motion(r, &asked, &is_free);
+  nsvcd__joints_at_time(m, r->joints, t0, from.x, from.v);
+  nsvcd__joints_at_time(m, r->joints, t1, to.x, to.v);
+  if (!nsvcd__blend_write(r->scene, &from, &to, t1 - t0 - gain, &r->blend)) return NSVCD_OK;
+  if (!nsvcd__splice(r, t0, t1, &r->other)) return NSVCD_OK;
+  const nsvcd_result result = nsvcd__ask_motion(r, &r->blend.motion, &is_free);
   if (result || !is_free) return result;
   const nsvcd__trajectory was = r->trajectory;
   r->trajectory = r->other;
@@ -3454,29 +3455,29 @@ static nsvcd_result nsvcd__smooth_once(nsvcd__router *r, double t0, double t1, d
 
 static nsvcd_result nsvcd__smooth(nsvcd__router *r) {
   for (size_t n = 0; n < r->options.smoothings && !r->is_stopped; n++) {
-    const nsvcd__trajectory *c = &r->trajectory;
-    const double end = c->times[c->pieces];
+    const nsvcd__trajectory *t = &r->trajectory;
+    const double end = nsvcd__trajectory_end(t);
     if (end <= NSVCD__FAST_ENOUGH * r->answer.unhindered) return NSVCD_OK;
     double t0 = end * nsvcd__random(&r->random);
     double t1 = end * nsvcd__random(&r->random);
     size_t rests = 0;
     double rest = 0;
-    for (size_t p = 1; p < c->pieces && n % 2; p++) {
+    for (size_t p = 1; p < t->motion.pieces && n % 2; p++) {
       // each as likely as the others
-      if (!nsvcd__rests_at(c, r->joints, p)) continue;
-      if (nsvcd__random(&r->random) * (double)++rests <= 1) rest = c->times[p];
+      if (!nsvcd__rests_at(t, r->joints, p)) continue;
+      if (nsvcd__random(&r->random) * (double)++rests <= 1) rest = t->times[p];
     }
     if (rests > 0) {
-      const double window =
-          NSVCD__HALF_WINDOW /
-          (double)(1 << (size_t)(NSVCD__WINDOWS * nsvcd__random(&r->random)));
+      const size_t halvings = (size_t)(NSVCD__WINDOWS * nsvcd__random(&r->random));
+      const double window = NSVCD__HALF_WINDOW / (double)(1 << halvings);
       t0 = nsvcd__max(0, rest - window);
       t1 = nsvcd__min(end, rest + window);
     }
     const double least = NSVCD__LEAST_GAIN * fabs(t1 - t0);
     const double worthy = NSVCD__WORTHY_GAIN * (end - r->answer.unhindered);
-    const nsvcd_result result = nsvcd__smooth_once(r, nsvcd__min(t0, t1), nsvcd__max(t0, t1),
-                                                   rests ? least : nsvcd__max(least, worthy));
+    const double gain = rests ? least : nsvcd__max(least, worthy);
+    const nsvcd_result result =
+        nsvcd__smooth_once(r, nsvcd__min(t0, t1), nsvcd__max(t0, t1), gain);
     if (result) return result;
   }
   return NSVCD_OK;
@@ -3485,16 +3486,17 @@ static nsvcd_result nsvcd__smooth(nsvcd__router *r) {
 // ------------------------------------------------------------------------------------- robot/route
 // In: a start and goals. Out: a motion that is proven free, in the caller's memory.
 
+// defaults; tries: for each node
 #define NSVCD__NODES 20000
-// for each node; and those after which a tree that has not grown is to along its joints
 #define NSVCD__TRIES 4
-#define NSVCD__IDLE 100
 #define NSVCD__SHORTCUTS 20
 #define NSVCD__SMOOTHINGS 200
-// of all joints whose limits are wider, only what is no farther than this from the start and the
-// goals is drawn from, but for one configuration in eight
+// turns after which a tree that has not grown tries along single joints
+#define NSVCD__IDLE 100
+// radians or metres: seven configurations in eight are drawn no farther than this from the range of
+// the start and the goals
 #define NSVCD__BESIDE 3.2
-// radians or metres: corners of a way that are no farther apart are one
+// radians or metres: corners of a path that are no farther apart are one
 #define NSVCD__SAME_CORNER 1e-9
 
 // ---- memory
@@ -3513,18 +3515,16 @@ static nsvcd_result nsvcd__route_check(const nsvcd_checker *checker,
   const double *rows[3] = {problem->start, problem->goals, problem->guess};
   const size_t counts[3] = {1, problem->goal_count, problem->guess_count};
   for (size_t n = 0; n < 3; n++) {
-    for (size_t k = 0; k < counts[n] * checker->scene->joint_count; k++) {
-      if (!nsvcd__is_number(rows[n][k], (double)NSVCD_MAX_COORDINATE))
-        return NSVCD_ERROR_VALUE;
-    }
+    if (!nsvcd__are_numbers(rows[n], counts[n] * checker->scene->joint_count))
+      return NSVCD_ERROR_VALUE;
   }
   return NSVCD_OK;
 }
 
-static void nsvcd__trajectory_take(nsvcd__trajectory *c, char *base, uint64_t *used,
+static void nsvcd__trajectory_take(nsvcd__trajectory *t, char *base, uint64_t *used,
                                    size_t pieces, size_t joints) {
-  c->points = (double *)nsvcd__take(base, used, (2 * pieces + 1) * joints, sizeof(double));
-  c->times = (double *)nsvcd__take(base, used, pieces + 1, sizeof(double));
+  t->points = (double *)nsvcd__take(base, used, (2 * pieces + 1) * joints, sizeof(double));
+  t->times = (double *)nsvcd__take(base, used, pieces + 1, sizeof(double));
 }
 
 // Lays a router out at base, which is aligned, or, where that is NULL, only counts. Returns the
@@ -3548,7 +3548,7 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
   if (o->shortcuts == NSVCD_NONE) o->shortcuts = 0;
   if (o->smoothings == NSVCD_NONE) o->smoothings = 0;
   const size_t joints = checker->scene->joint_count;
-  // what is given is not counted as a node
+  // the caller's configurations do not count as nodes
   const size_t nodes = o->nodes + problem->goal_count + problem->guess_count + 1;
   for (size_t k = 0; k < 2; k++) {
     nsvcd__rrt *t = &r->trees[k];
@@ -3579,7 +3579,7 @@ NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
 
 // ---- trees
 
-// A value of a joint in the limits, near the start and the goals or anywhere.
+// A value of a joint in its limits, near the start and the goals or anywhere.
 static double nsvcd__draw_joint(nsvcd__router *r, size_t j, int is_wide) {
   const nsvcd_joint *joint = &r->scene->joints[j];
   double low = r->low[j] - NSVCD__BESIDE;
@@ -3591,16 +3591,16 @@ static double nsvcd__draw_joint(nsvcd__router *r, size_t j, int is_wide) {
   return low + (high - low) * nsvcd__random(&r->random);
 }
 
-// A configuration that the tree whose turn it is is to grow towards: any, or, where it has not
-// grown for long, every other time one of its own with one joint moved. The way out of a hole is
-// often along a joint, and no other edge of some length is free there.
+// A configuration towards which a tree is to grow: any; where it has not grown for long, every
+// other time, one of its own nodes with one joint moved. Out of a hole the only free edges are
+// often those along one joint.
 static void nsvcd__draw(nsvcd__router *r, size_t turn, double *out) {
   const size_t joints = r->joints;
   const nsvcd__rrt *t = &r->trees[turn % 2];
   if (r->idle[turn % 2] >= NSVCD__IDLE && turn / 2 % 2) {
     const size_t node = (size_t)(nsvcd__random(&r->random) * (double)t->count);
     const size_t joint = (size_t)(nsvcd__random(&r->random) * (double)joints);
-    memcpy(out, t->points + node * joints, joints * sizeof *out);
+    memcpy(out, nsvcd__node_at(t, node), joints * sizeof *out);
     out[joint] = nsvcd__draw_joint(r, joint, 1);
     return;
   }
@@ -3614,26 +3614,25 @@ static int nsvcd__is_at_limit(const nsvcd__router *r) {
          r->answer.checks >= r->options.tries;
 }
 
-// Grows a tree from its node nearest to a configuration, edge by edge until it is there or, unless
-// `is_greedy`, once. Returns the last node that is new in *node, or the nearest one; *is_there: it
-// is the configuration.
+// Grows a tree from its node nearest to a configuration: by one edge, or, if `is_greedy`, edge by
+// edge until it is there. *node: the last new node, or the nearest one. *is_there: it is the
+// configuration.
 static nsvcd_result nsvcd__grow(nsvcd__router *r, nsvcd__rrt *t, const double *to,
                                 int is_greedy, size_t *node, int *is_there) {
-  const size_t joints = r->joints;
   *node = nsvcd__tree_nearest(t, to);
   *is_there = 0;
   do {
     double next[NSVCD_MAX_JOINTS];
-    const double *from = t->points + *node * joints;
-    const double length = sqrt(nsvcd__distance2(from, to, joints));
+    const double *from = nsvcd__node_at(t, *node);
+    const double length = nsvcd__edge_length(r, from, to);
     const int ends = length <= r->options.edge;
-    for (size_t j = 0; j < joints; j++)
-      next[j] = ends ? to[j] : from[j] + r->options.edge / length * (to[j] - from[j]);
+    int is_free;
     if (!(length > 0)) {
       *is_there = 1;
       return NSVCD_OK;
     }
-    int is_free;
+    for (size_t j = 0; j < r->joints; j++)
+      next[j] = ends ? to[j] : from[j] + r->options.edge / length * (to[j] - from[j]);
     const nsvcd_result result = nsvcd__prove_edge(r, from, next, &is_free);
     if (result) return result;
     if (!is_free || nsvcd__is_at_limit(r)) return NSVCD_OK;
@@ -3643,161 +3642,151 @@ static nsvcd_result nsvcd__grow(nsvcd__router *r, nsvcd__rrt *t, const double *t
   return NSVCD_OK;
 }
 
-// Writes the way through nodes of both trees that are at the same place.
+// Writes the path through nodes of both trees that are the same configuration.
 static void nsvcd__path_through(nsvcd__router *r, size_t from_start, size_t from_goal) {
-  const size_t joints = r->joints;
-  const size_t bytes = joints * sizeof(double);
+  const size_t bytes = r->joints * sizeof(double);
   const nsvcd__rrt *start = &r->trees[0];
   const nsvcd__rrt *goal = &r->trees[1];
   size_t count = 1;
   for (size_t n = from_start; start->parents[n] != n; n = start->parents[n]) count++;
-  r->path_count = count;
+  r->corners = count;
   for (size_t n = from_start; count-- > 0; n = start->parents[n])
-    memcpy(r->path + count * joints, start->points + n * joints, bytes);
+    memcpy(nsvcd__corner_at(r, count), nsvcd__node_at(start, n), bytes);
   size_t n = from_goal;
-  for (; goal->parents[n] != n; n = goal->parents[n])
-    memcpy(r->path + r->path_count++ * joints, goal->points + goal->parents[n] * joints,
-           bytes);
+  while (goal->parents[n] != n) {
+    n = goal->parents[n];
+    memcpy(nsvcd__corner_at(r, r->corners++), nsvcd__node_at(goal, n), bytes);
+  }
   r->answer.goal = r->goals[n];
 }
 
-// The way that is guessed: the trees take what is free of it from both ends.
+// An edge from a node of the first tree to one of the second: if it is free, the path is found.
+static nsvcd_result nsvcd__join(nsvcd__router *r, size_t from_start, size_t from_goal,
+                                int *is_found) {
+  const double *to = nsvcd__node_at(&r->trees[1], from_goal);
+  const double *from = nsvcd__node_at(&r->trees[0], from_start);
+  const nsvcd_result result = nsvcd__prove_edge(r, from, to, is_found);
+  if (result || !*is_found) return result;
+  const size_t node = nsvcd__tree_add(&r->trees[0], to, from_start);
+  nsvcd__path_through(r, node, from_goal);
+  return NSVCD_OK;
+}
+
+// The trees take what is free of the caller's guess, from both ends.
 static nsvcd_result nsvcd__take_guess(nsvcd__router *r, int *is_found) {
   const nsvcd_route_problem *p = &r->problem;
-  const size_t joints = r->joints;
   size_t first = 0;
   size_t last = p->guess_count;
   size_t nodes[2] = {0, 0};
-  int is_free = 1;
   // which goal it leads to
-  if (last > 0) nodes[1] = nsvcd__tree_nearest(&r->trees[1], p->guess + (last - 1) * joints);
+  if (last > 0)
+    nodes[1] = nsvcd__tree_nearest(&r->trees[1], p->guess + (last - 1) * r->joints);
   for (int side = 0; side < 2; side++) {
     nsvcd__rrt *t = &r->trees[side];
-    for (is_free = 1; is_free && first < last;) {
-      const double *to = p->guess + (side ? last - 1 : first) * joints;
-      const nsvcd_result result =
-          nsvcd__prove_edge(r, t->points + nodes[side] * joints, to, &is_free);
+    while (first < last) {
+      const double *to = p->guess + (side ? last - 1 : first) * r->joints;
+      const double *from = nsvcd__node_at(t, nodes[side]);
+      int is_free;
+      const nsvcd_result result = nsvcd__prove_edge(r, from, to, &is_free);
       if (result) return result;
-      if (!is_free) continue;
+      if (!is_free) break;
       nodes[side] = nsvcd__tree_add(t, to, nodes[side]);
       first += side == 0;
       last -= side == 1;
     }
   }
-  if (first < last) return NSVCD_OK;
-  // what is left between
-  const nsvcd_result result =
-      nsvcd__prove_edge(r, r->trees[0].points + nodes[0] * joints,
-                        r->trees[1].points + nodes[1] * joints, is_found);
-  if (result || !*is_found) return result;
-  nodes[0] = nsvcd__tree_add(&r->trees[0], r->trees[1].points + nodes[1] * joints, nodes[0]);
-  nsvcd__path_through(r, nodes[0], nodes[1]);
-  return NSVCD_OK;
+  return first < last ? NSVCD_OK : nsvcd__join(r, nodes[0], nodes[1], is_found);
 }
 
+// RRT-Connect (Kuffner and LaValle 2000), after the guess and the straight lines. Difference: an
+// edge is proven, not sampled.
 static nsvcd_result nsvcd__seek(nsvcd__router *r) {
-  const size_t joints = r->joints;
   int is_found = 0;
   nsvcd_result result = nsvcd__take_guess(r, &is_found);
-  if (result || is_found) return result;
-  // straight lines
-  for (size_t g = 0; g < r->trees[1].count && g < r->problem.goal_count && !r->is_stopped;
-       g++) {
-    const double *goal = r->trees[1].points + g * joints;
-    result = nsvcd__prove_edge(r, r->trees[0].points, goal, &is_found);
-    if (result) return result;
-    if (!is_found) continue;
-    nsvcd__path_through(r, nsvcd__tree_add(&r->trees[0], goal, 0), g);
-    return NSVCD_OK;
-  }
-  for (size_t turn = 0; !r->is_stopped; turn++) {
+  // straight lines to the goals
+  const size_t goals =
+      r->trees[1].count < r->problem.goal_count ? r->trees[1].count : r->problem.goal_count;
+  for (size_t g = 0; g < goals && !result && !is_found && !r->is_stopped; g++)
+    result = nsvcd__join(r, 0, g, &is_found);
+  for (size_t turn = 0; !result && !is_found && !r->is_stopped; turn++) {
     nsvcd__rrt *grown = &r->trees[turn % 2];
     nsvcd__rrt *other = &r->trees[1 - turn % 2];
     double drawn[NSVCD_MAX_JOINTS];
     size_t node, met;
-    int is_there;
     nsvcd__draw(r, turn, drawn);
     const size_t before = grown->count;
+    int is_there;
     result = nsvcd__grow(r, grown, drawn, 0, &node, &is_there);
-    if (result) return result;
-    if (nsvcd__is_at_limit(r)) return NSVCD_OK;
+    if (result || nsvcd__is_at_limit(r)) return result;
     r->idle[turn % 2] = grown->count == before ? r->idle[turn % 2] + 1 : 0;
     if (grown->count == before) continue;
-    result = nsvcd__grow(r, other, grown->points + node * joints, 1, &met, &is_there);
-    if (result) return result;
-    if (!is_there) continue;
-    nsvcd__path_through(r, turn % 2 ? met : node, turn % 2 ? node : met);
-    return NSVCD_OK;
+    result = nsvcd__grow(r, other, nsvcd__node_at(grown, node), 1, &met, &is_found);
+    if (is_found) nsvcd__path_through(r, turn % 2 ? met : node, turn % 2 ? node : met);
   }
-  return NSVCD_OK;
+  return result;
 }
 
 // ---- shortcuts
 
-// A place on the way, this far along it: the corner before and the place.
+// The point that is this far along the path. Returns the corner before it.
 static size_t nsvcd__path_at(const nsvcd__router *r, double gone, double *at) {
-  const size_t joints = r->joints;
   size_t k = 0;
-  for (; k + 2 < r->path_count; k++) {
-    const double *from = r->path + k * joints;
-    const double length = sqrt(nsvcd__distance2(from, from + joints, joints));
-    if (gone <= length) break;
+  double length;
+  for (;; k++) {
+    length = nsvcd__edge_length(r, nsvcd__corner_at(r, k), nsvcd__corner_at(r, k + 1));
+    if (k + 2 >= r->corners || gone <= length) break;
     gone -= length;
   }
-  const double *from = r->path + k * joints;
-  const double length = sqrt(nsvcd__distance2(from, from + joints, joints));
+  const double *from = nsvcd__corner_at(r, k);
+  const double *to = nsvcd__corner_at(r, k + 1);
   const double fraction = length > 0 ? nsvcd__min(gone / length, 1) : 0;
-  for (size_t j = 0; j < joints; j++)
-    at[j] = from[j] + fraction * (from[j + joints] - from[j]);
+  for (size_t j = 0; j < r->joints; j++) at[j] = from[j] + fraction * (to[j] - from[j]);
   return k;
 }
 
-// Replaces what is between two places on the way by an edge, again and again, where that is free.
+// Replaces the path between two points drawn on it by an edge, again and again, where that is free.
 static nsvcd_result nsvcd__shorten(nsvcd__router *r) {
-  const size_t joints = r->joints;
-  for (size_t n = 0; n < r->options.shortcuts && r->path_count > 2 && !r->is_stopped; n++) {
+  const size_t bytes = r->joints * sizeof(double);
+  for (size_t n = 0; n < r->options.shortcuts && r->corners > 2 && !r->is_stopped; n++) {
     double at[2][NSVCD_MAX_JOINTS];
     double length = 0;
-    for (size_t k = 0; k + 1 < r->path_count; k++)
-      length +=
-          sqrt(nsvcd__distance2(r->path + k * joints, r->path + (k + 1) * joints, joints));
+    for (size_t k = 0; k + 1 < r->corners; k++)
+      length += nsvcd__edge_length(r, nsvcd__corner_at(r, k), nsvcd__corner_at(r, k + 1));
     const double a = length * nsvcd__random(&r->random);
     const double b = length * nsvcd__random(&r->random);
     const size_t first = nsvcd__path_at(r, nsvcd__min(a, b), at[0]);
     const size_t last = nsvcd__path_at(r, nsvcd__max(a, b), at[1]);
-    // on one edge there is nothing to win, and the way grows by a corner where none is cut off
+    // on one edge nothing is won, and the path would grow by corners
     if (first == last) continue;
     int is_free;
     const nsvcd_result result = nsvcd__prove_edge(r, at[0], at[1], &is_free);
     if (result) return result;
     if (!is_free) continue;
     // corners first + 1 to last make way for two
-    const size_t rest = r->path_count - (last + 1);
-    memmove(r->path + (first + 3) * joints, r->path + (last + 1) * joints,
-            rest * joints * sizeof(double));
-    memcpy(r->path + (first + 1) * joints, at[0], joints * sizeof(double));
-    memcpy(r->path + (first + 2) * joints, at[1], joints * sizeof(double));
-    r->path_count = first + 3 + rest;
+    const size_t rest = r->corners - (last + 1);
+    memmove(nsvcd__corner_at(r, first + 3), nsvcd__corner_at(r, last + 1), rest * bytes);
+    memcpy(nsvcd__corner_at(r, first + 1), at[0], bytes);
+    memcpy(nsvcd__corner_at(r, first + 2), at[1], bytes);
+    r->corners = first + 3 + rest;
   }
   return NSVCD_OK;
 }
 
 // Drops corners that are nearly at the one before: of so short an edge rounding would say what its
-// acceleration is. What is timed is proven as a whole.
+// acceleration is. The timed motion is proven as a whole.
 static void nsvcd__simplify_path(nsvcd__router *r) {
-  const size_t joints = r->joints;
-  const size_t bytes = joints * sizeof(double);
-  const double least = NSVCD__SAME_CORNER * NSVCD__SAME_CORNER;
-  const double *last = r->path + (r->path_count - 1) * joints;
+  const size_t bytes = r->joints * sizeof(double);
+  const double least2 = NSVCD__SAME_CORNER * NSVCD__SAME_CORNER;
+  const double *last = nsvcd__corner_at(r, r->corners - 1);
   size_t kept = 1;
-  for (size_t k = 1; k < r->path_count; k++) {
-    const double *at = r->path + k * joints;
-    if (nsvcd__distance2(r->path + (kept - 1) * joints, at, joints) < least) continue;
-    memmove(r->path + kept++ * joints, at, bytes);
+  for (size_t k = 1; k < r->corners; k++) {
+    const double *at = nsvcd__corner_at(r, k);
+    if (nsvcd__distance2(nsvcd__corner_at(r, kept - 1), at, r->joints) < least2) continue;
+    memmove(nsvcd__corner_at(r, kept++), at, bytes);
   }
   // the end stays where it is
-  memmove(r->path + (kept - 1) * joints, last, bytes);
-  r->path_count = kept;
+  memmove(nsvcd__corner_at(r, kept - 1), last, bytes);
+  r->corners = kept;
 }
 
 // ---- a route
@@ -3818,20 +3807,20 @@ NSVCDDEF const char *nsvcd_route_status_string(nsvcd_route_status status) {
   return "not a status";
 }
 
-// A configuration in *out, taken into the limits where rounding has it out. Is it free? All the
-// work is given to that.
+// Copies a configuration, clamped to the limits where only rounding has it out. Is it free? That is
+// tried with the search's clearance, then with the caller's, each with the search's work, then with
+// all; edges from there are proven with what was enough.
 static nsvcd_result nsvcd__take_in(nsvcd__router *r, const double *at, double *out,
                                    int *is_free) {
   const nsvcd_joint_motion motion = {0, 0, out, NULL};
   for (size_t j = 0; j < r->joints; j++) {
     const nsvcd_joint *joint = &r->scene->joints[j];
-    const double off = nsvcd__limit_off(joint);
+    const double error = nsvcd__limit_error(joint);
     out[j] = at[j];
     if (joint->kind == NSVCD_JOINT_CONTINUOUS) continue;
-    if (at[j] < joint->low && at[j] >= joint->low - off) out[j] = joint->low;
-    if (at[j] > joint->high && at[j] <= joint->high + off) out[j] = joint->high;
+    if (at[j] < joint->low && at[j] >= joint->low - error) out[j] = joint->low;
+    if (at[j] > joint->high && at[j] <= joint->high + error) out[j] = joint->high;
   }
-  // if it is free only with nothing to spare, or by more work, so are edges from there
   const nsvcd_check_options was = r->check;
   for (size_t n = 0; n < 4; n++) {
     r->check = was;
@@ -3847,7 +3836,7 @@ static nsvcd_result nsvcd__take_in(nsvcd__router *r, const double *at, double *o
   return NSVCD_OK;
 }
 
-// Adds a root to a tree, and takes it into the range of all roots.
+// Adds a root to a tree, and to the range of all roots.
 static void nsvcd__plant_root(nsvcd__router *r, nsvcd__rrt *t, const double *at) {
   const int is_first = r->trees[0].count == 0;
   for (size_t j = 0; j < r->joints; j++) {
@@ -3857,23 +3846,25 @@ static void nsvcd__plant_root(nsvcd__router *r, nsvcd__rrt *t, const double *at)
   nsvcd__tree_add(t, at, t->count);
 }
 
-// Roots of the trees. Sets the status where there are none.
+// Plants the roots of the trees. Sets the status where there are none.
 static nsvcd_result nsvcd__plant(nsvcd__router *r) {
+  const double full_turn = 6.283185307179586;
   double at[NSVCD_MAX_JOINTS];
   int is_free;
   nsvcd_result result = nsvcd__take_in(r, r->problem.start, at, &is_free);
   if (result) return result;
-  if (!is_free) r->answer.status = NSVCD_ROUTE_START;
-  if (!is_free) return NSVCD_OK;
+  if (!is_free) {
+    r->answer.status = NSVCD_ROUTE_START;
+    return NSVCD_OK;
+  }
   nsvcd__plant_root(r, &r->trees[0], at);
   for (size_t g = 0; g < r->problem.goal_count && !result; g++) {
     result = nsvcd__take_in(r, r->problem.goals + g * r->joints, at, &is_free);
     if (result || !is_free) continue;
     // as near as whole turns bring it
     for (size_t j = 0; j < r->joints; j++) {
-      const double turns = floor((at[j] - r->trees[0].points[j]) / 6.283185307179586 + 0.5);
-      if (r->scene->joints[j].kind == NSVCD_JOINT_CONTINUOUS)
-        at[j] -= 6.283185307179586 * turns;
+      const double turns = floor((at[j] - r->trees[0].points[j]) / full_turn + 0.5);
+      if (r->scene->joints[j].kind == NSVCD_JOINT_CONTINUOUS) at[j] -= full_turn * turns;
     }
     r->goals[r->trees[1].count] = g;
     nsvcd__plant_root(r, &r->trees[1], at);
@@ -3882,15 +3873,15 @@ static nsvcd_result nsvcd__plant(nsvcd__router *r) {
   return result;
 }
 
-// From the way to a motion, proven as it is: smooth, else with a rest at each corner.
+// Makes a motion of the path and proves all of it: smooth, else with a rest at each corner.
 static nsvcd_result nsvcd__time_path(nsvcd__router *r) {
-  const size_t joints = r->joints;
-  const double *last = r->path + (r->path_count - 1) * joints;
-  for (size_t j = 0; j < joints; j++) {
+  nsvcd_route_answer *answer = &r->answer;
+  const double *last = nsvcd__corner_at(r, r->corners - 1);
+  for (size_t j = 0; j < r->joints; j++) {
     const nsvcd_joint *joint = &r->scene->joints[j];
     const double time = nsvcd__blend_time(r->path[j], 0, last[j], 0, nsvcd__speed_of(joint),
                                           nsvcd__acceleration_of(joint));
-    r->answer.unhindered = nsvcd__max(r->answer.unhindered, time);
+    answer->unhindered = nsvcd__max(answer->unhindered, time);
   }
   int is_free = 0;
   nsvcd_check_options whole;
@@ -3898,23 +3889,21 @@ static nsvcd_result nsvcd__time_path(nsvcd__router *r) {
   whole.clearance = r->options.clearance;
   whole.stop = r->check.stop;
   whole.user = r->check.user;
+  const nsvcd__trajectory *t = &r->trajectory;
   for (int rests = 0; rests < 2 && !is_free; rests++) {
     nsvcd_result result = NSVCD_OK;
-    if (!nsvcd__trajectory_along(r)) break;
+    if (!nsvcd__trajectory_along(r)) return NSVCD_OK;
     if (!rests) result = nsvcd__smooth(r);
-    if (result) return result;
-    // though the search is stopped: what it has found by then is not given up
-    const nsvcd_joint_motion motion = nsvcd__motion_of(&r->trajectory);
-    result = nsvcd__prove_by(r, &motion, &whole, &is_free);
+    // also when the search was stopped: what it found by then is proven
+    if (!result) result = nsvcd__prove_by(r, &t->motion, &whole, &is_free);
     if (result) return result;
   }
   if (!is_free) return NSVCD_OK;
-  nsvcd_route_answer *answer = &r->answer;
   answer->status = NSVCD_ROUTE_FOUND;
-  answer->motion = nsvcd__motion_of(&r->trajectory);
-  answer->duration = r->trajectory.times[r->trajectory.pieces];
-  for (size_t p = 1; p < r->trajectory.pieces; p++)
-    answer->stops += (size_t)nsvcd__rests_at(&r->trajectory, joints, p);
+  answer->motion = t->motion;
+  answer->duration = nsvcd__trajectory_end(t);
+  for (size_t p = 1; p < t->motion.pieces; p++)
+    answer->stops += (size_t)nsvcd__rests_at(t, r->joints, p);
   return NSVCD_OK;
 }
 
@@ -3937,15 +3926,15 @@ NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_prob
   r->problem = *problem;
   r->random = r->options.seed;
   r->check.clearance = r->options.clearance + NSVCD__SPARE;
-  r->check.finest = NSVCD__SEEK_FINEST;
-  r->check.work = NSVCD__SEEK_WORK;
+  r->check.finest = NSVCD__SEARCH_FINEST;
+  r->check.work = NSVCD__SEARCH_WORK;
   r->check.stop = problem->abandon;
   r->check.user = problem->user;
   r->answer.status = NSVCD_ROUTE_LIMIT;
   result = nsvcd__plant(r);
   if (!result && r->trees[1].count > 0) result = nsvcd__seek(r);
-  if (!result && r->path_count > 0) result = nsvcd__shorten(r);
-  if (!result && r->path_count > 0) {
+  if (!result && r->corners > 0) result = nsvcd__shorten(r);
+  if (!result && r->corners > 0) {
     nsvcd__simplify_path(r);
     result = nsvcd__time_path(r);
   }

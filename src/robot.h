@@ -13,10 +13,12 @@
 // CONTENTS
 //
 // GLOSSARY
-//   part, link, piece a body of a scene; what a joint carries; of a motion of joints, one curve
-//   step, sample      of a piece, between two samples; a configuration in which parts are placed
-//   deviation         by how much a part leaves, in a step, the line and slerp between samples
-//   moment arm        how far a point of a part can be from a joint's axis
+//   part, link    a body of a scene; what a joint carries
+//   piece         one of the curves that a motion of the joints is made of
+//   sample, step  a configuration at a time of a motion, with all parts placed; from one to the next
+//   sweep         the line and the slerp of a part between its poses at two samples
+//   deviation     how far a part leaves its sweep in a step
+//   moment arm    how far a point of a part can be from a joint's axis
 #ifndef NEURALSVCD_ROBOT_H
 #define NEURALSVCD_ROBOT_H
 #ifndef NEURALSVCD_H  // include it first where it stands elsewhere
@@ -69,15 +71,18 @@ extern "C" {
 #include "ground/memory.h"     // the allocator; the rows of a workspace
 
 // ============================================================ robot: is a motion of joints free?
-#include "robot/chain.h"           // what moves what; where everything is
+#include "robot/chain.h"           // links, joints and frames: where everything is
 #include "robot/steps.h"           // what the joints do between two times
-#include "robot/deviation.h"       // how far a part leaves the motion between two samples
-#include "robot/path.h"            // pieces, pair by pair
+#include "robot/deviation.h"       // how far a part leaves its sweep between two samples
+#include "robot/checker.h"         // the checker of a scene
+#include "robot/samples.h"         // configurations of a motion, and boxes about the parts in them
+#include "robot/local_queries.h"   // two parts, in the frame of one of them
+#include "robot/check.h"           // is a motion of the joints free?
 #include "robot/proofs.h"          // certificates of pairs
-#include "robot/rrt.h"             // configurations, and the nearest of them
+#include "robot/rrt.h"             // trees of configurations, and the nearest node
 #include "robot/configurations.h"  // proximities, the nearest free one, pairs that can meet
 #include "robot/blends.h"  // from one state to another, within limits of speed and acceleration
-#include "robot/smooth.h"  // a way in time, then smooth
+#include "robot/smooth.h"  // a path, timed, then smooth
 #include "robot/route.h"   // two trees of proven edges, shortcuts
 
 #if defined(__GNUC__) || defined(__clang__)

@@ -230,31 +230,31 @@ asks: contacts of one normal|int tries = nsvcd__manifold_normals(p, \&found, \&t
 asks: all of a short way|fmax(0.25 * whole,|fmax(whole,
 asks: nothing between the directions|area > NSVCD__SLIM * square) return 0;|area >= 0) return 0;
 asks: few places looked at|if (looks == NSVCD__HOLDS|if (looks == 3
-robot: joints that do not bend|bend += step->bend[j] * moment_arms[j];|(void)bend;
-robot: half the bend|bend += step->bend[j] * moment_arms[j];|bend += 0.5 * step->bend[j] * moment_arms[j];
+robot: joints that do not bend|bend += step->bend[j] * arms[j];|(void)bend;
+robot: half the bend|bend += step->bend[j] * arms[j];|bend += 0.5 * step->bend[j] * arms[j];
 robot: joints that do not turn each other|(2 * inner + own)|(own)
 robot: joints that turn each other once|(2 * inner + own)|(inner + own)
 robot: joints without a square|(2 * inner + own)|(2 * inner)
-robot: no slerp|turn * turn * extent) / 8|0 * turn * extent) / 8
+robot: no slerp|w * w * c->members[part].extent) / 8|0 * w * c->members[part].extent) / 8
 robot: a slerp of half the angle|return 4 * asin(|return 2 * asin(
 robot: levers of the centre|+ m->radius + moved;|+ moved;
 robot: levers of the sample|+ m->radius + moved;|+ m->radius;
-robot: a step of a ninth|return (bend + second + turn * turn * extent) / 8;|return (bend + second + turn * turn * extent) / 9;
-postures: poses without rounding|if (moves) view->rounding += 2|if (0) view->rounding += 2
-postures: poses seen from the world|const nsvcd__frame in = nsvcd__frame_from(\&view->from, \&frames[n][k]);|const nsvcd__frame in = frames[n][k];
-postures: free of each other as floats|if (gap->verdict != NSVCD_FREE \|\| gap->distance.low > 0) return NSVCD_OK;|return NSVCD_OK;
-postures: depths of floats|question.clearance = deepest_off;|
-robot: strays of one part|nsvcd__off(c, pair->a) + nsvcd__off(c, pair->b);|nsvcd__off(c, pair->a);
+robot: a step of a ninth|return (bend + second + w * w * c->members[part].extent) / 8;|return (bend + second + w * w * c->members[part].extent) / 9;
+postures: poses without rounding|if (moves[n]) local.rounding += 2|if (0) local.rounding += 2
+postures: poses seen from the world|const nsvcd__frame in = nsvcd__frame_inverse_mul(\&local.frame, \&frames[n][k]);|const nsvcd__frame in = frames[n][k];
+postures: free of each other as floats|if (out->verdict != NSVCD_FREE \|\| out->distance.low > 0) return NSVCD_OK;|return NSVCD_OK;
+postures: depths of floats|question.clearance = nsvcd__above(error + 2e-7 * (double)o->deepest);|
+robot: strays of one part|nsvcd__part_error(c, pair->a) + nsvcd__part_error(c, pair->b);|nsvcd__part_error(c, pair->a);
 robot: speeds that jump|step->bend[j] += 2 * h * jumps;|(void)jumps;
 robot: half the jump of speed|step->bend[j] += 2 * h * jumps;|step->bend[j] += h * jumps;
 robot: the first piece of a step alone|for (size_t piece = first; piece <= last; piece++) {|for (size_t piece = first; piece <= first; piece++) {
-robot: bends by the share of a piece|second[i] = steps * steps * twice|second[i] = twice
-robot: no strays|const double clearance = (double)options->clearance + deviations;|const double clearance = (double)options->clearance;
-robot: boxes without the clearance|const double room = (double)options->clearance + off;|const double room = off;
-robot: boxes at samples alone|return nsvcd__box_over(\&from, \&to);|return from;
-robot: boxes without strays|const double room = (double)options->clearance + off;|const double room = (double)options->clearance;
+robot: bends by the share of a piece|second[i] = per_piece * per_piece * twice|second[i] = twice
+robot: no strays|const double clearance = (double)s->options->clearance + errors;|const double clearance = (double)s->options->clearance;
+robot: boxes without the clearance|const double room = (double)s->options->clearance + error;|const double room = error;
+robot: boxes at samples alone|nsvcd__bounds_over(at, at + 1)|*at
+robot: boxes without strays|const double room = (double)s->options->clearance + error;|const double room = (double)s->options->clearance;
 robot: the first step of a spell alone|range->steps = last - (steps ? range->first : 0);|range->steps = steps \&\& last > range->first ? 1 : 0;
-robot: the last piece alone|const size_t steps = next - p == 1|if (next < motion->pieces) continue;\n    const size_t steps = next - p == 1
+robot: the last piece alone|const size_t steps = next - p == 1|if (next < m.pieces) continue;\n    const size_t steps = next - p == 1
 robot: what is free of the first pair|if (!result \&\& found.verdict == NSVCD_FREE) continue;|if (!result \&\& found.verdict == NSVCD_FREE) break;
 robot: the other half of a tree never|nsvcd__nearest_in(t, cell->first + !(side > 0), at, off,|if (0) nsvcd__nearest_in(t, cell->first + !(side > 0), at, off,
 robot: leaves cut with a hole|if (!(off2 < *best)) return;|if (!(1.5 * off2 < *best)) return;
@@ -267,30 +267,30 @@ robot: shortcuts that are not proven|if (!is_free) continue;\n    // corners|if 
 robot: starts by the work of the search|if (n / 2) r->check.work = 0;|
 robot: a last proof that nobody ends|whole.stop = r->check.stop;|
 robot: trees that stay in their holes|if (r->idle[turn % 2] >= NSVCD__IDLE \&\&|if (0 \&\&
-robot: limits of joints that a route may leave|\&\& r->answer.check.joint == NSVCD_NONE;|;
-robot: whole turns are gone|at[j] -= 6.283185307179586 * turns;|at[j] -= 0 * turns;
+robot: limits of joints that a route may leave|return answer->verdict == NSVCD_FREE \&\& answer->joint == NSVCD_NONE;|return answer->verdict == NSVCD_FREE;
+robot: whole turns are gone|at[j] -= full_turn * turns;|at[j] -= 0 * turns;
 postures: slopes by the lever alone|slope[j] += sign * nsvcd__d3_dot(normal, speed);|slope[j] += sign * nsvcd__d3_length(speed);
-postures: slopes of a alone|nsvcd__slope_add(c, both->b, \&view, point, normal, -1, gap->slope);|
-postures: depths of a alone|nsvcd__slope_add(c, both->b, view, point, normal, -1 / rate, gap->slope);|
-postures: depths without a rate|nsvcd__slope_add(c, both->a, view, on_a, normal, 1 / rate, gap->slope);|nsvcd__slope_add(c, both->a, view, on_a, normal, 1, gap->slope);
+postures: slopes of a alone|nsvcd__slope_add(c, pair->b, \&local, point, normal, -1, out->slope);|
+postures: depths of a alone|nsvcd__slope_add(c, pair->b, local, point, normal, -1 / rate, out->slope);|
+postures: depths without a rate|nsvcd__slope_add(c, pair->a, local, on_a, normal, 1 / rate, out->slope);|nsvcd__slope_add(c, pair->a, local, on_a, normal, 1, out->slope);
 postures: depths where a is lifted|const nsvcd__d3 on_a = nsvcd__d3_fma(-high, push_out, point);|const nsvcd__d3 on_a = point;
-postures: near without the boxes' room|&members[1]->box, 1.000001 * max_distance))|&members[1]->box, 0.5 * max_distance))
-postures: near without within|question.clearance = nsvcd__above((double)o->max_distance + off);|question.clearance = 0;
-postures: no depth|gap->depth = nsvcd__above(high * length);|
-postures: a depth of half|gap->depth = nsvcd__above(high * length);|gap->depth = 0.5f * nsvcd__above(high * length);
-postures: a depth of all the lift|*(!result && found.verdict == NSVCD_FREE ? &high : &low) = middle;|low = middle;
-postures: brackets without rounding|gap->distance.high = nsvcd__above((double)found.distance.high + off);|gap->distance.high = found.distance.high;
-postures: more than there is room for|if (near_ones < capacity) gaps[near_ones] = gap;|gaps[near_ones] = gap;
+postures: near without the boxes' room|&b->bounds, 1.000001 * max_distance))|&b->bounds, 0.5 * max_distance))
+postures: near without within|question.clearance = nsvcd__above((double)o->max_distance + error);|question.clearance = 0;
+postures: no depth|out->depth = nsvcd__above(high * length);|
+postures: a depth of half|out->depth = nsvcd__above(high * length);|out->depth = 0.5f * nsvcd__above(high * length);
+postures: a depth of all the lift|*(found.verdict == NSVCD_FREE ? &high : &low) = middle;|low = middle;
+postures: brackets without rounding|out->distance.high = nsvcd__above((double)found.distance.high + error);|out->distance.high = found.distance.high;
+postures: more than there is room for|if (written < capacity) out[written] = found;|out[written] = found;
 postures: escapes without the clearance|{o->clearance, 0, 0, o->stop, o->user};|{0, 0, 0, o->stop, o->user};
-postures: escapes to anywhere|ring * o->farthest;|2 * ring * o->farthest;
+postures: escapes to anywhere|sphere * o->farthest;|2 * sphere * o->farthest;
 postures: no way back|memcpy(is_free ? at : blocked, middle, joints * sizeof *at);|memcpy(blocked, middle, joints * sizeof *at);
-postures: the first way out|*is_found ? NSVCD__FREE_NEARER * best : ring|*is_found ? o->farthest : ring
+postures: the first way out|*is_found ? NSVCD__FREE_NEARER * best : sphere|*is_found ? o->farthest : sphere
 postures: what touches once touches always|*in_all = !result && found.verdict == NSVCD_HIT;|*in_all = !result && (n > 0 ? 1 : found.verdict == NSVCD_HIT);
 postures: out of the limits|joints[j] = nsvcd__max(low, nsvcd__min(high, joints[j]));|
 postures: the world is adjacent|return a > 0 && b > 0 && (scene->joints[a - 1].parent == b|return a > 0 && (b == 0 \|\| scene->joints[a - 1].parent == b
 postures: never touching|pairs[in_all ? total - ++found.touching : found.asked++] = pair;|pairs[found.asked++] = pair;
-postures: handed over unturned|const nsvcd__frame out = {nsvcd__dquat_inverse_mul(from->turn, frame->turn),|const nsvcd__frame out = {frame->turn,
-postures: handed over from the world|const nsvcd__d3 offset = nsvcd__d3_sub(frame->position, from->position);|const nsvcd__d3 offset = frame->position;
+postures: handed over unturned|const nsvcd__frame out = {nsvcd__dquat_inverse_mul(a->turn, b->turn),|const nsvcd__frame out = {b->turn,
+postures: handed over from the world|const nsvcd__d3 offset = nsvcd__d3_sub(b->position, a->position);|const nsvcd__d3 offset = b->position;
 verify: nothing is needed|if (!(gap > least \&\& last > least \&\& gap < VERIFY__BEYOND)) return 0;|if (!(gap > -1e9)) return 0;
 verify: parted at the start alone|if (!(gap > least \&\& last > least \&\& gap < VERIFY__BEYOND)) return 0;|if (at == r->instants \&\& !(gap > least)) return 0;
 verify: parted at the ends by one of them|if (!(gap > least \&\& last > least \&\& gap < VERIFY__BEYOND)) return 0;|if (!(gap > least)) return 0;

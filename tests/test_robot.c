@@ -943,7 +943,7 @@ static void robot_strays_no_farther(void) {
             off = fmin(off, fmin(at_u, at_v));
           }
           // the search for the nearest place ends there
-          CHECK_LE(off, nsvcd__off(r.checker, part) + 1e-11);
+          CHECK_LE(off, nsvcd__part_error(r.checker, part) + 1e-11);
           farthest = fmax(farthest, off);
         }
       }
@@ -987,8 +987,7 @@ static void robot_levers_reach(void) {
     }
     const nsvcd_joint_motion motion = {1, 1, flat, NULL};
     nsvcd__step_of(&motion, joints, 0, 1, &step);
-    memcpy(from.joints, flat, joints * sizeof *flat);
-    nsvcd__pose_links(r.checker, &from);
+    nsvcd__place_links(r.checker, flat, &from);
     const size_t part = joints - 1;
     nsvcd__moment_arms_of(r.checker, part, &step, &from, moment_arms);
     for (int k = 0; k <= 20; k++) {
@@ -1066,11 +1065,11 @@ static void robot_ramps_are_quickest(void) {
     double x, v;
     if (!(time > 1e-3)) continue;
     CHECK(nsvcd__blend_solve(0, v0, x1, v1, speed * (1 + 1e-9), most * (1 + 1e-9), time, &r));
-    nsvcd__blend_at(&r, 0, v0, time, &x, &v);
+    nsvcd__blend_at(&r, time, &x, &v);
     CHECK_NEAR(x, x1, 1e-9 * (1 + fabs(x1) + speed * time));
     CHECK_NEAR(v, v1, 1e-9 * (speed + most * time));
     // never faster than the limit, and not quicker with less time
-    nsvcd__blend_at(&r, 0, v0, r.t1, &x, &v);
+    nsvcd__blend_at(&r, r.t1, &x, &v);
     CHECK_LE(fabs(v), speed * (1 + 1e-8));
     const int sooner = nsvcd__blend_solve(0, v0, x1, v1, speed, most, time * (1 - 1e-3), &r);
     CHECK(!sooner);

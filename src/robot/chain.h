@@ -1,89 +1,65 @@
 // In: a scene, and joint values. Out: a checker, and where links and parts are, in double. The
 // floor, top to bottom:
 //
-//   chain       what moves what; where everything is
-//   steps       what the joints do between two times
-//   deviate       how far points of a part can be from an axis; by how much a part leaves its sweep
-//   path        is a motion of the joints free?
-//   proofs      a certificate of a pair, as the joints move it
-//   trees       configurations, and the nearest of them
-//   configurations    one configuration: what is near, a way out; which pairs can meet
-//   blends       from one state to another, within limits of speed and acceleration
-//   smooth      a way in time, then smooth
-//   route       a start and goals: two trees of proven edges, shortcuts
+//   chain            links, joints and frames: forward kinematics
+//   steps            what the joints do between two times
+//   deviation        how far points of a part can be from an axis; how far a part leaves its sweep
+//   checker          the checker of a scene
+//   samples          configurations of a motion, and boxes about the parts in them
+//   local_queries    two parts, in the frame of one of them
+//   check            is a motion of the joints free?
+//   proofs           a certificate of a pair, as the joints move it
+//   rrt              trees of configurations, and the nearest node
+//   configurations   one configuration: proximities, the nearest free one; which pairs can meet
+//   blends           from one state to another, within limits of speed and acceleration
+//   smooth           a path, timed, then smooth
+//   route            a start and goals: two trees of proven edges, shortcuts
 //
-// It asks as any program does, by nsvcd_sweep.
+// All questions about bodies are asked by nsvcd_sweep, as any program asks them.
 #pragma once
 #include "../ground/memory.h"
 #include "../ground/rotations.h"
 #include "../ground/valid.h"
 #include "../interface/robots.h"
 
-// The schedule of a check.
-// steps that are looked at together, at most, and how often a motion is halved where that is too
-// few
+// steps of a check that are asked about together, at most
 #define NSVCD__MOST_STEPS 256
-#define NSVCD__STRETCHES 24
-// steps of what bends, at first
-#define NSVCD__FIRST_STEPS 4
-// radians or metres: where the way bends by less, steps go on across
-#define NSVCD__CORNER 1e-3
-// metres that a part may deviate at first; each time a pair is asked again it may by this share of
-// it
-#define NSVCD__COARSE 2e-3
-#define NSVCD__DEVIATION_FRACTION 8
-#define NSVCD__FINEST 1e-5f
-// units that a look for a hit may take, before the last
-#define NSVCD__PAIR_TRY 200
-// what frames in double are off, as a share of the lengths that they are computed from
-#define NSVCD__FRAME_ROUNDING 1e-13
 
-// A joint, as the checker has it; and the link that it carries.
-typedef struct nsvcd__link {
-  // in the parent link: where the joint is, and how it is turned, unit
-  nsvcd__d3 position;
-  nsvcd__dquat turn;
-  // unit, in the joint's frame
-  nsvcd__d3 axis;
-  // joints between the world and this link, itself included: bit i is joint i
-  uint32_t path;
-} nsvcd__link;
-
-// Where a link is, in the world.
+// A rotation and a position, in double.
 typedef struct nsvcd__frame {
-  nsvcd__dquat turn;
+  nsvcd__dquat turn;  // unit
   nsvcd__d3 position;
 } nsvcd__frame;
 
-// Joint values, and what follows from them.
+// A joint, as the checker has it, and the link that it carries.
+typedef struct nsvcd__link {
+  nsvcd__frame origin;  // of the joint, in its parent link
+  nsvcd__d3 axis;       // unit, in the joint's frame
+  uint32_t chain;       // joints from the world to this link, its own too: bit i is joint i
+} nsvcd__link;
+
+// Where the joints' values put the links, in the world.
 typedef struct nsvcd__configuration {
-  double joints[NSVCD_MAX_JOINTS];
-  // of the links, the world first
-  nsvcd__frame frames[NSVCD_MAX_JOINTS + 1];
-  // of the joints, in the world: unit
-  nsvcd__d3 axes[NSVCD_MAX_JOINTS];
+  nsvcd__frame frames[NSVCD_MAX_JOINTS + 1];  // of the links, the world first
+  nsvcd__d3 axes[NSVCD_MAX_JOINTS];           // of the joints: unit
 } nsvcd__configuration;
 
-// Sides along the world's axes.
+// A box along the world's axes, in double.
 typedef struct nsvcd__bounds {
   nsvcd__d3 low, high;
 } nsvcd__bounds;
 
 // A part, as the checker has it.
 typedef struct nsvcd__member {
-  // in its link
-  nsvcd__frame frame;
-  // of a sphere about its triangles, in its link; from its origin
+  nsvcd__frame frame;  // in its link
+  // a sphere about its triangles, in its link; and no point is farther from its origin
   nsvcd__d3 centre;
   double radius, extent;
-  // of a box about all of it, in its own axes, scaled; and half of its sides
+  // a box about all of it, in its own axes, scaled
   nsvcd__d3 middle, half;
-  // about all samples, or where it rests
-  nsvcd__bounds box;
-  // of a part that moves: where its samples begin
-  size_t row;
-  // metres, at most: by how much it leaves the way between its samples, and what frames in double
-  // are off
+  nsvcd__bounds bounds;  // of all samples, or where it rests
+  size_t row;            // its first sample, if it moves
+  // metres, at most: how far it leaves the sweep between its samples; errors of frames in double
   double deviation, rounding;
 } nsvcd__member;
 
@@ -91,16 +67,13 @@ struct nsvcd_checker {
   const nsvcd_scene *scene;
   nsvcd__link links[NSVCD_MAX_JOINTS];
   nsvcd__member *members;  // (B)
-  // (P): the pairs, as they are asked: what was hit last first
-  uint32_t *order;
-  // (P): those of a interval that are not proven yet
-  uint32_t *left;
-  // (movers, NSVCD__MOST_STEPS + 1): samples, in the world, and boxes about the parts there
+  uint32_t *order;         // (P): the pairs, as they are asked about: what was hit last first
+  uint32_t *left;          // (P): those of an interval that are not proven yet
+  // (moving parts, NSVCD__MOST_STEPS + 1): samples, in the world
   nsvcd__frame *frames;
-  nsvcd__bounds *boxes;
-  // (NSVCD__MOST_STEPS + 1): of both parts of a pair, as it is asked about; see nsvcd__sight
-  nsvcd_pose *seen[2];
-  // the times of the samples, and the most that a part deviates in the step after each
+  nsvcd__bounds *bounds;
+  nsvcd_pose *local[2];  // (NSVCD__MOST_STEPS + 1): of both parts of a pair, see local_queries
+  // of the samples; and the most that a part deviates in the step after each
   double times[NSVCD__MOST_STEPS + 1], deviations[NSVCD__MOST_STEPS + 1];
   nsvcd__configuration at, next;
   void *query;
@@ -125,24 +98,27 @@ static nsvcd__frame nsvcd__frame_of(const nsvcd_pose *pose) {
   return out;
 }
 
-// What is `inner` in a frame, in the world.
-static nsvcd__frame nsvcd__frame_in(const nsvcd__frame *frame, const nsvcd__frame *inner) {
-  const nsvcd__d3 position = nsvcd__dquat_rotate(frame->turn, inner->position);
-  const nsvcd__frame out = {nsvcd__dquat_mul(frame->turn, inner->turn),
-                            nsvcd__d3_add(frame->position, position)};
+static nsvcd__d3 nsvcd__frame_apply(const nsvcd__frame *frame, nsvcd__d3 a) {
+  return nsvcd__d3_add(nsvcd__dquat_rotate(frame->turn, a), frame->position);
+}
+
+static nsvcd__frame nsvcd__frame_mul(const nsvcd__frame *a, const nsvcd__frame *b) {
+  const nsvcd__d3 position = nsvcd__dquat_rotate(a->turn, b->position);
+  const nsvcd__frame out = {nsvcd__dquat_mul(a->turn, b->turn),
+                            nsvcd__d3_add(a->position, position)};
   return out;
 }
 
-// What is `frame` in the world, as seen from another one.
-static nsvcd__frame nsvcd__frame_from(const nsvcd__frame *from, const nsvcd__frame *frame) {
-  const nsvcd__dquat back = {-from->turn.x, -from->turn.y, -from->turn.z, from->turn.w};
-  const nsvcd__d3 offset = nsvcd__d3_sub(frame->position, from->position);
-  const nsvcd__frame out = {nsvcd__dquat_inverse_mul(from->turn, frame->turn),
+// b, as seen from a.
+static nsvcd__frame nsvcd__frame_inverse_mul(const nsvcd__frame *a, const nsvcd__frame *b) {
+  const nsvcd__dquat back = {-a->turn.x, -a->turn.y, -a->turn.z, a->turn.w};
+  const nsvcd__d3 offset = nsvcd__d3_sub(b->position, a->position);
+  const nsvcd__frame out = {nsvcd__dquat_inverse_mul(a->turn, b->turn),
                             nsvcd__dquat_rotate(back, offset)};
   return out;
 }
 
-static nsvcd_pose nsvcd__pose_in(const nsvcd__frame *frame) {
+static nsvcd_pose nsvcd__frame_pose(const nsvcd__frame *frame) {
   const nsvcd__dquat turn = nsvcd__dquat_unit(frame->turn);
   nsvcd_pose out;
   nsvcd__f3_store(nsvcd__f3_round(frame->position), out.position);
@@ -157,41 +133,40 @@ static int nsvcd__slides(const nsvcd_checker *c, size_t joint) {
   return c->scene->joints[joint].kind == NSVCD_JOINT_PRISMATIC;
 }
 
-// Places the links where c->joints says.
-static void nsvcd__pose_links(const nsvcd_checker *checker, nsvcd__configuration *c) {
+// Forward kinematics.
+static void nsvcd__place_links(const nsvcd_checker *c, const double *joints,
+                               nsvcd__configuration *out) {
   const nsvcd__frame world = {{0, 0, 0, 1}, {0, 0, 0}};
-  c->frames[0] = world;
-  for (size_t i = 0; i < checker->scene->joint_count; i++) {
-    const nsvcd__link *link = &checker->links[i];
-    const nsvcd__frame origin = {link->turn, link->position};
-    nsvcd__frame frame =
-        nsvcd__frame_in(&c->frames[checker->scene->joints[i].parent], &origin);
-    c->axes[i] = nsvcd__dquat_rotate(frame.turn, link->axis);
-    if (nsvcd__slides(checker, i)) {
-      frame.position = nsvcd__d3_fma(c->joints[i], c->axes[i], frame.position);
+  out->frames[0] = world;
+  for (size_t i = 0; i < c->scene->joint_count; i++) {
+    const nsvcd__link *link = &c->links[i];
+    const nsvcd__frame *parent = &out->frames[c->scene->joints[i].parent];
+    nsvcd__frame frame = nsvcd__frame_mul(parent, &link->origin);
+    out->axes[i] = nsvcd__dquat_rotate(frame.turn, link->axis);
+    if (nsvcd__slides(c, i)) {
+      frame.position = nsvcd__d3_fma(joints[i], out->axes[i], frame.position);
     } else {
-      const double half = 0.5 * c->joints[i];
+      const double half = 0.5 * joints[i];
       const nsvcd__d3 axis = nsvcd__d3_scale(link->axis, sin(half));
       const nsvcd__dquat turn = {axis.x, axis.y, axis.z, cos(half)};
       frame.turn = nsvcd__dquat_mul(frame.turn, turn);
     }
-    c->frames[i + 1] = frame;
+    out->frames[i + 1] = frame;
   }
 }
 
-static nsvcd__frame nsvcd__frame_of_part(const nsvcd_checker *checker,
-                                         const nsvcd__configuration *c, size_t part) {
-  return nsvcd__frame_in(&c->frames[checker->scene->parts[part].link],
-                         &checker->members[part].frame);
+static nsvcd__frame nsvcd__frame_of_part(const nsvcd_checker *c,
+                                         const nsvcd__configuration *at, size_t part) {
+  const uint32_t link = c->scene->parts[part].link;
+  return nsvcd__frame_mul(&at->frames[link], &c->members[part].frame);
 }
 
 NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const double *joints,
                                        nsvcd_pose *poses) {
-  nsvcd__configuration c;
-  memcpy(c.joints, joints, checker->scene->joint_count * sizeof *joints);
-  nsvcd__pose_links(checker, &c);
+  nsvcd__configuration at;
+  nsvcd__place_links(checker, joints, &at);
   for (size_t n = 0; n < checker->scene->part_count; n++) {
-    const nsvcd__frame frame = nsvcd__frame_of_part(checker, &c, n);
-    poses[n] = nsvcd__pose_in(&frame);
+    const nsvcd__frame frame = nsvcd__frame_of_part(checker, &at, n);
+    poses[n] = nsvcd__frame_pose(&frame);
   }
 }

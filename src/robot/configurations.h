@@ -1,65 +1,50 @@
-// In: a robot in one configuration. Out: pairs that are near, and how that changes with the joints;
-// a configuration near by that is free; which pairs can meet.
+// In: a robot in one configuration. Out: pairs that are near each other, and how their distances
+// change with the joints; the nearest configuration that is free; which pairs can meet.
 #pragma once
 #include "../interface/configurations.h"
+#include "check.h"
 #include "rrt.h"
 
-#define NSVCD__GAP_WITHIN 0.05f
-#define NSVCD__GAP_TO 2e-5f
-#define NSVCD__GAP_DEEPEST 0.02f
+// defaults
+#define NSVCD__MAX_DISTANCE 0.05f
+#define NSVCD__DISTANCE_TO 2e-5f
+#define NSVCD__DEEPEST 0.02f
+#define NSVCD__FARTHEST_FREE 0.5
+#define NSVCD__PAIR_DRAWS 64
 // of `deepest`: the first slop that is tried; and how often a push-out is halved
 #define NSVCD__LEAST_SLOP 0.015625f
 #define NSVCD__DEPTH_HALVINGS 12
-// of the depth: what is looked at to see which faces part last; and the least share of a push-out
-// that separates them, of which a slope is told
+// of the depth: how far parts are pushed out to see which faces separate last
 #define NSVCD__DEPTH_BEYOND 1.01
+// below this cosine between a push-out and the normal no slope is told
 #define NSVCD__LEAST_RATE 0.1
-#define NSVCD__FARTHEST_FREE 0.5
-// metres that an escape leaves beside the clearance, so that a route can begin there
+// metres that the nearest free configuration has beside the clearance, so that a route can begin
+// there
 #define NSVCD__FREE_ROOM 5e-4f
-// spheres about the joints that random configurations are drawn on, and how many on each; how much
-// nearer than the best the next is drawn; halvings of the way back
-#define NSVCD__FREE_RINGS 8
+// spheres about the joints on which configurations are drawn, and how many on each
+#define NSVCD__FREE_SPHERES 8
 #define NSVCD__FREE_DRAWS 64
+// how much nearer than the best the next one is drawn; halvings of the line back
 #define NSVCD__FREE_NEARER 0.9
 #define NSVCD__FREE_HALVINGS 10
-#define NSVCD__PAIR_SAMPLES 64
 
 static nsvcd_result nsvcd__check_joints(const nsvcd_checker *checker, const double *joints) {
   if (!checker || !joints) return NSVCD_ERROR_ARGUMENT;
-  for (size_t j = 0; j < checker->scene->joint_count; j++) {
-    if (!nsvcd__is_number(joints[j], (double)NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_VALUE;
-  }
-  return NSVCD_OK;
+  const int are_numbers = nsvcd__are_numbers(joints, checker->scene->joint_count);
+  return are_numbers ? NSVCD_OK : NSVCD_ERROR_VALUE;
 }
 
-// Places all parts where the joints say, as the first of their samples.
-static void nsvcd__set_configuration(nsvcd_checker *c, const double *joints) {
-  memcpy(c->at.joints, joints, c->scene->joint_count * sizeof *joints);
-  nsvcd__pose_links(c, &c->at);
-  nsvcd__sample_put(c, &c->at, 0);
-}
+// ---- proximities
 
-// Of two parts where they stand.
-static nsvcd_question nsvcd__ask_configuration(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                                               size_t work, nsvcd__sight *view) {
-  const nsvcd__frame *const frames[2] = {nsvcd__frames_at(c, pair->a, 0),
-                                         nsvcd__frames_at(c, pair->b, 0)};
-  nsvcd__view_pair(c, pair, frames, 1, view);
-  return nsvcd__question_of(c, pair, 1, work);
-}
-
-// ---- gaps
-
-// How the point of a part that is seen at `at` now moves along a normal, by each joint: added to
-// the slope, times `sign`.
-static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, const nsvcd__sight *view,
+// Adds to the slope how fast a point of a part moves along a direction by each joint, times `sign`.
+// The point and the direction are in the local frame.
+static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, const nsvcd__local *local,
                              nsvcd__d3 at, nsvcd__d3 along, double sign, double *slope) {
-  const nsvcd__d3 point = nsvcd__seen_point(view, at);
-  const nsvcd__d3 normal = nsvcd__seen_direction(view, along);
+  const nsvcd__d3 point = nsvcd__frame_apply(&local->frame, at);
+  const nsvcd__d3 normal = nsvcd__dquat_rotate(local->frame.turn, along);
   const uint32_t link = c->scene->parts[part].link;
-  for (uint32_t path = link ? c->links[link - 1].path : 0; path; path &= path - 1) {
-    const size_t j = nsvcd__low_bit(path);
+  for (uint32_t chain = link ? c->links[link - 1].chain : 0; chain; chain &= chain - 1) {
+    const size_t j = nsvcd__low_bit(chain);
     const nsvcd__d3 arm = nsvcd__d3_sub(point, c->at.frames[j + 1].position);
     const nsvcd__d3 speed =
         nsvcd__slides(c, j) ? c->at.axes[j] : nsvcd__d3_cross(c->at.axes[j], arm);
@@ -67,25 +52,25 @@ static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, const nsvcd__s
   }
 }
 
-// Asks a question with a pushed out by so much.
-static nsvcd_result nsvcd__ask_lifted(nsvcd_checker *c, const nsvcd_question *question,
+// Asks a question with a moved by so much.
+static nsvcd_result nsvcd__ask_pushed(nsvcd_checker *c, const nsvcd_question *question,
                                       nsvcd__d3 push_out, nsvcd_answer *found) {
-  nsvcd_pose pushed_out = *question->a.poses;
-  nsvcd_question asked = *question;
-  const nsvcd__d3 position = nsvcd__d3_add(nsvcd__d3_load(pushed_out.position), push_out);
-  asked.a.poses = &pushed_out;
-  nsvcd__f3_store(nsvcd__f3_round(position), pushed_out.position);
-  return nsvcd_sweep(&asked, c->query, c->query_size, found);
+  nsvcd_pose pose = *question->a.poses;
+  nsvcd_question pushed = *question;
+  const nsvcd__d3 position = nsvcd__d3_add(nsvcd__d3_load(pose.position), push_out);
+  pushed.a.poses = &pose;
+  nsvcd__f3_store(nsvcd__f3_round(position), pose.position);
+  return nsvcd__ask(c, &pushed, found);
 }
 
-// A push-out of a off b that separates them, by the least of some slops, each four times the one
-// before, that is enough. 0: none up to `deepest` is.
+// A push-out of a off b that separates them. Slops are tried, each four times the one before, up to
+// `deepest`; 0 where none is enough.
 static nsvcd_result nsvcd__separating_push_out(nsvcd_checker *c, nsvcd_question question,
                                                float deepest, nsvcd__d3 *push_out) {
   nsvcd_answer found;
   for (float fraction = NSVCD__LEAST_SLOP; fraction <= 1; fraction *= 4) {
     question.slop = fraction * deepest;
-    const nsvcd_result result = nsvcd_sweep(&question, c->query, c->query_size, &found);
+    const nsvcd_result result = nsvcd__ask(c, &question, &found);
     if (result) return result;
     *push_out = nsvcd__d3_load(found.push_out);
     if (found.verdict == NSVCD_FREE) return NSVCD_OK;
@@ -94,143 +79,139 @@ static nsvcd_result nsvcd__separating_push_out(nsvcd_checker *c, nsvcd_question 
   return NSVCD_OK;
 }
 
-// Of parts that touch: how deep, where, along which normal, and how that shrinks. question: with
-// all that poses are off as its clearance.
-static nsvcd_result nsvcd__touching_gap(nsvcd_checker *c, nsvcd_question question,
-                                        const nsvcd__sight *view,
-                                        const nsvcd_proximity_options *o,
-                                        nsvcd_proximity *gap) {
-  const nsvcd_body_pair *both = &c->scene->pairs[gap->pair];
+// Of parts that touch: the depth, its normal and place, and its slope. question: HIT, with all
+// errors of the poses as its clearance.
+static nsvcd_result nsvcd__depth_of(nsvcd_checker *c, nsvcd_question question,
+                                    const nsvcd__local *local,
+                                    const nsvcd_proximity_options *o, nsvcd_proximity *out) {
+  const nsvcd_body_pair *pair = &c->scene->pairs[out->pair];
   nsvcd_answer found;
   nsvcd__d3 push_out = {0, 0, 0};
-  double low = 0;  // share of the push-out: they touch there; and they do not
+  // fractions of the push-out: they touch at the first, and are apart at the second
+  double low = 0;
   double high = 1;
-  question.ask = NSVCD_ASK_HIT;
-  question.to = 0;
   nsvcd_result result = nsvcd__separating_push_out(c, question, o->deepest, &push_out);
   const double length = nsvcd__d3_length(push_out);
   if (result || !(length > 0)) return result;
-  for (size_t n = 0; n < NSVCD__DEPTH_HALVINGS && !result; n++) {
+  for (size_t n = 0; n < NSVCD__DEPTH_HALVINGS; n++) {
     const double middle = 0.5 * (low + high);
-    result = nsvcd__ask_lifted(c, &question, nsvcd__d3_scale(push_out, middle), &found);
-    *(!result && found.verdict == NSVCD_FREE ? &high : &low) = middle;
+    result = nsvcd__ask_pushed(c, &question, nsvcd__d3_scale(push_out, middle), &found);
+    if (result) return result;
+    *(found.verdict == NSVCD_FREE ? &high : &low) = middle;
   }
-  if (result) return result;
-  // a little beyond, which faces are near
+  // a little beyond: which faces are near?
   const double beyond = NSVCD__DEPTH_BEYOND * high + (double)o->to / length;
   question.clearance = 0;
   question.ask = NSVCD_ASK_DISTANCE;
   question.to = 0.1f * o->to;
-  result = nsvcd__ask_lifted(c, &question, nsvcd__d3_scale(push_out, beyond), &found);
+  result = nsvcd__ask_pushed(c, &question, nsvcd__d3_scale(push_out, beyond), &found);
   if (result) return result;
   const nsvcd__d3 along = nsvcd__d3_scale(push_out, 1 / length);
   const nsvcd__d3 normal = nsvcd__d3_load(found.nearest.normal);
   const nsvcd__d3 point = nsvcd__d3_load(found.nearest.point);
-  gap->depth = nsvcd__above(high * length);
-  gap->contact = found.nearest;
-  gap->contact.gap = 0;
-  nsvcd__f3_store(nsvcd__f3_round(along), gap->contact.normal);
-  nsvcd__set_contact(view, &gap->contact);
-  // a push-out parts the two faces slower than it goes, unless it is along their normal
+  out->depth = nsvcd__above(high * length);
+  out->contact = found.nearest;
+  out->contact.gap = 0;
+  nsvcd__f3_store(nsvcd__f3_round(along), out->contact.normal);
+  nsvcd__contact_to_world(local, &out->contact);
+  // a push-out separates the two faces at this fraction of its own speed
   const double rate = nsvcd__d3_dot(along, normal);
   if (!(rate > NSVCD__LEAST_RATE)) return NSVCD_OK;
   const nsvcd__d3 on_a = nsvcd__d3_fma(-high, push_out, point);
-  nsvcd__slope_add(c, both->a, view, on_a, normal, 1 / rate, gap->slope);
-  nsvcd__slope_add(c, both->b, view, point, normal, -1 / rate, gap->slope);
+  nsvcd__slope_add(c, pair->a, local, on_a, normal, 1 / rate, out->slope);
+  nsvcd__slope_add(c, pair->b, local, point, normal, -1 / rate, out->slope);
   return NSVCD_OK;
 }
 
-// The gap of a pair where it stands. *is_near: it is within.
-static nsvcd_result nsvcd__gap_of(nsvcd_checker *c, size_t pair,
-                                  const nsvcd_proximity_options *o, nsvcd_proximity *gap,
-                                  int *is_near) {
-  const nsvcd_body_pair *both = &c->scene->pairs[pair];
-  const nsvcd__member *members[2] = {&c->members[both->a], &c->members[both->b]};
+// The proximity of a pair in the configuration c->at. *is_near: it is within max_distance.
+static nsvcd_result nsvcd__proximity_of(nsvcd_checker *c, size_t index,
+                                        const nsvcd_proximity_options *o, nsvcd_proximity *out,
+                                        int *is_near) {
+  const nsvcd_body_pair *pair = &c->scene->pairs[index];
+  const nsvcd__member *a = &c->members[pair->a];
+  const nsvcd__member *b = &c->members[pair->b];
   nsvcd_answer found;
-  nsvcd__sight view;
-  const double frames_off = 2 * (members[0]->rounding + members[1]->rounding);
-  const double max_distance = (double)o->max_distance + frames_off;
+  const double frames_error = 2 * (a->rounding + b->rounding);
+  const double max_distance = (double)o->max_distance + frames_error;
   *is_near = 0;
-  if (nsvcd__boxes_apart(&members[0]->box, &members[1]->box, 1.000001 * max_distance))
-    return NSVCD_OK;
-  nsvcd_question question = nsvcd__ask_configuration(c, both, o->work, &view);
-  // places are off by so much, at most, and a push-out that is told in floats
-  const double off = frames_off + view.rounding;
-  const float deepest_off = nsvcd__above(off + 2e-7 * (double)o->deepest);
-  question.clearance = nsvcd__above((double)o->max_distance + off);
-  nsvcd_result result = nsvcd_sweep(&question, c->query, c->query_size, &found);
+  if (nsvcd__bounds_apart(&a->bounds, &b->bounds, 1.000001 * max_distance)) return NSVCD_OK;
+  const nsvcd__local local = nsvcd__localize_at(c, pair, &c->at);
+  nsvcd_question question = nsvcd__question_of(c, pair, 1, o->work);
+  const double error = frames_error + local.rounding;
+  question.clearance = nsvcd__above((double)o->max_distance + error);
+  nsvcd_result result = nsvcd__ask(c, &question, &found);
   if (result || found.verdict == NSVCD_FREE) return result;
   question.clearance = 0;
   question.ask = NSVCD_ASK_DISTANCE;
   question.to = o->to;
-  result = nsvcd_sweep(&question, c->query, c->query_size, &found);
+  result = nsvcd__ask(c, &question, &found);
   if (result) return result;
   *is_near = 1;
-  memset(gap, 0, sizeof *gap);
-  gap->pair = pair;
-  gap->verdict = found.verdict;
-  gap->why = found.why;
-  gap->contact = found.nearest;
-  if (found.verdict == NSVCD_HIT) {
-    nsvcd__set_contact(&view, &gap->contact);
-    gap->distance.high = nsvcd__above(off);
-    gap->depth = HUGE_VALF;
-    question.clearance = deepest_off;
-    return found.inside ? NSVCD_OK : nsvcd__touching_gap(c, question, &view, o, gap);
-  }
-  gap->distance.high = nsvcd__above((double)found.distance.high + off);
-  gap->distance.low = (float)nsvcd__max((double)found.distance.low * (1 - 1e-7) - off, 0);
-  // of both at the point on b: that on a is off it along the normal, and no turn changes that
-  const nsvcd__d3 normal = nsvcd__d3_load(gap->contact.normal);
-  const nsvcd__d3 point = nsvcd__d3_load(gap->contact.point);
-  nsvcd__slope_add(c, both->a, &view, point, normal, 1, gap->slope);
-  nsvcd__slope_add(c, both->b, &view, point, normal, -1, gap->slope);
-  nsvcd__set_contact(&view, &gap->contact);
-  if (gap->verdict != NSVCD_FREE || gap->distance.low > 0) return NSVCD_OK;
-  // the poses are free of each other: are the parts?
+  memset(out, 0, sizeof *out);
+  out->pair = index;
+  out->verdict = found.verdict;
+  out->why = found.why;
+  out->contact = found.nearest;
+  nsvcd__contact_to_world(&local, &out->contact);
   question.ask = NSVCD_ASK_HIT;
   question.to = 0;
-  question.clearance = nsvcd__above(off);
-  result = nsvcd_sweep(&question, c->query, c->query_size, &found);
+  if (found.verdict == NSVCD_HIT) {
+    out->distance.high = nsvcd__above(error);
+    out->depth = HUGE_VALF;
+    // a push-out is told in floats
+    question.clearance = nsvcd__above(error + 2e-7 * (double)o->deepest);
+    return found.inside ? NSVCD_OK : nsvcd__depth_of(c, question, &local, o, out);
+  }
+  out->distance.high = nsvcd__above((double)found.distance.high + error);
+  out->distance.low = (float)nsvcd__max((double)found.distance.low * (1 - 1e-7) - error, 0);
+  // of both at the point on b: that on a is off it along the normal, and no turn changes that
+  const nsvcd__d3 normal = nsvcd__d3_load(found.nearest.normal);
+  const nsvcd__d3 point = nsvcd__d3_load(found.nearest.point);
+  nsvcd__slope_add(c, pair->a, &local, point, normal, 1, out->slope);
+  nsvcd__slope_add(c, pair->b, &local, point, normal, -1, out->slope);
+  if (out->verdict != NSVCD_FREE || out->distance.low > 0) return NSVCD_OK;
+  // the poses in float are free of each other: are the parts?
+  question.clearance = nsvcd__above(error);
+  result = nsvcd__ask(c, &question, &found);
   if (result || found.verdict == NSVCD_FREE) return result;
-  gap->verdict = NSVCD_UNDECIDED;
-  gap->why = NSVCD_WHY_TOO_NEAR;
+  out->verdict = NSVCD_UNDECIDED;
+  out->why = NSVCD_WHY_TOO_NEAR;
   return NSVCD_OK;
 }
 
 NSVCDDEF nsvcd_result nsvcd_proximities(nsvcd_checker *checker, const double *joints,
                                         const nsvcd_proximity_options *options,
-                                        nsvcd_proximity *gaps, size_t capacity,
-                                        size_t *count) {
+                                        nsvcd_proximity *out, size_t capacity, size_t *count) {
   nsvcd_proximity_options o;
-  size_t near_ones = 0;
+  size_t written = 0;
   nsvcd_result result = nsvcd__check_joints(checker, joints);
-  if (!result && (!count || (!gaps && capacity > 0))) result = NSVCD_ERROR_ARGUMENT;
+  if (!result && (!count || (!out && capacity > 0))) result = NSVCD_ERROR_ARGUMENT;
   if (result) return result;
   memset(&o, 0, sizeof o);
   if (options) o = *options;
-  if (!nsvcd__is_length(o.max_distance)) return NSVCD_ERROR_DISTANCE;
-  if (!nsvcd__is_length(o.deepest)) return NSVCD_ERROR_DISTANCE;
+  if (!nsvcd__is_length(o.max_distance) || !nsvcd__is_length(o.deepest))
+    return NSVCD_ERROR_DISTANCE;
   if (!nsvcd__is_length(o.to)) return NSVCD_ERROR_TO;
-  o.max_distance = o.max_distance > 0 ? o.max_distance : NSVCD__GAP_WITHIN;
-  o.to = o.to > 0 ? o.to : NSVCD__GAP_TO;
-  o.deepest = o.deepest > 0 ? o.deepest : NSVCD__GAP_DEEPEST;
-  nsvcd__set_configuration(checker, joints);
+  o.max_distance = o.max_distance > 0 ? o.max_distance : NSVCD__MAX_DISTANCE;
+  o.to = o.to > 0 ? o.to : NSVCD__DISTANCE_TO;
+  o.deepest = o.deepest > 0 ? o.deepest : NSVCD__DEEPEST;
+  nsvcd__place_links(checker, joints, &checker->at);
+  nsvcd__place_sample(checker, &checker->at, 0);
   for (size_t n = 0; n < checker->scene->pair_count && !result; n++) {
-    nsvcd_proximity gap;
+    nsvcd_proximity found;
     int is_near;
-    result = nsvcd__gap_of(checker, n, &o, &gap, &is_near);
+    result = nsvcd__proximity_of(checker, n, &o, &found, &is_near);
     if (result || !is_near) continue;
-    if (near_ones < capacity) gaps[near_ones] = gap;
-    near_ones++;
+    if (written < capacity) out[written] = found;
+    written++;
   }
-  if (!result) *count = near_ones;
+  if (!result) *count = written;
   return result;
 }
 
-// ---- a way out
+// ---- the nearest free configuration
 
-static void nsvcd__take_into_limits(const nsvcd_scene *scene, double *joints) {
+static void nsvcd__clamp_to_limits(const nsvcd_scene *scene, double *joints) {
   for (size_t j = 0; j < scene->joint_count; j++) {
     const nsvcd_joint *joint = &scene->joints[j];
     const int is_endless = joint->kind == NSVCD_JOINT_CONTINUOUS;
@@ -246,28 +227,27 @@ static nsvcd_result nsvcd__is_free_at(nsvcd_checker *c, const double *joints,
   const nsvcd_check_options options = {o->clearance, 0, 0, o->stop, o->user};
   nsvcd_check_answer answer;
   const nsvcd_result result = nsvcd_check(c, &still, &options, &answer);
-  *is_free = !result && answer.verdict == NSVCD_FREE && answer.joint == NSVCD_NONE;
+  *is_free = !result && nsvcd__proves_free(&answer);
   return result;
 }
 
-// From a place that is free back towards `from`, which is not, as far as that stays free.
+// Moves a free configuration towards `from`, which is not free, as far as that stays free.
 static nsvcd_result nsvcd__draw_back(nsvcd_checker *c, const double *from,
                                      const nsvcd_nearest_free_options *o, double *at) {
   const size_t joints = c->scene->joint_count;
-  double blocked[NSVCD_MAX_JOINTS];
-  nsvcd_result result = NSVCD_OK;
+  double blocked[NSVCD_MAX_JOINTS], middle[NSVCD_MAX_JOINTS];
   memcpy(blocked, from, joints * sizeof *at);
-  for (size_t n = 0; n < NSVCD__FREE_HALVINGS && !result; n++) {
-    double middle[NSVCD_MAX_JOINTS];
+  for (size_t n = 0; n < NSVCD__FREE_HALVINGS; n++) {
     int is_free;
     for (size_t j = 0; j < joints; j++) middle[j] = 0.5 * (blocked[j] + at[j]);
-    result = nsvcd__is_free_at(c, middle, o, &is_free);
-    if (!result) memcpy(is_free ? at : blocked, middle, joints * sizeof *at);
+    const nsvcd_result result = nsvcd__is_free_at(c, middle, o, &is_free);
+    if (result) return result;
+    memcpy(is_free ? at : blocked, middle, joints * sizeof *at);
   }
-  return result;
+  return NSVCD_OK;
 }
 
-// Draws on spheres about `from`, from the inside to the outside, until one is free; then on ever
+// Draws on spheres about `from`, the innermost first, until a configuration is free; then on ever
 // smaller ones, nearer than the best.
 static nsvcd_result nsvcd__seek_nearest_free(nsvcd_checker *c, const double *from,
                                              const nsvcd_nearest_free_options *o, double *out,
@@ -276,9 +256,9 @@ static nsvcd_result nsvcd__seek_nearest_free(nsvcd_checker *c, const double *fro
   uint64_t random = o->seed;
   double best = o->farthest;
   *is_found = 0;
-  for (size_t n = 0; n < NSVCD__FREE_RINGS * NSVCD__FREE_DRAWS; n++) {
-    const double ring = (double)(n / NSVCD__FREE_DRAWS + 1) / NSVCD__FREE_RINGS;
-    const double radius = *is_found ? NSVCD__FREE_NEARER * best : ring * o->farthest;
+  for (size_t n = 0; n < NSVCD__FREE_SPHERES * NSVCD__FREE_DRAWS; n++) {
+    const double sphere = (double)(n / NSVCD__FREE_DRAWS + 1) / NSVCD__FREE_SPHERES;
+    const double radius = *is_found ? NSVCD__FREE_NEARER * best : sphere * o->farthest;
     double at[NSVCD_MAX_JOINTS];
     double square = 0;
     int is_free;
@@ -288,12 +268,11 @@ static nsvcd_result nsvcd__seek_nearest_free(nsvcd_checker *c, const double *fro
       square += at[j] * at[j];
     }
     for (size_t j = 0; j < joints; j++) at[j] = from[j] + radius / sqrt(square) * at[j];
-    nsvcd__take_into_limits(c->scene, at);
+    nsvcd__clamp_to_limits(c->scene, at);
     nsvcd_result result = nsvcd__is_free_at(c, at, o, &is_free);
+    if (!result && is_free) result = nsvcd__draw_back(c, from, o, at);
     if (result) return result;
     if (!is_free) continue;
-    result = nsvcd__draw_back(c, from, o, at);
-    if (result) return result;
     *is_found = 1;
     best = sqrt(nsvcd__distance2(at, from, joints));
     memcpy(out, at, joints * sizeof *at);
@@ -314,11 +293,10 @@ NSVCDDEF nsvcd_result nsvcd_nearest_free(nsvcd_checker *checker, const double *j
   if (options) o = *options;
   if (!nsvcd__in_range(&o.clearance, 1, 0.5f * NSVCD_MAX_COORDINATE) || o.clearance < 0)
     return NSVCD_ERROR_CLEARANCE;
-  if (!nsvcd__is_number(o.farthest, (double)NSVCD_MAX_COORDINATE) || o.farthest < 0)
-    return NSVCD_ERROR_FARTHEST;
+  if (!nsvcd__are_numbers(&o.farthest, 1) || o.farthest < 0) return NSVCD_ERROR_FARTHEST;
   o.farthest = o.farthest > 0 ? o.farthest : NSVCD__FARTHEST_FREE;
   memcpy(from, joints, bytes);
-  nsvcd__take_into_limits(checker->scene, from);
+  nsvcd__clamp_to_limits(checker->scene, from);
   int is_free;
   memcpy(at, from, bytes);
   result = nsvcd__is_free_at(checker, from, &o, &is_free);
@@ -333,13 +311,12 @@ NSVCDDEF nsvcd_result nsvcd_nearest_free(nsvcd_checker *checker, const double *j
 // ---- pairs
 
 // Do two parts touch in all of so many configurations, drawn within the limits?
-static nsvcd_result nsvcd__contact_in_all(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                                          size_t samples, uint64_t random, int *in_all) {
+static nsvcd_result nsvcd__touches_in_all(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                          size_t draws, uint64_t random, int *in_all) {
   nsvcd_answer found;
-  nsvcd__sight view;
   nsvcd_result result = NSVCD_OK;
   *in_all = 1;
-  for (size_t n = 0; n < samples && *in_all && !result; n++) {
+  for (size_t n = 0; n < draws && *in_all && !result; n++) {
     double joints[NSVCD_MAX_JOINTS];
     for (size_t j = 0; j < c->scene->joint_count; j++) {
       const nsvcd_joint *joint = &c->scene->joints[j];
@@ -348,15 +325,16 @@ static nsvcd_result nsvcd__contact_in_all(nsvcd_checker *c, const nsvcd_body_pai
       const double high = is_endless ? 6.283185307179586 : joint->high;
       joints[j] = low + (high - low) * nsvcd__random(&random);
     }
-    nsvcd__set_configuration(c, joints);
-    const nsvcd_question question = nsvcd__ask_configuration(c, pair, 0, &view);
-    result = nsvcd_sweep(&question, c->query, c->query_size, &found);
+    nsvcd__place_links(c, joints, &c->at);
+    (void)nsvcd__localize_at(c, pair, &c->at);
+    const nsvcd_question question = nsvcd__question_of(c, pair, 1, 0);
+    result = nsvcd__ask(c, &question, &found);
     *in_all = !result && found.verdict == NSVCD_HIT;
   }
   return result;
 }
 
-// Does one joint separate two links, neither of them the world?
+// Are two links those of one joint, and neither of them the world?
 static int nsvcd__are_adjacent(const nsvcd_scene *scene, const nsvcd_body_pair *pair) {
   const size_t a = scene->parts[pair->a].link;
   const size_t b = scene->parts[pair->b].link;
@@ -377,7 +355,7 @@ static int nsvcd__next_pair(const nsvcd_scene *scene, nsvcd_body_pair *pair) {
   return 1;
 }
 
-NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, uint64_t seed,
+NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t draws, uint64_t seed,
                                        nsvcd_body_pair *pairs, size_t capacity,
                                        nsvcd_pair_counts *counts) {
   if (!checker || !counts || (!pairs && capacity > 0)) return NSVCD_ERROR_ARGUMENT;
@@ -387,13 +365,13 @@ NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, u
   size_t total = 0;
   while (nsvcd__next_pair(scene, &pair)) total++;
   if (capacity < total) return NSVCD_ERROR_WORKSPACE;
-  // what is asked from the front, what touches in all samples from the back
+  if (!draws) draws = NSVCD__PAIR_DRAWS;
+  // what is to be asked from the front, what touches in all from the back
   pair.a = pair.b = 0;
   while (nsvcd__next_pair(scene, &pair)) {
     int in_all;
     if (nsvcd__are_adjacent(scene, &pair)) continue;
-    const nsvcd_result result = nsvcd__contact_in_all(
-        checker, &pair, samples ? samples : NSVCD__PAIR_SAMPLES, seed, &in_all);
+    const nsvcd_result result = nsvcd__touches_in_all(checker, &pair, draws, seed, &in_all);
     if (result) return result;
     pairs[in_all ? total - ++found.touching : found.asked++] = pair;
   }
@@ -401,6 +379,7 @@ NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, u
   while (nsvcd__next_pair(scene, &pair)) {
     if (nsvcd__are_adjacent(scene, &pair)) pairs[found.asked + found.adjacent++] = pair;
   }
+  // what touches, in order
   for (size_t n = 0; n < found.touching / 2; n++) {
     nsvcd_body_pair *first = &pairs[total - found.touching + n];
     nsvcd_body_pair *last = &pairs[total - 1 - n];
@@ -414,20 +393,19 @@ NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, u
 
 NSVCDDEF nsvcd_result nsvcd_reparent(const nsvcd_checker *checker, const double *joints,
                                      size_t part, uint32_t link, nsvcd_part *out) {
-  nsvcd__configuration c;
-  const nsvcd_result result = nsvcd__check_joints(checker, joints);
+  nsvcd__configuration at;
+  nsvcd_result result = nsvcd__check_joints(checker, joints);
   if (result) return result;
   const nsvcd_scene *scene = checker->scene;
   if (!out) return NSVCD_ERROR_ARGUMENT;
   if (part >= scene->part_count || link > scene->joint_count) return NSVCD_ERROR_LINK;
-  memcpy(c.joints, joints, scene->joint_count * sizeof *joints);
-  nsvcd__pose_links(checker, &c);
-  const nsvcd__frame at = nsvcd__frame_of_part(checker, &c, part);
-  const nsvcd__frame inner = nsvcd__frame_from(&c.frames[link], &at);
+  nsvcd__place_links(checker, joints, &at);
+  const nsvcd__frame world = nsvcd__frame_of_part(checker, &at, part);
+  const nsvcd__frame frame = nsvcd__frame_inverse_mul(&at.frames[link], &world);
   nsvcd_part moved = scene->parts[part];
   moved.link = link;
-  moved.pose = nsvcd__pose_in(&inner);
-  const nsvcd_result placed = nsvcd__poses_check(&moved.pose, 1);
-  if (!placed) *out = moved;
-  return placed;
+  moved.pose = nsvcd__frame_pose(&frame);
+  result = nsvcd__poses_check(&moved.pose, 1);
+  if (!result) *out = moved;
+  return result;
 }

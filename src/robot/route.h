@@ -2,16 +2,17 @@
 #pragma once
 #include "smooth.h"
 
+// defaults; tries: for each node
 #define NSVCD__NODES 20000
-// for each node; and those after which a tree that has not grown is to along its joints
 #define NSVCD__TRIES 4
-#define NSVCD__IDLE 100
 #define NSVCD__SHORTCUTS 20
 #define NSVCD__SMOOTHINGS 200
-// of all joints whose limits are wider, only what is no farther than this from the start and the
-// goals is drawn from, but for one configuration in eight
+// turns after which a tree that has not grown tries along single joints
+#define NSVCD__IDLE 100
+// radians or metres: seven configurations in eight are drawn no farther than this from the range of
+// the start and the goals
 #define NSVCD__BESIDE 3.2
-// radians or metres: corners of a way that are no farther apart are one
+// radians or metres: corners of a path that are no farther apart are one
 #define NSVCD__SAME_CORNER 1e-9
 
 // ---- memory
@@ -30,18 +31,16 @@ static nsvcd_result nsvcd__route_check(const nsvcd_checker *checker,
   const double *rows[3] = {problem->start, problem->goals, problem->guess};
   const size_t counts[3] = {1, problem->goal_count, problem->guess_count};
   for (size_t n = 0; n < 3; n++) {
-    for (size_t k = 0; k < counts[n] * checker->scene->joint_count; k++) {
-      if (!nsvcd__is_number(rows[n][k], (double)NSVCD_MAX_COORDINATE))
-        return NSVCD_ERROR_VALUE;
-    }
+    if (!nsvcd__are_numbers(rows[n], counts[n] * checker->scene->joint_count))
+      return NSVCD_ERROR_VALUE;
   }
   return NSVCD_OK;
 }
 
-static void nsvcd__trajectory_take(nsvcd__trajectory *c, char *base, uint64_t *used,
+static void nsvcd__trajectory_take(nsvcd__trajectory *t, char *base, uint64_t *used,
                                    size_t pieces, size_t joints) {
-  c->points = (double *)nsvcd__take(base, used, (2 * pieces + 1) * joints, sizeof(double));
-  c->times = (double *)nsvcd__take(base, used, pieces + 1, sizeof(double));
+  t->points = (double *)nsvcd__take(base, used, (2 * pieces + 1) * joints, sizeof(double));
+  t->times = (double *)nsvcd__take(base, used, pieces + 1, sizeof(double));
 }
 
 // Lays a router out at base, which is aligned, or, where that is NULL, only counts. Returns the
@@ -65,7 +64,7 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
   if (o->shortcuts == NSVCD_NONE) o->shortcuts = 0;
   if (o->smoothings == NSVCD_NONE) o->smoothings = 0;
   const size_t joints = checker->scene->joint_count;
-  // what is given is not counted as a node
+  // the caller's configurations do not count as nodes
   const size_t nodes = o->nodes + problem->goal_count + problem->guess_count + 1;
   for (size_t k = 0; k < 2; k++) {
     nsvcd__rrt *t = &r->trees[k];
@@ -96,7 +95,7 @@ NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
 
 // ---- trees
 
-// A value of a joint in the limits, near the start and the goals or anywhere.
+// A value of a joint in its limits, near the start and the goals or anywhere.
 static double nsvcd__draw_joint(nsvcd__router *r, size_t j, int is_wide) {
   const nsvcd_joint *joint = &r->scene->joints[j];
   double low = r->low[j] - NSVCD__BESIDE;
@@ -108,16 +107,16 @@ static double nsvcd__draw_joint(nsvcd__router *r, size_t j, int is_wide) {
   return low + (high - low) * nsvcd__random(&r->random);
 }
 
-// A configuration that the tree whose turn it is is to grow towards: any, or, where it has not
-// grown for long, every other time one of its own with one joint moved. The way out of a hole is
-// often along a joint, and no other edge of some length is free there.
+// A configuration towards which a tree is to grow: any; where it has not grown for long, every
+// other time, one of its own nodes with one joint moved. Out of a hole the only free edges are
+// often those along one joint.
 static void nsvcd__draw(nsvcd__router *r, size_t turn, double *out) {
   const size_t joints = r->joints;
   const nsvcd__rrt *t = &r->trees[turn % 2];
   if (r->idle[turn % 2] >= NSVCD__IDLE && turn / 2 % 2) {
     const size_t node = (size_t)(nsvcd__random(&r->random) * (double)t->count);
     const size_t joint = (size_t)(nsvcd__random(&r->random) * (double)joints);
-    memcpy(out, t->points + node * joints, joints * sizeof *out);
+    memcpy(out, nsvcd__node_at(t, node), joints * sizeof *out);
     out[joint] = nsvcd__draw_joint(r, joint, 1);
     return;
   }
@@ -131,26 +130,25 @@ static int nsvcd__is_at_limit(const nsvcd__router *r) {
          r->answer.checks >= r->options.tries;
 }
 
-// Grows a tree from its node nearest to a configuration, edge by edge until it is there or, unless
-// `is_greedy`, once. Returns the last node that is new in *node, or the nearest one; *is_there: it
-// is the configuration.
+// Grows a tree from its node nearest to a configuration: by one edge, or, if `is_greedy`, edge by
+// edge until it is there. *node: the last new node, or the nearest one. *is_there: it is the
+// configuration.
 static nsvcd_result nsvcd__grow(nsvcd__router *r, nsvcd__rrt *t, const double *to,
                                 int is_greedy, size_t *node, int *is_there) {
-  const size_t joints = r->joints;
   *node = nsvcd__tree_nearest(t, to);
   *is_there = 0;
   do {
     double next[NSVCD_MAX_JOINTS];
-    const double *from = t->points + *node * joints;
-    const double length = sqrt(nsvcd__distance2(from, to, joints));
+    const double *from = nsvcd__node_at(t, *node);
+    const double length = nsvcd__edge_length(r, from, to);
     const int ends = length <= r->options.edge;
-    for (size_t j = 0; j < joints; j++)
-      next[j] = ends ? to[j] : from[j] + r->options.edge / length * (to[j] - from[j]);
+    int is_free;
     if (!(length > 0)) {
       *is_there = 1;
       return NSVCD_OK;
     }
-    int is_free;
+    for (size_t j = 0; j < r->joints; j++)
+      next[j] = ends ? to[j] : from[j] + r->options.edge / length * (to[j] - from[j]);
     const nsvcd_result result = nsvcd__prove_edge(r, from, next, &is_free);
     if (result) return result;
     if (!is_free || nsvcd__is_at_limit(r)) return NSVCD_OK;
@@ -160,161 +158,151 @@ static nsvcd_result nsvcd__grow(nsvcd__router *r, nsvcd__rrt *t, const double *t
   return NSVCD_OK;
 }
 
-// Writes the way through nodes of both trees that are at the same place.
+// Writes the path through nodes of both trees that are the same configuration.
 static void nsvcd__path_through(nsvcd__router *r, size_t from_start, size_t from_goal) {
-  const size_t joints = r->joints;
-  const size_t bytes = joints * sizeof(double);
+  const size_t bytes = r->joints * sizeof(double);
   const nsvcd__rrt *start = &r->trees[0];
   const nsvcd__rrt *goal = &r->trees[1];
   size_t count = 1;
   for (size_t n = from_start; start->parents[n] != n; n = start->parents[n]) count++;
-  r->path_count = count;
+  r->corners = count;
   for (size_t n = from_start; count-- > 0; n = start->parents[n])
-    memcpy(r->path + count * joints, start->points + n * joints, bytes);
+    memcpy(nsvcd__corner_at(r, count), nsvcd__node_at(start, n), bytes);
   size_t n = from_goal;
-  for (; goal->parents[n] != n; n = goal->parents[n])
-    memcpy(r->path + r->path_count++ * joints, goal->points + goal->parents[n] * joints,
-           bytes);
+  while (goal->parents[n] != n) {
+    n = goal->parents[n];
+    memcpy(nsvcd__corner_at(r, r->corners++), nsvcd__node_at(goal, n), bytes);
+  }
   r->answer.goal = r->goals[n];
 }
 
-// The way that is guessed: the trees take what is free of it from both ends.
+// An edge from a node of the first tree to one of the second: if it is free, the path is found.
+static nsvcd_result nsvcd__join(nsvcd__router *r, size_t from_start, size_t from_goal,
+                                int *is_found) {
+  const double *to = nsvcd__node_at(&r->trees[1], from_goal);
+  const double *from = nsvcd__node_at(&r->trees[0], from_start);
+  const nsvcd_result result = nsvcd__prove_edge(r, from, to, is_found);
+  if (result || !*is_found) return result;
+  const size_t node = nsvcd__tree_add(&r->trees[0], to, from_start);
+  nsvcd__path_through(r, node, from_goal);
+  return NSVCD_OK;
+}
+
+// The trees take what is free of the caller's guess, from both ends.
 static nsvcd_result nsvcd__take_guess(nsvcd__router *r, int *is_found) {
   const nsvcd_route_problem *p = &r->problem;
-  const size_t joints = r->joints;
   size_t first = 0;
   size_t last = p->guess_count;
   size_t nodes[2] = {0, 0};
-  int is_free = 1;
   // which goal it leads to
-  if (last > 0) nodes[1] = nsvcd__tree_nearest(&r->trees[1], p->guess + (last - 1) * joints);
+  if (last > 0)
+    nodes[1] = nsvcd__tree_nearest(&r->trees[1], p->guess + (last - 1) * r->joints);
   for (int side = 0; side < 2; side++) {
     nsvcd__rrt *t = &r->trees[side];
-    for (is_free = 1; is_free && first < last;) {
-      const double *to = p->guess + (side ? last - 1 : first) * joints;
-      const nsvcd_result result =
-          nsvcd__prove_edge(r, t->points + nodes[side] * joints, to, &is_free);
+    while (first < last) {
+      const double *to = p->guess + (side ? last - 1 : first) * r->joints;
+      const double *from = nsvcd__node_at(t, nodes[side]);
+      int is_free;
+      const nsvcd_result result = nsvcd__prove_edge(r, from, to, &is_free);
       if (result) return result;
-      if (!is_free) continue;
+      if (!is_free) break;
       nodes[side] = nsvcd__tree_add(t, to, nodes[side]);
       first += side == 0;
       last -= side == 1;
     }
   }
-  if (first < last) return NSVCD_OK;
-  // what is left between
-  const nsvcd_result result =
-      nsvcd__prove_edge(r, r->trees[0].points + nodes[0] * joints,
-                        r->trees[1].points + nodes[1] * joints, is_found);
-  if (result || !*is_found) return result;
-  nodes[0] = nsvcd__tree_add(&r->trees[0], r->trees[1].points + nodes[1] * joints, nodes[0]);
-  nsvcd__path_through(r, nodes[0], nodes[1]);
-  return NSVCD_OK;
+  return first < last ? NSVCD_OK : nsvcd__join(r, nodes[0], nodes[1], is_found);
 }
 
+// RRT-Connect (Kuffner and LaValle 2000), after the guess and the straight lines. Difference: an
+// edge is proven, not sampled.
 static nsvcd_result nsvcd__seek(nsvcd__router *r) {
-  const size_t joints = r->joints;
   int is_found = 0;
   nsvcd_result result = nsvcd__take_guess(r, &is_found);
-  if (result || is_found) return result;
-  // straight lines
-  for (size_t g = 0; g < r->trees[1].count && g < r->problem.goal_count && !r->is_stopped;
-       g++) {
-    const double *goal = r->trees[1].points + g * joints;
-    result = nsvcd__prove_edge(r, r->trees[0].points, goal, &is_found);
-    if (result) return result;
-    if (!is_found) continue;
-    nsvcd__path_through(r, nsvcd__tree_add(&r->trees[0], goal, 0), g);
-    return NSVCD_OK;
-  }
-  for (size_t turn = 0; !r->is_stopped; turn++) {
+  // straight lines to the goals
+  const size_t goals =
+      r->trees[1].count < r->problem.goal_count ? r->trees[1].count : r->problem.goal_count;
+  for (size_t g = 0; g < goals && !result && !is_found && !r->is_stopped; g++)
+    result = nsvcd__join(r, 0, g, &is_found);
+  for (size_t turn = 0; !result && !is_found && !r->is_stopped; turn++) {
     nsvcd__rrt *grown = &r->trees[turn % 2];
     nsvcd__rrt *other = &r->trees[1 - turn % 2];
     double drawn[NSVCD_MAX_JOINTS];
     size_t node, met;
-    int is_there;
     nsvcd__draw(r, turn, drawn);
     const size_t before = grown->count;
+    int is_there;
     result = nsvcd__grow(r, grown, drawn, 0, &node, &is_there);
-    if (result) return result;
-    if (nsvcd__is_at_limit(r)) return NSVCD_OK;
+    if (result || nsvcd__is_at_limit(r)) return result;
     r->idle[turn % 2] = grown->count == before ? r->idle[turn % 2] + 1 : 0;
     if (grown->count == before) continue;
-    result = nsvcd__grow(r, other, grown->points + node * joints, 1, &met, &is_there);
-    if (result) return result;
-    if (!is_there) continue;
-    nsvcd__path_through(r, turn % 2 ? met : node, turn % 2 ? node : met);
-    return NSVCD_OK;
+    result = nsvcd__grow(r, other, nsvcd__node_at(grown, node), 1, &met, &is_found);
+    if (is_found) nsvcd__path_through(r, turn % 2 ? met : node, turn % 2 ? node : met);
   }
-  return NSVCD_OK;
+  return result;
 }
 
 // ---- shortcuts
 
-// A place on the way, this far along it: the corner before and the place.
+// The point that is this far along the path. Returns the corner before it.
 static size_t nsvcd__path_at(const nsvcd__router *r, double gone, double *at) {
-  const size_t joints = r->joints;
   size_t k = 0;
-  for (; k + 2 < r->path_count; k++) {
-    const double *from = r->path + k * joints;
-    const double length = sqrt(nsvcd__distance2(from, from + joints, joints));
-    if (gone <= length) break;
+  double length;
+  for (;; k++) {
+    length = nsvcd__edge_length(r, nsvcd__corner_at(r, k), nsvcd__corner_at(r, k + 1));
+    if (k + 2 >= r->corners || gone <= length) break;
     gone -= length;
   }
-  const double *from = r->path + k * joints;
-  const double length = sqrt(nsvcd__distance2(from, from + joints, joints));
+  const double *from = nsvcd__corner_at(r, k);
+  const double *to = nsvcd__corner_at(r, k + 1);
   const double fraction = length > 0 ? nsvcd__min(gone / length, 1) : 0;
-  for (size_t j = 0; j < joints; j++)
-    at[j] = from[j] + fraction * (from[j + joints] - from[j]);
+  for (size_t j = 0; j < r->joints; j++) at[j] = from[j] + fraction * (to[j] - from[j]);
   return k;
 }
 
-// Replaces what is between two places on the way by an edge, again and again, where that is free.
+// Replaces the path between two points drawn on it by an edge, again and again, where that is free.
 static nsvcd_result nsvcd__shorten(nsvcd__router *r) {
-  const size_t joints = r->joints;
-  for (size_t n = 0; n < r->options.shortcuts && r->path_count > 2 && !r->is_stopped; n++) {
+  const size_t bytes = r->joints * sizeof(double);
+  for (size_t n = 0; n < r->options.shortcuts && r->corners > 2 && !r->is_stopped; n++) {
     double at[2][NSVCD_MAX_JOINTS];
     double length = 0;
-    for (size_t k = 0; k + 1 < r->path_count; k++)
-      length +=
-          sqrt(nsvcd__distance2(r->path + k * joints, r->path + (k + 1) * joints, joints));
+    for (size_t k = 0; k + 1 < r->corners; k++)
+      length += nsvcd__edge_length(r, nsvcd__corner_at(r, k), nsvcd__corner_at(r, k + 1));
     const double a = length * nsvcd__random(&r->random);
     const double b = length * nsvcd__random(&r->random);
     const size_t first = nsvcd__path_at(r, nsvcd__min(a, b), at[0]);
     const size_t last = nsvcd__path_at(r, nsvcd__max(a, b), at[1]);
-    // on one edge there is nothing to win, and the way grows by a corner where none is cut off
+    // on one edge nothing is won, and the path would grow by corners
     if (first == last) continue;
     int is_free;
     const nsvcd_result result = nsvcd__prove_edge(r, at[0], at[1], &is_free);
     if (result) return result;
     if (!is_free) continue;
     // corners first + 1 to last make way for two
-    const size_t rest = r->path_count - (last + 1);
-    memmove(r->path + (first + 3) * joints, r->path + (last + 1) * joints,
-            rest * joints * sizeof(double));
-    memcpy(r->path + (first + 1) * joints, at[0], joints * sizeof(double));
-    memcpy(r->path + (first + 2) * joints, at[1], joints * sizeof(double));
-    r->path_count = first + 3 + rest;
+    const size_t rest = r->corners - (last + 1);
+    memmove(nsvcd__corner_at(r, first + 3), nsvcd__corner_at(r, last + 1), rest * bytes);
+    memcpy(nsvcd__corner_at(r, first + 1), at[0], bytes);
+    memcpy(nsvcd__corner_at(r, first + 2), at[1], bytes);
+    r->corners = first + 3 + rest;
   }
   return NSVCD_OK;
 }
 
 // Drops corners that are nearly at the one before: of so short an edge rounding would say what its
-// acceleration is. What is timed is proven as a whole.
+// acceleration is. The timed motion is proven as a whole.
 static void nsvcd__simplify_path(nsvcd__router *r) {
-  const size_t joints = r->joints;
-  const size_t bytes = joints * sizeof(double);
-  const double least = NSVCD__SAME_CORNER * NSVCD__SAME_CORNER;
-  const double *last = r->path + (r->path_count - 1) * joints;
+  const size_t bytes = r->joints * sizeof(double);
+  const double least2 = NSVCD__SAME_CORNER * NSVCD__SAME_CORNER;
+  const double *last = nsvcd__corner_at(r, r->corners - 1);
   size_t kept = 1;
-  for (size_t k = 1; k < r->path_count; k++) {
-    const double *at = r->path + k * joints;
-    if (nsvcd__distance2(r->path + (kept - 1) * joints, at, joints) < least) continue;
-    memmove(r->path + kept++ * joints, at, bytes);
+  for (size_t k = 1; k < r->corners; k++) {
+    const double *at = nsvcd__corner_at(r, k);
+    if (nsvcd__distance2(nsvcd__corner_at(r, kept - 1), at, r->joints) < least2) continue;
+    memmove(nsvcd__corner_at(r, kept++), at, bytes);
   }
   // the end stays where it is
-  memmove(r->path + (kept - 1) * joints, last, bytes);
-  r->path_count = kept;
+  memmove(nsvcd__corner_at(r, kept - 1), last, bytes);
+  r->corners = kept;
 }
 
 // ---- a route
@@ -335,20 +323,20 @@ NSVCDDEF const char *nsvcd_route_status_string(nsvcd_route_status status) {
   return "not a status";
 }
 
-// A configuration in *out, taken into the limits where rounding has it out. Is it free? All the
-// work is given to that.
+// Copies a configuration, clamped to the limits where only rounding has it out. Is it free? That is
+// tried with the search's clearance, then with the caller's, each with the search's work, then with
+// all; edges from there are proven with what was enough.
 static nsvcd_result nsvcd__take_in(nsvcd__router *r, const double *at, double *out,
                                    int *is_free) {
   const nsvcd_joint_motion motion = {0, 0, out, NULL};
   for (size_t j = 0; j < r->joints; j++) {
     const nsvcd_joint *joint = &r->scene->joints[j];
-    const double off = nsvcd__limit_off(joint);
+    const double error = nsvcd__limit_error(joint);
     out[j] = at[j];
     if (joint->kind == NSVCD_JOINT_CONTINUOUS) continue;
-    if (at[j] < joint->low && at[j] >= joint->low - off) out[j] = joint->low;
-    if (at[j] > joint->high && at[j] <= joint->high + off) out[j] = joint->high;
+    if (at[j] < joint->low && at[j] >= joint->low - error) out[j] = joint->low;
+    if (at[j] > joint->high && at[j] <= joint->high + error) out[j] = joint->high;
   }
-  // if it is free only with nothing to spare, or by more work, so are edges from there
   const nsvcd_check_options was = r->check;
   for (size_t n = 0; n < 4; n++) {
     r->check = was;
@@ -364,7 +352,7 @@ static nsvcd_result nsvcd__take_in(nsvcd__router *r, const double *at, double *o
   return NSVCD_OK;
 }
 
-// Adds a root to a tree, and takes it into the range of all roots.
+// Adds a root to a tree, and to the range of all roots.
 static void nsvcd__plant_root(nsvcd__router *r, nsvcd__rrt *t, const double *at) {
   const int is_first = r->trees[0].count == 0;
   for (size_t j = 0; j < r->joints; j++) {
@@ -374,23 +362,25 @@ static void nsvcd__plant_root(nsvcd__router *r, nsvcd__rrt *t, const double *at)
   nsvcd__tree_add(t, at, t->count);
 }
 
-// Roots of the trees. Sets the status where there are none.
+// Plants the roots of the trees. Sets the status where there are none.
 static nsvcd_result nsvcd__plant(nsvcd__router *r) {
+  const double full_turn = 6.283185307179586;
   double at[NSVCD_MAX_JOINTS];
   int is_free;
   nsvcd_result result = nsvcd__take_in(r, r->problem.start, at, &is_free);
   if (result) return result;
-  if (!is_free) r->answer.status = NSVCD_ROUTE_START;
-  if (!is_free) return NSVCD_OK;
+  if (!is_free) {
+    r->answer.status = NSVCD_ROUTE_START;
+    return NSVCD_OK;
+  }
   nsvcd__plant_root(r, &r->trees[0], at);
   for (size_t g = 0; g < r->problem.goal_count && !result; g++) {
     result = nsvcd__take_in(r, r->problem.goals + g * r->joints, at, &is_free);
     if (result || !is_free) continue;
     // as near as whole turns bring it
     for (size_t j = 0; j < r->joints; j++) {
-      const double turns = floor((at[j] - r->trees[0].points[j]) / 6.283185307179586 + 0.5);
-      if (r->scene->joints[j].kind == NSVCD_JOINT_CONTINUOUS)
-        at[j] -= 6.283185307179586 * turns;
+      const double turns = floor((at[j] - r->trees[0].points[j]) / full_turn + 0.5);
+      if (r->scene->joints[j].kind == NSVCD_JOINT_CONTINUOUS) at[j] -= full_turn * turns;
     }
     r->goals[r->trees[1].count] = g;
     nsvcd__plant_root(r, &r->trees[1], at);
@@ -399,15 +389,15 @@ static nsvcd_result nsvcd__plant(nsvcd__router *r) {
   return result;
 }
 
-// From the way to a motion, proven as it is: smooth, else with a rest at each corner.
+// Makes a motion of the path and proves all of it: smooth, else with a rest at each corner.
 static nsvcd_result nsvcd__time_path(nsvcd__router *r) {
-  const size_t joints = r->joints;
-  const double *last = r->path + (r->path_count - 1) * joints;
-  for (size_t j = 0; j < joints; j++) {
+  nsvcd_route_answer *answer = &r->answer;
+  const double *last = nsvcd__corner_at(r, r->corners - 1);
+  for (size_t j = 0; j < r->joints; j++) {
     const nsvcd_joint *joint = &r->scene->joints[j];
     const double time = nsvcd__blend_time(r->path[j], 0, last[j], 0, nsvcd__speed_of(joint),
                                           nsvcd__acceleration_of(joint));
-    r->answer.unhindered = nsvcd__max(r->answer.unhindered, time);
+    answer->unhindered = nsvcd__max(answer->unhindered, time);
   }
   int is_free = 0;
   nsvcd_check_options whole;
@@ -415,23 +405,21 @@ static nsvcd_result nsvcd__time_path(nsvcd__router *r) {
   whole.clearance = r->options.clearance;
   whole.stop = r->check.stop;
   whole.user = r->check.user;
+  const nsvcd__trajectory *t = &r->trajectory;
   for (int rests = 0; rests < 2 && !is_free; rests++) {
     nsvcd_result result = NSVCD_OK;
-    if (!nsvcd__trajectory_along(r)) break;
+    if (!nsvcd__trajectory_along(r)) return NSVCD_OK;
     if (!rests) result = nsvcd__smooth(r);
-    if (result) return result;
-    // though the search is stopped: what it has found by then is not given up
-    const nsvcd_joint_motion motion = nsvcd__motion_of(&r->trajectory);
-    result = nsvcd__prove_by(r, &motion, &whole, &is_free);
+    // also when the search was stopped: what it found by then is proven
+    if (!result) result = nsvcd__prove_by(r, &t->motion, &whole, &is_free);
     if (result) return result;
   }
   if (!is_free) return NSVCD_OK;
-  nsvcd_route_answer *answer = &r->answer;
   answer->status = NSVCD_ROUTE_FOUND;
-  answer->motion = nsvcd__motion_of(&r->trajectory);
-  answer->duration = r->trajectory.times[r->trajectory.pieces];
-  for (size_t p = 1; p < r->trajectory.pieces; p++)
-    answer->stops += (size_t)nsvcd__rests_at(&r->trajectory, joints, p);
+  answer->motion = t->motion;
+  answer->duration = nsvcd__trajectory_end(t);
+  for (size_t p = 1; p < t->motion.pieces; p++)
+    answer->stops += (size_t)nsvcd__rests_at(t, r->joints, p);
   return NSVCD_OK;
 }
 
@@ -454,15 +442,15 @@ NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_prob
   r->problem = *problem;
   r->random = r->options.seed;
   r->check.clearance = r->options.clearance + NSVCD__SPARE;
-  r->check.finest = NSVCD__SEEK_FINEST;
-  r->check.work = NSVCD__SEEK_WORK;
+  r->check.finest = NSVCD__SEARCH_FINEST;
+  r->check.work = NSVCD__SEARCH_WORK;
   r->check.stop = problem->abandon;
   r->check.user = problem->user;
   r->answer.status = NSVCD_ROUTE_LIMIT;
   result = nsvcd__plant(r);
   if (!result && r->trees[1].count > 0) result = nsvcd__seek(r);
-  if (!result && r->path_count > 0) result = nsvcd__shorten(r);
-  if (!result && r->path_count > 0) {
+  if (!result && r->corners > 0) result = nsvcd__shorten(r);
+  if (!result && r->corners > 0) {
     nsvcd__simplify_path(r);
     result = nsvcd__time_path(r);
   }

@@ -1,19 +1,19 @@
-// In: configurations. Out: a tree of them, and the one that is nearest to another.
+// In: configurations. Out: a tree of them, and the node that is nearest to another configuration.
 //
-// Distances are Euclidean, radians and metres alike. A k-d tree that grows: a leaf of more points
-// than it may hold is cut half way along the joint in which they are widest apart.
+// Distances are Euclidean, radians and metres alike. The nearest node is found by a k-d tree that
+// grows: a leaf with too many nodes is cut half way along the joint in which they are widest apart.
 #pragma once
 #include "../ground/random.h"
-#include "path.h"
+#include "steps.h"
 
+// nodes of a leaf, at most
 #define NSVCD__LEAF 8
 
+// A cell of the k-d tree.
 typedef struct nsvcd__cell {
-  // where it is cut, or of a leaf: nothing
-  double at;
-  // by which joint; NSVCD_MAX_JOINTS: a leaf
-  uint32_t joint;
-  // the two halves, one after another; of a leaf: a node and, by `next`, the others, and how many
+  double at;       // where it is cut; unused in a leaf
+  uint32_t joint;  // by which; NSVCD_MAX_JOINTS: a leaf
+  // its halves, one after another; of a leaf: its nodes, by `next`
   uint32_t first, count;
 } nsvcd__cell;
 
@@ -31,8 +31,12 @@ static double nsvcd__distance2(const double *a, const double *b, size_t joints) 
   return sum;
 }
 
+static double *nsvcd__node_at(const nsvcd__rrt *t, size_t node) {
+  return t->points + node * t->joints;
+}
+
 // Cuts a leaf, unless all its points are the same.
-static void nsvcd__leaf_cut(nsvcd__rrt *t, size_t index) {
+static void nsvcd__cut_leaf(nsvcd__rrt *t, size_t index) {
   nsvcd__cell *cell = &t->cells[index];
   size_t widest = 0;
   double width = 0;
@@ -42,8 +46,8 @@ static void nsvcd__leaf_cut(nsvcd__rrt *t, size_t index) {
     double high = -HUGE_VAL;
     uint32_t node = cell->first;
     for (uint32_t n = 0; n < cell->count; n++, node = t->next[node]) {
-      low = nsvcd__min(low, t->points[node * t->joints + j]);
-      high = nsvcd__max(high, t->points[node * t->joints + j]);
+      low = nsvcd__min(low, nsvcd__node_at(t, node)[j]);
+      high = nsvcd__max(high, nsvcd__node_at(t, node)[j]);
     }
     if (!(high - low > width)) continue;
     widest = j;
@@ -51,16 +55,14 @@ static void nsvcd__leaf_cut(nsvcd__rrt *t, size_t index) {
     middle = 0.5 * (low + high);
   }
   if (!(width > 0)) return;
+  const nsvcd__cell empty = {0, NSVCD_MAX_JOINTS, 0, 0};
   nsvcd__cell *halves = &t->cells[t->cell_count];
+  halves[0] = halves[1] = empty;
   t->cell_count += 2;
-  for (size_t k = 0; k < 2; k++) {
-    halves[k].joint = NSVCD_MAX_JOINTS;
-    halves[k].count = 0;
-  }
   uint32_t node = cell->first;
   for (uint32_t n = 0; n < cell->count; n++) {
     const uint32_t following = t->next[node];
-    nsvcd__cell *half = &halves[t->points[node * t->joints + widest] > middle];
+    nsvcd__cell *half = &halves[nsvcd__node_at(t, node)[widest] > middle];
     t->next[node] = half->first;
     half->first = node;
     half->count++;
@@ -73,24 +75,22 @@ static void nsvcd__leaf_cut(nsvcd__rrt *t, size_t index) {
 
 // parent: t->count of a root. Returns the node.
 static size_t nsvcd__tree_add(nsvcd__rrt *t, const double *at, size_t parent) {
+  const nsvcd__cell empty = {0, NSVCD_MAX_JOINTS, 0, 0};
   const size_t node = t->count++;
   size_t index = 0;
-  memcpy(&t->points[node * t->joints], at, t->joints * sizeof *at);
+  memcpy(nsvcd__node_at(t, node), at, t->joints * sizeof *at);
   t->parents[node] = (uint32_t)parent;
-  if (t->cell_count == 0) {
-    t->cell_count = 1;
-    t->cells[0].joint = NSVCD_MAX_JOINTS;
-    t->cells[0].count = 0;
-  }
+  if (t->cell_count == 0) t->cells[t->cell_count++] = empty;
   while (t->cells[index].joint < NSVCD_MAX_JOINTS)
     index = t->cells[index].first + (at[t->cells[index].joint] > t->cells[index].at);
   t->next[node] = t->cells[index].first;
   t->cells[index].first = (uint32_t)node;
-  if (++t->cells[index].count > NSVCD__LEAF) nsvcd__leaf_cut(t, index);
+  if (++t->cells[index].count > NSVCD__LEAF) nsvcd__cut_leaf(t, index);
   return node;
 }
 
-// Looks in a cell, which is `off` from the point, joint by joint, for what is nearer than *best.
+// Looks in a cell for a node nearer than *best, a squared distance. off: from the point to the
+// cell, joint by joint, and its square.
 static void nsvcd__nearest_in(const nsvcd__rrt *t, size_t index, const double *at, double *off,
                               double off2, size_t *nearest, double *best) {
   const nsvcd__cell *cell = &t->cells[index];
@@ -98,9 +98,9 @@ static void nsvcd__nearest_in(const nsvcd__rrt *t, size_t index, const double *a
   if (cell->joint == NSVCD_MAX_JOINTS) {
     uint32_t node = cell->first;
     for (uint32_t n = 0; n < cell->count; n++, node = t->next[node]) {
-      const double distance = nsvcd__distance2(&t->points[node * t->joints], at, t->joints);
-      if (!(distance < *best)) continue;
-      *best = distance;
+      const double distance2 = nsvcd__distance2(nsvcd__node_at(t, node), at, t->joints);
+      if (!(distance2 < *best)) continue;
+      *best = distance2;
       *nearest = node;
     }
     return;

@@ -2,17 +2,15 @@
 #pragma once
 #include "chain.h"
 
-// A step of a motion, from one time to another, h later; x is the share of it that has gone by.
+// A step of a motion: from one time to another, h later.
 typedef struct nsvcd__step {
-  // joints at both ends
-  double from[NSVCD_MAX_JOINTS], to[NSVCD_MAX_JOINTS];
+  double from[NSVCD_MAX_JOINTS], to[NSVCD_MAX_JOINTS];  // the joints at both
   // |d|, d = to - from; max |q - from|
   double travel[NSVCD_MAX_JOINTS], farthest[NSVCD_MAX_JOINTS];
-  // how much each joint bends: 8 |e| is no more, see robot/deviate
-  double bend[NSVCD_MAX_JOINTS];
+  double bend[NSVCD_MAX_JOINTS];  // at least 8 |e|, see robot/deviation.h
 } nsvcd__step;
 
-// A motion as it is meant: of no pieces, a point and nothing else.
+// A motion of no pieces is its first point, whatever else it says.
 static nsvcd_joint_motion nsvcd__motion_meant(const nsvcd_joint_motion *motion) {
   const nsvcd_joint_motion still = {0, 0, motion->points, NULL};
   return motion->pieces ? *motion : still;
@@ -26,35 +24,32 @@ static double nsvcd__piece_time(const nsvcd_joint_motion *motion, size_t piece) 
   return nsvcd__piece_start(motion, piece + 1) - nsvcd__piece_start(motion, piece);
 }
 
-// The piece that a time is in; of two, the later one.
+// The piece that a time is in; where two pieces meet, the later one.
 static size_t nsvcd__piece_at(const nsvcd_joint_motion *motion, double time) {
   size_t low = 0;
   size_t high = motion->pieces;
   while (high - low > 1) {
     const size_t middle = low + (high - low) / 2;
-    if (nsvcd__piece_start(motion, middle) <= time)
-      low = middle;
-    else
-      high = middle;
+    *(nsvcd__piece_start(motion, middle) <= time ? &low : &high) = middle;
   }
   return low;
 }
 
-// The share of a piece that has gone by at a time.
+// How much of a piece has gone by at a time: in [0,1].
 static double nsvcd__fraction_at(const nsvcd_joint_motion *motion, size_t piece, double time) {
   const double start = nsvcd__piece_start(motion, piece);
   if (time >= nsvcd__piece_start(motion, piece + 1)) return 1;
   return time > start ? (time - start) / nsvcd__piece_time(motion, piece) : 0;
 }
 
-// Points of one joint in a piece.
+// The control points of one joint in a piece.
 static void nsvcd__joint_points(const nsvcd_joint_motion *motion, size_t piece, size_t joints,
                                 size_t joint, double *p) {
   const double *first = motion->points + piece * motion->degree * joints + joint;
   for (size_t i = 0; i <= motion->degree; i++) p[i] = first[i * joints];
 }
 
-// The part of a piece from share s0 to s1: de Casteljau's algorithm, twice.
+// Cuts a curve to its fractions from s0 to s1: de Casteljau's algorithm, twice.
 static void nsvcd__cut_curve(double *p, size_t degree, double s0, double s1) {
   const double before = s1 > 0 ? s0 / s1 : 0;
   // the first s1 of it: p[i] becomes the point of level i
@@ -67,7 +62,7 @@ static void nsvcd__cut_curve(double *p, size_t degree, double s0, double s1) {
   }
 }
 
-// The joints in a piece at a share of it, and, unless NULL, their speeds.
+// The joints at a fraction of a piece, and, unless NULL, their speeds.
 static void nsvcd__joints_at(const nsvcd_joint_motion *motion, size_t joints, size_t piece,
                              double fraction, double *at, double *speeds) {
   const size_t degree = motion->degree;
@@ -85,11 +80,18 @@ static void nsvcd__joints_at(const nsvcd_joint_motion *motion, size_t joints, si
   }
 }
 
+// The same at a time.
+static void nsvcd__joints_at_time(const nsvcd_joint_motion *motion, size_t joints, double time,
+                                  double *at, double *speeds) {
+  const size_t piece = nsvcd__piece_at(motion, time);
+  const double fraction = nsvcd__fraction_at(motion, piece, time);
+  nsvcd__joints_at(motion, joints, piece, fraction, at, speeds);
+}
+
 NSVCDDEF void nsvcd_motion_at(const nsvcd_joint_motion *motion, size_t joints, double time,
                               double *out) {
   const nsvcd_joint_motion m = nsvcd__motion_meant(motion);
-  const size_t piece = nsvcd__piece_at(&m, time);
-  nsvcd__joints_at(&m, joints, piece, nsvcd__fraction_at(&m, piece, time), out, NULL);
+  nsvcd__joints_at_time(&m, joints, time, out, NULL);
 }
 
 // By how much the speed of a joint jumps where a piece begins.
@@ -101,8 +103,8 @@ static double nsvcd__jump_at(const nsvcd_joint_motion *motion, size_t joints, si
   return fabs((double)motion->degree * (after - before));
 }
 
-// What the joints do from time t0 to t1, through as many pieces as there are. Where the speed jumps
-// by v, e has a corner: |e| is more by h v / 4 at most.
+// What the joints do from time t0 to t1, which may span several pieces. Where the speed jumps by v,
+// e has a corner, and |e| grows by h v / 4 at most.
 static void nsvcd__step_of(const nsvcd_joint_motion *motion, size_t joints, double t0,
                            double t1, nsvcd__step *step) {
   const size_t degree = motion->degree;
@@ -114,9 +116,9 @@ static void nsvcd__step_of(const nsvcd_joint_motion *motion, size_t joints, doub
   double square = 0;
   const double h = t1 - t0;
   while (last + 1 < motion->pieces && nsvcd__piece_start(motion, last + 1) < t1) last++;
+  const double begin = nsvcd__fraction_at(motion, first, t0);
   const double end = nsvcd__fraction_at(motion, last, t1);
-  nsvcd__joints_at(motion, joints, first, nsvcd__fraction_at(motion, first, t0), step->from,
-                   v0);
+  nsvcd__joints_at(motion, joints, first, begin, step->from, v0);
   nsvcd__joints_at(motion, joints, last, end, step->to, v1);
   for (size_t j = 0; j < joints; j++) {
     const double d = step->to[j] - step->from[j];
@@ -134,12 +136,12 @@ static void nsvcd__step_of(const nsvcd_joint_motion *motion, size_t joints, doub
     double jumps = 0;
     for (size_t piece = first; piece <= last; piece++) {
       double p[NSVCD_MAX_DEGREE + 1], second[NSVCD_MAX_DEGREE + 1];
-      const double s0 = piece == first ? nsvcd__fraction_at(motion, piece, t0) : 0;
+      const double s0 = piece == first ? begin : 0;
       const double s1 = piece == last ? end : 1;
-      const double steps = h / nsvcd__piece_time(motion, piece);
+      const double per_piece = h / nsvcd__piece_time(motion, piece);
       nsvcd__joint_points(motion, piece, joints, j, p);
       for (size_t i = 0; i + 2 <= degree; i++)
-        second[i] = steps * steps * twice * (p[i] - 2 * p[i + 1] + p[i + 2]);
+        second[i] = per_piece * per_piece * twice * (p[i] - 2 * p[i + 1] + p[i + 2]);
       if (degree >= 2) nsvcd__cut_curve(second, degree - 2, s0, s1);
       nsvcd__cut_curve(p, degree, s0, s1);
       for (size_t i = 0; i <= degree; i++)

@@ -1,0 +1,310 @@
+// In: a checker and a motion of its joints. Out: is it free, as the joints make it, at all times?
+//
+// A motion is asked about from corner to corner. Each such interval is cut into steps in which no
+// part deviates by more than is allowed; each pair is asked about in all steps at once, with the
+// deviations added to the clearance. What is not proven is asked about again in finer steps.
+#pragma once
+#include "local_queries.h"
+
+// how often an interval that takes more than NSVCD__MOST_STEPS may be halved
+#define NSVCD__CHECK_HALVINGS 24
+// steps of an interval that is no straight line, at first
+#define NSVCD__FIRST_STEPS 4
+// radians or metres: no sample is put where a motion bends by less
+#define NSVCD__CORNER 1e-3
+// metres that a part may deviate at first; by how much less each time that pairs are asked again;
+// and at last, by default
+#define NSVCD__COARSE 2e-3
+#define NSVCD__CHECK_FINER 8
+#define NSVCD__FINEST 1e-5f
+// units to look for a hit, before the last time
+#define NSVCD__HIT_TRY 200
+
+typedef struct nsvcd__check_state {
+  nsvcd_checker *checker;
+  const nsvcd_joint_motion *motion;
+  const nsvcd_check_options *options;
+  nsvcd_check_answer *answer;
+  size_t steps;  // between samples; 0: one configuration
+} nsvcd__check_state;
+
+// ---- pairs
+
+// Do two parts, in their local poses, come as near as the clearance?
+static nsvcd_result nsvcd__ask_local(nsvcd__check_state *s, const nsvcd_body_pair *pair,
+                                     size_t count, float clearance, size_t work,
+                                     nsvcd_answer *found) {
+  const nsvcd_check_options *o = s->options;
+  nsvcd_question question = nsvcd__question_of(s->checker, pair, count, work);
+  question.clearance = clearance;
+  if (o->stop && o->stop(o->user)) {
+    memset(found, 0, sizeof *found);
+    found->why = NSVCD_WHY_WORK;
+    return NSVCD_OK;
+  }
+  s->answer->sweeps++;
+  return nsvcd__ask(s->checker, &question, found);
+}
+
+// Does a pair, on its sweeps between samples, come as near as the clearance? With is_proof, the
+// clearance has all that these may be off added. range: the steps that were asked about; the times
+// of *found are of it.
+static nsvcd_result nsvcd__ask_pair(nsvcd__check_state *s, const nsvcd_body_pair *pair,
+                                    int is_proof, size_t work, nsvcd__step_range *range,
+                                    nsvcd_answer *found) {
+  nsvcd_checker *c = s->checker;
+  const double error = nsvcd__part_error(c, pair->a) + nsvcd__part_error(c, pair->b);
+  const double room = (double)s->options->clearance + error;
+  if (!nsvcd__steps_near(c, pair, s->steps, room * (1 + 1e-9), range)) {
+    found->verdict = NSVCD_FREE;
+    return NSVCD_OK;
+  }
+  const size_t count = range->steps + 1;
+  const nsvcd__frame *const frames[2] = {nsvcd__frames_at(c, pair->a, range->first),
+                                         nsvcd__frames_at(c, pair->b, range->first)};
+  const nsvcd__local local = nsvcd__localize(c, pair, frames, count);
+  const double errors = is_proof ? error + local.rounding : 0;
+  const double clearance = (double)s->options->clearance + errors;
+  const float rounded = clearance > 0 ? nsvcd__above(clearance) : 0;
+  return nsvcd__ask_local(s, pair, count, rounded, work, found);
+}
+
+// Is the answer's pair hit in the configuration that it names? Then the answer says so.
+static nsvcd_result nsvcd__ask_there(nsvcd__check_state *s, size_t work) {
+  nsvcd_checker *c = s->checker;
+  nsvcd_check_answer *answer = s->answer;
+  const nsvcd_body_pair *pair = &c->scene->pairs[answer->pair];
+  double joints[NSVCD_MAX_JOINTS];
+  nsvcd_answer found;
+  nsvcd__joints_at(s->motion, c->scene->joint_count, answer->piece, answer->fraction, joints,
+                   NULL);
+  nsvcd__place_links(c, joints, &c->at);
+  answer->placed++;
+  const nsvcd__local local = nsvcd__localize_at(c, pair, &c->at);
+  const nsvcd_result result =
+      nsvcd__ask_local(s, pair, 1, s->options->clearance, work, &found);
+  if (result || found.verdict != NSVCD_HIT) return result;
+  answer->verdict = NSVCD_HIT;
+  answer->contact = found.nearest;
+  nsvcd__contact_to_world(&local, &answer->contact);
+  return NSVCD_OK;
+}
+
+// Is a pair that is not proven hit in some configuration? Tries two: where it came nearest in its
+// proof, which is *found; then where its sweeps between samples hit.
+static nsvcd_result nsvcd__seek_hit(nsvcd__check_state *s, size_t pair,
+                                    nsvcd__step_range *range, nsvcd_answer *found,
+                                    size_t work) {
+  nsvcd_checker *c = s->checker;
+  nsvcd_check_answer *answer = s->answer;
+  nsvcd_result result = NSVCD_OK;
+  answer->pair = pair;
+  answer->why = found->why;
+  for (int attempt = 0; attempt < 2 && found->verdict != NSVCD_FREE; attempt++) {
+    if (s->steps > 0) {
+      // a sweep takes all steps to be equally long
+      const double u = nsvcd__max(0, nsvcd__min(1, (double)found->nearest.time));
+      const double at = (double)range->steps * u;
+      const size_t step = (size_t)at < range->steps ? (size_t)at : range->steps - 1;
+      const double *times = c->times + range->first + step;
+      const double time = times[0] + (at - (double)step) * (times[1] - times[0]);
+      answer->piece = nsvcd__piece_at(s->motion, time);
+      answer->fraction = nsvcd__fraction_at(s->motion, answer->piece, time);
+    }
+    result = nsvcd__ask_there(s, work);
+    if (result || answer->verdict == NSVCD_HIT) return result;
+    if (attempt == 0)
+      result = nsvcd__ask_pair(s, &c->scene->pairs[pair], 0, work, range, found);
+    if (result) return result;
+  }
+  return NSVCD_OK;
+}
+
+// Puts a pair first in the order.
+static void nsvcd__put_first(nsvcd_checker *c, size_t pair) {
+  size_t at = 0;
+  while (c->order[at] != pair) at++;
+  for (; at > 0; at--) c->order[at] = c->order[at - 1];
+  c->order[0] = (uint32_t)pair;
+}
+
+// Asks about the first *left pairs of c->left, until one is hit; keeps those that stay unproven.
+static nsvcd_result nsvcd__ask_pairs(nsvcd__check_state *s, int is_last, size_t *left) {
+  nsvcd_checker *c = s->checker;
+  const size_t work = s->options->work;
+  const size_t brief = work && work < NSVCD__HIT_TRY ? work : NSVCD__HIT_TRY;
+  size_t kept = 0;
+  for (size_t n = 0; n < *left; n++) {
+    const size_t pair = c->left[n];
+    nsvcd__step_range range;
+    nsvcd_answer found;
+    nsvcd_result result = nsvcd__ask_pair(s, &c->scene->pairs[pair], 1, work, &range, &found);
+    if (!result && found.verdict == NSVCD_FREE) continue;
+    if (!result) result = nsvcd__seek_hit(s, pair, &range, &found, is_last ? work : brief);
+    if (result) return result;
+    if (s->answer->verdict == NSVCD_HIT) {
+      nsvcd__put_first(c, pair);
+      return NSVCD_OK;
+    }
+    c->left[kept++] = (uint32_t)pair;
+  }
+  *left = kept;
+  return NSVCD_OK;
+}
+
+// ---- intervals
+
+static void nsvcd__take_samples(nsvcd__check_state *s, size_t steps) {
+  s->steps = steps;
+  nsvcd__sample(s->checker, s->motion, steps);
+  s->answer->placed += steps + 1;
+}
+
+// From time t0 to t1, in so many steps at first; with none it is one configuration. An interval
+// that takes too many steps is halved, so often at most.
+static nsvcd_result nsvcd__check_interval(nsvcd__check_state *s, double t0, double t1,
+                                          size_t steps, int halvings) {
+  nsvcd_checker *c = s->checker;
+  nsvcd_check_answer *answer = s->answer;
+  const double finest = (double)s->options->finest;
+  size_t left = c->scene->pair_count;
+  answer->verdict = NSVCD_UNDECIDED;
+  answer->piece = nsvcd__piece_at(s->motion, t0);
+  answer->fraction = nsvcd__fraction_at(s->motion, answer->piece, t0);
+  memcpy(c->left, c->order, left * sizeof *c->left);
+  for (size_t k = 0; k <= steps; k++)
+    c->times[k] = k < steps ? t0 + (t1 - t0) * (double)k / (double)steps : t1;
+  nsvcd__take_samples(s, steps);
+  double allowed = NSVCD__COARSE;
+  while (left > 0) {
+    const size_t finer = nsvcd__refine_steps(c, s->steps, allowed);
+    if (finer > NSVCD__MOST_STEPS) {
+      const double middle = 0.5 * (t0 + t1);
+      const size_t coarse = s->steps;
+      answer->why = NSVCD_WHY_WORK;
+      if (halvings == 0 || !(middle > t0 && middle < t1)) return NSVCD_OK;
+      const nsvcd_result result = nsvcd__check_interval(s, t0, middle, coarse, halvings - 1);
+      if (result || answer->verdict != NSVCD_FREE) return result;
+      return nsvcd__check_interval(s, middle, t1, coarse, halvings - 1);
+    }
+    if (finer > s->steps) nsvcd__take_samples(s, finer);
+    const int is_last = s->steps == 0 || allowed <= finest;
+    const nsvcd_result result = nsvcd__ask_pairs(s, is_last, &left);
+    if (result || answer->verdict == NSVCD_HIT) return result;
+    if (is_last && left > 0) return NSVCD_OK;
+    allowed = nsvcd__max(allowed / NSVCD__CHECK_FINER, finest);
+  }
+  answer->pair = NSVCD_NONE;
+  answer->verdict = NSVCD_FREE;
+  return NSVCD_OK;
+}
+
+// Does the motion turn sharply where a piece begins? Then a sample belongs there.
+static int nsvcd__is_corner(const nsvcd_joint_motion *motion, size_t joints, size_t piece) {
+  const double before = nsvcd__piece_time(motion, piece - 1);
+  const double after = nsvcd__piece_time(motion, piece);
+  double jumps = 0;
+  for (size_t j = 0; j < joints; j++) jumps += nsvcd__jump_at(motion, joints, piece, j);
+  return !(jumps * nsvcd__min(before, after) <= NSVCD__CORNER);
+}
+
+// ---- limits
+
+// By how much a joint may be out of its limits: rounding.
+static double nsvcd__limit_error(const nsvcd_joint *joint) {
+  return 1e-9 * (1 + fabs(joint->low) + fabs(joint->high));
+}
+
+// Does a curve leave the interval from low to high? Halved until all its control points are in it,
+// or an end is out.
+static int nsvcd__curve_leaves(const double *points, size_t degree, double low, double high,
+                               int depth) {
+  double half[2][NSVCD_MAX_DEGREE + 1];
+  int inside = 1;
+  for (size_t i = 0; i <= degree; i++) inside &= points[i] >= low && points[i] <= high;
+  if (inside) return 0;
+  if (depth == 0 || !(points[0] >= low && points[0] <= high)) return 1;
+  if (!(points[degree] >= low && points[degree] <= high)) return 1;
+  for (size_t k = 0; k < 2; k++) {
+    memcpy(half[k], points, (degree + 1) * sizeof *points);
+    nsvcd__cut_curve(half[k], degree, k ? 0.5 : 0, k ? 1 : 0.5);
+    if (nsvcd__curve_leaves(half[k], degree, low, high, depth - 1)) return 1;
+  }
+  return 0;
+}
+
+// A joint that leaves its limits in a piece by more than rounding, or NSVCD_NONE.
+static size_t nsvcd__joint_outside(const nsvcd_scene *scene, const nsvcd_joint_motion *motion,
+                                   size_t piece) {
+  double p[NSVCD_MAX_DEGREE + 1];
+  for (size_t j = 0; j < scene->joint_count; j++) {
+    const nsvcd_joint *joint = &scene->joints[j];
+    if (joint->kind == NSVCD_JOINT_CONTINUOUS) continue;
+    nsvcd__joint_points(motion, piece, scene->joint_count, j, p);
+    const double error = nsvcd__limit_error(joint);
+    if (nsvcd__curve_leaves(p, motion->degree, joint->low - error, joint->high + error, 30))
+      return j;
+  }
+  return NSVCD_NONE;
+}
+
+// ---- a check
+
+// Is a motion in order? Of no pieces it must be as nsvcd__motion_meant has it.
+static nsvcd_result nsvcd__motion_check(const nsvcd_joint_motion *m, size_t joints) {
+  if (m->pieces && (m->degree < 1 || m->degree > NSVCD_MAX_DEGREE)) return NSVCD_ERROR_DEGREE;
+  if (m->pieces > SIZE_MAX / sizeof(double) / (NSVCD_MAX_DEGREE + 1) / joints)
+    return NSVCD_ERROR_DEGREE;
+  if (!nsvcd__are_numbers(m->points, (m->pieces * m->degree + 1) * joints))
+    return NSVCD_ERROR_VALUE;
+  if (m->times && !nsvcd__are_numbers(m->times, m->pieces + 1)) return NSVCD_ERROR_TIMES;
+  for (size_t p = 0; p < m->pieces && m->times; p++) {
+    if (!(m->times[p + 1] > m->times[p])) return NSVCD_ERROR_TIMES;
+  }
+  return NSVCD_OK;
+}
+
+// Is it free, and within the limits?
+static int nsvcd__proves_free(const nsvcd_check_answer *answer) {
+  return answer->verdict == NSVCD_FREE && answer->joint == NSVCD_NONE;
+}
+
+NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,
+                                  const nsvcd_check_options *options,
+                                  nsvcd_check_answer *answer) {
+  nsvcd_check_answer found;
+  nsvcd_check_options o;
+  if (!checker || !motion || !answer || !motion->points) return NSVCD_ERROR_ARGUMENT;
+  const size_t joints = checker->scene->joint_count;
+  const nsvcd_joint_motion m = nsvcd__motion_meant(motion);
+  nsvcd_result result = nsvcd__motion_check(&m, joints);
+  if (result) return result;
+  memset(&o, 0, sizeof o);
+  if (options) o = *options;
+  if (!nsvcd__is_finite(o.clearance) || o.clearance < 0) return NSVCD_ERROR_CLEARANCE;
+  if (!nsvcd__is_finite(o.finest) || o.finest < 0) return NSVCD_ERROR_FINEST;
+  o.finest = o.finest > 0 ? o.finest : NSVCD__FINEST;
+  memset(&found, 0, sizeof found);
+  found.joint = found.pair = found.piece = NSVCD_NONE;
+  for (size_t p = 0; p < m.pieces + !m.pieces && found.joint == NSVCD_NONE; p++)
+    found.joint = nsvcd__joint_outside(checker->scene, &m, p);
+  nsvcd__check_state s = {checker, &m, &o, &found, 0};
+  if (m.pieces == 0) result = nsvcd__check_interval(&s, 0, 0, 0, 0);
+  // from corner to corner
+  for (size_t p = 0, next; p < m.pieces && !result; p = next) {
+    next = p + 1;
+    while (next < m.pieces && !nsvcd__is_corner(&m, joints, next)) next++;
+    const size_t steps = next - p == 1 && m.degree == 1 ? 1 : NSVCD__FIRST_STEPS;
+    result = nsvcd__check_interval(&s, nsvcd__piece_start(&m, p), nsvcd__piece_start(&m, next),
+                                   steps, NSVCD__CHECK_HALVINGS);
+    if (found.verdict != NSVCD_FREE) break;
+  }
+  if (result) return result;
+  if (found.verdict == NSVCD_FREE) {
+    found.piece = NSVCD_NONE;
+    found.fraction = 0;
+    found.why = NSVCD_WHY_NOTHING;
+  }
+  *answer = found;
+  return NSVCD_OK;
+}

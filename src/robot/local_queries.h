@@ -1,0 +1,73 @@
+// In: two parts of a pair, and their frames. Out: a question about them, as one of them sees it.
+//
+// Two parts that are near each other have small coordinates in a frame of one of them, however far
+// from the world's origin they are: there a float has digits left. That is the frame of the part
+// that rests, if one does; else b's, half way.
+#pragma once
+#include "samples.h"
+
+typedef struct nsvcd__local {
+  nsvcd__frame frame;  // in the world
+  double rounding;     // metres: errors of both parts' poses in float, in sum, at most
+} nsvcd__local;
+
+// Fills in c->local. frames: of a and of b, (count) each, but one of a part that rests.
+static nsvcd__local nsvcd__localize(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                    const nsvcd__frame *const *frames, size_t count) {
+  const size_t parts[2] = {pair->a, pair->b};
+  const int moves[2] = {c->scene->parts[pair->a].link > 0, c->scene->parts[pair->b].link > 0};
+  nsvcd__local local = {moves[0] ? frames[1][moves[1] ? count / 2 : 0] : frames[0][0], 0};
+  for (size_t n = 0; n < 2; n++) {
+    double most = 0;
+    for (size_t k = 0; k < (moves[n] ? count : 1); k++) {
+      const nsvcd__frame in = nsvcd__frame_inverse_mul(&local.frame, &frames[n][k]);
+      c->local[n][k] = nsvcd__frame_pose(&in);
+      most = nsvcd__max(most, nsvcd__d3_length(in.position));
+    }
+    // of positions and of quaternions as floats
+    if (moves[n]) local.rounding += 2 * (1.1e-7 * most + 1.3e-7 * c->members[parts[n]].extent);
+  }
+  return local;
+}
+
+// The same of two parts in a configuration.
+static nsvcd__local nsvcd__localize_at(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                       const nsvcd__configuration *at) {
+  const nsvcd__frame a = nsvcd__frame_of_part(c, at, pair->a);
+  const nsvcd__frame b = nsvcd__frame_of_part(c, at, pair->b);
+  const nsvcd__frame *const frames[2] = {&a, &b};
+  return nsvcd__localize(c, pair, frames, 1);
+}
+
+// Takes a contact from the local frame to the world.
+static void nsvcd__contact_to_world(const nsvcd__local *local, nsvcd_contact *contact) {
+  const nsvcd__frame *frame = &local->frame;
+  const nsvcd__d3 point = nsvcd__frame_apply(frame, nsvcd__d3_load(contact->point));
+  const nsvcd__d3 normal = nsvcd__dquat_rotate(frame->turn, nsvcd__d3_load(contact->normal));
+  nsvcd__f3_store(nsvcd__f3_round(point), contact->point);
+  nsvcd__f3_store(nsvcd__f3_round(normal), contact->normal);
+}
+
+// Of two parts in their local poses, so many each; of a part that rests, one.
+static nsvcd_question nsvcd__question_of(const nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                         size_t count, size_t work) {
+  const size_t parts[2] = {pair->a, pair->b};
+  nsvcd_question question;
+  memset(&question, 0, sizeof question);
+  for (size_t n = 0; n < 2; n++) {
+    const nsvcd_part *part = &c->scene->parts[parts[n]];
+    nsvcd_mover *mover = n ? &question.b : &question.a;
+    mover->body = part->body;
+    mover->scale = part->scale;
+    mover->poses = c->local[n];
+    mover->count = part->link ? count : 1;
+  }
+  question.method = NSVCD_METHOD_PROOF;
+  question.work = work ? work : NSVCD_DEFAULT_WORK;
+  return question;
+}
+
+static nsvcd_result nsvcd__ask(nsvcd_checker *c, const nsvcd_question *question,
+                               nsvcd_answer *found) {
+  return nsvcd_sweep(question, c->query, c->query_size, found);
+}

@@ -1,0 +1,120 @@
+// In: times of a motion. Out: its samples, where all parts are placed, and how far each part
+// deviates in the steps between them; boxes about parts in a step.
+#pragma once
+#include "checker.h"
+
+// errors of frames in double, as a fraction of the lengths that they are computed from
+#define NSVCD__FRAME_ROUNDING 1e-13
+
+// Places the parts that move, in a configuration, as sample k.
+static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__configuration *at, size_t k) {
+  const nsvcd_scene *scene = c->scene;
+  double most = 0;
+  for (size_t link = 1; link <= scene->joint_count; link++)
+    most = nsvcd__max(most, nsvcd__d3_length(at->frames[link].position));
+  for (size_t n = 0; n < scene->part_count; n++) {
+    nsvcd__member *m = &c->members[n];
+    if (!scene->parts[n].link) continue;
+    const nsvcd__frame frame = nsvcd__frame_of_part(c, at, n);
+    const nsvcd__bounds bounds = nsvcd__bounds_of(m, &frame);
+    c->frames[m->row + k] = frame;
+    c->bounds[m->row + k] = bounds;
+    m->bounds = k ? nsvcd__bounds_over(&m->bounds, &bounds) : bounds;
+    // a joint adds some 5e-16 of its moment arm
+    const double arm = most + nsvcd__d3_length(frame.position) + m->extent;
+    m->rounding = nsvcd__max(k ? m->rounding : 0, NSVCD__FRAME_ROUNDING * arm);
+  }
+}
+
+// Places the parts that move at c->times, one more than steps, and computes how far they deviate.
+static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, size_t steps) {
+  const nsvcd_scene *scene = c->scene;
+  nsvcd__step step;
+  nsvcd__configuration *from = &c->at;
+  nsvcd__configuration *to = &c->next;
+  for (size_t n = 0; n < scene->part_count; n++) c->members[n].deviation = 0;
+  nsvcd_motion_at(motion, scene->joint_count, c->times[0], step.from);
+  nsvcd__place_links(c, step.from, from);
+  nsvcd__place_sample(c, from, 0);
+  for (size_t k = 0; k < steps; k++) {
+    nsvcd__step_of(motion, scene->joint_count, c->times[k], c->times[k + 1], &step);
+    nsvcd__place_links(c, step.to, to);
+    nsvcd__place_sample(c, to, k + 1);
+    c->deviations[k] = 0;
+    for (size_t n = 0; n < scene->part_count; n++) {
+      nsvcd__member *m = &c->members[n];
+      if (!scene->parts[n].link) continue;
+      const double deviation = nsvcd__part_deviation(c, n, &step, from, to) * (1 + 1e-9);
+      c->deviations[k] = nsvcd__max(c->deviations[k], deviation);
+      m->deviation = nsvcd__max(m->deviation, deviation);
+    }
+    nsvcd__configuration *other = from;
+    from = to;
+    to = other;
+  }
+}
+
+// Cuts steps so that no part deviates by more than is allowed, as far as can be foreseen: the
+// deviation goes with the square of a step. Returns how many steps there are then; where they are
+// more than NSVCD__MOST_STEPS, the times stay as they were.
+static size_t nsvcd__refine_steps(nsvcd_checker *c, size_t steps, double allowed) {
+  size_t total = 0;
+  for (size_t k = 0; k < steps; k++) {
+    const double cuts = ceil(sqrt(c->deviations[k] / allowed));
+    if (!(cuts <= NSVCD__MOST_STEPS)) return NSVCD__MOST_STEPS + 1;
+    total += cuts > 1 ? (size_t)cuts : 1;
+  }
+  if (total > NSVCD__MOST_STEPS) return total;
+  size_t at = total;
+  c->times[total] = c->times[steps];
+  for (size_t k = steps; k-- > 0;) {
+    const double cuts = nsvcd__max(ceil(sqrt(c->deviations[k] / allowed)), 1);
+    const double from = c->times[k];
+    const double duration = c->times[at] - from;
+    for (size_t i = (size_t)cuts; i-- > 0;)
+      c->times[--at] = from + duration * (double)i / cuts;
+  }
+  return total;
+}
+
+// A box about a part at both ends of a step; in between it goes no farther than it deviates.
+static nsvcd__bounds nsvcd__bounds_in(const nsvcd_checker *c, size_t part, size_t step) {
+  const nsvcd__member *m = &c->members[part];
+  const nsvcd__bounds *at = c->bounds + m->row + step;
+  return c->scene->parts[part].link ? nsvcd__bounds_over(at, at + 1) : m->bounds;
+}
+
+// The steps outside of which the boxes of a pair stay apart; none for a single configuration.
+typedef struct nsvcd__step_range {
+  size_t first, steps;
+} nsvcd__step_range;
+
+// Where does a pair come as near as `room`, by its boxes? Returns 0 if nowhere.
+static int nsvcd__steps_near(const nsvcd_checker *c, const nsvcd_body_pair *pair, size_t steps,
+                             double room, nsvcd__step_range *range) {
+  size_t last = 0;
+  if (nsvcd__bounds_apart(&c->members[pair->a].bounds, &c->members[pair->b].bounds, room))
+    return 0;
+  range->first = steps;
+  for (size_t k = 0; k < steps; k++) {
+    const nsvcd__bounds a = nsvcd__bounds_in(c, pair->a, k);
+    const nsvcd__bounds b = nsvcd__bounds_in(c, pair->b, k);
+    if (nsvcd__bounds_apart(&a, &b, room)) continue;
+    if (range->first == steps) range->first = k;
+    last = k + 1;
+  }
+  range->steps = last - (steps ? range->first : 0);
+  return steps == 0 || last > 0;
+}
+
+// By how much a part can be off its sweep between samples, in the frames of these.
+static double nsvcd__part_error(const nsvcd_checker *c, size_t part) {
+  return c->members[part].deviation + 2 * c->members[part].rounding;
+}
+
+// The frames of a part from a sample on; of one that rests there is only one.
+static const nsvcd__frame *nsvcd__frames_at(const nsvcd_checker *c, size_t part,
+                                            size_t sample) {
+  const nsvcd__member *m = &c->members[part];
+  return c->scene->parts[part].link ? c->frames + m->row + sample : &m->frame;
+}
