@@ -1,9 +1,9 @@
 // neuralsvcd_certify.h - v0.3.0 - an answer, and bytes that prove it to others
 // SPDX-License-Identifier: MIT
 //
-// nsvcd_certify proves what nsvcd_sweep answered once more, by other means, and writes the proof as
+// nsvcd_certify proves an answer of nsvcd_sweep once more, by other means, and writes the proof as
 // bytes. Whoever has the meshes can check them with examples/verify, which shares nothing with this
-// library. On top of neuralsvcd.h, of which it uses what any program can. In ONE C or C++ file:
+// library. It stands on the public functions of neuralsvcd.h. In ONE C or C++ file:
 //
 //   #define NEURALSVCD_CERTIFY_IMPLEMENTATION
 //   #include "extras/neuralsvcd_certify.h"
@@ -24,15 +24,15 @@
 //     random          random numbers
 //     memory          the allocator; the rows of a workspace
 //   certificate: a proof that others can check
-//     tree            boxes over triangles, components
-//     law             where a body is, how far points leave their chords
-//     planes          one that separates two nodes for a while
+//     tree            boxes over triangles, connected components
+//     models          where a body is, how far points leave their chords
+//     planes          a plane that separates two nodes for an interval of time
 //     rays            what a ray crosses
 //     certify         the traversal, and its bits
 //
 // GLOSSARY
-//   tree, node   boxes over a mesh's triangles; a run of these
-//   certificate  bytes that prove an answer: a traversal over two trees and time, and rays
+//   tree, node   boxes over a mesh's triangles; one of them, and its run of triangles
+//   certificate  bytes that prove an answer: a traversal of two trees and of time, and rays
 #ifndef NEURALSVCD_CERTIFY_H
 #define NEURALSVCD_CERTIFY_H
 #ifndef NEURALSVCD_H  // include it first where it stands elsewhere
@@ -1097,42 +1097,37 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
 // ===================================================== certificate: a proof that others can check
 
 // -------------------------------------------------------------------------------- certificate/tree
-// In: a mesh. Out: its components, and a tree of boxes over its triangles. The floor, top to
-// bottom:
+// In: a mesh. Out: its connected components, and a tree of boxes over its triangles. The floor, top
+// to bottom:
 //
 //   tree        boxes, and components
-//   law         where a body is at a time, and how far points leave their chords
-//   planes      one that separates two nodes over a interval of time; its normal in a few bits
+//   models      where a body is at a time, and how far points leave their chords
+//   planes      a plane that separates two nodes for an interval of time; its normal in a few bits
 //   rays        what is inside of what at one time
 //   certify     the traversal that a certificate is
 //
-// What is built and computed here examples/verify builds and computes again, by code of its own:
-// the rules by which nodes are cut and opened, and the form of the bits, are the same in both.
+// examples/verify builds and computes all of this again, by code of its own. The rules by which
+// nodes are cut and opened, and the form of the bits, are the same in both.
 
+// of a mesh, at most; and nodes on the stack of a traversal of that many
 #define NSVCD__TREE_TRIANGLES 0x20000000
-// nodes that wait, while a tree of so many triangles is walked through
 #define NSVCD__TREE_STACK 32
 
 // A run of triangles of a tree, with a box about them.
 typedef struct nsvcd__node {
-  // a row of boxes; of order
-  uint32_t box, first, count;
+  uint32_t box;           // its row of boxes
+  uint32_t first, count;  // of order
 } nsvcd__node;
 
 struct nsvcd_tree {
   nsvcd_mesh mesh;
-  // (2 triangles - 1), of a node, of its left tree, of its right tree
-  nsvcd__box *boxes;
-  // (triangles): the leaves, from left to right
-  uint32_t *order;
-  // (triangles, 3, 3): their corners
-  float *corners;
+  nsvcd__box *boxes;  // (2 triangles - 1): of a node, of its left tree, of its right tree
+  uint32_t *order;    // (triangles): the leaves, from left to right
+  float *corners;     // (triangles, 3, 3), in that order
   // (vertices): the lowest vertex of its component; NSVCD_NO_TRIANGLE: no triangle has it
-  uint32_t *part;
-  // (vertices): the lowest vertex at its place
-  uint32_t *weld;
-  // (vertices): 1: the component is not closed
-  uint8_t *open;
+  uint32_t *component;
+  uint32_t *weld;  // (vertices): the lowest vertex at its position
+  uint8_t *open;   // (vertices): 1: that vertex's component is not closed
   uint32_t digest;
 };
 
@@ -1141,16 +1136,17 @@ static const float *nsvcd__tree_corner(const nsvcd_tree *tree, uint32_t triangle
   return tree->mesh.positions + 3 * (size_t)vertex;
 }
 
-// Three times a triangle's middle, in doubles: a key to sort by, which must be the same each time.
+// Three times a triangle's middle, in double: a key to sort by, which must be the same each time.
 static nsvcd__d3 nsvcd__tree_middle(const nsvcd_tree *tree, uint32_t triangle) {
-  nsvcd__d3 sum = nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, 0));
-  for (uint32_t k = 1; k < 3; k++)
-    sum = nsvcd__d3_stored(
-        nsvcd__d3_add(sum, nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, k))));
+  nsvcd__d3 sum = {0, 0, 0};
+  for (uint32_t k = 0; k < 3; k++) {
+    const nsvcd__d3 corner = nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, k));
+    sum = nsvcd__d3_stored(nsvcd__d3_add(sum, corner));
+  }
   return sum;
 }
 
-// Is a triangle before another one, whose key is known? Below 0: yes; above: it is after it.
+// Below 0: a triangle is before another one, whose key is given; above 0: after it.
 static int nsvcd__tree_order(const nsvcd_tree *tree, uint32_t triangle, uint32_t other,
                              double key, size_t axis) {
   const double own = nsvcd__d3_axis(nsvcd__tree_middle(tree, triangle), axis);
@@ -1158,8 +1154,8 @@ static int nsvcd__tree_order(const nsvcd_tree *tree, uint32_t triangle, uint32_t
   return triangle < other ? -1 : triangle > other;
 }
 
-// The box of a node; its triangles so that those that are first along the axis along which their
-// middles differ most, of equals those of lower number, are before the middle (Hoare 1961).
+// Sets the box of a node, and parts its triangles in two halves: by their middles, along the axis
+// along which these differ most, and of equals by number. Quickselect (Hoare 1961).
 static void nsvcd__cut_node(nsvcd_tree *tree, const nsvcd__node *node) {
   uint32_t *order = tree->order + node->first;
   nsvcd__box box;
@@ -1213,7 +1209,7 @@ static void nsvcd__children(const nsvcd__node *node, nsvcd__node *left, nsvcd__n
 
 // ---- components
 
-// Below 0, 0 or above it: the place of vertex i is before, at or after that of vertex j.
+// Below 0, 0 or above it: the position of vertex i is before, at or after that of vertex j.
 static int nsvcd__position_order(const nsvcd_tree *tree, uint32_t i, uint32_t j) {
   const float *x = tree->mesh.positions + 3 * (size_t)i;
   const float *y = tree->mesh.positions + 3 * (size_t)j;
@@ -1224,27 +1220,29 @@ static int nsvcd__position_order(const nsvcd_tree *tree, uint32_t i, uint32_t j)
   return 0;
 }
 
-// The ends of an edge, by the lowest vertices at their places; 3 t + k begins at corner k of
-// triangle t.
+// The ends of an edge, by the lowest vertices at their positions. Edge 3 t + k begins at corner k
+// of triangle t.
 static void nsvcd__edge_ends(const nsvcd_tree *tree, uint32_t edge, uint32_t *ends) {
   const uint32_t next = edge % 3 == 2 ? edge - 2 : edge + 1;
   ends[0] = tree->weld[tree->mesh.indices[edge]];
   ends[1] = tree->weld[tree->mesh.indices[next]];
 }
 
-// The same of two edges, whichever way they go.
+// The same order of two edges, whichever way they go.
 static int nsvcd__edge_order(const nsvcd_tree *tree, uint32_t i, uint32_t j) {
   uint32_t a[2], b[2];
   nsvcd__edge_ends(tree, i, a);
   nsvcd__edge_ends(tree, j, b);
-  const uint64_t x = (uint64_t)(a[0] < a[1] ? a[0] : a[1]) << 32 | (a[0] < a[1] ? a[1] : a[0]);
-  const uint64_t y = (uint64_t)(b[0] < b[1] ? b[0] : b[1]) << 32 | (b[0] < b[1] ? b[1] : b[0]);
+  const int up_a = a[0] < a[1];
+  const int up_b = b[0] < b[1];
+  const uint64_t x = (uint64_t)a[!up_a] << 32 | a[up_a];
+  const uint64_t y = (uint64_t)b[!up_b] << 32 | b[up_b];
   return x < y ? -1 : x > y;
 }
 
 typedef int nsvcd__tree_compare(const nsvcd_tree *tree, uint32_t i, uint32_t j);
 
-// Moves what is at place `at` of a heap down to where it belongs.
+// Moves an entry of a heap down to where it belongs.
 static void nsvcd__sink(const nsvcd_tree *tree, nsvcd__tree_compare *order, uint32_t *heap,
                         size_t count, size_t at) {
   const uint32_t sinks = heap[at];
@@ -1269,7 +1267,7 @@ static void nsvcd__sort_numbers(const nsvcd_tree *tree, nsvcd__tree_compare *ord
   }
 }
 
-// weld: the lowest vertex at each vertex's place. numbers: (vertices), to work with.
+// Fills in tree->weld. numbers: (vertices), scratch.
 static void nsvcd__weld_positions(nsvcd_tree *tree, uint32_t *numbers) {
   const size_t count = tree->mesh.vertex_count;
   size_t end;
@@ -1286,43 +1284,45 @@ static void nsvcd__weld_positions(nsvcd_tree *tree, uint32_t *numbers) {
   }
 }
 
-static uint32_t nsvcd__part_root(uint32_t *part, uint32_t v) {
-  while (part[v] != v) {
-    part[v] = part[part[v]];
-    v = part[v];
+// Union-find, with the lowest vertex as the root.
+static uint32_t nsvcd__find_root(uint32_t *roots, uint32_t v) {
+  while (roots[v] != v) {
+    roots[v] = roots[roots[v]];
+    v = roots[v];
   }
   return v;
 }
 
-static void nsvcd__unite_parts(uint32_t *part, uint32_t v, uint32_t w) {
-  const uint32_t x = nsvcd__part_root(part, v);
-  const uint32_t y = nsvcd__part_root(part, w);
-  part[x > y ? x : y] = x > y ? y : x;
+static void nsvcd__unite(uint32_t *roots, uint32_t v, uint32_t w) {
+  const uint32_t x = nsvcd__find_root(roots, v);
+  const uint32_t y = nsvcd__find_root(roots, w);
+  roots[x > y ? x : y] = x > y ? y : x;
 }
 
-// Joins the corners of triangles, and vertices at the same place; a part is open if an edge of its
-// goes there and back not equally often. edges: (3 triangles), to work with.
-static void nsvcd__find_parts(nsvcd_tree *tree, uint32_t *edges) {
+// Fills in tree->component and tree->open: unites the corners of each triangle, and vertices at the
+// same position. A component is open if its triangles do not go along an edge equally often in both
+// directions. edges: (3 triangles), scratch.
+static void nsvcd__find_components(nsvcd_tree *tree, uint32_t *edges) {
   const uint32_t *indices = tree->mesh.indices;
   const size_t corners = 3 * tree->mesh.triangle_count;
   size_t end;
-  nsvcd__weld_positions(tree, tree->part);
+  uint32_t *roots = tree->component;
+  nsvcd__weld_positions(tree, roots);
   for (size_t v = 0; v < tree->mesh.vertex_count; v++) {
-    tree->part[v] = NSVCD_NO_TRIANGLE;
+    roots[v] = NSVCD_NO_TRIANGLE;
     tree->open[v] = 0;
   }
   for (size_t i = 0; i < corners; i++) {
     const uint32_t lowest = tree->weld[indices[i]];
-    tree->part[indices[i]] = indices[i];
-    tree->part[lowest] = lowest;
+    roots[indices[i]] = indices[i];
+    roots[lowest] = lowest;
     edges[i] = (uint32_t)i;
   }
   for (size_t i = 0; i < corners; i++) {
-    nsvcd__unite_parts(tree->part, indices[i], indices[i / 3 * 3]);
-    nsvcd__unite_parts(tree->part, indices[i], tree->weld[indices[i]]);
+    nsvcd__unite(roots, indices[i], indices[i / 3 * 3]);
+    nsvcd__unite(roots, indices[i], tree->weld[indices[i]]);
   }
-  for (size_t i = 0; i < corners; i++)
-    tree->part[indices[i]] = nsvcd__part_root(tree->part, indices[i]);
+  for (size_t i = 0; i < corners; i++) roots[indices[i]] = nsvcd__find_root(roots, indices[i]);
   nsvcd__sort_numbers(tree, nsvcd__edge_order, edges, corners);
   for (size_t i = 0; i < corners; i = end) {
     size_t there = 0;
@@ -1333,7 +1333,7 @@ static void nsvcd__find_parts(nsvcd_tree *tree, uint32_t *edges) {
       there += ends[0] < ends[1];
       back += ends[1] < ends[0];
     }
-    if (there != back) tree->open[tree->part[indices[edges[i]]]] = 1;
+    if (there != back) tree->open[roots[indices[edges[i]]]] = 1;
   }
 }
 
@@ -1345,7 +1345,7 @@ static uint64_t nsvcd__tree_layout(const nsvcd_mesh *mesh, char *base, nsvcd_tre
   tree->boxes = (nsvcd__box *)nsvcd__take(base, &used, 2 * triangles - 1, sizeof(nsvcd__box));
   tree->order = (uint32_t *)nsvcd__take(base, &used, triangles, sizeof(uint32_t));
   tree->corners = (float *)nsvcd__take(base, &used, triangles, 9 * sizeof(float));
-  tree->part = (uint32_t *)nsvcd__take(base, &used, mesh->vertex_count, sizeof(uint32_t));
+  tree->component = (uint32_t *)nsvcd__take(base, &used, mesh->vertex_count, sizeof(uint32_t));
   tree->weld = (uint32_t *)nsvcd__take(base, &used, mesh->vertex_count, sizeof(uint32_t));
   tree->open = (uint8_t *)nsvcd__take(base, &used, mesh->vertex_count, 1);
   return used;
@@ -1376,7 +1376,7 @@ NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, siz
   t->digest =
       nsvcd__digest((uint32_t)mesh->vertex_count, mesh->positions, 3 * mesh->vertex_count);
   t->digest = nsvcd__digest(t->digest, mesh->indices, 3 * mesh->triangle_count);
-  nsvcd__find_parts(t, (uint32_t *)t->boxes);
+  nsvcd__find_components(t, (uint32_t *)t->boxes);
   for (size_t i = 0; i < mesh->triangle_count; i++) t->order[i] = (uint32_t)i;
   stack[0].box = stack[0].first = 0;
   stack[0].count = (uint32_t)mesh->triangle_count;
@@ -1395,12 +1395,12 @@ NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, siz
   return NSVCD_OK;
 }
 
-// --------------------------------------------------------------------------------- certificate/law
-// In: a mesh that moves. Out: where it is at a time, and by how much a point leaves the chord
-// between its places at two times. In double, and with nothing of the motion floor: a certificate
-// is a second opinion.
+// ------------------------------------------------------------------------------ certificate/models
+// In: a mesh that moves. Out: where it is at a time, and how far points leave the chords between
+// their positions at two times. In double, and shares nothing with the floor of motions: a
+// certificate is a second opinion.
 
-// Takes a corner x to turn scale x + at.
+// A pose as a matrix: takes a corner x to turn (scale x) + at.
 typedef struct nsvcd__pose_matrix {
   nsvcd__dmat3 turn;
   nsvcd__d3 at;
@@ -1415,11 +1415,10 @@ typedef struct nsvcd__moving_tree {
 static nsvcd__pose_matrix nsvcd__pose_matrix_at(const nsvcd__moving_tree *moving, double t) {
   const nsvcd_pose64 at = moving->model.pose_at(moving->model.motion, t);
   const double *q = at.rotation;
+  const double *p = at.position;
   const nsvcd__dquat turn = {q[0], q[1], q[2], q[3]};
-  const nsvcd__pose_matrix out = {
-      nsvcd__dmat3_of(nsvcd__dquat_unit(turn)),
-      nsvcd__d3_of(at.position[0], at.position[1], at.position[2]),
-  };
+  const nsvcd__pose_matrix out = {nsvcd__dmat3_of(nsvcd__dquat_unit(turn)),
+                                  nsvcd__d3_of(p[0], p[1], p[2])};
   return out;
 }
 
@@ -1430,21 +1429,19 @@ static double nsvcd__mover_keyframe(const nsvcd_mover *mover, size_t k) {
   return nsvcd__stored((double)k / (double)(mover->count - 1));
 }
 
-// The last pose, but for the last one, that is not after a time; of a mover of two poses or more.
-static size_t nsvcd__mover_pose(const nsvcd_mover *mover, double t) {
+// The pose with which the interval between keyframes begins that a time is in, of a mover of two
+// poses or more.
+static size_t nsvcd__pose_index(const nsvcd_mover *mover, double t) {
   size_t low = 0;
   size_t high = mover->count - 1;
   while (high - low > 1) {
     const size_t middle = low + (high - low) / 2;
-    if (nsvcd__mover_keyframe(mover, middle) <= t)
-      low = middle;
-    else
-      high = middle;
+    *(nsvcd__mover_keyframe(mover, middle) <= t ? &low : &high) = middle;
   }
   return low;
 }
 
-// The arc from a pose to the next: rotations, on the shorter side; half the angle between them.
+// The slerp from a pose to the next: unit rotations, on the shorter side; half of its angle.
 typedef struct nsvcd__turning {
   nsvcd__dquat from, to;
   double half_angle;
@@ -1458,78 +1455,69 @@ static nsvcd__dquat nsvcd__pose_rotation(const nsvcd_pose *pose) {
 
 static nsvcd__turning nsvcd__turning_of(const nsvcd_pose *a, const nsvcd_pose *b) {
   nsvcd__turning out;
-  const nsvcd__dquat from = nsvcd__pose_rotation(a);
-  const nsvcd__dquat to = nsvcd__pose_rotation(b);
-  // summed in doubles: its sign says which way a turn by 180 degrees goes
+  // rounded to double at each sum: its sign says in which direction a turn by 180 degrees goes
   double dot = 0;
   for (size_t k = 0; k < 4; k++)
     dot = nsvcd__stored(dot + (double)a->rotation[k] * (double)b->rotation[k]);
   const double side = dot < 0 ? -1 : 1;
-  out.from = nsvcd__dquat_unit(from);
-  out.to = nsvcd__dquat_scale(nsvcd__dquat_unit(to), side);
-  const nsvcd__dquat apart = nsvcd__dquat_fma(-1, out.from, out.to);
-  const nsvcd__dquat together = nsvcd__dquat_fma(1, out.from, out.to);
-  out.half_angle = 2 * atan2(sqrt(nsvcd__dquat_dot(apart, apart)),
-                             sqrt(nsvcd__dquat_dot(together, together)));
+  out.from = nsvcd__dquat_unit(nsvcd__pose_rotation(a));
+  out.to = nsvcd__dquat_scale(nsvcd__dquat_unit(nsvcd__pose_rotation(b)), side);
+  const nsvcd__dquat d = nsvcd__dquat_fma(-1, out.from, out.to);
+  const nsvcd__dquat s = nsvcd__dquat_fma(1, out.from, out.to);
+  out.half_angle = 2 * atan2(sqrt(nsvcd__dquat_dot(d, d)), sqrt(nsvcd__dquat_dot(s, s)));
   return out;
 }
 
-static nsvcd_pose64 nsvcd__pose64_of(nsvcd__dquat q, nsvcd__d3 at) {
+static nsvcd_pose64 nsvcd__mover_pose(const void *motion, double t) {
+  const nsvcd_mover *mover = (const nsvcd_mover *)motion;
+  const nsvcd_pose *a = mover->poses;
+  nsvcd__dquat q = nsvcd__pose_rotation(a);
+  nsvcd__d3 at = nsvcd__d3_load(a->position);
+  if (mover->count > 1) {
+    const size_t k = nsvcd__pose_index(mover, t);
+    const double from = nsvcd__mover_keyframe(mover, k);
+    const double u = (t - from) / (nsvcd__mover_keyframe(mover, k + 1) - from);
+    a += k;
+    const nsvcd__turning arc = nsvcd__turning_of(a, a + 1);
+    double before = 1 - u;
+    double after = u;
+    // below, a line is as good
+    if (arc.half_angle > 1e-7) {
+      before = sin((1 - u) * arc.half_angle);
+      after = sin(u * arc.half_angle);
+    }
+    q = nsvcd__dquat_fma(after, arc.to, nsvcd__dquat_scale(arc.from, before));
+    at = nsvcd__d3_mix(nsvcd__d3_load(a->position), nsvcd__d3_load(a[1].position), u);
+  }
   const nsvcd_pose64 out = {{at.x, at.y, at.z}, {q.x, q.y, q.z, q.w}};
   return out;
 }
 
-static nsvcd_pose64 nsvcd__mover_position(const void *motion, double t) {
-  const nsvcd_mover *mover = (const nsvcd_mover *)motion;
-  if (mover->count == 1)
-    return nsvcd__pose64_of(nsvcd__pose_rotation(mover->poses),
-                            nsvcd__d3_load(mover->poses->position));
-  const size_t k = nsvcd__mover_pose(mover, t);
-  const nsvcd_pose *a = &mover->poses[k];
-  const double from = nsvcd__mover_keyframe(mover, k);
-  const double u = (t - from) / (nsvcd__mover_keyframe(mover, k + 1) - from);
-  const nsvcd__turning arc = nsvcd__turning_of(a, a + 1);
-  double before = 1 - u;
-  double after = u;
-  // below, a line is as good
-  if (arc.half_angle > 1e-7) {
-    before = sin((1 - u) * arc.half_angle);
-    after = sin(u * arc.half_angle);
-  }
-  const nsvcd__dquat q = nsvcd__dquat_fma(after, arc.to, nsvcd__dquat_scale(arc.from, before));
-  const nsvcd__d3 from_position = nsvcd__d3_load(a->position);
-  return nsvcd__pose64_of(q, nsvcd__d3_mix(from_position, nsvcd__d3_load(a[1].position), u));
-}
-
 static double nsvcd__mover_next(const void *motion, double t) {
   const nsvcd_mover *mover = (const nsvcd_mover *)motion;
-  return mover->count > 1 ? nsvcd__mover_keyframe(mover, nsvcd__mover_pose(mover, t) + 1) : 1;
+  return mover->count > 1 ? nsvcd__mover_keyframe(mover, nsvcd__pose_index(mover, t) + 1) : 1;
 }
 
-// A turn by h at a constant rate about an axis a has a second derivative of h^2 a x (a x y) at y,
-// and leaves its chord by an eighth of it: along n that is h^2 / 8 (n x a).(a x y).
+// A turn by h at a constant rate about an axis a moves a point y with a second derivative of h^2 a x
+// (a x y). The point leaves its chord by an eighth of that: along n, by h^2 / 8 (n x a).(a x y).
 static nsvcd_deviation nsvcd__mover_deviation(const void *motion, double t0, double t1) {
   const nsvcd_mover *mover = (const nsvcd_mover *)motion;
   nsvcd_deviation out;
   memset(&out, 0, sizeof out);
   if (mover->count == 1) return out;
-  const size_t k = nsvcd__mover_pose(mover, 0.5 * (t0 + t1));
-  const nsvcd_pose *a = &mover->poses[k];
+  const size_t k = nsvcd__pose_index(mover, 0.5 * (t0 + t1));
+  const nsvcd_pose *a = mover->poses + k;
   const double whole = nsvcd__mover_keyframe(mover, k + 1) - nsvcd__mover_keyframe(mover, k);
   const nsvcd__turning arc = nsvcd__turning_of(a, a + 1);
   const double h = 2 * arc.half_angle * (t1 - t0) / whole;
-  const nsvcd__d3 none = nsvcd__d3_of(0, 0, 0);
-  const nsvcd__d3 axis =
-      nsvcd__d3_unit(nsvcd__dquat_axis(nsvcd__dquat_inverse_mul(arc.from, arc.to)), none);
+  const nsvcd__d3 turn = nsvcd__dquat_axis(nsvcd__dquat_inverse_mul(arc.from, arc.to));
+  const nsvcd__d3 axis = nsvcd__d3_unit(turn, nsvcd__d3_of(0, 0, 0));
   memcpy(out.axis, &axis, sizeof out.axis);
-  if (nsvcd__d3_length(axis) > 0)
-    out.turn = 0.1250001 * h * h;
-  else
-    out.per_metre = 0.1250001 * h * h;
+  *(nsvcd__d3_length(axis) > 0 ? &out.turn : &out.per_metre) = 0.1250001 * h * h;
   return out;
 }
 
-// The model of a mover, which is copied to *meant, with the defaults filled in.
+// The model of a mover, of which *meant becomes a copy with the defaults filled in.
 static nsvcd_result nsvcd__model_of(const nsvcd_mover *mover, nsvcd_mover *meant,
                                     nsvcd_motion_model *model) {
   const float scale = nsvcd__scale_of(mover);
@@ -1544,7 +1532,7 @@ static nsvcd_result nsvcd__model_of(const nsvcd_mover *mover, nsvcd_mover *meant
   }
   if (meant->count == 1) meant->times = NULL;
   model->scale = (double)scale;
-  model->pose_at = nsvcd__mover_position;
+  model->pose_at = nsvcd__mover_pose;
   model->next = nsvcd__mover_next;
   model->deviation = nsvcd__mover_deviation;
   model->motion = meant;
@@ -1560,49 +1548,49 @@ static nsvcd_result nsvcd__model_of(const nsvcd_mover *mover, nsvcd_mover *meant
 }
 
 // ------------------------------------------------------------------------------ certificate/planes
-// In: two nodes, and a interval of time. Out: a plane that separates them all the while, by a
+// In: two nodes, and an interval of time. Out: a plane that separates them all the while, by a
 // normal that takes a few bits; or none.
 
-// What is asked for beyond what numbers say, of all lengths: the checker's, and a little more.
+// the margin of a separation, as a fraction of all lengths: the checker's, and a little more
 #define NSVCD__CERTIFIED_MARGIN 1.01e-10
-// triangles: of nodes of so many the corners count, of larger ones the boxes
+// nodes of so many triangles are their corners, larger ones their boxes
 #define NSVCD__EXACT 24
-#define NSVCD__NORMAL_STEPS 12    // of Gilbert's iteration
-#define NSVCD__NORMAL_ENOUGH 0.8  // of the best distance that a normal may show
-// of both lengths: nodes that come as near are opened, not separated
-#define NSVCD__NORMAL_GIVE_UP 1e-3
+// of Gilbert's iteration: steps; it ends at this fraction of the best possible distance, and where
+// nodes are nearer than that fraction of the first distance
+#define NSVCD__GILBERT_STEPS 12
+#define NSVCD__GILBERT_ENOUGH 0.8
+#define NSVCD__GILBERT_LEAST 1e-3
 
-// A time, where both bodies are then, and by how much points leave their chords to the next one.
+// Both bodies at a time, and how far points leave their chords to the next instant.
 typedef struct nsvcd__instant {
   double t;
   nsvcd__pose_matrix a, b;
-  double lengths;  // of both places, and what they are computed from
-  nsvcd_deviation off_a, off_b;
+  double lengths;  // of both positions, and of what they are computed from
+  nsvcd_deviation deviation_a, deviation_b;
 } nsvcd__instant;
 
-// A interval of time: both ends, and all keyframes between.
+// An interval of time: instants at both ends, and at all keyframes between.
 typedef struct nsvcd__tree_interval {
   const nsvcd__moving_tree *a, *b;
   double clearance;
   nsvcd__instant *instants;  // (capacity)
   size_t count, capacity;
   double t0, t1;
-  // half way; its time is -1 before it is needed
-  nsvcd__instant middle;
+  nsvcd__instant middle;  // half way; its time is -1 before it is needed
 } nsvcd__tree_interval;
 
-// A node of each tree. No point of them is farther from its body's origin than the radii say.
+// A node of each tree, and bounds of the distances of their points from their bodies' origins.
 typedef struct nsvcd__nodes {
   nsvcd__node a, b;
   double radius_a, radius_b;
 } nsvcd__nodes;
 
 // A direction as it is written: two whole numbers.
-typedef struct nsvcd__written_normal {
+typedef struct nsvcd__coded_normal {
   nsvcd__d3 along;
   uint32_t x, y;
   int bits;  // of each number: 8, 16 or 24
-} nsvcd__written_normal;
+} nsvcd__coded_normal;
 
 static double nsvcd__lengths_at(const nsvcd__pose_matrix *a, const nsvcd__pose_matrix *b) {
   return fabs(a->at.x) + fabs(a->at.y) + fabs(a->at.z) + fabs(b->at.x) + fabs(b->at.y) +
@@ -1620,7 +1608,7 @@ static nsvcd__instant nsvcd__instant_at(const nsvcd__moving_tree *a,
   return at;
 }
 
-// Returns 0 where there are more keyframes than there is room for.
+// Sets the interval. Returns 0 where there is no room for its keyframes.
 static int nsvcd__tree_interval_to(nsvcd__tree_interval *s, double t0, double t1) {
   if (s->count > 0 && !(s->t0 < t0) && !(s->t0 > t0) && !(s->t1 < t1) && !(s->t1 > t1))
     return 1;
@@ -1636,16 +1624,10 @@ static int nsvcd__tree_interval_to(nsvcd__tree_interval *s, double t0, double t1
     if (!(t < t1)) return 1;
     t = nsvcd__min(a->next(a->motion, t), b->next(b->motion, t));
     t = nsvcd__min(t, t1);
-    at->off_a = a->deviation(a->motion, at->t, t);
-    at->off_b = b->deviation(b->motion, at->t, t);
+    at->deviation_a = a->deviation(a->motion, at->t, t);
+    at->deviation_b = b->deviation(b->motion, at->t, t);
   }
   return 0;
-}
-
-// The instant half way.
-static const nsvcd__instant *nsvcd__tree_interval_middle(nsvcd__tree_interval *s) {
-  if (s->middle.t < 0) s->middle = nsvcd__instant_at(s->a, s->b, 0.5 * (s->t0 + s->t1));
-  return &s->middle;
 }
 
 // ---- nodes
@@ -1676,43 +1658,44 @@ static nsvcd__d3 nsvcd__turned_by(const nsvcd__moving_tree *moving,
   return nsvcd__d3_scale(nsvcd__dmat3_apply(&at->turn, x), moving->model.scale);
 }
 
-// Of all points of two nodes, one of each, the difference a - b that goes least along a direction.
+// Of all points a and b of two nodes, the difference a - b that is least along a direction.
 static nsvcd__d3 nsvcd__least_apart(const nsvcd__tree_interval *s, const nsvcd__nodes *nodes,
                                     const nsvcd__instant *at, nsvcd__d3 along) {
   const nsvcd__d3 back = nsvcd__d3_scale(along, -1);
-  const nsvcd__d3 way_a = nsvcd__dmat3_apply_transpose(&at->a.turn, back);
-  const nsvcd__d3 way_b = nsvcd__dmat3_apply_transpose(&at->b.turn, along);
-  const nsvcd__d3 a = nsvcd__farthest(s->a->tree, &nodes->a, way_a);
-  const nsvcd__d3 b = nsvcd__farthest(s->b->tree, &nodes->b, way_b);
+  const nsvcd__d3 in_a = nsvcd__dmat3_apply_transpose(&at->a.turn, back);
+  const nsvcd__d3 in_b = nsvcd__dmat3_apply_transpose(&at->b.turn, along);
+  const nsvcd__d3 a = nsvcd__farthest(s->a->tree, &nodes->a, in_a);
+  const nsvcd__d3 b = nsvcd__farthest(s->b->tree, &nodes->b, in_b);
   const nsvcd__d3 turned =
       nsvcd__d3_sub(nsvcd__turned_by(s->a, &at->a, a), nsvcd__turned_by(s->b, &at->b, b));
   return nsvcd__d3_add(turned, nsvcd__d3_sub(at->a.at, at->b.at));
 }
 
-// How far along a direction, in its frame, a node reaches. Three corners at a time: a maximum waits
-// for the one before.
-static double nsvcd__most_along(const nsvcd_tree *tree, const nsvcd__node *node,
-                                nsvcd__d3 direction) {
+// The extent of a node along a direction in its frame. Three maxima side by side: each waits for
+// the one before.
+static double nsvcd__extent_along(const nsvcd_tree *tree, const nsvcd__node *node,
+                                  nsvcd__d3 direction) {
   if (node->count > NSVCD__EXACT)
     return nsvcd__d3_dot(nsvcd__farthest(tree, node, direction), direction);
   const float *corners = tree->corners + 9 * (size_t)node->first;
   double most[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   for (size_t i = 0; i < node->count; i++) {
-    for (size_t k = 0; k < 3; k++)
-      most[k] =
-          nsvcd__max(nsvcd__d3_dot(nsvcd__d3_row(corners, 3 * i + k), direction), most[k]);
+    for (size_t k = 0; k < 3; k++) {
+      const nsvcd__d3 corner = nsvcd__d3_row(corners, 3 * i + k);
+      most[k] = nsvcd__max(nsvcd__d3_dot(corner, direction), most[k]);
+    }
   }
   return nsvcd__max(most[0], nsvcd__max(most[1], most[2]));
 }
 
-// How far that difference goes.
-static double nsvcd__gap_along(const nsvcd__tree_interval *s, const nsvcd__nodes *nodes,
-                               const nsvcd__instant *at, nsvcd__d3 along) {
-  const nsvcd__d3 way_a = nsvcd__dmat3_apply_transpose(&at->a.turn, along);
-  const nsvcd__d3 way_b = nsvcd__dmat3_apply_transpose(&at->b.turn, along);
-  const nsvcd__d3 back = nsvcd__d3_scale(way_a, -1);
-  const double a = s->a->model.scale * nsvcd__most_along(s->a->tree, &nodes->a, back);
-  const double b = s->b->model.scale * nsvcd__most_along(s->b->tree, &nodes->b, way_b);
+// How far apart two nodes are along a direction, times its length.
+static double nsvcd__distance_along(const nsvcd__tree_interval *s, const nsvcd__nodes *nodes,
+                                    const nsvcd__instant *at, nsvcd__d3 along) {
+  const nsvcd__d3 in_a = nsvcd__dmat3_apply_transpose(&at->a.turn, along);
+  const nsvcd__d3 in_b = nsvcd__dmat3_apply_transpose(&at->b.turn, along);
+  const nsvcd__d3 back = nsvcd__d3_scale(in_a, -1);
+  const double a = s->a->model.scale * nsvcd__extent_along(s->a->tree, &nodes->a, back);
+  const double b = s->b->model.scale * nsvcd__extent_along(s->b->tree, &nodes->b, in_b);
   return nsvcd__d3_dot(along, nsvcd__d3_sub(at->a.at, at->b.at)) - (a + b);
 }
 
@@ -1723,11 +1706,16 @@ static double nsvcd__node_radius(const nsvcd__moving_tree *moving, const nsvcd__
 }
 
 // No point of a node is farther from the line through its body's origin along a unit axis.
-static double nsvcd__node_aside(const nsvcd__moving_tree *moving, const nsvcd__node *node,
-                                nsvcd__d3 axis) {
+static double nsvcd__node_axis_radius(const nsvcd__moving_tree *moving,
+                                      const nsvcd__node *node, nsvcd__d3 axis) {
   const float *corners = moving->tree->corners + 9 * (size_t)node->first;
+  const size_t count = node->count > NSVCD__EXACT ? 0 : 3 * (size_t)node->count;
   double square = 0;
-  if (node->count > NSVCD__EXACT) {
+  for (size_t i = 0; i < count; i++) {
+    const nsvcd__d3 off = nsvcd__d3_cross(nsvcd__d3_row(corners, i), axis);
+    square = nsvcd__max(square, nsvcd__d3_dot(off, off));
+  }
+  if (count == 0) {
     const nsvcd__box *box = &moving->tree->boxes[node->box];
     const nsvcd__d3 low = nsvcd__d3_widen(box->low);
     const nsvcd__d3 high = nsvcd__d3_widen(box->high);
@@ -1739,28 +1727,23 @@ static double nsvcd__node_aside(const nsvcd__moving_tree *moving, const nsvcd__n
     const double z = fabs(off.z) + half.x * a.y + half.y * a.x;
     square = x * x + y * y + z * z;
   }
-  for (size_t i = 0; i < 3 * (size_t)node->count && node->count <= NSVCD__EXACT; i++) {
-    const nsvcd__d3 off = nsvcd__d3_cross(nsvcd__d3_row(corners, i), axis);
-    square = nsvcd__max(square, nsvcd__d3_dot(off, off));
-  }
   return 1.000002 * moving->model.scale * sqrt(square);
 }
 
-// By how much the points of a node, at r metres at most, leave their chords along a normal.
-static double nsvcd__node_leaves(const nsvcd__moving_tree *moving, const nsvcd__node *node,
-                                 double r, const nsvcd__pose_matrix *at,
-                                 const nsvcd_deviation *off, nsvcd__d3 along) {
-  double leaves = nsvcd__d3_length(along) * (off->base + off->per_metre * r);
-  if (off->turn > 0) {
-    const nsvcd__d3 own = nsvcd__d3_of(off->axis[0], off->axis[1], off->axis[2]);
-    const nsvcd__d3 axis = nsvcd__dmat3_apply(&at->turn, own);
-    const double across = nsvcd__d3_length(nsvcd__d3_cross(along, axis));
-    leaves += off->turn * across * nsvcd__node_aside(moving, node, own);
-  }
-  return leaves;
+// How far the points of a node, at r metres at most, leave their chords along a direction, times its
+// length.
+static double nsvcd__node_deviation(const nsvcd__moving_tree *moving, const nsvcd__node *node,
+                                    double r, const nsvcd__pose_matrix *at,
+                                    const nsvcd_deviation *d, nsvcd__d3 along) {
+  const double any = nsvcd__d3_length(along) * (d->base + d->per_metre * r);
+  if (!(d->turn > 0)) return any;
+  const nsvcd__d3 own = nsvcd__d3_of(d->axis[0], d->axis[1], d->axis[2]);
+  const nsvcd__d3 axis = nsvcd__dmat3_apply(&at->turn, own);
+  const double across = nsvcd__d3_length(nsvcd__d3_cross(along, axis));
+  return any + d->turn * across * nsvcd__node_axis_radius(moving, node, own);
 }
 
-// Does a plane of this normal part two nodes, at all instants and between them?
+// Does a plane of this normal separate two nodes, at all instants and between them?
 static int nsvcd__plane_separates_nodes(const nsvcd__tree_interval *s,
                                         const nsvcd__nodes *nodes, nsvcd__d3 along) {
   const double length = nsvcd__d3_length(along);
@@ -1768,18 +1751,18 @@ static int nsvcd__plane_separates_nodes(const nsvcd__tree_interval *s,
   const double rb = nodes->radius_b;
   double last = HUGE_VAL;
   double last_lengths = 0;
-  double leaves = 0;
+  double deviation = 0;
   for (size_t i = 0; i < s->count; i++) {
     const nsvcd__instant *at = &s->instants[i];
     const double lengths = ra + rb + s->clearance + at->lengths;
-    const double gap = nsvcd__gap_along(s, nodes, at, along);
+    const double distance = nsvcd__distance_along(s, nodes, at, along);
     const double margin = NSVCD__CERTIFIED_MARGIN * nsvcd__max(lengths, last_lengths);
-    const double most = length * (s->clearance + margin) + leaves;
-    if (!(gap > most && last > most)) return 0;
-    last = gap;
+    const double least = length * (s->clearance + margin) + deviation;
+    if (!(distance > least && last > least)) return 0;
+    last = distance;
     last_lengths = lengths;
-    leaves = nsvcd__node_leaves(s->a, &nodes->a, ra, &at->a, &at->off_a, along);
-    leaves += nsvcd__node_leaves(s->b, &nodes->b, rb, &at->b, &at->off_b, along);
+    deviation = nsvcd__node_deviation(s->a, &nodes->a, ra, &at->a, &at->deviation_a, along);
+    deviation += nsvcd__node_deviation(s->b, &nodes->b, rb, &at->b, &at->deviation_b, along);
   }
   return 1;
 }
@@ -1790,15 +1773,15 @@ static double nsvcd__signed(double magnitude, double sign) {
   return sign < 0 ? -magnitude : magnitude;
 }
 
-// A point of the octahedron |x| + |y| + |z| = half, seen from above, its lower half folded
-// outwards.
-static nsvcd__written_normal nsvcd__normal_of(nsvcd__d3 along, int bits) {
+// A direction in two whole numbers: a point of the octahedron |x| + |y| + |z| = half, seen from
+// above, its lower half folded outwards (Meyer and others 2010).
+static nsvcd__coded_normal nsvcd__normal_of(nsvcd__d3 along, int bits) {
   const double half = (double)((1 << (bits - 1)) - 1);
   const double sum = fabs(along.x) + fabs(along.y) + fabs(along.z);
   const double x = along.x * (half / sum);
   const double y = along.y * (half / sum);
   const int below = along.z < 0;
-  nsvcd__written_normal out;
+  nsvcd__coded_normal out;
   out.bits = bits;
   const double u = floor((below ? nsvcd__signed(half - fabs(y), x) : x) + 0.5);
   const double v = floor((below ? nsvcd__signed(half - fabs(x), y) : y) + 0.5);
@@ -1811,39 +1794,39 @@ static nsvcd__written_normal nsvcd__normal_of(nsvcd__d3 along, int bits) {
   return out;
 }
 
-// The best direction so far, and how far apart it shows two nodes half way; less than 0: not at
-// all.
+// A direction, and how far apart two nodes are along it half way; less than 0: not at all.
 typedef struct nsvcd__best {
   nsvcd__d3 along;
-  double gap;
+  double distance;
 } nsvcd__best;
 
-// Gilbert's iteration towards the point of a - b that is nearest to the origin.
+// Gilbert's iteration (1966) towards the point of a - b that is nearest to the origin. It ends where
+// the best direction is nearly as good as the nearest point allows.
 static nsvcd__best nsvcd__gilbert(const nsvcd__tree_interval *s, const nsvcd__nodes *nodes,
                                   const nsvcd__instant *at, nsvcd__d3 along) {
   nsvcd__best best = {along, -HUGE_VAL};
   nsvcd__d3 v = nsvcd__least_apart(s, nodes, at, along);
-  const double size = nsvcd__d3_length(v);
-  for (int step = 0; step < NSVCD__NORMAL_STEPS; step++) {
+  const double first = nsvcd__d3_length(v);
+  for (int n = 0; n < NSVCD__GILBERT_STEPS; n++) {
     const double length = nsvcd__d3_length(v);
-    if (!(length > NSVCD__NORMAL_GIVE_UP * size)) break;
+    if (!(length > NSVCD__GILBERT_LEAST * first)) break;
     const nsvcd__d3 w = nsvcd__least_apart(s, nodes, at, v);
-    const double gap = nsvcd__d3_dot(v, w) / length;
-    if (gap > best.gap) {
+    const double distance = nsvcd__d3_dot(v, w) / length;
+    if (distance > best.distance) {
       best.along = v;
-      best.gap = gap;
+      best.distance = distance;
     }
-    if (gap - s->clearance > NSVCD__NORMAL_ENOUGH * (length - s->clearance)) break;
-    const nsvcd__d3 step_to = nsvcd__d3_sub(w, v);
-    const double square = nsvcd__d3_dot(step_to, step_to);
+    if (distance - s->clearance > NSVCD__GILBERT_ENOUGH * (length - s->clearance)) break;
+    const nsvcd__d3 to = nsvcd__d3_sub(w, v);
+    const double square = nsvcd__d3_dot(to, to);
     if (!(square > 0)) break;
-    const double fraction = -nsvcd__d3_dot(v, step_to) / square;
-    v = nsvcd__d3_fma(nsvcd__max(0, nsvcd__min(fraction, 1)), step_to, v);
+    const double fraction = -nsvcd__d3_dot(v, to) / square;
+    v = nsvcd__d3_fma(nsvcd__max(0, nsvcd__min(fraction, 1)), to, v);
   }
   return best;
 }
 
-// A leaf's triangle in the world, as seen from the origin of b.
+// A leaf's triangle, turned as the world is, around an origin.
 static void nsvcd__leaf_corners(const nsvcd__moving_tree *moving, const nsvcd__node *node,
                                 const nsvcd__pose_matrix *at, nsvcd__d3 offset,
                                 nsvcd__d3 *corners) {
@@ -1852,22 +1835,24 @@ static void nsvcd__leaf_corners(const nsvcd__moving_tree *moving, const nsvcd__n
     corners[k] = nsvcd__d3_add(nsvcd__turned_by(moving, at, nsvcd__d3_row(x, k)), offset);
 }
 
-// Looks for a plane that separates two nodes all the while.
+// Looks for a plane that separates two nodes for the whole interval. last: the direction to begin
+// with.
 static int nsvcd__find_normal(nsvcd__tree_interval *s, const nsvcd__nodes *nodes,
-                              nsvcd__d3 last, nsvcd__written_normal *normal) {
-  const nsvcd__instant *at = nsvcd__tree_interval_middle(s);
+                              nsvcd__d3 last, nsvcd__coded_normal *normal) {
+  nsvcd__instant *at = &s->middle;
   nsvcd__best best = {last, 0};
+  if (at->t < 0) *at = nsvcd__instant_at(s->a, s->b, 0.5 * (s->t0 + s->t1));
   if (nodes->a.count == 1 && nodes->b.count == 1) {
     nsvcd__d3 a[3], b[3];
     nsvcd__leaf_corners(s->a, &nodes->a, &at->a, nsvcd__d3_sub(at->a.at, at->b.at), a);
     nsvcd__leaf_corners(s->b, &nodes->b, &at->b, nsvcd__d3_of(0, 0, 0), b);
     const nsvcd__nearest nearest = nsvcd__nearest_of(a, b);
     best.along = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
-    best.gap = sqrt(nearest.square);
+    best.distance = sqrt(nearest.square);
   } else {
     best = nsvcd__gilbert(s, nodes, at, last);
   }
-  if (!(best.gap > s->clearance)) return 0;
+  if (!(best.distance > s->clearance)) return 0;
   for (int bits = 8; bits <= 24; bits += 8) {
     *normal = nsvcd__normal_of(best.along, bits);
     if (nsvcd__plane_separates_nodes(s, nodes, normal->along)) return 1;
@@ -1881,57 +1866,62 @@ static int nsvcd__find_normal(nsvcd__tree_interval *s, const nsvcd__nodes *nodes
 
 #define NSVCD__UNCLEAR 2
 
-// A vertex of one body in the frame of another, in units of that one's scale.
-static nsvcd__d3 nsvcd__vertex_seen(const nsvcd__moving_tree *of,
-                                    const nsvcd__pose_matrix *of_at,
-                                    const nsvcd__moving_tree *by,
-                                    const nsvcd__pose_matrix *by_at, uint32_t vertex) {
-  const nsvcd__d3 x = nsvcd__d3_row(of->tree->mesh.positions, vertex);
-  const nsvcd__d3 offset = nsvcd__d3_sub(of_at->at, by_at->at);
-  const nsvcd__d3 world = nsvcd__d3_add(nsvcd__turned_by(of, of_at, x), offset);
-  return nsvcd__d3_scale(nsvcd__dmat3_apply_transpose(&by_at->turn, world),
-                         1 / by->model.scale);
-}
+// One body as another one sees it: in the other's frame, in units of its scale.
+typedef struct nsvcd__seen {
+  const nsvcd__moving_tree *of, *by;
+  nsvcd__pose_matrix of_at, by_at;
+  double lengths, margin;  // no length is more; no point is off by as much as the margin
+} nsvcd__seen;
 
-// In that frame: no length is more, and no point is off by as much as the margin.
-typedef struct nsvcd__extent {
-  double lengths, margin;
-} nsvcd__extent;
-
-static nsvcd__extent nsvcd__extent_seen(const nsvcd__moving_tree *of,
-                                        const nsvcd__pose_matrix *of_at,
-                                        const nsvcd__moving_tree *by,
-                                        const nsvcd__pose_matrix *by_at) {
+static nsvcd__seen nsvcd__seen_by(const nsvcd__moving_tree *of,
+                                  const nsvcd__pose_matrix *of_at,
+                                  const nsvcd__moving_tree *by,
+                                  const nsvcd__pose_matrix *by_at) {
   const nsvcd__node root = {0, 0, 1};
   const double radii = nsvcd__node_radius(of, &root) + nsvcd__node_radius(by, &root);
   const double apart = nsvcd__d3_length(nsvcd__d3_sub(of_at->at, by_at->at));
   const double positions =
       of->model.extent + by->model.extent + nsvcd__lengths_at(of_at, by_at);
-  nsvcd__extent out;
-  out.lengths = 1.000001 * (radii + apart) / by->model.scale;
-  out.margin = NSVCD__CERTIFIED_MARGIN * (out.lengths + positions / by->model.scale);
+  const double lengths = 1.000001 * (radii + apart) / by->model.scale;
+  const double margin = NSVCD__CERTIFIED_MARGIN * (lengths + positions / by->model.scale);
+  const nsvcd__seen out = {of, by, *of_at, *by_at, lengths, margin};
   return out;
 }
 
-// Does a ray leave (1) or enter (-1) through a triangle, or miss it (0)? UNCLEAR: by too little.
-static int nsvcd__ray_passes(const nsvcd_tree *tree, uint32_t triangle, nsvcd__d3 from,
-                             nsvcd__d3 along, const nsvcd__extent *e) {
+static nsvcd__d3 nsvcd__seen_vertex(const nsvcd__seen *s, uint32_t vertex) {
+  const nsvcd__d3 x = nsvcd__d3_row(s->of->tree->mesh.positions, vertex);
+  const nsvcd__d3 offset = nsvcd__d3_sub(s->of_at.at, s->by_at.at);
+  const nsvcd__d3 world = nsvcd__d3_add(nsvcd__turned_by(s->of, &s->of_at, x), offset);
+  return nsvcd__d3_scale(nsvcd__dmat3_apply_transpose(&s->by_at.turn, world),
+                         1 / s->by->model.scale);
+}
+
+// The corners of a triangle.
+static void nsvcd__seen_triangle(const nsvcd__seen *s, uint32_t triangle, nsvcd__d3 *out) {
+  const uint32_t *corners = s->of->tree->mesh.indices + 3 * (size_t)triangle;
+  for (size_t k = 0; k < 3; k++) out[k] = nsvcd__seen_vertex(s, corners[k]);
+}
+
+// A ray in the frame of the other body: does it leave (1) or enter (-1) through a triangle of that,
+// or miss it (0)? UNCLEAR: by too little.
+static int nsvcd__ray_passes(const nsvcd__seen *s, uint32_t triangle, nsvcd__d3 from,
+                             nsvcd__d3 along) {
   const double length = nsvcd__d3_length(along);
-  const double rounding = 1e-4 * NSVCD__CERTIFIED_MARGIN * e->lengths * e->lengths;
+  const double rounding = 1e-4 * NSVCD__CERTIFIED_MARGIN * s->lengths * s->lengths;
   nsvcd__d3 p[3], crosses[3];
   int left = 0;
   int right = 0;
   for (uint32_t k = 0; k < 3; k++)
-    p[k] = nsvcd__d3_sub(nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, k)), from);
+    p[k] = nsvcd__d3_sub(nsvcd__d3_load(nsvcd__tree_corner(s->by->tree, triangle, k)), from);
   const double ahead =
       nsvcd__max(nsvcd__d3_dot(p[0], along),
                  nsvcd__max(nsvcd__d3_dot(p[1], along), nsvcd__d3_dot(p[2], along)));
-  if (ahead < -1.01 * e->margin * length) return 0;
+  if (ahead < -1.01 * s->margin * length) return 0;
   for (size_t k = 0; k < 3; k++) {
     crosses[k] = nsvcd__d3_cross(p[k], p[(k + 1) % 3]);
     const double edge = sqrt(nsvcd__d3_distance2(p[k], p[(k + 1) % 3]));
     const double off =
-        length * (e->margin * edge + rounding) + 2 * e->margin * nsvcd__d3_length(crosses[k]);
+        length * (s->margin * edge + rounding) + 2 * s->margin * nsvcd__d3_length(crosses[k]);
     left += nsvcd__d3_dot(along, crosses[k]) > off;
     right += nsvcd__d3_dot(along, crosses[k]) < -off;
   }
@@ -1939,14 +1929,14 @@ static int nsvcd__ray_passes(const nsvcd_tree *tree, uint32_t triangle, nsvcd__d
   if (left < 3 && right < 3) return NSVCD__UNCLEAR;
   const nsvcd__d3 normal = nsvcd__d3_add(crosses[0], nsvcd__d3_add(crosses[1], crosses[2]));
   const double volume = nsvcd__d3_dot(p[2], crosses[0]);
-  const double off = e->margin * nsvcd__d3_length(normal) + rounding * e->lengths;
+  const double off = s->margin * nsvcd__d3_length(normal) + rounding * s->lengths;
   if (!(fabs(volume) > off)) return NSVCD__UNCLEAR;
   if ((volume > 0) != (left > 0)) return 0;
   return left > 0 ? 1 : -1;
 }
 
-// Does a ray miss a box for certain? Then there is an axis across it, and across one of the box's
-// sides, along which they are apart.
+// Does a ray miss a box for certain? Then some axis, across the ray and across a side of the box,
+// separates them.
 static int nsvcd__ray_misses(const nsvcd__box *box, nsvcd__d3 from, nsvcd__d3 along,
                              double margin) {
   const nsvcd__d3 low = nsvcd__d3_sub(nsvcd__d3_widen(box->low), from);
@@ -1960,10 +1950,11 @@ static int nsvcd__ray_misses(const nsvcd__box *box, nsvcd__d3 from, nsvcd__d3 al
          fabs(off.z) > size.x * half.y + size.y * half.x + margin;
 }
 
-// Sums what a ray crosses, by parts of the tree: sums (vertices). Returns 0 where it is not clear.
-static int nsvcd__cast(const nsvcd_tree *tree, nsvcd__d3 from, nsvcd__d3 along,
-                       const nsvcd__extent *e, int32_t *sums) {
-  const double margin = e->margin * nsvcd__d3_length(along);
+// Sums what a ray crosses of the other body, by component: sums (vertices). Returns 0 where that is
+// not clear.
+static int nsvcd__cast(const nsvcd__seen *s, nsvcd__d3 from, nsvcd__d3 along, int32_t *sums) {
+  const nsvcd_tree *tree = s->by->tree;
+  const double margin = s->margin * nsvcd__d3_length(along);
   nsvcd__node stack[NSVCD__TREE_STACK] = {{0, 0, (uint32_t)tree->mesh.triangle_count}};
   size_t height = 1;
   memset(sums, 0, tree->mesh.vertex_count * sizeof *sums);
@@ -1976,14 +1967,14 @@ static int nsvcd__cast(const nsvcd_tree *tree, nsvcd__d3 from, nsvcd__d3 along,
       continue;
     }
     const uint32_t triangle = tree->order[node.first];
-    const int crossed = nsvcd__ray_passes(tree, triangle, from, along, e);
+    const int crossed = nsvcd__ray_passes(s, triangle, from, along);
     if (crossed == NSVCD__UNCLEAR) return 0;
-    sums[tree->part[tree->mesh.indices[3 * (size_t)triangle]]] += crossed;
+    sums[tree->component[tree->mesh.indices[3 * (size_t)triangle]]] += crossed;
   }
   return 1;
 }
 
-// How often closed parts wind about where a ray begins.
+// How often the closed components wind about where a ray begins.
 static int nsvcd__sum_of_closed(const nsvcd_tree *tree, const int32_t *sums) {
   int sum = 0;
   for (size_t v = 0; v < tree->mesh.vertex_count; v++) sum += tree->open[v] ? 0 : sums[v];
@@ -1991,27 +1982,27 @@ static int nsvcd__sum_of_closed(const nsvcd_tree *tree, const int32_t *sums) {
 }
 
 // ----------------------------------------------------------------------------- certificate/certify
-// In: a question and two trees. Out: a certificate, or none. The form of its bits:
+// In: two motion models and two trees. Out: a certificate, or none. The form of its bits:
 //
 //   all       version 1 (6 bits), kind (2), digests of both meshes (8 each), of motions, scales and
 //             the clearance (16)
-//   FREE      the traversal, a code a visit, as examples/verify/nsvcd_verify.h has it: 0 open the
+//   FREE      the traversal, a code a visit, as examples/verify/nsvcd_verify.h has it: 0 opens the
 //             node whose box is longer; 11 separated by the last normal; 101 by another, which
-//             follows; 100 halve the time. Where the roots are nowhere separated: a ray for each
-//             part of a, then of b, at t = 0: 1 along the last normal, or 0, and a normal
+//             follows; 100 halves the time. Where the roots are nowhere separated: a ray for each
+//             component of a, then of b, at t = 0: 1 along the last normal, or 0, and a normal
 //   others    the time (32), then HIT: two triangles (32 each), whose edge (1), which (2); NEAR:
 //             two triangles, a point on each (16, 16); INSIDE: whose corner (1), which (32), a
 //             normal
 //   a normal  the last eight are remembered: k zeros and a 1 are the one k + 1 before the last;
 //             seven zeros a new one: 0, two numbers of 8 bits; 10, two of 16; 11, two of 24
 
-#define NSVCD__TRAVERSAL_STACK 128  // nodes that wait
+#define NSVCD__TRAVERSAL_STACK 128  // visits that wait
 #define NSVCD__NO_EDGE 3u
 #define NSVCD__SHORTEST_INTERVAL 1e-12
 #define NSVCD__REMEMBERED 8  // normals
-#define NSVCD__RAYS 64       // that are tried for a part
-// of the sum of both nodes' lengths: where they go farther the time is halved
-#define NSVCD__FAR_TO_GO 0.35
+#define NSVCD__RAYS 64       // that are tried for a component
+// of the sum of both nodes' sides: where they move farther, the time is halved
+#define NSVCD__LONG_TRAVEL 0.35
 
 enum { NSVCD__PROVES_FREE, NSVCD__PROVES_HIT, NSVCD__PROVES_NEAR, NSVCD__PROVES_INSIDE };
 
@@ -2023,12 +2014,11 @@ typedef struct nsvcd__visit {
 typedef struct nsvcd__certifier {
   nsvcd__moving_tree a, b;
   nsvcd__tree_interval interval;
-  // the last ones, the last first
-  nsvcd__d3 normals[NSVCD__REMEMBERED];
+  nsvcd__d3 normals[NSVCD__REMEMBERED];  // the last first
   uint8_t *bytes;
   size_t capacity, bits;
   uint32_t digest;  // of motions, scales and the clearance
-  int apart;        // 1: the roots have been separated
+  int separated;    // 1: the roots are, at some time
   int32_t *sums;    // (vertices)
   nsvcd_certificate *made;
 } nsvcd__certifier;
@@ -2045,10 +2035,9 @@ static void nsvcd__write_bits(nsvcd__certifier *c, uint32_t value, int count) {
   }
 }
 
-// The normal that is remembered at place k > 0, or, where k is REMEMBERED, a new one. It becomes
-// the last.
+// The normal remembered k > 0 before the last; where k is REMEMBERED, a new one. It becomes the last.
 static void nsvcd__write_normal(nsvcd__certifier *c, size_t k,
-                                const nsvcd__written_normal *normal) {
+                                const nsvcd__coded_normal *normal) {
   const int known = k < NSVCD__REMEMBERED;
   const nsvcd__d3 along = known ? c->normals[k] : normal->along;
   nsvcd__write_bits(c, (uint32_t)known, (int)(known ? k : k - 1));
@@ -2083,39 +2072,25 @@ static double nsvcd__coded_time(uint32_t code) {
   return (double)code / 4294967295.0;
 }
 
-// ---- what meets
+// ---- hits
 
-// A triangle's corner k in another body's frame.
-static nsvcd__d3 nsvcd__corner_seen(const nsvcd__moving_tree *of,
-                                    const nsvcd__pose_matrix *of_at,
-                                    const nsvcd__moving_tree *by,
-                                    const nsvcd__pose_matrix *by_at, uint32_t triangle,
-                                    uint32_t k) {
-  const uint32_t vertex = of->tree->mesh.indices[3 * (size_t)triangle + k];
-  return nsvcd__vertex_seen(of, of_at, by, by_at, vertex);
-}
-
-// Does an edge of a triangle of one pass through one of the other? Which.
-static uint32_t nsvcd__piercing_edge(const nsvcd__moving_tree *of,
-                                     const nsvcd__pose_matrix *of_at,
-                                     const nsvcd__moving_tree *by,
-                                     const nsvcd__pose_matrix *by_at, uint32_t own,
-                                     uint32_t other) {
-  const nsvcd__extent e = nsvcd__extent_seen(of, of_at, by, by_at);
+// The edge of a triangle that passes through one of the other body, if there is one.
+static uint32_t nsvcd__piercing_edge(const nsvcd__seen *s, uint32_t own, uint32_t other) {
+  nsvcd__d3 corners[3];
+  nsvcd__seen_triangle(s, own, corners);
   for (uint32_t k = 0; k < 3; k++) {
-    const nsvcd__d3 from = nsvcd__corner_seen(of, of_at, by, by_at, own, k);
-    const nsvcd__d3 to = nsvcd__corner_seen(of, of_at, by, by_at, own, (k + 1) % 3);
-    const nsvcd__d3 along = nsvcd__d3_sub(to, from);
-    const int there = nsvcd__ray_passes(by->tree, other, from, along, &e);
+    const nsvcd__d3 to = corners[(k + 1) % 3];
+    const nsvcd__d3 along = nsvcd__d3_sub(to, corners[k]);
+    const int there = nsvcd__ray_passes(s, other, corners[k], along);
     if (there != 1 && there != -1) continue;
     const nsvcd__d3 back = nsvcd__d3_scale(along, -1);
-    if (nsvcd__ray_passes(by->tree, other, to, back, &e) == -there) return k;
+    if (nsvcd__ray_passes(s, other, to, back) == -there) return k;
   }
   return NSVCD__NO_EDGE;
 }
 
-// A point of a triangle as it is written: shares of the way from the first corner to the second,
-// and from there to the third. Returns the point that is read.
+// A point of a triangle as it is written: the fraction from the first corner to a point between the
+// others, and that of the point from the second corner to the third. Returns the point that is read.
 static nsvcd__d3 nsvcd__point_code(const nsvcd__d3 *t, nsvcd__d3 x, uint32_t *code) {
   const nsvcd__d3 n = nsvcd__face_normal(t);
   const nsvcd__d3 off = nsvcd__d3_sub(x, t[0]);
@@ -2133,19 +2108,17 @@ static nsvcd__d3 nsvcd__point_code(const nsvcd__d3 *t, nsvcd__d3 x, uint32_t *co
   return nsvcd__d3_fma((double)code[0] / 65535, along, t[0]);
 }
 
-// Are two triangles nearer to each other than the clearance? At points that are written.
-static int nsvcd__near_at(const nsvcd__certifier *c, const nsvcd__instant *at, uint32_t ta,
+// Are two triangles nearer to each other than the clearance, at points as they are written?
+static int nsvcd__near_at(const nsvcd__certifier *c, const nsvcd__seen *s, uint32_t ta,
                           uint32_t tb, uint32_t *codes) {
   nsvcd__d3 a[3], b[3];
-  const nsvcd__extent e = nsvcd__extent_seen(&c->a, &at->a, &c->b, &at->b);
-  for (uint32_t k = 0; k < 3; k++) {
-    a[k] = nsvcd__corner_seen(&c->a, &at->a, &c->b, &at->b, ta, k);
-    b[k] = nsvcd__corner_seen(&c->b, &at->b, &c->b, &at->b, tb, k);
-  }
+  const nsvcd__seen own = nsvcd__seen_by(s->by, &s->by_at, s->by, &s->by_at);
+  nsvcd__seen_triangle(s, ta, a);
+  nsvcd__seen_triangle(&own, tb, b);
   const nsvcd__nearest nearest = nsvcd__nearest_of(a, b);
   const nsvcd__d3 on_a = nsvcd__point_code(a, nearest.on_a, codes);
   const nsvcd__d3 on_b = nsvcd__point_code(b, nearest.on_b, codes + 2);
-  const double distance = sqrt(nsvcd__d3_distance2(on_a, on_b)) + e.margin;
+  const double distance = sqrt(nsvcd__d3_distance2(on_a, on_b)) + s->margin;
   return c->b.model.scale * distance < c->interval.clearance;
 }
 
@@ -2153,16 +2126,19 @@ static int nsvcd__near_at(const nsvcd__certifier *c, const nsvcd__instant *at, u
 static int nsvcd__meet_at(nsvcd__certifier *c, double when, uint32_t ta, uint32_t tb) {
   const uint32_t code = nsvcd__time_code(when);
   const double t = nsvcd__coded_time(code);
-  const nsvcd__instant at = nsvcd__instant_at(&c->a, &c->b, t);
+  const nsvcd__pose_matrix a = nsvcd__pose_matrix_at(&c->a, t);
+  const nsvcd__pose_matrix b = nsvcd__pose_matrix_at(&c->b, t);
+  const nsvcd__seen a_by_b = nsvcd__seen_by(&c->a, &a, &c->b, &b);
+  const nsvcd__seen b_by_a = nsvcd__seen_by(&c->b, &b, &c->a, &a);
   uint32_t points[4];
   uint32_t whose = 0;
-  uint32_t edge = nsvcd__piercing_edge(&c->a, &at.a, &c->b, &at.b, ta, tb);
+  uint32_t edge = nsvcd__piercing_edge(&a_by_b, ta, tb);
   if (edge == NSVCD__NO_EDGE) {
     whose = 1;
-    edge = nsvcd__piercing_edge(&c->b, &at.b, &c->a, &at.a, tb, ta);
+    edge = nsvcd__piercing_edge(&b_by_a, tb, ta);
   }
   const int pierced = edge != NSVCD__NO_EDGE;
-  if (!pierced && !(c->interval.clearance > 0 && nsvcd__near_at(c, &at, ta, tb, points)))
+  if (!pierced && !(c->interval.clearance > 0 && nsvcd__near_at(c, &a_by_b, ta, tb, points)))
     return 0;
   nsvcd__write_head(c, pierced ? NSVCD__PROVES_HIT : NSVCD__PROVES_NEAR);
   nsvcd__write_bits(c, code, 32);
@@ -2195,8 +2171,9 @@ static nsvcd__d3 nsvcd__node_middle(const nsvcd__moving_tree *moving, const nsvc
   return nsvcd__turned_by(moving, at, nsvcd__d3_scale(sum, 0.5));
 }
 
-// The way of one node's middle as the other's sees it, over the interval, from instant to instant.
-static double nsvcd__way_apart(const nsvcd__tree_interval *s, const nsvcd__nodes *nodes) {
+// How far one node's middle moves relative to the other's, from instant to instant.
+static double nsvcd__relative_travel(const nsvcd__tree_interval *s,
+                                     const nsvcd__nodes *nodes) {
   double travel = 0;
   nsvcd__d3 last = nsvcd__d3_of(0, 0, 0);
   for (size_t i = 0; i < s->count; i++) {
@@ -2211,15 +2188,15 @@ static double nsvcd__way_apart(const nsvcd__tree_interval *s, const nsvcd__nodes
   return travel;
 }
 
-// Replaces a visit by two, pushed in reverse order: of the children of the node whose box is
-// longer, or of both halves of the time. Returns 0 where that is too short to halve.
+// Replaces a visit by two, in reverse order: to the children of the node whose box is longer, or in
+// both halves of the time. Returns 0 where that is too short to halve.
 static int nsvcd__divide_visit(nsvcd__certifier *c, nsvcd__visit *v) {
   nsvcd__nodes *nodes = &v->nodes;
   const double side_a = nsvcd__node_side(&c->a, &nodes->a);
   const double side_b = nsvcd__node_side(&c->b, &nodes->b);
   const int leaves = nodes->a.count == 1 && nodes->b.count == 1;
-  const int halves =
-      leaves || nsvcd__way_apart(&c->interval, nodes) > NSVCD__FAR_TO_GO * (side_a + side_b);
+  const int halves = leaves || nsvcd__relative_travel(&c->interval, nodes) >
+                                   NSVCD__LONG_TRAVEL * (side_a + side_b);
   v[1] = *v;
   nsvcd__write_bits(c, halves ? 4 : 0, halves ? 3 : 1);
   if (halves) {
@@ -2233,7 +2210,7 @@ static int nsvcd__divide_visit(nsvcd__certifier *c, nsvcd__visit *v) {
   return 1;
 }
 
-// FREE, HIT, or UNDECIDED.
+// Depth first, over pairs of nodes and intervals of time. HIT: the certificate is that of a hit.
 static nsvcd_verdict nsvcd__prove_traversal(nsvcd__certifier *c, size_t visits) {
   nsvcd__visit stack[NSVCD__TRAVERSAL_STACK];
   size_t height = 1;
@@ -2248,7 +2225,7 @@ static nsvcd_verdict nsvcd__prove_traversal(nsvcd__certifier *c, size_t visits) 
     nsvcd__nodes *nodes = &v->nodes;
     nodes->radius_a = nsvcd__node_radius(&c->a, &nodes->a);
     nodes->radius_b = nsvcd__node_radius(&c->b, &nodes->b);
-    nsvcd__written_normal normal;
+    nsvcd__coded_normal normal;
     if (c->made->visits == visits) {
       c->made->why = NSVCD_WHY_WORK;
       return NSVCD_UNDECIDED;
@@ -2263,7 +2240,7 @@ static nsvcd_verdict nsvcd__prove_traversal(nsvcd__certifier *c, size_t visits) 
         nsvcd__find_normal(&c->interval, nodes, c->normals[0], &normal)) {
       nsvcd__write_bits(c, k > 0 ? 5 : 3, k > 0 ? 3 : 2);
       if (k > 0) nsvcd__write_normal(c, k, &normal);
-      if (nodes->a.box == 0 && nodes->b.box == 0) c->apart = 1;
+      if (nodes->a.box == 0 && nodes->b.box == 0) c->separated = 1;
       height--;
       continue;
     }
@@ -2273,18 +2250,21 @@ static nsvcd_verdict nsvcd__prove_traversal(nsvcd__certifier *c, size_t visits) 
       if (nsvcd__meet_at(c, 0.5 * (v->t0 + v->t1), ta, tb)) return NSVCD_HIT;
     }
     if (height == NSVCD__TRAVERSAL_STACK) return NSVCD_UNDECIDED;
-    // they touch, or nearly so: no proof that they are free, but others may still meet
-    const int goes_on = nsvcd__divide_visit(c, v);
-    height += goes_on ? 1 : (size_t)-1;
-    is_unresolved |= !goes_on;
+    if (nsvcd__divide_visit(c, v)) {
+      height++;
+      continue;
+    }
+    // they touch, or nearly: others may still be proven to meet
+    is_unresolved = 1;
+    height--;
   }
   return is_unresolved ? NSVCD_UNDECIDED : NSVCD_FREE;
 }
 
-// ---- what is inside
+// ---- containment
 
 // A direction to try: along the axes, then anywhere.
-static nsvcd__written_normal nsvcd__ray_to_try(size_t k, uint64_t *random) {
+static nsvcd__coded_normal nsvcd__ray_to_try(size_t k, uint64_t *random) {
   nsvcd__d3 along = nsvcd__d3_of(0, 0, 0);
   nsvcd__d3_set_axis(&along, k % 3, k < 3 ? 1 : -1);
   // a little off, so that it does not run along faces that are parallel to an axis
@@ -2297,24 +2277,25 @@ static nsvcd__written_normal nsvcd__ray_to_try(size_t k, uint64_t *random) {
   return nsvcd__normal_of(along, 8);
 }
 
-// Rays from all parts of one body, at t = 0, that show them outside. FREE: all are written; HIT:
-// one shows a corner inside, and the certificate is written; UNDECIDED: of a part none is clear.
+// Casts rays from all components of one body, at t = 0, which show them outside. FREE: all are
+// written. HIT: one shows a corner inside, and the certificate is written. UNDECIDED: of some
+// component none is clear.
 static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
   const nsvcd__moving_tree *of = whose ? &c->b : &c->a;
   const nsvcd__moving_tree *by = whose ? &c->a : &c->b;
   const nsvcd__pose_matrix of_at = nsvcd__pose_matrix_at(of, 0);
   const nsvcd__pose_matrix by_at = nsvcd__pose_matrix_at(by, 0);
-  const nsvcd__extent e = nsvcd__extent_seen(of, &of_at, by, &by_at);
+  const nsvcd__seen s = nsvcd__seen_by(of, &of_at, by, &by_at);
   uint64_t random = 1;
   for (uint32_t v = 0; v < of->tree->mesh.vertex_count; v++) {
-    if (of->tree->part[v] != v) continue;
-    const nsvcd__d3 from = nsvcd__vertex_seen(of, &of_at, by, &by_at, v);
+    if (of->tree->component[v] != v) continue;
+    const nsvcd__d3 from = nsvcd__seen_vertex(&s, v);
     int shown = 0;
     for (size_t k = 0; k <= NSVCD__RAYS && !shown; k++) {
       const int same = k == 0;
-      const nsvcd__written_normal ray = nsvcd__ray_to_try(same ? 0 : k - 1, &random);
+      const nsvcd__coded_normal ray = nsvcd__ray_to_try(same ? 0 : k - 1, &random);
       const nsvcd__d3 along = same ? c->normals[0] : ray.along;
-      if (!nsvcd__cast(by->tree, from, along, &e, c->sums)) continue;
+      if (!nsvcd__cast(&s, from, along, c->sums)) continue;
       const int sum = nsvcd__sum_of_closed(by->tree, c->sums);
       shown = sum == 0;
       if (shown) {
@@ -2336,9 +2317,10 @@ static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
   return NSVCD_FREE;
 }
 
-// ---- what was answered
+// ---- answers
 
-// Looks for a meeting where an answer has one, and a little later: at that time they only touch.
+// Looks for a hit where an answer has one, and a little later and earlier: at the time itself the
+// triangles may only touch.
 static int nsvcd__meet_as_told(nsvcd__certifier *c, const nsvcd_answer *answer) {
   const nsvcd_contact *told = answer->contact_count > 0 ? answer->contacts : &answer->nearest;
   const int named = told->triangle_a < c->a.tree->mesh.triangle_count &&
@@ -2366,7 +2348,7 @@ static int nsvcd__has_open(const nsvcd_tree *tree) {
 
 // ---- nsvcd_certify
 
-// Lays the workspace out at base, or, where that is NULL, only counts. instants: all keyframes.
+// Lays the workspace out at base, or, where that is NULL, only counts.
 static uint64_t nsvcd__certifier_layout(size_t instants, const nsvcd_tree *a,
                                         const nsvcd_tree *b, char *base, nsvcd__certifier *c) {
   uint64_t used = 0;
@@ -2417,10 +2399,10 @@ NSVCDDEF nsvcd_result nsvcd_certify_models(
   c.made = &out;
   if (!(o->answer && nsvcd__meet_as_told(&c, o->answer))) {
     out.verdict = nsvcd__prove_traversal(&c, o->visits ? o->visits : NSVCD_DEFAULT_VISITS);
-    if (out.verdict == NSVCD_FREE && !c.apart) out.verdict = nsvcd__cast_all(&c, 0);
-    if (out.verdict == NSVCD_FREE && !c.apart) out.verdict = nsvcd__cast_all(&c, 1);
+    if (out.verdict == NSVCD_FREE && !c.separated) out.verdict = nsvcd__cast_all(&c, 0);
+    if (out.verdict == NSVCD_FREE && !c.separated) out.verdict = nsvcd__cast_all(&c, 1);
   }
-  // here what is not closed encloses nothing, and no flaw is mended
+  // of the meshes, of which none is mended: in a certificate an open component contains nothing
   const int is_inside = o->answer && (o->answer->inside || o->answer->why == NSVCD_WHY_OPEN);
   const int has_open = nsvcd__has_open(c.a.tree) || nsvcd__has_open(c.b.tree);
   if (is_inside && has_open && out.verdict == NSVCD_FREE) {

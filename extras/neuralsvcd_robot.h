@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: MIT
 //
 // nsvcd_check proves that a motion of the joints is free, as the joints make it; nsvcd_route finds
-// one; nsvcd_proximities tells what is near a configuration. On top of neuralsvcd.h, of which it
-// uses what any program can. In ONE C or C++ file:
+// one; nsvcd_proximities tells which parts are near each other in a configuration. It stands on the
+// public functions of neuralsvcd.h. In ONE C or C++ file:
 //
 //   #define NEURALSVCD_ROBOT_IMPLEMENTATION
 //   #include "extras/neuralsvcd_robot.h"
 //
-// Where neuralsvcd_certify.h is included before it, there is nsvcd_certify_pair too.
+// nsvcd_certify_pair is there where neuralsvcd_certify.h is included before it.
 //
 // CONTENTS: a room's name ends a line of dashes. Each uses only those above it.
 //   interface: what a program sees

@@ -1,9 +1,9 @@
 // neuralsvcd_certify.h - v0.3.0 - an answer, and bytes that prove it to others
 // SPDX-License-Identifier: MIT
 //
-// nsvcd_certify proves what nsvcd_sweep answered once more, by other means, and writes the proof as
+// nsvcd_certify proves an answer of nsvcd_sweep once more, by other means, and writes the proof as
 // bytes. Whoever has the meshes can check them with examples/verify, which shares nothing with this
-// library. On top of neuralsvcd.h, of which it uses what any program can. In ONE C or C++ file:
+// library. It stands on the public functions of neuralsvcd.h. In ONE C or C++ file:
 //
 //   #define NEURALSVCD_CERTIFY_IMPLEMENTATION
 //   #include "extras/neuralsvcd_certify.h"
@@ -11,8 +11,8 @@
 // CONTENTS
 //
 // GLOSSARY
-//   tree, node   boxes over a mesh's triangles; a run of these
-//   certificate  bytes that prove an answer: a traversal over two trees and time, and rays
+//   tree, node   boxes over a mesh's triangles; one of them, and its run of triangles
+//   certificate  bytes that prove an answer: a traversal of two trees and of time, and rays
 #ifndef NEURALSVCD_CERTIFY_H
 #define NEURALSVCD_CERTIFY_H
 #ifndef NEURALSVCD_H  // include it first where it stands elsewhere
@@ -51,9 +51,9 @@ extern "C" {
 #include "ground/memory.h"     // the allocator; the rows of a workspace
 
 // ===================================================== certificate: a proof that others can check
-#include "certificate/tree.h"     // boxes over triangles, components
-#include "certificate/law.h"      // where a body is, how far points leave their chords
-#include "certificate/planes.h"   // one that separates two nodes for a while
+#include "certificate/tree.h"     // boxes over triangles, connected components
+#include "certificate/models.h"   // where a body is, how far points leave their chords
+#include "certificate/planes.h"   // a plane that separates two nodes for an interval of time
 #include "certificate/rays.h"     // what a ray crosses
 #include "certificate/certify.h"  // the traversal, and its bits
 

@@ -194,7 +194,7 @@ static void certificates_cannot_be_forged(void) {
 static size_t cert_one_plane(const cert_scene *s, const uint8_t *head, nsvcd__d3 along,
                              uint8_t *out) {
   nsvcd__certifier c;
-  const nsvcd__written_normal normal = nsvcd__normal_of(along, 8);
+  const nsvcd__coded_normal normal = nsvcd__normal_of(along, 8);
   memset(&c, 0, sizeof c);
   c.a.tree = s->a->tree;
   c.b.tree = s->b->tree;
@@ -252,7 +252,7 @@ static void cert_write_pass(nsvcd__certifier *c, double t0, double t1, double ne
     return;
   }
   const double side = x0 + x1 < 0 ? -1 : 1;
-  const nsvcd__written_normal normal =
+  const nsvcd__coded_normal normal =
       nsvcd__normal_of(is_near ? nsvcd__d3_of(0, 0, 1) : nsvcd__d3_of(side, 0, 0), 8);
   nsvcd__write_bits(c, 5, 3);
   nsvcd__write_normal(c, NSVCD__REMEMBERED, &normal);
@@ -1107,7 +1107,7 @@ static void certificates_need_rays(void) {
   c.digest = nsvcd__digest(c.a.model.digest + 31 * c.b.model.digest, &clearance, 1);
   c.made = &made;
   CHECK_EQ(nsvcd__prove_traversal(&c, 100000), NSVCD_FREE);
-  CHECK(!c.apart);
+  CHECK(!c.separated);
   const size_t bits = c.bits;
   cert_look(&s, &view);
   for (int n = 0; n < 500; n++) {
@@ -1116,7 +1116,7 @@ static void certificates_need_rays(void) {
     for (int k = 0; k < 2; k++) {
       const nsvcd__d3 along =
           nsvcd__d3_of(shapes_uniform(&rng, -1, 1), shapes_uniform(&rng, -1, 1), 0.5);
-      const nsvcd__written_normal ray = nsvcd__normal_of(along, 8);
+      const nsvcd__coded_normal ray = nsvcd__normal_of(along, 8);
       nsvcd__write_bits(&c, 0, 1);
       nsvcd__write_normal(&c, NSVCD__REMEMBERED, &ray);
     }

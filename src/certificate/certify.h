@@ -1,11 +1,11 @@
-// In: a question and two trees. Out: a certificate, or none. The form of its bits:
+// In: two motion models and two trees. Out: a certificate, or none. The form of its bits:
 //
 //   all       version 1 (6 bits), kind (2), digests of both meshes (8 each), of motions, scales and
 //             the clearance (16)
-//   FREE      the traversal, a code a visit, as examples/verify/nsvcd_verify.h has it: 0 open the
+//   FREE      the traversal, a code a visit, as examples/verify/nsvcd_verify.h has it: 0 opens the
 //             node whose box is longer; 11 separated by the last normal; 101 by another, which
-//             follows; 100 halve the time. Where the roots are nowhere separated: a ray for each
-//             part of a, then of b, at t = 0: 1 along the last normal, or 0, and a normal
+//             follows; 100 halves the time. Where the roots are nowhere separated: a ray for each
+//             component of a, then of b, at t = 0: 1 along the last normal, or 0, and a normal
 //   others    the time (32), then HIT: two triangles (32 each), whose edge (1), which (2); NEAR:
 //             two triangles, a point on each (16, 16); INSIDE: whose corner (1), which (32), a
 //             normal
@@ -15,13 +15,13 @@
 #include "../ground/random.h"
 #include "rays.h"
 
-#define NSVCD__TRAVERSAL_STACK 128  // nodes that wait
+#define NSVCD__TRAVERSAL_STACK 128  // visits that wait
 #define NSVCD__NO_EDGE 3u
 #define NSVCD__SHORTEST_INTERVAL 1e-12
 #define NSVCD__REMEMBERED 8  // normals
-#define NSVCD__RAYS 64       // that are tried for a part
-// of the sum of both nodes' lengths: where they go farther the time is halved
-#define NSVCD__FAR_TO_GO 0.35
+#define NSVCD__RAYS 64       // that are tried for a component
+// of the sum of both nodes' sides: where they move farther, the time is halved
+#define NSVCD__LONG_TRAVEL 0.35
 
 enum { NSVCD__PROVES_FREE, NSVCD__PROVES_HIT, NSVCD__PROVES_NEAR, NSVCD__PROVES_INSIDE };
 
@@ -33,12 +33,11 @@ typedef struct nsvcd__visit {
 typedef struct nsvcd__certifier {
   nsvcd__moving_tree a, b;
   nsvcd__tree_interval interval;
-  // the last ones, the last first
-  nsvcd__d3 normals[NSVCD__REMEMBERED];
+  nsvcd__d3 normals[NSVCD__REMEMBERED];  // the last first
   uint8_t *bytes;
   size_t capacity, bits;
   uint32_t digest;  // of motions, scales and the clearance
-  int apart;        // 1: the roots have been separated
+  int separated;    // 1: the roots are, at some time
   int32_t *sums;    // (vertices)
   nsvcd_certificate *made;
 } nsvcd__certifier;
@@ -55,10 +54,9 @@ static void nsvcd__write_bits(nsvcd__certifier *c, uint32_t value, int count) {
   }
 }
 
-// The normal that is remembered at place k > 0, or, where k is REMEMBERED, a new one. It becomes
-// the last.
+// The normal remembered k > 0 before the last; where k is REMEMBERED, a new one. It becomes the last.
 static void nsvcd__write_normal(nsvcd__certifier *c, size_t k,
-                                const nsvcd__written_normal *normal) {
+                                const nsvcd__coded_normal *normal) {
   const int known = k < NSVCD__REMEMBERED;
   const nsvcd__d3 along = known ? c->normals[k] : normal->along;
   nsvcd__write_bits(c, (uint32_t)known, (int)(known ? k : k - 1));
@@ -93,39 +91,25 @@ static double nsvcd__coded_time(uint32_t code) {
   return (double)code / 4294967295.0;
 }
 
-// ---- what meets
+// ---- hits
 
-// A triangle's corner k in another body's frame.
-static nsvcd__d3 nsvcd__corner_seen(const nsvcd__moving_tree *of,
-                                    const nsvcd__pose_matrix *of_at,
-                                    const nsvcd__moving_tree *by,
-                                    const nsvcd__pose_matrix *by_at, uint32_t triangle,
-                                    uint32_t k) {
-  const uint32_t vertex = of->tree->mesh.indices[3 * (size_t)triangle + k];
-  return nsvcd__vertex_seen(of, of_at, by, by_at, vertex);
-}
-
-// Does an edge of a triangle of one pass through one of the other? Which.
-static uint32_t nsvcd__piercing_edge(const nsvcd__moving_tree *of,
-                                     const nsvcd__pose_matrix *of_at,
-                                     const nsvcd__moving_tree *by,
-                                     const nsvcd__pose_matrix *by_at, uint32_t own,
-                                     uint32_t other) {
-  const nsvcd__extent e = nsvcd__extent_seen(of, of_at, by, by_at);
+// The edge of a triangle that passes through one of the other body, if there is one.
+static uint32_t nsvcd__piercing_edge(const nsvcd__seen *s, uint32_t own, uint32_t other) {
+  nsvcd__d3 corners[3];
+  nsvcd__seen_triangle(s, own, corners);
   for (uint32_t k = 0; k < 3; k++) {
-    const nsvcd__d3 from = nsvcd__corner_seen(of, of_at, by, by_at, own, k);
-    const nsvcd__d3 to = nsvcd__corner_seen(of, of_at, by, by_at, own, (k + 1) % 3);
-    const nsvcd__d3 along = nsvcd__d3_sub(to, from);
-    const int there = nsvcd__ray_passes(by->tree, other, from, along, &e);
+    const nsvcd__d3 to = corners[(k + 1) % 3];
+    const nsvcd__d3 along = nsvcd__d3_sub(to, corners[k]);
+    const int there = nsvcd__ray_passes(s, other, corners[k], along);
     if (there != 1 && there != -1) continue;
     const nsvcd__d3 back = nsvcd__d3_scale(along, -1);
-    if (nsvcd__ray_passes(by->tree, other, to, back, &e) == -there) return k;
+    if (nsvcd__ray_passes(s, other, to, back) == -there) return k;
   }
   return NSVCD__NO_EDGE;
 }
 
-// A point of a triangle as it is written: shares of the way from the first corner to the second,
-// and from there to the third. Returns the point that is read.
+// A point of a triangle as it is written: the fraction from the first corner to a point between the
+// others, and that of the point from the second corner to the third. Returns the point that is read.
 static nsvcd__d3 nsvcd__point_code(const nsvcd__d3 *t, nsvcd__d3 x, uint32_t *code) {
   const nsvcd__d3 n = nsvcd__face_normal(t);
   const nsvcd__d3 off = nsvcd__d3_sub(x, t[0]);
@@ -143,19 +127,17 @@ static nsvcd__d3 nsvcd__point_code(const nsvcd__d3 *t, nsvcd__d3 x, uint32_t *co
   return nsvcd__d3_fma((double)code[0] / 65535, along, t[0]);
 }
 
-// Are two triangles nearer to each other than the clearance? At points that are written.
-static int nsvcd__near_at(const nsvcd__certifier *c, const nsvcd__instant *at, uint32_t ta,
+// Are two triangles nearer to each other than the clearance, at points as they are written?
+static int nsvcd__near_at(const nsvcd__certifier *c, const nsvcd__seen *s, uint32_t ta,
                           uint32_t tb, uint32_t *codes) {
   nsvcd__d3 a[3], b[3];
-  const nsvcd__extent e = nsvcd__extent_seen(&c->a, &at->a, &c->b, &at->b);
-  for (uint32_t k = 0; k < 3; k++) {
-    a[k] = nsvcd__corner_seen(&c->a, &at->a, &c->b, &at->b, ta, k);
-    b[k] = nsvcd__corner_seen(&c->b, &at->b, &c->b, &at->b, tb, k);
-  }
+  const nsvcd__seen own = nsvcd__seen_by(s->by, &s->by_at, s->by, &s->by_at);
+  nsvcd__seen_triangle(s, ta, a);
+  nsvcd__seen_triangle(&own, tb, b);
   const nsvcd__nearest nearest = nsvcd__nearest_of(a, b);
   const nsvcd__d3 on_a = nsvcd__point_code(a, nearest.on_a, codes);
   const nsvcd__d3 on_b = nsvcd__point_code(b, nearest.on_b, codes + 2);
-  const double distance = sqrt(nsvcd__d3_distance2(on_a, on_b)) + e.margin;
+  const double distance = sqrt(nsvcd__d3_distance2(on_a, on_b)) + s->margin;
   return c->b.model.scale * distance < c->interval.clearance;
 }
 
@@ -163,16 +145,19 @@ static int nsvcd__near_at(const nsvcd__certifier *c, const nsvcd__instant *at, u
 static int nsvcd__meet_at(nsvcd__certifier *c, double when, uint32_t ta, uint32_t tb) {
   const uint32_t code = nsvcd__time_code(when);
   const double t = nsvcd__coded_time(code);
-  const nsvcd__instant at = nsvcd__instant_at(&c->a, &c->b, t);
+  const nsvcd__pose_matrix a = nsvcd__pose_matrix_at(&c->a, t);
+  const nsvcd__pose_matrix b = nsvcd__pose_matrix_at(&c->b, t);
+  const nsvcd__seen a_by_b = nsvcd__seen_by(&c->a, &a, &c->b, &b);
+  const nsvcd__seen b_by_a = nsvcd__seen_by(&c->b, &b, &c->a, &a);
   uint32_t points[4];
   uint32_t whose = 0;
-  uint32_t edge = nsvcd__piercing_edge(&c->a, &at.a, &c->b, &at.b, ta, tb);
+  uint32_t edge = nsvcd__piercing_edge(&a_by_b, ta, tb);
   if (edge == NSVCD__NO_EDGE) {
     whose = 1;
-    edge = nsvcd__piercing_edge(&c->b, &at.b, &c->a, &at.a, tb, ta);
+    edge = nsvcd__piercing_edge(&b_by_a, tb, ta);
   }
   const int pierced = edge != NSVCD__NO_EDGE;
-  if (!pierced && !(c->interval.clearance > 0 && nsvcd__near_at(c, &at, ta, tb, points)))
+  if (!pierced && !(c->interval.clearance > 0 && nsvcd__near_at(c, &a_by_b, ta, tb, points)))
     return 0;
   nsvcd__write_head(c, pierced ? NSVCD__PROVES_HIT : NSVCD__PROVES_NEAR);
   nsvcd__write_bits(c, code, 32);
@@ -205,8 +190,9 @@ static nsvcd__d3 nsvcd__node_middle(const nsvcd__moving_tree *moving, const nsvc
   return nsvcd__turned_by(moving, at, nsvcd__d3_scale(sum, 0.5));
 }
 
-// The way of one node's middle as the other's sees it, over the interval, from instant to instant.
-static double nsvcd__way_apart(const nsvcd__tree_interval *s, const nsvcd__nodes *nodes) {
+// How far one node's middle moves relative to the other's, from instant to instant.
+static double nsvcd__relative_travel(const nsvcd__tree_interval *s,
+                                     const nsvcd__nodes *nodes) {
   double travel = 0;
   nsvcd__d3 last = nsvcd__d3_of(0, 0, 0);
   for (size_t i = 0; i < s->count; i++) {
@@ -221,15 +207,15 @@ static double nsvcd__way_apart(const nsvcd__tree_interval *s, const nsvcd__nodes
   return travel;
 }
 
-// Replaces a visit by two, pushed in reverse order: of the children of the node whose box is
-// longer, or of both halves of the time. Returns 0 where that is too short to halve.
+// Replaces a visit by two, in reverse order: to the children of the node whose box is longer, or in
+// both halves of the time. Returns 0 where that is too short to halve.
 static int nsvcd__divide_visit(nsvcd__certifier *c, nsvcd__visit *v) {
   nsvcd__nodes *nodes = &v->nodes;
   const double side_a = nsvcd__node_side(&c->a, &nodes->a);
   const double side_b = nsvcd__node_side(&c->b, &nodes->b);
   const int leaves = nodes->a.count == 1 && nodes->b.count == 1;
-  const int halves =
-      leaves || nsvcd__way_apart(&c->interval, nodes) > NSVCD__FAR_TO_GO * (side_a + side_b);
+  const int halves = leaves || nsvcd__relative_travel(&c->interval, nodes) >
+                                   NSVCD__LONG_TRAVEL * (side_a + side_b);
   v[1] = *v;
   nsvcd__write_bits(c, halves ? 4 : 0, halves ? 3 : 1);
   if (halves) {
@@ -243,7 +229,7 @@ static int nsvcd__divide_visit(nsvcd__certifier *c, nsvcd__visit *v) {
   return 1;
 }
 
-// FREE, HIT, or UNDECIDED.
+// Depth first, over pairs of nodes and intervals of time. HIT: the certificate is that of a hit.
 static nsvcd_verdict nsvcd__prove_traversal(nsvcd__certifier *c, size_t visits) {
   nsvcd__visit stack[NSVCD__TRAVERSAL_STACK];
   size_t height = 1;
@@ -258,7 +244,7 @@ static nsvcd_verdict nsvcd__prove_traversal(nsvcd__certifier *c, size_t visits) 
     nsvcd__nodes *nodes = &v->nodes;
     nodes->radius_a = nsvcd__node_radius(&c->a, &nodes->a);
     nodes->radius_b = nsvcd__node_radius(&c->b, &nodes->b);
-    nsvcd__written_normal normal;
+    nsvcd__coded_normal normal;
     if (c->made->visits == visits) {
       c->made->why = NSVCD_WHY_WORK;
       return NSVCD_UNDECIDED;
@@ -273,7 +259,7 @@ static nsvcd_verdict nsvcd__prove_traversal(nsvcd__certifier *c, size_t visits) 
         nsvcd__find_normal(&c->interval, nodes, c->normals[0], &normal)) {
       nsvcd__write_bits(c, k > 0 ? 5 : 3, k > 0 ? 3 : 2);
       if (k > 0) nsvcd__write_normal(c, k, &normal);
-      if (nodes->a.box == 0 && nodes->b.box == 0) c->apart = 1;
+      if (nodes->a.box == 0 && nodes->b.box == 0) c->separated = 1;
       height--;
       continue;
     }
@@ -283,18 +269,21 @@ static nsvcd_verdict nsvcd__prove_traversal(nsvcd__certifier *c, size_t visits) 
       if (nsvcd__meet_at(c, 0.5 * (v->t0 + v->t1), ta, tb)) return NSVCD_HIT;
     }
     if (height == NSVCD__TRAVERSAL_STACK) return NSVCD_UNDECIDED;
-    // they touch, or nearly so: no proof that they are free, but others may still meet
-    const int goes_on = nsvcd__divide_visit(c, v);
-    height += goes_on ? 1 : (size_t)-1;
-    is_unresolved |= !goes_on;
+    if (nsvcd__divide_visit(c, v)) {
+      height++;
+      continue;
+    }
+    // they touch, or nearly: others may still be proven to meet
+    is_unresolved = 1;
+    height--;
   }
   return is_unresolved ? NSVCD_UNDECIDED : NSVCD_FREE;
 }
 
-// ---- what is inside
+// ---- containment
 
 // A direction to try: along the axes, then anywhere.
-static nsvcd__written_normal nsvcd__ray_to_try(size_t k, uint64_t *random) {
+static nsvcd__coded_normal nsvcd__ray_to_try(size_t k, uint64_t *random) {
   nsvcd__d3 along = nsvcd__d3_of(0, 0, 0);
   nsvcd__d3_set_axis(&along, k % 3, k < 3 ? 1 : -1);
   // a little off, so that it does not run along faces that are parallel to an axis
@@ -307,24 +296,25 @@ static nsvcd__written_normal nsvcd__ray_to_try(size_t k, uint64_t *random) {
   return nsvcd__normal_of(along, 8);
 }
 
-// Rays from all parts of one body, at t = 0, that show them outside. FREE: all are written; HIT:
-// one shows a corner inside, and the certificate is written; UNDECIDED: of a part none is clear.
+// Casts rays from all components of one body, at t = 0, which show them outside. FREE: all are
+// written. HIT: one shows a corner inside, and the certificate is written. UNDECIDED: of some
+// component none is clear.
 static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
   const nsvcd__moving_tree *of = whose ? &c->b : &c->a;
   const nsvcd__moving_tree *by = whose ? &c->a : &c->b;
   const nsvcd__pose_matrix of_at = nsvcd__pose_matrix_at(of, 0);
   const nsvcd__pose_matrix by_at = nsvcd__pose_matrix_at(by, 0);
-  const nsvcd__extent e = nsvcd__extent_seen(of, &of_at, by, &by_at);
+  const nsvcd__seen s = nsvcd__seen_by(of, &of_at, by, &by_at);
   uint64_t random = 1;
   for (uint32_t v = 0; v < of->tree->mesh.vertex_count; v++) {
-    if (of->tree->part[v] != v) continue;
-    const nsvcd__d3 from = nsvcd__vertex_seen(of, &of_at, by, &by_at, v);
+    if (of->tree->component[v] != v) continue;
+    const nsvcd__d3 from = nsvcd__seen_vertex(&s, v);
     int shown = 0;
     for (size_t k = 0; k <= NSVCD__RAYS && !shown; k++) {
       const int same = k == 0;
-      const nsvcd__written_normal ray = nsvcd__ray_to_try(same ? 0 : k - 1, &random);
+      const nsvcd__coded_normal ray = nsvcd__ray_to_try(same ? 0 : k - 1, &random);
       const nsvcd__d3 along = same ? c->normals[0] : ray.along;
-      if (!nsvcd__cast(by->tree, from, along, &e, c->sums)) continue;
+      if (!nsvcd__cast(&s, from, along, c->sums)) continue;
       const int sum = nsvcd__sum_of_closed(by->tree, c->sums);
       shown = sum == 0;
       if (shown) {
@@ -346,9 +336,10 @@ static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
   return NSVCD_FREE;
 }
 
-// ---- what was answered
+// ---- answers
 
-// Looks for a meeting where an answer has one, and a little later: at that time they only touch.
+// Looks for a hit where an answer has one, and a little later and earlier: at the time itself the
+// triangles may only touch.
 static int nsvcd__meet_as_told(nsvcd__certifier *c, const nsvcd_answer *answer) {
   const nsvcd_contact *told = answer->contact_count > 0 ? answer->contacts : &answer->nearest;
   const int named = told->triangle_a < c->a.tree->mesh.triangle_count &&
@@ -376,7 +367,7 @@ static int nsvcd__has_open(const nsvcd_tree *tree) {
 
 // ---- nsvcd_certify
 
-// Lays the workspace out at base, or, where that is NULL, only counts. instants: all keyframes.
+// Lays the workspace out at base, or, where that is NULL, only counts.
 static uint64_t nsvcd__certifier_layout(size_t instants, const nsvcd_tree *a,
                                         const nsvcd_tree *b, char *base, nsvcd__certifier *c) {
   uint64_t used = 0;
@@ -427,10 +418,10 @@ NSVCDDEF nsvcd_result nsvcd_certify_models(
   c.made = &out;
   if (!(o->answer && nsvcd__meet_as_told(&c, o->answer))) {
     out.verdict = nsvcd__prove_traversal(&c, o->visits ? o->visits : NSVCD_DEFAULT_VISITS);
-    if (out.verdict == NSVCD_FREE && !c.apart) out.verdict = nsvcd__cast_all(&c, 0);
-    if (out.verdict == NSVCD_FREE && !c.apart) out.verdict = nsvcd__cast_all(&c, 1);
+    if (out.verdict == NSVCD_FREE && !c.separated) out.verdict = nsvcd__cast_all(&c, 0);
+    if (out.verdict == NSVCD_FREE && !c.separated) out.verdict = nsvcd__cast_all(&c, 1);
   }
-  // here what is not closed encloses nothing, and no flaw is mended
+  // of the meshes, of which none is mended: in a certificate an open component contains nothing
   const int is_inside = o->answer && (o->answer->inside || o->answer->why == NSVCD_WHY_OPEN);
   const int has_open = nsvcd__has_open(c.a.tree) || nsvcd__has_open(c.b.tree);
   if (is_inside && has_open && out.verdict == NSVCD_FREE) {

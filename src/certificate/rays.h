@@ -5,57 +5,62 @@
 
 #define NSVCD__UNCLEAR 2
 
-// A vertex of one body in the frame of another, in units of that one's scale.
-static nsvcd__d3 nsvcd__vertex_seen(const nsvcd__moving_tree *of,
-                                    const nsvcd__pose_matrix *of_at,
-                                    const nsvcd__moving_tree *by,
-                                    const nsvcd__pose_matrix *by_at, uint32_t vertex) {
-  const nsvcd__d3 x = nsvcd__d3_row(of->tree->mesh.positions, vertex);
-  const nsvcd__d3 offset = nsvcd__d3_sub(of_at->at, by_at->at);
-  const nsvcd__d3 world = nsvcd__d3_add(nsvcd__turned_by(of, of_at, x), offset);
-  return nsvcd__d3_scale(nsvcd__dmat3_apply_transpose(&by_at->turn, world),
-                         1 / by->model.scale);
-}
+// One body as another one sees it: in the other's frame, in units of its scale.
+typedef struct nsvcd__seen {
+  const nsvcd__moving_tree *of, *by;
+  nsvcd__pose_matrix of_at, by_at;
+  double lengths, margin;  // no length is more; no point is off by as much as the margin
+} nsvcd__seen;
 
-// In that frame: no length is more, and no point is off by as much as the margin.
-typedef struct nsvcd__extent {
-  double lengths, margin;
-} nsvcd__extent;
-
-static nsvcd__extent nsvcd__extent_seen(const nsvcd__moving_tree *of,
-                                        const nsvcd__pose_matrix *of_at,
-                                        const nsvcd__moving_tree *by,
-                                        const nsvcd__pose_matrix *by_at) {
+static nsvcd__seen nsvcd__seen_by(const nsvcd__moving_tree *of,
+                                  const nsvcd__pose_matrix *of_at,
+                                  const nsvcd__moving_tree *by,
+                                  const nsvcd__pose_matrix *by_at) {
   const nsvcd__node root = {0, 0, 1};
   const double radii = nsvcd__node_radius(of, &root) + nsvcd__node_radius(by, &root);
   const double apart = nsvcd__d3_length(nsvcd__d3_sub(of_at->at, by_at->at));
   const double positions =
       of->model.extent + by->model.extent + nsvcd__lengths_at(of_at, by_at);
-  nsvcd__extent out;
-  out.lengths = 1.000001 * (radii + apart) / by->model.scale;
-  out.margin = NSVCD__CERTIFIED_MARGIN * (out.lengths + positions / by->model.scale);
+  const double lengths = 1.000001 * (radii + apart) / by->model.scale;
+  const double margin = NSVCD__CERTIFIED_MARGIN * (lengths + positions / by->model.scale);
+  const nsvcd__seen out = {of, by, *of_at, *by_at, lengths, margin};
   return out;
 }
 
-// Does a ray leave (1) or enter (-1) through a triangle, or miss it (0)? UNCLEAR: by too little.
-static int nsvcd__ray_passes(const nsvcd_tree *tree, uint32_t triangle, nsvcd__d3 from,
-                             nsvcd__d3 along, const nsvcd__extent *e) {
+static nsvcd__d3 nsvcd__seen_vertex(const nsvcd__seen *s, uint32_t vertex) {
+  const nsvcd__d3 x = nsvcd__d3_row(s->of->tree->mesh.positions, vertex);
+  const nsvcd__d3 offset = nsvcd__d3_sub(s->of_at.at, s->by_at.at);
+  const nsvcd__d3 world = nsvcd__d3_add(nsvcd__turned_by(s->of, &s->of_at, x), offset);
+  return nsvcd__d3_scale(nsvcd__dmat3_apply_transpose(&s->by_at.turn, world),
+                         1 / s->by->model.scale);
+}
+
+// The corners of a triangle.
+static void nsvcd__seen_triangle(const nsvcd__seen *s, uint32_t triangle, nsvcd__d3 *out) {
+  const uint32_t *corners = s->of->tree->mesh.indices + 3 * (size_t)triangle;
+  for (size_t k = 0; k < 3; k++) out[k] = nsvcd__seen_vertex(s, corners[k]);
+}
+
+// A ray in the frame of the other body: does it leave (1) or enter (-1) through a triangle of that,
+// or miss it (0)? UNCLEAR: by too little.
+static int nsvcd__ray_passes(const nsvcd__seen *s, uint32_t triangle, nsvcd__d3 from,
+                             nsvcd__d3 along) {
   const double length = nsvcd__d3_length(along);
-  const double rounding = 1e-4 * NSVCD__CERTIFIED_MARGIN * e->lengths * e->lengths;
+  const double rounding = 1e-4 * NSVCD__CERTIFIED_MARGIN * s->lengths * s->lengths;
   nsvcd__d3 p[3], crosses[3];
   int left = 0;
   int right = 0;
   for (uint32_t k = 0; k < 3; k++)
-    p[k] = nsvcd__d3_sub(nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, k)), from);
+    p[k] = nsvcd__d3_sub(nsvcd__d3_load(nsvcd__tree_corner(s->by->tree, triangle, k)), from);
   const double ahead =
       nsvcd__max(nsvcd__d3_dot(p[0], along),
                  nsvcd__max(nsvcd__d3_dot(p[1], along), nsvcd__d3_dot(p[2], along)));
-  if (ahead < -1.01 * e->margin * length) return 0;
+  if (ahead < -1.01 * s->margin * length) return 0;
   for (size_t k = 0; k < 3; k++) {
     crosses[k] = nsvcd__d3_cross(p[k], p[(k + 1) % 3]);
     const double edge = sqrt(nsvcd__d3_distance2(p[k], p[(k + 1) % 3]));
     const double off =
-        length * (e->margin * edge + rounding) + 2 * e->margin * nsvcd__d3_length(crosses[k]);
+        length * (s->margin * edge + rounding) + 2 * s->margin * nsvcd__d3_length(crosses[k]);
     left += nsvcd__d3_dot(along, crosses[k]) > off;
     right += nsvcd__d3_dot(along, crosses[k]) < -off;
   }
@@ -63,14 +68,14 @@ static int nsvcd__ray_passes(const nsvcd_tree *tree, uint32_t triangle, nsvcd__d
   if (left < 3 && right < 3) return NSVCD__UNCLEAR;
   const nsvcd__d3 normal = nsvcd__d3_add(crosses[0], nsvcd__d3_add(crosses[1], crosses[2]));
   const double volume = nsvcd__d3_dot(p[2], crosses[0]);
-  const double off = e->margin * nsvcd__d3_length(normal) + rounding * e->lengths;
+  const double off = s->margin * nsvcd__d3_length(normal) + rounding * s->lengths;
   if (!(fabs(volume) > off)) return NSVCD__UNCLEAR;
   if ((volume > 0) != (left > 0)) return 0;
   return left > 0 ? 1 : -1;
 }
 
-// Does a ray miss a box for certain? Then there is an axis across it, and across one of the box's
-// sides, along which they are apart.
+// Does a ray miss a box for certain? Then some axis, across the ray and across a side of the box,
+// separates them.
 static int nsvcd__ray_misses(const nsvcd__box *box, nsvcd__d3 from, nsvcd__d3 along,
                              double margin) {
   const nsvcd__d3 low = nsvcd__d3_sub(nsvcd__d3_widen(box->low), from);
@@ -84,10 +89,11 @@ static int nsvcd__ray_misses(const nsvcd__box *box, nsvcd__d3 from, nsvcd__d3 al
          fabs(off.z) > size.x * half.y + size.y * half.x + margin;
 }
 
-// Sums what a ray crosses, by parts of the tree: sums (vertices). Returns 0 where it is not clear.
-static int nsvcd__cast(const nsvcd_tree *tree, nsvcd__d3 from, nsvcd__d3 along,
-                       const nsvcd__extent *e, int32_t *sums) {
-  const double margin = e->margin * nsvcd__d3_length(along);
+// Sums what a ray crosses of the other body, by component: sums (vertices). Returns 0 where that is
+// not clear.
+static int nsvcd__cast(const nsvcd__seen *s, nsvcd__d3 from, nsvcd__d3 along, int32_t *sums) {
+  const nsvcd_tree *tree = s->by->tree;
+  const double margin = s->margin * nsvcd__d3_length(along);
   nsvcd__node stack[NSVCD__TREE_STACK] = {{0, 0, (uint32_t)tree->mesh.triangle_count}};
   size_t height = 1;
   memset(sums, 0, tree->mesh.vertex_count * sizeof *sums);
@@ -100,14 +106,14 @@ static int nsvcd__cast(const nsvcd_tree *tree, nsvcd__d3 from, nsvcd__d3 along,
       continue;
     }
     const uint32_t triangle = tree->order[node.first];
-    const int crossed = nsvcd__ray_passes(tree, triangle, from, along, e);
+    const int crossed = nsvcd__ray_passes(s, triangle, from, along);
     if (crossed == NSVCD__UNCLEAR) return 0;
-    sums[tree->part[tree->mesh.indices[3 * (size_t)triangle]]] += crossed;
+    sums[tree->component[tree->mesh.indices[3 * (size_t)triangle]]] += crossed;
   }
   return 1;
 }
 
-// How often closed parts wind about where a ray begins.
+// How often the closed components wind about where a ray begins.
 static int nsvcd__sum_of_closed(const nsvcd_tree *tree, const int32_t *sums) {
   int sum = 0;
   for (size_t v = 0; v < tree->mesh.vertex_count; v++) sum += tree->open[v] ? 0 : sums[v];

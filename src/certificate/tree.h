@@ -1,14 +1,14 @@
-// In: a mesh. Out: its components, and a tree of boxes over its triangles. The floor, top to
-// bottom:
+// In: a mesh. Out: its connected components, and a tree of boxes over its triangles. The floor, top
+// to bottom:
 //
 //   tree        boxes, and components
-//   law         where a body is at a time, and how far points leave their chords
-//   planes      one that separates two nodes over a interval of time; its normal in a few bits
+//   models      where a body is at a time, and how far points leave their chords
+//   planes      a plane that separates two nodes for an interval of time; its normal in a few bits
 //   rays        what is inside of what at one time
 //   certify     the traversal that a certificate is
 //
-// What is built and computed here examples/verify builds and computes again, by code of its own:
-// the rules by which nodes are cut and opened, and the form of the bits, are the same in both.
+// examples/verify builds and computes all of this again, by code of its own. The rules by which
+// nodes are cut and opened, and the form of the bits, are the same in both.
 #pragma once
 #include "../ground/digests.h"
 #include "../ground/valid.h"
@@ -16,30 +16,25 @@
 #include "../ground/memory.h"
 #include "../ground/spheres.h"
 
+// of a mesh, at most; and nodes on the stack of a traversal of that many
 #define NSVCD__TREE_TRIANGLES 0x20000000
-// nodes that wait, while a tree of so many triangles is walked through
 #define NSVCD__TREE_STACK 32
 
 // A run of triangles of a tree, with a box about them.
 typedef struct nsvcd__node {
-  // a row of boxes; of order
-  uint32_t box, first, count;
+  uint32_t box;           // its row of boxes
+  uint32_t first, count;  // of order
 } nsvcd__node;
 
 struct nsvcd_tree {
   nsvcd_mesh mesh;
-  // (2 triangles - 1), of a node, of its left tree, of its right tree
-  nsvcd__box *boxes;
-  // (triangles): the leaves, from left to right
-  uint32_t *order;
-  // (triangles, 3, 3): their corners
-  float *corners;
+  nsvcd__box *boxes;  // (2 triangles - 1): of a node, of its left tree, of its right tree
+  uint32_t *order;    // (triangles): the leaves, from left to right
+  float *corners;     // (triangles, 3, 3), in that order
   // (vertices): the lowest vertex of its component; NSVCD_NO_TRIANGLE: no triangle has it
-  uint32_t *part;
-  // (vertices): the lowest vertex at its place
-  uint32_t *weld;
-  // (vertices): 1: the component is not closed
-  uint8_t *open;
+  uint32_t *component;
+  uint32_t *weld;  // (vertices): the lowest vertex at its position
+  uint8_t *open;   // (vertices): 1: that vertex's component is not closed
   uint32_t digest;
 };
 
@@ -48,16 +43,17 @@ static const float *nsvcd__tree_corner(const nsvcd_tree *tree, uint32_t triangle
   return tree->mesh.positions + 3 * (size_t)vertex;
 }
 
-// Three times a triangle's middle, in doubles: a key to sort by, which must be the same each time.
+// Three times a triangle's middle, in double: a key to sort by, which must be the same each time.
 static nsvcd__d3 nsvcd__tree_middle(const nsvcd_tree *tree, uint32_t triangle) {
-  nsvcd__d3 sum = nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, 0));
-  for (uint32_t k = 1; k < 3; k++)
-    sum = nsvcd__d3_stored(
-        nsvcd__d3_add(sum, nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, k))));
+  nsvcd__d3 sum = {0, 0, 0};
+  for (uint32_t k = 0; k < 3; k++) {
+    const nsvcd__d3 corner = nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, k));
+    sum = nsvcd__d3_stored(nsvcd__d3_add(sum, corner));
+  }
   return sum;
 }
 
-// Is a triangle before another one, whose key is known? Below 0: yes; above: it is after it.
+// Below 0: a triangle is before another one, whose key is given; above 0: after it.
 static int nsvcd__tree_order(const nsvcd_tree *tree, uint32_t triangle, uint32_t other,
                              double key, size_t axis) {
   const double own = nsvcd__d3_axis(nsvcd__tree_middle(tree, triangle), axis);
@@ -65,8 +61,8 @@ static int nsvcd__tree_order(const nsvcd_tree *tree, uint32_t triangle, uint32_t
   return triangle < other ? -1 : triangle > other;
 }
 
-// The box of a node; its triangles so that those that are first along the axis along which their
-// middles differ most, of equals those of lower number, are before the middle (Hoare 1961).
+// Sets the box of a node, and parts its triangles in two halves: by their middles, along the axis
+// along which these differ most, and of equals by number. Quickselect (Hoare 1961).
 static void nsvcd__cut_node(nsvcd_tree *tree, const nsvcd__node *node) {
   uint32_t *order = tree->order + node->first;
   nsvcd__box box;
@@ -120,7 +116,7 @@ static void nsvcd__children(const nsvcd__node *node, nsvcd__node *left, nsvcd__n
 
 // ---- components
 
-// Below 0, 0 or above it: the place of vertex i is before, at or after that of vertex j.
+// Below 0, 0 or above it: the position of vertex i is before, at or after that of vertex j.
 static int nsvcd__position_order(const nsvcd_tree *tree, uint32_t i, uint32_t j) {
   const float *x = tree->mesh.positions + 3 * (size_t)i;
   const float *y = tree->mesh.positions + 3 * (size_t)j;
@@ -131,27 +127,29 @@ static int nsvcd__position_order(const nsvcd_tree *tree, uint32_t i, uint32_t j)
   return 0;
 }
 
-// The ends of an edge, by the lowest vertices at their places; 3 t + k begins at corner k of
-// triangle t.
+// The ends of an edge, by the lowest vertices at their positions. Edge 3 t + k begins at corner k
+// of triangle t.
 static void nsvcd__edge_ends(const nsvcd_tree *tree, uint32_t edge, uint32_t *ends) {
   const uint32_t next = edge % 3 == 2 ? edge - 2 : edge + 1;
   ends[0] = tree->weld[tree->mesh.indices[edge]];
   ends[1] = tree->weld[tree->mesh.indices[next]];
 }
 
-// The same of two edges, whichever way they go.
+// The same order of two edges, whichever way they go.
 static int nsvcd__edge_order(const nsvcd_tree *tree, uint32_t i, uint32_t j) {
   uint32_t a[2], b[2];
   nsvcd__edge_ends(tree, i, a);
   nsvcd__edge_ends(tree, j, b);
-  const uint64_t x = (uint64_t)(a[0] < a[1] ? a[0] : a[1]) << 32 | (a[0] < a[1] ? a[1] : a[0]);
-  const uint64_t y = (uint64_t)(b[0] < b[1] ? b[0] : b[1]) << 32 | (b[0] < b[1] ? b[1] : b[0]);
+  const int up_a = a[0] < a[1];
+  const int up_b = b[0] < b[1];
+  const uint64_t x = (uint64_t)a[!up_a] << 32 | a[up_a];
+  const uint64_t y = (uint64_t)b[!up_b] << 32 | b[up_b];
   return x < y ? -1 : x > y;
 }
 
 typedef int nsvcd__tree_compare(const nsvcd_tree *tree, uint32_t i, uint32_t j);
 
-// Moves what is at place `at` of a heap down to where it belongs.
+// Moves an entry of a heap down to where it belongs.
 static void nsvcd__sink(const nsvcd_tree *tree, nsvcd__tree_compare *order, uint32_t *heap,
                         size_t count, size_t at) {
   const uint32_t sinks = heap[at];
@@ -176,7 +174,7 @@ static void nsvcd__sort_numbers(const nsvcd_tree *tree, nsvcd__tree_compare *ord
   }
 }
 
-// weld: the lowest vertex at each vertex's place. numbers: (vertices), to work with.
+// Fills in tree->weld. numbers: (vertices), scratch.
 static void nsvcd__weld_positions(nsvcd_tree *tree, uint32_t *numbers) {
   const size_t count = tree->mesh.vertex_count;
   size_t end;
@@ -193,43 +191,45 @@ static void nsvcd__weld_positions(nsvcd_tree *tree, uint32_t *numbers) {
   }
 }
 
-static uint32_t nsvcd__part_root(uint32_t *part, uint32_t v) {
-  while (part[v] != v) {
-    part[v] = part[part[v]];
-    v = part[v];
+// Union-find, with the lowest vertex as the root.
+static uint32_t nsvcd__find_root(uint32_t *roots, uint32_t v) {
+  while (roots[v] != v) {
+    roots[v] = roots[roots[v]];
+    v = roots[v];
   }
   return v;
 }
 
-static void nsvcd__unite_parts(uint32_t *part, uint32_t v, uint32_t w) {
-  const uint32_t x = nsvcd__part_root(part, v);
-  const uint32_t y = nsvcd__part_root(part, w);
-  part[x > y ? x : y] = x > y ? y : x;
+static void nsvcd__unite(uint32_t *roots, uint32_t v, uint32_t w) {
+  const uint32_t x = nsvcd__find_root(roots, v);
+  const uint32_t y = nsvcd__find_root(roots, w);
+  roots[x > y ? x : y] = x > y ? y : x;
 }
 
-// Joins the corners of triangles, and vertices at the same place; a part is open if an edge of its
-// goes there and back not equally often. edges: (3 triangles), to work with.
-static void nsvcd__find_parts(nsvcd_tree *tree, uint32_t *edges) {
+// Fills in tree->component and tree->open: unites the corners of each triangle, and vertices at the
+// same position. A component is open if its triangles do not go along an edge equally often in both
+// directions. edges: (3 triangles), scratch.
+static void nsvcd__find_components(nsvcd_tree *tree, uint32_t *edges) {
   const uint32_t *indices = tree->mesh.indices;
   const size_t corners = 3 * tree->mesh.triangle_count;
   size_t end;
-  nsvcd__weld_positions(tree, tree->part);
+  uint32_t *roots = tree->component;
+  nsvcd__weld_positions(tree, roots);
   for (size_t v = 0; v < tree->mesh.vertex_count; v++) {
-    tree->part[v] = NSVCD_NO_TRIANGLE;
+    roots[v] = NSVCD_NO_TRIANGLE;
     tree->open[v] = 0;
   }
   for (size_t i = 0; i < corners; i++) {
     const uint32_t lowest = tree->weld[indices[i]];
-    tree->part[indices[i]] = indices[i];
-    tree->part[lowest] = lowest;
+    roots[indices[i]] = indices[i];
+    roots[lowest] = lowest;
     edges[i] = (uint32_t)i;
   }
   for (size_t i = 0; i < corners; i++) {
-    nsvcd__unite_parts(tree->part, indices[i], indices[i / 3 * 3]);
-    nsvcd__unite_parts(tree->part, indices[i], tree->weld[indices[i]]);
+    nsvcd__unite(roots, indices[i], indices[i / 3 * 3]);
+    nsvcd__unite(roots, indices[i], tree->weld[indices[i]]);
   }
-  for (size_t i = 0; i < corners; i++)
-    tree->part[indices[i]] = nsvcd__part_root(tree->part, indices[i]);
+  for (size_t i = 0; i < corners; i++) roots[indices[i]] = nsvcd__find_root(roots, indices[i]);
   nsvcd__sort_numbers(tree, nsvcd__edge_order, edges, corners);
   for (size_t i = 0; i < corners; i = end) {
     size_t there = 0;
@@ -240,7 +240,7 @@ static void nsvcd__find_parts(nsvcd_tree *tree, uint32_t *edges) {
       there += ends[0] < ends[1];
       back += ends[1] < ends[0];
     }
-    if (there != back) tree->open[tree->part[indices[edges[i]]]] = 1;
+    if (there != back) tree->open[roots[indices[edges[i]]]] = 1;
   }
 }
 
@@ -252,7 +252,7 @@ static uint64_t nsvcd__tree_layout(const nsvcd_mesh *mesh, char *base, nsvcd_tre
   tree->boxes = (nsvcd__box *)nsvcd__take(base, &used, 2 * triangles - 1, sizeof(nsvcd__box));
   tree->order = (uint32_t *)nsvcd__take(base, &used, triangles, sizeof(uint32_t));
   tree->corners = (float *)nsvcd__take(base, &used, triangles, 9 * sizeof(float));
-  tree->part = (uint32_t *)nsvcd__take(base, &used, mesh->vertex_count, sizeof(uint32_t));
+  tree->component = (uint32_t *)nsvcd__take(base, &used, mesh->vertex_count, sizeof(uint32_t));
   tree->weld = (uint32_t *)nsvcd__take(base, &used, mesh->vertex_count, sizeof(uint32_t));
   tree->open = (uint8_t *)nsvcd__take(base, &used, mesh->vertex_count, 1);
   return used;
@@ -283,7 +283,7 @@ NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, siz
   t->digest =
       nsvcd__digest((uint32_t)mesh->vertex_count, mesh->positions, 3 * mesh->vertex_count);
   t->digest = nsvcd__digest(t->digest, mesh->indices, 3 * mesh->triangle_count);
-  nsvcd__find_parts(t, (uint32_t *)t->boxes);
+  nsvcd__find_components(t, (uint32_t *)t->boxes);
   for (size_t i = 0; i < mesh->triangle_count; i++) t->order[i] = (uint32_t)i;
   stack[0].box = stack[0].first = 0;
   stack[0].count = (uint32_t)mesh->triangle_count;
