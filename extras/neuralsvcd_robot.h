@@ -44,7 +44,8 @@
 // GLOSSARY
 //   part, link    a body of a scene; what a joint carries
 //   piece         one of the curves that a motion of the joints is made of
-//   sample, step  a configuration at a time of a motion, with all parts placed; from one to the next
+//   sample, step  a configuration at a time of a motion, with all parts placed; from one to the
+//           next
 //   sweep         the line and the slerp of a part between its poses at two samples
 //   deviation     how far a part leaves its sweep in a step
 //   moment arm    how far a point of a part can be from a joint's axis
@@ -65,12 +66,11 @@ extern "C" {
 // -------------------------------------------------------------------------------- interface/robots
 // In: a robot among obstacles, and a motion of its joints. Out: is it free, as the joints make it?
 //
-// Between two samples of a joint motion a link leaves the line and the slerp that nsvcd_sweep is
-// about. By how much, at most, follows from the joints (robot/deviate): with that as clearance the
-// sweep proves the joints' own motion, at all times.
+// nsvcd_sweep is about a line and a slerp between two poses. Between two samples of a joint motion
+// a link deviates from these, by a bound that follows from the joints (robot/deviation.h): with
+// that as clearance the sweep proves the joints' own motion, at all times.
 
-// of a piece of a motion
-#define NSVCD_MAX_DEGREE 5
+#define NSVCD_MAX_DEGREE 5  // of a piece of a motion
 #define NSVCD_MAX_PARTS 65536
 
 typedef enum nsvcd_joint_kind {
@@ -84,17 +84,17 @@ typedef struct nsvcd_joint {
   nsvcd_joint_kind kind;
   // the link that the joint is on, i at most
   uint32_t parent;
-  // of the joint's frame, in that link
+  // the joint's frame, in that link
   nsvcd_pose origin;
-  // in its frame; any length but 0
+  // in the joint's frame; any length but 0
   float axis[3];
-  // radians or metres; not read of CONTINUOUS
+  // limits, radians or metres; unused if CONTINUOUS
   double low, high;
-  // radians or metres, per s and per s^2: what a route keeps to, and nothing else reads; 0: 1
+  // limits of routes only: radians or metres, per s and per s^2; 0: 1
   double speed, acceleration;
 } nsvcd_joint;
 
-// A body on a link. What is on link 0 rests.
+// A body on a link. On link 0 it rests.
 typedef struct nsvcd_part {
   const nsvcd_body *body;
   uint32_t link;
@@ -104,7 +104,7 @@ typedef struct nsvcd_part {
   float scale;
 } nsvcd_part;
 
-// Who moves how, and who can meet whom. Nothing else is looked at.
+// A robot and its obstacles. Only the pairs named here are checked.
 typedef struct nsvcd_scene {
   // (F), up to NSVCD_MAX_JOINTS
   const nsvcd_joint *joints;
@@ -117,184 +117,185 @@ typedef struct nsvcd_scene {
   size_t pair_count;
 } nsvcd_scene;
 
-// A motion of the joints: pieces one after another, each a Bezier curve of this degree in time,
-// which begins where the one before ends. A polyline has degree 1. Where there are no pieces it is
-// one configuration, at which the robot rests.
+// A motion of the joints: pieces one after another, each a Bezier curve of this degree in time that
+// begins where the one before ends. A polyline has degree 1. Without pieces it is one
+// configuration, in which the robot rests.
 typedef struct nsvcd_joint_motion {
   size_t pieces;
   // 1..NSVCD_MAX_DEGREE
   size_t degree;
   // (pieces degree + 1, F), radians or metres
   const double *points;
-  // (pieces + 1), seconds, rising; NULL: each piece takes one. Without jumps of speed a motion is
-  // asked about in fewer sweeps
+  // (pieces + 1), seconds, rising; NULL: each piece takes one. A motion whose speed does not jump
+  // takes fewer sweeps
   const double *times;
 } nsvcd_joint_motion;
 
 // The joints at a time of a motion.
 //   motion     not NULL, as nsvcd_check takes it
 //   joints     F
-//   time       seconds, as motion->times has them; taken into the motion
+//   time       seconds, as motion->times has them; clamped to the motion
 //   out        (F), not NULL
 NSVCDDEF void nsvcd_motion_at(const nsvcd_joint_motion *motion, size_t joints, double time,
                               double *out);
 
 // What is zero is the default.
 typedef struct nsvcd_check_options {
-  // metres: to come as near as this is a hit
+  // metres: parts that come nearer than this are a hit
   float clearance;
-  // metres: no sample is put where a link leaves its sweep by less than this; 10 um
+  // metres: steps in which links deviate from their sweeps by less are not cut further; 10 um
   float finest;
-  // units that the proof of a pair in a piece may take; NSVCD_DEFAULT_WORK
+  // units for each proof of a pair; NSVCD_DEFAULT_WORK
   size_t work;
-  // asked before each question about a pair; not 0 ends the check, UNDECIDED for want of work. May
-  // be NULL
+  // called before each question about a pair; if it returns other than 0 the check ends UNDECIDED,
+  // NSVCD_WHY_WORK. May be NULL
   int (*stop)(void *user);
   void *user;
 } nsvcd_check_options;
 
 typedef struct nsvcd_check_answer {
-  // FREE: at no time of the motion do two parts of a pair come within the clearance. HIT: two do,
-  // or one is inside of the other, in the configuration that is named
+  // FREE: at no time of the motion do two parts of a pair come within the clearance. HIT: in the
+  // configuration that is named two do, or one is inside of the other
   nsvcd_verdict verdict;
   nsvcd_why why;
-  // of the scene's pairs, and where in the motion: of a HIT, which need not be the motion's first,
-  // or of what is UNDECIDED. NSVCD_NONE where there is none
+  // where the HIT is, which need not be the motion's first, or what is UNDECIDED: one of the
+  // scene's pairs, and a piece of the motion. NSVCD_NONE if there is none
   size_t pair, piece;
   // of the piece, in [0,1]
   double fraction;
   // of a HIT, as nsvcd_answer.nearest has it; its time is 0
   nsvcd_contact contact;
-  // a joint that leaves its limits somewhere, NSVCD_NONE: none does
+  // a joint that leaves its limits somewhere; NSVCD_NONE: none does
   size_t joint;
-  // configurations that links were placed at, and questions asked
+  // configurations that parts were placed in, and questions asked
   size_t placed, sweeps;
 } nsvcd_check_answer;
 
-// A scene that has been looked at, in the caller's memory.
+// A scene, prepared for checks, in the caller's memory.
 typedef struct nsvcd_checker nsvcd_checker;
 
 // Bytes that nsvcd_checker_open needs; 0 if the scene is refused.
 NSVCDDEF size_t nsvcd_checker_size(const nsvcd_scene *scene);
 
-// Makes a checker of a scene: what moves what, and how far points of a part can be from each axis.
-//   scene      not NULL; it and all that it points to stays as it is as long as the checker is used
+// Makes a checker of a scene.
+//   scene      not NULL; it and all that it points to must not change while the checker is used
 //   memory     (size) bytes, nsvcd_checker_size(scene) or more, not NULL, aligned to
 //              NSVCD_ALIGNMENT
 //   checker    not NULL; left as it was on failure
 //   allocates  nothing
 //   threads    each with a checker of its own
 //   errors     ARGUMENT (NULL), COUNT, of joints JOINT, AXIS, LIMITS, SPEED, of parts BODY,
-//              VERSION, TRIANGLES, LINK, SCALE, of both POSE, QUATERNION, PAIR (or of what never
-//              moves apart), WORKSPACE
+//              VERSION, TRIANGLES, LINK, SCALE, of both POSE, QUATERNION, PAIR (also of two parts
+//              on one link), WORKSPACE
 NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory, size_t size,
                                          nsvcd_checker **checker);
 
-// Where the parts are, for a picture, say: poses in the world are rounded to float, which far from
-// its origin is more than what nsvcd_check answers to.
-//   joints     (F), radians or metres; not looked at: NaN gives poses that are none
+// Where the parts are, for a picture, say. Poses in the world are rounded to float: far from its
+// origin that is coarser than what nsvcd_check computes with.
+//   joints     (F), radians or metres; not checked
 //   poses      (B), in the world
 NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const double *joints,
                                        nsvcd_pose *poses);
 
 // Is a motion free?
-//   checker    not NULL; where things are hit is remembered: it is asked there first
+//   checker    not NULL; it remembers which pairs were hit, and asks about them first
 //   motion     not NULL
 //   options    NULL: the defaults
 //   answer     not NULL; left as it was on failure
 //   allocates  nothing
 //   errors     ARGUMENT, DEGREE, VALUE (points not finite or beyond NSVCD_MAX_COORDINATE), TIMES,
 //              CLEARANCE, FINEST
-//   source     this library: robot/deviate; slerps and lines against joints, by second derivatives
+//   source     this library: robot/deviation.h, slerps and lines against joints, by second
+//              derivatives
 //
-// What FREE says holds for the joints' own motion, with all joint values and frames exact, and
-// bodies as nsvcd_sweep says. A HIT is one of the configuration named, to what a pose in float is
-// off: 1e-7 of the distance between the two parts' origins and of the
-// bodies' extents. How far the robot stands from the world's origin does not matter, as each pair
-// is asked about in the frame of one of its parts.
+// FREE holds for the joints' own motion, with exact joint values and frames, and bodies as
+// nsvcd_sweep has them. A HIT is in the configuration named, up to the rounding of a pose to float:
+// 1e-7 of the distance between the two parts' origins and of the bodies' extents. Each pair is
+// asked about in the frame of one of its parts, so the robot may be far from the world's origin.
 NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,
                                   const nsvcd_check_options *options,
                                   nsvcd_check_answer *answer);
 
 // ------------------------------------------------------------------------ interface/configurations
-// In: a robot in one configuration. Out: what is near, how that changes with the joints, a way out;
-// who can meet whom at all; a part as another link would carry it.
+// In: a robot in one configuration. Out: which parts are near each other, and how that changes with
+// the joints; the nearest free configuration; which pairs can meet; a part on another link.
 
 // Two parts of a pair that are near each other.
 typedef struct nsvcd_proximity {
   // of the scene's
   size_t pair;
-  // HIT: they touch, or one is inside of the other, as nsvcd_check has it; FREE: they are proven to
-  // be apart; UNDECIDED, and why: too near to tell, or too little work
+  // HIT: they touch, or one is inside of the other. FREE: they are proven to be apart. UNDECIDED:
+  // too near to tell, or too little work
   nsvcd_verdict verdict;
   nsvcd_why why;
   // metres: no less than `low`, no more than `high`
   nsvcd_range distance;
-  // metres, of a HIT: a push-out of a by this along the contact's normal is proven to separate
-  // them; hardly less does, along that normal. HUGE_VALF: none up to options.deepest along each
-  // normal was found, as where one is inside of the other or held from all sides. 0 of all others
+  // metres, of a HIT: moving a by this along the contact's normal is proven to separate them, and
+  // hardly less along that normal does. HUGE_VALF: no push-out up to options.max_depth was found,
+  // as where one is inside of the other or held from all sides. 0 unless it is a HIT
   float depth;
-  // where they are nearest, as nsvcd_answer.nearest has it; of a HIT, where they are once they are
+  // where they are nearest, as nsvcd_answer.nearest has it; of a HIT, where they are nearest once
   // pushed out, with the push-out's direction as the normal
   nsvcd_contact contact;
-  // (F), metres by radian or metre: how the distance between the two places of the contact grows
-  // with each joint; of a HIT, how its depth along that normal shrinks. Where other places are as
+  // (F), metres per radian or metre: how the distance between the two points of the contact grows
+  // with each joint; of a HIT, how the depth along its normal shrinks. Where several points are as
   // near, or as deep, it is that of one of them. 0 without a normal
   double slope[NSVCD_MAX_JOINTS];
 } nsvcd_proximity;
 
 // What is zero is the default. Up to NSVCD_MAX_COORDINATE.
 typedef struct nsvcd_proximity_options {
-  // metres: pairs that are as near as this are told; 0.05
+  // metres: pairs that are nearer than this are reported; 0.05
   float max_distance;
-  // metres: how wide a bracket of a distance may be, beside what poses in float are off; 20 um
+  // metres: width of the bracket of a distance, beside the rounding of poses to float; 20 um
   float to;
-  // metres: how large a depth is told; 20 mm. Much more than there is makes it no better
-  float deepest;
-  // units that each question may take; NSVCD_DEFAULT_WORK
+  // metres: larger depths are not found; 20 mm. One much larger than the depths that there are
+  // makes none of them better
+  float max_depth;
+  // units for each question; NSVCD_DEFAULT_WORK
   size_t work;
 } nsvcd_proximity_options;
 
-// All pairs that are near in a configuration: what is wrong with a start or a goal, or what a
-// controller is to keep away from.
+// All pairs of parts that are near each other in a configuration: what is wrong with a start or a
+// goal, or what a controller must keep away from.
 //   checker    not NULL
 //   joints     (F), radians or metres
 //   options    NULL: the defaults
-//   gaps       (capacity), not NULL unless that is 0; in the order of the pairs. scene.pair_count
+//   out        (capacity), not NULL unless that is 0; in the order of the pairs. scene.pair_count
 //              is always enough. Some may be written on failure
-//   count      not NULL: how many there are; where that is more than the capacity, the first are
-//              written
+//   count      not NULL: how many there are; if more than the capacity, the first are written
 //   allocates  nothing
-//   threads    each with a checker of its own, as all of this page
-//   errors     ARGUMENT, VALUE (joints not finite or beyond NSVCD_MAX_COORDINATE), WITHIN, TO;
+//   threads    each with a checker of its own, as in all of this page
+//   errors     ARGUMENT, VALUE (joints not finite or beyond NSVCD_MAX_COORDINATE), DISTANCE, TO;
 //              POSE, SCALE (a part is, or is carried, beyond NSVCD_MAX_COORDINATE)
 //   source     this library; slopes as any Jacobian's, by the product of axis and moment arm
 NSVCDDEF nsvcd_result nsvcd_proximities(nsvcd_checker *checker, const double *joints,
                                         const nsvcd_proximity_options *options,
-                                        nsvcd_proximity *gaps, size_t capacity, size_t *count);
+                                        nsvcd_proximity *out, size_t capacity, size_t *count);
 
 // What is zero is the default.
 typedef struct nsvcd_nearest_free_options {
-  // metres: the configuration that is sought stays farther apart than this
+  // metres: between the parts
   float clearance;
-  // radians and metres alike: how far it may be, as the root of the sum of squares; 0.5
+  // radians and metres alike: how far away the configuration may be, Euclidean; 0.5
   double farthest;
   // of the random numbers
   uint64_t seed;
-  // asked before each question and each draw; not 0 ends it with what is found by then. May be NULL
+  // called before each question and each draw; if it returns other than 0 the search ends with what
+  // it has found. May be NULL
   int (*stop)(void *user);
   void *user;
 } nsvcd_nearest_free_options;
 
-// A configuration near another one that is proven free, within the limits: a way out of a start or
-// a goal that is not. It is sought at random, nearer and nearer, with some hundred configurations,
-// and drawn back as far as that can be. What lies in between need not be free.
+// Seeks a configuration, proven free and within the limits, as near as possible to one that is not:
+// for a start or a goal that is in contact. Some hundred configurations are drawn at random, nearer
+// and nearer; each free one is moved back towards the joints as far as it stays free. What lies in
+// between need not be free.
 //   checker    not NULL
-//   joints     (F), radians or metres; out of the limits, they are taken in first, and what follows
-//              is about these
+//   joints     (F), radians or metres; clamped to the limits first
 //   options    NULL: the defaults
-//   out        (F), not NULL; the joints themselves where these are free. Left as it was where none
-//              is found
+//   out        (F), not NULL; the joints themselves if they are free. Left as it was if none is
+//              found
 //   is_found   not NULL
 //   allocates  nothing
 //   errors     ARGUMENT, VALUE, CLEARANCE, FARTHEST; POSE, SCALE, as nsvcd_proximities
@@ -303,42 +304,42 @@ NSVCDDEF nsvcd_result nsvcd_nearest_free(nsvcd_checker *checker, const double *j
                                          const nsvcd_nearest_free_options *options,
                                          double *out, int *is_found);
 
-// What nsvcd_find_pairs says of pairs: how many of which kind, in this order.
+// Of the pairs that nsvcd_find_pairs writes: how many of each kind, in this order.
 typedef struct nsvcd_pair_counts {
-  // to be asked
+  // to be checked
   size_t asked;
-  // of parts on two links that one joint parts, neither of them the world
+  // of parts on the two links of one joint, neither of them the world
   size_t adjacent;
-  // of others: they touch in all samples. That is no proof that they always do: to be asked, unless
-  // the caller knows more
+  // of others that touch in all random configurations. That does not prove that they always do: to
+  // be checked, unless the caller knows more
   size_t touching;
 } nsvcd_pair_counts;
 
-// Which pairs of parts are to be asked? All on links that differ, but adjacent ones, which joints
-// are made to keep apart or to overlap. Those that touch in all samples are told apart from the
-// others, not left out: two that separate only in a narrow range of a joint are among them, and a
-// motion is proven without a pair only if the caller leaves it out. None is left out for it seems
-// never to meet: that costs little.
+// Which pairs of parts should a scene have? All on different links, but adjacent ones: joints are
+// made to keep these apart, or to overlap. Pairs that touch in all random configurations are listed
+// apart: two that separate only in a narrow range of a joint are among them. To leave one out is
+// the caller's decision. Pairs that seem never to meet are not left out, since they cost little.
 //   checker    of the parts and joints, whatever pairs its scene has
-//   samples    random configurations within the limits, at most, that a pair is looked at in; 0: 64
-//   seed       of them
+//   draws      random configurations within the limits in which a pair is asked about, at most;
+//              0: 64
+//   seed       of the random numbers
 //   pairs      (capacity), not NULL unless that is 0; some may be written on failure
 //   capacity   B (B - 1) / 2 is always enough, of B parts
 //   counts     not NULL; left as it was on failure
 //   allocates  nothing
 //   errors     ARGUMENT, WORKSPACE (capacity); POSE, SCALE, as nsvcd_proximities
 //   source     as setup assistants do (MoveIt's), but none is left out as "never" or "always"
-NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, uint64_t seed,
+NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t draws, uint64_t seed,
                                        nsvcd_body_pair *pairs, size_t capacity,
                                        nsvcd_pair_counts *counts);
 
-// A part as another link would carry it from where it is: to take hold of a thing, or, on link 0,
-// to let go of it. Put it into the scene, say which pairs are asked now, and open a checker.
-//   joints     (F), where it is taken over
-//   part       which, of the scene's
+// The same part on another link, from where it is: to grasp a thing, or, on link 0, to let go of
+// it. Put it into the scene, choose its pairs anew, and open a checker.
+//   joints     (F), in which the link takes it over
+//   part       an index of the scene's parts
 //   link       the new one; 0: the world
-//   out        not NULL; left as it was on failure. It is where it was to what a pose in float is
-//              off: 1e-7 of its distance from the link
+//   out        not NULL; left as it was on failure. Its pose is rounded to float: 1e-7 of its
+//              distance from the link
 //   errors     ARGUMENT, VALUE, LINK (or no such part), POSE (farther than NSVCD_MAX_COORDINATE
 //              from the link)
 NSVCDDEF nsvcd_result nsvcd_reparent(const nsvcd_checker *checker, const double *joints,
@@ -347,22 +348,21 @@ NSVCDDEF nsvcd_result nsvcd_reparent(const nsvcd_checker *checker, const double 
 // -------------------------------------------------------------------------------- interface/routes
 // In: a robot among obstacles, a configuration and others to get to. Out: a motion, proven free.
 //
-// A route is sought by proofs: a straight line, then two trees of edges that are proven free; its
-// way is made shorter, timed, and smoothed within the limits of speed and acceleration, and all of
-// it is proven as it is handed out.
+// A straight line is tried, then two trees grow of edges that are proven free. The path is made
+// shorter, timed, and smoothed within the limits of speed and acceleration; the motion is proven
+// as a whole before it is handed out.
 
-// of a route's trees
-#define NSVCD_MAX_NODES 10000000
+#define NSVCD_MAX_NODES 10000000  // of a route's trees
 
 typedef enum nsvcd_route_status {
   // the motion is proven free, within the limits, and ends at a goal
   NSVCD_ROUTE_FOUND = 0,
-  // as many nodes or tries as options allow, and no way; or one of more than 680 corners, as a
-  // guess may be
+  // no path with as many nodes or tries as options allow; or one of more than 680 corners, as a
+  // guess may have
   NSVCD_ROUTE_LIMIT,
   // by the caller
   NSVCD_ROUTE_STOPPED,
-  // the start, or every goal, is out of limits, or not proven free: answer.check says why
+  // the start, or every goal, is out of its limits or not proven free: answer.check says why
   NSVCD_ROUTE_START,
   NSVCD_ROUTE_GOAL
 } nsvcd_route_status;
@@ -376,49 +376,51 @@ typedef struct nsvcd_route_problem {
   // (G, F); one is enough
   const double *goals;
   size_t goal_count;
-  // (W, F), from the start to a goal, these left out: a way that may be free, or nearly. NULL: none
+  // (W, F): corners of a path from the start to a goal, without these two, that may be free, or
+  // nearly. NULL: none
   const double *guess;
   size_t guess_count;
-  // asked before each proof; not 0 ends the search. What is found by then is not given up: it is
+  // called before each proof; if it returns other than 0 the search ends. A path found by then is
   // still proven as a whole. May be NULL
   int (*stop)(void *user);
-  // asked before each question about a pair, also in that last proof; not 0 ends that too, and so
-  // bounds the time. May be NULL
+  // called before each question about a pair, also in that last proof; if it returns other than 0
+  // that ends too: a bound of the time. May be NULL
   int (*abandon)(void *user);
   void *user;
 } nsvcd_route_problem;
 
 // What is zero is the default.
 typedef struct nsvcd_route_options {
-  // of all random numbers: threads with seeds of their own seek ways of their own
+  // of all random numbers: other seeds find other routes
   uint64_t seed;
-  // metres: the whole motion stays farther apart than this
+  // metres: between the parts, in the whole motion
   float clearance;
   // of the trees, at most; 20,000
   size_t nodes;
-  // motions asked about in search of a way, at most, free or not: where nothing is free the trees
-  // do not grow, and nodes alone would never end it; 4 times the nodes
+  // motions checked, free or not, at most: where nothing is free the trees do not grow, and nodes
+  // alone would not end the search; 4 times the nodes
   size_t tries;
-  // radians or metres that an edge is long, at most; 1
+  // radians or metres: an edge's length, at most; 1
   double edge;
-  // tried on the way, up to NSVCD_MAX_NODES, and on the timed motion; 20 and 200. NSVCD_NONE: none
+  // tries to shorten the path, up to NSVCD_MAX_NODES, and to smooth the motion; 20 and 200.
+  // NSVCD_NONE: none
   size_t shortcuts, smoothings;
 } nsvcd_route_options;
 
 typedef struct nsvcd_route_answer {
   nsvcd_route_status status;
-  // FOUND: which one is reached
+  // if FOUND: which one is reached
   size_t goal;
-  // of degree 2, with times, at rest at both ends; in the memory that was given. Of no pieces where
-  // the goal is the start. Of what is FOUND
+  // if FOUND: of degree 2, with times, at rest at both ends; in the memory that was given. It has
+  // no pieces if the goal is the start
   nsvcd_joint_motion motion;
-  // times within that it rests at, for want of a smooth way round a corner
+  // times in between at which it rests, where no smooth motion round a corner was found
   size_t stops;
-  // seconds: of the motion; and of the straight line if nothing were in its way
+  // seconds: of the motion; of the straight line, if nothing were in its way
   double duration, unhindered;
-  // of FOUND: the last proof. Of START and GOAL: what is wrong with it, of the last goal
+  // FOUND: the last proof. START, GOAL: what is wrong with the start, or the last goal
   nsvcd_check_answer check;
-  // of the trees; motions asked about, and those of them that were free
+  // of the trees; motions checked, and those of them that were free
   size_t nodes, checks, proven;
 } nsvcd_route_answer;
 
@@ -428,13 +430,13 @@ NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
                                  const nsvcd_route_problem *problem,
                                  const nsvcd_route_options *options);
 
-// Seeks a motion from the start to a goal on which no pair meets. The same problem and seed, the
-// same motion, as long as the checker is opened anew for each: it remembers what was hit last.
+// Seeks a motion from the start to a goal on which no pair meets. The same problem and seed give
+// the same motion if the checker is opened anew each time, since it remembers what was hit last.
 //   checker    not NULL
 //   problem    not NULL
 //   options    NULL: the defaults
 //   memory     (size) bytes, nsvcd_route_size(checker, problem, options) or more, not NULL, aligned
-//              to NSVCD_ALIGNMENT; the motion is in it
+//              to NSVCD_ALIGNMENT; the motion's arrays are in it
 //   answer     not NULL; left as it was on failure
 //   allocates  nothing
 //   errors     ARGUMENT (NULL), COUNT (of goals, of a guess), ROUTE (nodes, shortcuts, edge),
@@ -457,23 +459,24 @@ extern "C" {
 #endif
 
 // --------------------------------------------------------------------------------- interface/pairs
-// In: a pair of a robot's parts, a motion of its joints, their meshes' trees. Out: bytes that prove
-// that the two never meet.
+// In: a pair of a robot's parts, a motion of its joints, and the trees of their meshes. Out: bytes
+// that prove that the two never meet.
 
 // Bytes of the workspace of nsvcd_certify_pair: some 250 for each piece, and 4 for each vertex of
 // the mesh that has more.
 NSVCDDEF size_t nsvcd_certify_pair_workspace_size(const nsvcd_joint_motion *motion,
                                                   const nsvcd_tree *a, const nsvcd_tree *b);
 
-// nsvcd_certify for a pair of parts, as a motion of the joints makes them move: a certificate of
-// theirs for each pair is a proof that a motion is free (examples/verify/nsvcd_verify_robot.h).
+// nsvcd_certify for a pair of parts, as a motion of the joints moves them. FREE certificates of all
+// pairs prove that the motion is free (examples/verify/nsvcd_verify_robot.h).
 //   checker    not NULL
 //   motion     not NULL, as nsvcd_check takes it, of one piece or more
 //   pair       of the scene's pairs
 //   clearance  metres
 //   a, b       trees of the meshes of the pair's parts, not NULL
-//   errors     those of nsvcd_certify and nsvcd_check, PAIR, and TURN for a motion whose joints
-//              turn by more than 1,000 or, in the whole motion's time, 100,000
+//   errors     those of nsvcd_certify and nsvcd_check, PAIR, and TURN: no pieces, or more than
+//              NSVCD_MAX_POSES; one that takes less than 1e-9 of the motion's time; a joint that is
+//              turned by more than 1,000, or as fast as 100,000 in that time
 NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
                                          const nsvcd_joint_motion *motion, size_t pair,
                                          float clearance, const nsvcd_tree *a,
@@ -1974,8 +1977,8 @@ static nsvcd_question nsvcd__question_of(const nsvcd_checker *c, const nsvcd_bod
   return question;
 }
 
-static nsvcd_result nsvcd__ask(nsvcd_checker *c, const nsvcd_question *question,
-                               nsvcd_answer *found) {
+static nsvcd_result nsvcd__ask_sweep(nsvcd_checker *c, const nsvcd_question *question,
+                                     nsvcd_answer *found) {
   return nsvcd_sweep(question, c->query, c->query_size, found);
 }
 
@@ -2023,7 +2026,7 @@ static nsvcd_result nsvcd__ask_local(nsvcd__check_state *s, const nsvcd_body_pai
     return NSVCD_OK;
   }
   s->answer->sweeps++;
-  return nsvcd__ask(s->checker, &question, found);
+  return nsvcd__ask_sweep(s->checker, &question, found);
 }
 
 // Does a pair, on its sweeps between samples, come as near as the clearance? With is_proof, the
@@ -2649,10 +2652,10 @@ static size_t nsvcd__tree_nearest(const nsvcd__rrt *t, const double *at) {
 // defaults
 #define NSVCD__MAX_DISTANCE 0.05f
 #define NSVCD__DISTANCE_TO 2e-5f
-#define NSVCD__DEEPEST 0.02f
+#define NSVCD__MAX_DEPTH 0.02f
 #define NSVCD__FARTHEST_FREE 0.5
 #define NSVCD__PAIR_DRAWS 64
-// of `deepest`: the first slop that is tried; and how often a push-out is halved
+// of `max_depth`: the first slop that is tried; and how often a push-out is halved
 #define NSVCD__LEAST_SLOP 0.015625f
 #define NSVCD__DEPTH_HALVINGS 12
 // of the depth: how far parts are pushed out to see which faces separate last
@@ -2701,17 +2704,17 @@ static nsvcd_result nsvcd__ask_pushed(nsvcd_checker *c, const nsvcd_question *qu
   const nsvcd__d3 position = nsvcd__d3_add(nsvcd__d3_load(pose.position), push_out);
   pushed.a.poses = &pose;
   nsvcd__f3_store(nsvcd__f3_round(position), pose.position);
-  return nsvcd__ask(c, &pushed, found);
+  return nsvcd__ask_sweep(c, &pushed, found);
 }
 
 // A push-out of a off b that separates them. Slops are tried, each four times the one before, up to
-// `deepest`; 0 where none is enough.
+// `max_depth`; 0 where none is enough.
 static nsvcd_result nsvcd__separating_push_out(nsvcd_checker *c, nsvcd_question question,
-                                               float deepest, nsvcd__d3 *push_out) {
+                                               float max_depth, nsvcd__d3 *push_out) {
   nsvcd_answer found;
   for (float fraction = NSVCD__LEAST_SLOP; fraction <= 1; fraction *= 4) {
-    question.slop = fraction * deepest;
-    const nsvcd_result result = nsvcd__ask(c, &question, &found);
+    question.slop = fraction * max_depth;
+    const nsvcd_result result = nsvcd__ask_sweep(c, &question, &found);
     if (result) return result;
     *push_out = nsvcd__d3_load(found.push_out);
     if (found.verdict == NSVCD_FREE) return NSVCD_OK;
@@ -2731,7 +2734,7 @@ static nsvcd_result nsvcd__depth_of(nsvcd_checker *c, nsvcd_question question,
   // fractions of the push-out: they touch at the first, and are apart at the second
   double low = 0;
   double high = 1;
-  nsvcd_result result = nsvcd__separating_push_out(c, question, o->deepest, &push_out);
+  nsvcd_result result = nsvcd__separating_push_out(c, question, o->max_depth, &push_out);
   const double length = nsvcd__d3_length(push_out);
   if (result || !(length > 0)) return result;
   for (size_t n = 0; n < NSVCD__DEPTH_HALVINGS; n++) {
@@ -2780,12 +2783,12 @@ static nsvcd_result nsvcd__proximity_of(nsvcd_checker *c, size_t index,
   nsvcd_question question = nsvcd__question_of(c, pair, 1, o->work);
   const double error = frames_error + local.rounding;
   question.clearance = nsvcd__above((double)o->max_distance + error);
-  nsvcd_result result = nsvcd__ask(c, &question, &found);
+  nsvcd_result result = nsvcd__ask_sweep(c, &question, &found);
   if (result || found.verdict == NSVCD_FREE) return result;
   question.clearance = 0;
   question.ask = NSVCD_ASK_DISTANCE;
   question.to = o->to;
-  result = nsvcd__ask(c, &question, &found);
+  result = nsvcd__ask_sweep(c, &question, &found);
   if (result) return result;
   *is_near = 1;
   memset(out, 0, sizeof *out);
@@ -2800,7 +2803,7 @@ static nsvcd_result nsvcd__proximity_of(nsvcd_checker *c, size_t index,
     out->distance.high = nsvcd__above(error);
     out->depth = HUGE_VALF;
     // a push-out is told in floats
-    question.clearance = nsvcd__above(error + 2e-7 * (double)o->deepest);
+    question.clearance = nsvcd__above(error + 2e-7 * (double)o->max_depth);
     return found.inside ? NSVCD_OK : nsvcd__depth_of(c, question, &local, o, out);
   }
   out->distance.high = nsvcd__above((double)found.distance.high + error);
@@ -2813,7 +2816,7 @@ static nsvcd_result nsvcd__proximity_of(nsvcd_checker *c, size_t index,
   if (out->verdict != NSVCD_FREE || out->distance.low > 0) return NSVCD_OK;
   // the poses in float are free of each other: are the parts?
   question.clearance = nsvcd__above(error);
-  result = nsvcd__ask(c, &question, &found);
+  result = nsvcd__ask_sweep(c, &question, &found);
   if (result || found.verdict == NSVCD_FREE) return result;
   out->verdict = NSVCD_UNDECIDED;
   out->why = NSVCD_WHY_TOO_NEAR;
@@ -2830,12 +2833,12 @@ NSVCDDEF nsvcd_result nsvcd_proximities(nsvcd_checker *checker, const double *jo
   if (result) return result;
   memset(&o, 0, sizeof o);
   if (options) o = *options;
-  if (!nsvcd__is_length(o.max_distance) || !nsvcd__is_length(o.deepest))
+  if (!nsvcd__is_length(o.max_distance) || !nsvcd__is_length(o.max_depth))
     return NSVCD_ERROR_DISTANCE;
   if (!nsvcd__is_length(o.to)) return NSVCD_ERROR_TO;
   o.max_distance = o.max_distance > 0 ? o.max_distance : NSVCD__MAX_DISTANCE;
   o.to = o.to > 0 ? o.to : NSVCD__DISTANCE_TO;
-  o.deepest = o.deepest > 0 ? o.deepest : NSVCD__DEEPEST;
+  o.max_depth = o.max_depth > 0 ? o.max_depth : NSVCD__MAX_DEPTH;
   nsvcd__place_links(checker, joints, &checker->at);
   nsvcd__place_sample(checker, &checker->at, 0);
   for (size_t n = 0; n < checker->scene->pair_count && !result; n++) {
@@ -2969,7 +2972,7 @@ static nsvcd_result nsvcd__touches_in_all(nsvcd_checker *c, const nsvcd_body_pai
     nsvcd__place_links(c, joints, &c->at);
     (void)nsvcd__localize_at(c, pair, &c->at);
     const nsvcd_question question = nsvcd__question_of(c, pair, 1, 0);
-    result = nsvcd__ask(c, &question, &found);
+    result = nsvcd__ask_sweep(c, &question, &found);
     *in_all = !result && found.verdict == NSVCD_HIT;
   }
   return result;
@@ -3417,8 +3420,8 @@ static int nsvcd__trajectory_append(const nsvcd__trajectory *t, size_t joints, d
   return 1;
 }
 
-// Writes what the trajectory would be with the blend in place of what is from time t0 to t1. Returns
-// 0 as nsvcd__trajectory_append does.
+// Writes what the trajectory would be with the blend in place of what is from time t0 to t1.
+// Returns 0 as nsvcd__trajectory_append does.
 static int nsvcd__splice(const nsvcd__router *r, double t0, double t1,
                          nsvcd__trajectory *out) {
   const size_t joints = r->joints;

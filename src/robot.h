@@ -15,7 +15,8 @@
 // GLOSSARY
 //   part, link    a body of a scene; what a joint carries
 //   piece         one of the curves that a motion of the joints is made of
-//   sample, step  a configuration at a time of a motion, with all parts placed; from one to the next
+//   sample, step  a configuration at a time of a motion, with all parts placed; from one to the
+//           next
 //   sweep         the line and the slerp of a part between its poses at two samples
 //   deviation     how far a part leaves its sweep in a step
 //   moment arm    how far a point of a part can be from a joint's axis

@@ -243,7 +243,7 @@ robot: a step of a ninth|return (bend + second + w * w * c->members[part].extent
 postures: poses without rounding|if (moves[n]) local.rounding += 2|if (0) local.rounding += 2
 postures: poses seen from the world|const nsvcd__frame in = nsvcd__frame_inverse_mul(\&local.frame, \&frames[n][k]);|const nsvcd__frame in = frames[n][k];
 postures: free of each other as floats|if (out->verdict != NSVCD_FREE \|\| out->distance.low > 0) return NSVCD_OK;|return NSVCD_OK;
-postures: depths of floats|question.clearance = nsvcd__above(error + 2e-7 * (double)o->deepest);|
+postures: depths of floats|question.clearance = nsvcd__above(error + 2e-7 * (double)o->max_depth);|
 robot: strays of one part|nsvcd__part_error(c, pair->a) + nsvcd__part_error(c, pair->b);|nsvcd__part_error(c, pair->a);
 robot: speeds that jump|step->bend[j] += 2 * h * jumps;|(void)jumps;
 robot: half the jump of speed|step->bend[j] += 2 * h * jumps;|step->bend[j] += h * jumps;

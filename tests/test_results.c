@@ -58,7 +58,7 @@ static void result_strings_name_the_field(void) {
       {NSVCD_ERROR_DEGREE, {"degree", "pieces"}},
       {NSVCD_ERROR_TURN, {"turn"}},
       {NSVCD_ERROR_FINEST, {"finest"}},
-      {NSVCD_ERROR_DISTANCE, {"max_distance", "deepest"}},
+      {NSVCD_ERROR_DISTANCE, {"max_distance", "max_depth"}},
       {NSVCD_ERROR_FARTHEST, {"farthest"}},
       {NSVCD_ERROR_ROUTE, {"nodes", "shortcuts", "edge"}},
       {NSVCD_ERROR_STAGE, {"explore", "refine"}},

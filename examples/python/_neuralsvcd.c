@@ -157,7 +157,7 @@ static const neuralsvcd_layout layouts[] = {
     STRUCT(proximity), FIELD(proximity, pair), FIELD(proximity, verdict), FIELD(proximity, why), FIELD(proximity, distance), FIELD(proximity, depth), FIELD(proximity, contact),
     FIELD(proximity, slope),
     STRUCT(proximity_options), FIELD(proximity_options, max_distance), FIELD(proximity_options, to),
-    FIELD(proximity_options, deepest), FIELD(proximity_options, work),
+    FIELD(proximity_options, max_depth), FIELD(proximity_options, work),
     STRUCT(nearest_free_options), FIELD(nearest_free_options, clearance), FIELD(nearest_free_options, farthest),
     FIELD(nearest_free_options, seed), FIELD(nearest_free_options, stop), FIELD(nearest_free_options, user),
     STRUCT(pair_counts), FIELD(pair_counts, asked), FIELD(pair_counts, adjacent),

@@ -1071,7 +1071,7 @@ class Robots(unittest.TestCase):
         turned = [self.robot.proximities([0, a], max_distance=1, to=2e-5)[0].distance.low for a in (0.499, 0.501)]
         gap, = self.robot.proximities([0, 0.5], max_distance=1, to=2e-5)
         self.assertAlmostEqual(gap.slope[1], (turned[1] - turned[0]) / 0.002, delta=0.05)
-        gap, = self.robot.proximities([-0.1, np.pi / 2], deepest=1)
+        gap, = self.robot.proximities([-0.1, np.pi / 2], max_depth=1)
         self.assertEqual((gap.pair, gap.verdict, gap.distance.low), (0, "hit", 0))
         self.assertAlmostEqual(gap.depth, 0.15, delta=0.01)
         out = self.robot.nearest_free([-0.1, np.pi / 2], clearance=0.01)

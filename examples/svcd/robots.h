@@ -69,7 +69,7 @@ static void tell_way_out(const robot_in_room *in, const char *from, const double
   memset(&options, 0, sizeof options);
   memset(&nearest, 0, sizeof nearest);
   options.max_distance = clearance > 0 ? clearance : 1e-6f;
-  options.deepest = 0.1f;
+  options.max_depth = 0.1f;
   nearest.clearance = clearance;
   nearest.stop = problem->abandon;
   nearest.user = problem->user;

@@ -54,7 +54,8 @@ static void nsvcd__write_bits(nsvcd__certifier *c, uint32_t value, int count) {
   }
 }
 
-// The normal remembered k > 0 before the last; where k is REMEMBERED, a new one. It becomes the last.
+// The normal remembered k > 0 before the last; where k is REMEMBERED, a new one. It becomes the
+// last.
 static void nsvcd__write_normal(nsvcd__certifier *c, size_t k,
                                 const nsvcd__coded_normal *normal) {
   const int known = k < NSVCD__REMEMBERED;
@@ -109,7 +110,8 @@ static uint32_t nsvcd__piercing_edge(const nsvcd__seen *s, uint32_t own, uint32_
 }
 
 // A point of a triangle as it is written: the fraction from the first corner to a point between the
-// others, and that of the point from the second corner to the third. Returns the point that is read.
+// others, and that of the point from the second corner to the third. Returns the point that is
+// read.
 static nsvcd__d3 nsvcd__point_code(const nsvcd__d3 *t, nsvcd__d3 x, uint32_t *code) {
   const nsvcd__d3 n = nsvcd__face_normal(t);
   const nsvcd__d3 off = nsvcd__d3_sub(x, t[0]);

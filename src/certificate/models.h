@@ -103,8 +103,8 @@ static double nsvcd__mover_next(const void *motion, double t) {
   return mover->count > 1 ? nsvcd__mover_keyframe(mover, nsvcd__pose_index(mover, t) + 1) : 1;
 }
 
-// A turn by h at a constant rate about an axis a moves a point y with a second derivative of h^2 a x
-// (a x y). The point leaves its chord by an eighth of that: along n, by h^2 / 8 (n x a).(a x y).
+// A turn by h at a constant rate about an axis a moves a point y with a second derivative of h^2 a
+// x (a x y). The point leaves its chord by an eighth of that: along n, by h^2 / 8 (n x a).(a x y).
 static nsvcd_deviation nsvcd__mover_deviation(const void *motion, double t0, double t1) {
   const nsvcd_mover *mover = (const nsvcd_mover *)motion;
   nsvcd_deviation out;

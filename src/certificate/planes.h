@@ -183,8 +183,8 @@ static double nsvcd__node_axis_radius(const nsvcd__moving_tree *moving,
   return 1.000002 * moving->model.scale * sqrt(square);
 }
 
-// How far the points of a node, at r metres at most, leave their chords along a direction, times its
-// length.
+// How far the points of a node, at r metres at most, leave their chords along a direction, times
+// its length.
 static double nsvcd__node_deviation(const nsvcd__moving_tree *moving, const nsvcd__node *node,
                                     double r, const nsvcd__pose_matrix *at,
                                     const nsvcd_deviation *d, nsvcd__d3 along) {
@@ -253,8 +253,8 @@ typedef struct nsvcd__best {
   double distance;
 } nsvcd__best;
 
-// Gilbert's iteration (1966) towards the point of a - b that is nearest to the origin. It ends where
-// the best direction is nearly as good as the nearest point allows.
+// Gilbert's iteration (1966) towards the point of a - b that is nearest to the origin. It ends
+// where the best direction is nearly as good as the nearest point allows.
 static nsvcd__best nsvcd__gilbert(const nsvcd__tree_interval *s, const nsvcd__nodes *nodes,
                                   const nsvcd__instant *at, nsvcd__d3 along) {
   nsvcd__best best = {along, -HUGE_VAL};

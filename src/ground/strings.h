@@ -78,7 +78,7 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
       "degree is not 1 to 5, or pieces are more than can be counted\0"
       "joints turn too far in a piece of the motion to be certified\0"
       "finest is negative or not finite\0"
-      "max_distance or deepest is negative, not finite or too large\0"
+      "max_distance or max_depth is negative, not finite or too large\0"
       "farthest is negative, not finite or too large\0"
       "nodes or shortcuts is too large, or edge is negative or no number\0"
       "explore or refine: via_points, segments, iterations, draws or noise is out of "

@@ -115,7 +115,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_TURN,
   // `finest` is negative or not finite
   NSVCD_ERROR_FINEST,
-  // `max_distance` or `deepest` is negative, not finite or too large
+  // `max_distance` or `max_depth` is negative, not finite or too large
   NSVCD_ERROR_DISTANCE,
   // `farthest` is negative, not finite or too large
   NSVCD_ERROR_FARTHEST,

@@ -43,7 +43,7 @@ static nsvcd_result nsvcd__ask_local(nsvcd__check_state *s, const nsvcd_body_pai
     return NSVCD_OK;
   }
   s->answer->sweeps++;
-  return nsvcd__ask(s->checker, &question, found);
+  return nsvcd__ask_sweep(s->checker, &question, found);
 }
 
 // Does a pair, on its sweeps between samples, come as near as the clearance? With is_proof, the

@@ -8,10 +8,10 @@
 // defaults
 #define NSVCD__MAX_DISTANCE 0.05f
 #define NSVCD__DISTANCE_TO 2e-5f
-#define NSVCD__DEEPEST 0.02f
+#define NSVCD__MAX_DEPTH 0.02f
 #define NSVCD__FARTHEST_FREE 0.5
 #define NSVCD__PAIR_DRAWS 64
-// of `deepest`: the first slop that is tried; and how often a push-out is halved
+// of `max_depth`: the first slop that is tried; and how often a push-out is halved
 #define NSVCD__LEAST_SLOP 0.015625f
 #define NSVCD__DEPTH_HALVINGS 12
 // of the depth: how far parts are pushed out to see which faces separate last
@@ -60,17 +60,17 @@ static nsvcd_result nsvcd__ask_pushed(nsvcd_checker *c, const nsvcd_question *qu
   const nsvcd__d3 position = nsvcd__d3_add(nsvcd__d3_load(pose.position), push_out);
   pushed.a.poses = &pose;
   nsvcd__f3_store(nsvcd__f3_round(position), pose.position);
-  return nsvcd__ask(c, &pushed, found);
+  return nsvcd__ask_sweep(c, &pushed, found);
 }
 
 // A push-out of a off b that separates them. Slops are tried, each four times the one before, up to
-// `deepest`; 0 where none is enough.
+// `max_depth`; 0 where none is enough.
 static nsvcd_result nsvcd__separating_push_out(nsvcd_checker *c, nsvcd_question question,
-                                               float deepest, nsvcd__d3 *push_out) {
+                                               float max_depth, nsvcd__d3 *push_out) {
   nsvcd_answer found;
   for (float fraction = NSVCD__LEAST_SLOP; fraction <= 1; fraction *= 4) {
-    question.slop = fraction * deepest;
-    const nsvcd_result result = nsvcd__ask(c, &question, &found);
+    question.slop = fraction * max_depth;
+    const nsvcd_result result = nsvcd__ask_sweep(c, &question, &found);
     if (result) return result;
     *push_out = nsvcd__d3_load(found.push_out);
     if (found.verdict == NSVCD_FREE) return NSVCD_OK;
@@ -90,7 +90,7 @@ static nsvcd_result nsvcd__depth_of(nsvcd_checker *c, nsvcd_question question,
   // fractions of the push-out: they touch at the first, and are apart at the second
   double low = 0;
   double high = 1;
-  nsvcd_result result = nsvcd__separating_push_out(c, question, o->deepest, &push_out);
+  nsvcd_result result = nsvcd__separating_push_out(c, question, o->max_depth, &push_out);
   const double length = nsvcd__d3_length(push_out);
   if (result || !(length > 0)) return result;
   for (size_t n = 0; n < NSVCD__DEPTH_HALVINGS; n++) {
@@ -139,12 +139,12 @@ static nsvcd_result nsvcd__proximity_of(nsvcd_checker *c, size_t index,
   nsvcd_question question = nsvcd__question_of(c, pair, 1, o->work);
   const double error = frames_error + local.rounding;
   question.clearance = nsvcd__above((double)o->max_distance + error);
-  nsvcd_result result = nsvcd__ask(c, &question, &found);
+  nsvcd_result result = nsvcd__ask_sweep(c, &question, &found);
   if (result || found.verdict == NSVCD_FREE) return result;
   question.clearance = 0;
   question.ask = NSVCD_ASK_DISTANCE;
   question.to = o->to;
-  result = nsvcd__ask(c, &question, &found);
+  result = nsvcd__ask_sweep(c, &question, &found);
   if (result) return result;
   *is_near = 1;
   memset(out, 0, sizeof *out);
@@ -159,7 +159,7 @@ static nsvcd_result nsvcd__proximity_of(nsvcd_checker *c, size_t index,
     out->distance.high = nsvcd__above(error);
     out->depth = HUGE_VALF;
     // a push-out is told in floats
-    question.clearance = nsvcd__above(error + 2e-7 * (double)o->deepest);
+    question.clearance = nsvcd__above(error + 2e-7 * (double)o->max_depth);
     return found.inside ? NSVCD_OK : nsvcd__depth_of(c, question, &local, o, out);
   }
   out->distance.high = nsvcd__above((double)found.distance.high + error);
@@ -172,7 +172,7 @@ static nsvcd_result nsvcd__proximity_of(nsvcd_checker *c, size_t index,
   if (out->verdict != NSVCD_FREE || out->distance.low > 0) return NSVCD_OK;
   // the poses in float are free of each other: are the parts?
   question.clearance = nsvcd__above(error);
-  result = nsvcd__ask(c, &question, &found);
+  result = nsvcd__ask_sweep(c, &question, &found);
   if (result || found.verdict == NSVCD_FREE) return result;
   out->verdict = NSVCD_UNDECIDED;
   out->why = NSVCD_WHY_TOO_NEAR;
@@ -189,12 +189,12 @@ NSVCDDEF nsvcd_result nsvcd_proximities(nsvcd_checker *checker, const double *jo
   if (result) return result;
   memset(&o, 0, sizeof o);
   if (options) o = *options;
-  if (!nsvcd__is_length(o.max_distance) || !nsvcd__is_length(o.deepest))
+  if (!nsvcd__is_length(o.max_distance) || !nsvcd__is_length(o.max_depth))
     return NSVCD_ERROR_DISTANCE;
   if (!nsvcd__is_length(o.to)) return NSVCD_ERROR_TO;
   o.max_distance = o.max_distance > 0 ? o.max_distance : NSVCD__MAX_DISTANCE;
   o.to = o.to > 0 ? o.to : NSVCD__DISTANCE_TO;
-  o.deepest = o.deepest > 0 ? o.deepest : NSVCD__DEEPEST;
+  o.max_depth = o.max_depth > 0 ? o.max_depth : NSVCD__MAX_DEPTH;
   nsvcd__place_links(checker, joints, &checker->at);
   nsvcd__place_sample(checker, &checker->at, 0);
   for (size_t n = 0; n < checker->scene->pair_count && !result; n++) {
@@ -328,7 +328,7 @@ static nsvcd_result nsvcd__touches_in_all(nsvcd_checker *c, const nsvcd_body_pai
     nsvcd__place_links(c, joints, &c->at);
     (void)nsvcd__localize_at(c, pair, &c->at);
     const nsvcd_question question = nsvcd__question_of(c, pair, 1, 0);
-    result = nsvcd__ask(c, &question, &found);
+    result = nsvcd__ask_sweep(c, &question, &found);
     *in_all = !result && found.verdict == NSVCD_HIT;
   }
   return result;

@@ -67,7 +67,7 @@ static nsvcd_question nsvcd__question_of(const nsvcd_checker *c, const nsvcd_bod
   return question;
 }
 
-static nsvcd_result nsvcd__ask(nsvcd_checker *c, const nsvcd_question *question,
-                               nsvcd_answer *found) {
+static nsvcd_result nsvcd__ask_sweep(nsvcd_checker *c, const nsvcd_question *question,
+                                     nsvcd_answer *found) {
   return nsvcd_sweep(question, c->query, c->query_size, found);
 }

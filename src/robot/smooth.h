@@ -168,8 +168,8 @@ static int nsvcd__trajectory_append(const nsvcd__trajectory *t, size_t joints, d
   return 1;
 }
 
-// Writes what the trajectory would be with the blend in place of what is from time t0 to t1. Returns
-// 0 as nsvcd__trajectory_append does.
+// Writes what the trajectory would be with the blend in place of what is from time t0 to t1.
+// Returns 0 as nsvcd__trajectory_append does.
 static int nsvcd__splice(const nsvcd__router *r, double t0, double t1,
                          nsvcd__trajectory *out) {
   const size_t joints = r->joints;

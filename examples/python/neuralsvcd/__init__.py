@@ -280,7 +280,7 @@ _CheckAnswer = _struct(
     joint=c_size_t, placed=c_size_t, sweeps=c_size_t)
 _Proximity = _struct("nsvcd_proximity", pair=c_size_t, verdict=c_int, why=c_int, distance=_Range, depth=c_float, contact=_Contact,
                slope=c_double * _MAX_JOINTS)
-_ProximityOptions = _struct("nsvcd_proximity_options", max_distance=c_float, to=c_float, deepest=c_float, work=c_size_t)
+_ProximityOptions = _struct("nsvcd_proximity_options", max_distance=c_float, to=c_float, max_depth=c_float, work=c_size_t)
 _NearestFreeOptions = _struct("nsvcd_nearest_free_options", clearance=c_float, farthest=c_double, seed=c_uint64, stop=_STOP,
                          user=c_void_p)
 _PairCounts = _struct("nsvcd_pair_counts", asked=c_size_t, adjacent=c_size_t, touching=c_size_t)
@@ -1683,22 +1683,22 @@ class Robot:
         """Those that are asked: (P, 2)."""
         return self._pairs.copy()
 
-    def find_pairs(self, samples: int = 0, seed: int = 0) -> tuple[NDArray[np.uint32], ...]:
-        """Pairs (n, 2) that can meet, that one joint separates, and that touch in all samples: nsvcd_find_pairs."""
+    def find_pairs(self, draws: int = 0, seed: int = 0) -> tuple[NDArray[np.uint32], ...]:
+        """Pairs (n, 2) that can meet, that one joint separates, and that touch in all draws: nsvcd_find_pairs."""
         most = self.part_count * self.part_count
         found = np.empty((max(most, 1), 2), np.uint32)
         counts = _PairCounts()
-        _check(_library.nsvcd_find_pairs(self._checker, _number(c_size_t, samples, "samples"),
+        _check(_library.nsvcd_find_pairs(self._checker, _number(c_size_t, draws, "draws"),
                                          _number(c_uint64, seed, "seed"), _address(found), most, byref(counts)))
         ends = np.cumsum([counts.asked, counts.adjacent, counts.touching]).tolist()
         return tuple(found[first:last].copy() for first, last in zip([0, *ends], ends))
 
-    def proximities(self, joints: ArrayLike, *, max_distance: float = 0, to: float = 0, deepest: float = 0, work: int = 0) -> list[Proximity]:
+    def proximities(self, joints: ArrayLike, *, max_distance: float = 0, to: float = 0, max_depth: float = 0, work: int = 0) -> list[Proximity]:
         """All pairs that are near in a configuration: nsvcd_proximities."""
         row = _doubles(joints, (self.joint_count,), "joints")
         rows = (_Proximity * max(len(self._pairs), 1))()
         count = c_size_t()
-        options = _filled(_ProximityOptions, max_distance=max_distance, to=to, deepest=deepest, work=work)
+        options = _filled(_ProximityOptions, max_distance=max_distance, to=to, max_depth=max_depth, work=work)
         _check(_library.nsvcd_proximities(self._checker, _address(row), byref(options), rows, len(self._pairs), byref(count)))
         return [Proximity(g.pair, _VERDICTS[g.verdict], _WHYS[g.why], Range(g.distance.low, g.distance.high), g.depth, _vector(g.contact.point),
                     _vector(g.contact.normal), np.array(g.slope[:self.joint_count])) for g in rows[:count.value]]
