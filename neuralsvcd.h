@@ -2473,6 +2473,8 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
   *used += (bytes + NSVCD_ALIGNMENT - 1) / NSVCD_ALIGNMENT * NSVCD_ALIGNMENT;
   return at;
 }
+#define NSVCD__TAKE_ROWS(type, rows, base, used) \
+  ((type *)nsvcd__take(base, used, rows, sizeof(type)))
 #endif  // NSVCD__HAS_GROUND_MEMORY
 
 // ----------------------------------------------------------------------------------- ground/slices

@@ -1091,6 +1091,8 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
   *used += (bytes + NSVCD_ALIGNMENT - 1) / NSVCD_ALIGNMENT * NSVCD_ALIGNMENT;
   return at;
 }
+#define NSVCD__TAKE_ROWS(type, rows, base, used) \
+  ((type *)nsvcd__take(base, used, rows, sizeof(type)))
 #endif  // NSVCD__HAS_GROUND_MEMORY
 
 // ===================================================== certificate: a proof that others can check
@@ -1114,19 +1116,26 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
 
 // A run of triangles of a tree, with a box about them.
 typedef struct nsvcd__node {
-  uint32_t box;           // its row of boxes
-  uint32_t first, count;  // of order
+  // its row of boxes
+  uint32_t box;
+  // of order
+  uint32_t first, count;
 } nsvcd__node;
 
 struct nsvcd_tree {
   nsvcd_mesh mesh;
-  nsvcd__box *boxes;  // (2 triangles - 1): of a node, of its left tree, of its right tree
-  uint32_t *order;    // (triangles): the leaves, from left to right
-  float *corners;     // (triangles, 3, 3), in that order
+  // (2 triangles - 1): of a node, of its left tree, of its right tree
+  nsvcd__box *boxes;
+  // (triangles): the leaves, from left to right
+  uint32_t *order;
+  // (triangles, 3, 3), in that order
+  float *corners;
   // (vertices): the lowest vertex of its component; NSVCD_NO_TRIANGLE: no triangle has it
   uint32_t *component;
-  uint32_t *weld;  // (vertices): the lowest vertex at its position
-  uint8_t *open;   // (vertices): 1: that vertex's component is not closed
+  // (vertices): the lowest vertex at its position
+  uint32_t *weld;
+  // (vertices): 1: that vertex's component is not closed
+  uint8_t *open;
   uint32_t digest;
 };
 
@@ -1341,11 +1350,11 @@ static uint64_t nsvcd__tree_layout(const nsvcd_mesh *mesh, char *base, nsvcd_tre
   uint64_t used = 0;
   const size_t triangles = mesh->triangle_count;
   (void)nsvcd__take(base, &used, 1, sizeof *tree);
-  tree->boxes = (nsvcd__box *)nsvcd__take(base, &used, 2 * triangles - 1, sizeof(nsvcd__box));
-  tree->order = (uint32_t *)nsvcd__take(base, &used, triangles, sizeof(uint32_t));
+  tree->boxes = NSVCD__TAKE_ROWS(nsvcd__box, 2 * triangles - 1, base, &used);
+  tree->order = NSVCD__TAKE_ROWS(uint32_t, triangles, base, &used);
   tree->corners = (float *)nsvcd__take(base, &used, triangles, 9 * sizeof(float));
-  tree->component = (uint32_t *)nsvcd__take(base, &used, mesh->vertex_count, sizeof(uint32_t));
-  tree->weld = (uint32_t *)nsvcd__take(base, &used, mesh->vertex_count, sizeof(uint32_t));
+  tree->component = NSVCD__TAKE_ROWS(uint32_t, mesh->vertex_count, base, &used);
+  tree->weld = NSVCD__TAKE_ROWS(uint32_t, mesh->vertex_count, base, &used);
   tree->open = (uint8_t *)nsvcd__take(base, &used, mesh->vertex_count, 1);
   return used;
 }
@@ -1564,7 +1573,8 @@ static nsvcd_result nsvcd__model_of(const nsvcd_mover *mover, nsvcd_mover *meant
 typedef struct nsvcd__instant {
   double t;
   nsvcd__pose_matrix a, b;
-  double lengths;  // of both positions, and of what they are computed from
+  // of both positions, and of what they are computed from
+  double lengths;
   nsvcd_deviation deviation_a, deviation_b;
 } nsvcd__instant;
 
@@ -1572,10 +1582,12 @@ typedef struct nsvcd__instant {
 typedef struct nsvcd__tree_interval {
   const nsvcd__moving_tree *a, *b;
   double clearance;
-  nsvcd__instant *instants;  // (capacity)
+  // (capacity)
+  nsvcd__instant *instants;
   size_t count, capacity;
   double t0, t1;
-  nsvcd__instant middle;  // half way; its time is -1 before it is needed
+  // half way; its time is -1 before it is needed
+  nsvcd__instant middle;
 } nsvcd__tree_interval;
 
 // A node of each tree, and bounds of the distances of their points from their bodies' origins.
@@ -1588,7 +1600,8 @@ typedef struct nsvcd__nodes {
 typedef struct nsvcd__coded_normal {
   nsvcd__d3 along;
   uint32_t x, y;
-  int bits;  // of each number: 8, 16 or 24
+  // of each number: 8, 16 or 24
+  int bits;
 } nsvcd__coded_normal;
 
 static double nsvcd__lengths_at(const nsvcd__pose_matrix *a, const nsvcd__pose_matrix *b) {
@@ -1869,7 +1882,8 @@ static int nsvcd__find_normal(nsvcd__tree_interval *s, const nsvcd__nodes *nodes
 typedef struct nsvcd__seen {
   const nsvcd__moving_tree *of, *by;
   nsvcd__pose_matrix of_at, by_at;
-  double lengths, margin;  // no length is more; no point is off by as much as the margin
+  // no length is more; no point is off by as much as the margin
+  double lengths, margin;
 } nsvcd__seen;
 
 static nsvcd__seen nsvcd__seen_by(const nsvcd__moving_tree *of,
@@ -1995,11 +2009,14 @@ static int nsvcd__sum_of_closed(const nsvcd_tree *tree, const int32_t *sums) {
 //   a normal  the last eight are remembered: k zeros and a 1 are the one k + 1 before the last;
 //             seven zeros a new one: 0, two numbers of 8 bits; 10, two of 16; 11, two of 24
 
-#define NSVCD__TRAVERSAL_STACK 128  // visits that wait
+// visits that wait
+#define NSVCD__TRAVERSAL_STACK 128
 #define NSVCD__NO_EDGE 3u
 #define NSVCD__SHORTEST_INTERVAL 1e-12
-#define NSVCD__REMEMBERED 8  // normals
-#define NSVCD__RAYS 64       // that are tried for a component
+// normals
+#define NSVCD__REMEMBERED 8
+// that are tried for a component
+#define NSVCD__RAYS 64
 // of the sum of both nodes' sides: where they move farther, the time is halved
 #define NSVCD__LONG_TRAVEL 0.35
 
@@ -2013,12 +2030,16 @@ typedef struct nsvcd__visit {
 typedef struct nsvcd__certifier {
   nsvcd__moving_tree a, b;
   nsvcd__tree_interval interval;
-  nsvcd__d3 normals[NSVCD__REMEMBERED];  // the last first
+  // the last first
+  nsvcd__d3 normals[NSVCD__REMEMBERED];
   uint8_t *bytes;
   size_t capacity, bits;
-  uint32_t digest;  // of motions, scales and the clearance
-  int separated;    // 1: the roots are, at some time
-  int32_t *sums;    // (vertices)
+  // of motions, scales and the clearance
+  uint32_t digest;
+  // 1: the roots are, at some time
+  int separated;
+  // (vertices)
+  int32_t *sums;
   nsvcd_certificate *made;
 } nsvcd__certifier;
 
@@ -2055,7 +2076,8 @@ static void nsvcd__write_normal(nsvcd__certifier *c, size_t k,
 static void nsvcd__write_head(nsvcd__certifier *c, uint32_t kind) {
   const uint32_t digests[3] = {c->a.tree->digest, c->b.tree->digest, c->digest};
   c->bits = 0;
-  memset(c->normals, 0, sizeof c->normals);  // a reader begins with none
+  // a reader begins with none
+  memset(c->normals, 0, sizeof c->normals);
   nsvcd__write_bits(c, 1, 6);
   nsvcd__write_bits(c, kind, 2);
   for (size_t k = 0; k < 3; k++) {
@@ -2356,8 +2378,7 @@ static uint64_t nsvcd__certifier_layout(size_t instants, const nsvcd_tree *a,
   const size_t vertices = a->mesh.vertex_count > b->mesh.vertex_count ? a->mesh.vertex_count
                                                                       : b->mesh.vertex_count;
   c->interval.capacity = instants;
-  c->interval.instants =
-      (nsvcd__instant *)nsvcd__take(base, &used, instants, sizeof(nsvcd__instant));
+  c->interval.instants = NSVCD__TAKE_ROWS(nsvcd__instant, instants, base, &used);
   c->sums = (int32_t *)nsvcd__take(base, &used, vertices, sizeof *c->sums);
   return used;
 }

@@ -70,7 +70,8 @@ extern "C" {
 // a link deviates from these, by a bound that follows from the joints (robot/deviation.h): with
 // that as clearance the sweep proves the joints' own motion, at all times.
 
-#define NSVCD_MAX_DEGREE 5  // of a piece of a motion
+// of a piece of a motion
+#define NSVCD_MAX_DEGREE 5
 #define NSVCD_MAX_PARTS 65536
 
 typedef enum nsvcd_joint_kind {
@@ -352,7 +353,8 @@ NSVCDDEF nsvcd_result nsvcd_reparent(const nsvcd_checker *checker, const double 
 // shorter, timed, and smoothed within the limits of speed and acceleration; the motion is proven
 // as a whole before it is handed out.
 
-#define NSVCD_MAX_NODES 10000000  // of a route's trees
+// of a route's trees
+#define NSVCD_MAX_NODES 10000000
 
 typedef enum nsvcd_route_status {
   // the motion is proven free, within the limits, and ends at a goal
@@ -1205,6 +1207,8 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
   *used += (bytes + NSVCD_ALIGNMENT - 1) / NSVCD_ALIGNMENT * NSVCD_ALIGNMENT;
   return at;
 }
+#define NSVCD__TAKE_ROWS(type, rows, base, used) \
+  ((type *)nsvcd__take(base, used, rows, sizeof(type)))
 #endif  // NSVCD__HAS_GROUND_MEMORY
 
 // ============================================================ robot: is a motion of joints free?
@@ -1234,22 +1238,28 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
 
 // A rotation and a position, in double.
 typedef struct nsvcd__frame {
-  nsvcd__dquat turn;  // unit
+  // unit
+  nsvcd__dquat turn;
   nsvcd__d3 position;
 } nsvcd__frame;
 
 // A joint, as the checker has it, and the link that it carries.
 typedef struct nsvcd__link {
-  nsvcd__frame origin;  // of the joint, in its parent link
-  nsvcd__d3 axis;       // unit, in the joint's frame
-  uint32_t chain;       // joints from the world to this link, its own too: bit i is joint i
+  // of the joint, in its parent link
+  nsvcd__frame origin;
+  // unit, in the joint's frame
+  nsvcd__d3 axis;
+  // joints from the world to this link, its own too: bit i is joint i
+  uint32_t chain;
 } nsvcd__link;
 
-// Where the joints' values put the links, in the world.
-typedef struct nsvcd__configuration {
-  nsvcd__frame frames[NSVCD_MAX_JOINTS + 1];  // of the links, the world first
-  nsvcd__d3 axes[NSVCD_MAX_JOINTS];           // of the joints: unit
-} nsvcd__configuration;
+// Where the links are in a configuration, in the world.
+typedef struct nsvcd__links {
+  // of the links, the world first
+  nsvcd__frame frames[NSVCD_MAX_JOINTS + 1];
+  // of the joints: unit
+  nsvcd__d3 axes[NSVCD_MAX_JOINTS];
+} nsvcd__links;
 
 // A box along the world's axes, in double.
 typedef struct nsvcd__bounds {
@@ -1258,14 +1268,17 @@ typedef struct nsvcd__bounds {
 
 // A part, as the checker has it.
 typedef struct nsvcd__member {
-  nsvcd__frame frame;  // in its link
+  // in its link
+  nsvcd__frame frame;
   // a sphere about its triangles, in its link; and no point is farther from its origin
   nsvcd__d3 centre;
   double radius, extent;
   // a box about all of it, in its own axes, scaled
   nsvcd__d3 middle, half;
-  nsvcd__bounds bounds;  // of all samples, or where it rests
-  size_t row;            // its first sample, if it moves
+  // of all samples, or where it rests
+  nsvcd__bounds bounds;
+  // its first sample, if it moves
+  size_t row;
   // metres, at most: how far it leaves the sweep between its samples; errors of frames in double
   double deviation, rounding;
 } nsvcd__member;
@@ -1273,16 +1286,20 @@ typedef struct nsvcd__member {
 struct nsvcd_checker {
   const nsvcd_scene *scene;
   nsvcd__link links[NSVCD_MAX_JOINTS];
-  nsvcd__member *members;  // (B)
-  uint32_t *order;         // (P): the pairs, as they are asked about: what was hit last first
-  uint32_t *left;          // (P): those of an interval that are not proven yet
+  // (B)
+  nsvcd__member *members;
+  // (P): the pairs, as they are asked about: what was hit last first
+  uint32_t *order;
+  // (P): those of an interval that are not proven yet
+  uint32_t *left;
   // (moving parts, NSVCD__MOST_STEPS + 1): samples, in the world
   nsvcd__frame *frames;
   nsvcd__bounds *bounds;
-  nsvcd_pose *local[2];  // (NSVCD__MOST_STEPS + 1): of both parts of a pair, see local_queries
+  // (NSVCD__MOST_STEPS + 1): of both parts of a pair, see local_queries
+  nsvcd_pose *local[2];
   // of the samples; and the most that a part deviates in the step after each
   double times[NSVCD__MOST_STEPS + 1], deviations[NSVCD__MOST_STEPS + 1];
-  nsvcd__configuration at, next;
+  nsvcd__links at, next;
   void *query;
   size_t query_size;
 };
@@ -1329,9 +1346,7 @@ static nsvcd_pose nsvcd__frame_pose(const nsvcd__frame *frame) {
   const nsvcd__dquat turn = nsvcd__dquat_unit(frame->turn);
   nsvcd_pose out;
   nsvcd__f3_store(nsvcd__f3_round(frame->position), out.position);
-  out.rotation[0] = (float)turn.x;
-  out.rotation[1] = (float)turn.y;
-  out.rotation[2] = (float)turn.z;
+  nsvcd__f3_store(nsvcd__f3_round(nsvcd__dquat_axis(turn)), out.rotation);
   out.rotation[3] = (float)turn.w;
   return out;
 }
@@ -1342,7 +1357,7 @@ static int nsvcd__slides(const nsvcd_checker *c, size_t joint) {
 
 // Forward kinematics.
 static void nsvcd__place_links(const nsvcd_checker *c, const double *joints,
-                               nsvcd__configuration *out) {
+                               nsvcd__links *out) {
   const nsvcd__frame world = {{0, 0, 0, 1}, {0, 0, 0}};
   out->frames[0] = world;
   for (size_t i = 0; i < c->scene->joint_count; i++) {
@@ -1362,15 +1377,15 @@ static void nsvcd__place_links(const nsvcd_checker *c, const double *joints,
   }
 }
 
-static nsvcd__frame nsvcd__frame_of_part(const nsvcd_checker *c,
-                                         const nsvcd__configuration *at, size_t part) {
+static nsvcd__frame nsvcd__frame_of_part(const nsvcd_checker *c, const nsvcd__links *at,
+                                         size_t part) {
   const uint32_t link = c->scene->parts[part].link;
   return nsvcd__frame_mul(&at->frames[link], &c->members[part].frame);
 }
 
 NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const double *joints,
                                        nsvcd_pose *poses) {
-  nsvcd__configuration at;
+  nsvcd__links at;
   nsvcd__place_links(checker, joints, &at);
   for (size_t n = 0; n < checker->scene->part_count; n++) {
     const nsvcd__frame frame = nsvcd__frame_of_part(checker, &at, n);
@@ -1383,10 +1398,12 @@ NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const doubl
 
 // A step of a motion: from one time to another, h later.
 typedef struct nsvcd__step {
-  double from[NSVCD_MAX_JOINTS], to[NSVCD_MAX_JOINTS];  // the joints at both
+  // the joints at both
+  double from[NSVCD_MAX_JOINTS], to[NSVCD_MAX_JOINTS];
   // |d|, d = to - from; max |q - from|
   double travel[NSVCD_MAX_JOINTS], farthest[NSVCD_MAX_JOINTS];
-  double bend[NSVCD_MAX_JOINTS];  // at least 8 |e|, see robot/deviation.h
+  // at least 8 |e|, see robot/deviation.h
+  double bend[NSVCD_MAX_JOINTS];
 } nsvcd__step;
 
 // A motion of no pieces is its first point, whatever else it says.
@@ -1395,37 +1412,37 @@ static nsvcd_joint_motion nsvcd__motion_meant(const nsvcd_joint_motion *motion) 
   return motion->pieces ? *motion : still;
 }
 
-static double nsvcd__piece_start(const nsvcd_joint_motion *motion, size_t piece) {
-  return motion->times ? motion->times[piece] : (double)piece;
+static double nsvcd__piece_start(const nsvcd_joint_motion *m, size_t piece) {
+  return m->times ? m->times[piece] : (double)piece;
 }
 
-static double nsvcd__piece_time(const nsvcd_joint_motion *motion, size_t piece) {
-  return nsvcd__piece_start(motion, piece + 1) - nsvcd__piece_start(motion, piece);
+static double nsvcd__piece_time(const nsvcd_joint_motion *m, size_t piece) {
+  return nsvcd__piece_start(m, piece + 1) - nsvcd__piece_start(m, piece);
 }
 
 // The piece that a time is in; where two pieces meet, the later one.
-static size_t nsvcd__piece_at(const nsvcd_joint_motion *motion, double time) {
+static size_t nsvcd__piece_at(const nsvcd_joint_motion *m, double time) {
   size_t low = 0;
-  size_t high = motion->pieces;
+  size_t high = m->pieces;
   while (high - low > 1) {
     const size_t middle = low + (high - low) / 2;
-    *(nsvcd__piece_start(motion, middle) <= time ? &low : &high) = middle;
+    *(nsvcd__piece_start(m, middle) <= time ? &low : &high) = middle;
   }
   return low;
 }
 
 // How much of a piece has gone by at a time: in [0,1].
-static double nsvcd__fraction_at(const nsvcd_joint_motion *motion, size_t piece, double time) {
-  const double start = nsvcd__piece_start(motion, piece);
-  if (time >= nsvcd__piece_start(motion, piece + 1)) return 1;
-  return time > start ? (time - start) / nsvcd__piece_time(motion, piece) : 0;
+static double nsvcd__fraction_at(const nsvcd_joint_motion *m, size_t piece, double time) {
+  const double start = nsvcd__piece_start(m, piece);
+  if (time >= nsvcd__piece_start(m, piece + 1)) return 1;
+  return time > start ? (time - start) / nsvcd__piece_time(m, piece) : 0;
 }
 
 // The control points of one joint in a piece.
-static void nsvcd__joint_points(const nsvcd_joint_motion *motion, size_t piece, size_t joints,
+static void nsvcd__joint_points(const nsvcd_joint_motion *m, size_t piece, size_t joints,
                                 size_t joint, double *p) {
-  const double *first = motion->points + piece * motion->degree * joints + joint;
-  for (size_t i = 0; i <= motion->degree; i++) p[i] = first[i * joints];
+  const double *first = m->points + piece * m->degree * joints + joint;
+  for (size_t i = 0; i <= m->degree; i++) p[i] = first[i * joints];
 }
 
 // Cuts a curve to its fractions from s0 to s1: de Casteljau's algorithm, twice.
@@ -1442,15 +1459,15 @@ static void nsvcd__cut_curve(double *p, size_t degree, double s0, double s1) {
 }
 
 // The joints at a fraction of a piece, and, unless NULL, their speeds.
-static void nsvcd__joints_at(const nsvcd_joint_motion *motion, size_t joints, size_t piece,
+static void nsvcd__joints_at(const nsvcd_joint_motion *m, size_t joints, size_t piece,
                              double fraction, double *at, double *speeds) {
-  const size_t degree = motion->degree;
+  const size_t degree = m->degree;
   for (size_t j = 0; j < joints; j++) {
     double p[NSVCD_MAX_DEGREE + 1];
-    nsvcd__joint_points(motion, piece, joints, j, p);
+    nsvcd__joint_points(m, piece, joints, j, p);
     for (size_t level = degree; level > 0; level--) {
       if (level == 1 && speeds)
-        speeds[j] = (double)degree * (p[1] - p[0]) / nsvcd__piece_time(motion, piece);
+        speeds[j] = (double)degree * (p[1] - p[0]) / nsvcd__piece_time(m, piece);
       // both ends exactly
       for (size_t i = 0; i < level; i++)
         p[i] = fraction < 1 ? p[i] + fraction * (p[i + 1] - p[i]) : p[i + 1];
@@ -1460,11 +1477,11 @@ static void nsvcd__joints_at(const nsvcd_joint_motion *motion, size_t joints, si
 }
 
 // The same at a time.
-static void nsvcd__joints_at_time(const nsvcd_joint_motion *motion, size_t joints, double time,
+static void nsvcd__joints_at_time(const nsvcd_joint_motion *m, size_t joints, double time,
                                   double *at, double *speeds) {
-  const size_t piece = nsvcd__piece_at(motion, time);
-  const double fraction = nsvcd__fraction_at(motion, piece, time);
-  nsvcd__joints_at(motion, joints, piece, fraction, at, speeds);
+  const size_t piece = nsvcd__piece_at(m, time);
+  const double fraction = nsvcd__fraction_at(m, piece, time);
+  nsvcd__joints_at(m, joints, piece, fraction, at, speeds);
 }
 
 NSVCDDEF void nsvcd_motion_at(const nsvcd_joint_motion *motion, size_t joints, double time,
@@ -1474,31 +1491,31 @@ NSVCDDEF void nsvcd_motion_at(const nsvcd_joint_motion *motion, size_t joints, d
 }
 
 // By how much the speed of a joint jumps where a piece begins.
-static double nsvcd__jump_at(const nsvcd_joint_motion *motion, size_t joints, size_t piece,
+static double nsvcd__jump_at(const nsvcd_joint_motion *m, size_t joints, size_t piece,
                              size_t joint) {
-  const double *at = motion->points + piece * motion->degree * joints + joint;
-  const double before = (at[0] - *(at - joints)) / nsvcd__piece_time(motion, piece - 1);
-  const double after = (at[joints] - at[0]) / nsvcd__piece_time(motion, piece);
-  return fabs((double)motion->degree * (after - before));
+  const double *at = m->points + piece * m->degree * joints + joint;
+  const double before = (at[0] - *(at - joints)) / nsvcd__piece_time(m, piece - 1);
+  const double after = (at[joints] - at[0]) / nsvcd__piece_time(m, piece);
+  return fabs((double)m->degree * (after - before));
 }
 
 // What the joints do from time t0 to t1, which may span several pieces. Where the speed jumps by v,
 // e has a corner, and |e| grows by h v / 4 at most.
-static void nsvcd__step_of(const nsvcd_joint_motion *motion, size_t joints, double t0,
-                           double t1, nsvcd__step *step) {
-  const size_t degree = motion->degree;
+static void nsvcd__step_of(const nsvcd_joint_motion *m, size_t joints, double t0, double t1,
+                           nsvcd__step *step) {
+  const size_t degree = m->degree;
   const double twice = (double)(degree * (degree - 1));
-  const size_t first = nsvcd__piece_at(motion, t0);
+  const size_t first = nsvcd__piece_at(m, t0);
   size_t last = first;
   double v0[NSVCD_MAX_JOINTS], v1[NSVCD_MAX_JOINTS];
   double along = 0;
   double square = 0;
   const double h = t1 - t0;
-  while (last + 1 < motion->pieces && nsvcd__piece_start(motion, last + 1) < t1) last++;
-  const double begin = nsvcd__fraction_at(motion, first, t0);
-  const double end = nsvcd__fraction_at(motion, last, t1);
-  nsvcd__joints_at(motion, joints, first, begin, step->from, v0);
-  nsvcd__joints_at(motion, joints, last, end, step->to, v1);
+  while (last + 1 < m->pieces && nsvcd__piece_start(m, last + 1) < t1) last++;
+  const double begin = nsvcd__fraction_at(m, first, t0);
+  const double end = nsvcd__fraction_at(m, last, t1);
+  nsvcd__joints_at(m, joints, first, begin, step->from, v0);
+  nsvcd__joints_at(m, joints, last, end, step->to, v1);
   for (size_t j = 0; j < joints; j++) {
     const double d = step->to[j] - step->from[j];
     step->travel[j] = step->farthest[j] = fabs(d);
@@ -1517,8 +1534,8 @@ static void nsvcd__step_of(const nsvcd_joint_motion *motion, size_t joints, doub
       double p[NSVCD_MAX_DEGREE + 1], second[NSVCD_MAX_DEGREE + 1];
       const double s0 = piece == first ? begin : 0;
       const double s1 = piece == last ? end : 1;
-      const double per_piece = h / nsvcd__piece_time(motion, piece);
-      nsvcd__joint_points(motion, piece, joints, j, p);
+      const double per_piece = h / nsvcd__piece_time(m, piece);
+      nsvcd__joint_points(m, piece, joints, j, p);
       for (size_t i = 0; i + 2 <= degree; i++)
         second[i] = per_piece * per_piece * twice * (p[i] - 2 * p[i + 1] + p[i + 2]);
       if (degree >= 2) nsvcd__cut_curve(second, degree - 2, s0, s1);
@@ -1527,7 +1544,7 @@ static void nsvcd__step_of(const nsvcd_joint_motion *motion, size_t joints, doub
         step->farthest[j] = nsvcd__max(step->farthest[j], fabs(p[i] - from));
       for (size_t i = 0; i + 2 <= degree; i++)
         step->bend[j] = nsvcd__max(step->bend[j], fabs(second[i] - g * d));
-      if (piece > first) jumps += nsvcd__jump_at(motion, joints, piece, j);
+      if (piece > first) jumps += nsvcd__jump_at(m, joints, piece, j);
     }
     step->bend[j] += 2 * h * jumps;
   }
@@ -1564,12 +1581,13 @@ static double nsvcd__angle_between(nsvcd__dquat a, nsvcd__dquat b) {
 // r of the banner, (F): how far points of a part can be from the axes of the joints of its chain,
 // during a step that begins in a configuration.
 static void nsvcd__moment_arms_of(const nsvcd_checker *c, size_t part, const nsvcd__step *step,
-                                  const nsvcd__configuration *from, double *arms) {
+                                  const nsvcd__links *from, double *arms) {
   const nsvcd__member *m = &c->members[part];
   const size_t link = c->scene->parts[part].link;
   const uint32_t chain = c->links[link - 1].chain;
   const nsvcd__d3 centre = nsvcd__frame_apply(&from->frames[link], m->centre);
-  double moved = 0;  // by joints beyond this one
+  // by joints beyond this one
+  double moved = 0;
   for (size_t j = link; j-- > 0;) {
     if (!(chain >> j & 1)) continue;
     arms[j] = 1;
@@ -1584,8 +1602,8 @@ static void nsvcd__moment_arms_of(const nsvcd_checker *c, size_t part, const nsv
 
 // The bound of the banner, for a part that moves.
 static double nsvcd__part_deviation(const nsvcd_checker *c, size_t part,
-                                    const nsvcd__step *step, const nsvcd__configuration *from,
-                                    const nsvcd__configuration *to) {
+                                    const nsvcd__step *step, const nsvcd__links *from,
+                                    const nsvcd__links *to) {
   const size_t link = c->scene->parts[part].link;
   const double w = nsvcd__angle_between(from->frames[link].turn, to->frames[link].turn);
   double arms[NSVCD_MAX_JOINTS];
@@ -1625,11 +1643,9 @@ static nsvcd_result nsvcd__joint_check(const nsvcd_joint *joint, size_t i) {
   double axis = 0;
   if (joint->parent > i || (unsigned)joint->kind > NSVCD_JOINT_PRISMATIC)
     return NSVCD_ERROR_JOINT;
-  for (size_t k = 0; k < 3; k++) {
-    if (!nsvcd__is_finite(joint->axis[k])) return NSVCD_ERROR_AXIS;
-    axis = nsvcd__max(axis, fabs((double)joint->axis[k]));
-  }
-  if (!(axis > 1e-15) || axis > 1e15) return NSVCD_ERROR_AXIS;
+  if (!nsvcd__in_range(joint->axis, 3, 1e15f)) return NSVCD_ERROR_AXIS;
+  for (size_t k = 0; k < 3; k++) axis = nsvcd__max(axis, fabs((double)joint->axis[k]));
+  if (!(axis > 1e-15)) return NSVCD_ERROR_AXIS;
   const nsvcd_result result = nsvcd__poses_check(&joint->origin, 1);
   if (result) return result;
   const double rates[2] = {joint->speed, joint->acceleration};
@@ -1699,9 +1715,10 @@ static nsvcd__bounds nsvcd__bounds_over(const nsvcd__bounds *a, const nsvcd__bou
 
 // Are two boxes more than `room` apart along an axis?
 static int nsvcd__bounds_apart(const nsvcd__bounds *a, const nsvcd__bounds *b, double room) {
-  return a->low.x - b->high.x > room || b->low.x - a->high.x > room ||
-         a->low.y - b->high.y > room || b->low.y - a->high.y > room ||
-         a->low.z - b->high.z > room || b->low.z - a->high.z > room;
+  const nsvcd__d3 before = nsvcd__d3_sub(b->low, a->high);
+  const nsvcd__d3 after = nsvcd__d3_sub(a->low, b->high);
+  const nsvcd__d3 apart = nsvcd__d3_max(before, after);
+  return apart.x > room || apart.y > room || apart.z > room;
 }
 
 // ---- a checker
@@ -1720,13 +1737,13 @@ static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
   const size_t pairs = scene->pair_count;
   const size_t samples = NSVCD__MOST_STEPS + 1;
   const size_t rows = movers * samples;
-  c->members = (nsvcd__member *)nsvcd__take(base, &used, parts, sizeof(nsvcd__member));
-  c->order = (uint32_t *)nsvcd__take(base, &used, pairs, sizeof(uint32_t));
-  c->left = (uint32_t *)nsvcd__take(base, &used, pairs, sizeof(uint32_t));
-  c->frames = (nsvcd__frame *)nsvcd__take(base, &used, rows, sizeof(nsvcd__frame));
-  c->bounds = (nsvcd__bounds *)nsvcd__take(base, &used, rows, sizeof(nsvcd__bounds));
+  c->members = NSVCD__TAKE_ROWS(nsvcd__member, parts, base, &used);
+  c->order = NSVCD__TAKE_ROWS(uint32_t, pairs, base, &used);
+  c->left = NSVCD__TAKE_ROWS(uint32_t, pairs, base, &used);
+  c->frames = NSVCD__TAKE_ROWS(nsvcd__frame, rows, base, &used);
+  c->bounds = NSVCD__TAKE_ROWS(nsvcd__bounds, rows, base, &used);
   for (size_t n = 0; n < 2; n++)
-    c->local[n] = (nsvcd_pose *)nsvcd__take(base, &used, samples, sizeof(nsvcd_pose));
+    c->local[n] = NSVCD__TAKE_ROWS(nsvcd_pose, samples, base, &used);
   c->query_size = nsvcd_sweep_workspace_size(NULL);
   c->query = nsvcd__take(base, &used, 1, c->query_size);
   *checker = (nsvcd_checker *)at;
@@ -1797,7 +1814,7 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
 #define NSVCD__FRAME_ROUNDING 1e-13
 
 // Places the parts that move, in a configuration, as sample k.
-static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__configuration *at, size_t k) {
+static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__links *at, size_t k) {
   const nsvcd_scene *scene = c->scene;
   double most = 0;
   for (size_t link = 1; link <= scene->joint_count; link++)
@@ -1820,8 +1837,8 @@ static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__configuration *at
 static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, size_t steps) {
   const nsvcd_scene *scene = c->scene;
   nsvcd__step step;
-  nsvcd__configuration *from = &c->at;
-  nsvcd__configuration *to = &c->next;
+  nsvcd__links *from = &c->at;
+  nsvcd__links *to = &c->next;
   for (size_t n = 0; n < scene->part_count; n++) c->members[n].deviation = 0;
   nsvcd_motion_at(motion, scene->joint_count, c->times[0], step.from);
   nsvcd__place_links(c, step.from, from);
@@ -1838,7 +1855,7 @@ static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, si
       c->deviations[k] = nsvcd__max(c->deviations[k], deviation);
       m->deviation = nsvcd__max(m->deviation, deviation);
     }
-    nsvcd__configuration *other = from;
+    nsvcd__links *other = from;
     from = to;
     to = other;
   }
@@ -1917,8 +1934,10 @@ static const nsvcd__frame *nsvcd__frames_at(const nsvcd_checker *c, size_t part,
 // that rests, if one does; else b's, half way.
 
 typedef struct nsvcd__local {
-  nsvcd__frame frame;  // in the world
-  double rounding;     // metres: errors of both parts' poses in float, in sum, at most
+  // in the world
+  nsvcd__frame frame;
+  // metres: errors of both parts' poses in float, in sum, at most
+  double rounding;
 } nsvcd__local;
 
 // Fills in c->local. frames: of a and of b, (count) each, but one of a part that rests.
@@ -1942,7 +1961,7 @@ static nsvcd__local nsvcd__localize(nsvcd_checker *c, const nsvcd_body_pair *pai
 
 // The same of two parts in a configuration.
 static nsvcd__local nsvcd__localize_at(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                                       const nsvcd__configuration *at) {
+                                       const nsvcd__links *at) {
   const nsvcd__frame a = nsvcd__frame_of_part(c, at, pair->a);
   const nsvcd__frame b = nsvcd__frame_of_part(c, at, pair->b);
   const nsvcd__frame *const frames[2] = {&a, &b};
@@ -2008,7 +2027,8 @@ typedef struct nsvcd__check_state {
   const nsvcd_joint_motion *motion;
   const nsvcd_check_options *options;
   nsvcd_check_answer *answer;
-  size_t steps;  // between samples; 0: one configuration
+  // between samples; 0: one configuration
+  size_t steps;
 } nsvcd__check_state;
 
 // ---- pairs
@@ -2311,7 +2331,8 @@ typedef struct nsvcd__carried {
   const nsvcd_checker *checker;
   nsvcd_joint_motion motion;
   size_t part;
-  size_t base;  // the link that it is seen from
+  // the link that it is seen from
+  size_t base;
 } nsvcd__carried;
 
 // The time in [0,1] at which a piece begins.
@@ -2533,18 +2554,24 @@ NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
 
 // A cell of the k-d tree.
 typedef struct nsvcd__cell {
-  double at;       // where it is cut; unused in a leaf
-  uint32_t joint;  // by which; NSVCD_MAX_JOINTS: a leaf
+  // where it is cut; unused in a leaf
+  double at;
+  // by which; NSVCD_MAX_JOINTS: a leaf
+  uint32_t joint;
   // its halves, one after another; of a leaf: its nodes, by `next`
   uint32_t first, count;
 } nsvcd__cell;
 
 typedef struct nsvcd__rrt {
   size_t joints, count, cell_count;
-  double *points;      // (nodes, F)
-  uint32_t *parents;   // (nodes): of a root, itself
-  uint32_t *next;      // (nodes): in a leaf
-  nsvcd__cell *cells;  // (2 nodes)
+  // (nodes, F)
+  double *points;
+  // (nodes): of a root, itself
+  uint32_t *parents;
+  // (nodes): in a leaf
+  uint32_t *next;
+  // (2 nodes)
+  nsvcd__cell *cells;
 } nsvcd__rrt;
 
 static double nsvcd__distance2(const double *a, const double *b, size_t joints) {
@@ -3037,7 +3064,7 @@ NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t draws, uin
 
 NSVCDDEF nsvcd_result nsvcd_reparent(const nsvcd_checker *checker, const double *joints,
                                      size_t part, uint32_t link, nsvcd_part *out) {
-  nsvcd__configuration at;
+  nsvcd__links at;
   nsvcd_result result = nsvcd__check_joints(checker, joints);
   if (result) return result;
   const nsvcd_scene *scene = checker->scene;
@@ -3076,8 +3103,10 @@ NSVCDDEF nsvcd_result nsvcd_reparent(const nsvcd_checker *checker, const double 
 // A motion of degree 2 that is being made: `motion` has its arrays.
 typedef struct nsvcd__trajectory {
   nsvcd_joint_motion motion;
-  double *points;  // (2 most pieces + 1, F)
-  double *times;   // (most pieces + 1)
+  // (2 most pieces + 1, F)
+  double *points;
+  // (most pieces + 1)
+  double *times;
 } nsvcd__trajectory;
 
 static void nsvcd__trajectory_begin(nsvcd__trajectory *t, size_t joints, const double *at) {
@@ -3288,12 +3317,16 @@ typedef struct nsvcd__router {
   nsvcd_check_options check;
   uint64_t random;
   int is_stopped;
-  size_t idle[2];       // turns since each tree has grown
-  nsvcd__rrt trees[2];  // from the start, from the goals
+  // turns since each tree has grown
+  size_t idle[2];
+  // from the start, from the goals
+  nsvcd__rrt trees[2];
   // (F): the range of their roots
   double low[NSVCD_MAX_JOINTS], high[NSVCD_MAX_JOINTS];
-  size_t *goals;  // (G): of each root of trees[1], its goal
-  double *path;   // (nodes of both trees + shortcuts, F): corners
+  // (G): of each root of trees[1], its goal
+  size_t *goals;
+  // (nodes of both trees + shortcuts, F): corners
+  double *path;
   size_t corners;
   nsvcd__trajectory trajectory, other, blend;
   nsvcd_route_answer answer;
@@ -3420,39 +3453,27 @@ static int nsvcd__trajectory_append(const nsvcd__trajectory *t, size_t joints, d
   return 1;
 }
 
-// Writes what the trajectory would be with the blend in place of what is from time t0 to t1.
-// Returns 0 as nsvcd__trajectory_append does.
-static int nsvcd__splice(const nsvcd__router *r, double t0, double t1,
-                         nsvcd__trajectory *out) {
-  const size_t joints = r->joints;
-  const nsvcd__trajectory *t = &r->trajectory;
-  const nsvcd__trajectory *blend = &r->blend;
-  nsvcd__trajectory_begin(out, joints, t->points);
-  if (!nsvcd__trajectory_append(t, joints, 0, t0, out)) return 0;
-  if (out->motion.pieces + blend->motion.pieces > NSVCD__MOST_PIECES) return 0;
-  for (size_t p = 0; p < blend->motion.pieces; p++) {
-    const double *middle = blend->points + (2 * p + 1) * joints;
-    const double time = blend->times[p + 1] - blend->times[p];
-    nsvcd__trajectory_add(out, joints, middle, middle + joints,
-                          nsvcd__trajectory_end(out) + time);
-  }
-  return nsvcd__trajectory_append(t, joints, t1, nsvcd__trajectory_end(t), out);
-}
-
 // Replaces the trajectory from time t0 to t1 by a blend, if that is quicker by `gain` and proven.
 static nsvcd_result nsvcd__smooth_once(nsvcd__router *r, double t0, double t1, double gain) {
-  const nsvcd_joint_motion *m = &r->trajectory.motion;
+  const size_t joints = r->joints;
+  const nsvcd__trajectory *t = &r->trajectory;
+  nsvcd__trajectory *blend = &r->blend;
+  nsvcd__trajectory *out = &r->other;
   nsvcd__state from, to;
   int is_free;
-  nsvcd__joints_at_time(m, r->joints, t0, from.x, from.v);
-  nsvcd__joints_at_time(m, r->joints, t1, to.x, to.v);
-  if (!nsvcd__blend_write(r->scene, &from, &to, t1 - t0 - gain, &r->blend)) return NSVCD_OK;
-  if (!nsvcd__splice(r, t0, t1, &r->other)) return NSVCD_OK;
-  const nsvcd_result result = nsvcd__ask_motion(r, &r->blend.motion, &is_free);
+  nsvcd__joints_at_time(&t->motion, joints, t0, from.x, from.v);
+  nsvcd__joints_at_time(&t->motion, joints, t1, to.x, to.v);
+  if (!nsvcd__blend_write(r->scene, &from, &to, t1 - t0 - gain, blend)) return NSVCD_OK;
+  nsvcd__trajectory_begin(out, joints, t->points);
+  if (!nsvcd__trajectory_append(t, joints, 0, t0, out) ||
+      !nsvcd__trajectory_append(blend, joints, 0, nsvcd__trajectory_end(blend), out) ||
+      !nsvcd__trajectory_append(t, joints, t1, nsvcd__trajectory_end(t), out))
+    return NSVCD_OK;
+  const nsvcd_result result = nsvcd__ask_motion(r, &blend->motion, &is_free);
   if (result || !is_free) return result;
   const nsvcd__trajectory was = r->trajectory;
-  r->trajectory = r->other;
-  r->other = was;
+  r->trajectory = *out;
+  *out = was;
   return NSVCD_OK;
 }
 
@@ -3526,8 +3547,8 @@ static nsvcd_result nsvcd__route_check(const nsvcd_checker *checker,
 
 static void nsvcd__trajectory_take(nsvcd__trajectory *t, char *base, uint64_t *used,
                                    size_t pieces, size_t joints) {
-  t->points = (double *)nsvcd__take(base, used, (2 * pieces + 1) * joints, sizeof(double));
-  t->times = (double *)nsvcd__take(base, used, pieces + 1, sizeof(double));
+  t->points = NSVCD__TAKE_ROWS(double, (2 * pieces + 1) * joints, base, used);
+  t->times = NSVCD__TAKE_ROWS(double, pieces + 1, base, used);
 }
 
 // Lays a router out at base, which is aligned, or, where that is NULL, only counts. Returns the
@@ -3556,12 +3577,12 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
   for (size_t k = 0; k < 2; k++) {
     nsvcd__rrt *t = &r->trees[k];
     t->joints = joints;
-    t->points = (double *)nsvcd__take(base, &used, nodes * joints, sizeof(double));
-    t->parents = (uint32_t *)nsvcd__take(base, &used, nodes, sizeof(uint32_t));
-    t->next = (uint32_t *)nsvcd__take(base, &used, nodes, sizeof(uint32_t));
-    t->cells = (nsvcd__cell *)nsvcd__take(base, &used, 2 * nodes, sizeof(nsvcd__cell));
+    t->points = NSVCD__TAKE_ROWS(double, (nodes * joints), base, &used);
+    t->parents = NSVCD__TAKE_ROWS(uint32_t, nodes, base, &used);
+    t->next = NSVCD__TAKE_ROWS(uint32_t, nodes, base, &used);
+    t->cells = NSVCD__TAKE_ROWS(nsvcd__cell, 2 * nodes, base, &used);
   }
-  r->goals = (size_t *)nsvcd__take(base, &used, problem->goal_count, sizeof(size_t));
+  r->goals = NSVCD__TAKE_ROWS(size_t, problem->goal_count, base, &used);
   // a shortcut from an edge to the next adds a corner
   const size_t rows = 2 * nodes + o->shortcuts;
   r->path = (double *)nsvcd__take(base, &used, rows, joints * sizeof(double));

@@ -974,7 +974,7 @@ static void robot_levers_reach(void) {
   double most = 0;
   for (int trial = 0; trial < 400; trial++) {
     nsvcd__step step;
-    nsvcd__configuration from;
+    nsvcd__links from;
     double flat[2 * NSVCD_MAX_JOINTS];
     double moment_arms[NSVCD_MAX_JOINTS] = {0};
     robot_random(&r, &rng);

@@ -15,11 +15,14 @@
 #include "../ground/random.h"
 #include "rays.h"
 
-#define NSVCD__TRAVERSAL_STACK 128  // visits that wait
+// visits that wait
+#define NSVCD__TRAVERSAL_STACK 128
 #define NSVCD__NO_EDGE 3u
 #define NSVCD__SHORTEST_INTERVAL 1e-12
-#define NSVCD__REMEMBERED 8  // normals
-#define NSVCD__RAYS 64       // that are tried for a component
+// normals
+#define NSVCD__REMEMBERED 8
+// that are tried for a component
+#define NSVCD__RAYS 64
 // of the sum of both nodes' sides: where they move farther, the time is halved
 #define NSVCD__LONG_TRAVEL 0.35
 
@@ -33,12 +36,16 @@ typedef struct nsvcd__visit {
 typedef struct nsvcd__certifier {
   nsvcd__moving_tree a, b;
   nsvcd__tree_interval interval;
-  nsvcd__d3 normals[NSVCD__REMEMBERED];  // the last first
+  // the last first
+  nsvcd__d3 normals[NSVCD__REMEMBERED];
   uint8_t *bytes;
   size_t capacity, bits;
-  uint32_t digest;  // of motions, scales and the clearance
-  int separated;    // 1: the roots are, at some time
-  int32_t *sums;    // (vertices)
+  // of motions, scales and the clearance
+  uint32_t digest;
+  // 1: the roots are, at some time
+  int separated;
+  // (vertices)
+  int32_t *sums;
   nsvcd_certificate *made;
 } nsvcd__certifier;
 
@@ -75,7 +82,8 @@ static void nsvcd__write_normal(nsvcd__certifier *c, size_t k,
 static void nsvcd__write_head(nsvcd__certifier *c, uint32_t kind) {
   const uint32_t digests[3] = {c->a.tree->digest, c->b.tree->digest, c->digest};
   c->bits = 0;
-  memset(c->normals, 0, sizeof c->normals);  // a reader begins with none
+  // a reader begins with none
+  memset(c->normals, 0, sizeof c->normals);
   nsvcd__write_bits(c, 1, 6);
   nsvcd__write_bits(c, kind, 2);
   for (size_t k = 0; k < 3; k++) {
@@ -376,8 +384,7 @@ static uint64_t nsvcd__certifier_layout(size_t instants, const nsvcd_tree *a,
   const size_t vertices = a->mesh.vertex_count > b->mesh.vertex_count ? a->mesh.vertex_count
                                                                       : b->mesh.vertex_count;
   c->interval.capacity = instants;
-  c->interval.instants =
-      (nsvcd__instant *)nsvcd__take(base, &used, instants, sizeof(nsvcd__instant));
+  c->interval.instants = NSVCD__TAKE_ROWS(nsvcd__instant, instants, base, &used);
   c->sums = (int32_t *)nsvcd__take(base, &used, vertices, sizeof *c->sums);
   return used;
 }

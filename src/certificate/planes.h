@@ -18,7 +18,8 @@
 typedef struct nsvcd__instant {
   double t;
   nsvcd__pose_matrix a, b;
-  double lengths;  // of both positions, and of what they are computed from
+  // of both positions, and of what they are computed from
+  double lengths;
   nsvcd_deviation deviation_a, deviation_b;
 } nsvcd__instant;
 
@@ -26,10 +27,12 @@ typedef struct nsvcd__instant {
 typedef struct nsvcd__tree_interval {
   const nsvcd__moving_tree *a, *b;
   double clearance;
-  nsvcd__instant *instants;  // (capacity)
+  // (capacity)
+  nsvcd__instant *instants;
   size_t count, capacity;
   double t0, t1;
-  nsvcd__instant middle;  // half way; its time is -1 before it is needed
+  // half way; its time is -1 before it is needed
+  nsvcd__instant middle;
 } nsvcd__tree_interval;
 
 // A node of each tree, and bounds of the distances of their points from their bodies' origins.
@@ -42,7 +45,8 @@ typedef struct nsvcd__nodes {
 typedef struct nsvcd__coded_normal {
   nsvcd__d3 along;
   uint32_t x, y;
-  int bits;  // of each number: 8, 16 or 24
+  // of each number: 8, 16 or 24
+  int bits;
 } nsvcd__coded_normal;
 
 static double nsvcd__lengths_at(const nsvcd__pose_matrix *a, const nsvcd__pose_matrix *b) {

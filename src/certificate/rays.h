@@ -9,7 +9,8 @@
 typedef struct nsvcd__seen {
   const nsvcd__moving_tree *of, *by;
   nsvcd__pose_matrix of_at, by_at;
-  double lengths, margin;  // no length is more; no point is off by as much as the margin
+  // no length is more; no point is off by as much as the margin
+  double lengths, margin;
 } nsvcd__seen;
 
 static nsvcd__seen nsvcd__seen_by(const nsvcd__moving_tree *of,

@@ -22,19 +22,26 @@
 
 // A run of triangles of a tree, with a box about them.
 typedef struct nsvcd__node {
-  uint32_t box;           // its row of boxes
-  uint32_t first, count;  // of order
+  // its row of boxes
+  uint32_t box;
+  // of order
+  uint32_t first, count;
 } nsvcd__node;
 
 struct nsvcd_tree {
   nsvcd_mesh mesh;
-  nsvcd__box *boxes;  // (2 triangles - 1): of a node, of its left tree, of its right tree
-  uint32_t *order;    // (triangles): the leaves, from left to right
-  float *corners;     // (triangles, 3, 3), in that order
+  // (2 triangles - 1): of a node, of its left tree, of its right tree
+  nsvcd__box *boxes;
+  // (triangles): the leaves, from left to right
+  uint32_t *order;
+  // (triangles, 3, 3), in that order
+  float *corners;
   // (vertices): the lowest vertex of its component; NSVCD_NO_TRIANGLE: no triangle has it
   uint32_t *component;
-  uint32_t *weld;  // (vertices): the lowest vertex at its position
-  uint8_t *open;   // (vertices): 1: that vertex's component is not closed
+  // (vertices): the lowest vertex at its position
+  uint32_t *weld;
+  // (vertices): 1: that vertex's component is not closed
+  uint8_t *open;
   uint32_t digest;
 };
 
@@ -249,11 +256,11 @@ static uint64_t nsvcd__tree_layout(const nsvcd_mesh *mesh, char *base, nsvcd_tre
   uint64_t used = 0;
   const size_t triangles = mesh->triangle_count;
   (void)nsvcd__take(base, &used, 1, sizeof *tree);
-  tree->boxes = (nsvcd__box *)nsvcd__take(base, &used, 2 * triangles - 1, sizeof(nsvcd__box));
-  tree->order = (uint32_t *)nsvcd__take(base, &used, triangles, sizeof(uint32_t));
+  tree->boxes = NSVCD__TAKE_ROWS(nsvcd__box, 2 * triangles - 1, base, &used);
+  tree->order = NSVCD__TAKE_ROWS(uint32_t, triangles, base, &used);
   tree->corners = (float *)nsvcd__take(base, &used, triangles, 9 * sizeof(float));
-  tree->component = (uint32_t *)nsvcd__take(base, &used, mesh->vertex_count, sizeof(uint32_t));
-  tree->weld = (uint32_t *)nsvcd__take(base, &used, mesh->vertex_count, sizeof(uint32_t));
+  tree->component = NSVCD__TAKE_ROWS(uint32_t, mesh->vertex_count, base, &used);
+  tree->weld = NSVCD__TAKE_ROWS(uint32_t, mesh->vertex_count, base, &used);
   tree->open = (uint8_t *)nsvcd__take(base, &used, mesh->vertex_count, 1);
   return used;
 }

@@ -6,7 +6,8 @@
 #pragma once
 #include "queries.h"
 
-#define NSVCD_MAX_DEGREE 5  // of a piece of a motion
+// of a piece of a motion
+#define NSVCD_MAX_DEGREE 5
 #define NSVCD_MAX_PARTS 65536
 
 typedef enum nsvcd_joint_kind {

@@ -6,7 +6,8 @@
 #pragma once
 #include "robots.h"
 
-#define NSVCD_MAX_NODES 10000000  // of a route's trees
+// of a route's trees
+#define NSVCD_MAX_NODES 10000000
 
 typedef enum nsvcd_route_status {
   // the motion is proven free, within the limits, and ends at a goal

@@ -21,8 +21,10 @@
 // A motion of degree 2 that is being made: `motion` has its arrays.
 typedef struct nsvcd__trajectory {
   nsvcd_joint_motion motion;
-  double *points;  // (2 most pieces + 1, F)
-  double *times;   // (most pieces + 1)
+  // (2 most pieces + 1, F)
+  double *points;
+  // (most pieces + 1)
+  double *times;
 } nsvcd__trajectory;
 
 static void nsvcd__trajectory_begin(nsvcd__trajectory *t, size_t joints, const double *at) {

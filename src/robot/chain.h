@@ -27,22 +27,28 @@
 
 // A rotation and a position, in double.
 typedef struct nsvcd__frame {
-  nsvcd__dquat turn;  // unit
+  // unit
+  nsvcd__dquat turn;
   nsvcd__d3 position;
 } nsvcd__frame;
 
 // A joint, as the checker has it, and the link that it carries.
 typedef struct nsvcd__link {
-  nsvcd__frame origin;  // of the joint, in its parent link
-  nsvcd__d3 axis;       // unit, in the joint's frame
-  uint32_t chain;       // joints from the world to this link, its own too: bit i is joint i
+  // of the joint, in its parent link
+  nsvcd__frame origin;
+  // unit, in the joint's frame
+  nsvcd__d3 axis;
+  // joints from the world to this link, its own too: bit i is joint i
+  uint32_t chain;
 } nsvcd__link;
 
-// Where the joints' values put the links, in the world.
-typedef struct nsvcd__configuration {
-  nsvcd__frame frames[NSVCD_MAX_JOINTS + 1];  // of the links, the world first
-  nsvcd__d3 axes[NSVCD_MAX_JOINTS];           // of the joints: unit
-} nsvcd__configuration;
+// Where the links are in a configuration, in the world.
+typedef struct nsvcd__links {
+  // of the links, the world first
+  nsvcd__frame frames[NSVCD_MAX_JOINTS + 1];
+  // of the joints: unit
+  nsvcd__d3 axes[NSVCD_MAX_JOINTS];
+} nsvcd__links;
 
 // A box along the world's axes, in double.
 typedef struct nsvcd__bounds {
@@ -51,14 +57,17 @@ typedef struct nsvcd__bounds {
 
 // A part, as the checker has it.
 typedef struct nsvcd__member {
-  nsvcd__frame frame;  // in its link
+  // in its link
+  nsvcd__frame frame;
   // a sphere about its triangles, in its link; and no point is farther from its origin
   nsvcd__d3 centre;
   double radius, extent;
   // a box about all of it, in its own axes, scaled
   nsvcd__d3 middle, half;
-  nsvcd__bounds bounds;  // of all samples, or where it rests
-  size_t row;            // its first sample, if it moves
+  // of all samples, or where it rests
+  nsvcd__bounds bounds;
+  // its first sample, if it moves
+  size_t row;
   // metres, at most: how far it leaves the sweep between its samples; errors of frames in double
   double deviation, rounding;
 } nsvcd__member;
@@ -66,16 +75,20 @@ typedef struct nsvcd__member {
 struct nsvcd_checker {
   const nsvcd_scene *scene;
   nsvcd__link links[NSVCD_MAX_JOINTS];
-  nsvcd__member *members;  // (B)
-  uint32_t *order;         // (P): the pairs, as they are asked about: what was hit last first
-  uint32_t *left;          // (P): those of an interval that are not proven yet
+  // (B)
+  nsvcd__member *members;
+  // (P): the pairs, as they are asked about: what was hit last first
+  uint32_t *order;
+  // (P): those of an interval that are not proven yet
+  uint32_t *left;
   // (moving parts, NSVCD__MOST_STEPS + 1): samples, in the world
   nsvcd__frame *frames;
   nsvcd__bounds *bounds;
-  nsvcd_pose *local[2];  // (NSVCD__MOST_STEPS + 1): of both parts of a pair, see local_queries
+  // (NSVCD__MOST_STEPS + 1): of both parts of a pair, see local_queries
+  nsvcd_pose *local[2];
   // of the samples; and the most that a part deviates in the step after each
   double times[NSVCD__MOST_STEPS + 1], deviations[NSVCD__MOST_STEPS + 1];
-  nsvcd__configuration at, next;
+  nsvcd__links at, next;
   void *query;
   size_t query_size;
 };
@@ -122,9 +135,7 @@ static nsvcd_pose nsvcd__frame_pose(const nsvcd__frame *frame) {
   const nsvcd__dquat turn = nsvcd__dquat_unit(frame->turn);
   nsvcd_pose out;
   nsvcd__f3_store(nsvcd__f3_round(frame->position), out.position);
-  out.rotation[0] = (float)turn.x;
-  out.rotation[1] = (float)turn.y;
-  out.rotation[2] = (float)turn.z;
+  nsvcd__f3_store(nsvcd__f3_round(nsvcd__dquat_axis(turn)), out.rotation);
   out.rotation[3] = (float)turn.w;
   return out;
 }
@@ -135,7 +146,7 @@ static int nsvcd__slides(const nsvcd_checker *c, size_t joint) {
 
 // Forward kinematics.
 static void nsvcd__place_links(const nsvcd_checker *c, const double *joints,
-                               nsvcd__configuration *out) {
+                               nsvcd__links *out) {
   const nsvcd__frame world = {{0, 0, 0, 1}, {0, 0, 0}};
   out->frames[0] = world;
   for (size_t i = 0; i < c->scene->joint_count; i++) {
@@ -155,15 +166,15 @@ static void nsvcd__place_links(const nsvcd_checker *c, const double *joints,
   }
 }
 
-static nsvcd__frame nsvcd__frame_of_part(const nsvcd_checker *c,
-                                         const nsvcd__configuration *at, size_t part) {
+static nsvcd__frame nsvcd__frame_of_part(const nsvcd_checker *c, const nsvcd__links *at,
+                                         size_t part) {
   const uint32_t link = c->scene->parts[part].link;
   return nsvcd__frame_mul(&at->frames[link], &c->members[part].frame);
 }
 
 NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const double *joints,
                                        nsvcd_pose *poses) {
-  nsvcd__configuration at;
+  nsvcd__links at;
   nsvcd__place_links(checker, joints, &at);
   for (size_t n = 0; n < checker->scene->part_count; n++) {
     const nsvcd__frame frame = nsvcd__frame_of_part(checker, &at, n);

@@ -25,7 +25,8 @@ typedef struct nsvcd__check_state {
   const nsvcd_joint_motion *motion;
   const nsvcd_check_options *options;
   nsvcd_check_answer *answer;
-  size_t steps;  // between samples; 0: one configuration
+  // between samples; 0: one configuration
+  size_t steps;
 } nsvcd__check_state;
 
 // ---- pairs

@@ -21,11 +21,9 @@ static nsvcd_result nsvcd__joint_check(const nsvcd_joint *joint, size_t i) {
   double axis = 0;
   if (joint->parent > i || (unsigned)joint->kind > NSVCD_JOINT_PRISMATIC)
     return NSVCD_ERROR_JOINT;
-  for (size_t k = 0; k < 3; k++) {
-    if (!nsvcd__is_finite(joint->axis[k])) return NSVCD_ERROR_AXIS;
-    axis = nsvcd__max(axis, fabs((double)joint->axis[k]));
-  }
-  if (!(axis > 1e-15) || axis > 1e15) return NSVCD_ERROR_AXIS;
+  if (!nsvcd__in_range(joint->axis, 3, 1e15f)) return NSVCD_ERROR_AXIS;
+  for (size_t k = 0; k < 3; k++) axis = nsvcd__max(axis, fabs((double)joint->axis[k]));
+  if (!(axis > 1e-15)) return NSVCD_ERROR_AXIS;
   const nsvcd_result result = nsvcd__poses_check(&joint->origin, 1);
   if (result) return result;
   const double rates[2] = {joint->speed, joint->acceleration};
@@ -95,9 +93,10 @@ static nsvcd__bounds nsvcd__bounds_over(const nsvcd__bounds *a, const nsvcd__bou
 
 // Are two boxes more than `room` apart along an axis?
 static int nsvcd__bounds_apart(const nsvcd__bounds *a, const nsvcd__bounds *b, double room) {
-  return a->low.x - b->high.x > room || b->low.x - a->high.x > room ||
-         a->low.y - b->high.y > room || b->low.y - a->high.y > room ||
-         a->low.z - b->high.z > room || b->low.z - a->high.z > room;
+  const nsvcd__d3 before = nsvcd__d3_sub(b->low, a->high);
+  const nsvcd__d3 after = nsvcd__d3_sub(a->low, b->high);
+  const nsvcd__d3 apart = nsvcd__d3_max(before, after);
+  return apart.x > room || apart.y > room || apart.z > room;
 }
 
 // ---- a checker
@@ -116,13 +115,13 @@ static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
   const size_t pairs = scene->pair_count;
   const size_t samples = NSVCD__MOST_STEPS + 1;
   const size_t rows = movers * samples;
-  c->members = (nsvcd__member *)nsvcd__take(base, &used, parts, sizeof(nsvcd__member));
-  c->order = (uint32_t *)nsvcd__take(base, &used, pairs, sizeof(uint32_t));
-  c->left = (uint32_t *)nsvcd__take(base, &used, pairs, sizeof(uint32_t));
-  c->frames = (nsvcd__frame *)nsvcd__take(base, &used, rows, sizeof(nsvcd__frame));
-  c->bounds = (nsvcd__bounds *)nsvcd__take(base, &used, rows, sizeof(nsvcd__bounds));
+  c->members = NSVCD__TAKE_ROWS(nsvcd__member, parts, base, &used);
+  c->order = NSVCD__TAKE_ROWS(uint32_t, pairs, base, &used);
+  c->left = NSVCD__TAKE_ROWS(uint32_t, pairs, base, &used);
+  c->frames = NSVCD__TAKE_ROWS(nsvcd__frame, rows, base, &used);
+  c->bounds = NSVCD__TAKE_ROWS(nsvcd__bounds, rows, base, &used);
   for (size_t n = 0; n < 2; n++)
-    c->local[n] = (nsvcd_pose *)nsvcd__take(base, &used, samples, sizeof(nsvcd_pose));
+    c->local[n] = NSVCD__TAKE_ROWS(nsvcd_pose, samples, base, &used);
   c->query_size = nsvcd_sweep_workspace_size(NULL);
   c->query = nsvcd__take(base, &used, 1, c->query_size);
   *checker = (nsvcd_checker *)at;

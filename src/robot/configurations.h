@@ -393,7 +393,7 @@ NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t draws, uin
 
 NSVCDDEF nsvcd_result nsvcd_reparent(const nsvcd_checker *checker, const double *joints,
                                      size_t part, uint32_t link, nsvcd_part *out) {
-  nsvcd__configuration at;
+  nsvcd__links at;
   nsvcd_result result = nsvcd__check_joints(checker, joints);
   if (result) return result;
   const nsvcd_scene *scene = checker->scene;

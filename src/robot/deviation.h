@@ -30,12 +30,13 @@ static double nsvcd__angle_between(nsvcd__dquat a, nsvcd__dquat b) {
 // r of the banner, (F): how far points of a part can be from the axes of the joints of its chain,
 // during a step that begins in a configuration.
 static void nsvcd__moment_arms_of(const nsvcd_checker *c, size_t part, const nsvcd__step *step,
-                                  const nsvcd__configuration *from, double *arms) {
+                                  const nsvcd__links *from, double *arms) {
   const nsvcd__member *m = &c->members[part];
   const size_t link = c->scene->parts[part].link;
   const uint32_t chain = c->links[link - 1].chain;
   const nsvcd__d3 centre = nsvcd__frame_apply(&from->frames[link], m->centre);
-  double moved = 0;  // by joints beyond this one
+  // by joints beyond this one
+  double moved = 0;
   for (size_t j = link; j-- > 0;) {
     if (!(chain >> j & 1)) continue;
     arms[j] = 1;
@@ -50,8 +51,8 @@ static void nsvcd__moment_arms_of(const nsvcd_checker *c, size_t part, const nsv
 
 // The bound of the banner, for a part that moves.
 static double nsvcd__part_deviation(const nsvcd_checker *c, size_t part,
-                                    const nsvcd__step *step, const nsvcd__configuration *from,
-                                    const nsvcd__configuration *to) {
+                                    const nsvcd__step *step, const nsvcd__links *from,
+                                    const nsvcd__links *to) {
   const size_t link = c->scene->parts[part].link;
   const double w = nsvcd__angle_between(from->frames[link].turn, to->frames[link].turn);
   double arms[NSVCD_MAX_JOINTS];

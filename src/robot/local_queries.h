@@ -7,8 +7,10 @@
 #include "samples.h"
 
 typedef struct nsvcd__local {
-  nsvcd__frame frame;  // in the world
-  double rounding;     // metres: errors of both parts' poses in float, in sum, at most
+  // in the world
+  nsvcd__frame frame;
+  // metres: errors of both parts' poses in float, in sum, at most
+  double rounding;
 } nsvcd__local;
 
 // Fills in c->local. frames: of a and of b, (count) each, but one of a part that rests.
@@ -32,7 +34,7 @@ static nsvcd__local nsvcd__localize(nsvcd_checker *c, const nsvcd_body_pair *pai
 
 // The same of two parts in a configuration.
 static nsvcd__local nsvcd__localize_at(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                                       const nsvcd__configuration *at) {
+                                       const nsvcd__links *at) {
   const nsvcd__frame a = nsvcd__frame_of_part(c, at, pair->a);
   const nsvcd__frame b = nsvcd__frame_of_part(c, at, pair->b);
   const nsvcd__frame *const frames[2] = {&a, &b};

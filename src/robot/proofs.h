@@ -20,7 +20,8 @@ typedef struct nsvcd__carried {
   const nsvcd_checker *checker;
   nsvcd_joint_motion motion;
   size_t part;
-  size_t base;  // the link that it is seen from
+  // the link that it is seen from
+  size_t base;
 } nsvcd__carried;
 
 // The time in [0,1] at which a piece begins.

@@ -39,8 +39,8 @@ static nsvcd_result nsvcd__route_check(const nsvcd_checker *checker,
 
 static void nsvcd__trajectory_take(nsvcd__trajectory *t, char *base, uint64_t *used,
                                    size_t pieces, size_t joints) {
-  t->points = (double *)nsvcd__take(base, used, (2 * pieces + 1) * joints, sizeof(double));
-  t->times = (double *)nsvcd__take(base, used, pieces + 1, sizeof(double));
+  t->points = NSVCD__TAKE_ROWS(double, (2 * pieces + 1) * joints, base, used);
+  t->times = NSVCD__TAKE_ROWS(double, pieces + 1, base, used);
 }
 
 // Lays a router out at base, which is aligned, or, where that is NULL, only counts. Returns the
@@ -69,12 +69,12 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
   for (size_t k = 0; k < 2; k++) {
     nsvcd__rrt *t = &r->trees[k];
     t->joints = joints;
-    t->points = (double *)nsvcd__take(base, &used, nodes * joints, sizeof(double));
-    t->parents = (uint32_t *)nsvcd__take(base, &used, nodes, sizeof(uint32_t));
-    t->next = (uint32_t *)nsvcd__take(base, &used, nodes, sizeof(uint32_t));
-    t->cells = (nsvcd__cell *)nsvcd__take(base, &used, 2 * nodes, sizeof(nsvcd__cell));
+    t->points = NSVCD__TAKE_ROWS(double, (nodes * joints), base, &used);
+    t->parents = NSVCD__TAKE_ROWS(uint32_t, nodes, base, &used);
+    t->next = NSVCD__TAKE_ROWS(uint32_t, nodes, base, &used);
+    t->cells = NSVCD__TAKE_ROWS(nsvcd__cell, 2 * nodes, base, &used);
   }
-  r->goals = (size_t *)nsvcd__take(base, &used, problem->goal_count, sizeof(size_t));
+  r->goals = NSVCD__TAKE_ROWS(size_t, problem->goal_count, base, &used);
   // a shortcut from an edge to the next adds a corner
   const size_t rows = 2 * nodes + o->shortcuts;
   r->path = (double *)nsvcd__take(base, &used, rows, joints * sizeof(double));

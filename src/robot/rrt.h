@@ -11,18 +11,24 @@
 
 // A cell of the k-d tree.
 typedef struct nsvcd__cell {
-  double at;       // where it is cut; unused in a leaf
-  uint32_t joint;  // by which; NSVCD_MAX_JOINTS: a leaf
+  // where it is cut; unused in a leaf
+  double at;
+  // by which; NSVCD_MAX_JOINTS: a leaf
+  uint32_t joint;
   // its halves, one after another; of a leaf: its nodes, by `next`
   uint32_t first, count;
 } nsvcd__cell;
 
 typedef struct nsvcd__rrt {
   size_t joints, count, cell_count;
-  double *points;      // (nodes, F)
-  uint32_t *parents;   // (nodes): of a root, itself
-  uint32_t *next;      // (nodes): in a leaf
-  nsvcd__cell *cells;  // (2 nodes)
+  // (nodes, F)
+  double *points;
+  // (nodes): of a root, itself
+  uint32_t *parents;
+  // (nodes): in a leaf
+  uint32_t *next;
+  // (2 nodes)
+  nsvcd__cell *cells;
 } nsvcd__rrt;
 
 static double nsvcd__distance2(const double *a, const double *b, size_t joints) {

@@ -7,7 +7,7 @@
 #define NSVCD__FRAME_ROUNDING 1e-13
 
 // Places the parts that move, in a configuration, as sample k.
-static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__configuration *at, size_t k) {
+static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__links *at, size_t k) {
   const nsvcd_scene *scene = c->scene;
   double most = 0;
   for (size_t link = 1; link <= scene->joint_count; link++)
@@ -30,8 +30,8 @@ static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__configuration *at
 static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, size_t steps) {
   const nsvcd_scene *scene = c->scene;
   nsvcd__step step;
-  nsvcd__configuration *from = &c->at;
-  nsvcd__configuration *to = &c->next;
+  nsvcd__links *from = &c->at;
+  nsvcd__links *to = &c->next;
   for (size_t n = 0; n < scene->part_count; n++) c->members[n].deviation = 0;
   nsvcd_motion_at(motion, scene->joint_count, c->times[0], step.from);
   nsvcd__place_links(c, step.from, from);
@@ -48,7 +48,7 @@ static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, si
       c->deviations[k] = nsvcd__max(c->deviations[k], deviation);
       m->deviation = nsvcd__max(m->deviation, deviation);
     }
-    nsvcd__configuration *other = from;
+    nsvcd__links *other = from;
     from = to;
     to = other;
   }

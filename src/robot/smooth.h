@@ -36,12 +36,16 @@ typedef struct nsvcd__router {
   nsvcd_check_options check;
   uint64_t random;
   int is_stopped;
-  size_t idle[2];       // turns since each tree has grown
-  nsvcd__rrt trees[2];  // from the start, from the goals
+  // turns since each tree has grown
+  size_t idle[2];
+  // from the start, from the goals
+  nsvcd__rrt trees[2];
   // (F): the range of their roots
   double low[NSVCD_MAX_JOINTS], high[NSVCD_MAX_JOINTS];
-  size_t *goals;  // (G): of each root of trees[1], its goal
-  double *path;   // (nodes of both trees + shortcuts, F): corners
+  // (G): of each root of trees[1], its goal
+  size_t *goals;
+  // (nodes of both trees + shortcuts, F): corners
+  double *path;
   size_t corners;
   nsvcd__trajectory trajectory, other, blend;
   nsvcd_route_answer answer;
@@ -168,39 +172,27 @@ static int nsvcd__trajectory_append(const nsvcd__trajectory *t, size_t joints, d
   return 1;
 }
 
-// Writes what the trajectory would be with the blend in place of what is from time t0 to t1.
-// Returns 0 as nsvcd__trajectory_append does.
-static int nsvcd__splice(const nsvcd__router *r, double t0, double t1,
-                         nsvcd__trajectory *out) {
-  const size_t joints = r->joints;
-  const nsvcd__trajectory *t = &r->trajectory;
-  const nsvcd__trajectory *blend = &r->blend;
-  nsvcd__trajectory_begin(out, joints, t->points);
-  if (!nsvcd__trajectory_append(t, joints, 0, t0, out)) return 0;
-  if (out->motion.pieces + blend->motion.pieces > NSVCD__MOST_PIECES) return 0;
-  for (size_t p = 0; p < blend->motion.pieces; p++) {
-    const double *middle = blend->points + (2 * p + 1) * joints;
-    const double time = blend->times[p + 1] - blend->times[p];
-    nsvcd__trajectory_add(out, joints, middle, middle + joints,
-                          nsvcd__trajectory_end(out) + time);
-  }
-  return nsvcd__trajectory_append(t, joints, t1, nsvcd__trajectory_end(t), out);
-}
-
 // Replaces the trajectory from time t0 to t1 by a blend, if that is quicker by `gain` and proven.
 static nsvcd_result nsvcd__smooth_once(nsvcd__router *r, double t0, double t1, double gain) {
-  const nsvcd_joint_motion *m = &r->trajectory.motion;
+  const size_t joints = r->joints;
+  const nsvcd__trajectory *t = &r->trajectory;
+  nsvcd__trajectory *blend = &r->blend;
+  nsvcd__trajectory *out = &r->other;
   nsvcd__state from, to;
   int is_free;
-  nsvcd__joints_at_time(m, r->joints, t0, from.x, from.v);
-  nsvcd__joints_at_time(m, r->joints, t1, to.x, to.v);
-  if (!nsvcd__blend_write(r->scene, &from, &to, t1 - t0 - gain, &r->blend)) return NSVCD_OK;
-  if (!nsvcd__splice(r, t0, t1, &r->other)) return NSVCD_OK;
-  const nsvcd_result result = nsvcd__ask_motion(r, &r->blend.motion, &is_free);
+  nsvcd__joints_at_time(&t->motion, joints, t0, from.x, from.v);
+  nsvcd__joints_at_time(&t->motion, joints, t1, to.x, to.v);
+  if (!nsvcd__blend_write(r->scene, &from, &to, t1 - t0 - gain, blend)) return NSVCD_OK;
+  nsvcd__trajectory_begin(out, joints, t->points);
+  if (!nsvcd__trajectory_append(t, joints, 0, t0, out) ||
+      !nsvcd__trajectory_append(blend, joints, 0, nsvcd__trajectory_end(blend), out) ||
+      !nsvcd__trajectory_append(t, joints, t1, nsvcd__trajectory_end(t), out))
+    return NSVCD_OK;
+  const nsvcd_result result = nsvcd__ask_motion(r, &blend->motion, &is_free);
   if (result || !is_free) return result;
   const nsvcd__trajectory was = r->trajectory;
-  r->trajectory = r->other;
-  r->other = was;
+  r->trajectory = *out;
+  *out = was;
   return NSVCD_OK;
 }
 
