@@ -1154,7 +1154,7 @@ static nsvcd__d3 nsvcd__tree_middle(const nsvcd_tree *tree, uint32_t triangle) {
   return sum;
 }
 
-// Below 0: a triangle is before another one, whose key is given; above 0: after it.
+// Below 0: a triangle is before another one, whose key is given; above 0: it is after it.
 static int nsvcd__tree_order(const nsvcd_tree *tree, uint32_t triangle, uint32_t other,
                              double key, size_t axis) {
   const double own = nsvcd__d3_axis(nsvcd__tree_middle(tree, triangle), axis);
@@ -1162,8 +1162,8 @@ static int nsvcd__tree_order(const nsvcd_tree *tree, uint32_t triangle, uint32_t
   return triangle < other ? -1 : triangle > other;
 }
 
-// Sets the box of a node, and parts its triangles in two halves: by their middles, along the axis
-// along which these differ most, and of equals by number. Quickselect (Hoare 1961).
+// Sets the box of a node, and puts the lower half of its triangles first: by their middles, along
+// the axis along which these differ most, and of equals by number. Quickselect (Hoare 1961).
 static void nsvcd__cut_node(nsvcd_tree *tree, const nsvcd__node *node) {
   uint32_t *order = tree->order + node->first;
   nsvcd__box box;
@@ -1174,11 +1174,11 @@ static void nsvcd__cut_node(nsvcd_tree *tree, const nsvcd__node *node) {
     const nsvcd__d3 middle = nsvcd__tree_middle(tree, order[i]);
     least = nsvcd__d3_min(least, middle);
     most = nsvcd__d3_max(most, middle);
-  }
-  for (uint32_t i = 0; i < 3 * node->count; i++) {
-    const nsvcd__f3 x = nsvcd__f3_load(nsvcd__tree_corner(tree, order[i / 3], i % 3));
-    box.low = nsvcd__f3_min(box.low, x);
-    box.high = nsvcd__f3_max(box.high, x);
+    for (uint32_t k = 0; k < 3; k++) {
+      const nsvcd__f3 x = nsvcd__f3_load(nsvcd__tree_corner(tree, order[i], k));
+      box.low = nsvcd__f3_min(box.low, x);
+      box.high = nsvcd__f3_max(box.high, x);
+    }
   }
   tree->boxes[node->box] = box;
   const nsvcd__d3 sides = nsvcd__d3_stored(nsvcd__d3_sub(most, least));
@@ -1886,19 +1886,18 @@ typedef struct nsvcd__seen {
   double lengths, margin;
 } nsvcd__seen;
 
-static nsvcd__seen nsvcd__seen_by(const nsvcd__moving_tree *of,
-                                  const nsvcd__pose_matrix *of_at,
-                                  const nsvcd__moving_tree *by,
-                                  const nsvcd__pose_matrix *by_at) {
+static nsvcd__seen nsvcd__seen_at(const nsvcd__moving_tree *of, const nsvcd__moving_tree *by,
+                                  double t) {
   const nsvcd__node root = {0, 0, 1};
+  nsvcd__seen s = {of, by, nsvcd__pose_matrix_at(of, t), nsvcd__pose_matrix_at(by, t), 0, 0};
+  const double scale = by->model.scale;
   const double radii = nsvcd__node_radius(of, &root) + nsvcd__node_radius(by, &root);
-  const double apart = nsvcd__d3_length(nsvcd__d3_sub(of_at->at, by_at->at));
+  const double apart = nsvcd__d3_length(nsvcd__d3_sub(s.of_at.at, s.by_at.at));
   const double positions =
-      of->model.extent + by->model.extent + nsvcd__lengths_at(of_at, by_at);
-  const double lengths = 1.000001 * (radii + apart) / by->model.scale;
-  const double margin = NSVCD__CERTIFIED_MARGIN * (lengths + positions / by->model.scale);
-  const nsvcd__seen out = {of, by, *of_at, *by_at, lengths, margin};
-  return out;
+      of->model.extent + by->model.extent + nsvcd__lengths_at(&s.of_at, &s.by_at);
+  s.lengths = 1.000001 * (radii + apart) / scale;
+  s.margin = NSVCD__CERTIFIED_MARGIN * (s.lengths + positions / scale);
+  return s;
 }
 
 static nsvcd__d3 nsvcd__seen_vertex(const nsvcd__seen *s, uint32_t vertex) {
@@ -1963,9 +1962,11 @@ static int nsvcd__ray_misses(const nsvcd__box *box, nsvcd__d3 from, nsvcd__d3 al
          fabs(off.z) > size.x * half.y + size.y * half.x + margin;
 }
 
-// Sums what a ray crosses of the other body, by component: sums (vertices). Returns 0 where that is
-// not clear.
-static int nsvcd__cast(const nsvcd__seen *s, nsvcd__d3 from, nsvcd__d3 along, int32_t *sums) {
+// Casts a ray. *winding: how often the closed components of the other body wind about where it
+// begins. sums: (vertices), scratch: what it crosses, by component. Returns 0 where that is not
+// clear.
+static int nsvcd__cast(const nsvcd__seen *s, nsvcd__d3 from, nsvcd__d3 along, int32_t *sums,
+                       int *winding) {
   const nsvcd_tree *tree = s->by->tree;
   const double margin = s->margin * nsvcd__d3_length(along);
   nsvcd__node stack[NSVCD__TREE_STACK] = {{0, 0, (uint32_t)tree->mesh.triangle_count}};
@@ -1984,14 +1985,9 @@ static int nsvcd__cast(const nsvcd__seen *s, nsvcd__d3 from, nsvcd__d3 along, in
     if (crossed == NSVCD__UNCLEAR) return 0;
     sums[tree->component[tree->mesh.indices[3 * (size_t)triangle]]] += crossed;
   }
+  *winding = 0;
+  for (size_t v = 0; v < tree->mesh.vertex_count; v++) *winding += tree->open[v] ? 0 : sums[v];
   return 1;
-}
-
-// How often the closed components wind about where a ray begins.
-static int nsvcd__sum_of_closed(const nsvcd_tree *tree, const int32_t *sums) {
-  int sum = 0;
-  for (size_t v = 0; v < tree->mesh.vertex_count; v++) sum += tree->open[v] ? 0 : sums[v];
-  return sum;
 }
 
 // ----------------------------------------------------------------------------- certificate/certify
@@ -2055,7 +2051,7 @@ static void nsvcd__write_bits(nsvcd__certifier *c, uint32_t value, int count) {
   }
 }
 
-// The normal remembered k > 0 before the last; where k is REMEMBERED, a new one. It becomes the
+// The normal that is k > 0 before the last, or, where k is REMEMBERED, a new one. It becomes the
 // last.
 static void nsvcd__write_normal(nsvcd__certifier *c, size_t k,
                                 const nsvcd__coded_normal *normal) {
@@ -2076,7 +2072,7 @@ static void nsvcd__write_normal(nsvcd__certifier *c, size_t k,
 static void nsvcd__write_head(nsvcd__certifier *c, uint32_t kind) {
   const uint32_t digests[3] = {c->a.tree->digest, c->b.tree->digest, c->digest};
   c->bits = 0;
-  // a reader begins with none
+  // a reader has none yet
   memset(c->normals, 0, sizeof c->normals);
   nsvcd__write_bits(c, 1, 6);
   nsvcd__write_bits(c, kind, 2);
@@ -2084,14 +2080,6 @@ static void nsvcd__write_head(nsvcd__certifier *c, uint32_t kind) {
     const uint32_t half = digests[k] ^ digests[k] >> 16;
     nsvcd__write_bits(c, k < 2 ? (half ^ half >> 8) & 0xff : half & 0xffff, k < 2 ? 8 : 16);
   }
-}
-
-// A time as it is written: the nearest.
-static uint32_t nsvcd__time_code(double t) {
-  return (uint32_t)(nsvcd__max(0, nsvcd__min(t, 1)) * 4294967295.0 + 0.5);
-}
-static double nsvcd__coded_time(uint32_t code) {
-  return (double)code / 4294967295.0;
 }
 
 // ---- hits
@@ -2111,9 +2099,9 @@ static uint32_t nsvcd__piercing_edge(const nsvcd__seen *s, uint32_t own, uint32_
   return NSVCD__NO_EDGE;
 }
 
-// A point of a triangle as it is written: the fraction from the first corner to a point between the
-// others, and that of the point from the second corner to the third. Returns the point that is
-// read.
+// A point of a triangle as it is written. A line from the first corner through it meets the opposite
+// side: code[0] says how far along that line the point is, code[1] where on the side they meet.
+// Returns the point that is read.
 static nsvcd__d3 nsvcd__point_code(const nsvcd__d3 *t, nsvcd__d3 x, uint32_t *code) {
   const nsvcd__d3 n = nsvcd__face_normal(t);
   const nsvcd__d3 off = nsvcd__d3_sub(x, t[0]);
@@ -2135,7 +2123,9 @@ static nsvcd__d3 nsvcd__point_code(const nsvcd__d3 *t, nsvcd__d3 x, uint32_t *co
 static int nsvcd__near_at(const nsvcd__certifier *c, const nsvcd__seen *s, uint32_t ta,
                           uint32_t tb, uint32_t *codes) {
   nsvcd__d3 a[3], b[3];
-  const nsvcd__seen own = nsvcd__seen_by(s->by, &s->by_at, s->by, &s->by_at);
+  nsvcd__seen own = *s;
+  own.of = s->by;
+  own.of_at = s->by_at;
   nsvcd__seen_triangle(s, ta, a);
   nsvcd__seen_triangle(&own, tb, b);
   const nsvcd__nearest nearest = nsvcd__nearest_of(a, b);
@@ -2147,21 +2137,21 @@ static int nsvcd__near_at(const nsvcd__certifier *c, const nsvcd__seen *s, uint3
 
 // Do two triangles meet at a time, or come within the clearance? Then it writes the certificate.
 static int nsvcd__meet_at(nsvcd__certifier *c, double when, uint32_t ta, uint32_t tb) {
-  const uint32_t code = nsvcd__time_code(when);
-  const double t = nsvcd__coded_time(code);
-  const nsvcd__pose_matrix a = nsvcd__pose_matrix_at(&c->a, t);
-  const nsvcd__pose_matrix b = nsvcd__pose_matrix_at(&c->b, t);
-  const nsvcd__seen a_by_b = nsvcd__seen_by(&c->a, &a, &c->b, &b);
-  const nsvcd__seen b_by_a = nsvcd__seen_by(&c->b, &b, &c->a, &a);
+  // the nearest time that can be written
+  const double most = 4294967295.0;
+  const uint32_t code = (uint32_t)(nsvcd__max(0, nsvcd__min(when, 1)) * most + 0.5);
+  const double t = (double)code / most;
+  const nsvcd__seen a = nsvcd__seen_at(&c->a, &c->b, t);
+  const nsvcd__seen b = nsvcd__seen_at(&c->b, &c->a, t);
   uint32_t points[4];
   uint32_t whose = 0;
-  uint32_t edge = nsvcd__piercing_edge(&a_by_b, ta, tb);
+  uint32_t edge = nsvcd__piercing_edge(&a, ta, tb);
   if (edge == NSVCD__NO_EDGE) {
     whose = 1;
-    edge = nsvcd__piercing_edge(&b_by_a, tb, ta);
+    edge = nsvcd__piercing_edge(&b, tb, ta);
   }
   const int pierced = edge != NSVCD__NO_EDGE;
-  if (!pierced && !(c->interval.clearance > 0 && nsvcd__near_at(c, &a_by_b, ta, tb, points)))
+  if (!pierced && !(c->interval.clearance > 0 && nsvcd__near_at(c, &a, ta, tb, points)))
     return 0;
   nsvcd__write_head(c, pierced ? NSVCD__PROVES_HIT : NSVCD__PROVES_NEAR);
   nsvcd__write_bits(c, code, 32);
@@ -2306,9 +2296,7 @@ static nsvcd__coded_normal nsvcd__ray_to_try(size_t k, uint64_t *random) {
 static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
   const nsvcd__moving_tree *of = whose ? &c->b : &c->a;
   const nsvcd__moving_tree *by = whose ? &c->a : &c->b;
-  const nsvcd__pose_matrix of_at = nsvcd__pose_matrix_at(of, 0);
-  const nsvcd__pose_matrix by_at = nsvcd__pose_matrix_at(by, 0);
-  const nsvcd__seen s = nsvcd__seen_by(of, &of_at, by, &by_at);
+  const nsvcd__seen s = nsvcd__seen_at(of, by, 0);
   uint64_t random = 1;
   for (uint32_t v = 0; v < of->tree->mesh.vertex_count; v++) {
     if (of->tree->component[v] != v) continue;
@@ -2318,15 +2306,15 @@ static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
       const int same = k == 0;
       const nsvcd__coded_normal ray = nsvcd__ray_to_try(same ? 0 : k - 1, &random);
       const nsvcd__d3 along = same ? c->normals[0] : ray.along;
-      if (!nsvcd__cast(&s, from, along, c->sums)) continue;
-      const int sum = nsvcd__sum_of_closed(by->tree, c->sums);
-      shown = sum == 0;
+      int winding;
+      if (!nsvcd__cast(&s, from, along, c->sums, &winding)) continue;
+      shown = winding == 0;
       if (shown) {
         nsvcd__write_bits(c, (uint32_t)same, 1);
         if (!same) nsvcd__write_normal(c, NSVCD__REMEMBERED, &ray);
-      } else if (!same && sum != 0) {
+      } else if (!same) {
         nsvcd__write_head(c, NSVCD__PROVES_INSIDE);
-        nsvcd__write_bits(c, nsvcd__time_code(0), 32);
+        nsvcd__write_bits(c, 0, 32);
         nsvcd__write_bits(c, (uint32_t)whose, 1);
         nsvcd__write_bits(c, v, 32);
         nsvcd__write_normal(c, NSVCD__REMEMBERED, &ray);

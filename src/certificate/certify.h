@@ -61,7 +61,7 @@ static void nsvcd__write_bits(nsvcd__certifier *c, uint32_t value, int count) {
   }
 }
 
-// The normal remembered k > 0 before the last; where k is REMEMBERED, a new one. It becomes the
+// The normal that is k > 0 before the last, or, where k is REMEMBERED, a new one. It becomes the
 // last.
 static void nsvcd__write_normal(nsvcd__certifier *c, size_t k,
                                 const nsvcd__coded_normal *normal) {
@@ -82,7 +82,7 @@ static void nsvcd__write_normal(nsvcd__certifier *c, size_t k,
 static void nsvcd__write_head(nsvcd__certifier *c, uint32_t kind) {
   const uint32_t digests[3] = {c->a.tree->digest, c->b.tree->digest, c->digest};
   c->bits = 0;
-  // a reader begins with none
+  // a reader has none yet
   memset(c->normals, 0, sizeof c->normals);
   nsvcd__write_bits(c, 1, 6);
   nsvcd__write_bits(c, kind, 2);
@@ -90,14 +90,6 @@ static void nsvcd__write_head(nsvcd__certifier *c, uint32_t kind) {
     const uint32_t half = digests[k] ^ digests[k] >> 16;
     nsvcd__write_bits(c, k < 2 ? (half ^ half >> 8) & 0xff : half & 0xffff, k < 2 ? 8 : 16);
   }
-}
-
-// A time as it is written: the nearest.
-static uint32_t nsvcd__time_code(double t) {
-  return (uint32_t)(nsvcd__max(0, nsvcd__min(t, 1)) * 4294967295.0 + 0.5);
-}
-static double nsvcd__coded_time(uint32_t code) {
-  return (double)code / 4294967295.0;
 }
 
 // ---- hits
@@ -117,9 +109,9 @@ static uint32_t nsvcd__piercing_edge(const nsvcd__seen *s, uint32_t own, uint32_
   return NSVCD__NO_EDGE;
 }
 
-// A point of a triangle as it is written: the fraction from the first corner to a point between the
-// others, and that of the point from the second corner to the third. Returns the point that is
-// read.
+// A point of a triangle as it is written. A line from the first corner through it meets the opposite
+// side: code[0] says how far along that line the point is, code[1] where on the side they meet.
+// Returns the point that is read.
 static nsvcd__d3 nsvcd__point_code(const nsvcd__d3 *t, nsvcd__d3 x, uint32_t *code) {
   const nsvcd__d3 n = nsvcd__face_normal(t);
   const nsvcd__d3 off = nsvcd__d3_sub(x, t[0]);
@@ -141,7 +133,9 @@ static nsvcd__d3 nsvcd__point_code(const nsvcd__d3 *t, nsvcd__d3 x, uint32_t *co
 static int nsvcd__near_at(const nsvcd__certifier *c, const nsvcd__seen *s, uint32_t ta,
                           uint32_t tb, uint32_t *codes) {
   nsvcd__d3 a[3], b[3];
-  const nsvcd__seen own = nsvcd__seen_by(s->by, &s->by_at, s->by, &s->by_at);
+  nsvcd__seen own = *s;
+  own.of = s->by;
+  own.of_at = s->by_at;
   nsvcd__seen_triangle(s, ta, a);
   nsvcd__seen_triangle(&own, tb, b);
   const nsvcd__nearest nearest = nsvcd__nearest_of(a, b);
@@ -153,21 +147,21 @@ static int nsvcd__near_at(const nsvcd__certifier *c, const nsvcd__seen *s, uint3
 
 // Do two triangles meet at a time, or come within the clearance? Then it writes the certificate.
 static int nsvcd__meet_at(nsvcd__certifier *c, double when, uint32_t ta, uint32_t tb) {
-  const uint32_t code = nsvcd__time_code(when);
-  const double t = nsvcd__coded_time(code);
-  const nsvcd__pose_matrix a = nsvcd__pose_matrix_at(&c->a, t);
-  const nsvcd__pose_matrix b = nsvcd__pose_matrix_at(&c->b, t);
-  const nsvcd__seen a_by_b = nsvcd__seen_by(&c->a, &a, &c->b, &b);
-  const nsvcd__seen b_by_a = nsvcd__seen_by(&c->b, &b, &c->a, &a);
+  // the nearest time that can be written
+  const double most = 4294967295.0;
+  const uint32_t code = (uint32_t)(nsvcd__max(0, nsvcd__min(when, 1)) * most + 0.5);
+  const double t = (double)code / most;
+  const nsvcd__seen a = nsvcd__seen_at(&c->a, &c->b, t);
+  const nsvcd__seen b = nsvcd__seen_at(&c->b, &c->a, t);
   uint32_t points[4];
   uint32_t whose = 0;
-  uint32_t edge = nsvcd__piercing_edge(&a_by_b, ta, tb);
+  uint32_t edge = nsvcd__piercing_edge(&a, ta, tb);
   if (edge == NSVCD__NO_EDGE) {
     whose = 1;
-    edge = nsvcd__piercing_edge(&b_by_a, tb, ta);
+    edge = nsvcd__piercing_edge(&b, tb, ta);
   }
   const int pierced = edge != NSVCD__NO_EDGE;
-  if (!pierced && !(c->interval.clearance > 0 && nsvcd__near_at(c, &a_by_b, ta, tb, points)))
+  if (!pierced && !(c->interval.clearance > 0 && nsvcd__near_at(c, &a, ta, tb, points)))
     return 0;
   nsvcd__write_head(c, pierced ? NSVCD__PROVES_HIT : NSVCD__PROVES_NEAR);
   nsvcd__write_bits(c, code, 32);
@@ -312,9 +306,7 @@ static nsvcd__coded_normal nsvcd__ray_to_try(size_t k, uint64_t *random) {
 static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
   const nsvcd__moving_tree *of = whose ? &c->b : &c->a;
   const nsvcd__moving_tree *by = whose ? &c->a : &c->b;
-  const nsvcd__pose_matrix of_at = nsvcd__pose_matrix_at(of, 0);
-  const nsvcd__pose_matrix by_at = nsvcd__pose_matrix_at(by, 0);
-  const nsvcd__seen s = nsvcd__seen_by(of, &of_at, by, &by_at);
+  const nsvcd__seen s = nsvcd__seen_at(of, by, 0);
   uint64_t random = 1;
   for (uint32_t v = 0; v < of->tree->mesh.vertex_count; v++) {
     if (of->tree->component[v] != v) continue;
@@ -324,15 +316,15 @@ static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
       const int same = k == 0;
       const nsvcd__coded_normal ray = nsvcd__ray_to_try(same ? 0 : k - 1, &random);
       const nsvcd__d3 along = same ? c->normals[0] : ray.along;
-      if (!nsvcd__cast(&s, from, along, c->sums)) continue;
-      const int sum = nsvcd__sum_of_closed(by->tree, c->sums);
-      shown = sum == 0;
+      int winding;
+      if (!nsvcd__cast(&s, from, along, c->sums, &winding)) continue;
+      shown = winding == 0;
       if (shown) {
         nsvcd__write_bits(c, (uint32_t)same, 1);
         if (!same) nsvcd__write_normal(c, NSVCD__REMEMBERED, &ray);
-      } else if (!same && sum != 0) {
+      } else if (!same) {
         nsvcd__write_head(c, NSVCD__PROVES_INSIDE);
-        nsvcd__write_bits(c, nsvcd__time_code(0), 32);
+        nsvcd__write_bits(c, 0, 32);
         nsvcd__write_bits(c, (uint32_t)whose, 1);
         nsvcd__write_bits(c, v, 32);
         nsvcd__write_normal(c, NSVCD__REMEMBERED, &ray);

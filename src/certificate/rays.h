@@ -13,19 +13,18 @@ typedef struct nsvcd__seen {
   double lengths, margin;
 } nsvcd__seen;
 
-static nsvcd__seen nsvcd__seen_by(const nsvcd__moving_tree *of,
-                                  const nsvcd__pose_matrix *of_at,
-                                  const nsvcd__moving_tree *by,
-                                  const nsvcd__pose_matrix *by_at) {
+static nsvcd__seen nsvcd__seen_at(const nsvcd__moving_tree *of, const nsvcd__moving_tree *by,
+                                  double t) {
   const nsvcd__node root = {0, 0, 1};
+  nsvcd__seen s = {of, by, nsvcd__pose_matrix_at(of, t), nsvcd__pose_matrix_at(by, t), 0, 0};
+  const double scale = by->model.scale;
   const double radii = nsvcd__node_radius(of, &root) + nsvcd__node_radius(by, &root);
-  const double apart = nsvcd__d3_length(nsvcd__d3_sub(of_at->at, by_at->at));
+  const double apart = nsvcd__d3_length(nsvcd__d3_sub(s.of_at.at, s.by_at.at));
   const double positions =
-      of->model.extent + by->model.extent + nsvcd__lengths_at(of_at, by_at);
-  const double lengths = 1.000001 * (radii + apart) / by->model.scale;
-  const double margin = NSVCD__CERTIFIED_MARGIN * (lengths + positions / by->model.scale);
-  const nsvcd__seen out = {of, by, *of_at, *by_at, lengths, margin};
-  return out;
+      of->model.extent + by->model.extent + nsvcd__lengths_at(&s.of_at, &s.by_at);
+  s.lengths = 1.000001 * (radii + apart) / scale;
+  s.margin = NSVCD__CERTIFIED_MARGIN * (s.lengths + positions / scale);
+  return s;
 }
 
 static nsvcd__d3 nsvcd__seen_vertex(const nsvcd__seen *s, uint32_t vertex) {
@@ -90,9 +89,11 @@ static int nsvcd__ray_misses(const nsvcd__box *box, nsvcd__d3 from, nsvcd__d3 al
          fabs(off.z) > size.x * half.y + size.y * half.x + margin;
 }
 
-// Sums what a ray crosses of the other body, by component: sums (vertices). Returns 0 where that is
-// not clear.
-static int nsvcd__cast(const nsvcd__seen *s, nsvcd__d3 from, nsvcd__d3 along, int32_t *sums) {
+// Casts a ray. *winding: how often the closed components of the other body wind about where it
+// begins. sums: (vertices), scratch: what it crosses, by component. Returns 0 where that is not
+// clear.
+static int nsvcd__cast(const nsvcd__seen *s, nsvcd__d3 from, nsvcd__d3 along, int32_t *sums,
+                       int *winding) {
   const nsvcd_tree *tree = s->by->tree;
   const double margin = s->margin * nsvcd__d3_length(along);
   nsvcd__node stack[NSVCD__TREE_STACK] = {{0, 0, (uint32_t)tree->mesh.triangle_count}};
@@ -111,12 +112,7 @@ static int nsvcd__cast(const nsvcd__seen *s, nsvcd__d3 from, nsvcd__d3 along, in
     if (crossed == NSVCD__UNCLEAR) return 0;
     sums[tree->component[tree->mesh.indices[3 * (size_t)triangle]]] += crossed;
   }
+  *winding = 0;
+  for (size_t v = 0; v < tree->mesh.vertex_count; v++) *winding += tree->open[v] ? 0 : sums[v];
   return 1;
-}
-
-// How often the closed components wind about where a ray begins.
-static int nsvcd__sum_of_closed(const nsvcd_tree *tree, const int32_t *sums) {
-  int sum = 0;
-  for (size_t v = 0; v < tree->mesh.vertex_count; v++) sum += tree->open[v] ? 0 : sums[v];
-  return sum;
 }

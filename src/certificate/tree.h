@@ -60,7 +60,7 @@ static nsvcd__d3 nsvcd__tree_middle(const nsvcd_tree *tree, uint32_t triangle) {
   return sum;
 }
 
-// Below 0: a triangle is before another one, whose key is given; above 0: after it.
+// Below 0: a triangle is before another one, whose key is given; above 0: it is after it.
 static int nsvcd__tree_order(const nsvcd_tree *tree, uint32_t triangle, uint32_t other,
                              double key, size_t axis) {
   const double own = nsvcd__d3_axis(nsvcd__tree_middle(tree, triangle), axis);
@@ -68,8 +68,8 @@ static int nsvcd__tree_order(const nsvcd_tree *tree, uint32_t triangle, uint32_t
   return triangle < other ? -1 : triangle > other;
 }
 
-// Sets the box of a node, and parts its triangles in two halves: by their middles, along the axis
-// along which these differ most, and of equals by number. Quickselect (Hoare 1961).
+// Sets the box of a node, and puts the lower half of its triangles first: by their middles, along
+// the axis along which these differ most, and of equals by number. Quickselect (Hoare 1961).
 static void nsvcd__cut_node(nsvcd_tree *tree, const nsvcd__node *node) {
   uint32_t *order = tree->order + node->first;
   nsvcd__box box;
@@ -80,11 +80,11 @@ static void nsvcd__cut_node(nsvcd_tree *tree, const nsvcd__node *node) {
     const nsvcd__d3 middle = nsvcd__tree_middle(tree, order[i]);
     least = nsvcd__d3_min(least, middle);
     most = nsvcd__d3_max(most, middle);
-  }
-  for (uint32_t i = 0; i < 3 * node->count; i++) {
-    const nsvcd__f3 x = nsvcd__f3_load(nsvcd__tree_corner(tree, order[i / 3], i % 3));
-    box.low = nsvcd__f3_min(box.low, x);
-    box.high = nsvcd__f3_max(box.high, x);
+    for (uint32_t k = 0; k < 3; k++) {
+      const nsvcd__f3 x = nsvcd__f3_load(nsvcd__tree_corner(tree, order[i], k));
+      box.low = nsvcd__f3_min(box.low, x);
+      box.high = nsvcd__f3_max(box.high, x);
+    }
   }
   tree->boxes[node->box] = box;
   const nsvcd__d3 sides = nsvcd__d3_stored(nsvcd__d3_sub(most, least));
