@@ -1572,15 +1572,16 @@ static nsvcd_result nsvcd__model_of(const nsvcd_mover *mover, nsvcd_mover *meant
 // Both bodies at a time, and how far points leave their chords to the next instant.
 typedef struct nsvcd__instant {
   double t;
-  nsvcd__pose_matrix a, b;
+  nsvcd__pose_matrix poses[2];
   // of both positions, and of what they are computed from
   double lengths;
-  nsvcd_deviation deviation_a, deviation_b;
+  nsvcd_deviation deviations[2];
 } nsvcd__instant;
 
 // An interval of time: instants at both ends, and at all keyframes between.
 typedef struct nsvcd__tree_interval {
-  const nsvcd__moving_tree *a, *b;
+  // (2)
+  const nsvcd__moving_tree *bodies;
   double clearance;
   // (capacity)
   nsvcd__instant *instants;
@@ -1591,10 +1592,14 @@ typedef struct nsvcd__tree_interval {
 } nsvcd__tree_interval;
 
 // A node of each tree, and bounds of the distances of their points from their bodies' origins.
-typedef struct nsvcd__nodes {
-  nsvcd__node a, b;
-  double radius_a, radius_b;
-} nsvcd__nodes;
+typedef struct nsvcd__node_pair {
+  nsvcd__node nodes[2];
+  double radii[2];
+} nsvcd__node_pair;
+
+static int nsvcd__are_leaves(const nsvcd__node_pair *pair) {
+  return pair->nodes[0].count == 1 && pair->nodes[1].count == 1;
+}
 
 // A direction as it is written: two whole numbers.
 typedef struct nsvcd__coded_normal {
@@ -1609,14 +1614,15 @@ static double nsvcd__lengths_at(const nsvcd__pose_matrix *a, const nsvcd__pose_m
          fabs(b->at.z);
 }
 
-static nsvcd__instant nsvcd__instant_at(const nsvcd__moving_tree *a,
-                                        const nsvcd__moving_tree *b, double t) {
+static nsvcd__instant nsvcd__instant_at(const nsvcd__moving_tree *bodies, double t) {
   nsvcd__instant at;
   memset(&at, 0, sizeof at);
   at.t = t;
-  at.a = nsvcd__pose_matrix_at(a, t);
-  at.b = nsvcd__pose_matrix_at(b, t);
-  at.lengths = a->model.extent + b->model.extent + nsvcd__lengths_at(&at.a, &at.b);
+  for (size_t n = 0; n < 2; n++) {
+    at.poses[n] = nsvcd__pose_matrix_at(&bodies[n], t);
+    at.lengths += bodies[n].model.extent;
+  }
+  at.lengths += nsvcd__lengths_at(&at.poses[0], &at.poses[1]);
   return at;
 }
 
@@ -1624,20 +1630,24 @@ static nsvcd__instant nsvcd__instant_at(const nsvcd__moving_tree *a,
 static int nsvcd__tree_interval_to(nsvcd__tree_interval *s, double t0, double t1) {
   if (s->count > 0 && !(s->t0 < t0) && !(s->t0 > t0) && !(s->t1 < t1) && !(s->t1 > t1))
     return 1;
-  const nsvcd_motion_model *a = &s->a->model;
-  const nsvcd_motion_model *b = &s->b->model;
   double t = t0;
   s->t0 = t0;
   s->t1 = t1;
   s->middle.t = -1;
   for (s->count = 0; s->count < s->capacity;) {
     nsvcd__instant *at = &s->instants[s->count++];
-    *at = nsvcd__instant_at(s->a, s->b, t);
+    double next = t1;
+    *at = nsvcd__instant_at(s->bodies, t);
     if (!(t < t1)) return 1;
-    t = nsvcd__min(a->next(a->motion, t), b->next(b->motion, t));
-    t = nsvcd__min(t, t1);
-    at->deviation_a = a->deviation(a->motion, at->t, t);
-    at->deviation_b = b->deviation(b->motion, at->t, t);
+    for (size_t n = 0; n < 2; n++) {
+      const nsvcd_motion_model *m = &s->bodies[n].model;
+      next = nsvcd__min(m->next(m->motion, t), next);
+    }
+    for (size_t n = 0; n < 2; n++) {
+      const nsvcd_motion_model *m = &s->bodies[n].model;
+      at->deviations[n] = m->deviation(m->motion, t, next);
+    }
+    t = next;
   }
   return 0;
 }
@@ -1670,17 +1680,28 @@ static nsvcd__d3 nsvcd__turned_by(const nsvcd__moving_tree *moving,
   return nsvcd__d3_scale(nsvcd__dmat3_apply(&at->turn, x), moving->model.scale);
 }
 
+// A direction of the world in a body's frame; for a, reversed: from each node to the other.
+static nsvcd__d3 nsvcd__inward(const nsvcd__instant *at, size_t n, nsvcd__d3 along) {
+  const nsvcd__d3 in = nsvcd__dmat3_apply_transpose(&at->poses[n].turn, along);
+  return nsvcd__d3_scale(in, n ? 1 : -1);
+}
+
+static nsvcd__d3 nsvcd__offset_at(const nsvcd__instant *at) {
+  return nsvcd__d3_sub(at->poses[0].at, at->poses[1].at);
+}
+
 // Of all points a and b of two nodes, the difference a - b that is least along a direction.
-static nsvcd__d3 nsvcd__least_apart(const nsvcd__tree_interval *s, const nsvcd__nodes *nodes,
-                                    const nsvcd__instant *at, nsvcd__d3 along) {
-  const nsvcd__d3 back = nsvcd__d3_scale(along, -1);
-  const nsvcd__d3 in_a = nsvcd__dmat3_apply_transpose(&at->a.turn, back);
-  const nsvcd__d3 in_b = nsvcd__dmat3_apply_transpose(&at->b.turn, along);
-  const nsvcd__d3 a = nsvcd__farthest(s->a->tree, &nodes->a, in_a);
-  const nsvcd__d3 b = nsvcd__farthest(s->b->tree, &nodes->b, in_b);
-  const nsvcd__d3 turned =
-      nsvcd__d3_sub(nsvcd__turned_by(s->a, &at->a, a), nsvcd__turned_by(s->b, &at->b, b));
-  return nsvcd__d3_add(turned, nsvcd__d3_sub(at->a.at, at->b.at));
+static nsvcd__d3 nsvcd__least_apart(const nsvcd__tree_interval *s,
+                                    const nsvcd__node_pair *pair, const nsvcd__instant *at,
+                                    nsvcd__d3 along) {
+  nsvcd__d3 ends[2];
+  for (size_t n = 0; n < 2; n++) {
+    const nsvcd__moving_tree *body = &s->bodies[n];
+    const nsvcd__d3 in = nsvcd__inward(at, n, along);
+    const nsvcd__d3 x = nsvcd__farthest(body->tree, &pair->nodes[n], in);
+    ends[n] = nsvcd__turned_by(body, &at->poses[n], x);
+  }
+  return nsvcd__d3_add(nsvcd__d3_sub(ends[0], ends[1]), nsvcd__offset_at(at));
 }
 
 // The extent of a node along a direction in its frame. Three maxima side by side: each waits for
@@ -1701,14 +1722,16 @@ static double nsvcd__extent_along(const nsvcd_tree *tree, const nsvcd__node *nod
 }
 
 // How far apart two nodes are along a direction, times its length.
-static double nsvcd__distance_along(const nsvcd__tree_interval *s, const nsvcd__nodes *nodes,
-                                    const nsvcd__instant *at, nsvcd__d3 along) {
-  const nsvcd__d3 in_a = nsvcd__dmat3_apply_transpose(&at->a.turn, along);
-  const nsvcd__d3 in_b = nsvcd__dmat3_apply_transpose(&at->b.turn, along);
-  const nsvcd__d3 back = nsvcd__d3_scale(in_a, -1);
-  const double a = s->a->model.scale * nsvcd__extent_along(s->a->tree, &nodes->a, back);
-  const double b = s->b->model.scale * nsvcd__extent_along(s->b->tree, &nodes->b, in_b);
-  return nsvcd__d3_dot(along, nsvcd__d3_sub(at->a.at, at->b.at)) - (a + b);
+static double nsvcd__distance_along(const nsvcd__tree_interval *s,
+                                    const nsvcd__node_pair *pair, const nsvcd__instant *at,
+                                    nsvcd__d3 along) {
+  double extents = 0;
+  for (size_t n = 0; n < 2; n++) {
+    const nsvcd__moving_tree *body = &s->bodies[n];
+    const nsvcd__d3 in = nsvcd__inward(at, n, along);
+    extents += body->model.scale * nsvcd__extent_along(body->tree, &pair->nodes[n], in);
+  }
+  return nsvcd__d3_dot(along, nsvcd__offset_at(at)) - extents;
 }
 
 static double nsvcd__node_radius(const nsvcd__moving_tree *moving, const nsvcd__node *node) {
@@ -1742,39 +1765,38 @@ static double nsvcd__node_axis_radius(const nsvcd__moving_tree *moving,
   return 1.000002 * moving->model.scale * sqrt(square);
 }
 
-// How far the points of a node, at r metres at most, leave their chords along a direction, times
-// its length.
-static double nsvcd__node_deviation(const nsvcd__moving_tree *moving, const nsvcd__node *node,
-                                    double r, const nsvcd__pose_matrix *at,
-                                    const nsvcd_deviation *d, nsvcd__d3 along) {
-  const double any = nsvcd__d3_length(along) * (d->base + d->per_metre * r);
+// How far points of a node leave their chords after an instant along a direction, times its length.
+static double nsvcd__node_deviation(const nsvcd__moving_tree *body,
+                                    const nsvcd__node_pair *pair, const nsvcd__instant *at,
+                                    size_t n, nsvcd__d3 along) {
+  const nsvcd_deviation *d = &at->deviations[n];
+  const double any = nsvcd__d3_length(along) * (d->base + d->per_metre * pair->radii[n]);
   if (!(d->turn > 0)) return any;
   const nsvcd__d3 own = nsvcd__d3_of(d->axis[0], d->axis[1], d->axis[2]);
-  const nsvcd__d3 axis = nsvcd__dmat3_apply(&at->turn, own);
+  const nsvcd__d3 axis = nsvcd__dmat3_apply(&at->poses[n].turn, own);
   const double across = nsvcd__d3_length(nsvcd__d3_cross(along, axis));
-  return any + d->turn * across * nsvcd__node_axis_radius(moving, node, own);
+  return any + d->turn * across * nsvcd__node_axis_radius(body, &pair->nodes[n], own);
 }
 
 // Does a plane of this normal separate two nodes, at all instants and between them?
-static int nsvcd__plane_separates_nodes(const nsvcd__tree_interval *s,
-                                        const nsvcd__nodes *nodes, nsvcd__d3 along) {
+static int nsvcd__separates(const nsvcd__tree_interval *s, const nsvcd__node_pair *pair,
+                            nsvcd__d3 along) {
   const double length = nsvcd__d3_length(along);
-  const double ra = nodes->radius_a;
-  const double rb = nodes->radius_b;
   double last = HUGE_VAL;
   double last_lengths = 0;
   double deviation = 0;
   for (size_t i = 0; i < s->count; i++) {
     const nsvcd__instant *at = &s->instants[i];
-    const double lengths = ra + rb + s->clearance + at->lengths;
-    const double distance = nsvcd__distance_along(s, nodes, at, along);
+    const double lengths = pair->radii[0] + pair->radii[1] + s->clearance + at->lengths;
+    const double distance = nsvcd__distance_along(s, pair, at, along);
     const double margin = NSVCD__CERTIFIED_MARGIN * nsvcd__max(lengths, last_lengths);
     const double least = length * (s->clearance + margin) + deviation;
     if (!(distance > least && last > least)) return 0;
     last = distance;
     last_lengths = lengths;
-    deviation = nsvcd__node_deviation(s->a, &nodes->a, ra, &at->a, &at->deviation_a, along);
-    deviation += nsvcd__node_deviation(s->b, &nodes->b, rb, &at->b, &at->deviation_b, along);
+    deviation = 0;
+    for (size_t n = 0; n < 2; n++)
+      deviation += nsvcd__node_deviation(&s->bodies[n], pair, at, n, along);
   }
   return 1;
 }
@@ -1814,15 +1836,15 @@ typedef struct nsvcd__best {
 
 // Gilbert's iteration (1966) towards the point of a - b that is nearest to the origin. It ends
 // where the best direction is nearly as good as the nearest point allows.
-static nsvcd__best nsvcd__gilbert(const nsvcd__tree_interval *s, const nsvcd__nodes *nodes,
+static nsvcd__best nsvcd__gilbert(const nsvcd__tree_interval *s, const nsvcd__node_pair *pair,
                                   const nsvcd__instant *at, nsvcd__d3 along) {
   nsvcd__best best = {along, -HUGE_VAL};
-  nsvcd__d3 v = nsvcd__least_apart(s, nodes, at, along);
+  nsvcd__d3 v = nsvcd__least_apart(s, pair, at, along);
   const double first = nsvcd__d3_length(v);
   for (int n = 0; n < NSVCD__GILBERT_STEPS; n++) {
     const double length = nsvcd__d3_length(v);
     if (!(length > NSVCD__GILBERT_LEAST * first)) break;
-    const nsvcd__d3 w = nsvcd__least_apart(s, nodes, at, v);
+    const nsvcd__d3 w = nsvcd__least_apart(s, pair, at, v);
     const double distance = nsvcd__d3_dot(v, w) / length;
     if (distance > best.distance) {
       best.along = v;
@@ -1838,36 +1860,33 @@ static nsvcd__best nsvcd__gilbert(const nsvcd__tree_interval *s, const nsvcd__no
   return best;
 }
 
-// A leaf's triangle, turned as the world is, around an origin.
-static void nsvcd__leaf_corners(const nsvcd__moving_tree *moving, const nsvcd__node *node,
-                                const nsvcd__pose_matrix *at, nsvcd__d3 offset,
-                                nsvcd__d3 *corners) {
-  const float *x = moving->tree->corners + 9 * (size_t)node->first;
-  for (size_t k = 0; k < 3; k++)
-    corners[k] = nsvcd__d3_add(nsvcd__turned_by(moving, at, nsvcd__d3_row(x, k)), offset);
-}
-
 // Looks for a plane that separates two nodes for the whole interval. last: the direction to begin
 // with.
-static int nsvcd__find_normal(nsvcd__tree_interval *s, const nsvcd__nodes *nodes,
+static int nsvcd__find_normal(nsvcd__tree_interval *s, const nsvcd__node_pair *pair,
                               nsvcd__d3 last, nsvcd__coded_normal *normal) {
   nsvcd__instant *at = &s->middle;
   nsvcd__best best = {last, 0};
-  if (at->t < 0) *at = nsvcd__instant_at(s->a, s->b, 0.5 * (s->t0 + s->t1));
-  if (nodes->a.count == 1 && nodes->b.count == 1) {
-    nsvcd__d3 a[3], b[3];
-    nsvcd__leaf_corners(s->a, &nodes->a, &at->a, nsvcd__d3_sub(at->a.at, at->b.at), a);
-    nsvcd__leaf_corners(s->b, &nodes->b, &at->b, nsvcd__d3_of(0, 0, 0), b);
-    const nsvcd__nearest nearest = nsvcd__nearest_of(a, b);
+  if (at->t < 0) *at = nsvcd__instant_at(s->bodies, 0.5 * (s->t0 + s->t1));
+  if (nsvcd__are_leaves(pair)) {
+    nsvcd__d3 t[2][3];
+    for (size_t i = 0; i < 6; i++) {
+      const size_t n = i / 3;
+      const nsvcd__moving_tree *body = &s->bodies[n];
+      const float *corners = body->tree->corners + 9 * (size_t)pair->nodes[n].first;
+      const nsvcd__d3 x = nsvcd__d3_row(corners, i % 3);
+      t[n][i % 3] = nsvcd__turned_by(body, &at->poses[n], x);
+    }
+    for (size_t k = 0; k < 3; k++) t[0][k] = nsvcd__d3_add(t[0][k], nsvcd__offset_at(at));
+    const nsvcd__nearest nearest = nsvcd__nearest_of(t[0], t[1]);
     best.along = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
     best.distance = sqrt(nearest.square);
   } else {
-    best = nsvcd__gilbert(s, nodes, at, last);
+    best = nsvcd__gilbert(s, pair, at, last);
   }
   if (!(best.distance > s->clearance)) return 0;
   for (int bits = 8; bits <= 24; bits += 8) {
     *normal = nsvcd__normal_of(best.along, bits);
-    if (nsvcd__plane_separates_nodes(s, nodes, normal->along)) return 1;
+    if (nsvcd__separates(s, pair, normal->along)) return 1;
   }
   return 0;
 }
@@ -2019,12 +2038,12 @@ static int nsvcd__cast(const nsvcd__seen *s, nsvcd__d3 from, nsvcd__d3 along, in
 enum { NSVCD__PROVES_FREE, NSVCD__PROVES_HIT, NSVCD__PROVES_NEAR, NSVCD__PROVES_INSIDE };
 
 typedef struct nsvcd__visit {
-  nsvcd__nodes nodes;
+  nsvcd__node_pair pair;
   double t0, t1;
 } nsvcd__visit;
 
 typedef struct nsvcd__certifier {
-  nsvcd__moving_tree a, b;
+  nsvcd__moving_tree bodies[2];
   nsvcd__tree_interval interval;
   // the last first
   nsvcd__d3 normals[NSVCD__REMEMBERED];
@@ -2070,7 +2089,8 @@ static void nsvcd__write_normal(nsvcd__certifier *c, size_t k,
 }
 
 static void nsvcd__write_head(nsvcd__certifier *c, uint32_t kind) {
-  const uint32_t digests[3] = {c->a.tree->digest, c->b.tree->digest, c->digest};
+  const uint32_t digests[3] = {c->bodies[0].tree->digest, c->bodies[1].tree->digest,
+                               c->digest};
   c->bits = 0;
   // a reader has none yet
   memset(c->normals, 0, sizeof c->normals);
@@ -2132,7 +2152,7 @@ static int nsvcd__near_at(const nsvcd__certifier *c, const nsvcd__seen *s, uint3
   const nsvcd__d3 on_a = nsvcd__point_code(a, nearest.on_a, codes);
   const nsvcd__d3 on_b = nsvcd__point_code(b, nearest.on_b, codes + 2);
   const double distance = sqrt(nsvcd__d3_distance2(on_a, on_b)) + s->margin;
-  return c->b.model.scale * distance < c->interval.clearance;
+  return s->by->model.scale * distance < c->interval.clearance;
 }
 
 // Do two triangles meet at a time, or come within the clearance? Then it writes the certificate.
@@ -2141,15 +2161,12 @@ static int nsvcd__meet_at(nsvcd__certifier *c, double when, uint32_t ta, uint32_
   const double most = 4294967295.0;
   const uint32_t code = (uint32_t)(nsvcd__max(0, nsvcd__min(when, 1)) * most + 0.5);
   const double t = (double)code / most;
-  const nsvcd__seen a = nsvcd__seen_at(&c->a, &c->b, t);
-  const nsvcd__seen b = nsvcd__seen_at(&c->b, &c->a, t);
+  const nsvcd__seen a = nsvcd__seen_at(&c->bodies[0], &c->bodies[1], t);
+  const nsvcd__seen b = nsvcd__seen_at(&c->bodies[1], &c->bodies[0], t);
   uint32_t points[4];
-  uint32_t whose = 0;
   uint32_t edge = nsvcd__piercing_edge(&a, ta, tb);
-  if (edge == NSVCD__NO_EDGE) {
-    whose = 1;
-    edge = nsvcd__piercing_edge(&b, tb, ta);
-  }
+  const uint32_t whose = edge == NSVCD__NO_EDGE;
+  if (whose) edge = nsvcd__piercing_edge(&b, tb, ta);
   const int pierced = edge != NSVCD__NO_EDGE;
   if (!pierced && !(c->interval.clearance > 0 && nsvcd__near_at(c, &a, ta, tb, points)))
     return 0;
@@ -2177,24 +2194,23 @@ static double nsvcd__node_side(const nsvcd__moving_tree *moving, const nsvcd__no
                        nsvcd__max(nsvcd__max(sides.x, sides.y), sides.z));
 }
 
-static nsvcd__d3 nsvcd__node_middle(const nsvcd__moving_tree *moving, const nsvcd__node *node,
-                                    const nsvcd__pose_matrix *at) {
-  const nsvcd__box *box = &moving->tree->boxes[node->box];
-  const nsvcd__d3 sum = nsvcd__d3_add(nsvcd__d3_widen(box->low), nsvcd__d3_widen(box->high));
-  return nsvcd__turned_by(moving, at, nsvcd__d3_scale(sum, 0.5));
-}
-
 // How far one node's middle moves relative to the other's, from instant to instant.
 static double nsvcd__relative_travel(const nsvcd__tree_interval *s,
-                                     const nsvcd__nodes *nodes) {
+                                     const nsvcd__node_pair *pair) {
   double travel = 0;
   nsvcd__d3 last = nsvcd__d3_of(0, 0, 0);
   for (size_t i = 0; i < s->count; i++) {
     const nsvcd__instant *at = &s->instants[i];
-    const nsvcd__d3 a = nsvcd__node_middle(s->a, &nodes->a, &at->a);
-    const nsvcd__d3 b = nsvcd__node_middle(s->b, &nodes->b, &at->b);
-    const nsvcd__d3 offset = nsvcd__d3_sub(at->a.at, at->b.at);
-    const nsvcd__d3 now = nsvcd__d3_add(nsvcd__d3_sub(a, b), offset);
+    nsvcd__d3 middles[2];
+    for (size_t n = 0; n < 2; n++) {
+      const nsvcd__moving_tree *body = &s->bodies[n];
+      const nsvcd__box *box = &body->tree->boxes[pair->nodes[n].box];
+      const nsvcd__d3 sum =
+          nsvcd__d3_add(nsvcd__d3_widen(box->low), nsvcd__d3_widen(box->high));
+      middles[n] = nsvcd__turned_by(body, &at->poses[n], nsvcd__d3_scale(sum, 0.5));
+    }
+    const nsvcd__d3 now =
+        nsvcd__d3_add(nsvcd__d3_sub(middles[0], middles[1]), nsvcd__offset_at(at));
     if (i > 0) travel += sqrt(nsvcd__d3_distance2(now, last));
     last = now;
   }
@@ -2204,22 +2220,20 @@ static double nsvcd__relative_travel(const nsvcd__tree_interval *s,
 // Replaces a visit by two, in reverse order: to the children of the node whose box is longer, or in
 // both halves of the time. Returns 0 where that is too short to halve.
 static int nsvcd__divide_visit(nsvcd__certifier *c, nsvcd__visit *v) {
-  nsvcd__nodes *nodes = &v->nodes;
-  const double side_a = nsvcd__node_side(&c->a, &nodes->a);
-  const double side_b = nsvcd__node_side(&c->b, &nodes->b);
-  const int leaves = nodes->a.count == 1 && nodes->b.count == 1;
-  const int halves = leaves || nsvcd__relative_travel(&c->interval, nodes) >
-                                   NSVCD__LONG_TRAVEL * (side_a + side_b);
+  nsvcd__node *nodes = v->pair.nodes;
+  const double side_a = nsvcd__node_side(&c->bodies[0], &nodes[0]);
+  const double side_b = nsvcd__node_side(&c->bodies[1], &nodes[1]);
+  const double most = NSVCD__LONG_TRAVEL * (side_a + side_b);
+  const int halves =
+      nsvcd__are_leaves(&v->pair) || nsvcd__relative_travel(&c->interval, &v->pair) > most;
   v[1] = *v;
   nsvcd__write_bits(c, halves ? 4 : 0, halves ? 3 : 1);
   if (halves) {
     v[1].t1 = v->t0 = 0.5 * (v->t0 + v->t1);
     return v->t1 - v[1].t0 >= NSVCD__SHORTEST_INTERVAL;
   }
-  if (nodes->b.count == 1 || (nodes->a.count > 1 && side_a >= side_b))
-    nsvcd__children(&nodes->a, &v[1].nodes.a, &nodes->a);
-  else
-    nsvcd__children(&nodes->b, &v[1].nodes.b, &nodes->b);
+  const size_t n = nodes[1].count > 1 && (nodes[0].count == 1 || side_a < side_b);
+  nsvcd__children(&nodes[n], &v[1].pair.nodes[n], &nodes[n]);
   return 1;
 }
 
@@ -2229,16 +2243,16 @@ static nsvcd_verdict nsvcd__prove_traversal(nsvcd__certifier *c, size_t visits) 
   size_t height = 1;
   int is_unresolved = 0;
   memset(stack, 0, sizeof *stack);
-  stack->nodes.a.count = (uint32_t)c->a.tree->mesh.triangle_count;
-  stack->nodes.b.count = (uint32_t)c->b.tree->mesh.triangle_count;
+  for (size_t n = 0; n < 2; n++)
+    stack->pair.nodes[n].count = (uint32_t)c->bodies[n].tree->mesh.triangle_count;
   stack->t1 = 1;
   nsvcd__write_head(c, NSVCD__PROVES_FREE);
   while (height > 0) {
     nsvcd__visit *v = &stack[height - 1];
-    nsvcd__nodes *nodes = &v->nodes;
-    nodes->radius_a = nsvcd__node_radius(&c->a, &nodes->a);
-    nodes->radius_b = nsvcd__node_radius(&c->b, &nodes->b);
+    nsvcd__node_pair *pair = &v->pair;
     nsvcd__coded_normal normal;
+    for (size_t n = 0; n < 2; n++)
+      pair->radii[n] = nsvcd__node_radius(&c->bodies[n], &pair->nodes[n]);
     if (c->made->visits == visits) {
       c->made->why = NSVCD_WHY_WORK;
       return NSVCD_UNDECIDED;
@@ -2246,20 +2260,18 @@ static nsvcd_verdict nsvcd__prove_traversal(nsvcd__certifier *c, size_t visits) 
     c->made->visits++;
     if (!nsvcd__tree_interval_to(&c->interval, v->t0, v->t1)) return NSVCD_UNDECIDED;
     size_t k = 0;
-    while (k < NSVCD__REMEMBERED &&
-           !nsvcd__plane_separates_nodes(&c->interval, nodes, c->normals[k]))
-      k++;
+    while (k < NSVCD__REMEMBERED && !nsvcd__separates(&c->interval, pair, c->normals[k])) k++;
     if (k < NSVCD__REMEMBERED ||
-        nsvcd__find_normal(&c->interval, nodes, c->normals[0], &normal)) {
+        nsvcd__find_normal(&c->interval, pair, c->normals[0], &normal)) {
       nsvcd__write_bits(c, k > 0 ? 5 : 3, k > 0 ? 3 : 2);
       if (k > 0) nsvcd__write_normal(c, k, &normal);
-      if (nodes->a.box == 0 && nodes->b.box == 0) c->separated = 1;
+      if (pair->nodes[0].box == 0 && pair->nodes[1].box == 0) c->separated = 1;
       height--;
       continue;
     }
-    if (nodes->a.count == 1 && nodes->b.count == 1) {
-      const uint32_t ta = c->a.tree->order[nodes->a.first];
-      const uint32_t tb = c->b.tree->order[nodes->b.first];
+    if (nsvcd__are_leaves(pair)) {
+      const uint32_t ta = c->bodies[0].tree->order[pair->nodes[0].first];
+      const uint32_t tb = c->bodies[1].tree->order[pair->nodes[1].first];
       if (nsvcd__meet_at(c, 0.5 * (v->t0 + v->t1), ta, tb)) return NSVCD_HIT;
     }
     if (height == NSVCD__TRAVERSAL_STACK) return NSVCD_UNDECIDED;
@@ -2294,12 +2306,11 @@ static nsvcd__coded_normal nsvcd__ray_to_try(size_t k, uint64_t *random) {
 // written. HIT: one shows a corner inside, and the certificate is written. UNDECIDED: of some
 // component none is clear.
 static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
-  const nsvcd__moving_tree *of = whose ? &c->b : &c->a;
-  const nsvcd__moving_tree *by = whose ? &c->a : &c->b;
-  const nsvcd__seen s = nsvcd__seen_at(of, by, 0);
+  const nsvcd_tree *tree = c->bodies[whose].tree;
+  const nsvcd__seen s = nsvcd__seen_at(&c->bodies[whose], &c->bodies[!whose], 0);
   uint64_t random = 1;
-  for (uint32_t v = 0; v < of->tree->mesh.vertex_count; v++) {
-    if (of->tree->component[v] != v) continue;
+  for (uint32_t v = 0; v < tree->mesh.vertex_count; v++) {
+    if (tree->component[v] != v) continue;
     const nsvcd__d3 from = nsvcd__seen_vertex(&s, v);
     int shown = 0;
     for (size_t k = 0; k <= NSVCD__RAYS && !shown; k++) {
@@ -2334,8 +2345,8 @@ static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
 // triangles may only touch.
 static int nsvcd__meet_as_told(nsvcd__certifier *c, const nsvcd_answer *answer) {
   const nsvcd_contact *told = answer->contact_count > 0 ? answer->contacts : &answer->nearest;
-  const int named = told->triangle_a < c->a.tree->mesh.triangle_count &&
-                    told->triangle_b < c->b.tree->mesh.triangle_count;
+  const int named = told->triangle_a < c->bodies[0].tree->mesh.triangle_count &&
+                    told->triangle_b < c->bodies[1].tree->mesh.triangle_count;
   if (answer->verdict != NSVCD_HIT) return 0;
   for (int whose = 0; whose < 2 && answer->inside; whose++)
     if (nsvcd__cast_all(c, whose) == NSVCD_HIT) return 1;
@@ -2396,16 +2407,14 @@ NSVCDDEF nsvcd_result nsvcd_certify_models(
   if (!workspace || !nsvcd__is_aligned(workspace) || !needed || workspace_size < needed)
     return NSVCD_ERROR_WORKSPACE;
   (void)nsvcd__certifier_layout(keyframes + 2, a, b, (char *)workspace, &c);
-  c.a.tree = a;
-  c.b.tree = b;
-  c.a.model = models[0];
-  c.b.model = models[1];
-  c.interval.a = &c.a;
-  c.interval.b = &c.b;
+  c.bodies[0].tree = a;
+  c.bodies[1].tree = b;
+  for (size_t n = 0; n < 2; n++) c.bodies[n].model = models[n];
+  c.interval.bodies = c.bodies;
   c.interval.clearance = (double)clearance;
   c.bytes = bytes;
   c.capacity = capacity;
-  c.digest = nsvcd__digest(c.a.model.digest + 31 * c.b.model.digest, &clearance, 1);
+  c.digest = nsvcd__digest(models[0].digest + 31 * models[1].digest, &clearance, 1);
   c.made = &out;
   if (!(o->answer && nsvcd__meet_as_told(&c, o->answer))) {
     out.verdict = nsvcd__prove_traversal(&c, o->visits ? o->visits : NSVCD_DEFAULT_VISITS);
@@ -2414,7 +2423,7 @@ NSVCDDEF nsvcd_result nsvcd_certify_models(
   }
   // of the meshes, of which none is mended: in a certificate an open component contains nothing
   const int is_inside = o->answer && (o->answer->inside || o->answer->why == NSVCD_WHY_OPEN);
-  const int has_open = nsvcd__has_open(c.a.tree) || nsvcd__has_open(c.b.tree);
+  const int has_open = nsvcd__has_open(a) || nsvcd__has_open(b);
   if (is_inside && has_open && out.verdict == NSVCD_FREE) {
     out.verdict = NSVCD_UNDECIDED;
     out.why = NSVCD_WHY_OPEN;

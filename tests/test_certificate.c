@@ -196,8 +196,8 @@ static size_t cert_one_plane(const cert_scene *s, const uint8_t *head, nsvcd__d3
   nsvcd__certifier c;
   const nsvcd__coded_normal normal = nsvcd__normal_of(along, 8);
   memset(&c, 0, sizeof c);
-  c.a.tree = s->a->tree;
-  c.b.tree = s->b->tree;
+  c.bodies[0].tree = s->a->tree;
+  c.bodies[1].tree = s->b->tree;
   c.bytes = out;
   c.capacity = 64;
   nsvcd__write_head(&c, NSVCD__PROVES_FREE);
@@ -924,8 +924,8 @@ static void certificates_of_lengths_that_cancel(void) {
     nsvcd__certifier c;
     uint8_t pass[CERT_ROOM];
     memset(&c, 0, sizeof c);
-    c.a.tree = s.a->tree;
-    c.b.tree = s.b->tree;
+    c.bodies[0].tree = s.a->tree;
+    c.bodies[1].tree = s.b->tree;
     c.bytes = pass;
     c.capacity = sizeof pass;
     nsvcd__write_head(&c, NSVCD__PROVES_FREE);
@@ -1041,8 +1041,8 @@ static void certificates_of_hits_cannot_be_forged(void) {
     for (int n = 0; n < 3000; n++) {
       nsvcd__certifier c;
       memset(&c, 0, sizeof c);
-      c.a.tree = s.a->tree;
-      c.b.tree = s.b->tree;
+      c.bodies[0].tree = s.a->tree;
+      c.bodies[1].tree = s.b->tree;
       c.bytes = bytes;
       c.capacity = sizeof bytes;
       const int kind = NSVCD__PROVES_HIT + n % 3;
@@ -1093,18 +1093,17 @@ static void certificates_need_rays(void) {
   s.poses[0][0].rotation[3] = s.poses[1][0].rotation[3] = 1;
   memset(&c, 0, sizeof c);
   memset(&made, 0, sizeof made);
-  c.a.tree = s.a->tree;
-  c.b.tree = s.b->tree;
-  CHECK_EQ(nsvcd__model_of(&s.question.a, &movers[0], &c.a.model), NSVCD_OK);
-  CHECK_EQ(nsvcd__model_of(&s.question.b, &movers[1], &c.b.model), NSVCD_OK);
+  c.bodies[0].tree = s.a->tree;
+  c.bodies[1].tree = s.b->tree;
+  CHECK_EQ(nsvcd__model_of(&s.question.a, &movers[0], &c.bodies[0].model), NSVCD_OK);
+  CHECK_EQ(nsvcd__model_of(&s.question.b, &movers[1], &c.bodies[1].model), NSVCD_OK);
   const float clearance = 0;
-  c.interval.a = &c.a;
-  c.interval.b = &c.b;
+  c.interval.bodies = c.bodies;
   c.interval.instants = instants;
   c.interval.capacity = 8;
   c.bytes = bytes;
   c.capacity = sizeof bytes;
-  c.digest = nsvcd__digest(c.a.model.digest + 31 * c.b.model.digest, &clearance, 1);
+  c.digest = nsvcd__digest(c.bodies[0].model.digest + 31 * c.bodies[1].model.digest, &clearance, 1);
   c.made = &made;
   CHECK_EQ(nsvcd__prove_traversal(&c, 100000), NSVCD_FREE);
   CHECK(!c.separated);

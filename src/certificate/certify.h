@@ -29,12 +29,12 @@
 enum { NSVCD__PROVES_FREE, NSVCD__PROVES_HIT, NSVCD__PROVES_NEAR, NSVCD__PROVES_INSIDE };
 
 typedef struct nsvcd__visit {
-  nsvcd__nodes nodes;
+  nsvcd__node_pair pair;
   double t0, t1;
 } nsvcd__visit;
 
 typedef struct nsvcd__certifier {
-  nsvcd__moving_tree a, b;
+  nsvcd__moving_tree bodies[2];
   nsvcd__tree_interval interval;
   // the last first
   nsvcd__d3 normals[NSVCD__REMEMBERED];
@@ -80,7 +80,8 @@ static void nsvcd__write_normal(nsvcd__certifier *c, size_t k,
 }
 
 static void nsvcd__write_head(nsvcd__certifier *c, uint32_t kind) {
-  const uint32_t digests[3] = {c->a.tree->digest, c->b.tree->digest, c->digest};
+  const uint32_t digests[3] = {c->bodies[0].tree->digest, c->bodies[1].tree->digest,
+                               c->digest};
   c->bits = 0;
   // a reader has none yet
   memset(c->normals, 0, sizeof c->normals);
@@ -142,7 +143,7 @@ static int nsvcd__near_at(const nsvcd__certifier *c, const nsvcd__seen *s, uint3
   const nsvcd__d3 on_a = nsvcd__point_code(a, nearest.on_a, codes);
   const nsvcd__d3 on_b = nsvcd__point_code(b, nearest.on_b, codes + 2);
   const double distance = sqrt(nsvcd__d3_distance2(on_a, on_b)) + s->margin;
-  return c->b.model.scale * distance < c->interval.clearance;
+  return s->by->model.scale * distance < c->interval.clearance;
 }
 
 // Do two triangles meet at a time, or come within the clearance? Then it writes the certificate.
@@ -151,15 +152,12 @@ static int nsvcd__meet_at(nsvcd__certifier *c, double when, uint32_t ta, uint32_
   const double most = 4294967295.0;
   const uint32_t code = (uint32_t)(nsvcd__max(0, nsvcd__min(when, 1)) * most + 0.5);
   const double t = (double)code / most;
-  const nsvcd__seen a = nsvcd__seen_at(&c->a, &c->b, t);
-  const nsvcd__seen b = nsvcd__seen_at(&c->b, &c->a, t);
+  const nsvcd__seen a = nsvcd__seen_at(&c->bodies[0], &c->bodies[1], t);
+  const nsvcd__seen b = nsvcd__seen_at(&c->bodies[1], &c->bodies[0], t);
   uint32_t points[4];
-  uint32_t whose = 0;
   uint32_t edge = nsvcd__piercing_edge(&a, ta, tb);
-  if (edge == NSVCD__NO_EDGE) {
-    whose = 1;
-    edge = nsvcd__piercing_edge(&b, tb, ta);
-  }
+  const uint32_t whose = edge == NSVCD__NO_EDGE;
+  if (whose) edge = nsvcd__piercing_edge(&b, tb, ta);
   const int pierced = edge != NSVCD__NO_EDGE;
   if (!pierced && !(c->interval.clearance > 0 && nsvcd__near_at(c, &a, ta, tb, points)))
     return 0;
@@ -187,24 +185,23 @@ static double nsvcd__node_side(const nsvcd__moving_tree *moving, const nsvcd__no
                        nsvcd__max(nsvcd__max(sides.x, sides.y), sides.z));
 }
 
-static nsvcd__d3 nsvcd__node_middle(const nsvcd__moving_tree *moving, const nsvcd__node *node,
-                                    const nsvcd__pose_matrix *at) {
-  const nsvcd__box *box = &moving->tree->boxes[node->box];
-  const nsvcd__d3 sum = nsvcd__d3_add(nsvcd__d3_widen(box->low), nsvcd__d3_widen(box->high));
-  return nsvcd__turned_by(moving, at, nsvcd__d3_scale(sum, 0.5));
-}
-
 // How far one node's middle moves relative to the other's, from instant to instant.
 static double nsvcd__relative_travel(const nsvcd__tree_interval *s,
-                                     const nsvcd__nodes *nodes) {
+                                     const nsvcd__node_pair *pair) {
   double travel = 0;
   nsvcd__d3 last = nsvcd__d3_of(0, 0, 0);
   for (size_t i = 0; i < s->count; i++) {
     const nsvcd__instant *at = &s->instants[i];
-    const nsvcd__d3 a = nsvcd__node_middle(s->a, &nodes->a, &at->a);
-    const nsvcd__d3 b = nsvcd__node_middle(s->b, &nodes->b, &at->b);
-    const nsvcd__d3 offset = nsvcd__d3_sub(at->a.at, at->b.at);
-    const nsvcd__d3 now = nsvcd__d3_add(nsvcd__d3_sub(a, b), offset);
+    nsvcd__d3 middles[2];
+    for (size_t n = 0; n < 2; n++) {
+      const nsvcd__moving_tree *body = &s->bodies[n];
+      const nsvcd__box *box = &body->tree->boxes[pair->nodes[n].box];
+      const nsvcd__d3 sum =
+          nsvcd__d3_add(nsvcd__d3_widen(box->low), nsvcd__d3_widen(box->high));
+      middles[n] = nsvcd__turned_by(body, &at->poses[n], nsvcd__d3_scale(sum, 0.5));
+    }
+    const nsvcd__d3 now =
+        nsvcd__d3_add(nsvcd__d3_sub(middles[0], middles[1]), nsvcd__offset_at(at));
     if (i > 0) travel += sqrt(nsvcd__d3_distance2(now, last));
     last = now;
   }
@@ -214,22 +211,20 @@ static double nsvcd__relative_travel(const nsvcd__tree_interval *s,
 // Replaces a visit by two, in reverse order: to the children of the node whose box is longer, or in
 // both halves of the time. Returns 0 where that is too short to halve.
 static int nsvcd__divide_visit(nsvcd__certifier *c, nsvcd__visit *v) {
-  nsvcd__nodes *nodes = &v->nodes;
-  const double side_a = nsvcd__node_side(&c->a, &nodes->a);
-  const double side_b = nsvcd__node_side(&c->b, &nodes->b);
-  const int leaves = nodes->a.count == 1 && nodes->b.count == 1;
-  const int halves = leaves || nsvcd__relative_travel(&c->interval, nodes) >
-                                   NSVCD__LONG_TRAVEL * (side_a + side_b);
+  nsvcd__node *nodes = v->pair.nodes;
+  const double side_a = nsvcd__node_side(&c->bodies[0], &nodes[0]);
+  const double side_b = nsvcd__node_side(&c->bodies[1], &nodes[1]);
+  const double most = NSVCD__LONG_TRAVEL * (side_a + side_b);
+  const int halves =
+      nsvcd__are_leaves(&v->pair) || nsvcd__relative_travel(&c->interval, &v->pair) > most;
   v[1] = *v;
   nsvcd__write_bits(c, halves ? 4 : 0, halves ? 3 : 1);
   if (halves) {
     v[1].t1 = v->t0 = 0.5 * (v->t0 + v->t1);
     return v->t1 - v[1].t0 >= NSVCD__SHORTEST_INTERVAL;
   }
-  if (nodes->b.count == 1 || (nodes->a.count > 1 && side_a >= side_b))
-    nsvcd__children(&nodes->a, &v[1].nodes.a, &nodes->a);
-  else
-    nsvcd__children(&nodes->b, &v[1].nodes.b, &nodes->b);
+  const size_t n = nodes[1].count > 1 && (nodes[0].count == 1 || side_a < side_b);
+  nsvcd__children(&nodes[n], &v[1].pair.nodes[n], &nodes[n]);
   return 1;
 }
 
@@ -239,16 +234,16 @@ static nsvcd_verdict nsvcd__prove_traversal(nsvcd__certifier *c, size_t visits) 
   size_t height = 1;
   int is_unresolved = 0;
   memset(stack, 0, sizeof *stack);
-  stack->nodes.a.count = (uint32_t)c->a.tree->mesh.triangle_count;
-  stack->nodes.b.count = (uint32_t)c->b.tree->mesh.triangle_count;
+  for (size_t n = 0; n < 2; n++)
+    stack->pair.nodes[n].count = (uint32_t)c->bodies[n].tree->mesh.triangle_count;
   stack->t1 = 1;
   nsvcd__write_head(c, NSVCD__PROVES_FREE);
   while (height > 0) {
     nsvcd__visit *v = &stack[height - 1];
-    nsvcd__nodes *nodes = &v->nodes;
-    nodes->radius_a = nsvcd__node_radius(&c->a, &nodes->a);
-    nodes->radius_b = nsvcd__node_radius(&c->b, &nodes->b);
+    nsvcd__node_pair *pair = &v->pair;
     nsvcd__coded_normal normal;
+    for (size_t n = 0; n < 2; n++)
+      pair->radii[n] = nsvcd__node_radius(&c->bodies[n], &pair->nodes[n]);
     if (c->made->visits == visits) {
       c->made->why = NSVCD_WHY_WORK;
       return NSVCD_UNDECIDED;
@@ -256,20 +251,18 @@ static nsvcd_verdict nsvcd__prove_traversal(nsvcd__certifier *c, size_t visits) 
     c->made->visits++;
     if (!nsvcd__tree_interval_to(&c->interval, v->t0, v->t1)) return NSVCD_UNDECIDED;
     size_t k = 0;
-    while (k < NSVCD__REMEMBERED &&
-           !nsvcd__plane_separates_nodes(&c->interval, nodes, c->normals[k]))
-      k++;
+    while (k < NSVCD__REMEMBERED && !nsvcd__separates(&c->interval, pair, c->normals[k])) k++;
     if (k < NSVCD__REMEMBERED ||
-        nsvcd__find_normal(&c->interval, nodes, c->normals[0], &normal)) {
+        nsvcd__find_normal(&c->interval, pair, c->normals[0], &normal)) {
       nsvcd__write_bits(c, k > 0 ? 5 : 3, k > 0 ? 3 : 2);
       if (k > 0) nsvcd__write_normal(c, k, &normal);
-      if (nodes->a.box == 0 && nodes->b.box == 0) c->separated = 1;
+      if (pair->nodes[0].box == 0 && pair->nodes[1].box == 0) c->separated = 1;
       height--;
       continue;
     }
-    if (nodes->a.count == 1 && nodes->b.count == 1) {
-      const uint32_t ta = c->a.tree->order[nodes->a.first];
-      const uint32_t tb = c->b.tree->order[nodes->b.first];
+    if (nsvcd__are_leaves(pair)) {
+      const uint32_t ta = c->bodies[0].tree->order[pair->nodes[0].first];
+      const uint32_t tb = c->bodies[1].tree->order[pair->nodes[1].first];
       if (nsvcd__meet_at(c, 0.5 * (v->t0 + v->t1), ta, tb)) return NSVCD_HIT;
     }
     if (height == NSVCD__TRAVERSAL_STACK) return NSVCD_UNDECIDED;
@@ -304,12 +297,11 @@ static nsvcd__coded_normal nsvcd__ray_to_try(size_t k, uint64_t *random) {
 // written. HIT: one shows a corner inside, and the certificate is written. UNDECIDED: of some
 // component none is clear.
 static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
-  const nsvcd__moving_tree *of = whose ? &c->b : &c->a;
-  const nsvcd__moving_tree *by = whose ? &c->a : &c->b;
-  const nsvcd__seen s = nsvcd__seen_at(of, by, 0);
+  const nsvcd_tree *tree = c->bodies[whose].tree;
+  const nsvcd__seen s = nsvcd__seen_at(&c->bodies[whose], &c->bodies[!whose], 0);
   uint64_t random = 1;
-  for (uint32_t v = 0; v < of->tree->mesh.vertex_count; v++) {
-    if (of->tree->component[v] != v) continue;
+  for (uint32_t v = 0; v < tree->mesh.vertex_count; v++) {
+    if (tree->component[v] != v) continue;
     const nsvcd__d3 from = nsvcd__seen_vertex(&s, v);
     int shown = 0;
     for (size_t k = 0; k <= NSVCD__RAYS && !shown; k++) {
@@ -344,8 +336,8 @@ static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
 // triangles may only touch.
 static int nsvcd__meet_as_told(nsvcd__certifier *c, const nsvcd_answer *answer) {
   const nsvcd_contact *told = answer->contact_count > 0 ? answer->contacts : &answer->nearest;
-  const int named = told->triangle_a < c->a.tree->mesh.triangle_count &&
-                    told->triangle_b < c->b.tree->mesh.triangle_count;
+  const int named = told->triangle_a < c->bodies[0].tree->mesh.triangle_count &&
+                    told->triangle_b < c->bodies[1].tree->mesh.triangle_count;
   if (answer->verdict != NSVCD_HIT) return 0;
   for (int whose = 0; whose < 2 && answer->inside; whose++)
     if (nsvcd__cast_all(c, whose) == NSVCD_HIT) return 1;
@@ -406,16 +398,14 @@ NSVCDDEF nsvcd_result nsvcd_certify_models(
   if (!workspace || !nsvcd__is_aligned(workspace) || !needed || workspace_size < needed)
     return NSVCD_ERROR_WORKSPACE;
   (void)nsvcd__certifier_layout(keyframes + 2, a, b, (char *)workspace, &c);
-  c.a.tree = a;
-  c.b.tree = b;
-  c.a.model = models[0];
-  c.b.model = models[1];
-  c.interval.a = &c.a;
-  c.interval.b = &c.b;
+  c.bodies[0].tree = a;
+  c.bodies[1].tree = b;
+  for (size_t n = 0; n < 2; n++) c.bodies[n].model = models[n];
+  c.interval.bodies = c.bodies;
   c.interval.clearance = (double)clearance;
   c.bytes = bytes;
   c.capacity = capacity;
-  c.digest = nsvcd__digest(c.a.model.digest + 31 * c.b.model.digest, &clearance, 1);
+  c.digest = nsvcd__digest(models[0].digest + 31 * models[1].digest, &clearance, 1);
   c.made = &out;
   if (!(o->answer && nsvcd__meet_as_told(&c, o->answer))) {
     out.verdict = nsvcd__prove_traversal(&c, o->visits ? o->visits : NSVCD_DEFAULT_VISITS);
@@ -424,7 +414,7 @@ NSVCDDEF nsvcd_result nsvcd_certify_models(
   }
   // of the meshes, of which none is mended: in a certificate an open component contains nothing
   const int is_inside = o->answer && (o->answer->inside || o->answer->why == NSVCD_WHY_OPEN);
-  const int has_open = nsvcd__has_open(c.a.tree) || nsvcd__has_open(c.b.tree);
+  const int has_open = nsvcd__has_open(a) || nsvcd__has_open(b);
   if (is_inside && has_open && out.verdict == NSVCD_FREE) {
     out.verdict = NSVCD_UNDECIDED;
     out.why = NSVCD_WHY_OPEN;

@@ -17,15 +17,16 @@
 // Both bodies at a time, and how far points leave their chords to the next instant.
 typedef struct nsvcd__instant {
   double t;
-  nsvcd__pose_matrix a, b;
+  nsvcd__pose_matrix poses[2];
   // of both positions, and of what they are computed from
   double lengths;
-  nsvcd_deviation deviation_a, deviation_b;
+  nsvcd_deviation deviations[2];
 } nsvcd__instant;
 
 // An interval of time: instants at both ends, and at all keyframes between.
 typedef struct nsvcd__tree_interval {
-  const nsvcd__moving_tree *a, *b;
+  // (2)
+  const nsvcd__moving_tree *bodies;
   double clearance;
   // (capacity)
   nsvcd__instant *instants;
@@ -36,10 +37,14 @@ typedef struct nsvcd__tree_interval {
 } nsvcd__tree_interval;
 
 // A node of each tree, and bounds of the distances of their points from their bodies' origins.
-typedef struct nsvcd__nodes {
-  nsvcd__node a, b;
-  double radius_a, radius_b;
-} nsvcd__nodes;
+typedef struct nsvcd__node_pair {
+  nsvcd__node nodes[2];
+  double radii[2];
+} nsvcd__node_pair;
+
+static int nsvcd__are_leaves(const nsvcd__node_pair *pair) {
+  return pair->nodes[0].count == 1 && pair->nodes[1].count == 1;
+}
 
 // A direction as it is written: two whole numbers.
 typedef struct nsvcd__coded_normal {
@@ -54,14 +59,15 @@ static double nsvcd__lengths_at(const nsvcd__pose_matrix *a, const nsvcd__pose_m
          fabs(b->at.z);
 }
 
-static nsvcd__instant nsvcd__instant_at(const nsvcd__moving_tree *a,
-                                        const nsvcd__moving_tree *b, double t) {
+static nsvcd__instant nsvcd__instant_at(const nsvcd__moving_tree *bodies, double t) {
   nsvcd__instant at;
   memset(&at, 0, sizeof at);
   at.t = t;
-  at.a = nsvcd__pose_matrix_at(a, t);
-  at.b = nsvcd__pose_matrix_at(b, t);
-  at.lengths = a->model.extent + b->model.extent + nsvcd__lengths_at(&at.a, &at.b);
+  for (size_t n = 0; n < 2; n++) {
+    at.poses[n] = nsvcd__pose_matrix_at(&bodies[n], t);
+    at.lengths += bodies[n].model.extent;
+  }
+  at.lengths += nsvcd__lengths_at(&at.poses[0], &at.poses[1]);
   return at;
 }
 
@@ -69,20 +75,24 @@ static nsvcd__instant nsvcd__instant_at(const nsvcd__moving_tree *a,
 static int nsvcd__tree_interval_to(nsvcd__tree_interval *s, double t0, double t1) {
   if (s->count > 0 && !(s->t0 < t0) && !(s->t0 > t0) && !(s->t1 < t1) && !(s->t1 > t1))
     return 1;
-  const nsvcd_motion_model *a = &s->a->model;
-  const nsvcd_motion_model *b = &s->b->model;
   double t = t0;
   s->t0 = t0;
   s->t1 = t1;
   s->middle.t = -1;
   for (s->count = 0; s->count < s->capacity;) {
     nsvcd__instant *at = &s->instants[s->count++];
-    *at = nsvcd__instant_at(s->a, s->b, t);
+    double next = t1;
+    *at = nsvcd__instant_at(s->bodies, t);
     if (!(t < t1)) return 1;
-    t = nsvcd__min(a->next(a->motion, t), b->next(b->motion, t));
-    t = nsvcd__min(t, t1);
-    at->deviation_a = a->deviation(a->motion, at->t, t);
-    at->deviation_b = b->deviation(b->motion, at->t, t);
+    for (size_t n = 0; n < 2; n++) {
+      const nsvcd_motion_model *m = &s->bodies[n].model;
+      next = nsvcd__min(m->next(m->motion, t), next);
+    }
+    for (size_t n = 0; n < 2; n++) {
+      const nsvcd_motion_model *m = &s->bodies[n].model;
+      at->deviations[n] = m->deviation(m->motion, t, next);
+    }
+    t = next;
   }
   return 0;
 }
@@ -115,17 +125,28 @@ static nsvcd__d3 nsvcd__turned_by(const nsvcd__moving_tree *moving,
   return nsvcd__d3_scale(nsvcd__dmat3_apply(&at->turn, x), moving->model.scale);
 }
 
+// A direction of the world in a body's frame; for a, reversed: from each node to the other.
+static nsvcd__d3 nsvcd__inward(const nsvcd__instant *at, size_t n, nsvcd__d3 along) {
+  const nsvcd__d3 in = nsvcd__dmat3_apply_transpose(&at->poses[n].turn, along);
+  return nsvcd__d3_scale(in, n ? 1 : -1);
+}
+
+static nsvcd__d3 nsvcd__offset_at(const nsvcd__instant *at) {
+  return nsvcd__d3_sub(at->poses[0].at, at->poses[1].at);
+}
+
 // Of all points a and b of two nodes, the difference a - b that is least along a direction.
-static nsvcd__d3 nsvcd__least_apart(const nsvcd__tree_interval *s, const nsvcd__nodes *nodes,
-                                    const nsvcd__instant *at, nsvcd__d3 along) {
-  const nsvcd__d3 back = nsvcd__d3_scale(along, -1);
-  const nsvcd__d3 in_a = nsvcd__dmat3_apply_transpose(&at->a.turn, back);
-  const nsvcd__d3 in_b = nsvcd__dmat3_apply_transpose(&at->b.turn, along);
-  const nsvcd__d3 a = nsvcd__farthest(s->a->tree, &nodes->a, in_a);
-  const nsvcd__d3 b = nsvcd__farthest(s->b->tree, &nodes->b, in_b);
-  const nsvcd__d3 turned =
-      nsvcd__d3_sub(nsvcd__turned_by(s->a, &at->a, a), nsvcd__turned_by(s->b, &at->b, b));
-  return nsvcd__d3_add(turned, nsvcd__d3_sub(at->a.at, at->b.at));
+static nsvcd__d3 nsvcd__least_apart(const nsvcd__tree_interval *s,
+                                    const nsvcd__node_pair *pair, const nsvcd__instant *at,
+                                    nsvcd__d3 along) {
+  nsvcd__d3 ends[2];
+  for (size_t n = 0; n < 2; n++) {
+    const nsvcd__moving_tree *body = &s->bodies[n];
+    const nsvcd__d3 in = nsvcd__inward(at, n, along);
+    const nsvcd__d3 x = nsvcd__farthest(body->tree, &pair->nodes[n], in);
+    ends[n] = nsvcd__turned_by(body, &at->poses[n], x);
+  }
+  return nsvcd__d3_add(nsvcd__d3_sub(ends[0], ends[1]), nsvcd__offset_at(at));
 }
 
 // The extent of a node along a direction in its frame. Three maxima side by side: each waits for
@@ -146,14 +167,16 @@ static double nsvcd__extent_along(const nsvcd_tree *tree, const nsvcd__node *nod
 }
 
 // How far apart two nodes are along a direction, times its length.
-static double nsvcd__distance_along(const nsvcd__tree_interval *s, const nsvcd__nodes *nodes,
-                                    const nsvcd__instant *at, nsvcd__d3 along) {
-  const nsvcd__d3 in_a = nsvcd__dmat3_apply_transpose(&at->a.turn, along);
-  const nsvcd__d3 in_b = nsvcd__dmat3_apply_transpose(&at->b.turn, along);
-  const nsvcd__d3 back = nsvcd__d3_scale(in_a, -1);
-  const double a = s->a->model.scale * nsvcd__extent_along(s->a->tree, &nodes->a, back);
-  const double b = s->b->model.scale * nsvcd__extent_along(s->b->tree, &nodes->b, in_b);
-  return nsvcd__d3_dot(along, nsvcd__d3_sub(at->a.at, at->b.at)) - (a + b);
+static double nsvcd__distance_along(const nsvcd__tree_interval *s,
+                                    const nsvcd__node_pair *pair, const nsvcd__instant *at,
+                                    nsvcd__d3 along) {
+  double extents = 0;
+  for (size_t n = 0; n < 2; n++) {
+    const nsvcd__moving_tree *body = &s->bodies[n];
+    const nsvcd__d3 in = nsvcd__inward(at, n, along);
+    extents += body->model.scale * nsvcd__extent_along(body->tree, &pair->nodes[n], in);
+  }
+  return nsvcd__d3_dot(along, nsvcd__offset_at(at)) - extents;
 }
 
 static double nsvcd__node_radius(const nsvcd__moving_tree *moving, const nsvcd__node *node) {
@@ -187,39 +210,38 @@ static double nsvcd__node_axis_radius(const nsvcd__moving_tree *moving,
   return 1.000002 * moving->model.scale * sqrt(square);
 }
 
-// How far the points of a node, at r metres at most, leave their chords along a direction, times
-// its length.
-static double nsvcd__node_deviation(const nsvcd__moving_tree *moving, const nsvcd__node *node,
-                                    double r, const nsvcd__pose_matrix *at,
-                                    const nsvcd_deviation *d, nsvcd__d3 along) {
-  const double any = nsvcd__d3_length(along) * (d->base + d->per_metre * r);
+// How far points of a node leave their chords after an instant along a direction, times its length.
+static double nsvcd__node_deviation(const nsvcd__moving_tree *body,
+                                    const nsvcd__node_pair *pair, const nsvcd__instant *at,
+                                    size_t n, nsvcd__d3 along) {
+  const nsvcd_deviation *d = &at->deviations[n];
+  const double any = nsvcd__d3_length(along) * (d->base + d->per_metre * pair->radii[n]);
   if (!(d->turn > 0)) return any;
   const nsvcd__d3 own = nsvcd__d3_of(d->axis[0], d->axis[1], d->axis[2]);
-  const nsvcd__d3 axis = nsvcd__dmat3_apply(&at->turn, own);
+  const nsvcd__d3 axis = nsvcd__dmat3_apply(&at->poses[n].turn, own);
   const double across = nsvcd__d3_length(nsvcd__d3_cross(along, axis));
-  return any + d->turn * across * nsvcd__node_axis_radius(moving, node, own);
+  return any + d->turn * across * nsvcd__node_axis_radius(body, &pair->nodes[n], own);
 }
 
 // Does a plane of this normal separate two nodes, at all instants and between them?
-static int nsvcd__plane_separates_nodes(const nsvcd__tree_interval *s,
-                                        const nsvcd__nodes *nodes, nsvcd__d3 along) {
+static int nsvcd__separates(const nsvcd__tree_interval *s, const nsvcd__node_pair *pair,
+                            nsvcd__d3 along) {
   const double length = nsvcd__d3_length(along);
-  const double ra = nodes->radius_a;
-  const double rb = nodes->radius_b;
   double last = HUGE_VAL;
   double last_lengths = 0;
   double deviation = 0;
   for (size_t i = 0; i < s->count; i++) {
     const nsvcd__instant *at = &s->instants[i];
-    const double lengths = ra + rb + s->clearance + at->lengths;
-    const double distance = nsvcd__distance_along(s, nodes, at, along);
+    const double lengths = pair->radii[0] + pair->radii[1] + s->clearance + at->lengths;
+    const double distance = nsvcd__distance_along(s, pair, at, along);
     const double margin = NSVCD__CERTIFIED_MARGIN * nsvcd__max(lengths, last_lengths);
     const double least = length * (s->clearance + margin) + deviation;
     if (!(distance > least && last > least)) return 0;
     last = distance;
     last_lengths = lengths;
-    deviation = nsvcd__node_deviation(s->a, &nodes->a, ra, &at->a, &at->deviation_a, along);
-    deviation += nsvcd__node_deviation(s->b, &nodes->b, rb, &at->b, &at->deviation_b, along);
+    deviation = 0;
+    for (size_t n = 0; n < 2; n++)
+      deviation += nsvcd__node_deviation(&s->bodies[n], pair, at, n, along);
   }
   return 1;
 }
@@ -259,15 +281,15 @@ typedef struct nsvcd__best {
 
 // Gilbert's iteration (1966) towards the point of a - b that is nearest to the origin. It ends
 // where the best direction is nearly as good as the nearest point allows.
-static nsvcd__best nsvcd__gilbert(const nsvcd__tree_interval *s, const nsvcd__nodes *nodes,
+static nsvcd__best nsvcd__gilbert(const nsvcd__tree_interval *s, const nsvcd__node_pair *pair,
                                   const nsvcd__instant *at, nsvcd__d3 along) {
   nsvcd__best best = {along, -HUGE_VAL};
-  nsvcd__d3 v = nsvcd__least_apart(s, nodes, at, along);
+  nsvcd__d3 v = nsvcd__least_apart(s, pair, at, along);
   const double first = nsvcd__d3_length(v);
   for (int n = 0; n < NSVCD__GILBERT_STEPS; n++) {
     const double length = nsvcd__d3_length(v);
     if (!(length > NSVCD__GILBERT_LEAST * first)) break;
-    const nsvcd__d3 w = nsvcd__least_apart(s, nodes, at, v);
+    const nsvcd__d3 w = nsvcd__least_apart(s, pair, at, v);
     const double distance = nsvcd__d3_dot(v, w) / length;
     if (distance > best.distance) {
       best.along = v;
@@ -283,36 +305,33 @@ static nsvcd__best nsvcd__gilbert(const nsvcd__tree_interval *s, const nsvcd__no
   return best;
 }
 
-// A leaf's triangle, turned as the world is, around an origin.
-static void nsvcd__leaf_corners(const nsvcd__moving_tree *moving, const nsvcd__node *node,
-                                const nsvcd__pose_matrix *at, nsvcd__d3 offset,
-                                nsvcd__d3 *corners) {
-  const float *x = moving->tree->corners + 9 * (size_t)node->first;
-  for (size_t k = 0; k < 3; k++)
-    corners[k] = nsvcd__d3_add(nsvcd__turned_by(moving, at, nsvcd__d3_row(x, k)), offset);
-}
-
 // Looks for a plane that separates two nodes for the whole interval. last: the direction to begin
 // with.
-static int nsvcd__find_normal(nsvcd__tree_interval *s, const nsvcd__nodes *nodes,
+static int nsvcd__find_normal(nsvcd__tree_interval *s, const nsvcd__node_pair *pair,
                               nsvcd__d3 last, nsvcd__coded_normal *normal) {
   nsvcd__instant *at = &s->middle;
   nsvcd__best best = {last, 0};
-  if (at->t < 0) *at = nsvcd__instant_at(s->a, s->b, 0.5 * (s->t0 + s->t1));
-  if (nodes->a.count == 1 && nodes->b.count == 1) {
-    nsvcd__d3 a[3], b[3];
-    nsvcd__leaf_corners(s->a, &nodes->a, &at->a, nsvcd__d3_sub(at->a.at, at->b.at), a);
-    nsvcd__leaf_corners(s->b, &nodes->b, &at->b, nsvcd__d3_of(0, 0, 0), b);
-    const nsvcd__nearest nearest = nsvcd__nearest_of(a, b);
+  if (at->t < 0) *at = nsvcd__instant_at(s->bodies, 0.5 * (s->t0 + s->t1));
+  if (nsvcd__are_leaves(pair)) {
+    nsvcd__d3 t[2][3];
+    for (size_t i = 0; i < 6; i++) {
+      const size_t n = i / 3;
+      const nsvcd__moving_tree *body = &s->bodies[n];
+      const float *corners = body->tree->corners + 9 * (size_t)pair->nodes[n].first;
+      const nsvcd__d3 x = nsvcd__d3_row(corners, i % 3);
+      t[n][i % 3] = nsvcd__turned_by(body, &at->poses[n], x);
+    }
+    for (size_t k = 0; k < 3; k++) t[0][k] = nsvcd__d3_add(t[0][k], nsvcd__offset_at(at));
+    const nsvcd__nearest nearest = nsvcd__nearest_of(t[0], t[1]);
     best.along = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
     best.distance = sqrt(nearest.square);
   } else {
-    best = nsvcd__gilbert(s, nodes, at, last);
+    best = nsvcd__gilbert(s, pair, at, last);
   }
   if (!(best.distance > s->clearance)) return 0;
   for (int bits = 8; bits <= 24; bits += 8) {
     *normal = nsvcd__normal_of(best.along, bits);
-    if (nsvcd__plane_separates_nodes(s, nodes, normal->along)) return 1;
+    if (nsvcd__separates(s, pair, normal->along)) return 1;
   }
   return 0;
 }
