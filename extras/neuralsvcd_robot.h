@@ -142,7 +142,7 @@ NSVCDDEF void nsvcd_motion_at(const nsvcd_joint_motion *motion, size_t joints, d
 
 // What is zero is the default.
 typedef struct nsvcd_check_options {
-  // metres: parts that come nearer than this are a hit
+  // metres: parts that come within this of each other are a hit
   float clearance;
   // metres: steps in which links deviate from their sweeps by less are not cut further; 10 um
   float finest;
@@ -246,7 +246,7 @@ typedef struct nsvcd_proximity {
 
 // What is zero is the default. Up to NSVCD_MAX_COORDINATE.
 typedef struct nsvcd_proximity_options {
-  // metres: pairs that are nearer than this are reported; 0.05
+  // metres: pairs within this of each other are reported; 0.05
   float max_distance;
   // metres: width of the bracket of a distance, beside the rounding of poses to float; 20 um
   float to;
@@ -2004,22 +2004,22 @@ static nsvcd_result nsvcd__ask_sweep(nsvcd_checker *c, const nsvcd_question *que
 // ------------------------------------------------------------------------------------- robot/check
 // In: a checker and a motion of its joints. Out: is it free, as the joints make it, at all times?
 //
-// A motion is asked about from corner to corner. Each such interval is cut into steps in which no
-// part deviates by more than is allowed; each pair is asked about in all steps at once, with the
-// deviations added to the clearance. What is not proven is asked about again in finer steps.
+// A motion is checked from corner to corner. Each such interval is cut into steps in which no part
+// deviates by more than is allowed. One sweep asks about a pair in all steps, with the deviations
+// added to the clearance. Pairs that this does not prove are asked about again in finer steps.
 
 // how often an interval that takes more than NSVCD__MOST_STEPS may be halved
 #define NSVCD__CHECK_HALVINGS 24
-// steps of an interval that is no straight line, at first
+// steps of an interval that is not a straight line, at first
 #define NSVCD__FIRST_STEPS 4
 // radians or metres: no sample is put where a motion bends by less
 #define NSVCD__CORNER 1e-3
-// metres that a part may deviate at first; by how much less each time that pairs are asked again;
-// and at last, by default
+// metres that a part may deviate at first; the divisor each time that pairs are asked about again;
+// the last of these, by default
 #define NSVCD__COARSE 2e-3
 #define NSVCD__CHECK_FINER 8
 #define NSVCD__FINEST 1e-5f
-// units to look for a hit, before the last time
+// units of a try to find a hit, but for the last one
 #define NSVCD__HIT_TRY 200
 
 typedef struct nsvcd__check_state {
@@ -2049,9 +2049,9 @@ static nsvcd_result nsvcd__ask_local(nsvcd__check_state *s, const nsvcd_body_pai
   return nsvcd__ask_sweep(s->checker, &question, found);
 }
 
-// Does a pair, on its sweeps between samples, come as near as the clearance? With is_proof, the
-// clearance has all that these may be off added. range: the steps that were asked about; the times
-// of *found are of it.
+// Does a pair, on its sweeps between samples, come as near as the clearance? For a proof the errors
+// of these sweeps are added to it. range: the steps that were asked about; the times of *found are
+// fractions of it.
 static nsvcd_result nsvcd__ask_pair(nsvcd__check_state *s, const nsvcd_body_pair *pair,
                                     int is_proof, size_t work, nsvcd__step_range *range,
                                     nsvcd_answer *found) {
@@ -2072,7 +2072,7 @@ static nsvcd_result nsvcd__ask_pair(nsvcd__check_state *s, const nsvcd_body_pair
   return nsvcd__ask_local(s, pair, count, rounded, work, found);
 }
 
-// Is the answer's pair hit in the configuration that it names? Then the answer says so.
+// Is the answer's pair hit in the configuration that the answer names? Then it becomes a HIT.
 static nsvcd_result nsvcd__ask_there(nsvcd__check_state *s, size_t work) {
   nsvcd_checker *c = s->checker;
   nsvcd_check_answer *answer = s->answer;
@@ -2687,7 +2687,7 @@ static size_t nsvcd__tree_nearest(const nsvcd__rrt *t, const double *at) {
 #define NSVCD__DEPTH_HALVINGS 12
 // of the depth: how far parts are pushed out to see which faces separate last
 #define NSVCD__DEPTH_BEYOND 1.01
-// below this cosine between a push-out and the normal no slope is told
+// the least cosine between a push-out and the normal for which there is a slope
 #define NSVCD__LEAST_RATE 0.1
 // metres that the nearest free configuration has beside the clearance, so that a route can begin
 // there
@@ -2723,7 +2723,7 @@ static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, const nsvcd__l
   }
 }
 
-// Asks a question with a moved by so much.
+// Asks a question with a pushed out.
 static nsvcd_result nsvcd__ask_pushed(nsvcd_checker *c, const nsvcd_question *question,
                                       nsvcd__d3 push_out, nsvcd_answer *found) {
   nsvcd_pose pose = *question->a.poses;
@@ -2750,8 +2750,8 @@ static nsvcd_result nsvcd__separating_push_out(nsvcd_checker *c, nsvcd_question 
   return NSVCD_OK;
 }
 
-// Of parts that touch: the depth, its normal and place, and its slope. question: HIT, with all
-// errors of the poses as its clearance.
+// Of parts that touch: the depth, its contact and its slope. question: HIT, with all errors of the
+// poses as its clearance.
 static nsvcd_result nsvcd__depth_of(nsvcd_checker *c, nsvcd_question question,
                                     const nsvcd__local *local,
                                     const nsvcd_proximity_options *o, nsvcd_proximity *out) {
@@ -2829,7 +2829,7 @@ static nsvcd_result nsvcd__proximity_of(nsvcd_checker *c, size_t index,
   if (found.verdict == NSVCD_HIT) {
     out->distance.high = nsvcd__above(error);
     out->depth = HUGE_VALF;
-    // a push-out is told in floats
+    // push-outs are rounded to float
     question.clearance = nsvcd__above(error + 2e-7 * (double)o->max_depth);
     return found.inside ? NSVCD_OK : nsvcd__depth_of(c, question, &local, o, out);
   }
@@ -3753,17 +3753,17 @@ static nsvcd_result nsvcd__seek(nsvcd__router *r) {
 // ---- shortcuts
 
 // The point that is this far along the path. Returns the corner before it.
-static size_t nsvcd__path_at(const nsvcd__router *r, double gone, double *at) {
+static size_t nsvcd__path_at(const nsvcd__router *r, double along, double *at) {
   size_t k = 0;
   double length;
   for (;; k++) {
     length = nsvcd__edge_length(r, nsvcd__corner_at(r, k), nsvcd__corner_at(r, k + 1));
-    if (k + 2 >= r->corners || gone <= length) break;
-    gone -= length;
+    if (k + 2 >= r->corners || along <= length) break;
+    along -= length;
   }
   const double *from = nsvcd__corner_at(r, k);
   const double *to = nsvcd__corner_at(r, k + 1);
-  const double fraction = length > 0 ? nsvcd__min(gone / length, 1) : 0;
+  const double fraction = length > 0 ? nsvcd__min(along / length, 1) : 0;
   for (size_t j = 0; j < r->joints; j++) at[j] = from[j] + fraction * (to[j] - from[j]);
   return k;
 }

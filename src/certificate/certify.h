@@ -15,7 +15,7 @@
 #include "../ground/random.h"
 #include "rays.h"
 
-// visits that wait
+// visits on the stack
 #define NSVCD__TRAVERSAL_STACK 128
 #define NSVCD__NO_EDGE 3u
 #define NSVCD__SHORTEST_INTERVAL 1e-12
@@ -334,19 +334,19 @@ static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
 
 // Looks for a hit where an answer has one, and a little later and earlier: at the time itself the
 // triangles may only touch.
-static int nsvcd__meet_as_told(nsvcd__certifier *c, const nsvcd_answer *answer) {
-  const nsvcd_contact *told = answer->contact_count > 0 ? answer->contacts : &answer->nearest;
-  const int named = told->triangle_a < c->bodies[0].tree->mesh.triangle_count &&
-                    told->triangle_b < c->bodies[1].tree->mesh.triangle_count;
+static int nsvcd__meet_as_answered(nsvcd__certifier *c, const nsvcd_answer *answer) {
+  const nsvcd_contact *hint = answer->contact_count > 0 ? answer->contacts : &answer->nearest;
+  const int named = hint->triangle_a < c->bodies[0].tree->mesh.triangle_count &&
+                    hint->triangle_b < c->bodies[1].tree->mesh.triangle_count;
   if (answer->verdict != NSVCD_HIT) return 0;
   for (int whose = 0; whose < 2 && answer->inside; whose++)
     if (nsvcd__cast_all(c, whose) == NSVCD_HIT) return 1;
-  if (!named || !(told->time >= 0)) return 0;
-  if (nsvcd__meet_at(c, (double)told->time, told->triangle_a, told->triangle_b)) return 1;
+  if (!named || !(hint->time >= 0)) return 0;
+  if (nsvcd__meet_at(c, (double)hint->time, hint->triangle_a, hint->triangle_b)) return 1;
   for (double later = 1e-7; later < 1; later *= 2) {
     for (int k = 0; k < 2; k++) {
-      const double when = (double)told->time + (k ? -later : later);
-      if (nsvcd__meet_at(c, when, told->triangle_a, told->triangle_b)) return 1;
+      const double when = (double)hint->time + (k ? -later : later);
+      if (nsvcd__meet_at(c, when, hint->triangle_a, hint->triangle_b)) return 1;
     }
   }
   return 0;
@@ -407,7 +407,7 @@ NSVCDDEF nsvcd_result nsvcd_certify_models(
   c.capacity = capacity;
   c.digest = nsvcd__digest(models[0].digest + 31 * models[1].digest, &clearance, 1);
   c.made = &out;
-  if (!(o->answer && nsvcd__meet_as_told(&c, o->answer))) {
+  if (!(o->answer && nsvcd__meet_as_answered(&c, o->answer))) {
     out.verdict = nsvcd__prove_traversal(&c, o->visits ? o->visits : NSVCD_DEFAULT_VISITS);
     if (out.verdict == NSVCD_FREE && !c.separated) out.verdict = nsvcd__cast_all(&c, 0);
     if (out.verdict == NSVCD_FREE && !c.separated) out.verdict = nsvcd__cast_all(&c, 1);

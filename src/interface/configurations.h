@@ -28,7 +28,7 @@ typedef struct nsvcd_proximity {
 
 // What is zero is the default. Up to NSVCD_MAX_COORDINATE.
 typedef struct nsvcd_proximity_options {
-  // metres: pairs that are nearer than this are reported; 0.05
+  // metres: pairs within this of each other are reported; 0.05
   float max_distance;
   // metres: width of the bracket of a distance, beside the rounding of poses to float; 20 um
   float to;

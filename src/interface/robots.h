@@ -78,7 +78,7 @@ NSVCDDEF void nsvcd_motion_at(const nsvcd_joint_motion *motion, size_t joints, d
 
 // What is zero is the default.
 typedef struct nsvcd_check_options {
-  // metres: parts that come nearer than this are a hit
+  // metres: parts that come within this of each other are a hit
   float clearance;
   // metres: steps in which links deviate from their sweeps by less are not cut further; 10 um
   float finest;

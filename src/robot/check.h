@@ -1,23 +1,23 @@
 // In: a checker and a motion of its joints. Out: is it free, as the joints make it, at all times?
 //
-// A motion is asked about from corner to corner. Each such interval is cut into steps in which no
-// part deviates by more than is allowed; each pair is asked about in all steps at once, with the
-// deviations added to the clearance. What is not proven is asked about again in finer steps.
+// A motion is checked from corner to corner. Each such interval is cut into steps in which no part
+// deviates by more than is allowed. One sweep asks about a pair in all steps, with the deviations
+// added to the clearance. Pairs that this does not prove are asked about again in finer steps.
 #pragma once
 #include "local_queries.h"
 
 // how often an interval that takes more than NSVCD__MOST_STEPS may be halved
 #define NSVCD__CHECK_HALVINGS 24
-// steps of an interval that is no straight line, at first
+// steps of an interval that is not a straight line, at first
 #define NSVCD__FIRST_STEPS 4
 // radians or metres: no sample is put where a motion bends by less
 #define NSVCD__CORNER 1e-3
-// metres that a part may deviate at first; by how much less each time that pairs are asked again;
-// and at last, by default
+// metres that a part may deviate at first; the divisor each time that pairs are asked about again;
+// the last of these, by default
 #define NSVCD__COARSE 2e-3
 #define NSVCD__CHECK_FINER 8
 #define NSVCD__FINEST 1e-5f
-// units to look for a hit, before the last time
+// units of a try to find a hit, but for the last one
 #define NSVCD__HIT_TRY 200
 
 typedef struct nsvcd__check_state {
@@ -47,9 +47,9 @@ static nsvcd_result nsvcd__ask_local(nsvcd__check_state *s, const nsvcd_body_pai
   return nsvcd__ask_sweep(s->checker, &question, found);
 }
 
-// Does a pair, on its sweeps between samples, come as near as the clearance? With is_proof, the
-// clearance has all that these may be off added. range: the steps that were asked about; the times
-// of *found are of it.
+// Does a pair, on its sweeps between samples, come as near as the clearance? For a proof the errors
+// of these sweeps are added to it. range: the steps that were asked about; the times of *found are
+// fractions of it.
 static nsvcd_result nsvcd__ask_pair(nsvcd__check_state *s, const nsvcd_body_pair *pair,
                                     int is_proof, size_t work, nsvcd__step_range *range,
                                     nsvcd_answer *found) {
@@ -70,7 +70,7 @@ static nsvcd_result nsvcd__ask_pair(nsvcd__check_state *s, const nsvcd_body_pair
   return nsvcd__ask_local(s, pair, count, rounded, work, found);
 }
 
-// Is the answer's pair hit in the configuration that it names? Then the answer says so.
+// Is the answer's pair hit in the configuration that the answer names? Then it becomes a HIT.
 static nsvcd_result nsvcd__ask_there(nsvcd__check_state *s, size_t work) {
   nsvcd_checker *c = s->checker;
   nsvcd_check_answer *answer = s->answer;

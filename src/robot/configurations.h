@@ -16,7 +16,7 @@
 #define NSVCD__DEPTH_HALVINGS 12
 // of the depth: how far parts are pushed out to see which faces separate last
 #define NSVCD__DEPTH_BEYOND 1.01
-// below this cosine between a push-out and the normal no slope is told
+// the least cosine between a push-out and the normal for which there is a slope
 #define NSVCD__LEAST_RATE 0.1
 // metres that the nearest free configuration has beside the clearance, so that a route can begin
 // there
@@ -52,7 +52,7 @@ static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, const nsvcd__l
   }
 }
 
-// Asks a question with a moved by so much.
+// Asks a question with a pushed out.
 static nsvcd_result nsvcd__ask_pushed(nsvcd_checker *c, const nsvcd_question *question,
                                       nsvcd__d3 push_out, nsvcd_answer *found) {
   nsvcd_pose pose = *question->a.poses;
@@ -79,8 +79,8 @@ static nsvcd_result nsvcd__separating_push_out(nsvcd_checker *c, nsvcd_question 
   return NSVCD_OK;
 }
 
-// Of parts that touch: the depth, its normal and place, and its slope. question: HIT, with all
-// errors of the poses as its clearance.
+// Of parts that touch: the depth, its contact and its slope. question: HIT, with all errors of the
+// poses as its clearance.
 static nsvcd_result nsvcd__depth_of(nsvcd_checker *c, nsvcd_question question,
                                     const nsvcd__local *local,
                                     const nsvcd_proximity_options *o, nsvcd_proximity *out) {
@@ -158,7 +158,7 @@ static nsvcd_result nsvcd__proximity_of(nsvcd_checker *c, size_t index,
   if (found.verdict == NSVCD_HIT) {
     out->distance.high = nsvcd__above(error);
     out->depth = HUGE_VALF;
-    // a push-out is told in floats
+    // push-outs are rounded to float
     question.clearance = nsvcd__above(error + 2e-7 * (double)o->max_depth);
     return found.inside ? NSVCD_OK : nsvcd__depth_of(c, question, &local, o, out);
   }

@@ -245,17 +245,17 @@ static nsvcd_result nsvcd__seek(nsvcd__router *r) {
 // ---- shortcuts
 
 // The point that is this far along the path. Returns the corner before it.
-static size_t nsvcd__path_at(const nsvcd__router *r, double gone, double *at) {
+static size_t nsvcd__path_at(const nsvcd__router *r, double along, double *at) {
   size_t k = 0;
   double length;
   for (;; k++) {
     length = nsvcd__edge_length(r, nsvcd__corner_at(r, k), nsvcd__corner_at(r, k + 1));
-    if (k + 2 >= r->corners || gone <= length) break;
-    gone -= length;
+    if (k + 2 >= r->corners || along <= length) break;
+    along -= length;
   }
   const double *from = nsvcd__corner_at(r, k);
   const double *to = nsvcd__corner_at(r, k + 1);
-  const double fraction = length > 0 ? nsvcd__min(gone / length, 1) : 0;
+  const double fraction = length > 0 ? nsvcd__min(along / length, 1) : 0;
   for (size_t j = 0; j < r->joints; j++) at[j] = from[j] + fraction * (to[j] - from[j]);
   return k;
 }
