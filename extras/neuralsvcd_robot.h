@@ -3316,6 +3316,8 @@ typedef struct nsvcd__router {
   nsvcd_route_options options;
   nsvcd_check_options check;
   uint64_t random;
+  // an error, which stops the search
+  nsvcd_result result;
   int is_stopped;
   // turns since each tree has grown
   size_t idle[2];
@@ -3344,31 +3346,28 @@ static double nsvcd__edge_length(const nsvcd__router *r, const double *from,
 // ---- proofs
 
 // Is a motion proven free, and within the limits? answer.check says what is wrong.
-static nsvcd_result nsvcd__prove_by(nsvcd__router *r, const nsvcd_joint_motion *motion,
-                                    const nsvcd_check_options *options, int *is_free) {
+static int nsvcd__prove_by(nsvcd__router *r, const nsvcd_joint_motion *motion,
+                           const nsvcd_check_options *o) {
   r->answer.checks++;
-  const nsvcd_result result = nsvcd_check(r->checker, motion, options, &r->answer.check);
-  *is_free = !result && nsvcd__proves_free(&r->answer.check);
-  r->answer.proven += (size_t)*is_free;
-  if (!*is_free && options->stop && options->stop(options->user)) r->is_stopped = 1;
-  return result;
+  r->result = nsvcd_check(r->checker, motion, o, &r->answer.check);
+  const int is_free = !r->result && nsvcd__proves_free(&r->answer.check);
+  r->answer.proven += (size_t)is_free;
+  if (r->result || (!is_free && o->stop && o->stop(o->user))) r->is_stopped = 1;
+  return is_free;
 }
 
-// The same with the search's own options. Once the caller has stopped the search, nothing is free.
-static nsvcd_result nsvcd__ask_motion(nsvcd__router *r, const nsvcd_joint_motion *motion,
-                                      int *is_free) {
-  *is_free = 0;
+// The same with the search's own options. Once the search is stopped, nothing is free.
+static int nsvcd__ask_motion(nsvcd__router *r, const nsvcd_joint_motion *motion) {
   if (!r->is_stopped && r->problem.stop && r->problem.stop(r->problem.user)) r->is_stopped = 1;
-  return r->is_stopped ? NSVCD_OK : nsvcd__prove_by(r, motion, &r->check, is_free);
+  return !r->is_stopped && nsvcd__prove_by(r, motion, &r->check);
 }
 
-static nsvcd_result nsvcd__prove_edge(nsvcd__router *r, const double *from, const double *to,
-                                      int *is_free) {
+static int nsvcd__prove_edge(nsvcd__router *r, const double *from, const double *to) {
   double points[2 * NSVCD_MAX_JOINTS];
   const nsvcd_joint_motion motion = {1, 1, points, NULL};
   memcpy(points, from, r->joints * sizeof *points);
   memcpy(points + r->joints, to, r->joints * sizeof *points);
-  return nsvcd__ask_motion(r, &motion, is_free);
+  return nsvcd__ask_motion(r, &motion);
 }
 
 // ---- from rest to rest
@@ -3454,34 +3453,30 @@ static int nsvcd__trajectory_append(const nsvcd__trajectory *t, size_t joints, d
 }
 
 // Replaces the trajectory from time t0 to t1 by a blend, if that is quicker by `gain` and proven.
-static nsvcd_result nsvcd__smooth_once(nsvcd__router *r, double t0, double t1, double gain) {
+static void nsvcd__smooth_once(nsvcd__router *r, double t0, double t1, double gain) {
   const size_t joints = r->joints;
   const nsvcd__trajectory *t = &r->trajectory;
   nsvcd__trajectory *blend = &r->blend;
   nsvcd__trajectory *out = &r->other;
   nsvcd__state from, to;
-  int is_free;
   nsvcd__joints_at_time(&t->motion, joints, t0, from.x, from.v);
   nsvcd__joints_at_time(&t->motion, joints, t1, to.x, to.v);
-  if (!nsvcd__blend_write(r->scene, &from, &to, t1 - t0 - gain, blend)) return NSVCD_OK;
+  if (!nsvcd__blend_write(r->scene, &from, &to, t1 - t0 - gain, blend)) return;
   nsvcd__trajectory_begin(out, joints, t->points);
-  if (!nsvcd__trajectory_append(t, joints, 0, t0, out) ||
-      !nsvcd__trajectory_append(blend, joints, 0, nsvcd__trajectory_end(blend), out) ||
-      !nsvcd__trajectory_append(t, joints, t1, nsvcd__trajectory_end(t), out))
-    return NSVCD_OK;
-  const nsvcd_result result = nsvcd__ask_motion(r, &blend->motion, &is_free);
-  if (result || !is_free) return result;
+  if (!nsvcd__trajectory_append(t, joints, 0, t0, out)) return;
+  if (!nsvcd__trajectory_append(blend, joints, 0, nsvcd__trajectory_end(blend), out)) return;
+  if (!nsvcd__trajectory_append(t, joints, t1, nsvcd__trajectory_end(t), out)) return;
+  if (!nsvcd__ask_motion(r, &blend->motion)) return;
   const nsvcd__trajectory was = r->trajectory;
   r->trajectory = *out;
   *out = was;
-  return NSVCD_OK;
 }
 
-static nsvcd_result nsvcd__smooth(nsvcd__router *r) {
+static void nsvcd__smooth(nsvcd__router *r) {
   for (size_t n = 0; n < r->options.smoothings && !r->is_stopped; n++) {
     const nsvcd__trajectory *t = &r->trajectory;
     const double end = nsvcd__trajectory_end(t);
-    if (end <= NSVCD__FAST_ENOUGH * r->answer.unhindered) return NSVCD_OK;
+    if (end <= NSVCD__FAST_ENOUGH * r->answer.unhindered) return;
     double t0 = end * nsvcd__random(&r->random);
     double t1 = end * nsvcd__random(&r->random);
     size_t rests = 0;
@@ -3500,11 +3495,8 @@ static nsvcd_result nsvcd__smooth(nsvcd__router *r) {
     const double least = NSVCD__LEAST_GAIN * fabs(t1 - t0);
     const double worthy = NSVCD__WORTHY_GAIN * (end - r->answer.unhindered);
     const double gain = rests ? least : nsvcd__max(least, worthy);
-    const nsvcd_result result =
-        nsvcd__smooth_once(r, nsvcd__min(t0, t1), nsvcd__max(t0, t1), gain);
-    if (result) return result;
+    nsvcd__smooth_once(r, nsvcd__min(t0, t1), nsvcd__max(t0, t1), gain);
   }
-  return NSVCD_OK;
 }
 
 // ------------------------------------------------------------------------------------- robot/route
@@ -3639,31 +3631,22 @@ static int nsvcd__is_at_limit(const nsvcd__router *r) {
 }
 
 // Grows a tree from its node nearest to a configuration: by one edge, or, if `is_greedy`, edge by
-// edge until it is there. *node: the last new node, or the nearest one. *is_there: it is the
-// configuration.
-static nsvcd_result nsvcd__grow(nsvcd__router *r, nsvcd__rrt *t, const double *to,
-                                int is_greedy, size_t *node, int *is_there) {
+// edge. *node: the last new node, or the nearest one. Returns 1 if that is the configuration.
+static int nsvcd__grow(nsvcd__router *r, nsvcd__rrt *t, const double *to, int is_greedy,
+                       size_t *node) {
   *node = nsvcd__tree_nearest(t, to);
-  *is_there = 0;
-  do {
+  for (;;) {
     double next[NSVCD_MAX_JOINTS];
     const double *from = nsvcd__node_at(t, *node);
     const double length = nsvcd__edge_length(r, from, to);
     const int ends = length <= r->options.edge;
-    int is_free;
-    if (!(length > 0)) {
-      *is_there = 1;
-      return NSVCD_OK;
-    }
+    if (!(length > 0)) return 1;
     for (size_t j = 0; j < r->joints; j++)
       next[j] = ends ? to[j] : from[j] + r->options.edge / length * (to[j] - from[j]);
-    const nsvcd_result result = nsvcd__prove_edge(r, from, next, &is_free);
-    if (result) return result;
-    if (!is_free || nsvcd__is_at_limit(r)) return NSVCD_OK;
+    if (!nsvcd__prove_edge(r, from, next) || nsvcd__is_at_limit(r)) return 0;
     *node = nsvcd__tree_add(t, next, *node);
-    *is_there = ends;
-  } while (is_greedy && !*is_there);
-  return NSVCD_OK;
+    if (ends || !is_greedy) return ends;
+  }
 }
 
 // Writes the path through nodes of both trees that are the same configuration.
@@ -3684,20 +3667,18 @@ static void nsvcd__path_through(nsvcd__router *r, size_t from_start, size_t from
   r->answer.goal = r->goals[n];
 }
 
-// An edge from a node of the first tree to one of the second: if it is free, the path is found.
-static nsvcd_result nsvcd__join(nsvcd__router *r, size_t from_start, size_t from_goal,
-                                int *is_found) {
+// Tries an edge from a node of the first tree to one of the second. Returns 1 if it is free: then
+// the path is found.
+static int nsvcd__join(nsvcd__router *r, size_t from_start, size_t from_goal) {
   const double *to = nsvcd__node_at(&r->trees[1], from_goal);
-  const double *from = nsvcd__node_at(&r->trees[0], from_start);
-  const nsvcd_result result = nsvcd__prove_edge(r, from, to, is_found);
-  if (result || !*is_found) return result;
+  if (!nsvcd__prove_edge(r, nsvcd__node_at(&r->trees[0], from_start), to)) return 0;
   const size_t node = nsvcd__tree_add(&r->trees[0], to, from_start);
   nsvcd__path_through(r, node, from_goal);
-  return NSVCD_OK;
+  return 1;
 }
 
-// The trees take what is free of the caller's guess, from both ends.
-static nsvcd_result nsvcd__take_guess(nsvcd__router *r, int *is_found) {
+// The trees take what is free of the caller's guess, from both ends. Returns 1 if that is a path.
+static int nsvcd__take_guess(nsvcd__router *r) {
   const nsvcd_route_problem *p = &r->problem;
   size_t first = 0;
   size_t last = p->guess_count;
@@ -3709,45 +3690,39 @@ static nsvcd_result nsvcd__take_guess(nsvcd__router *r, int *is_found) {
     nsvcd__rrt *t = &r->trees[side];
     while (first < last) {
       const double *to = p->guess + (side ? last - 1 : first) * r->joints;
-      const double *from = nsvcd__node_at(t, nodes[side]);
-      int is_free;
-      const nsvcd_result result = nsvcd__prove_edge(r, from, to, &is_free);
-      if (result) return result;
-      if (!is_free) break;
+      if (!nsvcd__prove_edge(r, nsvcd__node_at(t, nodes[side]), to)) break;
       nodes[side] = nsvcd__tree_add(t, to, nodes[side]);
       first += side == 0;
       last -= side == 1;
     }
   }
-  return first < last ? NSVCD_OK : nsvcd__join(r, nodes[0], nodes[1], is_found);
+  return first == last && nsvcd__join(r, nodes[0], nodes[1]);
 }
 
 // RRT-Connect (Kuffner and LaValle 2000), after the guess and the straight lines. Difference: an
 // edge is proven, not sampled.
-static nsvcd_result nsvcd__seek(nsvcd__router *r) {
-  int is_found = 0;
-  nsvcd_result result = nsvcd__take_guess(r, &is_found);
+static void nsvcd__seek(nsvcd__router *r) {
+  if (nsvcd__take_guess(r)) return;
   // straight lines to the goals
-  const size_t goals =
-      r->trees[1].count < r->problem.goal_count ? r->trees[1].count : r->problem.goal_count;
-  for (size_t g = 0; g < goals && !result && !is_found && !r->is_stopped; g++)
-    result = nsvcd__join(r, 0, g, &is_found);
-  for (size_t turn = 0; !result && !is_found && !r->is_stopped; turn++) {
+  const size_t roots = r->trees[1].count;
+  for (size_t g = 0; g < roots && g < r->problem.goal_count && !r->is_stopped; g++) {
+    if (nsvcd__join(r, 0, g)) return;
+  }
+  for (size_t turn = 0; !r->is_stopped; turn++) {
     nsvcd__rrt *grown = &r->trees[turn % 2];
     nsvcd__rrt *other = &r->trees[1 - turn % 2];
     double drawn[NSVCD_MAX_JOINTS];
     size_t node, met;
     nsvcd__draw(r, turn, drawn);
     const size_t before = grown->count;
-    int is_there;
-    result = nsvcd__grow(r, grown, drawn, 0, &node, &is_there);
-    if (result || nsvcd__is_at_limit(r)) return result;
+    (void)nsvcd__grow(r, grown, drawn, 0, &node);
+    if (nsvcd__is_at_limit(r)) return;
     r->idle[turn % 2] = grown->count == before ? r->idle[turn % 2] + 1 : 0;
     if (grown->count == before) continue;
-    result = nsvcd__grow(r, other, nsvcd__node_at(grown, node), 1, &met, &is_found);
-    if (is_found) nsvcd__path_through(r, turn % 2 ? met : node, turn % 2 ? node : met);
+    if (!nsvcd__grow(r, other, nsvcd__node_at(grown, node), 1, &met)) continue;
+    nsvcd__path_through(r, turn % 2 ? met : node, turn % 2 ? node : met);
+    return;
   }
-  return result;
 }
 
 // ---- shortcuts
@@ -3769,7 +3744,7 @@ static size_t nsvcd__path_at(const nsvcd__router *r, double along, double *at) {
 }
 
 // Replaces the path between two points drawn on it by an edge, again and again, where that is free.
-static nsvcd_result nsvcd__shorten(nsvcd__router *r) {
+static void nsvcd__shorten(nsvcd__router *r) {
   const size_t bytes = r->joints * sizeof(double);
   for (size_t n = 0; n < r->options.shortcuts && r->corners > 2 && !r->is_stopped; n++) {
     double at[2][NSVCD_MAX_JOINTS];
@@ -3782,10 +3757,7 @@ static nsvcd_result nsvcd__shorten(nsvcd__router *r) {
     const size_t last = nsvcd__path_at(r, nsvcd__max(a, b), at[1]);
     // on one edge nothing is won, and the path would grow by corners
     if (first == last) continue;
-    int is_free;
-    const nsvcd_result result = nsvcd__prove_edge(r, at[0], at[1], &is_free);
-    if (result) return result;
-    if (!is_free) continue;
+    if (!nsvcd__prove_edge(r, at[0], at[1])) continue;
     // corners first + 1 to last make way for two
     const size_t rest = r->corners - (last + 1);
     memmove(nsvcd__corner_at(r, first + 3), nsvcd__corner_at(r, last + 1), rest * bytes);
@@ -3793,7 +3765,6 @@ static nsvcd_result nsvcd__shorten(nsvcd__router *r) {
     memcpy(nsvcd__corner_at(r, first + 2), at[1], bytes);
     r->corners = first + 3 + rest;
   }
-  return NSVCD_OK;
 }
 
 // Drops corners that are nearly at the one before: of so short an edge rounding would say what its
@@ -3834,8 +3805,7 @@ NSVCDDEF const char *nsvcd_route_status_string(nsvcd_route_status status) {
 // Copies a configuration, clamped to the limits where only rounding has it out. Is it free? That is
 // tried with the search's clearance, then with the caller's, each with the search's work, then with
 // all; edges from there are proven with what was enough.
-static nsvcd_result nsvcd__take_in(nsvcd__router *r, const double *at, double *out,
-                                   int *is_free) {
+static int nsvcd__take_in(nsvcd__router *r, const double *at, double *out) {
   const nsvcd_joint_motion motion = {0, 0, out, NULL};
   for (size_t j = 0; j < r->joints; j++) {
     const nsvcd_joint *joint = &r->scene->joints[j];
@@ -3850,14 +3820,13 @@ static nsvcd_result nsvcd__take_in(nsvcd__router *r, const double *at, double *o
     r->check = was;
     if (n % 2) r->check.clearance = r->options.clearance;
     if (n / 2) r->check.work = 0;
-    const nsvcd_result result = nsvcd__ask_motion(r, &motion, is_free);
-    if (result || *is_free) return result;
+    if (nsvcd__ask_motion(r, &motion)) return 1;
     // no work makes that free
     const nsvcd_check_answer *found = &r->answer.check;
     if (found->joint != NSVCD_NONE || (n % 2 && found->verdict == NSVCD_HIT)) break;
   }
   r->check = was;
-  return NSVCD_OK;
+  return 0;
 }
 
 // Adds a root to a tree, and to the range of all roots.
@@ -3871,20 +3840,14 @@ static void nsvcd__plant_root(nsvcd__router *r, nsvcd__rrt *t, const double *at)
 }
 
 // Plants the roots of the trees. Sets the status where there are none.
-static nsvcd_result nsvcd__plant(nsvcd__router *r) {
+static void nsvcd__plant(nsvcd__router *r) {
   const double full_turn = 6.283185307179586;
   double at[NSVCD_MAX_JOINTS];
-  int is_free;
-  nsvcd_result result = nsvcd__take_in(r, r->problem.start, at, &is_free);
-  if (result) return result;
-  if (!is_free) {
-    r->answer.status = NSVCD_ROUTE_START;
-    return NSVCD_OK;
-  }
+  r->answer.status = NSVCD_ROUTE_START;
+  if (!nsvcd__take_in(r, r->problem.start, at)) return;
   nsvcd__plant_root(r, &r->trees[0], at);
-  for (size_t g = 0; g < r->problem.goal_count && !result; g++) {
-    result = nsvcd__take_in(r, r->problem.goals + g * r->joints, at, &is_free);
-    if (result || !is_free) continue;
+  for (size_t g = 0; g < r->problem.goal_count; g++) {
+    if (!nsvcd__take_in(r, r->problem.goals + g * r->joints, at)) continue;
     // as near as whole turns bring it
     for (size_t j = 0; j < r->joints; j++) {
       const double turns = floor((at[j] - r->trees[0].points[j]) / full_turn + 0.5);
@@ -3893,13 +3856,13 @@ static nsvcd_result nsvcd__plant(nsvcd__router *r) {
     r->goals[r->trees[1].count] = g;
     nsvcd__plant_root(r, &r->trees[1], at);
   }
-  if (!r->trees[1].count) r->answer.status = NSVCD_ROUTE_GOAL;
-  return result;
+  r->answer.status = r->trees[1].count ? NSVCD_ROUTE_LIMIT : NSVCD_ROUTE_GOAL;
 }
 
 // Makes a motion of the path and proves all of it: smooth, else with a rest at each corner.
-static nsvcd_result nsvcd__time_path(nsvcd__router *r) {
+static void nsvcd__time_path(nsvcd__router *r) {
   nsvcd_route_answer *answer = &r->answer;
+  const nsvcd__trajectory *t = &r->trajectory;
   const double *last = nsvcd__corner_at(r, r->corners - 1);
   for (size_t j = 0; j < r->joints; j++) {
     const nsvcd_joint *joint = &r->scene->joints[j];
@@ -3907,35 +3870,31 @@ static nsvcd_result nsvcd__time_path(nsvcd__router *r) {
                                           nsvcd__acceleration_of(joint));
     answer->unhindered = nsvcd__max(answer->unhindered, time);
   }
-  int is_free = 0;
   nsvcd_check_options whole;
   memset(&whole, 0, sizeof whole);
   whole.clearance = r->options.clearance;
   whole.stop = r->check.stop;
   whole.user = r->check.user;
-  const nsvcd__trajectory *t = &r->trajectory;
+  int is_free = 0;
   for (int rests = 0; rests < 2 && !is_free; rests++) {
-    nsvcd_result result = NSVCD_OK;
-    if (!nsvcd__trajectory_along(r)) return NSVCD_OK;
-    if (!rests) result = nsvcd__smooth(r);
-    // also when the search was stopped: what it found by then is proven
-    if (!result) result = nsvcd__prove_by(r, &t->motion, &whole, &is_free);
-    if (result) return result;
+    if (!nsvcd__trajectory_along(r)) return;
+    if (!rests) nsvcd__smooth(r);
+    // also when the caller has stopped the search: what it found by then is proven
+    is_free = !r->result && nsvcd__prove_by(r, &t->motion, &whole);
   }
-  if (!is_free) return NSVCD_OK;
+  if (!is_free) return;
   answer->status = NSVCD_ROUTE_FOUND;
   answer->motion = t->motion;
   answer->duration = nsvcd__trajectory_end(t);
   for (size_t p = 1; p < t->motion.pieces; p++)
     answer->stops += (size_t)nsvcd__rests_at(t, r->joints, p);
-  return NSVCD_OK;
 }
 
 NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_problem *problem,
                                   const nsvcd_route_options *options, void *memory,
                                   size_t size, nsvcd_route_answer *answer) {
   nsvcd__router *r;
-  nsvcd_result result = nsvcd__route_check(checker, problem, options);
+  const nsvcd_result result = nsvcd__route_check(checker, problem, options);
   if (result) return result;
   if (!answer) return NSVCD_ERROR_ARGUMENT;
   if (options && (!nsvcd__is_finite(options->clearance) || options->clearance < 0))
@@ -3954,15 +3913,14 @@ NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_prob
   r->check.work = NSVCD__SEARCH_WORK;
   r->check.stop = problem->abandon;
   r->check.user = problem->user;
-  r->answer.status = NSVCD_ROUTE_LIMIT;
-  result = nsvcd__plant(r);
-  if (!result && r->trees[1].count > 0) result = nsvcd__seek(r);
-  if (!result && r->corners > 0) result = nsvcd__shorten(r);
-  if (!result && r->corners > 0) {
+  nsvcd__plant(r);
+  if (r->trees[1].count > 0) nsvcd__seek(r);
+  if (r->corners > 0) {
+    nsvcd__shorten(r);
     nsvcd__simplify_path(r);
-    result = nsvcd__time_path(r);
+    nsvcd__time_path(r);
   }
-  if (result) return result;
+  if (r->result) return r->result;
   if (r->is_stopped && r->answer.status != NSVCD_ROUTE_FOUND)
     r->answer.status = NSVCD_ROUTE_STOPPED;
   r->answer.nodes = r->trees[0].count + r->trees[1].count;

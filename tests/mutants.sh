@@ -258,12 +258,12 @@ robot: the last piece alone|const size_t steps = next - p == 1|if (next < m.piec
 robot: what is free of the first pair|if (!result \&\& found.verdict == NSVCD_FREE) continue;|if (!result \&\& found.verdict == NSVCD_FREE) break;
 robot: the other half of a tree never|nsvcd__nearest_in(t, cell->first + !(side > 0), at, off,|if (0) nsvcd__nearest_in(t, cell->first + !(side > 0), at, off,
 robot: leaves cut with a hole|if (!(off2 < *best)) return;|if (!(1.5 * off2 < *best)) return;
-robot: ramps that are not proven|if (result \|\| !is_free) return result;\n  const nsvcd__trajectory was|if (result) return result;\n  const nsvcd__trajectory was
+robot: ramps that are not proven|if (!nsvcd__ask_motion(r, \&blend->motion)) return;|
 robot: routes without a clearance|r->check.clearance = r->options.clearance + NSVCD__SPARE;|r->check.clearance = NSVCD__SPARE;
 robot: ramps beyond the speed|if (fabs(peak) > speed) {|if (fabs(peak) > 2 * speed) {
 robot: ramps with any acceleration|return fabs(a) <= most;|return 1;
 robot: ramps that are slow|const double side = distance >= least ? 1 : -1;|const double side = distance >= 0 ? 1 : -1;
-robot: shortcuts that are not proven|if (!is_free) continue;\n    // corners|if (0) continue;\n    // corners
+robot: shortcuts that are not proven|if (!nsvcd__prove_edge(r, at[0], at[1])) continue;|
 robot: starts by the work of the search|if (n / 2) r->check.work = 0;|
 robot: a last proof that nobody ends|whole.stop = r->check.stop;|
 robot: trees that stay in their holes|if (r->idle[turn % 2] >= NSVCD__IDLE \&\&|if (0 \&\&

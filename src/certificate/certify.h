@@ -110,8 +110,8 @@ static uint32_t nsvcd__piercing_edge(const nsvcd__seen *s, uint32_t own, uint32_
   return NSVCD__NO_EDGE;
 }
 
-// A point of a triangle as it is written. A line from the first corner through it meets the opposite
-// side: code[0] says how far along that line the point is, code[1] where on the side they meet.
+// A point of a triangle as it is written. The line from the first corner through it meets the side
+// opposite: code[0] is the point's fraction of that line, code[1] where on the side they meet.
 // Returns the point that is read.
 static nsvcd__d3 nsvcd__point_code(const nsvcd__d3 *t, nsvcd__d3 x, uint32_t *code) {
   const nsvcd__d3 n = nsvcd__face_normal(t);

@@ -35,6 +35,8 @@ typedef struct nsvcd__router {
   nsvcd_route_options options;
   nsvcd_check_options check;
   uint64_t random;
+  // an error, which stops the search
+  nsvcd_result result;
   int is_stopped;
   // turns since each tree has grown
   size_t idle[2];
@@ -63,31 +65,28 @@ static double nsvcd__edge_length(const nsvcd__router *r, const double *from,
 // ---- proofs
 
 // Is a motion proven free, and within the limits? answer.check says what is wrong.
-static nsvcd_result nsvcd__prove_by(nsvcd__router *r, const nsvcd_joint_motion *motion,
-                                    const nsvcd_check_options *options, int *is_free) {
+static int nsvcd__prove_by(nsvcd__router *r, const nsvcd_joint_motion *motion,
+                           const nsvcd_check_options *o) {
   r->answer.checks++;
-  const nsvcd_result result = nsvcd_check(r->checker, motion, options, &r->answer.check);
-  *is_free = !result && nsvcd__proves_free(&r->answer.check);
-  r->answer.proven += (size_t)*is_free;
-  if (!*is_free && options->stop && options->stop(options->user)) r->is_stopped = 1;
-  return result;
+  r->result = nsvcd_check(r->checker, motion, o, &r->answer.check);
+  const int is_free = !r->result && nsvcd__proves_free(&r->answer.check);
+  r->answer.proven += (size_t)is_free;
+  if (r->result || (!is_free && o->stop && o->stop(o->user))) r->is_stopped = 1;
+  return is_free;
 }
 
-// The same with the search's own options. Once the caller has stopped the search, nothing is free.
-static nsvcd_result nsvcd__ask_motion(nsvcd__router *r, const nsvcd_joint_motion *motion,
-                                      int *is_free) {
-  *is_free = 0;
+// The same with the search's own options. Once the search is stopped, nothing is free.
+static int nsvcd__ask_motion(nsvcd__router *r, const nsvcd_joint_motion *motion) {
   if (!r->is_stopped && r->problem.stop && r->problem.stop(r->problem.user)) r->is_stopped = 1;
-  return r->is_stopped ? NSVCD_OK : nsvcd__prove_by(r, motion, &r->check, is_free);
+  return !r->is_stopped && nsvcd__prove_by(r, motion, &r->check);
 }
 
-static nsvcd_result nsvcd__prove_edge(nsvcd__router *r, const double *from, const double *to,
-                                      int *is_free) {
+static int nsvcd__prove_edge(nsvcd__router *r, const double *from, const double *to) {
   double points[2 * NSVCD_MAX_JOINTS];
   const nsvcd_joint_motion motion = {1, 1, points, NULL};
   memcpy(points, from, r->joints * sizeof *points);
   memcpy(points + r->joints, to, r->joints * sizeof *points);
-  return nsvcd__ask_motion(r, &motion, is_free);
+  return nsvcd__ask_motion(r, &motion);
 }
 
 // ---- from rest to rest
@@ -173,34 +172,30 @@ static int nsvcd__trajectory_append(const nsvcd__trajectory *t, size_t joints, d
 }
 
 // Replaces the trajectory from time t0 to t1 by a blend, if that is quicker by `gain` and proven.
-static nsvcd_result nsvcd__smooth_once(nsvcd__router *r, double t0, double t1, double gain) {
+static void nsvcd__smooth_once(nsvcd__router *r, double t0, double t1, double gain) {
   const size_t joints = r->joints;
   const nsvcd__trajectory *t = &r->trajectory;
   nsvcd__trajectory *blend = &r->blend;
   nsvcd__trajectory *out = &r->other;
   nsvcd__state from, to;
-  int is_free;
   nsvcd__joints_at_time(&t->motion, joints, t0, from.x, from.v);
   nsvcd__joints_at_time(&t->motion, joints, t1, to.x, to.v);
-  if (!nsvcd__blend_write(r->scene, &from, &to, t1 - t0 - gain, blend)) return NSVCD_OK;
+  if (!nsvcd__blend_write(r->scene, &from, &to, t1 - t0 - gain, blend)) return;
   nsvcd__trajectory_begin(out, joints, t->points);
-  if (!nsvcd__trajectory_append(t, joints, 0, t0, out) ||
-      !nsvcd__trajectory_append(blend, joints, 0, nsvcd__trajectory_end(blend), out) ||
-      !nsvcd__trajectory_append(t, joints, t1, nsvcd__trajectory_end(t), out))
-    return NSVCD_OK;
-  const nsvcd_result result = nsvcd__ask_motion(r, &blend->motion, &is_free);
-  if (result || !is_free) return result;
+  if (!nsvcd__trajectory_append(t, joints, 0, t0, out)) return;
+  if (!nsvcd__trajectory_append(blend, joints, 0, nsvcd__trajectory_end(blend), out)) return;
+  if (!nsvcd__trajectory_append(t, joints, t1, nsvcd__trajectory_end(t), out)) return;
+  if (!nsvcd__ask_motion(r, &blend->motion)) return;
   const nsvcd__trajectory was = r->trajectory;
   r->trajectory = *out;
   *out = was;
-  return NSVCD_OK;
 }
 
-static nsvcd_result nsvcd__smooth(nsvcd__router *r) {
+static void nsvcd__smooth(nsvcd__router *r) {
   for (size_t n = 0; n < r->options.smoothings && !r->is_stopped; n++) {
     const nsvcd__trajectory *t = &r->trajectory;
     const double end = nsvcd__trajectory_end(t);
-    if (end <= NSVCD__FAST_ENOUGH * r->answer.unhindered) return NSVCD_OK;
+    if (end <= NSVCD__FAST_ENOUGH * r->answer.unhindered) return;
     double t0 = end * nsvcd__random(&r->random);
     double t1 = end * nsvcd__random(&r->random);
     size_t rests = 0;
@@ -219,9 +214,6 @@ static nsvcd_result nsvcd__smooth(nsvcd__router *r) {
     const double least = NSVCD__LEAST_GAIN * fabs(t1 - t0);
     const double worthy = NSVCD__WORTHY_GAIN * (end - r->answer.unhindered);
     const double gain = rests ? least : nsvcd__max(least, worthy);
-    const nsvcd_result result =
-        nsvcd__smooth_once(r, nsvcd__min(t0, t1), nsvcd__max(t0, t1), gain);
-    if (result) return result;
+    nsvcd__smooth_once(r, nsvcd__min(t0, t1), nsvcd__max(t0, t1), gain);
   }
-  return NSVCD_OK;
 }
