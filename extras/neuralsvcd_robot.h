@@ -1302,6 +1302,8 @@ struct nsvcd_checker {
   nsvcd__links at, next;
   void *query;
   size_t query_size;
+  // an error of a question, which ends those that follow
+  nsvcd_result result;
 };
 
 static nsvcd__dquat nsvcd__dquat_mul(nsvcd__dquat a, nsvcd__dquat b) {
@@ -1788,6 +1790,7 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
   if (!needed || size < needed) return NSVCD_ERROR_WORKSPACE;
   (void)nsvcd__checker_layout(scene, (char *)memory, &c);
   c->scene = scene;
+  c->result = NSVCD_OK;
   for (size_t i = 0; i < scene->joint_count; i++) {
     const nsvcd_joint *joint = &scene->joints[i];
     nsvcd__link *link = &c->links[i];
@@ -1996,9 +1999,12 @@ static nsvcd_question nsvcd__question_of(const nsvcd_checker *c, const nsvcd_bod
   return question;
 }
 
-static nsvcd_result nsvcd__ask_sweep(nsvcd_checker *c, const nsvcd_question *question,
-                                     nsvcd_answer *found) {
-  return nsvcd_sweep(question, c->query, c->query_size, found);
+// Returns the verdict; UNDECIDED where c->result is an error.
+static nsvcd_verdict nsvcd__ask_sweep(nsvcd_checker *c, const nsvcd_question *question,
+                                      nsvcd_answer *found) {
+  memset(found, 0, sizeof *found);
+  if (!c->result) c->result = nsvcd_sweep(question, c->query, c->query_size, found);
+  return found->verdict;
 }
 
 // ------------------------------------------------------------------------------------- robot/check
@@ -2034,16 +2040,16 @@ typedef struct nsvcd__check_state {
 // ---- pairs
 
 // Do two parts, in their local poses, come as near as the clearance?
-static nsvcd_result nsvcd__ask_local(nsvcd__check_state *s, const nsvcd_body_pair *pair,
-                                     size_t count, float clearance, size_t work,
-                                     nsvcd_answer *found) {
+static nsvcd_verdict nsvcd__ask_local(nsvcd__check_state *s, const nsvcd_body_pair *pair,
+                                      size_t count, float clearance, size_t work,
+                                      nsvcd_answer *found) {
   const nsvcd_check_options *o = s->options;
   nsvcd_question question = nsvcd__question_of(s->checker, pair, count, work);
   question.clearance = clearance;
   if (o->stop && o->stop(o->user)) {
     memset(found, 0, sizeof *found);
     found->why = NSVCD_WHY_WORK;
-    return NSVCD_OK;
+    return NSVCD_UNDECIDED;
   }
   s->answer->sweeps++;
   return nsvcd__ask_sweep(s->checker, &question, found);
@@ -2052,16 +2058,13 @@ static nsvcd_result nsvcd__ask_local(nsvcd__check_state *s, const nsvcd_body_pai
 // Does a pair, on its sweeps between samples, come as near as the clearance? For a proof the errors
 // of these sweeps are added to it. range: the steps that were asked about; the times of *found are
 // fractions of it.
-static nsvcd_result nsvcd__ask_pair(nsvcd__check_state *s, const nsvcd_body_pair *pair,
-                                    int is_proof, size_t work, nsvcd__step_range *range,
-                                    nsvcd_answer *found) {
+static nsvcd_verdict nsvcd__ask_pair(nsvcd__check_state *s, const nsvcd_body_pair *pair,
+                                     int is_proof, size_t work, nsvcd__step_range *range,
+                                     nsvcd_answer *found) {
   nsvcd_checker *c = s->checker;
   const double error = nsvcd__part_error(c, pair->a) + nsvcd__part_error(c, pair->b);
   const double room = (double)s->options->clearance + error;
-  if (!nsvcd__steps_near(c, pair, s->steps, room * (1 + 1e-9), range)) {
-    found->verdict = NSVCD_FREE;
-    return NSVCD_OK;
-  }
+  if (!nsvcd__steps_near(c, pair, s->steps, room * (1 + 1e-9), range)) return NSVCD_FREE;
   const size_t count = range->steps + 1;
   const nsvcd__frame *const frames[2] = {nsvcd__frames_at(c, pair->a, range->first),
                                          nsvcd__frames_at(c, pair->b, range->first)};
@@ -2073,10 +2076,11 @@ static nsvcd_result nsvcd__ask_pair(nsvcd__check_state *s, const nsvcd_body_pair
 }
 
 // Is the answer's pair hit in the configuration that the answer names? Then it becomes a HIT.
-static nsvcd_result nsvcd__ask_there(nsvcd__check_state *s, size_t work) {
+static int nsvcd__is_hit_there(nsvcd__check_state *s, size_t work) {
   nsvcd_checker *c = s->checker;
   nsvcd_check_answer *answer = s->answer;
   const nsvcd_body_pair *pair = &c->scene->pairs[answer->pair];
+  const float clearance = s->options->clearance;
   double joints[NSVCD_MAX_JOINTS];
   nsvcd_answer found;
   nsvcd__joints_at(s->motion, c->scene->joint_count, answer->piece, answer->fraction, joints,
@@ -2084,26 +2088,22 @@ static nsvcd_result nsvcd__ask_there(nsvcd__check_state *s, size_t work) {
   nsvcd__place_links(c, joints, &c->at);
   answer->placed++;
   const nsvcd__local local = nsvcd__localize_at(c, pair, &c->at);
-  const nsvcd_result result =
-      nsvcd__ask_local(s, pair, 1, s->options->clearance, work, &found);
-  if (result || found.verdict != NSVCD_HIT) return result;
+  if (nsvcd__ask_local(s, pair, 1, clearance, work, &found) != NSVCD_HIT) return 0;
   answer->verdict = NSVCD_HIT;
   answer->contact = found.nearest;
   nsvcd__contact_to_world(&local, &answer->contact);
-  return NSVCD_OK;
+  return 1;
 }
 
 // Is a pair that is not proven hit in some configuration? Tries two: where it came nearest in its
 // proof, which is *found; then where its sweeps between samples hit.
-static nsvcd_result nsvcd__seek_hit(nsvcd__check_state *s, size_t pair,
-                                    nsvcd__step_range *range, nsvcd_answer *found,
-                                    size_t work) {
+static int nsvcd__seek_hit(nsvcd__check_state *s, size_t pair, nsvcd__step_range *range,
+                           nsvcd_answer *found, size_t work) {
   nsvcd_checker *c = s->checker;
   nsvcd_check_answer *answer = s->answer;
-  nsvcd_result result = NSVCD_OK;
   answer->pair = pair;
   answer->why = found->why;
-  for (int attempt = 0; attempt < 2 && found->verdict != NSVCD_FREE; attempt++) {
+  for (int attempt = 0; attempt < 2; attempt++) {
     if (s->steps > 0) {
       // a sweep takes all steps to be equally long
       const double u = nsvcd__max(0, nsvcd__min(1, (double)found->nearest.time));
@@ -2114,13 +2114,12 @@ static nsvcd_result nsvcd__seek_hit(nsvcd__check_state *s, size_t pair,
       answer->piece = nsvcd__piece_at(s->motion, time);
       answer->fraction = nsvcd__fraction_at(s->motion, answer->piece, time);
     }
-    result = nsvcd__ask_there(s, work);
-    if (result || answer->verdict == NSVCD_HIT) return result;
-    if (attempt == 0)
-      result = nsvcd__ask_pair(s, &c->scene->pairs[pair], 0, work, range, found);
-    if (result) return result;
+    if (nsvcd__is_hit_there(s, work)) return 1;
+    if (attempt == 0 &&
+        nsvcd__ask_pair(s, &c->scene->pairs[pair], 0, work, range, found) == NSVCD_FREE)
+      return 0;
   }
-  return NSVCD_OK;
+  return 0;
 }
 
 // Puts a pair first in the order.
@@ -2131,28 +2130,26 @@ static void nsvcd__put_first(nsvcd_checker *c, size_t pair) {
   c->order[0] = (uint32_t)pair;
 }
 
-// Asks about the first *left pairs of c->left, until one is hit; keeps those that stay unproven.
-static nsvcd_result nsvcd__ask_pairs(nsvcd__check_state *s, int is_last, size_t *left) {
+// Asks about the first `left` pairs of c->left, until one is hit. Keeps those that stay unproven,
+// and returns how many they are.
+static size_t nsvcd__ask_pairs(nsvcd__check_state *s, int is_last, size_t left) {
   nsvcd_checker *c = s->checker;
   const size_t work = s->options->work;
   const size_t brief = work && work < NSVCD__HIT_TRY ? work : NSVCD__HIT_TRY;
   size_t kept = 0;
-  for (size_t n = 0; n < *left; n++) {
+  for (size_t n = 0; n < left && !c->result; n++) {
     const size_t pair = c->left[n];
+    const nsvcd_body_pair *parts = &c->scene->pairs[pair];
     nsvcd__step_range range;
     nsvcd_answer found;
-    nsvcd_result result = nsvcd__ask_pair(s, &c->scene->pairs[pair], 1, work, &range, &found);
-    if (!result && found.verdict == NSVCD_FREE) continue;
-    if (!result) result = nsvcd__seek_hit(s, pair, &range, &found, is_last ? work : brief);
-    if (result) return result;
-    if (s->answer->verdict == NSVCD_HIT) {
+    if (nsvcd__ask_pair(s, parts, 1, work, &range, &found) == NSVCD_FREE) continue;
+    if (nsvcd__seek_hit(s, pair, &range, &found, is_last ? work : brief)) {
       nsvcd__put_first(c, pair);
-      return NSVCD_OK;
+      return left;
     }
     c->left[kept++] = (uint32_t)pair;
   }
-  *left = kept;
-  return NSVCD_OK;
+  return kept;
 }
 
 // ---- intervals
@@ -2165,8 +2162,8 @@ static void nsvcd__take_samples(nsvcd__check_state *s, size_t steps) {
 
 // From time t0 to t1, in so many steps at first; with none it is one configuration. An interval
 // that takes too many steps is halved, so often at most.
-static nsvcd_result nsvcd__check_interval(nsvcd__check_state *s, double t0, double t1,
-                                          size_t steps, int halvings) {
+static void nsvcd__check_interval(nsvcd__check_state *s, double t0, double t1, size_t steps,
+                                  int halvings) {
   nsvcd_checker *c = s->checker;
   nsvcd_check_answer *answer = s->answer;
   const double finest = (double)s->options->finest;
@@ -2185,21 +2182,20 @@ static nsvcd_result nsvcd__check_interval(nsvcd__check_state *s, double t0, doub
       const double middle = 0.5 * (t0 + t1);
       const size_t coarse = s->steps;
       answer->why = NSVCD_WHY_WORK;
-      if (halvings == 0 || !(middle > t0 && middle < t1)) return NSVCD_OK;
-      const nsvcd_result result = nsvcd__check_interval(s, t0, middle, coarse, halvings - 1);
-      if (result || answer->verdict != NSVCD_FREE) return result;
-      return nsvcd__check_interval(s, middle, t1, coarse, halvings - 1);
+      if (halvings == 0 || !(middle > t0 && middle < t1)) return;
+      nsvcd__check_interval(s, t0, middle, coarse, halvings - 1);
+      if (answer->verdict == NSVCD_FREE)
+        nsvcd__check_interval(s, middle, t1, coarse, halvings - 1);
+      return;
     }
     if (finer > s->steps) nsvcd__take_samples(s, finer);
     const int is_last = s->steps == 0 || allowed <= finest;
-    const nsvcd_result result = nsvcd__ask_pairs(s, is_last, &left);
-    if (result || answer->verdict == NSVCD_HIT) return result;
-    if (is_last && left > 0) return NSVCD_OK;
+    left = nsvcd__ask_pairs(s, is_last, left);
+    if (c->result || answer->verdict == NSVCD_HIT || (is_last && left > 0)) return;
     allowed = nsvcd__max(allowed / NSVCD__CHECK_FINER, finest);
   }
   answer->pair = NSVCD_NONE;
   answer->verdict = NSVCD_FREE;
-  return NSVCD_OK;
 }
 
 // Does the motion turn sharply where a piece begins? Then a sample belongs there.
@@ -2280,7 +2276,7 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
   if (!checker || !motion || !answer || !motion->points) return NSVCD_ERROR_ARGUMENT;
   const size_t joints = checker->scene->joint_count;
   const nsvcd_joint_motion m = nsvcd__motion_meant(motion);
-  nsvcd_result result = nsvcd__motion_check(&m, joints);
+  const nsvcd_result result = nsvcd__motion_check(&m, joints);
   if (result) return result;
   memset(&o, 0, sizeof o);
   if (options) o = *options;
@@ -2292,17 +2288,18 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
   for (size_t p = 0; p < m.pieces + !m.pieces && found.joint == NSVCD_NONE; p++)
     found.joint = nsvcd__joint_outside(checker->scene, &m, p);
   nsvcd__check_state s = {checker, &m, &o, &found, 0};
-  if (m.pieces == 0) result = nsvcd__check_interval(&s, 0, 0, 0, 0);
+  checker->result = NSVCD_OK;
+  if (m.pieces == 0) nsvcd__check_interval(&s, 0, 0, 0, 0);
   // from corner to corner
-  for (size_t p = 0, next; p < m.pieces && !result; p = next) {
+  for (size_t p = 0, next; p < m.pieces; p = next) {
     next = p + 1;
     while (next < m.pieces && !nsvcd__is_corner(&m, joints, next)) next++;
     const size_t steps = next - p == 1 && m.degree == 1 ? 1 : NSVCD__FIRST_STEPS;
-    result = nsvcd__check_interval(&s, nsvcd__piece_start(&m, p), nsvcd__piece_start(&m, next),
-                                   steps, NSVCD__CHECK_HALVINGS);
+    const double end = nsvcd__piece_start(&m, next);
+    nsvcd__check_interval(&s, nsvcd__piece_start(&m, p), end, steps, NSVCD__CHECK_HALVINGS);
     if (found.verdict != NSVCD_FREE) break;
   }
-  if (result) return result;
+  if (checker->result) return checker->result;
   if (found.verdict == NSVCD_FREE) {
     found.piece = NSVCD_NONE;
     found.fraction = 0;
@@ -2724,8 +2721,8 @@ static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, const nsvcd__l
 }
 
 // Asks a question with a pushed out.
-static nsvcd_result nsvcd__ask_pushed(nsvcd_checker *c, const nsvcd_question *question,
-                                      nsvcd__d3 push_out, nsvcd_answer *found) {
+static nsvcd_verdict nsvcd__ask_pushed(nsvcd_checker *c, const nsvcd_question *question,
+                                       nsvcd__d3 push_out, nsvcd_answer *found) {
   nsvcd_pose pose = *question->a.poses;
   nsvcd_question pushed = *question;
   const nsvcd__d3 position = nsvcd__d3_add(nsvcd__d3_load(pose.position), push_out);
@@ -2736,47 +2733,42 @@ static nsvcd_result nsvcd__ask_pushed(nsvcd_checker *c, const nsvcd_question *qu
 
 // A push-out of a off b that separates them. Slops are tried, each four times the one before, up to
 // `max_depth`; 0 where none is enough.
-static nsvcd_result nsvcd__separating_push_out(nsvcd_checker *c, nsvcd_question question,
-                                               float max_depth, nsvcd__d3 *push_out) {
+static nsvcd__d3 nsvcd__separating_push_out(nsvcd_checker *c, nsvcd_question question,
+                                            float max_depth) {
   nsvcd_answer found;
   for (float fraction = NSVCD__LEAST_SLOP; fraction <= 1; fraction *= 4) {
     question.slop = fraction * max_depth;
-    const nsvcd_result result = nsvcd__ask_sweep(c, &question, &found);
-    if (result) return result;
-    *push_out = nsvcd__d3_load(found.push_out);
-    if (found.verdict == NSVCD_FREE) return NSVCD_OK;
+    if (nsvcd__ask_sweep(c, &question, &found) == NSVCD_FREE)
+      return nsvcd__d3_load(found.push_out);
   }
-  *push_out = nsvcd__d3_of(0, 0, 0);
-  return NSVCD_OK;
+  return nsvcd__d3_of(0, 0, 0);
 }
 
 // Of parts that touch: the depth, its contact and its slope. question: HIT, with all errors of the
 // poses as its clearance.
-static nsvcd_result nsvcd__depth_of(nsvcd_checker *c, nsvcd_question question,
-                                    const nsvcd__local *local,
-                                    const nsvcd_proximity_options *o, nsvcd_proximity *out) {
+static void nsvcd__depth_of(nsvcd_checker *c, nsvcd_question question,
+                            const nsvcd__local *local, const nsvcd_proximity_options *o,
+                            nsvcd_proximity *out) {
   const nsvcd_body_pair *pair = &c->scene->pairs[out->pair];
+  const nsvcd__d3 push_out = nsvcd__separating_push_out(c, question, o->max_depth);
+  const double length = nsvcd__d3_length(push_out);
   nsvcd_answer found;
-  nsvcd__d3 push_out = {0, 0, 0};
   // fractions of the push-out: they touch at the first, and are apart at the second
   double low = 0;
   double high = 1;
-  nsvcd_result result = nsvcd__separating_push_out(c, question, o->max_depth, &push_out);
-  const double length = nsvcd__d3_length(push_out);
-  if (result || !(length > 0)) return result;
+  if (!(length > 0)) return;
   for (size_t n = 0; n < NSVCD__DEPTH_HALVINGS; n++) {
     const double middle = 0.5 * (low + high);
-    result = nsvcd__ask_pushed(c, &question, nsvcd__d3_scale(push_out, middle), &found);
-    if (result) return result;
-    *(found.verdict == NSVCD_FREE ? &high : &low) = middle;
+    const nsvcd__d3 part = nsvcd__d3_scale(push_out, middle);
+    const int is_apart = nsvcd__ask_pushed(c, &question, part, &found) == NSVCD_FREE;
+    *(is_apart ? &high : &low) = middle;
   }
   // a little beyond: which faces are near?
   const double beyond = NSVCD__DEPTH_BEYOND * high + (double)o->to / length;
   question.clearance = 0;
   question.ask = NSVCD_ASK_DISTANCE;
   question.to = 0.1f * o->to;
-  result = nsvcd__ask_pushed(c, &question, nsvcd__d3_scale(push_out, beyond), &found);
-  if (result) return result;
+  (void)nsvcd__ask_pushed(c, &question, nsvcd__d3_scale(push_out, beyond), &found);
   const nsvcd__d3 along = nsvcd__d3_scale(push_out, 1 / length);
   const nsvcd__d3 normal = nsvcd__d3_load(found.nearest.normal);
   const nsvcd__d3 point = nsvcd__d3_load(found.nearest.point);
@@ -2787,40 +2779,33 @@ static nsvcd_result nsvcd__depth_of(nsvcd_checker *c, nsvcd_question question,
   nsvcd__contact_to_world(local, &out->contact);
   // a push-out separates the two faces at this fraction of its own speed
   const double rate = nsvcd__d3_dot(along, normal);
-  if (!(rate > NSVCD__LEAST_RATE)) return NSVCD_OK;
+  if (!(rate > NSVCD__LEAST_RATE)) return;
   const nsvcd__d3 on_a = nsvcd__d3_fma(-high, push_out, point);
   nsvcd__slope_add(c, pair->a, local, on_a, normal, 1 / rate, out->slope);
   nsvcd__slope_add(c, pair->b, local, point, normal, -1 / rate, out->slope);
-  return NSVCD_OK;
 }
 
-// The proximity of a pair in the configuration c->at. *is_near: it is within max_distance.
-static nsvcd_result nsvcd__proximity_of(nsvcd_checker *c, size_t index,
-                                        const nsvcd_proximity_options *o, nsvcd_proximity *out,
-                                        int *is_near) {
+// The proximity of a pair in the configuration c->at. Returns 0 if it is not within max_distance.
+static int nsvcd__proximity_of(nsvcd_checker *c, size_t index,
+                               const nsvcd_proximity_options *o, nsvcd_proximity *out) {
   const nsvcd_body_pair *pair = &c->scene->pairs[index];
   const nsvcd__member *a = &c->members[pair->a];
   const nsvcd__member *b = &c->members[pair->b];
   nsvcd_answer found;
   const double frames_error = 2 * (a->rounding + b->rounding);
   const double max_distance = (double)o->max_distance + frames_error;
-  *is_near = 0;
-  if (nsvcd__bounds_apart(&a->bounds, &b->bounds, 1.000001 * max_distance)) return NSVCD_OK;
+  if (nsvcd__bounds_apart(&a->bounds, &b->bounds, 1.000001 * max_distance)) return 0;
   const nsvcd__local local = nsvcd__localize_at(c, pair, &c->at);
   nsvcd_question question = nsvcd__question_of(c, pair, 1, o->work);
   const double error = frames_error + local.rounding;
   question.clearance = nsvcd__above((double)o->max_distance + error);
-  nsvcd_result result = nsvcd__ask_sweep(c, &question, &found);
-  if (result || found.verdict == NSVCD_FREE) return result;
+  if (nsvcd__ask_sweep(c, &question, &found) == NSVCD_FREE) return 0;
   question.clearance = 0;
   question.ask = NSVCD_ASK_DISTANCE;
   question.to = o->to;
-  result = nsvcd__ask_sweep(c, &question, &found);
-  if (result) return result;
-  *is_near = 1;
   memset(out, 0, sizeof *out);
   out->pair = index;
-  out->verdict = found.verdict;
+  out->verdict = nsvcd__ask_sweep(c, &question, &found);
   out->why = found.why;
   out->contact = found.nearest;
   nsvcd__contact_to_world(&local, &out->contact);
@@ -2831,7 +2816,8 @@ static nsvcd_result nsvcd__proximity_of(nsvcd_checker *c, size_t index,
     out->depth = HUGE_VALF;
     // push-outs are rounded to float
     question.clearance = nsvcd__above(error + 2e-7 * (double)o->max_depth);
-    return found.inside ? NSVCD_OK : nsvcd__depth_of(c, question, &local, o, out);
+    if (!found.inside) nsvcd__depth_of(c, question, &local, o, out);
+    return 1;
   }
   out->distance.high = nsvcd__above((double)found.distance.high + error);
   out->distance.low = (float)nsvcd__max((double)found.distance.low * (1 - 1e-7) - error, 0);
@@ -2840,14 +2826,13 @@ static nsvcd_result nsvcd__proximity_of(nsvcd_checker *c, size_t index,
   const nsvcd__d3 point = nsvcd__d3_load(found.nearest.point);
   nsvcd__slope_add(c, pair->a, &local, point, normal, 1, out->slope);
   nsvcd__slope_add(c, pair->b, &local, point, normal, -1, out->slope);
-  if (out->verdict != NSVCD_FREE || out->distance.low > 0) return NSVCD_OK;
+  if (out->verdict != NSVCD_FREE || out->distance.low > 0) return 1;
   // the poses in float are free of each other: are the parts?
   question.clearance = nsvcd__above(error);
-  result = nsvcd__ask_sweep(c, &question, &found);
-  if (result || found.verdict == NSVCD_FREE) return result;
+  if (nsvcd__ask_sweep(c, &question, &found) == NSVCD_FREE) return 1;
   out->verdict = NSVCD_UNDECIDED;
   out->why = NSVCD_WHY_TOO_NEAR;
-  return NSVCD_OK;
+  return 1;
 }
 
 NSVCDDEF nsvcd_result nsvcd_proximities(nsvcd_checker *checker, const double *joints,
@@ -2868,16 +2853,15 @@ NSVCDDEF nsvcd_result nsvcd_proximities(nsvcd_checker *checker, const double *jo
   o.max_depth = o.max_depth > 0 ? o.max_depth : NSVCD__MAX_DEPTH;
   nsvcd__place_links(checker, joints, &checker->at);
   nsvcd__place_sample(checker, &checker->at, 0);
-  for (size_t n = 0; n < checker->scene->pair_count && !result; n++) {
+  checker->result = NSVCD_OK;
+  for (size_t n = 0; n < checker->scene->pair_count && !checker->result; n++) {
     nsvcd_proximity found;
-    int is_near;
-    result = nsvcd__proximity_of(checker, n, &o, &found, &is_near);
-    if (result || !is_near) continue;
+    if (!nsvcd__proximity_of(checker, n, &o, &found)) continue;
     if (written < capacity) out[written] = found;
     written++;
   }
-  if (!result) *count = written;
-  return result;
+  if (!checker->result) *count = written;
+  return checker->result;
 }
 
 // ---- the nearest free configuration
@@ -2982,12 +2966,10 @@ NSVCDDEF nsvcd_result nsvcd_nearest_free(nsvcd_checker *checker, const double *j
 // ---- pairs
 
 // Do two parts touch in all of so many configurations, drawn within the limits?
-static nsvcd_result nsvcd__touches_in_all(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                                          size_t draws, uint64_t random, int *in_all) {
+static int nsvcd__touches_in_all(nsvcd_checker *c, const nsvcd_body_pair *pair, size_t draws,
+                                 uint64_t random) {
   nsvcd_answer found;
-  nsvcd_result result = NSVCD_OK;
-  *in_all = 1;
-  for (size_t n = 0; n < draws && *in_all && !result; n++) {
+  for (size_t n = 0; n < draws; n++) {
     double joints[NSVCD_MAX_JOINTS];
     for (size_t j = 0; j < c->scene->joint_count; j++) {
       const nsvcd_joint *joint = &c->scene->joints[j];
@@ -2999,10 +2981,9 @@ static nsvcd_result nsvcd__touches_in_all(nsvcd_checker *c, const nsvcd_body_pai
     nsvcd__place_links(c, joints, &c->at);
     (void)nsvcd__localize_at(c, pair, &c->at);
     const nsvcd_question question = nsvcd__question_of(c, pair, 1, 0);
-    result = nsvcd__ask_sweep(c, &question, &found);
-    *in_all = !result && found.verdict == NSVCD_HIT;
+    if (nsvcd__ask_sweep(c, &question, &found) != NSVCD_HIT) return 0;
   }
-  return result;
+  return 1;
 }
 
 // Are two links those of one joint, and neither of them the world?
@@ -3037,13 +3018,13 @@ NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t draws, uin
   while (nsvcd__next_pair(scene, &pair)) total++;
   if (capacity < total) return NSVCD_ERROR_WORKSPACE;
   if (!draws) draws = NSVCD__PAIR_DRAWS;
+  checker->result = NSVCD_OK;
   // what is to be asked from the front, what touches in all from the back
   pair.a = pair.b = 0;
   while (nsvcd__next_pair(scene, &pair)) {
-    int in_all;
     if (nsvcd__are_adjacent(scene, &pair)) continue;
-    const nsvcd_result result = nsvcd__touches_in_all(checker, &pair, draws, seed, &in_all);
-    if (result) return result;
+    const int in_all = nsvcd__touches_in_all(checker, &pair, draws, seed);
+    if (checker->result) return checker->result;
     pairs[in_all ? total - ++found.touching : found.asked++] = pair;
   }
   pair.a = pair.b = 0;

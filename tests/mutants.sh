@@ -242,7 +242,7 @@ robot: levers of the sample|+ m->radius + moved;|+ m->radius;
 robot: a step of a ninth|return (bend + second + w * w * c->members[part].extent) / 8;|return (bend + second + w * w * c->members[part].extent) / 9;
 postures: poses without rounding|if (moves[n]) local.rounding += 2|if (0) local.rounding += 2
 postures: poses seen from the world|const nsvcd__frame in = nsvcd__frame_inverse_mul(\&local.frame, \&frames[n][k]);|const nsvcd__frame in = frames[n][k];
-postures: free of each other as floats|if (out->verdict != NSVCD_FREE \|\| out->distance.low > 0) return NSVCD_OK;|return NSVCD_OK;
+postures: free of each other as floats|if (out->verdict != NSVCD_FREE \|\| out->distance.low > 0) return 1;|return 1;
 postures: depths of floats|question.clearance = nsvcd__above(error + 2e-7 * (double)o->max_depth);|
 robot: strays of one part|nsvcd__part_error(c, pair->a) + nsvcd__part_error(c, pair->b);|nsvcd__part_error(c, pair->a);
 robot: speeds that jump|step->bend[j] += 2 * h * jumps;|(void)jumps;
@@ -255,7 +255,7 @@ robot: boxes at samples alone|nsvcd__bounds_over(at, at + 1)|*at
 robot: boxes without strays|const double room = (double)s->options->clearance + error;|const double room = (double)s->options->clearance;
 robot: the first step of a spell alone|range->steps = last - (steps ? range->first : 0);|range->steps = steps \&\& last > range->first ? 1 : 0;
 robot: the last piece alone|const size_t steps = next - p == 1|if (next < m.pieces) continue;\n    const size_t steps = next - p == 1
-robot: what is free of the first pair|if (!result \&\& found.verdict == NSVCD_FREE) continue;|if (!result \&\& found.verdict == NSVCD_FREE) break;
+robot: what is free of the first pair|if (nsvcd__ask_pair(s, parts, 1, work, \&range, \&found) == NSVCD_FREE) continue;|if (nsvcd__ask_pair(s, parts, 1, work, \&range, \&found) == NSVCD_FREE) break;
 robot: the other half of a tree never|nsvcd__nearest_in(t, cell->first + !(side > 0), at, off,|if (0) nsvcd__nearest_in(t, cell->first + !(side > 0), at, off,
 robot: leaves cut with a hole|if (!(off2 < *best)) return;|if (!(1.5 * off2 < *best)) return;
 robot: ramps that are not proven|if (!nsvcd__ask_motion(r, \&blend->motion)) return;|
@@ -278,14 +278,14 @@ postures: near without the boxes' room|&b->bounds, 1.000001 * max_distance))|&b-
 postures: near without within|question.clearance = nsvcd__above((double)o->max_distance + error);|question.clearance = 0;
 postures: no depth|out->depth = nsvcd__above(high * length);|
 postures: a depth of half|out->depth = nsvcd__above(high * length);|out->depth = 0.5f * nsvcd__above(high * length);
-postures: a depth of all the lift|*(found.verdict == NSVCD_FREE ? &high : &low) = middle;|low = middle;
+postures: a depth of all the lift|*(is_apart ? &high : &low) = middle;|low = middle;
 postures: brackets without rounding|out->distance.high = nsvcd__above((double)found.distance.high + error);|out->distance.high = found.distance.high;
 postures: more than there is room for|if (written < capacity) out[written] = found;|out[written] = found;
 postures: escapes without the clearance|{o->clearance, 0, 0, o->stop, o->user};|{0, 0, 0, o->stop, o->user};
 postures: escapes to anywhere|sphere * o->farthest;|2 * sphere * o->farthest;
 postures: no way back|memcpy(is_free ? at : blocked, middle, joints * sizeof *at);|memcpy(blocked, middle, joints * sizeof *at);
 postures: the first way out|*is_found ? NSVCD__FREE_NEARER * best : sphere|*is_found ? o->farthest : sphere
-postures: what touches once touches always|*in_all = !result && found.verdict == NSVCD_HIT;|*in_all = !result && (n > 0 ? 1 : found.verdict == NSVCD_HIT);
+postures: what touches once touches always|if (nsvcd__ask_sweep(c, &question, &found) != NSVCD_HIT) return 0;|if (n == 0 && nsvcd__ask_sweep(c, &question, &found) != NSVCD_HIT) return 0;
 postures: out of the limits|joints[j] = nsvcd__max(low, nsvcd__min(high, joints[j]));|
 postures: the world is adjacent|return a > 0 && b > 0 && (scene->joints[a - 1].parent == b|return a > 0 && (b == 0 \|\| scene->joints[a - 1].parent == b
 postures: never touching|pairs[in_all ? total - ++found.touching : found.asked++] = pair;|pairs[found.asked++] = pair;

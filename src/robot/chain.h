@@ -91,6 +91,8 @@ struct nsvcd_checker {
   nsvcd__links at, next;
   void *query;
   size_t query_size;
+  // an error of a question, which ends those that follow
+  nsvcd_result result;
 };
 
 static nsvcd__dquat nsvcd__dquat_mul(nsvcd__dquat a, nsvcd__dquat b) {

@@ -32,16 +32,16 @@ typedef struct nsvcd__check_state {
 // ---- pairs
 
 // Do two parts, in their local poses, come as near as the clearance?
-static nsvcd_result nsvcd__ask_local(nsvcd__check_state *s, const nsvcd_body_pair *pair,
-                                     size_t count, float clearance, size_t work,
-                                     nsvcd_answer *found) {
+static nsvcd_verdict nsvcd__ask_local(nsvcd__check_state *s, const nsvcd_body_pair *pair,
+                                      size_t count, float clearance, size_t work,
+                                      nsvcd_answer *found) {
   const nsvcd_check_options *o = s->options;
   nsvcd_question question = nsvcd__question_of(s->checker, pair, count, work);
   question.clearance = clearance;
   if (o->stop && o->stop(o->user)) {
     memset(found, 0, sizeof *found);
     found->why = NSVCD_WHY_WORK;
-    return NSVCD_OK;
+    return NSVCD_UNDECIDED;
   }
   s->answer->sweeps++;
   return nsvcd__ask_sweep(s->checker, &question, found);
@@ -50,16 +50,13 @@ static nsvcd_result nsvcd__ask_local(nsvcd__check_state *s, const nsvcd_body_pai
 // Does a pair, on its sweeps between samples, come as near as the clearance? For a proof the errors
 // of these sweeps are added to it. range: the steps that were asked about; the times of *found are
 // fractions of it.
-static nsvcd_result nsvcd__ask_pair(nsvcd__check_state *s, const nsvcd_body_pair *pair,
-                                    int is_proof, size_t work, nsvcd__step_range *range,
-                                    nsvcd_answer *found) {
+static nsvcd_verdict nsvcd__ask_pair(nsvcd__check_state *s, const nsvcd_body_pair *pair,
+                                     int is_proof, size_t work, nsvcd__step_range *range,
+                                     nsvcd_answer *found) {
   nsvcd_checker *c = s->checker;
   const double error = nsvcd__part_error(c, pair->a) + nsvcd__part_error(c, pair->b);
   const double room = (double)s->options->clearance + error;
-  if (!nsvcd__steps_near(c, pair, s->steps, room * (1 + 1e-9), range)) {
-    found->verdict = NSVCD_FREE;
-    return NSVCD_OK;
-  }
+  if (!nsvcd__steps_near(c, pair, s->steps, room * (1 + 1e-9), range)) return NSVCD_FREE;
   const size_t count = range->steps + 1;
   const nsvcd__frame *const frames[2] = {nsvcd__frames_at(c, pair->a, range->first),
                                          nsvcd__frames_at(c, pair->b, range->first)};
@@ -71,10 +68,11 @@ static nsvcd_result nsvcd__ask_pair(nsvcd__check_state *s, const nsvcd_body_pair
 }
 
 // Is the answer's pair hit in the configuration that the answer names? Then it becomes a HIT.
-static nsvcd_result nsvcd__ask_there(nsvcd__check_state *s, size_t work) {
+static int nsvcd__is_hit_there(nsvcd__check_state *s, size_t work) {
   nsvcd_checker *c = s->checker;
   nsvcd_check_answer *answer = s->answer;
   const nsvcd_body_pair *pair = &c->scene->pairs[answer->pair];
+  const float clearance = s->options->clearance;
   double joints[NSVCD_MAX_JOINTS];
   nsvcd_answer found;
   nsvcd__joints_at(s->motion, c->scene->joint_count, answer->piece, answer->fraction, joints,
@@ -82,26 +80,22 @@ static nsvcd_result nsvcd__ask_there(nsvcd__check_state *s, size_t work) {
   nsvcd__place_links(c, joints, &c->at);
   answer->placed++;
   const nsvcd__local local = nsvcd__localize_at(c, pair, &c->at);
-  const nsvcd_result result =
-      nsvcd__ask_local(s, pair, 1, s->options->clearance, work, &found);
-  if (result || found.verdict != NSVCD_HIT) return result;
+  if (nsvcd__ask_local(s, pair, 1, clearance, work, &found) != NSVCD_HIT) return 0;
   answer->verdict = NSVCD_HIT;
   answer->contact = found.nearest;
   nsvcd__contact_to_world(&local, &answer->contact);
-  return NSVCD_OK;
+  return 1;
 }
 
 // Is a pair that is not proven hit in some configuration? Tries two: where it came nearest in its
 // proof, which is *found; then where its sweeps between samples hit.
-static nsvcd_result nsvcd__seek_hit(nsvcd__check_state *s, size_t pair,
-                                    nsvcd__step_range *range, nsvcd_answer *found,
-                                    size_t work) {
+static int nsvcd__seek_hit(nsvcd__check_state *s, size_t pair, nsvcd__step_range *range,
+                           nsvcd_answer *found, size_t work) {
   nsvcd_checker *c = s->checker;
   nsvcd_check_answer *answer = s->answer;
-  nsvcd_result result = NSVCD_OK;
   answer->pair = pair;
   answer->why = found->why;
-  for (int attempt = 0; attempt < 2 && found->verdict != NSVCD_FREE; attempt++) {
+  for (int attempt = 0; attempt < 2; attempt++) {
     if (s->steps > 0) {
       // a sweep takes all steps to be equally long
       const double u = nsvcd__max(0, nsvcd__min(1, (double)found->nearest.time));
@@ -112,13 +106,12 @@ static nsvcd_result nsvcd__seek_hit(nsvcd__check_state *s, size_t pair,
       answer->piece = nsvcd__piece_at(s->motion, time);
       answer->fraction = nsvcd__fraction_at(s->motion, answer->piece, time);
     }
-    result = nsvcd__ask_there(s, work);
-    if (result || answer->verdict == NSVCD_HIT) return result;
-    if (attempt == 0)
-      result = nsvcd__ask_pair(s, &c->scene->pairs[pair], 0, work, range, found);
-    if (result) return result;
+    if (nsvcd__is_hit_there(s, work)) return 1;
+    if (attempt == 0 &&
+        nsvcd__ask_pair(s, &c->scene->pairs[pair], 0, work, range, found) == NSVCD_FREE)
+      return 0;
   }
-  return NSVCD_OK;
+  return 0;
 }
 
 // Puts a pair first in the order.
@@ -129,28 +122,26 @@ static void nsvcd__put_first(nsvcd_checker *c, size_t pair) {
   c->order[0] = (uint32_t)pair;
 }
 
-// Asks about the first *left pairs of c->left, until one is hit; keeps those that stay unproven.
-static nsvcd_result nsvcd__ask_pairs(nsvcd__check_state *s, int is_last, size_t *left) {
+// Asks about the first `left` pairs of c->left, until one is hit. Keeps those that stay unproven,
+// and returns how many they are.
+static size_t nsvcd__ask_pairs(nsvcd__check_state *s, int is_last, size_t left) {
   nsvcd_checker *c = s->checker;
   const size_t work = s->options->work;
   const size_t brief = work && work < NSVCD__HIT_TRY ? work : NSVCD__HIT_TRY;
   size_t kept = 0;
-  for (size_t n = 0; n < *left; n++) {
+  for (size_t n = 0; n < left && !c->result; n++) {
     const size_t pair = c->left[n];
+    const nsvcd_body_pair *parts = &c->scene->pairs[pair];
     nsvcd__step_range range;
     nsvcd_answer found;
-    nsvcd_result result = nsvcd__ask_pair(s, &c->scene->pairs[pair], 1, work, &range, &found);
-    if (!result && found.verdict == NSVCD_FREE) continue;
-    if (!result) result = nsvcd__seek_hit(s, pair, &range, &found, is_last ? work : brief);
-    if (result) return result;
-    if (s->answer->verdict == NSVCD_HIT) {
+    if (nsvcd__ask_pair(s, parts, 1, work, &range, &found) == NSVCD_FREE) continue;
+    if (nsvcd__seek_hit(s, pair, &range, &found, is_last ? work : brief)) {
       nsvcd__put_first(c, pair);
-      return NSVCD_OK;
+      return left;
     }
     c->left[kept++] = (uint32_t)pair;
   }
-  *left = kept;
-  return NSVCD_OK;
+  return kept;
 }
 
 // ---- intervals
@@ -163,8 +154,8 @@ static void nsvcd__take_samples(nsvcd__check_state *s, size_t steps) {
 
 // From time t0 to t1, in so many steps at first; with none it is one configuration. An interval
 // that takes too many steps is halved, so often at most.
-static nsvcd_result nsvcd__check_interval(nsvcd__check_state *s, double t0, double t1,
-                                          size_t steps, int halvings) {
+static void nsvcd__check_interval(nsvcd__check_state *s, double t0, double t1, size_t steps,
+                                  int halvings) {
   nsvcd_checker *c = s->checker;
   nsvcd_check_answer *answer = s->answer;
   const double finest = (double)s->options->finest;
@@ -183,21 +174,20 @@ static nsvcd_result nsvcd__check_interval(nsvcd__check_state *s, double t0, doub
       const double middle = 0.5 * (t0 + t1);
       const size_t coarse = s->steps;
       answer->why = NSVCD_WHY_WORK;
-      if (halvings == 0 || !(middle > t0 && middle < t1)) return NSVCD_OK;
-      const nsvcd_result result = nsvcd__check_interval(s, t0, middle, coarse, halvings - 1);
-      if (result || answer->verdict != NSVCD_FREE) return result;
-      return nsvcd__check_interval(s, middle, t1, coarse, halvings - 1);
+      if (halvings == 0 || !(middle > t0 && middle < t1)) return;
+      nsvcd__check_interval(s, t0, middle, coarse, halvings - 1);
+      if (answer->verdict == NSVCD_FREE)
+        nsvcd__check_interval(s, middle, t1, coarse, halvings - 1);
+      return;
     }
     if (finer > s->steps) nsvcd__take_samples(s, finer);
     const int is_last = s->steps == 0 || allowed <= finest;
-    const nsvcd_result result = nsvcd__ask_pairs(s, is_last, &left);
-    if (result || answer->verdict == NSVCD_HIT) return result;
-    if (is_last && left > 0) return NSVCD_OK;
+    left = nsvcd__ask_pairs(s, is_last, left);
+    if (c->result || answer->verdict == NSVCD_HIT || (is_last && left > 0)) return;
     allowed = nsvcd__max(allowed / NSVCD__CHECK_FINER, finest);
   }
   answer->pair = NSVCD_NONE;
   answer->verdict = NSVCD_FREE;
-  return NSVCD_OK;
 }
 
 // Does the motion turn sharply where a piece begins? Then a sample belongs there.
@@ -278,7 +268,7 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
   if (!checker || !motion || !answer || !motion->points) return NSVCD_ERROR_ARGUMENT;
   const size_t joints = checker->scene->joint_count;
   const nsvcd_joint_motion m = nsvcd__motion_meant(motion);
-  nsvcd_result result = nsvcd__motion_check(&m, joints);
+  const nsvcd_result result = nsvcd__motion_check(&m, joints);
   if (result) return result;
   memset(&o, 0, sizeof o);
   if (options) o = *options;
@@ -290,17 +280,18 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
   for (size_t p = 0; p < m.pieces + !m.pieces && found.joint == NSVCD_NONE; p++)
     found.joint = nsvcd__joint_outside(checker->scene, &m, p);
   nsvcd__check_state s = {checker, &m, &o, &found, 0};
-  if (m.pieces == 0) result = nsvcd__check_interval(&s, 0, 0, 0, 0);
+  checker->result = NSVCD_OK;
+  if (m.pieces == 0) nsvcd__check_interval(&s, 0, 0, 0, 0);
   // from corner to corner
-  for (size_t p = 0, next; p < m.pieces && !result; p = next) {
+  for (size_t p = 0, next; p < m.pieces; p = next) {
     next = p + 1;
     while (next < m.pieces && !nsvcd__is_corner(&m, joints, next)) next++;
     const size_t steps = next - p == 1 && m.degree == 1 ? 1 : NSVCD__FIRST_STEPS;
-    result = nsvcd__check_interval(&s, nsvcd__piece_start(&m, p), nsvcd__piece_start(&m, next),
-                                   steps, NSVCD__CHECK_HALVINGS);
+    const double end = nsvcd__piece_start(&m, next);
+    nsvcd__check_interval(&s, nsvcd__piece_start(&m, p), end, steps, NSVCD__CHECK_HALVINGS);
     if (found.verdict != NSVCD_FREE) break;
   }
-  if (result) return result;
+  if (checker->result) return checker->result;
   if (found.verdict == NSVCD_FREE) {
     found.piece = NSVCD_NONE;
     found.fraction = 0;

@@ -53,8 +53,8 @@ static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, const nsvcd__l
 }
 
 // Asks a question with a pushed out.
-static nsvcd_result nsvcd__ask_pushed(nsvcd_checker *c, const nsvcd_question *question,
-                                      nsvcd__d3 push_out, nsvcd_answer *found) {
+static nsvcd_verdict nsvcd__ask_pushed(nsvcd_checker *c, const nsvcd_question *question,
+                                       nsvcd__d3 push_out, nsvcd_answer *found) {
   nsvcd_pose pose = *question->a.poses;
   nsvcd_question pushed = *question;
   const nsvcd__d3 position = nsvcd__d3_add(nsvcd__d3_load(pose.position), push_out);
@@ -65,47 +65,42 @@ static nsvcd_result nsvcd__ask_pushed(nsvcd_checker *c, const nsvcd_question *qu
 
 // A push-out of a off b that separates them. Slops are tried, each four times the one before, up to
 // `max_depth`; 0 where none is enough.
-static nsvcd_result nsvcd__separating_push_out(nsvcd_checker *c, nsvcd_question question,
-                                               float max_depth, nsvcd__d3 *push_out) {
+static nsvcd__d3 nsvcd__separating_push_out(nsvcd_checker *c, nsvcd_question question,
+                                            float max_depth) {
   nsvcd_answer found;
   for (float fraction = NSVCD__LEAST_SLOP; fraction <= 1; fraction *= 4) {
     question.slop = fraction * max_depth;
-    const nsvcd_result result = nsvcd__ask_sweep(c, &question, &found);
-    if (result) return result;
-    *push_out = nsvcd__d3_load(found.push_out);
-    if (found.verdict == NSVCD_FREE) return NSVCD_OK;
+    if (nsvcd__ask_sweep(c, &question, &found) == NSVCD_FREE)
+      return nsvcd__d3_load(found.push_out);
   }
-  *push_out = nsvcd__d3_of(0, 0, 0);
-  return NSVCD_OK;
+  return nsvcd__d3_of(0, 0, 0);
 }
 
 // Of parts that touch: the depth, its contact and its slope. question: HIT, with all errors of the
 // poses as its clearance.
-static nsvcd_result nsvcd__depth_of(nsvcd_checker *c, nsvcd_question question,
-                                    const nsvcd__local *local,
-                                    const nsvcd_proximity_options *o, nsvcd_proximity *out) {
+static void nsvcd__depth_of(nsvcd_checker *c, nsvcd_question question,
+                            const nsvcd__local *local, const nsvcd_proximity_options *o,
+                            nsvcd_proximity *out) {
   const nsvcd_body_pair *pair = &c->scene->pairs[out->pair];
+  const nsvcd__d3 push_out = nsvcd__separating_push_out(c, question, o->max_depth);
+  const double length = nsvcd__d3_length(push_out);
   nsvcd_answer found;
-  nsvcd__d3 push_out = {0, 0, 0};
   // fractions of the push-out: they touch at the first, and are apart at the second
   double low = 0;
   double high = 1;
-  nsvcd_result result = nsvcd__separating_push_out(c, question, o->max_depth, &push_out);
-  const double length = nsvcd__d3_length(push_out);
-  if (result || !(length > 0)) return result;
+  if (!(length > 0)) return;
   for (size_t n = 0; n < NSVCD__DEPTH_HALVINGS; n++) {
     const double middle = 0.5 * (low + high);
-    result = nsvcd__ask_pushed(c, &question, nsvcd__d3_scale(push_out, middle), &found);
-    if (result) return result;
-    *(found.verdict == NSVCD_FREE ? &high : &low) = middle;
+    const nsvcd__d3 part = nsvcd__d3_scale(push_out, middle);
+    const int is_apart = nsvcd__ask_pushed(c, &question, part, &found) == NSVCD_FREE;
+    *(is_apart ? &high : &low) = middle;
   }
   // a little beyond: which faces are near?
   const double beyond = NSVCD__DEPTH_BEYOND * high + (double)o->to / length;
   question.clearance = 0;
   question.ask = NSVCD_ASK_DISTANCE;
   question.to = 0.1f * o->to;
-  result = nsvcd__ask_pushed(c, &question, nsvcd__d3_scale(push_out, beyond), &found);
-  if (result) return result;
+  (void)nsvcd__ask_pushed(c, &question, nsvcd__d3_scale(push_out, beyond), &found);
   const nsvcd__d3 along = nsvcd__d3_scale(push_out, 1 / length);
   const nsvcd__d3 normal = nsvcd__d3_load(found.nearest.normal);
   const nsvcd__d3 point = nsvcd__d3_load(found.nearest.point);
@@ -116,40 +111,33 @@ static nsvcd_result nsvcd__depth_of(nsvcd_checker *c, nsvcd_question question,
   nsvcd__contact_to_world(local, &out->contact);
   // a push-out separates the two faces at this fraction of its own speed
   const double rate = nsvcd__d3_dot(along, normal);
-  if (!(rate > NSVCD__LEAST_RATE)) return NSVCD_OK;
+  if (!(rate > NSVCD__LEAST_RATE)) return;
   const nsvcd__d3 on_a = nsvcd__d3_fma(-high, push_out, point);
   nsvcd__slope_add(c, pair->a, local, on_a, normal, 1 / rate, out->slope);
   nsvcd__slope_add(c, pair->b, local, point, normal, -1 / rate, out->slope);
-  return NSVCD_OK;
 }
 
-// The proximity of a pair in the configuration c->at. *is_near: it is within max_distance.
-static nsvcd_result nsvcd__proximity_of(nsvcd_checker *c, size_t index,
-                                        const nsvcd_proximity_options *o, nsvcd_proximity *out,
-                                        int *is_near) {
+// The proximity of a pair in the configuration c->at. Returns 0 if it is not within max_distance.
+static int nsvcd__proximity_of(nsvcd_checker *c, size_t index,
+                               const nsvcd_proximity_options *o, nsvcd_proximity *out) {
   const nsvcd_body_pair *pair = &c->scene->pairs[index];
   const nsvcd__member *a = &c->members[pair->a];
   const nsvcd__member *b = &c->members[pair->b];
   nsvcd_answer found;
   const double frames_error = 2 * (a->rounding + b->rounding);
   const double max_distance = (double)o->max_distance + frames_error;
-  *is_near = 0;
-  if (nsvcd__bounds_apart(&a->bounds, &b->bounds, 1.000001 * max_distance)) return NSVCD_OK;
+  if (nsvcd__bounds_apart(&a->bounds, &b->bounds, 1.000001 * max_distance)) return 0;
   const nsvcd__local local = nsvcd__localize_at(c, pair, &c->at);
   nsvcd_question question = nsvcd__question_of(c, pair, 1, o->work);
   const double error = frames_error + local.rounding;
   question.clearance = nsvcd__above((double)o->max_distance + error);
-  nsvcd_result result = nsvcd__ask_sweep(c, &question, &found);
-  if (result || found.verdict == NSVCD_FREE) return result;
+  if (nsvcd__ask_sweep(c, &question, &found) == NSVCD_FREE) return 0;
   question.clearance = 0;
   question.ask = NSVCD_ASK_DISTANCE;
   question.to = o->to;
-  result = nsvcd__ask_sweep(c, &question, &found);
-  if (result) return result;
-  *is_near = 1;
   memset(out, 0, sizeof *out);
   out->pair = index;
-  out->verdict = found.verdict;
+  out->verdict = nsvcd__ask_sweep(c, &question, &found);
   out->why = found.why;
   out->contact = found.nearest;
   nsvcd__contact_to_world(&local, &out->contact);
@@ -160,7 +148,8 @@ static nsvcd_result nsvcd__proximity_of(nsvcd_checker *c, size_t index,
     out->depth = HUGE_VALF;
     // push-outs are rounded to float
     question.clearance = nsvcd__above(error + 2e-7 * (double)o->max_depth);
-    return found.inside ? NSVCD_OK : nsvcd__depth_of(c, question, &local, o, out);
+    if (!found.inside) nsvcd__depth_of(c, question, &local, o, out);
+    return 1;
   }
   out->distance.high = nsvcd__above((double)found.distance.high + error);
   out->distance.low = (float)nsvcd__max((double)found.distance.low * (1 - 1e-7) - error, 0);
@@ -169,14 +158,13 @@ static nsvcd_result nsvcd__proximity_of(nsvcd_checker *c, size_t index,
   const nsvcd__d3 point = nsvcd__d3_load(found.nearest.point);
   nsvcd__slope_add(c, pair->a, &local, point, normal, 1, out->slope);
   nsvcd__slope_add(c, pair->b, &local, point, normal, -1, out->slope);
-  if (out->verdict != NSVCD_FREE || out->distance.low > 0) return NSVCD_OK;
+  if (out->verdict != NSVCD_FREE || out->distance.low > 0) return 1;
   // the poses in float are free of each other: are the parts?
   question.clearance = nsvcd__above(error);
-  result = nsvcd__ask_sweep(c, &question, &found);
-  if (result || found.verdict == NSVCD_FREE) return result;
+  if (nsvcd__ask_sweep(c, &question, &found) == NSVCD_FREE) return 1;
   out->verdict = NSVCD_UNDECIDED;
   out->why = NSVCD_WHY_TOO_NEAR;
-  return NSVCD_OK;
+  return 1;
 }
 
 NSVCDDEF nsvcd_result nsvcd_proximities(nsvcd_checker *checker, const double *joints,
@@ -197,16 +185,15 @@ NSVCDDEF nsvcd_result nsvcd_proximities(nsvcd_checker *checker, const double *jo
   o.max_depth = o.max_depth > 0 ? o.max_depth : NSVCD__MAX_DEPTH;
   nsvcd__place_links(checker, joints, &checker->at);
   nsvcd__place_sample(checker, &checker->at, 0);
-  for (size_t n = 0; n < checker->scene->pair_count && !result; n++) {
+  checker->result = NSVCD_OK;
+  for (size_t n = 0; n < checker->scene->pair_count && !checker->result; n++) {
     nsvcd_proximity found;
-    int is_near;
-    result = nsvcd__proximity_of(checker, n, &o, &found, &is_near);
-    if (result || !is_near) continue;
+    if (!nsvcd__proximity_of(checker, n, &o, &found)) continue;
     if (written < capacity) out[written] = found;
     written++;
   }
-  if (!result) *count = written;
-  return result;
+  if (!checker->result) *count = written;
+  return checker->result;
 }
 
 // ---- the nearest free configuration
@@ -311,12 +298,10 @@ NSVCDDEF nsvcd_result nsvcd_nearest_free(nsvcd_checker *checker, const double *j
 // ---- pairs
 
 // Do two parts touch in all of so many configurations, drawn within the limits?
-static nsvcd_result nsvcd__touches_in_all(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                                          size_t draws, uint64_t random, int *in_all) {
+static int nsvcd__touches_in_all(nsvcd_checker *c, const nsvcd_body_pair *pair, size_t draws,
+                                 uint64_t random) {
   nsvcd_answer found;
-  nsvcd_result result = NSVCD_OK;
-  *in_all = 1;
-  for (size_t n = 0; n < draws && *in_all && !result; n++) {
+  for (size_t n = 0; n < draws; n++) {
     double joints[NSVCD_MAX_JOINTS];
     for (size_t j = 0; j < c->scene->joint_count; j++) {
       const nsvcd_joint *joint = &c->scene->joints[j];
@@ -328,10 +313,9 @@ static nsvcd_result nsvcd__touches_in_all(nsvcd_checker *c, const nsvcd_body_pai
     nsvcd__place_links(c, joints, &c->at);
     (void)nsvcd__localize_at(c, pair, &c->at);
     const nsvcd_question question = nsvcd__question_of(c, pair, 1, 0);
-    result = nsvcd__ask_sweep(c, &question, &found);
-    *in_all = !result && found.verdict == NSVCD_HIT;
+    if (nsvcd__ask_sweep(c, &question, &found) != NSVCD_HIT) return 0;
   }
-  return result;
+  return 1;
 }
 
 // Are two links those of one joint, and neither of them the world?
@@ -366,13 +350,13 @@ NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t draws, uin
   while (nsvcd__next_pair(scene, &pair)) total++;
   if (capacity < total) return NSVCD_ERROR_WORKSPACE;
   if (!draws) draws = NSVCD__PAIR_DRAWS;
+  checker->result = NSVCD_OK;
   // what is to be asked from the front, what touches in all from the back
   pair.a = pair.b = 0;
   while (nsvcd__next_pair(scene, &pair)) {
-    int in_all;
     if (nsvcd__are_adjacent(scene, &pair)) continue;
-    const nsvcd_result result = nsvcd__touches_in_all(checker, &pair, draws, seed, &in_all);
-    if (result) return result;
+    const int in_all = nsvcd__touches_in_all(checker, &pair, draws, seed);
+    if (checker->result) return checker->result;
     pairs[in_all ? total - ++found.touching : found.asked++] = pair;
   }
   pair.a = pair.b = 0;

@@ -69,7 +69,10 @@ static nsvcd_question nsvcd__question_of(const nsvcd_checker *c, const nsvcd_bod
   return question;
 }
 
-static nsvcd_result nsvcd__ask_sweep(nsvcd_checker *c, const nsvcd_question *question,
-                                     nsvcd_answer *found) {
-  return nsvcd_sweep(question, c->query, c->query_size, found);
+// Returns the verdict; UNDECIDED where c->result is an error.
+static nsvcd_verdict nsvcd__ask_sweep(nsvcd_checker *c, const nsvcd_question *question,
+                                      nsvcd_answer *found) {
+  memset(found, 0, sizeof *found);
+  if (!c->result) c->result = nsvcd_sweep(question, c->query, c->query_size, found);
+  return found->verdict;
 }
