@@ -243,7 +243,7 @@ robot: a step of a ninth|return (bend + second + w * w * c->members[part].extent
 postures: poses without rounding|if (moves[n]) local.rounding += 2|if (0) local.rounding += 2
 postures: poses seen from the world|const nsvcd__frame in = nsvcd__frame_inverse_mul(\&local.frame, \&frames[n][k]);|const nsvcd__frame in = frames[n][k];
 postures: free of each other as floats|if (out->verdict != NSVCD_FREE \|\| out->distance.low > 0) return 1;|return 1;
-postures: depths of floats|question.clearance = nsvcd__above(error + 2e-7 * (double)o->max_depth);|
+postures: depths of floats|q.clearance = nsvcd__above(error + 2e-7 * (double)o->max_depth);|
 robot: strays of one part|nsvcd__part_error(c, pair->a) + nsvcd__part_error(c, pair->b);|nsvcd__part_error(c, pair->a);
 robot: speeds that jump|step->bend[j] += 2 * h * jumps;|(void)jumps;
 robot: half the jump of speed|step->bend[j] += 2 * h * jumps;|step->bend[j] += h * jumps;
@@ -275,7 +275,7 @@ postures: depths of a alone|nsvcd__slope_add(c, pair->b, local, point, normal, -
 postures: depths without a rate|nsvcd__slope_add(c, pair->a, local, on_a, normal, 1 / rate, out->slope);|nsvcd__slope_add(c, pair->a, local, on_a, normal, 1, out->slope);
 postures: depths where a is lifted|const nsvcd__d3 on_a = nsvcd__d3_fma(-high, push_out, point);|const nsvcd__d3 on_a = point;
 postures: near without the boxes' room|&b->bounds, 1.000001 * max_distance))|&b->bounds, 0.5 * max_distance))
-postures: near without within|question.clearance = nsvcd__above((double)o->max_distance + error);|question.clearance = 0;
+postures: near without within|q.clearance = nsvcd__above((double)o->max_distance + error);|q.clearance = 0;
 postures: no depth|out->depth = nsvcd__above(high * length);|
 postures: a depth of half|out->depth = nsvcd__above(high * length);|out->depth = 0.5f * nsvcd__above(high * length);
 postures: a depth of all the lift|*(is_apart ? &high : &low) = middle;|low = middle;
@@ -284,8 +284,8 @@ postures: more than there is room for|if (written < capacity) out[written] = fou
 postures: escapes without the clearance|{o->clearance, 0, 0, o->stop, o->user};|{0, 0, 0, o->stop, o->user};
 postures: escapes to anywhere|sphere * o->farthest;|2 * sphere * o->farthest;
 postures: no way back|memcpy(is_free ? at : blocked, middle, joints * sizeof *at);|memcpy(blocked, middle, joints * sizeof *at);
-postures: the first way out|*is_found ? NSVCD__FREE_NEARER * best : sphere|*is_found ? o->farthest : sphere
-postures: what touches once touches always|if (nsvcd__ask_sweep(c, &question, &found) != NSVCD_HIT) return 0;|if (n == 0 && nsvcd__ask_sweep(c, &question, &found) != NSVCD_HIT) return 0;
+postures: the first way out|is_found ? NSVCD__FREE_NEARER * best : sphere|is_found ? o->farthest : sphere
+postures: what touches once touches always|if (nsvcd__ask_sweep(c, &q, &found) != NSVCD_HIT) return 0;|if (n == 0 && nsvcd__ask_sweep(c, &q, &found) != NSVCD_HIT) return 0;
 postures: out of the limits|joints[j] = nsvcd__max(low, nsvcd__min(high, joints[j]));|
 postures: the world is adjacent|return a > 0 && b > 0 && (scene->joints[a - 1].parent == b|return a > 0 && (b == 0 \|\| scene->joints[a - 1].parent == b
 postures: never touching|pairs[in_all ? total - ++found.touching : found.asked++] = pair;|pairs[found.asked++] = pair;

@@ -260,13 +260,13 @@ static int nsvcd__proves_free(const nsvcd_check_answer *answer) {
   return answer->verdict == NSVCD_FREE && answer->joint == NSVCD_NONE;
 }
 
-NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,
+NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *c, const nsvcd_joint_motion *motion,
                                   const nsvcd_check_options *options,
                                   nsvcd_check_answer *answer) {
   nsvcd_check_answer found;
   nsvcd_check_options o;
-  if (!checker || !motion || !answer || !motion->points) return NSVCD_ERROR_ARGUMENT;
-  const size_t joints = checker->scene->joint_count;
+  if (!c || !motion || !answer || !motion->points) return NSVCD_ERROR_ARGUMENT;
+  const size_t joints = c->scene->joint_count;
   const nsvcd_joint_motion m = nsvcd__motion_meant(motion);
   const nsvcd_result result = nsvcd__motion_check(&m, joints);
   if (result) return result;
@@ -278,9 +278,9 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
   memset(&found, 0, sizeof found);
   found.joint = found.pair = found.piece = NSVCD_NONE;
   for (size_t p = 0; p < m.pieces + !m.pieces && found.joint == NSVCD_NONE; p++)
-    found.joint = nsvcd__joint_outside(checker->scene, &m, p);
-  nsvcd__check_state s = {checker, &m, &o, &found, 0};
-  checker->result = NSVCD_OK;
+    found.joint = nsvcd__joint_outside(c->scene, &m, p);
+  nsvcd__check_state s = {c, &m, &o, &found, 0};
+  c->result = NSVCD_OK;
   if (m.pieces == 0) nsvcd__check_interval(&s, 0, 0, 0, 0);
   // from corner to corner
   for (size_t p = 0, next; p < m.pieces; p = next) {
@@ -291,7 +291,7 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
     nsvcd__check_interval(&s, nsvcd__piece_start(&m, p), end, steps, NSVCD__CHECK_HALVINGS);
     if (found.verdict != NSVCD_FREE) break;
   }
-  if (checker->result) return checker->result;
+  if (c->result) return c->result;
   if (found.verdict == NSVCD_FREE) {
     found.piece = NSVCD_NONE;
     found.fraction = 0;

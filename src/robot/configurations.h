@@ -28,9 +28,9 @@
 #define NSVCD__FREE_NEARER 0.9
 #define NSVCD__FREE_HALVINGS 10
 
-static nsvcd_result nsvcd__check_joints(const nsvcd_checker *checker, const double *joints) {
-  if (!checker || !joints) return NSVCD_ERROR_ARGUMENT;
-  const int are_numbers = nsvcd__are_numbers(joints, checker->scene->joint_count);
+static nsvcd_result nsvcd__check_joints(const nsvcd_checker *c, const double *joints) {
+  if (!c || !joints) return NSVCD_ERROR_ARGUMENT;
+  const int are_numbers = nsvcd__are_numbers(joints, c->scene->joint_count);
   return are_numbers ? NSVCD_OK : NSVCD_ERROR_VALUE;
 }
 
@@ -53,10 +53,10 @@ static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, const nsvcd__l
 }
 
 // Asks a question with a pushed out.
-static nsvcd_verdict nsvcd__ask_pushed(nsvcd_checker *c, const nsvcd_question *question,
+static nsvcd_verdict nsvcd__ask_pushed(nsvcd_checker *c, const nsvcd_question *q,
                                        nsvcd__d3 push_out, nsvcd_answer *found) {
-  nsvcd_pose pose = *question->a.poses;
-  nsvcd_question pushed = *question;
+  nsvcd_pose pose = *q->a.poses;
+  nsvcd_question pushed = *q;
   const nsvcd__d3 position = nsvcd__d3_add(nsvcd__d3_load(pose.position), push_out);
   pushed.a.poses = &pose;
   nsvcd__f3_store(nsvcd__f3_round(position), pose.position);
@@ -65,24 +65,22 @@ static nsvcd_verdict nsvcd__ask_pushed(nsvcd_checker *c, const nsvcd_question *q
 
 // A push-out of a off b that separates them. Slops are tried, each four times the one before, up to
 // `max_depth`; 0 where none is enough.
-static nsvcd__d3 nsvcd__separating_push_out(nsvcd_checker *c, nsvcd_question question,
+static nsvcd__d3 nsvcd__separating_push_out(nsvcd_checker *c, nsvcd_question q,
                                             float max_depth) {
   nsvcd_answer found;
   for (float fraction = NSVCD__LEAST_SLOP; fraction <= 1; fraction *= 4) {
-    question.slop = fraction * max_depth;
-    if (nsvcd__ask_sweep(c, &question, &found) == NSVCD_FREE)
-      return nsvcd__d3_load(found.push_out);
+    q.slop = fraction * max_depth;
+    if (nsvcd__ask_sweep(c, &q, &found) == NSVCD_FREE) return nsvcd__d3_load(found.push_out);
   }
   return nsvcd__d3_of(0, 0, 0);
 }
 
-// Of parts that touch: the depth, its contact and its slope. question: HIT, with all errors of the
+// Of parts that touch: the depth, its contact and its slope. q: asks HIT, with all errors of the
 // poses as its clearance.
-static void nsvcd__depth_of(nsvcd_checker *c, nsvcd_question question,
-                            const nsvcd__local *local, const nsvcd_proximity_options *o,
-                            nsvcd_proximity *out) {
+static void nsvcd__depth_of(nsvcd_checker *c, nsvcd_question q, const nsvcd__local *local,
+                            const nsvcd_proximity_options *o, nsvcd_proximity *out) {
   const nsvcd_body_pair *pair = &c->scene->pairs[out->pair];
-  const nsvcd__d3 push_out = nsvcd__separating_push_out(c, question, o->max_depth);
+  const nsvcd__d3 push_out = nsvcd__separating_push_out(c, q, o->max_depth);
   const double length = nsvcd__d3_length(push_out);
   nsvcd_answer found;
   // fractions of the push-out: they touch at the first, and are apart at the second
@@ -92,15 +90,15 @@ static void nsvcd__depth_of(nsvcd_checker *c, nsvcd_question question,
   for (size_t n = 0; n < NSVCD__DEPTH_HALVINGS; n++) {
     const double middle = 0.5 * (low + high);
     const nsvcd__d3 part = nsvcd__d3_scale(push_out, middle);
-    const int is_apart = nsvcd__ask_pushed(c, &question, part, &found) == NSVCD_FREE;
+    const int is_apart = nsvcd__ask_pushed(c, &q, part, &found) == NSVCD_FREE;
     *(is_apart ? &high : &low) = middle;
   }
   // a little beyond: which faces are near?
   const double beyond = NSVCD__DEPTH_BEYOND * high + (double)o->to / length;
-  question.clearance = 0;
-  question.ask = NSVCD_ASK_DISTANCE;
-  question.to = 0.1f * o->to;
-  (void)nsvcd__ask_pushed(c, &question, nsvcd__d3_scale(push_out, beyond), &found);
+  q.clearance = 0;
+  q.ask = NSVCD_ASK_DISTANCE;
+  q.to = 0.1f * o->to;
+  (void)nsvcd__ask_pushed(c, &q, nsvcd__d3_scale(push_out, beyond), &found);
   const nsvcd__d3 along = nsvcd__d3_scale(push_out, 1 / length);
   const nsvcd__d3 normal = nsvcd__d3_load(found.nearest.normal);
   const nsvcd__d3 point = nsvcd__d3_load(found.nearest.point);
@@ -128,27 +126,27 @@ static int nsvcd__proximity_of(nsvcd_checker *c, size_t index,
   const double max_distance = (double)o->max_distance + frames_error;
   if (nsvcd__bounds_apart(&a->bounds, &b->bounds, 1.000001 * max_distance)) return 0;
   const nsvcd__local local = nsvcd__localize_at(c, pair, &c->at);
-  nsvcd_question question = nsvcd__question_of(c, pair, 1, o->work);
+  nsvcd_question q = nsvcd__question_of(c, pair, 1, o->work);
   const double error = frames_error + local.rounding;
-  question.clearance = nsvcd__above((double)o->max_distance + error);
-  if (nsvcd__ask_sweep(c, &question, &found) == NSVCD_FREE) return 0;
-  question.clearance = 0;
-  question.ask = NSVCD_ASK_DISTANCE;
-  question.to = o->to;
+  q.clearance = nsvcd__above((double)o->max_distance + error);
+  if (nsvcd__ask_sweep(c, &q, &found) == NSVCD_FREE) return 0;
+  q.clearance = 0;
+  q.ask = NSVCD_ASK_DISTANCE;
+  q.to = o->to;
   memset(out, 0, sizeof *out);
   out->pair = index;
-  out->verdict = nsvcd__ask_sweep(c, &question, &found);
+  out->verdict = nsvcd__ask_sweep(c, &q, &found);
   out->why = found.why;
   out->contact = found.nearest;
   nsvcd__contact_to_world(&local, &out->contact);
-  question.ask = NSVCD_ASK_HIT;
-  question.to = 0;
+  q.ask = NSVCD_ASK_HIT;
+  q.to = 0;
   if (found.verdict == NSVCD_HIT) {
     out->distance.high = nsvcd__above(error);
     out->depth = HUGE_VALF;
     // push-outs are rounded to float
-    question.clearance = nsvcd__above(error + 2e-7 * (double)o->max_depth);
-    if (!found.inside) nsvcd__depth_of(c, question, &local, o, out);
+    q.clearance = nsvcd__above(error + 2e-7 * (double)o->max_depth);
+    if (!found.inside) nsvcd__depth_of(c, q, &local, o, out);
     return 1;
   }
   out->distance.high = nsvcd__above((double)found.distance.high + error);
@@ -160,19 +158,19 @@ static int nsvcd__proximity_of(nsvcd_checker *c, size_t index,
   nsvcd__slope_add(c, pair->b, &local, point, normal, -1, out->slope);
   if (out->verdict != NSVCD_FREE || out->distance.low > 0) return 1;
   // the poses in float are free of each other: are the parts?
-  question.clearance = nsvcd__above(error);
-  if (nsvcd__ask_sweep(c, &question, &found) == NSVCD_FREE) return 1;
+  q.clearance = nsvcd__above(error);
+  if (nsvcd__ask_sweep(c, &q, &found) == NSVCD_FREE) return 1;
   out->verdict = NSVCD_UNDECIDED;
   out->why = NSVCD_WHY_TOO_NEAR;
   return 1;
 }
 
-NSVCDDEF nsvcd_result nsvcd_proximities(nsvcd_checker *checker, const double *joints,
+NSVCDDEF nsvcd_result nsvcd_proximities(nsvcd_checker *c, const double *joints,
                                         const nsvcd_proximity_options *options,
                                         nsvcd_proximity *out, size_t capacity, size_t *count) {
   nsvcd_proximity_options o;
   size_t written = 0;
-  nsvcd_result result = nsvcd__check_joints(checker, joints);
+  nsvcd_result result = nsvcd__check_joints(c, joints);
   if (!result && (!count || (!out && capacity > 0))) result = NSVCD_ERROR_ARGUMENT;
   if (result) return result;
   memset(&o, 0, sizeof o);
@@ -183,17 +181,17 @@ NSVCDDEF nsvcd_result nsvcd_proximities(nsvcd_checker *checker, const double *jo
   o.max_distance = o.max_distance > 0 ? o.max_distance : NSVCD__MAX_DISTANCE;
   o.to = o.to > 0 ? o.to : NSVCD__DISTANCE_TO;
   o.max_depth = o.max_depth > 0 ? o.max_depth : NSVCD__MAX_DEPTH;
-  nsvcd__place_links(checker, joints, &checker->at);
-  nsvcd__place_sample(checker, &checker->at, 0);
-  checker->result = NSVCD_OK;
-  for (size_t n = 0; n < checker->scene->pair_count && !checker->result; n++) {
+  nsvcd__place_links(c, joints, &c->at);
+  nsvcd__place_sample(c, &c->at, 0);
+  c->result = NSVCD_OK;
+  for (size_t n = 0; n < c->scene->pair_count && !c->result; n++) {
     nsvcd_proximity found;
-    if (!nsvcd__proximity_of(checker, n, &o, &found)) continue;
+    if (!nsvcd__proximity_of(c, n, &o, &found)) continue;
     if (written < capacity) out[written] = found;
     written++;
   }
-  if (!checker->result) *count = written;
-  return checker->result;
+  if (!c->result) *count = written;
+  return c->result;
 }
 
 // ---- the nearest free configuration
@@ -208,74 +206,66 @@ static void nsvcd__clamp_to_limits(const nsvcd_scene *scene, double *joints) {
   }
 }
 
-static nsvcd_result nsvcd__is_free_at(nsvcd_checker *c, const double *joints,
-                                      const nsvcd_nearest_free_options *o, int *is_free) {
+// Is a configuration free? An error is in c->result.
+static int nsvcd__is_free_at(nsvcd_checker *c, const double *joints,
+                             const nsvcd_nearest_free_options *o) {
   const nsvcd_joint_motion still = {0, 0, joints, NULL};
   const nsvcd_check_options options = {o->clearance, 0, 0, o->stop, o->user};
   nsvcd_check_answer answer;
-  const nsvcd_result result = nsvcd_check(c, &still, &options, &answer);
-  *is_free = !result && nsvcd__proves_free(&answer);
-  return result;
+  return !nsvcd_check(c, &still, &options, &answer) && nsvcd__proves_free(&answer);
 }
 
 // Moves a free configuration towards `from`, which is not free, as far as that stays free.
-static nsvcd_result nsvcd__draw_back(nsvcd_checker *c, const double *from,
-                                     const nsvcd_nearest_free_options *o, double *at) {
+static void nsvcd__draw_back(nsvcd_checker *c, const double *from,
+                             const nsvcd_nearest_free_options *o, double *at) {
   const size_t joints = c->scene->joint_count;
   double blocked[NSVCD_MAX_JOINTS], middle[NSVCD_MAX_JOINTS];
   memcpy(blocked, from, joints * sizeof *at);
-  for (size_t n = 0; n < NSVCD__FREE_HALVINGS; n++) {
-    int is_free;
+  for (size_t n = 0; n < NSVCD__FREE_HALVINGS && !c->result; n++) {
     for (size_t j = 0; j < joints; j++) middle[j] = 0.5 * (blocked[j] + at[j]);
-    const nsvcd_result result = nsvcd__is_free_at(c, middle, o, &is_free);
-    if (result) return result;
+    const int is_free = nsvcd__is_free_at(c, middle, o);
     memcpy(is_free ? at : blocked, middle, joints * sizeof *at);
   }
-  return NSVCD_OK;
 }
 
 // Draws on spheres about `from`, the innermost first, until a configuration is free; then on ever
-// smaller ones, nearer than the best.
-static nsvcd_result nsvcd__seek_nearest_free(nsvcd_checker *c, const double *from,
-                                             const nsvcd_nearest_free_options *o, double *out,
-                                             int *is_found) {
+// smaller ones, nearer than the best. Returns 0 if none is found.
+static int nsvcd__seek_nearest_free(nsvcd_checker *c, const double *from,
+                                    const nsvcd_nearest_free_options *o, double *out) {
   const size_t joints = c->scene->joint_count;
   uint64_t random = o->seed;
   double best = o->farthest;
-  *is_found = 0;
-  for (size_t n = 0; n < NSVCD__FREE_SPHERES * NSVCD__FREE_DRAWS; n++) {
+  int is_found = 0;
+  for (size_t n = 0; n < NSVCD__FREE_SPHERES * NSVCD__FREE_DRAWS && !c->result; n++) {
     const double sphere = (double)(n / NSVCD__FREE_DRAWS + 1) / NSVCD__FREE_SPHERES;
-    const double radius = *is_found ? NSVCD__FREE_NEARER * best : sphere * o->farthest;
+    const double radius = is_found ? NSVCD__FREE_NEARER * best : sphere * o->farthest;
     double at[NSVCD_MAX_JOINTS];
     double square = 0;
-    int is_free;
-    if (o->stop && o->stop(o->user)) return NSVCD_OK;
+    if (o->stop && o->stop(o->user)) break;
     for (size_t j = 0; j < joints; j++) {
       at[j] = 2 * nsvcd__random(&random) - 1;
       square += at[j] * at[j];
     }
     for (size_t j = 0; j < joints; j++) at[j] = from[j] + radius / sqrt(square) * at[j];
     nsvcd__clamp_to_limits(c->scene, at);
-    nsvcd_result result = nsvcd__is_free_at(c, at, o, &is_free);
-    if (!result && is_free) result = nsvcd__draw_back(c, from, o, at);
-    if (result) return result;
-    if (!is_free) continue;
-    *is_found = 1;
+    if (!nsvcd__is_free_at(c, at, o)) continue;
+    nsvcd__draw_back(c, from, o, at);
+    is_found = 1;
     best = sqrt(nsvcd__distance2(at, from, joints));
     memcpy(out, at, joints * sizeof *at);
   }
-  return NSVCD_OK;
+  return is_found;
 }
 
-NSVCDDEF nsvcd_result nsvcd_nearest_free(nsvcd_checker *checker, const double *joints,
+NSVCDDEF nsvcd_result nsvcd_nearest_free(nsvcd_checker *c, const double *joints,
                                          const nsvcd_nearest_free_options *options,
                                          double *out, int *is_found) {
   nsvcd_nearest_free_options o;
   double from[NSVCD_MAX_JOINTS], at[NSVCD_MAX_JOINTS];
-  nsvcd_result result = nsvcd__check_joints(checker, joints);
+  nsvcd_result result = nsvcd__check_joints(c, joints);
   if (!result && (!out || !is_found)) result = NSVCD_ERROR_ARGUMENT;
   if (result) return result;
-  const size_t bytes = checker->scene->joint_count * sizeof(double);
+  const size_t bytes = c->scene->joint_count * sizeof(double);
   memset(&o, 0, sizeof o);
   if (options) o = *options;
   if (!nsvcd__in_range(&o.clearance, 1, 0.5f * NSVCD_MAX_COORDINATE) || o.clearance < 0)
@@ -283,13 +273,12 @@ NSVCDDEF nsvcd_result nsvcd_nearest_free(nsvcd_checker *checker, const double *j
   if (!nsvcd__are_numbers(&o.farthest, 1) || o.farthest < 0) return NSVCD_ERROR_FARTHEST;
   o.farthest = o.farthest > 0 ? o.farthest : NSVCD__FARTHEST_FREE;
   memcpy(from, joints, bytes);
-  nsvcd__clamp_to_limits(checker->scene, from);
-  int is_free;
+  nsvcd__clamp_to_limits(c->scene, from);
   memcpy(at, from, bytes);
-  result = nsvcd__is_free_at(checker, from, &o, &is_free);
+  int is_free = nsvcd__is_free_at(c, from, &o);
   o.clearance += NSVCD__FREE_ROOM;
-  if (!result && !is_free) result = nsvcd__seek_nearest_free(checker, from, &o, at, &is_free);
-  if (result) return result;
+  if (!is_free && !c->result) is_free = nsvcd__seek_nearest_free(c, from, &o, at);
+  if (c->result) return c->result;
   *is_found = is_free;
   if (is_free) memcpy(out, at, bytes);
   return NSVCD_OK;
@@ -312,8 +301,8 @@ static int nsvcd__touches_in_all(nsvcd_checker *c, const nsvcd_body_pair *pair, 
     }
     nsvcd__place_links(c, joints, &c->at);
     (void)nsvcd__localize_at(c, pair, &c->at);
-    const nsvcd_question question = nsvcd__question_of(c, pair, 1, 0);
-    if (nsvcd__ask_sweep(c, &question, &found) != NSVCD_HIT) return 0;
+    const nsvcd_question q = nsvcd__question_of(c, pair, 1, 0);
+    if (nsvcd__ask_sweep(c, &q, &found) != NSVCD_HIT) return 0;
   }
   return 1;
 }
@@ -339,24 +328,24 @@ static int nsvcd__next_pair(const nsvcd_scene *scene, nsvcd_body_pair *pair) {
   return 1;
 }
 
-NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t draws, uint64_t seed,
+NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *c, size_t draws, uint64_t seed,
                                        nsvcd_body_pair *pairs, size_t capacity,
                                        nsvcd_pair_counts *counts) {
-  if (!checker || !counts || (!pairs && capacity > 0)) return NSVCD_ERROR_ARGUMENT;
-  const nsvcd_scene *scene = checker->scene;
+  if (!c || !counts || (!pairs && capacity > 0)) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_scene *scene = c->scene;
   nsvcd_body_pair pair = {0, 0};
   nsvcd_pair_counts found = {0, 0, 0};
   size_t total = 0;
   while (nsvcd__next_pair(scene, &pair)) total++;
   if (capacity < total) return NSVCD_ERROR_WORKSPACE;
   if (!draws) draws = NSVCD__PAIR_DRAWS;
-  checker->result = NSVCD_OK;
+  c->result = NSVCD_OK;
   // what is to be asked from the front, what touches in all from the back
   pair.a = pair.b = 0;
   while (nsvcd__next_pair(scene, &pair)) {
     if (nsvcd__are_adjacent(scene, &pair)) continue;
-    const int in_all = nsvcd__touches_in_all(checker, &pair, draws, seed);
-    if (checker->result) return checker->result;
+    const int in_all = nsvcd__touches_in_all(c, &pair, draws, seed);
+    if (c->result) return c->result;
     pairs[in_all ? total - ++found.touching : found.asked++] = pair;
   }
   pair.a = pair.b = 0;
@@ -375,16 +364,16 @@ NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t draws, uin
   return NSVCD_OK;
 }
 
-NSVCDDEF nsvcd_result nsvcd_reparent(const nsvcd_checker *checker, const double *joints,
-                                     size_t part, uint32_t link, nsvcd_part *out) {
+NSVCDDEF nsvcd_result nsvcd_reparent(const nsvcd_checker *c, const double *joints, size_t part,
+                                     uint32_t link, nsvcd_part *out) {
   nsvcd__links at;
-  nsvcd_result result = nsvcd__check_joints(checker, joints);
+  nsvcd_result result = nsvcd__check_joints(c, joints);
   if (result) return result;
-  const nsvcd_scene *scene = checker->scene;
+  const nsvcd_scene *scene = c->scene;
   if (!out) return NSVCD_ERROR_ARGUMENT;
   if (part >= scene->part_count || link > scene->joint_count) return NSVCD_ERROR_LINK;
-  nsvcd__place_links(checker, joints, &at);
-  const nsvcd__frame world = nsvcd__frame_of_part(checker, &at, part);
+  nsvcd__place_links(c, joints, &at);
+  const nsvcd__frame world = nsvcd__frame_of_part(c, &at, part);
   const nsvcd__frame frame = nsvcd__frame_inverse_mul(&at.frames[link], &world);
   nsvcd_part moved = scene->parts[part];
   moved.link = link;

@@ -54,25 +54,25 @@ static void nsvcd__contact_to_world(const nsvcd__local *local, nsvcd_contact *co
 static nsvcd_question nsvcd__question_of(const nsvcd_checker *c, const nsvcd_body_pair *pair,
                                          size_t count, size_t work) {
   const size_t parts[2] = {pair->a, pair->b};
-  nsvcd_question question;
-  memset(&question, 0, sizeof question);
+  nsvcd_question q;
+  memset(&q, 0, sizeof q);
   for (size_t n = 0; n < 2; n++) {
     const nsvcd_part *part = &c->scene->parts[parts[n]];
-    nsvcd_mover *mover = n ? &question.b : &question.a;
+    nsvcd_mover *mover = n ? &q.b : &q.a;
     mover->body = part->body;
     mover->scale = part->scale;
     mover->poses = c->local[n];
     mover->count = part->link ? count : 1;
   }
-  question.method = NSVCD_METHOD_PROOF;
-  question.work = work ? work : NSVCD_DEFAULT_WORK;
-  return question;
+  q.method = NSVCD_METHOD_PROOF;
+  q.work = work ? work : NSVCD_DEFAULT_WORK;
+  return q;
 }
 
 // Returns the verdict; UNDECIDED where c->result is an error.
-static nsvcd_verdict nsvcd__ask_sweep(nsvcd_checker *c, const nsvcd_question *question,
+static nsvcd_verdict nsvcd__ask_sweep(nsvcd_checker *c, const nsvcd_question *q,
                                       nsvcd_answer *found) {
   memset(found, 0, sizeof *found);
-  if (!c->result) c->result = nsvcd_sweep(question, c->query, c->query_size, found);
+  if (!c->result) c->result = nsvcd_sweep(q, c->query, c->query_size, found);
   return found->verdict;
 }
