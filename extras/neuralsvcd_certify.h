@@ -1333,15 +1333,13 @@ static void nsvcd__find_components(nsvcd_tree *tree, uint32_t *edges) {
   for (size_t i = 0; i < corners; i++) roots[indices[i]] = nsvcd__find_root(roots, indices[i]);
   nsvcd__sort_numbers(tree, nsvcd__edge_order, edges, corners);
   for (size_t i = 0; i < corners; i = end) {
-    size_t there = 0;
-    size_t back = 0;
+    ptrdiff_t balance = 0;
     for (end = i; end < corners && nsvcd__edge_order(tree, edges[i], edges[end]) == 0; end++) {
       uint32_t ends[2];
       nsvcd__edge_ends(tree, edges[end], ends);
-      there += ends[0] < ends[1];
-      back += ends[1] < ends[0];
+      balance += (ends[0] < ends[1]) - (ends[1] < ends[0]);
     }
-    if (there != back) tree->open[roots[indices[edges[i]]]] = 1;
+    if (balance != 0) tree->open[roots[indices[edges[i]]]] = 1;
   }
 }
 
@@ -1355,7 +1353,7 @@ static uint64_t nsvcd__tree_layout(const nsvcd_mesh *mesh, char *base, nsvcd_tre
   tree->corners = (float *)nsvcd__take(base, &used, triangles, 9 * sizeof(float));
   tree->component = NSVCD__TAKE_ROWS(uint32_t, mesh->vertex_count, base, &used);
   tree->weld = NSVCD__TAKE_ROWS(uint32_t, mesh->vertex_count, base, &used);
-  tree->open = (uint8_t *)nsvcd__take(base, &used, mesh->vertex_count, 1);
+  tree->open = NSVCD__TAKE_ROWS(uint8_t, mesh->vertex_count, base, &used);
   return used;
 }
 
