@@ -3757,19 +3757,10 @@ static void nsvcd__simplify_path(nsvcd__router *r) {
 // ---- a route
 
 NSVCDDEF const char *nsvcd_route_status_string(nsvcd_route_status status) {
-  switch (status) {
-    case NSVCD_ROUTE_FOUND:
-      return "found";
-    case NSVCD_ROUTE_LIMIT:
-      return "no way found with so many nodes or tries";
-    case NSVCD_ROUTE_STOPPED:
-      return "stopped";
-    case NSVCD_ROUTE_START:
-      return "start not free";
-    case NSVCD_ROUTE_GOAL:
-      return "no goal free";
-  }
-  return "not a status";
+  static const char texts[][48] = {"found", "no path found with so many nodes or tries",
+                                   "stopped", "start not free", "no goal free"};
+  const size_t count = sizeof texts / sizeof texts[0];
+  return (size_t)status < count ? texts[status] : "not a status";
 }
 
 // Copies a configuration, clamped to the limits where only rounding has it out. Is it free? That is
