@@ -1932,14 +1932,15 @@ static const nsvcd__frame *nsvcd__frames_at(const nsvcd_checker *c, size_t part,
 // ----------------------------------------------------------------------------- robot/local_queries
 // In: two parts of a pair, and their frames. Out: a question about them, as one of them sees it.
 //
-// Two parts that are near each other have small coordinates in a frame of one of them, however far
-// from the world's origin they are: there a float has digits left. That is the frame of the part
-// that rests, if one does; else b's, half way.
+// Poses in float keep their digits where coordinates are small. Those of two parts that are near
+// each other are, however far from the world's origin, in the frame of one of them: of the part
+// that rests, if one does; else of b, half way.
 
+// The frame that local poses are in.
 typedef struct nsvcd__local {
   // in the world
   nsvcd__frame frame;
-  // metres: errors of both parts' poses in float, in sum, at most
+  // metres, at most: the sum of both parts' errors by poses in float
   double rounding;
 } nsvcd__local;
 
@@ -1962,11 +1963,10 @@ static nsvcd__local nsvcd__localize(nsvcd_checker *c, const nsvcd_body_pair *pai
   return local;
 }
 
-// The same of two parts in a configuration.
-static nsvcd__local nsvcd__localize_at(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                                       const nsvcd__links *at) {
-  const nsvcd__frame a = nsvcd__frame_of_part(c, at, pair->a);
-  const nsvcd__frame b = nsvcd__frame_of_part(c, at, pair->b);
+// The same in the configuration c->at.
+static nsvcd__local nsvcd__localize_at(nsvcd_checker *c, const nsvcd_body_pair *pair) {
+  const nsvcd__frame a = nsvcd__frame_of_part(c, &c->at, pair->a);
+  const nsvcd__frame b = nsvcd__frame_of_part(c, &c->at, pair->b);
   const nsvcd__frame *const frames[2] = {&a, &b};
   return nsvcd__localize(c, pair, frames, 1);
 }
@@ -1980,7 +1980,7 @@ static void nsvcd__contact_to_world(const nsvcd__local *local, nsvcd_contact *co
   nsvcd__f3_store(nsvcd__f3_round(normal), contact->normal);
 }
 
-// Of two parts in their local poses, so many each; of a part that rests, one.
+// Of two parts in their local poses, (count) each, but one of a part that rests.
 static nsvcd_question nsvcd__question_of(const nsvcd_checker *c, const nsvcd_body_pair *pair,
                                          size_t count, size_t work) {
   const size_t parts[2] = {pair->a, pair->b};
@@ -2087,7 +2087,7 @@ static int nsvcd__is_hit_there(nsvcd__check_state *s, size_t work) {
                    NULL);
   nsvcd__place_links(c, joints, &c->at);
   answer->placed++;
-  const nsvcd__local local = nsvcd__localize_at(c, pair, &c->at);
+  const nsvcd__local local = nsvcd__localize_at(c, pair);
   if (nsvcd__ask_local(s, pair, 1, clearance, work, &found) != NSVCD_HIT) return 0;
   answer->verdict = NSVCD_HIT;
   answer->contact = found.nearest;
@@ -2793,7 +2793,7 @@ static int nsvcd__proximity_of(nsvcd_checker *c, size_t index,
   const double frames_error = 2 * (a->rounding + b->rounding);
   const double max_distance = (double)o->max_distance + frames_error;
   if (nsvcd__bounds_apart(&a->bounds, &b->bounds, 1.000001 * max_distance)) return 0;
-  const nsvcd__local local = nsvcd__localize_at(c, pair, &c->at);
+  const nsvcd__local local = nsvcd__localize_at(c, pair);
   nsvcd_question q = nsvcd__question_of(c, pair, 1, o->work);
   const double error = frames_error + local.rounding;
   q.clearance = nsvcd__above((double)o->max_distance + error);
@@ -2968,7 +2968,7 @@ static int nsvcd__touches_in_all(nsvcd_checker *c, const nsvcd_body_pair *pair, 
       joints[j] = low + (high - low) * nsvcd__random(&random);
     }
     nsvcd__place_links(c, joints, &c->at);
-    (void)nsvcd__localize_at(c, pair, &c->at);
+    (void)nsvcd__localize_at(c, pair);
     const nsvcd_question q = nsvcd__question_of(c, pair, 1, 0);
     if (nsvcd__ask_sweep(c, &q, &found) != NSVCD_HIT) return 0;
   }

@@ -34,7 +34,7 @@ typedef struct nsvcd__visit {
 } nsvcd__visit;
 
 typedef struct nsvcd__certifier {
-  nsvcd__moving_tree bodies[2];
+  nsvcd__moving bodies[2];
   nsvcd__tree_interval interval;
   // the last first
   nsvcd__d3 normals[NSVCD__REMEMBERED];
@@ -178,7 +178,7 @@ static int nsvcd__meet_at(nsvcd__certifier *c, double when, uint32_t ta, uint32_
 // ---- the traversal
 
 // The longest side of a node's box.
-static double nsvcd__node_side(const nsvcd__moving_tree *moving, const nsvcd__node *node) {
+static double nsvcd__node_side(const nsvcd__moving *moving, const nsvcd__node *node) {
   const nsvcd__box *box = &moving->tree->boxes[node->box];
   const nsvcd__d3 sides = nsvcd__d3_sub(nsvcd__d3_widen(box->high), nsvcd__d3_widen(box->low));
   return nsvcd__stored(moving->model.scale *
@@ -194,7 +194,7 @@ static double nsvcd__relative_travel(const nsvcd__tree_interval *s,
     const nsvcd__instant *at = &s->instants[i];
     nsvcd__d3 middles[2];
     for (size_t n = 0; n < 2; n++) {
-      const nsvcd__moving_tree *body = &s->bodies[n];
+      const nsvcd__moving *body = &s->bodies[n];
       const nsvcd__box *box = &body->tree->boxes[pair->nodes[n].box];
       const nsvcd__d3 sum =
           nsvcd__d3_add(nsvcd__d3_widen(box->low), nsvcd__d3_widen(box->high));
@@ -369,7 +369,7 @@ static uint64_t nsvcd__certifier_layout(size_t instants, const nsvcd_tree *a,
                                                                       : b->mesh.vertex_count;
   c->interval.capacity = instants;
   c->interval.instants = NSVCD__TAKE_ROWS(nsvcd__instant, instants, base, &used);
-  c->sums = (int32_t *)nsvcd__take(base, &used, vertices, sizeof *c->sums);
+  c->sums = NSVCD__TAKE_ROWS(int32_t, vertices, base, &used);
   return used;
 }
 

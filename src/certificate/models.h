@@ -12,12 +12,12 @@ typedef struct nsvcd__pose_matrix {
 } nsvcd__pose_matrix;
 
 // A mesh that moves.
-typedef struct nsvcd__moving_tree {
+typedef struct nsvcd__moving {
   const nsvcd_tree *tree;
   nsvcd_motion_model model;
-} nsvcd__moving_tree;
+} nsvcd__moving;
 
-static nsvcd__pose_matrix nsvcd__pose_matrix_at(const nsvcd__moving_tree *moving, double t) {
+static nsvcd__pose_matrix nsvcd__pose_matrix_at(const nsvcd__moving *moving, double t) {
   const nsvcd_pose64 at = moving->model.pose_at(moving->model.motion, t);
   const double *q = at.rotation;
   const double *p = at.position;

@@ -26,7 +26,7 @@ typedef struct nsvcd__instant {
 // An interval of time: instants at both ends, and at all keyframes between.
 typedef struct nsvcd__tree_interval {
   // (2)
-  const nsvcd__moving_tree *bodies;
+  const nsvcd__moving *bodies;
   double clearance;
   // (capacity)
   nsvcd__instant *instants;
@@ -59,7 +59,7 @@ static double nsvcd__lengths_at(const nsvcd__pose_matrix *a, const nsvcd__pose_m
          fabs(b->at.z);
 }
 
-static nsvcd__instant nsvcd__instant_at(const nsvcd__moving_tree *bodies, double t) {
+static nsvcd__instant nsvcd__instant_at(const nsvcd__moving *bodies, double t) {
   nsvcd__instant at;
   memset(&at, 0, sizeof at);
   at.t = t;
@@ -120,8 +120,8 @@ static nsvcd__d3 nsvcd__farthest(const nsvcd_tree *tree, const nsvcd__node *node
   return nsvcd__d3_row(corners, farthest);
 }
 
-static nsvcd__d3 nsvcd__turned_by(const nsvcd__moving_tree *moving,
-                                  const nsvcd__pose_matrix *at, nsvcd__d3 x) {
+static nsvcd__d3 nsvcd__turned_by(const nsvcd__moving *moving, const nsvcd__pose_matrix *at,
+                                  nsvcd__d3 x) {
   return nsvcd__d3_scale(nsvcd__dmat3_apply(&at->turn, x), moving->model.scale);
 }
 
@@ -141,7 +141,7 @@ static nsvcd__d3 nsvcd__least_apart(const nsvcd__tree_interval *s,
                                     nsvcd__d3 along) {
   nsvcd__d3 ends[2];
   for (size_t n = 0; n < 2; n++) {
-    const nsvcd__moving_tree *body = &s->bodies[n];
+    const nsvcd__moving *body = &s->bodies[n];
     const nsvcd__d3 in = nsvcd__inward(at, n, along);
     const nsvcd__d3 x = nsvcd__farthest(body->tree, &pair->nodes[n], in);
     ends[n] = nsvcd__turned_by(body, &at->poses[n], x);
@@ -172,22 +172,22 @@ static double nsvcd__distance_along(const nsvcd__tree_interval *s,
                                     nsvcd__d3 along) {
   double extents = 0;
   for (size_t n = 0; n < 2; n++) {
-    const nsvcd__moving_tree *body = &s->bodies[n];
+    const nsvcd__moving *body = &s->bodies[n];
     const nsvcd__d3 in = nsvcd__inward(at, n, along);
     extents += body->model.scale * nsvcd__extent_along(body->tree, &pair->nodes[n], in);
   }
   return nsvcd__d3_dot(along, nsvcd__offset_at(at)) - extents;
 }
 
-static double nsvcd__node_radius(const nsvcd__moving_tree *moving, const nsvcd__node *node) {
+static double nsvcd__node_radius(const nsvcd__moving *moving, const nsvcd__node *node) {
   const nsvcd__box *box = &moving->tree->boxes[node->box];
   const nsvcd__f3 corner = nsvcd__f3_max(box->high, nsvcd__f3_scale(box->low, -1));
   return 1.000002 * moving->model.scale * nsvcd__d3_length(nsvcd__d3_widen(corner));
 }
 
 // No point of a node is farther from the line through its body's origin along a unit axis.
-static double nsvcd__node_axis_radius(const nsvcd__moving_tree *moving,
-                                      const nsvcd__node *node, nsvcd__d3 axis) {
+static double nsvcd__node_axis_radius(const nsvcd__moving *moving, const nsvcd__node *node,
+                                      nsvcd__d3 axis) {
   const float *corners = moving->tree->corners + 9 * (size_t)node->first;
   const size_t count = node->count > NSVCD__EXACT ? 0 : 3 * (size_t)node->count;
   double square = 0;
@@ -211,9 +211,8 @@ static double nsvcd__node_axis_radius(const nsvcd__moving_tree *moving,
 }
 
 // How far points of a node leave their chords after an instant along a direction, times its length.
-static double nsvcd__node_deviation(const nsvcd__moving_tree *body,
-                                    const nsvcd__node_pair *pair, const nsvcd__instant *at,
-                                    size_t n, nsvcd__d3 along) {
+static double nsvcd__node_deviation(const nsvcd__moving *body, const nsvcd__node_pair *pair,
+                                    const nsvcd__instant *at, size_t n, nsvcd__d3 along) {
   const nsvcd_deviation *d = &at->deviations[n];
   const double any = nsvcd__d3_length(along) * (d->base + d->per_metre * pair->radii[n]);
   if (!(d->turn > 0)) return any;
@@ -316,7 +315,7 @@ static int nsvcd__find_normal(nsvcd__tree_interval *s, const nsvcd__node_pair *p
     nsvcd__d3 t[2][3];
     for (size_t i = 0; i < 6; i++) {
       const size_t n = i / 3;
-      const nsvcd__moving_tree *body = &s->bodies[n];
+      const nsvcd__moving *body = &s->bodies[n];
       const float *corners = body->tree->corners + 9 * (size_t)pair->nodes[n].first;
       const nsvcd__d3 x = nsvcd__d3_row(corners, i % 3);
       t[n][i % 3] = nsvcd__turned_by(body, &at->poses[n], x);

@@ -7,14 +7,13 @@
 
 // One body as another one sees it: in the other's frame, in units of its scale.
 typedef struct nsvcd__seen {
-  const nsvcd__moving_tree *of, *by;
+  const nsvcd__moving *of, *by;
   nsvcd__pose_matrix of_at, by_at;
   // no length is more; no point is off by as much as the margin
   double lengths, margin;
 } nsvcd__seen;
 
-static nsvcd__seen nsvcd__seen_at(const nsvcd__moving_tree *of, const nsvcd__moving_tree *by,
-                                  double t) {
+static nsvcd__seen nsvcd__seen_at(const nsvcd__moving *of, const nsvcd__moving *by, double t) {
   const nsvcd__node root = {0, 0, 1};
   nsvcd__seen s = {of, by, nsvcd__pose_matrix_at(of, t), nsvcd__pose_matrix_at(by, t), 0, 0};
   const double scale = by->model.scale;

@@ -79,7 +79,7 @@ static int nsvcd__is_hit_there(nsvcd__check_state *s, size_t work) {
                    NULL);
   nsvcd__place_links(c, joints, &c->at);
   answer->placed++;
-  const nsvcd__local local = nsvcd__localize_at(c, pair, &c->at);
+  const nsvcd__local local = nsvcd__localize_at(c, pair);
   if (nsvcd__ask_local(s, pair, 1, clearance, work, &found) != NSVCD_HIT) return 0;
   answer->verdict = NSVCD_HIT;
   answer->contact = found.nearest;

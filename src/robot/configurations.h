@@ -125,7 +125,7 @@ static int nsvcd__proximity_of(nsvcd_checker *c, size_t index,
   const double frames_error = 2 * (a->rounding + b->rounding);
   const double max_distance = (double)o->max_distance + frames_error;
   if (nsvcd__bounds_apart(&a->bounds, &b->bounds, 1.000001 * max_distance)) return 0;
-  const nsvcd__local local = nsvcd__localize_at(c, pair, &c->at);
+  const nsvcd__local local = nsvcd__localize_at(c, pair);
   nsvcd_question q = nsvcd__question_of(c, pair, 1, o->work);
   const double error = frames_error + local.rounding;
   q.clearance = nsvcd__above((double)o->max_distance + error);
@@ -300,7 +300,7 @@ static int nsvcd__touches_in_all(nsvcd_checker *c, const nsvcd_body_pair *pair, 
       joints[j] = low + (high - low) * nsvcd__random(&random);
     }
     nsvcd__place_links(c, joints, &c->at);
-    (void)nsvcd__localize_at(c, pair, &c->at);
+    (void)nsvcd__localize_at(c, pair);
     const nsvcd_question q = nsvcd__question_of(c, pair, 1, 0);
     if (nsvcd__ask_sweep(c, &q, &found) != NSVCD_HIT) return 0;
   }
