@@ -2571,6 +2571,8 @@ typedef struct nsvcd__rrt {
   nsvcd__cell *cells;
 } nsvcd__rrt;
 
+static const nsvcd__cell nsvcd__empty_leaf = {0, NSVCD_MAX_JOINTS, 0, 0};
+
 static double nsvcd__distance2(const double *a, const double *b, size_t joints) {
   double sum = 0;
   for (size_t j = 0; j < joints; j++) sum += (a[j] - b[j]) * (a[j] - b[j]);
@@ -2601,9 +2603,8 @@ static void nsvcd__cut_leaf(nsvcd__rrt *t, size_t index) {
     middle = 0.5 * (low + high);
   }
   if (!(width > 0)) return;
-  const nsvcd__cell empty = {0, NSVCD_MAX_JOINTS, 0, 0};
   nsvcd__cell *halves = &t->cells[t->cell_count];
-  halves[0] = halves[1] = empty;
+  halves[0] = halves[1] = nsvcd__empty_leaf;
   t->cell_count += 2;
   uint32_t node = cell->first;
   for (uint32_t n = 0; n < cell->count; n++) {
@@ -2621,12 +2622,11 @@ static void nsvcd__cut_leaf(nsvcd__rrt *t, size_t index) {
 
 // parent: t->count of a root. Returns the node.
 static size_t nsvcd__tree_add(nsvcd__rrt *t, const double *at, size_t parent) {
-  const nsvcd__cell empty = {0, NSVCD_MAX_JOINTS, 0, 0};
   const size_t node = t->count++;
   size_t index = 0;
   memcpy(nsvcd__node_at(t, node), at, t->joints * sizeof *at);
   t->parents[node] = (uint32_t)parent;
-  if (t->cell_count == 0) t->cells[t->cell_count++] = empty;
+  if (t->cell_count == 0) t->cells[t->cell_count++] = nsvcd__empty_leaf;
   while (t->cells[index].joint < NSVCD_MAX_JOINTS)
     index = t->cells[index].first + (at[t->cells[index].joint] > t->cells[index].at);
   t->next[node] = t->cells[index].first;
