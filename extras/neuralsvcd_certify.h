@@ -95,7 +95,7 @@ typedef struct nsvcd_motion_model {
 
 #define NSVCD_DEFAULT_VISITS 1000000
 
-// What is zero is the default.
+// Zero means the default.
 typedef struct nsvcd_certify_options {
   // NULL, or the answer of nsvcd_sweep: a hint where a hit is. Only one thing is believed of it:
   // that something is, or may be, inside of a mesh that is not closed. Then no certificate says
@@ -122,7 +122,7 @@ typedef struct nsvcd_certificate {
   size_t visits;
 } nsvcd_certificate;
 
-// Bytes of the workspace that nsvcd_certify needs: some 250 for each pose of either, and 4 for each
+// Bytes of the workspace that nsvcd_certify needs: some 300 for each pose of either, and 4 for each
 // vertex of the mesh that has more.
 NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
                                              const nsvcd_tree *a, const nsvcd_tree *b);

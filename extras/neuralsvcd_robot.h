@@ -140,7 +140,7 @@ typedef struct nsvcd_joint_motion {
 NSVCDDEF void nsvcd_motion_at(const nsvcd_joint_motion *motion, size_t joints, double time,
                               double *out);
 
-// What is zero is the default.
+// Zero means the default.
 typedef struct nsvcd_check_options {
   // metres: parts that come within this of each other are a hit
   float clearance;
@@ -244,7 +244,7 @@ typedef struct nsvcd_proximity {
   double slope[NSVCD_MAX_JOINTS];
 } nsvcd_proximity;
 
-// What is zero is the default. Up to NSVCD_MAX_COORDINATE.
+// Zero means the default. Lengths are at most NSVCD_MAX_COORDINATE.
 typedef struct nsvcd_proximity_options {
   // metres: pairs within this of each other are reported; 0.05
   float max_distance;
@@ -274,7 +274,7 @@ NSVCDDEF nsvcd_result nsvcd_proximities(nsvcd_checker *checker, const double *jo
                                         const nsvcd_proximity_options *options,
                                         nsvcd_proximity *out, size_t capacity, size_t *count);
 
-// What is zero is the default.
+// Zero means the default.
 typedef struct nsvcd_nearest_free_options {
   // metres: between the parts
   float clearance;
@@ -391,7 +391,7 @@ typedef struct nsvcd_route_problem {
   void *user;
 } nsvcd_route_problem;
 
-// What is zero is the default.
+// Zero means the default.
 typedef struct nsvcd_route_options {
   // of all random numbers: other seeds find other routes
   uint64_t seed;
@@ -464,7 +464,7 @@ extern "C" {
 // In: a pair of a robot's parts, a motion of its joints, and the trees of their meshes. Out: bytes
 // that prove that the two never meet.
 
-// Bytes of the workspace of nsvcd_certify_pair: some 250 for each piece, and 4 for each vertex of
+// Bytes of the workspace of nsvcd_certify_pair: some 300 for each piece, and 4 for each vertex of
 // the mesh that has more.
 NSVCDDEF size_t nsvcd_certify_pair_workspace_size(const nsvcd_joint_motion *motion,
                                                   const nsvcd_tree *a, const nsvcd_tree *b);

@@ -26,7 +26,7 @@ typedef struct nsvcd_proximity {
   double slope[NSVCD_MAX_JOINTS];
 } nsvcd_proximity;
 
-// What is zero is the default. Up to NSVCD_MAX_COORDINATE.
+// Zero means the default. Lengths are at most NSVCD_MAX_COORDINATE.
 typedef struct nsvcd_proximity_options {
   // metres: pairs within this of each other are reported; 0.05
   float max_distance;
@@ -56,7 +56,7 @@ NSVCDDEF nsvcd_result nsvcd_proximities(nsvcd_checker *checker, const double *jo
                                         const nsvcd_proximity_options *options,
                                         nsvcd_proximity *out, size_t capacity, size_t *count);
 
-// What is zero is the default.
+// Zero means the default.
 typedef struct nsvcd_nearest_free_options {
   // metres: between the parts
   float clearance;

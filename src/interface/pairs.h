@@ -4,7 +4,7 @@
 #include "certificates.h"
 #include "robots.h"
 
-// Bytes of the workspace of nsvcd_certify_pair: some 250 for each piece, and 4 for each vertex of
+// Bytes of the workspace of nsvcd_certify_pair: some 300 for each piece, and 4 for each vertex of
 // the mesh that has more.
 NSVCDDEF size_t nsvcd_certify_pair_workspace_size(const nsvcd_joint_motion *motion,
                                                   const nsvcd_tree *a, const nsvcd_tree *b);

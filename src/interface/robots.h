@@ -76,7 +76,7 @@ typedef struct nsvcd_joint_motion {
 NSVCDDEF void nsvcd_motion_at(const nsvcd_joint_motion *motion, size_t joints, double time,
                               double *out);
 
-// What is zero is the default.
+// Zero means the default.
 typedef struct nsvcd_check_options {
   // metres: parts that come within this of each other are a hit
   float clearance;

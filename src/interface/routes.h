@@ -44,7 +44,7 @@ typedef struct nsvcd_route_problem {
   void *user;
 } nsvcd_route_problem;
 
-// What is zero is the default.
+// Zero means the default.
 typedef struct nsvcd_route_options {
   // of all random numbers: other seeds find other routes
   uint64_t seed;
