@@ -1,10 +1,10 @@
-// In: control points. Out: smoothness + limits + collision, and the derivative by the control
-// points.
+// In: control points. Out: what they cost, smoothness + limits + collision, and its derivative by
+// them.
 #pragma once
 #include "culling.h"
 
 #ifndef NSVCD_NO_OPTIMIZER
-// The derivative by the joints of one moment, p->by_path (F), from the wrenches (B, 6) there, by
+// From the wrenches (B, 6) at a moment to the derivative by its joints, p->by_path (F), by
 // differences of `kinematics`. poses: (B), at these joints.
 static void nsvcd__by_differences(nsvcd__planner *p, const float *joints,
                                   const nsvcd_pose *poses, const float *wrenches) {
@@ -30,21 +30,17 @@ static void nsvcd__by_differences(nsvcd__planner *p, const float *joints,
   }
 }
 
-// The poses of all bodies (moments, B), their quaternions made of unit length, from the joints
-// (moments, F).
-static void nsvcd__place(nsvcd__planner *p, const float *joints, size_t moments,
-                         nsvcd_pose *poses) {
+// The poses (moments, B) at joints (moments, F), with quaternions of unit length.
+static void nsvcd__find_poses(nsvcd__planner *p, const float *joints, size_t moments,
+                              nsvcd_pose *poses) {
   const nsvcd_plan_problem *problem = p->problem;
   const size_t bodies = problem->body_count;
   const size_t count = moments * bodies;
   for (size_t s = 0; s < moments; s++)
     problem->kinematics(problem->user, joints + s * problem->joints, poses + s * bodies);
-  const nsvcd_result placed = count > 0 ? nsvcd__poses_check(poses, count) : NSVCD_OK;
-  if (placed) {
-    p->error = placed;
-    return;
-  }
-  for (size_t k = 0; k < count; k++) {
+  const nsvcd_result error = count > 0 ? nsvcd__poses_check(poses, count) : NSVCD_OK;
+  if (error) p->error = error;
+  for (size_t k = 0; k < count && !error; k++) {
     const nsvcd__quat unit = nsvcd__quat_unit(nsvcd__quat_load(poses[k].rotation));
     nsvcd__quat_store(unit, poses[k].rotation);
   }
@@ -73,16 +69,15 @@ static int nsvcd__leaves_limits(const nsvcd_plan_problem *problem, size_t joint,
   return value < problem->low[joint] - rounding || value > problem->high[joint] + rounding;
 }
 
-// Fills p->path with the joints at the moments of a trajectory, and adds what it costs that they
-// leave their limits, or come nearer to these than the margin. gradient: (M + 2, F), added to, or
-// NULL.
+// Fills p->path with the joints at the moments. Adds the cost of those beyond their limits, or
+// within the margin before these. gradient: (M + 2, F), added to, or NULL.
 static void nsvcd__add_limits(nsvcd__planner *p, const nsvcd__stage *stage,
                               const float *control, float *gradient, nsvcd__cost *cost) {
   const nsvcd_plan_problem *problem = p->problem;
   const size_t f = problem->joints;
   const size_t all = stage->via + 2;
   const float fraction = NSVCD__LIMIT_COST / (float)stage->moments;
-  // via points too: moments may be few, and miss one
+  // via points too: moments may be too few to hit one
   for (size_t k = f; k < f + stage->numbers && cost->joint == NSVCD_NONE; k++) {
     if (nsvcd__leaves_limits(problem, k % f, control[k])) cost->joint = k % f;
   }
@@ -106,7 +101,7 @@ static void nsvcd__add_limits(nsvcd__planner *p, const nsvcd__stage *stage,
   }
 }
 
-// Adds to the gradient by the control points what p->wrenches say.
+// Adds the derivative of the cost of collision, from p->wrenches, to the gradient (M + 2, F).
 static void nsvcd__add_wrenches(nsvcd__planner *p, const nsvcd__stage *stage,
                                 float *gradient) {
   const nsvcd_plan_problem *problem = p->problem;
@@ -137,8 +132,8 @@ static void nsvcd__add_wrenches(nsvcd__planner *p, const nsvcd__stage *stage,
   }
 }
 
-// What the trajectory costs, up to `limit`: a sum beyond it is not finished. gradient: (M + 2, F),
-// written, or NULL. at_end: by the last check.
+// The cost of a trajectory; the sum may stop beyond `limit`. gradient: (M + 2, F), written, or
+// NULL. at_end: in the last check.
 static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage,
                                   const float *control, float limit, float *gradient,
                                   int at_end) {
@@ -146,21 +141,19 @@ static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage,
   const float weight = p->options.collision;
   float *wrenches = gradient ? p->wrenches : NULL;
   nsvcd__cost cost = nsvcd__no_cost;
-  p->trajectories++;
+  p->answer.trajectories++;
   cost.smoothness = nsvcd__smoothness(p, stage, control, gradient);
   cost.total = cost.smoothness;
   nsvcd__add_limits(p, stage, control, gradient, &cost);
   if (cost.total > limit || p->error) return cost;
-  nsvcd__place(p, p->path, stage->moments, p->poses);
+  nsvcd__find_poses(p, p->path, stage->moments, p->poses);
   if (p->error) return cost;
 
   const float left = weight > 0 ? (limit - cost.total) / weight : INFINITY;
   if (wrenches) memset(wrenches, 0, numbers * sizeof *wrenches);
-  // begins
-  NSVCD__TALLY(collision, 0);
+  NSVCD__TALLY(collision, 0);  // begins
   nsvcd__add_collision(p, stage->moments, left, wrenches, at_end, &cost);
-  // ends
-  NSVCD__TALLY(collision, 1);
+  NSVCD__TALLY(collision, 1);  // ends
   cost.total += weight * cost.collision;
   if (gradient) nsvcd__add_wrenches(p, stage, gradient);
   if (!nsvcd__is_finite(cost.total)) p->error = NSVCD_ERROR_NUMBER;

@@ -1,22 +1,22 @@
-// A plan asks about each pair in each segment, and most of these are far from a collision. This
-// rules them out for less than a query costs. It is a broad phase of whole bodies along a whole
-// trajectory; that of search/search then goes through the patches of two bodies in one segment.
-//
 // In: the poses at the moments, and of each body its bounding sphere and the box of its patches.
-// Out: for a pair, p->meets (moments): 0 where the query about the segment from there on would
-// certify it free.
+// Out: the cost of collision and its derivative by the poses.
 //
-// Nothing is missed, for the box about the ends of a sphere's way is grown by all that the way may
-// deviate. The motion is the query's: as b sees it, a's origin goes straight, and a turns evenly
-// about one axis by an angle c, no more than what a and b turn in the world. Two tests rule out:
+// A plan asks about each pair in each segment, and most of these are far from a collision. A broad
+// phase of whole bodies rules those out for less than a query costs: p->meets (moments) is 0 where
+// a query about the segment that begins there would prove it free. (The broad phase of
+// search/search then goes through the patches of two bodies in one segment.)
+//
+// It is conservative. A sphere's centre is covered by the box about its two ends, which grows by as
+// much as the centre may deviate from their chord. The motion is the query's: as b sees it, a's
+// origin goes straight, and a turns evenly about one axis by an angle c, which is at most what a
+// and b turn in the world. Either of two tests rules a pair out:
 //
 //   a's sphere against b's box. Its centre turns about a's origin on an arc of radius `arm` or
-//   less, and deviates by no more than the arc's height, arm (1 - cos(c / 2)).
+//   less, and deviates by at most the arc's height, arm (1 - cos(c / 2)).
 //
 //   b's sphere against a's box. As a sees it, its centre v moves and turns at once. It deviates by
-//   no more than an eighth of its acceleration, c^2 |v| + 2 c |u|, u being its displacement in b's
-//   axes, which is no longer than that in a's axes + c |v|. In all: c (c |v| 3 / 8 + displacement
-//   in a's axes / 4).
+//   at most an eighth of its acceleration, c^2 |v| + 2 c |u|, where u is its displacement in b's
+//   axes: at most that in a's axes + c |v|. In all: c (c |v| 3 / 8 + displacement in a's axes / 4).
 #pragma once
 #include "../body/trust.h"
 #include "problem.h"
@@ -44,7 +44,7 @@ static void nsvcd__find_shapes(nsvcd__planner *p) {
   }
 }
 
-// The stances of all bodies at the moments of p->poses.
+// The stances of all bodies, from p->poses.
 static void nsvcd__find_stances(nsvcd__planner *p, size_t moments) {
   const size_t bodies = p->problem->body_count;
   for (size_t b = 0; p->problem->bodies && b < bodies; b++) {
@@ -64,14 +64,15 @@ static void nsvcd__find_stances(nsvcd__planner *p, size_t moments) {
   }
 }
 
-// Does the bounding sphere of `body` stay away from the box of `other`, by the clearance, from
-// moment s to s + stride? rests: `body` is the one that rests in the query, and `other` moves.
+// Does the bounding sphere of `body` stay farther than the clearance from the box of `other`, from
+// moment s to s + stride? rests: in the query `body` rests, and `other` moves.
 static inline int nsvcd__passes_by(const nsvcd__planner *p, size_t body, size_t other,
                                    int rests, size_t s, size_t stride) {
   const nsvcd__sphere *sphere = &p->shapes[body].sphere;
   const nsvcd__box *box = &p->shapes[other].box;
   const nsvcd__stance *now = p->stances + s * p->problem->body_count;
-  // its centre as `other` sees it at both ends, and how far it is from that one's origin, in sum
+  // the sphere's centre as `other` sees it at both ends, and the sum of its distances from the
+  // origin of `other`
   nsvcd__f3 seen[2];
   float distance = 0;
   for (size_t k = 0; k < 2; k++) {
@@ -83,16 +84,16 @@ static inline int nsvcd__passes_by(const nsvcd__planner *p, size_t body, size_t 
     distance += nsvcd__f3_length(centre);
   }
 
-  // That root of the sum of two angles is no more than the sum of the roots, and c < 3.15 bend.
+  // sqrt(1 - cos) of a sum of angles is at most the sum of theirs, and c < 3.15 bend.
   const float bend = now[body].bend + now[other].bend;
-  float deviations = nsvcd__f3_length(sphere->centre) * bend * bend;
+  float deviation = nsvcd__f3_length(sphere->centre) * bend * bend;
   if (rests) {
     const nsvcd__f3 travel = nsvcd__f3_sub(seen[1], seen[0]);
     const float length = fabsf(travel.x) + fabsf(travel.y) + fabsf(travel.z);
-    deviations = (3.75f * bend * distance + 0.8f * length) * bend;
+    deviation = (3.75f * bend * distance + 0.8f * length) * bend;
   }
   const float apart = 1.00001f * sphere->radius + p->options.sweep.clearance;
-  const float grown = apart + (float)stride * deviations + NSVCD__ROUNDING * distance;
+  const float grown = apart + (float)stride * deviation + NSVCD__ROUNDING * distance;
   const nsvcd__f3 about = nsvcd__f3_of(grown, grown, grown);
   const nsvcd__f3 low = nsvcd__f3_min(seen[0], seen[1]);
   const nsvcd__f3 high = nsvcd__f3_max(seen[0], seen[1]);
@@ -100,7 +101,7 @@ static inline int nsvcd__passes_by(const nsvcd__planner *p, size_t body, size_t 
          nsvcd__f3_exceeds(nsvcd__f3_sub(box->low, about), high);
 }
 
-// Marks the segments (stride 1), or the moments (stride 0), in which a pair may meet: p->meets.
+// Marks in p->meets the segments (stride 1) or moments (stride 0) in which a pair may meet.
 static void nsvcd__find_meetings(nsvcd__planner *p, const nsvcd_body_pair *pair,
                                  size_t moments, size_t stride) {
   for (size_t s = 0; s + stride < moments; s++) {
@@ -113,19 +114,18 @@ static void nsvcd__find_meetings(nsvcd__planner *p, const nsvcd_body_pair *pair,
 
 // The pose of a as b sees it.
 static nsvcd_pose nsvcd__relative_pose(const nsvcd_pose *a, const nsvcd_pose *b) {
-  const nsvcd__quat turned = nsvcd__quat_load(b->rotation);
-  const nsvcd__mat3 axes = nsvcd__mat3_of(turned);
+  const nsvcd__quat q = nsvcd__quat_load(b->rotation);
+  const nsvcd__mat3 axes = nsvcd__mat3_of(q);
   const nsvcd__f3 from = nsvcd__f3_load(b->position);
   const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__f3_load(a->position), from);
-  const nsvcd__quat to_b = nsvcd__quat_inverse(turned);
+  const nsvcd__quat back = nsvcd__quat_inverse(q);
   nsvcd_pose out;
   nsvcd__f3_store(nsvcd__mat3_apply_transpose(&axes, offset), out.position);
-  nsvcd__quat_store(nsvcd__quat_mul(to_b, nsvcd__quat_load(a->rotation)), out.rotation);
+  nsvcd__quat_store(nsvcd__quat_mul(back, nsvcd__quat_load(a->rotation)), out.rotation);
   return out;
 }
 
-// What a logit costs: nothing below -margin, and above it its excess, but for a soft beginning.
-// *slope: the derivative by the logit.
+// The cost of a logit: its excess over -margin, with a smooth onset. *slope: the derivative by it.
 static float nsvcd__cost_of_logit(float logit, float margin, float *slope) {
   const float x = logit + margin;
   const float soft = NSVCD__SOFT_LOGITS;
@@ -133,14 +133,14 @@ static float nsvcd__cost_of_logit(float logit, float margin, float *slope) {
   return x <= 0 ? 0 : x < soft ? 0.5f * x * x / soft : x - 0.5f * soft;
 }
 
-// Adds to the wrenches (B, 6) one on a that b sees, (6) in its axes, times `scale`, and what that
-// does to b. A wrench is the derivative by a pose: by the position, and by a small rotation about
-// it. poses: (B).
+// Adds to the wrenches (B, 6) a wrench on a (6), in b's axes, times `scale`, and the opposite one
+// on b. A wrench is the derivative by a pose: by its position, and by a small rotation about that.
+// poses: (B).
 static void nsvcd__add_wrench(const nsvcd_body_pair *pair, const nsvcd_pose *poses,
-                              float scale, const float *seen, float *wrenches) {
+                              float scale, const float *wrench, float *wrenches) {
   const nsvcd__mat3 axes = nsvcd__mat3_of(nsvcd__quat_load(poses[pair->b].rotation));
-  const nsvcd__f3 force = nsvcd__mat3_apply(&axes, nsvcd__f3_load(seen));
-  const nsvcd__f3 torque = nsvcd__mat3_apply(&axes, nsvcd__f3_load(seen + 3));
+  const nsvcd__f3 force = nsvcd__mat3_apply(&axes, nsvcd__f3_load(wrench));
+  const nsvcd__f3 torque = nsvcd__mat3_apply(&axes, nsvcd__f3_load(wrench + 3));
   const nsvcd__f3 from = nsvcd__f3_load(poses[pair->b].position);
   const nsvcd__f3 arm = nsvcd__f3_sub(nsvcd__f3_load(poses[pair->a].position), from);
   const nsvcd__f3 back = nsvcd__f3_add(torque, nsvcd__f3_cross(arm, force));
@@ -152,19 +152,19 @@ static void nsvcd__add_wrench(const nsvcd_body_pair *pair, const nsvcd_pose *pos
   }
 }
 
-// A logit of any answer: what is undecided counts as a hit.
+// A logit for any answer. An undecided one counts as a hit.
 static float nsvcd__logit_of(const nsvcd_answer *answer) {
   if (answer->verdict != NSVCD_UNDECIDED && answer->opinion.asked)
     return answer->opinion.logit;
   return answer->verdict == NSVCD_FREE ? -NSVCD_LOGIT_CERTAIN : NSVCD_LOGIT_CERTAIN;
 }
 
-// The answer about pair k from moment `first` on, over so many segments: by the network, or, at the
-// end, by the method of the options. gradient: (segments + 1, 6), or NULL.
+// The answer about pair k from moment `first` on, over so many segments: by the network, or, in the
+// last check, by the method of the options. gradient: (segments + 1, 6), or NULL.
 static nsvcd_answer nsvcd__ask_segments(nsvcd__planner *p, uint32_t k, size_t first,
                                         size_t segments, int at_end, float *gradient) {
   const nsvcd_body_pair *pair = &p->problem->pairs[k];
-  nsvcd_pose motion[NSVCD__FIRST_LOOK_SEGMENTS + 1];
+  nsvcd_pose motion[NSVCD__RUN_SEGMENTS + 1];
   for (size_t n = 0; n <= segments; n++) {
     const nsvcd_pose *row = p->poses + (first + n) * p->problem->body_count;
     motion[n] = nsvcd__relative_pose(&row[pair->a], &row[pair->b]);
@@ -182,38 +182,33 @@ static nsvcd_answer nsvcd__ask_segments(nsvcd__planner *p, uint32_t k, size_t fi
     question.method = NSVCD_METHOD_NETWORK;
     question.clearance = 0;
     question.slop = 0;
-    // a slope before contact
+    // so that there is a slope before contact
     if (question.network.inflate <= 0) question.network.inflate = NSVCD__PLAN_INFLATE;
   }
 
   nsvcd_answer answer;
   nsvcd_result error;
   memset(&answer, 0, sizeof answer);
-  // of an error
-  answer.verdict = NSVCD_FREE;
+  answer.verdict = NSVCD_FREE;  // on an error
   if (gradient)
     error = nsvcd_sweep_gradient(&question, p->query, p->query_size, &answer, gradient, NULL);
   else
     error = nsvcd_sweep(&question, p->query, p->query_size, &answer);
   if (error) p->error = error;
-  p->sweeps++;
+  p->answer.sweeps++;
   return answer;
 }
 
-// How a trajectory, p->poses, is asked about.
+// How p->poses are asked about.
 typedef struct nsvcd__asking {
   size_t moments;
-  // 1: segments are asked about, 0: moments
-  size_t stride;
-  // it is the last check
-  int at_end;
-  // a sum beyond it is not finished
-  float limit;
-  // (moments, B, 6), added to, or NULL
-  float *wrenches;
+  size_t stride;    // 1: in segments, 0: at moments
+  int at_end;       // in the last check
+  float limit;      // the sum may stop beyond it
+  float *wrenches;  // (moments, B, 6), added to, or NULL
 } nsvcd__asking;
 
-// Adds what pair k costs from moment s to s + stride.
+// Adds the cost of pair k from moment s to s + stride.
 static void nsvcd__add_segment(nsvcd__planner *p, uint32_t k, size_t s,
                                const nsvcd__asking *how, nsvcd__cost *cost) {
   const nsvcd_body_pair *pair = &p->problem->pairs[k];
@@ -229,7 +224,7 @@ static void nsvcd__add_segment(nsvcd__planner *p, uint32_t k, size_t s,
     const float at = (float)s + (float)how->stride * t;
     cost->logit = logit;
     cost->pair = k;
-    // only a proof takes work
+    // the network does no work
     cost->proven = collides && answer.work > 0;
     cost->time = how->moments > 1 ? at / (float)(how->moments - 1) : 0;
   }
@@ -241,22 +236,21 @@ static void nsvcd__add_segment(nsvcd__planner *p, uint32_t k, size_t s,
   }
 }
 
-// Adds what pair k costs along the trajectory.
+// Adds the cost of pair k along the trajectory.
 static void nsvcd__add_pair(nsvcd__planner *p, uint32_t k, const nsvcd__asking *how,
                             nsvcd__cost *cost) {
-  const int skips_ahead = how->stride && !how->at_end;
   const size_t end = how->moments - how->stride;
-  // up to here segments have had a first look
-  size_t seen = 0;
+  const int in_runs = how->stride && !how->at_end;
+  size_t asked = 0;  // runs before this segment have been
   nsvcd__find_meetings(p, &p->problem->pairs[k], how->moments, how->stride);
   for (size_t s = 0; s < end && cost->collision <= how->limit && !p->error; s++) {
     if (!p->meets[s]) continue;
-    if (skips_ahead && s >= seen) {
-      // The segments that follow in which the pair may meet, at once: if they are far from a
-      // collision, that is all.
+    if (in_runs && s >= asked) {
+      // A run of segments in which the pair may meet, all in one query. If that is far from a
+      // collision, the run costs nothing.
       size_t run = 1;
-      while (run < NSVCD__FIRST_LOOK_SEGMENTS && s + run < end && p->meets[s + run]) run++;
-      seen = s + run;
+      while (run < NSVCD__RUN_SEGMENTS && s + run < end && p->meets[s + run]) run++;
+      asked = s + run;
       if (run > 1) {
         const nsvcd_answer answer = nsvcd__ask_segments(p, k, s, run, 0, NULL);
         if (nsvcd__logit_of(&answer) <= -p->options.margin) {
@@ -269,8 +263,8 @@ static void nsvcd__add_pair(nsvcd__planner *p, uint32_t k, const nsvcd__asking *
   }
 }
 
-// Adds the collision cost of p->poses, by the problem's own function or by the network, up to the
-// first sum above `limit`. wrenches: (moments, B, 6), added to, or NULL. at_end: of the last check.
+// Adds the cost of collision of p->poses, by the problem's own function or by queries, up to the
+// first sum above `limit`. wrenches: (moments, B, 6), added to, or NULL. at_end: in the last check.
 static void nsvcd__add_collision(nsvcd__planner *p, size_t moments, float limit,
                                  float *wrenches, int at_end, nsvcd__cost *cost) {
   const nsvcd_plan_problem *problem = p->problem;
@@ -287,7 +281,7 @@ static void nsvcd__add_collision(nsvcd__planner *p, size_t moments, float limit,
     const uint32_t k = p->queue[n];
     const float before = cost->collision;
     nsvcd__add_pair(p, k, &how, cost);
-    // what costs comes earlier next time, so that bad trajectories end early
+    // A pair that costs comes earlier next time, so that bad trajectories end early.
     if (n > 0 && cost->collision > before) {
       p->queue[n] = p->queue[n - 1];
       p->queue[n - 1] = k;

@@ -1,18 +1,18 @@
-// In: a mean of control points. Out: a better one: smooth random changes, weighted by exp(-cost /
-// temperature).
+// In: control points. Out: better ones, by MPPI: their mean moves to that of smooth random changes,
+// weighted by exp(-cost / temperature).
 #pragma once
 #include "../ground/random.h"
 #include "cost.h"
 
 #ifndef NSVCD_NO_OPTIMIZER
-// A normal number: Box and Muller.
+// A standard normal number: Box and Muller.
 static double nsvcd__normal(nsvcd__planner *p) {
   const double size = nsvcd__random(&p->random);
   return sqrt(-2 * log(size)) * cos(6.283185307179586 * nsvcd__random(&p->random));
 }
 
-// A smooth random change of the via points, (M, F), zero at the ends: its inverse covariance is the
-// form of the smoothness, scaled so that the greatest deviation of a joint is deviations (F).
+// A smooth random change of the via points, (M, F), zero at the ends. Its inverse covariance is the
+// form of the smoothness, scaled: the largest standard deviation of a joint is deviations (F).
 static void nsvcd__smooth_noise(nsvcd__planner *p, const nsvcd__stage *stage,
                                 const float *deviations, float *out) {
   const size_t f = p->problem->joints;
@@ -25,7 +25,7 @@ static void nsvcd__smooth_noise(nsvcd__planner *p, const nsvcd__stage *stage,
   }
 }
 
-// control + scale * offset (M, F), with via points taken into the limits: out (M + 2, F).
+// out (M + 2, F) = control + scale * offset (M, F), with via points clamped to the limits.
 static void nsvcd__change(const nsvcd__planner *p, const nsvcd__stage *stage,
                           const float *control, const float *offset, float scale, float *out) {
   const size_t f = p->problem->joints;
@@ -34,44 +34,32 @@ static void nsvcd__change(const nsvcd__planner *p, const nsvcd__stage *stage,
     const float x = control[f + k] + scale * offset[k];
     const float low = p->problem->low[k % f];
     const float high = p->problem->high[k % f];
-    // high where x is not a number
+    // NaN becomes `high`
     out[f + k] = x < low ? low : x < high ? x : high;
   }
 }
 
-// Counts an iteration and tells the caller how far it has come, which may cancel the search.
+// Counts an iteration, and reports to the caller, who may cancel the search.
 static void nsvcd__report(nsvcd__planner *p, size_t iteration, const nsvcd__stage *stage,
                           const nsvcd__cost *best) {
   const int refining = stage == &p->refine;
-  const nsvcd_plan_progress progress = {p->seed,  iteration,   stage->iterations,
-                                        refining, best->total, best->collision,
-                                        p->best,  stage->via};
-  p->iterations++;
+  const nsvcd_plan_progress progress = {p->answer.seeds, iteration,   stage->iterations,
+                                        refining,        best->total, best->collision,
+                                        p->best,         stage->via};
+  p->answer.iterations++;
   if (p->problem->progress) p->cancelled = p->problem->progress(p->problem->user, &progress);
-}
-
-// The deviations (F) of the first rollouts: no more than a quarter of a joint's range.
-static void nsvcd__first_deviations(const nsvcd__planner *p, float *deviations) {
-  for (size_t j = 0; j < p->problem->joints; j++) {
-    const float quarter = 0.25f * (p->problem->high[j] - p->problem->low[j]);
-    deviations[j] = p->explore.noise < quarter ? p->explore.noise : quarter;
-  }
 }
 
 // Where MPPI is.
 typedef struct nsvcd__exploring {
-  // of the rollouts, joint by joint
-  float deviations[NSVCD_MAX_JOINTS];
-  // what they were
-  float first[NSVCD_MAX_JOINTS];
-  float temperature;  // 0 at first
-  // cost, of the last rollouts
-  float least;
-  nsvcd__cost best;  // of all
+  float deviations[NSVCD_MAX_JOINTS];  // of the rollouts
+  float temperature;                   // 0 at first
+  float least;                         // cost of the last rollouts
+  nsvcd__cost best;                    // of all
 } nsvcd__exploring;
 
-// Draws rollouts about p->control and finds what they cost; the best of all goes to p->best. The
-// first has no offset (M, F), the second is the best so far, which competes, the others are noise.
+// Draws rollouts about p->control, and finds their costs; the best of all goes to p->best. The
+// first has no offset, the second is the best so far, the others are noise.
 static void nsvcd__roll_out(nsvcd__planner *p, nsvcd__exploring *at) {
   const nsvcd__stage *stage = &p->explore;
   const size_t f = p->problem->joints;
@@ -85,7 +73,7 @@ static void nsvcd__roll_out(nsvcd__planner *p, nsvcd__exploring *at) {
     for (size_t k = 0; k < stage->numbers; k++)
       offset[k] = p->trial[f + k] - p->control[f + k];
 
-    // The cost of one that weighs nothing need not be known exactly.
+    // The cost of a rollout that weighs nothing need not be exact.
     float limit = INFINITY;
     if (at->temperature > 0) limit = at->least + NSVCD__WEIGHTLESS * at->temperature;
     const nsvcd__cost cost = nsvcd__cost_of(p, stage, p->trial, limit, NULL, 0);
@@ -97,15 +85,14 @@ static void nsvcd__roll_out(nsvcd__planner *p, nsvcd__exploring *at) {
   }
 }
 
-// Turns p->costs into weights, whose sum is 1, p->sum into the mean of the offsets, and takes the
-// deviations towards those of the good rollouts about their mean, slowly.
+// Turns p->costs into weights, whose sum is 1; writes the mean of the offsets to p->sum; moves the
+// deviations a tenth of the way to those of the good rollouts about their mean.
 static void nsvcd__weigh_rollouts(nsvcd__planner *p, nsvcd__exploring *at) {
   const nsvcd__stage *stage = &p->explore;
   const size_t f = p->problem->joints;
   const size_t draws = stage->draws;
   const size_t rank = draws / NSVCD__ELITE;
-  // the cost of that rank
-  float elite = 0;
+  float elite = 0;  // the cost of that rank
   float total = 0;
   for (size_t i = 0; i < draws; i++) {
     size_t below = 0;
@@ -131,7 +118,7 @@ static void nsvcd__weigh_rollouts(nsvcd__planner *p, nsvcd__exploring *at) {
 
   for (size_t j = 0; j < f; j++) {
     const float now = at->deviations[j];
-    const float least = 1e-3f * at->first[j] * at->first[j];
+    const float least = 1e-3f * p->first_noise[j] * p->first_noise[j];
     float square = 0;
     for (size_t n = 0; n < draws; n++) {
       for (size_t k = j; p->costs[n] > 0 && k < stage->numbers; k += f) {
@@ -144,15 +131,14 @@ static void nsvcd__weigh_rollouts(nsvcd__planner *p, nsvcd__exploring *at) {
   }
 }
 
-// MPPI from p->control, the mean, on; leaves the best trajectory in p->best.
+// MPPI, from the mean p->control on. Leaves the best trajectory in p->best.
 static void nsvcd__explore(nsvcd__planner *p) {
   const nsvcd__stage *stage = &p->explore;
   nsvcd__exploring at;
   memset(&at, 0, sizeof at);
   at.best = nsvcd__cost_of(p, stage, p->control, INFINITY, NULL, 0);
   memcpy(p->best, p->control, stage->bytes);
-  nsvcd__first_deviations(p, at.first);
-  memcpy(at.deviations, at.first, sizeof at.deviations);
+  memcpy(at.deviations, p->first_noise, sizeof at.deviations);
   float before = at.best.total;
   size_t waited = 0;
   for (size_t i = 0; i < stage->iterations && waited < NSVCD__PATIENCE; i++) {

@@ -1,5 +1,5 @@
-// In: a planning problem. Out: control points of a motion that is checked to hit nothing, or the
-// best there is.
+// In: a planning problem. Out: control points of a motion that hits nothing, by the last check, or
+// of the best that was found.
 #pragma once
 #include "refine.h"
 
@@ -24,23 +24,22 @@ static void nsvcd__smoothest(nsvcd__planner *p, const nsvcd__stage *stage, float
   memcpy(control + (via + 1) * f, p->problem->goal, f * sizeof *control);
 }
 
-// Are the joints within the limits, and free of collision? Fills in the answer's facts if not.
-static int nsvcd__is_good(nsvcd__planner *p, const float *joints, nsvcd_plan_answer *answer) {
+// Are the joints within the limits, and free of collision? Leaves what is wrong in p->cost.
+static int nsvcd__is_good(nsvcd__planner *p, const float *joints) {
   const nsvcd_plan_problem *problem = p->problem;
-  nsvcd__cost cost = nsvcd__no_cost;
-  answer->logit = 0;
-  answer->pair = NSVCD_NONE;
+  nsvcd__cost *cost = &p->cost;
+  *cost = nsvcd__no_cost;
   for (size_t j = 0; j < problem->joints; j++) {
-    if (joints[j] < problem->low[j] || joints[j] > problem->high[j]) answer->joint = j;
+    if (joints[j] < problem->low[j] || joints[j] > problem->high[j]) cost->joint = j;
   }
-  if (answer->joint != NSVCD_NONE) return 0;
-  nsvcd__place(p, joints, 1, p->poses);
+  if (cost->joint != NSVCD_NONE) {
+    cost->logit = 0;
+    return 0;
+  }
+  nsvcd__find_poses(p, joints, 1, p->poses);
   if (p->error) return 0;
-  nsvcd__add_collision(p, 1, INFINITY, NULL, 1, &cost);
-  answer->collides = cost.collides;
-  answer->logit = cost.logit;
-  answer->pair = cost.pair;
-  return !cost.collides;
+  nsvcd__add_collision(p, 1, INFINITY, NULL, 1, cost);
+  return !cost->collides;
 }
 
 NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
@@ -50,33 +49,37 @@ NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
   return nsvcd__planner_memory(&planner, NULL);
 }
 
-// What the planner knows of a problem beforehand, in its memory.
+// Fills in what is computed once, when the memory is laid out.
 static void nsvcd__planner_begin(nsvcd__planner *p) {
   nsvcd__stage_init(&p->options, &p->explore);
   nsvcd__stage_init(&p->options, &p->refine);
   nsvcd__stage_init(&p->options, &p->check);
   nsvcd__find_shapes(p);
   for (size_t k = 0; k < p->problem->pair_count; k++) p->queue[k] = (uint32_t)k;
+  for (size_t j = 0; j < p->problem->joints; j++) {
+    const float quarter = 0.25f * (p->problem->high[j] - p->problem->low[j]);
+    p->first_noise[j] = p->explore.noise < quarter ? p->explore.noise : quarter;
+  }
   p->random = p->options.seed;
 }
 
-// How far a point of a's bounding sphere is, at most, from where the check has it, as b sees it,
-// some share of the way from the poses `from` (B) to the next ones, where those on the spline are
-// p->moved.
-static float nsvcd__pair_deviations(const nsvcd__planner *p, const nsvcd_body_pair *pair,
-                                    const nsvcd_pose *from, double fraction) {
+// How far, at most, a point of a's bounding sphere is from where the last check has it, as b sees
+// it. The check's motion is at a share `fraction` of the way from the poses `from` (B) to the next
+// ones; the spline has its poses in p->moved.
+static float nsvcd__pair_deviation(const nsvcd__planner *p, const nsvcd_body_pair *pair,
+                                   const nsvcd_pose *from, double fraction) {
   const nsvcd_pose *to = from + p->problem->body_count;
   const nsvcd__sphere *sphere = &p->shapes[pair->a].sphere;
   const nsvcd_pose start = nsvcd__relative_pose(&from[pair->a], &from[pair->b]);
   const nsvcd_pose end = nsvcd__relative_pose(&to[pair->a], &to[pair->b]);
-  const nsvcd_pose there = nsvcd__relative_pose(&p->moved[pair->a], &p->moved[pair->b]);
+  const nsvcd_pose exact = nsvcd__relative_pose(&p->moved[pair->a], &p->moved[pair->b]);
   const nsvcd__d3 begin = nsvcd__d3_load(start.position);
   const nsvcd__d3 position = nsvcd__d3_mix(begin, nsvcd__d3_load(end.position), fraction);
   const nsvcd__quat q = nsvcd__quat_load(start.rotation);
   const nsvcd__quat r = nsvcd__quat_load(end.rotation);
   const nsvcd__quat checked = nsvcd__quat_slerp(q, r, (float)fraction);
-  const nsvcd__quat is = nsvcd__quat_load(there.rotation);
-  const nsvcd__transform at = {nsvcd__mat3_of(is), nsvcd__f3_load(there.position)};
+  const nsvcd__quat is = nsvcd__quat_load(exact.rotation);
+  const nsvcd__transform at = {nsvcd__mat3_of(is), nsvcd__f3_load(exact.position)};
   const nsvcd__transform was = {nsvcd__mat3_of(checked), nsvcd__d3_narrow(position)};
   const nsvcd__f3 x = nsvcd__f3_transform(&at, sphere->centre);
   const nsvcd__f3 y = nsvcd__f3_transform(&was, sphere->centre);
@@ -84,55 +87,53 @@ static float nsvcd__pair_deviations(const nsvcd__planner *p, const nsvcd_body_pa
   return shift + 2 * nsvcd__f3_length(nsvcd__quat_turn(checked, is)) * sphere->radius;
 }
 
-// How far the spline deviates from the motion of the last check, whose poses p->poses are: of all
-// pairs whose a is given. A smooth curve deviates most half way between two of these: there it is
-// looked at, beside every so many of them. Where they are few, it is looked at in more places, for
-// an S crosses its chord half way. It is no bound: nothing is known of `position` but what it says.
+// How far the spline deviates from the last check's motion between p->poses: the most of all pairs
+// whose a is given. Measured, not bounded: nothing is known of `kinematics` but its values. A
+// smooth curve deviates most half way between two poses, and is sampled there, in every stride-th
+// segment. If segments are few, each is sampled more often, for an S crosses its chord half way.
 static float nsvcd__plan_deviation(nsvcd__planner *p, const float *control) {
   const nsvcd_plan_problem *problem = p->problem;
   const size_t segments = p->check.moments - 1;
   const size_t wanted = NSVCD__DEVIATION_SAMPLES * (p->check.via + 1);
   const size_t stride = wanted < segments ? segments / wanted : 1;
-  const size_t looks = 2 * (wanted / segments) + 1;
+  const size_t samples = 2 * (wanted / segments) + 1;  // of a segment
   float joints[NSVCD_MAX_JOINTS];
   float most = 0;
-  for (size_t n = 0; problem->bodies && n / looks * stride < segments; n++) {
-    const size_t s = n / looks * stride;
-    const double fraction = (double)(n % looks + 1) / (double)(looks + 1);
+  for (size_t n = 0; problem->bodies && n / samples * stride < segments; n++) {
+    const size_t s = n / samples * stride;
+    const double fraction = (double)(n % samples + 1) / (double)(samples + 1);
     const double t = ((double)s + fraction) / (double)segments;
     nsvcd_spline(control, p->check.via, problem->joints, (float)t, 0, joints);
-    nsvcd__place(p, joints, 1, p->moved);
+    nsvcd__find_poses(p, joints, 1, p->moved);
     if (p->error) break;
     for (size_t k = 0; k < problem->pair_count; k++) {
       const nsvcd_body_pair *pair = &problem->pairs[k];
       const nsvcd_pose *from = p->poses + s * problem->body_count;
       if (problem->bodies[pair->a])
-        most = fmaxf(nsvcd__pair_deviations(p, pair, from, fraction), most);
+        most = fmaxf(nsvcd__pair_deviation(p, pair, from, fraction), most);
     }
   }
   return most;
 }
 
-// Searches from one more start; keeps what it finds in p->result if that is the best so far.
-// Returns 1 if there is reason to go on.
-static int nsvcd__try_seed(nsvcd__planner *p, nsvcd_plan_answer *found) {
+// Searches from one more start. Keeps what it finds in p->result if that is the best so far.
+// Returns whether to try another.
+static int nsvcd__try_seed(nsvcd__planner *p) {
   const size_t f = p->problem->joints;
   const float margin = p->options.margin;
-  float deviations[NSVCD_MAX_JOINTS];
+  nsvcd_plan_answer *answer = &p->answer;
   nsvcd__cost cost = nsvcd__no_cost;
-  // from the smoothest way, then from random ones
-  p->seed = found->seeds;
+  // from the smoothest trajectory, then from random changes of it
   nsvcd__smoothest(p, &p->explore, p->control);
-  if (p->seed > 0) {
-    nsvcd__first_deviations(p, deviations);
-    nsvcd__smooth_noise(p, &p->explore, deviations, p->offset);
+  if (answer->seeds > 0) {
+    nsvcd__smooth_noise(p, &p->explore, p->first_noise, p->offset);
     nsvcd__change(p, &p->explore, p->control, p->offset, 1, p->trial);
     memcpy(p->control, p->trial, p->explore.bytes);
   }
   nsvcd__explore(p);
 
-  // Nearly the same curve through another number of via points. These are taken into the limits,
-  // for a curve may leave them between two points.
+  // Nearly the same curve through another number of via points; these are clamped to the limits,
+  // which a curve may leave between two points.
   if (p->explore.via != p->refine.via) {
     for (size_t k = 0; k < p->refine.via + 2; k++) {
       const float t = (float)k / (float)(p->refine.via + 1);
@@ -141,8 +142,8 @@ static int nsvcd__try_seed(nsvcd__planner *p, nsvcd_plan_answer *found) {
     nsvcd__change(p, &p->refine, p->trial, p->trial, 0, p->best);
   }
 
-  // until the last check finds it free, with a wider margin each time that the proof finds a hit
-  for (size_t push = 0; push <= NSVCD__PUSHES; push++) {
+  // until the last check finds it free, with a wider margin after each hit that is proven
+  for (size_t retry = 0; retry <= NSVCD__RETRIES; retry++) {
     nsvcd__refine(p);
     cost = nsvcd__cost_of(p, &p->check, p->best, INFINITY, NULL, 1);
     if (nsvcd__is_free(&cost) || p->cancelled || p->error || !cost.proven) break;
@@ -150,22 +151,16 @@ static int nsvcd__try_seed(nsvcd__planner *p, nsvcd_plan_answer *found) {
   }
   p->options.margin = margin;
   const int good = nsvcd__is_free(&cost);
-  if (found->seeds == 0 || good || cost.total < found->cost) {
+  if (answer->seeds == 0 || good || cost.total < p->cost.total) {
     memcpy(p->result, p->best, p->refine.bytes);
-    found->cost = cost.total;
-    found->smoothness = cost.smoothness;
-    found->deviation = nsvcd__plan_deviation(p, p->result);
-    found->collides = cost.collides;
-    found->joint = cost.joint;
-    found->logit = cost.logit;
-    found->time = cost.time;
-    found->pair = cost.pair;
+    p->cost = cost;
+    answer->deviation = nsvcd__plan_deviation(p, p->result);
   }
-  found->seeds++;
-  found->status = NSVCD_PLAN_LIMIT;
-  if (good) found->status = NSVCD_PLAN_CONVERGED;
-  if (p->cancelled) found->status = NSVCD_PLAN_CANCELLED;
-  return !good && !p->cancelled && !p->error && found->seeds < p->options.seeds;
+  answer->seeds++;
+  answer->status = NSVCD_PLAN_LIMIT;
+  if (good) answer->status = NSVCD_PLAN_CONVERGED;
+  if (p->cancelled) answer->status = NSVCD_PLAN_CANCELLED;
+  return !good && !p->cancelled && !p->error && answer->seeds < p->options.seeds;
 }
 
 NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
@@ -174,7 +169,6 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
                                  nsvcd_plan_answer *answer) {
   const uint32_t most = nsvcd__magnitude(NSVCD_MAX_COORDINATE);
   nsvcd__planner p;
-  nsvcd_plan_answer found;
   const nsvcd_result result = nsvcd__planner_settings(problem, options, &p);
   if (result) return result;
   if (!control || !answer) return NSVCD_ERROR_ARGUMENT;
@@ -193,26 +187,28 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 
   (void)nsvcd__planner_memory(&p, (char *)workspace);
   nsvcd__planner_begin(&p);
-  memset(&found, 0, sizeof found);
-  found.joint = NSVCD_NONE;
-  found.pair = NSVCD_NONE;
-  found.via_points = p.refine.via;
-  if (!nsvcd__is_good(&p, problem->start, &found)) {
-    found.status = NSVCD_PLAN_START;
-  } else if (!nsvcd__is_good(&p, problem->goal, &found)) {
-    found.status = NSVCD_PLAN_GOAL;
-    found.time = 1;
+  nsvcd_plan_answer *out = &p.answer;
+  if (!nsvcd__is_good(&p, problem->start)) {
+    out->status = NSVCD_PLAN_START;
+  } else if (!nsvcd__is_good(&p, problem->goal)) {
+    out->status = NSVCD_PLAN_GOAL;
+    p.cost.time = 1;
   }
   nsvcd__smoothest(&p, &p.refine, p.best);
-  int more = found.status == NSVCD_PLAN_CONVERGED && !p.error;
-  while (more) more = nsvcd__try_seed(&p, &found);
+  int more = out->status == NSVCD_PLAN_CONVERGED && !p.error;
+  while (more) more = nsvcd__try_seed(&p);
   if (p.error) return p.error;
 
-  memcpy(control, found.seeds ? p.result : p.best, p.refine.bytes);
-  found.iterations = p.iterations;
-  found.trajectories = p.trajectories;
-  found.sweeps = p.sweeps;
-  *answer = found;
+  memcpy(control, out->seeds ? p.result : p.best, p.refine.bytes);
+  out->via_points = p.refine.via;
+  out->cost = p.cost.total;
+  out->smoothness = p.cost.smoothness;
+  out->collides = p.cost.collides;
+  out->joint = p.cost.joint;
+  out->logit = p.cost.logit;
+  out->time = p.cost.time;
+  out->pair = p.cost.pair;
+  *answer = *out;
   return NSVCD_OK;
 }
 #endif  // NSVCD_NO_OPTIMIZER

@@ -1,22 +1,23 @@
-// In: a problem. Out: a planner: everything in the caller's workspace. The floor, top to bottom:
+// In: a problem and options. Out: a planner, laid out in the caller's workspace. The rooms of this
+// floor, each of which uses those before it:
 //
-//   problem     everything in the caller's workspace
-//   culling     which bodies may meet in which segments: a broad phase of whole bodies; poses along
-//               a trajectory -> cost, and its derivative by the poses (wrenches)
+//   spline      control points -> joints along a trajectory, and their derivatives
+//   problem     checks, defaults, memory
+//   culling     which bodies may meet in which segments; poses along a trajectory -> cost of
+//               collision, and its derivative by the poses (wrenches)
 //   cost        control points -> smoothness + limits + collision, and the derivative by the
 //               control points
 //   explore     MPPI: smooth random changes of a mean, weighted by exp(-cost / temperature)
 //   refine      L-BFGS with bundled gradients, in the metric of the smoothness
 //   plan        start and goal, several seeds, and the last check
 //
-// The planner asks as any program does, by the public functions. Of what is private to the floors
-// above entry it uses nsvcd__settings_of, nsvcd__poses_check and nsvcd__is_aligned, to refuse
-// what a query would, and NSVCD__ROUNDING.
+// The planner asks as any program does, by the public functions. Three private ones refuse what a
+// query would refuse: nsvcd__settings_of, nsvcd__poses_check and nsvcd__is_aligned.
 //
-// A trajectory is looked at in *moments*, uniform in t, both ends among them; a *segment* lies
+// A trajectory is sampled at *moments*, uniform in t, both ends among them; a *segment* lies
 // between two of them. A *rollout* is one of MPPI's random trajectories; a *bundle* is the random
-// changes over which L-BFGS takes the mean of a gradient. Letters of shapes: M via points, F
-// joints, B bodies, P pairs.
+// changes over which L-BFGS averages a gradient. Letters of shapes: M via points, F joints, B
+// bodies, P pairs.
 #pragma once
 #include "../ground/memory.h"
 #include "../ground/rotations.h"
@@ -24,36 +25,36 @@
 #include "spline.h"
 
 #ifndef NSVCD_NO_OPTIMIZER
-// The schedule of the search.
-// cost: of joints out of their limits, per radian^2 or metre^2, mean over the moments
+// Cost of joints beyond their limits, per radian^2 or metre^2, averaged over the moments.
 #define NSVCD__LIMIT_COST 1e5f
-// cost: of a joint's range, kept free at both limits
+// That cost begins this share of a joint's range before the limit.
 #define NSVCD__LIMIT_MARGIN 0.005f
-// search: of patches that are looked at, shares of their radii: nsvcd_network_options.swell
+// Balls of patches grow by this share of their radii in the search:
+// nsvcd_network_options.inflate.
 #define NSVCD__PLAN_INFLATE 0.25f
-// collision: logits over which the cost grows from a slope of 0 to one of 1
+// Logits over which the slope of the cost of collision grows from 0 to 1.
 #define NSVCD__SOFT_LOGITS 2
-// collision: segments that one query asks about, where a first look may do
-#define NSVCD__FIRST_LOOK_SEGMENTS 8
-// gradient by differences: a joint's step, and what it grows by with the joint's value
+// Segments that one query may rule out together.
+#define NSVCD__RUN_SEGMENTS 8
+// A joint's step for differences: a constant, and a share of its value.
 #define NSVCD__JOINT_STEP 1e-3f
 #define NSVCD__JOINT_STEP_FRACTION 1e-6f
-// explore: temperatures above the least cost at which a rollout weighs nothing
+// MPPI: a rollout this many temperatures above the least cost weighs nothing.
 #define NSVCD__WEIGHTLESS 10
-// explore: one in so many rollouts costs less than the least cost and two temperatures
+// MPPI: the temperature is such that one in this many rollouts is within two of the least cost.
 #define NSVCD__ELITE 10
-// explore: how far the mean goes towards that of the rollouts
+// MPPI: the mean moves by this share towards the rollouts' mean.
 #define NSVCD__MEAN_STEP 0.9f
-// explore: it ends after so many iterations without a gain of 1 %, once the best is free
+// MPPI: ends after this many iterations without a gain of 1 %, once the best is free.
 #define NSVCD__PATIENCE 3
-// refine: steps of L-BFGS that are remembered; step lengths that are tried
+// L-BFGS: steps that are remembered, and step lengths that are tried.
 #define NSVCD__HISTORY 8
 #define NSVCD__STEPS 5
-// plan: refinements more, with a wider margin, where the proof finds a hit
-#define NSVCD__PUSHES 3
-// plan: segments of the last check to one of the finest stage
+// Further refinements, each with a wider margin, while the proof finds hits.
+#define NSVCD__RETRIES 3
+// Segments of the last check for each of the finest stage.
 #define NSVCD__CHECKS 16
-// plan: looks, at least, at how far a piece of the spline deviates
+// Times, at least, at which the deviation of a piece of the spline is measured.
 #define NSVCD__DEVIATION_SAMPLES 16
 
 // A body, in its own axes: its bounding sphere, and the box of its patches.
@@ -65,103 +66,78 @@ typedef struct nsvcd__shape {
 // A body at a moment.
 typedef struct nsvcd__stance {
   nsvcd__transform pose;
-  nsvcd__f3 centre;  // of its bounding sphere, from its origin, in the world's axes
-  // of its turn to the next moment: the root of 1 - cos of half the angle
+  // of its bounding sphere, from its origin, in the world's axes
+  nsvcd__f3 centre;
+  // sqrt(1 - cos(h)), if it turns by 2 h until the next moment
   float bend;
 } nsvcd__stance;
 
-// One way of looking at trajectories: while exploring, refining, or for the last check.
+// How trajectories are sampled and searched: exploring, refining, or in the last check.
 typedef struct nsvcd__stage {
   size_t via, moments;  // M; segments + 1
-  // of the via points, M F
-  size_t numbers;
-  // of all control points
-  size_t bytes;
+  size_t numbers;       // M F
+  size_t bytes;         // of all control points
   size_t iterations;
-  // rollouts of an iteration, or gradients in a bundle
-  size_t draws;
-  // their standard deviation, radians or metres
-  float noise;
-  double *form;  // (M + 2, M + 2): smoothness
-  // (M, M): Cholesky's, of the rows and columns of the via points
-  double *factor;
-  // of factor^-T times normal numbers: the greatest of a via point
-  double deviation;
-  // (moments, M + 2): of the control points, in the joints
-  float *weights;
+  size_t draws;      // rollouts of an iteration, or gradients in a bundle
+  float noise;       // their standard deviation, radians or metres
+  double *form;      // (M + 2, M + 2): smoothness
+  double *factor;    // (M, M): Cholesky's, of the via points' rows and columns
+  double deviation;  // the largest of a via point, of factor^-T times normal numbers
+  float *weights;    // (moments, M + 2): of the control points, in the joints
 } nsvcd__stage;
-
-typedef struct nsvcd__planner {
-  const nsvcd_plan_problem *problem;
-  // with the defaults filled in
-  nsvcd_plan_options options;
-  nsvcd__stage explore, refine, check;
-  // workspace of queries
-  void *query;
-  size_t query_size;
-  uint64_t random;  // the state of the random numbers
-  // the first that a query or a pose gave
-  nsvcd_result error;
-  size_t trajectories, sweeps;
-  // the one that is searched from
-  size_t seed;
-  // of all seeds, both stages
-  size_t iterations;
-  // by the progress callback
-  int cancelled;
-
-  // the trajectory that is looked at
-  float *path;  // (moments, F)
-  // (moments, B)
-  nsvcd_pose *poses;
-  // (moments, B)
-  nsvcd__stance *stances;
-  nsvcd__shape *shapes;  // (B)
-  // (moments): may the pair at hand meet there?
-  unsigned char *meets;
-  // (P): pairs, in the order in which they are looked at
-  uint32_t *queue;
-  float *wrenches;  // (moments, B, 6)
-  // (B): at a moment, with one joint moved
-  nsvcd_pose *moved;
-  float *jacobian;  // (B, 6, F)
-  // (F): derivative by the joints of a moment
-  float *by_path;
-
-  // control points, (M + 2, F) each; the gradient's and those below have rows for via points only
-  float *result;  // the best of all seeds
-  // where the search is: MPPI's mean, L-BFGS's last point
-  float *control;
-  float *best;  // of this seed
-  // the one that is costed
-  float *trial;
-  float *gradient;  // at `trial`, (M + 2, F)
-  // means of offsets, or of gradients
-  float *sum;
-  // a change, or a direction
-  float *offset;
-  float *drawn;  // (draws, M, F): the random changes
-  // (draws): of rollouts, then their weights
-  float *costs;
-  float *steps;  // (HISTORY, M, F): of L-BFGS,
-  // (HISTORY, M, F): and what they changed in the gradient
-  float *changes;
-  // (M + 2): scratch
-  double *vector;
-} nsvcd__planner;
 
 // What a trajectory costs.
 typedef struct nsvcd__cost {
   float total, smoothness, collision;
-  int collides;  // in what was looked at
-  // that leaves its limits, or NSVCD_NONE
-  size_t joint;
-  // of the last check, which looks closer: the most suspicious moment, and who is suspected
+  int collides;  // at the moments or in the segments that were asked about
+  size_t joint;  // that leaves its limits, or NSVCD_NONE
+  // the greatest logit of a query, its time and its pair
   float logit, time;
   size_t pair;
-  // a proof has found it, of what is inside too, or could not rule it out
-  int proven;
+  int proven;  // that query was answered by proof, and did not find the pair free
 } nsvcd__cost;
+
+typedef struct nsvcd__planner {
+  const nsvcd_plan_problem *problem;
+  nsvcd_plan_options options;  // with the defaults filled in
+  nsvcd__stage explore, refine, check;
+  void *query;  // workspace of queries
+  size_t query_size;
+  uint64_t random;                      // the state of the random numbers
+  float first_noise[NSVCD_MAX_JOINTS];  // deviations of the first rollouts
+  nsvcd_result error;                   // of a query or a pose
+  int cancelled;                        // by the progress callback
+  nsvcd_plan_answer answer;             // what is counted so far
+  nsvcd__cost cost;                     // of start or goal, then of `result`
+
+  // the trajectory at hand
+  float *path;             // (moments, F)
+  nsvcd_pose *poses;       // (moments, B)
+  nsvcd__stance *stances;  // (moments, B)
+  nsvcd__shape *shapes;    // (B)
+  unsigned char *meets;    // (moments): may the pair at hand meet there?
+  uint32_t *queue;         // (P): pairs, in the order of queries
+  float *wrenches;         // (moments, B, 6)
+  nsvcd_pose *moved;       // (B): at a moment, with one joint moved
+  float *jacobian;         // (B, 6, F)
+  float *by_path;          // (F): derivative by the joints at a moment
+
+  // control points, (M + 2, F) each
+  float *result;    // the best of all seeds
+  float *control;   // MPPI's mean, or L-BFGS's last point
+  float *best;      // of this seed
+  float *trial;     // whose cost is wanted
+  float *gradient;  // there
+
+  // via points, (M, F) each
+  float *sum;      // mean of offsets, or of gradients
+  float *offset;   // a change, or a direction
+  float *drawn;    // (draws, M, F): the random changes
+  float *costs;    // (draws): of rollouts, then their weights
+  float *steps;    // (HISTORY, M, F): of L-BFGS
+  float *changes;  // (HISTORY, M, F): of the gradient, by these steps
+  double *vector;  // (M + 2): scratch
+} nsvcd__planner;
 
 static const nsvcd__cost nsvcd__no_cost = {
     0, 0, 0, 0, NSVCD_NONE, -NSVCD_LOGIT_CERTAIN, 0, NSVCD_NONE, 0};
@@ -176,36 +152,36 @@ static size_t nsvcd__larger(size_t a, size_t b) {
   return a > b ? a : b;
 }
 
-// A weight: the default where 0 is given, 0 where it is negative.
+// A weight: the default for 0, and 0 for what is negative.
 static float nsvcd__weight_of(float given, float otherwise) {
   return given > 0 ? given : given < 0 ? 0 : otherwise;
 }
 
-// A stage of what the caller gave, and the defaults where that is 0. Returns 0 for what cannot be.
-static int nsvcd__stage_of(const nsvcd_plan_stage *given, nsvcd_plan_stage defaults,
+// A stage as the caller gave it, with the defaults for zeros. Returns 0 if it is out of range.
+static int nsvcd__stage_of(const nsvcd_plan_stage *given, nsvcd_plan_stage otherwise,
                            nsvcd__stage *stage) {
-  const size_t segments = given->segments ? given->segments : defaults.segments;
-  stage->via = given->via_points ? given->via_points : defaults.via_points;
+  const size_t segments = given->segments ? given->segments : otherwise.segments;
+  stage->via = given->via_points ? given->via_points : otherwise.via_points;
   stage->moments = segments + 1;
-  stage->iterations = given->iterations ? given->iterations : defaults.iterations;
+  stage->iterations = given->iterations ? given->iterations : otherwise.iterations;
   if (given->iterations == NSVCD_NONE) stage->iterations = 0;
-  stage->draws = given->draws ? given->draws : defaults.draws;
-  stage->noise = nsvcd__weight_of(given->noise, defaults.noise);
-  if (stage->via > NSVCD_MAX_VIA_POINTS || segments > NSVCD_MAX_PLAN_SEGMENTS) return 0;
-  return stage->draws <= 10000 && stage->iterations <= 100000;
+  stage->draws = given->draws ? given->draws : otherwise.draws;
+  stage->noise = nsvcd__weight_of(given->noise, otherwise.noise);
+  return stage->via <= NSVCD_MAX_VIA_POINTS && segments <= NSVCD_MAX_PLAN_SEGMENTS &&
+         stage->draws <= 10000 && stage->iterations <= 100000;
 }
 
-// Is the problem one that can be stated?
+// Is the problem well formed?
 static nsvcd_result nsvcd__problem_check(const nsvcd_plan_problem *problem) {
   if (!problem || !problem->kinematics) return NSVCD_ERROR_ARGUMENT;
-  if (problem->joints < 1 || problem->joints > NSVCD_MAX_JOINTS) return NSVCD_ERROR_COUNT;
-  if (problem->body_count > 65536) return NSVCD_ERROR_COUNT;
+  if (problem->joints < 1 || problem->joints > NSVCD_MAX_JOINTS || problem->body_count > 65536)
+    return NSVCD_ERROR_COUNT;
   if (!problem->low || !problem->high || !problem->start || !problem->goal)
     return NSVCD_ERROR_ARGUMENT;
   const int by_network = !problem->collision;
   if (problem->pair_count > 0 && (!problem->pairs || (by_network && !problem->bodies)))
     return NSVCD_ERROR_ARGUMENT;
-  // those that are NULL have no shape
+  // a body in no pair may be NULL
   for (size_t b = 0; problem->bodies && b < problem->body_count; b++) {
     const nsvcd_body *body = problem->bodies[b];
     const nsvcd_result result = body ? nsvcd__body_check(body, SIZE_MAX) : NSVCD_OK;
@@ -222,7 +198,7 @@ static nsvcd_result nsvcd__problem_check(const nsvcd_plan_problem *problem) {
   return NSVCD_OK;
 }
 
-// Fills in the defaults.
+// Checks problem and options; fills in the defaults.
 static nsvcd_result nsvcd__planner_settings(const nsvcd_plan_problem *problem,
                                             const nsvcd_plan_options *options,
                                             nsvcd__planner *p) {
@@ -251,7 +227,7 @@ static nsvcd_result nsvcd__planner_settings(const nsvcd_plan_problem *problem,
   o->velocity = nsvcd__weight_of(o->velocity, 10);
   o->acceleration = nsvcd__weight_of(o->acceleration, 2);
   o->jerk = nsvcd__weight_of(o->jerk, 10);
-  // something must be least
+  // some form has to be positive definite
   if (!(o->velocity > 0 || o->acceleration > 0 || o->jerk > 0)) o->velocity = 1e-3f;
   o->collision = nsvcd__weight_of(o->collision, 20);
   o->duration = o->duration > 0 ? o->duration : 20;
@@ -266,13 +242,13 @@ static nsvcd_result nsvcd__planner_settings(const nsvcd_plan_problem *problem,
   return o->check <= most && o->seeds <= 1000 ? NSVCD_OK : NSVCD_ERROR_PLAN;
 }
 
-// The next rows of so many floats of a workspace: nsvcd__take.
+// nsvcd__take, of rows of floats.
 static float *nsvcd__take_floats(char *base, uint64_t *used, size_t rows, size_t floats) {
   return (float *)nsvcd__take(base, used, rows, floats * sizeof(float));
 }
 
-// Lays the planner's memory out in base, or, where that is NULL, only measures. Returns the bytes;
-// 0 if they are more than can be counted.
+// Lays the planner's arrays out from `base` on, or, if that is NULL, only measures them. Returns
+// the bytes; 0 if they exceed SIZE_MAX.
 static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
   nsvcd__stage *const stages[3] = {&p->explore, &p->refine, &p->check};
   float **const points[7] = {&p->result,   &p->control, &p->best,  &p->trial,
@@ -320,7 +296,7 @@ static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
   return used <= SIZE_MAX ? (size_t)used : 0;
 }
 
-// Fills in what a stage knows beforehand.
+// Fills in what a stage computes once.
 static void nsvcd__stage_init(const nsvcd_plan_options *o, nsvcd__stage *stage) {
   const double weights[3] = {(double)o->velocity, (double)o->acceleration, (double)o->jerk};
   const size_t via = stage->via;
@@ -335,10 +311,10 @@ static void nsvcd__stage_init(const nsvcd_plan_options *o, nsvcd__stage *stage) 
   for (size_t k = 0; k < via * via; k++)
     stage->factor[k] = stage->form[(k / via + 1) * all + k % via + 1];
   // in place: row i is read before it is written
-  nsvcd__cholesky(stage->factor, via, stage->factor);
+  nsvcd__cholesky(stage->factor, via);
 
-  stage->deviation = 0;
   // the variance of via point k is |L^-1 e_k|^2
+  stage->deviation = 0;
   for (size_t k = 0; k < via; k++) {
     double square = 0;
     for (size_t i = 0; i < via; i++) w[i] = i == k;

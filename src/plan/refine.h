@@ -1,4 +1,4 @@
-// In: control points. Out: better ones: L-BFGS with bundled gradients, in the metric of the
+// In: control points. Out: better ones, by L-BFGS with bundled gradients, in the metric of the
 // smoothness.
 #pragma once
 #include "explore.h"
@@ -10,7 +10,7 @@ static double nsvcd__dot(const float *a, const float *b, size_t count) {
   return sum;
 }
 
-// The mean of the gradients at control + each of the bundle's offsets, p->drawn: p->sum (M, F).
+// p->sum (M, F): the mean of the gradients at `control` + each offset of the bundle p->drawn.
 static void nsvcd__bundled_gradient(nsvcd__planner *p, const nsvcd__stage *stage,
                                     const float *control) {
   const size_t f = p->problem->joints;
@@ -23,14 +23,14 @@ static void nsvcd__bundled_gradient(nsvcd__planner *p, const nsvcd__stage *stage
   }
 }
 
-// The n-th step, or change of the gradient along it, of which the last HISTORY are kept.
+// The n-th step, or the n-th change of the gradient; the last HISTORY are kept.
 static float *nsvcd__remembered(float *rows, size_t n, const nsvcd__stage *stage) {
   return rows + n % NSVCD__HISTORY * stage->numbers;
 }
 
-// L-BFGS's direction for the gradient in p->sum: p->offset (M, F). It starts from half the inverse
-// of the smoothness' form, which is exact where nothing collides, and knows of the `kept` steps
-// before step `next` what each changed in the gradient.
+// p->offset (M, F): L-BFGS's direction for the gradient p->sum, by its two loops over the `kept`
+// steps before step `next`. The first inverse Hessian is half the inverse of the smoothness' form,
+// which is exact where nothing collides.
 static void nsvcd__direction(nsvcd__planner *p, const nsvcd__stage *stage, size_t kept,
                              size_t next) {
   const size_t numbers = stage->numbers;
@@ -58,22 +58,20 @@ static void nsvcd__direction(nsvcd__planner *p, const nsvcd__stage *stage, size_
   }
 }
 
-// L-BFGS from p->best on, which it improves. Ends early where not even the first direction leads
-// down.
+// L-BFGS, from p->best on, which it improves. Ends early if the cost does not fall even along the
+// direction that remembers no step.
 static void nsvcd__refine(nsvcd__planner *p) {
   static const float lengths[NSVCD__STEPS] = {1, 0.5f, 0.2f, 0.05f, 0.01f};
   const nsvcd__stage *stage = &p->refine;
   const size_t f = p->problem->joints;
   const size_t numbers = stage->numbers;
   float deviations[NSVCD_MAX_JOINTS];
-  // steps, before step `next`
-  size_t kept = 0;
+  size_t kept = 0;  // steps, before step `next`
   size_t next = 0;
   int stuck = 0;
   nsvcd__cost best = nsvcd__cost_of(p, stage, p->best, INFINITY, NULL, 0);
 
-  // The same offsets at each iteration: the mean is then a function, and its gradients differ by
-  // where they are taken.
+  // The same offsets in each iteration: then gradients differ only by where they are taken.
   for (size_t j = 0; j < f; j++) deviations[j] = stage->noise;
   for (size_t n = 0; n < stage->draws; n++)
     nsvcd__smooth_noise(p, stage, deviations, p->drawn + n * numbers);
@@ -83,8 +81,8 @@ static void nsvcd__refine(nsvcd__planner *p) {
     memcpy(p->control, p->best, stage->bytes);
     nsvcd__bundled_gradient(p, stage, p->control);
     if (kept > 0) {
-      // The change along the last step is known as minus the gradient before it. The step is
-      // forgotten if the gradient does not grow along it.
+      // `change` holds minus the gradient before the last step. The step is forgotten if the
+      // gradient does not grow along it: the inverse Hessian stays positive definite.
       const float *step = nsvcd__remembered(p->steps, next - 1, stage);
       float *change = nsvcd__remembered(p->changes, next - 1, stage);
       for (size_t k = 0; k < numbers; k++) change[k] += p->sum[k];

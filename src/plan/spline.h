@@ -1,14 +1,15 @@
-// In: control points. Out: positions and derivatives; the weights of both.
+// In: control points (M + 2, F) of a spline. Out: the joints along it, their derivatives, and means
+// of squares of these.
 //
-// Control points -> positions and derivatives. All is linear in the control points, and the same
-// for each joint: what the joints are at one moment is a sum of the points by weights (M + 2), and
-// the mean of its square over the motion a quadratic form (M + 2, M + 2).
+// Everything is linear in the control points, and the same for each joint: a joint at a time is the
+// sum of its control points times weights (M + 2), and the mean of its square over the motion a
+// quadratic form (M + 2, M + 2).
 #pragma once
 #include "../interface/plans.h"
 #include "../ground/compiler.h"
 
 #ifndef NSVCD_NO_OPTIMIZER
-// A derivative at u of a polynomial of degree five, times `scale`.
+// The derivative of that order at u of a polynomial of degree 5, times `scale`.
 static double nsvcd__polynomial(const double *coefficients, double u, size_t derivative,
                                 double scale) {
   double value = 0;
@@ -21,10 +22,11 @@ static double nsvcd__polynomial(const double *coefficients, double u, size_t der
   return value;
 }
 
-// The weights (M + 2) of the control points in the joints' derivative of the given order by t.
+// The weights (M + 2) of the control points in the derivative of that order by t, which is clamped
+// to [0,1].
 static void nsvcd__spline_weights(size_t via, double t, size_t derivative, double *weights) {
-  // Polynomials of u in [0,1]: of the position, velocity and acceleration at its left end, then at
-  // its right.
+  // Hermite's polynomials of u in [0,1]: of the position, velocity and acceleration at its left
+  // end, then at its right.
   static const double basis[6][6] = {{1, 0, 0, -10, 15, -6},       {0, 1, 0, -6, 8, -3},
                                      {0, 0, 0.5, -1.5, 1.5, -0.5}, {0, 0, 0, 10, -15, 6},
                                      {0, 0, 0, -4, 7, -3},         {0, 0, 0, 0.5, -1, 0.5}};
@@ -40,7 +42,7 @@ static void nsvcd__spline_weights(size_t via, double t, size_t derivative, doubl
     const double(*polynomials)[6] = basis + 3 * end;
     const size_t point = left + end;
     weights[point] += nsvcd__polynomial(polynomials[0], u, derivative, scale);
-    // at rest
+    // both ends of the motion are at rest
     if (point == 0 || point == last) continue;
     const double velocity = nsvcd__polynomial(polynomials[1], u, derivative, scale);
     const double acceleration = nsvcd__polynomial(polynomials[2], u, derivative, scale);
@@ -63,14 +65,15 @@ NSVCDDEF void nsvcd_spline(const float *control, size_t via_points, size_t joint
   }
 }
 
-// Adds weight * mean over t of the derivative's square to the form (M + 2, M + 2). Five points of
-// Gauss and Legendre per piece: exact, as the squares are of degree 8 at most.
+// Adds to the form (M + 2, M + 2) `weight` times the mean over t of the derivative's square. By
+// Gauss-Legendre quadrature with five nodes a piece, which is exact: the squares are of degree 8 at
+// most.
 static void nsvcd__add_mean_square(size_t via, size_t derivative, double weight,
                                    double *form) {
   static const double nodes[5] = {0.046910077030668, 0.230765344947158, 0.5, 0.769234655052842,
                                   0.953089922969332};
-  static const double shares[5] = {0.118463442528095, 0.239314335249683, 0.284444444444444,
-                                   0.239314335249683, 0.118463442528095};
+  static const double gauss[5] = {0.118463442528095, 0.239314335249683, 0.284444444444444,
+                                  0.239314335249683, 0.118463442528095};
   const size_t count = via + 2;
   const double pieces = (double)(via + 1);
   double w[NSVCD_MAX_VIA_POINTS + 2];
@@ -79,24 +82,22 @@ static void nsvcd__add_mean_square(size_t via, size_t derivative, double weight,
       const double t = ((double)piece + nodes[n]) / pieces;
       nsvcd__spline_weights(via, t, derivative, w);
       for (size_t i = 0; i < count; i++) {
-        const double scaled = weight * shares[n] / pieces * w[i];
+        const double scaled = weight * gauss[n] / pieces * w[i];
         for (size_t j = 0; j < count; j++) form[i * count + j] += scaled * w[j];
       }
     }
   }
 }
 
-// L L^T = a, lower; a, l: (n, n), and may be the same. Of a symmetric positive definite a; what
-// rounding makes of it is kept positive.
-static void nsvcd__cholesky(const double *a, size_t n, double *l) {
+// Cholesky's factor L of a (n, n), symmetric and positive definite, in its lower triangle: L L^T =
+// a. What rounding makes negative is taken as small and positive. The upper triangle stays.
+static void nsvcd__cholesky(double *a, size_t n) {
   for (size_t i = 0; i < n; i++) {
     const double least = 1e-9 * a[i * n + i];
-    for (size_t j = 0; j < n; j++) {
+    for (size_t j = 0; j <= i; j++) {
       double sum = a[i * n + j];
-      for (size_t k = 0; k < (i < j ? i : j); k++) sum -= l[i * n + k] * l[j * n + k];
-      if (j < i) l[i * n + j] = sum / l[j * n + j];
-      if (j == i) l[i * n + i] = sqrt(sum > least ? sum : least);
-      if (j > i) l[i * n + j] = 0;
+      for (size_t k = 0; k < j; k++) sum -= a[i * n + k] * a[j * n + k];
+      a[i * n + j] = j < i ? sum / a[j * n + j] : sqrt(sum > least ? sum : least);
     }
   }
 }
