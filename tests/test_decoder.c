@@ -141,22 +141,22 @@ static void golden_inputs(size_t n, float *x) {
   static float batch[NSVCD__SLICE * NSVCD__DECODER_IN];
   int8_t z1[NSVCD__LATENT], z2[NSVCD__LATENT];
   nsvcd__pairs pairs;
-  nsvcd__scenes scene;
+  nsvcd__inputs inputs;
   golden_latents(n, z1, z2);
   for (size_t b = 0; b < 2; b++) {
-    nsvcd__v *to = &scene.turn[b].x.x;
+    nsvcd__v *to = &inputs.turn[b].x.x;
     for (size_t k = 0; k < 9; k++) to[k] = nsvcd__v_set(row[9 * b + k]);
   }
   for (size_t l = 0; l < NSVCD__SLICE; l++) {
     pairs.z[0][l] = z1;
     pairs.z[1][l] = z2;
-    for (size_t k = 0; k < NSVCD__FACTS; k++) scene.facts[k][l] = row[18 + k];
+    for (size_t k = 0; k < NSVCD__FACTS; k++) inputs.facts[k][l] = row[18 + k];
   }
   const float larger = row[18 + NSVCD__FACT_RADIUS];
-  scene.keep = ~0u;
-  scene.k[0] = nsvcd__v_set(larger);
-  scene.k[1] = nsvcd__v_set(1 - larger);
-  nsvcd__inputs_in(&scene, &pairs, NSVCD__SLICE, batch);
+  inputs.keep = ~0u;
+  inputs.k[0] = nsvcd__v_set(larger);
+  inputs.k[1] = nsvcd__v_set(1 - larger);
+  nsvcd__inputs_write(&inputs, &pairs, NSVCD__SLICE, batch);
   memcpy(x, batch, NSVCD__DECODER_IN * sizeof *x);
 }
 

@@ -651,14 +651,14 @@ static size_t pairs_write(problem *p, worker *w, const size_t *first_patch, cons
     const size_t count = left < NSVCD__SLICE ? left : NSVCD__SLICE;
     nsvcd__candidate *slice[NSVCD__SLICE];
     nsvcd__pairs pairs;
-    nsvcd__scenes scene;
+    nsvcd__inputs inputs;
     float turns[2][9][NSVCD__SLICE];
     for (size_t l = 0; l < count; l++) slice[l] = &items[first + l];
     if (count > 0) {
       nsvcd__pairs_of(task->moving, task->fixed, &task->motion, slice, count, &pairs);
-      nsvcd__scenes_of(&pairs, count, &scene);
+      nsvcd__inputs_of(&pairs, count, &inputs);
       for (size_t b = 0; b < 2; b++) {
-        const nsvcd__vmat3 *m = &scene.turn[b];
+        const nsvcd__vmat3 *m = &inputs.turn[b];
         nsvcd__v3_store_rows(m->x, turns[b][0], NSVCD__SLICE);
         nsvcd__v3_store_rows(m->y, turns[b][3], NSVCD__SLICE);
         nsvcd__v3_store_rows(m->z, turns[b][6], NSVCD__SLICE);
@@ -673,7 +673,7 @@ static size_t pairs_write(problem *p, worker *w, const size_t *first_patch, cons
         to->reach[at] = 1;
         continue;
       }
-      const size_t larger = scene.keep >> l & 1 ? 0 : 1;  // 0: the moving patch
+      const size_t larger = inputs.keep >> l & 1 ? 0 : 1;  // 0: the moving patch
       const size_t patch[2] = {slice[l]->moving, slice[l]->fixed};
       for (size_t b = 0; b < 2; b++) {
         const size_t from = b ^ larger;
@@ -682,7 +682,7 @@ static size_t pairs_write(problem *p, worker *w, const size_t *first_patch, cons
         for (size_t k = 0; k < 9; k++) to->turns[18 * at + 9 * b + k] = half_of(turns[from][k][l]);
       }
       for (size_t k = 0; k < NSVCD__FACTS; k++)
-        to->facts[NSVCD__FACTS * at + k] = half_of(scene.facts[k][l]);
+        to->facts[NSVCD__FACTS * at + k] = half_of(inputs.facts[k][l]);
       const float radius[2] = {nsvcd__body_r(task->moving)[patch[0]] * task->motion.scale,
                                nsvcd__body_r(task->fixed)[patch[1]]};
       to->reach[at] = (radius[0] + radius[1]) * task->motion.unit;

@@ -1,30 +1,30 @@
 // In: the pair that decided an answer. Out: the derivative of its logit by the poses. Reverse mode,
-// step by step from the end, over one pair and in scalars; `by_x` is the derivative of the logit by
+// step by step from the end, over one pair and in scalars. `by_x` is the derivative of the logit by
 // x:
 //
 //   decoder     by the decoder's inputs
-//   pair        by the line between the centres, the velocity, and the rotations, over the frame
+//   pair        by the line between the centres, the velocity, and the rotations, through the frame
 //               and the facts
 //   instants    by the moving body's poses at t_enter, t_exit and in the middle, and by these times
 //   contact     from the times to the poses at the ends of the segment in which the balls meet or
-//               part
+//               separate
 //   poses       from the pose at any time to the caller's poses
 //
 // The derivative by the pose of a rigid body is a wrench: a force (by a displacement of its origin)
 // and a torque (by a small rotation about that). A force f on a point at `arm` from the origin is
-// that force, and the torque arm x f.
+// the force f and the torque arm x f.
 #pragma once
 #include "../network/decoder.h"
 
 #ifndef NSVCD_NO_GRADIENT
-// The derivative of |a| by a, times `by`. At 0, to rounding, where it has none, it is nothing: the
-// mean of all directions.
+// The derivative of |a| by a, times `by`. Where |a| is 0 to rounding it is 0, the mean of all
+// directions.
 static nsvcd__f3 nsvcd__by_length(nsvcd__f3 a, float by) {
   const float length = nsvcd__f3_length(a);
   return nsvcd__f3_scale(a, length > 1e-6f ? by / length : 0);
 }
 
-// Lane 0 of so many slices, one after the other: out (count).
+// Lane 0 of each of so many slices: out (count).
 static void nsvcd__first_lanes(const void *slices, size_t count, void *out) {
   for (size_t k = 0; k < count; k++) {
     nsvcd__v slice;
@@ -34,19 +34,14 @@ static void nsvcd__first_lanes(const void *slices, size_t count, void *out) {
     memcpy((char *)out + k * sizeof *lanes, lanes, sizeof *lanes);
   }
 }
-static nsvcd__f3 nsvcd__first_f3(nsvcd__v3 a) {
-  nsvcd__f3 out;
-  nsvcd__first_lanes(&a, 3, &out);
-  return out;
-}
 
 // a without its part along the unit vector n.
 static nsvcd__f3 nsvcd__f3_across(nsvcd__f3 a, nsvcd__f3 n) {
   return nsvcd__f3_fma(-nsvcd__f3_dot(a, n), n, a);
 }
 
-// a's part along the unit vector n (or 0), times `along`, and the rest, turned about n by `angle`,
-// times `across`. All that commutes with rotations about n is of this kind.
+// a's part along the unit vector n (or 0), times `along`, plus the rest, turned about n by `angle`,
+// times `across`. Every linear map that commutes with rotations about n is of this form.
 static nsvcd__f3 nsvcd__turned(nsvcd__f3 a, nsvcd__f3 n, float along, float across,
                                float angle) {
   const float c = across * cosf(angle);
@@ -73,12 +68,12 @@ NSVCD__INLINE nsvcd__v nsvcd__weights_at(const nsvcd__layer *layer, size_t i, si
 #endif
 }
 
-// The derivative of an output of a decoder by its inputs: x, by_x (DECODER_IN). A ReLU's derivative
-// at 0 is 0.
+// The derivative of a decoder's output by its inputs: x, by_x (DECODER_IN). A ReLU's derivative at
+// 0 is 0.
 static NSVCD__NOINLINE void nsvcd__decoder_gradient(const nsvcd__decoder *decoder,
                                                     size_t output, const float *x,
                                                     float *by_x) {
-  // what comes out of the layers, but for the last
+  // the outputs of all layers but the last
   float values[5][NSVCD__WIDEST];
   float by[NSVCD__MOST_INPUTS] = {0};
   by[output] = 1;
@@ -89,7 +84,7 @@ static NSVCD__NOINLINE void nsvcd__decoder_gradient(const nsvcd__decoder *decode
     float *y = values[n];
     memcpy(y, nsvcd_w_decoder_bias + layer.first, layer.outputs * sizeof *y);
     for (size_t i = 0; i < layer.inputs; i++) {
-      // about half of them
+      // about half of the inputs are 0
       if (!(from[i] < 0 || from[i] > 0)) continue;
       const nsvcd__v input = nsvcd__v_set(from[i]);
       for (size_t o = 0; o < layer.outputs; o += NSVCD__SLICE) {
@@ -122,11 +117,11 @@ static NSVCD__NOINLINE void nsvcd__decoder_gradient(const nsvcd__decoder *decode
 
 // ---- pair
 
-// The derivative by a small rotation of a latent's vectors, as they are (x) and the derivative by
-// them (by), both (3, CHANNELS), then (5, CHANNELS). On degree 2, in the basis of nsvcd__degree2, a
-// rotation by w adds to q
+// The derivative by a small rotation of a latent, from its vectors x and the derivative by these,
+// both (3, CHANNELS), then (5, CHANNELS). On degree 2, in the basis of nsvcd__degree2, a rotation
+// by w adds to q
 //   (wy q1 - wx q3 + 2 wz q4, wz q3 - wy q0 - wx (r q2 + q4), r (wx q1 - wy q3),
-//    wx q0 - wz q1 + wy (r q2 - q4), wx q1 + wy q3 - 2 wz q0), r being the root of 3.
+//    wx q0 - wz q1 + wy (r q2 - q4), wx q1 + wy q3 - 2 wz q0), where r is the root of 3.
 static nsvcd__f3 nsvcd__latent_torque(const float *x, const float *by) {
   const float r = 1.7320508075688772f;
   nsvcd__f3 torque = {0, 0, 0};
@@ -150,14 +145,22 @@ static nsvcd__f3 nsvcd__latent_torque(const float *x, const float *by) {
   return torque;
 }
 
-// The derivative of a logit by a pair, as nsvcd__pairs has it, in the fixed body's axes and units.
+// The derivative of a logit by a pair, in the fixed body's axes and units.
 typedef struct nsvcd__by_pair {
   nsvcd__f3 p1, v, w;
-  // by a small rotation of the moving patch about its centre
-  nsvcd__f3 rotation;
+  nsvcd__f3 rotation;  // by a small rotation of the moving patch about its centre
 } nsvcd__by_pair;
 
-// A pair in its own units: what nsvcd__views has in lane 0, number by number.
+// Lane 0 of nsvcd__pairs, number by number, without the bytes.
+typedef struct nsvcd__pair {
+  nsvcd__f3 p1, p2;
+  float r1, r2;
+  nsvcd__mat3 rotation;
+  nsvcd__f3 v, w, normal[2];
+  float flat[2];
+} nsvcd__pair;
+
+// Lane 0 of nsvcd__views, number by number.
 typedef struct nsvcd__view {
   float inverse, k1, k2, swap;
   nsvcd__f3 d, lean, normal;
@@ -173,7 +176,7 @@ typedef struct nsvcd__by_view {
   nsvcd__f3 d, v, w, lean, axis1, torque;
 } nsvcd__by_view;
 
-// sum + the rows of m, times the components of a.
+// sum + m's transpose times a.
 static nsvcd__f3 nsvcd__add_along_rows(nsvcd__f3 sum, const nsvcd__mat3 *m, nsvcd__f3 a) {
   sum = nsvcd__f3_fma(a.x, m->x, sum);
   sum = nsvcd__f3_fma(a.y, m->y, sum);
@@ -191,7 +194,7 @@ static void nsvcd__by_facts(const nsvcd__view *view, const float *facts, const f
   out->d = nsvcd__f3_add(out->d, by_distance);
   out->d = nsvcd__f3_add(out->d, by_closest);
   out->v = nsvcd__f3_fma(-tau, by_closest, out->v);
-  // else it is clamped
+  // where tau is not clamped
   if (fabsf(tau) < 1) {
     const float direct = by[NSVCD__FACT_TAU];
     const float by_tau = scale * (direct - nsvcd__f3_dot(by_closest, view->v));
@@ -213,8 +216,8 @@ static void nsvcd__by_facts(const nsvcd__view *view, const float *facts, const f
   out->w = nsvcd__f3_add(out->w, nsvcd__by_length(view->w, by[NSVCD__FACT_SPIN]));
 }
 
-// The adjoint of the frame in nsvcd__views_of, whose conventions are constant between its switches,
-// added to `by`. Turning the frame does the opposite of turning all that it sees.
+// The adjoint of the frame in nsvcd__views_of, added to `by`. Its conventions are taken as
+// constant, and turning it does the opposite of turning all that it sees.
 static void nsvcd__by_frame(const nsvcd__view *view, nsvcd__by_view *by) {
   const nsvcd__f3 e1 = view->frame.x;
   const nsvcd__f3 e2 = view->frame.y;
@@ -222,9 +225,9 @@ static void nsvcd__by_frame(const nsvcd__view *view, nsvcd__by_view *by) {
   const float length = nsvcd__f3_length(view->d);
   const nsvcd__f3 line = nsvcd__f3_of(view->lean.x + 1e-6f, view->lean.y, view->lean.z);
 
-  // Axis 2: of what is across axis 1, of a reference a.
+  // Axis 2: the direction of a reference a, without its part along axis 1.
   nsvcd__f3 a = nsvcd__f3_add(nsvcd__f3_scale(view->lean, NSVCD__LEAN), view->v);
-  nsvcd__f3 across = nsvcd__f3_sub(a, nsvcd__f3_scale(e1, nsvcd__f3_dot(a, e1)));
+  nsvcd__f3 across = nsvcd__f3_across(a, e1);
   const int vanishes = nsvcd__f3_length(across) <= 1e-7f;
   if (vanishes) {
     // the coordinate axis farthest from e1
@@ -233,7 +236,7 @@ static void nsvcd__by_frame(const nsvcd__view *view, nsvcd__by_view *by) {
     const float z = fabsf(e1.z);
     a = y <= z ? nsvcd__f3_of(0, 1, 0) : nsvcd__f3_of(0, 0, 1);
     if (x <= y && x <= z) a = nsvcd__f3_of(1, 0, 0);
-    across = nsvcd__f3_sub(a, nsvcd__f3_scale(e1, nsvcd__f3_dot(a, e1)));
+    across = nsvcd__f3_across(a, e1);
   }
   const float about = by->torque.x / nsvcd__f3_length(across);
   if (!vanishes) {
@@ -241,7 +244,7 @@ static void nsvcd__by_frame(const nsvcd__view *view, nsvcd__by_view *by) {
     by->lean = nsvcd__f3_fma(-about * NSVCD__LEAN, e3, by->lean);
   }
 
-  // Axis 1: of the line, or of what stands for it.
+  // Axis 1: the direction of the line, or of what replaces it.
   nsvcd__f3 by_e1 = nsvcd__f3_across(by->axis1, e1);
   by_e1 = nsvcd__f3_fma(by->torque.y + about * nsvcd__f3_dot(e1, a), e3, by_e1);
   by_e1 = nsvcd__f3_fma(-by->torque.z, e2, by_e1);
@@ -253,35 +256,7 @@ static void nsvcd__by_frame(const nsvcd__view *view, nsvcd__by_view *by) {
 
 // ---- gaps
 
-// What the axis of a gap is the direction of: a constant, plus so many times the moving patch's
-// normal, reversed, and the unit vector of the line between the centres.
-typedef struct nsvcd__gap_axis {
-  float of_moving, of_line;
-  float length;  // of that sum
-} nsvcd__gap_axis;
-
-// Of the axes that nsvcd__gap_axes_of makes.
-static void nsvcd__gap_axes_made(nsvcd__f3 fixed, const nsvcd__view *view, nsvcd__f3 line,
-                                 nsvcd__gap_axis *made) {
-  const nsvcd__gap_axis constant = {0, 0, 1};
-  const nsvcd__gap_axis against = {1, 0, 1};
-  const nsvcd__gap_axis along = {0, 1, 1};
-  const int has_fixed = nsvcd__f3_length(fixed) > 0.5f;
-  const int has_moving = nsvcd__f3_length(view->normal) > 0.5f;
-  const nsvcd__gap_axis of_fixed = has_fixed ? constant : along;
-  const nsvcd__gap_axis of_moving = has_moving ? against : along;
-  const nsvcd__f3 from = has_fixed ? fixed : line;
-  const nsvcd__f3 to = has_moving ? nsvcd__f3_scale(view->normal, -1) : line;
-  nsvcd__gap_axis both = {of_moving.of_moving, of_fixed.of_line + of_moving.of_line,
-                          nsvcd__f3_length(nsvcd__f3_add(from, to))};
-  if (!(both.length > 1e-3f)) both = along;
-  made[NSVCD__GAP_LARGER] = view->swap > 0 ? of_moving : of_fixed;
-  made[NSVCD__GAP_SMALLER] = view->swap > 0 ? of_fixed : of_moving;
-  made[NSVCD__GAP_LINE] = along;
-  made[NSVCD__GAP_BOTH] = both;
-}
-
-// As nsvcd__turned_back, whose adjoint by u it is too, with -w.
+// As nsvcd__turned_back, by tau w. With -w it is the adjoint by u.
 static nsvcd__f3 nsvcd__f3_turned_back(nsvcd__f3 u, nsvcd__f3 w, float tau) {
   const nsvcd__f3 turned = nsvcd__f3_fma(tau, nsvcd__f3_cross(u, w), u);
   const float along = 0.5f * tau * tau * nsvcd__f3_dot(u, w);
@@ -298,7 +273,7 @@ static nsvcd__f3 nsvcd__turned_back_by_w(nsvcd__f3 u, nsvcd__f3 w, float tau, ns
   return nsvcd__f3_fma(-2 * half * nsvcd__f3_dot(u, q), w, out);
 }
 
-// Of a body's extremes, from the first on, the farthest along u, in steps.
+// The extreme point of a patch that is farthest along u, in 1/127 of the radius.
 static nsvcd__f3 nsvcd__farthest_extreme(const int8_t *extremes, nsvcd__f3 u) {
   nsvcd__f3 best = {0, 0, 0};
   for (size_t k = 0; k < NSVCD__EXTREMES; k++, extremes += 3 * NSVCD__GROUP) {
@@ -309,63 +284,93 @@ static nsvcd__f3 nsvcd__farthest_extreme(const int8_t *extremes, nsvcd__f3 u) {
   return best;
 }
 
-// Lane 0 of what gaps are measured of.
-typedef struct nsvcd__gap_pair {
-  nsvcd__f3 between, v, w;
-  float radii[2];
-  nsvcd__mat3 rotation;
-  const int8_t *extremes[2];
-} nsvcd__gap_pair;
-
-// The adjoint of a gap along u at tau, times `by`, added to `out`, and returned by u. moves: 0 at
-// rest, else 1.
-static nsvcd__f3 nsvcd__by_gap(const nsvcd__gap_pair *pair, nsvcd__f3 u, float tau,
-                               float moves, float by, nsvcd__by_pair *out) {
+// The adjoint of a gap along u at tau, times `by`, added to `out`; returns that by u. extremes: of
+// the moving patch and of the fixed one. moves: 0 at rest, else 1.
+static nsvcd__f3 nsvcd__by_gap(const nsvcd__pair *pair, const int8_t *const *extremes,
+                               nsvcd__f3 u, float tau, float moves, float by,
+                               nsvcd__by_pair *out) {
   const float half = 0.5f * tau;
   const nsvcd__f3 w = pair->w;
   const nsvcd__f3 minus = nsvcd__f3_scale(w, -1);
   const nsvcd__f3 back = nsvcd__f3_turned_back(u, w, half);
   const nsvcd__f3 forth = nsvcd__f3_turned_back(u, w, -half);
   const nsvcd__f3 own = nsvcd__mat3_apply_transpose(&pair->rotation, back);
-  const nsvcd__f3 lowest =
-      nsvcd__farthest_extreme(pair->extremes[0], nsvcd__f3_scale(own, -1));
-  const nsvcd__f3 highest = nsvcd__farthest_extreme(pair->extremes[1], forth);
+  const nsvcd__f3 lowest = nsvcd__farthest_extreme(extremes[0], nsvcd__f3_scale(own, -1));
+  const nsvcd__f3 highest = nsvcd__farthest_extreme(extremes[1], forth);
   const nsvcd__f3 turned = nsvcd__mat3_apply(&pair->rotation, lowest);
-  const nsvcd__f3 q = nsvcd__f3_scale(turned, pair->radii[0] / 127);
-  const nsvcd__f3 x = nsvcd__f3_scale(highest, pair->radii[1] / 127);
+  const nsvcd__f3 q = nsvcd__f3_scale(turned, pair->r1 / 127);
+  const nsvcd__f3 x = nsvcd__f3_scale(highest, pair->r2 / 127);
   const nsvcd__f3 on_q = nsvcd__turned_back_by_w(u, w, half, q);
   const nsvcd__f3 on_x = nsvcd__turned_back_by_w(u, w, -half, x);
   out->p1 = nsvcd__f3_fma(by, u, out->p1);
   out->v = nsvcd__f3_fma(moves * tau * by, u, out->v);
   out->w = nsvcd__f3_fma(moves * by, nsvcd__f3_sub(on_q, on_x), out->w);
   out->rotation = nsvcd__f3_fma(by, nsvcd__f3_cross(q, back), out->rotation);
-  nsvcd__f3 apart = nsvcd__f3_fma(tau, pair->v, pair->between);
+  nsvcd__f3 apart = nsvcd__f3_fma(tau, pair->v, nsvcd__f3_sub(pair->p1, pair->p2));
   apart = nsvcd__f3_add(apart, nsvcd__f3_turned_back(q, minus, half));
   apart = nsvcd__f3_sub(apart, nsvcd__f3_turned_back(x, minus, -half));
   return nsvcd__f3_scale(apart, by);
 }
 
-// The adjoint of nsvcd__tell_gaps, and of the facts about normals: by (FACTS), added to `out` and,
-// by axis 1, to `seen`. view: lane 0 of views. moves: 0 at rest, else 1.
+// The adjoint of nsvcd__gap_fact. size: the gap's absolute value.
+static float nsvcd__by_gap_fact(float by, float size, float steep) {
+  return by * steep / ((1 + steep * size) * (1 + steep * size));
+}
+
+// The adjoint of nsvcd__gap_axes_of: from the derivatives by the axes u (GAPS) to those by the line
+// between the centres, added to `out`, and by the moving patch's normal, which is returned.
+static nsvcd__f3 nsvcd__by_gap_axes(const nsvcd__pair *pair, const nsvcd__view *view,
+                                    const nsvcd__f3 *u, const nsvcd__f3 *by_u,
+                                    nsvcd__by_pair *out) {
+  const nsvcd__f3 line = u[NSVCD__GAP_LINE];
+  const int has_fixed = nsvcd__f3_length(pair->normal[1]) > 0.5f;
+  const int has_moving = nsvcd__f3_length(view->normal) > 0.5f;
+  const size_t of_moving = view->swap > 0 ? NSVCD__GAP_LARGER : NSVCD__GAP_SMALLER;
+  const size_t of_fixed = view->swap > 0 ? NSVCD__GAP_SMALLER : NSVCD__GAP_LARGER;
+  const nsvcd__f3 from = has_fixed ? pair->normal[1] : line;
+  const nsvcd__f3 to = has_moving ? nsvcd__f3_scale(view->normal, -1) : line;
+  const float length = nsvcd__f3_length(nsvcd__f3_add(from, to));
+  // An axis is the direction of a constant, plus multiples of the moving patch's normal, reversed,
+  // and of the line.
+  float normals[NSVCD__GAPS] = {0};
+  float lines[NSVCD__GAPS] = {0};
+  normals[of_moving] = has_moving ? 1 : 0;
+  lines[of_moving] = has_moving ? 0 : 1;
+  lines[of_fixed] = has_fixed ? 0 : 1;
+  lines[NSVCD__GAP_LINE] = 1;
+  lines[NSVCD__GAP_BOTH] = 1;
+  if (length > 1e-3f) {
+    normals[NSVCD__GAP_BOTH] = normals[of_moving] / length;
+    lines[NSVCD__GAP_BOTH] = (lines[of_fixed] + lines[of_moving]) / length;
+  }
+  nsvcd__f3 by_normal = {0, 0, 0};
+  nsvcd__f3 by_line = {0, 0, 0};
+  for (size_t d = 0; d < NSVCD__GAPS; d++) {
+    const nsvcd__f3 across = nsvcd__f3_across(by_u[d], u[d]);
+    by_normal = nsvcd__f3_fma(-normals[d], across, by_normal);
+    by_line = nsvcd__f3_fma(lines[d], across, by_line);
+  }
+  const float distance = nsvcd__f3_length(nsvcd__f3_sub(pair->p1, pair->p2));
+  const float inverse = 1 / fmaxf(distance, 1e-20f);
+  out->p1 = nsvcd__f3_fma(inverse, nsvcd__f3_across(by_line, line), out->p1);
+  return by_normal;
+}
+
+// The adjoint of nsvcd__gap_facts, and of the facts about normals: by (FACTS), added to `out` and,
+// by axis 1, to `seen`. pair, view: lane 0 of pairs and views. moves: 0 at rest, else 1.
 static NSVCD__NOINLINE void nsvcd__by_gaps(const nsvcd__pairs *pairs,
-                                           const nsvcd__views *views, const nsvcd__view *view,
-                                           float moves, const float *by, nsvcd__by_pair *out,
+                                           const nsvcd__views *views, const nsvcd__pair *pair,
+                                           const nsvcd__view *view, float moves,
+                                           const float *by, nsvcd__by_pair *out,
                                            nsvcd__by_view *seen) {
-  const nsvcd__f3 fixed = nsvcd__first_f3(pairs->normal[1]);
-  nsvcd__gap_pair pair;
-  nsvcd__gap_axes axes;
-  nsvcd__gap_axis made[NSVCD__GAPS];
+  const int8_t *const of_pair[2] = {pairs->extremes[0][0], pairs->extremes[1][0]};
+  const nsvcd__f3 fixed = pair->normal[1];
+  nsvcd__v3 axes[NSVCD__GAPS];
+  nsvcd__f3 u[NSVCD__GAPS];
   nsvcd__f3 by_u[NSVCD__GAPS];
   int8_t extremes[2 * 3 * NSVCD__EXTREMES * NSVCD__SLICE];
-  pair.between = nsvcd__f3_sub(nsvcd__first_f3(pairs->p1), nsvcd__first_f3(pairs->p2));
-  pair.v = nsvcd__first_f3(pairs->v);
-  pair.w = nsvcd__first_f3(pairs->w);
-  pair.extremes[0] = pairs->extremes[0][0];
-  pair.extremes[1] = pairs->extremes[1][0];
-  nsvcd__first_lanes(&pairs->r1, 1, &pair.radii[0]);
-  nsvcd__first_lanes(&pairs->r2, 1, &pair.radii[1]);
-  nsvcd__first_lanes(&pairs->rotation, 9, &pair.rotation);
-  nsvcd__gap_axes_of(pairs, views, &axes);
+  nsvcd__gap_axes_of(pairs, views, axes);
+  nsvcd__first_lanes(axes, 3 * NSVCD__GAPS, u);
   nsvcd__extremes_collect(pairs, 1, extremes);
   memset(by_u, 0, sizeof by_u);
   for (size_t m = 0; m < NSVCD__MOMENTS; m++) {
@@ -373,61 +378,47 @@ static NSVCD__NOINLINE void nsvcd__by_gaps(const nsvcd__pairs *pairs,
     nsvcd__v at[NSVCD__GAPS];
     float wide[NSVCD__GAPS];
     size_t widest = 0;
-    nsvcd__gaps_at(pairs, &axes, extremes, nsvcd__v_set(tau), at);
+    nsvcd__gaps_at(pairs, axes, extremes, nsvcd__v_set(tau), at);
     nsvcd__first_lanes(at, NSVCD__GAPS, wide);
     for (size_t d = 1; d < NSVCD__GAPS; d++) widest = wide[d] > wide[widest] ? d : widest;
     for (size_t d = 0; d < NSVCD__GAPS; d++) {
-      const float gap = fabsf(view->inverse * wide[d]);
-      const float steep = NSVCD__GAP_STEEP;
-      const float steeper = d == widest ? NSVCD__WIDEST_STEEP : 0;
-      const float told = by[NSVCD__FACT_GAPS + NSVCD__MOMENTS * d + m];
-      const float by_told = told * steep / ((1 + steep * gap) * (1 + steep * gap));
-      const float by_widest =
-          by[NSVCD__FACT_WIDEST + m] * steeper / ((1 + steeper * gap) * (1 + steeper * gap));
-      const float by_gap = view->inverse * (by_told + by_widest);
-      const nsvcd__f3 u = nsvcd__first_f3(axes.u[d]);
-      const nsvcd__f3 more = nsvcd__by_gap(&pair, u, tau, moves, by_gap, out);
+      const float size = fabsf(view->inverse * wide[d]);
+      const float own = by[NSVCD__FACT_GAPS + NSVCD__MOMENTS * d + m];
+      const float most = d == widest ? by[NSVCD__FACT_WIDEST + m] : 0;
+      const float by_own = nsvcd__by_gap_fact(own, size, NSVCD__GAP_STEEP);
+      const float by_most = nsvcd__by_gap_fact(most, size, NSVCD__WIDEST_STEEP);
+      const float by_gap = view->inverse * (by_own + by_most);
+      const nsvcd__f3 more = nsvcd__by_gap(pair, of_pair, u[d], tau, moves, by_gap, out);
       by_u[d] = nsvcd__f3_add(by_u[d], more);
     }
   }
 
-  // By the axes, to what they are made of.
-  const nsvcd__f3 line = nsvcd__first_f3(axes.u[NSVCD__GAP_LINE]);
-  const float length = fmaxf(nsvcd__f3_length(pair.between), 1e-20f);
-  nsvcd__f3 by_moving = {0, 0, 0};
-  nsvcd__f3 by_line = {0, 0, 0};
-  nsvcd__gap_axes_made(fixed, view, line, made);
-  for (size_t d = 0; d < NSVCD__GAPS; d++) {
-    const nsvcd__f3 across = nsvcd__f3_across(by_u[d], nsvcd__first_f3(axes.u[d]));
-    by_moving = nsvcd__f3_fma(-made[d].of_moving / made[d].length, across, by_moving);
-    by_line = nsvcd__f3_fma(made[d].of_line / made[d].length, across, by_line);
-  }
-  out->p1 = nsvcd__f3_fma(1 / length, nsvcd__f3_across(by_line, line), out->p1);
-
+  nsvcd__f3 by_normal = nsvcd__by_gap_axes(pair, view, u, by_u, out);
   const float *facing = by + NSVCD__FACT_FACING;
   const float to_moving = view->swap > 0 ? facing[1] : facing[2];
   const float to_fixed = view->swap > 0 ? facing[2] : facing[1];
-  by_moving = nsvcd__f3_fma(facing[0], fixed, by_moving);
-  by_moving = nsvcd__f3_fma(to_moving, view->frame.x, by_moving);
+  by_normal = nsvcd__f3_fma(facing[0], fixed, by_normal);
+  by_normal = nsvcd__f3_fma(to_moving, view->frame.x, by_normal);
   seen->axis1 = nsvcd__f3_fma(to_moving, view->normal, seen->axis1);
   seen->axis1 = nsvcd__f3_fma(to_fixed, fixed, seen->axis1);
-  out->rotation = nsvcd__f3_add(out->rotation, nsvcd__f3_cross(view->normal, by_moving));
+  out->rotation = nsvcd__f3_add(out->rotation, nsvcd__f3_cross(view->normal, by_normal));
 }
 
-// The adjoint of nsvcd__invariants for the pair in lane 0. x, by_x (DECODER_IN). The unit of length
-// is constant.
-static NSVCD__NOINLINE void nsvcd__by_invariants(const nsvcd__pairs *pairs, const float *x,
+// The adjoint of nsvcd__invariants for the pair in lane 0; x, by_x (DECODER_IN). The unit of length
+// is taken as constant.
+static NSVCD__NOINLINE void nsvcd__by_invariants(const nsvcd__pairs *pairs,
+                                                 const nsvcd__pair *pair, const float *x,
                                                  const float *by_x, nsvcd__by_pair *by) {
   nsvcd__views views;
   nsvcd__view view;
   nsvcd__views_of(pairs, &views);
   nsvcd__first_lanes(&views, sizeof view / sizeof(float), &view);
-  // Which way time runs. 0 at rest, to rounding: the logit is even in the motion, with a kink
+  // The direction of time; 0 at rest, to rounding: the logit is even in the motion, with a kink
   // there, and the mean of its two sides is 0.
   const float moves = nsvcd__f3_dot(view.v, view.v) + nsvcd__f3_dot(view.w, view.w);
   const float sign = moves < 1e-12f ? 0.0f : view.time * view.swap;
 
-  // Torques in the frame: on the moving patch's latent, then on all that the frame sees.
+  // torques in the frame: on the moving patch's latent, then on all that the frame sees
   const size_t facts = 2 * NSVCD__LATENT;
   const size_t first = view.swap > 0 ? 0 : NSVCD__VECTORS;
   const size_t second = NSVCD__VECTORS - first;
@@ -438,7 +429,7 @@ static NSVCD__NOINLINE void nsvcd__by_invariants(const nsvcd__pairs *pairs, cons
   seen.torque = nsvcd__f3_add(on_moving, on_fixed);
   nsvcd__by_facts(&view, x + facts, by_x + facts, &seen);
   memset(by, 0, sizeof *by);
-  nsvcd__by_gaps(pairs, &views, &view, fabsf(sign), by_x + facts, by, &seen);
+  nsvcd__by_gaps(pairs, &views, pair, &view, fabsf(sign), by_x + facts, by, &seen);
   nsvcd__by_frame(&view, &seen);
 
   const nsvcd__f3 lean1 = nsvcd__f3_scale(view.normal, view.swap * view.k1);

@@ -1,18 +1,19 @@
-// In: derivatives by the pair. Out: those by the poses of both movers.
+// In: derivatives by a pair. Out: those by the poses of both movers.
 #pragma once
 #include "../query/question.h"
 #include "by_pair.h"
 
 #ifndef NSVCD_NO_GRADIENT
-// Adds to a wrench, row (6).
+// Adds a force and a torque to a wrench, row (6).
 static void nsvcd__wrench_add(nsvcd__f3 force, nsvcd__f3 torque, float *row) {
   nsvcd__f3_store(nsvcd__f3_add(nsvcd__f3_load(row), force), row);
   nsvcd__f3_store(nsvcd__f3_add(nsvcd__f3_load(row + 3), torque), row + 3);
 }
 
-// From a force and a torque on a body at time t, in the world, to `gradient` (count, 6), or NULL,
-// by its poses before and after t. Returns the derivative by t. With R = exp(2 u h n) A, on the
-// shorter arc from A to B = exp(2 h n) A, small rotations a of A and b of B (on the left) turn R
+// Adds to `gradient` (count, 6), or NULL, what a force and a torque on a body at time t, in the
+// world, are by its poses before and after t. Returns the derivative by t. Let R = exp(2 u h n) A,
+// on the shorter arc from A to B = exp(2 h n) A. Small rotations a of A and b of B (on the left)
+// turn R
 //   along n    by (1 - u) a + u b,
 //   across n   by sin((1 - u) h) / sin h of a, turned by u h about n,
 //              and sin(u h) / sin h of b, turned by -(1 - u) h.
@@ -28,7 +29,7 @@ static float nsvcd__by_poses(const nsvcd__track *track, float t, nsvcd__f3 force
   const float per_t = times ? 1 / (times[k + 1] - times[k]) : (float)(track->count - 1);
   const nsvcd_pose *a = &track->poses[k];
   const nsvcd_pose *b = &track->poses[k + 1];
-  // The turn from a to b on the shorter arc: by 2 h about n, of length 1, or 0 where nothing turns.
+  // From a to b on the shorter arc: a turn by 2 h about the unit vector n, or 0 if nothing turns.
   const nsvcd__quat qa = nsvcd__quat_unit(nsvcd__quat_load(a->rotation));
   const nsvcd__quat qb = nsvcd__quat_unit(nsvcd__quat_load(b->rotation));
   const nsvcd__quat nearer = nsvcd__quat_beside(qb, nsvcd__poses_opposed(a, b));
@@ -53,29 +54,28 @@ static float nsvcd__by_poses(const nsvcd__track *track, float t, nsvcd__f3 force
 
 // ---- instants and contact
 
-// Times at which the moving patch is looked at.
+// The times that matter of a candidate's motion.
 enum {
   NSVCD__AT_ENTRY = 0,
   NSVCD__AT_EXIT = 1,
-  NSVCD__AT_MIDDLE = 2,    // between these two
-  NSVCD__ENTRY_BEGIN = 3,  // the ends of the segment in which it enters,
+  NSVCD__AT_MIDDLE = 2,    // of these two
+  NSVCD__ENTRY_BEGIN = 3,  // the segment in which the balls meet
   NSVCD__ENTRY_END = 4,
-  NSVCD__EXIT_BEGIN = 5,  // and of that in which it leaves
+  NSVCD__EXIT_BEGIN = 5,  // the segment in which they separate
   NSVCD__EXIT_END = 6,
   NSVCD__INSTANTS = 7
 };
 
-// The moving patch at these times, in the fixed body's axes and units.
+// The moving patch's centre at these times, in the fixed body's axes and units.
 typedef struct nsvcd__instants {
   float t[NSVCD__INSTANTS];
-  // from the body's origin to its centre
-  float arm[3][NSVCD__LANES];
-  float position[3][NSVCD__LANES];  // its centre
-  // does it within the segment? else at one of its ends, and these do not move
+  float arm[3][NSVCD__LANES];  // from the body's origin
+  float position[3][NSVCD__LANES];
+  // inside of the segment? At one of its ends the time is constant
   int enters, leaves;
 } nsvcd__instants;
 
-// The instants of a candidate. time: of the segments' ends.
+// time: of the segments' ends.
 static void nsvcd__instants_of(const nsvcd__task *task, const nsvcd__candidate *candidate,
                                const float *time, nsvcd__instants *at) {
   const float t0 = candidate->t_enter;
@@ -102,10 +102,9 @@ static void nsvcd__instants_of(const nsvcd__task *task, const nsvcd__candidate *
   }
 }
 
-// From a force on the patch's centre at instant l, and a torque on the moving body, in the fixed
-// one's axes and units, to the derivatives by the poses of the moving body and of the fixed one:
-// out (2), of which one may be NULL. What is done to one body is done to the other the opposite
-// way. Returns the derivative by the time.
+// Adds to out (2), of which one may be NULL, what a force on the patch's centre at instant l and a
+// torque on the moving body, in the fixed body's axes and units, are by the poses of the moving
+// body and of the fixed one. The two wrenches are opposite. Returns the derivative by the time.
 static float nsvcd__by_instant(const nsvcd__motion *motion, nsvcd__instants *at, size_t l,
                                nsvcd__f3 force, nsvcd__f3 torque, float *const *out) {
   const float t = at->t[l];
@@ -124,10 +123,10 @@ static float nsvcd__by_instant(const nsvcd__motion *motion, nsvcd__instants *at,
   return by_moving + nsvcd__by_poses(&motion->fixed, t, back, turn_back, out[1]);
 }
 
-// The adjoint of the time at which the balls meet (AT_ENTRY) or part (AT_EXIT): y = x0 + tau x - c,
-// from the chord x of the segment, is as long as the sum of the radii; so y.(dy + x dtau) = 0.
-// Balls that only graze (y across x) do so for a time whose derivative has no limit: it is bounded
-// where float32 has no digits left.
+// The adjoint of the time at which the balls meet (AT_ENTRY) or separate (AT_EXIT). There y = x0 +
+// tau x - c, where x is the segment's chord, is as long as the sum of the radii, and so y.(dy + x
+// dtau) = 0. If the balls only graze (y across x), the derivative has no limit: it is bounded where
+// float32 has no digits left.
 static void nsvcd__by_contact(const nsvcd__motion *motion, nsvcd__instants *at, size_t l,
                               nsvcd__f3 centre, float by_time, float *const *out) {
   const nsvcd__f3 none = {0, 0, 0};
@@ -149,33 +148,35 @@ static void nsvcd__by_contact(const nsvcd__motion *motion, nsvcd__instants *at, 
   nsvcd__by_instant(motion, at, s + 1, after, none, out);
 }
 
-// The derivative of the decisive distance, or logit, by the poses, added to the gradients. time: of
-// the segments' ends.
+// Adds the derivative of the decisive distance, or logit, by the poses to out (2). time: of the
+// segments' ends.
 static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *decisive,
                             const float *time, float *const *out) {
   const nsvcd__motion *motion = &task->motion;
   nsvcd__candidate candidate = decisive->candidate;
   nsvcd__candidate *one = &candidate;
   nsvcd__pairs pairs;
+  nsvcd__pair pair;
   nsvcd__by_pair by;
   nsvcd__instants at;
   float x[NSVCD__DECODER_IN];
   float by_x[NSVCD__DECODER_IN];
   nsvcd__pairs_of(task->moving, task->fixed, motion, &one, 1, &pairs);
+  nsvcd__first_lanes(&pairs, sizeof pair / sizeof(float), &pair);
   nsvcd__invariants(&pairs, 1, x);
   const int of_logit = !nsvcd__of_distance(task);
   const size_t output = of_logit ? NSVCD__SAYS_LOGIT : NSVCD__SAYS_APART;
   const float unit = of_logit ? 1 : 0.1f * nsvcd__candidate_reach(task, &candidate);
   nsvcd__decoder_gradient(decisive->decoder, output, x, by_x);
   for (size_t k = 0; k < NSVCD__DECODER_IN; k++) by_x[k] *= unit;
-  nsvcd__by_invariants(&pairs, x, by_x, &by);
+  nsvcd__by_invariants(&pairs, &pair, x, by_x, &by);
   nsvcd__instants_of(task, &candidate, time, &at);
 
   // The adjoint of nsvcd__pairs_of. v = w x arm + (x1 - x0) / 2, where arm goes from the moving
   // centre half way to the other.
-  const nsvcd__f3 w = nsvcd__first_f3(pairs.w);
-  const nsvcd__f3 centre = nsvcd__first_f3(pairs.p2);
-  const nsvcd__f3 line = nsvcd__f3_sub(centre, nsvcd__lane_of(at.position, NSVCD__AT_MIDDLE));
+  const nsvcd__f3 w = pair.w;
+  const nsvcd__f3 middle = nsvcd__lane_of(at.position, NSVCD__AT_MIDDLE);
+  const nsvcd__f3 line = nsvcd__f3_sub(pair.p2, middle);
   const nsvcd__f3 arm = nsvcd__f3_scale(line, 0.5f);
   const nsvcd__f3 p1 = nsvcd__f3_fma(-0.5f, nsvcd__f3_cross(by.v, w), by.p1);
   const nsvcd__f3 turn = nsvcd__f3_add(by.w, nsvcd__f3_cross(arm, by.v));
@@ -194,8 +195,8 @@ static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *deci
     const nsvcd__f3 torque = nsvcd__turned(turn, n, 0.5f * side, half * side, h * side);
     by_time[l] = 0.5f * by_middle + nsvcd__by_instant(motion, &at, l, force, torque, out);
   }
-  if (at.enters) nsvcd__by_contact(motion, &at, NSVCD__AT_ENTRY, centre, by_time[0], out);
-  if (at.leaves) nsvcd__by_contact(motion, &at, NSVCD__AT_EXIT, centre, by_time[1], out);
+  if (at.enters) nsvcd__by_contact(motion, &at, NSVCD__AT_ENTRY, pair.p2, by_time[0], out);
+  if (at.leaves) nsvcd__by_contact(motion, &at, NSVCD__AT_EXIT, pair.p2, by_time[1], out);
 }
 
 // As nsvcd_sweep_gradient.

@@ -1,32 +1,30 @@
-// In: candidate pairs of patches and the motion over the intervals in which their balls meet.
-// Out: their invariants (n, DECODER_IN), of which the decoder makes a logit each.
+// In: candidate pairs of patches, and the motion over the intervals in which their balls meet.
+// Out: the decoder's inputs, invariants (n, DECODER_IN).
 //
-// The motion is linearised about the middle of the interval; then everything is expressed in a
-// frame that moves with the pair, in units of r1 + r2 (NeuralSVCD, appendix F), so the logit is
-// invariant to rigid motion and scale. The symmetries that are left are removed by convention, not
-// learned:
+// The motion is linearised about the middle of the interval. All is expressed in a frame that moves
+// with the pair, in units of r1 + r2 (NeuralSVCD, appendix F), so that the logit is invariant to
+// rigid motion and scale. Conventions, not the network, remove the symmetries that are left:
 //   swap           the larger patch comes first
-//   axis 1         the line between the centres
-//   axis 2         the velocity across the line, plus a twentieth of the lean (the difference of
+//   axis 1         is the line between the centres
+//   axis 2         is the velocity across the line, plus a twentieth of the lean (the difference of
 //                  the patches' normals), so that it has a limit where the velocity vanishes
 //   time reversal  time runs so that velocity and lean, across the line, do not oppose each other
-//   mirror         axis 3 points to the side of the lean; where the lean is on neither side, as it
-//                  is for a pair at rest, the frame is right-handed
-// Degenerate cases: centres that coincide (to 1e-5 of r1 + r2) take the lean, else x, as axis 1; a
-// reference that vanishes takes the coordinate axis farthest from axis 1 as axis 2.
+//   mirror         axis 3 points to the side of the lean; if the lean is on neither side, as for a
+//                  pair at rest, the frame is right-handed
+// Degenerate cases: if the centres coincide (to 1e-5 of r1 + r2), axis 1 is the lean, else x; if
+// the reference for axis 2 vanishes, that is the coordinate axis farthest from axis 1.
 //
-// Pairs are asked about in batches of 16, at most. They become inputs a slice at a time, one per
-// lane (only their latents are turned pair by pair, channels side by side), and these go through
-// the layers some rows at a time.
+// Candidates come in batches of up to 16. They become inputs a slice at a time, one per lane (only
+// latents are turned pair by pair, channels side by side), and the inputs go through the layers
+// some rows at a time.
 #pragma once
 #include "../motion/segments.h"
 #include "latent_rotation.h"
 
 #ifndef NSVCD_NO_NETWORK
 #define NSVCD__BATCH NSVCD__LANES
-// Rows of inputs at a time, and the step in which the layers of floats go through them: where there
-// are no vectors, there may be no stack for more, and without floats nothing is gained by more than
-// one.
+// Rows of inputs at a time, and the step in which layers of floats take them. Without vectors there
+// may be no stack for more; without floats, more than one gain nothing.
 #if NSVCD__SLICE > 1
 #define NSVCD__ROWS NSVCD__BATCH
 #define NSVCD__ROW_STEP 4
@@ -37,38 +35,35 @@
 #define NSVCD__ROWS 1
 #define NSVCD__ROW_STEP 1
 #endif
-// What the decoder sees of a pair's geometry, in the pair's frame and units; vectors take three
-// numbers.
+// The facts: what the decoder sees of a pair's geometry, in the pair's frame and units.
 enum {
-  // of the centres
-  NSVCD__FACT_DISTANCE = 0,
-  NSVCD__FACT_RADIUS = 1,   // the larger one
-  NSVCD__FACT_CLOSEST = 2,  // distance of the centres, when they come closest,
-  NSVCD__FACT_TAU = 3,      // and when that is: -1 and 1 are the ends of the interval
-  NSVCD__FACT_VELOCITY = 4,
-  NSVCD__FACT_TURN = 7,
-  NSVCD__FACT_SPEED = 10,  // the lengths of these two
+  NSVCD__FACT_DISTANCE = 0,  // of the centres
+  NSVCD__FACT_RADIUS = 1,    // the larger one
+  NSVCD__FACT_CLOSEST = 2,   // the centres' distance at their closest approach
+  NSVCD__FACT_TAU = 3,       // the time of that: -1 and 1 are the ends of the interval
+  NSVCD__FACT_VELOCITY = 4,  // (3)
+  NSVCD__FACT_TURN = 7,      // (3)
+  NSVCD__FACT_SPEED = 10,    // the lengths of these two
   NSVCD__FACT_SPIN = 11,
-  // of the gaps between the extremes: (GAPS, MOMENTS), and the widest at each moment
-  NSVCD__FACT_GAPS = 12,
-  NSVCD__FACT_WIDEST = 24,
-  // products of the normals: of both, of the larger patch's and the smaller one's with the line
-  // from the larger to the smaller
+  NSVCD__FACT_GAPS = 12,    // (GAPS, MOMENTS): between the extreme points
+  NSVCD__FACT_WIDEST = 24,  // (MOMENTS): the widest of these
+  // (3): products of the normals: with each other; the larger patch's, and the smaller one's, with
+  // the line from the larger to the smaller
   NSVCD__FACT_FACING = 27,
-  // how flat the larger patch is, and the smaller
-  NSVCD__FACT_FLAT = 30,
+  NSVCD__FACT_FLAT = 30,  // (2): how flat the larger patch is, and the smaller
   NSVCD__FACTS = 32
 };
-// Directions, from the fixed patch to the moving one, in which gaps are measured, and when.
+// The axes, from the fixed patch to the moving one, along which gaps are measured: the larger
+// patch's normal, the smaller one's, the line between the centres, and the sum of the normals.
 enum { NSVCD__GAP_LARGER, NSVCD__GAP_SMALLER, NSVCD__GAP_LINE, NSVCD__GAP_BOTH, NSVCD__GAPS };
-#define NSVCD__MOMENTS 3
-// A gap g in units of r1 + r2 is told as x / (1 + |x|), x being g times this; the widest as well
-// with the second, so that what decides is not lost in the steps of int8.
+#define NSVCD__MOMENTS 3  // both ends of the interval, and its middle
+// The fact about a gap g, in units of r1 + r2, is x / (1 + |x|), where x is g times the first of
+// these. The widest uses the second: near contact it must not be lost in the steps of int8.
 #define NSVCD__GAP_STEEP 8.0f
 #define NSVCD__WIDEST_STEEP 40.0f
 #define NSVCD__INPUTS (2 * NSVCD__LATENT + NSVCD__FACTS)
 #define NSVCD__DECODER_IN ((NSVCD__INPUTS + 15) / 16 * 16)  // zeros at the end
-// Most outputs of a layer, of the heads that are compiled; the tests hold them against weights.h.
+// Most outputs of a layer in the decoders that are compiled. The tests compare them to weights.h.
 #define NSVCD__WIDEST_TINY 32
 #define NSVCD__WIDEST_SMALL 96
 #ifndef NSVCD_NO_BASE
@@ -78,44 +73,40 @@ enum { NSVCD__GAP_LARGER, NSVCD__GAP_SMALLER, NSVCD__GAP_LINE, NSVCD__GAP_BOTH, 
 #else
 #define NSVCD__WIDEST NSVCD__WIDEST_TINY
 #endif
-// of a layer
 #define NSVCD__MOST_INPUTS \
   (NSVCD__WIDEST > NSVCD__DECODER_IN ? NSVCD__WIDEST : NSVCD__DECODER_IN)
 #define NSVCD__LEAN 0.05f  // share of the lean in axis 2
-#define NSVCD__SIDE 1e-4f  // a lean less than this to one side of axes 1 and 2 is on neither
+#define NSVCD__SIDE \
+  1e-4f  // a lean that is less than this to one side of axes 1 and 2 is on neither
 
-// ---- pairs, as they move
+// ---- pairs in motion
 
-// A slice of pairs.
+// A slice of pairs, in the fixed body's frame.
 typedef struct nsvcd__pairs {
-  // centres at mid-interval: of the moving patch, of the fixed one; the fixed body's frame
-  nsvcd__v3 p1, p2;
-  // the balls' radii
-  nsvcd__v r1, r2;
+  nsvcd__v3 p1, p2;       // centres at mid-interval, of the moving patch and of the fixed one
+  nsvcd__v r1, r2;        // radii of the balls
   nsvcd__vmat3 rotation;  // of the moving body at mid-interval
-  // half displacement of the point midway between p1 and p2, as part of the moving body
-  nsvcd__v3 v;
-  nsvcd__v3 w;  // half rotation vector
-  // of both patches, in the bodies' frames: unit normals, or 0 where a patch has none; how flat
-  // they are, which is the normal area over that of the ball's greatest slab; latents; and
-  // extremes, (TIPS, 3) at a stride of GROUP
-  nsvcd__v3 normal[2];
-  nsvcd__v flat[2];
-  const int8_t *z[2][NSVCD__SLICE];
-  const int8_t *extremes[2][NSVCD__SLICE];
+  nsvcd__v3
+      v;  // half the displacement of the point midway between p1 and p2, on the moving body
+  nsvcd__v3 w;  // half the rotation vector
+  // of the moving patch and of the fixed one, in the bodies' frames:
+  nsvcd__v3 normal[2];  // of unit length, or 0 if the patch has none
+  nsvcd__v flat[2];  // the length of the area vector, over the area of the ball's largest disc
+  const int8_t *z[2][NSVCD__SLICE];         // latents
+  const int8_t *extremes[2][NSVCD__SLICE];  // (EXTREMES, 3) at a stride of GROUP
 } nsvcd__pairs;
 
 // Half the rotation vector of a unit quaternion, from the sine s of half the angle: asin(s) / s
 // times its vector part.
 static nsvcd__v3 nsvcd__v_half_rotation(nsvcd__vquat q) {
-  // of asin(s) / s by s^2, from its end, to 2e-6 for s < 0.5
+  // asin(s) / s in powers of s^2, from the highest on: to 2e-6 for s < 0.5
   static const float series[5] = {0.03038194f, 0.04464286f, 0.075f, 0.16666667f, 1};
   const nsvcd__v3 axis = nsvcd__vquat_axis(q);
   const nsvcd__v sign = nsvcd__v_sign(q.w);
   const nsvcd__v square = nsvcd__v3_dot(axis, axis);
   nsvcd__v ratio = nsvcd__v_set(0.02237216f);
   for (size_t k = 0; k < 5; k++) ratio = nsvcd__v_fma(ratio, square, nsvcd__v_set(series[k]));
-  // over 60 degrees: a motion of few poses
+  // more than 60 degrees, as in a motion of few poses
   uint32_t wide = nsvcd__v_le(nsvcd__v_set(0.25f), square);
   if (wide) {
     float ratios[NSVCD__SLICE];
@@ -135,7 +126,7 @@ static nsvcd__v3 nsvcd__v_half_rotation(nsvcd__vquat q) {
 }
 
 // A track's poses at `count` times t in [0,1], 1 to SLICE, one per lane: unit quaternions, and
-// positions from an origin.
+// positions relative to an origin.
 static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const float *t,
                                            size_t count, nsvcd__f3 origin) {
   float fraction[NSVCD__SLICE] = {0};
@@ -155,10 +146,8 @@ static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const floa
     const nsvcd__quat next = nsvcd__quat_load(b->rotation);
     const float cosine = nsvcd__quat_dot(q, next);
     const float sign = cosine < 0 ? -1.0f : 1.0f;
-    const nsvcd__quat chord = {sign * next.x - q.x, sign * next.y - q.y, sign * next.z - q.z,
-                               sign * next.w - q.w};
-    // Within 5 degrees the straight line, brought back to unit length, is the slerp to 2e-6
-    // radians.
+    const nsvcd__quat chord = nsvcd__quat_fma(-1, q, nsvcd__quat_scale(next, sign));
+    // Up to 5 degrees the chord, scaled to unit length, is the slerp to 2e-6 radians.
     if (fabsf(cosine) < 0.999f)
       q = nsvcd__quat_slerp(q, next, fraction[l]);
     else
@@ -191,9 +180,9 @@ static nsvcd__v_pose nsvcd__v_poses_at(const nsvcd__motion *motion, const float 
   return nsvcd__v_seen(motion, &at);
 }
 
-// Pairs whose moving patches have the given centres, (3, SLICE), from poses at entry, at exit, and
-// halfway: where they pass each other, and how they move then. Apart from nsvcd__pairs_of, so that
-// its stack does not lie below the poses'.
+// Where pairs are at mid-interval, and how they move: from the centres (3, SLICE) of the moving
+// patches, and the poses at entry, at exit, and halfway. A function of its own, so that its stack
+// does not add to that of nsvcd__v_poses_at.
 static NSVCD__NOINLINE void nsvcd__pairs_in_passing(const nsvcd__v_pose *at,
                                                     const float *centres,
                                                     nsvcd__pairs *pairs) {
@@ -212,12 +201,12 @@ static NSVCD__NOINLINE void nsvcd__pairs_in_passing(const nsvcd__v_pose *at,
   pairs->v = nsvcd__v3_fma(half, step, nsvcd__v3_cross(pairs->w, arm));
 }
 
-// The pairs of `count` candidates, 1 to SLICE. What is in the lanes beyond does not matter.
+// The pairs of `count` candidates, 1 to SLICE. The other lanes do not matter.
 static NSVCD__NOINLINE void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_body *fixed,
                                             const nsvcd__motion *motion,
                                             nsvcd__candidate *const *candidates, size_t count,
                                             nsvcd__pairs *pairs) {
-  // of entry, of exit, and halfway
+  // entry, exit, and halfway
   float times[3][NSVCD__SLICE];
   nsvcd__v_pose at[3];
   float centres[2][3 * NSVCD__SLICE] = {{0}, {0}};
@@ -235,7 +224,7 @@ static NSVCD__NOINLINE void nsvcd__pairs_of(const nsvcd_body *moving, const nsvc
       radii[n][l] = scale * patch.radius;
       pairs->z[n][l] = nsvcd__body_latents(body) + NSVCD__LATENT * i;
       pairs->extremes[n][l] = nsvcd__group_extremes(body, i / NSVCD__GROUP) + i % NSVCD__GROUP;
-      // a patch that is closed has no normal; bodies that were loaded may hold any numbers
+      // A closed patch has no normal. A body that was loaded may hold any numbers.
       const float inverse = patch.radius > 0 ? 1 / patch.radius : 0;
       const nsvcd__f3 area = nsvcd__f3_get(nsvcd__body_areas(body) + i, body->padded);
       const float most = fmaxf(fmaxf(fabsf(area.x), fabsf(area.y)), fabsf(area.z));
@@ -265,26 +254,18 @@ static NSVCD__NOINLINE void nsvcd__pairs_of(const nsvcd_body *moving, const nsvc
 
 // Pairs in their own units, in the fixed body's axes, and their frames.
 typedef struct nsvcd__views {
-  // 1 over the unit of length; the radii
-  nsvcd__v inverse, k1, k2;
-  // -1: the other patch is the larger
-  nsvcd__v swap;
-  // the line from the larger patch to the smaller one
-  nsvcd__v3 d;
+  nsvcd__v inverse, k1, k2;  // 1 / (r1 + r2), and the radii
+  nsvcd__v swap;             // -1 if the fixed patch is the larger, else 1
+  nsvcd__v3 d;               // from the larger patch's centre to the smaller one's
   nsvcd__v3 lean;
-  // the moving patch's
-  nsvcd__v3 normal;
-  // -1 where time is to run backwards, else 1
-  nsvcd__v time;
-  // the larger patch's, as time runs
-  nsvcd__v3 v, w;
-  // rows are its axes in the fixed body's frame
-  nsvcd__vmat3 frame;
-  // -1 where mirrored, else 1
-  nsvcd__v side;
+  nsvcd__v3 normal;    // the moving patch's
+  nsvcd__v time;       // -1 if time runs backwards, else 1
+  nsvcd__v3 v, w;      // the larger patch's motion, as time runs
+  nsvcd__vmat3 frame;  // its rows are the axes
+  nsvcd__v side;       // -1 if mirrored, else 1
 } nsvcd__views;
 
-// Removes from a its part along the unit vector e.
+// a without its part along the unit vector e.
 static nsvcd__v3 nsvcd__v_across(nsvcd__v3 a, nsvcd__v3 e) {
   return nsvcd__v3_fma(nsvcd__v_negate(nsvcd__v3_dot(a, e)), e, a);
 }
@@ -295,24 +276,20 @@ static nsvcd__v3 nsvcd__v3_pick(nsvcd__v a, nsvcd__v b, nsvcd__v3 x, nsvcd__v3 y
                       nsvcd__v_pick(a, b, x.z, y.z));
 }
 
-// a over its length, where that exceeds `least`; elsewhere `instead`.
+// a over its length where that exceeds `least`, elsewhere `instead`.
 static nsvcd__v3 nsvcd__v_unit_or(nsvcd__v3 a, float least, nsvcd__v3 instead) {
   const nsvcd__v length = nsvcd__v3_length(a);
   const nsvcd__v floor = nsvcd__v_set(least);
   const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), nsvcd__v_max(length, floor));
-  const nsvcd__v3 unit = nsvcd__v3_scale(a, inverse);
-  return nsvcd__v3_of(nsvcd__v_pick(length, floor, instead.x, unit.x),
-                      nsvcd__v_pick(length, floor, instead.y, unit.y),
-                      nsvcd__v_pick(length, floor, instead.z, unit.z));
+  return nsvcd__v3_pick(length, floor, instead, nsvcd__v3_scale(a, inverse));
 }
 
-// Views of a slice of pairs.
 static NSVCD__NOINLINE void nsvcd__views_of(const nsvcd__pairs *pairs, nsvcd__views *view) {
   const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v one = nsvcd__v_set(1);
   const nsvcd__v minus = nsvcd__v_set(-1);
   const nsvcd__v3 between = nsvcd__v3_sub(pairs->p2, pairs->p1);
-  // The unit of length: r1 + r2; for points without extent whatever keeps the inputs finite.
+  // The unit of length: r1 + r2, or, between two points, what keeps the inputs finite.
   const nsvcd__v lengths = nsvcd__v_add(nsvcd__v3_length(between), nsvcd__v3_length(pairs->v));
   const nsvcd__v least = nsvcd__v_fma(nsvcd__v_set(1e-6f), lengths, nsvcd__v_set(1e-30f));
   const nsvcd__v unit = nsvcd__v_max(nsvcd__v_add(pairs->r1, pairs->r2), least);
@@ -321,8 +298,8 @@ static NSVCD__NOINLINE void nsvcd__views_of(const nsvcd__pairs *pairs, nsvcd__vi
   view->k1 = nsvcd__v_mul(pairs->r1, inverse);
   view->k2 = nsvcd__v_mul(pairs->r2, inverse);
   view->swap = nsvcd__v_pick(pairs->r2, pairs->r1, one, minus);
-  // Seen from the other body the motion is reversed as well, and time may run either way: v and w
-  // change their signs no more than once.
+  // The larger patch's motion changes its sign with `swap`, and again with `time`: in all with
+  // `sign` below.
   view->normal = nsvcd__vmat3_apply(pairs->rotation, pairs->normal[0]);
   const nsvcd__v3 lean1 = nsvcd__v3_scale(view->normal, view->k1);
   const nsvcd__v3 lean2 = nsvcd__v3_scale(pairs->normal[1], view->k2);
@@ -331,7 +308,7 @@ static NSVCD__NOINLINE void nsvcd__views_of(const nsvcd__pairs *pairs, nsvcd__vi
   view->lean = lean;
   view->d = nsvcd__v3_scale(nsvcd__v3_scale(between, inverse), view->swap);
 
-  // The frames, and which way time runs.
+  // the frames, and the direction of time
   const nsvcd__v3 x_axis = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
   const nsvcd__v3 line = nsvcd__v3_of(nsvcd__v_plus(lean.x, 1e-6f), lean.y, lean.z);
   nsvcd__v3 instead = nsvcd__v_unit_or(line, 1e-9f, x_axis);
@@ -344,7 +321,7 @@ static NSVCD__NOINLINE void nsvcd__views_of(const nsvcd__pairs *pairs, nsvcd__vi
   view->w = nsvcd__v3_scale(pairs->w, sign);
   const nsvcd__v3 forward = nsvcd__v3_scale(v_across, sign);
   const nsvcd__v3 ref = nsvcd__v3_fma(nsvcd__v_set(NSVCD__LEAN), lean_across, forward);
-  // where the reference vanishes in some lane: the coordinate axis farthest from e1
+  // if the reference vanishes in some lane: the coordinate axis farthest from e1
   if (nsvcd__v_le(nsvcd__v3_length(ref), nsvcd__v_set(1e-7f))) {
     const nsvcd__v3 size = nsvcd__v3_max(e1, nsvcd__v3_negate(e1));
     const nsvcd__v x = nsvcd__v_pick(size.x, nsvcd__v_min(size.y, size.z), one, zero);
@@ -364,28 +341,23 @@ static NSVCD__NOINLINE void nsvcd__views_of(const nsvcd__pairs *pairs, nsvcd__vi
 
 // ---- gaps
 
-// Where gaps between extremes are measured.
-typedef struct nsvcd__gap_axes {
-  // from the fixed patches to the moving ones
-  nsvcd__v3 u[NSVCD__GAPS];
-} nsvcd__gap_axes;
-
+// The axes u (GAPS) along which gaps are measured.
 static void nsvcd__gap_axes_of(const nsvcd__pairs *pairs, const nsvcd__views *view,
-                               nsvcd__gap_axes *axes) {
+                               nsvcd__v3 *u) {
   const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v3 between = nsvcd__v3_sub(pairs->p1, pairs->p2);
   const nsvcd__v3 x_axis = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
   const nsvcd__v3 line = nsvcd__v_unit_or(between, 1e-20f, x_axis);
   const nsvcd__v3 fixed = nsvcd__v_unit_or(pairs->normal[1], 0.5f, line);
   const nsvcd__v3 moving = nsvcd__v_unit_or(nsvcd__v3_negate(view->normal), 0.5f, line);
-  axes->u[NSVCD__GAP_LARGER] = nsvcd__v3_pick(zero, view->swap, moving, fixed);
-  axes->u[NSVCD__GAP_SMALLER] = nsvcd__v3_pick(zero, view->swap, fixed, moving);
-  axes->u[NSVCD__GAP_LINE] = line;
-  axes->u[NSVCD__GAP_BOTH] = nsvcd__v_unit_or(nsvcd__v3_add(fixed, moving), 1e-3f, line);
+  u[NSVCD__GAP_LARGER] = nsvcd__v3_pick(zero, view->swap, moving, fixed);
+  u[NSVCD__GAP_SMALLER] = nsvcd__v3_pick(zero, view->swap, fixed, moving);
+  u[NSVCD__GAP_LINE] = line;
+  u[NSVCD__GAP_BOTH] = nsvcd__v_unit_or(nsvcd__v3_add(fixed, moving), 1e-3f, line);
 }
 
-// The extremes of the first `count` pairs of a slice, of the moving patches and of the fixed ones:
-// (2, TIPS, 3, SLICE) steps of 1/127 of the radii, from the centres, in the bodies' frames.
+// The extreme points of the first `count` pairs of a slice, of the moving patches and of the fixed
+// ones: (2, EXTREMES, 3, SLICE), from the centres, in the bodies' frames, in 1/127 of the radii.
 static void nsvcd__extremes_collect(const nsvcd__pairs *pairs, size_t count,
                                     int8_t *extremes) {
   memset(extremes, 0, 2 * 3 * NSVCD__EXTREMES * NSVCD__SLICE);
@@ -396,8 +368,8 @@ static void nsvcd__extremes_collect(const nsvcd__pairs *pairs, size_t count,
   }
 }
 
-// What a direction u becomes for a patch that turns on by w, to the second order: its product with
-// q is u . (q + w x q + w x (w x q) / 2).
+// The direction u as seen from a patch that turns by w, to the second order: its dot product with q
+// is u . (q + w x q + w x (w x q) / 2).
 static nsvcd__v3 nsvcd__turned_back(nsvcd__v3 u, nsvcd__v3 w) {
   const nsvcd__v along = nsvcd__v_scale(nsvcd__v3_dot(u, w), 0.5f);
   const nsvcd__v less = nsvcd__v_scale(nsvcd__v3_dot(w, w), -0.5f);
@@ -405,22 +377,22 @@ static nsvcd__v3 nsvcd__turned_back(nsvcd__v3 u, nsvcd__v3 w) {
   return nsvcd__v3_fma(less, u, nsvcd__v3_fma(along, w, turned));
 }
 
-// The gaps along the axes, wide (GAPS), in the fixed body's units, at tau: -1 and 1 are the ends of
-// the interval. Seen from a frame that turns half as fast as the moving patch, in which either
-// patch may be called the one that moves: the line between the centres goes by v, one patch turns
-// by half of w, and the other the opposite way. extremes: nsvcd__extremes_collect.
-static NSVCD__NOINLINE void nsvcd__gaps_at(const nsvcd__pairs *pairs,
-                                           const nsvcd__gap_axes *axes, const int8_t *extremes,
-                                           nsvcd__v tau, nsvcd__v *wide) {
+// The gaps along the axes u at tau, wide (GAPS), in the fixed body's units; the interval's ends are
+// -1 and 1. Seen from a frame that turns half as fast as the moving patch, so that both patches are
+// treated alike: the line between the centres moves by v, one patch turns by w / 2, the other by
+// -w / 2. extremes: of nsvcd__extremes_collect.
+static NSVCD__NOINLINE void nsvcd__gaps_at(const nsvcd__pairs *pairs, const nsvcd__v3 *u,
+                                           const int8_t *extremes, nsvcd__v tau,
+                                           nsvcd__v *wide) {
   const size_t size = 3 * NSVCD__SLICE;
   const nsvcd__v3 half = nsvcd__v3_scale(pairs->w, nsvcd__v_scale(tau, 0.5f));
   const nsvcd__v3 back = nsvcd__v3_negate(half);
   nsvcd__v3 own[NSVCD__GAPS], other[NSVCD__GAPS];
   nsvcd__v low[NSVCD__GAPS], high[NSVCD__GAPS];
   for (size_t d = 0; d < NSVCD__GAPS; d++) {
-    const nsvcd__v3 turned = nsvcd__turned_back(axes->u[d], half);
+    const nsvcd__v3 turned = nsvcd__turned_back(u[d], half);
     own[d] = nsvcd__vmat3_apply_transpose(pairs->rotation, turned);
-    other[d] = nsvcd__turned_back(axes->u[d], back);
+    other[d] = nsvcd__turned_back(u[d], back);
     low[d] = nsvcd__v_set(1e30f);
     high[d] = nsvcd__v_set(-1e30f);
   }
@@ -437,76 +409,74 @@ static NSVCD__NOINLINE void nsvcd__gaps_at(const nsvcd__pairs *pairs,
   const nsvcd__v step1 = nsvcd__v_scale(pairs->r1, 1.0f / 127);
   const nsvcd__v step2 = nsvcd__v_scale(pairs->r2, 1.0f / 127);
   for (size_t d = 0; d < NSVCD__GAPS; d++) {
-    const nsvcd__v above = nsvcd__v_fma(step1, low[d], nsvcd__v3_dot(axes->u[d], apart));
+    const nsvcd__v above = nsvcd__v_fma(step1, low[d], nsvcd__v3_dot(u[d], apart));
     wide[d] = nsvcd__v_sub(above, nsvcd__v_mul(step2, high[d]));
   }
 }
 
-// A gap, times so much, as it is told: x / (1 + |x|).
-static nsvcd__v nsvcd__gap_told(nsvcd__v gap, float steep) {
+// The fact about a gap.
+static nsvcd__v nsvcd__gap_fact(nsvcd__v gap, float steep) {
   const nsvcd__v x = nsvcd__v_scale(gap, steep);
   return nsvcd__v_div(x, nsvcd__v_plus(nsvcd__v_abs(x), 1));
 }
 
-// The facts about gaps.
-static NSVCD__NOINLINE void nsvcd__tell_gaps(const nsvcd__pairs *pairs,
+// Writes the facts about gaps.
+static NSVCD__NOINLINE void nsvcd__gap_facts(const nsvcd__pairs *pairs,
                                              const nsvcd__views *view, size_t count,
                                              float (*facts)[NSVCD__SLICE]) {
   int8_t extremes[2 * 3 * NSVCD__EXTREMES * NSVCD__SLICE];
-  nsvcd__gap_axes axes;
-  nsvcd__gap_axes_of(pairs, view, &axes);
+  nsvcd__v3 u[NSVCD__GAPS];
+  nsvcd__gap_axes_of(pairs, view, u);
   nsvcd__extremes_collect(pairs, count, extremes);
   for (size_t m = 0; m < NSVCD__MOMENTS; m++) {
     const nsvcd__v tau = nsvcd__v_scale(view->time, (float)m - 1);
     nsvcd__v wide[NSVCD__GAPS];
     nsvcd__v widest = nsvcd__v_set(-1e30f);
-    nsvcd__gaps_at(pairs, &axes, extremes, tau, wide);
+    nsvcd__gaps_at(pairs, u, extremes, tau, wide);
     for (size_t d = 0; d < NSVCD__GAPS; d++) {
       const nsvcd__v gap = nsvcd__v_mul(view->inverse, wide[d]);
       float *to = facts[NSVCD__FACT_GAPS + NSVCD__MOMENTS * d + m];
-      nsvcd__v_store(to, nsvcd__gap_told(gap, NSVCD__GAP_STEEP));
+      nsvcd__v_store(to, nsvcd__gap_fact(gap, NSVCD__GAP_STEEP));
       widest = nsvcd__v_max(widest, gap);
     }
     nsvcd__v_store(facts[NSVCD__FACT_WIDEST + m],
-                   nsvcd__gap_told(widest, NSVCD__WIDEST_STEEP));
+                   nsvcd__gap_fact(widest, NSVCD__WIDEST_STEEP));
   }
 }
 
 // ---- inputs
 
-// What the decoder sees of a slice of pairs, besides the latents, which it sees turned.
-typedef struct nsvcd__scenes {
-  // of the moving patches and of the fixed ones: from their bodies' frames to the pairs', and their
-  // radii, in units of the pairs' lengths
-  nsvcd__vmat3 turn[2];
-  nsvcd__v k[2];
-  // lanes in which the first patch is the larger
-  uint32_t keep;
+// What inputs for a slice of pairs are made of, besides the latents.
+typedef struct nsvcd__inputs {
+  // of the moving patches and of the fixed ones:
+  nsvcd__vmat3 turn[2];  // from their bodies' frames to the pairs'
+  nsvcd__v k[2];         // radii, in the pairs' units
+  uint32_t keep;         // lanes in which the moving patch is the larger
   float facts[NSVCD__FACTS][NSVCD__SLICE];
-} nsvcd__scenes;
+} nsvcd__inputs;
 
-// A slice of scenes, but for the facts about gaps.
-static NSVCD__NOINLINE void nsvcd__scenes_without_gaps(const nsvcd__pairs *pairs,
+// All of that but for the facts about gaps.
+static NSVCD__NOINLINE void nsvcd__inputs_without_gaps(const nsvcd__pairs *pairs,
                                                        const nsvcd__views *view,
-                                                       nsvcd__scenes *scene) {
-  scene->turn[0] = nsvcd__vmat3_mul(view->frame, pairs->rotation);
-  scene->turn[1] = view->frame;
-  scene->k[0] = view->k1;
-  scene->k[1] = view->k2;
-  scene->keep = nsvcd__v_le(nsvcd__v_set(0), view->swap);
+                                                       nsvcd__inputs *out) {
+  out->turn[0] = nsvcd__vmat3_mul(view->frame, pairs->rotation);
+  out->turn[1] = view->frame;
+  out->k[0] = view->k1;
+  out->k[1] = view->k2;
+  out->keep = nsvcd__v_le(nsvcd__v_set(0), view->swap);
 
   const nsvcd__v speed2 = nsvcd__v3_dot(view->v, view->v);
   const nsvcd__v above = nsvcd__v_plus(speed2, 1e-6f);
-  // nearest approach of the centres, in half intervals
-  const nsvcd__v nearest = nsvcd__v_div(nsvcd__v3_dot(view->d, view->v), above);
-  const nsvcd__v tau = nsvcd__v_clamp(nearest, -1, 1);
+  // the time of the centres' closest approach, in half intervals
+  const nsvcd__v when = nsvcd__v_div(nsvcd__v3_dot(view->d, view->v), above);
+  const nsvcd__v tau = nsvcd__v_clamp(when, -1, 1);
   const nsvcd__v3 closest = nsvcd__v3_sub(view->d, nsvcd__v3_scale(view->v, tau));
   const nsvcd__v3 velocity = nsvcd__vmat3_apply(view->frame, view->v);
   const nsvcd__v3 turn = nsvcd__vmat3_apply(view->frame, view->w);
-  // an axial vector
+  // the turn is an axial vector
   const nsvcd__v3 mirrored = nsvcd__v3_scale(turn, view->side);
 
-  float(*facts)[NSVCD__SLICE] = scene->facts;
+  float(*facts)[NSVCD__SLICE] = out->facts;
   nsvcd__v_store(facts[NSVCD__FACT_DISTANCE], nsvcd__v3_length(view->d));
   nsvcd__v_store(facts[NSVCD__FACT_RADIUS], nsvcd__v_max(view->k1, view->k2));
   nsvcd__v_store(facts[NSVCD__FACT_CLOSEST], nsvcd__v3_length(closest));
@@ -529,40 +499,40 @@ static NSVCD__NOINLINE void nsvcd__scenes_without_gaps(const nsvcd__pairs *pairs
   nsvcd__v_store(flat[1], nsvcd__v_pick(zero, view->swap, pairs->flat[1], pairs->flat[0]));
 }
 
-// Scenes of the first `count` pairs of a slice. One step after the other, so that the stack of one
-// does not lie below that of the next.
-static void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t count, nsvcd__scenes *scene) {
+// For the first `count` pairs of a slice. Step by step, so that the stack of one step does not add
+// to that of the next.
+static void nsvcd__inputs_of(const nsvcd__pairs *pairs, size_t count, nsvcd__inputs *out) {
   nsvcd__views view;
   nsvcd__views_of(pairs, &view);
-  nsvcd__scenes_without_gaps(pairs, &view, scene);
-  nsvcd__tell_gaps(pairs, &view, count, scene->facts);
+  nsvcd__inputs_without_gaps(pairs, &view, out);
+  nsvcd__gap_facts(pairs, &view, count, out->facts);
 }
 
-// The inputs of the decoder (appendix F) for the first `count` pairs of a slice, x (count,
-// DECODER_IN): vectors of the larger patch and of the other, their scalars, and the facts.
-static NSVCD__NOINLINE void nsvcd__inputs_in(const nsvcd__scenes *scene,
-                                             const nsvcd__pairs *pairs, size_t count,
-                                             float *x) {
+// Writes the decoder's inputs for the first `count` pairs of a slice, x (count, DECODER_IN): the
+// vectors of the larger patch and of the smaller one, their scalars, and the facts.
+static NSVCD__NOINLINE void nsvcd__inputs_write(const nsvcd__inputs *in,
+                                                const nsvcd__pairs *pairs, size_t count,
+                                                float *x) {
   const nsvcd__v step = nsvcd__v_set(NSVCD__LATENT_STEP);
   float wigner[NSVCD__WIGNER][NSVCD__SLICE];
   for (size_t n = 0; n < 2; n++) {
-    nsvcd__wigner(&scene->turn[n], nsvcd__v_mul(scene->k[n], step), wigner);
+    nsvcd__wigner(&in->turn[n], nsvcd__v_mul(in->k[n], step), wigner);
     for (size_t l = 0; l < count; l++) {
-      const size_t slot = (scene->keep >> l & 1) == n;
+      const size_t slot = (in->keep >> l & 1) == n;
       nsvcd__rotate_latent(pairs->z[n][l], wigner, l, slot, x + NSVCD__DECODER_IN * l);
     }
   }
   for (size_t l = 0; l < count; l++) {
     float *facts = x + NSVCD__DECODER_IN * l + 2 * NSVCD__LATENT;
     for (size_t k = 0; k < NSVCD__DECODER_IN - 2 * NSVCD__LATENT; k++)
-      facts[k] = k < NSVCD__FACTS ? scene->facts[k][l] : 0;
+      facts[k] = k < NSVCD__FACTS ? in->facts[k][l] : 0;
   }
 }
 
 static NSVCD__NOINLINE void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count,
                                               float *x) {
-  nsvcd__scenes scene;
-  nsvcd__scenes_of(pairs, count, &scene);
-  nsvcd__inputs_in(&scene, pairs, count, x);
+  nsvcd__inputs inputs;
+  nsvcd__inputs_of(pairs, count, &inputs);
+  nsvcd__inputs_write(&inputs, pairs, count, x);
 }
 #endif  // NSVCD_NO_NETWORK

@@ -310,7 +310,6 @@ static void nsvcd__stage_init(const nsvcd_plan_options *o, nsvcd__stage *stage) 
   }
   for (size_t k = 0; k < via * via; k++)
     stage->factor[k] = stage->form[(k / via + 1) * all + k % via + 1];
-  // in place: row i is read before it is written
   nsvcd__cholesky(stage->factor, via);
 
   // the variance of via point k is |L^-1 e_k|^2
