@@ -1,27 +1,27 @@
-// In: the samples of one patch, its centre and the radius of its ball. Out: its latent
-// (NSVCD__LATENT floats in (-1,1)): NSVCD_W_CHANNELS vectors of degree 1, as many of degree 2,
+// In: the samples of one patch, its centre, and the radius of its ball. Out: its latent
+// (NSVCD__LATENT floats in (-1,1)): NSVCD_W_CHANNELS vectors of degree 1, as many of degree 2, and
 // NSVCD_W_SCALARS invariants.
 //
 // A Vector-Neuron encoder (Deng et al. 2021) on features of degrees 1 and 2 (FER-VN, Son et al.
-// 2024): channels are mixed by matrices shared by all components, and the only nonlinearities are
-// gates computed from invariants, so turning the samples by R turns the latent by D(R). Dividing by
-// the radius makes it independent of scale.
+// 2024). Channels are mixed by matrices shared by all components, and the only nonlinearities are
+// gates computed from invariants, so that turning the samples by R turns the latent by D(R).
+// Dividing by the radius makes it independent of scale.
 #pragma once
 #include "../ground/points.h"
 #include "model.h"
 
 #ifndef NSVCD_NO_NETWORK
 #ifndef NSVCD_NO_ENCODER
-// channels after pooling
+// Channels after pooling.
 #define NSVCD__WIDE (NSVCD_W_POOLED + NSVCD_W_CONTEXT)
-// of each sample
+// Invariants of a sample.
 #define NSVCD__INVARIANTS (2 + 5 * NSVCD_W_CONTEXT)
 #define NSVCD__GATES (5 * NSVCD_W_POOLED + NSVCD_W_POOLED_SCALARS)
 #define NSVCD__PATCH_IN (2 * NSVCD__WIDE + NSVCD_W_POOLED_SCALARS)
 #define NSVCD__PATCH_OUT (2 * NSVCD_W_HIDDEN + NSVCD_W_SCALARS)
 
 // A linear layer: y = w^T x + bias; w (inputs, outputs), bias (outputs) or NULL, x (inputs),
-// y (outputs), apart from each other. It is a sum of rows, which compilers vectorise.
+// y (outputs), which do not overlap. A sum of rows, which compilers vectorise.
 static void nsvcd__linear(const float *w, const float *bias, size_t inputs, size_t outputs,
                           const float *x, float *y) {
   size_t left = inputs;
@@ -56,27 +56,24 @@ typedef struct nsvcd__f5 {
   float v[5];
 } nsvcd__f5;
 
-// Written out, for compilers that leave a loop over five in memory.
+// Written out, for compilers that keep the five in memory if it is a loop.
 static inline nsvcd__f5 nsvcd__f5_scale(nsvcd__f5 a, float s) {
   const float *v = a.v;
   const nsvcd__f5 out = {{s * v[0], s * v[1], s * v[2], s * v[3], s * v[4]}};
   return out;
 }
-static inline nsvcd__f5 nsvcd__f5_add(nsvcd__f5 a, nsvcd__f5 b) {
-  nsvcd__f5 out;
-  out.v[0] = a.v[0] + b.v[0];
-  out.v[1] = a.v[1] + b.v[1];
-  out.v[2] = a.v[2] + b.v[2];
-  out.v[3] = a.v[3] + b.v[3];
-  out.v[4] = a.v[4] + b.v[4];
+// s b + a
+static inline nsvcd__f5 nsvcd__f5_fma(float s, nsvcd__f5 b, nsvcd__f5 a) {
+  const float *v = a.v;
+  const float *w = b.v;
+  const nsvcd__f5 out = {
+      {v[0] + s * w[0], v[1] + s * w[1], v[2] + s * w[2], v[3] + s * w[3], v[4] + s * w[4]}};
   return out;
 }
 static inline float nsvcd__f5_dot(nsvcd__f5 a, nsvcd__f5 b) {
-  float sum = a.v[0] * b.v[0];
-  sum += a.v[1] * b.v[1];
-  sum += a.v[2] * b.v[2];
-  sum += a.v[3] * b.v[3];
-  return sum + a.v[4] * b.v[4];
+  const float *v = a.v;
+  const float *w = b.v;
+  return v[0] * w[0] + v[1] * w[1] + v[2] * w[2] + v[3] * w[3] + v[4] * w[4];
 }
 
 // The symmetric traceless part of a b^T, scaled so that the square of a vector has its squared
@@ -92,24 +89,19 @@ static nsvcd__f5 nsvcd__degree2(nsvcd__f3 a, nsvcd__f3 b) {
   return q;
 }
 
-// The samples of a patch, in its frame.
+// What the encoder sees of a patch.
 typedef struct nsvcd__encoded {
-  // (count)
-  const nsvcd__f3 *samples;
-  // (count)
-  const nsvcd__f3 *normals;
+  const nsvcd__f3 *samples, *normals;  // (count)
   size_t count;
   nsvcd__f3 centre;
   float inverse_radius;
 } nsvcd__encoded;
 
-// One sample: its vectors of degree 1 and 2.
+// A sample's vectors of degree 1 and 2.
 typedef struct nsvcd__feature {
-  // place over the radius; unit normal
-  nsvcd__f3 u, n;
-  float uu, un;  // |u|^2, u.n
-  // degree2 of both
-  nsvcd__f5 quu, qun, qnn;
+  nsvcd__f3 u, n;           // position from the centre, over the radius; unit normal
+  float uu, un;             // |u|^2, u.n
+  nsvcd__f5 quu, qun, qnn;  // nsvcd__degree2 of both
 } nsvcd__feature;
 
 static nsvcd__feature nsvcd__feature_of(const nsvcd__encoded *patch, size_t i) {
@@ -125,7 +117,7 @@ static nsvcd__feature nsvcd__feature_of(const nsvcd__encoded *patch, size_t i) {
   return f;
 }
 
-// The channels of a patch: what is pooled, then the context.
+// The channels of a patch: pooled ones, then the context.
 typedef struct nsvcd__channels {
   nsvcd__f3 degree1[NSVCD__WIDE];
   nsvcd__f5 degree2[NSVCD__WIDE];
@@ -142,10 +134,10 @@ static void nsvcd__context(const nsvcd__encoded *patch, nsvcd__channels *out) {
     m1[1] = nsvcd__f3_fma(f.uu, f.n, m1[1]);
     m1[2] = nsvcd__f3_fma(f.un, f.u, m1[2]);
     m1[3] = nsvcd__f3_fma(f.uu, f.u, m1[3]);
-    m2[0] = nsvcd__f5_add(m2[0], f.quu);
-    m2[1] = nsvcd__f5_add(m2[1], f.qun);
-    m2[2] = nsvcd__f5_add(m2[2], f.qnn);
-    m2[3] = nsvcd__f5_add(m2[3], nsvcd__f5_scale(f.qun, f.un));
+    m2[0] = nsvcd__f5_fma(1, f.quu, m2[0]);
+    m2[1] = nsvcd__f5_fma(1, f.qun, m2[1]);
+    m2[2] = nsvcd__f5_fma(1, f.qnn, m2[2]);
+    m2[3] = nsvcd__f5_fma(f.un, f.qun, m2[3]);
   }
   const float fraction = 1 / (float)patch->count;
   for (size_t c = 0; c < NSVCD_W_CONTEXT; c++) {
@@ -155,14 +147,14 @@ static void nsvcd__context(const nsvcd__encoded *patch, nsvcd__channels *out) {
       const float w1 = nsvcd_w_context1[m * NSVCD_W_CONTEXT + c];
       const float w2 = nsvcd_w_context2[m * NSVCD_W_CONTEXT + c];
       c1 = nsvcd__f3_fma(fraction, nsvcd__f3_scale(m1[m], w1), c1);
-      c2 = nsvcd__f5_add(c2, nsvcd__f5_scale(nsvcd__f5_scale(m2[m], w2), fraction));
+      c2 = nsvcd__f5_fma(fraction, nsvcd__f5_scale(m2[m], w2), c2);
     }
     out->degree1[NSVCD_W_POOLED + c] = c1;
     out->degree2[NSVCD_W_POOLED + c] = c2;
   }
 }
 
-// The sample network: invariants of one sample -> its gates, (5 POOLED + POOLED_SCALARS).
+// The sample network: a sample's invariants -> its gates (GATES).
 static void nsvcd__gates(const nsvcd__feature *f, const nsvcd__channels *context,
                          float *gates) {
   const size_t hidden = NSVCD_W_POINT_HIDDEN;
@@ -186,8 +178,8 @@ static void nsvcd__gates(const nsvcd__feature *f, const nsvcd__channels *context
   nsvcd__linear(nsvcd_w_point2, nsvcd_w_point2_bias, hidden, NSVCD__GATES, h2, gates);
 }
 
-// The patch network: the channels -> the latent. Of each degree the channels are mixed, gated and
-// mixed once more.
+// The patch network: channels -> latent. The channels of each degree are mixed, gated, and mixed
+// again.
 static void nsvcd__finish_latent(const nsvcd__channels *a, float *latent) {
   const size_t hidden = NSVCD_W_PATCH_HIDDEN;
   float x[NSVCD__PATCH_IN], h[NSVCD_W_PATCH_HIDDEN], y[NSVCD__PATCH_OUT];
@@ -216,7 +208,7 @@ static void nsvcd__finish_latent(const nsvcd__channels *a, float *latent) {
       float *z = latent + NSVCD_W_CHANNELS * k;
       nsvcd__linear(out, NULL, NSVCD_W_HIDDEN, NSVCD_W_CHANNELS, gated, z);
     }
-    // shortened to less than 1, so that int8 holds it
+    // shortened below length 1, so that int8 holds them
     for (size_t c = 0; c < NSVCD_W_CHANNELS; c++) {
       float *z = latent + c;
       float square = 0;
@@ -231,7 +223,7 @@ static void nsvcd__finish_latent(const nsvcd__channels *a, float *latent) {
   for (size_t c = 0; c < NSVCD_W_SCALARS; c++) latent[c] = tanhf(scalars[c]);
 }
 
-// The latent (LATENT) of a patch of one sample or more: degree 1 (3, CHANNELS), degree 2 (5,
+// The latent (LATENT) of a patch of one or more samples: degree 1 (3, CHANNELS), degree 2 (5,
 // CHANNELS), scalars.
 static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
   const size_t pooled = NSVCD_W_POOLED;
@@ -246,12 +238,12 @@ static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
     for (size_t c = 0; c < pooled; c++) {
       const float *gate = gates + c;
       nsvcd__f3 a1 = nsvcd__f3_scale(f.u, gate[0]);
-      a1 = nsvcd__f3_add(a1, nsvcd__f3_scale(f.n, gate[pooled]));
+      a1 = nsvcd__f3_fma(gate[pooled], f.n, a1);
       nsvcd__f5 a2 = nsvcd__f5_scale(f.quu, gate[2 * pooled]);
-      a2 = nsvcd__f5_add(a2, nsvcd__f5_scale(f.qun, gate[3 * pooled]));
-      a2 = nsvcd__f5_add(a2, nsvcd__f5_scale(f.qnn, gate[4 * pooled]));
+      a2 = nsvcd__f5_fma(gate[3 * pooled], f.qun, a2);
+      a2 = nsvcd__f5_fma(gate[4 * pooled], f.qnn, a2);
       all.degree1[c] = nsvcd__f3_fma(fraction, a1, all.degree1[c]);
-      all.degree2[c] = nsvcd__f5_add(all.degree2[c], nsvcd__f5_scale(a2, fraction));
+      all.degree2[c] = nsvcd__f5_fma(fraction, a2, all.degree2[c]);
     }
     for (size_t c = 0; c < NSVCD_W_POOLED_SCALARS; c++)
       all.scalars[c] += gates[5 * pooled + c] * fraction;

@@ -1,4 +1,4 @@
-// In: invariants of pairs (n, DECODER_IN). Out: a logit each, and how far the pair comes apart.
+// In: invariants of pairs (n, DECODER_IN). Out: a logit each, and the pair's least distance.
 #pragma once
 #include "pairs.h"
 
@@ -6,18 +6,16 @@
 // What a decoder says of a pair.
 enum {
   NSVCD__SAYS_LOGIT,
-  NSVCD__SAYS_APART,  // distance, negative: depth, in tenths of r1 + r2
+  NSVCD__SAYS_APART,  // the least distance, or minus the depth, in tenths of r1 + r2
   NSVCD__SAYINGS
 };
 
-// Where a layer's numbers lie: y = w^T x + bias, then ReLU but for the last layer.
+// A layer, y = w^T x + bias, and where its numbers begin.
 typedef struct nsvcd__layer {
   size_t inputs, outputs;  // multiples of 4, and of 16
-  // in nsvcd_w_decoder, (inputs, outputs), and in nsvcd_w_decoder_int8
-  size_t weights;
-  // of its outputs, in nsvcd_w_decoder_bias, _scale and _sum
-  size_t first;
-  int relu;
+  size_t weights;          // (inputs, outputs) in nsvcd_w_decoder, and in nsvcd_w_decoder_int8
+  size_t first;            // (outputs) in nsvcd_w_decoder_bias, _scale and _sum
+  int relu;                // of all layers but the last
 } nsvcd__layer;
 
 // The n-th layer of a decoder.
@@ -37,8 +35,8 @@ static nsvcd__layer nsvcd__layer_of(const nsvcd__decoder *decoder, size_t n) {
 }
 
 #ifndef NSVCD_NO_FLOAT
-// Outputs o .. o + tiles * SLICE - 1 of a layer for so many rows: x, of which a row begins every
-// `pitch` floats, and y (rows, WIDEST). rows * tiles sums must fit into the registers.
+// Outputs o .. o + tiles * SLICE - 1 of a layer for so many rows: x, a row every `pitch` floats,
+// and y (rows, WIDEST). rows * tiles sums must fit into the registers.
 NSVCD__INLINE void nsvcd__layer_tile(const nsvcd__layer *layer, size_t o, const float *x,
                                      size_t pitch, float *y, size_t rows, size_t tiles) {
   const size_t inputs = layer->inputs;
@@ -73,59 +71,41 @@ NSVCD__INLINE void nsvcd__layer_tile(const nsvcd__layer *layer, size_t o, const 
   }
 }
 
-// As nsvcd__decoder_says, in fp32. The weights of the largest decoder do not fit into the first
-// cache, so the more rows at a time the better: 8 by 2 or 4 by 4 sums in 32 registers, 4 by 16
-// outputs, or by 4 slices where that is less, in fewer.
+// A layer in fp32, for `count` rows, a multiple of ROW_STEP: x, a row every `pitch` floats, and y
+// (count, WIDEST). The weights of the largest decoder do not fit into the first cache, so that more
+// rows at a time are faster: 8 by 2 or 4 by 4 sums in 32 registers; in fewer, 4 rows by 16 outputs,
+// or by 4 slices if that is less.
 #define NSVCD__TILES (NSVCD__LANES / NSVCD__SLICE < 4 ? NSVCD__LANES / NSVCD__SLICE : 4)
-static NSVCD__NOINLINE void nsvcd__decoder_by_floats(const nsvcd__decoder *decoder,
-                                                     const float *x, size_t count,
-                                                     float (*said)[NSVCD__SAYINGS]) {
-  const size_t rows = nsvcd__round_up(count, NSVCD__ROW_STEP);
-  float a[NSVCD__ROWS * NSVCD__WIDEST];
-  float b[NSVCD__ROWS * NSVCD__WIDEST];
-  float *y = a;
-  size_t pitch = NSVCD__DECODER_IN;
-  for (size_t n = 0; n < decoder->layers; n++) {
-    const nsvcd__layer layer = nsvcd__layer_of(decoder, n);
-    const size_t outputs = layer.outputs;
-    size_t p = 0;
-    size_t o;
+static NSVCD__NOINLINE void nsvcd__layer_by_floats(const nsvcd__layer *layer, const float *x,
+                                                   size_t pitch, size_t count, float *y) {
+  const size_t outputs = layer->outputs;
+  size_t p = 0;
+  size_t o;
 #if NSVCD__SLICE == 16
-    for (; p + 8 <= rows; p += 8) {
-      const float *from = x + pitch * p;
-      float *to = y + NSVCD__WIDEST * p;
-      for (o = 0; o + 32 <= outputs; o += 32)
-        nsvcd__layer_tile(&layer, o, from, pitch, to, 8, 2);
-      if (o < outputs) nsvcd__layer_tile(&layer, o, from, pitch, to, 8, 1);
-    }
-#endif
-    for (; p < rows; p += 4) {
-      const float *from = x + pitch * p;
-      float *to = y + NSVCD__WIDEST * p;
-#if NSVCD__SLICE == 16
-      for (o = 0; o + 64 <= outputs; o += 64)
-        nsvcd__layer_tile(&layer, o, from, pitch, to, 4, 4);
-      for (; o + 32 <= outputs; o += 32) nsvcd__layer_tile(&layer, o, from, pitch, to, 4, 2);
-      if (o < outputs) nsvcd__layer_tile(&layer, o, from, pitch, to, 4, 1);
-#else
-      for (o = 0; o < outputs; o += NSVCD__TILES * NSVCD__SLICE)
-        nsvcd__layer_tile(&layer, o, from, pitch, to, 4, NSVCD__TILES);
-#endif
-    }
-    x = y;
-    pitch = NSVCD__WIDEST;
-    y = y == a ? b : a;
+  for (; p + 8 <= count; p += 8, x += 8 * pitch, y += 8 * NSVCD__WIDEST) {
+    for (o = 0; o + 32 <= outputs; o += 32) nsvcd__layer_tile(layer, o, x, pitch, y, 8, 2);
+    if (o < outputs) nsvcd__layer_tile(layer, o, x, pitch, y, 8, 1);
   }
-  for (size_t p = 0; p < count; p++) memcpy(said[p], x + pitch * p, sizeof said[p]);
+#endif
+  for (; p < count; p += 4, x += 4 * pitch, y += 4 * NSVCD__WIDEST) {
+#if NSVCD__SLICE == 16
+    for (o = 0; o + 64 <= outputs; o += 64) nsvcd__layer_tile(layer, o, x, pitch, y, 4, 4);
+    for (; o + 32 <= outputs; o += 32) nsvcd__layer_tile(layer, o, x, pitch, y, 4, 2);
+    if (o < outputs) nsvcd__layer_tile(layer, o, x, pitch, y, 4, 1);
+#else
+    for (o = 0; o < outputs; o += NSVCD__TILES * NSVCD__SLICE)
+      nsvcd__layer_tile(layer, o, x, pitch, y, 4, NSVCD__TILES);
+#endif
+  }
 }
 #endif  // NSVCD_NO_FLOAT
 
 #ifndef NSVCD_NO_INT8
 // nsvcd__layer_by_bytes is a layer in integers, for BYTE_ROWS rows, which share the weights that
-// are loaded: x, of which a row begins every `pitch` floats, and y (BYTE_ROWS, WIDEST), which may
-// take x's place. Inputs over the largest of them are bytes in [1, 255] about 128, because the
-// processors' instructions multiply unsigned by signed bytes, by weights of (inputs / 4, outputs,
-// 4); sums are exact in int32, and 128 times the sum of the weights too much.
+// are loaded: x, a row every `pitch` floats, and y (BYTE_ROWS, WIDEST), which may be x. Inputs are
+// divided by the largest, and become bytes in [1, 255] about 128: processors multiply unsigned by
+// signed bytes. Weights are (inputs / 4, outputs, 4). Sums are exact in int32, and too large by 128
+// times the sum of the weights.
 #ifdef NSVCD__VNNI
 #define NSVCD__BYTE_ROWS 4
 // Outputs o .. o + 16 tiles - 1 of bytes (4, inputs): dot (4, outputs).
@@ -238,39 +218,35 @@ static void nsvcd__layer_by_bytes(const nsvcd__layer *layer, const float *x, siz
   }
 }
 #endif
-
-// As nsvcd__decoder_says, in int8 arithmetic.
-static NSVCD__NOINLINE void nsvcd__decoder_by_bytes(const nsvcd__decoder *decoder,
-                                                    const float *x, size_t count,
-                                                    float (*said)[NSVCD__SAYINGS]) {
-  float y[NSVCD__ROWS * NSVCD__WIDEST];
-  size_t pitch = NSVCD__DECODER_IN;
-  for (size_t n = 0; n < decoder->layers; n++) {
-    const nsvcd__layer layer = nsvcd__layer_of(decoder, n);
-    for (size_t p = 0; p < count; p += NSVCD__BYTE_ROWS)
-      nsvcd__layer_by_bytes(&layer, x + pitch * p, pitch, y + NSVCD__WIDEST * p);
-    x = y;
-    pitch = NSVCD__WIDEST;
-  }
-  for (size_t p = 0; p < count; p++) memcpy(said[p], x + pitch * p, sizeof said[p]);
-}
 #endif  // NSVCD_NO_INT8
 
 // x (ROWS, DECODER_IN) -> said (count, SAYINGS), of the first `count` pairs, in fp32 or int8
-// arithmetic. Some rows at a time: x must hold numbers up to a multiple of ROW_STEP.
-static void nsvcd__decoder_says(const nsvcd__decoder *decoder, const float *x, size_t count,
-                                int int8, float (*said)[NSVCD__SAYINGS]) {
-#ifdef NSVCD_NO_INT8
-  (void)int8;
-  nsvcd__decoder_by_floats(decoder, x, count, said);
-#elif defined(NSVCD_NO_FLOAT)
-  (void)int8;
-  nsvcd__decoder_by_bytes(decoder, x, count, said);
+// arithmetic. x must hold numbers up to a multiple of ROW_STEP rows.
+static NSVCD__NOINLINE void nsvcd__decoder_says(const nsvcd__decoder *decoder, const float *x,
+                                                size_t count, int int8,
+                                                float (*said)[NSVCD__SAYINGS]) {
+  float a[NSVCD__ROWS * NSVCD__WIDEST];
+#ifndef NSVCD_NO_FLOAT
+  float b[NSVCD__ROWS * NSVCD__WIDEST];
 #else
-  if (int8)
-    nsvcd__decoder_by_bytes(decoder, x, count, said);
-  else
-    nsvcd__decoder_by_floats(decoder, x, count, said);
+  float *const b = a;  // layers in integers need no second array
 #endif
+  float *y = a;
+  size_t pitch = NSVCD__DECODER_IN;
+  for (size_t n = 0; n < decoder->layers; n++) {
+    const nsvcd__layer layer = nsvcd__layer_of(decoder, n);
+#ifndef NSVCD_NO_INT8
+    for (size_t p = 0; p < count && int8; p += NSVCD__BYTE_ROWS)
+      nsvcd__layer_by_bytes(&layer, x + pitch * p, pitch, y + NSVCD__WIDEST * p);
+#endif
+#ifndef NSVCD_NO_FLOAT
+    const size_t rows = nsvcd__round_up(count, NSVCD__ROW_STEP);
+    if (!int8) nsvcd__layer_by_floats(&layer, x, pitch, rows, y);
+#endif
+    x = y;
+    pitch = NSVCD__WIDEST;
+    y = y == a ? b : a;
+  }
+  for (size_t p = 0; p < count; p++) memcpy(said[p], x + pitch * p, sizeof said[p]);
 }
 #endif  // NSVCD_NO_NETWORK

@@ -1,21 +1,21 @@
-// In: a rotation, and a latent. Out: the latent, turned.
+// In: a rotation R, and a latent. Out: the latent, turned by D(R).
 //
-// D(R), block-diagonal: R itself on degree 1, the real Wigner matrix of degree 2 on degree 2
-// (NeuralSVCD, appendix E). Computed from R directly, so D(R1 R2) = D(R1) D(R2) to rounding; R may
-// be improper (a mirror): both degrees are polynomial.
+// D(R) is block-diagonal: R on degree 1, and the real Wigner matrix on degree 2 (NeuralSVCD,
+// appendix E). Its entries are polynomials of R's, so that D(R1 R2) = D(R1) D(R2) to rounding, and
+// R may be improper (a mirror).
 #pragma once
 #include "../encoder/model.h"
 #include "../lanes/turns.h"
 
 #ifndef NSVCD_NO_NETWORK
-// numbers of a latent's vectors: (3, CHANNELS), then (5, CHANNELS)
+// Numbers of a latent's vectors: (3, CHANNELS), then (5, CHANNELS).
 #define NSVCD__VECTORS (8 * NSVCD_W_CHANNELS)
-// numbers of D: (3, 3), then (5, 5)
+// Numbers of D: (3, 3), then (5, 5).
 #define NSVCD__WIGNER 34
-// of a stored latent's numbers
+// The unit of a stored latent's numbers.
 #define NSVCD__LATENT_STEP (1.0f / 127)
 
-// The degree 2 of the symmetric product of a and b, lane by lane: q (5), as nsvcd__degree2.
+// nsvcd__degree2 of a and b, lane by lane: q (5).
 static void nsvcd__v_degree2(nsvcd__v3 a, nsvcd__v3 b, nsvcd__v *q) {
   const nsvcd__v half = nsvcd__v_set(0.5f);
   const nsvcd__v half_root3 = nsvcd__v_set(0.8660254037844386f);
@@ -33,7 +33,7 @@ static void nsvcd__v_degree2(nsvcd__v3 a, nsvcd__v3 b, nsvcd__v *q) {
 }
 
 // D of a slice of matrices, lane by lane, times `scale`: out (WIGNER, SLICE). Column k of degree 2
-// is the image of basis vector k, a degree 2 of m's columns.
+// is the image of basis vector k, made of products of m's columns.
 static NSVCD__NOINLINE void nsvcd__wigner(const nsvcd__vmat3 *m, nsvcd__v scale,
                                           float (*out)[NSVCD__SLICE]) {
   const nsvcd__v third = nsvcd__v_scale(scale, 1.0f / 3);
@@ -62,7 +62,7 @@ static NSVCD__NOINLINE void nsvcd__wigner(const nsvcd__vmat3 *m, nsvcd__v scale,
   }
 }
 
-// One degree: out (size, CHANNELS) = D (size * size, SLICE) of lane l times latent (size,
+// One degree: out (size, CHANNELS) = D (size * size, SLICE) of lane l, times latent (size,
 // CHANNELS).
 NSVCD__INLINE void nsvcd__rotate_degree(const float *latent, float (*turn)[NSVCD__SLICE],
                                         size_t l, size_t size, float *out) {
@@ -77,13 +77,13 @@ NSVCD__INLINE void nsvcd__rotate_degree(const float *latent, float (*turn)[NSVCD
   }
 }
 
-// Turns a stored latent by D (WIGNER, SLICE) of lane l, and writes it to place 0 or 1 of a row of
-// the decoder's inputs: vectors (2, 8, CHANNELS), then scalars (2, SCALARS).
+// Turns a stored latent by D (WIGNER, SLICE) of lane l, and writes it as latent `slot`, 0 or 1, of
+// a row of the decoder's inputs: vectors (2, 8, CHANNELS), then scalars (2, SCALARS).
 static NSVCD__NOINLINE void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE],
-                                                 size_t l, size_t place, float *row) {
-  float *vectors = row + NSVCD__VECTORS * place;
-  float *scalars = row + 2 * NSVCD__VECTORS + NSVCD_W_SCALARS * place;
-  // one after the other: it is the deepest place of a query
+                                                 size_t l, size_t slot, float *row) {
+  float *vectors = row + NSVCD__VECTORS * slot;
+  float *scalars = row + 2 * NSVCD__VECTORS + NSVCD_W_SCALARS * slot;
+  // one degree after the other: a query's stack is deepest here
   float degree[5 * NSVCD_W_CHANNELS];
   for (size_t k = 0; k < 3 * NSVCD_W_CHANNELS; k++) degree[k] = (float)z[k];
   nsvcd__rotate_degree(degree, turn, l, 3, vectors);

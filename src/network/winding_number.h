@@ -1,50 +1,52 @@
-// In: two bodies and a pose. Out: is one inside the other? A body wholly inside another never
-// crosses its surface, so surfaces cannot tell. The winding number of a closed surface can
-// (Jacobson et al. 2013), and far from the surface each patch is as good as a dipole of its area
-// vector (Barill et al. 2018):
+// In: two bodies and a pose. Out: is one inside the other?
+//
+// A body wholly inside another never crosses its surface, so surfaces cannot tell. The winding
+// number of a closed surface can (Jacobson et al. 2013), and far from the surface each patch is as
+// good as a dipole of its area vector (Barill et al. 2018):
 //   w(x) = sum_i A_i . (p_i - x) / (4 pi |p_i - x|^3)     1 inside, 0 outside
-// Near the surface it is not: a flat slab seen from its covering radius gives 0.25 where 0.146 is
-// true, from half of it 1.0 where 0.28 is true. So the place asked about is the patch centre of the
-// inner body (of NSVCD__POSITIONS) that is farthest from the outer patches in units of their radii,
-// or, as bodies may be of several parts, up to NSVCD__INSIDE_SAMPLES that are far from each other.
-// Nearer than NSVCD__FAR_ENOUGH the number is not asked for, but inside of a flat patch from
-// NSVCD__FAR_INSIDE on; and where all places are on the inner side of the patch that is nearest, as
-// those of a chip in a table top are, they are inside. Measured at a million places about spheres
-// of 32 to 512 patches, the worst error of w is 0.55 from 0.75 radii on, 0.52 from 1, 0.06 from
-// 1.5; from 1 on, fewer than 1 in 1,000 exceed 0.3. In bodies of more than a tile's patches the
-// sums of area vectors stand for those of whole groups, and of what is above them, where the place
-// is farther than NSVCD__DIPOLE of their spheres' radii: w is then within 0.05 of the sum over all
-// patches (tests/test_level.c). Cost: at most NSVCD__POSITIONS * N distances each way, where one
-// body's centres lie in the other's sphere and the straight way out of it is barred; of large
-// bodies only those of groups nearby.
+// Near the surface it is not: for a flat disc seen from its covering radius this gives 0.25, and
+// 0.146 is true; from half of it 1.0, and 0.28 is true. So w is taken at the patch centre of the
+// inner body, of NSVCD__POSITIONS, that is farthest from the outer patches in units of their radii;
+// or, as bodies may be of several parts, at up to NSVCD__INSIDE_SAMPLES that are far from each
+// other. They must not be nearer than NSVCD__FAR_ENOUGH, or NSVCD__FAR_INSIDE on the inner side of
+// a flat patch. If all are on the inner side of the nearest patch, as those of a chip in a table
+// top are, they are inside.
+//
+// Measured at a million points about spheres of 32 to 512 patches, the worst error of w is 0.55
+// from 0.75 radii on, 0.52 from 1, and 0.06 from 1.5; from 1 on, fewer than 1 in 1,000 exceed 0.3.
+// In bodies of more than a tile's patches the area vectors of groups, and of spheres above them,
+// are summed, and the sum stands for the members of a sphere that is farther than NSVCD__DIPOLE of
+// its radii: w is then within 0.05 of the sum over all patches (tests/test_level.c).
+//
+// Cost: at most NSVCD__POSITIONS * N distances each way, where one body's centres lie in the
+// other's sphere and the straight way out of it is barred; of large bodies only those to groups
+// nearby.
 #pragma once
 #include "../motion/segments.h"
 
 #ifndef NSVCD_NO_NETWORK
-// places of the inner body that are looked at
-#define NSVCD__POSITIONS NSVCD__LANES
-// Distances, in radii. A place is far enough if no patch is nearer than this,
+#define NSVCD__POSITIONS NSVCD__LANES  // tested points of the inner body
+// Distances in radii of a patch. A point may be asked about if no patch is nearer than
 #define NSVCD__FAR_ENOUGH 1.0f
-// or than this, on the inner side of the nearest one,
+// or than this, on the inner side of the nearest one.
 #define NSVCD__FAR_INSIDE 0.6f
-// it needs no more than this, and what is farther away is not looked at;
+// Patches beyond this are not looked at.
 #define NSVCD__AMPLE 2.0f
-// and the patches of a sphere that is farther than this count as one
+// The patches of a sphere count as one dipole beyond this, in radii of the sphere.
 #define NSVCD__DIPOLE 3.0f
-// A patch is flat if its area vector is at least this share of its ball's slab.
+// A patch is flat if its area vector is at least this share of its ball's largest disc.
 #define NSVCD__FLAT 0.4f
-// places that are far enough, and asked about: bodies may be of several parts
-#define NSVCD__INSIDE_SAMPLES 4
+#define NSVCD__INSIDE_SAMPLES 4  // winding numbers, at most
 
-// A filter of a traversal: spheres whose members may be nearer to one of the places than
-// NSVCD__AMPLE of their radii. A member (p, r) of a sphere (c, R) has |p - c| + r <= R, so that |p
-// - x| / r is at least |c - x| / R.
+// A filter of a traversal: spheres whose members may be nearer to one of the points than
+// NSVCD__AMPLE of their radii. what: the sphere about all points. A member (p, r) of a sphere (c, R)
+// has |p - c| + r <= R, so that |p - x| / r is at least |c - x| / R.
 static uint32_t nsvcd__may_be_close(const void *what, nsvcd__spheres all) {
-  const nsvcd__sphere *positions = (const nsvcd__sphere *)what;
-  const nsvcd__v radius = nsvcd__v_set(positions->radius);
+  const nsvcd__sphere *all_points = (const nsvcd__sphere *)what;
+  const nsvcd__v radius = nsvcd__v_set(all_points->radius);
   uint32_t close = 0;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 centre = nsvcd__v3_set(positions->centre);
+    const nsvcd__v3 centre = nsvcd__v3_set(all_points->centre);
     const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(all, l), centre);
     const nsvcd__v r = nsvcd__v_load(all.r + l);
     const nsvcd__v ample = nsvcd__v_fma(r, nsvcd__v_set(NSVCD__AMPLE), radius);
@@ -53,17 +55,17 @@ static uint32_t nsvcd__may_be_close(const void *what, nsvcd__spheres all) {
   return close;
 }
 
-// Where places lie about a body.
+// Where points lie about a body.
 typedef struct nsvcd__positions {
   float at[3][NSVCD__POSITIONS];
-  // Least |p_i - x| / r_i, squared, over its patches, AMPLE squared at most
+  // the least |p_i - x| / r_i over its patches, squared; at most AMPLE squared
   float square[NSVCD__POSITIONS];
-  // of the patch nearest, as a slab of its area: the squared distance, and the height over it,
-  // which is negative inside, but where the patch is not flat
+  // the squared distance of the nearest patch, taken as a disc of its area, and the height over it:
+  // negative on the inner side, if the patch is flat
   float nearest[NSVCD__POSITIONS], height[NSVCD__POSITIONS];
 } nsvcd__positions;
 
-// Fills in what follows from where they are.
+// Fills in all but `at`, from that.
 static void nsvcd__positions_measure(const nsvcd_body *body, nsvcd__positions *out) {
   const nsvcd__spheres patches = nsvcd__body_patches(body);
   const nsvcd__v zero = nsvcd__v_set(0);
@@ -78,7 +80,7 @@ static void nsvcd__positions_measure(const nsvcd_body *body, nsvcd__positions *o
     out->nearest[k] = HUGE_VALF;
     out->height[k] = 0;
   }
-  nsvcd__sphere over;  // all places
+  nsvcd__sphere over;
   over.centre = nsvcd__f3_add(nsvcd__f3_scale(low, 0.5f), nsvcd__f3_scale(high, 0.5f));
   over.radius = nsvcd__f3_length(nsvcd__f3_sub(high, over.centre));
   nsvcd__traversal_begin(&traversal, body, nsvcd__may_be_close, &over);
@@ -117,9 +119,9 @@ static void nsvcd__positions_measure(const nsvcd_body *body, nsvcd__positions *o
   }
 }
 
-// Adds the terms of the winding number of so many spheres, a multiple of 16, from `first` on, lane
-// by lane. n: 0 of patches, else of level n - 1, 64 at most: those that are too close to the point
-// leave that to their members.
+// Adds the terms of the winding number at `point` of `count` spheres from `first` on, a multiple of
+// 16, lane by lane. n: 0 for patches, else level n - 1, and 64 at most. A sphere that is too close
+// to the point leaves its term to its members.
 static void nsvcd__add_dipoles(const nsvcd_body *body, size_t n, size_t first, size_t count,
                                nsvcd__f3 point, float *lanes) {
   const nsvcd__v3 at = nsvcd__v3_set(point);
@@ -141,7 +143,7 @@ static void nsvcd__add_dipoles(const nsvcd_body *body, size_t n, size_t first, s
       const nsvcd__v3 area = nsvcd__v3_load_rows(areas + first + i, stride);
       const nsvcd__v length = nsvcd__v_max(nsvcd__v3_length(d), nsvcd__v_set(1e-30f));
       const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), length);
-      // step by step: the cube may overflow
+      // one factor at a time, for the cube may overflow
       const nsvcd__v cosine = nsvcd__v_mul(nsvcd__v3_dot(area, d), inverse);
       nsvcd__v term = nsvcd__v_mul(nsvcd__v_mul(cosine, inverse), inverse);
       if (n > 0) {
@@ -165,16 +167,14 @@ static float nsvcd__winding_number(const nsvcd_body *body, nsvcd__f3 point) {
   float total = 0;
   const size_t top = nsvcd__level_count(body->padded) - 1;
   const size_t slots = nsvcd__level_of(body->padded, top).slots;
-  if (top > 0)
-    nsvcd__add_dipoles(body, top + 1, 0, slots, point, lanes);
-  else
-    nsvcd__add_dipoles(body, 0, 0, body->padded, point, lanes);
-  // in this order, whatever the slices
+  nsvcd__add_dipoles(body, top ? top + 1 : 0, 0, top ? slots : body->padded, point, lanes);
+  // in this order, however wide a slice is
   for (size_t l = 0; l < NSVCD__LANES; l++) total += lanes[l];
   return total / 12.5663706f;
 }
 
-// The place that is far enough from the surface and farthest from those marked; none: PLACES.
+// Of the points that are far enough from the surface, the one that is farthest from those marked;
+// POSITIONS if there is none.
 static size_t nsvcd__next_position(nsvcd__positions *positions, uint32_t marked) {
   size_t next = NSVCD__POSITIONS;
   float most = -1;
@@ -194,13 +194,13 @@ static size_t nsvcd__next_position(nsvcd__positions *positions, uint32_t marked)
   return next;
 }
 
-// Does a patch's ball lie on the straight way out of a body, from its centre on? A place from which
-// there is none is outside: a closed surface would bar the way.
-static int nsvcd__way_out_is_barred(const nsvcd_body *body, nsvcd__f3 position) {
-  const nsvcd__f3 away = nsvcd__f3_sub(position, nsvcd__f3_load(body->centre));
+// Does a ray from a point, away from a body's centre, meet the ball of a patch? If not, the point is
+// outside: the ray would cross a closed surface.
+static int nsvcd__way_out_is_barred(const nsvcd_body *body, nsvcd__f3 point) {
+  const nsvcd__f3 away = nsvcd__f3_sub(point, nsvcd__f3_load(body->centre));
   const float length = nsvcd__f3_length(away);
   const nsvcd__f3 along = nsvcd__f3_scale(away, length > 0 ? 1 / length : 0);
-  const nsvcd__beam out = {position, along, NSVCD__ROUNDING * body->extent};
+  const nsvcd__beam out = {point, along, NSVCD__ROUNDING * body->extent};
   const nsvcd__spheres patches = nsvcd__body_patches(body);
   nsvcd__traversal traversal;
   size_t g;
@@ -211,8 +211,7 @@ static int nsvcd__way_out_is_barred(const nsvcd_body *body, nsvcd__f3 position) 
   return 0;
 }
 
-// 1 if `inner`, of this scale and at this pose in the frame of `outer`, or a part of it, lies
-// inside that.
+// Is `inner`, scaled and posed in the frame of `outer`, or a part of it, inside of that?
 static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, float scale,
                             const nsvcd__transform *pose) {
   const nsvcd__spheres patches = nsvcd__body_patches(inner);
@@ -223,7 +222,7 @@ static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, fl
   uint32_t below = 0;
   if (outer->open) return 0;
   for (size_t k = 0; k < NSVCD__POSITIONS; k++) {
-    // neighbours are stored together: equal steps spread over it
+    // Neighbours are stored together, so that equal steps cover the body.
     const nsvcd__f3 own = nsvcd__centre_of(patches, k * inner->patches / NSVCD__POSITIONS);
     const nsvcd__f3 turned = nsvcd__mat3_apply(&pose->rotation, own);
     const nsvcd__f3 position = nsvcd__f3_add(nsvcd__f3_scale(turned, scale), pose->position);
@@ -244,20 +243,20 @@ static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, fl
     if (!(inside >> k & 1)) positions.square[k] = 0;
     below |= (uint32_t)(positions.height[k] < 0) << k;
   }
-  // near the surface everywhere, and on the inner side
+  // all on the inner side, however near
   if (inside == 0xffff && below == 0xffff) return 1;
   for (size_t n = 0; n < NSVCD__INSIDE_SAMPLES; n++) {
     const size_t k = nsvcd__next_position(&positions, marked);
     if (k == NSVCD__POSITIONS) break;
     marked |= 1u << k;
-    // -1 where the mesh is inside out
+    // -1 if the mesh is inside out
     if (fabsf(nsvcd__winding_number(outer, nsvcd__lane_of(positions.at, k))) > 0.5f) return 1;
   }
   return 0;
 }
 
-// 1 if one body lies inside the other, whichever, when the moving one, of this scale, is at this
-// pose in the fixed frame.
+// Is one body, or a part of it, inside of the other, with the moving one scaled and posed in the
+// fixed frame?
 static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed, float scale,
                                const nsvcd__transform *pose) {
   nsvcd__transform back;
