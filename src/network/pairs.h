@@ -76,22 +76,21 @@ enum { NSVCD__GAP_LARGER, NSVCD__GAP_SMALLER, NSVCD__GAP_LINE, NSVCD__GAP_BOTH, 
 #define NSVCD__MOST_INPUTS \
   (NSVCD__WIDEST > NSVCD__DECODER_IN ? NSVCD__WIDEST : NSVCD__DECODER_IN)
 #define NSVCD__LEAN 0.05f  // share of the lean in axis 2
-#define NSVCD__SIDE \
-  1e-4f  // a lean that is less than this to one side of axes 1 and 2 is on neither
+// A lean that is this near to the plane of axes 1 and 2 is on neither side.
+#define NSVCD__SIDE 1e-4f
 
 // ---- pairs in motion
 
-// A slice of pairs, in the fixed body's frame.
+// A slice of pairs, in the fixed body's frame. Patches: the moving one, and the fixed one.
 typedef struct nsvcd__pairs {
-  nsvcd__v3 p1, p2;       // centres at mid-interval, of the moving patch and of the fixed one
+  nsvcd__v3 p1, p2;       // centres at mid-interval
   nsvcd__v r1, r2;        // radii of the balls
   nsvcd__vmat3 rotation;  // of the moving body at mid-interval
-  nsvcd__v3
-      v;  // half the displacement of the point midway between p1 and p2, on the moving body
-  nsvcd__v3 w;  // half the rotation vector
-  // of the moving patch and of the fixed one, in the bodies' frames:
-  nsvcd__v3 normal[2];  // of unit length, or 0 if the patch has none
-  nsvcd__v flat[2];  // the length of the area vector, over the area of the ball's largest disc
+  // half the displacement of the point midway between p1 and p2, moving with the moving body
+  nsvcd__v3 v;
+  nsvcd__v3 w;          // half the rotation vector
+  nsvcd__v3 normal[2];  // in the bodies' frames, of unit length, or 0 if a patch has none
+  nsvcd__v flat[2];     // length of the area vector over the area of the ball's largest disc
   const int8_t *z[2][NSVCD__SLICE];         // latents
   const int8_t *extremes[2][NSVCD__SLICE];  // (EXTREMES, 3) at a stride of GROUP
 } nsvcd__pairs;

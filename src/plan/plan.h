@@ -72,19 +72,16 @@ static float nsvcd__pair_deviation(const nsvcd__planner *p, const nsvcd_body_pai
   const nsvcd__sphere *sphere = &p->shapes[pair->a].sphere;
   const nsvcd_pose start = nsvcd__relative_pose(&from[pair->a], &from[pair->b]);
   const nsvcd_pose end = nsvcd__relative_pose(&to[pair->a], &to[pair->b]);
-  const nsvcd_pose exact = nsvcd__relative_pose(&p->moved[pair->a], &p->moved[pair->b]);
-  const nsvcd__d3 begin = nsvcd__d3_load(start.position);
-  const nsvcd__d3 position = nsvcd__d3_mix(begin, nsvcd__d3_load(end.position), fraction);
-  const nsvcd__quat q = nsvcd__quat_load(start.rotation);
-  const nsvcd__quat r = nsvcd__quat_load(end.rotation);
-  const nsvcd__quat checked = nsvcd__quat_slerp(q, r, (float)fraction);
-  const nsvcd__quat is = nsvcd__quat_load(exact.rotation);
-  const nsvcd__transform at = {nsvcd__mat3_of(is), nsvcd__f3_load(exact.position)};
-  const nsvcd__transform was = {nsvcd__mat3_of(checked), nsvcd__d3_narrow(position)};
+  const nsvcd_pose spline = nsvcd__relative_pose(&p->moved[pair->a], &p->moved[pair->b]);
+  const nsvcd__world_pose check = nsvcd__world_pose_between(&start, &end, fraction);
+  const nsvcd__quat q = nsvcd__quat_load(spline.rotation);
+  const nsvcd__transform at = {nsvcd__mat3_of(q), nsvcd__f3_load(spline.position)};
+  const nsvcd__transform checked = {nsvcd__mat3_of(check.rotation),
+                                    nsvcd__d3_narrow(check.position)};
   const nsvcd__f3 x = nsvcd__f3_transform(&at, sphere->centre);
-  const nsvcd__f3 y = nsvcd__f3_transform(&was, sphere->centre);
+  const nsvcd__f3 y = nsvcd__f3_transform(&checked, sphere->centre);
   const float shift = nsvcd__f3_length(nsvcd__f3_sub(x, y));
-  return shift + 2 * nsvcd__f3_length(nsvcd__quat_turn(checked, is)) * sphere->radius;
+  return shift + 2 * nsvcd__f3_length(nsvcd__quat_turn(check.rotation, q)) * sphere->radius;
 }
 
 // How far the spline deviates from the last check's motion between p->poses: the most of all pairs

@@ -11,8 +11,9 @@
 //   refine      L-BFGS with bundled gradients, in the metric of the smoothness
 //   plan        start and goal, several seeds, and the last check
 //
-// The planner asks as any program does, by the public functions. Three private ones refuse what a
-// query would refuse: nsvcd__settings_of, nsvcd__poses_check and nsvcd__is_aligned.
+// The planner asks as any program does, by the public functions. Of the private ones of query and
+// motion it uses nsvcd__settings_of, nsvcd__poses_check and nsvcd__is_aligned, to refuse what a
+// query would refuse, and nsvcd__world_pose_between.
 //
 // A trajectory is sampled at *moments*, uniform in t, both ends among them; a *segment* lies
 // between two of them. A *rollout* is one of MPPI's random trajectories; a *bundle* is the random
