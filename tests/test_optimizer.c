@@ -92,8 +92,8 @@ static void plan_gradient_case(plan_kind kind, int jacobian, int limits, double 
     if (!plan_open(&s, &in)) continue;
     nsvcd__planner *p = &in.planner;
     const size_t segments = p->refine.moments - 1;
-    const nsvcd__cost cost = nsvcd__cost_of(p, &p->refine, control, INFINITY, gradient, 0);
-    const nsvcd__cost again = nsvcd__cost_of(p, &p->refine, control, INFINITY, NULL, 0);
+    const nsvcd__cost cost = nsvcd__cost_of(p, &p->refine, control, INFINITY, gradient);
+    const nsvcd__cost again = nsvcd__cost_of(p, &p->refine, control, INFINITY, NULL);
     const double whole = plan_exact_cost(&s, &p->options, via, segments, exact);
     CHECK_EQ(p->error, NSVCD_OK);
     CHECK_EQ(cost.total, again.total);  // the gradient does not change it
@@ -120,7 +120,7 @@ static void plan_gradient_case(plan_kind kind, int jacobian, int limits, double 
 // run looked at.
 static uint64_t plan_decisive(nsvcd__planner *p, const nsvcd__stage *stage, const float *control) {
   uint64_t hash = 1469598103934665603u;
-  nsvcd__cost_of(p, stage, control, INFINITY, NULL, 0);  // p->poses
+  nsvcd__cost_of(p, stage, control, INFINITY, NULL);  // p->poses
   for (uint32_t k = 0; k < p->problem->pair_count; k++) {
     for (size_t s = 0; s + 1 < stage->moments; s++) {
       const nsvcd_answer answer = nsvcd__ask_segments(p, k, s, 1, 0, NULL);
@@ -174,7 +174,7 @@ static void plan_network_gradient_case(plan_kind kind, int *tried, int *smooth, 
       for (size_t k = 0; k < numbers; k++) control[k] = (float)shapes_uniform(&rng, -0.5, 0.5);
     }
     plan_random_numbers(&rng, numbers, 1, direction);
-    const nsvcd__cost cost = nsvcd__cost_of(p, &p->refine, control, INFINITY, gradient, 0);
+    const nsvcd__cost cost = nsvcd__cost_of(p, &p->refine, control, INFINITY, gradient);
     if (cost.collision <= 0) continue;
     for (size_t k = 0; k < numbers; k++) slope += (double)gradient[k] * (double)direction[k];
     (*tried)++;
@@ -183,7 +183,7 @@ static void plan_network_gradient_case(plan_kind kind, int *tried, int *smooth, 
     for (int i = -2; i <= 2; i++) {
       for (size_t k = 0; k < numbers; k++) moved[k] = control[k] + 1e-4f * (float)i * direction[k];
       same = same && plan_decisive(p, &p->refine, moved) == who;
-      at[i + 2] = nsvcd__cost_of(p, &p->refine, moved, INFINITY, NULL, 0).total;
+      at[i + 2] = nsvcd__cost_of(p, &p->refine, moved, INFINITY, NULL).total;
     }
     const double near = ((double)at[3] - (double)at[1]) / 2e-4;
     const double far = ((double)at[4] - (double)at[0]) / 4e-4;
@@ -1198,10 +1198,10 @@ static void plan_bundled_gradient_is_a_mean(void) {
   for (size_t n = 0; n < stage->draws; n++) {
     memcpy(moved, control, sizeof moved);
     for (size_t k = 0; k < numbers; k++) moved[f + k] += p->drawn[n * numbers + k];
-    nsvcd__cost_of(p, stage, moved, INFINITY, gradient, 0);
+    nsvcd__cost_of(p, stage, moved, INFINITY, gradient);
     for (size_t k = 0; k < numbers; k++) sum[k] += (double)gradient[f + k] / (double)stage->draws;
   }
-  nsvcd__cost_of(p, stage, control, INFINITY, gradient, 0);
+  nsvcd__cost_of(p, stage, control, INFINITY, gradient);
   nsvcd__bundled_gradient(p, stage, control);
   for (size_t k = 0; k < numbers; k++) {
     norm += sum[k] * sum[k];
@@ -1238,7 +1238,7 @@ static void plan_refining_converges(void) {
       nsvcd__smoothest(&in.planner, &in.planner.refine, in.planner.best);
       nsvcd__refine(&in.planner);
       cost[longer] =
-          nsvcd__cost_of(&in.planner, &in.planner.refine, in.planner.best, INFINITY, NULL, 0).total;
+          nsvcd__cost_of(&in.planner, &in.planner.refine, in.planner.best, INFINITY, NULL).total;
       CHECK_EQ(in.planner.error, NSVCD_OK);
       plan_close(&in);
     }
@@ -1334,8 +1334,8 @@ static void plan_cost_is_the_sum_over_segments(void) {
     int collides_at_all = 0;
     int dropped_here = 0;
     plan_random_numbers(&rng, (stage->via + 2) * s.problem.joints, 0.6, control);
-    const nsvcd__cost cost = nsvcd__cost_of(p, stage, control, INFINITY, NULL, 0);
-    const nsvcd__cost again = nsvcd__cost_of(p, stage, control, INFINITY, gradient, 0);
+    const nsvcd__cost cost = nsvcd__cost_of(p, stage, control, INFINITY, NULL);
+    const nsvcd__cost again = nsvcd__cost_of(p, stage, control, INFINITY, gradient);
     CHECK_NEAR(cost.collision, again.collision, 1e-5 * (double)cost.collision);
     CHECK_EQ(cost.collides, again.collides);
     for (uint32_t k = 0; k < s.problem.pair_count; k++) {
@@ -1404,9 +1404,9 @@ static void plan_cost_stops_at_its_limit(void) {
   for (int n = 0; n < 200; n++) {
     float control[PLAN_VIA * PLAN_JOINTS];
     plan_random_numbers(&rng, (p->refine.via + 2) * s.problem.joints, 0.5, control);
-    const nsvcd__cost whole = nsvcd__cost_of(p, &p->refine, control, INFINITY, NULL, 0);
+    const nsvcd__cost whole = nsvcd__cost_of(p, &p->refine, control, INFINITY, NULL);
     const float limit = whole.total * (float)shapes_uniform(&rng, 0.1, 2);
-    const nsvcd__cost cost = nsvcd__cost_of(p, &p->refine, control, limit, NULL, 0);
+    const nsvcd__cost cost = nsvcd__cost_of(p, &p->refine, control, limit, NULL);
     if (whole.total < 0.9999f * limit)
       CHECK_NEAR(cost.total, whole.total, 1e-5 * (double)whole.total);
     if (whole.total > 1.0001f * limit) CHECK_GE(cost.total, limit);
@@ -1509,12 +1509,12 @@ static void plan_via_points_keep_the_limits(void) {
   p->check.moments = 2;
   nsvcd__stage_init(&p->options, &p->check);
   nsvcd__smoothest(p, &p->refine, control);
-  const nsvcd__cost within = nsvcd__cost_of(p, &p->check, control, INFINITY, NULL, 0);
+  const nsvcd__cost within = nsvcd__cost_of(p, &p->check, control, INFINITY, NULL);
   CHECK(nsvcd__is_free(&within));
   for (size_t k = 3; k < 33; k++) {
     const float kept = control[k];
     control[k] = k % 2 ? 2.001f : -2.001f;
-    const nsvcd__cost beyond = nsvcd__cost_of(p, &p->check, control, INFINITY, NULL, 0);
+    const nsvcd__cost beyond = nsvcd__cost_of(p, &p->check, control, INFINITY, NULL);
     CHECK_EQ(beyond.joint, k % 3);
     control[k] = kept;
   }
@@ -1568,7 +1568,7 @@ static void plan_differences_work_far_from_zero(void) {
       s.problem.jacobian = jacobian ? plan_jacobian : NULL;
       plan_pair(&s, 0, 1);
       if (!plan_open(&s, &in)) return;
-      nsvcd__cost_of(&in.planner, &in.planner.refine, control, INFINITY, gradient[jacobian], 0);
+      nsvcd__cost_of(&in.planner, &in.planner.refine, control, INFINITY, gradient[jacobian]);
       CHECK_EQ(in.planner.error, NSVCD_OK);
       plan_close(&in);
     }

@@ -4,10 +4,10 @@
 #include "by_pair.h"
 
 #ifndef NSVCD_NO_GRADIENT
-// Adds a force and a torque to a wrench, row (6).
-static void nsvcd__wrench_add(nsvcd__f3 force, nsvcd__f3 torque, float *row) {
-  nsvcd__f3_store(nsvcd__f3_add(nsvcd__f3_load(row), force), row);
-  nsvcd__f3_store(nsvcd__f3_add(nsvcd__f3_load(row + 3), torque), row + 3);
+// Adds a force and a torque, times `scale`, to a wrench, row (6).
+static void nsvcd__add_wrench(float scale, nsvcd__f3 force, nsvcd__f3 torque, float *row) {
+  nsvcd__f3_store(nsvcd__f3_fma(scale, force, nsvcd__f3_load(row)), row);
+  nsvcd__f3_store(nsvcd__f3_fma(scale, torque, nsvcd__f3_load(row + 3)), row + 3);
 }
 
 // Adds to `gradient` (count, 6), or NULL, what a force and a torque on a body at time t, in the
@@ -20,7 +20,7 @@ static void nsvcd__wrench_add(nsvcd__f3 force, nsvcd__f3 torque, float *row) {
 static float nsvcd__by_poses(const nsvcd__track *track, float t, nsvcd__f3 force,
                              nsvcd__f3 torque, float *gradient) {
   if (track->count == 1) {
-    if (gradient) nsvcd__wrench_add(force, torque, gradient);
+    if (gradient) nsvcd__add_wrench(1, force, torque, gradient);
     return 0;
   }
   float u;
@@ -43,8 +43,8 @@ static float nsvcd__by_poses(const nsvcd__track *track, float t, nsvcd__f3 force
     const float wb = h > 1e-3f ? sinf(u * h) * inverse : u;
     const nsvcd__f3 on_a = nsvcd__turned(torque, n, 1 - u, wa, -u * h);
     const nsvcd__f3 on_b = nsvcd__turned(torque, n, u, wb, (1 - u) * h);
-    nsvcd__wrench_add(nsvcd__f3_scale(force, 1 - u), on_a, gradient + 6 * k);
-    nsvcd__wrench_add(nsvcd__f3_scale(force, u), on_b, gradient + 6 * (k + 1));
+    nsvcd__add_wrench(1, nsvcd__f3_scale(force, 1 - u), on_a, gradient + 6 * k);
+    nsvcd__add_wrench(1, nsvcd__f3_scale(force, u), on_b, gradient + 6 * (k + 1));
   }
   const nsvcd__f3 from = nsvcd__f3_load(a->position);
   const nsvcd__f3 moved = nsvcd__f3_sub(nsvcd__f3_load(b->position), from);

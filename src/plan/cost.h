@@ -102,8 +102,8 @@ static void nsvcd__add_limits(nsvcd__planner *p, const nsvcd__stage *stage,
 }
 
 // Adds the derivative of the cost of collision, from p->wrenches, to the gradient (M + 2, F).
-static void nsvcd__add_wrenches(nsvcd__planner *p, const nsvcd__stage *stage,
-                                float *gradient) {
+static void nsvcd__add_collision_gradient(nsvcd__planner *p, const nsvcd__stage *stage,
+                                          float *gradient) {
   const nsvcd_plan_problem *problem = p->problem;
   const size_t f = problem->joints;
   const size_t numbers = 6 * problem->body_count;
@@ -133,12 +133,12 @@ static void nsvcd__add_wrenches(nsvcd__planner *p, const nsvcd__stage *stage,
 }
 
 // The cost of a trajectory; the sum may stop beyond `limit`. gradient: (M + 2, F), written, or
-// NULL. at_end: in the last check.
+// NULL.
 static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage,
-                                  const float *control, float limit, float *gradient,
-                                  int at_end) {
+                                  const float *control, float limit, float *gradient) {
   const size_t numbers = 6 * stage->moments * p->problem->body_count;
   const float weight = p->options.collision;
+  const int at_end = stage == &p->check;
   float *wrenches = gradient ? p->wrenches : NULL;
   nsvcd__cost cost = nsvcd__no_cost;
   p->answer.trajectories++;
@@ -155,7 +155,7 @@ static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage,
   nsvcd__add_collision(p, stage->moments, left, wrenches, at_end, &cost);
   NSVCD__TALLY(collision, 1);  // ends
   cost.total += weight * cost.collision;
-  if (gradient) nsvcd__add_wrenches(p, stage, gradient);
+  if (gradient) nsvcd__add_collision_gradient(p, stage, gradient);
   if (!nsvcd__is_finite(cost.total)) p->error = NSVCD_ERROR_NUMBER;
   return cost;
 }

@@ -136,20 +136,16 @@ static float nsvcd__cost_of_logit(float logit, float margin, float *slope) {
 // Adds to the wrenches (B, 6) a wrench on a (6), in b's axes, times `scale`, and the opposite one
 // on b. A wrench is the derivative by a pose: by its position, and by a small rotation about that.
 // poses: (B).
-static void nsvcd__add_wrench(const nsvcd_body_pair *pair, const nsvcd_pose *poses,
-                              float scale, const float *wrench, float *wrenches) {
+static void nsvcd__add_wrench_on_pair(const nsvcd_body_pair *pair, const nsvcd_pose *poses,
+                                      float scale, const float *wrench, float *wrenches) {
   const nsvcd__mat3 axes = nsvcd__mat3_of(nsvcd__quat_load(poses[pair->b].rotation));
   const nsvcd__f3 force = nsvcd__mat3_apply(&axes, nsvcd__f3_load(wrench));
   const nsvcd__f3 torque = nsvcd__mat3_apply(&axes, nsvcd__f3_load(wrench + 3));
   const nsvcd__f3 from = nsvcd__f3_load(poses[pair->b].position);
   const nsvcd__f3 arm = nsvcd__f3_sub(nsvcd__f3_load(poses[pair->a].position), from);
   const nsvcd__f3 back = nsvcd__f3_add(torque, nsvcd__f3_cross(arm, force));
-  for (size_t k = 0; k < 4; k++) {
-    const float by = k < 2 ? scale : -scale;
-    float *row = wrenches + 6 * (k < 2 ? pair->a : pair->b) + 3 * (k % 2);
-    const nsvcd__f3 moment = k < 2 ? torque : back;
-    nsvcd__f3_store(nsvcd__f3_fma(by, k % 2 ? moment : force, nsvcd__f3_load(row)), row);
-  }
+  nsvcd__add_wrench(scale, force, torque, wrenches + 6 * pair->a);
+  nsvcd__add_wrench(-scale, force, back, wrenches + 6 * pair->b);
 }
 
 // A logit for any answer. An undecided one counts as a hit.
@@ -232,7 +228,8 @@ static void nsvcd__add_segment(nsvcd__planner *p, uint32_t k, size_t s,
   cost->collision += nsvcd__cost_of_logit(logit, p->options.margin, &slope);
   for (size_t i = 0; wanted && slope > 0 && i <= how->stride; i++) {
     const size_t row = (s + i) * p->problem->body_count;
-    nsvcd__add_wrench(pair, p->poses + row, slope, gradient + 6 * i, how->wrenches + 6 * row);
+    nsvcd__add_wrench_on_pair(pair, p->poses + row, slope, gradient + 6 * i,
+                              how->wrenches + 6 * row);
   }
 }
 

@@ -76,7 +76,7 @@ static void nsvcd__roll_out(nsvcd__planner *p, nsvcd__exploring *at) {
     // The cost of a rollout that weighs nothing need not be exact.
     float limit = INFINITY;
     if (at->temperature > 0) limit = at->least + NSVCD__WEIGHTLESS * at->temperature;
-    const nsvcd__cost cost = nsvcd__cost_of(p, stage, p->trial, limit, NULL, 0);
+    const nsvcd__cost cost = nsvcd__cost_of(p, stage, p->trial, limit, NULL);
     p->costs[n] = cost.total;
     if (cost.total < at->least) at->least = cost.total;
     if (cost.total >= at->best.total || cost.total > limit) continue;
@@ -136,7 +136,7 @@ static void nsvcd__explore(nsvcd__planner *p) {
   const nsvcd__stage *stage = &p->explore;
   nsvcd__exploring at;
   memset(&at, 0, sizeof at);
-  at.best = nsvcd__cost_of(p, stage, p->control, INFINITY, NULL, 0);
+  at.best = nsvcd__cost_of(p, stage, p->control, INFINITY, NULL);
   memcpy(p->best, p->control, stage->bytes);
   memcpy(at.deviations, p->first_noise, sizeof at.deviations);
   float before = at.best.total;

@@ -142,7 +142,7 @@ static int nsvcd__try_seed(nsvcd__planner *p) {
   // until the last check finds it free, with a wider margin after each hit that is proven
   for (size_t retry = 0; retry <= NSVCD__RETRIES; retry++) {
     nsvcd__refine(p);
-    cost = nsvcd__cost_of(p, &p->check, p->best, INFINITY, NULL, 1);
+    cost = nsvcd__cost_of(p, &p->check, p->best, INFINITY, NULL);
     if (nsvcd__is_free(&cost) || p->cancelled || p->error || !cost.proven) break;
     p->options.margin = 2 * p->options.margin + 0.5f;
   }

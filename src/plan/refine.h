@@ -17,7 +17,7 @@ static void nsvcd__bundled_gradient(nsvcd__planner *p, const nsvcd__stage *stage
   memset(p->sum, 0, stage->numbers * sizeof *p->sum);
   for (size_t n = 0; n < stage->draws && !p->error; n++) {
     nsvcd__change(p, stage, control, p->drawn + n * stage->numbers, 1, p->trial);
-    nsvcd__cost_of(p, stage, p->trial, INFINITY, p->gradient, 0);
+    nsvcd__cost_of(p, stage, p->trial, INFINITY, p->gradient);
     for (size_t k = 0; k < stage->numbers; k++)
       p->sum[k] += p->gradient[f + k] / (float)stage->draws;
   }
@@ -69,7 +69,7 @@ static void nsvcd__refine(nsvcd__planner *p) {
   size_t kept = 0;  // steps, before step `next`
   size_t next = 0;
   int stuck = 0;
-  nsvcd__cost best = nsvcd__cost_of(p, stage, p->best, INFINITY, NULL, 0);
+  nsvcd__cost best = nsvcd__cost_of(p, stage, p->best, INFINITY, NULL);
 
   // The same offsets in each iteration: then gradients differ only by where they are taken.
   for (size_t j = 0; j < f; j++) deviations[j] = stage->noise;
@@ -93,7 +93,7 @@ static void nsvcd__refine(nsvcd__planner *p) {
     nsvcd__direction(p, stage, kept, next);
     for (size_t n = 0; n < NSVCD__STEPS && !p->error; n++) {
       nsvcd__change(p, stage, p->control, p->offset, lengths[n], p->trial);
-      const nsvcd__cost cost = nsvcd__cost_of(p, stage, p->trial, best.total, NULL, 0);
+      const nsvcd__cost cost = nsvcd__cost_of(p, stage, p->trial, best.total, NULL);
       if (!(cost.total < best.total)) continue;
       best = cost;
       memcpy(p->best, p->trial, stage->bytes);
