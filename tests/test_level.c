@@ -795,17 +795,17 @@ static void level_winding_numbers_are_those_of_the_patches(void) {
   size_t clear = 0;
   shapes_rng rng = {9};
   for (int trial = 0; trial < 1000; trial++) {
-    nsvcd__positions all;
+    nsvcd__probes all;
     const double spread = pow(10, shapes_uniform(&rng, -2, 0.5));
     double middle[3];
     for (int k = 0; k < 3; k++)
       middle[k] = k == 2 ? shapes_uniform(&rng, -1.2, 2) : shapes_uniform(&rng, -10.5, 10.5);
-    for (size_t n = 0; n < NSVCD__POSITIONS; n++) {
+    for (size_t n = 0; n < NSVCD__PROBES; n++) {
       for (int k = 0; k < 3; k++)
         all.at[k][n] = (float)(middle[k] + spread * shapes_uniform(&rng, -0.5, 0.5));
     }
-    nsvcd__positions_measure(body, &all);
-    for (size_t n = 0; n < NSVCD__POSITIONS; n++) {
+    nsvcd__probes_measure(body, &all);
+    for (size_t n = 0; n < NSVCD__PROBES; n++) {
       const float place[3] = {all.at[0][n], all.at[1][n], all.at[2][n]};
       double least = (double)(NSVCD__AMPLE * NSVCD__AMPLE);
       double w = 0;

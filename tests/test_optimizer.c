@@ -121,7 +121,7 @@ static void plan_gradient_case(plan_kind kind, int jacobian, int limits, double 
 static uint64_t plan_decisive(nsvcd__planner *p, const nsvcd__stage *stage, const float *control) {
   uint64_t hash = 1469598103934665603u;
   nsvcd__cost_of(p, stage, control, INFINITY, NULL);  // p->poses
-  for (uint32_t k = 0; k < p->problem->pair_count; k++) {
+  for (uint32_t k = 0; k < p->in->pair_count; k++) {
     for (size_t s = 0; s + 1 < stage->moments; s++) {
       const nsvcd_answer answer = nsvcd__ask_segments(p, k, s, 1, 0, NULL);
       if (logit_of(&answer) <= -p->options.margin) continue;
@@ -206,7 +206,7 @@ static void plan_network_gradient_case(plan_kind kind, int *tried, int *smooth, 
 // next; one in two bodies lies off its origin.
 static void plan_random_poses(shapes_rng *rng, nsvcd__planner *p, size_t samples, double reach,
                               double turn) {
-  const size_t bodies = p->problem->body_count;
+  const size_t bodies = p->in->body_count;
   const int fast = shapes_pick(rng, 2);
   for (size_t b = 0; b < bodies; b++) {
     nsvcd_pose at;

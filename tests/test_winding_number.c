@@ -42,10 +42,10 @@ static void containment(void) {
         way[k] = rotation[3 * k];
         at[k] = (float)distance * way[k];
       }
-      nsvcd__positions places;
-      for (int k = 0; k < 3 * NSVCD__POSITIONS; k++)
-        places.at[k / NSVCD__POSITIONS][k % NSVCD__POSITIONS] = at[k / NSVCD__POSITIONS];
-      nsvcd__positions_measure(outer, &places);
+      nsvcd__probes places;
+      for (int k = 0; k < 3 * NSVCD__PROBES; k++)
+        places.at[k / NSVCD__PROBES][k % NSVCD__PROBES] = at[k / NSVCD__PROBES];
+      nsvcd__probes_measure(outer, &places);
       double in_radii = sqrt((double)places.square[7]);
       int bin = in_radii < 1 ? 0 : in_radii < 1.5 ? 1 : in_radii < 2 ? 2 : 3;
       double want = distance < 1 ? 1 : 0;

@@ -56,9 +56,9 @@ static float nsvcd__by_poses(const nsvcd__track *track, float t, nsvcd__f3 force
 
 // The times that matter of a candidate's motion.
 enum {
-  NSVCD__AT_ENTRY = 0,
-  NSVCD__AT_EXIT = 1,
-  NSVCD__AT_MIDDLE = 2,    // of these two
+  NSVCD__ENTRY = 0,
+  NSVCD__EXIT = 1,
+  NSVCD__MIDDLE = 2,       // of these two
   NSVCD__ENTRY_BEGIN = 3,  // the segment in which the balls meet
   NSVCD__ENTRY_END = 4,
   NSVCD__EXIT_BEGIN = 5,  // the segment in which they separate
@@ -123,14 +123,14 @@ static float nsvcd__by_instant(const nsvcd__motion *motion, nsvcd__instants *at,
   return by_moving + nsvcd__by_poses(&motion->fixed, t, back, turn_back, out[1]);
 }
 
-// The adjoint of the time at which the balls meet (AT_ENTRY) or separate (AT_EXIT). There y = x0 +
+// The adjoint of the time at which the balls meet (ENTRY) or separate (EXIT). There y = x0 +
 // tau x - c, where x is the segment's chord, is as long as the sum of the radii, and so y.(dy + x
 // dtau) = 0. If the balls only graze (y across x), the derivative has no limit: it is bounded where
 // float32 has no digits left.
 static void nsvcd__by_contact(const nsvcd__motion *motion, nsvcd__instants *at, size_t l,
                               nsvcd__f3 centre, float by_time, float *const *out) {
   const nsvcd__f3 none = {0, 0, 0};
-  const size_t s = l == NSVCD__AT_ENTRY ? NSVCD__ENTRY_BEGIN : NSVCD__EXIT_BEGIN;
+  const size_t s = l == NSVCD__ENTRY ? NSVCD__ENTRY_BEGIN : NSVCD__EXIT_BEGIN;
   const float length = at->t[s + 1] - at->t[s];
   const nsvcd__f3 start = nsvcd__lane_of(at->position, s);
   const float tau = (at->t[l] - at->t[s]) / length;
@@ -140,7 +140,7 @@ static void nsvcd__by_contact(const nsvcd__motion *motion, nsvcd__instants *at, 
   const float least = 1e-3f * nsvcd__f3_length(y) * nsvcd__f3_length(chord);
   const float dot = fabsf(nsvcd__f3_dot(y, chord));
   if (!(least > 0)) return;
-  const float along = l == NSVCD__AT_ENTRY ? length : -length;
+  const float along = l == NSVCD__ENTRY ? length : -length;
   const float rate = along * by_time / (dot > least ? dot : least);
   const nsvcd__f3 before = nsvcd__f3_scale(y, (1 - tau) * rate);
   const nsvcd__f3 after = nsvcd__f3_scale(y, tau * rate);
@@ -175,7 +175,7 @@ static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *deci
   // The adjoint of nsvcd__pairs_of. v = w x arm + (x1 - x0) / 2, where arm goes from the moving
   // centre half way to the other.
   const nsvcd__f3 w = pair.w;
-  const nsvcd__f3 middle = nsvcd__lane_of(at.position, NSVCD__AT_MIDDLE);
+  const nsvcd__f3 middle = nsvcd__lane_of(at.position, NSVCD__MIDDLE);
   const nsvcd__f3 line = nsvcd__f3_sub(pair.p2, middle);
   const nsvcd__f3 arm = nsvcd__f3_scale(line, 0.5f);
   const nsvcd__f3 p1 = nsvcd__f3_fma(-0.5f, nsvcd__f3_cross(by.v, w), by.p1);
@@ -187,16 +187,15 @@ static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *deci
   const float h = nsvcd__f3_length(w);
   const float half = 0.5f * (h > 1e-3f ? h / sinf(h) : 1);
   const nsvcd__f3 n = h > 0 ? nsvcd__f3_of(w.x / h, w.y / h, w.z / h) : none;
-  const float by_middle =
-      nsvcd__by_instant(motion, &at, NSVCD__AT_MIDDLE, p1, by.rotation, out);
-  for (size_t l = NSVCD__AT_ENTRY; l <= NSVCD__AT_EXIT; l++) {
-    const float side = l == NSVCD__AT_ENTRY ? -1.0f : 1.0f;
+  const float by_middle = nsvcd__by_instant(motion, &at, NSVCD__MIDDLE, p1, by.rotation, out);
+  for (size_t l = NSVCD__ENTRY; l <= NSVCD__EXIT; l++) {
+    const float side = l == NSVCD__ENTRY ? -1.0f : 1.0f;
     const nsvcd__f3 force = nsvcd__f3_scale(by.v, 0.5f * side);
     const nsvcd__f3 torque = nsvcd__turned(turn, n, 0.5f * side, half * side, h * side);
     by_time[l] = 0.5f * by_middle + nsvcd__by_instant(motion, &at, l, force, torque, out);
   }
-  if (at.enters) nsvcd__by_contact(motion, &at, NSVCD__AT_ENTRY, pair.p2, by_time[0], out);
-  if (at.leaves) nsvcd__by_contact(motion, &at, NSVCD__AT_EXIT, pair.p2, by_time[1], out);
+  if (at.enters) nsvcd__by_contact(motion, &at, NSVCD__ENTRY, pair.p2, by_time[0], out);
+  if (at.leaves) nsvcd__by_contact(motion, &at, NSVCD__EXIT, pair.p2, by_time[1], out);
 }
 
 // As nsvcd_sweep_gradient.

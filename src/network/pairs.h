@@ -183,8 +183,7 @@ static nsvcd__v_pose nsvcd__v_poses_at(const nsvcd__motion *motion, const float 
 // patches, and the poses at entry, at exit, and halfway. A function of its own, so that its stack
 // does not add to that of nsvcd__v_poses_at.
 static NSVCD__NOINLINE void nsvcd__pairs_in_passing(const nsvcd__v_pose *at,
-                                                    const float *centres,
-                                                    nsvcd__pairs *pairs) {
+                                                    const float *centres, nsvcd__pairs *p) {
   const nsvcd__v half = nsvcd__v_set(0.5f);
   const nsvcd__v3 centre = nsvcd__v3_load_rows(centres, NSVCD__SLICE);
   const nsvcd__v3 arm1 = nsvcd__vmat3_apply(nsvcd__vmat3_of(at[0].rotation), centre);
@@ -192,19 +191,19 @@ static NSVCD__NOINLINE void nsvcd__pairs_in_passing(const nsvcd__v_pose *at,
   const nsvcd__v3 moved = nsvcd__v3_sub(at[1].position, at[0].position);
   const nsvcd__v3 step = nsvcd__v3_add(nsvcd__v3_sub(arm2, arm1), moved);
   const nsvcd__vquat back = nsvcd__vquat_inverse(at[0].rotation);
-  pairs->w = nsvcd__v_half_rotation(nsvcd__vquat_mul(at[1].rotation, back));
-  pairs->rotation = nsvcd__vmat3_of(at[2].rotation);
-  const nsvcd__v3 turned = nsvcd__vmat3_apply(pairs->rotation, centre);
-  pairs->p1 = nsvcd__v3_add(turned, at[2].position);
-  const nsvcd__v3 arm = nsvcd__v3_scale(nsvcd__v3_sub(pairs->p2, pairs->p1), half);
-  pairs->v = nsvcd__v3_fma(half, step, nsvcd__v3_cross(pairs->w, arm));
+  p->w = nsvcd__v_half_rotation(nsvcd__vquat_mul(at[1].rotation, back));
+  p->rotation = nsvcd__vmat3_of(at[2].rotation);
+  const nsvcd__v3 turned = nsvcd__vmat3_apply(p->rotation, centre);
+  p->p1 = nsvcd__v3_add(turned, at[2].position);
+  const nsvcd__v3 arm = nsvcd__v3_scale(nsvcd__v3_sub(p->p2, p->p1), half);
+  p->v = nsvcd__v3_fma(half, step, nsvcd__v3_cross(p->w, arm));
 }
 
 // The pairs of `count` candidates, 1 to SLICE. The other lanes do not matter.
 static NSVCD__NOINLINE void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_body *fixed,
                                             const nsvcd__motion *motion,
                                             nsvcd__candidate *const *candidates, size_t count,
-                                            nsvcd__pairs *pairs) {
+                                            nsvcd__pairs *p) {
   // entry, exit, and halfway
   float times[3][NSVCD__SLICE];
   nsvcd__v_pose at[3];
@@ -221,8 +220,8 @@ static NSVCD__NOINLINE void nsvcd__pairs_of(const nsvcd_body *moving, const nsvc
       const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(body), i);
       nsvcd__f3_put(nsvcd__f3_scale(patch.centre, scale), centres[n] + l, NSVCD__SLICE);
       radii[n][l] = scale * patch.radius;
-      pairs->z[n][l] = nsvcd__body_latents(body) + NSVCD__LATENT * i;
-      pairs->extremes[n][l] = nsvcd__group_extremes(body, i / NSVCD__GROUP) + i % NSVCD__GROUP;
+      p->z[n][l] = nsvcd__body_latents(body) + NSVCD__LATENT * i;
+      p->extremes[n][l] = nsvcd__group_extremes(body, i / NSVCD__GROUP) + i % NSVCD__GROUP;
       // A closed patch has no normal. A body that was loaded may hold any numbers.
       const float inverse = patch.radius > 0 ? 1 / patch.radius : 0;
       const nsvcd__f3 area = nsvcd__f3_get(nsvcd__body_areas(body) + i, body->padded);
@@ -238,15 +237,15 @@ static NSVCD__NOINLINE void nsvcd__pairs_of(const nsvcd_body *moving, const nsvc
     times[1][l] = candidate->t_exit;
     times[2][l] = 0.5f * (candidate->t_enter + candidate->t_exit);
   }
-  pairs->p2 = nsvcd__v3_load_rows(centres[1], NSVCD__SLICE);
-  pairs->r1 = nsvcd__v_load(radii[0]);
-  pairs->r2 = nsvcd__v_load(radii[1]);
+  p->p2 = nsvcd__v3_load_rows(centres[1], NSVCD__SLICE);
+  p->r1 = nsvcd__v_load(radii[0]);
+  p->r2 = nsvcd__v_load(radii[1]);
   for (size_t n = 0; n < 2; n++) {
-    pairs->normal[n] = nsvcd__v3_load_rows(normals[n], NSVCD__SLICE);
-    pairs->flat[n] = nsvcd__v_load(flat[n]);
+    p->normal[n] = nsvcd__v3_load_rows(normals[n], NSVCD__SLICE);
+    p->flat[n] = nsvcd__v_load(flat[n]);
   }
   for (size_t k = 0; k < 3; k++) at[k] = nsvcd__v_poses_at(motion, times[k], count);
-  nsvcd__pairs_in_passing(at, centres[0], pairs);
+  nsvcd__pairs_in_passing(at, centres[0], p);
 }
 
 // ---- frames and facts
@@ -283,27 +282,27 @@ static nsvcd__v3 nsvcd__v_unit_or(nsvcd__v3 a, float least, nsvcd__v3 instead) {
   return nsvcd__v3_pick(length, floor, instead, nsvcd__v3_scale(a, inverse));
 }
 
-static NSVCD__NOINLINE void nsvcd__views_of(const nsvcd__pairs *pairs, nsvcd__views *view) {
+static NSVCD__NOINLINE void nsvcd__views_of(const nsvcd__pairs *p, nsvcd__views *view) {
   const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v one = nsvcd__v_set(1);
   const nsvcd__v minus = nsvcd__v_set(-1);
-  const nsvcd__v3 between = nsvcd__v3_sub(pairs->p2, pairs->p1);
+  const nsvcd__v3 between = nsvcd__v3_sub(p->p2, p->p1);
   // The unit of length: r1 + r2, or, between two points, what keeps the inputs finite.
-  const nsvcd__v lengths = nsvcd__v_add(nsvcd__v3_length(between), nsvcd__v3_length(pairs->v));
+  const nsvcd__v lengths = nsvcd__v_add(nsvcd__v3_length(between), nsvcd__v3_length(p->v));
   const nsvcd__v least = nsvcd__v_fma(nsvcd__v_set(1e-6f), lengths, nsvcd__v_set(1e-30f));
-  const nsvcd__v unit = nsvcd__v_max(nsvcd__v_add(pairs->r1, pairs->r2), least);
+  const nsvcd__v unit = nsvcd__v_max(nsvcd__v_add(p->r1, p->r2), least);
   const nsvcd__v inverse = nsvcd__v_div(one, unit);
   view->inverse = inverse;
-  view->k1 = nsvcd__v_mul(pairs->r1, inverse);
-  view->k2 = nsvcd__v_mul(pairs->r2, inverse);
-  view->swap = nsvcd__v_pick(pairs->r2, pairs->r1, one, minus);
+  view->k1 = nsvcd__v_mul(p->r1, inverse);
+  view->k2 = nsvcd__v_mul(p->r2, inverse);
+  view->swap = nsvcd__v_pick(p->r2, p->r1, one, minus);
   // The larger patch's motion changes its sign with `swap`, and again with `time`: in all with
   // `sign` below.
-  view->normal = nsvcd__vmat3_apply(pairs->rotation, pairs->normal[0]);
+  view->normal = nsvcd__vmat3_apply(p->rotation, p->normal[0]);
   const nsvcd__v3 lean1 = nsvcd__v3_scale(view->normal, view->k1);
-  const nsvcd__v3 lean2 = nsvcd__v3_scale(pairs->normal[1], view->k2);
+  const nsvcd__v3 lean2 = nsvcd__v3_scale(p->normal[1], view->k2);
   const nsvcd__v3 lean = nsvcd__v3_scale(nsvcd__v3_sub(lean1, lean2), view->swap);
-  const nsvcd__v3 v = nsvcd__v3_scale(pairs->v, inverse);
+  const nsvcd__v3 v = nsvcd__v3_scale(p->v, inverse);
   view->lean = lean;
   view->d = nsvcd__v3_scale(nsvcd__v3_scale(between, inverse), view->swap);
 
@@ -317,7 +316,7 @@ static NSVCD__NOINLINE void nsvcd__views_of(const nsvcd__pairs *pairs, nsvcd__vi
   const nsvcd__v sign = nsvcd__v_sign(nsvcd__v3_dot(lean_across, v_across));
   view->time = nsvcd__v_mul(sign, view->swap);
   view->v = nsvcd__v3_scale(v, sign);
-  view->w = nsvcd__v3_scale(pairs->w, sign);
+  view->w = nsvcd__v3_scale(p->w, sign);
   const nsvcd__v3 forward = nsvcd__v3_scale(v_across, sign);
   const nsvcd__v3 ref = nsvcd__v3_fma(nsvcd__v_set(NSVCD__LEAN), lean_across, forward);
   // if the reference vanishes in some lane: the coordinate axis farthest from e1
@@ -341,13 +340,12 @@ static NSVCD__NOINLINE void nsvcd__views_of(const nsvcd__pairs *pairs, nsvcd__vi
 // ---- gaps
 
 // The axes u (GAPS) along which gaps are measured.
-static void nsvcd__gap_axes_of(const nsvcd__pairs *pairs, const nsvcd__views *view,
-                               nsvcd__v3 *u) {
+static void nsvcd__gap_axes_of(const nsvcd__pairs *p, const nsvcd__views *view, nsvcd__v3 *u) {
   const nsvcd__v zero = nsvcd__v_set(0);
-  const nsvcd__v3 between = nsvcd__v3_sub(pairs->p1, pairs->p2);
+  const nsvcd__v3 between = nsvcd__v3_sub(p->p1, p->p2);
   const nsvcd__v3 x_axis = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
   const nsvcd__v3 line = nsvcd__v_unit_or(between, 1e-20f, x_axis);
-  const nsvcd__v3 fixed = nsvcd__v_unit_or(pairs->normal[1], 0.5f, line);
+  const nsvcd__v3 fixed = nsvcd__v_unit_or(p->normal[1], 0.5f, line);
   const nsvcd__v3 moving = nsvcd__v_unit_or(nsvcd__v3_negate(view->normal), 0.5f, line);
   u[NSVCD__GAP_LARGER] = nsvcd__v3_pick(zero, view->swap, moving, fixed);
   u[NSVCD__GAP_SMALLER] = nsvcd__v3_pick(zero, view->swap, fixed, moving);
@@ -357,12 +355,11 @@ static void nsvcd__gap_axes_of(const nsvcd__pairs *pairs, const nsvcd__views *vi
 
 // The extreme points of the first `count` pairs of a slice, of the moving patches and of the fixed
 // ones: (2, EXTREMES, 3, SLICE), from the centres, in the bodies' frames, in 1/127 of the radii.
-static void nsvcd__extremes_collect(const nsvcd__pairs *pairs, size_t count,
-                                    int8_t *extremes) {
+static void nsvcd__extremes_collect(const nsvcd__pairs *p, size_t count, int8_t *extremes) {
   memset(extremes, 0, 2 * 3 * NSVCD__EXTREMES * NSVCD__SLICE);
   for (size_t n = 0; n < 2; n++) {
     for (size_t k = 0; k < 3 * NSVCD__EXTREMES; k++, extremes += NSVCD__SLICE) {
-      for (size_t l = 0; l < count; l++) extremes[l] = pairs->extremes[n][l][NSVCD__GROUP * k];
+      for (size_t l = 0; l < count; l++) extremes[l] = p->extremes[n][l][NSVCD__GROUP * k];
     }
   }
 }
@@ -380,17 +377,17 @@ static nsvcd__v3 nsvcd__turned_back(nsvcd__v3 u, nsvcd__v3 w) {
 // -1 and 1. Seen from a frame that turns half as fast as the moving patch, so that both patches are
 // treated alike: the line between the centres moves by v, one patch turns by w / 2, the other by
 // -w / 2. extremes: of nsvcd__extremes_collect.
-static NSVCD__NOINLINE void nsvcd__gaps_at(const nsvcd__pairs *pairs, const nsvcd__v3 *u,
+static NSVCD__NOINLINE void nsvcd__gaps_at(const nsvcd__pairs *p, const nsvcd__v3 *u,
                                            const int8_t *extremes, nsvcd__v tau,
                                            nsvcd__v *wide) {
   const size_t size = 3 * NSVCD__SLICE;
-  const nsvcd__v3 half = nsvcd__v3_scale(pairs->w, nsvcd__v_scale(tau, 0.5f));
+  const nsvcd__v3 half = nsvcd__v3_scale(p->w, nsvcd__v_scale(tau, 0.5f));
   const nsvcd__v3 back = nsvcd__v3_negate(half);
   nsvcd__v3 own[NSVCD__GAPS], other[NSVCD__GAPS];
   nsvcd__v low[NSVCD__GAPS], high[NSVCD__GAPS];
   for (size_t d = 0; d < NSVCD__GAPS; d++) {
     const nsvcd__v3 turned = nsvcd__turned_back(u[d], half);
-    own[d] = nsvcd__vmat3_apply_transpose(pairs->rotation, turned);
+    own[d] = nsvcd__vmat3_apply_transpose(p->rotation, turned);
     other[d] = nsvcd__turned_back(u[d], back);
     low[d] = nsvcd__v_set(1e30f);
     high[d] = nsvcd__v_set(-1e30f);
@@ -403,10 +400,10 @@ static NSVCD__NOINLINE void nsvcd__gaps_at(const nsvcd__pairs *pairs, const nsvc
       high[d] = nsvcd__v_max(high[d], nsvcd__v3_dot(other[d], x));
     }
   }
-  const nsvcd__v3 between = nsvcd__v3_sub(pairs->p1, pairs->p2);
-  const nsvcd__v3 apart = nsvcd__v3_fma(tau, pairs->v, between);
-  const nsvcd__v step1 = nsvcd__v_scale(pairs->r1, 1.0f / 127);
-  const nsvcd__v step2 = nsvcd__v_scale(pairs->r2, 1.0f / 127);
+  const nsvcd__v3 between = nsvcd__v3_sub(p->p1, p->p2);
+  const nsvcd__v3 apart = nsvcd__v3_fma(tau, p->v, between);
+  const nsvcd__v step1 = nsvcd__v_scale(p->r1, 1.0f / 127);
+  const nsvcd__v step2 = nsvcd__v_scale(p->r2, 1.0f / 127);
   for (size_t d = 0; d < NSVCD__GAPS; d++) {
     const nsvcd__v above = nsvcd__v_fma(step1, low[d], nsvcd__v3_dot(u[d], apart));
     wide[d] = nsvcd__v_sub(above, nsvcd__v_mul(step2, high[d]));
@@ -420,18 +417,17 @@ static nsvcd__v nsvcd__gap_fact(nsvcd__v gap, float steep) {
 }
 
 // Writes the facts about gaps.
-static NSVCD__NOINLINE void nsvcd__gap_facts(const nsvcd__pairs *pairs,
-                                             const nsvcd__views *view, size_t count,
-                                             float (*facts)[NSVCD__SLICE]) {
+static NSVCD__NOINLINE void nsvcd__gap_facts(const nsvcd__pairs *p, const nsvcd__views *view,
+                                             size_t count, float (*facts)[NSVCD__SLICE]) {
   int8_t extremes[2 * 3 * NSVCD__EXTREMES * NSVCD__SLICE];
   nsvcd__v3 u[NSVCD__GAPS];
-  nsvcd__gap_axes_of(pairs, view, u);
-  nsvcd__extremes_collect(pairs, count, extremes);
+  nsvcd__gap_axes_of(p, view, u);
+  nsvcd__extremes_collect(p, count, extremes);
   for (size_t m = 0; m < NSVCD__MOMENTS; m++) {
     const nsvcd__v tau = nsvcd__v_scale(view->time, (float)m - 1);
     nsvcd__v wide[NSVCD__GAPS];
     nsvcd__v widest = nsvcd__v_set(-1e30f);
-    nsvcd__gaps_at(pairs, u, extremes, tau, wide);
+    nsvcd__gaps_at(p, u, extremes, tau, wide);
     for (size_t d = 0; d < NSVCD__GAPS; d++) {
       const nsvcd__v gap = nsvcd__v_mul(view->inverse, wide[d]);
       float *to = facts[NSVCD__FACT_GAPS + NSVCD__MOMENTS * d + m];
@@ -455,10 +451,10 @@ typedef struct nsvcd__inputs {
 } nsvcd__inputs;
 
 // All of that but for the facts about gaps.
-static NSVCD__NOINLINE void nsvcd__inputs_without_gaps(const nsvcd__pairs *pairs,
+static NSVCD__NOINLINE void nsvcd__inputs_without_gaps(const nsvcd__pairs *p,
                                                        const nsvcd__views *view,
                                                        nsvcd__inputs *out) {
-  out->turn[0] = nsvcd__vmat3_mul(view->frame, pairs->rotation);
+  out->turn[0] = nsvcd__vmat3_mul(view->frame, p->rotation);
   out->turn[1] = view->frame;
   out->k[0] = view->k1;
   out->k[1] = view->k2;
@@ -486,7 +482,7 @@ static NSVCD__NOINLINE void nsvcd__inputs_without_gaps(const nsvcd__pairs *pairs
   nsvcd__v_store(facts[NSVCD__FACT_SPIN], nsvcd__v3_length(view->w));
 
   const nsvcd__v zero = nsvcd__v_set(0);
-  const nsvcd__v3 *fixed = &pairs->normal[1];
+  const nsvcd__v3 *fixed = &p->normal[1];
   const nsvcd__v3 larger = nsvcd__v3_pick(zero, view->swap, view->normal, *fixed);
   const nsvcd__v3 smaller = nsvcd__v3_pick(zero, view->swap, *fixed, view->normal);
   float(*facing)[NSVCD__SLICE] = facts + NSVCD__FACT_FACING;
@@ -494,31 +490,30 @@ static NSVCD__NOINLINE void nsvcd__inputs_without_gaps(const nsvcd__pairs *pairs
   nsvcd__v_store(facing[1], nsvcd__v3_dot(larger, view->frame.x));
   nsvcd__v_store(facing[2], nsvcd__v3_dot(smaller, view->frame.x));
   float(*flat)[NSVCD__SLICE] = facts + NSVCD__FACT_FLAT;
-  nsvcd__v_store(flat[0], nsvcd__v_pick(zero, view->swap, pairs->flat[0], pairs->flat[1]));
-  nsvcd__v_store(flat[1], nsvcd__v_pick(zero, view->swap, pairs->flat[1], pairs->flat[0]));
+  nsvcd__v_store(flat[0], nsvcd__v_pick(zero, view->swap, p->flat[0], p->flat[1]));
+  nsvcd__v_store(flat[1], nsvcd__v_pick(zero, view->swap, p->flat[1], p->flat[0]));
 }
 
 // For the first `count` pairs of a slice. Step by step, so that the stack of one step does not add
 // to that of the next.
-static void nsvcd__inputs_of(const nsvcd__pairs *pairs, size_t count, nsvcd__inputs *out) {
+static void nsvcd__inputs_of(const nsvcd__pairs *p, size_t count, nsvcd__inputs *out) {
   nsvcd__views view;
-  nsvcd__views_of(pairs, &view);
-  nsvcd__inputs_without_gaps(pairs, &view, out);
-  nsvcd__gap_facts(pairs, &view, count, out->facts);
+  nsvcd__views_of(p, &view);
+  nsvcd__inputs_without_gaps(p, &view, out);
+  nsvcd__gap_facts(p, &view, count, out->facts);
 }
 
 // Writes the decoder's inputs for the first `count` pairs of a slice, x (count, DECODER_IN): the
 // vectors of the larger patch and of the smaller one, their scalars, and the facts.
-static NSVCD__NOINLINE void nsvcd__inputs_write(const nsvcd__inputs *in,
-                                                const nsvcd__pairs *pairs, size_t count,
-                                                float *x) {
+static NSVCD__NOINLINE void nsvcd__inputs_write(const nsvcd__inputs *in, const nsvcd__pairs *p,
+                                                size_t count, float *x) {
   const nsvcd__v step = nsvcd__v_set(NSVCD__LATENT_STEP);
   float wigner[NSVCD__WIGNER][NSVCD__SLICE];
   for (size_t n = 0; n < 2; n++) {
     nsvcd__wigner(&in->turn[n], nsvcd__v_mul(in->k[n], step), wigner);
     for (size_t l = 0; l < count; l++) {
       const size_t slot = (in->keep >> l & 1) == n;
-      nsvcd__rotate_latent(pairs->z[n][l], wigner, l, slot, x + NSVCD__DECODER_IN * l);
+      nsvcd__rotate_latent(p->z[n][l], wigner, l, slot, x + NSVCD__DECODER_IN * l);
     }
   }
   for (size_t l = 0; l < count; l++) {
@@ -528,10 +523,9 @@ static NSVCD__NOINLINE void nsvcd__inputs_write(const nsvcd__inputs *in,
   }
 }
 
-static NSVCD__NOINLINE void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count,
-                                              float *x) {
+static NSVCD__NOINLINE void nsvcd__invariants(const nsvcd__pairs *p, size_t count, float *x) {
   nsvcd__inputs inputs;
-  nsvcd__inputs_of(pairs, count, &inputs);
-  nsvcd__inputs_write(&inputs, pairs, count, x);
+  nsvcd__inputs_of(p, count, &inputs);
+  nsvcd__inputs_write(&inputs, p, count, x);
 }
 #endif  // NSVCD_NO_NETWORK

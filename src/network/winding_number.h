@@ -6,7 +6,7 @@
 //   w(x) = sum_i A_i . (p_i - x) / (4 pi |p_i - x|^3)     1 inside, 0 outside
 // Near the surface it is not: for a flat disc seen from its covering radius this gives 0.25, and
 // 0.146 is true; from half of it 1.0, and 0.28 is true. So w is taken at the patch centre of the
-// inner body, of NSVCD__POSITIONS, that is farthest from the outer patches in units of their radii;
+// inner body, of NSVCD__PROBES, that is farthest from the outer patches in units of their radii;
 // or, as bodies may be of several parts, at up to NSVCD__INSIDE_SAMPLES that are far from each
 // other. They must not be nearer than NSVCD__FAR_ENOUGH, or NSVCD__FAR_INSIDE on the inner side of
 // a flat patch. If all are on the inner side of the nearest patch, as those of a chip in a table
@@ -18,14 +18,14 @@
 // are summed, and the sum stands for the members of a sphere that is farther than NSVCD__DIPOLE of
 // its radii: w is then within 0.05 of the sum over all patches (tests/test_level.c).
 //
-// Cost: at most NSVCD__POSITIONS * N distances each way, where one body's centres lie in the
+// Cost: at most NSVCD__PROBES * N distances each way, where one body's centres lie in the
 // other's sphere and the straight way out of it is barred; of large bodies only those to groups
 // nearby.
 #pragma once
 #include "../motion/segments.h"
 
 #ifndef NSVCD_NO_NETWORK
-#define NSVCD__POSITIONS NSVCD__LANES  // tested points of the inner body
+#define NSVCD__PROBES NSVCD__LANES  // tested points of the inner body
 // Distances in radii of a patch. A point may be asked about if no patch is nearer than
 #define NSVCD__FAR_ENOUGH 1.0f
 // or than this, on the inner side of the nearest one.
@@ -38,15 +38,15 @@
 #define NSVCD__FLAT 0.4f
 #define NSVCD__INSIDE_SAMPLES 4  // winding numbers, at most
 
-// A filter of a traversal: spheres whose members may be nearer to one of the points than
-// NSVCD__AMPLE of their radii. what: the sphere about all points. A member (p, r) of a sphere (c, R)
-// has |p - c| + r <= R, so that |p - x| / r is at least |c - x| / R.
+// A filter of a traversal: spheres whose members may be nearer to one of the probes than
+// NSVCD__AMPLE of their radii. what: the sphere about the probes. A member (p, r) of a sphere
+// (c, R) has |p - c| + r <= R, so that |p - x| / r is at least |c - x| / R.
 static uint32_t nsvcd__may_be_close(const void *what, nsvcd__spheres all) {
-  const nsvcd__sphere *all_points = (const nsvcd__sphere *)what;
-  const nsvcd__v radius = nsvcd__v_set(all_points->radius);
+  const nsvcd__sphere *about = (const nsvcd__sphere *)what;
+  const nsvcd__v radius = nsvcd__v_set(about->radius);
   uint32_t close = 0;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 centre = nsvcd__v3_set(all_points->centre);
+    const nsvcd__v3 centre = nsvcd__v3_set(about->centre);
     const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(all, l), centre);
     const nsvcd__v r = nsvcd__v_load(all.r + l);
     const nsvcd__v ample = nsvcd__v_fma(r, nsvcd__v_set(NSVCD__AMPLE), radius);
@@ -55,25 +55,25 @@ static uint32_t nsvcd__may_be_close(const void *what, nsvcd__spheres all) {
   return close;
 }
 
-// Where points lie about a body.
-typedef struct nsvcd__positions {
-  float at[3][NSVCD__POSITIONS];
+// Points, and where they lie about a body.
+typedef struct nsvcd__probes {
+  float at[3][NSVCD__PROBES];
   // the least |p_i - x| / r_i over its patches, squared; at most AMPLE squared
-  float square[NSVCD__POSITIONS];
+  float square[NSVCD__PROBES];
   // the squared distance of the nearest patch, taken as a disc of its area, and the height over it:
   // negative on the inner side, if the patch is flat
-  float nearest[NSVCD__POSITIONS], height[NSVCD__POSITIONS];
-} nsvcd__positions;
+  float nearest[NSVCD__PROBES], height[NSVCD__PROBES];
+} nsvcd__probes;
 
 // Fills in all but `at`, from that.
-static void nsvcd__positions_measure(const nsvcd_body *body, nsvcd__positions *out) {
+static void nsvcd__probes_measure(const nsvcd_body *body, nsvcd__probes *out) {
   const nsvcd__spheres patches = nsvcd__body_patches(body);
   const nsvcd__v zero = nsvcd__v_set(0);
   nsvcd__f3 low = nsvcd__f3_of(HUGE_VALF, HUGE_VALF, HUGE_VALF);
   nsvcd__f3 high = nsvcd__f3_scale(low, -1);
   nsvcd__traversal traversal;
   size_t g;
-  for (size_t k = 0; k < NSVCD__POSITIONS; k++) {
+  for (size_t k = 0; k < NSVCD__PROBES; k++) {
     low = nsvcd__f3_min(low, nsvcd__lane_of(out->at, k));
     high = nsvcd__f3_max(high, nsvcd__lane_of(out->at, k));
     out->square[k] = NSVCD__AMPLE * NSVCD__AMPLE;
@@ -88,7 +88,7 @@ static void nsvcd__positions_measure(const nsvcd_body *body, nsvcd__positions *o
     const size_t next = NSVCD__GROUP * (g + 1);
     const size_t end = next < body->patches ? next : body->patches;
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 position = nsvcd__v3_load(out->at, l);
+      const nsvcd__v3 at = nsvcd__v3_load(out->at, l);
       nsvcd__v least = nsvcd__v_load(out->square + l);
       nsvcd__v nearest = nsvcd__v_load(out->nearest + l);
       nsvcd__v height = nsvcd__v_load(out->height + l);
@@ -97,7 +97,7 @@ static void nsvcd__positions_measure(const nsvcd_body *body, nsvcd__positions *o
         const nsvcd__f3 area = nsvcd__f3_get(nsvcd__body_areas(body) + i, body->padded);
         const float size = nsvcd__f3_length(area);
         const nsvcd__f3 normal = nsvcd__f3_scale(area, size > 0 ? 1 / size : 0);
-        const nsvcd__v3 d = nsvcd__v3_sub(position, nsvcd__v3_set(patch.centre));
+        const nsvcd__v3 d = nsvcd__v3_sub(at, nsvcd__v3_set(patch.centre));
         const nsvcd__v square = nsvcd__v3_dot(d, d);
         const float own = patch.radius * patch.radius;
         const float inverse = 1 / (own > 1e-37f ? own : 1e-37f);
@@ -175,16 +175,16 @@ static float nsvcd__winding_number(const nsvcd_body *body, nsvcd__f3 point) {
 
 // Of the points that are far enough from the surface, the one that is farthest from those marked;
 // POSITIONS if there is none.
-static size_t nsvcd__next_position(nsvcd__positions *positions, uint32_t marked) {
-  size_t next = NSVCD__POSITIONS;
+static size_t nsvcd__next_probe(nsvcd__probes *probes, uint32_t marked) {
+  size_t next = NSVCD__PROBES;
   float most = -1;
-  for (size_t k = 0; k < NSVCD__POSITIONS; k++) {
-    float least = positions->square[k];
-    const float needed = positions->height[k] < 0 ? NSVCD__FAR_INSIDE : NSVCD__FAR_ENOUGH;
+  for (size_t k = 0; k < NSVCD__PROBES; k++) {
+    float least = probes->square[k];
+    const float needed = probes->height[k] < 0 ? NSVCD__FAR_INSIDE : NSVCD__FAR_ENOUGH;
     if (least < needed * needed || marked >> k & 1) continue;
     for (uint32_t left = marked; left; left &= left - 1) {
-      const nsvcd__f3 other = nsvcd__lane_of(positions->at, nsvcd__low_bit(left));
-      const nsvcd__f3 d = nsvcd__f3_sub(nsvcd__lane_of(positions->at, k), other);
+      const nsvcd__f3 other = nsvcd__lane_of(probes->at, nsvcd__low_bit(left));
+      const nsvcd__f3 d = nsvcd__f3_sub(nsvcd__lane_of(probes->at, k), other);
       const float square = nsvcd__f3_dot(d, d);
       least = square < least || left == marked ? square : least;
     }
@@ -194,8 +194,8 @@ static size_t nsvcd__next_position(nsvcd__positions *positions, uint32_t marked)
   return next;
 }
 
-// Does a ray from a point, away from a body's centre, meet the ball of a patch? If not, the point is
-// outside: the ray would cross a closed surface.
+// Does the ray from a point away from a body's centre meet the ball of a patch? If not, the point
+// is outside: from inside the ray would cross the surface.
 static int nsvcd__way_out_is_barred(const nsvcd_body *body, nsvcd__f3 point) {
   const nsvcd__f3 away = nsvcd__f3_sub(point, nsvcd__f3_load(body->centre));
   const float length = nsvcd__f3_length(away);
@@ -216,41 +216,40 @@ static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, fl
                             const nsvcd__transform *pose) {
   const nsvcd__spheres patches = nsvcd__body_patches(inner);
   const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_load(outer->centre));
-  nsvcd__positions positions;
+  nsvcd__probes probes;
   uint32_t inside = 0;
   uint32_t marked = 0;
   uint32_t below = 0;
   if (outer->open) return 0;
-  for (size_t k = 0; k < NSVCD__POSITIONS; k++) {
+  for (size_t k = 0; k < NSVCD__PROBES; k++) {
     // Neighbours are stored together, so that equal steps cover the body.
-    const nsvcd__f3 own = nsvcd__centre_of(patches, k * inner->patches / NSVCD__POSITIONS);
+    const nsvcd__f3 own = nsvcd__centre_of(patches, k * inner->patches / NSVCD__PROBES);
     const nsvcd__f3 turned = nsvcd__mat3_apply(&pose->rotation, own);
-    const nsvcd__f3 position = nsvcd__f3_add(nsvcd__f3_scale(turned, scale), pose->position);
-    nsvcd__lane_set(position, positions.at, k);
+    const nsvcd__f3 at = nsvcd__f3_add(nsvcd__f3_scale(turned, scale), pose->position);
+    nsvcd__lane_set(at, probes.at, k);
   }
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_load(positions.at, l), centre);
+    const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_load(probes.at, l), centre);
     inside |= nsvcd__v_le(nsvcd__v3_length(off), nsvcd__v_set(outer->radius)) << l;
   }
   for (uint32_t left = inside; left; left &= left - 1) {
     const size_t k = nsvcd__low_bit(left);
-    if (!nsvcd__way_out_is_barred(outer, nsvcd__lane_of(positions.at, k)))
-      inside &= ~(1u << k);
+    if (!nsvcd__way_out_is_barred(outer, nsvcd__lane_of(probes.at, k))) inside &= ~(1u << k);
   }
   if (!inside) return 0;
-  nsvcd__positions_measure(outer, &positions);
-  for (size_t k = 0; k < NSVCD__POSITIONS; k++) {
-    if (!(inside >> k & 1)) positions.square[k] = 0;
-    below |= (uint32_t)(positions.height[k] < 0) << k;
+  nsvcd__probes_measure(outer, &probes);
+  for (size_t k = 0; k < NSVCD__PROBES; k++) {
+    if (!(inside >> k & 1)) probes.square[k] = 0;
+    below |= (uint32_t)(probes.height[k] < 0) << k;
   }
   // all on the inner side, however near
   if (inside == 0xffff && below == 0xffff) return 1;
   for (size_t n = 0; n < NSVCD__INSIDE_SAMPLES; n++) {
-    const size_t k = nsvcd__next_position(&positions, marked);
-    if (k == NSVCD__POSITIONS) break;
+    const size_t k = nsvcd__next_probe(&probes, marked);
+    if (k == NSVCD__PROBES) break;
     marked |= 1u << k;
     // -1 if the mesh is inside out
-    if (fabsf(nsvcd__winding_number(outer, nsvcd__lane_of(positions.at, k))) > 0.5f) return 1;
+    if (fabsf(nsvcd__winding_number(outer, nsvcd__lane_of(probes.at, k))) > 0.5f) return 1;
   }
   return 0;
 }

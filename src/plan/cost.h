@@ -8,16 +8,15 @@
 // differences of `kinematics`. poses: (B), at these joints.
 static void nsvcd__by_differences(nsvcd__planner *p, const float *joints,
                                   const nsvcd_pose *poses, const float *wrenches) {
-  const nsvcd_plan_problem *problem = p->problem;
   float moved[NSVCD_MAX_JOINTS];
-  memcpy(moved, joints, problem->joints * sizeof *moved);
-  for (size_t j = 0; j < problem->joints; j++) {
+  memcpy(moved, joints, p->in->joints * sizeof *moved);
+  for (size_t j = 0; j < p->in->joints; j++) {
     moved[j] = joints[j] + (NSVCD__JOINT_STEP + NSVCD__JOINT_STEP_FRACTION * fabsf(joints[j]));
     const float step = moved[j] - joints[j];  // as rounded
-    problem->kinematics(problem->user, moved, p->moved);
+    p->in->kinematics(p->in->user, moved, p->moved);
     moved[j] = joints[j];
     p->by_path[j] = 0;
-    for (size_t b = 0; b < problem->body_count; b++) {
+    for (size_t b = 0; b < p->in->body_count; b++) {
       const nsvcd__quat q = nsvcd__quat_load(poses[b].rotation);
       const nsvcd__quat r = nsvcd__quat_load(p->moved[b].rotation);
       const float twice = nsvcd__quat_dot(q, r) < 0 ? -2.0f : 2.0f;
@@ -33,11 +32,10 @@ static void nsvcd__by_differences(nsvcd__planner *p, const float *joints,
 // The poses (moments, B) at joints (moments, F), with quaternions of unit length.
 static void nsvcd__find_poses(nsvcd__planner *p, const float *joints, size_t moments,
                               nsvcd_pose *poses) {
-  const nsvcd_plan_problem *problem = p->problem;
-  const size_t bodies = problem->body_count;
+  const size_t bodies = p->in->body_count;
   const size_t count = moments * bodies;
   for (size_t s = 0; s < moments; s++)
-    problem->kinematics(problem->user, joints + s * problem->joints, poses + s * bodies);
+    p->in->kinematics(p->in->user, joints + s * p->in->joints, poses + s * bodies);
   const nsvcd_result error = count > 0 ? nsvcd__poses_check(poses, count) : NSVCD_OK;
   if (error) p->error = error;
   for (size_t k = 0; k < count && !error; k++) {
@@ -49,7 +47,7 @@ static void nsvcd__find_poses(nsvcd__planner *p, const float *joints, size_t mom
 // The smoothness of a trajectory; gradient: (M + 2, F), written, or NULL.
 static float nsvcd__smoothness(const nsvcd__planner *p, const nsvcd__stage *stage,
                                const float *control, float *gradient) {
-  const size_t f = p->problem->joints;
+  const size_t f = p->in->joints;
   const size_t all = stage->via + 2;
   double smoothness = 0;
   for (size_t j = 0; j < f; j++) {
@@ -73,13 +71,12 @@ static int nsvcd__leaves_limits(const nsvcd_plan_problem *problem, size_t joint,
 // within the margin before these. gradient: (M + 2, F), added to, or NULL.
 static void nsvcd__add_limits(nsvcd__planner *p, const nsvcd__stage *stage,
                               const float *control, float *gradient, nsvcd__cost *cost) {
-  const nsvcd_plan_problem *problem = p->problem;
-  const size_t f = problem->joints;
+  const size_t f = p->in->joints;
   const size_t all = stage->via + 2;
   const float fraction = NSVCD__LIMIT_COST / (float)stage->moments;
   // via points too: moments may be too few to hit one
   for (size_t k = f; k < f + stage->numbers && cost->joint == NSVCD_NONE; k++) {
-    if (nsvcd__leaves_limits(problem, k % f, control[k])) cost->joint = k % f;
+    if (nsvcd__leaves_limits(p->in, k % f, control[k])) cost->joint = k % f;
   }
   for (size_t s = 0; s < stage->moments; s++) {
     const float *w = stage->weights + s * all;
@@ -88,13 +85,13 @@ static void nsvcd__add_limits(nsvcd__planner *p, const nsvcd__stage *stage,
       for (size_t k = 0; k < all; k++) value += w[k] * control[k * f + j];
       p->path[s * f + j] = value;
 
-      const float low = problem->low[j];
-      const float high = problem->high[j];
+      const float low = p->in->low[j];
+      const float high = p->in->high[j];
       const float inner = NSVCD__LIMIT_MARGIN * (high - low);
       float out = value > high - inner ? value - high + inner : 0;
       if (value < low + inner) out = value - low - inner;
       cost->total += fraction * out * out;
-      if (nsvcd__leaves_limits(problem, j, value)) cost->joint = j;
+      if (nsvcd__leaves_limits(p->in, j, value)) cost->joint = j;
       for (size_t k = 0; gradient && k < all; k++)
         gradient[k * f + j] += 2 * fraction * out * w[k];
     }
@@ -104,9 +101,8 @@ static void nsvcd__add_limits(nsvcd__planner *p, const nsvcd__stage *stage,
 // Adds the derivative of the cost of collision, from p->wrenches, to the gradient (M + 2, F).
 static void nsvcd__add_collision_gradient(nsvcd__planner *p, const nsvcd__stage *stage,
                                           float *gradient) {
-  const nsvcd_plan_problem *problem = p->problem;
-  const size_t f = problem->joints;
-  const size_t numbers = 6 * problem->body_count;
+  const size_t f = p->in->joints;
+  const size_t numbers = 6 * p->in->body_count;
   const size_t all = stage->via + 2;
   for (size_t s = 0; s < stage->moments; s++) {
     const float *joints = p->path + s * f;
@@ -115,15 +111,15 @@ static void nsvcd__add_collision_gradient(nsvcd__planner *p, const nsvcd__stage 
     for (size_t k = 0; k < numbers && !has_any; k++)
       has_any = wrenches[k] < 0 || wrenches[k] > 0;
     if (!has_any) continue;
-    if (problem->jacobian) {
-      problem->jacobian(problem->user, joints, p->jacobian);
+    if (p->in->jacobian) {
+      p->in->jacobian(p->in->user, joints, p->jacobian);
       for (size_t j = 0; j < f; j++) {
         p->by_path[j] = 0;
         for (size_t i = 0; i < numbers; i++)
           p->by_path[j] += wrenches[i] * p->jacobian[i * f + j];
       }
     } else {
-      nsvcd__by_differences(p, joints, p->poses + s * problem->body_count, wrenches);
+      nsvcd__by_differences(p, joints, p->poses + s * p->in->body_count, wrenches);
     }
     for (size_t k = 0; k < all; k++) {
       const float weight = p->options.collision * stage->weights[s * all + k];
@@ -136,7 +132,7 @@ static void nsvcd__add_collision_gradient(nsvcd__planner *p, const nsvcd__stage 
 // NULL.
 static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage,
                                   const float *control, float limit, float *gradient) {
-  const size_t numbers = 6 * stage->moments * p->problem->body_count;
+  const size_t numbers = 6 * stage->moments * p->in->body_count;
   const float weight = p->options.collision;
   const int at_end = stage == &p->check;
   float *wrenches = gradient ? p->wrenches : NULL;

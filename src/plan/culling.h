@@ -24,8 +24,8 @@
 #ifndef NSVCD_NO_OPTIMIZER
 // The shapes of all bodies.
 static void nsvcd__find_shapes(nsvcd__planner *p) {
-  for (size_t b = 0; p->problem->bodies && b < p->problem->body_count; b++) {
-    const nsvcd_body *body = p->problem->bodies[b];
+  for (size_t b = 0; p->in->bodies && b < p->in->body_count; b++) {
+    const nsvcd_body *body = p->in->bodies[b];
     nsvcd__shape shape = {{{0, 0, 0}, 0},
                           {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}}};
     float position[3];
@@ -46,9 +46,9 @@ static void nsvcd__find_shapes(nsvcd__planner *p) {
 
 // The stances of all bodies, from p->poses.
 static void nsvcd__find_stances(nsvcd__planner *p, size_t moments) {
-  const size_t bodies = p->problem->body_count;
-  for (size_t b = 0; p->problem->bodies && b < bodies; b++) {
-    if (!p->problem->bodies[b]) continue;
+  const size_t bodies = p->in->body_count;
+  for (size_t b = 0; p->in->bodies && b < bodies; b++) {
+    if (!p->in->bodies[b]) continue;
     for (size_t s = 0; s < moments; s++) {
       const nsvcd_pose *pose = &p->poses[s * bodies + b];
       const nsvcd_pose *next = s + 1 < moments ? pose + bodies : pose;
@@ -70,13 +70,13 @@ static inline int nsvcd__passes_by(const nsvcd__planner *p, size_t body, size_t 
                                    int rests, size_t s, size_t stride) {
   const nsvcd__sphere *sphere = &p->shapes[body].sphere;
   const nsvcd__box *box = &p->shapes[other].box;
-  const nsvcd__stance *now = p->stances + s * p->problem->body_count;
+  const nsvcd__stance *now = p->stances + s * p->in->body_count;
   // the sphere's centre as `other` sees it at both ends, and the sum of its distances from the
   // origin of `other`
   nsvcd__f3 seen[2];
   float distance = 0;
   for (size_t k = 0; k < 2; k++) {
-    const nsvcd__stance *at = now + k * stride * p->problem->body_count;
+    const nsvcd__stance *at = now + k * stride * p->in->body_count;
     const nsvcd__transform *from = &at[other].pose;
     const nsvcd__f3 origin = nsvcd__f3_sub(at[body].pose.position, from->position);
     const nsvcd__f3 centre = nsvcd__f3_add(origin, at[body].centre);
@@ -159,15 +159,15 @@ static float nsvcd__logit_of(const nsvcd_answer *answer) {
 // last check, by the method of the options. gradient: (segments + 1, 6), or NULL.
 static nsvcd_answer nsvcd__ask_segments(nsvcd__planner *p, uint32_t k, size_t first,
                                         size_t segments, int at_end, float *gradient) {
-  const nsvcd_body_pair *pair = &p->problem->pairs[k];
+  const nsvcd_body_pair *pair = &p->in->pairs[k];
   nsvcd_pose motion[NSVCD__RUN_SEGMENTS + 1];
   for (size_t n = 0; n <= segments; n++) {
-    const nsvcd_pose *row = p->poses + (first + n) * p->problem->body_count;
+    const nsvcd_pose *row = p->poses + (first + n) * p->in->body_count;
     motion[n] = nsvcd__relative_pose(&row[pair->a], &row[pair->b]);
   }
 
-  const nsvcd_mover a = {p->problem->bodies[pair->a], motion, segments + 1, NULL, 0};
-  const nsvcd_mover b = {p->problem->bodies[pair->b], NULL, 0, NULL, 0};
+  const nsvcd_mover a = {p->in->bodies[pair->a], motion, segments + 1, NULL, 0};
+  const nsvcd_mover b = {p->in->bodies[pair->b], NULL, 0, NULL, 0};
   nsvcd_question question = p->options.sweep;
   question.a = a;
   question.b = b;
@@ -207,7 +207,7 @@ typedef struct nsvcd__asking {
 // Adds the cost of pair k from moment s to s + stride.
 static void nsvcd__add_segment(nsvcd__planner *p, uint32_t k, size_t s,
                                const nsvcd__asking *how, nsvcd__cost *cost) {
-  const nsvcd_body_pair *pair = &p->problem->pairs[k];
+  const nsvcd_body_pair *pair = &p->in->pairs[k];
   float gradient[2 * 6];
   float slope;
   float *wanted = how->wrenches ? gradient : NULL;
@@ -227,7 +227,7 @@ static void nsvcd__add_segment(nsvcd__planner *p, uint32_t k, size_t s,
   cost->collides |= collides;
   cost->collision += nsvcd__cost_of_logit(logit, p->options.margin, &slope);
   for (size_t i = 0; wanted && slope > 0 && i <= how->stride; i++) {
-    const size_t row = (s + i) * p->problem->body_count;
+    const size_t row = (s + i) * p->in->body_count;
     nsvcd__add_wrench_on_pair(pair, p->poses + row, slope, gradient + 6 * i,
                               how->wrenches + 6 * row);
   }
@@ -239,7 +239,7 @@ static void nsvcd__add_pair(nsvcd__planner *p, uint32_t k, const nsvcd__asking *
   const size_t end = how->moments - how->stride;
   const int in_runs = how->stride && !how->at_end;
   size_t asked = 0;  // runs before this segment have been
-  nsvcd__find_meetings(p, &p->problem->pairs[k], how->moments, how->stride);
+  nsvcd__find_meetings(p, &p->in->pairs[k], how->moments, how->stride);
   for (size_t s = 0; s < end && cost->collision <= how->limit && !p->error; s++) {
     if (!p->meets[s]) continue;
     if (in_runs && s >= asked) {
@@ -264,17 +264,16 @@ static void nsvcd__add_pair(nsvcd__planner *p, uint32_t k, const nsvcd__asking *
 // first sum above `limit`. wrenches: (moments, B, 6), added to, or NULL. at_end: in the last check.
 static void nsvcd__add_collision(nsvcd__planner *p, size_t moments, float limit,
                                  float *wrenches, int at_end, nsvcd__cost *cost) {
-  const nsvcd_plan_problem *problem = p->problem;
   const size_t stride = !p->options.discrete && moments > 1;
   const nsvcd__asking how = {moments, stride, at_end, limit, wrenches};
-  if (problem->collision) {
+  if (p->in->collision) {
     cost->collision =
-        problem->collision(problem->user, p->poses, moments, limit, &cost->collides, wrenches);
+        p->in->collision(p->in->user, p->poses, moments, limit, &cost->collides, wrenches);
     cost->logit = cost->collision;
     return;
   }
   nsvcd__find_stances(p, moments);
-  for (size_t n = 0; n < problem->pair_count && cost->collision <= limit; n++) {
+  for (size_t n = 0; n < p->in->pair_count && cost->collision <= limit; n++) {
     const uint32_t k = p->queue[n];
     const float before = cost->collision;
     nsvcd__add_pair(p, k, &how, cost);

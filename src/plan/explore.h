@@ -15,7 +15,7 @@ static double nsvcd__normal(nsvcd__planner *p) {
 // form of the smoothness, scaled: the largest standard deviation of a joint is deviations (F).
 static void nsvcd__smooth_noise(nsvcd__planner *p, const nsvcd__stage *stage,
                                 const float *deviations, float *out) {
-  const size_t f = p->problem->joints;
+  const size_t f = p->in->joints;
   const size_t via = stage->via;
   for (size_t j = 0; j < f; j++) {
     for (size_t k = 0; k < via; k++) p->vector[k] = nsvcd__normal(p);
@@ -28,12 +28,12 @@ static void nsvcd__smooth_noise(nsvcd__planner *p, const nsvcd__stage *stage,
 // out (M + 2, F) = control + scale * offset (M, F), with via points clamped to the limits.
 static void nsvcd__change(const nsvcd__planner *p, const nsvcd__stage *stage,
                           const float *control, const float *offset, float scale, float *out) {
-  const size_t f = p->problem->joints;
+  const size_t f = p->in->joints;
   memcpy(out, control, stage->bytes);
   for (size_t k = 0; k < stage->numbers; k++) {
     const float x = control[f + k] + scale * offset[k];
-    const float low = p->problem->low[k % f];
-    const float high = p->problem->high[k % f];
+    const float low = p->in->low[k % f];
+    const float high = p->in->high[k % f];
     // NaN becomes `high`
     out[f + k] = x < low ? low : x < high ? x : high;
   }
@@ -47,7 +47,7 @@ static void nsvcd__report(nsvcd__planner *p, size_t iteration, const nsvcd__stag
                                         refining,        best->total, best->collision,
                                         p->best,         stage->via};
   p->answer.iterations++;
-  if (p->problem->progress) p->cancelled = p->problem->progress(p->problem->user, &progress);
+  if (p->in->progress) p->cancelled = p->in->progress(p->in->user, &progress);
 }
 
 // Where MPPI is.
@@ -62,7 +62,7 @@ typedef struct nsvcd__exploring {
 // first has no offset, the second is the best so far, the others are noise.
 static void nsvcd__roll_out(nsvcd__planner *p, nsvcd__exploring *at) {
   const nsvcd__stage *stage = &p->explore;
-  const size_t f = p->problem->joints;
+  const size_t f = p->in->joints;
   at->least = INFINITY;
   for (size_t n = 0; n < stage->draws; n++) {
     float *offset = p->drawn + n * stage->numbers;
@@ -89,7 +89,7 @@ static void nsvcd__roll_out(nsvcd__planner *p, nsvcd__exploring *at) {
 // deviations a tenth of the way to those of the good rollouts about their mean.
 static void nsvcd__weigh_rollouts(nsvcd__planner *p, nsvcd__exploring *at) {
   const nsvcd__stage *stage = &p->explore;
-  const size_t f = p->problem->joints;
+  const size_t f = p->in->joints;
   const size_t draws = stage->draws;
   const size_t rank = draws / NSVCD__ELITE;
   float elite = 0;  // the cost of that rank

@@ -6,12 +6,12 @@
 #ifndef NSVCD_NO_OPTIMIZER
 // The smoothest control points from start to goal, (M + 2, F): where the form's derivative is zero.
 static void nsvcd__smoothest(nsvcd__planner *p, const nsvcd__stage *stage, float *control) {
-  const size_t f = p->problem->joints;
+  const size_t f = p->in->joints;
   const size_t via = stage->via;
   const size_t all = via + 2;
   for (size_t j = 0; j < f; j++) {
-    const double start = (double)p->problem->start[j];
-    const double goal = (double)p->problem->goal[j];
+    const double start = (double)p->in->start[j];
+    const double goal = (double)p->in->goal[j];
     for (size_t k = 0; k < via; k++) {
       const double *row = stage->form + (k + 1) * all;
       p->vector[k] = -row[0] * start - row[all - 1] * goal;
@@ -20,17 +20,16 @@ static void nsvcd__smoothest(nsvcd__planner *p, const nsvcd__stage *stage, float
     nsvcd__solve_upper(stage->factor, via, p->vector);
     for (size_t k = 0; k < via; k++) control[(k + 1) * f + j] = (float)p->vector[k];
   }
-  memcpy(control, p->problem->start, f * sizeof *control);
-  memcpy(control + (via + 1) * f, p->problem->goal, f * sizeof *control);
+  memcpy(control, p->in->start, f * sizeof *control);
+  memcpy(control + (via + 1) * f, p->in->goal, f * sizeof *control);
 }
 
 // Are the joints within the limits, and free of collision? Leaves what is wrong in p->cost.
 static int nsvcd__is_good(nsvcd__planner *p, const float *joints) {
-  const nsvcd_plan_problem *problem = p->problem;
   nsvcd__cost *cost = &p->cost;
   *cost = nsvcd__no_cost;
-  for (size_t j = 0; j < problem->joints; j++) {
-    if (joints[j] < problem->low[j] || joints[j] > problem->high[j]) cost->joint = j;
+  for (size_t j = 0; j < p->in->joints; j++) {
+    if (joints[j] < p->in->low[j] || joints[j] > p->in->high[j]) cost->joint = j;
   }
   if (cost->joint != NSVCD_NONE) {
     cost->logit = 0;
@@ -55,9 +54,9 @@ static void nsvcd__planner_begin(nsvcd__planner *p) {
   nsvcd__stage_init(&p->options, &p->refine);
   nsvcd__stage_init(&p->options, &p->check);
   nsvcd__find_shapes(p);
-  for (size_t k = 0; k < p->problem->pair_count; k++) p->queue[k] = (uint32_t)k;
-  for (size_t j = 0; j < p->problem->joints; j++) {
-    const float quarter = 0.25f * (p->problem->high[j] - p->problem->low[j]);
+  for (size_t k = 0; k < p->in->pair_count; k++) p->queue[k] = (uint32_t)k;
+  for (size_t j = 0; j < p->in->joints; j++) {
+    const float quarter = 0.25f * (p->in->high[j] - p->in->low[j]);
     p->first_noise[j] = p->explore.noise < quarter ? p->explore.noise : quarter;
   }
   p->random = p->options.seed;
@@ -68,7 +67,7 @@ static void nsvcd__planner_begin(nsvcd__planner *p) {
 // ones; the spline has its poses in p->moved.
 static float nsvcd__pair_deviation(const nsvcd__planner *p, const nsvcd_body_pair *pair,
                                    const nsvcd_pose *from, double fraction) {
-  const nsvcd_pose *to = from + p->problem->body_count;
+  const nsvcd_pose *to = from + p->in->body_count;
   const nsvcd__sphere *sphere = &p->shapes[pair->a].sphere;
   const nsvcd_pose start = nsvcd__relative_pose(&from[pair->a], &from[pair->b]);
   const nsvcd_pose end = nsvcd__relative_pose(&to[pair->a], &to[pair->b]);
@@ -89,24 +88,23 @@ static float nsvcd__pair_deviation(const nsvcd__planner *p, const nsvcd_body_pai
 // smooth curve deviates most half way between two poses, and is sampled there, in every stride-th
 // segment. If segments are few, each is sampled more often, for an S crosses its chord half way.
 static float nsvcd__plan_deviation(nsvcd__planner *p, const float *control) {
-  const nsvcd_plan_problem *problem = p->problem;
   const size_t segments = p->check.moments - 1;
   const size_t wanted = NSVCD__DEVIATION_SAMPLES * (p->check.via + 1);
   const size_t stride = wanted < segments ? segments / wanted : 1;
   const size_t samples = 2 * (wanted / segments) + 1;  // of a segment
   float joints[NSVCD_MAX_JOINTS];
   float most = 0;
-  for (size_t n = 0; problem->bodies && n / samples * stride < segments; n++) {
+  for (size_t n = 0; p->in->bodies && n / samples * stride < segments; n++) {
     const size_t s = n / samples * stride;
     const double fraction = (double)(n % samples + 1) / (double)(samples + 1);
     const double t = ((double)s + fraction) / (double)segments;
-    nsvcd_spline(control, p->check.via, problem->joints, (float)t, 0, joints);
+    nsvcd_spline(control, p->check.via, p->in->joints, (float)t, 0, joints);
     nsvcd__find_poses(p, joints, 1, p->moved);
     if (p->error) break;
-    for (size_t k = 0; k < problem->pair_count; k++) {
-      const nsvcd_body_pair *pair = &problem->pairs[k];
-      const nsvcd_pose *from = p->poses + s * problem->body_count;
-      if (problem->bodies[pair->a])
+    for (size_t k = 0; k < p->in->pair_count; k++) {
+      const nsvcd_body_pair *pair = &p->in->pairs[k];
+      const nsvcd_pose *from = p->poses + s * p->in->body_count;
+      if (p->in->bodies[pair->a])
         most = fmaxf(nsvcd__pair_deviation(p, pair, from, fraction), most);
     }
   }
@@ -116,7 +114,7 @@ static float nsvcd__plan_deviation(nsvcd__planner *p, const float *control) {
 // Searches from one more start. Keeps what it finds in p->result if that is the best so far.
 // Returns whether to try another.
 static int nsvcd__try_seed(nsvcd__planner *p) {
-  const size_t f = p->problem->joints;
+  const size_t f = p->in->joints;
   const float margin = p->options.margin;
   nsvcd_plan_answer *answer = &p->answer;
   nsvcd__cost cost = nsvcd__no_cost;

@@ -99,8 +99,8 @@ typedef struct nsvcd__cost {
 } nsvcd__cost;
 
 typedef struct nsvcd__planner {
-  const nsvcd_plan_problem *problem;
-  nsvcd_plan_options options;  // with the defaults filled in
+  const nsvcd_plan_problem *in;  // the problem
+  nsvcd_plan_options options;    // with the defaults filled in
   nsvcd__stage explore, refine, check;
   void *query;  // workspace of queries
   size_t query_size;
@@ -173,28 +173,25 @@ static int nsvcd__stage_of(const nsvcd_plan_stage *given, nsvcd_plan_stage other
 }
 
 // Is the problem well formed?
-static nsvcd_result nsvcd__problem_check(const nsvcd_plan_problem *problem) {
-  if (!problem || !problem->kinematics) return NSVCD_ERROR_ARGUMENT;
-  if (problem->joints < 1 || problem->joints > NSVCD_MAX_JOINTS || problem->body_count > 65536)
+static nsvcd_result nsvcd__problem_check(const nsvcd_plan_problem *in) {
+  if (!in || !in->kinematics) return NSVCD_ERROR_ARGUMENT;
+  if (in->joints < 1 || in->joints > NSVCD_MAX_JOINTS || in->body_count > 65536)
     return NSVCD_ERROR_COUNT;
-  if (!problem->low || !problem->high || !problem->start || !problem->goal)
-    return NSVCD_ERROR_ARGUMENT;
-  const int by_network = !problem->collision;
-  if (problem->pair_count > 0 && (!problem->pairs || (by_network && !problem->bodies)))
+  if (!in->low || !in->high || !in->start || !in->goal) return NSVCD_ERROR_ARGUMENT;
+  const int by_network = !in->collision;
+  if (in->pair_count > 0 && (!in->pairs || (by_network && !in->bodies)))
     return NSVCD_ERROR_ARGUMENT;
   // a body in no pair may be NULL
-  for (size_t b = 0; problem->bodies && b < problem->body_count; b++) {
-    const nsvcd_body *body = problem->bodies[b];
+  for (size_t b = 0; in->bodies && b < in->body_count; b++) {
+    const nsvcd_body *body = in->bodies[b];
     const nsvcd_result result = body ? nsvcd__body_check(body, SIZE_MAX) : NSVCD_OK;
     if (result) return result;
   }
-  for (size_t k = 0; k < problem->pair_count; k++) {
-    const size_t a = problem->pairs[k].a;
-    const size_t b = problem->pairs[k].b;
-    if (a >= problem->body_count || b >= problem->body_count || a == b)
-      return NSVCD_ERROR_PAIR;
-    if (by_network && (!problem->bodies[a] || !problem->bodies[b]))
-      return NSVCD_ERROR_ARGUMENT;
+  for (size_t k = 0; k < in->pair_count; k++) {
+    const size_t a = in->pairs[k].a;
+    const size_t b = in->pairs[k].b;
+    if (a >= in->body_count || b >= in->body_count || a == b) return NSVCD_ERROR_PAIR;
+    if (by_network && (!in->bodies[a] || !in->bodies[b])) return NSVCD_ERROR_ARGUMENT;
   }
   return NSVCD_OK;
 }
@@ -210,7 +207,7 @@ static nsvcd_result nsvcd__planner_settings(const nsvcd_plan_problem *problem,
   memset(p, 0, sizeof *p);
   nsvcd_result result = nsvcd__problem_check(problem);
   if (result) return result;
-  p->problem = problem;
+  p->in = problem;
   if (options) p->options = *options;
   nsvcd_plan_options *o = &p->options;
   const float floats[] = {o->velocity, o->acceleration, o->jerk,          o->collision,
@@ -254,8 +251,8 @@ static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
   nsvcd__stage *const stages[3] = {&p->explore, &p->refine, &p->check};
   float **const points[7] = {&p->result,   &p->control, &p->best,  &p->trial,
                              &p->gradient, &p->sum,     &p->offset};
-  const size_t f = p->problem->joints;
-  const size_t bodies = p->problem->body_count;
+  const size_t f = p->in->joints;
+  const size_t bodies = p->in->body_count;
   const size_t via = nsvcd__larger(p->explore.via, p->refine.via);
   const size_t draws = nsvcd__larger(p->explore.draws, p->refine.draws);
   const size_t searched = nsvcd__larger(p->explore.moments, p->refine.moments);
@@ -282,7 +279,7 @@ static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
   p->stances = (nsvcd__stance *)nsvcd__take(base, &used, placed, sizeof(nsvcd__stance));
   p->shapes = (nsvcd__shape *)nsvcd__take(base, &used, bodies, sizeof(nsvcd__shape));
   p->meets = (unsigned char *)nsvcd__take(base, &used, moments, 1);
-  p->queue = (uint32_t *)nsvcd__take(base, &used, p->problem->pair_count, sizeof(uint32_t));
+  p->queue = (uint32_t *)nsvcd__take(base, &used, p->in->pair_count, sizeof(uint32_t));
   p->wrenches = nsvcd__take_floats(base, &used, placed, 6);
   p->moved = (nsvcd_pose *)nsvcd__take(base, &used, bodies, sizeof(nsvcd_pose));
   p->jacobian = nsvcd__take_floats(base, &used, bodies, 6 * f);

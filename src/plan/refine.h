@@ -13,7 +13,7 @@ static double nsvcd__dot(const float *a, const float *b, size_t count) {
 // p->sum (M, F): the mean of the gradients at `control` + each offset of the bundle p->drawn.
 static void nsvcd__bundled_gradient(nsvcd__planner *p, const nsvcd__stage *stage,
                                     const float *control) {
-  const size_t f = p->problem->joints;
+  const size_t f = p->in->joints;
   memset(p->sum, 0, stage->numbers * sizeof *p->sum);
   for (size_t n = 0; n < stage->draws && !p->error; n++) {
     nsvcd__change(p, stage, control, p->drawn + n * stage->numbers, 1, p->trial);
@@ -34,7 +34,7 @@ static float *nsvcd__remembered(float *rows, size_t n, const nsvcd__stage *stage
 static void nsvcd__direction(nsvcd__planner *p, const nsvcd__stage *stage, size_t kept,
                              size_t next) {
   const size_t numbers = stage->numbers;
-  const size_t f = p->problem->joints;
+  const size_t f = p->in->joints;
   double alpha[NSVCD__HISTORY];
   float *d = p->offset;
   for (size_t k = 0; k < numbers; k++) d[k] = -p->sum[k];
@@ -63,7 +63,7 @@ static void nsvcd__direction(nsvcd__planner *p, const nsvcd__stage *stage, size_
 static void nsvcd__refine(nsvcd__planner *p) {
   static const float lengths[NSVCD__STEPS] = {1, 0.5f, 0.2f, 0.05f, 0.01f};
   const nsvcd__stage *stage = &p->refine;
-  const size_t f = p->problem->joints;
+  const size_t f = p->in->joints;
   const size_t numbers = stage->numbers;
   float deviations[NSVCD_MAX_JOINTS];
   size_t kept = 0;  // steps, before step `next`
