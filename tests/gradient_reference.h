@@ -401,7 +401,7 @@ static double reference_said(const reference_pair *pair, const reference_pose *p
   for (int k = 0; k < 3; k++) v[k] += 0.5 * (place[1][k] - place[0][k]);
   reference_inputs(pair, place[2], v, w, m[2], x);
   const double said = reference_head(pair->head, pair->output, x);
-  return pair->output == NSVCD__SAYS_LOGIT ? said : 0.1 * pair->unit * said;
+  return pair->output == NSVCD__OUT_LOGIT ? said : 0.1 * pair->unit * said;
 }
 
 // Column k of pose n: 0 .. 2 moves it by `step` metres along an axis, 3 .. 5 turns it by `step`

@@ -117,15 +117,15 @@ static void inputs_of(const pair_data *pair, float *x) {
 static void head_says(const nsvcd__decoder *head, const float *x, int int8, float *out) {
   static float batch[NSVCD__ROWS * NSVCD__DECODER_IN];
   const size_t rows = NSVCD__ROWS < 7 ? NSVCD__ROWS : 7;
-  float said[NSVCD__ROWS][NSVCD__SAYINGS];
+  float said[NSVCD__ROWS][NSVCD__DECODER_OUT];
   for (size_t p = 0; p < rows; p++)
     memcpy(batch + NSVCD__DECODER_IN * p, x, NSVCD__DECODER_IN * sizeof *x);
-  nsvcd__decoder_says(head, batch, rows, int8, said);
+  nsvcd__decoder_run(head, batch, rows, int8, said);
   memcpy(out, said[rows - 1], sizeof said[0]);
 }
 
 // golden_pair rows: two matrices, facts, what tiny, small and base say.
-#define GOLDEN_ROW (18 + NSVCD__FACTS + 3 * NSVCD__SAYINGS)
+#define GOLDEN_ROW (18 + NSVCD__FACTS + 3 * NSVCD__DECODER_OUT)
 
 static void golden_latents(size_t n, int8_t *z1, int8_t *z2) {
   for (size_t k = 0; k < NSVCD__LATENT; k++) {
@@ -162,13 +162,13 @@ static void golden_inputs(size_t n, float *x) {
 
 static void heads_match_the_trainer(void) {
   for (size_t n = 0; n < GOLDEN_PAIRS; n++) {
-    float x[NSVCD__DECODER_IN], said[NSVCD__SAYINGS];
+    float x[NSVCD__DECODER_IN], said[NSVCD__DECODER_OUT];
     golden_inputs(n, x);
     for (size_t h = 0; h < 3; h++) {
       head_says(&nsvcd_w_decoders[h], x, 0, said);
-      for (size_t k = 0; k < NSVCD__SAYINGS; k++) {
+      for (size_t k = 0; k < NSVCD__DECODER_OUT; k++) {
         const float expected =
-            golden_pair[GOLDEN_ROW * n + 18 + NSVCD__FACTS + NSVCD__SAYINGS * h + k];
+            golden_pair[GOLDEN_ROW * n + 18 + NSVCD__FACTS + NSVCD__DECODER_OUT * h + k];
         CHECK_NEAR(said[k], expected, 1e-4 * fmax(1, fabs((double)expected)));
       }
     }
@@ -183,14 +183,14 @@ static void int8_heads_follow_fp32(void) {
     float x[NSVCD__DECODER_IN];
     golden_inputs(n, x);
     for (size_t h = 0; h < 3; h++) {
-      float exact[NSVCD__SAYINGS], rounded[NSVCD__SAYINGS];
+      float exact[NSVCD__DECODER_OUT], rounded[NSVCD__DECODER_OUT];
       head_says(&nsvcd_w_decoders[h], x, 0, exact);
       head_says(&nsvcd_w_decoders[h], x, 1, rounded);
-      for (size_t k = 0; k < NSVCD__SAYINGS; k++) {
+      for (size_t k = 0; k < NSVCD__DECODER_OUT; k++) {
         const double error =
             fabs((double)(rounded[k] - exact[k])) / fmax(1, fabs((double)exact[k]));
         worst = fmax(worst, error);
-        sum += error / (3 * NSVCD__SAYINGS * GOLDEN_PAIRS);
+        sum += error / (3 * NSVCD__DECODER_OUT * GOLDEN_PAIRS);
       }
     }
   }
@@ -316,7 +316,7 @@ static void degenerate_pairs_are_finite(void) {
     inputs_of(&pair, x);
     for (size_t k = 0; k < NSVCD__DECODER_IN; k++) CHECK(nsvcd__is_finite(x[k]));
     for (size_t h = 0; h < 3; h++) {
-      float said[NSVCD__SAYINGS];
+      float said[NSVCD__DECODER_OUT];
       head_says(&nsvcd_w_decoders[h], x, 0, said);
       CHECK(nsvcd__is_finite(said[0]) && nsvcd__is_finite(said[1]));
     }

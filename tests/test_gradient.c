@@ -520,7 +520,7 @@ static void check_gradient_once(size_t f, size_t n, gradient_sum *sum) {
   }
 #endif
   // every other one by the distance
-  if (s.options.ask == NSVCD_ASK_DISTANCE) pair.output = NSVCD__SAYS_APART;
+  if (s.options.ask == NSVCD_ASK_DISTANCE) pair.output = NSVCD__OUT_DISTANCE;
   reference_gradient(&pair, poses, metres, radians, expected);
   const double error = relative_error(found, expected, s.count, length);
   sum->errors[sum->count++] = error;

@@ -306,10 +306,10 @@ static nsvcd__f3 nsvcd__by_gap(const nsvcd__pair *pair, const int8_t *const *ext
   out->v = nsvcd__f3_fma(moves * tau * by, u, out->v);
   out->w = nsvcd__f3_fma(moves * by, nsvcd__f3_sub(on_q, on_x), out->w);
   out->rotation = nsvcd__f3_fma(by, nsvcd__f3_cross(q, back), out->rotation);
-  nsvcd__f3 apart = nsvcd__f3_fma(tau, pair->v, nsvcd__f3_sub(pair->p1, pair->p2));
-  apart = nsvcd__f3_add(apart, nsvcd__f3_turned_back(q, minus, half));
-  apart = nsvcd__f3_sub(apart, nsvcd__f3_turned_back(x, minus, -half));
-  return nsvcd__f3_scale(apart, by);
+  nsvcd__f3 by_u = nsvcd__f3_fma(tau, pair->v, nsvcd__f3_sub(pair->p1, pair->p2));
+  by_u = nsvcd__f3_add(by_u, nsvcd__f3_turned_back(q, minus, half));
+  by_u = nsvcd__f3_sub(by_u, nsvcd__f3_turned_back(x, minus, -half));
+  return nsvcd__f3_scale(by_u, by);
 }
 
 // The adjoint of nsvcd__gap_fact. size: the gap's absolute value.

@@ -3,11 +3,11 @@
 #include "pairs.h"
 
 #ifndef NSVCD_NO_NETWORK
-// What a decoder says of a pair.
+// What a decoder makes of a pair.
 enum {
-  NSVCD__SAYS_LOGIT,
-  NSVCD__SAYS_APART,  // the least distance, or minus the depth, in tenths of r1 + r2
-  NSVCD__SAYINGS
+  NSVCD__OUT_LOGIT,
+  NSVCD__OUT_DISTANCE,  // the least distance, or minus the depth, in tenths of r1 + r2
+  NSVCD__DECODER_OUT
 };
 
 // A layer, y = w^T x + bias, and where its numbers begin.
@@ -220,11 +220,11 @@ static void nsvcd__layer_by_bytes(const nsvcd__layer *layer, const float *x, siz
 #endif
 #endif  // NSVCD_NO_INT8
 
-// x (ROWS, DECODER_IN) -> said (count, SAYINGS), of the first `count` pairs, in fp32 or int8
+// x (ROWS, DECODER_IN) -> out (count, SAYINGS), of the first `count` pairs, in fp32 or int8
 // arithmetic. x must hold numbers up to a multiple of ROW_STEP rows.
-static NSVCD__NOINLINE void nsvcd__decoder_says(const nsvcd__decoder *decoder, const float *x,
-                                                size_t count, int int8,
-                                                float (*said)[NSVCD__SAYINGS]) {
+static NSVCD__NOINLINE void nsvcd__decoder_run(const nsvcd__decoder *decoder, const float *x,
+                                               size_t count, int int8,
+                                               float (*out)[NSVCD__DECODER_OUT]) {
   float a[NSVCD__ROWS * NSVCD__WIDEST];
 #ifndef NSVCD_NO_FLOAT
   float b[NSVCD__ROWS * NSVCD__WIDEST];
@@ -247,6 +247,6 @@ static NSVCD__NOINLINE void nsvcd__decoder_says(const nsvcd__decoder *decoder, c
     pitch = NSVCD__WIDEST;
     y = y == a ? b : a;
   }
-  for (size_t p = 0; p < count; p++) memcpy(said[p], x + pitch * p, sizeof said[p]);
+  for (size_t p = 0; p < count; p++) memcpy(out[p], x + pitch * p, sizeof out[p]);
 }
 #endif  // NSVCD_NO_NETWORK

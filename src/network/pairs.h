@@ -401,11 +401,11 @@ static NSVCD__NOINLINE void nsvcd__gaps_at(const nsvcd__pairs *p, const nsvcd__v
     }
   }
   const nsvcd__v3 between = nsvcd__v3_sub(p->p1, p->p2);
-  const nsvcd__v3 apart = nsvcd__v3_fma(tau, p->v, between);
+  const nsvcd__v3 line = nsvcd__v3_fma(tau, p->v, between);
   const nsvcd__v step1 = nsvcd__v_scale(p->r1, 1.0f / 127);
   const nsvcd__v step2 = nsvcd__v_scale(p->r2, 1.0f / 127);
   for (size_t d = 0; d < NSVCD__GAPS; d++) {
-    const nsvcd__v above = nsvcd__v_fma(step1, low[d], nsvcd__v3_dot(u[d], apart));
+    const nsvcd__v above = nsvcd__v_fma(step1, low[d], nsvcd__v3_dot(u[d], line));
     wide[d] = nsvcd__v_sub(above, nsvcd__v_mul(step2, high[d]));
   }
 }

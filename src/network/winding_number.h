@@ -18,9 +18,8 @@
 // are summed, and the sum stands for the members of a sphere that is farther than NSVCD__DIPOLE of
 // its radii: w is then within 0.05 of the sum over all patches (tests/test_level.c).
 //
-// Cost: at most NSVCD__PROBES * N distances each way, where one body's centres lie in the
-// other's sphere and the straight way out of it is barred; of large bodies only those to groups
-// nearby.
+// Cost: at most NSVCD__PROBES * N distances for each of the two bodies, if centres of one are in
+// the other's sphere and a ray out of it is blocked; of large bodies only those to groups nearby.
 #pragma once
 #include "../motion/segments.h"
 
@@ -30,7 +29,7 @@
 #define NSVCD__FAR_ENOUGH 1.0f
 // or than this, on the inner side of the nearest one.
 #define NSVCD__FAR_INSIDE 0.6f
-// Patches beyond this are not looked at.
+// Patches beyond this do not matter.
 #define NSVCD__AMPLE 2.0f
 // The patches of a sphere count as one dipole beyond this, in radii of the sphere.
 #define NSVCD__DIPOLE 3.0f
@@ -196,7 +195,7 @@ static size_t nsvcd__next_probe(nsvcd__probes *probes, uint32_t marked) {
 
 // Does the ray from a point away from a body's centre meet the ball of a patch? If not, the point
 // is outside: from inside the ray would cross the surface.
-static int nsvcd__way_out_is_barred(const nsvcd_body *body, nsvcd__f3 point) {
+static int nsvcd__exit_is_blocked(const nsvcd_body *body, nsvcd__f3 point) {
   const nsvcd__f3 away = nsvcd__f3_sub(point, nsvcd__f3_load(body->centre));
   const float length = nsvcd__f3_length(away);
   const nsvcd__f3 along = nsvcd__f3_scale(away, length > 0 ? 1 / length : 0);
@@ -212,8 +211,8 @@ static int nsvcd__way_out_is_barred(const nsvcd_body *body, nsvcd__f3 point) {
 }
 
 // Is `inner`, scaled and posed in the frame of `outer`, or a part of it, inside of that?
-static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, float scale,
-                            const nsvcd__transform *pose) {
+static int nsvcd__is_contained_in(const nsvcd_body *inner, const nsvcd_body *outer,
+                                  float scale, const nsvcd__transform *pose) {
   const nsvcd__spheres patches = nsvcd__body_patches(inner);
   const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_load(outer->centre));
   nsvcd__probes probes;
@@ -234,7 +233,7 @@ static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, fl
   }
   for (uint32_t left = inside; left; left &= left - 1) {
     const size_t k = nsvcd__low_bit(left);
-    if (!nsvcd__way_out_is_barred(outer, nsvcd__lane_of(probes.at, k))) inside &= ~(1u << k);
+    if (!nsvcd__exit_is_blocked(outer, nsvcd__lane_of(probes.at, k))) inside &= ~(1u << k);
   }
   if (!inside) return 0;
   nsvcd__probes_measure(outer, &probes);
@@ -262,7 +261,7 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
   back.rotation = nsvcd__mat3_transpose(pose->rotation);
   const nsvcd__f3 from = nsvcd__mat3_apply(&back.rotation, pose->position);
   back.position = nsvcd__f3_of(-from.x / scale, -from.y / scale, -from.z / scale);
-  return nsvcd__is_inside(moving, fixed, scale, pose) ||
-         nsvcd__is_inside(fixed, moving, 1 / scale, &back);
+  return nsvcd__is_contained_in(moving, fixed, scale, pose) ||
+         nsvcd__is_contained_in(fixed, moving, 1 / scale, &back);
 }
 #endif  // NSVCD_NO_NETWORK

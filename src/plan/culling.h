@@ -92,8 +92,8 @@ static inline int nsvcd__passes_by(const nsvcd__planner *p, size_t body, size_t 
     const float length = fabsf(travel.x) + fabsf(travel.y) + fabsf(travel.z);
     deviation = (3.75f * bend * distance + 0.8f * length) * bend;
   }
-  const float apart = 1.00001f * sphere->radius + p->options.sweep.clearance;
-  const float grown = apart + (float)stride * deviation + NSVCD__ROUNDING * distance;
+  const float radius = 1.00001f * sphere->radius + p->options.sweep.clearance;
+  const float grown = radius + (float)stride * deviation + NSVCD__ROUNDING * distance;
   const nsvcd__f3 about = nsvcd__f3_of(grown, grown, grown);
   const nsvcd__f3 low = nsvcd__f3_min(seen[0], seen[1]);
   const nsvcd__f3 high = nsvcd__f3_max(seen[0], seen[1]);

@@ -257,7 +257,7 @@ static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
   const size_t draws = nsvcd__larger(p->explore.draws, p->refine.draws);
   const size_t searched = nsvcd__larger(p->explore.moments, p->refine.moments);
   const size_t moments = nsvcd__larger(p->check.moments, searched);
-  const size_t placed = moments * bodies;
+  const size_t poses = moments * bodies;
   const size_t point = (via + 2) * f;
   uint64_t used = 0;
 
@@ -275,12 +275,12 @@ static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
   }
 
   p->path = nsvcd__take_floats(base, &used, moments, f);
-  p->poses = (nsvcd_pose *)nsvcd__take(base, &used, placed, sizeof(nsvcd_pose));
-  p->stances = (nsvcd__stance *)nsvcd__take(base, &used, placed, sizeof(nsvcd__stance));
+  p->poses = (nsvcd_pose *)nsvcd__take(base, &used, poses, sizeof(nsvcd_pose));
+  p->stances = (nsvcd__stance *)nsvcd__take(base, &used, poses, sizeof(nsvcd__stance));
   p->shapes = (nsvcd__shape *)nsvcd__take(base, &used, bodies, sizeof(nsvcd__shape));
   p->meets = (unsigned char *)nsvcd__take(base, &used, moments, 1);
   p->queue = (uint32_t *)nsvcd__take(base, &used, p->in->pair_count, sizeof(uint32_t));
-  p->wrenches = nsvcd__take_floats(base, &used, placed, 6);
+  p->wrenches = nsvcd__take_floats(base, &used, poses, 6);
   p->moved = (nsvcd_pose *)nsvcd__take(base, &used, bodies, sizeof(nsvcd_pose));
   p->jacobian = nsvcd__take_floats(base, &used, bodies, 6 * f);
   p->by_path = nsvcd__take_floats(base, &used, 1, f);

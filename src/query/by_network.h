@@ -66,7 +66,7 @@ static void nsvcd__decode(const nsvcd__task *task, nsvcd__candidate *const *cand
 #else
     float *x = task->row;
 #endif
-    float said[NSVCD__ROWS][NSVCD__SAYINGS];
+    float out[NSVCD__ROWS][NSVCD__DECODER_OUT];
     for (size_t l = 0; l < rows; l += NSVCD__SLICE) {
       const size_t size = rows - l < NSVCD__SLICE ? rows - l : NSVCD__SLICE;
       nsvcd__pairs pairs;
@@ -75,10 +75,10 @@ static void nsvcd__decode(const nsvcd__task *task, nsvcd__candidate *const *cand
       nsvcd__invariants(&pairs, size, x + NSVCD__DECODER_IN * l);
     }
     memset(x + NSVCD__DECODER_IN * rows, 0, unused * NSVCD__DECODER_IN * sizeof *x);
-    nsvcd__decoder_says(decoder, x, rows, task->settings.int8, said);
+    nsvcd__decoder_run(decoder, x, rows, task->settings.int8, out);
     for (size_t k = 0; k < rows; k++) {
-      candidates[first + k]->score = said[k][NSVCD__SAYS_LOGIT];
-      candidates[first + k]->apart = said[k][NSVCD__SAYS_APART];
+      candidates[first + k]->score = out[k][NSVCD__OUT_LOGIT];
+      candidates[first + k]->apart = out[k][NSVCD__OUT_DISTANCE];
     }
   }
 }

@@ -43,10 +43,10 @@ static void keep_least(double *times, size_t stage, double since) {
 
 // Any number of pairs, as many at a time as nsvcd__decode takes.
 static void ask_decoder(const nsvcd__decoder *head, const float *x, size_t count, int int8,
-                        float (*said)[NSVCD__SAYINGS]) {
+                        float (*said)[NSVCD__DECODER_OUT]) {
   for (size_t first = 0; first < count; first += NSVCD__ROWS) {
     const size_t rows = count - first < NSVCD__ROWS ? count - first : NSVCD__ROWS;
-    nsvcd__decoder_says(head, x + NSVCD__DECODER_IN * first, rows, int8, said + first);
+    nsvcd__decoder_run(head, x + NSVCD__DECODER_IN * first, rows, int8, said + first);
   }
 }
 
@@ -56,7 +56,7 @@ static void run_stages(const question *q, nsvcd__query *work, double *times) {
   nsvcd__candidates kept;
   nsvcd__candidate *batch[NSVCD__BATCH];
   nsvcd__pairs pairs[NSVCD__BATCH / NSVCD__SLICE];
-  static float x[NSVCD__BATCH * NSVCD__DECODER_IN], said[NSVCD__BATCH][NSVCD__SAYINGS];
+  static float x[NSVCD__BATCH * NSVCD__DECODER_IN], said[NSVCD__BATCH][NSVCD__DECODER_OUT];
   double start = seconds();
   const nsvcd_question asked =
       question_of(q->moving, q->poses, q->count, q->fixed, q->fixed_pose, NULL);
@@ -210,7 +210,7 @@ static double peak_gflops(void) {
 
 // Batches of `rows` pairs through a head, GFLOP/s.
 static double head_gflops(size_t model, size_t rows, int int8) {
-  static float x[NSVCD__BATCH * NSVCD__DECODER_IN], said[NSVCD__BATCH][NSVCD__SAYINGS];
+  static float x[NSVCD__BATCH * NSVCD__DECODER_IN], said[NSVCD__BATCH][NSVCD__DECODER_OUT];
   const nsvcd__decoder *head = &nsvcd_w_decoders[model];
   double flops = 0;
   double best = 0;
