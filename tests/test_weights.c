@@ -101,7 +101,7 @@ static void weights_padding_is_zero(void) {
     for (size_t i = NSVCD__INPUTS; i < first.inputs; i++) {
       for (size_t o = 0; o < first.outputs; o++) CHECK_EQ(weights_float(&first, i, o), 0);
     }
-    for (size_t o = NSVCD__SAYINGS; o < last.outputs; o++) {
+    for (size_t o = NSVCD__DECODER_OUT; o < last.outputs; o++) {
       CHECK_EQ(nsvcd_w_decoder_bias[last.first + o], 0);
       for (size_t i = 0; i < last.inputs; i++) CHECK_EQ(weights_float(&last, i, o), 0);
     }
