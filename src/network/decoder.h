@@ -220,7 +220,7 @@ static void nsvcd__layer_by_bytes(const nsvcd__layer *layer, const float *x, siz
 #endif
 #endif  // NSVCD_NO_INT8
 
-// x (ROWS, DECODER_IN) -> out (count, SAYINGS), of the first `count` pairs, in fp32 or int8
+// x (ROWS, DECODER_IN) -> out (count, DECODER_OUT), of the first `count` pairs, in fp32 or int8
 // arithmetic. x must hold numbers up to a multiple of ROW_STEP rows.
 static NSVCD__NOINLINE void nsvcd__decoder_run(const nsvcd__decoder *decoder, const float *x,
                                                size_t count, int int8,

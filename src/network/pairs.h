@@ -3,10 +3,10 @@
 //
 // The motion is linearised about the middle of the interval. All is expressed in a frame that moves
 // with the pair, in units of r1 + r2 (NeuralSVCD, appendix F), so that the logit is invariant to
-// rigid motion and scale. Conventions, not the network, remove the symmetries that are left:
+// rigid motion and scale. The other symmetries are not learned, but removed by conventions:
 //   swap           the larger patch comes first
-//   axis 1         is the line between the centres
-//   axis 2         is the velocity across the line, plus a twentieth of the lean (the difference of
+//   axis 1         the line between the centres
+//   axis 2         the velocity across the line, plus a twentieth of the lean (the difference of
 //                  the patches' normals), so that it has a limit where the velocity vanishes
 //   time reversal  time runs so that velocity and lean, across the line, do not oppose each other
 //   mirror         axis 3 points to the side of the lean; if the lean is on neither side, as for a
@@ -23,8 +23,8 @@
 
 #ifndef NSVCD_NO_NETWORK
 #define NSVCD__BATCH NSVCD__LANES
-// Rows of inputs at a time, and the step in which layers of floats take them. Without vectors there
-// may be no stack for more; without floats, more than one gain nothing.
+// Rows of inputs at a time, and how many of them layers of floats take together. A machine without
+// vectors may have no stack for more; without floats, more than one row at a time gains nothing.
 #if NSVCD__SLICE > 1
 #define NSVCD__ROWS NSVCD__BATCH
 #define NSVCD__ROW_STEP 4
@@ -81,7 +81,7 @@ enum { NSVCD__GAP_LARGER, NSVCD__GAP_SMALLER, NSVCD__GAP_LINE, NSVCD__GAP_BOTH, 
 
 // ---- pairs in motion
 
-// A slice of pairs, in the fixed body's frame. Patches: the moving one, and the fixed one.
+// A slice of pairs, in the fixed body's frame; first the moving patch, then the fixed one.
 typedef struct nsvcd__pairs {
   nsvcd__v3 p1, p2;       // centres at mid-interval
   nsvcd__v r1, r2;        // radii of the balls

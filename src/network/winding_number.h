@@ -4,13 +4,16 @@
 // number of a closed surface can (Jacobson et al. 2013), and far from the surface each patch is as
 // good as a dipole of its area vector (Barill et al. 2018):
 //   w(x) = sum_i A_i . (p_i - x) / (4 pi |p_i - x|^3)     1 inside, 0 outside
-// Near the surface it is not: for a flat disc seen from its covering radius this gives 0.25, and
-// 0.146 is true; from half of it 1.0, and 0.28 is true. So w is taken at the patch centre of the
-// inner body, of NSVCD__PROBES, that is farthest from the outer patches in units of their radii;
-// or, as bodies may be of several parts, at up to NSVCD__INSIDE_SAMPLES that are far from each
-// other. They must not be nearer than NSVCD__FAR_ENOUGH, or NSVCD__FAR_INSIDE on the inner side of
-// a flat patch. If all are on the inner side of the nearest patch, as those of a chip in a table
-// top are, they are inside.
+// Differences from Barill et al.: a dipole is at the centre of its ball or sphere, not at the
+// centroid of the area, and nothing is of second order.
+//
+// Near the surface w is wrong: for a flat disc seen from its covering radius it is 0.25 instead of
+// 0.146, from half of that 1.0 instead of 0.28. So NSVCD__PROBES patch centres of the inner body
+// are candidates, and w is taken at the one that is farthest from the outer patches, in units of
+// their radii; as bodies may be of several parts, also at others that are far from it, up to
+// NSVCD__INSIDE_SAMPLES in all. None may be nearer than NSVCD__FAR_ENOUGH, or NSVCD__FAR_INSIDE on
+// the inner side of a flat patch. If all are on the inner side of the nearest patch, as those of a
+// chip in a table top are, they are inside.
 //
 // Measured at a million points about spheres of 32 to 512 patches, the worst error of w is 0.55
 // from 0.75 radii on, 0.52 from 1, and 0.06 from 1.5; from 1 on, fewer than 1 in 1,000 exceed 0.3.
@@ -24,8 +27,8 @@
 #include "../motion/segments.h"
 
 #ifndef NSVCD_NO_NETWORK
-#define NSVCD__PROBES NSVCD__LANES  // tested points of the inner body
-// Distances in radii of a patch. A point may be asked about if no patch is nearer than
+#define NSVCD__PROBES NSVCD__LANES  // patch centres of the inner body
+// Distances in radii of a patch. w may be taken at a probe if no patch is nearer than this,
 #define NSVCD__FAR_ENOUGH 1.0f
 // or than this, on the inner side of the nearest one.
 #define NSVCD__FAR_INSIDE 0.6f
@@ -54,7 +57,7 @@ static uint32_t nsvcd__may_be_close(const void *what, nsvcd__spheres all) {
   return close;
 }
 
-// Points, and where they lie about a body.
+// Points, and how they are situated about a body.
 typedef struct nsvcd__probes {
   float at[3][NSVCD__PROBES];
   // the least |p_i - x| / r_i over its patches, squared; at most AMPLE squared
@@ -172,8 +175,8 @@ static float nsvcd__winding_number(const nsvcd_body *body, nsvcd__f3 point) {
   return total / 12.5663706f;
 }
 
-// Of the points that are far enough from the surface, the one that is farthest from those marked;
-// POSITIONS if there is none.
+// Of the probes that are far enough from the surface, the one that is farthest from those marked;
+// PROBES if there is none.
 static size_t nsvcd__next_probe(nsvcd__probes *probes, uint32_t marked) {
   size_t next = NSVCD__PROBES;
   float most = -1;

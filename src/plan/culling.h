@@ -84,7 +84,7 @@ static inline int nsvcd__passes_by(const nsvcd__planner *p, size_t body, size_t 
     distance += nsvcd__f3_length(centre);
   }
 
-  // sqrt(1 - cos) of a sum of angles is at most the sum of theirs, and c < 3.15 bend.
+  // The root of 1 - cos of a sum of angles is at most the sum of their roots, and c < 3.15 bend.
   const float bend = now[body].bend + now[other].bend;
   float deviation = nsvcd__f3_length(sphere->centre) * bend * bend;
   if (rests) {

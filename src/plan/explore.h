@@ -1,5 +1,8 @@
-// In: control points. Out: better ones, by MPPI: their mean moves to that of smooth random changes,
-// weighted by exp(-cost / temperature).
+// In: control points. Out: better ones, by MPPI (Williams et al. 2017): their mean moves to that of
+// smooth random changes, weighted by exp(-cost / temperature).
+//
+// Differences from the article: via points of a spline are changed, not the controls of a dynamic
+// system; the temperature and the deviations of the changes follow the costs of the rollouts.
 #pragma once
 #include "../ground/random.h"
 #include "cost.h"

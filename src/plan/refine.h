@@ -1,5 +1,8 @@
-// In: control points. Out: better ones, by L-BFGS with bundled gradients, in the metric of the
-// smoothness.
+// In: control points. Out: better ones, by L-BFGS (Liu and Nocedal 1989) with bundled gradients
+// (Suh et al. 2022).
+//
+// Difference from Liu and Nocedal: the initial inverse Hessian is half the inverse of the
+// smoothness' form, not a multiple of the identity. It is exact where nothing collides.
 #pragma once
 #include "explore.h"
 
@@ -29,8 +32,7 @@ static float *nsvcd__remembered(float *rows, size_t n, const nsvcd__stage *stage
 }
 
 // p->offset (M, F): L-BFGS's direction for the gradient p->sum, by its two loops over the `kept`
-// steps before step `next`. The first inverse Hessian is half the inverse of the smoothness' form,
-// which is exact where nothing collides.
+// steps before step `next`.
 static void nsvcd__direction(nsvcd__planner *p, const nsvcd__stage *stage, size_t kept,
                              size_t next) {
   const size_t numbers = stage->numbers;
