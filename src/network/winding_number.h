@@ -121,9 +121,9 @@ static void nsvcd__probes_measure(const nsvcd_body *body, nsvcd__probes *out) {
   }
 }
 
-// Adds the terms of the winding number at `point` of `count` spheres from `first` on, a multiple of
-// 16, lane by lane. n: 0 for patches, else level n - 1, and 64 at most. A sphere that is too close
-// to the point leaves its term to its members.
+// Adds to the lanes the terms of the winding number at `point` of `count` spheres, a multiple of
+// 16, from `first` on. n: 0 for patches; else for level n - 1, 64 spheres at most. A sphere that is
+// too close to the point leaves its term to its members.
 static void nsvcd__add_dipoles(const nsvcd_body *body, size_t n, size_t first, size_t count,
                                nsvcd__f3 point, float *lanes) {
   const nsvcd__v3 at = nsvcd__v3_set(point);

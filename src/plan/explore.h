@@ -89,7 +89,7 @@ static void nsvcd__roll_out(nsvcd__planner *p, nsvcd__exploring *at) {
 }
 
 // Turns p->costs into weights, whose sum is 1; writes the mean of the offsets to p->sum; moves the
-// deviations a tenth of the way to those of the good rollouts about their mean.
+// variances a tenth of the way to twice those of the weighted rollouts about that mean.
 static void nsvcd__weigh_rollouts(nsvcd__planner *p, nsvcd__exploring *at) {
   const nsvcd__stage *stage = &p->explore;
   const size_t f = p->in->joints;

@@ -255,8 +255,8 @@ static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
   const size_t bodies = p->in->body_count;
   const size_t via = nsvcd__larger(p->explore.via, p->refine.via);
   const size_t draws = nsvcd__larger(p->explore.draws, p->refine.draws);
-  const size_t searched = nsvcd__larger(p->explore.moments, p->refine.moments);
-  const size_t moments = nsvcd__larger(p->check.moments, searched);
+  const size_t finest = nsvcd__larger(p->explore.moments, p->refine.moments);
+  const size_t moments = nsvcd__larger(p->check.moments, finest);
   const size_t poses = moments * bodies;
   const size_t point = (via + 2) * f;
   uint64_t used = 0;
