@@ -18,9 +18,9 @@ static void nsvcd__add_wrench(float scale, nsvcd__f3 force, nsvcd__f3 torque, fl
 //   across n   by sin((1 - u) h) / sin h of a, turned by u h about n,
 //              and sin(u h) / sin h of b, turned by -(1 - u) h.
 static float nsvcd__by_poses(const nsvcd__track *track, float t, nsvcd__f3 force,
-                             nsvcd__f3 torque, float *gradient) {
+                             nsvcd__f3 torque, float *out) {
   if (track->count == 1) {
-    if (gradient) nsvcd__add_wrench(1, force, torque, gradient);
+    if (out) nsvcd__add_wrench(1, force, torque, out);
     return 0;
   }
   float u;
@@ -38,13 +38,13 @@ static float nsvcd__by_poses(const nsvcd__track *track, float t, nsvcd__f3 force
   const float inverse = sine > 0 ? 1 / sine : 0;
   const nsvcd__f3 n = nsvcd__f3_scale(axis, inverse);
   const float h = nsvcd__quat_arc(qa, nearer);
-  if (gradient) {
+  if (out) {
     const float wa = h > 1e-3f ? sinf((1 - u) * h) * inverse : 1 - u;
     const float wb = h > 1e-3f ? sinf(u * h) * inverse : u;
     const nsvcd__f3 on_a = nsvcd__turned(torque, n, 1 - u, wa, -u * h);
     const nsvcd__f3 on_b = nsvcd__turned(torque, n, u, wb, (1 - u) * h);
-    nsvcd__add_wrench(1, nsvcd__f3_scale(force, 1 - u), on_a, gradient + 6 * k);
-    nsvcd__add_wrench(1, nsvcd__f3_scale(force, u), on_b, gradient + 6 * (k + 1));
+    nsvcd__add_wrench(1, nsvcd__f3_scale(force, 1 - u), on_a, out + 6 * k);
+    nsvcd__add_wrench(1, nsvcd__f3_scale(force, u), on_b, out + 6 * (k + 1));
   }
   const nsvcd__f3 from = nsvcd__f3_load(a->position);
   const nsvcd__f3 moved = nsvcd__f3_sub(nsvcd__f3_load(b->position), from);
@@ -76,13 +76,13 @@ typedef struct nsvcd__instants {
 } nsvcd__instants;
 
 // time: of the segments' ends.
-static void nsvcd__instants_of(const nsvcd__task *task, const nsvcd__candidate *candidate,
+static void nsvcd__instants_of(const nsvcd__task *task, const nsvcd__candidate *c,
                                const float *time, nsvcd__instants *at) {
-  const float t0 = candidate->t_enter;
-  const float t1 = candidate->t_exit;
-  const nsvcd__motion *motion = &task->motion;
-  const nsvcd__f3 own = nsvcd__centre_of(nsvcd__body_patches(task->moving), candidate->moving);
-  const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_scale(own, motion->scale));
+  const float t0 = c->t_enter;
+  const float t1 = c->t_exit;
+  const nsvcd__motion *m = &task->motion;
+  const nsvcd__f3 own = nsvcd__centre_of(nsvcd__body_patches(task->moving), c->moving);
+  const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_scale(own, m->scale));
   size_t a = 0;
   size_t b = 0;
   while (!(t0 < time[a + 1]) && time[a + 1] < 1) a++;
@@ -95,7 +95,7 @@ static void nsvcd__instants_of(const nsvcd__task *task, const nsvcd__candidate *
   for (size_t first = 0; first < NSVCD__INSTANTS; first += NSVCD__SLICE) {
     const size_t left = NSVCD__INSTANTS - first;
     const size_t count = left < NSVCD__SLICE ? left : NSVCD__SLICE;
-    const nsvcd__v_pose pose = nsvcd__v_poses_at(motion, t + first, count);
+    const nsvcd__v_pose pose = nsvcd__v_poses_at(m, t + first, count);
     const nsvcd__v3 arm = nsvcd__vmat3_apply(nsvcd__vmat3_of(pose.rotation), centre);
     nsvcd__v3_store(at->arm, first, arm);
     nsvcd__v3_store(at->position, first, nsvcd__v3_add(arm, pose.position));
@@ -105,12 +105,12 @@ static void nsvcd__instants_of(const nsvcd__task *task, const nsvcd__candidate *
 // Adds to out (2), of which one may be NULL, what a force on the patch's centre at instant l and a
 // torque on the moving body, in the fixed body's axes and units, are by the poses of the moving
 // body and of the fixed one. The two wrenches are opposite. Returns the derivative by the time.
-static float nsvcd__by_instant(const nsvcd__motion *motion, nsvcd__instants *at, size_t l,
+static float nsvcd__by_instant(const nsvcd__motion *m, nsvcd__instants *at, size_t l,
                                nsvcd__f3 force, nsvcd__f3 torque, float *const *out) {
   const float t = at->t[l];
-  const float unit = motion->unit;
-  const nsvcd__world_pose moving = nsvcd__track_pose_at(&motion->moving, t);
-  const nsvcd__world_pose fixed = nsvcd__track_pose_at(&motion->fixed, t);
+  const float unit = m->unit;
+  const nsvcd__world_pose moving = nsvcd__track_pose_at(&m->moving, t);
+  const nsvcd__world_pose fixed = nsvcd__track_pose_at(&m->fixed, t);
   const nsvcd__mat3 axes = nsvcd__mat3_of(fixed.rotation);
   const nsvcd__f3 arm = nsvcd__d3_narrow(nsvcd__d3_sub(moving.position, fixed.position));
   const nsvcd__f3 moment = nsvcd__f3_cross(nsvcd__lane_of(at->arm, l), force);
@@ -119,15 +119,15 @@ static float nsvcd__by_instant(const nsvcd__motion *motion, nsvcd__instants *at,
   const nsvcd__f3 turn = nsvcd__mat3_apply(&axes, nsvcd__f3_add(torque, moment));
   const nsvcd__f3 back = nsvcd__f3_scale(push, -1);
   const nsvcd__f3 turn_back = nsvcd__f3_sub(nsvcd__f3_cross(arm, back), turn);
-  const float by_moving = nsvcd__by_poses(&motion->moving, t, push, turn, out[0]);
-  return by_moving + nsvcd__by_poses(&motion->fixed, t, back, turn_back, out[1]);
+  const float by_moving = nsvcd__by_poses(&m->moving, t, push, turn, out[0]);
+  return by_moving + nsvcd__by_poses(&m->fixed, t, back, turn_back, out[1]);
 }
 
 // The adjoint of the time at which the balls meet (ENTRY) or separate (EXIT). There y = x0 +
 // tau x - c, where x is the segment's chord, is as long as the sum of the radii, and so y.(dy + x
 // dtau) = 0. If the balls only graze (y across x), the derivative has no limit: it is bounded where
 // float32 has no digits left.
-static void nsvcd__by_contact(const nsvcd__motion *motion, nsvcd__instants *at, size_t l,
+static void nsvcd__by_contact(const nsvcd__motion *m, nsvcd__instants *at, size_t l,
                               nsvcd__f3 centre, float by_time, float *const *out) {
   const nsvcd__f3 none = {0, 0, 0};
   const size_t s = l == NSVCD__ENTRY ? NSVCD__ENTRY_BEGIN : NSVCD__EXIT_BEGIN;
@@ -144,15 +144,15 @@ static void nsvcd__by_contact(const nsvcd__motion *motion, nsvcd__instants *at, 
   const float rate = along * by_time / (dot > least ? dot : least);
   const nsvcd__f3 before = nsvcd__f3_scale(y, (1 - tau) * rate);
   const nsvcd__f3 after = nsvcd__f3_scale(y, tau * rate);
-  nsvcd__by_instant(motion, at, s, before, none, out);
-  nsvcd__by_instant(motion, at, s + 1, after, none, out);
+  nsvcd__by_instant(m, at, s, before, none, out);
+  nsvcd__by_instant(m, at, s + 1, after, none, out);
 }
 
 // Adds the derivative of the decisive distance, or logit, by the poses to out (2). time: of the
 // segments' ends.
 static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *decisive,
                             const float *time, float *const *out) {
-  const nsvcd__motion *motion = &task->motion;
+  const nsvcd__motion *m = &task->motion;
   nsvcd__candidate candidate = decisive->candidate;
   nsvcd__candidate *one = &candidate;
   nsvcd__pairs pairs;
@@ -161,7 +161,7 @@ static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *deci
   nsvcd__instants at;
   float x[NSVCD__DECODER_IN];
   float by_x[NSVCD__DECODER_IN];
-  nsvcd__pairs_of(task->moving, task->fixed, motion, &one, 1, &pairs);
+  nsvcd__pairs_of(task->moving, task->fixed, m, &one, 1, &pairs);
   nsvcd__first_lanes(&pairs, sizeof pair / sizeof(float), &pair);
   nsvcd__invariants(&pairs, 1, x);
   const int of_logit = !nsvcd__of_distance(task);
@@ -187,15 +187,15 @@ static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *deci
   const float h = nsvcd__f3_length(w);
   const float half = 0.5f * (h > 1e-3f ? h / sinf(h) : 1);
   const nsvcd__f3 n = h > 0 ? nsvcd__f3_of(w.x / h, w.y / h, w.z / h) : none;
-  const float by_middle = nsvcd__by_instant(motion, &at, NSVCD__MIDDLE, p1, by.rotation, out);
+  const float by_middle = nsvcd__by_instant(m, &at, NSVCD__MIDDLE, p1, by.rotation, out);
   for (size_t l = NSVCD__ENTRY; l <= NSVCD__EXIT; l++) {
     const float side = l == NSVCD__ENTRY ? -1.0f : 1.0f;
     const nsvcd__f3 force = nsvcd__f3_scale(by.v, 0.5f * side);
     const nsvcd__f3 torque = nsvcd__turned(turn, n, 0.5f * side, half * side, h * side);
-    by_time[l] = 0.5f * by_middle + nsvcd__by_instant(motion, &at, l, force, torque, out);
+    by_time[l] = 0.5f * by_middle + nsvcd__by_instant(m, &at, l, force, torque, out);
   }
-  if (at.enters) nsvcd__by_contact(motion, &at, NSVCD__ENTRY, pair.p2, by_time[0], out);
-  if (at.leaves) nsvcd__by_contact(motion, &at, NSVCD__EXIT, pair.p2, by_time[1], out);
+  if (at.enters) nsvcd__by_contact(m, &at, NSVCD__ENTRY, pair.p2, by_time[0], out);
+  if (at.leaves) nsvcd__by_contact(m, &at, NSVCD__EXIT, pair.p2, by_time[1], out);
 }
 
 // As nsvcd_sweep_gradient.

@@ -39,17 +39,17 @@ static NSVCD__NOINLINE void nsvcd__wigner(const nsvcd__vmat3 *m, nsvcd__v scale,
   const nsvcd__v third = nsvcd__v_scale(scale, 1.0f / 3);
   const nsvcd__v root = nsvcd__v_scale(scale, 0.5773502691896258f);
   const nsvcd__v twice = nsvcd__v_add(root, root);
-  const nsvcd__vmat3 columns = nsvcd__vmat3_transpose(*m);
+  const nsvcd__vmat3 c = nsvcd__vmat3_transpose(*m);
   nsvcd__v xy[5], yz[5], xz[5], xx[5], yy[5], zz[5];
   nsvcd__v3_store_rows(nsvcd__v3_scale(m->x, scale), out[0], NSVCD__SLICE);
   nsvcd__v3_store_rows(nsvcd__v3_scale(m->y, scale), out[3], NSVCD__SLICE);
   nsvcd__v3_store_rows(nsvcd__v3_scale(m->z, scale), out[6], NSVCD__SLICE);
-  nsvcd__v_degree2(columns.x, columns.y, xy);
-  nsvcd__v_degree2(columns.y, columns.z, yz);
-  nsvcd__v_degree2(columns.x, columns.z, xz);
-  nsvcd__v_degree2(columns.x, columns.x, xx);
-  nsvcd__v_degree2(columns.y, columns.y, yy);
-  nsvcd__v_degree2(columns.z, columns.z, zz);
+  nsvcd__v_degree2(c.x, c.y, xy);
+  nsvcd__v_degree2(c.y, c.z, yz);
+  nsvcd__v_degree2(c.x, c.z, xz);
+  nsvcd__v_degree2(c.x, c.x, xx);
+  nsvcd__v_degree2(c.y, c.y, yy);
+  nsvcd__v_degree2(c.z, c.z, zz);
   for (size_t k = 0; k < 5; k++) {
     float(*row)[NSVCD__SLICE] = out + 9 + 5 * k;
     const nsvcd__v rest = nsvcd__v_add(xx[k], yy[k]);

@@ -212,10 +212,10 @@ static NSVCD__NOINLINE void nsvcd__pairs_of(const nsvcd_body *moving, const nsvc
   float normals[2][3 * NSVCD__SLICE] = {{0}, {0}};
   float flat[2][NSVCD__SLICE] = {{0}, {0}};
   for (size_t l = 0; l < count; l++) {
-    const nsvcd__candidate *candidate = candidates[l];
+    const nsvcd__candidate *c = candidates[l];
     for (size_t n = 0; n < 2; n++) {
       const nsvcd_body *body = n == 0 ? moving : fixed;
-      const size_t i = n == 0 ? candidate->moving : candidate->fixed;
+      const size_t i = n == 0 ? c->moving : c->fixed;
       const float scale = n == 0 ? motion->scale : 1;
       const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(body), i);
       nsvcd__f3_put(nsvcd__f3_scale(patch.centre, scale), centres[n] + l, NSVCD__SLICE);
@@ -233,9 +233,9 @@ static NSVCD__NOINLINE void nsvcd__pairs_of(const nsvcd_body *moving, const nsvc
       nsvcd__f3_put(normal, normals[n] + l, NSVCD__SLICE);
       flat[n][l] = fminf(0.31830989f * fraction, 2);
     }
-    times[0][l] = candidate->t_enter;
-    times[1][l] = candidate->t_exit;
-    times[2][l] = 0.5f * (candidate->t_enter + candidate->t_exit);
+    times[0][l] = c->t_enter;
+    times[1][l] = c->t_exit;
+    times[2][l] = 0.5f * (c->t_enter + c->t_exit);
   }
   p->p2 = nsvcd__v3_load_rows(centres[1], NSVCD__SLICE);
   p->r1 = nsvcd__v_load(radii[0]);
