@@ -162,21 +162,18 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
                                  const nsvcd_plan_options *options, void *workspace,
                                  size_t workspace_size, float *control,
                                  nsvcd_plan_answer *answer) {
-  const uint32_t most = nsvcd__magnitude(NSVCD_MAX_COORDINATE);
   nsvcd__planner p;
-  const nsvcd_result result = nsvcd__planner_settings(problem, options, &p);
-  if (result) return result;
+  const nsvcd_result error = nsvcd__planner_settings(problem, options, &p);
+  if (error) return error;
   if (!control || !answer) return NSVCD_ERROR_ARGUMENT;
   const size_t needed = nsvcd__planner_memory(&p, NULL);
   if (needed == 0) return NSVCD_ERROR_TOO_LARGE;
-  if (!workspace || !nsvcd__is_aligned(workspace)) return NSVCD_ERROR_WORKSPACE;
-  if (workspace_size < needed) return NSVCD_ERROR_WORKSPACE;
+  if (!workspace || !nsvcd__is_aligned(workspace) || workspace_size < needed)
+    return NSVCD_ERROR_WORKSPACE;
   for (size_t j = 0; j < problem->joints; j++) {
     const float ends[4] = {problem->low[j], problem->high[j], problem->start[j],
                            problem->goal[j]};
-    for (size_t k = 0; k < 4; k++) {
-      if (nsvcd__magnitude(ends[k]) > most) return NSVCD_ERROR_VALUE;
-    }
+    if (!nsvcd__in_range(ends, 4, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_VALUE;
     if (ends[0] > ends[1]) return NSVCD_ERROR_LIMITS;
   }
 

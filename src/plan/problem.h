@@ -184,8 +184,8 @@ static nsvcd_result nsvcd__problem_check(const nsvcd_plan_problem *in) {
   // a body in no pair may be NULL
   for (size_t b = 0; in->bodies && b < in->body_count; b++) {
     const nsvcd_body *body = in->bodies[b];
-    const nsvcd_result result = body ? nsvcd__body_check(body, SIZE_MAX) : NSVCD_OK;
-    if (result) return result;
+    const nsvcd_result error = body ? nsvcd__body_check(body, SIZE_MAX) : NSVCD_OK;
+    if (error) return error;
   }
   for (size_t k = 0; k < in->pair_count; k++) {
     const size_t a = in->pairs[k].a;
@@ -205,20 +205,19 @@ static nsvcd_result nsvcd__planner_settings(const nsvcd_plan_problem *problem,
   static const nsvcd_plan_stage refine = {10, 22, 10, 10, 0.01f};
   nsvcd__settings unused;
   memset(p, 0, sizeof *p);
-  nsvcd_result result = nsvcd__problem_check(problem);
-  if (result) return result;
+  nsvcd_result error = nsvcd__problem_check(problem);
+  if (error) return error;
   p->in = problem;
   if (options) p->options = *options;
   nsvcd_plan_options *o = &p->options;
-  const float floats[] = {o->velocity, o->acceleration, o->jerk,          o->collision,
-                          o->duration, o->margin,       o->explore.noise, o->refine.noise};
-  for (size_t k = 0; k < sizeof floats / sizeof *floats; k++) {
-    if (!nsvcd__is_finite(floats[k])) return NSVCD_ERROR_PLAN;
-  }
-  result = nsvcd__settings_of(&o->sweep.network, 1, 1, &unused);
-  if (result) return result;
-  if (!nsvcd__stage_of(&o->explore, explore, &p->explore)) return NSVCD_ERROR_STAGE;
-  if (!nsvcd__stage_of(&o->refine, refine, &p->refine)) return NSVCD_ERROR_STAGE;
+  const float floats[8] = {o->velocity, o->acceleration, o->jerk,          o->collision,
+                           o->duration, o->margin,       o->explore.noise, o->refine.noise};
+  if (!nsvcd__in_range(floats, 8, FLT_MAX)) return NSVCD_ERROR_PLAN;
+  error = nsvcd__settings_of(&o->sweep.network, 1, 1, &unused);
+  if (error) return error;
+  if (!nsvcd__stage_of(&o->explore, explore, &p->explore) ||
+      !nsvcd__stage_of(&o->refine, refine, &p->refine))
+    return NSVCD_ERROR_STAGE;
   if (o->refine.iterations == NSVCD_NONE) p->refine.via = p->explore.via;
 
   o->seeds = o->seeds ? o->seeds : 6;
