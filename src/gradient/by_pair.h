@@ -35,6 +35,11 @@ static void nsvcd__first_lanes(const void *slices, size_t count, void *out) {
   }
 }
 
+// *sum += s a
+static void nsvcd__add_to(nsvcd__f3 *sum, float s, nsvcd__f3 a) {
+  *sum = nsvcd__f3_fma(s, a, *sum);
+}
+
 // a without its part along the unit vector n.
 static nsvcd__f3 nsvcd__f3_across(nsvcd__f3 a, nsvcd__f3 n) {
   return nsvcd__f3_fma(-nsvcd__f3_dot(a, n), n, a);
@@ -45,10 +50,9 @@ static nsvcd__f3 nsvcd__f3_across(nsvcd__f3 a, nsvcd__f3 n) {
 static nsvcd__f3 nsvcd__turned(nsvcd__f3 a, nsvcd__f3 n, float along, float across,
                                float angle) {
   const float c = across * cosf(angle);
+  const float rest = (along - c) * nsvcd__f3_dot(n, a);
   const nsvcd__f3 side = nsvcd__f3_scale(n, across * sinf(angle));
-  nsvcd__f3 sum = {0, 0, 0};
-  sum = nsvcd__f3_fma(c, a, sum);
-  sum = nsvcd__f3_fma((along - c) * nsvcd__f3_dot(n, a), n, sum);
+  const nsvcd__f3 sum = nsvcd__f3_fma(rest, n, nsvcd__f3_scale(a, c));
   return nsvcd__f3_add(sum, nsvcd__f3_cross(side, a));
 }
 
@@ -176,11 +180,11 @@ typedef struct nsvcd__by_view {
   nsvcd__f3 d, v, w, lean, axis1, torque;
 } nsvcd__by_view;
 
-// sum + m's transpose times a.
-static nsvcd__f3 nsvcd__add_along_rows(nsvcd__f3 sum, const nsvcd__mat3 *m, nsvcd__f3 a) {
-  sum = nsvcd__f3_fma(a.x, m->x, sum);
-  sum = nsvcd__f3_fma(a.y, m->y, sum);
-  return nsvcd__f3_fma(a.z, m->z, sum);
+// *sum += m's transpose times a
+static void nsvcd__add_transpose(nsvcd__f3 *sum, const nsvcd__mat3 *m, nsvcd__f3 a) {
+  nsvcd__add_to(sum, a.x, m->x);
+  nsvcd__add_to(sum, a.y, m->y);
+  nsvcd__add_to(sum, a.z, m->z);
 }
 
 // The adjoint of the facts: by (FACTS), added to `out`.
@@ -191,16 +195,16 @@ static void nsvcd__by_facts(const nsvcd__view *view, const float *facts, const f
   const nsvcd__f3 closest = nsvcd__f3_sub(view->d, nsvcd__f3_scale(view->v, tau));
   const nsvcd__f3 by_distance = nsvcd__by_length(view->d, by[NSVCD__FACT_DISTANCE]);
   const nsvcd__f3 by_closest = nsvcd__by_length(closest, by[NSVCD__FACT_CLOSEST]);
-  out->d = nsvcd__f3_add(out->d, by_distance);
-  out->d = nsvcd__f3_add(out->d, by_closest);
-  out->v = nsvcd__f3_fma(-tau, by_closest, out->v);
+  nsvcd__add_to(&out->d, 1, by_distance);
+  nsvcd__add_to(&out->d, 1, by_closest);
+  nsvcd__add_to(&out->v, -tau, by_closest);
   // where tau is not clamped
   if (fabsf(tau) < 1) {
     const float direct = by[NSVCD__FACT_TAU];
     const float by_tau = scale * (direct - nsvcd__f3_dot(by_closest, view->v));
-    out->d = nsvcd__f3_fma(by_tau, view->v, out->d);
-    out->v = nsvcd__f3_fma(by_tau, view->d, out->v);
-    out->v = nsvcd__f3_fma(-2 * by_tau * tau, view->v, out->v);
+    nsvcd__add_to(&out->d, by_tau, view->v);
+    nsvcd__add_to(&out->v, by_tau, view->d);
+    nsvcd__add_to(&out->v, -2 * by_tau * tau, view->v);
   }
 
   const nsvcd__f3 velocity = nsvcd__f3_load(facts + NSVCD__FACT_VELOCITY);
@@ -208,12 +212,12 @@ static void nsvcd__by_facts(const nsvcd__view *view, const float *facts, const f
   const nsvcd__f3 by_velocity = nsvcd__f3_load(by + NSVCD__FACT_VELOCITY);
   const nsvcd__f3 by_turn = nsvcd__f3_load(by + NSVCD__FACT_TURN);
   const nsvcd__f3 mirrored = nsvcd__f3_scale(by_turn, view->side);
-  out->v = nsvcd__add_along_rows(out->v, &view->frame, by_velocity);
-  out->w = nsvcd__add_along_rows(out->w, &view->frame, mirrored);
-  out->torque = nsvcd__f3_add(out->torque, nsvcd__f3_cross(velocity, by_velocity));
-  out->torque = nsvcd__f3_add(out->torque, nsvcd__f3_cross(turn, by_turn));
-  out->v = nsvcd__f3_add(out->v, nsvcd__by_length(view->v, by[NSVCD__FACT_SPEED]));
-  out->w = nsvcd__f3_add(out->w, nsvcd__by_length(view->w, by[NSVCD__FACT_SPIN]));
+  nsvcd__add_transpose(&out->v, &view->frame, by_velocity);
+  nsvcd__add_transpose(&out->w, &view->frame, mirrored);
+  nsvcd__add_to(&out->torque, 1, nsvcd__f3_cross(velocity, by_velocity));
+  nsvcd__add_to(&out->torque, 1, nsvcd__f3_cross(turn, by_turn));
+  nsvcd__add_to(&out->v, 1, nsvcd__by_length(view->v, by[NSVCD__FACT_SPEED]));
+  nsvcd__add_to(&out->w, 1, nsvcd__by_length(view->w, by[NSVCD__FACT_SPIN]));
 }
 
 // The adjoint of the frame in nsvcd__views_of, added to `by`. Its conventions are taken as
@@ -240,23 +244,23 @@ static void nsvcd__by_frame(const nsvcd__view *view, nsvcd__by_view *by) {
   }
   const float about = by->torque.x / nsvcd__f3_length(across);
   if (!vanishes) {
-    by->v = nsvcd__f3_fma(-about, e3, by->v);
-    by->lean = nsvcd__f3_fma(-about * NSVCD__LEAN, e3, by->lean);
+    nsvcd__add_to(&by->v, -about, e3);
+    nsvcd__add_to(&by->lean, -about * NSVCD__LEAN, e3);
   }
 
   // Axis 1: the direction of the line, or of what replaces it.
   nsvcd__f3 by_e1 = nsvcd__f3_across(by->axis1, e1);
-  by_e1 = nsvcd__f3_fma(by->torque.y + about * nsvcd__f3_dot(e1, a), e3, by_e1);
-  by_e1 = nsvcd__f3_fma(-by->torque.z, e2, by_e1);
+  nsvcd__add_to(&by_e1, by->torque.y + about * nsvcd__f3_dot(e1, a), e3);
+  nsvcd__add_to(&by_e1, -by->torque.z, e2);
   if (length > 1e-5f)
-    by->d = nsvcd__f3_fma(1 / length, by_e1, by->d);
+    nsvcd__add_to(&by->d, 1 / length, by_e1);
   else if (nsvcd__f3_length(line) > 1e-9f)
-    by->lean = nsvcd__f3_fma(1 / nsvcd__f3_length(line), by_e1, by->lean);
+    nsvcd__add_to(&by->lean, 1 / nsvcd__f3_length(line), by_e1);
 }
 
 // ---- gaps
 
-// As nsvcd__turned_back, by tau w. With -w it is the adjoint by u.
+// As nsvcd__turned_back, by tau w. With -tau it is the adjoint by u.
 static nsvcd__f3 nsvcd__f3_turned_back(nsvcd__f3 u, nsvcd__f3 w, float tau) {
   const nsvcd__f3 turned = nsvcd__f3_fma(tau, nsvcd__f3_cross(u, w), u);
   const float along = 0.5f * tau * tau * nsvcd__f3_dot(u, w);
@@ -268,8 +272,8 @@ static nsvcd__f3 nsvcd__f3_turned_back(nsvcd__f3 u, nsvcd__f3 w, float tau) {
 static nsvcd__f3 nsvcd__turned_back_by_w(nsvcd__f3 u, nsvcd__f3 w, float tau, nsvcd__f3 q) {
   const float half = 0.5f * tau * tau;
   nsvcd__f3 out = nsvcd__f3_scale(nsvcd__f3_cross(q, u), tau);
-  out = nsvcd__f3_fma(half * nsvcd__f3_dot(w, q), u, out);
-  out = nsvcd__f3_fma(half * nsvcd__f3_dot(u, w), q, out);
+  nsvcd__add_to(&out, half * nsvcd__f3_dot(w, q), u);
+  nsvcd__add_to(&out, half * nsvcd__f3_dot(u, w), q);
   return nsvcd__f3_fma(-2 * half * nsvcd__f3_dot(u, q), w, out);
 }
 
@@ -291,7 +295,6 @@ static nsvcd__f3 nsvcd__by_gap(const nsvcd__pair *pair, const int8_t *const *ext
                                nsvcd__by_pair *out) {
   const float half = 0.5f * tau;
   const nsvcd__f3 w = pair->w;
-  const nsvcd__f3 minus = nsvcd__f3_scale(w, -1);
   const nsvcd__f3 back = nsvcd__f3_turned_back(u, w, half);
   const nsvcd__f3 forth = nsvcd__f3_turned_back(u, w, -half);
   const nsvcd__f3 own = nsvcd__mat3_apply_transpose(&pair->rotation, back);
@@ -302,13 +305,13 @@ static nsvcd__f3 nsvcd__by_gap(const nsvcd__pair *pair, const int8_t *const *ext
   const nsvcd__f3 x = nsvcd__f3_scale(highest, pair->r2 / 127);
   const nsvcd__f3 on_q = nsvcd__turned_back_by_w(u, w, half, q);
   const nsvcd__f3 on_x = nsvcd__turned_back_by_w(u, w, -half, x);
-  out->p1 = nsvcd__f3_fma(by, u, out->p1);
-  out->v = nsvcd__f3_fma(moves * tau * by, u, out->v);
-  out->w = nsvcd__f3_fma(moves * by, nsvcd__f3_sub(on_q, on_x), out->w);
-  out->rotation = nsvcd__f3_fma(by, nsvcd__f3_cross(q, back), out->rotation);
+  nsvcd__add_to(&out->p1, by, u);
+  nsvcd__add_to(&out->v, moves * tau * by, u);
+  nsvcd__add_to(&out->w, moves * by, nsvcd__f3_sub(on_q, on_x));
+  nsvcd__add_to(&out->rotation, by, nsvcd__f3_cross(q, back));
   nsvcd__f3 by_u = nsvcd__f3_fma(tau, pair->v, nsvcd__f3_sub(pair->p1, pair->p2));
-  by_u = nsvcd__f3_add(by_u, nsvcd__f3_turned_back(q, minus, half));
-  by_u = nsvcd__f3_sub(by_u, nsvcd__f3_turned_back(x, minus, -half));
+  nsvcd__add_to(&by_u, 1, nsvcd__f3_turned_back(q, w, -half));
+  nsvcd__add_to(&by_u, -1, nsvcd__f3_turned_back(x, w, half));
   return nsvcd__f3_scale(by_u, by);
 }
 
@@ -347,12 +350,12 @@ static nsvcd__f3 nsvcd__by_gap_axes(const nsvcd__pair *pair, const nsvcd__view *
   nsvcd__f3 by_line = {0, 0, 0};
   for (size_t d = 0; d < NSVCD__GAPS; d++) {
     const nsvcd__f3 across = nsvcd__f3_across(by_u[d], u[d]);
-    by_normal = nsvcd__f3_fma(-normals[d], across, by_normal);
-    by_line = nsvcd__f3_fma(lines[d], across, by_line);
+    nsvcd__add_to(&by_normal, -normals[d], across);
+    nsvcd__add_to(&by_line, lines[d], across);
   }
   const float distance = nsvcd__f3_length(nsvcd__f3_sub(pair->p1, pair->p2));
   const float inverse = 1 / fmaxf(distance, 1e-20f);
-  out->p1 = nsvcd__f3_fma(inverse, nsvcd__f3_across(by_line, line), out->p1);
+  nsvcd__add_to(&out->p1, inverse, nsvcd__f3_across(by_line, line));
   return by_normal;
 }
 
@@ -389,7 +392,7 @@ static NSVCD__NOINLINE void nsvcd__by_gaps(const nsvcd__pairs *pairs,
       const float by_most = nsvcd__by_gap_fact(most, size, NSVCD__WIDEST_STEEP);
       const float by_gap = view->inverse * (by_own + by_most);
       const nsvcd__f3 more = nsvcd__by_gap(pair, of_pair, u[d], tau, moves, by_gap, out);
-      by_u[d] = nsvcd__f3_add(by_u[d], more);
+      nsvcd__add_to(&by_u[d], 1, more);
     }
   }
 
@@ -397,11 +400,11 @@ static NSVCD__NOINLINE void nsvcd__by_gaps(const nsvcd__pairs *pairs,
   const float *facing = by + NSVCD__FACT_FACING;
   const float to_moving = view->swap > 0 ? facing[1] : facing[2];
   const float to_fixed = view->swap > 0 ? facing[2] : facing[1];
-  by_normal = nsvcd__f3_fma(facing[0], fixed, by_normal);
-  by_normal = nsvcd__f3_fma(to_moving, view->frame.x, by_normal);
-  seen->axis1 = nsvcd__f3_fma(to_moving, view->normal, seen->axis1);
-  seen->axis1 = nsvcd__f3_fma(to_fixed, fixed, seen->axis1);
-  out->rotation = nsvcd__f3_add(out->rotation, nsvcd__f3_cross(view->normal, by_normal));
+  nsvcd__add_to(&by_normal, facing[0], fixed);
+  nsvcd__add_to(&by_normal, to_moving, view->frame.x);
+  nsvcd__add_to(&seen->axis1, to_moving, view->normal);
+  nsvcd__add_to(&seen->axis1, to_fixed, fixed);
+  nsvcd__add_to(&out->rotation, 1, nsvcd__f3_cross(view->normal, by_normal));
 }
 
 // The adjoint of nsvcd__invariants for the pair in lane 0; x, by_x (DECODER_IN). The unit of length
@@ -434,10 +437,10 @@ static NSVCD__NOINLINE void nsvcd__by_invariants(const nsvcd__pairs *pairs,
 
   const nsvcd__f3 lean1 = nsvcd__f3_scale(view.normal, view.swap * view.k1);
   const nsvcd__f3 turned = nsvcd__f3_scale(on_moving, view.side);
-  by->rotation = nsvcd__add_along_rows(by->rotation, &view.frame, turned);
-  by->rotation = nsvcd__f3_add(by->rotation, nsvcd__f3_cross(lean1, seen.lean));
-  by->p1 = nsvcd__f3_fma(-view.swap * view.inverse, seen.d, by->p1);
-  by->v = nsvcd__f3_fma(sign * view.inverse, seen.v, by->v);
-  by->w = nsvcd__f3_fma(sign, seen.w, by->w);
+  nsvcd__add_transpose(&by->rotation, &view.frame, turned);
+  nsvcd__add_to(&by->rotation, 1, nsvcd__f3_cross(lean1, seen.lean));
+  nsvcd__add_to(&by->p1, -view.swap * view.inverse, seen.d);
+  nsvcd__add_to(&by->v, sign * view.inverse, seen.v);
+  nsvcd__add_to(&by->w, sign, seen.w);
 }
 #endif  // NSVCD_NO_GRADIENT

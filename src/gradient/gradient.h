@@ -178,8 +178,8 @@ static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *deci
   const nsvcd__f3 middle = nsvcd__lane_of(at.position, NSVCD__MIDDLE);
   const nsvcd__f3 line = nsvcd__f3_sub(pair.p2, middle);
   const nsvcd__f3 arm = nsvcd__f3_scale(line, 0.5f);
-  const nsvcd__f3 p1 = nsvcd__f3_fma(-0.5f, nsvcd__f3_cross(by.v, w), by.p1);
-  const nsvcd__f3 turn = nsvcd__f3_add(by.w, nsvcd__f3_cross(arm, by.v));
+  nsvcd__add_to(&by.p1, -0.5f, nsvcd__f3_cross(by.v, w));
+  nsvcd__add_to(&by.w, 1, nsvcd__f3_cross(arm, by.v));
   // w is half the rotation vector of R1 R0^-1: small rotations of R0 and R1 turn it as
   // nsvcd__by_poses says.
   const nsvcd__f3 none = {0, 0, 0};
@@ -187,11 +187,11 @@ static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *deci
   const float h = nsvcd__f3_length(w);
   const float half = 0.5f * (h > 1e-3f ? h / sinf(h) : 1);
   const nsvcd__f3 n = h > 0 ? nsvcd__f3_of(w.x / h, w.y / h, w.z / h) : none;
-  const float by_middle = nsvcd__by_instant(m, &at, NSVCD__MIDDLE, p1, by.rotation, out);
+  const float by_middle = nsvcd__by_instant(m, &at, NSVCD__MIDDLE, by.p1, by.rotation, out);
   for (size_t l = NSVCD__ENTRY; l <= NSVCD__EXIT; l++) {
     const float side = l == NSVCD__ENTRY ? -1.0f : 1.0f;
     const nsvcd__f3 force = nsvcd__f3_scale(by.v, 0.5f * side);
-    const nsvcd__f3 torque = nsvcd__turned(turn, n, 0.5f * side, half * side, h * side);
+    const nsvcd__f3 torque = nsvcd__turned(by.w, n, 0.5f * side, half * side, h * side);
     by_time[l] = 0.5f * by_middle + nsvcd__by_instant(m, &at, l, force, torque, out);
   }
   if (at.enters) nsvcd__by_contact(m, &at, NSVCD__ENTRY, pair.p2, by_time[0], out);
