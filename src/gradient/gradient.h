@@ -150,27 +150,26 @@ static void nsvcd__by_contact(const nsvcd__motion *m, nsvcd__instants *at, size_
 
 // Adds the derivative of the decisive distance, or logit, by the poses to out (2). time: of the
 // segments' ends.
-static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *decisive,
+static void nsvcd__gradient(const nsvcd__task *task, nsvcd__decisive *decisive,
                             const float *time, float *const *out) {
   const nsvcd__motion *m = &task->motion;
-  nsvcd__candidate candidate = decisive->candidate;
-  nsvcd__candidate *one = &candidate;
+  nsvcd__candidate *c = &decisive->candidate;
   nsvcd__pairs pairs;
   nsvcd__pair pair;
   nsvcd__by_pair by;
   nsvcd__instants at;
   float x[NSVCD__DECODER_IN];
   float by_x[NSVCD__DECODER_IN];
-  nsvcd__pairs_of(task->moving, task->fixed, m, &one, 1, &pairs);
+  nsvcd__pairs_of(task->moving, task->fixed, m, &c, 1, &pairs);
   nsvcd__first_lanes(&pairs, sizeof pair / sizeof(float), &pair);
   nsvcd__invariants(&pairs, 1, x);
   const int of_logit = !nsvcd__of_distance(task);
   const size_t output = of_logit ? NSVCD__OUT_LOGIT : NSVCD__OUT_DISTANCE;
-  const float unit = of_logit ? 1 : 0.1f * nsvcd__candidate_reach(task, &candidate);
+  const float unit = of_logit ? 1 : 0.1f * nsvcd__candidate_reach(task, c);
   nsvcd__decoder_gradient(decisive->decoder, output, x, by_x);
   for (size_t k = 0; k < NSVCD__DECODER_IN; k++) by_x[k] *= unit;
   nsvcd__by_invariants(&pairs, &pair, x, by_x, &by);
-  nsvcd__instants_of(task, &candidate, time, &at);
+  nsvcd__instants_of(task, c, time, &at);
 
   // The adjoint of nsvcd__pairs_of. v = w x arm + (x1 - x0) / 2, where arm goes from the moving
   // centre half way to the other.

@@ -283,7 +283,6 @@ static nsvcd__v3 nsvcd__v_unit_or(nsvcd__v3 a, float least, nsvcd__v3 instead) {
 }
 
 static NSVCD__NOINLINE void nsvcd__views_of(const nsvcd__pairs *p, nsvcd__views *view) {
-  const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v one = nsvcd__v_set(1);
   const nsvcd__v minus = nsvcd__v_set(-1);
   const nsvcd__v3 between = nsvcd__v3_sub(p->p2, p->p1);
@@ -321,11 +320,12 @@ static NSVCD__NOINLINE void nsvcd__views_of(const nsvcd__pairs *p, nsvcd__views 
   const nsvcd__v3 ref = nsvcd__v3_fma(nsvcd__v_set(NSVCD__LEAN), lean_across, forward);
   // if the reference vanishes in some lane: the coordinate axis farthest from e1
   if (nsvcd__v_le(nsvcd__v3_length(ref), nsvcd__v_set(1e-7f))) {
+    const nsvcd__v3 y_axis = nsvcd__v3_set(nsvcd__f3_of(0, 1, 0));
+    const nsvcd__v3 z_axis = nsvcd__v3_set(nsvcd__f3_of(0, 0, 1));
     const nsvcd__v3 size = nsvcd__v3_max(e1, nsvcd__v3_negate(e1));
-    const nsvcd__v x = nsvcd__v_pick(size.x, nsvcd__v_min(size.y, size.z), one, zero);
-    const nsvcd__v y_of_two = nsvcd__v_pick(size.y, size.z, one, zero);
-    const nsvcd__v y = nsvcd__v_mul(nsvcd__v_sub(one, x), y_of_two);
-    const nsvcd__v3 axis = nsvcd__v3_of(x, y, nsvcd__v_sub(one, nsvcd__v_add(x, y)));
+    const nsvcd__v rest = nsvcd__v_min(size.y, size.z);
+    const nsvcd__v3 y_or_z = nsvcd__v3_pick(size.y, size.z, y_axis, z_axis);
+    const nsvcd__v3 axis = nsvcd__v3_pick(size.x, rest, x_axis, y_or_z);
     instead = nsvcd__v_unit_or(nsvcd__v_across(axis, e1), 1e-9f, x_axis);
   }
   const nsvcd__v3 e2 = nsvcd__v_unit_or(ref, 1e-7f, instead);
