@@ -6452,21 +6452,20 @@ static nsvcd_result nsvcd__surface_add(nsvcd__sorted *sorted, nsvcd__surface *s)
 // ====================================================== encoder: what the network keeps of a patch
 
 // ----------------------------------------------------------------------------------- encoder/model
-// In: weights.h, which train/ generates. Out: its arrays: matrices are (inputs, outputs).
+// In: weights.h, which train/ generates. Out: its arrays. Matrices are (inputs, outputs).
 
 #ifndef NSVCD_NO_NETWORK
-// A decoder: `layers` linear layers with ReLU between them, sizes multiples of 4 and, but for the
-// inputs, of 16. Offsets instead of pointers: nothing needs relocation, so that all of it stays in
-// read-only memory.
+// A decoder: linear layers with ReLU between them. Offsets instead of pointers need no relocation,
+// so that all of it stays in read-only memory.
 typedef struct nsvcd__decoder {
-  // 0: compiled out
-  size_t layers;
-  // (layers + 1)
+  size_t layers;  // 0: compiled out
+  // (layers + 1): of the inputs, a multiple of 4, and of the outputs of each layer, multiples of 16
   size_t sizes[6];
-  // of its matrices: per layer (sizes[l], sizes[l + 1]) floats in nsvcd_w_decoder, and the same
-  // numbers in nsvcd_w_decoder_int8 as (sizes[l] / 4, sizes[l + 1], 4), over the output's scale
+  // where its matrices begin: per layer (sizes[l], sizes[l + 1]) floats in nsvcd_w_decoder, and the
+  // same numbers over the output's scale in nsvcd_w_decoder_int8, (sizes[l] / 4, sizes[l + 1], 4)
   size_t weights;
-  // of its outputs: per layer (sizes[l + 1]) in nsvcd_w_decoder_bias, _scale and _sum (of the int8)
+  // where numbers of its outputs begin: per layer (sizes[l + 1]) in nsvcd_w_decoder_bias, _scale
+  // and _sum (of the int8)
   size_t outputs;
 } nsvcd__decoder;
 
@@ -6476,27 +6475,27 @@ typedef struct nsvcd__decoder {
 #endif  // NSVCD_NO_NETWORK
 
 // --------------------------------------------------------------------------------- encoder/encoder
-// In: the samples of one patch, its centre and the radius of its ball. Out: its latent
-// (NSVCD__LATENT floats in (-1,1)): NSVCD_W_CHANNELS vectors of degree 1, as many of degree 2,
+// In: the samples of one patch, its centre, and the radius of its ball. Out: its latent
+// (NSVCD__LATENT floats in (-1,1)): NSVCD_W_CHANNELS vectors of degree 1, as many of degree 2, and
 // NSVCD_W_SCALARS invariants.
 //
 // A Vector-Neuron encoder (Deng et al. 2021) on features of degrees 1 and 2 (FER-VN, Son et al.
-// 2024): channels are mixed by matrices shared by all components, and the only nonlinearities are
-// gates computed from invariants, so turning the samples by R turns the latent by D(R). Dividing by
-// the radius makes it independent of scale.
+// 2024). Channels are mixed by matrices shared by all components, and the only nonlinearities are
+// gates computed from invariants, so that turning the samples by R turns the latent by D(R).
+// Dividing by the radius makes it independent of scale.
 
 #ifndef NSVCD_NO_NETWORK
 #ifndef NSVCD_NO_ENCODER
-// channels after pooling
+// Channels after pooling.
 #define NSVCD__WIDE (NSVCD_W_POOLED + NSVCD_W_CONTEXT)
-// of each sample
+// Invariants of a sample.
 #define NSVCD__INVARIANTS (2 + 5 * NSVCD_W_CONTEXT)
 #define NSVCD__GATES (5 * NSVCD_W_POOLED + NSVCD_W_POOLED_SCALARS)
 #define NSVCD__PATCH_IN (2 * NSVCD__WIDE + NSVCD_W_POOLED_SCALARS)
 #define NSVCD__PATCH_OUT (2 * NSVCD_W_HIDDEN + NSVCD_W_SCALARS)
 
 // A linear layer: y = w^T x + bias; w (inputs, outputs), bias (outputs) or NULL, x (inputs),
-// y (outputs), apart from each other. It is a sum of rows, which compilers vectorise.
+// y (outputs), which do not overlap. A sum of rows, which compilers vectorise.
 static void nsvcd__linear(const float *w, const float *bias, size_t inputs, size_t outputs,
                           const float *x, float *y) {
   size_t left = inputs;
@@ -6531,27 +6530,24 @@ typedef struct nsvcd__f5 {
   float v[5];
 } nsvcd__f5;
 
-// Written out, for compilers that leave a loop over five in memory.
+// Written out, for compilers that keep the five in memory if it is a loop.
 static inline nsvcd__f5 nsvcd__f5_scale(nsvcd__f5 a, float s) {
   const float *v = a.v;
   const nsvcd__f5 out = {{s * v[0], s * v[1], s * v[2], s * v[3], s * v[4]}};
   return out;
 }
-static inline nsvcd__f5 nsvcd__f5_add(nsvcd__f5 a, nsvcd__f5 b) {
-  nsvcd__f5 out;
-  out.v[0] = a.v[0] + b.v[0];
-  out.v[1] = a.v[1] + b.v[1];
-  out.v[2] = a.v[2] + b.v[2];
-  out.v[3] = a.v[3] + b.v[3];
-  out.v[4] = a.v[4] + b.v[4];
+// s b + a
+static inline nsvcd__f5 nsvcd__f5_fma(float s, nsvcd__f5 b, nsvcd__f5 a) {
+  const float *v = a.v;
+  const float *w = b.v;
+  const nsvcd__f5 out = {
+      {v[0] + s * w[0], v[1] + s * w[1], v[2] + s * w[2], v[3] + s * w[3], v[4] + s * w[4]}};
   return out;
 }
 static inline float nsvcd__f5_dot(nsvcd__f5 a, nsvcd__f5 b) {
-  float sum = a.v[0] * b.v[0];
-  sum += a.v[1] * b.v[1];
-  sum += a.v[2] * b.v[2];
-  sum += a.v[3] * b.v[3];
-  return sum + a.v[4] * b.v[4];
+  const float *v = a.v;
+  const float *w = b.v;
+  return v[0] * w[0] + v[1] * w[1] + v[2] * w[2] + v[3] * w[3] + v[4] * w[4];
 }
 
 // The symmetric traceless part of a b^T, scaled so that the square of a vector has its squared
@@ -6567,24 +6563,19 @@ static nsvcd__f5 nsvcd__degree2(nsvcd__f3 a, nsvcd__f3 b) {
   return q;
 }
 
-// The samples of a patch, in its frame.
+// What the encoder sees of a patch.
 typedef struct nsvcd__encoded {
-  // (count)
-  const nsvcd__f3 *samples;
-  // (count)
-  const nsvcd__f3 *normals;
+  const nsvcd__f3 *samples, *normals;  // (count)
   size_t count;
   nsvcd__f3 centre;
   float inverse_radius;
 } nsvcd__encoded;
 
-// One sample: its vectors of degree 1 and 2.
+// A sample's vectors of degree 1 and 2.
 typedef struct nsvcd__feature {
-  // place over the radius; unit normal
-  nsvcd__f3 u, n;
-  float uu, un;  // |u|^2, u.n
-  // degree2 of both
-  nsvcd__f5 quu, qun, qnn;
+  nsvcd__f3 u, n;           // position from the centre, over the radius; unit normal
+  float uu, un;             // |u|^2, u.n
+  nsvcd__f5 quu, qun, qnn;  // nsvcd__degree2 of both
 } nsvcd__feature;
 
 static nsvcd__feature nsvcd__feature_of(const nsvcd__encoded *patch, size_t i) {
@@ -6600,7 +6591,7 @@ static nsvcd__feature nsvcd__feature_of(const nsvcd__encoded *patch, size_t i) {
   return f;
 }
 
-// The channels of a patch: what is pooled, then the context.
+// The channels of a patch: pooled ones, then the context.
 typedef struct nsvcd__channels {
   nsvcd__f3 degree1[NSVCD__WIDE];
   nsvcd__f5 degree2[NSVCD__WIDE];
@@ -6617,10 +6608,10 @@ static void nsvcd__context(const nsvcd__encoded *patch, nsvcd__channels *out) {
     m1[1] = nsvcd__f3_fma(f.uu, f.n, m1[1]);
     m1[2] = nsvcd__f3_fma(f.un, f.u, m1[2]);
     m1[3] = nsvcd__f3_fma(f.uu, f.u, m1[3]);
-    m2[0] = nsvcd__f5_add(m2[0], f.quu);
-    m2[1] = nsvcd__f5_add(m2[1], f.qun);
-    m2[2] = nsvcd__f5_add(m2[2], f.qnn);
-    m2[3] = nsvcd__f5_add(m2[3], nsvcd__f5_scale(f.qun, f.un));
+    m2[0] = nsvcd__f5_fma(1, f.quu, m2[0]);
+    m2[1] = nsvcd__f5_fma(1, f.qun, m2[1]);
+    m2[2] = nsvcd__f5_fma(1, f.qnn, m2[2]);
+    m2[3] = nsvcd__f5_fma(f.un, f.qun, m2[3]);
   }
   const float fraction = 1 / (float)patch->count;
   for (size_t c = 0; c < NSVCD_W_CONTEXT; c++) {
@@ -6630,14 +6621,14 @@ static void nsvcd__context(const nsvcd__encoded *patch, nsvcd__channels *out) {
       const float w1 = nsvcd_w_context1[m * NSVCD_W_CONTEXT + c];
       const float w2 = nsvcd_w_context2[m * NSVCD_W_CONTEXT + c];
       c1 = nsvcd__f3_fma(fraction, nsvcd__f3_scale(m1[m], w1), c1);
-      c2 = nsvcd__f5_add(c2, nsvcd__f5_scale(nsvcd__f5_scale(m2[m], w2), fraction));
+      c2 = nsvcd__f5_fma(fraction, nsvcd__f5_scale(m2[m], w2), c2);
     }
     out->degree1[NSVCD_W_POOLED + c] = c1;
     out->degree2[NSVCD_W_POOLED + c] = c2;
   }
 }
 
-// The sample network: invariants of one sample -> its gates, (5 POOLED + POOLED_SCALARS).
+// The sample network: a sample's invariants -> its gates (GATES).
 static void nsvcd__gates(const nsvcd__feature *f, const nsvcd__channels *context,
                          float *gates) {
   const size_t hidden = NSVCD_W_POINT_HIDDEN;
@@ -6661,8 +6652,8 @@ static void nsvcd__gates(const nsvcd__feature *f, const nsvcd__channels *context
   nsvcd__linear(nsvcd_w_point2, nsvcd_w_point2_bias, hidden, NSVCD__GATES, h2, gates);
 }
 
-// The patch network: the channels -> the latent. Of each degree the channels are mixed, gated and
-// mixed once more.
+// The patch network: channels -> latent. The channels of each degree are mixed, gated, and mixed
+// again.
 static void nsvcd__finish_latent(const nsvcd__channels *a, float *latent) {
   const size_t hidden = NSVCD_W_PATCH_HIDDEN;
   float x[NSVCD__PATCH_IN], h[NSVCD_W_PATCH_HIDDEN], y[NSVCD__PATCH_OUT];
@@ -6691,7 +6682,7 @@ static void nsvcd__finish_latent(const nsvcd__channels *a, float *latent) {
       float *z = latent + NSVCD_W_CHANNELS * k;
       nsvcd__linear(out, NULL, NSVCD_W_HIDDEN, NSVCD_W_CHANNELS, gated, z);
     }
-    // shortened to less than 1, so that int8 holds it
+    // shortened below length 1, so that int8 holds them
     for (size_t c = 0; c < NSVCD_W_CHANNELS; c++) {
       float *z = latent + c;
       float square = 0;
@@ -6706,7 +6697,7 @@ static void nsvcd__finish_latent(const nsvcd__channels *a, float *latent) {
   for (size_t c = 0; c < NSVCD_W_SCALARS; c++) latent[c] = tanhf(scalars[c]);
 }
 
-// The latent (LATENT) of a patch of one sample or more: degree 1 (3, CHANNELS), degree 2 (5,
+// The latent (LATENT) of a patch of one or more samples: degree 1 (3, CHANNELS), degree 2 (5,
 // CHANNELS), scalars.
 static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
   const size_t pooled = NSVCD_W_POOLED;
@@ -6721,12 +6712,12 @@ static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
     for (size_t c = 0; c < pooled; c++) {
       const float *gate = gates + c;
       nsvcd__f3 a1 = nsvcd__f3_scale(f.u, gate[0]);
-      a1 = nsvcd__f3_add(a1, nsvcd__f3_scale(f.n, gate[pooled]));
+      a1 = nsvcd__f3_fma(gate[pooled], f.n, a1);
       nsvcd__f5 a2 = nsvcd__f5_scale(f.quu, gate[2 * pooled]);
-      a2 = nsvcd__f5_add(a2, nsvcd__f5_scale(f.qun, gate[3 * pooled]));
-      a2 = nsvcd__f5_add(a2, nsvcd__f5_scale(f.qnn, gate[4 * pooled]));
+      a2 = nsvcd__f5_fma(gate[3 * pooled], f.qun, a2);
+      a2 = nsvcd__f5_fma(gate[4 * pooled], f.qnn, a2);
       all.degree1[c] = nsvcd__f3_fma(fraction, a1, all.degree1[c]);
-      all.degree2[c] = nsvcd__f5_add(all.degree2[c], nsvcd__f5_scale(a2, fraction));
+      all.degree2[c] = nsvcd__f5_fma(fraction, a2, all.degree2[c]);
     }
     for (size_t c = 0; c < NSVCD_W_POOLED_SCALARS; c++)
       all.scalars[c] += gates[5 * pooled + c] * fraction;
@@ -16466,21 +16457,21 @@ static NSVCD__NOINLINE void nsvcd__resolve_normal(nsvcd__proof *p) {
 // ============================================================================= network: an opinion
 
 // ------------------------------------------------------------------------- network/latent_rotation
-// In: a rotation, and a latent. Out: the latent, turned.
+// In: a rotation R, and a latent. Out: the latent, turned by D(R).
 //
-// D(R), block-diagonal: R itself on degree 1, the real Wigner matrix of degree 2 on degree 2
-// (NeuralSVCD, appendix E). Computed from R directly, so D(R1 R2) = D(R1) D(R2) to rounding; R may
-// be improper (a mirror): both degrees are polynomial.
+// D(R) is block-diagonal: R on degree 1, and the real Wigner matrix on degree 2 (NeuralSVCD,
+// appendix E). Its entries are polynomials of R's, so that D(R1 R2) = D(R1) D(R2) to rounding, and
+// R may be improper (a mirror).
 
 #ifndef NSVCD_NO_NETWORK
-// numbers of a latent's vectors: (3, CHANNELS), then (5, CHANNELS)
+// Numbers of a latent's vectors: (3, CHANNELS), then (5, CHANNELS).
 #define NSVCD__VECTORS (8 * NSVCD_W_CHANNELS)
-// numbers of D: (3, 3), then (5, 5)
+// Numbers of D: (3, 3), then (5, 5).
 #define NSVCD__WIGNER 34
-// of a stored latent's numbers
+// The unit of a stored latent's numbers.
 #define NSVCD__LATENT_STEP (1.0f / 127)
 
-// The degree 2 of the symmetric product of a and b, lane by lane: q (5), as nsvcd__degree2.
+// nsvcd__degree2 of a and b, lane by lane: q (5).
 static void nsvcd__v_degree2(nsvcd__v3 a, nsvcd__v3 b, nsvcd__v *q) {
   const nsvcd__v half = nsvcd__v_set(0.5f);
   const nsvcd__v half_root3 = nsvcd__v_set(0.8660254037844386f);
@@ -16498,23 +16489,23 @@ static void nsvcd__v_degree2(nsvcd__v3 a, nsvcd__v3 b, nsvcd__v *q) {
 }
 
 // D of a slice of matrices, lane by lane, times `scale`: out (WIGNER, SLICE). Column k of degree 2
-// is the image of basis vector k, a degree 2 of m's columns.
+// is the image of basis vector k, made of products of m's columns.
 static NSVCD__NOINLINE void nsvcd__wigner(const nsvcd__vmat3 *m, nsvcd__v scale,
                                           float (*out)[NSVCD__SLICE]) {
   const nsvcd__v third = nsvcd__v_scale(scale, 1.0f / 3);
   const nsvcd__v root = nsvcd__v_scale(scale, 0.5773502691896258f);
   const nsvcd__v twice = nsvcd__v_add(root, root);
-  const nsvcd__vmat3 columns = nsvcd__vmat3_transpose(*m);
+  const nsvcd__vmat3 c = nsvcd__vmat3_transpose(*m);
   nsvcd__v xy[5], yz[5], xz[5], xx[5], yy[5], zz[5];
   nsvcd__v3_store_rows(nsvcd__v3_scale(m->x, scale), out[0], NSVCD__SLICE);
   nsvcd__v3_store_rows(nsvcd__v3_scale(m->y, scale), out[3], NSVCD__SLICE);
   nsvcd__v3_store_rows(nsvcd__v3_scale(m->z, scale), out[6], NSVCD__SLICE);
-  nsvcd__v_degree2(columns.x, columns.y, xy);
-  nsvcd__v_degree2(columns.y, columns.z, yz);
-  nsvcd__v_degree2(columns.x, columns.z, xz);
-  nsvcd__v_degree2(columns.x, columns.x, xx);
-  nsvcd__v_degree2(columns.y, columns.y, yy);
-  nsvcd__v_degree2(columns.z, columns.z, zz);
+  nsvcd__v_degree2(c.x, c.y, xy);
+  nsvcd__v_degree2(c.y, c.z, yz);
+  nsvcd__v_degree2(c.x, c.z, xz);
+  nsvcd__v_degree2(c.x, c.x, xx);
+  nsvcd__v_degree2(c.y, c.y, yy);
+  nsvcd__v_degree2(c.z, c.z, zz);
   for (size_t k = 0; k < 5; k++) {
     float(*row)[NSVCD__SLICE] = out + 9 + 5 * k;
     const nsvcd__v rest = nsvcd__v_add(xx[k], yy[k]);
@@ -16527,7 +16518,7 @@ static NSVCD__NOINLINE void nsvcd__wigner(const nsvcd__vmat3 *m, nsvcd__v scale,
   }
 }
 
-// One degree: out (size, CHANNELS) = D (size * size, SLICE) of lane l times latent (size,
+// One degree: out (size, CHANNELS) = D (size * size, SLICE) of lane l, times latent (size,
 // CHANNELS).
 NSVCD__INLINE void nsvcd__rotate_degree(const float *latent, float (*turn)[NSVCD__SLICE],
                                         size_t l, size_t size, float *out) {
@@ -16542,13 +16533,13 @@ NSVCD__INLINE void nsvcd__rotate_degree(const float *latent, float (*turn)[NSVCD
   }
 }
 
-// Turns a stored latent by D (WIGNER, SLICE) of lane l, and writes it to place 0 or 1 of a row of
-// the decoder's inputs: vectors (2, 8, CHANNELS), then scalars (2, SCALARS).
+// Turns a stored latent by D (WIGNER, SLICE) of lane l, and writes it as latent `slot`, 0 or 1, of
+// a row of the decoder's inputs: vectors (2, 8, CHANNELS), then scalars (2, SCALARS).
 static NSVCD__NOINLINE void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE],
-                                                 size_t l, size_t place, float *row) {
-  float *vectors = row + NSVCD__VECTORS * place;
-  float *scalars = row + 2 * NSVCD__VECTORS + NSVCD_W_SCALARS * place;
-  // one after the other: it is the deepest place of a query
+                                                 size_t l, size_t slot, float *row) {
+  float *vectors = row + NSVCD__VECTORS * slot;
+  float *scalars = row + 2 * NSVCD__VECTORS + NSVCD_W_SCALARS * slot;
+  // one degree after the other: a query's stack is deepest here
   float degree[5 * NSVCD_W_CHANNELS];
   for (size_t k = 0; k < 3 * NSVCD_W_CHANNELS; k++) degree[k] = (float)z[k];
   nsvcd__rotate_degree(degree, turn, l, 3, vectors);
@@ -16561,51 +16552,55 @@ static NSVCD__NOINLINE void nsvcd__rotate_latent(const int8_t *z, float (*turn)[
 #endif  // NSVCD_NO_NETWORK
 
 // -------------------------------------------------------------------------- network/winding_number
-// In: two bodies and a pose. Out: is one inside the other? A body wholly inside another never
-// crosses its surface, so surfaces cannot tell. The winding number of a closed surface can
-// (Jacobson et al. 2013), and far from the surface each patch is as good as a dipole of its area
-// vector (Barill et al. 2018):
+// In: two bodies and a pose. Out: is one inside the other?
+//
+// A body wholly inside another never crosses its surface, so surfaces cannot tell. The winding
+// number of a closed surface can (Jacobson et al. 2013), and far from the surface each patch is as
+// good as a dipole of its area vector (Barill et al. 2018):
 //   w(x) = sum_i A_i . (p_i - x) / (4 pi |p_i - x|^3)     1 inside, 0 outside
-// Near the surface it is not: a flat slab seen from its covering radius gives 0.25 where 0.146 is
-// true, from half of it 1.0 where 0.28 is true. So the place asked about is the patch centre of the
-// inner body (of NSVCD__POSITIONS) that is farthest from the outer patches in units of their radii,
-// or, as bodies may be of several parts, up to NSVCD__INSIDE_SAMPLES that are far from each other.
-// Nearer than NSVCD__FAR_ENOUGH the number is not asked for, but inside of a flat patch from
-// NSVCD__FAR_INSIDE on; and where all places are on the inner side of the patch that is nearest, as
-// those of a chip in a table top are, they are inside. Measured at a million places about spheres
-// of 32 to 512 patches, the worst error of w is 0.55 from 0.75 radii on, 0.52 from 1, 0.06 from
-// 1.5; from 1 on, fewer than 1 in 1,000 exceed 0.3. In bodies of more than a tile's patches the
-// sums of area vectors stand for those of whole groups, and of what is above them, where the place
-// is farther than NSVCD__DIPOLE of their spheres' radii: w is then within 0.05 of the sum over all
-// patches (tests/test_level.c). Cost: at most NSVCD__POSITIONS * N distances each way, where one
-// body's centres lie in the other's sphere and the straight way out of it is barred; of large
-// bodies only those of groups nearby.
+// Differences from Barill et al.: a dipole is at the centre of its ball or sphere, not at the
+// centroid of the area, and nothing is of second order.
+//
+// Near the surface w is wrong: for a flat disc seen from its covering radius it is 0.25 instead of
+// 0.146, from half of that 1.0 instead of 0.28. So NSVCD__PROBES patch centres of the inner body
+// are candidates, and w is taken at the one that is farthest from the outer patches, in units of
+// their radii; as bodies may be of several parts, also at others that are far from it, up to
+// NSVCD__INSIDE_SAMPLES in all. None may be nearer than NSVCD__FAR_ENOUGH, or NSVCD__FAR_INSIDE on
+// the inner side of a flat patch. If all are on the inner side of the nearest patch, as those of a
+// chip in a table top are, they are inside.
+//
+// Measured at a million points about spheres of 32 to 512 patches, the worst error of w is 0.55
+// from 0.75 radii on, 0.52 from 1, and 0.06 from 1.5; from 1 on, fewer than 1 in 1,000 exceed 0.3.
+// In bodies of more than a tile's patches the area vectors of groups, and of spheres above them,
+// are summed, and the sum stands for the members of a sphere that is farther than NSVCD__DIPOLE of
+// its radii: w is then within 0.05 of the sum over all patches (tests/test_level.c).
+//
+// Cost: at most NSVCD__PROBES * N distances for each of the two bodies, if centres of one are in
+// the other's sphere and a ray out of it is blocked; of large bodies only those to groups nearby.
 
 #ifndef NSVCD_NO_NETWORK
-// places of the inner body that are looked at
-#define NSVCD__POSITIONS NSVCD__LANES
-// Distances, in radii. A place is far enough if no patch is nearer than this,
+#define NSVCD__PROBES NSVCD__LANES  // patch centres of the inner body
+// Distances in radii of a patch. w may be taken at a probe if no patch is nearer than this,
 #define NSVCD__FAR_ENOUGH 1.0f
-// or than this, on the inner side of the nearest one,
+// or than this, on the inner side of the nearest one.
 #define NSVCD__FAR_INSIDE 0.6f
-// it needs no more than this, and what is farther away is not looked at;
+// Patches beyond this do not matter.
 #define NSVCD__AMPLE 2.0f
-// and the patches of a sphere that is farther than this count as one
+// The patches of a sphere count as one dipole beyond this, in radii of the sphere.
 #define NSVCD__DIPOLE 3.0f
-// A patch is flat if its area vector is at least this share of its ball's slab.
+// A patch is flat if its area vector is at least this share of its ball's largest disc.
 #define NSVCD__FLAT 0.4f
-// places that are far enough, and asked about: bodies may be of several parts
-#define NSVCD__INSIDE_SAMPLES 4
+#define NSVCD__INSIDE_SAMPLES 4  // winding numbers, at most
 
-// A filter of a traversal: spheres whose members may be nearer to one of the places than
-// NSVCD__AMPLE of their radii. A member (p, r) of a sphere (c, R) has |p - c| + r <= R, so that |p
-// - x| / r is at least |c - x| / R.
+// A filter of a traversal: spheres whose members may be nearer to one of the probes than
+// NSVCD__AMPLE of their radii. what: the sphere about the probes. A member (p, r) of a sphere
+// (c, R) has |p - c| + r <= R, so that |p - x| / r is at least |c - x| / R.
 static uint32_t nsvcd__may_be_close(const void *what, nsvcd__spheres all) {
-  const nsvcd__sphere *positions = (const nsvcd__sphere *)what;
-  const nsvcd__v radius = nsvcd__v_set(positions->radius);
+  const nsvcd__sphere *about = (const nsvcd__sphere *)what;
+  const nsvcd__v radius = nsvcd__v_set(about->radius);
   uint32_t close = 0;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 centre = nsvcd__v3_set(positions->centre);
+    const nsvcd__v3 centre = nsvcd__v3_set(about->centre);
     const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(all, l), centre);
     const nsvcd__v r = nsvcd__v_load(all.r + l);
     const nsvcd__v ample = nsvcd__v_fma(r, nsvcd__v_set(NSVCD__AMPLE), radius);
@@ -16614,32 +16609,32 @@ static uint32_t nsvcd__may_be_close(const void *what, nsvcd__spheres all) {
   return close;
 }
 
-// Where places lie about a body.
-typedef struct nsvcd__positions {
-  float at[3][NSVCD__POSITIONS];
-  // Least |p_i - x| / r_i, squared, over its patches, AMPLE squared at most
-  float square[NSVCD__POSITIONS];
-  // of the patch nearest, as a slab of its area: the squared distance, and the height over it,
-  // which is negative inside, but where the patch is not flat
-  float nearest[NSVCD__POSITIONS], height[NSVCD__POSITIONS];
-} nsvcd__positions;
+// Points, and how they are situated about a body.
+typedef struct nsvcd__probes {
+  float at[3][NSVCD__PROBES];
+  // the least |p_i - x| / r_i over its patches, squared; at most AMPLE squared
+  float square[NSVCD__PROBES];
+  // the squared distance of the nearest patch, taken as a disc of its area, and the height over it:
+  // negative on the inner side, if the patch is flat
+  float nearest[NSVCD__PROBES], height[NSVCD__PROBES];
+} nsvcd__probes;
 
-// Fills in what follows from where they are.
-static void nsvcd__positions_measure(const nsvcd_body *body, nsvcd__positions *out) {
+// Fills in all but `at`, from that.
+static void nsvcd__probes_measure(const nsvcd_body *body, nsvcd__probes *out) {
   const nsvcd__spheres patches = nsvcd__body_patches(body);
   const nsvcd__v zero = nsvcd__v_set(0);
   nsvcd__f3 low = nsvcd__f3_of(HUGE_VALF, HUGE_VALF, HUGE_VALF);
   nsvcd__f3 high = nsvcd__f3_scale(low, -1);
   nsvcd__traversal traversal;
   size_t g;
-  for (size_t k = 0; k < NSVCD__POSITIONS; k++) {
+  for (size_t k = 0; k < NSVCD__PROBES; k++) {
     low = nsvcd__f3_min(low, nsvcd__lane_of(out->at, k));
     high = nsvcd__f3_max(high, nsvcd__lane_of(out->at, k));
     out->square[k] = NSVCD__AMPLE * NSVCD__AMPLE;
     out->nearest[k] = HUGE_VALF;
     out->height[k] = 0;
   }
-  nsvcd__sphere over;  // all places
+  nsvcd__sphere over;
   over.centre = nsvcd__f3_add(nsvcd__f3_scale(low, 0.5f), nsvcd__f3_scale(high, 0.5f));
   over.radius = nsvcd__f3_length(nsvcd__f3_sub(high, over.centre));
   nsvcd__traversal_begin(&traversal, body, nsvcd__may_be_close, &over);
@@ -16647,7 +16642,7 @@ static void nsvcd__positions_measure(const nsvcd_body *body, nsvcd__positions *o
     const size_t next = NSVCD__GROUP * (g + 1);
     const size_t end = next < body->patches ? next : body->patches;
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 position = nsvcd__v3_load(out->at, l);
+      const nsvcd__v3 at = nsvcd__v3_load(out->at, l);
       nsvcd__v least = nsvcd__v_load(out->square + l);
       nsvcd__v nearest = nsvcd__v_load(out->nearest + l);
       nsvcd__v height = nsvcd__v_load(out->height + l);
@@ -16656,7 +16651,7 @@ static void nsvcd__positions_measure(const nsvcd_body *body, nsvcd__positions *o
         const nsvcd__f3 area = nsvcd__f3_get(nsvcd__body_areas(body) + i, body->padded);
         const float size = nsvcd__f3_length(area);
         const nsvcd__f3 normal = nsvcd__f3_scale(area, size > 0 ? 1 / size : 0);
-        const nsvcd__v3 d = nsvcd__v3_sub(position, nsvcd__v3_set(patch.centre));
+        const nsvcd__v3 d = nsvcd__v3_sub(at, nsvcd__v3_set(patch.centre));
         const nsvcd__v square = nsvcd__v3_dot(d, d);
         const float own = patch.radius * patch.radius;
         const float inverse = 1 / (own > 1e-37f ? own : 1e-37f);
@@ -16678,9 +16673,9 @@ static void nsvcd__positions_measure(const nsvcd_body *body, nsvcd__positions *o
   }
 }
 
-// Adds the terms of the winding number of so many spheres, a multiple of 16, from `first` on, lane
-// by lane. n: 0 of patches, else of level n - 1, 64 at most: those that are too close to the point
-// leave that to their members.
+// Adds to the lanes the terms of the winding number at `point` of `count` spheres, a multiple of
+// 16, from `first` on. n: 0 for patches; else for level n - 1, 64 spheres at most. A sphere that is
+// too close to the point leaves its term to its members.
 static void nsvcd__add_dipoles(const nsvcd_body *body, size_t n, size_t first, size_t count,
                                nsvcd__f3 point, float *lanes) {
   const nsvcd__v3 at = nsvcd__v3_set(point);
@@ -16702,7 +16697,7 @@ static void nsvcd__add_dipoles(const nsvcd_body *body, size_t n, size_t first, s
       const nsvcd__v3 area = nsvcd__v3_load_rows(areas + first + i, stride);
       const nsvcd__v length = nsvcd__v_max(nsvcd__v3_length(d), nsvcd__v_set(1e-30f));
       const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), length);
-      // step by step: the cube may overflow
+      // one factor at a time, for the cube may overflow
       const nsvcd__v cosine = nsvcd__v_mul(nsvcd__v3_dot(area, d), inverse);
       nsvcd__v term = nsvcd__v_mul(nsvcd__v_mul(cosine, inverse), inverse);
       if (n > 0) {
@@ -16726,26 +16721,24 @@ static float nsvcd__winding_number(const nsvcd_body *body, nsvcd__f3 point) {
   float total = 0;
   const size_t top = nsvcd__level_count(body->padded) - 1;
   const size_t slots = nsvcd__level_of(body->padded, top).slots;
-  if (top > 0)
-    nsvcd__add_dipoles(body, top + 1, 0, slots, point, lanes);
-  else
-    nsvcd__add_dipoles(body, 0, 0, body->padded, point, lanes);
-  // in this order, whatever the slices
+  nsvcd__add_dipoles(body, top ? top + 1 : 0, 0, top ? slots : body->padded, point, lanes);
+  // in this order, however wide a slice is
   for (size_t l = 0; l < NSVCD__LANES; l++) total += lanes[l];
   return total / 12.5663706f;
 }
 
-// The place that is far enough from the surface and farthest from those marked; none: PLACES.
-static size_t nsvcd__next_position(nsvcd__positions *positions, uint32_t marked) {
-  size_t next = NSVCD__POSITIONS;
+// Of the probes that are far enough from the surface, the one that is farthest from those marked;
+// PROBES if there is none.
+static size_t nsvcd__next_probe(nsvcd__probes *probes, uint32_t marked) {
+  size_t next = NSVCD__PROBES;
   float most = -1;
-  for (size_t k = 0; k < NSVCD__POSITIONS; k++) {
-    float least = positions->square[k];
-    const float needed = positions->height[k] < 0 ? NSVCD__FAR_INSIDE : NSVCD__FAR_ENOUGH;
+  for (size_t k = 0; k < NSVCD__PROBES; k++) {
+    float least = probes->square[k];
+    const float needed = probes->height[k] < 0 ? NSVCD__FAR_INSIDE : NSVCD__FAR_ENOUGH;
     if (least < needed * needed || marked >> k & 1) continue;
     for (uint32_t left = marked; left; left &= left - 1) {
-      const nsvcd__f3 other = nsvcd__lane_of(positions->at, nsvcd__low_bit(left));
-      const nsvcd__f3 d = nsvcd__f3_sub(nsvcd__lane_of(positions->at, k), other);
+      const nsvcd__f3 other = nsvcd__lane_of(probes->at, nsvcd__low_bit(left));
+      const nsvcd__f3 d = nsvcd__f3_sub(nsvcd__lane_of(probes->at, k), other);
       const float square = nsvcd__f3_dot(d, d);
       least = square < least || left == marked ? square : least;
     }
@@ -16755,13 +16748,13 @@ static size_t nsvcd__next_position(nsvcd__positions *positions, uint32_t marked)
   return next;
 }
 
-// Does a patch's ball lie on the straight way out of a body, from its centre on? A place from which
-// there is none is outside: a closed surface would bar the way.
-static int nsvcd__way_out_is_barred(const nsvcd_body *body, nsvcd__f3 position) {
-  const nsvcd__f3 away = nsvcd__f3_sub(position, nsvcd__f3_load(body->centre));
+// Does the ray from a point away from a body's centre meet the ball of a patch? If not, the point
+// is outside: from inside the ray would cross the surface.
+static int nsvcd__exit_is_blocked(const nsvcd_body *body, nsvcd__f3 point) {
+  const nsvcd__f3 away = nsvcd__f3_sub(point, nsvcd__f3_load(body->centre));
   const float length = nsvcd__f3_length(away);
   const nsvcd__f3 along = nsvcd__f3_scale(away, length > 0 ? 1 / length : 0);
-  const nsvcd__beam out = {position, along, NSVCD__ROUNDING * body->extent};
+  const nsvcd__beam out = {point, along, NSVCD__ROUNDING * body->extent};
   const nsvcd__spheres patches = nsvcd__body_patches(body);
   nsvcd__traversal traversal;
   size_t g;
@@ -16772,91 +16765,87 @@ static int nsvcd__way_out_is_barred(const nsvcd_body *body, nsvcd__f3 position) 
   return 0;
 }
 
-// 1 if `inner`, of this scale and at this pose in the frame of `outer`, or a part of it, lies
-// inside that.
-static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, float scale,
-                            const nsvcd__transform *pose) {
+// Is `inner`, scaled and posed in the frame of `outer`, or a part of it, inside of that?
+static int nsvcd__is_contained_in(const nsvcd_body *inner, const nsvcd_body *outer,
+                                  float scale, const nsvcd__transform *pose) {
   const nsvcd__spheres patches = nsvcd__body_patches(inner);
   const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_load(outer->centre));
-  nsvcd__positions positions;
+  nsvcd__probes probes;
   uint32_t inside = 0;
   uint32_t marked = 0;
   uint32_t below = 0;
   if (outer->open) return 0;
-  for (size_t k = 0; k < NSVCD__POSITIONS; k++) {
-    // neighbours are stored together: equal steps spread over it
-    const nsvcd__f3 own = nsvcd__centre_of(patches, k * inner->patches / NSVCD__POSITIONS);
+  for (size_t k = 0; k < NSVCD__PROBES; k++) {
+    // Neighbours are stored together, so that equal steps cover the body.
+    const nsvcd__f3 own = nsvcd__centre_of(patches, k * inner->patches / NSVCD__PROBES);
     const nsvcd__f3 turned = nsvcd__mat3_apply(&pose->rotation, own);
-    const nsvcd__f3 position = nsvcd__f3_add(nsvcd__f3_scale(turned, scale), pose->position);
-    nsvcd__lane_set(position, positions.at, k);
+    const nsvcd__f3 at = nsvcd__f3_add(nsvcd__f3_scale(turned, scale), pose->position);
+    nsvcd__lane_set(at, probes.at, k);
   }
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_load(positions.at, l), centre);
+    const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_load(probes.at, l), centre);
     inside |= nsvcd__v_le(nsvcd__v3_length(off), nsvcd__v_set(outer->radius)) << l;
   }
   for (uint32_t left = inside; left; left &= left - 1) {
     const size_t k = nsvcd__low_bit(left);
-    if (!nsvcd__way_out_is_barred(outer, nsvcd__lane_of(positions.at, k)))
-      inside &= ~(1u << k);
+    if (!nsvcd__exit_is_blocked(outer, nsvcd__lane_of(probes.at, k))) inside &= ~(1u << k);
   }
   if (!inside) return 0;
-  nsvcd__positions_measure(outer, &positions);
-  for (size_t k = 0; k < NSVCD__POSITIONS; k++) {
-    if (!(inside >> k & 1)) positions.square[k] = 0;
-    below |= (uint32_t)(positions.height[k] < 0) << k;
+  nsvcd__probes_measure(outer, &probes);
+  for (size_t k = 0; k < NSVCD__PROBES; k++) {
+    if (!(inside >> k & 1)) probes.square[k] = 0;
+    below |= (uint32_t)(probes.height[k] < 0) << k;
   }
-  // near the surface everywhere, and on the inner side
+  // all on the inner side, however near
   if (inside == 0xffff && below == 0xffff) return 1;
   for (size_t n = 0; n < NSVCD__INSIDE_SAMPLES; n++) {
-    const size_t k = nsvcd__next_position(&positions, marked);
-    if (k == NSVCD__POSITIONS) break;
+    const size_t k = nsvcd__next_probe(&probes, marked);
+    if (k == NSVCD__PROBES) break;
     marked |= 1u << k;
-    // -1 where the mesh is inside out
-    if (fabsf(nsvcd__winding_number(outer, nsvcd__lane_of(positions.at, k))) > 0.5f) return 1;
+    // -1 if the mesh is inside out
+    if (fabsf(nsvcd__winding_number(outer, nsvcd__lane_of(probes.at, k))) > 0.5f) return 1;
   }
   return 0;
 }
 
-// 1 if one body lies inside the other, whichever, when the moving one, of this scale, is at this
-// pose in the fixed frame.
+// Is one body, or a part of it, inside of the other, with the moving one scaled and posed in the
+// fixed frame?
 static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed, float scale,
                                const nsvcd__transform *pose) {
   nsvcd__transform back;
   back.rotation = nsvcd__mat3_transpose(pose->rotation);
   const nsvcd__f3 from = nsvcd__mat3_apply(&back.rotation, pose->position);
   back.position = nsvcd__f3_of(-from.x / scale, -from.y / scale, -from.z / scale);
-  return nsvcd__is_inside(moving, fixed, scale, pose) ||
-         nsvcd__is_inside(fixed, moving, 1 / scale, &back);
+  return nsvcd__is_contained_in(moving, fixed, scale, pose) ||
+         nsvcd__is_contained_in(fixed, moving, 1 / scale, &back);
 }
 #endif  // NSVCD_NO_NETWORK
 
 // ----------------------------------------------------------------------------------- network/pairs
-// In: candidate pairs of patches and the motion over the intervals in which their balls meet.
-// Out: their invariants (n, DECODER_IN), of which the decoder makes a logit each.
+// In: candidate pairs of patches, and the motion over the intervals in which their balls meet.
+// Out: the decoder's inputs, invariants (n, DECODER_IN).
 //
-// The motion is linearised about the middle of the interval; then everything is expressed in a
-// frame that moves with the pair, in units of r1 + r2 (NeuralSVCD, appendix F), so the logit is
-// invariant to rigid motion and scale. The symmetries that are left are removed by convention, not
-// learned:
+// The motion is linearised about the middle of the interval. All is expressed in a frame that moves
+// with the pair, in units of r1 + r2 (NeuralSVCD, appendix F), so that the logit is invariant to
+// rigid motion and scale. The other symmetries are not learned, but removed by conventions:
 //   swap           the larger patch comes first
 //   axis 1         the line between the centres
 //   axis 2         the velocity across the line, plus a twentieth of the lean (the difference of
 //                  the patches' normals), so that it has a limit where the velocity vanishes
 //   time reversal  time runs so that velocity and lean, across the line, do not oppose each other
-//   mirror         axis 3 points to the side of the lean; where the lean is on neither side, as it
-//                  is for a pair at rest, the frame is right-handed
-// Degenerate cases: centres that coincide (to 1e-5 of r1 + r2) take the lean, else x, as axis 1; a
-// reference that vanishes takes the coordinate axis farthest from axis 1 as axis 2.
+//   mirror         axis 3 points to the side of the lean; if the lean is on neither side, as for a
+//                  pair at rest, the frame is right-handed
+// Degenerate cases: if the centres coincide (to 1e-5 of r1 + r2), axis 1 is the lean, else x; if
+// the reference for axis 2 vanishes, that is the coordinate axis farthest from axis 1.
 //
-// Pairs are asked about in batches of 16, at most. They become inputs a slice at a time, one per
-// lane (only their latents are turned pair by pair, channels side by side), and these go through
-// the layers some rows at a time.
+// Candidates come in batches of up to 16. They become inputs a slice at a time, one per lane (only
+// latents are turned pair by pair, channels side by side), and the inputs go through the layers
+// some rows at a time.
 
 #ifndef NSVCD_NO_NETWORK
 #define NSVCD__BATCH NSVCD__LANES
-// Rows of inputs at a time, and the step in which the layers of floats go through them: where there
-// are no vectors, there may be no stack for more, and without floats nothing is gained by more than
-// one.
+// Rows of inputs at a time, and how many of them layers of floats take together. A machine without
+// vectors may have no stack for more; without floats, more than one row at a time gains nothing.
 #if NSVCD__SLICE > 1
 #define NSVCD__ROWS NSVCD__BATCH
 #define NSVCD__ROW_STEP 4
@@ -16867,38 +16856,35 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
 #define NSVCD__ROWS 1
 #define NSVCD__ROW_STEP 1
 #endif
-// What the decoder sees of a pair's geometry, in the pair's frame and units; vectors take three
-// numbers.
+// The facts: what the decoder sees of a pair's geometry, in the pair's frame and units.
 enum {
-  // of the centres
-  NSVCD__FACT_DISTANCE = 0,
-  NSVCD__FACT_RADIUS = 1,   // the larger one
-  NSVCD__FACT_CLOSEST = 2,  // distance of the centres, when they come closest,
-  NSVCD__FACT_TAU = 3,      // and when that is: -1 and 1 are the ends of the interval
-  NSVCD__FACT_VELOCITY = 4,
-  NSVCD__FACT_TURN = 7,
-  NSVCD__FACT_SPEED = 10,  // the lengths of these two
+  NSVCD__FACT_DISTANCE = 0,  // of the centres
+  NSVCD__FACT_RADIUS = 1,    // the larger one
+  NSVCD__FACT_CLOSEST = 2,   // the centres' distance at their closest approach
+  NSVCD__FACT_TAU = 3,       // the time of that: -1 and 1 are the ends of the interval
+  NSVCD__FACT_VELOCITY = 4,  // (3)
+  NSVCD__FACT_TURN = 7,      // (3)
+  NSVCD__FACT_SPEED = 10,    // the lengths of these two
   NSVCD__FACT_SPIN = 11,
-  // of the gaps between the extremes: (GAPS, MOMENTS), and the widest at each moment
-  NSVCD__FACT_GAPS = 12,
-  NSVCD__FACT_WIDEST = 24,
-  // products of the normals: of both, of the larger patch's and the smaller one's with the line
-  // from the larger to the smaller
+  NSVCD__FACT_GAPS = 12,    // (GAPS, MOMENTS): between the extreme points
+  NSVCD__FACT_WIDEST = 24,  // (MOMENTS): the widest of these
+  // (3): products of the normals: with each other; the larger patch's, and the smaller one's, with
+  // the line from the larger to the smaller
   NSVCD__FACT_FACING = 27,
-  // how flat the larger patch is, and the smaller
-  NSVCD__FACT_FLAT = 30,
+  NSVCD__FACT_FLAT = 30,  // (2): how flat the larger patch is, and the smaller
   NSVCD__FACTS = 32
 };
-// Directions, from the fixed patch to the moving one, in which gaps are measured, and when.
+// The axes, from the fixed patch to the moving one, along which gaps are measured: the larger
+// patch's normal, the smaller one's, the line between the centres, and the sum of the normals.
 enum { NSVCD__GAP_LARGER, NSVCD__GAP_SMALLER, NSVCD__GAP_LINE, NSVCD__GAP_BOTH, NSVCD__GAPS };
-#define NSVCD__MOMENTS 3
-// A gap g in units of r1 + r2 is told as x / (1 + |x|), x being g times this; the widest as well
-// with the second, so that what decides is not lost in the steps of int8.
+#define NSVCD__MOMENTS 3  // both ends of the interval, and its middle
+// The fact about a gap g, in units of r1 + r2, is x / (1 + |x|), where x is g times the first of
+// these. The widest uses the second: near contact it must not be lost in the steps of int8.
 #define NSVCD__GAP_STEEP 8.0f
 #define NSVCD__WIDEST_STEEP 40.0f
 #define NSVCD__INPUTS (2 * NSVCD__LATENT + NSVCD__FACTS)
 #define NSVCD__DECODER_IN ((NSVCD__INPUTS + 15) / 16 * 16)  // zeros at the end
-// Most outputs of a layer, of the heads that are compiled; the tests hold them against weights.h.
+// Most outputs of a layer in the decoders that are compiled. The tests compare them to weights.h.
 #define NSVCD__WIDEST_TINY 32
 #define NSVCD__WIDEST_SMALL 96
 #ifndef NSVCD_NO_BASE
@@ -16908,44 +16894,39 @@ enum { NSVCD__GAP_LARGER, NSVCD__GAP_SMALLER, NSVCD__GAP_LINE, NSVCD__GAP_BOTH, 
 #else
 #define NSVCD__WIDEST NSVCD__WIDEST_TINY
 #endif
-// of a layer
 #define NSVCD__MOST_INPUTS \
   (NSVCD__WIDEST > NSVCD__DECODER_IN ? NSVCD__WIDEST : NSVCD__DECODER_IN)
 #define NSVCD__LEAN 0.05f  // share of the lean in axis 2
-#define NSVCD__SIDE 1e-4f  // a lean less than this to one side of axes 1 and 2 is on neither
+// A lean that is this near to the plane of axes 1 and 2 is on neither side.
+#define NSVCD__SIDE 1e-4f
 
-// ---- pairs, as they move
+// ---- pairs in motion
 
-// A slice of pairs.
+// A slice of pairs, in the fixed body's frame; first the moving patch, then the fixed one.
 typedef struct nsvcd__pairs {
-  // centres at mid-interval: of the moving patch, of the fixed one; the fixed body's frame
-  nsvcd__v3 p1, p2;
-  // the balls' radii
-  nsvcd__v r1, r2;
+  nsvcd__v3 p1, p2;       // centres at mid-interval
+  nsvcd__v r1, r2;        // radii of the balls
   nsvcd__vmat3 rotation;  // of the moving body at mid-interval
-  // half displacement of the point midway between p1 and p2, as part of the moving body
+  // half the displacement of the point midway between p1 and p2, moving with the moving body
   nsvcd__v3 v;
-  nsvcd__v3 w;  // half rotation vector
-  // of both patches, in the bodies' frames: unit normals, or 0 where a patch has none; how flat
-  // they are, which is the normal area over that of the ball's greatest slab; latents; and
-  // extremes, (TIPS, 3) at a stride of GROUP
-  nsvcd__v3 normal[2];
-  nsvcd__v flat[2];
-  const int8_t *z[2][NSVCD__SLICE];
-  const int8_t *extremes[2][NSVCD__SLICE];
+  nsvcd__v3 w;          // half the rotation vector
+  nsvcd__v3 normal[2];  // in the bodies' frames, of unit length, or 0 if a patch has none
+  nsvcd__v flat[2];     // length of the area vector over the area of the ball's largest disc
+  const int8_t *z[2][NSVCD__SLICE];         // latents
+  const int8_t *extremes[2][NSVCD__SLICE];  // (EXTREMES, 3) at a stride of GROUP
 } nsvcd__pairs;
 
 // Half the rotation vector of a unit quaternion, from the sine s of half the angle: asin(s) / s
 // times its vector part.
 static nsvcd__v3 nsvcd__v_half_rotation(nsvcd__vquat q) {
-  // of asin(s) / s by s^2, from its end, to 2e-6 for s < 0.5
+  // asin(s) / s in powers of s^2, from the highest on: to 2e-6 for s < 0.5
   static const float series[5] = {0.03038194f, 0.04464286f, 0.075f, 0.16666667f, 1};
   const nsvcd__v3 axis = nsvcd__vquat_axis(q);
   const nsvcd__v sign = nsvcd__v_sign(q.w);
   const nsvcd__v square = nsvcd__v3_dot(axis, axis);
   nsvcd__v ratio = nsvcd__v_set(0.02237216f);
   for (size_t k = 0; k < 5; k++) ratio = nsvcd__v_fma(ratio, square, nsvcd__v_set(series[k]));
-  // over 60 degrees: a motion of few poses
+  // more than 60 degrees, as in a motion of few poses
   uint32_t wide = nsvcd__v_le(nsvcd__v_set(0.25f), square);
   if (wide) {
     float ratios[NSVCD__SLICE];
@@ -16965,7 +16946,7 @@ static nsvcd__v3 nsvcd__v_half_rotation(nsvcd__vquat q) {
 }
 
 // A track's poses at `count` times t in [0,1], 1 to SLICE, one per lane: unit quaternions, and
-// positions from an origin.
+// positions relative to an origin.
 static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const float *t,
                                            size_t count, nsvcd__f3 origin) {
   float fraction[NSVCD__SLICE] = {0};
@@ -16985,10 +16966,8 @@ static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const floa
     const nsvcd__quat next = nsvcd__quat_load(b->rotation);
     const float cosine = nsvcd__quat_dot(q, next);
     const float sign = cosine < 0 ? -1.0f : 1.0f;
-    const nsvcd__quat chord = {sign * next.x - q.x, sign * next.y - q.y, sign * next.z - q.z,
-                               sign * next.w - q.w};
-    // Within 5 degrees the straight line, brought back to unit length, is the slerp to 2e-6
-    // radians.
+    const nsvcd__quat chord = nsvcd__quat_fma(-1, q, nsvcd__quat_scale(next, sign));
+    // Up to 5 degrees the chord, scaled to unit length, is the slerp to 2e-6 radians.
     if (fabsf(cosine) < 0.999f)
       q = nsvcd__quat_slerp(q, next, fraction[l]);
     else
@@ -17021,12 +17000,11 @@ static nsvcd__v_pose nsvcd__v_poses_at(const nsvcd__motion *motion, const float 
   return nsvcd__v_seen(motion, &at);
 }
 
-// Pairs whose moving patches have the given centres, (3, SLICE), from poses at entry, at exit, and
-// halfway: where they pass each other, and how they move then. Apart from nsvcd__pairs_of, so that
-// its stack does not lie below the poses'.
+// Where pairs are at mid-interval, and how they move: from the centres (3, SLICE) of the moving
+// patches, and the poses at entry, at exit, and halfway. A function of its own, so that its stack
+// does not add to that of nsvcd__v_poses_at.
 static NSVCD__NOINLINE void nsvcd__pairs_in_passing(const nsvcd__v_pose *at,
-                                                    const float *centres,
-                                                    nsvcd__pairs *pairs) {
+                                                    const float *centres, nsvcd__pairs *p) {
   const nsvcd__v half = nsvcd__v_set(0.5f);
   const nsvcd__v3 centre = nsvcd__v3_load_rows(centres, NSVCD__SLICE);
   const nsvcd__v3 arm1 = nsvcd__vmat3_apply(nsvcd__vmat3_of(at[0].rotation), centre);
@@ -17034,20 +17012,20 @@ static NSVCD__NOINLINE void nsvcd__pairs_in_passing(const nsvcd__v_pose *at,
   const nsvcd__v3 moved = nsvcd__v3_sub(at[1].position, at[0].position);
   const nsvcd__v3 step = nsvcd__v3_add(nsvcd__v3_sub(arm2, arm1), moved);
   const nsvcd__vquat back = nsvcd__vquat_inverse(at[0].rotation);
-  pairs->w = nsvcd__v_half_rotation(nsvcd__vquat_mul(at[1].rotation, back));
-  pairs->rotation = nsvcd__vmat3_of(at[2].rotation);
-  const nsvcd__v3 turned = nsvcd__vmat3_apply(pairs->rotation, centre);
-  pairs->p1 = nsvcd__v3_add(turned, at[2].position);
-  const nsvcd__v3 arm = nsvcd__v3_scale(nsvcd__v3_sub(pairs->p2, pairs->p1), half);
-  pairs->v = nsvcd__v3_fma(half, step, nsvcd__v3_cross(pairs->w, arm));
+  p->w = nsvcd__v_half_rotation(nsvcd__vquat_mul(at[1].rotation, back));
+  p->rotation = nsvcd__vmat3_of(at[2].rotation);
+  const nsvcd__v3 turned = nsvcd__vmat3_apply(p->rotation, centre);
+  p->p1 = nsvcd__v3_add(turned, at[2].position);
+  const nsvcd__v3 arm = nsvcd__v3_scale(nsvcd__v3_sub(p->p2, p->p1), half);
+  p->v = nsvcd__v3_fma(half, step, nsvcd__v3_cross(p->w, arm));
 }
 
-// The pairs of `count` candidates, 1 to SLICE. What is in the lanes beyond does not matter.
+// The pairs of `count` candidates, 1 to SLICE. The other lanes do not matter.
 static NSVCD__NOINLINE void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_body *fixed,
                                             const nsvcd__motion *motion,
                                             nsvcd__candidate *const *candidates, size_t count,
-                                            nsvcd__pairs *pairs) {
-  // of entry, of exit, and halfway
+                                            nsvcd__pairs *p) {
+  // entry, exit, and halfway
   float times[3][NSVCD__SLICE];
   nsvcd__v_pose at[3];
   float centres[2][3 * NSVCD__SLICE] = {{0}, {0}};
@@ -17055,17 +17033,17 @@ static NSVCD__NOINLINE void nsvcd__pairs_of(const nsvcd_body *moving, const nsvc
   float normals[2][3 * NSVCD__SLICE] = {{0}, {0}};
   float flat[2][NSVCD__SLICE] = {{0}, {0}};
   for (size_t l = 0; l < count; l++) {
-    const nsvcd__candidate *candidate = candidates[l];
+    const nsvcd__candidate *c = candidates[l];
     for (size_t n = 0; n < 2; n++) {
       const nsvcd_body *body = n == 0 ? moving : fixed;
-      const size_t i = n == 0 ? candidate->moving : candidate->fixed;
+      const size_t i = n == 0 ? c->moving : c->fixed;
       const float scale = n == 0 ? motion->scale : 1;
       const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(body), i);
       nsvcd__f3_put(nsvcd__f3_scale(patch.centre, scale), centres[n] + l, NSVCD__SLICE);
       radii[n][l] = scale * patch.radius;
-      pairs->z[n][l] = nsvcd__body_latents(body) + NSVCD__LATENT * i;
-      pairs->extremes[n][l] = nsvcd__group_extremes(body, i / NSVCD__GROUP) + i % NSVCD__GROUP;
-      // a patch that is closed has no normal; bodies that were loaded may hold any numbers
+      p->z[n][l] = nsvcd__body_latents(body) + NSVCD__LATENT * i;
+      p->extremes[n][l] = nsvcd__group_extremes(body, i / NSVCD__GROUP) + i % NSVCD__GROUP;
+      // A closed patch has no normal. A body that was loaded may hold any numbers.
       const float inverse = patch.radius > 0 ? 1 / patch.radius : 0;
       const nsvcd__f3 area = nsvcd__f3_get(nsvcd__body_areas(body) + i, body->padded);
       const float most = fmaxf(fmaxf(fabsf(area.x), fabsf(area.y)), fabsf(area.z));
@@ -17076,45 +17054,37 @@ static NSVCD__NOINLINE void nsvcd__pairs_of(const nsvcd_body *moving, const nsvc
       nsvcd__f3_put(normal, normals[n] + l, NSVCD__SLICE);
       flat[n][l] = fminf(0.31830989f * fraction, 2);
     }
-    times[0][l] = candidate->t_enter;
-    times[1][l] = candidate->t_exit;
-    times[2][l] = 0.5f * (candidate->t_enter + candidate->t_exit);
+    times[0][l] = c->t_enter;
+    times[1][l] = c->t_exit;
+    times[2][l] = 0.5f * (c->t_enter + c->t_exit);
   }
-  pairs->p2 = nsvcd__v3_load_rows(centres[1], NSVCD__SLICE);
-  pairs->r1 = nsvcd__v_load(radii[0]);
-  pairs->r2 = nsvcd__v_load(radii[1]);
+  p->p2 = nsvcd__v3_load_rows(centres[1], NSVCD__SLICE);
+  p->r1 = nsvcd__v_load(radii[0]);
+  p->r2 = nsvcd__v_load(radii[1]);
   for (size_t n = 0; n < 2; n++) {
-    pairs->normal[n] = nsvcd__v3_load_rows(normals[n], NSVCD__SLICE);
-    pairs->flat[n] = nsvcd__v_load(flat[n]);
+    p->normal[n] = nsvcd__v3_load_rows(normals[n], NSVCD__SLICE);
+    p->flat[n] = nsvcd__v_load(flat[n]);
   }
   for (size_t k = 0; k < 3; k++) at[k] = nsvcd__v_poses_at(motion, times[k], count);
-  nsvcd__pairs_in_passing(at, centres[0], pairs);
+  nsvcd__pairs_in_passing(at, centres[0], p);
 }
 
 // ---- frames and facts
 
 // Pairs in their own units, in the fixed body's axes, and their frames.
 typedef struct nsvcd__views {
-  // 1 over the unit of length; the radii
-  nsvcd__v inverse, k1, k2;
-  // -1: the other patch is the larger
-  nsvcd__v swap;
-  // the line from the larger patch to the smaller one
-  nsvcd__v3 d;
+  nsvcd__v inverse, k1, k2;  // 1 / (r1 + r2), and the radii
+  nsvcd__v swap;             // -1 if the fixed patch is the larger, else 1
+  nsvcd__v3 d;               // from the larger patch's centre to the smaller one's
   nsvcd__v3 lean;
-  // the moving patch's
-  nsvcd__v3 normal;
-  // -1 where time is to run backwards, else 1
-  nsvcd__v time;
-  // the larger patch's, as time runs
-  nsvcd__v3 v, w;
-  // rows are its axes in the fixed body's frame
-  nsvcd__vmat3 frame;
-  // -1 where mirrored, else 1
-  nsvcd__v side;
+  nsvcd__v3 normal;    // the moving patch's
+  nsvcd__v time;       // -1 if time runs backwards, else 1
+  nsvcd__v3 v, w;      // the larger patch's motion, as time runs
+  nsvcd__vmat3 frame;  // its rows are the axes
+  nsvcd__v side;       // -1 if mirrored, else 1
 } nsvcd__views;
 
-// Removes from a its part along the unit vector e.
+// a without its part along the unit vector e.
 static nsvcd__v3 nsvcd__v_across(nsvcd__v3 a, nsvcd__v3 e) {
   return nsvcd__v3_fma(nsvcd__v_negate(nsvcd__v3_dot(a, e)), e, a);
 }
@@ -17125,43 +17095,38 @@ static nsvcd__v3 nsvcd__v3_pick(nsvcd__v a, nsvcd__v b, nsvcd__v3 x, nsvcd__v3 y
                       nsvcd__v_pick(a, b, x.z, y.z));
 }
 
-// a over its length, where that exceeds `least`; elsewhere `instead`.
+// a over its length where that exceeds `least`, elsewhere `instead`.
 static nsvcd__v3 nsvcd__v_unit_or(nsvcd__v3 a, float least, nsvcd__v3 instead) {
   const nsvcd__v length = nsvcd__v3_length(a);
   const nsvcd__v floor = nsvcd__v_set(least);
   const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), nsvcd__v_max(length, floor));
-  const nsvcd__v3 unit = nsvcd__v3_scale(a, inverse);
-  return nsvcd__v3_of(nsvcd__v_pick(length, floor, instead.x, unit.x),
-                      nsvcd__v_pick(length, floor, instead.y, unit.y),
-                      nsvcd__v_pick(length, floor, instead.z, unit.z));
+  return nsvcd__v3_pick(length, floor, instead, nsvcd__v3_scale(a, inverse));
 }
 
-// Views of a slice of pairs.
-static NSVCD__NOINLINE void nsvcd__views_of(const nsvcd__pairs *pairs, nsvcd__views *view) {
-  const nsvcd__v zero = nsvcd__v_set(0);
+static NSVCD__NOINLINE void nsvcd__views_of(const nsvcd__pairs *p, nsvcd__views *view) {
   const nsvcd__v one = nsvcd__v_set(1);
   const nsvcd__v minus = nsvcd__v_set(-1);
-  const nsvcd__v3 between = nsvcd__v3_sub(pairs->p2, pairs->p1);
-  // The unit of length: r1 + r2; for points without extent whatever keeps the inputs finite.
-  const nsvcd__v lengths = nsvcd__v_add(nsvcd__v3_length(between), nsvcd__v3_length(pairs->v));
+  const nsvcd__v3 between = nsvcd__v3_sub(p->p2, p->p1);
+  // The unit of length: r1 + r2, or, between two points, what keeps the inputs finite.
+  const nsvcd__v lengths = nsvcd__v_add(nsvcd__v3_length(between), nsvcd__v3_length(p->v));
   const nsvcd__v least = nsvcd__v_fma(nsvcd__v_set(1e-6f), lengths, nsvcd__v_set(1e-30f));
-  const nsvcd__v unit = nsvcd__v_max(nsvcd__v_add(pairs->r1, pairs->r2), least);
+  const nsvcd__v unit = nsvcd__v_max(nsvcd__v_add(p->r1, p->r2), least);
   const nsvcd__v inverse = nsvcd__v_div(one, unit);
   view->inverse = inverse;
-  view->k1 = nsvcd__v_mul(pairs->r1, inverse);
-  view->k2 = nsvcd__v_mul(pairs->r2, inverse);
-  view->swap = nsvcd__v_pick(pairs->r2, pairs->r1, one, minus);
-  // Seen from the other body the motion is reversed as well, and time may run either way: v and w
-  // change their signs no more than once.
-  view->normal = nsvcd__vmat3_apply(pairs->rotation, pairs->normal[0]);
+  view->k1 = nsvcd__v_mul(p->r1, inverse);
+  view->k2 = nsvcd__v_mul(p->r2, inverse);
+  view->swap = nsvcd__v_pick(p->r2, p->r1, one, minus);
+  // The larger patch's motion changes its sign with `swap`, and again with `time`: in all with
+  // `sign` below.
+  view->normal = nsvcd__vmat3_apply(p->rotation, p->normal[0]);
   const nsvcd__v3 lean1 = nsvcd__v3_scale(view->normal, view->k1);
-  const nsvcd__v3 lean2 = nsvcd__v3_scale(pairs->normal[1], view->k2);
+  const nsvcd__v3 lean2 = nsvcd__v3_scale(p->normal[1], view->k2);
   const nsvcd__v3 lean = nsvcd__v3_scale(nsvcd__v3_sub(lean1, lean2), view->swap);
-  const nsvcd__v3 v = nsvcd__v3_scale(pairs->v, inverse);
+  const nsvcd__v3 v = nsvcd__v3_scale(p->v, inverse);
   view->lean = lean;
   view->d = nsvcd__v3_scale(nsvcd__v3_scale(between, inverse), view->swap);
 
-  // The frames, and which way time runs.
+  // the frames, and the direction of time
   const nsvcd__v3 x_axis = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
   const nsvcd__v3 line = nsvcd__v3_of(nsvcd__v_plus(lean.x, 1e-6f), lean.y, lean.z);
   nsvcd__v3 instead = nsvcd__v_unit_or(line, 1e-9f, x_axis);
@@ -17171,16 +17136,17 @@ static NSVCD__NOINLINE void nsvcd__views_of(const nsvcd__pairs *pairs, nsvcd__vi
   const nsvcd__v sign = nsvcd__v_sign(nsvcd__v3_dot(lean_across, v_across));
   view->time = nsvcd__v_mul(sign, view->swap);
   view->v = nsvcd__v3_scale(v, sign);
-  view->w = nsvcd__v3_scale(pairs->w, sign);
+  view->w = nsvcd__v3_scale(p->w, sign);
   const nsvcd__v3 forward = nsvcd__v3_scale(v_across, sign);
   const nsvcd__v3 ref = nsvcd__v3_fma(nsvcd__v_set(NSVCD__LEAN), lean_across, forward);
-  // where the reference vanishes in some lane: the coordinate axis farthest from e1
+  // if the reference vanishes in some lane: the coordinate axis farthest from e1
   if (nsvcd__v_le(nsvcd__v3_length(ref), nsvcd__v_set(1e-7f))) {
+    const nsvcd__v3 y_axis = nsvcd__v3_set(nsvcd__f3_of(0, 1, 0));
+    const nsvcd__v3 z_axis = nsvcd__v3_set(nsvcd__f3_of(0, 0, 1));
     const nsvcd__v3 size = nsvcd__v3_max(e1, nsvcd__v3_negate(e1));
-    const nsvcd__v x = nsvcd__v_pick(size.x, nsvcd__v_min(size.y, size.z), one, zero);
-    const nsvcd__v y_of_two = nsvcd__v_pick(size.y, size.z, one, zero);
-    const nsvcd__v y = nsvcd__v_mul(nsvcd__v_sub(one, x), y_of_two);
-    const nsvcd__v3 axis = nsvcd__v3_of(x, y, nsvcd__v_sub(one, nsvcd__v_add(x, y)));
+    const nsvcd__v rest = nsvcd__v_min(size.y, size.z);
+    const nsvcd__v3 y_or_z = nsvcd__v3_pick(size.y, size.z, y_axis, z_axis);
+    const nsvcd__v3 axis = nsvcd__v3_pick(size.x, rest, x_axis, y_or_z);
     instead = nsvcd__v_unit_or(nsvcd__v_across(axis, e1), 1e-9f, x_axis);
   }
   const nsvcd__v3 e2 = nsvcd__v_unit_or(ref, 1e-7f, instead);
@@ -17194,40 +17160,33 @@ static NSVCD__NOINLINE void nsvcd__views_of(const nsvcd__pairs *pairs, nsvcd__vi
 
 // ---- gaps
 
-// Where gaps between extremes are measured.
-typedef struct nsvcd__gap_axes {
-  // from the fixed patches to the moving ones
-  nsvcd__v3 u[NSVCD__GAPS];
-} nsvcd__gap_axes;
-
-static void nsvcd__gap_axes_of(const nsvcd__pairs *pairs, const nsvcd__views *view,
-                               nsvcd__gap_axes *axes) {
+// The axes u (GAPS) along which gaps are measured.
+static void nsvcd__gap_axes_of(const nsvcd__pairs *p, const nsvcd__views *view, nsvcd__v3 *u) {
   const nsvcd__v zero = nsvcd__v_set(0);
-  const nsvcd__v3 between = nsvcd__v3_sub(pairs->p1, pairs->p2);
+  const nsvcd__v3 between = nsvcd__v3_sub(p->p1, p->p2);
   const nsvcd__v3 x_axis = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
   const nsvcd__v3 line = nsvcd__v_unit_or(between, 1e-20f, x_axis);
-  const nsvcd__v3 fixed = nsvcd__v_unit_or(pairs->normal[1], 0.5f, line);
+  const nsvcd__v3 fixed = nsvcd__v_unit_or(p->normal[1], 0.5f, line);
   const nsvcd__v3 moving = nsvcd__v_unit_or(nsvcd__v3_negate(view->normal), 0.5f, line);
-  axes->u[NSVCD__GAP_LARGER] = nsvcd__v3_pick(zero, view->swap, moving, fixed);
-  axes->u[NSVCD__GAP_SMALLER] = nsvcd__v3_pick(zero, view->swap, fixed, moving);
-  axes->u[NSVCD__GAP_LINE] = line;
-  axes->u[NSVCD__GAP_BOTH] = nsvcd__v_unit_or(nsvcd__v3_add(fixed, moving), 1e-3f, line);
+  u[NSVCD__GAP_LARGER] = nsvcd__v3_pick(zero, view->swap, moving, fixed);
+  u[NSVCD__GAP_SMALLER] = nsvcd__v3_pick(zero, view->swap, fixed, moving);
+  u[NSVCD__GAP_LINE] = line;
+  u[NSVCD__GAP_BOTH] = nsvcd__v_unit_or(nsvcd__v3_add(fixed, moving), 1e-3f, line);
 }
 
-// The extremes of the first `count` pairs of a slice, of the moving patches and of the fixed ones:
-// (2, TIPS, 3, SLICE) steps of 1/127 of the radii, from the centres, in the bodies' frames.
-static void nsvcd__extremes_collect(const nsvcd__pairs *pairs, size_t count,
-                                    int8_t *extremes) {
+// The extreme points of the first `count` pairs of a slice, of the moving patches and of the fixed
+// ones: (2, EXTREMES, 3, SLICE), from the centres, in the bodies' frames, in 1/127 of the radii.
+static void nsvcd__extremes_collect(const nsvcd__pairs *p, size_t count, int8_t *extremes) {
   memset(extremes, 0, 2 * 3 * NSVCD__EXTREMES * NSVCD__SLICE);
   for (size_t n = 0; n < 2; n++) {
     for (size_t k = 0; k < 3 * NSVCD__EXTREMES; k++, extremes += NSVCD__SLICE) {
-      for (size_t l = 0; l < count; l++) extremes[l] = pairs->extremes[n][l][NSVCD__GROUP * k];
+      for (size_t l = 0; l < count; l++) extremes[l] = p->extremes[n][l][NSVCD__GROUP * k];
     }
   }
 }
 
-// What a direction u becomes for a patch that turns on by w, to the second order: its product with
-// q is u . (q + w x q + w x (w x q) / 2).
+// The direction u as seen from a patch that turns by w, to the second order: its dot product with q
+// is u . (q + w x q + w x (w x q) / 2).
 static nsvcd__v3 nsvcd__turned_back(nsvcd__v3 u, nsvcd__v3 w) {
   const nsvcd__v along = nsvcd__v_scale(nsvcd__v3_dot(u, w), 0.5f);
   const nsvcd__v less = nsvcd__v_scale(nsvcd__v3_dot(w, w), -0.5f);
@@ -17235,22 +17194,22 @@ static nsvcd__v3 nsvcd__turned_back(nsvcd__v3 u, nsvcd__v3 w) {
   return nsvcd__v3_fma(less, u, nsvcd__v3_fma(along, w, turned));
 }
 
-// The gaps along the axes, wide (GAPS), in the fixed body's units, at tau: -1 and 1 are the ends of
-// the interval. Seen from a frame that turns half as fast as the moving patch, in which either
-// patch may be called the one that moves: the line between the centres goes by v, one patch turns
-// by half of w, and the other the opposite way. extremes: nsvcd__extremes_collect.
-static NSVCD__NOINLINE void nsvcd__gaps_at(const nsvcd__pairs *pairs,
-                                           const nsvcd__gap_axes *axes, const int8_t *extremes,
-                                           nsvcd__v tau, nsvcd__v *wide) {
+// The gaps along the axes u at tau, wide (GAPS), in the fixed body's units; the interval's ends are
+// -1 and 1. Seen from a frame that turns half as fast as the moving patch, so that both patches are
+// treated alike: the line between the centres moves by v, one patch turns by w / 2, the other by
+// -w / 2. extremes: of nsvcd__extremes_collect.
+static NSVCD__NOINLINE void nsvcd__gaps_at(const nsvcd__pairs *p, const nsvcd__v3 *u,
+                                           const int8_t *extremes, nsvcd__v tau,
+                                           nsvcd__v *wide) {
   const size_t size = 3 * NSVCD__SLICE;
-  const nsvcd__v3 half = nsvcd__v3_scale(pairs->w, nsvcd__v_scale(tau, 0.5f));
+  const nsvcd__v3 half = nsvcd__v3_scale(p->w, nsvcd__v_scale(tau, 0.5f));
   const nsvcd__v3 back = nsvcd__v3_negate(half);
   nsvcd__v3 own[NSVCD__GAPS], other[NSVCD__GAPS];
   nsvcd__v low[NSVCD__GAPS], high[NSVCD__GAPS];
   for (size_t d = 0; d < NSVCD__GAPS; d++) {
-    const nsvcd__v3 turned = nsvcd__turned_back(axes->u[d], half);
-    own[d] = nsvcd__vmat3_apply_transpose(pairs->rotation, turned);
-    other[d] = nsvcd__turned_back(axes->u[d], back);
+    const nsvcd__v3 turned = nsvcd__turned_back(u[d], half);
+    own[d] = nsvcd__vmat3_apply_transpose(p->rotation, turned);
+    other[d] = nsvcd__turned_back(u[d], back);
     low[d] = nsvcd__v_set(1e30f);
     high[d] = nsvcd__v_set(-1e30f);
   }
@@ -17262,81 +17221,78 @@ static NSVCD__NOINLINE void nsvcd__gaps_at(const nsvcd__pairs *pairs,
       high[d] = nsvcd__v_max(high[d], nsvcd__v3_dot(other[d], x));
     }
   }
-  const nsvcd__v3 between = nsvcd__v3_sub(pairs->p1, pairs->p2);
-  const nsvcd__v3 apart = nsvcd__v3_fma(tau, pairs->v, between);
-  const nsvcd__v step1 = nsvcd__v_scale(pairs->r1, 1.0f / 127);
-  const nsvcd__v step2 = nsvcd__v_scale(pairs->r2, 1.0f / 127);
+  const nsvcd__v3 between = nsvcd__v3_sub(p->p1, p->p2);
+  const nsvcd__v3 line = nsvcd__v3_fma(tau, p->v, between);
+  const nsvcd__v step1 = nsvcd__v_scale(p->r1, 1.0f / 127);
+  const nsvcd__v step2 = nsvcd__v_scale(p->r2, 1.0f / 127);
   for (size_t d = 0; d < NSVCD__GAPS; d++) {
-    const nsvcd__v above = nsvcd__v_fma(step1, low[d], nsvcd__v3_dot(axes->u[d], apart));
+    const nsvcd__v above = nsvcd__v_fma(step1, low[d], nsvcd__v3_dot(u[d], line));
     wide[d] = nsvcd__v_sub(above, nsvcd__v_mul(step2, high[d]));
   }
 }
 
-// A gap, times so much, as it is told: x / (1 + |x|).
-static nsvcd__v nsvcd__gap_told(nsvcd__v gap, float steep) {
+// The fact about a gap.
+static nsvcd__v nsvcd__gap_fact(nsvcd__v gap, float steep) {
   const nsvcd__v x = nsvcd__v_scale(gap, steep);
   return nsvcd__v_div(x, nsvcd__v_plus(nsvcd__v_abs(x), 1));
 }
 
-// The facts about gaps.
-static NSVCD__NOINLINE void nsvcd__tell_gaps(const nsvcd__pairs *pairs,
-                                             const nsvcd__views *view, size_t count,
-                                             float (*facts)[NSVCD__SLICE]) {
+// Writes the facts about gaps.
+static NSVCD__NOINLINE void nsvcd__gap_facts(const nsvcd__pairs *p, const nsvcd__views *view,
+                                             size_t count, float (*facts)[NSVCD__SLICE]) {
   int8_t extremes[2 * 3 * NSVCD__EXTREMES * NSVCD__SLICE];
-  nsvcd__gap_axes axes;
-  nsvcd__gap_axes_of(pairs, view, &axes);
-  nsvcd__extremes_collect(pairs, count, extremes);
+  nsvcd__v3 u[NSVCD__GAPS];
+  nsvcd__gap_axes_of(p, view, u);
+  nsvcd__extremes_collect(p, count, extremes);
   for (size_t m = 0; m < NSVCD__MOMENTS; m++) {
     const nsvcd__v tau = nsvcd__v_scale(view->time, (float)m - 1);
     nsvcd__v wide[NSVCD__GAPS];
     nsvcd__v widest = nsvcd__v_set(-1e30f);
-    nsvcd__gaps_at(pairs, &axes, extremes, tau, wide);
+    nsvcd__gaps_at(p, u, extremes, tau, wide);
     for (size_t d = 0; d < NSVCD__GAPS; d++) {
       const nsvcd__v gap = nsvcd__v_mul(view->inverse, wide[d]);
       float *to = facts[NSVCD__FACT_GAPS + NSVCD__MOMENTS * d + m];
-      nsvcd__v_store(to, nsvcd__gap_told(gap, NSVCD__GAP_STEEP));
+      nsvcd__v_store(to, nsvcd__gap_fact(gap, NSVCD__GAP_STEEP));
       widest = nsvcd__v_max(widest, gap);
     }
     nsvcd__v_store(facts[NSVCD__FACT_WIDEST + m],
-                   nsvcd__gap_told(widest, NSVCD__WIDEST_STEEP));
+                   nsvcd__gap_fact(widest, NSVCD__WIDEST_STEEP));
   }
 }
 
 // ---- inputs
 
-// What the decoder sees of a slice of pairs, besides the latents, which it sees turned.
-typedef struct nsvcd__scenes {
-  // of the moving patches and of the fixed ones: from their bodies' frames to the pairs', and their
-  // radii, in units of the pairs' lengths
-  nsvcd__vmat3 turn[2];
-  nsvcd__v k[2];
-  // lanes in which the first patch is the larger
-  uint32_t keep;
+// What inputs for a slice of pairs are made of, besides the latents.
+typedef struct nsvcd__inputs {
+  // of the moving patches and of the fixed ones:
+  nsvcd__vmat3 turn[2];  // from their bodies' frames to the pairs'
+  nsvcd__v k[2];         // radii, in the pairs' units
+  uint32_t keep;         // lanes in which the moving patch is the larger
   float facts[NSVCD__FACTS][NSVCD__SLICE];
-} nsvcd__scenes;
+} nsvcd__inputs;
 
-// A slice of scenes, but for the facts about gaps.
-static NSVCD__NOINLINE void nsvcd__scenes_without_gaps(const nsvcd__pairs *pairs,
+// All of that but for the facts about gaps.
+static NSVCD__NOINLINE void nsvcd__inputs_without_gaps(const nsvcd__pairs *p,
                                                        const nsvcd__views *view,
-                                                       nsvcd__scenes *scene) {
-  scene->turn[0] = nsvcd__vmat3_mul(view->frame, pairs->rotation);
-  scene->turn[1] = view->frame;
-  scene->k[0] = view->k1;
-  scene->k[1] = view->k2;
-  scene->keep = nsvcd__v_le(nsvcd__v_set(0), view->swap);
+                                                       nsvcd__inputs *out) {
+  out->turn[0] = nsvcd__vmat3_mul(view->frame, p->rotation);
+  out->turn[1] = view->frame;
+  out->k[0] = view->k1;
+  out->k[1] = view->k2;
+  out->keep = nsvcd__v_le(nsvcd__v_set(0), view->swap);
 
   const nsvcd__v speed2 = nsvcd__v3_dot(view->v, view->v);
   const nsvcd__v above = nsvcd__v_plus(speed2, 1e-6f);
-  // nearest approach of the centres, in half intervals
-  const nsvcd__v nearest = nsvcd__v_div(nsvcd__v3_dot(view->d, view->v), above);
-  const nsvcd__v tau = nsvcd__v_clamp(nearest, -1, 1);
+  // the time of the centres' closest approach, in half intervals
+  const nsvcd__v when = nsvcd__v_div(nsvcd__v3_dot(view->d, view->v), above);
+  const nsvcd__v tau = nsvcd__v_clamp(when, -1, 1);
   const nsvcd__v3 closest = nsvcd__v3_sub(view->d, nsvcd__v3_scale(view->v, tau));
   const nsvcd__v3 velocity = nsvcd__vmat3_apply(view->frame, view->v);
   const nsvcd__v3 turn = nsvcd__vmat3_apply(view->frame, view->w);
-  // an axial vector
+  // the turn is an axial vector
   const nsvcd__v3 mirrored = nsvcd__v3_scale(turn, view->side);
 
-  float(*facts)[NSVCD__SLICE] = scene->facts;
+  float(*facts)[NSVCD__SLICE] = out->facts;
   nsvcd__v_store(facts[NSVCD__FACT_DISTANCE], nsvcd__v3_length(view->d));
   nsvcd__v_store(facts[NSVCD__FACT_RADIUS], nsvcd__v_max(view->k1, view->k2));
   nsvcd__v_store(facts[NSVCD__FACT_CLOSEST], nsvcd__v3_length(closest));
@@ -17347,7 +17303,7 @@ static NSVCD__NOINLINE void nsvcd__scenes_without_gaps(const nsvcd__pairs *pairs
   nsvcd__v_store(facts[NSVCD__FACT_SPIN], nsvcd__v3_length(view->w));
 
   const nsvcd__v zero = nsvcd__v_set(0);
-  const nsvcd__v3 *fixed = &pairs->normal[1];
+  const nsvcd__v3 *fixed = &p->normal[1];
   const nsvcd__v3 larger = nsvcd__v3_pick(zero, view->swap, view->normal, *fixed);
   const nsvcd__v3 smaller = nsvcd__v3_pick(zero, view->swap, *fixed, view->normal);
   float(*facing)[NSVCD__SLICE] = facts + NSVCD__FACT_FACING;
@@ -17355,67 +17311,63 @@ static NSVCD__NOINLINE void nsvcd__scenes_without_gaps(const nsvcd__pairs *pairs
   nsvcd__v_store(facing[1], nsvcd__v3_dot(larger, view->frame.x));
   nsvcd__v_store(facing[2], nsvcd__v3_dot(smaller, view->frame.x));
   float(*flat)[NSVCD__SLICE] = facts + NSVCD__FACT_FLAT;
-  nsvcd__v_store(flat[0], nsvcd__v_pick(zero, view->swap, pairs->flat[0], pairs->flat[1]));
-  nsvcd__v_store(flat[1], nsvcd__v_pick(zero, view->swap, pairs->flat[1], pairs->flat[0]));
+  nsvcd__v_store(flat[0], nsvcd__v_pick(zero, view->swap, p->flat[0], p->flat[1]));
+  nsvcd__v_store(flat[1], nsvcd__v_pick(zero, view->swap, p->flat[1], p->flat[0]));
 }
 
-// Scenes of the first `count` pairs of a slice. One step after the other, so that the stack of one
-// does not lie below that of the next.
-static void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t count, nsvcd__scenes *scene) {
+// For the first `count` pairs of a slice. Step by step, so that the stack of one step does not add
+// to that of the next.
+static void nsvcd__inputs_of(const nsvcd__pairs *p, size_t count, nsvcd__inputs *out) {
   nsvcd__views view;
-  nsvcd__views_of(pairs, &view);
-  nsvcd__scenes_without_gaps(pairs, &view, scene);
-  nsvcd__tell_gaps(pairs, &view, count, scene->facts);
+  nsvcd__views_of(p, &view);
+  nsvcd__inputs_without_gaps(p, &view, out);
+  nsvcd__gap_facts(p, &view, count, out->facts);
 }
 
-// The inputs of the decoder (appendix F) for the first `count` pairs of a slice, x (count,
-// DECODER_IN): vectors of the larger patch and of the other, their scalars, and the facts.
-static NSVCD__NOINLINE void nsvcd__inputs_in(const nsvcd__scenes *scene,
-                                             const nsvcd__pairs *pairs, size_t count,
-                                             float *x) {
+// Writes the decoder's inputs for the first `count` pairs of a slice, x (count, DECODER_IN): the
+// vectors of the larger patch and of the smaller one, their scalars, and the facts.
+static NSVCD__NOINLINE void nsvcd__inputs_write(const nsvcd__inputs *in, const nsvcd__pairs *p,
+                                                size_t count, float *x) {
   const nsvcd__v step = nsvcd__v_set(NSVCD__LATENT_STEP);
   float wigner[NSVCD__WIGNER][NSVCD__SLICE];
   for (size_t n = 0; n < 2; n++) {
-    nsvcd__wigner(&scene->turn[n], nsvcd__v_mul(scene->k[n], step), wigner);
+    nsvcd__wigner(&in->turn[n], nsvcd__v_mul(in->k[n], step), wigner);
     for (size_t l = 0; l < count; l++) {
-      const size_t slot = (scene->keep >> l & 1) == n;
-      nsvcd__rotate_latent(pairs->z[n][l], wigner, l, slot, x + NSVCD__DECODER_IN * l);
+      const size_t slot = (in->keep >> l & 1) == n;
+      nsvcd__rotate_latent(p->z[n][l], wigner, l, slot, x + NSVCD__DECODER_IN * l);
     }
   }
   for (size_t l = 0; l < count; l++) {
     float *facts = x + NSVCD__DECODER_IN * l + 2 * NSVCD__LATENT;
     for (size_t k = 0; k < NSVCD__DECODER_IN - 2 * NSVCD__LATENT; k++)
-      facts[k] = k < NSVCD__FACTS ? scene->facts[k][l] : 0;
+      facts[k] = k < NSVCD__FACTS ? in->facts[k][l] : 0;
   }
 }
 
-static NSVCD__NOINLINE void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count,
-                                              float *x) {
-  nsvcd__scenes scene;
-  nsvcd__scenes_of(pairs, count, &scene);
-  nsvcd__inputs_in(&scene, pairs, count, x);
+static NSVCD__NOINLINE void nsvcd__invariants(const nsvcd__pairs *p, size_t count, float *x) {
+  nsvcd__inputs inputs;
+  nsvcd__inputs_of(p, count, &inputs);
+  nsvcd__inputs_write(&inputs, p, count, x);
 }
 #endif  // NSVCD_NO_NETWORK
 
 // --------------------------------------------------------------------------------- network/decoder
-// In: invariants of pairs (n, DECODER_IN). Out: a logit each, and how far the pair comes apart.
+// In: invariants of pairs (n, DECODER_IN). Out: a logit each, and the pair's least distance.
 
 #ifndef NSVCD_NO_NETWORK
-// What a decoder says of a pair.
+// What a decoder makes of a pair.
 enum {
-  NSVCD__SAYS_LOGIT,
-  NSVCD__SAYS_APART,  // distance, negative: depth, in tenths of r1 + r2
-  NSVCD__SAYINGS
+  NSVCD__OUT_LOGIT,
+  NSVCD__OUT_DISTANCE,  // the least distance, or minus the depth, in tenths of r1 + r2
+  NSVCD__DECODER_OUT
 };
 
-// Where a layer's numbers lie: y = w^T x + bias, then ReLU but for the last layer.
+// A layer, y = w^T x + bias, and where its numbers begin.
 typedef struct nsvcd__layer {
   size_t inputs, outputs;  // multiples of 4, and of 16
-  // in nsvcd_w_decoder, (inputs, outputs), and in nsvcd_w_decoder_int8
-  size_t weights;
-  // of its outputs, in nsvcd_w_decoder_bias, _scale and _sum
-  size_t first;
-  int relu;
+  size_t weights;          // (inputs, outputs) in nsvcd_w_decoder, and in nsvcd_w_decoder_int8
+  size_t first;            // (outputs) in nsvcd_w_decoder_bias, _scale and _sum
+  int relu;                // of all layers but the last
 } nsvcd__layer;
 
 // The n-th layer of a decoder.
@@ -17435,8 +17387,8 @@ static nsvcd__layer nsvcd__layer_of(const nsvcd__decoder *decoder, size_t n) {
 }
 
 #ifndef NSVCD_NO_FLOAT
-// Outputs o .. o + tiles * SLICE - 1 of a layer for so many rows: x, of which a row begins every
-// `pitch` floats, and y (rows, WIDEST). rows * tiles sums must fit into the registers.
+// Outputs o .. o + tiles * SLICE - 1 of a layer for so many rows: x, a row every `pitch` floats,
+// and y (rows, WIDEST). rows * tiles sums must fit into the registers.
 NSVCD__INLINE void nsvcd__layer_tile(const nsvcd__layer *layer, size_t o, const float *x,
                                      size_t pitch, float *y, size_t rows, size_t tiles) {
   const size_t inputs = layer->inputs;
@@ -17471,59 +17423,41 @@ NSVCD__INLINE void nsvcd__layer_tile(const nsvcd__layer *layer, size_t o, const 
   }
 }
 
-// As nsvcd__decoder_says, in fp32. The weights of the largest decoder do not fit into the first
-// cache, so the more rows at a time the better: 8 by 2 or 4 by 4 sums in 32 registers, 4 by 16
-// outputs, or by 4 slices where that is less, in fewer.
+// A layer in fp32, for `count` rows, a multiple of ROW_STEP: x, a row every `pitch` floats, and y
+// (count, WIDEST). The weights of the largest decoder do not fit into the first cache, so that more
+// rows at a time are faster: 8 by 2 or 4 by 4 sums in 32 registers; in fewer, 4 rows by 16 outputs,
+// or by 4 slices if that is less.
 #define NSVCD__TILES (NSVCD__LANES / NSVCD__SLICE < 4 ? NSVCD__LANES / NSVCD__SLICE : 4)
-static NSVCD__NOINLINE void nsvcd__decoder_by_floats(const nsvcd__decoder *decoder,
-                                                     const float *x, size_t count,
-                                                     float (*said)[NSVCD__SAYINGS]) {
-  const size_t rows = nsvcd__round_up(count, NSVCD__ROW_STEP);
-  float a[NSVCD__ROWS * NSVCD__WIDEST];
-  float b[NSVCD__ROWS * NSVCD__WIDEST];
-  float *y = a;
-  size_t pitch = NSVCD__DECODER_IN;
-  for (size_t n = 0; n < decoder->layers; n++) {
-    const nsvcd__layer layer = nsvcd__layer_of(decoder, n);
-    const size_t outputs = layer.outputs;
-    size_t p = 0;
-    size_t o;
+static NSVCD__NOINLINE void nsvcd__layer_by_floats(const nsvcd__layer *layer, const float *x,
+                                                   size_t pitch, size_t count, float *y) {
+  const size_t outputs = layer->outputs;
+  size_t p = 0;
+  size_t o;
 #if NSVCD__SLICE == 16
-    for (; p + 8 <= rows; p += 8) {
-      const float *from = x + pitch * p;
-      float *to = y + NSVCD__WIDEST * p;
-      for (o = 0; o + 32 <= outputs; o += 32)
-        nsvcd__layer_tile(&layer, o, from, pitch, to, 8, 2);
-      if (o < outputs) nsvcd__layer_tile(&layer, o, from, pitch, to, 8, 1);
-    }
-#endif
-    for (; p < rows; p += 4) {
-      const float *from = x + pitch * p;
-      float *to = y + NSVCD__WIDEST * p;
-#if NSVCD__SLICE == 16
-      for (o = 0; o + 64 <= outputs; o += 64)
-        nsvcd__layer_tile(&layer, o, from, pitch, to, 4, 4);
-      for (; o + 32 <= outputs; o += 32) nsvcd__layer_tile(&layer, o, from, pitch, to, 4, 2);
-      if (o < outputs) nsvcd__layer_tile(&layer, o, from, pitch, to, 4, 1);
-#else
-      for (o = 0; o < outputs; o += NSVCD__TILES * NSVCD__SLICE)
-        nsvcd__layer_tile(&layer, o, from, pitch, to, 4, NSVCD__TILES);
-#endif
-    }
-    x = y;
-    pitch = NSVCD__WIDEST;
-    y = y == a ? b : a;
+  for (; p + 8 <= count; p += 8, x += 8 * pitch, y += 8 * NSVCD__WIDEST) {
+    for (o = 0; o + 32 <= outputs; o += 32) nsvcd__layer_tile(layer, o, x, pitch, y, 8, 2);
+    if (o < outputs) nsvcd__layer_tile(layer, o, x, pitch, y, 8, 1);
   }
-  for (size_t p = 0; p < count; p++) memcpy(said[p], x + pitch * p, sizeof said[p]);
+#endif
+  for (; p < count; p += 4, x += 4 * pitch, y += 4 * NSVCD__WIDEST) {
+#if NSVCD__SLICE == 16
+    for (o = 0; o + 64 <= outputs; o += 64) nsvcd__layer_tile(layer, o, x, pitch, y, 4, 4);
+    for (; o + 32 <= outputs; o += 32) nsvcd__layer_tile(layer, o, x, pitch, y, 4, 2);
+    if (o < outputs) nsvcd__layer_tile(layer, o, x, pitch, y, 4, 1);
+#else
+    for (o = 0; o < outputs; o += NSVCD__TILES * NSVCD__SLICE)
+      nsvcd__layer_tile(layer, o, x, pitch, y, 4, NSVCD__TILES);
+#endif
+  }
 }
 #endif  // NSVCD_NO_FLOAT
 
 #ifndef NSVCD_NO_INT8
 // nsvcd__layer_by_bytes is a layer in integers, for BYTE_ROWS rows, which share the weights that
-// are loaded: x, of which a row begins every `pitch` floats, and y (BYTE_ROWS, WIDEST), which may
-// take x's place. Inputs over the largest of them are bytes in [1, 255] about 128, because the
-// processors' instructions multiply unsigned by signed bytes, by weights of (inputs / 4, outputs,
-// 4); sums are exact in int32, and 128 times the sum of the weights too much.
+// are loaded: x, a row every `pitch` floats, and y (BYTE_ROWS, WIDEST), which may be x. Inputs are
+// divided by the largest, and become bytes in [1, 255] about 128: processors multiply unsigned by
+// signed bytes. Weights are (inputs / 4, outputs, 4). Sums are exact in int32, and too large by 128
+// times the sum of the weights.
 #ifdef NSVCD__VNNI
 #define NSVCD__BYTE_ROWS 4
 // Outputs o .. o + 16 tiles - 1 of bytes (4, inputs): dot (4, outputs).
@@ -17636,40 +17570,36 @@ static void nsvcd__layer_by_bytes(const nsvcd__layer *layer, const float *x, siz
   }
 }
 #endif
+#endif  // NSVCD_NO_INT8
 
-// As nsvcd__decoder_says, in int8 arithmetic.
-static NSVCD__NOINLINE void nsvcd__decoder_by_bytes(const nsvcd__decoder *decoder,
-                                                    const float *x, size_t count,
-                                                    float (*said)[NSVCD__SAYINGS]) {
-  float y[NSVCD__ROWS * NSVCD__WIDEST];
+// x (ROWS, DECODER_IN) -> out (count, DECODER_OUT), of the first `count` pairs, in fp32 or int8
+// arithmetic. x must hold numbers up to a multiple of ROW_STEP rows.
+static NSVCD__NOINLINE void nsvcd__decoder_run(const nsvcd__decoder *decoder, const float *x,
+                                               size_t count, int int8,
+                                               float (*out)[NSVCD__DECODER_OUT]) {
+  float a[NSVCD__ROWS * NSVCD__WIDEST];
+#ifndef NSVCD_NO_FLOAT
+  float b[NSVCD__ROWS * NSVCD__WIDEST];
+#else
+  float *const b = a;  // layers in integers need no second array
+#endif
+  float *y = a;
   size_t pitch = NSVCD__DECODER_IN;
   for (size_t n = 0; n < decoder->layers; n++) {
     const nsvcd__layer layer = nsvcd__layer_of(decoder, n);
-    for (size_t p = 0; p < count; p += NSVCD__BYTE_ROWS)
+#ifndef NSVCD_NO_INT8
+    for (size_t p = 0; p < count && int8; p += NSVCD__BYTE_ROWS)
       nsvcd__layer_by_bytes(&layer, x + pitch * p, pitch, y + NSVCD__WIDEST * p);
+#endif
+#ifndef NSVCD_NO_FLOAT
+    const size_t rows = nsvcd__round_up(count, NSVCD__ROW_STEP);
+    if (!int8) nsvcd__layer_by_floats(&layer, x, pitch, rows, y);
+#endif
     x = y;
     pitch = NSVCD__WIDEST;
+    y = y == a ? b : a;
   }
-  for (size_t p = 0; p < count; p++) memcpy(said[p], x + pitch * p, sizeof said[p]);
-}
-#endif  // NSVCD_NO_INT8
-
-// x (ROWS, DECODER_IN) -> said (count, SAYINGS), of the first `count` pairs, in fp32 or int8
-// arithmetic. Some rows at a time: x must hold numbers up to a multiple of ROW_STEP.
-static void nsvcd__decoder_says(const nsvcd__decoder *decoder, const float *x, size_t count,
-                                int int8, float (*said)[NSVCD__SAYINGS]) {
-#ifdef NSVCD_NO_INT8
-  (void)int8;
-  nsvcd__decoder_by_floats(decoder, x, count, said);
-#elif defined(NSVCD_NO_FLOAT)
-  (void)int8;
-  nsvcd__decoder_by_bytes(decoder, x, count, said);
-#else
-  if (int8)
-    nsvcd__decoder_by_bytes(decoder, x, count, said);
-  else
-    nsvcd__decoder_by_floats(decoder, x, count, said);
-#endif
+  for (size_t p = 0; p < count; p++) memcpy(out[p], x + pitch * p, sizeof out[p]);
 }
 #endif  // NSVCD_NO_NETWORK
 
@@ -17942,7 +17872,7 @@ static void nsvcd__decode(const nsvcd__task *task, nsvcd__candidate *const *cand
 #else
     float *x = task->row;
 #endif
-    float said[NSVCD__ROWS][NSVCD__SAYINGS];
+    float out[NSVCD__ROWS][NSVCD__DECODER_OUT];
     for (size_t l = 0; l < rows; l += NSVCD__SLICE) {
       const size_t size = rows - l < NSVCD__SLICE ? rows - l : NSVCD__SLICE;
       nsvcd__pairs pairs;
@@ -17951,10 +17881,10 @@ static void nsvcd__decode(const nsvcd__task *task, nsvcd__candidate *const *cand
       nsvcd__invariants(&pairs, size, x + NSVCD__DECODER_IN * l);
     }
     memset(x + NSVCD__DECODER_IN * rows, 0, unused * NSVCD__DECODER_IN * sizeof *x);
-    nsvcd__decoder_says(decoder, x, rows, task->settings.int8, said);
+    nsvcd__decoder_run(decoder, x, rows, task->settings.int8, out);
     for (size_t k = 0; k < rows; k++) {
-      candidates[first + k]->score = said[k][NSVCD__SAYS_LOGIT];
-      candidates[first + k]->apart = said[k][NSVCD__SAYS_APART];
+      candidates[first + k]->score = out[k][NSVCD__OUT_LOGIT];
+      candidates[first + k]->apart = out[k][NSVCD__OUT_DISTANCE];
     }
   }
 }
@@ -18945,30 +18875,30 @@ static nsvcd_result nsvcd__run_self_test(void) {
 
 // -------------------------------------------------------------------------------- gradient/by_pair
 // In: the pair that decided an answer. Out: the derivative of its logit by the poses. Reverse mode,
-// step by step from the end, over one pair and in scalars; `by_x` is the derivative of the logit by
+// step by step from the end, over one pair and in scalars. `by_x` is the derivative of the logit by
 // x:
 //
 //   decoder     by the decoder's inputs
-//   pair        by the line between the centres, the velocity, and the rotations, over the frame
+//   pair        by the line between the centres, the velocity, and the rotations, through the frame
 //               and the facts
 //   instants    by the moving body's poses at t_enter, t_exit and in the middle, and by these times
 //   contact     from the times to the poses at the ends of the segment in which the balls meet or
-//               part
+//               separate
 //   poses       from the pose at any time to the caller's poses
 //
 // The derivative by the pose of a rigid body is a wrench: a force (by a displacement of its origin)
 // and a torque (by a small rotation about that). A force f on a point at `arm` from the origin is
-// that force, and the torque arm x f.
+// the force f and the torque arm x f.
 
 #ifndef NSVCD_NO_GRADIENT
-// The derivative of |a| by a, times `by`. At 0, to rounding, where it has none, it is nothing: the
-// mean of all directions.
+// The derivative of |a| by a, times `by`. Where |a| is 0 to rounding it is 0, the mean of all
+// directions.
 static nsvcd__f3 nsvcd__by_length(nsvcd__f3 a, float by) {
   const float length = nsvcd__f3_length(a);
   return nsvcd__f3_scale(a, length > 1e-6f ? by / length : 0);
 }
 
-// Lane 0 of so many slices, one after the other: out (count).
+// Lane 0 of each of so many slices: out (count).
 static void nsvcd__first_lanes(const void *slices, size_t count, void *out) {
   for (size_t k = 0; k < count; k++) {
     nsvcd__v slice;
@@ -18978,10 +18908,10 @@ static void nsvcd__first_lanes(const void *slices, size_t count, void *out) {
     memcpy((char *)out + k * sizeof *lanes, lanes, sizeof *lanes);
   }
 }
-static nsvcd__f3 nsvcd__first_f3(nsvcd__v3 a) {
-  nsvcd__f3 out;
-  nsvcd__first_lanes(&a, 3, &out);
-  return out;
+
+// *sum += s a
+static void nsvcd__add_to(nsvcd__f3 *sum, float s, nsvcd__f3 a) {
+  *sum = nsvcd__f3_fma(s, a, *sum);
 }
 
 // a without its part along the unit vector n.
@@ -18989,15 +18919,14 @@ static nsvcd__f3 nsvcd__f3_across(nsvcd__f3 a, nsvcd__f3 n) {
   return nsvcd__f3_fma(-nsvcd__f3_dot(a, n), n, a);
 }
 
-// a's part along the unit vector n (or 0), times `along`, and the rest, turned about n by `angle`,
-// times `across`. All that commutes with rotations about n is of this kind.
+// a's part along the unit vector n (or 0), times `along`, plus the rest, turned about n by `angle`,
+// times `across`. Every linear map that commutes with rotations about n is of this form.
 static nsvcd__f3 nsvcd__turned(nsvcd__f3 a, nsvcd__f3 n, float along, float across,
                                float angle) {
   const float c = across * cosf(angle);
+  const float rest = (along - c) * nsvcd__f3_dot(n, a);
   const nsvcd__f3 side = nsvcd__f3_scale(n, across * sinf(angle));
-  nsvcd__f3 sum = {0, 0, 0};
-  sum = nsvcd__f3_fma(c, a, sum);
-  sum = nsvcd__f3_fma((along - c) * nsvcd__f3_dot(n, a), n, sum);
+  const nsvcd__f3 sum = nsvcd__f3_fma(rest, n, nsvcd__f3_scale(a, c));
   return nsvcd__f3_add(sum, nsvcd__f3_cross(side, a));
 }
 
@@ -19017,12 +18946,12 @@ NSVCD__INLINE nsvcd__v nsvcd__weights_at(const nsvcd__layer *layer, size_t i, si
 #endif
 }
 
-// The derivative of an output of a decoder by its inputs: x, by_x (DECODER_IN). A ReLU's derivative
-// at 0 is 0.
+// The derivative of a decoder's output by its inputs: x, by_x (DECODER_IN). A ReLU's derivative at
+// 0 is 0.
 static NSVCD__NOINLINE void nsvcd__decoder_gradient(const nsvcd__decoder *decoder,
                                                     size_t output, const float *x,
                                                     float *by_x) {
-  // what comes out of the layers, but for the last
+  // the outputs of all layers but the last
   float values[5][NSVCD__WIDEST];
   float by[NSVCD__MOST_INPUTS] = {0};
   by[output] = 1;
@@ -19033,7 +18962,7 @@ static NSVCD__NOINLINE void nsvcd__decoder_gradient(const nsvcd__decoder *decode
     float *y = values[n];
     memcpy(y, nsvcd_w_decoder_bias + layer.first, layer.outputs * sizeof *y);
     for (size_t i = 0; i < layer.inputs; i++) {
-      // about half of them
+      // about half of the inputs are 0
       if (!(from[i] < 0 || from[i] > 0)) continue;
       const nsvcd__v input = nsvcd__v_set(from[i]);
       for (size_t o = 0; o < layer.outputs; o += NSVCD__SLICE) {
@@ -19066,11 +18995,11 @@ static NSVCD__NOINLINE void nsvcd__decoder_gradient(const nsvcd__decoder *decode
 
 // ---- pair
 
-// The derivative by a small rotation of a latent's vectors, as they are (x) and the derivative by
-// them (by), both (3, CHANNELS), then (5, CHANNELS). On degree 2, in the basis of nsvcd__degree2, a
-// rotation by w adds to q
+// The derivative by a small rotation of a latent, from its vectors x and the derivative by these,
+// both (3, CHANNELS), then (5, CHANNELS). On degree 2, in the basis of nsvcd__degree2, a rotation
+// by w adds to q
 //   (wy q1 - wx q3 + 2 wz q4, wz q3 - wy q0 - wx (r q2 + q4), r (wx q1 - wy q3),
-//    wx q0 - wz q1 + wy (r q2 - q4), wx q1 + wy q3 - 2 wz q0), r being the root of 3.
+//    wx q0 - wz q1 + wy (r q2 - q4), wx q1 + wy q3 - 2 wz q0), where r is the root of 3.
 static nsvcd__f3 nsvcd__latent_torque(const float *x, const float *by) {
   const float r = 1.7320508075688772f;
   nsvcd__f3 torque = {0, 0, 0};
@@ -19094,14 +19023,22 @@ static nsvcd__f3 nsvcd__latent_torque(const float *x, const float *by) {
   return torque;
 }
 
-// The derivative of a logit by a pair, as nsvcd__pairs has it, in the fixed body's axes and units.
+// The derivative of a logit by a pair, in the fixed body's axes and units.
 typedef struct nsvcd__by_pair {
   nsvcd__f3 p1, v, w;
-  // by a small rotation of the moving patch about its centre
-  nsvcd__f3 rotation;
+  nsvcd__f3 rotation;  // by a small rotation of the moving patch about its centre
 } nsvcd__by_pair;
 
-// A pair in its own units: what nsvcd__views has in lane 0, number by number.
+// Lane 0 of nsvcd__pairs, number by number, without the bytes.
+typedef struct nsvcd__pair {
+  nsvcd__f3 p1, p2;
+  float r1, r2;
+  nsvcd__mat3 rotation;
+  nsvcd__f3 v, w, normal[2];
+  float flat[2];
+} nsvcd__pair;
+
+// Lane 0 of nsvcd__views, number by number.
 typedef struct nsvcd__view {
   float inverse, k1, k2, swap;
   nsvcd__f3 d, lean, normal;
@@ -19117,11 +19054,11 @@ typedef struct nsvcd__by_view {
   nsvcd__f3 d, v, w, lean, axis1, torque;
 } nsvcd__by_view;
 
-// sum + the rows of m, times the components of a.
-static nsvcd__f3 nsvcd__add_along_rows(nsvcd__f3 sum, const nsvcd__mat3 *m, nsvcd__f3 a) {
-  sum = nsvcd__f3_fma(a.x, m->x, sum);
-  sum = nsvcd__f3_fma(a.y, m->y, sum);
-  return nsvcd__f3_fma(a.z, m->z, sum);
+// *sum += m's transpose times a
+static void nsvcd__add_transpose(nsvcd__f3 *sum, const nsvcd__mat3 *m, nsvcd__f3 a) {
+  nsvcd__add_to(sum, a.x, m->x);
+  nsvcd__add_to(sum, a.y, m->y);
+  nsvcd__add_to(sum, a.z, m->z);
 }
 
 // The adjoint of the facts: by (FACTS), added to `out`.
@@ -19132,16 +19069,16 @@ static void nsvcd__by_facts(const nsvcd__view *view, const float *facts, const f
   const nsvcd__f3 closest = nsvcd__f3_sub(view->d, nsvcd__f3_scale(view->v, tau));
   const nsvcd__f3 by_distance = nsvcd__by_length(view->d, by[NSVCD__FACT_DISTANCE]);
   const nsvcd__f3 by_closest = nsvcd__by_length(closest, by[NSVCD__FACT_CLOSEST]);
-  out->d = nsvcd__f3_add(out->d, by_distance);
-  out->d = nsvcd__f3_add(out->d, by_closest);
-  out->v = nsvcd__f3_fma(-tau, by_closest, out->v);
-  // else it is clamped
+  nsvcd__add_to(&out->d, 1, by_distance);
+  nsvcd__add_to(&out->d, 1, by_closest);
+  nsvcd__add_to(&out->v, -tau, by_closest);
+  // where tau is not clamped
   if (fabsf(tau) < 1) {
     const float direct = by[NSVCD__FACT_TAU];
     const float by_tau = scale * (direct - nsvcd__f3_dot(by_closest, view->v));
-    out->d = nsvcd__f3_fma(by_tau, view->v, out->d);
-    out->v = nsvcd__f3_fma(by_tau, view->d, out->v);
-    out->v = nsvcd__f3_fma(-2 * by_tau * tau, view->v, out->v);
+    nsvcd__add_to(&out->d, by_tau, view->v);
+    nsvcd__add_to(&out->v, by_tau, view->d);
+    nsvcd__add_to(&out->v, -2 * by_tau * tau, view->v);
   }
 
   const nsvcd__f3 velocity = nsvcd__f3_load(facts + NSVCD__FACT_VELOCITY);
@@ -19149,16 +19086,16 @@ static void nsvcd__by_facts(const nsvcd__view *view, const float *facts, const f
   const nsvcd__f3 by_velocity = nsvcd__f3_load(by + NSVCD__FACT_VELOCITY);
   const nsvcd__f3 by_turn = nsvcd__f3_load(by + NSVCD__FACT_TURN);
   const nsvcd__f3 mirrored = nsvcd__f3_scale(by_turn, view->side);
-  out->v = nsvcd__add_along_rows(out->v, &view->frame, by_velocity);
-  out->w = nsvcd__add_along_rows(out->w, &view->frame, mirrored);
-  out->torque = nsvcd__f3_add(out->torque, nsvcd__f3_cross(velocity, by_velocity));
-  out->torque = nsvcd__f3_add(out->torque, nsvcd__f3_cross(turn, by_turn));
-  out->v = nsvcd__f3_add(out->v, nsvcd__by_length(view->v, by[NSVCD__FACT_SPEED]));
-  out->w = nsvcd__f3_add(out->w, nsvcd__by_length(view->w, by[NSVCD__FACT_SPIN]));
+  nsvcd__add_transpose(&out->v, &view->frame, by_velocity);
+  nsvcd__add_transpose(&out->w, &view->frame, mirrored);
+  nsvcd__add_to(&out->torque, 1, nsvcd__f3_cross(velocity, by_velocity));
+  nsvcd__add_to(&out->torque, 1, nsvcd__f3_cross(turn, by_turn));
+  nsvcd__add_to(&out->v, 1, nsvcd__by_length(view->v, by[NSVCD__FACT_SPEED]));
+  nsvcd__add_to(&out->w, 1, nsvcd__by_length(view->w, by[NSVCD__FACT_SPIN]));
 }
 
-// The adjoint of the frame in nsvcd__views_of, whose conventions are constant between its switches,
-// added to `by`. Turning the frame does the opposite of turning all that it sees.
+// The adjoint of the frame in nsvcd__views_of, added to `by`. Its conventions are taken as
+// constant, and turning it does the opposite of turning all that it sees.
 static void nsvcd__by_frame(const nsvcd__view *view, nsvcd__by_view *by) {
   const nsvcd__f3 e1 = view->frame.x;
   const nsvcd__f3 e2 = view->frame.y;
@@ -19166,9 +19103,9 @@ static void nsvcd__by_frame(const nsvcd__view *view, nsvcd__by_view *by) {
   const float length = nsvcd__f3_length(view->d);
   const nsvcd__f3 line = nsvcd__f3_of(view->lean.x + 1e-6f, view->lean.y, view->lean.z);
 
-  // Axis 2: of what is across axis 1, of a reference a.
+  // Axis 2: the direction of a reference a, without its part along axis 1.
   nsvcd__f3 a = nsvcd__f3_add(nsvcd__f3_scale(view->lean, NSVCD__LEAN), view->v);
-  nsvcd__f3 across = nsvcd__f3_sub(a, nsvcd__f3_scale(e1, nsvcd__f3_dot(a, e1)));
+  nsvcd__f3 across = nsvcd__f3_across(a, e1);
   const int vanishes = nsvcd__f3_length(across) <= 1e-7f;
   if (vanishes) {
     // the coordinate axis farthest from e1
@@ -19177,55 +19114,27 @@ static void nsvcd__by_frame(const nsvcd__view *view, nsvcd__by_view *by) {
     const float z = fabsf(e1.z);
     a = y <= z ? nsvcd__f3_of(0, 1, 0) : nsvcd__f3_of(0, 0, 1);
     if (x <= y && x <= z) a = nsvcd__f3_of(1, 0, 0);
-    across = nsvcd__f3_sub(a, nsvcd__f3_scale(e1, nsvcd__f3_dot(a, e1)));
+    across = nsvcd__f3_across(a, e1);
   }
   const float about = by->torque.x / nsvcd__f3_length(across);
   if (!vanishes) {
-    by->v = nsvcd__f3_fma(-about, e3, by->v);
-    by->lean = nsvcd__f3_fma(-about * NSVCD__LEAN, e3, by->lean);
+    nsvcd__add_to(&by->v, -about, e3);
+    nsvcd__add_to(&by->lean, -about * NSVCD__LEAN, e3);
   }
 
-  // Axis 1: of the line, or of what stands for it.
+  // Axis 1: the direction of the line, or of what replaces it.
   nsvcd__f3 by_e1 = nsvcd__f3_across(by->axis1, e1);
-  by_e1 = nsvcd__f3_fma(by->torque.y + about * nsvcd__f3_dot(e1, a), e3, by_e1);
-  by_e1 = nsvcd__f3_fma(-by->torque.z, e2, by_e1);
+  nsvcd__add_to(&by_e1, by->torque.y + about * nsvcd__f3_dot(e1, a), e3);
+  nsvcd__add_to(&by_e1, -by->torque.z, e2);
   if (length > 1e-5f)
-    by->d = nsvcd__f3_fma(1 / length, by_e1, by->d);
+    nsvcd__add_to(&by->d, 1 / length, by_e1);
   else if (nsvcd__f3_length(line) > 1e-9f)
-    by->lean = nsvcd__f3_fma(1 / nsvcd__f3_length(line), by_e1, by->lean);
+    nsvcd__add_to(&by->lean, 1 / nsvcd__f3_length(line), by_e1);
 }
 
 // ---- gaps
 
-// What the axis of a gap is the direction of: a constant, plus so many times the moving patch's
-// normal, reversed, and the unit vector of the line between the centres.
-typedef struct nsvcd__gap_axis {
-  float of_moving, of_line;
-  float length;  // of that sum
-} nsvcd__gap_axis;
-
-// Of the axes that nsvcd__gap_axes_of makes.
-static void nsvcd__gap_axes_made(nsvcd__f3 fixed, const nsvcd__view *view, nsvcd__f3 line,
-                                 nsvcd__gap_axis *made) {
-  const nsvcd__gap_axis constant = {0, 0, 1};
-  const nsvcd__gap_axis against = {1, 0, 1};
-  const nsvcd__gap_axis along = {0, 1, 1};
-  const int has_fixed = nsvcd__f3_length(fixed) > 0.5f;
-  const int has_moving = nsvcd__f3_length(view->normal) > 0.5f;
-  const nsvcd__gap_axis of_fixed = has_fixed ? constant : along;
-  const nsvcd__gap_axis of_moving = has_moving ? against : along;
-  const nsvcd__f3 from = has_fixed ? fixed : line;
-  const nsvcd__f3 to = has_moving ? nsvcd__f3_scale(view->normal, -1) : line;
-  nsvcd__gap_axis both = {of_moving.of_moving, of_fixed.of_line + of_moving.of_line,
-                          nsvcd__f3_length(nsvcd__f3_add(from, to))};
-  if (!(both.length > 1e-3f)) both = along;
-  made[NSVCD__GAP_LARGER] = view->swap > 0 ? of_moving : of_fixed;
-  made[NSVCD__GAP_SMALLER] = view->swap > 0 ? of_fixed : of_moving;
-  made[NSVCD__GAP_LINE] = along;
-  made[NSVCD__GAP_BOTH] = both;
-}
-
-// As nsvcd__turned_back, whose adjoint by u it is too, with -w.
+// As nsvcd__turned_back, by tau w. With -tau it is the adjoint by u.
 static nsvcd__f3 nsvcd__f3_turned_back(nsvcd__f3 u, nsvcd__f3 w, float tau) {
   const nsvcd__f3 turned = nsvcd__f3_fma(tau, nsvcd__f3_cross(u, w), u);
   const float along = 0.5f * tau * tau * nsvcd__f3_dot(u, w);
@@ -19237,12 +19146,12 @@ static nsvcd__f3 nsvcd__f3_turned_back(nsvcd__f3 u, nsvcd__f3 w, float tau) {
 static nsvcd__f3 nsvcd__turned_back_by_w(nsvcd__f3 u, nsvcd__f3 w, float tau, nsvcd__f3 q) {
   const float half = 0.5f * tau * tau;
   nsvcd__f3 out = nsvcd__f3_scale(nsvcd__f3_cross(q, u), tau);
-  out = nsvcd__f3_fma(half * nsvcd__f3_dot(w, q), u, out);
-  out = nsvcd__f3_fma(half * nsvcd__f3_dot(u, w), q, out);
+  nsvcd__add_to(&out, half * nsvcd__f3_dot(w, q), u);
+  nsvcd__add_to(&out, half * nsvcd__f3_dot(u, w), q);
   return nsvcd__f3_fma(-2 * half * nsvcd__f3_dot(u, q), w, out);
 }
 
-// Of a body's extremes, from the first on, the farthest along u, in steps.
+// The extreme point of a patch that is farthest along u, in 1/127 of the radius.
 static nsvcd__f3 nsvcd__farthest_extreme(const int8_t *extremes, nsvcd__f3 u) {
   nsvcd__f3 best = {0, 0, 0};
   for (size_t k = 0; k < NSVCD__EXTREMES; k++, extremes += 3 * NSVCD__GROUP) {
@@ -19253,63 +19162,92 @@ static nsvcd__f3 nsvcd__farthest_extreme(const int8_t *extremes, nsvcd__f3 u) {
   return best;
 }
 
-// Lane 0 of what gaps are measured of.
-typedef struct nsvcd__gap_pair {
-  nsvcd__f3 between, v, w;
-  float radii[2];
-  nsvcd__mat3 rotation;
-  const int8_t *extremes[2];
-} nsvcd__gap_pair;
-
-// The adjoint of a gap along u at tau, times `by`, added to `out`, and returned by u. moves: 0 at
-// rest, else 1.
-static nsvcd__f3 nsvcd__by_gap(const nsvcd__gap_pair *pair, nsvcd__f3 u, float tau,
-                               float moves, float by, nsvcd__by_pair *out) {
+// The adjoint of a gap along u at tau, times `by`, added to `out`; returns that by u. extremes: of
+// the moving patch and of the fixed one. moves: 0 at rest, else 1.
+static nsvcd__f3 nsvcd__by_gap(const nsvcd__pair *pair, const int8_t *const *extremes,
+                               nsvcd__f3 u, float tau, float moves, float by,
+                               nsvcd__by_pair *out) {
   const float half = 0.5f * tau;
   const nsvcd__f3 w = pair->w;
-  const nsvcd__f3 minus = nsvcd__f3_scale(w, -1);
   const nsvcd__f3 back = nsvcd__f3_turned_back(u, w, half);
   const nsvcd__f3 forth = nsvcd__f3_turned_back(u, w, -half);
   const nsvcd__f3 own = nsvcd__mat3_apply_transpose(&pair->rotation, back);
-  const nsvcd__f3 lowest =
-      nsvcd__farthest_extreme(pair->extremes[0], nsvcd__f3_scale(own, -1));
-  const nsvcd__f3 highest = nsvcd__farthest_extreme(pair->extremes[1], forth);
+  const nsvcd__f3 lowest = nsvcd__farthest_extreme(extremes[0], nsvcd__f3_scale(own, -1));
+  const nsvcd__f3 highest = nsvcd__farthest_extreme(extremes[1], forth);
   const nsvcd__f3 turned = nsvcd__mat3_apply(&pair->rotation, lowest);
-  const nsvcd__f3 q = nsvcd__f3_scale(turned, pair->radii[0] / 127);
-  const nsvcd__f3 x = nsvcd__f3_scale(highest, pair->radii[1] / 127);
+  const nsvcd__f3 q = nsvcd__f3_scale(turned, pair->r1 / 127);
+  const nsvcd__f3 x = nsvcd__f3_scale(highest, pair->r2 / 127);
   const nsvcd__f3 on_q = nsvcd__turned_back_by_w(u, w, half, q);
   const nsvcd__f3 on_x = nsvcd__turned_back_by_w(u, w, -half, x);
-  out->p1 = nsvcd__f3_fma(by, u, out->p1);
-  out->v = nsvcd__f3_fma(moves * tau * by, u, out->v);
-  out->w = nsvcd__f3_fma(moves * by, nsvcd__f3_sub(on_q, on_x), out->w);
-  out->rotation = nsvcd__f3_fma(by, nsvcd__f3_cross(q, back), out->rotation);
-  nsvcd__f3 apart = nsvcd__f3_fma(tau, pair->v, pair->between);
-  apart = nsvcd__f3_add(apart, nsvcd__f3_turned_back(q, minus, half));
-  apart = nsvcd__f3_sub(apart, nsvcd__f3_turned_back(x, minus, -half));
-  return nsvcd__f3_scale(apart, by);
+  nsvcd__add_to(&out->p1, by, u);
+  nsvcd__add_to(&out->v, moves * tau * by, u);
+  nsvcd__add_to(&out->w, moves * by, nsvcd__f3_sub(on_q, on_x));
+  nsvcd__add_to(&out->rotation, by, nsvcd__f3_cross(q, back));
+  nsvcd__f3 by_u = nsvcd__f3_fma(tau, pair->v, nsvcd__f3_sub(pair->p1, pair->p2));
+  nsvcd__add_to(&by_u, 1, nsvcd__f3_turned_back(q, w, -half));
+  nsvcd__add_to(&by_u, -1, nsvcd__f3_turned_back(x, w, half));
+  return nsvcd__f3_scale(by_u, by);
 }
 
-// The adjoint of nsvcd__tell_gaps, and of the facts about normals: by (FACTS), added to `out` and,
-// by axis 1, to `seen`. view: lane 0 of views. moves: 0 at rest, else 1.
+// The adjoint of nsvcd__gap_fact. size: the gap's absolute value.
+static float nsvcd__by_gap_fact(float by, float size, float steep) {
+  return by * steep / ((1 + steep * size) * (1 + steep * size));
+}
+
+// The adjoint of nsvcd__gap_axes_of: from the derivatives by the axes u (GAPS) to those by the line
+// between the centres, added to `out`, and by the moving patch's normal, which is returned.
+static nsvcd__f3 nsvcd__by_gap_axes(const nsvcd__pair *pair, const nsvcd__view *view,
+                                    const nsvcd__f3 *u, const nsvcd__f3 *by_u,
+                                    nsvcd__by_pair *out) {
+  const nsvcd__f3 line = u[NSVCD__GAP_LINE];
+  const int has_fixed = nsvcd__f3_length(pair->normal[1]) > 0.5f;
+  const int has_moving = nsvcd__f3_length(view->normal) > 0.5f;
+  const size_t of_moving = view->swap > 0 ? NSVCD__GAP_LARGER : NSVCD__GAP_SMALLER;
+  const size_t of_fixed = view->swap > 0 ? NSVCD__GAP_SMALLER : NSVCD__GAP_LARGER;
+  const nsvcd__f3 from = has_fixed ? pair->normal[1] : line;
+  const nsvcd__f3 to = has_moving ? nsvcd__f3_scale(view->normal, -1) : line;
+  const float length = nsvcd__f3_length(nsvcd__f3_add(from, to));
+  // An axis is the direction of a constant, plus multiples of the moving patch's normal, reversed,
+  // and of the line.
+  float normals[NSVCD__GAPS] = {0};
+  float lines[NSVCD__GAPS] = {0};
+  normals[of_moving] = has_moving ? 1 : 0;
+  lines[of_moving] = has_moving ? 0 : 1;
+  lines[of_fixed] = has_fixed ? 0 : 1;
+  lines[NSVCD__GAP_LINE] = 1;
+  lines[NSVCD__GAP_BOTH] = 1;
+  if (length > 1e-3f) {
+    normals[NSVCD__GAP_BOTH] = normals[of_moving] / length;
+    lines[NSVCD__GAP_BOTH] = (lines[of_fixed] + lines[of_moving]) / length;
+  }
+  nsvcd__f3 by_normal = {0, 0, 0};
+  nsvcd__f3 by_line = {0, 0, 0};
+  for (size_t d = 0; d < NSVCD__GAPS; d++) {
+    const nsvcd__f3 across = nsvcd__f3_across(by_u[d], u[d]);
+    nsvcd__add_to(&by_normal, -normals[d], across);
+    nsvcd__add_to(&by_line, lines[d], across);
+  }
+  const float distance = nsvcd__f3_length(nsvcd__f3_sub(pair->p1, pair->p2));
+  const float inverse = 1 / fmaxf(distance, 1e-20f);
+  nsvcd__add_to(&out->p1, inverse, nsvcd__f3_across(by_line, line));
+  return by_normal;
+}
+
+// The adjoint of nsvcd__gap_facts, and of the facts about normals: by (FACTS), added to `out` and,
+// by axis 1, to `seen`. pair, view: lane 0 of pairs and views. moves: 0 at rest, else 1.
 static NSVCD__NOINLINE void nsvcd__by_gaps(const nsvcd__pairs *pairs,
-                                           const nsvcd__views *views, const nsvcd__view *view,
-                                           float moves, const float *by, nsvcd__by_pair *out,
+                                           const nsvcd__views *views, const nsvcd__pair *pair,
+                                           const nsvcd__view *view, float moves,
+                                           const float *by, nsvcd__by_pair *out,
                                            nsvcd__by_view *seen) {
-  const nsvcd__f3 fixed = nsvcd__first_f3(pairs->normal[1]);
-  nsvcd__gap_pair pair;
-  nsvcd__gap_axes axes;
-  nsvcd__gap_axis made[NSVCD__GAPS];
+  const int8_t *const of_pair[2] = {pairs->extremes[0][0], pairs->extremes[1][0]};
+  const nsvcd__f3 fixed = pair->normal[1];
+  nsvcd__v3 axes[NSVCD__GAPS];
+  nsvcd__f3 u[NSVCD__GAPS];
   nsvcd__f3 by_u[NSVCD__GAPS];
   int8_t extremes[2 * 3 * NSVCD__EXTREMES * NSVCD__SLICE];
-  pair.between = nsvcd__f3_sub(nsvcd__first_f3(pairs->p1), nsvcd__first_f3(pairs->p2));
-  pair.v = nsvcd__first_f3(pairs->v);
-  pair.w = nsvcd__first_f3(pairs->w);
-  pair.extremes[0] = pairs->extremes[0][0];
-  pair.extremes[1] = pairs->extremes[1][0];
-  nsvcd__first_lanes(&pairs->r1, 1, &pair.radii[0]);
-  nsvcd__first_lanes(&pairs->r2, 1, &pair.radii[1]);
-  nsvcd__first_lanes(&pairs->rotation, 9, &pair.rotation);
-  nsvcd__gap_axes_of(pairs, views, &axes);
+  nsvcd__gap_axes_of(pairs, views, axes);
+  nsvcd__first_lanes(axes, 3 * NSVCD__GAPS, u);
   nsvcd__extremes_collect(pairs, 1, extremes);
   memset(by_u, 0, sizeof by_u);
   for (size_t m = 0; m < NSVCD__MOMENTS; m++) {
@@ -19317,61 +19255,47 @@ static NSVCD__NOINLINE void nsvcd__by_gaps(const nsvcd__pairs *pairs,
     nsvcd__v at[NSVCD__GAPS];
     float wide[NSVCD__GAPS];
     size_t widest = 0;
-    nsvcd__gaps_at(pairs, &axes, extremes, nsvcd__v_set(tau), at);
+    nsvcd__gaps_at(pairs, axes, extremes, nsvcd__v_set(tau), at);
     nsvcd__first_lanes(at, NSVCD__GAPS, wide);
     for (size_t d = 1; d < NSVCD__GAPS; d++) widest = wide[d] > wide[widest] ? d : widest;
     for (size_t d = 0; d < NSVCD__GAPS; d++) {
-      const float gap = fabsf(view->inverse * wide[d]);
-      const float steep = NSVCD__GAP_STEEP;
-      const float steeper = d == widest ? NSVCD__WIDEST_STEEP : 0;
-      const float told = by[NSVCD__FACT_GAPS + NSVCD__MOMENTS * d + m];
-      const float by_told = told * steep / ((1 + steep * gap) * (1 + steep * gap));
-      const float by_widest =
-          by[NSVCD__FACT_WIDEST + m] * steeper / ((1 + steeper * gap) * (1 + steeper * gap));
-      const float by_gap = view->inverse * (by_told + by_widest);
-      const nsvcd__f3 u = nsvcd__first_f3(axes.u[d]);
-      const nsvcd__f3 more = nsvcd__by_gap(&pair, u, tau, moves, by_gap, out);
-      by_u[d] = nsvcd__f3_add(by_u[d], more);
+      const float size = fabsf(view->inverse * wide[d]);
+      const float own = by[NSVCD__FACT_GAPS + NSVCD__MOMENTS * d + m];
+      const float most = d == widest ? by[NSVCD__FACT_WIDEST + m] : 0;
+      const float by_own = nsvcd__by_gap_fact(own, size, NSVCD__GAP_STEEP);
+      const float by_most = nsvcd__by_gap_fact(most, size, NSVCD__WIDEST_STEEP);
+      const float by_gap = view->inverse * (by_own + by_most);
+      const nsvcd__f3 more = nsvcd__by_gap(pair, of_pair, u[d], tau, moves, by_gap, out);
+      nsvcd__add_to(&by_u[d], 1, more);
     }
   }
 
-  // By the axes, to what they are made of.
-  const nsvcd__f3 line = nsvcd__first_f3(axes.u[NSVCD__GAP_LINE]);
-  const float length = fmaxf(nsvcd__f3_length(pair.between), 1e-20f);
-  nsvcd__f3 by_moving = {0, 0, 0};
-  nsvcd__f3 by_line = {0, 0, 0};
-  nsvcd__gap_axes_made(fixed, view, line, made);
-  for (size_t d = 0; d < NSVCD__GAPS; d++) {
-    const nsvcd__f3 across = nsvcd__f3_across(by_u[d], nsvcd__first_f3(axes.u[d]));
-    by_moving = nsvcd__f3_fma(-made[d].of_moving / made[d].length, across, by_moving);
-    by_line = nsvcd__f3_fma(made[d].of_line / made[d].length, across, by_line);
-  }
-  out->p1 = nsvcd__f3_fma(1 / length, nsvcd__f3_across(by_line, line), out->p1);
-
+  nsvcd__f3 by_normal = nsvcd__by_gap_axes(pair, view, u, by_u, out);
   const float *facing = by + NSVCD__FACT_FACING;
   const float to_moving = view->swap > 0 ? facing[1] : facing[2];
   const float to_fixed = view->swap > 0 ? facing[2] : facing[1];
-  by_moving = nsvcd__f3_fma(facing[0], fixed, by_moving);
-  by_moving = nsvcd__f3_fma(to_moving, view->frame.x, by_moving);
-  seen->axis1 = nsvcd__f3_fma(to_moving, view->normal, seen->axis1);
-  seen->axis1 = nsvcd__f3_fma(to_fixed, fixed, seen->axis1);
-  out->rotation = nsvcd__f3_add(out->rotation, nsvcd__f3_cross(view->normal, by_moving));
+  nsvcd__add_to(&by_normal, facing[0], fixed);
+  nsvcd__add_to(&by_normal, to_moving, view->frame.x);
+  nsvcd__add_to(&seen->axis1, to_moving, view->normal);
+  nsvcd__add_to(&seen->axis1, to_fixed, fixed);
+  nsvcd__add_to(&out->rotation, 1, nsvcd__f3_cross(view->normal, by_normal));
 }
 
-// The adjoint of nsvcd__invariants for the pair in lane 0. x, by_x (DECODER_IN). The unit of length
-// is constant.
-static NSVCD__NOINLINE void nsvcd__by_invariants(const nsvcd__pairs *pairs, const float *x,
+// The adjoint of nsvcd__invariants for the pair in lane 0; x, by_x (DECODER_IN). The unit of length
+// is taken as constant.
+static NSVCD__NOINLINE void nsvcd__by_invariants(const nsvcd__pairs *pairs,
+                                                 const nsvcd__pair *pair, const float *x,
                                                  const float *by_x, nsvcd__by_pair *by) {
   nsvcd__views views;
   nsvcd__view view;
   nsvcd__views_of(pairs, &views);
   nsvcd__first_lanes(&views, sizeof view / sizeof(float), &view);
-  // Which way time runs. 0 at rest, to rounding: the logit is even in the motion, with a kink
+  // The direction of time; 0 at rest, to rounding: the logit is even in the motion, with a kink
   // there, and the mean of its two sides is 0.
   const float moves = nsvcd__f3_dot(view.v, view.v) + nsvcd__f3_dot(view.w, view.w);
   const float sign = moves < 1e-12f ? 0.0f : view.time * view.swap;
 
-  // Torques in the frame: on the moving patch's latent, then on all that the frame sees.
+  // torques in the frame: on the moving patch's latent, then on all that the frame sees
   const size_t facts = 2 * NSVCD__LATENT;
   const size_t first = view.swap > 0 ? 0 : NSVCD__VECTORS;
   const size_t second = NSVCD__VECTORS - first;
@@ -19382,39 +19306,40 @@ static NSVCD__NOINLINE void nsvcd__by_invariants(const nsvcd__pairs *pairs, cons
   seen.torque = nsvcd__f3_add(on_moving, on_fixed);
   nsvcd__by_facts(&view, x + facts, by_x + facts, &seen);
   memset(by, 0, sizeof *by);
-  nsvcd__by_gaps(pairs, &views, &view, fabsf(sign), by_x + facts, by, &seen);
+  nsvcd__by_gaps(pairs, &views, pair, &view, fabsf(sign), by_x + facts, by, &seen);
   nsvcd__by_frame(&view, &seen);
 
   const nsvcd__f3 lean1 = nsvcd__f3_scale(view.normal, view.swap * view.k1);
   const nsvcd__f3 turned = nsvcd__f3_scale(on_moving, view.side);
-  by->rotation = nsvcd__add_along_rows(by->rotation, &view.frame, turned);
-  by->rotation = nsvcd__f3_add(by->rotation, nsvcd__f3_cross(lean1, seen.lean));
-  by->p1 = nsvcd__f3_fma(-view.swap * view.inverse, seen.d, by->p1);
-  by->v = nsvcd__f3_fma(sign * view.inverse, seen.v, by->v);
-  by->w = nsvcd__f3_fma(sign, seen.w, by->w);
+  nsvcd__add_transpose(&by->rotation, &view.frame, turned);
+  nsvcd__add_to(&by->rotation, 1, nsvcd__f3_cross(lean1, seen.lean));
+  nsvcd__add_to(&by->p1, -view.swap * view.inverse, seen.d);
+  nsvcd__add_to(&by->v, sign * view.inverse, seen.v);
+  nsvcd__add_to(&by->w, sign, seen.w);
 }
 #endif  // NSVCD_NO_GRADIENT
 
 // ------------------------------------------------------------------------------- gradient/gradient
-// In: derivatives by the pair. Out: those by the poses of both movers.
+// In: derivatives by a pair. Out: those by the poses of both movers.
 
 #ifndef NSVCD_NO_GRADIENT
-// Adds to a wrench, row (6).
-static void nsvcd__wrench_add(nsvcd__f3 force, nsvcd__f3 torque, float *row) {
-  nsvcd__f3_store(nsvcd__f3_add(nsvcd__f3_load(row), force), row);
-  nsvcd__f3_store(nsvcd__f3_add(nsvcd__f3_load(row + 3), torque), row + 3);
+// Adds a force and a torque, times `scale`, to a wrench, row (6).
+static void nsvcd__add_wrench(float scale, nsvcd__f3 force, nsvcd__f3 torque, float *row) {
+  nsvcd__f3_store(nsvcd__f3_fma(scale, force, nsvcd__f3_load(row)), row);
+  nsvcd__f3_store(nsvcd__f3_fma(scale, torque, nsvcd__f3_load(row + 3)), row + 3);
 }
 
-// From a force and a torque on a body at time t, in the world, to `gradient` (count, 6), or NULL,
-// by its poses before and after t. Returns the derivative by t. With R = exp(2 u h n) A, on the
-// shorter arc from A to B = exp(2 h n) A, small rotations a of A and b of B (on the left) turn R
+// Adds to `gradient` (count, 6), or NULL, what a force and a torque on a body at time t, in the
+// world, are by its poses before and after t. Returns the derivative by t. Let R = exp(2 u h n) A,
+// on the shorter arc from A to B = exp(2 h n) A. Small rotations a of A and b of B (on the left)
+// turn R
 //   along n    by (1 - u) a + u b,
 //   across n   by sin((1 - u) h) / sin h of a, turned by u h about n,
 //              and sin(u h) / sin h of b, turned by -(1 - u) h.
 static float nsvcd__by_poses(const nsvcd__track *track, float t, nsvcd__f3 force,
-                             nsvcd__f3 torque, float *gradient) {
+                             nsvcd__f3 torque, float *out) {
   if (track->count == 1) {
-    if (gradient) nsvcd__wrench_add(force, torque, gradient);
+    if (out) nsvcd__add_wrench(1, force, torque, out);
     return 0;
   }
   float u;
@@ -19423,7 +19348,7 @@ static float nsvcd__by_poses(const nsvcd__track *track, float t, nsvcd__f3 force
   const float per_t = times ? 1 / (times[k + 1] - times[k]) : (float)(track->count - 1);
   const nsvcd_pose *a = &track->poses[k];
   const nsvcd_pose *b = &track->poses[k + 1];
-  // The turn from a to b on the shorter arc: by 2 h about n, of length 1, or 0 where nothing turns.
+  // From a to b on the shorter arc: a turn by 2 h about the unit vector n, or 0 if nothing turns.
   const nsvcd__quat qa = nsvcd__quat_unit(nsvcd__quat_load(a->rotation));
   const nsvcd__quat qb = nsvcd__quat_unit(nsvcd__quat_load(b->rotation));
   const nsvcd__quat nearer = nsvcd__quat_beside(qb, nsvcd__poses_opposed(a, b));
@@ -19432,13 +19357,13 @@ static float nsvcd__by_poses(const nsvcd__track *track, float t, nsvcd__f3 force
   const float inverse = sine > 0 ? 1 / sine : 0;
   const nsvcd__f3 n = nsvcd__f3_scale(axis, inverse);
   const float h = nsvcd__quat_arc(qa, nearer);
-  if (gradient) {
+  if (out) {
     const float wa = h > 1e-3f ? sinf((1 - u) * h) * inverse : 1 - u;
     const float wb = h > 1e-3f ? sinf(u * h) * inverse : u;
     const nsvcd__f3 on_a = nsvcd__turned(torque, n, 1 - u, wa, -u * h);
     const nsvcd__f3 on_b = nsvcd__turned(torque, n, u, wb, (1 - u) * h);
-    nsvcd__wrench_add(nsvcd__f3_scale(force, 1 - u), on_a, gradient + 6 * k);
-    nsvcd__wrench_add(nsvcd__f3_scale(force, u), on_b, gradient + 6 * (k + 1));
+    nsvcd__add_wrench(1, nsvcd__f3_scale(force, 1 - u), on_a, out + 6 * k);
+    nsvcd__add_wrench(1, nsvcd__f3_scale(force, u), on_b, out + 6 * (k + 1));
   }
   const nsvcd__f3 from = nsvcd__f3_load(a->position);
   const nsvcd__f3 moved = nsvcd__f3_sub(nsvcd__f3_load(b->position), from);
@@ -19448,36 +19373,35 @@ static float nsvcd__by_poses(const nsvcd__track *track, float t, nsvcd__f3 force
 
 // ---- instants and contact
 
-// Times at which the moving patch is looked at.
+// The times that matter of a candidate's motion.
 enum {
-  NSVCD__AT_ENTRY = 0,
-  NSVCD__AT_EXIT = 1,
-  NSVCD__AT_MIDDLE = 2,    // between these two
-  NSVCD__ENTRY_BEGIN = 3,  // the ends of the segment in which it enters,
+  NSVCD__ENTRY = 0,
+  NSVCD__EXIT = 1,
+  NSVCD__MIDDLE = 2,       // of these two
+  NSVCD__ENTRY_BEGIN = 3,  // the segment in which the balls meet
   NSVCD__ENTRY_END = 4,
-  NSVCD__EXIT_BEGIN = 5,  // and of that in which it leaves
+  NSVCD__EXIT_BEGIN = 5,  // the segment in which they separate
   NSVCD__EXIT_END = 6,
   NSVCD__INSTANTS = 7
 };
 
-// The moving patch at these times, in the fixed body's axes and units.
+// The moving patch's centre at these times, in the fixed body's axes and units.
 typedef struct nsvcd__instants {
   float t[NSVCD__INSTANTS];
-  // from the body's origin to its centre
-  float arm[3][NSVCD__LANES];
-  float position[3][NSVCD__LANES];  // its centre
-  // does it within the segment? else at one of its ends, and these do not move
+  float arm[3][NSVCD__LANES];  // from the body's origin
+  float position[3][NSVCD__LANES];
+  // inside of the segment? At one of its ends the time is constant
   int enters, leaves;
 } nsvcd__instants;
 
-// The instants of a candidate. time: of the segments' ends.
-static void nsvcd__instants_of(const nsvcd__task *task, const nsvcd__candidate *candidate,
+// time: of the segments' ends.
+static void nsvcd__instants_of(const nsvcd__task *task, const nsvcd__candidate *c,
                                const float *time, nsvcd__instants *at) {
-  const float t0 = candidate->t_enter;
-  const float t1 = candidate->t_exit;
-  const nsvcd__motion *motion = &task->motion;
-  const nsvcd__f3 own = nsvcd__centre_of(nsvcd__body_patches(task->moving), candidate->moving);
-  const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_scale(own, motion->scale));
+  const float t0 = c->t_enter;
+  const float t1 = c->t_exit;
+  const nsvcd__motion *m = &task->motion;
+  const nsvcd__f3 own = nsvcd__centre_of(nsvcd__body_patches(task->moving), c->moving);
+  const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_scale(own, m->scale));
   size_t a = 0;
   size_t b = 0;
   while (!(t0 < time[a + 1]) && time[a + 1] < 1) a++;
@@ -19490,23 +19414,22 @@ static void nsvcd__instants_of(const nsvcd__task *task, const nsvcd__candidate *
   for (size_t first = 0; first < NSVCD__INSTANTS; first += NSVCD__SLICE) {
     const size_t left = NSVCD__INSTANTS - first;
     const size_t count = left < NSVCD__SLICE ? left : NSVCD__SLICE;
-    const nsvcd__v_pose pose = nsvcd__v_poses_at(motion, t + first, count);
+    const nsvcd__v_pose pose = nsvcd__v_poses_at(m, t + first, count);
     const nsvcd__v3 arm = nsvcd__vmat3_apply(nsvcd__vmat3_of(pose.rotation), centre);
     nsvcd__v3_store(at->arm, first, arm);
     nsvcd__v3_store(at->position, first, nsvcd__v3_add(arm, pose.position));
   }
 }
 
-// From a force on the patch's centre at instant l, and a torque on the moving body, in the fixed
-// one's axes and units, to the derivatives by the poses of the moving body and of the fixed one:
-// out (2), of which one may be NULL. What is done to one body is done to the other the opposite
-// way. Returns the derivative by the time.
-static float nsvcd__by_instant(const nsvcd__motion *motion, nsvcd__instants *at, size_t l,
+// Adds to out (2), of which one may be NULL, what a force on the patch's centre at instant l and a
+// torque on the moving body, in the fixed body's axes and units, are by the poses of the moving
+// body and of the fixed one. The two wrenches are opposite. Returns the derivative by the time.
+static float nsvcd__by_instant(const nsvcd__motion *m, nsvcd__instants *at, size_t l,
                                nsvcd__f3 force, nsvcd__f3 torque, float *const *out) {
   const float t = at->t[l];
-  const float unit = motion->unit;
-  const nsvcd__world_pose moving = nsvcd__track_pose_at(&motion->moving, t);
-  const nsvcd__world_pose fixed = nsvcd__track_pose_at(&motion->fixed, t);
+  const float unit = m->unit;
+  const nsvcd__world_pose moving = nsvcd__track_pose_at(&m->moving, t);
+  const nsvcd__world_pose fixed = nsvcd__track_pose_at(&m->fixed, t);
   const nsvcd__mat3 axes = nsvcd__mat3_of(fixed.rotation);
   const nsvcd__f3 arm = nsvcd__d3_narrow(nsvcd__d3_sub(moving.position, fixed.position));
   const nsvcd__f3 moment = nsvcd__f3_cross(nsvcd__lane_of(at->arm, l), force);
@@ -19515,18 +19438,18 @@ static float nsvcd__by_instant(const nsvcd__motion *motion, nsvcd__instants *at,
   const nsvcd__f3 turn = nsvcd__mat3_apply(&axes, nsvcd__f3_add(torque, moment));
   const nsvcd__f3 back = nsvcd__f3_scale(push, -1);
   const nsvcd__f3 turn_back = nsvcd__f3_sub(nsvcd__f3_cross(arm, back), turn);
-  const float by_moving = nsvcd__by_poses(&motion->moving, t, push, turn, out[0]);
-  return by_moving + nsvcd__by_poses(&motion->fixed, t, back, turn_back, out[1]);
+  const float by_moving = nsvcd__by_poses(&m->moving, t, push, turn, out[0]);
+  return by_moving + nsvcd__by_poses(&m->fixed, t, back, turn_back, out[1]);
 }
 
-// The adjoint of the time at which the balls meet (AT_ENTRY) or part (AT_EXIT): y = x0 + tau x - c,
-// from the chord x of the segment, is as long as the sum of the radii; so y.(dy + x dtau) = 0.
-// Balls that only graze (y across x) do so for a time whose derivative has no limit: it is bounded
-// where float32 has no digits left.
-static void nsvcd__by_contact(const nsvcd__motion *motion, nsvcd__instants *at, size_t l,
+// The adjoint of the time at which the balls meet (ENTRY) or separate (EXIT). There y = x0 +
+// tau x - c, where x is the segment's chord, is as long as the sum of the radii, and so y.(dy + x
+// dtau) = 0. If the balls only graze (y across x), the derivative has no limit: it is bounded where
+// float32 has no digits left.
+static void nsvcd__by_contact(const nsvcd__motion *m, nsvcd__instants *at, size_t l,
                               nsvcd__f3 centre, float by_time, float *const *out) {
   const nsvcd__f3 none = {0, 0, 0};
-  const size_t s = l == NSVCD__AT_ENTRY ? NSVCD__ENTRY_BEGIN : NSVCD__EXIT_BEGIN;
+  const size_t s = l == NSVCD__ENTRY ? NSVCD__ENTRY_BEGIN : NSVCD__EXIT_BEGIN;
   const float length = at->t[s + 1] - at->t[s];
   const nsvcd__f3 start = nsvcd__lane_of(at->position, s);
   const float tau = (at->t[l] - at->t[s]) / length;
@@ -19536,44 +19459,45 @@ static void nsvcd__by_contact(const nsvcd__motion *motion, nsvcd__instants *at, 
   const float least = 1e-3f * nsvcd__f3_length(y) * nsvcd__f3_length(chord);
   const float dot = fabsf(nsvcd__f3_dot(y, chord));
   if (!(least > 0)) return;
-  const float along = l == NSVCD__AT_ENTRY ? length : -length;
+  const float along = l == NSVCD__ENTRY ? length : -length;
   const float rate = along * by_time / (dot > least ? dot : least);
   const nsvcd__f3 before = nsvcd__f3_scale(y, (1 - tau) * rate);
   const nsvcd__f3 after = nsvcd__f3_scale(y, tau * rate);
-  nsvcd__by_instant(motion, at, s, before, none, out);
-  nsvcd__by_instant(motion, at, s + 1, after, none, out);
+  nsvcd__by_instant(m, at, s, before, none, out);
+  nsvcd__by_instant(m, at, s + 1, after, none, out);
 }
 
-// The derivative of the decisive distance, or logit, by the poses, added to the gradients. time: of
-// the segments' ends.
-static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *decisive,
+// Adds the derivative of the decisive distance, or logit, by the poses to out (2). time: of the
+// segments' ends.
+static void nsvcd__gradient(const nsvcd__task *task, nsvcd__decisive *decisive,
                             const float *time, float *const *out) {
-  const nsvcd__motion *motion = &task->motion;
-  nsvcd__candidate candidate = decisive->candidate;
-  nsvcd__candidate *one = &candidate;
+  const nsvcd__motion *m = &task->motion;
+  nsvcd__candidate *c = &decisive->candidate;
   nsvcd__pairs pairs;
+  nsvcd__pair pair;
   nsvcd__by_pair by;
   nsvcd__instants at;
   float x[NSVCD__DECODER_IN];
   float by_x[NSVCD__DECODER_IN];
-  nsvcd__pairs_of(task->moving, task->fixed, motion, &one, 1, &pairs);
+  nsvcd__pairs_of(task->moving, task->fixed, m, &c, 1, &pairs);
+  nsvcd__first_lanes(&pairs, sizeof pair / sizeof(float), &pair);
   nsvcd__invariants(&pairs, 1, x);
   const int of_logit = !nsvcd__of_distance(task);
-  const size_t output = of_logit ? NSVCD__SAYS_LOGIT : NSVCD__SAYS_APART;
-  const float unit = of_logit ? 1 : 0.1f * nsvcd__candidate_reach(task, &candidate);
+  const size_t output = of_logit ? NSVCD__OUT_LOGIT : NSVCD__OUT_DISTANCE;
+  const float unit = of_logit ? 1 : 0.1f * nsvcd__candidate_reach(task, c);
   nsvcd__decoder_gradient(decisive->decoder, output, x, by_x);
   for (size_t k = 0; k < NSVCD__DECODER_IN; k++) by_x[k] *= unit;
-  nsvcd__by_invariants(&pairs, x, by_x, &by);
-  nsvcd__instants_of(task, &candidate, time, &at);
+  nsvcd__by_invariants(&pairs, &pair, x, by_x, &by);
+  nsvcd__instants_of(task, c, time, &at);
 
   // The adjoint of nsvcd__pairs_of. v = w x arm + (x1 - x0) / 2, where arm goes from the moving
   // centre half way to the other.
-  const nsvcd__f3 w = nsvcd__first_f3(pairs.w);
-  const nsvcd__f3 centre = nsvcd__first_f3(pairs.p2);
-  const nsvcd__f3 line = nsvcd__f3_sub(centre, nsvcd__lane_of(at.position, NSVCD__AT_MIDDLE));
+  const nsvcd__f3 w = pair.w;
+  const nsvcd__f3 middle = nsvcd__lane_of(at.position, NSVCD__MIDDLE);
+  const nsvcd__f3 line = nsvcd__f3_sub(pair.p2, middle);
   const nsvcd__f3 arm = nsvcd__f3_scale(line, 0.5f);
-  const nsvcd__f3 p1 = nsvcd__f3_fma(-0.5f, nsvcd__f3_cross(by.v, w), by.p1);
-  const nsvcd__f3 turn = nsvcd__f3_add(by.w, nsvcd__f3_cross(arm, by.v));
+  nsvcd__add_to(&by.p1, -0.5f, nsvcd__f3_cross(by.v, w));
+  nsvcd__add_to(&by.w, 1, nsvcd__f3_cross(arm, by.v));
   // w is half the rotation vector of R1 R0^-1: small rotations of R0 and R1 turn it as
   // nsvcd__by_poses says.
   const nsvcd__f3 none = {0, 0, 0};
@@ -19581,16 +19505,15 @@ static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *deci
   const float h = nsvcd__f3_length(w);
   const float half = 0.5f * (h > 1e-3f ? h / sinf(h) : 1);
   const nsvcd__f3 n = h > 0 ? nsvcd__f3_of(w.x / h, w.y / h, w.z / h) : none;
-  const float by_middle =
-      nsvcd__by_instant(motion, &at, NSVCD__AT_MIDDLE, p1, by.rotation, out);
-  for (size_t l = NSVCD__AT_ENTRY; l <= NSVCD__AT_EXIT; l++) {
-    const float side = l == NSVCD__AT_ENTRY ? -1.0f : 1.0f;
+  const float by_middle = nsvcd__by_instant(m, &at, NSVCD__MIDDLE, by.p1, by.rotation, out);
+  for (size_t l = NSVCD__ENTRY; l <= NSVCD__EXIT; l++) {
+    const float side = l == NSVCD__ENTRY ? -1.0f : 1.0f;
     const nsvcd__f3 force = nsvcd__f3_scale(by.v, 0.5f * side);
-    const nsvcd__f3 torque = nsvcd__turned(turn, n, 0.5f * side, half * side, h * side);
-    by_time[l] = 0.5f * by_middle + nsvcd__by_instant(motion, &at, l, force, torque, out);
+    const nsvcd__f3 torque = nsvcd__turned(by.w, n, 0.5f * side, half * side, h * side);
+    by_time[l] = 0.5f * by_middle + nsvcd__by_instant(m, &at, l, force, torque, out);
   }
-  if (at.enters) nsvcd__by_contact(motion, &at, NSVCD__AT_ENTRY, centre, by_time[0], out);
-  if (at.leaves) nsvcd__by_contact(motion, &at, NSVCD__AT_EXIT, centre, by_time[1], out);
+  if (at.enters) nsvcd__by_contact(m, &at, NSVCD__ENTRY, pair.p2, by_time[0], out);
+  if (at.leaves) nsvcd__by_contact(m, &at, NSVCD__EXIT, pair.p2, by_time[1], out);
 }
 
 // As nsvcd_sweep_gradient.
@@ -19656,18 +19579,18 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define NSVCD__ALONG_MOVING NSVCD__NUMBER_AT(ALONG_MOVING)
 #define NSVCD__ALONG_RESTING NSVCD__NUMBER_AT(ALONG_RESTING)
 #define NSVCD__ANSWERED NSVCD__NUMBER_AT(ANSWERED)
-#define NSVCD__AT_ENTRY NSVCD__NUMBER_AT(AT_ENTRY)
-#define NSVCD__AT_EXIT NSVCD__NUMBER_AT(AT_EXIT)
-#define NSVCD__AT_MIDDLE NSVCD__NUMBER_AT(AT_MIDDLE)
 #define NSVCD__AXES NSVCD__NUMBER_AT(AXES)
 #define NSVCD__BY_HULL NSVCD__NUMBER_AT(BY_HULL)
 #define NSVCD__BY_SLAB NSVCD__NUMBER_AT(BY_SLAB)
 #define NSVCD__BY_TRIANGLES NSVCD__NUMBER_AT(BY_TRIANGLES)
 #define NSVCD__CONTACTS NSVCD__NUMBER_AT(CONTACTS)
+#define NSVCD__DECODER_OUT NSVCD__NUMBER_AT(DECODER_OUT)
 #define NSVCD__DIRECTIONS NSVCD__NUMBER_AT(DIRECTIONS)
+#define NSVCD__ENTRY NSVCD__NUMBER_AT(ENTRY)
 #define NSVCD__ENTRY_BEGIN NSVCD__NUMBER_AT(ENTRY_BEGIN)
 #define NSVCD__ENTRY_END NSVCD__NUMBER_AT(ENTRY_END)
 #define NSVCD__EXHAUSTED NSVCD__NUMBER_AT(EXHAUSTED)
+#define NSVCD__EXIT NSVCD__NUMBER_AT(EXIT)
 #define NSVCD__EXIT_BEGIN NSVCD__NUMBER_AT(EXIT_BEGIN)
 #define NSVCD__EXIT_END NSVCD__NUMBER_AT(EXIT_END)
 #define NSVCD__FACTS NSVCD__NUMBER_AT(FACTS)
@@ -19693,20 +19616,22 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define NSVCD__GAP_LINE NSVCD__NUMBER_AT(GAP_LINE)
 #define NSVCD__GAP_SMALLER NSVCD__NUMBER_AT(GAP_SMALLER)
 #define NSVCD__INSTANTS NSVCD__NUMBER_AT(INSTANTS)
+#define NSVCD__MIDDLE NSVCD__NUMBER_AT(MIDDLE)
 #define NSVCD__NOTHING NSVCD__NUMBER_AT(NOTHING)
+#define NSVCD__OUT_DISTANCE NSVCD__NUMBER_AT(OUT_DISTANCE)
+#define NSVCD__OUT_LOGIT NSVCD__NUMBER_AT(OUT_LOGIT)
 #define NSVCD__RESOLVED NSVCD__NUMBER_AT(RESOLVED)
-#define NSVCD__SAYINGS NSVCD__NUMBER_AT(SAYINGS)
-#define NSVCD__SAYS_APART NSVCD__NUMBER_AT(SAYS_APART)
-#define NSVCD__SAYS_LOGIT NSVCD__NUMBER_AT(SAYS_LOGIT)
 #define NSVCD__SHRUNK NSVCD__NUMBER_AT(SHRUNK)
 #define NSVCD__SUPPORTING NSVCD__NUMBER_AT(SUPPORTING)
 #define NSVCD__TOO_LONG NSVCD__NUMBER_AT(TOO_LONG)
 #define NSVCD__TOUCHING NSVCD__NUMBER_AT(TOUCHING)
 #define nsvcd__across_edges NSVCD__AT(across_edges)
-#define nsvcd__add_along_rows NSVCD__AT(add_along_rows)
 #define nsvcd__add_dipoles NSVCD__AT(add_dipoles)
 #define nsvcd__add_part NSVCD__AT(add_part)
 #define nsvcd__add_patch_pairs NSVCD__AT(add_patch_pairs)
+#define nsvcd__add_to NSVCD__AT(add_to)
+#define nsvcd__add_transpose NSVCD__AT(add_transpose)
+#define nsvcd__add_wrench NSVCD__AT(add_wrench)
 #define nsvcd__aim_plane NSVCD__AT(aim_plane)
 #define nsvcd__all_segments NSVCD__AT(all_segments)
 #define nsvcd__answer_begin NSVCD__AT(answer_begin)
@@ -19751,6 +19676,8 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__by_facts NSVCD__AT(by_facts)
 #define nsvcd__by_frame NSVCD__AT(by_frame)
 #define nsvcd__by_gap NSVCD__AT(by_gap)
+#define nsvcd__by_gap_axes NSVCD__AT(by_gap_axes)
+#define nsvcd__by_gap_fact NSVCD__AT(by_gap_fact)
 #define nsvcd__by_gaps NSVCD__AT(by_gaps)
 #define nsvcd__by_instant NSVCD__AT(by_instant)
 #define nsvcd__by_invariants NSVCD__AT(by_invariants)
@@ -19816,10 +19743,8 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__cut_starts NSVCD__AT(cut_starts)
 #define nsvcd__decisive NSVCD__AT(decisive)
 #define nsvcd__decode NSVCD__AT(decode)
-#define nsvcd__decoder_by_bytes NSVCD__AT(decoder_by_bytes)
-#define nsvcd__decoder_by_floats NSVCD__AT(decoder_by_floats)
 #define nsvcd__decoder_gradient NSVCD__AT(decoder_gradient)
-#define nsvcd__decoder_says NSVCD__AT(decoder_says)
+#define nsvcd__decoder_run NSVCD__AT(decoder_run)
 #define nsvcd__deepen NSVCD__AT(deepen)
 #define nsvcd__deviation_of NSVCD__AT(deviation_of)
 #define nsvcd__dot_tile NSVCD__AT(dot_tile)
@@ -19832,6 +19757,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__end_of NSVCD__AT(end_of)
 #define nsvcd__epsilon NSVCD__AT(epsilon)
 #define nsvcd__exists NSVCD__AT(exists)
+#define nsvcd__exit_is_blocked NSVCD__AT(exit_is_blocked)
 #define nsvcd__extremes_along NSVCD__AT(extremes_along)
 #define nsvcd__extremes_collect NSVCD__AT(extremes_collect)
 #define nsvcd__f3_across NSVCD__AT(f3_across)
@@ -19843,7 +19769,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__find_witness NSVCD__AT(find_witness)
 #define nsvcd__find_witness_in NSVCD__AT(find_witness_in)
 #define nsvcd__finding NSVCD__AT(finding)
-#define nsvcd__first_f3 NSVCD__AT(first_f3)
 #define nsvcd__first_interval NSVCD__AT(first_interval)
 #define nsvcd__first_lanes NSVCD__AT(first_lanes)
 #define nsvcd__fixed_closed NSVCD__AT(fixed_closed)
@@ -19852,12 +19777,9 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__found_inside NSVCD__AT(found_inside)
 #define nsvcd__fraction_of NSVCD__AT(fraction_of)
 #define nsvcd__gap_after NSVCD__AT(gap_after)
-#define nsvcd__gap_axes NSVCD__AT(gap_axes)
-#define nsvcd__gap_axes_made NSVCD__AT(gap_axes_made)
 #define nsvcd__gap_axes_of NSVCD__AT(gap_axes_of)
-#define nsvcd__gap_axis NSVCD__AT(gap_axis)
-#define nsvcd__gap_pair NSVCD__AT(gap_pair)
-#define nsvcd__gap_told NSVCD__AT(gap_told)
+#define nsvcd__gap_fact NSVCD__AT(gap_fact)
+#define nsvcd__gap_facts NSVCD__AT(gap_facts)
 #define nsvcd__gaps_at NSVCD__AT(gaps_at)
 #define nsvcd__given NSVCD__AT(given)
 #define nsvcd__gradient NSVCD__AT(gradient)
@@ -19874,7 +19796,10 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__hull_vertices NSVCD__AT(hull_vertices)
 #define nsvcd__hulls_are_apart NSVCD__AT(hulls_are_apart)
 #define nsvcd__id_of NSVCD__AT(id_of)
-#define nsvcd__inputs_in NSVCD__AT(inputs_in)
+#define nsvcd__inputs NSVCD__AT(inputs)
+#define nsvcd__inputs_of NSVCD__AT(inputs_of)
+#define nsvcd__inputs_without_gaps NSVCD__AT(inputs_without_gaps)
+#define nsvcd__inputs_write NSVCD__AT(inputs_write)
 #define nsvcd__instants NSVCD__AT(instants)
 #define nsvcd__instants_of NSVCD__AT(instants_of)
 #define nsvcd__interval NSVCD__AT(interval)
@@ -19893,11 +19818,11 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__is_clear NSVCD__AT(is_clear)
 #define nsvcd__is_contained NSVCD__AT(is_contained)
 #define nsvcd__is_contained_at_start NSVCD__AT(is_contained_at_start)
+#define nsvcd__is_contained_in NSVCD__AT(is_contained_in)
 #define nsvcd__is_deep NSVCD__AT(is_deep)
 #define nsvcd__is_enclosed NSVCD__AT(is_enclosed)
 #define nsvcd__is_exhausted NSVCD__AT(is_exhausted)
 #define nsvcd__is_harmless NSVCD__AT(is_harmless)
-#define nsvcd__is_inside NSVCD__AT(is_inside)
 #define nsvcd__is_large NSVCD__AT(is_large)
 #define nsvcd__is_left NSVCD__AT(is_left)
 #define nsvcd__is_long NSVCD__AT(is_long)
@@ -19926,6 +19851,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__latent_torque NSVCD__AT(latent_torque)
 #define nsvcd__layer NSVCD__AT(layer)
 #define nsvcd__layer_by_bytes NSVCD__AT(layer_by_bytes)
+#define nsvcd__layer_by_floats NSVCD__AT(layer_by_floats)
 #define nsvcd__layer_of NSVCD__AT(layer_of)
 #define nsvcd__layer_tile NSVCD__AT(layer_tile)
 #define nsvcd__least_lane NSVCD__AT(least_lane)
@@ -19979,7 +19905,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__next_interval NSVCD__AT(next_interval)
 #define nsvcd__next_keyframe NSVCD__AT(next_keyframe)
 #define nsvcd__next_pose NSVCD__AT(next_pose)
-#define nsvcd__next_position NSVCD__AT(next_position)
+#define nsvcd__next_probe NSVCD__AT(next_probe)
 #define nsvcd__normal_met NSVCD__AT(normal_met)
 #define nsvcd__normal_to_try NSVCD__AT(normal_to_try)
 #define nsvcd__normals_separate NSVCD__AT(normals_separate)
@@ -19994,6 +19920,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__outcome NSVCD__AT(outcome)
 #define nsvcd__own_axis NSVCD__AT(own_axis)
 #define nsvcd__pace NSVCD__AT(pace)
+#define nsvcd__pair NSVCD__AT(pair)
 #define nsvcd__pair_contact NSVCD__AT(pair_contact)
 #define nsvcd__pair_nearest NSVCD__AT(pair_nearest)
 #define nsvcd__pair_of NSVCD__AT(pair_of)
@@ -20024,8 +19951,8 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__pose_of NSVCD__AT(pose_of)
 #define nsvcd__poses_at NSVCD__AT(poses_at)
 #define nsvcd__poses_opposed NSVCD__AT(poses_opposed)
-#define nsvcd__positions NSVCD__AT(positions)
-#define nsvcd__positions_measure NSVCD__AT(positions_measure)
+#define nsvcd__probes NSVCD__AT(probes)
+#define nsvcd__probes_measure NSVCD__AT(probes_measure)
 #define nsvcd__proof NSVCD__AT(proof)
 #define nsvcd__proof_begin NSVCD__AT(proof_begin)
 #define nsvcd__proof_constants_hold NSVCD__AT(proof_constants_hold)
@@ -20077,9 +20004,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__run_batch NSVCD__AT(run_batch)
 #define nsvcd__run_gradient NSVCD__AT(run_gradient)
 #define nsvcd__run_self_test NSVCD__AT(run_self_test)
-#define nsvcd__scenes NSVCD__AT(scenes)
-#define nsvcd__scenes_of NSVCD__AT(scenes_of)
-#define nsvcd__scenes_without_gaps NSVCD__AT(scenes_without_gaps)
 #define nsvcd__score NSVCD__AT(score)
 #define nsvcd__search NSVCD__AT(search)
 #define nsvcd__search_and_judge NSVCD__AT(search_and_judge)
@@ -20136,7 +20060,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__takes_push_out NSVCD__AT(takes_push_out)
 #define nsvcd__task NSVCD__AT(task)
 #define nsvcd__tell_contact NSVCD__AT(tell_contact)
-#define nsvcd__tell_gaps NSVCD__AT(tell_gaps)
 #define nsvcd__tell_manifold NSVCD__AT(tell_manifold)
 #define nsvcd__tell_safe_pose NSVCD__AT(tell_safe_pose)
 #define nsvcd__tick_of NSVCD__AT(tick_of)
@@ -20280,7 +20203,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__way_in NSVCD__AT(way_in)
 #define nsvcd__way_of NSVCD__AT(way_of)
 #define nsvcd__way_out NSVCD__AT(way_out)
-#define nsvcd__way_out_is_barred NSVCD__AT(way_out_is_barred)
 #define nsvcd__weights_at NSVCD__AT(weights_at)
 #define nsvcd__wigner NSVCD__AT(wigner)
 #define nsvcd__winding_number NSVCD__AT(winding_number)
@@ -20288,7 +20210,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__world_pose NSVCD__AT(world_pose)
 #define nsvcd__world_pose_between NSVCD__AT(world_pose_between)
 #define nsvcd__world_pose_of NSVCD__AT(world_pose_of)
-#define nsvcd__wrench_add NSVCD__AT(wrench_add)
 
 // ---- the passes
 
@@ -20420,14 +20341,15 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
 // ================================================================ plan: a motion that hits nothing
 
 // ------------------------------------------------------------------------------------- plan/spline
-// In: control points. Out: positions and derivatives; the weights of both.
+// In: control points (M + 2, F) of a spline. Out: the joints along it, their derivatives, and means
+// of squares of these.
 //
-// Control points -> positions and derivatives. All is linear in the control points, and the same
-// for each joint: what the joints are at one moment is a sum of the points by weights (M + 2), and
-// the mean of its square over the motion a quadratic form (M + 2, M + 2).
+// Everything is linear in the control points, and the same for each joint: a joint at a time is the
+// sum of its control points times weights (M + 2), and the mean of its square over the motion a
+// quadratic form (M + 2, M + 2).
 
 #ifndef NSVCD_NO_OPTIMIZER
-// A derivative at u of a polynomial of degree five, times `scale`.
+// The derivative of that order at u of a polynomial of degree 5, times `scale`.
 static double nsvcd__polynomial(const double *coefficients, double u, size_t derivative,
                                 double scale) {
   double value = 0;
@@ -20440,10 +20362,11 @@ static double nsvcd__polynomial(const double *coefficients, double u, size_t der
   return value;
 }
 
-// The weights (M + 2) of the control points in the joints' derivative of the given order by t.
+// The weights (M + 2) of the control points in the derivative of that order by t, which is clamped
+// to [0,1].
 static void nsvcd__spline_weights(size_t via, double t, size_t derivative, double *weights) {
-  // Polynomials of u in [0,1]: of the position, velocity and acceleration at its left end, then at
-  // its right.
+  // Hermite's polynomials of u in [0,1]: of the position, velocity and acceleration at its left
+  // end, then at its right.
   static const double basis[6][6] = {{1, 0, 0, -10, 15, -6},       {0, 1, 0, -6, 8, -3},
                                      {0, 0, 0.5, -1.5, 1.5, -0.5}, {0, 0, 0, 10, -15, 6},
                                      {0, 0, 0, -4, 7, -3},         {0, 0, 0, 0.5, -1, 0.5}};
@@ -20459,7 +20382,7 @@ static void nsvcd__spline_weights(size_t via, double t, size_t derivative, doubl
     const double(*polynomials)[6] = basis + 3 * end;
     const size_t point = left + end;
     weights[point] += nsvcd__polynomial(polynomials[0], u, derivative, scale);
-    // at rest
+    // both ends of the motion are at rest
     if (point == 0 || point == last) continue;
     const double velocity = nsvcd__polynomial(polynomials[1], u, derivative, scale);
     const double acceleration = nsvcd__polynomial(polynomials[2], u, derivative, scale);
@@ -20482,14 +20405,15 @@ NSVCDDEF void nsvcd_spline(const float *control, size_t via_points, size_t joint
   }
 }
 
-// Adds weight * mean over t of the derivative's square to the form (M + 2, M + 2). Five points of
-// Gauss and Legendre per piece: exact, as the squares are of degree 8 at most.
+// Adds to the form (M + 2, M + 2) `weight` times the mean over t of the derivative's square. By
+// Gauss-Legendre quadrature with five nodes a piece, which is exact: the squares are of degree 8 at
+// most.
 static void nsvcd__add_mean_square(size_t via, size_t derivative, double weight,
                                    double *form) {
   static const double nodes[5] = {0.046910077030668, 0.230765344947158, 0.5, 0.769234655052842,
                                   0.953089922969332};
-  static const double shares[5] = {0.118463442528095, 0.239314335249683, 0.284444444444444,
-                                   0.239314335249683, 0.118463442528095};
+  static const double gauss[5] = {0.118463442528095, 0.239314335249683, 0.284444444444444,
+                                  0.239314335249683, 0.118463442528095};
   const size_t count = via + 2;
   const double pieces = (double)(via + 1);
   double w[NSVCD_MAX_VIA_POINTS + 2];
@@ -20498,24 +20422,22 @@ static void nsvcd__add_mean_square(size_t via, size_t derivative, double weight,
       const double t = ((double)piece + nodes[n]) / pieces;
       nsvcd__spline_weights(via, t, derivative, w);
       for (size_t i = 0; i < count; i++) {
-        const double scaled = weight * shares[n] / pieces * w[i];
+        const double scaled = weight * gauss[n] / pieces * w[i];
         for (size_t j = 0; j < count; j++) form[i * count + j] += scaled * w[j];
       }
     }
   }
 }
 
-// L L^T = a, lower; a, l: (n, n), and may be the same. Of a symmetric positive definite a; what
-// rounding makes of it is kept positive.
-static void nsvcd__cholesky(const double *a, size_t n, double *l) {
+// Cholesky's factor L of a (n, n), symmetric and positive definite, in its lower triangle: L L^T =
+// a. What rounding makes negative is taken as small and positive. The upper triangle stays.
+static void nsvcd__cholesky(double *a, size_t n) {
   for (size_t i = 0; i < n; i++) {
     const double least = 1e-9 * a[i * n + i];
-    for (size_t j = 0; j < n; j++) {
+    for (size_t j = 0; j <= i; j++) {
       double sum = a[i * n + j];
-      for (size_t k = 0; k < (i < j ? i : j); k++) sum -= l[i * n + k] * l[j * n + k];
-      if (j < i) l[i * n + j] = sum / l[j * n + j];
-      if (j == i) l[i * n + i] = sqrt(sum > least ? sum : least);
-      if (j > i) l[i * n + j] = 0;
+      for (size_t k = 0; k < j; k++) sum -= a[i * n + k] * a[j * n + k];
+      a[i * n + j] = j < i ? sum / a[j * n + j] : sqrt(sum > least ? sum : least);
     }
   }
 }
@@ -20536,57 +20458,59 @@ static void nsvcd__solve_upper(const double *l, size_t n, double *x) {
 #endif  // NSVCD_NO_OPTIMIZER
 
 // ------------------------------------------------------------------------------------ plan/problem
-// In: a problem. Out: a planner: everything in the caller's workspace. The floor, top to bottom:
+// In: a problem and options. Out: a planner, laid out in the caller's workspace. The rooms of this
+// floor, each of which uses those before it:
 //
-//   problem     everything in the caller's workspace
-//   culling     which bodies may meet in which segments: a broad phase of whole bodies; poses along
-//               a trajectory -> cost, and its derivative by the poses (wrenches)
+//   spline      control points -> joints along a trajectory, and their derivatives
+//   problem     checks, defaults, memory
+//   culling     which bodies may meet in which segments; poses along a trajectory -> cost of
+//               collision, and its derivative by the poses (wrenches)
 //   cost        control points -> smoothness + limits + collision, and the derivative by the
 //               control points
 //   explore     MPPI: smooth random changes of a mean, weighted by exp(-cost / temperature)
 //   refine      L-BFGS with bundled gradients, in the metric of the smoothness
 //   plan        start and goal, several seeds, and the last check
 //
-// The planner asks as any program does, by the public functions. Of what is private to the floors
-// above entry it uses nsvcd__settings_of, nsvcd__poses_check and nsvcd__is_aligned, to refuse
-// what a query would, and NSVCD__ROUNDING.
+// The planner asks as any program does, by the public functions. Of the private ones of query and
+// motion it uses nsvcd__settings_of, nsvcd__poses_check and nsvcd__is_aligned, to refuse what a
+// query would refuse, and nsvcd__world_pose_between.
 //
-// A trajectory is looked at in *moments*, uniform in t, both ends among them; a *segment* lies
+// A trajectory is sampled at *moments*, uniform in t, both ends among them; a *segment* lies
 // between two of them. A *rollout* is one of MPPI's random trajectories; a *bundle* is the random
-// changes over which L-BFGS takes the mean of a gradient. Letters of shapes: M via points, F
-// joints, B bodies, P pairs.
+// changes over which L-BFGS averages a gradient. Letters of shapes: M via points, F joints, B
+// bodies, P pairs.
 
 #ifndef NSVCD_NO_OPTIMIZER
-// The schedule of the search.
-// cost: of joints out of their limits, per radian^2 or metre^2, mean over the moments
+// Cost of joints beyond their limits, per radian^2 or metre^2, averaged over the moments.
 #define NSVCD__LIMIT_COST 1e5f
-// cost: of a joint's range, kept free at both limits
+// That cost begins this share of a joint's range before the limit.
 #define NSVCD__LIMIT_MARGIN 0.005f
-// search: of patches that are looked at, shares of their radii: nsvcd_network_options.swell
+// Balls of patches grow by this share of their radii in the search:
+// nsvcd_network_options.inflate.
 #define NSVCD__PLAN_INFLATE 0.25f
-// collision: logits over which the cost grows from a slope of 0 to one of 1
+// Logits over which the slope of the cost of collision grows from 0 to 1.
 #define NSVCD__SOFT_LOGITS 2
-// collision: segments that one query asks about, where a first look may do
-#define NSVCD__FIRST_LOOK_SEGMENTS 8
-// gradient by differences: a joint's step, and what it grows by with the joint's value
+// Segments that one query may rule out together.
+#define NSVCD__RUN_SEGMENTS 8
+// A joint's step for differences: a constant, and a share of its value.
 #define NSVCD__JOINT_STEP 1e-3f
 #define NSVCD__JOINT_STEP_FRACTION 1e-6f
-// explore: temperatures above the least cost at which a rollout weighs nothing
+// MPPI: a rollout this many temperatures above the least cost weighs nothing.
 #define NSVCD__WEIGHTLESS 10
-// explore: one in so many rollouts costs less than the least cost and two temperatures
+// MPPI: the temperature is such that one in this many rollouts is within two of the least cost.
 #define NSVCD__ELITE 10
-// explore: how far the mean goes towards that of the rollouts
+// MPPI: the mean moves by this share towards the rollouts' mean.
 #define NSVCD__MEAN_STEP 0.9f
-// explore: it ends after so many iterations without a gain of 1 %, once the best is free
+// MPPI: ends after this many iterations without a gain of 1 %, once the best is free.
 #define NSVCD__PATIENCE 3
-// refine: steps of L-BFGS that are remembered; step lengths that are tried
+// L-BFGS: steps that are remembered, and step lengths that are tried.
 #define NSVCD__HISTORY 8
 #define NSVCD__STEPS 5
-// plan: refinements more, with a wider margin, where the proof finds a hit
-#define NSVCD__PUSHES 3
-// plan: segments of the last check to one of the finest stage
+// Further refinements, each with a wider margin, while the proof finds hits.
+#define NSVCD__RETRIES 3
+// Segments of the last check for each of the finest stage.
 #define NSVCD__CHECKS 16
-// plan: looks, at least, at how far a piece of the spline deviates
+// Times, at least, at which the deviation of a piece of the spline is measured.
 #define NSVCD__DEVIATION_SAMPLES 16
 
 // A body, in its own axes: its bounding sphere, and the box of its patches.
@@ -20598,103 +20522,78 @@ typedef struct nsvcd__shape {
 // A body at a moment.
 typedef struct nsvcd__stance {
   nsvcd__transform pose;
-  nsvcd__f3 centre;  // of its bounding sphere, from its origin, in the world's axes
-  // of its turn to the next moment: the root of 1 - cos of half the angle
+  // of its bounding sphere, from its origin, in the world's axes
+  nsvcd__f3 centre;
+  // sqrt(1 - cos(h)), if it turns by 2 h until the next moment
   float bend;
 } nsvcd__stance;
 
-// One way of looking at trajectories: while exploring, refining, or for the last check.
+// How trajectories are sampled and searched: exploring, refining, or in the last check.
 typedef struct nsvcd__stage {
   size_t via, moments;  // M; segments + 1
-  // of the via points, M F
-  size_t numbers;
-  // of all control points
-  size_t bytes;
+  size_t numbers;       // M F
+  size_t bytes;         // of all control points
   size_t iterations;
-  // rollouts of an iteration, or gradients in a bundle
-  size_t draws;
-  // their standard deviation, radians or metres
-  float noise;
-  double *form;  // (M + 2, M + 2): smoothness
-  // (M, M): Cholesky's, of the rows and columns of the via points
-  double *factor;
-  // of factor^-T times normal numbers: the greatest of a via point
-  double deviation;
-  // (moments, M + 2): of the control points, in the joints
-  float *weights;
+  size_t draws;      // rollouts of an iteration, or gradients in a bundle
+  float noise;       // their standard deviation, radians or metres
+  double *form;      // (M + 2, M + 2): smoothness
+  double *factor;    // (M, M): Cholesky's, of the via points' rows and columns
+  double deviation;  // the largest of a via point, of factor^-T times normal numbers
+  float *weights;    // (moments, M + 2): of the control points, in the joints
 } nsvcd__stage;
-
-typedef struct nsvcd__planner {
-  const nsvcd_plan_problem *problem;
-  // with the defaults filled in
-  nsvcd_plan_options options;
-  nsvcd__stage explore, refine, check;
-  // workspace of queries
-  void *query;
-  size_t query_size;
-  uint64_t random;  // the state of the random numbers
-  // the first that a query or a pose gave
-  nsvcd_result error;
-  size_t trajectories, sweeps;
-  // the one that is searched from
-  size_t seed;
-  // of all seeds, both stages
-  size_t iterations;
-  // by the progress callback
-  int cancelled;
-
-  // the trajectory that is looked at
-  float *path;  // (moments, F)
-  // (moments, B)
-  nsvcd_pose *poses;
-  // (moments, B)
-  nsvcd__stance *stances;
-  nsvcd__shape *shapes;  // (B)
-  // (moments): may the pair at hand meet there?
-  unsigned char *meets;
-  // (P): pairs, in the order in which they are looked at
-  uint32_t *queue;
-  float *wrenches;  // (moments, B, 6)
-  // (B): at a moment, with one joint moved
-  nsvcd_pose *moved;
-  float *jacobian;  // (B, 6, F)
-  // (F): derivative by the joints of a moment
-  float *by_path;
-
-  // control points, (M + 2, F) each; the gradient's and those below have rows for via points only
-  float *result;  // the best of all seeds
-  // where the search is: MPPI's mean, L-BFGS's last point
-  float *control;
-  float *best;  // of this seed
-  // the one that is costed
-  float *trial;
-  float *gradient;  // at `trial`, (M + 2, F)
-  // means of offsets, or of gradients
-  float *sum;
-  // a change, or a direction
-  float *offset;
-  float *drawn;  // (draws, M, F): the random changes
-  // (draws): of rollouts, then their weights
-  float *costs;
-  float *steps;  // (HISTORY, M, F): of L-BFGS,
-  // (HISTORY, M, F): and what they changed in the gradient
-  float *changes;
-  // (M + 2): scratch
-  double *vector;
-} nsvcd__planner;
 
 // What a trajectory costs.
 typedef struct nsvcd__cost {
   float total, smoothness, collision;
-  int collides;  // in what was looked at
-  // that leaves its limits, or NSVCD_NONE
-  size_t joint;
-  // of the last check, which looks closer: the most suspicious moment, and who is suspected
+  int collides;  // at the moments or in the segments that were asked about
+  size_t joint;  // that leaves its limits, or NSVCD_NONE
+  // the greatest logit of a query, its time and its pair
   float logit, time;
   size_t pair;
-  // a proof has found it, of what is inside too, or could not rule it out
-  int proven;
+  int proven;  // that query was answered by proof, and did not find the pair free
 } nsvcd__cost;
+
+typedef struct nsvcd__planner {
+  const nsvcd_plan_problem *in;  // the problem
+  nsvcd_plan_options options;    // with the defaults filled in
+  nsvcd__stage explore, refine, check;
+  void *query;  // workspace of queries
+  size_t query_size;
+  uint64_t random;                      // the state of the random numbers
+  float first_noise[NSVCD_MAX_JOINTS];  // deviations of the first rollouts
+  nsvcd_result error;                   // of a query or a pose
+  int cancelled;                        // by the progress callback
+  nsvcd_plan_answer answer;             // what is counted so far
+  nsvcd__cost cost;                     // of start or goal, then of `result`
+
+  // the trajectory at hand
+  float *path;             // (moments, F)
+  nsvcd_pose *poses;       // (moments, B)
+  nsvcd__stance *stances;  // (moments, B)
+  nsvcd__shape *shapes;    // (B)
+  unsigned char *meets;    // (moments): may the pair at hand meet there?
+  uint32_t *queue;         // (P): pairs, in the order of queries
+  float *wrenches;         // (moments, B, 6)
+  nsvcd_pose *moved;       // (B): at a moment, with one joint moved
+  float *jacobian;         // (B, 6, F)
+  float *by_path;          // (F): derivative by the joints at a moment
+
+  // control points, (M + 2, F) each
+  float *result;    // the best of all seeds
+  float *control;   // MPPI's mean, or L-BFGS's last point
+  float *best;      // of this seed
+  float *trial;     // whose cost is wanted
+  float *gradient;  // there
+
+  // via points, (M, F) each
+  float *sum;      // mean of offsets, or of gradients
+  float *offset;   // a change, or a direction
+  float *drawn;    // (draws, M, F): the random changes
+  float *costs;    // (draws): of rollouts, then their weights
+  float *steps;    // (HISTORY, M, F): of L-BFGS
+  float *changes;  // (HISTORY, M, F): of the gradient, by these steps
+  double *vector;  // (M + 2): scratch
+} nsvcd__planner;
 
 static const nsvcd__cost nsvcd__no_cost = {
     0, 0, 0, 0, NSVCD_NONE, -NSVCD_LOGIT_CERTAIN, 0, NSVCD_NONE, 0};
@@ -20709,53 +20608,50 @@ static size_t nsvcd__larger(size_t a, size_t b) {
   return a > b ? a : b;
 }
 
-// A weight: the default where 0 is given, 0 where it is negative.
+// A weight: the default for 0, and 0 for what is negative.
 static float nsvcd__weight_of(float given, float otherwise) {
   return given > 0 ? given : given < 0 ? 0 : otherwise;
 }
 
-// A stage of what the caller gave, and the defaults where that is 0. Returns 0 for what cannot be.
-static int nsvcd__stage_of(const nsvcd_plan_stage *given, nsvcd_plan_stage defaults,
+// A stage as the caller gave it, with the defaults for zeros. Returns 0 if it is out of range.
+static int nsvcd__stage_of(const nsvcd_plan_stage *given, nsvcd_plan_stage otherwise,
                            nsvcd__stage *stage) {
-  const size_t segments = given->segments ? given->segments : defaults.segments;
-  stage->via = given->via_points ? given->via_points : defaults.via_points;
+  const size_t segments = given->segments ? given->segments : otherwise.segments;
+  stage->via = given->via_points ? given->via_points : otherwise.via_points;
   stage->moments = segments + 1;
-  stage->iterations = given->iterations ? given->iterations : defaults.iterations;
+  stage->iterations = given->iterations ? given->iterations : otherwise.iterations;
   if (given->iterations == NSVCD_NONE) stage->iterations = 0;
-  stage->draws = given->draws ? given->draws : defaults.draws;
-  stage->noise = nsvcd__weight_of(given->noise, defaults.noise);
-  if (stage->via > NSVCD_MAX_VIA_POINTS || segments > NSVCD_MAX_PLAN_SEGMENTS) return 0;
-  return stage->draws <= 10000 && stage->iterations <= 100000;
+  stage->draws = given->draws ? given->draws : otherwise.draws;
+  stage->noise = nsvcd__weight_of(given->noise, otherwise.noise);
+  return stage->via <= NSVCD_MAX_VIA_POINTS && segments <= NSVCD_MAX_PLAN_SEGMENTS &&
+         stage->draws <= 10000 && stage->iterations <= 100000;
 }
 
-// Is the problem one that can be stated?
-static nsvcd_result nsvcd__problem_check(const nsvcd_plan_problem *problem) {
-  if (!problem || !problem->kinematics) return NSVCD_ERROR_ARGUMENT;
-  if (problem->joints < 1 || problem->joints > NSVCD_MAX_JOINTS) return NSVCD_ERROR_COUNT;
-  if (problem->body_count > 65536) return NSVCD_ERROR_COUNT;
-  if (!problem->low || !problem->high || !problem->start || !problem->goal)
+// Is the problem well formed?
+static nsvcd_result nsvcd__problem_check(const nsvcd_plan_problem *in) {
+  if (!in || !in->kinematics) return NSVCD_ERROR_ARGUMENT;
+  if (in->joints < 1 || in->joints > NSVCD_MAX_JOINTS || in->body_count > 65536)
+    return NSVCD_ERROR_COUNT;
+  if (!in->low || !in->high || !in->start || !in->goal) return NSVCD_ERROR_ARGUMENT;
+  const int by_network = !in->collision;
+  if (in->pair_count > 0 && (!in->pairs || (by_network && !in->bodies)))
     return NSVCD_ERROR_ARGUMENT;
-  const int by_network = !problem->collision;
-  if (problem->pair_count > 0 && (!problem->pairs || (by_network && !problem->bodies)))
-    return NSVCD_ERROR_ARGUMENT;
-  // those that are NULL have no shape
-  for (size_t b = 0; problem->bodies && b < problem->body_count; b++) {
-    const nsvcd_body *body = problem->bodies[b];
-    const nsvcd_result result = body ? nsvcd__body_check(body, SIZE_MAX) : NSVCD_OK;
-    if (result) return result;
+  // a body in no pair may be NULL
+  for (size_t b = 0; in->bodies && b < in->body_count; b++) {
+    const nsvcd_body *body = in->bodies[b];
+    const nsvcd_result error = body ? nsvcd__body_check(body, SIZE_MAX) : NSVCD_OK;
+    if (error) return error;
   }
-  for (size_t k = 0; k < problem->pair_count; k++) {
-    const size_t a = problem->pairs[k].a;
-    const size_t b = problem->pairs[k].b;
-    if (a >= problem->body_count || b >= problem->body_count || a == b)
-      return NSVCD_ERROR_PAIR;
-    if (by_network && (!problem->bodies[a] || !problem->bodies[b]))
-      return NSVCD_ERROR_ARGUMENT;
+  for (size_t k = 0; k < in->pair_count; k++) {
+    const size_t a = in->pairs[k].a;
+    const size_t b = in->pairs[k].b;
+    if (a >= in->body_count || b >= in->body_count || a == b) return NSVCD_ERROR_PAIR;
+    if (by_network && (!in->bodies[a] || !in->bodies[b])) return NSVCD_ERROR_ARGUMENT;
   }
   return NSVCD_OK;
 }
 
-// Fills in the defaults.
+// Checks problem and options; fills in the defaults.
 static nsvcd_result nsvcd__planner_settings(const nsvcd_plan_problem *problem,
                                             const nsvcd_plan_options *options,
                                             nsvcd__planner *p) {
@@ -20764,27 +20660,26 @@ static nsvcd_result nsvcd__planner_settings(const nsvcd_plan_problem *problem,
   static const nsvcd_plan_stage refine = {10, 22, 10, 10, 0.01f};
   nsvcd__settings unused;
   memset(p, 0, sizeof *p);
-  nsvcd_result result = nsvcd__problem_check(problem);
-  if (result) return result;
-  p->problem = problem;
+  nsvcd_result error = nsvcd__problem_check(problem);
+  if (error) return error;
+  p->in = problem;
   if (options) p->options = *options;
   nsvcd_plan_options *o = &p->options;
-  const float floats[] = {o->velocity, o->acceleration, o->jerk,          o->collision,
-                          o->duration, o->margin,       o->explore.noise, o->refine.noise};
-  for (size_t k = 0; k < sizeof floats / sizeof *floats; k++) {
-    if (!nsvcd__is_finite(floats[k])) return NSVCD_ERROR_PLAN;
-  }
-  result = nsvcd__settings_of(&o->sweep.network, 1, 1, &unused);
-  if (result) return result;
-  if (!nsvcd__stage_of(&o->explore, explore, &p->explore)) return NSVCD_ERROR_STAGE;
-  if (!nsvcd__stage_of(&o->refine, refine, &p->refine)) return NSVCD_ERROR_STAGE;
+  const float floats[8] = {o->velocity, o->acceleration, o->jerk,          o->collision,
+                           o->duration, o->margin,       o->explore.noise, o->refine.noise};
+  if (!nsvcd__in_range(floats, 8, FLT_MAX)) return NSVCD_ERROR_PLAN;
+  error = nsvcd__settings_of(&o->sweep.network, 1, 1, &unused);
+  if (error) return error;
+  if (!nsvcd__stage_of(&o->explore, explore, &p->explore) ||
+      !nsvcd__stage_of(&o->refine, refine, &p->refine))
+    return NSVCD_ERROR_STAGE;
   if (o->refine.iterations == NSVCD_NONE) p->refine.via = p->explore.via;
 
   o->seeds = o->seeds ? o->seeds : 6;
   o->velocity = nsvcd__weight_of(o->velocity, 10);
   o->acceleration = nsvcd__weight_of(o->acceleration, 2);
   o->jerk = nsvcd__weight_of(o->jerk, 10);
-  // something must be least
+  // some form has to be positive definite
   if (!(o->velocity > 0 || o->acceleration > 0 || o->jerk > 0)) o->velocity = 1e-3f;
   o->collision = nsvcd__weight_of(o->collision, 20);
   o->duration = o->duration > 0 ? o->duration : 20;
@@ -20799,24 +20694,24 @@ static nsvcd_result nsvcd__planner_settings(const nsvcd_plan_problem *problem,
   return o->check <= most && o->seeds <= 1000 ? NSVCD_OK : NSVCD_ERROR_PLAN;
 }
 
-// The next rows of so many floats of a workspace: nsvcd__take.
+// nsvcd__take, of rows of floats.
 static float *nsvcd__take_floats(char *base, uint64_t *used, size_t rows, size_t floats) {
   return (float *)nsvcd__take(base, used, rows, floats * sizeof(float));
 }
 
-// Lays the planner's memory out in base, or, where that is NULL, only measures. Returns the bytes;
-// 0 if they are more than can be counted.
+// Lays the planner's arrays out from `base` on, or, if that is NULL, only measures them. Returns
+// the bytes; 0 if they exceed SIZE_MAX.
 static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
   nsvcd__stage *const stages[3] = {&p->explore, &p->refine, &p->check};
   float **const points[7] = {&p->result,   &p->control, &p->best,  &p->trial,
                              &p->gradient, &p->sum,     &p->offset};
-  const size_t f = p->problem->joints;
-  const size_t bodies = p->problem->body_count;
+  const size_t f = p->in->joints;
+  const size_t bodies = p->in->body_count;
   const size_t via = nsvcd__larger(p->explore.via, p->refine.via);
   const size_t draws = nsvcd__larger(p->explore.draws, p->refine.draws);
-  const size_t searched = nsvcd__larger(p->explore.moments, p->refine.moments);
-  const size_t moments = nsvcd__larger(p->check.moments, searched);
-  const size_t placed = moments * bodies;
+  const size_t finest = nsvcd__larger(p->explore.moments, p->refine.moments);
+  const size_t moments = nsvcd__larger(p->check.moments, finest);
+  const size_t poses = moments * bodies;
   const size_t point = (via + 2) * f;
   uint64_t used = 0;
 
@@ -20834,12 +20729,12 @@ static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
   }
 
   p->path = nsvcd__take_floats(base, &used, moments, f);
-  p->poses = (nsvcd_pose *)nsvcd__take(base, &used, placed, sizeof(nsvcd_pose));
-  p->stances = (nsvcd__stance *)nsvcd__take(base, &used, placed, sizeof(nsvcd__stance));
+  p->poses = (nsvcd_pose *)nsvcd__take(base, &used, poses, sizeof(nsvcd_pose));
+  p->stances = (nsvcd__stance *)nsvcd__take(base, &used, poses, sizeof(nsvcd__stance));
   p->shapes = (nsvcd__shape *)nsvcd__take(base, &used, bodies, sizeof(nsvcd__shape));
   p->meets = (unsigned char *)nsvcd__take(base, &used, moments, 1);
-  p->queue = (uint32_t *)nsvcd__take(base, &used, p->problem->pair_count, sizeof(uint32_t));
-  p->wrenches = nsvcd__take_floats(base, &used, placed, 6);
+  p->queue = (uint32_t *)nsvcd__take(base, &used, p->in->pair_count, sizeof(uint32_t));
+  p->wrenches = nsvcd__take_floats(base, &used, poses, 6);
   p->moved = (nsvcd_pose *)nsvcd__take(base, &used, bodies, sizeof(nsvcd_pose));
   p->jacobian = nsvcd__take_floats(base, &used, bodies, 6 * f);
   p->by_path = nsvcd__take_floats(base, &used, 1, f);
@@ -20853,7 +20748,7 @@ static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
   return used <= SIZE_MAX ? (size_t)used : 0;
 }
 
-// Fills in what a stage knows beforehand.
+// Fills in what a stage computes once.
 static void nsvcd__stage_init(const nsvcd_plan_options *o, nsvcd__stage *stage) {
   const double weights[3] = {(double)o->velocity, (double)o->acceleration, (double)o->jerk};
   const size_t via = stage->via;
@@ -20867,11 +20762,10 @@ static void nsvcd__stage_init(const nsvcd_plan_options *o, nsvcd__stage *stage) 
   }
   for (size_t k = 0; k < via * via; k++)
     stage->factor[k] = stage->form[(k / via + 1) * all + k % via + 1];
-  // in place: row i is read before it is written
-  nsvcd__cholesky(stage->factor, via, stage->factor);
+  nsvcd__cholesky(stage->factor, via);
 
-  stage->deviation = 0;
   // the variance of via point k is |L^-1 e_k|^2
+  stage->deviation = 0;
   for (size_t k = 0; k < via; k++) {
     double square = 0;
     for (size_t i = 0; i < via; i++) w[i] = i == k;
@@ -20889,31 +20783,31 @@ static void nsvcd__stage_init(const nsvcd_plan_options *o, nsvcd__stage *stage) 
 #endif  // NSVCD_NO_OPTIMIZER
 
 // ------------------------------------------------------------------------------------ plan/culling
-// A plan asks about each pair in each segment, and most of these are far from a collision. This
-// rules them out for less than a query costs. It is a broad phase of whole bodies along a whole
-// trajectory; that of search/search then goes through the patches of two bodies in one segment.
-//
 // In: the poses at the moments, and of each body its bounding sphere and the box of its patches.
-// Out: for a pair, p->meets (moments): 0 where the query about the segment from there on would
-// certify it free.
+// Out: the cost of collision and its derivative by the poses.
 //
-// Nothing is missed, for the box about the ends of a sphere's way is grown by all that the way may
-// deviate. The motion is the query's: as b sees it, a's origin goes straight, and a turns evenly
-// about one axis by an angle c, no more than what a and b turn in the world. Two tests rule out:
+// A plan asks about each pair in each segment, and most of these are far from a collision. A broad
+// phase of whole bodies rules those out for less than a query costs: p->meets (moments) is 0 where
+// a query about the segment that begins there would prove it free. (The broad phase of
+// search/search then goes through the patches of two bodies in one segment.)
+//
+// It is conservative. A sphere's centre is covered by the box about its two ends, which grows by as
+// much as the centre may deviate from their chord. The motion is the query's: as b sees it, a's
+// origin goes straight, and a turns evenly about one axis by an angle c, which is at most what a
+// and b turn in the world. Either of two tests rules a pair out:
 //
 //   a's sphere against b's box. Its centre turns about a's origin on an arc of radius `arm` or
-//   less, and deviates by no more than the arc's height, arm (1 - cos(c / 2)).
+//   less, and deviates by at most the arc's height, arm (1 - cos(c / 2)).
 //
 //   b's sphere against a's box. As a sees it, its centre v moves and turns at once. It deviates by
-//   no more than an eighth of its acceleration, c^2 |v| + 2 c |u|, u being its displacement in b's
-//   axes, which is no longer than that in a's axes + c |v|. In all: c (c |v| 3 / 8 + displacement
-//   in a's axes / 4).
+//   at most an eighth of its acceleration, c^2 |v| + 2 c |u|, where u is its displacement in b's
+//   axes: at most that in a's axes + c |v|. In all: c (c |v| 3 / 8 + displacement in a's axes / 4).
 
 #ifndef NSVCD_NO_OPTIMIZER
 // The shapes of all bodies.
 static void nsvcd__find_shapes(nsvcd__planner *p) {
-  for (size_t b = 0; p->problem->bodies && b < p->problem->body_count; b++) {
-    const nsvcd_body *body = p->problem->bodies[b];
+  for (size_t b = 0; p->in->bodies && b < p->in->body_count; b++) {
+    const nsvcd_body *body = p->in->bodies[b];
     nsvcd__shape shape = {{{0, 0, 0}, 0},
                           {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}}};
     float position[3];
@@ -20932,11 +20826,11 @@ static void nsvcd__find_shapes(nsvcd__planner *p) {
   }
 }
 
-// The stances of all bodies at the moments of p->poses.
+// The stances of all bodies, from p->poses.
 static void nsvcd__find_stances(nsvcd__planner *p, size_t moments) {
-  const size_t bodies = p->problem->body_count;
-  for (size_t b = 0; p->problem->bodies && b < bodies; b++) {
-    if (!p->problem->bodies[b]) continue;
+  const size_t bodies = p->in->body_count;
+  for (size_t b = 0; p->in->bodies && b < bodies; b++) {
+    if (!p->in->bodies[b]) continue;
     for (size_t s = 0; s < moments; s++) {
       const nsvcd_pose *pose = &p->poses[s * bodies + b];
       const nsvcd_pose *next = s + 1 < moments ? pose + bodies : pose;
@@ -20952,18 +20846,19 @@ static void nsvcd__find_stances(nsvcd__planner *p, size_t moments) {
   }
 }
 
-// Does the bounding sphere of `body` stay away from the box of `other`, by the clearance, from
-// moment s to s + stride? rests: `body` is the one that rests in the query, and `other` moves.
+// Does the bounding sphere of `body` stay farther than the clearance from the box of `other`, from
+// moment s to s + stride? rests: in the query `body` rests, and `other` moves.
 static inline int nsvcd__passes_by(const nsvcd__planner *p, size_t body, size_t other,
                                    int rests, size_t s, size_t stride) {
   const nsvcd__sphere *sphere = &p->shapes[body].sphere;
   const nsvcd__box *box = &p->shapes[other].box;
-  const nsvcd__stance *now = p->stances + s * p->problem->body_count;
-  // its centre as `other` sees it at both ends, and how far it is from that one's origin, in sum
+  const nsvcd__stance *now = p->stances + s * p->in->body_count;
+  // the sphere's centre as `other` sees it at both ends, and the sum of its distances from the
+  // origin of `other`
   nsvcd__f3 seen[2];
   float distance = 0;
   for (size_t k = 0; k < 2; k++) {
-    const nsvcd__stance *at = now + k * stride * p->problem->body_count;
+    const nsvcd__stance *at = now + k * stride * p->in->body_count;
     const nsvcd__transform *from = &at[other].pose;
     const nsvcd__f3 origin = nsvcd__f3_sub(at[body].pose.position, from->position);
     const nsvcd__f3 centre = nsvcd__f3_add(origin, at[body].centre);
@@ -20971,16 +20866,16 @@ static inline int nsvcd__passes_by(const nsvcd__planner *p, size_t body, size_t 
     distance += nsvcd__f3_length(centre);
   }
 
-  // That root of the sum of two angles is no more than the sum of the roots, and c < 3.15 bend.
+  // The root of 1 - cos of a sum of angles is at most the sum of their roots, and c < 3.15 bend.
   const float bend = now[body].bend + now[other].bend;
-  float deviations = nsvcd__f3_length(sphere->centre) * bend * bend;
+  float deviation = nsvcd__f3_length(sphere->centre) * bend * bend;
   if (rests) {
     const nsvcd__f3 travel = nsvcd__f3_sub(seen[1], seen[0]);
     const float length = fabsf(travel.x) + fabsf(travel.y) + fabsf(travel.z);
-    deviations = (3.75f * bend * distance + 0.8f * length) * bend;
+    deviation = (3.75f * bend * distance + 0.8f * length) * bend;
   }
-  const float apart = 1.00001f * sphere->radius + p->options.sweep.clearance;
-  const float grown = apart + (float)stride * deviations + NSVCD__ROUNDING * distance;
+  const float radius = 1.00001f * sphere->radius + p->options.sweep.clearance;
+  const float grown = radius + (float)stride * deviation + NSVCD__ROUNDING * distance;
   const nsvcd__f3 about = nsvcd__f3_of(grown, grown, grown);
   const nsvcd__f3 low = nsvcd__f3_min(seen[0], seen[1]);
   const nsvcd__f3 high = nsvcd__f3_max(seen[0], seen[1]);
@@ -20988,7 +20883,7 @@ static inline int nsvcd__passes_by(const nsvcd__planner *p, size_t body, size_t 
          nsvcd__f3_exceeds(nsvcd__f3_sub(box->low, about), high);
 }
 
-// Marks the segments (stride 1), or the moments (stride 0), in which a pair may meet: p->meets.
+// Marks in p->meets the segments (stride 1) or moments (stride 0) in which a pair may meet.
 static void nsvcd__find_meetings(nsvcd__planner *p, const nsvcd_body_pair *pair,
                                  size_t moments, size_t stride) {
   for (size_t s = 0; s + stride < moments; s++) {
@@ -21001,19 +20896,18 @@ static void nsvcd__find_meetings(nsvcd__planner *p, const nsvcd_body_pair *pair,
 
 // The pose of a as b sees it.
 static nsvcd_pose nsvcd__relative_pose(const nsvcd_pose *a, const nsvcd_pose *b) {
-  const nsvcd__quat turned = nsvcd__quat_load(b->rotation);
-  const nsvcd__mat3 axes = nsvcd__mat3_of(turned);
+  const nsvcd__quat q = nsvcd__quat_load(b->rotation);
+  const nsvcd__mat3 axes = nsvcd__mat3_of(q);
   const nsvcd__f3 from = nsvcd__f3_load(b->position);
   const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__f3_load(a->position), from);
-  const nsvcd__quat to_b = nsvcd__quat_inverse(turned);
+  const nsvcd__quat back = nsvcd__quat_inverse(q);
   nsvcd_pose out;
   nsvcd__f3_store(nsvcd__mat3_apply_transpose(&axes, offset), out.position);
-  nsvcd__quat_store(nsvcd__quat_mul(to_b, nsvcd__quat_load(a->rotation)), out.rotation);
+  nsvcd__quat_store(nsvcd__quat_mul(back, nsvcd__quat_load(a->rotation)), out.rotation);
   return out;
 }
 
-// What a logit costs: nothing below -margin, and above it its excess, but for a soft beginning.
-// *slope: the derivative by the logit.
+// The cost of a logit: its excess over -margin, with a smooth onset. *slope: the derivative by it.
 static float nsvcd__cost_of_logit(float logit, float margin, float *slope) {
   const float x = logit + margin;
   const float soft = NSVCD__SOFT_LOGITS;
@@ -21021,45 +20915,41 @@ static float nsvcd__cost_of_logit(float logit, float margin, float *slope) {
   return x <= 0 ? 0 : x < soft ? 0.5f * x * x / soft : x - 0.5f * soft;
 }
 
-// Adds to the wrenches (B, 6) one on a that b sees, (6) in its axes, times `scale`, and what that
-// does to b. A wrench is the derivative by a pose: by the position, and by a small rotation about
-// it. poses: (B).
-static void nsvcd__add_wrench(const nsvcd_body_pair *pair, const nsvcd_pose *poses,
-                              float scale, const float *seen, float *wrenches) {
+// Adds to the wrenches (B, 6) a wrench on a (6), in b's axes, times `scale`, and the opposite one
+// on b. A wrench is the derivative by a pose: by its position, and by a small rotation about that.
+// poses: (B).
+static void nsvcd__add_wrench_on_pair(const nsvcd_body_pair *pair, const nsvcd_pose *poses,
+                                      float scale, const float *wrench, float *wrenches) {
   const nsvcd__mat3 axes = nsvcd__mat3_of(nsvcd__quat_load(poses[pair->b].rotation));
-  const nsvcd__f3 force = nsvcd__mat3_apply(&axes, nsvcd__f3_load(seen));
-  const nsvcd__f3 torque = nsvcd__mat3_apply(&axes, nsvcd__f3_load(seen + 3));
+  const nsvcd__f3 force = nsvcd__mat3_apply(&axes, nsvcd__f3_load(wrench));
+  const nsvcd__f3 torque = nsvcd__mat3_apply(&axes, nsvcd__f3_load(wrench + 3));
   const nsvcd__f3 from = nsvcd__f3_load(poses[pair->b].position);
   const nsvcd__f3 arm = nsvcd__f3_sub(nsvcd__f3_load(poses[pair->a].position), from);
   const nsvcd__f3 back = nsvcd__f3_add(torque, nsvcd__f3_cross(arm, force));
-  for (size_t k = 0; k < 4; k++) {
-    const float by = k < 2 ? scale : -scale;
-    float *row = wrenches + 6 * (k < 2 ? pair->a : pair->b) + 3 * (k % 2);
-    const nsvcd__f3 moment = k < 2 ? torque : back;
-    nsvcd__f3_store(nsvcd__f3_fma(by, k % 2 ? moment : force, nsvcd__f3_load(row)), row);
-  }
+  nsvcd__add_wrench(scale, force, torque, wrenches + 6 * pair->a);
+  nsvcd__add_wrench(-scale, force, back, wrenches + 6 * pair->b);
 }
 
-// A logit of any answer: what is undecided counts as a hit.
+// A logit for any answer. An undecided one counts as a hit.
 static float nsvcd__logit_of(const nsvcd_answer *answer) {
   if (answer->verdict != NSVCD_UNDECIDED && answer->opinion.asked)
     return answer->opinion.logit;
   return answer->verdict == NSVCD_FREE ? -NSVCD_LOGIT_CERTAIN : NSVCD_LOGIT_CERTAIN;
 }
 
-// The answer about pair k from moment `first` on, over so many segments: by the network, or, at the
-// end, by the method of the options. gradient: (segments + 1, 6), or NULL.
+// The answer about pair k from moment `first` on, over so many segments: by the network, or, in the
+// last check, by the method of the options. gradient: (segments + 1, 6), or NULL.
 static nsvcd_answer nsvcd__ask_segments(nsvcd__planner *p, uint32_t k, size_t first,
                                         size_t segments, int at_end, float *gradient) {
-  const nsvcd_body_pair *pair = &p->problem->pairs[k];
-  nsvcd_pose motion[NSVCD__FIRST_LOOK_SEGMENTS + 1];
+  const nsvcd_body_pair *pair = &p->in->pairs[k];
+  nsvcd_pose motion[NSVCD__RUN_SEGMENTS + 1];
   for (size_t n = 0; n <= segments; n++) {
-    const nsvcd_pose *row = p->poses + (first + n) * p->problem->body_count;
+    const nsvcd_pose *row = p->poses + (first + n) * p->in->body_count;
     motion[n] = nsvcd__relative_pose(&row[pair->a], &row[pair->b]);
   }
 
-  const nsvcd_mover a = {p->problem->bodies[pair->a], motion, segments + 1, NULL, 0};
-  const nsvcd_mover b = {p->problem->bodies[pair->b], NULL, 0, NULL, 0};
+  const nsvcd_mover a = {p->in->bodies[pair->a], motion, segments + 1, NULL, 0};
+  const nsvcd_mover b = {p->in->bodies[pair->b], NULL, 0, NULL, 0};
   nsvcd_question question = p->options.sweep;
   question.a = a;
   question.b = b;
@@ -21070,41 +20960,36 @@ static nsvcd_answer nsvcd__ask_segments(nsvcd__planner *p, uint32_t k, size_t fi
     question.method = NSVCD_METHOD_NETWORK;
     question.clearance = 0;
     question.slop = 0;
-    // a slope before contact
+    // so that there is a slope before contact
     if (question.network.inflate <= 0) question.network.inflate = NSVCD__PLAN_INFLATE;
   }
 
   nsvcd_answer answer;
   nsvcd_result error;
   memset(&answer, 0, sizeof answer);
-  // of an error
-  answer.verdict = NSVCD_FREE;
+  answer.verdict = NSVCD_FREE;  // on an error
   if (gradient)
     error = nsvcd_sweep_gradient(&question, p->query, p->query_size, &answer, gradient, NULL);
   else
     error = nsvcd_sweep(&question, p->query, p->query_size, &answer);
   if (error) p->error = error;
-  p->sweeps++;
+  p->answer.sweeps++;
   return answer;
 }
 
-// How a trajectory, p->poses, is asked about.
+// How p->poses are asked about.
 typedef struct nsvcd__asking {
   size_t moments;
-  // 1: segments are asked about, 0: moments
-  size_t stride;
-  // it is the last check
-  int at_end;
-  // a sum beyond it is not finished
-  float limit;
-  // (moments, B, 6), added to, or NULL
-  float *wrenches;
+  size_t stride;    // 1: in segments, 0: at moments
+  int at_end;       // in the last check
+  float limit;      // the sum may stop beyond it
+  float *wrenches;  // (moments, B, 6), added to, or NULL
 } nsvcd__asking;
 
-// Adds what pair k costs from moment s to s + stride.
+// Adds the cost of pair k from moment s to s + stride.
 static void nsvcd__add_segment(nsvcd__planner *p, uint32_t k, size_t s,
                                const nsvcd__asking *how, nsvcd__cost *cost) {
-  const nsvcd_body_pair *pair = &p->problem->pairs[k];
+  const nsvcd_body_pair *pair = &p->in->pairs[k];
   float gradient[2 * 6];
   float slope;
   float *wanted = how->wrenches ? gradient : NULL;
@@ -21117,34 +21002,34 @@ static void nsvcd__add_segment(nsvcd__planner *p, uint32_t k, size_t s,
     const float at = (float)s + (float)how->stride * t;
     cost->logit = logit;
     cost->pair = k;
-    // only a proof takes work
+    // the network does no work
     cost->proven = collides && answer.work > 0;
     cost->time = how->moments > 1 ? at / (float)(how->moments - 1) : 0;
   }
   cost->collides |= collides;
   cost->collision += nsvcd__cost_of_logit(logit, p->options.margin, &slope);
   for (size_t i = 0; wanted && slope > 0 && i <= how->stride; i++) {
-    const size_t row = (s + i) * p->problem->body_count;
-    nsvcd__add_wrench(pair, p->poses + row, slope, gradient + 6 * i, how->wrenches + 6 * row);
+    const size_t row = (s + i) * p->in->body_count;
+    nsvcd__add_wrench_on_pair(pair, p->poses + row, slope, gradient + 6 * i,
+                              how->wrenches + 6 * row);
   }
 }
 
-// Adds what pair k costs along the trajectory.
+// Adds the cost of pair k along the trajectory.
 static void nsvcd__add_pair(nsvcd__planner *p, uint32_t k, const nsvcd__asking *how,
                             nsvcd__cost *cost) {
-  const int skips_ahead = how->stride && !how->at_end;
   const size_t end = how->moments - how->stride;
-  // up to here segments have had a first look
-  size_t seen = 0;
-  nsvcd__find_meetings(p, &p->problem->pairs[k], how->moments, how->stride);
+  const int in_runs = how->stride && !how->at_end;
+  size_t asked = 0;  // runs before this segment have been
+  nsvcd__find_meetings(p, &p->in->pairs[k], how->moments, how->stride);
   for (size_t s = 0; s < end && cost->collision <= how->limit && !p->error; s++) {
     if (!p->meets[s]) continue;
-    if (skips_ahead && s >= seen) {
-      // The segments that follow in which the pair may meet, at once: if they are far from a
-      // collision, that is all.
+    if (in_runs && s >= asked) {
+      // A run of segments in which the pair may meet, all in one query. If that is far from a
+      // collision, the run costs nothing.
       size_t run = 1;
-      while (run < NSVCD__FIRST_LOOK_SEGMENTS && s + run < end && p->meets[s + run]) run++;
-      seen = s + run;
+      while (run < NSVCD__RUN_SEGMENTS && s + run < end && p->meets[s + run]) run++;
+      asked = s + run;
       if (run > 1) {
         const nsvcd_answer answer = nsvcd__ask_segments(p, k, s, run, 0, NULL);
         if (nsvcd__logit_of(&answer) <= -p->options.margin) {
@@ -21157,25 +21042,24 @@ static void nsvcd__add_pair(nsvcd__planner *p, uint32_t k, const nsvcd__asking *
   }
 }
 
-// Adds the collision cost of p->poses, by the problem's own function or by the network, up to the
-// first sum above `limit`. wrenches: (moments, B, 6), added to, or NULL. at_end: of the last check.
+// Adds the cost of collision of p->poses, by the problem's own function or by queries, up to the
+// first sum above `limit`. wrenches: (moments, B, 6), added to, or NULL. at_end: in the last check.
 static void nsvcd__add_collision(nsvcd__planner *p, size_t moments, float limit,
                                  float *wrenches, int at_end, nsvcd__cost *cost) {
-  const nsvcd_plan_problem *problem = p->problem;
   const size_t stride = !p->options.discrete && moments > 1;
   const nsvcd__asking how = {moments, stride, at_end, limit, wrenches};
-  if (problem->collision) {
+  if (p->in->collision) {
     cost->collision =
-        problem->collision(problem->user, p->poses, moments, limit, &cost->collides, wrenches);
+        p->in->collision(p->in->user, p->poses, moments, limit, &cost->collides, wrenches);
     cost->logit = cost->collision;
     return;
   }
   nsvcd__find_stances(p, moments);
-  for (size_t n = 0; n < problem->pair_count && cost->collision <= limit; n++) {
+  for (size_t n = 0; n < p->in->pair_count && cost->collision <= limit; n++) {
     const uint32_t k = p->queue[n];
     const float before = cost->collision;
     nsvcd__add_pair(p, k, &how, cost);
-    // what costs comes earlier next time, so that bad trajectories end early
+    // A pair that costs comes earlier next time, so that bad trajectories end early.
     if (n > 0 && cost->collision > before) {
       p->queue[n] = p->queue[n - 1];
       p->queue[n - 1] = k;
@@ -21185,24 +21069,23 @@ static void nsvcd__add_collision(nsvcd__planner *p, size_t moments, float limit,
 #endif  // NSVCD_NO_OPTIMIZER
 
 // --------------------------------------------------------------------------------------- plan/cost
-// In: control points. Out: smoothness + limits + collision, and the derivative by the control
-// points.
+// In: control points. Out: what they cost, smoothness + limits + collision, and its derivative by
+// them.
 
 #ifndef NSVCD_NO_OPTIMIZER
-// The derivative by the joints of one moment, p->by_path (F), from the wrenches (B, 6) there, by
+// From the wrenches (B, 6) at a moment to the derivative by its joints, p->by_path (F), by
 // differences of `kinematics`. poses: (B), at these joints.
 static void nsvcd__by_differences(nsvcd__planner *p, const float *joints,
                                   const nsvcd_pose *poses, const float *wrenches) {
-  const nsvcd_plan_problem *problem = p->problem;
   float moved[NSVCD_MAX_JOINTS];
-  memcpy(moved, joints, problem->joints * sizeof *moved);
-  for (size_t j = 0; j < problem->joints; j++) {
+  memcpy(moved, joints, p->in->joints * sizeof *moved);
+  for (size_t j = 0; j < p->in->joints; j++) {
     moved[j] = joints[j] + (NSVCD__JOINT_STEP + NSVCD__JOINT_STEP_FRACTION * fabsf(joints[j]));
     const float step = moved[j] - joints[j];  // as rounded
-    problem->kinematics(problem->user, moved, p->moved);
+    p->in->kinematics(p->in->user, moved, p->moved);
     moved[j] = joints[j];
     p->by_path[j] = 0;
-    for (size_t b = 0; b < problem->body_count; b++) {
+    for (size_t b = 0; b < p->in->body_count; b++) {
       const nsvcd__quat q = nsvcd__quat_load(poses[b].rotation);
       const nsvcd__quat r = nsvcd__quat_load(p->moved[b].rotation);
       const float twice = nsvcd__quat_dot(q, r) < 0 ? -2.0f : 2.0f;
@@ -21215,21 +21098,16 @@ static void nsvcd__by_differences(nsvcd__planner *p, const float *joints,
   }
 }
 
-// The poses of all bodies (moments, B), their quaternions made of unit length, from the joints
-// (moments, F).
-static void nsvcd__place(nsvcd__planner *p, const float *joints, size_t moments,
-                         nsvcd_pose *poses) {
-  const nsvcd_plan_problem *problem = p->problem;
-  const size_t bodies = problem->body_count;
+// The poses (moments, B) at joints (moments, F), with quaternions of unit length.
+static void nsvcd__find_poses(nsvcd__planner *p, const float *joints, size_t moments,
+                              nsvcd_pose *poses) {
+  const size_t bodies = p->in->body_count;
   const size_t count = moments * bodies;
   for (size_t s = 0; s < moments; s++)
-    problem->kinematics(problem->user, joints + s * problem->joints, poses + s * bodies);
-  const nsvcd_result placed = count > 0 ? nsvcd__poses_check(poses, count) : NSVCD_OK;
-  if (placed) {
-    p->error = placed;
-    return;
-  }
-  for (size_t k = 0; k < count; k++) {
+    p->in->kinematics(p->in->user, joints + s * p->in->joints, poses + s * bodies);
+  const nsvcd_result error = count > 0 ? nsvcd__poses_check(poses, count) : NSVCD_OK;
+  if (error) p->error = error;
+  for (size_t k = 0; k < count && !error; k++) {
     const nsvcd__quat unit = nsvcd__quat_unit(nsvcd__quat_load(poses[k].rotation));
     nsvcd__quat_store(unit, poses[k].rotation);
   }
@@ -21238,7 +21116,7 @@ static void nsvcd__place(nsvcd__planner *p, const float *joints, size_t moments,
 // The smoothness of a trajectory; gradient: (M + 2, F), written, or NULL.
 static float nsvcd__smoothness(const nsvcd__planner *p, const nsvcd__stage *stage,
                                const float *control, float *gradient) {
-  const size_t f = p->problem->joints;
+  const size_t f = p->in->joints;
   const size_t all = stage->via + 2;
   double smoothness = 0;
   for (size_t j = 0; j < f; j++) {
@@ -21258,18 +21136,16 @@ static int nsvcd__leaves_limits(const nsvcd_plan_problem *problem, size_t joint,
   return value < problem->low[joint] - rounding || value > problem->high[joint] + rounding;
 }
 
-// Fills p->path with the joints at the moments of a trajectory, and adds what it costs that they
-// leave their limits, or come nearer to these than the margin. gradient: (M + 2, F), added to, or
-// NULL.
+// Fills p->path with the joints at the moments. Adds the cost of those beyond their limits, or
+// within the margin before these. gradient: (M + 2, F), added to, or NULL.
 static void nsvcd__add_limits(nsvcd__planner *p, const nsvcd__stage *stage,
                               const float *control, float *gradient, nsvcd__cost *cost) {
-  const nsvcd_plan_problem *problem = p->problem;
-  const size_t f = problem->joints;
+  const size_t f = p->in->joints;
   const size_t all = stage->via + 2;
   const float fraction = NSVCD__LIMIT_COST / (float)stage->moments;
-  // via points too: moments may be few, and miss one
+  // via points too: moments may be too few to hit one
   for (size_t k = f; k < f + stage->numbers && cost->joint == NSVCD_NONE; k++) {
-    if (nsvcd__leaves_limits(problem, k % f, control[k])) cost->joint = k % f;
+    if (nsvcd__leaves_limits(p->in, k % f, control[k])) cost->joint = k % f;
   }
   for (size_t s = 0; s < stage->moments; s++) {
     const float *w = stage->weights + s * all;
@@ -21278,25 +21154,24 @@ static void nsvcd__add_limits(nsvcd__planner *p, const nsvcd__stage *stage,
       for (size_t k = 0; k < all; k++) value += w[k] * control[k * f + j];
       p->path[s * f + j] = value;
 
-      const float low = problem->low[j];
-      const float high = problem->high[j];
+      const float low = p->in->low[j];
+      const float high = p->in->high[j];
       const float inner = NSVCD__LIMIT_MARGIN * (high - low);
       float out = value > high - inner ? value - high + inner : 0;
       if (value < low + inner) out = value - low - inner;
       cost->total += fraction * out * out;
-      if (nsvcd__leaves_limits(problem, j, value)) cost->joint = j;
+      if (nsvcd__leaves_limits(p->in, j, value)) cost->joint = j;
       for (size_t k = 0; gradient && k < all; k++)
         gradient[k * f + j] += 2 * fraction * out * w[k];
     }
   }
 }
 
-// Adds to the gradient by the control points what p->wrenches say.
-static void nsvcd__add_wrenches(nsvcd__planner *p, const nsvcd__stage *stage,
-                                float *gradient) {
-  const nsvcd_plan_problem *problem = p->problem;
-  const size_t f = problem->joints;
-  const size_t numbers = 6 * problem->body_count;
+// Adds the derivative of the cost of collision, from p->wrenches, to the gradient (M + 2, F).
+static void nsvcd__add_collision_gradient(nsvcd__planner *p, const nsvcd__stage *stage,
+                                          float *gradient) {
+  const size_t f = p->in->joints;
+  const size_t numbers = 6 * p->in->body_count;
   const size_t all = stage->via + 2;
   for (size_t s = 0; s < stage->moments; s++) {
     const float *joints = p->path + s * f;
@@ -21305,15 +21180,15 @@ static void nsvcd__add_wrenches(nsvcd__planner *p, const nsvcd__stage *stage,
     for (size_t k = 0; k < numbers && !has_any; k++)
       has_any = wrenches[k] < 0 || wrenches[k] > 0;
     if (!has_any) continue;
-    if (problem->jacobian) {
-      problem->jacobian(problem->user, joints, p->jacobian);
+    if (p->in->jacobian) {
+      p->in->jacobian(p->in->user, joints, p->jacobian);
       for (size_t j = 0; j < f; j++) {
         p->by_path[j] = 0;
         for (size_t i = 0; i < numbers; i++)
           p->by_path[j] += wrenches[i] * p->jacobian[i * f + j];
       }
     } else {
-      nsvcd__by_differences(p, joints, p->poses + s * problem->body_count, wrenches);
+      nsvcd__by_differences(p, joints, p->poses + s * p->in->body_count, wrenches);
     }
     for (size_t k = 0; k < all; k++) {
       const float weight = p->options.collision * stage->weights[s * all + k];
@@ -21322,53 +21197,54 @@ static void nsvcd__add_wrenches(nsvcd__planner *p, const nsvcd__stage *stage,
   }
 }
 
-// What the trajectory costs, up to `limit`: a sum beyond it is not finished. gradient: (M + 2, F),
-// written, or NULL. at_end: by the last check.
+// The cost of a trajectory; the sum may stop beyond `limit`. gradient: (M + 2, F), written, or
+// NULL.
 static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage,
-                                  const float *control, float limit, float *gradient,
-                                  int at_end) {
-  const size_t numbers = 6 * stage->moments * p->problem->body_count;
+                                  const float *control, float limit, float *gradient) {
+  const size_t numbers = 6 * stage->moments * p->in->body_count;
   const float weight = p->options.collision;
+  const int at_end = stage == &p->check;
   float *wrenches = gradient ? p->wrenches : NULL;
   nsvcd__cost cost = nsvcd__no_cost;
-  p->trajectories++;
+  p->answer.trajectories++;
   cost.smoothness = nsvcd__smoothness(p, stage, control, gradient);
   cost.total = cost.smoothness;
   nsvcd__add_limits(p, stage, control, gradient, &cost);
   if (cost.total > limit || p->error) return cost;
-  nsvcd__place(p, p->path, stage->moments, p->poses);
+  nsvcd__find_poses(p, p->path, stage->moments, p->poses);
   if (p->error) return cost;
 
   const float left = weight > 0 ? (limit - cost.total) / weight : INFINITY;
   if (wrenches) memset(wrenches, 0, numbers * sizeof *wrenches);
-  // begins
-  NSVCD__TALLY(collision, 0);
+  NSVCD__TALLY(collision, 0);  // begins
   nsvcd__add_collision(p, stage->moments, left, wrenches, at_end, &cost);
-  // ends
-  NSVCD__TALLY(collision, 1);
+  NSVCD__TALLY(collision, 1);  // ends
   cost.total += weight * cost.collision;
-  if (gradient) nsvcd__add_wrenches(p, stage, gradient);
+  if (gradient) nsvcd__add_collision_gradient(p, stage, gradient);
   if (!nsvcd__is_finite(cost.total)) p->error = NSVCD_ERROR_NUMBER;
   return cost;
 }
 #endif  // NSVCD_NO_OPTIMIZER
 
 // ------------------------------------------------------------------------------------ plan/explore
-// In: a mean of control points. Out: a better one: smooth random changes, weighted by exp(-cost /
-// temperature).
+// In: control points. Out: better ones, by MPPI (Williams et al. 2017): their mean moves to that of
+// smooth random changes, weighted by exp(-cost / temperature).
+//
+// Differences from the article: via points of a spline are changed, not the controls of a dynamic
+// system; the temperature and the deviations of the changes follow the costs of the rollouts.
 
 #ifndef NSVCD_NO_OPTIMIZER
-// A normal number: Box and Muller.
+// A standard normal number: Box and Muller.
 static double nsvcd__normal(nsvcd__planner *p) {
   const double size = nsvcd__random(&p->random);
   return sqrt(-2 * log(size)) * cos(6.283185307179586 * nsvcd__random(&p->random));
 }
 
-// A smooth random change of the via points, (M, F), zero at the ends: its inverse covariance is the
-// form of the smoothness, scaled so that the greatest deviation of a joint is deviations (F).
+// A smooth random change of the via points, (M, F), zero at the ends. Its inverse covariance is the
+// form of the smoothness, scaled: the largest standard deviation of a joint is deviations (F).
 static void nsvcd__smooth_noise(nsvcd__planner *p, const nsvcd__stage *stage,
                                 const float *deviations, float *out) {
-  const size_t f = p->problem->joints;
+  const size_t f = p->in->joints;
   const size_t via = stage->via;
   for (size_t j = 0; j < f; j++) {
     for (size_t k = 0; k < via; k++) p->vector[k] = nsvcd__normal(p);
@@ -21378,56 +21254,44 @@ static void nsvcd__smooth_noise(nsvcd__planner *p, const nsvcd__stage *stage,
   }
 }
 
-// control + scale * offset (M, F), with via points taken into the limits: out (M + 2, F).
+// out (M + 2, F) = control + scale * offset (M, F), with via points clamped to the limits.
 static void nsvcd__change(const nsvcd__planner *p, const nsvcd__stage *stage,
                           const float *control, const float *offset, float scale, float *out) {
-  const size_t f = p->problem->joints;
+  const size_t f = p->in->joints;
   memcpy(out, control, stage->bytes);
   for (size_t k = 0; k < stage->numbers; k++) {
     const float x = control[f + k] + scale * offset[k];
-    const float low = p->problem->low[k % f];
-    const float high = p->problem->high[k % f];
-    // high where x is not a number
+    const float low = p->in->low[k % f];
+    const float high = p->in->high[k % f];
+    // NaN becomes `high`
     out[f + k] = x < low ? low : x < high ? x : high;
   }
 }
 
-// Counts an iteration and tells the caller how far it has come, which may cancel the search.
+// Counts an iteration, and reports to the caller, who may cancel the search.
 static void nsvcd__report(nsvcd__planner *p, size_t iteration, const nsvcd__stage *stage,
                           const nsvcd__cost *best) {
   const int refining = stage == &p->refine;
-  const nsvcd_plan_progress progress = {p->seed,  iteration,   stage->iterations,
-                                        refining, best->total, best->collision,
-                                        p->best,  stage->via};
-  p->iterations++;
-  if (p->problem->progress) p->cancelled = p->problem->progress(p->problem->user, &progress);
-}
-
-// The deviations (F) of the first rollouts: no more than a quarter of a joint's range.
-static void nsvcd__first_deviations(const nsvcd__planner *p, float *deviations) {
-  for (size_t j = 0; j < p->problem->joints; j++) {
-    const float quarter = 0.25f * (p->problem->high[j] - p->problem->low[j]);
-    deviations[j] = p->explore.noise < quarter ? p->explore.noise : quarter;
-  }
+  const nsvcd_plan_progress progress = {p->answer.seeds, iteration,   stage->iterations,
+                                        refining,        best->total, best->collision,
+                                        p->best,         stage->via};
+  p->answer.iterations++;
+  if (p->in->progress) p->cancelled = p->in->progress(p->in->user, &progress);
 }
 
 // Where MPPI is.
 typedef struct nsvcd__exploring {
-  // of the rollouts, joint by joint
-  float deviations[NSVCD_MAX_JOINTS];
-  // what they were
-  float first[NSVCD_MAX_JOINTS];
-  float temperature;  // 0 at first
-  // cost, of the last rollouts
-  float least;
-  nsvcd__cost best;  // of all
+  float deviations[NSVCD_MAX_JOINTS];  // of the rollouts
+  float temperature;                   // 0 at first
+  float least;                         // cost of the last rollouts
+  nsvcd__cost best;                    // of all
 } nsvcd__exploring;
 
-// Draws rollouts about p->control and finds what they cost; the best of all goes to p->best. The
-// first has no offset (M, F), the second is the best so far, which competes, the others are noise.
+// Draws rollouts about p->control, and finds their costs; the best of all goes to p->best. The
+// first has no offset, the second is the best so far, the others are noise.
 static void nsvcd__roll_out(nsvcd__planner *p, nsvcd__exploring *at) {
   const nsvcd__stage *stage = &p->explore;
-  const size_t f = p->problem->joints;
+  const size_t f = p->in->joints;
   at->least = INFINITY;
   for (size_t n = 0; n < stage->draws; n++) {
     float *offset = p->drawn + n * stage->numbers;
@@ -21438,10 +21302,10 @@ static void nsvcd__roll_out(nsvcd__planner *p, nsvcd__exploring *at) {
     for (size_t k = 0; k < stage->numbers; k++)
       offset[k] = p->trial[f + k] - p->control[f + k];
 
-    // The cost of one that weighs nothing need not be known exactly.
+    // The cost of a rollout that weighs nothing need not be exact.
     float limit = INFINITY;
     if (at->temperature > 0) limit = at->least + NSVCD__WEIGHTLESS * at->temperature;
-    const nsvcd__cost cost = nsvcd__cost_of(p, stage, p->trial, limit, NULL, 0);
+    const nsvcd__cost cost = nsvcd__cost_of(p, stage, p->trial, limit, NULL);
     p->costs[n] = cost.total;
     if (cost.total < at->least) at->least = cost.total;
     if (cost.total >= at->best.total || cost.total > limit) continue;
@@ -21450,15 +21314,14 @@ static void nsvcd__roll_out(nsvcd__planner *p, nsvcd__exploring *at) {
   }
 }
 
-// Turns p->costs into weights, whose sum is 1, p->sum into the mean of the offsets, and takes the
-// deviations towards those of the good rollouts about their mean, slowly.
+// Turns p->costs into weights, whose sum is 1; writes the mean of the offsets to p->sum; moves the
+// variances a tenth of the way to twice those of the weighted rollouts about that mean.
 static void nsvcd__weigh_rollouts(nsvcd__planner *p, nsvcd__exploring *at) {
   const nsvcd__stage *stage = &p->explore;
-  const size_t f = p->problem->joints;
+  const size_t f = p->in->joints;
   const size_t draws = stage->draws;
   const size_t rank = draws / NSVCD__ELITE;
-  // the cost of that rank
-  float elite = 0;
+  float elite = 0;  // the cost of that rank
   float total = 0;
   for (size_t i = 0; i < draws; i++) {
     size_t below = 0;
@@ -21484,7 +21347,7 @@ static void nsvcd__weigh_rollouts(nsvcd__planner *p, nsvcd__exploring *at) {
 
   for (size_t j = 0; j < f; j++) {
     const float now = at->deviations[j];
-    const float least = 1e-3f * at->first[j] * at->first[j];
+    const float least = 1e-3f * p->first_noise[j] * p->first_noise[j];
     float square = 0;
     for (size_t n = 0; n < draws; n++) {
       for (size_t k = j; p->costs[n] > 0 && k < stage->numbers; k += f) {
@@ -21497,15 +21360,14 @@ static void nsvcd__weigh_rollouts(nsvcd__planner *p, nsvcd__exploring *at) {
   }
 }
 
-// MPPI from p->control, the mean, on; leaves the best trajectory in p->best.
+// MPPI, from the mean p->control on. Leaves the best trajectory in p->best.
 static void nsvcd__explore(nsvcd__planner *p) {
   const nsvcd__stage *stage = &p->explore;
   nsvcd__exploring at;
   memset(&at, 0, sizeof at);
-  at.best = nsvcd__cost_of(p, stage, p->control, INFINITY, NULL, 0);
+  at.best = nsvcd__cost_of(p, stage, p->control, INFINITY, NULL);
   memcpy(p->best, p->control, stage->bytes);
-  nsvcd__first_deviations(p, at.first);
-  memcpy(at.deviations, at.first, sizeof at.deviations);
+  memcpy(at.deviations, p->first_noise, sizeof at.deviations);
   float before = at.best.total;
   size_t waited = 0;
   for (size_t i = 0; i < stage->iterations && waited < NSVCD__PATIENCE; i++) {
@@ -21525,8 +21387,11 @@ static void nsvcd__explore(nsvcd__planner *p) {
 #endif  // NSVCD_NO_OPTIMIZER
 
 // ------------------------------------------------------------------------------------- plan/refine
-// In: control points. Out: better ones: L-BFGS with bundled gradients, in the metric of the
-// smoothness.
+// In: control points. Out: better ones, by L-BFGS (Liu and Nocedal 1989) with bundled gradients
+// (Suh et al. 2022).
+//
+// Difference from Liu and Nocedal: the initial inverse Hessian is half the inverse of the
+// smoothness' form, not a multiple of the identity. It is exact where nothing collides.
 
 #ifndef NSVCD_NO_OPTIMIZER
 static double nsvcd__dot(const float *a, const float *b, size_t count) {
@@ -21535,31 +21400,30 @@ static double nsvcd__dot(const float *a, const float *b, size_t count) {
   return sum;
 }
 
-// The mean of the gradients at control + each of the bundle's offsets, p->drawn: p->sum (M, F).
+// p->sum (M, F): the mean of the gradients at `control` + each offset of the bundle p->drawn.
 static void nsvcd__bundled_gradient(nsvcd__planner *p, const nsvcd__stage *stage,
                                     const float *control) {
-  const size_t f = p->problem->joints;
+  const size_t f = p->in->joints;
   memset(p->sum, 0, stage->numbers * sizeof *p->sum);
   for (size_t n = 0; n < stage->draws && !p->error; n++) {
     nsvcd__change(p, stage, control, p->drawn + n * stage->numbers, 1, p->trial);
-    nsvcd__cost_of(p, stage, p->trial, INFINITY, p->gradient, 0);
+    nsvcd__cost_of(p, stage, p->trial, INFINITY, p->gradient);
     for (size_t k = 0; k < stage->numbers; k++)
       p->sum[k] += p->gradient[f + k] / (float)stage->draws;
   }
 }
 
-// The n-th step, or change of the gradient along it, of which the last HISTORY are kept.
+// The n-th step, or the n-th change of the gradient; the last HISTORY are kept.
 static float *nsvcd__remembered(float *rows, size_t n, const nsvcd__stage *stage) {
   return rows + n % NSVCD__HISTORY * stage->numbers;
 }
 
-// L-BFGS's direction for the gradient in p->sum: p->offset (M, F). It starts from half the inverse
-// of the smoothness' form, which is exact where nothing collides, and knows of the `kept` steps
-// before step `next` what each changed in the gradient.
+// p->offset (M, F): L-BFGS's direction for the gradient p->sum, by its two loops over the `kept`
+// steps before step `next`.
 static void nsvcd__direction(nsvcd__planner *p, const nsvcd__stage *stage, size_t kept,
                              size_t next) {
   const size_t numbers = stage->numbers;
-  const size_t f = p->problem->joints;
+  const size_t f = p->in->joints;
   double alpha[NSVCD__HISTORY];
   float *d = p->offset;
   for (size_t k = 0; k < numbers; k++) d[k] = -p->sum[k];
@@ -21583,22 +21447,20 @@ static void nsvcd__direction(nsvcd__planner *p, const nsvcd__stage *stage, size_
   }
 }
 
-// L-BFGS from p->best on, which it improves. Ends early where not even the first direction leads
-// down.
+// L-BFGS, from p->best on, which it improves. Ends early if the cost does not fall even along the
+// direction that remembers no step.
 static void nsvcd__refine(nsvcd__planner *p) {
   static const float lengths[NSVCD__STEPS] = {1, 0.5f, 0.2f, 0.05f, 0.01f};
   const nsvcd__stage *stage = &p->refine;
-  const size_t f = p->problem->joints;
+  const size_t f = p->in->joints;
   const size_t numbers = stage->numbers;
   float deviations[NSVCD_MAX_JOINTS];
-  // steps, before step `next`
-  size_t kept = 0;
+  size_t kept = 0;  // steps, before step `next`
   size_t next = 0;
   int stuck = 0;
-  nsvcd__cost best = nsvcd__cost_of(p, stage, p->best, INFINITY, NULL, 0);
+  nsvcd__cost best = nsvcd__cost_of(p, stage, p->best, INFINITY, NULL);
 
-  // The same offsets at each iteration: the mean is then a function, and its gradients differ by
-  // where they are taken.
+  // The same offsets in each iteration: then gradients differ only by where they are taken.
   for (size_t j = 0; j < f; j++) deviations[j] = stage->noise;
   for (size_t n = 0; n < stage->draws; n++)
     nsvcd__smooth_noise(p, stage, deviations, p->drawn + n * numbers);
@@ -21608,8 +21470,8 @@ static void nsvcd__refine(nsvcd__planner *p) {
     memcpy(p->control, p->best, stage->bytes);
     nsvcd__bundled_gradient(p, stage, p->control);
     if (kept > 0) {
-      // The change along the last step is known as minus the gradient before it. The step is
-      // forgotten if the gradient does not grow along it.
+      // `change` holds minus the gradient before the last step. The step is forgotten if the
+      // gradient does not grow along it: the inverse Hessian stays positive definite.
       const float *step = nsvcd__remembered(p->steps, next - 1, stage);
       float *change = nsvcd__remembered(p->changes, next - 1, stage);
       for (size_t k = 0; k < numbers; k++) change[k] += p->sum[k];
@@ -21620,7 +21482,7 @@ static void nsvcd__refine(nsvcd__planner *p) {
     nsvcd__direction(p, stage, kept, next);
     for (size_t n = 0; n < NSVCD__STEPS && !p->error; n++) {
       nsvcd__change(p, stage, p->control, p->offset, lengths[n], p->trial);
-      const nsvcd__cost cost = nsvcd__cost_of(p, stage, p->trial, best.total, NULL, 0);
+      const nsvcd__cost cost = nsvcd__cost_of(p, stage, p->trial, best.total, NULL);
       if (!(cost.total < best.total)) continue;
       best = cost;
       memcpy(p->best, p->trial, stage->bytes);
@@ -21644,18 +21506,18 @@ static void nsvcd__refine(nsvcd__planner *p) {
 #endif  // NSVCD_NO_OPTIMIZER
 
 // --------------------------------------------------------------------------------------- plan/plan
-// In: a planning problem. Out: control points of a motion that is checked to hit nothing, or the
-// best there is.
+// In: a planning problem. Out: control points of a motion that hits nothing, by the last check, or
+// of the best that was found.
 
 #ifndef NSVCD_NO_OPTIMIZER
 // The smoothest control points from start to goal, (M + 2, F): where the form's derivative is zero.
 static void nsvcd__smoothest(nsvcd__planner *p, const nsvcd__stage *stage, float *control) {
-  const size_t f = p->problem->joints;
+  const size_t f = p->in->joints;
   const size_t via = stage->via;
   const size_t all = via + 2;
   for (size_t j = 0; j < f; j++) {
-    const double start = (double)p->problem->start[j];
-    const double goal = (double)p->problem->goal[j];
+    const double start = (double)p->in->start[j];
+    const double goal = (double)p->in->goal[j];
     for (size_t k = 0; k < via; k++) {
       const double *row = stage->form + (k + 1) * all;
       p->vector[k] = -row[0] * start - row[all - 1] * goal;
@@ -21664,27 +21526,25 @@ static void nsvcd__smoothest(nsvcd__planner *p, const nsvcd__stage *stage, float
     nsvcd__solve_upper(stage->factor, via, p->vector);
     for (size_t k = 0; k < via; k++) control[(k + 1) * f + j] = (float)p->vector[k];
   }
-  memcpy(control, p->problem->start, f * sizeof *control);
-  memcpy(control + (via + 1) * f, p->problem->goal, f * sizeof *control);
+  memcpy(control, p->in->start, f * sizeof *control);
+  memcpy(control + (via + 1) * f, p->in->goal, f * sizeof *control);
 }
 
-// Are the joints within the limits, and free of collision? Fills in the answer's facts if not.
-static int nsvcd__is_good(nsvcd__planner *p, const float *joints, nsvcd_plan_answer *answer) {
-  const nsvcd_plan_problem *problem = p->problem;
-  nsvcd__cost cost = nsvcd__no_cost;
-  answer->logit = 0;
-  answer->pair = NSVCD_NONE;
-  for (size_t j = 0; j < problem->joints; j++) {
-    if (joints[j] < problem->low[j] || joints[j] > problem->high[j]) answer->joint = j;
+// Are the joints within the limits, and free of collision? Leaves what is wrong in p->cost.
+static int nsvcd__is_good(nsvcd__planner *p, const float *joints) {
+  nsvcd__cost *cost = &p->cost;
+  *cost = nsvcd__no_cost;
+  for (size_t j = 0; j < p->in->joints; j++) {
+    if (joints[j] < p->in->low[j] || joints[j] > p->in->high[j]) cost->joint = j;
   }
-  if (answer->joint != NSVCD_NONE) return 0;
-  nsvcd__place(p, joints, 1, p->poses);
+  if (cost->joint != NSVCD_NONE) {
+    cost->logit = 0;
+    return 0;
+  }
+  nsvcd__find_poses(p, joints, 1, p->poses);
   if (p->error) return 0;
-  nsvcd__add_collision(p, 1, INFINITY, NULL, 1, &cost);
-  answer->collides = cost.collides;
-  answer->logit = cost.logit;
-  answer->pair = cost.pair;
-  return !cost.collides;
+  nsvcd__add_collision(p, 1, INFINITY, NULL, 1, cost);
+  return !cost->collides;
 }
 
 NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
@@ -21694,89 +21554,87 @@ NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
   return nsvcd__planner_memory(&planner, NULL);
 }
 
-// What the planner knows of a problem beforehand, in its memory.
+// Fills in what is computed once, when the memory is laid out.
 static void nsvcd__planner_begin(nsvcd__planner *p) {
   nsvcd__stage_init(&p->options, &p->explore);
   nsvcd__stage_init(&p->options, &p->refine);
   nsvcd__stage_init(&p->options, &p->check);
   nsvcd__find_shapes(p);
-  for (size_t k = 0; k < p->problem->pair_count; k++) p->queue[k] = (uint32_t)k;
+  for (size_t k = 0; k < p->in->pair_count; k++) p->queue[k] = (uint32_t)k;
+  for (size_t j = 0; j < p->in->joints; j++) {
+    const float quarter = 0.25f * (p->in->high[j] - p->in->low[j]);
+    p->first_noise[j] = p->explore.noise < quarter ? p->explore.noise : quarter;
+  }
   p->random = p->options.seed;
 }
 
-// How far a point of a's bounding sphere is, at most, from where the check has it, as b sees it,
-// some share of the way from the poses `from` (B) to the next ones, where those on the spline are
-// p->moved.
-static float nsvcd__pair_deviations(const nsvcd__planner *p, const nsvcd_body_pair *pair,
-                                    const nsvcd_pose *from, double fraction) {
-  const nsvcd_pose *to = from + p->problem->body_count;
+// How far, at most, a point of a's bounding sphere is from where the last check has it, as b sees
+// it. The check's motion is at a share `fraction` of the way from the poses `from` (B) to the next
+// ones; the spline has its poses in p->moved.
+static float nsvcd__pair_deviation(const nsvcd__planner *p, const nsvcd_body_pair *pair,
+                                   const nsvcd_pose *from, double fraction) {
+  const nsvcd_pose *to = from + p->in->body_count;
   const nsvcd__sphere *sphere = &p->shapes[pair->a].sphere;
   const nsvcd_pose start = nsvcd__relative_pose(&from[pair->a], &from[pair->b]);
   const nsvcd_pose end = nsvcd__relative_pose(&to[pair->a], &to[pair->b]);
-  const nsvcd_pose there = nsvcd__relative_pose(&p->moved[pair->a], &p->moved[pair->b]);
-  const nsvcd__d3 begin = nsvcd__d3_load(start.position);
-  const nsvcd__d3 position = nsvcd__d3_mix(begin, nsvcd__d3_load(end.position), fraction);
-  const nsvcd__quat q = nsvcd__quat_load(start.rotation);
-  const nsvcd__quat r = nsvcd__quat_load(end.rotation);
-  const nsvcd__quat checked = nsvcd__quat_slerp(q, r, (float)fraction);
-  const nsvcd__quat is = nsvcd__quat_load(there.rotation);
-  const nsvcd__transform at = {nsvcd__mat3_of(is), nsvcd__f3_load(there.position)};
-  const nsvcd__transform was = {nsvcd__mat3_of(checked), nsvcd__d3_narrow(position)};
+  const nsvcd_pose spline = nsvcd__relative_pose(&p->moved[pair->a], &p->moved[pair->b]);
+  const nsvcd__world_pose check = nsvcd__world_pose_between(&start, &end, fraction);
+  const nsvcd__quat q = nsvcd__quat_load(spline.rotation);
+  const nsvcd__transform at = {nsvcd__mat3_of(q), nsvcd__f3_load(spline.position)};
+  const nsvcd__transform checked = {nsvcd__mat3_of(check.rotation),
+                                    nsvcd__d3_narrow(check.position)};
   const nsvcd__f3 x = nsvcd__f3_transform(&at, sphere->centre);
-  const nsvcd__f3 y = nsvcd__f3_transform(&was, sphere->centre);
+  const nsvcd__f3 y = nsvcd__f3_transform(&checked, sphere->centre);
   const float shift = nsvcd__f3_length(nsvcd__f3_sub(x, y));
-  return shift + 2 * nsvcd__f3_length(nsvcd__quat_turn(checked, is)) * sphere->radius;
+  return shift + 2 * nsvcd__f3_length(nsvcd__quat_turn(check.rotation, q)) * sphere->radius;
 }
 
-// How far the spline deviates from the motion of the last check, whose poses p->poses are: of all
-// pairs whose a is given. A smooth curve deviates most half way between two of these: there it is
-// looked at, beside every so many of them. Where they are few, it is looked at in more places, for
-// an S crosses its chord half way. It is no bound: nothing is known of `position` but what it says.
+// How far the spline deviates from the last check's motion between p->poses: the most of all pairs
+// whose a is given. Measured, not bounded: nothing is known of `kinematics` but its values. A
+// smooth curve deviates most half way between two poses, and is sampled there, in every stride-th
+// segment. If segments are few, each is sampled more often, for an S crosses its chord half way.
 static float nsvcd__plan_deviation(nsvcd__planner *p, const float *control) {
-  const nsvcd_plan_problem *problem = p->problem;
   const size_t segments = p->check.moments - 1;
   const size_t wanted = NSVCD__DEVIATION_SAMPLES * (p->check.via + 1);
   const size_t stride = wanted < segments ? segments / wanted : 1;
-  const size_t looks = 2 * (wanted / segments) + 1;
+  const size_t samples = 2 * (wanted / segments) + 1;  // of a segment
   float joints[NSVCD_MAX_JOINTS];
   float most = 0;
-  for (size_t n = 0; problem->bodies && n / looks * stride < segments; n++) {
-    const size_t s = n / looks * stride;
-    const double fraction = (double)(n % looks + 1) / (double)(looks + 1);
+  for (size_t n = 0; p->in->bodies && n / samples * stride < segments; n++) {
+    const size_t s = n / samples * stride;
+    const double fraction = (double)(n % samples + 1) / (double)(samples + 1);
     const double t = ((double)s + fraction) / (double)segments;
-    nsvcd_spline(control, p->check.via, problem->joints, (float)t, 0, joints);
-    nsvcd__place(p, joints, 1, p->moved);
+    nsvcd_spline(control, p->check.via, p->in->joints, (float)t, 0, joints);
+    nsvcd__find_poses(p, joints, 1, p->moved);
     if (p->error) break;
-    for (size_t k = 0; k < problem->pair_count; k++) {
-      const nsvcd_body_pair *pair = &problem->pairs[k];
-      const nsvcd_pose *from = p->poses + s * problem->body_count;
-      if (problem->bodies[pair->a])
-        most = fmaxf(nsvcd__pair_deviations(p, pair, from, fraction), most);
+    for (size_t k = 0; k < p->in->pair_count; k++) {
+      const nsvcd_body_pair *pair = &p->in->pairs[k];
+      const nsvcd_pose *from = p->poses + s * p->in->body_count;
+      if (p->in->bodies[pair->a])
+        most = fmaxf(nsvcd__pair_deviation(p, pair, from, fraction), most);
     }
   }
   return most;
 }
 
-// Searches from one more start; keeps what it finds in p->result if that is the best so far.
-// Returns 1 if there is reason to go on.
-static int nsvcd__try_seed(nsvcd__planner *p, nsvcd_plan_answer *found) {
-  const size_t f = p->problem->joints;
+// Searches from one more start. Keeps what it finds in p->result if that is the best so far.
+// Returns whether to try another.
+static int nsvcd__try_seed(nsvcd__planner *p) {
+  const size_t f = p->in->joints;
   const float margin = p->options.margin;
-  float deviations[NSVCD_MAX_JOINTS];
+  nsvcd_plan_answer *answer = &p->answer;
   nsvcd__cost cost = nsvcd__no_cost;
-  // from the smoothest way, then from random ones
-  p->seed = found->seeds;
+  // from the smoothest trajectory, then from random changes of it
   nsvcd__smoothest(p, &p->explore, p->control);
-  if (p->seed > 0) {
-    nsvcd__first_deviations(p, deviations);
-    nsvcd__smooth_noise(p, &p->explore, deviations, p->offset);
+  if (answer->seeds > 0) {
+    nsvcd__smooth_noise(p, &p->explore, p->first_noise, p->offset);
     nsvcd__change(p, &p->explore, p->control, p->offset, 1, p->trial);
     memcpy(p->control, p->trial, p->explore.bytes);
   }
   nsvcd__explore(p);
 
-  // Nearly the same curve through another number of via points. These are taken into the limits,
-  // for a curve may leave them between two points.
+  // Nearly the same curve through another number of via points; these are clamped to the limits,
+  // which a curve may leave between two points.
   if (p->explore.via != p->refine.via) {
     for (size_t k = 0; k < p->refine.via + 2; k++) {
       const float t = (float)k / (float)(p->refine.via + 1);
@@ -21785,78 +21643,70 @@ static int nsvcd__try_seed(nsvcd__planner *p, nsvcd_plan_answer *found) {
     nsvcd__change(p, &p->refine, p->trial, p->trial, 0, p->best);
   }
 
-  // until the last check finds it free, with a wider margin each time that the proof finds a hit
-  for (size_t push = 0; push <= NSVCD__PUSHES; push++) {
+  // until the last check finds it free, with a wider margin after each hit that is proven
+  for (size_t retry = 0; retry <= NSVCD__RETRIES; retry++) {
     nsvcd__refine(p);
-    cost = nsvcd__cost_of(p, &p->check, p->best, INFINITY, NULL, 1);
+    cost = nsvcd__cost_of(p, &p->check, p->best, INFINITY, NULL);
     if (nsvcd__is_free(&cost) || p->cancelled || p->error || !cost.proven) break;
     p->options.margin = 2 * p->options.margin + 0.5f;
   }
   p->options.margin = margin;
   const int good = nsvcd__is_free(&cost);
-  if (found->seeds == 0 || good || cost.total < found->cost) {
+  if (answer->seeds == 0 || good || cost.total < p->cost.total) {
     memcpy(p->result, p->best, p->refine.bytes);
-    found->cost = cost.total;
-    found->smoothness = cost.smoothness;
-    found->deviation = nsvcd__plan_deviation(p, p->result);
-    found->collides = cost.collides;
-    found->joint = cost.joint;
-    found->logit = cost.logit;
-    found->time = cost.time;
-    found->pair = cost.pair;
+    p->cost = cost;
+    answer->deviation = nsvcd__plan_deviation(p, p->result);
   }
-  found->seeds++;
-  found->status = NSVCD_PLAN_LIMIT;
-  if (good) found->status = NSVCD_PLAN_CONVERGED;
-  if (p->cancelled) found->status = NSVCD_PLAN_CANCELLED;
-  return !good && !p->cancelled && !p->error && found->seeds < p->options.seeds;
+  answer->seeds++;
+  answer->status = NSVCD_PLAN_LIMIT;
+  if (good) answer->status = NSVCD_PLAN_CONVERGED;
+  if (p->cancelled) answer->status = NSVCD_PLAN_CANCELLED;
+  return !good && !p->cancelled && !p->error && answer->seeds < p->options.seeds;
 }
 
 NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
                                  const nsvcd_plan_options *options, void *workspace,
                                  size_t workspace_size, float *control,
                                  nsvcd_plan_answer *answer) {
-  const uint32_t most = nsvcd__magnitude(NSVCD_MAX_COORDINATE);
   nsvcd__planner p;
-  nsvcd_plan_answer found;
-  const nsvcd_result result = nsvcd__planner_settings(problem, options, &p);
-  if (result) return result;
+  const nsvcd_result error = nsvcd__planner_settings(problem, options, &p);
+  if (error) return error;
   if (!control || !answer) return NSVCD_ERROR_ARGUMENT;
   const size_t needed = nsvcd__planner_memory(&p, NULL);
   if (needed == 0) return NSVCD_ERROR_TOO_LARGE;
-  if (!workspace || !nsvcd__is_aligned(workspace)) return NSVCD_ERROR_WORKSPACE;
-  if (workspace_size < needed) return NSVCD_ERROR_WORKSPACE;
+  if (!workspace || !nsvcd__is_aligned(workspace) || workspace_size < needed)
+    return NSVCD_ERROR_WORKSPACE;
   for (size_t j = 0; j < problem->joints; j++) {
     const float ends[4] = {problem->low[j], problem->high[j], problem->start[j],
                            problem->goal[j]};
-    for (size_t k = 0; k < 4; k++) {
-      if (nsvcd__magnitude(ends[k]) > most) return NSVCD_ERROR_VALUE;
-    }
+    if (!nsvcd__in_range(ends, 4, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_VALUE;
     if (ends[0] > ends[1]) return NSVCD_ERROR_LIMITS;
   }
 
   (void)nsvcd__planner_memory(&p, (char *)workspace);
   nsvcd__planner_begin(&p);
-  memset(&found, 0, sizeof found);
-  found.joint = NSVCD_NONE;
-  found.pair = NSVCD_NONE;
-  found.via_points = p.refine.via;
-  if (!nsvcd__is_good(&p, problem->start, &found)) {
-    found.status = NSVCD_PLAN_START;
-  } else if (!nsvcd__is_good(&p, problem->goal, &found)) {
-    found.status = NSVCD_PLAN_GOAL;
-    found.time = 1;
+  nsvcd_plan_answer *out = &p.answer;
+  if (!nsvcd__is_good(&p, problem->start)) {
+    out->status = NSVCD_PLAN_START;
+  } else if (!nsvcd__is_good(&p, problem->goal)) {
+    out->status = NSVCD_PLAN_GOAL;
+    p.cost.time = 1;
   }
   nsvcd__smoothest(&p, &p.refine, p.best);
-  int more = found.status == NSVCD_PLAN_CONVERGED && !p.error;
-  while (more) more = nsvcd__try_seed(&p, &found);
+  int more = out->status == NSVCD_PLAN_CONVERGED && !p.error;
+  while (more) more = nsvcd__try_seed(&p);
   if (p.error) return p.error;
 
-  memcpy(control, found.seeds ? p.result : p.best, p.refine.bytes);
-  found.iterations = p.iterations;
-  found.trajectories = p.trajectories;
-  found.sweeps = p.sweeps;
-  *answer = found;
+  memcpy(control, out->seeds ? p.result : p.best, p.refine.bytes);
+  out->via_points = p.refine.via;
+  out->cost = p.cost.total;
+  out->smoothness = p.cost.smoothness;
+  out->collides = p.cost.collides;
+  out->joint = p.cost.joint;
+  out->logit = p.cost.logit;
+  out->time = p.cost.time;
+  out->pair = p.cost.pair;
+  *answer = *out;
   return NSVCD_OK;
 }
 #endif  // NSVCD_NO_OPTIMIZER
