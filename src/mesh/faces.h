@@ -1,11 +1,10 @@
-// In: faces of any number of corners, as an engine or another file's reader has them. Out:
-// nsvcd_mesh.
+// In: faces of any number of corners, from an engine or another reader. Out: nsvcd_mesh.
 #pragma once
 #include "mesh.h"
 #include "polygons.h"
 
 #ifndef NSVCD_NO_OBJ
-// Are the sizes those of so many corners? Then *most is the largest, and *triangles what they make.
+// Checks the faces. *triangles: how many they become; *most: corners of the largest.
 static nsvcd_result nsvcd__faces_check(const nsvcd_faces *faces, size_t *triangles,
                                        uint32_t *most) {
   size_t corners = 0;
@@ -24,10 +23,8 @@ static nsvcd_result nsvcd__faces_check(const nsvcd_faces *faces, size_t *triangl
   for (size_t i = 0; i < corners; i++) {
     if (faces->corners[i] >= faces->vertex_count) return NSVCD_ERROR_INDEX;
   }
-  for (size_t i = 0; i < 3 * faces->vertex_count; i++) {
-    const float x = faces->positions[i];
-    if (!nsvcd__is_finite(x) || fabsf(x) > NSVCD_MAX_COORDINATE) return NSVCD_ERROR_NUMBER;
-  }
+  if (!nsvcd__in_range(faces->positions, 3 * faces->vertex_count, NSVCD_MAX_COORDINATE))
+    return NSVCD_ERROR_NUMBER;
   return *triangles ? NSVCD_OK : NSVCD_ERROR_EMPTY;
 }
 
@@ -43,7 +40,6 @@ NSVCDDEF nsvcd_result nsvcd_mesh_of_faces(const nsvcd_faces *faces,
     return NSVCD_ERROR_ARGUMENT;
   nsvcd_result result = nsvcd__faces_check(faces, &triangles, &most);
   if (result) return result;
-  memset(&out, 0, sizeof out);
   if (!nsvcd__mesh_alloc(&out, faces->vertex_count, triangles, allocator) ||
       !nsvcd__polygon_alloc(&polygon, most, &arena)) {
     nsvcd__arena_free(&arena);

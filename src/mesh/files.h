@@ -3,39 +3,61 @@
 #include "stl.h"
 
 #ifndef NSVCD_NO_OBJ
-// Is it an STL: does it begin with "solid", or has it the size that its count of triangles says?
-static int nsvcd__is_stl(const void *data, size_t size) {
-  const unsigned char *bytes = (const unsigned char *)data;
-  nsvcd__obj text;
-  nsvcd__obj_begin(&text, (const char *)data, size);
-  if (nsvcd__stl_token(&text) && nsvcd__stl_accept(&text, "solid")) return 1;
-  return size >= NSVCD__STL_HEADER &&
-         size == NSVCD__STL_HEADER + NSVCD__STL_FACET * (uint64_t)nsvcd__stl_word(bytes + 80);
-}
-
 NSVCDDEF nsvcd_result nsvcd_mesh_parse(const void *data, size_t size,
                                        const nsvcd_mesh_options *options,
                                        const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
                                        size_t *error_line) {
-  const nsvcd_mesh_format format = options ? options->format : NSVCD_MESH_ANY;
-  const int stl = format == NSVCD_MESH_ANY && data && nsvcd__is_stl(data, size);
-  if (stl || format == NSVCD_MESH_STL)
-    return nsvcd__stl_read(data, size, options, allocator, mesh, error_line);
-  return nsvcd__obj_read((const char *)data, size, options, allocator, mesh, error_line);
+  nsvcd__obj text;
+  nsvcd_mesh out;
+  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  if (error_line) *error_line = 0;
+  if (!mesh || !data) return NSVCD_ERROR_ARGUMENT;
+  memset(&out, 0, sizeof out);
+  nsvcd__obj_begin(&text, (const char *)data, size);
+  nsvcd_result result = nsvcd__mesh_options_of(options, &text.options);
+  if (result) return result;
+  int is_stl = text.options.format == NSVCD_MESH_STL;
+  if (text.options.format == NSVCD_MESH_ANY)
+    is_stl = size == nsvcd__stl_size(data, size) || nsvcd__stl_is_solid(text);
+  result = is_stl ? nsvcd__stl_read(&text, data, size, &arena, &out)
+                  : nsvcd__obj_read(&text, &arena, &out);
+  nsvcd__arena_free(&arena);
+  if (result) {
+    if (error_line) *error_line = text.line;
+    nsvcd_mesh_free(&out, allocator);
+    return result;
+  }
+  *mesh = out;
+  return NSVCD_OK;
+}
+
+static const nsvcd_mesh_options nsvcd__as_obj = {NSVCD_MESH_OBJ, {0, 0, 0}, 0};
+static const nsvcd_mesh_options nsvcd__as_stl = {NSVCD_MESH_STL, {0, 0, 0}, 0};
+
+NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
+                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                      size_t *error_line) {
+  return nsvcd_mesh_parse(text, size, &nsvcd__as_obj, allocator, mesh, error_line);
+}
+
+NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
+                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                      size_t *error_line) {
+  return nsvcd_mesh_parse(data, size, &nsvcd__as_stl, allocator, mesh, error_line);
 }
 
 #ifndef NSVCD_NO_STDIO
-// What a file holds; in the arena.
+// Reads a whole file into the arena.
 static nsvcd_result nsvcd__read_file(const char *path, nsvcd__arena *arena, char **text,
                                      size_t *size) {
-#ifdef _MSC_VER  // where fopen is called unsafe, with /sdl an error
+#ifdef _MSC_VER  // calls fopen unsafe, with /sdl an error
   FILE *file = NULL;
   if (fopen_s(&file, path, "rb")) return NSVCD_ERROR_IO;
 #else
   FILE *file = fopen(path, "rb");
   if (!file) return NSVCD_ERROR_IO;
 #endif
-  // No fseek, so that pipes work and a directory is an error.
+  // no fseek: pipes work, and a directory is an error
   size_t capacity = 32768;
   *text = NULL;
   *size = 0;
@@ -66,14 +88,12 @@ NSVCDDEF nsvcd_result nsvcd_mesh_load(const char *path, const nsvcd_mesh_options
 
 NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator,
                                      nsvcd_mesh *mesh, size_t *error_line) {
-  const nsvcd_mesh_options as = {NSVCD_MESH_OBJ, {0, 0, 0}, 0};
-  return nsvcd_mesh_load(path, &as, allocator, mesh, error_line);
+  return nsvcd_mesh_load(path, &nsvcd__as_obj, allocator, mesh, error_line);
 }
 
 NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *allocator,
                                      nsvcd_mesh *mesh, size_t *error_line) {
-  const nsvcd_mesh_options as = {NSVCD_MESH_STL, {0, 0, 0}, 0};
-  return nsvcd_mesh_load(path, &as, allocator, mesh, error_line);
+  return nsvcd_mesh_load(path, &nsvcd__as_stl, allocator, mesh, error_line);
 }
 #endif  // NSVCD_NO_STDIO
 #endif  // NSVCD_NO_OBJ

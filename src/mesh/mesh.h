@@ -1,4 +1,4 @@
-// In: triangles. Out: nsvcd_mesh, every index in range, every coordinate finite; or what of it lies
+// In: triangles. Out: nsvcd_mesh, every index in range, every coordinate finite; the part of one
 // in a box.
 #pragma once
 #include "../ground/valid.h"
@@ -12,7 +12,7 @@ NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator
   memset(mesh, 0, sizeof *mesh);
 }
 
-// Room for vertices and triangles. 0 without memory; in either case nsvcd_mesh_free gives it back.
+// Allocates vertices and triangles. 0 without memory. Free it with nsvcd_mesh_free, on failure too.
 static int nsvcd__mesh_alloc(nsvcd_mesh *mesh, size_t vertices, size_t triangles,
                              const nsvcd_allocator *allocator) {
   const size_t row = 3 * sizeof(float);
@@ -24,14 +24,15 @@ static int nsvcd__mesh_alloc(nsvcd_mesh *mesh, size_t vertices, size_t triangles
   return mesh->positions && mesh->indices;
 }
 
-// A triangle cut at the six sides of a box. Each side adds one corner, or two where roundings make
-// the polygon cross it twice.
+// A triangle cut at the six sides of a box. Each side adds one corner, or two if roundings make the
+// polygon cross it twice.
 typedef struct nsvcd__clipped {
   nsvcd__d3 corners[3 + 2 * 6];
   size_t count;
 } nsvcd__clipped;
 
-// The part of triangle t within the box: 0, or 3 to 9 corners, but for roundings.
+// The part of triangle t in a box (Sutherland, Hodgman 1974): 0, or 3 to 9 corners, but for
+// roundings.
 static nsvcd__clipped nsvcd__cut_triangle(const nsvcd_mesh *mesh, size_t t, const float *low,
                                           const float *high) {
   const uint32_t *triangle = mesh->indices + 3 * t;
@@ -44,7 +45,7 @@ static nsvcd__clipped nsvcd__cut_triangle(const nsvcd_mesh *mesh, size_t t, cons
     const double bound = (double)(side % 2 ? high : low)[axis];
     const nsvcd__clipped from = out;
     out.count = 0;
-    // what has sign * x[axis] <= sign * bound is kept
+    // keeps sign * x[axis] <= sign * bound
     for (size_t i = 0; i < from.count; i++) {
       const nsvcd__d3 a = from.corners[i];
       const nsvcd__d3 b = from.corners[(i + 1) % from.count];
@@ -66,8 +67,8 @@ NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
                                      nsvcd_mesh *part) {
   if (!low || !high || !part) return NSVCD_ERROR_ARGUMENT;
   for (size_t k = 0; k < 3; k++) {
-    const int finite = nsvcd__is_finite(low[k]) && nsvcd__is_finite(high[k]);
-    if (!finite || !(low[k] < high[k])) return NSVCD_ERROR_BOX;
+    if (!nsvcd__is_finite(low[k]) || !nsvcd__is_finite(high[k]) || !(low[k] < high[k]))
+      return NSVCD_ERROR_BOX;
   }
   const nsvcd_result result = nsvcd__mesh_check(mesh);
   if (result) return result;

@@ -1,19 +1,18 @@
-// In: the text of a Wavefront OBJ file (version 3.0). Out: nsvcd_mesh. Statements v and f count,
-// all else is skipped.
+// In: the text of a Wavefront OBJ file (version 3.0). Out: nsvcd_mesh. Only the statements v and f
+// are used.
 //
-// Three passes over the text: count, vertices, faces. A face may refer to any vertex of the file by
-// its number, also to a later one; negative numbers count back from the last vertex so far. Locale
-// plays no part. Keywords that are skipped are letters, and digits behind two of them: curv2 is
-// one, f1 is a mistake.
+// Three passes over the text: count, vertices, faces. A face names any vertex of the file by its
+// number, a later one too; negative numbers count back from the last vertex so far. The locale
+// plays no part. A keyword that is skipped consists of letters, and of digits after the first two
+// characters: curv2 is one, f1 is a mistake.
 #pragma once
 #include "mesh.h"
 #include "polygons.h"
 
 #ifndef NSVCD_NO_OBJ
-// Options with their defaults filled in; what a file's reader is given.
+// Fills zeroed options with those given (NULL: none) and with defaults.
 static nsvcd_result nsvcd__mesh_options_of(const nsvcd_mesh_options *given,
                                            nsvcd_mesh_options *out) {
-  memset(out, 0, sizeof *out);
   if (given) *out = *given;
   for (size_t k = 0; k < 3; k++) {
     if (!(fabs(out->origin[k]) < HUGE_VAL)) return NSVCD_ERROR_NUMBER;
@@ -23,7 +22,7 @@ static nsvcd_result nsvcd__mesh_options_of(const nsvcd_mesh_options *given,
   return NSVCD_OK;
 }
 
-// A coordinate of a file, in metres. The limit is that of what becomes of it, not of what is read.
+// Turns a coordinate of the file into metres. The limit is on metres, not on the file's number.
 static nsvcd_result nsvcd__mesh_number(const nsvcd_mesh_options *options, size_t axis,
                                        double value, float *out) {
   const double metres = (value - options->origin[axis]) * options->scale;
@@ -32,27 +31,23 @@ static nsvcd_result nsvcd__mesh_number(const nsvcd_mesh_options *options, size_t
   return NSVCD_OK;
 }
 
+// A text that is being read.
 typedef struct nsvcd__obj {
   const char *at, *end;
-  // the first token of the statement; NULL: there is none
+  // the statement's first token, or NULL
   const char *word;
   nsvcd_mesh_options options;
-  size_t line;  // of `at`, from 1; 0: before the first
-  // v statements so far
-  uint32_t vertices;
-  // so far, from f statements
-  uint32_t triangles;
-  // of a face
-  uint32_t max_corners;
+  size_t line;                   // of `at`, from 1; 0: before the first
+  uint32_t vertices, triangles;  // counted so far
+  uint32_t max_corners;          // of a face
 } nsvcd__obj;
 
-// Length of the line's end at p; 0: there is none.
+// Length of the newline at p, or 0.
 static size_t nsvcd__obj_newline(const char *p, const char *end) {
   if (p == end || (*p != '\n' && *p != '\r')) return 0;
   return end - p >= 2 && p[0] == '\r' && p[1] == '\n' ? 2 : 1;
 }
-// Length of the blank at p: a backslash before the line's end continues the statement on the next
-// line.
+// Length of the blank at p, or 0. A backslash and a newline are a blank: the statement goes on.
 static inline size_t nsvcd__obj_blank(const char *p, const char *end) {
   if (p == end) return 0;
   if (*p == ' ' || *p == '\t' || *p == '\v' || *p == '\f') return 1;
@@ -71,7 +66,7 @@ static int nsvcd__obj_accept(nsvcd__obj *obj, char c) {
 static int nsvcd__obj_line_ends(const nsvcd__obj *obj) {
   return obj->at == obj->end || *obj->at == '\n' || *obj->at == '\r';
 }
-// Reads digits; 0 where there is none. What is too large for any use stays too large.
+// Reads digits; returns 0 if there are none. The number saturates, above any limit.
 static int nsvcd__obj_integer(nsvcd__obj *obj, int64_t *number) {
   const char *start = obj->at;
   for (*number = 0; nsvcd__obj_is_digit(obj); obj->at++) {
@@ -85,13 +80,13 @@ static int nsvcd__obj_token_ends(const nsvcd__obj *obj) {
 }
 static inline void nsvcd__obj_skip_token(nsvcd__obj *obj) {
   for (; !nsvcd__obj_token_ends(obj); obj->at++) {
-    // what can be nothing else, quickly
+    // a fast path over characters that end no token
     while (obj->at + 1 < obj->end && (unsigned char)obj->at[1] > ' ' && obj->at[1] != '\\')
       obj->at++;
   }
 }
 
-// Skips blanks; 0 where the statement ends instead.
+// Skips blanks. Returns 0 at the end of the statement.
 static int nsvcd__obj_has_token(nsvcd__obj *obj) {
   size_t blank = nsvcd__obj_blank(obj->at, obj->end);
   while (blank > 0) {
@@ -102,9 +97,9 @@ static int nsvcd__obj_has_token(nsvcd__obj *obj) {
   return !nsvcd__obj_line_ends(obj) && *obj->at != '#';
 }
 
-// To the next statement, past what is left of this one. Token by token, as all passes read it: what
-// one takes for a comment, which nothing continues, all do. Returns its keyword: v, f, a hash for
-// any other, ? for what is none, or 0 at the end of the text.
+// Goes to the next statement. Skips the rest of this one token by token, so that all passes agree
+// on where comments end: a backslash does not continue them. Returns the keyword: v, f, # for any
+// other, ? for a word that is none, or 0 at the end of the text.
 static int nsvcd__obj_next(nsvcd__obj *obj) {
   if (obj->line > 0) {
     while (nsvcd__obj_has_token(obj)) nsvcd__obj_skip_token(obj);
@@ -126,8 +121,8 @@ static int nsvcd__obj_next(nsvcd__obj *obj) {
   return '#';
 }
 
-// value = mantissa * 10^exponent, exponent in -400..400. Powers up to 10^22 are exact: one rounding
-// in the usual case.
+// mantissa * 10^exponent, exponent in -400..400. Powers up to 10^22 are exact, so there is usually
+// a single rounding.
 static double nsvcd__obj_scale(uint64_t mantissa, int exponent) {
   static const double power[23] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                    1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
@@ -145,9 +140,9 @@ static int nsvcd__obj_minus(nsvcd__obj *obj) {
   return minus;
 }
 
-// A decimal number, as a double: within 2^-52 of it, or a few of these where its exponent is beyond
-// +-22. Rounded to float it is the nearest, unless two floats are as near. NUMBER where it is an
-// infinity or not a number, as printf has them (nan, -nan(ind), inf, 1.#QNAN).
+// Reads a decimal number. Its relative error is at most 2^-52, and a few times that where the
+// exponent is beyond +-22: rounded to float it is the nearest one, except for ties. NUMBER if it is
+// infinite or NaN as printf writes them (nan, -nan(ind), inf, 1.#QNAN).
 static nsvcd_result nsvcd__obj_number(nsvcd__obj *obj, double *value) {
   const int negative = nsvcd__obj_minus(obj);
   if (obj->at < obj->end && strchr("nNiI", *obj->at) && *obj->at) return NSVCD_ERROR_NUMBER;
@@ -159,7 +154,7 @@ static nsvcd_result nsvcd__obj_number(nsvcd__obj *obj, double *value) {
     if (!point && nsvcd__obj_accept(obj, '.')) point = 1;
     if (!nsvcd__obj_is_digit(obj)) break;
     digits = 1;
-    // 19 digits are kept, the rest only moves the point
+    // 19 digits are kept, the rest only move the point
     const int fits = mantissa < 1000000000000000000u;
     if (fits) mantissa = 10 * mantissa + (uint64_t)(*obj->at - '0');
     exponent += !fits - point;
@@ -181,15 +176,13 @@ static nsvcd_result nsvcd__obj_number(nsvcd__obj *obj, double *value) {
   return NSVCD_OK;
 }
 
-// One corner: v, v/vt, v//vn or v/vt/vn. The numbers after a slash are not used, nor checked
-// against a range, and may be missing: some write v// where there are neither. vertex_count: of the
-// file.
+// Reads one corner: v, v/vt, v//vn or v/vt/vn. The numbers after a slash are neither used nor
+// checked against a range, and may be missing: some files have v//. vertex_count: of the file.
 static nsvcd_result nsvcd__obj_corner(nsvcd__obj *obj, uint32_t vertex_count,
                                       uint32_t *vertex) {
   const int negative = nsvcd__obj_accept(obj, '-');
   const uint32_t most = negative ? obj->vertices : vertex_count;
-  int64_t number;
-  int64_t unused;
+  int64_t number, unused;
   if (!nsvcd__obj_integer(obj, &number)) return NSVCD_ERROR_SYNTAX;
   for (int i = 0; i < 2 && nsvcd__obj_accept(obj, '/'); i++) {
     if (nsvcd__obj_token_ends(obj) || (i == 0 && *obj->at == '/')) continue;
@@ -224,8 +217,8 @@ static int nsvcd__obj_is_own(const nsvcd__obj *obj) {
   return 0;
 }
 
-// Is what is left of a text no OBJ: statements of others, and none of its own? Then the first of
-// them is told of. line: of one that was found before, or 0.
+// FORMAT if the rest of the text has statements, but none of OBJ's; else `otherwise`. Sets the line
+// to that of the first foreign statement. line: where one was found before, or 0.
 static nsvcd_result nsvcd__obj_other(nsvcd__obj *obj, size_t line, nsvcd_result otherwise) {
   int is_obj = obj->vertices > 0 || obj->triangles > 0;
   while (!is_obj && nsvcd__obj_next(obj)) {
@@ -252,8 +245,8 @@ static nsvcd_result nsvcd__obj_count(nsvcd__obj *obj) {
   return NSVCD_OK;
 }
 
-// Second pass: positions (vertices, 3), of v x y z, then up to five more: a weight, a colour. These
-// are skipped, but must be numbers, if not finite ones.
+// Second pass: positions (vertices, 3). Up to five numbers after v x y z (a weight, a colour) are
+// skipped; these may be infinite or NaN.
 static nsvcd_result nsvcd__obj_vertices(nsvcd__obj *obj, float *positions) {
   for (int keyword = nsvcd__obj_next(obj); keyword; keyword = nsvcd__obj_next(obj)) {
     if (keyword != 'v') continue;
@@ -275,7 +268,7 @@ static nsvcd_result nsvcd__obj_vertices(nsvcd__obj *obj, float *positions) {
   return NSVCD_OK;
 }
 
-// Third pass: the mesh's indices. polygon: with room for any face.
+// Third pass: the mesh's indices. polygon: room for the largest face.
 static nsvcd_result nsvcd__obj_faces(nsvcd__obj *obj, const nsvcd_mesh *mesh,
                                      nsvcd__polygon *polygon) {
   uint32_t *triangles = mesh->indices;
@@ -294,57 +287,26 @@ static nsvcd_result nsvcd__obj_faces(nsvcd__obj *obj, const nsvcd_mesh *mesh,
   return NSVCD_OK;
 }
 
-// As nsvcd_obj_parse. options: NULL, or what the caller gave.
-static nsvcd_result nsvcd__obj_read(const char *text, size_t size,
-                                    const nsvcd_mesh_options *options,
-                                    const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
-                                    size_t *error_line) {
-  if (error_line) *error_line = 0;
-  if (!mesh || !text) return NSVCD_ERROR_ARGUMENT;
-  nsvcd_mesh parsed;
-  nsvcd__obj obj;
+// Reads a text from its beginning. obj->line: where it fails, or 0 if no line is at fault.
+static nsvcd_result nsvcd__obj_read(nsvcd__obj *obj, nsvcd__arena *arena, nsvcd_mesh *mesh) {
+  const nsvcd__obj begin = *obj;
   nsvcd__polygon polygon;
-  nsvcd__arena arena = nsvcd__arena_of(allocator);
-  nsvcd_mesh_options o;
-  nsvcd_result result = nsvcd__mesh_options_of(options, &o);
+  nsvcd_result result = nsvcd__obj_count(obj);
   if (result) return result;
-  memset(&parsed, 0, sizeof parsed);
-  nsvcd__obj_begin(&obj, text, size);
-  result = nsvcd__obj_count(&obj);
-  if (!result) {
-    // what follows is not tied to a line
-    obj.line = 0;
-    if (obj.triangles == 0) {
-      if (obj.vertices == 0) nsvcd__obj_begin(&obj, text, size);
-      result = nsvcd__obj_other(&obj, 0, NSVCD_ERROR_EMPTY);
-      if (result == NSVCD_ERROR_EMPTY) obj.line = 0;
-    } else if (!nsvcd__mesh_alloc(&parsed, obj.vertices, obj.triangles, allocator) ||
-               !nsvcd__polygon_alloc(&polygon, obj.max_corners, &arena)) {
-      result = NSVCD_ERROR_MEMORY;
-    }
-  }
-  if (!result) {
-    nsvcd__obj_begin(&obj, text, size);
-    obj.options = o;
-    result = nsvcd__obj_vertices(&obj, parsed.positions);
-  }
-  if (!result) {
-    nsvcd__obj_begin(&obj, text, size);
-    result = nsvcd__obj_faces(&obj, &parsed, &polygon);
-  }
-  nsvcd__arena_free(&arena);
-  if (result) {
-    if (error_line) *error_line = obj.line;
-    nsvcd_mesh_free(&parsed, allocator);
+  obj->line = 0;
+  if (obj->triangles == 0) {
+    if (obj->vertices == 0) *obj = begin;
+    result = nsvcd__obj_other(obj, 0, NSVCD_ERROR_EMPTY);
+    if (result == NSVCD_ERROR_EMPTY) obj->line = 0;
     return result;
   }
-  *mesh = parsed;
-  return NSVCD_OK;
-}
-
-NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
-                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
-                                      size_t *error_line) {
-  return nsvcd__obj_read(text, size, NULL, allocator, mesh, error_line);
+  if (!nsvcd__mesh_alloc(mesh, obj->vertices, obj->triangles, arena->allocator) ||
+      !nsvcd__polygon_alloc(&polygon, obj->max_corners, arena))
+    return NSVCD_ERROR_MEMORY;
+  *obj = begin;
+  result = nsvcd__obj_vertices(obj, mesh->positions);
+  if (result) return result;
+  *obj = begin;
+  return nsvcd__obj_faces(obj, mesh, &polygon);
 }
 #endif  // NSVCD_NO_OBJ

@@ -1,13 +1,14 @@
 // In: the corners of a face. Out: triangles, by ear clipping (Meisters 1975; after Eberly,
 // "Triangulation by Ear Clipping").
 //
-// A face becomes corners - 2 triangles whose vector areas always sum to the polygon's. A simple
-// polygon, concave or with holes cut open by a bridge, is covered without overlap; any other
-// (crossing itself, no area) is cut somehow.
+// A face of n corners becomes n - 2 triangles, whose vector areas sum to the polygon's. A simple
+// polygon, concave or with holes joined to the outline by bridges, is covered without overlap; any
+// other (one that crosses itself or has no area) is cut somehow.
 //
-// An ear is a corner whose triangle holds no reflex corner. So that faces may have many corners,
-// these are not all looked at: corners are sorted along a Z curve (Morton 1966), and each run of 8
-// has a box, as have two boxes side by side, and so on up to one about all.
+// An ear is a convex corner whose triangle contains no reflex corner. Difference from Eberly: that
+// test visits boxes, not all reflex corners, so that faces may have many corners. The corners are
+// sorted along a Z curve (Morton 1966); each run of 8 has a box, each two neighbouring boxes have
+// one about them, and so on up to one about all.
 #pragma once
 #include "../ground/memory.h"
 #include "../ground/slices.h"
@@ -15,51 +16,45 @@
 #ifndef NSVCD_NO_OBJ
 #define NSVCD__RUN 8
 
-// In the polygon's plane.
+// A point in the polygon's plane.
 typedef struct nsvcd__d2 {
   double x, y;
 } nsvcd__d2;
 
 typedef struct nsvcd__corner {
-  // the polygon is counter-clockwise
-  nsvcd__d2 at;
+  nsvcd__d2 at;  // the polygon is counter-clockwise
   uint32_t vertex;
-  // the ring of corners not yet clipped
-  uint32_t previous, next;
-  // 1: in the queue
-  uint32_t queued;
-  // 1: the inner angle exceeds 180 degrees
-  uint32_t reflex;
-  // the box of its run
-  uint32_t box;
+  uint32_t previous, next;  // in the ring of corners not yet clipped
+  uint32_t queued;          // 1: in the queue
+  uint32_t reflex;          // 1: the inner angle exceeds 180 degrees
+  uint32_t box;             // of its run
 } nsvcd__corner;
 
 typedef struct nsvcd__corner_box {
   nsvcd__d2 low, high;
-  // corners in it that are reflex
-  uint32_t reflex;
+  uint32_t reflex;  // how many reflex corners are in it
 } nsvcd__corner_box;
 
 typedef struct nsvcd__polygon {
   nsvcd__corner *corners;
-  // (count): corners along the Z curve
+  // (count) corners along the Z curve
   uint32_t *order;
-  // (2 runs): box k is about boxes 2 k and 2 k + 1, the last are runs'
+  // (2 runs) box k is about boxes 2 k and 2 k + 1; the last `runs` are those of the runs
   nsvcd__corner_box *boxes;
-  uint32_t count, runs;  // a power of two
-  // (count), a ring: corners that may have become an ear
+  uint32_t count, runs;  // runs: a power of two
+  // (count) a ring buffer: corners that may have become ears
   uint32_t *queue;
   uint32_t queue_first, queue_length;
 } nsvcd__polygon;
 
-// Runs of so many corners, rounded up to a power of two.
+// The number of runs, rounded up to a power of two.
 static uint32_t nsvcd__runs_of(uint32_t corners) {
   uint32_t runs = 1;
   while (NSVCD__RUN * (uint64_t)runs < corners) runs *= 2;
   return runs;
 }
 
-// Room for polygons of up to so many corners. 0 without memory.
+// Makes room for polygons of up to `corners` corners. 0 without memory.
 static int nsvcd__polygon_alloc(nsvcd__polygon *polygon, uint32_t corners,
                                 nsvcd__arena *arena) {
   memset(polygon, 0, sizeof *polygon);
@@ -70,8 +65,8 @@ static int nsvcd__polygon_alloc(nsvcd__polygon *polygon, uint32_t corners,
   return !arena->failed;
 }
 
-// Twice the area of abc, positive if counter-clockwise. In double a difference of floats is as good
-// as exact.
+// Twice the area of abc, positive if counter-clockwise. Differences of floats are next to exact in
+// double.
 static double nsvcd__d2_cross(nsvcd__d2 a, nsvcd__d2 b, nsvcd__d2 c) {
   return (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
 }
@@ -79,8 +74,7 @@ static int nsvcd__same_position(nsvcd__d2 a, nsvcd__d2 b) {
   return !(a.x < b.x || a.x > b.x || a.y < b.y || a.y > b.y);
 }
 
-// Places the corners in a plane: drops the axis along which the normal is longest, and so keeps the
-// coordinates exact.
+// Projects the corners along the axis nearest to the normal, which keeps coordinates exact.
 static void nsvcd__polygon_project(nsvcd__polygon *polygon, const float *positions) {
   nsvcd__corner *corners = polygon->corners;
   // twice the area times the normal (Newell's)
@@ -102,11 +96,11 @@ static void nsvcd__polygon_project(nsvcd__polygon *polygon, const float *positio
   }
 }
 
-// Sorts corners along the Z curve, by this bit of it and those below: the bits of x and y in turn.
+// Sorts corners along the Z curve by this bit of their keys and those below: x and y take turns.
 static void nsvcd__z_sort(const nsvcd__corner *corners, uint32_t *order, uint32_t count,
                           int bit) {
   if (count <= NSVCD__RUN || bit < 0) return;
-  // where those begin that have the bit
+  // the first that has the bit
   uint32_t ones = count;
   for (uint32_t i = 0; i < ones;) {
     const uint32_t corner = order[i];
@@ -127,10 +121,9 @@ static void nsvcd__z_sort(const nsvcd__corner *corners, uint32_t *order, uint32_
   nsvcd__z_sort(corners, order + ones, count - ones, bit - 1);
 }
 
-static nsvcd__corner_box nsvcd__no_box(void) {
-  const nsvcd__corner_box out = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}, 0};
-  return out;
-}
+static const nsvcd__corner_box nsvcd__no_box = {
+    {HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}, 0};
+
 static void nsvcd__box_take(nsvcd__corner_box *box, nsvcd__d2 at) {
   if (at.x < box->low.x) box->low.x = at.x;
   if (at.y < box->low.y) box->low.y = at.y;
@@ -138,10 +131,10 @@ static void nsvcd__box_take(nsvcd__corner_box *box, nsvcd__d2 at) {
   if (at.y > box->high.y) box->high.y = at.y;
 }
 
-// Puts the corners into boxes. None is known to be reflex yet.
+// Makes the boxes. No corner counts as reflex yet.
 static void nsvcd__polygon_box(nsvcd__polygon *polygon) {
   polygon->runs = nsvcd__runs_of(polygon->count);
-  for (uint32_t k = 0; k < 2 * polygon->runs; k++) polygon->boxes[k] = nsvcd__no_box();
+  for (uint32_t k = 0; k < 2 * polygon->runs; k++) polygon->boxes[k] = nsvcd__no_box;
   for (uint32_t i = 0; i < polygon->count; i++) polygon->order[i] = i;
   nsvcd__z_sort(polygon->corners, polygon->order, polygon->count, 63);
   for (uint32_t i = 0; i < polygon->count; i++) {
@@ -158,7 +151,7 @@ static void nsvcd__polygon_set_reflex(nsvcd__polygon *polygon, uint32_t i, uint3
   c->reflex = reflex;
 }
 
-// Looks at corner i again, after a neighbour of it has changed.
+// Updates corner i after a neighbour of it has changed.
 static void nsvcd__polygon_update(nsvcd__polygon *polygon, uint32_t i) {
   nsvcd__corner *corners = polygon->corners;
   nsvcd__corner *c = &corners[i];
@@ -176,7 +169,7 @@ typedef struct nsvcd__ear {
   nsvcd__corner_box box;
 } nsvcd__ear;
 
-// Is a place within an ear, and not at one of its corners?
+// Does an ear contain a point that is not at one of its corners?
 static int nsvcd__ear_holds(const nsvcd__ear *ear, nsvcd__d2 p) {
   for (size_t k = 0; k < 3; k++) {
     if (nsvcd__d2_cross(ear->at[k], ear->at[(k + 1) % 3], p) < 0) return 0;
@@ -185,13 +178,13 @@ static int nsvcd__ear_holds(const nsvcd__ear *ear, nsvcd__d2 p) {
   return !nsvcd__same_position(p, ear->at[2]);
 }
 
-// May an ear hold a corner in a box?
+// May an ear contain a corner in a box?
 static int nsvcd__ear_meets(const nsvcd__ear *ear, const nsvcd__corner_box *box) {
   if (nsvcd__same_position(box->low, box->high)) return nsvcd__ear_holds(ear, box->low);
   if (ear->box.high.x < box->low.x || ear->box.high.y < box->low.y) return 0;
   if (ear->box.low.x > box->high.x || ear->box.low.y > box->high.y) return 0;
   for (size_t k = 0; k < 3; k++) {
-    // All of the box is to the right of a side: its farthest corner to the left tells.
+    // if the leftmost corner of the box is to the right of a side, all of it is
     const nsvcd__d2 a = ear->at[k];
     const nsvcd__d2 b = ear->at[(k + 1) % 3];
     const double x = b.y > a.y ? box->low.x : box->high.x;
@@ -201,12 +194,12 @@ static int nsvcd__ear_meets(const nsvcd__ear *ear, const nsvcd__corner_box *box)
   return 1;
 }
 
-// An ear is a convex corner whose triangle holds no other corner; only reflex ones need a look.
+// Is corner i an ear? Only reflex corners can be in its triangle.
 static int nsvcd__polygon_is_ear(const nsvcd__polygon *polygon, uint32_t i) {
   const nsvcd__corner *corners = polygon->corners;
   const nsvcd__d2 a = corners[corners[i].previous].at;
   const nsvcd__d2 c = corners[corners[i].next].at;
-  nsvcd__ear ear = {{a, corners[i].at, c}, nsvcd__no_box()};
+  nsvcd__ear ear = {{a, corners[i].at, c}, nsvcd__no_box};
   if (nsvcd__d2_cross(a, ear.at[1], c) <= 0) return 0;
   for (size_t k = 0; k < 3; k++) nsvcd__box_take(&ear.box, ear.at[k]);
   for (uint32_t k = 1; k > 0;) {
@@ -222,17 +215,16 @@ static int nsvcd__polygon_is_ear(const nsvcd__polygon *polygon, uint32_t i) {
       const nsvcd__corner *p = &corners[polygon->order[j]];
       if (p->reflex && nsvcd__ear_holds(&ear, p->at)) return 0;
     }
-    // to the next box that is not within this one; 0: there is none
+    // the next box that is not part of this one; 0: none is left
     while (k % 2) k /= 2;
     k += k > 0;
   }
   return 1;
 }
 
-// polygon: its corners, 3 or more, with their vertices set. triangles: (count - 2, 3).
+// Writes triangles (count - 2, 3). polygon: 3 or more corners, whose vertices are set.
 static void nsvcd__polygon_triangulate(nsvcd__polygon *polygon, const float *positions,
                                        uint32_t *triangles) {
-  // A ring of the corners, and a queue of all: each may be an ear.
   nsvcd__corner *corners = polygon->corners;
   const uint32_t count = polygon->count;
   polygon->queue_first = 0;
@@ -249,11 +241,10 @@ static void nsvcd__polygon_triangulate(nsvcd__polygon *polygon, const float *pos
     for (uint32_t i = 0; i < count; i++) nsvcd__polygon_update(polygon, i);
   }
 
-  // some corner of what is left
+  // a corner that is left
   uint32_t at = 0;
   for (uint32_t left = count; left > 3;) {
-    // An empty queue means that no corner is an ear: not a simple polygon. Cut any corner off and
-    // go on.
+    // With an empty queue no corner is an ear, and the polygon is not simple: clip any corner.
     const int stuck = polygon->queue_length == 0;
     const uint32_t i = stuck ? at : polygon->queue[polygon->queue_first];
     nsvcd__corner *c = &corners[i];

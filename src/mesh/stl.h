@@ -1,8 +1,8 @@
 // In: an STL file, binary or text. Out: nsvcd_mesh.
 //
-// Binary is what has the size that its count of triangles says, does not begin with "solid", or
-// holds a NUL, as no text does. Of text only the words vertex and endloop count: three vertices a
-// loop.
+// A file is binary if it has the size that its count of triangles says, does not begin with
+// "solid", or holds a NUL, which no text does. Of a text only the words vertex and endloop matter:
+// three vertices a loop.
 #pragma once
 #include "obj.h"
 
@@ -14,20 +14,30 @@ static uint32_t nsvcd__stl_word(const unsigned char *p) {
   return p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
 }
 
-// Three floats of a file that is binary.
-static nsvcd_result nsvcd__stl_corner(const unsigned char *at,
-                                      const nsvcd_mesh_options *options, float *out) {
-  nsvcd_result result = NSVCD_OK;
-  for (size_t k = 0; k < 3 && !result; k++) {
-    const uint32_t bits = nsvcd__stl_word(at + 4 * k);
-    float value;
-    memcpy(&value, &bits, sizeof bits);
-    result = nsvcd__mesh_number(options, k, (double)value, &out[k]);
-  }
-  return result;
+// The size of a binary file with the count of triangles that this one has.
+static uint64_t nsvcd__stl_size(const void *data, size_t size) {
+  const unsigned char *count = (const unsigned char *)data + 80;
+  const uint64_t triangles = size < NSVCD__STL_HEADER ? 0 : nsvcd__stl_word(count);
+  return NSVCD__STL_HEADER + NSVCD__STL_FACET * triangles;
 }
 
-// Goes to the next token, past the ends of lines; 0 at the end of the text.
+// Reads the corners (count, 3) of a binary file.
+static nsvcd_result nsvcd__stl_binary(const void *data, const nsvcd_mesh_options *options,
+                                      float *corners, size_t count) {
+  const unsigned char *first = (const unsigned char *)data + NSVCD__STL_HEADER;
+  for (size_t i = 0; i < 3 * count; i++) {
+    // a facet's normal comes before its corners
+    const unsigned char *at = first + NSVCD__STL_FACET * (i / 9) + 12 + 4 * (i % 9);
+    const uint32_t bits = nsvcd__stl_word(at);
+    float value;
+    memcpy(&value, &bits, sizeof bits);
+    const nsvcd_result result = nsvcd__mesh_number(options, i % 3, (double)value, &corners[i]);
+    if (result) return result;
+  }
+  return NSVCD_OK;
+}
+
+// Goes to the next token, on whichever line; 0 at the end of the text.
 static int nsvcd__stl_token(nsvcd__obj *text) {
   for (;;) {
     const size_t newline = nsvcd__obj_newline(text->at, text->end);
@@ -38,7 +48,7 @@ static int nsvcd__stl_token(nsvcd__obj *text) {
   }
 }
 
-// Is the token this word, in small letters or capitals? Then it is passed.
+// Passes the token if it is this word, in whatever case.
 static int nsvcd__stl_accept(nsvcd__obj *text, const char *word) {
   const char *p = text->at;
   for (; *word; word++, p++) {
@@ -51,7 +61,12 @@ static int nsvcd__stl_accept(nsvcd__obj *text, const char *word) {
   return 1;
 }
 
-// Reads corners (count, 3) of a text, or, where that is NULL, only counts them.
+// Does a text begin with the word "solid"?
+static int nsvcd__stl_is_solid(nsvcd__obj text) {
+  return nsvcd__stl_token(&text) && nsvcd__stl_accept(&text, "solid");
+}
+
+// Reads the corners (count, 3) of a text; NULL: only counts them.
 static nsvcd_result nsvcd__stl_text(nsvcd__obj *text, float *corners, size_t *count) {
   size_t in_loop = 0;
   *count = 0;
@@ -80,18 +95,16 @@ static nsvcd_result nsvcd__stl_text(nsvcd__obj *text, float *corners, size_t *co
   return in_loop == 0 ? NSVCD_OK : NSVCD_ERROR_SYNTAX;
 }
 
-// Vertices by their places.
+// A hash table of vertices by position.
 typedef struct nsvcd__stl_positions {
-  // (slots), a power of two: numbers + 1, 0 where none is
+  // (slots), a power of two: numbers of vertices + 1, or 0
   uint32_t *table;
   size_t slots;
-  // of the hash
-  uint64_t seed;
-  // along the table, past vertices elsewhere
-  size_t steps;
+  uint64_t seed;  // of the hash
+  size_t steps;   // along the table, past other vertices
 } nsvcd__stl_positions;
 
-// The slot of the vertex at this place, or where it belongs.
+// The slot of the vertex at a corner's position, or the empty one where it belongs.
 static uint32_t *nsvcd__stl_find(nsvcd__stl_positions *found, const float *positions,
                                  const float *corner) {
   uint32_t bits[3];
@@ -107,9 +120,9 @@ static uint32_t *nsvcd__stl_find(nsvcd__stl_positions *found, const float *posit
   }
 }
 
-// Makes one vertex of corners at the same place: corners (3 triangles, 3) become positions, and
-// their numbers indices. Where it takes many steps, as of corners that are chosen to share a hash,
-// another hash is taken. The table is of zeros.
+// Welds corners (3 triangles, 3) at the same position: they become positions, and their numbers
+// indices. If that takes many steps, as with corners chosen to share a hash, it takes another hash.
+// The table is zeros.
 static void nsvcd__stl_weld(nsvcd_mesh *mesh, nsvcd__stl_positions *found) {
   const size_t corners = mesh->vertex_count;
   float *positions = mesh->positions;
@@ -125,7 +138,7 @@ static void nsvcd__stl_weld(nsvcd_mesh *mesh, nsvcd__stl_positions *found) {
     }
     mesh->indices[i] = *at - 1;
     while (found->steps > most) {
-      // where memory lies is not known to who made the file
+      // whoever made the file cannot know this address
       found->seed += UINT64_C(0xd1342543de82ef95) + (uint64_t)(size_t)found->table;
       found->steps = 0;
       memset(found->table, 0, found->slots * sizeof *found->table);
@@ -136,71 +149,35 @@ static void nsvcd__stl_weld(nsvcd_mesh *mesh, nsvcd__stl_positions *found) {
   mesh->vertex_count = count;
 }
 
-// As nsvcd_stl_parse. options: NULL, or what the caller gave.
-static nsvcd_result nsvcd__stl_read(const void *data, size_t size,
-                                    const nsvcd_mesh_options *options,
-                                    const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
-                                    size_t *error_line) {
-  const unsigned char *bytes = (const unsigned char *)data;
-  if (error_line) *error_line = 0;
-  if (!mesh || !data) return NSVCD_ERROR_ARGUMENT;
-  nsvcd__obj text;
-  nsvcd_mesh_options o;
-  nsvcd_result result = nsvcd__mesh_options_of(options, &o);
-  if (result) return result;
-  size_t corners = 0;
-  nsvcd__obj_begin(&text, (const char *)data, size);
-  const int is_solid = nsvcd__stl_token(&text) && nsvcd__stl_accept(&text, "solid");
-  const uint64_t told = size < NSVCD__STL_HEADER ? 0 : nsvcd__stl_word(bytes + 80);
-  const uint64_t needed = NSVCD__STL_HEADER + NSVCD__STL_FACET * told;
-  const int is_binary = size == needed || !is_solid || memchr(data, 0, size);
+// Reads a file, of which `text` is at the beginning. text->line: where it fails, or 0 if no line is
+// at fault.
+static nsvcd_result nsvcd__stl_read(nsvcd__obj *text, const void *data, size_t size,
+                                    nsvcd__arena *arena, nsvcd_mesh *mesh) {
+  const nsvcd__obj begin = *text;
+  const uint64_t needed = nsvcd__stl_size(data, size);
+  const int is_binary = size == needed || !nsvcd__stl_is_solid(begin) || memchr(data, 0, size);
   if (is_binary && size < needed) return NSVCD_ERROR_FORMAT;
-  nsvcd__obj_begin(&text, (const char *)data, size);
-  text.line = 1;
-  if (is_binary) {
-    if (told > NSVCD__MAX_COUNT / 3) return NSVCD_ERROR_TOO_LARGE;
-    corners = 3 * (size_t)told;
-  } else {
-    result = nsvcd__stl_text(&text, NULL, &corners);
-    if (!result && corners > NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
-  }
-  if (!result && corners == 0) return NSVCD_ERROR_EMPTY;
-  nsvcd_mesh out;
-  nsvcd__arena arena = nsvcd__arena_of(allocator);
-  memset(&out, 0, sizeof out);
+  nsvcd_result result = NSVCD_OK;
+  size_t corners = 3 * (size_t)((needed - NSVCD__STL_HEADER) / NSVCD__STL_FACET);
+  text->line = 1;
+  if (!is_binary) result = nsvcd__stl_text(text, NULL, &corners);
+  if (result) return result;
+  text->line = 0;
+  if (corners > NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
+  if (corners == 0) return NSVCD_ERROR_EMPTY;
   nsvcd__stl_positions positions = {NULL, 16, 0, 0};
   while (positions.slots < 2 * corners) positions.slots *= 2;
-  if (!result) {
-    positions.table = NSVCD__TAKE(&arena, uint32_t, positions.slots);
-    if (!positions.table || !nsvcd__mesh_alloc(&out, corners, corners / 3, allocator)) {
-      text.line = 0;
-      result = NSVCD_ERROR_MEMORY;
-    }
+  positions.table = NSVCD__TAKE(arena, uint32_t, positions.slots);
+  if (arena->failed || !nsvcd__mesh_alloc(mesh, corners, corners / 3, arena->allocator))
+    return NSVCD_ERROR_MEMORY;
+  if (is_binary) {
+    result = nsvcd__stl_binary(data, &text->options, mesh->positions, corners);
+  } else {
+    *text = begin;
+    text->line = 1;
+    result = nsvcd__stl_text(text, mesh->positions, &corners);
   }
-  if (!result && !is_binary) {
-    nsvcd__obj_begin(&text, (const char *)data, size);
-    text.line = 1;
-    text.options = o;
-    result = nsvcd__stl_text(&text, out.positions, &corners);
-  }
-  for (size_t i = 0; i < corners && is_binary && !result; i++) {
-    const size_t facet = NSVCD__STL_HEADER + NSVCD__STL_FACET * (i / 3);
-    result = nsvcd__stl_corner(bytes + facet + 12 * (1 + i % 3), &o, out.positions + 3 * i);
-  }
-  if (!result) nsvcd__stl_weld(&out, &positions);
-  nsvcd__arena_free(&arena);
-  if (result) {
-    if (error_line && !is_binary) *error_line = text.line;
-    nsvcd_mesh_free(&out, allocator);
-    return result;
-  }
-  *mesh = out;
-  return NSVCD_OK;
-}
-
-NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
-                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
-                                      size_t *error_line) {
-  return nsvcd__stl_read(data, size, NULL, allocator, mesh, error_line);
+  if (!result) nsvcd__stl_weld(mesh, &positions);
+  return result;
 }
 #endif  // NSVCD_NO_OBJ
