@@ -540,11 +540,32 @@ static void solids_are_not_certified_free(void) {
   }
 }
 
+// A fin that is the mesh's first triangle is set aside like any other, and leaves a solid.
+static void solids_begin_with_a_fin(void) {
+  shapes_mesh mesh;
+  memset(&mesh, 0, sizeof mesh);
+  shapes_box(&mesh, 1, 1, 1, 1);
+  const uint32_t tip = shapes_vertex(&mesh, 0.5, -1, -1);
+  shapes_triangle(&mesh, 0, 0, 0);
+  for (size_t i = 3 * mesh.triangles; i-- > 3;) mesh.indices[i] = mesh.indices[i - 3];
+  mesh.indices[0] = mesh.indices[3];
+  mesh.indices[1] = mesh.indices[4];
+  mesh.indices[2] = tip;
+  const nsvcd_body *body = solids_encode(&mesh, 0);
+  const nsvcd_body_facts facts = nsvcd_body_describe(body);
+  CHECK_EQ(facts.components, 1);
+  CHECK_EQ(facts.open_components, 0);
+  CHECK_EQ(facts.open_edges, 0);
+  nsvcd_body_free(body, NULL);
+  shapes_free(&mesh);
+}
+
 void test_solids(void) {
   RUN(solids_seen_through_a_gap);
   RUN(solids_are_not_certified_free);
   RUN(solids_with_gaps);
   RUN(solids_with_a_flaw);
+  RUN(solids_begin_with_a_fin);
   RUN(solids_of_sheets);
 }
 

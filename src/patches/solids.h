@@ -1,21 +1,20 @@
-// In: a mesh's topology. Out: what each triangle is a part of: a sheet, a closed surface, one that
-// only its winding keeps from being closed, or a solid with a hole.
+// In: a mesh's topology. Out: what each triangle is part of: a sheet, a closed surface, one that is
+// closed but for its winding, or nearly a solid: one with a hole.
 //
-// What closed components enclose is known by how often they wind about a place. That needs a cycle:
-// each directed edge with its reverse. Of a component that is none, a part may be, once what does
-// no harm to it is set aside. In this order:
-//   1. Corners at edges where a triangle is missing are joined to others that are near enough.
-//   2. Of triangles with the same three corners one stays, of those with two in one place none.
-//   3. Triangles with an edge that no other has, fins, are set aside, and again what these leave;
-//   so
-//      are walls within: of those that meet at edges of three, the one of the least area.
-//   4. What is left, part by part (triangles that share edges), is a cycle; or each edge has an
-//   even
-//      number of triangles: then a ray from inside crosses the part an odd number of times,
-//      however it is wound. Of a sheet nothing is left. A part of the latter kind that is less than
-//      half of all that its edges join is left alone: rooms on a terrain are not turned round.
-//   5. What is not closed after that is a sheet, or nearly a solid: see nsvcd__judge_holes.
-// The caller's triangles stay as they are, and all are proven apart: this decides only which of
+// A point is inside closed components if they wind about it. That needs a cycle: each directed edge
+// has its reverse. A component that is none may contain one, once harmless flaws are set aside, in
+// this order:
+//   1. Corners at edges that lack a triangle are joined to others that are near enough.
+//   2. Of triangles with the same three corners one stays; those with only two distinct corners go.
+//   3. Fins, triangles with an edge that no other has, are set aside, until none is left. So are
+//      inner walls: where edges of three meet, the part with the least area.
+//   4. What is left is judged part by part (triangles that share edges). It is a cycle; or each edge
+//      has an even number of triangles, and then a ray from inside crosses it an odd number of
+//      times, however it is wound. Of a sheet nothing is left. A part of the second kind is a sheet
+//      if it has less than half the area of all that its edges join: rooms on a terrain are not
+//      turned inside out.
+//   5. What is still open is a sheet, or nearly a solid: see nsvcd__judge_holes.
+// The caller's triangles stay as they are, and are all proven apart. This decides only which of
 // them a ray counts.
 #pragma once
 #include "../ground/slices.h"
@@ -23,28 +22,26 @@
 #include "topology.h"
 
 #ifndef NSVCD_NO_ENCODER
-// Corners are joined if they are no farther apart than this, of the diagonal of the mesh's box, and
-// of the longest edge at either.
+// Corners are joined up to this distance, as a fraction of the diagonal of the mesh's box, and of
+// the longest edge at either.
 #define NSVCD__JOINED 1e-4
 #define NSVCD__JOINED_OF_EDGE 0.01
-// that are looked at in a cell
+// vertices that are tried in a cell
 #define NSVCD__JOIN_TRIES 64
-// Of nearly a solid: holes, of the area; one of three edges counts for less. How far the surface
-// goes on in the plane of a hole: the mean cosine. A hole is a slit if its area is less than this
-// of its edge's length squared.
+// Nearly a solid: its holes have at most this fraction of its area; a hole of three edges counts
+// only this fraction of itself.
 #define NSVCD__HOLES 0.02
 #define NSVCD__HOLE_OF_THREE 0.04
+// least mean cosine between a hole and the surface about it, if that goes on across the hole
 #define NSVCD__FLUSH 0.25
+// a hole is a slit if its area is at most this fraction of its border's length squared
 #define NSVCD__SLIT 1e-3
 
 typedef struct nsvcd__solids {
-  // (triangles) NSVCD__SHEET and so on
-  uint8_t *kinds;
+  uint8_t *kinds;  // (triangles) NSVCD__SHEET and so on
   size_t components, open_components, open_edges;
-  // metres: gaps that were closed are no wider
-  double gap;
-  // is there any kind but SHEET and CLOSED?
-  int is_mixed;
+  double gap;    // metres: the widest gap that was closed
+  int is_mixed;  // 1: there are kinds other than SHEET and CLOSED
 } nsvcd__solids;
 
 // The triangles of components that are not closed, without those that are points or segments.
@@ -52,18 +49,20 @@ typedef struct nsvcd__mending {
   const nsvcd__topology *topology;
   size_t count;         // T
   uint32_t *triangles;  // (T) of the mesh
-  uint32_t *joined;     // (vertices) where a welded vertex was joined to; else itself
-  uint8_t *alive;       // (T) not set aside
-  // (3 T) edges, k-th of triangle n 3 n + k, by their ends; and to which of E groups each belongs
-  uint32_t *order, *groups;
+  uint32_t *joined;     // (vertices) what a welded vertex was joined to, or itself
+  uint8_t *alive;       // (T) 0: set aside
+  // (3 T) edges, sorted by their ends: edge k of triangle n is 3 n + k
+  uint32_t *order;
+  // E groups of edges with the same ends: (3 T) the group of each edge; (E + 1) where a group
+  // begins in `order`
+  uint32_t *groups, *group_first;
   size_t group_count;
   // (E) how many alive triangles have this edge, and the exclusive or of their numbers
   uint32_t *degrees, *others;
-  // (T) of union-find forests: of all that edges join, and of what is alive
+  // (T) union-find forests: of all triangles that edges join, and of the alive ones
   uint32_t *wholes, *parts;
-  // (vertices + 1), to sort with; (3 T) to work with
-  size_t *first;
-  uint32_t *spare;
+  size_t *first;    // (vertices + 1) working memory
+  uint32_t *spare;  // (3 T) working memory
 } nsvcd__mending;
 
 static void nsvcd__mending_face(const nsvcd__mending *m, size_t n, uint32_t *face) {
@@ -75,11 +74,8 @@ static nsvcd__triangle nsvcd__mending_triangle(const nsvcd__mending *m, size_t n
   return nsvcd__triangle_of(m->topology->mesh, m->triangles[n]);
 }
 
-static int nsvcd__has_area(const uint32_t *face) {
-  return face[0] != face[1] && face[1] != face[2] && face[2] != face[0];
-}
-
-// The ends of edge e, the lesser first. Returns 1 if the triangle goes from that to the other.
+// The ends of edge e, the lesser first. Returns 1 if its triangle goes from the lesser to the
+// greater.
 static int nsvcd__mending_edge(const nsvcd__mending *m, size_t e, uint32_t *ends) {
   uint32_t face[3];
   nsvcd__mending_face(m, e / 3, face);
@@ -90,8 +86,12 @@ static int nsvcd__mending_edge(const nsvcd__mending *m, size_t e, uint32_t *ends
   return from < to;
 }
 
-// Sorts the edges of all triangles by one of their ends (counting sort); equal ones keep their
-// order.
+// Is edge e the only one of an alive triangle at its ends?
+static int nsvcd__is_border(const nsvcd__mending *m, size_t e) {
+  return m->alive[e / 3] && m->degrees[m->groups[e]] == 1;
+}
+
+// Sorts edges by one of their ends. Counting sort: equal ones keep their order.
 static void nsvcd__sort_edges(nsvcd__mending *m, const uint32_t *from, uint32_t *to,
                               size_t which) {
   const size_t vertices = m->topology->mesh->vertex_count;
@@ -119,38 +119,36 @@ static void nsvcd__count_degrees(nsvcd__mending *m) {
   }
 }
 
-// Finds which edges are the same, and sets aside what is there twice or has no area. spare: of the
-// triangles at an edge, by their third corner, the first; 0: none, else its number + 1.
+// Groups equal edges, and sets aside triangles that are there twice or have equal corners.
 static void nsvcd__group_edges(nsvcd__mending *m) {
   uint32_t *seen = m->parts;
   uint32_t last[2] = {0, 0};
+  uint32_t ends[2], face[3];
   m->group_count = 0;
   for (size_t n = 0; n < m->count; n++) {
-    uint32_t face[3];
     nsvcd__mending_face(m, n, face);
-    m->alive[n] = (uint8_t)nsvcd__has_area(face);
+    m->alive[n] = (uint8_t)nsvcd__are_distinct(face);
   }
   for (size_t e = 0; e < 3 * m->count; e++) m->order[e] = (uint32_t)e;
   nsvcd__sort_edges(m, m->order, m->spare, 1);
   nsvcd__sort_edges(m, m->spare, m->order, 0);
   for (size_t i = 0; i < 3 * m->count; i++) {
-    uint32_t ends[2];
     (void)nsvcd__mending_edge(m, m->order[i], ends);
-    m->group_count += i == 0 || ends[0] != last[0] || ends[1] != last[1];
+    if (i == 0 || ends[0] != last[0] || ends[1] != last[1])
+      m->group_first[m->group_count++] = (uint32_t)i;
     memcpy(last, ends, sizeof last);
     m->groups[m->order[i]] = (uint32_t)(m->group_count - 1);
   }
-  // By their edge of the two least corners: where that is the same, the third tells.
+  m->group_first[m->group_count] = (uint32_t)(3 * m->count);
+  // Equal triangles share the edge between their two least corners, and the third corner.
   memset(m->first, 0, m->topology->mesh->vertex_count * sizeof *m->first);
-  for (size_t i = 0, end; i < 3 * m->count; i = end) {
+  for (size_t g = 0; g < m->group_count; g++) {
     size_t met = 0;
-    for (end = i; end < 3 * m->count; end++) {
-      const size_t n = m->order[end] / 3;
-      uint32_t ends[2], face[3];
-      if (m->groups[m->order[end]] != m->groups[m->order[i]]) break;
-      (void)nsvcd__mending_edge(m, m->order[end], ends);
+    for (size_t i = m->group_first[g]; i < m->group_first[g + 1]; i++) {
+      const size_t n = m->order[i] / 3;
+      (void)nsvcd__mending_edge(m, m->order[i], ends);
       nsvcd__mending_face(m, n, face);
-      const uint32_t third = face[(m->order[end] + 2) % 3];
+      const uint32_t third = face[(m->order[i] + 2) % 3];
       if (!m->alive[n] || third < ends[1]) continue;
       m->alive[n] = m->first[third] == 0;
       m->first[third] = 1;
@@ -163,15 +161,16 @@ static void nsvcd__group_edges(nsvcd__mending *m) {
 
 // ---- corners that are near each other
 
+// A hash table of vertices by cell.
 typedef struct nsvcd__cells {
   const nsvcd__mending *m;
   nsvcd__d3 low;
   double width;
-  // (slots) 0: none, else the last vertex + 1; (vertices) the one before, likewise
+  // (slots) the last vertex of a slot + 1, or 0; (vertices) the one before it, likewise
   uint32_t *heads, *before;
   size_t slots;
-  // (vertices) metres; 0: it is at no edge where a triangle is missing
-  float *reach;
+  // (vertices) metres: how far it may be joined; 0: it is at no edge that lacks a triangle
+  float *limits;
 } nsvcd__cells;
 
 static uint32_t *nsvcd__cell_of(const nsvcd__cells *c, const double *cell) {
@@ -183,8 +182,8 @@ static uint32_t *nsvcd__cell_of(const nsvcd__cells *c, const double *cell) {
   return &c->heads[(hash * 0x85ebca6bu) & (c->slots - 1)];
 }
 
-// Joins a vertex to the nearest one near enough that has not been joined, or keeps it for others.
-// Returns how far apart they are.
+// Joins a vertex to the nearest one in the table that is near enough, or puts it there itself.
+// Returns the distance joined.
 static double nsvcd__join_vertex(nsvcd__cells *c, uint32_t v) {
   const float *positions = c->m->topology->mesh->positions;
   const nsvcd__d3 at = nsvcd__d3_row(positions, v);
@@ -201,9 +200,9 @@ static double nsvcd__join_vertex(nsvcd__cells *c, uint32_t v) {
     for (int k = 0; k < 3; k++) cell[k] = own[k] + (corner >> k & 1 ? side[k] : 0);
     uint32_t w = *nsvcd__cell_of(c, cell);
     for (size_t tries = 0; w && tries < NSVCD__JOIN_TRIES; tries++) {
-      const double least = (double)fminf(c->reach[v], c->reach[w - 1]);
+      const double limit = (double)fminf(c->limits[v], c->limits[w - 1]);
       const double square = nsvcd__d3_distance2(at, nsvcd__d3_row(positions, w - 1));
-      if (square <= least * least && square < best) {
+      if (square <= limit * limit && square < best) {
         best = square;
         c->m->joined[v] = w - 1;
       }
@@ -217,9 +216,9 @@ static double nsvcd__join_vertex(nsvcd__cells *c, uint32_t v) {
   return 0;
 }
 
-// How far each vertex may be joined: those at edges of an odd number of triangles. Returns how many
-// there are.
-static size_t nsvcd__find_reaches(const nsvcd__mending *m, double most, float *reach) {
+// Sets how far the vertices at edges of an odd number of triangles may be joined, `most` at most.
+// Returns how many they are.
+static size_t nsvcd__find_limits(const nsvcd__mending *m, double most, float *limits) {
   size_t count = 0;
   for (size_t e = 0; e < 3 * m->count; e++) {
     const nsvcd__triangle t = nsvcd__mending_triangle(m, e / 3);
@@ -229,14 +228,15 @@ static size_t nsvcd__find_reaches(const nsvcd__mending *m, double most, float *r
     const double edge = sqrt(nsvcd__d3_distance2(t.at[e % 3], t.at[(e + 1) % 3]));
     const float own = (float)nsvcd__min(most, NSVCD__JOINED_OF_EDGE * edge);
     for (size_t k = 0; k < 2; k++) {
-      count += reach[ends[k]] <= 0;
-      reach[ends[k]] = fmaxf(own, reach[ends[k]]);
+      count += limits[ends[k]] <= 0;
+      limits[ends[k]] = fmaxf(own, limits[ends[k]]);
     }
   }
   return count;
 }
 
-// Joins what is near enough to each other. Returns the greatest distance; below 0 without memory.
+// Joins corners that are near enough to each other. Returns the greatest distance joined, or -1
+// without memory.
 static double nsvcd__join_corners(nsvcd__mending *m, const nsvcd_allocator *allocator) {
   const nsvcd_mesh *mesh = m->topology->mesh;
   nsvcd__arena arena = nsvcd__arena_of(allocator);
@@ -253,13 +253,13 @@ static double nsvcd__join_corners(nsvcd__mending *m, const nsvcd_allocator *allo
   c.m = m;
   c.low = low;
   c.width = 2 * most;
-  c.reach = NSVCD__TAKE(&arena, float, mesh->vertex_count);
-  size_t left = c.reach ? nsvcd__find_reaches(m, most, c.reach) : 0;
+  c.limits = NSVCD__TAKE(&arena, float, mesh->vertex_count);
+  const size_t left = c.limits ? nsvcd__find_limits(m, most, c.limits) : 0;
   for (c.slots = 16; c.slots / 2 < left;) c.slots *= 2;
   c.heads = NSVCD__TAKE(&arena, uint32_t, c.slots);
   c.before = NSVCD__TAKE(&arena, uint32_t, mesh->vertex_count);
   for (uint32_t v = 0; !arena.failed && v < mesh->vertex_count; v++) {
-    if (c.reach[v] > 0) widest = nsvcd__max(widest, nsvcd__join_vertex(&c, v));
+    if (c.limits[v] > 0) widest = nsvcd__max(widest, nsvcd__join_vertex(&c, v));
   }
   nsvcd__arena_free(&arena);
   return arena.failed ? -1 : widest;
@@ -267,34 +267,30 @@ static double nsvcd__join_corners(nsvcd__mending *m, const nsvcd_allocator *allo
 
 // ---- parts
 
-// A forest of the alive triangles: those at an edge, if there are no more than `most`, belong
-// together.
+// Makes a forest of the alive triangles, joined by edges with at most `most` of them.
 static void nsvcd__join_triangles(const nsvcd__mending *m, uint32_t most, uint32_t *forest) {
   for (size_t n = 0; n < m->count; n++) forest[n] = (uint32_t)n;
-  for (size_t i = 0, last = 0; i < 3 * m->count; i++) {
-    const size_t e = m->order[i];
-    if (!m->alive[e / 3] || m->degrees[m->groups[e]] > most) continue;
-    if (m->groups[e] == m->groups[last]) {
-      const uint32_t a = nsvcd__root(forest, (uint32_t)(e / 3));
-      const uint32_t b = nsvcd__root(forest, (uint32_t)(last / 3));
-      forest[a > b ? a : b] = a < b ? a : b;
+  for (size_t g = 0; g < m->group_count; g++) {
+    uint32_t last = UINT32_MAX;
+    if (m->degrees[g] > most) continue;
+    for (size_t i = m->group_first[g]; i < m->group_first[g + 1]; i++) {
+      const uint32_t n = m->order[i] / 3;
+      if (!m->alive[n]) continue;
+      if (last != UINT32_MAX) nsvcd__unite(forest, n, last);
+      last = n;
     }
-    last = e;
   }
   for (size_t n = 0; n < m->count; n++) forest[n] = nsvcd__root(forest, (uint32_t)n);
 }
 
-// Sets aside triangles with an edge that no other has, and again what these leave.
+// Sets triangles aside that have an edge which no other has, until none is left.
 static void nsvcd__peel(nsvcd__mending *m) {
   uint32_t *waiting = m->spare;
   size_t count = 0;
-  for (size_t n = 0; n < m->count; n++) {
-    // one of these is as good as all
-    for (size_t k = 0; k < 3 && m->alive[n]; k++) {
-      if (m->degrees[m->groups[3 * n + k]] != 1) continue;
-      m->alive[n] = 0;
-      waiting[count++] = (uint32_t)n;
-    }
+  for (size_t e = 0; e < 3 * m->count; e++) {
+    if (!nsvcd__is_border(m, e)) continue;
+    m->alive[e / 3] = 0;
+    waiting[count++] = (uint32_t)(e / 3);
   }
   while (count > 0) {
     const uint32_t n = waiting[--count];
@@ -309,62 +305,71 @@ static void nsvcd__peel(nsvcd__mending *m) {
   }
 }
 
-// What is known of a part, of a whole, or of a wall.
-typedef struct nsvcd__component {
+// What is known of a part; of a whole, all that edges join; or of a wall.
+typedef struct nsvcd__part {
   double area;
-  // of its parts that enclose; and one of its parts does not
+  nsvcd__d3 centre;  // times the area
+  // edges that have an odd number of triangles; that do not go both ways equally often
+  uint32_t odd, turned;
+  // of a whole: the area of its parts that enclose something; 1: another part does not
   double closed;
   int fails;
-  // edges: of an odd number of triangles; not as often one way as the other
-  uint32_t odd, turned;
-  // of a whole: of a sheet, by its holes; and their area
+  // of a whole: 1: by its holes it is a sheet; the area of these, and the volume inside
   int is_sheet;
   double holes, volume;
-  nsvcd__d3 centre;  // times the area
-} nsvcd__component;
+} nsvcd__part;
 
-// Counts the odd edges, and the turned ones, of what is alive, by the roots of a forest.
-static void nsvcd__judge_edges(const nsvcd__mending *m, const uint32_t *forest,
-                               nsvcd__component *parts) {
-  for (size_t i = 0, end; i < 3 * m->count; i = end) {
-    const size_t group = m->groups[m->order[i]];
+// Adds up areas and centres of the alive triangles, by their roots in a forest.
+static void nsvcd__sum_areas(const nsvcd__mending *m, const uint32_t *forest,
+                             nsvcd__part *parts) {
+  for (size_t n = 0; n < m->count; n++) {
+    if (!m->alive[n]) continue;
+    const nsvcd__triangle t = nsvcd__mending_triangle(m, n);
+    const double area = nsvcd__triangle_area(&t);
+    nsvcd__part *part = &parts[forest[n]];
+    part->area += area;
+    part->centre = nsvcd__d3_fma(area, t.at[0], part->centre);
+  }
+}
+
+// Counts odd and turned edges of the alive triangles, by their roots in a forest.
+static void nsvcd__count_edges(const nsvcd__mending *m, const uint32_t *forest,
+                               nsvcd__part *parts) {
+  for (size_t g = 0; g < m->group_count; g++) {
     size_t any = m->count;
     int sum = 0;
-    for (end = i; end < 3 * m->count && m->groups[m->order[end]] == group; end++) {
+    for (size_t i = m->group_first[g]; i < m->group_first[g + 1]; i++) {
       uint32_t ends[2];
-      if (!m->alive[m->order[end] / 3]) continue;
-      any = m->order[end] / 3;
-      sum += nsvcd__mending_edge(m, m->order[end], ends) ? 1 : -1;
+      if (!m->alive[m->order[i] / 3]) continue;
+      any = m->order[i] / 3;
+      sum += nsvcd__mending_edge(m, m->order[i], ends) ? 1 : -1;
     }
     if (any == m->count) continue;
-    parts[forest[any]].odd += m->degrees[group] % 2;
+    parts[forest[any]].odd += m->degrees[g] % 2;
     parts[forest[any]].turned += sum != 0;
   }
 }
 
-// Sets walls aside: what edges of two join, if at all its other edges, of three, it has the least
-// area. Returns how many triangles. walls: (T) zeros, and so they are again.
-static size_t nsvcd__drop_walls(nsvcd__mending *m, nsvcd__component *walls) {
+// Sets inner walls aside: triangles joined by edges of two, if at all their other edges, of three,
+// they have the least area. Returns how many triangles. walls: (T) zeros, before and after.
+static size_t nsvcd__drop_walls(nsvcd__mending *m, nsvcd__part *walls) {
   size_t dropped = 0;
   nsvcd__join_triangles(m, 2, m->parts);
-  for (size_t n = 0; n < m->count; n++) {
-    const nsvcd__triangle t = nsvcd__mending_triangle(m, n);
-    if (m->alive[n]) walls[m->parts[n]].area += nsvcd__triangle_area(&t);
-  }
-  for (size_t i = 0, end; i < 3 * m->count; i = end) {
-    const size_t group = m->groups[m->order[i]];
+  nsvcd__sum_areas(m, m->parts, walls);
+  for (size_t g = 0; g < m->group_count; g++) {
     size_t least = m->count;
-    for (end = i; end < 3 * m->count && m->groups[m->order[end]] == group; end++) {
-      const size_t n = m->order[end] / 3;
-      if (!m->alive[n] || m->degrees[group] < 3) continue;
+    if (m->degrees[g] < 3) continue;
+    for (size_t i = m->group_first[g]; i < m->group_first[g + 1]; i++) {
+      const size_t n = m->order[i] / 3;
+      if (!m->alive[n]) continue;
       const size_t wall = m->parts[n];
       walls[wall].odd++;
       if (least == m->count || walls[wall].area < walls[least].area) least = wall;
     }
-    if (least < m->count) walls[least].turned += m->degrees[group] % 2;
+    walls[least].turned += m->degrees[g] % 2;
   }
   for (size_t n = 0; n < m->count; n++) {
-    const nsvcd__component *wall = &walls[m->parts[n]];
+    const nsvcd__part *wall = &walls[m->parts[n]];
     if (!m->alive[n] || wall->odd == 0 || wall->odd != wall->turned) continue;
     m->alive[n] = 0;
     dropped++;
@@ -376,7 +381,7 @@ static size_t nsvcd__drop_walls(nsvcd__mending *m, nsvcd__component *walls) {
 
 // ---- holes
 
-// Edges that have one triangle alone, joined at their ends.
+// A loop of border edges.
 typedef struct nsvcd__hole {
   nsvcd__d3 centre, normal;
   double length, area, flush;
@@ -384,28 +389,27 @@ typedef struct nsvcd__hole {
   uint32_t whole;
 } nsvcd__hole;
 
-// Three passes over the edges at holes: where they are; the cone over them, its area and normal;
-// and whether the triangles at them go on in its plane.
+// Three passes over the border edges: centres; the area and normal of a cone over each hole; and
+// how far the triangles about a hole lie in its plane.
 static void nsvcd__measure_holes(const nsvcd__mending *m, const uint32_t *numbers,
                                  nsvcd__hole *holes, int pass) {
   for (size_t e = 0; e < 3 * m->count; e++) {
     const nsvcd__triangle t = nsvcd__mending_triangle(m, e / 3);
     uint32_t ends[2];
-    if (!m->alive[e / 3] || m->degrees[m->groups[e]] != 1) continue;
+    if (!nsvcd__is_border(m, e)) continue;
     (void)nsvcd__mending_edge(m, e, ends);
     nsvcd__hole *hole = &holes[numbers[ends[0]] - 1];
     const nsvcd__d3 from = t.at[e % 3];
     const nsvcd__d3 to = t.at[(e + 1) % 3];
     const double length = sqrt(nsvcd__d3_distance2(from, to));
     if (pass == 0) {
-      const nsvcd__d3 twice = nsvcd__d3_add(from, to);
-      hole->centre = nsvcd__d3_fma(0.5 * length, twice, hole->centre);
+      hole->centre = nsvcd__d3_fma(0.5 * length, nsvcd__d3_add(from, to), hole->centre);
       hole->length += length;
       hole->edges++;
       hole->whole = m->wholes[e / 3];
       continue;
     }
-    // what would close it goes the other way
+    // a triangle that closed the hole would have the edge reversed
     const nsvcd__d3 centre = nsvcd__d3_scale(hole->centre, 1 / hole->length);
     const nsvcd__d3 a = nsvcd__d3_sub(to, centre);
     const nsvcd__d3 b = nsvcd__d3_sub(from, centre);
@@ -422,11 +426,12 @@ static void nsvcd__measure_holes(const nsvcd__mending *m, const uint32_t *number
   }
 }
 
-// What holes say of the wholes that they are in. One is a sheet where the surface does not go on
-// across a hole, as at the rim of a bin, of a tube, of a floor. A slit, as a corner on an edge
-// makes, is no hole; a single triangle counts for a part of itself; of larger holes only a surface
-// that is wound outwards is nearly a solid's, for else it is a room that has a door.
-static int nsvcd__judge_holes(const nsvcd__mending *m, nsvcd__component *wholes,
+// What holes say of the wholes that they are in. A whole is a sheet if the surface does not go on
+// across a hole, as at the rim of a bin, a tube or a floor. A slit, such as a corner on an edge
+// makes, is no hole, and a missing triangle counts for a fraction of itself. With a larger hole
+// only a surface that is wound outwards is nearly a solid: else it is a room with a door. 0 without
+// memory.
+static int nsvcd__judge_holes(const nsvcd__mending *m, nsvcd__part *wholes,
                               const nsvcd_allocator *allocator) {
   const size_t vertices = m->topology->mesh->vertex_count;
   nsvcd__arena arena = nsvcd__arena_of(allocator);
@@ -436,11 +441,9 @@ static int nsvcd__judge_holes(const nsvcd__mending *m, nsvcd__component *wholes,
   uint32_t ends[2];
   for (uint32_t v = 0; forest && v < vertices; v++) forest[v] = v;
   for (size_t e = 0; !arena.failed && e < 3 * m->count; e++) {
-    if (!m->alive[e / 3] || m->degrees[m->groups[e]] != 1) continue;
+    if (!nsvcd__is_border(m, e)) continue;
     (void)nsvcd__mending_edge(m, e, ends);
-    const uint32_t a = nsvcd__root(forest, ends[0]);
-    const uint32_t b = nsvcd__root(forest, ends[1]);
-    forest[a > b ? a : b] = a < b ? a : b;
+    nsvcd__unite(forest, ends[0], ends[1]);
     numbers[ends[0]] = numbers[ends[1]] = 1;
   }
   for (uint32_t v = 0; !arena.failed && v < vertices; v++) {
@@ -453,7 +456,7 @@ static int nsvcd__judge_holes(const nsvcd__mending *m, nsvcd__component *wholes,
     nsvcd__measure_holes(m, numbers, holes, pass);
   for (size_t h = 0; !arena.failed && h < count; h++) {
     const nsvcd__hole *hole = &holes[h];
-    nsvcd__component *whole = &wholes[hole->whole];
+    nsvcd__part *whole = &wholes[hole->whole];
     const int is_slit = hole->area <= NSVCD__SLIT * hole->length * hole->length;
     const int is_flush = hole->flush >= NSVCD__FLUSH * hole->length;
     const int is_three = hole->edges == 3;
@@ -467,45 +470,39 @@ static int nsvcd__judge_holes(const nsvcd__mending *m, nsvcd__component *wholes,
 
 // ---- all of it
 
-// Areas of wholes, and what they hold as seen from their middle.
-static void nsvcd__measure_wholes(const nsvcd__mending *m, nsvcd__component *wholes) {
-  for (size_t i = 0; i < 2 * m->count; i++) {
-    const size_t n = i % m->count;
-    if (!m->alive[n]) continue;
-    nsvcd__component *whole = &wholes[m->wholes[n]];
+// Areas of wholes, and the volumes that they enclose, as seen from their centres.
+static void nsvcd__measure_wholes(const nsvcd__mending *m, nsvcd__part *wholes) {
+  nsvcd__sum_areas(m, m->wholes, wholes);
+  for (size_t n = 0; n < m->count; n++) {
+    nsvcd__part *whole = &wholes[m->wholes[n]];
+    if (!m->alive[n] || !(whole->area > 0)) continue;
     const nsvcd__triangle t = nsvcd__mending_triangle(m, n);
+    const nsvcd__d3 centre = nsvcd__d3_scale(whole->centre, 1 / whole->area);
     const nsvcd__d3 normal = nsvcd__area_vector(&t);
-    if (i == n) {
-      const double area = nsvcd__d3_length(normal);
-      whole->area += area;
-      whole->centre = nsvcd__d3_fma(area, t.at[0], whole->centre);
-    } else if (whole->area > 0) {
-      const nsvcd__d3 centre = nsvcd__d3_scale(whole->centre, 1 / whole->area);
-      whole->volume += nsvcd__d3_dot(normal, nsvcd__d3_sub(t.at[0], centre)) / 3;
-    }
+    whole->volume += nsvcd__d3_dot(normal, nsvcd__d3_sub(t.at[0], centre)) / 3;
   }
 }
 
-// Which parts of what is left after peeling enclose something? Their triangles are marked.
-static void nsvcd__mark_parts(const nsvcd__mending *m, nsvcd__component *wholes,
-                              nsvcd__component *parts, nsvcd__solids *out) {
-  nsvcd__judge_edges(m, m->parts, parts);
-  for (size_t n = 0; n < m->count; n++) {
-    const nsvcd__triangle t = nsvcd__mending_triangle(m, n);
-    if (m->alive[n]) parts[m->parts[n]].area += nsvcd__triangle_area(&t);
-  }
+// Marks the triangles of the parts, left after peeling, that enclose something.
+static void nsvcd__mark_parts(const nsvcd__mending *m, nsvcd__part *wholes, nsvcd__part *parts,
+                              nsvcd__solids *out) {
+  nsvcd__count_edges(m, m->parts, parts);
+  nsvcd__sum_areas(m, m->parts, parts);
   for (size_t n = 0; n < m->count; n++) {
     if (!m->alive[n]) continue;
-    const nsvcd__component *part = &parts[m->parts[n]];
-    nsvcd__component *whole = &wholes[m->wholes[n]];
+    const nsvcd__part *part = &parts[m->parts[n]];
+    nsvcd__part *whole = &wholes[m->wholes[n]];
     const int is_most = part->area >= 0.5 * whole->area;
     const int kind = part->turned == 0           ? NSVCD__CLOSED
                      : part->odd == 0 && is_most ? NSVCD__EITHER_DIRECTION
                                                  : NSVCD__SHEET;
     out->kinds[m->triangles[n]] = (uint8_t)kind;
-    if (kind == NSVCD__SHEET) whole->fails = 1;
-    if (kind != NSVCD__SHEET && m->parts[n] == n) whole->closed += part->area;
-    for (size_t k = 0; kind != NSVCD__SHEET && k < 3; k++) {
+    if (kind == NSVCD__SHEET) {
+      whole->fails = 1;
+      continue;
+    }
+    if (m->parts[n] == n) whole->closed += part->area;
+    for (size_t k = 0; k < 3; k++) {
       const float *at = m->topology->mesh->positions;
       const uint32_t v = m->topology->mesh->indices[3 * (size_t)m->triangles[n] + k];
       const uint32_t w = m->joined[m->topology->welded[v]];
@@ -515,12 +512,12 @@ static void nsvcd__mark_parts(const nsvcd__mending *m, nsvcd__component *wholes,
   }
 }
 
-// Counts the wholes, and marks what is nearly a solid. alive: before peeling.
-static void nsvcd__mark_wholes(const nsvcd__mending *m, nsvcd__component *wholes,
+// Counts the wholes, and marks what is nearly a solid. alive: as before peeling.
+static void nsvcd__mark_wholes(const nsvcd__mending *m, nsvcd__part *wholes,
                                nsvcd__solids *out) {
   for (size_t n = 0; n < m->count; n++) {
     if (!m->alive[n]) continue;
-    const nsvcd__component *whole = &wholes[m->wholes[n]];
+    const nsvcd__part *whole = &wholes[m->wholes[n]];
     uint8_t *kind = &out->kinds[m->triangles[n]];
     const int is_closed = !whole->fails && whole->closed >= 0.5 * whole->area;
     const int is_nearly = !whole->is_sheet && whole->holes < NSVCD__HOLES * whole->area;
@@ -534,7 +531,7 @@ static void nsvcd__mark_wholes(const nsvcd__mending *m, nsvcd__component *wholes
   }
 }
 
-// 0 without memory.
+// Judges all triangles of `m`. 0 without memory.
 static int nsvcd__mend(nsvcd__mending *m, nsvcd__arena *arena, nsvcd__solids *out) {
   const size_t vertices = m->topology->mesh->vertex_count;
   const size_t count = m->count;
@@ -542,6 +539,7 @@ static int nsvcd__mend(nsvcd__mending *m, nsvcd__arena *arena, nsvcd__solids *ou
   m->alive = NSVCD__TAKE(arena, uint8_t, count);
   m->order = NSVCD__TAKE(arena, uint32_t, 3 * count);
   m->groups = NSVCD__TAKE(arena, uint32_t, 3 * count);
+  m->group_first = NSVCD__TAKE(arena, uint32_t, 3 * count + 1);
   m->degrees = NSVCD__TAKE(arena, uint32_t, 3 * count);
   m->others = NSVCD__TAKE(arena, uint32_t, 3 * count);
   m->wholes = NSVCD__TAKE(arena, uint32_t, count);
@@ -549,8 +547,8 @@ static int nsvcd__mend(nsvcd__mending *m, nsvcd__arena *arena, nsvcd__solids *ou
   m->first = NSVCD__TAKE(arena, size_t, vertices + 1);
   m->spare = NSVCD__TAKE(arena, uint32_t, 3 * count);
   uint8_t *distinct = NSVCD__TAKE(arena, uint8_t, count);
-  nsvcd__component *wholes = NSVCD__TAKE(arena, nsvcd__component, count);
-  nsvcd__component *parts = NSVCD__TAKE(arena, nsvcd__component, count);
+  nsvcd__part *wholes = NSVCD__TAKE(arena, nsvcd__part, count);
+  nsvcd__part *parts = NSVCD__TAKE(arena, nsvcd__part, count);
   if (arena->failed) return 0;
   for (uint32_t v = 0; v < vertices; v++) m->joined[v] = v;
   nsvcd__group_edges(m);
@@ -566,13 +564,13 @@ static int nsvcd__mend(nsvcd__mending *m, nsvcd__arena *arena, nsvcd__solids *ou
   nsvcd__mark_parts(m, wholes, parts, out);
   memcpy(m->alive, distinct, count);
   nsvcd__count_degrees(m);
-  nsvcd__judge_edges(m, m->wholes, wholes);
+  nsvcd__count_edges(m, m->wholes, wholes);
   if (!nsvcd__judge_holes(m, wholes, arena->allocator)) return 0;
   nsvcd__mark_wholes(m, wholes, out);
   return 1;
 }
 
-// 0 without memory.
+// Judges all triangles of a mesh. 0 without memory.
 static int nsvcd__solids_build(const nsvcd__topology *topology, nsvcd__arena *arena,
                                nsvcd__solids *out) {
   const nsvcd_mesh *mesh = topology->mesh;
@@ -583,21 +581,18 @@ static int nsvcd__solids_build(const nsvcd__topology *topology, nsvcd__arena *ar
   m.topology = topology;
   out->kinds = NSVCD__TAKE(arena, uint8_t, mesh->triangle_count);
   m.triangles = NSVCD__TAKE(&spare, uint32_t, mesh->triangle_count);
-  if (!out->kinds || !m.triangles) {
-    nsvcd__arena_free(&spare);
-    return 0;
-  }
+  int ok = out->kinds && m.triangles;
   for (size_t v = 0; v < mesh->vertex_count; v++)
     out->components += topology->seen[v] && !topology->open[v];
-  for (size_t t = 0; t < mesh->triangle_count; t++) {
+  for (size_t t = 0; ok && t < mesh->triangle_count; t++) {
     uint32_t face[3];
     nsvcd__welded_face(topology, t, face);
     const int open = topology->open[topology->parents[face[0]]];
     out->kinds[t] = open ? NSVCD__SHEET : NSVCD__CLOSED;
-    if (open && nsvcd__has_area(face)) m.triangles[m.count++] = (uint32_t)t;
+    if (open && nsvcd__are_distinct(face)) m.triangles[m.count++] = (uint32_t)t;
   }
-  const int known = m.count == 0 || nsvcd__mend(&m, &spare, out);
+  if (ok && m.count > 0) ok = nsvcd__mend(&m, &spare, out);
   nsvcd__arena_free(&spare);
-  return known;
+  return ok;
 }
 #endif  // NSVCD_NO_ENCODER

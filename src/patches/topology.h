@@ -1,25 +1,21 @@
-// In: a checked mesh. Out: what is learned of it: vertices at the same place are one, triangles
-// that share vertices are one component, and a component is closed or not.
+// In: a checked mesh. Out: its topology: vertices at the same position are one, triangles that
+// share vertices are one component, and a component is closed or not.
 #pragma once
 #include "../ground/memory.h"
 
 #ifndef NSVCD_NO_ENCODER
-// What is learned of a mesh. Vertices at the same place are one: the first of them. A component
-// goes by its root, the least of its vertices.
+// Of the vertices at one position the first stands for all. A component is named by its root, its
+// least vertex.
 typedef struct nsvcd__topology {
   const nsvcd_mesh *mesh;
   size_t component_count;
-  // (vertices) the first vertex at the same place
-  uint32_t *welded;
-  // (vertices) of the union-find forest; in the end the root
-  uint32_t *parents;
-  // (vertices) of a root: its component is not closed
-  uint8_t *open;
-  // (vertices) of a root: a triangle belongs to it
-  uint8_t *seen;
+  uint32_t *welded;   // (vertices) the first vertex at the same position
+  uint32_t *parents;  // (vertices) a union-find forest; once built, the root
+  uint8_t *open;      // (vertices) 1 at a root: its component is not closed
+  uint8_t *seen;      // (vertices) 1 at a root: it has a triangle
 } nsvcd__topology;
 
-// Finds the first vertex at each place, in a table of open addresses. 0 without memory.
+// Welds vertices, by a hash table with open addressing. 0 without memory.
 static int nsvcd__weld(nsvcd__topology *topology, const nsvcd_allocator *allocator) {
   const nsvcd_mesh *mesh = topology->mesh;
   size_t slots = 16;
@@ -33,7 +29,7 @@ static int nsvcd__weld(nsvcd__topology *topology, const nsvcd_allocator *allocat
     for (size_t k = 0; k < 3; k++) {
       uint32_t bits;
       memcpy(&bits, at + k, sizeof bits);
-      // -0 is at the same place as 0
+      // -0 equals 0
       if (bits == 0x80000000u) bits = 0;
       hash = (hash ^ bits) * 0x9e3779b1u;
       hash ^= hash >> 15;
@@ -57,6 +53,10 @@ static void nsvcd__welded_face(const nsvcd__topology *topology, size_t t, uint32
   face[2] = topology->welded[corners[2]];
 }
 
+static int nsvcd__are_distinct(const uint32_t *face) {
+  return face[0] != face[1] && face[1] != face[2] && face[2] != face[0];
+}
+
 static uint32_t nsvcd__root(uint32_t *parents, uint32_t v) {
   while (parents[v] != v) {
     parents[v] = parents[parents[v]];
@@ -65,39 +65,42 @@ static uint32_t nsvcd__root(uint32_t *parents, uint32_t v) {
   return v;
 }
 
+// Joins the trees of a and b: the lesser root stays one.
+static void nsvcd__unite(uint32_t *parents, uint32_t a, uint32_t b) {
+  a = nsvcd__root(parents, a);
+  b = nsvcd__root(parents, b);
+  parents[a > b ? a : b] = a < b ? a : b;
+}
+
 // Finds the components that are not closed: those whose directed edges do not cancel. 0 without
 // memory.
 static int nsvcd__find_open(nsvcd__topology *topology, const nsvcd_allocator *allocator) {
   const nsvcd_mesh *mesh = topology->mesh;
   const size_t vertices = mesh->vertex_count;
   nsvcd__arena arena = nsvcd__arena_of(allocator);
-  // where the edges of a vertex begin, which is the lesser of their ends; one more, while sorted
+  // where the edges begin whose lesser end is a vertex; while they are sorted, one entry further
   size_t *first = NSVCD__TAKE(&arena, size_t, vertices + 2);
   // the greater end
   uint32_t *ends = NSVCD__TAKE(&arena, uint32_t, 3 * mesh->triangle_count);
-  // 1: an edge leads to the greater end; -1: from it
+  // 1: the edge leads to its greater end; -1: from it
   int8_t *signs = NSVCD__TAKE(&arena, int8_t, 3 * mesh->triangle_count);
-  // sums over the edges of one vertex, by their other end; else zero
+  // sums of signs by greater end, over the edges of one vertex; else zeros
   int32_t *balances = NSVCD__TAKE(&arena, int32_t, vertices);
-  // counting sort of the edges: they are counted, then placed
+  // counting sort of the edges: count, then store
   for (int pass = 0; !arena.failed && pass < 2; pass++) {
     for (size_t t = 0; t < mesh->triangle_count; t++) {
       uint32_t face[3];
       nsvcd__welded_face(topology, t, face);
-      // then the edges cancel among themselves
-      if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) continue;
+      // the edges of any other cancel each other
+      if (!nsvcd__are_distinct(face)) continue;
       for (size_t k = 0; k < 3; k++) {
         const uint32_t from = face[k];
         const uint32_t to = face[(k + 1) % 3];
         const uint32_t low = from < to ? from : to;
-        if (pass == 0) {
-          first[low + 2]++;
-          continue;
-        }
-        // afterwards the start of the next
-        const size_t place = first[low + 1]++;
-        ends[place] = from < to ? to : from;
-        signs[place] = from < to ? 1 : -1;
+        const size_t e = first[low + 2 - (size_t)pass]++;
+        if (pass == 0) continue;
+        ends[e] = from < to ? to : from;
+        signs[e] = from < to ? 1 : -1;
       }
     }
     for (size_t v = 0; pass == 0 && v < vertices; v++) first[v + 2] += first[v + 1];
@@ -129,11 +132,8 @@ static int nsvcd__topology_build(const nsvcd_mesh *mesh, nsvcd__arena *arena,
   for (uint32_t v = 0; v < mesh->vertex_count; v++) parents[v] = v;
   for (size_t t = 0; t < mesh->triangle_count; t++) {
     nsvcd__welded_face(topology, t, face);
-    for (size_t k = 1; k < 3; k++) {
-      const uint32_t a = nsvcd__root(parents, face[0]);
-      const uint32_t b = nsvcd__root(parents, face[k]);
-      parents[a > b ? a : b] = a < b ? a : b;
-    }
+    nsvcd__unite(parents, face[0], face[1]);
+    nsvcd__unite(parents, face[0], face[2]);
   }
   for (uint32_t v = 0; v < mesh->vertex_count; v++) parents[v] = nsvcd__root(parents, v);
   for (size_t t = 0; t < mesh->triangle_count; t++) {
