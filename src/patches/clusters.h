@@ -1,4 +1,4 @@
-// In: samples. Out: centres, and the samples of each.
+// In: samples. Out: centres, and the samples nearest to each.
 #pragma once
 #include "samples.h"
 
@@ -9,7 +9,7 @@ static float nsvcd__to_centre2(const nsvcd__patches *p, uint32_t centre, nsvcd__
   return nsvcd__f3_dot(offset, offset);
 }
 
-// Lists the nearest other centres of each centre; a short list ends in infinities.
+// Lists the nearest other centres of each centre. A list that is not full ends in infinities.
 static void nsvcd__link_centres(nsvcd__patches *p) {
   const size_t last = NSVCD__NEIGHBOURS - 1;
   for (uint32_t i = 0; i < p->count; i++) {
@@ -33,9 +33,9 @@ static void nsvcd__link_centres(nsvcd__patches *p) {
   }
 }
 
-// The centre nearest to a point, of equals the first, found from a guess. A centre twice as far
-// from the guess as the point is cannot be nearer to the point (triangle inequality). So the
-// guess's neighbours usually decide; where they do not, they give a better guess, or all decide.
+// The centre nearest to a point; of equals the first. A centre that is twice as far from the guess
+// as the point is cannot be nearer to the point (triangle inequality), so the guess's neighbours
+// usually decide. Where they do not, the best of them is the next guess, or all centres are tried.
 static uint32_t nsvcd__nearest_centre(const nsvcd__patches *p, uint32_t guess, nsvcd__f3 at) {
   uint32_t best = guess;
   float least = nsvcd__to_centre2(p, guess, at);
@@ -63,7 +63,7 @@ static void nsvcd__forget_samples(nsvcd__patches *p, uint32_t centre) {
   p->squared_reach[centre] = -1;
 }
 
-// square: of its distance from the owner.
+// Adds a sample to its owner's list. square: of the distance between them.
 static inline void nsvcd__give_sample(nsvcd__patches *p, uint32_t s, uint32_t owner,
                                       float square) {
   p->owners[s] = (uint16_t)owner;
@@ -76,8 +76,8 @@ static inline void nsvcd__give_sample(nsvcd__patches *p, uint32_t s, uint32_t ow
   }
 }
 
-// Farthest point sampling (Gonzalez 1985). The first centre is the sample farthest from the mean of
-// all. Ends early once every sample is at a centre.
+// Farthest point sampling (Gonzalez 1985). The first centre is the sample farthest from the mean.
+// Ends early when every sample is at a centre.
 static void nsvcd__farthest_points(nsvcd__patches *p) {
   nsvcd__d3 sum = nsvcd__d3_of(0, 0, 0);
   for (size_t s = 0; s < p->sample_count; s++)
@@ -100,7 +100,7 @@ static void nsvcd__farthest_points(nsvcd__patches *p) {
     nsvcd__forget_samples(p, count);
     for (uint32_t owner = 0; owner < count; owner++) {
       // An owner more than twice as far away as its farthest sample loses none (triangle
-      // inequality): most are passed over.
+      // inequality). Most owners are that far away.
       const float square = nsvcd__to_centre2(p, owner, p->centres[count]);
       if (0.25f * square > p->squared_reach[owner]) continue;
       uint32_t s = p->first_sample[owner];
@@ -118,8 +118,7 @@ static void nsvcd__farthest_points(nsvcd__patches *p) {
   p->count = count;
 }
 
-// Moves every centre to the mean of its samples. A centre without samples is dropped, and the
-// others close the gap.
+// Moves every centre to the mean of its samples, and drops centres that have none.
 static void nsvcd__move_centres(nsvcd__patches *p) {
   memset(p->sums, 0, p->count * sizeof *p->sums);
   for (size_t s = 0; s < p->sample_count; s++) {
@@ -131,7 +130,7 @@ static void nsvcd__move_centres(nsvcd__patches *p) {
   uint32_t kept = 0;
   for (size_t i = 0; i < p->count; i++) {
     const nsvcd__patch_sum *sum = &p->sums[i];
-    // for now: the new number of patch i
+    // until samples are grouped: the new number of patch i
     p->offsets[i] = kept;
     if (!(sum->weight > 0)) continue;
     const nsvcd__d3 mean = nsvcd__d3_over(sum->vector, sum->weight);
@@ -143,20 +142,19 @@ static void nsvcd__move_centres(nsvcd__patches *p) {
   nsvcd__link_centres(p);
 }
 
-// Makes a sum reach to a point.
+// Extends a patch's reach to a point.
 static void nsvcd__reach_to(nsvcd__patches *p, size_t patch, nsvcd__d3 at) {
   nsvcd__patch_sum *sum = &p->sums[patch];
   const double square = nsvcd__d3_distance2(at, nsvcd__d3_widen(p->centres[patch]));
   sum->squared_reach = nsvcd__max(sum->squared_reach, square);
 }
 
-// Root, rounded up: a radius may be too large by a rounding, never too small.
+// The square root, rounded up: a radius is never too small.
 static float nsvcd__radius_above(double squared) {
   return (float)(sqrt(squared) * (1 + 4e-7));
 }
 
-// Writes the samples patch by patch, in a patch in their order (counting sort), and the sample
-// radii.
+// Writes the samples patch by patch (counting sort), and the sample radii.
 static void nsvcd__group_samples(nsvcd__patches *p) {
   memset(p->offsets, 0, (p->count + 1) * sizeof *p->offsets);
   memset(p->sums, 0, p->count * sizeof *p->sums);
@@ -165,7 +163,7 @@ static void nsvcd__group_samples(nsvcd__patches *p) {
 
   for (size_t s = 0; s < p->sample_count; s++) {
     const uint32_t owner = p->owners[s];
-    // afterwards each offset is the next patch's
+    // in the end each offset is the next patch's
     const size_t to = p->offsets[owner]++;
     p->samples[to] = p->drawn[s];
     p->normals[to] = p->drawn_normals[s];

@@ -1,9 +1,9 @@
-// In: centres, their samples, and the mesh. Out: of each patch a ball; together the balls hold
-// every triangle.
+// In: centres, their samples, and the mesh. Out: a ball for each patch; together they contain every
+// triangle.
 //
-// Every triangle is halved across its longest edge until no edge exceeds `limit`. Each piece goes
-// to the patch whose centre is nearest to the piece's centroid. That patch's ball grows to hold the
-// piece's three corners, and so all of it.
+// Triangles are halved across their longest edges until no edge exceeds `limit`. Each half goes to
+// the patch whose centre is nearest to its centroid, and that patch's ball grows to contain its
+// three corners, and so all of it.
 #pragma once
 #include "clusters.h"
 
@@ -12,17 +12,16 @@ static inline size_t nsvcd__longest_of(const double *e) {
   if (e[1] > e[0] && e[1] >= e[2]) return 1;
   return e[2] > e[0] ? 2 : 0;
 }
-// The squared lengths of a triangle's edges, each from a corner to the next one. Returns which is
-// the longest; of equal ones the first.
+// The squared lengths of a triangle's edges, each from a corner to the next. Returns which is the
+// longest; of equals the first.
 static inline size_t nsvcd__edge_squares(const nsvcd__triangle *t, double *e) {
-  e[0] = nsvcd__d3_distance2(t->at[0], t->at[1]);
-  e[1] = nsvcd__d3_distance2(t->at[1], t->at[2]);
-  e[2] = nsvcd__d3_distance2(t->at[2], t->at[0]);
+  for (size_t k = 0; k < 3; k++)
+    e[k] = nsvcd__d3_distance2(t->at[k], t->at[k == 2 ? 0 : k + 1]);
   return nsvcd__longest_of(e);
 }
 
-// How many pieces a triangle makes; stops counting beyond `most`. The new edge is the median of the
-// longest one (Apollonius's theorem), so lengths are enough.
+// How many halves a triangle makes; stops counting beyond `most`. The new edge is the median of the
+// longest one (Apollonius's theorem), so lengths are all that it takes.
 static double nsvcd__count_pieces(const double *e, double limit, double most) {
   const size_t k = nsvcd__longest_of(e);
   const size_t next = k == 2 ? 0 : k + 1;
@@ -38,12 +37,11 @@ static double nsvcd__count_pieces(const double *e, double limit, double most) {
   return pieces + nsvcd__count_pieces(near_b, limit, most - pieces);
 }
 
-// The limit on the edges of pieces: twice, four times ... the given one, until a mesh makes no more
-// than `most` pieces. Writes how many.
+// Doubles the limit on edges until a mesh makes at most `most` halves. Writes how many.
 static double nsvcd__raise_limit(const nsvcd_mesh *mesh, double limit, double most,
                                  double *pieces) {
-  // A triangle makes at least as many pieces as its longest edge has limits: no need to begin below
-  // that.
+  // A triangle makes at least as many halves as its longest edge is limits long, so no lower limit
+  // can do.
   double longest = 0;
   double e[3];
   for (size_t t = 0; t < mesh->triangle_count; t++) {
@@ -62,9 +60,9 @@ static double nsvcd__raise_limit(const nsvcd_mesh *mesh, double limit, double mo
   }
 }
 
-// Covers a triangle, halved as often as need be; a small one goes to the patch with the nearest
-// centre. vector: its area times its normal. guess: a patch near by. Returns the patch of the last
-// half: the guess for what comes next.
+// Halves a triangle until its edges are short, and gives each half to the patch with the nearest
+// centre. vector: area times normal. guess: a patch near by. Returns the last half's patch, which
+// is a guess for the next triangle.
 static uint32_t nsvcd__cover_triangle(nsvcd__patches *p, double limit, uint32_t guess,
                                       const nsvcd__triangle *t, nsvcd__d3 vector) {
   double e[3];
@@ -94,11 +92,11 @@ static void nsvcd__cover(nsvcd__patches *p, const nsvcd_mesh *mesh) {
   const double added = NSVCD__PIECES_PER_SAMPLE * (double)p->sample_count;
   const double most = (double)mesh->triangle_count + added;
   double pieces;
-  // Larger pieces only make larger balls.
+  // a limit that is too high only makes balls larger
   double limit = 0;
   for (size_t i = 0; i < p->count; i++) limit += (double)p->sample_radii[i] / (double)p->count;
   limit *= NSVCD__PIECE_SIZE;
-  // otherwise all samples of each patch coincide: nothing to go by
+  // 0: all samples of each patch coincide
   limit = limit > 0 ? nsvcd__raise_limit(mesh, limit, most, &pieces) : HUGE_VAL;
 
   uint32_t guess = 0;
@@ -110,8 +108,7 @@ static void nsvcd__cover(nsvcd__patches *p, const nsvcd_mesh *mesh) {
   }
   for (size_t i = 0; i < p->count; i++) {
     const nsvcd__patch_sum *sum = &p->sums[i];
-    // A piece goes to one patch as a whole, and so a patch's samples may lie beyond its pieces: its
-    // ball holds both.
+    // Samples may lie outside of the halves that their patch was given: the ball contains both.
     const float radius = nsvcd__radius_above(sum->squared_reach);
     p->radii[i] = fmaxf(radius, p->sample_radii[i]);
     p->area_vectors[i] = nsvcd__d3_narrow(sum->vector);
@@ -121,7 +118,7 @@ static void nsvcd__cover(nsvcd__patches *p, const nsvcd_mesh *mesh) {
 // ---- all of it
 
 // Splits the surface of a checked mesh into at most `count` patches, 1..NSVCD_SMALL_PATCHES: fewer
-// where samples coincide or a patch loses all of its samples. MEMORY.
+// if samples coincide, or a patch loses all of its own. MEMORY.
 static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t count,
                                          nsvcd__arena *arena, nsvcd__patches *p) {
   if (!nsvcd__patches_alloc(p, count, NSVCD__SAMPLES_PER_PATCH * count, arena))

@@ -1,71 +1,58 @@
-// In: a checked mesh. Out: its triangles, welded, in one region, or in as many as it takes to have
-// no more than 512 patches in each. Each region is then made into patches by itself. Where there
-// are several, large triangles are halved first, until none is large beside the regions. Nothing is
-// lost: halves share the corner between them, and both are kept.
+// In: a checked mesh. Out: its triangles, welded, in one region; or in as many regions as it takes to
+// have at most 512 patches in each, and each is then split into patches by itself. With several
+// regions, triangles that are large beside them are halved first. Both halves are kept, and share
+// the new corner, so nothing is lost.
 #pragma once
 #include "../ground/slices.h"
 #include "covering.h"
 #include "solids.h"
 
 #ifndef NSVCD_NO_ENCODER
-// patches of a region, where there are several
+// patches of a region, if there are several
 #define NSVCD__REGION_PATCHES 256
-// longest edge, in roots of a region's mean area
+// longest edge, in square roots of a region's mean area
 #define NSVCD__REGION_EDGE 0.5
-// a cut between regions is found to the width of one
+// a boundary between regions is located to the width of a bin
 #define NSVCD__REGION_BINS 512
-// bounds the triangles that halving adds
+// limits the triangles that halving adds
 #define NSVCD__HALVES_PER_REGION 256
 
-// Points are numbered: the vertices of the caller's mesh, then the cuts, which halving has made.
+// Points have numbers: first the vertices of the caller's mesh, then the cuts, which halving adds.
 typedef struct nsvcd__regions {
   const nsvcd_mesh *mesh;
-  // of all coordinates
-  double greatest;
+  double greatest;         // of all coordinates, absolute
   size_t component_count;  // C
   nsvcd__solids solids;
-  // (vertices) 1: of its component the least vertex, which no patch has been given yet
+  // (vertices) 1: the least vertex of its component, which no patch has yet
   uint8_t *seeds;
   size_t count;           // R
-  size_t triangle_count;  // T, halves and all
-  // (T, 3) points
-  uint32_t *corners;
-  // (T) in the caller's mesh, with what it belongs to
+  size_t triangle_count;  // T, with halves
+  uint32_t *corners;      // (T, 3) points
+  // (T) number in the caller's mesh, and kind
   uint32_t *ids;
-  size_t cut_count;
-  size_t most_cuts;
-  // (most_cuts)
-  nsvcd__d3 *cuts;
-  // metres: a triangle with a longer edge is halved
-  double longest_edge;
+  size_t cut_count, most_cuts;
+  nsvcd__d3 *cuts;      // (most_cuts)
+  double longest_edge;  // metres: a triangle with a longer edge is halved
 
-  // Of several regions:
-  // what a triangle counts for its area and for being one, when regions are made alike
+  // If there are several regions:
+  // a triangle's weight: per square metre, and for being one
   double per_area, per_triangle;
-  // (T) triangles, region by region
-  uint32_t *order;
-  // (T) working memory
-  uint32_t *spare;
-  // (vertices and cuts) the numbers of points in the region at hand, from 1; 0: none
+  uint32_t *order;  // (T) triangles, region by region
+  uint32_t *spare;  // (T) working memory
+  // (vertices and cuts) numbers of points in the region at hand, from 1; 0: none
   uint32_t *numbers;
-  // (R + 1) places in `order`
-  size_t *first;
+  size_t *first;  // (R + 1) where regions begin in `order`
 } nsvcd__regions;
 
 // A part of a mesh. Its last vertices are cuts.
 typedef struct nsvcd__region {
-  nsvcd_mesh mesh;  // welded
-  // coordinate, of the whole mesh
-  double greatest;
-  // (triangles)
-  uint32_t *ids;
-  // (cut_count) where the cuts are; the mesh has them rounded
-  nsvcd__d3 *cuts;
+  nsvcd_mesh mesh;  // welded; cuts are rounded
+  double greatest;  // coordinate of the whole mesh, absolute
+  uint32_t *ids;    // (triangles)
+  nsvcd__d3 *cuts;  // (cut_count) not rounded
   size_t cut_count;
-  // (vertices)
-  uint8_t *seeds;
-  // (vertices) their numbers among the points of all regions, which begin with the caller's
-  // vertices; NULL: the same
+  uint8_t *seeds;  // (vertices)
+  // (vertices) their numbers among the points of all regions; NULL: the same
   uint32_t *vertices;
 } nsvcd__region;
 
@@ -75,17 +62,16 @@ static nsvcd__d3 nsvcd__regions_point(const nsvcd__regions *r, uint32_t number) 
   return r->cuts[number - vertices];
 }
 
-static nsvcd__triangle nsvcd__regions_place(const nsvcd__regions *r, const uint32_t *corners) {
+static nsvcd__triangle nsvcd__regions_corners(const nsvcd__regions *r,
+                                              const uint32_t *corners) {
   nsvcd__triangle out;
-  out.at[0] = nsvcd__regions_point(r, corners[0]);
-  out.at[1] = nsvcd__regions_point(r, corners[1]);
-  out.at[2] = nsvcd__regions_point(r, corners[2]);
+  for (size_t k = 0; k < 3; k++) out.at[k] = nsvcd__regions_point(r, corners[k]);
   return out;
 }
 
-// Adds a triangle, or its halves where an edge is too long, as long as there is room for these.
+// Adds a triangle, or its halves if an edge is too long and there is room for them.
 static void nsvcd__regions_add(nsvcd__regions *r, const uint32_t *corners, uint32_t id) {
-  const nsvcd__triangle triangle = nsvcd__regions_place(r, corners);
+  const nsvcd__triangle triangle = nsvcd__regions_corners(r, corners);
   double e[3];
   const size_t k = nsvcd__edge_squares(&triangle, e);
   if (e[k] <= r->longest_edge * r->longest_edge || r->cut_count == r->most_cuts) {
@@ -103,16 +89,16 @@ static void nsvcd__regions_add(nsvcd__regions *r, const uint32_t *corners, uint3
 }
 
 static nsvcd__triangle nsvcd__regions_triangle(const nsvcd__regions *r, size_t i) {
-  return nsvcd__regions_place(r, r->corners + 3 * (size_t)r->order[i]);
+  return nsvcd__regions_corners(r, r->corners + 3 * (size_t)r->order[i]);
 }
 static nsvcd__d3 nsvcd__centroid(const nsvcd__triangle *t) {
   const nsvcd__d3 sum = nsvcd__d3_add(nsvcd__d3_add(t->at[0], t->at[1]), t->at[2]);
   return nsvcd__d3_scale(sum, 1.0 / 3);
 }
 
-// Cuts a run of triangles, places first .. end - 1 of `order`, in two, such that the first part has
-// about this share of the weight. Centroids decide: the cut is at the end of a bin across the
-// longest axis of their box. In a part triangles keep their order. Returns where the second begins.
+// Splits order[first .. end - 1] in two. The first part has about this fraction of the weight. The
+// boundary is at the end of a bin across the longest axis of the centroids' box; triangles keep
+// their order in each part. Returns where the second one begins.
 static size_t nsvcd__regions_split(const nsvcd__regions *r, size_t first, size_t end,
                                    double fraction) {
   nsvcd__d3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
@@ -148,7 +134,7 @@ static size_t nsvcd__regions_split(const nsvcd__regions *r, size_t first, size_t
     sum += next;
   }
 
-  // The second part waits in place of bins that have been looked at.
+  // The second part waits in `spare`, in place of bins that are no longer needed.
   size_t middle = first;
   size_t others = 0;
   for (size_t i = first; i < end; i++) {
@@ -160,7 +146,7 @@ static size_t nsvcd__regions_split(const nsvcd__regions *r, size_t first, size_t
   return middle;
 }
 
-// Makes `parts` regions, from number n on, of a run of triangles.
+// Makes `parts` regions, from number n on, of order[first .. end - 1].
 static void nsvcd__regions_part(nsvcd__regions *r, size_t first, size_t end, size_t parts,
                                 size_t n) {
   r->first[n] = first;
@@ -172,8 +158,8 @@ static void nsvcd__regions_part(nsvcd__regions *r, size_t first, size_t end, siz
   nsvcd__regions_part(r, middle, end, parts - left, n + left);
 }
 
-// Welds the mesh, and parts it where it is to have more than a region's patches. patches: N, of the
-// whole. 0 without memory.
+// Welds the mesh, and splits it into regions if it is to have more than NSVCD_SMALL_PATCHES patches.
+// 0 without memory.
 static int nsvcd__regions_build(const nsvcd_mesh *mesh, size_t patches, nsvcd__arena *arena,
                                 nsvcd__regions *r) {
   nsvcd__arena scratch = nsvcd__arena_of(arena->allocator);
@@ -193,8 +179,8 @@ static int nsvcd__regions_build(const nsvcd_mesh *mesh, size_t patches, nsvcd__a
     double pieces;
     r->per_area = 0.5 / area;
     r->longest_edge = nsvcd__raise_limit(mesh, edge, most, &pieces);
-    // Lengths of halves are found there by formulas and later from their corners: roundings may
-    // divide one more or less.
+    // Lengths come from a formula there, but from corners when triangles are halved: the numbers
+    // of halves may differ by roundings.
     r->most_cuts = (size_t)(pieces - triangles) + NSVCD__HALVES_PER_REGION;
   }
 
@@ -230,7 +216,7 @@ static int nsvcd__regions_build(const nsvcd_mesh *mesh, size_t patches, nsvcd__a
   return 1;
 }
 
-// One of the regions. EMPTY where it has no triangle; MEMORY. After success: nsvcd__region_end.
+// Makes region n. EMPTY if it has no triangle; MEMORY. Call nsvcd__region_end after success.
 static nsvcd_result nsvcd__region_begin(nsvcd__regions *r, size_t n, nsvcd__arena *arena,
                                         nsvcd__region *out) {
   memset(out, 0, sizeof *out);
@@ -254,7 +240,7 @@ static nsvcd_result nsvcd__region_begin(nsvcd__regions *r, size_t n, nsvcd__aren
   out->vertices = NSVCD__TAKE(arena, uint32_t, 3 * count);
   if (arena->failed) return NSVCD_ERROR_MEMORY;
 
-  // points get their numbers within the region: first those that are no cuts
+  // number the points in the region: vertices, then cuts
   size_t points = 0;
   for (int cuts = 0; cuts < 2; cuts++) {
     const size_t before = points;
@@ -268,7 +254,7 @@ static nsvcd_result nsvcd__region_begin(nsvcd__regions *r, size_t n, nsvcd__aren
     out->cut_count = points - before;
   }
   out->mesh.vertex_count = points;
-  const size_t firm = points - out->cut_count;
+  const size_t vertices = points - out->cut_count;
   for (size_t i = 0; i < count; i++) {
     out->ids[i] = r->ids[order[i]];
     for (size_t k = 0; k < 3; k++)
@@ -278,17 +264,17 @@ static nsvcd_result nsvcd__region_begin(nsvcd__regions *r, size_t n, nsvcd__aren
     const uint32_t from = out->vertices[v];
     const nsvcd__d3 at = nsvcd__regions_point(r, from);
     nsvcd__f3_store(nsvcd__f3_round(at), out->mesh.positions + 3 * v);
-    if (v < firm) out->seeds[v] = r->seeds[from];
-    if (v >= firm) out->cuts[v - firm] = at;
+    if (v < vertices) out->seeds[v] = r->seeds[from];
+    if (v >= vertices) out->cuts[v - vertices] = at;
     r->numbers[from] = 0;
   }
   return NSVCD_OK;
 }
 
-// Keeps in mind which seeds patches have been given.
+// Remembers which seeds patches have been given.
 static void nsvcd__region_end(nsvcd__regions *r, const nsvcd__region *region) {
-  const size_t firm = region->mesh.vertex_count - region->cut_count;
-  for (size_t v = 0; region->vertices && v < firm; v++)
+  const size_t vertices = region->mesh.vertex_count - region->cut_count;
+  for (size_t v = 0; region->vertices && v < vertices; v++)
     r->seeds[region->vertices[v]] = region->seeds[v];
 }
 #endif  // NSVCD_NO_ENCODER

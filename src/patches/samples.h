@@ -1,72 +1,61 @@
-// In: a checked mesh. Out: S samples, which are oriented points of the surface; and what its N
-// patches will be: samples grouped by patch, and one ball for each patch. Everything on this floor
-// is deterministic and, up to rounding, scales and moves with the mesh.
+// In: a checked mesh. Out: S samples, oriented points of its surface; and what its N patches are
+// stored in: samples grouped by patch, and a ball for each patch. Everything in patches/ is
+// deterministic and, up to rounding, scales and moves with the mesh.
 #pragma once
 #include "../ground/memory.h"
 
 #ifndef NSVCD_NO_ENCODER
-// on average
+// the mean
 #define NSVCD__SAMPLES_PER_PATCH 32
 #define NSVCD__NO_SAMPLE 0xffffffffu
 #define NSVCD__LLOYD_STEPS 3
-// of each centre, for the search of the nearest centre
+// of each centre, to search for the nearest one
 #define NSVCD__NEIGHBOURS 16
 // longest edge of a piece, in mean sample radii
 #define NSVCD__PIECE_SIZE 0.25
-// bounds the number of pieces that halving adds
+// limits the pieces that halving adds
 #define NSVCD__PIECES_PER_SAMPLE 64
 
 // Sums over a patch, in double, rounded once at the end.
 typedef struct nsvcd__patch_sum {
-  // of the positions of samples, or of area vectors
-  nsvcd__d3 vector;
-  double weight;  // number of samples
-  // greatest squared distance from the centre
-  double squared_reach;
+  nsvcd__d3 vector;      // of positions of samples, or of area vectors
+  double weight;         // number of samples
+  double squared_reach;  // the greatest squared distance from the centre
 } nsvcd__patch_sum;
 
 typedef struct nsvcd__patches {
   size_t count;         // N
   size_t sample_count;  // S
-  // pieces of surface that the balls were fitted to
-  size_t piece_count;
-  // (N) metres: the mean of the patch's samples
-  nsvcd__f3 *centres;
-  // (N) the ball about the centre with this radius contains every piece of the patch
-  float *radii;
-  // (N) the same for the patch's samples
-  float *sample_radii;
-  // (N) area times normal, summed over the patch; over all patches it is that of the mesh
-  nsvcd__f3 *area_vectors;
+  size_t piece_count;   // triangles and parts of them that the balls were fitted to
+  nsvcd__f3 *centres;   // (N) metres: the mean of the patch's samples
+  float *radii;         // (N) metres: the ball about the centre contains the patch's pieces
+  float *sample_radii;  // (N) metres: the same for its samples
+  nsvcd__f3 *area_vectors;  // (N) sums of area times normal; their sum is the mesh's
   // (N + 1) patch i has the samples offsets[i] .. offsets[i + 1] - 1
   uint32_t *offsets;
   nsvcd__f3 *samples;  // (S) metres
   nsvcd__f3 *normals;  // (S) unit
 
   // Working memory.
-  nsvcd__patch_sum *sums;  // (N)
-  // (S) the samples in the order in which they were drawn
-  nsvcd__f3 *drawn;
-  nsvcd__f3 *drawn_normals;
-  // (S) the patch of each sample drawn
-  uint16_t *owners;
-  // (S) squared, to the nearest centre so far; it lies where `samples` will be
+  nsvcd__patch_sum *sums;            // (N)
+  nsvcd__f3 *drawn, *drawn_normals;  // (S) the samples in the order in which they were drawn
+  uint16_t *owners;                  // (S) the patch of each
+  // (S) squared distance from the owner's centre; uses the memory of `samples`
   float *squares;
-  // (S) lists of the samples of each centre, while centres are added; it lies there too
-  uint32_t *next_sample;
-  uint32_t *first_sample;  // (N)
-  // (N) of the samples of the centre, and its squared distance
+  // (S), (N) linked lists of each centre's samples; the first one uses the memory of `samples`
+  uint32_t *next_sample, *first_sample;
+  // (N) each centre's farthest sample, and its squared distance
   uint32_t *farthest_sample;
   float *squared_reach;
-  // (N, NEIGHBOURS) the other centres nearest to each, in order of distance
+  // (N, NEIGHBOURS) the nearest other centres, nearest first, and a quarter of their squared
+  // distance
   uint32_t *neighbours;
-  // (N, NEIGHBOURS) a quarter of their squared distance
   float *quarter_squares;
 } nsvcd__patches;
 
 // ---- samples
 
-// Differences of floats are as good as exact in double.
+// In double: differences of floats are next to exact.
 typedef struct nsvcd__triangle {
   nsvcd__d3 at[3];
 } nsvcd__triangle;
@@ -100,21 +89,21 @@ static double nsvcd__mesh_area(const nsvcd_mesh *mesh) {
 }
 
 // Draws samples (count) and their unit normals (count), stratified by area: sample k lies in the
-// triangle where the area summed in triangle order passes (k + 1/2) / count of the total, where the
-// R2 sequence says (Roberts 2018: multiples of 1/g and 1/g^2, g^3 = g + 1). Where there is no area,
-// triangles count alike, and normals are 0.
+// triangle where the area, summed in triangle order, passes (k + 1/2) / count of the total. Its
+// position there comes from the R2 sequence (Roberts 2018: multiples of 1/g and 1/g^2, g^3 = g + 1).
+// Without any area, triangles have equal weights and normals are 0.
 static void nsvcd__sample_surface(const nsvcd_mesh *mesh, size_t count, nsvcd__f3 *samples,
                                   nsvcd__f3 *normals) {
   const double all = nsvcd__mesh_area(mesh);
   const double total = all > 0 ? all : (double)mesh->triangle_count;
   nsvcd__triangle triangle;
   double area = 0;
-  // the area up to and including the triangle
+  // the area up to this triangle, which is included
   double passed = 0;
   size_t next = 0;
   for (size_t k = 0; k < count; k++) {
     const double target = total * (((double)k + 0.5) / (double)count);
-    // never stops at a triangle without area
+    // this never stops at a triangle without area
     while (passed <= target && next < mesh->triangle_count) {
       triangle = nsvcd__triangle_of(mesh, next++);
       area = nsvcd__triangle_area(&triangle);
@@ -136,7 +125,7 @@ static void nsvcd__sample_surface(const nsvcd_mesh *mesh, size_t count, nsvcd__f
   }
 }
 
-// Room for so many patches and samples. 0 without memory.
+// Makes room for patches and samples. 0 without memory.
 static int nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples,
                                 nsvcd__arena *arena) {
   const size_t links = NSVCD__NEIGHBOURS * count;
