@@ -50,7 +50,7 @@ disc without across|nsvcd__v_mul(slab->across, across);|nsvcd__v_mul(nsvcd__v_se
 group of eight|for (size_t i = first; i < first + NSVCD__GROUP \&\& i < f->body->patches; i++) {\n    if (slab.high|for (size_t i = first; i < first + 8 \&\& i < f->body->patches; i++) {\n    if (slab.high
 group's disc at the start only|nsvcd__v3_add(a.at_start, nsvcd__vmat3_apply_transpose(turn, n));|a.at_start;
 held plane without deviation|lowest - margin - nsvcd__deviation_of(interval, n, nsvcd__patch_arm(\&p->moving, i, interval));|lowest - margin;
-groups' spheres without slack|const double radius = (double)f->margins[i] + rounding;|const double radius = rounding;
+groups' spheres without slack|nsvcd__above((double)f->margins[i] + rounding);|nsvcd__above(rounding);
 groups' spheres over the first half|for (size_t k = 0; k < count + !count; k++) {|for (size_t k = 0; k < (count + 1) / 2 + !count; k++) {
 held plane without slack|p->fixed.margins[j] * length - highest;|-highest;
 heights over another plane|above->plane != memo->plane \|\| above->key != key|above->key != key
@@ -141,11 +141,11 @@ level: nearest patches about the middle only|nsvcd__v_fma(r, nsvcd__v_set(NSVCD_
 level: latents of one region|parts->latents[NSVCD__LATENT * to + k]|parts->latents[NSVCD__LATENT * i + k]
 level: members of one dipole in two|const size_t member = NSVCD__GROUP * (first + nsvcd__low_bit(close));|const size_t member = NSVCD__GROUP * (first + (nsvcd__low_bit(close) \& ~(size_t)1));
 margin of small normals|nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit)|limit
-round: the fixed one is not|p->given.radius = moving_radius + (double)p->fixed.convex_radius;|p->given.radius = moving_radius;
-round: without the scale|(double)p->moving.convex_radius * task->motion.ratio;|(double)p->moving.convex_radius;
+round: the fixed one is not|p->given.radius = moving_radius + (double)p->fixed.counts->convex_radius;|p->given.radius = moving_radius;
+round: without the scale|(double)p->moving.counts->convex_radius * task->motion.ratio;|(double)p->moving.counts->convex_radius;
 round: distances of the skeletons|high = fmax(high - p->given.radius, 0);|
 round: as near as the skeletons|p->low) - p->given.radius;|p->low);
-round: points on the skeleton|fmin((double)p->fixed.convex_radius, found->distance);|0;
+round: points on the skeleton|fmin((double)p->fixed.counts->convex_radius, found->distance);|0;
 round: gaps of the skeletons|(float)(fmax(found->distance - p->given.radius, 0) * world.unit);|(float)(found->distance * world.unit);
 round: a point on either|    contact->point[k] += gap * contact->normal[k];|
 round: a run short of its last|for (size_t k = 0; k < count; k++) {\n    if (k == end)|for (size_t k = 0; k + 1 < count; k++) {\n    if (k == end)
@@ -165,7 +165,7 @@ exact: no planes of faces|n = k < 2 ? nsvcd__face_direction(of)|n = k < 2 ? gues
 exact: no planes across edges|: nsvcd__across_edges(posed, fixed, k - 8);|: guess;
 exact: no planes made normal to an edge|nsvcd__off_edge(guess, of[k / 2 - 1], of[k / 2 % 3])|guess
 exact: planes on one side only|if (nsvcd__d3_dot(n, guess) < 0) n = nsvcd__d3_scale(n, -1);\n    const double beyond|const double beyond
-pieces by their stored corners|} else if (f->cut_count > 0) {|} else if (0) {
+pieces by their stored corners|} else if (f->counts->cut > 0) {|} else if (0) {
 a piece of the triangle before|if (f->cut[first + half] <= number) first += half;|if (f->cut[first + half] < number) first += half;
 floor: nearest times on the other side|if (slope < 0)\n      u0 = middle;|if (slope > 0)\n      u0 = middle;
 asks: parts of the time that were lost|if (part->lost) return end;|
@@ -178,7 +178,7 @@ long: work of the first interval for all|if (p->given.grows) p->ask.most = p->wo
 solids: corners that are not joined|const double widest = nsvcd__join_corners(m, arena->allocator);|const double widest = 0;
 solids: corners joined from afar|#define NSVCD__JOINED 1e-4|#define NSVCD__JOINED 1e-3
 solids: gaps that are not remembered|out->gap = nsvcd__max(out->gap, sqrt(square));|
-solids: rays through a gap|ray.margin += (double)nsvcd__off_mesh(f) + (double)f->gap;|ray.margin += (double)nsvcd__off_mesh(f);
+solids: rays through a gap|ray.margin += (double)nsvcd__off_mesh(f) + (double)f->counts->gap;|ray.margin += (double)nsvcd__off_mesh(f);
 solids: faces that stay twice|m->alive[n] = m->first[third] == 0;|
 solids: fins that stay|nsvcd__peel(m);\n  for|for
 solids: walls that stay|pass < 8 \&\& nsvcd__drop_walls(m, parts) > 0|pass < 0

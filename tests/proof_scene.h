@@ -201,7 +201,7 @@ static int proof_point(const proof_body *b, const nsvcd__geometry *f, size_t i, 
   const size_t stored = f->first_vertex[i + 1] - f->first_vertex[i];
   const size_t own = f->first_own[i + 1] - f->first_own[i];
   const int16_t *x = f->vertices + 3 * (size_t)f->first_vertex[i];
-  const size_t bytes = f->position_count > 65536 ? 4 : 2;
+  const size_t bytes = f->counts->positions > 65536 ? 4 : 2;
   if (number < stored) {
     for (size_t k = 0; k < 3; k++)
       place[k] = b->patches[i].centre[k] + (double)f->steps[i] * x[k * stored + number];
@@ -252,7 +252,7 @@ static void proof_read_listing(const proof_body *b, const nsvcd__geometry *f, si
     const size_t number = proof_stored_number(at, bytes);
     if (!proof_point(b, f, i, number, out->stored[c])) out->whole = 0;
   }
-  for (size_t c = 0; c < 3 && out->whole && f->convex_radius <= 0; c++) {
+  for (size_t c = 0; c < 3 && out->whole && f->counts->convex_radius <= 0; c++) {
     for (size_t k = 0; k < 3; k++) CHECK_NEAR(out->stored[c][k], out->corners[c][k], 0);
   }
   if (!out->whole) memcpy(out->corners, out->stored, sizeof out->corners);
@@ -350,7 +350,7 @@ static void proof_read_body(proof_body *b) {
   const nsvcd__geometry f = nsvcd__geometry_of(nsvcd__triangles_of(b->body));
   shapes_rng rng = {b->triangles};
   b->count = f.body->patches;
-  b->listed = f.listed;
+  b->listed = f.counts->listed;
   b->patches = (proof_patch *)calloc(b->count, sizeof *b->patches);
   b->listings = (proof_listing *)calloc(b->listed + 1, sizeof *b->listings);
   if (!b->patches || !b->listings) exit(1);

@@ -45,9 +45,9 @@ static const nsvcd_body *build(size_t points, blob *memory) {
     if (random_tips) tips[k] = (int8_t)((int)pick(0, 146) - 73);
   }
   source.count = points;
-  source.centres = (const nsvcd__f3 *)(const void *)centres;
+  source.centres = (nsvcd__f3 *)(void *)centres;
   source.radii = radii;
-  source.areas = (const nsvcd__f3 *)(const void *)areas;
+  source.areas = (nsvcd__f3 *)(void *)areas;
   source.extremes = tips;
   source.latents = latents;
   source.order = order;

@@ -152,7 +152,7 @@ static void proof_forge_floats(const nsvcd_body *body, const nsvcd__geometry *f)
   const float bad[3] = {NAN, INFINITY, -1e30f};
   const size_t padded = f->body->padded;
   const float *arrays[5] = {f->slabs, f->steps, f->margins, f->errors, f->seeds};
-  const size_t counts[5] = {6 * padded, padded, padded, padded, 3 * f->components};
+  const size_t counts[5] = {6 * padded, padded, padded, padded, 3 * f->counts->components};
   for (int k = 0; k < 5; k++) {
     for (size_t n = 0; n < counts[k]; n += 1 + counts[k] / 40) {
       for (int b = 0; b < 3; b++)

@@ -307,7 +307,7 @@ static int centres_meet(scene *s, shapes_rng *rng, size_t n) {
 static int without_lean(scene *s, shapes_rng *rng, size_t n) {
   for (int k = 0; k < 2; k++) {
     const nsvcd_body *from = pool[1][shapes_pick(rng, POOL)];
-    const nsvcd__f3 none = {0, 0, 0};
+    nsvcd__f3 none = {0, 0, 0};
     const uint16_t first = 0;
     float at[3] = {0, 0, 0};
     float radius = 0;
@@ -316,7 +316,7 @@ static int without_lean(scene *s, shapes_rng *rng, size_t n) {
     CHECK(nsvcd_body_patch(from, 0, at, &radius));
     for (size_t i = 0; i < sizeof own_tips; i++)
       own_tips[i] = nsvcd__group_extremes(from, 0)[NSVCD__GROUP * i];
-    const nsvcd__f3 centre = nsvcd__f3_load(at);
+    nsvcd__f3 centre = nsvcd__f3_load(at);
     memcpy(latent, nsvcd__body_latents(from), sizeof latent);
     for (size_t i = 0; i < 3; i++) latent[NSVCD_W_CHANNELS * i] = 0;
     const nsvcd__latents_source source = {1, &centre, &radius, &none, own_tips, latent, &first, 1};

@@ -689,7 +689,7 @@ static void level_components_are_found(void) {
   CHECK_EQ(nsvcd_encode(&pebbles.mesh, &options, NULL, NULL, 0, &pebbles.body), NSVCD_OK);
   CHECK_EQ(nsvcd_encode(&box.mesh, NULL, NULL, NULL, 0, &box.body), NSVCD_OK);
   const nsvcd__geometry f = nsvcd__geometry_of(nsvcd__triangles_of(pebbles.body));
-  CHECK_EQ(f.components, PEBBLES);
+  CHECK_EQ(f.counts->components, PEBBLES);
   for (int i = 0; i < PEBBLES; i += 41) {
     const float x = 0.2f * (float)(i % 30);
     const float y = 0.2f * (float)(i / 30);

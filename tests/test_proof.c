@@ -2119,7 +2119,7 @@ static int proof_crossings(const nsvcd__geometry *f, const nsvcd__ray *ray, int 
 
 // A ray from somewhere about a body that passes close to an edge.
 static nsvcd__ray proof_ray_at_edge(shapes_rng *rng, const nsvcd__geometry *f, double margin) {
-  const size_t entry = shapes_next(rng) % f->listed;
+  const size_t entry = shapes_next(rng) % f->counts->listed;
   const double radius = (double)f->body->radius;
   size_t patch = 0;
   nsvcd__d3 t[3];

@@ -202,13 +202,13 @@ static nsvcd_result surface_of(const nsvcd_mesh *mesh, size_t points,
                                const nsvcd_allocator *allocator, nsvcd__arena *arena,
                                nsvcd__surface *surface) {
   nsvcd_encode_options options;
-  nsvcd__parts parts;
+  nsvcd__draft draft;
   memset(&options, 0, sizeof options);
   options.patches = points;
-  const nsvcd_result result = nsvcd__parts_build(mesh, &options, allocator, &parts);
+  const nsvcd_result result = nsvcd__draft_build(mesh, &options, allocator, &draft);
   if (result) return result;
-  *surface = parts.surface;
-  *arena = parts.arena;
+  *surface = draft.surface;
+  *arena = draft.arena;
   return NSVCD_OK;
 }
 

@@ -1,14 +1,13 @@
 // In: N patches. Out: one relocatable, checksummed blob. Patches are stored in groups of 16
-// neighbours, each group with a sphere over its members. Where there are many groups, there are
-// levels of spheres above them: the broad phase's tree. There are two kinds of bodies, which begin
-// alike:
+// neighbours, each with a sphere over its members. If there are many groups, there are levels of
+// spheres above them, a tree for the broad phase. There are two kinds of bodies, which begin alike:
 //
 //   struct nsvcd_body    64 bytes
 //   x, y, z, r   (4, P)  float: spheres of the patches, body frame, metres; P = N rounded up to 16;
 //                        padding has r = NSVCD__NOWHERE
 //   x, y, z, r   (4, G)  float: spheres of the groups; G = P / 16 rounded up to 16, padding as
-//                        above. In a body of latents they are over the patches' spheres; in one
-//                        of triangles over the surface in them, which may be much less
+//                        above. In a body of latents over the patches' spheres; in one of
+//                        triangles over the surface in them, which may be much smaller
 //   x, y, z, r   (4, H)  float: if there are more than 32 groups, spheres over 16 groups each;
 //                        H as G
 //   x, y, z, r   (4, I)  float: if these are more than 16, spheres over 16 of them each
@@ -20,11 +19,10 @@
 //                        the members of the spheres above
 //   extremes     (P / 16, 8, 3, 16)  int8: eight points of each patch of a group of 16, from its
 //                        centre in steps of r / 127; padding is zero
-//   latents      (N, NSVCD__LATENT)  int8, free of scale
-// and a body of triangles, for the proof, with what body/geometry says. A body that has both is
-// one of latents with one of triangles behind it, at `inner`: each part has spheres that suit it,
-// and patches have the same numbers in both. Each part ends in zeros up to a multiple of
-// NSVCD_ALIGNMENT.
+//   latents      (N, NSVCD__LATENT)  int8, the same at any scale
+// and a body of triangles, for the proof, with what body/geometry says. A body that has both is one
+// of latents with one of triangles behind it, at `inner`. Patches have the same numbers in both;
+// spheres differ. Each part is padded with zeros to a multiple of NSVCD_ALIGNMENT.
 #pragma once
 #include "../ground/valid.h"
 #include "../interface/bodies.h"
@@ -33,16 +31,16 @@
 #include "../ground/slices.h"
 #include "../encoder/model.h"
 
-// patches of a group, and groups or the like of a sphere above
+// members of a group, and of a sphere of a level
 #define NSVCD__GROUP NSVCD__LANES
-// Groups of a body that are searched at once; with more there are levels above. (Fewer for a test,
-// in which small bodies then make several tiles.)
+// Groups of a body that are searched at once; bodies with more have levels above them. (Tests define
+// fewer, so that small bodies have several tiles.)
 #ifndef NSVCD__TILE
 #define NSVCD__TILE 32
 #endif
 #define NSVCD__TILE_SLOTS 32
-#define NSVCD__LEVELS 3  // of spheres above the patches, at most
-// metres, over every radius and distance that coordinates within bounds can give
+#define NSVCD__LEVELS 3  // at most
+// metres: no radius or distance of coordinates in range exceeds it
 #define NSVCD__MAX_LENGTH 1.6e7f
 #define NSVCD__BODY_MAGIC 0x4256534eu  // "NSVB", or "BVSN": the mark of the byte order
 #define NSVCD__OTHER_MAGIC 0x4e535642u
@@ -50,36 +48,32 @@
 
 struct nsvcd_body {
   uint32_t magic, version;
-  // over everything that follows
-  uint64_t checksum;
-  // bytes, of the whole blob
-  uint32_t size;
-  // of the weights that made the latents; 0: a body of triangles
-  uint32_t weights_id;
-  uint32_t patches;  // N
-  uint32_t padded;   // P
-  // a sphere over all
-  float centre[3], radius;
-  // max |p_i| + r_i: no part is farther from the body's origin
-  float extent;
-  // 1: nothing can be inside
-  uint32_t open;
-  // of the mesh; 0: none are stored
-  uint32_t triangles;
-  // bytes from here to the body of triangles within; 0: there is none
-  uint32_t inner;
+  uint64_t checksum;        // of everything that follows
+  uint32_t size;            // bytes of the whole blob
+  uint32_t weights_id;      // of the weights that made the latents; 0: a body of triangles
+  uint32_t patches;         // N
+  uint32_t padded;          // P
+  float centre[3], radius;  // a sphere over all
+  float extent;             // max |p_i| + r_i: nothing is farther from the body's origin
+  uint32_t open;            // 1: nothing can be inside
+  uint32_t triangles;       // of the mesh; 0: none are stored
+  uint32_t inner;           // bytes from here to the body of triangles; 0: there is none
 };
 
 static size_t nsvcd__group_slots(size_t padded) {
   return nsvcd__round_up(padded / NSVCD__GROUP, NSVCD__GROUP);
 }
+// How many of `members` are in the group that begins with number `first`.
+static size_t nsvcd__group_members(size_t members, size_t first) {
+  const size_t left = first < members ? members - first : 0;
+  return left < NSVCD__GROUP ? left : NSVCD__GROUP;
+}
 
-// A level of spheres: level 0 are the groups, each of the next is over 16 of the one before.
+// A level of spheres. Level 0 are the groups; a sphere of any other is over 16 of the level below.
 typedef struct nsvcd__level {
   size_t count;  // spheres
   size_t slots;  // the same, rounded up to 16
-  // float, from the body's first: x (slots), y, z, r
-  size_t first;
+  size_t first;  // of its floats, from the body's first: x (slots), y, z, r
 } nsvcd__level;
 
 static nsvcd__level nsvcd__level_of(size_t padded, size_t level) {
@@ -92,7 +86,7 @@ static nsvcd__level nsvcd__level_of(size_t padded, size_t level) {
   return out;
 }
 
-// How many levels there are: none above the groups where these can be searched all at once.
+// How many levels there are: none above the groups if these are searched at once.
 static size_t nsvcd__level_count(size_t padded) {
   size_t levels = 1;
   if (padded / NSVCD__GROUP <= NSVCD__TILE) return 1;
@@ -100,7 +94,6 @@ static size_t nsvcd__level_count(size_t padded) {
   return levels;
 }
 
-// Accessors: x, y, z and r are (P), of the patches.
 static size_t nsvcd__body_groups(const nsvcd_body *body) {
   return body->padded / NSVCD__GROUP;
 }
@@ -124,7 +117,7 @@ static nsvcd__sphere nsvcd__body_sphere(const nsvcd_body *body) {
   return out;
 }
 
-// The same place of a body that is being written.
+// The address, writable, in a body that is being written.
 static void *nsvcd__writable(nsvcd_body *body, const void *address) {
   return (char *)body + ((const char *)address - (const char *)body);
 }
@@ -136,13 +129,13 @@ static size_t nsvcd__sphere_slots(size_t padded) {
   return top.first / 4 + top.slots;
 }
 
-// Bytes of the header and the spheres, with which both kinds of bodies begin.
+// Bytes of the header and the spheres.
 static size_t nsvcd__spheres_size(size_t padded) {
   return sizeof(struct nsvcd_body) + 16 * nsvcd__sphere_slots(padded);
 }
 
-// Area vectors with their padding: one for each sphere, but where there are no levels above the
-// groups, of patches alone.
+// Area vectors with their padding: one for each sphere, or, without levels above the groups, one for
+// each patch.
 static size_t nsvcd__area_slots(size_t padded) {
   return nsvcd__level_count(padded) > 1 ? nsvcd__sphere_slots(padded) : padded;
 }
@@ -158,12 +151,11 @@ static size_t nsvcd__latents_begin(size_t padded) {
 }
 
 #ifndef NSVCD_NO_NETWORK
-// The sums over the spheres of a level of a body that has some above the groups, (3, slots): they
-// lie as the spheres do.
+// (3, slots): the sums over a level's spheres, in a body with levels above the groups.
 static const float *nsvcd__level_areas(const nsvcd_body *body, nsvcd__level level) {
   return nsvcd__body_areas(body) + level.first / 4 * 3;
 }
-// Of the 16 patches of a group: (TIPS, 3, 16).
+// The extremes of a group's patches: (EXTREMES, 3, 16).
 static const int8_t *nsvcd__group_extremes(const nsvcd_body *body, size_t g) {
   const float *areas_end = nsvcd__body_areas(body) + 3 * nsvcd__area_slots(body->padded);
   return (const int8_t *)areas_end + 3 * NSVCD__EXTREMES * NSVCD__GROUP * g;
@@ -183,8 +175,8 @@ NSVCDDEF size_t nsvcd_body_size(size_t patches) {
 }
 #endif
 
-// FNV-1a, 64 bits, over 32-bit words: every step is a bijection of the state, so no single changed
-// word is missed.
+// FNV-1a, 64 bits, over words of 32 bits. Every step is a bijection of the state, so a change of a
+// single word is always detected.
 static uint64_t nsvcd__body_checksum(const nsvcd_body *body) {
   const char *bytes = (const char *)body;
   uint64_t hash = 14695981039346656037u;
@@ -197,18 +189,16 @@ static uint64_t nsvcd__body_checksum(const nsvcd_body *body) {
 }
 
 #ifndef NSVCD_NO_ENCODER
-// Numbers of patches that are being sorted.
+// Patches that are being sorted.
 typedef struct nsvcd__ordering {
-  // of all patches
-  const nsvcd__f3 *centres;
-  uint16_t *order;  // (count)
-  // (count), working memory
-  uint16_t *spare;
+  const nsvcd__f3 *centres;  // of all patches
+  uint16_t *order;           // (count) their numbers
+  uint16_t *spare;           // (count) working memory
   size_t count;
 } nsvcd__ordering;
 
-// Sorts patches by a coordinate of their centres, merging ever longer runs. Equal ones keep their
-// order, so that the result is the same everywhere.
+// Sorts patches by a coordinate of their centres. A merge sort: equal ones keep their order, so the
+// result is the same everywhere.
 static void nsvcd__sort_along(nsvcd__ordering all, size_t axis) {
   const float *at = (const float *)(const void *)all.centres + axis;
   for (size_t run = 1; run < all.count; run *= 2) {
@@ -228,9 +218,9 @@ static void nsvcd__sort_along(nsvcd__ordering all, size_t axis) {
   }
 }
 
-// Orders patches so that each run of 16 is compact, and each run of 16 of those: median splits
-// across the longest axis of the centres' box, the left part a multiple of 16, or of 256 and so on
-// where there are more than a tile's.
+// Orders patches so that each run of 16 is compact, and each run of 16 of those: median splits across
+// the longest axis of the centres' box. The left part is a multiple of 16, or of 256 and so on if
+// there are more than a tile's.
 static void nsvcd__body_order(nsvcd__ordering all) {
   if (all.count <= NSVCD__GROUP) return;
   nsvcd__f3 low = all.centres[all.order[0]];
@@ -240,9 +230,9 @@ static void nsvcd__body_order(nsvcd__ordering all) {
     high = nsvcd__f3_max(high, all.centres[all.order[i]]);
   }
   const nsvcd__f3 size = nsvcd__f3_sub(high, low);
-  const size_t axis = size.y > size.x ? 1 : 0;
-  const int is_z = size.z > (axis ? size.y : size.x);
-  nsvcd__sort_along(all, is_z ? 2 : axis);
+  size_t axis = size.y > size.x ? 1 : 0;
+  if (size.z > fmaxf(size.x, size.y)) axis = 2;
+  nsvcd__sort_along(all, axis);
   size_t unit = NSVCD__GROUP;
   while (2 * NSVCD__GROUP * unit < all.count) unit *= NSVCD__GROUP;
   nsvcd__ordering left = all;
@@ -254,8 +244,19 @@ static void nsvcd__body_order(nsvcd__ordering all) {
   nsvcd__body_order(right);
 }
 
-// Begins a body of so many patches in `memory`: zeros, the header, and the padding of the patches'
-// spheres.
+// What a body of latents is built of.
+typedef struct nsvcd__latents_source {
+  size_t count;           // N
+  nsvcd__f3 *centres;     // (N)
+  float *radii;           // (N)
+  nsvcd__f3 *areas;       // (N)
+  int8_t *extremes;       // (N, EXTREMES, 3)
+  int8_t *latents;        // (N, LATENT)
+  const uint16_t *order;  // (N) of the patches
+  int open;
+} nsvcd__latents_source;
+
+// Begins a body in `memory`: zeros, the header, and the padding of the patches' spheres.
 static nsvcd_body *nsvcd__body_begin(void *memory, size_t size, size_t patches, int open) {
   nsvcd_body *b = (nsvcd_body *)memory;
   memset(memory, 0, size);
@@ -271,35 +272,34 @@ static nsvcd_body *nsvcd__body_begin(void *memory, size_t size, size_t patches, 
 }
 #endif
 
-// Do 16 spheres end nearer to a place than at a distance, but for roundings? Needs no roots, and
-// compilers do it for several at a time.
-static int nsvcd__are_within(nsvcd__spheres all, nsvcd__f3 centre, float distance) {
-  int within = 1;
+// Are 16 spheres within a distance of a point, but for roundings? It takes no roots, and compilers
+// vectorize it.
+static int nsvcd__are_within(nsvcd__spheres all, nsvcd__f3 point, float distance) {
+  int are_within = 1;
   for (size_t i = 0; i < NSVCD__GROUP; i++) {
-    const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__centre_of(all, i), centre);
+    const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__centre_of(all, i), point);
     const float gap = distance - all.r[i];
-    within &= (gap > 0) & (nsvcd__f3_dot(offset, offset) < gap * gap);
+    are_within &= (gap > 0) & (nsvcd__f3_dot(offset, offset) < gap * gap);
   }
-  return within;
+  return are_within;
 }
 
-// The distance of the farthest point of `count` spheres from a place; *farthest is the sphere that
-// has it, if it is above 0. Before, it is a guess: the better, the sooner this is done.
-static float nsvcd__reach_of_spheres(nsvcd__spheres all, size_t count, nsvcd__f3 centre,
+// The distance from a point to the farthest point of `count` spheres. *farthest: a guess, the better
+// the faster; becomes the sphere that is farthest, if the distance is above 0.
+static float nsvcd__reach_of_spheres(nsvcd__spheres all, size_t count, nsvcd__f3 point,
                                      size_t *farthest) {
   const nsvcd__sphere guess = nsvcd__sphere_of(all, *farthest);
-  // less by more than the roundings: the farthest is never passed over
+  // less than 1 by more than the roundings: the farthest sphere is never skipped
   const float fraction = 0.999998f;
   float least =
-      fraction * (nsvcd__f3_length(nsvcd__f3_sub(guess.centre, centre)) + guess.radius);
+      fraction * (nsvcd__f3_length(nsvcd__f3_sub(guess.centre, point)) + guess.radius);
   float reach = 0;
   for (size_t first = 0; first < count; first += NSVCD__GROUP) {
-    const size_t left = count - first;
-    const size_t end = left < NSVCD__GROUP ? count : first + NSVCD__GROUP;
+    const size_t end = first + nsvcd__group_members(count, first);
     const nsvcd__spheres some = nsvcd__spheres_from(all, first);
-    if (left >= NSVCD__GROUP && nsvcd__are_within(some, centre, least)) continue;
+    if (end == first + NSVCD__GROUP && nsvcd__are_within(some, point, least)) continue;
     for (size_t i = first; i < end; i++) {
-      const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__centre_of(all, i), centre);
+      const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__centre_of(all, i), point);
       const float to = nsvcd__f3_length(offset) + all.r[i];
       if (to > reach) *farthest = i;
       reach = to > reach ? to : reach;
@@ -309,9 +309,9 @@ static float nsvcd__reach_of_spheres(nsvcd__spheres all, size_t count, nsvcd__f3
   return reach;
 }
 
-// A sphere over `count` spheres: from the middle of their box, ever shorter steps towards the
-// farthest (Badoiu and Clarkson 2003), the best one kept. The radius is rounded up by more than any
-// compiler's rounding.
+// A sphere over `count` spheres (Badoiu, Clarkson 2003): ever shorter steps towards the farthest
+// sphere. Difference: they begin in the middle of the box, and the best one is kept. The radius is
+// rounded up by more than any compiler's rounding.
 static nsvcd__sphere nsvcd__cover_spheres(nsvcd__spheres all, size_t count) {
   nsvcd__f3 low = nsvcd__f3_of(HUGE_VALF, HUGE_VALF, HUGE_VALF);
   nsvcd__f3 high = nsvcd__f3_scale(low, -1);
@@ -340,7 +340,7 @@ static nsvcd__sphere nsvcd__cover_spheres(nsvcd__spheres all, size_t count) {
   return best;
 }
 
-// Fills a level with spheres over 16 spheres each, of so many.
+// Fills a level with spheres over 16 of `members` spheres each.
 static void nsvcd__cover_level(nsvcd_body *body, size_t k, nsvcd__spheres below,
                                size_t members) {
   const nsvcd__level level = nsvcd__level_of(body->padded, k);
@@ -348,14 +348,13 @@ static void nsvcd__cover_level(nsvcd_body *body, size_t k, nsvcd__spheres below,
   for (size_t g = 0; g < level.slots; g++) {
     nsvcd__sphere sphere = {{0, 0, 0}, NSVCD__NOWHERE};
     const size_t i = g * NSVCD__GROUP;
-    const size_t left = i >= members ? 0 : members - i;
-    const size_t count = left < NSVCD__GROUP ? left : NSVCD__GROUP;
+    const size_t count = nsvcd__group_members(members, i);
     if (count) sphere = nsvcd__cover_spheres(nsvcd__spheres_from(below, i), count);
     nsvcd__sphere_store(sphere, out, level.slots, g);
   }
 }
 
-// Fills the spheres above the groups, the bounding sphere and the extent of a blob whose patches
+// Fills in the levels above the groups, the bounding sphere and the extent of a blob whose patches
 // and groups are in place.
 static void nsvcd__body_finish(nsvcd_body *body) {
   const nsvcd__spheres patches = nsvcd__body_patches(body);
@@ -382,21 +381,8 @@ static int nsvcd__areas_are_sound(const nsvcd_body *body) {
 }
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_NETWORK)
-// What a body of latents is built of.
-typedef struct nsvcd__latents_source {
-  size_t count;              // N
-  const nsvcd__f3 *centres;  // (N)
-  const float *radii;        // (N)
-  const nsvcd__f3 *areas;    // (N)
-  const int8_t *extremes;    // (N, TIPS, 3)
-  const int8_t *latents;     // (N, LATENT)
-  // (N) of the patches
-  const uint16_t *order;
-  int open;
-} nsvcd__latents_source;
-
-// Builds a body of latents in `memory`, nsvcd_body_size bytes. NUMBER if something is out of
-// bounds, EMPTY if it is too small.
+// Builds a body of latents in `memory`, nsvcd_body_size bytes. NUMBER if something is out of range,
+// EMPTY if it is too small.
 static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void *memory) {
   const size_t count = source->count;
   nsvcd_body *b = nsvcd__body_begin(memory, nsvcd_body_size(count), count, source->open);
@@ -417,7 +403,7 @@ static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void 
     memcpy(latents, source->latents + NSVCD__LATENT * from, NSVCD__LATENT);
     latents += NSVCD__LATENT;
   }
-  // The levels, if there are any above the groups, have the sums over what is below.
+  // If there are levels above the groups, all levels have sums over what is below.
   const size_t levels = nsvcd__level_count(padded);
   const float *below = areas;
   size_t stride = padded;

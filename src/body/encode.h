@@ -1,5 +1,5 @@
-// In: a mesh. Out: a body. Region by region the surface becomes patches, and these become latents
-// and triangles; then all of them become one blob, neighbours side by side.
+// In: a mesh. Out: a body. Region by region the surface is split into patches, and these become
+// latents and triangles; then all are written into one blob, neighbours side by side.
 #pragma once
 #include "../surface/surface.h"
 #include "../encoder/encoder.h"
@@ -7,100 +7,100 @@
 #include "write.h"
 
 #ifndef NSVCD_NO_ENCODER
-// What a body is built of.
-typedef struct nsvcd__parts {
+// A body in the making.
+typedef struct nsvcd__draft {
   const nsvcd_mesh *mesh;
-  // with the defaults filled in: `patches` is not 0, `latents` says whether there are to be any
+  // defaults filled in: `patches` is not 0, `latents` tells whether there will be any
   const nsvcd_encode_options *options;
-  // of all the arrays
-  nsvcd__arena arena;
-  size_t count;        // N
-  nsvcd__f3 *centres;  // (N)
-  int in_runs;         // then they are in order
-  // bytes; 0: without
-  size_t latents_size, facets_size;
-#ifndef NSVCD_NO_NETWORK
-  // Of a body with latents, else empty:
-  float *radii;      // (N)
-  nsvcd__f3 *areas;  // (N)
-  int8_t *extremes;  // (N, TIPS, 3)
-  int8_t *latents;   // (N, LATENT)
-#endif
+  nsvcd__arena arena;                  // of all arrays
+  size_t count;                        // N
+  int in_runs;                         // 1: patches are in order
+  size_t latents_size, geometry_size;  // bytes; 0: without
+  nsvcd__latents_source latents;       // without latents only centres
 #ifndef NSVCD_NO_PROOF
   nsvcd__surface surface;
   nsvcd__geometry_source source;
 #endif
-} nsvcd__parts;
+} nsvcd__draft;
 
 static int nsvcd__is_cancelled(const nsvcd_encode_options *options, double done) {
   return options->progress && options->progress((float)done, options->user);
 }
 
-// Adds the patches of region n, at most so many.
-static nsvcd_result nsvcd__parts_add(nsvcd__parts *parts, nsvcd__regions *regions, size_t n,
-                                     size_t most) {
-  nsvcd__region region;
-  nsvcd__patches patches;
-  nsvcd__arena spare = nsvcd__arena_of(parts->arena.allocator);
-  nsvcd_result result = nsvcd__region_begin(regions, n, &spare, &region);
-  if (result == NSVCD_ERROR_EMPTY) return NSVCD_OK;
-  if (!result) result = nsvcd__patches_build(&region.mesh, most, &spare, &patches);
-  const size_t count = result ? 0 : patches.count;
-  for (size_t i = 0; i < count; i++) parts->centres[parts->count + i] = patches.centres[i];
-  nsvcd__pieces pieces;
-  if (!result && !nsvcd__pieces_build(&region, &patches, &spare, &pieces))
-    result = NSVCD_ERROR_MEMORY;
-  nsvcd__sorted sorted;
-  if (!result && !nsvcd__sorted_build(&pieces, &spare, &sorted)) result = NSVCD_ERROR_MEMORY;
 #ifndef NSVCD_NO_NETWORK
-  const int latents = parts->options->latents;
-  for (size_t i = 0; !result && latents && i < count; i++) {
-    const size_t to = parts->count + i;
-    const float radius = patches.radii[i];
-    const size_t first = patches.offsets[i];
+// Adds the latents of a region's patches.
+static void nsvcd__add_latents(nsvcd__draft *draft, nsvcd__sorted *sorted) {
+  const nsvcd__region *region = sorted->pieces->region;
+  const nsvcd__patches *patches = sorted->pieces->patches;
+  const nsvcd__latents_source *out = &draft->latents;
+  for (size_t i = 0; i < patches->count; i++) {
+    const size_t to = draft->count + i;
+    const float radius = patches->radii[i];
+    const size_t first = patches->offsets[i];
     nsvcd__encoded patch;
-    patch.samples = patches.samples + first;
-    patch.normals = patches.normals + first;
-    patch.count = patches.offsets[i + 1] - first;
-    patch.centre = patches.centres[i];
+    patch.samples = patches->samples + first;
+    patch.normals = patches->normals + first;
+    patch.count = patches->offsets[i + 1] - first;
+    patch.centre = patches->centres[i];
     patch.inverse_radius = radius > 0 ? 1 / radius : 0;
     float latent[NSVCD__LATENT];
     nsvcd__encode_patch(&patch, latent);
     for (size_t k = 0; k < NSVCD__LATENT; k++)
-      parts->latents[NSVCD__LATENT * to + k] = (int8_t)lrintf(127 * latent[k]);
-    // The mesh has the cuts rounded: each coordinate by half a unit in the last place, at most. By
-    // so much the surface may stick out of the balls.
-    const double margin = 1.1e-7 * region.greatest;
+      out->latents[NSVCD__LATENT * to + k] = (int8_t)lrintf(127 * latent[k]);
+    // Cuts are rounded in the region's mesh, each coordinate by at most half a unit in the last
+    // place: so far the surface may leave the balls.
+    const double margin = 1.1e-7 * region->greatest;
     const double wider = ((double)radius + margin) * (1 + 1e-7);
-    parts->radii[to] = region.cut_count > 0 ? (float)wider : radius;
-    parts->areas[to] = patches.area_vectors[i];
-    nsvcd__extremes_of(&sorted, i, parts->radii[to],
-                       parts->extremes + 3 * NSVCD__EXTREMES * to);
+    out->radii[to] = region->cut_count > 0 ? (float)wider : radius;
+    out->areas[to] = patches->area_vectors[i];
+    nsvcd__extremes_of(sorted, i, out->radii[to], out->extremes + 3 * NSVCD__EXTREMES * to);
   }
+}
+#endif
+
+// Adds the patches of region n, at most `most`.
+static nsvcd_result nsvcd__add_region(nsvcd__draft *draft, nsvcd__regions *regions, size_t n,
+                                      size_t most) {
+  nsvcd__region region;
+  nsvcd__patches patches;
+  nsvcd__pieces pieces;
+  nsvcd__sorted sorted;
+  nsvcd__arena spare = nsvcd__arena_of(draft->arena.allocator);
+  nsvcd_result result = nsvcd__region_begin(regions, n, &spare, &region);
+  if (result == NSVCD_ERROR_EMPTY) return NSVCD_OK;
+  if (!result) result = nsvcd__patches_build(&region.mesh, most, &spare, &patches);
+  if (!result && (!nsvcd__pieces_build(&region, &patches, &spare, &pieces) ||
+                  !nsvcd__sorted_build(&pieces, &spare, &sorted)))
+    result = NSVCD_ERROR_MEMORY;
+  if (!result) {
+    nsvcd__f3 *centres = draft->latents.centres + draft->count;
+    memcpy(centres, patches.centres, patches.count * sizeof *centres);
+#ifndef NSVCD_NO_NETWORK
+    if (draft->options->latents) nsvcd__add_latents(draft, &sorted);
 #endif
 #ifndef NSVCD_NO_PROOF
-  if (!result && !parts->options->no_triangles)
-    result = nsvcd__surface_add(&sorted, &parts->surface);
+    if (!draft->options->no_triangles) result = nsvcd__surface_add(&sorted, &draft->surface);
 #endif
-  parts->count += count;
+    draft->count += patches.count;
+  }
   if (!result) nsvcd__region_end(regions, &region);
   nsvcd__arena_free(&spare);
   return result;
 }
 
 #ifndef NSVCD_NO_PROOF
-// All of a mesh that has points or segments, in runs, block by block. Without latents.
-static nsvcd_result nsvcd__parts_of_runs(nsvcd__parts *parts) {
-  const nsvcd_mesh *mesh = parts->mesh;
+// Drafts a mesh that has points or segments, in runs, block by block. There are no latents.
+static nsvcd_result nsvcd__draft_runs(nsvcd__draft *draft) {
+  const nsvcd_mesh *mesh = draft->mesh;
   const size_t triangles = mesh->triangle_count;
-  const size_t wanted = parts->options->patches;
+  const size_t wanted = draft->options->patches;
   const size_t runs = wanted < triangles ? wanted : triangles;
-  nsvcd__arena spare = nsvcd__arena_of(parts->arena.allocator);
-  nsvcd__surface *surface = &parts->surface;
+  nsvcd__arena spare = nsvcd__arena_of(draft->arena.allocator);
+  nsvcd__surface *surface = &draft->surface;
   nsvcd__curve curve;
-  int ok = nsvcd__surface_begin(runs, mesh->vertex_count, parts->options->coarse,
-                                &parts->arena, surface);
-  ok = ok && nsvcd__curve_build(mesh, parts->options->convex_radius, &spare, &curve);
+  int ok = nsvcd__surface_begin(runs, mesh->vertex_count, draft->options->coarse,
+                                &draft->arena, surface);
+  ok = ok && nsvcd__curve_build(mesh, draft->options->convex_radius, &spare, &curve);
   ok = ok && nsvcd__surface_room(surface, mesh->vertex_count, mesh->vertex_count, triangles);
   if (ok) surface->solids = curve.solids;
   nsvcd_result result = ok ? NSVCD_OK : NSVCD_ERROR_MEMORY;
@@ -117,134 +117,129 @@ static nsvcd_result nsvcd__parts_of_runs(nsvcd__parts *parts) {
     result = ok ? nsvcd__surface_add(&sorted, surface) : NSVCD_ERROR_MEMORY;
     nsvcd__arena_free(&few);
     const double done = (double)last / (double)runs;
-    if (!result && nsvcd__is_cancelled(parts->options, 0.9 * done))
+    if (!result && nsvcd__is_cancelled(draft->options, 0.9 * done))
       result = NSVCD_ERROR_CANCELLED;
   }
-  parts->count = runs;
+  draft->count = runs;
   nsvcd__arena_free(&spare);
   return result;
 }
 #endif
 
-// All of it, region by region.
-static nsvcd_result nsvcd__parts_of_regions(nsvcd__parts *parts) {
-  const nsvcd_encode_options *options = parts->options;
+// Drafts a mesh region by region.
+static nsvcd_result nsvcd__draft_regions(nsvcd__draft *draft) {
+  const nsvcd_encode_options *options = draft->options;
   const size_t patches = options->patches;
-  nsvcd__arena *arena = &parts->arena;
+  nsvcd__arena *arena = &draft->arena;
   nsvcd__arena spare = nsvcd__arena_of(arena->allocator);
   nsvcd__regions regions;
-  if (!nsvcd__regions_build(parts->mesh, patches, &spare, &regions)) {
+  if (!nsvcd__regions_build(draft->mesh, patches, &spare, &regions)) {
     nsvcd__arena_free(&spare);
     return NSVCD_ERROR_MEMORY;
   }
-  parts->centres = NSVCD__TAKE(arena, nsvcd__f3, patches);
+  nsvcd__latents_source *latents = &draft->latents;
+  latents->centres = NSVCD__TAKE(arena, nsvcd__f3, patches);
 #ifndef NSVCD_NO_NETWORK
-  const size_t latents = options->latents ? patches : 0;
-  parts->radii = NSVCD__TAKE(arena, float, latents);
-  parts->areas = NSVCD__TAKE(arena, nsvcd__f3, latents);
-  parts->extremes = NSVCD__TAKE(arena, int8_t, 3 * NSVCD__EXTREMES * latents);
-  parts->latents = NSVCD__TAKE(arena, int8_t, NSVCD__LATENT * latents);
+  const size_t room = options->latents ? patches : 0;
+  latents->radii = NSVCD__TAKE(arena, float, room);
+  latents->areas = NSVCD__TAKE(arena, nsvcd__f3, room);
+  latents->extremes = NSVCD__TAKE(arena, int8_t, 3 * NSVCD__EXTREMES * room);
+  latents->latents = NSVCD__TAKE(arena, int8_t, NSVCD__LATENT * room);
 #endif
 #ifndef NSVCD_NO_PROOF
   if (!options->no_triangles)
     (void)nsvcd__surface_begin(patches, regions.component_count, options->coarse, arena,
-                               &parts->surface);
-  parts->surface.solids = regions.solids;
+                               &draft->surface);
+  draft->surface.solids = regions.solids;
 #endif
   const size_t count = regions.count;
   nsvcd_result result = arena->failed ? NSVCD_ERROR_MEMORY : NSVCD_OK;
   for (size_t n = 0; !result && n < count; n++) {
     const size_t most = patches * (n + 1) / count - patches * n / count;
     const double done = (double)(n + 1) / (double)(count + 2);
-    const int stop = nsvcd__is_cancelled(options, done);
-    result = stop ? NSVCD_ERROR_CANCELLED : nsvcd__parts_add(parts, &regions, n, most);
+    if (nsvcd__is_cancelled(options, done))
+      result = NSVCD_ERROR_CANCELLED;
+    else
+      result = nsvcd__add_region(draft, &regions, n, most);
   }
   nsvcd__arena_free(&spare);
   return result;
 }
 
-// Everything but the blob. On success release with nsvcd__arena_free. MEMORY, CANCELLED, TOO_LARGE.
-static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh,
+// Makes everything but the blob. After success, free the draft's arena. MEMORY, CANCELLED, TOO_LARGE.
+static nsvcd_result nsvcd__draft_build(const nsvcd_mesh *mesh,
                                        const nsvcd_encode_options *options,
-                                       const nsvcd_allocator *allocator, nsvcd__parts *parts) {
-  memset(parts, 0, sizeof *parts);
-  parts->mesh = mesh;
-  parts->options = options;
-  parts->arena = nsvcd__arena_of(allocator);
+                                       const nsvcd_allocator *allocator, nsvcd__draft *draft) {
+  memset(draft, 0, sizeof *draft);
+  draft->mesh = mesh;
+  draft->options = options;
+  draft->arena = nsvcd__arena_of(allocator);
   if (nsvcd__is_cancelled(options, 0)) return NSVCD_ERROR_CANCELLED;
   nsvcd_result result = NSVCD_OK;
 #ifndef NSVCD_NO_PROOF
-  parts->in_runs = options->convex_radius > 0 && nsvcd__has_points(mesh);
-  if (parts->in_runs) result = nsvcd__parts_of_runs(parts);
+  draft->in_runs = options->convex_radius > 0 && nsvcd__has_points(mesh);
+  if (draft->in_runs) result = nsvcd__draft_runs(draft);
 #endif
-  if (!parts->in_runs) result = nsvcd__parts_of_regions(parts);
+  if (!draft->in_runs) result = nsvcd__draft_regions(draft);
 #ifndef NSVCD_NO_NETWORK
-  if (!result && options->latents) parts->latents_size = nsvcd_body_size(parts->count);
+  if (!result && options->latents) draft->latents_size = nsvcd_body_size(draft->count);
 #endif
 #ifndef NSVCD_NO_PROOF
   if (!result && !options->no_triangles) {
     nsvcd__geometry none;
-    parts->source.surface = &parts->surface;
-    parts->source.mesh = mesh;
-    if (!nsvcd__geometry_count(&parts->source, &parts->arena)) result = NSVCD_ERROR_MEMORY;
-    parts->source.counts.convex_radius = options->convex_radius;
-    parts->facets_size =
-        nsvcd__geometry_layout(NULL, parts->count, &parts->source.counts, &none);
-    if (!result && !parts->facets_size) result = NSVCD_ERROR_TOO_LARGE;
+    draft->source.surface = &draft->surface;
+    draft->source.mesh = mesh;
+    if (!nsvcd__geometry_count(&draft->source, &draft->arena)) result = NSVCD_ERROR_MEMORY;
+    draft->source.counts.convex_radius = options->convex_radius;
+    draft->geometry_size =
+        nsvcd__geometry_layout(NULL, draft->count, &draft->source.counts, &none);
+    if (!result && !draft->geometry_size) result = NSVCD_ERROR_TOO_LARGE;
   }
 #endif
-  if (result) nsvcd__arena_free(&parts->arena);
+  if (result) nsvcd__arena_free(&draft->arena);
   return result;
 }
 
-// Puts the patches in order and writes the blob, (latents_size + facets_size) bytes: the body of
-// latents, then the body of triangles. MEMORY, NUMBER, EMPTY.
-static nsvcd_result nsvcd__parts_write(nsvcd__parts *parts, void *memory) {
-  const size_t count = parts->count;
-  const size_t triangles = parts->mesh->triangle_count;
-  const int open = parts->options->open;
-  nsvcd_body *b = (nsvcd_body *)memory;
-  uint16_t *order = NSVCD__TAKE(&parts->arena, uint16_t, 2 * count);
+// Orders the patches and writes the blob: the body of latents, then the body of triangles. MEMORY,
+// NUMBER, EMPTY.
+static nsvcd_result nsvcd__draft_write(nsvcd__draft *draft, void *memory) {
+  const size_t count = draft->count;
+  nsvcd__latents_source *latents = &draft->latents;
+  latents->count = count;
+  latents->open = draft->options->open;
+  uint16_t *order = NSVCD__TAKE(&draft->arena, uint16_t, 2 * count);
   if (!order) return NSVCD_ERROR_MEMORY;
   for (size_t i = 0; i < count; i++) order[i] = (uint16_t)i;
-  const nsvcd__ordering all = {parts->centres, order, order + count, count};
-  if (!parts->in_runs) nsvcd__body_order(all);
+  const nsvcd__ordering all = {latents->centres, order, order + count, count};
+  if (!draft->in_runs) nsvcd__body_order(all);
+  latents->order = order;
   nsvcd_result result = NSVCD_OK;
 #ifndef NSVCD_NO_NETWORK
-  if (parts->latents_size) {
-    nsvcd__latents_source source;
-    source.count = count;
-    source.centres = parts->centres;
-    source.radii = parts->radii;
-    source.areas = parts->areas;
-    source.extremes = parts->extremes;
-    source.latents = parts->latents;
-    source.order = order;
-    source.open = open;
-    result = nsvcd__body_build(&source, memory);
-  }
+  if (draft->latents_size) result = nsvcd__body_build(latents, memory);
 #endif
 #ifndef NSVCD_NO_PROOF
-  if (!result && parts->facets_size) {
-    void *to = (char *)memory + parts->latents_size;
-    result = nsvcd__geometry_build(&parts->source, order, open, to, parts->facets_size);
+  if (!result && draft->geometry_size) {
+    void *to = (char *)memory + draft->latents_size;
+    result =
+        nsvcd__geometry_build(&draft->source, order, latents->open, to, draft->geometry_size);
   }
 #endif
-  if (result || !parts->latents_size || !parts->facets_size) return result;
-  b->triangles = (uint32_t)triangles;
-  b->inner = (uint32_t)parts->latents_size;
-  b->size = (uint32_t)(parts->latents_size + parts->facets_size);
+  if (result || !draft->latents_size || !draft->geometry_size) return result;
+  nsvcd_body *b = (nsvcd_body *)memory;
+  b->triangles = (uint32_t)draft->mesh->triangle_count;
+  b->inner = (uint32_t)draft->latents_size;
+  b->size = (uint32_t)(draft->latents_size + draft->geometry_size);
   b->checksum = nsvcd__body_checksum(b);
   return NSVCD_OK;
 }
 
-// How many patches, where the options do not say. area: of the mesh, square metres.
+// The default number of patches. area: of the mesh, square metres.
 static size_t nsvcd__patches_for(const nsvcd_mesh *mesh, float patch_radius, double area,
                                  int triangles) {
   const double most = NSVCD_MAX_PATCHES;
   if (patch_radius > 0) {
-    // N balls of radius r cover about N r^2 / 0.45 of surface: measured, on the real meshes, for N
-    // = 32 to 512.
+    // N balls of radius r cover an area of about N r^2 / 0.45, as measured on real meshes for
+    // N = 32 to 512.
     const double square = (double)patch_radius * (double)patch_radius;
     const double count = ceil(0.45 * area / square);
     return (size_t)fmin(fmax(count, 1), most);
@@ -269,10 +264,8 @@ static nsvcd_result nsvcd__encode_resolve(const nsvcd_mesh *mesh, nsvcd_encode_o
 #ifdef NSVCD_NO_NETWORK
   if (o->latents) return NSVCD_ERROR_LATENTS;
 #endif
-  if (!nsvcd__is_finite(o->patch_radius)) return NSVCD_ERROR_PATCHES;
-  if (o->patch_radius < 0) return NSVCD_ERROR_PATCHES;
-  if (!nsvcd__in_range(&o->convex_radius, 1, NSVCD_MAX_COORDINATE) || o->convex_radius < 0)
-    return NSVCD_ERROR_RADIUS;
+  if (!nsvcd__is_finite(o->patch_radius) || o->patch_radius < 0) return NSVCD_ERROR_PATCHES;
+  if (!nsvcd__is_length(o->convex_radius)) return NSVCD_ERROR_RADIUS;
   if (o->convex_radius > 0 && o->latents) return NSVCD_ERROR_LATENTS;
   if (o->patches > NSVCD_MAX_PATCHES) return NSVCD_ERROR_PATCHES;
   const nsvcd_result checked = mesh->indices ? nsvcd__mesh_check(mesh) : NSVCD_OK;
@@ -289,8 +282,7 @@ static nsvcd_result nsvcd__encode_resolve(const nsvcd_mesh *mesh, nsvcd_encode_o
   return NSVCD_OK;
 }
 
-// nsvcd_encode of a mesh, or of a cloud that has been checked: a mesh without indices, of which
-// triangle t is point t.
+// nsvcd_encode of a mesh; or of a checked cloud: a mesh without indices, whose triangle t is point t.
 static nsvcd_result nsvcd__encode_mesh(const nsvcd_mesh *mesh,
                                        const nsvcd_encode_options *options,
                                        const nsvcd_allocator *allocator, void *memory,
@@ -300,13 +292,13 @@ static nsvcd_result nsvcd__encode_mesh(const nsvcd_mesh *mesh,
   nsvcd_encode_options o;
   memset(&o, 0, sizeof o);
   if (options) o = *options;
-  nsvcd__parts parts;
+  nsvcd__draft draft;
   nsvcd_result result = nsvcd__encode_resolve(mesh, &o);
-  if (!result) result = nsvcd__parts_build(mesh, &o, allocator, &parts);
+  if (!result) result = nsvcd__draft_build(mesh, &o, allocator, &draft);
   if (result) return result;
 
-  const int fits = parts.facets_size <= 0xffffffffu - parts.latents_size;
-  const size_t size = parts.latents_size + parts.facets_size;
+  const int fits = draft.geometry_size <= 0xffffffffu - draft.latents_size;
+  const size_t size = draft.latents_size + draft.geometry_size;
   void *to = memory || !fits ? memory : nsvcd__alloc(allocator, size);
   if (!fits) {
     result = NSVCD_ERROR_TOO_LARGE;
@@ -315,11 +307,11 @@ static nsvcd_result nsvcd__encode_mesh(const nsvcd_mesh *mesh,
   } else if ((memory && capacity < size) || !nsvcd__is_aligned(to)) {
     result = NSVCD_ERROR_WORKSPACE;
   } else {
-    result = nsvcd__parts_write(&parts, to);
+    result = nsvcd__draft_write(&draft, to);
   }
   if (!result) *body = (const nsvcd_body *)to;
   if (result && !memory) nsvcd__free(allocator, to);
-  nsvcd__arena_free(&parts.arena);
+  nsvcd__arena_free(&draft.arena);
   return result;
 }
 

@@ -1,84 +1,76 @@
-// In: the surface of each patch. Out: the blob of the proof, and what it says of a patch.
+// In: the surface of each patch. Out: the proof's blob, and what it says of a patch.
 //
-// The body of triangles. Its spheres are the least about each patch's pieces of the surface. Behind
-// them stand
+// A body of triangles. Its spheres are the least ones about the surface in each patch. Behind them:
 //
-//   counts          (4)      uint32: triangles listed L, points stored V, components C, bytes of
-//                            entries B
-//   convex_radius   (1)      float: metres that the body goes beyond its triangles
-//   counts          (3)      uint32: vertices of the mesh W, references to them R, triangles that
-//                            are listed in pieces K. 0, 0, 0: the body is coarse
-//   solids          (4)      uint32: components as they are told, how many of these are open, open
-//                            edges; 1: entries have kinds of two bits
-//   gap             (1)      float: metres: corners no farther apart count as one where
-//                            it is asked what is closed
+//   counts          nsvcd__geometry_counts
 //   box             (2, 3)   float: least and greatest coordinates of the surface
-//   widest          (2)      float: the greatest of the quantization errors; and metres that the
-//                            mesh's vertices are off by: 0, but in a body that was scaled, or is
-//                            coarse
+//   widest          (2)      float: the greatest of `errors`; and how far the mesh's vertices are
+//                            off, metres: 0, except in bodies that are scaled or coarse
 //   slabs           (6, P)   float: normal n, low, high, across: points x of a piece have
-//                            low <= n.(x - c) <= high, and are no farther than `across` from the
-//                            line along n; c: centre of the patch's sphere
-//   group slabs     (6, G)   float: the same over the members of each group; c: centre of the
-//                            group's sphere
+//                            low <= n.(x - c) <= high and are within `across` of the line along n
+//                            through c, the centre of the patch's sphere
+//   group slabs     (6, G)   float: the same over the members of a group; c: its sphere's centre
 //   steps           (P)      float: metres per integer: a stored point is c + step (x, y, z)
 //   margins         (P)      float: pieces are within this of the hull of the first points
-//   errors (P)  float: corners that are stored points are within this of the mesh's
+//   errors          (P)      float: corners that are stored points are within this of the mesh's
 //   first_vertex, first_own, first_reference, first_triangle, first_byte
-//                   (5, N + 1) uint32: where a patch's stored points, the vertices that it is the
-//                            first to have, references to others, triangles and entries begin
-//   first_seed      (G' + 1) uint32: where the seeds of a group begin; G': groups, without the
-//                            padding
-//   seeds           (C, 3)   float: a point of each component, group by group, within its sphere
-//   positions       (W, 3)   float: the mesh's vertices as the caller gave them, each place once:
-//                            of each patch its own, then those of no patch
-//   cut             (K)      uint32: triangles of the caller's that are listed in pieces, in order
+//                   (5, N + 1) uint32: where a patch's stored points, the vertices that no patch
+//                            before it has, its references to others, its entries and their bytes
+//                            begin
+//   first_seed      (G' + 1) uint32: where a group's seeds begin; G': groups without padding
+//   seeds           (C, 3)   float: a point of each component, group by group, in the group's
+//                            sphere
+//   positions       (W, 3)   float: the mesh's vertices as the caller gave them, each position
+//                            once: first those that patches own, then those of no patch
+//   cut             (K)      uint32: the caller's triangles that are stored in pieces, ascending
 //   cut_corners     (K, 3)   uint32: their corners, numbers of vertices
-//   references      (R)      uint32, or uint16 if W is 65536 at most: patch by patch, numbers of
-//                            vertices that a patch before it has
-//   vertices        (3 V)    int16: patch by patch x, y, z of its stored points: the hull's, then
-//                            corners of pieces
-//                   (16)     int16: so that 16 can be read from any point on
-//   entries        (B)      bytes: patch by patch, of its T triangles
-//     corners       (T, 3)   uint8, or uint16 in patches of more than 256: points within the patch:
-//                            its stored ones, its own vertices, its references. A triangle of
-//                            vertices alone is one of the caller's; another is a piece of one
+//   references      (R)      uint32, or uint16 if W <= 65536: patch by patch, numbers of vertices
+//                            that an earlier patch owns
+//   vertices        (3 V)    int16: patch by patch x, y, z of its stored points: those of the hull,
+//                            then corners of pieces
+//                   (16)     int16: padding, so that 16 can be read from any point on
+//   entries         (B)      bytes: of each patch's T triangles
+//     corners       (T, 3)   uint8, or uint16 in patches of more than 256 points: numbers in the
+//                            patch of its stored points, its own vertices, its references. An
+//                            entry of vertices alone is a triangle of the caller's; any other is a
+//                            piece of one
 //     numbers       (T)      each in 1 to 5 bytes: see nsvcd__read_code
-//   hull_counts     (N)      uint8: vertices of the hull, 16 at most; 0: the patch has no surface
+//   hull_counts     (N)      uint8: vertices of the hull, at most 16; 0: the patch has no surface
 #pragma once
 #include "../surface/pieces.h"
 #include "traversal.h"
 
 #ifndef NSVCD_NO_PROOF
 #define NSVCD__HULLS (NSVCD__GROUP * NSVCD__HULL)  // vertices of a group, at most
-#define NSVCD__GEOMETRY_BOX 8                      // with the greatest quantization error
+#define NSVCD__GEOMETRY_BOX 8                      // floats of `box` and `widest`
 
 typedef struct nsvcd__geometry_counts {
-  uint32_t listed, vertices, components, triangle_codes_size;
-  float convex_radius;
+  uint32_t listed;               // L, entries of all patches
+  uint32_t vertices;             // V, stored points
+  uint32_t components;           // C
+  uint32_t triangle_codes_size;  // B
+  float convex_radius;           // metres that the body extends beyond its triangles
+  // W, R, K; all 0: the body is coarse
   uint32_t positions, references, cut;
-  uint32_t solids, open_solids, open_edges, is_mixed;
-  float gap;
+  // as nsvcd_body_facts tells them
+  uint32_t solids, open_solids, open_edges;
+  uint32_t is_mixed;  // 1: entries have kinds of two bits
+  float gap;          // metres: corners this near count as one in what is closed
 } nsvcd__geometry_counts;
 
+// Where everything is in a body of triangles. Only who builds or scales one writes through this.
 typedef struct nsvcd__geometry {
-  // of triangles
-  const nsvcd_body *body;
-  const float *box, *slabs, *group_slabs, *steps, *margins, *errors;
-  const uint32_t *first_vertex, *first_own, *first_reference, *first_triangle, *first_byte;
-  const uint32_t *first_seed;
-  const float *seeds, *positions;
-  const uint32_t *cut, *cut_corners;
-  // of 16 bits or 32
-  const unsigned char *references;
-  const int16_t *vertices;
-  const unsigned char *triangle_codes;
-  const uint8_t *hull_counts;
-  size_t listed, vertex_count, components, triangle_codes_size;
-  size_t position_count, reference_count, cut_count;
-  float convex_radius, gap;
-  // bits of a entry's code that are its kind
-  unsigned kind_bits;
+  nsvcd_body *body;
+  nsvcd__geometry_counts *counts;
+  float *box, *slabs, *group_slabs, *steps, *margins, *errors, *seeds, *positions;
+  uint32_t *first_vertex, *first_own, *first_reference, *first_triangle, *first_byte;
+  uint32_t *first_seed, *cut, *cut_corners;
+  unsigned char *references;
+  int16_t *vertices;
+  unsigned char *triangle_codes;
+  uint8_t *hull_counts;
+  size_t reference_bytes;  // of each: 2 or 4
+  unsigned kind_bits;      // of an entry's code: 1 or 2
 } nsvcd__geometry;
 
 // The body of triangles in a body, or NULL.
@@ -92,38 +84,26 @@ static const nsvcd__geometry_counts *nsvcd__counts_of(const nsvcd_body *body) {
   return (const nsvcd__geometry_counts *)(const void *)at;
 }
 
-// The next `count` numbers in a body, or, where that is NULL, only counts them.
-#define NSVCD__PASS(type, count) ((const type *)nsvcd__pass(body, &at, count, sizeof(type)))
-static const void *nsvcd__pass(const nsvcd_body *body, uint64_t *at, uint64_t count,
-                               size_t size) {
-  const void *out = body ? (const char *)body + *at : NULL;
+// The next `count` numbers in a body; NULL: only counts them.
+#define NSVCD__PASS(type, count) ((type *)nsvcd__pass(body, &at, count, sizeof(type)))
+static void *nsvcd__pass(nsvcd_body *body, uint64_t *at, uint64_t count, size_t size) {
+  void *out = body ? (char *)body + *at : NULL;
   *at += count * size;
   return out;
 }
 
-static size_t nsvcd__reference_bytes(const nsvcd__geometry *f) {
-  return f->position_count <= 65536 ? 2 : 4;
-}
-
-// Where all is in a body of so many patches. body: NULL to know only how large it is to be. Returns
-// its bytes; 0 if they cannot be counted in 32 bits.
-static size_t nsvcd__geometry_layout(const nsvcd_body *body, size_t patches,
+// Lays out a body of `patches` patches; NULL: only finds its size. Returns that, or 0 if it takes
+// more than 32 bits.
+static size_t nsvcd__geometry_layout(nsvcd_body *body, size_t patches,
                                      const nsvcd__geometry_counts *counts,
                                      nsvcd__geometry *f) {
   const size_t padded = nsvcd__round_up(patches, NSVCD__GROUP);
   const size_t starts = patches + 1;
-  uint64_t at = nsvcd__spheres_size(padded) + sizeof *counts;
+  uint64_t at = nsvcd__spheres_size(padded);
   f->body = body;
-  f->listed = counts->listed;
-  f->vertex_count = counts->vertices;
-  f->components = counts->components;
-  f->triangle_codes_size = counts->triangle_codes_size;
-  f->convex_radius = counts->convex_radius;
-  f->position_count = counts->positions;
-  f->reference_count = counts->references;
-  f->cut_count = counts->cut;
-  f->gap = counts->gap;
+  f->reference_bytes = counts->positions <= 65536 ? 2 : 4;
   f->kind_bits = 1 + (counts->is_mixed != 0);
+  f->counts = NSVCD__PASS(nsvcd__geometry_counts, 1);
   f->box = NSVCD__PASS(float, NSVCD__GEOMETRY_BOX);
   f->slabs = NSVCD__PASS(float, 6 * padded);
   f->group_slabs = NSVCD__PASS(float, 6 * nsvcd__group_slots(padded));
@@ -136,14 +116,14 @@ static size_t nsvcd__geometry_layout(const nsvcd_body *body, size_t patches,
   f->first_triangle = NSVCD__PASS(uint32_t, starts);
   f->first_byte = NSVCD__PASS(uint32_t, starts);
   f->first_seed = NSVCD__PASS(uint32_t, padded / NSVCD__GROUP + 1);
-  f->seeds = NSVCD__PASS(float, (uint64_t)3 * f->components);
-  f->positions = NSVCD__PASS(float, (uint64_t)3 * f->position_count);
-  f->cut = NSVCD__PASS(uint32_t, f->cut_count);
-  f->cut_corners = NSVCD__PASS(uint32_t, (uint64_t)3 * f->cut_count);
-  const size_t wide = nsvcd__reference_bytes(f);
-  f->references = NSVCD__PASS(unsigned char, (uint64_t)wide * f->reference_count);
-  f->vertices = NSVCD__PASS(int16_t, (uint64_t)3 * f->vertex_count + NSVCD__LANES);
-  f->triangle_codes = NSVCD__PASS(unsigned char, f->triangle_codes_size);
+  f->seeds = NSVCD__PASS(float, (uint64_t)3 * counts->components);
+  f->positions = NSVCD__PASS(float, (uint64_t)3 * counts->positions);
+  f->cut = NSVCD__PASS(uint32_t, counts->cut);
+  f->cut_corners = NSVCD__PASS(uint32_t, (uint64_t)3 * counts->cut);
+  const uint64_t references = (uint64_t)f->reference_bytes * counts->references;
+  f->references = NSVCD__PASS(unsigned char, references);
+  f->vertices = NSVCD__PASS(int16_t, (uint64_t)3 * counts->vertices + NSVCD__LANES);
+  f->triangle_codes = NSVCD__PASS(unsigned char, counts->triangle_codes_size);
   f->hull_counts = NSVCD__PASS(uint8_t, patches);
   at += NSVCD_ALIGNMENT - at % NSVCD_ALIGNMENT;
   return at > 0xffffffffu ? 0 : (size_t)at;
@@ -151,14 +131,17 @@ static size_t nsvcd__geometry_layout(const nsvcd_body *body, size_t patches,
 
 static nsvcd__geometry nsvcd__geometry_of(const nsvcd_body *body) {
   nsvcd__geometry f;
-  (void)nsvcd__geometry_layout(body, body->patches, nsvcd__counts_of(body), &f);
+  nsvcd_body *b;
+  // a cast would take away a const
+  memcpy(&b, &body, sizeof b);
+  (void)nsvcd__geometry_layout(b, body->patches, nsvcd__counts_of(body), &f);
   return f;
 }
 
 static float nsvcd__widest_quantization(const nsvcd__geometry *f) {
   return f->box[6];
 }
-// How far nsvcd__patch_triangle may be off the mesh's.
+// How far nsvcd__patch_triangle may be off the mesh's triangle.
 static float nsvcd__off_mesh(const nsvcd__geometry *f) {
   return f->box[7];
 }
@@ -167,7 +150,6 @@ static float nsvcd__off_mesh(const nsvcd__geometry *f) {
 
 // The stored points of a patch: integers, in steps from its centre.
 typedef struct nsvcd__vertices {
-  // (count) each
   const int16_t *x, *y, *z;
   size_t count;
 } nsvcd__vertices;
@@ -185,8 +167,8 @@ static nsvcd__d3 nsvcd__vertex_at(const nsvcd__vertices *vertices, size_t i) {
   return nsvcd__d3_of(vertices->x[i], vertices->y[i], vertices->z[i]);
 }
 
-// The points that corners of a patch can be, by their numbers in it: stored ones, from 0; its own
-// vertices; and references.
+// The points that a patch's corners can be are numbered: stored ones, own vertices, references. How
+// many stored ones, own ones and all there are:
 typedef struct nsvcd__patch_points {
   size_t stored, own, all;
 } nsvcd__patch_points;
@@ -199,16 +181,16 @@ NSVCD__INLINE nsvcd__patch_points nsvcd__points_of(const nsvcd__geometry *f, siz
   return out;
 }
 
-// Bytes of a corner in a patch of so many points.
+// Bytes of a corner in a patch of `points` points.
 static size_t nsvcd__corner_bytes(size_t points) {
   return points <= 256 ? 1 : 2;
 }
 
-// The number of a vertex that reference n is.
+// The vertex that reference n names.
 NSVCD__INLINE size_t nsvcd__reference_at(const nsvcd__geometry *f, size_t n) {
   uint32_t number;
   uint16_t narrow;
-  if (nsvcd__reference_bytes(f) == 4) {
+  if (f->reference_bytes == 4) {
     memcpy(&number, f->references + 4 * n, sizeof number);
     return number;
   }
@@ -216,7 +198,7 @@ NSVCD__INLINE size_t nsvcd__reference_at(const nsvcd__geometry *f, size_t n) {
   return narrow;
 }
 
-// The place of point i of a patch, which is no stored one, (3).
+// The position of point i of a patch, not a stored one: (3).
 NSVCD__INLINE const float *nsvcd__position_of(const nsvcd__geometry *f, size_t patch,
                                               nsvcd__patch_points points, size_t i) {
   i -= points.stored;
@@ -225,7 +207,7 @@ NSVCD__INLINE const float *nsvcd__position_of(const nsvcd__geometry *f, size_t p
   return f->positions + 3 * nsvcd__reference_at(f, at);
 }
 
-// The point, of its patch, of corner k (0..2) of entry n.
+// The number, in the patch, of corner k (0..2) of entry n.
 static size_t nsvcd__triangle_corner(const nsvcd__geometry *f, size_t patch, size_t n,
                                      size_t k) {
   const unsigned char *corners = f->triangle_codes + f->first_byte[patch];
@@ -236,11 +218,11 @@ static size_t nsvcd__triangle_corner(const nsvcd__geometry *f, size_t patch, siz
   return corner;
 }
 
-// The numbers of a patch's triangles in the caller's mesh follow each other as codes: what the
-// number is more than the one before, modulo 2^30, and below it one bit: does the triangle belong
-// to a closed component? Where there are other kinds than closed ones and sheets, two bits: the
-// kind. A code is stored 7 bits a byte, the lowest first; the top bit says that there are more.
-// Most take one byte, for neighbours have near numbers.
+// Entries follow each other as codes. The upper bits are the triangle's number in the caller's mesh
+// minus that of the entry before, modulo 2^30. The lowest bit tells whether it belongs to a closed
+// component; in a body with other kinds than CLOSED and SHEET, the lowest two are the kind. A code
+// has 7 bits a byte, the lowest first; the top bit tells that more follow. Most codes take one byte,
+// for neighbours have near numbers.
 static uint32_t nsvcd__read_code(const unsigned char **at) {
   uint32_t code = 0;
   for (unsigned shift = 0; shift < 35; shift += 7) {
@@ -251,12 +233,11 @@ static uint32_t nsvcd__read_code(const unsigned char **at) {
   return code;
 }
 
-// The numbers of a patch's triangles, read one after another.
+// Reads the numbers of a patch's entries, one after another.
 typedef struct nsvcd__numbers {
   const unsigned char *at;
-  size_t next;      // entry
-  uint32_t number;  // of the one before
-  uint32_t kind;
+  size_t next;            // entry
+  uint32_t number, kind;  // of the entry before
   unsigned kind_bits;
 } nsvcd__numbers;
 
@@ -272,7 +253,7 @@ static nsvcd__numbers nsvcd__numbers_of(const nsvcd__geometry *f, size_t patch) 
   return out;
 }
 
-// Reads on until entry n, which has not been read before.
+// Reads on up to entry n, which has not been read yet.
 static void nsvcd__read_number(nsvcd__numbers *numbers, size_t n) {
   for (; numbers->next <= n; numbers->next++) {
     const uint32_t code = nsvcd__read_code(&numbers->at);
@@ -283,7 +264,7 @@ static void nsvcd__read_number(nsvcd__numbers *numbers, size_t n) {
   }
 }
 
-// The triangle, in the caller's mesh, of entry n.
+// The caller's triangle of entry n.
 static uint32_t nsvcd__triangle_number(const nsvcd__geometry *f, size_t patch, size_t n) {
   nsvcd__numbers numbers = nsvcd__numbers_of(f, patch);
   nsvcd__read_number(&numbers, n);
@@ -300,16 +281,16 @@ static int nsvcd__is_in_solid(const nsvcd__geometry *f, size_t patch, size_t n) 
 static nsvcd__f3 nsvcd__patch_centre(const nsvcd__geometry *f, size_t patch) {
   return nsvcd__centre_of(nsvcd__body_patches(f->body), patch);
 }
-// The same in double: what the vertices are counted from.
+// The same in double: the origin of the stored points.
 static nsvcd__d3 nsvcd__patch_origin(const nsvcd__geometry *f, size_t patch) {
   return nsvcd__d3_widen(nsvcd__patch_centre(f, patch));
 }
 
-// The corners (3) of a triangle that is listed in pieces, by its number in the caller's mesh.
+// The corners (3) of a triangle of the caller's that is stored in pieces.
 static void nsvcd__whole_triangle(const nsvcd__geometry *f, uint32_t number,
                                   nsvcd__d3 *corners) {
   size_t first = 0;
-  for (size_t left = f->cut_count; left > 1;) {
+  for (size_t left = f->counts->cut; left > 1;) {
     const size_t half = left / 2;
     if (f->cut[first + half] <= number) first += half;
     left -= half;
@@ -318,8 +299,8 @@ static void nsvcd__whole_triangle(const nsvcd__geometry *f, uint32_t number,
     corners[k] = nsvcd__d3_row(f->positions, f->cut_corners[3 * first + k]);
 }
 
-// The corners (3) of the caller's triangle that entry n of a patch is, or is a piece of. Of a
-// coarse body, those of the entry itself.
+// The corners (3) of the caller's triangle that entry n is, or is a piece of. In a coarse body those
+// of the entry itself.
 static void nsvcd__patch_triangle(const nsvcd__geometry *f, size_t patch, size_t n,
                                   nsvcd__d3 *corners) {
   const nsvcd__patch_points points = nsvcd__points_of(f, patch);
@@ -327,7 +308,7 @@ static void nsvcd__patch_triangle(const nsvcd__geometry *f, size_t patch, size_t
     const size_t i = nsvcd__triangle_corner(f, patch, n, k);
     if (i >= points.stored) {
       corners[k] = nsvcd__d3_load(nsvcd__position_of(f, patch, points, i));
-    } else if (f->cut_count > 0) {
+    } else if (f->counts->cut > 0) {
       nsvcd__whole_triangle(f, nsvcd__triangle_number(f, patch, n), corners);
       return;
     } else {
@@ -341,12 +322,12 @@ static void nsvcd__patch_triangle(const nsvcd__geometry *f, size_t patch, size_t
 
 // ---- what follows from the patches
 
-// What the members of a group extend to along a direction and across it, from the centre of the
-// group's sphere. One that is seen to be no thinner than `most` is not measured to the end.
 typedef struct nsvcd__slab_of_hulls {
   double low, high, across;
 } nsvcd__slab_of_hulls;
 
+// The extent of a group along a direction and across it, from the centre of its sphere. Stops once
+// that is no thinner than `most`.
 static nsvcd__slab_of_hulls nsvcd__slab_of_group(const nsvcd__geometry *f, size_t g,
                                                  nsvcd__d3 normal, double most) {
   const size_t first = NSVCD__GROUP * g;
@@ -373,8 +354,8 @@ static nsvcd__slab_of_hulls nsvcd__slab_of_group(const nsvcd__geometry *f, size_
   return slab;
 }
 
-// Writes a group's slab. Its normal is the mean of the members', or that of every fourth member:
-// the one in which the group is thinnest.
+// Writes a group's slab. Its normal is the mean of the members' normals, or that of every fourth
+// member, whichever makes it thinnest.
 static void nsvcd__finish_group(nsvcd_body *b, size_t g) {
   const nsvcd__geometry f = nsvcd__geometry_of(b);
   nsvcd__d3 normals[1 + NSVCD__GROUP] = {{0, 0, 0}};
@@ -390,7 +371,7 @@ static void nsvcd__finish_group(nsvcd_body *b, size_t g) {
   for (size_t k = 0; k < 1 + NSVCD__GROUP; k += k == 0 ? 1 : 4) {
     const double length = nsvcd__d3_length(normals[k]);
     if (!(length > 1e-3)) continue;
-    // As it is stored, and no longer than 1.
+    // as it is stored, and not longer than 1
     const nsvcd__d3 shorter = nsvcd__d3_scale(normals[k], 0.9999998 / length);
     const nsvcd__d3 unit = nsvcd__d3_widen(nsvcd__f3_round(shorter));
     const double most = thinnest.high - thinnest.low;
@@ -399,19 +380,18 @@ static void nsvcd__finish_group(nsvcd_body *b, size_t g) {
     thinnest = slab;
     best = unit;
   }
-  // float rounding, and that `across` takes |n| to be 1
+  // rounding to float; and `across` assumes |n| = 1
   const double margin = 1e-6 * (double)b->extent;
   nsvcd__slab slab;
   slab.normal = nsvcd__f3_round(best);
   slab.low = (float)(thinnest.low - margin);
   slab.high = thinnest.high < HUGE_VAL ? (float)(thinnest.high + margin) : 0;
   slab.across = nsvcd__above(thinnest.across + margin);
-  float *slabs = (float *)nsvcd__writable(b, f.group_slabs);
-  nsvcd__slab_store(slab, slabs, nsvcd__group_slots(b->padded), g);
+  nsvcd__slab_store(slab, f.group_slabs, nsvcd__group_slots(b->padded), g);
 }
 
-// The surface in a group: spheres about the vertices of its patches' hulls. A patch without surface
-// is a point.
+// Spheres about the hulls' vertices, which together contain the surface of a group. A patch without
+// surface is a point.
 typedef struct nsvcd__hulls {
   size_t count;
   float spheres[4][NSVCD__HULLS];  // x, y, z, r
@@ -429,11 +409,9 @@ static void nsvcd__collect_hulls(const nsvcd__geometry *f, size_t g, nsvcd__hull
       nsvcd__d3 v = {0, 0, 0};
       if (count) v = nsvcd__vertex_at(&vertices, k);
       v = nsvcd__d3_fma(step, v, origin);
-      // as float rounds it
-      const double rounding = 1.1e-7 * nsvcd__d3_length(v);
-      const double radius = (double)f->margins[i] + rounding;
+      const double rounding = 1.1e-7 * nsvcd__d3_length(v);  // to float
       const size_t n = out->count++;
-      out->spheres[3][n] = nsvcd__above(radius);
+      out->spheres[3][n] = nsvcd__above((double)f->margins[i] + rounding);
       nsvcd__f3_put(nsvcd__f3_round(v), &out->spheres[0][n], NSVCD__HULLS);
     }
   }
@@ -443,9 +421,8 @@ static nsvcd__spheres nsvcd__hull_spheres(const nsvcd__hulls *hulls) {
   return nsvcd__spheres_of(hulls->spheres[0], NSVCD__HULLS);
 }
 
-// What is computed from the patches of a body of triangles, when these are in place: the spheres
-// above them, the box with the greatest of the quantization errors, and the groups' slabs. off:
-// metres that the mesh's vertices are off by.
+// Completes a body of triangles whose patches are in place: spheres of groups and levels, the box,
+// the greatest error, the groups' slabs. off: of the mesh's vertices, metres.
 static void nsvcd__geometry_finish(nsvcd_body *b, float off) {
   const nsvcd__geometry f = nsvcd__geometry_of(b);
   const nsvcd__level groups = nsvcd__level_of(b->padded, 0);
@@ -464,35 +441,34 @@ static void nsvcd__geometry_finish(nsvcd_body *b, float off) {
   nsvcd__d3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
   nsvcd__d3 high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   float widest = 0;
-  for (size_t n = 0; n < f.position_count; n++) {
+  for (size_t n = 0; n < f.counts->positions; n++) {
     low = nsvcd__d3_min(low, nsvcd__d3_row(f.positions, n));
     high = nsvcd__d3_max(high, nsvcd__d3_row(f.positions, n));
   }
   for (size_t i = 0; i < b->patches; i++) {
     const nsvcd__vertices vertices = nsvcd__vertices_of(&f, i);
     const nsvcd__d3 origin = nsvcd__patch_origin(&f, i);
-    const double quantization_error = (double)f.errors[i];
+    const double error = (double)f.errors[i];
     widest = f.errors[i] > widest ? f.errors[i] : widest;
-    for (size_t k = 0; k < vertices.count && f.position_count == 0; k++) {
+    for (size_t k = 0; k < vertices.count && f.counts->positions == 0; k++) {
       nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, k);
       vertex = nsvcd__d3_fma((double)f.steps[i], vertex, origin);
-      low = nsvcd__d3_min(low, nsvcd__d3_fma(-quantization_error, all, vertex));
-      high = nsvcd__d3_max(high, nsvcd__d3_fma(quantization_error, all, vertex));
+      low = nsvcd__d3_min(low, nsvcd__d3_fma(-error, all, vertex));
+      high = nsvcd__d3_max(high, nsvcd__d3_fma(error, all, vertex));
     }
   }
-  // float rounding
+  // 1e-6: rounding to float
   const double margin = 1e-6 * (double)b->extent + (double)off;
-  float *box = (float *)nsvcd__writable(b, f.box);
-  nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_fma(-margin, all, low)), box);
-  nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_fma(margin, all, high)), box + 3);
-  box[6] = widest;
-  box[7] = f.position_count > 0 ? off : widest;
+  nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_fma(-margin, all, low)), f.box);
+  nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_fma(margin, all, high)), f.box + 3);
+  f.box[6] = widest;
+  f.box[7] = f.counts->positions > 0 ? off : widest;
   for (size_t g = 0; g < nsvcd__body_groups(b); g++) nsvcd__finish_group(b, g);
   b->checksum = nsvcd__body_checksum(b);
 }
 #endif  // NSVCD_NO_PROOF
 
-// Of a sphere about a body, with what it goes beyond its triangles.
+// The radius of a body's sphere, its convex radius included.
 static float nsvcd__whole_radius(const nsvcd_body *body) {
 #ifndef NSVCD_NO_PROOF
   const nsvcd_body *triangles = nsvcd__triangles_of(body);

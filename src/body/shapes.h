@@ -1,5 +1,5 @@
-// In: a shape in numbers. Out: its body: a skeleton of points, segments or a box, and how round it
-// is.
+// In: the sizes of a shape. Out: its body: a skeleton of points, segments or a box, and a convex
+// radius.
 #pragma once
 #include "encode.h"
 
@@ -38,7 +38,7 @@ NSVCDDEF nsvcd_result nsvcd_encode_capsule(const float from[3], const float to[3
 NSVCDDEF nsvcd_result nsvcd_encode_box(const float half[3], float convex_radius,
                                        const nsvcd_allocator *allocator,
                                        const nsvcd_body **body) {
-  // corner n is on the far side of axis k if bit k of n is set
+  // bit k of a corner's number: it is on the positive side of axis k
   uint32_t faces[36] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
                         2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
   float corners[24];

@@ -2,22 +2,20 @@
 #pragma once
 #include "body.h"
 
-// Which of 16 spheres are of interest? Bits of lanes.
+// Which of 16 spheres pass? A bit for each.
 typedef uint32_t nsvcd__filter(const void *what, nsvcd__spheres spheres);
 
-// Finds the groups whose spheres, and all spheres over them, pass a filter, in their order.
+// Visits, in order, the groups that pass a filter, as do all spheres over them.
 typedef struct nsvcd__traversal {
   const nsvcd_body *body;
   nsvcd__filter *filter;
   const void *what;
   size_t levels, level;
-  // on each level, the first of the spheres looked at
-  uint32_t first[NSVCD__LEVELS];
-  // and those of them that passed, and are still to be visited
-  uint32_t left[NSVCD__LEVELS];
+  // on each level: the first of the spheres at hand, and bits of those still to be visited
+  uint32_t first[NSVCD__LEVELS], left[NSVCD__LEVELS];
 } nsvcd__traversal;
 
-// Which of 16 spheres of a level pass? Bits of lanes.
+// Filters 16 spheres of a level.
 static uint32_t nsvcd__traversal_filter(const nsvcd__traversal *traversal, size_t level,
                                         size_t first) {
   const nsvcd__level at = nsvcd__level_of(traversal->body->padded, level);
@@ -40,7 +38,7 @@ static void nsvcd__traversal_begin(nsvcd__traversal *traversal, const nsvcd_body
   traversal->left[traversal->level] = left;
 }
 
-// The next group; 0 if there is none.
+// Goes to the next group. 0 if there is none.
 static int nsvcd__traversal_next(nsvcd__traversal *traversal, size_t *group) {
   for (;;) {
     while (!traversal->left[traversal->level]) {

@@ -1,9 +1,8 @@
-// In: bytes that somebody hands over. Out: a body, if all in it is as nsvcd_encode would have it,
-// or could have it.
+// In: bytes of any origin. Out: a body, if nsvcd_encode could have written them.
 #pragma once
 #include "geometry.h"
 
-// ---- the spheres, with which both kinds of bodies begin
+// ---- spheres: both kinds of bodies begin with them
 
 // Does a sphere contain `count` spheres?
 static int nsvcd__covers(nsvcd__sphere sphere, nsvcd__spheres all, size_t count) {
@@ -11,35 +10,33 @@ static int nsvcd__covers(nsvcd__sphere sphere, nsvcd__spheres all, size_t count)
   return nsvcd__reach_of_spheres(all, count, sphere.centre, &farthest) <= sphere.radius;
 }
 
-// Are the first `count` of (4, slots) spheres finite and within bounds, their radii not negative,
-// and the others exactly what padding is? most: of the coordinates.
+// Are the first `count` of (4, slots) spheres finite and in range, with no negative radius, and the
+// others padding? most: of the coordinates.
 static int nsvcd__are_spheres(nsvcd__spheres all, size_t count, size_t slots, float most) {
   if (!nsvcd__in_range(all.x, 3 * slots, most)) return 0;
   if (!nsvcd__in_range(all.r, count, NSVCD__MAX_LENGTH)) return 0;
   if (!nsvcd__in_range(all.r, slots, -NSVCD__NOWHERE)) return 0;
-  for (size_t i = 0; i < count; i++) {
-    if (all.r[i] < 0) return 0;
-  }
-  for (size_t i = count; i < slots; i++) {
-    if (all.x[i] != 0 || all.y[i] != 0 || all.z[i] != 0) return 0;
-    if (all.r[i] != NSVCD__NOWHERE) return 0;
+  for (size_t i = 0; i < slots; i++) {
+    const int is_at_origin = all.x[i] == 0 && all.y[i] == 0 && all.z[i] == 0;
+    const int is_padding = is_at_origin && all.r[i] == NSVCD__NOWHERE;
+    if (i < count ? all.r[i] < 0 : !is_padding) return 0;
   }
   return 1;
 }
 
-// Does each of a level's spheres cover its 16 of so many?
+// Does each of a level's spheres contain its 16 of `members` spheres below?
 static int nsvcd__level_covers(nsvcd__spheres level, nsvcd__spheres below, size_t members) {
   for (size_t i = 0; i < members; i += NSVCD__GROUP) {
-    const size_t count = members - i < NSVCD__GROUP ? members - i : NSVCD__GROUP;
+    const size_t count = nsvcd__group_members(members, i);
     const nsvcd__sphere sphere = nsvcd__sphere_of(level, i / NSVCD__GROUP);
     if (!nsvcd__covers(sphere, nsvcd__spheres_from(below, i), count)) return 0;
   }
   return 1;
 }
 
-// Are the spheres of a blob, whose layout is right, finite and bounded, their radii not negative,
-// and does each one above the groups cover what is below? A checksum stops accidents; this stops a
-// blob made to harm: a lying sphere would hide collisions.
+// Are the spheres of a blob with a sound header in range, and does each one above the groups contain
+// what is below it? The checksum catches accidents; this catches blobs made to harm: a wrong sphere
+// would hide collisions.
 static int nsvcd__spheres_are_sound(const nsvcd_body *b) {
   const nsvcd__spheres patches = nsvcd__body_patches(b);
   const nsvcd__sphere about_origin = {nsvcd__f3_of(0, 0, 0), b->extent};
@@ -65,8 +62,8 @@ static int nsvcd__spheres_are_sound(const nsvcd_body *b) {
          nsvcd__covers(whole, groups, nsvcd__body_groups(b));
 }
 
-// Would the spheres, multiplied, still be within the limits of nsvcd_body_load? In double, for the
-// products may overflow a float.
+// Would the scaled spheres still be within the limits of nsvcd_body_load? In double, for the products
+// may overflow a float.
 static int nsvcd__spheres_fit(const nsvcd_body *b, float radius, float scale) {
   const double least = (double)NSVCD_MIN_RADIUS / (double)scale;
   const double most = (double)NSVCD_MAX_COORDINATE / (double)scale;
@@ -74,12 +71,12 @@ static int nsvcd__spheres_fit(const nsvcd_body *b, float radius, float scale) {
   for (size_t i = 0; i < 3 * (size_t)b->padded; i++) {
     if (fabs((double)nsvcd__body_patches(b).x[i]) > most) return 0;
   }
-  // Twice the extent is over every radius and centre of a group.
+  // no radius or centre of a group exceeds twice the extent
   return 2 * (double)b->extent <= (double)NSVCD__MAX_LENGTH / (double)scale;
 }
 
 #ifndef NSVCD_NO_NETWORK
-// Are extremes in range, and is their padding zero?
+// Are the extremes in range, and is their padding zero?
 static int nsvcd__extremes_are_sound(const nsvcd_body *b) {
   const int8_t *extremes = nsvcd__group_extremes(b, 0);
   for (size_t n = 0; n < (size_t)3 * NSVCD__EXTREMES * b->padded; n++) {
@@ -94,18 +91,39 @@ static int nsvcd__extremes_are_sound(const nsvcd_body *b) {
 // ---- the triangles
 
 #ifndef NSVCD_NO_PROOF
-// Are counts and indices of a patch right? Those of the patches before it are.
-static int nsvcd__patch_is_laid_out(const nsvcd__geometry *f, size_t i) {
-  const uint32_t *vertex = f->first_vertex + i;
-  const uint32_t *own = f->first_own + i;
-  const uint32_t *reference = f->first_reference + i;
-  const uint32_t *triangle = f->first_triangle + i;
-  if (vertex[1] < vertex[0] || vertex[1] > f->vertex_count) return 0;
-  if (own[1] < own[0] || own[1] > f->position_count) return 0;
-  if (reference[1] < reference[0] || reference[1] > f->reference_count) return 0;
-  if (triangle[1] < triangle[0] || triangle[1] > f->listed) return 0;
+// Do `count` + 1 numbers rise from 0 to `last`?
+static int nsvcd__rise(const uint32_t *first, size_t count, size_t last) {
+  int rise = first[0] == 0 && first[count] == last;
+  for (size_t i = 0; i < count; i++) rise &= first[i] <= first[i + 1];
+  return rise;
+}
+
+// Do all arrays of patches, groups and numbers of vertices stay within each other?
+static int nsvcd__are_laid_out(const nsvcd__geometry *f) {
+  const nsvcd__geometry_counts *n = f->counts;
+  const size_t patches = f->body->patches;
+  const size_t groups = nsvcd__body_groups(f->body);
+  if (!nsvcd__rise(f->first_vertex, patches, n->vertices)) return 0;
+  if (!nsvcd__rise(f->first_own, patches, f->first_own[patches])) return 0;
+  if (!nsvcd__rise(f->first_reference, patches, n->references)) return 0;
+  if (!nsvcd__rise(f->first_triangle, patches, n->listed)) return 0;
+  if (!nsvcd__rise(f->first_byte, patches, n->triangle_codes_size)) return 0;
+  if (!nsvcd__rise(f->first_seed, groups, n->components)) return 0;
+  if (f->first_own[patches] > n->positions) return 0;
+  for (size_t i = 0; i < n->references; i++)
+    if (nsvcd__reference_at(f, i) >= n->positions) return 0;
+  for (size_t i = 0; i < n->cut; i++)
+    if (f->cut[i] >= f->body->triangles || (i > 0 && f->cut[i] <= f->cut[i - 1])) return 0;
+  for (size_t i = 0; i < 3 * (size_t)n->cut; i++)
+    if (f->cut_corners[i] >= n->positions) return 0;
+  return 1;
+}
+
+// Are the entries of patch i sound?
+static int nsvcd__patch_is_sound(const nsvcd__geometry *f, size_t i) {
   const nsvcd__patch_points points = nsvcd__points_of(f, i);
-  const size_t triangles = triangle[1] - triangle[0];
+  const size_t triangle = f->first_triangle[i];
+  const size_t triangles = f->first_triangle[i + 1] - triangle;
   const size_t hull_count = f->hull_counts[i];
   if (hull_count > NSVCD__HULL || hull_count > points.stored) return 0;
   if ((hull_count == 0) != (triangles == 0)) return 0;
@@ -113,12 +131,11 @@ static int nsvcd__patch_is_laid_out(const nsvcd__geometry *f, size_t i) {
 
   const uint64_t corners = (uint64_t)3 * triangles * nsvcd__corner_bytes(points.all);
   const uint64_t corners_end = f->first_byte[i] + corners;
-  if (corners_end > f->first_byte[i + 1] || f->first_byte[i + 1] > f->triangle_codes_size)
-    return 0;
+  if (corners_end > f->first_byte[i + 1]) return 0;
   for (size_t n = 0; n < 3 * triangles; n++) {
-    if (nsvcd__triangle_corner(f, i, triangle[0] + n / 3, n % 3) >= points.all) return 0;
+    if (nsvcd__triangle_corner(f, i, triangle + n / 3, n % 3) >= points.all) return 0;
   }
-  // Behind them are just as many codes, and all of triangles that there are.
+  // as many codes follow, of triangles that exist, and nothing else
   const unsigned char *at = f->triangle_codes + (size_t)corners_end;
   const unsigned char *end = f->triangle_codes + f->first_byte[i + 1];
   uint32_t number = 0;
@@ -134,23 +151,9 @@ static int nsvcd__patch_is_laid_out(const nsvcd__geometry *f, size_t i) {
 }
 #endif  // NSVCD_NO_PROOF
 
-#ifndef NSVCD_NO_PROOF
-// Are all numbers of vertices, and of triangles that are listed in pieces, of some that there are?
-static int nsvcd__numbers_are_sound(const nsvcd__geometry *f) {
-  for (size_t n = 0; n < f->reference_count; n++)
-    if (nsvcd__reference_at(f, n) >= f->position_count) return 0;
-  for (size_t n = 0; n < f->cut_count; n++) {
-    if (f->cut[n] >= f->body->triangles || (n > 0 && f->cut[n] <= f->cut[n - 1])) return 0;
-    for (size_t k = 0; k < 3; k++)
-      if (f->cut_corners[3 * n + k] >= f->position_count) return 0;
-  }
-  return 1;
-}
-#endif
-
 // ---- whole bodies
 
-// Are the sizes that a blob of ours begins with right, of `size` bytes or fewer?
+// Are the sizes in a blob's header right, and is it at most `size` bytes long?
 static int nsvcd__header_is_sound(const nsvcd_body *b, size_t size) {
   if (size < sizeof *b) return 0;
   if (b->magic != NSVCD__BODY_MAGIC || b->version != NSVCD__BODY_VERSION) return 0;
@@ -160,45 +163,29 @@ static int nsvcd__header_is_sound(const nsvcd_body *b, size_t size) {
   return b->size >= nsvcd__spheres_size(b->padded) && b->size % NSVCD_ALIGNMENT == 0;
 }
 
-// Is all of a body of triangles sound: the spheres; the layout, which is sizes, counts and indices;
-// and are the numbers in range? They may lie about the surface, but nothing that is computed from
-// them overflows. It has at most `size` bytes, and a sound header.
+// Is a body of triangles sound, whose header is, in at most `size` bytes? The layout, which is sizes,
+// counts and indices, the spheres, and that numbers are in range. They may misstate the surface, but
+// nothing computed from them overflows.
 static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
 #ifndef NSVCD_NO_PROOF
-  if (b->inner != 0 || !nsvcd__spheres_are_sound(b)) return 0;
-  const size_t patches = b->patches;
+  if (b->inner != 0 || b->triangles == 0 || !nsvcd__spheres_are_sound(b)) return 0;
   const size_t padded = b->padded;
   const size_t groups = nsvcd__body_groups(b);
   const size_t slots = nsvcd__group_slots(padded);
   const nsvcd__geometry_counts *counts = nsvcd__counts_of(b);
   if (nsvcd__spheres_size(padded) + sizeof *counts > size) return 0;
-  if (b->triangles == 0) return 0;
   if (counts->open_solids > counts->solids || counts->is_mixed > 1) return 0;
-  if (!nsvcd__in_range(&counts->gap, 1, NSVCD_MAX_COORDINATE) || counts->gap < 0) return 0;
-  if (!nsvcd__in_range(&counts->convex_radius, 1, NSVCD_MAX_COORDINATE) ||
-      counts->convex_radius < 0)
-    return 0;
+  if (!nsvcd__is_length(counts->gap) || !nsvcd__is_length(counts->convex_radius)) return 0;
   if (b->radius + counts->convex_radius < NSVCD_MIN_RADIUS) return 0;
   nsvcd__geometry f;
-  if (b->size != nsvcd__geometry_layout(NULL, patches, counts, &f) || b->size > size) return 0;
+  if (b->size != nsvcd__geometry_layout(NULL, b->patches, counts, &f) || b->size > size)
+    return 0;
 
   f = nsvcd__geometry_of(b);
-  if (f.first_vertex[0] != 0 || f.first_triangle[0] != 0) return 0;
-  if (f.first_own[0] != 0 || f.first_reference[0] != 0) return 0;
-  if (f.first_byte[0] != 0 || f.first_seed[0] != 0) return 0;
-  for (size_t i = 0; i < patches; i++) {
-    if (!nsvcd__patch_is_laid_out(&f, i)) return 0;
+  if (!nsvcd__are_laid_out(&f)) return 0;
+  for (size_t i = 0; i < b->patches; i++) {
+    if (!nsvcd__patch_is_sound(&f, i)) return 0;
   }
-  for (size_t g = 0; g < groups; g++) {
-    if (f.first_seed[g + 1] < f.first_seed[g]) return 0;
-  }
-  if (f.first_vertex[patches] != f.vertex_count || f.first_triangle[patches] != f.listed)
-    return 0;
-  if (f.first_byte[patches] != f.triangle_codes_size || f.first_seed[groups] != f.components)
-    return 0;
-  if (f.first_reference[patches] != f.reference_count || !nsvcd__numbers_are_sound(&f))
-    return 0;
-
   for (size_t g = 0; g < groups; g++) {
     nsvcd__hulls hulls;
     nsvcd__collect_hulls(&f, g, &hulls);
@@ -216,8 +203,9 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
   if (!nsvcd__in_range(f.steps, padded, most / 32768)) return 0;
   if (!nsvcd__in_range(f.margins, padded, most)) return 0;
   if (!nsvcd__in_range(f.errors, padded, most)) return 0;
-  if (!nsvcd__in_range(f.seeds, 3 * f.components, most)) return 0;
-  if (!nsvcd__in_range(f.positions, 3 * f.position_count, most) || f.box[7] < 0) return 0;
+  if (!nsvcd__in_range(f.seeds, 3 * (size_t)counts->components, most)) return 0;
+  if (!nsvcd__in_range(f.positions, 3 * (size_t)counts->positions, most)) return 0;
+  if (nsvcd__off_mesh(&f) < 0) return 0;
   for (size_t i = 0; i < padded; i++) {
     const nsvcd__slab slab = nsvcd__slab_at(f.slabs, padded, i);
     if (slab.across < 0 || f.steps[i] < 0 || f.margins[i] < 0 || f.errors[i] < 0) return 0;
@@ -225,12 +213,12 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
   }
 #else
   (void)b;
-  (void)size;  // never looked at
+  (void)size;  // nothing reads them
 #endif
   return 1;
 }
 
-// Is all of a body sound, but for the checksum? Its header is.
+// Is a body sound, whose header is? Does not check the checksum.
 static int nsvcd__body_is_sound(const nsvcd_body *b) {
   if (b->weights_id == 0) {
 #ifndef NSVCD_NO_PROOF
@@ -253,18 +241,17 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
   if (b->inner % NSVCD_ALIGNMENT || b->inner >= b->size) return 0;
   if (b->inner < nsvcd__latents_begin(b->padded)) return 0;
 #endif
-  // the body of triangles within
   const char *at = (const char *)b + b->inner;
-  const nsvcd_body *within = (const nsvcd_body *)(const void *)at;
+  const nsvcd_body *inner = (const nsvcd_body *)(const void *)at;
   const size_t left = b->size - b->inner;
-  if (!nsvcd__header_is_sound(within, left) || within->size != left) return 0;
-  if (within->weights_id != 0 || within->open != b->open) return 0;
-  if (within->patches != b->patches || within->triangles != b->triangles) return 0;
-  return nsvcd__triangles_are_sound(within, left);
+  if (!nsvcd__header_is_sound(inner, left) || inner->size != left) return 0;
+  if (inner->weights_id != 0 || inner->open != b->open) return 0;
+  if (inner->patches != b->patches || inner->triangles != b->triangles) return 0;
+  return nsvcd__triangles_are_sound(inner, left);
 }
 
-// Is this a body, as far as its header tells? Of what does not begin as one, such as a text or a
-// nsvcd_mesh, no more than its first eight bytes are read.
+// Is this a body, by its header? If it does not begin as one (a text, a nsvcd_mesh), no more than its
+// first eight bytes are read.
 static nsvcd_result nsvcd__body_check(const nsvcd_body *b, size_t size) {
   if (!b) return NSVCD_ERROR_ARGUMENT;
   if (!nsvcd__is_aligned(b) || size < sizeof b->magic + sizeof b->version)
@@ -299,62 +286,59 @@ NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size,
   return NSVCD_OK;
 }
 
-// Multiplies a body of triangles; one of latents without what is within it.
-static void nsvcd__scale_part(nsvcd_body *b, float scale) {
-  const size_t padded = b->padded;
+static void nsvcd__scale_spheres(nsvcd_body *b, float scale) {
   float *spheres = (float *)(b + 1);
-  for (size_t i = 0; i < 3 * padded + b->patches; i++) spheres[i] *= scale;
-  if (b->weights_id != 0) {
-    float *areas = (float *)nsvcd__writable(b, nsvcd__body_areas(b));
-    for (size_t i = 0; i < 3 * nsvcd__area_slots(padded); i++) {
-      areas[i] *= scale;
-      areas[i] *= scale;
-    }
-    nsvcd__cover_level(b, 0, nsvcd__body_patches(b), b->patches);
-    nsvcd__body_finish(b);
-    b->checksum = nsvcd__body_checksum(b);
-    return;
+  for (size_t i = 0; i < 3 * (size_t)b->padded + b->patches; i++) spheres[i] *= scale;
+}
+
+// Scales a body of latents, without the body of triangles in it.
+static void nsvcd__scale_latents(nsvcd_body *b, float scale) {
+  float *areas = (float *)nsvcd__writable(b, nsvcd__body_areas(b));
+  nsvcd__scale_spheres(b, scale);
+  for (size_t i = 0; i < 3 * nsvcd__area_slots(b->padded); i++) {
+    areas[i] *= scale;
+    areas[i] *= scale;
   }
+  nsvcd__cover_level(b, 0, nsvcd__body_patches(b), b->patches);
+  nsvcd__body_finish(b);
+  b->checksum = nsvcd__body_checksum(b);
+}
+
 #ifndef NSVCD_NO_PROOF
-  // What rounding does to a vertex, and to how round the body is, goes to the margins and
-  // quantization errors, and is what the vertices are off by.
+// Scales a body of triangles. What rounding does to vertices and to the convex radius widens the
+// margins and errors, and is what vertices are off by.
+static void nsvcd__scale_triangles(nsvcd_body *b, float scale) {
   const nsvcd__geometry f = nsvcd__geometry_of(b);
   const double by = (double)scale;
-  float *convex_radius = (float *)nsvcd__writable(b, &nsvcd__counts_of(b)->convex_radius);
-  const double exact = (double)*convex_radius * by;
-  *convex_radius *= scale;
-  const double off = fabs(exact - (double)*convex_radius);
-  float *gap = (float *)nsvcd__writable(b, &nsvcd__counts_of(b)->gap);
-  if (*gap > 0) *gap = nsvcd__above((double)*gap * by);
-  float *slabs = (float *)nsvcd__writable(b, f.slabs);
-  float *steps = (float *)nsvcd__writable(b, f.steps);
-  float *margins = (float *)nsvcd__writable(b, f.margins);
-  float *errors = (float *)nsvcd__writable(b, f.errors);
-  float *seeds = (float *)nsvcd__writable(b, f.seeds);
-  float *positions = (float *)nsvcd__writable(b, f.positions);
+  float *radius = &f.counts->convex_radius;
+  const double exact = (double)*radius * by;
+  nsvcd__scale_spheres(b, scale);
+  *radius *= scale;
+  const double off = fabs(exact - (double)*radius);
+  if (f.counts->gap > 0) f.counts->gap = nsvcd__above((double)f.counts->gap * by);
   double worst = off;
-  for (size_t i = 0; i < 3 * f.position_count; i++) {
-    const double whole = (double)positions[i] * by;
-    positions[i] *= scale;
-    worst = nsvcd__max(worst, 1.8 * fabs(whole - (double)positions[i]) + off);
+  for (size_t i = 0; i < 3 * (size_t)f.counts->positions; i++) {
+    const double whole = (double)f.positions[i] * by;
+    f.positions[i] *= scale;
+    worst = nsvcd__max(worst, 1.8 * fabs(whole - (double)f.positions[i]) + off);
   }
   const double off_mesh = worst + (double)nsvcd__off_mesh(&f) * by;
   for (size_t i = 0; i < b->patches; i++) {
     const double distance = (double)nsvcd__f3_length(nsvcd__patch_centre(&f, i));
-    nsvcd__slab slab = nsvcd__slab_at(f.slabs, padded, i);
-    steps[i] *= scale;
-    const double rounding = 2e-7 * (distance + 6e4 * (double)steps[i]) + off;
-    margins[i] = nsvcd__above((double)margins[i] * by + rounding);
-    errors[i] = nsvcd__above((double)errors[i] * by + rounding + worst);
+    nsvcd__slab slab = nsvcd__slab_at(f.slabs, b->padded, i);
+    f.steps[i] *= scale;
+    const double rounding = 2e-7 * (distance + 6e4 * (double)f.steps[i]) + off;
+    f.margins[i] = nsvcd__above((double)f.margins[i] * by + rounding);
+    f.errors[i] = nsvcd__above((double)f.errors[i] * by + rounding + worst);
     slab.low = (float)((double)slab.low * by - rounding);
     slab.high = (float)((double)slab.high * by + rounding);
     slab.across = nsvcd__above((double)slab.across * by + rounding);
-    nsvcd__slab_store(slab, slabs, padded, i);
+    nsvcd__slab_store(slab, f.slabs, b->padded, i);
   }
-  for (size_t i = 0; i < 3 * f.components; i++) seeds[i] *= scale;
+  for (size_t i = 0; i < 3 * (size_t)f.counts->components; i++) f.seeds[i] *= scale;
   nsvcd__geometry_finish(b, off_mesh > 0 ? nsvcd__above(off_mesh) : 0);
-#endif
 }
+#endif
 
 NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void *memory,
                                        size_t capacity, const nsvcd_body **scaled) {
@@ -364,10 +348,9 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
   if (!nsvcd__is_finite(scale) || scale <= 0) return NSVCD_ERROR_SCALE;
   if (capacity < body->size || !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
 #ifdef NSVCD_NO_PROOF
-  // The triangles would keep their size; nor were they looked at when the body was loaded.
+  // the triangles would keep their size, and loading did not check them
   if (body->triangles) return NSVCD_ERROR_TRIANGLES;
 #endif
-  // Would it still be within the limits of nsvcd_body_load?
   const float radius = nsvcd__whole_radius(body);
   if (!nsvcd__spheres_fit(body, radius, scale)) return NSVCD_ERROR_SCALE;
   const double most = (double)NSVCD__MAX_LENGTH / (double)scale;
@@ -379,13 +362,14 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
   const nsvcd_body *triangles = nsvcd__triangles_of(body);
   if (triangles && !nsvcd__spheres_fit(triangles, radius, scale)) return NSVCD_ERROR_SCALE;
 #endif
-  // in place is allowed
+  // may be in place
   memmove(memory, body, body->size);
   nsvcd_body *b = (nsvcd_body *)memory;
 #ifndef NSVCD_NO_PROOF
-  if (b->inner) nsvcd__scale_part((nsvcd_body *)(void *)((char *)memory + b->inner), scale);
+  void *inner = (char *)memory + b->inner;
+  if (triangles) nsvcd__scale_triangles((nsvcd_body *)inner, scale);
 #endif
-  nsvcd__scale_part(b, scale);
+  if (b->weights_id) nsvcd__scale_latents(b, scale);
   *scaled = b;
   return NSVCD_OK;
 }
@@ -408,14 +392,14 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
   if (triangles) {
     const nsvcd__geometry f = nsvcd__geometry_of(triangles);
     facts.triangles = triangles->triangles;
-    facts.stored_triangles = f.listed;
+    facts.stored_triangles = f.counts->listed;
     memcpy(facts.low, f.box, sizeof facts.low);
     memcpy(facts.high, f.box + 3, sizeof facts.high);
     facts.quantization_error = nsvcd__off_mesh(&f);
-    facts.convex_radius = f.convex_radius;
-    facts.components = nsvcd__counts_of(triangles)->solids;
-    facts.open_components = nsvcd__counts_of(triangles)->open_solids;
-    facts.open_edges = nsvcd__counts_of(triangles)->open_edges;
+    facts.convex_radius = f.counts->convex_radius;
+    facts.components = f.counts->solids;
+    facts.open_components = f.counts->open_solids;
+    facts.open_edges = f.counts->open_edges;
   }
 #endif
   return facts;

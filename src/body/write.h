@@ -1,9 +1,9 @@
-// In: a surface, and the mesh it is of. Out: the body of triangles that body/geometry reads.
+// In: a surface, and its mesh. Out: the body of triangles that body/geometry reads.
 #pragma once
 #include "geometry.h"
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
-// Writes the numbers of patch i as codes; NULL: only counts their bytes. Returns how many.
+// Writes the codes of patch i; NULL: only counts their bytes. Returns how many.
 static size_t nsvcd__numbers_write(const nsvcd__surface *s, size_t i, unsigned char *to) {
   size_t size = 0;
   uint32_t last = 0;
@@ -26,10 +26,8 @@ static size_t nsvcd__numbers_write(const nsvcd__surface *s, size_t i, unsigned c
 typedef struct nsvcd__geometry_source {
   nsvcd__surface *surface;
   const nsvcd_mesh *mesh;
-  // (vertices of the mesh) the number of each in the body, from 1; 0: none yet
-  uint32_t *numbers;
-  // (triangles) 1: listed in pieces
-  uint8_t *cut;
+  uint32_t *numbers;  // (vertices of the mesh) their numbers in the body, from 1; 0: none yet
+  uint8_t *cut;       // (triangles) 1: stored in pieces
   nsvcd__geometry_counts counts;
 } nsvcd__geometry_source;
 
@@ -37,8 +35,7 @@ static size_t nsvcd__source_corner(const nsvcd_mesh *mesh, size_t t, size_t k) {
   return mesh->indices ? mesh->indices[3 * t + k] : t;
 }
 
-// Counts all that the body of a surface is to have, which is all there: fills in the source. 0
-// without memory.
+// Fills in the source: counts what the body of a complete surface will have. 0 without memory.
 static int nsvcd__geometry_count(nsvcd__geometry_source *source, nsvcd__arena *arena) {
   const nsvcd__surface *s = source->surface;
   const nsvcd_mesh *mesh = source->mesh;
@@ -51,7 +48,7 @@ static int nsvcd__geometry_count(nsvcd__geometry_source *source, nsvcd__arena *a
   counts->vertices = (uint32_t)s->vertex_count;
   counts->components = (uint32_t)s->seed_count;
   const nsvcd__solids *solids = &s->solids;
-  // none is counted of points alone
+  // points alone have no topology
   counts->solids = counts->components;
   if (solids->components > 0) counts->solids = (uint32_t)solids->components;
   counts->open_solids = (uint32_t)solids->open_components;
@@ -82,31 +79,28 @@ static int nsvcd__geometry_count(nsvcd__geometry_source *source, nsvcd__arena *a
     counts->cut += n % 3 == 0;
   }
   if (!s->coarse) memset(source->numbers, 0, mesh->vertex_count * sizeof *source->numbers);
-  // then the body is refused as too large
+  // with more the body is refused as too large
   counts->triangle_codes_size = bytes < 0xffffffffu ? (uint32_t)bytes : 0xffffffffu;
   return 1;
 }
 
-// Gives a vertex the next number, and its place in the body. Returns the number, from 0.
-static uint32_t nsvcd__position_write(nsvcd__geometry_source *source, nsvcd_body *b,
-                                      const nsvcd__geometry *f, size_t vertex,
-                                      uint32_t *count) {
-  float *positions = (float *)nsvcd__writable(b, f->positions);
+// Gives a vertex the next number, and writes its position. Returns the number, from 0.
+static uint32_t nsvcd__position_write(nsvcd__geometry_source *source, const nsvcd__geometry *f,
+                                      size_t vertex, uint32_t *count) {
   const float *from = source->mesh->positions + 3 * vertex;
-  memcpy(positions + 3 * (size_t)*count, from, 3 * sizeof *positions);
+  memcpy(f->positions + 3 * (size_t)*count, from, 3 * sizeof *from);
   source->numbers[vertex] = ++*count;
   return *count - 1;
 }
 
-// Writes the places and references of patch `to`, from patch `from` of a surface, whose names
-// become numbers in the body's patch.
-static void nsvcd__named_write(nsvcd__geometry_source *source, size_t from, nsvcd_body *b,
+// Writes the own vertices and references of patch `to`. Turns the names of the surface's patch
+// `from` into numbers of the body's patch.
+static void nsvcd__named_write(nsvcd__geometry_source *source, size_t from,
                                const nsvcd__geometry *f, size_t to) {
   nsvcd__surface *s = source->surface;
-  uint32_t *first_own = (uint32_t *)nsvcd__writable(b, f->first_own + to);
-  uint32_t *first_reference = (uint32_t *)nsvcd__writable(b, f->first_reference + to);
-  unsigned char *references = (unsigned char *)nsvcd__writable(b, f->references);
-  const size_t wide = nsvcd__reference_bytes(f);
+  uint32_t *first_own = f->first_own + to;
+  uint32_t *first_reference = f->first_reference + to;
+  const size_t wide = f->reference_bytes;
   uint32_t *named = s->named + s->first_named[from];
   const size_t count = s->first_named[from + 1] - s->first_named[from];
   uint32_t own = s->first_vertex[from + 1] - s->first_vertex[from];
@@ -117,66 +111,62 @@ static void nsvcd__named_write(nsvcd__geometry_source *source, size_t from, nsvc
   for (size_t n = 0; n < count; n++) {
     const uint32_t number = source->numbers[named[n]];
     if (!number) {
-      (void)nsvcd__position_write(source, b, f, named[n], &first_own[1]);
+      (void)nsvcd__position_write(source, f, named[n], &first_own[1]);
       named[n] = own++;
       continue;
     }
     const uint32_t wanted = number - 1;
     const uint16_t narrow = (uint16_t)wanted;
-    unsigned char *at = references + wide * first_reference[1]++;
+    unsigned char *at = f->references + wide * first_reference[1]++;
     if (wide == 2) memcpy(at, &narrow, 2);
     if (wide == 4) memcpy(at, &wanted, 4);
     named[n] = other++;
   }
 }
 
-// Writes the triangles that are listed in pieces, once all patches are written.
-static void nsvcd__cut_write(nsvcd__geometry_source *source, nsvcd_body *b,
-                             const nsvcd__geometry *f) {
+// Writes the triangles that are stored in pieces, after all patches.
+static void nsvcd__cut_write(nsvcd__geometry_source *source, const nsvcd__geometry *f) {
   const nsvcd_mesh *mesh = source->mesh;
-  uint32_t *cut = (uint32_t *)nsvcd__writable(b, f->cut);
-  uint32_t *corners = (uint32_t *)nsvcd__writable(b, f->cut_corners);
-  uint32_t count = f->first_own[b->patches];
+  uint32_t *cut = f->cut;
+  uint32_t *corners = f->cut_corners;
+  uint32_t count = f->first_own[f->body->patches];
   for (size_t t = 0; t < mesh->triangle_count; t++) {
     if (!source->cut[t]) continue;
     *cut++ = (uint32_t)t;
     for (size_t k = 0; k < 3; k++) {
       const size_t v = nsvcd__source_corner(mesh, t, k);
       const uint32_t known = source->numbers[v];
-      *corners++ = known ? known - 1 : nsvcd__position_write(source, b, f, v, &count);
+      *corners++ = known ? known - 1 : nsvcd__position_write(source, f, v, &count);
     }
   }
 }
 
-// Writes patch `to`, from patch `from` of a surface. One without surface is a point.
-static void nsvcd__patch_write(nsvcd__geometry_source *source, size_t from, nsvcd_body *b,
-                               nsvcd__geometry f, size_t to) {
+// Writes patch `to` of a body, from patch `from` of its surface. One without surface is a point.
+static void nsvcd__patch_write(nsvcd__geometry_source *source, size_t from,
+                               const nsvcd__geometry *f, size_t to) {
   const nsvcd__surface *s = source->surface;
-  const size_t padded = b->padded;
+  const size_t padded = f->body->padded;
   nsvcd__sphere ball = s->balls[from];
   if (s->hull_counts[from] == 0) ball.radius = 0;
-  nsvcd__sphere_store(ball, (float *)(b + 1), padded, to);
-  nsvcd__slab_store(s->slabs[from], (float *)nsvcd__writable(b, f.slabs), padded, to);
-  *(float *)nsvcd__writable(b, f.steps + to) = s->steps[from];
-  *(float *)nsvcd__writable(b, f.margins + to) = s->margins[from];
-  *(float *)nsvcd__writable(b, f.errors + to) = s->errors[from];
-  *(uint8_t *)nsvcd__writable(b, f.hull_counts + to) = s->hull_counts[from];
+  nsvcd__sphere_store(ball, (float *)(f->body + 1), padded, to);
+  nsvcd__slab_store(s->slabs[from], f->slabs, padded, to);
+  f->steps[to] = s->steps[from];
+  f->margins[to] = s->margins[from];
+  f->errors[to] = s->errors[from];
+  f->hull_counts[to] = s->hull_counts[from];
 
-  const size_t vertex = s->first_vertex[from];
-  const size_t vertices = s->first_vertex[from + 1] - vertex;
+  const uint32_t vertex = s->first_vertex[from];
+  const uint32_t vertices = s->first_vertex[from + 1] - vertex;
   const size_t first = s->first_triangle[from];
   const size_t end = s->first_triangle[from + 1];
-  uint32_t *first_vertex = (uint32_t *)nsvcd__writable(b, f.first_vertex + to);
-  uint32_t *first_triangle = (uint32_t *)nsvcd__writable(b, f.first_triangle + to);
-  uint32_t *first_byte = (uint32_t *)nsvcd__writable(b, f.first_byte + to);
-  void *integers = nsvcd__writable(b, f.vertices + 3 * (size_t)first_vertex[0]);
-  memcpy(integers, s->vertices + 3 * vertex, 6 * vertices);
-  unsigned char *begin = (unsigned char *)nsvcd__writable(b, f.triangle_codes + first_byte[0]);
-  unsigned char *at = begin;
-  nsvcd__named_write(source, from, b, &f, to);
+  int16_t *integers = f->vertices + 3 * (size_t)f->first_vertex[to];
+  memcpy(integers, s->vertices + 3 * (size_t)vertex, 6 * (size_t)vertices);
+  nsvcd__named_write(source, from, f, to);
   const uint32_t *named = s->named + s->first_named[from];
   const size_t points = vertices + s->first_named[from + 1] - s->first_named[from];
   const size_t bytes = nsvcd__corner_bytes(points);
+  unsigned char *begin = f->triangle_codes + f->first_byte[to];
+  unsigned char *at = begin;
   for (size_t n = 3 * first; n < 3 * end; n++) {
     const size_t i = s->corners[n];
     const uint16_t corner = (uint16_t)(i < vertices ? i : named[i - vertices]);
@@ -185,38 +175,35 @@ static void nsvcd__patch_write(nsvcd__geometry_source *source, size_t from, nsvc
     at += bytes;
   }
   at += nsvcd__numbers_write(s, from, at);
-  first_vertex[1] = first_vertex[0] + (uint32_t)vertices;
-  first_triangle[1] = first_triangle[0] + (uint32_t)(end - first);
-  first_byte[1] = first_byte[0] + (uint32_t)(at - begin);
+  f->first_vertex[to + 1] = f->first_vertex[to] + vertices;
+  f->first_triangle[to + 1] = f->first_triangle[to] + (uint32_t)(end - first);
+  f->first_byte[to + 1] = f->first_byte[to] + (uint32_t)(at - begin);
 }
 
-// Writes the seeds of a body of triangles, group by group (counting sort). order: of the patches.
-static void nsvcd__seeds_write(const nsvcd__surface *s, const uint16_t *order, nsvcd_body *b) {
-  const nsvcd__geometry f = nsvcd__geometry_of(b);
-  uint32_t *first_seed = (uint32_t *)nsvcd__writable(b, f.first_seed);
-  float *seeds = (float *)nsvcd__writable(b, f.seeds);
-  // Until the body is whole, the places of patches are kept where their first vertices will be.
-  uint32_t *positions = (uint32_t *)nsvcd__writable(b, f.first_vertex);
-  const size_t groups = nsvcd__body_groups(b);
-  for (size_t i = 0; i < b->patches; i++) positions[order[i]] = (uint32_t)i;
-  for (size_t n = 0; n < s->seed_count; n++) {
-    const size_t g = positions[s->seed_patches[n]] / NSVCD__GROUP;
-    first_seed[g + 1]++;
-  }
-  for (size_t g = 0; g < groups; g++) first_seed[g + 1] += first_seed[g];
+// Writes the seeds group by group (counting sort). order: of the patches.
+static void nsvcd__seeds_write(const nsvcd__surface *s, const uint16_t *order,
+                               const nsvcd__geometry *f) {
+  uint32_t *first = f->first_seed;
+  // the numbers of patches in the body, for now in place of their first vertices
+  uint32_t *numbers = f->first_vertex;
+  const size_t patches = f->body->patches;
+  const size_t groups = nsvcd__body_groups(f->body);
+  for (size_t i = 0; i < patches; i++) numbers[order[i]] = (uint32_t)i;
+  for (size_t n = 0; n < s->seed_count; n++)
+    first[numbers[s->seed_patches[n]] / NSVCD__GROUP + 1]++;
+  for (size_t g = 0; g < groups; g++) first[g + 1] += first[g];
   for (size_t n = s->seed_count; n-- > 0;) {
-    const size_t g = positions[s->seed_patches[n]] / NSVCD__GROUP;
-    const size_t to = --first_seed[g + 1];
-    nsvcd__f3_store(s->seeds[n], seeds + 3 * to);
+    const size_t to = --first[numbers[s->seed_patches[n]] / NSVCD__GROUP + 1];
+    nsvcd__f3_store(s->seeds[n], f->seeds + 3 * to);
   }
-  // Now first_seed[g + 1] is where group g begins.
-  memmove(first_seed, first_seed + 1, groups * sizeof *first_seed);
-  first_seed[groups] = (uint32_t)s->seed_count;
-  memset(positions, 0, b->patches * sizeof *positions);
+  // now first[g + 1] is where group g begins
+  memmove(first, first + 1, groups * sizeof *first);
+  first[groups] = (uint32_t)s->seed_count;
+  memset(numbers, 0, patches * sizeof *numbers);
 }
 
-// Builds a body of triangles of `size` bytes in `memory`. order: (N) of the patches. Afterwards the
-// source is of no use. NUMBER if it would be too large, EMPTY if it would be too small.
+// Builds a body of triangles of `size` bytes in `memory`, and uses up the source. order: (N) of the
+// patches. NUMBER if it is too large, EMPTY if it is too small.
 static nsvcd_result nsvcd__geometry_build(nsvcd__geometry_source *source,
                                           const uint16_t *order, int open, void *memory,
                                           size_t size) {
@@ -224,11 +211,12 @@ static nsvcd_result nsvcd__geometry_build(nsvcd__geometry_source *source,
   const nsvcd__geometry_counts *counts = &source->counts;
   nsvcd_body *b = nsvcd__body_begin(memory, size, s->count, open);
   b->triangles = (uint32_t)source->mesh->triangle_count;
-  memcpy(nsvcd__writable(b, nsvcd__counts_of(b)), counts, sizeof *counts);
-  nsvcd__seeds_write(s, order, b);
-  const nsvcd__geometry f = nsvcd__geometry_of(b);
-  for (size_t i = 0; i < s->count; i++) nsvcd__patch_write(source, order[i], b, f, i);
-  if (!s->coarse) nsvcd__cut_write(source, b, &f);
+  nsvcd__geometry f;
+  (void)nsvcd__geometry_layout(b, s->count, counts, &f);
+  *f.counts = *counts;
+  nsvcd__seeds_write(s, order, &f);
+  for (size_t i = 0; i < s->count; i++) nsvcd__patch_write(source, order[i], &f, i);
+  if (!s->coarse) nsvcd__cut_write(source, &f);
   if (!nsvcd__in_range(nsvcd__body_r(b), b->patches, 4 * NSVCD_MAX_COORDINATE))
     return NSVCD_ERROR_NUMBER;
   nsvcd__geometry_finish(b, 0);

@@ -233,7 +233,7 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__geometry *f, double 
   nsvcd__ray ray;
   ray.from = position;
   ray.margin = NSVCD__SAME_POSITION * (double)p->given.lengths / unit;
-  ray.margin += (double)nsvcd__off_mesh(f) + (double)f->gap;
+  ray.margin += (double)nsvcd__off_mesh(f) + (double)f->counts->gap;
   ray.rounding = (float)ray.margin + 4 * NSVCD__ROUNDING * f->body->extent;
   int clear = 0;
   int odd = 0;
@@ -287,7 +287,7 @@ static uint32_t nsvcd__seeds_near(const nsvcd__geometry *inner, size_t first,
                                   const nsvcd__transform *start, float scale,
                                   const nsvcd__geometry *outer) {
   const nsvcd_body *o = outer->body;
-  const size_t left = inner->components - first;
+  const size_t left = inner->counts->components - first;
   float lanes[3][NSVCD__LANES];
   for (size_t l = 0; l < NSVCD__LANES; l++) {
     const float *seed = inner->seeds + 3 * (first + (l < left ? l : 0));
@@ -356,7 +356,7 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
     if (!nsvcd__is_enclosed(p, e->outer, e->unit, seen)) continue;
     p->enclosed = e->inner_moves ? seen : seed;
     p->inside = 1;
-    const double room = p->given.tolerance / e->unit + (double)e->outer->gap;
+    const double room = p->given.tolerance / e->unit + (double)e->outer->counts->gap;
     if (!nsvcd__surface_is_near(p, e->outer, seen, room)) return 1;
   }
   return 0;
@@ -368,10 +368,10 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   const nsvcd_body *inner = e->inner->body;
   const nsvcd_body *outer = e->outer->body;
   if (outer->open) return 0;
-  const int is_one = e->inner->components == 1 && e->outer->kind_bits == 1;
+  const int is_one = e->inner->counts->components == 1 && e->outer->kind_bits == 1;
   if (is_one && nsvcd__sticks_out(e->inner, &e->rounded, e->scale, outer)) return 0;
-  if (e->inner->components <= NSVCD__LANES)
-    return nsvcd__encloses_seeds(p, e, 0, e->inner->components);
+  if (e->inner->counts->components <= NSVCD__LANES)
+    return nsvcd__encloses_seeds(p, e, 0, e->inner->counts->components);
   const nsvcd__f3 centre =
       nsvcd__f3_round(nsvcd__place_point(&e->back, nsvcd__d3_load(outer->centre)));
   const float extent = nsvcd__f3_length(centre) + inner->extent + outer->extent / e->scale;

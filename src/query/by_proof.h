@@ -78,8 +78,8 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   p->fixed = nsvcd__geometry_of(nsvcd__triangles_of(task->fixed));
   p->given.lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
   p->given.tolerance = (double)q->tolerance / unit;
-  const double moving_radius = (double)p->moving.convex_radius * task->motion.ratio;
-  p->given.radius = moving_radius + (double)p->fixed.convex_radius;
+  const double moving_radius = (double)p->moving.counts->convex_radius * task->motion.ratio;
+  p->given.radius = moving_radius + (double)p->fixed.counts->convex_radius;
   p->given.clearance = (double)q->clearance / unit + p->given.radius;
   p->ask.clearance = p->given.clearance;
   p->given.slop = (double)q->slop / unit;
@@ -125,7 +125,7 @@ static NSVCD__NOINLINE void nsvcd__tell_contact(const nsvcd__query *query,
   const double time = rests ? 0 : found->tick / (double)motion->ticks;
   const nsvcd__to_world world = nsvcd__to_world_at(motion, time);
   const nsvcd__d3 push_out = nsvcd__d3_scale(nsvcd__d3_widen(motion->push_out), task->swapped);
-  const double beyond = fmin((double)p->fixed.convex_radius, found->distance);
+  const double beyond = fmin((double)p->fixed.counts->convex_radius, found->distance);
   const nsvcd__d3 on = nsvcd__d3_fma(beyond, found->normal, found->point);
   const nsvcd__d3 seen = nsvcd__d3_scale(nsvcd__d3_sub(on, push_out), world.unit);
   const nsvcd__d3 point =
