@@ -136,9 +136,9 @@ tile: skins of the first only|p->work <= p->ask.limit ? NSVCD__RESOLVED : NSVCD_
 tile: way without reach|nsvcd__f3_sub(nsvcd__f3_min(start, end), around);\n    const nsvcd__f3 high|nsvcd__f3_min(start, end);\n    const nsvcd__f3 high
 tile: approached in the first segment|wanted \&\& nearby \& ~met; wanted \&= wanted - 1) {|wanted \&\& nearby \& ~met; wanted = 0) {
 level: near groups as dipoles|#define NSVCD__DIPOLE 3.0f|#define NSVCD__DIPOLE 0.8f
-level: sums that do not scale|i < 3 * nsvcd__area_slots(padded); i++) {|i < 3 * (size_t)b->padded; i++) {
+level: sums that do not scale|i < 3 * nsvcd__area_slots(b->padded); i++) {|i < 3 * (size_t)b->padded; i++) {
 level: nearest patches about the middle only|nsvcd__v_fma(r, nsvcd__v_set(NSVCD__AMPLE), radius)|nsvcd__v_mul(r, nsvcd__v_set(NSVCD__AMPLE))
-level: latents of one region|parts->latents[NSVCD__LATENT * to + k]|parts->latents[NSVCD__LATENT * i + k]
+level: latents of one region|out->latents[NSVCD__LATENT * to + k]|out->latents[NSVCD__LATENT * i + k]
 level: members of one dipole in two|const size_t member = NSVCD__GROUP * (first + nsvcd__low_bit(close));|const size_t member = NSVCD__GROUP * (first + (nsvcd__low_bit(close) \& ~(size_t)1));
 margin of small normals|nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit)|limit
 round: the fixed one is not|p->given.radius = moving_radius + (double)p->fixed.counts->convex_radius;|p->given.radius = moving_radius;
@@ -149,7 +149,7 @@ round: points on the skeleton|fmin((double)p->fixed.counts->convex_radius, found
 round: gaps of the skeletons|(float)(fmax(found->distance - p->given.radius, 0) * world.unit);|(float)(found->distance * world.unit);
 round: a point on either|    contact->point[k] += gap * contact->normal[k];|
 round: a run short of its last|for (size_t k = 0; k < count; k++) {\n    if (k == end)|for (size_t k = 0; k + 1 < count; k++) {\n    if (k == end)
-round: not scaled|*convex_radius *= scale;|
+round: not scaled|*radius *= scale;|
 two patches by a plane of any triangle|if (height > highest) top = b;|if (height > highest) top = fixed_first;
 two patches, but the last triangle|for (size_t a = moving_first; a < moving_end; a++) { const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, top);|for (size_t a = moving_first; a + 1 < moving_end; a++) { const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, top);
 asks: a contact before the start|nsvcd__max(nsvcd__min(nsvcd__clear_until(p), found->tick), 0);|nsvcd__min(nsvcd__clear_until(p), found->tick);
