@@ -168,7 +168,7 @@ static uint32_t reader_id(const reader *r, size_t entry) {
 
 // Where the points of a patch begin.
 static size_t reader_first(const nsvcd__surface *s, size_t patch) {
-  return (size_t)s->first_vertex[patch] + s->first_named[patch];
+  return (size_t)s->patches[patch].first_vertex + s->patches[patch].first_named;
 }
 
 static void reader_index(reader *r) {
@@ -179,16 +179,16 @@ static void reader_index(reader *r) {
   r->patch = (uint32_t *)malloc(4 * s->listed);
   for (uint32_t i = 0; i < s->count; i++) {
     vec *points = r->vertices + reader_first(s, i);
-    const size_t n = s->first_vertex[i + 1] - s->first_vertex[i];
-    const int16_t *q = s->vertices + 3 * (size_t)s->first_vertex[i];
+    const size_t n = s->patches[i + 1].first_vertex - s->patches[i].first_vertex;
+    const int16_t *q = s->vertices + 3 * (size_t)s->patches[i].first_vertex;
     for (size_t j = 0; j < n; j++) {
       const vec offset = vec_of(q[j], q[n + j], q[2 * n + j]);
-      const vec centre = vec_load(&s->balls[i].centre.x);
-      *points++ = vec_add(centre, vec_scale(offset, (double)s->steps[i]));
+      const vec centre = vec_load(&s->patches[i].ball.centre.x);
+      *points++ = vec_add(centre, vec_scale(offset, (double)s->patches[i].step));
     }
-    for (size_t j = s->first_named[i]; j < s->first_named[i + 1]; j++)
+    for (size_t j = s->patches[i].first_named; j < s->patches[i + 1].first_named; j++)
       *points++ = vec_load(r->mesh->positions + 3 * (size_t)s->named[j]);
-    for (size_t l = s->first_triangle[i]; l < s->first_triangle[i + 1]; l++) {
+    for (size_t l = s->patches[i].first_triangle; l < s->patches[i + 1].first_triangle; l++) {
       r->patch[l] = i;
       r->listings[reader_id(r, l)]++;
     }
@@ -249,39 +249,42 @@ static void reader_corners(const reader *r, size_t entry, vec *corners) {
 static int check_ranges(const reader *r) {
   const nsvcd__surface *s = &r->surface;
   size_t bad = 0;
-  CHECK_EQ(s->first_vertex[0], 0);
-  CHECK_EQ(s->first_triangle[0], 0);
-  CHECK_EQ(s->first_vertex[s->count], s->vertex_count);
-  CHECK_EQ(s->first_triangle[s->count], s->listed);
-  CHECK_EQ(s->first_named[0], 0);
-  CHECK_EQ(s->first_named[s->count], s->named_count);
+  CHECK_EQ(s->patches[0].first_vertex, 0);
+  CHECK_EQ(s->patches[0].first_triangle, 0);
+  CHECK_EQ(s->patches[s->count].first_vertex, s->vertex_count);
+  CHECK_EQ(s->patches[s->count].first_triangle, s->listed);
+  CHECK_EQ(s->patches[0].first_named, 0);
+  CHECK_EQ(s->patches[s->count].first_named, s->named_count);
   for (size_t n = 0; n < s->named_count; n++) bad += s->named[n] >= r->mesh->vertex_count;
   for (size_t i = 0; i < 3 * s->vertex_count; i++) bad += s->vertices[i] < -32767;
   for (size_t i = 0; i < s->count; i++) {
-    const float *ball = &s->balls[i].centre.x;
-    const float *disc = &s->slabs[i].normal.x;
-    bad += s->first_vertex[i] > s->first_vertex[i + 1];
-    bad += s->first_triangle[i] > s->first_triangle[i + 1];
-    const size_t n = s->first_vertex[i + 1] - s->first_vertex[i];
-    const size_t l = s->first_triangle[i + 1] - s->first_triangle[i];
+    const float *ball = &s->patches[i].ball.centre.x;
+    const float *disc = &s->patches[i].slab.normal.x;
+    bad += s->patches[i].first_vertex > s->patches[i + 1].first_vertex;
+    bad += s->patches[i].first_triangle > s->patches[i + 1].first_triangle;
+    const size_t n = s->patches[i + 1].first_vertex - s->patches[i].first_vertex;
+    const size_t l = s->patches[i + 1].first_triangle - s->patches[i].first_triangle;
     const int empty = l == 0;
-    bad += empty ? s->hull_counts[i] != 0 || n != 0 || ball[3] != NSVCD__NOWHERE : 0;
+    bad += empty ? s->patches[i].hull_count != 0 || n != 0 || ball[3] != NSVCD__NOWHERE : 0;
     for (size_t k = 0; k < 4; k++) bad += !nsvcd__is_finite(ball[k]);
     for (size_t k = 0; k < 6; k++) bad += !nsvcd__is_finite(disc[k]);
     if (empty) continue;
     const vec normal = vec_load(disc);
-    bad += s->hull_counts[i] < 1 || s->hull_counts[i] > NSVCD__HULL || s->hull_counts[i] > n;
+    bad += s->patches[i].hull_count < 1 || s->patches[i].hull_count > NSVCD__HULL ||
+           s->patches[i].hull_count > n;
     bad += vec_length(normal) > 1 || vec_length(normal) < 1 - 1e-6;
-    bad += !(ball[3] > 0) || !(s->steps[i] > 0) || !(s->margins[i] > 0) || !(s->errors[i] >= 0);
-    const size_t named = s->first_named[i + 1] - s->first_named[i];
+    bad += !(ball[3] > 0) || !(s->patches[i].step > 0) || !(s->patches[i].margin > 0) ||
+           !(s->patches[i].error >= 0);
+    const size_t named = s->patches[i + 1].first_named - s->patches[i].first_named;
     size_t stored = 0;
     bad += !(disc[3] <= disc[4]) || !(disc[5] >= 0);
-    for (size_t k = 3 * s->first_triangle[i]; k < 3 * s->first_triangle[i + 1]; k++) {
+    for (size_t k = 3 * s->patches[i].first_triangle; k < 3 * s->patches[i + 1].first_triangle;
+         k++) {
       bad += s->corners[k] >= n + named;
       stored += s->corners[k] < n;
     }
     // what is the caller's own is exact
-    bad += stored ? !(s->errors[i] > 0) : s->errors[i] > 0;
+    bad += stored ? !(s->patches[i].error > 0) : s->patches[i].error > 0;
   }
   for (size_t l = 0; l < s->listed; l++) bad += reader_id(r, l) >= r->mesh->triangle_count;
   CHECK_EQ(bad, 0);
@@ -295,8 +298,8 @@ typedef struct misses {
 
 static int patch_holds(const reader *r, size_t i, vec x, misses *m) {
   const nsvcd__surface *s = &r->surface;
-  const float *ball = &s->balls[i].centre.x;
-  const float *disc = &s->slabs[i].normal.x;
+  const float *ball = &s->patches[i].ball.centre.x;
+  const float *disc = &s->patches[i].slab.normal.x;
   const vec offset = vec_sub(x, vec_load(ball));
   if (vec_length(offset) > (double)ball[3] + r->tolerance) {
     m->ball++;
@@ -311,8 +314,8 @@ static int patch_holds(const reader *r, size_t i, vec x, misses *m) {
     return 0;
   }
   const vec *hull = r->vertices + reader_first(s, i);
-  const double reach = (double)s->margins[i] + r->tolerance;
-  if (hull_reaches(hull, s->hull_counts[i], x, reach)) return 1;
+  const double reach = (double)s->patches[i].margin + r->tolerance;
+  if (hull_reaches(hull, s->patches[i].hull_count, x, reach)) return 1;
   m->hull++;
   return 0;
 }
@@ -327,9 +330,9 @@ static void check_point(const reader *r, size_t t, vec x, misses *m) {
     const size_t l = r->sorted[k];
     vec corners[3];
     reader_corners(r, l, corners);
-    const double quantum = (double)r->surface.errors[r->patch[l]];
+    const double quantum = (double)r->surface.patches[r->patch[l]].error;
     // Tolerances in the triangle's own plane are only as good as its shape.
-    const double rounding = 1e-6 * (double)r->surface.balls[r->patch[l]].radius;
+    const double rounding = 1e-6 * (double)r->surface.patches[r->patch[l]].ball.radius;
     if (triangle_distance(corners, x) > quantum + rounding + 10 * r->tolerance) continue;
     listed = 1;
     if (patch_holds(r, r->patch[l], x, &tried)) return;
@@ -378,7 +381,8 @@ static void check_quanta(const reader *r) {
     vec corners[3];
     vec mesh_corners[3];
     const size_t t = reader_id(r, l);
-    const double quantum = (double)r->surface.errors[r->patch[l]] * (1 + 1e-6) + 10 * r->tolerance;
+    const double quantum =
+        (double)r->surface.patches[r->patch[l]].error * (1 + 1e-6) + 10 * r->tolerance;
     reader_corners(r, l, corners);
     for (size_t i = 0; i < 3; i++) mesh_corners[i] = surface_corner(r->mesh, t, i);
     for (size_t i = 0; i < 3; i++) bad += triangle_distance(mesh_corners, corners[i]) > quantum;
@@ -395,12 +399,12 @@ static vec area_vector(const vec *c) {
 static int is_listed_before(const reader *r, size_t first, size_t k) {
   vec own[3];
   reader_corners(r, r->sorted[k], own);
-  const double quantum = (double)r->surface.errors[r->patch[r->sorted[k]]];
+  const double quantum = (double)r->surface.patches[r->patch[r->sorted[k]]].error;
   for (size_t i = first; i < k; i++) {
     vec other[3];
     double most = 0;
     reader_corners(r, r->sorted[i], other);
-    const double both = quantum + (double)r->surface.errors[r->patch[r->sorted[i]]];
+    const double both = quantum + (double)r->surface.patches[r->patch[r->sorted[i]]].error;
     for (size_t j = 0; j < 3; j++) most = fmax(most, vec_length(vec_sub(own[j], other[j])));
     if (most <= both + 10 * r->tolerance) return 1;
   }
@@ -434,7 +438,7 @@ static void check_enclosing(const reader *r) {
       flags += r->surface.ids[l] >> NSVCD__KIND_SHIFT >= NSVCD__CLOSED;
       if (!closed || is_listed_before(r, r->listings[t], k)) continue;
       reader_corners(r, l, part);
-      const double quantum = (double)r->surface.errors[r->patch[l]];
+      const double quantum = (double)r->surface.patches[r->patch[l]].error;
       const double perimeter = vec_length(vec_sub(part[1], part[0])) +
                                vec_length(vec_sub(part[2], part[1])) +
                                vec_length(vec_sub(part[0], part[2]));
@@ -472,9 +476,9 @@ static void check_seeds(const reader *r) {
   shells parts = shells_of(mesh);
   uint8_t *taken = (uint8_t *)calloc(mesh->vertex_count, 1);
   uint8_t *used = (uint8_t *)calloc(mesh->vertex_count, 1);
-  CHECK_EQ(s->component_count, parts.count);
+  CHECK_EQ(s->seed_count, parts.count);
   for (size_t i = 0; i < 3 * mesh->triangle_count; i++) used[mesh->indices[i]] = 1;
-  for (size_t k = 0; k < s->component_count; k++) {
+  for (size_t k = 0; k < s->seed_count; k++) {
     size_t v = 0;
     const float *seed = &s->seeds[k].x;
     for (; v < mesh->vertex_count; v++) {
@@ -545,9 +549,9 @@ static void surface_of_a_fine_mesh(void) {
   double radius = 0;
   for (size_t i = 0; i < s->count; i++) {
     const double fraction = 1 / (double)s->count;
-    const double own = (double)s->balls[i].radius;
-    const double thick = (double)(s->slabs[i].high - s->slabs[i].low);
-    slack += fraction * (double)s->margins[i] / own;
+    const double own = (double)s->patches[i].ball.radius;
+    const double thick = (double)(s->patches[i].slab.high - s->patches[i].slab.low);
+    slack += fraction * (double)s->patches[i].margin / own;
     thickness += fraction * thick / own;
     radius += fraction * own;
   }
@@ -555,7 +559,7 @@ static void surface_of_a_fine_mesh(void) {
   CHECK_LE(slack, 0.03);
   CHECK_LE(thickness, 0.12);
   CHECK_LE(radius, 1.05 * r.patch_radius);
-  CHECK_EQ(s->component_count, 1);
+  CHECK_EQ(s->seed_count, 1);
   reader_close(&r);
   nsvcd_mesh_free(&mesh, NULL);
 }
@@ -569,9 +573,9 @@ static void surface_of_large_faces(void) {
     CHECK(reader_open(&r, &mesh, 256));
     double radius = 0;
     for (size_t i = 0; i < r.surface.count; i++) {
-      radius += (double)r.surface.balls[i].radius / (double)r.surface.count;
-      CHECK_LE(r.surface.margins[i], 1e-3f * r.surface.balls[i].radius);
-      CHECK_LE(r.surface.errors[i], 1e-3f * r.surface.balls[i].radius);
+      radius += (double)r.surface.patches[i].ball.radius / (double)r.surface.count;
+      CHECK_LE(r.surface.patches[i].margin, 1e-3f * r.surface.patches[i].ball.radius);
+      CHECK_LE(r.surface.patches[i].error, 1e-3f * r.surface.patches[i].ball.radius);
     }
     CHECK_LE(radius, 1.1 * r.patch_radius);
     reader_close(&r);

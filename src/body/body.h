@@ -48,16 +48,24 @@
 
 struct nsvcd_body {
   uint32_t magic, version;
-  uint64_t checksum;        // of everything that follows
-  uint32_t size;            // bytes of the whole blob
-  uint32_t weights_id;      // of the weights that made the latents; 0: a body of triangles
-  uint32_t patches;         // N
-  uint32_t padded;          // P
-  float centre[3], radius;  // a sphere over all
-  float extent;             // max |p_i| + r_i: nothing is farther from the body's origin
-  uint32_t open;            // 1: nothing can be inside
-  uint32_t triangles;       // of the mesh; 0: none are stored
-  uint32_t inner;           // bytes from here to the body of triangles; 0: there is none
+  // of everything that follows
+  uint64_t checksum;
+  // bytes of the whole blob
+  uint32_t size;
+  // of the weights that made the latents; 0: a body of triangles
+  uint32_t weights_id;
+  uint32_t patches;  // N
+  uint32_t padded;   // P
+  // a sphere over all
+  float centre[3], radius;
+  // max |p_i| + r_i: nothing is farther from the body's origin
+  float extent;
+  // 1: nothing can be inside
+  uint32_t open;
+  // of the mesh; 0: none are stored
+  uint32_t triangles;
+  // bytes from here to the body of triangles; 0: there is none
+  uint32_t inner;
 };
 
 static size_t nsvcd__group_slots(size_t padded) {
@@ -73,7 +81,8 @@ static size_t nsvcd__group_members(size_t members, size_t first) {
 typedef struct nsvcd__level {
   size_t count;  // spheres
   size_t slots;  // the same, rounded up to 16
-  size_t first;  // of its floats, from the body's first: x (slots), y, z, r
+  // of its floats, from the body's first: x (slots), y, z, r
+  size_t first;
 } nsvcd__level;
 
 static nsvcd__level nsvcd__level_of(size_t padded, size_t level) {
@@ -192,8 +201,10 @@ static uint64_t nsvcd__body_checksum(const nsvcd_body *body) {
 // Patches that are being sorted.
 typedef struct nsvcd__ordering {
   const nsvcd__f3 *centres;  // of all patches
-  uint16_t *order;           // (count) their numbers
-  uint16_t *spare;           // (count) working memory
+  // (count) their numbers
+  uint16_t *order;
+  // (count) working memory
+  uint16_t *spare;
   size_t count;
 } nsvcd__ordering;
 
@@ -246,13 +257,14 @@ static void nsvcd__body_order(nsvcd__ordering all) {
 
 // What a body of latents is built of.
 typedef struct nsvcd__latents_source {
-  size_t count;           // N
-  nsvcd__f3 *centres;     // (N)
-  float *radii;           // (N)
-  nsvcd__f3 *areas;       // (N)
-  int8_t *extremes;       // (N, EXTREMES, 3)
-  int8_t *latents;        // (N, LATENT)
-  const uint16_t *order;  // (N) of the patches
+  size_t count;        // N
+  nsvcd__f3 *centres;  // (N)
+  float *radii;        // (N)
+  nsvcd__f3 *areas;    // (N)
+  int8_t *extremes;    // (N, EXTREMES, 3)
+  int8_t *latents;     // (N, LATENT)
+  // (N) of the patches
+  const uint16_t *order;
   int open;
 } nsvcd__latents_source;
 

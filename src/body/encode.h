@@ -12,11 +12,15 @@ typedef struct nsvcd__draft {
   const nsvcd_mesh *mesh;
   // defaults filled in: `patches` is not 0, `latents` tells whether there will be any
   const nsvcd_encode_options *options;
-  nsvcd__arena arena;                  // of all arrays
-  size_t count;                        // N
-  int in_runs;                         // 1: patches are in order
-  size_t latents_size, geometry_size;  // bytes; 0: without
-  nsvcd__latents_source latents;       // without latents only centres
+  // of all arrays
+  nsvcd__arena arena;
+  size_t count;  // N
+  // 1: patches are in order
+  int in_runs;
+  // bytes; 0: without
+  size_t latents_size, geometry_size;
+  // without latents only centres
+  nsvcd__latents_source latents;
 #ifndef NSVCD_NO_PROOF
   nsvcd__surface surface;
   nsvcd__geometry_source source;
@@ -101,10 +105,9 @@ static nsvcd_result nsvcd__draft_runs(nsvcd__draft *draft) {
   int ok = nsvcd__surface_begin(runs, mesh->vertex_count, draft->options->coarse,
                                 &draft->arena, surface);
   ok = ok && nsvcd__curve_build(mesh, draft->options->convex_radius, &spare, &curve);
-  ok = ok && nsvcd__surface_room(surface, mesh->vertex_count, mesh->vertex_count, triangles);
   if (ok) surface->solids = curve.solids;
   nsvcd_result result = ok ? NSVCD_OK : NSVCD_ERROR_MEMORY;
-  for (size_t first = 0; !result && first < runs; first = surface->done) {
+  for (size_t first = 0; !result && first < runs; first = surface->count) {
     const size_t left = runs - first;
     const size_t last = first + (left < NSVCD__RUNS_AT_ONCE ? left : NSVCD__RUNS_AT_ONCE);
     nsvcd__region block;

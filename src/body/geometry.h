@@ -37,7 +37,6 @@
 //     numbers       (T)      each in 1 to 5 bytes: see nsvcd__read_code
 //   hull_counts     (N)      uint8: vertices of the hull, at most 16; 0: the patch has no surface
 #pragma once
-#include "../surface/pieces.h"
 #include "traversal.h"
 
 #ifndef NSVCD_NO_PROOF
@@ -45,17 +44,22 @@
 #define NSVCD__GEOMETRY_BOX 8                      // floats of `box` and `widest`
 
 typedef struct nsvcd__geometry_counts {
-  uint32_t listed;               // L, entries of all patches
-  uint32_t vertices;             // V, stored points
+  // L, entries of all patches
+  uint32_t listed;
+  // V, stored points
+  uint32_t vertices;
   uint32_t components;           // C
   uint32_t triangle_codes_size;  // B
-  float convex_radius;           // metres that the body extends beyond its triangles
+  // metres that the body extends beyond its triangles
+  float convex_radius;
   // W, R, K; all 0: the body is coarse
   uint32_t positions, references, cut;
   // as nsvcd_body_facts tells them
   uint32_t solids, open_solids, open_edges;
-  uint32_t is_mixed;  // 1: entries have kinds of two bits
-  float gap;          // metres: corners this near count as one in what is closed
+  // 1: entries have kinds of two bits
+  uint32_t is_mixed;
+  // metres: corners this near count as one in what is closed
+  float gap;
 } nsvcd__geometry_counts;
 
 // Where everything is in a body of triangles. Only who builds or scales one writes through this.
@@ -70,7 +74,8 @@ typedef struct nsvcd__geometry {
   unsigned char *triangle_codes;
   uint8_t *hull_counts;
   size_t reference_bytes;  // of each: 2 or 4
-  unsigned kind_bits;      // of an entry's code: 1 or 2
+  // of an entry's code: 1 or 2
+  unsigned kind_bits;
 } nsvcd__geometry;
 
 // The body of triangles in a body, or NULL.
@@ -236,8 +241,9 @@ static uint32_t nsvcd__read_code(const unsigned char **at) {
 // Reads the numbers of a patch's entries, one after another.
 typedef struct nsvcd__numbers {
   const unsigned char *at;
-  size_t next;            // entry
-  uint32_t number, kind;  // of the entry before
+  size_t next;  // entry
+  // of the entry before
+  uint32_t number, kind;
   unsigned kind_bits;
 } nsvcd__numbers;
 
@@ -394,7 +400,8 @@ static void nsvcd__finish_group(nsvcd_body *b, size_t g) {
 // surface is a point.
 typedef struct nsvcd__hulls {
   size_t count;
-  float spheres[4][NSVCD__HULLS];  // x, y, z, r
+  // x, y, z, r
+  float spheres[4][NSVCD__HULLS];
 } nsvcd__hulls;
 
 static void nsvcd__collect_hulls(const nsvcd__geometry *f, size_t g, nsvcd__hulls *out) {
@@ -409,7 +416,8 @@ static void nsvcd__collect_hulls(const nsvcd__geometry *f, size_t g, nsvcd__hull
       nsvcd__d3 v = {0, 0, 0};
       if (count) v = nsvcd__vertex_at(&vertices, k);
       v = nsvcd__d3_fma(step, v, origin);
-      const double rounding = 1.1e-7 * nsvcd__d3_length(v);  // to float
+      // to float
+      const double rounding = 1.1e-7 * nsvcd__d3_length(v);
       const size_t n = out->count++;
       out->spheres[3][n] = nsvcd__above((double)f->margins[i] + rounding);
       nsvcd__f3_put(nsvcd__f3_round(v), &out->spheres[0][n], NSVCD__HULLS);

@@ -1,5 +1,6 @@
 // In: a surface, and its mesh. Out: the body of triangles that body/geometry reads.
 #pragma once
+#include "../surface/surface.h"
 #include "geometry.h"
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
@@ -7,7 +8,7 @@
 static size_t nsvcd__numbers_write(const nsvcd__surface *s, size_t i, unsigned char *to) {
   size_t size = 0;
   uint32_t last = 0;
-  for (size_t n = s->first_triangle[i]; n < s->first_triangle[i + 1]; n++) {
+  for (size_t n = s->patches[i].first_triangle; n < s->patches[i + 1].first_triangle; n++) {
     const uint32_t id = s->ids[n];
     const uint32_t kind = id >> NSVCD__KIND_SHIFT;
     uint32_t code = (id - last) & NSVCD__NUMBER;
@@ -26,8 +27,10 @@ static size_t nsvcd__numbers_write(const nsvcd__surface *s, size_t i, unsigned c
 typedef struct nsvcd__geometry_source {
   nsvcd__surface *surface;
   const nsvcd_mesh *mesh;
-  uint32_t *numbers;  // (vertices of the mesh) their numbers in the body, from 1; 0: none yet
-  uint8_t *cut;       // (triangles) 1: stored in pieces
+  // (vertices of the mesh) their numbers in the body, from 1; 0: none yet
+  uint32_t *numbers;
+  // (triangles) 1: stored in pieces
+  uint8_t *cut;
   nsvcd__geometry_counts counts;
 } nsvcd__geometry_source;
 
@@ -57,10 +60,11 @@ static int nsvcd__geometry_count(nsvcd__geometry_source *source, nsvcd__arena *a
   if (solids->gap > 0) counts->gap = nsvcd__above(solids->gap);
   uint64_t bytes = 0;
   for (size_t i = 0; i < s->count; i++) {
-    const size_t stored = s->first_vertex[i + 1] - s->first_vertex[i];
-    const size_t points = stored + s->first_named[i + 1] - s->first_named[i];
-    const size_t triangles = s->first_triangle[i + 1] - s->first_triangle[i];
-    const size_t first = 3 * (size_t)s->first_triangle[i];
+    const nsvcd__patch_bounds *patch = &s->patches[i];
+    const size_t stored = patch[1].first_vertex - patch->first_vertex;
+    const size_t points = stored + patch[1].first_named - patch->first_named;
+    const size_t triangles = patch[1].first_triangle - patch->first_triangle;
+    const size_t first = 3 * (size_t)patch->first_triangle;
     bytes += (uint64_t)3 * triangles * nsvcd__corner_bytes(points);
     bytes += nsvcd__numbers_write(s, i, NULL);
     for (size_t n = first; n < first + 3 * triangles && !s->coarse; n++)
@@ -101,9 +105,10 @@ static void nsvcd__named_write(nsvcd__geometry_source *source, size_t from,
   uint32_t *first_own = f->first_own + to;
   uint32_t *first_reference = f->first_reference + to;
   const size_t wide = f->reference_bytes;
-  uint32_t *named = s->named + s->first_named[from];
-  const size_t count = s->first_named[from + 1] - s->first_named[from];
-  uint32_t own = s->first_vertex[from + 1] - s->first_vertex[from];
+  const nsvcd__patch_bounds *patch = &s->patches[from];
+  uint32_t *named = s->named + patch->first_named;
+  const size_t count = patch[1].first_named - patch->first_named;
+  uint32_t own = patch[1].first_vertex - patch->first_vertex;
   uint32_t other = own;
   first_own[1] = first_own[0];
   first_reference[1] = first_reference[0];
@@ -146,24 +151,25 @@ static void nsvcd__patch_write(nsvcd__geometry_source *source, size_t from,
                                const nsvcd__geometry *f, size_t to) {
   const nsvcd__surface *s = source->surface;
   const size_t padded = f->body->padded;
-  nsvcd__sphere ball = s->balls[from];
-  if (s->hull_counts[from] == 0) ball.radius = 0;
+  const nsvcd__patch_bounds *patch = &s->patches[from];
+  nsvcd__sphere ball = patch->ball;
+  if (patch->hull_count == 0) ball.radius = 0;
   nsvcd__sphere_store(ball, (float *)(f->body + 1), padded, to);
-  nsvcd__slab_store(s->slabs[from], f->slabs, padded, to);
-  f->steps[to] = s->steps[from];
-  f->margins[to] = s->margins[from];
-  f->errors[to] = s->errors[from];
-  f->hull_counts[to] = s->hull_counts[from];
+  nsvcd__slab_store(patch->slab, f->slabs, padded, to);
+  f->steps[to] = patch->step;
+  f->margins[to] = patch->margin;
+  f->errors[to] = patch->error;
+  f->hull_counts[to] = patch->hull_count;
 
-  const uint32_t vertex = s->first_vertex[from];
-  const uint32_t vertices = s->first_vertex[from + 1] - vertex;
-  const size_t first = s->first_triangle[from];
-  const size_t end = s->first_triangle[from + 1];
+  const uint32_t vertex = patch->first_vertex;
+  const uint32_t vertices = patch[1].first_vertex - vertex;
+  const size_t first = patch->first_triangle;
+  const size_t end = patch[1].first_triangle;
   int16_t *integers = f->vertices + 3 * (size_t)f->first_vertex[to];
   memcpy(integers, s->vertices + 3 * (size_t)vertex, 6 * (size_t)vertices);
   nsvcd__named_write(source, from, f, to);
-  const uint32_t *named = s->named + s->first_named[from];
-  const size_t points = vertices + s->first_named[from + 1] - s->first_named[from];
+  const uint32_t *named = s->named + patch->first_named;
+  const size_t points = vertices + patch[1].first_named - patch->first_named;
   const size_t bytes = nsvcd__corner_bytes(points);
   unsigned char *begin = f->triangle_codes + f->first_byte[to];
   unsigned char *at = begin;

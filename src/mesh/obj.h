@@ -37,9 +37,11 @@ typedef struct nsvcd__obj {
   // the statement's first token, or NULL
   const char *word;
   nsvcd_mesh_options options;
-  size_t line;                   // of `at`, from 1; 0: before the first
-  uint32_t vertices, triangles;  // counted so far
-  uint32_t max_corners;          // of a face
+  // of `at`, from 1; 0: before the first
+  size_t line;
+  // counted so far
+  uint32_t vertices, triangles;
+  uint32_t max_corners;  // of a face
 } nsvcd__obj;
 
 // Length of the newline at p, or 0.

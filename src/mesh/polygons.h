@@ -22,17 +22,21 @@ typedef struct nsvcd__d2 {
 } nsvcd__d2;
 
 typedef struct nsvcd__corner {
-  nsvcd__d2 at;  // the polygon is counter-clockwise
+  // the polygon is counter-clockwise
+  nsvcd__d2 at;
   uint32_t vertex;
-  uint32_t previous, next;  // in the ring of corners not yet clipped
-  uint32_t queued;          // 1: in the queue
-  uint32_t reflex;          // 1: the inner angle exceeds 180 degrees
-  uint32_t box;             // of its run
+  // in the ring of corners not yet clipped
+  uint32_t previous, next;
+  uint32_t queued;  // 1: in the queue
+  // 1: the inner angle exceeds 180 degrees
+  uint32_t reflex;
+  uint32_t box;  // of its run
 } nsvcd__corner;
 
 typedef struct nsvcd__corner_box {
   nsvcd__d2 low, high;
-  uint32_t reflex;  // how many reflex corners are in it
+  // how many reflex corners are in it
+  uint32_t reflex;
 } nsvcd__corner_box;
 
 typedef struct nsvcd__polygon {
@@ -41,7 +45,8 @@ typedef struct nsvcd__polygon {
   uint32_t *order;
   // (2 runs) box k is about boxes 2 k and 2 k + 1; the last `runs` are those of the runs
   nsvcd__corner_box *boxes;
-  uint32_t count, runs;  // runs: a power of two
+  // runs: a power of two
+  uint32_t count, runs;
   // (count) a ring buffer: corners that may have become ears
   uint32_t *queue;
   uint32_t queue_first, queue_length;

@@ -101,7 +101,8 @@ typedef struct nsvcd__stl_positions {
   uint32_t *table;
   size_t slots;
   uint64_t seed;  // of the hash
-  size_t steps;   // along the table, past other vertices
+  // along the table, past other vertices
+  size_t steps;
 } nsvcd__stl_positions;
 
 // The slot of the vertex at a corner's position, or the empty one where it belongs.
@@ -130,7 +131,8 @@ static void nsvcd__stl_weld(nsvcd_mesh *mesh, nsvcd__stl_positions *found) {
   for (size_t i = 0; i < corners; i++) {
     const size_t most = 8 * i + 1024;
     float corner[3];
-    for (size_t k = 0; k < 3; k++) corner[k] = positions[3 * i + k] + 0.0f;  // -0 is 0
+    // -0 is 0
+    for (size_t k = 0; k < 3; k++) corner[k] = positions[3 * i + k] + 0.0f;
     uint32_t *at = nsvcd__stl_find(found, positions, corner);
     if (!*at) {
       memcpy(positions + 3 * count, corner, sizeof corner);

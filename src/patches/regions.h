@@ -20,7 +20,8 @@
 // Points have numbers: first the vertices of the caller's mesh, then the cuts, which halving adds.
 typedef struct nsvcd__regions {
   const nsvcd_mesh *mesh;
-  double greatest;         // of all coordinates, absolute
+  // of all coordinates, absolute
+  double greatest;
   size_t component_count;  // C
   nsvcd__solids solids;
   // (vertices) 1: the least vertex of its component, which no patch has yet
@@ -31,23 +32,28 @@ typedef struct nsvcd__regions {
   // (T) number in the caller's mesh, and kind
   uint32_t *ids;
   size_t cut_count, most_cuts;
-  nsvcd__d3 *cuts;      // (most_cuts)
-  double longest_edge;  // metres: a triangle with a longer edge is halved
+  nsvcd__d3 *cuts;  // (most_cuts)
+  // metres: a triangle with a longer edge is halved
+  double longest_edge;
 
   // If there are several regions:
   // a triangle's weight: per square metre, and for being one
   double per_area, per_triangle;
-  uint32_t *order;  // (T) triangles, region by region
+  // (T) triangles, region by region
+  uint32_t *order;
   uint32_t *spare;  // (T) working memory
   // (vertices and cuts) numbers of points in the region at hand, from 1; 0: none
   uint32_t *numbers;
-  size_t *first;  // (R + 1) where regions begin in `order`
+  // (R + 1) where regions begin in `order`
+  size_t *first;
 } nsvcd__regions;
 
 // A part of a mesh. Its last vertices are cuts.
 typedef struct nsvcd__region {
-  nsvcd_mesh mesh;  // welded; cuts are rounded
-  double greatest;  // coordinate of the whole mesh, absolute
+  // welded; cuts are rounded
+  nsvcd_mesh mesh;
+  // coordinate of the whole mesh, absolute
+  double greatest;
   uint32_t *ids;    // (triangles)
   nsvcd__d3 *cuts;  // (cut_count) not rounded
   size_t cut_count;

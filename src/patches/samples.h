@@ -18,28 +18,37 @@
 
 // Sums over a patch, in double, rounded once at the end.
 typedef struct nsvcd__patch_sum {
-  nsvcd__d3 vector;      // of positions of samples, or of area vectors
-  double weight;         // number of samples
-  double squared_reach;  // the greatest squared distance from the centre
+  // of positions of samples, or of area vectors
+  nsvcd__d3 vector;
+  double weight;  // number of samples
+  // the greatest squared distance from the centre
+  double squared_reach;
 } nsvcd__patch_sum;
 
 typedef struct nsvcd__patches {
   size_t count;         // N
   size_t sample_count;  // S
-  size_t piece_count;   // triangles and parts of them that the balls were fitted to
-  nsvcd__f3 *centres;   // (N) metres: the mean of the patch's samples
-  float *radii;         // (N) metres: the ball about the centre contains the patch's pieces
-  float *sample_radii;  // (N) metres: the same for its samples
-  nsvcd__f3 *area_vectors;  // (N) sums of area times normal; their sum is the mesh's
+  // triangles and parts of them that the balls were fitted to
+  size_t piece_count;
+  // (N) metres: the mean of the patch's samples
+  nsvcd__f3 *centres;
+  // (N) metres: the ball about the centre contains the patch's pieces
+  float *radii;
+  // (N) metres: the same for its samples
+  float *sample_radii;
+  // (N) sums of area times normal; their sum is the mesh's
+  nsvcd__f3 *area_vectors;
   // (N + 1) patch i has the samples offsets[i] .. offsets[i + 1] - 1
   uint32_t *offsets;
   nsvcd__f3 *samples;  // (S) metres
   nsvcd__f3 *normals;  // (S) unit
 
   // Working memory.
-  nsvcd__patch_sum *sums;            // (N)
-  nsvcd__f3 *drawn, *drawn_normals;  // (S) the samples in the order in which they were drawn
-  uint16_t *owners;                  // (S) the patch of each
+  nsvcd__patch_sum *sums;  // (N)
+  // (S) the samples in the order in which they were drawn
+  nsvcd__f3 *drawn, *drawn_normals;
+  // (S) the patch of each
+  uint16_t *owners;
   // (S) squared distance from the owner's centre; uses the memory of `samples`
   float *squares;
   // (S), (N) linked lists of each centre's samples; the first one uses the memory of `samples`

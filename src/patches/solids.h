@@ -38,10 +38,13 @@
 #define NSVCD__SLIT 1e-3
 
 typedef struct nsvcd__solids {
-  uint8_t *kinds;  // (triangles) NSVCD__SHEET and so on
+  // (triangles) NSVCD__SHEET and so on
+  uint8_t *kinds;
   size_t components, open_components, open_edges;
-  double gap;    // metres: the widest gap that was closed
-  int is_mixed;  // 1: there are kinds other than SHEET and CLOSED
+  // metres: the widest gap that was closed
+  double gap;
+  // 1: there are kinds other than SHEET and CLOSED
+  int is_mixed;
 } nsvcd__solids;
 
 // The triangles of components that are not closed, without those that are points or segments.
@@ -49,8 +52,9 @@ typedef struct nsvcd__mending {
   const nsvcd__topology *topology;
   size_t count;         // T
   uint32_t *triangles;  // (T) of the mesh
-  uint32_t *joined;     // (vertices) what a welded vertex was joined to, or itself
-  uint8_t *alive;       // (T) 0: set aside
+  // (vertices) what a welded vertex was joined to, or itself
+  uint32_t *joined;
+  uint8_t *alive;  // (T) 0: set aside
   // (3 T) edges, sorted by their ends: edge k of triangle n is 3 n + k
   uint32_t *order;
   // E groups of edges with the same ends: (3 T) the group of each edge; (E + 1) where a group
@@ -61,7 +65,8 @@ typedef struct nsvcd__mending {
   uint32_t *degrees, *others;
   // (T) union-find forests: of all triangles that edges join, and of the alive ones
   uint32_t *wholes, *parts;
-  size_t *first;    // (vertices + 1) working memory
+  // (vertices + 1) working memory
+  size_t *first;
   uint32_t *spare;  // (3 T) working memory
 } nsvcd__mending;
 

@@ -9,10 +9,14 @@
 typedef struct nsvcd__topology {
   const nsvcd_mesh *mesh;
   size_t component_count;
-  uint32_t *welded;   // (vertices) the first vertex at the same position
-  uint32_t *parents;  // (vertices) a union-find forest; once built, the root
-  uint8_t *open;      // (vertices) 1 at a root: its component is not closed
-  uint8_t *seen;      // (vertices) 1 at a root: it has a triangle
+  // (vertices) the first vertex at the same position
+  uint32_t *welded;
+  // (vertices) a union-find forest; once built, the root
+  uint32_t *parents;
+  // (vertices) 1 at a root: its component is not closed
+  uint8_t *open;
+  // (vertices) 1 at a root: it has a triangle
+  uint8_t *seen;
 } nsvcd__topology;
 
 // Welds vertices, by a hash table with open addressing. 0 without memory.

@@ -1,11 +1,8 @@
-// In: points, in double. Out: the least ball that holds them all, in float, rounded outwards; how
-// to round outwards.
+// In: points, in double. Out: the centre of the least ball that contains them.
 #pragma once
 #include "../ground/points.h"
 
 #ifndef NSVCD_NO_ENCODER
-// ---- balls: the least one that holds all points
-
 typedef struct nsvcd__points {
   const nsvcd__d3 *at;  // (count)
   size_t count;
@@ -16,12 +13,12 @@ typedef struct nsvcd__ball {
   double squared;  // radius
 } nsvcd__ball;
 
-// The edges from the first of 1 to 4 points to the others, and shares of them. The sum of the
-// shares leads from that point to the centre of the least ball with all points on its border; or,
-// where `ball` is 0, to the point nearest to the origin of the plane (line, point) through them. 0
-// if that is not known, for the points are too much in line, or in a plane.
-static int nsvcd__solve_shares(const nsvcd__d3 *points, size_t count, int ball,
-                               nsvcd__d3 *edges, double *b) {
+// The edges from the first of 1 to 4 points to the others, and weights for them. The first point plus
+// the weighted edges is the centre of the least ball with all points on its surface; or, if `ball`
+// is 0, the point nearest to the origin in the plane (line, point) through them. 0 if the points are
+// too nearly on a line or in a plane.
+static int nsvcd__solve_weights(const nsvcd__d3 *points, size_t count, int ball,
+                                nsvcd__d3 *edges, double *b) {
   const size_t n = count - 1;
   double a[3][3] = {{0}};
   double first[3];
@@ -31,7 +28,7 @@ static int nsvcd__solve_shares(const nsvcd__d3 *points, size_t count, int ball,
     b[i] = ball ? 0.5 * first[i] : -nsvcd__d3_dot(edges[i], points[0]);
     for (size_t j = 0; j <= i; j++) a[j][i] = nsvcd__d3_dot(edges[i], edges[j]);
   }
-  // The matrix is symmetric and positive definite: its upper half is enough, and no pivots.
+  // symmetric and positive definite: the upper half is enough, without pivoting
   for (size_t i = 0; i < n; i++) {
     if (!(a[i][i] > 1e-13 * first[i])) return 0;
     for (size_t j = i + 1; j < n; j++) {
@@ -48,31 +45,32 @@ static int nsvcd__solve_shares(const nsvcd__d3 *points, size_t count, int ball,
 }
 
 #ifndef NSVCD_NO_PROOF
+// The least float that is not below x.
 static float nsvcd__float_above(double x) {
   const float rounded = nsvcd__to_float(x);
   return (double)rounded < x ? nextafterf(rounded, HUGE_VALF) : rounded;
 }
 
-// The least ball with all these 1 to 4 points on its border. 0 if there is none.
+// The least ball with these 1 to 4 points on its surface. 0 if there is none.
 static int nsvcd__ball_through(const nsvcd__d3 *points, size_t count, nsvcd__ball *ball) {
   nsvcd__d3 edges[3];
-  double shares[3];
-  if (!nsvcd__solve_shares(points, count, 1, edges, shares)) return 0;
+  double weights[3];
+  if (!nsvcd__solve_weights(points, count, 1, edges, weights)) return 0;
   nsvcd__d3 offset = nsvcd__d3_of(0, 0, 0);
-  for (size_t i = 0; i + 1 < count; i++) offset = nsvcd__d3_fma(shares[i], edges[i], offset);
+  for (size_t i = 0; i + 1 < count; i++) offset = nsvcd__d3_fma(weights[i], edges[i], offset);
   ball->centre = nsvcd__d3_add(points[0], offset);
   ball->squared = nsvcd__d3_dot(offset, offset);
   return 1;
 }
 
-// Up to five points that a ball may go through.
+// Up to five points, on a ball's surface or about to be.
 typedef struct nsvcd__border {
   nsvcd__d3 points[5];
   size_t count;
 } nsvcd__border;
 
-// The least ball that holds the border (1 to 5 points) among those through the last of them and up
-// to three others. Keeps in the border only the points that it goes through. 0 if there is none.
+// The least ball that contains the border (1 to 5 points), among those through its last point and up
+// to three others. Keeps in the border only the points on the ball. 0 if there is none.
 static NSVCD__NOINLINE int nsvcd__ball_of_few(nsvcd__border *border, nsvcd__ball *ball) {
   const unsigned last = 1u << (border->count - 1);
   unsigned best = 0;
@@ -102,10 +100,10 @@ static NSVCD__NOINLINE int nsvcd__ball_of_few(nsvcd__border *border, nsvcd__ball
   return 1;
 }
 
-// The centre of the least enclosing ball: the point farthest outside joins the border, until there
-// is none (after Gaertner, "Fast and robust smallest enclosing balls", 1999). The ball grows with
-// every step. Roundings can end it early: then it is a little too large, for the caller takes the
-// radius from the points.
+// The centre of the least enclosing ball (after Gaertner 1999, "Fast and robust smallest enclosing
+// balls"): the point farthest outside joins the border, until there is none. The ball grows with
+// every step. Roundings can stop it early, and then the caller, who takes the radius from the points,
+// has a ball that is a little too large.
 static nsvcd__d3 nsvcd__ball_centre(nsvcd__points points) {
   nsvcd__ball ball = {points.at[0], 0};
   nsvcd__border border;

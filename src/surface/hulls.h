@@ -1,4 +1,4 @@
-// In: points. Out: some of them whose hull, inflated by a margin, holds all.
+// In: points. Out: some of them, whose hull inflated by a margin contains all.
 #pragma once
 #include "../ground/slices.h"
 #include "balls.h"
@@ -11,39 +11,39 @@ typedef struct nsvcd__simplex {
   size_t count;
 } nsvcd__simplex;
 
-// Moves the weights to the simplex's point nearest to the origin, and drops the corners that do not
-// bear it (Wolfe, "Finding the nearest point in a polytope", 1976). 0 if roundings are in the way:
-// the weights still are weights.
-static int nsvcd__simplex_resolve(nsvcd__simplex *s) {
+// Moves the weights to the simplex's point nearest to the origin, and drops corners that it does not
+// need (Wolfe 1976, "Finding the nearest point in a polytope"). 0 if roundings prevent that; the
+// weights are valid even then.
+static int nsvcd__simplex_solve(nsvcd__simplex *s) {
   for (;;) {
-    // Weights, of any sign, of the point nearest to the origin in the plane of all corners.
+    // weights, of any sign, of the point nearest to the origin in the plane of all corners
     nsvcd__d3 edges[3];
     double target[4] = {1};
-    if (!nsvcd__solve_shares(s->points, s->count, 0, edges, target + 1)) return 0;
+    if (!nsvcd__solve_weights(s->points, s->count, 0, edges, target + 1)) return 0;
     for (size_t i = 1; i < s->count; i++) target[0] -= target[i];
     double fraction = 1;
-    size_t blocks = s->count;
+    size_t blocking = s->count;
     for (size_t i = 0; i < s->count; i++) {
       const double weight = s->weights[i];
       if (target[i] > 0) continue;
       const double to_zero = weight > 0 ? weight / (weight - target[i]) : 0;
       if (to_zero > fraction) continue;
       fraction = to_zero;
-      blocks = i;
+      blocking = i;
     }
     for (size_t i = 0; i < s->count; i++)
       s->weights[i] += fraction * (target[i] - s->weights[i]);
-    if (blocks == s->count) return 1;
+    if (blocking == s->count) return 1;
     s->count--;
-    s->points[blocks] = s->points[s->count];
-    s->weights[blocks] = s->weights[s->count];
+    s->points[blocking] = s->points[s->count];
+    s->weights[blocking] = s->weights[s->count];
   }
 }
 
-// The distance of a point from some point of the convex hull of vertices: no less than that from
-// the hull, and no more than two thousandths above it, but for roundings or where it is below
-// `enough`. Ten steps or so do; on x87, whose registers have more digits than memory, they may seem
-// to get nearer for ever.
+// The distance from a point to a point of the convex hull of vertices. It is not less than the
+// distance from the hull, and at most 0.2 % above it, but for roundings or if it is below `enough`.
+// About ten steps are usual; on x87, whose registers have more digits than memory, it could seem to
+// improve for ever.
 static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double enough) {
   nsvcd__simplex s;
   s.points[0] = nsvcd__d3_sub(hull.at[hull.count - 1], point);
@@ -63,22 +63,22 @@ static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double e
     if (least >= 0.998 * best) break;
     s.points[s.count] = nsvcd__d3_sub(hull.at[support], point);
     s.weights[s.count++] = 0;
-    const int resolved = nsvcd__simplex_resolve(&s);
+    const int is_solved = nsvcd__simplex_solve(&s);
     nearest = nsvcd__d3_scale(s.points[0], s.weights[0]);
     for (size_t i = 1; i < s.count; i++)
       nearest = nsvcd__d3_fma(s.weights[i], s.points[i], nearest);
     const double squared = nsvcd__d3_dot(nearest, nearest);
-    if (!resolved || squared >= best) break;
+    if (!is_solved || squared >= best) break;
     best = squared;
   }
   return sqrt(best);
 }
 
-// Chooses up to `most` of the points, NSVCD__HULL at most, such that all are near to the hull of
-// those: all, if they are not more, or else always the one that is farthest from it. points: about
-// the ball's centre. bounds: working memory, one a point: their distances found before. A point
-// that was near enough stays so, for the hull only grows. Writes the numbers of those chosen, and
-// the distance of the farthest point; returns how many they are.
+// Chooses at most `most` (up to NSVCD__HULL) of the points so that all are near their hull: all of
+// them if they are not more; else always the point farthest from the hull, until that is within
+// `enough`. points: about the ball's centre. bounds: working memory, the last distance found of each
+// point; it remains a bound, for the hull only grows. Writes the numbers of those chosen and the
+// farthest distance; returns how many are chosen.
 static size_t nsvcd__choose_hull(nsvcd__points points, size_t most, double enough,
                                  double *bounds, size_t *chosen, double *farthest) {
   nsvcd__d3 at[NSVCD__HULL];
@@ -91,7 +91,7 @@ static size_t nsvcd__choose_hull(nsvcd__points points, size_t most, double enoug
     return points.count;
   }
   for (size_t i = 0; i < points.count; i++) {
-    // from the centre, to begin with
+    // the first is the farthest from the centre
     const double distance = nsvcd__d3_length(points.at[i]);
     if (distance > most_distant) next = i;
     most_distant = nsvcd__max(most_distant, distance);

@@ -1,56 +1,42 @@
-// In: a mesh, region by region, and the centres of each region's patches, N in all. Out: pieces:
-// triangles, cut by the cells of the centres. From them nsvcd__surface is made (surface/surface):
-// of every patch an outer description of the surface that belongs to it, and the triangles of that
-// surface. A proof of freedom of collision is built on it.
+// In: a region, and the centres of its patches. Out: pieces: triangles, cut by the cells of the
+// centres.
 //
-// What holds. Every point of the mesh lies in a piece. Every piece is a convex part of one
-// triangle, and belongs to one patch. That patch lists the piece's triangle, or the piece itself
-// where the triangle is large beside the patches. Its ball, its slab and its hull inflated by the
-// margin contain the piece. Triangles without area are surface like others.
-//
-// Why it holds. A piece is only ever divided in two parts that share the corners between them, and
-// both parts are kept. So the pieces cover the mesh whatever the cuts are, and poor cuts can make a
-// description only larger. Each number is taken from the corners of the pieces, about what is
-// stored in float, and then rounded outwards. A piece is the convex hull of its corners, and so are
-// ball, slab and inflated hull convex: what contains the corners contains the piece. The corners
-// themselves are off by roundings of double: all bounds are wider by NSVCD__SURFACE_MARGIN.
+// A piece is a convex part of one triangle, and belongs to one patch. It is only ever divided into
+// two parts that share the new corners, and both are kept. So the pieces cover the mesh wherever the
+// cuts are, and poor cuts only make the description of a patch larger (surface/surface).
 #pragma once
 #include "../ground/spheres.h"
 #include "../patches/regions.h"
 
 #ifndef NSVCD_NO_ENCODER
-// mean sample radii: how far a piece may extend into another cell
+// how far a piece may extend into another cell, in mean sample radii
 #define NSVCD__SURFACE_OVERLAP 0.5
-// mean sample radii: with a longer edge a triangle is listed in parts
+// a triangle with a longer edge is listed in pieces, in mean sample radii
 #define NSVCD__SURFACE_WHOLE 16.0
 // of the mesh's greatest coordinate
 #define NSVCD__SURFACE_MARGIN 1e-13
-// metres, added to that: keeps clear of what float cannot hold
+// metres, added to that: keeps clear of what float cannot represent
 #define NSVCD__SURFACE_TINY 1e-30
-// of the radius: a hull as near as this to all corners is good
+// a hull within this fraction of the radius of all corners is good enough
 #define NSVCD__HULL_FRACTION 1e-4
 // corners of a piece, at most
 #define NSVCD__PIECE_CORNERS 16
-// polygons that wait for their turn (12 at most were seen)
+// polygons that wait to be cut (at most 12 were seen)
 #define NSVCD__WAITING 64
-// These two bound the cuts. A fine mesh needs less than one for each triangle, a large face some
-// three for each of its patches.
+// These limit the cuts. A fine mesh takes less than one for each triangle, a large face about three
+// for each of its patches.
 #define NSVCD__CUTS_PER_TRIANGLE 8
 #define NSVCD__CUTS_PER_PATCH 64
-// vertices and new corners together have numbers of 32 bits
+// vertices and cuts share numbers of 32 bits
 #define NSVCD__MAX_CUTS (1u << 29)
-// as many as corners of 16 bits can name
-#define NSVCD__PATCH_VERTICES 65536u
 
-// ---- lists that grow
-
-// As zeros it is empty.
+// An array that grows; empty if it is zeros.
 typedef struct nsvcd__list {
   void *items;
   size_t count, capacity;
 } nsvcd__list;
 
-// Room for `more` patch pairs of so many bytes; 0 without memory, and the list is as it was.
+// Makes room for `more` items of `size` bytes. 0 without memory: the list is unchanged.
 static int nsvcd__list_reserve(nsvcd__list *list, size_t more, size_t size,
                                nsvcd__arena *arena) {
   if (list->capacity - list->count >= more) return 1;
@@ -63,61 +49,9 @@ static int nsvcd__list_reserve(nsvcd__list *list, size_t more, size_t size,
   return 1;
 }
 
-typedef struct nsvcd__surface {
-  // of all its arrays
-  nsvcd__arena *arena;
-  size_t count;  // N, of which
-  size_t done;   // so many are described by now
-  // L, triangles listed, over all patches
-  size_t listed;
-  // V, points stored as integers, over all patches; and vertices of the mesh that are named
-  size_t vertex_count;
-  size_t named_count;
-  // 1: corners are stored as integers too, and none is named
-  int coarse;
-  // C, connected components (vertices at the same place are one vertex)
-  size_t component_count;
-  nsvcd__solids solids;
-  // (N) about c; an empty patch has radius NSVCD__NOWHERE
-  nsvcd__sphere *balls;
-  // (N) about c
-  nsvcd__slab *slabs;
-  // (N) metres per integer: a stored vertex is c + step * (x, y, z)
-  float *steps;
-  // (N) metres: every point of a piece is within this of the convex hull of the first
-  // hull_counts[i] stored vertices
-  float *margins;
-  // (N) metres: every corner that is stored as integers is within this of them
-  float *errors;
-  // (N) 1..NSVCD__HULL; 0 where empty
-  uint8_t *hull_counts;
-  // (N + 1)
-  uint32_t *first_vertex;
-  uint32_t *first_named;
-  uint32_t *first_triangle;  // (N + 1)
-  // patch i: x of its points, then y, then z, at 3 * first_vertex[i]: the hull's, then corners that
-  // cuts have made
-  int16_t *vertices;
-  // patch i, from first_named[i] on: the caller's vertices that are corners
-  uint32_t *named;
-  // (L, 3) within the patch: numbers of points stored as integers, then those of vertices named
-  uint16_t *corners;
-  // (L) triangle of the mesh, with what it belongs to
-  uint32_t *ids;
-  // so many of the C components are known by now
-  size_t seed_count;
-  // (C) a vertex of each component
-  nsvcd__f3 *seeds;
-  // (C) a patch with a piece that has it for a corner
-  uint32_t *seed_patches;
-  // where vertices, names, corners and ids are
-  nsvcd__list vertex_list, named_list, corner_list, id_list;
-} nsvcd__surface;
-
-// ---- pieces: triangles cut by the cells of the centres
-
-// A convex part of one triangle that is being cut. Its corners are points by number: the mesh's
-// welded vertices, then those that cuts have made. While it is divided it may have too many.
+// A polygon that is being cut. Its corners are numbers of points: first the mesh's welded vertices,
+// then the points that cuts have made. While it is divided it may have more than
+// NSVCD__PIECE_CORNERS.
 typedef struct nsvcd__convex {
   uint32_t points[2 * NSVCD__PIECE_CORNERS];
   size_t count;
@@ -129,7 +63,7 @@ typedef struct nsvcd__piece {
   uint32_t triangle;
   uint16_t patch;
   uint8_t count;  // of its corners
-  // 1: its triangle is listed in parts
+  // 1: its triangle is listed in pieces
   uint8_t divided;
 } nsvcd__piece;
 
@@ -141,16 +75,16 @@ typedef struct nsvcd__pieces {
   const nsvcd__patches *patches;
   // of nsvcd__piece, triangle by triangle
   nsvcd__list list;
-  nsvcd__list corners;  // of uint32_t, numbers of points
-  // of nsvcd__d3: the points that cuts have made
+  // of uint32_t, numbers of points
+  nsvcd__list corners;
+  // of nsvcd__d3, points that cuts have made
   nsvcd__list points;
-  // (NSVCD__WAITING)
-  nsvcd__convex *waiting;
+  nsvcd__convex *waiting;  // (NSVCD__WAITING)
   size_t waiting_count;
   size_t cuts_left;
-  // metres: how far a piece may extend beyond its cell
+  // metres that a piece may extend beyond its cell
   double overlap;
-  // metres: a triangle with a longer edge is listed in parts
+  // metres: a triangle with a longer edge is listed in pieces
   double longest_edge;
   // metres, added to all bounds
   double margin;
@@ -172,15 +106,15 @@ static nsvcd__d3 nsvcd__point_at(const nsvcd__pieces *pieces, uint32_t number) {
   const nsvcd__region *region = pieces->region;
   const nsvcd__d3 *made = (const nsvcd__d3 *)pieces->points.items;
   const size_t vertices = region->mesh.vertex_count;
-  const size_t firm = vertices - region->cut_count;
-  if (number < firm) return nsvcd__d3_row(region->mesh.positions, number);
-  if (number < vertices) return region->cuts[number - firm];
+  const size_t first_cut = vertices - region->cut_count;
+  if (number < first_cut) return nsvcd__d3_row(region->mesh.positions, number);
+  if (number < vertices) return region->cuts[number - first_cut];
   return made[number - vertices];
 }
 
-// Divides a polygon where `beyond`, a value at each of its corners, changes its sign: near_part is
-// where it is negative. There is room for the points that this makes. 0 if one of the parts has
-// less than three corners, which roundings can do, or too many.
+// Divides a polygon where `beyond`, a value at each corner, changes its sign: near_part is where it
+// is negative. There must be room for the new points. 0 if a part has less than three corners, which
+// roundings can cause, or too many.
 static int nsvcd__divide(nsvcd__pieces *pieces, const nsvcd__convex *from,
                          const double *beyond, nsvcd__convex *near_part,
                          nsvcd__convex *far_part) {
@@ -212,7 +146,7 @@ static int nsvcd__divide(nsvcd__pieces *pieces, const nsvcd__convex *from,
   return 0;
 }
 
-// Distance of the polygon's farthest corner.
+// The distance from a point to a polygon's farthest corner.
 static double nsvcd__convex_reach(const nsvcd__pieces *pieces, const nsvcd__convex *convex,
                                   nsvcd__d3 from) {
   double squared = 0;
@@ -223,15 +157,15 @@ static double nsvcd__convex_reach(const nsvcd__pieces *pieces, const nsvcd__conv
   return sqrt(squared);
 }
 
-// Cuts from the polygon what lies too far beyond its patch's cell; that waits for its turn. 0
-// without memory.
+// Cuts off the parts of a polygon that extend too far beyond its patch's cell, and puts them aside
+// to be cut later. 0 without memory.
 static int nsvcd__trim(nsvcd__pieces *pieces, uint32_t patch, nsvcd__convex *convex) {
   const nsvcd__patches *patches = pieces->patches;
   const nsvcd__d3 own = nsvcd__d3_widen(patches->centres[patch]);
   const size_t first = (size_t)patch * NSVCD__NEIGHBOURS;
   double reach = nsvcd__convex_reach(pieces, convex, own);
   for (size_t k = first; k < first + NSVCD__NEIGHBOURS; k++) {
-    // The plane is half the gap away, and the planes of all that follow are farther.
+    // the cell's side is half the distance away; those of the next neighbours are farther
     const double plane = sqrt((double)patches->quarter_squares[k]);
     if (reach <= plane + pieces->overlap) break;
     if (pieces->cuts_left == 0 || pieces->waiting_count == NSVCD__WAITING) break;
@@ -261,7 +195,7 @@ static int nsvcd__trim(nsvcd__pieces *pieces, uint32_t patch, nsvcd__convex *con
   return 1;
 }
 
-// Cuts one triangle into pieces. guess: the patch of the piece before. 0 without memory.
+// Cuts a triangle into pieces. guess: the last piece's patch. 0 without memory.
 static int nsvcd__cut_up(nsvcd__pieces *pieces, uint32_t triangle, uint32_t *guess) {
   const uint32_t *corners = nsvcd__triangle_corners(pieces, triangle);
   nsvcd__piece piece = {NSVCD__WHOLE, triangle, 0, 0, 0};
@@ -303,7 +237,7 @@ static int nsvcd__cut_up(nsvcd__pieces *pieces, uint32_t triangle, uint32_t *gue
   return 1;
 }
 
-// Cuts the whole region. 0 without memory.
+// Cuts a region into pieces. 0 without memory.
 static int nsvcd__pieces_build(const nsvcd__region *region, const nsvcd__patches *patches,
                                nsvcd__arena *arena, nsvcd__pieces *pieces) {
   const size_t triangles = region->mesh.triangle_count;
@@ -323,8 +257,7 @@ static int nsvcd__pieces_build(const nsvcd__region *region, const nsvcd__patches
   pieces->cuts_left += many ? room : NSVCD__CUTS_PER_TRIANGLE * triangles;
 
   pieces->waiting = NSVCD__TAKE(arena, nsvcd__convex, NSVCD__WAITING);
-  // Most triangles are one piece: with room for an eighth more the list seldom needs to grow, which
-  // takes it twice.
+  // Most triangles are one piece: with room for an eighth more the list rarely has to grow.
   const size_t most = triangles + triangles / 8;
   int ok =
       pieces->waiting && nsvcd__list_reserve(&pieces->list, most, sizeof(nsvcd__piece), arena);

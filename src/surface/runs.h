@@ -1,27 +1,26 @@
-// In: a mesh of points, segments and triangles, which may all be without area. Out: its pieces, as
-// of a region of its own: all triangles whole, in runs of neighbours, each of which is a patch.
+// In: a mesh of points, segments and triangles, which need no area. Out: its pieces, those of a
+// region: whole triangles in runs of neighbours, each of which is a patch.
 #pragma once
 #include "pieces.h"
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
-// triangles of a run, where there are many: no more points than a hull may have
+// triangles of a run, if there are many: no more points than a hull can have
 #define NSVCD__RUN_LENGTH 16
-// runs that are worked on at a time, in memory that stays near
+// runs of a block, so that its memory fits in caches
 #define NSVCD__RUNS_AT_ONCE 256
-// of how round a body is: where its slabs are thinner, they are not made thinner still
+// slabs this thin, as a fraction of the convex radius, are not made thinner
 #define NSVCD__RUN_THIN 0.5
 
-// Is some triangle of a mesh a point or a segment? One without indices is a cloud.
+// Does a mesh have points or segments for triangles? One without indices is a cloud of points.
 static int nsvcd__has_points(const nsvcd_mesh *mesh) {
   if (!mesh->indices) return 1;
   for (size_t t = 0; t < mesh->triangle_count; t++) {
-    const uint32_t *v = mesh->indices + 3 * t;
-    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) return 1;
+    if (!nsvcd__are_distinct(mesh->indices + 3 * t)) return 1;
   }
   return 0;
 }
 
-// How many runs there are to be, where the options do not say.
+// The default number of runs.
 static size_t nsvcd__runs_for(const nsvcd_mesh *mesh) {
   const size_t triangles = mesh->triangle_count;
   const size_t runs = (triangles + NSVCD__RUN_LENGTH - 1) / NSVCD__RUN_LENGTH;
@@ -29,6 +28,7 @@ static size_t nsvcd__runs_for(const nsvcd_mesh *mesh) {
   return runs < NSVCD_MAX_PATCHES ? runs : NSVCD_MAX_PATCHES;
 }
 
+// The centroid of triangle t.
 static nsvcd__f3 nsvcd__middle_of(const nsvcd_mesh *mesh, size_t t) {
   const uint32_t point[3] = {(uint32_t)t, (uint32_t)t, (uint32_t)t};
   const uint32_t *v = mesh->indices ? mesh->indices + 3 * t : point;
@@ -38,7 +38,7 @@ static nsvcd__f3 nsvcd__middle_of(const nsvcd_mesh *mesh, size_t t) {
   return nsvcd__f3_scale(sum, 1.0f / 3);
 }
 
-// The bits of the whole part, up to 10, three places apart.
+// The bits of a number below 1024, three positions apart.
 static uint64_t nsvcd__spread_bits(float from) {
   uint32_t x = (uint32_t)from;
   x = (x | x << 16) & 0x030000ffu;
@@ -47,8 +47,7 @@ static uint64_t nsvcd__spread_bits(float from) {
   return (x | x << 2) & 0x09249249u;
 }
 
-// Sorts numbers by their upper half, 8 bits at a time; equal ones keep their order. spare:
-// (count).
+// Radix sort of keys by their upper halves; equal ones keep their order. spare: (count).
 static void nsvcd__sort_by_code(uint64_t *keys, uint64_t *spare, size_t count) {
   for (unsigned shift = 32; shift < 64; shift += 8) {
     size_t first[257] = {0};
@@ -60,21 +59,22 @@ static void nsvcd__sort_by_code(uint64_t *keys, uint64_t *spare, size_t count) {
   }
 }
 
-// A mesh along a curve that fills space (Morton 1966).
+// A mesh along a Z curve (Morton 1966).
 typedef struct nsvcd__curve {
   const nsvcd_mesh *mesh;
-  // (triangles) each number of a triangle below its code, with what it belongs to
+  // (triangles) the upper half is the position on the curve, the lower one number and kind
   uint64_t *keys;
-  // (vertices) when a vertex was met last, from 1, counting all that a block has met; 0: not yet.
-  // None of a cloud, which has each once
+  // (vertices) when a vertex was last met, counted from 1 over all blocks; 0: never. NULL for a
+  // cloud, which has each vertex once
   uint32_t *met;
   uint32_t met_count;
   nsvcd__solids solids;
-  double greatest;       // coordinate of the mesh
+  // coordinate, absolute
+  double greatest;
   double convex_radius;  // metres
 } nsvcd__curve;
 
-// Marks what the triangles belong to. 0 without memory.
+// Adds the kinds of triangles to the keys. 0 without memory.
 static int nsvcd__curve_mark(nsvcd__curve *curve, nsvcd__arena *kept) {
   const nsvcd_mesh *mesh = curve->mesh;
   // points and segments alone enclose nothing
@@ -89,7 +89,7 @@ static int nsvcd__curve_mark(nsvcd__curve *curve, nsvcd__arena *kept) {
   return known;
 }
 
-// 0 without memory.
+// Sorts a mesh along the curve. 0 without memory.
 static int nsvcd__curve_build(const nsvcd_mesh *mesh, float convex_radius, nsvcd__arena *arena,
                               nsvcd__curve *curve) {
   const size_t count = mesh->triangle_count;
@@ -123,15 +123,15 @@ static int nsvcd__curve_build(const nsvcd_mesh *mesh, float convex_radius, nsvcd
   return 1;
 }
 
-// The first triangle of a run, none of which is empty.
+// Where a run begins on the curve. None is empty.
 static size_t nsvcd__run_begin(size_t triangles, size_t run, size_t runs) {
   return (size_t)(((uint64_t)triangles * run + runs - 1) / runs);
 }
 
-// Runs first to last - 1 of so many, of which each is a patch; block and patches are what they are
-// pieces of. A block's triangles and vertices are copied in the order of the curve: all that
-// follows reads memory from front to back. Every triangle may be of a component of its own, if none
-// of its vertices has been met. 0 without memory.
+// Makes runs first .. last - 1, each a patch; block and patches are what their pieces refer to. The
+// triangles and vertices of a block are copied in the order of the curve, so that the rest reads
+// memory from front to back. A triangle may be a component of its own if none of its vertices was
+// met before. 0 without memory.
 static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, size_t runs,
                              nsvcd__arena *arena, nsvcd__region *block,
                              nsvcd__patches *patches, nsvcd__pieces *pieces) {
@@ -158,11 +158,11 @@ static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, siz
   pieces->patches = patches;
   pieces->margin = NSVCD__SURFACE_MARGIN * block->greatest + NSVCD__SURFACE_TINY;
   pieces->thin = NSVCD__RUN_THIN * curve->convex_radius;
-  if (!nsvcd__list_reserve(&pieces->list, count, sizeof(nsvcd__piece), arena)) return 0;
-  if (arena->failed) return 0;
+  if (!nsvcd__list_reserve(&pieces->list, count, sizeof(nsvcd__piece), arena) || arena->failed)
+    return 0;
   nsvcd__piece *out = (nsvcd__piece *)pieces->list.items;
   pieces->list.count = count;
-  // Short loops, each of which waits for memory far away, for many places at a time.
+  // Each of the short loops below can have many loads from far away in flight.
   size_t run = first;
   size_t end = 0;
   for (size_t k = 0; k < count; k++) {

@@ -1,12 +1,11 @@
-// In: points. Out: a slab: a direction in which the points are thin, what they reach along it, and
-// across.
+// In: points. Out: a slab: a direction in which they are thin, and their extent along it and across.
 #pragma once
 #include "../ground/rotations.h"
 #include "../ground/spheres.h"
 #include "balls.h"
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
-// What points extend to along a direction.
+// An extent along a direction.
 typedef struct nsvcd__drange {
   double low, high;
 } nsvcd__drange;
@@ -26,7 +25,7 @@ static double nsvcd__thickness(nsvcd__points points, nsvcd__d3 direction) {
   return range.high - range.low;
 }
 
-// Some direction across a unit vector.
+// A direction perpendicular to a unit vector.
 static nsvcd__d3 nsvcd__any_across(nsvcd__d3 n) {
   const int x_least = fabs(n.x) <= fabs(n.y) && fabs(n.x) <= fabs(n.z);
   const int y_least = fabs(n.y) <= fabs(n.z);
@@ -48,8 +47,8 @@ static nsvcd__d3 nsvcd__longest_row(const nsvcd__dmat3 *m) {
   return y >= z ? m->y : m->z;
 }
 
-// Near the direction in which the points vary least. The adjugate of the covariance has the same
-// axes, and the least becomes the largest: squaring that a few times leaves nothing else.
+// Roughly the direction in which the points vary least. The adjugate of their covariance has the
+// same axes, and the least becomes the largest; squaring it a few times leaves only that.
 static nsvcd__d3 nsvcd__least_axis(nsvcd__points points) {
   const nsvcd__d3 zero = nsvcd__d3_of(0, 0, 0);
   nsvcd__dmat3 c = {zero, zero, zero};
@@ -82,7 +81,7 @@ static nsvcd__d3 nsvcd__least_axis(nsvcd__points points) {
   return nsvcd__d3_unit(nsvcd__longest_row(&m), nsvcd__any_across(along));
 }
 
-// Turns a direction step by step to where the points are thinner, until they are thin.
+// Turns a direction in ever smaller steps to where the points are thinner, until they are `thin`.
 static nsvcd__d3 nsvcd__thinner(nsvcd__points points, nsvcd__d3 direction, double thin) {
   double best = nsvcd__thickness(points, direction);
   for (double turn = 0.16; turn > 0.005 && best > thin; turn *= 0.5) {
@@ -101,8 +100,8 @@ static nsvcd__d3 nsvcd__thinner(nsvcd__points points, nsvcd__d3 direction, doubl
   return direction;
 }
 
-// points: about the centre of the patch's ball. normal: the mean one of its pieces, of any length.
-// thin: metres; thinner than that is of no use.
+// Fits a slab to points about the centre of the patch's ball. normal: the mean normal of its pieces,
+// of any length. thin: metres; a thinner slab is of no use.
 static nsvcd__slab nsvcd__fit_slab(nsvcd__points points, nsvcd__d3 normal, double margin,
                                    double thin) {
   nsvcd__d3 best = nsvcd__least_axis(points);
@@ -111,7 +110,7 @@ static nsvcd__slab nsvcd__fit_slab(nsvcd__points points, nsvcd__d3 normal, doubl
   best = nsvcd__thinner(points, best, thin);
   if (nsvcd__d3_dot(best, normal) < 0) best = nsvcd__d3_scale(best, -1);
 
-  // Shorter than 1 by more than the roundings: |n| <= 1 holds for what is stored.
+  // shorter than 1 by more than the roundings, so that |n| <= 1 as it is stored
   const nsvcd__f3 n = nsvcd__f3_round(nsvcd__d3_scale(best, 1 - 1.5e-7));
   const nsvcd__d3 stored = nsvcd__d3_widen(n);
   const nsvcd__drange range = nsvcd__drange_along(points, stored);

@@ -1,28 +1,26 @@
-// In: pieces. Out: the same patch by patch; and for the network the extremes of each patch: eight
-// points of its surface whose hull is nearly that of all of it.
+// In: pieces. Out: the pieces sorted by patch; and, for the network, the extremes of each patch: eight
+// points whose hull is nearly that of all its surface.
 #pragma once
 #include "pieces.h"
 #include "hulls.h"
 
 #ifndef NSVCD_NO_ENCODER
-// The pieces by patch, and working memory for one patch at a time. A pass numbers points as it sees
-// them: the hull's first, when vertices are stored.
+// Pieces by patch, and working memory for one patch at a time. A pass numbers the points that it
+// meets.
 typedef struct nsvcd__sorted {
   const nsvcd__pieces *pieces;
-  size_t *first;  // (N + 1) pieces of a patch
-  // (pieces) numbers of pieces, patch by patch, in a patch as they were made
+  // (N + 1) where the pieces of a patch begin in `order`
+  size_t *first;
+  // (pieces) their numbers; in a patch as they were made
   uint32_t *order;
   uint32_t pass;  // from 1
   // (points) the last pass that met a point, and its number in that pass
-  uint32_t *stamps;
-  uint32_t *numbers;
-  // (met_count) the points of the pass
+  uint32_t *stamps, *numbers;
+  // (met_count) points of the pass, their positions about a centre, and working memory
   uint32_t *met;
+  nsvcd__d3 *positions;
+  double *bounds;
   size_t met_count;
-  nsvcd__d3 *positions;  // the same, about the centre
-  double *bounds;        // of the same
-  // (N, NSVCD__HULL) points that the hulls consist of
-  uint32_t *hulls;
 } nsvcd__sorted;
 
 static const nsvcd__piece *nsvcd__sorted_piece(const nsvcd__sorted *sorted, size_t k) {
@@ -43,18 +41,17 @@ static int nsvcd__sorted_build(const nsvcd__pieces *pieces, nsvcd__arena *arena,
   sorted->order = NSVCD__TAKE(arena, uint32_t, count);
   sorted->stamps = NSVCD__TAKE(arena, uint32_t, points);
   sorted->numbers = NSVCD__TAKE(arena, uint32_t, points);
-  sorted->hulls = NSVCD__TAKE(arena, uint32_t, NSVCD__HULL * patches);
   if (arena->failed) return 0;
   for (size_t k = 0; k < count; k++) first[items[k].patch + 1]++;
   for (size_t i = 0; i < patches; i++) first[i + 1] += first[i];
   for (size_t k = count; k-- > 0;) sorted->order[--first[items[k].patch + 1]] = (uint32_t)k;
-  // Now first[i + 1] is the start of patch i.
+  // now first[i + 1] is where patch i begins
   memmove(first, first + 1, patches * sizeof *first);
   first[patches] = count;
 
   size_t most = 0;
   for (size_t i = 0; i < patches; i++) {
-    // a hull's vertices need not be corners of what is listed
+    // the hull's points have numbers of their own
     size_t corners = NSVCD__HULL;
     for (size_t k = first[i]; k < first[i + 1]; k++)
       corners += nsvcd__sorted_piece(sorted, k)->count;
@@ -66,12 +63,27 @@ static int nsvcd__sorted_build(const nsvcd__pieces *pieces, nsvcd__arena *arena,
   return !arena->failed;
 }
 
-// Gives a point a number in this pass, if it is met for the first time.
+static void nsvcd__begin_pass(nsvcd__sorted *sorted) {
+  sorted->pass++;
+  sorted->met_count = 0;
+}
+
+// Numbers a point, when the pass first meets it.
 static void nsvcd__number_point(nsvcd__sorted *sorted, uint32_t point) {
   if (sorted->stamps[point] == sorted->pass) return;
   sorted->stamps[point] = sorted->pass;
   sorted->numbers[point] = (uint32_t)sorted->met_count;
   sorted->met[sorted->met_count++] = point;
+}
+
+// Numbers the corners of the pieces of patch i.
+static void nsvcd__number_corners(nsvcd__sorted *sorted, size_t i) {
+  nsvcd__begin_pass(sorted);
+  for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
+    const nsvcd__piece *piece = nsvcd__sorted_piece(sorted, k);
+    const uint32_t *corners = nsvcd__piece_corners(sorted->pieces, piece);
+    for (size_t j = 0; j < piece->count; j++) nsvcd__number_point(sorted, corners[j]);
+  }
 }
 
 // The points of the pass, about a centre.
@@ -85,18 +97,12 @@ static nsvcd__points nsvcd__place_points(nsvcd__sorted *sorted, nsvcd__d3 centre
 }
 
 #ifndef NSVCD_NO_NETWORK
-// The extremes of patch i, as a body stores them: (TIPS, 3), from its centre in steps of radius /
-// 127.
+// Writes the extremes of patch i as a body stores them: (EXTREMES, 3), from its centre in steps of
+// radius / 127.
 static void nsvcd__extremes_of(nsvcd__sorted *sorted, size_t i, float radius,
                                int8_t *extremes) {
   const double inverse = radius > 0 ? 127 / (double)radius : 0;
-  sorted->pass++;
-  sorted->met_count = 0;
-  for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
-    const nsvcd__piece *piece = nsvcd__sorted_piece(sorted, k);
-    const uint32_t *corners = nsvcd__piece_corners(sorted->pieces, piece);
-    for (size_t j = 0; j < piece->count; j++) nsvcd__number_point(sorted, corners[j]);
-  }
+  nsvcd__number_corners(sorted, i);
   const nsvcd__d3 centre = nsvcd__d3_widen(sorted->pieces->patches->centres[i]);
   const nsvcd__points points = nsvcd__place_points(sorted, centre);
   size_t chosen[NSVCD__HULL] = {0};
