@@ -105,6 +105,7 @@ static nsvcd_result nsvcd__draft_runs(nsvcd__draft *draft) {
   int ok = nsvcd__surface_begin(runs, mesh->vertex_count, draft->options->coarse,
                                 &draft->arena, surface);
   ok = ok && nsvcd__curve_build(mesh, draft->options->convex_radius, &spare, &curve);
+  ok = ok && nsvcd__surface_room(surface, mesh->vertex_count, mesh->vertex_count, triangles);
   if (ok) surface->solids = curve.solids;
   nsvcd_result result = ok ? NSVCD_OK : NSVCD_ERROR_MEMORY;
   for (size_t first = 0; !result && first < runs; first = surface->count) {

@@ -73,6 +73,7 @@ static nsvcd__d3 nsvcd__patch_normal(const nsvcd__sorted *sorted, size_t i) {
   for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
     const nsvcd__piece *piece = nsvcd__sorted_piece(sorted, k);
     const uint32_t *corners = nsvcd__piece_corners(sorted->pieces, piece);
+    if (corners[0] == corners[2]) continue;
     const nsvcd__d3 from = nsvcd__point_at(sorted->pieces, corners[0]);
     nsvcd__d3 area = nsvcd__d3_of(0, 0, 0);
     for (size_t j = 2; j < piece->count; j++) {
@@ -250,11 +251,12 @@ static int nsvcd__surface_begin(size_t n, size_t components, int coarse, nsvcd__
 // Makes room for more stored points, names and triangles. 0 without memory.
 static int nsvcd__surface_room(nsvcd__surface *s, size_t stored, size_t named,
                                size_t triangles) {
+  const size_t counts[4] = {s->vertex_count, s->named_count, s->listed, s->listed};
   const size_t more[4] = {stored, named, triangles, triangles};
   for (size_t k = 0; k < 4; k++) {
     const size_t size = k % 2 ? sizeof(uint32_t) : 3 * sizeof(int16_t);
+    s->lists[k].count = counts[k];
     if (!nsvcd__list_reserve(&s->lists[k], more[k], size, s->arena)) return 0;
-    s->lists[k].count += more[k];
   }
   s->vertices = (int16_t *)s->lists[0].items;
   s->named = (uint32_t *)s->lists[1].items;
