@@ -31,6 +31,12 @@
 #include "../ground/slices.h"
 #include "../encoder/model.h"
 
+// 0: triangles are neither stored nor read
+#ifdef NSVCD_NO_PROOF
+#define NSVCD__PROOF 0
+#else
+#define NSVCD__PROOF 1
+#endif
 // members of a group, and of a sphere of a level
 #define NSVCD__GROUP NSVCD__LANES
 // Groups of a body that are searched at once; bodies with more have levels above them. (Tests define
@@ -173,9 +179,7 @@ static const int8_t *nsvcd__group_extremes(const nsvcd_body *body, size_t g) {
 static const int8_t *nsvcd__body_latents(const nsvcd_body *body) {
   return (const int8_t *)body + nsvcd__latents_begin(body->padded);
 }
-#endif
 
-#ifndef NSVCD_NO_NETWORK
 NSVCDDEF size_t nsvcd_body_size(size_t patches) {
   if (patches < 1 || patches > NSVCD_MAX_PATCHES) return 0;
   const size_t padded = nsvcd__round_up(patches, NSVCD__GROUP);

@@ -21,10 +21,8 @@ typedef struct nsvcd__draft {
   size_t latents_size, geometry_size;
   // without latents only centres
   nsvcd__latents_source latents;
-#ifndef NSVCD_NO_PROOF
   nsvcd__surface surface;
   nsvcd__geometry_source source;
-#endif
 } nsvcd__draft;
 
 static int nsvcd__is_cancelled(const nsvcd_encode_options *options, double done) {
@@ -82,9 +80,8 @@ static nsvcd_result nsvcd__add_region(nsvcd__draft *draft, nsvcd__regions *regio
 #ifndef NSVCD_NO_NETWORK
     if (draft->options->latents) nsvcd__add_latents(draft, &sorted);
 #endif
-#ifndef NSVCD_NO_PROOF
-    if (!draft->options->no_triangles) result = nsvcd__surface_add(&sorted, &draft->surface);
-#endif
+    if (NSVCD__PROOF && !draft->options->no_triangles)
+      result = nsvcd__surface_add(&sorted, &draft->surface);
     draft->count += patches.count;
   }
   if (!result) nsvcd__region_end(regions, &region);
@@ -92,7 +89,6 @@ static nsvcd_result nsvcd__add_region(nsvcd__draft *draft, nsvcd__regions *regio
   return result;
 }
 
-#ifndef NSVCD_NO_PROOF
 // Drafts a mesh that has points or segments, in runs, block by block. There are no latents.
 static nsvcd_result nsvcd__draft_runs(nsvcd__draft *draft) {
   const nsvcd_mesh *mesh = draft->mesh;
@@ -128,7 +124,6 @@ static nsvcd_result nsvcd__draft_runs(nsvcd__draft *draft) {
   nsvcd__arena_free(&spare);
   return result;
 }
-#endif
 
 // Drafts a mesh region by region.
 static nsvcd_result nsvcd__draft_regions(nsvcd__draft *draft) {
@@ -150,12 +145,10 @@ static nsvcd_result nsvcd__draft_regions(nsvcd__draft *draft) {
   latents->extremes = NSVCD__TAKE(arena, int8_t, 3 * NSVCD__EXTREMES * room);
   latents->latents = NSVCD__TAKE(arena, int8_t, NSVCD__LATENT * room);
 #endif
-#ifndef NSVCD_NO_PROOF
-  if (!options->no_triangles)
+  if (NSVCD__PROOF && !options->no_triangles)
     (void)nsvcd__surface_begin(patches, regions.component_count, options->coarse, arena,
                                &draft->surface);
   draft->surface.solids = regions.solids;
-#endif
   const size_t count = regions.count;
   nsvcd_result result = arena->failed ? NSVCD_ERROR_MEMORY : NSVCD_OK;
   for (size_t n = 0; !result && n < count; n++) {
@@ -179,17 +172,13 @@ static nsvcd_result nsvcd__draft_build(const nsvcd_mesh *mesh,
   draft->options = options;
   draft->arena = nsvcd__arena_of(allocator);
   if (nsvcd__is_cancelled(options, 0)) return NSVCD_ERROR_CANCELLED;
-  nsvcd_result result = NSVCD_OK;
-#ifndef NSVCD_NO_PROOF
-  draft->in_runs = options->convex_radius > 0 && nsvcd__has_points(mesh);
-  if (draft->in_runs) result = nsvcd__draft_runs(draft);
-#endif
-  if (!draft->in_runs) result = nsvcd__draft_regions(draft);
+  draft->in_runs = NSVCD__PROOF && options->convex_radius > 0 && nsvcd__has_points(mesh);
+  nsvcd_result result =
+      draft->in_runs ? nsvcd__draft_runs(draft) : nsvcd__draft_regions(draft);
 #ifndef NSVCD_NO_NETWORK
   if (!result && options->latents) draft->latents_size = nsvcd_body_size(draft->count);
 #endif
-#ifndef NSVCD_NO_PROOF
-  if (!result && !options->no_triangles) {
+  if (NSVCD__PROOF && !result && !options->no_triangles) {
     nsvcd__geometry none;
     draft->source.surface = &draft->surface;
     draft->source.mesh = mesh;
@@ -199,7 +188,6 @@ static nsvcd_result nsvcd__draft_build(const nsvcd_mesh *mesh,
         nsvcd__geometry_layout(NULL, draft->count, &draft->source.counts, &none);
     if (!result && !draft->geometry_size) result = NSVCD_ERROR_TOO_LARGE;
   }
-#endif
   if (result) nsvcd__arena_free(&draft->arena);
   return result;
 }
@@ -221,13 +209,10 @@ static nsvcd_result nsvcd__draft_write(nsvcd__draft *draft, void *memory) {
 #ifndef NSVCD_NO_NETWORK
   if (draft->latents_size) result = nsvcd__body_build(latents, memory);
 #endif
-#ifndef NSVCD_NO_PROOF
-  if (!result && draft->geometry_size) {
-    void *to = (char *)memory + draft->latents_size;
+  void *to = (char *)memory + draft->latents_size;
+  if (NSVCD__PROOF && !result && draft->geometry_size)
     result =
         nsvcd__geometry_build(&draft->source, order, latents->open, to, draft->geometry_size);
-  }
-#endif
   if (result || !draft->latents_size || !draft->geometry_size) return result;
   nsvcd_body *b = (nsvcd_body *)memory;
   b->triangles = (uint32_t)draft->mesh->triangle_count;
@@ -261,9 +246,7 @@ static size_t nsvcd__patches_for(const nsvcd_mesh *mesh, float patch_radius, dou
 
 // Checks options and mesh, and fills in the defaults.
 static nsvcd_result nsvcd__encode_resolve(const nsvcd_mesh *mesh, nsvcd_encode_options *o) {
-#ifdef NSVCD_NO_PROOF
-  o->no_triangles = 1;
-#endif
+  if (!NSVCD__PROOF) o->no_triangles = 1;
   if (o->no_triangles) o->latents = 1;
 #ifdef NSVCD_NO_NETWORK
   if (o->latents) return NSVCD_ERROR_LATENTS;
@@ -274,10 +257,8 @@ static nsvcd_result nsvcd__encode_resolve(const nsvcd_mesh *mesh, nsvcd_encode_o
   if (o->patches > NSVCD_MAX_PATCHES) return NSVCD_ERROR_PATCHES;
   const nsvcd_result checked = mesh->indices ? nsvcd__mesh_check(mesh) : NSVCD_OK;
   if (checked) return checked;
-#ifndef NSVCD_NO_PROOF
   if (o->patches == 0 && o->convex_radius > 0 && nsvcd__has_points(mesh))
     o->patches = nsvcd__runs_for(mesh);
-#endif
   if (o->patches > 0 && o->convex_radius > 0) return NSVCD_OK;
   const double area = nsvcd__mesh_area(mesh);
   if (!(area > 0) && !(o->convex_radius > 0)) return NSVCD_ERROR_EMPTY;

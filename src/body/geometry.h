@@ -39,7 +39,6 @@
 #pragma once
 #include "traversal.h"
 
-#ifndef NSVCD_NO_PROOF
 #define NSVCD__HULLS (NSVCD__GROUP * NSVCD__HULL)  // vertices of a group, at most
 #define NSVCD__GEOMETRY_BOX 8                      // floats of `box` and `widest`
 
@@ -78,9 +77,9 @@ typedef struct nsvcd__geometry {
   unsigned kind_bits;
 } nsvcd__geometry;
 
-// The body of triangles in a body, or NULL.
+// The body of triangles in a body; NULL: there is none, or it may not be read.
 static const nsvcd_body *nsvcd__triangles_of(const nsvcd_body *body) {
-  if (body->triangles == 0 || body->weights_id == 0) return body->triangles ? body : NULL;
+  if (!NSVCD__PROOF || body->triangles == 0) return NULL;
   return (const nsvcd_body *)(const void *)((const char *)body + body->inner);
 }
 
@@ -278,7 +277,7 @@ static uint32_t nsvcd__triangle_number(const nsvcd__geometry *f, size_t patch, s
 }
 
 // Does entry n belong to a closed surface?
-static int nsvcd__is_in_solid(const nsvcd__geometry *f, size_t patch, size_t n) {
+static inline int nsvcd__is_in_solid(const nsvcd__geometry *f, size_t patch, size_t n) {
   nsvcd__numbers numbers = nsvcd__numbers_of(f, patch);
   nsvcd__read_number(&numbers, n);
   return numbers.kind >= NSVCD__CLOSED && !f->body->open;
@@ -307,8 +306,8 @@ static void nsvcd__whole_triangle(const nsvcd__geometry *f, uint32_t number,
 
 // The corners (3) of the caller's triangle that entry n is, or is a piece of. In a coarse body those
 // of the entry itself.
-static void nsvcd__patch_triangle(const nsvcd__geometry *f, size_t patch, size_t n,
-                                  nsvcd__d3 *corners) {
+static inline void nsvcd__patch_triangle(const nsvcd__geometry *f, size_t patch, size_t n,
+                                         nsvcd__d3 *corners) {
   const nsvcd__patch_points points = nsvcd__points_of(f, patch);
   for (size_t k = 0; k < 3; k++) {
     const size_t i = nsvcd__triangle_corner(f, patch, n, k);
@@ -474,13 +473,8 @@ static void nsvcd__geometry_finish(nsvcd_body *b, float off) {
   for (size_t g = 0; g < nsvcd__body_groups(b); g++) nsvcd__finish_group(b, g);
   b->checksum = nsvcd__body_checksum(b);
 }
-#endif  // NSVCD_NO_PROOF
-
 // The radius of a body's sphere, its convex radius included.
 static float nsvcd__whole_radius(const nsvcd_body *body) {
-#ifndef NSVCD_NO_PROOF
   const nsvcd_body *triangles = nsvcd__triangles_of(body);
-  if (triangles) return body->radius + nsvcd__counts_of(triangles)->convex_radius;
-#endif
-  return body->radius;
+  return body->radius + (triangles ? nsvcd__counts_of(triangles)->convex_radius : 0);
 }

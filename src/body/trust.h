@@ -90,7 +90,6 @@ static int nsvcd__extremes_are_sound(const nsvcd_body *b) {
 
 // ---- the triangles
 
-#ifndef NSVCD_NO_PROOF
 // Do `count` + 1 numbers rise from 0 to `last`?
 static int nsvcd__rise(const uint32_t *first, size_t count, size_t last) {
   int rise = first[0] == 0 && first[count] == last;
@@ -149,8 +148,6 @@ static int nsvcd__patch_is_sound(const nsvcd__geometry *f, size_t i) {
   }
   return at == end;
 }
-#endif  // NSVCD_NO_PROOF
-
 // ---- whole bodies
 
 // Are the sizes in a blob's header right, and is it at most `size` bytes long?
@@ -167,7 +164,6 @@ static int nsvcd__header_is_sound(const nsvcd_body *b, size_t size) {
 // counts and indices, the spheres, and that numbers are in range. They may misstate the surface, but
 // nothing computed from them overflows.
 static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
-#ifndef NSVCD_NO_PROOF
   if (b->inner != 0 || b->triangles == 0 || !nsvcd__spheres_are_sound(b)) return 0;
   const size_t padded = b->padded;
   const size_t groups = nsvcd__body_groups(b);
@@ -211,22 +207,12 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
     if (slab.across < 0 || f.steps[i] < 0 || f.margins[i] < 0 || f.errors[i] < 0) return 0;
     if (f.errors[i] > nsvcd__widest_quantization(&f)) return 0;
   }
-#else
-  (void)b;
-  (void)size;  // nothing reads them
-#endif
   return 1;
 }
 
 // Is a body sound, whose header is? Does not check the checksum.
 static int nsvcd__body_is_sound(const nsvcd_body *b) {
-  if (b->weights_id == 0) {
-#ifndef NSVCD_NO_PROOF
-    return nsvcd__triangles_are_sound(b, b->size);
-#else
-    return 0;
-#endif
-  }
+  if (b->weights_id == 0) return NSVCD__PROOF && nsvcd__triangles_are_sound(b, b->size);
   if (b->size < nsvcd__latents_begin(b->padded)) return 0;
   if (!nsvcd__spheres_are_sound(b) || !nsvcd__areas_are_sound(b)) return 0;
   if (b->radius < NSVCD_MIN_RADIUS) return 0;
@@ -247,7 +233,7 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
   if (!nsvcd__header_is_sound(inner, left) || inner->size != left) return 0;
   if (inner->weights_id != 0 || inner->open != b->open) return 0;
   if (inner->patches != b->patches || inner->triangles != b->triangles) return 0;
-  return nsvcd__triangles_are_sound(inner, left);
+  return !NSVCD__PROOF || nsvcd__triangles_are_sound(inner, left);
 }
 
 // Is this a body, by its header? If it does not begin as one (a text, a nsvcd_mesh), no more than its
@@ -304,7 +290,6 @@ static void nsvcd__scale_latents(nsvcd_body *b, float scale) {
   b->checksum = nsvcd__body_checksum(b);
 }
 
-#ifndef NSVCD_NO_PROOF
 // Scales a body of triangles. What rounding does to vertices and to the convex radius widens the
 // margins and errors, and is what vertices are off by.
 static void nsvcd__scale_triangles(nsvcd_body *b, float scale) {
@@ -338,7 +323,6 @@ static void nsvcd__scale_triangles(nsvcd_body *b, float scale) {
   for (size_t i = 0; i < 3 * (size_t)f.counts->components; i++) f.seeds[i] *= scale;
   nsvcd__geometry_finish(b, off_mesh > 0 ? nsvcd__above(off_mesh) : 0);
 }
-#endif
 
 NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void *memory,
                                        size_t capacity, const nsvcd_body **scaled) {
@@ -347,10 +331,8 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
   if (result) return result;
   if (!nsvcd__is_finite(scale) || scale <= 0) return NSVCD_ERROR_SCALE;
   if (capacity < body->size || !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
-#ifdef NSVCD_NO_PROOF
-  // the triangles would keep their size, and loading did not check them
-  if (body->triangles) return NSVCD_ERROR_TRIANGLES;
-#endif
+  // else the triangles would keep their size, and loading did not check them
+  if (!NSVCD__PROOF && body->triangles) return NSVCD_ERROR_TRIANGLES;
   const float radius = nsvcd__whole_radius(body);
   if (!nsvcd__spheres_fit(body, radius, scale)) return NSVCD_ERROR_SCALE;
   const double most = (double)NSVCD__MAX_LENGTH / (double)scale;
@@ -358,17 +340,13 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
   for (size_t i = 0; i < numbers; i++) {
     if (fabs((double)nsvcd__body_areas(body)[i]) > most * most) return NSVCD_ERROR_SCALE;
   }
-#ifndef NSVCD_NO_PROOF
   const nsvcd_body *triangles = nsvcd__triangles_of(body);
   if (triangles && !nsvcd__spheres_fit(triangles, radius, scale)) return NSVCD_ERROR_SCALE;
-#endif
   // may be in place
   memmove(memory, body, body->size);
   nsvcd_body *b = (nsvcd_body *)memory;
-#ifndef NSVCD_NO_PROOF
   void *inner = (char *)memory + b->inner;
   if (triangles) nsvcd__scale_triangles((nsvcd_body *)inner, scale);
-#endif
   if (b->weights_id) nsvcd__scale_latents(b, scale);
   *scaled = b;
   return NSVCD_OK;
@@ -387,7 +365,6 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
   facts.open = (int)body->open;
   for (size_t i = 0; i < body->patches; i++)
     facts.mean_patch_radius += nsvcd__body_r(body)[i] / (float)body->patches;
-#ifndef NSVCD_NO_PROOF
   const nsvcd_body *triangles = nsvcd__triangles_of(body);
   if (triangles) {
     const nsvcd__geometry f = nsvcd__geometry_of(triangles);
@@ -401,7 +378,6 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
     facts.open_components = f.counts->open_solids;
     facts.open_edges = f.counts->open_edges;
   }
-#endif
   return facts;
 }
 

@@ -3,7 +3,7 @@
 #include "../surface/surface.h"
 #include "geometry.h"
 
-#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
+#ifndef NSVCD_NO_ENCODER
 // Writes the codes of patch i; NULL: only counts their bytes. Returns how many.
 static size_t nsvcd__numbers_write(const nsvcd__surface *s, size_t i, unsigned char *to) {
   size_t size = 0;
@@ -228,4 +228,4 @@ static nsvcd_result nsvcd__geometry_build(nsvcd__geometry_source *source,
   nsvcd__geometry_finish(b, 0);
   return b->radius + counts->convex_radius < NSVCD_MIN_RADIUS ? NSVCD_ERROR_EMPTY : NSVCD_OK;
 }
-#endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
+#endif  // NSVCD_NO_ENCODER

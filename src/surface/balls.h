@@ -44,7 +44,6 @@ static int nsvcd__solve_weights(const nsvcd__d3 *points, size_t count, int ball,
   return 1;
 }
 
-#ifndef NSVCD_NO_PROOF
 // The least float that is not below x.
 static float nsvcd__float_above(double x) {
   const float rounded = nsvcd__to_float(x);
@@ -126,5 +125,4 @@ static nsvcd__d3 nsvcd__ball_centre(nsvcd__points points) {
   }
   return ball.centre;
 }
-#endif  // NSVCD_NO_PROOF
 #endif  // NSVCD_NO_ENCODER

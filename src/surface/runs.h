@@ -3,7 +3,7 @@
 #pragma once
 #include "pieces.h"
 
-#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
+#ifndef NSVCD_NO_ENCODER
 // triangles of a run, if there are many: no more points than a hull can have
 #define NSVCD__RUN_LENGTH 16
 // runs of a block, so that its memory fits in caches
@@ -198,4 +198,4 @@ static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, siz
   }
   return 1;
 }
-#endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
+#endif  // NSVCD_NO_ENCODER

@@ -4,7 +4,7 @@
 #include "../ground/spheres.h"
 #include "balls.h"
 
-#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
+#ifndef NSVCD_NO_ENCODER
 // An extent along a direction.
 typedef struct nsvcd__drange {
   double low, high;
@@ -127,4 +127,4 @@ static nsvcd__slab nsvcd__fit_slab(nsvcd__points points, nsvcd__d3 normal, doubl
   slab.across = nsvcd__float_above(across * (1 + 1e-6) + margin);
   return slab;
 }
-#endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
+#endif  // NSVCD_NO_ENCODER

@@ -16,7 +16,7 @@
 #include "slabs.h"
 #include "sorted.h"
 
-#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
+#ifndef NSVCD_NO_ENCODER
 // as many as corners of 16 bits can number
 #define NSVCD__PATCH_VERTICES 65536u
 
@@ -287,4 +287,4 @@ static nsvcd_result nsvcd__surface_add(nsvcd__sorted *sorted, nsvcd__surface *s)
   }
   return NSVCD_OK;
 }
-#endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
+#endif  // NSVCD_NO_ENCODER
