@@ -37,7 +37,7 @@ static void put_in_order(size_t points, uint16_t *order) {
 
 static const nsvcd_body *build(size_t points, blob *memory) {
   uint16_t order[NSVCD_SMALL_PATCHES];
-  nsvcd__latents_source source;
+  nsvcd__latents source;
   put_in_order(points, order);
   for (size_t k = 0; k < sizeof tips; k++) {
     // of a cube about the ball: what it parts, the ball does too; or within the ball

@@ -167,10 +167,10 @@ static void proof_forge_floats(const nsvcd_body *body, const nsvcd__geometry *f)
 static void proof_forge_counts(const nsvcd_body *body, const nsvcd__geometry *f) {
   const size_t counts = nsvcd__spheres_size(f->body->padded);
   // what is told of components is not known to be wrong
-  for (size_t k = 0; k < offsetof(nsvcd__geometry_counts, solids) / 4; k++) {
+  for (size_t k = 0; k < offsetof(nsvcd__counts, solids) / 4; k++) {
     uint32_t value;
     // how round it is has tests of its own, in test_round.c
-    if (4 * k == offsetof(nsvcd__geometry_counts, convex_radius)) continue;
+    if (4 * k == offsetof(nsvcd__counts, convex_radius)) continue;
     memcpy(&value, (const char *)f->body + counts + 4 * k, 4);
     const uint32_t bad[6] = {value + 1,   value - 1,   0xffffffffu,
                              0x80000000u, 0x55555556u, value ^ 0x10000u};
@@ -193,7 +193,7 @@ static void proof_forge_counts(const nsvcd_body *body, const nsvcd__geometry *f)
   const unsigned char endless[5] = {0x80, 0x80, 0x80, 0x80, 0x80};
   for (size_t i = 0; i < f->body->patches; i++) {
     const unsigned char *at = proof_numbers(f, i);
-    const unsigned char *end = f->triangle_codes + f->first_byte[i + 1];
+    const unsigned char *end = f->codes + f->first_byte[i + 1];
     if (end - at >= 5) proof_expect_refusal(body, proof_offset(f, at), far, 5);
     if (end - at >= 5) proof_expect_refusal(body, proof_offset(f, at), endless, 5);
     if (end > at) proof_expect_refusal(body, proof_offset(f, end - 1), endless, 1);

@@ -319,7 +319,7 @@ static int without_lean(scene *s, shapes_rng *rng, size_t n) {
     nsvcd__f3 centre = nsvcd__f3_load(at);
     memcpy(latent, nsvcd__body_latents(from), sizeof latent);
     for (size_t i = 0; i < 3; i++) latent[NSVCD_W_CHANNELS * i] = 0;
-    const nsvcd__latents_source source = {1, &centre, &radius, &none, own_tips, latent, &first, 1};
+    const nsvcd__latents source = {1, &centre, &radius, &none, own_tips, latent, &first, 1};
     const nsvcd_body **body = k ? &s->fixed : &s->moving;
     CHECK_EQ(nsvcd__body_build(&source, scaled_memory[k].at), NSVCD_OK);
     *body = (const nsvcd_body *)(const void *)scaled_memory[k].at;

@@ -260,7 +260,7 @@ static void nsvcd__body_order(nsvcd__ordering all) {
 }
 
 // What a body of latents is built of.
-typedef struct nsvcd__latents_source {
+typedef struct nsvcd__latents {
   size_t count;        // N
   nsvcd__f3 *centres;  // (N)
   float *radii;        // (N)
@@ -270,7 +270,7 @@ typedef struct nsvcd__latents_source {
   // (N) of the patches
   const uint16_t *order;
   int open;
-} nsvcd__latents_source;
+} nsvcd__latents;
 
 // Begins a body in `memory`: zeros, the header, and the padding of the patches' spheres.
 static nsvcd_body *nsvcd__body_begin(void *memory, size_t size, size_t patches, int open) {
@@ -399,9 +399,9 @@ static int nsvcd__areas_are_sound(const nsvcd_body *body) {
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_NETWORK)
 // Builds a body of latents in `memory`, nsvcd_body_size bytes. NUMBER if something is out of range,
 // EMPTY if it is too small.
-static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void *memory) {
-  const size_t count = source->count;
-  nsvcd_body *b = nsvcd__body_begin(memory, nsvcd_body_size(count), count, source->open);
+static nsvcd_result nsvcd__body_build(const nsvcd__latents *all, void *memory) {
+  const size_t count = all->count;
+  nsvcd_body *b = nsvcd__body_begin(memory, nsvcd_body_size(count), count, all->open);
   const size_t padded = b->padded;
   b->weights_id = NSVCD_WEIGHTS_ID;
   float *spheres = (float *)(b + 1);
@@ -409,14 +409,14 @@ static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void 
   int8_t *extremes = (int8_t *)nsvcd__writable(b, nsvcd__group_extremes(b, 0));
   int8_t *latents = (int8_t *)nsvcd__writable(b, nsvcd__body_latents(b));
   for (size_t i = 0; i < count; i++) {
-    const size_t from = source->order[i];
-    const nsvcd__sphere sphere = {source->centres[from], source->radii[from]};
+    const size_t n = all->order[i];
+    const nsvcd__sphere sphere = {all->centres[n], all->radii[n]};
     nsvcd__sphere_store(sphere, spheres, padded, i);
-    nsvcd__f3_put(source->areas[from], areas + i, padded);
+    nsvcd__f3_put(all->areas[n], areas + i, padded);
     int8_t *group = extremes + 3 * NSVCD__EXTREMES * (i - i % NSVCD__GROUP) + i % NSVCD__GROUP;
     for (size_t k = 0; k < 3 * NSVCD__EXTREMES; k++)
-      group[NSVCD__GROUP * k] = source->extremes[3 * NSVCD__EXTREMES * from + k];
-    memcpy(latents, source->latents + NSVCD__LATENT * from, NSVCD__LATENT);
+      group[NSVCD__GROUP * k] = all->extremes[3 * NSVCD__EXTREMES * n + k];
+    memcpy(latents, all->latents + NSVCD__LATENT * n, NSVCD__LATENT);
     latents += NSVCD__LATENT;
   }
   // If there are levels above the groups, all levels have sums over what is below.

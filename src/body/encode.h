@@ -20,9 +20,9 @@ typedef struct nsvcd__draft {
   // bytes; 0: without
   size_t latents_size, geometry_size;
   // without latents only centres
-  nsvcd__latents_source latents;
+  nsvcd__latents latents;
   nsvcd__surface surface;
-  nsvcd__geometry_source source;
+  nsvcd__writer writer;
 } nsvcd__draft;
 
 static int nsvcd__is_cancelled(const nsvcd_encode_options *options, double done) {
@@ -34,7 +34,7 @@ static int nsvcd__is_cancelled(const nsvcd_encode_options *options, double done)
 static void nsvcd__add_latents(nsvcd__draft *draft, nsvcd__sorted *sorted) {
   const nsvcd__region *region = sorted->pieces->region;
   const nsvcd__patches *patches = sorted->pieces->patches;
-  const nsvcd__latents_source *out = &draft->latents;
+  const nsvcd__latents *out = &draft->latents;
   for (size_t i = 0; i < patches->count; i++) {
     const size_t to = draft->count + i;
     const float radius = patches->radii[i];
@@ -136,7 +136,7 @@ static nsvcd_result nsvcd__draft_regions(nsvcd__draft *draft) {
     nsvcd__arena_free(&spare);
     return NSVCD_ERROR_MEMORY;
   }
-  nsvcd__latents_source *latents = &draft->latents;
+  nsvcd__latents *latents = &draft->latents;
   latents->centres = NSVCD__TAKE(arena, nsvcd__f3, patches);
 #ifndef NSVCD_NO_NETWORK
   const size_t room = options->latents ? patches : 0;
@@ -179,13 +179,12 @@ static nsvcd_result nsvcd__draft_build(const nsvcd_mesh *mesh,
   if (!result && options->latents) draft->latents_size = nsvcd_body_size(draft->count);
 #endif
   if (NSVCD__PROOF && !result && !options->no_triangles) {
-    nsvcd__geometry none;
-    draft->source.surface = &draft->surface;
-    draft->source.mesh = mesh;
-    if (!nsvcd__geometry_count(&draft->source, &draft->arena)) result = NSVCD_ERROR_MEMORY;
-    draft->source.counts.convex_radius = options->convex_radius;
-    draft->geometry_size =
-        nsvcd__geometry_layout(NULL, draft->count, &draft->source.counts, &none);
+    nsvcd__writer *w = &draft->writer;
+    w->surface = &draft->surface;
+    w->mesh = mesh;
+    if (!nsvcd__geometry_count(w, &draft->arena)) result = NSVCD_ERROR_MEMORY;
+    w->counts.convex_radius = options->convex_radius;
+    draft->geometry_size = nsvcd__geometry_layout(NULL, draft->count, &w->counts, &w->to);
     if (!result && !draft->geometry_size) result = NSVCD_ERROR_TOO_LARGE;
   }
   if (result) nsvcd__arena_free(&draft->arena);
@@ -196,7 +195,7 @@ static nsvcd_result nsvcd__draft_build(const nsvcd_mesh *mesh,
 // NUMBER, EMPTY.
 static nsvcd_result nsvcd__draft_write(nsvcd__draft *draft, void *memory) {
   const size_t count = draft->count;
-  nsvcd__latents_source *latents = &draft->latents;
+  nsvcd__latents *latents = &draft->latents;
   latents->count = count;
   latents->open = draft->options->open;
   uint16_t *order = NSVCD__TAKE(&draft->arena, uint16_t, 2 * count);
@@ -212,7 +211,7 @@ static nsvcd_result nsvcd__draft_write(nsvcd__draft *draft, void *memory) {
   void *to = (char *)memory + draft->latents_size;
   if (NSVCD__PROOF && !result && draft->geometry_size)
     result =
-        nsvcd__geometry_build(&draft->source, order, latents->open, to, draft->geometry_size);
+        nsvcd__geometry_build(&draft->writer, order, latents->open, to, draft->geometry_size);
   if (result || !draft->latents_size || !draft->geometry_size) return result;
   nsvcd_body *b = (nsvcd_body *)memory;
   b->triangles = (uint32_t)draft->mesh->triangle_count;

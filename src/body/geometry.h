@@ -2,7 +2,7 @@
 //
 // A body of triangles. Its spheres are the least ones about the surface in each patch. Behind them:
 //
-//   counts          nsvcd__geometry_counts
+//   counts          nsvcd__counts
 //   box             (2, 3)   float: least and greatest coordinates of the surface
 //   widest          (2)      float: the greatest of `errors`; and how far the mesh's vertices are
 //                            off, metres: 0, except in bodies that are scaled or coarse
@@ -42,13 +42,13 @@
 #define NSVCD__HULLS (NSVCD__GROUP * NSVCD__HULL)  // vertices of a group, at most
 #define NSVCD__GEOMETRY_BOX 8                      // floats of `box` and `widest`
 
-typedef struct nsvcd__geometry_counts {
+typedef struct nsvcd__counts {
   // L, entries of all patches
   uint32_t listed;
   // V, stored points
   uint32_t vertices;
-  uint32_t components;           // C
-  uint32_t triangle_codes_size;  // B
+  uint32_t components;  // C
+  uint32_t code_bytes;  // B
   // metres that the body extends beyond its triangles
   float convex_radius;
   // W, R, K; all 0: the body is coarse
@@ -59,18 +59,18 @@ typedef struct nsvcd__geometry_counts {
   uint32_t is_mixed;
   // metres: corners this near count as one in what is closed
   float gap;
-} nsvcd__geometry_counts;
+} nsvcd__counts;
 
 // Where everything is in a body of triangles. Only who builds or scales one writes through this.
 typedef struct nsvcd__geometry {
   nsvcd_body *body;
-  nsvcd__geometry_counts *counts;
+  nsvcd__counts *counts;
   float *box, *slabs, *group_slabs, *steps, *margins, *errors, *seeds, *positions;
   uint32_t *first_vertex, *first_own, *first_reference, *first_triangle, *first_byte;
   uint32_t *first_seed, *cut, *cut_corners;
   unsigned char *references;
   int16_t *vertices;
-  unsigned char *triangle_codes;
+  unsigned char *codes;
   uint8_t *hull_counts;
   size_t reference_bytes;  // of each: 2 or 4
   // of an entry's code: 1 or 2
@@ -83,9 +83,9 @@ static const nsvcd_body *nsvcd__triangles_of(const nsvcd_body *body) {
   return (const nsvcd_body *)(const void *)((const char *)body + body->inner);
 }
 
-static const nsvcd__geometry_counts *nsvcd__counts_of(const nsvcd_body *body) {
+static const nsvcd__counts *nsvcd__counts_of(const nsvcd_body *body) {
   const char *at = (const char *)body + nsvcd__spheres_size(body->padded);
-  return (const nsvcd__geometry_counts *)(const void *)at;
+  return (const nsvcd__counts *)(const void *)at;
 }
 
 // The next `count` numbers in a body; NULL: only counts them.
@@ -99,15 +99,14 @@ static void *nsvcd__pass(nsvcd_body *body, uint64_t *at, uint64_t count, size_t 
 // Lays out a body of `patches` patches; NULL: only finds its size. Returns that, or 0 if it takes
 // more than 32 bits.
 static size_t nsvcd__geometry_layout(nsvcd_body *body, size_t patches,
-                                     const nsvcd__geometry_counts *counts,
-                                     nsvcd__geometry *f) {
+                                     const nsvcd__counts *counts, nsvcd__geometry *f) {
   const size_t padded = nsvcd__round_up(patches, NSVCD__GROUP);
   const size_t starts = patches + 1;
   uint64_t at = nsvcd__spheres_size(padded);
   f->body = body;
   f->reference_bytes = counts->positions <= 65536 ? 2 : 4;
   f->kind_bits = 1 + (counts->is_mixed != 0);
-  f->counts = NSVCD__PASS(nsvcd__geometry_counts, 1);
+  f->counts = NSVCD__PASS(nsvcd__counts, 1);
   f->box = NSVCD__PASS(float, NSVCD__GEOMETRY_BOX);
   f->slabs = NSVCD__PASS(float, 6 * padded);
   f->group_slabs = NSVCD__PASS(float, 6 * nsvcd__group_slots(padded));
@@ -127,7 +126,7 @@ static size_t nsvcd__geometry_layout(nsvcd_body *body, size_t patches,
   const uint64_t references = (uint64_t)f->reference_bytes * counts->references;
   f->references = NSVCD__PASS(unsigned char, references);
   f->vertices = NSVCD__PASS(int16_t, (uint64_t)3 * counts->vertices + NSVCD__LANES);
-  f->triangle_codes = NSVCD__PASS(unsigned char, counts->triangle_codes_size);
+  f->codes = NSVCD__PASS(unsigned char, counts->code_bytes);
   f->hull_counts = NSVCD__PASS(uint8_t, patches);
   at += NSVCD_ALIGNMENT - at % NSVCD_ALIGNMENT;
   return at > 0xffffffffu ? 0 : (size_t)at;
@@ -142,7 +141,7 @@ static nsvcd__geometry nsvcd__geometry_of(const nsvcd_body *body) {
   return f;
 }
 
-static float nsvcd__widest_quantization(const nsvcd__geometry *f) {
+static float nsvcd__widest_error(const nsvcd__geometry *f) {
   return f->box[6];
 }
 // How far nsvcd__patch_triangle may be off the mesh's triangle.
@@ -214,7 +213,7 @@ NSVCD__INLINE const float *nsvcd__position_of(const nsvcd__geometry *f, size_t p
 // The number, in the patch, of corner k (0..2) of entry n.
 static size_t nsvcd__triangle_corner(const nsvcd__geometry *f, size_t patch, size_t n,
                                      size_t k) {
-  const unsigned char *corners = f->triangle_codes + f->first_byte[patch];
+  const unsigned char *corners = f->codes + f->first_byte[patch];
   const size_t at = 3 * (n - f->first_triangle[patch]) + k;
   if (nsvcd__corner_bytes(nsvcd__points_of(f, patch).all) == 1) return corners[at];
   uint16_t corner;
@@ -250,7 +249,7 @@ static nsvcd__numbers nsvcd__numbers_of(const nsvcd__geometry *f, size_t patch) 
   const size_t bytes = nsvcd__corner_bytes(nsvcd__points_of(f, patch).all);
   const size_t triangles = f->first_triangle[patch + 1] - f->first_triangle[patch];
   nsvcd__numbers out;
-  out.at = f->triangle_codes + f->first_byte[patch] + 3 * triangles * bytes;
+  out.at = f->codes + f->first_byte[patch] + 3 * triangles * bytes;
   out.next = f->first_triangle[patch];
   out.number = 0;
   out.kind = NSVCD__SHEET;
@@ -327,18 +326,18 @@ static inline void nsvcd__patch_triangle(const nsvcd__geometry *f, size_t patch,
 
 // ---- what follows from the patches
 
-typedef struct nsvcd__slab_of_hulls {
+typedef struct nsvcd__dslab {
   double low, high, across;
-} nsvcd__slab_of_hulls;
+} nsvcd__dslab;
 
 // The extent of a group along a direction and across it, from the centre of its sphere. Stops once
 // that is no thinner than `most`.
-static nsvcd__slab_of_hulls nsvcd__slab_of_group(const nsvcd__geometry *f, size_t g,
-                                                 nsvcd__d3 normal, double most) {
+static nsvcd__dslab nsvcd__slab_of_group(const nsvcd__geometry *f, size_t g, nsvcd__d3 normal,
+                                         double most) {
   const size_t first = NSVCD__GROUP * g;
   const nsvcd__spheres groups = nsvcd__groups_of(f->body);
   const nsvcd__d3 centre = nsvcd__d3_widen(nsvcd__centre_of(groups, g));
-  nsvcd__slab_of_hulls slab = {HUGE_VAL, -HUGE_VAL, 0};
+  nsvcd__dslab slab = {HUGE_VAL, -HUGE_VAL, 0};
   for (size_t i = first; i < first + NSVCD__GROUP && i < f->body->patches; i++) {
     if (slab.high - slab.low >= most) break;
     const nsvcd__vertices vertices = nsvcd__vertices_of(f, i);
@@ -372,7 +371,7 @@ static void nsvcd__finish_group(nsvcd_body *b, size_t g) {
     normals[0] = nsvcd__d3_fma(sign, normal, normals[0]);
   }
   nsvcd__d3 best = {0, 0, 1};
-  nsvcd__slab_of_hulls thinnest = {0, HUGE_VAL, 0};
+  nsvcd__dslab thinnest = {0, HUGE_VAL, 0};
   for (size_t k = 0; k < 1 + NSVCD__GROUP; k += k == 0 ? 1 : 4) {
     const double length = nsvcd__d3_length(normals[k]);
     if (!(length > 1e-3)) continue;
@@ -380,7 +379,7 @@ static void nsvcd__finish_group(nsvcd_body *b, size_t g) {
     const nsvcd__d3 shorter = nsvcd__d3_scale(normals[k], 0.9999998 / length);
     const nsvcd__d3 unit = nsvcd__d3_widen(nsvcd__f3_round(shorter));
     const double most = thinnest.high - thinnest.low;
-    const nsvcd__slab_of_hulls slab = nsvcd__slab_of_group(&f, g, unit, most);
+    const nsvcd__dslab slab = nsvcd__slab_of_group(&f, g, unit, most);
     if (!(slab.high - slab.low < most)) continue;
     thinnest = slab;
     best = unit;

@@ -99,14 +99,14 @@ static int nsvcd__rise(const uint32_t *first, size_t count, size_t last) {
 
 // Do all arrays of patches, groups and numbers of vertices stay within each other?
 static int nsvcd__are_laid_out(const nsvcd__geometry *f) {
-  const nsvcd__geometry_counts *n = f->counts;
+  const nsvcd__counts *n = f->counts;
   const size_t patches = f->body->patches;
   const size_t groups = nsvcd__body_groups(f->body);
   if (!nsvcd__rise(f->first_vertex, patches, n->vertices)) return 0;
   if (!nsvcd__rise(f->first_own, patches, f->first_own[patches])) return 0;
   if (!nsvcd__rise(f->first_reference, patches, n->references)) return 0;
   if (!nsvcd__rise(f->first_triangle, patches, n->listed)) return 0;
-  if (!nsvcd__rise(f->first_byte, patches, n->triangle_codes_size)) return 0;
+  if (!nsvcd__rise(f->first_byte, patches, n->code_bytes)) return 0;
   if (!nsvcd__rise(f->first_seed, groups, n->components)) return 0;
   if (f->first_own[patches] > n->positions) return 0;
   for (size_t i = 0; i < n->references; i++)
@@ -135,8 +135,8 @@ static int nsvcd__patch_is_sound(const nsvcd__geometry *f, size_t i) {
     if (nsvcd__triangle_corner(f, i, triangle + n / 3, n % 3) >= points.all) return 0;
   }
   // as many codes follow, of triangles that exist, and nothing else
-  const unsigned char *at = f->triangle_codes + (size_t)corners_end;
-  const unsigned char *end = f->triangle_codes + f->first_byte[i + 1];
+  const unsigned char *at = f->codes + (size_t)corners_end;
+  const unsigned char *end = f->codes + f->first_byte[i + 1];
   uint32_t number = 0;
   for (size_t n = 0; n < triangles; n++) {
     const size_t left = (size_t)(end - at);
@@ -168,7 +168,7 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
   const size_t padded = b->padded;
   const size_t groups = nsvcd__body_groups(b);
   const size_t slots = nsvcd__group_slots(padded);
-  const nsvcd__geometry_counts *counts = nsvcd__counts_of(b);
+  const nsvcd__counts *counts = nsvcd__counts_of(b);
   if (nsvcd__spheres_size(padded) + sizeof *counts > size) return 0;
   if (counts->open_solids > counts->solids || counts->is_mixed > 1) return 0;
   if (!nsvcd__is_length(counts->gap) || !nsvcd__is_length(counts->convex_radius)) return 0;
@@ -205,7 +205,7 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
   for (size_t i = 0; i < padded; i++) {
     const nsvcd__slab slab = nsvcd__slab_at(f.slabs, padded, i);
     if (slab.across < 0 || f.steps[i] < 0 || f.margins[i] < 0 || f.errors[i] < 0) return 0;
-    if (f.errors[i] > nsvcd__widest_quantization(&f)) return 0;
+    if (f.errors[i] > nsvcd__widest_error(&f)) return 0;
   }
   return 1;
 }

@@ -24,27 +24,28 @@ static size_t nsvcd__numbers_write(const nsvcd__surface *s, size_t i, unsigned c
 }
 
 // What a body of triangles is written from.
-typedef struct nsvcd__geometry_source {
+typedef struct nsvcd__writer {
   nsvcd__surface *surface;
   const nsvcd_mesh *mesh;
   // (vertices of the mesh) their numbers in the body, from 1; 0: none yet
   uint32_t *numbers;
   // (triangles) 1: stored in pieces
   uint8_t *cut;
-  nsvcd__geometry_counts counts;
-} nsvcd__geometry_source;
+  nsvcd__counts counts;
+  nsvcd__geometry to;
+} nsvcd__writer;
 
-static size_t nsvcd__source_corner(const nsvcd_mesh *mesh, size_t t, size_t k) {
+static size_t nsvcd__mesh_corner(const nsvcd_mesh *mesh, size_t t, size_t k) {
   return mesh->indices ? mesh->indices[3 * t + k] : t;
 }
 
-// Fills in the source: counts what the body of a complete surface will have. 0 without memory.
-static int nsvcd__geometry_count(nsvcd__geometry_source *source, nsvcd__arena *arena) {
-  const nsvcd__surface *s = source->surface;
-  const nsvcd_mesh *mesh = source->mesh;
-  nsvcd__geometry_counts *counts = &source->counts;
-  source->numbers = NSVCD__TAKE(arena, uint32_t, s->coarse ? 0 : mesh->vertex_count);
-  source->cut = NSVCD__TAKE(arena, uint8_t, s->coarse ? 0 : mesh->triangle_count);
+// Fills in the writer: counts what the body of a complete surface will have. 0 without memory.
+static int nsvcd__geometry_count(nsvcd__writer *w, nsvcd__arena *arena) {
+  const nsvcd__surface *s = w->surface;
+  const nsvcd_mesh *mesh = w->mesh;
+  nsvcd__counts *counts = &w->counts;
+  w->numbers = NSVCD__TAKE(arena, uint32_t, s->coarse ? 0 : mesh->vertex_count);
+  w->cut = NSVCD__TAKE(arena, uint8_t, s->coarse ? 0 : mesh->triangle_count);
   if (arena->failed) return 0;
   memset(counts, 0, sizeof *counts);
   counts->listed = (uint32_t)s->listed;
@@ -68,40 +69,39 @@ static int nsvcd__geometry_count(nsvcd__geometry_source *source, nsvcd__arena *a
     bytes += (uint64_t)3 * triangles * nsvcd__corner_bytes(points);
     bytes += nsvcd__numbers_write(s, i, NULL);
     for (size_t n = first; n < first + 3 * triangles && !s->coarse; n++)
-      if (s->corners[n] < stored) source->cut[s->ids[n / 3] & NSVCD__NUMBER] = 1;
+      if (s->corners[n] < stored) w->cut[s->ids[n / 3] & NSVCD__NUMBER] = 1;
   }
   for (size_t n = 0; n < s->named_count; n++) {
-    counts->positions += !source->numbers[s->named[n]];
-    source->numbers[s->named[n]] = 1;
+    counts->positions += !w->numbers[s->named[n]];
+    w->numbers[s->named[n]] = 1;
   }
   counts->references = (uint32_t)s->named_count - counts->positions;
   for (size_t n = 0; n < 3 * mesh->triangle_count && !s->coarse; n++) {
-    if (!source->cut[n / 3]) continue;
-    const size_t v = nsvcd__source_corner(mesh, n / 3, n % 3);
-    counts->positions += !source->numbers[v];
-    source->numbers[v] = 1;
+    if (!w->cut[n / 3]) continue;
+    const size_t v = nsvcd__mesh_corner(mesh, n / 3, n % 3);
+    counts->positions += !w->numbers[v];
+    w->numbers[v] = 1;
     counts->cut += n % 3 == 0;
   }
-  if (!s->coarse) memset(source->numbers, 0, mesh->vertex_count * sizeof *source->numbers);
+  if (!s->coarse) memset(w->numbers, 0, mesh->vertex_count * sizeof *w->numbers);
   // with more the body is refused as too large
-  counts->triangle_codes_size = bytes < 0xffffffffu ? (uint32_t)bytes : 0xffffffffu;
+  counts->code_bytes = bytes < 0xffffffffu ? (uint32_t)bytes : 0xffffffffu;
   return 1;
 }
 
 // Gives a vertex the next number, and writes its position. Returns the number, from 0.
-static uint32_t nsvcd__position_write(nsvcd__geometry_source *source, const nsvcd__geometry *f,
-                                      size_t vertex, uint32_t *count) {
-  const float *from = source->mesh->positions + 3 * vertex;
-  memcpy(f->positions + 3 * (size_t)*count, from, 3 * sizeof *from);
-  source->numbers[vertex] = ++*count;
+static uint32_t nsvcd__position_write(nsvcd__writer *w, size_t vertex, uint32_t *count) {
+  const float *from = w->mesh->positions + 3 * vertex;
+  memcpy(w->to.positions + 3 * (size_t)*count, from, 3 * sizeof *from);
+  w->numbers[vertex] = ++*count;
   return *count - 1;
 }
 
 // Writes the own vertices and references of patch `to`. Turns the names of the surface's patch
 // `from` into numbers of the body's patch.
-static void nsvcd__named_write(nsvcd__geometry_source *source, size_t from,
-                               const nsvcd__geometry *f, size_t to) {
-  nsvcd__surface *s = source->surface;
+static void nsvcd__named_write(nsvcd__writer *w, size_t from, size_t to) {
+  nsvcd__surface *s = w->surface;
+  const nsvcd__geometry *f = &w->to;
   uint32_t *first_own = f->first_own + to;
   uint32_t *first_reference = f->first_reference + to;
   const size_t wide = f->reference_bytes;
@@ -112,11 +112,11 @@ static void nsvcd__named_write(nsvcd__geometry_source *source, size_t from,
   uint32_t other = own;
   first_own[1] = first_own[0];
   first_reference[1] = first_reference[0];
-  for (size_t n = 0; n < count; n++) other += !source->numbers[named[n]];
+  for (size_t n = 0; n < count; n++) other += !w->numbers[named[n]];
   for (size_t n = 0; n < count; n++) {
-    const uint32_t number = source->numbers[named[n]];
+    const uint32_t number = w->numbers[named[n]];
     if (!number) {
-      (void)nsvcd__position_write(source, f, named[n], &first_own[1]);
+      (void)nsvcd__position_write(w, named[n], &first_own[1]);
       named[n] = own++;
       continue;
     }
@@ -130,26 +130,26 @@ static void nsvcd__named_write(nsvcd__geometry_source *source, size_t from,
 }
 
 // Writes the triangles that are stored in pieces, after all patches.
-static void nsvcd__cut_write(nsvcd__geometry_source *source, const nsvcd__geometry *f) {
-  const nsvcd_mesh *mesh = source->mesh;
-  uint32_t *cut = f->cut;
-  uint32_t *corners = f->cut_corners;
-  uint32_t count = f->first_own[f->body->patches];
+static void nsvcd__cut_write(nsvcd__writer *w) {
+  const nsvcd_mesh *mesh = w->mesh;
+  uint32_t *cut = w->to.cut;
+  uint32_t *corners = w->to.cut_corners;
+  uint32_t count = w->to.first_own[w->to.body->patches];
   for (size_t t = 0; t < mesh->triangle_count; t++) {
-    if (!source->cut[t]) continue;
+    if (!w->cut[t]) continue;
     *cut++ = (uint32_t)t;
     for (size_t k = 0; k < 3; k++) {
-      const size_t v = nsvcd__source_corner(mesh, t, k);
-      const uint32_t known = source->numbers[v];
-      *corners++ = known ? known - 1 : nsvcd__position_write(source, f, v, &count);
+      const size_t v = nsvcd__mesh_corner(mesh, t, k);
+      const uint32_t known = w->numbers[v];
+      *corners++ = known ? known - 1 : nsvcd__position_write(w, v, &count);
     }
   }
 }
 
 // Writes patch `to` of a body, from patch `from` of its surface. One without surface is a point.
-static void nsvcd__patch_write(nsvcd__geometry_source *source, size_t from,
-                               const nsvcd__geometry *f, size_t to) {
-  const nsvcd__surface *s = source->surface;
+static void nsvcd__patch_write(nsvcd__writer *w, size_t from, size_t to) {
+  const nsvcd__surface *s = w->surface;
+  const nsvcd__geometry *f = &w->to;
   const size_t padded = f->body->padded;
   const nsvcd__patch_bounds *patch = &s->patches[from];
   nsvcd__sphere ball = patch->ball;
@@ -167,11 +167,11 @@ static void nsvcd__patch_write(nsvcd__geometry_source *source, size_t from,
   const size_t end = patch[1].first_triangle;
   int16_t *integers = f->vertices + 3 * (size_t)f->first_vertex[to];
   memcpy(integers, s->vertices + 3 * (size_t)vertex, 6 * (size_t)vertices);
-  nsvcd__named_write(source, from, f, to);
+  nsvcd__named_write(w, from, to);
   const uint32_t *named = s->named + patch->first_named;
   const size_t points = vertices + patch[1].first_named - patch->first_named;
   const size_t bytes = nsvcd__corner_bytes(points);
-  unsigned char *begin = f->triangle_codes + f->first_byte[to];
+  unsigned char *begin = f->codes + f->first_byte[to];
   unsigned char *at = begin;
   for (size_t n = 3 * first; n < 3 * end; n++) {
     const size_t i = s->corners[n];
@@ -187,8 +187,9 @@ static void nsvcd__patch_write(nsvcd__geometry_source *source, size_t from,
 }
 
 // Writes the seeds group by group (counting sort). order: of the patches.
-static void nsvcd__seeds_write(const nsvcd__surface *s, const uint16_t *order,
-                               const nsvcd__geometry *f) {
+static void nsvcd__seeds_write(const nsvcd__writer *w, const uint16_t *order) {
+  const nsvcd__surface *s = w->surface;
+  const nsvcd__geometry *f = &w->to;
   uint32_t *first = f->first_seed;
   // the numbers of patches in the body, for now in place of their first vertices
   uint32_t *numbers = f->first_vertex;
@@ -208,21 +209,19 @@ static void nsvcd__seeds_write(const nsvcd__surface *s, const uint16_t *order,
   memset(numbers, 0, patches * sizeof *numbers);
 }
 
-// Builds a body of triangles of `size` bytes in `memory`, and uses up the source. order: (N) of the
+// Builds a body of triangles of `size` bytes in `memory`, and uses up the writer. order: (N) of the
 // patches. NUMBER if it is too large, EMPTY if it is too small.
-static nsvcd_result nsvcd__geometry_build(nsvcd__geometry_source *source,
-                                          const uint16_t *order, int open, void *memory,
-                                          size_t size) {
-  const nsvcd__surface *s = source->surface;
-  const nsvcd__geometry_counts *counts = &source->counts;
+static nsvcd_result nsvcd__geometry_build(nsvcd__writer *w, const uint16_t *order, int open,
+                                          void *memory, size_t size) {
+  const nsvcd__surface *s = w->surface;
+  const nsvcd__counts *counts = &w->counts;
   nsvcd_body *b = nsvcd__body_begin(memory, size, s->count, open);
-  b->triangles = (uint32_t)source->mesh->triangle_count;
-  nsvcd__geometry f;
-  (void)nsvcd__geometry_layout(b, s->count, counts, &f);
-  *f.counts = *counts;
-  nsvcd__seeds_write(s, order, &f);
-  for (size_t i = 0; i < s->count; i++) nsvcd__patch_write(source, order[i], &f, i);
-  if (!s->coarse) nsvcd__cut_write(source, &f);
+  b->triangles = (uint32_t)w->mesh->triangle_count;
+  (void)nsvcd__geometry_layout(b, s->count, counts, &w->to);
+  *w->to.counts = *counts;
+  nsvcd__seeds_write(w, order);
+  for (size_t i = 0; i < s->count; i++) nsvcd__patch_write(w, order[i], i);
+  if (!s->coarse) nsvcd__cut_write(w);
   if (!nsvcd__in_range(nsvcd__body_r(b), b->patches, 4 * NSVCD_MAX_COORDINATE))
     return NSVCD_ERROR_NUMBER;
   nsvcd__geometry_finish(b, 0);
