@@ -79,16 +79,19 @@ static nsvcd__triangle nsvcd__mending_triangle(const nsvcd__mending *m, size_t n
   return nsvcd__triangle_of(m->topology->mesh, m->triangles[n]);
 }
 
-// The ends of edge e, the lesser first. Returns 1 if its triangle goes from the lesser to the
-// greater.
-static int nsvcd__mending_edge(const nsvcd__mending *m, size_t e, uint32_t *ends) {
+// The ends of an edge, the lesser first. rises: 1: its triangle goes from that to the other.
+typedef struct nsvcd__edge {
+  uint32_t ends[2];
+  int rises;
+} nsvcd__edge;
+
+static nsvcd__edge nsvcd__mending_edge(const nsvcd__mending *m, size_t e) {
   uint32_t face[3];
   nsvcd__mending_face(m, e / 3, face);
   const uint32_t from = face[e % 3];
   const uint32_t to = face[(e + 1) % 3];
-  ends[0] = from < to ? from : to;
-  ends[1] = from < to ? to : from;
-  return from < to;
+  const nsvcd__edge out = {{from < to ? from : to, from < to ? to : from}, from < to};
+  return out;
 }
 
 // Is edge e the only one of an alive triangle at its ends?
@@ -100,17 +103,12 @@ static int nsvcd__is_border(const nsvcd__mending *m, size_t e) {
 static void nsvcd__sort_edges(nsvcd__mending *m, const uint32_t *from, uint32_t *to,
                               size_t which) {
   const size_t vertices = m->topology->mesh->vertex_count;
-  uint32_t ends[2];
   memset(m->first, 0, (vertices + 1) * sizeof *m->first);
-  for (size_t e = 0; e < 3 * m->count; e++) {
-    (void)nsvcd__mending_edge(m, e, ends);
-    m->first[ends[which] + 1]++;
-  }
+  for (size_t e = 0; e < 3 * m->count; e++)
+    m->first[nsvcd__mending_edge(m, e).ends[which] + 1]++;
   for (size_t v = 0; v < vertices; v++) m->first[v + 1] += m->first[v];
-  for (size_t i = 0; i < 3 * m->count; i++) {
-    (void)nsvcd__mending_edge(m, from[i], ends);
-    to[m->first[ends[which]]++] = from[i];
-  }
+  for (size_t i = 0; i < 3 * m->count; i++)
+    to[m->first[nsvcd__mending_edge(m, from[i]).ends[which]]++] = from[i];
 }
 
 // Counts the alive triangles at each edge.
@@ -127,8 +125,8 @@ static void nsvcd__count_degrees(nsvcd__mending *m) {
 // Groups equal edges, and sets aside triangles that are there twice or have equal corners.
 static void nsvcd__group_edges(nsvcd__mending *m) {
   uint32_t *seen = m->parts;
-  uint32_t last[2] = {0, 0};
-  uint32_t ends[2], face[3];
+  nsvcd__edge last = {{0, 0}, 0};
+  uint32_t face[3];
   m->group_count = 0;
   for (size_t n = 0; n < m->count; n++) {
     nsvcd__mending_face(m, n, face);
@@ -138,10 +136,10 @@ static void nsvcd__group_edges(nsvcd__mending *m) {
   nsvcd__sort_edges(m, m->order, m->spare, 1);
   nsvcd__sort_edges(m, m->spare, m->order, 0);
   for (size_t i = 0; i < 3 * m->count; i++) {
-    (void)nsvcd__mending_edge(m, m->order[i], ends);
-    if (i == 0 || ends[0] != last[0] || ends[1] != last[1])
+    const nsvcd__edge edge = nsvcd__mending_edge(m, m->order[i]);
+    if (i == 0 || edge.ends[0] != last.ends[0] || edge.ends[1] != last.ends[1])
       m->group_first[m->group_count++] = (uint32_t)i;
-    memcpy(last, ends, sizeof last);
+    last = edge;
     m->groups[m->order[i]] = (uint32_t)(m->group_count - 1);
   }
   m->group_first[m->group_count] = (uint32_t)(3 * m->count);
@@ -151,10 +149,10 @@ static void nsvcd__group_edges(nsvcd__mending *m) {
     size_t met = 0;
     for (size_t i = m->group_first[g]; i < m->group_first[g + 1]; i++) {
       const size_t n = m->order[i] / 3;
-      (void)nsvcd__mending_edge(m, m->order[i], ends);
       nsvcd__mending_face(m, n, face);
       const uint32_t third = face[(m->order[i] + 2) % 3];
-      if (!m->alive[n] || third < ends[1]) continue;
+      const nsvcd__edge edge = nsvcd__mending_edge(m, m->order[i]);
+      if (!m->alive[n] || third < edge.ends[1]) continue;
       m->alive[n] = m->first[third] == 0;
       m->first[third] = 1;
       seen[met++] = third;
@@ -227,14 +225,14 @@ static size_t nsvcd__find_limits(const nsvcd__mending *m, double most, float *li
   size_t count = 0;
   for (size_t e = 0; e < 3 * m->count; e++) {
     const nsvcd__triangle t = nsvcd__mending_triangle(m, e / 3);
-    uint32_t ends[2];
-    (void)nsvcd__mending_edge(m, e, ends);
+    const nsvcd__edge edge = nsvcd__mending_edge(m, e);
     if (m->degrees[m->groups[e]] % 2 == 0) continue;
-    const double edge = sqrt(nsvcd__d3_distance2(t.at[e % 3], t.at[(e + 1) % 3]));
-    const float own = (float)nsvcd__min(most, NSVCD__JOINED_OF_EDGE * edge);
+    const double length = sqrt(nsvcd__d3_distance2(t.at[e % 3], t.at[(e + 1) % 3]));
+    const float own = (float)nsvcd__min(most, NSVCD__JOINED_OF_EDGE * length);
     for (size_t k = 0; k < 2; k++) {
-      count += limits[ends[k]] <= 0;
-      limits[ends[k]] = fmaxf(own, limits[ends[k]]);
+      float *limit = &limits[edge.ends[k]];
+      count += *limit <= 0;
+      *limit = fmaxf(own, *limit);
     }
   }
   return count;
@@ -344,10 +342,9 @@ static void nsvcd__count_edges(const nsvcd__mending *m, const uint32_t *forest,
     size_t any = m->count;
     int sum = 0;
     for (size_t i = m->group_first[g]; i < m->group_first[g + 1]; i++) {
-      uint32_t ends[2];
       if (!m->alive[m->order[i] / 3]) continue;
       any = m->order[i] / 3;
-      sum += nsvcd__mending_edge(m, m->order[i], ends) ? 1 : -1;
+      sum += nsvcd__mending_edge(m, m->order[i]).rises ? 1 : -1;
     }
     if (any == m->count) continue;
     parts[forest[any]].odd += m->degrees[g] % 2;
@@ -400,10 +397,8 @@ static void nsvcd__measure_holes(const nsvcd__mending *m, const uint32_t *number
                                  nsvcd__hole *holes, int pass) {
   for (size_t e = 0; e < 3 * m->count; e++) {
     const nsvcd__triangle t = nsvcd__mending_triangle(m, e / 3);
-    uint32_t ends[2];
     if (!nsvcd__is_border(m, e)) continue;
-    (void)nsvcd__mending_edge(m, e, ends);
-    nsvcd__hole *hole = &holes[numbers[ends[0]] - 1];
+    nsvcd__hole *hole = &holes[numbers[nsvcd__mending_edge(m, e).ends[0]] - 1];
     const nsvcd__d3 from = t.at[e % 3];
     const nsvcd__d3 to = t.at[(e + 1) % 3];
     const double length = sqrt(nsvcd__d3_distance2(from, to));
@@ -443,13 +438,12 @@ static int nsvcd__judge_holes(const nsvcd__mending *m, nsvcd__part *wholes,
   uint32_t *forest = NSVCD__TAKE(&arena, uint32_t, vertices);
   uint32_t *numbers = NSVCD__TAKE(&arena, uint32_t, vertices);
   uint32_t count = 0;
-  uint32_t ends[2];
   for (uint32_t v = 0; forest && v < vertices; v++) forest[v] = v;
   for (size_t e = 0; !arena.failed && e < 3 * m->count; e++) {
     if (!nsvcd__is_border(m, e)) continue;
-    (void)nsvcd__mending_edge(m, e, ends);
-    nsvcd__unite(forest, ends[0], ends[1]);
-    numbers[ends[0]] = numbers[ends[1]] = 1;
+    const nsvcd__edge edge = nsvcd__mending_edge(m, e);
+    nsvcd__unite(forest, edge.ends[0], edge.ends[1]);
+    for (size_t k = 0; k < 2; k++) numbers[edge.ends[k]] = 1;
   }
   for (uint32_t v = 0; !arena.failed && v < vertices; v++) {
     if (!numbers[v]) continue;
