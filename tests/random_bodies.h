@@ -30,9 +30,8 @@ static int random_tips;
 static void put_in_order(size_t points, uint16_t *order) {
   uint16_t spare[NSVCD_SMALL_PATCHES];
   const nsvcd__f3 *at = (const nsvcd__f3 *)(const void *)centres;
-  const nsvcd__ordering all = {at, order, spare, points};
   for (size_t i = 0; i < points; i++) order[i] = (uint16_t)i;
-  nsvcd__body_order(all);
+  nsvcd__body_order(at, order, spare, points);
 }
 
 static const nsvcd_body *build(size_t points, blob *memory) {

@@ -202,61 +202,49 @@ static uint64_t nsvcd__body_checksum(const nsvcd_body *body) {
 }
 
 #ifndef NSVCD_NO_ENCODER
-// Patches that are being sorted.
-typedef struct nsvcd__ordering {
-  const nsvcd__f3 *centres;  // of all patches
-  // (count) their numbers
-  uint16_t *order;
-  // (count) working memory
-  uint16_t *spare;
-  size_t count;
-} nsvcd__ordering;
-
-// Sorts patches by a coordinate of their centres. A merge sort: equal ones keep their order, so the
-// result is the same everywhere.
-static void nsvcd__sort_along(nsvcd__ordering all, size_t axis) {
-  const float *at = (const float *)(const void *)all.centres + axis;
-  for (size_t run = 1; run < all.count; run *= 2) {
-    for (size_t first = 0; first < all.count; first += 2 * run) {
-      const size_t middle = first + run < all.count ? first + run : all.count;
-      const size_t end = first + 2 * run < all.count ? first + 2 * run : all.count;
+// Sorts patches, by numbers, by a coordinate of their centres. A merge sort: equal ones keep their
+// order, so the result is the same everywhere. spare: (count).
+static void nsvcd__sort_along(const nsvcd__f3 *centres, size_t axis, uint16_t *order,
+                              uint16_t *spare, size_t count) {
+  const float *at = (const float *)(const void *)centres + axis;
+  for (size_t run = 1; run < count; run *= 2) {
+    for (size_t first = 0; first < count; first += 2 * run) {
+      const size_t middle = first + run < count ? first + run : count;
+      const size_t end = first + 2 * run < count ? first + 2 * run : count;
       size_t left = first;
       size_t right = middle;
       for (size_t to = first; to < end; to++) {
         int from_right = left == middle;
         if (left < middle && right < end)
-          from_right = at[3 * all.order[right]] < at[3 * all.order[left]];
-        all.spare[to] = from_right ? all.order[right++] : all.order[left++];
+          from_right = at[3 * order[right]] < at[3 * order[left]];
+        spare[to] = from_right ? order[right++] : order[left++];
       }
     }
-    memcpy(all.order, all.spare, all.count * sizeof *all.order);
+    memcpy(order, spare, count * sizeof *order);
   }
 }
 
 // Orders patches so that each run of 16 is compact, and each run of 16 of those: median splits across
 // the longest axis of the centres' box. The left part is a multiple of 16, or of 256 and so on if
-// there are more than a tile's.
-static void nsvcd__body_order(nsvcd__ordering all) {
-  if (all.count <= NSVCD__GROUP) return;
-  nsvcd__f3 low = all.centres[all.order[0]];
+// there are more than a tile's. spare: (count).
+static void nsvcd__body_order(const nsvcd__f3 *centres, uint16_t *order, uint16_t *spare,
+                              size_t count) {
+  if (count <= NSVCD__GROUP) return;
+  nsvcd__f3 low = centres[order[0]];
   nsvcd__f3 high = low;
-  for (size_t i = 1; i < all.count; i++) {
-    low = nsvcd__f3_min(low, all.centres[all.order[i]]);
-    high = nsvcd__f3_max(high, all.centres[all.order[i]]);
+  for (size_t i = 1; i < count; i++) {
+    low = nsvcd__f3_min(low, centres[order[i]]);
+    high = nsvcd__f3_max(high, centres[order[i]]);
   }
   const nsvcd__f3 size = nsvcd__f3_sub(high, low);
   size_t axis = size.y > size.x ? 1 : 0;
   if (size.z > fmaxf(size.x, size.y)) axis = 2;
-  nsvcd__sort_along(all, axis);
+  nsvcd__sort_along(centres, axis, order, spare, count);
   size_t unit = NSVCD__GROUP;
-  while (2 * NSVCD__GROUP * unit < all.count) unit *= NSVCD__GROUP;
-  nsvcd__ordering left = all;
-  nsvcd__ordering right = all;
-  left.count = nsvcd__round_up(all.count / 2, unit);
-  right.count = all.count - left.count;
-  right.order += left.count;
-  nsvcd__body_order(left);
-  nsvcd__body_order(right);
+  while (2 * NSVCD__GROUP * unit < count) unit *= NSVCD__GROUP;
+  const size_t left = nsvcd__round_up(count / 2, unit);
+  nsvcd__body_order(centres, order, spare, left);
+  nsvcd__body_order(centres, order + left, spare, count - left);
 }
 
 // What a body of latents is built of.

@@ -106,7 +106,7 @@ static nsvcd_result nsvcd__draft_runs(nsvcd__draft *draft) {
   nsvcd_result result = ok ? NSVCD_OK : NSVCD_ERROR_MEMORY;
   for (size_t first = 0; !result && first < runs; first = surface->count) {
     const size_t left = runs - first;
-    const size_t last = first + (left < NSVCD__RUNS_AT_ONCE ? left : NSVCD__RUNS_AT_ONCE);
+    const size_t last = left < NSVCD__RUNS_AT_ONCE ? runs : first + NSVCD__RUNS_AT_ONCE;
     nsvcd__region block;
     nsvcd__patches patches;
     nsvcd__pieces pieces;
@@ -154,10 +154,8 @@ static nsvcd_result nsvcd__draft_regions(nsvcd__draft *draft) {
   for (size_t n = 0; !result && n < count; n++) {
     const size_t most = patches * (n + 1) / count - patches * n / count;
     const double done = (double)(n + 1) / (double)(count + 2);
-    if (nsvcd__is_cancelled(options, done))
-      result = NSVCD_ERROR_CANCELLED;
-    else
-      result = nsvcd__add_region(draft, &regions, n, most);
+    const int stop = nsvcd__is_cancelled(options, done);
+    result = stop ? NSVCD_ERROR_CANCELLED : nsvcd__add_region(draft, &regions, n, most);
   }
   nsvcd__arena_free(&spare);
   return result;
@@ -201,8 +199,7 @@ static nsvcd_result nsvcd__draft_write(nsvcd__draft *draft, void *memory) {
   uint16_t *order = NSVCD__TAKE(&draft->arena, uint16_t, 2 * count);
   if (!order) return NSVCD_ERROR_MEMORY;
   for (size_t i = 0; i < count; i++) order[i] = (uint16_t)i;
-  const nsvcd__ordering all = {latents->centres, order, order + count, count};
-  if (!draft->in_runs) nsvcd__body_order(all);
+  if (!draft->in_runs) nsvcd__body_order(latents->centres, order, order + count, count);
   latents->order = order;
   nsvcd_result result = NSVCD_OK;
 #ifndef NSVCD_NO_NETWORK

@@ -290,6 +290,13 @@ static nsvcd__d3 nsvcd__patch_origin(const nsvcd__geometry *f, size_t patch) {
   return nsvcd__d3_widen(nsvcd__patch_centre(f, patch));
 }
 
+// Stored point i of a patch.
+static nsvcd__d3 nsvcd__stored_point(const nsvcd__geometry *f, size_t patch, size_t i) {
+  const nsvcd__vertices vertices = nsvcd__vertices_of(f, patch);
+  const nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, i);
+  return nsvcd__d3_fma((double)f->steps[patch], vertex, nsvcd__patch_origin(f, patch));
+}
+
 // The corners (3) of a triangle of the caller's that is stored in pieces.
 static void nsvcd__whole_triangle(const nsvcd__geometry *f, uint32_t number,
                                   nsvcd__d3 *corners) {
@@ -316,10 +323,7 @@ static inline void nsvcd__patch_triangle(const nsvcd__geometry *f, size_t patch,
       nsvcd__whole_triangle(f, nsvcd__triangle_number(f, patch, n), corners);
       return;
     } else {
-      const nsvcd__vertices vertices = nsvcd__vertices_of(f, patch);
-      const nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, i);
-      corners[k] =
-          nsvcd__d3_fma((double)f->steps[patch], vertex, nsvcd__patch_origin(f, patch));
+      corners[k] = nsvcd__stored_point(f, patch, i);
     }
   }
 }
@@ -406,15 +410,11 @@ static void nsvcd__collect_hulls(const nsvcd__geometry *f, size_t g, nsvcd__hull
   const size_t end = NSVCD__GROUP * (g + 1);
   out->count = 0;
   for (size_t i = end - NSVCD__GROUP; i < end && i < f->body->patches; i++) {
-    const nsvcd__vertices vertices = nsvcd__vertices_of(f, i);
-    const nsvcd__d3 origin = nsvcd__patch_origin(f, i);
-    const double step = (double)f->steps[i];
     const size_t count = f->hull_counts[i];
     for (size_t k = 0; k < count + !count; k++) {
-      nsvcd__d3 v = {0, 0, 0};
-      if (count) v = nsvcd__vertex_at(&vertices, k);
-      v = nsvcd__d3_fma(step, v, origin);
-      // to float
+      nsvcd__d3 v = nsvcd__patch_origin(f, i);
+      if (count) v = nsvcd__stored_point(f, i, k);
+      // of v to float
       const double rounding = 1.1e-7 * nsvcd__d3_length(v);
       const size_t n = out->count++;
       out->spheres[3][n] = nsvcd__above((double)f->margins[i] + rounding);
@@ -452,13 +452,11 @@ static void nsvcd__geometry_finish(nsvcd_body *b, float off) {
     high = nsvcd__d3_max(high, nsvcd__d3_row(f.positions, n));
   }
   for (size_t i = 0; i < b->patches; i++) {
-    const nsvcd__vertices vertices = nsvcd__vertices_of(&f, i);
-    const nsvcd__d3 origin = nsvcd__patch_origin(&f, i);
+    const size_t count = f.first_vertex[i + 1] - f.first_vertex[i];
     const double error = (double)f.errors[i];
     widest = f.errors[i] > widest ? f.errors[i] : widest;
-    for (size_t k = 0; k < vertices.count && f.counts->positions == 0; k++) {
-      nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, k);
-      vertex = nsvcd__d3_fma((double)f.steps[i], vertex, origin);
+    for (size_t k = 0; k < count && f.counts->positions == 0; k++) {
+      const nsvcd__d3 vertex = nsvcd__stored_point(&f, i, k);
       low = nsvcd__d3_min(low, nsvcd__d3_fma(-error, all, vertex));
       high = nsvcd__d3_max(high, nsvcd__d3_fma(error, all, vertex));
     }
@@ -472,6 +470,7 @@ static void nsvcd__geometry_finish(nsvcd_body *b, float off) {
   for (size_t g = 0; g < nsvcd__body_groups(b); g++) nsvcd__finish_group(b, g);
   b->checksum = nsvcd__body_checksum(b);
 }
+
 // The radius of a body's sphere, its convex radius included.
 static float nsvcd__whole_radius(const nsvcd_body *body) {
   const nsvcd_body *triangles = nsvcd__triangles_of(body);

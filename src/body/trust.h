@@ -148,6 +148,7 @@ static int nsvcd__patch_is_sound(const nsvcd__geometry *f, size_t i) {
   }
   return at == end;
 }
+
 // ---- whole bodies
 
 // Are the sizes in a blob's header right, and is it at most `size` bytes long?
