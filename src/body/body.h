@@ -290,14 +290,14 @@ static int nsvcd__are_within(nsvcd__spheres all, nsvcd__f3 point, float distance
 
 // The distance from a point to the farthest point of `count` spheres. *farthest: a guess, the better
 // the faster; becomes the sphere that is farthest, if the distance is above 0.
-static float nsvcd__reach_of_spheres(nsvcd__spheres all, size_t count, nsvcd__f3 point,
-                                     size_t *farthest) {
+static float nsvcd__radius_about(nsvcd__spheres all, size_t count, nsvcd__f3 point,
+                                 size_t *farthest) {
   const nsvcd__sphere guess = nsvcd__sphere_of(all, *farthest);
   // less than 1 by more than the roundings: the farthest sphere is never skipped
   const float fraction = 0.999998f;
   float least =
       fraction * (nsvcd__f3_length(nsvcd__f3_sub(guess.centre, point)) + guess.radius);
-  float reach = 0;
+  float radius = 0;
   for (size_t first = 0; first < count; first += NSVCD__GROUP) {
     const size_t end = first + nsvcd__group_members(count, first);
     const nsvcd__spheres some = nsvcd__spheres_from(all, first);
@@ -305,12 +305,12 @@ static float nsvcd__reach_of_spheres(nsvcd__spheres all, size_t count, nsvcd__f3
     for (size_t i = first; i < end; i++) {
       const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__centre_of(all, i), point);
       const float to = nsvcd__f3_length(offset) + all.r[i];
-      if (to > reach) *farthest = i;
-      reach = to > reach ? to : reach;
+      if (to > radius) *farthest = i;
+      radius = to > radius ? to : radius;
     }
-    least = fraction * reach > least ? fraction * reach : least;
+    least = fraction * radius > least ? fraction * radius : least;
   }
-  return reach;
+  return radius;
 }
 
 // A sphere over `count` spheres (Badoiu, Clarkson 2003): ever shorter steps towards the farthest
@@ -329,11 +329,9 @@ static nsvcd__sphere nsvcd__cover_spheres(nsvcd__spheres all, size_t count) {
   nsvcd__sphere best = {centre, HUGE_VALF};
   size_t farthest = 0;
   for (int step = 0; step < 32; step++) {
-    const float reach = nsvcd__reach_of_spheres(all, count, centre, &farthest);
-    if (reach < best.radius) {
-      best.centre = centre;
-      best.radius = reach;
-    }
+    const float radius = nsvcd__radius_about(all, count, centre, &farthest);
+    const nsvcd__sphere trial = {centre, radius};
+    if (trial.radius < best.radius) best = trial;
     const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__centre_of(all, farthest), centre);
     const float steps = (float)(step + 3);
     centre.x += offset.x / steps;
@@ -372,7 +370,7 @@ static void nsvcd__body_finish(nsvcd_body *body) {
   const nsvcd__sphere over = nsvcd__cover_spheres(patches, body->patches);
   const nsvcd__sphere above = nsvcd__cover_spheres(groups, nsvcd__body_groups(body));
   const nsvcd__sphere sphere = above.radius < over.radius ? above : over;
-  const float extent = nsvcd__reach_of_spheres(patches, body->patches, origin, &farthest);
+  const float extent = nsvcd__radius_about(patches, body->patches, origin, &farthest);
   nsvcd__f3_store(sphere.centre, body->centre);
   body->radius = sphere.radius;
   body->extent = extent * 1.000002f;

@@ -7,7 +7,7 @@
 // Does a sphere contain `count` spheres?
 static int nsvcd__covers(nsvcd__sphere sphere, nsvcd__spheres all, size_t count) {
   size_t farthest = 0;
-  return nsvcd__reach_of_spheres(all, count, sphere.centre, &farthest) <= sphere.radius;
+  return nsvcd__radius_about(all, count, sphere.centre, &farthest) <= sphere.radius;
 }
 
 // Are the first `count` of (4, slots) spheres finite and in range, with no negative radius, and the

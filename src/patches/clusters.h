@@ -60,7 +60,7 @@ static uint32_t nsvcd__nearest_centre(const nsvcd__patches *p, uint32_t guess, n
 
 static void nsvcd__forget_samples(nsvcd__patches *p, uint32_t centre) {
   p->first_sample[centre] = NSVCD__NO_SAMPLE;
-  p->squared_reach[centre] = -1;
+  p->greatest[centre] = -1;
 }
 
 // Adds a sample to its owner's list. square: of the distance between them.
@@ -70,8 +70,8 @@ static inline void nsvcd__give_sample(nsvcd__patches *p, uint32_t s, uint32_t ow
   p->squares[s] = square;
   p->next_sample[s] = p->first_sample[owner];
   p->first_sample[owner] = s;
-  if (square > p->squared_reach[owner]) {
-    p->squared_reach[owner] = square;
+  if (square > p->greatest[owner]) {
+    p->greatest[owner] = square;
     p->farthest_sample[owner] = s;
   }
 }
@@ -94,15 +94,15 @@ static void nsvcd__farthest_points(nsvcd__patches *p) {
   for (; count < p->count; count++) {
     uint32_t farthest = 0;
     for (uint32_t i = 1; i < count; i++)
-      farthest = p->squared_reach[i] > p->squared_reach[farthest] ? i : farthest;
-    if (!(p->squared_reach[farthest] > 0)) break;
+      farthest = p->greatest[i] > p->greatest[farthest] ? i : farthest;
+    if (!(p->greatest[farthest] > 0)) break;
     p->centres[count] = p->drawn[p->farthest_sample[farthest]];
     nsvcd__forget_samples(p, count);
     for (uint32_t owner = 0; owner < count; owner++) {
       // An owner more than twice as far away as its farthest sample loses none (triangle
       // inequality). Most owners are that far away.
       const float square = nsvcd__to_centre2(p, owner, p->centres[count]);
-      if (0.25f * square > p->squared_reach[owner]) continue;
+      if (0.25f * square > p->greatest[owner]) continue;
       uint32_t s = p->first_sample[owner];
       nsvcd__forget_samples(p, owner);
       while (s != NSVCD__NO_SAMPLE) {
@@ -143,10 +143,10 @@ static void nsvcd__move_centres(nsvcd__patches *p) {
 }
 
 // Extends a patch's reach to a point.
-static void nsvcd__reach_to(nsvcd__patches *p, size_t patch, nsvcd__d3 at) {
+static void nsvcd__extend(nsvcd__patches *p, size_t patch, nsvcd__d3 at) {
   nsvcd__patch_sum *sum = &p->sums[patch];
   const double square = nsvcd__d3_distance2(at, nsvcd__d3_widen(p->centres[patch]));
-  sum->squared_reach = nsvcd__max(sum->squared_reach, square);
+  sum->greatest = nsvcd__max(sum->greatest, square);
 }
 
 // The square root, rounded up: a radius is never too small.
@@ -167,11 +167,11 @@ static void nsvcd__group_samples(nsvcd__patches *p) {
     const size_t to = p->offsets[owner]++;
     p->samples[to] = p->drawn[s];
     p->normals[to] = p->drawn_normals[s];
-    nsvcd__reach_to(p, owner, nsvcd__d3_widen(p->drawn[s]));
+    nsvcd__extend(p, owner, nsvcd__d3_widen(p->drawn[s]));
   }
   memmove(p->offsets + 1, p->offsets, p->count * sizeof *p->offsets);
   p->offsets[0] = 0;
   for (size_t i = 0; i < p->count; i++)
-    p->sample_radii[i] = nsvcd__radius_above(p->sums[i].squared_reach);
+    p->sample_radii[i] = nsvcd__radius_above(p->sums[i].greatest);
 }
 #endif  // NSVCD_NO_ENCODER

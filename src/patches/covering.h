@@ -76,7 +76,7 @@ static uint32_t nsvcd__cover_triangle(nsvcd__patches *p, double limit, uint32_t 
     const nsvcd__f3 centroid = nsvcd__d3_narrow(nsvcd__d3_over(sum, 3));
     const uint32_t patch = nsvcd__nearest_centre(p, guess, centroid);
     p->sums[patch].vector = nsvcd__d3_add(p->sums[patch].vector, vector);
-    for (size_t i = 0; i < 3; i++) nsvcd__reach_to(p, patch, t->at[i]);
+    for (size_t i = 0; i < 3; i++) nsvcd__extend(p, patch, t->at[i]);
     p->piece_count++;
     return patch;
   }
@@ -109,7 +109,7 @@ static void nsvcd__cover(nsvcd__patches *p, const nsvcd_mesh *mesh) {
   for (size_t i = 0; i < p->count; i++) {
     const nsvcd__patch_sum *sum = &p->sums[i];
     // Samples may lie outside of the halves that their patch was given: the ball contains both.
-    const float radius = nsvcd__radius_above(sum->squared_reach);
+    const float radius = nsvcd__radius_above(sum->greatest);
     p->radii[i] = fmaxf(radius, p->sample_radii[i]);
     p->area_vectors[i] = nsvcd__d3_narrow(sum->vector);
   }

@@ -22,7 +22,7 @@ typedef struct nsvcd__patch_sum {
   nsvcd__d3 vector;
   double weight;  // number of samples
   // the greatest squared distance from the centre
-  double squared_reach;
+  double greatest;
 } nsvcd__patch_sum;
 
 typedef struct nsvcd__patches {
@@ -55,7 +55,7 @@ typedef struct nsvcd__patches {
   uint32_t *next_sample, *first_sample;
   // (N) each centre's farthest sample, and its squared distance
   uint32_t *farthest_sample;
-  float *squared_reach;
+  float *greatest;
   // (N, NEIGHBOURS) the nearest other centres, nearest first, and a quarter of their squared
   // distance
   uint32_t *neighbours;
@@ -151,7 +151,7 @@ static int nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples,
   p->samples = NSVCD__TAKE(arena, nsvcd__f3, samples);
   p->normals = NSVCD__TAKE(arena, nsvcd__f3, samples);
   p->quarter_squares = NSVCD__TAKE(arena, float, links);
-  p->squared_reach = NSVCD__TAKE(arena, float, count);
+  p->greatest = NSVCD__TAKE(arena, float, count);
   p->squares = NSVCD__TAKE(arena, float, samples);
   p->next_sample = NSVCD__TAKE(arena, uint32_t, samples);
   p->first_sample = NSVCD__TAKE(arena, uint32_t, count);

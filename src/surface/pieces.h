@@ -147,8 +147,8 @@ static int nsvcd__divide(nsvcd__pieces *pieces, const nsvcd__convex *from,
 }
 
 // The distance from a point to a polygon's farthest corner.
-static double nsvcd__convex_reach(const nsvcd__pieces *pieces, const nsvcd__convex *convex,
-                                  nsvcd__d3 from) {
+static double nsvcd__farthest_corner(const nsvcd__pieces *pieces, const nsvcd__convex *convex,
+                                     nsvcd__d3 from) {
   double squared = 0;
   for (size_t i = 0; i < convex->count; i++) {
     const nsvcd__d3 at = nsvcd__point_at(pieces, convex->points[i]);
@@ -163,11 +163,11 @@ static int nsvcd__trim(nsvcd__pieces *pieces, uint32_t patch, nsvcd__convex *con
   const nsvcd__patches *patches = pieces->patches;
   const nsvcd__d3 own = nsvcd__d3_widen(patches->centres[patch]);
   const size_t first = (size_t)patch * NSVCD__NEIGHBOURS;
-  double reach = nsvcd__convex_reach(pieces, convex, own);
+  double farthest = nsvcd__farthest_corner(pieces, convex, own);
   for (size_t k = first; k < first + NSVCD__NEIGHBOURS; k++) {
     // the cell's side is half the distance away; those of the next neighbours are farther
     const double plane = sqrt((double)patches->quarter_squares[k]);
-    if (reach <= plane + pieces->overlap) break;
+    if (farthest <= plane + pieces->overlap) break;
     if (pieces->cuts_left == 0 || pieces->waiting_count == NSVCD__WAITING) break;
     const nsvcd__d3 other = nsvcd__d3_widen(patches->centres[patches->neighbours[k]]);
     const nsvcd__d3 across = nsvcd__d3_sub(other, own);
@@ -190,7 +190,7 @@ static int nsvcd__trim(nsvcd__pieces *pieces, uint32_t patch, nsvcd__convex *con
     *convex = near_part;
     pieces->waiting_count++;
     pieces->cuts_left--;
-    reach = nsvcd__convex_reach(pieces, convex, own);
+    farthest = nsvcd__farthest_corner(pieces, convex, own);
   }
   return 1;
 }
