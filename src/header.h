@@ -159,6 +159,7 @@ extern "C" {
 
 // ======================================================================= mesh: files and triangles
 #include "mesh/mesh.h"      // checks; cuts at a box
+#include "mesh/weld.h"      // vertices at the same position
 #include "mesh/polygons.h"  // one face into triangles
 #include "mesh/faces.h"     // faces of any number of corners into a mesh
 #include "mesh/obj.h"       // Wavefront OBJ

@@ -669,25 +669,23 @@ static void mesh_stl_is_refused(void) {
   CHECK_EQ(nsvcd_stl_parse(binary, size, NULL, NULL, &line), NSVCD_ERROR_ARGUMENT);
 }
 
-// Corners that are chosen to share a slot of the table: it takes another hash, and stays linear.
-static void mesh_stl_shares_no_hash(void) {
+// Vertices that are chosen to share a slot of the table: it takes another hash, and stays linear.
+static void mesh_welds_share_no_hash(void) {
   enum { CORNERS = 1500, SLOTS = 4096 };
   static float positions[3 * CORNERS];
-  static uint32_t indices[CORNERS], table[SLOTS];
-  nsvcd_mesh mesh = {positions, indices, CORNERS, CORNERS / 3};
-  nsvcd__stl_positions places = {table, SLOTS, 0, 0};
+  static uint32_t welded[CORNERS], table[SLOTS];
+  nsvcd__weld w = {positions, table, SLOTS, 0, 0};
   mesh_rng = 6;
   for (size_t n = 0; n < CORNERS;) {
     float *corner = positions + 3 * n;
     for (size_t k = 0; k < 3; k++) corner[k] = (float)mesh_uniform(-1, 1);
-    n += nsvcd__stl_find(&places, positions, corner) == table;
+    n += nsvcd__weld_slot(&w, n) == table;
   }
-  nsvcd__stl_weld(&mesh, &places);
+  nsvcd__weld_vertices(&w, CORNERS, welded);
   // not one that can be known beforehand
-  CHECK(places.seed != 0 && places.seed != UINT64_C(0xd1342543de82ef95));
-  CHECK_LE(places.steps, 8 * CORNERS + 1024);
-  CHECK_EQ(mesh.vertex_count, CORNERS);
-  for (size_t n = 0; n < CORNERS; n++) CHECK_EQ(indices[n], n);
+  CHECK(w.seed != 0 && w.seed != UINT64_C(0xd1342543de82ef95));
+  CHECK_LE(w.steps, 8 * CORNERS + 1024);
+  for (size_t n = 0; n < CORNERS; n++) CHECK_EQ(welded[n], n);
 }
 
 static void mesh_stl_fuzz(void) {
@@ -1045,7 +1043,7 @@ void test_mesh(void) {
   RUN(mesh_coordinates_become_metres_in_double);
   RUN(mesh_stl_is_read);
   RUN(mesh_stl_is_refused);
-  RUN(mesh_stl_shares_no_hash);
+  RUN(mesh_welds_share_no_hash);
   RUN(mesh_stl_fuzz);
   RUN(mesh_is_checked);
   RUN(mesh_polygons_simple);

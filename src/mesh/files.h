@@ -19,7 +19,7 @@ NSVCDDEF nsvcd_result nsvcd_mesh_parse(const void *data, size_t size,
   int is_stl = text.options.format == NSVCD_MESH_STL;
   if (text.options.format == NSVCD_MESH_ANY)
     is_stl = size == nsvcd__stl_size(data, size) || nsvcd__stl_is_solid(text);
-  result = is_stl ? nsvcd__stl_read(&text, data, size, &arena, &out)
+  result = is_stl ? nsvcd__stl_read(&text, data, size, allocator, &out)
                   : nsvcd__obj_read(&text, &arena, &out);
   nsvcd__arena_free(&arena);
   if (result) {

@@ -4,6 +4,7 @@
 // "solid", or holds a NUL, which no text does. Of a text only the words vertex and endloop matter:
 // three vertices a loop.
 #pragma once
+#include "weld.h"
 #include "obj.h"
 
 #ifndef NSVCD_NO_OBJ
@@ -95,66 +96,28 @@ static nsvcd_result nsvcd__stl_text(nsvcd__obj *text, float *corners, size_t *co
   return in_loop == 0 ? NSVCD_OK : NSVCD_ERROR_SYNTAX;
 }
 
-// A hash table of vertices by position.
-typedef struct nsvcd__stl_positions {
-  // (slots), a power of two: numbers of vertices + 1, or 0
-  uint32_t *table;
-  size_t slots;
-  uint64_t seed;  // of the hash
-  // along the table, past other vertices
-  size_t steps;
-} nsvcd__stl_positions;
-
-// The slot of the vertex at a corner's position, or the empty one where it belongs.
-static uint32_t *nsvcd__stl_find(nsvcd__stl_positions *found, const float *positions,
-                                 const float *corner) {
-  uint32_t bits[3];
-  uint64_t hash = found->seed;
-  memcpy(bits, corner, sizeof bits);
-  for (size_t k = 0; k < 3; k++) {
-    hash = (hash ^ bits[k]) * UINT64_C(0x9e3779b97f4a7c15);
-    hash ^= hash >> 32;
-  }
-  for (size_t slot = (size_t)hash;; slot++, found->steps++) {
-    uint32_t *at = &found->table[slot & (found->slots - 1)];
-    if (!*at || memcmp(positions + 3 * (size_t)(*at - 1), corner, sizeof bits) == 0) return at;
-  }
-}
-
-// Welds corners (3 triangles, 3) at the same position: they become positions, and their numbers
-// indices. If that takes many steps, as with corners chosen to share a hash, it takes another hash.
-// The table is zeros.
-static void nsvcd__stl_weld(nsvcd_mesh *mesh, nsvcd__stl_positions *found) {
-  const size_t corners = mesh->vertex_count;
+// Welds corners (3 triangles, 3), which become vertices. 0 without memory.
+static int nsvcd__stl_weld(nsvcd_mesh *mesh, const nsvcd_allocator *allocator) {
   float *positions = mesh->positions;
-  size_t count = 0;
-  for (size_t i = 0; i < corners; i++) {
-    const size_t most = 8 * i + 1024;
-    float corner[3];
-    // -0 is 0
-    for (size_t k = 0; k < 3; k++) corner[k] = positions[3 * i + k] + 0.0f;
-    uint32_t *at = nsvcd__stl_find(found, positions, corner);
-    if (!*at) {
-      memcpy(positions + 3 * count, corner, sizeof corner);
-      *at = (uint32_t)++count;
-    }
-    mesh->indices[i] = *at - 1;
-    while (found->steps > most) {
-      // whoever made the file cannot know this address
-      found->seed += UINT64_C(0xd1342543de82ef95) + (uint64_t)(size_t)found->table;
-      found->steps = 0;
-      memset(found->table, 0, found->slots * sizeof *found->table);
-      for (size_t v = 0; v < count && found->steps <= most; v++)
-        *nsvcd__stl_find(found, positions, positions + 3 * v) = (uint32_t)v + 1;
-    }
+  uint32_t *indices = mesh->indices;
+  uint32_t count = 0;
+  if (!nsvcd__weld_all(positions, mesh->vertex_count, indices, allocator)) return 0;
+  for (size_t i = 0; i < mesh->vertex_count; i++) {
+    const int is_first = indices[i] == i;
+    indices[i] = is_first ? count : indices[indices[i]];
+    if (!is_first) continue;
+    for (size_t k = 0; k < 3; k++)
+      positions[3 * (size_t)count + k] = positions[3 * i + k] + 0.0f;  // -0 becomes 0
+    count++;
   }
   mesh->vertex_count = count;
+  return 1;
 }
 
 // Reads a file, of which `text` is at the beginning. text->line: where it fails, or 0 if no line is
 // at fault.
 static nsvcd_result nsvcd__stl_read(nsvcd__obj *text, const void *data, size_t size,
-                                    nsvcd__arena *arena, nsvcd_mesh *mesh) {
+                                    const nsvcd_allocator *allocator, nsvcd_mesh *mesh) {
   const nsvcd__obj begin = *text;
   const uint64_t needed = nsvcd__stl_size(data, size);
   const int is_binary = size == needed || !nsvcd__stl_is_solid(begin) || memchr(data, 0, size);
@@ -167,11 +130,7 @@ static nsvcd_result nsvcd__stl_read(nsvcd__obj *text, const void *data, size_t s
   text->line = 0;
   if (corners > NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
   if (corners == 0) return NSVCD_ERROR_EMPTY;
-  nsvcd__stl_positions positions = {NULL, 16, 0, 0};
-  while (positions.slots < 2 * corners) positions.slots *= 2;
-  positions.table = NSVCD__TAKE(arena, uint32_t, positions.slots);
-  if (arena->failed || !nsvcd__mesh_alloc(mesh, corners, corners / 3, arena->allocator))
-    return NSVCD_ERROR_MEMORY;
+  if (!nsvcd__mesh_alloc(mesh, corners, corners / 3, allocator)) return NSVCD_ERROR_MEMORY;
   if (is_binary) {
     result = nsvcd__stl_binary(data, &text->options, mesh->positions, corners);
   } else {
@@ -179,7 +138,8 @@ static nsvcd_result nsvcd__stl_read(nsvcd__obj *text, const void *data, size_t s
     text->line = 1;
     result = nsvcd__stl_text(text, mesh->positions, &corners);
   }
-  if (!result) nsvcd__stl_weld(mesh, &positions);
-  return result;
+  if (result) return result;
+  text->line = 0;
+  return nsvcd__stl_weld(mesh, allocator) ? NSVCD_OK : NSVCD_ERROR_MEMORY;
 }
 #endif  // NSVCD_NO_OBJ

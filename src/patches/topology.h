@@ -1,7 +1,7 @@
 // In: a checked mesh. Out: its topology: vertices at the same position are one, triangles that
 // share vertices are one component, and a component is closed or not.
 #pragma once
-#include "../ground/memory.h"
+#include "../mesh/weld.h"
 
 #ifndef NSVCD_NO_ENCODER
 // Of the vertices at one position the first stands for all. A component is named by its root, its
@@ -18,37 +18,6 @@ typedef struct nsvcd__topology {
   // (vertices) 1 at a root: it has a triangle
   uint8_t *seen;
 } nsvcd__topology;
-
-// Welds vertices, by a hash table with open addressing. 0 without memory.
-static int nsvcd__weld(nsvcd__topology *topology, const nsvcd_allocator *allocator) {
-  const nsvcd_mesh *mesh = topology->mesh;
-  size_t slots = 16;
-  while (slots / 2 < mesh->vertex_count) slots *= 2;
-  nsvcd__arena arena = nsvcd__arena_of(allocator);
-  // 0: none, else a vertex + 1
-  uint32_t *table = NSVCD__TAKE(&arena, uint32_t, slots);
-  for (uint32_t v = 0; table && v < mesh->vertex_count; v++) {
-    const float *at = mesh->positions + 3 * (size_t)v;
-    uint32_t hash = 0;
-    for (size_t k = 0; k < 3; k++) {
-      uint32_t bits;
-      memcpy(&bits, at + k, sizeof bits);
-      // -0 equals 0
-      if (bits == 0x80000000u) bits = 0;
-      hash = (hash ^ bits) * 0x9e3779b1u;
-      hash ^= hash >> 15;
-    }
-    size_t slot = (hash * 0x85ebca6bu ^ hash >> 13) & (slots - 1);
-    for (; table[slot]; slot = (slot + 1) & (slots - 1)) {
-      const float *other = mesh->positions + 3 * (size_t)(table[slot] - 1);
-      if (other[0] == at[0] && other[1] == at[1] && other[2] == at[2]) break;
-    }
-    if (!table[slot]) table[slot] = v + 1;
-    topology->welded[v] = table[slot] - 1;
-  }
-  nsvcd__arena_free(&arena);
-  return !arena.failed;
-}
 
 static void nsvcd__welded_face(const nsvcd__topology *topology, size_t t, uint32_t *face) {
   const uint32_t *corners = topology->mesh->indices + 3 * t;
@@ -129,7 +98,9 @@ static int nsvcd__topology_build(const nsvcd_mesh *mesh, nsvcd__arena *arena,
   topology->parents = NSVCD__TAKE(arena, uint32_t, mesh->vertex_count);
   topology->open = NSVCD__TAKE(arena, uint8_t, mesh->vertex_count);
   topology->seen = NSVCD__TAKE(arena, uint8_t, mesh->vertex_count);
-  if (arena->failed || !nsvcd__weld(topology, arena->allocator)) return 0;
+  if (arena->failed || !nsvcd__weld_all(mesh->positions, mesh->vertex_count, topology->welded,
+                                        arena->allocator))
+    return 0;
 
   uint32_t *parents = topology->parents;
   uint32_t face[3];
