@@ -31,12 +31,12 @@ static int nsvcd__is_cancelled(const nsvcd_encode_options *options, double done)
 
 #ifndef NSVCD_NO_NETWORK
 // Adds the latents of a region's patches.
-static void nsvcd__add_latents(nsvcd__draft *draft, nsvcd__sorted *sorted) {
+static void nsvcd__add_latents(nsvcd__draft *d, nsvcd__sorted *sorted) {
   const nsvcd__region *region = sorted->pieces->region;
   const nsvcd__patches *patches = sorted->pieces->patches;
-  const nsvcd__latents *out = &draft->latents;
+  const nsvcd__latents *out = &d->latents;
   for (size_t i = 0; i < patches->count; i++) {
-    const size_t to = draft->count + i;
+    const size_t to = d->count + i;
     const float radius = patches->radii[i];
     const size_t first = patches->offsets[i];
     nsvcd__encoded patch;
@@ -61,13 +61,13 @@ static void nsvcd__add_latents(nsvcd__draft *draft, nsvcd__sorted *sorted) {
 #endif
 
 // Adds the patches of region n, at most `most`.
-static nsvcd_result nsvcd__add_region(nsvcd__draft *draft, nsvcd__regions *regions, size_t n,
+static nsvcd_result nsvcd__add_region(nsvcd__draft *d, nsvcd__regions *regions, size_t n,
                                       size_t most) {
   nsvcd__region region;
   nsvcd__patches patches;
   nsvcd__pieces pieces;
   nsvcd__sorted sorted;
-  nsvcd__arena spare = nsvcd__arena_of(draft->arena.allocator);
+  nsvcd__arena spare = nsvcd__arena_of(d->arena.allocator);
   nsvcd_result result = nsvcd__region_begin(regions, n, &spare, &region);
   if (result == NSVCD_ERROR_EMPTY) return NSVCD_OK;
   if (!result) result = nsvcd__patches_build(&region.mesh, most, &spare, &patches);
@@ -75,14 +75,14 @@ static nsvcd_result nsvcd__add_region(nsvcd__draft *draft, nsvcd__regions *regio
                   !nsvcd__sorted_build(&pieces, &spare, &sorted)))
     result = NSVCD_ERROR_MEMORY;
   if (!result) {
-    nsvcd__f3 *centres = draft->latents.centres + draft->count;
+    nsvcd__f3 *centres = d->latents.centres + d->count;
     memcpy(centres, patches.centres, patches.count * sizeof *centres);
 #ifndef NSVCD_NO_NETWORK
-    if (draft->options->latents) nsvcd__add_latents(draft, &sorted);
+    if (d->options->latents) nsvcd__add_latents(d, &sorted);
 #endif
-    if (NSVCD__PROOF && !draft->options->no_triangles)
-      result = nsvcd__surface_add(&sorted, &draft->surface);
-    draft->count += patches.count;
+    if (NSVCD__PROOF && !d->options->no_triangles)
+      result = nsvcd__surface_add(&sorted, &d->surface);
+    d->count += patches.count;
   }
   if (!result) nsvcd__region_end(regions, &region);
   nsvcd__arena_free(&spare);
@@ -90,17 +90,17 @@ static nsvcd_result nsvcd__add_region(nsvcd__draft *draft, nsvcd__regions *regio
 }
 
 // Drafts a mesh that has points or segments, in runs, block by block. There are no latents.
-static nsvcd_result nsvcd__draft_runs(nsvcd__draft *draft) {
-  const nsvcd_mesh *mesh = draft->mesh;
+static nsvcd_result nsvcd__draft_runs(nsvcd__draft *d) {
+  const nsvcd_mesh *mesh = d->mesh;
   const size_t triangles = mesh->triangle_count;
-  const size_t wanted = draft->options->patches;
+  const size_t wanted = d->options->patches;
   const size_t runs = wanted < triangles ? wanted : triangles;
-  nsvcd__arena spare = nsvcd__arena_of(draft->arena.allocator);
-  nsvcd__surface *surface = &draft->surface;
+  nsvcd__arena spare = nsvcd__arena_of(d->arena.allocator);
+  nsvcd__surface *surface = &d->surface;
   nsvcd__curve curve;
-  int ok = nsvcd__surface_begin(runs, mesh->vertex_count, draft->options->coarse,
-                                &draft->arena, surface);
-  ok = ok && nsvcd__curve_build(mesh, draft->options->convex_radius, &spare, &curve);
+  int ok =
+      nsvcd__surface_begin(runs, mesh->vertex_count, d->options->coarse, &d->arena, surface);
+  ok = ok && nsvcd__curve_build(mesh, d->options->convex_radius, &spare, &curve);
   ok = ok && nsvcd__surface_room(surface, mesh->vertex_count, mesh->vertex_count, triangles);
   if (ok) surface->solids = curve.solids;
   nsvcd_result result = ok ? NSVCD_OK : NSVCD_ERROR_MEMORY;
@@ -117,26 +117,25 @@ static nsvcd_result nsvcd__draft_runs(nsvcd__draft *draft) {
     result = ok ? nsvcd__surface_add(&sorted, surface) : NSVCD_ERROR_MEMORY;
     nsvcd__arena_free(&few);
     const double done = (double)last / (double)runs;
-    if (!result && nsvcd__is_cancelled(draft->options, 0.9 * done))
-      result = NSVCD_ERROR_CANCELLED;
+    if (!result && nsvcd__is_cancelled(d->options, 0.9 * done)) result = NSVCD_ERROR_CANCELLED;
   }
-  draft->count = runs;
+  d->count = runs;
   nsvcd__arena_free(&spare);
   return result;
 }
 
 // Drafts a mesh region by region.
-static nsvcd_result nsvcd__draft_regions(nsvcd__draft *draft) {
-  const nsvcd_encode_options *options = draft->options;
+static nsvcd_result nsvcd__draft_regions(nsvcd__draft *d) {
+  const nsvcd_encode_options *options = d->options;
   const size_t patches = options->patches;
-  nsvcd__arena *arena = &draft->arena;
+  nsvcd__arena *arena = &d->arena;
   nsvcd__arena spare = nsvcd__arena_of(arena->allocator);
   nsvcd__regions regions;
-  if (!nsvcd__regions_build(draft->mesh, patches, &spare, &regions)) {
+  if (!nsvcd__regions_build(d->mesh, patches, &spare, &regions)) {
     nsvcd__arena_free(&spare);
     return NSVCD_ERROR_MEMORY;
   }
-  nsvcd__latents *latents = &draft->latents;
+  nsvcd__latents *latents = &d->latents;
   latents->centres = NSVCD__TAKE(arena, nsvcd__f3, patches);
 #ifndef NSVCD_NO_NETWORK
   const size_t room = options->latents ? patches : 0;
@@ -147,15 +146,15 @@ static nsvcd_result nsvcd__draft_regions(nsvcd__draft *draft) {
 #endif
   if (NSVCD__PROOF && !options->no_triangles)
     (void)nsvcd__surface_begin(patches, regions.component_count, options->coarse, arena,
-                               &draft->surface);
-  draft->surface.solids = regions.solids;
+                               &d->surface);
+  d->surface.solids = regions.solids;
   const size_t count = regions.count;
   nsvcd_result result = arena->failed ? NSVCD_ERROR_MEMORY : NSVCD_OK;
   for (size_t n = 0; !result && n < count; n++) {
     const size_t most = patches * (n + 1) / count - patches * n / count;
     const double done = (double)(n + 1) / (double)(count + 2);
     const int stop = nsvcd__is_cancelled(options, done);
-    result = stop ? NSVCD_ERROR_CANCELLED : nsvcd__add_region(draft, &regions, n, most);
+    result = stop ? NSVCD_ERROR_CANCELLED : nsvcd__add_region(d, &regions, n, most);
   }
   nsvcd__arena_free(&spare);
   return result;
@@ -164,56 +163,54 @@ static nsvcd_result nsvcd__draft_regions(nsvcd__draft *draft) {
 // Makes everything but the blob. After success, free the draft's arena. MEMORY, CANCELLED, TOO_LARGE.
 static nsvcd_result nsvcd__draft_build(const nsvcd_mesh *mesh,
                                        const nsvcd_encode_options *options,
-                                       const nsvcd_allocator *allocator, nsvcd__draft *draft) {
-  memset(draft, 0, sizeof *draft);
-  draft->mesh = mesh;
-  draft->options = options;
-  draft->arena = nsvcd__arena_of(allocator);
+                                       const nsvcd_allocator *allocator, nsvcd__draft *d) {
+  memset(d, 0, sizeof *d);
+  d->mesh = mesh;
+  d->options = options;
+  d->arena = nsvcd__arena_of(allocator);
   if (nsvcd__is_cancelled(options, 0)) return NSVCD_ERROR_CANCELLED;
-  draft->in_runs = NSVCD__PROOF && options->convex_radius > 0 && nsvcd__has_points(mesh);
-  nsvcd_result result =
-      draft->in_runs ? nsvcd__draft_runs(draft) : nsvcd__draft_regions(draft);
+  d->in_runs = NSVCD__PROOF && options->convex_radius > 0 && nsvcd__has_points(mesh);
+  nsvcd_result result = d->in_runs ? nsvcd__draft_runs(d) : nsvcd__draft_regions(d);
 #ifndef NSVCD_NO_NETWORK
-  if (!result && options->latents) draft->latents_size = nsvcd_body_size(draft->count);
+  if (!result && options->latents) d->latents_size = nsvcd_body_size(d->count);
 #endif
   if (NSVCD__PROOF && !result && !options->no_triangles) {
-    nsvcd__writer *w = &draft->writer;
-    w->surface = &draft->surface;
+    nsvcd__writer *w = &d->writer;
+    w->surface = &d->surface;
     w->mesh = mesh;
-    if (!nsvcd__geometry_count(w, &draft->arena)) result = NSVCD_ERROR_MEMORY;
+    if (!nsvcd__geometry_count(w, &d->arena)) result = NSVCD_ERROR_MEMORY;
     w->counts.convex_radius = options->convex_radius;
-    draft->geometry_size = nsvcd__geometry_layout(NULL, draft->count, &w->counts, &w->to);
-    if (!result && !draft->geometry_size) result = NSVCD_ERROR_TOO_LARGE;
+    d->geometry_size = nsvcd__geometry_layout(NULL, d->count, &w->counts, &w->to);
+    if (!result && !d->geometry_size) result = NSVCD_ERROR_TOO_LARGE;
   }
-  if (result) nsvcd__arena_free(&draft->arena);
+  if (result) nsvcd__arena_free(&d->arena);
   return result;
 }
 
 // Orders the patches and writes the blob: the body of latents, then the body of triangles. MEMORY,
 // NUMBER, EMPTY.
-static nsvcd_result nsvcd__draft_write(nsvcd__draft *draft, void *memory) {
-  const size_t count = draft->count;
-  nsvcd__latents *latents = &draft->latents;
+static nsvcd_result nsvcd__draft_write(nsvcd__draft *d, void *memory) {
+  const size_t count = d->count;
+  nsvcd__latents *latents = &d->latents;
   latents->count = count;
-  latents->open = draft->options->open;
-  uint16_t *order = NSVCD__TAKE(&draft->arena, uint16_t, 2 * count);
+  latents->open = d->options->open;
+  uint16_t *order = NSVCD__TAKE(&d->arena, uint16_t, 2 * count);
   if (!order) return NSVCD_ERROR_MEMORY;
   for (size_t i = 0; i < count; i++) order[i] = (uint16_t)i;
-  if (!draft->in_runs) nsvcd__body_order(latents->centres, order, order + count, count);
+  if (!d->in_runs) nsvcd__body_order(latents->centres, order, order + count, count);
   latents->order = order;
   nsvcd_result result = NSVCD_OK;
 #ifndef NSVCD_NO_NETWORK
-  if (draft->latents_size) result = nsvcd__body_build(latents, memory);
+  if (d->latents_size) result = nsvcd__body_build(latents, memory);
 #endif
-  void *to = (char *)memory + draft->latents_size;
-  if (NSVCD__PROOF && !result && draft->geometry_size)
-    result =
-        nsvcd__geometry_build(&draft->writer, order, latents->open, to, draft->geometry_size);
-  if (result || !draft->latents_size || !draft->geometry_size) return result;
+  void *to = (char *)memory + d->latents_size;
+  if (NSVCD__PROOF && !result && d->geometry_size)
+    result = nsvcd__geometry_build(&d->writer, order, latents->open, to, d->geometry_size);
+  if (result || !d->latents_size || !d->geometry_size) return result;
   nsvcd_body *b = (nsvcd_body *)memory;
-  b->triangles = (uint32_t)draft->mesh->triangle_count;
-  b->inner = (uint32_t)draft->latents_size;
-  b->size = (uint32_t)(draft->latents_size + draft->geometry_size);
+  b->triangles = (uint32_t)d->mesh->triangle_count;
+  b->inner = (uint32_t)d->latents_size;
+  b->size = (uint32_t)(d->latents_size + d->geometry_size);
   b->checksum = nsvcd__body_checksum(b);
   return NSVCD_OK;
 }

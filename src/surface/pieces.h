@@ -92,19 +92,18 @@ typedef struct nsvcd__pieces {
   double thin;
 } nsvcd__pieces;
 
-static const uint32_t *nsvcd__triangle_corners(const nsvcd__pieces *pieces,
-                                               uint32_t triangle) {
-  return pieces->region->mesh.indices + 3 * (size_t)triangle;
+static const uint32_t *nsvcd__triangle_corners(const nsvcd__pieces *p, uint32_t triangle) {
+  return p->region->mesh.indices + 3 * (size_t)triangle;
 }
-static const uint32_t *nsvcd__piece_corners(const nsvcd__pieces *pieces,
+static const uint32_t *nsvcd__piece_corners(const nsvcd__pieces *p,
                                             const nsvcd__piece *piece) {
-  if (piece->first == NSVCD__WHOLE) return nsvcd__triangle_corners(pieces, piece->triangle);
-  return (const uint32_t *)pieces->corners.items + piece->first;
+  if (piece->first == NSVCD__WHOLE) return nsvcd__triangle_corners(p, piece->triangle);
+  return (const uint32_t *)p->corners.items + piece->first;
 }
 
-static nsvcd__d3 nsvcd__point_at(const nsvcd__pieces *pieces, uint32_t number) {
-  const nsvcd__region *region = pieces->region;
-  const nsvcd__d3 *made = (const nsvcd__d3 *)pieces->points.items;
+static nsvcd__d3 nsvcd__point_at(const nsvcd__pieces *p, uint32_t number) {
+  const nsvcd__region *region = p->region;
+  const nsvcd__d3 *made = (const nsvcd__d3 *)p->points.items;
   const size_t vertices = region->mesh.vertex_count;
   const size_t first_cut = vertices - region->cut_count;
   if (number < first_cut) return nsvcd__d3_row(region->mesh.positions, number);
@@ -115,12 +114,11 @@ static nsvcd__d3 nsvcd__point_at(const nsvcd__pieces *pieces, uint32_t number) {
 // Divides a polygon where `beyond`, a value at each corner, changes its sign: near_part is where it
 // is negative. There must be room for the new points. 0 if a part has less than three corners, which
 // roundings can cause, or too many.
-static int nsvcd__divide(nsvcd__pieces *pieces, const nsvcd__convex *from,
-                         const double *beyond, nsvcd__convex *near_part,
-                         nsvcd__convex *far_part) {
-  const uint32_t vertices = (uint32_t)pieces->region->mesh.vertex_count;
-  const size_t made = pieces->points.count;
-  nsvcd__d3 *points = (nsvcd__d3 *)pieces->points.items;
+static int nsvcd__divide(nsvcd__pieces *p, const nsvcd__convex *from, const double *beyond,
+                         nsvcd__convex *near_part, nsvcd__convex *far_part) {
+  const uint32_t vertices = (uint32_t)p->region->mesh.vertex_count;
+  const size_t made = p->points.count;
+  nsvcd__d3 *points = (nsvcd__d3 *)p->points.items;
   near_part->count = 0;
   far_part->count = 0;
   for (size_t i = 0; i < from->count; i++) {
@@ -130,11 +128,11 @@ static int nsvcd__divide(nsvcd__pieces *pieces, const nsvcd__convex *from,
     const int leaves = beyond[i] < 0 && beyond[j] > 0;
     const int enters = beyond[i] > 0 && beyond[j] < 0;
     if (!leaves && !enters) continue;
-    const nsvcd__d3 a = nsvcd__point_at(pieces, from->points[i]);
-    const nsvcd__d3 b = nsvcd__point_at(pieces, from->points[j]);
-    const uint32_t number = vertices + (uint32_t)pieces->points.count;
+    const nsvcd__d3 a = nsvcd__point_at(p, from->points[i]);
+    const nsvcd__d3 b = nsvcd__point_at(p, from->points[j]);
+    const uint32_t number = vertices + (uint32_t)p->points.count;
     const double fraction = beyond[i] / (beyond[i] - beyond[j]);
-    points[pieces->points.count++] = nsvcd__d3_mix(a, b, fraction);
+    points[p->points.count++] = nsvcd__d3_mix(a, b, fraction);
     near_part->points[near_part->count++] = number;
     far_part->points[far_part->count++] = number;
   }
@@ -142,16 +140,16 @@ static int nsvcd__divide(nsvcd__pieces *pieces, const nsvcd__convex *from,
   if (near_part->count >= 3 && near_part->count <= most && far_part->count >= 3 &&
       far_part->count <= most)
     return 1;
-  pieces->points.count = made;
+  p->points.count = made;
   return 0;
 }
 
 // The distance from a point to a polygon's farthest corner.
-static double nsvcd__farthest_corner(const nsvcd__pieces *pieces, const nsvcd__convex *convex,
+static double nsvcd__farthest_corner(const nsvcd__pieces *p, const nsvcd__convex *convex,
                                      nsvcd__d3 from) {
   double squared = 0;
   for (size_t i = 0; i < convex->count; i++) {
-    const nsvcd__d3 at = nsvcd__point_at(pieces, convex->points[i]);
+    const nsvcd__d3 at = nsvcd__point_at(p, convex->points[i]);
     squared = nsvcd__max(squared, nsvcd__d3_distance2(at, from));
   }
   return sqrt(squared);
@@ -159,16 +157,16 @@ static double nsvcd__farthest_corner(const nsvcd__pieces *pieces, const nsvcd__c
 
 // Cuts off the parts of a polygon that extend too far beyond its patch's cell, and puts them aside
 // to be cut later. 0 without memory.
-static int nsvcd__trim(nsvcd__pieces *pieces, uint32_t patch, nsvcd__convex *convex) {
-  const nsvcd__patches *patches = pieces->patches;
+static int nsvcd__trim(nsvcd__pieces *p, uint32_t patch, nsvcd__convex *convex) {
+  const nsvcd__patches *patches = p->patches;
   const nsvcd__d3 own = nsvcd__d3_widen(patches->centres[patch]);
   const size_t first = (size_t)patch * NSVCD__NEIGHBOURS;
-  double farthest = nsvcd__farthest_corner(pieces, convex, own);
+  double farthest = nsvcd__farthest_corner(p, convex, own);
   for (size_t k = first; k < first + NSVCD__NEIGHBOURS; k++) {
     // the cell's side is half the distance away; those of the next neighbours are farther
     const double plane = sqrt((double)patches->quarter_squares[k]);
-    if (farthest <= plane + pieces->overlap) break;
-    if (pieces->cuts_left == 0 || pieces->waiting_count == NSVCD__WAITING) break;
+    if (farthest <= plane + p->overlap) break;
+    if (p->cuts_left == 0 || p->waiting_count == NSVCD__WAITING) break;
     const nsvcd__d3 other = nsvcd__d3_widen(patches->centres[patches->neighbours[k]]);
     const nsvcd__d3 across = nsvcd__d3_sub(other, own);
     const nsvcd__d3 middle = nsvcd__d3_mix(own, other, 0.5);
@@ -176,62 +174,62 @@ static int nsvcd__trim(nsvcd__pieces *pieces, uint32_t patch, nsvcd__convex *con
     double beyond[NSVCD__PIECE_CORNERS];
     double most = -HUGE_VAL;
     for (size_t i = 0; i < convex->count; i++) {
-      const nsvcd__d3 at = nsvcd__point_at(pieces, convex->points[i]);
+      const nsvcd__d3 at = nsvcd__point_at(p, convex->points[i]);
       const double height = nsvcd__d3_dot(nsvcd__d3_sub(at, middle), across);
       beyond[i] = length > 0 ? height / length : -1;
       most = nsvcd__max(most, beyond[i]);
     }
-    if (most <= pieces->overlap) continue;
-    nsvcd__list *points = &pieces->points;
-    if (!nsvcd__list_reserve(points, convex->count, sizeof own, pieces->arena)) return 0;
+    if (most <= p->overlap) continue;
+    nsvcd__list *points = &p->points;
+    if (!nsvcd__list_reserve(points, convex->count, sizeof own, p->arena)) return 0;
     nsvcd__convex near_part;
-    nsvcd__convex *far_part = &pieces->waiting[pieces->waiting_count];
-    if (!nsvcd__divide(pieces, convex, beyond, &near_part, far_part)) continue;
+    nsvcd__convex *far_part = &p->waiting[p->waiting_count];
+    if (!nsvcd__divide(p, convex, beyond, &near_part, far_part)) continue;
     *convex = near_part;
-    pieces->waiting_count++;
-    pieces->cuts_left--;
-    farthest = nsvcd__farthest_corner(pieces, convex, own);
+    p->waiting_count++;
+    p->cuts_left--;
+    farthest = nsvcd__farthest_corner(p, convex, own);
   }
   return 1;
 }
 
 // Cuts a triangle into pieces. guess: the last piece's patch. 0 without memory.
-static int nsvcd__cut_up(nsvcd__pieces *pieces, uint32_t triangle, uint32_t *guess) {
-  const uint32_t *corners = nsvcd__triangle_corners(pieces, triangle);
+static int nsvcd__cut_up(nsvcd__pieces *p, uint32_t triangle, uint32_t *guess) {
+  const uint32_t *corners = nsvcd__triangle_corners(p, triangle);
   nsvcd__piece piece = {NSVCD__WHOLE, triangle, 0, 0, 0};
   double squared = 0;
   for (size_t k = 0; k < 3; k++) {
-    const nsvcd__d3 a = nsvcd__point_at(pieces, corners[k]);
-    const nsvcd__d3 b = nsvcd__point_at(pieces, corners[(k + 1) % 3]);
+    const nsvcd__d3 a = nsvcd__point_at(p, corners[k]);
+    const nsvcd__d3 b = nsvcd__point_at(p, corners[(k + 1) % 3]);
     squared = nsvcd__max(squared, nsvcd__d3_distance2(a, b));
-    pieces->waiting[0].points[k] = corners[k];
+    p->waiting[0].points[k] = corners[k];
   }
-  piece.divided = sqrt(squared) > pieces->longest_edge;
-  pieces->waiting[0].count = 3;
-  pieces->waiting_count = 1;
-  while (pieces->waiting_count > 0) {
-    nsvcd__convex convex = pieces->waiting[--pieces->waiting_count];
+  piece.divided = sqrt(squared) > p->longest_edge;
+  p->waiting[0].count = 3;
+  p->waiting_count = 1;
+  while (p->waiting_count > 0) {
+    nsvcd__convex convex = p->waiting[--p->waiting_count];
     nsvcd__d3 sum = nsvcd__d3_of(0, 0, 0);
     for (size_t i = 0; i < convex.count; i++)
-      sum = nsvcd__d3_add(sum, nsvcd__point_at(pieces, convex.points[i]));
+      sum = nsvcd__d3_add(sum, nsvcd__point_at(p, convex.points[i]));
     const nsvcd__d3 mean = nsvcd__d3_scale(sum, 1 / (double)convex.count);
-    *guess = nsvcd__nearest_centre(pieces->patches, *guess, nsvcd__d3_narrow(mean));
+    *guess = nsvcd__nearest_centre(p->patches, *guess, nsvcd__d3_narrow(mean));
     piece.patch = (uint16_t)*guess;
-    if (!nsvcd__trim(pieces, piece.patch, &convex)) return 0;
+    if (!nsvcd__trim(p, piece.patch, &convex)) return 0;
 
-    nsvcd__list *list = &pieces->corners;
+    nsvcd__list *list = &p->corners;
     const size_t bytes = convex.count * sizeof *corners;
     piece.count = (uint8_t)convex.count;
     piece.first = NSVCD__WHOLE;
     if (convex.count != 3 || memcmp(convex.points, corners, bytes) != 0) {
       if (list->count >= NSVCD__WHOLE - NSVCD__PIECE_CORNERS) return 0;
-      if (!nsvcd__list_reserve(list, convex.count, sizeof *corners, pieces->arena)) return 0;
+      if (!nsvcd__list_reserve(list, convex.count, sizeof *corners, p->arena)) return 0;
       memcpy((uint32_t *)list->items + list->count, convex.points, bytes);
       piece.first = (uint32_t)list->count;
       list->count += convex.count;
     }
-    list = &pieces->list;
-    if (!nsvcd__list_reserve(list, 1, sizeof piece, pieces->arena)) return 0;
+    list = &p->list;
+    if (!nsvcd__list_reserve(list, 1, sizeof piece, p->arena)) return 0;
     ((nsvcd__piece *)list->items)[list->count++] = piece;
   }
   return 1;
@@ -239,30 +237,29 @@ static int nsvcd__cut_up(nsvcd__pieces *pieces, uint32_t triangle, uint32_t *gue
 
 // Cuts a region into pieces. 0 without memory.
 static int nsvcd__pieces_build(const nsvcd__region *region, const nsvcd__patches *patches,
-                               nsvcd__arena *arena, nsvcd__pieces *pieces) {
+                               nsvcd__arena *arena, nsvcd__pieces *p) {
   const size_t triangles = region->mesh.triangle_count;
   double size = 0;
   for (size_t i = 0; i < patches->count; i++) size += (double)patches->sample_radii[i];
   size /= (double)patches->count;
-  memset(pieces, 0, sizeof *pieces);
-  pieces->arena = arena;
-  pieces->region = region;
-  pieces->patches = patches;
-  pieces->margin = NSVCD__SURFACE_MARGIN * region->greatest + NSVCD__SURFACE_TINY;
-  pieces->overlap = NSVCD__SURFACE_OVERLAP * size + pieces->margin;
-  pieces->longest_edge = NSVCD__SURFACE_WHOLE * size;
-  pieces->cuts_left = NSVCD__CUTS_PER_PATCH * patches->count;
-  const size_t room = NSVCD__MAX_CUTS - pieces->cuts_left;
+  memset(p, 0, sizeof *p);
+  p->arena = arena;
+  p->region = region;
+  p->patches = patches;
+  p->margin = NSVCD__SURFACE_MARGIN * region->greatest + NSVCD__SURFACE_TINY;
+  p->overlap = NSVCD__SURFACE_OVERLAP * size + p->margin;
+  p->longest_edge = NSVCD__SURFACE_WHOLE * size;
+  p->cuts_left = NSVCD__CUTS_PER_PATCH * patches->count;
+  const size_t room = NSVCD__MAX_CUTS - p->cuts_left;
   const int many = triangles > room / NSVCD__CUTS_PER_TRIANGLE;
-  pieces->cuts_left += many ? room : NSVCD__CUTS_PER_TRIANGLE * triangles;
+  p->cuts_left += many ? room : NSVCD__CUTS_PER_TRIANGLE * triangles;
 
-  pieces->waiting = NSVCD__TAKE(arena, nsvcd__convex, NSVCD__WAITING);
+  p->waiting = NSVCD__TAKE(arena, nsvcd__convex, NSVCD__WAITING);
   // Most triangles are one piece: with room for an eighth more the list rarely has to grow.
   const size_t most = triangles + triangles / 8;
-  int ok =
-      pieces->waiting && nsvcd__list_reserve(&pieces->list, most, sizeof(nsvcd__piece), arena);
+  int ok = p->waiting && nsvcd__list_reserve(&p->list, most, sizeof(nsvcd__piece), arena);
   uint32_t guess = 0;
-  for (uint32_t t = 0; ok && t < triangles; t++) ok = nsvcd__cut_up(pieces, t, &guess);
+  for (uint32_t t = 0; ok && t < triangles; t++) ok = nsvcd__cut_up(p, t, &guess);
   return ok;
 }
 #endif  // NSVCD_NO_ENCODER

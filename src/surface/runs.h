@@ -75,32 +75,32 @@ typedef struct nsvcd__curve {
 } nsvcd__curve;
 
 // Adds the kinds of triangles to the keys. 0 without memory.
-static int nsvcd__curve_mark(nsvcd__curve *curve, nsvcd__arena *kept) {
-  const nsvcd_mesh *mesh = curve->mesh;
+static int nsvcd__curve_mark(nsvcd__curve *c, nsvcd__arena *kept) {
+  const nsvcd_mesh *mesh = c->mesh;
   // points and segments alone enclose nothing
   if (!mesh->indices || !(nsvcd__mesh_area(mesh) > 0)) return 1;
   nsvcd__topology topology;
   nsvcd__arena arena = nsvcd__arena_of(kept->allocator);
   const int known = nsvcd__topology_build(mesh, &arena, &topology) &&
-                    nsvcd__solids_build(&topology, kept, &curve->solids);
+                    nsvcd__solids_build(&topology, kept, &c->solids);
   for (size_t t = 0; known && t < mesh->triangle_count; t++)
-    curve->keys[t] |= (uint64_t)curve->solids.kinds[t] << NSVCD__KIND_SHIFT;
+    c->keys[t] |= (uint64_t)c->solids.kinds[t] << NSVCD__KIND_SHIFT;
   nsvcd__arena_free(&arena);
   return known;
 }
 
 // Sorts a mesh along the curve. 0 without memory.
 static int nsvcd__curve_build(const nsvcd_mesh *mesh, float convex_radius, nsvcd__arena *arena,
-                              nsvcd__curve *curve) {
+                              nsvcd__curve *c) {
   const size_t count = mesh->triangle_count;
-  memset(curve, 0, sizeof *curve);
-  curve->mesh = mesh;
-  curve->convex_radius = (double)convex_radius;
-  curve->keys = NSVCD__TAKE(arena, uint64_t, 2 * count);
-  curve->met = NSVCD__TAKE(arena, uint32_t, mesh->indices ? mesh->vertex_count : 0);
+  memset(c, 0, sizeof *c);
+  c->mesh = mesh;
+  c->convex_radius = (double)convex_radius;
+  c->keys = NSVCD__TAKE(arena, uint64_t, 2 * count);
+  c->met = NSVCD__TAKE(arena, uint32_t, mesh->indices ? mesh->vertex_count : 0);
   if (arena->failed) return 0;
   for (size_t i = 0; i < 3 * mesh->vertex_count; i++)
-    curve->greatest = nsvcd__max(curve->greatest, fabs((double)mesh->positions[i]));
+    c->greatest = nsvcd__max(c->greatest, fabs((double)mesh->positions[i]));
   nsvcd__f3 low = nsvcd__middle_of(mesh, 0);
   nsvcd__f3 high = low;
   for (size_t t = 0; t < count; t++) {
@@ -116,10 +116,10 @@ static int nsvcd__curve_build(const nsvcd_mesh *mesh, float convex_radius, nsvcd
     const uint64_t x = nsvcd__spread_bits(cells * at.x);
     const uint64_t y = nsvcd__spread_bits(cells * at.y);
     const uint64_t z = nsvcd__spread_bits(cells * at.z);
-    curve->keys[t] = (x | y << 1 | z << 2) << 32 | t;
+    c->keys[t] = (x | y << 1 | z << 2) << 32 | t;
   }
-  if (!nsvcd__curve_mark(curve, arena)) return 0;
-  nsvcd__sort_by_code(curve->keys, curve->keys + count, count);
+  if (!nsvcd__curve_mark(c, arena)) return 0;
+  nsvcd__sort_by_code(c->keys, c->keys + count, count);
   return 1;
 }
 
@@ -132,14 +132,14 @@ static size_t nsvcd__run_begin(size_t triangles, size_t run, size_t runs) {
 // triangles and vertices of a block are copied in the order of the curve, so that the rest reads
 // memory from front to back. A triangle may be a component of its own if none of its vertices was
 // met before. 0 without memory.
-static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, size_t runs,
+static int nsvcd__runs_build(nsvcd__curve *c, size_t first, size_t last, size_t runs,
                              nsvcd__arena *arena, nsvcd__region *block,
                              nsvcd__patches *patches, nsvcd__pieces *pieces) {
-  const nsvcd_mesh *mesh = curve->mesh;
+  const nsvcd_mesh *mesh = c->mesh;
   const size_t all = mesh->triangle_count;
   const size_t begin = nsvcd__run_begin(all, first, runs);
   const size_t count = nsvcd__run_begin(all, last, runs) - begin;
-  const uint32_t before = curve->met_count;
+  const uint32_t before = c->met_count;
   memset(block, 0, sizeof *block);
   memset(patches, 0, sizeof *patches);
   memset(pieces, 0, sizeof *pieces);
@@ -150,14 +150,14 @@ static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, siz
   block->ids = NSVCD__TAKE(arena, uint32_t, count);
   block->vertices = NSVCD__TAKE(arena, uint32_t, most);
   block->seeds = NSVCD__TAKE(arena, uint8_t, most);
-  block->greatest = curve->greatest;
+  block->greatest = c->greatest;
   patches->count = last - first;
   patches->centres = NSVCD__TAKE(arena, nsvcd__f3, patches->count);
   pieces->arena = arena;
   pieces->region = block;
   pieces->patches = patches;
   pieces->margin = NSVCD__SURFACE_MARGIN * block->greatest + NSVCD__SURFACE_TINY;
-  pieces->thin = NSVCD__RUN_THIN * curve->convex_radius;
+  pieces->thin = NSVCD__RUN_THIN * c->convex_radius;
   if (!nsvcd__list_reserve(&pieces->list, count, sizeof(nsvcd__piece), arena) || arena->failed)
     return 0;
   nsvcd__piece *out = (nsvcd__piece *)pieces->list.items;
@@ -169,7 +169,7 @@ static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, siz
     if (k == end) end = nsvcd__run_begin(all, ++run, runs) - begin;
     const nsvcd__piece piece = {NSVCD__WHOLE, (uint32_t)k, (uint16_t)(run - 1 - first), 3, 0};
     out[k] = piece;
-    block->ids[k] = (uint32_t)curve->keys[begin + k];
+    block->ids[k] = (uint32_t)c->keys[begin + k];
     const size_t id = block->ids[k] & NSVCD__NUMBER;
     for (size_t n = 3 * k; n < 3 * k + 3; n++) {
       const size_t corner = 3 * id + n - 3 * k;
@@ -183,12 +183,12 @@ static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, siz
   }
   for (size_t n = 0; mesh->indices && n < 3 * count; n++) {
     const uint32_t *face = &block->mesh.indices[n / 3 * 3];
-    uint32_t *met = &curve->met[block->mesh.indices[n]];
+    uint32_t *met = &c->met[block->mesh.indices[n]];
     if (*met <= before) {
       block->seeds[block->mesh.vertex_count] =
-          n % 3 == 0 && !curve->met[face[0]] && !curve->met[face[1]] && !curve->met[face[2]];
+          n % 3 == 0 && !c->met[face[0]] && !c->met[face[1]] && !c->met[face[2]];
       block->vertices[block->mesh.vertex_count++] = block->mesh.indices[n];
-      *met = ++curve->met_count;
+      *met = ++c->met_count;
     }
     block->mesh.indices[n] = *met - 1 - before;
   }
