@@ -49,9 +49,9 @@ typedef struct nsvcd__patches {
   nsvcd__f3 *drawn, *drawn_normals;
   // (S) the patch of each
   uint16_t *owners;
-  // (S) squared distance from the owner's centre
+  // (S) squared distance from the owner's centre; in the memory of `samples`
   float *squares;
-  // (S), (N) linked lists of each centre's samples
+  // (S), (N) linked lists of each centre's samples; the first one in the memory of `samples`
   uint32_t *next_sample, *first_sample;
   // (N) each centre's farthest sample, and its squared distance
   uint32_t *farthest_sample;
@@ -152,13 +152,14 @@ static int nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples,
   p->normals = NSVCD__TAKE(arena, nsvcd__f3, samples);
   p->quarter_squares = NSVCD__TAKE(arena, float, links);
   p->greatest = NSVCD__TAKE(arena, float, count);
-  p->squares = NSVCD__TAKE(arena, float, samples);
-  p->next_sample = NSVCD__TAKE(arena, uint32_t, samples);
   p->first_sample = NSVCD__TAKE(arena, uint32_t, count);
   p->farthest_sample = NSVCD__TAKE(arena, uint32_t, count);
   p->neighbours = NSVCD__TAKE(arena, uint32_t, links);
   p->offsets = NSVCD__TAKE(arena, uint32_t, count + 1);
   p->owners = NSVCD__TAKE(arena, uint16_t, samples);
-  return !arena->failed;
+  if (arena->failed) return 0;
+  p->squares = (float *)(void *)p->samples;
+  p->next_sample = (uint32_t *)(void *)(p->squares + samples);
+  return 1;
 }
 #endif  // NSVCD_NO_ENCODER

@@ -268,7 +268,10 @@ static int nsvcd__surface_room(nsvcd__surface *s, size_t stored, size_t named,
 // Adds the patches of a region. MEMORY; TOO_LARGE if a patch has more than NSVCD__PATCH_VERTICES
 // points, or there are too many in all. After a failure the surface is of no use.
 static nsvcd_result nsvcd__surface_add(nsvcd__sorted *sorted, nsvcd__surface *s) {
-  for (size_t i = 0; i < sorted->pieces->patches->count; i++) {
+  const nsvcd__pieces *pieces = sorted->pieces;
+  // usually enough, so that lists need not grow
+  if (!nsvcd__surface_room(s, 0, pieces->list.count, pieces->list.count)) return NSVCD_ERROR_MEMORY;
+  for (size_t i = 0; i < pieces->patches->count; i++) {
     uint32_t hull[NSVCD__HULL];
     size_t stored = 0;
     nsvcd__describe_patch(sorted, i, s, hull);
