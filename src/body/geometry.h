@@ -170,8 +170,8 @@ static nsvcd__d3 nsvcd__vertex_at(const nsvcd__vertices *vertices, size_t i) {
   return nsvcd__d3_of(vertices->x[i], vertices->y[i], vertices->z[i]);
 }
 
-// The points that a patch's corners can be are numbered: stored ones, own vertices, references. How
-// many stored ones, own ones and all there are:
+// A patch numbers the points that its corners can be: stored points, then own vertices, then
+// references. These are their counts.
 typedef struct nsvcd__patch_points {
   size_t stored, own, all;
 } nsvcd__patch_points;

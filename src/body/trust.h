@@ -161,9 +161,9 @@ static int nsvcd__header_is_sound(const nsvcd_body *b, size_t size) {
   return b->size >= nsvcd__spheres_size(b->padded) && b->size % NSVCD_ALIGNMENT == 0;
 }
 
-// Is a body of triangles sound, whose header is, in at most `size` bytes? The layout, which is sizes,
-// counts and indices, the spheres, and that numbers are in range. They may misstate the surface, but
-// nothing computed from them overflows.
+// Is a body of triangles sound, if its header is? Checks the spheres, the layout (sizes, counts and
+// indices), and that numbers are in range: they may misstate the surface, but nothing computed from
+// them overflows. size: bytes, at most.
 static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
   if (b->inner != 0 || b->triangles == 0 || !nsvcd__spheres_are_sound(b)) return 0;
   const size_t padded = b->padded;
@@ -211,7 +211,7 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
   return 1;
 }
 
-// Is a body sound, whose header is? Does not check the checksum.
+// Is a body sound, if its header and its checksum are?
 static int nsvcd__body_is_sound(const nsvcd_body *b) {
   if (b->weights_id == 0) return NSVCD__PROOF && nsvcd__triangles_are_sound(b, b->size);
   if (b->size < nsvcd__latents_begin(b->padded)) return 0;
