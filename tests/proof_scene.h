@@ -219,7 +219,7 @@ static int proof_point(const proof_body *b, const nsvcd__geometry *f, size_t i, 
 // Where the numbers of a patch's triangles are: behind their corners.
 static const unsigned char *proof_numbers(const nsvcd__geometry *f, size_t i) {
   const size_t triangles = f->first_triangle[i + 1] - f->first_triangle[i];
-  return f->codes + f->first_byte[i] + (proof_points(f, i) <= 256 ? 3 : 6) * triangles;
+  return f->entries + f->first_byte[i] + (proof_points(f, i) <= 256 ? 3 : 6) * triangles;
 }
 
 // The number of the patch's n-th triangle: the sum of what n + 1 codes say, each in groups of seven
@@ -248,7 +248,7 @@ static void proof_read_listing(const proof_body *b, const nsvcd__geometry *f, si
   out->whole = 1;
   for (size_t c = 0; c < 3; c++) {
     const size_t corner = 3 * (n - f->first_triangle[i]) + c;
-    const unsigned char *at = f->codes + f->first_byte[i] + bytes * corner;
+    const unsigned char *at = f->entries + f->first_byte[i] + bytes * corner;
     const size_t number = proof_stored_number(at, bytes);
     if (!proof_point(b, f, i, number, out->stored[c])) out->whole = 0;
   }

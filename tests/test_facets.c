@@ -193,7 +193,7 @@ static void proof_forge_counts(const nsvcd_body *body, const nsvcd__geometry *f)
   const unsigned char endless[5] = {0x80, 0x80, 0x80, 0x80, 0x80};
   for (size_t i = 0; i < f->body->patches; i++) {
     const unsigned char *at = proof_numbers(f, i);
-    const unsigned char *end = f->codes + f->first_byte[i + 1];
+    const unsigned char *end = f->entries + f->first_byte[i + 1];
     if (end - at >= 5) proof_expect_refusal(body, proof_offset(f, at), far, 5);
     if (end - at >= 5) proof_expect_refusal(body, proof_offset(f, at), endless, 5);
     if (end > at) proof_expect_refusal(body, proof_offset(f, end - 1), endless, 1);

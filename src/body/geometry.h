@@ -47,8 +47,8 @@ typedef struct nsvcd__counts {
   uint32_t listed;
   // V, stored points
   uint32_t vertices;
-  uint32_t components;  // C
-  uint32_t code_bytes;  // B
+  uint32_t components;   // C
+  uint32_t entry_bytes;  // B
   // metres that the body extends beyond its triangles
   float convex_radius;
   // W, R, K; all 0: the body is coarse
@@ -70,7 +70,7 @@ typedef struct nsvcd__geometry {
   uint32_t *first_seed, *cut, *cut_corners;
   unsigned char *references;
   int16_t *vertices;
-  unsigned char *codes;
+  unsigned char *entries;
   uint8_t *hull_counts;
   size_t reference_bytes;  // of each: 2 or 4
   // of an entry's code: 1 or 2
@@ -126,7 +126,7 @@ static size_t nsvcd__geometry_layout(nsvcd_body *body, size_t patches,
   const uint64_t references = (uint64_t)f->reference_bytes * counts->references;
   f->references = NSVCD__PASS(unsigned char, references);
   f->vertices = NSVCD__PASS(int16_t, (uint64_t)3 * counts->vertices + NSVCD__LANES);
-  f->codes = NSVCD__PASS(unsigned char, counts->code_bytes);
+  f->entries = NSVCD__PASS(unsigned char, counts->entry_bytes);
   f->hull_counts = NSVCD__PASS(uint8_t, patches);
   at += NSVCD_ALIGNMENT - at % NSVCD_ALIGNMENT;
   return at > 0xffffffffu ? 0 : (size_t)at;
@@ -213,7 +213,7 @@ NSVCD__INLINE const float *nsvcd__position_of(const nsvcd__geometry *f, size_t p
 // The number, in the patch, of corner k (0..2) of entry n.
 static size_t nsvcd__triangle_corner(const nsvcd__geometry *f, size_t patch, size_t n,
                                      size_t k) {
-  const unsigned char *corners = f->codes + f->first_byte[patch];
+  const unsigned char *corners = f->entries + f->first_byte[patch];
   const size_t at = 3 * (n - f->first_triangle[patch]) + k;
   if (nsvcd__corner_bytes(nsvcd__points_of(f, patch).all) == 1) return corners[at];
   uint16_t corner;
@@ -221,11 +221,11 @@ static size_t nsvcd__triangle_corner(const nsvcd__geometry *f, size_t patch, siz
   return corner;
 }
 
-// Entries follow each other as codes. The upper bits are the triangle's number in the caller's mesh
-// minus that of the entry before, modulo 2^30. The lowest bit tells whether it belongs to a closed
-// component; in a body with other kinds than CLOSED and SHEET, the lowest two are the kind. A code
-// has 7 bits a byte, the lowest first; the top bit tells that more follow. Most codes take one byte,
-// for neighbours have near numbers.
+// The numbers of entries follow each other as codes. The upper bits of a code are the triangle's
+// number in the caller's mesh minus that of the entry before, modulo 2^30. The lowest bit tells
+// whether it belongs to a closed component; in a body with other kinds than CLOSED and SHEET, the
+// lowest two are the kind. A code has 7 bits a byte, the lowest first; the top bit tells that more
+// follow. Most codes take one byte, for neighbours have near numbers.
 static uint32_t nsvcd__read_code(const unsigned char **at) {
   uint32_t code = 0;
   for (unsigned shift = 0; shift < 35; shift += 7) {
@@ -249,7 +249,7 @@ static nsvcd__numbers nsvcd__numbers_of(const nsvcd__geometry *f, size_t patch) 
   const size_t bytes = nsvcd__corner_bytes(nsvcd__points_of(f, patch).all);
   const size_t triangles = f->first_triangle[patch + 1] - f->first_triangle[patch];
   nsvcd__numbers out;
-  out.at = f->codes + f->first_byte[patch] + 3 * triangles * bytes;
+  out.at = f->entries + f->first_byte[patch] + 3 * triangles * bytes;
   out.next = f->first_triangle[patch];
   out.number = 0;
   out.kind = NSVCD__SHEET;

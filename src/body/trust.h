@@ -106,7 +106,7 @@ static int nsvcd__are_laid_out(const nsvcd__geometry *f) {
   if (!nsvcd__rise(f->first_own, patches, f->first_own[patches])) return 0;
   if (!nsvcd__rise(f->first_reference, patches, n->references)) return 0;
   if (!nsvcd__rise(f->first_triangle, patches, n->listed)) return 0;
-  if (!nsvcd__rise(f->first_byte, patches, n->code_bytes)) return 0;
+  if (!nsvcd__rise(f->first_byte, patches, n->entry_bytes)) return 0;
   if (!nsvcd__rise(f->first_seed, groups, n->components)) return 0;
   if (f->first_own[patches] > n->positions) return 0;
   for (size_t i = 0; i < n->references; i++)
@@ -135,8 +135,8 @@ static int nsvcd__patch_is_sound(const nsvcd__geometry *f, size_t i) {
     if (nsvcd__triangle_corner(f, i, triangle + n / 3, n % 3) >= points.all) return 0;
   }
   // as many codes follow, of triangles that exist, and nothing else
-  const unsigned char *at = f->codes + (size_t)corners_end;
-  const unsigned char *end = f->codes + f->first_byte[i + 1];
+  const unsigned char *at = f->entries + (size_t)corners_end;
+  const unsigned char *end = f->entries + f->first_byte[i + 1];
   uint32_t number = 0;
   for (size_t n = 0; n < triangles; n++) {
     const size_t left = (size_t)(end - at);

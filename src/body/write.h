@@ -85,7 +85,7 @@ static int nsvcd__geometry_count(nsvcd__writer *w, nsvcd__arena *arena) {
   }
   if (!s->coarse) memset(w->numbers, 0, mesh->vertex_count * sizeof *w->numbers);
   // with more the body is refused as too large
-  counts->code_bytes = bytes < 0xffffffffu ? (uint32_t)bytes : 0xffffffffu;
+  counts->entry_bytes = bytes < 0xffffffffu ? (uint32_t)bytes : 0xffffffffu;
   return 1;
 }
 
@@ -171,7 +171,7 @@ static void nsvcd__patch_write(nsvcd__writer *w, size_t from, size_t to) {
   const uint32_t *named = s->named + patch->first_named;
   const size_t points = vertices + patch[1].first_named - patch->first_named;
   const size_t bytes = nsvcd__corner_bytes(points);
-  unsigned char *begin = f->codes + f->first_byte[to];
+  unsigned char *begin = f->entries + f->first_byte[to];
   unsigned char *at = begin;
   for (size_t n = 3 * first; n < 3 * end; n++) {
     const size_t i = s->corners[n];

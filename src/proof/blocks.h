@@ -9,7 +9,7 @@ static void nsvcd__block_corners(const nsvcd__geometry *f, size_t patch, size_t 
                                  size_t count, size_t k, uint16_t *vertices) {
   const size_t bytes = nsvcd__corner_bytes(nsvcd__points_of(f, patch).all);
   const size_t at = 3 * (first - f->first_triangle[patch]) + k;
-  const unsigned char *corners = f->codes + f->first_byte[patch] + bytes * at;
+  const unsigned char *corners = f->entries + f->first_byte[patch] + bytes * at;
   for (size_t l = 0; l < count; l++) {
     if (bytes == 1)
       vertices[l] = corners[3 * l];

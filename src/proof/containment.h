@@ -182,8 +182,8 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__geometry *f,
   const nsvcd__f3 rounded = nsvcd__f3_round(position);
   const nsvcd__box at = {rounded, rounded};
   const float extent = nsvcd__f3_length(rounded) + b->extent;
-  const float distance = 2 * nsvcd__widest_error(f) + (float)tolerance * 1.0001f +
-                         4 * NSVCD__ROUNDING * extent;
+  const float distance =
+      2 * nsvcd__widest_error(f) + (float)tolerance * 1.0001f + 4 * NSVCD__ROUNDING * extent;
   const nsvcd__surroundings here = {rounded, distance};
   nsvcd__block *block = &p->fixed_blocks[0];
   size_t g;
