@@ -39,8 +39,8 @@
 #endif
 // members of a group, and of a sphere of a level
 #define NSVCD__GROUP NSVCD__LANES
-// Groups of a body that are searched at once; bodies with more have levels above them. (Tests define
-// fewer, so that small bodies have several tiles.)
+// Groups of a body that are searched at once; bodies with more have levels above them. (Tests
+// define fewer, so that small bodies have several tiles.)
 #ifndef NSVCD__TILE
 #define NSVCD__TILE 32
 #endif
@@ -149,8 +149,8 @@ static size_t nsvcd__spheres_size(size_t padded) {
   return sizeof(struct nsvcd_body) + 16 * nsvcd__sphere_slots(padded);
 }
 
-// Area vectors with their padding: one for each sphere, or, without levels above the groups, one for
-// each patch.
+// Area vectors with their padding: one for each sphere, or, without levels above the groups, one
+// for each patch.
 static size_t nsvcd__area_slots(size_t padded) {
   return nsvcd__level_count(padded) > 1 ? nsvcd__sphere_slots(padded) : padded;
 }
@@ -224,9 +224,9 @@ static void nsvcd__sort_along(const nsvcd__f3 *centres, size_t axis, uint16_t *o
   }
 }
 
-// Orders patches so that each run of 16 is compact, and each run of 16 of those: median splits across
-// the longest axis of the centres' box. The left part is a multiple of 16, or of 256 and so on if
-// there are more than a tile's. spare: (count).
+// Orders patches so that each run of 16 is compact, and each run of 16 of those: median splits
+// across the longest axis of the centres' box. The left part is a multiple of 16, or of 256 and so
+// on if there are more than a tile's. spare: (count).
 static void nsvcd__body_order(const nsvcd__f3 *centres, uint16_t *order, uint16_t *spare,
                               size_t count) {
   if (count <= NSVCD__GROUP) return;
@@ -288,8 +288,8 @@ static int nsvcd__are_within(nsvcd__spheres all, nsvcd__f3 point, float distance
   return are_within;
 }
 
-// The distance from a point to the farthest point of `count` spheres. *farthest: a guess, the better
-// the faster; becomes the sphere that is farthest, if the distance is above 0.
+// The distance from a point to the farthest point of `count` spheres. *farthest: a guess, the
+// better the faster; becomes the sphere that is farthest, if the distance is above 0.
 static float nsvcd__radius_about(nsvcd__spheres all, size_t count, nsvcd__f3 point,
                                  size_t *farthest) {
   const nsvcd__sphere guess = nsvcd__sphere_of(all, *farthest);

@@ -160,7 +160,8 @@ static nsvcd_result nsvcd__draft_regions(nsvcd__draft *d) {
   return result;
 }
 
-// Makes everything but the blob. After success, free the draft's arena. MEMORY, CANCELLED, TOO_LARGE.
+// Makes everything but the blob. After success, free the draft's arena. MEMORY, CANCELLED,
+// TOO_LARGE.
 static nsvcd_result nsvcd__draft_build(const nsvcd_mesh *mesh,
                                        const nsvcd_encode_options *options,
                                        const nsvcd_allocator *allocator, nsvcd__draft *d) {
@@ -260,7 +261,8 @@ static nsvcd_result nsvcd__encode_resolve(const nsvcd_mesh *mesh, nsvcd_encode_o
   return NSVCD_OK;
 }
 
-// nsvcd_encode of a mesh; or of a checked cloud: a mesh without indices, whose triangle t is point t.
+// nsvcd_encode of a mesh; or of a checked cloud: a mesh without indices, whose triangle t is point
+// t.
 static nsvcd_result nsvcd__encode_mesh(const nsvcd_mesh *mesh,
                                        const nsvcd_encode_options *options,
                                        const nsvcd_allocator *allocator, void *memory,

@@ -310,8 +310,8 @@ static void nsvcd__whole_triangle(const nsvcd__geometry *f, uint32_t number,
     corners[k] = nsvcd__d3_row(f->positions, f->cut_corners[3 * first + k]);
 }
 
-// The corners (3) of the caller's triangle that entry n is, or is a piece of. In a coarse body those
-// of the entry itself.
+// The corners (3) of the caller's triangle that entry n is, or is a piece of. In a coarse body
+// those of the entry itself.
 static inline void nsvcd__patch_triangle(const nsvcd__geometry *f, size_t patch, size_t n,
                                          nsvcd__d3 *corners) {
   const nsvcd__patch_points points = nsvcd__points_of(f, patch);

@@ -34,9 +34,9 @@ static int nsvcd__level_covers(nsvcd__spheres level, nsvcd__spheres below, size_
   return 1;
 }
 
-// Are the spheres of a blob with a sound header in range, and does each one above the groups contain
-// what is below it? The checksum catches accidents; this catches blobs made to harm: a wrong sphere
-// would hide collisions.
+// Are the spheres of a blob with a sound header in range, and does each one above the groups
+// contain what is below it? The checksum catches accidents; this catches blobs made to harm: a
+// wrong sphere would hide collisions.
 static int nsvcd__spheres_are_sound(const nsvcd_body *b) {
   const nsvcd__spheres patches = nsvcd__body_patches(b);
   const nsvcd__sphere about_origin = {nsvcd__f3_of(0, 0, 0), b->extent};
@@ -62,8 +62,8 @@ static int nsvcd__spheres_are_sound(const nsvcd_body *b) {
          nsvcd__covers(whole, groups, nsvcd__body_groups(b));
 }
 
-// Would the scaled spheres still be within the limits of nsvcd_body_load? In double, for the products
-// may overflow a float.
+// Would the scaled spheres still be within the limits of nsvcd_body_load? In double, for the
+// products may overflow a float.
 static int nsvcd__spheres_fit(const nsvcd_body *b, float radius, float scale) {
   const double least = (double)NSVCD_MIN_RADIUS / (double)scale;
   const double most = (double)NSVCD_MAX_COORDINATE / (double)scale;
@@ -237,8 +237,8 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
   return !NSVCD__PROOF || nsvcd__triangles_are_sound(inner, left);
 }
 
-// Is this a body, by its header? If it does not begin as one (a text, a nsvcd_mesh), no more than its
-// first eight bytes are read.
+// Is this a body, by its header? If it does not begin as one (a text, a nsvcd_mesh), no more than
+// its first eight bytes are read.
 static nsvcd_result nsvcd__body_check(const nsvcd_body *b, size_t size) {
   if (!b) return NSVCD_ERROR_ARGUMENT;
   if (!nsvcd__is_aligned(b) || size < sizeof b->magic + sizeof b->version)

@@ -60,13 +60,12 @@ static uint32_t nsvcd__runs_of(uint32_t corners) {
 }
 
 // Makes room for polygons of up to `corners` corners. 0 without memory.
-static int nsvcd__polygon_alloc(nsvcd__polygon *polygon, uint32_t corners,
-                                nsvcd__arena *arena) {
-  memset(polygon, 0, sizeof *polygon);
-  polygon->corners = NSVCD__TAKE(arena, nsvcd__corner, corners);
-  polygon->order = NSVCD__TAKE(arena, uint32_t, corners);
-  polygon->queue = NSVCD__TAKE(arena, uint32_t, corners);
-  polygon->boxes = NSVCD__TAKE(arena, nsvcd__corner_box, 2 * (size_t)nsvcd__runs_of(corners));
+static int nsvcd__polygon_alloc(nsvcd__polygon *poly, uint32_t corners, nsvcd__arena *arena) {
+  memset(poly, 0, sizeof *poly);
+  poly->corners = NSVCD__TAKE(arena, nsvcd__corner, corners);
+  poly->order = NSVCD__TAKE(arena, uint32_t, corners);
+  poly->queue = NSVCD__TAKE(arena, uint32_t, corners);
+  poly->boxes = NSVCD__TAKE(arena, nsvcd__corner_box, 2 * (size_t)nsvcd__runs_of(corners));
   return !arena->failed;
 }
 
@@ -80,13 +79,13 @@ static int nsvcd__same_position(nsvcd__d2 a, nsvcd__d2 b) {
 }
 
 // Projects the corners along the axis nearest to the normal, which keeps coordinates exact.
-static void nsvcd__polygon_project(nsvcd__polygon *polygon, const float *positions) {
-  nsvcd__corner *corners = polygon->corners;
+static void nsvcd__polygon_project(nsvcd__polygon *poly, const float *positions) {
+  nsvcd__corner *corners = poly->corners;
   // twice the area times the normal (Newell's)
   nsvcd__d3 normal = nsvcd__d3_of(0, 0, 0);
   const nsvcd__d3 origin = nsvcd__d3_row(positions, corners[0].vertex);
-  for (uint32_t i = 0; i < polygon->count; i++) {
-    const uint32_t next = corners[(i + 1) % polygon->count].vertex;
+  for (uint32_t i = 0; i < poly->count; i++) {
+    const uint32_t next = corners[(i + 1) % poly->count].vertex;
     const nsvcd__d3 p = nsvcd__d3_sub(nsvcd__d3_row(positions, corners[i].vertex), origin);
     const nsvcd__d3 q = nsvcd__d3_sub(nsvcd__d3_row(positions, next), origin);
     normal = nsvcd__d3_add(normal, nsvcd__d3_cross(p, q));
@@ -94,7 +93,7 @@ static void nsvcd__polygon_project(nsvcd__polygon *polygon, const float *positio
   size_t axis = fabs(normal.y) > fabs(normal.x) ? 1 : 0;
   if (fabs(normal.z) > fabs(nsvcd__d3_axis(normal, axis))) axis = 2;
   const size_t turned = nsvcd__d3_axis(normal, axis) < 0;
-  for (uint32_t i = 0; i < polygon->count; i++) {
+  for (uint32_t i = 0; i < poly->count; i++) {
     const float *p = positions + 3 * (size_t)corners[i].vertex;
     corners[i].at.x = (double)p[(axis + 1 + turned) % 3];
     corners[i].at.y = (double)p[(axis + 2 - turned) % 3];
@@ -137,35 +136,35 @@ static void nsvcd__box_take(nsvcd__corner_box *box, nsvcd__d2 at) {
 }
 
 // Makes the boxes. No corner counts as reflex yet.
-static void nsvcd__polygon_box(nsvcd__polygon *polygon) {
-  polygon->runs = nsvcd__runs_of(polygon->count);
-  for (uint32_t k = 0; k < 2 * polygon->runs; k++) polygon->boxes[k] = nsvcd__no_box;
-  for (uint32_t i = 0; i < polygon->count; i++) polygon->order[i] = i;
-  nsvcd__z_sort(polygon->corners, polygon->order, polygon->count, 63);
-  for (uint32_t i = 0; i < polygon->count; i++) {
-    nsvcd__corner *c = &polygon->corners[polygon->order[i]];
-    c->box = polygon->runs + i / NSVCD__RUN;
-    for (uint32_t k = c->box; k > 0; k /= 2) nsvcd__box_take(&polygon->boxes[k], c->at);
+static void nsvcd__polygon_box(nsvcd__polygon *poly) {
+  poly->runs = nsvcd__runs_of(poly->count);
+  for (uint32_t k = 0; k < 2 * poly->runs; k++) poly->boxes[k] = nsvcd__no_box;
+  for (uint32_t i = 0; i < poly->count; i++) poly->order[i] = i;
+  nsvcd__z_sort(poly->corners, poly->order, poly->count, 63);
+  for (uint32_t i = 0; i < poly->count; i++) {
+    nsvcd__corner *c = &poly->corners[poly->order[i]];
+    c->box = poly->runs + i / NSVCD__RUN;
+    for (uint32_t k = c->box; k > 0; k /= 2) nsvcd__box_take(&poly->boxes[k], c->at);
   }
 }
 
-static void nsvcd__polygon_set_reflex(nsvcd__polygon *polygon, uint32_t i, uint32_t reflex) {
-  nsvcd__corner *c = &polygon->corners[i];
+static void nsvcd__polygon_set_reflex(nsvcd__polygon *poly, uint32_t i, uint32_t reflex) {
+  nsvcd__corner *c = &poly->corners[i];
   for (uint32_t k = c->box; k > 0 && c->reflex != reflex; k /= 2)
-    polygon->boxes[k].reflex += reflex - c->reflex;
+    poly->boxes[k].reflex += reflex - c->reflex;
   c->reflex = reflex;
 }
 
 // Updates corner i after a neighbour of it has changed.
-static void nsvcd__polygon_update(nsvcd__polygon *polygon, uint32_t i) {
-  nsvcd__corner *corners = polygon->corners;
+static void nsvcd__polygon_update(nsvcd__polygon *poly, uint32_t i) {
+  nsvcd__corner *corners = poly->corners;
   nsvcd__corner *c = &corners[i];
   const nsvcd__d2 previous = corners[c->previous].at;
   const nsvcd__d2 next = corners[c->next].at;
-  nsvcd__polygon_set_reflex(polygon, i, nsvcd__d2_cross(previous, c->at, next) < 0);
+  nsvcd__polygon_set_reflex(poly, i, nsvcd__d2_cross(previous, c->at, next) < 0);
   if (c->queued) return;
   c->queued = 1;
-  polygon->queue[(polygon->queue_first + polygon->queue_length++) % polygon->count] = i;
+  poly->queue[(poly->queue_first + poly->queue_length++) % poly->count] = i;
 }
 
 // A triangle of three neighbours, counter-clockwise, and the box about it.
@@ -200,24 +199,24 @@ static int nsvcd__ear_meets(const nsvcd__ear *ear, const nsvcd__corner_box *box)
 }
 
 // Is corner i an ear? Only reflex corners can be in its triangle.
-static int nsvcd__polygon_is_ear(const nsvcd__polygon *polygon, uint32_t i) {
-  const nsvcd__corner *corners = polygon->corners;
+static int nsvcd__polygon_is_ear(const nsvcd__polygon *poly, uint32_t i) {
+  const nsvcd__corner *corners = poly->corners;
   const nsvcd__d2 a = corners[corners[i].previous].at;
   const nsvcd__d2 c = corners[corners[i].next].at;
   nsvcd__ear ear = {{a, corners[i].at, c}, nsvcd__no_box};
   if (nsvcd__d2_cross(a, ear.at[1], c) <= 0) return 0;
   for (size_t k = 0; k < 3; k++) nsvcd__box_take(&ear.box, ear.at[k]);
   for (uint32_t k = 1; k > 0;) {
-    const nsvcd__corner_box *box = &polygon->boxes[k];
+    const nsvcd__corner_box *box = &poly->boxes[k];
     const int meets = box->reflex > 0 && nsvcd__ear_meets(&ear, box);
     NSVCD__TALLY(boxes, 1);
-    if (meets && k < polygon->runs) {
+    if (meets && k < poly->runs) {
       k *= 2;
       continue;
     }
-    const uint32_t first = NSVCD__RUN * (k - polygon->runs);
-    for (uint32_t j = first; meets && j < first + NSVCD__RUN && j < polygon->count; j++) {
-      const nsvcd__corner *p = &corners[polygon->order[j]];
+    const uint32_t first = NSVCD__RUN * (k - poly->runs);
+    for (uint32_t j = first; meets && j < first + NSVCD__RUN && j < poly->count; j++) {
+      const nsvcd__corner *p = &corners[poly->order[j]];
       if (p->reflex && nsvcd__ear_holds(&ear, p->at)) return 0;
     }
     // the next box that is not part of this one; 0: none is left
@@ -227,13 +226,13 @@ static int nsvcd__polygon_is_ear(const nsvcd__polygon *polygon, uint32_t i) {
   return 1;
 }
 
-// Writes triangles (count - 2, 3). polygon: 3 or more corners, whose vertices are set.
-static void nsvcd__polygon_triangulate(nsvcd__polygon *polygon, const float *positions,
+// Writes triangles (count - 2, 3). poly: 3 or more corners, whose vertices are set.
+static void nsvcd__polygon_triangulate(nsvcd__polygon *poly, const float *positions,
                                        uint32_t *triangles) {
-  nsvcd__corner *corners = polygon->corners;
-  const uint32_t count = polygon->count;
-  polygon->queue_first = 0;
-  polygon->queue_length = 0;
+  nsvcd__corner *corners = poly->corners;
+  const uint32_t count = poly->count;
+  poly->queue_first = 0;
+  poly->queue_length = 0;
   for (uint32_t i = 0; i < count; i++) {
     corners[i].previous = (i + count - 1) % count;
     corners[i].next = (i + 1) % count;
@@ -241,24 +240,24 @@ static void nsvcd__polygon_triangulate(nsvcd__polygon *polygon, const float *pos
     corners[i].reflex = 0;
   }
   if (count > 3) {
-    nsvcd__polygon_project(polygon, positions);
-    nsvcd__polygon_box(polygon);
-    for (uint32_t i = 0; i < count; i++) nsvcd__polygon_update(polygon, i);
+    nsvcd__polygon_project(poly, positions);
+    nsvcd__polygon_box(poly);
+    for (uint32_t i = 0; i < count; i++) nsvcd__polygon_update(poly, i);
   }
 
   // a corner that is left
   uint32_t at = 0;
   for (uint32_t left = count; left > 3;) {
     // With an empty queue no corner is an ear, and the polygon is not simple: clip any corner.
-    const int stuck = polygon->queue_length == 0;
-    const uint32_t i = stuck ? at : polygon->queue[polygon->queue_first];
+    const int stuck = poly->queue_length == 0;
+    const uint32_t i = stuck ? at : poly->queue[poly->queue_first];
     nsvcd__corner *c = &corners[i];
     if (!stuck) {
-      polygon->queue_first = (polygon->queue_first + 1) % count;
-      polygon->queue_length--;
+      poly->queue_first = (poly->queue_first + 1) % count;
+      poly->queue_length--;
       c->queued = 0;
     }
-    if (!stuck && !nsvcd__polygon_is_ear(polygon, i)) continue;
+    if (!stuck && !nsvcd__polygon_is_ear(poly, i)) continue;
     triangles[0] = corners[c->previous].vertex;
     triangles[1] = c->vertex;
     triangles[2] = corners[c->next].vertex;
@@ -266,9 +265,9 @@ static void nsvcd__polygon_triangulate(nsvcd__polygon *polygon, const float *pos
     left--;
     corners[c->previous].next = c->next;
     corners[c->next].previous = c->previous;
-    nsvcd__polygon_set_reflex(polygon, i, 0);
-    nsvcd__polygon_update(polygon, c->previous);
-    nsvcd__polygon_update(polygon, c->next);
+    nsvcd__polygon_set_reflex(poly, i, 0);
+    nsvcd__polygon_update(poly, c->previous);
+    nsvcd__polygon_update(poly, c->next);
     at = c->next;
   }
   triangles[0] = corners[at].vertex;

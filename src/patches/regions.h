@@ -1,5 +1,5 @@
-// In: a checked mesh. Out: its triangles, welded, in one region; or in as many regions as it takes to
-// have at most 512 patches in each, and each is then split into patches by itself. With several
+// In: a checked mesh. Out: its triangles, welded, in one region; or in as many regions as it takes
+// to have at most 512 patches in each, and each is then split into patches by itself. With several
 // regions, triangles that are large beside them are halved first. Both halves are kept, and share
 // the new corner, so nothing is lost.
 #pragma once
@@ -164,8 +164,8 @@ static void nsvcd__regions_part(nsvcd__regions *r, size_t first, size_t end, siz
   nsvcd__regions_part(r, middle, end, parts - left, n + left);
 }
 
-// Welds the mesh, and splits it into regions if it is to have more than NSVCD_SMALL_PATCHES patches.
-// 0 without memory.
+// Welds the mesh, and splits it into regions if it is to have more than NSVCD_SMALL_PATCHES
+// patches. 0 without memory.
 static int nsvcd__regions_build(const nsvcd_mesh *mesh, size_t patches, nsvcd__arena *arena,
                                 nsvcd__regions *r) {
   nsvcd__arena scratch = nsvcd__arena_of(arena->allocator);

@@ -99,8 +99,8 @@ static double nsvcd__mesh_area(const nsvcd_mesh *mesh) {
 
 // Draws samples (count) and their unit normals (count), stratified by area: sample k lies in the
 // triangle where the area, summed in triangle order, passes (k + 1/2) / count of the total. Its
-// position there comes from the R2 sequence (Roberts 2018: multiples of 1/g and 1/g^2, g^3 = g + 1).
-// Without any area, triangles have equal weights and normals are 0.
+// position there comes from the R2 sequence (Roberts 2018: multiples of 1/g and 1/g^2, g^3 = g +
+// 1). Without any area, triangles have equal weights and normals are 0.
 static void nsvcd__sample_surface(const nsvcd_mesh *mesh, size_t count, nsvcd__f3 *samples,
                                   nsvcd__f3 *normals) {
   const double all = nsvcd__mesh_area(mesh);

@@ -8,8 +8,8 @@
 //   2. Of triangles with the same three corners one stays; those with only two distinct corners go.
 //   3. Fins, triangles with an edge that no other has, are set aside, until none is left. So are
 //      inner walls: where edges of three meet, the part with the least area.
-//   4. What is left is judged part by part (triangles that share edges). It is a cycle; or each edge
-//      has an even number of triangles, and then a ray from inside crosses it an odd number of
+//   4. What is left is judged part by part (triangles that share edges). It is a cycle; or each
+//      edge has an even number of triangles, and then a ray from inside crosses it an odd number of
 //      times, however it is wound. Of a sheet nothing is left. A part of the second kind is a sheet
 //      if it has less than half the area of all that its edges join: rooms on a terrain are not
 //      turned inside out.
@@ -49,7 +49,7 @@ typedef struct nsvcd__solids {
 
 // The triangles of components that are not closed, without those that are points or segments.
 typedef struct nsvcd__mending {
-  const nsvcd__topology *topology;
+  const nsvcd__topology *topo;
   size_t count;         // T
   uint32_t *triangles;  // (T) of the mesh
   // (vertices) what a welded vertex was joined to, or itself
@@ -71,12 +71,12 @@ typedef struct nsvcd__mending {
 } nsvcd__mending;
 
 static void nsvcd__mending_face(const nsvcd__mending *m, size_t n, uint32_t *face) {
-  nsvcd__welded_face(m->topology, m->triangles[n], face);
+  nsvcd__welded_face(m->topo, m->triangles[n], face);
   for (size_t k = 0; k < 3; k++) face[k] = m->joined[face[k]];
 }
 
 static nsvcd__triangle nsvcd__mending_triangle(const nsvcd__mending *m, size_t n) {
-  return nsvcd__triangle_of(m->topology->mesh, m->triangles[n]);
+  return nsvcd__triangle_of(m->topo->mesh, m->triangles[n]);
 }
 
 // The ends of an edge, the lesser first. rises: 1: its triangle goes from that to the other.
@@ -102,7 +102,7 @@ static int nsvcd__is_border(const nsvcd__mending *m, size_t e) {
 // Sorts edges by one of their ends. Counting sort: equal ones keep their order.
 static void nsvcd__sort_edges(nsvcd__mending *m, const uint32_t *from, uint32_t *to,
                               size_t which) {
-  const size_t vertices = m->topology->mesh->vertex_count;
+  const size_t vertices = m->topo->mesh->vertex_count;
   memset(m->first, 0, (vertices + 1) * sizeof *m->first);
   for (size_t e = 0; e < 3 * m->count; e++)
     m->first[nsvcd__mending_edge(m, e).ends[which] + 1]++;
@@ -144,7 +144,7 @@ static void nsvcd__group_edges(nsvcd__mending *m) {
   }
   m->group_first[m->group_count] = (uint32_t)(3 * m->count);
   // Equal triangles share the edge between their two least corners, and the third corner.
-  memset(m->first, 0, m->topology->mesh->vertex_count * sizeof *m->first);
+  memset(m->first, 0, m->topo->mesh->vertex_count * sizeof *m->first);
   for (size_t g = 0; g < m->group_count; g++) {
     size_t met = 0;
     for (size_t i = m->group_first[g]; i < m->group_first[g + 1]; i++) {
@@ -188,7 +188,7 @@ static uint32_t *nsvcd__cell_of(const nsvcd__cells *c, const double *cell) {
 // Joins a vertex to the nearest one in the table that is near enough, or puts it there itself.
 // Returns the distance joined.
 static double nsvcd__join_vertex(nsvcd__cells *c, uint32_t v) {
-  const float *positions = c->m->topology->mesh->positions;
+  const float *positions = c->m->topo->mesh->positions;
   const nsvcd__d3 at = nsvcd__d3_row(positions, v);
   const nsvcd__d3 off = nsvcd__d3_scale(nsvcd__d3_sub(at, c->low), 1 / c->width);
   double own[3], side[3];
@@ -241,7 +241,7 @@ static size_t nsvcd__find_limits(const nsvcd__mending *m, double most, float *li
 // Joins corners that are near enough to each other. Returns the greatest distance joined, or -1
 // without memory.
 static double nsvcd__join_corners(nsvcd__mending *m, const nsvcd_allocator *allocator) {
-  const nsvcd_mesh *mesh = m->topology->mesh;
+  const nsvcd_mesh *mesh = m->topo->mesh;
   nsvcd__arena arena = nsvcd__arena_of(allocator);
   nsvcd__d3 low = nsvcd__d3_row(mesh->positions, 0);
   nsvcd__d3 high = low;
@@ -309,7 +309,7 @@ static void nsvcd__peel(nsvcd__mending *m) {
 }
 
 // What is known of a part; of a whole, all that edges join; or of a wall.
-typedef struct nsvcd__part {
+typedef struct nsvcd__shell {
   double area;
   nsvcd__d3 centre;  // times the area
   // edges that have an odd number of triangles; that do not go both ways equally often
@@ -320,16 +320,16 @@ typedef struct nsvcd__part {
   // of a whole: 1: by its holes it is a sheet; the area of these, and the volume inside
   int is_sheet;
   double holes, volume;
-} nsvcd__part;
+} nsvcd__shell;
 
 // Adds up areas and centres of the alive triangles, by their roots in a forest.
 static void nsvcd__sum_areas(const nsvcd__mending *m, const uint32_t *forest,
-                             nsvcd__part *parts) {
+                             nsvcd__shell *parts) {
   for (size_t n = 0; n < m->count; n++) {
     if (!m->alive[n]) continue;
     const nsvcd__triangle t = nsvcd__mending_triangle(m, n);
     const double area = nsvcd__triangle_area(&t);
-    nsvcd__part *part = &parts[forest[n]];
+    nsvcd__shell *part = &parts[forest[n]];
     part->area += area;
     part->centre = nsvcd__d3_fma(area, t.at[0], part->centre);
   }
@@ -337,7 +337,7 @@ static void nsvcd__sum_areas(const nsvcd__mending *m, const uint32_t *forest,
 
 // Counts odd and turned edges of the alive triangles, by their roots in a forest.
 static void nsvcd__count_edges(const nsvcd__mending *m, const uint32_t *forest,
-                               nsvcd__part *parts) {
+                               nsvcd__shell *parts) {
   for (size_t g = 0; g < m->group_count; g++) {
     size_t any = m->count;
     int sum = 0;
@@ -354,7 +354,7 @@ static void nsvcd__count_edges(const nsvcd__mending *m, const uint32_t *forest,
 
 // Sets inner walls aside: triangles joined by edges of two, if at all their other edges, of three,
 // they have the least area. Returns how many triangles. walls: (T) zeros, before and after.
-static size_t nsvcd__drop_walls(nsvcd__mending *m, nsvcd__part *walls) {
+static size_t nsvcd__drop_walls(nsvcd__mending *m, nsvcd__shell *walls) {
   size_t dropped = 0;
   nsvcd__join_triangles(m, 2, m->parts);
   nsvcd__sum_areas(m, m->parts, walls);
@@ -371,7 +371,7 @@ static size_t nsvcd__drop_walls(nsvcd__mending *m, nsvcd__part *walls) {
     walls[least].turned += m->degrees[g] % 2;
   }
   for (size_t n = 0; n < m->count; n++) {
-    const nsvcd__part *wall = &walls[m->parts[n]];
+    const nsvcd__shell *wall = &walls[m->parts[n]];
     if (!m->alive[n] || wall->odd == 0 || wall->odd != wall->turned) continue;
     m->alive[n] = 0;
     dropped++;
@@ -431,9 +431,9 @@ static void nsvcd__measure_holes(const nsvcd__mending *m, const uint32_t *number
 // makes, is no hole, and a missing triangle counts for a fraction of itself. With a larger hole
 // only a surface that is wound outwards is nearly a solid: else it is a room with a door. 0 without
 // memory.
-static int nsvcd__judge_holes(const nsvcd__mending *m, nsvcd__part *wholes,
+static int nsvcd__judge_holes(const nsvcd__mending *m, nsvcd__shell *wholes,
                               const nsvcd_allocator *allocator) {
-  const size_t vertices = m->topology->mesh->vertex_count;
+  const size_t vertices = m->topo->mesh->vertex_count;
   nsvcd__arena arena = nsvcd__arena_of(allocator);
   uint32_t *forest = NSVCD__TAKE(&arena, uint32_t, vertices);
   uint32_t *numbers = NSVCD__TAKE(&arena, uint32_t, vertices);
@@ -455,7 +455,7 @@ static int nsvcd__judge_holes(const nsvcd__mending *m, nsvcd__part *wholes,
     nsvcd__measure_holes(m, numbers, holes, pass);
   for (size_t h = 0; !arena.failed && h < count; h++) {
     const nsvcd__hole *hole = &holes[h];
-    nsvcd__part *whole = &wholes[hole->whole];
+    nsvcd__shell *whole = &wholes[hole->whole];
     const int is_slit = hole->area <= NSVCD__SLIT * hole->length * hole->length;
     const int is_flush = hole->flush >= NSVCD__FLUSH * hole->length;
     const int is_three = hole->edges == 3;
@@ -470,10 +470,10 @@ static int nsvcd__judge_holes(const nsvcd__mending *m, nsvcd__part *wholes,
 // ---- all of it
 
 // Areas of wholes, and the volumes that they enclose, as seen from their centres.
-static void nsvcd__measure_wholes(const nsvcd__mending *m, nsvcd__part *wholes) {
+static void nsvcd__measure_wholes(const nsvcd__mending *m, nsvcd__shell *wholes) {
   nsvcd__sum_areas(m, m->wholes, wholes);
   for (size_t n = 0; n < m->count; n++) {
-    nsvcd__part *whole = &wholes[m->wholes[n]];
+    nsvcd__shell *whole = &wholes[m->wholes[n]];
     if (!m->alive[n] || !(whole->area > 0)) continue;
     const nsvcd__triangle t = nsvcd__mending_triangle(m, n);
     const nsvcd__d3 centre = nsvcd__d3_scale(whole->centre, 1 / whole->area);
@@ -483,14 +483,14 @@ static void nsvcd__measure_wholes(const nsvcd__mending *m, nsvcd__part *wholes) 
 }
 
 // Marks the triangles of the parts, left after peeling, that enclose something.
-static void nsvcd__mark_parts(const nsvcd__mending *m, nsvcd__part *wholes, nsvcd__part *parts,
-                              nsvcd__solids *out) {
+static void nsvcd__mark_parts(const nsvcd__mending *m, nsvcd__shell *wholes,
+                              nsvcd__shell *parts, nsvcd__solids *out) {
   nsvcd__count_edges(m, m->parts, parts);
   nsvcd__sum_areas(m, m->parts, parts);
   for (size_t n = 0; n < m->count; n++) {
     if (!m->alive[n]) continue;
-    const nsvcd__part *part = &parts[m->parts[n]];
-    nsvcd__part *whole = &wholes[m->wholes[n]];
+    const nsvcd__shell *part = &parts[m->parts[n]];
+    nsvcd__shell *whole = &wholes[m->wholes[n]];
     const int is_most = part->area >= 0.5 * whole->area;
     const int kind = part->turned == 0           ? NSVCD__CLOSED
                      : part->odd == 0 && is_most ? NSVCD__EITHER_DIRECTION
@@ -502,9 +502,9 @@ static void nsvcd__mark_parts(const nsvcd__mending *m, nsvcd__part *wholes, nsvc
     }
     if (m->parts[n] == n) whole->closed += part->area;
     for (size_t k = 0; k < 3; k++) {
-      const float *at = m->topology->mesh->positions;
-      const uint32_t v = m->topology->mesh->indices[3 * (size_t)m->triangles[n] + k];
-      const uint32_t w = m->joined[m->topology->welded[v]];
+      const float *at = m->topo->mesh->positions;
+      const uint32_t v = m->topo->mesh->indices[3 * (size_t)m->triangles[n] + k];
+      const uint32_t w = m->joined[m->topo->welded[v]];
       const double square = nsvcd__d3_distance2(nsvcd__d3_row(at, v), nsvcd__d3_row(at, w));
       out->gap = nsvcd__max(out->gap, sqrt(square));
     }
@@ -512,11 +512,11 @@ static void nsvcd__mark_parts(const nsvcd__mending *m, nsvcd__part *wholes, nsvc
 }
 
 // Counts the wholes, and marks what is nearly a solid. alive: as before peeling.
-static void nsvcd__mark_wholes(const nsvcd__mending *m, nsvcd__part *wholes,
+static void nsvcd__mark_wholes(const nsvcd__mending *m, nsvcd__shell *wholes,
                                nsvcd__solids *out) {
   for (size_t n = 0; n < m->count; n++) {
     if (!m->alive[n]) continue;
-    const nsvcd__part *whole = &wholes[m->wholes[n]];
+    const nsvcd__shell *whole = &wholes[m->wholes[n]];
     uint8_t *kind = &out->kinds[m->triangles[n]];
     const int is_closed = !whole->fails && whole->closed >= 0.5 * whole->area;
     const int is_nearly = !whole->is_sheet && whole->holes < NSVCD__HOLES * whole->area;
@@ -532,7 +532,7 @@ static void nsvcd__mark_wholes(const nsvcd__mending *m, nsvcd__part *wholes,
 
 // Judges all triangles of `m`. 0 without memory.
 static int nsvcd__mend(nsvcd__mending *m, nsvcd__arena *arena, nsvcd__solids *out) {
-  const size_t vertices = m->topology->mesh->vertex_count;
+  const size_t vertices = m->topo->mesh->vertex_count;
   const size_t count = m->count;
   m->joined = NSVCD__TAKE(arena, uint32_t, vertices);
   m->alive = NSVCD__TAKE(arena, uint8_t, count);
@@ -546,8 +546,8 @@ static int nsvcd__mend(nsvcd__mending *m, nsvcd__arena *arena, nsvcd__solids *ou
   m->first = NSVCD__TAKE(arena, size_t, vertices + 1);
   m->spare = NSVCD__TAKE(arena, uint32_t, 3 * count);
   uint8_t *distinct = NSVCD__TAKE(arena, uint8_t, count);
-  nsvcd__part *wholes = NSVCD__TAKE(arena, nsvcd__part, count);
-  nsvcd__part *parts = NSVCD__TAKE(arena, nsvcd__part, count);
+  nsvcd__shell *wholes = NSVCD__TAKE(arena, nsvcd__shell, count);
+  nsvcd__shell *parts = NSVCD__TAKE(arena, nsvcd__shell, count);
   if (arena->failed) return 0;
   for (uint32_t v = 0; v < vertices; v++) m->joined[v] = v;
   nsvcd__group_edges(m);
@@ -570,23 +570,23 @@ static int nsvcd__mend(nsvcd__mending *m, nsvcd__arena *arena, nsvcd__solids *ou
 }
 
 // Judges all triangles of a mesh. 0 without memory.
-static int nsvcd__solids_build(const nsvcd__topology *topology, nsvcd__arena *arena,
+static int nsvcd__solids_build(const nsvcd__topology *topo, nsvcd__arena *arena,
                                nsvcd__solids *out) {
-  const nsvcd_mesh *mesh = topology->mesh;
+  const nsvcd_mesh *mesh = topo->mesh;
   nsvcd__arena spare = nsvcd__arena_of(arena->allocator);
   nsvcd__mending m;
   memset(&m, 0, sizeof m);
   memset(out, 0, sizeof *out);
-  m.topology = topology;
+  m.topo = topo;
   out->kinds = NSVCD__TAKE(arena, uint8_t, mesh->triangle_count);
   m.triangles = NSVCD__TAKE(&spare, uint32_t, mesh->triangle_count);
   int ok = out->kinds && m.triangles;
   for (size_t v = 0; v < mesh->vertex_count; v++)
-    out->components += topology->seen[v] && !topology->open[v];
+    out->components += topo->seen[v] && !topo->open[v];
   for (size_t t = 0; ok && t < mesh->triangle_count; t++) {
     uint32_t face[3];
-    nsvcd__welded_face(topology, t, face);
-    const int open = topology->open[topology->parents[face[0]]];
+    nsvcd__welded_face(topo, t, face);
+    const int open = topo->open[topo->parents[face[0]]];
     out->kinds[t] = open ? NSVCD__SHEET : NSVCD__CLOSED;
     if (open && nsvcd__are_distinct(face)) m.triangles[m.count++] = (uint32_t)t;
   }

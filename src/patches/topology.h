@@ -19,11 +19,11 @@ typedef struct nsvcd__topology {
   uint8_t *seen;
 } nsvcd__topology;
 
-static void nsvcd__welded_face(const nsvcd__topology *topology, size_t t, uint32_t *face) {
-  const uint32_t *corners = topology->mesh->indices + 3 * t;
-  face[0] = topology->welded[corners[0]];
-  face[1] = topology->welded[corners[1]];
-  face[2] = topology->welded[corners[2]];
+static void nsvcd__welded_face(const nsvcd__topology *topo, size_t t, uint32_t *face) {
+  const uint32_t *corners = topo->mesh->indices + 3 * t;
+  face[0] = topo->welded[corners[0]];
+  face[1] = topo->welded[corners[1]];
+  face[2] = topo->welded[corners[2]];
 }
 
 static int nsvcd__are_distinct(const uint32_t *face) {
@@ -47,8 +47,8 @@ static void nsvcd__unite(uint32_t *parents, uint32_t a, uint32_t b) {
 
 // Finds the components that are not closed: those whose directed edges do not cancel. 0 without
 // memory.
-static int nsvcd__find_open(nsvcd__topology *topology, const nsvcd_allocator *allocator) {
-  const nsvcd_mesh *mesh = topology->mesh;
+static int nsvcd__find_open(nsvcd__topology *topo, const nsvcd_allocator *allocator) {
+  const nsvcd_mesh *mesh = topo->mesh;
   const size_t vertices = mesh->vertex_count;
   nsvcd__arena arena = nsvcd__arena_of(allocator);
   // where the edges begin whose lesser end is a vertex; while they are sorted, one entry further
@@ -63,7 +63,7 @@ static int nsvcd__find_open(nsvcd__topology *topology, const nsvcd_allocator *al
   for (int pass = 0; !arena.failed && pass < 2; pass++) {
     for (size_t t = 0; t < mesh->triangle_count; t++) {
       uint32_t face[3];
-      nsvcd__welded_face(topology, t, face);
+      nsvcd__welded_face(topo, t, face);
       // the edges of any other cancel each other
       if (!nsvcd__are_distinct(face)) continue;
       for (size_t k = 0; k < 3; k++) {
@@ -81,7 +81,7 @@ static int nsvcd__find_open(nsvcd__topology *topology, const nsvcd_allocator *al
   for (size_t v = 0; !arena.failed && v < vertices; v++) {
     for (size_t e = first[v]; e < first[v + 1]; e++) balances[ends[e]] += signs[e];
     for (size_t e = first[v]; e < first[v + 1]; e++) {
-      if (balances[ends[e]] != 0) topology->open[topology->parents[v]] = 1;
+      if (balances[ends[e]] != 0) topo->open[topo->parents[v]] = 1;
     }
     for (size_t e = first[v]; e < first[v + 1]; e++) balances[ends[e]] = 0;
   }
@@ -91,31 +91,31 @@ static int nsvcd__find_open(nsvcd__topology *topology, const nsvcd_allocator *al
 
 // 0 without memory.
 static int nsvcd__topology_build(const nsvcd_mesh *mesh, nsvcd__arena *arena,
-                                 nsvcd__topology *topology) {
-  topology->mesh = mesh;
-  topology->component_count = 0;
-  topology->welded = NSVCD__TAKE(arena, uint32_t, mesh->vertex_count);
-  topology->parents = NSVCD__TAKE(arena, uint32_t, mesh->vertex_count);
-  topology->open = NSVCD__TAKE(arena, uint8_t, mesh->vertex_count);
-  topology->seen = NSVCD__TAKE(arena, uint8_t, mesh->vertex_count);
-  if (arena->failed || !nsvcd__weld_all(mesh->positions, mesh->vertex_count, topology->welded,
-                                        arena->allocator))
+                                 nsvcd__topology *topo) {
+  topo->mesh = mesh;
+  topo->component_count = 0;
+  topo->welded = NSVCD__TAKE(arena, uint32_t, mesh->vertex_count);
+  topo->parents = NSVCD__TAKE(arena, uint32_t, mesh->vertex_count);
+  topo->open = NSVCD__TAKE(arena, uint8_t, mesh->vertex_count);
+  topo->seen = NSVCD__TAKE(arena, uint8_t, mesh->vertex_count);
+  if (arena->failed ||
+      !nsvcd__weld_all(mesh->positions, mesh->vertex_count, topo->welded, arena->allocator))
     return 0;
 
-  uint32_t *parents = topology->parents;
+  uint32_t *parents = topo->parents;
   uint32_t face[3];
   for (uint32_t v = 0; v < mesh->vertex_count; v++) parents[v] = v;
   for (size_t t = 0; t < mesh->triangle_count; t++) {
-    nsvcd__welded_face(topology, t, face);
+    nsvcd__welded_face(topo, t, face);
     nsvcd__unite(parents, face[0], face[1]);
     nsvcd__unite(parents, face[0], face[2]);
   }
   for (uint32_t v = 0; v < mesh->vertex_count; v++) parents[v] = nsvcd__root(parents, v);
   for (size_t t = 0; t < mesh->triangle_count; t++) {
-    nsvcd__welded_face(topology, t, face);
-    topology->component_count += !topology->seen[parents[face[0]]];
-    topology->seen[parents[face[0]]] = 1;
+    nsvcd__welded_face(topo, t, face);
+    topo->component_count += !topo->seen[parents[face[0]]];
+    topo->seen[parents[face[0]]] = 1;
   }
-  return nsvcd__find_open(topology, arena->allocator);
+  return nsvcd__find_open(topo, arena->allocator);
 }
 #endif  // NSVCD_NO_ENCODER

@@ -13,10 +13,10 @@ typedef struct nsvcd__ball {
   double squared;  // radius
 } nsvcd__ball;
 
-// The edges from the first of 1 to 4 points to the others, and weights for them. The first point plus
-// the weighted edges is the centre of the least ball with all points on its surface; or, if `ball`
-// is 0, the point nearest to the origin in the plane (line, point) through them. 0 if the points are
-// too nearly on a line or in a plane.
+// The edges from the first of 1 to 4 points to the others, and weights for them. The first point
+// plus the weighted edges is the centre of the least ball with all points on its surface; or, if
+// `ball` is 0, the point nearest to the origin in the plane (line, point) through them. 0 if the
+// points are too nearly on a line or in a plane.
 static int nsvcd__solve_weights(const nsvcd__d3 *points, size_t count, int ball,
                                 nsvcd__d3 *edges, double *b) {
   const size_t n = count - 1;
@@ -68,8 +68,8 @@ typedef struct nsvcd__border {
   size_t count;
 } nsvcd__border;
 
-// The least ball that contains the border (1 to 5 points), among those through its last point and up
-// to three others. Keeps in the border only the points on the ball. 0 if there is none.
+// The least ball that contains the border (1 to 5 points), among those through its last point and
+// up to three others. Keeps in the border only the points on the ball. 0 if there is none.
 static NSVCD__NOINLINE int nsvcd__ball_of_few(nsvcd__border *border, nsvcd__ball *ball) {
   const unsigned last = 1u << (border->count - 1);
   unsigned best = 0;
@@ -101,8 +101,8 @@ static NSVCD__NOINLINE int nsvcd__ball_of_few(nsvcd__border *border, nsvcd__ball
 
 // The centre of the least enclosing ball (after Gaertner 1999, "Fast and robust smallest enclosing
 // balls"): the point farthest outside joins the border, until there is none. The ball grows with
-// every step. Roundings can stop it early, and then the caller, who takes the radius from the points,
-// has a ball that is a little too large.
+// every step. Roundings can stop it early, and then the caller, who takes the radius from the
+// points, has a ball that is a little too large.
 static nsvcd__d3 nsvcd__ball_centre(nsvcd__points points) {
   nsvcd__ball ball = {points.at[0], 0};
   nsvcd__border border;

@@ -11,9 +11,9 @@ typedef struct nsvcd__simplex {
   size_t count;
 } nsvcd__simplex;
 
-// Moves the weights to the simplex's point nearest to the origin, and drops corners that it does not
-// need (Wolfe 1976, "Finding the nearest point in a polytope"). 0 if roundings prevent that; the
-// weights are valid even then.
+// Moves the weights to the simplex's point nearest to the origin, and drops corners that it does
+// not need (Wolfe 1976, "Finding the nearest point in a polytope"). 0 if roundings prevent that;
+// the weights are valid even then.
 static int nsvcd__simplex_solve(nsvcd__simplex *s) {
   for (;;) {
     // weights, of any sign, of the point nearest to the origin in the plane of all corners
@@ -76,9 +76,9 @@ static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double e
 
 // Chooses at most `most` (up to NSVCD__HULL) of the points so that all are near their hull: all of
 // them if they are not more; else always the point farthest from the hull, until that is within
-// `enough`. points: about the ball's centre. bounds: working memory, the last distance found of each
-// point; it remains a bound, for the hull only grows. Writes the numbers of those chosen and the
-// farthest distance; returns how many are chosen.
+// `enough`. points: about the ball's centre. bounds: working memory, the last distance found of
+// each point; it remains a bound, for the hull only grows. Writes the numbers of those chosen and
+// the farthest distance; returns how many are chosen.
 static size_t nsvcd__choose_hull(nsvcd__points points, size_t most, double enough,
                                  double *bounds, size_t *chosen, double *farthest) {
   nsvcd__d3 at[NSVCD__HULL];

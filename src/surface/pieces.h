@@ -2,8 +2,8 @@
 // centres.
 //
 // A piece is a convex part of one triangle, and belongs to one patch. It is only ever divided into
-// two parts that share the new corners, and both are kept. So the pieces cover the mesh wherever the
-// cuts are, and poor cuts only make the description of a patch larger (surface/surface).
+// two parts that share the new corners, and both are kept. So the pieces cover the mesh wherever
+// the cuts are, and poor cuts only make the description of a patch larger (surface/surface).
 #pragma once
 #include "../ground/spheres.h"
 #include "../patches/regions.h"
@@ -112,8 +112,8 @@ static nsvcd__d3 nsvcd__point_at(const nsvcd__pieces *p, uint32_t number) {
 }
 
 // Divides a polygon where `beyond`, a value at each corner, changes its sign: near_part is where it
-// is negative. There must be room for the new points. 0 if a part has less than three corners, which
-// roundings can cause, or too many.
+// is negative. There must be room for the new points. 0 if a part has less than three corners,
+// which roundings can cause, or too many.
 static int nsvcd__divide(nsvcd__pieces *p, const nsvcd__convex *from, const double *beyond,
                          nsvcd__convex *near_part, nsvcd__convex *far_part) {
   const uint32_t vertices = (uint32_t)p->region->mesh.vertex_count;

@@ -1,4 +1,5 @@
-// In: points. Out: a slab: a direction in which they are thin, and their extent along it and across.
+// In: points. Out: a slab: a direction in which they are thin, and their extent along it and
+// across.
 #pragma once
 #include "../ground/rotations.h"
 #include "../ground/spheres.h"
@@ -100,8 +101,8 @@ static nsvcd__d3 nsvcd__thinner(nsvcd__points points, nsvcd__d3 direction, doubl
   return direction;
 }
 
-// Fits a slab to points about the centre of the patch's ball. normal: the mean normal of its pieces,
-// of any length. thin: metres; a thinner slab is of no use.
+// Fits a slab to points about the centre of the patch's ball. normal: the mean normal of its
+// pieces, of any length. thin: metres; a thinner slab is of no use.
 static nsvcd__slab nsvcd__fit_slab(nsvcd__points points, nsvcd__d3 normal, double margin,
                                    double thin) {
   nsvcd__d3 best = nsvcd__least_axis(points);

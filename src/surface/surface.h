@@ -2,9 +2,9 @@
 // surface in it (ball, slab, hull), and its triangles. The proof builds on it.
 //
 // What holds. Every point of the mesh lies in a piece, and every piece belongs to one patch. That
-// patch lists the piece's triangle, or the piece itself if the triangle is large beside the patches.
-// Its ball, its slab, and its hull inflated by the margin contain the piece. Triangles without area
-// are surface like others.
+// patch lists the piece's triangle, or the piece itself if the triangle is large beside the
+// patches. Its ball, its slab, and its hull inflated by the margin contain the piece. Triangles
+// without area are surface like others.
 //
 // Why it holds. Pieces cover the mesh (surface/pieces). Each number is taken from the corners of
 // pieces, about what is stored in float, and then rounded outwards. A piece is the convex hull of
@@ -50,8 +50,8 @@ typedef struct nsvcd__surface {
   size_t named_count;  // M, names
   // L, triangles
   size_t listed;
-  // (V, 3) patch by patch x of its stored points, then y, then z: the hull's, then corners that cuts
-  // have made
+  // (V, 3) patch by patch x of its stored points, then y, then z: the hull's, then corners that
+  // cuts have made
   int16_t *vertices;
   // (M) patch by patch the caller's vertices that are corners
   uint32_t *named;
@@ -68,17 +68,17 @@ typedef struct nsvcd__surface {
 } nsvcd__surface;
 
 // Twice the area vector of the pieces of patch i.
-static nsvcd__d3 nsvcd__patch_normal(const nsvcd__sorted *sorted, size_t i) {
+static nsvcd__d3 nsvcd__patch_normal(const nsvcd__sorted *all, size_t i) {
   nsvcd__d3 normal = nsvcd__d3_of(0, 0, 0);
-  for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
-    const nsvcd__piece *piece = nsvcd__sorted_piece(sorted, k);
-    const uint32_t *corners = nsvcd__piece_corners(sorted->pieces, piece);
+  for (size_t k = all->first[i]; k < all->first[i + 1]; k++) {
+    const nsvcd__piece *piece = nsvcd__sorted_piece(all, k);
+    const uint32_t *corners = nsvcd__piece_corners(all->pieces, piece);
     if (corners[0] == corners[2]) continue;
-    const nsvcd__d3 from = nsvcd__point_at(sorted->pieces, corners[0]);
+    const nsvcd__d3 from = nsvcd__point_at(all->pieces, corners[0]);
     nsvcd__d3 area = nsvcd__d3_of(0, 0, 0);
     for (size_t j = 2; j < piece->count; j++) {
-      const nsvcd__d3 last = nsvcd__point_at(sorted->pieces, corners[j - 1]);
-      const nsvcd__d3 at = nsvcd__point_at(sorted->pieces, corners[j]);
+      const nsvcd__d3 last = nsvcd__point_at(all->pieces, corners[j - 1]);
+      const nsvcd__d3 at = nsvcd__point_at(all->pieces, corners[j]);
       const nsvcd__d3 a = nsvcd__d3_sub(last, from);
       area = nsvcd__d3_add(area, nsvcd__d3_cross(a, nsvcd__d3_sub(at, from)));
     }
@@ -89,19 +89,19 @@ static nsvcd__d3 nsvcd__patch_normal(const nsvcd__sorted *sorted, size_t i) {
 
 // Finds ball, slab and hull of patch i. Rounding the hull's points to integers is not in the margin
 // yet. hull: (NSVCD__HULL) points.
-static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *s,
+static void nsvcd__describe_patch(nsvcd__sorted *all, size_t i, nsvcd__surface *s,
                                   uint32_t *hull) {
-  const nsvcd__pieces *pieces = sorted->pieces;
+  const nsvcd__pieces *pieces = all->pieces;
   const nsvcd__region *region = pieces->region;
   nsvcd__patch_bounds *out = &s->patches[s->count];
-  nsvcd__number_corners(sorted, i);
-  if (sorted->met_count == 0) {
+  nsvcd__number_corners(all, i);
+  if (all->met_count == 0) {
     out->ball.centre = pieces->patches->centres[i];
     out->ball.radius = NSVCD__NOWHERE;
     return;
   }
-  for (size_t j = 0; j < sorted->met_count; j++) {
-    const uint32_t point = sorted->met[j];
+  for (size_t j = 0; j < all->met_count; j++) {
+    const uint32_t point = all->met[j];
     if (point >= region->mesh.vertex_count || !region->seeds[point]) continue;
     region->seeds[point] = 0;
     s->seeds[s->seed_count] = nsvcd__f3_row(region->mesh.positions, point);
@@ -109,67 +109,65 @@ static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surfac
   }
 
   // The ball's centre is found near the origin, where roundings are small.
-  const nsvcd__d3 from = nsvcd__point_at(pieces, sorted->met[0]);
-  const nsvcd__d3 offset = nsvcd__ball_centre(nsvcd__place_points(sorted, from));
+  const nsvcd__d3 from = nsvcd__point_at(pieces, all->met[0]);
+  const nsvcd__d3 offset = nsvcd__ball_centre(nsvcd__place_points(all, from));
   out->ball.centre = nsvcd__f3_round(nsvcd__d3_add(from, offset));
   const nsvcd__d3 centre = nsvcd__d3_widen(out->ball.centre);
-  const nsvcd__points about = nsvcd__place_points(sorted, centre);
+  const nsvcd__points about = nsvcd__place_points(all, centre);
   double radius = 0;
   for (size_t j = 0; j < about.count; j++)
     radius = nsvcd__max(radius, nsvcd__d3_length(about.at[j]));
   out->ball.radius = nsvcd__float_above(radius + pieces->margin);
-  const nsvcd__d3 normal = nsvcd__patch_normal(sorted, i);
+  const nsvcd__d3 normal = nsvcd__patch_normal(all, i);
   out->slab = nsvcd__fit_slab(about, normal, pieces->margin, pieces->thin);
 
   size_t chosen[NSVCD__HULL];
   double farthest;
   const double enough = NSVCD__HULL_FRACTION * (double)out->ball.radius;
   const size_t count =
-      nsvcd__choose_hull(about, NSVCD__HULL, enough, sorted->bounds, chosen, &farthest);
+      nsvcd__choose_hull(about, NSVCD__HULL, enough, all->bounds, chosen, &farthest);
   out->margin = nsvcd__float_above(farthest + pieces->margin);
   out->hull_count = (uint8_t)count;
-  for (size_t k = 0; k < count; k++) hull[k] = sorted->met[chosen[k]];
+  for (size_t k = 0; k < count; k++) hull[k] = all->met[chosen[k]];
 }
 
 // What patch i lists for its k-th piece: the piece if its triangle is divided, else the triangle.
 // Returns the number of corners, or 0 for nothing: pieces of a triangle follow each other in a
 // patch, and the whole triangle is listed with the first.
-static size_t nsvcd__listed_corners(const nsvcd__sorted *sorted, size_t i, size_t k,
+static size_t nsvcd__listed_corners(const nsvcd__sorted *all, size_t i, size_t k,
                                     const uint32_t **corners) {
-  const nsvcd__piece *piece = nsvcd__sorted_piece(sorted, k);
-  *corners = nsvcd__piece_corners(sorted->pieces, piece);
+  const nsvcd__piece *piece = nsvcd__sorted_piece(all, k);
+  *corners = nsvcd__piece_corners(all->pieces, piece);
   if (piece->divided) return piece->count;
-  *corners = nsvcd__triangle_corners(sorted->pieces, piece->triangle);
-  const int is_first = k == sorted->first[i];
-  return is_first || nsvcd__sorted_piece(sorted, k - 1)->triangle != piece->triangle ? 3 : 0;
+  *corners = nsvcd__triangle_corners(all->pieces, piece->triangle);
+  const int is_first = k == all->first[i];
+  return is_first || nsvcd__sorted_piece(all, k - 1)->triangle != piece->triangle ? 3 : 0;
 }
 
 // Is a point named, as a vertex of the caller's mesh?
-static int nsvcd__is_named(const nsvcd__sorted *sorted, const nsvcd__surface *s,
-                           uint32_t point) {
-  const nsvcd__region *region = sorted->pieces->region;
+static int nsvcd__is_named(const nsvcd__sorted *all, const nsvcd__surface *s, uint32_t point) {
+  const nsvcd__region *region = all->pieces->region;
   return !s->coarse && point < region->mesh.vertex_count - region->cut_count;
 }
 
 // Numbers the points of patch i: the hull's, then corners that are not named, then, from *stored
 // on, those that are. Returns how many triangles the patch lists.
-static size_t nsvcd__number_vertices(nsvcd__sorted *sorted, size_t i, const nsvcd__surface *s,
+static size_t nsvcd__number_vertices(nsvcd__sorted *all, size_t i, const nsvcd__surface *s,
                                      const uint32_t *hull, size_t *stored) {
   size_t listed = 0;
-  nsvcd__begin_pass(sorted);
+  nsvcd__begin_pass(all);
   for (size_t k = 0; k < s->patches[s->count].hull_count; k++)
-    nsvcd__number_point(sorted, hull[k]);
+    nsvcd__number_point(all, hull[k]);
   for (int named = 0; named < 2; named++) {
     listed = 0;
     // points of the hull that are named have two numbers
-    sorted->pass += (uint32_t)named;
-    if (named) *stored = sorted->met_count;
-    for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
+    all->pass += (uint32_t)named;
+    if (named) *stored = all->met_count;
+    for (size_t k = all->first[i]; k < all->first[i + 1]; k++) {
       const uint32_t *corners;
-      const size_t count = nsvcd__listed_corners(sorted, i, k, &corners);
+      const size_t count = nsvcd__listed_corners(all, i, k, &corners);
       for (size_t j = 0; j < count; j++) {
-        if (nsvcd__is_named(sorted, s, corners[j]) == named)
-          nsvcd__number_point(sorted, corners[j]);
+        if (nsvcd__is_named(all, s, corners[j]) == named) nsvcd__number_point(all, corners[j]);
       }
       listed += count ? count - 2 : 0;
     }
@@ -179,14 +177,14 @@ static size_t nsvcd__number_vertices(nsvcd__sorted *sorted, size_t i, const nsvc
 
 // Writes the points of patch i, the first `stored` as integers and the others as names, and its
 // triangles.
-static void nsvcd__store_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *s,
+static void nsvcd__store_patch(nsvcd__sorted *all, size_t i, nsvcd__surface *s,
                                size_t stored) {
-  const nsvcd__region *region = sorted->pieces->region;
+  const nsvcd__region *region = all->pieces->region;
   nsvcd__patch_bounds *out = &s->patches[s->count];
   const nsvcd__d3 centre = nsvcd__d3_widen(out->ball.centre);
-  const nsvcd__points points = nsvcd__place_points(sorted, centre);
+  const nsvcd__points points = nsvcd__place_points(all, centre);
   for (size_t j = stored; j < points.count; j++) {
-    const uint32_t point = sorted->met[j];
+    const uint32_t point = all->met[j];
     s->named[s->named_count++] = region->vertices ? region->vertices[point] : point;
   }
   double greatest = NSVCD__SURFACE_TINY;
@@ -206,30 +204,30 @@ static void nsvcd__store_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *
       vertices[k * stored + j] = (int16_t)integer;
       nsvcd__d3_set_axis(&rounded, k, metres * integer);
     }
-    sorted->bounds[j] = nsvcd__d3_length(nsvcd__d3_sub(points.at[j], rounded));
-    if (j < out->hull_count) worst_of_hull = nsvcd__max(worst_of_hull, sorted->bounds[j]);
+    all->bounds[j] = nsvcd__d3_length(nsvcd__d3_sub(points.at[j], rounded));
+    if (j < out->hull_count) worst_of_hull = nsvcd__max(worst_of_hull, all->bounds[j]);
   }
   s->vertex_count += stored;
   // no point of the hull is off by more than its vertices
   out->margin = nsvcd__float_above((double)out->margin + worst_of_hull);
 
-  for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
-    const uint32_t triangle = nsvcd__sorted_piece(sorted, k)->triangle;
+  for (size_t k = all->first[i]; k < all->first[i + 1]; k++) {
+    const uint32_t triangle = nsvcd__sorted_piece(all, k)->triangle;
     const uint32_t *corners;
-    const size_t count = nsvcd__listed_corners(sorted, i, k, &corners);
+    const size_t count = nsvcd__listed_corners(all, i, k, &corners);
     for (size_t j = 2; j < count; j++) {
       uint16_t *to = s->corners + 3 * s->listed;
       for (size_t n = 0; n < 3; n++) {
-        const uint32_t number = sorted->numbers[corners[n ? j - 2 + n : 0]];
+        const uint32_t number = all->numbers[corners[n ? j - 2 + n : 0]];
         to[n] = (uint16_t)number;
         if (number >= stored) continue;
-        worst = nsvcd__max(worst, sorted->bounds[number]);
+        worst = nsvcd__max(worst, all->bounds[number]);
         has_stored = 1;
       }
       s->ids[s->listed++] = region->ids[triangle];
     }
   }
-  worst += sorted->pieces->margin;
+  worst += all->pieces->margin;
   out->error = has_stored ? nsvcd__float_above(worst) : 0;
 }
 
@@ -267,22 +265,23 @@ static int nsvcd__surface_room(nsvcd__surface *s, size_t stored, size_t named,
 
 // Adds the patches of a region. MEMORY; TOO_LARGE if a patch has more than NSVCD__PATCH_VERTICES
 // points, or there are too many in all. After a failure the surface is of no use.
-static nsvcd_result nsvcd__surface_add(nsvcd__sorted *sorted, nsvcd__surface *s) {
-  const nsvcd__pieces *pieces = sorted->pieces;
+static nsvcd_result nsvcd__surface_add(nsvcd__sorted *all, nsvcd__surface *s) {
+  const nsvcd__pieces *pieces = all->pieces;
   // usually enough, so that lists need not grow
-  if (!nsvcd__surface_room(s, 0, pieces->list.count, pieces->list.count)) return NSVCD_ERROR_MEMORY;
+  if (!nsvcd__surface_room(s, 0, pieces->list.count, pieces->list.count))
+    return NSVCD_ERROR_MEMORY;
   for (size_t i = 0; i < pieces->patches->count; i++) {
     uint32_t hull[NSVCD__HULL];
     size_t stored = 0;
-    nsvcd__describe_patch(sorted, i, s, hull);
-    const size_t triangles = nsvcd__number_vertices(sorted, i, s, hull, &stored);
-    const size_t named = sorted->met_count - stored;
-    if (sorted->met_count > NSVCD__PATCH_VERTICES ||
+    nsvcd__describe_patch(all, i, s, hull);
+    const size_t triangles = nsvcd__number_vertices(all, i, s, hull, &stored);
+    const size_t named = all->met_count - stored;
+    if (all->met_count > NSVCD__PATCH_VERTICES ||
         s->vertex_count + stored > NSVCD__MAX_COUNT ||
         s->listed + triangles > NSVCD__MAX_COUNT || s->named_count + named > NSVCD__MAX_COUNT)
       return NSVCD_ERROR_TOO_LARGE;
     if (!nsvcd__surface_room(s, stored, named, triangles)) return NSVCD_ERROR_MEMORY;
-    if (triangles > 0) nsvcd__store_patch(sorted, i, s, stored);
+    if (triangles > 0) nsvcd__store_patch(all, i, s, stored);
     nsvcd__patch_bounds *next = &s->patches[++s->count];
     next->first_vertex = (uint32_t)s->vertex_count;
     next->first_named = (uint32_t)s->named_count;
