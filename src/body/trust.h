@@ -13,53 +13,53 @@ static int nsvcd__covers(nsvcd__sphere sphere, nsvcd__spheres all, size_t count)
 // Are the first `count` of (4, slots) spheres finite and in range, with no negative radius, and the
 // others padding? most: of the coordinates.
 static int nsvcd__are_spheres(nsvcd__spheres all, size_t count, size_t slots, float most) {
-  if (!nsvcd__in_range(all.x, 3 * slots, most)) return 0;
-  if (!nsvcd__in_range(all.r, count, NSVCD__MAX_LENGTH)) return 0;
-  if (!nsvcd__in_range(all.r, slots, -NSVCD__NOWHERE)) return 0;
-  for (size_t i = 0; i < slots; i++) {
-    const int is_at_origin = all.x[i] == 0 && all.y[i] == 0 && all.z[i] == 0;
-    const int is_padding = is_at_origin && all.r[i] == NSVCD__NOWHERE;
-    if (i < count ? all.r[i] < 0 : !is_padding) return 0;
+  int ok = nsvcd__in_range(all.x, 3 * slots, most) &&
+           nsvcd__in_range(all.r, count, NSVCD__MAX_LENGTH) &&
+           nsvcd__in_range(all.r, slots, -NSVCD__NOWHERE);
+  for (size_t i = 0; ok && i < count; i++) ok = all.r[i] >= 0;
+  for (size_t i = count; ok && i < slots; i++) {
+    ok = all.r[i] == NSVCD__NOWHERE;
+    ok &= all.x[i] == 0 && all.y[i] == 0 && all.z[i] == 0;
   }
-  return 1;
+  return ok;
 }
 
 // Does each of a level's spheres contain its 16 of `members` spheres below?
 static int nsvcd__level_covers(nsvcd__spheres level, nsvcd__spheres below, size_t members) {
-  for (size_t i = 0; i < members; i += NSVCD__GROUP) {
+  int ok = 1;
+  for (size_t i = 0; ok && i < members; i += NSVCD__GROUP) {
     const size_t count = nsvcd__group_members(members, i);
     const nsvcd__sphere sphere = nsvcd__sphere_of(level, i / NSVCD__GROUP);
-    if (!nsvcd__covers(sphere, nsvcd__spheres_from(below, i), count)) return 0;
+    ok = nsvcd__covers(sphere, nsvcd__spheres_from(below, i), count);
   }
-  return 1;
+  return ok;
 }
 
 // Are the spheres of a blob with a sound header in range, and does each one above the groups
 // contain what is below it? The checksum catches accidents; this catches blobs made to harm: a
 // wrong sphere would hide collisions.
 static int nsvcd__spheres_are_sound(const nsvcd_body *b) {
+  const float most = NSVCD__MAX_LENGTH;
   const nsvcd__spheres patches = nsvcd__body_patches(b);
-  const nsvcd__sphere about_origin = {nsvcd__f3_of(0, 0, 0), b->extent};
-  if (!nsvcd__are_spheres(patches, b->patches, b->padded, NSVCD_MAX_COORDINATE)) return 0;
-  if (!nsvcd__in_range(b->centre, 3, NSVCD__MAX_LENGTH)) return 0;
-  if (!nsvcd__in_range(&b->radius, 1, NSVCD__MAX_LENGTH)) return 0;
-  if (!nsvcd__in_range(&b->extent, 1, NSVCD__MAX_LENGTH)) return 0;
-  if (b->radius < 0) return 0;
   const nsvcd__spheres groups = nsvcd__groups_of(b);
   nsvcd__spheres below = groups;
   size_t members = 0;
-  for (size_t k = 0; k < nsvcd__level_count(b->padded); k++) {
+  int ok = nsvcd__are_spheres(patches, b->patches, b->padded, NSVCD_MAX_COORDINATE) &&
+           nsvcd__in_range(b->centre, 3, most) && nsvcd__in_range(&b->radius, 1, most) &&
+           nsvcd__in_range(&b->extent, 1, most) && b->radius >= 0;
+  for (size_t k = 0; ok && k < nsvcd__level_count(b->padded); k++) {
     const nsvcd__level level = nsvcd__level_of(b->padded, k);
     const nsvcd__spheres above = nsvcd__level_spheres(b, level);
-    if (!nsvcd__are_spheres(above, level.count, level.slots, NSVCD__MAX_LENGTH)) return 0;
-    if (!nsvcd__level_covers(above, below, members)) return 0;
+    ok = nsvcd__are_spheres(above, level.count, level.slots, most) &&
+         nsvcd__level_covers(above, below, members);
     below = above;
     members = level.count;
   }
   const nsvcd__sphere whole = nsvcd__body_sphere(b);
-  if (!nsvcd__covers(about_origin, patches, b->patches)) return 0;
-  return nsvcd__covers(whole, patches, b->patches) ||
-         nsvcd__covers(whole, groups, nsvcd__body_groups(b));
+  const nsvcd__sphere about_origin = {{0, 0, 0}, b->extent};
+  return ok && nsvcd__covers(about_origin, patches, b->patches) &&
+         (nsvcd__covers(whole, patches, b->patches) ||
+          nsvcd__covers(whole, groups, nsvcd__body_groups(b)));
 }
 
 // Would the scaled spheres still be within the limits of nsvcd_body_load? In double, for the
@@ -100,22 +100,21 @@ static int nsvcd__rise(const uint32_t *first, size_t count, size_t last) {
 // Do all arrays of patches, groups and numbers of vertices stay within each other?
 static int nsvcd__are_laid_out(const nsvcd__geometry *f) {
   const nsvcd__counts *n = f->counts;
-  const size_t patches = f->body->patches;
-  const size_t groups = nsvcd__body_groups(f->body);
-  if (!nsvcd__rise(f->first_vertex, patches, n->vertices)) return 0;
-  if (!nsvcd__rise(f->first_own, patches, f->first_own[patches])) return 0;
-  if (!nsvcd__rise(f->first_reference, patches, n->references)) return 0;
-  if (!nsvcd__rise(f->first_triangle, patches, n->listed)) return 0;
-  if (!nsvcd__rise(f->first_byte, patches, n->entry_bytes)) return 0;
-  if (!nsvcd__rise(f->first_seed, groups, n->components)) return 0;
-  if (f->first_own[patches] > n->positions) return 0;
-  for (size_t i = 0; i < n->references; i++)
-    if (nsvcd__reference_at(f, i) >= n->positions) return 0;
-  for (size_t i = 0; i < n->cut; i++)
-    if (f->cut[i] >= f->body->triangles || (i > 0 && f->cut[i] <= f->cut[i - 1])) return 0;
-  for (size_t i = 0; i < 3 * (size_t)n->cut; i++)
-    if (f->cut_corners[i] >= n->positions) return 0;
-  return 1;
+  const nsvcd_body *b = f->body;
+  const size_t patches = b->patches;
+  const size_t own = f->first_own[patches];
+  int ok = own <= n->positions && nsvcd__rise(f->first_own, patches, own) &&
+           nsvcd__rise(f->first_vertex, patches, n->vertices) &&
+           nsvcd__rise(f->first_reference, patches, n->references) &&
+           nsvcd__rise(f->first_triangle, patches, n->listed) &&
+           nsvcd__rise(f->first_byte, patches, n->entry_bytes) &&
+           nsvcd__rise(f->first_seed, nsvcd__body_groups(b), n->components);
+  for (size_t i = 0; ok && i < n->references; i++)
+    ok = nsvcd__reference_at(f, i) < n->positions;
+  for (size_t i = 0; ok && i < n->cut; i++)
+    ok = f->cut[i] < b->triangles && (i == 0 || f->cut[i] > f->cut[i - 1]);
+  for (size_t i = 0; ok && i < 3 * (size_t)n->cut; i++) ok = f->cut_corners[i] < n->positions;
+  return ok;
 }
 
 // Are the entries of patch i sound?
@@ -153,62 +152,61 @@ static int nsvcd__patch_is_sound(const nsvcd__geometry *f, size_t i) {
 
 // Are the sizes in a blob's header right, and is it at most `size` bytes long?
 static int nsvcd__header_is_sound(const nsvcd_body *b, size_t size) {
-  if (size < sizeof *b) return 0;
-  if (b->magic != NSVCD__BODY_MAGIC || b->version != NSVCD__BODY_VERSION) return 0;
-  if (b->patches < 1 || b->patches > NSVCD_MAX_PATCHES) return 0;
-  if (b->open > 1 || b->size > size) return 0;
-  if (b->padded != nsvcd__round_up(b->patches, NSVCD__GROUP)) return 0;
-  return b->size >= nsvcd__spheres_size(b->padded) && b->size % NSVCD_ALIGNMENT == 0;
+  return size >= sizeof *b && b->magic == NSVCD__BODY_MAGIC &&
+         b->version == NSVCD__BODY_VERSION && b->patches >= 1 &&
+         b->patches <= NSVCD_MAX_PATCHES && b->open <= 1 && b->size <= size &&
+         b->padded == nsvcd__round_up(b->patches, NSVCD__GROUP) &&
+         b->size >= nsvcd__spheres_size(b->padded) && b->size % NSVCD_ALIGNMENT == 0;
+}
+
+// Are the numbers of a body of triangles in range?
+static int nsvcd__are_in_range(const nsvcd__geometry *f) {
+  const nsvcd__counts *n = f->counts;
+  const size_t padded = f->body->padded;
+  const size_t slots = nsvcd__group_slots(padded);
+  const float most = NSVCD__MAX_LENGTH;
+  int ok = nsvcd__in_range(f->box, NSVCD__GEOMETRY_BOX, most) &&
+           nsvcd__in_range(f->slabs, 3 * padded, 1.000001f) &&
+           nsvcd__in_range(f->slabs + 3 * padded, 3 * padded, most) &&
+           nsvcd__in_range(f->group_slabs, 3 * slots, 1.000001f) &&
+           nsvcd__in_range(f->group_slabs + 3 * slots, 3 * slots, most) &&
+           nsvcd__in_range(f->steps, padded, most / 32768) &&
+           nsvcd__in_range(f->margins, padded, most) &&
+           nsvcd__in_range(f->errors, padded, nsvcd__widest_error(f)) &&
+           nsvcd__in_range(f->seeds, 3 * (size_t)n->components, most) &&
+           nsvcd__in_range(f->positions, 3 * (size_t)n->positions, most) &&
+           nsvcd__off_mesh(f) >= 0;
+  for (size_t i = 0; ok && i < padded; i++) {
+    const nsvcd__slab slab = nsvcd__slab_at(f->slabs, padded, i);
+    ok = slab.across >= 0 && f->steps[i] >= 0 && f->margins[i] >= 0 && f->errors[i] >= 0;
+  }
+  return ok;
 }
 
 // Is a body of triangles sound, if its header is? Checks the spheres, the layout (sizes, counts and
 // indices), and that numbers are in range: they may misstate the surface, but nothing computed from
 // them overflows. size: bytes, at most.
 static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
-  if (b->inner != 0 || b->triangles == 0 || !nsvcd__spheres_are_sound(b)) return 0;
-  const size_t padded = b->padded;
-  const size_t groups = nsvcd__body_groups(b);
-  const size_t slots = nsvcd__group_slots(padded);
-  const nsvcd__counts *counts = nsvcd__counts_of(b);
-  if (nsvcd__spheres_size(padded) + sizeof *counts > size) return 0;
-  if (counts->open_solids > counts->solids || counts->is_mixed > 1) return 0;
-  if (!nsvcd__is_length(counts->gap) || !nsvcd__is_length(counts->convex_radius)) return 0;
-  if (b->radius + counts->convex_radius < NSVCD_MIN_RADIUS) return 0;
+  const nsvcd__counts *n = nsvcd__counts_of(b);
+  const uint64_t counted = nsvcd__spheres_size(b->padded) + sizeof *n;
   nsvcd__geometry f;
-  if (b->size != nsvcd__geometry_layout(NULL, b->patches, counts, &f) || b->size > size)
-    return 0;
-
+  if (b->inner != 0 || b->triangles == 0 || !nsvcd__spheres_are_sound(b)) return 0;
+  if (counted > size || n->open_solids > n->solids || n->is_mixed > 1) return 0;
+  if (!nsvcd__is_length(n->gap) || !nsvcd__is_length(n->convex_radius)) return 0;
+  if (b->radius + n->convex_radius < NSVCD_MIN_RADIUS) return 0;
+  const size_t needed = nsvcd__geometry_layout(NULL, b->patches, n, &f);
+  if (b->size != needed || b->size > size) return 0;
   f = nsvcd__geometry_of(b);
-  if (!nsvcd__are_laid_out(&f)) return 0;
-  for (size_t i = 0; i < b->patches; i++) {
-    if (!nsvcd__patch_is_sound(&f, i)) return 0;
-  }
-  for (size_t g = 0; g < groups; g++) {
+  int ok = nsvcd__are_laid_out(&f) && nsvcd__are_in_range(&f);
+  for (size_t i = 0; ok && i < b->patches; i++) ok = nsvcd__patch_is_sound(&f, i);
+  for (size_t g = 0; ok && g < nsvcd__body_groups(b); g++) {
     nsvcd__hulls hulls;
     nsvcd__collect_hulls(&f, g, &hulls);
     const nsvcd__spheres all = nsvcd__hull_spheres(&hulls);
     const nsvcd__sphere over = nsvcd__sphere_of(nsvcd__groups_of(b), g);
-    if (!nsvcd__covers(over, all, hulls.count)) return 0;
+    ok = nsvcd__covers(over, all, hulls.count);
   }
-
-  const float most = NSVCD__MAX_LENGTH;
-  if (!nsvcd__in_range(f.box, NSVCD__GEOMETRY_BOX, most)) return 0;
-  if (!nsvcd__in_range(f.slabs, 3 * padded, 1.000001f)) return 0;
-  if (!nsvcd__in_range(f.slabs + 3 * padded, 3 * padded, most)) return 0;
-  if (!nsvcd__in_range(f.group_slabs, 3 * slots, 1.000001f)) return 0;
-  if (!nsvcd__in_range(f.group_slabs + 3 * slots, 3 * slots, most)) return 0;
-  if (!nsvcd__in_range(f.steps, padded, most / 32768)) return 0;
-  if (!nsvcd__in_range(f.margins, padded, most)) return 0;
-  if (!nsvcd__in_range(f.errors, padded, most)) return 0;
-  if (!nsvcd__in_range(f.seeds, 3 * (size_t)counts->components, most)) return 0;
-  if (!nsvcd__in_range(f.positions, 3 * (size_t)counts->positions, most)) return 0;
-  if (nsvcd__off_mesh(&f) < 0) return 0;
-  for (size_t i = 0; i < padded; i++) {
-    const nsvcd__slab slab = nsvcd__slab_at(f.slabs, padded, i);
-    if (slab.across < 0 || f.steps[i] < 0 || f.margins[i] < 0 || f.errors[i] < 0) return 0;
-    if (f.errors[i] > nsvcd__widest_error(&f)) return 0;
-  }
-  return 1;
+  return ok;
 }
 
 // Is a body sound, if its header and its checksum are?
@@ -231,10 +229,10 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
   const char *at = (const char *)b + b->inner;
   const nsvcd_body *inner = (const nsvcd_body *)(const void *)at;
   const size_t left = b->size - b->inner;
-  if (!nsvcd__header_is_sound(inner, left) || inner->size != left) return 0;
-  if (inner->weights_id != 0 || inner->open != b->open) return 0;
-  if (inner->patches != b->patches || inner->triangles != b->triangles) return 0;
-  return !NSVCD__PROOF || nsvcd__triangles_are_sound(inner, left);
+  return nsvcd__header_is_sound(inner, left) && inner->size == left &&
+         inner->weights_id == 0 && inner->open == b->open && inner->patches == b->patches &&
+         inner->triangles == b->triangles &&
+         (!NSVCD__PROOF || nsvcd__triangles_are_sound(inner, left));
 }
 
 // Is this a body, by its header? If it does not begin as one (a text, a nsvcd_mesh), no more than
