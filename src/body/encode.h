@@ -93,20 +93,19 @@ static nsvcd_result nsvcd__add_region(nsvcd__draft *d, nsvcd__regions *regions, 
 static nsvcd_result nsvcd__draft_runs(nsvcd__draft *d) {
   const nsvcd_mesh *mesh = d->mesh;
   const size_t triangles = mesh->triangle_count;
-  const size_t wanted = d->options->patches;
-  const size_t runs = wanted < triangles ? wanted : triangles;
+  const nsvcd_encode_options *o = d->options;
+  const size_t runs = o->patches < triangles ? o->patches : triangles;
   nsvcd__arena spare = nsvcd__arena_of(d->arena.allocator);
-  nsvcd__surface *surface = &d->surface;
+  nsvcd__surface *s = &d->surface;
   nsvcd__curve curve;
-  int ok =
-      nsvcd__surface_begin(runs, mesh->vertex_count, d->options->coarse, &d->arena, surface);
-  ok = ok && nsvcd__curve_build(mesh, d->options->convex_radius, &spare, &curve);
-  ok = ok && nsvcd__surface_room(surface, mesh->vertex_count, mesh->vertex_count, triangles);
-  if (ok) surface->solids = curve.solids;
+  int ok = nsvcd__surface_begin(runs, mesh->vertex_count, o->coarse, &d->arena, s);
+  ok = ok && nsvcd__curve_build(mesh, o->convex_radius, &spare, &curve);
+  ok = ok && nsvcd__surface_room(s, mesh->vertex_count, mesh->vertex_count, triangles);
+  if (ok) s->solids = curve.solids;
   nsvcd_result result = ok ? NSVCD_OK : NSVCD_ERROR_MEMORY;
-  for (size_t first = 0; !result && first < runs; first = surface->count) {
-    const size_t left = runs - first;
-    const size_t last = left < NSVCD__RUNS_AT_ONCE ? runs : first + NSVCD__RUNS_AT_ONCE;
+  for (size_t first = 0; !result && first < runs; first = s->count) {
+    const int is_last = runs - first <= NSVCD__RUNS_AT_ONCE;
+    const size_t last = is_last ? runs : first + NSVCD__RUNS_AT_ONCE;
     nsvcd__region block;
     nsvcd__patches patches;
     nsvcd__pieces pieces;
@@ -114,10 +113,10 @@ static nsvcd_result nsvcd__draft_runs(nsvcd__draft *d) {
     ok = nsvcd__runs_build(&curve, first, last, runs, &few, &block, &patches, &pieces);
     nsvcd__sorted sorted;
     ok = ok && nsvcd__sorted_build(&pieces, &few, &sorted);
-    result = ok ? nsvcd__surface_add(&sorted, surface) : NSVCD_ERROR_MEMORY;
+    result = ok ? nsvcd__surface_add(&sorted, s) : NSVCD_ERROR_MEMORY;
     nsvcd__arena_free(&few);
     const double done = (double)last / (double)runs;
-    if (!result && nsvcd__is_cancelled(d->options, 0.9 * done)) result = NSVCD_ERROR_CANCELLED;
+    if (!result && nsvcd__is_cancelled(o, 0.9 * done)) result = NSVCD_ERROR_CANCELLED;
   }
   d->count = runs;
   nsvcd__arena_free(&spare);
@@ -126,8 +125,8 @@ static nsvcd_result nsvcd__draft_runs(nsvcd__draft *d) {
 
 // Drafts a mesh region by region.
 static nsvcd_result nsvcd__draft_regions(nsvcd__draft *d) {
-  const nsvcd_encode_options *options = d->options;
-  const size_t patches = options->patches;
+  const nsvcd_encode_options *o = d->options;
+  const size_t patches = o->patches;
   nsvcd__arena *arena = &d->arena;
   nsvcd__arena spare = nsvcd__arena_of(arena->allocator);
   nsvcd__regions regions;
@@ -138,14 +137,14 @@ static nsvcd_result nsvcd__draft_regions(nsvcd__draft *d) {
   nsvcd__latents *latents = &d->latents;
   latents->centres = NSVCD__TAKE(arena, nsvcd__f3, patches);
 #ifndef NSVCD_NO_NETWORK
-  const size_t room = options->latents ? patches : 0;
+  const size_t room = o->latents ? patches : 0;
   latents->radii = NSVCD__TAKE(arena, float, room);
   latents->areas = NSVCD__TAKE(arena, nsvcd__f3, room);
   latents->extremes = NSVCD__TAKE(arena, int8_t, 3 * NSVCD__EXTREMES * room);
   latents->latents = NSVCD__TAKE(arena, int8_t, NSVCD__LATENT * room);
 #endif
-  if (NSVCD__PROOF && !options->no_triangles)
-    (void)nsvcd__surface_begin(patches, regions.component_count, options->coarse, arena,
+  if (NSVCD__PROOF && !o->no_triangles)
+    (void)nsvcd__surface_begin(patches, regions.component_count, o->coarse, arena,
                                &d->surface);
   d->surface.solids = regions.solids;
   const size_t count = regions.count;
@@ -153,7 +152,7 @@ static nsvcd_result nsvcd__draft_regions(nsvcd__draft *d) {
   for (size_t n = 0; !result && n < count; n++) {
     const size_t most = patches * (n + 1) / count - patches * n / count;
     const double done = (double)(n + 1) / (double)(count + 2);
-    const int stop = nsvcd__is_cancelled(options, done);
+    const int stop = nsvcd__is_cancelled(o, done);
     result = stop ? NSVCD_ERROR_CANCELLED : nsvcd__add_region(d, &regions, n, most);
   }
   nsvcd__arena_free(&spare);
@@ -162,25 +161,24 @@ static nsvcd_result nsvcd__draft_regions(nsvcd__draft *d) {
 
 // Makes everything but the blob. After success, free the draft's arena. MEMORY, CANCELLED,
 // TOO_LARGE.
-static nsvcd_result nsvcd__draft_build(const nsvcd_mesh *mesh,
-                                       const nsvcd_encode_options *options,
+static nsvcd_result nsvcd__draft_build(const nsvcd_mesh *mesh, const nsvcd_encode_options *o,
                                        const nsvcd_allocator *allocator, nsvcd__draft *d) {
   memset(d, 0, sizeof *d);
   d->mesh = mesh;
-  d->options = options;
+  d->options = o;
   d->arena = nsvcd__arena_of(allocator);
-  if (nsvcd__is_cancelled(options, 0)) return NSVCD_ERROR_CANCELLED;
-  d->in_runs = NSVCD__PROOF && options->convex_radius > 0 && nsvcd__has_points(mesh);
+  if (nsvcd__is_cancelled(o, 0)) return NSVCD_ERROR_CANCELLED;
+  d->in_runs = NSVCD__PROOF && o->convex_radius > 0 && nsvcd__has_points(mesh);
   nsvcd_result result = d->in_runs ? nsvcd__draft_runs(d) : nsvcd__draft_regions(d);
 #ifndef NSVCD_NO_NETWORK
-  if (!result && options->latents) d->latents_size = nsvcd_body_size(d->count);
+  if (!result && o->latents) d->latents_size = nsvcd_body_size(d->count);
 #endif
-  if (NSVCD__PROOF && !result && !options->no_triangles) {
+  if (NSVCD__PROOF && !result && !o->no_triangles) {
     nsvcd__writer *w = &d->writer;
     w->surface = &d->surface;
     w->mesh = mesh;
     if (!nsvcd__geometry_count(w, &d->arena)) result = NSVCD_ERROR_MEMORY;
-    w->counts.convex_radius = options->convex_radius;
+    w->counts.convex_radius = o->convex_radius;
     d->geometry_size = nsvcd__geometry_layout(NULL, d->count, &w->counts, &w->to);
     if (!result && !d->geometry_size) result = NSVCD_ERROR_TOO_LARGE;
   }
