@@ -39,7 +39,7 @@ static nsvcd__f3 nsvcd__middle_of(const nsvcd_mesh *mesh, size_t t) {
 }
 
 // The bits of a number below 1024, three positions apart.
-static uint64_t nsvcd__spread_bits(float from) {
+static uint64_t nsvcd__morton_bits(float from) {
   uint32_t x = (uint32_t)from;
   x = (x | x << 16) & 0x030000ffu;
   x = (x | x << 8) & 0x0300f00fu;
@@ -48,7 +48,7 @@ static uint64_t nsvcd__spread_bits(float from) {
 }
 
 // Radix sort of keys by their upper halves; equal ones keep their order. spare: (count).
-static void nsvcd__sort_by_code(uint64_t *keys, uint64_t *spare, size_t count) {
+static void nsvcd__sort_keys(uint64_t *keys, uint64_t *spare, size_t count) {
   for (unsigned shift = 32; shift < 64; shift += 8) {
     size_t first[257] = {0};
     uint64_t *from = shift & 8 ? spare : keys;
@@ -113,13 +113,13 @@ static int nsvcd__curve_build(const nsvcd_mesh *mesh, float convex_radius, nsvcd
   const float cells = longest > 0 ? 1023 / longest : 0;
   for (size_t t = 0; t < count; t++) {
     const nsvcd__f3 at = nsvcd__f3_sub(nsvcd__middle_of(mesh, t), low);
-    const uint64_t x = nsvcd__spread_bits(cells * at.x);
-    const uint64_t y = nsvcd__spread_bits(cells * at.y);
-    const uint64_t z = nsvcd__spread_bits(cells * at.z);
+    const uint64_t x = nsvcd__morton_bits(cells * at.x);
+    const uint64_t y = nsvcd__morton_bits(cells * at.y);
+    const uint64_t z = nsvcd__morton_bits(cells * at.z);
     c->keys[t] = (x | y << 1 | z << 2) << 32 | t;
   }
   if (!nsvcd__curve_mark(c, arena)) return 0;
-  nsvcd__sort_by_code(c->keys, c->keys + count, count);
+  nsvcd__sort_keys(c->keys, c->keys + count, count);
   return 1;
 }
 
@@ -152,7 +152,6 @@ static int nsvcd__runs_build(nsvcd__curve *c, size_t first, size_t last, size_t 
   block->seeds = NSVCD__TAKE(arena, uint8_t, most);
   block->greatest = c->greatest;
   patches->count = last - first;
-  patches->centres = NSVCD__TAKE(arena, nsvcd__f3, patches->count);
   pieces->arena = arena;
   pieces->region = block;
   pieces->patches = patches;
