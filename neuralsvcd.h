@@ -1350,6 +1350,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     slices          how many of 16 lanes a register holds
 //   mesh: files and triangles
 //     mesh            checks; cuts at a box
+//     weld            vertices at the same position
 //     polygons        one face into triangles
 //     faces           faces of any number of corners into a mesh
 //     obj             Wavefront OBJ
@@ -2541,7 +2542,7 @@ enum { NSVCD__SHEET, NSVCD__NEARLY, NSVCD__CLOSED, NSVCD__EITHER_DIRECTION };
 // ======================================================================= mesh: files and triangles
 
 // --------------------------------------------------------------------------------------- mesh/mesh
-// In: triangles. Out: nsvcd_mesh, every index in range, every coordinate finite; or what of it lies
+// In: triangles. Out: nsvcd_mesh, every index in range, every coordinate finite; the part of one
 // in a box.
 
 #ifndef NSVCD_NO_ENCODER
@@ -2552,7 +2553,7 @@ NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator
   memset(mesh, 0, sizeof *mesh);
 }
 
-// Room for vertices and triangles. 0 without memory; in either case nsvcd_mesh_free gives it back.
+// Allocates vertices and triangles. 0 without memory. Free it with nsvcd_mesh_free, on failure too.
 static int nsvcd__mesh_alloc(nsvcd_mesh *mesh, size_t vertices, size_t triangles,
                              const nsvcd_allocator *allocator) {
   const size_t row = 3 * sizeof(float);
@@ -2564,14 +2565,15 @@ static int nsvcd__mesh_alloc(nsvcd_mesh *mesh, size_t vertices, size_t triangles
   return mesh->positions && mesh->indices;
 }
 
-// A triangle cut at the six sides of a box. Each side adds one corner, or two where roundings make
-// the polygon cross it twice.
+// A triangle cut at the six sides of a box. Each side adds one corner, or two if roundings make the
+// polygon cross it twice.
 typedef struct nsvcd__clipped {
   nsvcd__d3 corners[3 + 2 * 6];
   size_t count;
 } nsvcd__clipped;
 
-// The part of triangle t within the box: 0, or 3 to 9 corners, but for roundings.
+// The part of triangle t in a box (Sutherland, Hodgman 1974): 0, or 3 to 9 corners, but for
+// roundings.
 static nsvcd__clipped nsvcd__cut_triangle(const nsvcd_mesh *mesh, size_t t, const float *low,
                                           const float *high) {
   const uint32_t *triangle = mesh->indices + 3 * t;
@@ -2584,7 +2586,7 @@ static nsvcd__clipped nsvcd__cut_triangle(const nsvcd_mesh *mesh, size_t t, cons
     const double bound = (double)(side % 2 ? high : low)[axis];
     const nsvcd__clipped from = out;
     out.count = 0;
-    // what has sign * x[axis] <= sign * bound is kept
+    // keeps sign * x[axis] <= sign * bound
     for (size_t i = 0; i < from.count; i++) {
       const nsvcd__d3 a = from.corners[i];
       const nsvcd__d3 b = from.corners[(i + 1) % from.count];
@@ -2606,8 +2608,8 @@ NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
                                      nsvcd_mesh *part) {
   if (!low || !high || !part) return NSVCD_ERROR_ARGUMENT;
   for (size_t k = 0; k < 3; k++) {
-    const int finite = nsvcd__is_finite(low[k]) && nsvcd__is_finite(high[k]);
-    if (!finite || !(low[k] < high[k])) return NSVCD_ERROR_BOX;
+    if (!nsvcd__is_finite(low[k]) || !nsvcd__is_finite(high[k]) || !(low[k] < high[k]))
+      return NSVCD_ERROR_BOX;
   }
   const nsvcd_result result = nsvcd__mesh_check(mesh);
   if (result) return result;
@@ -2649,22 +2651,89 @@ NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
 }
 #endif
 
+// --------------------------------------------------------------------------------------- mesh/weld
+// In: positions of vertices. Out: for each vertex, the first one at the same position.
+
+#ifndef NSVCD_NO_ENCODER
+// A hash table of vertices by position, with open addressing.
+typedef struct nsvcd__weld {
+  const float *positions;
+  // (slots), a power of two: numbers of vertices + 1, or 0
+  uint32_t *table;
+  size_t slots;
+  uint64_t seed;  // of the hash
+  size_t steps;   // past other vertices
+} nsvcd__weld;
+
+// The slot of the vertex at the position of vertex v, or the empty one where it belongs.
+static uint32_t *nsvcd__weld_slot(nsvcd__weld *w, size_t v) {
+  const float *at = w->positions + 3 * v;
+  uint64_t hash = w->seed;
+  for (size_t k = 0; k < 3; k++) {
+    uint32_t bits;
+    memcpy(&bits, at + k, sizeof bits);
+    // -0 equals 0
+    if (bits == 0x80000000u) bits = 0;
+    hash = (hash ^ bits) * UINT64_C(0x9e3779b97f4a7c15);
+    hash ^= hash >> 32;
+  }
+  for (size_t slot = (size_t)hash;; slot++, w->steps++) {
+    uint32_t *out = &w->table[slot & (w->slots - 1)];
+    if (!*out) return out;
+    const float *other = w->positions + 3 * (size_t)(*out - 1);
+    if (other[0] == at[0] && other[1] == at[1] && other[2] == at[2]) return out;
+  }
+}
+
+// Writes welded (count). If it takes many steps, as with vertices chosen to share a hash, it takes
+// another hash. The table is zeros.
+static void nsvcd__weld_vertices(nsvcd__weld *w, size_t count, uint32_t *welded) {
+  for (uint32_t v = 0; v < count; v++) {
+    const size_t most = 8 * (size_t)v + 1024;
+    uint32_t *slot = nsvcd__weld_slot(w, v);
+    if (!*slot) *slot = v + 1;
+    welded[v] = *slot - 1;
+    while (w->steps > most) {
+      // whoever made the mesh cannot know this address
+      w->seed += UINT64_C(0xd1342543de82ef95) + (uint64_t)(size_t)w->table;
+      w->steps = 0;
+      memset(w->table, 0, w->slots * sizeof *w->table);
+      for (uint32_t u = 0; u <= v && w->steps <= most; u++)
+        if (welded[u] == u) *nsvcd__weld_slot(w, u) = u + 1;
+    }
+  }
+}
+
+// nsvcd__weld_vertices with a table of its own. 0 without memory.
+static int nsvcd__weld_all(const float *positions, size_t count, uint32_t *welded,
+                           const nsvcd_allocator *allocator) {
+  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  nsvcd__weld w = {positions, NULL, 16, 0, 0};
+  while (w.slots / 2 < count) w.slots *= 2;
+  w.table = NSVCD__TAKE(&arena, uint32_t, w.slots);
+  if (w.table) nsvcd__weld_vertices(&w, count, welded);
+  nsvcd__arena_free(&arena);
+  return !arena.failed;
+}
+#endif  // NSVCD_NO_ENCODER
+
 // ----------------------------------------------------------------------------------- mesh/polygons
 // In: the corners of a face. Out: triangles, by ear clipping (Meisters 1975; after Eberly,
 // "Triangulation by Ear Clipping").
 //
-// A face becomes corners - 2 triangles whose vector areas always sum to the polygon's. A simple
-// polygon, concave or with holes cut open by a bridge, is covered without overlap; any other
-// (crossing itself, no area) is cut somehow.
+// A face of n corners becomes n - 2 triangles, whose vector areas sum to the polygon's. A simple
+// polygon, concave or with holes joined to the outline by bridges, is covered without overlap; any
+// other (one that crosses itself or has no area) is cut somehow.
 //
-// An ear is a corner whose triangle holds no reflex corner. So that faces may have many corners,
-// these are not all looked at: corners are sorted along a Z curve (Morton 1966), and each run of 8
-// has a box, as have two boxes side by side, and so on up to one about all.
+// An ear is a convex corner whose triangle contains no reflex corner. Difference from Eberly: that
+// test visits boxes, not all reflex corners, so that faces may have many corners. The corners are
+// sorted along a Z curve (Morton 1966); each run of 8 has a box, each two neighbouring boxes have
+// one about them, and so on up to one about all.
 
 #ifndef NSVCD_NO_OBJ
 #define NSVCD__RUN 8
 
-// In the polygon's plane.
+// A point in the polygon's plane.
 typedef struct nsvcd__d2 {
   double x, y;
 } nsvcd__d2;
@@ -2673,54 +2742,52 @@ typedef struct nsvcd__corner {
   // the polygon is counter-clockwise
   nsvcd__d2 at;
   uint32_t vertex;
-  // the ring of corners not yet clipped
+  // in the ring of corners not yet clipped
   uint32_t previous, next;
-  // 1: in the queue
-  uint32_t queued;
+  uint32_t queued;  // 1: in the queue
   // 1: the inner angle exceeds 180 degrees
   uint32_t reflex;
-  // the box of its run
-  uint32_t box;
+  uint32_t box;  // of its run
 } nsvcd__corner;
 
 typedef struct nsvcd__corner_box {
   nsvcd__d2 low, high;
-  // corners in it that are reflex
+  // how many reflex corners are in it
   uint32_t reflex;
 } nsvcd__corner_box;
 
 typedef struct nsvcd__polygon {
   nsvcd__corner *corners;
-  // (count): corners along the Z curve
+  // (count) corners along the Z curve
   uint32_t *order;
-  // (2 runs): box k is about boxes 2 k and 2 k + 1, the last are runs'
+  // (2 runs) box k is about boxes 2 k and 2 k + 1; the last `runs` are those of the runs
   nsvcd__corner_box *boxes;
-  uint32_t count, runs;  // a power of two
-  // (count), a ring: corners that may have become an ear
+  // runs: a power of two
+  uint32_t count, runs;
+  // (count) a ring buffer: corners that may have become ears
   uint32_t *queue;
   uint32_t queue_first, queue_length;
 } nsvcd__polygon;
 
-// Runs of so many corners, rounded up to a power of two.
+// The number of runs, rounded up to a power of two.
 static uint32_t nsvcd__runs_of(uint32_t corners) {
   uint32_t runs = 1;
   while (NSVCD__RUN * (uint64_t)runs < corners) runs *= 2;
   return runs;
 }
 
-// Room for polygons of up to so many corners. 0 without memory.
-static int nsvcd__polygon_alloc(nsvcd__polygon *polygon, uint32_t corners,
-                                nsvcd__arena *arena) {
-  memset(polygon, 0, sizeof *polygon);
-  polygon->corners = NSVCD__TAKE(arena, nsvcd__corner, corners);
-  polygon->order = NSVCD__TAKE(arena, uint32_t, corners);
-  polygon->queue = NSVCD__TAKE(arena, uint32_t, corners);
-  polygon->boxes = NSVCD__TAKE(arena, nsvcd__corner_box, 2 * (size_t)nsvcd__runs_of(corners));
+// Makes room for polygons of up to `corners` corners. 0 without memory.
+static int nsvcd__polygon_alloc(nsvcd__polygon *poly, uint32_t corners, nsvcd__arena *arena) {
+  memset(poly, 0, sizeof *poly);
+  poly->corners = NSVCD__TAKE(arena, nsvcd__corner, corners);
+  poly->order = NSVCD__TAKE(arena, uint32_t, corners);
+  poly->queue = NSVCD__TAKE(arena, uint32_t, corners);
+  poly->boxes = NSVCD__TAKE(arena, nsvcd__corner_box, 2 * (size_t)nsvcd__runs_of(corners));
   return !arena->failed;
 }
 
-// Twice the area of abc, positive if counter-clockwise. In double a difference of floats is as good
-// as exact.
+// Twice the area of abc, positive if counter-clockwise. Differences of floats are next to exact in
+// double.
 static double nsvcd__d2_cross(nsvcd__d2 a, nsvcd__d2 b, nsvcd__d2 c) {
   return (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
 }
@@ -2728,15 +2795,14 @@ static int nsvcd__same_position(nsvcd__d2 a, nsvcd__d2 b) {
   return !(a.x < b.x || a.x > b.x || a.y < b.y || a.y > b.y);
 }
 
-// Places the corners in a plane: drops the axis along which the normal is longest, and so keeps the
-// coordinates exact.
-static void nsvcd__polygon_project(nsvcd__polygon *polygon, const float *positions) {
-  nsvcd__corner *corners = polygon->corners;
+// Projects the corners along the axis nearest to the normal, which keeps coordinates exact.
+static void nsvcd__polygon_project(nsvcd__polygon *poly, const float *positions) {
+  nsvcd__corner *corners = poly->corners;
   // twice the area times the normal (Newell's)
   nsvcd__d3 normal = nsvcd__d3_of(0, 0, 0);
   const nsvcd__d3 origin = nsvcd__d3_row(positions, corners[0].vertex);
-  for (uint32_t i = 0; i < polygon->count; i++) {
-    const uint32_t next = corners[(i + 1) % polygon->count].vertex;
+  for (uint32_t i = 0; i < poly->count; i++) {
+    const uint32_t next = corners[(i + 1) % poly->count].vertex;
     const nsvcd__d3 p = nsvcd__d3_sub(nsvcd__d3_row(positions, corners[i].vertex), origin);
     const nsvcd__d3 q = nsvcd__d3_sub(nsvcd__d3_row(positions, next), origin);
     normal = nsvcd__d3_add(normal, nsvcd__d3_cross(p, q));
@@ -2744,18 +2810,18 @@ static void nsvcd__polygon_project(nsvcd__polygon *polygon, const float *positio
   size_t axis = fabs(normal.y) > fabs(normal.x) ? 1 : 0;
   if (fabs(normal.z) > fabs(nsvcd__d3_axis(normal, axis))) axis = 2;
   const size_t turned = nsvcd__d3_axis(normal, axis) < 0;
-  for (uint32_t i = 0; i < polygon->count; i++) {
+  for (uint32_t i = 0; i < poly->count; i++) {
     const float *p = positions + 3 * (size_t)corners[i].vertex;
     corners[i].at.x = (double)p[(axis + 1 + turned) % 3];
     corners[i].at.y = (double)p[(axis + 2 - turned) % 3];
   }
 }
 
-// Sorts corners along the Z curve, by this bit of it and those below: the bits of x and y in turn.
+// Sorts corners along the Z curve by this bit of their keys and those below: x and y take turns.
 static void nsvcd__z_sort(const nsvcd__corner *corners, uint32_t *order, uint32_t count,
                           int bit) {
   if (count <= NSVCD__RUN || bit < 0) return;
-  // where those begin that have the bit
+  // the first that has the bit
   uint32_t ones = count;
   for (uint32_t i = 0; i < ones;) {
     const uint32_t corner = order[i];
@@ -2776,10 +2842,9 @@ static void nsvcd__z_sort(const nsvcd__corner *corners, uint32_t *order, uint32_
   nsvcd__z_sort(corners, order + ones, count - ones, bit - 1);
 }
 
-static nsvcd__corner_box nsvcd__no_box(void) {
-  const nsvcd__corner_box out = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}, 0};
-  return out;
-}
+static const nsvcd__corner_box nsvcd__no_box = {
+    {HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}, 0};
+
 static void nsvcd__box_take(nsvcd__corner_box *box, nsvcd__d2 at) {
   if (at.x < box->low.x) box->low.x = at.x;
   if (at.y < box->low.y) box->low.y = at.y;
@@ -2787,36 +2852,36 @@ static void nsvcd__box_take(nsvcd__corner_box *box, nsvcd__d2 at) {
   if (at.y > box->high.y) box->high.y = at.y;
 }
 
-// Puts the corners into boxes. None is known to be reflex yet.
-static void nsvcd__polygon_box(nsvcd__polygon *polygon) {
-  polygon->runs = nsvcd__runs_of(polygon->count);
-  for (uint32_t k = 0; k < 2 * polygon->runs; k++) polygon->boxes[k] = nsvcd__no_box();
-  for (uint32_t i = 0; i < polygon->count; i++) polygon->order[i] = i;
-  nsvcd__z_sort(polygon->corners, polygon->order, polygon->count, 63);
-  for (uint32_t i = 0; i < polygon->count; i++) {
-    nsvcd__corner *c = &polygon->corners[polygon->order[i]];
-    c->box = polygon->runs + i / NSVCD__RUN;
-    for (uint32_t k = c->box; k > 0; k /= 2) nsvcd__box_take(&polygon->boxes[k], c->at);
+// Makes the boxes. No corner counts as reflex yet.
+static void nsvcd__polygon_box(nsvcd__polygon *poly) {
+  poly->runs = nsvcd__runs_of(poly->count);
+  for (uint32_t k = 0; k < 2 * poly->runs; k++) poly->boxes[k] = nsvcd__no_box;
+  for (uint32_t i = 0; i < poly->count; i++) poly->order[i] = i;
+  nsvcd__z_sort(poly->corners, poly->order, poly->count, 63);
+  for (uint32_t i = 0; i < poly->count; i++) {
+    nsvcd__corner *c = &poly->corners[poly->order[i]];
+    c->box = poly->runs + i / NSVCD__RUN;
+    for (uint32_t k = c->box; k > 0; k /= 2) nsvcd__box_take(&poly->boxes[k], c->at);
   }
 }
 
-static void nsvcd__polygon_set_reflex(nsvcd__polygon *polygon, uint32_t i, uint32_t reflex) {
-  nsvcd__corner *c = &polygon->corners[i];
+static void nsvcd__polygon_set_reflex(nsvcd__polygon *poly, uint32_t i, uint32_t reflex) {
+  nsvcd__corner *c = &poly->corners[i];
   for (uint32_t k = c->box; k > 0 && c->reflex != reflex; k /= 2)
-    polygon->boxes[k].reflex += reflex - c->reflex;
+    poly->boxes[k].reflex += reflex - c->reflex;
   c->reflex = reflex;
 }
 
-// Looks at corner i again, after a neighbour of it has changed.
-static void nsvcd__polygon_update(nsvcd__polygon *polygon, uint32_t i) {
-  nsvcd__corner *corners = polygon->corners;
+// Updates corner i after a neighbour of it has changed.
+static void nsvcd__polygon_update(nsvcd__polygon *poly, uint32_t i) {
+  nsvcd__corner *corners = poly->corners;
   nsvcd__corner *c = &corners[i];
   const nsvcd__d2 previous = corners[c->previous].at;
   const nsvcd__d2 next = corners[c->next].at;
-  nsvcd__polygon_set_reflex(polygon, i, nsvcd__d2_cross(previous, c->at, next) < 0);
+  nsvcd__polygon_set_reflex(poly, i, nsvcd__d2_cross(previous, c->at, next) < 0);
   if (c->queued) return;
   c->queued = 1;
-  polygon->queue[(polygon->queue_first + polygon->queue_length++) % polygon->count] = i;
+  poly->queue[(poly->queue_first + poly->queue_length++) % poly->count] = i;
 }
 
 // A triangle of three neighbours, counter-clockwise, and the box about it.
@@ -2825,7 +2890,7 @@ typedef struct nsvcd__ear {
   nsvcd__corner_box box;
 } nsvcd__ear;
 
-// Is a place within an ear, and not at one of its corners?
+// Does an ear contain a point that is not at one of its corners?
 static int nsvcd__ear_holds(const nsvcd__ear *ear, nsvcd__d2 p) {
   for (size_t k = 0; k < 3; k++) {
     if (nsvcd__d2_cross(ear->at[k], ear->at[(k + 1) % 3], p) < 0) return 0;
@@ -2834,13 +2899,13 @@ static int nsvcd__ear_holds(const nsvcd__ear *ear, nsvcd__d2 p) {
   return !nsvcd__same_position(p, ear->at[2]);
 }
 
-// May an ear hold a corner in a box?
+// May an ear contain a corner in a box?
 static int nsvcd__ear_meets(const nsvcd__ear *ear, const nsvcd__corner_box *box) {
   if (nsvcd__same_position(box->low, box->high)) return nsvcd__ear_holds(ear, box->low);
   if (ear->box.high.x < box->low.x || ear->box.high.y < box->low.y) return 0;
   if (ear->box.low.x > box->high.x || ear->box.low.y > box->high.y) return 0;
   for (size_t k = 0; k < 3; k++) {
-    // All of the box is to the right of a side: its farthest corner to the left tells.
+    // if the leftmost corner of the box is to the right of a side, all of it is
     const nsvcd__d2 a = ear->at[k];
     const nsvcd__d2 b = ear->at[(k + 1) % 3];
     const double x = b.y > a.y ? box->low.x : box->high.x;
@@ -2850,42 +2915,41 @@ static int nsvcd__ear_meets(const nsvcd__ear *ear, const nsvcd__corner_box *box)
   return 1;
 }
 
-// An ear is a convex corner whose triangle holds no other corner; only reflex ones need a look.
-static int nsvcd__polygon_is_ear(const nsvcd__polygon *polygon, uint32_t i) {
-  const nsvcd__corner *corners = polygon->corners;
+// Is corner i an ear? Only reflex corners can be in its triangle.
+static int nsvcd__polygon_is_ear(const nsvcd__polygon *poly, uint32_t i) {
+  const nsvcd__corner *corners = poly->corners;
   const nsvcd__d2 a = corners[corners[i].previous].at;
   const nsvcd__d2 c = corners[corners[i].next].at;
-  nsvcd__ear ear = {{a, corners[i].at, c}, nsvcd__no_box()};
+  nsvcd__ear ear = {{a, corners[i].at, c}, nsvcd__no_box};
   if (nsvcd__d2_cross(a, ear.at[1], c) <= 0) return 0;
   for (size_t k = 0; k < 3; k++) nsvcd__box_take(&ear.box, ear.at[k]);
   for (uint32_t k = 1; k > 0;) {
-    const nsvcd__corner_box *box = &polygon->boxes[k];
+    const nsvcd__corner_box *box = &poly->boxes[k];
     const int meets = box->reflex > 0 && nsvcd__ear_meets(&ear, box);
     NSVCD__TALLY(boxes, 1);
-    if (meets && k < polygon->runs) {
+    if (meets && k < poly->runs) {
       k *= 2;
       continue;
     }
-    const uint32_t first = NSVCD__RUN * (k - polygon->runs);
-    for (uint32_t j = first; meets && j < first + NSVCD__RUN && j < polygon->count; j++) {
-      const nsvcd__corner *p = &corners[polygon->order[j]];
+    const uint32_t first = NSVCD__RUN * (k - poly->runs);
+    for (uint32_t j = first; meets && j < first + NSVCD__RUN && j < poly->count; j++) {
+      const nsvcd__corner *p = &corners[poly->order[j]];
       if (p->reflex && nsvcd__ear_holds(&ear, p->at)) return 0;
     }
-    // to the next box that is not within this one; 0: there is none
+    // the next box that is not part of this one; 0: none is left
     while (k % 2) k /= 2;
     k += k > 0;
   }
   return 1;
 }
 
-// polygon: its corners, 3 or more, with their vertices set. triangles: (count - 2, 3).
-static void nsvcd__polygon_triangulate(nsvcd__polygon *polygon, const float *positions,
+// Writes triangles (count - 2, 3). poly: 3 or more corners, whose vertices are set.
+static void nsvcd__polygon_triangulate(nsvcd__polygon *poly, const float *positions,
                                        uint32_t *triangles) {
-  // A ring of the corners, and a queue of all: each may be an ear.
-  nsvcd__corner *corners = polygon->corners;
-  const uint32_t count = polygon->count;
-  polygon->queue_first = 0;
-  polygon->queue_length = 0;
+  nsvcd__corner *corners = poly->corners;
+  const uint32_t count = poly->count;
+  poly->queue_first = 0;
+  poly->queue_length = 0;
   for (uint32_t i = 0; i < count; i++) {
     corners[i].previous = (i + count - 1) % count;
     corners[i].next = (i + 1) % count;
@@ -2893,25 +2957,24 @@ static void nsvcd__polygon_triangulate(nsvcd__polygon *polygon, const float *pos
     corners[i].reflex = 0;
   }
   if (count > 3) {
-    nsvcd__polygon_project(polygon, positions);
-    nsvcd__polygon_box(polygon);
-    for (uint32_t i = 0; i < count; i++) nsvcd__polygon_update(polygon, i);
+    nsvcd__polygon_project(poly, positions);
+    nsvcd__polygon_box(poly);
+    for (uint32_t i = 0; i < count; i++) nsvcd__polygon_update(poly, i);
   }
 
-  // some corner of what is left
+  // a corner that is left
   uint32_t at = 0;
   for (uint32_t left = count; left > 3;) {
-    // An empty queue means that no corner is an ear: not a simple polygon. Cut any corner off and
-    // go on.
-    const int stuck = polygon->queue_length == 0;
-    const uint32_t i = stuck ? at : polygon->queue[polygon->queue_first];
+    // With an empty queue no corner is an ear, and the polygon is not simple: clip any corner.
+    const int stuck = poly->queue_length == 0;
+    const uint32_t i = stuck ? at : poly->queue[poly->queue_first];
     nsvcd__corner *c = &corners[i];
     if (!stuck) {
-      polygon->queue_first = (polygon->queue_first + 1) % count;
-      polygon->queue_length--;
+      poly->queue_first = (poly->queue_first + 1) % count;
+      poly->queue_length--;
       c->queued = 0;
     }
-    if (!stuck && !nsvcd__polygon_is_ear(polygon, i)) continue;
+    if (!stuck && !nsvcd__polygon_is_ear(poly, i)) continue;
     triangles[0] = corners[c->previous].vertex;
     triangles[1] = c->vertex;
     triangles[2] = corners[c->next].vertex;
@@ -2919,9 +2982,9 @@ static void nsvcd__polygon_triangulate(nsvcd__polygon *polygon, const float *pos
     left--;
     corners[c->previous].next = c->next;
     corners[c->next].previous = c->previous;
-    nsvcd__polygon_set_reflex(polygon, i, 0);
-    nsvcd__polygon_update(polygon, c->previous);
-    nsvcd__polygon_update(polygon, c->next);
+    nsvcd__polygon_set_reflex(poly, i, 0);
+    nsvcd__polygon_update(poly, c->previous);
+    nsvcd__polygon_update(poly, c->next);
     at = c->next;
   }
   triangles[0] = corners[at].vertex;
@@ -2931,11 +2994,10 @@ static void nsvcd__polygon_triangulate(nsvcd__polygon *polygon, const float *pos
 #endif  // NSVCD_NO_OBJ
 
 // -------------------------------------------------------------------------------------- mesh/faces
-// In: faces of any number of corners, as an engine or another file's reader has them. Out:
-// nsvcd_mesh.
+// In: faces of any number of corners, from an engine or another reader. Out: nsvcd_mesh.
 
 #ifndef NSVCD_NO_OBJ
-// Are the sizes those of so many corners? Then *most is the largest, and *triangles what they make.
+// Checks the faces. *triangles: how many they become; *most: corners of the largest.
 static nsvcd_result nsvcd__faces_check(const nsvcd_faces *faces, size_t *triangles,
                                        uint32_t *most) {
   size_t corners = 0;
@@ -2954,10 +3016,8 @@ static nsvcd_result nsvcd__faces_check(const nsvcd_faces *faces, size_t *triangl
   for (size_t i = 0; i < corners; i++) {
     if (faces->corners[i] >= faces->vertex_count) return NSVCD_ERROR_INDEX;
   }
-  for (size_t i = 0; i < 3 * faces->vertex_count; i++) {
-    const float x = faces->positions[i];
-    if (!nsvcd__is_finite(x) || fabsf(x) > NSVCD_MAX_COORDINATE) return NSVCD_ERROR_NUMBER;
-  }
+  if (!nsvcd__in_range(faces->positions, 3 * faces->vertex_count, NSVCD_MAX_COORDINATE))
+    return NSVCD_ERROR_NUMBER;
   return *triangles ? NSVCD_OK : NSVCD_ERROR_EMPTY;
 }
 
@@ -2973,7 +3033,6 @@ NSVCDDEF nsvcd_result nsvcd_mesh_of_faces(const nsvcd_faces *faces,
     return NSVCD_ERROR_ARGUMENT;
   nsvcd_result result = nsvcd__faces_check(faces, &triangles, &most);
   if (result) return result;
-  memset(&out, 0, sizeof out);
   if (!nsvcd__mesh_alloc(&out, faces->vertex_count, triangles, allocator) ||
       !nsvcd__polygon_alloc(&polygon, most, &arena)) {
     nsvcd__arena_free(&arena);
@@ -2996,19 +3055,18 @@ NSVCDDEF nsvcd_result nsvcd_mesh_of_faces(const nsvcd_faces *faces,
 #endif  // NSVCD_NO_OBJ
 
 // ---------------------------------------------------------------------------------------- mesh/obj
-// In: the text of a Wavefront OBJ file (version 3.0). Out: nsvcd_mesh. Statements v and f count,
-// all else is skipped.
+// In: the text of a Wavefront OBJ file (version 3.0). Out: nsvcd_mesh. Only the statements v and f
+// are used.
 //
-// Three passes over the text: count, vertices, faces. A face may refer to any vertex of the file by
-// its number, also to a later one; negative numbers count back from the last vertex so far. Locale
-// plays no part. Keywords that are skipped are letters, and digits behind two of them: curv2 is
-// one, f1 is a mistake.
+// Three passes over the text: count, vertices, faces. A face names any vertex of the file by its
+// number, a later one too; negative numbers count back from the last vertex so far. The locale
+// plays no part. A keyword that is skipped consists of letters, and of digits after the first two
+// characters: curv2 is one, f1 is a mistake.
 
 #ifndef NSVCD_NO_OBJ
-// Options with their defaults filled in; what a file's reader is given.
+// Fills zeroed options with those given (NULL: none) and with defaults.
 static nsvcd_result nsvcd__mesh_options_of(const nsvcd_mesh_options *given,
                                            nsvcd_mesh_options *out) {
-  memset(out, 0, sizeof *out);
   if (given) *out = *given;
   for (size_t k = 0; k < 3; k++) {
     if (!(fabs(out->origin[k]) < HUGE_VAL)) return NSVCD_ERROR_NUMBER;
@@ -3018,7 +3076,7 @@ static nsvcd_result nsvcd__mesh_options_of(const nsvcd_mesh_options *given,
   return NSVCD_OK;
 }
 
-// A coordinate of a file, in metres. The limit is that of what becomes of it, not of what is read.
+// Turns a coordinate of the file into metres. The limit is on metres, not on the file's number.
 static nsvcd_result nsvcd__mesh_number(const nsvcd_mesh_options *options, size_t axis,
                                        double value, float *out) {
   const double metres = (value - options->origin[axis]) * options->scale;
@@ -3027,27 +3085,25 @@ static nsvcd_result nsvcd__mesh_number(const nsvcd_mesh_options *options, size_t
   return NSVCD_OK;
 }
 
+// A text that is being read.
 typedef struct nsvcd__obj {
   const char *at, *end;
-  // the first token of the statement; NULL: there is none
+  // the statement's first token, or NULL
   const char *word;
   nsvcd_mesh_options options;
-  size_t line;  // of `at`, from 1; 0: before the first
-  // v statements so far
-  uint32_t vertices;
-  // so far, from f statements
-  uint32_t triangles;
-  // of a face
-  uint32_t max_corners;
+  // of `at`, from 1; 0: before the first
+  size_t line;
+  // counted so far
+  uint32_t vertices, triangles;
+  uint32_t max_corners;  // of a face
 } nsvcd__obj;
 
-// Length of the line's end at p; 0: there is none.
+// Length of the newline at p, or 0.
 static size_t nsvcd__obj_newline(const char *p, const char *end) {
   if (p == end || (*p != '\n' && *p != '\r')) return 0;
   return end - p >= 2 && p[0] == '\r' && p[1] == '\n' ? 2 : 1;
 }
-// Length of the blank at p: a backslash before the line's end continues the statement on the next
-// line.
+// Length of the blank at p, or 0. A backslash and a newline are a blank: the statement goes on.
 static inline size_t nsvcd__obj_blank(const char *p, const char *end) {
   if (p == end) return 0;
   if (*p == ' ' || *p == '\t' || *p == '\v' || *p == '\f') return 1;
@@ -3066,7 +3122,7 @@ static int nsvcd__obj_accept(nsvcd__obj *obj, char c) {
 static int nsvcd__obj_line_ends(const nsvcd__obj *obj) {
   return obj->at == obj->end || *obj->at == '\n' || *obj->at == '\r';
 }
-// Reads digits; 0 where there is none. What is too large for any use stays too large.
+// Reads digits; returns 0 if there are none. The number saturates, above any limit.
 static int nsvcd__obj_integer(nsvcd__obj *obj, int64_t *number) {
   const char *start = obj->at;
   for (*number = 0; nsvcd__obj_is_digit(obj); obj->at++) {
@@ -3080,13 +3136,13 @@ static int nsvcd__obj_token_ends(const nsvcd__obj *obj) {
 }
 static inline void nsvcd__obj_skip_token(nsvcd__obj *obj) {
   for (; !nsvcd__obj_token_ends(obj); obj->at++) {
-    // what can be nothing else, quickly
+    // a fast path over characters that end no token
     while (obj->at + 1 < obj->end && (unsigned char)obj->at[1] > ' ' && obj->at[1] != '\\')
       obj->at++;
   }
 }
 
-// Skips blanks; 0 where the statement ends instead.
+// Skips blanks. Returns 0 at the end of the statement.
 static int nsvcd__obj_has_token(nsvcd__obj *obj) {
   size_t blank = nsvcd__obj_blank(obj->at, obj->end);
   while (blank > 0) {
@@ -3097,9 +3153,9 @@ static int nsvcd__obj_has_token(nsvcd__obj *obj) {
   return !nsvcd__obj_line_ends(obj) && *obj->at != '#';
 }
 
-// To the next statement, past what is left of this one. Token by token, as all passes read it: what
-// one takes for a comment, which nothing continues, all do. Returns its keyword: v, f, a hash for
-// any other, ? for what is none, or 0 at the end of the text.
+// Goes to the next statement. Skips the rest of this one token by token, so that all passes agree
+// on where comments end: a backslash does not continue them. Returns the keyword: v, f, # for any
+// other, ? for a word that is none, or 0 at the end of the text.
 static int nsvcd__obj_next(nsvcd__obj *obj) {
   if (obj->line > 0) {
     while (nsvcd__obj_has_token(obj)) nsvcd__obj_skip_token(obj);
@@ -3121,8 +3177,8 @@ static int nsvcd__obj_next(nsvcd__obj *obj) {
   return '#';
 }
 
-// value = mantissa * 10^exponent, exponent in -400..400. Powers up to 10^22 are exact: one rounding
-// in the usual case.
+// mantissa * 10^exponent, exponent in -400..400. Powers up to 10^22 are exact, so there is usually
+// a single rounding.
 static double nsvcd__obj_scale(uint64_t mantissa, int exponent) {
   static const double power[23] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                    1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
@@ -3140,9 +3196,9 @@ static int nsvcd__obj_minus(nsvcd__obj *obj) {
   return minus;
 }
 
-// A decimal number, as a double: within 2^-52 of it, or a few of these where its exponent is beyond
-// +-22. Rounded to float it is the nearest, unless two floats are as near. NUMBER where it is an
-// infinity or not a number, as printf has them (nan, -nan(ind), inf, 1.#QNAN).
+// Reads a decimal number. Its relative error is at most 2^-52, and a few times that where the
+// exponent is beyond +-22: rounded to float it is the nearest one, except for ties. NUMBER if it is
+// infinite or NaN as printf writes them (nan, -nan(ind), inf, 1.#QNAN).
 static nsvcd_result nsvcd__obj_number(nsvcd__obj *obj, double *value) {
   const int negative = nsvcd__obj_minus(obj);
   if (obj->at < obj->end && strchr("nNiI", *obj->at) && *obj->at) return NSVCD_ERROR_NUMBER;
@@ -3154,7 +3210,7 @@ static nsvcd_result nsvcd__obj_number(nsvcd__obj *obj, double *value) {
     if (!point && nsvcd__obj_accept(obj, '.')) point = 1;
     if (!nsvcd__obj_is_digit(obj)) break;
     digits = 1;
-    // 19 digits are kept, the rest only moves the point
+    // 19 digits are kept, the rest only move the point
     const int fits = mantissa < 1000000000000000000u;
     if (fits) mantissa = 10 * mantissa + (uint64_t)(*obj->at - '0');
     exponent += !fits - point;
@@ -3176,15 +3232,13 @@ static nsvcd_result nsvcd__obj_number(nsvcd__obj *obj, double *value) {
   return NSVCD_OK;
 }
 
-// One corner: v, v/vt, v//vn or v/vt/vn. The numbers after a slash are not used, nor checked
-// against a range, and may be missing: some write v// where there are neither. vertex_count: of the
-// file.
+// Reads one corner: v, v/vt, v//vn or v/vt/vn. The numbers after a slash are neither used nor
+// checked against a range, and may be missing: some files have v//. vertex_count: of the file.
 static nsvcd_result nsvcd__obj_corner(nsvcd__obj *obj, uint32_t vertex_count,
                                       uint32_t *vertex) {
   const int negative = nsvcd__obj_accept(obj, '-');
   const uint32_t most = negative ? obj->vertices : vertex_count;
-  int64_t number;
-  int64_t unused;
+  int64_t number, unused;
   if (!nsvcd__obj_integer(obj, &number)) return NSVCD_ERROR_SYNTAX;
   for (int i = 0; i < 2 && nsvcd__obj_accept(obj, '/'); i++) {
     if (nsvcd__obj_token_ends(obj) || (i == 0 && *obj->at == '/')) continue;
@@ -3219,8 +3273,8 @@ static int nsvcd__obj_is_own(const nsvcd__obj *obj) {
   return 0;
 }
 
-// Is what is left of a text no OBJ: statements of others, and none of its own? Then the first of
-// them is told of. line: of one that was found before, or 0.
+// FORMAT if the rest of the text has statements, but none of OBJ's; else `otherwise`. Sets the line
+// to that of the first foreign statement. line: where one was found before, or 0.
 static nsvcd_result nsvcd__obj_other(nsvcd__obj *obj, size_t line, nsvcd_result otherwise) {
   int is_obj = obj->vertices > 0 || obj->triangles > 0;
   while (!is_obj && nsvcd__obj_next(obj)) {
@@ -3247,8 +3301,8 @@ static nsvcd_result nsvcd__obj_count(nsvcd__obj *obj) {
   return NSVCD_OK;
 }
 
-// Second pass: positions (vertices, 3), of v x y z, then up to five more: a weight, a colour. These
-// are skipped, but must be numbers, if not finite ones.
+// Second pass: positions (vertices, 3). Up to five numbers after v x y z (a weight, a colour) are
+// skipped; these may be infinite or NaN.
 static nsvcd_result nsvcd__obj_vertices(nsvcd__obj *obj, float *positions) {
   for (int keyword = nsvcd__obj_next(obj); keyword; keyword = nsvcd__obj_next(obj)) {
     if (keyword != 'v') continue;
@@ -3270,7 +3324,7 @@ static nsvcd_result nsvcd__obj_vertices(nsvcd__obj *obj, float *positions) {
   return NSVCD_OK;
 }
 
-// Third pass: the mesh's indices. polygon: with room for any face.
+// Third pass: the mesh's indices. polygon: room for the largest face.
 static nsvcd_result nsvcd__obj_faces(nsvcd__obj *obj, const nsvcd_mesh *mesh,
                                      nsvcd__polygon *polygon) {
   uint32_t *triangles = mesh->indices;
@@ -3289,67 +3343,36 @@ static nsvcd_result nsvcd__obj_faces(nsvcd__obj *obj, const nsvcd_mesh *mesh,
   return NSVCD_OK;
 }
 
-// As nsvcd_obj_parse. options: NULL, or what the caller gave.
-static nsvcd_result nsvcd__obj_read(const char *text, size_t size,
-                                    const nsvcd_mesh_options *options,
-                                    const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
-                                    size_t *error_line) {
-  if (error_line) *error_line = 0;
-  if (!mesh || !text) return NSVCD_ERROR_ARGUMENT;
-  nsvcd_mesh parsed;
-  nsvcd__obj obj;
+// Reads a text from its beginning. obj->line: where it fails, or 0 if no line is at fault.
+static nsvcd_result nsvcd__obj_read(nsvcd__obj *obj, nsvcd__arena *arena, nsvcd_mesh *mesh) {
+  const nsvcd__obj begin = *obj;
   nsvcd__polygon polygon;
-  nsvcd__arena arena = nsvcd__arena_of(allocator);
-  nsvcd_mesh_options o;
-  nsvcd_result result = nsvcd__mesh_options_of(options, &o);
+  nsvcd_result result = nsvcd__obj_count(obj);
   if (result) return result;
-  memset(&parsed, 0, sizeof parsed);
-  nsvcd__obj_begin(&obj, text, size);
-  result = nsvcd__obj_count(&obj);
-  if (!result) {
-    // what follows is not tied to a line
-    obj.line = 0;
-    if (obj.triangles == 0) {
-      if (obj.vertices == 0) nsvcd__obj_begin(&obj, text, size);
-      result = nsvcd__obj_other(&obj, 0, NSVCD_ERROR_EMPTY);
-      if (result == NSVCD_ERROR_EMPTY) obj.line = 0;
-    } else if (!nsvcd__mesh_alloc(&parsed, obj.vertices, obj.triangles, allocator) ||
-               !nsvcd__polygon_alloc(&polygon, obj.max_corners, &arena)) {
-      result = NSVCD_ERROR_MEMORY;
-    }
-  }
-  if (!result) {
-    nsvcd__obj_begin(&obj, text, size);
-    obj.options = o;
-    result = nsvcd__obj_vertices(&obj, parsed.positions);
-  }
-  if (!result) {
-    nsvcd__obj_begin(&obj, text, size);
-    result = nsvcd__obj_faces(&obj, &parsed, &polygon);
-  }
-  nsvcd__arena_free(&arena);
-  if (result) {
-    if (error_line) *error_line = obj.line;
-    nsvcd_mesh_free(&parsed, allocator);
+  obj->line = 0;
+  if (obj->triangles == 0) {
+    if (obj->vertices == 0) *obj = begin;
+    result = nsvcd__obj_other(obj, 0, NSVCD_ERROR_EMPTY);
+    if (result == NSVCD_ERROR_EMPTY) obj->line = 0;
     return result;
   }
-  *mesh = parsed;
-  return NSVCD_OK;
-}
-
-NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
-                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
-                                      size_t *error_line) {
-  return nsvcd__obj_read(text, size, NULL, allocator, mesh, error_line);
+  if (!nsvcd__mesh_alloc(mesh, obj->vertices, obj->triangles, arena->allocator) ||
+      !nsvcd__polygon_alloc(&polygon, obj->max_corners, arena))
+    return NSVCD_ERROR_MEMORY;
+  *obj = begin;
+  result = nsvcd__obj_vertices(obj, mesh->positions);
+  if (result) return result;
+  *obj = begin;
+  return nsvcd__obj_faces(obj, mesh, &polygon);
 }
 #endif  // NSVCD_NO_OBJ
 
 // ---------------------------------------------------------------------------------------- mesh/stl
 // In: an STL file, binary or text. Out: nsvcd_mesh.
 //
-// Binary is what has the size that its count of triangles says, does not begin with "solid", or
-// holds a NUL, as no text does. Of text only the words vertex and endloop count: three vertices a
-// loop.
+// A file is binary if it has the size that its count of triangles says, does not begin with
+// "solid", or holds a NUL, which no text does. Of a text only the words vertex and endloop matter:
+// three vertices a loop.
 
 #ifndef NSVCD_NO_OBJ
 #define NSVCD__STL_HEADER 84  // bytes, the count of triangles included
@@ -3359,20 +3382,30 @@ static uint32_t nsvcd__stl_word(const unsigned char *p) {
   return p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
 }
 
-// Three floats of a file that is binary.
-static nsvcd_result nsvcd__stl_corner(const unsigned char *at,
-                                      const nsvcd_mesh_options *options, float *out) {
-  nsvcd_result result = NSVCD_OK;
-  for (size_t k = 0; k < 3 && !result; k++) {
-    const uint32_t bits = nsvcd__stl_word(at + 4 * k);
-    float value;
-    memcpy(&value, &bits, sizeof bits);
-    result = nsvcd__mesh_number(options, k, (double)value, &out[k]);
-  }
-  return result;
+// The size of a binary file with the count of triangles that this one has.
+static uint64_t nsvcd__stl_size(const void *data, size_t size) {
+  const unsigned char *count = (const unsigned char *)data + 80;
+  const uint64_t triangles = size < NSVCD__STL_HEADER ? 0 : nsvcd__stl_word(count);
+  return NSVCD__STL_HEADER + NSVCD__STL_FACET * triangles;
 }
 
-// Goes to the next token, past the ends of lines; 0 at the end of the text.
+// Reads the corners (count, 3) of a binary file.
+static nsvcd_result nsvcd__stl_binary(const void *data, const nsvcd_mesh_options *options,
+                                      float *corners, size_t count) {
+  const unsigned char *first = (const unsigned char *)data + NSVCD__STL_HEADER;
+  for (size_t i = 0; i < 3 * count; i++) {
+    // a facet's normal comes before its corners
+    const unsigned char *at = first + NSVCD__STL_FACET * (i / 9) + 12 + 4 * (i % 9);
+    const uint32_t bits = nsvcd__stl_word(at);
+    float value;
+    memcpy(&value, &bits, sizeof bits);
+    const nsvcd_result result = nsvcd__mesh_number(options, i % 3, (double)value, &corners[i]);
+    if (result) return result;
+  }
+  return NSVCD_OK;
+}
+
+// Goes to the next token, on whichever line; 0 at the end of the text.
 static int nsvcd__stl_token(nsvcd__obj *text) {
   for (;;) {
     const size_t newline = nsvcd__obj_newline(text->at, text->end);
@@ -3383,7 +3416,7 @@ static int nsvcd__stl_token(nsvcd__obj *text) {
   }
 }
 
-// Is the token this word, in small letters or capitals? Then it is passed.
+// Passes the token if it is this word, in whatever case.
 static int nsvcd__stl_accept(nsvcd__obj *text, const char *word) {
   const char *p = text->at;
   for (; *word; word++, p++) {
@@ -3396,7 +3429,12 @@ static int nsvcd__stl_accept(nsvcd__obj *text, const char *word) {
   return 1;
 }
 
-// Reads corners (count, 3) of a text, or, where that is NULL, only counts them.
+// Does a text begin with the word "solid"?
+static int nsvcd__stl_is_solid(nsvcd__obj text) {
+  return nsvcd__stl_token(&text) && nsvcd__stl_accept(&text, "solid");
+}
+
+// Reads the corners (count, 3) of a text; NULL: only counts them.
 static nsvcd_result nsvcd__stl_text(nsvcd__obj *text, float *corners, size_t *count) {
   size_t in_loop = 0;
   *count = 0;
@@ -3425,128 +3463,51 @@ static nsvcd_result nsvcd__stl_text(nsvcd__obj *text, float *corners, size_t *co
   return in_loop == 0 ? NSVCD_OK : NSVCD_ERROR_SYNTAX;
 }
 
-// Vertices by their places.
-typedef struct nsvcd__stl_positions {
-  // (slots), a power of two: numbers + 1, 0 where none is
-  uint32_t *table;
-  size_t slots;
-  // of the hash
-  uint64_t seed;
-  // along the table, past vertices elsewhere
-  size_t steps;
-} nsvcd__stl_positions;
-
-// The slot of the vertex at this place, or where it belongs.
-static uint32_t *nsvcd__stl_find(nsvcd__stl_positions *found, const float *positions,
-                                 const float *corner) {
-  uint32_t bits[3];
-  uint64_t hash = found->seed;
-  memcpy(bits, corner, sizeof bits);
-  for (size_t k = 0; k < 3; k++) {
-    hash = (hash ^ bits[k]) * UINT64_C(0x9e3779b97f4a7c15);
-    hash ^= hash >> 32;
-  }
-  for (size_t slot = (size_t)hash;; slot++, found->steps++) {
-    uint32_t *at = &found->table[slot & (found->slots - 1)];
-    if (!*at || memcmp(positions + 3 * (size_t)(*at - 1), corner, sizeof bits) == 0) return at;
-  }
-}
-
-// Makes one vertex of corners at the same place: corners (3 triangles, 3) become positions, and
-// their numbers indices. Where it takes many steps, as of corners that are chosen to share a hash,
-// another hash is taken. The table is of zeros.
-static void nsvcd__stl_weld(nsvcd_mesh *mesh, nsvcd__stl_positions *found) {
-  const size_t corners = mesh->vertex_count;
+// Welds corners (3 triangles, 3), which become vertices. 0 without memory.
+static int nsvcd__stl_weld(nsvcd_mesh *mesh, const nsvcd_allocator *allocator) {
   float *positions = mesh->positions;
-  size_t count = 0;
-  for (size_t i = 0; i < corners; i++) {
-    const size_t most = 8 * i + 1024;
-    float corner[3];
-    for (size_t k = 0; k < 3; k++) corner[k] = positions[3 * i + k] + 0.0f;  // -0 is 0
-    uint32_t *at = nsvcd__stl_find(found, positions, corner);
-    if (!*at) {
-      memcpy(positions + 3 * count, corner, sizeof corner);
-      *at = (uint32_t)++count;
-    }
-    mesh->indices[i] = *at - 1;
-    while (found->steps > most) {
-      // where memory lies is not known to who made the file
-      found->seed += UINT64_C(0xd1342543de82ef95) + (uint64_t)(size_t)found->table;
-      found->steps = 0;
-      memset(found->table, 0, found->slots * sizeof *found->table);
-      for (size_t v = 0; v < count && found->steps <= most; v++)
-        *nsvcd__stl_find(found, positions, positions + 3 * v) = (uint32_t)v + 1;
-    }
+  uint32_t *indices = mesh->indices;
+  uint32_t count = 0;
+  if (!nsvcd__weld_all(positions, mesh->vertex_count, indices, allocator)) return 0;
+  for (size_t i = 0; i < mesh->vertex_count; i++) {
+    const int is_first = indices[i] == i;
+    indices[i] = is_first ? count : indices[indices[i]];
+    if (!is_first) continue;
+    for (size_t k = 0; k < 3; k++)
+      positions[3 * (size_t)count + k] = positions[3 * i + k] + 0.0f;  // -0 becomes 0
+    count++;
   }
   mesh->vertex_count = count;
+  return 1;
 }
 
-// As nsvcd_stl_parse. options: NULL, or what the caller gave.
-static nsvcd_result nsvcd__stl_read(const void *data, size_t size,
-                                    const nsvcd_mesh_options *options,
-                                    const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
-                                    size_t *error_line) {
-  const unsigned char *bytes = (const unsigned char *)data;
-  if (error_line) *error_line = 0;
-  if (!mesh || !data) return NSVCD_ERROR_ARGUMENT;
-  nsvcd__obj text;
-  nsvcd_mesh_options o;
-  nsvcd_result result = nsvcd__mesh_options_of(options, &o);
-  if (result) return result;
-  size_t corners = 0;
-  nsvcd__obj_begin(&text, (const char *)data, size);
-  const int is_solid = nsvcd__stl_token(&text) && nsvcd__stl_accept(&text, "solid");
-  const uint64_t told = size < NSVCD__STL_HEADER ? 0 : nsvcd__stl_word(bytes + 80);
-  const uint64_t needed = NSVCD__STL_HEADER + NSVCD__STL_FACET * told;
-  const int is_binary = size == needed || !is_solid || memchr(data, 0, size);
+// Reads a file, of which `text` is at the beginning. text->line: where it fails, or 0 if no line is
+// at fault.
+static nsvcd_result nsvcd__stl_read(nsvcd__obj *text, const void *data, size_t size,
+                                    const nsvcd_allocator *allocator, nsvcd_mesh *mesh) {
+  const nsvcd__obj begin = *text;
+  const uint64_t needed = nsvcd__stl_size(data, size);
+  const int is_binary = size == needed || !nsvcd__stl_is_solid(begin) || memchr(data, 0, size);
   if (is_binary && size < needed) return NSVCD_ERROR_FORMAT;
-  nsvcd__obj_begin(&text, (const char *)data, size);
-  text.line = 1;
+  nsvcd_result result = NSVCD_OK;
+  size_t corners = 3 * (size_t)((needed - NSVCD__STL_HEADER) / NSVCD__STL_FACET);
+  text->line = 1;
+  if (!is_binary) result = nsvcd__stl_text(text, NULL, &corners);
+  if (result) return result;
+  text->line = 0;
+  if (corners > NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
+  if (corners == 0) return NSVCD_ERROR_EMPTY;
+  if (!nsvcd__mesh_alloc(mesh, corners, corners / 3, allocator)) return NSVCD_ERROR_MEMORY;
   if (is_binary) {
-    if (told > NSVCD__MAX_COUNT / 3) return NSVCD_ERROR_TOO_LARGE;
-    corners = 3 * (size_t)told;
+    result = nsvcd__stl_binary(data, &text->options, mesh->positions, corners);
   } else {
-    result = nsvcd__stl_text(&text, NULL, &corners);
-    if (!result && corners > NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
+    *text = begin;
+    text->line = 1;
+    result = nsvcd__stl_text(text, mesh->positions, &corners);
   }
-  if (!result && corners == 0) return NSVCD_ERROR_EMPTY;
-  nsvcd_mesh out;
-  nsvcd__arena arena = nsvcd__arena_of(allocator);
-  memset(&out, 0, sizeof out);
-  nsvcd__stl_positions positions = {NULL, 16, 0, 0};
-  while (positions.slots < 2 * corners) positions.slots *= 2;
-  if (!result) {
-    positions.table = NSVCD__TAKE(&arena, uint32_t, positions.slots);
-    if (!positions.table || !nsvcd__mesh_alloc(&out, corners, corners / 3, allocator)) {
-      text.line = 0;
-      result = NSVCD_ERROR_MEMORY;
-    }
-  }
-  if (!result && !is_binary) {
-    nsvcd__obj_begin(&text, (const char *)data, size);
-    text.line = 1;
-    text.options = o;
-    result = nsvcd__stl_text(&text, out.positions, &corners);
-  }
-  for (size_t i = 0; i < corners && is_binary && !result; i++) {
-    const size_t facet = NSVCD__STL_HEADER + NSVCD__STL_FACET * (i / 3);
-    result = nsvcd__stl_corner(bytes + facet + 12 * (1 + i % 3), &o, out.positions + 3 * i);
-  }
-  if (!result) nsvcd__stl_weld(&out, &positions);
-  nsvcd__arena_free(&arena);
-  if (result) {
-    if (error_line && !is_binary) *error_line = text.line;
-    nsvcd_mesh_free(&out, allocator);
-    return result;
-  }
-  *mesh = out;
-  return NSVCD_OK;
-}
-
-NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
-                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
-                                      size_t *error_line) {
-  return nsvcd__stl_read(data, size, NULL, allocator, mesh, error_line);
+  if (result) return result;
+  text->line = 0;
+  return nsvcd__stl_weld(mesh, allocator) ? NSVCD_OK : NSVCD_ERROR_MEMORY;
 }
 #endif  // NSVCD_NO_OBJ
 
@@ -3554,39 +3515,61 @@ NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
 // In: an OBJ or STL file, and how its numbers become metres. Out: nsvcd_mesh.
 
 #ifndef NSVCD_NO_OBJ
-// Is it an STL: does it begin with "solid", or has it the size that its count of triangles says?
-static int nsvcd__is_stl(const void *data, size_t size) {
-  const unsigned char *bytes = (const unsigned char *)data;
-  nsvcd__obj text;
-  nsvcd__obj_begin(&text, (const char *)data, size);
-  if (nsvcd__stl_token(&text) && nsvcd__stl_accept(&text, "solid")) return 1;
-  return size >= NSVCD__STL_HEADER &&
-         size == NSVCD__STL_HEADER + NSVCD__STL_FACET * (uint64_t)nsvcd__stl_word(bytes + 80);
-}
-
 NSVCDDEF nsvcd_result nsvcd_mesh_parse(const void *data, size_t size,
                                        const nsvcd_mesh_options *options,
                                        const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
                                        size_t *error_line) {
-  const nsvcd_mesh_format format = options ? options->format : NSVCD_MESH_ANY;
-  const int stl = format == NSVCD_MESH_ANY && data && nsvcd__is_stl(data, size);
-  if (stl || format == NSVCD_MESH_STL)
-    return nsvcd__stl_read(data, size, options, allocator, mesh, error_line);
-  return nsvcd__obj_read((const char *)data, size, options, allocator, mesh, error_line);
+  nsvcd__obj text;
+  nsvcd_mesh out;
+  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  if (error_line) *error_line = 0;
+  if (!mesh || !data) return NSVCD_ERROR_ARGUMENT;
+  memset(&out, 0, sizeof out);
+  nsvcd__obj_begin(&text, (const char *)data, size);
+  nsvcd_result result = nsvcd__mesh_options_of(options, &text.options);
+  if (result) return result;
+  int is_stl = text.options.format == NSVCD_MESH_STL;
+  if (text.options.format == NSVCD_MESH_ANY)
+    is_stl = size == nsvcd__stl_size(data, size) || nsvcd__stl_is_solid(text);
+  result = is_stl ? nsvcd__stl_read(&text, data, size, allocator, &out)
+                  : nsvcd__obj_read(&text, &arena, &out);
+  nsvcd__arena_free(&arena);
+  if (result) {
+    if (error_line) *error_line = text.line;
+    nsvcd_mesh_free(&out, allocator);
+    return result;
+  }
+  *mesh = out;
+  return NSVCD_OK;
+}
+
+static const nsvcd_mesh_options nsvcd__as_obj = {NSVCD_MESH_OBJ, {0, 0, 0}, 0};
+static const nsvcd_mesh_options nsvcd__as_stl = {NSVCD_MESH_STL, {0, 0, 0}, 0};
+
+NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
+                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                      size_t *error_line) {
+  return nsvcd_mesh_parse(text, size, &nsvcd__as_obj, allocator, mesh, error_line);
+}
+
+NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
+                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                      size_t *error_line) {
+  return nsvcd_mesh_parse(data, size, &nsvcd__as_stl, allocator, mesh, error_line);
 }
 
 #ifndef NSVCD_NO_STDIO
-// What a file holds; in the arena.
+// Reads a whole file into the arena.
 static nsvcd_result nsvcd__read_file(const char *path, nsvcd__arena *arena, char **text,
                                      size_t *size) {
-#ifdef _MSC_VER  // where fopen is called unsafe, with /sdl an error
+#ifdef _MSC_VER  // calls fopen unsafe, with /sdl an error
   FILE *file = NULL;
   if (fopen_s(&file, path, "rb")) return NSVCD_ERROR_IO;
 #else
   FILE *file = fopen(path, "rb");
   if (!file) return NSVCD_ERROR_IO;
 #endif
-  // No fseek, so that pipes work and a directory is an error.
+  // no fseek: pipes work, and a directory is an error
   size_t capacity = 32768;
   *text = NULL;
   *size = 0;
@@ -3617,14 +3600,12 @@ NSVCDDEF nsvcd_result nsvcd_mesh_load(const char *path, const nsvcd_mesh_options
 
 NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator,
                                      nsvcd_mesh *mesh, size_t *error_line) {
-  const nsvcd_mesh_options as = {NSVCD_MESH_OBJ, {0, 0, 0}, 0};
-  return nsvcd_mesh_load(path, &as, allocator, mesh, error_line);
+  return nsvcd_mesh_load(path, &nsvcd__as_obj, allocator, mesh, error_line);
 }
 
 NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *allocator,
                                      nsvcd_mesh *mesh, size_t *error_line) {
-  const nsvcd_mesh_options as = {NSVCD_MESH_STL, {0, 0, 0}, 0};
-  return nsvcd_mesh_load(path, &as, allocator, mesh, error_line);
+  return nsvcd_mesh_load(path, &nsvcd__as_stl, allocator, mesh, error_line);
 }
 #endif  // NSVCD_NO_STDIO
 #endif  // NSVCD_NO_OBJ
@@ -3632,43 +3613,43 @@ NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *al
 // =========================================================== patches: the surface divided in parts
 
 // --------------------------------------------------------------------------------- patches/samples
-// In: a checked mesh. Out: S samples, which are oriented points of the surface; and what its N
-// patches will be: samples grouped by patch, and one ball for each patch. Everything on this floor
-// is deterministic and, up to rounding, scales and moves with the mesh.
+// In: a checked mesh. Out: S samples, oriented points of its surface; and what its N patches are
+// stored in: samples grouped by patch, and a ball for each patch. Everything in patches/ is
+// deterministic and, up to rounding, scales and moves with the mesh.
 
 #ifndef NSVCD_NO_ENCODER
-// on average
+// the mean
 #define NSVCD__SAMPLES_PER_PATCH 32
 #define NSVCD__NO_SAMPLE 0xffffffffu
 #define NSVCD__LLOYD_STEPS 3
-// of each centre, for the search of the nearest centre
+// of each centre, to search for the nearest one
 #define NSVCD__NEIGHBOURS 16
 // longest edge of a piece, in mean sample radii
 #define NSVCD__PIECE_SIZE 0.25
-// bounds the number of pieces that halving adds
+// limits the pieces that halving adds
 #define NSVCD__PIECES_PER_SAMPLE 64
 
 // Sums over a patch, in double, rounded once at the end.
 typedef struct nsvcd__patch_sum {
-  // of the positions of samples, or of area vectors
+  // of positions of samples, or of area vectors
   nsvcd__d3 vector;
   double weight;  // number of samples
-  // greatest squared distance from the centre
-  double squared_reach;
+  // the greatest squared distance from the centre
+  double greatest;
 } nsvcd__patch_sum;
 
 typedef struct nsvcd__patches {
   size_t count;         // N
   size_t sample_count;  // S
-  // pieces of surface that the balls were fitted to
+  // triangles and parts of them that the balls were fitted to
   size_t piece_count;
   // (N) metres: the mean of the patch's samples
   nsvcd__f3 *centres;
-  // (N) the ball about the centre with this radius contains every piece of the patch
+  // (N) metres: the ball about the centre contains the patch's pieces
   float *radii;
-  // (N) the same for the patch's samples
+  // (N) metres: the same for its samples
   float *sample_radii;
-  // (N) area times normal, summed over the patch; over all patches it is that of the mesh
+  // (N) sums of area times normal; their sum is the mesh's
   nsvcd__f3 *area_vectors;
   // (N + 1) patch i has the samples offsets[i] .. offsets[i + 1] - 1
   uint32_t *offsets;
@@ -3678,27 +3659,25 @@ typedef struct nsvcd__patches {
   // Working memory.
   nsvcd__patch_sum *sums;  // (N)
   // (S) the samples in the order in which they were drawn
-  nsvcd__f3 *drawn;
-  nsvcd__f3 *drawn_normals;
-  // (S) the patch of each sample drawn
+  nsvcd__f3 *drawn, *drawn_normals;
+  // (S) the patch of each
   uint16_t *owners;
-  // (S) squared, to the nearest centre so far; it lies where `samples` will be
+  // (S) squared distance from the owner's centre; in the memory of `samples`
   float *squares;
-  // (S) lists of the samples of each centre, while centres are added; it lies there too
-  uint32_t *next_sample;
-  uint32_t *first_sample;  // (N)
-  // (N) of the samples of the centre, and its squared distance
+  // (S), (N) linked lists of each centre's samples; the first one in the memory of `samples`
+  uint32_t *next_sample, *first_sample;
+  // (N) each centre's farthest sample, and its squared distance
   uint32_t *farthest_sample;
-  float *squared_reach;
-  // (N, NEIGHBOURS) the other centres nearest to each, in order of distance
+  float *greatest;
+  // (N, NEIGHBOURS) the nearest other centres, nearest first, and a quarter of their squared
+  // distance
   uint32_t *neighbours;
-  // (N, NEIGHBOURS) a quarter of their squared distance
   float *quarter_squares;
 } nsvcd__patches;
 
 // ---- samples
 
-// Differences of floats are as good as exact in double.
+// In double: differences of floats are next to exact.
 typedef struct nsvcd__triangle {
   nsvcd__d3 at[3];
 } nsvcd__triangle;
@@ -3732,21 +3711,21 @@ static double nsvcd__mesh_area(const nsvcd_mesh *mesh) {
 }
 
 // Draws samples (count) and their unit normals (count), stratified by area: sample k lies in the
-// triangle where the area summed in triangle order passes (k + 1/2) / count of the total, where the
-// R2 sequence says (Roberts 2018: multiples of 1/g and 1/g^2, g^3 = g + 1). Where there is no area,
-// triangles count alike, and normals are 0.
+// triangle where the area, summed in triangle order, passes (k + 1/2) / count of the total. Its
+// position there comes from the R2 sequence (Roberts 2018: multiples of 1/g and 1/g^2, g^3 = g +
+// 1). Without any area, triangles have equal weights and normals are 0.
 static void nsvcd__sample_surface(const nsvcd_mesh *mesh, size_t count, nsvcd__f3 *samples,
                                   nsvcd__f3 *normals) {
   const double all = nsvcd__mesh_area(mesh);
   const double total = all > 0 ? all : (double)mesh->triangle_count;
   nsvcd__triangle triangle;
   double area = 0;
-  // the area up to and including the triangle
+  // the area up to this triangle, which is included
   double passed = 0;
   size_t next = 0;
   for (size_t k = 0; k < count; k++) {
     const double target = total * (((double)k + 0.5) / (double)count);
-    // never stops at a triangle without area
+    // this never stops at a triangle without area
     while (passed <= target && next < mesh->triangle_count) {
       triangle = nsvcd__triangle_of(mesh, next++);
       area = nsvcd__triangle_area(&triangle);
@@ -3768,7 +3747,7 @@ static void nsvcd__sample_surface(const nsvcd_mesh *mesh, size_t count, nsvcd__f
   }
 }
 
-// Room for so many patches and samples. 0 without memory.
+// Makes room for patches and samples. 0 without memory.
 static int nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples,
                                 nsvcd__arena *arena) {
   const size_t links = NSVCD__NEIGHBOURS * count;
@@ -3785,7 +3764,7 @@ static int nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples,
   p->samples = NSVCD__TAKE(arena, nsvcd__f3, samples);
   p->normals = NSVCD__TAKE(arena, nsvcd__f3, samples);
   p->quarter_squares = NSVCD__TAKE(arena, float, links);
-  p->squared_reach = NSVCD__TAKE(arena, float, count);
+  p->greatest = NSVCD__TAKE(arena, float, count);
   p->first_sample = NSVCD__TAKE(arena, uint32_t, count);
   p->farthest_sample = NSVCD__TAKE(arena, uint32_t, count);
   p->neighbours = NSVCD__TAKE(arena, uint32_t, links);
@@ -3799,7 +3778,7 @@ static int nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples,
 #endif  // NSVCD_NO_ENCODER
 
 // -------------------------------------------------------------------------------- patches/clusters
-// In: samples. Out: centres, and the samples of each.
+// In: samples. Out: centres, and the samples nearest to each.
 
 #ifndef NSVCD_NO_ENCODER
 // The squared distance of a point from a centre.
@@ -3808,7 +3787,7 @@ static float nsvcd__to_centre2(const nsvcd__patches *p, uint32_t centre, nsvcd__
   return nsvcd__f3_dot(offset, offset);
 }
 
-// Lists the nearest other centres of each centre; a short list ends in infinities.
+// Lists the nearest other centres of each centre. A list that is not full ends in infinities.
 static void nsvcd__link_centres(nsvcd__patches *p) {
   const size_t last = NSVCD__NEIGHBOURS - 1;
   for (uint32_t i = 0; i < p->count; i++) {
@@ -3832,9 +3811,9 @@ static void nsvcd__link_centres(nsvcd__patches *p) {
   }
 }
 
-// The centre nearest to a point, of equals the first, found from a guess. A centre twice as far
-// from the guess as the point is cannot be nearer to the point (triangle inequality). So the
-// guess's neighbours usually decide; where they do not, they give a better guess, or all decide.
+// The centre nearest to a point; of equals the first. A centre that is twice as far from the guess
+// as the point is cannot be nearer to the point (triangle inequality), so the guess's neighbours
+// usually decide. Where they do not, the best of them is the next guess, or all centres are tried.
 static uint32_t nsvcd__nearest_centre(const nsvcd__patches *p, uint32_t guess, nsvcd__f3 at) {
   uint32_t best = guess;
   float least = nsvcd__to_centre2(p, guess, at);
@@ -3859,24 +3838,24 @@ static uint32_t nsvcd__nearest_centre(const nsvcd__patches *p, uint32_t guess, n
 
 static void nsvcd__forget_samples(nsvcd__patches *p, uint32_t centre) {
   p->first_sample[centre] = NSVCD__NO_SAMPLE;
-  p->squared_reach[centre] = -1;
+  p->greatest[centre] = -1;
 }
 
-// square: of its distance from the owner.
+// Adds a sample to its owner's list. square: of the distance between them.
 static inline void nsvcd__give_sample(nsvcd__patches *p, uint32_t s, uint32_t owner,
                                       float square) {
   p->owners[s] = (uint16_t)owner;
   p->squares[s] = square;
   p->next_sample[s] = p->first_sample[owner];
   p->first_sample[owner] = s;
-  if (square > p->squared_reach[owner]) {
-    p->squared_reach[owner] = square;
+  if (square > p->greatest[owner]) {
+    p->greatest[owner] = square;
     p->farthest_sample[owner] = s;
   }
 }
 
-// Farthest point sampling (Gonzalez 1985). The first centre is the sample farthest from the mean of
-// all. Ends early once every sample is at a centre.
+// Farthest point sampling (Gonzalez 1985). The first centre is the sample farthest from the mean.
+// Ends early when every sample is at a centre.
 static void nsvcd__farthest_points(nsvcd__patches *p) {
   nsvcd__d3 sum = nsvcd__d3_of(0, 0, 0);
   for (size_t s = 0; s < p->sample_count; s++)
@@ -3893,15 +3872,15 @@ static void nsvcd__farthest_points(nsvcd__patches *p) {
   for (; count < p->count; count++) {
     uint32_t farthest = 0;
     for (uint32_t i = 1; i < count; i++)
-      farthest = p->squared_reach[i] > p->squared_reach[farthest] ? i : farthest;
-    if (!(p->squared_reach[farthest] > 0)) break;
+      farthest = p->greatest[i] > p->greatest[farthest] ? i : farthest;
+    if (!(p->greatest[farthest] > 0)) break;
     p->centres[count] = p->drawn[p->farthest_sample[farthest]];
     nsvcd__forget_samples(p, count);
     for (uint32_t owner = 0; owner < count; owner++) {
       // An owner more than twice as far away as its farthest sample loses none (triangle
-      // inequality): most are passed over.
+      // inequality). Most owners are that far away.
       const float square = nsvcd__to_centre2(p, owner, p->centres[count]);
-      if (0.25f * square > p->squared_reach[owner]) continue;
+      if (0.25f * square > p->greatest[owner]) continue;
       uint32_t s = p->first_sample[owner];
       nsvcd__forget_samples(p, owner);
       while (s != NSVCD__NO_SAMPLE) {
@@ -3917,8 +3896,7 @@ static void nsvcd__farthest_points(nsvcd__patches *p) {
   p->count = count;
 }
 
-// Moves every centre to the mean of its samples. A centre without samples is dropped, and the
-// others close the gap.
+// Moves every centre to the mean of its samples, and drops centres that have none.
 static void nsvcd__move_centres(nsvcd__patches *p) {
   memset(p->sums, 0, p->count * sizeof *p->sums);
   for (size_t s = 0; s < p->sample_count; s++) {
@@ -3930,7 +3908,7 @@ static void nsvcd__move_centres(nsvcd__patches *p) {
   uint32_t kept = 0;
   for (size_t i = 0; i < p->count; i++) {
     const nsvcd__patch_sum *sum = &p->sums[i];
-    // for now: the new number of patch i
+    // until samples are grouped: the new number of patch i
     p->offsets[i] = kept;
     if (!(sum->weight > 0)) continue;
     const nsvcd__d3 mean = nsvcd__d3_over(sum->vector, sum->weight);
@@ -3942,20 +3920,19 @@ static void nsvcd__move_centres(nsvcd__patches *p) {
   nsvcd__link_centres(p);
 }
 
-// Makes a sum reach to a point.
-static void nsvcd__reach_to(nsvcd__patches *p, size_t patch, nsvcd__d3 at) {
+// Extends a patch's reach to a point.
+static void nsvcd__extend(nsvcd__patches *p, size_t patch, nsvcd__d3 at) {
   nsvcd__patch_sum *sum = &p->sums[patch];
   const double square = nsvcd__d3_distance2(at, nsvcd__d3_widen(p->centres[patch]));
-  sum->squared_reach = nsvcd__max(sum->squared_reach, square);
+  sum->greatest = nsvcd__max(sum->greatest, square);
 }
 
-// Root, rounded up: a radius may be too large by a rounding, never too small.
+// The square root, rounded up: a radius is never too small.
 static float nsvcd__radius_above(double squared) {
   return (float)(sqrt(squared) * (1 + 4e-7));
 }
 
-// Writes the samples patch by patch, in a patch in their order (counting sort), and the sample
-// radii.
+// Writes the samples patch by patch (counting sort), and the sample radii.
 static void nsvcd__group_samples(nsvcd__patches *p) {
   memset(p->offsets, 0, (p->count + 1) * sizeof *p->offsets);
   memset(p->sums, 0, p->count * sizeof *p->sums);
@@ -3964,43 +3941,42 @@ static void nsvcd__group_samples(nsvcd__patches *p) {
 
   for (size_t s = 0; s < p->sample_count; s++) {
     const uint32_t owner = p->owners[s];
-    // afterwards each offset is the next patch's
+    // in the end each offset is the next patch's
     const size_t to = p->offsets[owner]++;
     p->samples[to] = p->drawn[s];
     p->normals[to] = p->drawn_normals[s];
-    nsvcd__reach_to(p, owner, nsvcd__d3_widen(p->drawn[s]));
+    nsvcd__extend(p, owner, nsvcd__d3_widen(p->drawn[s]));
   }
   memmove(p->offsets + 1, p->offsets, p->count * sizeof *p->offsets);
   p->offsets[0] = 0;
   for (size_t i = 0; i < p->count; i++)
-    p->sample_radii[i] = nsvcd__radius_above(p->sums[i].squared_reach);
+    p->sample_radii[i] = nsvcd__radius_above(p->sums[i].greatest);
 }
 #endif  // NSVCD_NO_ENCODER
 
 // -------------------------------------------------------------------------------- patches/covering
-// In: centres, their samples, and the mesh. Out: of each patch a ball; together the balls hold
-// every triangle.
+// In: centres, their samples, and the mesh. Out: a ball for each patch; together they contain every
+// triangle.
 //
-// Every triangle is halved across its longest edge until no edge exceeds `limit`. Each piece goes
-// to the patch whose centre is nearest to the piece's centroid. That patch's ball grows to hold the
-// piece's three corners, and so all of it.
+// Triangles are halved across their longest edges until no edge exceeds `limit`. Each half goes to
+// the patch whose centre is nearest to its centroid, and that patch's ball grows to contain its
+// three corners, and so all of it.
 
 #ifndef NSVCD_NO_ENCODER
 static inline size_t nsvcd__longest_of(const double *e) {
   if (e[1] > e[0] && e[1] >= e[2]) return 1;
   return e[2] > e[0] ? 2 : 0;
 }
-// The squared lengths of a triangle's edges, each from a corner to the next one. Returns which is
-// the longest; of equal ones the first.
+// The squared lengths of a triangle's edges, each from a corner to the next. Returns which is the
+// longest; of equals the first.
 static inline size_t nsvcd__edge_squares(const nsvcd__triangle *t, double *e) {
-  e[0] = nsvcd__d3_distance2(t->at[0], t->at[1]);
-  e[1] = nsvcd__d3_distance2(t->at[1], t->at[2]);
-  e[2] = nsvcd__d3_distance2(t->at[2], t->at[0]);
+  for (size_t k = 0; k < 3; k++)
+    e[k] = nsvcd__d3_distance2(t->at[k], t->at[k == 2 ? 0 : k + 1]);
   return nsvcd__longest_of(e);
 }
 
-// How many pieces a triangle makes; stops counting beyond `most`. The new edge is the median of the
-// longest one (Apollonius's theorem), so lengths are enough.
+// How many halves a triangle makes; stops counting beyond `most`. The new edge is the median of the
+// longest one (Apollonius's theorem), so lengths are all that it takes.
 static double nsvcd__count_pieces(const double *e, double limit, double most) {
   const size_t k = nsvcd__longest_of(e);
   const size_t next = k == 2 ? 0 : k + 1;
@@ -4016,12 +3992,11 @@ static double nsvcd__count_pieces(const double *e, double limit, double most) {
   return pieces + nsvcd__count_pieces(near_b, limit, most - pieces);
 }
 
-// The limit on the edges of pieces: twice, four times ... the given one, until a mesh makes no more
-// than `most` pieces. Writes how many.
+// Doubles the limit on edges until a mesh makes at most `most` halves. Writes how many.
 static double nsvcd__raise_limit(const nsvcd_mesh *mesh, double limit, double most,
                                  double *pieces) {
-  // A triangle makes at least as many pieces as its longest edge has limits: no need to begin below
-  // that.
+  // A triangle makes at least as many halves as its longest edge is limits long, so no lower limit
+  // can do.
   double longest = 0;
   double e[3];
   for (size_t t = 0; t < mesh->triangle_count; t++) {
@@ -4040,9 +4015,9 @@ static double nsvcd__raise_limit(const nsvcd_mesh *mesh, double limit, double mo
   }
 }
 
-// Covers a triangle, halved as often as need be; a small one goes to the patch with the nearest
-// centre. vector: its area times its normal. guess: a patch near by. Returns the patch of the last
-// half: the guess for what comes next.
+// Halves a triangle until its edges are short, and gives each half to the patch with the nearest
+// centre. vector: area times normal. guess: a patch near by. Returns the last half's patch, which
+// is a guess for the next triangle.
 static uint32_t nsvcd__cover_triangle(nsvcd__patches *p, double limit, uint32_t guess,
                                       const nsvcd__triangle *t, nsvcd__d3 vector) {
   double e[3];
@@ -4056,7 +4031,7 @@ static uint32_t nsvcd__cover_triangle(nsvcd__patches *p, double limit, uint32_t 
     const nsvcd__f3 centroid = nsvcd__d3_narrow(nsvcd__d3_over(sum, 3));
     const uint32_t patch = nsvcd__nearest_centre(p, guess, centroid);
     p->sums[patch].vector = nsvcd__d3_add(p->sums[patch].vector, vector);
-    for (size_t i = 0; i < 3; i++) nsvcd__reach_to(p, patch, t->at[i]);
+    for (size_t i = 0; i < 3; i++) nsvcd__extend(p, patch, t->at[i]);
     p->piece_count++;
     return patch;
   }
@@ -4072,11 +4047,11 @@ static void nsvcd__cover(nsvcd__patches *p, const nsvcd_mesh *mesh) {
   const double added = NSVCD__PIECES_PER_SAMPLE * (double)p->sample_count;
   const double most = (double)mesh->triangle_count + added;
   double pieces;
-  // Larger pieces only make larger balls.
+  // a limit that is too high only makes balls larger
   double limit = 0;
   for (size_t i = 0; i < p->count; i++) limit += (double)p->sample_radii[i] / (double)p->count;
   limit *= NSVCD__PIECE_SIZE;
-  // otherwise all samples of each patch coincide: nothing to go by
+  // 0: all samples of each patch coincide
   limit = limit > 0 ? nsvcd__raise_limit(mesh, limit, most, &pieces) : HUGE_VAL;
 
   uint32_t guess = 0;
@@ -4088,9 +4063,8 @@ static void nsvcd__cover(nsvcd__patches *p, const nsvcd_mesh *mesh) {
   }
   for (size_t i = 0; i < p->count; i++) {
     const nsvcd__patch_sum *sum = &p->sums[i];
-    // A piece goes to one patch as a whole, and so a patch's samples may lie beyond its pieces: its
-    // ball holds both.
-    const float radius = nsvcd__radius_above(sum->squared_reach);
+    // Samples may lie outside of the halves that their patch was given: the ball contains both.
+    const float radius = nsvcd__radius_above(sum->greatest);
     p->radii[i] = fmaxf(radius, p->sample_radii[i]);
     p->area_vectors[i] = nsvcd__d3_narrow(sum->vector);
   }
@@ -4099,7 +4073,7 @@ static void nsvcd__cover(nsvcd__patches *p, const nsvcd_mesh *mesh) {
 // ---- all of it
 
 // Splits the surface of a checked mesh into at most `count` patches, 1..NSVCD_SMALL_PATCHES: fewer
-// where samples coincide or a patch loses all of its samples. MEMORY.
+// if samples coincide, or a patch loses all of its own. MEMORY.
 static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t count,
                                          nsvcd__arena *arena, nsvcd__patches *p) {
   if (!nsvcd__patches_alloc(p, count, NSVCD__SAMPLES_PER_PATCH * count, arena))
@@ -4119,61 +4093,34 @@ static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t count,
 #endif  // NSVCD_NO_ENCODER
 
 // -------------------------------------------------------------------------------- patches/topology
-// In: a checked mesh. Out: what is learned of it: vertices at the same place are one, triangles
-// that share vertices are one component, and a component is closed or not.
+// In: a checked mesh. Out: its topology: vertices at the same position are one, triangles that
+// share vertices are one component, and a component is closed or not.
 
 #ifndef NSVCD_NO_ENCODER
-// What is learned of a mesh. Vertices at the same place are one: the first of them. A component
-// goes by its root, the least of its vertices.
+// Of the vertices at one position the first stands for all. A component is named by its root, its
+// least vertex.
 typedef struct nsvcd__topology {
   const nsvcd_mesh *mesh;
   size_t component_count;
-  // (vertices) the first vertex at the same place
+  // (vertices) the first vertex at the same position
   uint32_t *welded;
-  // (vertices) of the union-find forest; in the end the root
+  // (vertices) a union-find forest; once built, the root
   uint32_t *parents;
-  // (vertices) of a root: its component is not closed
+  // (vertices) 1 at a root: its component is not closed
   uint8_t *open;
-  // (vertices) of a root: a triangle belongs to it
+  // (vertices) 1 at a root: it has a triangle
   uint8_t *seen;
 } nsvcd__topology;
 
-// Finds the first vertex at each place, in a table of open addresses. 0 without memory.
-static int nsvcd__weld(nsvcd__topology *topology, const nsvcd_allocator *allocator) {
-  const nsvcd_mesh *mesh = topology->mesh;
-  size_t slots = 16;
-  while (slots / 2 < mesh->vertex_count) slots *= 2;
-  nsvcd__arena arena = nsvcd__arena_of(allocator);
-  // 0: none, else a vertex + 1
-  uint32_t *table = NSVCD__TAKE(&arena, uint32_t, slots);
-  for (uint32_t v = 0; table && v < mesh->vertex_count; v++) {
-    const float *at = mesh->positions + 3 * (size_t)v;
-    uint32_t hash = 0;
-    for (size_t k = 0; k < 3; k++) {
-      uint32_t bits;
-      memcpy(&bits, at + k, sizeof bits);
-      // -0 is at the same place as 0
-      if (bits == 0x80000000u) bits = 0;
-      hash = (hash ^ bits) * 0x9e3779b1u;
-      hash ^= hash >> 15;
-    }
-    size_t slot = (hash * 0x85ebca6bu ^ hash >> 13) & (slots - 1);
-    for (; table[slot]; slot = (slot + 1) & (slots - 1)) {
-      const float *other = mesh->positions + 3 * (size_t)(table[slot] - 1);
-      if (other[0] == at[0] && other[1] == at[1] && other[2] == at[2]) break;
-    }
-    if (!table[slot]) table[slot] = v + 1;
-    topology->welded[v] = table[slot] - 1;
-  }
-  nsvcd__arena_free(&arena);
-  return !arena.failed;
+static void nsvcd__welded_face(const nsvcd__topology *topo, size_t t, uint32_t *face) {
+  const uint32_t *corners = topo->mesh->indices + 3 * t;
+  face[0] = topo->welded[corners[0]];
+  face[1] = topo->welded[corners[1]];
+  face[2] = topo->welded[corners[2]];
 }
 
-static void nsvcd__welded_face(const nsvcd__topology *topology, size_t t, uint32_t *face) {
-  const uint32_t *corners = topology->mesh->indices + 3 * t;
-  face[0] = topology->welded[corners[0]];
-  face[1] = topology->welded[corners[1]];
-  face[2] = topology->welded[corners[2]];
+static int nsvcd__are_distinct(const uint32_t *face) {
+  return face[0] != face[1] && face[1] != face[2] && face[2] != face[0];
 }
 
 static uint32_t nsvcd__root(uint32_t *parents, uint32_t v) {
@@ -4184,39 +4131,42 @@ static uint32_t nsvcd__root(uint32_t *parents, uint32_t v) {
   return v;
 }
 
+// Joins the trees of a and b: the lesser root stays one.
+static void nsvcd__join_roots(uint32_t *parents, uint32_t a, uint32_t b) {
+  a = nsvcd__root(parents, a);
+  b = nsvcd__root(parents, b);
+  parents[a > b ? a : b] = a < b ? a : b;
+}
+
 // Finds the components that are not closed: those whose directed edges do not cancel. 0 without
 // memory.
-static int nsvcd__find_open(nsvcd__topology *topology, const nsvcd_allocator *allocator) {
-  const nsvcd_mesh *mesh = topology->mesh;
+static int nsvcd__find_open(nsvcd__topology *topo, const nsvcd_allocator *allocator) {
+  const nsvcd_mesh *mesh = topo->mesh;
   const size_t vertices = mesh->vertex_count;
   nsvcd__arena arena = nsvcd__arena_of(allocator);
-  // where the edges of a vertex begin, which is the lesser of their ends; one more, while sorted
+  // where the edges begin whose lesser end is a vertex; while they are sorted, one entry further
   size_t *first = NSVCD__TAKE(&arena, size_t, vertices + 2);
   // the greater end
   uint32_t *ends = NSVCD__TAKE(&arena, uint32_t, 3 * mesh->triangle_count);
-  // 1: an edge leads to the greater end; -1: from it
+  // 1: the edge leads to its greater end; -1: from it
   int8_t *signs = NSVCD__TAKE(&arena, int8_t, 3 * mesh->triangle_count);
-  // sums over the edges of one vertex, by their other end; else zero
+  // sums of signs by greater end, over the edges of one vertex; else zeros
   int32_t *balances = NSVCD__TAKE(&arena, int32_t, vertices);
-  // counting sort of the edges: they are counted, then placed
+  // counting sort of the edges: count, then store
   for (int pass = 0; !arena.failed && pass < 2; pass++) {
     for (size_t t = 0; t < mesh->triangle_count; t++) {
       uint32_t face[3];
-      nsvcd__welded_face(topology, t, face);
-      // then the edges cancel among themselves
-      if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) continue;
+      nsvcd__welded_face(topo, t, face);
+      // the edges of any other cancel each other
+      if (!nsvcd__are_distinct(face)) continue;
       for (size_t k = 0; k < 3; k++) {
         const uint32_t from = face[k];
         const uint32_t to = face[(k + 1) % 3];
         const uint32_t low = from < to ? from : to;
-        if (pass == 0) {
-          first[low + 2]++;
-          continue;
-        }
-        // afterwards the start of the next
-        const size_t place = first[low + 1]++;
-        ends[place] = from < to ? to : from;
-        signs[place] = from < to ? 1 : -1;
+        const size_t e = first[low + 2 - (size_t)pass]++;
+        if (pass == 0) continue;
+        ends[e] = from < to ? to : from;
+        signs[e] = from < to ? 1 : -1;
       }
     }
     for (size_t v = 0; pass == 0 && v < vertices; v++) first[v + 2] += first[v + 1];
@@ -4224,7 +4174,7 @@ static int nsvcd__find_open(nsvcd__topology *topology, const nsvcd_allocator *al
   for (size_t v = 0; !arena.failed && v < vertices; v++) {
     for (size_t e = first[v]; e < first[v + 1]; e++) balances[ends[e]] += signs[e];
     for (size_t e = first[v]; e < first[v + 1]; e++) {
-      if (balances[ends[e]] != 0) topology->open[topology->parents[v]] = 1;
+      if (balances[ends[e]] != 0) topo->open[topo->parents[v]] = 1;
     }
     for (size_t e = first[v]; e < first[v + 1]; e++) balances[ends[e]] = 0;
   }
@@ -4234,141 +4184,143 @@ static int nsvcd__find_open(nsvcd__topology *topology, const nsvcd_allocator *al
 
 // 0 without memory.
 static int nsvcd__topology_build(const nsvcd_mesh *mesh, nsvcd__arena *arena,
-                                 nsvcd__topology *topology) {
-  topology->mesh = mesh;
-  topology->component_count = 0;
-  topology->welded = NSVCD__TAKE(arena, uint32_t, mesh->vertex_count);
-  topology->parents = NSVCD__TAKE(arena, uint32_t, mesh->vertex_count);
-  topology->open = NSVCD__TAKE(arena, uint8_t, mesh->vertex_count);
-  topology->seen = NSVCD__TAKE(arena, uint8_t, mesh->vertex_count);
-  if (arena->failed || !nsvcd__weld(topology, arena->allocator)) return 0;
+                                 nsvcd__topology *topo) {
+  topo->mesh = mesh;
+  topo->component_count = 0;
+  topo->welded = NSVCD__TAKE(arena, uint32_t, mesh->vertex_count);
+  topo->parents = NSVCD__TAKE(arena, uint32_t, mesh->vertex_count);
+  topo->open = NSVCD__TAKE(arena, uint8_t, mesh->vertex_count);
+  topo->seen = NSVCD__TAKE(arena, uint8_t, mesh->vertex_count);
+  if (arena->failed ||
+      !nsvcd__weld_all(mesh->positions, mesh->vertex_count, topo->welded, arena->allocator))
+    return 0;
 
-  uint32_t *parents = topology->parents;
+  uint32_t *parents = topo->parents;
   uint32_t face[3];
   for (uint32_t v = 0; v < mesh->vertex_count; v++) parents[v] = v;
   for (size_t t = 0; t < mesh->triangle_count; t++) {
-    nsvcd__welded_face(topology, t, face);
-    for (size_t k = 1; k < 3; k++) {
-      const uint32_t a = nsvcd__root(parents, face[0]);
-      const uint32_t b = nsvcd__root(parents, face[k]);
-      parents[a > b ? a : b] = a < b ? a : b;
-    }
+    nsvcd__welded_face(topo, t, face);
+    nsvcd__join_roots(parents, face[0], face[1]);
+    nsvcd__join_roots(parents, face[0], face[2]);
   }
   for (uint32_t v = 0; v < mesh->vertex_count; v++) parents[v] = nsvcd__root(parents, v);
   for (size_t t = 0; t < mesh->triangle_count; t++) {
-    nsvcd__welded_face(topology, t, face);
-    topology->component_count += !topology->seen[parents[face[0]]];
-    topology->seen[parents[face[0]]] = 1;
+    nsvcd__welded_face(topo, t, face);
+    topo->component_count += !topo->seen[parents[face[0]]];
+    topo->seen[parents[face[0]]] = 1;
   }
-  return nsvcd__find_open(topology, arena->allocator);
+  return nsvcd__find_open(topo, arena->allocator);
 }
 #endif  // NSVCD_NO_ENCODER
 
 // ---------------------------------------------------------------------------------- patches/solids
-// In: a mesh's topology. Out: what each triangle is a part of: a sheet, a closed surface, one that
-// only its winding keeps from being closed, or a solid with a hole.
+// In: a mesh's topology. Out: what each triangle is part of: a sheet, a closed surface, one that is
+// closed but for its winding, or nearly a solid: one with a hole.
 //
-// What closed components enclose is known by how often they wind about a place. That needs a cycle:
-// each directed edge with its reverse. Of a component that is none, a part may be, once what does
-// no harm to it is set aside. In this order:
-//   1. Corners at edges where a triangle is missing are joined to others that are near enough.
-//   2. Of triangles with the same three corners one stays, of those with two in one place none.
-//   3. Triangles with an edge that no other has, fins, are set aside, and again what these leave;
-//   so
-//      are walls within: of those that meet at edges of three, the one of the least area.
-//   4. What is left, part by part (triangles that share edges), is a cycle; or each edge has an
-//   even
-//      number of triangles: then a ray from inside crosses the part an odd number of times,
-//      however it is wound. Of a sheet nothing is left. A part of the latter kind that is less than
-//      half of all that its edges join is left alone: rooms on a terrain are not turned round.
-//   5. What is not closed after that is a sheet, or nearly a solid: see nsvcd__judge_holes.
-// The caller's triangles stay as they are, and all are proven apart: this decides only which of
+// A point is inside closed components if they wind about it. That needs a cycle: each directed edge
+// has its reverse. A component that is none may contain one, once harmless flaws are set aside, in
+// this order:
+//   1. Corners at edges that lack a triangle are joined to others that are near enough.
+//   2. Of triangles with the same three corners one stays; those with only two distinct corners go.
+//   3. Fins, triangles with an edge that no other has, are set aside, until none is left. So are
+//      inner walls: where edges of three meet, the part with the least area.
+//   4. What is left is judged part by part (triangles that share edges). It is a cycle; or each
+//      edge has an even number of triangles, and then a ray from inside crosses it an odd number of
+//      times, however it is wound. Of a sheet nothing is left. A part of the second kind is a sheet
+//      if it has less than half the area of all that its edges join: rooms on a terrain are not
+//      turned inside out.
+//   5. What is still open is a sheet, or nearly a solid: see nsvcd__judge_holes.
+// The caller's triangles stay as they are, and are all proven apart. This decides only which of
 // them a ray counts.
 
 #ifndef NSVCD_NO_ENCODER
-// Corners are joined if they are no farther apart than this, of the diagonal of the mesh's box, and
-// of the longest edge at either.
+// Corners are joined up to this distance, as a fraction of the diagonal of the mesh's box, and of
+// the longest edge at either.
 #define NSVCD__JOINED 1e-4
 #define NSVCD__JOINED_OF_EDGE 0.01
-// that are looked at in a cell
+// vertices that are tried in a cell
 #define NSVCD__JOIN_TRIES 64
-// Of nearly a solid: holes, of the area; one of three edges counts for less. How far the surface
-// goes on in the plane of a hole: the mean cosine. A hole is a slit if its area is less than this
-// of its edge's length squared.
+// Nearly a solid: its holes have at most this fraction of its area; a hole of three edges counts
+// only this fraction of itself.
 #define NSVCD__HOLES 0.02
 #define NSVCD__HOLE_OF_THREE 0.04
+// least mean cosine between a hole and the surface about it, if that goes on across the hole
 #define NSVCD__FLUSH 0.25
+// a hole is a slit if its area is at most this fraction of its border's length squared
 #define NSVCD__SLIT 1e-3
 
 typedef struct nsvcd__solids {
   // (triangles) NSVCD__SHEET and so on
   uint8_t *kinds;
   size_t components, open_components, open_edges;
-  // metres: gaps that were closed are no wider
+  // metres: the widest gap that was closed
   double gap;
-  // is there any kind but SHEET and CLOSED?
+  // 1: there are kinds other than SHEET and CLOSED
   int is_mixed;
 } nsvcd__solids;
 
 // The triangles of components that are not closed, without those that are points or segments.
 typedef struct nsvcd__mending {
-  const nsvcd__topology *topology;
+  const nsvcd__topology *topo;
   size_t count;         // T
   uint32_t *triangles;  // (T) of the mesh
-  uint32_t *joined;     // (vertices) where a welded vertex was joined to; else itself
-  uint8_t *alive;       // (T) not set aside
-  // (3 T) edges, k-th of triangle n 3 n + k, by their ends; and to which of E groups each belongs
-  uint32_t *order, *groups;
+  // (vertices) what a welded vertex was joined to, or itself
+  uint32_t *joined;
+  uint8_t *alive;  // (T) 0: set aside
+  // (3 T) edges, sorted by their ends: edge k of triangle n is 3 n + k
+  uint32_t *order;
+  // E groups of edges with the same ends: (3 T) the group of each edge; (E + 1) where a group
+  // begins in `order`
+  uint32_t *groups, *group_first;
   size_t group_count;
   // (E) how many alive triangles have this edge, and the exclusive or of their numbers
   uint32_t *degrees, *others;
-  // (T) of union-find forests: of all that edges join, and of what is alive
+  // (T) union-find forests: of all triangles that edges join, and of the alive ones
   uint32_t *wholes, *parts;
-  // (vertices + 1), to sort with; (3 T) to work with
+  // (vertices + 1) working memory
   size_t *first;
-  uint32_t *spare;
+  uint32_t *spare;  // (3 T) working memory
 } nsvcd__mending;
 
 static void nsvcd__mending_face(const nsvcd__mending *m, size_t n, uint32_t *face) {
-  nsvcd__welded_face(m->topology, m->triangles[n], face);
+  nsvcd__welded_face(m->topo, m->triangles[n], face);
   for (size_t k = 0; k < 3; k++) face[k] = m->joined[face[k]];
 }
 
 static nsvcd__triangle nsvcd__mending_triangle(const nsvcd__mending *m, size_t n) {
-  return nsvcd__triangle_of(m->topology->mesh, m->triangles[n]);
+  return nsvcd__triangle_of(m->topo->mesh, m->triangles[n]);
 }
 
-static int nsvcd__has_area(const uint32_t *face) {
-  return face[0] != face[1] && face[1] != face[2] && face[2] != face[0];
-}
+// The ends of an edge, the lesser first. rises: 1: its triangle goes from that to the other.
+typedef struct nsvcd__edge {
+  uint32_t ends[2];
+  int rises;
+} nsvcd__edge;
 
-// The ends of edge e, the lesser first. Returns 1 if the triangle goes from that to the other.
-static int nsvcd__mending_edge(const nsvcd__mending *m, size_t e, uint32_t *ends) {
+static nsvcd__edge nsvcd__mending_edge(const nsvcd__mending *m, size_t e) {
   uint32_t face[3];
   nsvcd__mending_face(m, e / 3, face);
   const uint32_t from = face[e % 3];
   const uint32_t to = face[(e + 1) % 3];
-  ends[0] = from < to ? from : to;
-  ends[1] = from < to ? to : from;
-  return from < to;
+  const nsvcd__edge out = {{from < to ? from : to, from < to ? to : from}, from < to};
+  return out;
 }
 
-// Sorts the edges of all triangles by one of their ends (counting sort); equal ones keep their
-// order.
+// Is edge e the only one of an alive triangle at its ends?
+static int nsvcd__is_border(const nsvcd__mending *m, size_t e) {
+  return m->alive[e / 3] && m->degrees[m->groups[e]] == 1;
+}
+
+// Sorts edges by one of their ends. Counting sort: equal ones keep their order.
 static void nsvcd__sort_edges(nsvcd__mending *m, const uint32_t *from, uint32_t *to,
                               size_t which) {
-  const size_t vertices = m->topology->mesh->vertex_count;
-  uint32_t ends[2];
+  const size_t vertices = m->topo->mesh->vertex_count;
   memset(m->first, 0, (vertices + 1) * sizeof *m->first);
-  for (size_t e = 0; e < 3 * m->count; e++) {
-    (void)nsvcd__mending_edge(m, e, ends);
-    m->first[ends[which] + 1]++;
-  }
+  for (size_t e = 0; e < 3 * m->count; e++)
+    m->first[nsvcd__mending_edge(m, e).ends[which] + 1]++;
   for (size_t v = 0; v < vertices; v++) m->first[v + 1] += m->first[v];
-  for (size_t i = 0; i < 3 * m->count; i++) {
-    (void)nsvcd__mending_edge(m, from[i], ends);
-    to[m->first[ends[which]]++] = from[i];
-  }
+  for (size_t i = 0; i < 3 * m->count; i++)
+    to[m->first[nsvcd__mending_edge(m, from[i]).ends[which]]++] = from[i];
 }
 
 // Counts the alive triangles at each edge.
@@ -4382,39 +4334,37 @@ static void nsvcd__count_degrees(nsvcd__mending *m) {
   }
 }
 
-// Finds which edges are the same, and sets aside what is there twice or has no area. spare: of the
-// triangles at an edge, by their third corner, the first; 0: none, else its number + 1.
+// Groups equal edges, and sets aside triangles that are there twice or have equal corners.
 static void nsvcd__group_edges(nsvcd__mending *m) {
   uint32_t *seen = m->parts;
-  uint32_t last[2] = {0, 0};
+  nsvcd__edge last = {{0, 0}, 0};
+  uint32_t face[3];
   m->group_count = 0;
   for (size_t n = 0; n < m->count; n++) {
-    uint32_t face[3];
     nsvcd__mending_face(m, n, face);
-    m->alive[n] = (uint8_t)nsvcd__has_area(face);
+    m->alive[n] = (uint8_t)nsvcd__are_distinct(face);
   }
   for (size_t e = 0; e < 3 * m->count; e++) m->order[e] = (uint32_t)e;
   nsvcd__sort_edges(m, m->order, m->spare, 1);
   nsvcd__sort_edges(m, m->spare, m->order, 0);
   for (size_t i = 0; i < 3 * m->count; i++) {
-    uint32_t ends[2];
-    (void)nsvcd__mending_edge(m, m->order[i], ends);
-    m->group_count += i == 0 || ends[0] != last[0] || ends[1] != last[1];
-    memcpy(last, ends, sizeof last);
+    const nsvcd__edge edge = nsvcd__mending_edge(m, m->order[i]);
+    if (i == 0 || edge.ends[0] != last.ends[0] || edge.ends[1] != last.ends[1])
+      m->group_first[m->group_count++] = (uint32_t)i;
+    last = edge;
     m->groups[m->order[i]] = (uint32_t)(m->group_count - 1);
   }
-  // By their edge of the two least corners: where that is the same, the third tells.
-  memset(m->first, 0, m->topology->mesh->vertex_count * sizeof *m->first);
-  for (size_t i = 0, end; i < 3 * m->count; i = end) {
+  m->group_first[m->group_count] = (uint32_t)(3 * m->count);
+  // Equal triangles share the edge between their two least corners, and the third corner.
+  memset(m->first, 0, m->topo->mesh->vertex_count * sizeof *m->first);
+  for (size_t g = 0; g < m->group_count; g++) {
     size_t met = 0;
-    for (end = i; end < 3 * m->count; end++) {
-      const size_t n = m->order[end] / 3;
-      uint32_t ends[2], face[3];
-      if (m->groups[m->order[end]] != m->groups[m->order[i]]) break;
-      (void)nsvcd__mending_edge(m, m->order[end], ends);
+    for (size_t i = m->group_first[g]; i < m->group_first[g + 1]; i++) {
+      const size_t n = m->order[i] / 3;
       nsvcd__mending_face(m, n, face);
-      const uint32_t third = face[(m->order[end] + 2) % 3];
-      if (!m->alive[n] || third < ends[1]) continue;
+      const uint32_t third = face[(m->order[i] + 2) % 3];
+      const nsvcd__edge edge = nsvcd__mending_edge(m, m->order[i]);
+      if (!m->alive[n] || third < edge.ends[1]) continue;
       m->alive[n] = m->first[third] == 0;
       m->first[third] = 1;
       seen[met++] = third;
@@ -4426,15 +4376,16 @@ static void nsvcd__group_edges(nsvcd__mending *m) {
 
 // ---- corners that are near each other
 
+// A hash table of vertices by cell.
 typedef struct nsvcd__cells {
   const nsvcd__mending *m;
   nsvcd__d3 low;
   double width;
-  // (slots) 0: none, else the last vertex + 1; (vertices) the one before, likewise
+  // (slots) the last vertex of a slot + 1, or 0; (vertices) the one before it, likewise
   uint32_t *heads, *before;
   size_t slots;
-  // (vertices) metres; 0: it is at no edge where a triangle is missing
-  float *reach;
+  // (vertices) metres: how far it may be joined; 0: it is at no edge that lacks a triangle
+  float *limits;
 } nsvcd__cells;
 
 static uint32_t *nsvcd__cell_of(const nsvcd__cells *c, const double *cell) {
@@ -4446,10 +4397,10 @@ static uint32_t *nsvcd__cell_of(const nsvcd__cells *c, const double *cell) {
   return &c->heads[(hash * 0x85ebca6bu) & (c->slots - 1)];
 }
 
-// Joins a vertex to the nearest one near enough that has not been joined, or keeps it for others.
-// Returns how far apart they are.
+// Joins a vertex to the nearest one in the table that is near enough, or puts it there itself.
+// Returns the distance joined.
 static double nsvcd__join_vertex(nsvcd__cells *c, uint32_t v) {
-  const float *positions = c->m->topology->mesh->positions;
+  const float *positions = c->m->topo->mesh->positions;
   const nsvcd__d3 at = nsvcd__d3_row(positions, v);
   const nsvcd__d3 off = nsvcd__d3_scale(nsvcd__d3_sub(at, c->low), 1 / c->width);
   double own[3], side[3];
@@ -4464,9 +4415,9 @@ static double nsvcd__join_vertex(nsvcd__cells *c, uint32_t v) {
     for (int k = 0; k < 3; k++) cell[k] = own[k] + (corner >> k & 1 ? side[k] : 0);
     uint32_t w = *nsvcd__cell_of(c, cell);
     for (size_t tries = 0; w && tries < NSVCD__JOIN_TRIES; tries++) {
-      const double least = (double)fminf(c->reach[v], c->reach[w - 1]);
+      const double limit = (double)fminf(c->limits[v], c->limits[w - 1]);
       const double square = nsvcd__d3_distance2(at, nsvcd__d3_row(positions, w - 1));
-      if (square <= least * least && square < best) {
+      if (square <= limit * limit && square < best) {
         best = square;
         c->m->joined[v] = w - 1;
       }
@@ -4480,28 +4431,29 @@ static double nsvcd__join_vertex(nsvcd__cells *c, uint32_t v) {
   return 0;
 }
 
-// How far each vertex may be joined: those at edges of an odd number of triangles. Returns how many
-// there are.
-static size_t nsvcd__find_reaches(const nsvcd__mending *m, double most, float *reach) {
+// Sets how far the vertices at edges of an odd number of triangles may be joined, `most` at most.
+// Returns how many they are.
+static size_t nsvcd__find_limits(const nsvcd__mending *m, double most, float *limits) {
   size_t count = 0;
   for (size_t e = 0; e < 3 * m->count; e++) {
     const nsvcd__triangle t = nsvcd__mending_triangle(m, e / 3);
-    uint32_t ends[2];
-    (void)nsvcd__mending_edge(m, e, ends);
+    const nsvcd__edge edge = nsvcd__mending_edge(m, e);
     if (m->degrees[m->groups[e]] % 2 == 0) continue;
-    const double edge = sqrt(nsvcd__d3_distance2(t.at[e % 3], t.at[(e + 1) % 3]));
-    const float own = (float)nsvcd__min(most, NSVCD__JOINED_OF_EDGE * edge);
+    const double length = sqrt(nsvcd__d3_distance2(t.at[e % 3], t.at[(e + 1) % 3]));
+    const float own = (float)nsvcd__min(most, NSVCD__JOINED_OF_EDGE * length);
     for (size_t k = 0; k < 2; k++) {
-      count += reach[ends[k]] <= 0;
-      reach[ends[k]] = fmaxf(own, reach[ends[k]]);
+      float *limit = &limits[edge.ends[k]];
+      count += *limit <= 0;
+      *limit = fmaxf(own, *limit);
     }
   }
   return count;
 }
 
-// Joins what is near enough to each other. Returns the greatest distance; below 0 without memory.
+// Joins corners that are near enough to each other. Returns the greatest distance joined, or -1
+// without memory.
 static double nsvcd__join_corners(nsvcd__mending *m, const nsvcd_allocator *allocator) {
-  const nsvcd_mesh *mesh = m->topology->mesh;
+  const nsvcd_mesh *mesh = m->topo->mesh;
   nsvcd__arena arena = nsvcd__arena_of(allocator);
   nsvcd__d3 low = nsvcd__d3_row(mesh->positions, 0);
   nsvcd__d3 high = low;
@@ -4516,13 +4468,13 @@ static double nsvcd__join_corners(nsvcd__mending *m, const nsvcd_allocator *allo
   c.m = m;
   c.low = low;
   c.width = 2 * most;
-  c.reach = NSVCD__TAKE(&arena, float, mesh->vertex_count);
-  size_t left = c.reach ? nsvcd__find_reaches(m, most, c.reach) : 0;
+  c.limits = NSVCD__TAKE(&arena, float, mesh->vertex_count);
+  const size_t left = c.limits ? nsvcd__find_limits(m, most, c.limits) : 0;
   for (c.slots = 16; c.slots / 2 < left;) c.slots *= 2;
   c.heads = NSVCD__TAKE(&arena, uint32_t, c.slots);
   c.before = NSVCD__TAKE(&arena, uint32_t, mesh->vertex_count);
   for (uint32_t v = 0; !arena.failed && v < mesh->vertex_count; v++) {
-    if (c.reach[v] > 0) widest = nsvcd__max(widest, nsvcd__join_vertex(&c, v));
+    if (c.limits[v] > 0) widest = nsvcd__max(widest, nsvcd__join_vertex(&c, v));
   }
   nsvcd__arena_free(&arena);
   return arena.failed ? -1 : widest;
@@ -4530,34 +4482,30 @@ static double nsvcd__join_corners(nsvcd__mending *m, const nsvcd_allocator *allo
 
 // ---- parts
 
-// A forest of the alive triangles: those at an edge, if there are no more than `most`, belong
-// together.
+// Makes a forest of the alive triangles, joined by edges with at most `most` of them.
 static void nsvcd__join_triangles(const nsvcd__mending *m, uint32_t most, uint32_t *forest) {
   for (size_t n = 0; n < m->count; n++) forest[n] = (uint32_t)n;
-  for (size_t i = 0, last = 0; i < 3 * m->count; i++) {
-    const size_t e = m->order[i];
-    if (!m->alive[e / 3] || m->degrees[m->groups[e]] > most) continue;
-    if (m->groups[e] == m->groups[last]) {
-      const uint32_t a = nsvcd__root(forest, (uint32_t)(e / 3));
-      const uint32_t b = nsvcd__root(forest, (uint32_t)(last / 3));
-      forest[a > b ? a : b] = a < b ? a : b;
+  for (size_t g = 0; g < m->group_count; g++) {
+    uint32_t last = UINT32_MAX;
+    if (m->degrees[g] > most) continue;
+    for (size_t i = m->group_first[g]; i < m->group_first[g + 1]; i++) {
+      const uint32_t n = m->order[i] / 3;
+      if (!m->alive[n]) continue;
+      if (last != UINT32_MAX) nsvcd__join_roots(forest, n, last);
+      last = n;
     }
-    last = e;
   }
   for (size_t n = 0; n < m->count; n++) forest[n] = nsvcd__root(forest, (uint32_t)n);
 }
 
-// Sets aside triangles with an edge that no other has, and again what these leave.
+// Sets triangles aside that have an edge which no other has, until none is left.
 static void nsvcd__peel(nsvcd__mending *m) {
   uint32_t *waiting = m->spare;
   size_t count = 0;
-  for (size_t n = 0; n < m->count; n++) {
-    // one of these is as good as all
-    for (size_t k = 0; k < 3 && m->alive[n]; k++) {
-      if (m->degrees[m->groups[3 * n + k]] != 1) continue;
-      m->alive[n] = 0;
-      waiting[count++] = (uint32_t)n;
-    }
+  for (size_t e = 0; e < 3 * m->count; e++) {
+    if (!nsvcd__is_border(m, e)) continue;
+    m->alive[e / 3] = 0;
+    waiting[count++] = (uint32_t)(e / 3);
   }
   while (count > 0) {
     const uint32_t n = waiting[--count];
@@ -4572,62 +4520,70 @@ static void nsvcd__peel(nsvcd__mending *m) {
   }
 }
 
-// What is known of a part, of a whole, or of a wall.
-typedef struct nsvcd__component {
+// What is known of a part; of a whole, all that edges join; or of a wall.
+typedef struct nsvcd__shell {
   double area;
-  // of its parts that enclose; and one of its parts does not
+  nsvcd__d3 centre;  // times the area
+  // edges that have an odd number of triangles; that do not go both ways equally often
+  uint32_t odd, turned;
+  // of a whole: the area of its parts that enclose something; 1: another part does not
   double closed;
   int fails;
-  // edges: of an odd number of triangles; not as often one way as the other
-  uint32_t odd, turned;
-  // of a whole: of a sheet, by its holes; and their area
+  // of a whole: 1: by its holes it is a sheet; the area of these, and the volume inside
   int is_sheet;
   double holes, volume;
-  nsvcd__d3 centre;  // times the area
-} nsvcd__component;
+} nsvcd__shell;
 
-// Counts the odd edges, and the turned ones, of what is alive, by the roots of a forest.
-static void nsvcd__judge_edges(const nsvcd__mending *m, const uint32_t *forest,
-                               nsvcd__component *parts) {
-  for (size_t i = 0, end; i < 3 * m->count; i = end) {
-    const size_t group = m->groups[m->order[i]];
+// Adds up areas and centres of the alive triangles, by their roots in a forest.
+static void nsvcd__sum_areas(const nsvcd__mending *m, const uint32_t *forest,
+                             nsvcd__shell *parts) {
+  for (size_t n = 0; n < m->count; n++) {
+    if (!m->alive[n]) continue;
+    const nsvcd__triangle t = nsvcd__mending_triangle(m, n);
+    const double area = nsvcd__triangle_area(&t);
+    nsvcd__shell *part = &parts[forest[n]];
+    part->area += area;
+    part->centre = nsvcd__d3_fma(area, t.at[0], part->centre);
+  }
+}
+
+// Counts odd and turned edges of the alive triangles, by their roots in a forest.
+static void nsvcd__count_edges(const nsvcd__mending *m, const uint32_t *forest,
+                               nsvcd__shell *parts) {
+  for (size_t g = 0; g < m->group_count; g++) {
     size_t any = m->count;
     int sum = 0;
-    for (end = i; end < 3 * m->count && m->groups[m->order[end]] == group; end++) {
-      uint32_t ends[2];
-      if (!m->alive[m->order[end] / 3]) continue;
-      any = m->order[end] / 3;
-      sum += nsvcd__mending_edge(m, m->order[end], ends) ? 1 : -1;
+    for (size_t i = m->group_first[g]; i < m->group_first[g + 1]; i++) {
+      if (!m->alive[m->order[i] / 3]) continue;
+      any = m->order[i] / 3;
+      sum += nsvcd__mending_edge(m, m->order[i]).rises ? 1 : -1;
     }
     if (any == m->count) continue;
-    parts[forest[any]].odd += m->degrees[group] % 2;
+    parts[forest[any]].odd += m->degrees[g] % 2;
     parts[forest[any]].turned += sum != 0;
   }
 }
 
-// Sets walls aside: what edges of two join, if at all its other edges, of three, it has the least
-// area. Returns how many triangles. walls: (T) zeros, and so they are again.
-static size_t nsvcd__drop_walls(nsvcd__mending *m, nsvcd__component *walls) {
+// Sets inner walls aside: triangles joined by edges of two, if at all their other edges, of three,
+// they have the least area. Returns how many triangles. walls: (T) zeros, before and after.
+static size_t nsvcd__drop_walls(nsvcd__mending *m, nsvcd__shell *walls) {
   size_t dropped = 0;
   nsvcd__join_triangles(m, 2, m->parts);
-  for (size_t n = 0; n < m->count; n++) {
-    const nsvcd__triangle t = nsvcd__mending_triangle(m, n);
-    if (m->alive[n]) walls[m->parts[n]].area += nsvcd__triangle_area(&t);
-  }
-  for (size_t i = 0, end; i < 3 * m->count; i = end) {
-    const size_t group = m->groups[m->order[i]];
+  nsvcd__sum_areas(m, m->parts, walls);
+  for (size_t g = 0; g < m->group_count; g++) {
     size_t least = m->count;
-    for (end = i; end < 3 * m->count && m->groups[m->order[end]] == group; end++) {
-      const size_t n = m->order[end] / 3;
-      if (!m->alive[n] || m->degrees[group] < 3) continue;
+    if (m->degrees[g] < 3) continue;
+    for (size_t i = m->group_first[g]; i < m->group_first[g + 1]; i++) {
+      const size_t n = m->order[i] / 3;
+      if (!m->alive[n]) continue;
       const size_t wall = m->parts[n];
       walls[wall].odd++;
       if (least == m->count || walls[wall].area < walls[least].area) least = wall;
     }
-    if (least < m->count) walls[least].turned += m->degrees[group] % 2;
+    walls[least].turned += m->degrees[g] % 2;
   }
   for (size_t n = 0; n < m->count; n++) {
-    const nsvcd__component *wall = &walls[m->parts[n]];
+    const nsvcd__shell *wall = &walls[m->parts[n]];
     if (!m->alive[n] || wall->odd == 0 || wall->odd != wall->turned) continue;
     m->alive[n] = 0;
     dropped++;
@@ -4639,7 +4595,7 @@ static size_t nsvcd__drop_walls(nsvcd__mending *m, nsvcd__component *walls) {
 
 // ---- holes
 
-// Edges that have one triangle alone, joined at their ends.
+// A loop of border edges.
 typedef struct nsvcd__hole {
   nsvcd__d3 centre, normal;
   double length, area, flush;
@@ -4647,28 +4603,25 @@ typedef struct nsvcd__hole {
   uint32_t whole;
 } nsvcd__hole;
 
-// Three passes over the edges at holes: where they are; the cone over them, its area and normal;
-// and whether the triangles at them go on in its plane.
+// Three passes over the border edges: centres; the area and normal of a cone over each hole; and
+// how far the triangles about a hole lie in its plane.
 static void nsvcd__measure_holes(const nsvcd__mending *m, const uint32_t *numbers,
                                  nsvcd__hole *holes, int pass) {
   for (size_t e = 0; e < 3 * m->count; e++) {
     const nsvcd__triangle t = nsvcd__mending_triangle(m, e / 3);
-    uint32_t ends[2];
-    if (!m->alive[e / 3] || m->degrees[m->groups[e]] != 1) continue;
-    (void)nsvcd__mending_edge(m, e, ends);
-    nsvcd__hole *hole = &holes[numbers[ends[0]] - 1];
+    if (!nsvcd__is_border(m, e)) continue;
+    nsvcd__hole *hole = &holes[numbers[nsvcd__mending_edge(m, e).ends[0]] - 1];
     const nsvcd__d3 from = t.at[e % 3];
     const nsvcd__d3 to = t.at[(e + 1) % 3];
     const double length = sqrt(nsvcd__d3_distance2(from, to));
     if (pass == 0) {
-      const nsvcd__d3 twice = nsvcd__d3_add(from, to);
-      hole->centre = nsvcd__d3_fma(0.5 * length, twice, hole->centre);
+      hole->centre = nsvcd__d3_fma(0.5 * length, nsvcd__d3_add(from, to), hole->centre);
       hole->length += length;
       hole->edges++;
       hole->whole = m->wholes[e / 3];
       continue;
     }
-    // what would close it goes the other way
+    // a triangle that closed the hole would have the edge reversed
     const nsvcd__d3 centre = nsvcd__d3_scale(hole->centre, 1 / hole->length);
     const nsvcd__d3 a = nsvcd__d3_sub(to, centre);
     const nsvcd__d3 b = nsvcd__d3_sub(from, centre);
@@ -4685,26 +4638,24 @@ static void nsvcd__measure_holes(const nsvcd__mending *m, const uint32_t *number
   }
 }
 
-// What holes say of the wholes that they are in. One is a sheet where the surface does not go on
-// across a hole, as at the rim of a bin, of a tube, of a floor. A slit, as a corner on an edge
-// makes, is no hole; a single triangle counts for a part of itself; of larger holes only a surface
-// that is wound outwards is nearly a solid's, for else it is a room that has a door.
-static int nsvcd__judge_holes(const nsvcd__mending *m, nsvcd__component *wholes,
+// What holes say of the wholes that they are in. A whole is a sheet if the surface does not go on
+// across a hole, as at the rim of a bin, a tube or a floor. A slit, such as a corner on an edge
+// makes, is no hole, and a missing triangle counts for a fraction of itself. With a larger hole
+// only a surface that is wound outwards is nearly a solid: else it is a room with a door. 0 without
+// memory.
+static int nsvcd__judge_holes(const nsvcd__mending *m, nsvcd__shell *wholes,
                               const nsvcd_allocator *allocator) {
-  const size_t vertices = m->topology->mesh->vertex_count;
+  const size_t vertices = m->topo->mesh->vertex_count;
   nsvcd__arena arena = nsvcd__arena_of(allocator);
   uint32_t *forest = NSVCD__TAKE(&arena, uint32_t, vertices);
   uint32_t *numbers = NSVCD__TAKE(&arena, uint32_t, vertices);
   uint32_t count = 0;
-  uint32_t ends[2];
   for (uint32_t v = 0; forest && v < vertices; v++) forest[v] = v;
   for (size_t e = 0; !arena.failed && e < 3 * m->count; e++) {
-    if (!m->alive[e / 3] || m->degrees[m->groups[e]] != 1) continue;
-    (void)nsvcd__mending_edge(m, e, ends);
-    const uint32_t a = nsvcd__root(forest, ends[0]);
-    const uint32_t b = nsvcd__root(forest, ends[1]);
-    forest[a > b ? a : b] = a < b ? a : b;
-    numbers[ends[0]] = numbers[ends[1]] = 1;
+    if (!nsvcd__is_border(m, e)) continue;
+    const nsvcd__edge edge = nsvcd__mending_edge(m, e);
+    nsvcd__join_roots(forest, edge.ends[0], edge.ends[1]);
+    for (size_t k = 0; k < 2; k++) numbers[edge.ends[k]] = 1;
   }
   for (uint32_t v = 0; !arena.failed && v < vertices; v++) {
     if (!numbers[v]) continue;
@@ -4716,7 +4667,7 @@ static int nsvcd__judge_holes(const nsvcd__mending *m, nsvcd__component *wholes,
     nsvcd__measure_holes(m, numbers, holes, pass);
   for (size_t h = 0; !arena.failed && h < count; h++) {
     const nsvcd__hole *hole = &holes[h];
-    nsvcd__component *whole = &wholes[hole->whole];
+    nsvcd__shell *whole = &wholes[hole->whole];
     const int is_slit = hole->area <= NSVCD__SLIT * hole->length * hole->length;
     const int is_flush = hole->flush >= NSVCD__FLUSH * hole->length;
     const int is_three = hole->edges == 3;
@@ -4730,60 +4681,54 @@ static int nsvcd__judge_holes(const nsvcd__mending *m, nsvcd__component *wholes,
 
 // ---- all of it
 
-// Areas of wholes, and what they hold as seen from their middle.
-static void nsvcd__measure_wholes(const nsvcd__mending *m, nsvcd__component *wholes) {
-  for (size_t i = 0; i < 2 * m->count; i++) {
-    const size_t n = i % m->count;
-    if (!m->alive[n]) continue;
-    nsvcd__component *whole = &wholes[m->wholes[n]];
+// Areas of wholes, and the volumes that they enclose, as seen from their centres.
+static void nsvcd__measure_wholes(const nsvcd__mending *m, nsvcd__shell *wholes) {
+  nsvcd__sum_areas(m, m->wholes, wholes);
+  for (size_t n = 0; n < m->count; n++) {
+    nsvcd__shell *whole = &wholes[m->wholes[n]];
+    if (!m->alive[n] || !(whole->area > 0)) continue;
     const nsvcd__triangle t = nsvcd__mending_triangle(m, n);
+    const nsvcd__d3 centre = nsvcd__d3_scale(whole->centre, 1 / whole->area);
     const nsvcd__d3 normal = nsvcd__area_vector(&t);
-    if (i == n) {
-      const double area = nsvcd__d3_length(normal);
-      whole->area += area;
-      whole->centre = nsvcd__d3_fma(area, t.at[0], whole->centre);
-    } else if (whole->area > 0) {
-      const nsvcd__d3 centre = nsvcd__d3_scale(whole->centre, 1 / whole->area);
-      whole->volume += nsvcd__d3_dot(normal, nsvcd__d3_sub(t.at[0], centre)) / 3;
-    }
+    whole->volume += nsvcd__d3_dot(normal, nsvcd__d3_sub(t.at[0], centre)) / 3;
   }
 }
 
-// Which parts of what is left after peeling enclose something? Their triangles are marked.
-static void nsvcd__mark_parts(const nsvcd__mending *m, nsvcd__component *wholes,
-                              nsvcd__component *parts, nsvcd__solids *out) {
-  nsvcd__judge_edges(m, m->parts, parts);
-  for (size_t n = 0; n < m->count; n++) {
-    const nsvcd__triangle t = nsvcd__mending_triangle(m, n);
-    if (m->alive[n]) parts[m->parts[n]].area += nsvcd__triangle_area(&t);
-  }
+// Marks the triangles of the parts, left after peeling, that enclose something.
+static void nsvcd__mark_parts(const nsvcd__mending *m, nsvcd__shell *wholes,
+                              nsvcd__shell *parts, nsvcd__solids *out) {
+  nsvcd__count_edges(m, m->parts, parts);
+  nsvcd__sum_areas(m, m->parts, parts);
   for (size_t n = 0; n < m->count; n++) {
     if (!m->alive[n]) continue;
-    const nsvcd__component *part = &parts[m->parts[n]];
-    nsvcd__component *whole = &wholes[m->wholes[n]];
+    const nsvcd__shell *part = &parts[m->parts[n]];
+    nsvcd__shell *whole = &wholes[m->wholes[n]];
     const int is_most = part->area >= 0.5 * whole->area;
     const int kind = part->turned == 0           ? NSVCD__CLOSED
                      : part->odd == 0 && is_most ? NSVCD__EITHER_DIRECTION
                                                  : NSVCD__SHEET;
     out->kinds[m->triangles[n]] = (uint8_t)kind;
-    if (kind == NSVCD__SHEET) whole->fails = 1;
-    if (kind != NSVCD__SHEET && m->parts[n] == n) whole->closed += part->area;
-    for (size_t k = 0; kind != NSVCD__SHEET && k < 3; k++) {
-      const float *at = m->topology->mesh->positions;
-      const uint32_t v = m->topology->mesh->indices[3 * (size_t)m->triangles[n] + k];
-      const uint32_t w = m->joined[m->topology->welded[v]];
+    if (kind == NSVCD__SHEET) {
+      whole->fails = 1;
+      continue;
+    }
+    if (m->parts[n] == n) whole->closed += part->area;
+    for (size_t k = 0; k < 3; k++) {
+      const float *at = m->topo->mesh->positions;
+      const uint32_t v = m->topo->mesh->indices[3 * (size_t)m->triangles[n] + k];
+      const uint32_t w = m->joined[m->topo->welded[v]];
       const double square = nsvcd__d3_distance2(nsvcd__d3_row(at, v), nsvcd__d3_row(at, w));
       out->gap = nsvcd__max(out->gap, sqrt(square));
     }
   }
 }
 
-// Counts the wholes, and marks what is nearly a solid. alive: before peeling.
-static void nsvcd__mark_wholes(const nsvcd__mending *m, nsvcd__component *wholes,
+// Counts the wholes, and marks what is nearly a solid. alive: as before peeling.
+static void nsvcd__mark_wholes(const nsvcd__mending *m, nsvcd__shell *wholes,
                                nsvcd__solids *out) {
   for (size_t n = 0; n < m->count; n++) {
     if (!m->alive[n]) continue;
-    const nsvcd__component *whole = &wholes[m->wholes[n]];
+    const nsvcd__shell *whole = &wholes[m->wholes[n]];
     uint8_t *kind = &out->kinds[m->triangles[n]];
     const int is_closed = !whole->fails && whole->closed >= 0.5 * whole->area;
     const int is_nearly = !whole->is_sheet && whole->holes < NSVCD__HOLES * whole->area;
@@ -4797,14 +4742,15 @@ static void nsvcd__mark_wholes(const nsvcd__mending *m, nsvcd__component *wholes
   }
 }
 
-// 0 without memory.
+// Judges all triangles of `m`. 0 without memory.
 static int nsvcd__mend(nsvcd__mending *m, nsvcd__arena *arena, nsvcd__solids *out) {
-  const size_t vertices = m->topology->mesh->vertex_count;
+  const size_t vertices = m->topo->mesh->vertex_count;
   const size_t count = m->count;
   m->joined = NSVCD__TAKE(arena, uint32_t, vertices);
   m->alive = NSVCD__TAKE(arena, uint8_t, count);
   m->order = NSVCD__TAKE(arena, uint32_t, 3 * count);
   m->groups = NSVCD__TAKE(arena, uint32_t, 3 * count);
+  m->group_first = NSVCD__TAKE(arena, uint32_t, 3 * count + 1);
   m->degrees = NSVCD__TAKE(arena, uint32_t, 3 * count);
   m->others = NSVCD__TAKE(arena, uint32_t, 3 * count);
   m->wholes = NSVCD__TAKE(arena, uint32_t, count);
@@ -4812,8 +4758,8 @@ static int nsvcd__mend(nsvcd__mending *m, nsvcd__arena *arena, nsvcd__solids *ou
   m->first = NSVCD__TAKE(arena, size_t, vertices + 1);
   m->spare = NSVCD__TAKE(arena, uint32_t, 3 * count);
   uint8_t *distinct = NSVCD__TAKE(arena, uint8_t, count);
-  nsvcd__component *wholes = NSVCD__TAKE(arena, nsvcd__component, count);
-  nsvcd__component *parts = NSVCD__TAKE(arena, nsvcd__component, count);
+  nsvcd__shell *wholes = NSVCD__TAKE(arena, nsvcd__shell, count);
+  nsvcd__shell *parts = NSVCD__TAKE(arena, nsvcd__shell, count);
   if (arena->failed) return 0;
   for (uint32_t v = 0; v < vertices; v++) m->joined[v] = v;
   nsvcd__group_edges(m);
@@ -4829,107 +4775,97 @@ static int nsvcd__mend(nsvcd__mending *m, nsvcd__arena *arena, nsvcd__solids *ou
   nsvcd__mark_parts(m, wholes, parts, out);
   memcpy(m->alive, distinct, count);
   nsvcd__count_degrees(m);
-  nsvcd__judge_edges(m, m->wholes, wholes);
+  nsvcd__count_edges(m, m->wholes, wholes);
   if (!nsvcd__judge_holes(m, wholes, arena->allocator)) return 0;
   nsvcd__mark_wholes(m, wholes, out);
   return 1;
 }
 
-// 0 without memory.
-static int nsvcd__solids_build(const nsvcd__topology *topology, nsvcd__arena *arena,
+// Judges all triangles of a mesh. 0 without memory.
+static int nsvcd__solids_build(const nsvcd__topology *topo, nsvcd__arena *arena,
                                nsvcd__solids *out) {
-  const nsvcd_mesh *mesh = topology->mesh;
+  const nsvcd_mesh *mesh = topo->mesh;
   nsvcd__arena spare = nsvcd__arena_of(arena->allocator);
   nsvcd__mending m;
   memset(&m, 0, sizeof m);
   memset(out, 0, sizeof *out);
-  m.topology = topology;
+  m.topo = topo;
   out->kinds = NSVCD__TAKE(arena, uint8_t, mesh->triangle_count);
   m.triangles = NSVCD__TAKE(&spare, uint32_t, mesh->triangle_count);
-  if (!out->kinds || !m.triangles) {
-    nsvcd__arena_free(&spare);
-    return 0;
-  }
+  int ok = out->kinds && m.triangles;
   for (size_t v = 0; v < mesh->vertex_count; v++)
-    out->components += topology->seen[v] && !topology->open[v];
-  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    out->components += topo->seen[v] && !topo->open[v];
+  for (size_t t = 0; ok && t < mesh->triangle_count; t++) {
     uint32_t face[3];
-    nsvcd__welded_face(topology, t, face);
-    const int open = topology->open[topology->parents[face[0]]];
+    nsvcd__welded_face(topo, t, face);
+    const int open = topo->open[topo->parents[face[0]]];
     out->kinds[t] = open ? NSVCD__SHEET : NSVCD__CLOSED;
-    if (open && nsvcd__has_area(face)) m.triangles[m.count++] = (uint32_t)t;
+    if (open && nsvcd__are_distinct(face)) m.triangles[m.count++] = (uint32_t)t;
   }
-  const int known = m.count == 0 || nsvcd__mend(&m, &spare, out);
+  if (ok && m.count > 0) ok = nsvcd__mend(&m, &spare, out);
   nsvcd__arena_free(&spare);
-  return known;
+  return ok;
 }
 #endif  // NSVCD_NO_ENCODER
 
 // --------------------------------------------------------------------------------- patches/regions
-// In: a checked mesh. Out: its triangles, welded, in one region, or in as many as it takes to have
-// no more than 512 patches in each. Each region is then made into patches by itself. Where there
-// are several, large triangles are halved first, until none is large beside the regions. Nothing is
-// lost: halves share the corner between them, and both are kept.
+// In: a checked mesh. Out: its triangles, welded, in one region; or in as many regions as it takes
+// to have at most 512 patches in each, and each is then split into patches by itself. With several
+// regions, triangles that are large beside them are halved first. Both halves are kept, and share
+// the new corner, so nothing is lost.
 
 #ifndef NSVCD_NO_ENCODER
-// patches of a region, where there are several
+// patches of a region, if there are several
 #define NSVCD__REGION_PATCHES 256
-// longest edge, in roots of a region's mean area
+// longest edge, in square roots of a region's mean area
 #define NSVCD__REGION_EDGE 0.5
-// a cut between regions is found to the width of one
+// a boundary between regions is located to the width of a bin
 #define NSVCD__REGION_BINS 512
-// bounds the triangles that halving adds
+// limits the triangles that halving adds
 #define NSVCD__HALVES_PER_REGION 256
 
-// Points are numbered: the vertices of the caller's mesh, then the cuts, which halving has made.
+// Points have numbers: first the vertices of the caller's mesh, then the cuts, which halving adds.
 typedef struct nsvcd__regions {
   const nsvcd_mesh *mesh;
-  // of all coordinates
+  // of all coordinates, absolute
   double greatest;
   size_t component_count;  // C
   nsvcd__solids solids;
-  // (vertices) 1: of its component the least vertex, which no patch has been given yet
+  // (vertices) 1: the least vertex of its component, which no patch has yet
   uint8_t *seeds;
   size_t count;           // R
-  size_t triangle_count;  // T, halves and all
-  // (T, 3) points
-  uint32_t *corners;
-  // (T) in the caller's mesh, with what it belongs to
+  size_t triangle_count;  // T, with halves
+  uint32_t *corners;      // (T, 3) points
+  // (T) number in the caller's mesh, and kind
   uint32_t *ids;
-  size_t cut_count;
-  size_t most_cuts;
-  // (most_cuts)
-  nsvcd__d3 *cuts;
+  size_t cut_count, most_cuts;
+  nsvcd__d3 *cuts;  // (most_cuts)
   // metres: a triangle with a longer edge is halved
   double longest_edge;
 
-  // Of several regions:
-  // what a triangle counts for its area and for being one, when regions are made alike
+  // If there are several regions:
+  // a triangle's weight: per square metre, and for being one
   double per_area, per_triangle;
   // (T) triangles, region by region
   uint32_t *order;
-  // (T) working memory
-  uint32_t *spare;
-  // (vertices and cuts) the numbers of points in the region at hand, from 1; 0: none
+  uint32_t *spare;  // (T) working memory
+  // (vertices and cuts) numbers of points in the region at hand, from 1; 0: none
   uint32_t *numbers;
-  // (R + 1) places in `order`
+  // (R + 1) where regions begin in `order`
   size_t *first;
 } nsvcd__regions;
 
 // A part of a mesh. Its last vertices are cuts.
 typedef struct nsvcd__region {
-  nsvcd_mesh mesh;  // welded
-  // coordinate, of the whole mesh
+  // welded; cuts are rounded
+  nsvcd_mesh mesh;
+  // coordinate of the whole mesh, absolute
   double greatest;
-  // (triangles)
-  uint32_t *ids;
-  // (cut_count) where the cuts are; the mesh has them rounded
-  nsvcd__d3 *cuts;
+  uint32_t *ids;    // (triangles)
+  nsvcd__d3 *cuts;  // (cut_count) not rounded
   size_t cut_count;
-  // (vertices)
-  uint8_t *seeds;
-  // (vertices) their numbers among the points of all regions, which begin with the caller's
-  // vertices; NULL: the same
+  uint8_t *seeds;  // (vertices)
+  // (vertices) their numbers among the points of all regions; NULL: the same
   uint32_t *vertices;
 } nsvcd__region;
 
@@ -4939,17 +4875,16 @@ static nsvcd__d3 nsvcd__regions_point(const nsvcd__regions *r, uint32_t number) 
   return r->cuts[number - vertices];
 }
 
-static nsvcd__triangle nsvcd__regions_place(const nsvcd__regions *r, const uint32_t *corners) {
+static nsvcd__triangle nsvcd__regions_corners(const nsvcd__regions *r,
+                                              const uint32_t *corners) {
   nsvcd__triangle out;
-  out.at[0] = nsvcd__regions_point(r, corners[0]);
-  out.at[1] = nsvcd__regions_point(r, corners[1]);
-  out.at[2] = nsvcd__regions_point(r, corners[2]);
+  for (size_t k = 0; k < 3; k++) out.at[k] = nsvcd__regions_point(r, corners[k]);
   return out;
 }
 
-// Adds a triangle, or its halves where an edge is too long, as long as there is room for these.
+// Adds a triangle, or its halves if an edge is too long and there is room for them.
 static void nsvcd__regions_add(nsvcd__regions *r, const uint32_t *corners, uint32_t id) {
-  const nsvcd__triangle triangle = nsvcd__regions_place(r, corners);
+  const nsvcd__triangle triangle = nsvcd__regions_corners(r, corners);
   double e[3];
   const size_t k = nsvcd__edge_squares(&triangle, e);
   if (e[k] <= r->longest_edge * r->longest_edge || r->cut_count == r->most_cuts) {
@@ -4967,16 +4902,16 @@ static void nsvcd__regions_add(nsvcd__regions *r, const uint32_t *corners, uint3
 }
 
 static nsvcd__triangle nsvcd__regions_triangle(const nsvcd__regions *r, size_t i) {
-  return nsvcd__regions_place(r, r->corners + 3 * (size_t)r->order[i]);
+  return nsvcd__regions_corners(r, r->corners + 3 * (size_t)r->order[i]);
 }
 static nsvcd__d3 nsvcd__centroid(const nsvcd__triangle *t) {
   const nsvcd__d3 sum = nsvcd__d3_add(nsvcd__d3_add(t->at[0], t->at[1]), t->at[2]);
   return nsvcd__d3_scale(sum, 1.0 / 3);
 }
 
-// Cuts a run of triangles, places first .. end - 1 of `order`, in two, such that the first part has
-// about this share of the weight. Centroids decide: the cut is at the end of a bin across the
-// longest axis of their box. In a part triangles keep their order. Returns where the second begins.
+// Splits order[first .. end - 1] in two. The first part has about this fraction of the weight. The
+// boundary is at the end of a bin across the longest axis of the centroids' box; triangles keep
+// their order in each part. Returns where the second one begins.
 static size_t nsvcd__regions_split(const nsvcd__regions *r, size_t first, size_t end,
                                    double fraction) {
   nsvcd__d3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
@@ -5012,7 +4947,7 @@ static size_t nsvcd__regions_split(const nsvcd__regions *r, size_t first, size_t
     sum += next;
   }
 
-  // The second part waits in place of bins that have been looked at.
+  // The second part waits in `spare`, in place of bins that are no longer needed.
   size_t middle = first;
   size_t others = 0;
   for (size_t i = first; i < end; i++) {
@@ -5024,7 +4959,7 @@ static size_t nsvcd__regions_split(const nsvcd__regions *r, size_t first, size_t
   return middle;
 }
 
-// Makes `parts` regions, from number n on, of a run of triangles.
+// Makes `parts` regions, from number n on, of order[first .. end - 1].
 static void nsvcd__regions_part(nsvcd__regions *r, size_t first, size_t end, size_t parts,
                                 size_t n) {
   r->first[n] = first;
@@ -5036,8 +4971,8 @@ static void nsvcd__regions_part(nsvcd__regions *r, size_t first, size_t end, siz
   nsvcd__regions_part(r, middle, end, parts - left, n + left);
 }
 
-// Welds the mesh, and parts it where it is to have more than a region's patches. patches: N, of the
-// whole. 0 without memory.
+// Welds the mesh, and splits it into regions if it is to have more than NSVCD_SMALL_PATCHES
+// patches. 0 without memory.
 static int nsvcd__regions_build(const nsvcd_mesh *mesh, size_t patches, nsvcd__arena *arena,
                                 nsvcd__regions *r) {
   nsvcd__arena scratch = nsvcd__arena_of(arena->allocator);
@@ -5057,8 +4992,8 @@ static int nsvcd__regions_build(const nsvcd_mesh *mesh, size_t patches, nsvcd__a
     double pieces;
     r->per_area = 0.5 / area;
     r->longest_edge = nsvcd__raise_limit(mesh, edge, most, &pieces);
-    // Lengths of halves are found there by formulas and later from their corners: roundings may
-    // divide one more or less.
+    // Lengths come from a formula there, but from corners when triangles are halved: the numbers
+    // of halves may differ by roundings.
     r->most_cuts = (size_t)(pieces - triangles) + NSVCD__HALVES_PER_REGION;
   }
 
@@ -5094,7 +5029,7 @@ static int nsvcd__regions_build(const nsvcd_mesh *mesh, size_t patches, nsvcd__a
   return 1;
 }
 
-// One of the regions. EMPTY where it has no triangle; MEMORY. After success: nsvcd__region_end.
+// Makes region n. EMPTY if it has no triangle; MEMORY. Call nsvcd__region_end after success.
 static nsvcd_result nsvcd__region_begin(nsvcd__regions *r, size_t n, nsvcd__arena *arena,
                                         nsvcd__region *out) {
   memset(out, 0, sizeof *out);
@@ -5118,7 +5053,7 @@ static nsvcd_result nsvcd__region_begin(nsvcd__regions *r, size_t n, nsvcd__aren
   out->vertices = NSVCD__TAKE(arena, uint32_t, 3 * count);
   if (arena->failed) return NSVCD_ERROR_MEMORY;
 
-  // points get their numbers within the region: first those that are no cuts
+  // number the points in the region: vertices, then cuts
   size_t points = 0;
   for (int cuts = 0; cuts < 2; cuts++) {
     const size_t before = points;
@@ -5132,7 +5067,7 @@ static nsvcd_result nsvcd__region_begin(nsvcd__regions *r, size_t n, nsvcd__aren
     out->cut_count = points - before;
   }
   out->mesh.vertex_count = points;
-  const size_t firm = points - out->cut_count;
+  const size_t vertices = points - out->cut_count;
   for (size_t i = 0; i < count; i++) {
     out->ids[i] = r->ids[order[i]];
     for (size_t k = 0; k < 3; k++)
@@ -5142,17 +5077,17 @@ static nsvcd_result nsvcd__region_begin(nsvcd__regions *r, size_t n, nsvcd__aren
     const uint32_t from = out->vertices[v];
     const nsvcd__d3 at = nsvcd__regions_point(r, from);
     nsvcd__f3_store(nsvcd__f3_round(at), out->mesh.positions + 3 * v);
-    if (v < firm) out->seeds[v] = r->seeds[from];
-    if (v >= firm) out->cuts[v - firm] = at;
+    if (v < vertices) out->seeds[v] = r->seeds[from];
+    if (v >= vertices) out->cuts[v - vertices] = at;
     r->numbers[from] = 0;
   }
   return NSVCD_OK;
 }
 
-// Keeps in mind which seeds patches have been given.
+// Remembers which seeds patches have been given.
 static void nsvcd__region_end(nsvcd__regions *r, const nsvcd__region *region) {
-  const size_t firm = region->mesh.vertex_count - region->cut_count;
-  for (size_t v = 0; region->vertices && v < firm; v++)
+  const size_t vertices = region->mesh.vertex_count - region->cut_count;
+  for (size_t v = 0; region->vertices && v < vertices; v++)
     r->seeds[region->vertices[v]] = region->seeds[v];
 }
 #endif  // NSVCD_NO_ENCODER
@@ -5160,56 +5095,42 @@ static void nsvcd__region_end(nsvcd__regions *r, const nsvcd__region *region) {
 // ======================================================= surface: the shape of each patch, bounded
 
 // ---------------------------------------------------------------------------------- surface/pieces
-// In: a mesh, region by region, and the centres of each region's patches, N in all. Out: pieces:
-// triangles, cut by the cells of the centres. From them nsvcd__surface is made (surface/surface):
-// of every patch an outer description of the surface that belongs to it, and the triangles of that
-// surface. A proof of freedom of collision is built on it.
+// In: a region, and the centres of its patches. Out: pieces: triangles, cut by the cells of the
+// centres.
 //
-// What holds. Every point of the mesh lies in a piece. Every piece is a convex part of one
-// triangle, and belongs to one patch. That patch lists the piece's triangle, or the piece itself
-// where the triangle is large beside the patches. Its ball, its slab and its hull inflated by the
-// margin contain the piece. Triangles without area are surface like others.
-//
-// Why it holds. A piece is only ever divided in two parts that share the corners between them, and
-// both parts are kept. So the pieces cover the mesh whatever the cuts are, and poor cuts can make a
-// description only larger. Each number is taken from the corners of the pieces, about what is
-// stored in float, and then rounded outwards. A piece is the convex hull of its corners, and so are
-// ball, slab and inflated hull convex: what contains the corners contains the piece. The corners
-// themselves are off by roundings of double: all bounds are wider by NSVCD__SURFACE_MARGIN.
+// A piece is a convex part of one triangle, and belongs to one patch. It is only ever divided into
+// two parts that share the new corners, and both are kept. So the pieces cover the mesh wherever
+// the cuts are, and poor cuts only make the description of a patch larger (surface/surface).
 
 #ifndef NSVCD_NO_ENCODER
-// mean sample radii: how far a piece may extend into another cell
+// how far a piece may extend into another cell, in mean sample radii
 #define NSVCD__SURFACE_OVERLAP 0.5
-// mean sample radii: with a longer edge a triangle is listed in parts
+// a triangle with a longer edge is listed in pieces, in mean sample radii
 #define NSVCD__SURFACE_WHOLE 16.0
 // of the mesh's greatest coordinate
 #define NSVCD__SURFACE_MARGIN 1e-13
-// metres, added to that: keeps clear of what float cannot hold
+// metres, added to that: keeps clear of what float cannot represent
 #define NSVCD__SURFACE_TINY 1e-30
-// of the radius: a hull as near as this to all corners is good
+// a hull within this fraction of the radius of all corners is good enough
 #define NSVCD__HULL_FRACTION 1e-4
 // corners of a piece, at most
 #define NSVCD__PIECE_CORNERS 16
-// polygons that wait for their turn (12 at most were seen)
+// polygons that wait to be cut (at most 12 were seen)
 #define NSVCD__WAITING 64
-// These two bound the cuts. A fine mesh needs less than one for each triangle, a large face some
-// three for each of its patches.
+// These limit the cuts. A fine mesh takes less than one for each triangle, a large face about three
+// for each of its patches.
 #define NSVCD__CUTS_PER_TRIANGLE 8
 #define NSVCD__CUTS_PER_PATCH 64
-// vertices and new corners together have numbers of 32 bits
+// vertices and cuts share numbers of 32 bits
 #define NSVCD__MAX_CUTS (1u << 29)
-// as many as corners of 16 bits can name
-#define NSVCD__PATCH_VERTICES 65536u
 
-// ---- lists that grow
-
-// As zeros it is empty.
+// An array that grows; empty if it is zeros.
 typedef struct nsvcd__list {
   void *items;
   size_t count, capacity;
 } nsvcd__list;
 
-// Room for `more` patch pairs of so many bytes; 0 without memory, and the list is as it was.
+// Makes room for `more` items of `size` bytes. 0 without memory: the list is unchanged.
 static int nsvcd__list_reserve(nsvcd__list *list, size_t more, size_t size,
                                nsvcd__arena *arena) {
   if (list->capacity - list->count >= more) return 1;
@@ -5222,61 +5143,9 @@ static int nsvcd__list_reserve(nsvcd__list *list, size_t more, size_t size,
   return 1;
 }
 
-typedef struct nsvcd__surface {
-  // of all its arrays
-  nsvcd__arena *arena;
-  size_t count;  // N, of which
-  size_t done;   // so many are described by now
-  // L, triangles listed, over all patches
-  size_t listed;
-  // V, points stored as integers, over all patches; and vertices of the mesh that are named
-  size_t vertex_count;
-  size_t named_count;
-  // 1: corners are stored as integers too, and none is named
-  int coarse;
-  // C, connected components (vertices at the same place are one vertex)
-  size_t component_count;
-  nsvcd__solids solids;
-  // (N) about c; an empty patch has radius NSVCD__NOWHERE
-  nsvcd__sphere *balls;
-  // (N) about c
-  nsvcd__slab *slabs;
-  // (N) metres per integer: a stored vertex is c + step * (x, y, z)
-  float *steps;
-  // (N) metres: every point of a piece is within this of the convex hull of the first
-  // hull_counts[i] stored vertices
-  float *margins;
-  // (N) metres: every corner that is stored as integers is within this of them
-  float *errors;
-  // (N) 1..NSVCD__HULL; 0 where empty
-  uint8_t *hull_counts;
-  // (N + 1)
-  uint32_t *first_vertex;
-  uint32_t *first_named;
-  uint32_t *first_triangle;  // (N + 1)
-  // patch i: x of its points, then y, then z, at 3 * first_vertex[i]: the hull's, then corners that
-  // cuts have made
-  int16_t *vertices;
-  // patch i, from first_named[i] on: the caller's vertices that are corners
-  uint32_t *named;
-  // (L, 3) within the patch: numbers of points stored as integers, then those of vertices named
-  uint16_t *corners;
-  // (L) triangle of the mesh, with what it belongs to
-  uint32_t *ids;
-  // so many of the C components are known by now
-  size_t seed_count;
-  // (C) a vertex of each component
-  nsvcd__f3 *seeds;
-  // (C) a patch with a piece that has it for a corner
-  uint32_t *seed_patches;
-  // where vertices, names, corners and ids are
-  nsvcd__list vertex_list, named_list, corner_list, id_list;
-} nsvcd__surface;
-
-// ---- pieces: triangles cut by the cells of the centres
-
-// A convex part of one triangle that is being cut. Its corners are points by number: the mesh's
-// welded vertices, then those that cuts have made. While it is divided it may have too many.
+// A polygon that is being cut. Its corners are numbers of points: first the mesh's welded vertices,
+// then the points that cuts have made. While it is divided it may have more than
+// NSVCD__PIECE_CORNERS.
 typedef struct nsvcd__convex {
   uint32_t points[2 * NSVCD__PIECE_CORNERS];
   size_t count;
@@ -5288,7 +5157,7 @@ typedef struct nsvcd__piece {
   uint32_t triangle;
   uint16_t patch;
   uint8_t count;  // of its corners
-  // 1: its triangle is listed in parts
+  // 1: its triangle is listed in pieces
   uint8_t divided;
 } nsvcd__piece;
 
@@ -5300,16 +5169,16 @@ typedef struct nsvcd__pieces {
   const nsvcd__patches *patches;
   // of nsvcd__piece, triangle by triangle
   nsvcd__list list;
-  nsvcd__list corners;  // of uint32_t, numbers of points
-  // of nsvcd__d3: the points that cuts have made
+  // of uint32_t, numbers of points
+  nsvcd__list corners;
+  // of nsvcd__d3, points that cuts have made
   nsvcd__list points;
-  // (NSVCD__WAITING)
-  nsvcd__convex *waiting;
+  nsvcd__convex *waiting;  // (NSVCD__WAITING)
   size_t waiting_count;
   size_t cuts_left;
-  // metres: how far a piece may extend beyond its cell
+  // metres that a piece may extend beyond its cell
   double overlap;
-  // metres: a triangle with a longer edge is listed in parts
+  // metres: a triangle with a longer edge is listed in pieces
   double longest_edge;
   // metres, added to all bounds
   double margin;
@@ -5317,35 +5186,33 @@ typedef struct nsvcd__pieces {
   double thin;
 } nsvcd__pieces;
 
-static const uint32_t *nsvcd__triangle_corners(const nsvcd__pieces *pieces,
-                                               uint32_t triangle) {
-  return pieces->region->mesh.indices + 3 * (size_t)triangle;
+static const uint32_t *nsvcd__triangle_corners(const nsvcd__pieces *p, uint32_t triangle) {
+  return p->region->mesh.indices + 3 * (size_t)triangle;
 }
-static const uint32_t *nsvcd__piece_corners(const nsvcd__pieces *pieces,
+static const uint32_t *nsvcd__piece_corners(const nsvcd__pieces *p,
                                             const nsvcd__piece *piece) {
-  if (piece->first == NSVCD__WHOLE) return nsvcd__triangle_corners(pieces, piece->triangle);
-  return (const uint32_t *)pieces->corners.items + piece->first;
+  if (piece->first == NSVCD__WHOLE) return nsvcd__triangle_corners(p, piece->triangle);
+  return (const uint32_t *)p->corners.items + piece->first;
 }
 
-static nsvcd__d3 nsvcd__point_at(const nsvcd__pieces *pieces, uint32_t number) {
-  const nsvcd__region *region = pieces->region;
-  const nsvcd__d3 *made = (const nsvcd__d3 *)pieces->points.items;
+static nsvcd__d3 nsvcd__point_at(const nsvcd__pieces *p, uint32_t number) {
+  const nsvcd__region *region = p->region;
+  const nsvcd__d3 *made = (const nsvcd__d3 *)p->points.items;
   const size_t vertices = region->mesh.vertex_count;
-  const size_t firm = vertices - region->cut_count;
-  if (number < firm) return nsvcd__d3_row(region->mesh.positions, number);
-  if (number < vertices) return region->cuts[number - firm];
+  const size_t first_cut = vertices - region->cut_count;
+  if (number < first_cut) return nsvcd__d3_row(region->mesh.positions, number);
+  if (number < vertices) return region->cuts[number - first_cut];
   return made[number - vertices];
 }
 
-// Divides a polygon where `beyond`, a value at each of its corners, changes its sign: near_part is
-// where it is negative. There is room for the points that this makes. 0 if one of the parts has
-// less than three corners, which roundings can do, or too many.
-static int nsvcd__divide(nsvcd__pieces *pieces, const nsvcd__convex *from,
-                         const double *beyond, nsvcd__convex *near_part,
-                         nsvcd__convex *far_part) {
-  const uint32_t vertices = (uint32_t)pieces->region->mesh.vertex_count;
-  const size_t made = pieces->points.count;
-  nsvcd__d3 *points = (nsvcd__d3 *)pieces->points.items;
+// Divides a polygon where `beyond`, a value at each corner, changes its sign: near_part is where it
+// is negative. There must be room for the new points. 0 if a part has less than three corners,
+// which roundings can cause, or too many.
+static int nsvcd__divide(nsvcd__pieces *p, const nsvcd__convex *from, const double *beyond,
+                         nsvcd__convex *near_part, nsvcd__convex *far_part) {
+  const uint32_t vertices = (uint32_t)p->region->mesh.vertex_count;
+  const size_t made = p->points.count;
+  nsvcd__d3 *points = (nsvcd__d3 *)p->points.items;
   near_part->count = 0;
   far_part->count = 0;
   for (size_t i = 0; i < from->count; i++) {
@@ -5355,11 +5222,11 @@ static int nsvcd__divide(nsvcd__pieces *pieces, const nsvcd__convex *from,
     const int leaves = beyond[i] < 0 && beyond[j] > 0;
     const int enters = beyond[i] > 0 && beyond[j] < 0;
     if (!leaves && !enters) continue;
-    const nsvcd__d3 a = nsvcd__point_at(pieces, from->points[i]);
-    const nsvcd__d3 b = nsvcd__point_at(pieces, from->points[j]);
-    const uint32_t number = vertices + (uint32_t)pieces->points.count;
+    const nsvcd__d3 a = nsvcd__point_at(p, from->points[i]);
+    const nsvcd__d3 b = nsvcd__point_at(p, from->points[j]);
+    const uint32_t number = vertices + (uint32_t)p->points.count;
     const double fraction = beyond[i] / (beyond[i] - beyond[j]);
-    points[pieces->points.count++] = nsvcd__d3_mix(a, b, fraction);
+    points[p->points.count++] = nsvcd__d3_mix(a, b, fraction);
     near_part->points[near_part->count++] = number;
     far_part->points[far_part->count++] = number;
   }
@@ -5367,33 +5234,33 @@ static int nsvcd__divide(nsvcd__pieces *pieces, const nsvcd__convex *from,
   if (near_part->count >= 3 && near_part->count <= most && far_part->count >= 3 &&
       far_part->count <= most)
     return 1;
-  pieces->points.count = made;
+  p->points.count = made;
   return 0;
 }
 
-// Distance of the polygon's farthest corner.
-static double nsvcd__convex_reach(const nsvcd__pieces *pieces, const nsvcd__convex *convex,
-                                  nsvcd__d3 from) {
+// The distance from a point to a polygon's farthest corner.
+static double nsvcd__farthest_corner(const nsvcd__pieces *p, const nsvcd__convex *convex,
+                                     nsvcd__d3 from) {
   double squared = 0;
   for (size_t i = 0; i < convex->count; i++) {
-    const nsvcd__d3 at = nsvcd__point_at(pieces, convex->points[i]);
+    const nsvcd__d3 at = nsvcd__point_at(p, convex->points[i]);
     squared = nsvcd__max(squared, nsvcd__d3_distance2(at, from));
   }
   return sqrt(squared);
 }
 
-// Cuts from the polygon what lies too far beyond its patch's cell; that waits for its turn. 0
-// without memory.
-static int nsvcd__trim(nsvcd__pieces *pieces, uint32_t patch, nsvcd__convex *convex) {
-  const nsvcd__patches *patches = pieces->patches;
+// Cuts off the parts of a polygon that extend too far beyond its patch's cell, and puts them aside
+// to be cut later. 0 without memory.
+static int nsvcd__trim(nsvcd__pieces *p, uint32_t patch, nsvcd__convex *convex) {
+  const nsvcd__patches *patches = p->patches;
   const nsvcd__d3 own = nsvcd__d3_widen(patches->centres[patch]);
   const size_t first = (size_t)patch * NSVCD__NEIGHBOURS;
-  double reach = nsvcd__convex_reach(pieces, convex, own);
+  double farthest = nsvcd__farthest_corner(p, convex, own);
   for (size_t k = first; k < first + NSVCD__NEIGHBOURS; k++) {
-    // The plane is half the gap away, and the planes of all that follow are farther.
+    // the cell's side is half the distance away; those of the next neighbours are farther
     const double plane = sqrt((double)patches->quarter_squares[k]);
-    if (reach <= plane + pieces->overlap) break;
-    if (pieces->cuts_left == 0 || pieces->waiting_count == NSVCD__WAITING) break;
+    if (farthest <= plane + p->overlap) break;
+    if (p->cuts_left == 0 || p->waiting_count == NSVCD__WAITING) break;
     const nsvcd__d3 other = nsvcd__d3_widen(patches->centres[patches->neighbours[k]]);
     const nsvcd__d3 across = nsvcd__d3_sub(other, own);
     const nsvcd__d3 middle = nsvcd__d3_mix(own, other, 0.5);
@@ -5401,121 +5268,118 @@ static int nsvcd__trim(nsvcd__pieces *pieces, uint32_t patch, nsvcd__convex *con
     double beyond[NSVCD__PIECE_CORNERS];
     double most = -HUGE_VAL;
     for (size_t i = 0; i < convex->count; i++) {
-      const nsvcd__d3 at = nsvcd__point_at(pieces, convex->points[i]);
+      const nsvcd__d3 at = nsvcd__point_at(p, convex->points[i]);
       const double height = nsvcd__d3_dot(nsvcd__d3_sub(at, middle), across);
       beyond[i] = length > 0 ? height / length : -1;
       most = nsvcd__max(most, beyond[i]);
     }
-    if (most <= pieces->overlap) continue;
-    nsvcd__list *points = &pieces->points;
-    if (!nsvcd__list_reserve(points, convex->count, sizeof own, pieces->arena)) return 0;
+    if (most <= p->overlap) continue;
+    nsvcd__list *points = &p->points;
+    if (!nsvcd__list_reserve(points, convex->count, sizeof own, p->arena)) return 0;
     nsvcd__convex near_part;
-    nsvcd__convex *far_part = &pieces->waiting[pieces->waiting_count];
-    if (!nsvcd__divide(pieces, convex, beyond, &near_part, far_part)) continue;
+    nsvcd__convex *far_part = &p->waiting[p->waiting_count];
+    if (!nsvcd__divide(p, convex, beyond, &near_part, far_part)) continue;
     *convex = near_part;
-    pieces->waiting_count++;
-    pieces->cuts_left--;
-    reach = nsvcd__convex_reach(pieces, convex, own);
+    p->waiting_count++;
+    p->cuts_left--;
+    farthest = nsvcd__farthest_corner(p, convex, own);
   }
   return 1;
 }
 
-// Cuts one triangle into pieces. guess: the patch of the piece before. 0 without memory.
-static int nsvcd__cut_up(nsvcd__pieces *pieces, uint32_t triangle, uint32_t *guess) {
-  const uint32_t *corners = nsvcd__triangle_corners(pieces, triangle);
+// Cuts a triangle into pieces. guess: the last piece's patch. 0 without memory.
+static int nsvcd__cut_up(nsvcd__pieces *p, uint32_t triangle, uint32_t *guess) {
+  const uint32_t *corners = nsvcd__triangle_corners(p, triangle);
   nsvcd__piece piece = {NSVCD__WHOLE, triangle, 0, 0, 0};
   double squared = 0;
   for (size_t k = 0; k < 3; k++) {
-    const nsvcd__d3 a = nsvcd__point_at(pieces, corners[k]);
-    const nsvcd__d3 b = nsvcd__point_at(pieces, corners[(k + 1) % 3]);
+    const nsvcd__d3 a = nsvcd__point_at(p, corners[k]);
+    const nsvcd__d3 b = nsvcd__point_at(p, corners[(k + 1) % 3]);
     squared = nsvcd__max(squared, nsvcd__d3_distance2(a, b));
-    pieces->waiting[0].points[k] = corners[k];
+    p->waiting[0].points[k] = corners[k];
   }
-  piece.divided = sqrt(squared) > pieces->longest_edge;
-  pieces->waiting[0].count = 3;
-  pieces->waiting_count = 1;
-  while (pieces->waiting_count > 0) {
-    nsvcd__convex convex = pieces->waiting[--pieces->waiting_count];
+  piece.divided = sqrt(squared) > p->longest_edge;
+  p->waiting[0].count = 3;
+  p->waiting_count = 1;
+  while (p->waiting_count > 0) {
+    nsvcd__convex convex = p->waiting[--p->waiting_count];
     nsvcd__d3 sum = nsvcd__d3_of(0, 0, 0);
     for (size_t i = 0; i < convex.count; i++)
-      sum = nsvcd__d3_add(sum, nsvcd__point_at(pieces, convex.points[i]));
+      sum = nsvcd__d3_add(sum, nsvcd__point_at(p, convex.points[i]));
     const nsvcd__d3 mean = nsvcd__d3_scale(sum, 1 / (double)convex.count);
-    *guess = nsvcd__nearest_centre(pieces->patches, *guess, nsvcd__d3_narrow(mean));
+    *guess = nsvcd__nearest_centre(p->patches, *guess, nsvcd__d3_narrow(mean));
     piece.patch = (uint16_t)*guess;
-    if (!nsvcd__trim(pieces, piece.patch, &convex)) return 0;
+    if (!nsvcd__trim(p, piece.patch, &convex)) return 0;
 
-    nsvcd__list *list = &pieces->corners;
+    nsvcd__list *list = &p->corners;
     const size_t bytes = convex.count * sizeof *corners;
     piece.count = (uint8_t)convex.count;
     piece.first = NSVCD__WHOLE;
     if (convex.count != 3 || memcmp(convex.points, corners, bytes) != 0) {
       if (list->count >= NSVCD__WHOLE - NSVCD__PIECE_CORNERS) return 0;
-      if (!nsvcd__list_reserve(list, convex.count, sizeof *corners, pieces->arena)) return 0;
+      if (!nsvcd__list_reserve(list, convex.count, sizeof *corners, p->arena)) return 0;
       memcpy((uint32_t *)list->items + list->count, convex.points, bytes);
       piece.first = (uint32_t)list->count;
       list->count += convex.count;
     }
-    list = &pieces->list;
-    if (!nsvcd__list_reserve(list, 1, sizeof piece, pieces->arena)) return 0;
+    list = &p->list;
+    if (!nsvcd__list_reserve(list, 1, sizeof piece, p->arena)) return 0;
     ((nsvcd__piece *)list->items)[list->count++] = piece;
   }
   return 1;
 }
 
-// Cuts the whole region. 0 without memory.
+// Cuts a region into pieces. 0 without memory.
 static int nsvcd__pieces_build(const nsvcd__region *region, const nsvcd__patches *patches,
-                               nsvcd__arena *arena, nsvcd__pieces *pieces) {
+                               nsvcd__arena *arena, nsvcd__pieces *p) {
   const size_t triangles = region->mesh.triangle_count;
   double size = 0;
   for (size_t i = 0; i < patches->count; i++) size += (double)patches->sample_radii[i];
   size /= (double)patches->count;
-  memset(pieces, 0, sizeof *pieces);
-  pieces->arena = arena;
-  pieces->region = region;
-  pieces->patches = patches;
-  pieces->margin = NSVCD__SURFACE_MARGIN * region->greatest + NSVCD__SURFACE_TINY;
-  pieces->overlap = NSVCD__SURFACE_OVERLAP * size + pieces->margin;
-  pieces->longest_edge = NSVCD__SURFACE_WHOLE * size;
-  pieces->cuts_left = NSVCD__CUTS_PER_PATCH * patches->count;
-  const size_t room = NSVCD__MAX_CUTS - pieces->cuts_left;
+  memset(p, 0, sizeof *p);
+  p->arena = arena;
+  p->region = region;
+  p->patches = patches;
+  p->margin = NSVCD__SURFACE_MARGIN * region->greatest + NSVCD__SURFACE_TINY;
+  p->overlap = NSVCD__SURFACE_OVERLAP * size + p->margin;
+  p->longest_edge = NSVCD__SURFACE_WHOLE * size;
+  p->cuts_left = NSVCD__CUTS_PER_PATCH * patches->count;
+  const size_t room = NSVCD__MAX_CUTS - p->cuts_left;
   const int many = triangles > room / NSVCD__CUTS_PER_TRIANGLE;
-  pieces->cuts_left += many ? room : NSVCD__CUTS_PER_TRIANGLE * triangles;
+  p->cuts_left += many ? room : NSVCD__CUTS_PER_TRIANGLE * triangles;
 
-  pieces->waiting = NSVCD__TAKE(arena, nsvcd__convex, NSVCD__WAITING);
-  // Most triangles are one piece: with room for an eighth more the list seldom needs to grow, which
-  // takes it twice.
+  p->waiting = NSVCD__TAKE(arena, nsvcd__convex, NSVCD__WAITING);
+  // Most triangles are one piece: with room for an eighth more the list rarely has to grow.
   const size_t most = triangles + triangles / 8;
-  int ok =
-      pieces->waiting && nsvcd__list_reserve(&pieces->list, most, sizeof(nsvcd__piece), arena);
+  int ok = p->waiting && nsvcd__list_reserve(&p->list, most, sizeof(nsvcd__piece), arena);
   uint32_t guess = 0;
-  for (uint32_t t = 0; ok && t < triangles; t++) ok = nsvcd__cut_up(pieces, t, &guess);
+  for (uint32_t t = 0; ok && t < triangles; t++) ok = nsvcd__cut_up(p, t, &guess);
   return ok;
 }
 #endif  // NSVCD_NO_ENCODER
 
 // ------------------------------------------------------------------------------------ surface/runs
-// In: a mesh of points, segments and triangles, which may all be without area. Out: its pieces, as
-// of a region of its own: all triangles whole, in runs of neighbours, each of which is a patch.
+// In: a mesh of points, segments and triangles, which need no area. Out: its pieces, those of a
+// region: whole triangles in runs of neighbours, each of which is a patch.
 
-#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
-// triangles of a run, where there are many: no more points than a hull may have
+#ifndef NSVCD_NO_ENCODER
+// triangles of a run, if there are many: no more points than a hull can have
 #define NSVCD__RUN_LENGTH 16
-// runs that are worked on at a time, in memory that stays near
+// runs of a block, so that its memory fits in caches
 #define NSVCD__RUNS_AT_ONCE 256
-// of how round a body is: where its slabs are thinner, they are not made thinner still
+// slabs this thin, as a fraction of the convex radius, are not made thinner
 #define NSVCD__RUN_THIN 0.5
 
-// Is some triangle of a mesh a point or a segment? One without indices is a cloud.
+// Does a mesh have points or segments for triangles? One without indices is a cloud of points.
 static int nsvcd__has_points(const nsvcd_mesh *mesh) {
   if (!mesh->indices) return 1;
   for (size_t t = 0; t < mesh->triangle_count; t++) {
-    const uint32_t *v = mesh->indices + 3 * t;
-    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) return 1;
+    if (!nsvcd__are_distinct(mesh->indices + 3 * t)) return 1;
   }
   return 0;
 }
 
-// How many runs there are to be, where the options do not say.
+// The default number of runs.
 static size_t nsvcd__runs_for(const nsvcd_mesh *mesh) {
   const size_t triangles = mesh->triangle_count;
   const size_t runs = (triangles + NSVCD__RUN_LENGTH - 1) / NSVCD__RUN_LENGTH;
@@ -5523,6 +5387,7 @@ static size_t nsvcd__runs_for(const nsvcd_mesh *mesh) {
   return runs < NSVCD_MAX_PATCHES ? runs : NSVCD_MAX_PATCHES;
 }
 
+// The centroid of triangle t.
 static nsvcd__f3 nsvcd__middle_of(const nsvcd_mesh *mesh, size_t t) {
   const uint32_t point[3] = {(uint32_t)t, (uint32_t)t, (uint32_t)t};
   const uint32_t *v = mesh->indices ? mesh->indices + 3 * t : point;
@@ -5532,8 +5397,8 @@ static nsvcd__f3 nsvcd__middle_of(const nsvcd_mesh *mesh, size_t t) {
   return nsvcd__f3_scale(sum, 1.0f / 3);
 }
 
-// The bits of the whole part, up to 10, three places apart.
-static uint64_t nsvcd__spread_bits(float from) {
+// The bits of a number below 1024, three positions apart.
+static uint64_t nsvcd__morton_bits(float from) {
   uint32_t x = (uint32_t)from;
   x = (x | x << 16) & 0x030000ffu;
   x = (x | x << 8) & 0x0300f00fu;
@@ -5541,9 +5406,8 @@ static uint64_t nsvcd__spread_bits(float from) {
   return (x | x << 2) & 0x09249249u;
 }
 
-// Sorts numbers by their upper half, 8 bits at a time; equal ones keep their order. spare:
-// (count).
-static void nsvcd__sort_by_code(uint64_t *keys, uint64_t *spare, size_t count) {
+// Radix sort of keys by their upper halves; equal ones keep their order. spare: (count).
+static void nsvcd__sort_keys(uint64_t *keys, uint64_t *spare, size_t count) {
   for (unsigned shift = 32; shift < 64; shift += 8) {
     size_t first[257] = {0};
     uint64_t *from = shift & 8 ? spare : keys;
@@ -5554,47 +5418,48 @@ static void nsvcd__sort_by_code(uint64_t *keys, uint64_t *spare, size_t count) {
   }
 }
 
-// A mesh along a curve that fills space (Morton 1966).
+// A mesh along a Z curve (Morton 1966).
 typedef struct nsvcd__curve {
   const nsvcd_mesh *mesh;
-  // (triangles) each number of a triangle below its code, with what it belongs to
+  // (triangles) the upper half is the position on the curve, the lower one number and kind
   uint64_t *keys;
-  // (vertices) when a vertex was met last, from 1, counting all that a block has met; 0: not yet.
-  // None of a cloud, which has each once
+  // (vertices) when a vertex was last met, counted from 1 over all blocks; 0: never. NULL for a
+  // cloud, which has each vertex once
   uint32_t *met;
   uint32_t met_count;
   nsvcd__solids solids;
-  double greatest;       // coordinate of the mesh
+  // coordinate, absolute
+  double greatest;
   double convex_radius;  // metres
 } nsvcd__curve;
 
-// Marks what the triangles belong to. 0 without memory.
-static int nsvcd__curve_mark(nsvcd__curve *curve, nsvcd__arena *kept) {
-  const nsvcd_mesh *mesh = curve->mesh;
+// Adds the kinds of triangles to the keys. 0 without memory.
+static int nsvcd__curve_mark(nsvcd__curve *c, nsvcd__arena *kept) {
+  const nsvcd_mesh *mesh = c->mesh;
   // points and segments alone enclose nothing
   if (!mesh->indices || !(nsvcd__mesh_area(mesh) > 0)) return 1;
   nsvcd__topology topology;
   nsvcd__arena arena = nsvcd__arena_of(kept->allocator);
   const int known = nsvcd__topology_build(mesh, &arena, &topology) &&
-                    nsvcd__solids_build(&topology, kept, &curve->solids);
+                    nsvcd__solids_build(&topology, kept, &c->solids);
   for (size_t t = 0; known && t < mesh->triangle_count; t++)
-    curve->keys[t] |= (uint64_t)curve->solids.kinds[t] << NSVCD__KIND_SHIFT;
+    c->keys[t] |= (uint64_t)c->solids.kinds[t] << NSVCD__KIND_SHIFT;
   nsvcd__arena_free(&arena);
   return known;
 }
 
-// 0 without memory.
+// Sorts a mesh along the curve. 0 without memory.
 static int nsvcd__curve_build(const nsvcd_mesh *mesh, float convex_radius, nsvcd__arena *arena,
-                              nsvcd__curve *curve) {
+                              nsvcd__curve *c) {
   const size_t count = mesh->triangle_count;
-  memset(curve, 0, sizeof *curve);
-  curve->mesh = mesh;
-  curve->convex_radius = (double)convex_radius;
-  curve->keys = NSVCD__TAKE(arena, uint64_t, 2 * count);
-  curve->met = NSVCD__TAKE(arena, uint32_t, mesh->indices ? mesh->vertex_count : 0);
+  memset(c, 0, sizeof *c);
+  c->mesh = mesh;
+  c->convex_radius = (double)convex_radius;
+  c->keys = NSVCD__TAKE(arena, uint64_t, 2 * count);
+  c->met = NSVCD__TAKE(arena, uint32_t, mesh->indices ? mesh->vertex_count : 0);
   if (arena->failed) return 0;
   for (size_t i = 0; i < 3 * mesh->vertex_count; i++)
-    curve->greatest = nsvcd__max(curve->greatest, fabs((double)mesh->positions[i]));
+    c->greatest = nsvcd__max(c->greatest, fabs((double)mesh->positions[i]));
   nsvcd__f3 low = nsvcd__middle_of(mesh, 0);
   nsvcd__f3 high = low;
   for (size_t t = 0; t < count; t++) {
@@ -5607,33 +5472,33 @@ static int nsvcd__curve_build(const nsvcd_mesh *mesh, float convex_radius, nsvcd
   const float cells = longest > 0 ? 1023 / longest : 0;
   for (size_t t = 0; t < count; t++) {
     const nsvcd__f3 at = nsvcd__f3_sub(nsvcd__middle_of(mesh, t), low);
-    const uint64_t x = nsvcd__spread_bits(cells * at.x);
-    const uint64_t y = nsvcd__spread_bits(cells * at.y);
-    const uint64_t z = nsvcd__spread_bits(cells * at.z);
-    curve->keys[t] = (x | y << 1 | z << 2) << 32 | t;
+    const uint64_t x = nsvcd__morton_bits(cells * at.x);
+    const uint64_t y = nsvcd__morton_bits(cells * at.y);
+    const uint64_t z = nsvcd__morton_bits(cells * at.z);
+    c->keys[t] = (x | y << 1 | z << 2) << 32 | t;
   }
-  if (!nsvcd__curve_mark(curve, arena)) return 0;
-  nsvcd__sort_by_code(curve->keys, curve->keys + count, count);
+  if (!nsvcd__curve_mark(c, arena)) return 0;
+  nsvcd__sort_keys(c->keys, c->keys + count, count);
   return 1;
 }
 
-// The first triangle of a run, none of which is empty.
+// Where a run begins on the curve. None is empty.
 static size_t nsvcd__run_begin(size_t triangles, size_t run, size_t runs) {
   return (size_t)(((uint64_t)triangles * run + runs - 1) / runs);
 }
 
-// Runs first to last - 1 of so many, of which each is a patch; block and patches are what they are
-// pieces of. A block's triangles and vertices are copied in the order of the curve: all that
-// follows reads memory from front to back. Every triangle may be of a component of its own, if none
-// of its vertices has been met. 0 without memory.
-static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, size_t runs,
+// Makes runs first .. last - 1, each a patch; block and patches are what their pieces refer to. The
+// triangles and vertices of a block are copied in the order of the curve, so that the rest reads
+// memory from front to back. A triangle may be a component of its own if none of its vertices was
+// met before. 0 without memory.
+static int nsvcd__runs_build(nsvcd__curve *c, size_t first, size_t last, size_t runs,
                              nsvcd__arena *arena, nsvcd__region *block,
                              nsvcd__patches *patches, nsvcd__pieces *pieces) {
-  const nsvcd_mesh *mesh = curve->mesh;
+  const nsvcd_mesh *mesh = c->mesh;
   const size_t all = mesh->triangle_count;
   const size_t begin = nsvcd__run_begin(all, first, runs);
   const size_t count = nsvcd__run_begin(all, last, runs) - begin;
-  const uint32_t before = curve->met_count;
+  const uint32_t before = c->met_count;
   memset(block, 0, sizeof *block);
   memset(patches, 0, sizeof *patches);
   memset(pieces, 0, sizeof *pieces);
@@ -5644,26 +5509,25 @@ static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, siz
   block->ids = NSVCD__TAKE(arena, uint32_t, count);
   block->vertices = NSVCD__TAKE(arena, uint32_t, most);
   block->seeds = NSVCD__TAKE(arena, uint8_t, most);
-  block->greatest = curve->greatest;
+  block->greatest = c->greatest;
   patches->count = last - first;
-  patches->centres = NSVCD__TAKE(arena, nsvcd__f3, patches->count);
   pieces->arena = arena;
   pieces->region = block;
   pieces->patches = patches;
   pieces->margin = NSVCD__SURFACE_MARGIN * block->greatest + NSVCD__SURFACE_TINY;
-  pieces->thin = NSVCD__RUN_THIN * curve->convex_radius;
-  if (!nsvcd__list_reserve(&pieces->list, count, sizeof(nsvcd__piece), arena)) return 0;
-  if (arena->failed) return 0;
+  pieces->thin = NSVCD__RUN_THIN * c->convex_radius;
+  if (!nsvcd__list_reserve(&pieces->list, count, sizeof(nsvcd__piece), arena) || arena->failed)
+    return 0;
   nsvcd__piece *out = (nsvcd__piece *)pieces->list.items;
   pieces->list.count = count;
-  // Short loops, each of which waits for memory far away, for many places at a time.
+  // Each of the short loops below can have many loads from far away in flight.
   size_t run = first;
   size_t end = 0;
   for (size_t k = 0; k < count; k++) {
     if (k == end) end = nsvcd__run_begin(all, ++run, runs) - begin;
     const nsvcd__piece piece = {NSVCD__WHOLE, (uint32_t)k, (uint16_t)(run - 1 - first), 3, 0};
     out[k] = piece;
-    block->ids[k] = (uint32_t)curve->keys[begin + k];
+    block->ids[k] = (uint32_t)c->keys[begin + k];
     const size_t id = block->ids[k] & NSVCD__NUMBER;
     for (size_t n = 3 * k; n < 3 * k + 3; n++) {
       const size_t corner = 3 * id + n - 3 * k;
@@ -5677,12 +5541,12 @@ static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, siz
   }
   for (size_t n = 0; mesh->indices && n < 3 * count; n++) {
     const uint32_t *face = &block->mesh.indices[n / 3 * 3];
-    uint32_t *met = &curve->met[block->mesh.indices[n]];
+    uint32_t *met = &c->met[block->mesh.indices[n]];
     if (*met <= before) {
       block->seeds[block->mesh.vertex_count] =
-          n % 3 == 0 && !curve->met[face[0]] && !curve->met[face[1]] && !curve->met[face[2]];
+          n % 3 == 0 && !c->met[face[0]] && !c->met[face[1]] && !c->met[face[2]];
       block->vertices[block->mesh.vertex_count++] = block->mesh.indices[n];
-      *met = ++curve->met_count;
+      *met = ++c->met_count;
     }
     block->mesh.indices[n] = *met - 1 - before;
   }
@@ -5692,15 +5556,12 @@ static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, siz
   }
   return 1;
 }
-#endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
+#endif  // NSVCD_NO_ENCODER
 
 // ----------------------------------------------------------------------------------- surface/balls
-// In: points, in double. Out: the least ball that holds them all, in float, rounded outwards; how
-// to round outwards.
+// In: points, in double. Out: the centre of the least ball that contains them.
 
 #ifndef NSVCD_NO_ENCODER
-// ---- balls: the least one that holds all points
-
 typedef struct nsvcd__points {
   const nsvcd__d3 *at;  // (count)
   size_t count;
@@ -5711,12 +5572,12 @@ typedef struct nsvcd__ball {
   double squared;  // radius
 } nsvcd__ball;
 
-// The edges from the first of 1 to 4 points to the others, and shares of them. The sum of the
-// shares leads from that point to the centre of the least ball with all points on its border; or,
-// where `ball` is 0, to the point nearest to the origin of the plane (line, point) through them. 0
-// if that is not known, for the points are too much in line, or in a plane.
-static int nsvcd__solve_shares(const nsvcd__d3 *points, size_t count, int ball,
-                               nsvcd__d3 *edges, double *b) {
+// The edges from the first of 1 to 4 points to the others, and weights for them. The first point
+// plus the weighted edges is the centre of the least ball with all points on its surface; or, if
+// `ball` is 0, the point nearest to the origin in the plane (line, point) through them. 0 if the
+// points are too nearly on a line or in a plane.
+static int nsvcd__solve_weights(const nsvcd__d3 *points, size_t count, int ball,
+                                nsvcd__d3 *edges, double *b) {
   const size_t n = count - 1;
   double a[3][3] = {{0}};
   double first[3];
@@ -5726,7 +5587,7 @@ static int nsvcd__solve_shares(const nsvcd__d3 *points, size_t count, int ball,
     b[i] = ball ? 0.5 * first[i] : -nsvcd__d3_dot(edges[i], points[0]);
     for (size_t j = 0; j <= i; j++) a[j][i] = nsvcd__d3_dot(edges[i], edges[j]);
   }
-  // The matrix is symmetric and positive definite: its upper half is enough, and no pivots.
+  // symmetric and positive definite: the upper half is enough, without pivoting
   for (size_t i = 0; i < n; i++) {
     if (!(a[i][i] > 1e-13 * first[i])) return 0;
     for (size_t j = i + 1; j < n; j++) {
@@ -5742,32 +5603,32 @@ static int nsvcd__solve_shares(const nsvcd__d3 *points, size_t count, int ball,
   return 1;
 }
 
-#ifndef NSVCD_NO_PROOF
+// The least float that is not below x.
 static float nsvcd__float_above(double x) {
   const float rounded = nsvcd__to_float(x);
   return (double)rounded < x ? nextafterf(rounded, HUGE_VALF) : rounded;
 }
 
-// The least ball with all these 1 to 4 points on its border. 0 if there is none.
+// The least ball with these 1 to 4 points on its surface. 0 if there is none.
 static int nsvcd__ball_through(const nsvcd__d3 *points, size_t count, nsvcd__ball *ball) {
   nsvcd__d3 edges[3];
-  double shares[3];
-  if (!nsvcd__solve_shares(points, count, 1, edges, shares)) return 0;
+  double weights[3];
+  if (!nsvcd__solve_weights(points, count, 1, edges, weights)) return 0;
   nsvcd__d3 offset = nsvcd__d3_of(0, 0, 0);
-  for (size_t i = 0; i + 1 < count; i++) offset = nsvcd__d3_fma(shares[i], edges[i], offset);
+  for (size_t i = 0; i + 1 < count; i++) offset = nsvcd__d3_fma(weights[i], edges[i], offset);
   ball->centre = nsvcd__d3_add(points[0], offset);
   ball->squared = nsvcd__d3_dot(offset, offset);
   return 1;
 }
 
-// Up to five points that a ball may go through.
+// Up to five points, on a ball's surface or about to be.
 typedef struct nsvcd__border {
   nsvcd__d3 points[5];
   size_t count;
 } nsvcd__border;
 
-// The least ball that holds the border (1 to 5 points) among those through the last of them and up
-// to three others. Keeps in the border only the points that it goes through. 0 if there is none.
+// The least ball that contains the border (1 to 5 points), among those through its last point and
+// up to three others. Keeps in the border only the points on the ball. 0 if there is none.
 static NSVCD__NOINLINE int nsvcd__ball_of_few(nsvcd__border *border, nsvcd__ball *ball) {
   const unsigned last = 1u << (border->count - 1);
   unsigned best = 0;
@@ -5797,10 +5658,10 @@ static NSVCD__NOINLINE int nsvcd__ball_of_few(nsvcd__border *border, nsvcd__ball
   return 1;
 }
 
-// The centre of the least enclosing ball: the point farthest outside joins the border, until there
-// is none (after Gaertner, "Fast and robust smallest enclosing balls", 1999). The ball grows with
-// every step. Roundings can end it early: then it is a little too large, for the caller takes the
-// radius from the points.
+// The centre of the least enclosing ball (after Gaertner 1999, "Fast and robust smallest enclosing
+// balls"): the point farthest outside joins the border, until there is none. The ball grows with
+// every step. Roundings can stop it early, and then the caller, who takes the radius from the
+// points, has a ball that is a little too large.
 static nsvcd__d3 nsvcd__ball_centre(nsvcd__points points) {
   nsvcd__ball ball = {points.at[0], 0};
   nsvcd__border border;
@@ -5823,15 +5684,14 @@ static nsvcd__d3 nsvcd__ball_centre(nsvcd__points points) {
   }
   return ball.centre;
 }
-#endif  // NSVCD_NO_PROOF
 #endif  // NSVCD_NO_ENCODER
 
 // ----------------------------------------------------------------------------------- surface/slabs
-// In: points. Out: a slab: a direction in which the points are thin, what they reach along it, and
+// In: points. Out: a slab: a direction in which they are thin, and their extent along it and
 // across.
 
-#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
-// What points extend to along a direction.
+#ifndef NSVCD_NO_ENCODER
+// An extent along a direction.
 typedef struct nsvcd__drange {
   double low, high;
 } nsvcd__drange;
@@ -5851,7 +5711,7 @@ static double nsvcd__thickness(nsvcd__points points, nsvcd__d3 direction) {
   return range.high - range.low;
 }
 
-// Some direction across a unit vector.
+// A direction perpendicular to a unit vector.
 static nsvcd__d3 nsvcd__any_across(nsvcd__d3 n) {
   const int x_least = fabs(n.x) <= fabs(n.y) && fabs(n.x) <= fabs(n.z);
   const int y_least = fabs(n.y) <= fabs(n.z);
@@ -5873,8 +5733,8 @@ static nsvcd__d3 nsvcd__longest_row(const nsvcd__dmat3 *m) {
   return y >= z ? m->y : m->z;
 }
 
-// Near the direction in which the points vary least. The adjugate of the covariance has the same
-// axes, and the least becomes the largest: squaring that a few times leaves nothing else.
+// Roughly the direction in which the points vary least. The adjugate of their covariance has the
+// same axes, and the least becomes the largest; squaring it a few times leaves only that.
 static nsvcd__d3 nsvcd__least_axis(nsvcd__points points) {
   const nsvcd__d3 zero = nsvcd__d3_of(0, 0, 0);
   nsvcd__dmat3 c = {zero, zero, zero};
@@ -5907,7 +5767,7 @@ static nsvcd__d3 nsvcd__least_axis(nsvcd__points points) {
   return nsvcd__d3_unit(nsvcd__longest_row(&m), nsvcd__any_across(along));
 }
 
-// Turns a direction step by step to where the points are thinner, until they are thin.
+// Turns a direction in ever smaller steps to where the points are thinner, until they are `thin`.
 static nsvcd__d3 nsvcd__thinner(nsvcd__points points, nsvcd__d3 direction, double thin) {
   double best = nsvcd__thickness(points, direction);
   for (double turn = 0.16; turn > 0.005 && best > thin; turn *= 0.5) {
@@ -5926,8 +5786,8 @@ static nsvcd__d3 nsvcd__thinner(nsvcd__points points, nsvcd__d3 direction, doubl
   return direction;
 }
 
-// points: about the centre of the patch's ball. normal: the mean one of its pieces, of any length.
-// thin: metres; thinner than that is of no use.
+// Fits a slab to points about the centre of the patch's ball. normal: the mean normal of its
+// pieces, of any length. thin: metres; a thinner slab is of no use.
 static nsvcd__slab nsvcd__fit_slab(nsvcd__points points, nsvcd__d3 normal, double margin,
                                    double thin) {
   nsvcd__d3 best = nsvcd__least_axis(points);
@@ -5936,7 +5796,7 @@ static nsvcd__slab nsvcd__fit_slab(nsvcd__points points, nsvcd__d3 normal, doubl
   best = nsvcd__thinner(points, best, thin);
   if (nsvcd__d3_dot(best, normal) < 0) best = nsvcd__d3_scale(best, -1);
 
-  // Shorter than 1 by more than the roundings: |n| <= 1 holds for what is stored.
+  // shorter than 1 by more than the roundings, so that |n| <= 1 as it is stored
   const nsvcd__f3 n = nsvcd__f3_round(nsvcd__d3_scale(best, 1 - 1.5e-7));
   const nsvcd__d3 stored = nsvcd__d3_widen(n);
   const nsvcd__drange range = nsvcd__drange_along(points, stored);
@@ -5953,10 +5813,10 @@ static nsvcd__slab nsvcd__fit_slab(nsvcd__points points, nsvcd__d3 normal, doubl
   slab.across = nsvcd__float_above(across * (1 + 1e-6) + margin);
   return slab;
 }
-#endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
+#endif  // NSVCD_NO_ENCODER
 
 // ----------------------------------------------------------------------------------- surface/hulls
-// In: points. Out: some of them whose hull, inflated by a margin, holds all.
+// In: points. Out: some of them, whose hull inflated by a margin contains all.
 
 #ifndef NSVCD_NO_ENCODER
 // The point of a simplex nearest to the origin: weights are positive and sum to 1.
@@ -5966,39 +5826,39 @@ typedef struct nsvcd__simplex {
   size_t count;
 } nsvcd__simplex;
 
-// Moves the weights to the simplex's point nearest to the origin, and drops the corners that do not
-// bear it (Wolfe, "Finding the nearest point in a polytope", 1976). 0 if roundings are in the way:
-// the weights still are weights.
-static int nsvcd__simplex_resolve(nsvcd__simplex *s) {
+// Moves the weights to the simplex's point nearest to the origin, and drops corners that it does
+// not need (Wolfe 1976, "Finding the nearest point in a polytope"). 0 if roundings prevent that;
+// the weights are valid even then.
+static int nsvcd__simplex_solve(nsvcd__simplex *s) {
   for (;;) {
-    // Weights, of any sign, of the point nearest to the origin in the plane of all corners.
+    // weights, of any sign, of the point nearest to the origin in the plane of all corners
     nsvcd__d3 edges[3];
     double target[4] = {1};
-    if (!nsvcd__solve_shares(s->points, s->count, 0, edges, target + 1)) return 0;
+    if (!nsvcd__solve_weights(s->points, s->count, 0, edges, target + 1)) return 0;
     for (size_t i = 1; i < s->count; i++) target[0] -= target[i];
     double fraction = 1;
-    size_t blocks = s->count;
+    size_t blocking = s->count;
     for (size_t i = 0; i < s->count; i++) {
       const double weight = s->weights[i];
       if (target[i] > 0) continue;
       const double to_zero = weight > 0 ? weight / (weight - target[i]) : 0;
       if (to_zero > fraction) continue;
       fraction = to_zero;
-      blocks = i;
+      blocking = i;
     }
     for (size_t i = 0; i < s->count; i++)
       s->weights[i] += fraction * (target[i] - s->weights[i]);
-    if (blocks == s->count) return 1;
+    if (blocking == s->count) return 1;
     s->count--;
-    s->points[blocks] = s->points[s->count];
-    s->weights[blocks] = s->weights[s->count];
+    s->points[blocking] = s->points[s->count];
+    s->weights[blocking] = s->weights[s->count];
   }
 }
 
-// The distance of a point from some point of the convex hull of vertices: no less than that from
-// the hull, and no more than two thousandths above it, but for roundings or where it is below
-// `enough`. Ten steps or so do; on x87, whose registers have more digits than memory, they may seem
-// to get nearer for ever.
+// The distance from a point to a point of the convex hull of vertices. It is not less than the
+// distance from the hull, and at most 0.2 % above it, but for roundings or if it is below `enough`.
+// About ten steps are usual; on x87, whose registers have more digits than memory, it could seem to
+// improve for ever.
 static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double enough) {
   nsvcd__simplex s;
   s.points[0] = nsvcd__d3_sub(hull.at[hull.count - 1], point);
@@ -6018,22 +5878,22 @@ static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double e
     if (least >= 0.998 * best) break;
     s.points[s.count] = nsvcd__d3_sub(hull.at[support], point);
     s.weights[s.count++] = 0;
-    const int resolved = nsvcd__simplex_resolve(&s);
+    const int is_solved = nsvcd__simplex_solve(&s);
     nearest = nsvcd__d3_scale(s.points[0], s.weights[0]);
     for (size_t i = 1; i < s.count; i++)
       nearest = nsvcd__d3_fma(s.weights[i], s.points[i], nearest);
     const double squared = nsvcd__d3_dot(nearest, nearest);
-    if (!resolved || squared >= best) break;
+    if (!is_solved || squared >= best) break;
     best = squared;
   }
   return sqrt(best);
 }
 
-// Chooses up to `most` of the points, NSVCD__HULL at most, such that all are near to the hull of
-// those: all, if they are not more, or else always the one that is farthest from it. points: about
-// the ball's centre. bounds: working memory, one a point: their distances found before. A point
-// that was near enough stays so, for the hull only grows. Writes the numbers of those chosen, and
-// the distance of the farthest point; returns how many they are.
+// Chooses at most `most` (up to NSVCD__HULL) of the points so that all are near their hull: all of
+// them if they are not more; else always the point farthest from the hull, until that is within
+// `enough`. points: about the ball's centre. bounds: working memory, the last distance found of
+// each point; it remains a bound, for the hull only grows. Writes the numbers of those chosen and
+// the farthest distance; returns how many are chosen.
 static size_t nsvcd__choose_hull(nsvcd__points points, size_t most, double enough,
                                  double *bounds, size_t *chosen, double *farthest) {
   nsvcd__d3 at[NSVCD__HULL];
@@ -6046,7 +5906,7 @@ static size_t nsvcd__choose_hull(nsvcd__points points, size_t most, double enoug
     return points.count;
   }
   for (size_t i = 0; i < points.count; i++) {
-    // from the centre, to begin with
+    // the first is the farthest from the centre
     const double distance = nsvcd__d3_length(points.at[i]);
     if (distance > most_distant) next = i;
     most_distant = nsvcd__max(most_distant, distance);
@@ -6074,108 +5934,113 @@ static size_t nsvcd__choose_hull(nsvcd__points points, size_t most, double enoug
 #endif  // NSVCD_NO_ENCODER
 
 // ---------------------------------------------------------------------------------- surface/sorted
-// In: pieces. Out: the same patch by patch; and for the network the extremes of each patch: eight
-// points of its surface whose hull is nearly that of all of it.
+// In: pieces. Out: the pieces sorted by patch; and, for the network, the extremes of each patch:
+// eight points whose hull is nearly that of all its surface.
 
 #ifndef NSVCD_NO_ENCODER
-// The pieces by patch, and working memory for one patch at a time. A pass numbers points as it sees
-// them: the hull's first, when vertices are stored.
+// Pieces by patch, and working memory for one patch at a time. A pass numbers the points that it
+// meets.
 typedef struct nsvcd__sorted {
   const nsvcd__pieces *pieces;
-  size_t *first;  // (N + 1) pieces of a patch
-  // (pieces) numbers of pieces, patch by patch, in a patch as they were made
+  // (N + 1) where the pieces of a patch begin in `order`
+  size_t *first;
+  // (pieces) their numbers; in a patch as they were made
   uint32_t *order;
   uint32_t pass;  // from 1
   // (points) the last pass that met a point, and its number in that pass
-  uint32_t *stamps;
-  uint32_t *numbers;
-  // (met_count) the points of the pass
+  uint32_t *stamps, *numbers;
+  // (met_count) points of the pass, their positions about a centre, and working memory
   uint32_t *met;
+  nsvcd__d3 *positions;
+  double *bounds;
   size_t met_count;
-  nsvcd__d3 *positions;  // the same, about the centre
-  double *bounds;        // of the same
-  // (N, NSVCD__HULL) points that the hulls consist of
-  uint32_t *hulls;
 } nsvcd__sorted;
 
-static const nsvcd__piece *nsvcd__sorted_piece(const nsvcd__sorted *sorted, size_t k) {
-  return (const nsvcd__piece *)sorted->pieces->list.items + sorted->order[k];
+static const nsvcd__piece *nsvcd__sorted_piece(const nsvcd__sorted *all, size_t k) {
+  return (const nsvcd__piece *)all->pieces->list.items + all->order[k];
 }
 
 // Sorts the pieces by patch (counting sort). 0 without memory.
 static int nsvcd__sorted_build(const nsvcd__pieces *pieces, nsvcd__arena *arena,
-                               nsvcd__sorted *sorted) {
+                               nsvcd__sorted *all) {
   const nsvcd__piece *items = (const nsvcd__piece *)pieces->list.items;
   const size_t patches = pieces->patches->count;
   const size_t count = pieces->list.count;
   const size_t points = pieces->region->mesh.vertex_count + pieces->points.count;
   size_t *first = NSVCD__TAKE(arena, size_t, patches + 1);
-  memset(sorted, 0, sizeof *sorted);
-  sorted->pieces = pieces;
-  sorted->first = first;
-  sorted->order = NSVCD__TAKE(arena, uint32_t, count);
-  sorted->stamps = NSVCD__TAKE(arena, uint32_t, points);
-  sorted->numbers = NSVCD__TAKE(arena, uint32_t, points);
-  sorted->hulls = NSVCD__TAKE(arena, uint32_t, NSVCD__HULL * patches);
+  memset(all, 0, sizeof *all);
+  all->pieces = pieces;
+  all->first = first;
+  all->order = NSVCD__TAKE(arena, uint32_t, count);
+  all->stamps = NSVCD__TAKE(arena, uint32_t, points);
+  all->numbers = NSVCD__TAKE(arena, uint32_t, points);
   if (arena->failed) return 0;
   for (size_t k = 0; k < count; k++) first[items[k].patch + 1]++;
   for (size_t i = 0; i < patches; i++) first[i + 1] += first[i];
-  for (size_t k = count; k-- > 0;) sorted->order[--first[items[k].patch + 1]] = (uint32_t)k;
-  // Now first[i + 1] is the start of patch i.
+  for (size_t k = count; k-- > 0;) all->order[--first[items[k].patch + 1]] = (uint32_t)k;
+  // now first[i + 1] is where patch i begins
   memmove(first, first + 1, patches * sizeof *first);
   first[patches] = count;
 
   size_t most = 0;
   for (size_t i = 0; i < patches; i++) {
-    // a hull's vertices need not be corners of what is listed
+    // the hull's points have numbers of their own
     size_t corners = NSVCD__HULL;
     for (size_t k = first[i]; k < first[i + 1]; k++)
-      corners += nsvcd__sorted_piece(sorted, k)->count;
+      corners += nsvcd__sorted_piece(all, k)->count;
     most = corners > most ? corners : most;
   }
-  sorted->met = NSVCD__TAKE(arena, uint32_t, most);
-  sorted->positions = NSVCD__TAKE(arena, nsvcd__d3, most);
-  sorted->bounds = NSVCD__TAKE(arena, double, most);
+  all->met = NSVCD__TAKE(arena, uint32_t, most);
+  all->positions = NSVCD__TAKE(arena, nsvcd__d3, most);
+  all->bounds = NSVCD__TAKE(arena, double, most);
   return !arena->failed;
 }
 
-// Gives a point a number in this pass, if it is met for the first time.
-static void nsvcd__number_point(nsvcd__sorted *sorted, uint32_t point) {
-  if (sorted->stamps[point] == sorted->pass) return;
-  sorted->stamps[point] = sorted->pass;
-  sorted->numbers[point] = (uint32_t)sorted->met_count;
-  sorted->met[sorted->met_count++] = point;
+static void nsvcd__begin_pass(nsvcd__sorted *all) {
+  all->pass++;
+  all->met_count = 0;
+}
+
+// Numbers a point, when the pass first meets it.
+static void nsvcd__number_point(nsvcd__sorted *all, uint32_t point) {
+  if (all->stamps[point] == all->pass) return;
+  all->stamps[point] = all->pass;
+  all->numbers[point] = (uint32_t)all->met_count;
+  all->met[all->met_count++] = point;
+}
+
+// Numbers the corners of the pieces of patch i.
+static void nsvcd__number_corners(nsvcd__sorted *all, size_t i) {
+  nsvcd__begin_pass(all);
+  for (size_t k = all->first[i]; k < all->first[i + 1]; k++) {
+    const nsvcd__piece *piece = nsvcd__sorted_piece(all, k);
+    const uint32_t *corners = nsvcd__piece_corners(all->pieces, piece);
+    for (size_t j = 0; j < piece->count; j++) nsvcd__number_point(all, corners[j]);
+  }
 }
 
 // The points of the pass, about a centre.
-static nsvcd__points nsvcd__place_points(nsvcd__sorted *sorted, nsvcd__d3 centre) {
-  const nsvcd__points out = {sorted->positions, sorted->met_count};
-  for (size_t j = 0; j < sorted->met_count; j++) {
-    const nsvcd__d3 at = nsvcd__point_at(sorted->pieces, sorted->met[j]);
-    sorted->positions[j] = nsvcd__d3_sub(at, centre);
+static nsvcd__points nsvcd__place_points(nsvcd__sorted *all, nsvcd__d3 centre) {
+  const nsvcd__points out = {all->positions, all->met_count};
+  for (size_t j = 0; j < all->met_count; j++) {
+    const nsvcd__d3 at = nsvcd__point_at(all->pieces, all->met[j]);
+    all->positions[j] = nsvcd__d3_sub(at, centre);
   }
   return out;
 }
 
 #ifndef NSVCD_NO_NETWORK
-// The extremes of patch i, as a body stores them: (TIPS, 3), from its centre in steps of radius /
-// 127.
-static void nsvcd__extremes_of(nsvcd__sorted *sorted, size_t i, float radius,
-                               int8_t *extremes) {
+// Writes the extremes of patch i as a body stores them: (EXTREMES, 3), from its centre in steps of
+// radius / 127.
+static void nsvcd__extremes_of(nsvcd__sorted *all, size_t i, float radius, int8_t *extremes) {
   const double inverse = radius > 0 ? 127 / (double)radius : 0;
-  sorted->pass++;
-  sorted->met_count = 0;
-  for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
-    const nsvcd__piece *piece = nsvcd__sorted_piece(sorted, k);
-    const uint32_t *corners = nsvcd__piece_corners(sorted->pieces, piece);
-    for (size_t j = 0; j < piece->count; j++) nsvcd__number_point(sorted, corners[j]);
-  }
-  const nsvcd__d3 centre = nsvcd__d3_widen(sorted->pieces->patches->centres[i]);
-  const nsvcd__points points = nsvcd__place_points(sorted, centre);
+  nsvcd__number_corners(all, i);
+  const nsvcd__d3 centre = nsvcd__d3_widen(all->pieces->patches->centres[i]);
+  const nsvcd__points points = nsvcd__place_points(all, centre);
   size_t chosen[NSVCD__HULL] = {0};
   double farthest;
   const size_t count =
-      nsvcd__choose_hull(points, NSVCD__EXTREMES, 0, sorted->bounds, chosen, &farthest);
+      nsvcd__choose_hull(points, NSVCD__EXTREMES, 0, all->bounds, chosen, &farthest);
   for (size_t k = 0; k < 3 * NSVCD__EXTREMES; k++) {
     const size_t extreme = chosen[count ? k / 3 % count : 0];
     const double along = count ? nsvcd__d3_axis(points.at[extreme], k % 3) * inverse : 0;
@@ -6186,113 +6051,171 @@ static void nsvcd__extremes_of(nsvcd__sorted *sorted, size_t i, float radius,
 #endif  // NSVCD_NO_ENCODER
 
 // --------------------------------------------------------------------------------- surface/surface
-// In: pieces, sorted by patch. Out: nsvcd__surface: of each patch a ball, a slab, a hull, its
-// triangles, all rounded outwards.
+// In: pieces, sorted by patch. Out: nsvcd__surface: for each patch an outer description of the
+// surface in it (ball, slab, hull), and its triangles. The proof builds on it.
+//
+// What holds. Every point of the mesh lies in a piece, and every piece belongs to one patch. That
+// patch lists the piece's triangle, or the piece itself if the triangle is large beside the
+// patches. Its ball, its slab, and its hull inflated by the margin contain the piece. Triangles
+// without area are surface like others.
+//
+// Why it holds. Pieces cover the mesh (surface/pieces). Each number is taken from the corners of
+// pieces, about what is stored in float, and then rounded outwards. A piece is the convex hull of
+// its corners, and ball, slab and inflated hull are convex: what contains the corners contains the
+// piece. The corners are off by roundings of double: all bounds are wider by NSVCD__SURFACE_MARGIN.
 
-#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
-// Ball, slab and hull of patch i of the region, which is `to` of all. What the vertices will be off
-// by as integers is not in the margin yet.
-static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *s) {
-  const nsvcd__pieces *pieces = sorted->pieces;
-  const nsvcd__region *region = pieces->region;
-  const size_t to = s->done + i;
-  nsvcd__sphere *ball = &s->balls[to];
+#ifndef NSVCD_NO_ENCODER
+// as many as corners of 16 bits can number
+#define NSVCD__PATCH_VERTICES 65536u
+
+// The surface in a patch. c: the ball's centre.
+typedef struct nsvcd__patch_bounds {
+  // an empty patch has radius NSVCD__NOWHERE
+  nsvcd__sphere ball;
+  nsvcd__slab slab;  // about c
+  // metres per integer: a stored point is c + step (x, y, z)
+  float step;
+  // metres: pieces are within this of the hull of the first stored points
+  float margin;
+  // metres: corners that are stored points are within this of the exact ones
+  float error;
+  // how many of these points: 1..NSVCD__HULL; 0: the patch is empty
+  uint8_t hull_count;
+  // where its stored points, its names and its triangles begin
+  uint32_t first_vertex, first_named, first_triangle;
+} nsvcd__patch_bounds;
+
+typedef struct nsvcd__surface {
+  nsvcd__arena *arena;
+  // N, patches so far
+  size_t count;
+  // (N + 1) the last one only tells where the others end
+  nsvcd__patch_bounds *patches;
+  // 1: all corners are stored points, and none is named
+  int coarse;
+  // V, stored points
+  size_t vertex_count;
+  size_t named_count;  // M, names
+  // L, triangles
+  size_t listed;
+  // (V, 3) patch by patch x of its stored points, then y, then z: the hull's, then corners that
+  // cuts have made
+  int16_t *vertices;
+  // (M) patch by patch the caller's vertices that are corners
+  uint32_t *named;
+  // (L, 3) numbers in the patch: of stored points, then of names
+  uint16_t *corners;
+  // (L) triangle of the mesh, and its kind
+  uint32_t *ids;
+  nsvcd__list lists[4];  // these four arrays
+  nsvcd__solids solids;
+  // C, components that are known so far, of each a vertex, and a patch that has it as a corner
+  size_t seed_count;
+  nsvcd__f3 *seeds;
+  uint32_t *seed_patches;
+} nsvcd__surface;
+
+// Twice the area vector of the pieces of patch i.
+static nsvcd__d3 nsvcd__patch_normal(const nsvcd__sorted *all, size_t i) {
   nsvcd__d3 normal = nsvcd__d3_of(0, 0, 0);
-  sorted->pass++;
-  sorted->met_count = 0;
-  for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
-    const nsvcd__piece *piece = nsvcd__sorted_piece(sorted, k);
-    const uint32_t *corners = nsvcd__piece_corners(pieces, piece);
-    const nsvcd__d3 from = nsvcd__point_at(pieces, corners[0]);
-    // twice the area times the normal
+  for (size_t k = all->first[i]; k < all->first[i + 1]; k++) {
+    const nsvcd__piece *piece = nsvcd__sorted_piece(all, k);
+    const uint32_t *corners = nsvcd__piece_corners(all->pieces, piece);
+    if (corners[0] == corners[2]) continue;
+    const nsvcd__d3 from = nsvcd__point_at(all->pieces, corners[0]);
     nsvcd__d3 area = nsvcd__d3_of(0, 0, 0);
-    // a point has no area, and is met once
-    const int is_point = corners[0] == corners[1] && corners[1] == corners[2];
-    for (size_t j = 0; j < piece->count && (j == 0 || !is_point); j++) {
-      const uint32_t point = corners[j];
-      nsvcd__number_point(sorted, point);
-      // of a component that no patch has been given yet?
-      if (point < region->mesh.vertex_count && region->seeds[point]) {
-        region->seeds[point] = 0;
-        s->seeds[s->seed_count] = nsvcd__f3_row(region->mesh.positions, point);
-        s->seed_patches[s->seed_count++] = (uint32_t)to;
-      }
-      if (j < 2) continue;
-      const nsvcd__d3 a = nsvcd__d3_sub(nsvcd__point_at(pieces, corners[j - 1]), from);
-      const nsvcd__d3 b = nsvcd__d3_sub(nsvcd__point_at(pieces, point), from);
-      area = nsvcd__d3_add(area, nsvcd__d3_cross(a, b));
+    for (size_t j = 2; j < piece->count; j++) {
+      const nsvcd__d3 last = nsvcd__point_at(all->pieces, corners[j - 1]);
+      const nsvcd__d3 at = nsvcd__point_at(all->pieces, corners[j]);
+      const nsvcd__d3 a = nsvcd__d3_sub(last, from);
+      area = nsvcd__d3_add(area, nsvcd__d3_cross(a, nsvcd__d3_sub(at, from)));
     }
     normal = nsvcd__d3_add(normal, area);
   }
-  if (sorted->met_count == 0) {
-    ball->centre = pieces->patches->centres[i];
-    ball->radius = NSVCD__NOWHERE;
+  return normal;
+}
+
+// Finds ball, slab and hull of patch i. Rounding the hull's points to integers is not in the margin
+// yet. hull: (NSVCD__HULL) points.
+static void nsvcd__describe_patch(nsvcd__sorted *all, size_t i, nsvcd__surface *s,
+                                  uint32_t *hull) {
+  const nsvcd__pieces *pieces = all->pieces;
+  const nsvcd__region *region = pieces->region;
+  nsvcd__patch_bounds *out = &s->patches[s->count];
+  nsvcd__number_corners(all, i);
+  if (all->met_count == 0) {
+    out->ball.centre = pieces->patches->centres[i];
+    out->ball.radius = NSVCD__NOWHERE;
     return;
   }
+  for (size_t j = 0; j < all->met_count; j++) {
+    const uint32_t point = all->met[j];
+    if (point >= region->mesh.vertex_count || !region->seeds[point]) continue;
+    region->seeds[point] = 0;
+    s->seeds[s->seed_count] = nsvcd__f3_row(region->mesh.positions, point);
+    s->seed_patches[s->seed_count++] = (uint32_t)s->count;
+  }
 
-  // The least ball. From near by its centre is found without the roundings of what is far away.
-  const nsvcd__d3 from = nsvcd__point_at(pieces, sorted->met[0]);
-  const nsvcd__d3 offset = nsvcd__ball_centre(nsvcd__place_points(sorted, from));
-  ball->centre = nsvcd__f3_round(nsvcd__d3_add(from, offset));
-  const nsvcd__points about = nsvcd__place_points(sorted, nsvcd__d3_widen(ball->centre));
+  // The ball's centre is found near the origin, where roundings are small.
+  const nsvcd__d3 from = nsvcd__point_at(pieces, all->met[0]);
+  const nsvcd__d3 offset = nsvcd__ball_centre(nsvcd__place_points(all, from));
+  out->ball.centre = nsvcd__f3_round(nsvcd__d3_add(from, offset));
+  const nsvcd__d3 centre = nsvcd__d3_widen(out->ball.centre);
+  const nsvcd__points about = nsvcd__place_points(all, centre);
   double radius = 0;
   for (size_t j = 0; j < about.count; j++)
     radius = nsvcd__max(radius, nsvcd__d3_length(about.at[j]));
-  ball->radius = nsvcd__float_above(radius + pieces->margin);
-  s->slabs[to] = nsvcd__fit_slab(about, normal, pieces->margin, pieces->thin);
+  out->ball.radius = nsvcd__float_above(radius + pieces->margin);
+  const nsvcd__d3 normal = nsvcd__patch_normal(all, i);
+  out->slab = nsvcd__fit_slab(about, normal, pieces->margin, pieces->thin);
 
   size_t chosen[NSVCD__HULL];
   double farthest;
-  const double enough = NSVCD__HULL_FRACTION * (double)ball->radius;
+  const double enough = NSVCD__HULL_FRACTION * (double)out->ball.radius;
   const size_t count =
-      nsvcd__choose_hull(about, NSVCD__HULL, enough, sorted->bounds, chosen, &farthest);
-  s->margins[to] = nsvcd__float_above(farthest + pieces->margin);
-  s->hull_counts[to] = (uint8_t)count;
-  for (size_t k = 0; k < count; k++)
-    sorted->hulls[NSVCD__HULL * i + k] = sorted->met[chosen[k]];
+      nsvcd__choose_hull(about, NSVCD__HULL, enough, all->bounds, chosen, &farthest);
+  out->margin = nsvcd__float_above(farthest + pieces->margin);
+  out->hull_count = (uint8_t)count;
+  for (size_t k = 0; k < count; k++) hull[k] = all->met[chosen[k]];
 }
 
-// What patch i lists for its k-th piece: the piece's corners where its triangle is separated, else
-// the triangle's. Returns how many corners; 0: nothing more, for pieces of one triangle follow each
-// other in a patch, and a whole triangle is listed with the first of them.
-static size_t nsvcd__listed_corners(const nsvcd__sorted *sorted, size_t i, size_t k,
+// What patch i lists for its k-th piece: the piece if its triangle is divided, else the triangle.
+// Returns the number of corners, or 0 for nothing: pieces of a triangle follow each other in a
+// patch, and the whole triangle is listed with the first.
+static size_t nsvcd__listed_corners(const nsvcd__sorted *all, size_t i, size_t k,
                                     const uint32_t **corners) {
-  const nsvcd__piece *piece = nsvcd__sorted_piece(sorted, k);
-  *corners = nsvcd__piece_corners(sorted->pieces, piece);
+  const nsvcd__piece *piece = nsvcd__sorted_piece(all, k);
+  *corners = nsvcd__piece_corners(all->pieces, piece);
   if (piece->divided) return piece->count;
-  *corners = nsvcd__triangle_corners(sorted->pieces, piece->triangle);
-  const int first = k == sorted->first[i];
-  return first || nsvcd__sorted_piece(sorted, k - 1)->triangle != piece->triangle ? 3 : 0;
+  *corners = nsvcd__triangle_corners(all->pieces, piece->triangle);
+  const int is_first = k == all->first[i];
+  return is_first || nsvcd__sorted_piece(all, k - 1)->triangle != piece->triangle ? 3 : 0;
 }
 
-// Is a point a vertex of the caller's mesh, which is named, and not stored as integers?
-static int nsvcd__is_named(const nsvcd__sorted *sorted, const nsvcd__surface *s,
-                           uint32_t point) {
-  const nsvcd__region *region = sorted->pieces->region;
+// Is a point named, as a vertex of the caller's mesh?
+static int nsvcd__is_named(const nsvcd__sorted *all, const nsvcd__surface *s, uint32_t point) {
+  const nsvcd__region *region = all->pieces->region;
   return !s->coarse && point < region->mesh.vertex_count - region->cut_count;
 }
 
 // Numbers the points of patch i: the hull's, then corners that are not named, then, from *stored
-// on, those that are. Returns how many triangles it lists.
-static size_t nsvcd__number_vertices(nsvcd__sorted *sorted, size_t i, const nsvcd__surface *s,
-                                     size_t *stored) {
-  const size_t hull_count = s->hull_counts[s->done + i];
+// on, those that are. Returns how many triangles the patch lists.
+static size_t nsvcd__number_vertices(nsvcd__sorted *all, size_t i, const nsvcd__surface *s,
+                                     const uint32_t *hull, size_t *stored) {
   size_t listed = 0;
-  sorted->pass++;
-  sorted->met_count = 0;
-  for (size_t k = 0; k < hull_count; k++)
-    nsvcd__number_point(sorted, sorted->hulls[NSVCD__HULL * i + k]);
+  nsvcd__begin_pass(all);
+  for (size_t k = 0; k < s->patches[s->count].hull_count; k++)
+    nsvcd__number_point(all, hull[k]);
   for (int named = 0; named < 2; named++) {
     listed = 0;
-    // what is in the hull is met again
-    sorted->pass += (uint32_t)named;
-    if (named) *stored = sorted->met_count;
-    for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
+    // points of the hull that are named have two numbers
+    all->pass += (uint32_t)named;
+    if (named) *stored = all->met_count;
+    for (size_t k = all->first[i]; k < all->first[i + 1]; k++) {
       const uint32_t *corners;
-      const size_t count = nsvcd__listed_corners(sorted, i, k, &corners);
+      const size_t count = nsvcd__listed_corners(all, i, k, &corners);
       for (size_t j = 0; j < count; j++) {
-        if (nsvcd__is_named(sorted, s, corners[j]) == named)
-          nsvcd__number_point(sorted, corners[j]);
+        if (nsvcd__is_named(all, s, corners[j]) == named) nsvcd__number_point(all, corners[j]);
       }
       listed += count ? count - 2 : 0;
     }
@@ -6300,28 +6223,24 @@ static size_t nsvcd__number_vertices(nsvcd__sorted *sorted, size_t i, const nsvc
   return listed;
 }
 
-// Writes the points of patch i, of which so many are stored as integers, and its triangles.
-static void nsvcd__store_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *s) {
-  const size_t to = s->done + i;
-  const size_t hull_count = s->hull_counts[to];
-  const nsvcd__region *region = sorted->pieces->region;
-  size_t stored;
-  (void)nsvcd__number_vertices(sorted, i, s, &stored);
-  const nsvcd__d3 centre = nsvcd__d3_widen(s->balls[to].centre);
-  const nsvcd__points points = nsvcd__place_points(sorted, centre);
-  uint32_t *named = s->named + s->first_named[to];
+// Writes the points of patch i, the first `stored` as integers and the others as names, and its
+// triangles.
+static void nsvcd__store_patch(nsvcd__sorted *all, size_t i, nsvcd__surface *s,
+                               size_t stored) {
+  const nsvcd__region *region = all->pieces->region;
+  nsvcd__patch_bounds *out = &s->patches[s->count];
+  const nsvcd__d3 centre = nsvcd__d3_widen(out->ball.centre);
+  const nsvcd__points points = nsvcd__place_points(all, centre);
   for (size_t j = stored; j < points.count; j++) {
-    const uint32_t point = sorted->met[j];
-    *named++ = region->vertices ? region->vertices[point] : point;
+    const uint32_t point = all->met[j];
+    s->named[s->named_count++] = region->vertices ? region->vertices[point] : point;
   }
   double greatest = NSVCD__SURFACE_TINY;
-  for (size_t j = 0; j < stored; j++) {
-    for (size_t k = 0; k < 3; k++)
-      greatest = nsvcd__max(greatest, fabs(nsvcd__d3_axis(points.at[j], k)));
-  }
-  s->steps[to] = nsvcd__float_above(greatest / 32767);
-  const double metres = (double)s->steps[to];
-  int16_t *vertices = s->vertices + 3 * (size_t)s->first_vertex[to];
+  for (size_t j = 0; j < 3 * stored; j++)
+    greatest = nsvcd__max(greatest, fabs(nsvcd__d3_axis(points.at[j / 3], j % 3)));
+  out->step = nsvcd__float_above(greatest / 32767);
+  const double metres = (double)out->step;
+  int16_t *vertices = s->vertices + 3 * s->vertex_count;
   double worst = 0;
   double worst_of_hull = 0;
   int has_stored = 0;  // corners
@@ -6333,121 +6252,92 @@ static void nsvcd__store_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *
       vertices[k * stored + j] = (int16_t)integer;
       nsvcd__d3_set_axis(&rounded, k, metres * integer);
     }
-    sorted->bounds[j] = nsvcd__d3_length(nsvcd__d3_sub(points.at[j], rounded));
-    if (j < hull_count) worst_of_hull = nsvcd__max(worst_of_hull, sorted->bounds[j]);
+    all->bounds[j] = nsvcd__d3_length(nsvcd__d3_sub(points.at[j], rounded));
+    if (j < out->hull_count) worst_of_hull = nsvcd__max(worst_of_hull, all->bounds[j]);
   }
-  // Each point of the hull is off by no more than its vertices are.
-  s->margins[to] = nsvcd__float_above((double)s->margins[to] + worst_of_hull);
+  s->vertex_count += stored;
+  // no point of the hull is off by more than its vertices
+  out->margin = nsvcd__float_above((double)out->margin + worst_of_hull);
 
-  for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
-    const uint32_t triangle = nsvcd__sorted_piece(sorted, k)->triangle;
+  for (size_t k = all->first[i]; k < all->first[i + 1]; k++) {
+    const uint32_t triangle = nsvcd__sorted_piece(all, k)->triangle;
     const uint32_t *corners;
-    const size_t count = nsvcd__listed_corners(sorted, i, k, &corners);
+    const size_t count = nsvcd__listed_corners(all, i, k, &corners);
     for (size_t j = 2; j < count; j++) {
-      uint16_t *out = s->corners + 3 * s->listed;
+      uint16_t *to = s->corners + 3 * s->listed;
       for (size_t n = 0; n < 3; n++) {
-        const uint32_t number = sorted->numbers[corners[n ? j - 2 + n : 0]];
-        out[n] = (uint16_t)number;
+        const uint32_t number = all->numbers[corners[n ? j - 2 + n : 0]];
+        to[n] = (uint16_t)number;
         if (number >= stored) continue;
-        worst = nsvcd__max(worst, sorted->bounds[number]);
+        worst = nsvcd__max(worst, all->bounds[number]);
         has_stored = 1;
       }
       s->ids[s->listed++] = region->ids[triangle];
     }
   }
-  worst += sorted->pieces->margin;
-  s->errors[to] = has_stored ? nsvcd__float_above(worst) : 0;
+  worst += all->pieces->margin;
+  out->error = has_stored ? nsvcd__float_above(worst) : 0;
 }
 
 // ---- all of it
 
-// A surface of up to n patches, none of which is described yet. coarse: 1 if corners are to be
-// stored as integers. 0 without memory.
+// Begins a surface of up to n patches. components: C, at most. coarse: 1: corners are stored as
+// integers. 0 without memory.
 static int nsvcd__surface_begin(size_t n, size_t components, int coarse, nsvcd__arena *arena,
                                 nsvcd__surface *s) {
   memset(s, 0, sizeof *s);
   s->arena = arena;
   s->coarse = coarse;
-  s->component_count = components;
-  s->balls = NSVCD__TAKE(arena, nsvcd__sphere, n);
-  s->slabs = NSVCD__TAKE(arena, nsvcd__slab, n);
-  s->steps = NSVCD__TAKE(arena, float, n);
-  s->margins = NSVCD__TAKE(arena, float, n);
-  s->errors = NSVCD__TAKE(arena, float, n);
-  s->hull_counts = NSVCD__TAKE(arena, uint8_t, n);
-  s->first_vertex = NSVCD__TAKE(arena, uint32_t, n + 1);
-  s->first_named = NSVCD__TAKE(arena, uint32_t, n + 1);
-  s->first_triangle = NSVCD__TAKE(arena, uint32_t, n + 1);
+  s->patches = NSVCD__TAKE(arena, nsvcd__patch_bounds, n + 1);
   s->seeds = NSVCD__TAKE(arena, nsvcd__f3, components);
   s->seed_patches = NSVCD__TAKE(arena, uint32_t, components);
   return !arena->failed;
 }
 
-// Makes room for more points, stored and named, and entries. 0 without memory.
-static int nsvcd__surface_room(nsvcd__surface *s, size_t vertices, size_t named,
+// Makes room for more stored points, names and triangles. 0 without memory.
+static int nsvcd__surface_room(nsvcd__surface *s, size_t stored, size_t named,
                                size_t triangles) {
-  nsvcd__list *lists[] = {&s->vertex_list, &s->named_list, &s->corner_list, &s->id_list};
-  const size_t counts[] = {s->vertex_count, s->named_count, s->listed, s->listed};
-  const size_t more[] = {vertices, named, triangles, triangles};
+  const size_t counts[4] = {s->vertex_count, s->named_count, s->listed, s->listed};
+  const size_t more[4] = {stored, named, triangles, triangles};
   for (size_t k = 0; k < 4; k++) {
     const size_t size = k % 2 ? sizeof(uint32_t) : 3 * sizeof(int16_t);
-    lists[k]->count = counts[k];
-    if (!nsvcd__list_reserve(lists[k], more[k], size, s->arena)) return 0;
+    s->lists[k].count = counts[k];
+    if (!nsvcd__list_reserve(&s->lists[k], more[k], size, s->arena)) return 0;
   }
-  s->vertices = (int16_t *)s->vertex_list.items;
-  s->named = (uint32_t *)s->named_list.items;
-  s->corners = (uint16_t *)s->corner_list.items;
-  s->ids = (uint32_t *)s->id_list.items;
+  s->vertices = (int16_t *)s->lists[0].items;
+  s->named = (uint32_t *)s->lists[1].items;
+  s->corners = (uint16_t *)s->lists[2].items;
+  s->ids = (uint32_t *)s->lists[3].items;
   return 1;
 }
 
-// Adds the patches of a region, in pieces, of which the surface has room for all: describes each,
-// counts its vertices and triangles, makes room for these, and writes them. MEMORY; TOO_LARGE if a
-// patch has more than NSVCD__PATCH_VERTICES vertices, or all have too many: then the surface is of
-// no use any more.
-static nsvcd_result nsvcd__surface_add(nsvcd__sorted *sorted, nsvcd__surface *s) {
-  const nsvcd__pieces *pieces = sorted->pieces;
-  const size_t done = s->done;
-  size_t vertices = s->vertex_count;
-  size_t named = s->named_count;
-  size_t triangles = s->listed;
-  s->count = done + pieces->patches->count;
-  for (size_t i = done; i < s->count; i++) {
-    nsvcd__describe_patch(sorted, i - done, s);
-    s->first_vertex[i] = (uint32_t)vertices;
-    s->first_named[i] = (uint32_t)named;
-    s->first_triangle[i] = (uint32_t)triangles;
-    size_t stored = sorted->met_count;
-    // Where nothing is cut, and all points are the hull's, they have been counted.
-    const int whole = pieces->corners.count + pieces->region->cut_count == 0;
-    if (whole && stored == s->hull_counts[i]) {
-      triangles += sorted->first[i - done + 1] - sorted->first[i - done];
-      if (!s->coarse) named += stored;
-    } else {
-      triangles += nsvcd__number_vertices(sorted, i - done, s, &stored);
-      named += sorted->met_count - stored;
-    }
-    vertices += stored;
-    if (sorted->met_count > NSVCD__PATCH_VERTICES) return NSVCD_ERROR_TOO_LARGE;
-    if (vertices > NSVCD__MAX_COUNT || triangles > NSVCD__MAX_COUNT ||
-        named > NSVCD__MAX_COUNT)
-      return NSVCD_ERROR_TOO_LARGE;
-  }
-  s->first_vertex[s->count] = (uint32_t)vertices;
-  s->first_named[s->count] = (uint32_t)named;
-  s->first_triangle[s->count] = (uint32_t)triangles;
-  if (!nsvcd__surface_room(s, vertices - s->vertex_count, named - s->named_count,
-                           triangles - s->listed))
+// Adds the patches of a region. MEMORY; TOO_LARGE if a patch has more than NSVCD__PATCH_VERTICES
+// points, or there are too many in all. After a failure the surface is of no use.
+static nsvcd_result nsvcd__surface_add(nsvcd__sorted *all, nsvcd__surface *s) {
+  const nsvcd__pieces *pieces = all->pieces;
+  // usually enough, so that lists need not grow
+  if (!nsvcd__surface_room(s, 0, pieces->list.count, pieces->list.count))
     return NSVCD_ERROR_MEMORY;
-  s->vertex_count = vertices;
-  s->named_count = named;
-  for (size_t i = done; i < s->count; i++) {
-    if (s->hull_counts[i] > 0) nsvcd__store_patch(sorted, i - done, s);
+  for (size_t i = 0; i < pieces->patches->count; i++) {
+    uint32_t hull[NSVCD__HULL];
+    size_t stored = 0;
+    nsvcd__describe_patch(all, i, s, hull);
+    const size_t triangles = nsvcd__number_vertices(all, i, s, hull, &stored);
+    const size_t named = all->met_count - stored;
+    if (all->met_count > NSVCD__PATCH_VERTICES ||
+        s->vertex_count + stored > NSVCD__MAX_COUNT ||
+        s->listed + triangles > NSVCD__MAX_COUNT || s->named_count + named > NSVCD__MAX_COUNT)
+      return NSVCD_ERROR_TOO_LARGE;
+    if (!nsvcd__surface_room(s, stored, named, triangles)) return NSVCD_ERROR_MEMORY;
+    if (triangles > 0) nsvcd__store_patch(all, i, s, stored);
+    nsvcd__patch_bounds *next = &s->patches[++s->count];
+    next->first_vertex = (uint32_t)s->vertex_count;
+    next->first_named = (uint32_t)s->named_count;
+    next->first_triangle = (uint32_t)s->listed;
   }
-  s->done = s->count;
   return NSVCD_OK;
 }
-#endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
+#endif  // NSVCD_NO_ENCODER
 
 // ====================================================== encoder: what the network keeps of a patch
 
@@ -6731,16 +6621,15 @@ static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
 
 // --------------------------------------------------------------------------------------- body/body
 // In: N patches. Out: one relocatable, checksummed blob. Patches are stored in groups of 16
-// neighbours, each group with a sphere over its members. Where there are many groups, there are
-// levels of spheres above them: the broad phase's tree. There are two kinds of bodies, which begin
-// alike:
+// neighbours, each with a sphere over its members. If there are many groups, there are levels of
+// spheres above them, a tree for the broad phase. There are two kinds of bodies, which begin alike:
 //
 //   struct nsvcd_body    64 bytes
 //   x, y, z, r   (4, P)  float: spheres of the patches, body frame, metres; P = N rounded up to 16;
 //                        padding has r = NSVCD__NOWHERE
 //   x, y, z, r   (4, G)  float: spheres of the groups; G = P / 16 rounded up to 16, padding as
-//                        above. In a body of latents they are over the patches' spheres; in one
-//                        of triangles over the surface in them, which may be much less
+//                        above. In a body of latents over the patches' spheres; in one of
+//                        triangles over the surface in them, which may be much smaller
 //   x, y, z, r   (4, H)  float: if there are more than 32 groups, spheres over 16 groups each;
 //                        H as G
 //   x, y, z, r   (4, I)  float: if these are more than 16, spheres over 16 of them each
@@ -6752,22 +6641,27 @@ static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
 //                        the members of the spheres above
 //   extremes     (P / 16, 8, 3, 16)  int8: eight points of each patch of a group of 16, from its
 //                        centre in steps of r / 127; padding is zero
-//   latents      (N, NSVCD__LATENT)  int8, free of scale
-// and a body of triangles, for the proof, with what body/geometry says. A body that has both is
-// one of latents with one of triangles behind it, at `inner`: each part has spheres that suit it,
-// and patches have the same numbers in both. Each part ends in zeros up to a multiple of
-// NSVCD_ALIGNMENT.
+//   latents      (N, NSVCD__LATENT)  int8, the same at any scale
+// and a body of triangles, for the proof, with what body/geometry says. A body that has both is one
+// of latents with one of triangles behind it, at `inner`. Patches have the same numbers in both;
+// spheres differ. Each part is padded with zeros to a multiple of NSVCD_ALIGNMENT.
 
-// patches of a group, and groups or the like of a sphere above
+// 0: triangles are neither stored nor read
+#ifdef NSVCD_NO_PROOF
+#define NSVCD__PROOF 0
+#else
+#define NSVCD__PROOF 1
+#endif
+// members of a group, and of a sphere of a level
 #define NSVCD__GROUP NSVCD__LANES
-// Groups of a body that are searched at once; with more there are levels above. (Fewer for a test,
-// in which small bodies then make several tiles.)
+// Groups of a body that are searched at once; bodies with more have levels above them. (Tests
+// define fewer, so that small bodies have several tiles.)
 #ifndef NSVCD__TILE
 #define NSVCD__TILE 32
 #endif
 #define NSVCD__TILE_SLOTS 32
-#define NSVCD__LEVELS 3  // of spheres above the patches, at most
-// metres, over every radius and distance that coordinates within bounds can give
+#define NSVCD__LEVELS 3  // at most
+// metres: no radius or distance of coordinates in range exceeds it
 #define NSVCD__MAX_LENGTH 1.6e7f
 #define NSVCD__BODY_MAGIC 0x4256534eu  // "NSVB", or "BVSN": the mark of the byte order
 #define NSVCD__OTHER_MAGIC 0x4e535642u
@@ -6775,9 +6669,9 @@ static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
 
 struct nsvcd_body {
   uint32_t magic, version;
-  // over everything that follows
+  // of everything that follows
   uint64_t checksum;
-  // bytes, of the whole blob
+  // bytes of the whole blob
   uint32_t size;
   // of the weights that made the latents; 0: a body of triangles
   uint32_t weights_id;
@@ -6785,25 +6679,30 @@ struct nsvcd_body {
   uint32_t padded;   // P
   // a sphere over all
   float centre[3], radius;
-  // max |p_i| + r_i: no part is farther from the body's origin
+  // max |p_i| + r_i: nothing is farther from the body's origin
   float extent;
   // 1: nothing can be inside
   uint32_t open;
   // of the mesh; 0: none are stored
   uint32_t triangles;
-  // bytes from here to the body of triangles within; 0: there is none
+  // bytes from here to the body of triangles; 0: there is none
   uint32_t inner;
 };
 
 static size_t nsvcd__group_slots(size_t padded) {
   return nsvcd__round_up(padded / NSVCD__GROUP, NSVCD__GROUP);
 }
+// How many of `members` are in the group that begins with number `first`.
+static size_t nsvcd__group_members(size_t members, size_t first) {
+  const size_t left = first < members ? members - first : 0;
+  return left < NSVCD__GROUP ? left : NSVCD__GROUP;
+}
 
-// A level of spheres: level 0 are the groups, each of the next is over 16 of the one before.
+// A level of spheres. Level 0 are the groups; a sphere of any other is over 16 of the level below.
 typedef struct nsvcd__level {
   size_t count;  // spheres
   size_t slots;  // the same, rounded up to 16
-  // float, from the body's first: x (slots), y, z, r
+  // of its floats, from the body's first: x (slots), y, z, r
   size_t first;
 } nsvcd__level;
 
@@ -6817,7 +6716,7 @@ static nsvcd__level nsvcd__level_of(size_t padded, size_t level) {
   return out;
 }
 
-// How many levels there are: none above the groups where these can be searched all at once.
+// How many levels there are: none above the groups if these are searched at once.
 static size_t nsvcd__level_count(size_t padded) {
   size_t levels = 1;
   if (padded / NSVCD__GROUP <= NSVCD__TILE) return 1;
@@ -6825,7 +6724,6 @@ static size_t nsvcd__level_count(size_t padded) {
   return levels;
 }
 
-// Accessors: x, y, z and r are (P), of the patches.
 static size_t nsvcd__body_groups(const nsvcd_body *body) {
   return body->padded / NSVCD__GROUP;
 }
@@ -6849,7 +6747,7 @@ static nsvcd__sphere nsvcd__body_sphere(const nsvcd_body *body) {
   return out;
 }
 
-// The same place of a body that is being written.
+// The address, writable, in a body that is being written.
 static void *nsvcd__writable(nsvcd_body *body, const void *address) {
   return (char *)body + ((const char *)address - (const char *)body);
 }
@@ -6861,13 +6759,13 @@ static size_t nsvcd__sphere_slots(size_t padded) {
   return top.first / 4 + top.slots;
 }
 
-// Bytes of the header and the spheres, with which both kinds of bodies begin.
+// Bytes of the header and the spheres.
 static size_t nsvcd__spheres_size(size_t padded) {
   return sizeof(struct nsvcd_body) + 16 * nsvcd__sphere_slots(padded);
 }
 
-// Area vectors with their padding: one for each sphere, but where there are no levels above the
-// groups, of patches alone.
+// Area vectors with their padding: one for each sphere, or, without levels above the groups, one
+// for each patch.
 static size_t nsvcd__area_slots(size_t padded) {
   return nsvcd__level_count(padded) > 1 ? nsvcd__sphere_slots(padded) : padded;
 }
@@ -6883,12 +6781,11 @@ static size_t nsvcd__latents_begin(size_t padded) {
 }
 
 #ifndef NSVCD_NO_NETWORK
-// The sums over the spheres of a level of a body that has some above the groups, (3, slots): they
-// lie as the spheres do.
+// (3, slots): the sums over a level's spheres, in a body with levels above the groups.
 static const float *nsvcd__level_areas(const nsvcd_body *body, nsvcd__level level) {
   return nsvcd__body_areas(body) + level.first / 4 * 3;
 }
-// Of the 16 patches of a group: (TIPS, 3, 16).
+// The extremes of a group's patches: (EXTREMES, 3, 16).
 static const int8_t *nsvcd__group_extremes(const nsvcd_body *body, size_t g) {
   const float *areas_end = nsvcd__body_areas(body) + 3 * nsvcd__area_slots(body->padded);
   return (const int8_t *)areas_end + 3 * NSVCD__EXTREMES * NSVCD__GROUP * g;
@@ -6897,9 +6794,7 @@ static const int8_t *nsvcd__group_extremes(const nsvcd_body *body, size_t g) {
 static const int8_t *nsvcd__body_latents(const nsvcd_body *body) {
   return (const int8_t *)body + nsvcd__latents_begin(body->padded);
 }
-#endif
 
-#ifndef NSVCD_NO_NETWORK
 NSVCDDEF size_t nsvcd_body_size(size_t patches) {
   if (patches < 1 || patches > NSVCD_MAX_PATCHES) return 0;
   const size_t padded = nsvcd__round_up(patches, NSVCD__GROUP);
@@ -6908,8 +6803,8 @@ NSVCDDEF size_t nsvcd_body_size(size_t patches) {
 }
 #endif
 
-// FNV-1a, 64 bits, over 32-bit words: every step is a bijection of the state, so no single changed
-// word is missed.
+// FNV-1a, 64 bits, over words of 32 bits. Every step is a bijection of the state, so a change of a
+// single word is always detected.
 static uint64_t nsvcd__body_checksum(const nsvcd_body *body) {
   const char *bytes = (const char *)body;
   uint64_t hash = 14695981039346656037u;
@@ -6922,65 +6817,65 @@ static uint64_t nsvcd__body_checksum(const nsvcd_body *body) {
 }
 
 #ifndef NSVCD_NO_ENCODER
-// Numbers of patches that are being sorted.
-typedef struct nsvcd__ordering {
-  // of all patches
-  const nsvcd__f3 *centres;
-  uint16_t *order;  // (count)
-  // (count), working memory
-  uint16_t *spare;
-  size_t count;
-} nsvcd__ordering;
-
-// Sorts patches by a coordinate of their centres, merging ever longer runs. Equal ones keep their
-// order, so that the result is the same everywhere.
-static void nsvcd__sort_along(nsvcd__ordering all, size_t axis) {
-  const float *at = (const float *)(const void *)all.centres + axis;
-  for (size_t run = 1; run < all.count; run *= 2) {
-    for (size_t first = 0; first < all.count; first += 2 * run) {
-      const size_t middle = first + run < all.count ? first + run : all.count;
-      const size_t end = first + 2 * run < all.count ? first + 2 * run : all.count;
+// Sorts patches, by numbers, by a coordinate of their centres. A merge sort: equal ones keep their
+// order, so the result is the same everywhere. spare: (count).
+static void nsvcd__sort_along(const nsvcd__f3 *centres, size_t axis, uint16_t *order,
+                              uint16_t *spare, size_t count) {
+  const float *at = (const float *)(const void *)centres + axis;
+  for (size_t run = 1; run < count; run *= 2) {
+    for (size_t first = 0; first < count; first += 2 * run) {
+      const size_t middle = first + run < count ? first + run : count;
+      const size_t end = first + 2 * run < count ? first + 2 * run : count;
       size_t left = first;
       size_t right = middle;
       for (size_t to = first; to < end; to++) {
         int from_right = left == middle;
         if (left < middle && right < end)
-          from_right = at[3 * all.order[right]] < at[3 * all.order[left]];
-        all.spare[to] = from_right ? all.order[right++] : all.order[left++];
+          from_right = at[3 * order[right]] < at[3 * order[left]];
+        spare[to] = from_right ? order[right++] : order[left++];
       }
     }
-    memcpy(all.order, all.spare, all.count * sizeof *all.order);
+    memcpy(order, spare, count * sizeof *order);
   }
 }
 
 // Orders patches so that each run of 16 is compact, and each run of 16 of those: median splits
-// across the longest axis of the centres' box, the left part a multiple of 16, or of 256 and so on
-// where there are more than a tile's.
-static void nsvcd__body_order(nsvcd__ordering all) {
-  if (all.count <= NSVCD__GROUP) return;
-  nsvcd__f3 low = all.centres[all.order[0]];
+// across the longest axis of the centres' box. The left part is a multiple of 16, or of 256 and so
+// on if there are more than a tile's. spare: (count).
+static void nsvcd__body_order(const nsvcd__f3 *centres, uint16_t *order, uint16_t *spare,
+                              size_t count) {
+  if (count <= NSVCD__GROUP) return;
+  nsvcd__f3 low = centres[order[0]];
   nsvcd__f3 high = low;
-  for (size_t i = 1; i < all.count; i++) {
-    low = nsvcd__f3_min(low, all.centres[all.order[i]]);
-    high = nsvcd__f3_max(high, all.centres[all.order[i]]);
+  for (size_t i = 1; i < count; i++) {
+    low = nsvcd__f3_min(low, centres[order[i]]);
+    high = nsvcd__f3_max(high, centres[order[i]]);
   }
   const nsvcd__f3 size = nsvcd__f3_sub(high, low);
-  const size_t axis = size.y > size.x ? 1 : 0;
-  const int is_z = size.z > (axis ? size.y : size.x);
-  nsvcd__sort_along(all, is_z ? 2 : axis);
+  size_t axis = size.y > size.x ? 1 : 0;
+  if (size.z > fmaxf(size.x, size.y)) axis = 2;
+  nsvcd__sort_along(centres, axis, order, spare, count);
   size_t unit = NSVCD__GROUP;
-  while (2 * NSVCD__GROUP * unit < all.count) unit *= NSVCD__GROUP;
-  nsvcd__ordering left = all;
-  nsvcd__ordering right = all;
-  left.count = nsvcd__round_up(all.count / 2, unit);
-  right.count = all.count - left.count;
-  right.order += left.count;
-  nsvcd__body_order(left);
-  nsvcd__body_order(right);
+  while (2 * NSVCD__GROUP * unit < count) unit *= NSVCD__GROUP;
+  const size_t left = nsvcd__round_up(count / 2, unit);
+  nsvcd__body_order(centres, order, spare, left);
+  nsvcd__body_order(centres, order + left, spare, count - left);
 }
 
-// Begins a body of so many patches in `memory`: zeros, the header, and the padding of the patches'
-// spheres.
+// What a body of latents is built of.
+typedef struct nsvcd__latents {
+  size_t count;        // N
+  nsvcd__f3 *centres;  // (N)
+  float *radii;        // (N)
+  nsvcd__f3 *areas;    // (N)
+  int8_t *extremes;    // (N, EXTREMES, 3)
+  int8_t *latents;     // (N, LATENT)
+  // (N) of the patches
+  const uint16_t *order;
+  int open;
+} nsvcd__latents;
+
+// Begins a body in `memory`: zeros, the header, and the padding of the patches' spheres.
 static nsvcd_body *nsvcd__body_begin(void *memory, size_t size, size_t patches, int open) {
   nsvcd_body *b = (nsvcd_body *)memory;
   memset(memory, 0, size);
@@ -6996,47 +6891,46 @@ static nsvcd_body *nsvcd__body_begin(void *memory, size_t size, size_t patches, 
 }
 #endif
 
-// Do 16 spheres end nearer to a place than at a distance, but for roundings? Needs no roots, and
-// compilers do it for several at a time.
-static int nsvcd__are_within(nsvcd__spheres all, nsvcd__f3 centre, float distance) {
-  int within = 1;
+// Are 16 spheres within a distance of a point, but for roundings? It takes no roots, and compilers
+// vectorize it.
+static int nsvcd__are_within(nsvcd__spheres all, nsvcd__f3 point, float distance) {
+  int are_within = 1;
   for (size_t i = 0; i < NSVCD__GROUP; i++) {
-    const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__centre_of(all, i), centre);
+    const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__centre_of(all, i), point);
     const float gap = distance - all.r[i];
-    within &= (gap > 0) & (nsvcd__f3_dot(offset, offset) < gap * gap);
+    are_within &= (gap > 0) & (nsvcd__f3_dot(offset, offset) < gap * gap);
   }
-  return within;
+  return are_within;
 }
 
-// The distance of the farthest point of `count` spheres from a place; *farthest is the sphere that
-// has it, if it is above 0. Before, it is a guess: the better, the sooner this is done.
-static float nsvcd__reach_of_spheres(nsvcd__spheres all, size_t count, nsvcd__f3 centre,
-                                     size_t *farthest) {
+// The distance from a point to the farthest point of `count` spheres. *farthest: a guess, the
+// better the faster; becomes the sphere that is farthest, if the distance is above 0.
+static float nsvcd__radius_about(nsvcd__spheres all, size_t count, nsvcd__f3 point,
+                                 size_t *farthest) {
   const nsvcd__sphere guess = nsvcd__sphere_of(all, *farthest);
-  // less by more than the roundings: the farthest is never passed over
+  // less than 1 by more than the roundings: the farthest sphere is never skipped
   const float fraction = 0.999998f;
   float least =
-      fraction * (nsvcd__f3_length(nsvcd__f3_sub(guess.centre, centre)) + guess.radius);
-  float reach = 0;
+      fraction * (nsvcd__f3_length(nsvcd__f3_sub(guess.centre, point)) + guess.radius);
+  float radius = 0;
   for (size_t first = 0; first < count; first += NSVCD__GROUP) {
-    const size_t left = count - first;
-    const size_t end = left < NSVCD__GROUP ? count : first + NSVCD__GROUP;
+    const size_t end = first + nsvcd__group_members(count, first);
     const nsvcd__spheres some = nsvcd__spheres_from(all, first);
-    if (left >= NSVCD__GROUP && nsvcd__are_within(some, centre, least)) continue;
+    if (end == first + NSVCD__GROUP && nsvcd__are_within(some, point, least)) continue;
     for (size_t i = first; i < end; i++) {
-      const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__centre_of(all, i), centre);
+      const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__centre_of(all, i), point);
       const float to = nsvcd__f3_length(offset) + all.r[i];
-      if (to > reach) *farthest = i;
-      reach = to > reach ? to : reach;
+      if (to > radius) *farthest = i;
+      radius = to > radius ? to : radius;
     }
-    least = fraction * reach > least ? fraction * reach : least;
+    least = fraction * radius > least ? fraction * radius : least;
   }
-  return reach;
+  return radius;
 }
 
-// A sphere over `count` spheres: from the middle of their box, ever shorter steps towards the
-// farthest (Badoiu and Clarkson 2003), the best one kept. The radius is rounded up by more than any
-// compiler's rounding.
+// A sphere over `count` spheres (Badoiu, Clarkson 2003): ever shorter steps towards the farthest
+// sphere. Difference: they begin in the middle of the box, and the best one is kept. The radius is
+// rounded up by more than any compiler's rounding.
 static nsvcd__sphere nsvcd__cover_spheres(nsvcd__spheres all, size_t count) {
   nsvcd__f3 low = nsvcd__f3_of(HUGE_VALF, HUGE_VALF, HUGE_VALF);
   nsvcd__f3 high = nsvcd__f3_scale(low, -1);
@@ -7050,11 +6944,9 @@ static nsvcd__sphere nsvcd__cover_spheres(nsvcd__spheres all, size_t count) {
   nsvcd__sphere best = {centre, HUGE_VALF};
   size_t farthest = 0;
   for (int step = 0; step < 32; step++) {
-    const float reach = nsvcd__reach_of_spheres(all, count, centre, &farthest);
-    if (reach < best.radius) {
-      best.centre = centre;
-      best.radius = reach;
-    }
+    const float radius = nsvcd__radius_about(all, count, centre, &farthest);
+    const nsvcd__sphere trial = {centre, radius};
+    if (trial.radius < best.radius) best = trial;
     const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__centre_of(all, farthest), centre);
     const float steps = (float)(step + 3);
     centre.x += offset.x / steps;
@@ -7065,7 +6957,7 @@ static nsvcd__sphere nsvcd__cover_spheres(nsvcd__spheres all, size_t count) {
   return best;
 }
 
-// Fills a level with spheres over 16 spheres each, of so many.
+// Fills a level with spheres over 16 of `members` spheres each.
 static void nsvcd__cover_level(nsvcd_body *body, size_t k, nsvcd__spheres below,
                                size_t members) {
   const nsvcd__level level = nsvcd__level_of(body->padded, k);
@@ -7073,14 +6965,13 @@ static void nsvcd__cover_level(nsvcd_body *body, size_t k, nsvcd__spheres below,
   for (size_t g = 0; g < level.slots; g++) {
     nsvcd__sphere sphere = {{0, 0, 0}, NSVCD__NOWHERE};
     const size_t i = g * NSVCD__GROUP;
-    const size_t left = i >= members ? 0 : members - i;
-    const size_t count = left < NSVCD__GROUP ? left : NSVCD__GROUP;
+    const size_t count = nsvcd__group_members(members, i);
     if (count) sphere = nsvcd__cover_spheres(nsvcd__spheres_from(below, i), count);
     nsvcd__sphere_store(sphere, out, level.slots, g);
   }
 }
 
-// Fills the spheres above the groups, the bounding sphere and the extent of a blob whose patches
+// Fills in the levels above the groups, the bounding sphere and the extent of a blob whose patches
 // and groups are in place.
 static void nsvcd__body_finish(nsvcd_body *body) {
   const nsvcd__spheres patches = nsvcd__body_patches(body);
@@ -7094,7 +6985,7 @@ static void nsvcd__body_finish(nsvcd_body *body) {
   const nsvcd__sphere over = nsvcd__cover_spheres(patches, body->patches);
   const nsvcd__sphere above = nsvcd__cover_spheres(groups, nsvcd__body_groups(body));
   const nsvcd__sphere sphere = above.radius < over.radius ? above : over;
-  const float extent = nsvcd__reach_of_spheres(patches, body->patches, origin, &farthest);
+  const float extent = nsvcd__radius_about(patches, body->patches, origin, &farthest);
   nsvcd__f3_store(sphere.centre, body->centre);
   body->radius = sphere.radius;
   body->extent = extent * 1.000002f;
@@ -7107,24 +6998,11 @@ static int nsvcd__areas_are_sound(const nsvcd_body *body) {
 }
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_NETWORK)
-// What a body of latents is built of.
-typedef struct nsvcd__latents_source {
-  size_t count;              // N
-  const nsvcd__f3 *centres;  // (N)
-  const float *radii;        // (N)
-  const nsvcd__f3 *areas;    // (N)
-  const int8_t *extremes;    // (N, TIPS, 3)
-  const int8_t *latents;     // (N, LATENT)
-  // (N) of the patches
-  const uint16_t *order;
-  int open;
-} nsvcd__latents_source;
-
-// Builds a body of latents in `memory`, nsvcd_body_size bytes. NUMBER if something is out of
-// bounds, EMPTY if it is too small.
-static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void *memory) {
-  const size_t count = source->count;
-  nsvcd_body *b = nsvcd__body_begin(memory, nsvcd_body_size(count), count, source->open);
+// Builds a body of latents in `memory`, nsvcd_body_size bytes. NUMBER if something is out of range,
+// EMPTY if it is too small.
+static nsvcd_result nsvcd__body_build(const nsvcd__latents *all, void *memory) {
+  const size_t count = all->count;
+  nsvcd_body *b = nsvcd__body_begin(memory, nsvcd_body_size(count), count, all->open);
   const size_t padded = b->padded;
   b->weights_id = NSVCD_WEIGHTS_ID;
   float *spheres = (float *)(b + 1);
@@ -7132,17 +7010,17 @@ static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void 
   int8_t *extremes = (int8_t *)nsvcd__writable(b, nsvcd__group_extremes(b, 0));
   int8_t *latents = (int8_t *)nsvcd__writable(b, nsvcd__body_latents(b));
   for (size_t i = 0; i < count; i++) {
-    const size_t from = source->order[i];
-    const nsvcd__sphere sphere = {source->centres[from], source->radii[from]};
+    const size_t n = all->order[i];
+    const nsvcd__sphere sphere = {all->centres[n], all->radii[n]};
     nsvcd__sphere_store(sphere, spheres, padded, i);
-    nsvcd__f3_put(source->areas[from], areas + i, padded);
+    nsvcd__f3_put(all->areas[n], areas + i, padded);
     int8_t *group = extremes + 3 * NSVCD__EXTREMES * (i - i % NSVCD__GROUP) + i % NSVCD__GROUP;
     for (size_t k = 0; k < 3 * NSVCD__EXTREMES; k++)
-      group[NSVCD__GROUP * k] = source->extremes[3 * NSVCD__EXTREMES * from + k];
-    memcpy(latents, source->latents + NSVCD__LATENT * from, NSVCD__LATENT);
+      group[NSVCD__GROUP * k] = all->extremes[3 * NSVCD__EXTREMES * n + k];
+    memcpy(latents, all->latents + NSVCD__LATENT * n, NSVCD__LATENT);
     latents += NSVCD__LATENT;
   }
-  // The levels, if there are any above the groups, have the sums over what is below.
+  // If there are levels above the groups, all levels have sums over what is below.
   const size_t levels = nsvcd__level_count(padded);
   const float *below = areas;
   size_t stride = padded;
@@ -7167,189 +7045,170 @@ static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void 
 // ---------------------------------------------------------------------------------- body/traversal
 // In: a body and a filter of spheres. Out: the groups whose spheres pass.
 
-// Which of 16 spheres are of interest? Bits of lanes.
+// Which of 16 spheres pass? A bit for each.
 typedef uint32_t nsvcd__filter(const void *what, nsvcd__spheres spheres);
 
-// Finds the groups whose spheres, and all spheres over them, pass a filter, in their order.
+// Visits, in order, the groups that pass a filter, as do all spheres over them.
 typedef struct nsvcd__traversal {
   const nsvcd_body *body;
   nsvcd__filter *filter;
   const void *what;
   size_t levels, level;
-  // on each level, the first of the spheres looked at
-  uint32_t first[NSVCD__LEVELS];
-  // and those of them that passed, and are still to be visited
-  uint32_t left[NSVCD__LEVELS];
+  // on each level: the first of the spheres at hand, and bits of those still to be visited
+  uint32_t first[NSVCD__LEVELS], left[NSVCD__LEVELS];
 } nsvcd__traversal;
 
-// Which of 16 spheres of a level pass? Bits of lanes.
-static uint32_t nsvcd__traversal_filter(const nsvcd__traversal *traversal, size_t level,
+// Filters 16 spheres of a level.
+static uint32_t nsvcd__traversal_filter(const nsvcd__traversal *t, size_t level,
                                         size_t first) {
-  const nsvcd__level at = nsvcd__level_of(traversal->body->padded, level);
-  const nsvcd__spheres all = nsvcd__level_spheres(traversal->body, at);
-  return traversal->filter(traversal->what, nsvcd__spheres_from(all, first));
+  const nsvcd__level at = nsvcd__level_of(t->body->padded, level);
+  const nsvcd__spheres all = nsvcd__level_spheres(t->body, at);
+  return t->filter(t->what, nsvcd__spheres_from(all, first));
 }
 
-static void nsvcd__traversal_begin(nsvcd__traversal *traversal, const nsvcd_body *body,
+static void nsvcd__traversal_begin(nsvcd__traversal *t, const nsvcd_body *body,
                                    nsvcd__filter *filter, const void *what) {
-  traversal->body = body;
-  traversal->filter = filter;
-  traversal->what = what;
-  traversal->levels = nsvcd__level_count(body->padded);
-  traversal->level = traversal->levels - 1;
-  traversal->first[traversal->level] = 0;
+  t->body = body;
+  t->filter = filter;
+  t->what = what;
+  t->levels = nsvcd__level_count(body->padded);
+  t->level = t->levels - 1;
+  t->first[t->level] = 0;
   uint32_t left = 0;
-  const size_t slots = nsvcd__level_of(body->padded, traversal->level).slots;
+  const size_t slots = nsvcd__level_of(body->padded, t->level).slots;
   for (size_t first = 0; first < slots; first += NSVCD__GROUP)
-    left |= nsvcd__traversal_filter(traversal, traversal->level, first) << first;
-  traversal->left[traversal->level] = left;
+    left |= nsvcd__traversal_filter(t, t->level, first) << first;
+  t->left[t->level] = left;
 }
 
-// The next group; 0 if there is none.
-static int nsvcd__traversal_next(nsvcd__traversal *traversal, size_t *group) {
+// Goes to the next group. 0 if there is none.
+static int nsvcd__traversal_next(nsvcd__traversal *t, size_t *group) {
   for (;;) {
-    while (!traversal->left[traversal->level]) {
-      if (traversal->level + 1 == traversal->levels) return 0;
-      traversal->level++;
+    while (!t->left[t->level]) {
+      if (t->level + 1 == t->levels) return 0;
+      t->level++;
     }
-    uint32_t *left = &traversal->left[traversal->level];
-    const size_t found = traversal->first[traversal->level] + nsvcd__low_bit(*left);
+    uint32_t *left = &t->left[t->level];
+    const size_t found = t->first[t->level] + nsvcd__low_bit(*left);
     *left &= *left - 1;
-    if (traversal->level == 0) {
+    if (t->level == 0) {
       *group = found;
       return 1;
     }
-    traversal->level--;
-    traversal->first[traversal->level] = (uint32_t)(NSVCD__GROUP * found);
-    traversal->left[traversal->level] =
-        nsvcd__traversal_filter(traversal, traversal->level, NSVCD__GROUP * found);
+    t->level--;
+    t->first[t->level] = (uint32_t)(NSVCD__GROUP * found);
+    t->left[t->level] = nsvcd__traversal_filter(t, t->level, NSVCD__GROUP * found);
   }
 }
 
 // ----------------------------------------------------------------------------------- body/geometry
-// In: the surface of each patch. Out: the blob of the proof, and what it says of a patch.
+// In: the surface of each patch. Out: the proof's blob, and what it says of a patch.
 //
-// The body of triangles. Its spheres are the least about each patch's pieces of the surface. Behind
-// them stand
+// A body of triangles. Its spheres are the least ones about the surface in each patch. Behind them:
 //
-//   counts          (4)      uint32: triangles listed L, points stored V, components C, bytes of
-//                            entries B
-//   convex_radius   (1)      float: metres that the body goes beyond its triangles
-//   counts          (3)      uint32: vertices of the mesh W, references to them R, triangles that
-//                            are listed in pieces K. 0, 0, 0: the body is coarse
-//   solids          (4)      uint32: components as they are told, how many of these are open, open
-//                            edges; 1: entries have kinds of two bits
-//   gap             (1)      float: metres: corners no farther apart count as one where
-//                            it is asked what is closed
+//   counts          nsvcd__counts
 //   box             (2, 3)   float: least and greatest coordinates of the surface
-//   widest          (2)      float: the greatest of the quantization errors; and metres that the
-//                            mesh's vertices are off by: 0, but in a body that was scaled, or is
-//                            coarse
+//   widest          (2)      float: the greatest of `errors`; and how far the mesh's vertices are
+//                            off, metres: 0, except in bodies that are scaled or coarse
 //   slabs           (6, P)   float: normal n, low, high, across: points x of a piece have
-//                            low <= n.(x - c) <= high, and are no farther than `across` from the
-//                            line along n; c: centre of the patch's sphere
-//   group slabs     (6, G)   float: the same over the members of each group; c: centre of the
-//                            group's sphere
+//                            low <= n.(x - c) <= high and are within `across` of the line along n
+//                            through c, the centre of the patch's sphere
+//   group slabs     (6, G)   float: the same over the members of a group; c: its sphere's centre
 //   steps           (P)      float: metres per integer: a stored point is c + step (x, y, z)
 //   margins         (P)      float: pieces are within this of the hull of the first points
-//   errors (P)  float: corners that are stored points are within this of the mesh's
+//   errors          (P)      float: corners that are stored points are within this of the mesh's
 //   first_vertex, first_own, first_reference, first_triangle, first_byte
-//                   (5, N + 1) uint32: where a patch's stored points, the vertices that it is the
-//                            first to have, references to others, triangles and entries begin
-//   first_seed      (G' + 1) uint32: where the seeds of a group begin; G': groups, without the
-//                            padding
-//   seeds           (C, 3)   float: a point of each component, group by group, within its sphere
-//   positions       (W, 3)   float: the mesh's vertices as the caller gave them, each place once:
-//                            of each patch its own, then those of no patch
-//   cut             (K)      uint32: triangles of the caller's that are listed in pieces, in order
+//                   (5, N + 1) uint32: where a patch's stored points, the vertices that no patch
+//                            before it has, its references to others, its entries and their bytes
+//                            begin
+//   first_seed      (G' + 1) uint32: where a group's seeds begin; G': groups without padding
+//   seeds           (C, 3)   float: a point of each component, group by group, in the group's
+//                            sphere
+//   positions       (W, 3)   float: the mesh's vertices as the caller gave them, each position
+//                            once: first those that patches own, then those of no patch
+//   cut             (K)      uint32: the caller's triangles that are stored in pieces, ascending
 //   cut_corners     (K, 3)   uint32: their corners, numbers of vertices
-//   references      (R)      uint32, or uint16 if W is 65536 at most: patch by patch, numbers of
-//                            vertices that a patch before it has
-//   vertices        (3 V)    int16: patch by patch x, y, z of its stored points: the hull's, then
-//                            corners of pieces
-//                   (16)     int16: so that 16 can be read from any point on
-//   entries        (B)      bytes: patch by patch, of its T triangles
-//     corners       (T, 3)   uint8, or uint16 in patches of more than 256: points within the patch:
-//                            its stored ones, its own vertices, its references. A triangle of
-//                            vertices alone is one of the caller's; another is a piece of one
+//   references      (R)      uint32, or uint16 if W <= 65536: patch by patch, numbers of vertices
+//                            that an earlier patch owns
+//   vertices        (3 V)    int16: patch by patch x, y, z of its stored points: those of the hull,
+//                            then corners of pieces
+//                   (16)     int16: padding, so that 16 can be read from any point on
+//   entries         (B)      bytes: of each patch's T triangles
+//     corners       (T, 3)   uint8, or uint16 in patches of more than 256 points: numbers in the
+//                            patch of its stored points, its own vertices, its references. An
+//                            entry of vertices alone is a triangle of the caller's; any other is a
+//                            piece of one
 //     numbers       (T)      each in 1 to 5 bytes: see nsvcd__read_code
-//   hull_counts     (N)      uint8: vertices of the hull, 16 at most; 0: the patch has no surface
+//   hull_counts     (N)      uint8: vertices of the hull, at most 16; 0: the patch has no surface
 
-#ifndef NSVCD_NO_PROOF
 #define NSVCD__HULLS (NSVCD__GROUP * NSVCD__HULL)  // vertices of a group, at most
-#define NSVCD__GEOMETRY_BOX 8                      // with the greatest quantization error
+#define NSVCD__GEOMETRY_BOX 8                      // floats of `box` and `widest`
 
-typedef struct nsvcd__geometry_counts {
-  uint32_t listed, vertices, components, triangle_codes_size;
+typedef struct nsvcd__counts {
+  // L, entries of all patches
+  uint32_t listed;
+  // V, stored points
+  uint32_t vertices;
+  uint32_t components;   // C
+  uint32_t entry_bytes;  // B
+  // metres that the body extends beyond its triangles
   float convex_radius;
+  // W, R, K; all 0: the body is coarse
   uint32_t positions, references, cut;
-  uint32_t solids, open_solids, open_edges, is_mixed;
+  // as nsvcd_body_facts tells them
+  uint32_t solids, open_solids, open_edges;
+  // 1: entries have kinds of two bits
+  uint32_t is_mixed;
+  // metres: corners this near count as one in what is closed
   float gap;
-} nsvcd__geometry_counts;
+} nsvcd__counts;
 
+// Where everything is in a body of triangles. Only who builds or scales one writes through this.
 typedef struct nsvcd__geometry {
-  // of triangles
-  const nsvcd_body *body;
-  const float *box, *slabs, *group_slabs, *steps, *margins, *errors;
-  const uint32_t *first_vertex, *first_own, *first_reference, *first_triangle, *first_byte;
-  const uint32_t *first_seed;
-  const float *seeds, *positions;
-  const uint32_t *cut, *cut_corners;
-  // of 16 bits or 32
-  const unsigned char *references;
-  const int16_t *vertices;
-  const unsigned char *triangle_codes;
-  const uint8_t *hull_counts;
-  size_t listed, vertex_count, components, triangle_codes_size;
-  size_t position_count, reference_count, cut_count;
-  float convex_radius, gap;
-  // bits of a entry's code that are its kind
+  nsvcd_body *body;
+  nsvcd__counts *counts;
+  float *box, *slabs, *group_slabs, *steps, *margins, *errors, *seeds, *positions;
+  uint32_t *first_vertex, *first_own, *first_reference, *first_triangle, *first_byte;
+  uint32_t *first_seed, *cut, *cut_corners;
+  unsigned char *references;
+  int16_t *vertices;
+  unsigned char *entries;
+  uint8_t *hull_counts;
+  size_t reference_bytes;  // of each: 2 or 4
+  // of an entry's code: 1 or 2
   unsigned kind_bits;
 } nsvcd__geometry;
 
-// The body of triangles in a body, or NULL.
+// The body of triangles in a body; NULL: there is none, or it may not be read.
 static const nsvcd_body *nsvcd__triangles_of(const nsvcd_body *body) {
-  if (body->triangles == 0 || body->weights_id == 0) return body->triangles ? body : NULL;
+  if (!NSVCD__PROOF || body->triangles == 0) return NULL;
   return (const nsvcd_body *)(const void *)((const char *)body + body->inner);
 }
 
-static const nsvcd__geometry_counts *nsvcd__counts_of(const nsvcd_body *body) {
+static const nsvcd__counts *nsvcd__counts_of(const nsvcd_body *body) {
   const char *at = (const char *)body + nsvcd__spheres_size(body->padded);
-  return (const nsvcd__geometry_counts *)(const void *)at;
+  return (const nsvcd__counts *)(const void *)at;
 }
 
-// The next `count` numbers in a body, or, where that is NULL, only counts them.
-#define NSVCD__PASS(type, count) ((const type *)nsvcd__pass(body, &at, count, sizeof(type)))
-static const void *nsvcd__pass(const nsvcd_body *body, uint64_t *at, uint64_t count,
-                               size_t size) {
-  const void *out = body ? (const char *)body + *at : NULL;
+// The next `count` numbers in a body; NULL: only counts them.
+#define NSVCD__PASS(type, count) ((type *)nsvcd__pass(body, &at, count, sizeof(type)))
+static void *nsvcd__pass(nsvcd_body *body, uint64_t *at, uint64_t count, size_t size) {
+  void *out = body ? (char *)body + *at : NULL;
   *at += count * size;
   return out;
 }
 
-static size_t nsvcd__reference_bytes(const nsvcd__geometry *f) {
-  return f->position_count <= 65536 ? 2 : 4;
-}
-
-// Where all is in a body of so many patches. body: NULL to know only how large it is to be. Returns
-// its bytes; 0 if they cannot be counted in 32 bits.
-static size_t nsvcd__geometry_layout(const nsvcd_body *body, size_t patches,
-                                     const nsvcd__geometry_counts *counts,
-                                     nsvcd__geometry *f) {
+// Lays out a body of `patches` patches; NULL: only finds its size. Returns that, or 0 if it takes
+// more than 32 bits.
+static size_t nsvcd__geometry_layout(nsvcd_body *body, size_t patches,
+                                     const nsvcd__counts *counts, nsvcd__geometry *f) {
   const size_t padded = nsvcd__round_up(patches, NSVCD__GROUP);
   const size_t starts = patches + 1;
-  uint64_t at = nsvcd__spheres_size(padded) + sizeof *counts;
+  uint64_t at = nsvcd__spheres_size(padded);
   f->body = body;
-  f->listed = counts->listed;
-  f->vertex_count = counts->vertices;
-  f->components = counts->components;
-  f->triangle_codes_size = counts->triangle_codes_size;
-  f->convex_radius = counts->convex_radius;
-  f->position_count = counts->positions;
-  f->reference_count = counts->references;
-  f->cut_count = counts->cut;
-  f->gap = counts->gap;
+  f->reference_bytes = counts->positions <= 65536 ? 2 : 4;
   f->kind_bits = 1 + (counts->is_mixed != 0);
+  f->counts = NSVCD__PASS(nsvcd__counts, 1);
   f->box = NSVCD__PASS(float, NSVCD__GEOMETRY_BOX);
   f->slabs = NSVCD__PASS(float, 6 * padded);
   f->group_slabs = NSVCD__PASS(float, 6 * nsvcd__group_slots(padded));
@@ -7362,14 +7221,14 @@ static size_t nsvcd__geometry_layout(const nsvcd_body *body, size_t patches,
   f->first_triangle = NSVCD__PASS(uint32_t, starts);
   f->first_byte = NSVCD__PASS(uint32_t, starts);
   f->first_seed = NSVCD__PASS(uint32_t, padded / NSVCD__GROUP + 1);
-  f->seeds = NSVCD__PASS(float, (uint64_t)3 * f->components);
-  f->positions = NSVCD__PASS(float, (uint64_t)3 * f->position_count);
-  f->cut = NSVCD__PASS(uint32_t, f->cut_count);
-  f->cut_corners = NSVCD__PASS(uint32_t, (uint64_t)3 * f->cut_count);
-  const size_t wide = nsvcd__reference_bytes(f);
-  f->references = NSVCD__PASS(unsigned char, (uint64_t)wide * f->reference_count);
-  f->vertices = NSVCD__PASS(int16_t, (uint64_t)3 * f->vertex_count + NSVCD__LANES);
-  f->triangle_codes = NSVCD__PASS(unsigned char, f->triangle_codes_size);
+  f->seeds = NSVCD__PASS(float, (uint64_t)3 * counts->components);
+  f->positions = NSVCD__PASS(float, (uint64_t)3 * counts->positions);
+  f->cut = NSVCD__PASS(uint32_t, counts->cut);
+  f->cut_corners = NSVCD__PASS(uint32_t, (uint64_t)3 * counts->cut);
+  const uint64_t references = (uint64_t)f->reference_bytes * counts->references;
+  f->references = NSVCD__PASS(unsigned char, references);
+  f->vertices = NSVCD__PASS(int16_t, (uint64_t)3 * counts->vertices + NSVCD__LANES);
+  f->entries = NSVCD__PASS(unsigned char, counts->entry_bytes);
   f->hull_counts = NSVCD__PASS(uint8_t, patches);
   at += NSVCD_ALIGNMENT - at % NSVCD_ALIGNMENT;
   return at > 0xffffffffu ? 0 : (size_t)at;
@@ -7377,14 +7236,17 @@ static size_t nsvcd__geometry_layout(const nsvcd_body *body, size_t patches,
 
 static nsvcd__geometry nsvcd__geometry_of(const nsvcd_body *body) {
   nsvcd__geometry f;
-  (void)nsvcd__geometry_layout(body, body->patches, nsvcd__counts_of(body), &f);
+  nsvcd_body *b;
+  // a cast would take away a const
+  memcpy(&b, &body, sizeof b);
+  (void)nsvcd__geometry_layout(b, body->patches, nsvcd__counts_of(body), &f);
   return f;
 }
 
-static float nsvcd__widest_quantization(const nsvcd__geometry *f) {
+static float nsvcd__widest_error(const nsvcd__geometry *f) {
   return f->box[6];
 }
-// How far nsvcd__patch_triangle may be off the mesh's.
+// How far nsvcd__patch_triangle may be off the mesh's triangle.
 static float nsvcd__off_mesh(const nsvcd__geometry *f) {
   return f->box[7];
 }
@@ -7393,7 +7255,6 @@ static float nsvcd__off_mesh(const nsvcd__geometry *f) {
 
 // The stored points of a patch: integers, in steps from its centre.
 typedef struct nsvcd__vertices {
-  // (count) each
   const int16_t *x, *y, *z;
   size_t count;
 } nsvcd__vertices;
@@ -7411,8 +7272,8 @@ static nsvcd__d3 nsvcd__vertex_at(const nsvcd__vertices *vertices, size_t i) {
   return nsvcd__d3_of(vertices->x[i], vertices->y[i], vertices->z[i]);
 }
 
-// The points that corners of a patch can be, by their numbers in it: stored ones, from 0; its own
-// vertices; and references.
+// A patch numbers the points that its corners can be: stored points, then own vertices, then
+// references. These are their counts.
 typedef struct nsvcd__patch_points {
   size_t stored, own, all;
 } nsvcd__patch_points;
@@ -7425,16 +7286,16 @@ NSVCD__INLINE nsvcd__patch_points nsvcd__points_of(const nsvcd__geometry *f, siz
   return out;
 }
 
-// Bytes of a corner in a patch of so many points.
+// Bytes of a corner in a patch of `points` points.
 static size_t nsvcd__corner_bytes(size_t points) {
   return points <= 256 ? 1 : 2;
 }
 
-// The number of a vertex that reference n is.
+// The vertex that reference n names.
 NSVCD__INLINE size_t nsvcd__reference_at(const nsvcd__geometry *f, size_t n) {
   uint32_t number;
   uint16_t narrow;
-  if (nsvcd__reference_bytes(f) == 4) {
+  if (f->reference_bytes == 4) {
     memcpy(&number, f->references + 4 * n, sizeof number);
     return number;
   }
@@ -7442,7 +7303,7 @@ NSVCD__INLINE size_t nsvcd__reference_at(const nsvcd__geometry *f, size_t n) {
   return narrow;
 }
 
-// The place of point i of a patch, which is no stored one, (3).
+// The position of point i of a patch, not a stored one: (3).
 NSVCD__INLINE const float *nsvcd__position_of(const nsvcd__geometry *f, size_t patch,
                                               nsvcd__patch_points points, size_t i) {
   i -= points.stored;
@@ -7451,10 +7312,10 @@ NSVCD__INLINE const float *nsvcd__position_of(const nsvcd__geometry *f, size_t p
   return f->positions + 3 * nsvcd__reference_at(f, at);
 }
 
-// The point, of its patch, of corner k (0..2) of entry n.
+// The number, in the patch, of corner k (0..2) of entry n.
 static size_t nsvcd__triangle_corner(const nsvcd__geometry *f, size_t patch, size_t n,
                                      size_t k) {
-  const unsigned char *corners = f->triangle_codes + f->first_byte[patch];
+  const unsigned char *corners = f->entries + f->first_byte[patch];
   const size_t at = 3 * (n - f->first_triangle[patch]) + k;
   if (nsvcd__corner_bytes(nsvcd__points_of(f, patch).all) == 1) return corners[at];
   uint16_t corner;
@@ -7462,11 +7323,11 @@ static size_t nsvcd__triangle_corner(const nsvcd__geometry *f, size_t patch, siz
   return corner;
 }
 
-// The numbers of a patch's triangles in the caller's mesh follow each other as codes: what the
-// number is more than the one before, modulo 2^30, and below it one bit: does the triangle belong
-// to a closed component? Where there are other kinds than closed ones and sheets, two bits: the
-// kind. A code is stored 7 bits a byte, the lowest first; the top bit says that there are more.
-// Most take one byte, for neighbours have near numbers.
+// The numbers of entries follow each other as codes. The upper bits of a code are the triangle's
+// number in the caller's mesh minus that of the entry before, modulo 2^30. The lowest bit tells
+// whether it belongs to a closed component; in a body with other kinds than CLOSED and SHEET, the
+// lowest two are the kind. A code has 7 bits a byte, the lowest first; the top bit tells that more
+// follow. Most codes take one byte, for neighbours have near numbers.
 static uint32_t nsvcd__read_code(const unsigned char **at) {
   uint32_t code = 0;
   for (unsigned shift = 0; shift < 35; shift += 7) {
@@ -7477,12 +7338,12 @@ static uint32_t nsvcd__read_code(const unsigned char **at) {
   return code;
 }
 
-// The numbers of a patch's triangles, read one after another.
+// Reads the numbers of a patch's entries, one after another.
 typedef struct nsvcd__numbers {
   const unsigned char *at;
-  size_t next;      // entry
-  uint32_t number;  // of the one before
-  uint32_t kind;
+  size_t next;  // entry
+  // of the entry before
+  uint32_t number, kind;
   unsigned kind_bits;
 } nsvcd__numbers;
 
@@ -7490,7 +7351,7 @@ static nsvcd__numbers nsvcd__numbers_of(const nsvcd__geometry *f, size_t patch) 
   const size_t bytes = nsvcd__corner_bytes(nsvcd__points_of(f, patch).all);
   const size_t triangles = f->first_triangle[patch + 1] - f->first_triangle[patch];
   nsvcd__numbers out;
-  out.at = f->triangle_codes + f->first_byte[patch] + 3 * triangles * bytes;
+  out.at = f->entries + f->first_byte[patch] + 3 * triangles * bytes;
   out.next = f->first_triangle[patch];
   out.number = 0;
   out.kind = NSVCD__SHEET;
@@ -7498,7 +7359,7 @@ static nsvcd__numbers nsvcd__numbers_of(const nsvcd__geometry *f, size_t patch) 
   return out;
 }
 
-// Reads on until entry n, which has not been read before.
+// Reads on up to entry n, which has not been read yet.
 static void nsvcd__read_number(nsvcd__numbers *numbers, size_t n) {
   for (; numbers->next <= n; numbers->next++) {
     const uint32_t code = nsvcd__read_code(&numbers->at);
@@ -7509,7 +7370,7 @@ static void nsvcd__read_number(nsvcd__numbers *numbers, size_t n) {
   }
 }
 
-// The triangle, in the caller's mesh, of entry n.
+// The caller's triangle of entry n.
 static uint32_t nsvcd__triangle_number(const nsvcd__geometry *f, size_t patch, size_t n) {
   nsvcd__numbers numbers = nsvcd__numbers_of(f, patch);
   nsvcd__read_number(&numbers, n);
@@ -7517,7 +7378,7 @@ static uint32_t nsvcd__triangle_number(const nsvcd__geometry *f, size_t patch, s
 }
 
 // Does entry n belong to a closed surface?
-static int nsvcd__is_in_solid(const nsvcd__geometry *f, size_t patch, size_t n) {
+static inline int nsvcd__is_in_solid(const nsvcd__geometry *f, size_t patch, size_t n) {
   nsvcd__numbers numbers = nsvcd__numbers_of(f, patch);
   nsvcd__read_number(&numbers, n);
   return numbers.kind >= NSVCD__CLOSED && !f->body->open;
@@ -7526,16 +7387,23 @@ static int nsvcd__is_in_solid(const nsvcd__geometry *f, size_t patch, size_t n) 
 static nsvcd__f3 nsvcd__patch_centre(const nsvcd__geometry *f, size_t patch) {
   return nsvcd__centre_of(nsvcd__body_patches(f->body), patch);
 }
-// The same in double: what the vertices are counted from.
+// The same in double: the origin of the stored points.
 static nsvcd__d3 nsvcd__patch_origin(const nsvcd__geometry *f, size_t patch) {
   return nsvcd__d3_widen(nsvcd__patch_centre(f, patch));
 }
 
-// The corners (3) of a triangle that is listed in pieces, by its number in the caller's mesh.
+// Stored point i of a patch.
+static nsvcd__d3 nsvcd__stored_point(const nsvcd__geometry *f, size_t patch, size_t i) {
+  const nsvcd__vertices vertices = nsvcd__vertices_of(f, patch);
+  const nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, i);
+  return nsvcd__d3_fma((double)f->steps[patch], vertex, nsvcd__patch_origin(f, patch));
+}
+
+// The corners (3) of a triangle of the caller's that is stored in pieces.
 static void nsvcd__whole_triangle(const nsvcd__geometry *f, uint32_t number,
                                   nsvcd__d3 *corners) {
   size_t first = 0;
-  for (size_t left = f->cut_count; left > 1;) {
+  for (size_t left = f->counts->cut; left > 1;) {
     const size_t half = left / 2;
     if (f->cut[first + half] <= number) first += half;
     left -= half;
@@ -7544,41 +7412,38 @@ static void nsvcd__whole_triangle(const nsvcd__geometry *f, uint32_t number,
     corners[k] = nsvcd__d3_row(f->positions, f->cut_corners[3 * first + k]);
 }
 
-// The corners (3) of the caller's triangle that entry n of a patch is, or is a piece of. Of a
-// coarse body, those of the entry itself.
-static void nsvcd__patch_triangle(const nsvcd__geometry *f, size_t patch, size_t n,
-                                  nsvcd__d3 *corners) {
+// The corners (3) of the caller's triangle that entry n is, or is a piece of. In a coarse body
+// those of the entry itself.
+static inline void nsvcd__patch_triangle(const nsvcd__geometry *f, size_t patch, size_t n,
+                                         nsvcd__d3 *corners) {
   const nsvcd__patch_points points = nsvcd__points_of(f, patch);
   for (size_t k = 0; k < 3; k++) {
     const size_t i = nsvcd__triangle_corner(f, patch, n, k);
     if (i >= points.stored) {
       corners[k] = nsvcd__d3_load(nsvcd__position_of(f, patch, points, i));
-    } else if (f->cut_count > 0) {
+    } else if (f->counts->cut > 0) {
       nsvcd__whole_triangle(f, nsvcd__triangle_number(f, patch, n), corners);
       return;
     } else {
-      const nsvcd__vertices vertices = nsvcd__vertices_of(f, patch);
-      const nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, i);
-      corners[k] =
-          nsvcd__d3_fma((double)f->steps[patch], vertex, nsvcd__patch_origin(f, patch));
+      corners[k] = nsvcd__stored_point(f, patch, i);
     }
   }
 }
 
 // ---- what follows from the patches
 
-// What the members of a group extend to along a direction and across it, from the centre of the
-// group's sphere. One that is seen to be no thinner than `most` is not measured to the end.
-typedef struct nsvcd__slab_of_hulls {
+typedef struct nsvcd__dslab {
   double low, high, across;
-} nsvcd__slab_of_hulls;
+} nsvcd__dslab;
 
-static nsvcd__slab_of_hulls nsvcd__slab_of_group(const nsvcd__geometry *f, size_t g,
-                                                 nsvcd__d3 normal, double most) {
+// The extent of a group along a direction and across it, from the centre of its sphere. Stops once
+// that is no thinner than `most`.
+static nsvcd__dslab nsvcd__slab_of_group(const nsvcd__geometry *f, size_t g, nsvcd__d3 normal,
+                                         double most) {
   const size_t first = NSVCD__GROUP * g;
   const nsvcd__spheres groups = nsvcd__groups_of(f->body);
   const nsvcd__d3 centre = nsvcd__d3_widen(nsvcd__centre_of(groups, g));
-  nsvcd__slab_of_hulls slab = {HUGE_VAL, -HUGE_VAL, 0};
+  nsvcd__dslab slab = {HUGE_VAL, -HUGE_VAL, 0};
   for (size_t i = first; i < first + NSVCD__GROUP && i < f->body->patches; i++) {
     if (slab.high - slab.low >= most) break;
     const nsvcd__vertices vertices = nsvcd__vertices_of(f, i);
@@ -7599,8 +7464,8 @@ static nsvcd__slab_of_hulls nsvcd__slab_of_group(const nsvcd__geometry *f, size_
   return slab;
 }
 
-// Writes a group's slab. Its normal is the mean of the members', or that of every fourth member:
-// the one in which the group is thinnest.
+// Writes a group's slab. Its normal is the mean of the members' normals, or that of every fourth
+// member, whichever makes it thinnest.
 static void nsvcd__finish_group(nsvcd_body *b, size_t g) {
   const nsvcd__geometry f = nsvcd__geometry_of(b);
   nsvcd__d3 normals[1 + NSVCD__GROUP] = {{0, 0, 0}};
@@ -7612,54 +7477,49 @@ static void nsvcd__finish_group(nsvcd_body *b, size_t g) {
     normals[0] = nsvcd__d3_fma(sign, normal, normals[0]);
   }
   nsvcd__d3 best = {0, 0, 1};
-  nsvcd__slab_of_hulls thinnest = {0, HUGE_VAL, 0};
+  nsvcd__dslab thinnest = {0, HUGE_VAL, 0};
   for (size_t k = 0; k < 1 + NSVCD__GROUP; k += k == 0 ? 1 : 4) {
     const double length = nsvcd__d3_length(normals[k]);
     if (!(length > 1e-3)) continue;
-    // As it is stored, and no longer than 1.
+    // as it is stored, and not longer than 1
     const nsvcd__d3 shorter = nsvcd__d3_scale(normals[k], 0.9999998 / length);
     const nsvcd__d3 unit = nsvcd__d3_widen(nsvcd__f3_round(shorter));
     const double most = thinnest.high - thinnest.low;
-    const nsvcd__slab_of_hulls slab = nsvcd__slab_of_group(&f, g, unit, most);
+    const nsvcd__dslab slab = nsvcd__slab_of_group(&f, g, unit, most);
     if (!(slab.high - slab.low < most)) continue;
     thinnest = slab;
     best = unit;
   }
-  // float rounding, and that `across` takes |n| to be 1
+  // rounding to float; and `across` assumes |n| = 1
   const double margin = 1e-6 * (double)b->extent;
   nsvcd__slab slab;
   slab.normal = nsvcd__f3_round(best);
   slab.low = (float)(thinnest.low - margin);
   slab.high = thinnest.high < HUGE_VAL ? (float)(thinnest.high + margin) : 0;
   slab.across = nsvcd__above(thinnest.across + margin);
-  float *slabs = (float *)nsvcd__writable(b, f.group_slabs);
-  nsvcd__slab_store(slab, slabs, nsvcd__group_slots(b->padded), g);
+  nsvcd__slab_store(slab, f.group_slabs, nsvcd__group_slots(b->padded), g);
 }
 
-// The surface in a group: spheres about the vertices of its patches' hulls. A patch without surface
-// is a point.
+// Spheres about the hulls' vertices, which together contain the surface of a group. A patch without
+// surface is a point.
 typedef struct nsvcd__hulls {
   size_t count;
-  float spheres[4][NSVCD__HULLS];  // x, y, z, r
+  // x, y, z, r
+  float spheres[4][NSVCD__HULLS];
 } nsvcd__hulls;
 
 static void nsvcd__collect_hulls(const nsvcd__geometry *f, size_t g, nsvcd__hulls *out) {
   const size_t end = NSVCD__GROUP * (g + 1);
   out->count = 0;
   for (size_t i = end - NSVCD__GROUP; i < end && i < f->body->patches; i++) {
-    const nsvcd__vertices vertices = nsvcd__vertices_of(f, i);
-    const nsvcd__d3 origin = nsvcd__patch_origin(f, i);
-    const double step = (double)f->steps[i];
     const size_t count = f->hull_counts[i];
     for (size_t k = 0; k < count + !count; k++) {
-      nsvcd__d3 v = {0, 0, 0};
-      if (count) v = nsvcd__vertex_at(&vertices, k);
-      v = nsvcd__d3_fma(step, v, origin);
-      // as float rounds it
+      nsvcd__d3 v = nsvcd__patch_origin(f, i);
+      if (count) v = nsvcd__stored_point(f, i, k);
+      // of v to float
       const double rounding = 1.1e-7 * nsvcd__d3_length(v);
-      const double radius = (double)f->margins[i] + rounding;
       const size_t n = out->count++;
-      out->spheres[3][n] = nsvcd__above(radius);
+      out->spheres[3][n] = nsvcd__above((double)f->margins[i] + rounding);
       nsvcd__f3_put(nsvcd__f3_round(v), &out->spheres[0][n], NSVCD__HULLS);
     }
   }
@@ -7669,9 +7529,8 @@ static nsvcd__spheres nsvcd__hull_spheres(const nsvcd__hulls *hulls) {
   return nsvcd__spheres_of(hulls->spheres[0], NSVCD__HULLS);
 }
 
-// What is computed from the patches of a body of triangles, when these are in place: the spheres
-// above them, the box with the greatest of the quantization errors, and the groups' slabs. off:
-// metres that the mesh's vertices are off by.
+// Completes a body of triangles whose patches are in place: spheres of groups and levels, the box,
+// the greatest error, the groups' slabs. off: of the mesh's vertices, metres.
 static void nsvcd__geometry_finish(nsvcd_body *b, float off) {
   const nsvcd__geometry f = nsvcd__geometry_of(b);
   const nsvcd__level groups = nsvcd__level_of(b->padded, 0);
@@ -7690,110 +7549,100 @@ static void nsvcd__geometry_finish(nsvcd_body *b, float off) {
   nsvcd__d3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
   nsvcd__d3 high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   float widest = 0;
-  for (size_t n = 0; n < f.position_count; n++) {
+  for (size_t n = 0; n < f.counts->positions; n++) {
     low = nsvcd__d3_min(low, nsvcd__d3_row(f.positions, n));
     high = nsvcd__d3_max(high, nsvcd__d3_row(f.positions, n));
   }
   for (size_t i = 0; i < b->patches; i++) {
-    const nsvcd__vertices vertices = nsvcd__vertices_of(&f, i);
-    const nsvcd__d3 origin = nsvcd__patch_origin(&f, i);
-    const double quantization_error = (double)f.errors[i];
+    const size_t count = f.first_vertex[i + 1] - f.first_vertex[i];
+    const double error = (double)f.errors[i];
     widest = f.errors[i] > widest ? f.errors[i] : widest;
-    for (size_t k = 0; k < vertices.count && f.position_count == 0; k++) {
-      nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, k);
-      vertex = nsvcd__d3_fma((double)f.steps[i], vertex, origin);
-      low = nsvcd__d3_min(low, nsvcd__d3_fma(-quantization_error, all, vertex));
-      high = nsvcd__d3_max(high, nsvcd__d3_fma(quantization_error, all, vertex));
+    for (size_t k = 0; k < count && f.counts->positions == 0; k++) {
+      const nsvcd__d3 vertex = nsvcd__stored_point(&f, i, k);
+      low = nsvcd__d3_min(low, nsvcd__d3_fma(-error, all, vertex));
+      high = nsvcd__d3_max(high, nsvcd__d3_fma(error, all, vertex));
     }
   }
-  // float rounding
+  // 1e-6: rounding to float
   const double margin = 1e-6 * (double)b->extent + (double)off;
-  float *box = (float *)nsvcd__writable(b, f.box);
-  nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_fma(-margin, all, low)), box);
-  nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_fma(margin, all, high)), box + 3);
-  box[6] = widest;
-  box[7] = f.position_count > 0 ? off : widest;
+  nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_fma(-margin, all, low)), f.box);
+  nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_fma(margin, all, high)), f.box + 3);
+  f.box[6] = widest;
+  f.box[7] = f.counts->positions > 0 ? off : widest;
   for (size_t g = 0; g < nsvcd__body_groups(b); g++) nsvcd__finish_group(b, g);
   b->checksum = nsvcd__body_checksum(b);
 }
-#endif  // NSVCD_NO_PROOF
 
-// Of a sphere about a body, with what it goes beyond its triangles.
+// The radius of a body's sphere, its convex radius included.
 static float nsvcd__whole_radius(const nsvcd_body *body) {
-#ifndef NSVCD_NO_PROOF
   const nsvcd_body *triangles = nsvcd__triangles_of(body);
-  if (triangles) return body->radius + nsvcd__counts_of(triangles)->convex_radius;
-#endif
-  return body->radius;
+  return body->radius + (triangles ? nsvcd__counts_of(triangles)->convex_radius : 0);
 }
 
 // -------------------------------------------------------------------------------------- body/trust
-// In: bytes that somebody hands over. Out: a body, if all in it is as nsvcd_encode would have it,
-// or could have it.
+// In: bytes of any origin. Out: a body, if nsvcd_encode could have written them.
 
-// ---- the spheres, with which both kinds of bodies begin
+// ---- spheres: both kinds of bodies begin with them
 
 // Does a sphere contain `count` spheres?
 static int nsvcd__covers(nsvcd__sphere sphere, nsvcd__spheres all, size_t count) {
   size_t farthest = 0;
-  return nsvcd__reach_of_spheres(all, count, sphere.centre, &farthest) <= sphere.radius;
+  return nsvcd__radius_about(all, count, sphere.centre, &farthest) <= sphere.radius;
 }
 
-// Are the first `count` of (4, slots) spheres finite and within bounds, their radii not negative,
-// and the others exactly what padding is? most: of the coordinates.
+// Are the first `count` of (4, slots) spheres finite and in range, with no negative radius, and the
+// others padding? most: of the coordinates.
 static int nsvcd__are_spheres(nsvcd__spheres all, size_t count, size_t slots, float most) {
-  if (!nsvcd__in_range(all.x, 3 * slots, most)) return 0;
-  if (!nsvcd__in_range(all.r, count, NSVCD__MAX_LENGTH)) return 0;
-  if (!nsvcd__in_range(all.r, slots, -NSVCD__NOWHERE)) return 0;
-  for (size_t i = 0; i < count; i++) {
-    if (all.r[i] < 0) return 0;
+  int ok = nsvcd__in_range(all.x, 3 * slots, most) &&
+           nsvcd__in_range(all.r, count, NSVCD__MAX_LENGTH) &&
+           nsvcd__in_range(all.r, slots, -NSVCD__NOWHERE);
+  for (size_t i = 0; ok && i < count; i++) ok = all.r[i] >= 0;
+  for (size_t i = count; ok && i < slots; i++) {
+    ok = all.r[i] == NSVCD__NOWHERE;
+    ok &= all.x[i] == 0 && all.y[i] == 0 && all.z[i] == 0;
   }
-  for (size_t i = count; i < slots; i++) {
-    if (all.x[i] != 0 || all.y[i] != 0 || all.z[i] != 0) return 0;
-    if (all.r[i] != NSVCD__NOWHERE) return 0;
-  }
-  return 1;
+  return ok;
 }
 
-// Does each of a level's spheres cover its 16 of so many?
+// Does each of a level's spheres contain its 16 of `members` spheres below?
 static int nsvcd__level_covers(nsvcd__spheres level, nsvcd__spheres below, size_t members) {
-  for (size_t i = 0; i < members; i += NSVCD__GROUP) {
-    const size_t count = members - i < NSVCD__GROUP ? members - i : NSVCD__GROUP;
+  int ok = 1;
+  for (size_t i = 0; ok && i < members; i += NSVCD__GROUP) {
+    const size_t count = nsvcd__group_members(members, i);
     const nsvcd__sphere sphere = nsvcd__sphere_of(level, i / NSVCD__GROUP);
-    if (!nsvcd__covers(sphere, nsvcd__spheres_from(below, i), count)) return 0;
+    ok = nsvcd__covers(sphere, nsvcd__spheres_from(below, i), count);
   }
-  return 1;
+  return ok;
 }
 
-// Are the spheres of a blob, whose layout is right, finite and bounded, their radii not negative,
-// and does each one above the groups cover what is below? A checksum stops accidents; this stops a
-// blob made to harm: a lying sphere would hide collisions.
+// Are the spheres of a blob with a sound header in range, and does each one above the groups
+// contain what is below it? The checksum catches accidents; this catches blobs made to harm: a
+// wrong sphere would hide collisions.
 static int nsvcd__spheres_are_sound(const nsvcd_body *b) {
+  const float most = NSVCD__MAX_LENGTH;
   const nsvcd__spheres patches = nsvcd__body_patches(b);
-  const nsvcd__sphere about_origin = {nsvcd__f3_of(0, 0, 0), b->extent};
-  if (!nsvcd__are_spheres(patches, b->patches, b->padded, NSVCD_MAX_COORDINATE)) return 0;
-  if (!nsvcd__in_range(b->centre, 3, NSVCD__MAX_LENGTH)) return 0;
-  if (!nsvcd__in_range(&b->radius, 1, NSVCD__MAX_LENGTH)) return 0;
-  if (!nsvcd__in_range(&b->extent, 1, NSVCD__MAX_LENGTH)) return 0;
-  if (b->radius < 0) return 0;
   const nsvcd__spheres groups = nsvcd__groups_of(b);
   nsvcd__spheres below = groups;
   size_t members = 0;
-  for (size_t k = 0; k < nsvcd__level_count(b->padded); k++) {
+  int ok = nsvcd__are_spheres(patches, b->patches, b->padded, NSVCD_MAX_COORDINATE) &&
+           nsvcd__in_range(b->centre, 3, most) && nsvcd__in_range(&b->radius, 1, most) &&
+           nsvcd__in_range(&b->extent, 1, most) && b->radius >= 0;
+  for (size_t k = 0; ok && k < nsvcd__level_count(b->padded); k++) {
     const nsvcd__level level = nsvcd__level_of(b->padded, k);
     const nsvcd__spheres above = nsvcd__level_spheres(b, level);
-    if (!nsvcd__are_spheres(above, level.count, level.slots, NSVCD__MAX_LENGTH)) return 0;
-    if (!nsvcd__level_covers(above, below, members)) return 0;
+    ok = nsvcd__are_spheres(above, level.count, level.slots, most) &&
+         nsvcd__level_covers(above, below, members);
     below = above;
     members = level.count;
   }
   const nsvcd__sphere whole = nsvcd__body_sphere(b);
-  if (!nsvcd__covers(about_origin, patches, b->patches)) return 0;
-  return nsvcd__covers(whole, patches, b->patches) ||
-         nsvcd__covers(whole, groups, nsvcd__body_groups(b));
+  const nsvcd__sphere about_origin = {{0, 0, 0}, b->extent};
+  return ok && nsvcd__covers(about_origin, patches, b->patches) &&
+         (nsvcd__covers(whole, patches, b->patches) ||
+          nsvcd__covers(whole, groups, nsvcd__body_groups(b)));
 }
 
-// Would the spheres, multiplied, still be within the limits of nsvcd_body_load? In double, for the
+// Would the scaled spheres still be within the limits of nsvcd_body_load? In double, for the
 // products may overflow a float.
 static int nsvcd__spheres_fit(const nsvcd_body *b, float radius, float scale) {
   const double least = (double)NSVCD_MIN_RADIUS / (double)scale;
@@ -7802,12 +7651,12 @@ static int nsvcd__spheres_fit(const nsvcd_body *b, float radius, float scale) {
   for (size_t i = 0; i < 3 * (size_t)b->padded; i++) {
     if (fabs((double)nsvcd__body_patches(b).x[i]) > most) return 0;
   }
-  // Twice the extent is over every radius and centre of a group.
+  // no radius or centre of a group exceeds twice the extent
   return 2 * (double)b->extent <= (double)NSVCD__MAX_LENGTH / (double)scale;
 }
 
 #ifndef NSVCD_NO_NETWORK
-// Are extremes in range, and is their padding zero?
+// Are the extremes in range, and is their padding zero?
 static int nsvcd__extremes_are_sound(const nsvcd_body *b) {
   const int8_t *extremes = nsvcd__group_extremes(b, 0);
   for (size_t n = 0; n < (size_t)3 * NSVCD__EXTREMES * b->padded; n++) {
@@ -7821,19 +7670,38 @@ static int nsvcd__extremes_are_sound(const nsvcd_body *b) {
 
 // ---- the triangles
 
-#ifndef NSVCD_NO_PROOF
-// Are counts and indices of a patch right? Those of the patches before it are.
-static int nsvcd__patch_is_laid_out(const nsvcd__geometry *f, size_t i) {
-  const uint32_t *vertex = f->first_vertex + i;
-  const uint32_t *own = f->first_own + i;
-  const uint32_t *reference = f->first_reference + i;
-  const uint32_t *triangle = f->first_triangle + i;
-  if (vertex[1] < vertex[0] || vertex[1] > f->vertex_count) return 0;
-  if (own[1] < own[0] || own[1] > f->position_count) return 0;
-  if (reference[1] < reference[0] || reference[1] > f->reference_count) return 0;
-  if (triangle[1] < triangle[0] || triangle[1] > f->listed) return 0;
+// Do `count` + 1 numbers rise from 0 to `last`?
+static int nsvcd__rise(const uint32_t *first, size_t count, size_t last) {
+  int rise = first[0] == 0 && first[count] == last;
+  for (size_t i = 0; i < count; i++) rise &= first[i] <= first[i + 1];
+  return rise;
+}
+
+// Do all arrays of patches, groups and numbers of vertices stay within each other?
+static int nsvcd__are_laid_out(const nsvcd__geometry *f) {
+  const nsvcd__counts *n = f->counts;
+  const nsvcd_body *b = f->body;
+  const size_t patches = b->patches;
+  const size_t own = f->first_own[patches];
+  int ok = own <= n->positions && nsvcd__rise(f->first_own, patches, own) &&
+           nsvcd__rise(f->first_vertex, patches, n->vertices) &&
+           nsvcd__rise(f->first_reference, patches, n->references) &&
+           nsvcd__rise(f->first_triangle, patches, n->listed) &&
+           nsvcd__rise(f->first_byte, patches, n->entry_bytes) &&
+           nsvcd__rise(f->first_seed, nsvcd__body_groups(b), n->components);
+  for (size_t i = 0; ok && i < n->references; i++)
+    ok = nsvcd__reference_at(f, i) < n->positions;
+  for (size_t i = 0; ok && i < n->cut; i++)
+    ok = f->cut[i] < b->triangles && (i == 0 || f->cut[i] > f->cut[i - 1]);
+  for (size_t i = 0; ok && i < 3 * (size_t)n->cut; i++) ok = f->cut_corners[i] < n->positions;
+  return ok;
+}
+
+// Are the entries of patch i sound?
+static int nsvcd__patch_is_sound(const nsvcd__geometry *f, size_t i) {
   const nsvcd__patch_points points = nsvcd__points_of(f, i);
-  const size_t triangles = triangle[1] - triangle[0];
+  const size_t triangle = f->first_triangle[i];
+  const size_t triangles = f->first_triangle[i + 1] - triangle;
   const size_t hull_count = f->hull_counts[i];
   if (hull_count > NSVCD__HULL || hull_count > points.stored) return 0;
   if ((hull_count == 0) != (triangles == 0)) return 0;
@@ -7841,14 +7709,13 @@ static int nsvcd__patch_is_laid_out(const nsvcd__geometry *f, size_t i) {
 
   const uint64_t corners = (uint64_t)3 * triangles * nsvcd__corner_bytes(points.all);
   const uint64_t corners_end = f->first_byte[i] + corners;
-  if (corners_end > f->first_byte[i + 1] || f->first_byte[i + 1] > f->triangle_codes_size)
-    return 0;
+  if (corners_end > f->first_byte[i + 1]) return 0;
   for (size_t n = 0; n < 3 * triangles; n++) {
-    if (nsvcd__triangle_corner(f, i, triangle[0] + n / 3, n % 3) >= points.all) return 0;
+    if (nsvcd__triangle_corner(f, i, triangle + n / 3, n % 3) >= points.all) return 0;
   }
-  // Behind them are just as many codes, and all of triangles that there are.
-  const unsigned char *at = f->triangle_codes + (size_t)corners_end;
-  const unsigned char *end = f->triangle_codes + f->first_byte[i + 1];
+  // as many codes follow, of triangles that exist, and nothing else
+  const unsigned char *at = f->entries + (size_t)corners_end;
+  const unsigned char *end = f->entries + f->first_byte[i + 1];
   uint32_t number = 0;
   for (size_t n = 0; n < triangles; n++) {
     const size_t left = (size_t)(end - at);
@@ -7860,113 +7727,71 @@ static int nsvcd__patch_is_laid_out(const nsvcd__geometry *f, size_t i) {
   }
   return at == end;
 }
-#endif  // NSVCD_NO_PROOF
-
-#ifndef NSVCD_NO_PROOF
-// Are all numbers of vertices, and of triangles that are listed in pieces, of some that there are?
-static int nsvcd__numbers_are_sound(const nsvcd__geometry *f) {
-  for (size_t n = 0; n < f->reference_count; n++)
-    if (nsvcd__reference_at(f, n) >= f->position_count) return 0;
-  for (size_t n = 0; n < f->cut_count; n++) {
-    if (f->cut[n] >= f->body->triangles || (n > 0 && f->cut[n] <= f->cut[n - 1])) return 0;
-    for (size_t k = 0; k < 3; k++)
-      if (f->cut_corners[3 * n + k] >= f->position_count) return 0;
-  }
-  return 1;
-}
-#endif
 
 // ---- whole bodies
 
-// Are the sizes that a blob of ours begins with right, of `size` bytes or fewer?
+// Are the sizes in a blob's header right, and is it at most `size` bytes long?
 static int nsvcd__header_is_sound(const nsvcd_body *b, size_t size) {
-  if (size < sizeof *b) return 0;
-  if (b->magic != NSVCD__BODY_MAGIC || b->version != NSVCD__BODY_VERSION) return 0;
-  if (b->patches < 1 || b->patches > NSVCD_MAX_PATCHES) return 0;
-  if (b->open > 1 || b->size > size) return 0;
-  if (b->padded != nsvcd__round_up(b->patches, NSVCD__GROUP)) return 0;
-  return b->size >= nsvcd__spheres_size(b->padded) && b->size % NSVCD_ALIGNMENT == 0;
+  return size >= sizeof *b && b->magic == NSVCD__BODY_MAGIC &&
+         b->version == NSVCD__BODY_VERSION && b->patches >= 1 &&
+         b->patches <= NSVCD_MAX_PATCHES && b->open <= 1 && b->size <= size &&
+         b->padded == nsvcd__round_up(b->patches, NSVCD__GROUP) &&
+         b->size >= nsvcd__spheres_size(b->padded) && b->size % NSVCD_ALIGNMENT == 0;
 }
 
-// Is all of a body of triangles sound: the spheres; the layout, which is sizes, counts and indices;
-// and are the numbers in range? They may lie about the surface, but nothing that is computed from
-// them overflows. It has at most `size` bytes, and a sound header.
-static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
-#ifndef NSVCD_NO_PROOF
-  if (b->inner != 0 || !nsvcd__spheres_are_sound(b)) return 0;
-  const size_t patches = b->patches;
-  const size_t padded = b->padded;
-  const size_t groups = nsvcd__body_groups(b);
+// Are the numbers of a body of triangles in range?
+static int nsvcd__are_in_range(const nsvcd__geometry *f) {
+  const nsvcd__counts *n = f->counts;
+  const size_t padded = f->body->padded;
   const size_t slots = nsvcd__group_slots(padded);
-  const nsvcd__geometry_counts *counts = nsvcd__counts_of(b);
-  if (nsvcd__spheres_size(padded) + sizeof *counts > size) return 0;
-  if (b->triangles == 0) return 0;
-  if (counts->open_solids > counts->solids || counts->is_mixed > 1) return 0;
-  if (!nsvcd__in_range(&counts->gap, 1, NSVCD_MAX_COORDINATE) || counts->gap < 0) return 0;
-  if (!nsvcd__in_range(&counts->convex_radius, 1, NSVCD_MAX_COORDINATE) ||
-      counts->convex_radius < 0)
-    return 0;
-  if (b->radius + counts->convex_radius < NSVCD_MIN_RADIUS) return 0;
+  const float most = NSVCD__MAX_LENGTH;
+  int ok = nsvcd__in_range(f->box, NSVCD__GEOMETRY_BOX, most) &&
+           nsvcd__in_range(f->slabs, 3 * padded, 1.000001f) &&
+           nsvcd__in_range(f->slabs + 3 * padded, 3 * padded, most) &&
+           nsvcd__in_range(f->group_slabs, 3 * slots, 1.000001f) &&
+           nsvcd__in_range(f->group_slabs + 3 * slots, 3 * slots, most) &&
+           nsvcd__in_range(f->steps, padded, most / 32768) &&
+           nsvcd__in_range(f->margins, padded, most) &&
+           nsvcd__in_range(f->errors, padded, nsvcd__widest_error(f)) &&
+           nsvcd__in_range(f->seeds, 3 * (size_t)n->components, most) &&
+           nsvcd__in_range(f->positions, 3 * (size_t)n->positions, most) &&
+           nsvcd__off_mesh(f) >= 0;
+  for (size_t i = 0; ok && i < padded; i++) {
+    const nsvcd__slab slab = nsvcd__slab_at(f->slabs, padded, i);
+    ok = slab.across >= 0 && f->steps[i] >= 0 && f->margins[i] >= 0 && f->errors[i] >= 0;
+  }
+  return ok;
+}
+
+// Is a body of triangles sound, if its header is? Checks the spheres, the layout (sizes, counts and
+// indices), and that numbers are in range: they may misstate the surface, but nothing computed from
+// them overflows. size: bytes, at most.
+static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
+  const nsvcd__counts *n = nsvcd__counts_of(b);
+  const uint64_t counted = nsvcd__spheres_size(b->padded) + sizeof *n;
   nsvcd__geometry f;
-  if (b->size != nsvcd__geometry_layout(NULL, patches, counts, &f) || b->size > size) return 0;
-
+  if (b->inner != 0 || b->triangles == 0 || !nsvcd__spheres_are_sound(b)) return 0;
+  if (counted > size || n->open_solids > n->solids || n->is_mixed > 1) return 0;
+  if (!nsvcd__is_length(n->gap) || !nsvcd__is_length(n->convex_radius)) return 0;
+  if (b->radius + n->convex_radius < NSVCD_MIN_RADIUS) return 0;
+  const size_t needed = nsvcd__geometry_layout(NULL, b->patches, n, &f);
+  if (b->size != needed || b->size > size) return 0;
   f = nsvcd__geometry_of(b);
-  if (f.first_vertex[0] != 0 || f.first_triangle[0] != 0) return 0;
-  if (f.first_own[0] != 0 || f.first_reference[0] != 0) return 0;
-  if (f.first_byte[0] != 0 || f.first_seed[0] != 0) return 0;
-  for (size_t i = 0; i < patches; i++) {
-    if (!nsvcd__patch_is_laid_out(&f, i)) return 0;
-  }
-  for (size_t g = 0; g < groups; g++) {
-    if (f.first_seed[g + 1] < f.first_seed[g]) return 0;
-  }
-  if (f.first_vertex[patches] != f.vertex_count || f.first_triangle[patches] != f.listed)
-    return 0;
-  if (f.first_byte[patches] != f.triangle_codes_size || f.first_seed[groups] != f.components)
-    return 0;
-  if (f.first_reference[patches] != f.reference_count || !nsvcd__numbers_are_sound(&f))
-    return 0;
-
-  for (size_t g = 0; g < groups; g++) {
+  int ok = nsvcd__are_laid_out(&f) && nsvcd__are_in_range(&f);
+  for (size_t i = 0; ok && i < b->patches; i++) ok = nsvcd__patch_is_sound(&f, i);
+  for (size_t g = 0; ok && g < nsvcd__body_groups(b); g++) {
     nsvcd__hulls hulls;
     nsvcd__collect_hulls(&f, g, &hulls);
     const nsvcd__spheres all = nsvcd__hull_spheres(&hulls);
     const nsvcd__sphere over = nsvcd__sphere_of(nsvcd__groups_of(b), g);
-    if (!nsvcd__covers(over, all, hulls.count)) return 0;
+    ok = nsvcd__covers(over, all, hulls.count);
   }
-
-  const float most = NSVCD__MAX_LENGTH;
-  if (!nsvcd__in_range(f.box, NSVCD__GEOMETRY_BOX, most)) return 0;
-  if (!nsvcd__in_range(f.slabs, 3 * padded, 1.000001f)) return 0;
-  if (!nsvcd__in_range(f.slabs + 3 * padded, 3 * padded, most)) return 0;
-  if (!nsvcd__in_range(f.group_slabs, 3 * slots, 1.000001f)) return 0;
-  if (!nsvcd__in_range(f.group_slabs + 3 * slots, 3 * slots, most)) return 0;
-  if (!nsvcd__in_range(f.steps, padded, most / 32768)) return 0;
-  if (!nsvcd__in_range(f.margins, padded, most)) return 0;
-  if (!nsvcd__in_range(f.errors, padded, most)) return 0;
-  if (!nsvcd__in_range(f.seeds, 3 * f.components, most)) return 0;
-  if (!nsvcd__in_range(f.positions, 3 * f.position_count, most) || f.box[7] < 0) return 0;
-  for (size_t i = 0; i < padded; i++) {
-    const nsvcd__slab slab = nsvcd__slab_at(f.slabs, padded, i);
-    if (slab.across < 0 || f.steps[i] < 0 || f.margins[i] < 0 || f.errors[i] < 0) return 0;
-    if (f.errors[i] > nsvcd__widest_quantization(&f)) return 0;
-  }
-#else
-  (void)b;
-  (void)size;  // never looked at
-#endif
-  return 1;
+  return ok;
 }
 
-// Is all of a body sound, but for the checksum? Its header is.
+// Is a body sound, if its header and its checksum are?
 static int nsvcd__body_is_sound(const nsvcd_body *b) {
-  if (b->weights_id == 0) {
-#ifndef NSVCD_NO_PROOF
-    return nsvcd__triangles_are_sound(b, b->size);
-#else
-    return 0;
-#endif
-  }
+  if (b->weights_id == 0) return NSVCD__PROOF && nsvcd__triangles_are_sound(b, b->size);
   if (b->size < nsvcd__latents_begin(b->padded)) return 0;
   if (!nsvcd__spheres_are_sound(b) || !nsvcd__areas_are_sound(b)) return 0;
   if (b->radius < NSVCD_MIN_RADIUS) return 0;
@@ -7981,18 +7806,17 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
   if (b->inner % NSVCD_ALIGNMENT || b->inner >= b->size) return 0;
   if (b->inner < nsvcd__latents_begin(b->padded)) return 0;
 #endif
-  // the body of triangles within
   const char *at = (const char *)b + b->inner;
-  const nsvcd_body *within = (const nsvcd_body *)(const void *)at;
+  const nsvcd_body *inner = (const nsvcd_body *)(const void *)at;
   const size_t left = b->size - b->inner;
-  if (!nsvcd__header_is_sound(within, left) || within->size != left) return 0;
-  if (within->weights_id != 0 || within->open != b->open) return 0;
-  if (within->patches != b->patches || within->triangles != b->triangles) return 0;
-  return nsvcd__triangles_are_sound(within, left);
+  return nsvcd__header_is_sound(inner, left) && inner->size == left &&
+         inner->weights_id == 0 && inner->open == b->open && inner->patches == b->patches &&
+         inner->triangles == b->triangles &&
+         (!NSVCD__PROOF || nsvcd__triangles_are_sound(inner, left));
 }
 
-// Is this a body, as far as its header tells? Of what does not begin as one, such as a text or a
-// nsvcd_mesh, no more than its first eight bytes are read.
+// Is this a body, by its header? If it does not begin as one (a text, a nsvcd_mesh), no more than
+// its first eight bytes are read.
 static nsvcd_result nsvcd__body_check(const nsvcd_body *b, size_t size) {
   if (!b) return NSVCD_ERROR_ARGUMENT;
   if (!nsvcd__is_aligned(b) || size < sizeof b->magic + sizeof b->version)
@@ -8027,61 +7851,56 @@ NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size,
   return NSVCD_OK;
 }
 
-// Multiplies a body of triangles; one of latents without what is within it.
-static void nsvcd__scale_part(nsvcd_body *b, float scale) {
-  const size_t padded = b->padded;
+static void nsvcd__scale_spheres(nsvcd_body *b, float scale) {
   float *spheres = (float *)(b + 1);
-  for (size_t i = 0; i < 3 * padded + b->patches; i++) spheres[i] *= scale;
-  if (b->weights_id != 0) {
-    float *areas = (float *)nsvcd__writable(b, nsvcd__body_areas(b));
-    for (size_t i = 0; i < 3 * nsvcd__area_slots(padded); i++) {
-      areas[i] *= scale;
-      areas[i] *= scale;
-    }
-    nsvcd__cover_level(b, 0, nsvcd__body_patches(b), b->patches);
-    nsvcd__body_finish(b);
-    b->checksum = nsvcd__body_checksum(b);
-    return;
+  for (size_t i = 0; i < 3 * (size_t)b->padded + b->patches; i++) spheres[i] *= scale;
+}
+
+// Scales a body of latents, without the body of triangles in it.
+static void nsvcd__scale_latents(nsvcd_body *b, float scale) {
+  float *areas = (float *)nsvcd__writable(b, nsvcd__body_areas(b));
+  nsvcd__scale_spheres(b, scale);
+  for (size_t i = 0; i < 3 * nsvcd__area_slots(b->padded); i++) {
+    areas[i] *= scale;
+    areas[i] *= scale;
   }
-#ifndef NSVCD_NO_PROOF
-  // What rounding does to a vertex, and to how round the body is, goes to the margins and
-  // quantization errors, and is what the vertices are off by.
+  nsvcd__cover_level(b, 0, nsvcd__body_patches(b), b->patches);
+  nsvcd__body_finish(b);
+  b->checksum = nsvcd__body_checksum(b);
+}
+
+// Scales a body of triangles. What rounding does to vertices and to the convex radius widens the
+// margins and errors, and is what vertices are off by.
+static void nsvcd__scale_triangles(nsvcd_body *b, float scale) {
   const nsvcd__geometry f = nsvcd__geometry_of(b);
   const double by = (double)scale;
-  float *convex_radius = (float *)nsvcd__writable(b, &nsvcd__counts_of(b)->convex_radius);
-  const double exact = (double)*convex_radius * by;
-  *convex_radius *= scale;
-  const double off = fabs(exact - (double)*convex_radius);
-  float *gap = (float *)nsvcd__writable(b, &nsvcd__counts_of(b)->gap);
-  if (*gap > 0) *gap = nsvcd__above((double)*gap * by);
-  float *slabs = (float *)nsvcd__writable(b, f.slabs);
-  float *steps = (float *)nsvcd__writable(b, f.steps);
-  float *margins = (float *)nsvcd__writable(b, f.margins);
-  float *errors = (float *)nsvcd__writable(b, f.errors);
-  float *seeds = (float *)nsvcd__writable(b, f.seeds);
-  float *positions = (float *)nsvcd__writable(b, f.positions);
+  float *radius = &f.counts->convex_radius;
+  const double exact = (double)*radius * by;
+  nsvcd__scale_spheres(b, scale);
+  *radius *= scale;
+  const double off = fabs(exact - (double)*radius);
+  if (f.counts->gap > 0) f.counts->gap = nsvcd__above((double)f.counts->gap * by);
   double worst = off;
-  for (size_t i = 0; i < 3 * f.position_count; i++) {
-    const double whole = (double)positions[i] * by;
-    positions[i] *= scale;
-    worst = nsvcd__max(worst, 1.8 * fabs(whole - (double)positions[i]) + off);
+  for (size_t i = 0; i < 3 * (size_t)f.counts->positions; i++) {
+    const double whole = (double)f.positions[i] * by;
+    f.positions[i] *= scale;
+    worst = nsvcd__max(worst, 1.8 * fabs(whole - (double)f.positions[i]) + off);
   }
   const double off_mesh = worst + (double)nsvcd__off_mesh(&f) * by;
   for (size_t i = 0; i < b->patches; i++) {
     const double distance = (double)nsvcd__f3_length(nsvcd__patch_centre(&f, i));
-    nsvcd__slab slab = nsvcd__slab_at(f.slabs, padded, i);
-    steps[i] *= scale;
-    const double rounding = 2e-7 * (distance + 6e4 * (double)steps[i]) + off;
-    margins[i] = nsvcd__above((double)margins[i] * by + rounding);
-    errors[i] = nsvcd__above((double)errors[i] * by + rounding + worst);
+    nsvcd__slab slab = nsvcd__slab_at(f.slabs, b->padded, i);
+    f.steps[i] *= scale;
+    const double rounding = 2e-7 * (distance + 6e4 * (double)f.steps[i]) + off;
+    f.margins[i] = nsvcd__above((double)f.margins[i] * by + rounding);
+    f.errors[i] = nsvcd__above((double)f.errors[i] * by + rounding + worst);
     slab.low = (float)((double)slab.low * by - rounding);
     slab.high = (float)((double)slab.high * by + rounding);
     slab.across = nsvcd__above((double)slab.across * by + rounding);
-    nsvcd__slab_store(slab, slabs, padded, i);
+    nsvcd__slab_store(slab, f.slabs, b->padded, i);
   }
-  for (size_t i = 0; i < 3 * f.components; i++) seeds[i] *= scale;
+  for (size_t i = 0; i < 3 * (size_t)f.counts->components; i++) f.seeds[i] *= scale;
   nsvcd__geometry_finish(b, off_mesh > 0 ? nsvcd__above(off_mesh) : 0);
-#endif
 }
 
 NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void *memory,
@@ -8091,11 +7910,8 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
   if (result) return result;
   if (!nsvcd__is_finite(scale) || scale <= 0) return NSVCD_ERROR_SCALE;
   if (capacity < body->size || !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
-#ifdef NSVCD_NO_PROOF
-  // The triangles would keep their size; nor were they looked at when the body was loaded.
-  if (body->triangles) return NSVCD_ERROR_TRIANGLES;
-#endif
-  // Would it still be within the limits of nsvcd_body_load?
+  // else the triangles would keep their size, and loading did not check them
+  if (!NSVCD__PROOF && body->triangles) return NSVCD_ERROR_TRIANGLES;
   const float radius = nsvcd__whole_radius(body);
   if (!nsvcd__spheres_fit(body, radius, scale)) return NSVCD_ERROR_SCALE;
   const double most = (double)NSVCD__MAX_LENGTH / (double)scale;
@@ -8103,17 +7919,14 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
   for (size_t i = 0; i < numbers; i++) {
     if (fabs((double)nsvcd__body_areas(body)[i]) > most * most) return NSVCD_ERROR_SCALE;
   }
-#ifndef NSVCD_NO_PROOF
   const nsvcd_body *triangles = nsvcd__triangles_of(body);
   if (triangles && !nsvcd__spheres_fit(triangles, radius, scale)) return NSVCD_ERROR_SCALE;
-#endif
-  // in place is allowed
+  // may be in place
   memmove(memory, body, body->size);
   nsvcd_body *b = (nsvcd_body *)memory;
-#ifndef NSVCD_NO_PROOF
-  if (b->inner) nsvcd__scale_part((nsvcd_body *)(void *)((char *)memory + b->inner), scale);
-#endif
-  nsvcd__scale_part(b, scale);
+  void *inner = (char *)memory + b->inner;
+  if (triangles) nsvcd__scale_triangles((nsvcd_body *)inner, scale);
+  if (b->weights_id) nsvcd__scale_latents(b, scale);
   *scaled = b;
   return NSVCD_OK;
 }
@@ -8131,21 +7944,19 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
   facts.open = (int)body->open;
   for (size_t i = 0; i < body->patches; i++)
     facts.mean_patch_radius += nsvcd__body_r(body)[i] / (float)body->patches;
-#ifndef NSVCD_NO_PROOF
   const nsvcd_body *triangles = nsvcd__triangles_of(body);
   if (triangles) {
     const nsvcd__geometry f = nsvcd__geometry_of(triangles);
     facts.triangles = triangles->triangles;
-    facts.stored_triangles = f.listed;
+    facts.stored_triangles = f.counts->listed;
     memcpy(facts.low, f.box, sizeof facts.low);
     memcpy(facts.high, f.box + 3, sizeof facts.high);
     facts.quantization_error = nsvcd__off_mesh(&f);
-    facts.convex_radius = f.convex_radius;
-    facts.components = nsvcd__counts_of(triangles)->solids;
-    facts.open_components = nsvcd__counts_of(triangles)->open_solids;
-    facts.open_edges = nsvcd__counts_of(triangles)->open_edges;
+    facts.convex_radius = f.counts->convex_radius;
+    facts.components = f.counts->solids;
+    facts.open_components = f.counts->open_solids;
+    facts.open_edges = f.counts->open_edges;
   }
-#endif
   return facts;
 }
 
@@ -8159,14 +7970,14 @@ NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float cent
 }
 
 // -------------------------------------------------------------------------------------- body/write
-// In: a surface, and the mesh it is of. Out: the body of triangles that body/geometry reads.
+// In: a surface, and its mesh. Out: the body of triangles that body/geometry reads.
 
-#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
-// Writes the numbers of patch i as codes; NULL: only counts their bytes. Returns how many.
+#ifndef NSVCD_NO_ENCODER
+// Writes the codes of patch i; NULL: only counts their bytes. Returns how many.
 static size_t nsvcd__numbers_write(const nsvcd__surface *s, size_t i, unsigned char *to) {
   size_t size = 0;
   uint32_t last = 0;
-  for (size_t n = s->first_triangle[i]; n < s->first_triangle[i + 1]; n++) {
+  for (size_t n = s->patches[i].first_triangle; n < s->patches[i + 1].first_triangle; n++) {
     const uint32_t id = s->ids[n];
     const uint32_t kind = id >> NSVCD__KIND_SHIFT;
     uint32_t code = (id - last) & NSVCD__NUMBER;
@@ -8182,35 +7993,35 @@ static size_t nsvcd__numbers_write(const nsvcd__surface *s, size_t i, unsigned c
 }
 
 // What a body of triangles is written from.
-typedef struct nsvcd__geometry_source {
+typedef struct nsvcd__writer {
   nsvcd__surface *surface;
   const nsvcd_mesh *mesh;
-  // (vertices of the mesh) the number of each in the body, from 1; 0: none yet
+  // (vertices of the mesh) their numbers in the body, from 1; 0: none yet
   uint32_t *numbers;
-  // (triangles) 1: listed in pieces
+  // (triangles) 1: stored in pieces
   uint8_t *cut;
-  nsvcd__geometry_counts counts;
-} nsvcd__geometry_source;
+  nsvcd__counts counts;
+  nsvcd__geometry to;
+} nsvcd__writer;
 
-static size_t nsvcd__source_corner(const nsvcd_mesh *mesh, size_t t, size_t k) {
+static size_t nsvcd__mesh_corner(const nsvcd_mesh *mesh, size_t t, size_t k) {
   return mesh->indices ? mesh->indices[3 * t + k] : t;
 }
 
-// Counts all that the body of a surface is to have, which is all there: fills in the source. 0
-// without memory.
-static int nsvcd__geometry_count(nsvcd__geometry_source *source, nsvcd__arena *arena) {
-  const nsvcd__surface *s = source->surface;
-  const nsvcd_mesh *mesh = source->mesh;
-  nsvcd__geometry_counts *counts = &source->counts;
-  source->numbers = NSVCD__TAKE(arena, uint32_t, s->coarse ? 0 : mesh->vertex_count);
-  source->cut = NSVCD__TAKE(arena, uint8_t, s->coarse ? 0 : mesh->triangle_count);
+// Fills in the writer: counts what the body of a complete surface will have. 0 without memory.
+static int nsvcd__geometry_count(nsvcd__writer *w, nsvcd__arena *arena) {
+  const nsvcd__surface *s = w->surface;
+  const nsvcd_mesh *mesh = w->mesh;
+  nsvcd__counts *counts = &w->counts;
+  w->numbers = NSVCD__TAKE(arena, uint32_t, s->coarse ? 0 : mesh->vertex_count);
+  w->cut = NSVCD__TAKE(arena, uint8_t, s->coarse ? 0 : mesh->triangle_count);
   if (arena->failed) return 0;
   memset(counts, 0, sizeof *counts);
   counts->listed = (uint32_t)s->listed;
   counts->vertices = (uint32_t)s->vertex_count;
   counts->components = (uint32_t)s->seed_count;
   const nsvcd__solids *solids = &s->solids;
-  // none is counted of points alone
+  // points alone have no topology
   counts->solids = counts->components;
   if (solids->components > 0) counts->solids = (uint32_t)solids->components;
   counts->open_solids = (uint32_t)solids->open_components;
@@ -8219,123 +8030,118 @@ static int nsvcd__geometry_count(nsvcd__geometry_source *source, nsvcd__arena *a
   if (solids->gap > 0) counts->gap = nsvcd__above(solids->gap);
   uint64_t bytes = 0;
   for (size_t i = 0; i < s->count; i++) {
-    const size_t stored = s->first_vertex[i + 1] - s->first_vertex[i];
-    const size_t points = stored + s->first_named[i + 1] - s->first_named[i];
-    const size_t triangles = s->first_triangle[i + 1] - s->first_triangle[i];
-    const size_t first = 3 * (size_t)s->first_triangle[i];
+    const nsvcd__patch_bounds *patch = &s->patches[i];
+    const size_t stored = patch[1].first_vertex - patch->first_vertex;
+    const size_t points = stored + patch[1].first_named - patch->first_named;
+    const size_t triangles = patch[1].first_triangle - patch->first_triangle;
+    const size_t first = 3 * (size_t)patch->first_triangle;
     bytes += (uint64_t)3 * triangles * nsvcd__corner_bytes(points);
     bytes += nsvcd__numbers_write(s, i, NULL);
     for (size_t n = first; n < first + 3 * triangles && !s->coarse; n++)
-      if (s->corners[n] < stored) source->cut[s->ids[n / 3] & NSVCD__NUMBER] = 1;
+      if (s->corners[n] < stored) w->cut[s->ids[n / 3] & NSVCD__NUMBER] = 1;
   }
   for (size_t n = 0; n < s->named_count; n++) {
-    counts->positions += !source->numbers[s->named[n]];
-    source->numbers[s->named[n]] = 1;
+    counts->positions += !w->numbers[s->named[n]];
+    w->numbers[s->named[n]] = 1;
   }
   counts->references = (uint32_t)s->named_count - counts->positions;
   for (size_t n = 0; n < 3 * mesh->triangle_count && !s->coarse; n++) {
-    if (!source->cut[n / 3]) continue;
-    const size_t v = nsvcd__source_corner(mesh, n / 3, n % 3);
-    counts->positions += !source->numbers[v];
-    source->numbers[v] = 1;
+    if (!w->cut[n / 3]) continue;
+    const size_t v = nsvcd__mesh_corner(mesh, n / 3, n % 3);
+    counts->positions += !w->numbers[v];
+    w->numbers[v] = 1;
     counts->cut += n % 3 == 0;
   }
-  if (!s->coarse) memset(source->numbers, 0, mesh->vertex_count * sizeof *source->numbers);
-  // then the body is refused as too large
-  counts->triangle_codes_size = bytes < 0xffffffffu ? (uint32_t)bytes : 0xffffffffu;
+  if (!s->coarse) memset(w->numbers, 0, mesh->vertex_count * sizeof *w->numbers);
+  // with more the body is refused as too large
+  counts->entry_bytes = bytes < 0xffffffffu ? (uint32_t)bytes : 0xffffffffu;
   return 1;
 }
 
-// Gives a vertex the next number, and its place in the body. Returns the number, from 0.
-static uint32_t nsvcd__position_write(nsvcd__geometry_source *source, nsvcd_body *b,
-                                      const nsvcd__geometry *f, size_t vertex,
-                                      uint32_t *count) {
-  float *positions = (float *)nsvcd__writable(b, f->positions);
-  const float *from = source->mesh->positions + 3 * vertex;
-  memcpy(positions + 3 * (size_t)*count, from, 3 * sizeof *positions);
-  source->numbers[vertex] = ++*count;
+// Gives a vertex the next number, and writes its position. Returns the number, from 0.
+static uint32_t nsvcd__position_write(nsvcd__writer *w, size_t vertex, uint32_t *count) {
+  const float *from = w->mesh->positions + 3 * vertex;
+  memcpy(w->to.positions + 3 * (size_t)*count, from, 3 * sizeof *from);
+  w->numbers[vertex] = ++*count;
   return *count - 1;
 }
 
-// Writes the places and references of patch `to`, from patch `from` of a surface, whose names
-// become numbers in the body's patch.
-static void nsvcd__named_write(nsvcd__geometry_source *source, size_t from, nsvcd_body *b,
-                               const nsvcd__geometry *f, size_t to) {
-  nsvcd__surface *s = source->surface;
-  uint32_t *first_own = (uint32_t *)nsvcd__writable(b, f->first_own + to);
-  uint32_t *first_reference = (uint32_t *)nsvcd__writable(b, f->first_reference + to);
-  unsigned char *references = (unsigned char *)nsvcd__writable(b, f->references);
-  const size_t wide = nsvcd__reference_bytes(f);
-  uint32_t *named = s->named + s->first_named[from];
-  const size_t count = s->first_named[from + 1] - s->first_named[from];
-  uint32_t own = s->first_vertex[from + 1] - s->first_vertex[from];
+// Writes the own vertices and references of patch `to`. Turns the names of the surface's patch
+// `from` into numbers of the body's patch.
+static void nsvcd__named_write(nsvcd__writer *w, size_t from, size_t to) {
+  nsvcd__surface *s = w->surface;
+  const nsvcd__geometry *f = &w->to;
+  uint32_t *first_own = f->first_own + to;
+  uint32_t *first_reference = f->first_reference + to;
+  const size_t wide = f->reference_bytes;
+  const nsvcd__patch_bounds *patch = &s->patches[from];
+  uint32_t *named = s->named + patch->first_named;
+  const size_t count = patch[1].first_named - patch->first_named;
+  uint32_t own = patch[1].first_vertex - patch->first_vertex;
   uint32_t other = own;
   first_own[1] = first_own[0];
   first_reference[1] = first_reference[0];
-  for (size_t n = 0; n < count; n++) other += !source->numbers[named[n]];
+  for (size_t n = 0; n < count; n++) other += !w->numbers[named[n]];
   for (size_t n = 0; n < count; n++) {
-    const uint32_t number = source->numbers[named[n]];
+    const uint32_t number = w->numbers[named[n]];
     if (!number) {
-      (void)nsvcd__position_write(source, b, f, named[n], &first_own[1]);
+      (void)nsvcd__position_write(w, named[n], &first_own[1]);
       named[n] = own++;
       continue;
     }
     const uint32_t wanted = number - 1;
     const uint16_t narrow = (uint16_t)wanted;
-    unsigned char *at = references + wide * first_reference[1]++;
+    unsigned char *at = f->references + wide * first_reference[1]++;
     if (wide == 2) memcpy(at, &narrow, 2);
     if (wide == 4) memcpy(at, &wanted, 4);
     named[n] = other++;
   }
 }
 
-// Writes the triangles that are listed in pieces, once all patches are written.
-static void nsvcd__cut_write(nsvcd__geometry_source *source, nsvcd_body *b,
-                             const nsvcd__geometry *f) {
-  const nsvcd_mesh *mesh = source->mesh;
-  uint32_t *cut = (uint32_t *)nsvcd__writable(b, f->cut);
-  uint32_t *corners = (uint32_t *)nsvcd__writable(b, f->cut_corners);
-  uint32_t count = f->first_own[b->patches];
+// Writes the triangles that are stored in pieces, after all patches.
+static void nsvcd__cut_write(nsvcd__writer *w) {
+  const nsvcd_mesh *mesh = w->mesh;
+  uint32_t *cut = w->to.cut;
+  uint32_t *corners = w->to.cut_corners;
+  uint32_t count = w->to.first_own[w->to.body->patches];
   for (size_t t = 0; t < mesh->triangle_count; t++) {
-    if (!source->cut[t]) continue;
+    if (!w->cut[t]) continue;
     *cut++ = (uint32_t)t;
     for (size_t k = 0; k < 3; k++) {
-      const size_t v = nsvcd__source_corner(mesh, t, k);
-      const uint32_t known = source->numbers[v];
-      *corners++ = known ? known - 1 : nsvcd__position_write(source, b, f, v, &count);
+      const size_t v = nsvcd__mesh_corner(mesh, t, k);
+      const uint32_t known = w->numbers[v];
+      *corners++ = known ? known - 1 : nsvcd__position_write(w, v, &count);
     }
   }
 }
 
-// Writes patch `to`, from patch `from` of a surface. One without surface is a point.
-static void nsvcd__patch_write(nsvcd__geometry_source *source, size_t from, nsvcd_body *b,
-                               nsvcd__geometry f, size_t to) {
-  const nsvcd__surface *s = source->surface;
-  const size_t padded = b->padded;
-  nsvcd__sphere ball = s->balls[from];
-  if (s->hull_counts[from] == 0) ball.radius = 0;
-  nsvcd__sphere_store(ball, (float *)(b + 1), padded, to);
-  nsvcd__slab_store(s->slabs[from], (float *)nsvcd__writable(b, f.slabs), padded, to);
-  *(float *)nsvcd__writable(b, f.steps + to) = s->steps[from];
-  *(float *)nsvcd__writable(b, f.margins + to) = s->margins[from];
-  *(float *)nsvcd__writable(b, f.errors + to) = s->errors[from];
-  *(uint8_t *)nsvcd__writable(b, f.hull_counts + to) = s->hull_counts[from];
+// Writes patch `to` of a body, from patch `from` of its surface. One without surface is a point.
+static void nsvcd__patch_write(nsvcd__writer *w, size_t from, size_t to) {
+  const nsvcd__surface *s = w->surface;
+  const nsvcd__geometry *f = &w->to;
+  const size_t padded = f->body->padded;
+  const nsvcd__patch_bounds *patch = &s->patches[from];
+  nsvcd__sphere ball = patch->ball;
+  if (patch->hull_count == 0) ball.radius = 0;
+  nsvcd__sphere_store(ball, (float *)(f->body + 1), padded, to);
+  nsvcd__slab_store(patch->slab, f->slabs, padded, to);
+  f->steps[to] = patch->step;
+  f->margins[to] = patch->margin;
+  f->errors[to] = patch->error;
+  f->hull_counts[to] = patch->hull_count;
 
-  const size_t vertex = s->first_vertex[from];
-  const size_t vertices = s->first_vertex[from + 1] - vertex;
-  const size_t first = s->first_triangle[from];
-  const size_t end = s->first_triangle[from + 1];
-  uint32_t *first_vertex = (uint32_t *)nsvcd__writable(b, f.first_vertex + to);
-  uint32_t *first_triangle = (uint32_t *)nsvcd__writable(b, f.first_triangle + to);
-  uint32_t *first_byte = (uint32_t *)nsvcd__writable(b, f.first_byte + to);
-  void *integers = nsvcd__writable(b, f.vertices + 3 * (size_t)first_vertex[0]);
-  memcpy(integers, s->vertices + 3 * vertex, 6 * vertices);
-  unsigned char *begin = (unsigned char *)nsvcd__writable(b, f.triangle_codes + first_byte[0]);
-  unsigned char *at = begin;
-  nsvcd__named_write(source, from, b, &f, to);
-  const uint32_t *named = s->named + s->first_named[from];
-  const size_t points = vertices + s->first_named[from + 1] - s->first_named[from];
+  const uint32_t vertex = patch->first_vertex;
+  const uint32_t vertices = patch[1].first_vertex - vertex;
+  const size_t first = patch->first_triangle;
+  const size_t end = patch[1].first_triangle;
+  int16_t *integers = f->vertices + 3 * (size_t)f->first_vertex[to];
+  memcpy(integers, s->vertices + 3 * (size_t)vertex, 6 * (size_t)vertices);
+  nsvcd__named_write(w, from, to);
+  const uint32_t *named = s->named + patch->first_named;
+  const size_t points = vertices + patch[1].first_named - patch->first_named;
   const size_t bytes = nsvcd__corner_bytes(points);
+  unsigned char *begin = f->entries + f->first_byte[to];
+  unsigned char *at = begin;
   for (size_t n = 3 * first; n < 3 * end; n++) {
     const size_t i = s->corners[n];
     const uint16_t corner = (uint16_t)(i < vertices ? i : named[i - vertices]);
@@ -8344,162 +8150,158 @@ static void nsvcd__patch_write(nsvcd__geometry_source *source, size_t from, nsvc
     at += bytes;
   }
   at += nsvcd__numbers_write(s, from, at);
-  first_vertex[1] = first_vertex[0] + (uint32_t)vertices;
-  first_triangle[1] = first_triangle[0] + (uint32_t)(end - first);
-  first_byte[1] = first_byte[0] + (uint32_t)(at - begin);
+  f->first_vertex[to + 1] = f->first_vertex[to] + vertices;
+  f->first_triangle[to + 1] = f->first_triangle[to] + (uint32_t)(end - first);
+  f->first_byte[to + 1] = f->first_byte[to] + (uint32_t)(at - begin);
 }
 
-// Writes the seeds of a body of triangles, group by group (counting sort). order: of the patches.
-static void nsvcd__seeds_write(const nsvcd__surface *s, const uint16_t *order, nsvcd_body *b) {
-  const nsvcd__geometry f = nsvcd__geometry_of(b);
-  uint32_t *first_seed = (uint32_t *)nsvcd__writable(b, f.first_seed);
-  float *seeds = (float *)nsvcd__writable(b, f.seeds);
-  // Until the body is whole, the places of patches are kept where their first vertices will be.
-  uint32_t *positions = (uint32_t *)nsvcd__writable(b, f.first_vertex);
-  const size_t groups = nsvcd__body_groups(b);
-  for (size_t i = 0; i < b->patches; i++) positions[order[i]] = (uint32_t)i;
-  for (size_t n = 0; n < s->seed_count; n++) {
-    const size_t g = positions[s->seed_patches[n]] / NSVCD__GROUP;
-    first_seed[g + 1]++;
-  }
-  for (size_t g = 0; g < groups; g++) first_seed[g + 1] += first_seed[g];
+// Writes the seeds group by group (counting sort). order: of the patches.
+static void nsvcd__seeds_write(const nsvcd__writer *w, const uint16_t *order) {
+  const nsvcd__surface *s = w->surface;
+  const nsvcd__geometry *f = &w->to;
+  uint32_t *first = f->first_seed;
+  // the numbers of patches in the body, for now in place of their first vertices
+  uint32_t *numbers = f->first_vertex;
+  const size_t patches = f->body->patches;
+  const size_t groups = nsvcd__body_groups(f->body);
+  for (size_t i = 0; i < patches; i++) numbers[order[i]] = (uint32_t)i;
+  for (size_t n = 0; n < s->seed_count; n++)
+    first[numbers[s->seed_patches[n]] / NSVCD__GROUP + 1]++;
+  for (size_t g = 0; g < groups; g++) first[g + 1] += first[g];
   for (size_t n = s->seed_count; n-- > 0;) {
-    const size_t g = positions[s->seed_patches[n]] / NSVCD__GROUP;
-    const size_t to = --first_seed[g + 1];
-    nsvcd__f3_store(s->seeds[n], seeds + 3 * to);
+    const size_t to = --first[numbers[s->seed_patches[n]] / NSVCD__GROUP + 1];
+    nsvcd__f3_store(s->seeds[n], f->seeds + 3 * to);
   }
-  // Now first_seed[g + 1] is where group g begins.
-  memmove(first_seed, first_seed + 1, groups * sizeof *first_seed);
-  first_seed[groups] = (uint32_t)s->seed_count;
-  memset(positions, 0, b->patches * sizeof *positions);
+  // now first[g + 1] is where group g begins
+  memmove(first, first + 1, groups * sizeof *first);
+  first[groups] = (uint32_t)s->seed_count;
+  memset(numbers, 0, patches * sizeof *numbers);
 }
 
-// Builds a body of triangles of `size` bytes in `memory`. order: (N) of the patches. Afterwards the
-// source is of no use. NUMBER if it would be too large, EMPTY if it would be too small.
-static nsvcd_result nsvcd__geometry_build(nsvcd__geometry_source *source,
-                                          const uint16_t *order, int open, void *memory,
-                                          size_t size) {
-  const nsvcd__surface *s = source->surface;
-  const nsvcd__geometry_counts *counts = &source->counts;
+// Builds a body of triangles of `size` bytes in `memory`, and uses up the writer. order: (N) of the
+// patches. NUMBER if it is too large, EMPTY if it is too small.
+static nsvcd_result nsvcd__geometry_build(nsvcd__writer *w, const uint16_t *order, int open,
+                                          void *memory, size_t size) {
+  const nsvcd__surface *s = w->surface;
+  const nsvcd__counts *counts = &w->counts;
   nsvcd_body *b = nsvcd__body_begin(memory, size, s->count, open);
-  b->triangles = (uint32_t)source->mesh->triangle_count;
-  memcpy(nsvcd__writable(b, nsvcd__counts_of(b)), counts, sizeof *counts);
-  nsvcd__seeds_write(s, order, b);
-  const nsvcd__geometry f = nsvcd__geometry_of(b);
-  for (size_t i = 0; i < s->count; i++) nsvcd__patch_write(source, order[i], b, f, i);
-  if (!s->coarse) nsvcd__cut_write(source, b, &f);
+  b->triangles = (uint32_t)w->mesh->triangle_count;
+  (void)nsvcd__geometry_layout(b, s->count, counts, &w->to);
+  *w->to.counts = *counts;
+  nsvcd__seeds_write(w, order);
+  for (size_t i = 0; i < s->count; i++) nsvcd__patch_write(w, order[i], i);
+  if (!s->coarse) nsvcd__cut_write(w);
   if (!nsvcd__in_range(nsvcd__body_r(b), b->patches, 4 * NSVCD_MAX_COORDINATE))
     return NSVCD_ERROR_NUMBER;
   nsvcd__geometry_finish(b, 0);
   return b->radius + counts->convex_radius < NSVCD_MIN_RADIUS ? NSVCD_ERROR_EMPTY : NSVCD_OK;
 }
-#endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
+#endif  // NSVCD_NO_ENCODER
 
 // ------------------------------------------------------------------------------------- body/encode
-// In: a mesh. Out: a body. Region by region the surface becomes patches, and these become latents
-// and triangles; then all of them become one blob, neighbours side by side.
+// In: a mesh. Out: a body. Region by region the surface is split into patches, and these become
+// latents and triangles; then all are written into one blob, neighbours side by side.
 
 #ifndef NSVCD_NO_ENCODER
-// What a body is built of.
-typedef struct nsvcd__parts {
+// A body in the making.
+typedef struct nsvcd__draft {
   const nsvcd_mesh *mesh;
-  // with the defaults filled in: `patches` is not 0, `latents` says whether there are to be any
+  // defaults filled in: `patches` is not 0, `latents` tells whether there will be any
   const nsvcd_encode_options *options;
-  // of all the arrays
+  // of all arrays
   nsvcd__arena arena;
-  size_t count;        // N
-  nsvcd__f3 *centres;  // (N)
-  int in_runs;         // then they are in order
+  size_t count;  // N
+  // 1: patches are in order
+  int in_runs;
   // bytes; 0: without
-  size_t latents_size, facets_size;
-#ifndef NSVCD_NO_NETWORK
-  // Of a body with latents, else empty:
-  float *radii;      // (N)
-  nsvcd__f3 *areas;  // (N)
-  int8_t *extremes;  // (N, TIPS, 3)
-  int8_t *latents;   // (N, LATENT)
-#endif
-#ifndef NSVCD_NO_PROOF
+  size_t latents_size, geometry_size;
+  // without latents only centres
+  nsvcd__latents latents;
   nsvcd__surface surface;
-  nsvcd__geometry_source source;
-#endif
-} nsvcd__parts;
+  nsvcd__writer writer;
+} nsvcd__draft;
 
 static int nsvcd__is_cancelled(const nsvcd_encode_options *options, double done) {
   return options->progress && options->progress((float)done, options->user);
 }
 
-// Adds the patches of region n, at most so many.
-static nsvcd_result nsvcd__parts_add(nsvcd__parts *parts, nsvcd__regions *regions, size_t n,
-                                     size_t most) {
-  nsvcd__region region;
-  nsvcd__patches patches;
-  nsvcd__arena spare = nsvcd__arena_of(parts->arena.allocator);
-  nsvcd_result result = nsvcd__region_begin(regions, n, &spare, &region);
-  if (result == NSVCD_ERROR_EMPTY) return NSVCD_OK;
-  if (!result) result = nsvcd__patches_build(&region.mesh, most, &spare, &patches);
-  const size_t count = result ? 0 : patches.count;
-  for (size_t i = 0; i < count; i++) parts->centres[parts->count + i] = patches.centres[i];
-  nsvcd__pieces pieces;
-  if (!result && !nsvcd__pieces_build(&region, &patches, &spare, &pieces))
-    result = NSVCD_ERROR_MEMORY;
-  nsvcd__sorted sorted;
-  if (!result && !nsvcd__sorted_build(&pieces, &spare, &sorted)) result = NSVCD_ERROR_MEMORY;
 #ifndef NSVCD_NO_NETWORK
-  const int latents = parts->options->latents;
-  for (size_t i = 0; !result && latents && i < count; i++) {
-    const size_t to = parts->count + i;
-    const float radius = patches.radii[i];
-    const size_t first = patches.offsets[i];
+// Adds the latents of a region's patches.
+static void nsvcd__add_latents(nsvcd__draft *d, nsvcd__sorted *sorted) {
+  const nsvcd__region *region = sorted->pieces->region;
+  const nsvcd__patches *patches = sorted->pieces->patches;
+  const nsvcd__latents *out = &d->latents;
+  for (size_t i = 0; i < patches->count; i++) {
+    const size_t to = d->count + i;
+    const float radius = patches->radii[i];
+    const size_t first = patches->offsets[i];
     nsvcd__encoded patch;
-    patch.samples = patches.samples + first;
-    patch.normals = patches.normals + first;
-    patch.count = patches.offsets[i + 1] - first;
-    patch.centre = patches.centres[i];
+    patch.samples = patches->samples + first;
+    patch.normals = patches->normals + first;
+    patch.count = patches->offsets[i + 1] - first;
+    patch.centre = patches->centres[i];
     patch.inverse_radius = radius > 0 ? 1 / radius : 0;
     float latent[NSVCD__LATENT];
     nsvcd__encode_patch(&patch, latent);
     for (size_t k = 0; k < NSVCD__LATENT; k++)
-      parts->latents[NSVCD__LATENT * to + k] = (int8_t)lrintf(127 * latent[k]);
-    // The mesh has the cuts rounded: each coordinate by half a unit in the last place, at most. By
-    // so much the surface may stick out of the balls.
-    const double margin = 1.1e-7 * region.greatest;
+      out->latents[NSVCD__LATENT * to + k] = (int8_t)lrintf(127 * latent[k]);
+    // Cuts are rounded in the region's mesh, each coordinate by at most half a unit in the last
+    // place: so far the surface may leave the balls.
+    const double margin = 1.1e-7 * region->greatest;
     const double wider = ((double)radius + margin) * (1 + 1e-7);
-    parts->radii[to] = region.cut_count > 0 ? (float)wider : radius;
-    parts->areas[to] = patches.area_vectors[i];
-    nsvcd__extremes_of(&sorted, i, parts->radii[to],
-                       parts->extremes + 3 * NSVCD__EXTREMES * to);
+    out->radii[to] = region->cut_count > 0 ? (float)wider : radius;
+    out->areas[to] = patches->area_vectors[i];
+    nsvcd__extremes_of(sorted, i, out->radii[to], out->extremes + 3 * NSVCD__EXTREMES * to);
   }
+}
 #endif
-#ifndef NSVCD_NO_PROOF
-  if (!result && !parts->options->no_triangles)
-    result = nsvcd__surface_add(&sorted, &parts->surface);
+
+// Adds the patches of region n, at most `most`.
+static nsvcd_result nsvcd__add_region(nsvcd__draft *d, nsvcd__regions *regions, size_t n,
+                                      size_t most) {
+  nsvcd__region region;
+  nsvcd__patches patches;
+  nsvcd__pieces pieces;
+  nsvcd__sorted sorted;
+  nsvcd__arena spare = nsvcd__arena_of(d->arena.allocator);
+  nsvcd_result result = nsvcd__region_begin(regions, n, &spare, &region);
+  if (result == NSVCD_ERROR_EMPTY) return NSVCD_OK;
+  if (!result) result = nsvcd__patches_build(&region.mesh, most, &spare, &patches);
+  if (!result && (!nsvcd__pieces_build(&region, &patches, &spare, &pieces) ||
+                  !nsvcd__sorted_build(&pieces, &spare, &sorted)))
+    result = NSVCD_ERROR_MEMORY;
+  if (!result) {
+    nsvcd__f3 *centres = d->latents.centres + d->count;
+    memcpy(centres, patches.centres, patches.count * sizeof *centres);
+#ifndef NSVCD_NO_NETWORK
+    if (d->options->latents) nsvcd__add_latents(d, &sorted);
 #endif
-  parts->count += count;
+    if (NSVCD__PROOF && !d->options->no_triangles)
+      result = nsvcd__surface_add(&sorted, &d->surface);
+    d->count += patches.count;
+  }
   if (!result) nsvcd__region_end(regions, &region);
   nsvcd__arena_free(&spare);
   return result;
 }
 
-#ifndef NSVCD_NO_PROOF
-// All of a mesh that has points or segments, in runs, block by block. Without latents.
-static nsvcd_result nsvcd__parts_of_runs(nsvcd__parts *parts) {
-  const nsvcd_mesh *mesh = parts->mesh;
+// Drafts a mesh that has points or segments, in runs, block by block. There are no latents.
+static nsvcd_result nsvcd__draft_runs(nsvcd__draft *d) {
+  const nsvcd_mesh *mesh = d->mesh;
   const size_t triangles = mesh->triangle_count;
-  const size_t wanted = parts->options->patches;
-  const size_t runs = wanted < triangles ? wanted : triangles;
-  nsvcd__arena spare = nsvcd__arena_of(parts->arena.allocator);
-  nsvcd__surface *surface = &parts->surface;
+  const nsvcd_encode_options *o = d->options;
+  const size_t runs = o->patches < triangles ? o->patches : triangles;
+  nsvcd__arena spare = nsvcd__arena_of(d->arena.allocator);
+  nsvcd__surface *s = &d->surface;
   nsvcd__curve curve;
-  int ok = nsvcd__surface_begin(runs, mesh->vertex_count, parts->options->coarse,
-                                &parts->arena, surface);
-  ok = ok && nsvcd__curve_build(mesh, parts->options->convex_radius, &spare, &curve);
-  ok = ok && nsvcd__surface_room(surface, mesh->vertex_count, mesh->vertex_count, triangles);
-  if (ok) surface->solids = curve.solids;
+  int ok = nsvcd__surface_begin(runs, mesh->vertex_count, o->coarse, &d->arena, s);
+  ok = ok && nsvcd__curve_build(mesh, o->convex_radius, &spare, &curve);
+  ok = ok && nsvcd__surface_room(s, mesh->vertex_count, mesh->vertex_count, triangles);
+  if (ok) s->solids = curve.solids;
   nsvcd_result result = ok ? NSVCD_OK : NSVCD_ERROR_MEMORY;
-  for (size_t first = 0; !result && first < runs; first = surface->done) {
-    const size_t left = runs - first;
-    const size_t last = first + (left < NSVCD__RUNS_AT_ONCE ? left : NSVCD__RUNS_AT_ONCE);
+  for (size_t first = 0; !result && first < runs; first = s->count) {
+    const int is_last = runs - first <= NSVCD__RUNS_AT_ONCE;
+    const size_t last = is_last ? runs : first + NSVCD__RUNS_AT_ONCE;
     nsvcd__region block;
     nsvcd__patches patches;
     nsvcd__pieces pieces;
@@ -8507,137 +8309,114 @@ static nsvcd_result nsvcd__parts_of_runs(nsvcd__parts *parts) {
     ok = nsvcd__runs_build(&curve, first, last, runs, &few, &block, &patches, &pieces);
     nsvcd__sorted sorted;
     ok = ok && nsvcd__sorted_build(&pieces, &few, &sorted);
-    result = ok ? nsvcd__surface_add(&sorted, surface) : NSVCD_ERROR_MEMORY;
+    result = ok ? nsvcd__surface_add(&sorted, s) : NSVCD_ERROR_MEMORY;
     nsvcd__arena_free(&few);
     const double done = (double)last / (double)runs;
-    if (!result && nsvcd__is_cancelled(parts->options, 0.9 * done))
-      result = NSVCD_ERROR_CANCELLED;
+    if (!result && nsvcd__is_cancelled(o, 0.9 * done)) result = NSVCD_ERROR_CANCELLED;
   }
-  parts->count = runs;
+  d->count = runs;
   nsvcd__arena_free(&spare);
   return result;
 }
-#endif
 
-// All of it, region by region.
-static nsvcd_result nsvcd__parts_of_regions(nsvcd__parts *parts) {
-  const nsvcd_encode_options *options = parts->options;
-  const size_t patches = options->patches;
-  nsvcd__arena *arena = &parts->arena;
+// Drafts a mesh region by region.
+static nsvcd_result nsvcd__draft_regions(nsvcd__draft *d) {
+  const nsvcd_encode_options *o = d->options;
+  const size_t patches = o->patches;
+  nsvcd__arena *arena = &d->arena;
   nsvcd__arena spare = nsvcd__arena_of(arena->allocator);
   nsvcd__regions regions;
-  if (!nsvcd__regions_build(parts->mesh, patches, &spare, &regions)) {
+  if (!nsvcd__regions_build(d->mesh, patches, &spare, &regions)) {
     nsvcd__arena_free(&spare);
     return NSVCD_ERROR_MEMORY;
   }
-  parts->centres = NSVCD__TAKE(arena, nsvcd__f3, patches);
+  nsvcd__latents *latents = &d->latents;
+  latents->centres = NSVCD__TAKE(arena, nsvcd__f3, patches);
 #ifndef NSVCD_NO_NETWORK
-  const size_t latents = options->latents ? patches : 0;
-  parts->radii = NSVCD__TAKE(arena, float, latents);
-  parts->areas = NSVCD__TAKE(arena, nsvcd__f3, latents);
-  parts->extremes = NSVCD__TAKE(arena, int8_t, 3 * NSVCD__EXTREMES * latents);
-  parts->latents = NSVCD__TAKE(arena, int8_t, NSVCD__LATENT * latents);
+  const size_t room = o->latents ? patches : 0;
+  latents->radii = NSVCD__TAKE(arena, float, room);
+  latents->areas = NSVCD__TAKE(arena, nsvcd__f3, room);
+  latents->extremes = NSVCD__TAKE(arena, int8_t, 3 * NSVCD__EXTREMES * room);
+  latents->latents = NSVCD__TAKE(arena, int8_t, NSVCD__LATENT * room);
 #endif
-#ifndef NSVCD_NO_PROOF
-  if (!options->no_triangles)
-    (void)nsvcd__surface_begin(patches, regions.component_count, options->coarse, arena,
-                               &parts->surface);
-  parts->surface.solids = regions.solids;
-#endif
+  if (NSVCD__PROOF && !o->no_triangles)
+    (void)nsvcd__surface_begin(patches, regions.component_count, o->coarse, arena,
+                               &d->surface);
+  d->surface.solids = regions.solids;
   const size_t count = regions.count;
   nsvcd_result result = arena->failed ? NSVCD_ERROR_MEMORY : NSVCD_OK;
   for (size_t n = 0; !result && n < count; n++) {
     const size_t most = patches * (n + 1) / count - patches * n / count;
     const double done = (double)(n + 1) / (double)(count + 2);
-    const int stop = nsvcd__is_cancelled(options, done);
-    result = stop ? NSVCD_ERROR_CANCELLED : nsvcd__parts_add(parts, &regions, n, most);
+    const int stop = nsvcd__is_cancelled(o, done);
+    result = stop ? NSVCD_ERROR_CANCELLED : nsvcd__add_region(d, &regions, n, most);
   }
   nsvcd__arena_free(&spare);
   return result;
 }
 
-// Everything but the blob. On success release with nsvcd__arena_free. MEMORY, CANCELLED, TOO_LARGE.
-static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh,
-                                       const nsvcd_encode_options *options,
-                                       const nsvcd_allocator *allocator, nsvcd__parts *parts) {
-  memset(parts, 0, sizeof *parts);
-  parts->mesh = mesh;
-  parts->options = options;
-  parts->arena = nsvcd__arena_of(allocator);
-  if (nsvcd__is_cancelled(options, 0)) return NSVCD_ERROR_CANCELLED;
-  nsvcd_result result = NSVCD_OK;
-#ifndef NSVCD_NO_PROOF
-  parts->in_runs = options->convex_radius > 0 && nsvcd__has_points(mesh);
-  if (parts->in_runs) result = nsvcd__parts_of_runs(parts);
-#endif
-  if (!parts->in_runs) result = nsvcd__parts_of_regions(parts);
+// Makes everything but the blob. After success, free the draft's arena. MEMORY, CANCELLED,
+// TOO_LARGE.
+static nsvcd_result nsvcd__draft_build(const nsvcd_mesh *mesh, const nsvcd_encode_options *o,
+                                       const nsvcd_allocator *allocator, nsvcd__draft *d) {
+  memset(d, 0, sizeof *d);
+  d->mesh = mesh;
+  d->options = o;
+  d->arena = nsvcd__arena_of(allocator);
+  if (nsvcd__is_cancelled(o, 0)) return NSVCD_ERROR_CANCELLED;
+  d->in_runs = NSVCD__PROOF && o->convex_radius > 0 && nsvcd__has_points(mesh);
+  nsvcd_result result = d->in_runs ? nsvcd__draft_runs(d) : nsvcd__draft_regions(d);
 #ifndef NSVCD_NO_NETWORK
-  if (!result && options->latents) parts->latents_size = nsvcd_body_size(parts->count);
+  if (!result && o->latents) d->latents_size = nsvcd_body_size(d->count);
 #endif
-#ifndef NSVCD_NO_PROOF
-  if (!result && !options->no_triangles) {
-    nsvcd__geometry none;
-    parts->source.surface = &parts->surface;
-    parts->source.mesh = mesh;
-    if (!nsvcd__geometry_count(&parts->source, &parts->arena)) result = NSVCD_ERROR_MEMORY;
-    parts->source.counts.convex_radius = options->convex_radius;
-    parts->facets_size =
-        nsvcd__geometry_layout(NULL, parts->count, &parts->source.counts, &none);
-    if (!result && !parts->facets_size) result = NSVCD_ERROR_TOO_LARGE;
+  if (NSVCD__PROOF && !result && !o->no_triangles) {
+    nsvcd__writer *w = &d->writer;
+    w->surface = &d->surface;
+    w->mesh = mesh;
+    if (!nsvcd__geometry_count(w, &d->arena)) result = NSVCD_ERROR_MEMORY;
+    w->counts.convex_radius = o->convex_radius;
+    d->geometry_size = nsvcd__geometry_layout(NULL, d->count, &w->counts, &w->to);
+    if (!result && !d->geometry_size) result = NSVCD_ERROR_TOO_LARGE;
   }
-#endif
-  if (result) nsvcd__arena_free(&parts->arena);
+  if (result) nsvcd__arena_free(&d->arena);
   return result;
 }
 
-// Puts the patches in order and writes the blob, (latents_size + facets_size) bytes: the body of
-// latents, then the body of triangles. MEMORY, NUMBER, EMPTY.
-static nsvcd_result nsvcd__parts_write(nsvcd__parts *parts, void *memory) {
-  const size_t count = parts->count;
-  const size_t triangles = parts->mesh->triangle_count;
-  const int open = parts->options->open;
-  nsvcd_body *b = (nsvcd_body *)memory;
-  uint16_t *order = NSVCD__TAKE(&parts->arena, uint16_t, 2 * count);
+// Orders the patches and writes the blob: the body of latents, then the body of triangles. MEMORY,
+// NUMBER, EMPTY.
+static nsvcd_result nsvcd__draft_write(nsvcd__draft *d, void *memory) {
+  const size_t count = d->count;
+  nsvcd__latents *latents = &d->latents;
+  latents->count = count;
+  latents->open = d->options->open;
+  uint16_t *order = NSVCD__TAKE(&d->arena, uint16_t, 2 * count);
   if (!order) return NSVCD_ERROR_MEMORY;
   for (size_t i = 0; i < count; i++) order[i] = (uint16_t)i;
-  const nsvcd__ordering all = {parts->centres, order, order + count, count};
-  if (!parts->in_runs) nsvcd__body_order(all);
+  if (!d->in_runs) nsvcd__body_order(latents->centres, order, order + count, count);
+  latents->order = order;
   nsvcd_result result = NSVCD_OK;
 #ifndef NSVCD_NO_NETWORK
-  if (parts->latents_size) {
-    nsvcd__latents_source source;
-    source.count = count;
-    source.centres = parts->centres;
-    source.radii = parts->radii;
-    source.areas = parts->areas;
-    source.extremes = parts->extremes;
-    source.latents = parts->latents;
-    source.order = order;
-    source.open = open;
-    result = nsvcd__body_build(&source, memory);
-  }
+  if (d->latents_size) result = nsvcd__body_build(latents, memory);
 #endif
-#ifndef NSVCD_NO_PROOF
-  if (!result && parts->facets_size) {
-    void *to = (char *)memory + parts->latents_size;
-    result = nsvcd__geometry_build(&parts->source, order, open, to, parts->facets_size);
-  }
-#endif
-  if (result || !parts->latents_size || !parts->facets_size) return result;
-  b->triangles = (uint32_t)triangles;
-  b->inner = (uint32_t)parts->latents_size;
-  b->size = (uint32_t)(parts->latents_size + parts->facets_size);
+  void *to = (char *)memory + d->latents_size;
+  if (NSVCD__PROOF && !result && d->geometry_size)
+    result = nsvcd__geometry_build(&d->writer, order, latents->open, to, d->geometry_size);
+  if (result || !d->latents_size || !d->geometry_size) return result;
+  nsvcd_body *b = (nsvcd_body *)memory;
+  b->triangles = (uint32_t)d->mesh->triangle_count;
+  b->inner = (uint32_t)d->latents_size;
+  b->size = (uint32_t)(d->latents_size + d->geometry_size);
   b->checksum = nsvcd__body_checksum(b);
   return NSVCD_OK;
 }
 
-// How many patches, where the options do not say. area: of the mesh, square metres.
+// The default number of patches. area: of the mesh, square metres.
 static size_t nsvcd__patches_for(const nsvcd_mesh *mesh, float patch_radius, double area,
                                  int triangles) {
   const double most = NSVCD_MAX_PATCHES;
   if (patch_radius > 0) {
-    // N balls of radius r cover about N r^2 / 0.45 of surface: measured, on the real meshes, for N
-    // = 32 to 512.
+    // N balls of radius r cover an area of about N r^2 / 0.45, as measured on real meshes for
+    // N = 32 to 512.
     const double square = (double)patch_radius * (double)patch_radius;
     const double count = ceil(0.45 * area / square);
     return (size_t)fmin(fmax(count, 1), most);
@@ -8655,25 +8434,19 @@ static size_t nsvcd__patches_for(const nsvcd_mesh *mesh, float patch_radius, dou
 
 // Checks options and mesh, and fills in the defaults.
 static nsvcd_result nsvcd__encode_resolve(const nsvcd_mesh *mesh, nsvcd_encode_options *o) {
-#ifdef NSVCD_NO_PROOF
-  o->no_triangles = 1;
-#endif
+  if (!NSVCD__PROOF) o->no_triangles = 1;
   if (o->no_triangles) o->latents = 1;
 #ifdef NSVCD_NO_NETWORK
   if (o->latents) return NSVCD_ERROR_LATENTS;
 #endif
-  if (!nsvcd__is_finite(o->patch_radius)) return NSVCD_ERROR_PATCHES;
-  if (o->patch_radius < 0) return NSVCD_ERROR_PATCHES;
-  if (!nsvcd__in_range(&o->convex_radius, 1, NSVCD_MAX_COORDINATE) || o->convex_radius < 0)
-    return NSVCD_ERROR_RADIUS;
+  if (!nsvcd__is_finite(o->patch_radius) || o->patch_radius < 0) return NSVCD_ERROR_PATCHES;
+  if (!nsvcd__is_length(o->convex_radius)) return NSVCD_ERROR_RADIUS;
   if (o->convex_radius > 0 && o->latents) return NSVCD_ERROR_LATENTS;
   if (o->patches > NSVCD_MAX_PATCHES) return NSVCD_ERROR_PATCHES;
   const nsvcd_result checked = mesh->indices ? nsvcd__mesh_check(mesh) : NSVCD_OK;
   if (checked) return checked;
-#ifndef NSVCD_NO_PROOF
   if (o->patches == 0 && o->convex_radius > 0 && nsvcd__has_points(mesh))
     o->patches = nsvcd__runs_for(mesh);
-#endif
   if (o->patches > 0 && o->convex_radius > 0) return NSVCD_OK;
   const double area = nsvcd__mesh_area(mesh);
   if (!(area > 0) && !(o->convex_radius > 0)) return NSVCD_ERROR_EMPTY;
@@ -8682,8 +8455,8 @@ static nsvcd_result nsvcd__encode_resolve(const nsvcd_mesh *mesh, nsvcd_encode_o
   return NSVCD_OK;
 }
 
-// nsvcd_encode of a mesh, or of a cloud that has been checked: a mesh without indices, of which
-// triangle t is point t.
+// nsvcd_encode of a mesh; or of a checked cloud: a mesh without indices, whose triangle t is point
+// t.
 static nsvcd_result nsvcd__encode_mesh(const nsvcd_mesh *mesh,
                                        const nsvcd_encode_options *options,
                                        const nsvcd_allocator *allocator, void *memory,
@@ -8693,13 +8466,13 @@ static nsvcd_result nsvcd__encode_mesh(const nsvcd_mesh *mesh,
   nsvcd_encode_options o;
   memset(&o, 0, sizeof o);
   if (options) o = *options;
-  nsvcd__parts parts;
+  nsvcd__draft draft;
   nsvcd_result result = nsvcd__encode_resolve(mesh, &o);
-  if (!result) result = nsvcd__parts_build(mesh, &o, allocator, &parts);
+  if (!result) result = nsvcd__draft_build(mesh, &o, allocator, &draft);
   if (result) return result;
 
-  const int fits = parts.facets_size <= 0xffffffffu - parts.latents_size;
-  const size_t size = parts.latents_size + parts.facets_size;
+  const int fits = draft.geometry_size <= 0xffffffffu - draft.latents_size;
+  const size_t size = draft.latents_size + draft.geometry_size;
   void *to = memory || !fits ? memory : nsvcd__alloc(allocator, size);
   if (!fits) {
     result = NSVCD_ERROR_TOO_LARGE;
@@ -8708,11 +8481,11 @@ static nsvcd_result nsvcd__encode_mesh(const nsvcd_mesh *mesh,
   } else if ((memory && capacity < size) || !nsvcd__is_aligned(to)) {
     result = NSVCD_ERROR_WORKSPACE;
   } else {
-    result = nsvcd__parts_write(&parts, to);
+    result = nsvcd__draft_write(&draft, to);
   }
   if (!result) *body = (const nsvcd_body *)to;
   if (result && !memory) nsvcd__free(allocator, to);
-  nsvcd__arena_free(&parts.arena);
+  nsvcd__arena_free(&draft.arena);
   return result;
 }
 
@@ -8733,8 +8506,8 @@ NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *all
 #endif  // NSVCD_NO_ENCODER
 
 // ------------------------------------------------------------------------------------- body/shapes
-// In: a shape in numbers. Out: its body: a skeleton of points, segments or a box, and how round it
-// is.
+// In: the sizes of a shape. Out: its body: a skeleton of points, segments or a box, and a convex
+// radius.
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
 static nsvcd_result nsvcd__encode_rounded(const nsvcd_mesh *mesh, float convex_radius,
@@ -8771,7 +8544,7 @@ NSVCDDEF nsvcd_result nsvcd_encode_capsule(const float from[3], const float to[3
 NSVCDDEF nsvcd_result nsvcd_encode_box(const float half[3], float convex_radius,
                                        const nsvcd_allocator *allocator,
                                        const nsvcd_body **body) {
-  // corner n is on the far side of axis k if bit k of n is set
+  // bit k of a corner's number: it is on the positive side of axis k
   uint32_t faces[36] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
                         2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
   float corners[24];
@@ -13563,7 +13336,7 @@ static void nsvcd__block_corners(const nsvcd__geometry *f, size_t patch, size_t 
                                  size_t count, size_t k, uint16_t *vertices) {
   const size_t bytes = nsvcd__corner_bytes(nsvcd__points_of(f, patch).all);
   const size_t at = 3 * (first - f->first_triangle[patch]) + k;
-  const unsigned char *corners = f->triangle_codes + f->first_byte[patch] + bytes * at;
+  const unsigned char *corners = f->entries + f->first_byte[patch] + bytes * at;
   for (size_t l = 0; l < count; l++) {
     if (bytes == 1)
       vertices[l] = corners[3 * l];
@@ -15033,8 +14806,8 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__geometry *f,
   const nsvcd__f3 rounded = nsvcd__f3_round(position);
   const nsvcd__box at = {rounded, rounded};
   const float extent = nsvcd__f3_length(rounded) + b->extent;
-  const float distance = 2 * nsvcd__widest_quantization(f) + (float)tolerance * 1.0001f +
-                         4 * NSVCD__ROUNDING * extent;
+  const float distance =
+      2 * nsvcd__widest_error(f) + (float)tolerance * 1.0001f + 4 * NSVCD__ROUNDING * extent;
   const nsvcd__surroundings here = {rounded, distance};
   nsvcd__block *block = &p->fixed_blocks[0];
   size_t g;
@@ -15084,7 +14857,7 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__geometry *f, double 
   nsvcd__ray ray;
   ray.from = position;
   ray.margin = NSVCD__SAME_POSITION * (double)p->given.lengths / unit;
-  ray.margin += (double)nsvcd__off_mesh(f) + (double)f->gap;
+  ray.margin += (double)nsvcd__off_mesh(f) + (double)f->counts->gap;
   ray.rounding = (float)ray.margin + 4 * NSVCD__ROUNDING * f->body->extent;
   int clear = 0;
   int odd = 0;
@@ -15138,7 +14911,7 @@ static uint32_t nsvcd__seeds_near(const nsvcd__geometry *inner, size_t first,
                                   const nsvcd__transform *start, float scale,
                                   const nsvcd__geometry *outer) {
   const nsvcd_body *o = outer->body;
-  const size_t left = inner->components - first;
+  const size_t left = inner->counts->components - first;
   float lanes[3][NSVCD__LANES];
   for (size_t l = 0; l < NSVCD__LANES; l++) {
     const float *seed = inner->seeds + 3 * (first + (l < left ? l : 0));
@@ -15207,7 +14980,7 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
     if (!nsvcd__is_enclosed(p, e->outer, e->unit, seen)) continue;
     p->enclosed = e->inner_moves ? seen : seed;
     p->inside = 1;
-    const double room = p->given.tolerance / e->unit + (double)e->outer->gap;
+    const double room = p->given.tolerance / e->unit + (double)e->outer->counts->gap;
     if (!nsvcd__surface_is_near(p, e->outer, seen, room)) return 1;
   }
   return 0;
@@ -15219,10 +14992,10 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   const nsvcd_body *inner = e->inner->body;
   const nsvcd_body *outer = e->outer->body;
   if (outer->open) return 0;
-  const int is_one = e->inner->components == 1 && e->outer->kind_bits == 1;
+  const int is_one = e->inner->counts->components == 1 && e->outer->kind_bits == 1;
   if (is_one && nsvcd__sticks_out(e->inner, &e->rounded, e->scale, outer)) return 0;
-  if (e->inner->components <= NSVCD__LANES)
-    return nsvcd__encloses_seeds(p, e, 0, e->inner->components);
+  if (e->inner->counts->components <= NSVCD__LANES)
+    return nsvcd__encloses_seeds(p, e, 0, e->inner->counts->components);
   const nsvcd__f3 centre =
       nsvcd__f3_round(nsvcd__place_point(&e->back, nsvcd__d3_load(outer->centre)));
   const float extent = nsvcd__f3_length(centre) + inner->extent + outer->extent / e->scale;
@@ -18207,8 +17980,8 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   p->fixed = nsvcd__geometry_of(nsvcd__triangles_of(task->fixed));
   p->given.lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
   p->given.tolerance = (double)q->tolerance / unit;
-  const double moving_radius = (double)p->moving.convex_radius * task->motion.ratio;
-  p->given.radius = moving_radius + (double)p->fixed.convex_radius;
+  const double moving_radius = (double)p->moving.counts->convex_radius * task->motion.ratio;
+  p->given.radius = moving_radius + (double)p->fixed.counts->convex_radius;
   p->given.clearance = (double)q->clearance / unit + p->given.radius;
   p->ask.clearance = p->given.clearance;
   p->given.slop = (double)q->slop / unit;
@@ -18254,7 +18027,7 @@ static NSVCD__NOINLINE void nsvcd__tell_contact(const nsvcd__query *query,
   const double time = rests ? 0 : found->tick / (double)motion->ticks;
   const nsvcd__to_world world = nsvcd__to_world_at(motion, time);
   const nsvcd__d3 push_out = nsvcd__d3_scale(nsvcd__d3_widen(motion->push_out), task->swapped);
-  const double beyond = fmin((double)p->fixed.convex_radius, found->distance);
+  const double beyond = fmin((double)p->fixed.counts->convex_radius, found->distance);
   const nsvcd__d3 on = nsvcd__d3_fma(beyond, found->normal, found->point);
   const nsvcd__d3 seen = nsvcd__d3_scale(nsvcd__d3_sub(on, push_out), world.unit);
   const nsvcd__d3 point =

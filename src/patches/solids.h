@@ -279,7 +279,7 @@ static void nsvcd__join_triangles(const nsvcd__mending *m, uint32_t most, uint32
     for (size_t i = m->group_first[g]; i < m->group_first[g + 1]; i++) {
       const uint32_t n = m->order[i] / 3;
       if (!m->alive[n]) continue;
-      if (last != UINT32_MAX) nsvcd__unite(forest, n, last);
+      if (last != UINT32_MAX) nsvcd__join_roots(forest, n, last);
       last = n;
     }
   }
@@ -442,7 +442,7 @@ static int nsvcd__judge_holes(const nsvcd__mending *m, nsvcd__shell *wholes,
   for (size_t e = 0; !arena.failed && e < 3 * m->count; e++) {
     if (!nsvcd__is_border(m, e)) continue;
     const nsvcd__edge edge = nsvcd__mending_edge(m, e);
-    nsvcd__unite(forest, edge.ends[0], edge.ends[1]);
+    nsvcd__join_roots(forest, edge.ends[0], edge.ends[1]);
     for (size_t k = 0; k < 2; k++) numbers[edge.ends[k]] = 1;
   }
   for (uint32_t v = 0; !arena.failed && v < vertices; v++) {

@@ -39,7 +39,7 @@ static uint32_t nsvcd__root(uint32_t *parents, uint32_t v) {
 }
 
 // Joins the trees of a and b: the lesser root stays one.
-static void nsvcd__unite(uint32_t *parents, uint32_t a, uint32_t b) {
+static void nsvcd__join_roots(uint32_t *parents, uint32_t a, uint32_t b) {
   a = nsvcd__root(parents, a);
   b = nsvcd__root(parents, b);
   parents[a > b ? a : b] = a < b ? a : b;
@@ -107,8 +107,8 @@ static int nsvcd__topology_build(const nsvcd_mesh *mesh, nsvcd__arena *arena,
   for (uint32_t v = 0; v < mesh->vertex_count; v++) parents[v] = v;
   for (size_t t = 0; t < mesh->triangle_count; t++) {
     nsvcd__welded_face(topo, t, face);
-    nsvcd__unite(parents, face[0], face[1]);
-    nsvcd__unite(parents, face[0], face[2]);
+    nsvcd__join_roots(parents, face[0], face[1]);
+    nsvcd__join_roots(parents, face[0], face[2]);
   }
   for (uint32_t v = 0; v < mesh->vertex_count; v++) parents[v] = nsvcd__root(parents, v);
   for (size_t t = 0; t < mesh->triangle_count; t++) {
