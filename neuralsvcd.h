@@ -2662,7 +2662,8 @@ typedef struct nsvcd__weld {
   uint32_t *table;
   size_t slots;
   uint64_t seed;  // of the hash
-  size_t steps;   // past other vertices
+  // past other vertices
+  size_t steps;
 } nsvcd__weld;
 
 // The slot of the vertex at the position of vertex v, or the empty one where it belongs.
@@ -2998,52 +2999,52 @@ static void nsvcd__polygon_triangulate(nsvcd__polygon *poly, const float *positi
 
 #ifndef NSVCD_NO_OBJ
 // Checks the faces. *triangles: how many they become; *most: corners of the largest.
-static nsvcd_result nsvcd__faces_check(const nsvcd_faces *faces, size_t *triangles,
+static nsvcd_result nsvcd__faces_check(const nsvcd_faces *f, size_t *triangles,
                                        uint32_t *most) {
   size_t corners = 0;
   *triangles = 0;
   *most = 0;
-  for (size_t f = 0; f < faces->face_count; f++) {
-    const uint32_t size = faces->sizes ? faces->sizes[f] : 3;
-    if (size < 3 || size > faces->corner_count - corners) return NSVCD_ERROR_SIZES;
+  for (size_t n = 0; n < f->face_count; n++) {
+    const uint32_t size = f->sizes ? f->sizes[n] : 3;
+    if (size < 3 || size > f->corner_count - corners) return NSVCD_ERROR_SIZES;
     corners += size;
     *triangles += size - 2;
     if (size > *most) *most = size;
   }
-  if (corners != faces->corner_count) return NSVCD_ERROR_SIZES;
-  if (faces->vertex_count > NSVCD__MAX_COUNT || *triangles > NSVCD__MAX_COUNT)
+  if (corners != f->corner_count) return NSVCD_ERROR_SIZES;
+  if (f->vertex_count > NSVCD__MAX_COUNT || *triangles > NSVCD__MAX_COUNT)
     return NSVCD_ERROR_TOO_LARGE;
   for (size_t i = 0; i < corners; i++) {
-    if (faces->corners[i] >= faces->vertex_count) return NSVCD_ERROR_INDEX;
+    if (f->corners[i] >= f->vertex_count) return NSVCD_ERROR_INDEX;
   }
-  if (!nsvcd__in_range(faces->positions, 3 * faces->vertex_count, NSVCD_MAX_COORDINATE))
+  if (!nsvcd__in_range(f->positions, 3 * f->vertex_count, NSVCD_MAX_COORDINATE))
     return NSVCD_ERROR_NUMBER;
   return *triangles ? NSVCD_OK : NSVCD_ERROR_EMPTY;
 }
 
-NSVCDDEF nsvcd_result nsvcd_mesh_of_faces(const nsvcd_faces *faces,
+NSVCDDEF nsvcd_result nsvcd_mesh_of_faces(const nsvcd_faces *f,
                                           const nsvcd_allocator *allocator, nsvcd_mesh *mesh) {
   nsvcd_mesh out;
   nsvcd__polygon polygon;
   nsvcd__arena arena = nsvcd__arena_of(allocator);
   size_t triangles;
   uint32_t most;
-  if (!faces || !mesh) return NSVCD_ERROR_ARGUMENT;
-  if ((faces->vertex_count && !faces->positions) || (faces->corner_count && !faces->corners))
+  if (!f || !mesh) return NSVCD_ERROR_ARGUMENT;
+  if ((f->vertex_count && !f->positions) || (f->corner_count && !f->corners))
     return NSVCD_ERROR_ARGUMENT;
-  nsvcd_result result = nsvcd__faces_check(faces, &triangles, &most);
+  nsvcd_result result = nsvcd__faces_check(f, &triangles, &most);
   if (result) return result;
-  if (!nsvcd__mesh_alloc(&out, faces->vertex_count, triangles, allocator) ||
+  if (!nsvcd__mesh_alloc(&out, f->vertex_count, triangles, allocator) ||
       !nsvcd__polygon_alloc(&polygon, most, &arena)) {
     nsvcd__arena_free(&arena);
     nsvcd_mesh_free(&out, allocator);
     return NSVCD_ERROR_MEMORY;
   }
-  memcpy(out.positions, faces->positions, 3 * faces->vertex_count * sizeof(float));
-  const uint32_t *corner = faces->corners;
+  memcpy(out.positions, f->positions, 3 * f->vertex_count * sizeof(float));
+  const uint32_t *corner = f->corners;
   uint32_t *triangle = out.indices;
-  for (size_t f = 0; f < faces->face_count; f++) {
-    polygon.count = faces->sizes ? faces->sizes[f] : 3;
+  for (size_t n = 0; n < f->face_count; n++) {
+    polygon.count = f->sizes ? f->sizes[n] : 3;
     for (uint32_t i = 0; i < polygon.count; i++) polygon.corners[i].vertex = *corner++;
     nsvcd__polygon_triangulate(&polygon, out.positions, triangle);
     triangle += 3 * (size_t)(polygon.count - 2);
@@ -3474,7 +3475,8 @@ static int nsvcd__stl_weld(nsvcd_mesh *mesh, const nsvcd_allocator *allocator) {
     indices[i] = is_first ? count : indices[indices[i]];
     if (!is_first) continue;
     for (size_t k = 0; k < 3; k++)
-      positions[3 * (size_t)count + k] = positions[3 * i + k] + 0.0f;  // -0 becomes 0
+      // -0 becomes 0
+      positions[3 * (size_t)count + k] = positions[3 * i + k] + 0.0f;
     count++;
   }
   mesh->vertex_count = count;
@@ -4262,8 +4264,9 @@ typedef struct nsvcd__solids {
 // The triangles of components that are not closed, without those that are points or segments.
 typedef struct nsvcd__mending {
   const nsvcd__topology *topo;
-  size_t count;         // T
-  uint32_t *triangles;  // (T) of the mesh
+  size_t count;  // T
+  // (T) of the mesh
+  uint32_t *triangles;
   // (vertices) what a welded vertex was joined to, or itself
   uint32_t *joined;
   uint8_t *alive;  // (T) 0: set aside
@@ -4279,7 +4282,8 @@ typedef struct nsvcd__mending {
   uint32_t *wholes, *parts;
   // (vertices + 1) working memory
   size_t *first;
-  uint32_t *spare;  // (3 T) working memory
+  // (3 T) working memory
+  uint32_t *spare;
 } nsvcd__mending;
 
 static void nsvcd__mending_face(const nsvcd__mending *m, size_t n, uint32_t *face) {
@@ -4833,9 +4837,11 @@ typedef struct nsvcd__regions {
   nsvcd__solids solids;
   // (vertices) 1: the least vertex of its component, which no patch has yet
   uint8_t *seeds;
-  size_t count;           // R
-  size_t triangle_count;  // T, with halves
-  uint32_t *corners;      // (T, 3) points
+  size_t count;  // R
+  // T, with halves
+  size_t triangle_count;
+  // (T, 3) points
+  uint32_t *corners;
   // (T) number in the caller's mesh, and kind
   uint32_t *ids;
   size_t cut_count, most_cuts;
@@ -4848,7 +4854,8 @@ typedef struct nsvcd__regions {
   double per_area, per_triangle;
   // (T) triangles, region by region
   uint32_t *order;
-  uint32_t *spare;  // (T) working memory
+  // (T) working memory
+  uint32_t *spare;
   // (vertices and cuts) numbers of points in the region at hand, from 1; 0: none
   uint32_t *numbers;
   // (R + 1) where regions begin in `order`
@@ -4861,8 +4868,9 @@ typedef struct nsvcd__region {
   nsvcd_mesh mesh;
   // coordinate of the whole mesh, absolute
   double greatest;
-  uint32_t *ids;    // (triangles)
-  nsvcd__d3 *cuts;  // (cut_count) not rounded
+  uint32_t *ids;  // (triangles)
+  // (cut_count) not rounded
+  nsvcd__d3 *cuts;
   size_t cut_count;
   uint8_t *seeds;  // (vertices)
   // (vertices) their numbers among the points of all regions; NULL: the same
@@ -5173,7 +5181,8 @@ typedef struct nsvcd__pieces {
   nsvcd__list corners;
   // of nsvcd__d3, points that cuts have made
   nsvcd__list points;
-  nsvcd__convex *waiting;  // (NSVCD__WAITING)
+  // (NSVCD__WAITING)
+  nsvcd__convex *waiting;
   size_t waiting_count;
   size_t cuts_left;
   // metres that a piece may extend beyond its cell
@@ -5487,34 +5496,34 @@ static size_t nsvcd__run_begin(size_t triangles, size_t run, size_t runs) {
   return (size_t)(((uint64_t)triangles * run + runs - 1) / runs);
 }
 
-// Makes runs first .. last - 1, each a patch; block and patches are what their pieces refer to. The
+// Makes runs first .. last - 1, each a patch; b and patches are what their pieces refer to. The
 // triangles and vertices of a block are copied in the order of the curve, so that the rest reads
 // memory from front to back. A triangle may be a component of its own if none of its vertices was
 // met before. 0 without memory.
 static int nsvcd__runs_build(nsvcd__curve *c, size_t first, size_t last, size_t runs,
-                             nsvcd__arena *arena, nsvcd__region *block,
-                             nsvcd__patches *patches, nsvcd__pieces *pieces) {
+                             nsvcd__arena *arena, nsvcd__region *b, nsvcd__patches *patches,
+                             nsvcd__pieces *pieces) {
   const nsvcd_mesh *mesh = c->mesh;
   const size_t all = mesh->triangle_count;
   const size_t begin = nsvcd__run_begin(all, first, runs);
   const size_t count = nsvcd__run_begin(all, last, runs) - begin;
   const uint32_t before = c->met_count;
-  memset(block, 0, sizeof *block);
+  memset(b, 0, sizeof *b);
   memset(patches, 0, sizeof *patches);
   memset(pieces, 0, sizeof *pieces);
-  block->mesh.triangle_count = count;
+  b->mesh.triangle_count = count;
   const size_t most = 3 * count < mesh->vertex_count ? 3 * count : mesh->vertex_count;
-  block->mesh.positions = NSVCD__TAKE(arena, float, 3 * most);
-  block->mesh.indices = NSVCD__TAKE(arena, uint32_t, 3 * count);
-  block->ids = NSVCD__TAKE(arena, uint32_t, count);
-  block->vertices = NSVCD__TAKE(arena, uint32_t, most);
-  block->seeds = NSVCD__TAKE(arena, uint8_t, most);
-  block->greatest = c->greatest;
+  b->mesh.positions = NSVCD__TAKE(arena, float, 3 * most);
+  b->mesh.indices = NSVCD__TAKE(arena, uint32_t, 3 * count);
+  b->ids = NSVCD__TAKE(arena, uint32_t, count);
+  b->vertices = NSVCD__TAKE(arena, uint32_t, most);
+  b->seeds = NSVCD__TAKE(arena, uint8_t, most);
+  b->greatest = c->greatest;
   patches->count = last - first;
   pieces->arena = arena;
-  pieces->region = block;
+  pieces->region = b;
   pieces->patches = patches;
-  pieces->margin = NSVCD__SURFACE_MARGIN * block->greatest + NSVCD__SURFACE_TINY;
+  pieces->margin = NSVCD__SURFACE_MARGIN * b->greatest + NSVCD__SURFACE_TINY;
   pieces->thin = NSVCD__RUN_THIN * c->convex_radius;
   if (!nsvcd__list_reserve(&pieces->list, count, sizeof(nsvcd__piece), arena) || arena->failed)
     return 0;
@@ -5527,32 +5536,32 @@ static int nsvcd__runs_build(nsvcd__curve *c, size_t first, size_t last, size_t 
     if (k == end) end = nsvcd__run_begin(all, ++run, runs) - begin;
     const nsvcd__piece piece = {NSVCD__WHOLE, (uint32_t)k, (uint16_t)(run - 1 - first), 3, 0};
     out[k] = piece;
-    block->ids[k] = (uint32_t)c->keys[begin + k];
-    const size_t id = block->ids[k] & NSVCD__NUMBER;
+    b->ids[k] = (uint32_t)c->keys[begin + k];
+    const size_t id = b->ids[k] & NSVCD__NUMBER;
     for (size_t n = 3 * k; n < 3 * k + 3; n++) {
       const size_t corner = 3 * id + n - 3 * k;
-      block->mesh.indices[n] = mesh->indices ? mesh->indices[corner] : (uint32_t)k;
+      b->mesh.indices[n] = mesh->indices ? mesh->indices[corner] : (uint32_t)k;
     }
   }
   if (!mesh->indices) {
-    memcpy(block->vertices, block->ids, count * sizeof *block->vertices);
-    memset(block->seeds, 1, count);
-    block->mesh.vertex_count = count;
+    memcpy(b->vertices, b->ids, count * sizeof *b->vertices);
+    memset(b->seeds, 1, count);
+    b->mesh.vertex_count = count;
   }
   for (size_t n = 0; mesh->indices && n < 3 * count; n++) {
-    const uint32_t *face = &block->mesh.indices[n / 3 * 3];
-    uint32_t *met = &c->met[block->mesh.indices[n]];
+    const uint32_t *face = &b->mesh.indices[n / 3 * 3];
+    uint32_t *met = &c->met[b->mesh.indices[n]];
     if (*met <= before) {
-      block->seeds[block->mesh.vertex_count] =
+      b->seeds[b->mesh.vertex_count] =
           n % 3 == 0 && !c->met[face[0]] && !c->met[face[1]] && !c->met[face[2]];
-      block->vertices[block->mesh.vertex_count++] = block->mesh.indices[n];
+      b->vertices[b->mesh.vertex_count++] = b->mesh.indices[n];
       *met = ++c->met_count;
     }
-    block->mesh.indices[n] = *met - 1 - before;
+    b->mesh.indices[n] = *met - 1 - before;
   }
-  for (size_t i = 0; i < block->mesh.vertex_count; i++) {
-    const nsvcd__f3 at = nsvcd__f3_row(mesh->positions, block->vertices[i]);
-    nsvcd__f3_store(at, block->mesh.positions + 3 * i);
+  for (size_t i = 0; i < b->mesh.vertex_count; i++) {
+    const nsvcd__f3 at = nsvcd__f3_row(mesh->positions, b->vertices[i]);
+    nsvcd__f3_store(at, b->mesh.positions + 3 * i);
   }
   return 1;
 }
@@ -6107,7 +6116,8 @@ typedef struct nsvcd__surface {
   uint16_t *corners;
   // (L) triangle of the mesh, and its kind
   uint32_t *ids;
-  nsvcd__list lists[4];  // these four arrays
+  // these four arrays
+  nsvcd__list lists[4];
   nsvcd__solids solids;
   // C, components that are known so far, of each a vertex, and a patch that has it as a corner
   size_t seed_count;
@@ -6701,7 +6711,8 @@ static size_t nsvcd__group_members(size_t members, size_t first) {
 // A level of spheres. Level 0 are the groups; a sphere of any other is over 16 of the level below.
 typedef struct nsvcd__level {
   size_t count;  // spheres
-  size_t slots;  // the same, rounded up to 16
+  // the same, rounded up to 16
+  size_t slots;
   // of its floats, from the body's first: x (slots), y, z, r
   size_t first;
 } nsvcd__level;
@@ -6868,8 +6879,9 @@ typedef struct nsvcd__latents {
   nsvcd__f3 *centres;  // (N)
   float *radii;        // (N)
   nsvcd__f3 *areas;    // (N)
-  int8_t *extremes;    // (N, EXTREMES, 3)
-  int8_t *latents;     // (N, LATENT)
+  // (N, EXTREMES, 3)
+  int8_t *extremes;
+  int8_t *latents;  // (N, LATENT)
   // (N) of the patches
   const uint16_t *order;
   int open;
@@ -7174,7 +7186,8 @@ typedef struct nsvcd__geometry {
   int16_t *vertices;
   unsigned char *entries;
   uint8_t *hull_counts;
-  size_t reference_bytes;  // of each: 2 or 4
+  // of each: 2 or 4
+  size_t reference_bytes;
   // of an entry's code: 1 or 2
   unsigned kind_bits;
 } nsvcd__geometry;

@@ -86,7 +86,8 @@ static size_t nsvcd__group_members(size_t members, size_t first) {
 // A level of spheres. Level 0 are the groups; a sphere of any other is over 16 of the level below.
 typedef struct nsvcd__level {
   size_t count;  // spheres
-  size_t slots;  // the same, rounded up to 16
+  // the same, rounded up to 16
+  size_t slots;
   // of its floats, from the body's first: x (slots), y, z, r
   size_t first;
 } nsvcd__level;
@@ -253,8 +254,9 @@ typedef struct nsvcd__latents {
   nsvcd__f3 *centres;  // (N)
   float *radii;        // (N)
   nsvcd__f3 *areas;    // (N)
-  int8_t *extremes;    // (N, EXTREMES, 3)
-  int8_t *latents;     // (N, LATENT)
+  // (N, EXTREMES, 3)
+  int8_t *extremes;
+  int8_t *latents;  // (N, LATENT)
   // (N) of the patches
   const uint16_t *order;
   int open;

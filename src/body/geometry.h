@@ -72,7 +72,8 @@ typedef struct nsvcd__geometry {
   int16_t *vertices;
   unsigned char *entries;
   uint8_t *hull_counts;
-  size_t reference_bytes;  // of each: 2 or 4
+  // of each: 2 or 4
+  size_t reference_bytes;
   // of an entry's code: 1 or 2
   unsigned kind_bits;
 } nsvcd__geometry;

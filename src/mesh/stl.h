@@ -107,7 +107,8 @@ static int nsvcd__stl_weld(nsvcd_mesh *mesh, const nsvcd_allocator *allocator) {
     indices[i] = is_first ? count : indices[indices[i]];
     if (!is_first) continue;
     for (size_t k = 0; k < 3; k++)
-      positions[3 * (size_t)count + k] = positions[3 * i + k] + 0.0f;  // -0 becomes 0
+      // -0 becomes 0
+      positions[3 * (size_t)count + k] = positions[3 * i + k] + 0.0f;
     count++;
   }
   mesh->vertex_count = count;

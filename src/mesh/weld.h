@@ -10,7 +10,8 @@ typedef struct nsvcd__weld {
   uint32_t *table;
   size_t slots;
   uint64_t seed;  // of the hash
-  size_t steps;   // past other vertices
+  // past other vertices
+  size_t steps;
 } nsvcd__weld;
 
 // The slot of the vertex at the position of vertex v, or the empty one where it belongs.

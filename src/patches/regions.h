@@ -26,9 +26,11 @@ typedef struct nsvcd__regions {
   nsvcd__solids solids;
   // (vertices) 1: the least vertex of its component, which no patch has yet
   uint8_t *seeds;
-  size_t count;           // R
-  size_t triangle_count;  // T, with halves
-  uint32_t *corners;      // (T, 3) points
+  size_t count;  // R
+  // T, with halves
+  size_t triangle_count;
+  // (T, 3) points
+  uint32_t *corners;
   // (T) number in the caller's mesh, and kind
   uint32_t *ids;
   size_t cut_count, most_cuts;
@@ -41,7 +43,8 @@ typedef struct nsvcd__regions {
   double per_area, per_triangle;
   // (T) triangles, region by region
   uint32_t *order;
-  uint32_t *spare;  // (T) working memory
+  // (T) working memory
+  uint32_t *spare;
   // (vertices and cuts) numbers of points in the region at hand, from 1; 0: none
   uint32_t *numbers;
   // (R + 1) where regions begin in `order`
@@ -54,8 +57,9 @@ typedef struct nsvcd__region {
   nsvcd_mesh mesh;
   // coordinate of the whole mesh, absolute
   double greatest;
-  uint32_t *ids;    // (triangles)
-  nsvcd__d3 *cuts;  // (cut_count) not rounded
+  uint32_t *ids;  // (triangles)
+  // (cut_count) not rounded
+  nsvcd__d3 *cuts;
   size_t cut_count;
   uint8_t *seeds;  // (vertices)
   // (vertices) their numbers among the points of all regions; NULL: the same

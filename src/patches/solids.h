@@ -50,8 +50,9 @@ typedef struct nsvcd__solids {
 // The triangles of components that are not closed, without those that are points or segments.
 typedef struct nsvcd__mending {
   const nsvcd__topology *topo;
-  size_t count;         // T
-  uint32_t *triangles;  // (T) of the mesh
+  size_t count;  // T
+  // (T) of the mesh
+  uint32_t *triangles;
   // (vertices) what a welded vertex was joined to, or itself
   uint32_t *joined;
   uint8_t *alive;  // (T) 0: set aside
@@ -67,7 +68,8 @@ typedef struct nsvcd__mending {
   uint32_t *wholes, *parts;
   // (vertices + 1) working memory
   size_t *first;
-  uint32_t *spare;  // (3 T) working memory
+  // (3 T) working memory
+  uint32_t *spare;
 } nsvcd__mending;
 
 static void nsvcd__mending_face(const nsvcd__mending *m, size_t n, uint32_t *face) {

@@ -79,7 +79,8 @@ typedef struct nsvcd__pieces {
   nsvcd__list corners;
   // of nsvcd__d3, points that cuts have made
   nsvcd__list points;
-  nsvcd__convex *waiting;  // (NSVCD__WAITING)
+  // (NSVCD__WAITING)
+  nsvcd__convex *waiting;
   size_t waiting_count;
   size_t cuts_left;
   // metres that a piece may extend beyond its cell

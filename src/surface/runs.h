@@ -128,34 +128,34 @@ static size_t nsvcd__run_begin(size_t triangles, size_t run, size_t runs) {
   return (size_t)(((uint64_t)triangles * run + runs - 1) / runs);
 }
 
-// Makes runs first .. last - 1, each a patch; block and patches are what their pieces refer to. The
+// Makes runs first .. last - 1, each a patch; b and patches are what their pieces refer to. The
 // triangles and vertices of a block are copied in the order of the curve, so that the rest reads
 // memory from front to back. A triangle may be a component of its own if none of its vertices was
 // met before. 0 without memory.
 static int nsvcd__runs_build(nsvcd__curve *c, size_t first, size_t last, size_t runs,
-                             nsvcd__arena *arena, nsvcd__region *block,
-                             nsvcd__patches *patches, nsvcd__pieces *pieces) {
+                             nsvcd__arena *arena, nsvcd__region *b, nsvcd__patches *patches,
+                             nsvcd__pieces *pieces) {
   const nsvcd_mesh *mesh = c->mesh;
   const size_t all = mesh->triangle_count;
   const size_t begin = nsvcd__run_begin(all, first, runs);
   const size_t count = nsvcd__run_begin(all, last, runs) - begin;
   const uint32_t before = c->met_count;
-  memset(block, 0, sizeof *block);
+  memset(b, 0, sizeof *b);
   memset(patches, 0, sizeof *patches);
   memset(pieces, 0, sizeof *pieces);
-  block->mesh.triangle_count = count;
+  b->mesh.triangle_count = count;
   const size_t most = 3 * count < mesh->vertex_count ? 3 * count : mesh->vertex_count;
-  block->mesh.positions = NSVCD__TAKE(arena, float, 3 * most);
-  block->mesh.indices = NSVCD__TAKE(arena, uint32_t, 3 * count);
-  block->ids = NSVCD__TAKE(arena, uint32_t, count);
-  block->vertices = NSVCD__TAKE(arena, uint32_t, most);
-  block->seeds = NSVCD__TAKE(arena, uint8_t, most);
-  block->greatest = c->greatest;
+  b->mesh.positions = NSVCD__TAKE(arena, float, 3 * most);
+  b->mesh.indices = NSVCD__TAKE(arena, uint32_t, 3 * count);
+  b->ids = NSVCD__TAKE(arena, uint32_t, count);
+  b->vertices = NSVCD__TAKE(arena, uint32_t, most);
+  b->seeds = NSVCD__TAKE(arena, uint8_t, most);
+  b->greatest = c->greatest;
   patches->count = last - first;
   pieces->arena = arena;
-  pieces->region = block;
+  pieces->region = b;
   pieces->patches = patches;
-  pieces->margin = NSVCD__SURFACE_MARGIN * block->greatest + NSVCD__SURFACE_TINY;
+  pieces->margin = NSVCD__SURFACE_MARGIN * b->greatest + NSVCD__SURFACE_TINY;
   pieces->thin = NSVCD__RUN_THIN * c->convex_radius;
   if (!nsvcd__list_reserve(&pieces->list, count, sizeof(nsvcd__piece), arena) || arena->failed)
     return 0;
@@ -168,32 +168,32 @@ static int nsvcd__runs_build(nsvcd__curve *c, size_t first, size_t last, size_t 
     if (k == end) end = nsvcd__run_begin(all, ++run, runs) - begin;
     const nsvcd__piece piece = {NSVCD__WHOLE, (uint32_t)k, (uint16_t)(run - 1 - first), 3, 0};
     out[k] = piece;
-    block->ids[k] = (uint32_t)c->keys[begin + k];
-    const size_t id = block->ids[k] & NSVCD__NUMBER;
+    b->ids[k] = (uint32_t)c->keys[begin + k];
+    const size_t id = b->ids[k] & NSVCD__NUMBER;
     for (size_t n = 3 * k; n < 3 * k + 3; n++) {
       const size_t corner = 3 * id + n - 3 * k;
-      block->mesh.indices[n] = mesh->indices ? mesh->indices[corner] : (uint32_t)k;
+      b->mesh.indices[n] = mesh->indices ? mesh->indices[corner] : (uint32_t)k;
     }
   }
   if (!mesh->indices) {
-    memcpy(block->vertices, block->ids, count * sizeof *block->vertices);
-    memset(block->seeds, 1, count);
-    block->mesh.vertex_count = count;
+    memcpy(b->vertices, b->ids, count * sizeof *b->vertices);
+    memset(b->seeds, 1, count);
+    b->mesh.vertex_count = count;
   }
   for (size_t n = 0; mesh->indices && n < 3 * count; n++) {
-    const uint32_t *face = &block->mesh.indices[n / 3 * 3];
-    uint32_t *met = &c->met[block->mesh.indices[n]];
+    const uint32_t *face = &b->mesh.indices[n / 3 * 3];
+    uint32_t *met = &c->met[b->mesh.indices[n]];
     if (*met <= before) {
-      block->seeds[block->mesh.vertex_count] =
+      b->seeds[b->mesh.vertex_count] =
           n % 3 == 0 && !c->met[face[0]] && !c->met[face[1]] && !c->met[face[2]];
-      block->vertices[block->mesh.vertex_count++] = block->mesh.indices[n];
+      b->vertices[b->mesh.vertex_count++] = b->mesh.indices[n];
       *met = ++c->met_count;
     }
-    block->mesh.indices[n] = *met - 1 - before;
+    b->mesh.indices[n] = *met - 1 - before;
   }
-  for (size_t i = 0; i < block->mesh.vertex_count; i++) {
-    const nsvcd__f3 at = nsvcd__f3_row(mesh->positions, block->vertices[i]);
-    nsvcd__f3_store(at, block->mesh.positions + 3 * i);
+  for (size_t i = 0; i < b->mesh.vertex_count; i++) {
+    const nsvcd__f3 at = nsvcd__f3_row(mesh->positions, b->vertices[i]);
+    nsvcd__f3_store(at, b->mesh.positions + 3 * i);
   }
   return 1;
 }

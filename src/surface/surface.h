@@ -59,7 +59,8 @@ typedef struct nsvcd__surface {
   uint16_t *corners;
   // (L) triangle of the mesh, and its kind
   uint32_t *ids;
-  nsvcd__list lists[4];  // these four arrays
+  // these four arrays
+  nsvcd__list lists[4];
   nsvcd__solids solids;
   // C, components that are known so far, of each a vertex, and a patch that has it as a corner
   size_t seed_count;
