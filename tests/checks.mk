@@ -58,33 +58,34 @@ check-tiles: build/tiles_proof build/tiles_facets  # the proof, searched tile by
 	@for test in $^; do echo $$test; $$test >$$test.txt || { cat $$test.txt; exit 1; }; tail -1 $$test.txt; done
 # What refuses NaN and infinity does so on their bits, and so under -ffast-math as well; FILE/TESTS. The header warns there
 # that results are not tested.
-FAST = query/refuses motion/bad_poses proof/refuses mesh/mesh_is_checked mesh/refused encoding/refuses facets/refuses \
-  body/malice gradient/refuses optimizer/refuses
-build/fast_%: tests/test_%.c $(HELPERS) $(SCENERY) $(LIBRARY) | build
-	$(CC) $(CFLAGS) -I. -O1 -ffast-math -std=c99 -Wall -Wextra -Wno-unused-function -DNSVCD_NO_DISPATCH -DTEST_ALONE -o $@ $< -lm \
-	  2>$@.txt && grep -q 'warning: neuralsvcd.h: -ffinite-math-only' $@.txt || { cat $@.txt; exit 1; }
+FAST = promises_queries/refused promises_bodies/cannot_be test_query/refuses test_mesh/refused test_gradient/refuses \
+  test_optimizer/refuses test_body/malice test_body/scale
+FAST_CFLAGS = $(CFLAGS) -I. -O1 -ffast-math -std=c99 -Wall -Wextra -Wno-unused-function -DNSVCD_NO_DISPATCH -pthread
+says_fast = 2>$@.txt && grep -q 'warning: neuralsvcd.h: -ffinite-math-only' $@.txt || { cat $@.txt; exit 1; }
+build/fast_library.o: packages/neuralsvcd.c $(LIBRARY) | build
+	$(CC) $(FAST_CFLAGS) -c -o $@ $< $(says_fast)
+build/fast_promises_%: tests/promises/%.c build/fast_library.o $(PROMISE_HELPERS)
+	$(CC) $(FAST_CFLAGS) -w -DTEST_ALONE -o $@ $< build/fast_library.o -lm
+build/fast_test_%: tests/test_%.c $(HELPERS) $(SCENERY) $(LIBRARY) | build
+	$(CC) $(FAST_CFLAGS) -DTEST_ALONE -o $@ $< -lm $(says_fast)
 check-fast-math: $(sort $(foreach test,$(FAST),build/fast_$(firstword $(subst /, ,$(test)))))  # NaN and infinity are refused under -ffast-math too
 	@for test in $(FAST); do \
 	  build/fast_$${test%/*} $${test#*/} >build/fast.txt || { cat build/fast.txt; exit 1; }; done; \
 	  echo "fast-math: NaN and infinity are refused: $(FAST)"
 check-levels: build/problems  # lanes and answers with AVX-512, AVX2, SSE2, NEON and without
 	CC="$(CC)" tests/levels.sh
-# On 32 bits, where sizes end at 4 GB, under sanitizers; where the compiler can (Debian: gcc-12-multilib; gcc-multilib does
-# not go with compilers for other processors, and has no more but a link to <asm>, whose place -idirafter says).
-CFLAGS_32 = -m32 -msse2 -mfpmath=sse -O1 -fsanitize=address,undefined -fno-sanitize-recover=all \
-  -idirafter /usr/include/x86_64-linux-gnu
-build/test_%_32: tests/test_%.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY) | build
-	$(CC) $(CFLAGS_32) -pthread -std=c99 $(TEST_WARNINGS) -DTEST_ALONE -o $@ $< -lm
-# And on x87, whose registers have more digits than memory (gnu99); constants too have more (c99).
+# On x87, whose registers have more digits than memory (gnu99); constants too have more (c99).
 CFLAGS_X87 = -m32 -mno-sse -mfpmath=387 -O1 -idirafter /usr/include/x86_64-linux-gnu
 build/test_%_gnu99: tests/test_%.c $(HELPERS) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(CFLAGS_X87) -std=gnu99 $(TEST_WARNINGS) -DTEST_ALONE -o $@ $< -lm
 build/test_%_c99: tests/test_%.c $(HELPERS) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(CFLAGS_X87) -std=c99 $(TEST_WARNINGS) -DTEST_ALONE -o $@ $< -lm
+# On 32 bits, where sizes end at 4 GB, under sanitizers; where the compiler can (Debian: gcc-12-multilib; gcc-multilib does
+# not go with compilers for other processors, and has no more but a link to <asm>, whose place -idirafter says).
 check-32:  # 32 bits, under sanitizers; x87
-	@if echo 'int main(void) { return 0; }' | $(CC) $(CFLAGS_32) -x c -o build/can_32 - 2>/dev/null; then \
-	  $(MAKE) build/test_level_32 build/test_optimizer_32 && build/test_level_32 && \
-	  build/test_optimizer_32 plan_sizes && \
+	@if $(if $(call can_link,$(CC) $(CFLAGS_32)),true,false); then \
+	  $(MAKE) $(PROMISES:%=build/32/%.txt) build/32/test_level.txt build/32/test_optimizer && \
+	  build/32/test_optimizer plan_sizes && \
 	  $(MAKE) build/test_facets_gnu99 build/test_facets_c99 && \
 	  $(MAKE) build/test_checker_gnu99 build/test_certificate_gnu99 && \
 	  (ulimit -t 300; build/test_facets_gnu99 && build/test_facets_c99 && build/test_checker_gnu99 && \

@@ -10,8 +10,11 @@ TEST_WARNINGS = -I. -Wall -Wextra -Werror -Wno-unused-function -DNSVCD_NO_DISPAT
 TEST_CFLAGS = $(CFLAGS:-O3=-O1)
 # Programs of their own, in `make check`: what tests and benchmarks use, and all instruction sets at once.
 TESTS_APART = oracle tasks plan_spheres processor
-# Each file of tests; TESTS="mesh body": these alone, where each is a program of its own.
+# Each file of tests; TESTS="mesh body": these alone, where each is a program of its own, and with them the promises.
 TESTS = $(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c))
+PROMISES = $(patsubst tests/promises/%.c,promises_%,$(wildcard tests/promises/*.c))
+PROMISE_HELPERS = $(wildcard tests/promises/*.h) tests/check.h $(VERIFIER)
+ALL_TESTS = $(TESTS:%=test_%) $(PROMISES)
 TEST_OBJECTS = build/main.o $(patsubst %,build/test_%.o,$(filter-out $(TESTS_APART),$(TESTS)))
 # -std=c99 keeps gcc from fusing products and sums, and gnu99, which most users have, does not.
 build/test_asks.o build/test_round.o: TEST_CFLAGS := $(filter-out -m%,$(TEST_CFLAGS)) -ffp-contract=fast
@@ -19,10 +22,9 @@ build/test_asks.o build/test_round.o: TEST_CFLAGS := $(filter-out -m%,$(TEST_CFL
 $(TEST_OBJECTS): build/%.o: tests/%.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(TEST_CFLAGS) -pthread -std=c99 $(TEST_WARNINGS) -c -o $@ $<
 # The promises of the public contracts are linked to the library, as a program is.
-PROMISES = $(patsubst tests/promises/%.c,build/promises_%.o,$(wildcard tests/promises/*.c))
-$(PROMISES): build/promises_%.o: tests/promises/%.c $(wildcard tests/promises/*.h) tests/check.h $(VERIFIER) $(LIBRARY) | build
+$(PROMISES:%=build/%.o): build/promises_%.o: tests/promises/%.c $(PROMISE_HELPERS) $(LIBRARY) | build
 	$(CC) $(TEST_CFLAGS) -pthread -std=c99 $(TEST_WARNINGS) -c -o $@ $<
-build/tests: $(TEST_OBJECTS) $(PROMISES) build/library.o
+build/tests: $(TEST_OBJECTS) $(PROMISES:%=build/%.o) build/library.o
 	$(CC) $(TEST_CFLAGS) -pthread -o $@ $^ -lm
 
 # On all processors: CORES=1 for one.
@@ -53,16 +55,28 @@ FLAGS_threads = -O1 -g -fsanitize=thread
 # Counted before anything is inlined or simplified: a branch is one of the text. Threads may lose a few counts,
 # and what gcovr then finds below 0 is left out.
 FLAGS_covered = -Og -fno-early-inlining -fprofile-update=single --coverage
+CFLAGS_32 = -m32 -msse2 -mfpmath=sse -O1 $(SANITIZE_FLAGS) -idirafter /usr/include/x86_64-linux-gnu
+FLAGS_32 = $(CFLAGS_32)
+# What the promises are linked to; to count the rooms' lines, the library is compiled from the rooms.
+build/library_of_rooms.c: packages/neuralsvcd.c | build
+	sed 's|"neuralsvcd.h"|"src/header.h"|; s|"extras/neuralsvcd_|"src/|' $< >$@
+SOURCE_covered = build/library_of_rooms.c
 define flavour
+build/$(1)/library.o: $(or $(SOURCE_$(1)),packages/neuralsvcd.c) $(LIBRARY) $(ROOMS)
+	@mkdir -p $$(@D) && rm -f $$(@:.o=.gcda)
+	$$(CC) $$(FLAGS_$(1)) -std=c99 $$(TEST_WARNINGS) -c -o $$@ $$<
+build/$(1)/promises_%: tests/promises/%.c build/$(1)/library.o $(PROMISE_HELPERS)
+	@rm -f $$@-*.gcda
+	$$(CC) $$(FLAGS_$(1)) -pthread -std=c99 $$(TEST_WARNINGS) -DTEST_ALONE -o $$@ $$< build/$(1)/library.o -lm
 build/$(1)/test_%: tests/test_%.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY)
 	@mkdir -p $$(@D) && rm -f $$@-*.gcda
 	$$(CC) $$(FLAGS_$(1)) -pthread -std=c99 $$(TEST_WARNINGS) $$(CCD_CFLAGS) -DTEST_ALONE -o $$@ $$< $$(CCD_LIBS) -lm
-build/$(1)/test_%.txt: build/$(1)/test_%
+build/$(1)/%.txt: build/$(1)/%
 	@$$< $$(RUN_$(1)) >$$@.part 2>&1 || { grep -E 'ERROR|WARNING|runtime error|failed' $$@.part; echo "$$<: see $$@.part"; exit 1; }
 	@mv $$@.part $$@ && echo "$$<: $$$$(tail -1 $$@)"
 endef
-$(foreach kind,apart sanitized threads covered,$(eval $(call flavour,$(kind))))
-.PRECIOUS: $(TESTS:%=build/sanitized/test_%) $(TESTS:%=build/threads/test_%) $(TESTS:%=build/covered/test_%)
+$(foreach kind,apart sanitized threads covered 32,$(eval $(call flavour,$(kind))))
+.PRECIOUS: $(foreach kind,sanitized threads covered 32,$(ALL_TESTS:%=build/$(kind)/%))
 check-tools: $(patsubst %,build/apart/test_%.txt,$(filter-out processor,$(TESTS_APART)))  # the oracle and the planners that tests and benchmarks use
 check-processor: build/apart/test_processor.txt  # SSE2, AVX2 and AVX-512 in one program: answers agree
 check-exact: build/apart/test_exact  # 50,000 pairs of triangles at the edge against exact arithmetic; TEST_MANY=100: twice as many
@@ -70,18 +84,18 @@ check-exact: build/apart/test_exact  # 50,000 pairs of triangles at the edge aga
 can_link = $(shell echo 'int main(void) { return 0; }' | $(1) -x c - -o /dev/null 2>/dev/null && echo 1)
 
 # The address and the undefined behaviour sanitizer; test_processor.c has what is for AVX2 and AVX-512 too.
-SANITIZED = mesh body facets encoding query
-sanitize = @$(if $(call can_link,$(CC) $(SANITIZE_FLAGS)),$(MAKE) $(1:%=build/sanitized/test_%.txt),\
+SANITIZED = $(PROMISES) test_mesh test_body test_facets test_query
+sanitize = @$(if $(call can_link,$(CC) $(SANITIZE_FLAGS)),$(MAKE) $(1:%=build/sanitized/%.txt),\
 	  echo "check-sanitizers: $(CC) has no sanitizers: not tested")
-check-sanitizers:  # five files of tests under the address and undefined behaviour sanitizers
+check-sanitizers:  # the promises and four files of tests under the address and undefined behaviour sanitizers
 	$(call sanitize,$(SANITIZED))
 check-sanitizers-all:  # all of them
-	$(call sanitize,$(TESTS))
+	$(call sanitize,$(ALL_TESTS))
 # The thread sanitizer, where threads share bodies: tests whose names contain this.
 RUN_threads = threads
-THREADED = $(patsubst tests/test_%.c,%,$(shell grep -l 'RUN.*$(RUN_threads)' tests/test_*.c))
+THREADED = $(patsubst tests/%.c,%,$(shell grep -l 'RUN.*$(RUN_threads)' tests/test_*.c tests/promises/*.c))
 check-threads:  # threads that share bodies, under the thread sanitizer
-	@$(if $(call can_link,$(CC) -fsanitize=thread),$(MAKE) $(THREADED:%=build/threads/test_%.txt),\
+	@$(if $(call can_link,$(CC) -fsanitize=thread),$(MAKE) $(patsubst %,build/threads/%.txt,$(subst /,_,$(THREADED))),\
 	  echo "check-threads: $(CC) has no thread sanitizer: not tested")
 # On other processors, under QEMU: ARCHS="aarch64 s390x" (Debian: qemu-user, gcc-aarch64-linux-gnu, gcc-arm-linux-gnueabihf,
 # gcc-riscv64-linux-gnu, gcc-powerpc64le-linux-gnu, gcc-s390x-linux-gnu, and libc6-dev-ARCH-cross of each).
@@ -92,14 +106,9 @@ check-cross:  # aarch64, armhf, riscv64, ppc64le, s390x, under QEMU
 # minutes. So many are demanded, per cent.
 COVERED_LINES = 97
 COVERED_BRANCHES = 95
-# Functions that no test calls are in no test's program: they are counted where all of the header is.
-build/covered/library.o: $(ROOMS) weights.h
-	@mkdir -p $(@D)
-	printf '#define NEURALSVCD_IMPLEMENTATION\n#include "src/header.h"\n' >build/covered/library.c
-	$(CC) $(FLAGS_covered) -std=c99 $(TEST_WARNINGS) -c -o $@ build/covered/library.c
 coverage:  ## what the tests reach of the rooms; make -j16, minutes
 	@if command -v gcovr >/dev/null; then \
-	  $(MAKE) build/covered/library.o $(TESTS:%=build/covered/test_%.txt) && gcovr --root . --filter src/ \
+	  $(MAKE) $(ALL_TESTS:%=build/covered/%.txt) && gcovr --root . --filter src/ \
 	    --gcov-ignore-parse-errors --txt --print-summary --fail-under-line $(COVERED_LINES) --fail-under-branch $(COVERED_BRANCHES) build/covered; \
 	else echo "coverage: no gcovr: not tested"; fi
 
