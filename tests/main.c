@@ -14,7 +14,6 @@
 
 check_state check;
 
-void test_results(void);
 void test_round(void);
 void test_exact(void);
 void test_floor(void);
@@ -35,7 +34,6 @@ void test_encoder(void);
 void test_latent_rotation(void);
 void test_body(void);
 void test_facets(void);
-void test_encoding(void);
 void test_motion(void);
 void test_long(void);
 void test_broad_phase(void);
@@ -53,6 +51,7 @@ void test_optimizer(void);
 void test_level(void);
 void test_cost(void);
 
+void promises_results(void);
 void promises_meshes(void);
 void promises_bodies(void);
 void promises_queries(void);
@@ -73,6 +72,7 @@ typedef struct test_file {
   { "promises_" #name, promises_##name }
 static const test_file files[] = {
     // the public contracts, one after another
+    PROMISES_OF(results),
     PROMISES_OF(meshes),
     PROMISES_OF(bodies),
     PROMISES_OF(queries),
@@ -82,7 +82,6 @@ static const test_file files[] = {
     PROMISES_OF(routes),
     PROMISES_OF(plans),
     // the sections of the header, in its order
-    OF(results),
     OF(math),
     OF(vectors),
     OF(memory),
@@ -96,7 +95,6 @@ static const test_file files[] = {
     OF(latent_rotation),
     OF(body),
     OF(facets),
-    OF(encoding),
     OF(motion),
     OF(broad_phase),
     OF(proof),

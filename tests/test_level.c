@@ -12,7 +12,6 @@
 #include <sys/mman.h>
 
 #include "check.h"
-#include "failing_heap.h"
 #include "bench/meter.h"
 #include "level_scene.h"
 #include "../examples/scenery/status_of.h"
@@ -498,71 +497,6 @@ static void level_of_bad_triangles(void) {
   level_free(&solid);
 }
 
-static int level_cancel(float done, void *user) {
-  float *last = (float *)user;
-  if (done < last[0] || done > 1) last[1] = 1;  // it never goes back
-  last[0] = done;
-  last[2] += 1;
-  return last[2] >= last[3];
-}
-
-// NaN in the last vertex, memory that runs out at any time, and a caller who has had enough: a
-// code, nothing leaked, nothing written.
-static void level_encoding_ends_well(void) {
-  shapes_mesh shape;
-  memset(&shape, 0, sizeof shape);
-  level_make(&shape, 4, 800, 2);
-  level_solid solid;
-  level_solid_init(&solid, &shape, 0);
-  nsvcd_encode_options options = level_options(600);
-  const nsvcd_body *body = NULL;
-  int fails = 0;
-  options.latents = 1;
-  for (int fail_at = 0; fail_at < 2000; fail_at++) {
-    failing_heap heap = {0, 0, fail_at};
-    nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, &heap};
-    const nsvcd_result result = nsvcd_encode(&solid.mesh, &options, &allocator, NULL, 0, &body);
-    if (result == NSVCD_OK) {
-      CHECK_EQ(heap.live, 1);
-      nsvcd_body_free(body, &allocator);
-      break;
-    }
-    CHECK_EQ(result, NSVCD_ERROR_MEMORY);
-    CHECK(body == NULL);
-    CHECK_EQ(heap.live, 0);
-    fails++;
-  }
-  CHECK(fails > 60 && fails < 2000);
-  body = NULL;
-
-  float last[4] = {0, 0, 0, 1e9f};
-  options.progress = level_cancel;
-  options.user = last;
-  CHECK_EQ(nsvcd_encode(&solid.mesh, &options, NULL, NULL, 0, &body), NSVCD_OK);
-  CHECK(last[1] == 0 && last[2] >= 3);
-  nsvcd_body_free(body, NULL);
-  body = NULL;
-  const float times = last[2];
-  for (float n = 1; n <= times; n++) {
-    failing_heap heap = {0, 0, -1};
-    nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, &heap};
-    const float from[4] = {0, 0, 0, n};
-    memcpy(last, from, sizeof last);
-    CHECK_EQ(nsvcd_encode(&solid.mesh, &options, &allocator, NULL, 0, &body),
-             NSVCD_ERROR_CANCELLED);
-    CHECK_EQ(heap.live, 0);
-    CHECK(body == NULL);
-  }
-
-  options.progress = NULL;
-  solid.mesh.positions[3 * solid.mesh.vertex_count - 1] = NAN;
-  CHECK_EQ(nsvcd_encode(&solid.mesh, &options, NULL, NULL, 0, &body), NSVCD_ERROR_NUMBER);
-  CHECK(body == NULL);
-  options.patches = NSVCD_MAX_PATCHES + 1;
-  CHECK_EQ(nsvcd_encode(&solid.mesh, &options, NULL, NULL, 0, &body), NSVCD_ERROR_PATCHES);
-  level_free(&solid);
-}
-
 // Encoding takes at most 100 bytes a triangle at a time, from 10,000 triangles on, in one region
 // and in several.
 static void level_encoding_is_frugal(void) {
@@ -853,7 +787,6 @@ void test_level(void) {
   RUN(level_planning);
 #endif
   RUN(level_of_bad_triangles);
-  RUN(level_encoding_ends_well);
   RUN(level_encoding_is_frugal);
   // from within
   RUN(level_walks_find_all);

@@ -197,9 +197,8 @@ static void mesh_of_faces_refuses(void) {
   nsvcd_mesh mesh;
   memset(&mesh, 7, sizeof mesh);
   const nsvcd_mesh before = mesh;
-  nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, NULL};
   failing_heap heap = {0, 0, -1};
-  allocator.user = &heap;
+  const nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, &heap};
 #define REFUSED(change, result)                                       \
   do {                                                                \
     faces = good;                                                     \
@@ -1154,9 +1153,8 @@ static void mesh_files_are_told_apart(void) {
 // Whichever allocation fails, of the readers or of the library: refused, and all is given back.
 static void mesh_files_without_memory(void) {
   static const char text[] = PLY_GOOD "3 0 1 2\n";
-  nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, NULL};
   failing_heap heap = {0, 0, -1};
-  allocator.user = &heap;
+  const nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, &heap};
   glb_write(&file, GLB_GOOD, glb_binary, glb_bin(glb_binary));
   for (int n = 0; n < 4; n++) {
     const char *data = n % 2 ? file.at : text;

@@ -6,7 +6,6 @@
 
 #include "arrays.h"
 #include "check.h"
-#include "failing_heap.h"
 #include "mesh_kinds.h"
 
 void test_patches(void);
@@ -321,18 +320,6 @@ static void mesh_nearest_centre_is_nearest(void) {
 static void mesh_patches_edge_cases(void) {
   nsvcd_mesh mesh = mesh_box(1, 1, 1);
   nsvcd__patches p;
-  int failures = 0;
-  for (;; failures++) {  // whichever allocation fails
-    failing_heap heap = {0, 0, failures};
-    const nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, &heap};
-    nsvcd__arena arena = nsvcd__arena_of(&allocator);
-    const nsvcd_result result = nsvcd__patches_build(&mesh, 8, &arena, &p);
-    nsvcd__arena_free(&arena);
-    CHECK_EQ(heap.live, 0);
-    if (!result) break;
-    CHECK_EQ(result, NSVCD_ERROR_MEMORY);
-  }
-  CHECK(failures > 10 && failures < 30);
   nsvcd__arena arena = nsvcd__arena_of(NULL);
 
   // No triangle has an area: then each is sampled alike, and all of them are covered.

@@ -7,7 +7,6 @@
 
 #include "../examples/scenery/oracle.h"
 #include "check.h"
-#include "failing_heap.h"
 #include "surface_scene.h"
 
 void test_regions(void);

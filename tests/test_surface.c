@@ -620,8 +620,7 @@ static void surface_too_large(void) {
   nsvcd__surface surface;
   nsvcd__arena arena;
   failing_heap heap = {0, 0, -1};
-  nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, NULL};
-  allocator.user = &heap;
+  const nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, &heap};
   CHECK_EQ(surface_of(&mesh, 1, &allocator, &arena, &surface), NSVCD_ERROR_TOO_LARGE);
   CHECK_EQ(heap.live, 0);
   nsvcd_mesh_free(&mesh, NULL);

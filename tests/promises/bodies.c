@@ -36,17 +36,28 @@ static void a_mesh_is_always_the_same_bytes(void) {
   nsvcd_mesh_free(&mug, NULL);
 }
 
+// It holds the same bytes as what an allocator gives, with triangles or without.
 static void a_body_is_encoded_into_the_callers_memory(void) {
-  static NSVCD_MEMORY(memory, NSVCD_BODY_BYTES(16));
-  const nsvcd_encode_options options = {.patches = 16, .no_triangles = 1};
+  static NSVCD_MEMORY(memory, 1 << 16);
   nsvcd_mesh mesh = box_mesh(1, 1, 1);
-  const nsvcd_body *body = NULL;
-  CHECK_LE(nsvcd_body_size(16), sizeof memory);
-  CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, memory, 8, &body), NSVCD_ERROR_WORKSPACE);
-  CHECK(body == NULL);
-  CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, memory, sizeof memory, &body), NSVCD_OK);
-  CHECK((const void *)body == (const void *)memory);
-  CHECK_LE(nsvcd_body_describe(body).patches, 16);
+  for (int k = 0; k < 2; k++) {
+    const nsvcd_encode_options options = {.patches = 16, .no_triangles = k};
+    const nsvcd_body *body = NULL, *same = NULL;
+    CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &same), NSVCD_OK);
+    const nsvcd_body_facts facts = nsvcd_body_describe(same);
+    CHECK(facts.patches <= 16 && facts.triangles == (k ? 0 : 12));
+    CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, memory, facts.size - 1, &body),
+             NSVCD_ERROR_WORKSPACE);
+    CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, (char *)memory + 4, facts.size, &body),
+             NSVCD_ERROR_WORKSPACE);
+    CHECK(body == NULL);
+    CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, memory, facts.size, &body), NSVCD_OK);
+    CHECK((const void *)body == (const void *)memory);
+    CHECK(!memcmp(body, same, facts.size));
+    nsvcd_body_free(same, NULL);
+  }
+  CHECK(nsvcd_body_size(0) == 0 && nsvcd_body_size(NSVCD_MAX_PATCHES + 1) == 0);
+  CHECK_LE(nsvcd_body_size(NSVCD_SMALL_PATCHES), 65535);
   nsvcd_mesh_free(&mesh, NULL);
 }
 
@@ -139,13 +150,30 @@ static void what_a_body_says_of_itself_is_so(void) {
 }
 
 static void patches_are_as_many_as_asked_for(void) {
-  const nsvcd_encode_options few = {.patches = 20}, fine = {.patch_radius = 0.03f};
-  const nsvcd_body *a = body_of(box_mesh(1, 1, 1), &few);
-  const nsvcd_body *b = body_of(box_mesh(0.2f, 0.2f, 0.2f), &fine);
-  CHECK_EQ(nsvcd_body_describe(a).patches, 20);
-  CHECK_NEAR(nsvcd_body_describe(b).mean_patch_radius, 0.03, 0.015);
-  nsvcd_body_free(a, NULL);
-  nsvcd_body_free(b, NULL);
+  const nsvcd_encode_options few = {.patches = 20};
+  const nsvcd_body *body = body_of(box_mesh(1, 1, 1), &few);
+  CHECK_EQ(nsvcd_body_describe(body).patches, 20);
+  nsvcd_body_free(body, NULL);
+  size_t fewer = NSVCD_MAX_PATCHES;
+  for (int k = 1; k < 4; k++) {  // larger ones are fewer
+    const nsvcd_encode_options wide = {.patch_radius = 0.02f * (float)k};
+    body = body_of(box_mesh(0.2f, 0.3f, 0.25f), &wide);
+    const nsvcd_body_facts facts = nsvcd_body_describe(body);
+    CHECK(facts.patches < fewer);
+    CHECK_NEAR(facts.mean_patch_radius, wide.patch_radius, 0.4 * (double)wide.patch_radius);
+    fewer = facts.patches;
+    nsvcd_body_free(body, NULL);
+  }
+}
+
+// Where nothing is said: 192 of a coarse mesh, and one for 50 triangles of a fine one, up to 512.
+static void a_finer_mesh_has_more_patches(void) {
+  static const size_t sides[4] = {50, 72, 90, 170}, wanted[4] = {192, 207, 324, 512};
+  for (int k = 0; k < 4; k++) {
+    const nsvcd_body *body = body_of(sheet_mesh(sides[k], 0), NULL);
+    CHECK_EQ(nsvcd_body_describe(body).patches, wanted[k]);
+    nsvcd_body_free(body, NULL);
+  }
 }
 
 static void what_is_not_closed_is_told(void) {
@@ -207,20 +235,41 @@ static void round_shapes_are_as_far_apart_as_geometry_says(void) {
   CHECK_EQ(nsvcd_encode_sphere(0, NULL, &ball), NSVCD_ERROR_RADIUS);
 }
 
-static int stop_at_once(float done, void *user) {
-  CHECK(done >= 0 && done <= 1);
-  return *(int *)user;
+// What is done never becomes less; whenever the caller stops it, all memory is given back.
+typedef struct followed {
+  float done;
+  int calls, stop_at, given;
+} followed;
+static int follow(float done, void *user) {
+  followed *f = (followed *)user;
+  CHECK(done >= f->done && done <= 1);
+  f->done = done;
+  return ++f->calls == f->stop_at;
+}
+static void *take_counted(size_t size, void *user) {
+  ((followed *)user)->given++;
+  return malloc(size);
+}
+static void give_counted(void *memory, void *user) {
+  ((followed *)user)->given--;
+  free(memory);
 }
 static void encoding_tells_how_much_is_done_and_can_be_cancelled(void) {
-  int stops = 1;
-  const nsvcd_encode_options options = {.progress = stop_at_once, .user = &stops};
   nsvcd_mesh mesh = box_mesh(1, 1, 1);
-  const nsvcd_body *body = NULL;
-  CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body), NSVCD_ERROR_CANCELLED);
-  CHECK(body == NULL);
-  stops = 0;
-  CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body), NSVCD_OK);
-  nsvcd_body_free(body, NULL);
+  for (int patches = 20; patches < 700; patches += 600) {  // of one region, and of several
+    const nsvcd_body *body = NULL;
+    for (int stop_at = 1; !body; stop_at++) {
+      followed f = {0, 0, stop_at, 0};
+      const nsvcd_allocator allocator = {take_counted, give_counted, &f};
+      const nsvcd_encode_options options = {
+          .patches = (size_t)patches, .latents = 1, .progress = follow, .user = &f};
+      const nsvcd_result result = nsvcd_encode(&mesh, &options, &allocator, NULL, 0, &body);
+      CHECK_EQ(result, body ? NSVCD_OK : NSVCD_ERROR_CANCELLED);
+      if (body) CHECK(f.calls >= (patches > 512 ? 3 : 1) && f.calls == stop_at - 1 && f.given == 1);
+      nsvcd_body_free(body, &allocator);
+      CHECK_EQ(f.given, 0);
+    }
+  }
   nsvcd_mesh_free(&mesh, NULL);
 }
 
@@ -228,30 +277,52 @@ static void bodies_are_as_small_and_as_large_as_is_said(void) {
   const float least = 2.4f * NSVCD_MIN_RADIUS, most = 1.9f * NSVCD_MAX_COORDINATE;
   const float sizes[4] = {least, most, 0.1f * NSVCD_MIN_RADIUS, 2.1f * NSVCD_MAX_COORDINATE};
   const nsvcd_result results[4] = {NSVCD_OK, NSVCD_OK, NSVCD_ERROR_EMPTY, NSVCD_ERROR_NUMBER};
-  for (int i = 0; i < 4; i++) {
+  for (int i = 0; i < 8; i++) {
+    const nsvcd_encode_options options = {.latents = i / 4};
     nsvcd_mesh mesh = box_mesh(1, 1, 1);
     const nsvcd_body *body = NULL;
-    for (size_t k = 0; k < 3 * mesh.vertex_count; k++) mesh.positions[k] *= sizes[i];
-    CHECK_EQ(nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &body), results[i]);
+    for (size_t k = 0; k < 3 * mesh.vertex_count; k++) mesh.positions[k] *= sizes[i % 4];
+    CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body), results[i % 4]);
     nsvcd_body_free(body, NULL);
     nsvcd_mesh_free(&mesh, NULL);
   }
 }
 
+// With or without latents, and what was to point to it points where it did.
 static void a_mesh_that_cannot_be_is_refused(void) {
-  nsvcd_mesh mesh = box_mesh(1, 1, 1);
-  const nsvcd_encode_options options = {.patches = NSVCD_MAX_PATCHES + 1};
+  static const float bad[5] = {NAN, HUGE_VALF, -HUGE_VALF, 1.01e6f, -2e6f};
   const nsvcd_body *body = NULL;
-  CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body), NSVCD_ERROR_PATCHES);
-  mesh.indices[5] = BOX_CORNERS;
-  CHECK_EQ(nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &body), NSVCD_ERROR_INDEX);
-  mesh.indices[5] = 0;
-  mesh.positions[7] = HUGE_VALF;
-  CHECK_EQ(nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &body), NSVCD_ERROR_NUMBER);
-  for (size_t i = 0; i < 3 * BOX_CORNERS; i++) mesh.positions[i] = 1;
-  CHECK_EQ(nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &body), NSVCD_ERROR_EMPTY);
-  CHECK(body == NULL);
-  nsvcd_mesh_free(&mesh, NULL);
+  nsvcd_mesh good = box_mesh(1, 1, 1);
+#define REFUSED(code, change)                                            \
+  do {                                                                   \
+    nsvcd_mesh mesh = good;                                              \
+    nsvcd_encode_options options = {.latents = 1};                       \
+    change;                                                              \
+    CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body), code); \
+    options.latents = 0;                                                 \
+    CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body), code); \
+    CHECK(body == NULL);                                                 \
+  } while (0)
+  REFUSED(NSVCD_ERROR_PATCHES, options.patches = NSVCD_MAX_PATCHES + 1);
+  REFUSED(NSVCD_ERROR_PATCHES, options.patch_radius = -1);
+  REFUSED(NSVCD_ERROR_PATCHES, options.patch_radius = NAN);
+  REFUSED(NSVCD_ERROR_EMPTY, mesh.triangle_count = 0);
+  REFUSED(NSVCD_ERROR_ARGUMENT, mesh.positions = NULL);
+  REFUSED(NSVCD_ERROR_INDEX, mesh.vertex_count = BOX_CORNERS - 1);
+  REFUSED(NSVCD_ERROR_TOO_LARGE, mesh.vertex_count = 0x80000000u);
+  REFUSED(NSVCD_ERROR_TOO_LARGE, mesh.triangle_count = 0x80000000u);
+  for (int k = 0; k < 5; k++) {
+    good.positions[3 * BOX_CORNERS - 1] = bad[k];
+    REFUSED(NSVCD_ERROR_NUMBER, (void)0);
+  }
+  for (size_t i = 0; i < 3 * BOX_CORNERS; i++) good.positions[i] = 1;  // no area
+  REFUSED(NSVCD_ERROR_EMPTY, (void)0);
+#undef REFUSED
+  CHECK_EQ(nsvcd_encode(NULL, NULL, NULL, NULL, 0, &body), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_encode(&good, NULL, NULL, NULL, 0, NULL), NSVCD_ERROR_ARGUMENT);
+  nsvcd_mesh_free(&good, NULL);
+  nsvcd_mesh_free(&good, NULL);  // twice does no harm
+  nsvcd_mesh_free(NULL, NULL);
 }
 
 void promises_bodies(void) {
@@ -262,6 +333,7 @@ void promises_bodies(void) {
   RUN(a_body_with_any_byte_changed_is_refused);
   RUN(what_a_body_says_of_itself_is_so);
   RUN(patches_are_as_many_as_asked_for);
+  RUN(a_finer_mesh_has_more_patches);
   RUN(what_is_not_closed_is_told);
   RUN(a_scaled_body_is_that_of_the_scaled_mesh);
   RUN(round_shapes_are_as_far_apart_as_geometry_says);

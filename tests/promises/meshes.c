@@ -174,25 +174,34 @@ static void give(void *memory, void *user) {
   free(memory);
 }
 
+// A file is read, cut at a box, and becomes a body: a small one, one for the network, one of regions.
+static nsvcd_result all_of_it(const char *text, const nsvcd_encode_options *options,
+                              const nsvcd_allocator *allocator, nsvcd_mesh meshes[2],
+                              const nsvcd_body **body) {
+  static const float low[3] = {-1, -1, -1}, high[3] = {9, 9, 0.5f};
+  size_t line = 99;
+  nsvcd_result result = nsvcd_mesh_parse(text, strlen(text), NULL, allocator, &meshes[0], &line);
+  CHECK_EQ(line, 0);
+  if (!result) result = nsvcd_mesh_cut(&meshes[0], low, high, allocator, &meshes[1]);
+  return result ? result : nsvcd_encode(&meshes[1], options, allocator, NULL, 0, body);
+}
 static void memory_that_runs_out_is_told_and_nothing_leaks(void) {
   static const char arrow[] = "v 0 0 0\nv 2 1 0\nv 0 2 0\nv 1 1 0\nf 1 2 3 4\n";
-  static const nsvcd_encode_options kinds[2] = {{.latents = 1}, {.no_triangles = 1}};
-  for (int kind = 0; kind < 4; kind++) {
+  static const char *const texts[3] = {arrow, cube, corner};
+  static const nsvcd_encode_options kinds[3] = {
+      {.latents = 1}, {.no_triangles = 1}, {.latents = 1, .patches = 513}};
+  for (int kind = 0; kind < 3; kind++) {
     nsvcd_result result = NSVCD_ERROR_MEMORY;
-    const char *text = kind % 2 ? arrow : cube;
     int many = 0;
     for (; result; many++) {
       little_memory memory = {many, 0};
       const nsvcd_allocator allocator = {take, give, &memory};
-      nsvcd_mesh mesh = {NULL, NULL, 0, 0};
+      nsvcd_mesh meshes[2] = {{NULL, NULL, 0, 0}, {NULL, NULL, 0, 0}};
       const nsvcd_body *body = NULL;
-      size_t line = 99;
-      result = nsvcd_obj_parse(text, strlen(text), &allocator, &mesh, &line);
-      CHECK_EQ(line, 0);
-      if (!result) result = nsvcd_encode(&mesh, &kinds[kind / 2], &allocator, NULL, 0, &body);
+      result = all_of_it(texts[kind], &kinds[kind], &allocator, meshes, &body);
       CHECK(result == (body ? NSVCD_OK : NSVCD_ERROR_MEMORY));
       nsvcd_body_free(body, &allocator);
-      nsvcd_mesh_free(&mesh, &allocator);
+      for (int k = 0; k < 2; k++) nsvcd_mesh_free(&meshes[k], &allocator);
       CHECK_EQ(memory.given, 0);
     }
     CHECK(many > 20);  // that many allocations failed, one after another

@@ -32,6 +32,33 @@ static inline nsvcd_mesh box_mesh(float x, float y, float z) {
   return box_mesh_of(x, y, z, BOX_FACES);
 }
 
+// A flat sheet about the origin, of squares of 1 m, `side` by `side`; its middle is a tip so high.
+static inline nsvcd_mesh sheet_mesh(size_t side, float tip) {
+  const size_t corners = (side + 1) * (side + 1), squares = side * side;
+  float *positions = (float *)malloc(3 * corners * sizeof(float));
+  uint32_t *faces = (uint32_t *)malloc(4 * squares * sizeof(uint32_t));
+  uint32_t *sizes = (uint32_t *)malloc(squares * sizeof(uint32_t));
+  nsvcd_mesh mesh = {NULL, NULL, 0, 0};
+  for (size_t i = 0; i < corners; i++) {
+    const size_t x = i % (side + 1), y = i / (side + 1);
+    positions[3 * i] = (float)x - (float)(side / 2);
+    positions[3 * i + 1] = (float)y - (float)(side / 2);
+    positions[3 * i + 2] = x == side / 2 && y == side / 2 ? tip : 0;
+  }
+  for (size_t f = 0; f < squares; f++) {
+    const uint32_t low = (uint32_t)(f / side * (side + 1) + f % side), above = (uint32_t)side + 1;
+    const uint32_t face[4] = {low, low + 1, low + above + 1, low + above};
+    memcpy(faces + 4 * f, face, sizeof face);
+    sizes[f] = 4;
+  }
+  const nsvcd_faces given = {positions, faces, sizes, corners, 4 * squares, squares};
+  CHECK_EQ(nsvcd_mesh_of_faces(&given, NULL, &mesh), NSVCD_OK);
+  free(positions);
+  free(faces);
+  free(sizes);
+  return mesh;
+}
+
 // Of the quickstart; tests run in the repository's root.
 static inline nsvcd_mesh mug_mesh(void) {
   nsvcd_mesh mesh = {NULL, NULL, 0, 0};

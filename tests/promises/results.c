@@ -1,15 +1,20 @@
-// Codes, and what they say.
-#define NSVCD_STATIC
-#define NEURALSVCD_IMPLEMENTATION
-#include "../src/ground/strings.h"
-#include "../src/interface/robots.h"
+// What src/interface/results.h promises, a test each: what is refused, and what answers say, has a
+// text that a person understands.
+#include "scene.h"
 
-#include "check.h"
+void promises_results(void);
 
-void test_results(void);
+static void every_code_has_a_text_of_its_own(void) {
+  for (int i = 0; i <= NSVCD_ERROR_BUILD; i++) {
+    const char *text = nsvcd_result_string((nsvcd_result)i);
+    CHECK(text && strlen(text) > 0);
+    for (int k = 0; k < i; k++) CHECK(strcmp(text, nsvcd_result_string((nsvcd_result)k)) != 0);
+  }
+  CHECK(nsvcd_result_string((nsvcd_result)9999) != NULL);
+}
 
-// What is refused is told by the name that the field has in the interface, or its kind in English.
-static void result_strings_name_the_field(void) {
+// By the name that the field has in the interface, or its kind in English.
+static void a_text_names_the_field_at_fault(void) {
   static const struct {
     nsvcd_result result;
     const char *words[3];
@@ -74,39 +79,40 @@ static void result_strings_name_the_field(void) {
   }
 }
 
-// What answers say of themselves: each has a text of its own.
-static void status_strings(void) {
-  for (int i = 0; i <= NSVCD_HIT + 1; i++) {
-    const char *text = nsvcd_verdict_string((nsvcd_verdict)i);
-    for (int j = 0; j < i; j++) CHECK(strcmp(text, nsvcd_verdict_string((nsvcd_verdict)j)) != 0);
+static const char *text_of(int kind, int value) {
+  return kind == 0   ? nsvcd_verdict_string((nsvcd_verdict)value)
+         : kind == 1 ? nsvcd_plan_status_string((nsvcd_plan_status)value)
+                     : nsvcd_route_status_string((nsvcd_route_status)value);
+}
+static void every_verdict_and_status_has_a_text_of_its_own(void) {
+  static const int last[3] = {NSVCD_HIT, NSVCD_PLAN_GOAL, NSVCD_ROUTE_GOAL};
+  for (int kind = 0; kind < 3; kind++) {
+    for (int i = 0; i <= last[kind] + 1; i++) {  // one that there is not has one, too
+      CHECK(strlen(text_of(kind, i)) > 2);
+      for (int k = 0; k < i; k++) CHECK(strcmp(text_of(kind, i), text_of(kind, k)) != 0);
+    }
   }
-  for (int i = 0; i <= NSVCD_PLAN_GOAL + 1; i++) {
-    const char *text = nsvcd_plan_status_string((nsvcd_plan_status)i);
-    for (int j = 0; j < i; j++)
-      CHECK(strcmp(text, nsvcd_plan_status_string((nsvcd_plan_status)j)) != 0);
-  }
-  CHECK(strcmp(nsvcd_verdict_string(NSVCD_FREE), "free") == 0);
-  CHECK(strcmp(nsvcd_plan_status_string(NSVCD_PLAN_GOAL), "infeasible goal") == 0);
+  CHECK(!strcmp(nsvcd_verdict_string(NSVCD_FREE), "free"));
+  CHECK(!strcmp(nsvcd_plan_status_string(NSVCD_PLAN_GOAL), "infeasible goal"));
 }
 
-// A person is told the limits themselves.
-static void mesh_result_strings_name_limits(void) {
+static void a_text_tells_the_limit(void) {
   CHECK(strstr(nsvcd_result_string(NSVCD_ERROR_NUMBER), "a million metres") != NULL);
   CHECK_EQ(NSVCD_MAX_COORDINATE, 1e6f);
   CHECK(strstr(nsvcd_result_string(NSVCD_ERROR_EMPTY), "1e-12 metres") != NULL);
   CHECK_EQ(NSVCD_MIN_RADIUS, 1e-12f);
-  CHECK_EQ(NSVCD_MAX_POSES, 65536);
-  CHECK_EQ(NSVCD_MAX_PATCHES, 65536);
-  CHECK_EQ(NSVCD_MAX_PAIRS, 256);
-  CHECK_EQ(NSVCD_UNIT_TOLERANCE, 1e-4f);
   CHECK(strstr(nsvcd_result_string(NSVCD_ERROR_DEGREE), "1 to 5") != NULL);
   CHECK_EQ(NSVCD_MAX_DEGREE, 5);
+  CHECK_EQ(NSVCD_MAX_POSES, 65536);  // this and what follows is in the texts above
+  CHECK_EQ(NSVCD_MAX_PAIRS, 256);
+  CHECK_EQ(NSVCD_UNIT_TOLERANCE, 1e-4f);
 }
 
-void test_results(void) {
-  RUN(mesh_result_strings_name_limits);
-  RUN(result_strings_name_the_field);
-  RUN(status_strings);
+void promises_results(void) {
+  RUN(every_code_has_a_text_of_its_own);
+  RUN(a_text_names_the_field_at_fault);
+  RUN(every_verdict_and_status_has_a_text_of_its_own);
+  RUN(a_text_tells_the_limit);
 }
 
-CHECK_ALONE(test_results)
+CHECK_ALONE(promises_results)
