@@ -6,6 +6,7 @@
 
 #define CERT_SHAPES 12
 #define CERT_POSES 5
+#define CERT_MOST_POSES 40  // of a scene with poses of its own
 #define CERT_ROOM 65536
 
 typedef struct cert_body {
@@ -137,6 +138,24 @@ static void cert_random(cert_scene *s, shapes_rng *rng) {
   if (shapes_pick(rng, 3) == 0) s->question.clearance = (float)shapes_uniform(rng, 0.001, 0.05);
 }
 
+// The question of a scene, or of a copy of one, is about its own poses.
+static void cert_own(cert_scene *s) {
+  nsvcd_mover *movers[2] = {&s->question.a, &s->question.b};
+  for (int n = 0; n < 2; n++) {
+    movers[n]->poses = s->poses[n];
+    if (movers[n]->times) movers[n]->times = s->times[n];
+  }
+}
+// Two bodies that rest at the origin; so are the poses that they do not have yet.
+static void cert_rest(cert_scene *s, const cert_body *a, const cert_body *b) {
+  memset(s, 0, sizeof *s);
+  s->a = a;
+  s->b = b;
+  for (int k = 0; k < 2 * CERT_POSES; k++) s->poses[k % 2][k / 2].rotation[3] = 1;
+  s->question.a.count = s->question.b.count = 1;
+  cert_own(s);
+}
+
 static double cert_scale(const nsvcd_mover *mover) {
   return mover->scale > 0 ? (double)mover->scale : 1;
 }
@@ -241,7 +260,7 @@ static void cert_look(const cert_scene *s, cert_view *view) {
 
 static int cert_check(const cert_view *view, float clearance, const uint8_t *bytes, size_t size,
                       nsvcd_verify_report *report) {
-  static double workspace[(2 * CERT_POSES + 2) * sizeof(verify__instant) / sizeof(double)];
+  static double workspace[(2 * CERT_MOST_POSES + 2) * sizeof(verify__instant) / sizeof(double)];
   return nsvcd_verify(&view->movers[0], &view->movers[1], clearance, bytes, size, workspace,
                       sizeof workspace, report);
 }

@@ -256,7 +256,7 @@ static void fits_drawer(fits_case *f, double gap) {
 }
 
 #define FITS_CASES 34
-// Number n of them; 0: there are no more. fits_free gives it back.
+// Number n of them; 0: there are no more. Its meshes are the caller's to free.
 static int fits_make(size_t n, fits_case *f) {
   static const int facets[4] = {24, 32, 48, 128};
   static const double gaps[3] = {200e-6, 50e-6, 20e-6};
@@ -304,10 +304,6 @@ static int fits_make(size_t n, fits_case *f) {
     fits_move(f->poses_b, 1, 0, 0, fits_origin, fits_origin);
   }
   return !f->a.failed && !f->b.failed;
-}
-static void fits_free(fits_case *f) {
-  shapes_free(&f->a);
-  shapes_free(&f->b);
 }
 
 #endif

@@ -41,7 +41,7 @@ typedef struct plan_scene {
   // What the progress callback saw.
   size_t again;          // refinements after the first of a seed
   size_t iterations[2];  // that MPPI and L-BFGS may have
-  size_t reports, cancel_at, disorders, last_seed, last_iteration, out_of_place;
+  size_t reports, disorders, last_seed, last_iteration, out_of_place;
   int last_refining;
   float last_cost;
 } plan_scene;
@@ -237,7 +237,8 @@ static int plan_progress(void *user, const nsvcd_plan_progress *progress) {
   s->last_iteration = progress->iteration;
   s->last_refining = progress->refining;
   s->last_cost = progress->cost;
-  return ++s->reports == s->cancel_at;
+  s->reports++;
+  return 0;
 }
 
 static void plan_begin(plan_scene *s, plan_kind kind, size_t bodies) {
@@ -289,6 +290,15 @@ static const nsvcd_body *plan_body(int shape) {
   bodies[shape] = query_encode(&flat, shape == PLAN_BALL ? 32 : 96, &memory[shape]);
   nsvcd_mesh_free(&flat, NULL);
   return bodies[shape];
+}
+
+// Two arms and a box within their reach: in one pair both bodies turn, in the other one does.
+static void plan_arms_scene(plan_scene *s) {
+  plan_begin(s, PLAN_ARMS, 4);
+  for (int b = 0; b < 4; b++) s->bodies[b] = plan_body(b < 3 ? PLAN_LINK : PLAN_BOX);
+  s->rest[3] = query_pose(0.3, 0.25, 0);
+  plan_pair(s, 1, 2);
+  plan_pair(s, 1, 3);
 }
 
 // A planner as nsvcd_plan sets it up, for the tests of its parts.

@@ -85,6 +85,27 @@ static void robot_open(robot *r) {
   CHECK_EQ(nsvcd_checker_open(&r->scene, r->memory, size, &r->checker), NSVCD_OK);
 }
 
+// Joints of one kind, each on the link before it, at its place and without an axis; and parts of no
+// body there, of which the first is asked about with each other one.
+static void robot_bare(robot *r, nsvcd_joint_kind kind, uint32_t joints, uint32_t parts,
+                       double limit) {
+  memset(r, 0, sizeof *r);
+  r->scene.joint_count = joints;
+  r->scene.part_count = parts;
+  r->scene.pair_count = parts - 1;
+  for (uint32_t j = 0; j < joints; j++) {
+    r->joints[j].kind = kind;
+    r->joints[j].parent = j;
+    r->joints[j].origin.rotation[3] = 1;
+    r->joints[j].low = -limit;
+    r->joints[j].high = limit;
+  }
+  for (uint32_t n = 0; n < parts; n++) {
+    r->parts[n].pose.rotation[3] = 1;
+    if (n) r->pairs[n - 1].b = n;
+  }
+}
+
 // A tree of joints of all kinds, with a body on each link, anywhere in it.
 static void robot_random(robot *r, shapes_rng *rng) {
   memset(r, 0, sizeof *r);

@@ -153,10 +153,7 @@ static void certificates_cannot_be_forged(void) {
     CHECK_EQ(cert_certify(&s, NULL, free_bytes, sizeof free_bytes, &made), NSVCD_OK);
     if (made.verdict != NSVCD_FREE) continue;
     hit = s;
-    hit.question.a.poses = hit.poses[0];
-    hit.question.b.poses = hit.poses[1];
-    if (hit.question.a.times) hit.question.a.times = hit.times[0];
-    if (hit.question.b.times) hit.question.b.times = hit.times[1];
+    cert_own(&hit);
     if (!cert_collide(&hit, &rng)) continue;
     // what it proves of the scene that collides has that one's digests
     CHECK_EQ(cert_certify(&hit, NULL, hit_bytes, sizeof hit_bytes, &made_hit), NSVCD_OK);
@@ -190,17 +187,23 @@ static void certificates_cannot_be_forged(void) {
   CHECK_GE(accepted, tried / 1000);  // some change nothing
 }
 
-// One plane, all the while.
-static size_t cert_one_plane(const cert_scene *s, const uint8_t *head, nsvcd__d3 along,
-                             uint8_t *out) {
+// Writes certificates of this kind about a scene into `bytes`.
+static nsvcd__certifier cert_writer(const cert_scene *s, int kind, uint8_t *bytes, size_t room) {
   nsvcd__certifier c;
-  const nsvcd__coded_normal normal = nsvcd__normal_of(along, 8);
   memset(&c, 0, sizeof c);
   c.bodies[0].tree = s->a->tree;
   c.bodies[1].tree = s->b->tree;
-  c.bytes = out;
-  c.capacity = 64;
-  nsvcd__write_head(&c, NSVCD__PROVES_FREE);
+  c.bytes = bytes;
+  c.capacity = room;
+  nsvcd__write_head(&c, (uint32_t)kind);
+  return c;
+}
+
+// One plane, all the while.
+static size_t cert_one_plane(const cert_scene *s, const uint8_t *head, nsvcd__d3 along,
+                             uint8_t *out) {
+  nsvcd__certifier c = cert_writer(s, NSVCD__PROVES_FREE, out, 64);
+  const nsvcd__coded_normal normal = nsvcd__normal_of(along, 8);
   nsvcd__write_bits(&c, 5, 3);
   nsvcd__write_normal(&c, NSVCD__REMEMBERED, &normal);
   cert_forge(out, head);
@@ -312,16 +315,10 @@ static void certificates_of_what_is_inside(void) {
       cert_view view;
       nsvcd_certificate made;
       nsvcd_verify_report report;
-      memset(&s, 0, sizeof s);
-      cert_body *inner = &bodies[cases[n].inner];
-      cert_body *outer = &bodies[cases[n].outer];
-      s.a = swapped ? outer : inner;
-      s.b = swapped ? inner : outer;
+      const cert_body *inner = &bodies[cases[n].inner];
+      const cert_body *outer = &bodies[cases[n].outer];
+      cert_rest(&s, swapped ? outer : inner, swapped ? inner : outer);
       nsvcd_mover *mover = swapped ? &s.question.b : &s.question.a;
-      s.question.a.poses = s.poses[0];
-      s.question.b.poses = s.poses[1];
-      s.question.a.count = s.question.b.count = 1;
-      s.poses[0][0].rotation[3] = s.poses[1][0].rotation[3] = 1;
       s.poses[swapped][0].position[0] = cases[n].x;
       mover->scale = cases[n].scale;
       CHECK_EQ(cert_certify(&s, NULL, bytes, sizeof bytes, &made), NSVCD_OK);
@@ -335,8 +332,7 @@ static void certificates_of_what_is_inside(void) {
       shapes_rng rng = {n + 1};
       uint8_t walk[64];
       cert_scene away = s;
-      away.question.a.poses = away.poses[0];
-      away.question.b.poses = away.poses[1];
+      cert_own(&away);
       away.poses[swapped][0].position[2] = 1;
       CHECK_EQ(cert_certify(&away, NULL, outside, sizeof outside, &made), NSVCD_OK);
       CHECK_EQ(made.verdict, NSVCD_FREE);
@@ -371,14 +367,10 @@ static void certificates_of_other_scenes(void) {
   nsvcd_certificate made;
   nsvcd_verify_report report;
   shapes_rng rng = {9};
-  memset(&s, 0, sizeof s);
-  s.a = &bodies[3];
-  s.b = &bodies[4];
+  cert_rest(&s, &bodies[3], &bodies[4]);
   cert_random_poses(&rng, s.poses[0], s.times[0], 3, 0.1, 1);
   cert_random_poses(&rng, s.poses[1], s.times[1], 2, 0.1, 1);
   for (int k = 0; k < 3; k++) s.poses[0][k].position[2] += 1;
-  s.question.a.poses = s.poses[0];
-  s.question.b.poses = s.poses[1];
   s.question.a.times = s.times[0];
   s.question.a.count = 3;
   s.question.b.count = 2;
@@ -412,7 +404,6 @@ static void certificates_of_other_scenes(void) {
 // ---- nsvcd_certify and nsvcd_tree_build, and the checker's meshes: bad input, and room
 
 static void certificates_refuse(void) {
-  cert_body *bodies = cert_bodies();
   float positions[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
   nsvcd_mesh mesh = {positions, indices, 4, 2};
@@ -442,12 +433,9 @@ static void certificates_refuse(void) {
   shapes_rng rng = {4};
   nsvcd_certificate made, whole;
   uint8_t bytes[CERT_ROOM], few[CERT_ROOM];
-  memset(&s, 0, sizeof s);
-  s.a = &bodies[3];
-  s.b = &bodies[5];
+  cert_rest(&s, &cert_bodies()[3], &cert_bodies()[5]);
   cert_random_poses(&rng, s.poses[0], s.times[0], 3, 0.1, 1);
   for (int k = 0; k < 3; k++) s.poses[0][k].position[2] += 0.32f;
-  s.question.a.poses = s.poses[0];
   s.question.a.count = 3;
 #define CERTIFY_IS(change, back, result)                                  \
   do {                                                                    \
@@ -755,9 +743,7 @@ static void certificates_of_levels(void) {
     static uint8_t bytes[CERT_ROOM];
     nsvcd_mesh part = {NULL, NULL, 0, 0};
     shapes_mesh cut;
-    memset(&s, 0, sizeof s);
-    s.a = &cert_bodies()[shapes_pick(&rng, 5)];
-    s.b = &level;
+    cert_rest(&s, &cert_bodies()[shapes_pick(&rng, 5)], &level);
     cert_random_poses(&rng, s.poses[0], s.times[0], 2, 0.2, 1);
     const float x = (float)shapes_uniform(&rng, 2, 13);
     const float y = (float)shapes_uniform(&rng, 2, 13);
@@ -766,7 +752,6 @@ static void certificates_of_levels(void) {
       s.poses[0][k].position[1] += y;
       s.poses[0][k].position[2] = (float)shapes_uniform(&rng, 0.2, 0.3);
     }
-    s.question.a.poses = s.poses[0];
     s.question.a.count = 2;
     CHECK_EQ(cert_certify(&s, NULL, bytes, sizeof bytes, &made), NSVCD_OK);
     if (made.verdict != NSVCD_FREE) continue;
@@ -806,17 +791,12 @@ static void certificates_at_a_hair(void) {
     cert_view view;
     nsvcd_certificate made;
     nsvcd_verify_report report;
-    memset(&s, 0, sizeof s);
-    s.a = s.b = box;
-    s.question.a.poses = s.poses[0];
-    s.question.b.poses = s.poses[1];
+    cert_rest(&s, box, box);
     s.question.a.count = 2;
-    s.question.b.count = 1;
     // 2 * 0.1f as the mesh has it
     float up = 2 * box->mesh.positions[0];
     up = up < 0 ? -up : up;
     for (int k = 0; k < (n < 0 ? -n : n); k++) up = nextafterf(up, n < 0 ? 0.0f : 1.0f);
-    for (int k = 0; k < 3; k++) s.poses[k / 2][k % 2].rotation[3] = 1;
     s.poses[0][0].position[2] = s.poses[0][1].position[2] = up;
     s.poses[0][0].position[0] = -0.05f;
     s.poses[0][1].position[0] = 0.07f;
@@ -832,8 +812,7 @@ static void certificates_at_a_hair(void) {
     cert_scene apart = s;
     nsvcd_certificate of_apart;
     uint8_t head[CERT_ROOM];
-    apart.question.a.poses = apart.poses[0];
-    apart.question.b.poses = apart.poses[1];
+    cert_own(&apart);
     for (int k = 0; k < 2; k++) apart.poses[0][k].position[2] = nextafterf(0.2f, 1);
     CHECK_EQ(cert_certify(&apart, NULL, head, sizeof head, &of_apart), NSVCD_OK);
     CHECK_EQ(of_apart.verdict, NSVCD_FREE);
@@ -853,13 +832,8 @@ static void certificates_see_a_swing(void) {
     nsvcd_certificate made;
     nsvcd_verify_report report;
     uint8_t head[CERT_ROOM], bytes[64];
-    memset(&s, 0, sizeof s);
-    s.a = s.b = &cert_bodies()[0];
-    nsvcd_mover *turns = below ? &s.question.b : &s.question.a;
-    s.question.a.poses = s.poses[0];
-    s.question.b.poses = s.poses[1];
-    s.question.a.count = s.question.b.count = 1;
-    turns->count = 2;
+    cert_rest(&s, &cert_bodies()[0], &cert_bodies()[0]);
+    (below ? &s.question.b : &s.question.a)->count = 2;
     const float half = 0.70710678f;
     for (int k = 0; k < 2; k++) {
       nsvcd_pose *pose = &s.poses[below][k];
@@ -868,7 +842,6 @@ static void certificates_see_a_swing(void) {
       pose->rotation[3] = turned ? half : 1;
       pose->position[2] = (below ? -1.0f : 1.0f) * (turned ? 0.27f : 0.205f);
     }
-    s.poses[!below][0].rotation[3] = 1;
     CHECK_EQ(cert_certify(&s, NULL, head, sizeof head, &made), NSVCD_OK);
     CHECK_EQ(made.verdict, NSVCD_HIT);
     cert_look(&s, &view);
@@ -904,14 +877,9 @@ static void certificates_of_lengths_that_cancel(void) {
     nsvcd_certificate made;
     nsvcd_verify_report report;
     uint8_t head[CERT_ROOM], bytes[64];
-    memset(&s, 0, sizeof s);
-    s.a = s.b = &cert_bodies()[9];
-    s.question.a.poses = s.poses[0];
-    s.question.b.poses = s.poses[1];
+    cert_rest(&s, &cert_bodies()[9], &cert_bodies()[9]);
     s.question.a.count = 2;
-    s.question.b.count = 1;
     s.question.a.scale = s.question.b.scale = 1e-3f;
-    for (int k = 0; k < 3; k++) s.poses[k / 2][k % 2].rotation[3] = 1;
     for (int k = 0; k < 2; k++) {
       s.poses[0][k].position[0] = k ? 9e5f : -9e5f;
       s.poses[0][k].position[2] = 5e-5f + (n ? 1e-2f : 1e-5f);
@@ -921,14 +889,8 @@ static void certificates_of_lengths_that_cancel(void) {
     cert_look(&s, &view);
     const size_t size = cert_one_plane(&s, head, nsvcd__d3_of(0, 0, 1), bytes);
     CHECK_EQ(cert_check(&view, 0, bytes, size, &report), n);
-    nsvcd__certifier c;
     uint8_t pass[CERT_ROOM];
-    memset(&c, 0, sizeof c);
-    c.bodies[0].tree = s.a->tree;
-    c.bodies[1].tree = s.b->tree;
-    c.bytes = pass;
-    c.capacity = sizeof pass;
-    nsvcd__write_head(&c, NSVCD__PROVES_FREE);
+    nsvcd__certifier c = cert_writer(&s, NSVCD__PROVES_FREE, pass, sizeof pass);
     cert_write_pass(&c, 0, 1, 1000);
     cert_forge(pass, head);
     CHECK_EQ(cert_check(&view, 0, pass, (c.bits + 7) / 8, &report), n);
@@ -953,7 +915,6 @@ static void certificates_of_lengths_that_cancel(void) {
 
 // Lone triangles, of which each corner in turn sticks into a box.
 static void certificates_of_each_corner(void) {
-  cert_body *bodies = cert_bodies();
   for (int corner = 0; corner < 3; corner++) {
     shapes_mesh shape;
     cert_body lone;
@@ -967,13 +928,7 @@ static void certificates_of_each_corner(void) {
       shapes_vertex(&shape, k == 1 ? 0.02 : 0, k == 2 ? 0.02 : 0, k == corner ? -0.03 : 0);
     shapes_triangle(&shape, 0, 1, 2);
     cert_make(&shape, 0, &lone);
-    memset(&s, 0, sizeof s);
-    s.a = &lone;
-    s.b = &bodies[0];
-    s.question.a.poses = s.poses[0];
-    s.question.b.poses = s.poses[1];
-    s.question.a.count = s.question.b.count = 1;
-    s.poses[0][0].rotation[3] = s.poses[1][0].rotation[3] = 1;
+    cert_rest(&s, &lone, &cert_bodies()[0]);
     s.poses[0][0].position[2] = 0.12f;
     CHECK_EQ(cert_certify(&s, NULL, head, sizeof head, &made), NSVCD_OK);
     CHECK_EQ(made.verdict, NSVCD_HIT);
@@ -1039,14 +994,8 @@ static void certificates_of_hits_cannot_be_forged(void) {
     if (cert_certify(&s, NULL, honest, sizeof honest, &made) || made.verdict != NSVCD_FREE)
       continue;
     for (int n = 0; n < 3000; n++) {
-      nsvcd__certifier c;
-      memset(&c, 0, sizeof c);
-      c.bodies[0].tree = s.a->tree;
-      c.bodies[1].tree = s.b->tree;
-      c.bytes = bytes;
-      c.capacity = sizeof bytes;
       const int kind = NSVCD__PROVES_HIT + n % 3;
-      nsvcd__write_head(&c, (uint32_t)kind);
+      nsvcd__certifier c = cert_writer(&s, kind, bytes, sizeof bytes);
       nsvcd__write_bits(&c, (uint32_t)(shapes_uniform(&rng, 0, 1) * 4294967295.0), 32);
       if (kind == NSVCD__PROVES_INSIDE) {
         const int of_b = shapes_pick(&rng, 2);
@@ -1075,7 +1024,6 @@ static void certificates_of_hits_cannot_be_forged(void) {
 // The walk that a scene's surfaces are apart is one thing, that nothing is inside another: the walk
 // of a small body in a solid, which is honest, and rays that are not.
 static void certificates_need_rays(void) {
-  cert_body *bodies = cert_bodies();
   nsvcd__certifier c;
   static uint8_t bytes[CERT_ROOM];
   nsvcd__instant instants[8];
@@ -1084,13 +1032,7 @@ static void certificates_need_rays(void) {
   nsvcd_verify_report report;
   cert_scene s;
   cert_view view;
-  memset(&s, 0, sizeof s);
-  s.a = &bodies[9];
-  s.b = &bodies[0];
-  s.question.a.poses = s.poses[0];
-  s.question.b.poses = s.poses[1];
-  s.question.a.count = s.question.b.count = 1;
-  s.poses[0][0].rotation[3] = s.poses[1][0].rotation[3] = 1;
+  cert_rest(&s, &cert_bodies()[9], &cert_bodies()[0]);
   memset(&c, 0, sizeof c);
   memset(&made, 0, sizeof made);
   c.bodies[0].tree = s.a->tree;

@@ -139,18 +139,13 @@ static void plan_network_gradient_case(plan_kind kind, int *tried, int *smooth, 
   static plan_scene s;
   shapes_rng rng = {(uint64_t)(20 + kind)};
   plan_inside in;
-  plan_begin(&s, kind, 4);
   if (kind == PLAN_XYZ) {
-    s.problem.body_count = 2;
+    plan_begin(&s, kind, 2);
     s.bodies[0] = plan_body(PLAN_BALL);
     s.bodies[1] = plan_body(PLAN_BOX);
     plan_pair(&s, 0, 1);
-  } else {  // the arms, and a box; in one pair both bodies turn
-    s.bodies[0] = s.bodies[1] = s.bodies[2] = plan_body(PLAN_LINK);
-    s.bodies[3] = plan_body(PLAN_BOX);
-    s.rest[3] = query_pose(0.3, 0.25, 0);
-    plan_pair(&s, 1, 2);
-    plan_pair(&s, 1, 3);
+  } else {
+    plan_arms_scene(&s);
   }
   s.options.refine.via_points = 4;
   s.options.refine.segments = 10;
@@ -410,10 +405,7 @@ static void plan_defaults_are_what_is_written(void) {
   plan_wall_scene(&s);
   s.bodies[1] = plan_body(PLAN_SHELL);
   s.rest[1] = query_pose((double)s.goal[0] + 0.1, 0, 0);
-  for (size_t j = 0; j < 3; j++) {
-    s.low[j] = -2;
-    s.high[j] = 2;
-  }
+  for (size_t j = 0; j < 3; j++) s.low[j] = -(s.high[j] = 2);
   memset(&s.options, 0, sizeof s.options);
   const plan_outcome defaults = plan_run(&s);
   CHECK_EQ(s.iterations[0], written.explore.iterations);
@@ -450,23 +442,6 @@ static void plan_keeps_the_best_of_its_seeds(void) {
     best = out;
   }
   CHECK(better >= 1 && better < 11);
-}
-
-static void plan_can_be_cancelled(void) {
-  static plan_scene s;
-  plan_wall_scene(&s);
-  s.options.explore.draws = 40;
-  s.options.explore.iterations = 5;  // so that refining is cancelled too
-  const plan_outcome whole = plan_run(&s);
-  CHECK_GE(whole.answer.iterations, 6);
-  for (size_t at = 1; at <= 6; at++) {
-    s.cancel_at = at;
-    const plan_outcome out = plan_run(&s);
-    CHECK_EQ(out.result, NSVCD_OK);
-    CHECK_EQ(out.answer.status, NSVCD_PLAN_CANCELLED);
-    CHECK_EQ(s.reports, at);
-    CHECK_EQ(out.answer.iterations, at);
-  }
 }
 
 static void plan_grasped_bodies_move_along(void) {
@@ -905,34 +880,6 @@ static void plan_refuses_problems(void) {
   CHECK_EQ(out.answer.status, NSVCD_PLAN_CONVERGED);
 }
 
-static void plan_workspace_is_checked(void) {
-  static plan_scene s;
-  plan_wall_scene(&s);
-  s.options.explore.draws = 20;
-  s.options.explore.iterations = 2;
-  const size_t size = nsvcd_plan_workspace_size(&s.problem, &s.options);
-  query_memory memory = query_reserve(size + 16);
-  nsvcd_plan_answer answer, before;
-  float control[12 * 3], same[12 * 3];
-  memset(&answer, 7, sizeof answer);
-  memset(&before, 7, sizeof before);
-  memset(control, 7, sizeof control);
-  memset(same, 7, sizeof same);
-  char *at = (char *)memory.at;
-  CHECK_EQ(nsvcd_plan(&s.problem, &s.options, at, size - 1, control, &answer),
-           NSVCD_ERROR_WORKSPACE);
-  CHECK_EQ(nsvcd_plan(&s.problem, &s.options, at + 4, size, control, &answer),
-           NSVCD_ERROR_WORKSPACE);
-  CHECK_EQ(nsvcd_plan(&s.problem, &s.options, NULL, size, control, &answer), NSVCD_ERROR_WORKSPACE);
-  CHECK_EQ(nsvcd_plan(NULL, &s.options, at, size, control, &answer), NSVCD_ERROR_ARGUMENT);
-  CHECK_EQ(nsvcd_plan(&s.problem, &s.options, at, size, NULL, &answer), NSVCD_ERROR_ARGUMENT);
-  CHECK_EQ(nsvcd_plan(&s.problem, &s.options, at, size, control, NULL), NSVCD_ERROR_ARGUMENT);
-  CHECK(memcmp(control, same, sizeof same) == 0 && memcmp(&answer, &before, sizeof before) == 0);
-  CHECK_EQ(s.placed, 0);
-  CHECK_EQ(nsvcd_plan(&s.problem, &s.options, at, size, control, &answer), NSVCD_OK);
-  query_release(&memory);
-}
-
 // --------------------------------------------------------------------------- a thousand bad scenes
 
 typedef enum plan_trouble {
@@ -1315,12 +1262,7 @@ static void plan_cost_is_the_sum_over_segments(void) {
   int dropped = 0;
   int dropped_hits = 0;
   int costly = 0;
-  plan_begin(&s, PLAN_ARMS, 4);
-  s.bodies[0] = s.bodies[1] = s.bodies[2] = plan_body(PLAN_LINK);
-  s.bodies[3] = plan_body(PLAN_BOX);
-  s.rest[3] = query_pose(0.3, 0.25, 0);
-  plan_pair(&s, 1, 2);
-  plan_pair(&s, 1, 3);
+  plan_arms_scene(&s);
   plan_pair(&s, 0, 3);
   plan_pair(&s, 2, 0);
   if (!plan_open(&s, &in)) return;
@@ -1393,12 +1335,7 @@ static void plan_cost_stops_at_its_limit(void) {
   shapes_rng rng = {32};
   plan_inside in;
   int cut = 0;
-  plan_begin(&s, PLAN_ARMS, 4);
-  s.bodies[0] = s.bodies[1] = s.bodies[2] = plan_body(PLAN_LINK);
-  s.bodies[3] = plan_body(PLAN_BOX);
-  s.rest[3] = query_pose(0.3, 0.25, 0);
-  plan_pair(&s, 1, 2);
-  plan_pair(&s, 1, 3);
+  plan_arms_scene(&s);
   if (!plan_open(&s, &in)) return;
   nsvcd__planner *p = &in.planner;
   for (int n = 0; n < 200; n++) {
@@ -1584,7 +1521,6 @@ void test_optimizer(void) {
   RUN(plan_goes_round_a_wall);
   RUN(plan_defaults_are_what_is_written);
   RUN(plan_keeps_the_best_of_its_seeds);
-  RUN(plan_can_be_cancelled);
   RUN(plan_grasped_bodies_move_along);
   RUN(plan_proves_at_the_end);
   RUN(plan_goes_on_after_a_proof_of_inside);
@@ -1595,7 +1531,6 @@ void test_optimizer(void) {
   RUN(plan_refuses_options_out_of_range);
   RUN(plan_works_at_the_ends_of_its_options);
   RUN(plan_refuses_problems);
-  RUN(plan_workspace_is_checked);
   RUN(plan_troubles_end_well);
   // from within
   RUN(plan_gradient_of_the_cost);

@@ -206,23 +206,12 @@ static void postures_corner(void) {
   static robot r;
   shapes_rng rng = {96};
   shapes_mesh mesh;
-  memset(&r, 0, sizeof r);
   memset(&mesh, 0, sizeof mesh);
   shapes_box_at(&mesh, 0.15, 0, -0.05, 0.5, 0.4, 0.1);
   shapes_box_at(&mesh, -0.05, 0, 0.2, 0.1, 0.4, 0.39);
   robot_shape corner = shape_of(&mesh);
-  r.scene.joint_count = r.scene.part_count = 2;
-  r.scene.pair_count = 1;
-  r.pairs[0].b = 1;
-  for (uint32_t i = 0; i < 2; i++) {
-    r.joints[i].kind = NSVCD_JOINT_PRISMATIC;
-    r.joints[i].parent = i;
-    r.joints[i].origin.rotation[3] = 1;
-    r.joints[i].axis[2 * i] = 1;
-    r.joints[i].low = -1;
-    r.joints[i].high = 1;
-    r.parts[i].pose.rotation[3] = 1;
-  }
+  robot_bare(&r, NSVCD_JOINT_PRISMATIC, 2, 2, 1);
+  for (int i = 0; i < 2; i++) r.joints[i].axis[2 * i] = 1;
   r.parts[0].body = robot_shapes()[0].body;
   r.parts[0].link = 2;
   r.parts[1].body = corner.body;
@@ -250,25 +239,24 @@ static void postures_corner(void) {
   free(corner.points);
 }
 
+// Two balls of a radius, or where it is 0 two boxes, each on a slide along x.
+static void on_rails(robot *r, float radius, double limit) {
+  robot_bare(r, NSVCD_JOINT_PRISMATIC, 2, 2, limit);
+  r->parts[0].body = robot_shapes()[0].body;
+  if (radius > 0) CHECK_EQ(nsvcd_encode_sphere(radius, NULL, &r->parts[0].body), NSVCD_OK);
+  for (uint32_t i = 0; i < 2; i++) {
+    r->joints[i].parent = 0;
+    r->joints[i].axis[0] = 1;
+    r->parts[i].body = r->parts[0].body;
+    r->parts[i].link = i + 1;
+  }
+}
+
 // Far from the origin poses in float are off by more than a distance is told to: brackets know that.
 static void postures_far(void) {
   static robot r;
   shapes_rng rng = {97};
-  memset(&r, 0, sizeof r);
-  r.scene.joint_count = r.scene.part_count = 2;
-  r.scene.pair_count = 1;
-  r.pairs[0].b = 1;
-  CHECK_EQ(nsvcd_encode_sphere(0.125f, NULL, &r.parts[0].body), NSVCD_OK);
-  for (uint32_t i = 0; i < 2; i++) {
-    r.joints[i].kind = NSVCD_JOINT_PRISMATIC;
-    r.joints[i].origin.rotation[3] = 1;
-    r.joints[i].axis[0] = 1;
-    r.joints[i].low = 0;
-    r.joints[i].high = 1e6;
-    r.parts[i].pose.rotation[3] = 1;
-    r.parts[i].body = r.parts[0].body;
-    r.parts[i].link = i + 1;
-  }
+  on_rails(&r, 0.125f, 1e6);
   robot_open(&r);
   for (int n = 0; n < 300; n++) {
     const double apart = shapes_uniform(&rng, 1e-4, 0.04);
@@ -290,22 +278,8 @@ static void postures_far(void) {
 // there: along them they are apart, or overlap, by a number that is known. Poses in the world as
 // floats would be off by more.
 static void far_rails(robot *r, shapes_rng *rng, int boxes, double far) {
-  memset(r, 0, sizeof *r);
-  r->scene.joint_count = r->scene.part_count = 2;
-  r->scene.pair_count = 1;
-  r->pairs[0].b = 1;
-  if (!boxes) CHECK_EQ(nsvcd_encode_sphere(0.05f, NULL, &r->parts[0].body), NSVCD_OK);
-  const nsvcd_pose base = robot_pose(rng, far);
-  for (uint32_t i = 0; i < 2; i++) {
-    r->joints[i].kind = NSVCD_JOINT_PRISMATIC;
-    r->joints[i].origin = base;
-    r->joints[i].axis[0] = 1;
-    r->joints[i].low = -2;
-    r->joints[i].high = 2;
-    r->parts[i].pose.rotation[3] = 1;
-    r->parts[i].body = boxes ? robot_shapes()[0].body : r->parts[0].body;
-    r->parts[i].link = i + 1;
-  }
+  on_rails(r, boxes ? 0 : 0.05f, 2);
+  r->joints[0].origin = r->joints[1].origin = robot_pose(rng, far);
   robot_open(r);
 }
 
@@ -383,25 +357,16 @@ static void postures_far_from_their_origins(void) {
     float points[2][3];
     double centres[2][3], off[3];
     nsvcd_encode_options options;
-    memset(&r, 0, sizeof r);
     memset(&options, 0, sizeof options);
     options.convex_radius = 0.05f;
+    on_rails(&r, 0, 3);
     r.scene.joints = r.joints;
     r.scene.parts = r.parts;
-    r.scene.joint_count = r.scene.part_count = 2;
-    r.scene.pair_count = 1;
-    r.pairs[0].b = 1;
     for (uint32_t i = 0; i < 2; i++) {
       const nsvcd_mesh point = {points[i], same, 1, 1};
       shapes_direction(&rng, off);
       for (int k = 0; k < 3; k++) points[i][k] = (float)(out * off[k]);
       CHECK_EQ(nsvcd_encode(&point, &options, NULL, NULL, 0, &r.parts[i].body), NSVCD_OK);
-      r.joints[i].kind = NSVCD_JOINT_PRISMATIC;
-      r.joints[i].origin.rotation[3] = 1;
-      r.joints[i].axis[0] = 1;
-      r.joints[i].low = -3;
-      r.joints[i].high = 3;
-      r.parts[i].link = i + 1;
       r.parts[i].pose = robot_pose(&rng, 0);
     }
     // one beside the other, but for the rounding of its place

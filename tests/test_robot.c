@@ -186,21 +186,10 @@ static void robot_swings_past_a_wall(void) {
     const nsvcd_joint_motion motion = {1, 1, &points[0][0], NULL};
     nsvcd_check_options options;
     nsvcd_check_answer answer;
-    memset(&r, 0, sizeof r);
     memset(&options, 0, sizeof options);
     options.clearance = shapes_pick(&rng, 2) ? 0 : 0.01f;
-    r.scene.joint_count = 2;
-    r.scene.part_count = 2;
-    r.scene.pair_count = 1;
-    r.pairs[0].b = 1;
-    for (uint32_t n = 0; n < 2; n++) {
-      r.joints[n].parent = n;
-      r.joints[n].low = -3;
-      r.joints[n].high = 3;
-      r.joints[n].axis[2] = 1;
-      r.joints[n].origin.rotation[3] = 1;
-      r.parts[n].pose.rotation[3] = 1;
-    }
+    robot_bare(&r, NSVCD_JOINT_REVOLUTE, 2, 2, 3);
+    for (int n = 0; n < 2; n++) r.joints[n].axis[2] = 1;
     r.joints[1].origin.position[0] = (float)reach;
     r.parts[0].body = ball;
     r.parts[0].link = 2;
@@ -225,18 +214,11 @@ static void robot_turns_for_long(void) {
   const nsvcd_joint_motion motion = {1, 1, points, NULL};
   for (int hits = 0; hits < 2; hits++) {
     nsvcd_check_answer answer;
-    memset(&r, 0, sizeof r);
-    r.scene.joint_count = 1;
-    r.scene.part_count = 2;
-    r.scene.pair_count = 1;
-    r.pairs[0].b = 1;
-    r.joints[0].kind = NSVCD_JOINT_CONTINUOUS;
+    robot_bare(&r, NSVCD_JOINT_CONTINUOUS, 1, 2, 0);
     r.joints[0].axis[2] = 1;
-    r.joints[0].origin.rotation[3] = 1;
     for (uint32_t n = 0; n < 2; n++) {
       r.parts[n].body = robot_shapes()[0].body;
       r.parts[n].link = 1 - n;
-      r.parts[n].pose.rotation[3] = 1;
       r.parts[n].pose.position[0] = n ? (hits ? 0.6f : 0.65f) : 0.5f;
     }
     robot_open(&r);
@@ -658,22 +640,13 @@ static void robot_routes_end(void) {
   free(r.memory);
   // a slide through a slab: no way round it
   static robot slide;
-  memset(&slide, 0, sizeof slide);
   memset(&a, 0, sizeof a);
-  slide.scene.joint_count = 1;
-  slide.scene.part_count = 2;
-  slide.scene.pair_count = 1;
-  slide.joints[0].kind = NSVCD_JOINT_PRISMATIC;
+  robot_bare(&slide, NSVCD_JOINT_PRISMATIC, 1, 2, 1);
   slide.joints[0].axis[2] = 1;
-  slide.joints[0].low = -1;
-  slide.joints[0].high = 1;
-  slide.joints[0].origin.rotation[3] = 1;
   for (uint32_t n = 0; n < 2; n++) {
     slide.parts[n].body = robot_shapes()[n ? 2 : 0].body;
     slide.parts[n].link = 1 - n;
-    slide.parts[n].pose.rotation[3] = 1;
   }
-  slide.pairs[0].b = 1;
   robot_open(&slide);
   a.start[0] = -0.5;
   a.goals[0][0] = 0.5;
@@ -689,23 +662,13 @@ static void robot_routes_end(void) {
 
 // A peg of 50 mm by 300 mm on three slides, and meshes about it that rest.
 static void robot_gantry(robot *r, const robot_shape *peg, const robot_shape *about) {
-  memset(r, 0, sizeof *r);
-  r->scene.joint_count = 3;
-  r->scene.part_count = 3;
-  r->scene.pair_count = 2;
-  for (uint32_t j = 0; j < 3; j++) {
-    r->joints[j].kind = NSVCD_JOINT_PRISMATIC;
-    r->joints[j].parent = j;
-    r->joints[j].origin.rotation[3] = 1;
+  robot_bare(r, NSVCD_JOINT_PRISMATIC, 3, 3, 1);
+  for (int j = 0; j < 3; j++) {
     r->joints[j].axis[j] = 1;
-    r->joints[j].low = -1;
-    r->joints[j].high = 1;
     r->parts[j].body = j ? about->body : peg->body;
-    r->parts[j].pose.rotation[3] = 1;
   }
   r->parts[0].link = 3;
   r->parts[2].pose.position[0] = 0.5f;
-  for (uint32_t n = 0; n < 2; n++) r->pairs[n].b = n + 1;
   robot_open(r);
 }
 

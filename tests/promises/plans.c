@@ -9,8 +9,10 @@ static const float low[JOINTS] = {-2, -2}, high[JOINTS] = {2, 2};
 static const float from[JOINTS] = {-1, 0.1f}, to[JOINTS] = {1, 0.1f};
 static const nsvcd_body_pair crate_and_wall[1] = {{0, 1}};
 
+static size_t places;  // asked for
 static void place(void *user, const float *joints, nsvcd_pose *poses) {
   (void)user;
+  places++;
   poses[0] = at(joints[0], joints[1], 0);
   poses[1] = at(0, 0, 0);
 }
@@ -156,29 +158,67 @@ static void a_start_or_a_goal_that_is_not_free_is_told(void) {
   floor_close(&f);
 }
 
-static int at_once(void *user, const nsvcd_plan_progress *progress) {
+// After so many reports, in either stage.
+typedef struct patience {
+  size_t reports, most;
+} patience;
+static int loses_patience(void *user, const nsvcd_plan_progress *progress) {
+  patience *p = (patience *)user;
   CHECK(progress->control != NULL);
-  return ++*(int *)user > 0;
+  return ++p->reports == p->most;
 }
-static void a_plan_can_be_cancelled_and_refuses_by_name(void) {
+static void a_plan_can_be_cancelled(void) {
+  const nsvcd_plan_options options = {.explore = {.iterations = 3, .draws = 40}};
   float control[JOINTS * (NSVCD_MAX_VIA_POINTS + 2)];
-  int told = 0;
-  nsvcd_plan_answer answer;
   floor_plan f;
   floor_open(&f);
-  f.problem.progress = at_once;
-  f.problem.user = &told;
-  CHECK_EQ(plan_of(&f.problem, control).status, NSVCD_PLAN_CANCELLED);
-  CHECK_EQ(told, 1);
+  for (size_t most = 1; most < 7; most++) {
+    patience p = {0, most};
+    f.problem.progress = loses_patience;
+    f.problem.user = &p;
+    const nsvcd_plan_answer answer = plan_with(&f.problem, &options, 0x5a, control);
+    CHECK_EQ(answer.status, NSVCD_PLAN_CANCELLED);
+    CHECK(p.reports == most && answer.iterations == most);
+  }
+  floor_close(&f);
+}
+
+// Nothing is written then, and no place asked for.
+static void a_plan_is_refused_by_the_field_at_fault(void) {
+  float control[JOINTS * (NSVCD_MAX_VIA_POINTS + 2)], kept[JOINTS * (NSVCD_MAX_VIA_POINTS + 2)];
+  nsvcd_plan_answer answer, before;
+  floor_plan f;
+  floor_open(&f);
   const size_t size = nsvcd_plan_workspace_size(&f.problem, NULL);
-  void *workspace = malloc(size);
-  f.problem.low = high;
-  f.problem.high = low;
-  CHECK_EQ(nsvcd_plan(&f.problem, NULL, workspace, size, control, &answer), NSVCD_ERROR_LIMITS);
-  f.problem.pair_count = 0;
-  f.problem.joints = NSVCD_MAX_JOINTS + 1;
-  CHECK_EQ(nsvcd_plan_workspace_size(&f.problem, NULL), 0);
-  CHECK_EQ(nsvcd_plan(&f.problem, NULL, workspace, size, control, &answer), NSVCD_ERROR_COUNT);
+  char *workspace = (char *)malloc(size + 8);
+  memset(control, 7, sizeof control);
+  memset(&answer, 7, sizeof answer);
+  memcpy(kept, control, sizeof kept);
+  before = answer;
+  const nsvcd_plan_problem good = f.problem;
+  places = 0;
+  nsvcd_plan_problem *p = &f.problem;
+#define REFUSED(code, at, room, change)                                                     \
+  do {                                                                                      \
+    change;                                                                                 \
+    CHECK_EQ(nsvcd_plan(p, NULL, at, room, control, &answer), code);                        \
+    CHECK(!memcmp(control, kept, sizeof kept) && !memcmp(&answer, &before, sizeof before)); \
+    *p = good;                                                                              \
+  } while (0)
+  REFUSED(NSVCD_ERROR_WORKSPACE, workspace, size - 1, (void)0);
+  REFUSED(NSVCD_ERROR_WORKSPACE, workspace + 4, size, (void)0);
+  REFUSED(NSVCD_ERROR_WORKSPACE, NULL, size, (void)0);
+  REFUSED(NSVCD_ERROR_LIMITS, workspace, size, (p->low = high, p->high = low));
+  REFUSED(NSVCD_ERROR_COUNT, workspace, size, p->joints = NSVCD_MAX_JOINTS + 1);
+  REFUSED(NSVCD_ERROR_PAIR, workspace, size, p->body_count = 1);
+  REFUSED(NSVCD_ERROR_ARGUMENT, workspace, size, p->start = NULL);
+#undef REFUSED
+  CHECK_EQ(places, 0);
+  CHECK_EQ(nsvcd_plan(NULL, NULL, workspace, size, control, &answer), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_plan(p, NULL, workspace, size, NULL, &answer), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_plan(p, NULL, workspace, size, control, NULL), NSVCD_ERROR_ARGUMENT);
+  p->joints = 0;
+  CHECK_EQ(nsvcd_plan_workspace_size(p, NULL), 0);
   free(workspace);
   floor_close(&f);
 }
@@ -189,7 +229,8 @@ void promises_plans(void) {
   RUN(stages_can_be_left_out_and_poses_asked_about_instead);
   RUN(the_same_problem_is_the_same_plan);
   RUN(a_start_or_a_goal_that_is_not_free_is_told);
-  RUN(a_plan_can_be_cancelled_and_refuses_by_name);
+  RUN(a_plan_can_be_cancelled);
+  RUN(a_plan_is_refused_by_the_field_at_fault);
 }
 
 CHECK_ALONE(promises_plans)
