@@ -59,7 +59,7 @@ check-tiles: build/tiles_proof build/tiles_facets  # the proof, searched tile by
 # What refuses NaN and infinity does so on their bits, and so under -ffast-math as well; FILE/TESTS. The header warns there
 # that results are not tested.
 FAST = promises_queries/refused promises_bodies/cannot_be test_query/refuses test_mesh/refused test_gradient/refuses \
-  test_optimizer/refuses test_body/malice test_body/scale
+  test_optimizer/refuses test_body/malice promises_bodies/scaled
 FAST_CFLAGS = $(CFLAGS) -I. -O1 -ffast-math -std=c99 -Wall -Wextra -Wno-unused-function -DNSVCD_NO_DISPATCH -pthread
 says_fast = 2>$@.txt && grep -q 'warning: neuralsvcd.h: -ffinite-math-only' $@.txt || { cat $@.txt; exit 1; }
 build/fast_library.o: packages/neuralsvcd.c $(LIBRARY) | build

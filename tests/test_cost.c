@@ -103,33 +103,6 @@ static nsvcd_result cost_ask_batch(const cost_batch *b, const nsvcd_question *op
                            answers);
 }
 
-static void cost_batch_refuses_as_a_query_does(void) {
-  static cost_batch b;
-  cost_open(&b, 3);
-  const query_scene *s = &b.scene;
-  void *w = query_workspace();
-  const size_t size = nsvcd_sweep_workspace_size(NULL);
-  nsvcd_answer before[COST_MOTIONS];
-  memset(b.batch, 0x5a, sizeof b.batch);
-  memcpy(before, b.batch, sizeof before);
-  b.poses[COST_MOTIONS * QUERY_POSES - 1].rotation[0] = 2;  // the very last
-  CHECK_EQ(cost_ask_batch(&b, NULL, w, b.batch), NSVCD_ERROR_QUATERNION);
-  nsvcd_question questions[2];
-  for (size_t k = 0; k < 2; k++)
-    questions[k] = question_of(s->moving, b.poses, 2, s->fixed, &s->fixed_pose, NULL);
-  questions[1].a.count = 0;
-  CHECK_EQ(nsvcd_sweep_batch(questions, 2, w, size, b.batch), NSVCD_ERROR_POSES);
-  questions[1].a.count = 2;
-  CHECK_EQ(nsvcd_sweep_batch(NULL, 2, w, size, b.batch), NSVCD_ERROR_ARGUMENT);
-  CHECK_EQ(nsvcd_sweep_batch(questions, 2, w, size, NULL), NSVCD_ERROR_ARGUMENT);
-  const size_t least = nsvcd_sweep_workspace_size(&questions[1]);
-  CHECK_LE(least, size);
-  CHECK_EQ(nsvcd_sweep_batch(questions, 2, w, least - 1, b.batch), NSVCD_ERROR_WORKSPACE);
-  CHECK_EQ(nsvcd_sweep_batch(questions, 0, w, size, b.batch), NSVCD_OK);
-  CHECK(memcmp(before, b.batch, sizeof before) == 0);
-  query_scene_close(&b.scene);
-}
-
 // ----------------------------------------------------------------------------------------- threads
 
 #define COST_THREADS 4
@@ -463,7 +436,6 @@ static void cost_batch_follows_who_moves(void) {
 }
 
 void test_cost(void) {
-  RUN(cost_batch_refuses_as_a_query_does);
   RUN(cost_threads_agree);
   RUN(cost_threads_agree_by_proof);
   RUN(cost_reads_numbers_once);

@@ -106,21 +106,31 @@ static void a_body_of_the_other_byte_order_is_refused(void) {
   nsvcd_body_free(mug, NULL);
 }
 
+// Whatever it becomes: of a body for a proof one bit, of a small one for the network all that it can.
 static void a_body_with_any_byte_changed_is_refused(void) {
-  const nsvcd_body *mug = box(0.1f, 0.1f, 0.12f);
-  const size_t size = nsvcd_body_describe(mug).size;
-  unsigned char *copy = (unsigned char *)malloc(size);
-  memcpy(copy, mug, size);
-  for (size_t i = 0; i < size; i++) {
+  static const nsvcd_encode_options small = {.patches = 2, .no_triangles = 1};
+  for (int kind = 0; kind < 2; kind++) {
+    const nsvcd_body *body = body_of(box_mesh(0.1f, 0.1f, 0.12f), kind ? &small : NULL);
     const nsvcd_body *loaded = NULL;
-    copy[i] ^= 0x10;
-    const nsvcd_result result = nsvcd_body_load(copy, size, &loaded);
-    CHECK(result == NSVCD_ERROR_BODY || result == NSVCD_ERROR_VERSION);
+    const size_t size = nsvcd_body_describe(body).size;
+    unsigned char *copy = (unsigned char *)malloc(size + 8);
+    memcpy(copy, body, size);
+    for (size_t i = 0; i < size; i++) {
+      for (unsigned char other = 1; other; other = (unsigned char)(kind ? other + 1 : 2 * other)) {
+        copy[i] ^= other;
+        const nsvcd_result result = nsvcd_body_load(copy, size, &loaded);
+        CHECK(result == NSVCD_ERROR_BODY || result == NSVCD_ERROR_VERSION);
+        copy[i] ^= other;
+      }
+      CHECK_EQ(nsvcd_body_load(copy, i, &loaded), NSVCD_ERROR_BODY);  // cut short
+    }
+    CHECK_EQ(nsvcd_body_load(NULL, size, &loaded), NSVCD_ERROR_ARGUMENT);
+    memmove(copy + 4, copy, size);
+    CHECK_EQ(nsvcd_body_load(copy + 4, size, &loaded), NSVCD_ERROR_BODY);  // misaligned
     CHECK(loaded == NULL);
-    copy[i] ^= 0x10;
+    free(copy);
+    nsvcd_body_free(body, NULL);
   }
-  free(copy);
-  nsvcd_body_free(mug, NULL);
 }
 
 static void what_a_body_says_of_itself_is_so(void) {
@@ -176,22 +186,67 @@ static void a_finer_mesh_has_more_patches(void) {
   }
 }
 
+// Components, those of them that are open, and their edges.
+static nsvcd_body_facts facts_of(const nsvcd_mesh *mesh) {
+  const nsvcd_body *body = NULL;
+  CHECK_EQ(nsvcd_encode(mesh, NULL, NULL, NULL, 0, &body), NSVCD_OK);
+  const nsvcd_body_facts facts = nsvcd_body_describe(body);
+  nsvcd_body_free(body, NULL);
+  return facts;
+}
 static void what_is_not_closed_is_told(void) {
   const nsvcd_encode_options said = {.open = 1};
-  const nsvcd_body *bin = body_of(box_mesh_of(1, 1, 1, OPEN_BOX_FACES), NULL);
   const nsvcd_body *open = body_of(box_mesh_of(1, 1, 1, OPEN_BOX_FACES), &said);
-  const nsvcd_body_facts facts = nsvcd_body_describe(bin);
+  nsvcd_mesh bin = box_mesh_of(1, 1, 1, OPEN_BOX_FACES), box = box_mesh(1, 1, 1);
+  nsvcd_body_facts facts = facts_of(&bin);
   CHECK(facts.components == 1 && facts.open_components == 1 && facts.open_edges == 4);
   CHECK(!facts.open && nsvcd_body_describe(open).open);
-  nsvcd_body_free(bin, NULL);
+  facts = facts_of(&box);
+  CHECK(facts.components == 1 && facts.open_components == 0 && facts.open_edges == 0);
+
+  // Vertices at one place are one, 0 and -0 are the same, and what has no area opens nothing.
+  float positions[3 * 39];
+  uint32_t indices[39];
+  nsvcd_mesh split = {positions, indices, 39, 13};
+  for (uint32_t i = 0; i < 39; i++) {
+    indices[i] = i;
+    for (uint32_t k = 0; k < 3; k++) {
+      const float x = box.positions[3 * box.indices[i % 36] + k] + 0.5f;  // from 0 to 1
+      positions[3 * i + k] = x > 0 ? x : i % 2 ? 0.0f : -0.0f;
+    }
+  }
+  memcpy(positions + 3 * 38, positions + 3 * 37, 3 * sizeof *positions);
+  facts = facts_of(&split);
+  CHECK(facts.components == 1 && facts.open_components == 0 && facts.open_edges == 0);
   nsvcd_body_free(open, NULL);
+  nsvcd_mesh_free(&bin, NULL);
+  nsvcd_mesh_free(&box, NULL);
+}
+
+// Faces whose corners are a hair apart, as exports have them, enclose all the same: what is inside is
+// a hit. Faces a centimetre apart do not.
+static void corners_that_nearly_meet_are_joined(void) {
+  static const float gaps[3] = {0, 1e-5f, 1e-2f};
+  const nsvcd_body *ball = box(0.1f, 0.1f, 0.1f);
+  for (int k = 0; k < 3; k++) {
+    nsvcd_mesh lid = box_mesh(1, 1, 1), bin = box_mesh_of(1, 1, 1, OPEN_BOX_FACES);
+    lid.triangle_count = 2;  // the last face
+    memmove(lid.indices, lid.indices + 30, 6 * sizeof(uint32_t));
+    const nsvcd_body *crate = body_of(stacked(bin, lid, gaps[k]), NULL);
+    const nsvcd_pose pose = at(0.1f, 0.2f, 0);
+    const nsvcd_question question = question_about(ball, &pose, 1, crate);
+    CHECK_EQ(nsvcd_body_describe(crate).open_components > 0, k == 2);
+    CHECK_EQ(verdict_of(&question) == NSVCD_HIT, k < 2);
+    nsvcd_body_free(crate, NULL);
+  }
+  nsvcd_body_free(ball, NULL);
 }
 
 static void a_scaled_body_is_that_of_the_scaled_mesh(void) {
   const nsvcd_body *small = box(0.1f, 0.2f, 0.3f);
   const nsvcd_body *large = box(0.2f, 0.4f, 0.6f);
   const size_t size = nsvcd_body_describe(small).size;
-  void *memory = malloc(size);
+  void *memory = malloc(size + 8);
   const nsvcd_body *scaled = NULL;
   CHECK_EQ(nsvcd_body_scale(small, 2, memory, size, &scaled), NSVCD_OK);
   CHECK_NEAR(nsvcd_body_describe(scaled).radius, nsvcd_body_describe(large).radius, 1e-5);
@@ -202,8 +257,14 @@ static void a_scaled_body_is_that_of_the_scaled_mesh(void) {
   CHECK_EQ(verdict_of(&question), NSVCD_FREE);
   question.clearance = 0.0011f;
   CHECK_EQ(verdict_of(&question), NSVCD_HIT);
-  CHECK_EQ(nsvcd_body_scale(small, 0, memory, size, &scaled), NSVCD_ERROR_SCALE);
-  CHECK_EQ(nsvcd_body_scale(small, 2, memory, size - 8, &scaled), NSVCD_ERROR_WORKSPACE);
+  const float bad[5] = {0, -1, NAN, HUGE_VALF, 1e30f};
+  for (int k = 0; k < 5; k++)
+    CHECK_EQ(nsvcd_body_scale(small, bad[k], memory, size, &scaled), NSVCD_ERROR_SCALE);
+  CHECK_EQ(nsvcd_body_scale(small, 2, memory, size - 1, &scaled), NSVCD_ERROR_WORKSPACE);
+  CHECK_EQ(nsvcd_body_scale(small, 2, (char *)memory + 4, size, &scaled), NSVCD_ERROR_WORKSPACE);
+  CHECK_EQ(nsvcd_body_scale(small, 2, NULL, size, &scaled), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_body_scale(NULL, 2, memory, size, &scaled), NSVCD_ERROR_ARGUMENT);
+  CHECK((const void *)scaled == memory);
   free(memory);
   nsvcd_body_free(post, NULL);
   nsvcd_body_free(large, NULL);
@@ -335,6 +396,7 @@ void promises_bodies(void) {
   RUN(patches_are_as_many_as_asked_for);
   RUN(a_finer_mesh_has_more_patches);
   RUN(what_is_not_closed_is_told);
+  RUN(corners_that_nearly_meet_are_joined);
   RUN(a_scaled_body_is_that_of_the_scaled_mesh);
   RUN(round_shapes_are_as_far_apart_as_geometry_says);
   RUN(encoding_tells_how_much_is_done_and_can_be_cancelled);

@@ -142,6 +142,43 @@ static void a_certificate_is_refused_by_the_field_at_fault(void) {
   certified_free(&cart);
 }
 
+// Of a mesh, of a motion, of a scale or of a clearance: by what it is called, and nothing is proven.
+static void the_checker_refuses_what_is_no_number(void) {
+  static const float bad[4] = {NAN, HUGE_VALF, -HUGE_VALF, 2e6f};
+  certified cart = certified_box(1, 0.6f, 0.4f), post = certified_box(0.1f, 0.1f, 2);
+  const nsvcd_pose past[2] = {at(-3, 0.4f, 0), at(3, 0.4f, 0)};
+  uint8_t bytes[ROOM];
+  nsvcd_question question = question_about(NULL, past, 2, NULL);
+  const nsvcd_certificate made = certify(&question, &cart, &post, bytes);
+  for (int k = 0; k < 4; k++) {
+    nsvcd_verify_mesh mesh;
+    nsvcd_verify_mover mover;
+    nsvcd_pose wild[2] = {past[0], past[1]};
+    const nsvcd_verify_path path = {wild->position, NULL, 2};
+    CHECK(nsvcd_verify_path_init(&cart.checked, bad[k], &path, &mover) != NULL);
+    for (int i = 0; i < 7; i++) {
+      float *number = i < 3 ? &wild[1].position[i] : &wild[1].rotation[i - 3];
+      const float kept = *number;
+      *number = bad[k];
+      CHECK(nsvcd_verify_path_init(&cart.checked, 1, &path, &mover) != NULL);
+      *number = kept;
+    }
+    question.clearance = bad[k];
+    CHECK_EQ(proven(&question, &cart, &post, bytes, made.size), NSVCD_VERIFY_NOTHING);
+    const float kept = cart.mesh.positions[5];
+    cart.mesh.positions[5] = bad[k];
+    CHECK(nsvcd_verify_mesh_init(cart.mesh.positions, BOX_CORNERS, cart.mesh.indices, 12,
+                                 cart.memory[1], &mesh) != NULL);
+    cart.mesh.positions[5] = kept;
+    CHECK(!nsvcd_verify_mesh_init(cart.mesh.positions, BOX_CORNERS, cart.mesh.indices, 12,
+                                  cart.memory[1], &cart.checked));
+  }
+  question.clearance = 0;
+  CHECK_EQ(proven(&question, &cart, &post, bytes, made.size), NSVCD_VERIFY_FREE);
+  certified_free(&cart);
+  certified_free(&post);
+}
+
 // A motion that no poses are: a mesh swings over another, and back, as sin(2 pi t). A chord of it is off
 // by no more than an eighth of its second derivative. Each time that is told is a corner.
 typedef struct swing {
@@ -199,6 +236,7 @@ void promises_certificates(void) {
   RUN(a_certificate_of_something_else_is_refused);
   RUN(no_bytes_prove_what_is_not_so);
   RUN(a_certificate_is_refused_by_the_field_at_fault);
+  RUN(the_checker_refuses_what_is_no_number);
   RUN(any_motion_that_says_where_it_is_can_be_certified);
 }
 

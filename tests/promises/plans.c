@@ -80,7 +80,20 @@ static void a_spline_passes_through_its_points_and_rests_at_both_ends(void) {
       nsvcd_spline(control, via, 3, end ? 7.0f : -3.0f, 0, x);
       for (size_t j = 0; j < 3; j++) CHECK_EQ(x[j], control[3 * (end ? via + 1 : 0) + j]);
     }
+    // Points that are all the same are a spline that stands still.
+    for (size_t i = 0; i < 3 * (via + 2); i++) control[i] = i % 3 ? 1.25f : -3;
+    for (size_t n = 0; n < 80; n++) {
+      const size_t derivative = n % 4;
+      nsvcd_spline(control, via, 3, (float)n / 79, derivative, x);
+      for (size_t j = 0; j < 3; j++)
+        CHECK_NEAR(x[j], derivative ? 0 : control[j], 1e-6 * pow(last, (double)derivative));
+    }
   }
+  float x = 7, control[2] = {0, 1};
+  nsvcd_spline(control, 0, 1, 0.5f, 4, &x);  // there is no fourth derivative,
+  nsvcd_spline(control, 0, 1, 0.5f, SIZE_MAX, &x);
+  nsvcd_spline(control, NSVCD_MAX_VIA_POINTS + 1, 1, 0.5f, 0, &x);  // nor room for one more
+  CHECK_EQ(x, 7);
 }
 
 // The spline at many times, asked about as one motion: its way leads round the wall.

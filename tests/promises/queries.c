@@ -327,6 +327,26 @@ static void with_a_skin_what_rests_may_slide(void) {
   nsvcd_body_free(table, NULL);
 }
 
+// Between a floor and a ceiling with 0.4 mm of room: pushed out by what is needed, not by all of 1 mm.
+static void under_a_ceiling_a_skin_is_as_thick_as_there_is_room(void) {
+  const nsvcd_body *crate = box(0.5f, 0.5f, 0.5f);
+  const nsvcd_body *shelf =
+      body_of(stacked(box_mesh(4, 4, 0.1f), box_mesh(4, 4, 0.1f), 0.6004f), NULL);
+  for (int k = 0; k < 5; k++) {
+    const float deep =
+        k < 4 ? 1e-4f * (float)k : 1.2e-3f;  // the last one by more than there is room
+    const nsvcd_pose slide[2] = {at(-1, 0, 0.3f - deep), at(1, 0, 0.3f - deep)};
+    nsvcd_question question = question_about(crate, slide, 2, shelf);
+    question.slop = 1e-3f;
+    const nsvcd_answer answer = answer_to(&question);
+    CHECK_EQ(answer.verdict, k < 4 ? NSVCD_FREE : NSVCD_HIT);
+    CHECK_LE(answer.push_out[2], 4e-4f + deep);
+    if (k < 4) CHECK_NEAR(answer.depth, deep, 1e-6 + 0.01 * (double)deep);
+  }
+  nsvcd_body_free(crate, NULL);
+  nsvcd_body_free(shelf, NULL);
+}
+
 // Dropped on a table, and then pushed along it, frame by frame from the place that is safe.
 static void what_was_stopped_goes_on(void) {
   const nsvcd_body *crate = box(0.5f, 0.5f, 0.5f), *table = box(4, 4, 0.1f);
@@ -400,6 +420,32 @@ static void the_same_question_has_the_same_answer(void) {
   nsvcd_body_free(post, NULL);
 }
 
+// And nothing of it is answered, whichever question is at fault.
+static void a_batch_is_refused_as_a_whole(void) {
+  const nsvcd_body *cube = box(1, 1, 1), *wall = box(1, 10, 10);
+  const nsvcd_pose poses[2] = {at(-7, 0, 0), at(3, 0, 0)};
+  nsvcd_question questions[3];
+  nsvcd_answer answers[3], before[3];
+  for (int i = 0; i < 3; i++) questions[i] = question_about(cube, poses, 2, wall);
+  const size_t size = nsvcd_sweep_workspace_size(&questions[0]);
+  void *workspace = malloc(size);
+  memset(answers, 0x5a, sizeof answers);
+  memcpy(before, answers, sizeof before);
+  questions[2].clearance = -1;
+  CHECK_EQ(nsvcd_sweep_batch(questions, 3, workspace, size, answers), NSVCD_ERROR_CLEARANCE);
+  questions[2].clearance = 0;
+  CHECK_EQ(nsvcd_sweep_batch(questions, 3, workspace, size - 1, answers), NSVCD_ERROR_WORKSPACE);
+  CHECK_EQ(nsvcd_sweep_batch(NULL, 3, workspace, size, answers), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_sweep_batch(questions, 3, workspace, size, NULL), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_sweep_batch(questions, 0, workspace, size, answers), NSVCD_OK);
+  CHECK(!memcmp(answers, before, sizeof before));
+  CHECK_EQ(nsvcd_sweep_batch(questions, 3, workspace, size, answers), NSVCD_OK);
+  CHECK(answers[0].verdict == NSVCD_HIT && answers[2].verdict == NSVCD_HIT);
+  free(workspace);
+  nsvcd_body_free(cube, NULL);
+  nsvcd_body_free(wall, NULL);
+}
+
 static void the_workspace_that_is_asked_for_suffices(void) {
   const nsvcd_body *cube = box(1, 1, 1), *wall = box(1, 10, 10);
   const nsvcd_pose poses[2] = {at(-7, 0, 0), turned(3, 0, 0, 1)};
@@ -432,6 +478,45 @@ static void work_that_ends_is_told_and_more_decides(void) {
   CHECK(enough.verdict == NSVCD_FREE && enough.work > little.work);
   nsvcd_body_free(drawer, NULL);
   nsvcd_body_free(side, NULL);
+}
+
+// A crate over a coarse table, nearer than its triangles are stored to: between which two it cannot
+// be told, when, and how near these come.
+static void what_is_too_near_to_tell_is_named(void) {
+  const nsvcd_encode_options coarse = {.coarse = 1};
+  const nsvcd_body *crate = box(0.2f, 0.2f, 0.2f), *land = body_of(sheet_mesh(6, 0.3f), &coarse);
+  const double error = (double)nsvcd_body_describe(land).quantization_error;
+  const float z = 0.4f + (float)(0.8 * error);
+  const nsvcd_pose poses[2] = {at(-2, 0, z), at(2, 0, z)};
+  const nsvcd_question question = question_about(crate, poses, 2, land);
+  const nsvcd_answer answer = answer_to(&question);
+  CHECK(error > 0);
+  CHECK(answer.verdict == NSVCD_UNDECIDED && answer.why == NSVCD_WHY_TOO_NEAR);
+  CHECK(answer.nearest.triangle_a < 12 && answer.nearest.triangle_b < 72);
+  CHECK(answer.distance.low == 0 && (double)answer.distance.high < 4 * error);
+  CHECK_NEAR(answer.nearest.time, 0.5, 0.06);
+  nsvcd_body_free(crate, NULL);
+  nsvcd_body_free(land, NULL);
+}
+
+// With some work more: whether bodies meet is known to whoever asks when, or how near they come.
+static void whoever_asks_for_more_knows_no_less(void) {
+  const nsvcd_body *gate = box(2, 0.05f, 0.5f), *post = box(0.1f, 0.1f, 2);
+  for (int k = 0; k < 12; k++) {
+    const float x = -0.72f - 0.07f * (float)k;  // it hits, and at the end passes
+    const nsvcd_pose poses[2] = {turned(x, 0, 0, 0.8f), turned(x, 0, 0, -0.8f)};
+    nsvcd_question question = question_about(gate, poses, 2, post);
+    const nsvcd_answer plain = answer_to(&question);
+    CHECK_EQ(plain.verdict, k < 5 ? NSVCD_HIT : NSVCD_FREE);
+    question.work = 16 * (plain.work + 1);
+    question.to = 1e-5f;
+    question.ask = NSVCD_ASK_FIRST;
+    CHECK_EQ(verdict_of(&question), plain.verdict);
+    question.ask = NSVCD_ASK_DISTANCE;
+    CHECK_EQ(verdict_of(&question), plain.verdict);
+  }
+  nsvcd_body_free(gate, NULL);
+  nsvcd_body_free(post, NULL);
 }
 
 static void fewer_segments_take_less_memory_and_answer_the_same(void) {
@@ -750,11 +835,15 @@ void promises_queries(void) {
   RUN(a_clearance_is_kept);
   RUN(a_distance_is_bracketed_as_narrowly_as_is_said);
   RUN(with_a_skin_what_rests_may_slide);
+  RUN(under_a_ceiling_a_skin_is_as_thick_as_there_is_room);
   RUN(what_was_stopped_goes_on);
   RUN(a_lift_by_the_depth_ends_a_contact);
   RUN(the_same_question_has_the_same_answer);
+  RUN(a_batch_is_refused_as_a_whole);
   RUN(the_workspace_that_is_asked_for_suffices);
   RUN(work_that_ends_is_told_and_more_decides);
+  RUN(what_is_too_near_to_tell_is_named);
+  RUN(whoever_asks_for_more_knows_no_less);
   RUN(fewer_segments_take_less_memory_and_answer_the_same);
   RUN(a_contact_at_an_end_is_found_at_once);
   RUN(threads_may_share_bodies);

@@ -32,6 +32,23 @@ static inline nsvcd_mesh box_mesh(float x, float y, float z) {
   return box_mesh_of(x, y, z, BOX_FACES);
 }
 
+// One mesh of two, the second one so far above.
+static inline nsvcd_mesh stacked(nsvcd_mesh a, nsvcd_mesh b, float above) {
+  nsvcd_mesh both = {NULL, NULL, a.vertex_count + b.vertex_count,
+                     a.triangle_count + b.triangle_count};
+  both.positions = (float *)malloc(3 * both.vertex_count * sizeof(float));
+  both.indices = (uint32_t *)malloc(3 * both.triangle_count * sizeof(uint32_t));
+  memcpy(both.positions, a.positions, 3 * a.vertex_count * sizeof(float));
+  memcpy(both.indices, a.indices, 3 * a.triangle_count * sizeof(uint32_t));
+  for (size_t i = 0; i < 3 * b.vertex_count; i++)
+    both.positions[3 * a.vertex_count + i] = b.positions[i] + (i % 3 == 2 ? above : 0);
+  for (size_t i = 0; i < 3 * b.triangle_count; i++)
+    both.indices[3 * a.triangle_count + i] = b.indices[i] + (uint32_t)a.vertex_count;
+  nsvcd_mesh_free(&a, NULL);
+  nsvcd_mesh_free(&b, NULL);
+  return both;
+}
+
 // A flat sheet about the origin, of squares of 1 m, `side` by `side`; its middle is a tip so high.
 static inline nsvcd_mesh sheet_mesh(size_t side, float tip) {
   const size_t corners = (side + 1) * (side + 1), squares = side * side;
