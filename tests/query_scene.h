@@ -5,7 +5,7 @@
 
 #include "arrays.h"
 #include "../examples/scenery/shapes.h"
-#include "ask.h"
+#include "question_of.h"
 #include "check.h"
 #include "../examples/scenery/status_of.h"
 

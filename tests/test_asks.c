@@ -10,7 +10,7 @@
 
 #include "../examples/scenery/shapes.h"
 #include "../examples/scenery/oracle.h"
-#include "ask.h"
+#include "question_of.h"
 #include "check.h"
 #include "../examples/scenery/status_of.h"
 
@@ -1019,13 +1019,7 @@ static void asks_first_is_to_metres(void) {
           asks_pose(shapes_uniform(&rng, -0.1, 0.1), 0, shapes_uniform(&rng, -0.3, -0.1), turn)};
       // the table comes up as well, by as much at most
       const nsvcd_pose rising[2] = {asks_pose(0, 0, 0, 0), asks_pose(0, 0, 0.5 * from, 0)};
-      nsvcd_question question;
-      memset(&question, 0, sizeof question);
-      question.a.body = body;
-      question.a.poses = path;
-      question.a.count = 2;
-      question.b.body = table;
-      question.b.poses = rising;
+      nsvcd_question question = question_of(body, path, 2, table, rising, NULL);
       question.b.count = round % 3 == 2 ? 2 : 1;
       question.ask = NSVCD_ASK_FIRST;
       question.clearance = round % 2 ? 0.002f : 0.0f;
@@ -1042,12 +1036,7 @@ static void asks_first_is_to_metres(void) {
     }
     // what is not said: a thousandth of the smaller body
     const nsvcd_pose down[2] = {asks_pose(0, 0, 0.5, 0), asks_pose(0, 0, -0.5, 0)};
-    nsvcd_question question;
-    memset(&question, 0, sizeof question);
-    question.a.body = body;
-    question.a.poses = down;
-    question.a.count = 2;
-    question.b.body = table;
+    nsvcd_question question = question_of(body, down, 2, table, NULL, NULL);
     question.ask = NSVCD_ASK_FIRST;
     const nsvcd_answer answer = asks(&question);
     const double to = (double)(NSVCD_DEFAULT_TO * nsvcd_body_describe(body).radius);

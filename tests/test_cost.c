@@ -125,8 +125,10 @@ static void *cost_run(void *argument) {
   for (int round = 0; round < 5 && !t->result; round++) {
     for (size_t n = 0; n < COST_MOTIONS && !t->result; n++) {
       const size_t m = (t->first + n) % COST_MOTIONS;
-      t->result = ask(s->moving, t->work->poses + m * QUERY_POSES, QUERY_POSES, s->fixed,
-                      &s->fixed_pose, t->options, memory.at, size, &t->single[m]);
+      const nsvcd_question question =
+          question_of(s->moving, t->work->poses + m * QUERY_POSES, QUERY_POSES, s->fixed,
+                      &s->fixed_pose, t->options);
+      t->result = nsvcd_sweep(&question, memory.at, size, &t->single[m]);
     }
     if (!t->result) t->result = cost_ask_batch(t->work, t->options, memory.at, t->batch);
   }

@@ -214,7 +214,6 @@ static void proof_forge_anything(const nsvcd_body *body, shapes_rng *rng, size_t
   if (!proof_load(&f)) {
     const proof_body *other = proof_shared(0, (size_t)shapes_pick(rng, MAKES));
     nsvcd_pose poses[3];
-    nsvcd_pose fixed = {{0, 0, 0}, {0, 0, 0, 1}};
     nsvcd_answer answer;
     for (int n = 0; n < 3; n++) {
       double q[4];
@@ -223,12 +222,12 @@ static void proof_forge_anything(const nsvcd_body *body, shapes_rng *rng, size_t
       for (int k = 0; k < 3; k++) poses[n].position[k] = (float)shapes_uniform(rng, -0.2, 0.2);
     }
     (*accepted)++;
-    CHECK_EQ(ask(f.body, poses, 3, other->body, &fixed, &options, proof_workspace(),
-                 nsvcd_sweep_workspace_size(NULL), &answer),
-             NSVCD_OK);
-    CHECK_EQ(ask(other->body, poses, 3, f.body, &fixed, &options, proof_workspace(),
-                 nsvcd_sweep_workspace_size(NULL), &answer),
-             NSVCD_OK);
+    for (int side = 0; side < 2; side++) {
+      const nsvcd_question question = question_of(side ? other->body : f.body, poses, 3,
+                                                  side ? f.body : other->body, NULL, &options);
+      CHECK_EQ(nsvcd_sweep(&question, proof_workspace(), nsvcd_sweep_workspace_size(NULL), &answer),
+               NSVCD_OK);
+    }
   }
   free(f.memory);
 }

@@ -27,6 +27,7 @@
 #include "../../examples/scenery/oracle.h"
 #include "../../examples/scenery/poses.h"
 #include "../../examples/scenery/status_of.h"
+#include "meter.h"
 
 // -------------------------------------------------------------------------------------------- rows
 
@@ -61,14 +62,9 @@ static row *new_row(table *t, const char *method) {
   return r;
 }
 
-static int compare_doubles(const void *a, const void *b) {
-  double x = *(const double *)a;
-  double y = *(const double *)b;
-  return (x > y) - (x < y);
-}
 // times: (count), microseconds; sorted here.
 static void set_times(row *r, double *times, size_t count) {
-  qsort(times, count, sizeof *times, compare_doubles);
+  meter_sort(times, count);
   for (size_t i = 0; i < count; i++) r->mean += times[i] / (double)count;
   r->median = times[count / 2];
   r->worst = times[count - 1];

@@ -48,6 +48,10 @@ bench-asks: build/bench_asks build/game $(ASKED)  ## what first contacts, cleara
 	build/game --frames 300 --problems build/motions
 	build/bench_asks build/motions/game.txt 0.002
 	for file in $(ASKED); do build/bench_asks $$file || exit 1; done
+# Of an arm in seven scenes, proven; and by other checks of its edges, which take longer: ROUTES=100 for the tables.
+bench-routes: build/bench_routes build/route_peers  ## an arm's routes, proven; and by other checks of its edges
+	build/bench_routes $(or $(ROUTES),10) 0 1
+	build/route_peers $(or $(ROUTES),10) 0 1
 # EPISODES=10 for a quick look; 100, the default, take half an hour.
 bench-plan: build/plan_bench  ## four planners on three tasks: table, build/plan.tsv, build/plan.svg
 	build/plan_bench --episodes $(or $(EPISODES),100) --tsv build/plan.tsv

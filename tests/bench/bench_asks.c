@@ -10,6 +10,7 @@
 #define PROGRAM "bench_asks"
 #include "../../examples/scenery/problem_file.h"
 #include "../../examples/scenery/status_of.h"
+#include "meter.h"
 
 #define RUNS 5
 
@@ -20,16 +21,10 @@ typedef struct way {
   size_t collide, undecided;
 } way;
 
-static int compare_doubles(const void *a, const void *b) {
-  const double x = *(const double *)a;
-  const double y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 static void print_way(way *w, size_t count, double plain) {
   double sum = 0;
   for (size_t i = 0; i < count; i++) sum += w->microseconds[i];
-  qsort(w->microseconds, count, sizeof(double), compare_doubles);
+  meter_sort(w->microseconds, count);
   printf(
       "  %-26s median %6.1f  mean %6.1f  99 %% %6.0f  worst %6.0f us;  x %.2f;  %4.1f %% collide, "
       "%zu undecided\n",

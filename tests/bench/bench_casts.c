@@ -8,17 +8,12 @@
 #define PROGRAM "bench_casts"
 #include "../../examples/scenery/problem_file.h"
 #include "../../examples/scenery/level.h"
+#include "meter.h"
 
 #define SIDE 20.0
 #define CASTS 2000
 #define RUNS 5
 #define POINTS 200000
-
-static int compare_doubles(const void *a, const void *b) {
-  const double x = *(const double *)a;
-  const double y = *(const double *)b;
-  return (x > y) - (x < y);
-}
 
 typedef struct cast {
   const char *name;
@@ -73,7 +68,7 @@ static void print_cast(const cast *c, const nsvcd_body *level, void *workspace) 
     undecided += answer.verdict == NSVCD_UNDECIDED;
     sum += least[count++];
   }
-  qsort(least, CASTS, sizeof *least, compare_doubles);
+  meter_sort(least, CASTS);
   printf(
       "  %-34s median %5.2f  mean %5.2f  99 %% %6.1f  worst %6.1f us;  %4.1f %% hit, %zu "
       "undecided\n",

@@ -18,6 +18,7 @@
 #include "../../extras/neuralsvcd_certify.h"
 #include "../../examples/scenery/problem_file.h"
 #include "../../examples/scenery/load.h"
+#include "meter.h"
 
 #define STEPS 12
 #define FURTHER 1.2  // times the depth
@@ -50,12 +51,6 @@ typedef struct known {
 
 static void *workspace;
 static size_t workspace_size;
-
-static int compare(const void *a, const void *b) {
-  const double x = *(const double *)a;
-  const double y = *(const double *)b;
-  return (x > y) - (x < y);
-}
 
 static void *must(const void *made) {
   if (!made) exit(complain("out of memory, or a mesh that cannot be used") + REFUSED);
@@ -254,7 +249,7 @@ static void measure(const judge *j, const char *path) {
       freed[of_logit] +=
           (size_t)is_freed(j, moving, fixed, q, -p->margin, of_logit, &taken[1 + of_logit]);
   }
-  qsort(off, count, sizeof *off, compare);
+  meter_sort(off, count);
   size_t bytes = 0;
   size_t known_count = 0;
   for (size_t n = 0; n < file.mesh_count; n++) {

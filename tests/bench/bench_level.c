@@ -31,12 +31,6 @@ static const char *const set_names[LEVEL_SETS] = {"near", "slide", "dash"};
 
 // ---- the comparison
 
-static int compare_doubles(const void *a, const void *b) {
-  const double x = *(const double *)a;
-  const double y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 static double microseconds(const nsvcd_question *question, void *workspace, size_t size,
                            nsvcd_answer *answer) {
   double best = 1e9;
@@ -51,7 +45,7 @@ static double microseconds(const nsvcd_question *question, void *workspace, size
 static double print_times(const char *name, double *times, size_t count) {
   double sum = 0;
   for (size_t i = 0; i < count; i++) sum += times[i];
-  qsort(times, count, sizeof *times, compare_doubles);
+  meter_sort(times, count);
   printf("    %-6s median %6.1f  mean %6.1f  99 %% %7.1f us\n", name, times[count / 2],
          sum / (double)count, times[count * 99 / 100]);
   return sum / (double)count;

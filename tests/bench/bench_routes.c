@@ -19,21 +19,16 @@ static nsvcd_result peer_check(nsvcd_checker *checker, const nsvcd_joint_motion 
 #define NEURALSVCD_ROBOT_IMPLEMENTATION
 #include "../../extras/neuralsvcd_robot.h"
 #endif
-#include "../../examples/scenery/clock.h"
 #include "arm_scene.h"
+#include "meter.h"
 #ifdef ROUTE_PEERS
 #include "route_peers.h"
 #endif
 
 #define MOST_PROBLEMS 1000
 
-static int compare_doubles(const void *a, const void *b) {
-  const double x = *(const double *)a;
-  const double y = *(const double *)b;
-  return (x > y) - (x < y);
-}
 static double median_of(double *x, size_t count) {
-  qsort(x, count, sizeof *x, compare_doubles);
+  meter_sort(x, count);
   return count ? x[count / 2] : 0;
 }
 static double mean_of(const double *x, size_t count) {

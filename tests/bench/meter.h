@@ -1,11 +1,22 @@
-// meter.h - a clock, and an allocator that counts, for the benchmarks of large bodies and
-// their test.
+// meter.h - a clock, numbers in order, and an allocator that counts, for benchmarks and tests of what
+// things cost.
 #ifndef NSVCD_BENCH_METER_H
 #define NSVCD_BENCH_METER_H
 
 #include <stdlib.h>
 
 #include "../../examples/scenery/clock.h"
+
+// ---- numbers in order, for medians and other quantiles
+
+static int meter_compare(const void *a, const void *b) {
+  const double x = *(const double *)a;
+  const double y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+static void meter_sort(double *numbers, size_t count) {
+  qsort(numbers, count, sizeof *numbers, meter_compare);
+}
 
 // ---- memory that is counted
 

@@ -27,7 +27,7 @@
 #define TALLY_numbers(amount) ((void)0)
 #define TALLY_collision(amount) (collision_seconds += (amount) ? seconds() : -seconds())
 static double collision_seconds;  // spent in the cost of collision
-#include "../../examples/scenery/clock.h"
+#include "meter.h"
 #define NEURALSVCD_IMPLEMENTATION
 #include "../../examples/scenery/tasks.h"
 #include "plan_spheres.h"
@@ -212,13 +212,8 @@ static void run_motion(int task, const planner *planner, uint64_t seed, size_t c
 
 // ----------------------------------------------------------------------------------------- results
 
-static int compare_doubles(const void *a, const void *b) {
-  const double x = *(const double *)a;
-  const double y = *(const double *)b;
-  return (x > y) - (x < y);
-}
 static double quantile(double *values, int count, double q) {
-  qsort(values, (size_t)count, sizeof *values, compare_doubles);
+  meter_sort(values, (size_t)count);
   return values[(int)(q * (count - 1) + 0.5)];
 }
 static void wilson(int hits, int count, double *low, double *high) {

@@ -19,8 +19,9 @@ static struct {
 #define PROGRAM "profile"
 #include "../../examples/scenery/problem_file.h"
 #include "../../examples/scenery/shapes.h"
-#include "../ask.h"
+#include "../question_of.h"
 #include "../../examples/scenery/status_of.h"
+#include "meter.h"
 
 enum { INIT, CUT, BEGIN, STEPS, PAIRS, INVARIANTS, TINY, BASE, BASE_INT8, INSIDE, ALL, STAGES };
 static const char *const names[STAGES] = {
@@ -100,12 +101,6 @@ static void run_stages(const question *q, nsvcd__query *work, double *times) {
   start = seconds();
   ask_decoder(&nsvcd_w_decoders[2], x, 8, 1, said);
   keep_least(times, BASE_INT8, start);
-}
-
-static int compare_doubles(const void *a, const void *b) {
-  double x = *(const double *)a;
-  double y = *(const double *)b;
-  return (x > y) - (x < y);
 }
 
 static const nsvcd_body *encode(const char *from, const char *path, size_t points, void *memory) {
@@ -251,9 +246,10 @@ static void profile(const problem_file *file, size_t points) {
     for (size_t s = 0; s < STAGES; s++) one[s] = 1e9;
     for (int run = 0; run < 5; run++) run_stages(&q, work, one);
     for (int run = 0; run < 5; run++) {
+      const nsvcd_question question =
+          question_of(q.moving, q.poses, q.count, q.fixed, q.fixed_pose, NULL);
       double start = seconds();
-      ask(q.moving, q.poses, q.count, q.fixed, q.fixed_pose, NULL, work,
-          nsvcd_sweep_workspace_size(NULL), &answer);
+      nsvcd_sweep(&question, work, nsvcd_sweep_workspace_size(NULL), &answer);
       keep_least(one, ALL, start);
     }
     if (i % 10 == 0) {
@@ -266,7 +262,7 @@ static void profile(const problem_file *file, size_t points) {
   for (size_t s = 0; s < STAGES; s++) {
     double mean = 0;
     for (size_t i = 0; i < count; i++) mean += times[s * count + i] / (double)count;
-    qsort(times + s * count, count, sizeof *times, compare_doubles);
+    meter_sort(times + s * count, count);
     printf("  %-32s median %6.2f  mean %6.2f us\n", names[s], times[s * count + count / 2], mean);
   }
   printf(
@@ -289,12 +285,13 @@ typedef struct verdict_sum {
 
 static void add_proof(const question *q, nsvcd__query *work, verdict_sum *sums, double *least) {
   nsvcd_answer answer;
+  const nsvcd_question question =
+      question_of(q->moving, q->poses, q->count, q->fixed, q->fixed_pose, NULL);
   *least = 1e9;
   for (int run = 0; run < 5; run++) {
     memset(&tally, 0, sizeof tally);
     const double start = seconds();
-    ask(q->moving, q->poses, q->count, q->fixed, q->fixed_pose, NULL, work,
-        nsvcd_sweep_workspace_size(NULL), &answer);
+    nsvcd_sweep(&question, work, nsvcd_sweep_workspace_size(NULL), &answer);
     keep_least(least, 0, start);
   }
   verdict_sum *sum = &sums[status_of(&answer)];
@@ -343,7 +340,7 @@ static void profile_proof(const problem_file *file, size_t points) {
   }
   double mean = 0;
   for (size_t i = 0; i < count; i++) mean += times[i] / (double)count;
-  qsort(times, count, sizeof *times, compare_doubles);
+  meter_sort(times, count);
   printf("proof, N = %zu, %zu problems: median %.2f, mean %.2f, 99 %% %.1f, worst %.1f us\n",
          points, count, times[count / 2], mean, times[(size_t)(0.99 * (double)count)],
          times[count - 1]);

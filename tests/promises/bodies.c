@@ -85,8 +85,13 @@ static void a_body_survives_a_file(void) {
     CHECK(after.verdict == before.verdict && after.work == before.work);
     CHECK(!memcmp(&after.opinion.logit, &before.opinion.logit, sizeof before.opinion.logit));
   }
+  loaded = trusted = NULL;
   CHECK_EQ(nsvcd_body_load(copy, size - 1, &loaded), NSVCD_ERROR_BODY);
   CHECK_EQ(nsvcd_body_trust(copy, size - 1, &trusted), NSVCD_ERROR_BODY);
+  CHECK_EQ(nsvcd_body_trust((char *)copy + 4, size - 8, &trusted), NSVCD_ERROR_BODY);
+  CHECK_EQ(nsvcd_body_trust((char *)copy + 8, size - 8, &trusted), NSVCD_ERROR_BODY);
+  CHECK_EQ(nsvcd_body_trust(NULL, size, &trusted), NSVCD_ERROR_ARGUMENT);
+  CHECK(!loaded && !trusted);
   free(copy);
   nsvcd_body_free(mug, NULL);
   nsvcd_body_free(rack, NULL);
