@@ -3,6 +3,8 @@
 #ifndef NSVCD_TESTS_RANDOM_MOTIONS_H
 #define NSVCD_TESTS_RANDOM_MOTIONS_H
 
+#include "../examples/scenery/oracle.h"
+#include "../examples/scenery/poses.h"
 #include "question_of.h"
 #include "random_numbers.h"
 
@@ -23,66 +25,23 @@ static nsvcd_result motion_init(const nsvcd_pose *samples, size_t count,
 
 static nsvcd_pose poses[NSVCD_MAX_POSES];
 
-typedef struct pose64 {
-  double q[4], p[3];
-} pose64;
-
-static pose64 to_double(const nsvcd_pose *pose) {
-  pose64 out;
-  double square = 0;
-  for (int k = 0; k < 4; k++) {
-    out.q[k] = (double)pose->rotation[k];
-    square += out.q[k] * out.q[k];
-  }
-  for (int k = 0; k < 4; k++) out.q[k] /= sqrt(square);
-  for (int k = 0; k < 3; k++) out.p[k] = (double)pose->position[k];
-  return out;
+// A motion as examples/FORMATS.md has it, by the oracle.
+static oracle_pose pose_at(const nsvcd_pose *samples, size_t count, double t) {
+  if (count == 1) return pose_widened(samples);
+  const double at = t * (double)(count - 1);
+  const size_t k = (size_t)fmin(at, (double)(count - 2));
+  const oracle_pose ends[2] = {pose_widened(&samples[k]), pose_widened(&samples[k + 1])};
+  return oracle_pose_between(&ends[0], &ends[1], at - (double)k);
 }
 
-// v + 2 w (u x v) + 2 u x (u x v)
-static void rotate64(const double *q, const double *v, double *out) {
-  double c[3] = {q[1] * v[2] - q[2] * v[1], q[2] * v[0] - q[0] * v[2], q[0] * v[1] - q[1] * v[0]};
-  double d[3] = {q[1] * c[2] - q[2] * c[1], q[2] * c[0] - q[0] * c[2], q[0] * c[1] - q[1] * c[0]};
-  for (int k = 0; k < 3; k++) out[k] = v[k] + 2 * (q[3] * c[k] + d[k]);
-}
-
-// A motion as examples/FORMATS.md has it, in double.
-static pose64 pose_at(const nsvcd_pose *samples, size_t count, double t) {
-  if (count == 1) return to_double(&samples[0]);
-  double at = t * (double)(count - 1);
-  size_t k = (size_t)at;
-  if (k > count - 2) k = count - 2;
-  double u = at - (double)k;
-  double dot = 0;
-  pose64 a = to_double(&samples[k]);
-  pose64 b = to_double(&samples[k + 1]);
-  pose64 out;
-  for (int i = 0; i < 4; i++) dot += a.q[i] * b.q[i];
-  for (int i = 0; i < 4 && dot < 0; i++) b.q[i] = -b.q[i];
-  double angle = acos(fmin(fabs(dot), 1));
-  double wa = 1 - u;
-  double wb = u;
-  double square = 0;
-  if (angle > 1e-7) {
-    wa = sin((1 - u) * angle) / sin(angle);
-    wb = sin(u * angle) / sin(angle);
-  }
-  for (int i = 0; i < 4; i++) {
-    out.q[i] = wa * a.q[i] + wb * b.q[i];
-    square += out.q[i] * out.q[i];
-  }
-  for (int i = 0; i < 4; i++) out.q[i] /= sqrt(square);
-  for (int i = 0; i < 3; i++) out.p[i] = (1 - u) * a.p[i] + u * b.p[i];
-  return out;
-}
-
-// A body-frame point of the moving body at time t, in the fixed body's frame.
-static void place64(const pose64 *at, const pose64 *fixed, const double *point, double *out) {
-  double world[3];
-  double back[4] = {-fixed->q[0], -fixed->q[1], -fixed->q[2], fixed->q[3]};
-  rotate64(at->q, point, world);
-  for (int k = 0; k < 3; k++) world[k] += at->p[k] - fixed->p[k];
-  rotate64(back, world, out);
+// Where a body is as seen by another one that is at `fixed`.
+static oracle_pose seen_from(const nsvcd_pose *fixed, const oracle_pose *at) {
+  const oracle_pose from = pose_widened(fixed);
+  const double *q = from.rotation, *p = from.position;
+  const double away[3] = {-p[0], -p[1], -p[2]};
+  oracle_pose back = {{0, 0, 0}, {-q[0], -q[1], -q[2], q[3]}};
+  oracle_transform(&back, away, back.position);
+  return oracle_compose(&back, at);
 }
 
 // Kinds: 0 smooth, turning by `turn` in all about one axis; 1 smooth with a wobble; 2 jumping at

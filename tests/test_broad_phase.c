@@ -64,9 +64,8 @@ typedef struct tally {
   size_t motions, tested, overlaps, lost, free_motions, runs, runs_real, kept_wrong, parted;
 } tally;
 
-// The tips of a patch where its body is at a pose, seen by the fixed body; NULL: that one's own.
-static void tips_at(const nsvcd_body *body, size_t i, const pose64 *at, const pose64 *fixed,
-                    double (*out)[3]) {
+// The tips of a patch, where the fixed body sees its body; NULL: of that one itself.
+static void tips_at(const nsvcd_body *body, size_t i, const oracle_pose *seen, double (*out)[3]) {
   const int8_t *from = nsvcd__group_extremes(body, i / 16) + i % 16;
   const nsvcd__spheres all = nsvcd__body_patches(body);
   const double centre[3] = {(double)all.x[i], (double)all.y[i], (double)all.z[i]};
@@ -74,8 +73,8 @@ static void tips_at(const nsvcd_body *body, size_t i, const pose64 *at, const po
     double tip[3];
     for (size_t axis = 0; axis < 3; axis++)
       tip[axis] = centre[axis] + (double)all.r[i] / 127 * from[48 * k + 16 * axis];
-    if (at) place64(at, fixed, tip, out[k]);
-    if (!at) memcpy(out[k], tip, sizeof tip);
+    if (seen) oracle_transform(seen, tip, out[k]);
+    if (!seen) memcpy(out[k], tip, sizeof tip);
   }
 }
 
@@ -138,19 +137,19 @@ static void try_motion(const nsvcd_body *moving, const nsvcd_body *fixed, size_t
   sum->runs += all.total;
 
   memset(pair_met, 0, sizeof pair_met);
-  pose64 f = to_double(fixed_pose);
   for (size_t n = 0; n < samples; n++) {
     // A third of the samples exactly on the poses, the rest anywhere.
     double t =
         n % 3 || count == 1 ? uniform(0, 1) : (double)pick(0, count - 1) / (double)(count - 1);
-    pose64 at = pose_at(poses, count, t);
+    const oracle_pose at = pose_at(poses, count, t);
+    const oracle_pose seen = seen_from(fixed_pose, &at);
     for (size_t i = 0; i < moving->patches; i++) {
       double c[3] = {(double)nsvcd__body_patches(moving).x[i],
                      (double)nsvcd__body_patches(moving).y[i],
                      (double)nsvcd__body_patches(moving).z[i]};
       double p[3];
       double ri = (double)nsvcd__body_r(moving)[i];
-      place64(&at, &f, c, p);
+      oracle_transform(&seen, c, p);
       for (size_t j = 0; j < fixed->patches; j++) {
         double d[3] = {p[0] - (double)nsvcd__body_patches(fixed).x[j],
                        p[1] - (double)nsvcd__body_patches(fixed).y[j],
@@ -162,8 +161,8 @@ static void try_motion(const nsvcd_body *moving, const nsvcd_body *fixed, size_t
         if (is_covered(items, all.count, i, j, t)) continue;
         double own[NSVCD__EXTREMES][3];
         double other[NSVCD__EXTREMES][3];
-        tips_at(moving, i, &at, &f, own);
-        tips_at(fixed, j, NULL, NULL, other);
+        tips_at(moving, i, &seen, own);
+        tips_at(fixed, j, NULL, other);
         const int meet = hulls_meet(own, other, r * (double)swollen);
         sum->lost += meet != 0;
         sum->parted += !meet;
@@ -283,7 +282,6 @@ static void deviation_is_bounded(void) {
     nsvcd__motion motion;
     CHECK_EQ(motion_init(poses, count, &fixed, &motion), NSVCD_OK);
     nsvcd__cut_motion(&motion, 1, work);
-    pose64 f = to_double(&fixed);
     for (int n = 0; n < 200; n++) {
       float q[4], c[3];
       random_quat(q);
@@ -300,8 +298,10 @@ static void deviation_is_bounded(void) {
       double tau = uniform(0.4, 0.6);
       nsvcd__segments *b = &work->blocks[s / NSVCD__LANES];
       double start = (double)work->time[s];
-      pose64 at = pose_at(poses, count, start + tau * ((double)work->time[s + 1] - start));
-      place64(&at, &f, c64, p);
+      const double when = start + tau * ((double)work->time[s + 1] - start);
+      const oracle_pose at = pose_at(poses, count, when);
+      const oracle_pose seen = seen_from(&fixed, &at);
+      oracle_transform(&seen, c64, p);
       nsvcd__chords chords;
       const nsvcd__sphere point = {{c[0], c[1], c[2]}, 0};
       nsvcd__chords_of_sphere(b, point, &chords);

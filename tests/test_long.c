@@ -43,15 +43,15 @@ static double long_uniform(const nsvcd_mover *mover, double t) {
 
 // How high the box is over the slab, which does not turn.
 static double long_height(const nsvcd_question *q, double t) {
-  const pose64 a = pose_at(q->a.poses, q->a.count, long_uniform(&q->a, t));
+  const oracle_pose a = pose_at(q->a.poses, q->a.count, long_uniform(&q->a, t));
   double least = HUGE_VAL;
   double under = (double)long_slab[2];
-  if (q->b.count) under += pose_at(q->b.poses, q->b.count, long_uniform(&q->b, t)).p[2];
+  if (q->b.count) under += pose_at(q->b.poses, q->b.count, long_uniform(&q->b, t)).position[2];
   for (int n = 0; n < 8; n++) {
     double corner[3], turned[3];
     for (int k = 0; k < 3; k++) corner[k] = (n >> k & 1 ? 1 : -1) * (double)long_half[k];
-    rotate64(a.q, corner, turned);
-    least = fmin(least, turned[2] + a.p[2] - under);
+    oracle_transform(&a, corner, turned);
+    least = fmin(least, turned[2] - under);
   }
   return least;
 }

@@ -23,9 +23,9 @@ static void motion_pose_is_slerp(void) {
       const float point[3] = {0.3f, -0.2f, 0.9f};
       const double point64[3] = {(double)point[0], (double)point[1], (double)point[2]};
       double want[3];
-      pose64 at = pose_at(poses, count, (double)t);
-      pose64 f = to_double(&fixed);
-      place64(&at, &f, point64, want);
+      const oracle_pose at = pose_at(poses, count, (double)t);
+      const oracle_pose seen = seen_from(&fixed, &at);
+      oracle_transform(&seen, point64, want);
       const nsvcd__transform found = nsvcd__motion_pose(&motion, t);
       float out[3];
       nsvcd__f3_store(nsvcd__f3_transform(&found, nsvcd__f3_load(point)), out);

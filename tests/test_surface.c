@@ -14,70 +14,39 @@
 
 void test_surface(void);
 
-// ----------------------------------------------------------------------------------------- vectors
-
-typedef struct vec {
-  double x, y, z;
-} vec;
-
-static vec vec_of(double x, double y, double z) {
-  const vec out = {x, y, z};
-  return out;
-}
-static vec vec_load(const float *p) {
-  return vec_of((double)p[0], (double)p[1], (double)p[2]);
-}
-static vec vec_add(vec a, vec b) {
-  return vec_of(a.x + b.x, a.y + b.y, a.z + b.z);
-}
-static vec vec_sub(vec a, vec b) {
-  return vec_of(a.x - b.x, a.y - b.y, a.z - b.z);
-}
-static vec vec_scale(vec a, double s) {
-  return vec_of(s * a.x, s * a.y, s * a.z);
-}
-static double vec_dot(vec a, vec b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-static double vec_length(vec a) {
-  return sqrt(vec_dot(a, a));
-}
-static vec vec_cross(vec a, vec b) {
-  return vec_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-}
-
-static vec surface_corner(const nsvcd_mesh *mesh, size_t t, size_t i) {
-  return vec_load(mesh->positions + 3 * (size_t)mesh->indices[3 * t + i]);
+static nsvcd__d3 surface_corner(const nsvcd_mesh *mesh, size_t t, size_t i) {
+  return nsvcd__d3_load(mesh->positions + 3 * (size_t)mesh->indices[3 * t + i]);
 }
 
 // --------------------------------------------------------------------------------------- distances
 
-static double segment_distance(vec a, vec b, vec x) {
-  const vec d = vec_sub(b, a);
-  const double squared = vec_dot(d, d);
-  const double t = squared > 0 ? fmin(1, fmax(0, vec_dot(vec_sub(x, a), d) / squared)) : 0;
-  return vec_length(vec_sub(vec_add(a, vec_scale(d, t)), x));
+static double segment_distance(nsvcd__d3 a, nsvcd__d3 b, nsvcd__d3 x) {
+  const nsvcd__d3 d = nsvcd__d3_sub(b, a);
+  const double squared = nsvcd__d3_dot(d, d);
+  const double t =
+      squared > 0 ? fmin(1, fmax(0, nsvcd__d3_dot(nsvcd__d3_sub(x, a), d) / squared)) : 0;
+  return nsvcd__d3_length(nsvcd__d3_sub(nsvcd__d3_add(a, nsvcd__d3_scale(d, t)), x));
 }
 
-static double triangle_distance(const vec *c, vec x) {
+static double triangle_distance(const nsvcd__d3 *c, nsvcd__d3 x) {
   double least = segment_distance(c[0], c[1], x);
   least = fmin(least, segment_distance(c[1], c[2], x));
   least = fmin(least, segment_distance(c[2], c[0], x));
-  const vec n = vec_cross(vec_sub(c[1], c[0]), vec_sub(c[2], c[0]));
-  if (!(vec_length(n) > 0)) return least;
+  const nsvcd__d3 n = nsvcd__d3_cross(nsvcd__d3_sub(c[1], c[0]), nsvcd__d3_sub(c[2], c[0]));
+  if (!(nsvcd__d3_length(n) > 0)) return least;
   for (size_t i = 0; i < 3; i++) {
-    const vec side = vec_cross(n, vec_sub(c[(i + 1) % 3], c[i]));
-    if (vec_dot(side, vec_sub(x, c[i])) < 0) return least;
+    const nsvcd__d3 side = nsvcd__d3_cross(n, nsvcd__d3_sub(c[(i + 1) % 3], c[i]));
+    if (nsvcd__d3_dot(side, nsvcd__d3_sub(x, c[i])) < 0) return least;
   }
-  return fmin(least, fabs(vec_dot(n, vec_sub(x, c[0]))) / vec_length(n));
+  return fmin(least, fabs(nsvcd__d3_dot(n, nsvcd__d3_sub(x, c[0]))) / nsvcd__d3_length(n));
 }
 
 // From outside, the nearest point of a hull lies in a triangle of its vertices: tries them all.
-static int any_triangle_reaches(const vec *points, size_t count, vec x, double reach) {
+static int any_triangle_reaches(const nsvcd__d3 *points, size_t count, nsvcd__d3 x, double reach) {
   for (size_t i = 0; i < count; i++) {
     for (size_t j = i; j < count; j++) {
       for (size_t k = j; k < count; k++) {
-        const vec corners[3] = {points[i], points[j], points[k]};
+        const nsvcd__d3 corners[3] = {points[i], points[j], points[k]};
         if (triangle_distance(corners, x) <= reach) return 1;
       }
     }
@@ -86,15 +55,16 @@ static int any_triangle_reaches(const vec *points, size_t count, vec x, double r
 }
 
 // Within the hull a point is in a tetrahedron of vertices. Flat ones do not count: triangles tell.
-static int in_tetrahedron(vec a, vec b, vec c, vec d, vec x) {
-  const vec p = vec_sub(a, x);
-  const vec q = vec_sub(b, x);
-  const vec r = vec_sub(c, x);
-  const vec s = vec_sub(d, x);
-  const double parts[4] = {vec_dot(q, vec_cross(r, s)), -vec_dot(p, vec_cross(r, s)),
-                           vec_dot(p, vec_cross(q, s)), -vec_dot(p, vec_cross(q, r))};
-  const double base = vec_length(vec_sub(b, a)) * vec_length(vec_sub(c, a));
-  const double size = base * vec_length(vec_sub(d, a));
+static int in_tetrahedron(nsvcd__d3 a, nsvcd__d3 b, nsvcd__d3 c, nsvcd__d3 d, nsvcd__d3 x) {
+  const nsvcd__d3 p = nsvcd__d3_sub(a, x);
+  const nsvcd__d3 q = nsvcd__d3_sub(b, x);
+  const nsvcd__d3 r = nsvcd__d3_sub(c, x);
+  const nsvcd__d3 s = nsvcd__d3_sub(d, x);
+  const double parts[4] = {
+      nsvcd__d3_dot(q, nsvcd__d3_cross(r, s)), -nsvcd__d3_dot(p, nsvcd__d3_cross(r, s)),
+      nsvcd__d3_dot(p, nsvcd__d3_cross(q, s)), -nsvcd__d3_dot(p, nsvcd__d3_cross(q, r))};
+  const double base = nsvcd__d3_length(nsvcd__d3_sub(b, a)) * nsvcd__d3_length(nsvcd__d3_sub(c, a));
+  const double size = base * nsvcd__d3_length(nsvcd__d3_sub(d, a));
   const double whole = parts[0] + parts[1] + parts[2] + parts[3];
   if (fabs(whole) <= 1e-12 * size) return 0;
   for (size_t i = 0; i < 4; i++) {
@@ -102,7 +72,7 @@ static int in_tetrahedron(vec a, vec b, vec c, vec d, vec x) {
   }
   return 1;
 }
-static int any_tetrahedron_holds(const vec *points, size_t count, vec x) {
+static int any_tetrahedron_holds(const nsvcd__d3 *points, size_t count, nsvcd__d3 x) {
   for (size_t i = 0; i < count; i++) {
     for (size_t j = i + 1; j < count; j++) {
       for (size_t k = j + 1; k < count; k++) {
@@ -117,32 +87,33 @@ static int any_tetrahedron_holds(const vec *points, size_t count, vec x) {
 
 // Is x within `reach` of the convex hull of these points? A few of Frank and Wolfe's steps settle
 // most: a point of the hull is that near, or a plane shows that none is. The rest is tried out.
-static int hull_reaches(const vec *points, size_t count, vec x, double reach) {
+static int hull_reaches(const nsvcd__d3 *points, size_t count, nsvcd__d3 x, double reach) {
   double weights[NSVCD__HULL] = {1};
-  vec v = vec_sub(points[0], x);
+  nsvcd__d3 v = nsvcd__d3_sub(points[0], x);
   for (int step = 0; step < 60; step++) {
-    const double squared = vec_dot(v, v);
+    const double squared = nsvcd__d3_dot(v, v);
     if (squared <= reach * reach) return 1;
     size_t to = 0;
     size_t from = 0;
     double least = HUGE_VAL;
     double most = -HUGE_VAL;
     for (size_t i = 0; i < count; i++) {
-      const double at = vec_dot(vec_sub(points[i], x), v);
+      const double at = nsvcd__d3_dot(nsvcd__d3_sub(points[i], x), v);
       if (at < least) to = i;
       if (at > most && weights[i] > 0) from = i;
       least = fmin(least, at);
       if (weights[i] > 0) most = fmax(most, at);
     }
     if (least > reach * sqrt(squared)) return 0;
-    const vec d = vec_sub(points[to], points[from]);
-    const double way = -vec_dot(v, d) / vec_dot(d, d);
+    const nsvcd__d3 d = nsvcd__d3_sub(points[to], points[from]);
+    const double way = -nsvcd__d3_dot(v, d) / nsvcd__d3_dot(d, d);
     if (!(way > 0)) break;
     const double fraction = fmin(way, weights[from]);
     weights[from] -= fraction;
     weights[to] += fraction;
-    v = vec_of(0, 0, 0);
-    for (size_t i = 0; i < count; i++) v = vec_add(v, vec_scale(vec_sub(points[i], x), weights[i]));
+    v = nsvcd__d3_of(0, 0, 0);
+    for (size_t i = 0; i < count; i++)
+      v = nsvcd__d3_add(v, nsvcd__d3_scale(nsvcd__d3_sub(points[i], x), weights[i]));
   }
   return any_triangle_reaches(points, count, x, reach) || any_tetrahedron_holds(points, count, x);
 }
@@ -155,11 +126,11 @@ typedef struct reader {
   nsvcd__surface surface;
   // mean of the patches that it is made from; 0 where there are several regions
   double patch_radius;
-  vec *vertices;     // patch by patch: points stored as integers, then vertices named
-  size_t *listings;  // (T + 1) listings of a triangle
-  uint32_t *sorted;  // (L) by triangle
-  uint32_t *patch;   // (L) of a entry
-  double tolerance;  // 1e-12 of the greatest coordinate: of this test's own roundings
+  nsvcd__d3 *vertices;  // patch by patch: points stored as integers, then vertices named
+  size_t *listings;     // (T + 1) listings of a triangle
+  uint32_t *sorted;     // (L) by triangle
+  uint32_t *patch;      // (L) of a entry
+  double tolerance;     // 1e-12 of the greatest coordinate: of this test's own roundings
 } reader;
 
 static uint32_t reader_id(const reader *r, size_t entry) {
@@ -173,21 +144,21 @@ static size_t reader_first(const nsvcd__surface *s, size_t patch) {
 
 static void reader_index(reader *r) {
   const nsvcd__surface *s = &r->surface;
-  r->vertices = (vec *)malloc((s->vertex_count + s->named_count) * sizeof(vec));
+  r->vertices = (nsvcd__d3 *)malloc((s->vertex_count + s->named_count) * sizeof(nsvcd__d3));
   r->listings = (size_t *)calloc(r->mesh->triangle_count + 1, sizeof(size_t));
   r->sorted = (uint32_t *)malloc(4 * s->listed);
   r->patch = (uint32_t *)malloc(4 * s->listed);
   for (uint32_t i = 0; i < s->count; i++) {
-    vec *points = r->vertices + reader_first(s, i);
+    nsvcd__d3 *points = r->vertices + reader_first(s, i);
     const size_t n = s->patches[i + 1].first_vertex - s->patches[i].first_vertex;
     const int16_t *q = s->vertices + 3 * (size_t)s->patches[i].first_vertex;
     for (size_t j = 0; j < n; j++) {
-      const vec offset = vec_of(q[j], q[n + j], q[2 * n + j]);
-      const vec centre = vec_load(&s->patches[i].ball.centre.x);
-      *points++ = vec_add(centre, vec_scale(offset, (double)s->patches[i].step));
+      const nsvcd__d3 offset = nsvcd__d3_of(q[j], q[n + j], q[2 * n + j]);
+      const nsvcd__d3 centre = nsvcd__d3_load(&s->patches[i].ball.centre.x);
+      *points++ = nsvcd__d3_add(centre, nsvcd__d3_scale(offset, (double)s->patches[i].step));
     }
     for (size_t j = s->patches[i].first_named; j < s->patches[i + 1].first_named; j++)
-      *points++ = vec_load(r->mesh->positions + 3 * (size_t)s->named[j]);
+      *points++ = nsvcd__d3_load(r->mesh->positions + 3 * (size_t)s->named[j]);
     for (size_t l = s->patches[i].first_triangle; l < s->patches[i + 1].first_triangle; l++) {
       r->patch[l] = i;
       r->listings[reader_id(r, l)]++;
@@ -237,7 +208,7 @@ static void reader_close(reader *r) {
   free(r->patch);
 }
 
-static void reader_corners(const reader *r, size_t entry, vec *corners) {
+static void reader_corners(const reader *r, size_t entry, nsvcd__d3 *corners) {
   const nsvcd__surface *s = &r->surface;
   for (size_t k = 0; k < 3; k++) {
     const size_t number = s->corners[3 * entry + k];
@@ -269,10 +240,10 @@ static int check_ranges(const reader *r) {
     for (size_t k = 0; k < 4; k++) bad += !nsvcd__is_finite(ball[k]);
     for (size_t k = 0; k < 6; k++) bad += !nsvcd__is_finite(disc[k]);
     if (empty) continue;
-    const vec normal = vec_load(disc);
+    const nsvcd__d3 normal = nsvcd__d3_load(disc);
     bad += s->patches[i].hull_count < 1 || s->patches[i].hull_count > NSVCD__HULL ||
            s->patches[i].hull_count > n;
-    bad += vec_length(normal) > 1 || vec_length(normal) < 1 - 1e-6;
+    bad += nsvcd__d3_length(normal) > 1 || nsvcd__d3_length(normal) < 1 - 1e-6;
     bad += !(ball[3] > 0) || !(s->patches[i].step > 0) || !(s->patches[i].margin > 0) ||
            !(s->patches[i].error >= 0);
     const size_t named = s->patches[i + 1].first_named - s->patches[i].first_named;
@@ -296,24 +267,25 @@ typedef struct misses {
   size_t points, triangle, ball, disc, hull, nowhere;
 } misses;
 
-static int patch_holds(const reader *r, size_t i, vec x, misses *m) {
+static int patch_holds(const reader *r, size_t i, nsvcd__d3 x, misses *m) {
   const nsvcd__surface *s = &r->surface;
   const float *ball = &s->patches[i].ball.centre.x;
   const float *disc = &s->patches[i].slab.normal.x;
-  const vec offset = vec_sub(x, vec_load(ball));
-  if (vec_length(offset) > (double)ball[3] + r->tolerance) {
+  const nsvcd__d3 offset = nsvcd__d3_sub(x, nsvcd__d3_load(ball));
+  if (nsvcd__d3_length(offset) > (double)ball[3] + r->tolerance) {
     m->ball++;
     return 0;
   }
-  const vec normal = vec_load(disc);
-  const double along = vec_dot(offset, normal);
-  const double across = vec_length(vec_cross(offset, normal)) / vec_length(normal);
+  const nsvcd__d3 normal = nsvcd__d3_load(disc);
+  const double along = nsvcd__d3_dot(offset, normal);
+  const double across =
+      nsvcd__d3_length(nsvcd__d3_cross(offset, normal)) / nsvcd__d3_length(normal);
   if (along < (double)disc[3] - r->tolerance || along > (double)disc[4] + r->tolerance ||
       across > (double)disc[5] + r->tolerance) {
     m->disc++;
     return 0;
   }
-  const vec *hull = r->vertices + reader_first(s, i);
+  const nsvcd__d3 *hull = r->vertices + reader_first(s, i);
   const double reach = (double)s->patches[i].margin + r->tolerance;
   if (hull_reaches(hull, s->patches[i].hull_count, x, reach)) return 1;
   m->hull++;
@@ -322,13 +294,13 @@ static int patch_holds(const reader *r, size_t i, vec x, misses *m) {
 
 // A point of triangle t: some patch lists a triangle with this id that is here, and holds the
 // point.
-static void check_point(const reader *r, size_t t, vec x, misses *m) {
+static void check_point(const reader *r, size_t t, nsvcd__d3 x, misses *m) {
   int listed = 0;
   misses tried = *m;
   m->points++;
   for (size_t k = r->listings[t]; k < r->listings[t + 1]; k++) {
     const size_t l = r->sorted[k];
-    vec corners[3];
+    nsvcd__d3 corners[3];
     reader_corners(r, l, corners);
     const double quantum = (double)r->surface.patches[r->patch[l]].error;
     // Tolerances in the triangle's own plane are only as good as its shape.
@@ -347,13 +319,13 @@ static void check_points(const reader *r, shapes_rng *rng, size_t random) {
   misses m;
   memset(&m, 0, sizeof m);
   for (size_t t = 0; t < r->mesh->triangle_count; t++) {
-    vec c[3];
+    nsvcd__d3 c[3];
     for (size_t i = 0; i < 3; i++) c[i] = surface_corner(r->mesh, t, i);
     for (size_t i = 0; i < 3; i++) {
       const double fraction = shapes_uniform(rng, 0, 1);
-      const vec along = vec_scale(vec_sub(c[(i + 1) % 3], c[i]), fraction);
+      const nsvcd__d3 along = nsvcd__d3_scale(nsvcd__d3_sub(c[(i + 1) % 3], c[i]), fraction);
       check_point(r, t, c[i], &m);
-      check_point(r, t, vec_add(c[i], along), &m);
+      check_point(r, t, nsvcd__d3_add(c[i], along), &m);
     }
     for (size_t k = 0; k < random; k++) {
       double u = shapes_uniform(rng, 0, 1);
@@ -362,8 +334,9 @@ static void check_points(const reader *r, shapes_rng *rng, size_t random) {
         u = 1 - u;
         v = 1 - v;
       }
-      const vec across = vec_scale(vec_sub(c[2], c[0]), v);
-      const vec x = vec_add(c[0], vec_add(vec_scale(vec_sub(c[1], c[0]), u), across));
+      const nsvcd__d3 across = nsvcd__d3_scale(nsvcd__d3_sub(c[2], c[0]), v);
+      const nsvcd__d3 x =
+          nsvcd__d3_add(c[0], nsvcd__d3_add(nsvcd__d3_scale(nsvcd__d3_sub(c[1], c[0]), u), across));
       check_point(r, t, x, &m);
     }
   }
@@ -378,8 +351,8 @@ static void check_points(const reader *r, shapes_rng *rng, size_t random) {
 static void check_quanta(const reader *r) {
   size_t bad = 0;
   for (size_t l = 0; l < r->surface.listed; l++) {
-    vec corners[3];
-    vec mesh_corners[3];
+    nsvcd__d3 corners[3];
+    nsvcd__d3 mesh_corners[3];
     const size_t t = reader_id(r, l);
     const double quantum =
         (double)r->surface.patches[r->patch[l]].error * (1 + 1e-6) + 10 * r->tolerance;
@@ -390,22 +363,24 @@ static void check_quanta(const reader *r) {
   CHECK_EQ(bad, 0);
 }
 
-static vec area_vector(const vec *c) {
-  return vec_scale(vec_cross(vec_sub(c[1], c[0]), vec_sub(c[2], c[0])), 0.5);
+static nsvcd__d3 area_vector(const nsvcd__d3 *c) {
+  return nsvcd__d3_scale(nsvcd__d3_cross(nsvcd__d3_sub(c[1], c[0]), nsvcd__d3_sub(c[2], c[0])),
+                         0.5);
 }
 
 // Does a entry of the same triangle before number k list the same corners? Halves of large
 // triangles, whole where several patches share them.
 static int is_listed_before(const reader *r, size_t first, size_t k) {
-  vec own[3];
+  nsvcd__d3 own[3];
   reader_corners(r, r->sorted[k], own);
   const double quantum = (double)r->surface.patches[r->patch[r->sorted[k]]].error;
   for (size_t i = first; i < k; i++) {
-    vec other[3];
+    nsvcd__d3 other[3];
     double most = 0;
     reader_corners(r, r->sorted[i], other);
     const double both = quantum + (double)r->surface.patches[r->patch[r->sorted[i]]].error;
-    for (size_t j = 0; j < 3; j++) most = fmax(most, vec_length(vec_sub(own[j], other[j])));
+    for (size_t j = 0; j < 3; j++)
+      most = fmax(most, nsvcd__d3_length(nsvcd__d3_sub(own[j], other[j])));
     if (most <= both + 10 * r->tolerance) return 1;
   }
   return 0;
@@ -421,37 +396,38 @@ static void check_enclosing(const reader *r) {
   double volume = 0;
   double volume_error = 0;
   for (size_t t = 0; t < mesh->triangle_count; t++) {
-    vec c[3];
+    nsvcd__d3 c[3];
     for (size_t i = 0; i < 3; i++) c[i] = surface_corner(mesh, t, i);
-    const double size = vec_length(vec_sub(c[1], c[0])) + vec_length(vec_sub(c[2], c[0]));
+    const double size =
+        nsvcd__d3_length(nsvcd__d3_sub(c[1], c[0])) + nsvcd__d3_length(nsvcd__d3_sub(c[2], c[0]));
     const int closed = parts.closed[parts.part[mesh->indices[3 * t]]];
-    vec sum = closed ? vec_scale(area_vector(c), -1) : vec_of(0, 0, 0);
+    nsvcd__d3 sum = closed ? nsvcd__d3_scale(area_vector(c), -1) : nsvcd__d3_of(0, 0, 0);
     double error = 100 * r->tolerance * size;
     size_t found = 0;
-    volume -= closed ? vec_dot(c[0], vec_cross(c[1], c[2])) / 6 : 0;
+    volume -= closed ? nsvcd__d3_dot(c[0], nsvcd__d3_cross(c[1], c[2])) / 6 : 0;
     const double before = volume;
     size_t flags = 0;
     int whole = 0;
     for (size_t k = r->listings[t]; k < r->listings[t + 1] && !whole; k++) {
       const size_t l = r->sorted[k];
-      vec part[3];
+      nsvcd__d3 part[3];
       flags += r->surface.ids[l] >> NSVCD__KIND_SHIFT >= NSVCD__CLOSED;
       if (!closed || is_listed_before(r, r->listings[t], k)) continue;
       reader_corners(r, l, part);
       const double quantum = (double)r->surface.patches[r->patch[l]].error;
-      const double perimeter = vec_length(vec_sub(part[1], part[0])) +
-                               vec_length(vec_sub(part[2], part[1])) +
-                               vec_length(vec_sub(part[0], part[2]));
+      const double perimeter = nsvcd__d3_length(nsvcd__d3_sub(part[1], part[0])) +
+                               nsvcd__d3_length(nsvcd__d3_sub(part[2], part[1])) +
+                               nsvcd__d3_length(nsvcd__d3_sub(part[0], part[2]));
       const double part_error = perimeter * quantum + 4 * quantum * quantum;
-      const double part_volume = vec_dot(part[0], vec_cross(part[1], part[2])) / 6;
-      const vec rest = vec_sub(area_vector(part), area_vector(c));
-      whole = vec_length(rest) <= part_error + 100 * r->tolerance * size;
+      const double part_volume = nsvcd__d3_dot(part[0], nsvcd__d3_cross(part[1], part[2])) / 6;
+      const nsvcd__d3 rest = nsvcd__d3_sub(area_vector(part), area_vector(c));
+      whole = nsvcd__d3_length(rest) <= part_error + 100 * r->tolerance * size;
       if (whole) {  // it stands for all the others
         sum = rest;
         error = 100 * r->tolerance * size;
         volume = before;
       } else {
-        sum = vec_add(sum, area_vector(part));
+        sum = nsvcd__d3_add(sum, area_vector(part));
       }
       error += part_error;
       volume += part_volume;
@@ -459,7 +435,7 @@ static void check_enclosing(const reader *r) {
     }
     if (closed && !whole) bad += flags != r->listings[t + 1] - r->listings[t];
     if (!closed) found = flags;
-    bad += vec_length(sum) > error;
+    bad += nsvcd__d3_length(sum) > error;
     bad += closed ? found == 0 : found > 0;
     marked += found > 0;
     volume_error += error * surface_scale(mesh) * 2 + 1e-15 * pow(surface_scale(mesh), 3);

@@ -12,6 +12,7 @@
 #define PROGRAM "check_rest"
 #include "../../examples/scenery/problem_file.h"
 #include "../../examples/scenery/shapes.h"
+#include "../../examples/scenery/oracle.h"
 
 #define SKIN 1e-3
 #define CLEARANCE 5e-4
@@ -32,17 +33,6 @@ static const nsvcd_body *tables[TABLES];
 static void *workspace;
 static size_t asked, wrong, skipped;
 static double worst_depth, least_area = 1;
-
-static double dot(const double *a, const double *b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-static void cross(const double *a, const double *b, double *out) {
-  for (int k = 0; k < 3; k++)
-    out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-}
-static void subtract(const double *a, const double *b, double *out) {
-  for (int k = 0; k < 3; k++) out[k] = a[k] - b[k];
-}
 
 static const nsvcd_body *encode(const shapes_mesh *shape) {
   nsvcd_mesh mesh = {NULL, shape->indices, shape->vertices, shape->triangles};
@@ -97,10 +87,10 @@ static double turns_to(const resting *r, const double *at, const double *up, con
   double least = 4;
   for (size_t i = 0; i < r->count; i++) {
     double d[3];
-    subtract(r->points + 3 * i, at, d);
-    const double along = dot(side, d);
-    if (dot(d, d) < 1e-10 || along < 1e-6) continue;
-    const double angle = atan2(dot(up, d), along);
+    oracle_sub(r->points + 3 * i, at, d);
+    const double along = oracle_dot(side, d);
+    if (oracle_dot(d, d) < 1e-10 || along < 1e-6) continue;
+    const double angle = atan2(oracle_dot(up, d), along);
     if (angle < least) memcpy(next, r->points + 3 * i, 3 * sizeof *next);
     least = fmin(least, angle);
   }
@@ -114,41 +104,41 @@ static int find_side(const resting *r, shapes_rng *rng, double *up) {
   shapes_direction(rng, up);
   double lowest = HUGE_VAL;
   for (size_t i = 0; i < r->count; i++) {
-    const double height = dot(up, r->points + 3 * i);
+    const double height = oracle_dot(up, r->points + 3 * i);
     if (height < lowest) memcpy(a, r->points + 3 * i, sizeof a);
     lowest = fmin(lowest, height);
   }
   shapes_direction(rng, across);
-  cross(up, across, edge);
-  double length = sqrt(dot(edge, edge));
+  oracle_cross(up, across, edge);
+  double length = sqrt(oracle_dot(edge, edge));
   if (length < 1e-3) return 0;
   for (int k = 0; k < 3; k++) edge[k] /= length;
-  cross(edge, up, side);  // turning about `edge`, up goes to -side
+  oracle_cross(edge, up, side);  // turning about `edge`, up goes to -side
   double angle = turns_to(r, a, up, side, b);
   if (angle > 3) return 0;
   for (int k = 0; k < 3; k++) up[k] = cos(angle) * up[k] - sin(angle) * side[k];
-  subtract(b, a, edge);
-  length = sqrt(dot(edge, edge));
+  oracle_sub(b, a, edge);
+  length = sqrt(oracle_dot(edge, edge));
   for (int k = 0; k < 3; k++) edge[k] /= length;
-  const double off = dot(up, edge);
+  const double off = oracle_dot(up, edge);
   for (int k = 0; k < 3; k++) up[k] -= off * edge[k];
-  cross(edge, up, side);
+  oracle_cross(edge, up, side);
   angle = turns_to(r, a, up, side, c);
   if (angle > 3) return 0;
-  subtract(b, a, across);
-  subtract(c, a, other);
-  cross(across, other, up);
-  length = sqrt(dot(up, up));
+  oracle_sub(b, a, across);
+  oracle_sub(c, a, other);
+  oracle_cross(across, other, up);
+  length = sqrt(oracle_dot(up, up));
   if (length < 1e-7) return 0;
   double middle = 0;
   for (size_t i = 0; i < r->count; i++) {
-    subtract(r->points + 3 * i, a, other);
-    middle += dot(up, other);
+    oracle_sub(r->points + 3 * i, a, other);
+    middle += oracle_dot(up, other);
   }
   for (int k = 0; k < 3; k++) up[k] /= middle < 0 ? -length : length;
   for (size_t i = 0; i < r->count; i++) {
-    subtract(r->points + 3 * i, a, other);
-    if (dot(up, other) < -1e-7) return 0;
+    oracle_sub(r->points + 3 * i, a, other);
+    if (oracle_dot(up, other) < -1e-7) return 0;
   }
   return 1;
 }
@@ -159,10 +149,10 @@ static void place(const resting *r, size_t i, const nsvcd_pose *pose, double *ou
   const double *v = r->points + 3 * i;
   for (int k = 0; k < 3; k++) u[k] = (double)pose->rotation[k];
   const double w = (double)pose->rotation[3];
-  const double square = dot(u, u) + w * w;
-  cross(u, v, c);
+  const double square = oracle_dot(u, u) + w * w;
+  oracle_cross(u, v, c);
   for (int k = 0; k < 3; k++) c[k] += w * v[k];
-  cross(u, c, d);
+  oracle_cross(u, c, d);
   for (int k = 0; k < 3; k++) out[k] = v[k] + 2 * d[k] / square + (double)pose->position[k];
 }
 static double lowest_of(const resting *r, const nsvcd_pose *pose) {
@@ -182,7 +172,7 @@ static nsvcd_pose stand(const resting *r, const double *up, double yaw, double z
   // from `up` to z, and then about z
   double q[4] = {up[1], -up[0], 0, 1 + up[2]};
   if (1 + up[2] < 1e-6) q[0] = 1, q[1] = q[3] = 0;
-  const double length = sqrt(dot(q, q) + q[3] * q[3]);
+  const double length = sqrt(oracle_dot(q, q) + q[3] * q[3]);
   const double s = sin(yaw / 2) / length;
   const double c = cos(yaw / 2) / length;
   pose.rotation[0] = (float)(c * q[0] - s * q[1]);
