@@ -4,6 +4,8 @@
 #ifndef NSVCD_TESTS_CERTIFICATE_SCENE_H
 #define NSVCD_TESTS_CERTIFICATE_SCENE_H
 
+#include "mesh_of.h"
+
 #define CERT_SHAPES 12
 #define CERT_POSES 5
 #define CERT_MOST_POSES 40  // of a scene with poses of its own
@@ -18,32 +20,20 @@ typedef struct cert_body {
   oracle_mesh exact;
 } cert_body;
 
-static void cert_make(shapes_mesh *shape, int split, cert_body *out) {
-  const size_t corners = 3 * shape->triangles;
-  const size_t vertices = split ? corners : shape->vertices;
+static void cert_make(shapes_mesh *shape, cert_body *out) {
+  const size_t vertices = shape->vertices;
   memset(out, 0, sizeof *out);
-  if (shape->failed) exit(1);
-  out->mesh.positions = (float *)calloc(3 * vertices, sizeof(float));
-  out->mesh.indices = (uint32_t *)calloc(corners, sizeof(uint32_t));
-  out->points = (double *)calloc(3 * vertices, sizeof(double));
-  out->mesh.vertex_count = vertices;
-  out->mesh.triangle_count = shape->triangles;
-  for (size_t i = 0; i < corners; i++)
-    out->mesh.indices[i] = split ? (uint32_t)i : shape->indices[i];
-  for (size_t i = 0; i < 3 * vertices; i++) {
-    const size_t from = split ? 3 * (size_t)shape->indices[i / 3] + i % 3 : i;
-    out->mesh.positions[i] = (float)shape->positions[from];
-    out->points[i] = (double)out->mesh.positions[i];
-  }
+  out->mesh = mesh_of(shape);
   CHECK_EQ(nsvcd_encode(&out->mesh, NULL, NULL, NULL, 0, &out->body), NSVCD_OK);
   const size_t size = nsvcd_tree_size(&out->mesh);
   CHECK_EQ(nsvcd_tree_build(&out->mesh, calloc(1, size), size, &out->tree), NSVCD_OK);
   void *memory = malloc(NSVCD_VERIFY_MESH_BYTES(vertices, shape->triangles));
   CHECK(!nsvcd_verify_mesh_init(out->mesh.positions, vertices, out->mesh.indices, shape->triangles,
                                 memory, &out->checked));
-  if (!oracle_mesh_init(&out->exact, out->points, vertices, out->mesh.indices, shape->triangles, 1))
+  out->points = shape->positions;
+  if (!oracle_mesh_init(&out->exact, out->points, vertices, shape->indices, shape->triangles, 1))
     exit(1);
-  shapes_free(shape);
+  free(shape->indices);
 }
 
 static void cert_free(cert_body *b) {
@@ -54,6 +44,18 @@ static void cert_free(cert_body *b) {
   free(b->mesh.positions);
   free(b->mesh.indices);
   free(b->points);
+}
+
+static void cert_split(shapes_mesh *shape) {  // every triangle has vertices of its own
+  shapes_mesh split;
+  memset(&split, 0, sizeof split);
+  for (size_t i = 0; i < 3 * shape->triangles; i++) {
+    const double *p = shape->positions + 3 * (size_t)shape->indices[i];
+    const uint32_t v = shapes_vertex(&split, p[0], p[1], p[2]);
+    if (i % 3 == 2) shapes_triangle(&split, v - 2, v - 1, v);
+  }
+  shapes_free(shape);
+  *shape = split;
 }
 
 // Solids, a shell with a cavity, bodies of parts, one open sheet, and one whose vertices are split.
@@ -77,7 +79,8 @@ static cert_body *cert_bodies(void) {
     if (n == 10) shapes_box(&m, 0.2, 0.15, 0.1, 1);
     if (n == 11) shapes_box(&m, 0.2, 0.2, 0.2, 4);
     if (n == 11) m.triangles -= 30;
-    cert_make(&m, n == 10, &made[n]);
+    if (n == 10) cert_split(&m);
+    cert_make(&m, &made[n]);
   }
   return made;
 }

@@ -7,7 +7,7 @@
 
 #include "../examples/scenery/oracle.h"
 #include "../examples/scenery/poses.h"
-#include "../examples/scenery/shapes.h"
+#include "mesh_of.h"
 
 // A body, and its vertices.
 typedef struct floor_prop {
@@ -27,14 +27,11 @@ static floor_prop floor_prop_of(const nsvcd_mesh *mesh) {
     out.radius = fmax(out.radius, oracle_length(out.vertices + 3 * i));
   return out;
 }
-static floor_prop floor_prop_of_shape(shapes_mesh *shape, double scale) {
-  nsvcd_mesh mesh = {NULL, shape->indices, shape->vertices, shape->triangles};
-  mesh.positions = (float *)malloc(3 * shape->vertices * sizeof(float));
-  if (!mesh.positions) exit(1);
-  for (size_t i = 0; i < 3 * shape->vertices; i++)
-    mesh.positions[i] = (float)(scale * shape->positions[i]);
+static floor_prop floor_prop_of_shape(shapes_mesh *shape) {
+  nsvcd_mesh mesh = mesh_of(shape);
   const floor_prop out = floor_prop_of(&mesh);
   free(mesh.positions);
+  free(mesh.indices);
   shapes_free(shape);
   return out;
 }
@@ -59,7 +56,7 @@ static floor_prop floor_of(double half, int cells, double deep, double aside) {
     shape.positions[3 * i] += aside;
     shape.positions[3 * i + 2] += cells ? -deep / 2 : deep / 2;
   }
-  return floor_prop_of_shape(&shape, 1);
+  return floor_prop_of_shape(&shape);
 }
 
 // -------------------------------------------------------------------------------------------------

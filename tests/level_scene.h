@@ -9,6 +9,7 @@
 #include "../examples/scenery/level.h"
 #include "../examples/scenery/oracle.h"
 #include "../examples/scenery/poses.h"
+#include "mesh_of.h"
 
 // metres by which the local piece is larger than what the motion can reach
 #define LEVEL_REACH 0.05
@@ -30,27 +31,18 @@ typedef struct level_solid {
   double radius;  // from the origin
 } level_solid;
 
-// Takes the shape. Positions are rounded to float first, so that library and oracle see the same
-// mesh.
+// Takes the shape.
 static void level_solid_init(level_solid *s, shapes_mesh *shape, double extent) {
   if (extent > 0) shapes_fit(shape, extent);
   memset(s, 0, sizeof *s);
-  s->mesh.vertex_count = shape->vertices;
-  s->mesh.triangle_count = shape->triangles;
-  s->mesh.indices = shape->indices;
-  s->mesh.positions = (float *)malloc(3 * shape->vertices * sizeof(float));
-  if (shape->failed || !s->mesh.positions) level_fail("no memory");
-  for (size_t i = 0; i < 3 * shape->vertices; i++) {
-    s->mesh.positions[i] = (float)shape->positions[i];
-    shape->positions[i] = (double)s->mesh.positions[i];
-  }
+  s->mesh = mesh_of(shape);
   for (size_t v = 0; v < shape->vertices; v++)
     s->radius = fmax(s->radius, oracle_length(shape->positions + 3 * v));
   if (!oracle_mesh_init(&s->oracle, shape->positions, shape->vertices, shape->indices,
                         shape->triangles, 1)) {
     level_fail("no memory");
   }
-  free(shape->positions);
+  shapes_free(shape);
 }
 
 static const nsvcd_encode_options level_both = {.latents = 1};

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesh_of.h"
+
 static uint64_t mesh_rng = 1;
 
 static uint32_t mesh_random(void) {  // splitmix64
@@ -51,15 +53,6 @@ static void mesh_area_vector(const nsvcd_mesh *mesh, double *sum) {
     mesh_triangle(mesh, t, corners, v);
     for (int k = 0; k < 3; ++k) sum[k] += v[k];
   }
-}
-
-static nsvcd_mesh mesh_new(size_t vertices, size_t triangles) {
-  nsvcd_mesh mesh;
-  mesh.positions = (float *)calloc(3 * vertices + 1, sizeof(float));
-  mesh.indices = (uint32_t *)calloc(3 * triangles + 1, sizeof(uint32_t));
-  mesh.vertex_count = vertices;
-  mesh.triangle_count = triangles;
-  return mesh;
 }
 
 // A closed surface of rings x segments quads around a torus (tube > 0), or a lumpy sphere (tube 0,

@@ -286,7 +286,7 @@ static const nsvcd_body *plan_body(int shape) {
     shapes_box(mesh, 0.2, 0.06, 0.05, 4);
     shapes_place(mesh, 0, NULL, 0.5, 0.1, 0);
   }
-  nsvcd_mesh flat = query_mesh(mesh, 1);
+  nsvcd_mesh flat = mesh_of(mesh);
   bodies[shape] = query_encode(&flat, shape == PLAN_BALL ? 32 : 96, &memory[shape]);
   nsvcd_mesh_free(&flat, NULL);
   return bodies[shape];

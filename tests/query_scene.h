@@ -4,7 +4,7 @@
 #define QUERY_SCENE_H
 
 #include "arrays.h"
-#include "../examples/scenery/shapes.h"
+#include "mesh_of.h"
 #include "question_of.h"
 #include "check.h"
 #include "../examples/scenery/status_of.h"
@@ -44,25 +44,12 @@ static void *query_workspace(void) {  // one for all tests: they run one after t
   return memory.at;
 }
 
-// A shapes_mesh as the library takes it: floats, multiplied by scale.
-static nsvcd_mesh query_mesh(const shapes_mesh *shape, double scale) {
-  nsvcd_mesh mesh;
-  mesh.positions = (float *)malloc(3 * shape->vertices * sizeof(float));
-  mesh.indices = (uint32_t *)malloc(3 * shape->triangles * sizeof(uint32_t));
-  if (!mesh.positions || !mesh.indices) exit(1);
-  for (size_t i = 0; i < 3 * shape->vertices; i++)
-    mesh.positions[i] = (float)(shape->positions[i] * scale);
-  memcpy(mesh.indices, shape->indices, 3 * shape->triangles * sizeof(uint32_t));
-  mesh.vertex_count = shape->vertices;
-  mesh.triangle_count = shape->triangles;
-  return mesh;
-}
 static nsvcd_mesh query_solid(uint64_t seed, double extent) {
   shapes_rng rng = {seed};
   shapes_mesh shape;
   memset(&shape, 0, sizeof shape);
   shapes_random_solid(&shape, &rng, extent);
-  nsvcd_mesh mesh = query_mesh(&shape, 1);
+  nsvcd_mesh mesh = mesh_of(&shape);
   shapes_free(&shape);
   return mesh;
 }
@@ -70,7 +57,7 @@ static nsvcd_mesh query_box(double x, double y, double z) {
   shapes_mesh shape;
   memset(&shape, 0, sizeof shape);
   shapes_box(&shape, x, y, z, 2);
-  nsvcd_mesh mesh = query_mesh(&shape, 1);
+  nsvcd_mesh mesh = mesh_of(&shape);
   shapes_free(&shape);
   return mesh;
 }

@@ -3,25 +3,12 @@
 #ifndef NSVCD_TESTS_SURFACE_SCENE_H
 #define NSVCD_TESTS_SURFACE_SCENE_H
 
-#include "../examples/scenery/shapes.h"
-
-#include <stdlib.h>
+#include "mesh_of.h"
 
 // ------------------------------------------------------------------------------------------ meshes
 
-static nsvcd_mesh surface_mesh(size_t vertices, size_t triangles) {
-  nsvcd_mesh mesh;
-  mesh.positions = (float *)calloc(3 * vertices, sizeof(float));
-  mesh.indices = (uint32_t *)calloc(3 * triangles, sizeof(uint32_t));
-  mesh.vertex_count = vertices;
-  mesh.triangle_count = triangles;
-  return mesh;
-}
-
 static nsvcd_mesh surface_take(shapes_mesh *shape) {
-  nsvcd_mesh mesh = surface_mesh(shape->vertices, shape->triangles);
-  for (size_t i = 0; i < 3 * shape->vertices; i++) mesh.positions[i] = (float)shape->positions[i];
-  memcpy(mesh.indices, shape->indices, 3 * shape->triangles * sizeof(uint32_t));
+  const nsvcd_mesh mesh = mesh_of(shape);
   shapes_free(shape);
   return mesh;
 }
@@ -48,7 +35,7 @@ static nsvcd_mesh surface_sheet(size_t cuts, double size, double waves) {
 
 // Random triangles of all shapes. Some are points, some segments, some 1:1000.
 static nsvcd_mesh surface_soup(shapes_rng *rng, size_t triangles, double size) {
-  nsvcd_mesh mesh = surface_mesh(3 * triangles, triangles);
+  nsvcd_mesh mesh = mesh_new(3 * triangles, triangles);
   for (size_t t = 0; t < triangles; t++) {
     float *p = mesh.positions + 9 * t;
     for (size_t k = 0; k < 9; k++) {
@@ -69,7 +56,7 @@ static nsvcd_mesh surface_soup(shapes_rng *rng, size_t triangles, double size) {
 }
 
 static nsvcd_mesh surface_needles(size_t triangles) {  // 1:1000, from one point
-  nsvcd_mesh mesh = surface_mesh(triangles + 2, triangles);
+  nsvcd_mesh mesh = mesh_new(triangles + 2, triangles);
   for (size_t i = 0; i <= triangles; i++) {
     mesh.positions[3 * i] = 1;
     mesh.positions[3 * i + 1] = 0.001f * (float)i;

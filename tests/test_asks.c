@@ -8,7 +8,7 @@
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
 
-#include "../examples/scenery/shapes.h"
+#include "body_of.h"
 #include "../examples/scenery/oracle.h"
 #include "question_of.h"
 #include "check.h"
@@ -17,13 +17,7 @@
 void test_asks(void);
 
 static const nsvcd_body *asks_body_with(shapes_mesh *shape, const nsvcd_encode_options *options) {
-  nsvcd_mesh mesh = {NULL, shape->indices, shape->vertices, shape->triangles};
-  const nsvcd_body *body = NULL;
-  mesh.positions = (float *)malloc(3 * shape->vertices * sizeof(float));
-  if (!mesh.positions) exit(1);
-  for (size_t i = 0; i < 3 * shape->vertices; i++) mesh.positions[i] = (float)shape->positions[i];
-  CHECK_EQ(nsvcd_encode(&mesh, options, NULL, NULL, 0, &body), NSVCD_OK);
-  free(mesh.positions);
+  const nsvcd_body *body = body_of(shape, options);
   shapes_free(shape);
   return body;
 }

@@ -642,7 +642,7 @@ static cert_body *cert_robot_shapes(void) {
       }
       shapes_triangle(&m, corner[0], corner[1], corner[2]);
     }
-    cert_make(&m, 0, &made[n]);
+    cert_make(&m, &made[n]);
   }
   return made;
 }
@@ -733,7 +733,7 @@ static void certificates_of_levels(void) {
       shapes_vertex(&floor_shape, 0.05 * x, 0.05 * y, 0.1 * sin(0.3 * x) * cos(0.4 * y));
   for (uint32_t i = 0; i + SIDE < SIDE * SIDE; i++)
     if (i % SIDE + 1 < SIDE) shapes_quad(&floor_shape, i, i + 1, i + SIDE + 1, i + SIDE);
-  cert_make(&floor_shape, 0, &level);
+  cert_make(&floor_shape, &level);
   CHECK_GE(level.mesh.triangle_count, 199000);
   size_t whole = 0;
   size_t local = 0;
@@ -766,7 +766,7 @@ static void certificates_of_levels(void) {
     }
     for (size_t t = 0; t < part.triangle_count; t++)
       shapes_triangle(&cut, part.indices[3 * t], part.indices[3 * t + 1], part.indices[3 * t + 2]);
-    cert_make(&cut, 0, &piece);
+    cert_make(&cut, &piece);
     s.b = &piece;
     CHECK_EQ(cert_certify(&s, NULL, bytes, sizeof bytes, &made), NSVCD_OK);
     CHECK_EQ(made.verdict, NSVCD_FREE);
@@ -927,7 +927,7 @@ static void certificates_of_each_corner(void) {
     for (int k = 0; k < 3; k++)
       shapes_vertex(&shape, k == 1 ? 0.02 : 0, k == 2 ? 0.02 : 0, k == corner ? -0.03 : 0);
     shapes_triangle(&shape, 0, 1, 2);
-    cert_make(&shape, 0, &lone);
+    cert_make(&shape, &lone);
     cert_rest(&s, &lone, &cert_bodies()[0]);
     s.poses[0][0].position[2] = 0.12f;
     CHECK_EQ(cert_certify(&s, NULL, head, sizeof head, &made), NSVCD_OK);

@@ -214,7 +214,7 @@ static void cost_reads_numbers_once(void) {
   const size_t first = shape.vertices;
   shapes_ellipsoid(&shape, 0.005, 0.005, 0.005, 64);
   for (size_t i = 3 * first; i < 3 * shape.vertices; i++) shape.positions[i] += 0.6 * way[i % 3];
-  nsvcd_mesh mesh = query_mesh(&shape, 1);
+  nsvcd_mesh mesh = mesh_of(&shape);
   nsvcd_mesh speck = query_box(0.001, 0.001, 0.001);
   const nsvcd_body *large = NULL;
   const nsvcd_body *small = NULL;

@@ -20,8 +20,8 @@ void test_fits(void);
 
 // A case as the library, the checker and the oracle have it.
 static void fits_open(fits_case *f, cert_body bodies[2], cert_scene *s) {
-  cert_make(&f->a, 0, &bodies[0]);
-  cert_make(&f->b, 0, &bodies[1]);
+  cert_make(&f->a, &bodies[0]);
+  cert_make(&f->b, &bodies[1]);
   cert_rest(s, &bodies[0], &bodies[1]);
   s->question.a = (nsvcd_mover){.body = bodies[0].body, .poses = f->poses_a, .count = f->count_a};
   s->question.b = (nsvcd_mover){.body = bodies[1].body, .poses = f->poses_b, .count = f->count_b};
@@ -119,7 +119,7 @@ static double fits_at_the_limit(shapes_rng *rng) {
       shapes_vertex(&shape, x[0], x[1], x[2]);
     }
     shapes_triangle(&shape, 0, 1, 2);
-    cert_make(&shape, 0, &bodies[k]);
+    cert_make(&shape, &bodies[k]);
   }
   cert_rest(&s, &bodies[0], &bodies[1]);
   s.question.a.count = 2;

@@ -30,7 +30,7 @@ static const floor_prop *floor_props(void) {
   shapes_mug(&shapes[1], 0.04, 0.1, 0.004, 16);
   shapes_chair(&shapes[2], 0.5, 0.9, 0.04);
   shapes_cone(&shapes[3], 0.2, 0.1, 0.3, 12);
-  for (int n = 0; n < PROPS; n++) props[n] = floor_prop_of_shape(&shapes[n], 1);
+  for (int n = 0; n < PROPS; n++) props[n] = floor_prop_of_shape(&shapes[n]);
   return props;
 }
 
@@ -81,7 +81,7 @@ static void floor_flat_takes_little(void) {
   memset(&shape, 0, sizeof shape);
   memset(&sum, 0, sizeof sum);
   shapes_box(&shape, 4, 3, 0.5, 8);
-  floor_prop plate = floor_prop_of_shape(&shape, 1);
+  floor_prop plate = floor_prop_of_shape(&shape);
   CHECK(floor.body && plate.body);
   for (size_t i = 0; i < 24; i++) {
     floor_scene s = floor_under(&floor, &plate, 10, 0, 0);
@@ -112,8 +112,8 @@ static void floor_channel_is_slid_along(void) {
   for (int k = -1; k <= 1; k += 2)
     shapes_box_at(&level, k * (0.2515 + 0.15), 0, 1.0005, 0.3, 4, 1.999);
   shapes_box(&shape, 0.5, 0.5, 0.5, 1);
-  floor_prop channel = floor_prop_of_shape(&level, 1);
-  floor_prop box = floor_prop_of_shape(&shape, 1);
+  floor_prop channel = floor_prop_of_shape(&level);
+  floor_prop box = floor_prop_of_shape(&shape);
   CHECK(channel.body && box.body);
   for (int round = 0; round < 3; round++) {
     nsvcd_pose path[2] = {{{0, -1, 0.2512f}, {0, 0, 0, 1}}, {{0, 0, 0}, {0, 0, 0, 1}}};
@@ -160,7 +160,7 @@ static void floor_clearance_is_the_gap(void) {
   shapes_mesh shape;
   memset(&shape, 0, sizeof shape);
   shapes_box(&shape, 0.3, 0.3, 0.25, 8);
-  floor_prop box = floor_prop_of_shape(&shape, 1);
+  floor_prop box = floor_prop_of_shape(&shape);
   CHECK(floor.body && box.body);
   for (int round = 0; round < 6; round++) {
     const float turn = 0.13f * (float)round;
@@ -203,7 +203,7 @@ static void floor_slopes_in_its_mesh(void) {
     shapes_place(&shape, 0, NULL, 0, 0, -0.5);
     shapes_quaternion(&rng, q);
     shapes_place(&shape, 0, q, 0, 0, 0);
-    floor_prop floor = floor_prop_of_shape(&shape, 1);
+    floor_prop floor = floor_prop_of_shape(&shape);
     oracle_matrix(q, m);
     for (size_t n = 0; n < prop->count; n++) low = fmin(low, prop->vertices[3 * n + 2]);
     for (int k = 0; k < 2; k++) at[k] = half * shapes_uniform(&rng, -0.4, 0.4);

@@ -370,78 +370,7 @@ static void mesh_obj_files(void) {
   remove(path);
 }
 
-// Changes a file at random places: what a reader makes of it is a mesh, or nothing. Returns how many
-// of the files were taken.
-static int mesh_fuzz(const char *seed, size_t seed_size, int rounds,
-                     nsvcd_result (*read)(const char *text, size_t size,
-                                          const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
-                                          size_t *line)) {
-  static const char alphabet[] = "0123456789-+.eE/\\ \t\r\n#vfnai\0\xff";
-  int accepted = 0;
-  mesh_rng = 3;
-  for (int round = 0; round < rounds; ++round) {
-    char text[1000];
-    size_t size = seed_size;
-    memcpy(text, seed, size);
-    for (size_t i = mesh_below(6); i > 0; --i) {
-      size_t at = mesh_below(size);
-      size_t length = 1 + mesh_below(8);
-      switch (mesh_below(4)) {
-        case 0:
-          text[at] = alphabet[mesh_below(sizeof alphabet)];
-          break;
-        case 1:
-          text[at] = (char)mesh_below(256);
-          break;
-        case 2:  // cut out
-          if (at + length > size || size - length < 1) break;
-          memmove(text + at, text + at + length, size - at - length);
-          size -= length;
-          break;
-        default:  // double
-          if (at + length > size || size + length > sizeof text) break;
-          memmove(text + at + length, text + at, size - at);
-          size += length;
-      }
-    }
-    char *exact = (char *)malloc(size);
-    memcpy(exact, text, size);
-    failing_heap heap = {0, 0, -1};
-    const nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, &heap};
-    nsvcd_mesh mesh;
-    size_t line = 999;
-    nsvcd_result result = read(exact, size, &allocator, &mesh, &line);
-    size_t lines = 1;
-    for (size_t i = 0; i < size; ++i) lines += exact[i] == '\n' || exact[i] == '\r';
-    CHECK_LE(line, lines);
-    if (result == NSVCD_OK) {
-      CHECK_EQ(nsvcd__mesh_check(&mesh), NSVCD_OK);
-      CHECK_EQ(heap.live, 2);
-      nsvcd_mesh_free(&mesh, &allocator);
-      accepted++;
-    }
-    CHECK_EQ(heap.live, 0);
-    free(exact);
-  }
-  printf("  %d files changed, %d taken\n", rounds, accepted);
-  return accepted;
-}
-
-static void mesh_obj_fuzz(void) {
-  static const char seed[] =
-      "# seed\nv 0 0 0 # a \\\nv 1.5e0 0 0 1\nv 1 1 0 .1 .2 .3\r\nv 0 1 -0\nv 0.5 0.5 1\n"
-      "vt 0 0\nvn 0 0 1\no a\nf 1/1/1 2/1/1 3/1/1 4/1/1\nf 1//1 2//1 \\\n 5\nf -1 -2 -3 2\nf 1 2 3 "
-      "5 4";
-  const int accepted = mesh_fuzz(seed, sizeof seed - 1, 40000, nsvcd_obj_parse);
-  CHECK(accepted > 40000 / 20 && accepted < 40000);
-}
-
 // --------------------------------------------------------------------------------------------- STL
-
-static nsvcd_result parse_stl(const char *text, size_t size, const nsvcd_allocator *allocator,
-                              nsvcd_mesh *mesh, size_t *line) {
-  return nsvcd_stl_parse(text, size, allocator, mesh, line);
-}
 
 // Triangles as an STL file, binary or text; returns its size.
 static size_t stl_write(const float *corners, uint32_t triangles, int is_binary, char *out) {
@@ -671,17 +600,6 @@ static void mesh_welds_share_no_hash(void) {
   CHECK(w.seed != 0 && w.seed != UINT64_C(0xd1342543de82ef95));
   CHECK_LE(w.steps, 8 * CORNERS + 1024);
   for (size_t n = 0; n < CORNERS; n++) CHECK_EQ(welded[n], n);
-}
-
-static void mesh_stl_fuzz(void) {
-  static char seed[2000];
-  static const float corners[27] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0,
-                                    0, 0, 0, 1, 1, 0, 0, 0, 1, 0, 0, 0, 1};
-  for (int is_binary = 0; is_binary < 2; is_binary++) {
-    const size_t size = stl_write(corners, 3, is_binary, seed);
-    const int accepted = mesh_fuzz(seed, size, 20000, parse_stl);
-    CHECK(accepted > 1000 && accepted < 20000);
-  }
 }
 
 // ---------------------------------------------------------------------------------------- polygons
@@ -968,13 +886,11 @@ void test_mesh(void) {
   RUN(mesh_obj_in_any_locale);
   RUN(mesh_obj_long_lines);
   RUN(mesh_obj_files);
-  RUN(mesh_obj_fuzz);
   RUN(mesh_of_another_format_is_told_so);
   RUN(mesh_coordinates_become_metres_in_double);
   RUN(mesh_stl_is_read);
   RUN(mesh_stl_is_refused);
   RUN(mesh_welds_share_no_hash);
-  RUN(mesh_stl_fuzz);
   RUN(mesh_polygons_simple);
   RUN(mesh_polygons_special);
   RUN(mesh_polygons_large);

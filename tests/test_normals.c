@@ -7,7 +7,7 @@
 #include "../src/body/shapes.h"
 #include "../src/entry/processor.h"
 
-#include "../examples/scenery/shapes.h"
+#include "body_of.h"
 #include "../examples/scenery/oracle.h"
 #include "../examples/scenery/poses.h"
 #include "question_of.h"
@@ -22,21 +22,9 @@ typedef struct normals_body {
   int closed;
 } normals_body;
 
-static normals_body normals_encode(const shapes_mesh *mesh, int closed, int open, double round) {
-  normals_body out = {NULL, *mesh, closed};
-  nsvcd_encode_options options;
-  float *positions = (float *)malloc(3 * mesh->vertices * sizeof *positions);
-  if (!positions) exit(1);
-  for (size_t i = 0; i < 3 * mesh->vertices; i++) {
-    positions[i] = (float)mesh->positions[i];
-    out.mesh.positions[i] = (double)positions[i];
-  }
-  const nsvcd_mesh given = {positions, mesh->indices, mesh->vertices, mesh->triangles};
-  memset(&options, 0, sizeof options);
-  options.open = open;
-  options.convex_radius = (float)round;
-  CHECK_EQ(nsvcd_encode(&given, &options, NULL, NULL, 0, &out.body), NSVCD_OK);
-  free(positions);
+static normals_body normals_encode(shapes_mesh *mesh, int closed, int open, double round) {
+  const nsvcd_encode_options options = {.open = open, .convex_radius = (float)round};
+  const normals_body out = {body_of(mesh, &options), *mesh, closed};
   return out;
 }
 

@@ -492,7 +492,7 @@ static const nsvcd_body *plan_solid(int shape) {
   static const nsvcd_body *bodies[PLAN_SHAPES];
   if (bodies[shape]) return bodies[shape];
   plan_body(shape);  // makes the shape
-  nsvcd_mesh flat = query_mesh(&plan_shapes[shape], 1);
+  nsvcd_mesh flat = mesh_of(&plan_shapes[shape]);
   CHECK_EQ(nsvcd_encode(&flat, &query_both, NULL, NULL, 0, &bodies[shape]), NSVCD_OK);
   nsvcd_mesh_free(&flat, NULL);
   return bodies[shape];

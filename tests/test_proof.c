@@ -915,12 +915,9 @@ static const proof_body *proof_any_coarse(shapes_rng *rng, size_t scale) {
   proof_body *b = &bodies[scale][n];
   if (b->body) return b;
   shapes_mesh shape;
-  nsvcd_result result;
   const nsvcd_encode_options options = {.patches = n + 1, .open = made[n] == SHEET, .coarse = 1};
   proof_shape(made[n], n, &shape);
-  *b = proof_encode(&shape, proof_scales[scale], &options, &result);
-  shapes_free(&shape);
-  CHECK_EQ(result, NSVCD_OK);
+  *b = proof_encode(&shape, proof_scales[scale], &options);
   return b;
 }
 static void proof_crossings_of_coarse_bodies_are_never_free(void) {
@@ -1736,29 +1733,21 @@ static void proof_may_forget(void) {
 // A floor, and with `wall` a wall on its far side (x > 0.5), of many triangles or few.
 static proof_body proof_floor_with(const nsvcd_encode_options *options, int wall, int cuts) {
   shapes_mesh shape;
-  nsvcd_result result;
   memset(&shape, 0, sizeof shape);
   shapes_box(&shape, 2, 2, 0.1, cuts);
   // its top is z = 0
   for (size_t i = 0; i < shape.vertices; i++) shape.positions[3 * i + 2] -= 0.05;
   if (wall) shapes_box_at(&shape, 0.55, 0, 0.5, 0.1, 2, 1);
-  proof_body b = proof_encode(&shape, 1, options, &result);
-  CHECK_EQ(result, NSVCD_OK);
-  shapes_free(&shape);
-  return b;
+  return proof_encode(&shape, 1, options);
 }
 static proof_body proof_floor(int wall, int cuts) {
   return proof_floor_with(NULL, wall, cuts);
 }
 static proof_body proof_crate(int cuts) {
   shapes_mesh shape;
-  nsvcd_result result;
   memset(&shape, 0, sizeof shape);
   shapes_box(&shape, 0.2, 0.2, 0.2, cuts);
-  proof_body b = proof_encode(&shape, 1, NULL, &result);
-  CHECK_EQ(result, NSVCD_OK);
-  shapes_free(&shape);
-  return b;
+  return proof_encode(&shape, 1, NULL);
 }
 
 // Asks about a crate whose lowest points go from z0 to z1 and which goes from x0 to x1; everything
@@ -2006,14 +1995,9 @@ static void proof_place_within(attack *a, shapes_rng *rng, double gap, int movin
   if (said == STATUS_WITNESS) proof_check_witness(a);
 }
 
-static proof_body proof_of_shape(shapes_mesh *shape, double scale, size_t points) {
+static proof_body proof_of_shape(shapes_mesh *shape, size_t points) {
   const nsvcd_encode_options options = {.patches = points};
-  nsvcd_result result;
-  const proof_body out = proof_encode(shape, scale, &options, &result);
-  CHECK_EQ(result, NSVCD_OK);
-  if (result) exit(1);
-  shapes_free(shape);
-  return out;
+  return proof_encode(shape, 1, &options);
 }
 
 // Two boxes apart from each other: of one body a part can be within.
@@ -2022,7 +2006,7 @@ static proof_body proof_two_boxes(double edge, double apart, size_t points) {
   memset(&shape, 0, sizeof shape);
   shapes_box_at(&shape, -apart / 2, 0, 0, edge, edge, edge);
   shapes_box_at(&shape, apart / 2, 0, 0, edge, 0.8 * edge, 0.7 * edge);
-  return proof_of_shape(&shape, 1, points);
+  return proof_of_shape(&shape, points);
 }
 
 // A ball inside out: by its winding number -1 it encloses as well.
@@ -2031,7 +2015,7 @@ static proof_body proof_inverted_ball(void) {
   memset(&shape, 0, sizeof shape);
   shapes_ellipsoid(&shape, 0.2, 0.2, 0.2, 12);
   shapes_flip(&shape, 0);
-  return proof_of_shape(&shape, 1, 20);
+  return proof_of_shape(&shape, 20);
 }
 
 static void proof_knows_what_is_within(void) {
@@ -2145,7 +2129,7 @@ static void proof_rays_miss_nothing(void) {
     memset(&shape, 0, sizeof shape);
     shapes_ellipsoid(&shape, 0.02, 0.02, 0.02, 40);
     shapes_place(&shape, 0, NULL, n == 0 ? 0 : 3, n == 2 ? 100 : 0, 1);
-    proof_body ball = proof_of_shape(&shape, 1, 256);
+    proof_body ball = proof_of_shape(&shape, 256);
     const nsvcd__geometry f = nsvcd__geometry_of(nsvcd__triangles_of(ball.body));
     for (int trial = 0; trial < 6000; trial++) {
       const nsvcd__ray ray = proof_ray_at_edge(&rng, &f, 1e-13);
@@ -2171,10 +2155,10 @@ static void proof_says_where_inside(void) {
   attack a;
   memset(&shape, 0, sizeof shape);
   shapes_box(&shape, 1, 1, 1, 1);
-  proof_body room = proof_of_shape(&shape, 1, 0);
+  proof_body room = proof_of_shape(&shape, 0);
   memset(&shape, 0, sizeof shape);
   shapes_box(&shape, 0.1, 0.1, 0.1, 1);
-  proof_body cube = proof_of_shape(&shape, 1, 0);
+  proof_body cube = proof_of_shape(&shape, 0);
   const oracle_pose fixed = {{0, 0, 0}, {0, 0, 0, 1}};
   for (int n = 0; n < 6; n++) {
     const int meets = n % 2;
@@ -2325,14 +2309,14 @@ static void proof_keeps_its_limit_in_large_patches(void) {
   size_t most = 0;
   memset(&shape, 0, sizeof shape);
   shapes_ellipsoid(&shape, 0.11, 0.1, 0.1, 80);
-  proof_body ball = proof_of_shape(&shape, 1, 1);
+  proof_body ball = proof_of_shape(&shape, 1);
   memset(&shape, 0, sizeof shape);
   for (int k = 0; k < 300; k++) {
     double d[3];
     shapes_direction(&rng, d);
     shapes_box_at(&shape, 0.02 * d[0], 0.02 * d[1], 0.02 * d[2], 0.001, 0.001, 0.001);
   }
-  proof_body crumbs = proof_of_shape(&shape, 1, 16);
+  proof_body crumbs = proof_of_shape(&shape, 16);
   nsvcd_question options = proof_options();
   options.work = 1000;
   for (int trial = 0; trial < 40; trial++) {
@@ -2426,15 +2410,12 @@ static void proof_turning_on_a_coarse_floor_is_never_free(void) {
     shapes_quaternion(&rng, turn);
     oracle_matrix(turn, m);
     for (int b = 0; b < 2; b++) {
-      nsvcd_result result;
       for (size_t i = 0; i < shapes[b].vertices; i++) {
         double x[3];
         memcpy(x, shapes[b].positions + 3 * i, sizeof x);
         oracle_rotate(m, x, shapes[b].positions + 3 * i);
       }
-      bodies[b] = proof_encode(&shapes[b], 1, &options, &result);
-      CHECK_EQ(result, NSVCD_OK);
-      shapes_free(&shapes[b]);
+      bodies[b] = proof_encode(&shapes[b], 1, &options);
     }
     const double up[3] = {0, 0, 1};
     const oracle_pose fixed = {{0, 0, 0}, {0, 0, 0, 1}};
@@ -2545,7 +2526,7 @@ static proof_body proof_bowl(int segments) {
   shapes_mesh shape;
   memset(&shape, 0, sizeof shape);
   shapes_lathe(&shape, (const double(*)[2])profile, 2 * RINGS, segments, 0);
-  return proof_of_shape(&shape, 1, 0);
+  return proof_of_shape(&shape, 0);
 }
 
 // The attack of a bowl that goes down in another one, from one height to another, as it turns.
@@ -2711,7 +2692,7 @@ static proof_body proof_flat_sheet(double x, double y, int cuts) {
     shape.positions[3 * i + 1] *= y;
     shape.positions[3 * i + 2] = 0;
   }
-  return proof_of_shape(&shape, 1, 16);
+  return proof_of_shape(&shape, 16);
 }
 
 // Sheets that are parallel all the time, one of which passes through the other: they meet at a
@@ -2776,7 +2757,7 @@ static void proof_triangles_listed_twice(void) {
     shapes_triangle(&shape, corners[0], corners[1], corners[2]);
     if (t % 8 == 0) shapes_triangle(&shape, corners[0], corners[1], corners[1]);
   }
-  proof_body twice = proof_of_shape(&shape, 1, 24);
+  proof_body twice = proof_of_shape(&shape, 24);
   proof_body small = proof_make(BALL, 1, 12, 0.2);
   attack a;
   a.fixed = &twice;
@@ -2951,14 +2932,12 @@ static status proof_swing(double scale, double angle, double depth, size_t count
   const double axis[3] = {0, 1, 0};
   const double still[4] = {0, 0, 0, 1};
   shapes_mesh shape;
-  nsvcd_result result;
   oracle_pose poses[PROOF_POSES], fixed;
   attack a;
   memset(&shape, 0, sizeof shape);
   for (int k = 0; k < 3; k++) shapes_vertex(&shape, down[k][0], down[k][1], down[k][2]);
   shapes_triangle(&shape, 0, 1, 2);
-  proof_body tip = proof_encode(&shape, scale, &options, &result);
-  shapes_free(&shape);
+  proof_body tip = proof_encode(&shape, scale, &options);
   proof_body box = proof_make(BOX, 6, 32, scale);
   memset(&fixed, 0, sizeof fixed);
   memcpy(fixed.rotation, still, sizeof still);

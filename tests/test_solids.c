@@ -9,22 +9,14 @@
 #include "../src/entry/processor.h"
 #include "../src/certificate/certify.h"
 
-#include "../examples/scenery/shapes.h"
+#include "body_of.h"
 #include "check.h"
 
 void test_solids(void);
 
-static const nsvcd_body *solids_encode(const shapes_mesh *mesh, int open) {
-  const nsvcd_body *out = NULL;
+static const nsvcd_body *solids_encode(shapes_mesh *mesh, int open) {
   const nsvcd_encode_options options = {.open = open};
-  float *positions = (float *)malloc(3 * mesh->vertices * sizeof *positions);
-  if (!positions) exit(1);
-  for (size_t i = 0; i < 3 * mesh->vertices; i++) positions[i] = (float)mesh->positions[i];
-  const nsvcd_mesh given = {positions, mesh->indices, mesh->vertices, mesh->triangles};
-  CHECK_EQ(nsvcd_encode(&given, &options, NULL, NULL, 0, &out), NSVCD_OK);
-  free(positions);
-  if (!out) exit(1);
-  return out;
+  return body_of(mesh, &options);
 }
 
 // A small body, at rest or on its way, asked of another in both roles: the same is said of both.
@@ -507,13 +499,8 @@ static void solids_are_not_certified_free(void) {
     solids_shape(CUBE, &shapes[1], inside);
     solids_spoil(&shapes[1], inside, &rng, flaw);
     for (int k = 0; k < 2; k++) {
-      const shapes_mesh *s = &shapes[k];
-      const nsvcd_mesh mesh = {(float *)malloc(12 * s->vertices), s->indices, s->vertices,
-                               s->triangles};
-      if (!mesh.positions) exit(1);
-      for (size_t i = 0; i < 3 * s->vertices; i++) mesh.positions[i] = (float)s->positions[i];
-      meshes[k] = mesh;
-      bodies[k] = solids_encode(s, 0);
+      meshes[k] = mesh_of(&shapes[k]);
+      bodies[k] = solids_encode(&shapes[k], 0);
       const size_t size = nsvcd_tree_size(&meshes[k]);
       memory[k] = malloc(size);
       CHECK_EQ(nsvcd_tree_build(&meshes[k], memory[k], size, &trees[k]), NSVCD_OK);
@@ -534,7 +521,7 @@ static void solids_are_not_certified_free(void) {
     for (int k = 0; k < 2; k++) {
       nsvcd_body_free(bodies[k], NULL);
       shapes_free(&shapes[k]);
-      free(meshes[k].positions);
+      nsvcd_mesh_free(&meshes[k], NULL);
       free(memory[k]);
     }
   }

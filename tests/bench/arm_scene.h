@@ -5,7 +5,7 @@
 
 #include "../../examples/scenery/oracle.h"
 #include "../../examples/scenery/poses.h"
-#include "../../examples/scenery/shapes.h"
+#include "../body_of.h"
 #include "../placed.h"
 
 #define ARM_JOINTS 6
@@ -43,26 +43,18 @@ typedef struct arm_scene {
 static size_t arm_add(arm_scene *s, shapes_mesh *mesh, uint32_t link, double x, double y,
                       double z) {
   const size_t n = s->scene.part_count++;
-  float *positions = (float *)calloc(3 * mesh->vertices, sizeof(float));
-  double *points = (double *)calloc(3 * mesh->vertices, sizeof(double));
-  if (mesh->failed || !positions || !points || n >= ARM_MOST_PARTS) exit(1);
-  for (size_t i = 0; i < 3 * mesh->vertices; i++) {
-    positions[i] = (float)mesh->positions[i];
-    points[i] = (double)positions[i];
-  }
-  const nsvcd_mesh given = {positions, mesh->indices, mesh->vertices, mesh->triangles};
+  if (n >= ARM_MOST_PARTS) exit(1);
   nsvcd_part *part = &s->parts[n];
   memset(part, 0, sizeof *part);
-  if (nsvcd_encode(&given, NULL, NULL, NULL, 0, &part->body)) exit(1);
-  if (!oracle_mesh_init(&s->meshes[n], points, mesh->vertices, mesh->indices, mesh->triangles, 1))
+  part->body = body_of(mesh, NULL);
+  if (!oracle_mesh_init(&s->meshes[n], mesh->positions, mesh->vertices, mesh->indices,
+                        mesh->triangles, 1))
     exit(1);
   part->link = link;
   part->pose.rotation[3] = 1;
   part->pose.position[0] = (float)x;
   part->pose.position[1] = (float)y;
   part->pose.position[2] = (float)z;
-  free(positions);
-  free(points);
   shapes_free(mesh);
   memset(mesh, 0, sizeof *mesh);
   return n;

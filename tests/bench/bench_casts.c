@@ -8,6 +8,7 @@
 #define PROGRAM "bench_casts"
 #include "../../examples/scenery/problem_file.h"
 #include "../../examples/scenery/level.h"
+#include "../body_of.h"
 #include "meter.h"
 
 #define SIDE 20.0
@@ -260,17 +261,13 @@ static void print_map(const nsvcd_body *sphere, void *workspace) {
 int main(int argc, char **argv) {
   static const float ends[2][3] = {{0, 0, -0.6f}, {0, 0, 0.6f}};
   const size_t triangles = argc > 1 ? (size_t)strtoul(argv[1], NULL, 10) : 139080;
-  const nsvcd_body *level = NULL;
   const nsvcd_body *cloud = NULL;
   const nsvcd_body *box = NULL;
   void *workspace = allocate(nsvcd_sweep_workspace_size(NULL));
   shapes_mesh shape;
   memset(&shape, 0, sizeof shape);
   level_make(&shape, SIDE, triangles, 1);
-  float *positions = (float *)allocate(3 * shape.vertices * sizeof(float));
-  for (size_t i = 0; i < 3 * shape.vertices; i++) positions[i] = (float)shape.positions[i];
-  const nsvcd_mesh mesh = {positions, shape.indices, shape.vertices, shape.triangles};
-  if (nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &level)) return complain("encoding"), REFUSED;
+  const nsvcd_body *level = body_of(&shape, NULL);
   cast casts[3] = {{"capsule of 1.8 m, 1 to 10 cm", NULL, 0.01, 0.1, 1e-3f, 0.002f},
                    {"sphere of 0.1 m, 0.1 to 1 m", NULL, 0.1, 1, 1e-3f, 0},
                    {"ray of 1 mm, 2 to 20 m", NULL, 2, 20, 1e-3f, 0}};
@@ -291,7 +288,6 @@ int main(int argc, char **argv) {
   nsvcd_body_free(box, NULL);
   nsvcd_body_free(level, NULL);
   shapes_free(&shape);
-  free(positions);
   free(workspace);
   return DONE;
 }

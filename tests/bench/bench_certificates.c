@@ -14,6 +14,7 @@
 #include "../../examples/scenery/problem_file.h"
 #include "../../examples/verify/nsvcd_verify.h"
 #include "../../examples/scenery/load.h"
+#include "meter.h"
 
 #define ROOM ((size_t)1 << 22)
 
@@ -31,16 +32,10 @@ typedef struct tally {
   double trees, check_trees;
 } tally;
 
-static int by_size(const void *a, const void *b) {
-  const double x = *(const double *)a;
-  const double y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 static void row(const char *what, double *numbers, size_t count) {
   double sum = 0;
   if (count == 0) return;
-  qsort(numbers, count, sizeof *numbers, by_size);
+  meter_sort(numbers, count);
   for (size_t i = 0; i < count; i++) sum += numbers[i];
   printf("  %-22s %10.4g %10.4g %10.4g %10.4g\n", what, numbers[count / 2], sum / (double)count,
          numbers[count * 9 / 10], numbers[count - 1]);

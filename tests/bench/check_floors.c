@@ -26,7 +26,7 @@ static void add_own_props(void) {
   shapes_mug(&shapes[1], 0.04, 0.1, 0.004, 24);
   shapes_chair(&shapes[2], 0.5, 0.9, 0.04);
   shapes_cone(&shapes[3], 0.2, 0.1, 0.3, 24);
-  for (int n = 0; n < OWN_PROPS; n++) props[prop_count++] = floor_prop_of_shape(&shapes[n], 1);
+  for (int n = 0; n < OWN_PROPS; n++) props[prop_count++] = floor_prop_of_shape(&shapes[n]);
 }
 static void add_file(const char *path) {
   nsvcd_mesh mesh;
@@ -128,7 +128,7 @@ static trial trial_of(int what, double value) {
   if (what == TURNS) out.poses = 1 + (size_t)(value * 4.5);
   out.turns = what == TURNS;
   shapes_box(&box, size, size / thin, size / thin, 1);
-  out.prop = floor_prop_of_shape(&box, 1);
+  out.prop = floor_prop_of_shape(&box);
   out.floor = floor_of(out.base.half, 1, size, 0);
   return out;
 }

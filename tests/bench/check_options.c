@@ -11,10 +11,10 @@
 #include "../../neuralsvcd.h"
 #define PROGRAM "check_options"
 #include "../../examples/scenery/problem_file.h"
-#include "../../examples/scenery/shapes.h"
 #include "../../examples/scenery/oracle.h"
 #include "../../examples/scenery/poses.h"
 #include "../../examples/scenery/status_of.h"
+#include "../body_of.h"
 
 #define MOST_POSES 200
 #define MOST_ASKS 1200
@@ -191,28 +191,17 @@ static void read_shape(const char *path, shapes_mesh *m) {
 
 static const solid *solid_of(int n) {
   solid *s = &solids[n];
-  nsvcd_mesh mesh;
   if (s->body) return s;
   if (n < FILES)
     make_shape(n, &s->shape);
   else
     read_shape(file_names[n - FILES], &s->shape);
-  mesh.vertex_count = s->shape.vertices;
-  mesh.triangle_count = s->shape.triangles;
-  mesh.indices = s->shape.indices;
-  mesh.positions = (float *)allocate(3 * mesh.vertex_count * sizeof(float));
-  for (size_t i = 0; i < 3 * mesh.vertex_count; i++) {
-    mesh.positions[i] = pose_to_float(s->shape.positions[i]);
-    s->shape.positions[i] = (double)mesh.positions[i];
-  }
-  for (size_t i = 0; i < mesh.vertex_count; i++)
+  s->body = body_of(&s->shape, NULL);
+  for (size_t i = 0; i < s->shape.vertices; i++)
     s->reach = fmax(s->reach, oracle_length(s->shape.positions + 3 * i));
   shapes_bounds(&s->shape, s->low, s->high);
-  if (s->shape.failed || nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &s->body))
-    exit((complain("body %d is refused", n), REFUSED));
   s->closed =
       oracle_is_closed(s->shape.positions, s->shape.vertices, s->shape.indices, s->shape.triangles);
-  free(mesh.positions);
   return s;
 }
 

@@ -11,8 +11,8 @@
 #include "../../neuralsvcd.h"
 #define PROGRAM "check_rest"
 #include "../../examples/scenery/problem_file.h"
-#include "../../examples/scenery/shapes.h"
 #include "../../examples/scenery/oracle.h"
+#include "../body_of.h"
 
 #define SKIN 1e-3
 #define CLEARANCE 5e-4
@@ -34,16 +34,6 @@ static void *workspace;
 static size_t asked, wrong, skipped;
 static double worst_depth, least_area = 1;
 
-static const nsvcd_body *encode(const shapes_mesh *shape) {
-  nsvcd_mesh mesh = {NULL, shape->indices, shape->vertices, shape->triangles};
-  const nsvcd_body *body = NULL;
-  mesh.positions = (float *)allocate(3 * shape->vertices * sizeof(float));
-  for (size_t i = 0; i < 3 * shape->vertices; i++) mesh.positions[i] = (float)shape->positions[i];
-  if (nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &body)) exit(complain("encoding") + REFUSED);
-  free(mesh.positions);
-  return body;
-}
-
 // A box, a cone or a wedge, or a pyramid of three sides.
 static void make_primitive(shapes_rng *rng, resting *out) {
   shapes_mesh shape;
@@ -56,7 +46,7 @@ static void make_primitive(shapes_rng *rng, resting *out) {
   if (kind > 1) shapes_cone(&shape, size[0], kind == 3 ? 0 : 0.5 * size[0], size[2], sides);
   for (size_t i = 0; i < shape.vertices && kind == 1; i++)  // its top is an edge: a wedge
     if (shape.positions[3 * i + 2] > 0) shape.positions[3 * i] = 0.1 * size[0];
-  out->body = encode(&shape);
+  out->body = body_of(&shape, NULL);
   out->count = shape.vertices;
   out->points = (double *)allocate(3 * shape.vertices * sizeof(double));
   for (size_t i = 0; i < 3 * shape.vertices; i++)
@@ -337,7 +327,7 @@ int main(int argc, char **argv) {
     memset(&shape, 0, sizeof shape);
     shapes_box(&shape, 3, 3, 0.1, k == 0 ? 1 : k == 1 ? 16 : 48);
     for (size_t i = 0; i < shape.vertices; i++) shape.positions[3 * i + 2] -= 0.05;
-    tables[k] = encode(&shape);
+    tables[k] = body_of(&shape, NULL);
     shapes_free(&shape);
   }
   for (size_t n = 0; n < count; n++) {

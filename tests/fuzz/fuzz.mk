@@ -9,9 +9,10 @@ build/fuzz/library.o: tests/fuzz/library.c $(LIBRARY)
 	$(CC) $(FUZZ_CFLAGS) $(SANITIZE) -c -o $@ $<
 $(FUZZ_TARGETS:%=build/fuzz/%): build/fuzz/%: tests/fuzz/%.c build/fuzz/library.o $(FUZZ_HEADERS) neuralsvcd.h
 	$(CC) $(FUZZ_CFLAGS) $(SANITIZE) -o $@ $< build/fuzz/library.o -lm
-check-fuzz: $(FUZZ_TARGETS:%=build/fuzz/%)  # the corpora of the fuzz targets, under sanitizers
+check-fuzz: $(FUZZ_TARGETS:%=build/fuzz/%)  # their corpora, and files that are made from them, under sanitizers
 	@for target in $(FUZZ_TARGETS); do \
-	  build/fuzz/$$target --out build/fuzz/$$target.crash tests/fuzz/corpus/$$target || exit 1; done
+	  case $$target in obj|stl|ply|glb|problem) made=20000 ;; *) made=0 ;; esac; \
+	  build/fuzz/$$target --random $$made 1 --out build/fuzz/$$target.crash tests/fuzz/corpus/$$target || exit 1; done
 
 # The same with libFuzzer, of clang.
 FUZZ_CLANG = clang

@@ -87,6 +87,7 @@ static void check_vertex(text *t, const float *position) {
     const float low = nextafterf((float)value, -HUGE_VALF);
     const float high = nextafterf((float)value, HUGE_VALF);
     FUZZ_CHECK(position[k] >= low && position[k] <= high);
+    FUZZ_CHECK(fabsf(position[k]) <= 1e6f);
   }
 }
 
