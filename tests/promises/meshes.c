@@ -64,6 +64,34 @@ static void an_obj_is_refused_with_its_line(void) {
   }
 }
 
+// Wherever a file ends, it is refused or a mesh, and no byte past its end is read: sanitizers see that.
+static void a_file_may_end_anywhere(void) {
+  static const char obj[] =
+      "v 0 0 0 # a \\\nv 1.5e0 0 0 1\nv +1 1 -1e-1 .1 .2 .3\r\nv 0 1 -0\nvt 0 0\nvn 0 0 1\n"
+      "o a\nf 1/1/1 2/1/1 3//1 4/1/\nf 1 2 \\\n 3\nf -1 -2 -3\n";
+  const char *const texts[] = {obj, corner};
+  const size_t vertices[] = {4, 4};
+  const size_t triangles[] = {4, 2};
+  for (size_t n = 0; n < 2; n++) {
+    const size_t whole = strlen(texts[n]);
+    for (size_t size = 1; size <= whole; size++) {
+      char *text = (char *)malloc(size);
+      nsvcd_mesh mesh = {NULL, NULL, 0, 0};
+      memcpy(text, texts[n], size);
+      const nsvcd_result result = n ? nsvcd_stl_parse(text, size, NULL, &mesh, NULL)
+                                    : nsvcd_obj_parse(text, size, NULL, &mesh, NULL);
+      CHECK(size < whole || !result);
+      CHECK_EQ(mesh.positions == NULL, result != NSVCD_OK);
+      CHECK_LE(mesh.vertex_count, vertices[n]);
+      CHECK_LE(mesh.triangle_count, triangles[n]);
+      for (size_t i = 0; i < 3 * mesh.triangle_count; i++)
+        CHECK(mesh.indices[i] < mesh.vertex_count);
+      nsvcd_mesh_free(&mesh, NULL);
+      free(text);
+    }
+  }
+}
+
 static void stl_corners_at_one_place_are_one_vertex(void) {
   nsvcd_mesh mesh;
   size_t line;
@@ -211,6 +239,7 @@ static void memory_that_runs_out_is_told_and_nothing_leaks(void) {
 void promises_meshes(void) {
   RUN(obj_faces_of_any_size_become_triangles);
   RUN(an_obj_is_refused_with_its_line);
+  RUN(a_file_may_end_anywhere);
   RUN(stl_corners_at_one_place_are_one_vertex);
   RUN(a_format_is_known_by_what_a_file_holds);
   RUN(a_files_numbers_become_metres_in_double);
