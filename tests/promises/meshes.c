@@ -64,13 +64,13 @@ static void an_obj_is_refused_with_its_line(void) {
   }
 }
 
-// Wherever a file ends, it is refused or a mesh, and no byte past its end is read: sanitizers see that.
+// Wherever a file ends, it is refused or a mesh. No byte past its end is read: a sanitizer looks.
 static void a_file_may_end_anywhere(void) {
   static const char obj[] =
       "v 0 0 0 # a \\\nv 1.5e0 0 0 1\nv +1 1 -1e-1 .1 .2 .3\r\nv 0 1 -0\nvt 0 0\nvn 0 0 1\n"
-      "o a\nf 1/1/1 2/1/1 3//1 4/1/\nf 1 2 \\\n 3\nf -1 -2 -3\n";
+      "o a\nf 1/1/1 2/1/1 3//1 4/1/\nf 1 2 \\\n 3\nf -1 -2 -3\nv -1 +1 -1e-1";
   const char *const texts[] = {obj, corner};
-  const size_t vertices[] = {4, 4};
+  const size_t vertices[] = {5, 4};
   const size_t triangles[] = {4, 2};
   for (size_t n = 0; n < 2; n++) {
     const size_t whole = strlen(texts[n]);
