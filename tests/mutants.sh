@@ -86,7 +86,7 @@ rays without rounding|const float rounding = NSVCD__ROUNDING * extent * f->body-
 rays past half the groups|while (!sum.unclear \&\& nsvcd__traversal_next(\&traversal, \&g)) {|while (!sum.unclear \&\& nsvcd__traversal_next(\&traversal, \&g)) {\n    if (g % 2) continue;
 block's boxes at the start only|nsvcd__block_box(p, 2);|nsvcd__block_box(p, 1);
 last triangle skipped|size_t patience) {\n  const size_t moving_end = p->moving.first_triangle[i + 1];|size_t patience) {\n  const size_t moving_end = p->moving.first_triangle[i + 1] - 1;
-containment one way|if (outer->open) return 0;\n  const int is_one|if (outer->open + !e->inner_moves) return 0;\n  const int is_one
+containment one way|if (outer->open) return 0;\n  const int is_one|if (outer->open + (e->inner != \&p->moving)) return 0;\n  const int is_one
 long: an interval passed over|if (is_resolved) motion->from = until;|if (is_resolved) motion->from = until;\n  if (is_resolved \&\& arcs == 1 \&\& until < motion->ticks) motion->from = nsvcd__next_keyframe(motion, until);
 long: a try in vain is believed|is_resolved \|\| !is_try, p->work - before|1, p->work - before
 long: gaps by the first pose|part.count = nsvcd__pose_before(track, until - 1) + 2 - first;|part.count = 1;
@@ -193,7 +193,7 @@ solids: a whole that is closed in part|whole->closed >= 0.5 * whole->area;|whole
 solids: edges of what is closed|is_closed ? 0 : whole->odd;|whole->odd;
 solids: nearly a solid is a sheet|*kind = NSVCD__NEARLY;|*kind = NSVCD__SHEET;
 solids: rays count nothing of what is nearly a solid|odd += sum.nearly % 2 != 0 \|\| sum.winds != 0;|
-solids: faces turned either way wind|if (sum.winds == 0 \&\& sum.either_way % 2 != 0) return 1;|
+solids: faces turned either way wind|if ((sum.winds != 0) != (sum.either_way % 2 != 0)) return 1;|if (sum.winds != 0 \&\& sum.either_way % 2 == 0) return 1;
 asks: faces without area|length > 1e-9 * longest|length > 0
 asks: pushed through one face only|n, t->directions[0]) > -0.3 \|\| nsvcd__d3_dot(n, t->directions[1]) > -0.3|n, t->directions[0]) > -0.3 \&\& nsvcd__d3_dot(n, t->directions[1]) > -0.3
 asks: a lift that is not tried|    still->push_out = nsvcd__f3_round(push_out);|    return 0;

@@ -5,40 +5,39 @@
 #include "blocks.h"
 
 #ifndef NSVCD_NO_PROOF
-// A ray from a place of a body's frame, in that frame: does the body enclose the place?
+// A ray in a body's frame. What it crosses tells whether the body encloses the point it starts at.
 typedef struct nsvcd__ray {
   nsvcd__d3 from, direction;
-  // a ray that passes an edge within this tells nothing; and that, with what rounding may add
+  // A ray that passes an edge within this tells nothing. rounding: the same plus what floats add.
   double margin;
   float rounding;
 } nsvcd__ray;
 
-// +1 if the ray leaves through the triangle, -1 if it enters, 0 if it misses it; *unclear if it
+// +1 if the ray leaves through the triangle, -1 if it enters, 0 if it misses. Sets *unclear if it
 // passes an edge.
 static int nsvcd__ray_crosses(const nsvcd__ray *ray, const nsvcd__d3 *t, double margin,
                               int *unclear) {
-  double around[3];
   double least = HUGE_VAL;
   double most = -HUGE_VAL;
   double nearest = HUGE_VAL;
   const nsvcd__d3 n = nsvcd__face_normal(t);
-  // the signed volumes of the edges and the ray: all alike if it passes within
+  // the signed volumes of each edge and the ray: all of one sign if it passes inside
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__d3 edge = nsvcd__d3_sub(t[(k + 1) % 3], t[k]);
     const nsvcd__d3 across = nsvcd__d3_cross(edge, ray->direction);
     const double length = nsvcd__d3_length(across);
-    around[k] = nsvcd__d3_dot(across, nsvcd__d3_sub(t[k], ray->from));
-    least = nsvcd__min(least, around[k]);
-    most = nsvcd__max(most, around[k]);
-    nearest = nsvcd__min(nearest, length > 0 ? fabs(around[k]) / length : 0);
+    const double volume = nsvcd__d3_dot(across, nsvcd__d3_sub(t[k], ray->from));
+    least = nsvcd__min(least, volume);
+    most = nsvcd__max(most, volume);
+    nearest = nsvcd__min(nearest, length > 0 ? fabs(volume) / length : 0);
   }
   const double slope = nsvcd__d3_dot(n, ray->direction);
   const double height = nsvcd__d3_dot(n, nsvcd__d3_sub(t[0], ray->from));
   const double size = nsvcd__d3_length(n);
-  const int behind = height * slope < 0 && fabs(height) > margin * size;
-  if (behind) return 0;
+  const int is_on_it = fabs(height) <= margin * size;
+  if (height * slope < 0 && !is_on_it) return 0;  // it is behind
   if (nearest <= margin) {
-    // Near the line of an edge, but is it near the triangle?
+    // It is near an edge's line, but is it near the triangle?
     nsvcd__d3 far_end = nsvcd__d3_add(ray->from, nsvcd__d3_scale(ray->direction, 4 * 1.6e7));
     nsvcd__nearest near_edge = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
     for (size_t k = 0; k < 3; k++)
@@ -47,12 +46,12 @@ static int nsvcd__ray_crosses(const nsvcd__ray *ray, const nsvcd__d3 *t, double 
     if (least < 0 && most > 0) return 0;
   }
   if (least <= 0 && most >= 0) return 0;
-  if (fabs(height) <= margin * size) *unclear = 1;
+  if (is_on_it) *unclear = 1;
   return slope > 0 ? 1 : slope < 0 ? -1 : 0;
 }
 
-// Is the triangle new to the list of those that a ray has crossed? Then it is added; *unclear if
-// there is no room.
+// Adds a triangle to the list of those that a ray has crossed. Returns 0 if it is there already.
+// Sets *unclear if there is no room.
 static int nsvcd__is_new(nsvcd__proof *p, size_t *count, uint32_t number, int *unclear) {
   for (size_t k = 0; k < *count; k++) {
     if (p->crossed[k] == number) return 0;
@@ -63,8 +62,8 @@ static int nsvcd__is_new(nsvcd__proof *p, size_t *count, uint32_t number, int *u
 }
 
 // Lanes of a block whose triangles the ray crosses, or passes within the margin, and some more. The
-// signed volumes of the edges and the ray are products of an edge and a place on it, off by no more
-// than `rounding`, square metres: see nsvcd__crossings.
+// signed volumes of the edges and the ray are off by no more than `rounding`, square metres: see
+// nsvcd__cross_all.
 static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, float margin,
                                     float rounding) {
   const nsvcd__f3 start = nsvcd__f3_round(ray->from);
@@ -93,23 +92,25 @@ static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, 
   return nsvcd__block_lanes(block) & ~missed;
 }
 
-// What a ray crosses: how often the closed surfaces wind about its place; and of those whose
-// winding does not tell, and of what is nearly a solid, how many triangles. *unclear if it cannot
-// tell.
+// What a ray crosses.
 typedef struct nsvcd__crossings {
-  int winds, either_way, nearly, unclear;
+  int winds;       // how often the closed surfaces wind about the ray's point
+  int either_way;  // triangles of surfaces whose winding tells nothing
+  int nearly;      // triangles of what is nearly a solid
+  int unclear;     // the ray cannot tell
 } nsvcd__crossings;
 
-// Of one ray. A triangle counts once, whatever patches list it, or parts of it. No ray counts that
-// comes as near to an edge as gaps are wide that were closed: so it passes through none.
+// What one ray crosses. A triangle counts once, even if several patches list it or parts of it. A
+// ray that comes as near to an edge as a closed gap is wide does not count: so none passes through
+// a gap.
 //
-// How far are the signed volumes of nsvcd__lanes_on_ray off? With u = 2^-24, E the extent, R that
-// and the distance of the ray's place: a corner, a vertex of up to E from a centre of up to E, is
-// off by 2 u E. An edge, of up to 2 E, by two corners and its own rounding, 6 u E; its product with
-// the direction, rounded as well, by 6 + 2 + 2.31 x 2 (|a_y b_z| + |a_z b_y| and so on are no more
-// than 1.155 |a| |b| together) = 12.7 u E. A place on it, up to R from the ray's, by 3 u R. The
-// volume then by 12.7 u E R + 2 E x 3 u R, and by 3 roundings of up to 2 E R: 24.7 u E R, less than
-// 1.5e-6 E R. NSVCD__ROUNDING is more.
+// The error of the signed volumes of nsvcd__lanes_on_ray, with u = 2^-24, E the extent, and R the
+// extent plus the distance of the ray's point: A corner, a vertex of up to E from a centre of up to
+// E, is off by 2 u E. An edge, of up to 2 E, is off by two corners and its own rounding, 6 u E. Its
+// product with the direction, rounded as well, is off by 6 + 2 + 2.31 x 2 (|a_y b_z| + |a_z b_y|
+// and so on are no more than 1.155 |a| |b| together) = 12.7 u E. A point on the edge, up to R from
+// the ray's, is off by 3 u R. So the volume is off by 12.7 u E R + 2 E x 3 u R, and by 3 roundings
+// of up to 2 E R: 24.7 u E R, less than 1.5e-6 E R. NSVCD__ROUNDING is more.
 static nsvcd__crossings nsvcd__cross_all(nsvcd__proof *p, const nsvcd__geometry *f,
                                          const nsvcd__ray *ray) {
   nsvcd__block *block = &p->fixed_blocks[0];
@@ -155,49 +156,42 @@ static nsvcd__crossings nsvcd__cross_all(nsvcd__proof *p, const nsvcd__geometry 
   return sum;
 }
 
-// A place in a body's frame, and a distance from it.
-typedef struct nsvcd__surroundings {
-  nsvcd__f3 position;
-  float distance;
-} nsvcd__surroundings;
-
-// Lanes of 16 spheres that come within that; a filter of a traversal.
-static uint32_t nsvcd__is_around(const void *what, nsvcd__spheres all) {
-  const nsvcd__surroundings *here = (const nsvcd__surroundings *)what;
+// Lanes of 16 spheres that meet this one; a filter of a traversal.
+static uint32_t nsvcd__meets_sphere(const void *what, nsvcd__spheres all) {
+  const nsvcd__sphere *here = (const nsvcd__sphere *)what;
   uint32_t met = 0;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 d =
-        nsvcd__v3_sub(nsvcd__v3_centres(all, l), nsvcd__v3_set(here->position));
-    const nsvcd__v radius = nsvcd__v_plus(nsvcd__v_load(all.r + l), here->distance);
+    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(all, l), nsvcd__v3_set(here->centre));
+    const nsvcd__v radius = nsvcd__v_plus(nsvcd__v_load(all.r + l), here->radius);
     met |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(radius)) << l;
   }
   return met;
 }
 
-// Is a triangle so close to the place that the mesh's own may be on its other side?
-static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__geometry *f,
-                                  nsvcd__d3 position, double tolerance) {
+// Is a triangle so close to the point that the mesh's own may be on the other side of it?
+static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__geometry *f, nsvcd__d3 point,
+                                  double tolerance) {
   const nsvcd_body *b = f->body;
-  const nsvcd__d3 point[3] = {position, position, position};
-  const nsvcd__f3 rounded = nsvcd__f3_round(position);
+  const nsvcd__d3 as_triangle[3] = {point, point, point};
+  const nsvcd__f3 rounded = nsvcd__f3_round(point);
   const nsvcd__box at = {rounded, rounded};
   const float extent = nsvcd__f3_length(rounded) + b->extent;
   const float distance =
       2 * nsvcd__widest_error(f) + (float)tolerance * 1.0001f + 4 * NSVCD__ROUNDING * extent;
-  const nsvcd__surroundings here = {rounded, distance};
+  const double off = (double)nsvcd__off_mesh(f) + NSVCD__SAME_POSITION * (double)extent;
+  const double limit = 2 * off + tolerance;
+  const nsvcd__sphere here = {rounded, distance};
   nsvcd__block *block = &p->fixed_blocks[0];
   size_t g;
   nsvcd__traversal traversal;
   p->memo.window = 0;
-  nsvcd__traversal_begin(&traversal, b, nsvcd__is_around, &here);
+  nsvcd__traversal_begin(&traversal, b, nsvcd__meets_sphere, &here);
   while (nsvcd__traversal_next(&traversal, &g)) {
     const size_t first = NSVCD__GROUP * g;
     const nsvcd__spheres members = nsvcd__spheres_from(nsvcd__body_patches(b), first);
-    for (uint32_t met = nsvcd__is_around(&here, members); met; met &= met - 1) {
+    for (uint32_t met = nsvcd__meets_sphere(&here, members); met; met &= met - 1) {
       const size_t i = first + nsvcd__low_bit(met);
       if (i >= b->patches) break;
-      const double off = (double)nsvcd__off_mesh(f) + NSVCD__SAME_POSITION * (double)extent;
-      const double limit = 2 * off + tolerance;
       const size_t end = f->first_triangle[i + 1];
       for (size_t n = f->first_triangle[i]; n < end; n += NSVCD__LANES) {
         nsvcd__block_load(f, i, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
@@ -206,7 +200,7 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__geometry *f,
         for (; lanes; lanes &= lanes - 1) {
           nsvcd__d3 corners[3];
           nsvcd__patch_triangle(f, i, n + nsvcd__low_bit(lanes), corners);
-          if (nsvcd__nearest_of(point, corners).square <= limit * limit) return 1;
+          if (nsvcd__nearest_of(as_triangle, corners).square <= limit * limit) return 1;
         }
       }
     }
@@ -214,24 +208,24 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__geometry *f,
   return 0;
 }
 
-// Does the body enclose a place of its frame, farther from its surface than rounding? Rays in
-// directions that no mesh is likely to be aligned with, the first one on the side of the body on
-// which the place is. One is enough where all is closed. Of what is nearly a solid most are asked,
-// which is whether it winds about the place by more than a half (Jacobson 2013): then it is not
-// known to be outside. unit: of its frame.
+// Does the body enclose a point of its frame, farther from its surface than rounding? Rays tell, in
+// directions that no mesh is likely to be aligned with. The first one goes to the side of the body
+// that the point is on. One ray is enough where all surfaces are closed. Of what is nearly a solid,
+// the majority of the rays tells whether its winding number is more than a half (Jacobson 2013):
+// then the point is not known to be outside. unit: of the body's frame.
 static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__geometry *f, double unit,
-                              nsvcd__d3 position) {
+                              nsvcd__d3 point) {
   static const double directions[8][3] = {
       {0.5359, 0.6013, 0.5927},   {-0.5741, 0.6229, 0.5314},  {0.6127, -0.5531, 0.5644},
       {-0.5477, -0.5923, 0.5909}, {0.6311, 0.5573, -0.5396},  {-0.6053, 0.5297, -0.5941},
       {0.5623, -0.6217, -0.5452}, {-0.5849, -0.5407, -0.6047}};
   const nsvcd__d3 centre = nsvcd__d3_load(f->body->centre);
-  const nsvcd__d3 off = nsvcd__d3_sub(position, centre);
+  const nsvcd__d3 off = nsvcd__d3_sub(point, centre);
   const double radius = (double)f->body->radius;
   if (f->body->open || nsvcd__d3_dot(off, off) > 1.00001 * radius * radius) return 0;
   const size_t best = (off.x < 0 ? 1u : 0u) + (off.y < 0 ? 2u : 0u) + (off.z < 0 ? 4u : 0u);
   nsvcd__ray ray;
-  ray.from = position;
+  ray.from = point;
   ray.margin = NSVCD__SAME_POSITION * (double)p->given.lengths / unit;
   ray.margin += (double)nsvcd__off_mesh(f) + (double)f->counts->gap;
   ray.rounding = (float)ray.margin + 4 * NSVCD__ROUNDING * f->body->extent;
@@ -243,10 +237,9 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__geometry *f, double 
     ray.direction = nsvcd__d3_scale(ray.direction, 1 / nsvcd__d3_length(ray.direction));
     const nsvcd__crossings sum = nsvcd__cross_all(p, f, &ray);
     if (sum.unclear) continue;
-    if (sum.winds != 0 && sum.either_way % 2 == 0) return 1;
-    if (sum.winds == 0 && sum.either_way % 2 != 0) return 1;
+    // A hollow of one kind inside the other undoes it.
+    if ((sum.winds != 0) != (sum.either_way % 2 != 0)) return 1;
     if (f->kind_bits == 1) return 0;
-    // in a hollow the one may undo the other
     odd += sum.nearly % 2 != 0 || sum.winds != 0;
     clear++;
   }
@@ -255,8 +248,8 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__geometry *f, double 
   return 0;
 }
 
-// Does some surface of a body lie outside of a sphere about the other? start: from the frame of the
-// first to that of the second, in which the first is of this scale.
+// Does some patch of a body lie outside of the other's sphere? start: from the first body's frame
+// to the second's, in which the first has this scale.
 static int nsvcd__sticks_out(const nsvcd__geometry *inner, const nsvcd__transform *start,
                              float scale, const nsvcd_body *outer) {
   const nsvcd_body *b = inner->body;
@@ -267,9 +260,8 @@ static int nsvcd__sticks_out(const nsvcd__geometry *inner, const nsvcd__transfor
     const nsvcd__spheres patches = nsvcd__spheres_from(nsvcd__body_patches(b), first);
     uint32_t out = 0;
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 own = nsvcd__v3_centres(patches, l);
-      const nsvcd__v3 posed = nsvcd__v3_transform(start, own);
-      const nsvcd__v3 d = nsvcd__v3_sub(posed, centre);
+      const nsvcd__v3 seen = nsvcd__v3_transform(start, nsvcd__v3_centres(patches, l));
+      const nsvcd__v3 d = nsvcd__v3_sub(seen, centre);
       const nsvcd__v own_radius = nsvcd__v_load(patches.r + l);
       const nsvcd__v limit = nsvcd__v_fma(nsvcd__v_set(scale), own_radius, radius);
       out |= nsvcd__v_lt(nsvcd__v_mul(limit, limit), nsvcd__v3_dot(d, d)) << l;
@@ -282,7 +274,7 @@ static int nsvcd__sticks_out(const nsvcd__geometry *inner, const nsvcd__transfor
   return 0;
 }
 
-// Seeds first .. first + 15 that may be in the sphere and in the box about the other body.
+// Which of the seeds first .. first + 15 may be in the sphere and the box of the other body?
 static uint32_t nsvcd__seeds_near(const nsvcd__geometry *inner, size_t first,
                                   const nsvcd__transform *start, float scale,
                                   const nsvcd__geometry *outer) {
@@ -293,7 +285,7 @@ static uint32_t nsvcd__seeds_near(const nsvcd__geometry *inner, size_t first,
     const float *seed = inner->seeds + 3 * (first + (l < left ? l : 0));
     for (size_t k = 0; k < 3; k++) lanes[k][l] = seed[k];
   }
-  const nsvcd__f3 centre = nsvcd__f3_of(o->centre[0], o->centre[1], o->centre[2]);
+  const nsvcd__f3 centre = nsvcd__f3_load(o->centre);
   const float extent =
       nsvcd__f3_length(start->position) + scale * inner->body->extent + o->extent;
   const float rounding = 4 * NSVCD__ROUNDING * extent;
@@ -313,8 +305,7 @@ static uint32_t nsvcd__seeds_near(const nsvcd__geometry *inner, size_t first,
   return nearby;
 }
 
-// The pose that takes the fixed body's frame to the moving one's, which is of this scale: rows are
-// those of the inverse rotation, over it.
+// The inverse of a pose, whose rotation is times this scale.
 static nsvcd__dtransform nsvcd__inverse_dtransform(const nsvcd__dtransform *at, double scale) {
   const double inverse = 1 / (scale * scale);
   nsvcd__dtransform out;
@@ -324,22 +315,20 @@ static nsvcd__dtransform nsvcd__inverse_dtransform(const nsvcd__dtransform *at, 
   return out;
 }
 
-// One body at the start of the motion, as the other sees it.
+// Two bodies at the start of the motion: is `inner` in `outer`?
 typedef struct nsvcd__enclosure {
   const nsvcd__geometry *inner, *outer;
-  // of the inner body in the outer one's frame, the same rounded, and the other way round
+  // from the inner body's frame to the outer one's, that in float, and its inverse
   nsvcd__dtransform start;
   nsvcd__transform rounded;
   nsvcd__dtransform back;
-  float scale;  // of the inner body, in that frame
-  // of that frame: the fixed body's units
+  // of the inner body in the outer one's frame; of that frame, in the fixed body's units
+  float scale;
   double unit;
-  // it is the motion's moving body
-  int inner_moves;
 } nsvcd__enclosure;
 
-// Are some of the inner body's components, those with seeds from `first` to `end`, within the outer
-// one? Then p->enclosed has the point, and p->within is set; 1 if that is certain.
+// Is one of the inner body's components, with seeds first .. end - 1, in the outer body? Then
+// p->inside is set, and p->enclosed is its seed. Returns 1 if that is certain.
 static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, size_t first,
                                  size_t end) {
   uint32_t nearby = 0;
@@ -354,7 +343,7 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
     const nsvcd__d3 seed = nsvcd__d3_load(e->inner->seeds + 3 * n);
     const nsvcd__d3 seen = nsvcd__place_point(&e->start, seed);
     if (!nsvcd__is_enclosed(p, e->outer, e->unit, seen)) continue;
-    p->enclosed = e->inner_moves ? seen : seed;
+    p->enclosed = e->inner == &p->moving ? seen : seed;
     p->inside = 1;
     const double room = p->given.tolerance / e->unit + (double)e->outer->counts->gap;
     if (!nsvcd__surface_is_near(p, e->outer, seen, room)) return 1;
@@ -362,8 +351,8 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
   return 0;
 }
 
-// The same of all components. Where they are many, only those of groups that come near the outer
-// body are asked for.
+// The same of all components. Where there are many, only groups near the outer body are asked for
+// theirs.
 static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   const nsvcd_body *inner = e->inner->body;
   const nsvcd_body *outer = e->outer->body;
@@ -375,11 +364,11 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   const nsvcd__f3 centre =
       nsvcd__f3_round(nsvcd__place_point(&e->back, nsvcd__d3_load(outer->centre)));
   const float extent = nsvcd__f3_length(centre) + inner->extent + outer->extent / e->scale;
-  const nsvcd__surroundings here = {centre,
-                                    outer->radius / e->scale + 4 * NSVCD__ROUNDING * extent};
+  const float rounding = 4 * NSVCD__ROUNDING * extent;
+  const nsvcd__sphere here = {centre, outer->radius / e->scale + rounding};
   size_t g;
   nsvcd__traversal traversal;
-  nsvcd__traversal_begin(&traversal, inner, nsvcd__is_around, &here);
+  nsvcd__traversal_begin(&traversal, inner, nsvcd__meets_sphere, &here);
   while (!p->unclear && nsvcd__traversal_next(&traversal, &g)) {
     if (nsvcd__encloses_seeds(p, e, e->inner->first_seed[g], e->inner->first_seed[g + 1]))
       return 1;
@@ -387,26 +376,19 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   return 0;
 }
 
-// Is a component of one body within the other at the start of the motion? Then p->enclosed is its
-// point. Where that is so close to the surface that what that is off by matters, 0 is returned and
-// p->within is set: if planes then separate all patches at t = 0, the point, the surface that was
-// looked at and the true one, patch by patch on one side of a plane, agree, and it is within.
+// Is a component of one body inside the other at the start of the motion? Then p->enclosed is its
+// seed. A seed so close to the surface that errors matter returns 0, with p->inside set. If planes
+// then separate all patches at t = 0, the seed, the surface that was tested and the true one are,
+// patch by patch, on one side of a plane and agree: it is inside.
 static NSVCD__NOINLINE int nsvcd__is_contained_at_start(nsvcd__proof *p) {
-  nsvcd__enclosure moving, fixed;
-  moving.start = nsvcd__dtransform_at(nsvcd__arc_at(p, 0), 0);
-  moving.back = nsvcd__inverse_dtransform(&moving.start, p->arc.scale);
-  moving.rounded = nsvcd__transform_of(&moving.start);
-  moving.inner = fixed.outer = &p->moving;
-  moving.outer = fixed.inner = &p->fixed;
-  moving.scale = p->ask.motion->scale;
-  moving.unit = 1;
-  moving.inner_moves = 1;
-  fixed.start = moving.back;
-  fixed.back = moving.start;
-  fixed.rounded = nsvcd__transform_of(&fixed.start);
-  fixed.scale = 1 / p->ask.motion->scale;
-  fixed.unit = p->arc.scale;
-  fixed.inner_moves = 0;
-  return nsvcd__encloses_any(p, &moving) || nsvcd__encloses_any(p, &fixed);
+  const float scale = p->ask.motion->scale;
+  const nsvcd__dtransform start = nsvcd__dtransform_at(nsvcd__arc_at(p, 0), 0);
+  const nsvcd__dtransform back = nsvcd__inverse_dtransform(&start, p->arc.scale);
+  const nsvcd__enclosure moving = {&p->moving, &p->fixed, start, nsvcd__transform_of(&start),
+                                   back,       scale,     1};
+  if (nsvcd__encloses_any(p, &moving)) return 1;
+  const nsvcd__enclosure fixed = {
+      &p->fixed, &p->moving, back, nsvcd__transform_of(&back), start, 1 / scale, p->arc.scale};
+  return nsvcd__encloses_any(p, &fixed);
 }
 #endif  // NSVCD_NO_PROOF
