@@ -92,7 +92,7 @@ long: a try in vain is believed|is_resolved \|\| !is_try, p->work - before|1, p-
 long: gaps by the first pose|part.count = nsvcd__pose_before(track, until - 1) + 2 - first;|part.count = 1;
 long: doubts of one interval forgotten|  p->known = open;\n  p->ask.end = end;\n  return NSVCD__RESOLVED;|  return NSVCD__RESOLVED;
 long: distance of the last interval|if (is_resolved) low = nsvcd__min(low, p->low);|low = p->low;
-long: ends not looked at|!(asked > 0) \&\& nsvcd__meets_at_ends(p, search)|0
+long: ends not looked at|at_end < 2 \&\& !(asked > 0)|0
 long: contacts of a try are the first|p->known.has_contact \&\& !(is_try \&\& fraction > 0);|p->known.has_contact;
 long: poses for work|p->given.grows = q->work == 0;|p->given.grows = 1;
 long: an interval settled from the start|p->known.resolved = (double)p->ask.motion->from;|p->known.resolved = 0;
@@ -125,7 +125,7 @@ every other segment|s += few) {|s += 2 * few) {
 contacts end too much|p->ask.end = p->known.found.tick - p->ask.first;|p->ask.end = 0.9 * p->known.found.tick - p->ask.first;
 a start that is not asked|known.has_contact \&\& nsvcd__clear_until(p) <= 0 \&\& known.found.tick > 0|known.has_contact \&\& known.found.tick < 0
 a doubt taken for free|nsvcd__min(nsvcd__min(p->ask.end, p->known.unresolved), p->known.lost|nsvcd__min(p->ask.end, p->known.lost
-half the first distance|const double apart = 1.0001 * nsvcd__vertices_apart(|const double apart = 0.5 * nsvcd__vertices_apart(
+half the first distance|const double apart = 1.0001 * nsvcd__vertex_distance(|const double apart = 0.5 * nsvcd__vertex_distance(
 distance without tolerance|p->ask.clearance = nsvcd__max(p->low, p->high - p->ask.measure);|p->ask.clearance = nsvcd__max(p->low, p->high * 1.01);
 exact poses not lifted|at.position = nsvcd__d3_add(at.position, arc->push_out);|at.position = nsvcd__d3_add(at.position, nsvcd__d3_scale(arc->push_out, 0));
 lift the wrong way|if (lacks > 0)\n        push_out = nsvcd__d3_add(|if (lacks > 0)\n        push_out = nsvcd__d3_sub(
@@ -168,10 +168,10 @@ exact: planes on one side only|if (nsvcd__d3_dot(n, guess) < 0) n = nsvcd__d3_sc
 pieces by their stored corners|} else if (f->counts->cut > 0) {|} else if (0) {
 a piece of the triangle before|if (f->cut[first + half] <= number) first += half;|if (f->cut[first + half] < number) first += half;
 floor: nearest times on the other side|if (slope < 0)\n      u0 = middle;|if (slope > 0)\n      u0 = middle;
-asks: parts of the time that were lost|if (part->lost) return end;|
-asks: what no part settled|known.lost = known.resolved < nsvcd__min(ticks, nsvcd__min(end, known.unresolved));|known.lost = 0;
+asks: parts of the time that were lost|if (part->lost) return;|
+asks: what no part settled|  p->known = known;\n  p->ask.end = end;\n}|  known.lost = 0;\n  p->known = known;\n  p->ask.end = end;\n}
 long: gaps by other poses|part.poses += first;|
-long: gaps without the lift|- p->given.lengths - pushed_out;|- p->given.lengths;
+long: gaps without the lift|origin_gap - p->given.lengths - pushed_out;|origin_gap - p->given.lengths;
 long: a try that found nothing ends what is proven|!is_open \&\& !is_try \&\& !is_resolved|!is_open \&\& !is_resolved
 long: an interval that forgets nothing|nsvcd__proof_restart(p);\n    outcome = NSVCD__RESOLVED;|outcome = NSVCD__RESOLVED;
 long: work of the first interval for all|if (p->given.grows) p->ask.most = p->work + p->given.work;|

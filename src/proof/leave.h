@@ -1,27 +1,27 @@
 // In: a question with a slop. Out: the question about a body pushed out of what it touches at the
 // start.
 //
-// What carries a body must not stop it. Which contacts are those? The body is asked about as if it
-// were pushed out of all that it touches at the start, by a vector v that has the slop's length
-// along every normal there. That is a motion like any other, and what is proven of it is proven:
-// the body stays clear of everything when displaced by v, so that, undisplaced, it goes no deeper
-// than |v| into anything. What presses in deeper than the slop at the start has no such v, nor has
-// what is held from opposite sides, and is hit as ever. v is constant as the fixed body sees it.
+// What carries a body must not stop it. Which contacts are those? The proof is about the body
+// displaced by a vector v that has the slop's length along every normal that it touches at the
+// start. That is a motion like any other, and what is proven of it is proven: the displaced body
+// stays clear of everything, so the body itself goes no deeper than |v| into anything. There is no
+// such v for what presses in deeper than the slop, or is held from opposite sides: that is hit as
+// ever. v is constant as the fixed body sees it.
 #pragma once
 #include "verdict.h"
 
 #ifndef NSVCD_NO_PROOF
-// How good a push-out along a direction is: twice how many touches it undoes, how far it has to go
-// for that, and how many of these have a face that says so. A touch counts once where the push-out
-// goes against its faces: what is beyond a face already, or round and its middle is, would go
-// further in.
+// How good a push-out along a direction is.
 typedef struct nsvcd__undoing {
   nsvcd__d3 n;
-  size_t count, faces;
-  double distance;
+  // Twice how many touches it undoes. A touch counts once if the push-out goes against its faces:
+  // what is beyond a face already, or is round and its middle is, would go further in.
+  size_t count;
+  size_t faces;     // touches with a face of about this normal
+  double distance;  // how far it has to go
 } nsvcd__undoing;
 
-// Does a push-out along n go against all faces of a touch? What has no area has none.
+// Does a push-out along n go against all faces of a touch? A triangle without area has none.
 static int nsvcd__is_against(nsvcd__d3 n, const nsvcd__triangle_contact *t) {
   int against = 0;
   for (size_t i = 0; i < 2; i++) {
@@ -32,8 +32,8 @@ static int nsvcd__is_against(nsvcd__d3 n, const nsvcd__triangle_contact *t) {
   return against;
 }
 
-// Takes a direction, unit, that is better than the best so far: that undoes more; of equals, that
-// goes less far; and of those that go as far, that more faces say.
+// Takes a direction, unit, if it is better than the best so far: if it undoes more; of equals, if
+// it goes less far; of those that go as far, if more faces have it.
 static void nsvcd__try_push_out(const nsvcd__proof *p, nsvcd__d3 n, nsvcd__undoing *best) {
   const double same = nsvcd__epsilon(p) + 0.01 * nsvcd__max(best->distance, 0);
   nsvcd__undoing by = {n, 0, 0, -HUGE_VAL};
@@ -57,8 +57,8 @@ static void nsvcd__try_push_out(const nsvcd__proof *p, nsvcd__d3 n, nsvcd__undoi
   *best = by;
 }
 
-// Of the normals of what touches, and the directions across an edge of each, the one that undoes
-// the most touches, by the shortest way; its count is 0 if none undoes any.
+// The best of the normals of all touches and of the directions across an edge of each. Its count is
+// 0 if none undoes any touch.
 static nsvcd__undoing nsvcd__best_push_out(const nsvcd__proof *p) {
   nsvcd__undoing best = {{0, 0, 0}, 0, 0, HUGE_VAL};
   for (size_t k = 0; k < p->contact_count; k++) {
@@ -76,7 +76,7 @@ static nsvcd__undoing nsvcd__best_push_out(const nsvcd__proof *p) {
   return best;
 }
 
-// Finds directions that undo all that was gathered. 0: there are none for something, or too many.
+// Finds directions that undo all touches. Returns 0 if nothing undoes one, or it takes too many.
 static int nsvcd__choose_push_outs(nsvcd__proof *p) {
   if (p->too_deep) return 0;
   while (p->contact_count > 0) {
@@ -96,8 +96,8 @@ static int nsvcd__choose_push_outs(nsvcd__proof *p) {
   return 1;
 }
 
-// The shortest vector, nearly, that has `least`, and as much more as the depths say if these count,
-// along all normals that were gathered. 0 if there is none of less than four times the longest.
+// Nearly the shortest vector that has at least `least` along all known normals, plus, with
+// by_depth, the depth along each. 0 if there is none below four times the longest of these.
 static nsvcd__d3 nsvcd__push_out(const nsvcd__proof *p, double least, int by_depth) {
   nsvcd__d3 push_out = {0, 0, 0};
   double longest = 0;
@@ -116,18 +116,17 @@ static nsvcd__d3 nsvcd__push_out(const nsvcd__proof *p, double least, int by_dep
   return nsvcd__d3_of(0, 0, 0);
 }
 
-// Lifts what rests off what it touches: by nothing at first, and whenever something touches when so
-// pushed out, by more, until nothing does. Triangles smaller than the slop can be separated along a
-// wall that others of them stay in touch with, and there may be too many touches to look at
-// together: so what has been found is tried. If there is no way off all that was found, then what
-// was found first may have been the wrong way, and is forgotten, once. Returns 0 if there is no way
-// off.
+// Pushes a body at rest out of what it touches: by nothing at first, and by more as long as
+// something touches. Triangles smaller than the slop can be separated along a wall that their
+// neighbours still touch, and there may be too many touches to collect at once: so each push-out is
+// tried. If the directions known have no push-out in common, the first one may be wrong, and is
+// forgotten, once. Returns 0 if there is no push-out.
 static int nsvcd__push_out_still(nsvcd__proof *p, nsvcd__search *search,
                                  nsvcd__motion *still) {
   p->normal_count = 0;
   still->push_out = nsvcd__f3_of(0, 0, 0);
-  // what is about to touch, or where a motion may have ended before, is pushed out of too; and may
-  // not touch afterwards
+  // Also what is about to touch, or where an earlier motion may have ended, is pushed out of, and
+  // may not touch afterwards.
   const double size = (double)p->given.lengths + p->given.radius;
   const double near_by = nsvcd__min(0.05 * p->ask.slop, 0.02 * size);
   double beside = nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * p->ask.slop));
@@ -148,47 +147,46 @@ static int nsvcd__push_out_still(nsvcd__proof *p, nsvcd__search *search,
   }
 }
 
-// The normal along which a touch is undone first, by planes normal to it.
-static size_t nsvcd__way_of(const nsvcd__proof *p, const nsvcd__triangle_contact *t) {
-  size_t best = 0;
-  double least = HUGE_VAL;
-  for (size_t k = 0; k < p->normal_count; k++) {
-    const double distance = nsvcd__push_out_along(p->normals[k], t);
-    if (distance < least) best = k;
-    least = nsvcd__min(least, distance);
-  }
-  return best;
-}
-
-// What is not in touch at the start may be where the body is pushed out to, and there may have been
-// too many touches: so it is pushed out by little more than the depths that are known, to see what
-// it touches there, until that is no more. Triangles that follow each other, as on a slope, each
-// come free soon: so that little more doubles as long as the depth grows.
+// Makes the depths known as exact as need be. What is not in touch at the start may be where the
+// body is pushed out to, and not all touches may have been collected. So the body is pushed out by
+// little more than the known depths, to see what it touches there, until nothing does. Triangles
+// that follow each other, as on a slope, each come free soon: so the little more doubles as long as
+// depths grow.
 static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion *still) {
   const nsvcd__f3 push_out = still->push_out;
   const double least_more = 0.5 * nsvcd__epsilon(p);
   double more = least_more;
+  double before = 0;
   p->ask.clearance = p->given.clearance;
+  for (size_t k = 0; k < p->normal_count; k++) before += p->depths[k];
   for (int round = 0; round < NSVCD__DEEPEN; round++) {
-    const nsvcd__d3 least = nsvcd__push_out(p, more, 1);
-    double before = 0;
     double after = 0;
-    for (size_t k = 0; k < p->normal_count; k++) before += p->depths[k];
-    still->push_out = nsvcd__f3_round(least);
+    still->push_out = nsvcd__f3_round(nsvcd__push_out(p, more, 1));
     (void)nsvcd__prove_anew(p, search);
-    // what no plane normal to a push-out parts is out of the way after it all the same
-    for (size_t n = 0; n < p->contact_count; n++)
-      nsvcd__note_depth(p, nsvcd__way_of(p, &p->of.touches[n]), &p->of.touches[n]);
+    // A touch gets out of the way along the normal that undoes it first, even if no plane normal to
+    // that separates it.
+    for (size_t n = 0; n < p->contact_count; n++) {
+      const nsvcd__triangle_contact *t = &p->of.touches[n];
+      size_t best = 0;
+      double least = HUGE_VAL;
+      for (size_t k = 0; k < p->normal_count; k++) {
+        const double distance = nsvcd__push_out_along(p->normals[k], t);
+        if (distance < least) best = k;
+        least = nsvcd__min(least, distance);
+      }
+      nsvcd__note_depth(p, best, t);
+    }
     for (size_t k = 0; k < p->normal_count; k++) after += p->depths[k];
     const int is_deeper = after > before;
     if (!is_deeper && more <= nsvcd__max(least_more, 0.002 * after)) break;
     more = is_deeper ? 2 * more : nsvcd__max(least_more, 0.125 * more);
+    before = after;
   }
   still->push_out = push_out;
 }
 
-// Lifts the motion off what it touches at its start, by the slop. Where something is in the way of
-// that, and nothing is too deep, by what is needed.
+// Pushes the motion out of what it touches at its start, by the slop; or, if something is in the
+// way of that and nothing is too deep, by what is needed.
 static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__motion *whole = p->ask.motion;
   nsvcd__motion start = nsvcd__end_of(whole, 0);
@@ -199,7 +197,7 @@ static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__proof *p, nsvcd__searc
   p->needed = 0;
   int is_free = nsvcd__push_out_still(p, search, &start);
   if (!is_free && !p->too_deep) {
-    // the shortest ways may not go together
+    // The shortest push-outs may not go together.
     p->by_faces = 1;
     p->needed = 0;
     is_free = nsvcd__push_out_still(p, search, &start);

@@ -1,23 +1,23 @@
-// In: a question about a motion of any length. Out: the verdict; where asked, when they first meet,
-// and how near they come.
+// In: a question about a motion of any length. Out: the verdict; where asked, when the bodies first
+// meet, and how near they come.
 //
-// What is too long for one search (motion/choice) is searched interval by interval, in the order of
-// time, each as if it were all of the motion. The memory is that of one. The motion is free if all
-// intervals are; containment is decided once, at t = 0, for what is inside of what later on, and
-// not then, has crossed a surface in between. A contact in any interval answers a yes or no: so
-// the ends of the motion, where most are, are looked at first. The first contact is in the first
-// interval that has one; what could not be resolved before is the end of what is proven, and from
-// there on it is only asked whether they meet at all. The least distance is found as contacts lower
-// it: later intervals need only stay beyond.
+// A motion that is too long for one search (motion/choice) is searched interval by interval, in the
+// order of time, each as if it were all of the motion: memory is needed for one. The motion is free
+// if all intervals are. Containment is decided once, at t = 0: what is inside of what later on, and
+// not then, has crossed a surface in between. A contact in any interval answers a yes or no, so the
+// ends of the motion, where most contacts are, are tried first. The first contact is in the first
+// interval that has one. An interval that stays unresolved before it ends what is proven, and from
+// there on the question is only whether they meet at all. For the least distance each contact
+// lowers the bound, and later intervals need only stay beyond it.
 //
-// Most of a long motion is far from anything, or easy. So a *try* is about many more arcs than an
-// interval has, and takes a few units: if these are not enough it is searched in smaller parts.
+// Most of a long motion is far from anything, or easy. So a *try* takes many more arcs than an
+// interval has, with a small budget. If that does not suffice, it is searched in smaller parts.
 #pragma once
 #include "verdict.h"
 
 #ifndef NSVCD_NO_PROOF
-// A way through a motion: how many intervals in a row have been easy, and how many are to be before
-// the next try.
+// How fast intervals go through a motion: how many in a row have been easy, and how many must be
+// before the next try.
 typedef struct nsvcd__pace {
   uint32_t easy, wait;
 } nsvcd__pace;
@@ -29,8 +29,8 @@ static nsvcd__pace nsvcd__first_interval(nsvcd__motion *motion, nsvcd__search *s
   return pace;
 }
 
-// Chooses the one that comes after: larger where those before took little, with segments that turn
-// less where the one before took much; where a try was in vain, a part of it.
+// Chooses the next interval: larger if those before took little work; with segments that turn less
+// if the one before took much; a part of a try that failed.
 static void nsvcd__next_interval(nsvcd__motion *motion, nsvcd__search *search, uint32_t until,
                                  int is_resolved, size_t units, nsvcd__pace *pace) {
   uint32_t arcs = motion->arcs;
@@ -50,15 +50,14 @@ static void nsvcd__next_interval(nsvcd__motion *motion, nsvcd__search *search, u
   if (motion->from < motion->ticks) nsvcd__choose_interval(motion, search, motion->from, arcs);
 }
 
-// How near the surfaces come in the interval that is chosen, at least, by where the bodies are.
-static float nsvcd__apart_until(const nsvcd__proof *p, uint32_t until) {
-  const nsvcd__motion *motion = p->ask.motion;
-  const float pushed_out = 1.0001f * nsvcd__f3_length(motion->push_out);
-  return nsvcd__interval_gap(motion, motion->from, until) - p->given.lengths - pushed_out;
+// The surfaces of bodies whose origins stay so far apart come no nearer than this.
+static float nsvcd__surface_gap(const nsvcd__proof *p, float origin_gap) {
+  const float pushed_out = 1.0001f * nsvcd__f3_length(p->ask.motion->push_out);
+  return origin_gap - p->given.lengths - pushed_out;
 }
 
-// Searches an interval, or tries a larger one. share: as p->ask.share, of an interval; 0: any
-// contact will do.
+// Searches an interval, or tries a larger one. fraction: as p->ask.fraction, but of an interval; 0:
+// any contact will do.
 static nsvcd__outcome nsvcd__prove_interval(nsvcd__proof *p, nsvcd__search *search,
                                             double fraction) {
   const int is_try = p->ask.motion->arcs > 1;
@@ -70,15 +69,8 @@ static nsvcd__outcome nsvcd__prove_interval(nsvcd__proof *p, nsvcd__search *sear
   return nsvcd__prove_motion(p, search);
 }
 
-// A look at the ends of a motion.
-static int nsvcd__meets_at_ends(nsvcd__proof *p, nsvcd__search *search) {
-  const size_t fraction = p->given.aside;
-  const size_t units = fraction < NSVCD__END_BUDGET ? fraction : NSVCD__END_BUDGET;
-  return nsvcd__meets_at(p, search, 0, units) || nsvcd__meets_at(p, search, 1, units);
-}
-
-// A motion interval by interval, until a contact answers. What is known in the end is that of the
-// first interval that was not resolved, and a contact.
+// Searches a motion interval by interval, until a contact answers. In the end that contact is
+// known, and all else that is known is of the first interval that was not resolved.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
                                                              nsvcd__search *search) {
   nsvcd__motion *motion = p->ask.motion;
@@ -88,7 +80,10 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
   double end = NSVCD__NEVER;
   double fraction = asked;
   int is_open = 0;
-  if (!(asked > 0) && nsvcd__meets_at_ends(p, search)) return NSVCD__ANSWERED;
+  const size_t units = p->given.aside < NSVCD__END_BUDGET ? p->given.aside : NSVCD__END_BUDGET;
+  for (int at_end = 0; at_end < 2 && !(asked > 0); at_end++) {
+    if (nsvcd__meets_at(p, search, at_end, units)) return NSVCD__ANSWERED;
+  }
   nsvcd__pace pace = nsvcd__first_interval(motion, search);
   while (motion->from < motion->ticks) {
     const uint32_t until = search->begin[search->segments];
@@ -97,7 +92,8 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
     if (p->given.grows) p->ask.most = p->work + p->given.work;
     nsvcd__proof_restart(p);
     outcome = NSVCD__RESOLVED;
-    if (!(nsvcd__apart_until(p, until) > nsvcd__clearance(p)))
+    const float gap = nsvcd__interval_gap(motion, motion->from, until);
+    if (!(nsvcd__surface_gap(p, gap) > nsvcd__clearance(p)))
       outcome = nsvcd__prove_interval(p, search, fraction);
     const int is_resolved =
         outcome == NSVCD__RESOLVED && !(p->known.unresolved < NSVCD__NEVER);
@@ -124,27 +120,23 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
   return NSVCD__RESOLVED;
 }
 
+// Answers a question: do the bodies meet, and when?
 static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__motion *motion = p->ask.motion;
   const int in_order = p->ask.fraction > 0;
-  const float pushed_out = nsvcd__f3_length(motion->push_out);
-  const float apart = p->given.lengths + nsvcd__clearance(p) + 1.0001f * pushed_out;
-  nsvcd__outcome outcome;
+  const float gap = nsvcd__surface_gap(p, nsvcd__motion_gap(motion));
   p->ask.limit = p->given.work;
   p->ask.after_unresolved = in_order ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.aside;
-  if (nsvcd__motion_gap(motion) > apart) return NSVCD__FOUND_FREE;
+  if (gap > nsvcd__clearance(p)) return NSVCD__FOUND_FREE;
   const int is_long = nsvcd__is_long(motion, search);
   if (nsvcd__is_contained_at_start(p)) {
-    // a hit, whatever else; who asks for more than that is told of triangles, if some meet as well
+    // It is a hit. A question that asks for more gets triangles, if some meet as well.
     const int meets = p->given.tells && nsvcd__meets_at(p, search, 0, NSVCD__INSIDE_BUDGET);
     return meets ? NSVCD__FOUND_CONTACT : nsvcd__found_inside(p);
   }
-  if (is_long)
-    outcome = nsvcd__prove_intervals(p, search);
-  else if (in_order)
-    outcome = nsvcd__prove_first(p, search);
-  else
-    outcome = nsvcd__prove_and_look(p, search, p->given.work);
+  const nsvcd__outcome outcome = is_long    ? nsvcd__prove_intervals(p, search)
+                                 : in_order ? nsvcd__prove_first(p, search)
+                                            : nsvcd__prove_whole(p, search, p->given.work);
   const double clear = nsvcd__clear_until(p);
   if (outcome == NSVCD__ANSWERED) return NSVCD__FOUND_CONTACT;
   if (p->inside && clear > 0) return nsvcd__found_inside(p);
@@ -155,8 +147,8 @@ static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
 
 // ---- the least distance
 
-// The same interval by interval. What was named is divided by time: of what is left the share that
-// an interval has of the rest of the motion.
+// Narrows the bracket interval by interval. A budget that was given is divided by time: each
+// interval gets of what is left the share that it has of the rest of the motion.
 static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__search *search,
                                                     double finest, nsvcd__pace *pace) {
   nsvcd__motion *motion = p->ask.motion;
@@ -176,7 +168,8 @@ static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__sear
       p->given.work = p->work < most ? (size_t)(rest * (double)(most - p->work)) : 0;
     }
     p->ask.most = p->work + p->given.work;
-    p->low = nsvcd__max(known, (double)nsvcd__apart_until(p, until));
+    const float gap = nsvcd__interval_gap(motion, motion->from, until);
+    p->low = nsvcd__max(known, (double)nsvcd__surface_gap(p, gap));
     p->wide = 0;
     if (p->low < p->high && !(is_named && p->high - p->low <= finest)) {
       if (motion->arcs > 1) {
@@ -197,19 +190,18 @@ static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__sear
   p->wide = is_wide && p->high - p->low > finest;
 }
 
-// Brackets the least distance over the motion, when it is known whether they come within the
-// clearance that is asked for.
+// Brackets the least distance over the motion, once it is known whether they come within the
+// clearance.
 static NSVCD__NOINLINE void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search,
                                            nsvcd__finding verdict, double finest) {
   nsvcd__motion *motion = p->ask.motion;
   int is_named = p->known.has_contact || p->known.unresolved < NSVCD__NEVER;
-  const float pushed_out = nsvcd__f3_length(motion->push_out);
-  const float gap = nsvcd__motion_gap(motion) - p->given.lengths - 1.0001f * pushed_out;
+  const float gap = nsvcd__surface_gap(p, nsvcd__motion_gap(motion));
   p->low = nsvcd__max(verdict == NSVCD__FOUND_FREE ? p->given.clearance : 0, (double)gap);
   const int is_long = nsvcd__is_long(motion, search);
   nsvcd__pace pace = {0, 0};
   if (is_long) pace = nsvcd__first_interval(motion, search);
-  p->high = is_named ? p->known.found.distance : nsvcd__guess_clearance(p, search);
+  p->high = is_named ? p->known.found.distance : nsvcd__bound_distance(p, search);
   is_named = is_named || p->known.has_contact;
   if (is_named && !(p->high - p->low > finest)) return;
   if (is_long)

@@ -6,16 +6,22 @@
 #include "patch_pairs.h"
 
 #ifndef NSVCD_NO_PROOF
-// Segments that are searched now, and still matter.
+// Segments from .. to - 1, as bits.
+static uint64_t nsvcd__segments_in(size_t from, size_t to) {
+  const uint64_t before_end = to < 64 ? ((uint64_t)1 << to) - 1 : ~(uint64_t)0;
+  return before_end & ~(((uint64_t)1 << from) - 1);
+}
+
+// The segments being searched that still matter.
 static uint64_t nsvcd__segments_that_matter(const nsvcd__proof *p,
                                             const nsvcd__search *search) {
   size_t s = search->segments;
   if (!(p->ask.first > 0) || !p->known.has_contact) return search->wanted;
   while (s > 0 && !nsvcd__matters(p, search, s - 1)) s--;
-  return s == 64 ? search->wanted : search->wanted & (((uint64_t)1 << s) - 1);
+  return search->wanted & nsvcd__segments_in(0, s);
 }
 
-// Adds the patch pairs of moving group g and resting patch j in the segments `left`, and clears
+// Adds the patch pairs of moving group g and fixed patch j in the segments *left, and clears
 // these, as long as there is room for 16 more.
 static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *search, size_t g,
                                    size_t j, uint64_t *left) {
@@ -32,12 +38,11 @@ static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *search,
     float fraction[NSVCD__LANES];
     uint32_t met = 0;
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 start = nsvcd__v3_rows(c->start[0] + l);
-      const nsvcd__v3 v = nsvcd__v3_rows(c->travel[0] + l);
-      const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_set(centre));
+      const nsvcd__v3 travel = nsvcd__chords_travel(c, l);
+      const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(centre));
       const nsvcd__v tau = nsvcd__v_clamp(
-          nsvcd__v_mul(nsvcd__v3_dot(d, v), nsvcd__v_load(c->inverse + l)), 0, 1);
-      const nsvcd__v3 closest = nsvcd__v3_fma(tau, v, d);
+          nsvcd__v_mul(nsvcd__v3_dot(d, travel), nsvcd__v_load(c->inverse + l)), 0, 1);
+      const nsvcd__v3 closest = nsvcd__v3_fma(tau, travel, d);
       const nsvcd__v square = nsvcd__v3_dot(closest, closest);
       const nsvcd__v sum = nsvcd__v_plus(nsvcd__v_load(c->radius + l), radius);
       met |= nsvcd__v_le(square, nsvcd__v_signed_square(sum)) << l;
@@ -54,25 +59,25 @@ static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *search,
       if (p->moving.hull_counts[i] == 0) continue;
       const float radii = search->scale * own[l] + radius;
       const float depth = 1 - sqrtf(squares[l]) / (radii > 1e-30f ? radii : 1e-30f);
-      const nsvcd__patch_pair item = {(uint16_t)i, (uint16_t)j, (uint16_t)s,
+      const nsvcd__patch_pair pair = {(uint16_t)i, (uint16_t)j, (uint16_t)s,
                                       0,           depth,       fraction[l]};
-      p->fresh[p->fresh_count++] = item;
+      p->fresh[p->fresh_count++] = pair;
     }
   }
 }
 
-// Looks at what the search has found so far.
-static nsvcd__outcome nsvcd__see_to_patch_pairs(nsvcd__proof *p, nsvcd__search *search) {
+// Processes the patch pairs that the search has found since.
+static nsvcd__outcome nsvcd__take_patch_pairs(nsvcd__proof *p, nsvcd__search *search) {
   return p->ask.collects ? nsvcd__collect_contacts(p, search)
                          : nsvcd__sift_patch_pairs(p, search);
 }
 
-// THE LOOP: point 2 of the theorem. A tile's groups, of the moving body and of the resting one, are
-// separated by spheres and by slabs; of those left, patches by spheres and by slabs; what is left
-// of these are patch pairs, which nsvcd__sift_patch_pairs and nsvcd__resolve_patch_pairs see to. In
-// the end each pair of patches, in each segment that is wanted and still matters, has been
-// separated, or has given a contact that answers or shrinks the question, or is an unresolved pair,
-// or was resolved by its parts; or SPENT says that it has not.
+// THE LOOP: point 2 of the theorem. Spheres and slabs separate groups of a tile of the moving body
+// and one of the fixed body, and then patches of the groups left. What is left of these are patch
+// pairs, for nsvcd__sift_patch_pairs and nsvcd__resolve_patch_pairs. In the end each pair of
+// patches, in each segment that is wanted and still matters, has been separated, or has given a
+// contact that answers or shrinks the question, or is an unresolved pair, or was resolved by its
+// parts; or EXHAUSTED says that it has not.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
                                                             nsvcd__search *search) {
   nsvcd__outcome outcome;
@@ -95,33 +100,26 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
           nsvcd__pose_members(search, g, *left);
           nsvcd__add_patch_pairs(p, search, g, NSVCD__GROUP * h + l, left);
           if (!*left) break;
-          outcome = nsvcd__see_to_patch_pairs(p, search);
+          outcome = nsvcd__take_patch_pairs(p, search);
           if (outcome != NSVCD__RESOLVED) return outcome;
         }
       }
       if (p->fresh_count < NSVCD__NEWS) continue;
-      outcome = nsvcd__see_to_patch_pairs(p, search);
+      outcome = nsvcd__take_patch_pairs(p, search);
       if (outcome != NSVCD__RESOLVED) return outcome;
     }
   }
-  outcome = nsvcd__see_to_patch_pairs(p, search);
+  outcome = nsvcd__take_patch_pairs(p, search);
   if (outcome != NSVCD__RESOLVED || p->ask.collects) return outcome;
   return nsvcd__resolve_patch_pairs(p, search);
 }
 
-// Those of the segments from one to another, the last one not included.
-static uint64_t nsvcd__segments_in(size_t from, size_t to) {
-  const uint64_t before_end = to < 64 ? ((uint64_t)1 << to) - 1 : ~(uint64_t)0;
-  return before_end & ~(((uint64_t)1 << from) - 1);
-}
-
-// The same of a motion that has been cut: tile after tile. Where the first contact is sought, some
+// The same for all tiles of a motion that has been cut. If the first contact is sought, some
 // segments of a tile at a time, until there is a contact: it is the first of the tile. What is
-// resolved of one tile tells nothing of the others.
+// resolved in one tile says nothing of the others.
 static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
-  const int has_tiles = nsvcd__is_tiled(moving, fixed);
   const size_t all = search->segments;
   const size_t few = p->ask.first > 0 ? NSVCD__IN_ORDER : all;
   nsvcd__outcome outcome = NSVCD__RESOLVED;
@@ -134,7 +132,8 @@ static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search)
       search->step = 0;
       search->waiting = 0;
       outcome = nsvcd__prove_segments(p, search);
-      if (outcome == NSVCD__RESOLVED && !p->known.has_contact && !has_tiles)
+      const int one_tile = !nsvcd__is_tiled(moving, fixed);
+      if (outcome == NSVCD__RESOLVED && !p->known.has_contact && one_tile)
         p->known.resolved = (double)search->begin[next];
     }
   } while (outcome == NSVCD__RESOLVED && nsvcd__search_next_tile(search));

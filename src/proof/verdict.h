@@ -1,11 +1,11 @@
-// In: a question, and segments that have been chosen: of a motion, or of an interval of it. Out: do
-// they meet; where asked, when first, and how near they come.
+// In: a question, and the segments chosen of a motion or of an interval of it. Out: do the bodies
+// meet; where asked, when first, and how near they come.
 #pragma once
 #include "../motion/choice.h"
 #include "loop.h"
 
 #ifndef NSVCD_NO_PROOF
-// What is said of a component that is within the other body, whatever contacts were found since.
+// A component is inside the other body. That replaces any contact found since.
 static nsvcd__finding nsvcd__found_inside(nsvcd__proof *p) {
   memset(&p->known.found, 0, sizeof p->known.found);
   p->known.found.point = p->enclosed;
@@ -14,14 +14,14 @@ static nsvcd__finding nsvcd__found_inside(nsvcd__proof *p) {
   return NSVCD__FOUND_INSIDE;
 }
 
-// Ticks: nothing meets before this, or NEVER.
+// The tick before which nothing meets, or NEVER.
 static double nsvcd__clear_until(const nsvcd__proof *p) {
   if (p->unclear) return 0;
   return nsvcd__min(nsvcd__min(p->ask.end, p->known.unresolved),
                     p->known.lost ? p->known.resolved : NSVCD__NEVER);
 }
 
-// Makes a proof forget all that it knew of a motion, or of an interval.
+// Forgets all that was known of a motion, or of an interval.
 static void nsvcd__proof_restart(nsvcd__proof *p) {
   memset(&p->known, 0, sizeof p->known);
   p->known.resolved = (double)p->ask.motion->from;
@@ -34,7 +34,7 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
   nsvcd__forget(&p->memo);
 }
 
-// Searches a motion whose segments have been chosen, and resolves what is found.
+// Searches a motion whose segments have been chosen, and resolves what it finds.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_motion(nsvcd__proof *p,
                                                           nsvcd__search *search) {
   nsvcd__cut_segments(p->ask.motion, p->given.lengths, nsvcd__clearance(p), search);
@@ -44,7 +44,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_motion(nsvcd__proof *p,
   return outcome;
 }
 
-// The same, of any motion, whatever was known of one.
+// The same for any motion, from scratch.
 static nsvcd__outcome nsvcd__prove_anew(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__proof_restart(p);
   nsvcd__choose_segments(p->ask.motion, search);
@@ -66,8 +66,8 @@ static nsvcd__motion nsvcd__end_of(const nsvcd__motion *motion, int at_end) {
   return still;
 }
 
-// A look at the start alone, or at the end, which takes so many units at most: do triangles meet
-// there? Then that is the contact that is known. If not, all that was known is lost.
+// Do triangles meet at the start alone, or at the end? Takes so many units at most. If they do,
+// that is the known contact; if not, all that was known is lost.
 static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *search, int at_end,
                                            size_t units) {
   const nsvcd__asked asked = p->ask;
@@ -85,16 +85,16 @@ static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *searc
 
 // Searches segments that have been chosen, first with a small budget: most queries end there. Many
 // of the rest touch only at the start or at the end, so these two poses are tried before all is
-// searched again. The search for a first contact begins at the start anyway, and of the intervals
-// of a long motion the ends have been tried before.
-static nsvcd__outcome nsvcd__prove_and_look(nsvcd__proof *p, nsvcd__search *search,
-                                            size_t limit) {
+// searched again. The search for a first contact begins at the start anyway, and the ends of a long
+// motion have been tried before its intervals.
+static nsvcd__outcome nsvcd__prove_whole(nsvcd__proof *p, nsvcd__search *search,
+                                         size_t limit) {
   const int is_brief = !p->ask.motion->arcs && !(p->ask.fraction > 0);
   p->ask.is_brief = is_brief && p->work + NSVCD__LONG < limit;
   p->ask.limit = p->ask.is_brief ? p->work + NSVCD__LONG : limit;
   const nsvcd__outcome outcome = nsvcd__prove_motion(p, search);
   if (outcome != NSVCD__EXHAUSTED || !p->ask.is_brief) return outcome;
-  // a part of what an unresolved pair leaves has been used
+  // half of what may follow an unresolved pair has been used
   if (p->known.unresolved < NSVCD__NEVER)
     p->ask.after_unresolved -= p->ask.after_unresolved / 2;
   for (int at_end = 0; at_end < 2; at_end++) {
@@ -105,45 +105,38 @@ static nsvcd__outcome nsvcd__prove_and_look(nsvcd__proof *p, nsvcd__search *sear
   return nsvcd__prove_anew(p, search);
 }
 
-// A part of the motion, from one place to another, in segments, and no later than `end`: where is
-// the first contact there, or the first unresolved pair? All else that was known is lost. Ticks
-// become finer: returns how many one is.
-static double nsvcd__prove_part(nsvcd__proof *p, nsvcd__search *search, double from, double to,
-                                double end) {
+// Searches a part of the motion, from one position in segments to another, for the first contact
+// there or the first unresolved pair, and adds what it finds to what is known of all before it.
+// *end: the tick from which on nothing matters.
+static void nsvcd__prove_part(nsvcd__proof *p, nsvcd__search *search, double from, double to,
+                              nsvcd__known *known, double *end) {
+  const nsvcd__known *part = &p->known;
   nsvcd__proof_restart(p);
   nsvcd__choose_segments(p->ask.motion, search);
+  // this many ticks to one of before
   const double finer = nsvcd__motion_refine(p->ask.motion);
   nsvcd__narrow_segments(search, from, to, finer);
-  p->ask.end = nsvcd__min(p->ask.end, finer * end);
+  p->ask.end = nsvcd__min(p->ask.end, finer * *end);
   p->ask.unresolved_ends = 1;
   (void)nsvcd__prove_motion(p, search);
-  return finer;
-}
-
-// Adds what is known of a part of the motion, whose ticks are so much finer, to what was known of
-// all before it. Returns until when, in ticks, it still matters.
-static double nsvcd__add_part(const nsvcd__proof *p, const nsvcd__search *search, double finer,
-                              double end, nsvcd__known *known) {
-  const nsvcd__known *part = &p->known;
   const double last = (double)search->begin[search->segments];
   if (part->has_contact) {
     known->has_contact = 1;
     known->found = part->found;
     known->found.tick /= finer;
-    end = p->ask.end / finer;
+    *end = p->ask.end / finer;
   }
-  if (part->lost) return end;
+  if (part->lost) return;
   if (part->unresolved < NSVCD__NEVER) {
     known->unresolved_pair = part->unresolved_pair;
     known->unresolved_pair.tick /= finer;
     known->unresolved = part->unresolved / finer;
   }
   known->resolved = nsvcd__min(last, p->ask.end) / finer;
-  return end;
 }
 
-// There was not work enough for the first contact: once more from what is resolved on, by time, a
-// part of the motion after another. Where one takes too many units, a shorter one is tried.
+// The budget did not suffice for the first contact. Searches again by time, from what is resolved
+// on: one part of the motion after another, a shorter one where a part takes too many units.
 static NSVCD__NOINLINE void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *search,
                                                  size_t limit) {
   nsvcd__known known = p->known;
@@ -156,14 +149,15 @@ static NSVCD__NOINLINE void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search 
   size_t units = limit;
   while (from < all && (double)search->begin[(size_t)from + 1] <= known.resolved) from++;
   p->ask.is_brief = 1;
-  while (p->work < limit &&
-         known.resolved < nsvcd__min(ticks, nsvcd__min(end, known.unresolved))) {
+  for (;;) {
+    const double until = nsvcd__min(ticks, nsvcd__min(end, known.unresolved));
+    known.lost = known.resolved < until;
+    if (!known.lost || p->work >= limit) break;
     const size_t before = p->work;
     const double whole = floor(from + length);
     const double to = whole > from ? nsvcd__min(whole, all) : from + length;
     p->ask.limit = limit - before > units ? before + units : limit;
-    const double finer = nsvcd__prove_part(p, search, from, to, end);
-    end = nsvcd__add_part(p, search, finer, end, &known);
+    nsvcd__prove_part(p, search, from, to, &known, &end);
     if (p->known.lost) {
       length /= 8;
       grows = 2;
@@ -173,7 +167,6 @@ static NSVCD__NOINLINE void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search 
       units = 8 * (p->work - before) + NSVCD__PART_BUDGET;
     }
   }
-  known.lost = known.resolved < nsvcd__min(ticks, nsvcd__min(end, known.unresolved));
   p->ask.is_brief = 0;
   nsvcd__proof_restart(p);
   nsvcd__choose_segments(p->ask.motion, search);
@@ -181,18 +174,18 @@ static NSVCD__NOINLINE void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search 
   p->ask.end = end;
 }
 
-// When do they meet first? What is proven of that stays, also where there is no more work left.
+// When do they meet first? What is proven of that stays proven when the budget ends.
 static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search) {
-  const nsvcd__outcome outcome = nsvcd__prove_and_look(p, search, nsvcd__limit_of_first(p));
+  const nsvcd__outcome outcome = nsvcd__prove_whole(p, search, nsvcd__limit_of_first(p));
   const double from = (double)p->ask.motion->from;
-  // an interval is short: what is before it is known
+  // An interval is short, and all before it is known.
   if (p->known.lost && !p->ask.motion->arcs) nsvcd__prove_by_time(p, search, p->ask.most);
   nsvcd__known known = p->known;
   const double end = p->ask.end;
   if (from > 0 && known.has_contact) {
     p->starts_free = 1;
   } else if (known.has_contact && nsvcd__clear_until(p) <= 0 && known.found.tick > 0) {
-    // so early that they may meet at the start already
+    // The contact is so early that they may meet at the start already.
     if (nsvcd__meets_at(p, search, 0, p->given.work)) return NSVCD__ANSWERED;
     p->starts_free = !p->known.lost && !(p->known.unresolved < NSVCD__NEVER);
   }
@@ -203,9 +196,9 @@ static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search)
 
 // ---- the least distance
 
-// Of the patches with a surface, the one whose centre is nearest to a place of the body's frame; of
-// a large body one near it, found by going down the levels of spheres, always to the nearest.
-static size_t nsvcd__patch_towards(const nsvcd__geometry *f, nsvcd__f3 position) {
+// Of the patches with a surface, the one whose centre is nearest to a point of the body's frame. Of
+// a large body, one near it: the nearest sphere on each level leads there.
+static size_t nsvcd__patch_near(const nsvcd__geometry *f, nsvcd__f3 point) {
   const nsvcd_body *body = f->body;
   size_t from = 0;
   size_t count = body->patches;
@@ -220,7 +213,7 @@ static size_t nsvcd__patch_towards(const nsvcd__geometry *f, nsvcd__f3 position)
     size_t nearest = from;
     float best = HUGE_VALF;
     for (size_t n = from; n < from + count && n < level.count; n++) {
-      const nsvcd__f3 off = nsvcd__f3_sub(nsvcd__centre_of(all, n), position);
+      const nsvcd__f3 off = nsvcd__f3_sub(nsvcd__centre_of(all, n), point);
       const float distance = nsvcd__f3_length(off) - all.r[n];
       if (distance >= best) continue;
       best = distance;
@@ -235,25 +228,24 @@ static size_t nsvcd__patch_towards(const nsvcd__geometry *f, nsvcd__f3 position)
     uint32_t nearer = 0;
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v3 off =
-          nsvcd__v3_sub(nsvcd__v3_centres(patches, first + l), nsvcd__v3_set(position));
+          nsvcd__v3_sub(nsvcd__v3_centres(patches, first + l), nsvcd__v3_set(point));
       const nsvcd__v square = nsvcd__v3_dot(off, off);
       nearer |= nsvcd__v_lt(square, nsvcd__v_set(least)) << l;
       nsvcd__v_store(squares + l, square);
     }
     for (; nearer; nearer &= nearer - 1) {
-      const size_t n = first + nsvcd__low_bit(nearer);
-      if (n >= body->patches || f->hull_counts[n] == 0) continue;
-      if (squares[n - first] >= least) continue;
-      least = squares[n - first];
+      const size_t l = nsvcd__low_bit(nearer);
+      const size_t n = first + l;
+      if (n >= body->patches || f->hull_counts[n] == 0 || squares[l] >= least) continue;
+      least = squares[l];
       patch = n;
     }
   }
   return patch;
 }
 
-// When the sphere of the moving body whose chords are search->group comes nearest to one of the
-// fixed body, in ticks, if that is nearer than `gap`, metres, which becomes how near. Returns 1 if
-// it is.
+// When the sphere whose chords are search->group comes nearest to a fixed one, in ticks. Returns 0
+// if that is no nearer than *gap, metres; else *gap becomes how near.
 static int nsvcd__nearest_tick(const nsvcd__search *search, nsvcd__sphere fixed, float *gap,
                                double *tick) {
   int found = 0;
@@ -287,34 +279,30 @@ static int nsvcd__nearest_tick(const nsvcd__search *search, nsvcd__sphere fixed,
   return found;
 }
 
-// When two groups come nearest, in ticks, and which resting one that is; of large bodies, when the
-// bodies do.
-static double nsvcd__groups_nearest(const nsvcd__proof *p, nsvcd__search *search,
-                                    nsvcd__sphere *resting) {
-  const nsvcd_body *moving = p->moving.body;
-  const nsvcd_body *fixed = p->fixed.body;
+// The two groups that come nearest to each other; of large bodies, the bodies' own spheres.
+static void nsvcd__nearest_groups(const nsvcd__proof *p, nsvcd__search *search,
+                                  nsvcd__sphere *moving, nsvcd__sphere *fixed) {
+  const nsvcd_body *a = p->moving.body;
+  const nsvcd_body *b = p->fixed.body;
   float gap = HUGE_VALF;
-  double tick = 0;
-  *resting = nsvcd__body_sphere(fixed);
-  if (nsvcd__is_tiled(moving, fixed)) {
-    nsvcd__chords_in_all(search, nsvcd__body_sphere(moving));
-    (void)nsvcd__nearest_tick(search, *resting, &gap, &tick);
-    return tick;
-  }
-  for (size_t g = 0; g < nsvcd__body_groups(moving); g++) {
-    nsvcd__chords_in_all(search, nsvcd__sphere_of(nsvcd__groups_of(moving), g));
-    for (size_t h = 0; h < nsvcd__body_groups(fixed); h++) {
-      const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__groups_of(fixed), h);
-      if (nsvcd__nearest_tick(search, group, &gap, &tick)) *resting = group;
+  double tick;
+  *moving = nsvcd__body_sphere(a);
+  *fixed = nsvcd__body_sphere(b);
+  for (size_t g = 0; g < nsvcd__body_groups(a) && !nsvcd__is_tiled(a, b); g++) {
+    const nsvcd__sphere own = nsvcd__sphere_of(nsvcd__groups_of(a), g);
+    nsvcd__chords_in_all(search, own);
+    for (size_t h = 0; h < nsvcd__body_groups(b); h++) {
+      const nsvcd__sphere other = nsvcd__sphere_of(nsvcd__groups_of(b), h);
+      if (!nsvcd__nearest_tick(search, other, &gap, &tick)) continue;
+      *moving = own;
+      *fixed = other;
     }
   }
-  return tick;
 }
 
-// The least distance between the hulls' vertices of patch i of the moving body and patch j of the
-// fixed one.
-static double nsvcd__vertices_apart(const nsvcd__proof *p, const nsvcd__transform *pose,
-                                    size_t i, size_t j) {
+// The least distance between hull vertices of moving patch i and fixed patch j.
+static double nsvcd__vertex_distance(const nsvcd__proof *p, const nsvcd__transform *pose,
+                                     size_t i, size_t j) {
   float lanes[3][NSVCD__LANES];
   float least = HUGE_VALF;
   NSVCD__EACH_SLICE(l) {
@@ -331,27 +319,25 @@ static double nsvcd__vertices_apart(const nsvcd__proof *p, const nsvcd__transfor
   return sqrt((double)least);
 }
 
-// How near the bodies come for certain, and a little more: the least distance between the vertices
-// of two patches, when and where these are nearest to each other. They are found in turns: which
-// are the nearest at a time, and when they are nearest. Where `measure` begins. If that is within
-// the clearance, triangles of these patches are a contact, which is looked for there.
-static NSVCD__NOINLINE double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__search *search) {
-  nsvcd__sphere moving = nsvcd__body_sphere(p->moving.body);
-  nsvcd__sphere fixed;
-  // they may not have been: bodies that never come near are told apart without
-  nsvcd__cut_segments(p->ask.motion, p->given.lengths, 0, search);
-  double tick = nsvcd__groups_nearest(p, search, &fixed);
+// An upper bound of the least distance, from which its search begins: a distance that vertices of
+// two patches have, and a little more. The patches, and the time when they are nearest, are found
+// in turns. If the bound is within the clearance, triangles of these patches are a contact, which
+// is sought there.
+static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__proof *p, nsvcd__search *search) {
+  nsvcd__sphere moving, fixed;
+  double tick = 0;
   double least = HUGE_VAL;
   double fraction = 0;
   uint32_t from = 0;
   size_t nearest[2] = {0, 0};
+  // Bodies that never come near have been told apart without segments.
+  nsvcd__cut_segments(p->ask.motion, p->given.lengths, 0, search);
+  nsvcd__nearest_groups(p, search, &moving, &fixed);
   for (size_t turn = 0; turn < NSVCD__TURNS; turn++) {
+    float gap = HUGE_VALF;
     double u;
-    if (turn > 0) {
-      float gap = HUGE_VALF;
-      nsvcd__chords_in_all(search, moving);
-      (void)nsvcd__nearest_tick(search, fixed, &gap, &tick);
-    }
+    nsvcd__chords_in_all(search, moving);
+    (void)nsvcd__nearest_tick(search, fixed, &gap, &tick);
     const uint32_t first = nsvcd__arc_of(p->ask.motion, tick, &u);
     const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(p, first), u);
     const nsvcd__transform pose = nsvcd__transform_of(&at);
@@ -360,15 +346,15 @@ static NSVCD__NOINLINE double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__sea
     size_t j = 0;
     for (size_t round = 0; round < 2; round++) {
       const nsvcd__d3 seen = nsvcd__place_point(&back, nsvcd__d3_widen(fixed.centre));
-      i = nsvcd__patch_towards(&p->moving, nsvcd__f3_round(seen));
+      i = nsvcd__patch_near(&p->moving, nsvcd__f3_round(seen));
       moving = nsvcd__sphere_of(nsvcd__body_patches(p->moving.body), i);
-      j = nsvcd__patch_towards(&p->fixed, nsvcd__f3_transform(&pose, moving.centre));
+      j = nsvcd__patch_near(&p->fixed, nsvcd__f3_transform(&pose, moving.centre));
       fixed = nsvcd__sphere_of(nsvcd__body_patches(p->fixed.body), j);
     }
     const float lengths = p->given.lengths + nsvcd__f3_length(pose.position);
     const double rounding =
         (double)(4 * NSVCD__ROUNDING * lengths + 2 * nsvcd__quanta_of(p, i, j));
-    const double apart = 1.0001 * nsvcd__vertices_apart(p, &pose, i, j) + rounding;
+    const double apart = 1.0001 * nsvcd__vertex_distance(p, &pose, i, j) + rounding;
     if (!(apart < least)) continue;
     least = apart;
     fraction = u;
@@ -383,9 +369,9 @@ static NSVCD__NOINLINE double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__sea
   return p->known.has_contact ? p->known.found.distance : least;
 }
 
-// One pass: a search whose question shrinks, for a bracket as narrow as p->ask.measure. What was
-// known stays known, and what is found is added. Returns whether there was work enough; if so, they
-// come no nearer than p->low.
+// One pass: a search whose question shrinks, for a bracket as narrow as p->ask.measure. Adds what
+// it finds to what is known. Returns whether the budget sufficed; if so, they come no nearer than
+// p->low.
 static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__known known = p->known;
   const int is_named = known.has_contact || known.unresolved < NSVCD__NEVER;
@@ -401,9 +387,8 @@ static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *search) {
   return pass != NSVCD__EXHAUSTED;
 }
 
-// Makes the bracket as narrow as `finest`. Where half of the work is not enough for that, the rest
-// goes to brackets that get narrower and narrower: the last one that there was work enough for
-// stays.
+// Makes the bracket as narrow as `finest`. If half of the budget does not suffice for that, the
+// rest goes to brackets that get narrower and narrower; the last that was completed stays.
 static void nsvcd__narrow(nsvcd__proof *p, nsvcd__search *search, double finest) {
   p->ask.measure = finest;
   p->ask.limit = nsvcd__limit_after(p, p->given.work / 2);

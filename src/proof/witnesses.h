@@ -1,23 +1,23 @@
-// In: a patch pair, an arc and a share of it. Out: a contact: two triangles that meet there, or
-// come within the clearance; with a slop, what touches at the start and which directions undo it.
+// In: a patch pair and a time. Out: a contact: two triangles that meet then, or come within the
+// clearance; with a slop, what touches at the start and which directions undo it.
 #pragma once
 #include "manifold.h"
 #include "blocks.h"
 
 #ifndef NSVCD_NO_PROOF
-// Nearer to each other than this nothing that is told in float is separate.
+// Answers in float cannot tell things apart that are nearer to each other than this.
 static double nsvcd__epsilon(const nsvcd__proof *p) {
   return nsvcd__off_meshes(p) + NSVCD__LEAST_EPSILON * (double)p->given.lengths;
 }
 
-// How far the moving triangle of a touch must go along n until it is beyond the other; negative if
-// it is already.
+// How far the moving triangle of a touch must go along n to be beyond the other; negative if it is
+// beyond it already.
 static double nsvcd__push_out_along(nsvcd__d3 n, const nsvcd__triangle_contact *t) {
   return -nsvcd__beyond(n, t->moving, t->fixed);
 }
 
-// Is a touch too deep for the slop in every direction? Two triangles are separated soonest along a
-// normal of one, or across an edge of each (the separating axes).
+// Is a touch too deep for the slop in every direction? Those to try are the separating axes: a
+// normal of either triangle, or across an edge of each.
 static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__triangle_contact *t) {
   const nsvcd__d3 push_out = nsvcd__d3_widen(p->ask.motion->push_out);
   const double most = p->ask.slop - p->given.clearance;
@@ -34,8 +34,8 @@ static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__triangle_contact *
 }
 
 // Does a push-out along n, by what is left of the slop in that direction, undo a touch? If it has
-// to push anything, then not through both faces. Through one of them is no harm: a side that rises
-// from the rim on which a cone stands looks up, and the floor under it looks up too.
+// to push, it must not go through both faces. Going through one is harmless: a cone's side, which
+// rises from the rim that the cone stands on, looks up, and so does the floor under it.
 static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n,
                          const nsvcd__triangle_contact *t) {
   const double push_out = nsvcd__push_out_along(n, t);
@@ -47,7 +47,7 @@ static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n,
          nsvcd__d3_dot(n, t->directions[1]) > -0.3;
 }
 
-// The square of the distance of two triangles, the moving one gone so far along n.
+// The squared distance of two triangles after the moving one has gone so far along n.
 static double nsvcd__gap_after(const nsvcd__triangle_contact *t, nsvcd__d3 n,
                                double distance) {
   nsvcd__d3 moved[3];
@@ -57,60 +57,60 @@ static double nsvcd__gap_after(const nsvcd__triangle_contact *t, nsvcd__d3 n,
 }
 
 // How far along n the moving triangle of a touch must go until it is beyond the clearance for good,
-// if it is so after `most`; -HUGE_VAL: it is all the way. The distance is convex on it: thirds
-// find where it is least, and halves where it is the clearance.
-static NSVCD__NOINLINE double nsvcd__way_out(const nsvcd__triangle_contact *t, nsvcd__d3 n,
-                                             double clearance, double most, double grain) {
-  // parallel faces meet at one time only
-  const double reach = clearance + nsvcd__min(0.003 * most, grain);
-  const double square = reach * reach;
-  // as it nearly always is
+// which it is after `most`; -HUGE_VAL if it never is within it. The distance is convex: thirds find
+// where it is least, and halves where it is the clearance. epsilon: of depths.
+static NSVCD__NOINLINE double nsvcd__exit_depth(const nsvcd__triangle_contact *t, nsvcd__d3 n,
+                                                double clearance, double most,
+                                                double epsilon) {
+  // Parallel faces meet at one time only.
+  const double limit = clearance + nsvcd__min(0.003 * most, epsilon);
+  const double square = limit * limit;
+  // nearly always
   if (nsvcd__gap_after(t, n, 0.998 * most) <= square) return most;
   double low = 0;
   double high = most;
-  double within = 0;
-  int found = nsvcd__gap_after(t, n, 0) <= square;
-  for (int k = 0; k < 16 && !found; k++) {
+  double last = 0;  // where it is within the clearance
+  int met = nsvcd__gap_after(t, n, 0) <= square;
+  for (int k = 0; k < 16 && !met; k++) {
     const double third = (high - low) / 3;
     const double before = nsvcd__gap_after(t, n, low + third);
     const double after = nsvcd__gap_after(t, n, high - third);
-    found = before <= square || after <= square;
-    within = after <= square ? high - third : low + third;
+    met = before <= square || after <= square;
+    last = after <= square ? high - third : low + third;
     if (before < after) high -= third;
     if (!(before < after)) low += third;
   }
-  if (!found) return -HUGE_VAL;
-  for (double beyond = most; beyond - within > nsvcd__max(1e-3 * beyond, 1e-5 * most);) {
-    const double middle = 0.5 * (within + beyond);
+  if (!met) return -HUGE_VAL;
+  for (double beyond = most; beyond - last > nsvcd__max(1e-3 * beyond, 1e-5 * most);) {
+    const double middle = 0.5 * (last + beyond);
     const int touches = nsvcd__gap_after(t, n, middle) <= square;
-    within = touches ? middle : within;
+    last = touches ? middle : last;
     beyond = touches ? beyond : middle;
   }
-  return within;
+  return last;
 }
 
-// Remembers how deep a touch is along normal k.
+// Notes how deep a touch is along normal k.
 static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__triangle_contact *t) {
   const nsvcd__d3 n = p->normals[k];
   const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->push_out), n);
   const double most = nsvcd__push_out_along(n, t) + p->given.clearance;
   p->needed = nsvcd__max(p->needed, pushed_out + most);
   if (!(most > 0) || !(pushed_out + most > p->depths[k])) return;
-  // depths are told in double
-  const double grain = nsvcd__off_meshes(p) + NSVCD__TOO_NEAR * (double)p->given.lengths;
-  const double depth = pushed_out + nsvcd__way_out(t, n, p->given.clearance, most, grain);
+  const double epsilon = nsvcd__off_meshes(p) + NSVCD__TOO_NEAR * (double)p->given.lengths;
+  const double depth = pushed_out + nsvcd__exit_depth(t, n, p->given.clearance, most, epsilon);
   p->depths[k] = nsvcd__max(p->depths[k], depth);
 }
 
-// Does normal k undo a touch? How far it has to is remembered.
+// Does normal k undo a touch? Then its depth is noted.
 static int nsvcd__undone_by(nsvcd__proof *p, size_t k, const nsvcd__triangle_contact *t) {
   if (!nsvcd__undoes(p, p->normals[k], t)) return 0;
   nsvcd__note_depth(p, k, t);
   return 1;
 }
 
-// Keeps two triangles that are within the clearance at the start, unless a direction that is known
-// undoes that.
+// Keeps two triangles that are within the clearance at the start, unless a known direction undoes
+// that.
 static void nsvcd__collect_contact(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
                                    const nsvcd__d3 *posed) {
   nsvcd__triangle_contact contact;
@@ -129,8 +129,8 @@ static void nsvcd__collect_contact(nsvcd__proof *p, const nsvcd__triangle_pair *
   if (p->contact_count < NSVCD__TOUCHES) p->of.touches[p->contact_count++] = contact;
 }
 
-// Among the moving block, posed `at`, and a block of the window: looks for a contact a share u of
-// the arc later than its start.
+// Seeks a contact of the moving block, posed `at`, and block n of the window, at fraction u of the
+// arc.
 static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j, size_t n,
                                              const nsvcd__dtransform *at, double u,
                                              float margin) {
@@ -181,8 +181,7 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
   return NSVCD__NOTHING;
 }
 
-// Loads 16 triangles of moving patch i, from entry `first` on. The same are often asked for
-// again.
+// Loads 16 triangles of moving patch i, from entry `first` on. They are often loaded already.
 static void nsvcd__moving_block_load(nsvcd__proof *p, size_t i, size_t first) {
   const size_t left = p->moving.first_triangle[i + 1] - first;
   if (p->memo.has_block && p->moving_block.first == first) return;
@@ -191,7 +190,7 @@ static void nsvcd__moving_block_load(nsvcd__proof *p, size_t i, size_t first) {
                     &p->moving_block);
 }
 
-// Looks for a contact of triangles of patches i and j a share u of an arc later than its start.
+// Seeks a contact of triangles of patches i and j at fraction u of an arc.
 static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, uint32_t first,
                                           double u) {
   const nsvcd__arc *arc = nsvcd__arc_at(p, first);
@@ -221,29 +220,29 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
   return NSVCD__NOTHING;
 }
 
-// The arc, and the share of it, that a time counted in ticks is in: it begins at the last keyframe
-// that is not after that time.
-static uint32_t nsvcd__arc_of(const nsvcd__motion *motion, double at, double *fraction) {
+// The keyframe at which the arc of a time in ticks begins, the last one that is not after it; and
+// how much of the arc has gone by.
+static uint32_t nsvcd__arc_of(const nsvcd__motion *motion, double time, double *fraction) {
   const uint32_t last = motion->ticks - 1;
-  const uint32_t tick = at < (double)last ? (uint32_t)at : last;
+  const uint32_t tick = time < (double)last ? (uint32_t)time : last;
   const uint32_t a =
       nsvcd__tick_of(&motion->moving, nsvcd__pose_before(&motion->moving, tick));
   const uint32_t b = nsvcd__tick_of(&motion->fixed, nsvcd__pose_before(&motion->fixed, tick));
   const uint32_t first = a > b ? a : b;
-  *fraction = (at - (double)first) / (double)(nsvcd__next_keyframe(motion, first) - first);
+  *fraction = (time - (double)first) / (double)(nsvcd__next_keyframe(motion, first) - first);
   return first;
 }
 
-// Looks for a contact of a patch pair where its spheres are nearest, if that still matters.
+// Seeks a contact of a patch pair when its spheres are nearest, if that still matters.
 static nsvcd__outcome nsvcd__seek_in_patch_pair(nsvcd__proof *p, const nsvcd__search *search,
-                                                nsvcd__patch_pair *item) {
-  const double start = (double)search->begin[item->segment];
-  const double end = nsvcd__min((double)search->begin[item->segment + 1u], p->clipped_end);
-  const double tick = start + (double)item->fraction * (end - start);
+                                                nsvcd__patch_pair *pair) {
+  const double start = (double)search->begin[pair->segment];
+  const double end = nsvcd__min((double)search->begin[pair->segment + 1u], p->clipped_end);
+  const double tick = start + (double)pair->fraction * (end - start);
   double u;
-  item->sought = 1;
+  pair->sought = 1;
   if (!(tick < p->ask.end)) return NSVCD__NOTHING;
   const uint32_t first = nsvcd__arc_of(p->ask.motion, tick, &u);
-  return nsvcd__find_witness(p, item->moving, item->fixed, first, u);
+  return nsvcd__find_witness(p, pair->moving, pair->fixed, first, u);
 }
 #endif  // NSVCD_NO_PROOF
