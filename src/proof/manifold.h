@@ -1,19 +1,19 @@
-// In: triangle pairs that are near each other when a contact is. Out: up to four contact
-// points that hold the body: those that interval the largest area seen along the contact's normal.
+// In: triangle pairs that are near each other when a contact is. Out: up to four contact points
+// that hold the body: those that span the largest area, seen along the contact's normal.
 //
 // Two triangles touch where a corner of one is over the other, or where two edges cross. Of all
-// such places the farthest along eight directions are kept, of what is slim those across it too,
-// and of these the best four. Where two
-// are as far, the one with the lower number is: so the same are chosen again when little has moved.
-// Only normals that are much like the contact's count: where a side rises from the floor, corners
-// of the floor's triangles are near the side as well, but it is not what the body stands on.
+// such points the farthest along eight directions are kept, for a slim contact those across it too,
+// and of these the best four. Of two points equally far, the one with the lower number is kept: so
+// the same points are chosen again when little has moved. Only normals close to the contact's
+// count: where a side rises from the floor, corners of the floor's triangles are near the side as
+// well, but the body does not stand on it.
 #pragma once
 #include "triangle_pairs.h"
 
 #ifndef NSVCD_NO_PROOF
-// Prepares a manifold of contacts with about this normal, unit, of bodies that go like this.
-static void nsvcd__begin_positions(nsvcd__proof *p, nsvcd__d3 n, const nsvcd__twist *twist,
-                                   double tolerance, double same) {
+// Prepares a manifold of contacts with about this normal, unit, of bodies that move like this.
+static void nsvcd__manifold_begin(nsvcd__proof *p, nsvcd__d3 n, const nsvcd__twist *twist,
+                                  double tolerance, double same) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   const int flattest = fabs(n.x) < fabs(n.y) ? 0 : 1;
   const nsvcd__d3 aside = nsvcd__d3_of(flattest == 0, flattest == 1, 0);
@@ -23,7 +23,7 @@ static void nsvcd__begin_positions(nsvcd__proof *p, nsvcd__d3 n, const nsvcd__tw
   m->twist = *twist;
   m->tolerance = tolerance;
   m->same = same;
-  // by an eighth of a turn each: the sum of one and the one a quarter on, shortened
+  // An eighth of a turn each: the sum of a direction and of that a quarter on, made unit.
   nsvcd__d3 along = u;
   for (int k = 0; k < NSVCD__AROUND; k++) {
     m->along[k] = along;
@@ -33,8 +33,8 @@ static void nsvcd__begin_positions(nsvcd__proof *p, nsvcd__d3 n, const nsvcd__tw
   for (int k = NSVCD__AROUND; k < NSVCD__SUPPORTS; k++) m->farthest[k] = HUGE_VAL;
 }
 
-// Where what has been found intervals little, for how long it is, prepares to look across it, both
-// ways, for what is between the eight directions. area: twice what is spanned. Returns 1 if so.
+// If what has been found spans little for its length, prepares the two directions across it, for
+// what is between the eight. area: twice what is spanned. Returns 0 if it is not so slim.
 static int nsvcd__seek_across(nsvcd__manifold *m, double area) {
   nsvcd__d3 longest = {0, 0, 0};
   for (int k = 0; k < NSVCD__AROUND; k++) {
@@ -60,13 +60,13 @@ static int nsvcd__seek_across(nsvcd__manifold *m, double area) {
   return 1;
 }
 
-// A triangle pair that is looked at: the moving triangle, posed; where its faces look, out of the
-// fixed body, for the sides of an open surface as the normal of the contact does; and has it such?
+// A triangle pair of a manifold.
 typedef struct nsvcd__facing {
   const nsvcd__triangle_pair *pair;
-  const nsvcd__d3 *posed;
+  const nsvcd__d3 *posed;  // the moving triangle
+  // normals out of the fixed body; of an open surface on the side of the contact's
   nsvcd__d3 faces[2];
-  int is_open;
+  int is_open;  // one is of an open surface
 } nsvcd__facing;
 
 static nsvcd__facing nsvcd__facing_of(const nsvcd__proof *p, const nsvcd__triangle_pair *pair,
@@ -84,8 +84,8 @@ static nsvcd__facing nsvcd__facing_of(const nsvcd__proof *p, const nsvcd__triang
   return out;
 }
 
-// Does a place come apart along its normal, while one of its faces comes nearer? It is no contact
-// then, or one of another triangle pair.
+// Does point x come apart along its normal, while one of its faces comes nearer? Then it is no
+// contact, or one of another triangle pair.
 static int nsvcd__is_left(const nsvcd__twist *twist, nsvcd__d3 x, nsvcd__d3 normal,
                           const nsvcd__d3 *faces) {
   const nsvcd__d3 speed = nsvcd__twist_of(twist, x);
@@ -96,23 +96,22 @@ static int nsvcd__is_left(const nsvcd__twist *twist, nsvcd__d3 x, nsvcd__d3 norm
   return 0;
 }
 
-// Takes a place where a triangle pair touches, if it is farther than those that are kept. normal:
-// of a face, or across two edges, either way round.
-static NSVCD__NOINLINE void nsvcd__keep_position(nsvcd__proof *p, const nsvcd__facing *f,
-                                                 nsvcd__d3 on_moving, nsvcd__d3 on_fixed,
-                                                 nsvcd__d3 normal, uint32_t number) {
+// Keeps a point where a triangle pair touches, if it is farther out than those kept. normal: of a
+// face, or across two edges, of either sign.
+static NSVCD__NOINLINE void nsvcd__keep_support(nsvcd__proof *p, const nsvcd__facing *f,
+                                                nsvcd__d3 on_moving, nsvcd__d3 on_fixed,
+                                                nsvcd__d3 normal, uint32_t number) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   const double side = nsvcd__d3_dot(normal, m->normal) < 0 ? -1 : 1;
   const nsvcd__d3 offset = nsvcd__d3_sub(on_moving, on_fixed);
   const double gap = side * nsvcd__d3_dot(offset, normal);
   const double aside = nsvcd__d3_dot(offset, offset) - gap * gap;
   nsvcd__d3 point;
-  // past the end of an edge they are not over each other
+  // Past the end of an edge they are not over each other.
   if (aside > 0.01 * m->same * m->same) return;
-  // nor are they on the far side of a sheet that they do not pass through
-  const nsvcd__d3 *fixed = f->pair->fixed;
-  const int beyond = gap < 0 && f->is_open;
-  if (beyond && !nsvcd__triangles_meet(f->posed, fixed, &point)) return;
+  // Nor are they on the far side of a sheet that they do not pass through.
+  if (gap < 0 && f->is_open && !nsvcd__triangles_meet(f->posed, f->pair->fixed, &point))
+    return;
   if (nsvcd__is_left(&m->twist, on_fixed, nsvcd__d3_scale(normal, side), f->faces)) return;
   nsvcd__nearest nearest = {gap > 0 ? gap * gap : 0, on_moving, on_fixed};
   nsvcd__pair_contact contact;
@@ -130,16 +129,11 @@ static NSVCD__NOINLINE void nsvcd__keep_position(nsvcd__proof *p, const nsvcd__f
   }
 }
 
-// The number of a corner or an edge of a listed triangle: kind 0, of the moving body; 1, of the
-// fixed one.
-static uint32_t nsvcd__id_of(size_t entry, size_t corner, uint32_t kind) {
-  return (uint32_t)(3 * entry + corner) << 2 | kind;
-}
-
-// All places where a triangle pair touches, to within the reach. posed: the moving triangle.
-static NSVCD__NOINLINE void nsvcd__collect_positions(nsvcd__proof *p,
-                                                     const nsvcd__triangle_pair *pair,
-                                                     const nsvcd__d3 *posed) {
+// Keeps all points where a triangle pair touches, within the tolerance. posed: the moving triangle.
+// Corner k of entry e has the number 4 (3 e + k), and 1 more if it is of the fixed body.
+static NSVCD__NOINLINE void nsvcd__collect_supports(nsvcd__proof *p,
+                                                    const nsvcd__triangle_pair *pair,
+                                                    const nsvcd__d3 *posed) {
   const nsvcd__manifold *m = &p->of.kept.manifold;
   const nsvcd__d3 *fixed = pair->fixed;
   nsvcd__d3 foot;
@@ -150,19 +144,19 @@ static NSVCD__NOINLINE void nsvcd__collect_positions(nsvcd__proof *p,
           nsvcd__d3_dot(m->along[k], posed[i]) + m->tolerance >= m->farthest[k] - m->same;
   }
   if (!farther) return;
-  // faces look at each other, along the normal
+  // Faces must be about normal to the contact's.
   const nsvcd__facing facing = nsvcd__facing_of(p, pair, posed);
   const int moving_faces = nsvcd__d3_dot(facing.faces[0], m->normal) >= 0.8;
   const int fixed_faces = nsvcd__d3_dot(facing.faces[1], m->normal) >= 0.8;
   for (size_t k = 0; k < 3; k++) {
-    const uint32_t moving_id = nsvcd__id_of(pair->moving_entry, k, 0);
-    const uint32_t fixed_id = nsvcd__id_of(pair->fixed_entry, k, 1);
+    const uint32_t moving_id = (uint32_t)(3 * pair->moving_entry + k) << 2;
+    const uint32_t fixed_id = (uint32_t)(3 * pair->fixed_entry + k) << 2 | 1;
     if (fixed_faces && nsvcd__foot_within(posed[k], fixed, &foot) &&
         nsvcd__d3_distance2(posed[k], foot) <= m->tolerance * m->tolerance)
-      nsvcd__keep_position(p, &facing, posed[k], foot, facing.faces[1], moving_id);
+      nsvcd__keep_support(p, &facing, posed[k], foot, facing.faces[1], moving_id);
     if (moving_faces && nsvcd__foot_within(fixed[k], posed, &foot) &&
         nsvcd__d3_distance2(fixed[k], foot) <= m->tolerance * m->tolerance)
-      nsvcd__keep_position(p, &facing, foot, fixed[k], facing.faces[0], fixed_id);
+      nsvcd__keep_support(p, &facing, foot, fixed[k], facing.faces[0], fixed_id);
     for (size_t i = 0; i < 3; i++) {
       const nsvcd__d3 a = posed[(k + 1) % 3];
       const nsvcd__d3 b = fixed[(i + 1) % 3];
@@ -178,13 +172,13 @@ static NSVCD__NOINLINE void nsvcd__collect_positions(nsvcd__proof *p,
       nsvcd__edges_nearest(posed[k], a, fixed[i], b, &nearest);
       if (!(nearest.square <= m->tolerance * m->tolerance)) continue;
       const uint32_t number = moving_id * 3 + fixed_id * 5 + (uint32_t)(1 + i) * 0x9e3779b9u;
-      nsvcd__keep_position(p, &facing, nearest.on_a, nearest.on_b,
-                           nsvcd__d3_unit(across, facing.faces[1]), number | 2);
+      nsvcd__keep_support(p, &facing, nearest.on_a, nearest.on_b,
+                          nsvcd__d3_unit(across, facing.faces[1]), number | 2);
     }
   }
 }
 
-// Twice the area that four places interval, seen along the normal.
+// Twice the area that four points span, seen along the normal.
 static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
   double most = 0;
   for (int k = 0; k < 3; k++) {
@@ -198,13 +192,12 @@ static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
   return most;
 }
 
-// Chooses the contacts: the numbers of those supports, and twice the area that they interval.
-// Returns how many.
+// Chooses the contacts: which supports, and twice the area that they span. Returns how many.
 static NSVCD__NOINLINE int nsvcd__choose_four(const nsvcd__manifold *m, int *chosen,
                                               double *area) {
   int kept[NSVCD__SUPPORTS];
   int count = 0;
-  // each place once, those with lower numbers first
+  // Each point once, in the order of their numbers.
   for (int k = 0; k < NSVCD__SUPPORTS; k++) {
     int at = count;
     int is_new = m->farthest[k] > -HUGE_VAL && m->farthest[k] < HUGE_VAL;

@@ -1,12 +1,12 @@
 // In: a contact, and the motion that led to it. Out: its normal.
 //
-// Just before two triangles meet, the direction between their nearest points is one along which
-// they are separated still: of all that are left at the contact, the one most against the motion.
-// Where a corner comes to a face it is the face's normal, on the side that the corner comes from;
-// where an edge crosses an edge, across both; where a corner comes to a corner, against the motion.
-// A contact may be found a little after they have met: so one of them is taken back, as fast as the
-// contact point goes, until they are separated. Where they have been in touch from the start the
-// motion tells nothing: then it is the direction along which they are the least deep.
+// Just before two triangles meet, the direction between their nearest points still separates them:
+// of all directions left at the contact, it is the one most against the motion. Where a corner
+// comes to a face it is the face's normal, on the side that the corner comes from; where an edge
+// crosses an edge, across both; where a corner comes to a corner, against the motion. A contact may
+// be found a little after they have met: so one triangle is moved back, with the contact point's
+// velocity, until they are separated. If they have touched from the start, the motion tells
+// nothing: then it is the direction along which they are the least deep.
 //
 // Triangles within the clearance that do not meet have a direction: their nearest points'. It is
 // along the motion only if they have been nearer, and then the contact is moved to before that.
@@ -14,8 +14,8 @@
 #include "verdict.h"
 
 #ifndef NSVCD_NO_PROOF
-// The arc that is under way at a time counted in ticks or, where that is told as a keyframe, ends
-// there: what comes to a contact comes by that one.
+// The arc of a time in ticks; at a keyframe, the arc that ends there: by that one the body came to
+// the contact.
 static const nsvcd__arc *nsvcd__arc_before(nsvcd__proof *p, double tick, double *u) {
   uint32_t first = nsvcd__arc_of(p->ask.motion, tick, u);
   if (first > 0 && tick - (double)first < 6e-8 * (double)p->ask.motion->ticks) {
@@ -25,7 +25,7 @@ static const nsvcd__arc *nsvcd__arc_before(nsvcd__proof *p, double tick, double 
   return nsvcd__arc_at(p, first);
 }
 
-// The triangles of a contact at a time, and how the bodies go then.
+// The triangles of a contact at a time, and how the bodies move then.
 typedef struct nsvcd__approach {
   nsvcd__triangle_pair pair;
   nsvcd__triangle_contact contact;
@@ -47,17 +47,10 @@ static NSVCD__NOINLINE void nsvcd__approach_at(nsvcd__proof *p,
   out->twist = nsvcd__twist_at(arc, out->u);
 }
 
-// Do two points come apart?
-static int nsvcd__recede(const nsvcd__twist *twist, const nsvcd__nearest *points) {
-  const nsvcd__d3 apart = nsvcd__d3_sub(points->on_a, points->on_b);
-  const nsvcd__d3 speed = nsvcd__twist_of(twist, points->on_b);
-  return nsvcd__d3_dot(speed, apart) > 0;
-}
-
 // Moves a contact to an earlier time, from `since` on, when its triangles were as near and did not
-// come apart; or, if they meet, to when they began to. Where they were in touch then, and have come
-// apart all the while, it stays.
-static NSVCD__NOINLINE void nsvcd__turn_back(nsvcd__proof *p, double since) {
+// come apart; if they meet, to when they began to. It stays if they touched at `since` and have
+// come apart ever since.
+static NSVCD__NOINLINE void nsvcd__move_back(nsvcd__proof *p, double since) {
   nsvcd__pair_contact *found = &p->known.found;
   nsvcd__pair_contact sooner = *found;
   double early = since;
@@ -67,9 +60,11 @@ static NSVCD__NOINLINE void nsvcd__turn_back(nsvcd__proof *p, double since) {
     nsvcd__approach then;
     nsvcd__approach_at(p, found, tick, &then);
     const nsvcd__nearest nearest = nsvcd__nearest_of(then.contact.moving, then.contact.fixed);
+    const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+    const nsvcd__d3 speed = nsvcd__twist_of(&then.twist, nearest.on_b);
     const double gap = sqrt(nearest.square);
     const int are_near = k == 0 || gap <= found->distance + then.pair.rounding;
-    const int nearing = gap > then.pair.rounding && !nsvcd__recede(&then.twist, &nearest);
+    const int nearing = gap > then.pair.rounding && !(nsvcd__d3_dot(speed, apart) > 0);
     if (are_near && k > 0) sooner = nsvcd__contact_at(p, &then.pair, then.u, &nearest);
     if (are_near && nearing) break;
     *(are_near ? &late : &early) = tick;
@@ -78,8 +73,8 @@ static NSVCD__NOINLINE void nsvcd__turn_back(nsvcd__proof *p, double since) {
   if (early < late) *found = sooner;
 }
 
-// The directions along which two triangles that touch may be separated: two normals and nine
-// products of edges, both ways. 0: none.
+// The separating axes of two triangles that touch: two normals and nine products of edges, both
+// ways. 0: edges are parallel.
 enum { NSVCD__AXES = 22 };
 static nsvcd__d3 nsvcd__axis_apart(const nsvcd__triangle_contact *t, size_t k) {
   const nsvcd__d3 n =
@@ -87,20 +82,19 @@ static nsvcd__d3 nsvcd__axis_apart(const nsvcd__triangle_contact *t, size_t k) {
   return nsvcd__d3_scale(n, k % 2 ? -1 : 1);
 }
 
-// The direction at which two triangles met that touch, if the moving one came straight along so
-// much of `direction` or less. 0: it did not. Nearer than they are known it cannot be told which of
-// them a corner met: so it is that a little before.
+// The normal at which two triangles met that touch, if the moving one came straight along `travel`,
+// by `most` times that at most. 0: it did not. Nearer than the triangles are known, nothing tells
+// which of them a corner met: so it is the normal a little before.
 static NSVCD__NOINLINE int nsvcd__met_along(const nsvcd__proof *p, const nsvcd__approach *a,
-                                            nsvcd__d3 direction, double most,
-                                            nsvcd__d3 *normal) {
+                                            nsvcd__d3 travel, double most, nsvcd__d3 *normal) {
   const nsvcd__triangle_contact *t = &a->contact;
-  const double close = 16 * nsvcd__epsilon(p) / nsvcd__d3_length(direction);
-  double back = HUGE_VAL;  // where they met, as a share of the way
+  const double close = 16 * nsvcd__epsilon(p) / nsvcd__d3_length(travel);
+  double back = HUGE_VAL;  // where they met, as a fraction of `travel`
   double before = 0;
   nsvcd__d3 moved[3];
   for (size_t k = 0; k < NSVCD__AXES; k++) {
     const nsvcd__d3 n = nsvcd__axis_apart(t, k);
-    const double fall = -nsvcd__d3_dot(n, direction);
+    const double fall = -nsvcd__d3_dot(n, travel);
     const double deep = nsvcd__push_out_along(n, t);
     if (!(fall > 0) || !(deep < back * fall)) continue;
     back = deep / fall;
@@ -108,20 +102,20 @@ static NSVCD__NOINLINE int nsvcd__met_along(const nsvcd__proof *p, const nsvcd__
     *normal = n;
   }
   if (!(back < most)) return 0;
-  const nsvcd__d3 off = nsvcd__d3_scale(direction, back + before);
+  const nsvcd__d3 off = nsvcd__d3_scale(travel, back + before);
   for (int n = 0; n < 3; n++) moved[n] = nsvcd__d3_sub(t->moving[n], off);
   const nsvcd__nearest nearest = nsvcd__nearest_of(moved, t->fixed);
   const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
-  if (nsvcd__d3_dot(apart, direction) < 0) *normal = nsvcd__d3_unit(apart, *normal);
+  if (nsvcd__d3_dot(apart, travel) < 0) *normal = nsvcd__d3_unit(apart, *normal);
   return 1;
 }
 
 // The direction along which two triangles that touch are the least deep in each other; of several
-// the one most against `direction`. A face of a closed surface has one side, and no direction is
+// the one most against `travel`. A face of a closed surface has one side, and the direction is not
 // against both faces.
 static NSVCD__NOINLINE nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p,
                                                    const nsvcd__approach *a,
-                                                   nsvcd__d3 direction) {
+                                                   nsvcd__d3 travel) {
   const int moving_closed = nsvcd__moving_closed(p, &a->pair);
   const int fixed_closed = nsvcd__fixed_closed(p, &a->pair);
   const nsvcd__triangle_contact *t = &a->contact;
@@ -136,7 +130,7 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p,
     if (k < 4) is_out = k < 2 ? out_of_b : out_of_a;
     if (!is_out || !(nsvcd__d3_dot(n, n) > 0.5)) continue;
     const double depth = nsvcd__push_out_along(n, t);
-    const double more = nsvcd__d3_dot(nsvcd__d3_sub(best, n), direction);
+    const double more = nsvcd__d3_dot(nsvcd__d3_sub(best, n), travel);
     if (depth > least - same && !(depth < least + same && more > 0)) continue;
     best = n;
     least = nsvcd__min(least, depth);
@@ -144,37 +138,37 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p,
   return best;
 }
 
-// The direction at which the triangles of the contact that is known met, if they did not before
-// `since`; or, if they were free of each other then, at some time.
+// The normal at which the triangles of the known contact met, if that was after `since`, or, if
+// they were free of each other then, at any time. 0: it was not.
 static int nsvcd__normal_met(nsvcd__proof *p, double since, int is_free,
                              nsvcd__approach *now) {
   nsvcd__pair_contact *found = &p->known.found;
   nsvcd__approach_at(p, found, found->tick, now);
   const nsvcd__d3 speed = nsvcd__twist_of(&now->twist, found->point);
-  const nsvcd__d3 direction = nsvcd__d3_scale(speed, found->tick - since);
-  return nsvcd__met_along(p, now, direction, is_free ? HUGE_VAL : 1, &found->normal);
+  const nsvcd__d3 travel = nsvcd__d3_scale(speed, found->tick - since);
+  return nsvcd__met_along(p, now, travel, is_free ? HUGE_VAL : 1, &found->normal);
 }
 
-// Do two times, in ticks, fall into different arcs?
+// Are two times, in ticks, in different arcs?
 static int nsvcd__has_turned(const nsvcd__proof *p, double since, double until) {
   double u;
   const uint32_t first = nsvcd__arc_of(p->ask.motion, since, &u);
   return first != nsvcd__arc_of(p->ask.motion, until, &u);
 }
 
-// Gives the contact that is known its normal.
+// Gives the known contact its normal.
 static NSVCD__NOINLINE void nsvcd__resolve_normal(nsvcd__proof *p) {
   nsvcd__pair_contact *found = &p->known.found;
   const double until = nsvcd__max(nsvcd__min(nsvcd__clear_until(p), found->tick), 0);
   const double since = p->given.fraction > 0 ? until : 0;
   const int is_free = since > 0 || (p->given.fraction > 0 && p->starts_free);
   nsvcd__approach now;
-  // what comes to a pose and goes back may have been found on the way back
+  // What comes to a pose and goes back may have been found on its way back.
   const int has_turned = is_free && nsvcd__has_turned(p, since, found->tick);
-  if (found->distance > 0 || has_turned) nsvcd__turn_back(p, since);
+  if (found->distance > 0 || has_turned) nsvcd__move_back(p, since);
   if (found->distance > 0) return;
   if (has_turned && nsvcd__has_turned(p, since, found->tick)) {
-    // these met on the way back alone: but others of the bodies on the way there
+    // These met on the way back alone, but others did on the way there.
     nsvcd__approach_at(p, found, since, &now);
     const nsvcd__nearest nearest = nsvcd__nearest_of(now.contact.moving, now.contact.fixed);
     const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
@@ -183,8 +177,8 @@ static NSVCD__NOINLINE void nsvcd__resolve_normal(nsvcd__proof *p) {
   }
   if (nsvcd__normal_met(p, since, 0, &now)) return;
   if (is_free) {
-    // it has turned since, and they may come apart again
-    nsvcd__turn_back(p, since);
+    // The motion has turned since, and they may come apart again.
+    nsvcd__move_back(p, since);
     if (nsvcd__normal_met(p, since, 1, &now)) return;
   }
   const nsvcd__d3 speed = nsvcd__twist_of(&now.twist, found->point);

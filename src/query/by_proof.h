@@ -295,7 +295,7 @@ static NSVCD__NOINLINE void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answ
   for (int k = 0; k < tries; k++) {
     int chosen[NSVCD_MAX_CONTACTS];
     double area;
-    nsvcd__begin_positions(p, normals[k], &twist, p->ask.clearance, same);
+    nsvcd__manifold_begin(p, normals[k], &twist, p->ask.clearance, same);
     nsvcd__seek_positions(p, 0, NSVCD__AROUND);
     int count = nsvcd__choose_four(m, chosen, &area);
     if (nsvcd__seek_across(&p->of.kept.manifold, area)) {
