@@ -94,7 +94,7 @@ long: doubts of one interval forgotten|  p->known = open;\n  p->ask.end = end;\n
 long: distance of the last interval|if (is_resolved) low = nsvcd__min(low, p->low);|low = p->low;
 long: ends not looked at|at_end < 2 \&\& !(asked > 0)|0
 long: contacts of a try are the first|p->known.has_contact \&\& !(is_try \&\& fraction > 0);|p->known.has_contact;
-long: poses for work|p->given.grows = q->work == 0;|p->given.grows = 1;
+long: poses for work|given->grows = q->work == 0;|given->grows = 1;
 long: an interval settled from the start|p->known.resolved = (double)p->ask.motion->from;|p->known.resolved = 0;
 first arc only|at < last \&\& (double)at < p->ask.end;) {|at < last \&\& at == search->begin[item->segment];) {
 a segment dropped|uint32_t met = nsvcd__group_against_members(search, h, wanted, p->met_in);|uint32_t met = nsvcd__group_against_members(search, h, wanted, p->met_in);\n      for (size_t l = 0; l < NSVCD__GROUP; l++) {\n        if (p->met_in[l] \& (p->met_in[l] - 1)) p->met_in[l] \&= p->met_in[l] - 1;\n      }
@@ -141,12 +141,12 @@ level: nearest patches about the middle only|nsvcd__v_fma(r, nsvcd__v_set(NSVCD_
 level: latents of one region|out->latents[NSVCD__LATENT * to + k]|out->latents[NSVCD__LATENT * i + k]
 level: members of one dipole in two|const size_t member = NSVCD__GROUP * (first + nsvcd__low_bit(close));|const size_t member = NSVCD__GROUP * (first + (nsvcd__low_bit(close) \& ~(size_t)1));
 margin of small normals|nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit)|limit
-round: the fixed one is not|p->given.radius = moving_radius + (double)p->fixed.counts->convex_radius;|p->given.radius = moving_radius;
+round: the fixed one is not|given->radius = moving_radius + (double)p->fixed.counts->convex_radius;|given->radius = moving_radius;
 round: without the scale|(double)p->moving.counts->convex_radius * task->motion.ratio;|(double)p->moving.counts->convex_radius;
-round: distances of the skeletons|high = fmax(high - p->given.radius, 0);|
-round: as near as the skeletons|p->low) - p->given.radius;|p->low);
+round: distances of the skeletons|(float)(fmax(high - radius, 0)|(float)(fmax(high, 0)
+round: as near as the skeletons|(float)(fmax(low - radius, 0)|(float)(fmax(low, 0)
 round: points on the skeleton|fmin((double)p->fixed.counts->convex_radius, found->distance);|0;
-round: gaps of the skeletons|(float)(fmax(found->distance - p->given.radius, 0) * world.unit);|(float)(found->distance * world.unit);
+round: gaps of the skeletons|(float)(fmax(found->distance - p->given.radius, 0) * unit);|(float)(found->distance * unit);
 round: a point on either|    contact->point[k] += gap * contact->normal[k];|
 round: a run short of its last|for (size_t k = 0; k < count; k++) {\n    if (k == end)|for (size_t k = 0; k + 1 < count; k++) {\n    if (k == end)
 round: not scaled|*radius *= scale;|
@@ -208,9 +208,9 @@ asks: metres without the turn|return arc->speed + arc->turn|return arc->speed + 
 asks: too deep for the manifold too|  p->too_deep = 0;|
 asks: depth across edges forgotten|for (size_t k = 0; k < 12; k++) {\n    nsvcd__d3 n = k < 3|for (size_t k = 0; k < 3; k++) {\n    nsvcd__d3 n = k < 3
 asks: deep in one direction|for (int side = 0; side < 2; side++) {\n      const double pushed_out|for (int side = 0; side < 1; side++) {\n      const double pushed_out
-asks: metres of the arc before|  // that of the question before\n  p->arc.ticks = 0;|
-asks: a safe place not lifted|n == moving_takes_it ? 0 : n ? -world.unit : world.unit|0
-asks: a safe place on the other side|n == moving_takes_it ? 0 : n ? -world.unit : world.unit|n == moving_takes_it ? 0 : n ? world.unit : -world.unit
+asks: metres of the arc before|  // The arc known is of the question before.\n  p->arc.ticks = 0;|
+asks: a safe place not lifted|n == moving_takes_it ? 0 : n ? -unit : unit|0
+asks: a safe place on the other side|n == moving_takes_it ? 0 : n ? -unit : unit|n == moving_takes_it ? 0 : n ? unit : -unit
 asks: a safe place too late|const double t = (double)answer->safe.time;|const double t = fmin(1, 1.05 * (double)answer->safe.time + 0.01);
 asks: a safe place where it is about to touch|answer->safe.time = (float)(fmax(0, until - back) * (1 - 1e-7));|answer->safe.time = answer->time.low;
 asks: not set down|return nsvcd__d3_sub(push_out, nsvcd__d3_scale(by, fmin(fmax(clear, 0), 1)));|return push_out;
