@@ -7,12 +7,12 @@
 #include "task.h"
 
 #ifndef NSVCD_NO_NETWORK
-// The settings for two bodies of so many patches. An error where the options ask for what is not
-// there; *settings is then not whole. The threshold: weights.h has one per decoder, recall and N =
-// 32, 64, ..., 512; between those, and for two bodies that differ, it is interpolated at the mean
-// of log2 N.
-static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t points1,
-                                       size_t points2, nsvcd__settings *settings) {
+// The settings for two bodies of so many patches. On an error, where the options ask for what is
+// not there, *settings is not whole. weights.h has a threshold per decoder, recall and N = 32, 64,
+// ..., 512. Between those, and for two bodies that differ, it is interpolated at the mean of log2
+// N.
+static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t patches1,
+                                       size_t patches2, nsvcd__settings *settings) {
   if (o->pairs > NSVCD_MAX_PAIRS) return NSVCD_ERROR_PAIRS;
   if ((unsigned)o->model > (unsigned)NSVCD_MODEL_BASE) return NSVCD_ERROR_MODEL;
   if (!nsvcd__is_finite(o->inflate) || o->inflate < 0) return NSVCD_ERROR_INFLATE;
@@ -20,8 +20,7 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t po
     return NSVCD_ERROR_PRECISION;
   const nsvcd_model model = o->model ? o->model : NSVCD__LARGEST_MODEL;
   const size_t decoder = (size_t)model - (size_t)NSVCD_MODEL_TINY;
-  // compiled out
-  if (!nsvcd_w_decoders[decoder].layers) return NSVCD_ERROR_MODEL;
+  if (!nsvcd_w_decoders[decoder].layers) return NSVCD_ERROR_MODEL;  // compiled out
   settings->pairs = o->pairs ? o->pairs : NSVCD_DEFAULT_PAIRS;
   settings->shortlist = decoder == 0 ? settings->pairs : NSVCD__SHORTLIST * settings->pairs;
   settings->decoder = &nsvcd_w_decoders[decoder];
@@ -36,7 +35,7 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t po
 #endif
   for (size_t k = 0; k < NSVCD_W_RECALLS && nsvcd__is_finite(o->recall); k++) {
     if (o->recall < nsvcd_w_recall[k] || o->recall > nsvcd_w_recall[k]) continue;
-    const float n = sqrtf((float)points1 * (float)points2);
+    const float n = sqrtf((float)patches1 * (float)patches2);
     const float last = NSVCD_W_SIZES - 1;
     const float size = log2f(n) - 5;
     const float at = size < 0 ? 0 : size > last ? last : size;
@@ -83,8 +82,8 @@ static void nsvcd__decode(const nsvcd__task *task, nsvcd__candidate *const *cand
   }
 }
 
-// Scores candidates that have no score yet, `most` at most: the deeper ones, roughly, because a
-// heap ends with them. Returns 0, and does nothing, if there are fewer than `least`.
+// Scores candidates that have no score yet, `most` at most: roughly the deeper ones, with which a
+// heap ends. Returns 0, and does nothing, if there are fewer than `least`.
 static int nsvcd__score(const nsvcd__task *task, nsvcd__candidates *kept, size_t least,
                         size_t most) {
   nsvcd__candidate *batch[NSVCD__BATCH];
@@ -113,7 +112,7 @@ static float nsvcd__candidate_reach(const nsvcd__task *task,
   return task->motion.unit * (own + nsvcd__body_r(task->fixed)[candidate->fixed]);
 }
 
-// Answers with a candidate, of which a decoder has given the score.
+// Answers with a candidate that this decoder has scored.
 static void nsvcd__answer_with(const nsvcd__task *task, const nsvcd__candidate *candidate,
                                const nsvcd__decoder *decoder, nsvcd_opinion *out) {
   out->logit = candidate->score - task->settings.threshold;
@@ -127,25 +126,25 @@ static void nsvcd__answer_with(const nsvcd__task *task, const nsvcd__candidate *
   }
 }
 
-// Is a distance asked for? Then what comes nearest decides, not what is most suspicious, and
-// nothing is clear before all is known.
+// Is a distance asked for? Then the nearest candidate decides, not the most suspicious, and nothing
+// is clear before all candidates are known.
 static int nsvcd__of_distance(const nsvcd__task *task) {
   return task->question->ask == NSVCD_ASK_DISTANCE;
 }
 
-// The candidate for which this is greatest decides.
+// The candidate with the greatest closeness decides.
 static float nsvcd__closeness(const nsvcd__task *task, const nsvcd__candidate *c) {
   if (!nsvcd__of_distance(task)) return c->score;
   return -c->apart * nsvcd__candidate_reach(task, c);
 }
 
-// Does the tiny decoder see no collision there, clearly?
+// Is a candidate clearly no collision, by the tiny decoder?
 static int nsvcd__is_harmless(const nsvcd__candidate *candidate, float threshold) {
   return candidate->score < (threshold < 0 ? threshold : 0) - NSVCD__CLEAR_LOGIT;
 }
 
-// Is the most suspicious of the candidates scored so far clearly a collision, by this logit, or,
-// where they are all, clearly none? Then that is the answer, and no other decoder needs to look.
+// Is the most suspicious of the candidates scored so far clearly a collision, by this logit, or, if
+// they are all, clearly none? Then that is the answer, and no other decoder is needed.
 static int nsvcd__is_clear(const nsvcd__task *task, const nsvcd__candidates *kept, int all,
                            float logit, nsvcd_opinion *out) {
   const float threshold = task->settings.threshold;
@@ -159,14 +158,14 @@ static int nsvcd__is_clear(const nsvcd__task *task, const nsvcd__candidates *kep
   return yes || no;
 }
 
-// The verdict on the K most suspicious of the scored candidates, but for the harmless ones, a
-// portion at a time, until one is clearly positive.
+// The chosen decoder judges the K most suspicious of the scored candidates, but for harmless ones,
+// a portion at a time, until one is clearly positive.
 static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept,
                          nsvcd_opinion *out) {
   const nsvcd__settings *settings = &task->settings;
   nsvcd__candidate *items = kept->items;
   size_t count = kept->count < settings->pairs ? kept->count : settings->pairs;
-  // those of the highest scores come first, in falling order
+  // sorts the highest scores to the front
   for (size_t k = 0; k < count; k++) {
     size_t best = k;
     for (size_t i = k + 1; i < kept->count; i++) {
@@ -201,7 +200,7 @@ static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept,
   }
 }
 
-// Does this motion, cut already, clearly collide where the hint says?
+// Does a motion that has been cut clearly collide where the hint says?
 static NSVCD__NOINLINE int nsvcd__collides_again(nsvcd__query *query, const nsvcd__hint *hint,
                                                  nsvcd_opinion *out) {
   const nsvcd__task *task = &query->task;
@@ -220,7 +219,7 @@ static NSVCD__NOINLINE int nsvcd__collides_again(nsvcd__query *query, const nsvc
   return out->logit >= NSVCD__CLEAR_LOGIT;
 }
 
-// Searches a motion that has been cut, looking at pairs as they are found, until one is clear or
+// Searches a motion that has been cut, and judges pairs as they are found, until one is clear or
 // all are known.
 static NSVCD__NOINLINE void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_opinion *out) {
   const nsvcd__task *task = &query->task;
@@ -233,8 +232,8 @@ static NSVCD__NOINLINE void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_o
   nsvcd__plane_cache_begin(search, task->settings.inflate);
   int more = nsvcd__search_begin(task->moving, task->fixed, ~(uint64_t)0, search);
   if (more && !nsvcd__of_distance(task)) {
-    // What collides deeply shows in the first pair of groups, whether or not a plane separates any
-    // pair there; planes would take most of the time.
+    // A deep collision shows in the first pair of groups. Planes, which would take most of the
+    // time, are not asked there.
     nsvcd__candidates_start(&kept, query->kept, worth);
     const int unasked = search->cache->unasked;
     search->cache->unasked = 1;
@@ -248,8 +247,7 @@ static NSVCD__NOINLINE void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_o
   if (!clear) nsvcd__candidates_start(&kept, query->kept, shortlist);
   while (more && !clear) {
     more = nsvcd__search_step(search, &kept);
-    // A deep collision shows early. What is scored now need not be scored later, so that looking
-    // costs little.
+    // A deep collision shows early. What is scored now is not scored again, so this costs little.
     if (!more || left < worth || !nsvcd__score(task, &kept, worth, worth)) continue;
     left -= worth;
     clear = nsvcd__is_clear(task, &kept, 0, NSVCD__CLEAR_LOGIT, out);
@@ -264,20 +262,18 @@ static NSVCD__NOINLINE void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_o
     nsvcd__judge(task, &kept, out);
 }
 
-// Is a part of one body inside of the other at the start?
+// Is a part of one body inside the other at the start?
 static NSVCD__NOINLINE int nsvcd__looks_contained_at_start(const nsvcd__task *task) {
   const nsvcd__transform pose = nsvcd__motion_pose(&task->motion, 0);
   return nsvcd__is_contained(task->moving, task->fixed, task->motion.scale, &pose);
 }
 
-// What is thought where no decoder is needed.
-static nsvcd_opinion nsvcd__certain_opinion(float logit) {
-  nsvcd_opinion out;
-  memset(&out, 0, sizeof out);
-  out.asked = 1;
-  out.logit = logit;
-  out.distance = HUGE_VALF;
-  return out;
+// An opinion that needs no decoder.
+static void nsvcd__certain_opinion(float logit, nsvcd_opinion *out) {
+  memset(out, 0, sizeof *out);
+  out->asked = 1;
+  out->logit = logit;
+  out->distance = HUGE_VALF;
 }
 
 // Asks the network about a motion that has been prepared. hint: NULL, or that of a batch. Returns
@@ -285,17 +281,17 @@ static nsvcd_opinion nsvcd__certain_opinion(float logit) {
 static int nsvcd__ask_network(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opinion *out) {
   nsvcd__task *task = &query->task;
   const int hinted = hint && hint->known && !nsvcd__of_distance(task);
-  // checked before
+  // has been checked
   (void)nsvcd__settings_of(&task->question->network, task->moving->patches,
                            task->fixed->patches, &task->settings);
   if (nsvcd__of_distance(task) && task->question->network.inflate <= 0)
     task->settings.inflate = NSVCD__INFLATE_DISTANCE;
-  *out = nsvcd__certain_opinion(-NSVCD_LOGIT_CERTAIN);
+  nsvcd__certain_opinion(-NSVCD_LOGIT_CERTAIN, out);
   query->broad_phase.balls_met = 0;
   if (nsvcd__motion_gap(&task->motion) > task->lengths) return 0;
   nsvcd__cut_motion(&task->motion, task->lengths, &query->broad_phase);
   if (!hinted || !nsvcd__collides_again(query, hint, out)) {
-    *out = nsvcd__certain_opinion(-NSVCD_LOGIT_CERTAIN);
+    nsvcd__certain_opinion(-NSVCD_LOGIT_CERTAIN, out);
     if (hinted) hint->known = ++hint->misled < NSVCD__MISLEADS;
     nsvcd__search_and_judge(query, out);
   }
@@ -304,15 +300,15 @@ static int nsvcd__ask_network(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opin
     *hint = here;
   }
 
-  // a body inside another need not touch anything
+  // A body inside another need not touch anything.
   if (out->logit > 0 || !nsvcd__looks_contained_at_start(task)) return 0;
   const size_t candidates = out->candidates;
-  *out = nsvcd__certain_opinion(NSVCD_LOGIT_CERTAIN);
+  nsvcd__certain_opinion(NSVCD_LOGIT_CERTAIN, out);
   out->candidates = candidates;
   return 1;
 }
 
-// The network's answer.
+// Answers a question whose motion has been prepared.
 static void nsvcd__answer_by_network(nsvcd__query *query, nsvcd__hint *hint,
                                      nsvcd_answer *answer) {
   nsvcd_opinion opinion;

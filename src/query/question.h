@@ -16,19 +16,17 @@ static nsvcd_method nsvcd__method_of(const nsvcd_body *moving, const nsvcd_body 
 #endif
   if (can_prove && wanted != NSVCD_METHOD_NETWORK) return NSVCD_METHOD_PROOF;
   if (can_ask && wanted != NSVCD_METHOD_PROOF) return NSVCD_METHOD_NETWORK;
-  (void)moving;
-  (void)fixed;
   return NSVCD_METHOD_DEFAULT;
 }
 
 // Is a question in order?
-static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
-  const nsvcd_mover *a = &question->a;
-  const nsvcd_mover *b = &question->b;
+static nsvcd_result nsvcd__question_check(const nsvcd_question *q) {
+  const nsvcd_mover *a = &q->a;
+  const nsvcd_mover *b = &q->b;
   nsvcd_result result = nsvcd__mover_check(a);
   if (!result) result = nsvcd__mover_check(b);
   if (result) return result;
-  // One and the same body in the same motion: something was passed twice.
+  // The same body in the same motion: something was passed twice.
   const float scale_a = nsvcd__scale_of(a);
   const float scale_b = nsvcd__scale_of(b);
   const int same_size = !(scale_a < scale_b) && !(scale_b < scale_a);
@@ -36,7 +34,6 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
   if (a->body == b->body && same_motion && same_size) return NSVCD_ERROR_SAME;
 
   // Are the options' numbers in their ranges, and do they go together?
-  const nsvcd_question *q = question;
   if ((unsigned)q->method > (unsigned)NSVCD_METHOD_NETWORK) return NSVCD_ERROR_METHOD;
   if ((unsigned)q->ask > (unsigned)NSVCD_ASK_DISTANCE) return NSVCD_ERROR_ASK;
   if (q->segments > NSVCD__MAX_SEGMENTS || q->segments % NSVCD__LANES)
@@ -50,11 +47,10 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
   if (!nsvcd__is_length(q->to_time) || q->to_time > (is_first ? 1.0f : 0.0f))
     return NSVCD_ERROR_TO_TIME;
   if (q->manifold && !is_first) return NSVCD_ERROR_MANIFOLD;
-  // of these the network knows nothing
+  // The network knows nothing of these.
   const int by_network = q->method == NSVCD_METHOD_NETWORK;
-  int needs_proof = q->clearance > 0 || q->slop > 0;
-  needs_proof |= is_first || q->to > 0;
-  needs_proof |= q->ask == NSVCD_ASK_DISTANCE && !by_network;
+  const int needs_proof = q->clearance > 0 || q->slop > 0 || is_first || q->to > 0 ||
+                          (q->ask == NSVCD_ASK_DISTANCE && !by_network);
   if (needs_proof && by_network) return NSVCD_ERROR_METHOD;
   const nsvcd_method wanted = needs_proof ? NSVCD_METHOD_PROOF : q->method;
   if (nsvcd__method_of(a->body, b->body, wanted) == NSVCD_METHOD_DEFAULT)
@@ -69,21 +65,21 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
 
 // ---- who moves
 
-// How far a body reaches from its origin, with what it goes beyond its triangles.
-static float nsvcd__reach_of(const nsvcd_mover *mover) {
+// The extent of a body, with what it goes beyond its triangles.
+static float nsvcd__extent_of(const nsvcd_mover *mover) {
   const nsvcd_body *body = mover->body;
   return nsvcd__scale_of(mover) * (body->extent + (nsvcd__whole_radius(body) - body->radius));
 }
 
-// Is b to be the one that moves, and a the one in whose frame that is seen? The one that rests is
-// that, else the larger one; where they are equal, any rule that does not depend on which is a:
-// then both ways of asking are answered alike.
+// Does b move, seen in a's frame? Of two bodies the one that moves does, else the smaller one. If
+// they are equal, any rule will do that does not depend on which of them is a: then both ways of
+// asking get the same answer.
 static int nsvcd__is_swapped(const nsvcd_mover *a, const nsvcd_mover *b) {
   const size_t count_a = nsvcd__pose_count(a);
   const size_t count_b = nsvcd__pose_count(b);
   if ((count_a > 1) != (count_b > 1)) return count_b > 1;
-  const float size_a = nsvcd__reach_of(a);
-  const float size_b = nsvcd__reach_of(b);
+  const float size_a = nsvcd__extent_of(a);
+  const float size_b = nsvcd__extent_of(b);
   if (size_a < size_b || size_b < size_a) return size_b < size_a;
   if (a->body->checksum != b->body->checksum) return b->body->checksum < a->body->checksum;
   if (count_a != count_b) return count_b < count_a;
@@ -97,8 +93,7 @@ static int nsvcd__is_swapped(const nsvcd_mover *a, const nsvcd_mover *b) {
 
 // ---- lay out
 
-// What a question that is in order needs; NULL: what any may need. Which of its bodies is to be the
-// moving one makes no difference to how much that is.
+// What a question that is in order needs; NULL: what any may need.
 static nsvcd__needs nsvcd__needs_of(const nsvcd_question *question) {
   nsvcd__needs needs = {NSVCD__TILE_SLOTS, NSVCD__TILE_SLOTS, 1, NSVCD__MAX_SEGMENTS, 0, 1};
 #ifndef NSVCD_NO_NETWORK
@@ -116,9 +111,9 @@ static nsvcd__needs nsvcd__needs_of(const nsvcd_question *question) {
   if (question->segments) needs.segments = nsvcd__round_up(question->segments, NSVCD__LANES);
   needs.proof = nsvcd__method_of(a, b, question->method) == NSVCD_METHOD_PROOF;
 #ifndef NSVCD_NO_NETWORK
-  const nsvcd_network_options *options = &question->network;
-  const size_t pairs = options->pairs ? options->pairs : NSVCD_DEFAULT_PAIRS;
-  const size_t most = options->model == NSVCD_MODEL_TINY ? pairs : NSVCD__SHORTLIST * pairs;
+  const nsvcd_network_options *o = &question->network;
+  const size_t pairs = o->pairs ? o->pairs : NSVCD_DEFAULT_PAIRS;
+  const size_t most = o->model == NSVCD_MODEL_TINY ? pairs : NSVCD__SHORTLIST * pairs;
   needs.candidates = most > NSVCD__PORTION ? most : NSVCD__PORTION;
   if (!a->weights_id || !b->weights_id) needs.candidates = 0;
 #endif
@@ -144,7 +139,7 @@ static NSVCD__NOINLINE nsvcd_result nsvcd__answer_question(const nsvcd_question 
   return workspace_size >= size ? NSVCD_OK : NSVCD_ERROR_WORKSPACE;
 }
 
-// Lays a question that has been checked out in the workspace, and chooses who moves.
+// Lays out a question that has been checked in the workspace, and chooses who moves.
 static NSVCD__NOINLINE nsvcd__query *nsvcd__query_open(const nsvcd_question *question,
                                                        void *workspace) {
   const nsvcd__needs needs = nsvcd__needs_of(question);
@@ -171,15 +166,16 @@ static NSVCD__NOINLINE nsvcd__query *nsvcd__query_open(const nsvcd_question *que
 
 // ---- answer, and write
 
-// What was found out about the moving body and the fixed one, said about b and a.
-static void nsvcd__swap_patches(uint32_t *a, uint32_t *b) {
+static void nsvcd__swap(uint32_t *a, uint32_t *b) {
   const uint32_t first = *a;
   *a = *b;
   *b = first;
 }
+
+// Exchanges a and b in what was found about the moving body and the fixed one.
 static void nsvcd__swap_contact(nsvcd_contact *contact) {
-  nsvcd__swap_patches(&contact->patch_a, &contact->patch_b);
-  nsvcd__swap_patches(&contact->triangle_a, &contact->triangle_b);
+  nsvcd__swap(&contact->patch_a, &contact->patch_b);
+  nsvcd__swap(&contact->triangle_a, &contact->triangle_b);
   const float gap = contact->gap < HUGE_VALF ? contact->gap : 0;
   for (size_t k = 0; k < 3; k++) {
     contact->point[k] += gap * contact->normal[k];
@@ -190,14 +186,13 @@ static void nsvcd__swap_answer(nsvcd_answer *answer) {
   const nsvcd_pose moving = answer->safe.a;
   answer->safe.a = answer->safe.b;
   answer->safe.b = moving;
-  nsvcd__swap_patches(&answer->opinion.patch_a, &answer->opinion.patch_b);
+  nsvcd__swap(&answer->opinion.patch_a, &answer->opinion.patch_b);
   nsvcd__swap_contact(&answer->nearest);
   for (size_t n = 0; n < answer->contact_count; n++) nsvcd__swap_contact(&answer->contacts[n]);
   for (size_t k = 0; k < 3; k++) answer->push_out[k] = 0 - answer->push_out[k];
 }
 
-// Answers a question that has been checked and laid out. hint: NULL, or that of a batch, for the
-// network.
+// Answers a question that has been checked and laid out. hint: NULL, or a batch's, for the network.
 static void nsvcd__answer_query(nsvcd__query *query, nsvcd__hint *hint, nsvcd_answer *answer) {
   const nsvcd__task *task = &query->task;
   (void)hint;
@@ -205,7 +200,7 @@ static void nsvcd__answer_query(nsvcd__query *query, nsvcd__hint *hint, nsvcd_an
   if (task->method == NSVCD_METHOD_PROOF) nsvcd__answer_by_proof(query, answer);
 #endif
 #if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_NETWORK)
-  // What a proof has left undecided the network has an opinion on, if no more than yes or no is
+  // The network has an opinion on what a proof leaves undecided, if no more than yes or no is
   // asked.
   const nsvcd_question *q = task->question;
   const int knows = task->moving->weights_id && task->fixed->weights_id &&
@@ -223,8 +218,7 @@ static void nsvcd__answer_query(nsvcd__query *query, nsvcd__hint *hint, nsvcd_an
 static nsvcd_result nsvcd__run_batch(const nsvcd_question *questions, size_t count,
                                      void *workspace, size_t workspace_size,
                                      nsvcd_answer *answers) {
-  const nsvcd__hint none = {0, 0, 0, 0};
-  nsvcd__hint hint = none;
+  nsvcd__hint hint = {0, 0, 0, 0};
   int swapped = 0;
   if (count > 0 && (!questions || !answers)) return NSVCD_ERROR_ARGUMENT;
   for (size_t k = 0; k < count; k++) {
@@ -237,7 +231,7 @@ static nsvcd_result nsvcd__run_batch(const nsvcd_question *questions, size_t cou
     nsvcd__query *query = nsvcd__query_open(q, workspace);
     // The hint is about patches of the moving body and of the fixed one.
     const int same = k > 0 && q->a.body == q[-1].a.body && q->b.body == q[-1].b.body;
-    if (!same || query->task.swapped != swapped) hint = none;
+    if (!same || query->task.swapped != swapped) memset(&hint, 0, sizeof hint);
     swapped = query->task.swapped;
     nsvcd__answer_query(query, &hint, &answers[k]);
   }

@@ -1,9 +1,10 @@
 // In: two bodies and a motion. Out: an answer, by proof (proof/proof) or by the network
-// (NeuralSVCD, algorithm 1). nsvcd_sweep stands at the end. A question goes through these phases:
+// (NeuralSVCD, algorithm 1). This room has what a question needs, and its memory; query/question
+// takes it through these phases:
 //
 //   check       is it in order, which method can answer it, and is the workspace large enough?
-//   lay out     what it needs, and where in the workspace that is
 //   who moves   of its two bodies; all is computed in the other's frame and units
+//   lay out     what it needs, and where in the workspace that is
 //   answer      by proof, or by the network
 //   write       what was found about moving and fixed, as facts about a and b
 //
@@ -26,49 +27,44 @@
 //
 // The search finds pairs of patches whose balls meet. The deepest of them make the shortlist. The
 // ranker, which is the tiny decoder, scores these while the search goes on, and the chosen decoder
-// judges the K most suspicious. K is network.pairs, NSVCD_DEFAULT_PAIRS where nothing is said. That
-// a motion is cut into 16 to 64 segments stands in *broad phase*, what goes through the decoder at
-// once (NSVCD__BATCH, NSVCD__ROWS) in *decoder*, and what a proof may take in *proof*.
+// judges the K most suspicious. K is network.pairs, by default NSVCD_DEFAULT_PAIRS. The broad phase
+// says how a motion is cut, into 16 to 64 segments; network/decoder how much goes through a decoder
+// at once (NSVCD__BATCH, NSVCD__ROWS); and proof/proof what a proof may take.
 
-// pairs on the shortlist, times K; of the tiny decoder, which needs none, K: nsvcd__settings_of,
-// nsvcd__needs_of
+// Pairs on the shortlist, times K. The tiny decoder needs none: K.
 #define NSVCD__SHORTLIST 4
-// new pairs that are worth the first look by the ranker, before the search is done. Later looks
-// wait for NSVCD__BATCH: nsvcd__search_and_judge
+// New pairs that are worth a first run of the ranker before the search is done. Later runs wait for
+// NSVCD__BATCH pairs.
 #define NSVCD__FIRST_BATCH 8
-// pairs that such looks may take, times the shortlist: nsvcd__search_and_judge
+// Pairs that runs before the end of the search may take, times the shortlist.
 #define NSVCD__RANKED_TWICE 2
-// pairs that the chosen decoder sees at once, until one is clear: nsvcd__judge; and pairs that are
-// kept where the last of a batch collided: nsvcd__collides_again
+// Pairs that the chosen decoder gets at once, until one is clear; and pairs that are kept where the
+// last of a batch collided.
 #define NSVCD__PORTION 4
-// that patches swell before planes separate them, shares of their radii, at N = 32 and less the
-// more there are: at a recall of 0.999, and of 0.9999
+// By how much patches are inflated before planes separate them, as a fraction of their radii, at
+// N = 32, and less the more patches there are: at a recall of 0.999, and of 0.9999.
 #define NSVCD__INFLATE 0.04f
 #define NSVCD__MOST_INFLATE 0.1f
-// and where a distance is asked for: patches are told of within their radii
+// The same where a distance is asked for: the decoder knows distances up to a patch's radius.
 #define NSVCD__INFLATE_DISTANCE 1.0f
-// a logit so far from 0 is clear. A clear collision needs no second pair (nsvcd__judge), and what
-// is clear to the ranker no second decoder (nsvcd__is_clear): 37,000 answers on held-out
-// sets, N = 128 to 512, are the same as with twice this and the next, but for four
+// A logit this far from 0 is clear. A clear collision needs no second pair, and what is clear to
+// the ranker no second decoder: 37,000 answers on held-out sets, N = 128 to 512, are the same as
+// with twice this and twice the next, but for four.
 #define NSVCD__CLEAR_LOGIT 3.0f
-// the same in the first pair of groups, where planes are not asked yet: at 3 earlier weights
-// stopped one free motion of 2,000, 2 mm from contact, more; nsvcd__search_and_judge
+// The same in the first pair of groups, where planes are not asked yet: at 3, earlier weights
+// stopped one more free motion of 2,000, 2 mm from contact.
 #define NSVCD__FIRST_CLEAR 4.0f
-// times that the place where the last of a batch collided may mislead before it is forgotten:
-// nsvcd__answer_by_network
+// How often the patches where the last of a batch collided may mislead before they are forgotten.
 #define NSVCD__MISLEADS 2
 
 // The network's options, with the defaults filled in.
 typedef struct nsvcd__settings {
-  size_t pairs;  // K
-  // pairs that are kept
-  size_t shortlist;
+  size_t pairs;      // K
+  size_t shortlist;  // pairs that are kept
   const nsvcd__decoder *decoder, *ranker;
   int int8;
-  // subtracted from the decoder's logit
-  float threshold;
-  // of patches, shares of their radii, before planes separate them
-  float inflate;
+  float threshold;  // subtracted from the decoder's logit
+  float inflate;    // as NSVCD__INFLATE, for these bodies
 } nsvcd__settings;
 
 // The candidate that an answer is about, and the decoder that gave its logit.
@@ -84,33 +80,28 @@ typedef struct nsvcd__decisive {
 typedef struct nsvcd__task {
   const nsvcd_body *moving, *fixed;
   nsvcd__motion motion;
-  int swapped;  // the moving body is b, not a
-  // extents of both bodies, in the fixed one's units
-  float lengths;
+  int swapped;          // the moving body is b, not a
+  float lengths;        // extents of both bodies, in the fixed one's units
   nsvcd_method method;  // PROOF or NETWORK
-  // the caller's
   const nsvcd_question *question;
 #ifndef NSVCD_NO_NETWORK
-  // of the network
   nsvcd__settings settings;
-  // written unless NULL
-  nsvcd__decisive *decisive;
+  nsvcd__decisive *decisive;  // written unless NULL
 #if NSVCD__ROWS == 1
-  // (DECODER_IN) the decoder's inputs, in memory that the search has no need of between two groups:
+  // (DECODER_IN) the decoder's inputs, in memory that the search does not need between two groups:
   // stack is scarce where rows go one by one
   float *row;
 #endif
 #endif
 } nsvcd__task;
 
-// What a workspace holds, at its beginning.
+// What a workspace begins with. The network's memory and the proof's are the same, for one follows
+// the other.
 typedef struct nsvcd__query {
   nsvcd__search broad_phase;
   nsvcd__task task;
-  // The memory of the network and that of the proof are in one place, for one follows the other.
 #ifndef NSVCD_NO_NETWORK
-  // (shortlist)
-  nsvcd__candidate *kept;
+  nsvcd__candidate *kept;  // (shortlist)
 #endif
 #ifndef NSVCD_NO_PROOF
   nsvcd__proof *proof;
@@ -118,7 +109,7 @@ typedef struct nsvcd__query {
 #endif
 } nsvcd__query;
 
-// What NSVCD_PROOF_WORKSPACE_BYTES and NSVCD_NETWORK_WORKSPACE_BYTES count on; where this does not
+// NSVCD_PROOF_WORKSPACE_BYTES and NSVCD_NETWORK_WORKSPACE_BYTES count on these. Where this does not
 // compile they are wrong.
 typedef char nsvcd__constants_hold
     [sizeof(nsvcd__query) + 3 * NSVCD_ALIGNMENT + NSVCD__PASSED_OVER <= 1088 &&
@@ -142,8 +133,8 @@ typedef char
                                       : -1];
 #endif
 
-// Lays a query out at base, which is aligned, or, where that is NULL, only counts. Returns the
-// bytes that it takes.
+// Lays a query out at `base`, which is aligned, or only counts if that is NULL. Returns the bytes
+// that it takes.
 static size_t nsvcd__query_layout(const nsvcd__needs *needs, char *base) {
   nsvcd__query counted;
   uint64_t used = 0;
@@ -152,31 +143,26 @@ static size_t nsvcd__query_layout(const nsvcd__needs *needs, char *base) {
   nsvcd__search_layout(needs, base, &used, &query->broad_phase);
   uint64_t end = used;
 #ifndef NSVCD_NO_NETWORK
-  uint64_t network = used;
-  void *kept = nsvcd__take(base, &network, needs->candidates, sizeof(nsvcd__candidate));
-  query->kept = (nsvcd__candidate *)kept;
+  nsvcd__search *search = &query->broad_phase;
   const size_t asked = needs->candidates > 0;
   const size_t meetings = asked * NSVCD__GROUP * needs->segments;
-  void *cache = nsvcd__take(base, &network, asked, sizeof(nsvcd__plane_cache));
-  void *met = nsvcd__take(base, &network, meetings, sizeof(uint16_t));
-  query->broad_phase.cache = (nsvcd__plane_cache *)cache;
-  query->broad_phase.met = (uint16_t *)met;
-  end = network;
+  void *kept = nsvcd__take(base, &end, needs->candidates, sizeof *query->kept);
+  query->kept = (nsvcd__candidate *)kept;
+  search->cache = (nsvcd__plane_cache *)nsvcd__take(base, &end, asked, sizeof *search->cache);
+  search->met = (uint16_t *)nsvcd__take(base, &end, meetings, sizeof *search->met);
 #endif
 #ifndef NSVCD_NO_PROOF
-  uint64_t proof = used;
-  const size_t intervals = needs->proof ? needs->segments : 0;
-  query->proof =
-      (nsvcd__proof *)nsvcd__take(base, &proof, needs->proof != 0, sizeof(nsvcd__proof));
-  query->intervals =
-      (nsvcd__interval *)nsvcd__take(base, &proof, intervals, sizeof(nsvcd__interval));
-  end = proof > end ? proof : end;
+  const size_t proofs = needs->proof != 0;
+  const size_t intervals = proofs * needs->segments;
+  query->proof = (nsvcd__proof *)nsvcd__take(base, &used, proofs, sizeof *query->proof);
+  void *rows = nsvcd__take(base, &used, intervals, sizeof *query->intervals);
+  query->intervals = (nsvcd__interval *)rows;
 #endif
-  return (size_t)end;
+  return (size_t)(used > end ? used : end);
 }
 
-// What is said where no more than a verdict is known: they may go to where they are in the end if
-// they are free all the way, else nowhere.
+// Writes what a verdict alone tells: the bodies may go to the end of a motion that is free, else
+// nowhere.
 static void nsvcd__answer_begin(const nsvcd__task *task, nsvcd_verdict verdict,
                                 nsvcd_answer *answer) {
   const nsvcd__track *moving = &task->motion.moving;
@@ -195,11 +181,9 @@ static void nsvcd__answer_begin(const nsvcd__task *task, nsvcd_verdict verdict,
   answer->nearest.triangle_b = NSVCD_NO_TRIANGLE;
 }
 
-// Where the last of a batch collided by the network: the next is asked there first. Forgotten when
-// it has misled MISLEADS times, or the bodies change.
+// Where the last question of a batch collided, by the network: the next one is tried there first.
+// Forgotten when it has misled MISLEADS times, or the bodies change.
 typedef struct nsvcd__hint {
-  int known;
-  int misled;
-  // patches
-  uint32_t moving, fixed;
+  int known, misled;
+  uint32_t moving, fixed;  // patches
 } nsvcd__hint;
