@@ -169,7 +169,7 @@ pieces by their stored corners|} else if (f->counts->cut > 0) {|} else if (0) {
 a piece of the triangle before|if (f->cut[first + half] <= number) first += half;|if (f->cut[first + half] < number) first += half;
 floor: nearest times on the other side|if (slope < 0)\n      u0 = middle;|if (slope > 0)\n      u0 = middle;
 asks: parts of the time that were lost|if (part->lost) return;|
-asks: what no part settled|  p->known = known;\n  p->ask.end = end;\n}|  known.lost = 0;\n  p->known = known;\n  p->ask.end = end;\n}
+asks: what no part settled|  p->ask.is_brief = 0;\n  nsvcd__proof_restart(p);|  known.lost = 0;\n  p->ask.is_brief = 0;\n  nsvcd__proof_restart(p);
 long: gaps by other poses|part.poses += first;|
 long: gaps without the lift|origin_gap - p->given.lengths - pushed_out;|origin_gap - p->given.lengths;
 long: a try that found nothing ends what is proven|!is_open \&\& !is_try \&\& !is_resolved|!is_open \&\& !is_resolved

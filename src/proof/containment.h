@@ -70,21 +70,20 @@ static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, 
   const nsvcd__f3 heading = nsvcd__f3_round(ray->direction);
   uint32_t missed = 0;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 from = nsvcd__v3_set(start);
-    const nsvcd__v3 direction = nsvcd__v3_set(heading);
-    const nsvcd__v3 a = nsvcd__v3_load(block->corners[0], l);
-    const nsvcd__v3 b = nsvcd__v3_load(block->corners[1], l);
-    const nsvcd__v3 c = nsvcd__v3_load(block->corners[2], l);
-    const nsvcd__v3 ab = nsvcd__v3_cross(nsvcd__v3_sub(b, a), direction);
-    const nsvcd__v3 bc = nsvcd__v3_cross(nsvcd__v3_sub(c, b), direction);
-    const nsvcd__v3 ca = nsvcd__v3_cross(nsvcd__v3_sub(a, c), direction);
-    const nsvcd__v by_ab = nsvcd__v3_dot(ab, nsvcd__v3_sub(a, from));
-    const nsvcd__v by_bc = nsvcd__v3_dot(bc, nsvcd__v3_sub(b, from));
-    const nsvcd__v by_ca = nsvcd__v3_dot(ca, nsvcd__v3_sub(c, from));
-    const nsvcd__v least = nsvcd__v_min(by_ab, nsvcd__v_min(by_bc, by_ca));
-    const nsvcd__v most = nsvcd__v_max(by_ab, nsvcd__v_max(by_bc, by_ca));
-    const nsvcd__v longer = nsvcd__v_max(nsvcd__v3_length(bc), nsvcd__v3_length(ca));
-    const nsvcd__v longest = nsvcd__v_max(nsvcd__v3_length(ab), longer);
+    nsvcd__v least = nsvcd__v_set(HUGE_VALF);
+    nsvcd__v most = nsvcd__v_set(-HUGE_VALF);
+    nsvcd__v longest = nsvcd__v_set(0);
+    for (size_t k = 0; k < 3; k++) {
+      const nsvcd__v3 corner = nsvcd__v3_load(block->corners[k], l);
+      const nsvcd__v3 next = nsvcd__v3_load(block->corners[(k + 1) % 3], l);
+      const nsvcd__v3 edge = nsvcd__v3_sub(next, corner);
+      const nsvcd__v3 across = nsvcd__v3_cross(edge, nsvcd__v3_set(heading));
+      const nsvcd__v3 to_corner = nsvcd__v3_sub(corner, nsvcd__v3_set(start));
+      const nsvcd__v volume = nsvcd__v3_dot(across, to_corner);
+      least = nsvcd__v_min(least, volume);
+      most = nsvcd__v_max(most, volume);
+      longest = nsvcd__v_max(longest, nsvcd__v3_length(across));
+    }
     const nsvcd__v allowed =
         nsvcd__v_fma(nsvcd__v_set(margin), longest, nsvcd__v_set(rounding));
     missed |= (nsvcd__v_lt(least, nsvcd__v_negate(allowed)) & nsvcd__v_lt(allowed, most)) << l;

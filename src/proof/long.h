@@ -22,12 +22,8 @@ typedef struct nsvcd__pace {
   uint32_t easy, wait;
 } nsvcd__pace;
 
-// Chooses the first interval: all of the motion, as a try.
-static nsvcd__pace nsvcd__first_interval(nsvcd__motion *motion, nsvcd__search *search) {
-  const nsvcd__pace pace = {0, 1};
-  nsvcd__choose_interval(motion, search, 0, (uint32_t)-1);
-  return pace;
-}
+// The arcs of the first interval: all of the motion, as a try.
+#define NSVCD__ALL_ARCS 0xffffffffu
 
 // Chooses the next interval: larger if those before took little work; with segments that turn less
 // if the one before took much; a part of a try that failed.
@@ -84,7 +80,8 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
   for (int at_end = 0; at_end < 2 && !(asked > 0); at_end++) {
     if (nsvcd__meets_at(p, search, at_end, units)) return NSVCD__ANSWERED;
   }
-  nsvcd__pace pace = nsvcd__first_interval(motion, search);
+  nsvcd__pace pace = {0, 1};
+  nsvcd__choose_interval(motion, search, 0, NSVCD__ALL_ARCS);
   while (motion->from < motion->ticks) {
     const uint32_t until = search->begin[search->segments];
     const int is_try = motion->arcs > 1;
@@ -150,11 +147,12 @@ static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
 // Narrows the bracket interval by interval. A budget that was given is divided by time: each
 // interval gets of what is left the share that it has of the rest of the motion.
 static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__search *search,
-                                                    double finest, nsvcd__pace *pace) {
+                                                    double finest) {
   nsvcd__motion *motion = p->ask.motion;
   const size_t most = p->ask.most;
   const size_t work = p->given.work;
   const double known = p->low;
+  nsvcd__pace pace = {0, 1};
   double low = p->high;
   int is_wide = 0;
   while (motion->from < motion->ticks) {
@@ -182,7 +180,7 @@ static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__sear
     }
     if (is_resolved) low = nsvcd__min(low, p->low);
     is_wide |= p->wide;
-    nsvcd__next_interval(motion, search, until, is_resolved, p->work - before, pace);
+    nsvcd__next_interval(motion, search, until, is_resolved, p->work - before, &pace);
   }
   p->given.work = work;
   p->ask.most = most;
@@ -199,13 +197,12 @@ static NSVCD__NOINLINE void nsvcd__measure(nsvcd__proof *p, nsvcd__search *searc
   const float gap = nsvcd__surface_gap(p, nsvcd__motion_gap(motion));
   p->low = nsvcd__max(verdict == NSVCD__FOUND_FREE ? p->given.clearance : 0, (double)gap);
   const int is_long = nsvcd__is_long(motion, search);
-  nsvcd__pace pace = {0, 0};
-  if (is_long) pace = nsvcd__first_interval(motion, search);
+  if (is_long) nsvcd__choose_interval(motion, search, 0, NSVCD__ALL_ARCS);
   p->high = is_named ? p->known.found.distance : nsvcd__bound_distance(p, search);
   is_named = is_named || p->known.has_contact;
   if (is_named && !(p->high - p->low > finest)) return;
   if (is_long)
-    nsvcd__narrow_intervals(p, search, finest, &pace);
+    nsvcd__narrow_intervals(p, search, finest);
   else
     nsvcd__narrow(p, search, finest);
 }

@@ -215,12 +215,12 @@ static NSVCD__NOINLINE int nsvcd__choose_four(const nsvcd__manifold *m, int *cho
   for (int n = count; n < 4 && count > 0; n++) kept[n] = kept[count - 1];
   if (count > 0 && count <= 4) *area = nsvcd__spanned(m, kept);
   if (count <= 4) return count;
-  for (int all = 0; all < 1 << count; all++) {
-    int four[NSVCD__SUPPORTS];
+  for (uint32_t all = 0; all < 1u << count; all++) {
+    int four[4];
     int size = 0;
-    for (int n = 0; n < count; n++)
-      if (all >> n & 1) four[size++] = kept[n];
-    if (size != 4) continue;
+    if (nsvcd__bit_count(all) != 4) continue;
+    for (uint32_t left = all; left; left &= left - 1)
+      four[size++] = kept[nsvcd__low_bit(left)];
     const double spanned = nsvcd__spanned(m, four);
     if (!(spanned > 1.001 * *area)) continue;
     *area = spanned;

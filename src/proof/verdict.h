@@ -180,7 +180,7 @@ static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search)
   const double from = (double)p->ask.motion->from;
   // An interval is short, and all before it is known.
   if (p->known.lost && !p->ask.motion->arcs) nsvcd__prove_by_time(p, search, p->ask.most);
-  nsvcd__known known = p->known;
+  const nsvcd__known known = p->known;
   const double end = p->ask.end;
   if (from > 0 && known.has_contact) {
     p->starts_free = 1;
@@ -188,9 +188,9 @@ static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search)
     // The contact is so early that they may meet at the start already.
     if (nsvcd__meets_at(p, search, 0, p->given.work)) return NSVCD__ANSWERED;
     p->starts_free = !p->known.lost && !(p->known.unresolved < NSVCD__NEVER);
+    p->known = known;
+    p->ask.end = end;
   }
-  p->known = known;
-  p->ask.end = end;
   return outcome;
 }
 
@@ -208,8 +208,7 @@ static size_t nsvcd__patch_near(const nsvcd__geometry *f, nsvcd__f3 point) {
   if (k > 0) count = nsvcd__level_of(body->padded, k - 1).count;
   while (k-- > 0) {
     const nsvcd__level level = nsvcd__level_of(body->padded, k);
-    const nsvcd__spheres all =
-        nsvcd__spheres_of(nsvcd__body_floats(body, level.first), level.slots);
+    const nsvcd__spheres all = nsvcd__level_spheres(body, level);
     size_t nearest = from;
     float best = HUGE_VALF;
     for (size_t n = from; n < from + count && n < level.count; n++) {
