@@ -239,7 +239,7 @@ static float query_least_of_all(const nsvcd_question *question, size_t *count) {
   static nsvcd__candidate items[NSVCD_MAX_PAIRS];
   nsvcd__candidates kept;
   float least = HUGE_VALF;
-  CHECK_EQ(nsvcd__answer_question(question, query_workspace(), nsvcd_sweep_workspace_size(NULL)),
+  CHECK_EQ(nsvcd__sweep_check(question, query_workspace(), nsvcd_sweep_workspace_size(NULL)),
            NSVCD_OK);
   nsvcd__query *query = nsvcd__query_open(question, query_workspace());
   nsvcd__task *task = &query->task;

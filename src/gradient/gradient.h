@@ -205,7 +205,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
   if (question->method == NSVCD_METHOD_PROOF) return NSVCD_ERROR_METHOD;
   nsvcd_question by_network = *question;
   by_network.method = NSVCD_METHOD_NETWORK;
-  const nsvcd_result result = nsvcd__answer_question(&by_network, workspace, workspace_size);
+  const nsvcd_result result = nsvcd__sweep_check(&by_network, workspace, workspace_size);
   if (result) return result;
   nsvcd__query *query = nsvcd__query_open(&by_network, workspace);
   nsvcd__task *task = &query->task;

@@ -38,11 +38,11 @@ static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__triangle_contact *
 // rises from the rim that the cone stands on, looks up, and so does the floor under it.
 static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n,
                          const nsvcd__triangle_contact *t) {
-  const double push_out = nsvcd__push_out_along(n, t);
+  const double more = nsvcd__push_out_along(n, t);
   const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->push_out), n);
-  if (!(nsvcd__d3_dot(n, n) > 0.5) || pushed_out + push_out + p->given.clearance > p->ask.slop)
-    return 0;
-  if (push_out < 0) return 1;
+  if (!(nsvcd__d3_dot(n, n) > 0.5)) return 0;
+  if (pushed_out + more + p->given.clearance > p->ask.slop) return 0;
+  if (more < 0) return 1;
   return nsvcd__d3_dot(n, t->directions[0]) > -0.3 ||
          nsvcd__d3_dot(n, t->directions[1]) > -0.3;
 }
@@ -69,25 +69,24 @@ static NSVCD__NOINLINE double nsvcd__exit_depth(const nsvcd__triangle_contact *t
   if (nsvcd__gap_after(t, n, 0.998 * most) <= square) return most;
   double low = 0;
   double high = most;
-  double last = 0;  // where it is within the clearance
+  double inner = 0;  // where it is within the clearance
   int met = nsvcd__gap_after(t, n, 0) <= square;
   for (int k = 0; k < 16 && !met; k++) {
     const double third = (high - low) / 3;
     const double before = nsvcd__gap_after(t, n, low + third);
     const double after = nsvcd__gap_after(t, n, high - third);
     met = before <= square || after <= square;
-    last = after <= square ? high - third : low + third;
+    inner = after <= square ? high - third : low + third;
     if (before < after) high -= third;
     if (!(before < after)) low += third;
   }
   if (!met) return -HUGE_VAL;
-  for (double beyond = most; beyond - last > nsvcd__max(1e-3 * beyond, 1e-5 * most);) {
-    const double middle = 0.5 * (last + beyond);
-    const int touches = nsvcd__gap_after(t, n, middle) <= square;
-    last = touches ? middle : last;
-    beyond = touches ? beyond : middle;
+  for (double beyond = most; beyond - inner > nsvcd__max(1e-3 * beyond, 1e-5 * most);) {
+    const double middle = 0.5 * (inner + beyond);
+    const int is_inner = nsvcd__gap_after(t, n, middle) <= square;
+    *(is_inner ? &inner : &beyond) = middle;
   }
-  return last;
+  return inner;
 }
 
 // Notes how deep a touch is along normal k.

@@ -113,9 +113,9 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
 
 // Writes the contact that a proof has found: when, where, and of what. If the bodies were swapped,
 // the fixed one counts as pushed out, in the opposite direction.
-static NSVCD__NOINLINE void nsvcd__tell_contact(const nsvcd__query *query,
-                                                const nsvcd__pair_contact *found,
-                                                nsvcd_contact *out) {
+static NSVCD__NOINLINE void nsvcd__write_contact(const nsvcd__query *query,
+                                                 const nsvcd__pair_contact *found,
+                                                 nsvcd_contact *out) {
   const nsvcd__proof *p = query->proof;
   const nsvcd__task *task = &query->task;
   const nsvcd__motion *motion = &task->motion;
@@ -164,9 +164,9 @@ static NSVCD__NOINLINE void nsvcd__poses_at(const nsvcd__task *task, double t,
   }
 }
 
-// How far the poses of an answer, in float, are from the bodies' own at time t, at most: positions
-// and quaternions are off by 6e-8. In the fixed body's units.
-static double nsvcd__told_allowance(const nsvcd__proof *p, double t) {
+// How far the poses of an answer, in float, are off at time t, at most, in the fixed body's units:
+// positions and quaternions are off by 6e-8 of their length.
+static double nsvcd__pose_error(const nsvcd__proof *p, double t) {
   const nsvcd__motion *motion = p->ask.motion;
   const nsvcd__d3 moving = nsvcd__dpose_at(motion, &motion->moving, t).position;
   const nsvcd__d3 fixed = nsvcd__dpose_at(motion, &motion->fixed, t).position;
@@ -189,7 +189,7 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) 
   const nsvcd__track rests = {fixed, NULL, takes_it ? 1u : 2u, 0, 0};
   const nsvcd__d3 push_out = nsvcd__d3_widen(whole->push_out);
   // Nearer to each other than stored triangles are known, nothing would be separated.
-  const double epsilons = 4 * nsvcd__epsilon(p) + nsvcd__told_allowance(p, t);
+  const double epsilons = 4 * nsvcd__epsilon(p) + nsvcd__pose_error(p, t);
   const double kept = fmax(NSVCD__SET_DOWN * p->ask.slop, epsilons);
   const nsvcd__d3 least = nsvcd__push_out(p, kept, 1);
   const nsvcd__d3 by = nsvcd__d3_sub(push_out, least);
@@ -259,7 +259,7 @@ static NSVCD__NOINLINE int nsvcd__manifold_normals(nsvcd__proof *p,
 // Writes the manifold of the contact found. If a body stands on something, that contact may be with
 // a side that rises from it: so the normals of both triangles are tried too, and the manifold that
 // spans the most is taken. All else that was known of the question is lost.
-static NSVCD__NOINLINE void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer *answer) {
+static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd_answer *answer) {
   nsvcd__proof *p = query->proof;
   const nsvcd__task *task = &query->task;
   const nsvcd__pair_contact found = p->known.found;
@@ -297,7 +297,7 @@ static NSVCD__NOINLINE void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answ
     for (int n = 0; n < count; n++) {
       nsvcd__pair_contact support = m->supports[chosen[n]];
       support.tick = found.tick;
-      nsvcd__tell_contact(query, &support, &answer->contacts[n]);
+      nsvcd__write_contact(query, &support, &answer->contacts[n]);
       // The last bit tells which body a corner is of.
       answer->contacts[n].id = m->numbers[chosen[n]] ^ (uint32_t)task->swapped;
     }
@@ -307,17 +307,17 @@ static NSVCD__NOINLINE void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answ
 
 // Writes where the bodies may go, which are proven free until answer->time.low, and how deep they
 // are in contact at the start. If one may be inside the other, no push-out helps, and they stay.
-static NSVCD__NOINLINE void nsvcd__tell_safe_pose(nsvcd__query *query, nsvcd_answer *answer) {
+static NSVCD__NOINLINE void nsvcd__write_safe_pose(nsvcd__query *query, nsvcd_answer *answer) {
   const nsvcd__task *task = &query->task;
   const nsvcd__proof *p = query->proof;
   const double t = (double)answer->safe.time;
   nsvcd__d3 push_out = nsvcd__d3_widen(task->motion.push_out);
-  const int is_lifted = nsvcd__d3_dot(push_out, push_out) > 0;
-  const int may_go = is_lifted && !p->inside && !p->unclear;
-  if (is_lifted && !p->inside) {
+  const int is_pushed = nsvcd__d3_dot(push_out, push_out) > 0;
+  const int may_go = is_pushed && !p->inside && !p->unclear;
+  if (is_pushed && !p->inside) {
     const double depth = nsvcd__d3_length(nsvcd__push_out(p, 0, 1));
     answer->depth = (float)(depth * (double)task->motion.unit);
-  } else if (!is_lifted && (answer->time.low > 0 || p->starts_free)) {
+  } else if (!is_pushed && (answer->time.low > 0 || p->starts_free)) {
     answer->depth = 0;
   }
   if (may_go) push_out = nsvcd__set_down(query, t);
@@ -327,7 +327,7 @@ static NSVCD__NOINLINE void nsvcd__tell_safe_pose(nsvcd__query *query, nsvcd_ans
 }
 
 // Writes until when the motion is proven free, and up to which time the bodies may go.
-static void nsvcd__tell_time(nsvcd__proof *p, nsvcd_answer *answer) {
+static void nsvcd__write_time(nsvcd__proof *p, nsvcd_answer *answer) {
   const nsvcd__motion *motion = p->ask.motion;
   const double ticks = (double)motion->ticks;
   const double until = fmin(fmax(nsvcd__clear_until(p) / ticks, 0), 1);
@@ -338,8 +338,7 @@ static void nsvcd__tell_time(nsvcd__proof *p, nsvcd_answer *answer) {
   double u;
   const nsvcd__arc *arc = nsvcd__arc_at(p, nsvcd__arc_of(motion, until * ticks, &u));
   const double length = nsvcd__travel_in(p, arc) * ticks / (double)arc->ticks;
-  const double epsilons =
-      NSVCD__EPSILONS * nsvcd__epsilon(p) + nsvcd__told_allowance(p, until);
+  const double epsilons = NSVCD__EPSILONS * nsvcd__epsilon(p) + nsvcd__pose_error(p, until);
   const double back = length > epsilons ? epsilons / length : p->given.fraction;
   answer->safe.time = (float)(fmax(0, until - back) * (1 - 1e-7));
 }
@@ -375,11 +374,11 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   const nsvcd_verdict if_not_free = is_inside || is_contact ? NSVCD_HIT : NSVCD_UNDECIDED;
   nsvcd__answer_begin(task, is_free ? NSVCD_FREE : if_not_free, answer);
   answer->inside = is_inside;
-  if (names || is_inside) nsvcd__tell_contact(query, &p->known.found, &answer->nearest);
+  if (names || is_inside) nsvcd__write_contact(query, &p->known.found, &answer->nearest);
   if (is_inside) answer->nearest.gap = HUGE_VALF;
   if (is_inside || is_contact) answer->time.high = answer->nearest.time;
   if (is_contact) answer->contacts[answer->contact_count++] = answer->nearest;
-  if (p->given.fraction > 0 && !is_free && !is_inside) nsvcd__tell_time(p, answer);
+  if (p->given.fraction > 0 && !is_free && !is_inside) nsvcd__write_time(p, answer);
 
   const double radius = p->given.radius;
   const double low = is_free ? fmax(p->given.clearance, p->low) : p->low;
@@ -404,8 +403,8 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
     const nsvcd__d3 turned = nsvcd__dmat3_apply(&world.rotation, push_out);
     nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_scale(turned, unit)), answer->push_out);
   }
-  if (q->manifold && is_contact) nsvcd__tell_manifold(query, answer);
-  nsvcd__tell_safe_pose(query, answer);
+  if (q->manifold && is_contact) nsvcd__write_manifold(query, answer);
+  nsvcd__write_safe_pose(query, answer);
   answer->work = p->work;
 }
 #endif  // NSVCD_NO_PROOF

@@ -128,9 +128,9 @@ static size_t nsvcd__sweep_size(const nsvcd_question *question) {
 }
 
 // Checks a question, and that the workspace is large enough for it.
-static NSVCD__NOINLINE nsvcd_result nsvcd__answer_question(const nsvcd_question *question,
-                                                           const void *workspace,
-                                                           size_t workspace_size) {
+static NSVCD__NOINLINE nsvcd_result nsvcd__sweep_check(const nsvcd_question *question,
+                                                       const void *workspace,
+                                                       size_t workspace_size) {
   const nsvcd_result result = nsvcd__question_check(question);
   if (result) return result;
   if (!workspace || !nsvcd__is_aligned(workspace)) return NSVCD_ERROR_WORKSPACE;
@@ -222,8 +222,7 @@ static nsvcd_result nsvcd__run_batch(const nsvcd_question *questions, size_t cou
   int swapped = 0;
   if (count > 0 && (!questions || !answers)) return NSVCD_ERROR_ARGUMENT;
   for (size_t k = 0; k < count; k++) {
-    const nsvcd_result result =
-        nsvcd__answer_question(&questions[k], workspace, workspace_size);
+    const nsvcd_result result = nsvcd__sweep_check(&questions[k], workspace, workspace_size);
     if (result) return result;
   }
   for (size_t k = 0; k < count; k++) {

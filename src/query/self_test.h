@@ -2,11 +2,11 @@
 #pragma once
 #include "../proof/triangle_pairs.h"
 
-// As nsvcd_self_test. The place of a body's point (1, 0, 0) at 16 ticks: the body turns by 90
-// degrees about z on its way from (4, 0, 0) to (-4, 0, 0), and is seen by one at (1, 2, 3) whose x,
-// y, z are y, z, x. Then two triangles that meet, and, as one is pushed out, are apart.
+// As nsvcd_self_test. Computes where a body's point (1, 0, 0) is at 16 ticks, while the body turns
+// by 90 degrees about z from (4, 0, 0) to (-4, 0, 0), seen from a body at (1, 2, 3) whose x, y, z
+// are y, z, x. Then two triangles that meet, and are apart when one of them is raised.
 static nsvcd_result nsvcd__run_self_test(void) {
-  // or the compiler would compute instead
+  // volatile, or the compiler would compute all this
   const volatile float half = 0.70710678f;
   const float turn = half;
   const nsvcd_pose path[2] = {{{4, 0, 0}, {0, 0, 0, 1}}, {{-4, 0, 0}, {0, 0, turn, turn}}};
@@ -14,7 +14,7 @@ static nsvcd_result nsvcd__run_self_test(void) {
   const nsvcd_mover moving = {NULL, path, 2, NULL, 0};
   const nsvcd_mover fixed = {NULL, &rest, 1, NULL, 0};
   float positions[3][NSVCD__LANES];
-  // in a block: the stack is shared with what comes after it
+  // A block, so that what comes after it shares its stack.
   {
     nsvcd__motion motion;
     nsvcd__keyframes keyframes;
@@ -44,7 +44,7 @@ static nsvcd_result nsvcd__run_self_test(void) {
     right &= fabs((double)chords.start[1][l] + 3) < 1e-4;
     right &= fabs((double)chords.start[2][l] - x) < 1e-4;
   }
-  // only two of these chords come within 0.2 of the ninth place
+  // Only two of these chords come within 0.2 of the ninth point.
   nsvcd__sphere resting = {{half - 2, -3, half - 1}, 0.1f};
   right &= nsvcd__meet(&chords, resting) == 0x180;
   resting.centre.y += 1;
@@ -58,7 +58,7 @@ static nsvcd_result nsvcd__run_self_test(void) {
   right &= fabs(nsvcd__nearest_of(a, b).square - height * height) < 1e-9;
 #endif
 #ifdef NSVCD_ONE_PATH
-  // a product that has been rounded: of one that is fused, 2^-24 would be left
+  // A product is rounded. If it were fused with the difference, 2^-24 would be left.
   const volatile float one_up = 1 + 1.0f / 4096;
   const volatile float square = 1 + 1.0f / 2048;
   const float factor = one_up;
