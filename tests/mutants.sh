@@ -81,7 +81,7 @@ pose of another arc|known->arc == arc->first \&\& known->ticks == arc->ticks \&\
 first half only|if (part == NSVCD__TOO_LONG) ends[left++] = 0.5 * (u + end);|if (part == NSVCD__TOO_LONG) ends[left - 1] = 0.5 * (u + end);
 a window forgotten|b += NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(p, j, b);\n    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(p, i, a);\n      const|b += 2 * NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(p, j, b);\n    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(p, i, a);\n      const
 bounds of half a window's block|low[k] = least;|low[k] = 0.5f * (least - negated);
-half of the box|slice \&= nsvcd__v_le(at[k], nsvcd__v_set(outer->box[3 + k] + rounding));|slice \&= nsvcd__v_le(at[k], nsvcd__v_set(0.5f * outer->box[k] + 0.5f * outer->box[3 + k]));
+half of the box|nsvcd__f3_add(nsvcd__f3_load(e->outer->box + 3), margin);|nsvcd__f3_scale(nsvcd__f3_add(nsvcd__f3_load(e->outer->box + 3), nsvcd__f3_load(e->outer->box)), 0.5f);
 rays without rounding|const float rounding = NSVCD__ROUNDING * extent * f->body->extent;|const float rounding = 0 * NSVCD__ROUNDING * extent * f->body->extent;
 rays past half the groups|while (!sum.unclear \&\& nsvcd__traversal_next(\&traversal, \&g)) {|while (!sum.unclear \&\& nsvcd__traversal_next(\&traversal, \&g)) {\n    if (g % 2) continue;
 block's boxes at the start only|nsvcd__block_box(p, 2);|nsvcd__block_box(p, 1);

@@ -273,37 +273,6 @@ static int nsvcd__sticks_out(const nsvcd__geometry *inner, const nsvcd__transfor
   return 0;
 }
 
-// Which of the seeds first .. first + 15 may be in the sphere and the box of the other body?
-static uint32_t nsvcd__seeds_near(const nsvcd__geometry *inner, size_t first,
-                                  const nsvcd__transform *start, float scale,
-                                  const nsvcd__geometry *outer) {
-  const nsvcd_body *o = outer->body;
-  const size_t left = inner->counts->components - first;
-  float lanes[3][NSVCD__LANES];
-  for (size_t l = 0; l < NSVCD__LANES; l++) {
-    const float *seed = inner->seeds + 3 * (first + (l < left ? l : 0));
-    for (size_t k = 0; k < 3; k++) lanes[k][l] = seed[k];
-  }
-  const nsvcd__f3 centre = nsvcd__f3_load(o->centre);
-  const float extent =
-      nsvcd__f3_length(start->position) + scale * inner->body->extent + o->extent;
-  const float rounding = 4 * NSVCD__ROUNDING * extent;
-  uint32_t nearby = 0;
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 seen = nsvcd__v3_transform(start, nsvcd__v3_load(lanes, l));
-    const nsvcd__v3 d = nsvcd__v3_sub(seen, nsvcd__v3_set(centre));
-    const nsvcd__v radius = nsvcd__v_set(o->radius + rounding);
-    const nsvcd__v at[3] = {seen.x, seen.y, seen.z};
-    uint32_t slice = nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_mul(radius, radius));
-    for (size_t k = 0; k < 3; k++) {
-      slice &= nsvcd__v_le(nsvcd__v_set(outer->box[k] - rounding), at[k]);
-      slice &= nsvcd__v_le(at[k], nsvcd__v_set(outer->box[3 + k] + rounding));
-    }
-    nearby |= slice << l;
-  }
-  return nearby;
-}
-
 // The inverse of a pose, whose rotation is times this scale.
 static nsvcd__dtransform nsvcd__inverse_dtransform(const nsvcd__dtransform *at, double scale) {
   const double inverse = 1 / (scale * scale);
@@ -326,15 +295,28 @@ typedef struct nsvcd__enclosure {
   double unit;
 } nsvcd__enclosure;
 
+// May a seed be in the outer body? It is in the sphere and the box about that.
+static int nsvcd__seed_is_near(const nsvcd__enclosure *e, const float *seed) {
+  const nsvcd_body *o = e->outer->body;
+  const float extents = e->scale * e->inner->body->extent + o->extent;
+  const float lengths = nsvcd__f3_length(e->rounded.position) + extents;
+  const float rounding = 4 * NSVCD__ROUNDING * lengths;
+  const float radius = o->radius + rounding;
+  const nsvcd__f3 margin = nsvcd__f3_of(rounding, rounding, rounding);
+  const nsvcd__f3 low = nsvcd__f3_sub(nsvcd__f3_load(e->outer->box), margin);
+  const nsvcd__f3 high = nsvcd__f3_add(nsvcd__f3_load(e->outer->box + 3), margin);
+  const nsvcd__f3 seen = nsvcd__f3_transform(&e->rounded, nsvcd__f3_load(seed));
+  const nsvcd__f3 d = nsvcd__f3_sub(seen, nsvcd__f3_load(o->centre));
+  const int in_box = !nsvcd__f3_exceeds(low, seen) && !nsvcd__f3_exceeds(seen, high);
+  return in_box && nsvcd__f3_dot(d, d) <= radius * radius;
+}
+
 // Is one of the inner body's components, with seeds first .. end - 1, in the outer body? Then
 // p->inside is set, and p->enclosed is its seed. Returns 1 if that is certain.
 static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, size_t first,
                                  size_t end) {
-  uint32_t nearby = 0;
   for (size_t n = first; n < end; n++) {
-    const size_t l = (n - first) % NSVCD__LANES;
-    if (l == 0) nearby = nsvcd__seeds_near(e->inner, n, &e->rounded, e->scale, e->outer);
-    if (!(nearby >> l & 1)) continue;
+    if (!nsvcd__seed_is_near(e, e->inner->seeds + 3 * n)) continue;
     if (nsvcd__is_exhausted(p)) {
       p->unclear = 1;
       return 0;

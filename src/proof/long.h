@@ -52,19 +52,6 @@ static float nsvcd__surface_gap(const nsvcd__proof *p, float origin_gap) {
   return origin_gap - p->given.lengths - pushed_out;
 }
 
-// Searches an interval, or tries a larger one. fraction: as p->ask.fraction, but of an interval; 0:
-// any contact will do.
-static nsvcd__outcome nsvcd__prove_interval(nsvcd__proof *p, nsvcd__search *search,
-                                            double fraction) {
-  const int is_try = p->ask.motion->arcs > 1;
-  p->ask.is_brief = is_try;
-  p->ask.fraction = is_try ? 0 : fraction;
-  p->ask.after_unresolved = fraction > 0 ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.aside;
-  p->ask.limit = is_try ? nsvcd__limit_after(p, NSVCD__TRY) : p->ask.most;
-  if (p->ask.fraction > 0) return nsvcd__prove_first(p, search);
-  return nsvcd__prove_motion(p, search);
-}
-
 // Searches a motion interval by interval, until a contact answers. In the end that contact is
 // known, and all else that is known is of the first interval that was not resolved.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
@@ -74,7 +61,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
   nsvcd__outcome outcome = NSVCD__RESOLVED;
   nsvcd__known open = p->known;
   double end = NSVCD__NEVER;
-  double fraction = asked;
+  double fraction = asked;  // 0: any contact will do
   int is_open = 0;
   const size_t units = p->given.aside < NSVCD__END_BUDGET ? p->given.aside : NSVCD__END_BUDGET;
   for (int at_end = 0; at_end < 2 && !(asked > 0); at_end++) {
@@ -90,8 +77,14 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
     nsvcd__proof_restart(p);
     outcome = NSVCD__RESOLVED;
     const float gap = nsvcd__interval_gap(motion, motion->from, until);
-    if (!(nsvcd__surface_gap(p, gap) > nsvcd__clearance(p)))
-      outcome = nsvcd__prove_interval(p, search, fraction);
+    if (!(nsvcd__surface_gap(p, gap) > nsvcd__clearance(p))) {
+      p->ask.is_brief = is_try;
+      p->ask.fraction = is_try ? 0 : fraction;
+      p->ask.after_unresolved = fraction > 0 ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.aside;
+      p->ask.limit = is_try ? nsvcd__limit_after(p, NSVCD__TRY) : p->ask.most;
+      outcome =
+          p->ask.fraction > 0 ? nsvcd__prove_first(p, search) : nsvcd__prove_motion(p, search);
+    }
     const int is_resolved =
         outcome == NSVCD__RESOLVED && !(p->known.unresolved < NSVCD__NEVER);
     const int has_contact = p->known.has_contact && !(is_try && fraction > 0);

@@ -43,10 +43,8 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t pa
     const float low = nsvcd_w_threshold[decoder][row][k];
     const float high = nsvcd_w_threshold[decoder][row + 1][k];
     settings->threshold = low + (at - (float)row) * (high - low);
-    float least = 0;
-    if (k == 2) least = NSVCD__INFLATE * 32 / n;
-    if (k == 3) least = NSVCD__MOST_INFLATE * 32 / n;
-    settings->inflate = fmaxf(o->inflate, least);
+    const float least = k < 2 ? 0 : k == 2 ? NSVCD__INFLATE : NSVCD__MOST_INFLATE;
+    settings->inflate = fmaxf(o->inflate, least * 32 / n);
     return NSVCD_OK;
   }
   return NSVCD_ERROR_RECALL;

@@ -13,7 +13,7 @@ static nsvcd_result nsvcd__run_self_test(void) {
   const nsvcd_pose rest = {{1, 2, 3}, {0.5f, 0.5f, 0.5f, 0.5f}};
   const nsvcd_mover moving = {NULL, path, 2, NULL, 0};
   const nsvcd_mover fixed = {NULL, &rest, 1, NULL, 0};
-  float positions[3][NSVCD__LANES];
+  nsvcd__chords chords;
   // A block, so that what comes after it shares its stack.
   {
     nsvcd__motion motion;
@@ -28,13 +28,10 @@ static nsvcd_result nsvcd__run_self_test(void) {
       const nsvcd__v_pose seen = nsvcd__v_seen(&motion, &at);
       const nsvcd__v3 arm = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
       const nsvcd__vmat3 rotation = nsvcd__vmat3_of(seen.rotation);
-      nsvcd__v3_store(positions, l, nsvcd__vmat3_apply_add(rotation, arm, seen.position));
+      const nsvcd__v3 start = nsvcd__vmat3_apply_add(rotation, arm, seen.position);
+      const nsvcd__v3 travel = nsvcd__v3_set(nsvcd__f3_of(0, 0, -0.5f));
+      nsvcd__chords_store(&chords, l, start, travel, nsvcd__v_set(0.1f));
     }
-  }
-  nsvcd__chords chords;
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 travel = nsvcd__v3_set(nsvcd__f3_of(0, 0, -0.5f));
-    nsvcd__chords_store(&chords, l, nsvcd__v3_load(positions, l), travel, nsvcd__v_set(0.1f));
   }
   int right = 1;
   for (size_t l = 0; l < NSVCD__LANES; l++) {

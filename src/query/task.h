@@ -111,26 +111,21 @@ typedef struct nsvcd__query {
 
 // NSVCD_PROOF_WORKSPACE_BYTES and NSVCD_NETWORK_WORKSPACE_BYTES count on these. Where this does not
 // compile they are wrong.
-typedef char nsvcd__constants_hold
-    [sizeof(nsvcd__query) + 3 * NSVCD_ALIGNMENT + NSVCD__PASSED_OVER <= 1088 &&
-             sizeof(nsvcd__segments) <= 148 * 16 && sizeof(nsvcd__chords) <= 512 &&
-             sizeof(nsvcd__cut) <= 16 * 512 && NSVCD__TILE_SLOTS == 32 &&
-             NSVCD_ALIGNMENT == sizeof(uint64_t)
-         ? 1
-         : -1];
+#define NSVCD__MUST_HOLD(condition) ((condition) ? 1 : -1)
+typedef char nsvcd__constants_hold[NSVCD__MUST_HOLD(
+    sizeof(nsvcd__query) + 3 * NSVCD_ALIGNMENT + NSVCD__PASSED_OVER <= 1088 &&
+    sizeof(nsvcd__segments) <= 148 * 16 && sizeof(nsvcd__chords) <= 512 &&
+    sizeof(nsvcd__cut) <= 16 * 512 && NSVCD__TILE_SLOTS == 32 &&
+    NSVCD_ALIGNMENT == sizeof(uint64_t))];
 #ifndef NSVCD_NO_PROOF
-typedef char nsvcd__proof_constants_hold
-    [sizeof(nsvcd__proof) <= 24832 && sizeof(nsvcd__interval) <= 168 ? 1 : -1];
+typedef char nsvcd__proof_constants_hold[NSVCD__MUST_HOLD(sizeof(nsvcd__proof) <= 24832 &&
+                                                          sizeof(nsvcd__interval) <= 168)];
 #endif
 #ifndef NSVCD_NO_NETWORK
-typedef char
-    nsvcd__network_constants_hold[NSVCD__SHORTLIST * sizeof(nsvcd__candidate) <= 112 &&
-                                          sizeof(nsvcd__plane_cache) <= 576 &&
-                                          NSVCD__LATENT == 40 &&
-                                          sizeof(float) * NSVCD__DECODER_IN <=
-                                              sizeof(uint16_t) * NSVCD__GROUP * NSVCD__LANES
-                                      ? 1
-                                      : -1];
+typedef char nsvcd__network_constants_hold[NSVCD__MUST_HOLD(
+    NSVCD__SHORTLIST * sizeof(nsvcd__candidate) <= 112 && NSVCD__LATENT == 40 &&
+    sizeof(nsvcd__plane_cache) <= 576 &&
+    sizeof(float) * NSVCD__DECODER_IN <= sizeof(uint16_t) * NSVCD__GROUP * NSVCD__LANES)];
 #endif
 
 // Lays a query out at `base`, which is aligned, or only counts if that is NULL. Returns the bytes
