@@ -210,8 +210,9 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__geometry *f, nsv
 // Does the body enclose a point of its frame, farther from its surface than rounding? Rays tell, in
 // directions that no mesh is likely to be aligned with. The first one goes to the side of the body
 // that the point is on. One ray is enough where all surfaces are closed. Of what is nearly a solid,
-// the majority of the rays tells whether its winding number is more than a half (Jacobson 2013):
-// then the point is not known to be outside. unit: of the body's frame.
+// the majority of the rays tells whether its winding number is more than a half: then the point is
+// not known to be outside. (Difference from Jacobson 2013: rays, not a sum of solid angles.) unit:
+// of the body's frame.
 static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__geometry *f, double unit,
                               nsvcd__d3 point) {
   static const double directions[8][3] = {

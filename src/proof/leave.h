@@ -97,7 +97,8 @@ static int nsvcd__choose_push_outs(nsvcd__proof *p) {
 }
 
 // Nearly the shortest vector that has at least `least` along all known normals, plus, with
-// by_depth, the depth along each. 0 if there is none below four times the longest of these.
+// by_depth, the depth along each: projections onto one half space after another (the relaxation
+// method, Agmon 1954). 0 if there is none below four times the longest of these.
 static nsvcd__d3 nsvcd__push_out(const nsvcd__proof *p, double least, int by_depth) {
   nsvcd__d3 push_out = {0, 0, 0};
   double longest = 0;

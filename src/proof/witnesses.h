@@ -58,7 +58,7 @@ static double nsvcd__gap_after(const nsvcd__triangle_contact *t, nsvcd__d3 n,
 
 // How far along n the moving triangle of a touch must go until it is beyond the clearance for good,
 // which it is after `most`; -HUGE_VAL if it never is within it. The distance is convex: thirds find
-// where it is least, and halves where it is the clearance. epsilon: of depths.
+// where it is least, and halves where it is the clearance. epsilon: of depths, in double.
 static NSVCD__NOINLINE double nsvcd__exit_depth(const nsvcd__triangle_contact *t, nsvcd__d3 n,
                                                 double clearance, double most,
                                                 double epsilon) {

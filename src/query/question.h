@@ -139,7 +139,7 @@ static NSVCD__NOINLINE nsvcd_result nsvcd__sweep_check(const nsvcd_question *que
   return workspace_size >= size ? NSVCD_OK : NSVCD_ERROR_WORKSPACE;
 }
 
-// Lays out a question that has been checked in the workspace, and chooses who moves.
+// Lays out a checked question in the workspace, and chooses who moves.
 static NSVCD__NOINLINE nsvcd__query *nsvcd__query_open(const nsvcd_question *question,
                                                        void *workspace) {
   const nsvcd__needs needs = nsvcd__needs_of(question);
