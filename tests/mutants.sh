@@ -83,7 +83,7 @@ a window forgotten|b += NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(
 bounds of half a window's block|low[k] = least;|low[k] = 0.5f * (least - negated);
 half of the box|nsvcd__f3_add(nsvcd__f3_load(e->outer->box + 3), margin);|nsvcd__f3_scale(nsvcd__f3_add(nsvcd__f3_load(e->outer->box + 3), nsvcd__f3_load(e->outer->box)), 0.5f);
 rays without rounding|const float rounding = NSVCD__ROUNDING * extent * f->body->extent;|const float rounding = 0 * NSVCD__ROUNDING * extent * f->body->extent;
-rays past half the groups|while (!sum.unclear \&\& nsvcd__traversal_next(\&traversal, \&g)) {|while (!sum.unclear \&\& nsvcd__traversal_next(\&traversal, \&g)) {\n    if (g % 2) continue;
+rays past half the groups|while (!sum.unclear \&\& nsvcd__traversal_next(\&groups, \&g)) {|while (!sum.unclear \&\& nsvcd__traversal_next(\&groups, \&g)) {\n    if (g % 2) continue;
 block's boxes at the start only|nsvcd__block_box(p, 2);|nsvcd__block_box(p, 1);
 last triangle skipped|size_t patience) {\n  const size_t moving_end = p->moving.first_triangle[i + 1];|size_t patience) {\n  const size_t moving_end = p->moving.first_triangle[i + 1] - 1;
 containment one way|if (outer->open) return 0;\n  const int is_one|if (outer->open + (e->inner != \&p->moving)) return 0;\n  const int is_one
@@ -147,7 +147,7 @@ round: distances of the skeletons|(float)(fmax(high - radius, 0)|(float)(fmax(hi
 round: as near as the skeletons|(float)(fmax(low - radius, 0)|(float)(fmax(low, 0)
 round: points on the skeleton|fmin((double)p->fixed.counts->convex_radius, found->distance);|0;
 round: gaps of the skeletons|(float)(fmax(found->distance - p->given.radius, 0) * unit);|(float)(found->distance * unit);
-round: a point on either|    contact->point[k] += gap * contact->normal[k];|
+round: a point on either|    c->point[k] += gap * c->normal[k];|
 round: a run short of its last|for (size_t k = 0; k < count; k++) {\n    if (k == end)|for (size_t k = 0; k + 1 < count; k++) {\n    if (k == end)
 round: not scaled|*radius *= scale;|
 two patches by a plane of any triangle|if (height > highest) top = b;|if (height > highest) top = fixed_first;

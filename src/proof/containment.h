@@ -121,9 +121,9 @@ static nsvcd__crossings nsvcd__cross_all(nsvcd__proof *p, const nsvcd__geometry 
   size_t g;
   const nsvcd__beam beam = {nsvcd__f3_round(ray->from), nsvcd__f3_round(ray->direction),
                             ray->rounding};
-  nsvcd__traversal traversal;
-  nsvcd__traversal_begin(&traversal, f->body, nsvcd__is_on_beam, &beam);
-  while (!sum.unclear && nsvcd__traversal_next(&traversal, &g)) {
+  nsvcd__traversal groups;
+  nsvcd__traversal_begin(&groups, f->body, nsvcd__is_on_beam, &beam);
+  while (!sum.unclear && nsvcd__traversal_next(&groups, &g)) {
     const nsvcd__spheres all = nsvcd__body_patches(f->body);
     uint32_t patches = nsvcd__is_on_beam(&beam, nsvcd__spheres_from(all, NSVCD__GROUP * g));
     for (; patches && !sum.unclear; patches &= patches - 1) {
@@ -182,10 +182,10 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__geometry *f, nsv
   const nsvcd__sphere here = {rounded, distance};
   nsvcd__block *block = &p->fixed_blocks[0];
   size_t g;
-  nsvcd__traversal traversal;
+  nsvcd__traversal groups;
   p->memo.window = 0;
-  nsvcd__traversal_begin(&traversal, b, nsvcd__meets_sphere, &here);
-  while (nsvcd__traversal_next(&traversal, &g)) {
+  nsvcd__traversal_begin(&groups, b, nsvcd__meets_sphere, &here);
+  while (nsvcd__traversal_next(&groups, &g)) {
     const size_t first = NSVCD__GROUP * g;
     const nsvcd__spheres members = nsvcd__spheres_from(nsvcd__body_patches(b), first);
     for (uint32_t met = nsvcd__meets_sphere(&here, members); met; met &= met - 1) {
@@ -349,9 +349,9 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   const float rounding = 4 * NSVCD__ROUNDING * extent;
   const nsvcd__sphere here = {centre, outer->radius / e->scale + rounding};
   size_t g;
-  nsvcd__traversal traversal;
-  nsvcd__traversal_begin(&traversal, inner, nsvcd__meets_sphere, &here);
-  while (!p->unclear && nsvcd__traversal_next(&traversal, &g)) {
+  nsvcd__traversal groups;
+  nsvcd__traversal_begin(&groups, inner, nsvcd__meets_sphere, &here);
+  while (!p->unclear && nsvcd__traversal_next(&groups, &g)) {
     if (nsvcd__encloses_seeds(p, e, e->inner->first_seed[g], e->inner->first_seed[g + 1]))
       return 1;
   }

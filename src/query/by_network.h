@@ -91,9 +91,9 @@ static int nsvcd__score(const nsvcd__task *task, nsvcd__candidates *kept, size_t
   if (left < least || left == 0) return 0;
   left = left < most ? left : most;
   for (size_t k = kept->count; left > 0; k--) {
-    nsvcd__candidate *candidate = &kept->items[k - 1];
-    if (candidate->score > NSVCD__NO_SCORE) continue;
-    batch[count++] = candidate;
+    nsvcd__candidate *c = &kept->items[k - 1];
+    if (c->score > NSVCD__NO_SCORE) continue;
+    batch[count++] = c;
     if (count < NSVCD__BATCH && count < left) continue;
     NSVCD__TALLY(ranked, count);
     nsvcd__decode(task, batch, count, task->settings.ranker);
@@ -104,22 +104,21 @@ static int nsvcd__score(const nsvcd__task *task, nsvcd__candidates *kept, size_t
 }
 
 // The sum of the radii of a candidate's patches, metres.
-static float nsvcd__candidate_reach(const nsvcd__task *task,
-                                    const nsvcd__candidate *candidate) {
-  const float own = task->motion.scale * nsvcd__body_r(task->moving)[candidate->moving];
-  return task->motion.unit * (own + nsvcd__body_r(task->fixed)[candidate->fixed]);
+static float nsvcd__candidate_reach(const nsvcd__task *task, const nsvcd__candidate *c) {
+  const float own = task->motion.scale * nsvcd__body_r(task->moving)[c->moving];
+  return task->motion.unit * (own + nsvcd__body_r(task->fixed)[c->fixed]);
 }
 
 // Answers with a candidate that this decoder has scored.
-static void nsvcd__answer_with(const nsvcd__task *task, const nsvcd__candidate *candidate,
+static void nsvcd__answer_with(const nsvcd__task *task, const nsvcd__candidate *c,
                                const nsvcd__decoder *decoder, nsvcd_opinion *out) {
-  out->logit = candidate->score - task->settings.threshold;
-  out->distance = 0.1f * candidate->apart * nsvcd__candidate_reach(task, candidate);
-  out->time = candidate->t_least;
-  out->patch_a = candidate->moving;
-  out->patch_b = candidate->fixed;
+  out->logit = c->score - task->settings.threshold;
+  out->distance = 0.1f * c->apart * nsvcd__candidate_reach(task, c);
+  out->time = c->t_least;
+  out->patch_a = c->moving;
+  out->patch_b = c->fixed;
   if (task->decisive) {
-    task->decisive->candidate = *candidate;
+    task->decisive->candidate = *c;
     task->decisive->decoder = decoder;
   }
 }
@@ -137,8 +136,8 @@ static float nsvcd__closeness(const nsvcd__task *task, const nsvcd__candidate *c
 }
 
 // Is a candidate clearly no collision, by the tiny decoder?
-static int nsvcd__is_harmless(const nsvcd__candidate *candidate, float threshold) {
-  return candidate->score < (threshold < 0 ? threshold : 0) - NSVCD__CLEAR_LOGIT;
+static int nsvcd__is_harmless(const nsvcd__candidate *c, float threshold) {
+  return c->score < (threshold < 0 ? threshold : 0) - NSVCD__CLEAR_LOGIT;
 }
 
 // Is the most suspicious of the candidates scored so far clearly a collision, by this logit, or, if

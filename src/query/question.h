@@ -94,24 +94,24 @@ static int nsvcd__is_swapped(const nsvcd_mover *a, const nsvcd_mover *b) {
 // ---- lay out
 
 // What a question that is in order needs; NULL: what any may need.
-static nsvcd__needs nsvcd__needs_of(const nsvcd_question *question) {
+static nsvcd__needs nsvcd__needs_of(const nsvcd_question *q) {
   nsvcd__needs needs = {NSVCD__TILE_SLOTS, NSVCD__TILE_SLOTS, 1, NSVCD__MAX_SEGMENTS, 0, 1};
 #ifndef NSVCD_NO_NETWORK
   needs.candidates = NSVCD__SHORTLIST * NSVCD_MAX_PAIRS;
 #endif
-  if (!question) return needs;
-  const nsvcd_body *a = question->a.body;
-  const nsvcd_body *b = question->b.body;
-  const int swapped = nsvcd__is_swapped(&question->a, &question->b);
+  if (!q) return needs;
+  const nsvcd_body *a = q->a.body;
+  const nsvcd_body *b = q->b.body;
+  const int swapped = nsvcd__is_swapped(&q->a, &q->b);
   const size_t moving_groups = nsvcd__body_groups(swapped ? b : a);
   const size_t fixed_groups = nsvcd__body_groups(swapped ? a : b);
   if (moving_groups < NSVCD__TILE_SLOTS) needs.moving_groups = moving_groups;
   if (fixed_groups < NSVCD__TILE_SLOTS) needs.fixed_groups = fixed_groups;
   needs.large = nsvcd__is_tiled(a, b);
-  if (question->segments) needs.segments = nsvcd__round_up(question->segments, NSVCD__LANES);
-  needs.proof = nsvcd__method_of(a, b, question->method) == NSVCD_METHOD_PROOF;
+  if (q->segments) needs.segments = nsvcd__round_up(q->segments, NSVCD__LANES);
+  needs.proof = nsvcd__method_of(a, b, q->method) == NSVCD_METHOD_PROOF;
 #ifndef NSVCD_NO_NETWORK
-  const nsvcd_network_options *o = &question->network;
+  const nsvcd_network_options *o = &q->network;
   const size_t pairs = o->pairs ? o->pairs : NSVCD_DEFAULT_PAIRS;
   const size_t most = o->model == NSVCD_MODEL_TINY ? pairs : NSVCD__SHORTLIST * pairs;
   needs.candidates = most > NSVCD__PORTION ? most : NSVCD__PORTION;
@@ -121,40 +121,40 @@ static nsvcd__needs nsvcd__needs_of(const nsvcd_question *question) {
 }
 
 // As nsvcd_sweep_workspace_size.
-static size_t nsvcd__sweep_size(const nsvcd_question *question) {
-  if (question && nsvcd__question_check(question)) return 0;
-  const nsvcd__needs needs = nsvcd__needs_of(question);
+static size_t nsvcd__sweep_size(const nsvcd_question *q) {
+  if (q && nsvcd__question_check(q)) return 0;
+  const nsvcd__needs needs = nsvcd__needs_of(q);
   return nsvcd__query_layout(&needs, NULL);
 }
 
 // Checks a question, and that the workspace is large enough for it.
-static NSVCD__NOINLINE nsvcd_result nsvcd__sweep_check(const nsvcd_question *question,
+static NSVCD__NOINLINE nsvcd_result nsvcd__sweep_check(const nsvcd_question *q,
                                                        const void *workspace,
                                                        size_t workspace_size) {
-  const nsvcd_result result = nsvcd__question_check(question);
+  const nsvcd_result result = nsvcd__question_check(q);
   if (result) return result;
   if (!workspace || !nsvcd__is_aligned(workspace)) return NSVCD_ERROR_WORKSPACE;
-  const nsvcd__needs needs = nsvcd__needs_of(question);
+  const nsvcd__needs needs = nsvcd__needs_of(q);
   const size_t size = nsvcd__query_layout(&needs, NULL);
   return workspace_size >= size ? NSVCD_OK : NSVCD_ERROR_WORKSPACE;
 }
 
 // Lays out a checked question in the workspace, and chooses who moves.
-static NSVCD__NOINLINE nsvcd__query *nsvcd__query_open(const nsvcd_question *question,
+static NSVCD__NOINLINE nsvcd__query *nsvcd__query_open(const nsvcd_question *q,
                                                        void *workspace) {
-  const nsvcd__needs needs = nsvcd__needs_of(question);
+  const nsvcd__needs needs = nsvcd__needs_of(q);
   nsvcd__query *query = (nsvcd__query *)workspace;
   nsvcd__task *task = &query->task;
   (void)nsvcd__query_layout(&needs, (char *)workspace);
-  task->swapped = nsvcd__is_swapped(&question->a, &question->b);
-  const nsvcd_mover *moving = task->swapped ? &question->b : &question->a;
-  const nsvcd_mover *fixed = task->swapped ? &question->a : &question->b;
+  task->swapped = nsvcd__is_swapped(&q->a, &q->b);
+  const nsvcd_mover *moving = task->swapped ? &q->b : &q->a;
+  const nsvcd_mover *fixed = task->swapped ? &q->a : &q->b;
   nsvcd__motion_init(moving, fixed, &task->motion);
   task->moving = moving->body;
   task->fixed = fixed->body;
   task->lengths = task->motion.scale * task->moving->extent + task->fixed->extent;
-  task->method = nsvcd__method_of(task->moving, task->fixed, question->method);
-  task->question = question;
+  task->method = nsvcd__method_of(task->moving, task->fixed, q->method);
+  task->question = q;
 #ifndef NSVCD_NO_NETWORK
   task->decisive = NULL;
 #if NSVCD__ROWS == 1
@@ -173,13 +173,13 @@ static void nsvcd__swap(uint32_t *a, uint32_t *b) {
 }
 
 // Exchanges a and b in what was found about the moving body and the fixed one.
-static void nsvcd__swap_contact(nsvcd_contact *contact) {
-  nsvcd__swap(&contact->patch_a, &contact->patch_b);
-  nsvcd__swap(&contact->triangle_a, &contact->triangle_b);
-  const float gap = contact->gap < HUGE_VALF ? contact->gap : 0;
+static void nsvcd__swap_contact(nsvcd_contact *c) {
+  nsvcd__swap(&c->patch_a, &c->patch_b);
+  nsvcd__swap(&c->triangle_a, &c->triangle_b);
+  const float gap = c->gap < HUGE_VALF ? c->gap : 0;
   for (size_t k = 0; k < 3; k++) {
-    contact->point[k] += gap * contact->normal[k];
-    contact->normal[k] = 0 - contact->normal[k];
+    c->point[k] += gap * c->normal[k];
+    c->normal[k] = 0 - c->normal[k];
   }
 }
 static void nsvcd__swap_answer(nsvcd_answer *answer) {
