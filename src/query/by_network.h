@@ -56,7 +56,7 @@ static void nsvcd__decode(const nsvcd__task *task, nsvcd__candidate *const *cand
   for (size_t first = 0; first < count; first += NSVCD__ROWS) {
     const size_t left = count - first;
     const size_t rows = left < NSVCD__ROWS ? left : NSVCD__ROWS;
-    // The layers take some rows at a time.
+    // The layers take ROW_STEP rows at a time.
     const size_t unused = nsvcd__round_up(rows, NSVCD__ROW_STEP) - rows;
 #if NSVCD__ROWS > 1
     float x[NSVCD__ROWS * NSVCD__DECODER_IN];
