@@ -133,25 +133,23 @@ typedef char nsvcd__network_constants_hold[NSVCD__MUST_HOLD(
 static size_t nsvcd__query_layout(const nsvcd__needs *needs, char *base) {
   nsvcd__query counted;
   uint64_t used = 0;
-  void *at = nsvcd__take(base, &used, 1, sizeof(nsvcd__query));
-  nsvcd__query *query = at ? (nsvcd__query *)at : &counted;
+  nsvcd__query *query = NSVCD__TAKE_ROWS(nsvcd__query, 1, base, &used);
+  if (!query) query = &counted;
   nsvcd__search_layout(needs, base, &used, &query->broad_phase);
   uint64_t end = used;
 #ifndef NSVCD_NO_NETWORK
   nsvcd__search *search = &query->broad_phase;
   const size_t asked = needs->candidates > 0;
   const size_t meetings = asked * NSVCD__GROUP * needs->segments;
-  void *kept = nsvcd__take(base, &end, needs->candidates, sizeof *query->kept);
-  query->kept = (nsvcd__candidate *)kept;
-  search->cache = (nsvcd__plane_cache *)nsvcd__take(base, &end, asked, sizeof *search->cache);
-  search->met = (uint16_t *)nsvcd__take(base, &end, meetings, sizeof *search->met);
+  query->kept = NSVCD__TAKE_ROWS(nsvcd__candidate, needs->candidates, base, &end);
+  search->cache = NSVCD__TAKE_ROWS(nsvcd__plane_cache, asked, base, &end);
+  search->met = NSVCD__TAKE_ROWS(uint16_t, meetings, base, &end);
 #endif
 #ifndef NSVCD_NO_PROOF
   const size_t proofs = needs->proof != 0;
   const size_t intervals = proofs * needs->segments;
-  query->proof = (nsvcd__proof *)nsvcd__take(base, &used, proofs, sizeof *query->proof);
-  void *rows = nsvcd__take(base, &used, intervals, sizeof *query->intervals);
-  query->intervals = (nsvcd__interval *)rows;
+  query->proof = NSVCD__TAKE_ROWS(nsvcd__proof, proofs, base, &used);
+  query->intervals = NSVCD__TAKE_ROWS(nsvcd__interval, intervals, base, &used);
 #endif
   return (size_t)(used > end ? used : end);
 }
