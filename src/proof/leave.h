@@ -44,7 +44,7 @@ static void nsvcd__try_push_out(const nsvcd__proof *p, nsvcd__d3 n, nsvcd__undoi
     if (by.count + left < best->count) return;
     if (by.count + left == best->count && by.distance > best->distance + same) return;
     if (!nsvcd__undoes(p, n, t)) continue;
-    const double distance = nsvcd__push_out_along(n, t);
+    const double distance = nsvcd__depth_along(n, t);
     by.count += distance < 0 && !p->by_faces && nsvcd__is_against(n, t) ? 1u : 2u;
     by.faces +=
         nsvcd__d3_dot(n, t->directions[0]) > 0.9 || nsvcd__d3_dot(n, t->directions[1]) > 0.9;
@@ -171,7 +171,7 @@ static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion 
       size_t best = 0;
       double least = HUGE_VAL;
       for (size_t k = 0; k < p->normal_count; k++) {
-        const double distance = nsvcd__push_out_along(p->normals[k], t);
+        const double distance = nsvcd__depth_along(p->normals[k], t);
         if (distance < least) best = k;
         least = nsvcd__min(least, distance);
       }

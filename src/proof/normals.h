@@ -95,7 +95,7 @@ static NSVCD__NOINLINE int nsvcd__met_along(const nsvcd__proof *p, const nsvcd__
   for (size_t k = 0; k < NSVCD__AXES; k++) {
     const nsvcd__d3 n = nsvcd__axis_apart(t, k);
     const double fall = -nsvcd__d3_dot(n, travel);
-    const double deep = nsvcd__push_out_along(n, t);
+    const double deep = nsvcd__depth_along(n, t);
     if (!(fall > 0) || !(deep < back * fall)) continue;
     back = deep / fall;
     before = nsvcd__max(close, 1e4 * a->pair.rounding / fall);
@@ -129,7 +129,7 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p,
     int is_out = out_of_a || out_of_b;
     if (k < 4) is_out = k < 2 ? out_of_b : out_of_a;
     if (!is_out || !(nsvcd__d3_dot(n, n) > 0.5)) continue;
-    const double depth = nsvcd__push_out_along(n, t);
+    const double depth = nsvcd__depth_along(n, t);
     const double more = nsvcd__d3_dot(nsvcd__d3_sub(best, n), travel);
     if (depth > least - same && !(depth < least + same && more > 0)) continue;
     best = n;

@@ -10,9 +10,9 @@ static double nsvcd__epsilon(const nsvcd__proof *p) {
   return nsvcd__off_meshes(p) + NSVCD__LEAST_EPSILON * (double)p->given.lengths;
 }
 
-// How far the moving triangle of a touch must go along n to be beyond the other; negative if it is
-// beyond it already.
-static double nsvcd__push_out_along(nsvcd__d3 n, const nsvcd__triangle_contact *t) {
+// How deep a touch is along n: how far the moving triangle must go to be beyond the other; negative
+// if it is beyond it already.
+static double nsvcd__depth_along(nsvcd__d3 n, const nsvcd__triangle_contact *t) {
   return -nsvcd__beyond(n, t->moving, t->fixed);
 }
 
@@ -26,7 +26,7 @@ static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__triangle_contact *
     if (!(nsvcd__d3_dot(n, n) > 0.5)) continue;
     for (int side = 0; side < 2; side++) {
       const double pushed_out = nsvcd__d3_dot(push_out, n);
-      if (pushed_out + nsvcd__push_out_along(n, t) <= most) return 0;
+      if (pushed_out + nsvcd__depth_along(n, t) <= most) return 0;
       n = nsvcd__d3_scale(n, -1);
     }
   }
@@ -38,7 +38,7 @@ static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__triangle_contact *
 // rises from the rim that the cone stands on, looks up, and so does the floor under it.
 static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n,
                          const nsvcd__triangle_contact *t) {
-  const double more = nsvcd__push_out_along(n, t);
+  const double more = nsvcd__depth_along(n, t);
   const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->push_out), n);
   if (!(nsvcd__d3_dot(n, n) > 0.5)) return 0;
   if (pushed_out + more + p->given.clearance > p->ask.slop) return 0;
@@ -93,7 +93,7 @@ static NSVCD__NOINLINE double nsvcd__exit_depth(const nsvcd__triangle_contact *t
 static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__triangle_contact *t) {
   const nsvcd__d3 n = p->normals[k];
   const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->push_out), n);
-  const double most = nsvcd__push_out_along(n, t) + p->given.clearance;
+  const double most = nsvcd__depth_along(n, t) + p->given.clearance;
   p->needed = nsvcd__max(p->needed, pushed_out + most);
   if (!(most > 0) || !(pushed_out + most > p->depths[k])) return;
   const double epsilon = nsvcd__off_meshes(p) + NSVCD__TOO_NEAR * (double)p->given.lengths;
