@@ -13689,20 +13689,20 @@ static NSVCD__NOINLINE uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_
 #endif  // NSVCD_NO_PROOF
 
 // ---------------------------------------------------------------------------------- proof/manifold
-// In: triangle pairs that are near each other when a contact is. Out: up to four contact
-// points that hold the body: those that interval the largest area seen along the contact's normal.
+// In: triangle pairs that are near each other when a contact is. Out: up to four contact points
+// that hold the body: those that span the largest area, seen along the contact's normal.
 //
 // Two triangles touch where a corner of one is over the other, or where two edges cross. Of all
-// such places the farthest along eight directions are kept, of what is slim those across it too,
-// and of these the best four. Where two
-// are as far, the one with the lower number is: so the same are chosen again when little has moved.
-// Only normals that are much like the contact's count: where a side rises from the floor, corners
-// of the floor's triangles are near the side as well, but it is not what the body stands on.
+// such points the farthest along eight directions are kept, for a slim contact those across it too,
+// and of these the best four. Of two points equally far, the one with the lower number is kept: so
+// the same points are chosen again when little has moved. Only normals close to the contact's
+// count: where a side rises from the floor, corners of the floor's triangles are near the side as
+// well, but the body does not stand on it.
 
 #ifndef NSVCD_NO_PROOF
-// Prepares a manifold of contacts with about this normal, unit, of bodies that go like this.
-static void nsvcd__begin_positions(nsvcd__proof *p, nsvcd__d3 n, const nsvcd__twist *twist,
-                                   double tolerance, double same) {
+// Prepares a manifold of contacts with about this normal, unit, of bodies that move like this.
+static void nsvcd__manifold_begin(nsvcd__proof *p, nsvcd__d3 n, const nsvcd__twist *twist,
+                                  double tolerance, double same) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   const int flattest = fabs(n.x) < fabs(n.y) ? 0 : 1;
   const nsvcd__d3 aside = nsvcd__d3_of(flattest == 0, flattest == 1, 0);
@@ -13712,7 +13712,7 @@ static void nsvcd__begin_positions(nsvcd__proof *p, nsvcd__d3 n, const nsvcd__tw
   m->twist = *twist;
   m->tolerance = tolerance;
   m->same = same;
-  // by an eighth of a turn each: the sum of one and the one a quarter on, shortened
+  // An eighth of a turn each: the sum of a direction and of that a quarter on, made unit.
   nsvcd__d3 along = u;
   for (int k = 0; k < NSVCD__AROUND; k++) {
     m->along[k] = along;
@@ -13722,8 +13722,8 @@ static void nsvcd__begin_positions(nsvcd__proof *p, nsvcd__d3 n, const nsvcd__tw
   for (int k = NSVCD__AROUND; k < NSVCD__SUPPORTS; k++) m->farthest[k] = HUGE_VAL;
 }
 
-// Where what has been found intervals little, for how long it is, prepares to look across it, both
-// ways, for what is between the eight directions. area: twice what is spanned. Returns 1 if so.
+// If what has been found spans little for its length, prepares the two directions across it, for
+// what is between the eight. area: twice what is spanned. Returns 0 if it is not so slim.
 static int nsvcd__seek_across(nsvcd__manifold *m, double area) {
   nsvcd__d3 longest = {0, 0, 0};
   for (int k = 0; k < NSVCD__AROUND; k++) {
@@ -13749,13 +13749,13 @@ static int nsvcd__seek_across(nsvcd__manifold *m, double area) {
   return 1;
 }
 
-// A triangle pair that is looked at: the moving triangle, posed; where its faces look, out of the
-// fixed body, for the sides of an open surface as the normal of the contact does; and has it such?
+// A triangle pair of a manifold.
 typedef struct nsvcd__facing {
   const nsvcd__triangle_pair *pair;
-  const nsvcd__d3 *posed;
+  const nsvcd__d3 *posed;  // the moving triangle
+  // normals out of the fixed body; of an open surface on the side of the contact's
   nsvcd__d3 faces[2];
-  int is_open;
+  int is_open;  // one is of an open surface
 } nsvcd__facing;
 
 static nsvcd__facing nsvcd__facing_of(const nsvcd__proof *p, const nsvcd__triangle_pair *pair,
@@ -13773,8 +13773,8 @@ static nsvcd__facing nsvcd__facing_of(const nsvcd__proof *p, const nsvcd__triang
   return out;
 }
 
-// Does a place come apart along its normal, while one of its faces comes nearer? It is no contact
-// then, or one of another triangle pair.
+// Does point x come apart along its normal, while one of its faces comes nearer? Then it is no
+// contact, or one of another triangle pair.
 static int nsvcd__is_left(const nsvcd__twist *twist, nsvcd__d3 x, nsvcd__d3 normal,
                           const nsvcd__d3 *faces) {
   const nsvcd__d3 speed = nsvcd__twist_of(twist, x);
@@ -13785,23 +13785,22 @@ static int nsvcd__is_left(const nsvcd__twist *twist, nsvcd__d3 x, nsvcd__d3 norm
   return 0;
 }
 
-// Takes a place where a triangle pair touches, if it is farther than those that are kept. normal:
-// of a face, or across two edges, either way round.
-static NSVCD__NOINLINE void nsvcd__keep_position(nsvcd__proof *p, const nsvcd__facing *f,
-                                                 nsvcd__d3 on_moving, nsvcd__d3 on_fixed,
-                                                 nsvcd__d3 normal, uint32_t number) {
+// Keeps a point where a triangle pair touches, if it is farther out than those kept. normal: of a
+// face, or across two edges, of either sign.
+static NSVCD__NOINLINE void nsvcd__keep_support(nsvcd__proof *p, const nsvcd__facing *f,
+                                                nsvcd__d3 on_moving, nsvcd__d3 on_fixed,
+                                                nsvcd__d3 normal, uint32_t number) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   const double side = nsvcd__d3_dot(normal, m->normal) < 0 ? -1 : 1;
   const nsvcd__d3 offset = nsvcd__d3_sub(on_moving, on_fixed);
   const double gap = side * nsvcd__d3_dot(offset, normal);
   const double aside = nsvcd__d3_dot(offset, offset) - gap * gap;
   nsvcd__d3 point;
-  // past the end of an edge they are not over each other
+  // Past the end of an edge they are not over each other.
   if (aside > 0.01 * m->same * m->same) return;
-  // nor are they on the far side of a sheet that they do not pass through
-  const nsvcd__d3 *fixed = f->pair->fixed;
-  const int beyond = gap < 0 && f->is_open;
-  if (beyond && !nsvcd__triangles_meet(f->posed, fixed, &point)) return;
+  // Nor are they on the far side of a sheet that they do not pass through.
+  if (gap < 0 && f->is_open && !nsvcd__triangles_meet(f->posed, f->pair->fixed, &point))
+    return;
   if (nsvcd__is_left(&m->twist, on_fixed, nsvcd__d3_scale(normal, side), f->faces)) return;
   nsvcd__nearest nearest = {gap > 0 ? gap * gap : 0, on_moving, on_fixed};
   nsvcd__pair_contact contact;
@@ -13819,16 +13818,11 @@ static NSVCD__NOINLINE void nsvcd__keep_position(nsvcd__proof *p, const nsvcd__f
   }
 }
 
-// The number of a corner or an edge of a listed triangle: kind 0, of the moving body; 1, of the
-// fixed one.
-static uint32_t nsvcd__id_of(size_t entry, size_t corner, uint32_t kind) {
-  return (uint32_t)(3 * entry + corner) << 2 | kind;
-}
-
-// All places where a triangle pair touches, to within the reach. posed: the moving triangle.
-static NSVCD__NOINLINE void nsvcd__collect_positions(nsvcd__proof *p,
-                                                     const nsvcd__triangle_pair *pair,
-                                                     const nsvcd__d3 *posed) {
+// Keeps all points where a triangle pair touches, within the tolerance. posed: the moving triangle.
+// Corner k of entry e has the number 4 (3 e + k), and 1 more if it is of the fixed body.
+static NSVCD__NOINLINE void nsvcd__collect_supports(nsvcd__proof *p,
+                                                    const nsvcd__triangle_pair *pair,
+                                                    const nsvcd__d3 *posed) {
   const nsvcd__manifold *m = &p->of.kept.manifold;
   const nsvcd__d3 *fixed = pair->fixed;
   nsvcd__d3 foot;
@@ -13839,19 +13833,19 @@ static NSVCD__NOINLINE void nsvcd__collect_positions(nsvcd__proof *p,
           nsvcd__d3_dot(m->along[k], posed[i]) + m->tolerance >= m->farthest[k] - m->same;
   }
   if (!farther) return;
-  // faces look at each other, along the normal
+  // Faces must be about normal to the contact's.
   const nsvcd__facing facing = nsvcd__facing_of(p, pair, posed);
   const int moving_faces = nsvcd__d3_dot(facing.faces[0], m->normal) >= 0.8;
   const int fixed_faces = nsvcd__d3_dot(facing.faces[1], m->normal) >= 0.8;
   for (size_t k = 0; k < 3; k++) {
-    const uint32_t moving_id = nsvcd__id_of(pair->moving_entry, k, 0);
-    const uint32_t fixed_id = nsvcd__id_of(pair->fixed_entry, k, 1);
+    const uint32_t moving_id = (uint32_t)(3 * pair->moving_entry + k) << 2;
+    const uint32_t fixed_id = (uint32_t)(3 * pair->fixed_entry + k) << 2 | 1;
     if (fixed_faces && nsvcd__foot_within(posed[k], fixed, &foot) &&
         nsvcd__d3_distance2(posed[k], foot) <= m->tolerance * m->tolerance)
-      nsvcd__keep_position(p, &facing, posed[k], foot, facing.faces[1], moving_id);
+      nsvcd__keep_support(p, &facing, posed[k], foot, facing.faces[1], moving_id);
     if (moving_faces && nsvcd__foot_within(fixed[k], posed, &foot) &&
         nsvcd__d3_distance2(fixed[k], foot) <= m->tolerance * m->tolerance)
-      nsvcd__keep_position(p, &facing, foot, fixed[k], facing.faces[0], fixed_id);
+      nsvcd__keep_support(p, &facing, foot, fixed[k], facing.faces[0], fixed_id);
     for (size_t i = 0; i < 3; i++) {
       const nsvcd__d3 a = posed[(k + 1) % 3];
       const nsvcd__d3 b = fixed[(i + 1) % 3];
@@ -13867,13 +13861,13 @@ static NSVCD__NOINLINE void nsvcd__collect_positions(nsvcd__proof *p,
       nsvcd__edges_nearest(posed[k], a, fixed[i], b, &nearest);
       if (!(nearest.square <= m->tolerance * m->tolerance)) continue;
       const uint32_t number = moving_id * 3 + fixed_id * 5 + (uint32_t)(1 + i) * 0x9e3779b9u;
-      nsvcd__keep_position(p, &facing, nearest.on_a, nearest.on_b,
-                           nsvcd__d3_unit(across, facing.faces[1]), number | 2);
+      nsvcd__keep_support(p, &facing, nearest.on_a, nearest.on_b,
+                          nsvcd__d3_unit(across, facing.faces[1]), number | 2);
     }
   }
 }
 
-// Twice the area that four places interval, seen along the normal.
+// Twice the area that four points span, seen along the normal.
 static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
   double most = 0;
   for (int k = 0; k < 3; k++) {
@@ -13887,13 +13881,12 @@ static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
   return most;
 }
 
-// Chooses the contacts: the numbers of those supports, and twice the area that they interval.
-// Returns how many.
+// Chooses the contacts: which supports, and twice the area that they span. Returns how many.
 static NSVCD__NOINLINE int nsvcd__choose_four(const nsvcd__manifold *m, int *chosen,
                                               double *area) {
   int kept[NSVCD__SUPPORTS];
   int count = 0;
-  // each place once, those with lower numbers first
+  // Each point once, in the order of their numbers.
   for (int k = 0; k < NSVCD__SUPPORTS; k++) {
     int at = count;
     int is_new = m->farthest[k] > -HUGE_VAL && m->farthest[k] < HUGE_VAL;
@@ -13911,12 +13904,12 @@ static NSVCD__NOINLINE int nsvcd__choose_four(const nsvcd__manifold *m, int *cho
   for (int n = count; n < 4 && count > 0; n++) kept[n] = kept[count - 1];
   if (count > 0 && count <= 4) *area = nsvcd__spanned(m, kept);
   if (count <= 4) return count;
-  for (int all = 0; all < 1 << count; all++) {
-    int four[NSVCD__SUPPORTS];
+  for (uint32_t all = 0; all < 1u << count; all++) {
+    int four[4];
     int size = 0;
-    for (int n = 0; n < count; n++)
-      if (all >> n & 1) four[size++] = kept[n];
-    if (size != 4) continue;
+    if (nsvcd__bit_count(all) != 4) continue;
+    for (uint32_t left = all; left; left &= left - 1)
+      four[size++] = kept[nsvcd__low_bit(left)];
     const double spanned = nsvcd__spanned(m, four);
     if (!(spanned > 1.001 * *area)) continue;
     *area = spanned;
@@ -13927,23 +13920,23 @@ static NSVCD__NOINLINE int nsvcd__choose_four(const nsvcd__manifold *m, int *cho
 #endif  // NSVCD_NO_PROOF
 
 // --------------------------------------------------------------------------------- proof/witnesses
-// In: a patch pair, an arc and a share of it. Out: a contact: two triangles that meet there, or
-// come within the clearance; with a slop, what touches at the start and which directions undo it.
+// In: a patch pair and a time. Out: a contact: two triangles that meet then, or come within the
+// clearance; with a slop, what touches at the start and which directions undo it.
 
 #ifndef NSVCD_NO_PROOF
-// Nearer to each other than this nothing that is told in float is separate.
+// Answers in float cannot tell things apart that are nearer to each other than this.
 static double nsvcd__epsilon(const nsvcd__proof *p) {
   return nsvcd__off_meshes(p) + NSVCD__LEAST_EPSILON * (double)p->given.lengths;
 }
 
-// How far the moving triangle of a touch must go along n until it is beyond the other; negative if
-// it is already.
-static double nsvcd__push_out_along(nsvcd__d3 n, const nsvcd__triangle_contact *t) {
+// How deep a touch is along n: how far the moving triangle must go to be beyond the other; negative
+// if it is beyond it already.
+static double nsvcd__depth_along(nsvcd__d3 n, const nsvcd__triangle_contact *t) {
   return -nsvcd__beyond(n, t->moving, t->fixed);
 }
 
-// Is a touch too deep for the slop in every direction? Two triangles are separated soonest along a
-// normal of one, or across an edge of each (the separating axes).
+// Is a touch too deep for the slop in every direction? Those to try are the separating axes: a
+// normal of either triangle, or across an edge of each.
 static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__triangle_contact *t) {
   const nsvcd__d3 push_out = nsvcd__d3_widen(p->ask.motion->push_out);
   const double most = p->ask.slop - p->given.clearance;
@@ -13952,7 +13945,7 @@ static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__triangle_contact *
     if (!(nsvcd__d3_dot(n, n) > 0.5)) continue;
     for (int side = 0; side < 2; side++) {
       const double pushed_out = nsvcd__d3_dot(push_out, n);
-      if (pushed_out + nsvcd__push_out_along(n, t) <= most) return 0;
+      if (pushed_out + nsvcd__depth_along(n, t) <= most) return 0;
       n = nsvcd__d3_scale(n, -1);
     }
   }
@@ -13960,20 +13953,20 @@ static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__triangle_contact *
 }
 
 // Does a push-out along n, by what is left of the slop in that direction, undo a touch? If it has
-// to push anything, then not through both faces. Through one of them is no harm: a side that rises
-// from the rim on which a cone stands looks up, and the floor under it looks up too.
+// to push, it must not go through both faces. Going through one is harmless: a cone's side, which
+// rises from the rim that the cone stands on, looks up, and so does the floor under it.
 static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n,
                          const nsvcd__triangle_contact *t) {
-  const double push_out = nsvcd__push_out_along(n, t);
+  const double more = nsvcd__depth_along(n, t);
   const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->push_out), n);
-  if (!(nsvcd__d3_dot(n, n) > 0.5) || pushed_out + push_out + p->given.clearance > p->ask.slop)
-    return 0;
-  if (push_out < 0) return 1;
+  if (!(nsvcd__d3_dot(n, n) > 0.5)) return 0;
+  if (pushed_out + more + p->given.clearance > p->ask.slop) return 0;
+  if (more < 0) return 1;
   return nsvcd__d3_dot(n, t->directions[0]) > -0.3 ||
          nsvcd__d3_dot(n, t->directions[1]) > -0.3;
 }
 
-// The square of the distance of two triangles, the moving one gone so far along n.
+// The squared distance of two triangles after the moving one has gone so far along n.
 static double nsvcd__gap_after(const nsvcd__triangle_contact *t, nsvcd__d3 n,
                                double distance) {
   nsvcd__d3 moved[3];
@@ -13983,60 +13976,59 @@ static double nsvcd__gap_after(const nsvcd__triangle_contact *t, nsvcd__d3 n,
 }
 
 // How far along n the moving triangle of a touch must go until it is beyond the clearance for good,
-// if it is so after `most`; -HUGE_VAL: it is all the way. The distance is convex on it: thirds
-// find where it is least, and halves where it is the clearance.
-static NSVCD__NOINLINE double nsvcd__way_out(const nsvcd__triangle_contact *t, nsvcd__d3 n,
-                                             double clearance, double most, double grain) {
-  // parallel faces meet at one time only
-  const double reach = clearance + nsvcd__min(0.003 * most, grain);
-  const double square = reach * reach;
-  // as it nearly always is
+// which it is after `most`; -HUGE_VAL if it never is within it. The distance is convex: thirds find
+// where it is least, and halves where it is the clearance. epsilon: of depths, in double.
+static NSVCD__NOINLINE double nsvcd__exit_depth(const nsvcd__triangle_contact *t, nsvcd__d3 n,
+                                                double clearance, double most,
+                                                double epsilon) {
+  // Parallel faces meet at one time only.
+  const double limit = clearance + nsvcd__min(0.003 * most, epsilon);
+  const double square = limit * limit;
+  // nearly always
   if (nsvcd__gap_after(t, n, 0.998 * most) <= square) return most;
   double low = 0;
   double high = most;
-  double within = 0;
-  int found = nsvcd__gap_after(t, n, 0) <= square;
-  for (int k = 0; k < 16 && !found; k++) {
+  double inner = 0;  // where it is within the clearance
+  int met = nsvcd__gap_after(t, n, 0) <= square;
+  for (int k = 0; k < 16 && !met; k++) {
     const double third = (high - low) / 3;
     const double before = nsvcd__gap_after(t, n, low + third);
     const double after = nsvcd__gap_after(t, n, high - third);
-    found = before <= square || after <= square;
-    within = after <= square ? high - third : low + third;
+    met = before <= square || after <= square;
+    inner = after <= square ? high - third : low + third;
     if (before < after) high -= third;
     if (!(before < after)) low += third;
   }
-  if (!found) return -HUGE_VAL;
-  for (double beyond = most; beyond - within > nsvcd__max(1e-3 * beyond, 1e-5 * most);) {
-    const double middle = 0.5 * (within + beyond);
-    const int touches = nsvcd__gap_after(t, n, middle) <= square;
-    within = touches ? middle : within;
-    beyond = touches ? beyond : middle;
+  if (!met) return -HUGE_VAL;
+  for (double beyond = most; beyond - inner > nsvcd__max(1e-3 * beyond, 1e-5 * most);) {
+    const double middle = 0.5 * (inner + beyond);
+    const int is_inner = nsvcd__gap_after(t, n, middle) <= square;
+    *(is_inner ? &inner : &beyond) = middle;
   }
-  return within;
+  return inner;
 }
 
-// Remembers how deep a touch is along normal k.
+// Notes how deep a touch is along normal k.
 static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__triangle_contact *t) {
   const nsvcd__d3 n = p->normals[k];
   const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->push_out), n);
-  const double most = nsvcd__push_out_along(n, t) + p->given.clearance;
+  const double most = nsvcd__depth_along(n, t) + p->given.clearance;
   p->needed = nsvcd__max(p->needed, pushed_out + most);
   if (!(most > 0) || !(pushed_out + most > p->depths[k])) return;
-  // depths are told in double
-  const double grain = nsvcd__off_meshes(p) + NSVCD__TOO_NEAR * (double)p->given.lengths;
-  const double depth = pushed_out + nsvcd__way_out(t, n, p->given.clearance, most, grain);
+  const double epsilon = nsvcd__off_meshes(p) + NSVCD__TOO_NEAR * (double)p->given.lengths;
+  const double depth = pushed_out + nsvcd__exit_depth(t, n, p->given.clearance, most, epsilon);
   p->depths[k] = nsvcd__max(p->depths[k], depth);
 }
 
-// Does normal k undo a touch? How far it has to is remembered.
+// Does normal k undo a touch? Then its depth is noted.
 static int nsvcd__undone_by(nsvcd__proof *p, size_t k, const nsvcd__triangle_contact *t) {
   if (!nsvcd__undoes(p, p->normals[k], t)) return 0;
   nsvcd__note_depth(p, k, t);
   return 1;
 }
 
-// Keeps two triangles that are within the clearance at the start, unless a direction that is known
-// undoes that.
+// Keeps two triangles that are within the clearance at the start, unless a known direction undoes
+// that.
 static void nsvcd__collect_contact(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
                                    const nsvcd__d3 *posed) {
   nsvcd__triangle_contact contact;
@@ -14055,8 +14047,8 @@ static void nsvcd__collect_contact(nsvcd__proof *p, const nsvcd__triangle_pair *
   if (p->contact_count < NSVCD__TOUCHES) p->of.touches[p->contact_count++] = contact;
 }
 
-// Among the moving block, posed `at`, and a block of the window: looks for a contact a share u of
-// the arc later than its start.
+// Seeks a contact of the moving block, posed `at`, and block n of the window, at fraction u of the
+// arc.
 static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j, size_t n,
                                              const nsvcd__dtransform *at, double u,
                                              float margin) {
@@ -14079,7 +14071,7 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
       nsvcd__place_triangle(at, pair.moving, posed);
       p->work++;
       if (p->ask.collects == NSVCD__SUPPORTING) {
-        nsvcd__collect_positions(p, &pair, posed);
+        nsvcd__collect_supports(p, &pair, posed);
         continue;
       }
       if (nsvcd__triangles_meet(posed, pair.fixed, &nearest.on_b)) {
@@ -14107,8 +14099,7 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
   return NSVCD__NOTHING;
 }
 
-// Loads 16 triangles of moving patch i, from entry `first` on. The same are often asked for
-// again.
+// Loads 16 triangles of moving patch i, from entry `first` on. They are often loaded already.
 static void nsvcd__moving_block_load(nsvcd__proof *p, size_t i, size_t first) {
   const size_t left = p->moving.first_triangle[i + 1] - first;
   if (p->memo.has_block && p->moving_block.first == first) return;
@@ -14117,7 +14108,7 @@ static void nsvcd__moving_block_load(nsvcd__proof *p, size_t i, size_t first) {
                     &p->moving_block);
 }
 
-// Looks for a contact of triangles of patches i and j a share u of an arc later than its start.
+// Seeks a contact of triangles of patches i and j at fraction u of an arc.
 static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, uint32_t first,
                                           double u) {
   const nsvcd__arc *arc = nsvcd__arc_at(p, first);
@@ -14147,30 +14138,30 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
   return NSVCD__NOTHING;
 }
 
-// The arc, and the share of it, that a time counted in ticks is in: it begins at the last keyframe
-// that is not after that time.
-static uint32_t nsvcd__arc_of(const nsvcd__motion *motion, double at, double *fraction) {
+// The keyframe at which the arc of a time in ticks begins, the last one that is not after it; and
+// how much of the arc has gone by.
+static uint32_t nsvcd__arc_of(const nsvcd__motion *motion, double time, double *fraction) {
   const uint32_t last = motion->ticks - 1;
-  const uint32_t tick = at < (double)last ? (uint32_t)at : last;
+  const uint32_t tick = time < (double)last ? (uint32_t)time : last;
   const uint32_t a =
       nsvcd__tick_of(&motion->moving, nsvcd__pose_before(&motion->moving, tick));
   const uint32_t b = nsvcd__tick_of(&motion->fixed, nsvcd__pose_before(&motion->fixed, tick));
   const uint32_t first = a > b ? a : b;
-  *fraction = (at - (double)first) / (double)(nsvcd__next_keyframe(motion, first) - first);
+  *fraction = (time - (double)first) / (double)(nsvcd__next_keyframe(motion, first) - first);
   return first;
 }
 
-// Looks for a contact of a patch pair where its spheres are nearest, if that still matters.
+// Seeks a contact of a patch pair when its spheres are nearest, if that still matters.
 static nsvcd__outcome nsvcd__seek_in_patch_pair(nsvcd__proof *p, const nsvcd__search *search,
-                                                nsvcd__patch_pair *item) {
-  const double start = (double)search->begin[item->segment];
-  const double end = nsvcd__min((double)search->begin[item->segment + 1u], p->clipped_end);
-  const double tick = start + (double)item->fraction * (end - start);
+                                                nsvcd__patch_pair *pair) {
+  const double start = (double)search->begin[pair->segment];
+  const double end = nsvcd__min((double)search->begin[pair->segment + 1u], p->clipped_end);
+  const double tick = start + (double)pair->fraction * (end - start);
   double u;
-  item->sought = 1;
+  pair->sought = 1;
   if (!(tick < p->ask.end)) return NSVCD__NOTHING;
   const uint32_t first = nsvcd__arc_of(p->ask.motion, tick, &u);
-  return nsvcd__find_witness(p, item->moving, item->fixed, first, u);
+  return nsvcd__find_witness(p, pair->moving, pair->fixed, first, u);
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -14642,40 +14633,39 @@ static NSVCD__NOINLINE void nsvcd__seek_positions(nsvcd__proof *p, int first, in
 // in double.
 
 #ifndef NSVCD_NO_PROOF
-// A ray from a place of a body's frame, in that frame: does the body enclose the place?
+// A ray in a body's frame. What it crosses tells whether the body encloses the point it starts at.
 typedef struct nsvcd__ray {
   nsvcd__d3 from, direction;
-  // a ray that passes an edge within this tells nothing; and that, with what rounding may add
+  // A ray that passes an edge within this tells nothing. rounding: the same plus what floats add.
   double margin;
   float rounding;
 } nsvcd__ray;
 
-// +1 if the ray leaves through the triangle, -1 if it enters, 0 if it misses it; *unclear if it
+// +1 if the ray leaves through the triangle, -1 if it enters, 0 if it misses. Sets *unclear if it
 // passes an edge.
 static int nsvcd__ray_crosses(const nsvcd__ray *ray, const nsvcd__d3 *t, double margin,
                               int *unclear) {
-  double around[3];
   double least = HUGE_VAL;
   double most = -HUGE_VAL;
   double nearest = HUGE_VAL;
   const nsvcd__d3 n = nsvcd__face_normal(t);
-  // the signed volumes of the edges and the ray: all alike if it passes within
+  // the signed volumes of each edge and the ray: all of one sign if it passes inside
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__d3 edge = nsvcd__d3_sub(t[(k + 1) % 3], t[k]);
     const nsvcd__d3 across = nsvcd__d3_cross(edge, ray->direction);
     const double length = nsvcd__d3_length(across);
-    around[k] = nsvcd__d3_dot(across, nsvcd__d3_sub(t[k], ray->from));
-    least = nsvcd__min(least, around[k]);
-    most = nsvcd__max(most, around[k]);
-    nearest = nsvcd__min(nearest, length > 0 ? fabs(around[k]) / length : 0);
+    const double volume = nsvcd__d3_dot(across, nsvcd__d3_sub(t[k], ray->from));
+    least = nsvcd__min(least, volume);
+    most = nsvcd__max(most, volume);
+    nearest = nsvcd__min(nearest, length > 0 ? fabs(volume) / length : 0);
   }
   const double slope = nsvcd__d3_dot(n, ray->direction);
   const double height = nsvcd__d3_dot(n, nsvcd__d3_sub(t[0], ray->from));
   const double size = nsvcd__d3_length(n);
-  const int behind = height * slope < 0 && fabs(height) > margin * size;
-  if (behind) return 0;
+  const int is_on_it = fabs(height) <= margin * size;
+  if (height * slope < 0 && !is_on_it) return 0;  // it is behind
   if (nearest <= margin) {
-    // Near the line of an edge, but is it near the triangle?
+    // It is near an edge's line, but is it near the triangle?
     nsvcd__d3 far_end = nsvcd__d3_add(ray->from, nsvcd__d3_scale(ray->direction, 4 * 1.6e7));
     nsvcd__nearest near_edge = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
     for (size_t k = 0; k < 3; k++)
@@ -14684,12 +14674,12 @@ static int nsvcd__ray_crosses(const nsvcd__ray *ray, const nsvcd__d3 *t, double 
     if (least < 0 && most > 0) return 0;
   }
   if (least <= 0 && most >= 0) return 0;
-  if (fabs(height) <= margin * size) *unclear = 1;
+  if (is_on_it) *unclear = 1;
   return slope > 0 ? 1 : slope < 0 ? -1 : 0;
 }
 
-// Is the triangle new to the list of those that a ray has crossed? Then it is added; *unclear if
-// there is no room.
+// Adds a triangle to the list of those that a ray has crossed. Returns 0 if it is there already.
+// Sets *unclear if there is no room.
 static int nsvcd__is_new(nsvcd__proof *p, size_t *count, uint32_t number, int *unclear) {
   for (size_t k = 0; k < *count; k++) {
     if (p->crossed[k] == number) return 0;
@@ -14700,29 +14690,28 @@ static int nsvcd__is_new(nsvcd__proof *p, size_t *count, uint32_t number, int *u
 }
 
 // Lanes of a block whose triangles the ray crosses, or passes within the margin, and some more. The
-// signed volumes of the edges and the ray are products of an edge and a place on it, off by no more
-// than `rounding`, square metres: see nsvcd__crossings.
+// signed volumes of the edges and the ray are off by no more than `rounding`, square metres: see
+// nsvcd__cross_all.
 static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, float margin,
                                     float rounding) {
   const nsvcd__f3 start = nsvcd__f3_round(ray->from);
   const nsvcd__f3 heading = nsvcd__f3_round(ray->direction);
   uint32_t missed = 0;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 from = nsvcd__v3_set(start);
-    const nsvcd__v3 direction = nsvcd__v3_set(heading);
-    const nsvcd__v3 a = nsvcd__v3_load(block->corners[0], l);
-    const nsvcd__v3 b = nsvcd__v3_load(block->corners[1], l);
-    const nsvcd__v3 c = nsvcd__v3_load(block->corners[2], l);
-    const nsvcd__v3 ab = nsvcd__v3_cross(nsvcd__v3_sub(b, a), direction);
-    const nsvcd__v3 bc = nsvcd__v3_cross(nsvcd__v3_sub(c, b), direction);
-    const nsvcd__v3 ca = nsvcd__v3_cross(nsvcd__v3_sub(a, c), direction);
-    const nsvcd__v by_ab = nsvcd__v3_dot(ab, nsvcd__v3_sub(a, from));
-    const nsvcd__v by_bc = nsvcd__v3_dot(bc, nsvcd__v3_sub(b, from));
-    const nsvcd__v by_ca = nsvcd__v3_dot(ca, nsvcd__v3_sub(c, from));
-    const nsvcd__v least = nsvcd__v_min(by_ab, nsvcd__v_min(by_bc, by_ca));
-    const nsvcd__v most = nsvcd__v_max(by_ab, nsvcd__v_max(by_bc, by_ca));
-    const nsvcd__v longer = nsvcd__v_max(nsvcd__v3_length(bc), nsvcd__v3_length(ca));
-    const nsvcd__v longest = nsvcd__v_max(nsvcd__v3_length(ab), longer);
+    nsvcd__v least = nsvcd__v_set(HUGE_VALF);
+    nsvcd__v most = nsvcd__v_set(-HUGE_VALF);
+    nsvcd__v longest = nsvcd__v_set(0);
+    for (size_t k = 0; k < 3; k++) {
+      const nsvcd__v3 corner = nsvcd__v3_load(block->corners[k], l);
+      const nsvcd__v3 next = nsvcd__v3_load(block->corners[(k + 1) % 3], l);
+      const nsvcd__v3 edge = nsvcd__v3_sub(next, corner);
+      const nsvcd__v3 across = nsvcd__v3_cross(edge, nsvcd__v3_set(heading));
+      const nsvcd__v3 to_corner = nsvcd__v3_sub(corner, nsvcd__v3_set(start));
+      const nsvcd__v volume = nsvcd__v3_dot(across, to_corner);
+      least = nsvcd__v_min(least, volume);
+      most = nsvcd__v_max(most, volume);
+      longest = nsvcd__v_max(longest, nsvcd__v3_length(across));
+    }
     const nsvcd__v allowed =
         nsvcd__v_fma(nsvcd__v_set(margin), longest, nsvcd__v_set(rounding));
     missed |= (nsvcd__v_lt(least, nsvcd__v_negate(allowed)) & nsvcd__v_lt(allowed, most)) << l;
@@ -14730,23 +14719,25 @@ static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, 
   return nsvcd__block_lanes(block) & ~missed;
 }
 
-// What a ray crosses: how often the closed surfaces wind about its place; and of those whose
-// winding does not tell, and of what is nearly a solid, how many triangles. *unclear if it cannot
-// tell.
+// What a ray crosses.
 typedef struct nsvcd__crossings {
-  int winds, either_way, nearly, unclear;
+  int winds;       // how often the closed surfaces wind about the ray's point
+  int either_way;  // triangles of surfaces whose winding tells nothing
+  int nearly;      // triangles of what is nearly a solid
+  int unclear;     // the ray cannot tell
 } nsvcd__crossings;
 
-// Of one ray. A triangle counts once, whatever patches list it, or parts of it. No ray counts that
-// comes as near to an edge as gaps are wide that were closed: so it passes through none.
+// What one ray crosses. A triangle counts once, even if several patches list it or parts of it. A
+// ray that comes as near to an edge as a closed gap is wide does not count: so none passes through
+// a gap.
 //
-// How far are the signed volumes of nsvcd__lanes_on_ray off? With u = 2^-24, E the extent, R that
-// and the distance of the ray's place: a corner, a vertex of up to E from a centre of up to E, is
-// off by 2 u E. An edge, of up to 2 E, by two corners and its own rounding, 6 u E; its product with
-// the direction, rounded as well, by 6 + 2 + 2.31 x 2 (|a_y b_z| + |a_z b_y| and so on are no more
-// than 1.155 |a| |b| together) = 12.7 u E. A place on it, up to R from the ray's, by 3 u R. The
-// volume then by 12.7 u E R + 2 E x 3 u R, and by 3 roundings of up to 2 E R: 24.7 u E R, less than
-// 1.5e-6 E R. NSVCD__ROUNDING is more.
+// The error of the signed volumes of nsvcd__lanes_on_ray, with u = 2^-24, E the extent, and R the
+// extent plus the distance of the ray's point: A corner, a vertex of up to E from a centre of up to
+// E, is off by 2 u E. An edge, of up to 2 E, is off by two corners and its own rounding, 6 u E. Its
+// product with the direction, rounded as well, is off by 6 + 2 + 2.31 x 2 (|a_y b_z| + |a_z b_y|
+// and so on are no more than 1.155 |a| |b| together) = 12.7 u E. A point on the edge, up to R from
+// the ray's, is off by 3 u R. So the volume is off by 12.7 u E R + 2 E x 3 u R, and by 3 roundings
+// of up to 2 E R: 24.7 u E R, less than 1.5e-6 E R. NSVCD__ROUNDING is more.
 static nsvcd__crossings nsvcd__cross_all(nsvcd__proof *p, const nsvcd__geometry *f,
                                          const nsvcd__ray *ray) {
   nsvcd__block *block = &p->fixed_blocks[0];
@@ -14758,9 +14749,9 @@ static nsvcd__crossings nsvcd__cross_all(nsvcd__proof *p, const nsvcd__geometry 
   size_t g;
   const nsvcd__beam beam = {nsvcd__f3_round(ray->from), nsvcd__f3_round(ray->direction),
                             ray->rounding};
-  nsvcd__traversal traversal;
-  nsvcd__traversal_begin(&traversal, f->body, nsvcd__is_on_beam, &beam);
-  while (!sum.unclear && nsvcd__traversal_next(&traversal, &g)) {
+  nsvcd__traversal groups;
+  nsvcd__traversal_begin(&groups, f->body, nsvcd__is_on_beam, &beam);
+  while (!sum.unclear && nsvcd__traversal_next(&groups, &g)) {
     const nsvcd__spheres all = nsvcd__body_patches(f->body);
     uint32_t patches = nsvcd__is_on_beam(&beam, nsvcd__spheres_from(all, NSVCD__GROUP * g));
     for (; patches && !sum.unclear; patches &= patches - 1) {
@@ -14792,49 +14783,42 @@ static nsvcd__crossings nsvcd__cross_all(nsvcd__proof *p, const nsvcd__geometry 
   return sum;
 }
 
-// A place in a body's frame, and a distance from it.
-typedef struct nsvcd__surroundings {
-  nsvcd__f3 position;
-  float distance;
-} nsvcd__surroundings;
-
-// Lanes of 16 spheres that come within that; a filter of a traversal.
-static uint32_t nsvcd__is_around(const void *what, nsvcd__spheres all) {
-  const nsvcd__surroundings *here = (const nsvcd__surroundings *)what;
+// Lanes of 16 spheres that meet this one; a filter of a traversal.
+static uint32_t nsvcd__meets_sphere(const void *what, nsvcd__spheres all) {
+  const nsvcd__sphere *here = (const nsvcd__sphere *)what;
   uint32_t met = 0;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 d =
-        nsvcd__v3_sub(nsvcd__v3_centres(all, l), nsvcd__v3_set(here->position));
-    const nsvcd__v radius = nsvcd__v_plus(nsvcd__v_load(all.r + l), here->distance);
+    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(all, l), nsvcd__v3_set(here->centre));
+    const nsvcd__v radius = nsvcd__v_plus(nsvcd__v_load(all.r + l), here->radius);
     met |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(radius)) << l;
   }
   return met;
 }
 
-// Is a triangle so close to the place that the mesh's own may be on its other side?
-static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__geometry *f,
-                                  nsvcd__d3 position, double tolerance) {
+// Is a triangle so close to the point that the mesh's own may be on the other side of it?
+static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__geometry *f, nsvcd__d3 point,
+                                  double tolerance) {
   const nsvcd_body *b = f->body;
-  const nsvcd__d3 point[3] = {position, position, position};
-  const nsvcd__f3 rounded = nsvcd__f3_round(position);
+  const nsvcd__d3 as_triangle[3] = {point, point, point};
+  const nsvcd__f3 rounded = nsvcd__f3_round(point);
   const nsvcd__box at = {rounded, rounded};
   const float extent = nsvcd__f3_length(rounded) + b->extent;
   const float distance =
       2 * nsvcd__widest_error(f) + (float)tolerance * 1.0001f + 4 * NSVCD__ROUNDING * extent;
-  const nsvcd__surroundings here = {rounded, distance};
+  const double off = (double)nsvcd__off_mesh(f) + NSVCD__SAME_POSITION * (double)extent;
+  const double limit = 2 * off + tolerance;
+  const nsvcd__sphere here = {rounded, distance};
   nsvcd__block *block = &p->fixed_blocks[0];
   size_t g;
-  nsvcd__traversal traversal;
+  nsvcd__traversal groups;
   p->memo.window = 0;
-  nsvcd__traversal_begin(&traversal, b, nsvcd__is_around, &here);
-  while (nsvcd__traversal_next(&traversal, &g)) {
+  nsvcd__traversal_begin(&groups, b, nsvcd__meets_sphere, &here);
+  while (nsvcd__traversal_next(&groups, &g)) {
     const size_t first = NSVCD__GROUP * g;
     const nsvcd__spheres members = nsvcd__spheres_from(nsvcd__body_patches(b), first);
-    for (uint32_t met = nsvcd__is_around(&here, members); met; met &= met - 1) {
+    for (uint32_t met = nsvcd__meets_sphere(&here, members); met; met &= met - 1) {
       const size_t i = first + nsvcd__low_bit(met);
       if (i >= b->patches) break;
-      const double off = (double)nsvcd__off_mesh(f) + NSVCD__SAME_POSITION * (double)extent;
-      const double limit = 2 * off + tolerance;
       const size_t end = f->first_triangle[i + 1];
       for (size_t n = f->first_triangle[i]; n < end; n += NSVCD__LANES) {
         nsvcd__block_load(f, i, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
@@ -14843,7 +14827,7 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__geometry *f,
         for (; lanes; lanes &= lanes - 1) {
           nsvcd__d3 corners[3];
           nsvcd__patch_triangle(f, i, n + nsvcd__low_bit(lanes), corners);
-          if (nsvcd__nearest_of(point, corners).square <= limit * limit) return 1;
+          if (nsvcd__nearest_of(as_triangle, corners).square <= limit * limit) return 1;
         }
       }
     }
@@ -14851,24 +14835,25 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__geometry *f,
   return 0;
 }
 
-// Does the body enclose a place of its frame, farther from its surface than rounding? Rays in
-// directions that no mesh is likely to be aligned with, the first one on the side of the body on
-// which the place is. One is enough where all is closed. Of what is nearly a solid most are asked,
-// which is whether it winds about the place by more than a half (Jacobson 2013): then it is not
-// known to be outside. unit: of its frame.
+// Does the body enclose a point of its frame, farther from its surface than rounding? Rays tell, in
+// directions that no mesh is likely to be aligned with. The first one goes to the side of the body
+// that the point is on. One ray is enough where all surfaces are closed. Of what is nearly a solid,
+// the majority of the rays tells whether its winding number is more than a half: then the point is
+// not known to be outside. (Difference from Jacobson 2013: rays, not a sum of solid angles.) unit:
+// of the body's frame.
 static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__geometry *f, double unit,
-                              nsvcd__d3 position) {
+                              nsvcd__d3 point) {
   static const double directions[8][3] = {
       {0.5359, 0.6013, 0.5927},   {-0.5741, 0.6229, 0.5314},  {0.6127, -0.5531, 0.5644},
       {-0.5477, -0.5923, 0.5909}, {0.6311, 0.5573, -0.5396},  {-0.6053, 0.5297, -0.5941},
       {0.5623, -0.6217, -0.5452}, {-0.5849, -0.5407, -0.6047}};
   const nsvcd__d3 centre = nsvcd__d3_load(f->body->centre);
-  const nsvcd__d3 off = nsvcd__d3_sub(position, centre);
+  const nsvcd__d3 off = nsvcd__d3_sub(point, centre);
   const double radius = (double)f->body->radius;
   if (f->body->open || nsvcd__d3_dot(off, off) > 1.00001 * radius * radius) return 0;
   const size_t best = (off.x < 0 ? 1u : 0u) + (off.y < 0 ? 2u : 0u) + (off.z < 0 ? 4u : 0u);
   nsvcd__ray ray;
-  ray.from = position;
+  ray.from = point;
   ray.margin = NSVCD__SAME_POSITION * (double)p->given.lengths / unit;
   ray.margin += (double)nsvcd__off_mesh(f) + (double)f->counts->gap;
   ray.rounding = (float)ray.margin + 4 * NSVCD__ROUNDING * f->body->extent;
@@ -14880,10 +14865,9 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__geometry *f, double 
     ray.direction = nsvcd__d3_scale(ray.direction, 1 / nsvcd__d3_length(ray.direction));
     const nsvcd__crossings sum = nsvcd__cross_all(p, f, &ray);
     if (sum.unclear) continue;
-    if (sum.winds != 0 && sum.either_way % 2 == 0) return 1;
-    if (sum.winds == 0 && sum.either_way % 2 != 0) return 1;
+    // A hollow of one kind inside the other undoes it.
+    if ((sum.winds != 0) != (sum.either_way % 2 != 0)) return 1;
     if (f->kind_bits == 1) return 0;
-    // in a hollow the one may undo the other
     odd += sum.nearly % 2 != 0 || sum.winds != 0;
     clear++;
   }
@@ -14892,8 +14876,8 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__geometry *f, double 
   return 0;
 }
 
-// Does some surface of a body lie outside of a sphere about the other? start: from the frame of the
-// first to that of the second, in which the first is of this scale.
+// Does some patch of a body lie outside of the other's sphere? start: from the first body's frame
+// to the second's, in which the first has this scale.
 static int nsvcd__sticks_out(const nsvcd__geometry *inner, const nsvcd__transform *start,
                              float scale, const nsvcd_body *outer) {
   const nsvcd_body *b = inner->body;
@@ -14904,9 +14888,8 @@ static int nsvcd__sticks_out(const nsvcd__geometry *inner, const nsvcd__transfor
     const nsvcd__spheres patches = nsvcd__spheres_from(nsvcd__body_patches(b), first);
     uint32_t out = 0;
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 own = nsvcd__v3_centres(patches, l);
-      const nsvcd__v3 posed = nsvcd__v3_transform(start, own);
-      const nsvcd__v3 d = nsvcd__v3_sub(posed, centre);
+      const nsvcd__v3 seen = nsvcd__v3_transform(start, nsvcd__v3_centres(patches, l));
+      const nsvcd__v3 d = nsvcd__v3_sub(seen, centre);
       const nsvcd__v own_radius = nsvcd__v_load(patches.r + l);
       const nsvcd__v limit = nsvcd__v_fma(nsvcd__v_set(scale), own_radius, radius);
       out |= nsvcd__v_lt(nsvcd__v_mul(limit, limit), nsvcd__v3_dot(d, d)) << l;
@@ -14919,39 +14902,7 @@ static int nsvcd__sticks_out(const nsvcd__geometry *inner, const nsvcd__transfor
   return 0;
 }
 
-// Seeds first .. first + 15 that may be in the sphere and in the box about the other body.
-static uint32_t nsvcd__seeds_near(const nsvcd__geometry *inner, size_t first,
-                                  const nsvcd__transform *start, float scale,
-                                  const nsvcd__geometry *outer) {
-  const nsvcd_body *o = outer->body;
-  const size_t left = inner->counts->components - first;
-  float lanes[3][NSVCD__LANES];
-  for (size_t l = 0; l < NSVCD__LANES; l++) {
-    const float *seed = inner->seeds + 3 * (first + (l < left ? l : 0));
-    for (size_t k = 0; k < 3; k++) lanes[k][l] = seed[k];
-  }
-  const nsvcd__f3 centre = nsvcd__f3_of(o->centre[0], o->centre[1], o->centre[2]);
-  const float extent =
-      nsvcd__f3_length(start->position) + scale * inner->body->extent + o->extent;
-  const float rounding = 4 * NSVCD__ROUNDING * extent;
-  uint32_t nearby = 0;
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 seen = nsvcd__v3_transform(start, nsvcd__v3_load(lanes, l));
-    const nsvcd__v3 d = nsvcd__v3_sub(seen, nsvcd__v3_set(centre));
-    const nsvcd__v radius = nsvcd__v_set(o->radius + rounding);
-    const nsvcd__v at[3] = {seen.x, seen.y, seen.z};
-    uint32_t slice = nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_mul(radius, radius));
-    for (size_t k = 0; k < 3; k++) {
-      slice &= nsvcd__v_le(nsvcd__v_set(outer->box[k] - rounding), at[k]);
-      slice &= nsvcd__v_le(at[k], nsvcd__v_set(outer->box[3 + k] + rounding));
-    }
-    nearby |= slice << l;
-  }
-  return nearby;
-}
-
-// The pose that takes the fixed body's frame to the moving one's, which is of this scale: rows are
-// those of the inverse rotation, over it.
+// The inverse of a pose, whose rotation is times this scale.
 static nsvcd__dtransform nsvcd__inverse_dtransform(const nsvcd__dtransform *at, double scale) {
   const double inverse = 1 / (scale * scale);
   nsvcd__dtransform out;
@@ -14961,29 +14912,40 @@ static nsvcd__dtransform nsvcd__inverse_dtransform(const nsvcd__dtransform *at, 
   return out;
 }
 
-// One body at the start of the motion, as the other sees it.
+// Two bodies at the start of the motion: is `inner` in `outer`?
 typedef struct nsvcd__enclosure {
   const nsvcd__geometry *inner, *outer;
-  // of the inner body in the outer one's frame, the same rounded, and the other way round
+  // from the inner body's frame to the outer one's, that in float, and its inverse
   nsvcd__dtransform start;
   nsvcd__transform rounded;
   nsvcd__dtransform back;
-  float scale;  // of the inner body, in that frame
-  // of that frame: the fixed body's units
+  // of the inner body in the outer one's frame; of that frame, in the fixed body's units
+  float scale;
   double unit;
-  // it is the motion's moving body
-  int inner_moves;
 } nsvcd__enclosure;
 
-// Are some of the inner body's components, those with seeds from `first` to `end`, within the outer
-// one? Then p->enclosed has the point, and p->within is set; 1 if that is certain.
+// May a seed be in the outer body? It is in the sphere and the box about that.
+static int nsvcd__seed_is_near(const nsvcd__enclosure *e, const float *seed) {
+  const nsvcd_body *o = e->outer->body;
+  const float extents = e->scale * e->inner->body->extent + o->extent;
+  const float lengths = nsvcd__f3_length(e->rounded.position) + extents;
+  const float rounding = 4 * NSVCD__ROUNDING * lengths;
+  const float radius = o->radius + rounding;
+  const nsvcd__f3 margin = nsvcd__f3_of(rounding, rounding, rounding);
+  const nsvcd__f3 low = nsvcd__f3_sub(nsvcd__f3_load(e->outer->box), margin);
+  const nsvcd__f3 high = nsvcd__f3_add(nsvcd__f3_load(e->outer->box + 3), margin);
+  const nsvcd__f3 seen = nsvcd__f3_transform(&e->rounded, nsvcd__f3_load(seed));
+  const nsvcd__f3 d = nsvcd__f3_sub(seen, nsvcd__f3_load(o->centre));
+  const int in_box = !nsvcd__f3_exceeds(low, seen) && !nsvcd__f3_exceeds(seen, high);
+  return in_box && nsvcd__f3_dot(d, d) <= radius * radius;
+}
+
+// Is one of the inner body's components, with seeds first .. end - 1, in the outer body? Then
+// p->inside is set, and p->enclosed is its seed. Returns 1 if that is certain.
 static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, size_t first,
                                  size_t end) {
-  uint32_t nearby = 0;
   for (size_t n = first; n < end; n++) {
-    const size_t l = (n - first) % NSVCD__LANES;
-    if (l == 0) nearby = nsvcd__seeds_near(e->inner, n, &e->rounded, e->scale, e->outer);
-    if (!(nearby >> l & 1)) continue;
+    if (!nsvcd__seed_is_near(e, e->inner->seeds + 3 * n)) continue;
     if (nsvcd__is_exhausted(p)) {
       p->unclear = 1;
       return 0;
@@ -14991,7 +14953,7 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
     const nsvcd__d3 seed = nsvcd__d3_load(e->inner->seeds + 3 * n);
     const nsvcd__d3 seen = nsvcd__place_point(&e->start, seed);
     if (!nsvcd__is_enclosed(p, e->outer, e->unit, seen)) continue;
-    p->enclosed = e->inner_moves ? seen : seed;
+    p->enclosed = e->inner == &p->moving ? seen : seed;
     p->inside = 1;
     const double room = p->given.tolerance / e->unit + (double)e->outer->counts->gap;
     if (!nsvcd__surface_is_near(p, e->outer, seen, room)) return 1;
@@ -14999,8 +14961,8 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
   return 0;
 }
 
-// The same of all components. Where they are many, only those of groups that come near the outer
-// body are asked for.
+// The same of all components. Where there are many, only groups near the outer body are asked for
+// theirs.
 static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   const nsvcd_body *inner = e->inner->body;
   const nsvcd_body *outer = e->outer->body;
@@ -15012,39 +14974,32 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   const nsvcd__f3 centre =
       nsvcd__f3_round(nsvcd__place_point(&e->back, nsvcd__d3_load(outer->centre)));
   const float extent = nsvcd__f3_length(centre) + inner->extent + outer->extent / e->scale;
-  const nsvcd__surroundings here = {centre,
-                                    outer->radius / e->scale + 4 * NSVCD__ROUNDING * extent};
+  const float rounding = 4 * NSVCD__ROUNDING * extent;
+  const nsvcd__sphere here = {centre, outer->radius / e->scale + rounding};
   size_t g;
-  nsvcd__traversal traversal;
-  nsvcd__traversal_begin(&traversal, inner, nsvcd__is_around, &here);
-  while (!p->unclear && nsvcd__traversal_next(&traversal, &g)) {
+  nsvcd__traversal groups;
+  nsvcd__traversal_begin(&groups, inner, nsvcd__meets_sphere, &here);
+  while (!p->unclear && nsvcd__traversal_next(&groups, &g)) {
     if (nsvcd__encloses_seeds(p, e, e->inner->first_seed[g], e->inner->first_seed[g + 1]))
       return 1;
   }
   return 0;
 }
 
-// Is a component of one body within the other at the start of the motion? Then p->enclosed is its
-// point. Where that is so close to the surface that what that is off by matters, 0 is returned and
-// p->within is set: if planes then separate all patches at t = 0, the point, the surface that was
-// looked at and the true one, patch by patch on one side of a plane, agree, and it is within.
+// Is a component of one body inside the other at the start of the motion? Then p->enclosed is its
+// seed. A seed so close to the surface that errors matter returns 0, with p->inside set. If planes
+// then separate all patches at t = 0, the seed, the surface that was tested and the true one are,
+// patch by patch, on one side of a plane and agree: it is inside.
 static NSVCD__NOINLINE int nsvcd__is_contained_at_start(nsvcd__proof *p) {
-  nsvcd__enclosure moving, fixed;
-  moving.start = nsvcd__dtransform_at(nsvcd__arc_at(p, 0), 0);
-  moving.back = nsvcd__inverse_dtransform(&moving.start, p->arc.scale);
-  moving.rounded = nsvcd__transform_of(&moving.start);
-  moving.inner = fixed.outer = &p->moving;
-  moving.outer = fixed.inner = &p->fixed;
-  moving.scale = p->ask.motion->scale;
-  moving.unit = 1;
-  moving.inner_moves = 1;
-  fixed.start = moving.back;
-  fixed.back = moving.start;
-  fixed.rounded = nsvcd__transform_of(&fixed.start);
-  fixed.scale = 1 / p->ask.motion->scale;
-  fixed.unit = p->arc.scale;
-  fixed.inner_moves = 0;
-  return nsvcd__encloses_any(p, &moving) || nsvcd__encloses_any(p, &fixed);
+  const float scale = p->ask.motion->scale;
+  const nsvcd__dtransform start = nsvcd__dtransform_at(nsvcd__arc_at(p, 0), 0);
+  const nsvcd__dtransform back = nsvcd__inverse_dtransform(&start, p->arc.scale);
+  const nsvcd__enclosure moving = {&p->moving, &p->fixed, start, nsvcd__transform_of(&start),
+                                   back,       scale,     1};
+  if (nsvcd__encloses_any(p, &moving)) return 1;
+  const nsvcd__enclosure fixed = {
+      &p->fixed, &p->moving, back, nsvcd__transform_of(&back), start, 1 / scale, p->arc.scale};
+  return nsvcd__encloses_any(p, &fixed);
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -15053,16 +15008,22 @@ static NSVCD__NOINLINE int nsvcd__is_contained_at_start(nsvcd__proof *p) {
 // contact that answers the question, or the budget exhausted.
 
 #ifndef NSVCD_NO_PROOF
-// Segments that are searched now, and still matter.
+// Segments from .. to - 1, as bits.
+static uint64_t nsvcd__segments_in(size_t from, size_t to) {
+  const uint64_t before_end = to < 64 ? ((uint64_t)1 << to) - 1 : ~(uint64_t)0;
+  return before_end & ~(((uint64_t)1 << from) - 1);
+}
+
+// The segments being searched that still matter.
 static uint64_t nsvcd__segments_that_matter(const nsvcd__proof *p,
                                             const nsvcd__search *search) {
   size_t s = search->segments;
   if (!(p->ask.first > 0) || !p->known.has_contact) return search->wanted;
   while (s > 0 && !nsvcd__matters(p, search, s - 1)) s--;
-  return s == 64 ? search->wanted : search->wanted & (((uint64_t)1 << s) - 1);
+  return search->wanted & nsvcd__segments_in(0, s);
 }
 
-// Adds the patch pairs of moving group g and resting patch j in the segments `left`, and clears
+// Adds the patch pairs of moving group g and fixed patch j in the segments *left, and clears
 // these, as long as there is room for 16 more.
 static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *search, size_t g,
                                    size_t j, uint64_t *left) {
@@ -15079,12 +15040,11 @@ static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *search,
     float fraction[NSVCD__LANES];
     uint32_t met = 0;
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 start = nsvcd__v3_rows(c->start[0] + l);
-      const nsvcd__v3 v = nsvcd__v3_rows(c->travel[0] + l);
-      const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_set(centre));
+      const nsvcd__v3 travel = nsvcd__chords_travel(c, l);
+      const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(centre));
       const nsvcd__v tau = nsvcd__v_clamp(
-          nsvcd__v_mul(nsvcd__v3_dot(d, v), nsvcd__v_load(c->inverse + l)), 0, 1);
-      const nsvcd__v3 closest = nsvcd__v3_fma(tau, v, d);
+          nsvcd__v_mul(nsvcd__v3_dot(d, travel), nsvcd__v_load(c->inverse + l)), 0, 1);
+      const nsvcd__v3 closest = nsvcd__v3_fma(tau, travel, d);
       const nsvcd__v square = nsvcd__v3_dot(closest, closest);
       const nsvcd__v sum = nsvcd__v_plus(nsvcd__v_load(c->radius + l), radius);
       met |= nsvcd__v_le(square, nsvcd__v_signed_square(sum)) << l;
@@ -15101,25 +15061,25 @@ static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *search,
       if (p->moving.hull_counts[i] == 0) continue;
       const float radii = search->scale * own[l] + radius;
       const float depth = 1 - sqrtf(squares[l]) / (radii > 1e-30f ? radii : 1e-30f);
-      const nsvcd__patch_pair item = {(uint16_t)i, (uint16_t)j, (uint16_t)s,
+      const nsvcd__patch_pair pair = {(uint16_t)i, (uint16_t)j, (uint16_t)s,
                                       0,           depth,       fraction[l]};
-      p->fresh[p->fresh_count++] = item;
+      p->fresh[p->fresh_count++] = pair;
     }
   }
 }
 
-// Looks at what the search has found so far.
-static nsvcd__outcome nsvcd__see_to_patch_pairs(nsvcd__proof *p, nsvcd__search *search) {
+// Processes the patch pairs that the search has found since.
+static nsvcd__outcome nsvcd__take_patch_pairs(nsvcd__proof *p, nsvcd__search *search) {
   return p->ask.collects ? nsvcd__collect_contacts(p, search)
                          : nsvcd__sift_patch_pairs(p, search);
 }
 
-// THE LOOP: point 2 of the theorem. A tile's groups, of the moving body and of the resting one, are
-// separated by spheres and by slabs; of those left, patches by spheres and by slabs; what is left
-// of these are patch pairs, which nsvcd__sift_patch_pairs and nsvcd__resolve_patch_pairs see to. In
-// the end each pair of patches, in each segment that is wanted and still matters, has been
-// separated, or has given a contact that answers or shrinks the question, or is an unresolved pair,
-// or was resolved by its parts; or SPENT says that it has not.
+// THE LOOP: point 2 of the theorem. Spheres and slabs separate groups of a tile of the moving body
+// and one of the fixed body, and then patches of the groups left. What is left of these are patch
+// pairs, for nsvcd__sift_patch_pairs and nsvcd__resolve_patch_pairs. In the end each pair of
+// patches, in each segment that is wanted and still matters, has been separated, or has given a
+// contact that answers or shrinks the question, or is an unresolved pair, or was resolved by its
+// parts; or EXHAUSTED says that it has not.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
                                                             nsvcd__search *search) {
   nsvcd__outcome outcome;
@@ -15142,33 +15102,26 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
           nsvcd__pose_members(search, g, *left);
           nsvcd__add_patch_pairs(p, search, g, NSVCD__GROUP * h + l, left);
           if (!*left) break;
-          outcome = nsvcd__see_to_patch_pairs(p, search);
+          outcome = nsvcd__take_patch_pairs(p, search);
           if (outcome != NSVCD__RESOLVED) return outcome;
         }
       }
       if (p->fresh_count < NSVCD__NEWS) continue;
-      outcome = nsvcd__see_to_patch_pairs(p, search);
+      outcome = nsvcd__take_patch_pairs(p, search);
       if (outcome != NSVCD__RESOLVED) return outcome;
     }
   }
-  outcome = nsvcd__see_to_patch_pairs(p, search);
+  outcome = nsvcd__take_patch_pairs(p, search);
   if (outcome != NSVCD__RESOLVED || p->ask.collects) return outcome;
   return nsvcd__resolve_patch_pairs(p, search);
 }
 
-// Those of the segments from one to another, the last one not included.
-static uint64_t nsvcd__segments_in(size_t from, size_t to) {
-  const uint64_t before_end = to < 64 ? ((uint64_t)1 << to) - 1 : ~(uint64_t)0;
-  return before_end & ~(((uint64_t)1 << from) - 1);
-}
-
-// The same of a motion that has been cut: tile after tile. Where the first contact is sought, some
+// The same for all tiles of a motion that has been cut. If the first contact is sought, some
 // segments of a tile at a time, until there is a contact: it is the first of the tile. What is
-// resolved of one tile tells nothing of the others.
+// resolved in one tile says nothing of the others.
 static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
-  const int has_tiles = nsvcd__is_tiled(moving, fixed);
   const size_t all = search->segments;
   const size_t few = p->ask.first > 0 ? NSVCD__IN_ORDER : all;
   nsvcd__outcome outcome = NSVCD__RESOLVED;
@@ -15181,7 +15134,8 @@ static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search)
       search->step = 0;
       search->waiting = 0;
       outcome = nsvcd__prove_segments(p, search);
-      if (outcome == NSVCD__RESOLVED && !p->known.has_contact && !has_tiles)
+      const int one_tile = !nsvcd__is_tiled(moving, fixed);
+      if (outcome == NSVCD__RESOLVED && !p->known.has_contact && one_tile)
         p->known.resolved = (double)search->begin[next];
     }
   } while (outcome == NSVCD__RESOLVED && nsvcd__search_next_tile(search));
@@ -15192,11 +15146,11 @@ static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search)
 #endif  // NSVCD_NO_PROOF
 
 // ----------------------------------------------------------------------------------- proof/verdict
-// In: a question, and segments that have been chosen: of a motion, or of an interval of it. Out: do
-// they meet; where asked, when first, and how near they come.
+// In: a question, and the segments chosen of a motion or of an interval of it. Out: do the bodies
+// meet; where asked, when first, and how near they come.
 
 #ifndef NSVCD_NO_PROOF
-// What is said of a component that is within the other body, whatever contacts were found since.
+// A component is inside the other body. That replaces any contact found since.
 static nsvcd__finding nsvcd__found_inside(nsvcd__proof *p) {
   memset(&p->known.found, 0, sizeof p->known.found);
   p->known.found.point = p->enclosed;
@@ -15205,14 +15159,14 @@ static nsvcd__finding nsvcd__found_inside(nsvcd__proof *p) {
   return NSVCD__FOUND_INSIDE;
 }
 
-// Ticks: nothing meets before this, or NEVER.
+// The tick before which nothing meets, or NEVER.
 static double nsvcd__clear_until(const nsvcd__proof *p) {
   if (p->unclear) return 0;
   return nsvcd__min(nsvcd__min(p->ask.end, p->known.unresolved),
                     p->known.lost ? p->known.resolved : NSVCD__NEVER);
 }
 
-// Makes a proof forget all that it knew of a motion, or of an interval.
+// Forgets all that was known of a motion, or of an interval.
 static void nsvcd__proof_restart(nsvcd__proof *p) {
   memset(&p->known, 0, sizeof p->known);
   p->known.resolved = (double)p->ask.motion->from;
@@ -15225,7 +15179,7 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
   nsvcd__forget(&p->memo);
 }
 
-// Searches a motion whose segments have been chosen, and resolves what is found.
+// Searches a motion whose segments have been chosen, and resolves what it finds.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_motion(nsvcd__proof *p,
                                                           nsvcd__search *search) {
   nsvcd__cut_segments(p->ask.motion, p->given.lengths, nsvcd__clearance(p), search);
@@ -15235,7 +15189,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_motion(nsvcd__proof *p,
   return outcome;
 }
 
-// The same, of any motion, whatever was known of one.
+// The same for any motion, from scratch.
 static nsvcd__outcome nsvcd__prove_anew(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__proof_restart(p);
   nsvcd__choose_segments(p->ask.motion, search);
@@ -15257,8 +15211,8 @@ static nsvcd__motion nsvcd__end_of(const nsvcd__motion *motion, int at_end) {
   return still;
 }
 
-// A look at the start alone, or at the end, which takes so many units at most: do triangles meet
-// there? Then that is the contact that is known. If not, all that was known is lost.
+// Do triangles meet at the start alone, or at the end? Takes so many units at most. If they do,
+// that is the known contact; if not, all that was known is lost.
 static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *search, int at_end,
                                            size_t units) {
   const nsvcd__asked asked = p->ask;
@@ -15276,16 +15230,16 @@ static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *searc
 
 // Searches segments that have been chosen, first with a small budget: most queries end there. Many
 // of the rest touch only at the start or at the end, so these two poses are tried before all is
-// searched again. The search for a first contact begins at the start anyway, and of the intervals
-// of a long motion the ends have been tried before.
-static nsvcd__outcome nsvcd__prove_and_look(nsvcd__proof *p, nsvcd__search *search,
-                                            size_t limit) {
+// searched again. The search for a first contact begins at the start anyway, and the ends of a long
+// motion have been tried before its intervals.
+static nsvcd__outcome nsvcd__prove_whole(nsvcd__proof *p, nsvcd__search *search,
+                                         size_t limit) {
   const int is_brief = !p->ask.motion->arcs && !(p->ask.fraction > 0);
   p->ask.is_brief = is_brief && p->work + NSVCD__LONG < limit;
   p->ask.limit = p->ask.is_brief ? p->work + NSVCD__LONG : limit;
   const nsvcd__outcome outcome = nsvcd__prove_motion(p, search);
   if (outcome != NSVCD__EXHAUSTED || !p->ask.is_brief) return outcome;
-  // a part of what an unresolved pair leaves has been used
+  // half of what may follow an unresolved pair has been used
   if (p->known.unresolved < NSVCD__NEVER)
     p->ask.after_unresolved -= p->ask.after_unresolved / 2;
   for (int at_end = 0; at_end < 2; at_end++) {
@@ -15296,45 +15250,38 @@ static nsvcd__outcome nsvcd__prove_and_look(nsvcd__proof *p, nsvcd__search *sear
   return nsvcd__prove_anew(p, search);
 }
 
-// A part of the motion, from one place to another, in segments, and no later than `end`: where is
-// the first contact there, or the first unresolved pair? All else that was known is lost. Ticks
-// become finer: returns how many one is.
-static double nsvcd__prove_part(nsvcd__proof *p, nsvcd__search *search, double from, double to,
-                                double end) {
+// Searches a part of the motion, from one position in segments to another, for the first contact
+// there or the first unresolved pair, and adds what it finds to what is known of all before it.
+// *end: the tick from which on nothing matters.
+static void nsvcd__prove_part(nsvcd__proof *p, nsvcd__search *search, double from, double to,
+                              nsvcd__known *known, double *end) {
+  const nsvcd__known *part = &p->known;
   nsvcd__proof_restart(p);
   nsvcd__choose_segments(p->ask.motion, search);
+  // this many ticks to one of before
   const double finer = nsvcd__motion_refine(p->ask.motion);
   nsvcd__narrow_segments(search, from, to, finer);
-  p->ask.end = nsvcd__min(p->ask.end, finer * end);
+  p->ask.end = nsvcd__min(p->ask.end, finer * *end);
   p->ask.unresolved_ends = 1;
   (void)nsvcd__prove_motion(p, search);
-  return finer;
-}
-
-// Adds what is known of a part of the motion, whose ticks are so much finer, to what was known of
-// all before it. Returns until when, in ticks, it still matters.
-static double nsvcd__add_part(const nsvcd__proof *p, const nsvcd__search *search, double finer,
-                              double end, nsvcd__known *known) {
-  const nsvcd__known *part = &p->known;
   const double last = (double)search->begin[search->segments];
   if (part->has_contact) {
     known->has_contact = 1;
     known->found = part->found;
     known->found.tick /= finer;
-    end = p->ask.end / finer;
+    *end = p->ask.end / finer;
   }
-  if (part->lost) return end;
+  if (part->lost) return;
   if (part->unresolved < NSVCD__NEVER) {
     known->unresolved_pair = part->unresolved_pair;
     known->unresolved_pair.tick /= finer;
     known->unresolved = part->unresolved / finer;
   }
   known->resolved = nsvcd__min(last, p->ask.end) / finer;
-  return end;
 }
 
-// There was not work enough for the first contact: once more from what is resolved on, by time, a
-// part of the motion after another. Where one takes too many units, a shorter one is tried.
+// The budget did not suffice for the first contact. Searches again by time, from what is resolved
+// on: one part of the motion after another, a shorter one where a part takes too many units.
 static NSVCD__NOINLINE void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *search,
                                                  size_t limit) {
   nsvcd__known known = p->known;
@@ -15347,14 +15294,15 @@ static NSVCD__NOINLINE void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search 
   size_t units = limit;
   while (from < all && (double)search->begin[(size_t)from + 1] <= known.resolved) from++;
   p->ask.is_brief = 1;
-  while (p->work < limit &&
-         known.resolved < nsvcd__min(ticks, nsvcd__min(end, known.unresolved))) {
+  for (;;) {
+    const double until = nsvcd__min(ticks, nsvcd__min(end, known.unresolved));
+    known.lost = known.resolved < until;
+    if (!known.lost || p->work >= limit) break;
     const size_t before = p->work;
     const double whole = floor(from + length);
     const double to = whole > from ? nsvcd__min(whole, all) : from + length;
     p->ask.limit = limit - before > units ? before + units : limit;
-    const double finer = nsvcd__prove_part(p, search, from, to, end);
-    end = nsvcd__add_part(p, search, finer, end, &known);
+    nsvcd__prove_part(p, search, from, to, &known, &end);
     if (p->known.lost) {
       length /= 8;
       grows = 2;
@@ -15364,7 +15312,6 @@ static NSVCD__NOINLINE void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search 
       units = 8 * (p->work - before) + NSVCD__PART_BUDGET;
     }
   }
-  known.lost = known.resolved < nsvcd__min(ticks, nsvcd__min(end, known.unresolved));
   p->ask.is_brief = 0;
   nsvcd__proof_restart(p);
   nsvcd__choose_segments(p->ask.motion, search);
@@ -15372,31 +15319,31 @@ static NSVCD__NOINLINE void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search 
   p->ask.end = end;
 }
 
-// When do they meet first? What is proven of that stays, also where there is no more work left.
+// When do they meet first? What is proven of that stays proven when the budget ends.
 static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search) {
-  const nsvcd__outcome outcome = nsvcd__prove_and_look(p, search, nsvcd__limit_of_first(p));
+  const nsvcd__outcome outcome = nsvcd__prove_whole(p, search, nsvcd__limit_of_first(p));
   const double from = (double)p->ask.motion->from;
-  // an interval is short: what is before it is known
+  // An interval is short, and all before it is known.
   if (p->known.lost && !p->ask.motion->arcs) nsvcd__prove_by_time(p, search, p->ask.most);
-  nsvcd__known known = p->known;
+  const nsvcd__known known = p->known;
   const double end = p->ask.end;
   if (from > 0 && known.has_contact) {
     p->starts_free = 1;
   } else if (known.has_contact && nsvcd__clear_until(p) <= 0 && known.found.tick > 0) {
-    // so early that they may meet at the start already
+    // The contact is so early that they may meet at the start already.
     if (nsvcd__meets_at(p, search, 0, p->given.work)) return NSVCD__ANSWERED;
     p->starts_free = !p->known.lost && !(p->known.unresolved < NSVCD__NEVER);
+    p->known = known;
+    p->ask.end = end;
   }
-  p->known = known;
-  p->ask.end = end;
   return outcome;
 }
 
 // ---- the least distance
 
-// Of the patches with a surface, the one whose centre is nearest to a place of the body's frame; of
-// a large body one near it, found by going down the levels of spheres, always to the nearest.
-static size_t nsvcd__patch_towards(const nsvcd__geometry *f, nsvcd__f3 position) {
+// Of the patches with a surface, the one whose centre is nearest to a point of the body's frame. Of
+// a large body, one near it: the nearest sphere on each level leads there.
+static size_t nsvcd__patch_near(const nsvcd__geometry *f, nsvcd__f3 point) {
   const nsvcd_body *body = f->body;
   size_t from = 0;
   size_t count = body->patches;
@@ -15406,12 +15353,11 @@ static size_t nsvcd__patch_towards(const nsvcd__geometry *f, nsvcd__f3 position)
   if (k > 0) count = nsvcd__level_of(body->padded, k - 1).count;
   while (k-- > 0) {
     const nsvcd__level level = nsvcd__level_of(body->padded, k);
-    const nsvcd__spheres all =
-        nsvcd__spheres_of(nsvcd__body_floats(body, level.first), level.slots);
+    const nsvcd__spheres all = nsvcd__level_spheres(body, level);
     size_t nearest = from;
     float best = HUGE_VALF;
     for (size_t n = from; n < from + count && n < level.count; n++) {
-      const nsvcd__f3 off = nsvcd__f3_sub(nsvcd__centre_of(all, n), position);
+      const nsvcd__f3 off = nsvcd__f3_sub(nsvcd__centre_of(all, n), point);
       const float distance = nsvcd__f3_length(off) - all.r[n];
       if (distance >= best) continue;
       best = distance;
@@ -15426,25 +15372,24 @@ static size_t nsvcd__patch_towards(const nsvcd__geometry *f, nsvcd__f3 position)
     uint32_t nearer = 0;
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v3 off =
-          nsvcd__v3_sub(nsvcd__v3_centres(patches, first + l), nsvcd__v3_set(position));
+          nsvcd__v3_sub(nsvcd__v3_centres(patches, first + l), nsvcd__v3_set(point));
       const nsvcd__v square = nsvcd__v3_dot(off, off);
       nearer |= nsvcd__v_lt(square, nsvcd__v_set(least)) << l;
       nsvcd__v_store(squares + l, square);
     }
     for (; nearer; nearer &= nearer - 1) {
-      const size_t n = first + nsvcd__low_bit(nearer);
-      if (n >= body->patches || f->hull_counts[n] == 0) continue;
-      if (squares[n - first] >= least) continue;
-      least = squares[n - first];
+      const size_t l = nsvcd__low_bit(nearer);
+      const size_t n = first + l;
+      if (n >= body->patches || f->hull_counts[n] == 0 || squares[l] >= least) continue;
+      least = squares[l];
       patch = n;
     }
   }
   return patch;
 }
 
-// When the sphere of the moving body whose chords are search->group comes nearest to one of the
-// fixed body, in ticks, if that is nearer than `gap`, metres, which becomes how near. Returns 1 if
-// it is.
+// When the sphere whose chords are search->group comes nearest to a fixed one, in ticks. Returns 0
+// if that is no nearer than *gap, metres; else *gap becomes how near.
 static int nsvcd__nearest_tick(const nsvcd__search *search, nsvcd__sphere fixed, float *gap,
                                double *tick) {
   int found = 0;
@@ -15478,34 +15423,30 @@ static int nsvcd__nearest_tick(const nsvcd__search *search, nsvcd__sphere fixed,
   return found;
 }
 
-// When two groups come nearest, in ticks, and which resting one that is; of large bodies, when the
-// bodies do.
-static double nsvcd__groups_nearest(const nsvcd__proof *p, nsvcd__search *search,
-                                    nsvcd__sphere *resting) {
-  const nsvcd_body *moving = p->moving.body;
-  const nsvcd_body *fixed = p->fixed.body;
+// The two groups that come nearest to each other; of large bodies, the bodies' own spheres.
+static void nsvcd__nearest_groups(const nsvcd__proof *p, nsvcd__search *search,
+                                  nsvcd__sphere *moving, nsvcd__sphere *fixed) {
+  const nsvcd_body *a = p->moving.body;
+  const nsvcd_body *b = p->fixed.body;
   float gap = HUGE_VALF;
-  double tick = 0;
-  *resting = nsvcd__body_sphere(fixed);
-  if (nsvcd__is_tiled(moving, fixed)) {
-    nsvcd__chords_in_all(search, nsvcd__body_sphere(moving));
-    (void)nsvcd__nearest_tick(search, *resting, &gap, &tick);
-    return tick;
-  }
-  for (size_t g = 0; g < nsvcd__body_groups(moving); g++) {
-    nsvcd__chords_in_all(search, nsvcd__sphere_of(nsvcd__groups_of(moving), g));
-    for (size_t h = 0; h < nsvcd__body_groups(fixed); h++) {
-      const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__groups_of(fixed), h);
-      if (nsvcd__nearest_tick(search, group, &gap, &tick)) *resting = group;
+  double tick;
+  *moving = nsvcd__body_sphere(a);
+  *fixed = nsvcd__body_sphere(b);
+  for (size_t g = 0; g < nsvcd__body_groups(a) && !nsvcd__is_tiled(a, b); g++) {
+    const nsvcd__sphere own = nsvcd__sphere_of(nsvcd__groups_of(a), g);
+    nsvcd__chords_in_all(search, own);
+    for (size_t h = 0; h < nsvcd__body_groups(b); h++) {
+      const nsvcd__sphere other = nsvcd__sphere_of(nsvcd__groups_of(b), h);
+      if (!nsvcd__nearest_tick(search, other, &gap, &tick)) continue;
+      *moving = own;
+      *fixed = other;
     }
   }
-  return tick;
 }
 
-// The least distance between the hulls' vertices of patch i of the moving body and patch j of the
-// fixed one.
-static double nsvcd__vertices_apart(const nsvcd__proof *p, const nsvcd__transform *pose,
-                                    size_t i, size_t j) {
+// The least distance between hull vertices of moving patch i and fixed patch j.
+static double nsvcd__vertex_distance(const nsvcd__proof *p, const nsvcd__transform *pose,
+                                     size_t i, size_t j) {
   float lanes[3][NSVCD__LANES];
   float least = HUGE_VALF;
   NSVCD__EACH_SLICE(l) {
@@ -15522,27 +15463,25 @@ static double nsvcd__vertices_apart(const nsvcd__proof *p, const nsvcd__transfor
   return sqrt((double)least);
 }
 
-// How near the bodies come for certain, and a little more: the least distance between the vertices
-// of two patches, when and where these are nearest to each other. They are found in turns: which
-// are the nearest at a time, and when they are nearest. Where `measure` begins. If that is within
-// the clearance, triangles of these patches are a contact, which is looked for there.
-static NSVCD__NOINLINE double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__search *search) {
-  nsvcd__sphere moving = nsvcd__body_sphere(p->moving.body);
-  nsvcd__sphere fixed;
-  // they may not have been: bodies that never come near are told apart without
-  nsvcd__cut_segments(p->ask.motion, p->given.lengths, 0, search);
-  double tick = nsvcd__groups_nearest(p, search, &fixed);
+// An upper bound of the least distance, from which its search begins: a distance that vertices of
+// two patches have, and a little more. The patches, and the time when they are nearest, are found
+// in turns. If the bound is within the clearance, triangles of these patches are a contact, which
+// is sought there.
+static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__proof *p, nsvcd__search *search) {
+  nsvcd__sphere moving, fixed;
+  double tick = 0;
   double least = HUGE_VAL;
   double fraction = 0;
   uint32_t from = 0;
   size_t nearest[2] = {0, 0};
+  // Bodies that never come near have been told apart without segments.
+  nsvcd__cut_segments(p->ask.motion, p->given.lengths, 0, search);
+  nsvcd__nearest_groups(p, search, &moving, &fixed);
   for (size_t turn = 0; turn < NSVCD__TURNS; turn++) {
+    float gap = HUGE_VALF;
     double u;
-    if (turn > 0) {
-      float gap = HUGE_VALF;
-      nsvcd__chords_in_all(search, moving);
-      (void)nsvcd__nearest_tick(search, fixed, &gap, &tick);
-    }
+    nsvcd__chords_in_all(search, moving);
+    (void)nsvcd__nearest_tick(search, fixed, &gap, &tick);
     const uint32_t first = nsvcd__arc_of(p->ask.motion, tick, &u);
     const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(p, first), u);
     const nsvcd__transform pose = nsvcd__transform_of(&at);
@@ -15551,15 +15490,15 @@ static NSVCD__NOINLINE double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__sea
     size_t j = 0;
     for (size_t round = 0; round < 2; round++) {
       const nsvcd__d3 seen = nsvcd__place_point(&back, nsvcd__d3_widen(fixed.centre));
-      i = nsvcd__patch_towards(&p->moving, nsvcd__f3_round(seen));
+      i = nsvcd__patch_near(&p->moving, nsvcd__f3_round(seen));
       moving = nsvcd__sphere_of(nsvcd__body_patches(p->moving.body), i);
-      j = nsvcd__patch_towards(&p->fixed, nsvcd__f3_transform(&pose, moving.centre));
+      j = nsvcd__patch_near(&p->fixed, nsvcd__f3_transform(&pose, moving.centre));
       fixed = nsvcd__sphere_of(nsvcd__body_patches(p->fixed.body), j);
     }
     const float lengths = p->given.lengths + nsvcd__f3_length(pose.position);
     const double rounding =
         (double)(4 * NSVCD__ROUNDING * lengths + 2 * nsvcd__quanta_of(p, i, j));
-    const double apart = 1.0001 * nsvcd__vertices_apart(p, &pose, i, j) + rounding;
+    const double apart = 1.0001 * nsvcd__vertex_distance(p, &pose, i, j) + rounding;
     if (!(apart < least)) continue;
     least = apart;
     fraction = u;
@@ -15574,9 +15513,9 @@ static NSVCD__NOINLINE double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__sea
   return p->known.has_contact ? p->known.found.distance : least;
 }
 
-// One pass: a search whose question shrinks, for a bracket as narrow as p->ask.measure. What was
-// known stays known, and what is found is added. Returns whether there was work enough; if so, they
-// come no nearer than p->low.
+// One pass: a search whose question shrinks, for a bracket as narrow as p->ask.measure. Adds what
+// it finds to what is known. Returns whether the budget sufficed; if so, they come no nearer than
+// p->low.
 static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__known known = p->known;
   const int is_named = known.has_contact || known.unresolved < NSVCD__NEVER;
@@ -15592,9 +15531,8 @@ static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *search) {
   return pass != NSVCD__EXHAUSTED;
 }
 
-// Makes the bracket as narrow as `finest`. Where half of the work is not enough for that, the rest
-// goes to brackets that get narrower and narrower: the last one that there was work enough for
-// stays.
+// Makes the bracket as narrow as `finest`. If half of the budget does not suffice for that, the
+// rest goes to brackets that get narrower and narrower; the last that was completed stays.
 static void nsvcd__narrow(nsvcd__proof *p, nsvcd__search *search, double finest) {
   p->ask.measure = finest;
   p->ask.limit = nsvcd__limit_after(p, p->given.work / 2);
@@ -15609,37 +15547,33 @@ static void nsvcd__narrow(nsvcd__proof *p, nsvcd__search *search, double finest)
 #endif  // NSVCD_NO_PROOF
 
 // -------------------------------------------------------------------------------------- proof/long
-// In: a question about a motion of any length. Out: the verdict; where asked, when they first meet,
-// and how near they come.
+// In: a question about a motion of any length. Out: the verdict; where asked, when the bodies first
+// meet, and how near they come.
 //
-// What is too long for one search (motion/choice) is searched interval by interval, in the order of
-// time, each as if it were all of the motion. The memory is that of one. The motion is free if all
-// intervals are; containment is decided once, at t = 0, for what is inside of what later on, and
-// not then, has crossed a surface in between. A contact in any interval answers a yes or no: so
-// the ends of the motion, where most are, are looked at first. The first contact is in the first
-// interval that has one; what could not be resolved before is the end of what is proven, and from
-// there on it is only asked whether they meet at all. The least distance is found as contacts lower
-// it: later intervals need only stay beyond.
+// A motion that is too long for one search (motion/choice) is searched interval by interval, in the
+// order of time, each as if it were all of the motion: memory is needed for one. The motion is free
+// if all intervals are. Containment is decided once, at t = 0: what is inside of what later on, and
+// not then, has crossed a surface in between. A contact in any interval answers a yes or no, so the
+// ends of the motion, where most contacts are, are tried first. The first contact is in the first
+// interval that has one. An interval that stays unresolved before it ends what is proven, and from
+// there on the question is only whether they meet at all. For the least distance each contact
+// lowers the bound, and later intervals need only stay beyond it.
 //
-// Most of a long motion is far from anything, or easy. So a *try* is about many more arcs than an
-// interval has, and takes a few units: if these are not enough it is searched in smaller parts.
+// Most of a long motion is far from anything, or easy. So a *try* takes many more arcs than an
+// interval has, with a small budget. If that does not suffice, it is searched in smaller parts.
 
 #ifndef NSVCD_NO_PROOF
-// A way through a motion: how many intervals in a row have been easy, and how many are to be before
-// the next try.
+// How fast intervals go through a motion: how many in a row have been easy, and how many must be
+// before the next try.
 typedef struct nsvcd__pace {
   uint32_t easy, wait;
 } nsvcd__pace;
 
-// Chooses the first interval: all of the motion, as a try.
-static nsvcd__pace nsvcd__first_interval(nsvcd__motion *motion, nsvcd__search *search) {
-  const nsvcd__pace pace = {0, 1};
-  nsvcd__choose_interval(motion, search, 0, (uint32_t)-1);
-  return pace;
-}
+// The arcs of the first interval: all of the motion, as a try.
+#define NSVCD__ALL_ARCS 0xffffffffu
 
-// Chooses the one that comes after: larger where those before took little, with segments that turn
-// less where the one before took much; where a try was in vain, a part of it.
+// Chooses the next interval: larger if those before took little work; with segments that turn less
+// if the one before took much; a part of a try that failed.
 static void nsvcd__next_interval(nsvcd__motion *motion, nsvcd__search *search, uint32_t until,
                                  int is_resolved, size_t units, nsvcd__pace *pace) {
   uint32_t arcs = motion->arcs;
@@ -15659,35 +15593,14 @@ static void nsvcd__next_interval(nsvcd__motion *motion, nsvcd__search *search, u
   if (motion->from < motion->ticks) nsvcd__choose_interval(motion, search, motion->from, arcs);
 }
 
-// How near the surfaces come in the interval that is chosen, at least, by where the bodies are.
-static float nsvcd__apart_until(const nsvcd__proof *p, uint32_t until) {
-  const nsvcd__motion *motion = p->ask.motion;
-  const float pushed_out = 1.0001f * nsvcd__f3_length(motion->push_out);
-  return nsvcd__interval_gap(motion, motion->from, until) - p->given.lengths - pushed_out;
+// The surfaces of bodies whose origins stay so far apart come no nearer than this.
+static float nsvcd__surface_gap(const nsvcd__proof *p, float origin_gap) {
+  const float pushed_out = 1.0001f * nsvcd__f3_length(p->ask.motion->push_out);
+  return origin_gap - p->given.lengths - pushed_out;
 }
 
-// Searches an interval, or tries a larger one. share: as p->ask.share, of an interval; 0: any
-// contact will do.
-static nsvcd__outcome nsvcd__prove_interval(nsvcd__proof *p, nsvcd__search *search,
-                                            double fraction) {
-  const int is_try = p->ask.motion->arcs > 1;
-  p->ask.is_brief = is_try;
-  p->ask.fraction = is_try ? 0 : fraction;
-  p->ask.after_unresolved = fraction > 0 ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.aside;
-  p->ask.limit = is_try ? nsvcd__limit_after(p, NSVCD__TRY) : p->ask.most;
-  if (p->ask.fraction > 0) return nsvcd__prove_first(p, search);
-  return nsvcd__prove_motion(p, search);
-}
-
-// A look at the ends of a motion.
-static int nsvcd__meets_at_ends(nsvcd__proof *p, nsvcd__search *search) {
-  const size_t fraction = p->given.aside;
-  const size_t units = fraction < NSVCD__END_BUDGET ? fraction : NSVCD__END_BUDGET;
-  return nsvcd__meets_at(p, search, 0, units) || nsvcd__meets_at(p, search, 1, units);
-}
-
-// A motion interval by interval, until a contact answers. What is known in the end is that of the
-// first interval that was not resolved, and a contact.
+// Searches a motion interval by interval, until a contact answers. In the end that contact is
+// known, and all else that is known is of the first interval that was not resolved.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
                                                              nsvcd__search *search) {
   nsvcd__motion *motion = p->ask.motion;
@@ -15695,10 +15608,14 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
   nsvcd__outcome outcome = NSVCD__RESOLVED;
   nsvcd__known open = p->known;
   double end = NSVCD__NEVER;
-  double fraction = asked;
+  double fraction = asked;  // 0: any contact will do
   int is_open = 0;
-  if (!(asked > 0) && nsvcd__meets_at_ends(p, search)) return NSVCD__ANSWERED;
-  nsvcd__pace pace = nsvcd__first_interval(motion, search);
+  const size_t units = p->given.aside < NSVCD__END_BUDGET ? p->given.aside : NSVCD__END_BUDGET;
+  for (int at_end = 0; at_end < 2 && !(asked > 0); at_end++) {
+    if (nsvcd__meets_at(p, search, at_end, units)) return NSVCD__ANSWERED;
+  }
+  nsvcd__pace pace = {0, 1};
+  nsvcd__choose_interval(motion, search, 0, NSVCD__ALL_ARCS);
   while (motion->from < motion->ticks) {
     const uint32_t until = search->begin[search->segments];
     const int is_try = motion->arcs > 1;
@@ -15706,8 +15623,15 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
     if (p->given.grows) p->ask.most = p->work + p->given.work;
     nsvcd__proof_restart(p);
     outcome = NSVCD__RESOLVED;
-    if (!(nsvcd__apart_until(p, until) > nsvcd__clearance(p)))
-      outcome = nsvcd__prove_interval(p, search, fraction);
+    const float gap = nsvcd__interval_gap(motion, motion->from, until);
+    if (!(nsvcd__surface_gap(p, gap) > nsvcd__clearance(p))) {
+      p->ask.is_brief = is_try;
+      p->ask.fraction = is_try ? 0 : fraction;
+      p->ask.after_unresolved = fraction > 0 ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.aside;
+      p->ask.limit = is_try ? nsvcd__limit_after(p, NSVCD__TRY) : p->ask.most;
+      outcome =
+          p->ask.fraction > 0 ? nsvcd__prove_first(p, search) : nsvcd__prove_motion(p, search);
+    }
     const int is_resolved =
         outcome == NSVCD__RESOLVED && !(p->known.unresolved < NSVCD__NEVER);
     const int has_contact = p->known.has_contact && !(is_try && fraction > 0);
@@ -15733,27 +15657,23 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
   return NSVCD__RESOLVED;
 }
 
+// Answers a question: do the bodies meet, and when?
 static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__motion *motion = p->ask.motion;
   const int in_order = p->ask.fraction > 0;
-  const float pushed_out = nsvcd__f3_length(motion->push_out);
-  const float apart = p->given.lengths + nsvcd__clearance(p) + 1.0001f * pushed_out;
-  nsvcd__outcome outcome;
+  const float gap = nsvcd__surface_gap(p, nsvcd__motion_gap(motion));
   p->ask.limit = p->given.work;
   p->ask.after_unresolved = in_order ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.aside;
-  if (nsvcd__motion_gap(motion) > apart) return NSVCD__FOUND_FREE;
+  if (gap > nsvcd__clearance(p)) return NSVCD__FOUND_FREE;
   const int is_long = nsvcd__is_long(motion, search);
   if (nsvcd__is_contained_at_start(p)) {
-    // a hit, whatever else; who asks for more than that is told of triangles, if some meet as well
+    // It is a hit. A question that asks for more gets triangles, if some meet as well.
     const int meets = p->given.tells && nsvcd__meets_at(p, search, 0, NSVCD__INSIDE_BUDGET);
     return meets ? NSVCD__FOUND_CONTACT : nsvcd__found_inside(p);
   }
-  if (is_long)
-    outcome = nsvcd__prove_intervals(p, search);
-  else if (in_order)
-    outcome = nsvcd__prove_first(p, search);
-  else
-    outcome = nsvcd__prove_and_look(p, search, p->given.work);
+  const nsvcd__outcome outcome = is_long    ? nsvcd__prove_intervals(p, search)
+                                 : in_order ? nsvcd__prove_first(p, search)
+                                            : nsvcd__prove_whole(p, search, p->given.work);
   const double clear = nsvcd__clear_until(p);
   if (outcome == NSVCD__ANSWERED) return NSVCD__FOUND_CONTACT;
   if (p->inside && clear > 0) return nsvcd__found_inside(p);
@@ -15764,14 +15684,15 @@ static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
 
 // ---- the least distance
 
-// The same interval by interval. What was named is divided by time: of what is left the share that
-// an interval has of the rest of the motion.
+// Narrows the bracket interval by interval. A budget that was given is divided by time: each
+// interval gets of what is left the share that it has of the rest of the motion.
 static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__search *search,
-                                                    double finest, nsvcd__pace *pace) {
+                                                    double finest) {
   nsvcd__motion *motion = p->ask.motion;
   const size_t most = p->ask.most;
   const size_t work = p->given.work;
   const double known = p->low;
+  nsvcd__pace pace = {0, 1};
   double low = p->high;
   int is_wide = 0;
   while (motion->from < motion->ticks) {
@@ -15785,7 +15706,8 @@ static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__sear
       p->given.work = p->work < most ? (size_t)(rest * (double)(most - p->work)) : 0;
     }
     p->ask.most = p->work + p->given.work;
-    p->low = nsvcd__max(known, (double)nsvcd__apart_until(p, until));
+    const float gap = nsvcd__interval_gap(motion, motion->from, until);
+    p->low = nsvcd__max(known, (double)nsvcd__surface_gap(p, gap));
     p->wide = 0;
     if (p->low < p->high && !(is_named && p->high - p->low <= finest)) {
       if (motion->arcs > 1) {
@@ -15798,7 +15720,7 @@ static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__sear
     }
     if (is_resolved) low = nsvcd__min(low, p->low);
     is_wide |= p->wide;
-    nsvcd__next_interval(motion, search, until, is_resolved, p->work - before, pace);
+    nsvcd__next_interval(motion, search, until, is_resolved, p->work - before, &pace);
   }
   p->given.work = work;
   p->ask.most = most;
@@ -15806,23 +15728,21 @@ static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__sear
   p->wide = is_wide && p->high - p->low > finest;
 }
 
-// Brackets the least distance over the motion, when it is known whether they come within the
-// clearance that is asked for.
+// Brackets the least distance over the motion, once it is known whether they come within the
+// clearance.
 static NSVCD__NOINLINE void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search,
                                            nsvcd__finding verdict, double finest) {
   nsvcd__motion *motion = p->ask.motion;
   int is_named = p->known.has_contact || p->known.unresolved < NSVCD__NEVER;
-  const float pushed_out = nsvcd__f3_length(motion->push_out);
-  const float gap = nsvcd__motion_gap(motion) - p->given.lengths - 1.0001f * pushed_out;
+  const float gap = nsvcd__surface_gap(p, nsvcd__motion_gap(motion));
   p->low = nsvcd__max(verdict == NSVCD__FOUND_FREE ? p->given.clearance : 0, (double)gap);
   const int is_long = nsvcd__is_long(motion, search);
-  nsvcd__pace pace = {0, 0};
-  if (is_long) pace = nsvcd__first_interval(motion, search);
-  p->high = is_named ? p->known.found.distance : nsvcd__guess_clearance(p, search);
+  if (is_long) nsvcd__choose_interval(motion, search, 0, NSVCD__ALL_ARCS);
+  p->high = is_named ? p->known.found.distance : nsvcd__bound_distance(p, search);
   is_named = is_named || p->known.has_contact;
   if (is_named && !(p->high - p->low > finest)) return;
   if (is_long)
-    nsvcd__narrow_intervals(p, search, finest, &pace);
+    nsvcd__narrow_intervals(p, search, finest);
   else
     nsvcd__narrow(p, search, finest);
 }
@@ -15832,25 +15752,25 @@ static NSVCD__NOINLINE void nsvcd__measure(nsvcd__proof *p, nsvcd__search *searc
 // In: a question with a slop. Out: the question about a body pushed out of what it touches at the
 // start.
 //
-// What carries a body must not stop it. Which contacts are those? The body is asked about as if it
-// were pushed out of all that it touches at the start, by a vector v that has the slop's length
-// along every normal there. That is a motion like any other, and what is proven of it is proven:
-// the body stays clear of everything when displaced by v, so that, undisplaced, it goes no deeper
-// than |v| into anything. What presses in deeper than the slop at the start has no such v, nor has
-// what is held from opposite sides, and is hit as ever. v is constant as the fixed body sees it.
+// What carries a body must not stop it. Which contacts are those? The proof is about the body
+// displaced by a vector v that has the slop's length along every normal that it touches at the
+// start. That is a motion like any other, and what is proven of it is proven: the displaced body
+// stays clear of everything, so the body itself goes no deeper than |v| into anything. There is no
+// such v for what presses in deeper than the slop, or is held from opposite sides: that is hit as
+// ever. v is constant as the fixed body sees it.
 
 #ifndef NSVCD_NO_PROOF
-// How good a push-out along a direction is: twice how many touches it undoes, how far it has to go
-// for that, and how many of these have a face that says so. A touch counts once where the push-out
-// goes against its faces: what is beyond a face already, or round and its middle is, would go
-// further in.
+// How good a push-out along a direction is.
 typedef struct nsvcd__undoing {
   nsvcd__d3 n;
-  size_t count, faces;
-  double distance;
+  // Twice how many touches it undoes. A touch counts once if the push-out goes against its faces:
+  // what is beyond a face already, or is round and its middle is, would go further in.
+  size_t count;
+  size_t faces;     // touches with a face of about this normal
+  double distance;  // how far it has to go
 } nsvcd__undoing;
 
-// Does a push-out along n go against all faces of a touch? What has no area has none.
+// Does a push-out along n go against all faces of a touch? A triangle without area has none.
 static int nsvcd__is_against(nsvcd__d3 n, const nsvcd__triangle_contact *t) {
   int against = 0;
   for (size_t i = 0; i < 2; i++) {
@@ -15861,8 +15781,8 @@ static int nsvcd__is_against(nsvcd__d3 n, const nsvcd__triangle_contact *t) {
   return against;
 }
 
-// Takes a direction, unit, that is better than the best so far: that undoes more; of equals, that
-// goes less far; and of those that go as far, that more faces say.
+// Takes a direction, unit, if it is better than the best so far: if it undoes more; of equals, if
+// it goes less far; of those that go as far, if more faces have it.
 static void nsvcd__try_push_out(const nsvcd__proof *p, nsvcd__d3 n, nsvcd__undoing *best) {
   const double same = nsvcd__epsilon(p) + 0.01 * nsvcd__max(best->distance, 0);
   nsvcd__undoing by = {n, 0, 0, -HUGE_VAL};
@@ -15873,7 +15793,7 @@ static void nsvcd__try_push_out(const nsvcd__proof *p, nsvcd__d3 n, nsvcd__undoi
     if (by.count + left < best->count) return;
     if (by.count + left == best->count && by.distance > best->distance + same) return;
     if (!nsvcd__undoes(p, n, t)) continue;
-    const double distance = nsvcd__push_out_along(n, t);
+    const double distance = nsvcd__depth_along(n, t);
     by.count += distance < 0 && !p->by_faces && nsvcd__is_against(n, t) ? 1u : 2u;
     by.faces +=
         nsvcd__d3_dot(n, t->directions[0]) > 0.9 || nsvcd__d3_dot(n, t->directions[1]) > 0.9;
@@ -15886,8 +15806,8 @@ static void nsvcd__try_push_out(const nsvcd__proof *p, nsvcd__d3 n, nsvcd__undoi
   *best = by;
 }
 
-// Of the normals of what touches, and the directions across an edge of each, the one that undoes
-// the most touches, by the shortest way; its count is 0 if none undoes any.
+// The best of the normals of all touches and of the directions across an edge of each. Its count is
+// 0 if none undoes any touch.
 static nsvcd__undoing nsvcd__best_push_out(const nsvcd__proof *p) {
   nsvcd__undoing best = {{0, 0, 0}, 0, 0, HUGE_VAL};
   for (size_t k = 0; k < p->contact_count; k++) {
@@ -15905,7 +15825,7 @@ static nsvcd__undoing nsvcd__best_push_out(const nsvcd__proof *p) {
   return best;
 }
 
-// Finds directions that undo all that was gathered. 0: there are none for something, or too many.
+// Finds directions that undo all touches. Returns 0 if nothing undoes one, or it takes too many.
 static int nsvcd__choose_push_outs(nsvcd__proof *p) {
   if (p->too_deep) return 0;
   while (p->contact_count > 0) {
@@ -15925,8 +15845,9 @@ static int nsvcd__choose_push_outs(nsvcd__proof *p) {
   return 1;
 }
 
-// The shortest vector, nearly, that has `least`, and as much more as the depths say if these count,
-// along all normals that were gathered. 0 if there is none of less than four times the longest.
+// Nearly the shortest vector that has at least `least` along all known normals, plus, with
+// by_depth, the depth along each: projections onto one half space after another (the relaxation
+// method, Agmon 1954). 0 if there is none below four times the longest of these.
 static nsvcd__d3 nsvcd__push_out(const nsvcd__proof *p, double least, int by_depth) {
   nsvcd__d3 push_out = {0, 0, 0};
   double longest = 0;
@@ -15945,18 +15866,17 @@ static nsvcd__d3 nsvcd__push_out(const nsvcd__proof *p, double least, int by_dep
   return nsvcd__d3_of(0, 0, 0);
 }
 
-// Lifts what rests off what it touches: by nothing at first, and whenever something touches when so
-// pushed out, by more, until nothing does. Triangles smaller than the slop can be separated along a
-// wall that others of them stay in touch with, and there may be too many touches to look at
-// together: so what has been found is tried. If there is no way off all that was found, then what
-// was found first may have been the wrong way, and is forgotten, once. Returns 0 if there is no way
-// off.
+// Pushes a body at rest out of what it touches: by nothing at first, and by more as long as
+// something touches. Triangles smaller than the slop can be separated along a wall that their
+// neighbours still touch, and there may be too many touches to collect at once: so each push-out is
+// tried. If the directions known have no push-out in common, the first one may be wrong, and is
+// forgotten, once. Returns 0 if there is no push-out.
 static int nsvcd__push_out_still(nsvcd__proof *p, nsvcd__search *search,
                                  nsvcd__motion *still) {
   p->normal_count = 0;
   still->push_out = nsvcd__f3_of(0, 0, 0);
-  // what is about to touch, or where a motion may have ended before, is pushed out of too; and may
-  // not touch afterwards
+  // Also what is about to touch, or where an earlier motion may have ended, is pushed out of, and
+  // may not touch afterwards.
   const double size = (double)p->given.lengths + p->given.radius;
   const double near_by = nsvcd__min(0.05 * p->ask.slop, 0.02 * size);
   double beside = nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * p->ask.slop));
@@ -15977,47 +15897,46 @@ static int nsvcd__push_out_still(nsvcd__proof *p, nsvcd__search *search,
   }
 }
 
-// The normal along which a touch is undone first, by planes normal to it.
-static size_t nsvcd__way_of(const nsvcd__proof *p, const nsvcd__triangle_contact *t) {
-  size_t best = 0;
-  double least = HUGE_VAL;
-  for (size_t k = 0; k < p->normal_count; k++) {
-    const double distance = nsvcd__push_out_along(p->normals[k], t);
-    if (distance < least) best = k;
-    least = nsvcd__min(least, distance);
-  }
-  return best;
-}
-
-// What is not in touch at the start may be where the body is pushed out to, and there may have been
-// too many touches: so it is pushed out by little more than the depths that are known, to see what
-// it touches there, until that is no more. Triangles that follow each other, as on a slope, each
-// come free soon: so that little more doubles as long as the depth grows.
+// Makes the depths known as exact as need be. What is not in touch at the start may be where the
+// body is pushed out to, and not all touches may have been collected. So the body is pushed out by
+// little more than the known depths, to see what it touches there, until nothing does. Triangles
+// that follow each other, as on a slope, each come free soon: so the little more doubles as long as
+// depths grow.
 static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion *still) {
   const nsvcd__f3 push_out = still->push_out;
   const double least_more = 0.5 * nsvcd__epsilon(p);
   double more = least_more;
+  double before = 0;
   p->ask.clearance = p->given.clearance;
+  for (size_t k = 0; k < p->normal_count; k++) before += p->depths[k];
   for (int round = 0; round < NSVCD__DEEPEN; round++) {
-    const nsvcd__d3 least = nsvcd__push_out(p, more, 1);
-    double before = 0;
     double after = 0;
-    for (size_t k = 0; k < p->normal_count; k++) before += p->depths[k];
-    still->push_out = nsvcd__f3_round(least);
+    still->push_out = nsvcd__f3_round(nsvcd__push_out(p, more, 1));
     (void)nsvcd__prove_anew(p, search);
-    // what no plane normal to a push-out parts is out of the way after it all the same
-    for (size_t n = 0; n < p->contact_count; n++)
-      nsvcd__note_depth(p, nsvcd__way_of(p, &p->of.touches[n]), &p->of.touches[n]);
+    // A touch gets out of the way along the normal that undoes it first, even if no plane normal to
+    // that separates it.
+    for (size_t n = 0; n < p->contact_count; n++) {
+      const nsvcd__triangle_contact *t = &p->of.touches[n];
+      size_t best = 0;
+      double least = HUGE_VAL;
+      for (size_t k = 0; k < p->normal_count; k++) {
+        const double distance = nsvcd__depth_along(p->normals[k], t);
+        if (distance < least) best = k;
+        least = nsvcd__min(least, distance);
+      }
+      nsvcd__note_depth(p, best, t);
+    }
     for (size_t k = 0; k < p->normal_count; k++) after += p->depths[k];
     const int is_deeper = after > before;
     if (!is_deeper && more <= nsvcd__max(least_more, 0.002 * after)) break;
     more = is_deeper ? 2 * more : nsvcd__max(least_more, 0.125 * more);
+    before = after;
   }
   still->push_out = push_out;
 }
 
-// Lifts the motion off what it touches at its start, by the slop. Where something is in the way of
-// that, and nothing is too deep, by what is needed.
+// Pushes the motion out of what it touches at its start, by the slop; or, if something is in the
+// way of that and nothing is too deep, by what is needed.
 static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__motion *whole = p->ask.motion;
   nsvcd__motion start = nsvcd__end_of(whole, 0);
@@ -16028,7 +15947,7 @@ static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__proof *p, nsvcd__searc
   p->needed = 0;
   int is_free = nsvcd__push_out_still(p, search, &start);
   if (!is_free && !p->too_deep) {
-    // the shortest ways may not go together
+    // The shortest push-outs may not go together.
     p->by_faces = 1;
     p->needed = 0;
     is_free = nsvcd__push_out_still(p, search, &start);
@@ -16050,20 +15969,20 @@ static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__proof *p, nsvcd__searc
 // ----------------------------------------------------------------------------------- proof/normals
 // In: a contact, and the motion that led to it. Out: its normal.
 //
-// Just before two triangles meet, the direction between their nearest points is one along which
-// they are separated still: of all that are left at the contact, the one most against the motion.
-// Where a corner comes to a face it is the face's normal, on the side that the corner comes from;
-// where an edge crosses an edge, across both; where a corner comes to a corner, against the motion.
-// A contact may be found a little after they have met: so one of them is taken back, as fast as the
-// contact point goes, until they are separated. Where they have been in touch from the start the
-// motion tells nothing: then it is the direction along which they are the least deep.
+// Just before two triangles meet, the direction between their nearest points still separates them:
+// of all directions left at the contact, it is the one most against the motion. Where a corner
+// comes to a face it is the face's normal, on the side that the corner comes from; where an edge
+// crosses an edge, across both; where a corner comes to a corner, against the motion. A contact may
+// be found a little after they have met: so one triangle is moved back, with the contact point's
+// velocity, until they are separated. If they have touched from the start, the motion tells
+// nothing: then it is the direction along which they are the least deep.
 //
 // Triangles within the clearance that do not meet have a direction: their nearest points'. It is
 // along the motion only if they have been nearer, and then the contact is moved to before that.
 
 #ifndef NSVCD_NO_PROOF
-// The arc that is under way at a time counted in ticks or, where that is told as a keyframe, ends
-// there: what comes to a contact comes by that one.
+// The arc of a time in ticks; at a keyframe, the arc that ends there: by that one the body came to
+// the contact.
 static const nsvcd__arc *nsvcd__arc_before(nsvcd__proof *p, double tick, double *u) {
   uint32_t first = nsvcd__arc_of(p->ask.motion, tick, u);
   if (first > 0 && tick - (double)first < 6e-8 * (double)p->ask.motion->ticks) {
@@ -16073,7 +15992,7 @@ static const nsvcd__arc *nsvcd__arc_before(nsvcd__proof *p, double tick, double 
   return nsvcd__arc_at(p, first);
 }
 
-// The triangles of a contact at a time, and how the bodies go then.
+// The triangles of a contact at a time, and how the bodies move then.
 typedef struct nsvcd__approach {
   nsvcd__triangle_pair pair;
   nsvcd__triangle_contact contact;
@@ -16095,17 +16014,10 @@ static NSVCD__NOINLINE void nsvcd__approach_at(nsvcd__proof *p,
   out->twist = nsvcd__twist_at(arc, out->u);
 }
 
-// Do two points come apart?
-static int nsvcd__recede(const nsvcd__twist *twist, const nsvcd__nearest *points) {
-  const nsvcd__d3 apart = nsvcd__d3_sub(points->on_a, points->on_b);
-  const nsvcd__d3 speed = nsvcd__twist_of(twist, points->on_b);
-  return nsvcd__d3_dot(speed, apart) > 0;
-}
-
 // Moves a contact to an earlier time, from `since` on, when its triangles were as near and did not
-// come apart; or, if they meet, to when they began to. Where they were in touch then, and have come
-// apart all the while, it stays.
-static NSVCD__NOINLINE void nsvcd__turn_back(nsvcd__proof *p, double since) {
+// come apart; if they meet, to when they began to. It stays if they touched at `since` and have
+// come apart ever since.
+static NSVCD__NOINLINE void nsvcd__move_back(nsvcd__proof *p, double since) {
   nsvcd__pair_contact *found = &p->known.found;
   nsvcd__pair_contact sooner = *found;
   double early = since;
@@ -16115,9 +16027,11 @@ static NSVCD__NOINLINE void nsvcd__turn_back(nsvcd__proof *p, double since) {
     nsvcd__approach then;
     nsvcd__approach_at(p, found, tick, &then);
     const nsvcd__nearest nearest = nsvcd__nearest_of(then.contact.moving, then.contact.fixed);
+    const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+    const nsvcd__d3 speed = nsvcd__twist_of(&then.twist, nearest.on_b);
     const double gap = sqrt(nearest.square);
     const int are_near = k == 0 || gap <= found->distance + then.pair.rounding;
-    const int nearing = gap > then.pair.rounding && !nsvcd__recede(&then.twist, &nearest);
+    const int nearing = gap > then.pair.rounding && !(nsvcd__d3_dot(speed, apart) > 0);
     if (are_near && k > 0) sooner = nsvcd__contact_at(p, &then.pair, then.u, &nearest);
     if (are_near && nearing) break;
     *(are_near ? &late : &early) = tick;
@@ -16126,8 +16040,8 @@ static NSVCD__NOINLINE void nsvcd__turn_back(nsvcd__proof *p, double since) {
   if (early < late) *found = sooner;
 }
 
-// The directions along which two triangles that touch may be separated: two normals and nine
-// products of edges, both ways. 0: none.
+// The separating axes of two triangles that touch: two normals and nine products of edges, both
+// ways. 0: edges are parallel.
 enum { NSVCD__AXES = 22 };
 static nsvcd__d3 nsvcd__axis_apart(const nsvcd__triangle_contact *t, size_t k) {
   const nsvcd__d3 n =
@@ -16135,41 +16049,40 @@ static nsvcd__d3 nsvcd__axis_apart(const nsvcd__triangle_contact *t, size_t k) {
   return nsvcd__d3_scale(n, k % 2 ? -1 : 1);
 }
 
-// The direction at which two triangles met that touch, if the moving one came straight along so
-// much of `direction` or less. 0: it did not. Nearer than they are known it cannot be told which of
-// them a corner met: so it is that a little before.
+// The normal at which two triangles met that touch, if the moving one came straight along `travel`,
+// by `most` times that at most. 0: it did not. Nearer than the triangles are known, nothing tells
+// which of them a corner met: so it is the normal a little before.
 static NSVCD__NOINLINE int nsvcd__met_along(const nsvcd__proof *p, const nsvcd__approach *a,
-                                            nsvcd__d3 direction, double most,
-                                            nsvcd__d3 *normal) {
+                                            nsvcd__d3 travel, double most, nsvcd__d3 *normal) {
   const nsvcd__triangle_contact *t = &a->contact;
-  const double close = 16 * nsvcd__epsilon(p) / nsvcd__d3_length(direction);
-  double back = HUGE_VAL;  // where they met, as a share of the way
+  const double close = 16 * nsvcd__epsilon(p) / nsvcd__d3_length(travel);
+  double back = HUGE_VAL;  // where they met, as a fraction of `travel`
   double before = 0;
   nsvcd__d3 moved[3];
   for (size_t k = 0; k < NSVCD__AXES; k++) {
     const nsvcd__d3 n = nsvcd__axis_apart(t, k);
-    const double fall = -nsvcd__d3_dot(n, direction);
-    const double deep = nsvcd__push_out_along(n, t);
+    const double fall = -nsvcd__d3_dot(n, travel);
+    const double deep = nsvcd__depth_along(n, t);
     if (!(fall > 0) || !(deep < back * fall)) continue;
     back = deep / fall;
     before = nsvcd__max(close, 1e4 * a->pair.rounding / fall);
     *normal = n;
   }
   if (!(back < most)) return 0;
-  const nsvcd__d3 off = nsvcd__d3_scale(direction, back + before);
+  const nsvcd__d3 off = nsvcd__d3_scale(travel, back + before);
   for (int n = 0; n < 3; n++) moved[n] = nsvcd__d3_sub(t->moving[n], off);
   const nsvcd__nearest nearest = nsvcd__nearest_of(moved, t->fixed);
   const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
-  if (nsvcd__d3_dot(apart, direction) < 0) *normal = nsvcd__d3_unit(apart, *normal);
+  if (nsvcd__d3_dot(apart, travel) < 0) *normal = nsvcd__d3_unit(apart, *normal);
   return 1;
 }
 
 // The direction along which two triangles that touch are the least deep in each other; of several
-// the one most against `direction`. A face of a closed surface has one side, and no direction is
+// the one most against `travel`. A face of a closed surface has one side, and the direction is not
 // against both faces.
 static NSVCD__NOINLINE nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p,
                                                    const nsvcd__approach *a,
-                                                   nsvcd__d3 direction) {
+                                                   nsvcd__d3 travel) {
   const int moving_closed = nsvcd__moving_closed(p, &a->pair);
   const int fixed_closed = nsvcd__fixed_closed(p, &a->pair);
   const nsvcd__triangle_contact *t = &a->contact;
@@ -16183,8 +16096,8 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p,
     int is_out = out_of_a || out_of_b;
     if (k < 4) is_out = k < 2 ? out_of_b : out_of_a;
     if (!is_out || !(nsvcd__d3_dot(n, n) > 0.5)) continue;
-    const double depth = nsvcd__push_out_along(n, t);
-    const double more = nsvcd__d3_dot(nsvcd__d3_sub(best, n), direction);
+    const double depth = nsvcd__depth_along(n, t);
+    const double more = nsvcd__d3_dot(nsvcd__d3_sub(best, n), travel);
     if (depth > least - same && !(depth < least + same && more > 0)) continue;
     best = n;
     least = nsvcd__min(least, depth);
@@ -16192,37 +16105,37 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p,
   return best;
 }
 
-// The direction at which the triangles of the contact that is known met, if they did not before
-// `since`; or, if they were free of each other then, at some time.
+// The normal at which the triangles of the known contact met, if that was after `since`, or, if
+// they were free of each other then, at any time. 0: it was not.
 static int nsvcd__normal_met(nsvcd__proof *p, double since, int is_free,
                              nsvcd__approach *now) {
   nsvcd__pair_contact *found = &p->known.found;
   nsvcd__approach_at(p, found, found->tick, now);
   const nsvcd__d3 speed = nsvcd__twist_of(&now->twist, found->point);
-  const nsvcd__d3 direction = nsvcd__d3_scale(speed, found->tick - since);
-  return nsvcd__met_along(p, now, direction, is_free ? HUGE_VAL : 1, &found->normal);
+  const nsvcd__d3 travel = nsvcd__d3_scale(speed, found->tick - since);
+  return nsvcd__met_along(p, now, travel, is_free ? HUGE_VAL : 1, &found->normal);
 }
 
-// Do two times, in ticks, fall into different arcs?
+// Are two times, in ticks, in different arcs?
 static int nsvcd__has_turned(const nsvcd__proof *p, double since, double until) {
   double u;
   const uint32_t first = nsvcd__arc_of(p->ask.motion, since, &u);
   return first != nsvcd__arc_of(p->ask.motion, until, &u);
 }
 
-// Gives the contact that is known its normal.
+// Gives the known contact its normal.
 static NSVCD__NOINLINE void nsvcd__resolve_normal(nsvcd__proof *p) {
   nsvcd__pair_contact *found = &p->known.found;
   const double until = nsvcd__max(nsvcd__min(nsvcd__clear_until(p), found->tick), 0);
   const double since = p->given.fraction > 0 ? until : 0;
   const int is_free = since > 0 || (p->given.fraction > 0 && p->starts_free);
   nsvcd__approach now;
-  // what comes to a pose and goes back may have been found on the way back
+  // What comes to a pose and goes back may have been found on its way back.
   const int has_turned = is_free && nsvcd__has_turned(p, since, found->tick);
-  if (found->distance > 0 || has_turned) nsvcd__turn_back(p, since);
+  if (found->distance > 0 || has_turned) nsvcd__move_back(p, since);
   if (found->distance > 0) return;
   if (has_turned && nsvcd__has_turned(p, since, found->tick)) {
-    // these met on the way back alone: but others of the bodies on the way there
+    // These met on the way back alone, but others did on the way there.
     nsvcd__approach_at(p, found, since, &now);
     const nsvcd__nearest nearest = nsvcd__nearest_of(now.contact.moving, now.contact.fixed);
     const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
@@ -16231,8 +16144,8 @@ static NSVCD__NOINLINE void nsvcd__resolve_normal(nsvcd__proof *p) {
   }
   if (nsvcd__normal_met(p, since, 0, &now)) return;
   if (is_free) {
-    // it has turned since, and they may come apart again
-    nsvcd__turn_back(p, since);
+    // The motion has turned since, and they may come apart again.
+    nsvcd__move_back(p, since);
     if (nsvcd__normal_met(p, since, 1, &now)) return;
   }
   const nsvcd__d3 speed = nsvcd__twist_of(&now.twist, found->point);
@@ -17393,11 +17306,12 @@ static NSVCD__NOINLINE void nsvcd__decoder_run(const nsvcd__decoder *decoder, co
 
 // -------------------------------------------------------------------------------------- query/task
 // In: two bodies and a motion. Out: an answer, by proof (proof/proof) or by the network
-// (NeuralSVCD, algorithm 1). nsvcd_sweep stands at the end. A question goes through these phases:
+// (NeuralSVCD, algorithm 1). This room has what a question needs, and its memory; query/question
+// takes it through these phases:
 //
 //   check       is it in order, which method can answer it, and is the workspace large enough?
-//   lay out     what it needs, and where in the workspace that is
 //   who moves   of its two bodies; all is computed in the other's frame and units
+//   lay out     what it needs, and where in the workspace that is
 //   answer      by proof, or by the network
 //   write       what was found about moving and fixed, as facts about a and b
 //
@@ -17416,49 +17330,44 @@ static NSVCD__NOINLINE void nsvcd__decoder_run(const nsvcd__decoder *decoder, co
 //
 // The search finds pairs of patches whose balls meet. The deepest of them make the shortlist. The
 // ranker, which is the tiny decoder, scores these while the search goes on, and the chosen decoder
-// judges the K most suspicious. K is network.pairs, NSVCD_DEFAULT_PAIRS where nothing is said. That
-// a motion is cut into 16 to 64 segments stands in *broad phase*, what goes through the decoder at
-// once (NSVCD__BATCH, NSVCD__ROWS) in *decoder*, and what a proof may take in *proof*.
+// judges the K most suspicious. K is network.pairs, by default NSVCD_DEFAULT_PAIRS. The broad phase
+// says how a motion is cut, into 16 to 64 segments; network/decoder how much goes through a decoder
+// at once (NSVCD__BATCH, NSVCD__ROWS); and proof/proof what a proof may take.
 
-// pairs on the shortlist, times K; of the tiny decoder, which needs none, K: nsvcd__settings_of,
-// nsvcd__needs_of
+// Pairs on the shortlist, times K. The tiny decoder needs none: K.
 #define NSVCD__SHORTLIST 4
-// new pairs that are worth the first look by the ranker, before the search is done. Later looks
-// wait for NSVCD__BATCH: nsvcd__search_and_judge
+// New pairs that are worth a first run of the ranker before the search is done. Later runs wait for
+// NSVCD__BATCH pairs.
 #define NSVCD__FIRST_BATCH 8
-// pairs that such looks may take, times the shortlist: nsvcd__search_and_judge
+// Pairs that runs before the end of the search may take, times the shortlist.
 #define NSVCD__RANKED_TWICE 2
-// pairs that the chosen decoder sees at once, until one is clear: nsvcd__judge; and pairs that are
-// kept where the last of a batch collided: nsvcd__collides_again
+// Pairs that the chosen decoder gets at once, until one is clear; and pairs that are kept where the
+// last of a batch collided.
 #define NSVCD__PORTION 4
-// that patches swell before planes separate them, shares of their radii, at N = 32 and less the
-// more there are: at a recall of 0.999, and of 0.9999
+// By how much patches are inflated before planes separate them, as a fraction of their radii, at
+// N = 32, and less the more patches there are: at a recall of 0.999, and of 0.9999.
 #define NSVCD__INFLATE 0.04f
 #define NSVCD__MOST_INFLATE 0.1f
-// and where a distance is asked for: patches are told of within their radii
+// The same where a distance is asked for: the decoder knows distances up to a patch's radius.
 #define NSVCD__INFLATE_DISTANCE 1.0f
-// a logit so far from 0 is clear. A clear collision needs no second pair (nsvcd__judge), and what
-// is clear to the ranker no second decoder (nsvcd__is_clear): 37,000 answers on held-out
-// sets, N = 128 to 512, are the same as with twice this and the next, but for four
+// A logit this far from 0 is clear. A clear collision needs no second pair, and what is clear to
+// the ranker no second decoder: 37,000 answers on held-out sets, N = 128 to 512, are the same as
+// with twice this and twice the next, but for four.
 #define NSVCD__CLEAR_LOGIT 3.0f
-// the same in the first pair of groups, where planes are not asked yet: at 3 earlier weights
-// stopped one free motion of 2,000, 2 mm from contact, more; nsvcd__search_and_judge
+// The same in the first pair of groups, where planes are not asked yet: at 3, earlier weights
+// stopped one more free motion of 2,000, 2 mm from contact.
 #define NSVCD__FIRST_CLEAR 4.0f
-// times that the place where the last of a batch collided may mislead before it is forgotten:
-// nsvcd__answer_by_network
+// How often the patches where the last of a batch collided may mislead before they are forgotten.
 #define NSVCD__MISLEADS 2
 
 // The network's options, with the defaults filled in.
 typedef struct nsvcd__settings {
-  size_t pairs;  // K
-  // pairs that are kept
-  size_t shortlist;
+  size_t pairs;      // K
+  size_t shortlist;  // pairs that are kept
   const nsvcd__decoder *decoder, *ranker;
   int int8;
-  // subtracted from the decoder's logit
-  float threshold;
-  // of patches, shares of their radii, before planes separate them
-  float inflate;
+  float threshold;  // subtracted from the decoder's logit
+  float inflate;    // as NSVCD__INFLATE, for these bodies
 } nsvcd__settings;
 
 // The candidate that an answer is about, and the decoder that gave its logit.
@@ -17474,33 +17383,28 @@ typedef struct nsvcd__decisive {
 typedef struct nsvcd__task {
   const nsvcd_body *moving, *fixed;
   nsvcd__motion motion;
-  int swapped;  // the moving body is b, not a
-  // extents of both bodies, in the fixed one's units
-  float lengths;
+  int swapped;          // the moving body is b, not a
+  float lengths;        // extents of both bodies, in the fixed one's units
   nsvcd_method method;  // PROOF or NETWORK
-  // the caller's
   const nsvcd_question *question;
 #ifndef NSVCD_NO_NETWORK
-  // of the network
   nsvcd__settings settings;
-  // written unless NULL
-  nsvcd__decisive *decisive;
+  nsvcd__decisive *decisive;  // written unless NULL
 #if NSVCD__ROWS == 1
-  // (DECODER_IN) the decoder's inputs, in memory that the search has no need of between two groups:
+  // (DECODER_IN) the decoder's inputs, in memory that the search does not need between two groups:
   // stack is scarce where rows go one by one
   float *row;
 #endif
 #endif
 } nsvcd__task;
 
-// What a workspace holds, at its beginning.
+// What a workspace begins with. The network's memory and the proof's are the same, for one follows
+// the other.
 typedef struct nsvcd__query {
   nsvcd__search broad_phase;
   nsvcd__task task;
-  // The memory of the network and that of the proof are in one place, for one follows the other.
 #ifndef NSVCD_NO_NETWORK
-  // (shortlist)
-  nsvcd__candidate *kept;
+  nsvcd__candidate *kept;  // (shortlist)
 #endif
 #ifndef NSVCD_NO_PROOF
   nsvcd__proof *proof;
@@ -17508,65 +17412,53 @@ typedef struct nsvcd__query {
 #endif
 } nsvcd__query;
 
-// What NSVCD_PROOF_WORKSPACE_BYTES and NSVCD_NETWORK_WORKSPACE_BYTES count on; where this does not
+// NSVCD_PROOF_WORKSPACE_BYTES and NSVCD_NETWORK_WORKSPACE_BYTES count on these. Where this does not
 // compile they are wrong.
-typedef char nsvcd__constants_hold
-    [sizeof(nsvcd__query) + 3 * NSVCD_ALIGNMENT + NSVCD__PASSED_OVER <= 1088 &&
-             sizeof(nsvcd__segments) <= 148 * 16 && sizeof(nsvcd__chords) <= 512 &&
-             sizeof(nsvcd__cut) <= 16 * 512 && NSVCD__TILE_SLOTS == 32 &&
-             NSVCD_ALIGNMENT == sizeof(uint64_t)
-         ? 1
-         : -1];
+#define NSVCD__MUST_HOLD(condition) ((condition) ? 1 : -1)
+typedef char nsvcd__constants_hold[NSVCD__MUST_HOLD(
+    sizeof(nsvcd__query) + 3 * NSVCD_ALIGNMENT + NSVCD__PASSED_OVER <= 1088 &&
+    sizeof(nsvcd__segments) <= 148 * 16 && sizeof(nsvcd__chords) <= 512 &&
+    sizeof(nsvcd__cut) <= 16 * 512 && NSVCD__TILE_SLOTS == 32 &&
+    NSVCD_ALIGNMENT == sizeof(uint64_t))];
 #ifndef NSVCD_NO_PROOF
-typedef char nsvcd__proof_constants_hold
-    [sizeof(nsvcd__proof) <= 24832 && sizeof(nsvcd__interval) <= 168 ? 1 : -1];
+typedef char nsvcd__proof_constants_hold[NSVCD__MUST_HOLD(sizeof(nsvcd__proof) <= 24832 &&
+                                                          sizeof(nsvcd__interval) <= 168)];
 #endif
 #ifndef NSVCD_NO_NETWORK
-typedef char
-    nsvcd__network_constants_hold[NSVCD__SHORTLIST * sizeof(nsvcd__candidate) <= 112 &&
-                                          sizeof(nsvcd__plane_cache) <= 576 &&
-                                          NSVCD__LATENT == 40 &&
-                                          sizeof(float) * NSVCD__DECODER_IN <=
-                                              sizeof(uint16_t) * NSVCD__GROUP * NSVCD__LANES
-                                      ? 1
-                                      : -1];
+typedef char nsvcd__network_constants_hold[NSVCD__MUST_HOLD(
+    NSVCD__SHORTLIST * sizeof(nsvcd__candidate) <= 112 && NSVCD__LATENT == 40 &&
+    sizeof(nsvcd__plane_cache) <= 576 &&
+    sizeof(float) * NSVCD__DECODER_IN <= sizeof(uint16_t) * NSVCD__GROUP * NSVCD__LANES)];
 #endif
 
-// Lays a query out at base, which is aligned, or, where that is NULL, only counts. Returns the
-// bytes that it takes.
+// Lays a query out at `base`, which is aligned, or only counts if that is NULL. Returns the bytes
+// that it takes.
 static size_t nsvcd__query_layout(const nsvcd__needs *needs, char *base) {
   nsvcd__query counted;
   uint64_t used = 0;
-  void *at = nsvcd__take(base, &used, 1, sizeof(nsvcd__query));
-  nsvcd__query *query = at ? (nsvcd__query *)at : &counted;
+  nsvcd__query *query = NSVCD__TAKE_ROWS(nsvcd__query, 1, base, &used);
+  if (!query) query = &counted;
   nsvcd__search_layout(needs, base, &used, &query->broad_phase);
   uint64_t end = used;
 #ifndef NSVCD_NO_NETWORK
-  uint64_t network = used;
-  void *kept = nsvcd__take(base, &network, needs->candidates, sizeof(nsvcd__candidate));
-  query->kept = (nsvcd__candidate *)kept;
+  nsvcd__search *search = &query->broad_phase;
   const size_t asked = needs->candidates > 0;
   const size_t meetings = asked * NSVCD__GROUP * needs->segments;
-  void *cache = nsvcd__take(base, &network, asked, sizeof(nsvcd__plane_cache));
-  void *met = nsvcd__take(base, &network, meetings, sizeof(uint16_t));
-  query->broad_phase.cache = (nsvcd__plane_cache *)cache;
-  query->broad_phase.met = (uint16_t *)met;
-  end = network;
+  query->kept = NSVCD__TAKE_ROWS(nsvcd__candidate, needs->candidates, base, &end);
+  search->cache = NSVCD__TAKE_ROWS(nsvcd__plane_cache, asked, base, &end);
+  search->met = NSVCD__TAKE_ROWS(uint16_t, meetings, base, &end);
 #endif
 #ifndef NSVCD_NO_PROOF
-  uint64_t proof = used;
-  const size_t intervals = needs->proof ? needs->segments : 0;
-  query->proof =
-      (nsvcd__proof *)nsvcd__take(base, &proof, needs->proof != 0, sizeof(nsvcd__proof));
-  query->intervals =
-      (nsvcd__interval *)nsvcd__take(base, &proof, intervals, sizeof(nsvcd__interval));
-  end = proof > end ? proof : end;
+  const size_t proofs = needs->proof != 0;
+  const size_t intervals = proofs * needs->segments;
+  query->proof = NSVCD__TAKE_ROWS(nsvcd__proof, proofs, base, &used);
+  query->intervals = NSVCD__TAKE_ROWS(nsvcd__interval, intervals, base, &used);
 #endif
-  return (size_t)end;
+  return (size_t)(used > end ? used : end);
 }
 
-// What is said where no more than a verdict is known: they may go to where they are in the end if
-// they are free all the way, else nowhere.
+// Writes what a verdict alone tells: the bodies may go to the end of a motion that is free, else
+// nowhere.
 static void nsvcd__answer_begin(const nsvcd__task *task, nsvcd_verdict verdict,
                                 nsvcd_answer *answer) {
   const nsvcd__track *moving = &task->motion.moving;
@@ -17585,13 +17477,11 @@ static void nsvcd__answer_begin(const nsvcd__task *task, nsvcd_verdict verdict,
   answer->nearest.triangle_b = NSVCD_NO_TRIANGLE;
 }
 
-// Where the last of a batch collided by the network: the next is asked there first. Forgotten when
-// it has misled MISLEADS times, or the bodies change.
+// Where the last question of a batch collided, by the network: the next one is tried there first.
+// Forgotten when it has misled MISLEADS times, or the bodies change.
 typedef struct nsvcd__hint {
-  int known;
-  int misled;
-  // patches
-  uint32_t moving, fixed;
+  int known, misled;
+  uint32_t moving, fixed;  // patches
 } nsvcd__hint;
 
 // -------------------------------------------------------------------------------- query/by_network
@@ -17599,12 +17489,12 @@ typedef struct nsvcd__hint {
 // them.
 
 #ifndef NSVCD_NO_NETWORK
-// The settings for two bodies of so many patches. An error where the options ask for what is not
-// there; *settings is then not whole. The threshold: weights.h has one per decoder, recall and N =
-// 32, 64, ..., 512; between those, and for two bodies that differ, it is interpolated at the mean
-// of log2 N.
-static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t points1,
-                                       size_t points2, nsvcd__settings *settings) {
+// The settings for two bodies of so many patches. On an error, where the options ask for what is
+// not there, *settings is not whole. weights.h has a threshold per decoder, recall and N = 32, 64,
+// ..., 512. Between those, and for two bodies that differ, it is interpolated at the mean of log2
+// N.
+static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t patches1,
+                                       size_t patches2, nsvcd__settings *settings) {
   if (o->pairs > NSVCD_MAX_PAIRS) return NSVCD_ERROR_PAIRS;
   if ((unsigned)o->model > (unsigned)NSVCD_MODEL_BASE) return NSVCD_ERROR_MODEL;
   if (!nsvcd__is_finite(o->inflate) || o->inflate < 0) return NSVCD_ERROR_INFLATE;
@@ -17612,8 +17502,7 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t po
     return NSVCD_ERROR_PRECISION;
   const nsvcd_model model = o->model ? o->model : NSVCD__LARGEST_MODEL;
   const size_t decoder = (size_t)model - (size_t)NSVCD_MODEL_TINY;
-  // compiled out
-  if (!nsvcd_w_decoders[decoder].layers) return NSVCD_ERROR_MODEL;
+  if (!nsvcd_w_decoders[decoder].layers) return NSVCD_ERROR_MODEL;  // compiled out
   settings->pairs = o->pairs ? o->pairs : NSVCD_DEFAULT_PAIRS;
   settings->shortlist = decoder == 0 ? settings->pairs : NSVCD__SHORTLIST * settings->pairs;
   settings->decoder = &nsvcd_w_decoders[decoder];
@@ -17628,7 +17517,7 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t po
 #endif
   for (size_t k = 0; k < NSVCD_W_RECALLS && nsvcd__is_finite(o->recall); k++) {
     if (o->recall < nsvcd_w_recall[k] || o->recall > nsvcd_w_recall[k]) continue;
-    const float n = sqrtf((float)points1 * (float)points2);
+    const float n = sqrtf((float)patches1 * (float)patches2);
     const float last = NSVCD_W_SIZES - 1;
     const float size = log2f(n) - 5;
     const float at = size < 0 ? 0 : size > last ? last : size;
@@ -17636,10 +17525,8 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t po
     const float low = nsvcd_w_threshold[decoder][row][k];
     const float high = nsvcd_w_threshold[decoder][row + 1][k];
     settings->threshold = low + (at - (float)row) * (high - low);
-    float least = 0;
-    if (k == 2) least = NSVCD__INFLATE * 32 / n;
-    if (k == 3) least = NSVCD__MOST_INFLATE * 32 / n;
-    settings->inflate = fmaxf(o->inflate, least);
+    const float least = k < 2 ? 0 : k == 2 ? NSVCD__INFLATE : NSVCD__MOST_INFLATE;
+    settings->inflate = fmaxf(o->inflate, least * 32 / n);
     return NSVCD_OK;
   }
   return NSVCD_ERROR_RECALL;
@@ -17651,7 +17538,7 @@ static void nsvcd__decode(const nsvcd__task *task, nsvcd__candidate *const *cand
   for (size_t first = 0; first < count; first += NSVCD__ROWS) {
     const size_t left = count - first;
     const size_t rows = left < NSVCD__ROWS ? left : NSVCD__ROWS;
-    // The layers take some rows at a time.
+    // The layers take ROW_STEP rows at a time.
     const size_t unused = nsvcd__round_up(rows, NSVCD__ROW_STEP) - rows;
 #if NSVCD__ROWS > 1
     float x[NSVCD__ROWS * NSVCD__DECODER_IN];
@@ -17675,8 +17562,8 @@ static void nsvcd__decode(const nsvcd__task *task, nsvcd__candidate *const *cand
   }
 }
 
-// Scores candidates that have no score yet, `most` at most: the deeper ones, roughly, because a
-// heap ends with them. Returns 0, and does nothing, if there are fewer than `least`.
+// Scores candidates that have no score yet, `most` at most: roughly the deeper ones, with which a
+// heap ends. Returns 0, and does nothing, if there are fewer than `least`.
 static int nsvcd__score(const nsvcd__task *task, nsvcd__candidates *kept, size_t least,
                         size_t most) {
   nsvcd__candidate *batch[NSVCD__BATCH];
@@ -17686,9 +17573,9 @@ static int nsvcd__score(const nsvcd__task *task, nsvcd__candidates *kept, size_t
   if (left < least || left == 0) return 0;
   left = left < most ? left : most;
   for (size_t k = kept->count; left > 0; k--) {
-    nsvcd__candidate *candidate = &kept->items[k - 1];
-    if (candidate->score > NSVCD__NO_SCORE) continue;
-    batch[count++] = candidate;
+    nsvcd__candidate *c = &kept->items[k - 1];
+    if (c->score > NSVCD__NO_SCORE) continue;
+    batch[count++] = c;
     if (count < NSVCD__BATCH && count < left) continue;
     NSVCD__TALLY(ranked, count);
     nsvcd__decode(task, batch, count, task->settings.ranker);
@@ -17699,45 +17586,44 @@ static int nsvcd__score(const nsvcd__task *task, nsvcd__candidates *kept, size_t
 }
 
 // The sum of the radii of a candidate's patches, metres.
-static float nsvcd__candidate_reach(const nsvcd__task *task,
-                                    const nsvcd__candidate *candidate) {
-  const float own = task->motion.scale * nsvcd__body_r(task->moving)[candidate->moving];
-  return task->motion.unit * (own + nsvcd__body_r(task->fixed)[candidate->fixed]);
+static float nsvcd__candidate_reach(const nsvcd__task *task, const nsvcd__candidate *c) {
+  const float own = task->motion.scale * nsvcd__body_r(task->moving)[c->moving];
+  return task->motion.unit * (own + nsvcd__body_r(task->fixed)[c->fixed]);
 }
 
-// Answers with a candidate, of which a decoder has given the score.
-static void nsvcd__answer_with(const nsvcd__task *task, const nsvcd__candidate *candidate,
+// Answers with a candidate that this decoder has scored.
+static void nsvcd__answer_with(const nsvcd__task *task, const nsvcd__candidate *c,
                                const nsvcd__decoder *decoder, nsvcd_opinion *out) {
-  out->logit = candidate->score - task->settings.threshold;
-  out->distance = 0.1f * candidate->apart * nsvcd__candidate_reach(task, candidate);
-  out->time = candidate->t_least;
-  out->patch_a = candidate->moving;
-  out->patch_b = candidate->fixed;
+  out->logit = c->score - task->settings.threshold;
+  out->distance = 0.1f * c->apart * nsvcd__candidate_reach(task, c);
+  out->time = c->t_least;
+  out->patch_a = c->moving;
+  out->patch_b = c->fixed;
   if (task->decisive) {
-    task->decisive->candidate = *candidate;
+    task->decisive->candidate = *c;
     task->decisive->decoder = decoder;
   }
 }
 
-// Is a distance asked for? Then what comes nearest decides, not what is most suspicious, and
-// nothing is clear before all is known.
+// Is a distance asked for? Then the nearest candidate decides, not the most suspicious, and nothing
+// is clear before all candidates are known.
 static int nsvcd__of_distance(const nsvcd__task *task) {
   return task->question->ask == NSVCD_ASK_DISTANCE;
 }
 
-// The candidate for which this is greatest decides.
+// The candidate with the greatest closeness decides.
 static float nsvcd__closeness(const nsvcd__task *task, const nsvcd__candidate *c) {
   if (!nsvcd__of_distance(task)) return c->score;
   return -c->apart * nsvcd__candidate_reach(task, c);
 }
 
-// Does the tiny decoder see no collision there, clearly?
-static int nsvcd__is_harmless(const nsvcd__candidate *candidate, float threshold) {
-  return candidate->score < (threshold < 0 ? threshold : 0) - NSVCD__CLEAR_LOGIT;
+// Is a candidate clearly no collision, by the tiny decoder?
+static int nsvcd__is_harmless(const nsvcd__candidate *c, float threshold) {
+  return c->score < (threshold < 0 ? threshold : 0) - NSVCD__CLEAR_LOGIT;
 }
 
-// Is the most suspicious of the candidates scored so far clearly a collision, by this logit, or,
-// where they are all, clearly none? Then that is the answer, and no other decoder needs to look.
+// Is the most suspicious of the candidates scored so far clearly a collision, by this logit, or, if
+// they are all, clearly none? Then that is the answer, and no other decoder is needed.
 static int nsvcd__is_clear(const nsvcd__task *task, const nsvcd__candidates *kept, int all,
                            float logit, nsvcd_opinion *out) {
   const float threshold = task->settings.threshold;
@@ -17751,14 +17637,14 @@ static int nsvcd__is_clear(const nsvcd__task *task, const nsvcd__candidates *kep
   return yes || no;
 }
 
-// The verdict on the K most suspicious of the scored candidates, but for the harmless ones, a
-// portion at a time, until one is clearly positive.
+// The chosen decoder judges the K most suspicious of the scored candidates, but for harmless ones,
+// a portion at a time, until one is clearly positive.
 static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept,
                          nsvcd_opinion *out) {
   const nsvcd__settings *settings = &task->settings;
   nsvcd__candidate *items = kept->items;
   size_t count = kept->count < settings->pairs ? kept->count : settings->pairs;
-  // those of the highest scores come first, in falling order
+  // sorts the highest scores to the front
   for (size_t k = 0; k < count; k++) {
     size_t best = k;
     for (size_t i = k + 1; i < kept->count; i++) {
@@ -17793,7 +17679,7 @@ static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept,
   }
 }
 
-// Does this motion, cut already, clearly collide where the hint says?
+// Does a motion that has been cut clearly collide where the hint says?
 static NSVCD__NOINLINE int nsvcd__collides_again(nsvcd__query *query, const nsvcd__hint *hint,
                                                  nsvcd_opinion *out) {
   const nsvcd__task *task = &query->task;
@@ -17812,7 +17698,7 @@ static NSVCD__NOINLINE int nsvcd__collides_again(nsvcd__query *query, const nsvc
   return out->logit >= NSVCD__CLEAR_LOGIT;
 }
 
-// Searches a motion that has been cut, looking at pairs as they are found, until one is clear or
+// Searches a motion that has been cut, and judges pairs as they are found, until one is clear or
 // all are known.
 static NSVCD__NOINLINE void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_opinion *out) {
   const nsvcd__task *task = &query->task;
@@ -17825,8 +17711,8 @@ static NSVCD__NOINLINE void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_o
   nsvcd__plane_cache_begin(search, task->settings.inflate);
   int more = nsvcd__search_begin(task->moving, task->fixed, ~(uint64_t)0, search);
   if (more && !nsvcd__of_distance(task)) {
-    // What collides deeply shows in the first pair of groups, whether or not a plane separates any
-    // pair there; planes would take most of the time.
+    // A deep collision shows in the first pair of groups. Planes, which would take most of the
+    // time, are not asked there.
     nsvcd__candidates_start(&kept, query->kept, worth);
     const int unasked = search->cache->unasked;
     search->cache->unasked = 1;
@@ -17840,8 +17726,7 @@ static NSVCD__NOINLINE void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_o
   if (!clear) nsvcd__candidates_start(&kept, query->kept, shortlist);
   while (more && !clear) {
     more = nsvcd__search_step(search, &kept);
-    // A deep collision shows early. What is scored now need not be scored later, so that looking
-    // costs little.
+    // A deep collision shows early. What is scored now is not scored again, so this costs little.
     if (!more || left < worth || !nsvcd__score(task, &kept, worth, worth)) continue;
     left -= worth;
     clear = nsvcd__is_clear(task, &kept, 0, NSVCD__CLEAR_LOGIT, out);
@@ -17856,20 +17741,18 @@ static NSVCD__NOINLINE void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_o
     nsvcd__judge(task, &kept, out);
 }
 
-// Is a part of one body inside of the other at the start?
+// Is a part of one body inside the other at the start?
 static NSVCD__NOINLINE int nsvcd__looks_contained_at_start(const nsvcd__task *task) {
   const nsvcd__transform pose = nsvcd__motion_pose(&task->motion, 0);
   return nsvcd__is_contained(task->moving, task->fixed, task->motion.scale, &pose);
 }
 
-// What is thought where no decoder is needed.
-static nsvcd_opinion nsvcd__certain_opinion(float logit) {
-  nsvcd_opinion out;
-  memset(&out, 0, sizeof out);
-  out.asked = 1;
-  out.logit = logit;
-  out.distance = HUGE_VALF;
-  return out;
+// An opinion that needs no decoder.
+static void nsvcd__certain_opinion(float logit, nsvcd_opinion *out) {
+  memset(out, 0, sizeof *out);
+  out->asked = 1;
+  out->logit = logit;
+  out->distance = HUGE_VALF;
 }
 
 // Asks the network about a motion that has been prepared. hint: NULL, or that of a batch. Returns
@@ -17877,17 +17760,17 @@ static nsvcd_opinion nsvcd__certain_opinion(float logit) {
 static int nsvcd__ask_network(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opinion *out) {
   nsvcd__task *task = &query->task;
   const int hinted = hint && hint->known && !nsvcd__of_distance(task);
-  // checked before
+  // has been checked
   (void)nsvcd__settings_of(&task->question->network, task->moving->patches,
                            task->fixed->patches, &task->settings);
   if (nsvcd__of_distance(task) && task->question->network.inflate <= 0)
     task->settings.inflate = NSVCD__INFLATE_DISTANCE;
-  *out = nsvcd__certain_opinion(-NSVCD_LOGIT_CERTAIN);
+  nsvcd__certain_opinion(-NSVCD_LOGIT_CERTAIN, out);
   query->broad_phase.balls_met = 0;
   if (nsvcd__motion_gap(&task->motion) > task->lengths) return 0;
   nsvcd__cut_motion(&task->motion, task->lengths, &query->broad_phase);
   if (!hinted || !nsvcd__collides_again(query, hint, out)) {
-    *out = nsvcd__certain_opinion(-NSVCD_LOGIT_CERTAIN);
+    nsvcd__certain_opinion(-NSVCD_LOGIT_CERTAIN, out);
     if (hinted) hint->known = ++hint->misled < NSVCD__MISLEADS;
     nsvcd__search_and_judge(query, out);
   }
@@ -17896,15 +17779,15 @@ static int nsvcd__ask_network(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opin
     *hint = here;
   }
 
-  // a body inside another need not touch anything
+  // A body inside another need not touch anything.
   if (out->logit > 0 || !nsvcd__looks_contained_at_start(task)) return 0;
   const size_t candidates = out->candidates;
-  *out = nsvcd__certain_opinion(NSVCD_LOGIT_CERTAIN);
+  nsvcd__certain_opinion(NSVCD_LOGIT_CERTAIN, out);
   out->candidates = candidates;
   return 1;
 }
 
-// The network's answer.
+// Answers a question whose motion has been prepared.
 static void nsvcd__answer_by_network(nsvcd__query *query, nsvcd__hint *hint,
                                      nsvcd_answer *answer) {
   nsvcd_opinion opinion;
@@ -17918,37 +17801,41 @@ static void nsvcd__answer_by_network(nsvcd__query *query, nsvcd__hint *hint,
 #endif  // NSVCD_NO_NETWORK
 
 // ---------------------------------------------------------------------------------- query/by_proof
-// In: a task. Out: its answer, by proof, with the contact as places in the world.
+// In: a task. Out: its answer, by proof, with contacts as points in the world.
 
 #ifndef NSVCD_NO_PROOF
-// Where a body is at time t in [0,1], in the world.
-static nsvcd__dquat nsvcd__turn_at(const nsvcd__motion *motion, const nsvcd__track *track,
-                                   double t, nsvcd__d3 *position) {
+typedef struct nsvcd__dpose {
+  nsvcd__dquat rotation;
+  nsvcd__d3 position;
+} nsvcd__dpose;
+
+// A body's pose at time t in [0,1], in the world.
+static nsvcd__dpose nsvcd__dpose_at(const nsvcd__motion *motion, const nsvcd__track *track,
+                                    double t) {
   nsvcd__slerp slerp;
   nsvcd__d3 ends[2];
   double u;
   const uint32_t first = nsvcd__arc_of(motion, t * (double)motion->ticks, &u);
   nsvcd__slerp_init(track, first, nsvcd__next_keyframe(motion, first) - first, &slerp, ends);
-  *position = nsvcd__d3_mix(ends[0], ends[1], u);
-  return nsvcd__slerp_at(&slerp, u);
-}
-
-// From the fixed body's frame and units to the world, at time t.
-typedef struct nsvcd__to_world {
-  nsvcd__dmat3 rotation;
-  nsvcd__d3 position;
-  double unit;
-} nsvcd__to_world;
-
-static nsvcd__to_world nsvcd__to_world_at(const nsvcd__motion *motion, double t) {
-  nsvcd__to_world out;
-  const nsvcd__dquat turn = nsvcd__turn_at(motion, &motion->fixed, t, &out.position);
-  out.rotation = nsvcd__dmat3_of(turn);
-  out.unit = (double)motion->unit;
+  const nsvcd__dpose out = {nsvcd__slerp_at(&slerp, u), nsvcd__d3_mix(ends[0], ends[1], u)};
   return out;
 }
 
-// To how many of the fixed body's units an answer is asked for, or is by default.
+static nsvcd_pose nsvcd__pose_round(const nsvcd__dpose *pose) {
+  const nsvcd__dquat q = pose->rotation;
+  nsvcd_pose out = {{0, 0, 0}, {(float)q.x, (float)q.y, (float)q.z, (float)q.w}};
+  nsvcd__f3_store(nsvcd__f3_round(pose->position), out.position);
+  return out;
+}
+
+// From the fixed body's frame, in metres, to the world, at time t.
+static nsvcd__dtransform nsvcd__world_at(const nsvcd__motion *motion, double t) {
+  const nsvcd__dpose pose = nsvcd__dpose_at(motion, &motion->fixed, t);
+  const nsvcd__dtransform out = {nsvcd__dmat3_of(pose.rotation), pose.position};
+  return out;
+}
+
+// The length to which an answer is asked for, or the default, in the fixed body's units.
 static double nsvcd__to_of(const nsvcd__task *task) {
   const nsvcd_question *q = task->question;
   const float moving = task->motion.scale * nsvcd__whole_radius(task->moving);
@@ -17957,23 +17844,23 @@ static double nsvcd__to_of(const nsvcd__task *task) {
   return q->to > 0 ? (double)q->to / (double)task->motion.unit : (double)usual;
 }
 
-// How far points of the moving body go in an arc, at most.
-static double nsvcd__way_in(const nsvcd__proof *p, const nsvcd__arc *arc) {
+// How far points of the moving body travel in an arc, at most.
+static double nsvcd__travel_in(const nsvcd__proof *p, const nsvcd__arc *arc) {
   return arc->speed + arc->turn * arc->scale * (double)p->moving.body->extent;
 }
 
-// The fraction of the motion in which no point of the moving body travels farther than `to`, no
-// longer than `fraction`, where these are asked for. Of a short motion it is at most a quarter, but
-// no less than a safe pose backs off, so that a contact does not cost all of it.
+// The fraction of the motion in which no point of the moving body travels farther than `to`, at
+// most `fraction`; 0: that is not asked for. Of a short motion it is at most a quarter, so that a
+// contact does not cost all of it, but no less than a safe pose backs off.
 static double nsvcd__fraction_of(nsvcd__proof *p, double to, double fraction) {
   const nsvcd__motion *motion = p->ask.motion;
   const double most = fraction > 0 ? fraction : 1;
   double fastest = 0;  // per tick
-  // that of the question before
+  // The arc known is of the question before.
   p->arc.ticks = 0;
   for (uint32_t first = 0; to > 0 && first < motion->ticks;) {
     const nsvcd__arc *arc = nsvcd__arc_at(p, first);
-    fastest = fmax(fastest, nsvcd__way_in(p, arc) / (double)arc->ticks);
+    fastest = fmax(fastest, nsvcd__travel_in(p, arc) / (double)arc->ticks);
     first += arc->ticks;
   }
   const double whole = fastest * (double)motion->ticks;
@@ -17981,129 +17868,114 @@ static double nsvcd__fraction_of(nsvcd__proof *p, double to, double fraction) {
   return least < most * whole ? least / whole : most;
 }
 
-// Makes the proof ready for a question whose motion has been prepared.
+// Prepares the proof for a question whose motion has been prepared.
 static void nsvcd__proof_begin(nsvcd__query *query) {
   const nsvcd__task *task = &query->task;
   const nsvcd_question *q = task->question;
   const double unit = (double)task->motion.unit;
   nsvcd__proof *p = query->proof;
+  nsvcd__given *given = &p->given;
+  memset(given, 0, sizeof *given);
+  memset(&p->ask, 0, sizeof p->ask);
   p->intervals = query->intervals;
   p->ask.motion = &query->task.motion;
   p->moving = nsvcd__geometry_of(nsvcd__triangles_of(task->moving));
   p->fixed = nsvcd__geometry_of(nsvcd__triangles_of(task->fixed));
-  p->given.lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
-  p->given.tolerance = (double)q->tolerance / unit;
+  given->lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
+  given->tolerance = (double)q->tolerance / unit;
   const double moving_radius = (double)p->moving.counts->convex_radius * task->motion.ratio;
-  p->given.radius = moving_radius + (double)p->fixed.counts->convex_radius;
-  p->given.clearance = (double)q->clearance / unit + p->given.radius;
-  p->ask.clearance = p->given.clearance;
-  p->given.slop = (double)q->slop / unit;
+  given->radius = moving_radius + (double)p->fixed.counts->convex_radius;
+  given->clearance = (double)q->clearance / unit + given->radius;
+  p->ask.clearance = given->clearance;
+  given->slop = (double)q->slop / unit;
   const int is_verdict = q->ask != NSVCD_ASK_DISTANCE;
   const size_t most = is_verdict ? NSVCD_DEFAULT_VERDICT_WORK : NSVCD_DEFAULT_WORK;
-  p->given.work = p->ask.limit = p->ask.most = q->work ? q->work : most;
-  p->given.aside = (q->work ? q->work : NSVCD_DEFAULT_WORK) / NSVCD__AFTER_UNRESOLVED;
-  p->given.grows = q->work == 0;
-  p->given.tells = q->ask != NSVCD_ASK_HIT || p->given.slop > 0;
-  p->ask.measure = p->ask.first = p->ask.fraction = p->low = p->given.fraction =
-      p->given.width = 0;
-  p->normal_count = 0;
+  given->work = p->ask.limit = p->ask.most = q->work ? q->work : most;
+  given->aside = (q->work ? q->work : NSVCD_DEFAULT_WORK) / NSVCD__AFTER_UNRESOLVED;
+  given->grows = q->work == 0;
+  given->tells = q->ask != NSVCD_ASK_HIT || given->slop > 0;
+  p->work = p->normal_count = 0;
+  p->low = 0;
   p->high = HUGE_VAL;
-  p->work = 0;
-  p->ask.collects = NSVCD__CONTACTS;
-  p->ask.is_brief = p->inside = p->unclear = p->wide = p->starts_free = 0;
-  p->in_open = 0;
+  p->inside = p->unclear = p->in_open = p->wide = p->starts_free = 0;
   const double to = nsvcd__to_of(task);
-  p->given.to = q->to > 0 && q->ask == NSVCD_ASK_FIRST ? to : 0;
-  const int by_time = q->to_time > 0 && !(q->to > 0);
-  if (q->ask == NSVCD_ASK_DISTANCE) p->given.width = to;
-  if (q->ask == NSVCD_ASK_FIRST)
-    p->given.fraction = nsvcd__fraction_of(p, by_time ? 0 : to, (double)q->to_time);
-  p->ask.fraction = p->given.fraction;
+  if (q->ask == NSVCD_ASK_DISTANCE) given->width = to;
+  if (q->ask == NSVCD_ASK_FIRST) {
+    const int by_time = q->to_time > 0 && !(q->to > 0);
+    given->to = q->to > 0 ? to : 0;
+    given->fraction = nsvcd__fraction_of(p, by_time ? 0 : to, (double)q->to_time);
+  }
+  p->ask.fraction = given->fraction;
   nsvcd__proof_restart(p);
 }
 
-// A time in [0,1] as a float that is not earlier: by then they have met.
-static float nsvcd__time_above(double time) {
-  const float rounded = (float)time;
-  return (double)rounded < time ? nextafterf(rounded, 1) : rounded;
-}
-
-// The contact that a proof has found: when, where, and of what. Where the two were swapped it is
-// the fixed body that counts as pushed out, the other way.
-static NSVCD__NOINLINE void nsvcd__tell_contact(const nsvcd__query *query,
-                                                const nsvcd__pair_contact *found,
-                                                nsvcd_contact *out) {
+// Writes the contact that a proof has found: when, where, and of what. If the bodies were swapped,
+// the fixed one counts as pushed out, in the opposite direction.
+static NSVCD__NOINLINE void nsvcd__write_contact(const nsvcd__query *query,
+                                                 const nsvcd__pair_contact *found,
+                                                 nsvcd_contact *out) {
   const nsvcd__proof *p = query->proof;
   const nsvcd__task *task = &query->task;
   const nsvcd__motion *motion = &task->motion;
   const int rests = motion->moving.count == 1 && !motion->fixed_moves;
   const double time = rests ? 0 : found->tick / (double)motion->ticks;
-  const nsvcd__to_world world = nsvcd__to_world_at(motion, time);
+  const double unit = (double)motion->unit;
+  const nsvcd__dtransform world = nsvcd__world_at(motion, time);
   const nsvcd__d3 push_out = nsvcd__d3_scale(nsvcd__d3_widen(motion->push_out), task->swapped);
   const double beyond = fmin((double)p->fixed.counts->convex_radius, found->distance);
   const nsvcd__d3 on = nsvcd__d3_fma(beyond, found->normal, found->point);
-  const nsvcd__d3 seen = nsvcd__d3_scale(nsvcd__d3_sub(on, push_out), world.unit);
-  const nsvcd__d3 point =
-      nsvcd__d3_add(nsvcd__dmat3_apply(&world.rotation, seen), world.position);
+  const nsvcd__d3 seen = nsvcd__d3_scale(nsvcd__d3_sub(on, push_out), unit);
+  const nsvcd__d3 point = nsvcd__place_point(&world, seen);
   const nsvcd__d3 normal = nsvcd__dmat3_apply(&world.rotation, found->normal);
   nsvcd__f3_store(nsvcd__f3_round(point), out->point);
   nsvcd__f3_store(nsvcd__f3_round(normal), out->normal);
-  out->gap = (float)(fmax(found->distance - p->given.radius, 0) * world.unit);
-  out->time = nsvcd__time_above(time);
+  out->gap = (float)(fmax(found->distance - p->given.radius, 0) * unit);
+  // Rounded up: by then they have met.
+  out->time = (float)time;
+  if ((double)out->time < time) out->time = nextafterf(out->time, 1);
   out->triangle_a = found->moving_triangle;
   out->triangle_b = found->fixed_triangle;
   out->patch_a = found->moving_patch;
   out->patch_b = found->fixed_patch;
 }
 
-static nsvcd_pose nsvcd__pose_of(nsvcd__dquat turn, nsvcd__d3 position) {
-  nsvcd_pose out;
-  float *q = out.rotation;
-  q[0] = (float)turn.x;
-  q[1] = (float)turn.y;
-  q[2] = (float)turn.z;
-  q[3] = (float)turn.w;
-  nsvcd__f3_store(nsvcd__f3_round(position), out.position);
-  return out;
-}
-
-// Where both bodies are at time t, the one that takes the push-out displaced by so much, in the
-// fixed one's frame and units. The one that moves takes it; if both do, a.
+// The moving body takes the push-out; if both or none move, a does.
 static int nsvcd__takes_push_out(const nsvcd__task *task) {
   return !task->swapped || !(task->motion.fixed_moves || task->motion.moving.count == 1);
 }
+
+// The poses of both bodies at time t, with one of them displaced by a push-out, which is in the
+// fixed body's frame and units.
 static NSVCD__NOINLINE void nsvcd__poses_at(const nsvcd__task *task, double t,
                                             nsvcd__d3 push_out, nsvcd_pose *moving,
                                             nsvcd_pose *fixed) {
   const nsvcd__motion *motion = &task->motion;
+  const double unit = (double)motion->unit;
   const int moving_takes_it = nsvcd__takes_push_out(task);
-  const nsvcd__to_world world = nsvcd__to_world_at(motion, t);
+  const nsvcd__dtransform world = nsvcd__world_at(motion, t);
   const nsvcd__d3 seen = nsvcd__dmat3_apply(&world.rotation, push_out);
   for (int n = 0; n < 2; n++) {
-    const double by = n == moving_takes_it ? 0 : n ? -world.unit : world.unit;
-    nsvcd__d3 position;
-    const nsvcd__dquat turn =
-        nsvcd__turn_at(motion, n ? &motion->fixed : &motion->moving, t, &position);
-    position = nsvcd__d3_add(position, nsvcd__d3_scale(seen, by));
-    *(n ? fixed : moving) = nsvcd__pose_of(turn, position);
+    const double by = n == moving_takes_it ? 0 : n ? -unit : unit;
+    nsvcd__dpose pose = nsvcd__dpose_at(motion, n ? &motion->fixed : &motion->moving, t);
+    pose.position = nsvcd__d3_add(pose.position, nsvcd__d3_scale(seen, by));
+    *(n ? fixed : moving) = nsvcd__pose_round(&pose);
   }
 }
 
-// How far the told poses at time t are from the bodies' own, at most: floats of positions and
-// quaternions are off by 6e-8. In the fixed body's units.
-static double nsvcd__told_allowance(const nsvcd__proof *p, double t) {
+// How far the poses of an answer, in float, are off at time t, at most, in the fixed body's units:
+// positions and quaternions are off by 6e-8 of their length.
+static double nsvcd__pose_error(const nsvcd__proof *p, double t) {
   const nsvcd__motion *motion = p->ask.motion;
-  nsvcd__d3 moving, fixed;
-  (void)nsvcd__turn_at(motion, &motion->moving, t, &moving);
-  (void)nsvcd__turn_at(motion, &motion->fixed, t, &fixed);
+  const nsvcd__d3 moving = nsvcd__dpose_at(motion, &motion->moving, t).position;
+  const nsvcd__d3 fixed = nsvcd__dpose_at(motion, &motion->fixed, t).position;
   const double positions = nsvcd__d3_length(moving) + nsvcd__d3_length(fixed);
   return 1.3e-7 * (2 * positions / (double)motion->unit + (double)p->given.lengths);
 }
 
-// Sets the bodies down at time t, where they are free of each other when pushed out as the motion
-// is: to a little more than what they are pressed in by at the start, or to a little before they
-// are in contact. Returns how far they are pushed out then, which is proven to be free, and all the
-// way down to it. All else that was known of the question is lost.
+// Sets the bodies down at time t, at which they are free of each other when pushed out as the
+// motion is: to a little more than their depth at the start, or to a little before they are in
+// contact. Returns the push-out left. It is proven to be free, and so is the way down to it. All
+// else that was known of the question is lost.
 static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
   nsvcd__proof *p = query->proof;
   const nsvcd__task *task = &query->task;
@@ -18114,8 +17986,8 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) 
   const nsvcd__track moves = {moving, NULL, takes_it ? 2u : 1u, 0, 0};
   const nsvcd__track rests = {fixed, NULL, takes_it ? 1u : 2u, 0, 0};
   const nsvcd__d3 push_out = nsvcd__d3_widen(whole->push_out);
-  // nearer to each other than stored triangles are known, nothing would be separated
-  const double epsilons = 4 * nsvcd__epsilon(p) + nsvcd__told_allowance(p, t);
+  // Nearer to each other than stored triangles are known, nothing would be separated.
+  const double epsilons = 4 * nsvcd__epsilon(p) + nsvcd__pose_error(p, t);
   const double kept = fmax(NSVCD__SET_DOWN * p->ask.slop, epsilons);
   const nsvcd__d3 least = nsvcd__push_out(p, kept, 1);
   const nsvcd__d3 by = nsvcd__d3_sub(push_out, least);
@@ -18133,35 +18005,34 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) 
   (void)nsvcd__prove_anew(p, &query->broad_phase);
   p->ask.motion = whole;
   const double until = nsvcd__clear_until(p) / (double)down.ticks;
-  // up to an unresolved pair it is proven, but not so that it is proven anew from there
+  // All before an unresolved pair is proven, but a query from close to it might not prove it again.
   const double clear =
       p->known.unresolved < p->ask.end ? until - 0.5 * p->ask.fraction : until;
   return nsvcd__d3_sub(push_out, nsvcd__d3_scale(by, fmin(fmax(clear, 0), 1)));
 }
 
-// The bodies as they are at time t, as a motion of its own, with the fixed one's origin in the
-// world's: places in its frame are as exact as if it were there.
+// The bodies at rest as they are at time t, with the fixed one's origin in the world's: so points
+// in its frame are as exact as they can be.
 static nsvcd__motion nsvcd__rest_at(const nsvcd__task *task, double t, nsvcd_pose *poses) {
   nsvcd__motion still = task->motion;
   const nsvcd__track tracks[2] = {{&poses[0], NULL, 1, 0, 0}, {&poses[1], NULL, 1, 0, 0}};
-  const nsvcd__d3 here = {0, 0, 0};
-  nsvcd__d3 position, origin;
-  const nsvcd__dquat turn = nsvcd__turn_at(&still, &still.moving, t, &position);
-  const nsvcd__dquat fixed_turn = nsvcd__turn_at(&still, &still.fixed, t, &origin);
-  const nsvcd__dmat3 rotation = nsvcd__dmat3_of(fixed_turn);
+  nsvcd__dpose moving = nsvcd__dpose_at(&still, &still.moving, t);
+  nsvcd__dpose fixed = nsvcd__dpose_at(&still, &still.fixed, t);
+  const nsvcd__dmat3 rotation = nsvcd__dmat3_of(fixed.rotation);
   const nsvcd__d3 push_out = nsvcd__dmat3_apply(&rotation, nsvcd__d3_widen(still.push_out));
-  position = nsvcd__d3_sub(position, origin);
-  position = nsvcd__d3_add(position, nsvcd__d3_scale(push_out, (double)still.unit));
-  poses[0] = nsvcd__pose_of(turn, position);
-  poses[1] = nsvcd__pose_of(fixed_turn, here);
+  const nsvcd__d3 offset = nsvcd__d3_sub(moving.position, fixed.position);
+  moving.position = nsvcd__d3_add(offset, nsvcd__d3_scale(push_out, (double)still.unit));
+  fixed.position = nsvcd__d3_of(0, 0, 0);
+  poses[0] = nsvcd__pose_round(&moving);
+  poses[1] = nsvcd__pose_round(&fixed);
   nsvcd__motion_set_tracks(&still, tracks[0], tracks[1]);
   still.push_out = nsvcd__f3_of(0, 0, 0);
   return still;
 }
 
-// The directions that the contacts of a manifold may be about: the normal of the contact that was
-// found, and those of its faces that are not against it, where the bodies do not leave along them.
-// Returns how many. How the bodies go: 0 at the start, where they only touch.
+// The normals that a manifold may have: that of the contact found, and those of its faces that are
+// not against it and along which the bodies do not part. Returns how many. *twist: how the bodies
+// move; 0 at the start, where they only touch.
 static NSVCD__NOINLINE int nsvcd__manifold_normals(nsvcd__proof *p,
                                                    const nsvcd__pair_contact *found,
                                                    nsvcd__twist *twist, nsvcd__d3 *normals) {
@@ -18183,10 +18054,10 @@ static NSVCD__NOINLINE int nsvcd__manifold_normals(nsvcd__proof *p,
   return count;
 }
 
-// The manifold of the contact that was found. Where a body stands, that may be one of a side that
-// rises from what it stands on: the normal of either triangle is tried, and what intervals more
-// counts. All else that was known of the question is lost.
-static NSVCD__NOINLINE void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer *answer) {
+// Writes the manifold of the contact found. If a body stands on something, that contact may be with
+// a side that rises from it: so the normals of both triangles are tried too, and the manifold that
+// spans the most is taken. All else that was known of the question is lost.
+static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd_answer *answer) {
   nsvcd__proof *p = query->proof;
   const nsvcd__task *task = &query->task;
   const nsvcd__pair_contact found = p->known.found;
@@ -18210,7 +18081,7 @@ static NSVCD__NOINLINE void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answ
   for (int k = 0; k < tries; k++) {
     int chosen[NSVCD_MAX_CONTACTS];
     double area;
-    nsvcd__begin_positions(p, normals[k], &twist, p->ask.clearance, same);
+    nsvcd__manifold_begin(p, normals[k], &twist, p->ask.clearance, same);
     nsvcd__seek_positions(p, 0, NSVCD__AROUND);
     int count = nsvcd__choose_four(m, chosen, &area);
     if (nsvcd__seek_across(&p->of.kept.manifold, area)) {
@@ -18224,44 +18095,53 @@ static NSVCD__NOINLINE void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answ
     for (int n = 0; n < count; n++) {
       nsvcd__pair_contact support = m->supports[chosen[n]];
       support.tick = found.tick;
-      nsvcd__tell_contact(query, &support, &answer->contacts[n]);
-      // which body a corner is of
+      nsvcd__write_contact(query, &support, &answer->contacts[n]);
+      // The last bit tells which body a corner is of.
       answer->contacts[n].id = m->numbers[chosen[n]] ^ (uint32_t)task->swapped;
     }
   }
   p->ask = asked;
 }
 
-// Where the bodies may go, which are proven free until answer->time.low; and how deep they are in
-// contact at the start. Where one may be inside of the other no push-out helps, and they stay.
-static NSVCD__NOINLINE void nsvcd__tell_safe_pose(nsvcd__query *query, nsvcd_answer *answer) {
+// Writes where the bodies may go, which are proven free until answer->time.low, and how deep they
+// are in contact at the start. If one may be inside the other, no push-out helps, and they stay.
+static NSVCD__NOINLINE void nsvcd__write_safe_pose(nsvcd__query *query, nsvcd_answer *answer) {
   const nsvcd__task *task = &query->task;
   const nsvcd__proof *p = query->proof;
   const double t = (double)answer->safe.time;
   nsvcd__d3 push_out = nsvcd__d3_widen(task->motion.push_out);
-  const int is_lifted = nsvcd__d3_dot(push_out, push_out) > 0;
-  const int may_go = is_lifted && !p->inside && !p->unclear;
-  if (is_lifted && !p->inside) {
+  const int is_pushed = nsvcd__d3_dot(push_out, push_out) > 0;
+  const int may_go = is_pushed && !p->inside && !p->unclear;
+  if (is_pushed && !p->inside) {
     const double depth = nsvcd__d3_length(nsvcd__push_out(p, 0, 1));
     answer->depth = (float)(depth * (double)task->motion.unit);
-  } else if (!is_lifted && (answer->time.low > 0 || p->starts_free)) {
+  } else if (!is_pushed && (answer->time.low > 0 || p->starts_free)) {
     answer->depth = 0;
   }
   if (may_go) push_out = nsvcd__set_down(query, t);
-  // at the ends they are as the caller has them: nsvcd__answer_begin
+  // nsvcd__answer_begin has set the poses at the ends, as the caller has them.
   if (may_go || (t > 0 && t < 1))
     nsvcd__poses_at(task, t, push_out, &answer->safe.a, &answer->safe.b);
 }
 
-// Why not all is answered. More work, or finer triangles, would not tell what is in an open solid.
-static void nsvcd__resolve_why(const nsvcd__proof *p, nsvcd_answer *answer) {
-  const int is_near = p->known.unresolved < NSVCD__NEVER || p->unclear;
-  if (p->wide || answer->verdict == NSVCD_UNDECIDED) answer->why = NSVCD_WHY_WORK;
-  if (answer->why && !p->wide && is_near) answer->why = NSVCD_WHY_TOO_NEAR;
-  if (answer->why && p->in_open) answer->why = NSVCD_WHY_OPEN;
+// Writes until when the motion is proven free, and up to which time the bodies may go.
+static void nsvcd__write_time(nsvcd__proof *p, nsvcd_answer *answer) {
+  const nsvcd__motion *motion = p->ask.motion;
+  const double ticks = (double)motion->ticks;
+  const double until = fmin(fmax(nsvcd__clear_until(p) / ticks, 0), 1);
+  const double late = (double)answer->time.high - until;
+  answer->time.low = (float)(until * (1 - 1e-7));
+  if (late > p->given.fraction * 1.0001 + 1e-6) answer->why = NSVCD_WHY_WORK;
+  // Closer poses are proven free here, but a new query from there could not prove it again.
+  double u;
+  const nsvcd__arc *arc = nsvcd__arc_at(p, nsvcd__arc_of(motion, until * ticks, &u));
+  const double length = nsvcd__travel_in(p, arc) * ticks / (double)arc->ticks;
+  const double epsilons = NSVCD__EPSILONS * nsvcd__epsilon(p) + nsvcd__pose_error(p, until);
+  const double back = length > epsilons ? epsilons / length : p->given.fraction;
+  answer->safe.time = (float)(fmax(0, until - back) * (1 - 1e-7));
 }
 
-// Proves a question whose motion has been prepared, if it can.
+// Answers a question whose motion has been prepared.
 static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   const nsvcd__task *task = &query->task;
   const nsvcd_question *q = task->question;
@@ -18273,7 +18153,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   nsvcd__finding verdict = nsvcd__prove(p, search);
   if (p->given.width > 0 && verdict != NSVCD__FOUND_INSIDE) {
     nsvcd__measure(p, search, verdict, p->given.width);
-    // A distance decides what was left undecided, but tells nothing of what is inside of what.
+    // A distance decides what was left undecided, but says nothing of containment.
     const int meets = p->known.has_contact && p->known.found.distance <= p->given.clearance;
     const int is_clear =
         p->low > 0 && p->low >= p->given.clearance && !p->unclear && !p->inside;
@@ -18281,65 +18161,48 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
       verdict = meets ? NSVCD__FOUND_CONTACT : NSVCD__FOUND_FREE;
   }
 
-  // The triangles that the answer names are those of a contact, or else of an unresolved pair.
+  // The answer names the triangles of a contact, or else of an unresolved pair.
+  const int is_free = verdict == NSVCD__FOUND_FREE;
+  const int is_inside = verdict == NSVCD__FOUND_INSIDE;
+  const int is_contact = verdict == NSVCD__FOUND_CONTACT;
   const int has_unresolved = p->known.unresolved < NSVCD__NEVER;
   const int names =
       p->known.has_contact || (verdict == NSVCD__FOUND_NEITHER && has_unresolved);
-  const int is_inside = verdict == NSVCD__FOUND_INSIDE;
   if (names && !is_inside) nsvcd__resolve_normal(p);
-  const int is_free = verdict == NSVCD__FOUND_FREE;
-  const int is_hit = is_inside || verdict == NSVCD__FOUND_CONTACT;
-  nsvcd__answer_begin(task,
-                      is_free  ? NSVCD_FREE
-                      : is_hit ? NSVCD_HIT
-                               : NSVCD_UNDECIDED,
-                      answer);
+  const nsvcd_verdict if_not_free = is_inside || is_contact ? NSVCD_HIT : NSVCD_UNDECIDED;
+  nsvcd__answer_begin(task, is_free ? NSVCD_FREE : if_not_free, answer);
   answer->inside = is_inside;
-  if (names || is_inside) nsvcd__tell_contact(query, &p->known.found, &answer->nearest);
+  if (names || is_inside) nsvcd__write_contact(query, &p->known.found, &answer->nearest);
   if (is_inside) answer->nearest.gap = HUGE_VALF;
-  if (is_hit) answer->time.high = answer->nearest.time;
-  if (verdict == NSVCD__FOUND_CONTACT)
-    answer->contacts[answer->contact_count++] = answer->nearest;
+  if (is_inside || is_contact) answer->time.high = answer->nearest.time;
+  if (is_contact) answer->contacts[answer->contact_count++] = answer->nearest;
+  if (p->given.fraction > 0 && !is_free && !is_inside) nsvcd__write_time(p, answer);
 
-  // What is proven of times and distances.
-  if (p->given.fraction > 0 && !is_free && !is_inside) {
-    const nsvcd__motion *motion = p->ask.motion;
-    const double ticks = (double)motion->ticks;
-    const double until = fmin(fmax(nsvcd__clear_until(p) / ticks, 0), 1);
-    const double late = (double)answer->time.high - until;
-    answer->time.low = (float)(until * (1 - 1e-7));
-    if (late > p->given.fraction * 1.0001 + 1e-6) answer->why = NSVCD_WHY_WORK;
-    // Closer poses are proven free here, but a new query from there could not prove it again.
-    double u;
-    const nsvcd__arc *arc = nsvcd__arc_at(p, nsvcd__arc_of(motion, until * ticks, &u));
-    const double length = nsvcd__way_in(p, arc) * ticks / (double)arc->ticks;
-    const double epsilons =
-        NSVCD__EPSILONS * nsvcd__epsilon(p) + nsvcd__told_allowance(p, until);
-    const double back = length > epsilons ? epsilons / length : p->given.fraction;
-    answer->safe.time = (float)(fmax(0, until - back) * (1 - 1e-7));
-  }
-  const double low = (is_free ? fmax(p->given.clearance, p->low) : p->low) - p->given.radius;
+  const double radius = p->given.radius;
+  const double low = is_free ? fmax(p->given.clearance, p->low) : p->low;
   double high = names ? p->known.found.distance : p->high;
-  // what was found, or moved to where it is nearer, may have made it narrow enough
+  // A contact, found or moved to where it is nearer, may have made the bracket narrow enough.
   p->wide = p->wide && high - p->low > p->given.width;
-  if (names) {
-    const double off = nsvcd__off_meshes(p) + 1e-12 * (double)p->given.lengths;
-    high = fmax(high, p->given.radius) + off;
-  }
-  high = fmax(high - p->given.radius, 0);
-  answer->distance.low = (float)(fmax(low, 0) * unit * (1 - 1e-6));
-  answer->distance.high = is_inside ? 0 : (float)(high * unit * (1 + 1e-6));
-  nsvcd__resolve_why(p, answer);
+  const double off = nsvcd__off_meshes(p) + 1e-12 * (double)p->given.lengths;
+  if (names) high = fmax(high, radius) + off;
+  answer->distance.low = (float)(fmax(low - radius, 0) * unit * (1 - 1e-6));
+  answer->distance.high = is_inside ? 0 : (float)(fmax(high - radius, 0) * unit * (1 + 1e-6));
 
-  // By what the moving body was pushed out, in the world at the start.
+  // Why not all is answered. Neither work nor finer triangles would tell what is in an open solid.
+  if (p->wide || answer->verdict == NSVCD_UNDECIDED) answer->why = NSVCD_WHY_WORK;
+  if (answer->why && !p->wide && (has_unresolved || p->unclear))
+    answer->why = NSVCD_WHY_TOO_NEAR;
+  if (answer->why && p->in_open) answer->why = NSVCD_WHY_OPEN;
+
+  // The push-out in the world, at the start.
   const nsvcd__d3 push_out = nsvcd__d3_widen(task->motion.push_out);
   if (nsvcd__d3_dot(push_out, push_out) > 0) {
-    const nsvcd__to_world start = nsvcd__to_world_at(&task->motion, 0);
-    const nsvcd__d3 turned = nsvcd__dmat3_apply(&start.rotation, push_out);
-    nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_scale(turned, start.unit)), answer->push_out);
+    const nsvcd__dtransform world = nsvcd__world_at(&task->motion, 0);
+    const nsvcd__d3 turned = nsvcd__dmat3_apply(&world.rotation, push_out);
+    nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_scale(turned, unit)), answer->push_out);
   }
-  if (q->manifold && verdict == NSVCD__FOUND_CONTACT) nsvcd__tell_manifold(query, answer);
-  nsvcd__tell_safe_pose(query, answer);
+  if (q->manifold && is_contact) nsvcd__write_manifold(query, answer);
+  nsvcd__write_safe_pose(query, answer);
   answer->work = p->work;
 }
 #endif  // NSVCD_NO_PROOF
@@ -18360,19 +18223,17 @@ static nsvcd_method nsvcd__method_of(const nsvcd_body *moving, const nsvcd_body 
 #endif
   if (can_prove && wanted != NSVCD_METHOD_NETWORK) return NSVCD_METHOD_PROOF;
   if (can_ask && wanted != NSVCD_METHOD_PROOF) return NSVCD_METHOD_NETWORK;
-  (void)moving;
-  (void)fixed;
   return NSVCD_METHOD_DEFAULT;
 }
 
 // Is a question in order?
-static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
-  const nsvcd_mover *a = &question->a;
-  const nsvcd_mover *b = &question->b;
+static nsvcd_result nsvcd__question_check(const nsvcd_question *q) {
+  const nsvcd_mover *a = &q->a;
+  const nsvcd_mover *b = &q->b;
   nsvcd_result result = nsvcd__mover_check(a);
   if (!result) result = nsvcd__mover_check(b);
   if (result) return result;
-  // One and the same body in the same motion: something was passed twice.
+  // The same body in the same motion: something was passed twice.
   const float scale_a = nsvcd__scale_of(a);
   const float scale_b = nsvcd__scale_of(b);
   const int same_size = !(scale_a < scale_b) && !(scale_b < scale_a);
@@ -18380,7 +18241,6 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
   if (a->body == b->body && same_motion && same_size) return NSVCD_ERROR_SAME;
 
   // Are the options' numbers in their ranges, and do they go together?
-  const nsvcd_question *q = question;
   if ((unsigned)q->method > (unsigned)NSVCD_METHOD_NETWORK) return NSVCD_ERROR_METHOD;
   if ((unsigned)q->ask > (unsigned)NSVCD_ASK_DISTANCE) return NSVCD_ERROR_ASK;
   if (q->segments > NSVCD__MAX_SEGMENTS || q->segments % NSVCD__LANES)
@@ -18394,11 +18254,10 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
   if (!nsvcd__is_length(q->to_time) || q->to_time > (is_first ? 1.0f : 0.0f))
     return NSVCD_ERROR_TO_TIME;
   if (q->manifold && !is_first) return NSVCD_ERROR_MANIFOLD;
-  // of these the network knows nothing
+  // The network knows nothing of these.
   const int by_network = q->method == NSVCD_METHOD_NETWORK;
-  int needs_proof = q->clearance > 0 || q->slop > 0;
-  needs_proof |= is_first || q->to > 0;
-  needs_proof |= q->ask == NSVCD_ASK_DISTANCE && !by_network;
+  const int needs_proof = q->clearance > 0 || q->slop > 0 || is_first || q->to > 0 ||
+                          (q->ask == NSVCD_ASK_DISTANCE && !by_network);
   if (needs_proof && by_network) return NSVCD_ERROR_METHOD;
   const nsvcd_method wanted = needs_proof ? NSVCD_METHOD_PROOF : q->method;
   if (nsvcd__method_of(a->body, b->body, wanted) == NSVCD_METHOD_DEFAULT)
@@ -18413,21 +18272,21 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
 
 // ---- who moves
 
-// How far a body reaches from its origin, with what it goes beyond its triangles.
-static float nsvcd__reach_of(const nsvcd_mover *mover) {
+// The extent of a body, with what it goes beyond its triangles.
+static float nsvcd__extent_of(const nsvcd_mover *mover) {
   const nsvcd_body *body = mover->body;
   return nsvcd__scale_of(mover) * (body->extent + (nsvcd__whole_radius(body) - body->radius));
 }
 
-// Is b to be the one that moves, and a the one in whose frame that is seen? The one that rests is
-// that, else the larger one; where they are equal, any rule that does not depend on which is a:
-// then both ways of asking are answered alike.
+// Does b move, seen in a's frame? Of two bodies the one that moves does, else the smaller one. If
+// they are equal, any rule will do that does not depend on which of them is a: then both ways of
+// asking get the same answer.
 static int nsvcd__is_swapped(const nsvcd_mover *a, const nsvcd_mover *b) {
   const size_t count_a = nsvcd__pose_count(a);
   const size_t count_b = nsvcd__pose_count(b);
   if ((count_a > 1) != (count_b > 1)) return count_b > 1;
-  const float size_a = nsvcd__reach_of(a);
-  const float size_b = nsvcd__reach_of(b);
+  const float size_a = nsvcd__extent_of(a);
+  const float size_b = nsvcd__extent_of(b);
   if (size_a < size_b || size_b < size_a) return size_b < size_a;
   if (a->body->checksum != b->body->checksum) return b->body->checksum < a->body->checksum;
   if (count_a != count_b) return count_b < count_a;
@@ -18441,28 +18300,27 @@ static int nsvcd__is_swapped(const nsvcd_mover *a, const nsvcd_mover *b) {
 
 // ---- lay out
 
-// What a question that is in order needs; NULL: what any may need. Which of its bodies is to be the
-// moving one makes no difference to how much that is.
-static nsvcd__needs nsvcd__needs_of(const nsvcd_question *question) {
+// What a question that is in order needs; NULL: what any may need.
+static nsvcd__needs nsvcd__needs_of(const nsvcd_question *q) {
   nsvcd__needs needs = {NSVCD__TILE_SLOTS, NSVCD__TILE_SLOTS, 1, NSVCD__MAX_SEGMENTS, 0, 1};
 #ifndef NSVCD_NO_NETWORK
   needs.candidates = NSVCD__SHORTLIST * NSVCD_MAX_PAIRS;
 #endif
-  if (!question) return needs;
-  const nsvcd_body *a = question->a.body;
-  const nsvcd_body *b = question->b.body;
-  const int swapped = nsvcd__is_swapped(&question->a, &question->b);
+  if (!q) return needs;
+  const nsvcd_body *a = q->a.body;
+  const nsvcd_body *b = q->b.body;
+  const int swapped = nsvcd__is_swapped(&q->a, &q->b);
   const size_t moving_groups = nsvcd__body_groups(swapped ? b : a);
   const size_t fixed_groups = nsvcd__body_groups(swapped ? a : b);
   if (moving_groups < NSVCD__TILE_SLOTS) needs.moving_groups = moving_groups;
   if (fixed_groups < NSVCD__TILE_SLOTS) needs.fixed_groups = fixed_groups;
   needs.large = nsvcd__is_tiled(a, b);
-  if (question->segments) needs.segments = nsvcd__round_up(question->segments, NSVCD__LANES);
-  needs.proof = nsvcd__method_of(a, b, question->method) == NSVCD_METHOD_PROOF;
+  if (q->segments) needs.segments = nsvcd__round_up(q->segments, NSVCD__LANES);
+  needs.proof = nsvcd__method_of(a, b, q->method) == NSVCD_METHOD_PROOF;
 #ifndef NSVCD_NO_NETWORK
-  const nsvcd_network_options *options = &question->network;
-  const size_t pairs = options->pairs ? options->pairs : NSVCD_DEFAULT_PAIRS;
-  const size_t most = options->model == NSVCD_MODEL_TINY ? pairs : NSVCD__SHORTLIST * pairs;
+  const nsvcd_network_options *o = &q->network;
+  const size_t pairs = o->pairs ? o->pairs : NSVCD_DEFAULT_PAIRS;
+  const size_t most = o->model == NSVCD_MODEL_TINY ? pairs : NSVCD__SHORTLIST * pairs;
   needs.candidates = most > NSVCD__PORTION ? most : NSVCD__PORTION;
   if (!a->weights_id || !b->weights_id) needs.candidates = 0;
 #endif
@@ -18470,40 +18328,40 @@ static nsvcd__needs nsvcd__needs_of(const nsvcd_question *question) {
 }
 
 // As nsvcd_sweep_workspace_size.
-static size_t nsvcd__sweep_size(const nsvcd_question *question) {
-  if (question && nsvcd__question_check(question)) return 0;
-  const nsvcd__needs needs = nsvcd__needs_of(question);
+static size_t nsvcd__sweep_size(const nsvcd_question *q) {
+  if (q && nsvcd__question_check(q)) return 0;
+  const nsvcd__needs needs = nsvcd__needs_of(q);
   return nsvcd__query_layout(&needs, NULL);
 }
 
 // Checks a question, and that the workspace is large enough for it.
-static NSVCD__NOINLINE nsvcd_result nsvcd__answer_question(const nsvcd_question *question,
-                                                           const void *workspace,
-                                                           size_t workspace_size) {
-  const nsvcd_result result = nsvcd__question_check(question);
+static NSVCD__NOINLINE nsvcd_result nsvcd__sweep_check(const nsvcd_question *q,
+                                                       const void *workspace,
+                                                       size_t workspace_size) {
+  const nsvcd_result result = nsvcd__question_check(q);
   if (result) return result;
   if (!workspace || !nsvcd__is_aligned(workspace)) return NSVCD_ERROR_WORKSPACE;
-  const nsvcd__needs needs = nsvcd__needs_of(question);
+  const nsvcd__needs needs = nsvcd__needs_of(q);
   const size_t size = nsvcd__query_layout(&needs, NULL);
   return workspace_size >= size ? NSVCD_OK : NSVCD_ERROR_WORKSPACE;
 }
 
-// Lays a question that has been checked out in the workspace, and chooses who moves.
-static NSVCD__NOINLINE nsvcd__query *nsvcd__query_open(const nsvcd_question *question,
+// Lays out a checked question in the workspace, and chooses who moves.
+static NSVCD__NOINLINE nsvcd__query *nsvcd__query_open(const nsvcd_question *q,
                                                        void *workspace) {
-  const nsvcd__needs needs = nsvcd__needs_of(question);
+  const nsvcd__needs needs = nsvcd__needs_of(q);
   nsvcd__query *query = (nsvcd__query *)workspace;
   nsvcd__task *task = &query->task;
   (void)nsvcd__query_layout(&needs, (char *)workspace);
-  task->swapped = nsvcd__is_swapped(&question->a, &question->b);
-  const nsvcd_mover *moving = task->swapped ? &question->b : &question->a;
-  const nsvcd_mover *fixed = task->swapped ? &question->a : &question->b;
+  task->swapped = nsvcd__is_swapped(&q->a, &q->b);
+  const nsvcd_mover *moving = task->swapped ? &q->b : &q->a;
+  const nsvcd_mover *fixed = task->swapped ? &q->a : &q->b;
   nsvcd__motion_init(moving, fixed, &task->motion);
   task->moving = moving->body;
   task->fixed = fixed->body;
   task->lengths = task->motion.scale * task->moving->extent + task->fixed->extent;
-  task->method = nsvcd__method_of(task->moving, task->fixed, question->method);
-  task->question = question;
+  task->method = nsvcd__method_of(task->moving, task->fixed, q->method);
+  task->question = q;
 #ifndef NSVCD_NO_NETWORK
   task->decisive = NULL;
 #if NSVCD__ROWS == 1
@@ -18515,33 +18373,33 @@ static NSVCD__NOINLINE nsvcd__query *nsvcd__query_open(const nsvcd_question *que
 
 // ---- answer, and write
 
-// What was found out about the moving body and the fixed one, said about b and a.
-static void nsvcd__swap_patches(uint32_t *a, uint32_t *b) {
+static void nsvcd__swap(uint32_t *a, uint32_t *b) {
   const uint32_t first = *a;
   *a = *b;
   *b = first;
 }
-static void nsvcd__swap_contact(nsvcd_contact *contact) {
-  nsvcd__swap_patches(&contact->patch_a, &contact->patch_b);
-  nsvcd__swap_patches(&contact->triangle_a, &contact->triangle_b);
-  const float gap = contact->gap < HUGE_VALF ? contact->gap : 0;
+
+// Exchanges a and b in what was found about the moving body and the fixed one.
+static void nsvcd__swap_contact(nsvcd_contact *c) {
+  nsvcd__swap(&c->patch_a, &c->patch_b);
+  nsvcd__swap(&c->triangle_a, &c->triangle_b);
+  const float gap = c->gap < HUGE_VALF ? c->gap : 0;
   for (size_t k = 0; k < 3; k++) {
-    contact->point[k] += gap * contact->normal[k];
-    contact->normal[k] = 0 - contact->normal[k];
+    c->point[k] += gap * c->normal[k];
+    c->normal[k] = 0 - c->normal[k];
   }
 }
 static void nsvcd__swap_answer(nsvcd_answer *answer) {
   const nsvcd_pose moving = answer->safe.a;
   answer->safe.a = answer->safe.b;
   answer->safe.b = moving;
-  nsvcd__swap_patches(&answer->opinion.patch_a, &answer->opinion.patch_b);
+  nsvcd__swap(&answer->opinion.patch_a, &answer->opinion.patch_b);
   nsvcd__swap_contact(&answer->nearest);
   for (size_t n = 0; n < answer->contact_count; n++) nsvcd__swap_contact(&answer->contacts[n]);
   for (size_t k = 0; k < 3; k++) answer->push_out[k] = 0 - answer->push_out[k];
 }
 
-// Answers a question that has been checked and laid out. hint: NULL, or that of a batch, for the
-// network.
+// Answers a question that has been checked and laid out. hint: NULL, or a batch's, for the network.
 static void nsvcd__answer_query(nsvcd__query *query, nsvcd__hint *hint, nsvcd_answer *answer) {
   const nsvcd__task *task = &query->task;
   (void)hint;
@@ -18549,7 +18407,7 @@ static void nsvcd__answer_query(nsvcd__query *query, nsvcd__hint *hint, nsvcd_an
   if (task->method == NSVCD_METHOD_PROOF) nsvcd__answer_by_proof(query, answer);
 #endif
 #if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_NETWORK)
-  // What a proof has left undecided the network has an opinion on, if no more than yes or no is
+  // The network has an opinion on what a proof leaves undecided, if no more than yes or no is
   // asked.
   const nsvcd_question *q = task->question;
   const int knows = task->moving->weights_id && task->fixed->weights_id &&
@@ -18567,13 +18425,11 @@ static void nsvcd__answer_query(nsvcd__query *query, nsvcd__hint *hint, nsvcd_an
 static nsvcd_result nsvcd__run_batch(const nsvcd_question *questions, size_t count,
                                      void *workspace, size_t workspace_size,
                                      nsvcd_answer *answers) {
-  const nsvcd__hint none = {0, 0, 0, 0};
-  nsvcd__hint hint = none;
+  nsvcd__hint hint = {0, 0, 0, 0};
   int swapped = 0;
   if (count > 0 && (!questions || !answers)) return NSVCD_ERROR_ARGUMENT;
   for (size_t k = 0; k < count; k++) {
-    const nsvcd_result result =
-        nsvcd__answer_question(&questions[k], workspace, workspace_size);
+    const nsvcd_result result = nsvcd__sweep_check(&questions[k], workspace, workspace_size);
     if (result) return result;
   }
   for (size_t k = 0; k < count; k++) {
@@ -18581,7 +18437,7 @@ static nsvcd_result nsvcd__run_batch(const nsvcd_question *questions, size_t cou
     nsvcd__query *query = nsvcd__query_open(q, workspace);
     // The hint is about patches of the moving body and of the fixed one.
     const int same = k > 0 && q->a.body == q[-1].a.body && q->b.body == q[-1].b.body;
-    if (!same || query->task.swapped != swapped) hint = none;
+    if (!same || query->task.swapped != swapped) memset(&hint, 0, sizeof hint);
     swapped = query->task.swapped;
     nsvcd__answer_query(query, &hint, &answers[k]);
   }
@@ -18591,19 +18447,19 @@ static nsvcd_result nsvcd__run_batch(const nsvcd_question *questions, size_t cou
 // --------------------------------------------------------------------------------- query/self_test
 // In: nothing. Out: does this build compute as it should?
 
-// As nsvcd_self_test. The place of a body's point (1, 0, 0) at 16 ticks: the body turns by 90
-// degrees about z on its way from (4, 0, 0) to (-4, 0, 0), and is seen by one at (1, 2, 3) whose x,
-// y, z are y, z, x. Then two triangles that meet, and, as one is pushed out, are apart.
+// As nsvcd_self_test. Computes where a body's point (1, 0, 0) is at 16 ticks, while the body turns
+// by 90 degrees about z from (4, 0, 0) to (-4, 0, 0), seen from a body at (1, 2, 3) whose x, y, z
+// are y, z, x. Then two triangles that meet, and are apart when one of them is raised.
 static nsvcd_result nsvcd__run_self_test(void) {
-  // or the compiler would compute instead
+  // volatile, or the compiler would compute all this
   const volatile float half = 0.70710678f;
   const float turn = half;
   const nsvcd_pose path[2] = {{{4, 0, 0}, {0, 0, 0, 1}}, {{-4, 0, 0}, {0, 0, turn, turn}}};
   const nsvcd_pose rest = {{1, 2, 3}, {0.5f, 0.5f, 0.5f, 0.5f}};
   const nsvcd_mover moving = {NULL, path, 2, NULL, 0};
   const nsvcd_mover fixed = {NULL, &rest, 1, NULL, 0};
-  float positions[3][NSVCD__LANES];
-  // in a block: the stack is shared with what comes after it
+  nsvcd__chords chords;
+  // A block, so that what comes after it shares its stack.
   {
     nsvcd__motion motion;
     nsvcd__keyframes keyframes;
@@ -18617,13 +18473,10 @@ static nsvcd_result nsvcd__run_self_test(void) {
       const nsvcd__v_pose seen = nsvcd__v_seen(&motion, &at);
       const nsvcd__v3 arm = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
       const nsvcd__vmat3 rotation = nsvcd__vmat3_of(seen.rotation);
-      nsvcd__v3_store(positions, l, nsvcd__vmat3_apply_add(rotation, arm, seen.position));
+      const nsvcd__v3 start = nsvcd__vmat3_apply_add(rotation, arm, seen.position);
+      const nsvcd__v3 travel = nsvcd__v3_set(nsvcd__f3_of(0, 0, -0.5f));
+      nsvcd__chords_store(&chords, l, start, travel, nsvcd__v_set(0.1f));
     }
-  }
-  nsvcd__chords chords;
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 travel = nsvcd__v3_set(nsvcd__f3_of(0, 0, -0.5f));
-    nsvcd__chords_store(&chords, l, nsvcd__v3_load(positions, l), travel, nsvcd__v_set(0.1f));
   }
   int right = 1;
   for (size_t l = 0; l < NSVCD__LANES; l++) {
@@ -18633,7 +18486,7 @@ static nsvcd_result nsvcd__run_self_test(void) {
     right &= fabs((double)chords.start[1][l] + 3) < 1e-4;
     right &= fabs((double)chords.start[2][l] - x) < 1e-4;
   }
-  // only two of these chords come within 0.2 of the ninth place
+  // Only two of these chords come within 0.2 of the ninth point.
   nsvcd__sphere resting = {{half - 2, -3, half - 1}, 0.1f};
   right &= nsvcd__meet(&chords, resting) == 0x180;
   resting.centre.y += 1;
@@ -18647,7 +18500,7 @@ static nsvcd_result nsvcd__run_self_test(void) {
   right &= fabs(nsvcd__nearest_of(a, b).square - height * height) < 1e-9;
 #endif
 #ifdef NSVCD_ONE_PATH
-  // a product that has been rounded: of one that is fused, 2^-24 would be left
+  // A product is rounded. If it were fused with the difference, 2^-24 would be left.
   const volatile float one_up = 1 + 1.0f / 4096;
   const volatile float square = 1 + 1.0f / 2048;
   const float factor = one_up;
@@ -19310,7 +19163,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
   if (question->method == NSVCD_METHOD_PROOF) return NSVCD_ERROR_METHOD;
   nsvcd_question by_network = *question;
   by_network.method = NSVCD_METHOD_NETWORK;
-  const nsvcd_result result = nsvcd__answer_question(&by_network, workspace, workspace_size);
+  const nsvcd_result result = nsvcd__sweep_check(&by_network, workspace, workspace_size);
   if (result) return result;
   nsvcd__query *query = nsvcd__query_open(&by_network, workspace);
   nsvcd__task *task = &query->task;
@@ -19413,7 +19266,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define NSVCD__TOUCHING NSVCD__NUMBER_AT(TOUCHING)
 #define nsvcd__across_edges NSVCD__AT(across_edges)
 #define nsvcd__add_dipoles NSVCD__AT(add_dipoles)
-#define nsvcd__add_part NSVCD__AT(add_part)
 #define nsvcd__add_patch_pairs NSVCD__AT(add_patch_pairs)
 #define nsvcd__add_to NSVCD__AT(add_to)
 #define nsvcd__add_transpose NSVCD__AT(add_transpose)
@@ -19424,9 +19276,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__answer_by_network NSVCD__AT(answer_by_network)
 #define nsvcd__answer_by_proof NSVCD__AT(answer_by_proof)
 #define nsvcd__answer_query NSVCD__AT(answer_query)
-#define nsvcd__answer_question NSVCD__AT(answer_question)
 #define nsvcd__answer_with NSVCD__AT(answer_with)
-#define nsvcd__apart_until NSVCD__AT(apart_until)
 #define nsvcd__approach NSVCD__AT(approach)
 #define nsvcd__approach_at NSVCD__AT(approach_at)
 #define nsvcd__arc NSVCD__AT(arc)
@@ -19441,7 +19291,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__asked NSVCD__AT(asked)
 #define nsvcd__axis_apart NSVCD__AT(axis_apart)
 #define nsvcd__beam NSVCD__AT(beam)
-#define nsvcd__begin_positions NSVCD__AT(begin_positions)
 #define nsvcd__bend_of NSVCD__AT(bend_of)
 #define nsvcd__bends NSVCD__AT(bends)
 #define nsvcd__best_push_out NSVCD__AT(best_push_out)
@@ -19454,6 +19303,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__block_lanes NSVCD__AT(block_lanes)
 #define nsvcd__block_load NSVCD__AT(block_load)
 #define nsvcd__block_pose NSVCD__AT(block_pose)
+#define nsvcd__bound_distance NSVCD__AT(bound_distance)
 #define nsvcd__bound_of NSVCD__AT(bound_of)
 #define nsvcd__box_of_lane NSVCD__AT(box_of_lane)
 #define nsvcd__boxes NSVCD__AT(boxes)
@@ -19507,7 +19357,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__closeness NSVCD__AT(closeness)
 #define nsvcd__collect_contact NSVCD__AT(collect_contact)
 #define nsvcd__collect_contacts NSVCD__AT(collect_contacts)
-#define nsvcd__collect_positions NSVCD__AT(collect_positions)
+#define nsvcd__collect_supports NSVCD__AT(collect_supports)
 #define nsvcd__collecting NSVCD__AT(collecting)
 #define nsvcd__collects_on NSVCD__AT(collects_on)
 #define nsvcd__collides_again NSVCD__AT(collides_again)
@@ -19532,8 +19382,11 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__decoder_gradient NSVCD__AT(decoder_gradient)
 #define nsvcd__decoder_run NSVCD__AT(decoder_run)
 #define nsvcd__deepen NSVCD__AT(deepen)
+#define nsvcd__depth_along NSVCD__AT(depth_along)
 #define nsvcd__deviation_of NSVCD__AT(deviation_of)
 #define nsvcd__dot_tile NSVCD__AT(dot_tile)
+#define nsvcd__dpose NSVCD__AT(dpose)
+#define nsvcd__dpose_at NSVCD__AT(dpose_at)
 #define nsvcd__dtransform NSVCD__AT(dtransform)
 #define nsvcd__dtransform_at NSVCD__AT(dtransform_at)
 #define nsvcd__edges_cross NSVCD__AT(edges_cross)
@@ -19543,7 +19396,9 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__end_of NSVCD__AT(end_of)
 #define nsvcd__epsilon NSVCD__AT(epsilon)
 #define nsvcd__exists NSVCD__AT(exists)
+#define nsvcd__exit_depth NSVCD__AT(exit_depth)
 #define nsvcd__exit_is_blocked NSVCD__AT(exit_is_blocked)
+#define nsvcd__extent_of NSVCD__AT(extent_of)
 #define nsvcd__extremes_along NSVCD__AT(extremes_along)
 #define nsvcd__extremes_collect NSVCD__AT(extremes_collect)
 #define nsvcd__f3_across NSVCD__AT(f3_across)
@@ -19555,7 +19410,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__find_witness NSVCD__AT(find_witness)
 #define nsvcd__find_witness_in NSVCD__AT(find_witness_in)
 #define nsvcd__finding NSVCD__AT(finding)
-#define nsvcd__first_interval NSVCD__AT(first_interval)
 #define nsvcd__first_lanes NSVCD__AT(first_lanes)
 #define nsvcd__fixed_closed NSVCD__AT(fixed_closed)
 #define nsvcd__foot_well_within NSVCD__AT(foot_well_within)
@@ -19572,8 +19426,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__group_against_group NSVCD__AT(group_against_group)
 #define nsvcd__group_against_members NSVCD__AT(group_against_members)
 #define nsvcd__group_reach NSVCD__AT(group_reach)
-#define nsvcd__groups_nearest NSVCD__AT(groups_nearest)
-#define nsvcd__guess_clearance NSVCD__AT(guess_clearance)
 #define nsvcd__has_turned NSVCD__AT(has_turned)
 #define nsvcd__height NSVCD__AT(height)
 #define nsvcd__held_again NSVCD__AT(held_again)
@@ -19581,7 +19433,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__hull_of NSVCD__AT(hull_of)
 #define nsvcd__hull_vertices NSVCD__AT(hull_vertices)
 #define nsvcd__hulls_are_apart NSVCD__AT(hulls_are_apart)
-#define nsvcd__id_of NSVCD__AT(id_of)
 #define nsvcd__inputs NSVCD__AT(inputs)
 #define nsvcd__inputs_of NSVCD__AT(inputs_of)
 #define nsvcd__inputs_without_gaps NSVCD__AT(inputs_without_gaps)
@@ -19599,7 +19450,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__inverse_dtransform NSVCD__AT(inverse_dtransform)
 #define nsvcd__is_against NSVCD__AT(is_against)
 #define nsvcd__is_approached NSVCD__AT(is_approached)
-#define nsvcd__is_around NSVCD__AT(is_around)
 #define nsvcd__is_before NSVCD__AT(is_before)
 #define nsvcd__is_clear NSVCD__AT(is_clear)
 #define nsvcd__is_contained NSVCD__AT(is_contained)
@@ -19620,7 +19470,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__is_swapped NSVCD__AT(is_swapped)
 #define nsvcd__is_tiled NSVCD__AT(is_tiled)
 #define nsvcd__judge NSVCD__AT(judge)
-#define nsvcd__keep_position NSVCD__AT(keep_position)
+#define nsvcd__keep_support NSVCD__AT(keep_support)
 #define nsvcd__keep_unresolved NSVCD__AT(keep_unresolved)
 #define nsvcd__keyframes NSVCD__AT(keyframes)
 #define nsvcd__keyframes_after NSVCD__AT(keyframes_after)
@@ -19647,6 +19497,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__limit_of_first NSVCD__AT(limit_of_first)
 #define nsvcd__looks_contained_at_start NSVCD__AT(looks_contained_at_start)
 #define nsvcd__manifold NSVCD__AT(manifold)
+#define nsvcd__manifold_begin NSVCD__AT(manifold_begin)
 #define nsvcd__manifold_normals NSVCD__AT(manifold_normals)
 #define nsvcd__margin_along NSVCD__AT(margin_along)
 #define nsvcd__mat3_lane NSVCD__AT(mat3_lane)
@@ -19659,7 +19510,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__meet_in NSVCD__AT(meet_in)
 #define nsvcd__meet_members NSVCD__AT(meet_members)
 #define nsvcd__meets_at NSVCD__AT(meets_at)
-#define nsvcd__meets_at_ends NSVCD__AT(meets_at_ends)
+#define nsvcd__meets_sphere NSVCD__AT(meets_sphere)
 #define nsvcd__members_meet NSVCD__AT(members_meet)
 #define nsvcd__memo NSVCD__AT(memo)
 #define nsvcd__met_along NSVCD__AT(met_along)
@@ -19675,6 +19526,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__motion_set_ticks NSVCD__AT(motion_set_ticks)
 #define nsvcd__motion_set_times NSVCD__AT(motion_set_times)
 #define nsvcd__motion_set_tracks NSVCD__AT(motion_set_tracks)
+#define nsvcd__move_back NSVCD__AT(move_back)
 #define nsvcd__mover_check NSVCD__AT(mover_check)
 #define nsvcd__moving_block_load NSVCD__AT(moving_block_load)
 #define nsvcd__moving_closed NSVCD__AT(moving_closed)
@@ -19684,6 +19536,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__narrow_segments NSVCD__AT(narrow_segments)
 #define nsvcd__nearby NSVCD__AT(nearby)
 #define nsvcd__nearest2 NSVCD__AT(nearest2)
+#define nsvcd__nearest_groups NSVCD__AT(nearest_groups)
 #define nsvcd__nearest_tick NSVCD__AT(nearest_tick)
 #define nsvcd__needs NSVCD__AT(needs)
 #define nsvcd__needs_of NSVCD__AT(needs_of)
@@ -19719,8 +19572,8 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__passing NSVCD__AT(passing)
 #define nsvcd__passing_turns NSVCD__AT(passing_turns)
 #define nsvcd__patch_arm NSVCD__AT(patch_arm)
+#define nsvcd__patch_near NSVCD__AT(patch_near)
 #define nsvcd__patch_pair NSVCD__AT(patch_pair)
-#define nsvcd__patch_towards NSVCD__AT(patch_towards)
 #define nsvcd__patches_apart NSVCD__AT(patches_apart)
 #define nsvcd__place_point NSVCD__AT(place_point)
 #define nsvcd__place_triangle NSVCD__AT(place_triangle)
@@ -19733,8 +19586,9 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__planes_known NSVCD__AT(planes_known)
 #define nsvcd__pose_at NSVCD__AT(pose_at)
 #define nsvcd__pose_before NSVCD__AT(pose_before)
+#define nsvcd__pose_error NSVCD__AT(pose_error)
 #define nsvcd__pose_members NSVCD__AT(pose_members)
-#define nsvcd__pose_of NSVCD__AT(pose_of)
+#define nsvcd__pose_round NSVCD__AT(pose_round)
 #define nsvcd__poses_at NSVCD__AT(poses_at)
 #define nsvcd__poses_opposed NSVCD__AT(poses_opposed)
 #define nsvcd__probes NSVCD__AT(probes)
@@ -19744,18 +19598,16 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__proof_constants_hold NSVCD__AT(proof_constants_hold)
 #define nsvcd__proof_restart NSVCD__AT(proof_restart)
 #define nsvcd__prove NSVCD__AT(prove)
-#define nsvcd__prove_and_look NSVCD__AT(prove_and_look)
 #define nsvcd__prove_anew NSVCD__AT(prove_anew)
 #define nsvcd__prove_by_time NSVCD__AT(prove_by_time)
 #define nsvcd__prove_first NSVCD__AT(prove_first)
-#define nsvcd__prove_interval NSVCD__AT(prove_interval)
 #define nsvcd__prove_intervals NSVCD__AT(prove_intervals)
 #define nsvcd__prove_motion NSVCD__AT(prove_motion)
 #define nsvcd__prove_part NSVCD__AT(prove_part)
 #define nsvcd__prove_segments NSVCD__AT(prove_segments)
 #define nsvcd__prove_tiles NSVCD__AT(prove_tiles)
+#define nsvcd__prove_whole NSVCD__AT(prove_whole)
 #define nsvcd__push_out NSVCD__AT(push_out)
-#define nsvcd__push_out_along NSVCD__AT(push_out_along)
 #define nsvcd__push_out_motion NSVCD__AT(push_out_motion)
 #define nsvcd__push_out_still NSVCD__AT(push_out_still)
 #define nsvcd__quanta_of NSVCD__AT(quanta_of)
@@ -19766,8 +19618,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__ranges NSVCD__AT(ranges)
 #define nsvcd__ray NSVCD__AT(ray)
 #define nsvcd__ray_crosses NSVCD__AT(ray_crosses)
-#define nsvcd__reach_of NSVCD__AT(reach_of)
-#define nsvcd__recede NSVCD__AT(recede)
 #define nsvcd__remember_plane NSVCD__AT(remember_plane)
 #define nsvcd__resolve_doubtful NSVCD__AT(resolve_doubtful)
 #define nsvcd__resolve_normal NSVCD__AT(resolve_normal)
@@ -19778,7 +19628,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__resolve_short_interval NSVCD__AT(resolve_short_interval)
 #define nsvcd__resolve_straight NSVCD__AT(resolve_straight)
 #define nsvcd__resolve_triangles NSVCD__AT(resolve_triangles)
-#define nsvcd__resolve_why NSVCD__AT(resolve_why)
 #define nsvcd__rest_at NSVCD__AT(rest_at)
 #define nsvcd__resting NSVCD__AT(resting)
 #define nsvcd__resting_know NSVCD__AT(resting_know)
@@ -19802,8 +19651,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__search_patch NSVCD__AT(search_patch)
 #define nsvcd__search_step NSVCD__AT(search_step)
 #define nsvcd__search_tile NSVCD__AT(search_tile)
-#define nsvcd__see_to_patch_pairs NSVCD__AT(see_to_patch_pairs)
-#define nsvcd__seeds_near NSVCD__AT(seeds_near)
+#define nsvcd__seed_is_near NSVCD__AT(seed_is_near)
 #define nsvcd__seek_across NSVCD__AT(seek_across)
 #define nsvcd__seek_in_patch_pair NSVCD__AT(seek_in_patch_pair)
 #define nsvcd__seek_positions NSVCD__AT(seek_positions)
@@ -19834,32 +19682,27 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__sticks_out NSVCD__AT(sticks_out)
 #define nsvcd__support NSVCD__AT(support)
 #define nsvcd__support_along NSVCD__AT(support_along)
+#define nsvcd__surface_gap NSVCD__AT(surface_gap)
 #define nsvcd__surface_is_near NSVCD__AT(surface_is_near)
-#define nsvcd__surroundings NSVCD__AT(surroundings)
+#define nsvcd__swap NSVCD__AT(swap)
 #define nsvcd__swap_answer NSVCD__AT(swap_answer)
 #define nsvcd__swap_contact NSVCD__AT(swap_contact)
-#define nsvcd__swap_patches NSVCD__AT(swap_patches)
+#define nsvcd__sweep_check NSVCD__AT(sweep_check)
 #define nsvcd__sweep_size NSVCD__AT(sweep_size)
 #define nsvcd__take_contact NSVCD__AT(take_contact)
 #define nsvcd__take_nearest NSVCD__AT(take_nearest)
+#define nsvcd__take_patch_pairs NSVCD__AT(take_patch_pairs)
 #define nsvcd__take_to_line NSVCD__AT(take_to_line)
 #define nsvcd__takes_push_out NSVCD__AT(takes_push_out)
 #define nsvcd__task NSVCD__AT(task)
-#define nsvcd__tell_contact NSVCD__AT(tell_contact)
-#define nsvcd__tell_manifold NSVCD__AT(tell_manifold)
-#define nsvcd__tell_safe_pose NSVCD__AT(tell_safe_pose)
 #define nsvcd__tick_of NSVCD__AT(tick_of)
 #define nsvcd__tile NSVCD__AT(tile)
 #define nsvcd__tile_fill NSVCD__AT(tile_fill)
 #define nsvcd__tile_fill_all NSVCD__AT(tile_fill_all)
-#define nsvcd__time_above NSVCD__AT(time_above)
 #define nsvcd__time_in_arc NSVCD__AT(time_in_arc)
 #define nsvcd__time_in_segment NSVCD__AT(time_in_segment)
 #define nsvcd__time_of NSVCD__AT(time_of)
 #define nsvcd__to_of NSVCD__AT(to_of)
-#define nsvcd__to_world NSVCD__AT(to_world)
-#define nsvcd__to_world_at NSVCD__AT(to_world_at)
-#define nsvcd__told_allowance NSVCD__AT(told_allowance)
 #define nsvcd__track NSVCD__AT(track)
 #define nsvcd__track_box NSVCD__AT(track_box)
 #define nsvcd__track_of NSVCD__AT(track_of)
@@ -19868,11 +19711,10 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__track_poses_at NSVCD__AT(track_poses_at)
 #define nsvcd__track_within NSVCD__AT(track_within)
 #define nsvcd__transform_of NSVCD__AT(transform_of)
+#define nsvcd__travel_in NSVCD__AT(travel_in)
 #define nsvcd__triangle_contact NSVCD__AT(triangle_contact)
 #define nsvcd__triangle_pair NSVCD__AT(triangle_pair)
 #define nsvcd__try_push_out NSVCD__AT(try_push_out)
-#define nsvcd__turn_at NSVCD__AT(turn_at)
-#define nsvcd__turn_back NSVCD__AT(turn_back)
 #define nsvcd__turn_within NSVCD__AT(turn_within)
 #define nsvcd__turned NSVCD__AT(turned)
 #define nsvcd__turned_back NSVCD__AT(turned_back)
@@ -19956,7 +19798,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__v_turn_between NSVCD__AT(v_turn_between)
 #define nsvcd__v_turn_off_axis NSVCD__AT(v_turn_off_axis)
 #define nsvcd__v_unit_or NSVCD__AT(v_unit_or)
-#define nsvcd__vertices_apart NSVCD__AT(vertices_apart)
+#define nsvcd__vertex_distance NSVCD__AT(vertex_distance)
 #define nsvcd__view NSVCD__AT(view)
 #define nsvcd__views NSVCD__AT(views)
 #define nsvcd__views_of NSVCD__AT(views_of)
@@ -19986,16 +19828,18 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__vquat_set NSVCD__AT(vquat_set)
 #define nsvcd__vquat_store NSVCD__AT(vquat_store)
 #define nsvcd__vquat_unit NSVCD__AT(vquat_unit)
-#define nsvcd__way_in NSVCD__AT(way_in)
-#define nsvcd__way_of NSVCD__AT(way_of)
-#define nsvcd__way_out NSVCD__AT(way_out)
 #define nsvcd__weights_at NSVCD__AT(weights_at)
 #define nsvcd__wigner NSVCD__AT(wigner)
 #define nsvcd__winding_number NSVCD__AT(winding_number)
 #define nsvcd__window_load NSVCD__AT(window_load)
+#define nsvcd__world_at NSVCD__AT(world_at)
 #define nsvcd__world_pose NSVCD__AT(world_pose)
 #define nsvcd__world_pose_between NSVCD__AT(world_pose_between)
 #define nsvcd__world_pose_of NSVCD__AT(world_pose_of)
+#define nsvcd__write_contact NSVCD__AT(write_contact)
+#define nsvcd__write_manifold NSVCD__AT(write_manifold)
+#define nsvcd__write_safe_pose NSVCD__AT(write_safe_pose)
+#define nsvcd__write_time NSVCD__AT(write_time)
 
 // ---- the passes
 
