@@ -43,7 +43,7 @@ the axis of the other body|arc->own_axis = nsvcd__dmat3_apply_transpose(\&moving
 pair at half the distance from the axis|arc->bend * pair->from_axis * off_axis|arc->bend * 0.5 * pair->from_axis * off_axis
 pair whose axis does not waver|pair->from_axis += (arc->waver + 1e-6) * pair->from_origin;|
 pair beside an axis that does not waver|across + arc->waver + 1e-6|across + 1e-6
-chords off the axis|nsvcd__v_add(keyframe_bend_along_axis, arc_bend_along_axis)|arc_bend_along_axis
+chords off the axis|nsvcd__v_bend(scale, most->arc_along_axis + l, most->along_axis + l);|nsvcd__v_mul(scale, nsvcd__v_load(most->arc_along_axis + l));
 lanes without bulge|return nsvcd__v_fma(turn, nsvcd__v_set(from_origin), nsvcd__v_min(by_axis, by_heading));|return nsvcd__v_fma(turn, nsvcd__v_set(0 * from_origin), nsvcd__v_min(by_axis, by_heading));
 lanes without drift|return nsvcd__v_fma(turn, nsvcd__v_set(from_origin), nsvcd__v_min(by_axis, by_heading));|return nsvcd__v_mul(turn, nsvcd__v_set(from_origin));
 disc without across|nsvcd__v_mul(slab->across, across);|nsvcd__v_mul(nsvcd__v_set(0), across);
@@ -110,11 +110,11 @@ arcs of both, half of the way|(2 * across + angle * swing);|(across + angle * sw
 a leg from its pose|slerp->from = (double)(first - begin) * per_tick;|slerp->from = 0;
 knots of one body only|return after_a < after_b ? after_a : after_b;|return after_a;
 group without scale|  sphere.radius *= search->scale;\n|
-members without scale|nsvcd__v_fma(nsvcd__v_set(scale), radius, deviation);|nsvcd__v_add(radius, deviation);
+members without scale|nsvcd__v_fma(scale, radius, deviation));|nsvcd__v_add(radius, deviation));
 discs without scale|nsvcd__v_mul(a->scale, nsvcd__v3_dot(w, w)); const nsvcd__v across = nsvcd__v_mul(a->scale, nsvcd__v3_length(a->turned));|nsvcd__v3_dot(w, w);\n  const nsvcd__v across = nsvcd__v3_length(a->turned);
 disc without clearance|a.clearance = nsvcd__clearance(p); a.radius = radius;|a.clearance = 0; a.radius = radius;
 moving disc without clearance|nsvcd__v_plus(a->interval.rounding, a->clearance);|a->interval.rounding;
-groups without clearance|a.clearance = nsvcd__clearance(p); a.radius = nsvcd__group_reach|a.clearance = 0; a.radius = nsvcd__group_reach
+groups without clearance|a.clearance = nsvcd__clearance(p); a.radius = nsvcd__group_extent|a.clearance = 0; a.radius = nsvcd__group_extent
 held plane without clearance|below->height + nsvcd__clearance(p) * length|below->height
 held plane not tried again|if (!(above->height > below->height + nsvcd__clearance(p) * length)) return 0;|
 span of before it was clipped|p->memo.intervals \&= ~((uint64_t)1 << s);|

@@ -329,6 +329,11 @@ static inline nsvcd__v3 nsvcd__v3_unit(nsvcd__v3 a) {
                       nsvcd__v_pick(length, least, zero, unit.z));
 }
 
+// Ranges along a direction.
+typedef struct nsvcd__v_range {
+  nsvcd__v low, high;
+} nsvcd__v_range;
+
 // The square of a sum of radii, with its sign: a negative sum (padding) meets nothing.
 static inline nsvcd__v nsvcd__v_signed_square(nsvcd__v reach) {
   return nsvcd__v_mul(reach, nsvcd__v_abs(reach));

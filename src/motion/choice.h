@@ -1,23 +1,26 @@
-// In: a motion. Out: its segments: how many, and when they begin. A motion that is too long for one
-// search is cut into *intervals*, each of which is searched anew with segments of its own: else
-// segments would hold hundreds of poses, or turn by hundreds of degrees, and part nothing. An
-// interval begins at a keyframe. It has as many arcs as there is room for, a segment each, or
-// several where an arc turns a lot. A *try* is a larger one: a few units tell whether all of it is
-// easy.
+// In: a motion. Out: its segments: how many, when they begin, and their poses and deviations.
+//
+// A motion that is too long for one search is cut into *intervals*, each of which is searched with
+// segments of its own: else a segment would hold hundreds of poses, or turn by hundreds of degrees,
+// and separate nothing. An interval begins at a keyframe. It has as many arcs as there is room for:
+// one in each segment, or one in several where it turns a lot. A *try* is larger: several arcs in
+// each segment, and a small budget tells whether all of it is easy.
 #pragma once
-#include "segments.h"
+#include "workspace.h"
 
-// Bounds of the total length of a track's rotation arcs, radians, and of the longest.
+#define NSVCD__SEGMENT_TURN 0.349f  // radians, 20 degrees
+#define NSVCD__FINE_TURN 0.131f     // 7.5 degrees: shorter segments gain nothing
+
+// Upper bounds of the sum of a track's arcs of rotation, radians, and of the longest.
 static void nsvcd__measure_turn(const nsvcd__track *track, float *turn, float *widest) {
-  float chord2[NSVCD__LANES];
   float sums[NSVCD__LANES] = {0};
   float longest[NSVCD__LANES] = {0};
-  for (size_t first = 0; first + 1 < track->count; first += NSVCD__LANES) {
-    const size_t left = track->count - 1 - first;
-    const size_t count = left < NSVCD__LANES ? left : NSVCD__LANES;
-    for (size_t l = 0; l < NSVCD__LANES; l++) {
-      const float *a = track->poses[first + (l < count ? l : count - 1)].rotation;
-      const float *b = track->poses[first + (l < count ? l + 1 : count - 1)].rotation;
+  const size_t arcs = track->count - 1;
+  for (size_t first = 0; first < arcs; first += NSVCD__LANES) {
+    float chord2[NSVCD__LANES] = {0};
+    for (size_t l = 0; l < NSVCD__LANES && first + l < arcs; l++) {
+      const float *a = track->poses[first + l].rotation;
+      const float *b = track->poses[first + l + 1].rotation;
       const float dot = (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]);
       const float sign = dot < 0 ? -1.0f : 1.0f;
       float d[4];
@@ -26,41 +29,37 @@ static void nsvcd__measure_turn(const nsvcd__track *track, float *turn, float *w
     }
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v arc = nsvcd__v_arc_bound(nsvcd__v_load(chord2 + l));
-      nsvcd__v_store(sums + l, nsvcd__v_add(nsvcd__v_load(sums + l), arc));
-      nsvcd__v_store(longest + l, nsvcd__v_max(nsvcd__v_load(longest + l), arc));
+      nsvcd__v_add_to(sums + l, arc);
+      nsvcd__v_keep_most(longest + l, arc);
     }
   }
-  *turn = 0;
-  *widest = 0;
+  *turn = *widest = 0;
   for (size_t l = 0; l < NSVCD__LANES; l++) {
     *turn += sums[l];
     *widest = longest[l] > *widest ? longest[l] : *widest;
   }
 }
 
-// How many segments, and into how many parts a tick must be cut where there are too few for that
-// (else 1). Segments begin at ticks.
+// How many segments. They begin at ticks; if there are too few of these, each is cut into `parts`,
+// else 1.
 static size_t nsvcd__segment_count(const nsvcd__motion *motion, size_t greatest,
                                    uint32_t *parts) {
   const size_t ticks = motion->ticks;
-  float turn;
-  float widest;
-  float fixed_turn = 0;
-  float fixed_widest = 0;
+  float turn, widest, fixed_turn, fixed_widest;
   *parts = 1;
   if (motion->moving.count == 1 && !motion->fixed_moves) return 1;
   nsvcd__measure_turn(&motion->moving, &turn, &widest);
-  if (motion->fixed_moves) nsvcd__measure_turn(&motion->fixed, &fixed_turn, &fixed_widest);
+  nsvcd__measure_turn(&motion->fixed, &fixed_turn, &fixed_widest);
   turn = turn + fixed_turn < 1e3f ? turn + fixed_turn : 1e3f;
   const size_t coarse = (size_t)ceilf(turn / NSVCD__SEGMENT_TURN);
   const size_t fine = (size_t)ceilf(turn / NSVCD__FINE_TURN);
   size_t wanted = fine < NSVCD__SEGMENTS ? fine : NSVCD__SEGMENTS;
   if (wanted < coarse) wanted = coarse < greatest ? coarse : greatest;
   if (wanted < 1) wanted = 1;
-  if (ticks > wanted)
-    return ticks < NSVCD__SEGMENTS    ? ticks
-           : wanted < NSVCD__SEGMENTS ? NSVCD__SEGMENTS
-                                      : wanted;
+  if (ticks > wanted) {
+    const size_t enough = wanted < NSVCD__SEGMENTS ? NSVCD__SEGMENTS : wanted;
+    return ticks < enough ? ticks : enough;
+  }
   const float of_tick =
       widest / (float)motion->moving.ticks + fixed_widest / (float)motion->fixed.ticks;
   const size_t least = (size_t)ceilf(of_tick / NSVCD__SEGMENT_TURN);
@@ -71,7 +70,7 @@ static size_t nsvcd__segment_count(const nsvcd__motion *motion, size_t greatest,
   return ticks * *parts;
 }
 
-// Of a whole motion.
+// The segments of a whole motion: equally many ticks in each, to one.
 static void nsvcd__choose_in_all(nsvcd__motion *motion, nsvcd__search *search) {
   uint32_t parts;
   nsvcd__motion_set_ticks(motion, 1);
@@ -80,19 +79,12 @@ static void nsvcd__choose_in_all(nsvcd__motion *motion, nsvcd__search *search) {
   const uint32_t segments = (uint32_t)search->segments;
   const uint32_t each = motion->ticks / segments;
   const uint32_t over = motion->ticks % segments;
-  uint32_t tick = 0;
-  uint32_t rest = 0;
-  for (size_t s = 0; s <= segments; s++) {
-    search->begin[s] = tick;
-    rest += over;
-    tick += each + (rest >= segments);
-    rest -= rest >= segments ? segments : 0;
-  }
+  for (uint32_t s = 0; s <= segments; s++) search->begin[s] = each * s + over * s / segments;
   nsvcd__motion_retime(motion, search->begin, segments);
 }
 
-// The ticks of a motion that is cut into intervals: the same for all of them, and so many that an
-// arc can be cut.
+// Sets the ticks of a motion that is cut into intervals: the same for all of them, and so many that
+// an arc can be cut.
 static void nsvcd__motion_set_fine_ticks(nsvcd__motion *motion) {
   uint32_t parts = NSVCD__MAX_SEGMENTS;
   nsvcd__motion_set_ticks(motion, 1);
@@ -101,8 +93,8 @@ static void nsvcd__motion_set_fine_ticks(nsvcd__motion *motion) {
   nsvcd__motion_set_times(motion);
 }
 
-// How far a track turns from one tick to another, between two poses of it: about, radians.
-static float nsvcd__turn_within(const nsvcd__track *track, uint32_t from, uint32_t to) {
+// How far a track turns between ticks of the same arc: about, radians.
+static float nsvcd__track_turn(const nsvcd__track *track, uint32_t from, uint32_t to) {
   if (track->count == 1) return 0;
   const uint32_t k = nsvcd__pose_before(track, from);
   const nsvcd__quat a = nsvcd__quat_load(track->poses[k].rotation);
@@ -113,7 +105,7 @@ static float nsvcd__turn_within(const nsvcd__track *track, uint32_t from, uint32
   return (2 + 0.1f * chord * chord) * chord * (float)(to - from) / (float)length;
 }
 
-// Of an interval. A try has several arcs in each segment, and its end may be that of the motion.
+// The segments of an interval.
 static void nsvcd__choose_in_interval(nsvcd__motion *motion, nsvcd__search *search) {
   const size_t most = search->most_segments;
   const int is_try = motion->arcs > 1;
@@ -126,8 +118,8 @@ static void nsvcd__choose_in_interval(nsvcd__motion *motion, nsvcd__search *sear
     uint32_t to = from;
     for (uint32_t n = 0; n < motion->arcs && to < motion->ticks; n++)
       to = nsvcd__next_keyframe(motion, to);
-    const float turn = nsvcd__turn_within(&motion->moving, from, to) +
-                       nsvcd__turn_within(&motion->fixed, from, to);
+    const float turn = nsvcd__track_turn(&motion->moving, from, to) +
+                       nsvcd__track_turn(&motion->fixed, from, to);
     const float steps = ceilf(turn / step - 0.1f);
     const size_t turns = is_try || !(steps > 1) ? 1 : (size_t)steps;
     if (segments > 0 && segments + turns > most) break;
@@ -139,7 +131,7 @@ static void nsvcd__choose_in_interval(nsvcd__motion *motion, nsvcd__search *sear
   search->segments = segments;
 }
 
-// Chooses the segments: how many, and when they begin.
+// Chooses how many segments there are, and when they begin.
 static void nsvcd__choose_segments(nsvcd__motion *motion, nsvcd__search *search) {
   if (motion->arcs > 0)
     nsvcd__choose_in_interval(motion, search);
@@ -153,7 +145,6 @@ static void nsvcd__choose_segments(nsvcd__motion *motion, nsvcd__search *search)
 
 // ---- intervals
 
-// All of a motion.
 static void nsvcd__choose_all(nsvcd__motion *motion, nsvcd__search *search) {
   motion->from = motion->arcs = 0;
   motion->is_fine = 0;
@@ -161,15 +152,15 @@ static void nsvcd__choose_all(nsvcd__motion *motion, nsvcd__search *search) {
 }
 
 #ifndef NSVCD_NO_PROOF
-// No more keyframes than this come after a tick.
+// An upper bound of the keyframes after a tick.
 static size_t nsvcd__keyframes_after(const nsvcd__motion *motion, uint32_t tick) {
   const size_t moving = motion->moving.count - 1 - nsvcd__pose_before(&motion->moving, tick);
   const size_t fixed = motion->fixed.count - 1 - nsvcd__pose_before(&motion->fixed, tick);
   return moving + fixed;
 }
 
-// The interval that begins at a tick, with so many arcs in a segment, or fewer where that is all
-// that is left of the motion. Chooses its segments.
+// Chooses the segments of the interval that begins at a tick, with so many arcs in each, or fewer
+// at the end of the motion.
 static void nsvcd__choose_interval(nsvcd__motion *motion, nsvcd__search *search, uint32_t from,
                                    uint32_t arcs) {
   const size_t most = search->most_segments;
@@ -179,7 +170,7 @@ static void nsvcd__choose_interval(nsvcd__motion *motion, nsvcd__search *search,
   nsvcd__choose_segments(motion, search);
 }
 
-// Is a motion too long for one search? The segments of one that is not are chosen.
+// Is a motion too long for one search? If not, chooses its segments.
 static int nsvcd__is_long(nsvcd__motion *motion, nsvcd__search *search) {
   const size_t most = search->most_segments;
   const size_t keyframes = nsvcd__keyframes_after(motion, 0);
@@ -193,9 +184,8 @@ static int nsvcd__is_long(nsvcd__motion *motion, nsvcd__search *search) {
   return 0;
 }
 
-// The poses of a track that bear on an interval. Their ticks mean nothing.
-static nsvcd__track nsvcd__track_within(const nsvcd__track *track, uint32_t from,
-                                        uint32_t until) {
+// The poses of a track in an interval, without ticks of their own.
+static nsvcd__track nsvcd__subtrack(const nsvcd__track *track, uint32_t from, uint32_t until) {
   nsvcd__track part = *track;
   const uint32_t first = nsvcd__pose_before(track, from);
   if (track->count == 1) return part;
@@ -204,17 +194,42 @@ static nsvcd__track nsvcd__track_within(const nsvcd__track *track, uint32_t from
   return part;
 }
 
-// As nsvcd__motion_gap, of an interval.
+// nsvcd__motion_gap of an interval.
 static float nsvcd__interval_gap(const nsvcd__motion *motion, uint32_t from, uint32_t until) {
   nsvcd__motion part = *motion;
-  const nsvcd__track moving = nsvcd__track_within(&motion->moving, from, until);
-  const nsvcd__track fixed = nsvcd__track_within(&motion->fixed, from, until);
+  const nsvcd__track moving = nsvcd__subtrack(&motion->moving, from, until);
+  const nsvcd__track fixed = nsvcd__subtrack(&motion->fixed, from, until);
   nsvcd__motion_set_box(&part, &moving, &fixed);
   return nsvcd__motion_gap(&part);
 }
 #endif
 
+// ---- cutting
+
+// Cuts the chosen segments. lengths: the bodies' extents; clearance: spheres that come so near
+// count as meeting.
+static void nsvcd__cut_segments(const nsvcd__motion *motion, float lengths, float clearance,
+                                nsvcd__search *search) {
+  const size_t segments = search->segments;
+  float *turn = search->turn;
+  turn[0] = 0;
+  for (size_t first = 0; first < segments; first += NSVCD__LANES) {
+    const size_t left = segments - first;
+    const size_t count = left < NSVCD__LANES ? left : NSVCD__LANES;
+    uint32_t begin[NSVCD__LANES + 1];
+    for (size_t l = 0; l <= NSVCD__LANES; l++)
+      begin[l] = search->begin[first + (l < count ? l : count)];
+    nsvcd__segments *block = &search->blocks[first / NSVCD__LANES];
+    nsvcd__cut_block(motion, begin, count, lengths, block, search->cut);
+    for (size_t l = 0; l < count; l++) {
+      block->margin[l] += clearance;
+      turn[first + l + 1] = turn[first + l] + search->cut->most.turn[l];
+    }
+  }
+}
+
 #ifndef NSVCD_NO_NETWORK
+// Chooses and cuts the segments of all of a motion.
 static NSVCD__NOINLINE void nsvcd__cut_motion(nsvcd__motion *motion, float lengths,
                                               nsvcd__search *search) {
   nsvcd__choose_all(motion, search);

@@ -1,7 +1,7 @@
 // In: a segment, or an arc and two shares of it. Out: a interval: the poses at both ends, and by
 // how much a point may leave the chord in between.
 #pragma once
-#include "../motion/segments.h"
+#include "../motion/choice.h"
 #include "poses.h"
 
 #ifndef NSVCD_NO_PROOF

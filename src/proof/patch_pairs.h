@@ -295,7 +295,7 @@ static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *
   }
   p->clipped |= (uint64_t)1 << s;
   p->memo.intervals &= ~((uint64_t)1 << s);
-  search->posed &= ~((uint64_t)1 << s);
+  search->ready &= ~((uint64_t)1 << s);
   // heights over the plane that held last are not what they were
   p->memo.plane += p->memo.plane > 0;
 }

@@ -30,11 +30,6 @@ NSVCD__INLINE nsvcd__v_slab nsvcd__v_slab_load(const float *slabs, size_t stride
   return out;
 }
 
-// What is reached along a direction.
-typedef struct nsvcd__v_range {
-  nsvcd__v low, high;
-} nsvcd__v_range;
-
 // By slabs, from their centres, along directions whose parts along the slabs' normals are `along`,
 // and whose lengths across these are `across`.
 NSVCD__INLINE nsvcd__v_range nsvcd__v_slab_along(const nsvcd__v_slab *slab, nsvcd__v along,
@@ -246,7 +241,7 @@ static NSVCD__NOINLINE void nsvcd__separate_groups(const nsvcd__proof *p,
   a.moving = nsvcd__v_slab_set(&own);
   a.scale = nsvcd__v_set(search->scale);
   a.clearance = nsvcd__clearance(p);
-  a.radius = nsvcd__group_reach(moving, g);
+  a.radius = nsvcd__group_extent(moving, g);
   for (uint32_t waiting = search->waiting; waiting; waiting &= waiting - 1) {
     const size_t at = nsvcd__low_bit(waiting);
     const size_t h = search->fixed_tile.groups[at];

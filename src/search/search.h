@@ -1,31 +1,22 @@
-// In: two bodies and segments. Out: each pair of patches whose spheres meet, with the segments in
-// which they do, group by group.
+// In: two bodies, and a motion that has been cut. Out: each pair of patches whose spheres meet, with
+// the segments in which they do, group by group.
+//
+// The hierarchy: body against body; boxes of groups against groups; group against group; group
+// against 16 spheres; 16 spheres against a sphere. But for the boxes every step is the same test,
+// moving spheres on chords against resting ones; lanes are segments, or members of a group. A step
+// of the search is a pair of groups. Moving groups that meet most come first, and of each the group
+// that it meets longest: a deep collision is then found before the rest is searched.
+//
+// A *tile* is up to 32 groups of one body and up to 32 of the other, which are searched together.
+// Bodies of up to 512 patches are one tile. Of larger ones, a traversal of the levels of spheres
+// above the groups finds those that the other body comes near, and they are searched tile after
+// tile: each moving tile against all tiles of the fixed body.
 #pragma once
 #include "intervals.h"
 
-// Chords of a sphere of the moving body in all segments, into search->group.
-static void nsvcd__chords_in_all(nsvcd__search *search, nsvcd__sphere sphere) {
-  sphere.radius *= search->scale;
-  for (size_t b = 0; NSVCD__LANES * b < search->segments; b++) {
-    nsvcd__chords_of_sphere(&search->blocks[b], sphere, &search->group[b]);
-  }
-}
-
-static void nsvcd__chords_of_group(nsvcd__search *search, size_t g) {
-  nsvcd__chords_in_all(search, nsvcd__sphere_of(nsvcd__groups_of(search->moving), g));
-}
-
-// Chords of 16 spheres of the moving body in segment s. remote: as nsvcd__chords_of_members has it.
-static void nsvcd__chords_in_segment(const nsvcd__search *search, size_t s,
-                                     nsvcd__spheres spheres, float extent,
-                                     nsvcd__chords *out) {
-  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
-  nsvcd__chords_of_members(block, s % NSVCD__LANES, spheres, search->scale, extent, out);
-}
-
-// Boxes in which 16 groups of the moving tile, from `first`, stay as long as they are near the
-// fixed body: its axes, metres. Empty ones, low above high, for those that never are. wanted: the
-// segments to look at.
+// Boxes that contain 16 groups of the moving tile, from `first` on, in those segments `wanted` in
+// which they meet the fixed body's sphere, in its axes and units. Empty, low above high, for groups
+// that never do.
 static void nsvcd__boxes_of_groups(const nsvcd__search *search, size_t first, uint64_t wanted,
                                    nsvcd__boxes *out) {
   const nsvcd__spheres groups = nsvcd__spheres_from(search->moving_tile.spheres, first);
@@ -59,34 +50,33 @@ static void nsvcd__boxes_of_groups(const nsvcd__search *search, size_t first, ui
   }
 }
 
-// Lanes of 16 spheres that touch a box.
+// Which of 16 spheres overlap a box?
 static uint32_t nsvcd__spheres_at_box(nsvcd__box box, nsvcd__spheres all) {
   const nsvcd__v3 none = nsvcd__v3_set(nsvcd__f3_of(0, 0, 0));
-  uint32_t touched = 0;
+  uint32_t met = 0;
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 centre = nsvcd__v3_centres(all, l);
     const nsvcd__v3 below = nsvcd__v3_sub(nsvcd__v3_set(box.low), centre);
     const nsvcd__v3 above = nsvcd__v3_sub(centre, nsvcd__v3_set(box.high));
     const nsvcd__v3 d = nsvcd__v3_max(nsvcd__v3_max(below, above), none);
     const nsvcd__v radius = nsvcd__v_load(all.r + l);
-    touched |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(radius)) << l;
+    met |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(radius)) << l;
   }
-  return touched;
+  return met;
 }
 
 static uint64_t nsvcd__all_segments(const nsvcd__search *search) {
   return ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - search->segments);
 }
 
-// Puts the steps of the search of both tiles in order: the groups of the moving tile that meet
-// some of the fixed tile, those that meet most of them for most of the time first; nearby[g] says
-// which, and in which segments. wanted: segments in which the bodies' spheres meet.
+// Orders the steps of the search of both tiles: the groups of the moving tile that meet some of the
+// fixed tile, those first that meet most of them in most segments. nsvcd__nearby says which, and
+// in which segments. wanted: segments in which the bodies' spheres meet.
 static void nsvcd__search_tile(nsvcd__search *search, uint64_t wanted) {
   uint16_t meetings[NSVCD__TILE_SLOTS];
   const nsvcd__tile *tile = &search->fixed_tile;
   nsvcd__boxes *boxes = nsvcd__spare_boxes(search);
-  search->steps = 0;
-  search->step = 0;
+  search->steps = search->step = 0;
   search->waiting = 0;
   for (size_t g = 0; g < search->moving_tile.count; g++) {
     const size_t l = g % NSVCD__LANES;
@@ -103,7 +93,7 @@ static void nsvcd__search_tile(nsvcd__search *search, uint64_t wanted) {
     for (; groups; groups &= groups - 1) {
       const size_t h = nsvcd__low_bit(groups);
       const nsvcd__sphere resting = nsvcd__sphere_of(tile->spheres, h);
-      nearby[h] = nsvcd__meet_in(search->group, nsvcd__all_segments(search), resting);
+      nearby[h] = nsvcd__meet_in(search, nsvcd__all_segments(search), resting);
       count += nsvcd__bit_count(nearby[h]);
     }
     if (!count) continue;
@@ -121,7 +111,6 @@ static void nsvcd__search_tile(nsvcd__search *search, uint64_t wanted) {
 static int nsvcd__is_large(const nsvcd_body *body) {
   return nsvcd__body_groups(body) > NSVCD__TILE;
 }
-// Are there several tiles?
 static int nsvcd__is_tiled(const nsvcd_body *a, const nsvcd_body *b) {
   return nsvcd__is_large(a) || nsvcd__is_large(b);
 }
@@ -140,7 +129,7 @@ static void nsvcd__tile_fill(nsvcd__tile *tile, nsvcd__traversal *traversal) {
   }
 }
 
-// Fills a tile with all groups of a body that has no more than that.
+// Fills a tile with all groups of a body.
 static void nsvcd__tile_fill_all(nsvcd__tile *tile, const nsvcd_body *body) {
   tile->count = nsvcd__body_groups(body);
   for (size_t g = 0; g < tile->count; g++) tile->groups[g] = (uint16_t)g;
@@ -149,7 +138,7 @@ static void nsvcd__tile_fill_all(nsvcd__tile *tile, const nsvcd_body *body) {
 
 // ---- filters of a traversal, which are given the search
 
-// All spheres that there are.
+// All spheres but padding.
 static uint32_t nsvcd__exists(const void *what, nsvcd__spheres all) {
   uint32_t exists = 0;
   (void)what;
@@ -185,7 +174,7 @@ static uint32_t nsvcd__is_approached(const void *what, nsvcd__spheres all) {
   return met;
 }
 
-// Poses the sphere over all groups of the moving tile, into search->group.
+// Chords of the sphere over all groups of the moving tile, into search->group.
 static void nsvcd__chords_of_tile(nsvcd__search *search) {
   const nsvcd__tile *tile = &search->moving_tile;
   nsvcd__sphere sphere = nsvcd__body_sphere(search->moving);
@@ -194,8 +183,8 @@ static void nsvcd__chords_of_tile(nsvcd__search *search) {
   nsvcd__chords_in_all(search, sphere);
 }
 
-// Finds the next moving tile, an empty one if there is none, and starts the traversal of the fixed
-// body's groups that come near it: that touch a box about its chords.
+// Finds the next moving tile, an empty one if there is none, and starts a traversal of the fixed
+// body's groups that come near it.
 static void nsvcd__search_moving_tile(nsvcd__search *search) {
   nsvcd__box box = {{HUGE_VALF, HUGE_VALF, HUGE_VALF}, {-HUGE_VALF, -HUGE_VALF, -HUGE_VALF}};
   nsvcd__tile_fill(&search->moving_tile, &search->moving_traversal);
@@ -219,7 +208,7 @@ static void nsvcd__search_moving_tile(nsvcd__search *search) {
                          search);
 }
 
-// Goes on to the next tile that has a step. 0 if there is none.
+// Goes on to the next pair of tiles that has a step. 0 if there is none.
 static int nsvcd__search_next_tile(nsvcd__search *search) {
   if (!nsvcd__is_tiled(search->moving, search->fixed)) return 0;
   while (search->moving_tile.count > 0) {
@@ -235,19 +224,18 @@ static int nsvcd__search_next_tile(nsvcd__search *search) {
   return 0;
 }
 
-// Starts the search of a motion that has been cut, in some of its segments. Returns 0 if the
-// groups' spheres never meet there: then there is no step to take.
+// Starts the search of some segments. Returns 0 if the groups' spheres never meet there, so that
+// there is no step to take.
 static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed,
                                uint64_t segments, nsvcd__search *search) {
   search->moving = moving;
   search->fixed = fixed;
   nsvcd__chords_in_all(search, nsvcd__body_sphere(moving));
   const uint64_t all = segments & nsvcd__all_segments(search);
-  const uint64_t wanted = nsvcd__meet_in(search->group, all, nsvcd__body_sphere(fixed));
+  const uint64_t wanted = nsvcd__meet_in(search, all, nsvcd__body_sphere(fixed));
   search->near_segments = wanted;
   search->wanted = segments;
-  search->steps = 0;
-  search->step = 0;
+  search->steps = search->step = 0;
   search->waiting = 0;
   if (!nsvcd__is_tiled(moving, fixed)) {
     nsvcd__tile_fill_all(&search->moving_tile, moving);
@@ -263,28 +251,28 @@ static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed
   return nsvcd__search_next_tile(search);
 }
 
-// No point of a group is farther from its body's origin; in the body's own units.
-static float nsvcd__group_reach(const nsvcd_body *body, size_t g) {
+// No point of a group is farther from its body's origin, in the body's own units.
+static float nsvcd__group_extent(const nsvcd_body *body, size_t g) {
   const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__groups_of(body), g);
   return 1.000002f * (nsvcd__f3_length(group.centre) + group.radius);
 }
 
-// Fills members[] with what is missing of the segments `wanted`.
+// Fills members[] for the segments `wanted` that are not ready.
 static void nsvcd__pose_members(nsvcd__search *search, size_t g, uint64_t wanted) {
-  if (!(wanted & ~search->posed)) return;
+  if (!(wanted & ~search->ready)) return;
   const nsvcd__spheres patches = nsvcd__body_patches(search->moving);
   const nsvcd__spheres members = nsvcd__spheres_from(patches, NSVCD__GROUP * g);
-  search->extent = nsvcd__group_reach(search->moving, g);
-  for (uint64_t missing = wanted & ~search->posed; missing; missing &= missing - 1) {
+  search->extent = nsvcd__group_extent(search->moving, g);
+  for (uint64_t missing = wanted & ~search->ready; missing; missing &= missing - 1) {
     const size_t s = nsvcd__low_bit(missing);
     nsvcd__chords_in_segment(search, s, members, search->extent, &search->members[s]);
   }
-  search->posed |= wanted;
+  search->ready |= wanted;
 }
 
 #ifndef NSVCD_NO_PROOF
-// Patches of group h of the fixed body that moving group g meets, and in which segments, of those
-// `wanted`: segments (GROUP), written for these patches.
+// Patches of group h of the fixed body that the moving group meets, whose chords are search->group.
+// segments (GROUP): in which of those `wanted`; written for these patches only.
 static uint32_t nsvcd__group_against_members(const nsvcd__search *search, size_t h,
                                              uint64_t wanted, uint64_t *segments) {
   const nsvcd__spheres patches = nsvcd__body_patches(search->fixed);
@@ -304,8 +292,7 @@ static uint32_t nsvcd__group_against_members(const nsvcd__search *search, size_t
 }
 #endif
 
-// Turns to the moving group that is next in order, and the fixed group that it meets for the
-// longest time.
+// Turns to the next moving group in order, and to the fixed group that it meets longest.
 static void nsvcd__search_group(nsvcd__search *search) {
   const size_t g = search->order[search->step];
   const uint64_t *nearby = nsvcd__nearby(search, g);
@@ -320,13 +307,13 @@ static void nsvcd__search_group(nsvcd__search *search) {
     }
   }
   if (search->waiting) nsvcd__chords_of_group(search, search->moving_tile.groups[g]);
-  search->posed = 0;
+  search->ready = 0;
   search->at = longest;
 }
 
 #ifndef NSVCD_NO_NETWORK
-// Moving group g, whose chords are search->group, against the members `which` of group h of the
-// fixed body, in the segments `wanted`: all contact intervals.
+// Finds all contact intervals of moving group g, whose chords are search->group, and the members
+// `which` of group h of the fixed body, in the segments `wanted`.
 static void nsvcd__group_against_group(nsvcd__search *search, size_t g, size_t h,
                                        uint32_t which, uint64_t wanted,
                                        nsvcd__candidates *kept) {
@@ -337,22 +324,21 @@ static void nsvcd__group_against_group(nsvcd__search *search, size_t g, size_t h
   uint32_t any = 0;
   nsvcd__plane_cache *cache = search->cache;
   cache->resting_known = 0;
-  wanted = nsvcd__unparted_segments(search, h, wanted);
+  wanted = nsvcd__segments_left(search, h, wanted);
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__low_bit(wanted);
     const nsvcd__chords *chords = &search->group[s / NSVCD__LANES];
     uint32_t bits = which & nsvcd__meet_members(chords, s % NSVCD__LANES, members);
     if (!bits) continue;
     nsvcd__pose_members(search, g, (uint64_t)1 << s);
-    const float stray = nsvcd__segment_deviation(search, s);
+    const float deviation = nsvcd__segment_deviation(search, s, search->extent);
     cache->moving_known = 0;
-    bits = nsvcd__unparted_members(search, g, s, h, stray, bits);
+    bits = nsvcd__members_left(search, g, s, h, deviation, bits);
     for (; bits; bits &= bits - 1) {
       const size_t k = nsvcd__low_bit(bits);
-      const nsvcd__sphere ball = nsvcd__sphere_of(members, k);
       uint16_t *met = search->met + stride * k;
       const uint32_t before = s > 0 && left[k] >> (s - 1) & 1 ? met[s - 1] : 0;
-      const uint32_t lanes = nsvcd__members_meet(search, g, s, h, k, ball, stray, before);
+      const uint32_t lanes = nsvcd__members_meet(search, g, s, h, k, deviation, before);
       if (!lanes) continue;
       met[s] = (uint16_t)lanes;
       left[k] |= (uint64_t)1 << s;
@@ -371,7 +357,7 @@ static void nsvcd__group_against_group(nsvcd__search *search, size_t g, size_t h
   }
 }
 
-// All contact intervals of the pair of groups that is next.
+// Finds all contact intervals of the next pair of groups.
 static void nsvcd__search_pair(nsvcd__search *search, nsvcd__candidates *kept) {
   if (!search->waiting) nsvcd__search_group(search);
   const size_t next = search->order[search->step];
@@ -381,8 +367,7 @@ static void nsvcd__search_pair(nsvcd__search *search, nsvcd__candidates *kept) {
   nsvcd__group_against_group(search, g, h, 0xffff, wanted, kept);
 }
 
-// A step of the search: all contact intervals of one pair of groups. Returns 1 if there are more
-// steps to take.
+// A step of the search: the next pair of groups. Returns 1 if there are more.
 static NSVCD__NOINLINE int nsvcd__search_step(nsvcd__search *search, nsvcd__candidates *kept) {
   nsvcd__search_pair(search, kept);
   search->waiting &= ~((uint32_t)1 << search->at);
@@ -393,24 +378,16 @@ static NSVCD__NOINLINE int nsvcd__search_step(nsvcd__search *search, nsvcd__cand
   return search->step < search->steps || nsvcd__search_next_tile(search);
 }
 
-// Instead of a search, in a motion that has been cut: all contact intervals of one moving group and
-// one patch of the fixed body.
+// Instead of a search: finds all contact intervals of one moving group and one patch of the fixed
+// body.
 static void nsvcd__search_patch(nsvcd__search *search, const nsvcd_body *moving, size_t g,
                                 const nsvcd_body *fixed, size_t j, nsvcd__candidates *kept) {
   const uint64_t all = nsvcd__all_segments(search);
   search->moving = moving;
   search->fixed = fixed;
-  search->posed = 0;
+  search->ready = 0;
   nsvcd__chords_of_group(search, g);
   nsvcd__group_against_group(search, g, j / NSVCD__GROUP, 1u << j % NSVCD__GROUP, all, kept);
-}
-
-static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *items,
-                                    size_t limit) {
-  kept->items = items;
-  kept->limit = limit;
-  kept->count = 0;
-  kept->total = 0;
 }
 
 #endif  // NSVCD_NO_NETWORK

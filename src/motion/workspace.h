@@ -1,0 +1,118 @@
+// In: how large a query's bodies and motions are. Out: the memory of its search, laid out: the
+// segments of a motion, spheres on chords in them, and tiles of groups.
+#pragma once
+#include "../ground/memory.h"
+#include "../body/traversal.h"
+#include "segments.h"
+
+// of a motion that turns by no more than NSVCD__SEGMENT_TURN in each
+#define NSVCD__SEGMENTS 16
+// at most: enough for 1280 degrees; what turns more is cut into intervals (motion/choice)
+#define NSVCD__MAX_SEGMENTS 64
+
+// 16 spheres on chords start + tau travel; their radii plus deviation, and -1 / |travel|^2.
+typedef struct nsvcd__chords {
+  float start[3][NSVCD__LANES];
+  float travel[3][NSVCD__LANES];
+  float inverse[NSVCD__LANES];
+  float radius[NSVCD__LANES];
+} nsvcd__chords;
+
+typedef struct nsvcd__boxes {
+  float low[3][NSVCD__LANES], high[3][NSVCD__LANES];
+} nsvcd__boxes;
+
+// Groups that are searched together. Slots without a group have the radius NSVCD__NOWHERE.
+typedef struct nsvcd__tile {
+  size_t count;
+  uint16_t groups[NSVCD__TILE_SLOTS];
+  nsvcd__spheres spheres;  // the body's own if it has a single tile, else gathered
+  float *gathered;         // (4, NSVCD__TILE_SLOTS), or NULL
+} nsvcd__tile;
+
+// What a query needs memory for.
+typedef struct nsvcd__needs {
+  size_t moving_groups, fixed_groups;  // of a tile
+  int large;                           // a body has more than these
+  size_t segments;                     // 16, 32, 48 or 64
+  size_t candidates;                   // of the network
+  int proof;
+} nsvcd__needs;
+
+typedef struct nsvcd__search {
+  const nsvcd_body *moving, *fixed;
+  // the segments, S of them, and how many there is memory for
+  size_t segments, most_segments;
+  float scale;              // of the moving body
+  uint32_t *begin;          // (S + 1) ticks at which they begin, and the last one ends
+  float *time;              // (S + 1) the same as times
+  float *turn;              // (S + 1) angle turned from t = 0 until then, radians
+  nsvcd__segments *blocks;  // (S / 16 rounded up)
+  nsvcd__chords *group;     // (S / 16 rounded up) a moving group's
+  nsvcd__chords *members;   // (S) its 16 members', per segment
+  nsvcd__cut *cut;          // in the same memory: segments are cut before any search
+  uint64_t near_segments;   // in which the bodies' spheres meet
+  // of large bodies, through the groups that come near
+  nsvcd__traversal moving_traversal, fixed_traversal;
+  nsvcd__box near_box;  // about the path of the moving tile
+  // the groups that are searched now; what follows are indices into these
+  nsvcd__tile moving_tile, fixed_tile;
+  uint64_t
+      *nearby;  // (moving groups, fixed groups) segments in which they meet: nsvcd__nearby
+  size_t nearby_stride;
+  uint64_t wanted;  // segments to search: some of them where contacts are sought in order
+  // moving groups that are near any, in the order of the search; how many, and the current one
+  uint16_t order[NSVCD__TILE_SLOTS];
+  size_t steps, step;
+  uint32_t waiting;  // fixed groups that it has yet to be searched against
+  size_t at;         // which of them is next
+  uint64_t ready;    // segments for which members[] is filled
+  float extent;      // of these members, from the body's origin
+#ifndef NSVCD_NO_NETWORK
+  struct nsvcd__plane_cache *cache;  // search/planes
+  uint16_t *met;                     // (GROUP, S) lanes of a group that meet each of another
+  int balls_met;                     // 0: no patches' balls meet, which proves free
+#endif
+} nsvcd__search;
+
+// Arrays of 16 lanes begin on a cache line if there are vectors, for vectors that cross lines are
+// slower. That skips so many bytes at most, all of which are counted where base is NULL.
+#define NSVCD__PASSED_OVER (NSVCD__SLICE > 1 ? 64 - NSVCD_ALIGNMENT : 0)
+
+// Lays a search out in base, or, where that is NULL, only counts.
+static void nsvcd__search_layout(const nsvcd__needs *needs, char *base, uint64_t *used,
+                                 nsvcd__search *search) {
+  const size_t s = needs->segments;
+  const size_t blocks = s / NSVCD__LANES;
+  const size_t members = s * sizeof(nsvcd__chords);
+  const size_t shared = members > sizeof(nsvcd__cut) ? members : sizeof(nsvcd__cut);
+  const size_t gathered = needs->large ? 4 * NSVCD__TILE_SLOTS : 0;
+  const size_t pairs = needs->moving_groups * needs->fixed_groups;
+  search->most_segments = s;
+  search->begin = (uint32_t *)nsvcd__take(base, used, s + 1, sizeof(uint32_t));
+  search->time = (float *)nsvcd__take(base, used, s + 1, sizeof(float));
+  search->turn = (float *)nsvcd__take(base, used, s + 1, sizeof(float));
+  if (NSVCD__PASSED_OVER > 0)
+    *used += base ? (0 - (uintptr_t)(base + *used)) & 63 : NSVCD__PASSED_OVER;
+  search->blocks = (nsvcd__segments *)nsvcd__take(base, used, blocks, sizeof(nsvcd__segments));
+  search->group = (nsvcd__chords *)nsvcd__take(base, used, blocks, sizeof(nsvcd__chords));
+  search->members = (nsvcd__chords *)nsvcd__take(base, used, 1, shared);
+  search->cut = (nsvcd__cut *)(void *)search->members;
+  search->nearby_stride = needs->fixed_groups;
+  search->nearby = (uint64_t *)nsvcd__take(base, used, pairs, sizeof(uint64_t));
+  search->moving_tile.gathered = (float *)nsvcd__take(base, used, gathered, sizeof(float));
+  search->fixed_tile.gathered = (float *)nsvcd__take(base, used, gathered, sizeof(float));
+}
+
+// Scratch chords, and boxes: members[] before a group is posed.
+static nsvcd__chords *nsvcd__spare_chords(const nsvcd__search *search) {
+  return &search->members[0];
+}
+static nsvcd__boxes *nsvcd__spare_boxes(const nsvcd__search *search) {
+  return (nsvcd__boxes *)(void *)&search->members[1];
+}
+
+// The segments in which group g of the moving tile meets each one of the fixed tile.
+static uint64_t *nsvcd__nearby(const nsvcd__search *search, size_t g) {
+  return search->nearby + g * search->nearby_stride;
+}
