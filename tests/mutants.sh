@@ -157,7 +157,7 @@ asks: proven by parts to the end, but not free|double end = p->ask.end; double f
 pair's last plane at the start alone|u0 < all \&\& nsvcd__plane_separates(p, pair, u0, all, *plane)|u0 < all \&\& nsvcd__plane_separates(p, pair, u0, u0, *plane)
 exact: pairs without slack|> p->ask.clearance + pair->margin + deviation;|> p->ask.clearance + deviation;
 exact: pairs without rounding|NSVCD__SAME_POSITION * ((double)p->given.lengths + nsvcd__d3_length(p->arc.from));|0;
-exact: a ratio of scales in float|motion->ratio = (double)nsvcd__scale_of(moving) / (double)motion->unit;|motion->ratio = (double)(nsvcd__scale_of(moving) / motion->unit);
+exact: a ratio of scales in float|m->ratio = (double)nsvcd__scale_of(moving) / (double)m->unit;|m->ratio = (double)(nsvcd__scale_of(moving) / m->unit);
 turning contacts that are too near|distance <= p->ask.clearance + pair->rounding|distance <= p->ask.clearance + pair->close
 exact: straight contacts that are too near|if (above <= pair->rounding) {|if (above <= pair->close) {
 exact: planes of nearest points alone|for (size_t k = 0; k < 17; k++) {\n    const nsvcd__d3 *of|for (size_t k = 17; k < 17; k++) {\n    const nsvcd__d3 *of

@@ -13,11 +13,11 @@
 
 // Upper bounds of the sum of a track's arcs of rotation, radians, and of the longest.
 static void nsvcd__measure_turn(const nsvcd__track *track, float *turn, float *widest) {
-  float sums[NSVCD__LANES] = {0};
-  float longest[NSVCD__LANES] = {0};
+  nsvcd__row sums = {0};
+  nsvcd__row longest = {0};
   const size_t arcs = track->count - 1;
   for (size_t first = 0; first < arcs; first += NSVCD__LANES) {
-    float chord2[NSVCD__LANES] = {0};
+    nsvcd__row chord2 = {0};
     for (size_t l = 0; l < NSVCD__LANES && first + l < arcs; l++) {
       const float *a = track->poses[first + l].rotation;
       const float *b = track->poses[first + l + 1].rotation;
@@ -30,7 +30,7 @@ static void nsvcd__measure_turn(const nsvcd__track *track, float *turn, float *w
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v arc = nsvcd__v_arc_bound(nsvcd__v_load(chord2 + l));
       nsvcd__v_add_to(sums + l, arc);
-      nsvcd__v_keep_most(longest + l, arc);
+      nsvcd__v_keep(longest + l, arc);
     }
   }
   *turn = *widest = 0;
@@ -42,14 +42,13 @@ static void nsvcd__measure_turn(const nsvcd__track *track, float *turn, float *w
 
 // How many segments. They begin at ticks; if there are too few of these, each is cut into `parts`,
 // else 1.
-static size_t nsvcd__segment_count(const nsvcd__motion *motion, size_t greatest,
-                                   uint32_t *parts) {
-  const size_t ticks = motion->ticks;
+static size_t nsvcd__segment_count(const nsvcd__motion *m, size_t greatest, uint32_t *parts) {
+  const size_t ticks = m->ticks;
   float turn, widest, fixed_turn, fixed_widest;
   *parts = 1;
-  if (motion->moving.count == 1 && !motion->fixed_moves) return 1;
-  nsvcd__measure_turn(&motion->moving, &turn, &widest);
-  nsvcd__measure_turn(&motion->fixed, &fixed_turn, &fixed_widest);
+  if (m->moving.count == 1 && !m->fixed_moves) return 1;
+  nsvcd__measure_turn(&m->moving, &turn, &widest);
+  nsvcd__measure_turn(&m->fixed, &fixed_turn, &fixed_widest);
   turn = turn + fixed_turn < 1e3f ? turn + fixed_turn : 1e3f;
   const size_t coarse = (size_t)ceilf(turn / NSVCD__SEGMENT_TURN);
   const size_t fine = (size_t)ceilf(turn / NSVCD__FINE_TURN);
@@ -60,8 +59,7 @@ static size_t nsvcd__segment_count(const nsvcd__motion *motion, size_t greatest,
     const size_t enough = wanted < NSVCD__SEGMENTS ? NSVCD__SEGMENTS : wanted;
     return ticks < enough ? ticks : enough;
   }
-  const float of_tick =
-      widest / (float)motion->moving.ticks + fixed_widest / (float)motion->fixed.ticks;
+  const float of_tick = widest / (float)m->moving.ticks + fixed_widest / (float)m->fixed.ticks;
   const size_t least = (size_t)ceilf(of_tick / NSVCD__SEGMENT_TURN);
   const size_t most = greatest / ticks;
   size_t each = wanted / ticks > least ? wanted / ticks : least;
@@ -71,26 +69,26 @@ static size_t nsvcd__segment_count(const nsvcd__motion *motion, size_t greatest,
 }
 
 // The segments of a whole motion: equally many ticks in each, to one.
-static void nsvcd__choose_in_all(nsvcd__motion *motion, nsvcd__search *search) {
+static void nsvcd__choose_in_all(nsvcd__motion *m, nsvcd__search *search) {
   uint32_t parts;
-  nsvcd__motion_set_ticks(motion, 1);
-  search->segments = nsvcd__segment_count(motion, search->most_segments, &parts);
-  nsvcd__motion_set_ticks(motion, parts);
+  nsvcd__motion_set_ticks(m, 1);
+  search->segments = nsvcd__segment_count(m, search->most_segments, &parts);
+  nsvcd__motion_set_ticks(m, parts);
   const uint32_t segments = (uint32_t)search->segments;
-  const uint32_t each = motion->ticks / segments;
-  const uint32_t over = motion->ticks % segments;
+  const uint32_t each = m->ticks / segments;
+  const uint32_t over = m->ticks % segments;
   for (uint32_t s = 0; s <= segments; s++) search->begin[s] = each * s + over * s / segments;
-  nsvcd__motion_retime(motion, search->begin, segments);
+  nsvcd__motion_retime(m, search->begin, segments);
 }
 
 // Sets the ticks of a motion that is cut into intervals: the same for all of them, and so many that
 // an arc can be cut.
-static void nsvcd__motion_set_fine_ticks(nsvcd__motion *motion) {
+static void nsvcd__motion_set_fine_ticks(nsvcd__motion *m) {
   uint32_t parts = NSVCD__MAX_SEGMENTS;
-  nsvcd__motion_set_ticks(motion, 1);
-  while (motion->ticks > 0xffffffffu / parts) parts /= 2;
-  nsvcd__motion_set_ticks(motion, parts);
-  nsvcd__motion_set_times(motion);
+  nsvcd__motion_set_ticks(m, 1);
+  while (m->ticks > 0xffffffffu / parts) parts /= 2;
+  nsvcd__motion_set_ticks(m, parts);
+  nsvcd__motion_set_times(m);
 }
 
 // How far a track turns between ticks of the same arc: about, radians.
@@ -106,20 +104,19 @@ static float nsvcd__track_turn(const nsvcd__track *track, uint32_t from, uint32_
 }
 
 // The segments of an interval.
-static void nsvcd__choose_in_interval(nsvcd__motion *motion, nsvcd__search *search) {
+static void nsvcd__choose_in_interval(nsvcd__motion *m, nsvcd__search *search) {
   const size_t most = search->most_segments;
-  const int is_try = motion->arcs > 1;
-  const float step = motion->is_fine ? NSVCD__FINE_TURN : NSVCD__SEGMENT_TURN;
+  const int is_try = m->arcs > 1;
+  const float step = m->is_fine ? NSVCD__FINE_TURN : NSVCD__SEGMENT_TURN;
   size_t segments = 0;
-  nsvcd__motion_set_fine_ticks(motion);
-  search->begin[0] = motion->from;
-  while (segments < most && search->begin[segments] < motion->ticks) {
+  nsvcd__motion_set_fine_ticks(m);
+  search->begin[0] = m->from;
+  while (segments < most && search->begin[segments] < m->ticks) {
     const uint32_t from = search->begin[segments];
     uint32_t to = from;
-    for (uint32_t n = 0; n < motion->arcs && to < motion->ticks; n++)
-      to = nsvcd__next_keyframe(motion, to);
-    const float turn = nsvcd__track_turn(&motion->moving, from, to) +
-                       nsvcd__track_turn(&motion->fixed, from, to);
+    for (uint32_t n = 0; n < m->arcs && to < m->ticks; n++) to = nsvcd__next_keyframe(m, to);
+    const float turn =
+        nsvcd__track_turn(&m->moving, from, to) + nsvcd__track_turn(&m->fixed, from, to);
     const float steps = ceilf(turn / step - 0.1f);
     const size_t turns = is_try || !(steps > 1) ? 1 : (size_t)steps;
     if (segments > 0 && segments + turns > most) break;
@@ -132,55 +129,55 @@ static void nsvcd__choose_in_interval(nsvcd__motion *motion, nsvcd__search *sear
 }
 
 // Chooses how many segments there are, and when they begin.
-static void nsvcd__choose_segments(nsvcd__motion *motion, nsvcd__search *search) {
-  if (motion->arcs > 0)
-    nsvcd__choose_in_interval(motion, search);
+static void nsvcd__choose_segments(nsvcd__motion *m, nsvcd__search *search) {
+  if (m->arcs > 0)
+    nsvcd__choose_in_interval(m, search);
   else
-    nsvcd__choose_in_all(motion, search);
-  search->scale = motion->scale;
-  const double per_tick = 1 / (double)motion->ticks;
+    nsvcd__choose_in_all(m, search);
+  search->scale = m->scale;
+  const double per_tick = 1 / (double)m->ticks;
   for (size_t s = 0; s <= search->segments; s++)
     search->time[s] = (float)((double)search->begin[s] * per_tick);
 }
 
 // ---- intervals
 
-static void nsvcd__choose_all(nsvcd__motion *motion, nsvcd__search *search) {
-  motion->from = motion->arcs = 0;
-  motion->is_fine = 0;
-  nsvcd__choose_segments(motion, search);
+static void nsvcd__choose_all(nsvcd__motion *m, nsvcd__search *search) {
+  m->from = m->arcs = 0;
+  m->is_fine = 0;
+  nsvcd__choose_segments(m, search);
 }
 
 #ifndef NSVCD_NO_PROOF
 // An upper bound of the keyframes after a tick.
-static size_t nsvcd__keyframes_after(const nsvcd__motion *motion, uint32_t tick) {
-  const size_t moving = motion->moving.count - 1 - nsvcd__pose_before(&motion->moving, tick);
-  const size_t fixed = motion->fixed.count - 1 - nsvcd__pose_before(&motion->fixed, tick);
+static size_t nsvcd__keyframes_after(const nsvcd__motion *m, uint32_t tick) {
+  const size_t moving = m->moving.count - 1 - nsvcd__pose_before(&m->moving, tick);
+  const size_t fixed = m->fixed.count - 1 - nsvcd__pose_before(&m->fixed, tick);
   return moving + fixed;
 }
 
 // Chooses the segments of the interval that begins at a tick, with so many arcs in each, or fewer
 // at the end of the motion.
-static void nsvcd__choose_interval(nsvcd__motion *motion, nsvcd__search *search, uint32_t from,
+static void nsvcd__choose_interval(nsvcd__motion *m, nsvcd__search *search, uint32_t from,
                                    uint32_t arcs) {
   const size_t most = search->most_segments;
-  const size_t left = (nsvcd__keyframes_after(motion, from) + most - 1) / most;
-  motion->from = from;
-  motion->arcs = arcs < left ? arcs : (uint32_t)left;
-  nsvcd__choose_segments(motion, search);
+  const size_t left = (nsvcd__keyframes_after(m, from) + most - 1) / most;
+  m->from = from;
+  m->arcs = arcs < left ? arcs : (uint32_t)left;
+  nsvcd__choose_segments(m, search);
 }
 
 // Is a motion too long for one search? If not, chooses its segments.
-static int nsvcd__is_long(nsvcd__motion *motion, nsvcd__search *search) {
+static int nsvcd__is_long(nsvcd__motion *m, nsvcd__search *search) {
   const size_t most = search->most_segments;
-  const size_t keyframes = nsvcd__keyframes_after(motion, 0);
+  const size_t keyframes = nsvcd__keyframes_after(m, 0);
   if (keyframes <= most) {
-    nsvcd__choose_all(motion, search);
+    nsvcd__choose_all(m, search);
     if (keyframes < 2 || search->segments < most) return 0;
   }
-  nsvcd__choose_interval(motion, search, 0, 1);
-  if (search->begin[search->segments] < motion->ticks) return 1;
-  nsvcd__choose_all(motion, search);
+  nsvcd__choose_interval(m, search, 0, 1);
+  if (search->begin[search->segments] < m->ticks) return 1;
+  nsvcd__choose_all(m, search);
   return 0;
 }
 
@@ -195,10 +192,10 @@ static nsvcd__track nsvcd__subtrack(const nsvcd__track *track, uint32_t from, ui
 }
 
 // nsvcd__motion_gap of an interval.
-static float nsvcd__interval_gap(const nsvcd__motion *motion, uint32_t from, uint32_t until) {
-  nsvcd__motion part = *motion;
-  const nsvcd__track moving = nsvcd__subtrack(&motion->moving, from, until);
-  const nsvcd__track fixed = nsvcd__subtrack(&motion->fixed, from, until);
+static float nsvcd__interval_gap(const nsvcd__motion *m, uint32_t from, uint32_t until) {
+  nsvcd__motion part = *m;
+  const nsvcd__track moving = nsvcd__subtrack(&m->moving, from, until);
+  const nsvcd__track fixed = nsvcd__subtrack(&m->fixed, from, until);
   nsvcd__motion_set_box(&part, &moving, &fixed);
   return nsvcd__motion_gap(&part);
 }
@@ -208,7 +205,7 @@ static float nsvcd__interval_gap(const nsvcd__motion *motion, uint32_t from, uin
 
 // Cuts the chosen segments. lengths: the bodies' extents; clearance: spheres that come so near
 // count as meeting.
-static void nsvcd__cut_segments(const nsvcd__motion *motion, float lengths, float clearance,
+static void nsvcd__cut_segments(const nsvcd__motion *m, float lengths, float clearance,
                                 nsvcd__search *search) {
   const size_t segments = search->segments;
   float *turn = search->turn;
@@ -220,7 +217,7 @@ static void nsvcd__cut_segments(const nsvcd__motion *motion, float lengths, floa
     for (size_t l = 0; l <= NSVCD__LANES; l++)
       begin[l] = search->begin[first + (l < count ? l : count)];
     nsvcd__segments *block = &search->blocks[first / NSVCD__LANES];
-    nsvcd__cut_block(motion, begin, count, lengths, block, search->cut);
+    nsvcd__cut_block(m, begin, count, lengths, block, search->cut);
     for (size_t l = 0; l < count; l++) {
       block->margin[l] += clearance;
       turn[first + l + 1] = turn[first + l] + search->cut->most.turn[l];
@@ -230,9 +227,9 @@ static void nsvcd__cut_segments(const nsvcd__motion *motion, float lengths, floa
 
 #ifndef NSVCD_NO_NETWORK
 // Chooses and cuts the segments of all of a motion.
-static NSVCD__NOINLINE void nsvcd__cut_motion(nsvcd__motion *motion, float lengths,
+static NSVCD__NOINLINE void nsvcd__cut_motion(nsvcd__motion *m, float lengths,
                                               nsvcd__search *search) {
-  nsvcd__choose_all(motion, search);
-  nsvcd__cut_segments(motion, lengths, 0, search);
+  nsvcd__choose_all(m, search);
+  nsvcd__cut_segments(m, lengths, 0, search);
 }
 #endif

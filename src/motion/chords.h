@@ -47,6 +47,11 @@ static void nsvcd__chords_in_all(nsvcd__search *search, nsvcd__sphere sphere) {
   }
 }
 
+// The 16 patches of a group.
+static nsvcd__spheres nsvcd__members_of(const nsvcd_body *body, size_t g) {
+  return nsvcd__spheres_from(nsvcd__body_patches(body), NSVCD__GROUP * g);
+}
+
 static void nsvcd__chords_of_group(nsvcd__search *search, size_t g) {
   nsvcd__chords_in_all(search, nsvcd__sphere_of(nsvcd__groups_of(search->moving), g));
 }
@@ -113,13 +118,15 @@ static uint32_t nsvcd__meet(const nsvcd__chords *c, nsvcd__sphere resting) {
   return met;
 }
 
-// Lane s of chords against 16 resting spheres.
-NSVCD__INLINE uint32_t nsvcd__meet_members(const nsvcd__chords *c, size_t s,
+// The sphere whose chords are search->group, in segment s, against 16 resting spheres.
+NSVCD__INLINE uint32_t nsvcd__meet_members(const nsvcd__search *search, size_t s,
                                            nsvcd__spheres resting) {
-  const nsvcd__v3 start = nsvcd__v3_set(nsvcd__f3_get(c->start[0] + s, NSVCD__LANES));
-  const nsvcd__v3 travel = nsvcd__v3_set(nsvcd__f3_get(c->travel[0] + s, NSVCD__LANES));
-  const nsvcd__v inverse = nsvcd__v_set(c->inverse[s]);
-  const nsvcd__v own = nsvcd__v_set(c->radius[s]);
+  nsvcd__chords *c = &search->group[s / NSVCD__LANES];
+  const size_t lane = s % NSVCD__LANES;
+  const nsvcd__v3 start = nsvcd__v3_set(nsvcd__lane_of(c->start, lane));
+  const nsvcd__v3 travel = nsvcd__v3_set(nsvcd__lane_of(c->travel, lane));
+  const nsvcd__v inverse = nsvcd__v_set(c->inverse[lane]);
+  const nsvcd__v own = nsvcd__v_set(c->radius[lane]);
   uint32_t met = 0;
   NSVCD__TALLY(tests, 1);
   NSVCD__EACH_SLICE(l) {

@@ -103,60 +103,60 @@ static uint32_t nsvcd__arc_count(const nsvcd__track *track) {
 
 // Sets the ticks as if all poses were uniform: `parts` times as many as the keyframes need. At most
 // 65,535 * 65,534, which fits 32 bits: parts is above 1 only where there are few keyframes.
-static void nsvcd__motion_set_ticks(nsvcd__motion *motion, uint32_t parts) {
-  const uint32_t a = nsvcd__arc_count(&motion->moving);
-  const uint32_t b = nsvcd__arc_count(&motion->fixed);
+static void nsvcd__motion_set_ticks(nsvcd__motion *m, uint32_t parts) {
+  const uint32_t a = nsvcd__arc_count(&m->moving);
+  const uint32_t b = nsvcd__arc_count(&m->fixed);
   uint32_t divisor = a;
   for (uint32_t rest = b; rest;) {
     const uint32_t next = divisor % rest;
     divisor = rest;
     rest = next;
   }
-  motion->ticks = a / divisor * b * parts;
-  motion->moving.ticks = motion->ticks / a;
-  motion->fixed.ticks = motion->ticks / b;
+  m->ticks = a / divisor * b * parts;
+  m->moving.ticks = m->ticks / a;
+  m->fixed.ticks = m->ticks / b;
 }
 
 #ifndef NSVCD_NO_PROOF
 // Makes ticks finer if there are few. Returns how many a tick becomes.
-static double nsvcd__motion_refine(nsvcd__motion *motion) {
+static double nsvcd__motion_refine(nsvcd__motion *m) {
   uint32_t finer = 1;
-  for (; motion->ticks < 0x40000000u; motion->ticks *= 2) finer *= 2;
-  motion->moving.ticks *= finer;
-  motion->fixed.ticks *= finer;
+  for (; m->ticks < 0x40000000u; m->ticks *= 2) finer *= 2;
+  m->moving.ticks *= finer;
+  m->fixed.ticks *= finer;
   return (double)finer;
 }
 #endif
 
 // Sets the ticks if poses have times: the arcs of a uniform body times a power of two, so that its
 // poses, and times of few bits, fall on ticks.
-static void nsvcd__motion_set_times(nsvcd__motion *motion) {
-  nsvcd__track *a = &motion->moving;
-  nsvcd__track *b = &motion->fixed;
+static void nsvcd__motion_set_times(nsvcd__motion *m) {
+  nsvcd__track *a = &m->moving;
+  nsvcd__track *b = &m->fixed;
   if (!a->times && !b->times) return;
   const uint32_t arcs_a = nsvcd__arc_count(a);
   const uint32_t arcs_b = nsvcd__arc_count(b);
-  motion->ticks = (a->times ? 1 : arcs_a) * (b->times ? 1 : arcs_b);
-  while (motion->ticks < 0x80000000u) motion->ticks *= 2;
-  a->whole = b->whole = motion->ticks;
-  a->ticks = a->times ? 0 : motion->ticks / arcs_a;
-  b->ticks = b->times ? 0 : motion->ticks / arcs_b;
+  m->ticks = (a->times ? 1 : arcs_a) * (b->times ? 1 : arcs_b);
+  while (m->ticks < 0x80000000u) m->ticks *= 2;
+  a->whole = b->whole = m->ticks;
+  a->ticks = a->times ? 0 : m->ticks / arcs_a;
+  b->ticks = b->times ? 0 : m->ticks / arcs_b;
 }
 
 // Converts begin (S + 1) from uniform ticks to those of a motion whose poses have times. Segments
 // are chosen as if the poses were uniform, for what counts is how far bodies move in one.
-static void nsvcd__motion_retime(nsvcd__motion *motion, uint32_t *begin, size_t segments) {
-  const nsvcd__track *track = motion->moving.times ? &motion->moving : &motion->fixed;
+static void nsvcd__motion_retime(nsvcd__motion *m, uint32_t *begin, size_t segments) {
+  const nsvcd__track *track = m->moving.times ? &m->moving : &m->fixed;
   if (!track->times) return;
   const uint32_t each = track->ticks;
-  nsvcd__motion_set_times(motion);
+  nsvcd__motion_set_times(m);
   for (size_t s = 0; s < segments; s++) {
     const uint32_t k = begin[s] / each;
     const uint32_t from = nsvcd__tick_of(track, k);
     const uint64_t length = nsvcd__tick_of(track, k + 1) - from;
     begin[s] = from + (uint32_t)(length * (begin[s] - k * each) / each);
   }
-  begin[segments] = motion->ticks;
+  begin[segments] = m->ticks;
 }
 
 // The box of a track's positions.
@@ -172,52 +172,52 @@ static nsvcd__box nsvcd__track_box(const nsvcd__track *track) {
 }
 
 // Sets the box of the moving body's origin relative to the fixed one's.
-static void nsvcd__motion_set_box(nsvcd__motion *motion, const nsvcd__track *moving,
+static void nsvcd__motion_set_box(nsvcd__motion *m, const nsvcd__track *moving,
                                   const nsvcd__track *fixed) {
   const nsvcd__box at = nsvcd__track_box(moving);
   const nsvcd__box from = nsvcd__track_box(fixed);
-  motion->low = nsvcd__f3_sub(at.low, from.high);
-  motion->high = nsvcd__f3_sub(at.high, from.low);
+  m->low = nsvcd__f3_sub(at.low, from.high);
+  m->high = nsvcd__f3_sub(at.high, from.low);
 }
 
 // Sets all that follows from the tracks.
-static void nsvcd__motion_set_tracks(nsvcd__motion *motion, nsvcd__track moving,
+static void nsvcd__motion_set_tracks(nsvcd__motion *m, nsvcd__track moving,
                                      nsvcd__track fixed) {
-  motion->moving = moving;
-  motion->fixed = fixed;
-  motion->fixed_moves = fixed.count > 1;
-  nsvcd__motion_set_ticks(motion, 1);
-  nsvcd__motion_set_times(motion);
-  motion->from = motion->arcs = 0;
-  motion->is_fine = 0;
-  nsvcd__motion_set_box(motion, &moving, &fixed);
+  m->moving = moving;
+  m->fixed = fixed;
+  m->fixed_moves = fixed.count > 1;
+  nsvcd__motion_set_ticks(m, 1);
+  nsvcd__motion_set_times(m);
+  m->from = m->arcs = 0;
+  m->is_fine = 0;
+  nsvcd__motion_set_box(m, &moving, &fixed);
 
   const nsvcd_pose *first = fixed.poses;
   const nsvcd__quat q = nsvcd__quat_unit(nsvcd__quat_load(first->rotation));
-  motion->to_fixed = nsvcd__mat3_transpose(nsvcd__mat3_of(q));
-  motion->to_fixed_quat = nsvcd__quat_inverse(q);
-  motion->fixed_position = nsvcd__f3_load(first->position);
+  m->to_fixed = nsvcd__mat3_transpose(nsvcd__mat3_of(q));
+  m->to_fixed_quat = nsvcd__quat_inverse(q);
+  m->fixed_position = nsvcd__f3_load(first->position);
 }
 
 // The motion of valid movers, whose poses it points to.
 static void nsvcd__motion_init(const nsvcd_mover *moving, const nsvcd_mover *fixed,
-                               nsvcd__motion *motion) {
-  motion->unit = nsvcd__scale_of(fixed);
-  motion->ratio = (double)nsvcd__scale_of(moving) / (double)motion->unit;
-  motion->scale = (float)motion->ratio;
-  motion->per_scale = 1 / motion->scale;
-  motion->push_out = nsvcd__f3_of(0, 0, 0);
-  motion->begin = 0;
-  motion->duration = 1;
-  nsvcd__motion_set_tracks(motion, nsvcd__track_of(moving), nsvcd__track_of(fixed));
+                               nsvcd__motion *m) {
+  m->unit = nsvcd__scale_of(fixed);
+  m->ratio = (double)nsvcd__scale_of(moving) / (double)m->unit;
+  m->scale = (float)m->ratio;
+  m->per_scale = 1 / m->scale;
+  m->push_out = nsvcd__f3_of(0, 0, 0);
+  m->begin = 0;
+  m->duration = 1;
+  nsvcd__motion_set_tracks(m, nsvcd__track_of(moving), nsvcd__track_of(fixed));
 }
 
 // A lower bound of the distance between the bodies' origins, in the fixed body's units.
-static float nsvcd__motion_gap(const nsvcd__motion *motion) {
-  const nsvcd__f3 above = nsvcd__f3_scale(motion->high, -1);
-  const nsvcd__f3 gap = nsvcd__f3_max(motion->low, above);
+static float nsvcd__motion_gap(const nsvcd__motion *m) {
+  const nsvcd__f3 above = nsvcd__f3_scale(m->high, -1);
+  const nsvcd__f3 gap = nsvcd__f3_max(m->low, above);
   const nsvcd__f3 apart = nsvcd__f3_max(gap, nsvcd__f3_of(0, 0, 0));
-  return 0.99999f * nsvcd__f3_length(apart) / motion->unit;
+  return 0.99999f * nsvcd__f3_length(apart) / m->unit;
 }
 
 // Is the shorter arc from a to b the one to -b?
@@ -266,10 +266,10 @@ static uint32_t nsvcd__next_pose(const nsvcd__track *track, uint32_t tick) {
 }
 
 // The keyframe after a tick.
-static uint32_t nsvcd__next_keyframe(const nsvcd__motion *motion, uint32_t tick) {
-  if (motion->moving.ticks == 1 || motion->fixed.ticks == 1) return tick + 1;
-  const uint32_t after_a = nsvcd__next_pose(&motion->moving, tick);
-  const uint32_t after_b = nsvcd__next_pose(&motion->fixed, tick);
+static uint32_t nsvcd__next_keyframe(const nsvcd__motion *m, uint32_t tick) {
+  if (m->moving.ticks == 1 || m->fixed.ticks == 1) return tick + 1;
+  const uint32_t after_a = nsvcd__next_pose(&m->moving, tick);
+  const uint32_t after_b = nsvcd__next_pose(&m->fixed, tick);
   return after_a < after_b ? after_a : after_b;
 }
 
@@ -288,21 +288,21 @@ typedef struct nsvcd__v_pose {
 
 // The moving body's poses in the fixed body's frame: quaternions of any length, positions in its
 // units.
-static nsvcd__v_pose nsvcd__v_seen(const nsvcd__motion *motion, const nsvcd__v_poses *at) {
-  const nsvcd__v per_metre = nsvcd__v_set(1 / motion->unit);
+static nsvcd__v_pose nsvcd__v_seen(const nsvcd__motion *m, const nsvcd__v_poses *at) {
+  const nsvcd__v per_metre = nsvcd__v_set(1 / m->unit);
   nsvcd__vquat to_fixed;
   nsvcd__vmat3 matrix;
-  if (motion->fixed_moves) {
+  if (m->fixed_moves) {
     to_fixed = nsvcd__vquat_inverse(at->fixed);
     matrix = nsvcd__vmat3_of(to_fixed);
   } else {
-    to_fixed = nsvcd__vquat_set(motion->to_fixed_quat);
-    matrix = nsvcd__vmat3_set(&motion->to_fixed);
+    to_fixed = nsvcd__vquat_set(m->to_fixed_quat);
+    matrix = nsvcd__vmat3_set(&m->to_fixed);
   }
   const nsvcd__v3 metres = nsvcd__vmat3_apply(matrix, at->offset);
   nsvcd__v_pose out;
   out.rotation = nsvcd__vquat_mul(to_fixed, at->moving);
-  out.position = nsvcd__v3_fma(per_metre, metres, nsvcd__v3_set(motion->push_out));
+  out.position = nsvcd__v3_fma(per_metre, metres, nsvcd__v3_set(m->push_out));
   return out;
 }
 
@@ -334,17 +334,17 @@ static nsvcd__world_pose nsvcd__track_pose_at(const nsvcd__track *track, float t
 
 // The moving body's pose in the fixed body's frame at time t, clamped to [0,1]. Its points are
 // multiplied by the scale first.
-static nsvcd__transform nsvcd__motion_pose(const nsvcd__motion *motion, float t) {
+static nsvcd__transform nsvcd__motion_pose(const nsvcd__motion *m, float t) {
   const float when = t < 0 ? 0 : t > 1 ? 1 : t;
-  const nsvcd__world_pose moving = nsvcd__track_pose_at(&motion->moving, when);
-  const nsvcd__world_pose fixed = nsvcd__track_pose_at(&motion->fixed, when);
+  const nsvcd__world_pose moving = nsvcd__track_pose_at(&m->moving, when);
+  const nsvcd__world_pose fixed = nsvcd__track_pose_at(&m->fixed, when);
   const nsvcd__mat3 rotation = nsvcd__mat3_of(moving.rotation);
   const nsvcd__mat3 to_fixed = nsvcd__mat3_transpose(nsvcd__mat3_of(fixed.rotation));
   const nsvcd__d3 metres = nsvcd__d3_sub(moving.position, fixed.position);
-  const nsvcd__f3 offset = nsvcd__d3_narrow(nsvcd__d3_over(metres, (double)motion->unit));
+  const nsvcd__f3 offset = nsvcd__d3_narrow(nsvcd__d3_over(metres, (double)m->unit));
   nsvcd__transform out;
   out.rotation = nsvcd__mat3_mul(&to_fixed, &rotation);
-  out.position = nsvcd__f3_add(nsvcd__mat3_apply(&to_fixed, offset), motion->push_out);
+  out.position = nsvcd__f3_add(nsvcd__mat3_apply(&to_fixed, offset), m->push_out);
   return out;
 }
 #endif

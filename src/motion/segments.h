@@ -30,34 +30,35 @@
 
 // 16 segments: the pose at the start, its change until the end, and bounds of the deviation.
 typedef struct nsvcd__segments {
-  float rotation[9][NSVCD__LANES], position[3][NSVCD__LANES], turned[9][NSVCD__LANES],
-      moved[3][NSVCD__LANES];
-  float margin[NSVCD__LANES], bend[NSVCD__LANES];
+  nsvcd__row rotation[9], position[3];
+  nsvcd__row turned[9], moved[3];
+  nsvcd__row margin, bend;
   // For the proof, along directions: see nsvcd__deviation_of.
-  float rounding[NSVCD__LANES], origin_bend[NSVCD__LANES], axis[3][NSVCD__LANES],
-      bend_along_axis[NSVCD__LANES];
-  float origin_along_axis[NSVCD__LANES], heading[3][NSVCD__LANES],
-      origin_off_heading[NSVCD__LANES];
+  nsvcd__row rounding, axis[3], heading[3];
+  nsvcd__row bend_along_axis;
+  nsvcd__row origin_bend, origin_along_axis;
+  nsvcd__row origin_off_heading;
 } nsvcd__segments;
 
-// Poses of both bodies at 16 ticks, and one more, in the world.
-#define NSVCD__KEYFRAMES (NSVCD__LANES + 1)
+#define NSVCD__ENDS (NSVCD__LANES + 1)  // of 16 segments, one after the other
+
+// Poses of both bodies at the ends of segments, or at other ticks, in the world.
 typedef struct nsvcd__keyframes {
-  float moving[4 * NSVCD__KEYFRAMES];  // (4, KEYFRAMES) quaternions, as the next two
-  float fixed[4 * NSVCD__KEYFRAMES];
-  float seen[4 * NSVCD__KEYFRAMES];    // the moving body's, in the fixed body's frame
-  float offset[3 * NSVCD__KEYFRAMES];  // (3, KEYFRAMES) see nsvcd__v_poses
+  float moving[4 * NSVCD__ENDS];  // (4, ENDS) quaternions, as the next two
+  float fixed[4 * NSVCD__ENDS];
+  float seen[4 * NSVCD__ENDS];    // the moving body's, in the fixed body's frame
+  float offset[3 * NSVCD__ENDS];  // (3, ENDS) see nsvcd__v_poses
 } nsvcd__keyframes;
 
 // The greatest values so far of 16 segments, while their keyframes are visited.
 typedef struct nsvcd__bends {
-  float turn[NSVCD__LANES];  // the sum of the arcs' angles
+  nsvcd__row turn;  // the sum of the arcs' angles
   // arcs off their chords: per metre from the moving origin, along the axis too, and that origin
-  float arc_bend[NSVCD__LANES], arc_along_axis[NSVCD__LANES], arc_origin[NSVCD__LANES];
+  nsvcd__row arc_bend, arc_along_axis, arc_origin;
   // keyframes off the segment's chord, squared: the rotation and the position, and both along the
   // axis; the position across the heading
-  float off[NSVCD__LANES], origin_off[NSVCD__LANES], along_axis[NSVCD__LANES];
-  float origin_along_axis[NSVCD__LANES], origin_off_heading[NSVCD__LANES];
+  nsvcd__row off, origin_off, along_axis;
+  nsvcd__row origin_along_axis, origin_off_heading;
 } nsvcd__bends;
 
 typedef struct nsvcd__cut {
@@ -89,7 +90,7 @@ static nsvcd__v nsvcd__v_arc(nsvcd__vquat a, nsvcd__vquat b) {
 }
 
 // The vector part of b a^-1: the axis of the turn from a to b, times the sine of half its angle.
-static nsvcd__v3 nsvcd__v_turn_between(nsvcd__vquat a, nsvcd__vquat b) {
+static nsvcd__v3 nsvcd__v_turn(nsvcd__vquat a, nsvcd__vquat b) {
   const nsvcd__v3 u = nsvcd__vquat_axis(a);
   const nsvcd__v3 v = nsvcd__vquat_axis(b);
   const nsvcd__v3 sum = nsvcd__v3_fma(nsvcd__v_negate(b.w), u, nsvcd__v3_cross(u, v));
@@ -98,70 +99,63 @@ static nsvcd__v3 nsvcd__v_turn_between(nsvcd__vquat a, nsvcd__vquat b) {
 
 // The same on the shorter arc. cosine: of half the angle; near 0, rounding may have taken the
 // longer one.
-static nsvcd__v3 nsvcd__v_shorter_turn_between(nsvcd__vquat a, nsvcd__vquat b,
-                                               nsvcd__v *cosine) {
+static nsvcd__v3 nsvcd__v_shorter_turn(nsvcd__vquat a, nsvcd__vquat b, nsvcd__v *cosine) {
   const nsvcd__v dot = nsvcd__vquat_dot(a, b);
   const nsvcd__v sign = nsvcd__v_sign(dot);
   *cosine = nsvcd__v_mul(sign, dot);
-  return nsvcd__v3_scale(nsvcd__v_turn_between(a, b), sign);
+  return nsvcd__v3_scale(nsvcd__v_turn(a, b), sign);
 }
 
 // ---- keyframes
 
-// Reads the poses of both bodies at `count` ticks. If one body moves and every tick is one of its
-// poses, they are as the caller gave them.
-static void nsvcd__keyframes_read(const nsvcd__motion *motion, const uint32_t *ticks,
-                                  size_t count, nsvcd__keyframes *out) {
-  const nsvcd__track *track = &motion->moving;
-  const int as_given = track->ticks == 1 && track->count > 1 && !motion->fixed_moves;
-  nsvcd__world_pose fixed = {{0, 0, 0, 1}, nsvcd__d3_widen(motion->fixed_position)};
+// Reads the poses of both bodies at `count` ticks.
+static void nsvcd__keyframes_read(const nsvcd__motion *m, const uint32_t *ticks, size_t count,
+                                  nsvcd__keyframes *out) {
+  nsvcd__world_pose fixed = {{0, 0, 0, 1}, nsvcd__d3_widen(m->fixed_position)};
   for (size_t l = 0; l < count; l++) {
-    nsvcd__quat rotation;
-    nsvcd__f3 offset;
-    if (as_given) {
-      const nsvcd_pose *pose = &track->poses[ticks[l]];
-      rotation = nsvcd__quat_load(pose->rotation);
-      offset = nsvcd__f3_sub(nsvcd__f3_load(pose->position), motion->fixed_position);
-    } else {
-      const nsvcd__world_pose moving = nsvcd__track_pose(track, ticks[l]);
-      if (motion->fixed_moves) fixed = nsvcd__track_pose(&motion->fixed, ticks[l]);
-      rotation = moving.rotation;
-      offset = nsvcd__d3_narrow(nsvcd__d3_sub(moving.position, fixed.position));
-      if (motion->fixed_moves)
-        nsvcd__quat_put(fixed.rotation, out->fixed + l, NSVCD__KEYFRAMES);
+    const nsvcd__world_pose moving = nsvcd__track_pose(&m->moving, ticks[l]);
+    nsvcd__quat_put(moving.rotation, out->moving + l, NSVCD__ENDS);
+    if (m->fixed_moves) {
+      fixed = nsvcd__track_pose(&m->fixed, ticks[l]);
+      nsvcd__quat_put(fixed.rotation, out->fixed + l, NSVCD__ENDS);
     }
-    nsvcd__f3_put(offset, out->offset + l, NSVCD__KEYFRAMES);
-    nsvcd__quat_put(rotation, out->moving + l, NSVCD__KEYFRAMES);
+    const nsvcd__d3 offset = nsvcd__d3_sub(moving.position, fixed.position);
+    nsvcd__f3_put(nsvcd__d3_narrow(offset), out->offset + l, NSVCD__ENDS);
   }
 }
 
 // A slice of them from lane l on; l may be 1, for there is one keyframe more than lanes.
-static nsvcd__v_poses nsvcd__keyframes_load(const nsvcd__motion *motion,
+static nsvcd__v_poses nsvcd__keyframes_load(const nsvcd__motion *m,
                                             const nsvcd__keyframes *from, size_t l) {
   nsvcd__v_poses out;
-  out.offset = nsvcd__v3_load_rows(from->offset + l, NSVCD__KEYFRAMES);
-  out.moving = nsvcd__vquat_load(from->moving + l, NSVCD__KEYFRAMES);
+  out.offset = nsvcd__v3_load_rows(from->offset + l, NSVCD__ENDS);
+  out.moving = nsvcd__vquat_load(from->moving + l, NSVCD__ENDS);
   out.fixed = out.moving;
-  if (motion->fixed_moves) {
+  if (m->fixed_moves) {
     out.moving = nsvcd__vquat_unit(out.moving);
-    out.fixed = nsvcd__vquat_unit(nsvcd__vquat_load(from->fixed + l, NSVCD__KEYFRAMES));
+    out.fixed = nsvcd__vquat_unit(nsvcd__vquat_load(from->fixed + l, NSVCD__ENDS));
   }
   return out;
 }
 
 // Stores a slice with its rotations in the fixed body's frame.
-static void nsvcd__keyframes_store(const nsvcd__motion *motion, const nsvcd__v_poses *at,
+static void nsvcd__keyframes_store(const nsvcd__motion *m, const nsvcd__v_poses *at,
                                    nsvcd__vquat seen, size_t l, nsvcd__keyframes *out) {
-  nsvcd__vquat_store(at->moving, out->moving + l, NSVCD__KEYFRAMES);
-  nsvcd__vquat_store(seen, out->seen + l, NSVCD__KEYFRAMES);
-  if (!motion->fixed_moves) return;
-  nsvcd__v3_store_rows(at->offset, out->offset + l, NSVCD__KEYFRAMES);
-  nsvcd__vquat_store(at->fixed, out->fixed + l, NSVCD__KEYFRAMES);
+  nsvcd__vquat_store(at->moving, out->moving + l, NSVCD__ENDS);
+  nsvcd__vquat_store(seen, out->seen + l, NSVCD__ENDS);
+  if (!m->fixed_moves) return;
+  nsvcd__v3_store_rows(at->offset, out->offset + l, NSVCD__ENDS);
+  nsvcd__vquat_store(at->fixed, out->fixed + l, NSVCD__ENDS);
+}
+
+// Rotations times the scale.
+static nsvcd__vmat3 nsvcd__v_scaled(const nsvcd__motion *m, nsvcd__vquat q) {
+  return nsvcd__vmat3_scale(nsvcd__vmat3_of(q), nsvcd__v_set(m->scale));
 }
 
 // ---- the deviation of arcs and of keyframes
 
-static void nsvcd__v_keep_most(float *most, nsvcd__v value) {
+static void nsvcd__v_keep(float *most, nsvcd__v value) {
   nsvcd__v_store(most, nsvcd__v_max(nsvcd__v_load(most), value));
 }
 static void nsvcd__v_add_to(float *sum, nsvcd__v value) {
@@ -174,14 +168,13 @@ static void nsvcd__v_add_to(float *sum, nsvcd__v value) {
 //   o x (o x Rx) + (o x w') x Rx   -   2 w' x v + w' x (w' x d)
 // so that the arc leaves its chord by (|o|^2 + |o x w'|) / 8 |x| and (2 |w' x v| + |w'| |w' x d|) /
 // 8 at most.
-static void nsvcd__cut_double_arc(const nsvcd__motion *motion, const nsvcd__v_poses *from,
+static void nsvcd__cut_double_arc(const nsvcd__motion *m, const nsvcd__v_poses *from,
                                   const nsvcd__v_poses *to, size_t l, nsvcd__bends *most) {
   const nsvcd__v eighth = nsvcd__v_set(0.12501f);
   nsvcd__v cosine;
   nsvcd__v fixed_cosine;
-  const nsvcd__v3 half = nsvcd__v_shorter_turn_between(from->moving, to->moving, &cosine);
-  const nsvcd__v3 fixed_half =
-      nsvcd__v_shorter_turn_between(from->fixed, to->fixed, &fixed_cosine);
+  const nsvcd__v3 half = nsvcd__v_shorter_turn(from->moving, to->moving, &cosine);
+  const nsvcd__v3 fixed_half = nsvcd__v_shorter_turn(from->fixed, to->fixed, &fixed_cosine);
   const nsvcd__v sine = nsvcd__v3_length(half);
   const nsvcd__v fixed_sine = nsvcd__v3_length(fixed_half);
   const nsvcd__v sines = nsvcd__v_add(sine, fixed_sine);
@@ -198,102 +191,99 @@ static void nsvcd__cut_double_arc(const nsvcd__motion *motion, const nsvcd__v_po
   turn = nsvcd__v_fma(nsvcd__v_set(2e-6f), sines, turn);
   const nsvcd__v fixed_turn = nsvcd__v_arc(from->fixed, to->fixed);
   const nsvcd__v squares = nsvcd__v_mul(turn, nsvcd__v_add(turn, fixed_turn));
-  nsvcd__v_keep_most(most->arc_bend + l, nsvcd__v_mul(squares, eighth));
+  nsvcd__v_keep(most->arc_bend + l, nsvcd__v_mul(squares, eighth));
 
   const nsvcd__v start = nsvcd__v3_length(from->offset);
   const nsvcd__v extent = nsvcd__v_max(start, nsvcd__v3_length(to->offset));
   const nsvcd__v travel = nsvcd__v3_length(nsvcd__v3_sub(to->offset, from->offset));
   const nsvcd__v both = nsvcd__v_fma(fixed_turn, extent, nsvcd__v_add(travel, travel));
   const nsvcd__v metres = nsvcd__v_mul(nsvcd__v_mul(fixed_turn, both), eighth);
-  const nsvcd__v origin_bend = nsvcd__v_div(metres, nsvcd__v_set(motion->unit));
-  nsvcd__v_keep_most(most->arc_origin + l, origin_bend);
+  const nsvcd__v origin_bend = nsvcd__v_div(metres, nsvcd__v_set(m->unit));
+  nsvcd__v_keep(most->arc_origin + l, origin_bend);
   nsvcd__v_add_to(most->turn + l, fixed_turn);
 }
 
 // Adds the arc from the last keyframes to these, which become the last. seen: their rotations in
 // the fixed body's frame.
-static void nsvcd__cut_arc(const nsvcd__motion *motion, const nsvcd__v_poses *at,
-                           nsvcd__vquat seen, size_t l, nsvcd__segments *out,
-                           nsvcd__cut *cut) {
+static void nsvcd__cut_arc(const nsvcd__motion *m, const nsvcd__v_poses *at, nsvcd__vquat seen,
+                           size_t l, nsvcd__segments *out, nsvcd__cut *cut) {
   nsvcd__bends *most = &cut->most;
-  const nsvcd__v_poses last = nsvcd__keyframes_load(motion, &cut->last, l);
+  const nsvcd__v_poses last = nsvcd__keyframes_load(m, &cut->last, l);
   const nsvcd__v arc = nsvcd__v_arc(last.moving, at->moving);
   nsvcd__v_add_to(most->turn + l, arc);
-  if (motion->fixed_moves) {
-    nsvcd__cut_double_arc(motion, &last, at, l, most);
+  if (m->fixed_moves) {
+    nsvcd__cut_double_arc(m, &last, at, l, most);
   } else {
     // Along the axis: h^2 / 8 |axis x a| of a turn by h about a. With w = a sin(h / 2) that is at
     // most pi / 8 h |axis x w|.
-    const nsvcd__vquat last_seen = nsvcd__vquat_load(cut->last.seen + l, NSVCD__KEYFRAMES);
-    const nsvcd__v3 w = nsvcd__v_turn_between(last_seen, seen);
+    const nsvcd__vquat last_seen = nsvcd__vquat_load(cut->last.seen + l, NSVCD__ENDS);
+    const nsvcd__v3 w = nsvcd__v_turn(last_seen, seen);
     const nsvcd__v3 across = nsvcd__v3_cross(nsvcd__v3_load(out->axis, l), w);
     const nsvcd__v along =
         nsvcd__v_mul(nsvcd__v_scale(arc, 0.3931f), nsvcd__v3_length(across));
-    nsvcd__v_keep_most(most->arc_bend + l, nsvcd__v_scale(nsvcd__v_mul(arc, arc), 0.125f));
-    nsvcd__v_keep_most(most->arc_along_axis + l, along);
+    nsvcd__v_keep(most->arc_bend + l, nsvcd__v_scale(nsvcd__v_mul(arc, arc), 0.125f));
+    nsvcd__v_keep(most->arc_along_axis + l, along);
   }
-  nsvcd__keyframes_store(motion, at, seen, l, &cut->last);
+  nsvcd__keyframes_store(m, at, seen, l, &cut->last);
 }
 
 // Visits a keyframe of each segment: ticks (16), begin (17) as nsvcd__cut_block has it. Adds the
 // arc before it, and how far it is off its segment's chord.
-static NSVCD__NOINLINE void nsvcd__cut_keyframe(const nsvcd__motion *motion,
-                                                const uint32_t *begin, const uint32_t *ticks,
-                                                nsvcd__segments *out, nsvcd__cut *cut) {
+static NSVCD__NOINLINE void nsvcd__cut_keyframe(const nsvcd__motion *m, const uint32_t *begin,
+                                                const uint32_t *ticks, nsvcd__segments *out,
+                                                nsvcd__cut *cut) {
   nsvcd__bends *most = &cut->most;
-  float fraction[NSVCD__LANES];  // of the segment, before the keyframe
-  nsvcd__keyframes_read(motion, ticks, NSVCD__LANES, &cut->here);
+  nsvcd__row fraction;  // of the segment, before the keyframe
+  nsvcd__keyframes_read(m, ticks, NSVCD__LANES, &cut->here);
   for (size_t l = 0; l < NSVCD__LANES; l++) {
     const uint32_t length = begin[l + 1] - begin[l];
     fraction[l] = length ? (float)(ticks[l] - begin[l]) / (float)length : 0;
   }
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v_poses at = nsvcd__keyframes_load(motion, &cut->here, l);
-    const nsvcd__v_pose seen = nsvcd__v_seen(motion, &at);
-    nsvcd__cut_arc(motion, &at, seen.rotation, l, out, cut);
+    const nsvcd__v_poses at = nsvcd__keyframes_load(m, &cut->here, l);
+    const nsvcd__v_pose seen = nsvcd__v_seen(m, &at);
+    nsvcd__cut_arc(m, &at, seen.rotation, l, out, cut);
     const nsvcd__v u = nsvcd__v_load(fraction + l);
     const nsvcd__vmat3 start = nsvcd__vmat3_load(out->rotation, l);
     const nsvcd__vmat3 turned = nsvcd__vmat3_load(out->turned, l);
-    const nsvcd__vmat3 rotation = nsvcd__vmat3_of(seen.rotation);
-    const nsvcd__vmat3 scaled = nsvcd__vmat3_scale(rotation, nsvcd__v_set(motion->scale));
-    const nsvcd__vmat3 off = nsvcd__vmat3_sub(scaled, nsvcd__vmat3_fma(u, turned, start));
+    const nsvcd__vmat3 chords = nsvcd__vmat3_fma(u, turned, start);
+    const nsvcd__vmat3 off = nsvcd__vmat3_sub(nsvcd__v_scaled(m, seen.rotation), chords);
     const nsvcd__v3 position = nsvcd__v3_load(out->position, l);
     const nsvcd__v3 chord = nsvcd__v3_fma(u, nsvcd__v3_load(out->moved, l), position);
     const nsvcd__v3 aside = nsvcd__v3_sub(seen.position, chord);
-    nsvcd__v_keep_most(most->off + l, nsvcd__vmat3_square(off));
-    nsvcd__v_keep_most(most->origin_off + l, nsvcd__v3_dot(aside, aside));
+    nsvcd__v_keep(most->off + l, nsvcd__vmat3_square(off));
+    nsvcd__v_keep(most->origin_off + l, nsvcd__v3_dot(aside, aside));
 
     const nsvcd__v3 axis = nsvcd__v3_load(out->axis, l);
     const nsvcd__v3 along = nsvcd__vmat3_apply_transpose(off, axis);
     const nsvcd__v3 across = nsvcd__v3_cross(nsvcd__v3_load(out->heading, l), aside);
     const nsvcd__v height = nsvcd__v3_dot(axis, aside);
-    nsvcd__v_keep_most(most->along_axis + l, nsvcd__v3_dot(along, along));
-    nsvcd__v_keep_most(most->origin_along_axis + l, nsvcd__v_mul(height, height));
-    nsvcd__v_keep_most(most->origin_off_heading + l, nsvcd__v3_dot(across, across));
+    nsvcd__v_keep(most->along_axis + l, nsvcd__v3_dot(along, along));
+    nsvcd__v_keep(most->origin_along_axis + l, nsvcd__v_mul(height, height));
+    nsvcd__v_keep(most->origin_off_heading + l, nsvcd__v3_dot(across, across));
   }
 }
 
 // ---- segments
 
 // Sets the poses at the segments' starts, and their change until the ends: begin (17).
-static NSVCD__NOINLINE void nsvcd__cut_ends(const nsvcd__motion *motion, const uint32_t *begin,
+static NSVCD__NOINLINE void nsvcd__cut_ends(const nsvcd__motion *m, const uint32_t *begin,
                                             nsvcd__segments *out, nsvcd__cut *cut) {
-  const nsvcd__v scale = nsvcd__v_set(motion->scale);
-  nsvcd__keyframes_read(motion, begin, NSVCD__KEYFRAMES, &cut->here);
+  nsvcd__keyframes_read(m, begin, NSVCD__ENDS, &cut->here);
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v_poses at = nsvcd__keyframes_load(motion, &cut->here, l);
-    const nsvcd__v_poses to = nsvcd__keyframes_load(motion, &cut->here, l + 1);
-    const nsvcd__v_pose seen = nsvcd__v_seen(motion, &at);
-    const nsvcd__v_pose seen_end = nsvcd__v_seen(motion, &to);
-    const nsvcd__vmat3 start = nsvcd__vmat3_scale(nsvcd__vmat3_of(seen.rotation), scale);
-    const nsvcd__vmat3 end = nsvcd__vmat3_scale(nsvcd__vmat3_of(seen_end.rotation), scale);
-    const nsvcd__v3 moved = nsvcd__v3_sub(seen_end.position, seen.position);
-    const nsvcd__v3 turn = nsvcd__v_turn_between(seen.rotation, seen_end.rotation);
-    nsvcd__keyframes_store(motion, &at, seen.rotation, l, &cut->last);
-    nsvcd__keyframes_store(motion, &to, seen_end.rotation, l, &cut->end);
+    const nsvcd__v_poses at = nsvcd__keyframes_load(m, &cut->here, l);
+    const nsvcd__v_poses to = nsvcd__keyframes_load(m, &cut->here, l + 1);
+    const nsvcd__v_pose first = nsvcd__v_seen(m, &at);
+    const nsvcd__v_pose last = nsvcd__v_seen(m, &to);
+    const nsvcd__vmat3 start = nsvcd__v_scaled(m, first.rotation);
+    const nsvcd__vmat3 end = nsvcd__v_scaled(m, last.rotation);
+    const nsvcd__v3 moved = nsvcd__v3_sub(last.position, first.position);
+    const nsvcd__v3 turn = nsvcd__v_turn(first.rotation, last.rotation);
+    nsvcd__keyframes_store(m, &at, first.rotation, l, &cut->last);
+    nsvcd__keyframes_store(m, &to, last.rotation, l, &cut->end);
     nsvcd__vmat3_store(out->rotation, l, start);
     nsvcd__vmat3_store(out->turned, l, nsvcd__vmat3_sub(end, start));
-    nsvcd__v3_store(out->position, l, seen.position);
+    nsvcd__v3_store(out->position, l, first.position);
     nsvcd__v3_store(out->moved, l, moved);
     nsvcd__v3_store(out->axis, l, nsvcd__v3_unit(turn));
     nsvcd__v3_store(out->heading, l, nsvcd__v3_unit(moved));
@@ -308,10 +298,10 @@ static nsvcd__v nsvcd__v_bend(nsvcd__v scale, const float *arcs, const float *ke
 
 // Sets the deviations, once all keyframes have been visited. If both bodies move, they are not
 // smaller along any direction.
-static void nsvcd__cut_deviations(const nsvcd__motion *motion, float lengths, size_t l,
+static void nsvcd__cut_deviations(const nsvcd__motion *m, float lengths, size_t l,
                                   nsvcd__segments *out, const nsvcd__bends *most) {
-  const int both = motion->fixed_moves;
-  const nsvcd__v scale = nsvcd__v_set(motion->scale);
+  const int both = m->fixed_moves;
+  const nsvcd__v scale = nsvcd__v_set(m->scale);
   const nsvcd__v bend = nsvcd__v_bend(scale, most->arc_bend + l, most->off + l);
   const nsvcd__v off = nsvcd__v_sqrt(nsvcd__v_load(most->origin_off + l));
   const nsvcd__v origin_bend = nsvcd__v_add(off, nsvcd__v_load(most->arc_origin + l));
@@ -335,26 +325,26 @@ static void nsvcd__cut_deviations(const nsvcd__motion *motion, float lengths, si
 
 // Cuts 16 segments, of which `count` exist. begin: (17) ticks at which they begin, and the last one
 // ends. lengths: the bodies' extents. Leaves the angle by which each turns in cut->most.turn.
-static void nsvcd__cut_block(const nsvcd__motion *motion, const uint32_t *begin, size_t count,
+static void nsvcd__cut_block(const nsvcd__motion *m, const uint32_t *begin, size_t count,
                              float lengths, nsvcd__segments *out, nsvcd__cut *cut) {
   uint32_t ticks[NSVCD__LANES];
   memset(&cut->most, 0, sizeof cut->most);
   memcpy(ticks, begin, sizeof ticks);
-  nsvcd__cut_ends(motion, begin, out, cut);
+  nsvcd__cut_ends(m, begin, out, cut);
   for (int is_inside = 1; is_inside;) {
     is_inside = 0;
     for (size_t l = 0; l < NSVCD__LANES; l++) {
-      if (ticks[l] < begin[l + 1]) ticks[l] = nsvcd__next_keyframe(motion, ticks[l]);
+      if (ticks[l] < begin[l + 1]) ticks[l] = nsvcd__next_keyframe(m, ticks[l]);
       if (ticks[l] > begin[l + 1]) ticks[l] = begin[l + 1];
       is_inside |= ticks[l] < begin[l + 1];
     }
-    if (is_inside) nsvcd__cut_keyframe(motion, begin, ticks, out, cut);
+    if (is_inside) nsvcd__cut_keyframe(m, begin, ticks, out, cut);
   }
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v_poses end = nsvcd__keyframes_load(motion, &cut->end, l);
-    const nsvcd__vquat seen = nsvcd__vquat_load(cut->end.seen + l, NSVCD__KEYFRAMES);
-    nsvcd__cut_arc(motion, &end, seen, l, out, cut);
-    nsvcd__cut_deviations(motion, lengths, l, out, &cut->most);
+    const nsvcd__v_poses end = nsvcd__keyframes_load(m, &cut->end, l);
+    const nsvcd__vquat seen = nsvcd__vquat_load(cut->end.seen + l, NSVCD__ENDS);
+    nsvcd__cut_arc(m, &end, seen, l, out, cut);
+    nsvcd__cut_deviations(m, lengths, l, out, &cut->most);
   }
   // the rest meet nothing
   for (size_t l = count; l < NSVCD__LANES; l++) out->margin[l] = NSVCD__NOWHERE;

@@ -12,14 +12,12 @@
 
 // 16 spheres on chords start + tau travel; their radii plus deviation, and -1 / |travel|^2.
 typedef struct nsvcd__chords {
-  float start[3][NSVCD__LANES];
-  float travel[3][NSVCD__LANES];
-  float inverse[NSVCD__LANES];
-  float radius[NSVCD__LANES];
+  nsvcd__row start[3], travel[3];
+  nsvcd__row inverse, radius;
 } nsvcd__chords;
 
 typedef struct nsvcd__boxes {
-  float low[3][NSVCD__LANES], high[3][NSVCD__LANES];
+  nsvcd__row low[3], high[3];
 } nsvcd__boxes;
 
 // Groups that are searched together. Slots without a group have the radius NSVCD__NOWHERE.

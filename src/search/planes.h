@@ -12,7 +12,7 @@
 #ifndef NSVCD_NO_NETWORK
 // The ranges of 16 patches along a plane's normal.
 typedef struct nsvcd__ranges {
-  float low[NSVCD__LANES], high[NSVCD__LANES];
+  nsvcd__row low, high;
 } nsvcd__ranges;
 
 #define NSVCD__PLANES 2  // that are remembered
@@ -82,8 +82,7 @@ static void nsvcd__know_resting(const nsvcd__search *search, size_t h, size_t n)
   nsvcd__plane_cache *cache = search->cache;
   if (cache->resting_known >> n & 1) return;
   cache->resting_known = (uint16_t)(cache->resting_known | 1u << n);
-  const nsvcd__spheres all = nsvcd__body_patches(search->fixed);
-  const nsvcd__spheres patches = nsvcd__spheres_from(all, NSVCD__GROUP * h);
+  const nsvcd__spheres patches = nsvcd__members_of(search->fixed, h);
   const int8_t *extremes = nsvcd__group_extremes(search->fixed, h);
   const nsvcd__v3 u = nsvcd__v3_set(cache->planes[n]);
   NSVCD__EACH_SLICE(l) {

@@ -167,9 +167,7 @@ static uint32_t nsvcd__is_approached(const void *what, nsvcd__spheres all) {
   uint32_t met = 0;
   for (uint64_t wanted = search->near_segments; wanted && nearby & ~met;
        wanted &= wanted - 1) {
-    const size_t s = nsvcd__low_bit(wanted);
-    const nsvcd__chords *chords = &search->group[s / NSVCD__LANES];
-    met |= nearby & nsvcd__meet_members(chords, s % NSVCD__LANES, all);
+    met |= nearby & nsvcd__meet_members(search, nsvcd__low_bit(wanted), all);
   }
   return met;
 }
@@ -192,11 +190,10 @@ static void nsvcd__search_moving_tile(nsvcd__search *search) {
   nsvcd__chords_of_tile(search);
   for (uint64_t left = search->near_segments; left; left &= left - 1) {
     const size_t s = nsvcd__low_bit(left);
-    const nsvcd__chords *c = &search->group[s / NSVCD__LANES];
+    nsvcd__chords *c = &search->group[s / NSVCD__LANES];
     const size_t l = s % NSVCD__LANES;
-    const nsvcd__f3 start = nsvcd__f3_get(c->start[0] + l, NSVCD__LANES);
-    const nsvcd__f3 travel = nsvcd__f3_get(c->travel[0] + l, NSVCD__LANES);
-    const nsvcd__f3 end = nsvcd__f3_add(start, travel);
+    const nsvcd__f3 start = nsvcd__lane_of(c->start, l);
+    const nsvcd__f3 end = nsvcd__f3_add(start, nsvcd__lane_of(c->travel, l));
     const nsvcd__f3 around = nsvcd__f3_of(c->radius[l], c->radius[l], c->radius[l]);
     const nsvcd__f3 low = nsvcd__f3_sub(nsvcd__f3_min(start, end), around);
     const nsvcd__f3 high = nsvcd__f3_add(nsvcd__f3_max(start, end), around);
@@ -235,8 +232,7 @@ static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed
   const uint64_t wanted = nsvcd__meet_in(search, all, nsvcd__body_sphere(fixed));
   search->near_segments = wanted;
   search->wanted = segments;
-  search->steps = search->step = 0;
-  search->waiting = 0;
+  search->steps = 0;
   if (!nsvcd__is_tiled(moving, fixed)) {
     nsvcd__tile_fill_all(&search->moving_tile, moving);
     nsvcd__tile_fill_all(&search->fixed_tile, fixed);
@@ -259,11 +255,11 @@ static float nsvcd__group_extent(const nsvcd_body *body, size_t g) {
 
 // Fills members[] for the segments `wanted` that are not ready.
 static void nsvcd__pose_members(nsvcd__search *search, size_t g, uint64_t wanted) {
-  if (!(wanted & ~search->ready)) return;
-  const nsvcd__spheres patches = nsvcd__body_patches(search->moving);
-  const nsvcd__spheres members = nsvcd__spheres_from(patches, NSVCD__GROUP * g);
+  uint64_t missing = wanted & ~search->ready;
+  if (!missing) return;
+  const nsvcd__spheres members = nsvcd__members_of(search->moving, g);
   search->extent = nsvcd__group_extent(search->moving, g);
-  for (uint64_t missing = wanted & ~search->ready; missing; missing &= missing - 1) {
+  for (; missing; missing &= missing - 1) {
     const size_t s = nsvcd__low_bit(missing);
     nsvcd__chords_in_segment(search, s, members, search->extent, &search->members[s]);
   }
@@ -275,13 +271,11 @@ static void nsvcd__pose_members(nsvcd__search *search, size_t g, uint64_t wanted
 // segments (GROUP): in which of those `wanted`; written for these patches only.
 static uint32_t nsvcd__group_against_members(const nsvcd__search *search, size_t h,
                                              uint64_t wanted, uint64_t *segments) {
-  const nsvcd__spheres patches = nsvcd__body_patches(search->fixed);
-  const nsvcd__spheres members = nsvcd__spheres_from(patches, NSVCD__GROUP * h);
+  const nsvcd__spheres members = nsvcd__members_of(search->fixed, h);
   uint32_t met = 0;
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__low_bit(wanted);
-    const nsvcd__chords *chords = &search->group[s / NSVCD__LANES];
-    uint32_t bits = nsvcd__meet_members(chords, s % NSVCD__LANES, members);
+    uint32_t bits = nsvcd__meet_members(search, s, members);
     for (; bits; bits &= bits - 1) {
       const size_t l = nsvcd__low_bit(bits);
       segments[l] = (met >> l & 1 ? segments[l] : 0) | (uint64_t)1 << s;
@@ -296,19 +290,18 @@ static uint32_t nsvcd__group_against_members(const nsvcd__search *search, size_t
 static void nsvcd__search_group(nsvcd__search *search) {
   const size_t g = search->order[search->step];
   const uint64_t *nearby = nsvcd__nearby(search, g);
-  size_t longest = 0;
   size_t most = 0;
+  search->at = 0;
   for (size_t h = 0; h < search->fixed_tile.count; h++) {
     const size_t count = nsvcd__bit_count(nearby[h] & search->wanted);
     if (count > 0) search->waiting |= (uint32_t)1 << h;
     if (count > most) {
       most = count;
-      longest = h;
+      search->at = h;
     }
   }
   if (search->waiting) nsvcd__chords_of_group(search, search->moving_tile.groups[g]);
   search->ready = 0;
-  search->at = longest;
 }
 
 #ifndef NSVCD_NO_NETWORK
@@ -317,8 +310,7 @@ static void nsvcd__search_group(nsvcd__search *search) {
 static void nsvcd__group_against_group(nsvcd__search *search, size_t g, size_t h,
                                        uint32_t which, uint64_t wanted,
                                        nsvcd__candidates *kept) {
-  const nsvcd__spheres patches = nsvcd__body_patches(search->fixed);
-  const nsvcd__spheres members = nsvcd__spheres_from(patches, NSVCD__GROUP * h);
+  const nsvcd__spheres members = nsvcd__members_of(search->fixed, h);
   const size_t stride = search->most_segments;
   uint64_t left[NSVCD__GROUP] = {0};
   uint32_t any = 0;
@@ -327,8 +319,7 @@ static void nsvcd__group_against_group(nsvcd__search *search, size_t g, size_t h
   wanted = nsvcd__segments_left(search, h, wanted);
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__low_bit(wanted);
-    const nsvcd__chords *chords = &search->group[s / NSVCD__LANES];
-    uint32_t bits = which & nsvcd__meet_members(chords, s % NSVCD__LANES, members);
+    uint32_t bits = which & nsvcd__meet_members(search, s, members);
     if (!bits) continue;
     nsvcd__pose_members(search, g, (uint64_t)1 << s);
     const float deviation = nsvcd__segment_deviation(search, s, search->extent);
