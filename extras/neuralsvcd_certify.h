@@ -905,11 +905,11 @@ static inline nsvcd__nearest nsvcd__nearest_of(const nsvcd__d3 *a, const nsvcd__
 // ---------------------------------------------------------------------------------- ground/spheres
 #ifndef NSVCD__HAS_GROUND_SPHERES
 #define NSVCD__HAS_GROUND_SPHERES
-// In: rows of floats, as a body stores them. Out: a sphere or a slab as a value; constants of what a
-// patch stores.
+// In: rows of floats, as a body stores them. Out: a sphere or a slab as a value, and constants of
+// what is stored of a patch.
 
-// The radius of padding: meets nothing, and its square is finite. A float to the last digit, because
-// blobs are searched for it, also where constants are computed in double (FLT_EVAL_METHOD).
+// The radius of padding: meets nothing, and its square is finite. A float to the last digit, for
+// blobs are compared with it, also where constants are computed in double (FLT_EVAL_METHOD).
 #define NSVCD__NOWHERE (-999999986991104.0f)
 
 typedef struct nsvcd__sphere {
@@ -1078,8 +1078,10 @@ static void *nsvcd__arena_grow(nsvcd__arena *arena, void *old, size_t used, size
 }
 #endif
 
-// The next rows of a workspace, or, if base is NULL, only counts their bytes: in 64 bits, because a
+// The next array of a workspace, or, if base is NULL, only counts its bytes: in 64 bits, because a
 // 32-bit machine may not be able to address them.
+#define NSVCD__ARRAY(base, used, type, count) \
+  ((type *)nsvcd__take(base, used, count, sizeof(type)))
 static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_size) {
   void *at = base ? base + *used : NULL;
   const uint64_t bytes = (uint64_t)rows * row_size;

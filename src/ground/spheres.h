@@ -1,10 +1,10 @@
-// In: rows of floats, as a body stores them. Out: a sphere or a slab as a value; constants of what a
-// patch stores.
+// In: rows of floats, as a body stores them. Out: a sphere or a slab as a value, and constants of
+// what is stored of a patch.
 #pragma once
 #include "points.h"
 
-// The radius of padding: meets nothing, and its square is finite. A float to the last digit, because
-// blobs are searched for it, also where constants are computed in double (FLT_EVAL_METHOD).
+// The radius of padding: meets nothing, and its square is finite. A float to the last digit, for
+// blobs are compared with it, also where constants are computed in double (FLT_EVAL_METHOD).
 #define NSVCD__NOWHERE (-999999986991104.0f)
 
 typedef struct nsvcd__sphere {

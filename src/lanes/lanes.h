@@ -239,20 +239,21 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_of(nsvcd__v x, nsvcd__v y, nsvcd__v z) {
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_set(nsvcd__f3 a) {
   return nsvcd__v3_of(nsvcd__v_set(a.x), nsvcd__v_set(a.y), nsvcd__v_set(a.z));
 }
+#define NSVCD__BY_AXIS(op, a, b) nsvcd__v3_of(op(a.x, b.x), op(a.y, b.y), op(a.z, b.z))
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_add(nsvcd__v3 a, nsvcd__v3 b) {
-  return nsvcd__v3_of(nsvcd__v_add(a.x, b.x), nsvcd__v_add(a.y, b.y), nsvcd__v_add(a.z, b.z));
+  return NSVCD__BY_AXIS(nsvcd__v_add, a, b);
 }
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_sub(nsvcd__v3 a, nsvcd__v3 b) {
-  return nsvcd__v3_of(nsvcd__v_sub(a.x, b.x), nsvcd__v_sub(a.y, b.y), nsvcd__v_sub(a.z, b.z));
+  return NSVCD__BY_AXIS(nsvcd__v_sub, a, b);
 }
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_negate(nsvcd__v3 a) {
   return nsvcd__v3_of(nsvcd__v_negate(a.x), nsvcd__v_negate(a.y), nsvcd__v_negate(a.z));
 }
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_min(nsvcd__v3 a, nsvcd__v3 b) {
-  return nsvcd__v3_of(nsvcd__v_min(a.x, b.x), nsvcd__v_min(a.y, b.y), nsvcd__v_min(a.z, b.z));
+  return NSVCD__BY_AXIS(nsvcd__v_min, a, b);
 }
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_max(nsvcd__v3 a, nsvcd__v3 b) {
-  return nsvcd__v3_of(nsvcd__v_max(a.x, b.x), nsvcd__v_max(a.y, b.y), nsvcd__v_max(a.z, b.z));
+  return NSVCD__BY_AXIS(nsvcd__v_max, a, b);
 }
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_scale(nsvcd__v3 a, nsvcd__v s) {
   return nsvcd__v3_of(nsvcd__v_mul(s, a.x), nsvcd__v_mul(s, a.y), nsvcd__v_mul(s, a.z));

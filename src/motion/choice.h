@@ -193,11 +193,9 @@ static nsvcd__track nsvcd__subtrack(const nsvcd__track *track, uint32_t from, ui
 
 // nsvcd__motion_gap of an interval.
 static float nsvcd__interval_gap(const nsvcd__motion *m, uint32_t from, uint32_t until) {
-  nsvcd__motion part = *m;
   const nsvcd__track moving = nsvcd__subtrack(&m->moving, from, until);
   const nsvcd__track fixed = nsvcd__subtrack(&m->fixed, from, until);
-  nsvcd__motion_set_box(&part, &moving, &fixed);
-  return nsvcd__motion_gap(&part);
+  return nsvcd__tracks_gap(&moving, &fixed, m->unit);
 }
 #endif
 
@@ -207,20 +205,17 @@ static float nsvcd__interval_gap(const nsvcd__motion *m, uint32_t from, uint32_t
 // count as meeting.
 static void nsvcd__cut_segments(const nsvcd__motion *m, float lengths, float clearance,
                                 nsvcd__search *search) {
-  const size_t segments = search->segments;
+  uint32_t *begin = search->begin;
   float *turn = search->turn;
+  // segments of no length fill the last block
+  for (size_t s = search->segments; s < search->most_segments; s++) begin[s + 1] = begin[s];
   turn[0] = 0;
-  for (size_t first = 0; first < segments; first += NSVCD__LANES) {
-    const size_t left = segments - first;
-    const size_t count = left < NSVCD__LANES ? left : NSVCD__LANES;
-    uint32_t begin[NSVCD__LANES + 1];
-    for (size_t l = 0; l <= NSVCD__LANES; l++)
-      begin[l] = search->begin[first + (l < count ? l : count)];
-    nsvcd__segments *block = &search->blocks[first / NSVCD__LANES];
-    nsvcd__cut_block(m, begin, count, lengths, block, search->cut);
-    for (size_t l = 0; l < count; l++) {
+  for (size_t s = 0; s < search->segments; s += NSVCD__LANES) {
+    nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
+    nsvcd__cut_block(m, begin + s, search->segments - s, lengths, block, search->cut);
+    for (size_t l = 0; l < NSVCD__LANES; l++) {
       block->margin[l] += clearance;
-      turn[first + l + 1] = turn[first + l] + search->cut->most.turn[l];
+      turn[s + l + 1] = turn[s + l] + search->cut->most.turn[l];
     }
   }
 }

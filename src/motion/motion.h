@@ -54,9 +54,8 @@ static uint32_t nsvcd__pose_before(const nsvcd__track *track, uint32_t tick) {
 
 typedef struct nsvcd__motion {
   nsvcd__track moving, fixed;
-  uint32_t ticks;  // in all
-  double begin,
-      duration;  // t at the first tick, and of all ticks: 0 and 1; of one end alone 0
+  uint32_t ticks;          // in all
+  double begin, duration;  // t from begin on: 0 and 1; of one end alone 0 or 1, and 0
   int fixed_moves;
   // The moving body's scale over the fixed one's, as triangles are placed; rounded, as in all that
   // allows for roundings of floats; and its inverse.
@@ -67,8 +66,6 @@ typedef struct nsvcd__motion {
   // from world axes to the fixed body's at t = 0
   nsvcd__mat3 to_fixed;
   nsvcd__quat to_fixed_quat;
-  // a box of the moving body's origin relative to the fixed one's, in world axes, metres
-  nsvcd__f3 low, high;
   // added to the moving body's positions, in the fixed body's frame
   nsvcd__f3 push_out;
   // Of an interval: its first tick, and how many arcs a segment has. 0, 0: the whole motion.
@@ -82,10 +79,11 @@ static nsvcd_result nsvcd__mover_check(const nsvcd_mover *mover) {
   const float scale = mover->scale;
   if (!nsvcd__is_finite(scale) || scale < 0) return NSVCD_ERROR_SCALE;
   if (scale > 0) {
+    const float radius = scale * nsvcd__whole_radius(mover->body);
+    const float extent = scale * mover->body->extent;
     if (scale < NSVCD_MIN_SCALE || scale > NSVCD_MAX_SCALE) return NSVCD_ERROR_SCALE;
-    const float radius = nsvcd__whole_radius(mover->body);
-    if (scale * radius < NSVCD_MIN_RADIUS) return NSVCD_ERROR_SCALE;
-    if (scale * mover->body->extent > 2 * NSVCD_MAX_COORDINATE) return NSVCD_ERROR_SCALE;
+    if (radius < NSVCD_MIN_RADIUS || extent > 2 * NSVCD_MAX_COORDINATE)
+      return NSVCD_ERROR_SCALE;
   }
   return nsvcd__track_check(mover);
 }
@@ -171,13 +169,21 @@ static nsvcd__box nsvcd__track_box(const nsvcd__track *track) {
   return box;
 }
 
-// Sets the box of the moving body's origin relative to the fixed one's.
-static void nsvcd__motion_set_box(nsvcd__motion *m, const nsvcd__track *moving,
-                                  const nsvcd__track *fixed) {
-  const nsvcd__box at = nsvcd__track_box(moving);
-  const nsvcd__box from = nsvcd__track_box(fixed);
-  m->low = nsvcd__f3_sub(at.low, from.high);
-  m->high = nsvcd__f3_sub(at.high, from.low);
+// A lower bound of the distance between the origins of bodies on two tracks, in units: they never
+// leave the boxes of their positions.
+static float nsvcd__tracks_gap(const nsvcd__track *moving, const nsvcd__track *fixed,
+                               float unit) {
+  const nsvcd__box a = nsvcd__track_box(moving);
+  const nsvcd__box b = nsvcd__track_box(fixed);
+  const nsvcd__f3 above = nsvcd__f3_sub(a.low, b.high);
+  const nsvcd__f3 below = nsvcd__f3_sub(b.low, a.high);
+  const nsvcd__f3 none = nsvcd__f3_of(0, 0, 0);
+  const nsvcd__f3 gap = nsvcd__f3_max(nsvcd__f3_max(above, below), none);
+  return 0.99999f * nsvcd__f3_length(gap) / unit;
+}
+
+static float nsvcd__motion_gap(const nsvcd__motion *m) {
+  return nsvcd__tracks_gap(&m->moving, &m->fixed, m->unit);
 }
 
 // Sets all that follows from the tracks.
@@ -190,7 +196,6 @@ static void nsvcd__motion_set_tracks(nsvcd__motion *m, nsvcd__track moving,
   nsvcd__motion_set_times(m);
   m->from = m->arcs = 0;
   m->is_fine = 0;
-  nsvcd__motion_set_box(m, &moving, &fixed);
 
   const nsvcd_pose *first = fixed.poses;
   const nsvcd__quat q = nsvcd__quat_unit(nsvcd__quat_load(first->rotation));
@@ -210,14 +215,6 @@ static void nsvcd__motion_init(const nsvcd_mover *moving, const nsvcd_mover *fix
   m->begin = 0;
   m->duration = 1;
   nsvcd__motion_set_tracks(m, nsvcd__track_of(moving), nsvcd__track_of(fixed));
-}
-
-// A lower bound of the distance between the bodies' origins, in the fixed body's units.
-static float nsvcd__motion_gap(const nsvcd__motion *m) {
-  const nsvcd__f3 above = nsvcd__f3_scale(m->high, -1);
-  const nsvcd__f3 gap = nsvcd__f3_max(m->low, above);
-  const nsvcd__f3 apart = nsvcd__f3_max(gap, nsvcd__f3_of(0, 0, 0));
-  return 0.99999f * nsvcd__f3_length(apart) / m->unit;
 }
 
 // Is the shorter arc from a to b the one to -b?

@@ -323,8 +323,9 @@ static void nsvcd__cut_deviations(const nsvcd__motion *m, float lengths, size_t 
   nsvcd__v_store(out->margin + l, nsvcd__v_add(rounding, origin_bend));
 }
 
-// Cuts 16 segments, of which `count` exist. begin: (17) ticks at which they begin, and the last one
-// ends. lengths: the bodies' extents. Leaves the angle by which each turns in cut->most.turn.
+// Cuts 16 segments, of which the first `count` exist. begin: (17) ticks at which they begin, and
+// the last one ends. lengths: the bodies' extents. Leaves the angle by which each turns in
+// cut->most.turn.
 static void nsvcd__cut_block(const nsvcd__motion *m, const uint32_t *begin, size_t count,
                              float lengths, nsvcd__segments *out, nsvcd__cut *cut) {
   uint32_t ticks[NSVCD__LANES];

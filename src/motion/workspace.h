@@ -87,19 +87,19 @@ static void nsvcd__search_layout(const nsvcd__needs *needs, char *base, uint64_t
   const size_t gathered = needs->large ? 4 * NSVCD__TILE_SLOTS : 0;
   const size_t pairs = needs->moving_groups * needs->fixed_groups;
   search->most_segments = s;
-  search->begin = (uint32_t *)nsvcd__take(base, used, s + 1, sizeof(uint32_t));
-  search->time = (float *)nsvcd__take(base, used, s + 1, sizeof(float));
-  search->turn = (float *)nsvcd__take(base, used, s + 1, sizeof(float));
+  search->begin = NSVCD__ARRAY(base, used, uint32_t, s + 1);
+  search->time = NSVCD__ARRAY(base, used, float, s + 1);
+  search->turn = NSVCD__ARRAY(base, used, float, s + 1);
   if (NSVCD__PASSED_OVER > 0)
     *used += base ? (0 - (uintptr_t)(base + *used)) & 63 : NSVCD__PASSED_OVER;
-  search->blocks = (nsvcd__segments *)nsvcd__take(base, used, blocks, sizeof(nsvcd__segments));
-  search->group = (nsvcd__chords *)nsvcd__take(base, used, blocks, sizeof(nsvcd__chords));
+  search->blocks = NSVCD__ARRAY(base, used, nsvcd__segments, blocks);
+  search->group = NSVCD__ARRAY(base, used, nsvcd__chords, blocks);
   search->members = (nsvcd__chords *)nsvcd__take(base, used, 1, shared);
   search->cut = (nsvcd__cut *)(void *)search->members;
   search->nearby_stride = needs->fixed_groups;
-  search->nearby = (uint64_t *)nsvcd__take(base, used, pairs, sizeof(uint64_t));
-  search->moving_tile.gathered = (float *)nsvcd__take(base, used, gathered, sizeof(float));
-  search->fixed_tile.gathered = (float *)nsvcd__take(base, used, gathered, sizeof(float));
+  search->nearby = NSVCD__ARRAY(base, used, uint64_t, pairs);
+  search->moving_tile.gathered = NSVCD__ARRAY(base, used, float, gathered);
+  search->fixed_tile.gathered = NSVCD__ARRAY(base, used, float, gathered);
 }
 
 // Scratch chords, and boxes: members[] before a group is posed.

@@ -1,4 +1,4 @@
-// In: two bodies, and a motion that has been cut. Out: each pair of patches whose spheres meet, with
+// In: two bodies, and a motion that has been cut. Out: each pair of patches whose spheres meet, and
 // the segments in which they do, group by group.
 //
 // The hierarchy: body against body; boxes of groups against groups; group against group; group
