@@ -208,7 +208,7 @@ static void nsvcd__cut_segments(const nsvcd__motion *m, float lengths, float cle
   uint32_t *begin = search->begin;
   float *turn = search->turn;
   // segments of no length fill the last block
-  for (size_t s = search->segments; s < search->most_segments; s++) begin[s + 1] = begin[s];
+  for (size_t s = search->segments; s % NSVCD__LANES; s++) begin[s + 1] = begin[s];
   turn[0] = 0;
   for (size_t s = 0; s < search->segments; s += NSVCD__LANES) {
     nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
