@@ -11,32 +11,19 @@
 #define NSVCD__SEGMENT_TURN 0.349f  // radians, 20 degrees
 #define NSVCD__FINE_TURN 0.131f     // 7.5 degrees: shorter segments gain nothing
 
-// Upper bounds of the sum of a track's arcs of rotation, radians, and of the longest.
+// Upper bounds of the sum of a track's arcs of rotation, radians, and of the longest: as in
+// nsvcd__v_arc.
 static void nsvcd__measure_turn(const nsvcd__track *track, float *turn, float *widest) {
-  nsvcd__row sums = {0};
-  nsvcd__row longest = {0};
-  const size_t arcs = track->count - 1;
-  for (size_t first = 0; first < arcs; first += NSVCD__LANES) {
-    nsvcd__row chord2 = {0};
-    for (size_t l = 0; l < NSVCD__LANES && first + l < arcs; l++) {
-      const float *a = track->poses[first + l].rotation;
-      const float *b = track->poses[first + l + 1].rotation;
-      const float dot = (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]);
-      const float sign = dot < 0 ? -1.0f : 1.0f;
-      float d[4];
-      for (size_t k = 0; k < 4; k++) d[k] = sign * b[k] - a[k];
-      chord2[l] = (d[0] * d[0] + d[1] * d[1]) + (d[2] * d[2] + d[3] * d[3]);
-    }
-    NSVCD__EACH_SLICE(l) {
-      const nsvcd__v arc = nsvcd__v_arc_bound(nsvcd__v_load(chord2 + l));
-      nsvcd__v_add_to(sums + l, arc);
-      nsvcd__v_keep(longest + l, arc);
-    }
-  }
   *turn = *widest = 0;
-  for (size_t l = 0; l < NSVCD__LANES; l++) {
-    *turn += sums[l];
-    *widest = longest[l] > *widest ? longest[l] : *widest;
+  for (size_t n = 1; n < track->count; n++) {
+    const nsvcd__quat a = nsvcd__quat_load(track->poses[n - 1].rotation);
+    const nsvcd__quat b = nsvcd__quat_load(track->poses[n].rotation);
+    const float sign = nsvcd__quat_dot(a, b) < 0 ? 1.0f : -1.0f;
+    const nsvcd__quat chord = nsvcd__quat_fma(sign, b, a);
+    const float x = 0.50025f * sqrtf(nsvcd__quat_dot(chord, chord));
+    const float arc = x * (4 + 2.2832f * x * x);
+    *turn += arc;
+    *widest = arc > *widest ? arc : *widest;
   }
 }
 

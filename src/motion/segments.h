@@ -68,25 +68,21 @@ typedef struct nsvcd__cut {
 
 // ---- turns between quaternions
 
-// An upper bound of the angle between two rotations, unit to 1e-4, tight where it is small: 4
-// asin(chord / 2) of their chord as quaternions, with asin x <= x + (pi/2 - 1) x^3 and half a
-// thousandth for the lengths. chord2: its square.
-static nsvcd__v nsvcd__v_arc_bound(nsvcd__v chord2) {
-  const nsvcd__v x = nsvcd__v_scale(nsvcd__v_sqrt(chord2), 0.50025f);
-  const nsvcd__v square = nsvcd__v_mul(x, x);
-  return nsvcd__v_mul(x, nsvcd__v_fma(nsvcd__v_set(2.2832f), square, nsvcd__v_set(4)));
-}
-
 // 1 where x >= 0, else -1.
 static nsvcd__v nsvcd__v_sign(nsvcd__v x) {
   return nsvcd__v_pick(nsvcd__v_set(0), x, nsvcd__v_set(1), nsvcd__v_set(-1));
 }
 
-// The same bound of the angle between two unit quaternions.
+// An upper bound of the angle between two rotations, unit to 1e-4, tight where it is small: 4
+// asin(chord / 2) of their chord as quaternions, with asin x <= x + (pi/2 - 1) x^3, and half a
+// thousandth for the lengths.
 static nsvcd__v nsvcd__v_arc(nsvcd__vquat a, nsvcd__vquat b) {
   const nsvcd__v sign = nsvcd__v_sign(nsvcd__vquat_dot(a, b));
   const nsvcd__vquat chord = nsvcd__vquat_fma(nsvcd__v_negate(sign), b, a);
-  return nsvcd__v_arc_bound(nsvcd__vquat_dot(chord, chord));
+  const nsvcd__v length = nsvcd__v_sqrt(nsvcd__vquat_dot(chord, chord));
+  const nsvcd__v x = nsvcd__v_scale(length, 0.50025f);
+  const nsvcd__v square = nsvcd__v_mul(x, x);
+  return nsvcd__v_mul(x, nsvcd__v_fma(nsvcd__v_set(2.2832f), square, nsvcd__v_set(4)));
 }
 
 // The vector part of b a^-1: the axis of the turn from a to b, times the sine of half its angle.

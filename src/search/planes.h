@@ -25,7 +25,7 @@ typedef struct nsvcd__plane_cache {
   float inflate;                    // patches, by so much of their radii
   int balls_only;                   // no planes are tried
   nsvcd__ranges moving[NSVCD__PLANES], resting[NSVCD__PLANES];
-  uint16_t moving_known, resting_known;  // bits of planes whose ranges are filled in
+  uint32_t moving_known, resting_known;  // bits of planes whose ranges are filled in
 } nsvcd__plane_cache;
 
 // Begins the search of a motion.
@@ -81,7 +81,7 @@ static void nsvcd__ranges_store(nsvcd__v_range range, nsvcd__v off, size_t l,
 static void nsvcd__know_resting(const nsvcd__search *search, size_t h, size_t n) {
   nsvcd__plane_cache *cache = search->cache;
   if (cache->resting_known >> n & 1) return;
-  cache->resting_known = (uint16_t)(cache->resting_known | 1u << n);
+  cache->resting_known |= 1u << n;
   const nsvcd__spheres patches = nsvcd__members_of(search->fixed, h);
   const int8_t *extremes = nsvcd__group_extremes(search->fixed, h);
   const nsvcd__v3 u = nsvcd__v3_set(cache->planes[n]);
@@ -101,7 +101,7 @@ static void nsvcd__know_moving(const nsvcd__search *search, size_t g, size_t s,
                                float deviation, size_t n) {
   nsvcd__plane_cache *cache = search->cache;
   if (cache->moving_known >> n & 1) return;
-  cache->moving_known = (uint16_t)(cache->moving_known | 1u << n);
+  cache->moving_known |= 1u << n;
   nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
   const nsvcd__chords *c = &search->members[s];
   const nsvcd__f3 normal = cache->planes[n];
@@ -325,8 +325,8 @@ static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_own(nsvcd__search *search, 
     if (!separated) continue;
     const size_t oldest = cache->found++ % NSVCD__PLANES;
     cache->planes[oldest] = plane;
-    cache->moving_known = (uint16_t)(cache->moving_known & ~(1u << oldest));
-    cache->resting_known = (uint16_t)(cache->resting_known & ~(1u << oldest));
+    cache->moving_known &= ~(1u << oldest);
+    cache->resting_known &= ~(1u << oldest);
   }
   return met;
 }
