@@ -41,9 +41,8 @@ static inline void nsvcd__sphere_store(nsvcd__sphere sphere, float *first, size_
 
 // ---- patches
 
-#define NSVCD__EXTREMES \
-  8  // points of a patch's surface that span about all of it: surface/sorted
-#define NSVCD__HULL 16  // vertices of a patch's hull, at most
+#define NSVCD__EXTREMES 8  // points of the surface that span about all of it: surface/sorted
+#define NSVCD__HULL 16     // vertices of the hull, at most
 
 // What a stored triangle belongs to: a sheet; what is nearly a solid; a closed surface, which winds
 // about what it contains; or one whose triangles face either way, so that a ray's crossings are

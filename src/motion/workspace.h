@@ -24,8 +24,8 @@ typedef struct nsvcd__boxes {
 typedef struct nsvcd__tile {
   size_t count;
   uint16_t groups[NSVCD__TILE_SLOTS];
-  nsvcd__spheres spheres;  // the body's own if it has a single tile, else gathered
-  float *gathered;         // (4, NSVCD__TILE_SLOTS), or NULL
+  nsvcd__spheres spheres;  // the body's own if it has a single tile, else collected
+  float *collected;        // (4, NSVCD__TILE_SLOTS), or NULL
 } nsvcd__tile;
 
 // What a query needs memory for.
@@ -55,8 +55,8 @@ typedef struct nsvcd__search {
   nsvcd__box near_box;  // about the path of the moving tile
   // the groups that are searched now; what follows are indices into these
   nsvcd__tile moving_tile, fixed_tile;
-  uint64_t
-      *nearby;  // (moving groups, fixed groups) segments in which they meet: nsvcd__nearby
+  // (moving groups, fixed groups) segments in which they meet: see nsvcd__nearby
+  uint64_t *nearby;
   size_t nearby_stride;
   uint64_t wanted;  // segments to search: some of them where contacts are sought in order
   // moving groups that are near any, in the order of the search; how many, and the current one
@@ -84,7 +84,7 @@ static void nsvcd__search_layout(const nsvcd__needs *needs, char *base, uint64_t
   const size_t blocks = s / NSVCD__LANES;
   const size_t members = s * sizeof(nsvcd__chords);
   const size_t shared = members > sizeof(nsvcd__cut) ? members : sizeof(nsvcd__cut);
-  const size_t gathered = needs->large ? 4 * NSVCD__TILE_SLOTS : 0;
+  const size_t collected = needs->large ? 4 * NSVCD__TILE_SLOTS : 0;
   const size_t pairs = needs->moving_groups * needs->fixed_groups;
   search->most_segments = s;
   search->begin = NSVCD__ARRAY(base, used, uint32_t, s + 1);
@@ -98,8 +98,8 @@ static void nsvcd__search_layout(const nsvcd__needs *needs, char *base, uint64_t
   search->cut = (nsvcd__cut *)(void *)search->members;
   search->nearby_stride = needs->fixed_groups;
   search->nearby = NSVCD__ARRAY(base, used, uint64_t, pairs);
-  search->moving_tile.gathered = NSVCD__ARRAY(base, used, float, gathered);
-  search->fixed_tile.gathered = NSVCD__ARRAY(base, used, float, gathered);
+  search->moving_tile.collected = NSVCD__ARRAY(base, used, float, collected);
+  search->fixed_tile.collected = NSVCD__ARRAY(base, used, float, collected);
 }
 
 // Scratch chords, and boxes: members[] before a group is posed.

@@ -118,13 +118,13 @@ static int nsvcd__is_tiled(const nsvcd_body *a, const nsvcd_body *b) {
 // Fills a tile with the next groups that a traversal finds.
 static void nsvcd__tile_fill(nsvcd__tile *tile, nsvcd__traversal *traversal) {
   size_t g;
-  tile->spheres = nsvcd__spheres_of(tile->gathered, NSVCD__TILE_SLOTS);
+  tile->spheres = nsvcd__spheres_of(tile->collected, NSVCD__TILE_SLOTS);
   for (size_t n = 0; n < 4 * NSVCD__TILE_SLOTS; n++)
-    tile->gathered[n] = n < 3 * NSVCD__TILE_SLOTS ? 0 : NSVCD__NOWHERE;
+    tile->collected[n] = n < 3 * NSVCD__TILE_SLOTS ? 0 : NSVCD__NOWHERE;
   tile->count = 0;
   while (tile->count < NSVCD__TILE && nsvcd__traversal_next(traversal, &g)) {
     const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__groups_of(traversal->body), g);
-    nsvcd__sphere_store(group, tile->gathered, NSVCD__TILE_SLOTS, tile->count);
+    nsvcd__sphere_store(group, tile->collected, NSVCD__TILE_SLOTS, tile->count);
     tile->groups[tile->count++] = (uint16_t)g;
   }
 }
