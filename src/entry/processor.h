@@ -138,7 +138,6 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question) {
 
 NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace,
                                   size_t workspace_size, nsvcd_answer *answer) {
-  if (!question) return NSVCD_ERROR_ARGUMENT;
   return NSVCD__BEST(run_batch)(question, 1, workspace, workspace_size, answer);
 }
 

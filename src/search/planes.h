@@ -26,6 +26,7 @@ typedef struct nsvcd__plane_cache {
   int balls_only;                   // no planes are tried
   nsvcd__ranges moving[NSVCD__PLANES], resting[NSVCD__PLANES];
   uint32_t moving_known, resting_known;  // bits of planes whose ranges are filled in
+  float deviation;                       // of the moving group's points in the segment
 } nsvcd__plane_cache;
 
 // Begins the search of a motion.
@@ -97,8 +98,7 @@ static void nsvcd__know_resting(const nsvcd__search *search, size_t h, size_t n)
 }
 
 // Fills in the ranges of moving group g in segment s along plane n, deviation included.
-static void nsvcd__know_moving(const nsvcd__search *search, size_t g, size_t s,
-                               float deviation, size_t n) {
+static void nsvcd__know_moving(const nsvcd__search *search, size_t g, size_t s, size_t n) {
   nsvcd__plane_cache *cache = search->cache;
   if (cache->moving_known >> n & 1) return;
   cache->moving_known |= 1u << n;
@@ -121,7 +121,7 @@ static void nsvcd__know_moving(const nsvcd__search *search, size_t g, size_t s,
     const nsvcd__v_range range =
         nsvcd__moving_range(extremes + l, step, u_start, u_end, height, height_end);
     const nsvcd__v inflate = nsvcd__v_scale(step, 127 * search->scale * cache->inflate);
-    nsvcd__ranges_store(range, nsvcd__v_plus(inflate, deviation), l, &cache->moving[n]);
+    nsvcd__ranges_store(range, nsvcd__v_plus(inflate, cache->deviation), l, &cache->moving[n]);
   }
 }
 
@@ -177,12 +177,12 @@ static uint64_t nsvcd__segments_left(const nsvcd__search *search, size_t h, uint
 // Of the members `bits` of group h of the fixed body, those that the same plane does not separate
 // from all of moving group g in segment s.
 static uint32_t nsvcd__members_left(const nsvcd__search *search, size_t g, size_t s, size_t h,
-                                    float deviation, uint32_t bits) {
+                                    uint32_t bits) {
   const nsvcd__plane_cache *cache = search->cache;
   const size_t n = cache->best;
   if (n >= nsvcd__planes_known(search)) return bits;
   nsvcd__know_resting(search, h, n);
-  nsvcd__know_moving(search, g, s, deviation, n);
+  nsvcd__know_moving(search, g, s, n);
   const float low = nsvcd__least_lane(cache->moving[n].low, 1);
   const float high = -nsvcd__least_lane(cache->moving[n].high, -1);
   return bits & ~nsvcd__lanes_outside(&cache->resting[n], low, high);
@@ -191,13 +191,13 @@ static uint32_t nsvcd__members_left(const nsvcd__search *search, size_t g, size_
 // Of the lanes `met` of moving group g in segment s, those that no remembered plane separates from
 // member k of group h of the fixed body.
 static uint32_t nsvcd__lanes_left_by_known(nsvcd__search *search, size_t g, size_t s, size_t h,
-                                           size_t k, float deviation, uint32_t met) {
+                                           size_t k, uint32_t met) {
   nsvcd__plane_cache *cache = search->cache;
   const size_t planes = nsvcd__planes_known(search);
   for (size_t m = 0; m < planes && met; m++) {
     const size_t n = (cache->best + m) % planes;  // the one that separated last, first
     nsvcd__know_resting(search, h, n);
-    nsvcd__know_moving(search, g, s, deviation, n);
+    nsvcd__know_moving(search, g, s, n);
     const nsvcd__ranges *resting = &cache->resting[n];
     const uint32_t separated =
         nsvcd__lanes_outside(&cache->moving[n], resting->low[k], resting->high[k]);
@@ -275,8 +275,7 @@ enum {
 // Of the lanes `met` of moving group g in segment s, those that no plane of their own separates
 // from patch j of the fixed body. A plane that does replaces the oldest that is remembered.
 static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_own(nsvcd__search *search, size_t g,
-                                                         size_t s, size_t j, float deviation,
-                                                         uint32_t met) {
+                                                         size_t s, size_t j, uint32_t met) {
   nsvcd__plane_cache *cache = search->cache;
   const nsvcd__resting rest = nsvcd__resting_of(search->fixed, j);
   const int8_t *extremes = nsvcd__group_extremes(search->moving, g);
@@ -301,7 +300,7 @@ static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_own(nsvcd__search *search, 
       p.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(rest.centre));
       p.travel = nsvcd__chords_travel(c, l);
       const nsvcd__v inflate = nsvcd__v_scale(p.step, 127 * search->scale * cache->inflate);
-      p.deviation = nsvcd__v_plus(inflate, deviation + rest.radius * cache->inflate);
+      p.deviation = nsvcd__v_plus(inflate, cache->deviation + rest.radius * cache->inflate);
       nsvcd__v3 u = nsvcd__v3_set(rest.normal);
       if (n == NSVCD__ALONG_LINE) {
         u = nsvcd__v3_unit(nsvcd__v3_fma(nsvcd__v_set(0.5f), p.travel, p.from));
@@ -335,15 +334,15 @@ static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_own(nsvcd__search *search, 
 // and that no plane separates from it. before: those that met it in the segment before: planes of
 // their own would rarely separate them now.
 static uint32_t nsvcd__members_meet(nsvcd__search *search, size_t g, size_t s, size_t h,
-                                    size_t k, float deviation, uint32_t before) {
+                                    size_t k, uint32_t before) {
   const size_t j = NSVCD__GROUP * h + k;
   const nsvcd__sphere ball = nsvcd__sphere_of(nsvcd__body_patches(search->fixed), j);
   uint32_t met = nsvcd__meet(&search->members[s], ball);
   search->balls_met |= met != 0;
   if (search->cache->balls_only) return met;
-  if (met) met = nsvcd__lanes_left_by_known(search, g, s, h, k, deviation, met);
+  if (met) met = nsvcd__lanes_left_by_known(search, g, s, h, k, met);
   const uint32_t fresh = met & ~before;
   if (!fresh) return met;
-  return (met & before) | nsvcd__lanes_left_by_own(search, g, s, j, deviation, fresh);
+  return (met & before) | nsvcd__lanes_left_by_own(search, g, s, j, fresh);
 }
 #endif  // NSVCD_NO_NETWORK

@@ -322,14 +322,14 @@ static void nsvcd__group_against_group(nsvcd__search *search, size_t g, size_t h
     uint32_t bits = which & nsvcd__meet_members(search, s, members);
     if (!bits) continue;
     nsvcd__pose_members(search, g, (uint64_t)1 << s);
-    const float deviation = nsvcd__segment_deviation(search, s, search->extent);
+    cache->deviation = nsvcd__segment_deviation(search, s, search->extent);
     cache->moving_known = 0;
-    bits = nsvcd__members_left(search, g, s, h, deviation, bits);
+    bits = nsvcd__members_left(search, g, s, h, bits);
     for (; bits; bits &= bits - 1) {
       const size_t k = nsvcd__low_bit(bits);
       uint16_t *met = search->met + stride * k;
       const uint32_t before = s > 0 && left[k] >> (s - 1) & 1 ? met[s - 1] : 0;
-      const uint32_t lanes = nsvcd__members_meet(search, g, s, h, k, deviation, before);
+      const uint32_t lanes = nsvcd__members_meet(search, g, s, h, k, before);
       if (!lanes) continue;
       met[s] = (uint16_t)lanes;
       left[k] |= (uint64_t)1 << s;
