@@ -109,7 +109,7 @@ arcs of both, no swing|(2 * across + angle * swing);|(2 * across);
 arcs of both, half of the way|(2 * across + angle * swing);|(across + angle * swing);
 a leg from its pose|slerp->from = (double)(first - begin) * per_tick;|slerp->from = 0;
 knots of one body only|return after_a < after_b ? after_a : after_b;|return after_a;
-group without scale|  sphere.radius *= search->scale;\n|
+group without scale|  sphere.radius *= q->scale;\n|
 members without scale|nsvcd__v_fma(scale, radius, deviation));|nsvcd__v_add(radius, deviation));
 discs without scale|nsvcd__v_mul(a->scale, nsvcd__v3_dot(w, w)); const nsvcd__v across = nsvcd__v_mul(a->scale, nsvcd__v3_length(a->turned));|nsvcd__v3_dot(w, w);\n  const nsvcd__v across = nsvcd__v3_length(a->turned);
 disc without clearance|a.clearance = nsvcd__clearance(p); a.radius = radius;|a.clearance = 0; a.radius = radius;

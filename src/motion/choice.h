@@ -56,16 +56,16 @@ static size_t nsvcd__segment_count(const nsvcd__motion *m, size_t greatest, uint
 }
 
 // The segments of a whole motion: equally many ticks in each, to one.
-static void nsvcd__choose_in_all(nsvcd__motion *m, nsvcd__search *search) {
+static void nsvcd__choose_in_all(nsvcd__motion *m, nsvcd__search *q) {
   uint32_t parts;
   nsvcd__motion_set_ticks(m, 1);
-  search->segments = nsvcd__segment_count(m, search->most_segments, &parts);
+  q->segments = nsvcd__segment_count(m, q->most_segments, &parts);
   nsvcd__motion_set_ticks(m, parts);
-  const uint32_t segments = (uint32_t)search->segments;
+  const uint32_t segments = (uint32_t)q->segments;
   const uint32_t each = m->ticks / segments;
   const uint32_t over = m->ticks % segments;
-  for (uint32_t s = 0; s <= segments; s++) search->begin[s] = each * s + over * s / segments;
-  nsvcd__motion_retime(m, search->begin, segments);
+  for (uint32_t s = 0; s <= segments; s++) q->begin[s] = each * s + over * s / segments;
+  nsvcd__motion_retime(m, q->begin, segments);
 }
 
 // Sets the ticks of a motion that is cut into intervals: the same for all of them, and so many that
@@ -91,15 +91,15 @@ static float nsvcd__track_turn(const nsvcd__track *track, uint32_t from, uint32_
 }
 
 // The segments of an interval.
-static void nsvcd__choose_in_interval(nsvcd__motion *m, nsvcd__search *search) {
-  const size_t most = search->most_segments;
+static void nsvcd__choose_in_interval(nsvcd__motion *m, nsvcd__search *q) {
+  const size_t most = q->most_segments;
   const int is_try = m->arcs > 1;
   const float step = m->is_fine ? NSVCD__FINE_TURN : NSVCD__SEGMENT_TURN;
   size_t segments = 0;
   nsvcd__motion_set_fine_ticks(m);
-  search->begin[0] = m->from;
-  while (segments < most && search->begin[segments] < m->ticks) {
-    const uint32_t from = search->begin[segments];
+  q->begin[0] = m->from;
+  while (segments < most && q->begin[segments] < m->ticks) {
+    const uint32_t from = q->begin[segments];
     uint32_t to = from;
     for (uint32_t n = 0; n < m->arcs && to < m->ticks; n++) to = nsvcd__next_keyframe(m, to);
     const float turn =
@@ -110,29 +110,29 @@ static void nsvcd__choose_in_interval(nsvcd__motion *m, nsvcd__search *search) {
     const uint32_t parts = (uint32_t)(turns < most ? turns : most);
     const uint64_t length = to - from;
     for (uint32_t n = 1; n <= parts; n++)
-      search->begin[++segments] = from + (uint32_t)(length * n / parts);
+      q->begin[++segments] = from + (uint32_t)(length * n / parts);
   }
-  search->segments = segments;
+  q->segments = segments;
 }
 
 // Chooses how many segments there are, and when they begin.
-static void nsvcd__choose_segments(nsvcd__motion *m, nsvcd__search *search) {
+static void nsvcd__choose_segments(nsvcd__motion *m, nsvcd__search *q) {
   if (m->arcs > 0)
-    nsvcd__choose_in_interval(m, search);
+    nsvcd__choose_in_interval(m, q);
   else
-    nsvcd__choose_in_all(m, search);
-  search->scale = m->scale;
+    nsvcd__choose_in_all(m, q);
+  q->scale = m->scale;
   const double per_tick = 1 / (double)m->ticks;
-  for (size_t s = 0; s <= search->segments; s++)
-    search->time[s] = (float)((double)search->begin[s] * per_tick);
+  for (size_t s = 0; s <= q->segments; s++)
+    q->time[s] = (float)((double)q->begin[s] * per_tick);
 }
 
 // ---- intervals
 
-static void nsvcd__choose_all(nsvcd__motion *m, nsvcd__search *search) {
+static void nsvcd__choose_all(nsvcd__motion *m, nsvcd__search *q) {
   m->from = m->arcs = 0;
   m->is_fine = 0;
-  nsvcd__choose_segments(m, search);
+  nsvcd__choose_segments(m, q);
 }
 
 #ifndef NSVCD_NO_PROOF
@@ -145,26 +145,26 @@ static size_t nsvcd__keyframes_after(const nsvcd__motion *m, uint32_t tick) {
 
 // Chooses the segments of the interval that begins at a tick, with so many arcs in each, or fewer
 // at the end of the motion.
-static void nsvcd__choose_interval(nsvcd__motion *m, nsvcd__search *search, uint32_t from,
+static void nsvcd__choose_interval(nsvcd__motion *m, nsvcd__search *q, uint32_t from,
                                    uint32_t arcs) {
-  const size_t most = search->most_segments;
+  const size_t most = q->most_segments;
   const size_t left = (nsvcd__keyframes_after(m, from) + most - 1) / most;
   m->from = from;
   m->arcs = arcs < left ? arcs : (uint32_t)left;
-  nsvcd__choose_segments(m, search);
+  nsvcd__choose_segments(m, q);
 }
 
 // Is a motion too long for one search? If not, chooses its segments.
-static int nsvcd__is_long(nsvcd__motion *m, nsvcd__search *search) {
-  const size_t most = search->most_segments;
+static int nsvcd__is_long(nsvcd__motion *m, nsvcd__search *q) {
+  const size_t most = q->most_segments;
   const size_t keyframes = nsvcd__keyframes_after(m, 0);
   if (keyframes <= most) {
-    nsvcd__choose_all(m, search);
-    if (keyframes < 2 || search->segments < most) return 0;
+    nsvcd__choose_all(m, q);
+    if (keyframes < 2 || q->segments < most) return 0;
   }
-  nsvcd__choose_interval(m, search, 0, 1);
-  if (search->begin[search->segments] < m->ticks) return 1;
-  nsvcd__choose_all(m, search);
+  nsvcd__choose_interval(m, q, 0, 1);
+  if (q->begin[q->segments] < m->ticks) return 1;
+  nsvcd__choose_all(m, q);
   return 0;
 }
 
@@ -191,18 +191,18 @@ static float nsvcd__interval_gap(const nsvcd__motion *m, uint32_t from, uint32_t
 // Cuts the chosen segments. lengths: the bodies' extents; clearance: spheres that come so near
 // count as meeting.
 static void nsvcd__cut_segments(const nsvcd__motion *m, float lengths, float clearance,
-                                nsvcd__search *search) {
-  uint32_t *begin = search->begin;
-  float *turn = search->turn;
+                                nsvcd__search *q) {
+  uint32_t *begin = q->begin;
+  float *turn = q->turn;
   // segments of no length fill the last block
-  for (size_t s = search->segments; s % NSVCD__LANES; s++) begin[s + 1] = begin[s];
+  for (size_t s = q->segments; s % NSVCD__LANES; s++) begin[s + 1] = begin[s];
   turn[0] = 0;
-  for (size_t s = 0; s < search->segments; s += NSVCD__LANES) {
-    nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
-    nsvcd__cut_block(m, begin + s, search->segments - s, lengths, block, search->cut);
+  for (size_t s = 0; s < q->segments; s += NSVCD__LANES) {
+    nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
+    nsvcd__cut_block(m, begin + s, q->segments - s, lengths, block, q->cut);
     for (size_t l = 0; l < NSVCD__LANES; l++) {
       block->margin[l] += clearance;
-      turn[s + l + 1] = turn[s + l] + search->cut->most.turn[l];
+      turn[s + l + 1] = turn[s + l] + q->cut->most.turn[l];
     }
   }
 }
@@ -210,8 +210,8 @@ static void nsvcd__cut_segments(const nsvcd__motion *m, float lengths, float cle
 #ifndef NSVCD_NO_NETWORK
 // Chooses and cuts the segments of all of a motion.
 static NSVCD__NOINLINE void nsvcd__cut_motion(nsvcd__motion *m, float lengths,
-                                              nsvcd__search *search) {
-  nsvcd__choose_all(m, search);
-  nsvcd__cut_segments(m, lengths, 0, search);
+                                              nsvcd__search *q) {
+  nsvcd__choose_all(m, q);
+  nsvcd__cut_segments(m, lengths, 0, q);
 }
 #endif

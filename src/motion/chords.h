@@ -24,15 +24,15 @@ static void nsvcd__chords_store(nsvcd__chords *c, size_t l, nsvcd__v3 start, nsv
   nsvcd__v_store(c->radius + l, radius);
 }
 
-// Chords of a sphere of the moving body in all segments, into search->group.
-static void nsvcd__chords_in_all(nsvcd__search *search, nsvcd__sphere sphere) {
-  sphere.radius *= search->scale;
+// Chords of a sphere of the moving body in all segments, into q->group.
+static void nsvcd__chords_in_all(nsvcd__search *q, nsvcd__sphere sphere) {
+  sphere.radius *= q->scale;
   const nsvcd__v3 centre = nsvcd__v3_set(sphere.centre);
   const nsvcd__v length = nsvcd__v_set(nsvcd__f3_length(sphere.centre));
   const nsvcd__v radius = nsvcd__v_set(sphere.radius);
-  for (size_t s = 0; s < search->segments; s += NSVCD__LANES) {
-    nsvcd__segments *b = &search->blocks[s / NSVCD__LANES];
-    nsvcd__chords *out = &search->group[s / NSVCD__LANES];
+  for (size_t s = 0; s < q->segments; s += NSVCD__LANES) {
+    nsvcd__segments *b = &q->blocks[s / NSVCD__LANES];
+    nsvcd__chords *out = &q->group[s / NSVCD__LANES];
     NSVCD__EACH_SLICE(l) {
       const nsvcd__vmat3 rotation = nsvcd__vmat3_load(b->rotation, l);
       const nsvcd__vmat3 turned = nsvcd__vmat3_load(b->turned, l);
@@ -52,13 +52,13 @@ static nsvcd__spheres nsvcd__members_of(const nsvcd_body *body, size_t g) {
   return nsvcd__spheres_from(nsvcd__body_patches(body), NSVCD__GROUP * g);
 }
 
-static void nsvcd__chords_of_group(nsvcd__search *search, size_t g) {
-  nsvcd__chords_in_all(search, nsvcd__sphere_of(nsvcd__groups_of(search->moving), g));
+static void nsvcd__chords_of_group(nsvcd__search *q, size_t g) {
+  nsvcd__chords_in_all(q, nsvcd__sphere_of(nsvcd__groups_of(q->moving), g));
 }
 
 // The deviation in segment s of points no farther than `extent` from the moving body's origin.
-static float nsvcd__segment_deviation(const nsvcd__search *search, size_t s, float extent) {
-  const nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
+static float nsvcd__segment_deviation(const nsvcd__search *q, size_t s, float extent) {
+  const nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
   return block->margin[s % NSVCD__LANES] + block->bend[s % NSVCD__LANES] * extent;
 }
 
@@ -66,13 +66,12 @@ static float nsvcd__segment_deviation(const nsvcd__search *search, size_t s, flo
 // `extent` from the body's origin. Centres of spheres over patches may be farther, but on their
 // chords the points of a body do not move relative to each other, so that the deviation of the
 // patches is all to allow for.
-static void nsvcd__chords_in_segment(const nsvcd__search *search, size_t s,
-                                     nsvcd__spheres spheres, float extent,
-                                     nsvcd__chords *out) {
-  nsvcd__segments *b = &search->blocks[s / NSVCD__LANES];
+static void nsvcd__chords_in_segment(const nsvcd__search *q, size_t s, nsvcd__spheres spheres,
+                                     float extent, nsvcd__chords *out) {
+  nsvcd__segments *b = &q->blocks[s / NSVCD__LANES];
   const size_t lane = s % NSVCD__LANES;
-  const nsvcd__v deviation = nsvcd__v_set(nsvcd__segment_deviation(search, s, extent));
-  const nsvcd__v scale = nsvcd__v_set(search->scale);
+  const nsvcd__v deviation = nsvcd__v_set(nsvcd__segment_deviation(q, s, extent));
+  const nsvcd__v scale = nsvcd__v_set(q->scale);
   const nsvcd__mat3 rotation = nsvcd__mat3_lane(b->rotation, lane);
   const nsvcd__mat3 turned = nsvcd__mat3_lane(b->turned, lane);
   const nsvcd__v3 position = nsvcd__v3_set(nsvcd__lane_of(b->position, lane));
@@ -118,10 +117,10 @@ static uint32_t nsvcd__meet(const nsvcd__chords *c, nsvcd__sphere resting) {
   return met;
 }
 
-// The sphere whose chords are search->group, in segment s, against 16 resting spheres.
-NSVCD__INLINE uint32_t nsvcd__meet_members(const nsvcd__search *search, size_t s,
+// The sphere whose chords are q->group, in segment s, against 16 resting spheres.
+NSVCD__INLINE uint32_t nsvcd__meet_members(const nsvcd__search *q, size_t s,
                                            nsvcd__spheres resting) {
-  nsvcd__chords *c = &search->group[s / NSVCD__LANES];
+  nsvcd__chords *c = &q->group[s / NSVCD__LANES];
   const size_t lane = s % NSVCD__LANES;
   const nsvcd__v3 start = nsvcd__v3_set(nsvcd__lane_of(c->start, lane));
   const nsvcd__v3 travel = nsvcd__v3_set(nsvcd__lane_of(c->travel, lane));
@@ -137,14 +136,14 @@ NSVCD__INLINE uint32_t nsvcd__meet_members(const nsvcd__search *search, size_t s
   return met;
 }
 
-// The segments among `wanted` in which the sphere whose chords are search->group meets a resting
+// The segments among `wanted` in which the sphere whose chords are q->group meets a resting
 // one.
-static uint64_t nsvcd__meet_in(const nsvcd__search *search, uint64_t wanted,
+static uint64_t nsvcd__meet_in(const nsvcd__search *q, uint64_t wanted,
                                nsvcd__sphere resting) {
   uint64_t met = 0;
   for (size_t s = 0; s < NSVCD__MAX_SEGMENTS && wanted >> s; s += NSVCD__LANES) {
     if (wanted >> s & 0xffff)
-      met |= (uint64_t)nsvcd__meet(&search->group[s / NSVCD__LANES], resting) << s;
+      met |= (uint64_t)nsvcd__meet(&q->group[s / NSVCD__LANES], resting) << s;
   }
   return met & wanted;
 }

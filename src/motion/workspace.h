@@ -37,6 +37,7 @@ typedef struct nsvcd__needs {
   int proof;
 } nsvcd__needs;
 
+// The broad phase of a query: `q` in these rooms.
 typedef struct nsvcd__search {
   const nsvcd_body *moving, *fixed;
   // the segments, S of them, and how many there is memory for
@@ -79,38 +80,38 @@ typedef struct nsvcd__search {
 
 // Lays a search out in base, or, where that is NULL, only counts.
 static void nsvcd__search_layout(const nsvcd__needs *needs, char *base, uint64_t *used,
-                                 nsvcd__search *search) {
+                                 nsvcd__search *q) {
   const size_t s = needs->segments;
   const size_t blocks = s / NSVCD__LANES;
   const size_t members = s * sizeof(nsvcd__chords);
   const size_t shared = members > sizeof(nsvcd__cut) ? members : sizeof(nsvcd__cut);
   const size_t collected = needs->large ? 4 * NSVCD__TILE_SLOTS : 0;
   const size_t pairs = needs->moving_groups * needs->fixed_groups;
-  search->most_segments = s;
-  search->begin = NSVCD__ARRAY(base, used, uint32_t, s + 1);
-  search->time = NSVCD__ARRAY(base, used, float, s + 1);
-  search->turn = NSVCD__ARRAY(base, used, float, s + 1);
+  q->most_segments = s;
+  q->begin = NSVCD__ARRAY(base, used, uint32_t, s + 1);
+  q->time = NSVCD__ARRAY(base, used, float, s + 1);
+  q->turn = NSVCD__ARRAY(base, used, float, s + 1);
   if (NSVCD__PASSED_OVER > 0)
     *used += base ? (0 - (uintptr_t)(base + *used)) & 63 : NSVCD__PASSED_OVER;
-  search->blocks = NSVCD__ARRAY(base, used, nsvcd__segments, blocks);
-  search->group = NSVCD__ARRAY(base, used, nsvcd__chords, blocks);
-  search->members = (nsvcd__chords *)nsvcd__take(base, used, 1, shared);
-  search->cut = (nsvcd__cut *)(void *)search->members;
-  search->nearby_stride = needs->fixed_groups;
-  search->nearby = NSVCD__ARRAY(base, used, uint64_t, pairs);
-  search->moving_tile.collected = NSVCD__ARRAY(base, used, float, collected);
-  search->fixed_tile.collected = NSVCD__ARRAY(base, used, float, collected);
+  q->blocks = NSVCD__ARRAY(base, used, nsvcd__segments, blocks);
+  q->group = NSVCD__ARRAY(base, used, nsvcd__chords, blocks);
+  q->members = (nsvcd__chords *)nsvcd__take(base, used, 1, shared);
+  q->cut = (nsvcd__cut *)(void *)q->members;
+  q->nearby_stride = needs->fixed_groups;
+  q->nearby = NSVCD__ARRAY(base, used, uint64_t, pairs);
+  q->moving_tile.collected = NSVCD__ARRAY(base, used, float, collected);
+  q->fixed_tile.collected = NSVCD__ARRAY(base, used, float, collected);
 }
 
 // Scratch chords, and boxes: members[] before a group is posed.
-static nsvcd__chords *nsvcd__spare_chords(const nsvcd__search *search) {
-  return &search->members[0];
+static nsvcd__chords *nsvcd__spare_chords(const nsvcd__search *q) {
+  return &q->members[0];
 }
-static nsvcd__boxes *nsvcd__spare_boxes(const nsvcd__search *search) {
-  return (nsvcd__boxes *)(void *)&search->members[1];
+static nsvcd__boxes *nsvcd__spare_boxes(const nsvcd__search *q) {
+  return (nsvcd__boxes *)(void *)&q->members[1];
 }
 
 // The segments in which group g of the moving tile meets each one of the fixed tile.
-static uint64_t *nsvcd__nearby(const nsvcd__search *search, size_t g) {
-  return search->nearby + g * search->nearby_stride;
+static uint64_t *nsvcd__nearby(const nsvcd__search *q, size_t g) {
+  return q->nearby + g * q->nearby_stride;
 }

@@ -75,22 +75,22 @@ typedef struct nsvcd__intervals {
 } nsvcd__intervals;
 
 // The time at a fraction of segment s: at 1 that of its end, to the bit.
-static float nsvcd__time_in_segment(const nsvcd__search *search, size_t s, float fraction) {
-  const float start = search->time[s];
-  const float end = search->time[s + 1];
+static float nsvcd__time_in_segment(const nsvcd__search *q, size_t s, float fraction) {
+  const float start = q->time[s];
+  const float end = q->time[s + 1];
   return fraction < 1 ? start + fraction * (end - start) : end;
 }
 
 // Ends the intervals of `lanes`, and adds them to the candidates. The slice's first lane is patch i
 // of the moving body; j: the patch of the fixed one.
 static void nsvcd__intervals_close(nsvcd__intervals *intervals, uint32_t lanes,
-                                   const nsvcd__search *search, size_t i, size_t j,
+                                   const nsvcd__search *q, size_t i, size_t j,
                                    nsvcd__candidates *kept) {
   const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v one = nsvcd__v_set(1);
-  const nsvcd__v own = nsvcd__v_load(nsvcd__body_r(search->moving) + i);
-  const nsvcd__v other = nsvcd__v_set(nsvcd__body_r(search->fixed)[j]);
-  const nsvcd__v scaled = nsvcd__v_scale(own, search->scale);
+  const nsvcd__v own = nsvcd__v_load(nsvcd__body_r(q->moving) + i);
+  const nsvcd__v other = nsvcd__v_set(nsvcd__body_r(q->fixed)[j]);
+  const nsvcd__v scaled = nsvcd__v_scale(own, q->scale);
   const nsvcd__v radii = nsvcd__v_max(nsvcd__v_add(scaled, other), nsvcd__v_set(1e-30f));
   intervals->open &= ~lanes;
   // Most are shallower than all of a full heap, and are only counted.
@@ -120,9 +120,9 @@ static void nsvcd__intervals_close(nsvcd__intervals *intervals, uint32_t lanes,
     nsvcd__candidate candidate;
     candidate.moving = (uint16_t)(i + l);
     candidate.fixed = (uint16_t)j;
-    candidate.t_enter = nsvcd__time_in_segment(search, (size_t)first[l], enter[l]);
-    candidate.t_exit = nsvcd__time_in_segment(search, intervals->last, leave[l]);
-    candidate.t_least = nsvcd__time_in_segment(search, (size_t)least_segment[l], least[l]);
+    candidate.t_enter = nsvcd__time_in_segment(q, (size_t)first[l], enter[l]);
+    candidate.t_exit = nsvcd__time_in_segment(q, intervals->last, leave[l]);
+    candidate.t_least = nsvcd__time_in_segment(q, (size_t)least_segment[l], least[l]);
     candidate.depth = depth[l];
     candidate.score = NSVCD__NO_SCORE;
     candidate.apart = 0;
@@ -136,15 +136,15 @@ static void nsvcd__intervals_close(nsvcd__intervals *intervals, uint32_t lanes,
 // The segments at whose start all contact intervals of a group's members are cut: because the
 // oldest of them would turn too far, or the segment before is not `wanted`. met: (segments). For
 // all 16 beforehand, so that machines with narrower slices find the same intervals.
-static uint64_t nsvcd__interval_cuts(const nsvcd__search *search, const uint16_t *met,
+static uint64_t nsvcd__interval_cuts(const nsvcd__search *q, const uint16_t *met,
                                      uint64_t wanted) {
   uint64_t cuts = wanted & ~(wanted << 1);
   uint32_t open = 0;
   size_t oldest = 0;
-  if (!(search->turn[search->segments] > NSVCD__INTERVAL_TURN)) return cuts;
+  if (!(q->turn[q->segments] > NSVCD__INTERVAL_TURN)) return cuts;
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__low_bit(wanted);
-    if (open && search->turn[s + 1] - search->turn[oldest] > NSVCD__INTERVAL_TURN)
+    if (open && q->turn[s + 1] - q->turn[oldest] > NSVCD__INTERVAL_TURN)
       cuts |= (uint64_t)1 << s;
     if (cuts >> s & 1) open = 0;
     open &= met[s];
@@ -157,20 +157,20 @@ static uint64_t nsvcd__interval_cuts(const nsvcd__search *search, const uint16_t
 // Contact intervals of a slice of moving patches, from patch i on, with patch j of the fixed body,
 // in the segments `wanted`, in which the lanes all_met[s] of the group meet it. cuts:
 // nsvcd__interval_cuts.
-static NSVCD__NOINLINE void nsvcd__slice_against_patch(const nsvcd__search *search, size_t i,
+static NSVCD__NOINLINE void nsvcd__slice_against_patch(const nsvcd__search *q, size_t i,
                                                        size_t j, uint64_t wanted,
                                                        const uint16_t *all_met, uint64_t cuts,
                                                        nsvcd__candidates *kept) {
   const nsvcd__v one = nsvcd__v_set(1);
   const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v half = nsvcd__v_set(0.5f);
-  const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(search->fixed), j);
+  const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(q->fixed), j);
   const nsvcd__v3 centre = nsvcd__v3_set(patch.centre);
   const size_t l = i % NSVCD__GROUP;
   nsvcd__intervals at = {0, 0, one, zero, zero, zero, zero, zero, zero, zero, zero};
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__low_bit(wanted);
-    const nsvcd__chords *c = &search->members[s];
+    const nsvcd__chords *c = &q->members[s];
     const nsvcd__v3 travel = nsvcd__chords_travel(c, l);
     const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__chords_start(c, l), centre);
     const nsvcd__v inverse = nsvcd__v_load(c->inverse + l);
@@ -187,7 +187,7 @@ static NSVCD__NOINLINE void nsvcd__slice_against_patch(const nsvcd__search *sear
       ended = at.open;
       at.fresh = one;
     }
-    if (ended) nsvcd__intervals_close(&at, ended, search, i, j, kept);
+    if (ended) nsvcd__intervals_close(&at, ended, q, i, j, kept);
     if (!met) {
       at.fresh = one;
       continue;
@@ -217,6 +217,6 @@ static NSVCD__NOINLINE void nsvcd__slice_against_patch(const nsvcd__search *sear
     at.open = met;
     at.last = s;
   }
-  if (at.open) nsvcd__intervals_close(&at, at.open, search, i, j, kept);
+  if (at.open) nsvcd__intervals_close(&at, at.open, q, i, j, kept);
 }
 #endif  // NSVCD_NO_NETWORK

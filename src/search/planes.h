@@ -30,16 +30,16 @@ typedef struct nsvcd__plane_cache {
 } nsvcd__plane_cache;
 
 // Begins the search of a motion.
-static void nsvcd__plane_cache_begin(nsvcd__search *search, float inflate) {
-  search->cache->found = search->cache->best = 0;
-  search->cache->inflate = inflate;
+static void nsvcd__plane_cache_begin(nsvcd__search *q, float inflate) {
+  q->cache->found = q->cache->best = 0;
+  q->cache->inflate = inflate;
   // inflated by their radii, patches meet wherever their balls do
-  search->cache->balls_only = inflate >= 1;
-  search->balls_met = 0;
+  q->cache->balls_only = inflate >= 1;
+  q->balls_met = 0;
 }
 
-static size_t nsvcd__planes_known(const nsvcd__search *search) {
-  const size_t found = search->cache->found;
+static size_t nsvcd__planes_known(const nsvcd__search *q) {
+  const size_t found = q->cache->found;
   return found < NSVCD__PLANES ? found : NSVCD__PLANES;
 }
 
@@ -79,12 +79,12 @@ static void nsvcd__ranges_store(nsvcd__v_range range, nsvcd__v off, size_t l,
 }
 
 // Fills in the ranges of group h of the fixed body along plane n.
-static void nsvcd__know_resting(const nsvcd__search *search, size_t h, size_t n) {
-  nsvcd__plane_cache *cache = search->cache;
+static void nsvcd__know_resting(const nsvcd__search *q, size_t h, size_t n) {
+  nsvcd__plane_cache *cache = q->cache;
   if (cache->resting_known >> n & 1) return;
   cache->resting_known |= 1u << n;
-  const nsvcd__spheres patches = nsvcd__members_of(search->fixed, h);
-  const int8_t *extremes = nsvcd__group_extremes(search->fixed, h);
+  const nsvcd__spheres patches = nsvcd__members_of(q->fixed, h);
+  const int8_t *extremes = nsvcd__group_extremes(q->fixed, h);
   const nsvcd__v3 u = nsvcd__v3_set(cache->planes[n]);
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v step = nsvcd__v_scale(nsvcd__v_load(patches.r + l), 1.0f / 127);
@@ -98,12 +98,12 @@ static void nsvcd__know_resting(const nsvcd__search *search, size_t h, size_t n)
 }
 
 // Fills in the ranges of moving group g in segment s along plane n, deviation included.
-static void nsvcd__know_moving(const nsvcd__search *search, size_t g, size_t s, size_t n) {
-  nsvcd__plane_cache *cache = search->cache;
+static void nsvcd__know_moving(const nsvcd__search *q, size_t g, size_t s, size_t n) {
+  nsvcd__plane_cache *cache = q->cache;
   if (cache->moving_known >> n & 1) return;
   cache->moving_known |= 1u << n;
-  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
-  const nsvcd__chords *c = &search->members[s];
+  nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
+  const nsvcd__chords *c = &q->members[s];
   const nsvcd__f3 normal = cache->planes[n];
   const nsvcd__mat3 rotation = nsvcd__mat3_lane(block->rotation, s % NSVCD__LANES);
   const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, s % NSVCD__LANES);
@@ -112,15 +112,15 @@ static void nsvcd__know_moving(const nsvcd__search *search, size_t g, size_t s, 
   const nsvcd__v3 u_start = nsvcd__v3_set(start);
   const nsvcd__v3 u_end = nsvcd__v3_set(nsvcd__f3_add(start, change));
   const nsvcd__v3 u = nsvcd__v3_set(normal);
-  const float *radii = nsvcd__body_r(search->moving) + NSVCD__GROUP * g;
-  const int8_t *extremes = nsvcd__group_extremes(search->moving, g);
+  const float *radii = nsvcd__body_r(q->moving) + NSVCD__GROUP * g;
+  const int8_t *extremes = nsvcd__group_extremes(q->moving, g);
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v step = nsvcd__v_scale(nsvcd__v_load(radii + l), 1.0f / 127);
     const nsvcd__v height = nsvcd__v3_dot(u, nsvcd__chords_start(c, l));
     const nsvcd__v height_end = nsvcd__v3_dot_add(u, nsvcd__chords_travel(c, l), height);
     const nsvcd__v_range range =
         nsvcd__moving_range(extremes + l, step, u_start, u_end, height, height_end);
-    const nsvcd__v inflate = nsvcd__v_scale(step, 127 * search->scale * cache->inflate);
+    const nsvcd__v inflate = nsvcd__v_scale(step, 127 * q->scale * cache->inflate);
     nsvcd__ranges_store(range, nsvcd__v_plus(inflate, cache->deviation), l, &cache->moving[n]);
   }
 }
@@ -148,19 +148,19 @@ static uint32_t nsvcd__lanes_outside(const nsvcd__ranges *ranges, float low, flo
 }
 
 // Of the segments `wanted`, those in which the plane that separated last does not separate the
-// moving group's ball, whose chords are search->group, from all of group h of the fixed body.
-static uint64_t nsvcd__segments_left(const nsvcd__search *search, size_t h, uint64_t wanted) {
-  nsvcd__plane_cache *cache = search->cache;
+// moving group's ball, whose chords are q->group, from all of group h of the fixed body.
+static uint64_t nsvcd__segments_left(const nsvcd__search *q, size_t h, uint64_t wanted) {
+  nsvcd__plane_cache *cache = q->cache;
   const size_t n = cache->best;
   uint64_t separated = 0;
-  if (n >= nsvcd__planes_known(search)) return wanted;
-  nsvcd__know_resting(search, h, n);
+  if (n >= nsvcd__planes_known(q)) return wanted;
+  nsvcd__know_resting(q, h, n);
   const nsvcd__ranges *resting = &cache->resting[n];
   const nsvcd__v below = nsvcd__v_set(nsvcd__least_lane(resting->low, 1));
   const nsvcd__v above = nsvcd__v_set(-nsvcd__least_lane(resting->high, -1));
   const nsvcd__v3 u = nsvcd__v3_set(cache->planes[n]);
-  for (size_t s = 0; s < search->segments; s += NSVCD__LANES) {
-    const nsvcd__chords *c = &search->group[s / NSVCD__LANES];
+  for (size_t s = 0; s < q->segments; s += NSVCD__LANES) {
+    const nsvcd__chords *c = &q->group[s / NSVCD__LANES];
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v start = nsvcd__v3_dot(u, nsvcd__chords_start(c, l));
       const nsvcd__v end = nsvcd__v3_dot_add(u, nsvcd__chords_travel(c, l), start);
@@ -176,13 +176,13 @@ static uint64_t nsvcd__segments_left(const nsvcd__search *search, size_t h, uint
 
 // Of the members `bits` of group h of the fixed body, those that the same plane does not separate
 // from all of moving group g in segment s.
-static uint32_t nsvcd__members_left(const nsvcd__search *search, size_t g, size_t s, size_t h,
+static uint32_t nsvcd__members_left(const nsvcd__search *q, size_t g, size_t s, size_t h,
                                     uint32_t bits) {
-  const nsvcd__plane_cache *cache = search->cache;
+  const nsvcd__plane_cache *cache = q->cache;
   const size_t n = cache->best;
-  if (n >= nsvcd__planes_known(search)) return bits;
-  nsvcd__know_resting(search, h, n);
-  nsvcd__know_moving(search, g, s, n);
+  if (n >= nsvcd__planes_known(q)) return bits;
+  nsvcd__know_resting(q, h, n);
+  nsvcd__know_moving(q, g, s, n);
   const float low = nsvcd__least_lane(cache->moving[n].low, 1);
   const float high = -nsvcd__least_lane(cache->moving[n].high, -1);
   return bits & ~nsvcd__lanes_outside(&cache->resting[n], low, high);
@@ -190,14 +190,14 @@ static uint32_t nsvcd__members_left(const nsvcd__search *search, size_t g, size_
 
 // Of the lanes `met` of moving group g in segment s, those that no remembered plane separates from
 // member k of group h of the fixed body.
-static uint32_t nsvcd__lanes_left_by_known(nsvcd__search *search, size_t g, size_t s, size_t h,
+static uint32_t nsvcd__lanes_left_by_known(nsvcd__search *q, size_t g, size_t s, size_t h,
                                            size_t k, uint32_t met) {
-  nsvcd__plane_cache *cache = search->cache;
-  const size_t planes = nsvcd__planes_known(search);
+  nsvcd__plane_cache *cache = q->cache;
+  const size_t planes = nsvcd__planes_known(q);
   for (size_t m = 0; m < planes && met; m++) {
     const size_t n = (cache->best + m) % planes;  // the one that separated last, first
-    nsvcd__know_resting(search, h, n);
-    nsvcd__know_moving(search, g, s, n);
+    nsvcd__know_resting(q, h, n);
+    nsvcd__know_moving(q, g, s, n);
     const nsvcd__ranges *resting = &cache->resting[n];
     const uint32_t separated =
         nsvcd__lanes_outside(&cache->moving[n], resting->low[k], resting->high[k]);
@@ -274,14 +274,14 @@ enum {
 
 // Of the lanes `met` of moving group g in segment s, those that no plane of their own separates
 // from patch j of the fixed body. A plane that does replaces the oldest that is remembered.
-static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_own(nsvcd__search *search, size_t g,
-                                                         size_t s, size_t j, uint32_t met) {
-  nsvcd__plane_cache *cache = search->cache;
-  const nsvcd__resting rest = nsvcd__resting_of(search->fixed, j);
-  const int8_t *extremes = nsvcd__group_extremes(search->moving, g);
-  const nsvcd_body *moving = search->moving;
-  const nsvcd__chords *c = &search->members[s];
-  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
+static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_own(nsvcd__search *q, size_t g, size_t s,
+                                                         size_t j, uint32_t met) {
+  nsvcd__plane_cache *cache = q->cache;
+  const nsvcd__resting rest = nsvcd__resting_of(q->fixed, j);
+  const int8_t *extremes = nsvcd__group_extremes(q->moving, g);
+  const nsvcd_body *moving = q->moving;
+  const nsvcd__chords *c = &q->members[s];
+  nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
   const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, s % NSVCD__LANES);
   const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, s % NSVCD__LANES);
   const nsvcd__mat3 end = nsvcd__mat3_mix(1, &start, 1, &turned);
@@ -299,7 +299,7 @@ static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_own(nsvcd__search *search, 
       p.step = nsvcd__v_scale(nsvcd__v_load(nsvcd__body_r(moving) + i), 1.0f / 127);
       p.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(rest.centre));
       p.travel = nsvcd__chords_travel(c, l);
-      const nsvcd__v inflate = nsvcd__v_scale(p.step, 127 * search->scale * cache->inflate);
+      const nsvcd__v inflate = nsvcd__v_scale(p.step, 127 * q->scale * cache->inflate);
       p.deviation = nsvcd__v_plus(inflate, cache->deviation + rest.radius * cache->inflate);
       nsvcd__v3 u = nsvcd__v3_set(rest.normal);
       if (n == NSVCD__ALONG_LINE) {
@@ -333,16 +333,16 @@ static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_own(nsvcd__search *search, 
 // The lanes of moving group g whose balls meet member k of group h of the fixed body in segment s,
 // and that no plane separates from it. before: those that met it in the segment before: planes of
 // their own would rarely separate them now.
-static uint32_t nsvcd__members_meet(nsvcd__search *search, size_t g, size_t s, size_t h,
-                                    size_t k, uint32_t before) {
+static uint32_t nsvcd__members_meet(nsvcd__search *q, size_t g, size_t s, size_t h, size_t k,
+                                    uint32_t before) {
   const size_t j = NSVCD__GROUP * h + k;
-  const nsvcd__sphere ball = nsvcd__sphere_of(nsvcd__body_patches(search->fixed), j);
-  uint32_t met = nsvcd__meet(&search->members[s], ball);
-  search->balls_met |= met != 0;
-  if (search->cache->balls_only) return met;
-  if (met) met = nsvcd__lanes_left_by_known(search, g, s, h, k, met);
+  const nsvcd__sphere ball = nsvcd__sphere_of(nsvcd__body_patches(q->fixed), j);
+  uint32_t met = nsvcd__meet(&q->members[s], ball);
+  q->balls_met |= met != 0;
+  if (q->cache->balls_only) return met;
+  if (met) met = nsvcd__lanes_left_by_known(q, g, s, h, k, met);
   const uint32_t fresh = met & ~before;
   if (!fresh) return met;
-  return (met & before) | nsvcd__lanes_left_by_own(search, g, s, j, fresh);
+  return (met & before) | nsvcd__lanes_left_by_own(q, g, s, j, fresh);
 }
 #endif  // NSVCD_NO_NETWORK
