@@ -45,29 +45,30 @@ static size_t nsvcd__planes_known(const nsvcd__search *q) {
 
 // ---- ranges
 
-// Of a slice of extremes (EXTREMES, 3, 16) along u.
-NSVCD__INLINE nsvcd__v_range nsvcd__extremes_along(const int8_t *extremes, nsvcd__v3 u) {
-  nsvcd__v_range out = {nsvcd__v_set(1e30f), nsvcd__v_set(-1e30f)};
+// Of the extremes (EXTREMES, 3, 16) of a slice of patches, along u. step: of the extremes, in the
+// body's units; height: of the patches' centres.
+NSVCD__INLINE nsvcd__v_range nsvcd__extremes_along(const int8_t *extremes, nsvcd__v step,
+                                                   nsvcd__v3 u, nsvcd__v height) {
+  nsvcd__v low = nsvcd__v_set(1e30f);
+  nsvcd__v high = nsvcd__v_set(-1e30f);
   for (size_t k = 0; k < NSVCD__EXTREMES; k++, extremes += 3 * NSVCD__LANES) {
-    const nsvcd__v3 q = nsvcd__v3_load_int8(extremes, NSVCD__LANES);
-    const nsvcd__v along = nsvcd__v3_dot(q, u);
-    out.low = nsvcd__v_min(out.low, along);
-    out.high = nsvcd__v_max(out.high, along);
+    const nsvcd__v3 x = nsvcd__v3_load_int8(extremes, NSVCD__LANES);
+    const nsvcd__v along = nsvcd__v3_dot(x, u);
+    low = nsvcd__v_min(low, along);
+    high = nsvcd__v_max(high, along);
   }
+  const nsvcd__v_range out = {nsvcd__v_fma(step, low, height),
+                              nsvcd__v_fma(step, high, height)};
   return out;
 }
 
-// Of a slice of moving patches over a segment. step: of the extremes, in the body's units; u: the
-// normal in the body's frame at both ends; height: of the centres along it.
+// The same at both ends of a segment, between which the normal turns in the body's frame.
 NSVCD__INLINE nsvcd__v_range nsvcd__moving_range(const int8_t *extremes, nsvcd__v step,
                                                  nsvcd__v3 u, nsvcd__v3 u_end, nsvcd__v height,
                                                  nsvcd__v height_end) {
-  const nsvcd__v_range start = nsvcd__extremes_along(extremes, u);
-  const nsvcd__v_range end = nsvcd__extremes_along(extremes, u_end);
-  const nsvcd__v_range out = {nsvcd__v_min(nsvcd__v_fma(step, start.low, height),
-                                           nsvcd__v_fma(step, end.low, height_end)),
-                              nsvcd__v_max(nsvcd__v_fma(step, start.high, height),
-                                           nsvcd__v_fma(step, end.high, height_end))};
+  const nsvcd__v_range a = nsvcd__extremes_along(extremes, step, u, height);
+  const nsvcd__v_range b = nsvcd__extremes_along(extremes, step, u_end, height_end);
+  const nsvcd__v_range out = {nsvcd__v_min(a.low, b.low), nsvcd__v_max(a.high, b.high)};
   return out;
 }
 
@@ -89,9 +90,7 @@ static void nsvcd__know_resting(const nsvcd__search *q, size_t h, size_t n) {
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v step = nsvcd__v_scale(nsvcd__v_load(patches.r + l), 1.0f / 127);
     const nsvcd__v height = nsvcd__v3_dot(u, nsvcd__v3_centres(patches, l));
-    nsvcd__v_range range = nsvcd__extremes_along(extremes + l, u);
-    range.low = nsvcd__v_fma(step, range.low, height);
-    range.high = nsvcd__v_fma(step, range.high, height);
+    const nsvcd__v_range range = nsvcd__extremes_along(extremes + l, step, u, height);
     const nsvcd__v inflate = nsvcd__v_scale(step, 127 * cache->inflate);
     nsvcd__ranges_store(range, inflate, l, &cache->resting[n]);
   }
