@@ -145,7 +145,7 @@ static void nsvcd__keyframes_store(const nsvcd__motion *m, const nsvcd__v_poses 
 }
 
 // Rotations times the scale.
-static nsvcd__vmat3 nsvcd__v_scaled(const nsvcd__motion *m, nsvcd__vquat q) {
+NSVCD__INLINE nsvcd__vmat3 nsvcd__v_scaled(const nsvcd__motion *m, nsvcd__vquat q) {
   return nsvcd__vmat3_scale(nsvcd__vmat3_of(q), nsvcd__v_set(m->scale));
 }
 
@@ -242,8 +242,8 @@ static NSVCD__NOINLINE void nsvcd__cut_keyframe(const nsvcd__motion *m, const ui
     const nsvcd__v u = nsvcd__v_load(fraction + l);
     const nsvcd__vmat3 start = nsvcd__vmat3_load(out->rotation, l);
     const nsvcd__vmat3 turned = nsvcd__vmat3_load(out->turned, l);
-    const nsvcd__vmat3 chords = nsvcd__vmat3_fma(u, turned, start);
-    const nsvcd__vmat3 off = nsvcd__vmat3_sub(nsvcd__v_scaled(m, seen.rotation), chords);
+    const nsvcd__vmat3 scaled = nsvcd__v_scaled(m, seen.rotation);
+    const nsvcd__vmat3 off = nsvcd__vmat3_sub(scaled, nsvcd__vmat3_fma(u, turned, start));
     const nsvcd__v3 position = nsvcd__v3_load(out->position, l);
     const nsvcd__v3 chord = nsvcd__v3_fma(u, nsvcd__v3_load(out->moved, l), position);
     const nsvcd__v3 aside = nsvcd__v3_sub(seen.position, chord);
@@ -262,26 +262,36 @@ static NSVCD__NOINLINE void nsvcd__cut_keyframe(const nsvcd__motion *m, const ui
 
 // ---- segments
 
+// Poses at the starts of 16 segments; at their ends, if `to` is 1.
+static NSVCD__NOINLINE void nsvcd__cut_poses(const nsvcd__motion *m,
+                                             const nsvcd__keyframes *here, size_t to,
+                                             nsvcd__row *rotation, nsvcd__row *position,
+                                             nsvcd__keyframes *out) {
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v_poses at = nsvcd__keyframes_load(m, here, l + to);
+    const nsvcd__v_pose seen = nsvcd__v_seen(m, &at);
+    nsvcd__keyframes_store(m, &at, seen.rotation, l, out);
+    nsvcd__vmat3_store(rotation, l, nsvcd__v_scaled(m, seen.rotation));
+    nsvcd__v3_store(position, l, seen.position);
+  }
+}
+
 // Sets the poses at the segments' starts, and their change until the ends: begin (17).
 static NSVCD__NOINLINE void nsvcd__cut_ends(const nsvcd__motion *m, const uint32_t *begin,
                                             nsvcd__segments *out, nsvcd__cut *cut) {
   nsvcd__keyframes_read(m, begin, NSVCD__ENDS, &cut->here);
+  nsvcd__cut_poses(m, &cut->here, 0, out->rotation, out->position, &cut->last);
+  nsvcd__cut_poses(m, &cut->here, 1, out->turned, out->moved, &cut->end);
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v_poses at = nsvcd__keyframes_load(m, &cut->here, l);
-    const nsvcd__v_poses to = nsvcd__keyframes_load(m, &cut->here, l + 1);
-    const nsvcd__v_pose first = nsvcd__v_seen(m, &at);
-    const nsvcd__v_pose last = nsvcd__v_seen(m, &to);
-    const nsvcd__vmat3 start = nsvcd__v_scaled(m, first.rotation);
-    const nsvcd__vmat3 end = nsvcd__v_scaled(m, last.rotation);
-    const nsvcd__v3 moved = nsvcd__v3_sub(last.position, first.position);
-    const nsvcd__v3 turn = nsvcd__v_turn(first.rotation, last.rotation);
-    nsvcd__keyframes_store(m, &at, first.rotation, l, &cut->last);
-    nsvcd__keyframes_store(m, &to, last.rotation, l, &cut->end);
-    nsvcd__vmat3_store(out->rotation, l, start);
+    const nsvcd__vquat from = nsvcd__vquat_load(cut->last.seen + l, NSVCD__ENDS);
+    const nsvcd__vquat to = nsvcd__vquat_load(cut->end.seen + l, NSVCD__ENDS);
+    const nsvcd__vmat3 start = nsvcd__vmat3_load(out->rotation, l);
+    const nsvcd__vmat3 end = nsvcd__vmat3_load(out->turned, l);
+    const nsvcd__v3 position = nsvcd__v3_load(out->position, l);
+    const nsvcd__v3 moved = nsvcd__v3_sub(nsvcd__v3_load(out->moved, l), position);
     nsvcd__vmat3_store(out->turned, l, nsvcd__vmat3_sub(end, start));
-    nsvcd__v3_store(out->position, l, first.position);
     nsvcd__v3_store(out->moved, l, moved);
-    nsvcd__v3_store(out->axis, l, nsvcd__v3_unit(turn));
+    nsvcd__v3_store(out->axis, l, nsvcd__v3_unit(nsvcd__v_turn(from, to)));
     nsvcd__v3_store(out->heading, l, nsvcd__v3_unit(moved));
   }
 }
