@@ -1079,8 +1079,6 @@ static void *nsvcd__arena_grow(nsvcd__arena *arena, void *old, size_t used, size
 
 // The next array of a workspace, or, if base is NULL, only counts its bytes: in 64 bits, because a
 // 32-bit machine may not be able to address them.
-#define NSVCD__ARRAY(base, used, type, count) \
-  ((type *)nsvcd__take(base, used, count, sizeof(type)))
 static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_size) {
   void *at = base ? base + *used : NULL;
   const uint64_t bytes = (uint64_t)rows * row_size;

@@ -88,19 +88,19 @@ static void nsvcd__search_layout(const nsvcd__needs *needs, char *base, uint64_t
   const size_t collected = needs->large ? 4 * NSVCD__TILE_SLOTS : 0;
   const size_t pairs = needs->moving_groups * needs->fixed_groups;
   q->most_segments = s;
-  q->begin = NSVCD__ARRAY(base, used, uint32_t, s + 1);
-  q->time = NSVCD__ARRAY(base, used, float, s + 1);
-  q->turn = NSVCD__ARRAY(base, used, float, s + 1);
+  q->begin = NSVCD__TAKE_ROWS(uint32_t, s + 1, base, used);
+  q->time = NSVCD__TAKE_ROWS(float, s + 1, base, used);
+  q->turn = NSVCD__TAKE_ROWS(float, s + 1, base, used);
   if (NSVCD__PASSED_OVER > 0)
     *used += base ? (0 - (uintptr_t)(base + *used)) & 63 : NSVCD__PASSED_OVER;
-  q->blocks = NSVCD__ARRAY(base, used, nsvcd__segments, blocks);
-  q->group = NSVCD__ARRAY(base, used, nsvcd__chords, blocks);
+  q->blocks = NSVCD__TAKE_ROWS(nsvcd__segments, blocks, base, used);
+  q->group = NSVCD__TAKE_ROWS(nsvcd__chords, blocks, base, used);
   q->members = (nsvcd__chords *)nsvcd__take(base, used, 1, shared);
   q->cut = (nsvcd__cut *)(void *)q->members;
   q->nearby_stride = needs->fixed_groups;
-  q->nearby = NSVCD__ARRAY(base, used, uint64_t, pairs);
-  q->moving_tile.collected = NSVCD__ARRAY(base, used, float, collected);
-  q->fixed_tile.collected = NSVCD__ARRAY(base, used, float, collected);
+  q->nearby = NSVCD__TAKE_ROWS(uint64_t, pairs, base, used);
+  q->moving_tile.collected = NSVCD__TAKE_ROWS(float, collected, base, used);
+  q->fixed_tile.collected = NSVCD__TAKE_ROWS(float, collected, base, used);
 }
 
 // Scratch chords, and boxes: members[] before a group is posed.
