@@ -1389,7 +1389,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     motion          the moving body's poses as the fixed one sees them
 //     segments        chords, and how far a point deviates from them
 //     workspace       the memory of a search: segments, chords, tiles
-//     choice          how a motion is cut into segments, and a long one into intervals
+//     choice          how a motion is cut into segments, a long one into intervals
 //     chords          spheres on chords, and which others they meet
 //   search: which patches may meet
 //     planes          patches that a plane between their extremes separates

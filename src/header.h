@@ -206,7 +206,7 @@ extern "C" {
 #include "motion/motion.h"     // the moving body's poses as the fixed one sees them
 #include "motion/segments.h"   // chords, and how far a point deviates from them
 #include "motion/workspace.h"  // the memory of a search: segments, chords, tiles
-#include "motion/choice.h"     // how a motion is cut into segments, and a long one into intervals
+#include "motion/choice.h"     // how a motion is cut into segments, a long one into intervals
 #include "motion/chords.h"     // spheres on chords, and which others they meet
 
 // ================================================================== search: which patches may meet
