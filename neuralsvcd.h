@@ -11636,7 +11636,7 @@ typedef struct nsvcd__interval {
 typedef struct nsvcd__block {
   float corners[3][3][NSVCD__LANES];
   float low[3][NSVCD__LANES], high[3][NSVCD__LANES];
-  size_t first, count;  // entries
+  size_t patch, first, count;  // entries
 } nsvcd__block;
 
 typedef struct nsvcd__pair_contact {
@@ -11858,11 +11858,15 @@ typedef struct nsvcd__proof {
   } of;
 
   // A patch pair: its hulls, posed, and its triangles, block by block, with boxes about the fixed
-  // blocks; corners of the moving block at the ends of a interval.
+  // blocks.
   float hull_start[3][NSVCD__LANES], hull_end[3][NSVCD__LANES], hull_rest[3][NSVCD__LANES];
   nsvcd__block moving_block, fixed_blocks[NSVCD__WINDOW];
   nsvcd__box bounds[NSVCD__WINDOW];
-  float posed[2][3][3][NSVCD__LANES];
+  // The moving block's corners at the start of the interval `over`, and at its end (corner, axis,
+  // lane). NULL: 3, at one pose.
+  const nsvcd__interval *over;
+  float corners[6][3][NSVCD__LANES];
+  size_t corner_count;
 
   // A patch pair over an arc, and a triangle pair: later ends of the parts to come, the last one
   // first; and how many parts of the interval its triangle pairs asked for.
@@ -11879,15 +11883,7 @@ typedef struct nsvcd__proof {
 
 // Forgets all that is only remembered. The tests do so at random, where NSVCD__PAUSE stands.
 static void nsvcd__forget(nsvcd__memo *memo) {
-  for (size_t n = 0; n < NSVCD__PLACED; n++) memo->placed[n].ticks = 0;
-  memo->next_placed = 0;
-  memo->intervals = 0;
-  memo->held = nsvcd__f3_of(0, 0, 0);
-  memo->plane = 0;
-  memo->separating = nsvcd__d3_of(0, 0, 0);
-  memo->shared = 0;
-  memo->window = 0;
-  memo->has_block = 0;
+  memset(memo, 0, sizeof *memo);
 }
 #ifndef NSVCD__PAUSE
 #define NSVCD__PAUSE(p) ((void)0)
@@ -11958,14 +11954,15 @@ static nsvcd__arm nsvcd__arm_of(nsvcd__f3 centre, float radius, nsvcd__f3 axis) 
 #ifndef NSVCD__CERTIFY
 #define NSVCD__CERTIFY(kind, moving, fixed, moving_entry, fixed_entry, t_start, t_end, \
                        normal) \
-  ((void)0)
+  ((void)(moving), (void)(fixed), (void)(moving_entry), (void)(fixed_entry), (void)(t_start), \
+   (void)(t_end), (void)(normal))
 #endif
 enum { NSVCD__BY_SLAB, NSVCD__BY_HULL, NSVCD__BY_TRIANGLES };
 #endif  // NSVCD_NO_PROOF
 
 // ------------------------------------------------------------------------------------- proof/poses
-// In: a motion, an arc of it and a share of that. Out: where the moving body is, in double, to the
-// last digits.
+// In: a motion, an arc of it and a fraction u in [0,1] of the arc. Out: the pose of the moving body
+// there, in double, to the last digits.
 
 #ifndef NSVCD_NO_PROOF
 static nsvcd__dquat nsvcd__unit_rotation(const nsvcd_pose *pose) {
@@ -11978,7 +11975,7 @@ static nsvcd__d3 nsvcd__place_point(const nsvcd__dtransform *at, nsvcd__d3 a) {
   return nsvcd__d3_add(nsvcd__dmat3_apply(&at->rotation, a), at->position);
 }
 
-// The rotation a share u in [0,1] of the arc later than its start; unit.
+// The rotation at fraction u of the arc, unit.
 static nsvcd__dquat nsvcd__slerp_at(const nsvcd__slerp *slerp, double u) {
   const double along = slerp->from + slerp->fraction * u;
   double before = 1 - along;
@@ -11995,19 +11992,9 @@ static nsvcd__dquat nsvcd__slerp_at(const nsvcd__slerp *slerp, double u) {
 // A track's slerp over an arc, and its positions at both ends, metres.
 static void nsvcd__slerp_init(const nsvcd__track *track, uint32_t first, uint32_t ticks,
                               nsvcd__slerp *slerp, nsvcd__d3 *ends) {
-  if (track->count == 1) {
-    slerp->start = nsvcd__unit_rotation(track->poses);
-    slerp->end = slerp->start;
-    slerp->half_angle = 0;
-    slerp->from = 0;
-    slerp->fraction = 1;
-    ends[0] = nsvcd__d3_load(track->poses->position);
-    ends[1] = ends[0];
-    return;
-  }
   const uint32_t k = nsvcd__pose_before(track, first);
   const nsvcd_pose *a = &track->poses[k];
-  const nsvcd_pose *b = a + 1;
+  const nsvcd_pose *b = track->count > 1 ? a + 1 : a;
   const uint32_t begin = nsvcd__tick_of(track, k);
   const double per_tick = 1 / (double)(nsvcd__tick_of(track, k + 1) - begin);
   slerp->fraction = (double)ticks * per_tick;
@@ -12021,10 +12008,9 @@ static void nsvcd__slerp_init(const nsvcd__track *track, uint32_t first, uint32_
   slerp->start = nsvcd__unit_rotation(a);
   slerp->end = nsvcd__dquat_scale(nsvcd__unit_rotation(b), sign);
   const nsvcd__dquat difference = nsvcd__dquat_fma(-1, slerp->end, slerp->start);
-  const double apart = nsvcd__dquat_dot(difference, difference);
   const nsvcd__dquat sum = nsvcd__dquat_fma(1, slerp->end, slerp->start);
-  const double together = nsvcd__dquat_dot(sum, sum);
-  slerp->half_angle = 2 * nsvcd__atan2(sqrt(apart), sqrt(together));
+  const double apart = sqrt(nsvcd__dquat_dot(difference, difference));
+  slerp->half_angle = 2 * nsvcd__atan2(apart, sqrt(nsvcd__dquat_dot(sum, sum)));
 }
 
 // The rotation vector of a slerp, over its arc.
@@ -12058,44 +12044,39 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   const nsvcd__d3 to = nsvcd__d3_sub(ends[1], fixed_ends[1]);
   arc->from = nsvcd__d3_scale(from, per_metre);
   arc->moved = nsvcd__d3_scale(nsvcd__d3_sub(to, from), per_metre);
-  if (arc->fixed_moves) {
-    // what both bodies' turns do: see nsvcd__cut_double_arc
-    const nsvcd__d3 fixed_turn = nsvcd__slerp_turn(&arc->fixed);
-    const nsvcd__d3 turn = nsvcd__d3_sub(nsvcd__slerp_turn(&arc->moving), fixed_turn);
-    const nsvcd__d3 end = nsvcd__d3_add(arc->from, arc->moved);
-    const double twist = nsvcd__d3_length(nsvcd__d3_cross(turn, fixed_turn));
-    const double angle = nsvcd__d3_length(fixed_turn);
-    const double swing_from = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->from));
-    const double swing_to = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, end));
-    const double swing = nsvcd__max(swing_from, swing_to);
-    const double across = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->moved));
-    const nsvcd__d3 axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
-    const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->fixed, 0));
-    const nsvcd__dmat3 moving = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->moving, 0));
-    arc->turn = nsvcd__d3_length(turn);
-    arc->speed = nsvcd__d3_length(arc->moved) + swing;
-    arc->twist = 0.1250001 * arc->scale * twist;
-    arc->origin_bend = 0.1250001 * (2 * across + angle * swing);
-    arc->axis = nsvcd__dmat3_apply_transpose(&fixed, axis);
-    arc->own_axis = nsvcd__dmat3_apply_transpose(&moving, axis);
-    arc->waver = arc->turn > 0 ? nsvcd__min(1, twist / arc->turn) : 0;
-    arc->bend = 0.1250001 * arc->scale * arc->turn * arc->turn;
-    return arc;
+  if (!arc->fixed_moves) {
+    // its frame takes the place of the world
+    const nsvcd__dquat frame = arc->fixed.start;
+    const nsvcd__dmat3 axes = nsvcd__dmat3_of(frame);
+    const nsvcd__dquat none = {0, 0, 0, 1};
+    arc->moving.start = nsvcd__dquat_inverse_mul(frame, arc->moving.start);
+    arc->moving.end = nsvcd__dquat_inverse_mul(frame, arc->moving.end);
+    arc->from = nsvcd__dmat3_apply_transpose(&axes, arc->from);
+    arc->moved = nsvcd__dmat3_apply_transpose(&axes, arc->moved);
+    arc->fixed.start = arc->fixed.end = none;
   }
 
-  const nsvcd__dmat3 fixed = nsvcd__dmat3_of(arc->fixed.start);
-  arc->moving.start = nsvcd__dquat_inverse_mul(arc->fixed.start, arc->moving.start);
-  arc->moving.end = nsvcd__dquat_inverse_mul(arc->fixed.start, arc->moving.end);
-  arc->from = nsvcd__dmat3_apply_transpose(&fixed, arc->from);
-  arc->moved = nsvcd__dmat3_apply_transpose(&fixed, arc->moved);
-  const nsvcd__d3 turn = nsvcd__slerp_turn(&arc->moving);
-  const nsvcd__dmat3 moving = nsvcd__dmat3_of(arc->moving.start);
-  arc->axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
-  arc->own_axis = nsvcd__dmat3_apply_transpose(&moving, arc->axis);
-  arc->turn = 2 * arc->moving.half_angle * arc->moving.fraction;
-  arc->speed = nsvcd__d3_length(arc->moved);
+  // the bounds of nsvcd__cut_double_arc; of one body that turns, twist and swing are 0
+  const nsvcd__d3 fixed_turn = nsvcd__slerp_turn(&arc->fixed);
+  const nsvcd__d3 turn = nsvcd__d3_sub(nsvcd__slerp_turn(&arc->moving), fixed_turn);
+  const nsvcd__d3 end = nsvcd__d3_add(arc->from, arc->moved);
+  const double twist = nsvcd__d3_length(nsvcd__d3_cross(turn, fixed_turn));
+  const double angle = nsvcd__d3_length(fixed_turn);
+  const double swing_from = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->from));
+  const double swing_to = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, end));
+  const double swing = nsvcd__max(swing_from, swing_to);
+  const double across = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->moved));
+  const nsvcd__d3 axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
+  const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->fixed, 0));
+  const nsvcd__dmat3 moving = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->moving, 0));
+  arc->turn = nsvcd__d3_length(turn);
+  arc->speed = nsvcd__d3_length(arc->moved) + swing;
+  arc->twist = 0.1250001 * arc->scale * twist;
+  arc->origin_bend = 0.1250001 * (2 * across + angle * swing);
+  arc->axis = nsvcd__dmat3_apply_transpose(&fixed, axis);
+  arc->own_axis = nsvcd__dmat3_apply_transpose(&moving, axis);
+  arc->waver = arc->turn > 0 ? nsvcd__min(1, twist / arc->turn) : 0;
   arc->bend = 0.1250001 * arc->scale * arc->turn * arc->turn;
-  arc->waver = arc->twist = arc->origin_bend = 0;
   return arc;
 }
 
@@ -12122,27 +12103,21 @@ static nsvcd__dtransform nsvcd__dtransform_at(const nsvcd__arc *arc, double u) {
   return at;
 }
 
-// How the moving body goes there. Where both turn, what the fixed one does is taken off.
+// How the moving body goes there, as the fixed body sees it.
 static nsvcd__twist nsvcd__twist_at(const nsvcd__arc *arc, double u) {
   const nsvcd__dtransform at = nsvcd__dtransform_at(arc, u);
   const double per_tick = 1 / (double)arc->ticks;
-  nsvcd__twist out;
+  const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->fixed, u));
   nsvcd__d3 turn = nsvcd__slerp_turn(&arc->moving);
-  out.along = arc->moved;
-  out.turn = turn;
-  if (arc->fixed_moves) {
-    const nsvcd__dquat q = nsvcd__slerp_at(&arc->fixed, u);
-    const nsvcd__dmat3 fixed = nsvcd__dmat3_of(q);
-    nsvcd__d3 own = nsvcd__slerp_turn(&arc->fixed);
-    own = nsvcd__dmat3_apply_transpose(&fixed, own);
-    turn = nsvcd__dmat3_apply_transpose(&fixed, turn);
-    out.along = nsvcd__dmat3_apply_transpose(&fixed, out.along);
-    out.along = nsvcd__d3_add(out.along, nsvcd__d3_cross(own, arc->push_out));
-    out.turn = nsvcd__d3_sub(turn, own);
-  }
-  out.along = nsvcd__d3_sub(out.along, nsvcd__d3_cross(turn, at.position));
-  out.along = nsvcd__d3_scale(out.along, per_tick);
-  out.turn = nsvcd__d3_scale(out.turn, per_tick);
+  nsvcd__d3 own = nsvcd__slerp_turn(&arc->fixed);
+  turn = nsvcd__dmat3_apply_transpose(&fixed, turn);
+  own = nsvcd__dmat3_apply_transpose(&fixed, own);
+  nsvcd__d3 along = nsvcd__dmat3_apply_transpose(&fixed, arc->moved);
+  along = nsvcd__d3_add(along, nsvcd__d3_cross(own, arc->push_out));
+  along = nsvcd__d3_sub(along, nsvcd__d3_cross(turn, at.position));
+  nsvcd__twist out;
+  out.along = nsvcd__d3_scale(along, per_tick);
+  out.turn = nsvcd__d3_scale(nsvcd__d3_sub(turn, own), per_tick);
   return out;
 }
 static nsvcd__d3 nsvcd__twist_of(const nsvcd__twist *twist, nsvcd__d3 x) {
@@ -12655,87 +12630,81 @@ static NSVCD__NOINLINE void nsvcd__separate_groups(const nsvcd__proof *p,
 #endif  // NSVCD_NO_PROOF
 
 // ------------------------------------------------------------------------------------- proof/hulls
-// In: a patch pair and a interval. Out: is there a plane between the two hulls, over all of the
+// In: a patch pair and an interval. Out: is there a plane between the two hulls over all of the
 // interval?
 
 #ifndef NSVCD_NO_PROOF
-// Vertices first .. first + 15 of a patch, of which `count` are wanted: the slice of them that
-// begins with lane l. The last one wanted is repeated in the lanes that are left.
-NSVCD__INLINE nsvcd__v3 nsvcd__hull_vertices(const nsvcd__geometry *f, size_t patch,
-                                             size_t first, size_t count, size_t l) {
+// A slice, from lane l on, of a patch's hull, in its body's frame and units. Lanes without a vertex
+// repeat the last one.
+NSVCD__INLINE nsvcd__v3 nsvcd__hull_of(const nsvcd__geometry *f, size_t patch, size_t l) {
   static const float lane[NSVCD__LANES] = {0, 1, 2,  3,  4,  5,  6,  7,
                                            8, 9, 10, 11, 12, 13, 14, 15};
   const nsvcd__vertices all = nsvcd__vertices_of(f, patch);
-  const int16_t *x = all.x + first;
-  const int16_t *y = all.y + first;
-  const int16_t *z = all.z + first;
+  const size_t count = f->hull_counts[patch];
   nsvcd__v3 q;
-  q.x = nsvcd__v_load_int16(x + l);
-  q.y = nsvcd__v_load_int16(y + l);
-  q.z = nsvcd__v_load_int16(z + l);
+  q.x = nsvcd__v_load_int16(all.x + l);
+  q.y = nsvcd__v_load_int16(all.y + l);
+  q.z = nsvcd__v_load_int16(all.z + l);
   if (count < l + NSVCD__SLICE) {
     const size_t last = count - 1;
     const nsvcd__v end = nsvcd__v_set((float)last);
     const nsvcd__v index = nsvcd__v_load(lane + l);
-    q.x = nsvcd__v_pick(index, end, q.x, nsvcd__v_set((float)x[last]));
-    q.y = nsvcd__v_pick(index, end, q.y, nsvcd__v_set((float)y[last]));
-    q.z = nsvcd__v_pick(index, end, q.z, nsvcd__v_set((float)z[last]));
+    q.x = nsvcd__v_pick(index, end, q.x, nsvcd__v_set((float)all.x[last]));
+    q.y = nsvcd__v_pick(index, end, q.y, nsvcd__v_set((float)all.y[last]));
+    q.z = nsvcd__v_pick(index, end, q.z, nsvcd__v_set((float)all.z[last]));
   }
   const nsvcd__v step = nsvcd__v_set(f->steps[patch]);
   return nsvcd__v3_fma(step, q, nsvcd__v3_set(nsvcd__patch_centre(f, patch)));
 }
 
-// A slice of a patch's hull, the last vertex repeated; its body's frame and units.
-NSVCD__INLINE nsvcd__v3 nsvcd__hull_of(const nsvcd__geometry *f, size_t patch, size_t l) {
-  return nsvcd__hull_vertices(f, patch, 0, f->hull_counts[patch], l);
+// The least of a number and a slice. A NaN stays: it separates nothing.
+NSVCD__INLINE float nsvcd__least_of(float least, nsvcd__v slice) {
+  const float other = nsvcd__v_least(slice);
+  return least < other || least != least ? least : other;
 }
 
-// Posed hulls along a direction: how far the moving one, at both ends of the interval, stays ahead
-// of the resting one, and the difference of the two vertices that say so.
+// The greatest of a number and a slice. A NaN stays.
+NSVCD__INLINE float nsvcd__greatest_of(float greatest, nsvcd__v slice) {
+  return -nsvcd__least_of(-greatest, nsvcd__v_negate(slice));
+}
+
+// The gap between two posed hulls along a direction, the moving one at both ends of the interval,
+// and the difference of the two vertices that bound it.
 typedef struct nsvcd__support {
   float gap;
   nsvcd__f3 difference;
 } nsvcd__support;
 
-// The lesser of the least number so far and that of a slice. What is no number stays none, and
-// parts nothing.
-static inline float nsvcd__least_of(float least, float of_slice) {
-  return least < of_slice || least != least ? least : of_slice;
-}
-
 NSVCD__INLINE nsvcd__support nsvcd__support_along(nsvcd__proof *p, nsvcd__f3 normal) {
-  // the moving side's lower heights, and the resting side's, negated
-  float either[NSVCD__LANES], rest[NSVCD__LANES];
+  float moving[NSVCD__LANES], fixed[NSVCD__LANES];  // heights
   float lowest = HUGE_VALF;
-  float lowest_rest = HUGE_VALF;
-  uint32_t starts = 0;
-  uint32_t least = 0;
-  uint32_t least_rest = 0;
+  float highest = -HUGE_VALF;
+  uint32_t starts = 0;  // lanes that are lower at the start
+  uint32_t low = 0;
+  uint32_t high = 0;
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 n = nsvcd__v3_set(normal);
     const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_start, l));
     const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_end, l));
-    const nsvcd__v rests = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_rest, l));
-    const nsvcd__v at_rest = nsvcd__v_negate(rests);
+    const nsvcd__v at_rest = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_rest, l));
     const nsvcd__v at_either = nsvcd__v_min(at_start, at_end);
-    nsvcd__v_store(either + l, at_either);
-    nsvcd__v_store(rest + l, at_rest);
-    lowest = nsvcd__least_of(lowest, nsvcd__v_least(at_either));
-    lowest_rest = nsvcd__least_of(lowest_rest, nsvcd__v_least(at_rest));
+    nsvcd__v_store(moving + l, at_either);
+    nsvcd__v_store(fixed + l, at_rest);
+    lowest = nsvcd__least_of(lowest, at_either);
+    highest = nsvcd__greatest_of(highest, at_rest);
     starts |= nsvcd__v_le(at_start, at_end) << l;
   }
   NSVCD__EACH_SLICE(l) {
-    least |= nsvcd__v_le(nsvcd__v_load(either + l), nsvcd__v_set(lowest)) << l;
-    least_rest |= nsvcd__v_le(nsvcd__v_load(rest + l), nsvcd__v_set(lowest_rest)) << l;
+    low |= nsvcd__v_le(nsvcd__v_load(moving + l), nsvcd__v_set(lowest)) << l;
+    high |= nsvcd__v_le(nsvcd__v_set(highest), nsvcd__v_load(fixed + l)) << l;
   }
-  const float highest = -lowest_rest;
-  // Were a number not one, no lane would compare: then the last one.
-  const size_t a = nsvcd__low_bit(least | 0x8000);
-  const size_t b = nsvcd__low_bit(least_rest | 0x8000);
+  // a NaN compares with no lane: then the last one
+  const size_t a = nsvcd__low_bit(low | 0x8000);
+  const size_t b = nsvcd__low_bit(high | 0x8000);
   const int is_start = (starts >> a & 1) != 0;
-  const nsvcd__f3 moving = nsvcd__lane_of(is_start ? p->hull_start : p->hull_end, a);
-  const nsvcd__support out = {lowest - highest,
-                              nsvcd__f3_sub(moving, nsvcd__lane_of(p->hull_rest, b))};
+  const nsvcd__f3 vertex = nsvcd__lane_of(is_start ? p->hull_start : p->hull_end, a);
+  const nsvcd__f3 other = nsvcd__lane_of(p->hull_rest, b);
+  const nsvcd__support out = {lowest - highest, nsvcd__f3_sub(vertex, other)};
   return out;
 }
 
@@ -12744,46 +12713,33 @@ static nsvcd__f3 nsvcd__f3_towards(nsvcd__f3 a, nsvcd__f3 b) {
   return nsvcd__f3_scale(a, nsvcd__f3_dot(a, b) < 0 ? -1.0f : 1.0f);
 }
 
-static float nsvcd__clamp01(float x) {
-  return x < 0 ? 0 : x < 1 ? x : 1;
-}
-
-static void nsvcd__remember_plane(nsvcd__memo *memo, nsvcd__f3 normal) {
-  // heights are of another query
-  if (memo->plane == 0) {
-    memset(memo->heights, 0, sizeof memo->heights);
-    memset(memo->rest_heights, 0, sizeof memo->rest_heights);
-  }
-  memo->held = normal;
-  memo->plane++;
-}
-
-// Is there a plane between two patches over the whole interval? A direction is tried by the gap
-// that it finds between the hulls, which must be more than the margin and what the interval
-// deviates. First guesses: the last plane that held, the slabs' normals, and the line of centres.
-// Then Gilbert's iteration (1966) from there towards the point nearest to 0 of the differences of
-// the two hulls. p->memo.held is the one that held.
+// Is there a plane between two patches over the whole interval? A direction separates them if the
+// gap between the hulls along it is more than the margin and the deviation. First guesses: the last
+// plane that held, the slabs' normals, the line of centres. Then Gilbert's iteration (1966) from
+// there towards the point nearest to 0 of the difference of the two hulls.
+// Remembers the plane that holds.
 #define NSVCD__GUESSES 4
 static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j,
                                                   const nsvcd__interval *interval) {
   const float margins = p->ask.motion->scale * p->moving.margins[i] + p->fixed.margins[j];
   const float margin = margins + interval->rounding + nsvcd__clearance(p);
   const nsvcd__arm arm = nsvcd__patch_arm(&p->moving, i, interval);
+  const nsvcd__transform *start = &interval->start;
+  const nsvcd__transform *end = &interval->end;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 moving = nsvcd__hull_of(&p->moving, i, l);
-    nsvcd__v3_store(p->hull_start, l, nsvcd__v3_transform(&interval->start, moving));
-    nsvcd__v3_store(p->hull_end, l, nsvcd__v3_transform(&interval->end, moving));
+    const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, i, l);
+    nsvcd__v3_store(p->hull_start, l, nsvcd__v3_transform(start, hull));
+    nsvcd__v3_store(p->hull_end, l, nsvcd__v3_transform(end, hull));
     nsvcd__v3_store(p->hull_rest, l, nsvcd__hull_of(&p->fixed, j, l));
   }
   const nsvcd__slab moving = nsvcd__slab_at(p->moving.slabs, p->moving.body->padded, i);
   const nsvcd__slab fixed = nsvcd__slab_at(p->fixed.slabs, p->fixed.body->padded, j);
   const nsvcd__f3 centre = nsvcd__patch_centre(&p->moving, i);
-  const nsvcd__f3 start = nsvcd__f3_transform(&interval->start, centre);
-  const nsvcd__f3 end = nsvcd__f3_transform(&interval->end, centre);
-  const nsvcd__f3 middle = nsvcd__f3_scale(nsvcd__f3_add(start, end), 0.5f);
-  const nsvcd__f3 line = nsvcd__f3_sub(middle, nsvcd__patch_centre(&p->fixed, j));
-  const nsvcd__f3 extreme = nsvcd__f3_transform(&interval->start, moving.normal);
-  const nsvcd__f3 turned = nsvcd__f3_sub(extreme, interval->start.position);
+  const nsvcd__f3 both =
+      nsvcd__f3_add(nsvcd__f3_transform(start, centre), nsvcd__f3_transform(end, centre));
+  const nsvcd__f3 line =
+      nsvcd__f3_sub(nsvcd__f3_scale(both, 0.5f), nsvcd__patch_centre(&p->fixed, j));
+  const nsvcd__f3 turned = nsvcd__mat3_apply(&start->rotation, moving.normal);
   const nsvcd__f3 guesses[NSVCD__GUESSES] = {p->memo.held,
                                              nsvcd__f3_towards(fixed.normal, line),
                                              nsvcd__f3_towards(turned, line), line};
@@ -12796,17 +12752,20 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, siz
     const float length = nsvcd__f3_length(normal);
     if (found.gap > 0 &&
         found.gap > margin * length + nsvcd__deviation_of(interval, normal, arm)) {
-      nsvcd__remember_plane(&p->memo, normal);
+      p->memo.held = normal;
+      p->memo.plane++;
+      NSVCD__CERTIFY(NSVCD__BY_HULL, i, j, NSVCD_NONE, NSVCD_NONE, interval->t_start,
+                     interval->t_end, &normal.x);
       return 1;
     }
     if (step + 1 < NSVCD__GUESSES) continue;
     const nsvcd__f3 toward = nsvcd__f3_sub(found.difference, nearest);
     const float square = nsvcd__f3_dot(toward, toward);
-    const float fraction =
-        square > 0 ? nsvcd__clamp01(-nsvcd__f3_dot(nearest, toward) / square) : 0;
+    float fraction = square > 0 ? -nsvcd__f3_dot(nearest, toward) / square : 0;
+    fraction = fraction > 0 ? fminf(fraction, 1) : 0;
     const nsvcd__f3 nearer = nsvcd__f3_add(nearest, nsvcd__f3_scale(toward, fraction));
     nearest = step < NSVCD__GUESSES ? found.difference : nearer;
-    // these hulls come this near
+    // the hulls come this near
     if (nsvcd__f3_dot(nearest, nearest) <= margin * margin) return 0;
   }
   return 0;
@@ -12814,8 +12773,7 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, siz
 #endif  // NSVCD_NO_PROOF
 
 // ---------------------------------------------------------------------------- proof/triangle_pairs
-// In: two triangles and a interval. Out: separated, or in contact, or neither as long as it is
-// halved.
+// In: two triangles and an interval. Out: they are separated, or in contact, or too near to tell.
 
 #ifndef NSVCD_NO_PROOF
 static void nsvcd__place_triangle(const nsvcd__dtransform *at, const nsvcd__d3 *corners,
@@ -12951,10 +12909,10 @@ static double nsvcd__off_chord_along(const nsvcd__arc *arc, const nsvcd__triangl
   return turn + arc->twist * pair->from_origin + arc->origin_bend;
 }
 
-// Does the plane with this unit normal part the triangle pair from u0 to u1 of the arc?
+// Does the plane that separated a triangle pair last separate this one from u0 to u1 of the arc?
 static int nsvcd__plane_separates(nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0,
-                                  double u1, nsvcd__d3 normal) {
-  const nsvcd__arc *arc = &p->arc;
+                                  double u1) {
+  const nsvcd__d3 normal = p->memo.separating;
   const nsvcd__dtransform *start = nsvcd__placed_at(p, u0);
   const nsvcd__dtransform *end = nsvcd__placed_at(p, u1);
   double lowest = HUGE_VAL;
@@ -12966,9 +12924,14 @@ static int nsvcd__plane_separates(nsvcd__proof *p, const nsvcd__triangle_pair *p
     lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_end));
     highest = nsvcd__max(highest, nsvcd__d3_dot(normal, pair->fixed[k]));
   }
-  const double off = nsvcd__off_chord_along(arc, pair, normal);
+  const double off = nsvcd__off_chord_along(&p->arc, pair, normal);
   const double deviation = (u1 - u0) * (u1 - u0) * off;
-  return lowest - highest > p->ask.clearance + pair->margin + deviation;
+  if (!(lowest - highest > p->ask.clearance + pair->margin + deviation)) return 0;
+  const float out[3] = {(float)normal.x, (float)normal.y, (float)normal.z};
+  NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, pair->moving_patch, pair->fixed_patch,
+                 pair->moving_entry, pair->fixed_entry, nsvcd__time_in_arc(p, u0),
+                 nsvcd__time_in_arc(p, u1), out);
+  return 1;
 }
 
 // Is the foot of x on the plane of a triangle within it, farther than `margin` from its edges?
@@ -13064,20 +13027,6 @@ static int nsvcd__pair_passes(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
     }
   }
   return 0;
-}
-
-static void nsvcd__certify_triangle_pair(const nsvcd__proof *p,
-                                         const nsvcd__triangle_pair *pair, double u0,
-                                         double u1) {
-  const nsvcd__f3 plane = nsvcd__d3_narrow(p->memo.separating);
-  const float normal[3] = {plane.x, plane.y, plane.z};
-  NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, pair->moving_patch, pair->fixed_patch,
-                 pair->moving_entry, pair->fixed_entry, nsvcd__time_in_arc(p, u0),
-                 nsvcd__time_in_arc(p, u1), normal);
-  (void)pair;
-  (void)normal;
-  (void)u0;
-  (void)u1;
 }
 
 // A share u of the arc later than its start: the nearest points of a triangle pair.
@@ -13226,15 +13175,12 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
   const nsvcd__arc *arc = &p->arc;
   const nsvcd__d3 from = nsvcd__placed_at(p, 0)->position;
   const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__placed_at(p, 1)->position, from);
-  const double close = pair->close;
-  nsvcd__d3 *plane = &p->memo.separating;
   double at = u0;
   int shrunk = 0;
   size_t steps = 0;
   const double all = nsvcd__min(u1, nsvcd__arc_limit(p));
-  if (u0 < all && nsvcd__plane_separates(p, pair, u0, all, *plane)) {
+  if (u0 < all && nsvcd__plane_separates(p, pair, u0, all)) {
     p->work++;
-    nsvcd__certify_triangle_pair(p, pair, u0, all);
     return NSVCD__RESOLVED;
   }
   for (double u = u0;;) {  // before u it is separated
@@ -13257,14 +13203,11 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
       continue;
     }
     const double beyond = nsvcd__aim_plane(p, pair, at, &nearest);
-    const double fall = -nsvcd__d3_dot(*plane, moved);
+    const double fall = -nsvcd__d3_dot(p->memo.separating, moved);
     const double room = beyond - p->ask.clearance - pair->margin - pair->rounding;
     const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;
-    if (u < until && nsvcd__plane_separates(p, pair, u, until, *plane)) {
-      nsvcd__certify_triangle_pair(p, pair, u, until);
-      u = until;
-    }
-    const int is_short = !(room > 0) || arc->speed * (at - u) <= 0.25 * close;
+    if (u < until && nsvcd__plane_separates(p, pair, u, until)) u = until;
+    const int is_short = !(room > 0) || arc->speed * (at - u) <= 0.25 * pair->close;
     const int is_unresolved = fall > 0 ? !(at < end) : is_short;
     if (u < end && (is_unresolved || steps++ == NSVCD__HALVINGS)) {
       // what follows is no nearer
@@ -13288,8 +13231,6 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
   const nsvcd__arc *arc = &p->arc;
   if (nsvcd__is_straight(arc)) return nsvcd__resolve_straight(p, pair, u0, u1);
   const double speed = arc->speed + arc->turn * arc->scale * pair->from_axis;
-  const double close = pair->close;
-  nsvcd__d3 *plane = &p->memo.separating;
   double *ends = p->pair_ends;
   size_t left = 1;
   size_t unresolved_count = 0;
@@ -13303,7 +13244,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
     p->work++;
     NSVCD__TALLY(pairs, 1);
     if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
-    int apart = nsvcd__plane_separates(p, pair, u, end, *plane);
+    int apart = nsvcd__plane_separates(p, pair, u, end);
     if (!apart) {
       const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
       const double distance = sqrt(nearest.square);
@@ -13314,12 +13255,10 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
         continue;
       }
       (void)nsvcd__aim_plane(p, pair, middle, &nearest);
-      apart = nsvcd__plane_separates(p, pair, u, end, *plane);
+      apart = nsvcd__plane_separates(p, pair, u, end);
     }
-    if (apart) {
-      nsvcd__certify_triangle_pair(p, pair, u, end);
-    } else {
-      const double least = 0.25 * close * (double)(1 + unresolved_count);
+    if (!apart) {
+      const double least = 0.25 * pair->close * (double)(1 + unresolved_count);
       const int is_short = speed * (end - u) <= least || left > NSVCD__HALVINGS;
       if (!is_short) {
         ends[left++] = middle;
@@ -13343,37 +13282,26 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
 // In: 16 triangles of a patch, and a plane or other triangles. Out: which of them may meet.
 
 #ifndef NSVCD_NO_PROOF
-// Corner k of entries first .. first + count - 1, as vertices of their patch: what
-// nsvcd__triangle_corner says of each, the patch asked once.
-static void nsvcd__block_corners(const nsvcd__geometry *f, size_t patch, size_t first,
-                                 size_t count, size_t k, uint16_t *vertices) {
-  const size_t bytes = nsvcd__corner_bytes(nsvcd__points_of(f, patch).all);
-  const size_t at = 3 * (first - f->first_triangle[patch]) + k;
-  const unsigned char *corners = f->entries + f->first_byte[patch] + bytes * at;
-  for (size_t l = 0; l < count; l++) {
-    if (bytes == 1)
-      vertices[l] = corners[3 * l];
-    else
-      memcpy(vertices + l, corners + 6 * l, 2);
-  }
-}
-
-// Listings first .. first + count - 1 of a patch, at most 16; the last is repeated. Stored points
-// are off by no more than a quantization error, and what NSVCD__ROUNDING allows.
+// Loads entries first .. first + count - 1 of a patch, at most 16; the last one is repeated. Stored
+// points are off by no more than a quantization error, and what NSVCD__ROUNDING allows.
 static void nsvcd__block_load(const nsvcd__geometry *f, size_t patch, size_t first,
                               size_t count, nsvcd__block *out) {
   const nsvcd__patch_points points = nsvcd__points_of(f, patch);
   const nsvcd__vertices stored = nsvcd__vertices_of(f, patch);
   const nsvcd__f3 centre = nsvcd__patch_centre(f, patch);
   const float step = f->steps[patch];
+  const size_t bytes = nsvcd__corner_bytes(points.all);
+  const unsigned char *codes =
+      f->codes + f->first_byte[patch] + 3 * bytes * (first - f->first_triangle[patch]);
+  out->patch = patch;
   out->first = first;
   out->count = count;
   for (size_t k = 0; k < 3; k++) {
-    uint16_t corners[NSVCD__LANES];
     float(*to)[NSVCD__LANES] = out->corners[k];
-    nsvcd__block_corners(f, patch, first, count, k, corners);
     for (size_t l = 0; l < count; l++) {
-      const size_t i = corners[l];
+      const size_t n = 3 * l + k;
+      uint16_t i = codes[n];
+      if (bytes == 2) memcpy(&i, codes + 2 * n, sizeof i);
       if (i < points.stored) {
         to[0][l] = centre.x + step * (float)stored.x[i];
         to[1][l] = centre.y + step * (float)stored.y[i];
@@ -13381,12 +13309,10 @@ static void nsvcd__block_load(const nsvcd__geometry *f, size_t patch, size_t fir
         continue;
       }
       const float *position = nsvcd__position_of(f, patch, points, i);
-      to[0][l] = position[0];
-      to[1][l] = position[1];
-      to[2][l] = position[2];
+      nsvcd__lane_set(nsvcd__f3_load(position), to, l);
     }
     for (size_t l = count; l < NSVCD__LANES; l++)
-      for (size_t axis = 0; axis < 3; axis++) to[axis][l] = to[axis][count - 1];
+      nsvcd__lane_set(nsvcd__lane_of(to, count - 1), to, l);
   }
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 a = nsvcd__v3_load(out->corners[0], l);
@@ -13397,44 +13323,20 @@ static void nsvcd__block_load(const nsvcd__geometry *f, size_t patch, size_t fir
   }
 }
 
-// Poses the corners of the moving block, into p->posed[which].
+// Poses the corners of the moving block at both ends of an interval, and replaces its boxes by those
+// of the posed corners. Without an interval, NULL: at the pose `at` alone.
 static NSVCD__NOINLINE void nsvcd__block_pose(nsvcd__proof *p, const nsvcd__transform *at,
-                                              size_t which) {
-  for (size_t k = 0; k < 3; k++) {
-    NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 corner = nsvcd__v3_load(p->moving_block.corners[k], l);
-      nsvcd__v3_store(p->posed[which][k], l, nsvcd__v3_transform(at, corner));
-    }
-  }
-}
-
-// Of the moving block's corners. axis: unit, as the body has it.
-static nsvcd__arm nsvcd__block_arm(nsvcd__proof *p, nsvcd__f3 axis, float quantization_error) {
-  nsvcd__v farthest2 = nsvcd__v_set(0);
-  nsvcd__v aside = farthest2;
-  for (size_t k = 0; k < 3; k++) {
-    NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 corner = nsvcd__v3_load(p->moving_block.corners[k], l);
-      const nsvcd__v3 across = nsvcd__v3_cross(corner, nsvcd__v3_set(axis));
-      farthest2 = nsvcd__v_max(farthest2, nsvcd__v3_dot(corner, corner));
-      aside = nsvcd__v_max(aside, nsvcd__v3_dot(across, across));
-    }
-  }
-  const float from_origin =
-      1.00001f * sqrtf(-nsvcd__v_least(nsvcd__v_negate(farthest2))) + quantization_error;
-  const float from_axis =
-      1.00001f * sqrtf(-nsvcd__v_least(nsvcd__v_negate(aside))) + quantization_error;
-  const nsvcd__arm out = {from_origin, from_axis + 1e-6f * from_origin};
-  return out;
-}
-
-// Replaces the boxes of the moving block by those of its posed corners, at `ends` (1 or 2) poses.
-static void nsvcd__block_box(nsvcd__proof *p, size_t ends) {
+                                              const nsvcd__interval *over) {
+  p->over = over;
+  p->corner_count = over ? 6 : 3;
   NSVCD__EACH_SLICE(l) {
-    nsvcd__v3 low = nsvcd__v3_load(p->posed[0][0], l);
-    nsvcd__v3 high = low;
-    for (size_t n = 1; n < 3 * ends; n++) {
-      const nsvcd__v3 corner = nsvcd__v3_load(p->posed[n / 3][n % 3], l);
+    nsvcd__v3 low = nsvcd__v3_set(nsvcd__f3_of(HUGE_VALF, HUGE_VALF, HUGE_VALF));
+    nsvcd__v3 high = nsvcd__v3_negate(low);
+    for (size_t k = 0; k < p->corner_count; k++) {
+      const nsvcd__v3 own = nsvcd__v3_load(p->moving_block.corners[k % 3], l);
+      const nsvcd__transform *pose = !over ? at : k < 3 ? &over->start : &over->end;
+      const nsvcd__v3 corner = nsvcd__v3_transform(pose, own);
+      nsvcd__v3_store(p->corners[k], l, corner);
       low = nsvcd__v3_min(low, corner);
       high = nsvcd__v3_max(high, corner);
     }
@@ -13443,26 +13345,41 @@ static void nsvcd__block_box(nsvcd__proof *p, size_t ends) {
   }
 }
 
+// Of the moving block's corners. axis: unit, as the body has it.
+static nsvcd__arm nsvcd__block_arm(nsvcd__block *block, nsvcd__f3 axis, float error) {
+  nsvcd__v farthest = nsvcd__v_set(0);  // squares
+  nsvcd__v aside = farthest;
+  for (size_t k = 0; k < 3; k++) {
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v3 corner = nsvcd__v3_load(block->corners[k], l);
+      const nsvcd__v3 across = nsvcd__v3_cross(corner, nsvcd__v3_set(axis));
+      farthest = nsvcd__v_max(farthest, nsvcd__v3_dot(corner, corner));
+      aside = nsvcd__v_max(aside, nsvcd__v3_dot(across, across));
+    }
+  }
+  const float from_origin = 1.00001f * sqrtf(nsvcd__greatest_of(0, farthest)) + error;
+  const float from_axis = 1.00001f * sqrtf(nsvcd__greatest_of(0, aside)) + error;
+  const nsvcd__arm out = {from_origin, from_axis + 1e-6f * from_origin};
+  return out;
+}
+
 // The box about a block's boxes.
 static nsvcd__box nsvcd__block_bounds(const nsvcd__block *block) {
   float low[3], high[3];
   for (size_t k = 0; k < 3; k++) {
-    float least = HUGE_VALF;
-    float negated = HUGE_VALF;
+    low[k] = HUGE_VALF;
+    high[k] = -HUGE_VALF;
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v above = nsvcd__v_negate(nsvcd__v_load(block->high[k] + l));
-      least = nsvcd__least_of(least, nsvcd__v_least(nsvcd__v_load(block->low[k] + l)));
-      negated = nsvcd__least_of(negated, nsvcd__v_least(above));
+      low[k] = nsvcd__least_of(low[k], nsvcd__v_load(block->low[k] + l));
+      high[k] = nsvcd__greatest_of(high[k], nsvcd__v_load(block->high[k] + l));
     }
-    low[k] = least;
-    high[k] = -negated;
   }
   const nsvcd__box out = {nsvcd__f3_load(low), nsvcd__f3_load(high)};
   return out;
 }
 
-// Loads up to NSVCD__WINDOW blocks of resting patch j, from entry `first` on, and what they
-// extend to. The same patch is often asked for again.
+// Loads up to NSVCD__WINDOW blocks of resting patch j, from entry `first` on, and the boxes about
+// them. The same patch is often asked for again.
 static void nsvcd__window_load(nsvcd__proof *p, size_t j, size_t first) {
   const size_t end = p->fixed.first_triangle[j + 1];
   if (p->memo.window > 0 && p->fixed_blocks[0].first == first) return;
@@ -13470,8 +13387,7 @@ static void nsvcd__window_load(nsvcd__proof *p, size_t j, size_t first) {
   for (size_t n = first; n < end && p->memo.window < NSVCD__WINDOW; n += NSVCD__LANES) {
     nsvcd__block *block = &p->fixed_blocks[p->memo.window];
     nsvcd__block_load(&p->fixed, j, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
-    p->bounds[p->memo.window] = nsvcd__block_bounds(block);
-    p->memo.window++;
+    p->bounds[p->memo.window++] = nsvcd__block_bounds(block);
   }
 }
 
@@ -13499,25 +13415,46 @@ NSVCD__INLINE uint32_t nsvcd__lanes_near(const nsvcd__block *block, nsvcd__box b
   return lanes & nsvcd__block_lanes(block);
 }
 
-static nsvcd__box nsvcd__box_of_lane(nsvcd__block *block, size_t l) {
-  const nsvcd__box out = {nsvcd__lane_of(block->low, l), nsvcd__lane_of(block->high, l)};
-  return out;
+// Normals of planes that may separate two triangles: the one that separated a triangle pair last;
+// those of both; and of an edge of each.
+#define NSVCD__LAST_NORMAL 0
+#define NSVCD__NORMALS 12
+
+// Normal k, of any length, for lane l of the moving block and a slice, from s on, of a fixed one. A
+// moving edge without length, of a point or a segment: its corner's travel counts instead.
+NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
+                                             size_t s, size_t k) {
+  if (k == NSVCD__LAST_NORMAL) return nsvcd__v3_set(nsvcd__f3_round(p->memo.separating));
+  if (k == 1) {
+    const nsvcd__v3 b = nsvcd__v3_load(fixed->corners[0], s);
+    const nsvcd__v3 u = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[1], s), b);
+    const nsvcd__v3 v = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2], s), b);
+    return nsvcd__v3_cross(u, v);
+  }
+  if (k == 2) {
+    const nsvcd__f3 a = nsvcd__lane_of(p->corners[0], l);
+    const nsvcd__f3 u = nsvcd__f3_sub(nsvcd__lane_of(p->corners[1], l), a);
+    const nsvcd__f3 v = nsvcd__f3_sub(nsvcd__lane_of(p->corners[2], l), a);
+    return nsvcd__v3_set(nsvcd__f3_cross(u, v));
+  }
+  const size_t of_moving = k / 3 - 1;
+  const size_t of_fixed = k % 3;
+  const nsvcd__v3 b = nsvcd__v3_load(fixed->corners[of_fixed], s);
+  const nsvcd__v3 b_next = nsvcd__v3_load(fixed->corners[(of_fixed + 1) % 3], s);
+  const nsvcd__f3 a = nsvcd__lane_of(p->corners[of_moving], l);
+  const nsvcd__f3 a_next = nsvcd__lane_of(p->corners[(of_moving + 1) % 3], l);
+  nsvcd__f3 edge = nsvcd__f3_sub(a_next, a);
+  if (p->over && !(nsvcd__f3_dot(edge, edge) > 0))
+    edge = nsvcd__f3_sub(nsvcd__lane_of(p->corners[3 + of_moving], l), a);
+  return nsvcd__v3_cross(nsvcd__v3_set(edge), nsvcd__v3_sub(b_next, b));
 }
 
-// A margin along normals of any length. Where their squares underflow it is so large that nothing
-// is beyond it.
-static nsvcd__v nsvcd__margin_along(nsvcd__v3 n, float margin) {
-  const nsvcd__v square = nsvcd__v3_dot(n, n);
-  const nsvcd__v limit = nsvcd__v_scale(nsvcd__v_sqrt(square), margin);
-  return nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit);
-}
-
-// Lanes of a slice, from s on, of a fixed block that planes with these normals, of any length, have
-// on one side of lane l of the moving one, at `ends` (1 or 2) poses, by more than `margin`. below:
-// the moving one is on the side that the normal points from.
+// Lanes of a slice, from s on, of a fixed block that planes with these normals, of any length,
+// separate from lane l of the moving one, as posed, by more than `margin`. below: the moving one is
+// on the side that the normal points from.
 NSVCD__INLINE uint32_t nsvcd__normals_separate(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
-                                               size_t s, size_t ends, float margin,
-                                               nsvcd__v3 n, uint32_t *below) {
+                                               size_t s, float margin, nsvcd__v3 n,
+                                               uint32_t *below) {
   const nsvcd__v3 b0 = nsvcd__v3_load(fixed->corners[0], s);
   const nsvcd__v3 edge1 = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[1], s), b0);
   const nsvcd__v3 edge2 = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2], s), b0);
@@ -13528,61 +13465,38 @@ NSVCD__INLINE uint32_t nsvcd__normals_separate(nsvcd__proof *p, size_t l, nsvcd_
   const nsvcd__v high = nsvcd__v_max(zero, nsvcd__v_max(height1, height2));
   nsvcd__v lowest = nsvcd__v_set(HUGE_VALF);
   nsvcd__v highest = nsvcd__v_set(-HUGE_VALF);
-  for (size_t k = 0; k < 3 * ends; k++) {
-    const nsvcd__v3 a = nsvcd__v3_set(nsvcd__lane_of(p->posed[k / 3][k % 3], l));
+  for (size_t k = 0; k < p->corner_count; k++) {
+    const nsvcd__v3 a = nsvcd__v3_set(nsvcd__lane_of(p->corners[k], l));
     const nsvcd__v height = nsvcd__v3_dot(n, nsvcd__v3_sub(a, b0));
     lowest = nsvcd__v_min(lowest, height);
     highest = nsvcd__v_max(highest, height);
   }
-  const nsvcd__v limit = nsvcd__margin_along(n, margin);
+  // where the normal's square underflows, nothing is beyond the limit
+  const nsvcd__v square = nsvcd__v3_dot(n, n);
+  nsvcd__v limit = nsvcd__v_scale(nsvcd__v_sqrt(square), margin);
+  limit = nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit);
   *below = nsvcd__v_lt(highest, nsvcd__v_sub(low, limit));
   return nsvcd__v_lt(nsvcd__v_add(high, limit), lowest) | *below;
 }
 
-// Normal number k of those that may part two triangles at `ends` (1 or 2) poses: of the fixed ones
-// in a slice, of lane l of the moving one, and of an edge of each; of an edge without length, which
-// points and segments have, it is that corner's way that counts.
-#define NSVCD__NORMALS 11
-NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
-                                             size_t s, size_t ends, size_t k) {
-  if (k == 1) {
-    const nsvcd__f3 a = nsvcd__lane_of(p->posed[0][0], l);
-    const nsvcd__f3 u = nsvcd__f3_sub(nsvcd__lane_of(p->posed[0][1], l), a);
-    const nsvcd__f3 v = nsvcd__f3_sub(nsvcd__lane_of(p->posed[0][2], l), a);
-    return nsvcd__v3_set(nsvcd__f3_cross(u, v));
-  }
-  const size_t fixed_edge = k == 0 ? 0 : (k - 2) % 3;
-  const size_t moving_edge = k == 0 ? 0 : (k - 2) / 3;
-  const nsvcd__v3 b = nsvcd__v3_load(fixed->corners[fixed_edge], s);
-  const nsvcd__v3 next = nsvcd__v3_load(fixed->corners[(fixed_edge + 1) % 3], s);
-  const nsvcd__v3 edge = nsvcd__v3_sub(next, b);
-  if (k == 0)
-    return nsvcd__v3_cross(edge, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2], s), b));
-  const nsvcd__f3 a = nsvcd__lane_of(p->posed[0][moving_edge], l);
-  const nsvcd__f3 after = nsvcd__lane_of(p->posed[0][(moving_edge + 1) % 3], l);
-  nsvcd__f3 other = nsvcd__f3_sub(after, a);
-  if (ends == 2 && !(nsvcd__f3_dot(other, other) > 0))
-    other = nsvcd__f3_sub(nsvcd__lane_of(p->posed[1][moving_edge], l), a);
-  return nsvcd__v3_cross(nsvcd__v3_set(other), edge);
-}
-
 #ifdef NSVCD__CERTIFIES
-// All triangle pairs of lane l and the `apart` lanes of a block, by the planes of their slice, from
-// s on, or, where that is NULL, by their boxes.
-static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l,
-                                 const nsvcd__block *b, const nsvcd__interval *interval,
+// All triangle pairs of `lanes` of the moving block and the `apart` lanes of a fixed one, by the
+// planes of its slice from s on or, where that is NULL, by their boxes.
+static void nsvcd__certify_block(nsvcd__proof *p, uint32_t lanes, const nsvcd__block *b,
                                  uint32_t apart, size_t s, const nsvcd__v3 *plane,
                                  uint32_t below) {
-  float lanes[3][NSVCD__LANES];
+  float normals[3][NSVCD__LANES];
   const nsvcd__block *a = &p->moving_block;
-  if (plane) nsvcd__v3_store(lanes, s, *plane);
-  for (size_t n = 0; n < b->count; n++) {
+  if (plane) nsvcd__v3_store(normals, s, *plane);
+  for (size_t pair = 0; p->over && pair < a->count * b->count; pair++) {
+    const size_t l = pair / b->count;
+    const size_t n = pair % b->count;
     float normal[3] = {0, 0, 0};
     float widest = -HUGE_VALF;
     const float sign = below >> n & 1 ? -1.0f : 1.0f;
-    if (!(apart >> n & 1)) continue;
+    if (!(lanes >> l & apart >> n & 1)) continue;
     for (size_t k = 0; k < 3; k++) {
-      if (plane) normal[k] = sign * lanes[k][n];
+      if (plane) normal[k] = sign * normals[k][n];
       const float above = a->low[k][l] - b->high[k][n];
       const float under = b->low[k][n] - a->high[k][l];
       if (plane || (above <= widest && under <= widest)) continue;
@@ -13590,100 +13504,73 @@ static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l,
       normal[0] = normal[1] = normal[2] = 0;
       normal[k] = above > under ? 1.0f : -1.0f;
     }
-    NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, i, j, a->first + l, b->first + n, interval->t_start,
-                   interval->t_end, normal);
+    NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, a->patch, b->patch, a->first + l, b->first + n,
+                   p->over->t_start, p->over->t_end, normal);
   }
 }
-#define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, interval, apart, s, plane, below) \
-  nsvcd__certify_block(p, i, j, l, b, interval, apart, s, plane, below)
+#define NSVCD__CERTIFY_BLOCK(p, lanes, b, apart, s, plane, below) \
+  nsvcd__certify_block(p, lanes, b, apart, s, plane, below)
 #else
-#define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, interval, apart, s, plane, below) ((void)0)
+#define NSVCD__CERTIFY_BLOCK(p, lanes, b, apart, s, plane, below) ((void)0)
 #endif
 
-// Of these lanes of a fixed block, those that the plane which separated a triangle pair last does
-// not separate from lane l of the moving one as well, by more than `margin`, at `ends` poses. Where
-// there is a clearance it parts many: triangles near by have their nearest points along nearly the
-// same direction.
-static NSVCD__NOINLINE uint32_t nsvcd__left_by_last(nsvcd__proof *p, size_t i, size_t j,
-                                                    size_t l, nsvcd__block *fixed, size_t ends,
-                                                    const nsvcd__interval *interval,
-                                                    float margin, uint32_t met) {
-  const nsvcd__v3 normal = nsvcd__v3_set(nsvcd__f3_round(p->memo.separating));
+// Of these lanes of a fixed block, those that planes with normal k do not separate from lane l of
+// the moving one by more than `margin`.
+NSVCD__INLINE uint32_t nsvcd__left_by_normal(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
+                                             size_t k, float margin, uint32_t met) {
   NSVCD__EACH_SLICE(s) {
     uint32_t below;
     if (!(met >> s & NSVCD__SLICE_MASK)) continue;
+    const nsvcd__v3 normal = nsvcd__normal_to_try(p, l, fixed, s, k);
     const uint32_t apart =
-        nsvcd__normals_separate(p, l, fixed, s, ends, margin, normal, &below) << s & met;
-    if (interval)
-      NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, interval, apart, s, &normal, below << s);
+        nsvcd__normals_separate(p, l, fixed, s, margin, normal, &below) << s & met;
+    NSVCD__CERTIFY_BLOCK(p, (uint32_t)1 << l, fixed, apart, s, &normal, below << s);
     met &= ~apart;
   }
-  (void)i;
-  (void)j;
   return met;
 }
 
 // Of these lanes of the moving block, those that the plane which separated a triangle pair last
-// does not separate from all of a fixed block, by more than `margin`, at `ends` poses.
-static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, size_t i, size_t j,
-                                                          nsvcd__block *fixed, size_t ends,
-                                                          const nsvcd__interval *interval,
+// does not separate from all of a fixed block by more than `margin`. Tried where there is a
+// clearance: then near triangles have their nearest points along nearly the same direction.
+static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, nsvcd__block *fixed,
                                                           float margin, uint32_t lanes) {
   const nsvcd__f3 last = nsvcd__f3_round(p->memo.separating);
   const nsvcd__v3 normal = nsvcd__v3_set(last);
   if (!(p->ask.clearance > 0) || !lanes) return lanes;
-  float lowest = HUGE_VALF;  // of the fixed block's heights, negated
+  float highest = -HUGE_VALF;  // of the fixed block
   for (size_t k = 0; k < 3; k++) {
     NSVCD__EACH_SLICE(s) {
-      const nsvcd__v height = nsvcd__v3_dot(normal, nsvcd__v3_load(fixed->corners[k], s));
-      lowest = nsvcd__least_of(lowest, nsvcd__v_least(nsvcd__v_negate(height)));
+      const nsvcd__v3 corner = nsvcd__v3_load(fixed->corners[k], s);
+      highest = nsvcd__greatest_of(highest, nsvcd__v3_dot(normal, corner));
     }
   }
-  const nsvcd__v limit = nsvcd__v_set(margin * nsvcd__f3_length(last) - lowest);
+  const nsvcd__v limit = nsvcd__v_set(margin * nsvcd__f3_length(last) + highest);
   uint32_t apart = 0;
   NSVCD__EACH_SLICE(s) {
-    nsvcd__v height = nsvcd__v3_dot(normal, nsvcd__v3_load(p->posed[0][0], s));
-    for (size_t k = 1; k < 3 * ends; k++) {
-      const nsvcd__v3 corner = nsvcd__v3_load(p->posed[k / 3][k % 3], s);
+    nsvcd__v height = nsvcd__v_set(HUGE_VALF);
+    for (size_t k = 0; k < p->corner_count; k++) {
+      const nsvcd__v3 corner = nsvcd__v3_load(p->corners[k], s);
       height = nsvcd__v_min(height, nsvcd__v3_dot(normal, corner));
     }
     apart |= nsvcd__v_lt(limit, height) << s;
   }
-  apart &= lanes;
-  for (uint32_t told = interval ? apart : 0; told; told &= told - 1) {
-    NSVCD__EACH_SLICE(s)
-    NSVCD__CERTIFY_BLOCK(p, i, j, nsvcd__low_bit(told), fixed, interval,
-                         NSVCD__SLICE_MASK << s, s, &normal, 0);
-  }
-  (void)i;
-  (void)j;
+  NSVCD__EACH_SLICE(s)
+  NSVCD__CERTIFY_BLOCK(p, lanes & apart, fixed, NSVCD__SLICE_MASK << s, s, &normal, 0);
   return lanes & ~apart;
 }
 
-// Lanes of a fixed block that neither boxes nor planes separate from lane l of the moving one, at
-// `ends` poses. interval: of patches i and j, for the certificates; NULL for none.
-static NSVCD__NOINLINE uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j, size_t l,
-                                                nsvcd__block *fixed, size_t ends,
-                                                const nsvcd__interval *interval,
+// Lanes of a fixed block that neither boxes nor planes separate from lane l of the moving one.
+static NSVCD__NOINLINE uint32_t nsvcd__row_left(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
                                                 float margin) {
-  uint32_t met = nsvcd__lanes_near(fixed, nsvcd__box_of_lane(&p->moving_block, l), margin);
-  if (interval) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, interval, ~met, 0, NULL, 0);
-  if (p->ask.clearance > 0)
-    met = nsvcd__left_by_last(p, i, j, l, fixed, ends, interval, margin, met);
-  for (size_t k = 0; met && k < NSVCD__NORMALS; k++) {
-    NSVCD__EACH_SLICE(s) {
-      uint32_t below;
-      if (!(met >> s & NSVCD__SLICE_MASK)) continue;
-      const nsvcd__v3 normal = nsvcd__normal_to_try(p, l, fixed, s, ends, k);
-      const uint32_t apart =
-          nsvcd__normals_separate(p, l, fixed, s, ends, margin, normal, &below) << s & met;
-      if (interval)
-        NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, interval, apart, s, &normal, below << s);
-      met &= ~apart;
-    }
-  }
-  (void)i;
-  (void)j;
+  nsvcd__block *block = &p->moving_block;
+  const nsvcd__box box = {nsvcd__lane_of(block->low, l), nsvcd__lane_of(block->high, l)};
+  uint32_t met = nsvcd__lanes_near(fixed, box, margin);
+  NSVCD__CERTIFY_BLOCK(p, (uint32_t)1 << l, fixed, ~met, 0, NULL, 0);
+  // the last plane: see nsvcd__lanes_left_by_last
+  for (size_t k = p->ask.clearance > 0 ? NSVCD__LAST_NORMAL : 1; met && k < NSVCD__NORMALS;
+       k++)
+    met = nsvcd__left_by_normal(p, l, fixed, k, margin, met);
   return met;
 }
 #endif  // NSVCD_NO_PROOF
@@ -14063,13 +13950,14 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
   nsvcd__block *fixed = &p->fixed_blocks[n];
   const double clearance = p->ask.clearance;
   const uint32_t nearby = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
-  uint32_t lanes = nsvcd__lanes_left_by_last(p, i, j, fixed, 1, NULL, margin, nearby);
+  uint32_t lanes = nsvcd__lanes_left_by_last(p, fixed, margin, nearby);
   for (; lanes; lanes &= lanes - 1) {
     const size_t l = nsvcd__low_bit(lanes);
     p->work++;
-    uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 1, NULL, margin);
+    uint32_t met = nsvcd__row_left(p, l, fixed, margin);
     for (; met; met &= met - 1) {
-      if (clearance > 0) met = nsvcd__left_by_last(p, i, j, l, fixed, 1, NULL, margin, met);
+      if (clearance > 0)
+        met = nsvcd__left_by_normal(p, l, fixed, NSVCD__LAST_NORMAL, margin, met);
       if (!met) break;
       const size_t entry = p->moving_block.first + l;
       const nsvcd__triangle_pair pair =
@@ -14134,8 +14022,7 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
     nsvcd__window_load(p, j, b);
     for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
       nsvcd__moving_block_load(p, i, a);
-      nsvcd__block_pose(p, &rounded, 0);
-      nsvcd__block_box(p, 1);
+      nsvcd__block_pose(p, &rounded, NULL);
       for (size_t n = 0; n < p->memo.window; n++) {
         p->work++;
         if (nsvcd__is_exhausted(p)) return NSVCD__NOTHING;
@@ -14202,46 +14089,47 @@ static NSVCD__NOINLINE int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_
   for (size_t a = moving_first; a < moving_end; a++) {
     const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, top);
     if ((a - moving_first) % 4 == 0) p->work++;
-    if (!nsvcd__plane_separates(p, &pair, u0, u1, p->memo.separating)) return 0;
+    if (!nsvcd__plane_separates(p, &pair, u0, u1)) return 0;
   }
 #ifdef NSVCD__CERTIFIES
   for (size_t a = moving_first; a < moving_end; a++) {
     for (size_t b = fixed_first; b < fixed_end; b++) {
       const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, b);
-      nsvcd__certify_triangle_pair(p, &pair, u0, u1);
+      (void)nsvcd__plane_separates(p, &pair, u0, u1);
     }
   }
 #endif
   return 1;
 }
 
-// Lane l of the moving block, posed at both ends of a interval from u0 to u1 of the arc, and block
-// n of the window: triangle pairs that planes do not part are resolved one by one, and what parts
-// one may part others, or, ALL_SETTLED, all of both patches. TOO_LONG when they have asked for more
-// than `patience` parts of the interval; without any, when there is such a triangle pair.
-static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t i, size_t j, size_t l,
-                                         size_t n, const nsvcd__interval *interval,
+// Lane l of the moving block, posed at both ends of an interval from u0 to u1 of the arc, and a
+// block of the window: the triangle pairs that no plane separates are resolved one by one. The
+// plane that separates one may separate others or, ALL_RESOLVED, all of both patches. TOO_LONG: they
+// ask for more than `patience` parts of the interval or, without any, there is such a triangle pair.
+static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
                                          nsvcd__arm arm, float margin, double u0, double u1,
                                          size_t patience) {
-  nsvcd__block *fixed = &p->fixed_blocks[n];
+  const nsvcd__interval *interval = p->over;
+  const size_t i = p->moving_block.patch;
+  const size_t j = fixed->patch;
   const float errors = nsvcd__quanta_of(p, i, j);
   p->work++;
-  uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 2, interval, margin);
+  uint32_t met = nsvcd__row_left(p, l, fixed, margin);
   for (; met; met &= met - 1) {
     const nsvcd__d3 before = p->memo.separating;
     const nsvcd__f3 last = nsvcd__f3_round(before);
     const float along = errors + interval->rounding + nsvcd__clearance(p) +
                         nsvcd__deviation_of(interval, last, arm);
-    met = nsvcd__left_by_last(p, i, j, l, fixed, 2, interval, along, met);
+    met = nsvcd__left_by_normal(p, l, fixed, NSVCD__LAST_NORMAL, along, met);
     if (!met) break;
     if (patience == 0) return NSVCD__TOO_LONG;
     if (p->memo.shared > NSVCD__SHARED * p->all_tried) {
       p->all_tried++;
       if (nsvcd__patches_apart(p, i, j, u0, u1)) return NSVCD__ALL_RESOLVED;
     }
-    const size_t entry = p->moving_block.first + l;
-    const nsvcd__triangle_pair pair =
-        nsvcd__pair_of(p, i, j, entry, fixed->first + nsvcd__low_bit(met));
+    const size_t a = p->moving_block.first + l;
+    const size_t b = fixed->first + nsvcd__low_bit(met);
+    const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, b);
     const nsvcd__outcome one = nsvcd__resolve_pair(p, &pair, u0, u1);
     if (one != NSVCD__RESOLVED) return one;
     if (p->parts > patience) return NSVCD__TOO_LONG;
@@ -14251,7 +14139,7 @@ static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t i, size_t j, si
   return NSVCD__RESOLVED;
 }
 
-// All triangle pairs of a patch pair's patches over a interval from u0 to u1 of the arc.
+// All triangle pairs of patches i and j over an interval from u0 to u1 of the arc.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, size_t i,
                                                                size_t j,
                                                                const nsvcd__interval *interval,
@@ -14262,10 +14150,11 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
   const nsvcd__f3 axis = nsvcd__own_axis(interval);
   const float stays = nsvcd__quanta_of(p, i, j) +
                       (interval->rounding + interval->origin_bend) + nsvcd__clearance(p);
-  const float extent = p->moving.body->extent + p->moving.errors[i];
+  const float error = p->moving.errors[i];
+  const float extent = p->moving.body->extent + error;
   const nsvcd__arm all = {extent, extent};
-  const int bends =
-      interval->bend * extent > 0.25f * stays;  // else it is not worth to look closely
+  // else arms of blocks gain little
+  const int bends = interval->bend * extent > 0.25f * stays;
   p->parts = 0;
   p->all_tried = 0;
   for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
@@ -14273,24 +14162,19 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
     nsvcd__window_load(p, j, b);
     for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
       nsvcd__moving_block_load(p, i, a);
-      const nsvcd__arm arm = bends ? nsvcd__block_arm(p, axis, p->moving.errors[i]) : all;
+      const nsvcd__arm arm = bends ? nsvcd__block_arm(&p->moving_block, axis, error) : all;
       const float margin = stays + nsvcd__bend_of(interval, arm);
-      nsvcd__block_pose(p, &interval->start, 0);
-      nsvcd__block_pose(p, &interval->end, 1);
-      nsvcd__block_box(p, 2);
+      nsvcd__block_pose(p, NULL, interval);
       for (size_t n = 0; n < p->memo.window; n++) {
         nsvcd__block *fixed = &p->fixed_blocks[n];
         const uint32_t nearby = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
-        const uint32_t lanes =
-            nsvcd__lanes_left_by_last(p, i, j, fixed, 2, interval, margin, nearby);
+        NSVCD__CERTIFY_BLOCK(p, ~nearby, fixed, 0xffff, 0, NULL, 0);
+        uint32_t lanes = nsvcd__lanes_left_by_last(p, fixed, margin, nearby);
         p->work++;
         if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
-        for (size_t l = 0; l < p->moving_block.count; l++) {
-          if (!(nearby >> l & 1))
-            NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, interval, 0xffff, 0, NULL, 0);
-          if (!(lanes >> l & 1)) continue;
-          const nsvcd__outcome row =
-              nsvcd__resolve_row(p, i, j, l, n, interval, arm, margin, u0, u1, patience);
+        for (; lanes; lanes &= lanes - 1) {
+          const nsvcd__outcome row = nsvcd__resolve_row(p, nsvcd__low_bit(lanes), fixed, arm,
+                                                        margin, u0, u1, patience);
           if (row == NSVCD__ALL_RESOLVED) return NSVCD__RESOLVED;
           if (row != NSVCD__RESOLVED) return row;
         }
@@ -14300,21 +14184,13 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
   return NSVCD__RESOLVED;
 }
 
-static void nsvcd__certify_patch_pair(const nsvcd__proof *p, const nsvcd__interval *interval,
-                                      const nsvcd__patch_pair *item) {
-  const float normal[3] = {p->memo.held.x, p->memo.held.y, p->memo.held.z};
-  NSVCD__CERTIFY(NSVCD__BY_HULL, item->moving, item->fixed, NSVCD_NONE, NSVCD_NONE,
-                 interval->t_start, interval->t_end, normal);
-  (void)normal;
-  (void)interval;
-  (void)item;
-}
-
 // Resolves a patch pair that no plane separates over its segment, arc by arc. Each arc is halved as
 // often as need be: a part of it is separated by a plane between the hulls, or by its triangles.
 static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__search *search,
                                                 const nsvcd__patch_pair *item) {
   const nsvcd__motion *motion = p->ask.motion;
+  const size_t i = item->moving;
+  const size_t j = item->fixed;
   const uint32_t last = search->begin[item->segment + 1u];
   double *ends = p->arc_ends;
   int is_tried = 1;  // is it all of the segment?
@@ -14331,16 +14207,13 @@ static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__se
       const double end = nsvcd__min(ends[left - 1], nsvcd__arc_limit(p));
       if (!(u < end)) break;
       p->interval = nsvcd__interval_of_arc(p, first, u, end);
-      const int apart =
-          !is_tried && nsvcd__hulls_are_apart(p, item->moving, item->fixed, &p->interval);
+      const int apart = !is_tried && nsvcd__hulls_are_apart(p, i, j, &p->interval);
       is_tried = 0;
-      if (apart) {
-        nsvcd__certify_patch_pair(p, &p->interval, item);
-      } else {
+      if (!apart) {
         const int may_halve = end - u > NSVCD__SHORTEST && left < NSVCD__ARC_PARTS;
         const size_t patience = may_halve ? NSVCD__PATIENCE_TO_PART : (size_t)-1;
-        const nsvcd__outcome part = nsvcd__resolve_triangles(p, item->moving, item->fixed,
-                                                             &p->interval, u, end, patience);
+        const nsvcd__outcome part =
+            nsvcd__resolve_triangles(p, i, j, &p->interval, u, end, patience);
         if (part == NSVCD__ANSWERED || part == NSVCD__EXHAUSTED) return part;
         if (part == NSVCD__TOO_LONG) ends[left++] = 0.5 * (u + end);
         if (part != NSVCD__RESOLVED) continue;
@@ -14369,6 +14242,7 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
   nsvcd__height *above =
       &memo->heights[(NSVCD__GROUP * s + i % NSVCD__GROUP) % NSVCD__HEIGHTS];
   nsvcd__height *below = &memo->rest_heights[j % NSVCD__REST_HEIGHTS];
+  if (!memo->plane) return 0;
   if (above->plane != memo->plane || above->key != key) {
     float lowest = HUGE_VALF;
     NSVCD__EACH_SLICE(l) {
@@ -14377,7 +14251,7 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
       const nsvcd__v at_start =
           nsvcd__v3_dot(normal, nsvcd__v3_transform(&interval->start, hull));
       const nsvcd__v at_end = nsvcd__v3_dot(normal, nsvcd__v3_transform(&interval->end, hull));
-      lowest = nsvcd__least_of(lowest, nsvcd__v_least(nsvcd__v_min(at_start, at_end)));
+      lowest = nsvcd__least_of(lowest, nsvcd__v_min(at_start, at_end));
     }
     const float margin =
         (p->ask.motion->scale * p->moving.margins[i] + interval->rounding) * length;
@@ -14388,18 +14262,18 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
         nsvcd__deviation_of(interval, n, nsvcd__patch_arm(&p->moving, i, interval));
   }
   if (below->plane != memo->plane || below->key != j) {
-    // negated
-    float highest = HUGE_VALF;
+    float highest = -HUGE_VALF;
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v height = nsvcd__v3_dot(nsvcd__v3_set(n), nsvcd__hull_of(&p->fixed, j, l));
-      highest = nsvcd__least_of(highest, nsvcd__v_least(nsvcd__v_negate(height)));
+      highest = nsvcd__greatest_of(highest, height);
     }
     below->plane = memo->plane;
     below->key = (uint32_t)j;
-    below->height = p->fixed.margins[j] * length - highest;
+    below->height = p->fixed.margins[j] * length + highest;
   }
   if (!(above->height > below->height + nsvcd__clearance(p) * length)) return 0;
-  nsvcd__certify_patch_pair(p, interval, item);
+  NSVCD__CERTIFY(NSVCD__BY_HULL, i, j, NSVCD_NONE, NSVCD_NONE, interval->t_start,
+                 interval->t_end, &n.x);
   return 1;
 }
 
@@ -14407,9 +14281,7 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
 static int nsvcd__is_separated(nsvcd__proof *p, const nsvcd__search *search,
                                const nsvcd__patch_pair *item) {
   const nsvcd__interval *interval = nsvcd__segment_interval(p, search, item->segment);
-  if (!nsvcd__hulls_are_apart(p, item->moving, item->fixed, interval)) return 0;
-  nsvcd__certify_patch_pair(p, interval, item);
-  return 1;
+  return nsvcd__hulls_are_apart(p, item->moving, item->fixed, interval);
 }
 
 // Is a patch pair to be looked at before another? Deepest first. For the first contact: earliest
@@ -14502,7 +14374,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
   size_t count = 0;
   nsvcd__clip_segment(p, search);
   for (size_t n = 0; n < p->fresh_count; n++) {
-    if (p->memo.plane && nsvcd__held_again(p, search, &p->fresh[n])) continue;
+    if (nsvcd__held_again(p, search, &p->fresh[n])) continue;
     p->fresh[count++] = p->fresh[n];
   }
   p->fresh_count = 0;
@@ -14517,7 +14389,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
     if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
     nsvcd__clip_segment(p, search);
     if (!nsvcd__matters(p, search, item->segment)) continue;
-    if (p->memo.plane && nsvcd__held_again(p, search, item)) continue;
+    if (nsvcd__held_again(p, search, item)) continue;
     if (nsvcd__is_separated(p, search, item)) continue;
     double u;
     const uint32_t first = nsvcd__arc_of(p->ask.motion, search->begin[item->segment], &u);
@@ -14558,7 +14430,7 @@ static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *se
   for (size_t n = 0; n < p->fresh_count && nsvcd__collects_on(p); n++) {
     const nsvcd__patch_pair *item = &p->fresh[n];
     NSVCD__PAUSE(p);
-    if (p->memo.plane && nsvcd__held_again(p, search, item)) continue;
+    if (nsvcd__held_again(p, search, item)) continue;
     if (nsvcd__is_separated(p, search, item)) continue;
     if (p->ask.collects == NSVCD__TOUCHING) {
       if (p->normal_count > 0) {
@@ -14591,8 +14463,8 @@ static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
       const nsvcd__v3 moving = nsvcd__hull_of(&p->moving, item->moving, l);
       const nsvcd__v3 fixed = nsvcd__hull_of(&p->fixed, item->fixed, l);
       const nsvcd__v height = nsvcd__v3_dot(back, nsvcd__v3_transform(pose, moving));
-      by_moving = nsvcd__least_of(by_moving, nsvcd__v_least(height));
-      by_fixed = nsvcd__least_of(by_fixed, nsvcd__v_least(nsvcd__v3_dot(back, fixed)));
+      by_moving = nsvcd__least_of(by_moving, height);
+      by_fixed = nsvcd__least_of(by_fixed, nsvcd__v3_dot(back, fixed));
     }
     most[k] = fminf(moving_more - by_moving, fixed_more - by_fixed);
   }
@@ -15516,7 +15388,7 @@ static double nsvcd__vertices_apart(const nsvcd__proof *p, const nsvcd__transfor
     const nsvcd__v3 fixed = nsvcd__hull_of(&p->fixed, j, l);
     for (size_t n = 0; n < NSVCD__LANES; n++) {
       const nsvcd__v3 d = nsvcd__v3_sub(fixed, nsvcd__v3_set(nsvcd__lane_of(lanes, n)));
-      least = nsvcd__least_of(least, nsvcd__v_least(nsvcd__v3_dot(d, d)));
+      least = nsvcd__least_of(least, nsvcd__v3_dot(d, d));
     }
   }
   return sqrt((double)least);
@@ -19449,13 +19321,10 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__block NSVCD__AT(block)
 #define nsvcd__block_arm NSVCD__AT(block_arm)
 #define nsvcd__block_bounds NSVCD__AT(block_bounds)
-#define nsvcd__block_box NSVCD__AT(block_box)
-#define nsvcd__block_corners NSVCD__AT(block_corners)
 #define nsvcd__block_lanes NSVCD__AT(block_lanes)
 #define nsvcd__block_load NSVCD__AT(block_load)
 #define nsvcd__block_pose NSVCD__AT(block_pose)
 #define nsvcd__bound_of NSVCD__AT(bound_of)
-#define nsvcd__box_of_lane NSVCD__AT(box_of_lane)
 #define nsvcd__boxes NSVCD__AT(boxes)
 #define nsvcd__boxes_of_groups NSVCD__AT(boxes_of_groups)
 #define nsvcd__by_contact NSVCD__AT(by_contact)
@@ -19479,9 +19348,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__certain_opinion NSVCD__AT(certain_opinion)
 #define nsvcd__certify_block NSVCD__AT(certify_block)
 #define nsvcd__certify_groups NSVCD__AT(certify_groups)
-#define nsvcd__certify_patch_pair NSVCD__AT(certify_patch_pair)
 #define nsvcd__certify_slab NSVCD__AT(certify_slab)
-#define nsvcd__certify_triangle_pair NSVCD__AT(certify_triangle_pair)
 #define nsvcd__changes_sides NSVCD__AT(changes_sides)
 #define nsvcd__choose_all NSVCD__AT(choose_all)
 #define nsvcd__choose_four NSVCD__AT(choose_four)
@@ -19500,7 +19367,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__chords_start NSVCD__AT(chords_start)
 #define nsvcd__chords_store NSVCD__AT(chords_store)
 #define nsvcd__chords_travel NSVCD__AT(chords_travel)
-#define nsvcd__clamp01 NSVCD__AT(clamp01)
 #define nsvcd__clear_until NSVCD__AT(clear_until)
 #define nsvcd__clearance NSVCD__AT(clearance)
 #define nsvcd__clip_segment NSVCD__AT(clip_segment)
@@ -19569,6 +19435,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__gaps_at NSVCD__AT(gaps_at)
 #define nsvcd__given NSVCD__AT(given)
 #define nsvcd__gradient NSVCD__AT(gradient)
+#define nsvcd__greatest_of NSVCD__AT(greatest_of)
 #define nsvcd__group_against_group NSVCD__AT(group_against_group)
 #define nsvcd__group_against_members NSVCD__AT(group_against_members)
 #define nsvcd__group_reach NSVCD__AT(group_reach)
@@ -19579,7 +19446,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__held_again NSVCD__AT(held_again)
 #define nsvcd__hint NSVCD__AT(hint)
 #define nsvcd__hull_of NSVCD__AT(hull_of)
-#define nsvcd__hull_vertices NSVCD__AT(hull_vertices)
 #define nsvcd__hulls_are_apart NSVCD__AT(hulls_are_apart)
 #define nsvcd__id_of NSVCD__AT(id_of)
 #define nsvcd__inputs NSVCD__AT(inputs)
@@ -19642,13 +19508,12 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__layer_tile NSVCD__AT(layer_tile)
 #define nsvcd__least_lane NSVCD__AT(least_lane)
 #define nsvcd__least_of NSVCD__AT(least_of)
-#define nsvcd__left_by_last NSVCD__AT(left_by_last)
+#define nsvcd__left_by_normal NSVCD__AT(left_by_normal)
 #define nsvcd__limit_after NSVCD__AT(limit_after)
 #define nsvcd__limit_of_first NSVCD__AT(limit_of_first)
 #define nsvcd__looks_contained_at_start NSVCD__AT(looks_contained_at_start)
 #define nsvcd__manifold NSVCD__AT(manifold)
 #define nsvcd__manifold_normals NSVCD__AT(manifold_normals)
-#define nsvcd__margin_along NSVCD__AT(margin_along)
 #define nsvcd__mat3_lane NSVCD__AT(mat3_lane)
 #define nsvcd__matters NSVCD__AT(matters)
 #define nsvcd__may_be_close NSVCD__AT(may_be_close)
@@ -19768,7 +19633,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__ray_crosses NSVCD__AT(ray_crosses)
 #define nsvcd__reach_of NSVCD__AT(reach_of)
 #define nsvcd__recede NSVCD__AT(recede)
-#define nsvcd__remember_plane NSVCD__AT(remember_plane)
 #define nsvcd__resolve_doubtful NSVCD__AT(resolve_doubtful)
 #define nsvcd__resolve_normal NSVCD__AT(resolve_normal)
 #define nsvcd__resolve_pair NSVCD__AT(resolve_pair)

@@ -28,46 +28,47 @@ static NSVCD__NOINLINE int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_
   for (size_t a = moving_first; a < moving_end; a++) {
     const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, top);
     if ((a - moving_first) % 4 == 0) p->work++;
-    if (!nsvcd__plane_separates(p, &pair, u0, u1, p->memo.separating)) return 0;
+    if (!nsvcd__plane_separates(p, &pair, u0, u1)) return 0;
   }
 #ifdef NSVCD__CERTIFIES
   for (size_t a = moving_first; a < moving_end; a++) {
     for (size_t b = fixed_first; b < fixed_end; b++) {
       const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, b);
-      nsvcd__certify_triangle_pair(p, &pair, u0, u1);
+      (void)nsvcd__plane_separates(p, &pair, u0, u1);
     }
   }
 #endif
   return 1;
 }
 
-// Lane l of the moving block, posed at both ends of a interval from u0 to u1 of the arc, and block
-// n of the window: triangle pairs that planes do not part are resolved one by one, and what parts
-// one may part others, or, ALL_SETTLED, all of both patches. TOO_LONG when they have asked for more
-// than `patience` parts of the interval; without any, when there is such a triangle pair.
-static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t i, size_t j, size_t l,
-                                         size_t n, const nsvcd__interval *interval,
+// Lane l of the moving block, posed at both ends of an interval from u0 to u1 of the arc, and a
+// block of the window: the triangle pairs that no plane separates are resolved one by one. The
+// plane that separates one may separate others or, ALL_RESOLVED, all of both patches. TOO_LONG: they
+// ask for more than `patience` parts of the interval or, without any, there is such a triangle pair.
+static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
                                          nsvcd__arm arm, float margin, double u0, double u1,
                                          size_t patience) {
-  nsvcd__block *fixed = &p->fixed_blocks[n];
+  const nsvcd__interval *interval = p->over;
+  const size_t i = p->moving_block.patch;
+  const size_t j = fixed->patch;
   const float errors = nsvcd__quanta_of(p, i, j);
   p->work++;
-  uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 2, interval, margin);
+  uint32_t met = nsvcd__row_left(p, l, fixed, margin);
   for (; met; met &= met - 1) {
     const nsvcd__d3 before = p->memo.separating;
     const nsvcd__f3 last = nsvcd__f3_round(before);
     const float along = errors + interval->rounding + nsvcd__clearance(p) +
                         nsvcd__deviation_of(interval, last, arm);
-    met = nsvcd__left_by_last(p, i, j, l, fixed, 2, interval, along, met);
+    met = nsvcd__left_by_normal(p, l, fixed, NSVCD__LAST_NORMAL, along, met);
     if (!met) break;
     if (patience == 0) return NSVCD__TOO_LONG;
     if (p->memo.shared > NSVCD__SHARED * p->all_tried) {
       p->all_tried++;
       if (nsvcd__patches_apart(p, i, j, u0, u1)) return NSVCD__ALL_RESOLVED;
     }
-    const size_t entry = p->moving_block.first + l;
-    const nsvcd__triangle_pair pair =
-        nsvcd__pair_of(p, i, j, entry, fixed->first + nsvcd__low_bit(met));
+    const size_t a = p->moving_block.first + l;
+    const size_t b = fixed->first + nsvcd__low_bit(met);
+    const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, b);
     const nsvcd__outcome one = nsvcd__resolve_pair(p, &pair, u0, u1);
     if (one != NSVCD__RESOLVED) return one;
     if (p->parts > patience) return NSVCD__TOO_LONG;
@@ -77,7 +78,7 @@ static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t i, size_t j, si
   return NSVCD__RESOLVED;
 }
 
-// All triangle pairs of a patch pair's patches over a interval from u0 to u1 of the arc.
+// All triangle pairs of patches i and j over an interval from u0 to u1 of the arc.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, size_t i,
                                                                size_t j,
                                                                const nsvcd__interval *interval,
@@ -88,10 +89,11 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
   const nsvcd__f3 axis = nsvcd__own_axis(interval);
   const float stays = nsvcd__quanta_of(p, i, j) +
                       (interval->rounding + interval->origin_bend) + nsvcd__clearance(p);
-  const float extent = p->moving.body->extent + p->moving.errors[i];
+  const float error = p->moving.errors[i];
+  const float extent = p->moving.body->extent + error;
   const nsvcd__arm all = {extent, extent};
-  const int bends =
-      interval->bend * extent > 0.25f * stays;  // else it is not worth to look closely
+  // else arms of blocks gain little
+  const int bends = interval->bend * extent > 0.25f * stays;
   p->parts = 0;
   p->all_tried = 0;
   for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
@@ -99,24 +101,19 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
     nsvcd__window_load(p, j, b);
     for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
       nsvcd__moving_block_load(p, i, a);
-      const nsvcd__arm arm = bends ? nsvcd__block_arm(p, axis, p->moving.errors[i]) : all;
+      const nsvcd__arm arm = bends ? nsvcd__block_arm(&p->moving_block, axis, error) : all;
       const float margin = stays + nsvcd__bend_of(interval, arm);
-      nsvcd__block_pose(p, &interval->start, 0);
-      nsvcd__block_pose(p, &interval->end, 1);
-      nsvcd__block_box(p, 2);
+      nsvcd__block_pose(p, NULL, interval);
       for (size_t n = 0; n < p->memo.window; n++) {
         nsvcd__block *fixed = &p->fixed_blocks[n];
         const uint32_t nearby = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
-        const uint32_t lanes =
-            nsvcd__lanes_left_by_last(p, i, j, fixed, 2, interval, margin, nearby);
+        NSVCD__CERTIFY_BLOCK(p, ~nearby, fixed, 0xffff, 0, NULL, 0);
+        uint32_t lanes = nsvcd__lanes_left_by_last(p, fixed, margin, nearby);
         p->work++;
         if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
-        for (size_t l = 0; l < p->moving_block.count; l++) {
-          if (!(nearby >> l & 1))
-            NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, interval, 0xffff, 0, NULL, 0);
-          if (!(lanes >> l & 1)) continue;
-          const nsvcd__outcome row =
-              nsvcd__resolve_row(p, i, j, l, n, interval, arm, margin, u0, u1, patience);
+        for (; lanes; lanes &= lanes - 1) {
+          const nsvcd__outcome row = nsvcd__resolve_row(p, nsvcd__low_bit(lanes), fixed, arm,
+                                                        margin, u0, u1, patience);
           if (row == NSVCD__ALL_RESOLVED) return NSVCD__RESOLVED;
           if (row != NSVCD__RESOLVED) return row;
         }
@@ -126,21 +123,13 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
   return NSVCD__RESOLVED;
 }
 
-static void nsvcd__certify_patch_pair(const nsvcd__proof *p, const nsvcd__interval *interval,
-                                      const nsvcd__patch_pair *item) {
-  const float normal[3] = {p->memo.held.x, p->memo.held.y, p->memo.held.z};
-  NSVCD__CERTIFY(NSVCD__BY_HULL, item->moving, item->fixed, NSVCD_NONE, NSVCD_NONE,
-                 interval->t_start, interval->t_end, normal);
-  (void)normal;
-  (void)interval;
-  (void)item;
-}
-
 // Resolves a patch pair that no plane separates over its segment, arc by arc. Each arc is halved as
 // often as need be: a part of it is separated by a plane between the hulls, or by its triangles.
 static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__search *search,
                                                 const nsvcd__patch_pair *item) {
   const nsvcd__motion *motion = p->ask.motion;
+  const size_t i = item->moving;
+  const size_t j = item->fixed;
   const uint32_t last = search->begin[item->segment + 1u];
   double *ends = p->arc_ends;
   int is_tried = 1;  // is it all of the segment?
@@ -157,16 +146,13 @@ static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__se
       const double end = nsvcd__min(ends[left - 1], nsvcd__arc_limit(p));
       if (!(u < end)) break;
       p->interval = nsvcd__interval_of_arc(p, first, u, end);
-      const int apart =
-          !is_tried && nsvcd__hulls_are_apart(p, item->moving, item->fixed, &p->interval);
+      const int apart = !is_tried && nsvcd__hulls_are_apart(p, i, j, &p->interval);
       is_tried = 0;
-      if (apart) {
-        nsvcd__certify_patch_pair(p, &p->interval, item);
-      } else {
+      if (!apart) {
         const int may_halve = end - u > NSVCD__SHORTEST && left < NSVCD__ARC_PARTS;
         const size_t patience = may_halve ? NSVCD__PATIENCE_TO_PART : (size_t)-1;
-        const nsvcd__outcome part = nsvcd__resolve_triangles(p, item->moving, item->fixed,
-                                                             &p->interval, u, end, patience);
+        const nsvcd__outcome part =
+            nsvcd__resolve_triangles(p, i, j, &p->interval, u, end, patience);
         if (part == NSVCD__ANSWERED || part == NSVCD__EXHAUSTED) return part;
         if (part == NSVCD__TOO_LONG) ends[left++] = 0.5 * (u + end);
         if (part != NSVCD__RESOLVED) continue;
@@ -195,6 +181,7 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
   nsvcd__height *above =
       &memo->heights[(NSVCD__GROUP * s + i % NSVCD__GROUP) % NSVCD__HEIGHTS];
   nsvcd__height *below = &memo->rest_heights[j % NSVCD__REST_HEIGHTS];
+  if (!memo->plane) return 0;
   if (above->plane != memo->plane || above->key != key) {
     float lowest = HUGE_VALF;
     NSVCD__EACH_SLICE(l) {
@@ -203,7 +190,7 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
       const nsvcd__v at_start =
           nsvcd__v3_dot(normal, nsvcd__v3_transform(&interval->start, hull));
       const nsvcd__v at_end = nsvcd__v3_dot(normal, nsvcd__v3_transform(&interval->end, hull));
-      lowest = nsvcd__least_of(lowest, nsvcd__v_least(nsvcd__v_min(at_start, at_end)));
+      lowest = nsvcd__least_of(lowest, nsvcd__v_min(at_start, at_end));
     }
     const float margin =
         (p->ask.motion->scale * p->moving.margins[i] + interval->rounding) * length;
@@ -214,18 +201,18 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
         nsvcd__deviation_of(interval, n, nsvcd__patch_arm(&p->moving, i, interval));
   }
   if (below->plane != memo->plane || below->key != j) {
-    // negated
-    float highest = HUGE_VALF;
+    float highest = -HUGE_VALF;
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v height = nsvcd__v3_dot(nsvcd__v3_set(n), nsvcd__hull_of(&p->fixed, j, l));
-      highest = nsvcd__least_of(highest, nsvcd__v_least(nsvcd__v_negate(height)));
+      highest = nsvcd__greatest_of(highest, height);
     }
     below->plane = memo->plane;
     below->key = (uint32_t)j;
-    below->height = p->fixed.margins[j] * length - highest;
+    below->height = p->fixed.margins[j] * length + highest;
   }
   if (!(above->height > below->height + nsvcd__clearance(p) * length)) return 0;
-  nsvcd__certify_patch_pair(p, interval, item);
+  NSVCD__CERTIFY(NSVCD__BY_HULL, i, j, NSVCD_NONE, NSVCD_NONE, interval->t_start,
+                 interval->t_end, &n.x);
   return 1;
 }
 
@@ -233,9 +220,7 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
 static int nsvcd__is_separated(nsvcd__proof *p, const nsvcd__search *search,
                                const nsvcd__patch_pair *item) {
   const nsvcd__interval *interval = nsvcd__segment_interval(p, search, item->segment);
-  if (!nsvcd__hulls_are_apart(p, item->moving, item->fixed, interval)) return 0;
-  nsvcd__certify_patch_pair(p, interval, item);
-  return 1;
+  return nsvcd__hulls_are_apart(p, item->moving, item->fixed, interval);
 }
 
 // Is a patch pair to be looked at before another? Deepest first. For the first contact: earliest
@@ -328,7 +313,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
   size_t count = 0;
   nsvcd__clip_segment(p, search);
   for (size_t n = 0; n < p->fresh_count; n++) {
-    if (p->memo.plane && nsvcd__held_again(p, search, &p->fresh[n])) continue;
+    if (nsvcd__held_again(p, search, &p->fresh[n])) continue;
     p->fresh[count++] = p->fresh[n];
   }
   p->fresh_count = 0;
@@ -343,7 +328,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
     if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
     nsvcd__clip_segment(p, search);
     if (!nsvcd__matters(p, search, item->segment)) continue;
-    if (p->memo.plane && nsvcd__held_again(p, search, item)) continue;
+    if (nsvcd__held_again(p, search, item)) continue;
     if (nsvcd__is_separated(p, search, item)) continue;
     double u;
     const uint32_t first = nsvcd__arc_of(p->ask.motion, search->begin[item->segment], &u);
@@ -384,7 +369,7 @@ static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *se
   for (size_t n = 0; n < p->fresh_count && nsvcd__collects_on(p); n++) {
     const nsvcd__patch_pair *item = &p->fresh[n];
     NSVCD__PAUSE(p);
-    if (p->memo.plane && nsvcd__held_again(p, search, item)) continue;
+    if (nsvcd__held_again(p, search, item)) continue;
     if (nsvcd__is_separated(p, search, item)) continue;
     if (p->ask.collects == NSVCD__TOUCHING) {
       if (p->normal_count > 0) {
@@ -417,8 +402,8 @@ static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
       const nsvcd__v3 moving = nsvcd__hull_of(&p->moving, item->moving, l);
       const nsvcd__v3 fixed = nsvcd__hull_of(&p->fixed, item->fixed, l);
       const nsvcd__v height = nsvcd__v3_dot(back, nsvcd__v3_transform(pose, moving));
-      by_moving = nsvcd__least_of(by_moving, nsvcd__v_least(height));
-      by_fixed = nsvcd__least_of(by_fixed, nsvcd__v_least(nsvcd__v3_dot(back, fixed)));
+      by_moving = nsvcd__least_of(by_moving, height);
+      by_fixed = nsvcd__least_of(by_fixed, nsvcd__v3_dot(back, fixed));
     }
     most[k] = fminf(moving_more - by_moving, fixed_more - by_fixed);
   }

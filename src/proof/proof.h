@@ -248,7 +248,7 @@ typedef struct nsvcd__interval {
 typedef struct nsvcd__block {
   float corners[3][3][NSVCD__LANES];
   float low[3][NSVCD__LANES], high[3][NSVCD__LANES];
-  size_t first, count;  // entries
+  size_t patch, first, count;  // entries
 } nsvcd__block;
 
 typedef struct nsvcd__pair_contact {
@@ -470,11 +470,15 @@ typedef struct nsvcd__proof {
   } of;
 
   // A patch pair: its hulls, posed, and its triangles, block by block, with boxes about the fixed
-  // blocks; corners of the moving block at the ends of a interval.
+  // blocks.
   float hull_start[3][NSVCD__LANES], hull_end[3][NSVCD__LANES], hull_rest[3][NSVCD__LANES];
   nsvcd__block moving_block, fixed_blocks[NSVCD__WINDOW];
   nsvcd__box bounds[NSVCD__WINDOW];
-  float posed[2][3][3][NSVCD__LANES];
+  // The moving block's corners at the start of the interval `over`, and at its end (corner, axis,
+  // lane). NULL: 3, at one pose.
+  const nsvcd__interval *over;
+  float corners[6][3][NSVCD__LANES];
+  size_t corner_count;
 
   // A patch pair over an arc, and a triangle pair: later ends of the parts to come, the last one
   // first; and how many parts of the interval its triangle pairs asked for.
@@ -491,15 +495,7 @@ typedef struct nsvcd__proof {
 
 // Forgets all that is only remembered. The tests do so at random, where NSVCD__PAUSE stands.
 static void nsvcd__forget(nsvcd__memo *memo) {
-  for (size_t n = 0; n < NSVCD__PLACED; n++) memo->placed[n].ticks = 0;
-  memo->next_placed = 0;
-  memo->intervals = 0;
-  memo->held = nsvcd__f3_of(0, 0, 0);
-  memo->plane = 0;
-  memo->separating = nsvcd__d3_of(0, 0, 0);
-  memo->shared = 0;
-  memo->window = 0;
-  memo->has_block = 0;
+  memset(memo, 0, sizeof *memo);
 }
 #ifndef NSVCD__PAUSE
 #define NSVCD__PAUSE(p) ((void)0)
@@ -570,7 +566,8 @@ static nsvcd__arm nsvcd__arm_of(nsvcd__f3 centre, float radius, nsvcd__f3 axis) 
 #ifndef NSVCD__CERTIFY
 #define NSVCD__CERTIFY(kind, moving, fixed, moving_entry, fixed_entry, t_start, t_end, \
                        normal) \
-  ((void)0)
+  ((void)(moving), (void)(fixed), (void)(moving_entry), (void)(fixed_entry), (void)(t_start), \
+   (void)(t_end), (void)(normal))
 #endif
 enum { NSVCD__BY_SLAB, NSVCD__BY_HULL, NSVCD__BY_TRIANGLES };
 #endif  // NSVCD_NO_PROOF

@@ -1,5 +1,4 @@
-// In: two triangles and a interval. Out: separated, or in contact, or neither as long as it is
-// halved.
+// In: two triangles and an interval. Out: they are separated, or in contact, or too near to tell.
 #pragma once
 #include "../ground/triangles.h"
 #include "motion_bounds.h"
@@ -138,10 +137,10 @@ static double nsvcd__off_chord_along(const nsvcd__arc *arc, const nsvcd__triangl
   return turn + arc->twist * pair->from_origin + arc->origin_bend;
 }
 
-// Does the plane with this unit normal part the triangle pair from u0 to u1 of the arc?
+// Does the plane that separated a triangle pair last separate this one from u0 to u1 of the arc?
 static int nsvcd__plane_separates(nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0,
-                                  double u1, nsvcd__d3 normal) {
-  const nsvcd__arc *arc = &p->arc;
+                                  double u1) {
+  const nsvcd__d3 normal = p->memo.separating;
   const nsvcd__dtransform *start = nsvcd__placed_at(p, u0);
   const nsvcd__dtransform *end = nsvcd__placed_at(p, u1);
   double lowest = HUGE_VAL;
@@ -153,9 +152,14 @@ static int nsvcd__plane_separates(nsvcd__proof *p, const nsvcd__triangle_pair *p
     lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_end));
     highest = nsvcd__max(highest, nsvcd__d3_dot(normal, pair->fixed[k]));
   }
-  const double off = nsvcd__off_chord_along(arc, pair, normal);
+  const double off = nsvcd__off_chord_along(&p->arc, pair, normal);
   const double deviation = (u1 - u0) * (u1 - u0) * off;
-  return lowest - highest > p->ask.clearance + pair->margin + deviation;
+  if (!(lowest - highest > p->ask.clearance + pair->margin + deviation)) return 0;
+  const float out[3] = {(float)normal.x, (float)normal.y, (float)normal.z};
+  NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, pair->moving_patch, pair->fixed_patch,
+                 pair->moving_entry, pair->fixed_entry, nsvcd__time_in_arc(p, u0),
+                 nsvcd__time_in_arc(p, u1), out);
+  return 1;
 }
 
 // Is the foot of x on the plane of a triangle within it, farther than `margin` from its edges?
@@ -251,20 +255,6 @@ static int nsvcd__pair_passes(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
     }
   }
   return 0;
-}
-
-static void nsvcd__certify_triangle_pair(const nsvcd__proof *p,
-                                         const nsvcd__triangle_pair *pair, double u0,
-                                         double u1) {
-  const nsvcd__f3 plane = nsvcd__d3_narrow(p->memo.separating);
-  const float normal[3] = {plane.x, plane.y, plane.z};
-  NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, pair->moving_patch, pair->fixed_patch,
-                 pair->moving_entry, pair->fixed_entry, nsvcd__time_in_arc(p, u0),
-                 nsvcd__time_in_arc(p, u1), normal);
-  (void)pair;
-  (void)normal;
-  (void)u0;
-  (void)u1;
 }
 
 // A share u of the arc later than its start: the nearest points of a triangle pair.
@@ -413,15 +403,12 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
   const nsvcd__arc *arc = &p->arc;
   const nsvcd__d3 from = nsvcd__placed_at(p, 0)->position;
   const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__placed_at(p, 1)->position, from);
-  const double close = pair->close;
-  nsvcd__d3 *plane = &p->memo.separating;
   double at = u0;
   int shrunk = 0;
   size_t steps = 0;
   const double all = nsvcd__min(u1, nsvcd__arc_limit(p));
-  if (u0 < all && nsvcd__plane_separates(p, pair, u0, all, *plane)) {
+  if (u0 < all && nsvcd__plane_separates(p, pair, u0, all)) {
     p->work++;
-    nsvcd__certify_triangle_pair(p, pair, u0, all);
     return NSVCD__RESOLVED;
   }
   for (double u = u0;;) {  // before u it is separated
@@ -444,14 +431,11 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
       continue;
     }
     const double beyond = nsvcd__aim_plane(p, pair, at, &nearest);
-    const double fall = -nsvcd__d3_dot(*plane, moved);
+    const double fall = -nsvcd__d3_dot(p->memo.separating, moved);
     const double room = beyond - p->ask.clearance - pair->margin - pair->rounding;
     const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;
-    if (u < until && nsvcd__plane_separates(p, pair, u, until, *plane)) {
-      nsvcd__certify_triangle_pair(p, pair, u, until);
-      u = until;
-    }
-    const int is_short = !(room > 0) || arc->speed * (at - u) <= 0.25 * close;
+    if (u < until && nsvcd__plane_separates(p, pair, u, until)) u = until;
+    const int is_short = !(room > 0) || arc->speed * (at - u) <= 0.25 * pair->close;
     const int is_unresolved = fall > 0 ? !(at < end) : is_short;
     if (u < end && (is_unresolved || steps++ == NSVCD__HALVINGS)) {
       // what follows is no nearer
@@ -475,8 +459,6 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
   const nsvcd__arc *arc = &p->arc;
   if (nsvcd__is_straight(arc)) return nsvcd__resolve_straight(p, pair, u0, u1);
   const double speed = arc->speed + arc->turn * arc->scale * pair->from_axis;
-  const double close = pair->close;
-  nsvcd__d3 *plane = &p->memo.separating;
   double *ends = p->pair_ends;
   size_t left = 1;
   size_t unresolved_count = 0;
@@ -490,7 +472,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
     p->work++;
     NSVCD__TALLY(pairs, 1);
     if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
-    int apart = nsvcd__plane_separates(p, pair, u, end, *plane);
+    int apart = nsvcd__plane_separates(p, pair, u, end);
     if (!apart) {
       const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
       const double distance = sqrt(nearest.square);
@@ -501,12 +483,10 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
         continue;
       }
       (void)nsvcd__aim_plane(p, pair, middle, &nearest);
-      apart = nsvcd__plane_separates(p, pair, u, end, *plane);
+      apart = nsvcd__plane_separates(p, pair, u, end);
     }
-    if (apart) {
-      nsvcd__certify_triangle_pair(p, pair, u, end);
-    } else {
-      const double least = 0.25 * close * (double)(1 + unresolved_count);
+    if (!apart) {
+      const double least = 0.25 * pair->close * (double)(1 + unresolved_count);
       const int is_short = speed * (end - u) <= least || left > NSVCD__HALVINGS;
       if (!is_short) {
         ends[left++] = middle;

@@ -325,7 +325,7 @@ static double nsvcd__vertices_apart(const nsvcd__proof *p, const nsvcd__transfor
     const nsvcd__v3 fixed = nsvcd__hull_of(&p->fixed, j, l);
     for (size_t n = 0; n < NSVCD__LANES; n++) {
       const nsvcd__v3 d = nsvcd__v3_sub(fixed, nsvcd__v3_set(nsvcd__lane_of(lanes, n)));
-      least = nsvcd__least_of(least, nsvcd__v_least(nsvcd__v3_dot(d, d)));
+      least = nsvcd__least_of(least, nsvcd__v3_dot(d, d));
     }
   }
   return sqrt((double)least);
