@@ -111,7 +111,7 @@ knots of one body only|return after_a < after_b ? after_a : after_b;|return afte
 group without scale|  sphere.radius *= search->scale;\n|
 members without scale|nsvcd__v_fma(nsvcd__v_set(scale), radius, deviation);|nsvcd__v_add(radius, deviation);
 discs without scale|nsvcd__v_mul(a->scale, nsvcd__v3_dot(w, w)); const nsvcd__v across = nsvcd__v_mul(a->scale, nsvcd__v3_length(a->turned));|nsvcd__v3_dot(w, w);\n  const nsvcd__v across = nsvcd__v3_length(a->turned);
-disc without clearance|a.clearance = nsvcd__clearance(p); a.radius = radius;|a.clearance = 0; a.radius = radius;
+disc without clearance|a.clearance = nsvcd__clearance(p);\n  a.radius = search->extent;|a.clearance = 0;\n  a.radius = search->extent;
 moving disc without clearance|nsvcd__v_plus(a->interval.rounding, a->clearance);|a->interval.rounding;
 groups without clearance|a.clearance = nsvcd__clearance(p); a.radius = nsvcd__group_reach|a.clearance = 0; a.radius = nsvcd__group_reach
 held plane without clearance|below->height + nsvcd__clearance(p) * length|below->height
@@ -228,7 +228,7 @@ asks: contacts that hold less|if (!(spanned > 1.001 * *area)) continue;|if (*are
 asks: contacts of one normal|int tries = nsvcd__manifold_normals(p, \&found, \&twist, normals);|int tries = nsvcd__manifold_normals(p, \&found, \&twist, normals) > 0;
 asks: all of a short way|fmax(0.25 * whole,|fmax(whole,
 asks: nothing between the directions|area > NSVCD__SLIM * square) return 0;|area >= 0) return 0;
-asks: few places looked at|if (looks == NSVCD__HOLDS|if (looks == 3
+asks: few places looked at|if (tries == NSVCD__CONTACT_PAIRS|if (tries == 3
 robot: joints that do not bend|bend += step->bend[j] * arms[j];|(void)bend;
 robot: half the bend|bend += step->bend[j] * arms[j];|bend += 0.5 * step->bend[j] * arms[j];
 robot: joints that do not turn each other|(2 * inner + own)|(own)

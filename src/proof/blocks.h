@@ -44,8 +44,8 @@ static void nsvcd__block_load(const nsvcd__geometry *f, size_t patch, size_t fir
   }
 }
 
-// Poses the corners of the moving block at both ends of an interval, and replaces its boxes by those
-// of the posed corners. Without an interval, NULL: at the pose `at` alone.
+// Poses the corners of the moving block at both ends of an interval, and replaces its boxes by
+// those of the posed corners. Without an interval, NULL: at the pose `at` alone.
 static NSVCD__NOINLINE void nsvcd__block_pose(nsvcd__proof *p, const nsvcd__transform *at,
                                               const nsvcd__interval *over) {
   p->over = over;

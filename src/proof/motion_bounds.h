@@ -1,36 +1,40 @@
-// In: a segment, or an arc and two shares of it. Out: a interval: the poses at both ends, and by
-// how much a point may leave the chord in between.
+// In: a segment, or an arc and two fractions of it. Out: an interval: the poses at both ends, and
+// how far points deviate from their chords in between.
 #pragma once
 #include "../motion/segments.h"
 #include "poses.h"
 
 #ifndef NSVCD_NO_PROOF
-// The time at which so many ticks have gone by.
+// The time of a tick, t in [0,1].
 static double nsvcd__time_of(const nsvcd__motion *motion, double ticks) {
   return motion->begin + motion->duration * ticks / (double)motion->ticks;
 }
 
-// The time a share u of the arc last asked for later than its start.
+// The time of fraction u of p->arc.
 static double nsvcd__time_in_arc(const nsvcd__proof *p, double u) {
   return nsvcd__time_of(p->ask.motion, (double)p->arc.first + u * (double)p->arc.ticks);
 }
 
-// Leaves of the segments, whose ticks have become so much finer, a part of the motion, from one
-// place to another. These are in segments: 1.5 is in the middle of the second.
+// The tick of a position counted in segments: 1.5 is in the middle of the second.
+static double nsvcd__tick_in_segments(const uint32_t *begin, double at) {
+  const size_t s = (size_t)at;
+  const double start = (double)begin[s];
+  const double fraction = at - (double)s;
+  return fraction > 0 ? start + fraction * ((double)begin[s + 1] - start) : start;
+}
+
+// Leaves the part of the segments between two positions, in ticks so many times finer.
 static void nsvcd__narrow_segments(nsvcd__search *search, double from, double to,
                                    double finer) {
   uint32_t *begin = search->begin;
+  const double start = nsvcd__tick_in_segments(begin, from);
+  const double end = nsvcd__tick_in_segments(begin, to);
   const size_t first = (size_t)from;
   const size_t last = (size_t)to;
-  const double fraction = to - (double)last;
-  double end = (double)begin[last];
-  if (fraction > 0) end += fraction * ((double)begin[last + 1] - end);
-  const double start = (double)begin[first];
-  const double into = (from - (double)first) * ((double)begin[first + 1] - start);
-  search->segments = last - first + (fraction > 0);
+  search->segments = last - first + (to > (double)last);
   for (size_t s = 1; s < search->segments; s++)
     begin[s] = (uint32_t)(finer * (double)begin[first + s]);
-  begin[0] = (uint32_t)(finer * (start + into));
+  begin[0] = (uint32_t)(finer * start);
   begin[search->segments] = (uint32_t)(finer * end);
 }
 
@@ -58,7 +62,7 @@ static nsvcd__interval nsvcd__interval_of_segment(const nsvcd__motion *motion,
   return interval;
 }
 
-// Kept once it has been made.
+// Kept once it has been made, up to the end of what matters.
 static const nsvcd__interval *nsvcd__segment_interval(nsvcd__proof *p,
                                                       const nsvcd__search *search, size_t s) {
   if (!(p->memo.intervals >> s & 1)) {
@@ -95,12 +99,27 @@ static nsvcd__interval nsvcd__interval_of_arc(nsvcd__proof *p, uint32_t first, d
   return interval;
 }
 
-// The axis as the moving body has it, unit.
+// The axis in the moving body's frame, unit.
 static nsvcd__f3 nsvcd__own_axis(const nsvcd__interval *interval) {
   const nsvcd__f3 axis =
       nsvcd__mat3_apply_transpose(&interval->start.rotation, interval->axis);
   const float length = nsvcd__f3_length(axis);
   return nsvcd__f3_scale(axis, length > 0 ? 1 / length : 0);
+}
+
+// How far points of the moving body are, at most, in its own units: from its origin, and from the
+// line through that along the axis of a turn.
+typedef struct nsvcd__arm {
+  float from_origin, from_axis;
+} nsvcd__arm;
+
+// Of a sphere. axis: unit to rounding, in the body's frame.
+static nsvcd__arm nsvcd__arm_of(nsvcd__f3 centre, float radius, nsvcd__f3 axis) {
+  const float distance = nsvcd__f3_length(centre);
+  const float aside = nsvcd__f3_length(nsvcd__f3_cross(centre, axis));
+  const nsvcd__arm out = {1.000001f * (distance + radius),
+                          1.000001f * (aside + radius) + 1e-6f * distance};
+  return out;
 }
 
 // Of a patch's pieces.
@@ -110,9 +129,9 @@ static nsvcd__arm nsvcd__patch_arm(const nsvcd__geometry *f, size_t patch,
   return nsvcd__arm_of(nsvcd__patch_centre(f, patch), radius, nsvcd__own_axis(interval));
 }
 
-// What points leave their chords by for the turn's sake, along any direction: |D x|, with D the
-// difference between the true rotation and the chord's at some time. Split x into its parts along
-// a', the axis as the moving body has it, and across it: then
+// The deviation that the turn causes, along any direction: |D x|, with D the difference between the
+// true rotation and the chord's at some time. Split x into its parts along a', the axis in the
+// moving body's frame, and across it: then
 //   |D x| <= |D| |x x a'| + |D a'| |x.a'|
 // and |D a'| is |D^T axis|, since both ends of the chord take a' to the axis.
 static float nsvcd__bend_of(const nsvcd__interval *interval, nsvcd__arm arm) {
@@ -121,11 +140,11 @@ static float nsvcd__bend_of(const nsvcd__interval *interval, nsvcd__arm arm) {
   return fminf(interval->bend * arm.from_origin, by_axis);
 }
 
-// What the points of the moving body leave their chords by along a direction n, times its length,
-// but for rounding (which is times |n| too). With d the difference of the positions, a point x is
-// off by n.(D x + d). Split n into its parts along the axis and across it: then
+// The deviation of points of the moving body along a direction n, times its length, without
+// rounding (which is times |n| too). With d the difference of the positions, a point x is off by
+// n.(D x + d). Split n into its parts along the axis and across it: then
 //   |n.D x| <= |n.axis| |D^T axis| |x| + |n x axis| |D x|
-// and |n.d| is bounded in the same way, or with the way of the origin in place of the axis.
+// and |n.d| is bounded in the same way, or with the heading in place of the axis.
 static float nsvcd__deviation_of(const nsvcd__interval *interval, nsvcd__f3 n,
                                  nsvcd__arm arm) {
   const float along = fabsf(nsvcd__f3_dot(n, interval->axis));
@@ -140,7 +159,7 @@ static float nsvcd__deviation_of(const nsvcd__interval *interval, nsvcd__f3 n,
   return origin_bend + turn + across * nsvcd__bend_of(interval, arm);
 }
 
-// The same for a slice of directions, or one direction in a slice of intervals.
+// The same for a slice of directions, or for one direction in a slice of intervals.
 typedef struct nsvcd__v_interval {
   nsvcd__v3 axis, heading;
   nsvcd__v rounding, origin_bend, bend, bend_along_axis, origin_along_axis, origin_off_heading;
@@ -158,7 +177,7 @@ NSVCD__INLINE nsvcd__v_interval nsvcd__v_interval_set(const nsvcd__interval *int
   out.origin_off_heading = nsvcd__v_set(interval->origin_off_heading);
   return out;
 }
-// Lanes l and on of a block.
+// A slice of a block, from lane l on.
 NSVCD__INLINE nsvcd__v_interval nsvcd__v_interval_load(const nsvcd__segments *block,
                                                        size_t l) {
   nsvcd__v_interval out;

@@ -1,4 +1,4 @@
-// In: fresh patch pairs, as the search finds them. Out: each is separated by a plane between its
+// In: fresh patch pairs, as the search finds them. Out: each is separated, by a plane between its
 // hulls or by its triangles, or in contact, or kept as an unresolved pair.
 #pragma once
 #include "../interface/plans.h"
@@ -6,7 +6,7 @@
 
 #ifndef NSVCD_NO_PROOF
 // Does the plane that separated a triangle pair last separate all of patches i and j from u0 to u1
-// of the arc, in double? Where flat lies on flat by less than floats tell, it mostly does.
+// of the arc, in double? Where flat lies on flat, nearer than floats can tell, it mostly does.
 static NSVCD__NOINLINE int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_t j, double u0,
                                                 double u1) {
   const size_t moving_first = p->moving.first_triangle[i];
@@ -43,8 +43,9 @@ static NSVCD__NOINLINE int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_
 
 // Lane l of the moving block, posed at both ends of an interval from u0 to u1 of the arc, and a
 // block of the window: the triangle pairs that no plane separates are resolved one by one. The
-// plane that separates one may separate others or, ALL_RESOLVED, all of both patches. TOO_LONG: they
-// ask for more than `patience` parts of the interval or, without any, there is such a triangle pair.
+// plane that separates one may separate others or, ALL_RESOLVED, all of both patches. TOO_LONG:
+// they ask for more than `patience` parts of the interval or, without any, there is such a triangle
+// pair.
 static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
                                          nsvcd__arm arm, float margin, double u0, double u1,
                                          size_t patience) {
@@ -123,8 +124,8 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
   return NSVCD__RESOLVED;
 }
 
-// Resolves a patch pair that no plane separates over its segment, arc by arc. Each arc is halved as
-// often as need be: a part of it is separated by a plane between the hulls, or by its triangles.
+// Resolves a patch pair that no plane separates over its segment, arc by arc. An arc is halved
+// until each part is resolved by a plane between the hulls, or by the triangles.
 static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__search *search,
                                                 const nsvcd__patch_pair *item) {
   const nsvcd__motion *motion = p->ask.motion;
@@ -150,7 +151,7 @@ static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__se
       is_tried = 0;
       if (!apart) {
         const int may_halve = end - u > NSVCD__SHORTEST && left < NSVCD__ARC_PARTS;
-        const size_t patience = may_halve ? NSVCD__PATIENCE_TO_PART : (size_t)-1;
+        const size_t patience = may_halve ? NSVCD__FEW_PARTS : (size_t)-1;
         const nsvcd__outcome part =
             nsvcd__resolve_triangles(p, i, j, &p->interval, u, end, patience);
         if (part == NSVCD__ANSWERED || part == NSVCD__EXHAUSTED) return part;
@@ -164,24 +165,23 @@ static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__se
   return NSVCD__RESOLVED;
 }
 
-// Does a plane with the normal that held last part a patch pair's patches over its segment?
-// Neighbours of a patch pair that a plane separates ask for the same again: so heights over it are
-// remembered, of a moving patch in a segment the least, all allowances taken off, and of a resting
-// one the greatest.
+// Does the plane that held last separate a patch pair over its segment, moved along its normal? If
+// it does, the pair's neighbours ask for the same heights: so these are remembered, of a moving
+// patch in a segment the least, less all margins, and of a resting one the greatest.
 static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
                              const nsvcd__patch_pair *item) {
   const size_t i = item->moving;
   const size_t j = item->fixed;
   const size_t s = item->segment;
-  const nsvcd__interval *interval = nsvcd__segment_interval(p, search, s);
   nsvcd__memo *memo = &p->memo;
+  if (!memo->plane) return 0;
+  const nsvcd__interval *interval = nsvcd__segment_interval(p, search, s);
   const nsvcd__f3 n = memo->held;
   const float length = nsvcd__f3_length(n);
   const uint32_t key = (uint32_t)(i * NSVCD__MAX_SEGMENTS + s);
   nsvcd__height *above =
       &memo->heights[(NSVCD__GROUP * s + i % NSVCD__GROUP) % NSVCD__HEIGHTS];
   nsvcd__height *below = &memo->rest_heights[j % NSVCD__REST_HEIGHTS];
-  if (!memo->plane) return 0;
   if (above->plane != memo->plane || above->key != key) {
     float lowest = HUGE_VALF;
     NSVCD__EACH_SLICE(l) {
@@ -216,15 +216,15 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
   return 1;
 }
 
-// Is there any plane that does?
+// Does any plane?
 static int nsvcd__is_separated(nsvcd__proof *p, const nsvcd__search *search,
                                const nsvcd__patch_pair *item) {
   const nsvcd__interval *interval = nsvcd__segment_interval(p, search, item->segment);
   return nsvcd__hulls_are_apart(p, item->moving, item->fixed, interval);
 }
 
-// Is a patch pair to be looked at before another? Deepest first. For the first contact: earliest
-// closest approach within a segment, and earlier segments once a contact is known.
+// Does a patch pair come before another? Deepest first. For the first contact: earliest closest
+// approach within a segment, and earlier segments once a contact is known.
 static int nsvcd__is_before(const nsvcd__proof *p, const nsvcd__patch_pair *a,
                             const nsvcd__patch_pair *b) {
   if (!(p->ask.first > 0)) return a->depth > b->depth;
@@ -248,9 +248,8 @@ static int nsvcd__matters(const nsvcd__proof *p, const nsvcd__search *search, si
   return (double)search->begin[segment] < p->ask.end;
 }
 
-// Where the end of what matters lies within a segment, that segment is cut off there. What leaves a
-// chord by some length leaves that of a part of the time by no more than twice that, along any
-// direction.
+// Clips the segment in which the end of what matters lies. What leaves a chord by some length
+// leaves that of a part of the time by no more than twice that, along any direction.
 static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *search) {
   size_t s = 0;
   double u;
@@ -281,7 +280,7 @@ static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *
   p->clipped |= (uint64_t)1 << s;
   p->memo.intervals &= ~((uint64_t)1 << s);
   search->posed &= ~((uint64_t)1 << s);
-  // heights over the plane that held last are not what they were
+  // the heights over the plane that held last are no longer right
   p->memo.plane += p->memo.plane > 0;
 }
 
@@ -304,8 +303,8 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_patch_pairs(nsvcd__proof *p
   return nsvcd__is_exhausted(p) ? NSVCD__EXHAUSTED : NSVCD__RESOLVED;
 }
 
-// Looks at fresh patch pairs: parts those that planes can part, looks for a witness in the others,
-// and keeps them. The last plane that held is tried on all before anything else: it often holds for
+// Sifts fresh patch pairs: drops those that planes separate, seeks a witness in the others, and
+// keeps them. The plane that held last is tried on all of them first: it often holds for
 // neighbours.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
                                                               nsvcd__search *search) {
@@ -338,14 +337,14 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
       if (outcome != NSVCD__RESOLVED) return outcome;
       continue;
     }
-    if (p->misses >= NSVCD__HOPE) {
+    if (p->misses >= NSVCD__FEW_MISSES) {
       const nsvcd__interval *interval = nsvcd__segment_interval(p, search, item->segment);
       const nsvcd__outcome by_triangles =
           nsvcd__resolve_triangles(p, item->moving, item->fixed, interval, 0, 0, 0);
       if (by_triangles == NSVCD__RESOLVED) continue;
     }
-    const int has_hope = tells_more || p->misses < NSVCD__DESPAIR;
-    if (has_hope && !item->sought &&
+    const int may_meet = tells_more || p->misses < NSVCD__MANY_MISSES;
+    if (may_meet && !item->sought &&
         nsvcd__seek_in_patch_pair(p, search, item) == NSVCD__ANSWERED)
       return NSVCD__ANSWERED;
     p->misses++;
@@ -358,13 +357,13 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
   return NSVCD__RESOLVED;
 }
 
-// Is there room for touches, and a way out of those that were gathered?
+// Is there room for contacts, and can those that were collected still be undone?
 static int nsvcd__collects_on(const nsvcd__proof *p) {
   return p->contact_count < NSVCD__TOUCHES && !p->too_deep;
 }
 
-// Gathers what fresh patch pairs touch at the start, or the patch pairs where contact points may
-// be. SPENT: as much as can be looked at together, or as was allowed.
+// Collects the contacts of fresh patch pairs at the start, or the patch pairs where contact points
+// may be. EXHAUSTED: there is no room for more, or no budget.
 static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *search) {
   for (size_t n = 0; n < p->fresh_count && nsvcd__collects_on(p); n++) {
     const nsvcd__patch_pair *item = &p->fresh[n];
@@ -373,7 +372,7 @@ static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *se
     if (nsvcd__is_separated(p, search, item)) continue;
     if (p->ask.collects == NSVCD__TOUCHING) {
       if (p->normal_count > 0) {
-        // what was pushed out of just so is farther than the clearance by less than floats tell
+        // just pushed out: farther than the clearance by less than floats can tell
         (void)nsvcd__arc_at(p, 0);
         if (nsvcd__patches_apart(p, item->moving, item->fixed, 0, 0)) continue;
       }
@@ -386,8 +385,8 @@ static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *se
   return nsvcd__collects_on(p) && p->work <= p->ask.limit ? NSVCD__RESOLVED : NSVCD__EXHAUSTED;
 }
 
-// How far places on both patches of a patch pair, the moving one posed, can at most be along each
-// of these directions of a manifold: they are within both hulls.
+// Bounds, along directions first .. last - 1 of a manifold, of the points on both patches of a
+// patch pair, the moving one posed: they are in both hulls.
 static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
                             const nsvcd__patch_pair *item, int first, int last, float *most) {
   const nsvcd__manifold *m = &p->of.kept.manifold;
@@ -409,16 +408,16 @@ static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
   }
 }
 
-// The manifold of the patch pairs that were gathered, in directions first to last - 1: at first of
-// those that may be farthest along one, then of what may still be farther. Where bodies are deep in
-// each other there are many, and few of their places are like a contact: so many are looked at, and
-// no more.
+// The manifold of the patch pairs that were collected, in directions first .. last - 1: first of
+// those with the farthest bound along one, then of those that may still be farther. Where bodies
+// are deep in each other there are many, with few points that are like a contact: so only so many
+// are tried.
 static NSVCD__NOINLINE void nsvcd__seek_positions(nsvcd__proof *p, int first, int last) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   nsvcd__patch_pair *items = p->of.kept.items;
   const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(p, 0), 0);
   const nsvcd__transform pose = nsvcd__transform_of(&at);
-  size_t looks = 0;
+  size_t tries = 0;
   float farthest[NSVCD__SUPPORTS];
   size_t best[NSVCD__SUPPORTS] = {0};
   float most[NSVCD__SUPPORTS];
@@ -439,10 +438,11 @@ static NSVCD__NOINLINE void nsvcd__seek_positions(nsvcd__proof *p, int first, in
     nsvcd__bound_of(p, &pose, item, first, last, most);
     for (int k = first; k < last; k++) matters |= (double)most[k] > m->farthest[k] + m->same;
     if (item->sought || !matters) continue;
-    if (looks == NSVCD__HOLDS || (looks == NSVCD__HOPE && !(m->farthest[first] > -HUGE_VAL)))
+    if (tries == NSVCD__CONTACT_PAIRS ||
+        (tries == NSVCD__FEW_MISSES && !(m->farthest[first] > -HUGE_VAL)))
       break;
     item->sought = 1;
-    looks++;
+    tries++;
     (void)nsvcd__find_witness(p, item->moving, item->fixed, 0, 0);
   }
 }

@@ -119,13 +119,13 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   return arc;
 }
 
-// Do all points of the moving body go along straight lines, seen from the fixed one?
+// Do all points of the moving body go along straight lines, as the fixed body sees them?
 static int nsvcd__is_straight(const nsvcd__arc *arc) {
   return !(arc->bend > 0 || arc->twist > 0 || arc->origin_bend > 0);
 }
 
-// The true pose, seen from the fixed body, a share u in [0,1] of the arc later than its start. Its
-// rotation is times the moving body's scale.
+// The true pose at fraction u of the arc, as the fixed body sees it. Its rotation is times the
+// moving body's scale.
 static nsvcd__dtransform nsvcd__dtransform_at(const nsvcd__arc *arc, double u) {
   nsvcd__dquat q = nsvcd__slerp_at(&arc->moving, u);
   nsvcd__dtransform at;
@@ -142,7 +142,7 @@ static nsvcd__dtransform nsvcd__dtransform_at(const nsvcd__arc *arc, double u) {
   return at;
 }
 
-// How the moving body goes there, as the fixed body sees it.
+// The moving body's twist there, as the fixed body sees it.
 static nsvcd__twist nsvcd__twist_at(const nsvcd__arc *arc, double u) {
   const nsvcd__dtransform at = nsvcd__dtransform_at(arc, u);
   const double per_tick = 1 / (double)arc->ticks;
@@ -163,24 +163,24 @@ static nsvcd__d3 nsvcd__twist_of(const nsvcd__twist *twist, nsvcd__d3 x) {
   return nsvcd__d3_add(twist->along, nsvcd__d3_cross(twist->turn, x));
 }
 
-// The true pose in p->arc, remembered: triangle pairs ask for the same poses again.
-// The last two that were asked for stay where they are.
-static const nsvcd__dtransform *nsvcd__placed_at(nsvcd__proof *p, double u) {
-  size_t n = 0;
+// The true pose at fraction u of p->arc, remembered: triangle pairs ask for the same poses again.
+// The pose of the call before stays where it is.
+static const nsvcd__dtransform *nsvcd__arc_pose(nsvcd__proof *p, double u) {
   const nsvcd__arc *arc = &p->arc;
-  for (; n < NSVCD__PLACED; n++) {
-    const nsvcd__placed *known = &p->memo.placed[n];
+  nsvcd__memo *memo = &p->memo;
+  const size_t next = memo->next_pose;
+  size_t n = 0;
+  for (; n < NSVCD__KNOWN_POSES; n++) {
+    const nsvcd__known_pose *known = &memo->poses[n];
     if (known->arc == arc->first && known->ticks == arc->ticks && known->u == u) break;
   }
-  if (n == NSVCD__PLACED) {
-    n = p->memo.next_placed;
-    p->memo.placed[n].arc = arc->first;
-    p->memo.placed[n].ticks = arc->ticks;
-    p->memo.placed[n].u = u;
-    p->memo.placed[n].transform = nsvcd__dtransform_at(arc, u);
+  if (n == NSVCD__KNOWN_POSES) {
+    const nsvcd__known_pose made = {arc->first, arc->ticks, u, nsvcd__dtransform_at(arc, u)};
+    n = next;
+    memo->poses[n] = made;
   }
-  if (n == p->memo.next_placed) p->memo.next_placed = (n + 1) % NSVCD__PLACED;
-  return &p->memo.placed[n].transform;
+  if (n == next) memo->next_pose = (n + 1) % NSVCD__KNOWN_POSES;
+  return &memo->poses[n].transform;
 }
 
 static nsvcd__transform nsvcd__transform_of(const nsvcd__dtransform *at) {
