@@ -29,16 +29,16 @@ done
 # motion was found that uses it: what strays most does so at samples, and there axis_bulge is exact.
 cat >$work/list <<'LIST'
 none|||
-hull without deviation|margin * length + nsvcd__deviation_of(interval, normal, arm)|margin * length
-hull without slack|const float margin = margins + interval->rounding + nsvcd__clearance(p);|const float margin = 0 * margins + interval->rounding + nsvcd__clearance(p);
+hull without deviation|margin * length + nsvcd__deviation_of(over, normal, arm)|margin * length
+hull without slack|const float margin = margins + over->rounding + nsvcd__clearance(p);|const float margin = 0 * margins + over->rounding + nsvcd__clearance(p);
 hull without the slack's scale|p->ask.motion->scale * p->moving.margins[i] + p->fixed.margins[j];|0.1f * p->moving.margins[i] + p->fixed.margins[j];
-hull without clearance|margins + interval->rounding + nsvcd__clearance(p);|margins + interval->rounding;
+hull without clearance|margins + over->rounding + nsvcd__clearance(p);|margins + over->rounding;
 hull at the start only|const nsvcd__v at_either = nsvcd__v_min(at_start, at_end);|const nsvcd__v at_either = at_start;
 deviation without drift|return origin_bend + turn + across|return 0 * origin_bend + turn + across
-deviation without bulge|+ across * nsvcd__bend_of(interval, arm);|;
+deviation without bulge|+ across * nsvcd__bend_of(over, arm);|;
 deviation along the axis|return origin_bend + turn + across|return origin_bend + across
-half the distance from the axis|interval->bend * arm.from_axis +|0.5f * interval->bend * arm.from_axis +
-an axis that does not waver|arm.from_axis + interval->bend_along_axis * arm.from_origin|arm.from_axis
+half the distance from the axis|over->bend * arm.from_axis +|0.5f * over->bend * arm.from_axis +
+an axis that does not waver|arm.from_axis + over->bend_along_axis * arm.from_origin|arm.from_axis
 the axis of the other body|arc->own_axis = nsvcd__dmat3_apply_transpose(\&moving, axis);|arc->own_axis = arc->axis;
 pair at half the distance from the axis|arc->bend * pair->from_axis * off_axis|arc->bend * 0.5 * pair->from_axis * off_axis
 pair whose axis does not waver|pair->from_axis += (arc->waver + 1e-6) * pair->from_origin;|
@@ -49,7 +49,7 @@ lanes without drift|return nsvcd__v_fma(turn, nsvcd__v_set(from_origin), nsvcd__
 disc without across|nsvcd__v_mul(slab->across, across);|nsvcd__v_mul(nsvcd__v_set(0), across);
 group of eight|for (size_t i = first; i < first + NSVCD__GROUP \&\& i < f->body->patches; i++) {\n    if (slab.high|for (size_t i = first; i < first + 8 \&\& i < f->body->patches; i++) {\n    if (slab.high
 group's disc at the start only|nsvcd__v3_add(a.at_start, nsvcd__vmat3_apply_transpose(turn, n));|a.at_start;
-held plane without deviation|lowest - margin - nsvcd__deviation_of(interval, n, nsvcd__patch_arm(\&p->moving, i, interval));|lowest - margin;
+held plane without deviation|lowest - margin - nsvcd__deviation_of(over, n, nsvcd__patch_arm(\&p->moving, i, over));|lowest - margin;
 groups' spheres without slack|nsvcd__above((double)f->margins[i] + rounding);|nsvcd__above(rounding);
 groups' spheres over the first half|for (size_t k = 0; k < count + !count; k++) {|for (size_t k = 0; k < (count + 1) / 2 + !count; k++) {
 held plane without slack|p->fixed.margins[j] * length + highest;|highest;
@@ -67,15 +67,15 @@ doubt goes on|p->ask.limit = p->work + left;|p->ask.limit = p->ask.limit;
 doubt raises the limit|p->work + left < p->ask.limit|p->work > 0
 pair without clearance|> p->ask.clearance + pair->margin + deviation)) return 0;|> pair->margin + deviation)) return 0;
 pair at the start only|lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_end));|(void)at_end;
-block without quanta|nsvcd__quanta_of(p, i, j) + (interval->rounding + interval->origin_bend) + nsvcd__clearance(p);|(interval->rounding + interval->origin_bend) + nsvcd__clearance(p);
-block without clearance|(interval->rounding + interval->origin_bend) + nsvcd__clearance(p);|(interval->rounding + interval->origin_bend);
-block without bulge|stays + nsvcd__bend_of(interval, arm)|stays
+block without quanta|nsvcd__quanta_of(p, i, j) + (over->rounding + over->origin_bend) + nsvcd__clearance(p);|(over->rounding + over->origin_bend) + nsvcd__clearance(p);
+block without clearance|(over->rounding + over->origin_bend) + nsvcd__clearance(p);|(over->rounding + over->origin_bend);
+block without bulge|stays + nsvcd__bend_of(over, arm)|stays
 block at the start only|for (size_t k = 0; k < p->corner_count; k++) {\n    const nsvcd__v3 a =|for (size_t k = 0; k < 3; k++) {\n    const nsvcd__v3 a =
 lanes parted at the start only|for (size_t k = 0; k < p->corner_count; k++) {\n      const nsvcd__v3 corner = nsvcd__v3_load(p->corners[k], s);|for (size_t k = 0; k < 3; k++) {\n      const nsvcd__v3 corner = nsvcd__v3_load(p->corners[k], s);
 lanes parted without the clearance|nsvcd__v_set(margin * nsvcd__f3_length(last) + highest);|nsvcd__v_set(highest);
 rows parted by half the margin|met = nsvcd__left_by_normal(p, l, fixed, k, margin, met);|met = nsvcd__left_by_normal(p, l, fixed, k, k > 0 ? margin : 0.5f * margin, met);
-parting plane without deviation|errors + interval->rounding + nsvcd__clearance(p) + nsvcd__deviation_of(interval, last, arm);|errors + interval->rounding + nsvcd__clearance(p);
-parting plane without quanta|errors + interval->rounding + nsvcd__clearance(p) + nsvcd__deviation_of(interval, last, arm);|0 * errors + interval->rounding + nsvcd__clearance(p) + nsvcd__deviation_of(interval, last, arm);
+parting plane without deviation|errors + over->rounding + nsvcd__clearance(p) + nsvcd__deviation_of(over, last, arm);|errors + over->rounding + nsvcd__clearance(p);
+parting plane without quanta|errors + over->rounding + nsvcd__clearance(p) + nsvcd__deviation_of(over, last, arm);|0 * errors + over->rounding + nsvcd__clearance(p) + nsvcd__deviation_of(over, last, arm);
 pose of another arc|known->arc == arc->first \&\& known->ticks == arc->ticks \&\& known->u == u|known->ticks == arc->ticks \&\& known->u == u
 first half only|if (part == NSVCD__TOO_LONG) ends[left++] = 0.5 * (u + end);|if (part == NSVCD__TOO_LONG) ends[left - 1] = 0.5 * (u + end);
 a window forgotten|b += NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(p, j, b);\n    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(p, i, a);\n      const|b += 2 * NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(p, j, b);\n    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(p, i, a);\n      const
@@ -112,7 +112,7 @@ group without scale|  sphere.radius *= search->scale;\n|
 members without scale|nsvcd__v_fma(nsvcd__v_set(scale), radius, deviation);|nsvcd__v_add(radius, deviation);
 discs without scale|nsvcd__v_mul(a->scale, nsvcd__v3_dot(w, w)); const nsvcd__v across = nsvcd__v_mul(a->scale, nsvcd__v3_length(a->turned));|nsvcd__v3_dot(w, w);\n  const nsvcd__v across = nsvcd__v3_length(a->turned);
 disc without clearance|a.clearance = nsvcd__clearance(p);\n  a.radius = search->extent;|a.clearance = 0;\n  a.radius = search->extent;
-moving disc without clearance|nsvcd__v_plus(a->interval.rounding, a->clearance);|a->interval.rounding;
+moving disc without clearance|nsvcd__v_plus(a->over.rounding, a->clearance);|a->over.rounding;
 groups without clearance|a.clearance = nsvcd__clearance(p); a.radius = nsvcd__group_reach|a.clearance = 0; a.radius = nsvcd__group_reach
 held plane without clearance|below->height + nsvcd__clearance(p) * length|below->height
 held plane not tried again|if (!(above->height > below->height + nsvcd__clearance(p) * length)) return 0;|
@@ -161,7 +161,7 @@ turning contacts that are too near|distance <= p->ask.clearance + pair->rounding
 exact: straight contacts that are too near|if (above <= pair->rounding) {|if (above <= pair->close) {
 exact: planes of nearest points alone|for (size_t k = 0; k < 17; k++) {\n    const nsvcd__d3 *of|for (size_t k = 17; k < 17; k++) {\n    const nsvcd__d3 *of
 exact: no planes of faces|n = k < 2 ? nsvcd__face_direction(of)|n = k < 2 ? guess
-exact: no planes across edges|: nsvcd__across_edges(posed, fixed, k - 8);|: guess;
+exact: no planes across edges|: nsvcd__across_edges(moving, fixed, k - 8);|: guess;
 exact: no planes made normal to an edge|nsvcd__off_edge(guess, of[k / 2 - 1], of[k / 2 % 3])|guess
 exact: planes on one side only|if (nsvcd__d3_dot(n, guess) < 0) n = nsvcd__d3_scale(n, -1);\n    const double beyond|const double beyond
 pieces by their stored corners|} else if (f->counts->cut > 0) {|} else if (0) {

@@ -200,41 +200,6 @@ NSVCD__INLINE uint32_t nsvcd__normals_separate(nsvcd__proof *p, size_t l, nsvcd_
   return nsvcd__v_lt(nsvcd__v_add(high, limit), lowest) | *below;
 }
 
-#ifdef NSVCD__CERTIFIES
-// All triangle pairs of `lanes` of the moving block and the `apart` lanes of a fixed one, by the
-// planes of its slice from s on or, where that is NULL, by their boxes.
-static void nsvcd__certify_block(nsvcd__proof *p, uint32_t lanes, const nsvcd__block *b,
-                                 uint32_t apart, size_t s, const nsvcd__v3 *plane,
-                                 uint32_t below) {
-  float normals[3][NSVCD__LANES];
-  const nsvcd__block *a = &p->moving_block;
-  if (plane) nsvcd__v3_store(normals, s, *plane);
-  for (size_t pair = 0; p->over && pair < a->count * b->count; pair++) {
-    const size_t l = pair / b->count;
-    const size_t n = pair % b->count;
-    float normal[3] = {0, 0, 0};
-    float widest = -HUGE_VALF;
-    const float sign = below >> n & 1 ? -1.0f : 1.0f;
-    if (!(lanes >> l & apart >> n & 1)) continue;
-    for (size_t k = 0; k < 3; k++) {
-      if (plane) normal[k] = sign * normals[k][n];
-      const float above = a->low[k][l] - b->high[k][n];
-      const float under = b->low[k][n] - a->high[k][l];
-      if (plane || (above <= widest && under <= widest)) continue;
-      widest = above > under ? above : under;
-      normal[0] = normal[1] = normal[2] = 0;
-      normal[k] = above > under ? 1.0f : -1.0f;
-    }
-    NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, a->patch, b->patch, a->first + l, b->first + n,
-                   p->over->t_start, p->over->t_end, normal);
-  }
-}
-#define NSVCD__CERTIFY_BLOCK(p, lanes, b, apart, s, plane, below) \
-  nsvcd__certify_block(p, lanes, b, apart, s, plane, below)
-#else
-#define NSVCD__CERTIFY_BLOCK(p, lanes, b, apart, s, plane, below) ((void)0)
-#endif
-
 // Of these lanes of a fixed block, those that planes with normal k do not separate from lane l of
 // the moving one by more than `margin`.
 NSVCD__INLINE uint32_t nsvcd__left_by_normal(nsvcd__proof *p, size_t l, nsvcd__block *fixed,

@@ -90,12 +90,12 @@ static nsvcd__f3 nsvcd__f3_towards(nsvcd__f3 a, nsvcd__f3 b) {
 // Remembers the plane that holds.
 #define NSVCD__GUESSES 4
 static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j,
-                                                  const nsvcd__interval *interval) {
+                                                  const nsvcd__interval *over) {
   const float margins = p->ask.motion->scale * p->moving.margins[i] + p->fixed.margins[j];
-  const float margin = margins + interval->rounding + nsvcd__clearance(p);
-  const nsvcd__arm arm = nsvcd__patch_arm(&p->moving, i, interval);
-  const nsvcd__transform *start = &interval->start;
-  const nsvcd__transform *end = &interval->end;
+  const float margin = margins + over->rounding + nsvcd__clearance(p);
+  const nsvcd__arm arm = nsvcd__patch_arm(&p->moving, i, over);
+  const nsvcd__transform *start = &over->start;
+  const nsvcd__transform *end = &over->end;
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, i, l);
     nsvcd__v3_store(p->hull_start, l, nsvcd__v3_transform(start, hull));
@@ -121,11 +121,11 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, siz
     const nsvcd__support found = nsvcd__support_along(p, normal);
     const float length = nsvcd__f3_length(normal);
     if (found.gap > 0 &&
-        found.gap > margin * length + nsvcd__deviation_of(interval, normal, arm)) {
+        found.gap > margin * length + nsvcd__deviation_of(over, normal, arm)) {
       p->memo.held = normal;
       p->memo.plane++;
-      NSVCD__CERTIFY(NSVCD__BY_HULL, i, j, NSVCD_NONE, NSVCD_NONE, interval->t_start,
-                     interval->t_end, &normal.x);
+      NSVCD__CERTIFY(NSVCD__BY_HULL, i, j, NSVCD_NONE, NSVCD_NONE, over->t_start, over->t_end,
+                     &normal.x);
       return 1;
     }
     if (step + 1 < NSVCD__GUESSES) continue;

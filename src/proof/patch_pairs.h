@@ -30,14 +30,7 @@ static NSVCD__NOINLINE int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_
     if ((a - moving_first) % 4 == 0) p->work++;
     if (!nsvcd__plane_separates(p, &pair, u0, u1)) return 0;
   }
-#ifdef NSVCD__CERTIFIES
-  for (size_t a = moving_first; a < moving_end; a++) {
-    for (size_t b = fixed_first; b < fixed_end; b++) {
-      const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, b);
-      (void)nsvcd__plane_separates(p, &pair, u0, u1);
-    }
-  }
-#endif
+  NSVCD__CERTIFY_PATCHES(p, i, j, u0, u1);
   return 1;
 }
 
@@ -49,7 +42,7 @@ static NSVCD__NOINLINE int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_
 static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
                                          nsvcd__arm arm, float margin, double u0, double u1,
                                          size_t patience) {
-  const nsvcd__interval *interval = p->over;
+  const nsvcd__interval *over = p->over;
   const size_t i = p->moving_block.patch;
   const size_t j = fixed->patch;
   const float errors = nsvcd__quanta_of(p, i, j);
@@ -58,8 +51,8 @@ static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t l, nsvcd__block
   for (; met; met &= met - 1) {
     const nsvcd__d3 before = p->memo.separating;
     const nsvcd__f3 last = nsvcd__f3_round(before);
-    const float along = errors + interval->rounding + nsvcd__clearance(p) +
-                        nsvcd__deviation_of(interval, last, arm);
+    const float along =
+        errors + over->rounding + nsvcd__clearance(p) + nsvcd__deviation_of(over, last, arm);
     met = nsvcd__left_by_normal(p, l, fixed, NSVCD__LAST_NORMAL, along, met);
     if (!met) break;
     if (patience == 0) return NSVCD__TOO_LONG;
@@ -82,19 +75,19 @@ static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t l, nsvcd__block
 // All triangle pairs of patches i and j over an interval from u0 to u1 of the arc.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, size_t i,
                                                                size_t j,
-                                                               const nsvcd__interval *interval,
+                                                               const nsvcd__interval *over,
                                                                double u0, double u1,
                                                                size_t patience) {
   const size_t moving_end = p->moving.first_triangle[i + 1];
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
-  const nsvcd__f3 axis = nsvcd__own_axis(interval);
-  const float stays = nsvcd__quanta_of(p, i, j) +
-                      (interval->rounding + interval->origin_bend) + nsvcd__clearance(p);
+  const nsvcd__f3 axis = nsvcd__own_axis(over);
+  const float stays =
+      nsvcd__quanta_of(p, i, j) + (over->rounding + over->origin_bend) + nsvcd__clearance(p);
   const float error = p->moving.errors[i];
   const float extent = p->moving.body->extent + error;
   const nsvcd__arm all = {extent, extent};
   // else arms of blocks gain little
-  const int bends = interval->bend * extent > 0.25f * stays;
+  const int bends = over->bend * extent > 0.25f * stays;
   p->parts = 0;
   p->all_tried = 0;
   for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
@@ -103,8 +96,8 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
     for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
       nsvcd__moving_block_load(p, i, a);
       const nsvcd__arm arm = bends ? nsvcd__block_arm(&p->moving_block, axis, error) : all;
-      const float margin = stays + nsvcd__bend_of(interval, arm);
-      nsvcd__block_pose(p, NULL, interval);
+      const float margin = stays + nsvcd__bend_of(over, arm);
+      nsvcd__block_pose(p, NULL, over);
       for (size_t n = 0; n < p->memo.window; n++) {
         nsvcd__block *fixed = &p->fixed_blocks[n];
         const uint32_t nearby = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
@@ -175,7 +168,7 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
   const size_t s = item->segment;
   nsvcd__memo *memo = &p->memo;
   if (!memo->plane) return 0;
-  const nsvcd__interval *interval = nsvcd__segment_interval(p, search, s);
+  const nsvcd__interval *over = nsvcd__segment_interval(p, search, s);
   const nsvcd__f3 n = memo->held;
   const float length = nsvcd__f3_length(n);
   const uint32_t key = (uint32_t)(i * NSVCD__MAX_SEGMENTS + s);
@@ -187,18 +180,16 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, i, l);
       const nsvcd__v3 normal = nsvcd__v3_set(n);
-      const nsvcd__v at_start =
-          nsvcd__v3_dot(normal, nsvcd__v3_transform(&interval->start, hull));
-      const nsvcd__v at_end = nsvcd__v3_dot(normal, nsvcd__v3_transform(&interval->end, hull));
+      const nsvcd__v at_start = nsvcd__v3_dot(normal, nsvcd__v3_transform(&over->start, hull));
+      const nsvcd__v at_end = nsvcd__v3_dot(normal, nsvcd__v3_transform(&over->end, hull));
       lowest = nsvcd__least_of(lowest, nsvcd__v_min(at_start, at_end));
     }
     const float margin =
-        (p->ask.motion->scale * p->moving.margins[i] + interval->rounding) * length;
+        (p->ask.motion->scale * p->moving.margins[i] + over->rounding) * length;
     above->plane = memo->plane;
     above->key = key;
     above->height =
-        lowest - margin -
-        nsvcd__deviation_of(interval, n, nsvcd__patch_arm(&p->moving, i, interval));
+        lowest - margin - nsvcd__deviation_of(over, n, nsvcd__patch_arm(&p->moving, i, over));
   }
   if (below->plane != memo->plane || below->key != j) {
     float highest = -HUGE_VALF;
@@ -211,16 +202,16 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
     below->height = p->fixed.margins[j] * length + highest;
   }
   if (!(above->height > below->height + nsvcd__clearance(p) * length)) return 0;
-  NSVCD__CERTIFY(NSVCD__BY_HULL, i, j, NSVCD_NONE, NSVCD_NONE, interval->t_start,
-                 interval->t_end, &n.x);
+  NSVCD__CERTIFY(NSVCD__BY_HULL, i, j, NSVCD_NONE, NSVCD_NONE, over->t_start, over->t_end,
+                 &n.x);
   return 1;
 }
 
 // Does any plane?
 static int nsvcd__is_separated(nsvcd__proof *p, const nsvcd__search *search,
                                const nsvcd__patch_pair *item) {
-  const nsvcd__interval *interval = nsvcd__segment_interval(p, search, item->segment);
-  return nsvcd__hulls_are_apart(p, item->moving, item->fixed, interval);
+  const nsvcd__interval *over = nsvcd__segment_interval(p, search, item->segment);
+  return nsvcd__hulls_are_apart(p, item->moving, item->fixed, over);
 }
 
 // Does a patch pair come before another? Deepest first. For the first contact: earliest closest
@@ -338,9 +329,9 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
       continue;
     }
     if (p->misses >= NSVCD__FEW_MISSES) {
-      const nsvcd__interval *interval = nsvcd__segment_interval(p, search, item->segment);
+      const nsvcd__interval *over = nsvcd__segment_interval(p, search, item->segment);
       const nsvcd__outcome by_triangles =
-          nsvcd__resolve_triangles(p, item->moving, item->fixed, interval, 0, 0, 0);
+          nsvcd__resolve_triangles(p, item->moving, item->fixed, over, 0, 0, 0);
       if (by_triangles == NSVCD__RESOLVED) continue;
     }
     const int may_meet = tells_more || p->misses < NSVCD__MANY_MISSES;
@@ -391,20 +382,20 @@ static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
                             const nsvcd__patch_pair *item, int first, int last, float *most) {
   const nsvcd__manifold *m = &p->of.kept.manifold;
   const float scale = p->ask.motion->scale;
-  const float moving_more = scale * p->moving.margins[item->moving] + (float)m->tolerance;
-  const float fixed_more = p->fixed.margins[item->fixed];
+  const float margin = scale * p->moving.margins[item->moving] + (float)m->tolerance;
+  const float fixed_margin = p->fixed.margins[item->fixed];
   for (int k = first; k < last; k++) {
-    const nsvcd__v3 back = nsvcd__v3_set(nsvcd__d3_narrow(nsvcd__d3_scale(m->along[k], -1)));
-    float by_moving = HUGE_VALF;
-    float by_fixed = HUGE_VALF;
+    const nsvcd__v3 along = nsvcd__v3_set(nsvcd__d3_narrow(m->along[k]));
+    float moving = -HUGE_VALF;
+    float fixed = -HUGE_VALF;
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 moving = nsvcd__hull_of(&p->moving, item->moving, l);
-      const nsvcd__v3 fixed = nsvcd__hull_of(&p->fixed, item->fixed, l);
-      const nsvcd__v height = nsvcd__v3_dot(back, nsvcd__v3_transform(pose, moving));
-      by_moving = nsvcd__least_of(by_moving, height);
-      by_fixed = nsvcd__least_of(by_fixed, nsvcd__v3_dot(back, fixed));
+      const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, item->moving, l);
+      const nsvcd__v3 other = nsvcd__hull_of(&p->fixed, item->fixed, l);
+      const nsvcd__v height = nsvcd__v3_dot(along, nsvcd__v3_transform(pose, hull));
+      moving = nsvcd__greatest_of(moving, height);
+      fixed = nsvcd__greatest_of(fixed, nsvcd__v3_dot(along, other));
     }
-    most[k] = fminf(moving_more - by_moving, fixed_more - by_fixed);
+    most[k] = fminf(margin + moving, fixed_margin + fixed);
   }
 }
 

@@ -545,12 +545,20 @@ static float nsvcd__quanta_of(const nsvcd__proof *p, size_t i, size_t j) {
 
 // Tests hear of every plane of slabs, hulls and triangles (spheres have tests of their own): kind,
 // patches, entries (or NSVCD_NONE), times, and the plane's normal (3), in the fixed body's frame,
-// towards the moving side.
+// towards the moving side. What many planes separate at once, the tests take apart themselves.
 #ifndef NSVCD__CERTIFY
 #define NSVCD__CERTIFY(kind, moving, fixed, moving_entry, fixed_entry, t_start, t_end, \
                        normal) \
   ((void)(moving), (void)(fixed), (void)(moving_entry), (void)(fixed_entry), (void)(t_start), \
    (void)(t_end), (void)(normal))
+// by slabs, in `lanes` of a slice: moving patches, from the i-th on, and patch j, in segment s; or
+// all members of groups i and j, in segments from s on
+#define NSVCD__CERTIFY_SLABS(p, search, of_groups, i, j, s, by, lanes) ((void)0)
+// all triangle pairs of `lanes` of the moving block and the `apart` lanes of a fixed one, by the
+// planes of its slice from s on or, where that is NULL, by their boxes
+#define NSVCD__CERTIFY_BLOCK(p, lanes, fixed, apart, s, plane, below) ((void)0)
+// all triangle pairs of patches i and j, from u0 to u1 of the arc, by nsvcd__plane_separates
+#define NSVCD__CERTIFY_PATCHES(p, i, j, u0, u1) ((void)0)
 #endif
 enum { NSVCD__BY_SLAB, NSVCD__BY_HULL, NSVCD__BY_TRIANGLES };
 #endif  // NSVCD_NO_PROOF

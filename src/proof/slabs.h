@@ -68,7 +68,7 @@ typedef struct nsvcd__v_approach {
   nsvcd__v3 mean, turned;
   // of the moving body
   nsvcd__v scale;
-  nsvcd__v_interval interval;
+  nsvcd__v_interval over;
   float clearance;
   // of the moving slabs' points about their body's origin, in its units
   float radius;
@@ -84,8 +84,8 @@ typedef struct nsvcd__v_separated {
 
 // Along a plane's normal: the deviation of a moving point, and the clearance.
 NSVCD__INLINE nsvcd__v nsvcd__v_off(const nsvcd__v_approach *a, nsvcd__v3 plane) {
-  const nsvcd__v allowed = nsvcd__v_plus(a->interval.rounding, a->clearance);
-  return nsvcd__v_add(allowed, nsvcd__v_deviation(&a->interval, plane, a->radius));
+  const nsvcd__v allowed = nsvcd__v_plus(a->over.rounding, a->clearance);
+  return nsvcd__v_add(allowed, nsvcd__v_deviation(&a->over, plane, a->radius));
 }
 
 NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate(nsvcd__v3 plane, nsvcd__v_range moving,
@@ -128,52 +128,23 @@ NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_moving(const nsvcd__v_appr
   return nsvcd__v_separate(w, moving, nsvcd__v_slab_range(&a->fixed, w), nsvcd__v_off(a, w));
 }
 
-#ifdef NSVCD__CERTIFIES
-// What planes separate in `lanes` of a slice: moving patches, from the i-th on, and patch j, in
-// segment s; or all members of groups i and j, in segments from s on.
-static void nsvcd__certify_slabs(nsvcd__proof *p, const nsvcd__search *search, int of_groups,
-                                 size_t i, size_t j, size_t s, const nsvcd__v_separated *by,
-                                 uint32_t lanes) {
-  float normals[3][NSVCD__LANES];
-  const size_t members = of_groups ? NSVCD__GROUP : 1;
-  nsvcd__v3_store(normals, 0, by->plane);
-  for (; lanes; lanes &= lanes - 1) {
-    const size_t l = nsvcd__low_bit(lanes);
-    const float sign = by->below >> l & 1 ? -1.0f : 1.0f;
-    const nsvcd__f3 n = nsvcd__f3_scale(nsvcd__lane_of(normals, l), sign);
-    const nsvcd__interval *over = nsvcd__segment_interval(p, search, of_groups ? s + l : s);
-    for (size_t k = 0; k < members * members; k++) {
-      const size_t a = of_groups ? members * i + k / members : i + l;
-      const size_t b = of_groups ? members * j + k % members : j;
-      if (a < p->moving.body->patches && b < p->fixed.body->patches)
-        NSVCD__CERTIFY(NSVCD__BY_SLAB, a, b, NSVCD_NONE, NSVCD_NONE, over->t_start,
-                       over->t_end, &n.x);
-    }
-  }
-}
-#define NSVCD__CERTIFY_SLABS(p, search, of_groups, i, j, s, by, lanes) \
-  nsvcd__certify_slabs(p, search, of_groups, i, j, s, by, lanes)
-#else
-#define NSVCD__CERTIFY_SLABS(p, search, of_groups, i, j, s, by, lanes) ((void)0)
-#endif
-
 // Of the lanes `met` of moving group g in segment s, those that slabs do not separate from resting
 // patch j.
 static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *search, size_t g,
                                   size_t j, size_t s, uint32_t met) {
-  const nsvcd__interval *interval = nsvcd__segment_interval(p, search, s);
+  const nsvcd__interval *over = nsvcd__segment_interval(p, search, s);
   const nsvcd__chords *c = &search->members[s];
   const nsvcd__slab fixed = nsvcd__slab_at(p->fixed.slabs, p->fixed.body->padded, j);
   const nsvcd__f3 centre = nsvcd__patch_centre(&p->fixed, j);
-  const nsvcd__mat3 *from = &interval->start.rotation;
-  const nsvcd__mat3 *to = &interval->end.rotation;
+  const nsvcd__mat3 *from = &over->start.rotation;
+  const nsvcd__mat3 *to = &over->end.rotation;
   uint32_t left = 0;
   nsvcd__v_approach a;
   a.fixed = nsvcd__v_slab_set(&fixed);
   a.at_start = nsvcd__v3_set(nsvcd__mat3_apply_transpose(from, fixed.normal));
   a.at_end = nsvcd__v3_set(nsvcd__mat3_apply_transpose(to, fixed.normal));
   a.scale = nsvcd__v_set(p->ask.motion->scale);
-  a.interval = nsvcd__v_interval_set(interval);
+  a.over = nsvcd__v_interval_set(over);
   a.clearance = nsvcd__clearance(p);
   a.radius = search->extent;
   a.fixed_off = nsvcd__v_off(&a, a.fixed.normal);
@@ -236,7 +207,7 @@ static NSVCD__NOINLINE void nsvcd__separate_groups(nsvcd__proof *p, nsvcd__searc
       const nsvcd__v whole = nsvcd__v_set(1 / search->scale);
       const nsvcd__v3 n = a.fixed.normal;
       const nsvcd__v3 m = a.moving.normal;
-      a.interval = nsvcd__v_interval_load(block, l);
+      a.over = nsvcd__v_interval_load(block, l);
       a.fixed_off = nsvcd__v_off(&a, n);
       a.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(centre));
       a.chord = nsvcd__chords_travel(c, l);

@@ -18,6 +18,8 @@ typedef struct nsvcd__triangle_pair {
   // The greatest distance of the moving one's points from their body's origin and, at any time of
   // the arc, from the axis of the turn; in its body's units.
   double from_origin, from_axis;
+  // of the moving one, at most: the path of a point over the arc
+  double speed;
   // how far the meshes' own triangles may be off, and rounding in double; and that rounding alone
   double margin;
   double rounding;
@@ -26,7 +28,7 @@ typedef struct nsvcd__triangle_pair {
 } nsvcd__triangle_pair;
 
 // Sets from_origin and from_axis.
-static void nsvcd__pair_reaches(const nsvcd__arc *arc, nsvcd__triangle_pair *pair) {
+static void nsvcd__pair_arm(const nsvcd__arc *arc, nsvcd__triangle_pair *pair) {
   pair->from_origin = pair->from_axis = 0;
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__d3 corner = pair->moving[k];
@@ -40,10 +42,11 @@ static void nsvcd__pair_reaches(const nsvcd__arc *arc, nsvcd__triangle_pair *pai
 
 static nsvcd__triangle_pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size_t j, size_t a,
                                            size_t b) {
-  nsvcd__triangle_pair pair = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0, 0, 0};
+  nsvcd__triangle_pair pair = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0, 0, 0, 0};
   nsvcd__patch_triangle(&p->moving, i, a, pair.moving);
   nsvcd__patch_triangle(&p->fixed, j, b, pair.fixed);
-  nsvcd__pair_reaches(&p->arc, &pair);
+  nsvcd__pair_arm(&p->arc, &pair);
+  pair.speed = p->arc.speed + p->arc.turn * p->arc.scale * pair.from_axis;
   pair.rounding =
       NSVCD__SAME_POSITION * ((double)p->given.lengths + nsvcd__d3_length(p->arc.from));
   pair.margin = pair.rounding + nsvcd__off_meshes(p);
@@ -58,6 +61,14 @@ static int nsvcd__moving_closed(const nsvcd__proof *p, const nsvcd__triangle_pai
 }
 static int nsvcd__fixed_closed(const nsvcd__proof *p, const nsvcd__triangle_pair *c) {
   return nsvcd__is_in_solid(&p->fixed, c->fixed_patch, c->fixed_entry);
+}
+
+// The nearest points of a triangle pair at fraction u of the arc.
+static nsvcd__nearest nsvcd__pair_nearest(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
+                                          double u) {
+  nsvcd__d3 moving[3];
+  nsvcd__place_triangle(nsvcd__arc_pose(p, u), pair->moving, moving);
+  return nsvcd__nearest_of(moving, pair->fixed);
 }
 
 // The contact of two triangles at fraction u of the arc.
@@ -107,14 +118,12 @@ static NSVCD__NOINLINE void nsvcd__keep_unresolved(nsvcd__proof *p,
                                                    double u1) {
   const double tick = (double)p->arc.first + u0 * (double)p->arc.ticks;
   const double middle = 0.5 * (u0 + u1);
-  nsvcd__d3 posed[3];
   const size_t left = p->ask.after_unresolved;
   // a first attempt is short anyway
   const int is_first = !(p->known.unresolved < NSVCD__NEVER) && !p->ask.is_brief;
   if (is_first && p->work + left < p->ask.limit) p->ask.limit = p->work + left;
   if (!(tick < p->known.unresolved)) return;
-  nsvcd__place_triangle(nsvcd__arc_pose(p, middle), pair->moving, posed);
-  const nsvcd__nearest nearest = nsvcd__nearest_of(posed, pair->fixed);
+  const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
   p->known.unresolved_pair = nsvcd__contact_at(p, pair, middle, &nearest);
   p->known.unresolved = tick;
   if (p->ask.unresolved_ends) p->ask.end = nsvcd__min(p->ask.end, tick);
@@ -163,8 +172,8 @@ static int nsvcd__plane_separates(nsvcd__proof *p, const nsvcd__triangle_pair *p
 }
 
 // Have two heights different signs, clear of 0 by their margins?
-static int nsvcd__are_opposed(double before, double least_before, double after,
-                              double least_after) {
+static int nsvcd__are_opmoving(double before, double least_before, double after,
+                               double least_after) {
   const int falls = before > least_before && after < -least_after;
   const int rises = before < -least_before && after > least_after;
   return falls || rises;
@@ -190,8 +199,8 @@ static int nsvcd__corner_passes(const nsvcd__d3 *const *x, size_t k, const nsvcd
   const nsvcd__d3 n2 = nsvcd__face_normal(t[2]);
   const double before = nsvcd__d3_dot(n0, nsvcd__d3_sub(x[0][k], t[0][0]));
   const double after = nsvcd__d3_dot(n2, nsvcd__d3_sub(x[2][k], t[2][0]));
-  return nsvcd__are_opposed(before, margin * nsvcd__d3_length(n0), after,
-                            margin * nsvcd__d3_length(n2));
+  return nsvcd__are_opmoving(before, margin * nsvcd__d3_length(n0), after,
+                             margin * nsvcd__d3_length(n2));
 }
 
 // Does edge k of the moving triangle pass through edge n of the fixed one: do they change sides,
@@ -213,7 +222,7 @@ static int nsvcd__edges_pass(const nsvcd__d3 *const *moving, size_t k, const nsv
   const double size = nsvcd__d3_length(across[1]);
   const double lengths = nsvcd__d3_length(u) * nsvcd__d3_length(v);
   if (!(size > 0.01 * lengths)) return 0;
-  if (!nsvcd__are_opposed(volumes[0], margin * size, volumes[2], margin * size)) return 0;
+  if (!nsvcd__are_opmoving(volumes[0], margin * size, volumes[2], margin * size)) return 0;
   const double square = size * size;
   const double s = nsvcd__d3_dot(nsvcd__d3_cross(from[1], v), across[1]) / square;
   const double t = nsvcd__d3_dot(nsvcd__d3_cross(from[1], u), across[1]) / square;
@@ -224,13 +233,13 @@ static int nsvcd__edges_pass(const nsvcd__d3 *const *moving, size_t k, const nsv
   return s > room_s && s < 1 - room_s && t > room_t && t < 1 - room_t;
 }
 
-// Has a triangle pair met between u0 and u1 of the arc, at that speed: has a corner passed through
+// Has a triangle pair met between u0 and u1 of the arc: has a corner passed through
 // the other triangle, or an edge through an edge? Faces that are parallel when they meet do so at
 // one time only, and rounded numbers show it at none.
 static int nsvcd__pair_passes(nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0,
-                              double u1, double speed) {
+                              double u1) {
   const double margin = pair->rounding;
-  const double travel = speed * (u1 - u0);
+  const double travel = pair->speed * (u1 - u0);
   const double times[3] = {u0, 0.5 * (u0 + u1), u1};
   nsvcd__d3 corners[3][3];
   for (size_t n = 0; n < 3; n++)
@@ -244,14 +253,6 @@ static int nsvcd__pair_passes(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
       if (nsvcd__edges_pass(moving, k, pair->fixed, n, travel, margin)) return 1;
   }
   return 0;
-}
-
-// The nearest points of a triangle pair at fraction u of the arc.
-static nsvcd__nearest nsvcd__pair_nearest(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
-                                          double u) {
-  nsvcd__d3 posed[3];
-  nsvcd__place_triangle(nsvcd__arc_pose(p, u), pair->moving, posed);
-  return nsvcd__nearest_of(posed, pair->fixed);
 }
 
 // How far a triangle is beyond another along a direction. Heights are over a corner of the one, to
@@ -295,18 +296,18 @@ static NSVCD__NOINLINE double nsvcd__aim_plane(nsvcd__proof *p,
   *plane = nsvcd__d3_scale(nsvcd__d3_sub(nearest->on_a, nearest->on_b), 1 / distance);
   const nsvcd__d3 *fixed = pair->fixed;
   const nsvcd__d3 guess = *plane;
-  nsvcd__d3 posed[3];
-  nsvcd__place_triangle(nsvcd__arc_pose(p, u), pair->moving, posed);
-  double best = nsvcd__beyond(guess, posed, fixed);
+  nsvcd__d3 moving[3];
+  nsvcd__place_triangle(nsvcd__arc_pose(p, u), pair->moving, moving);
+  double best = nsvcd__beyond(guess, moving, fixed);
   const double limit = p->ask.clearance + pair->margin;
   if (best - limit > 0.5 * (distance - limit)) return best;
   for (size_t k = 0; k < 17; k++) {
-    const nsvcd__d3 *of = k % 2 ? fixed : posed;
+    const nsvcd__d3 *of = k % 2 ? fixed : moving;
     nsvcd__d3 n = k < 2   ? nsvcd__face_direction(of)
                   : k < 8 ? nsvcd__off_edge(guess, of[k / 2 - 1], of[k / 2 % 3])
-                          : nsvcd__across_edges(posed, fixed, k - 8);
+                          : nsvcd__across_edges(moving, fixed, k - 8);
     if (nsvcd__d3_dot(n, guess) < 0) n = nsvcd__d3_scale(n, -1);
-    const double beyond = nsvcd__beyond(n, posed, fixed);
+    const double beyond = nsvcd__beyond(n, moving, fixed);
     if (!(beyond > best)) continue;
     *plane = n;
     best = beyond;
@@ -336,14 +337,14 @@ static nsvcd__outcome nsvcd__resolve_too_near(nsvcd__proof *p,
 // Resolves a part of the arc that is too short to halve. If the triangle pair has passed, the time
 // is narrowed down to rounding, and is the contact's. If not, it is unresolved.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_short_interval(
-    nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0, double u1, double speed) {
-  int passes = nsvcd__pair_passes(p, pair, u0, u1, speed);
+    nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0, double u1) {
+  int passes = nsvcd__pair_passes(p, pair, u0, u1);
   const int has_met = passes;
   for (size_t n = 0; passes && n < NSVCD__HALVINGS; n++) {
     const double middle = 0.5 * (u0 + u1);
     p->work++;
-    const int in_first = nsvcd__pair_passes(p, pair, u0, middle, speed);
-    passes = in_first || nsvcd__pair_passes(p, pair, middle, u1, speed);
+    const int in_first = nsvcd__pair_passes(p, pair, u0, middle);
+    passes = in_first || nsvcd__pair_passes(p, pair, middle, u1);
     if (!passes) break;
     u0 = in_first ? u0 : middle;
     u1 = in_first ? middle : u1;
@@ -441,9 +442,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
                                                           const nsvcd__triangle_pair *pair,
                                                           double u0, double u1) {
-  const nsvcd__arc *arc = &p->arc;
-  if (nsvcd__is_straight(arc)) return nsvcd__resolve_straight(p, pair, u0, u1);
-  const double speed = arc->speed + arc->turn * arc->scale * pair->from_axis;
+  if (nsvcd__is_straight(&p->arc)) return nsvcd__resolve_straight(p, pair, u0, u1);
   double *ends = p->pair_ends;
   size_t left = 1;
   size_t unresolved_count = 0;
@@ -471,13 +470,13 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
     }
     if (!apart) {
       const double least = 0.25 * pair->close * (double)(1 + unresolved_count);
-      const int is_short = speed * (end - u) <= least || left > NSVCD__HALVINGS;
+      const int is_short = pair->speed * (end - u) <= least || left > NSVCD__HALVINGS;
       if (!is_short) {
         ends[left++] = middle;
         p->parts++;
         continue;
       }
-      const nsvcd__outcome part = nsvcd__resolve_short_interval(p, pair, u, end, speed);
+      const nsvcd__outcome part = nsvcd__resolve_short_interval(p, pair, u, end);
       if (part == NSVCD__ANSWERED) return part;
       shrunk |= part == NSVCD__SHRUNK;
       if (part != NSVCD__RESOLVED) continue;
