@@ -67,7 +67,7 @@ doubt goes on|p->ask.limit = p->work + left;|p->ask.limit = p->ask.limit;
 doubt raises the limit|p->work + left < p->ask.limit|p->work > 0
 pair without clearance|> p->ask.clearance + pair->margin + deviation)) return 0;|> pair->margin + deviation)) return 0;
 pair at the start only|lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_end));|(void)at_end;
-block without quanta|nsvcd__quanta_of(p, i, j) + (over->rounding + over->origin_bend) + nsvcd__clearance(p);|(over->rounding + over->origin_bend) + nsvcd__clearance(p);
+block without quanta|nsvcd__errors_of(p, i, j) + (over->rounding + over->origin_bend) + nsvcd__clearance(p);|(over->rounding + over->origin_bend) + nsvcd__clearance(p);
 block without clearance|(over->rounding + over->origin_bend) + nsvcd__clearance(p);|(over->rounding + over->origin_bend);
 block without bulge|stays + nsvcd__bend_of(over, arm)|stays
 block at the start only|for (size_t k = 0; k < p->corner_count; k++) {\n    const nsvcd__v3 a =|for (size_t k = 0; k < 3; k++) {\n    const nsvcd__v3 a =

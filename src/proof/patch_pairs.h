@@ -45,7 +45,7 @@ static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t l, nsvcd__block
   const nsvcd__interval *over = p->over;
   const size_t i = p->moving_block.patch;
   const size_t j = fixed->patch;
-  const float errors = nsvcd__quanta_of(p, i, j);
+  const float errors = nsvcd__errors_of(p, i, j);
   p->work++;
   uint32_t met = nsvcd__row_left(p, l, fixed, margin);
   for (; met; met &= met - 1) {
@@ -82,7 +82,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
   const nsvcd__f3 axis = nsvcd__own_axis(over);
   const float stays =
-      nsvcd__quanta_of(p, i, j) + (over->rounding + over->origin_bend) + nsvcd__clearance(p);
+      nsvcd__errors_of(p, i, j) + (over->rounding + over->origin_bend) + nsvcd__clearance(p);
   const float error = p->moving.errors[i];
   const float extent = p->moving.body->extent + error;
   const nsvcd__arm all = {extent, extent};

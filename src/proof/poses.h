@@ -10,7 +10,7 @@ static nsvcd__dquat nsvcd__unit_rotation(const nsvcd_pose *pose) {
   return nsvcd__dquat_unit(out);
 }
 
-static nsvcd__d3 nsvcd__place_point(const nsvcd__dtransform *at, nsvcd__d3 a) {
+static nsvcd__d3 nsvcd__d3_transform(const nsvcd__dtransform *at, nsvcd__d3 a) {
   return nsvcd__d3_add(nsvcd__dmat3_apply(&at->rotation, a), at->position);
 }
 

@@ -539,7 +539,7 @@ static double nsvcd__off_meshes(const nsvcd__proof *p) {
 }
 
 // The sum of two patches' quantization errors.
-static float nsvcd__quanta_of(const nsvcd__proof *p, size_t i, size_t j) {
+static float nsvcd__errors_of(const nsvcd__proof *p, size_t i, size_t j) {
   return p->ask.motion->scale * p->moving.errors[i] + p->fixed.errors[j];
 }
 

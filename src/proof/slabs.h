@@ -88,29 +88,30 @@ NSVCD__INLINE nsvcd__v nsvcd__v_off(const nsvcd__v_approach *a, nsvcd__v3 plane)
   return nsvcd__v_add(allowed, nsvcd__v_deviation(&a->over, plane, a->radius));
 }
 
-NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate(nsvcd__v3 plane, nsvcd__v_range moving,
+// By planes with this normal. start, end, fixed: the slabs' extents along it, the moving one's at
+// both ends, each from its centre.
+NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate(const nsvcd__v_approach *a, nsvcd__v3 plane,
+                                                   nsvcd__v_range start, nsvcd__v_range end,
                                                    nsvcd__v_range fixed, nsvcd__v off) {
+  const nsvcd__v height = nsvcd__v3_dot(plane, a->from);
+  const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(plane, a->chord));
+  const nsvcd__v low =
+      nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
+  const nsvcd__v high =
+      nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
   nsvcd__v_separated out;
   out.plane = plane;
-  out.below = nsvcd__v_lt(moving.high, nsvcd__v_sub(fixed.low, off));
-  out.lanes = out.below | nsvcd__v_lt(nsvcd__v_add(fixed.high, off), moving.low);
+  out.below = nsvcd__v_lt(high, nsvcd__v_sub(fixed.low, off));
+  out.lanes = out.below | nsvcd__v_lt(nsvcd__v_add(fixed.high, off), low);
   return out;
 }
 
 // By planes normal to the resting slabs.
 NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_fixed(const nsvcd__v_approach *a) {
-  const nsvcd__v3 plane = a->fixed.normal;
   const nsvcd__v_range fixed = {a->fixed.low, a->fixed.high};
   const nsvcd__v_range start = nsvcd__v_slab_range(&a->moving, a->at_start);
   const nsvcd__v_range end = nsvcd__v_slab_range(&a->moving, a->at_end);
-  const nsvcd__v height = nsvcd__v3_dot(plane, a->from);
-  const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(plane, a->chord));
-  nsvcd__v_range moving;
-  moving.low =
-      nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
-  moving.high =
-      nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
-  return nsvcd__v_separate(plane, moving, fixed, a->fixed_off);
+  return nsvcd__v_separate(a, a->fixed.normal, start, end, fixed, a->fixed_off);
 }
 
 // By planes normal to the mean w of the moving slabs' normals, |w| <= 1. Both normals make the same
@@ -119,13 +120,9 @@ NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_moving(const nsvcd__v_appr
   const nsvcd__v3 w = a->mean;
   const nsvcd__v along = nsvcd__v_mul(a->scale, nsvcd__v3_dot(w, w));
   const nsvcd__v across = nsvcd__v_mul(a->scale, nsvcd__v3_length(a->turned));
-  const nsvcd__v_range own = nsvcd__v_slab_along(&a->moving, along, across);
-  const nsvcd__v height = nsvcd__v3_dot(w, a->from);
-  const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(w, a->chord));
-  nsvcd__v_range moving;
-  moving.low = nsvcd__v_add(nsvcd__v_min(height, height_end), own.low);
-  moving.high = nsvcd__v_add(nsvcd__v_max(height, height_end), own.high);
-  return nsvcd__v_separate(w, moving, nsvcd__v_slab_range(&a->fixed, w), nsvcd__v_off(a, w));
+  const nsvcd__v_range moving = nsvcd__v_slab_along(&a->moving, along, across);
+  const nsvcd__v_range fixed = nsvcd__v_slab_range(&a->fixed, w);
+  return nsvcd__v_separate(a, w, moving, moving, fixed, nsvcd__v_off(a, w));
 }
 
 // Of the lanes `met` of moving group g in segment s, those that slabs do not separate from resting

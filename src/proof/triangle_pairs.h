@@ -4,9 +4,9 @@
 #include "motion_bounds.h"
 
 #ifndef NSVCD_NO_PROOF
-static void nsvcd__place_triangle(const nsvcd__dtransform *at, const nsvcd__d3 *corners,
-                                  nsvcd__d3 *out) {
-  for (size_t k = 0; k < 3; k++) out[k] = nsvcd__place_point(at, corners[k]);
+static void nsvcd__pose_triangle(const nsvcd__dtransform *at, const nsvcd__d3 *corners,
+                                 nsvcd__d3 *out) {
+  for (size_t k = 0; k < 3; k++) out[k] = nsvcd__d3_transform(at, corners[k]);
 }
 
 // Two triangles, one of each body, in their frames: the caller's own, of which entries may be
@@ -67,7 +67,7 @@ static int nsvcd__fixed_closed(const nsvcd__proof *p, const nsvcd__triangle_pair
 static nsvcd__nearest nsvcd__pair_nearest(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
                                           double u) {
   nsvcd__d3 moving[3];
-  nsvcd__place_triangle(nsvcd__arc_pose(p, u), pair->moving, moving);
+  nsvcd__pose_triangle(nsvcd__arc_pose(p, u), pair->moving, moving);
   return nsvcd__nearest_of(moving, pair->fixed);
 }
 
@@ -155,8 +155,8 @@ static int nsvcd__plane_separates(nsvcd__proof *p, const nsvcd__triangle_pair *p
   double lowest = HUGE_VAL;
   double highest = -HUGE_VAL;
   for (size_t k = 0; k < 3; k++) {
-    const nsvcd__d3 at_start = nsvcd__place_point(start, pair->moving[k]);
-    const nsvcd__d3 at_end = nsvcd__place_point(end, pair->moving[k]);
+    const nsvcd__d3 at_start = nsvcd__d3_transform(start, pair->moving[k]);
+    const nsvcd__d3 at_end = nsvcd__d3_transform(end, pair->moving[k]);
     lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_start));
     lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_end));
     highest = nsvcd__max(highest, nsvcd__d3_dot(normal, pair->fixed[k]));
@@ -243,7 +243,7 @@ static int nsvcd__pair_passes(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
   const double times[3] = {u0, 0.5 * (u0 + u1), u1};
   nsvcd__d3 corners[3][3];
   for (size_t n = 0; n < 3; n++)
-    nsvcd__place_triangle(nsvcd__arc_pose(p, times[n]), pair->moving, corners[n]);
+    nsvcd__pose_triangle(nsvcd__arc_pose(p, times[n]), pair->moving, corners[n]);
   const nsvcd__d3 *moving[3] = {corners[0], corners[1], corners[2]};
   const nsvcd__d3 *fixed[3] = {pair->fixed, pair->fixed, pair->fixed};
   for (size_t k = 0; k < 3; k++) {
@@ -297,7 +297,7 @@ static NSVCD__NOINLINE double nsvcd__aim_plane(nsvcd__proof *p,
   const nsvcd__d3 *fixed = pair->fixed;
   const nsvcd__d3 guess = *plane;
   nsvcd__d3 moving[3];
-  nsvcd__place_triangle(nsvcd__arc_pose(p, u), pair->moving, moving);
+  nsvcd__pose_triangle(nsvcd__arc_pose(p, u), pair->moving, moving);
   double best = nsvcd__beyond(guess, moving, fixed);
   const double limit = p->ask.clearance + pair->margin;
   if (best - limit > 0.5 * (distance - limit)) return best;

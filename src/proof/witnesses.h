@@ -151,7 +151,7 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
           nsvcd__pair_of(p, i, j, entry, fixed->first + nsvcd__low_bit(met));
       nsvcd__d3 posed[3];
       nsvcd__nearest nearest = {0, {0, 0, 0}, {0, 0, 0}};
-      nsvcd__place_triangle(at, pair.moving, posed);
+      nsvcd__pose_triangle(at, pair.moving, posed);
       p->work++;
       if (p->ask.collects == NSVCD__SUPPORTING) {
         nsvcd__collect_positions(p, &pair, posed);
@@ -200,7 +200,7 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
   const nsvcd__transform rounded = nsvcd__transform_of(&at);
   const float lengths = p->given.lengths + nsvcd__f3_length(rounded.position);
   const float margin =
-      NSVCD__ROUNDING * lengths + nsvcd__clearance(p) + nsvcd__quanta_of(p, i, j);
+      NSVCD__ROUNDING * lengths + nsvcd__clearance(p) + nsvcd__errors_of(p, i, j);
   const size_t moving_end = p->moving.first_triangle[i + 1];
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
   NSVCD__TALLY(tries, 1);
