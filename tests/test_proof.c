@@ -1090,6 +1090,17 @@ static void proof_any_motion_of_both(shapes_rng *rng, proof_motion *m) {
   m->fixed.scale = (float)pow(10, shapes_uniform(rng, -1, 1));
 }
 
+// A segment, as the proof has it where nothing has been found.
+static nsvcd__interval proof_segment(nsvcd__motion *motion, const nsvcd__search *work, size_t s) {
+  static nsvcd__proof proof;
+  static nsvcd__interval spans[NSVCD__MAX_SEGMENTS];
+  proof.intervals = spans;
+  proof.ask.motion = motion;
+  proof.ask.end = HUGE_VAL;
+  proof.memo.intervals = 0;
+  return *nsvcd__segment_interval(&proof, work, s);
+}
+
 // A segment that is cut off somewhere, as where a first contact ends the motion.
 static nsvcd__interval proof_any_clip(shapes_rng *rng, nsvcd__motion *motion, nsvcd__search *work) {
   static nsvcd__proof proof;
@@ -1140,7 +1151,7 @@ static void proof_spans_hold_the_motion(void) {
     nsvcd__cut_motion(&motion, lengths, work);
     const double reach = (double)lengths / (double)fmaxf(motion.scale, 1);
     for (size_t s = 0; s < work->segments; s++) {
-      const nsvcd__interval span = nsvcd__interval_of_segment(&motion, work, s);
+      const nsvcd__interval span = proof_segment(&motion, work, s);
       const double use = proof_span_use(&m, &span, reach, &rng);
       const int has_samples =
           work->begin[s + 1] - work->begin[s] > 1;  // else the spread is for rounding alone
@@ -1330,7 +1341,7 @@ static void proof_spans_hold_along_directions(void) {
     proof_motion_init(&m, &motion);
     nsvcd__cut_motion(&motion, 2 * reach, work);
     for (size_t k = 0; k < work->segments; k++, segments++) {
-      const nsvcd__interval span = nsvcd__interval_of_segment(&motion, work, k);
+      const nsvcd__interval span = proof_segment(&motion, work, k);
       worst = fmax(worst, proof_direction_use(&m, &span, (double)reach, &rng));
       turned = fmax(turned, proof_turn_use(&m, &span, &rng));
     }

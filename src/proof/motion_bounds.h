@@ -38,39 +38,31 @@ static void nsvcd__narrow_segments(nsvcd__search *search, double from, double to
   begin[search->segments] = (uint32_t)(finer * end);
 }
 
-static nsvcd__interval nsvcd__interval_of_segment(const nsvcd__motion *motion,
-                                                  const nsvcd__search *search, size_t s) {
-  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
-  const size_t l = s % NSVCD__LANES;
-  const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, l);
-  nsvcd__interval out;
-  out.start.rotation = nsvcd__mat3_lane(block->rotation, l);
-  out.end.rotation = nsvcd__mat3_mix(1, &out.start.rotation, 1, &turned);
-  out.start.position = nsvcd__lane_of(block->position, l);
-  out.end.position = nsvcd__f3_add(out.start.position, nsvcd__lane_of(block->moved, l));
-  out.bend = block->bend[l];
-  out.rounding = block->rounding[l];
-  out.origin_bend = block->origin_bend[l];
-  out.axis = nsvcd__lane_of(block->axis, l);
-  out.heading = nsvcd__lane_of(block->heading, l);
-  out.bend_along_axis = block->bend_along_axis[l];
-  out.origin_along_axis = block->origin_along_axis[l];
-  out.origin_off_heading = block->origin_off_heading[l];
-  out.t_start = nsvcd__time_of(motion, (double)search->begin[s]);
-  out.t_end = nsvcd__time_of(motion, (double)search->begin[s + 1]);
-  return out;
-}
-
-// Kept once it has been made, up to the end of what matters.
+// A segment, up to the end of what matters; kept once it has been made.
 static const nsvcd__interval *nsvcd__segment_interval(nsvcd__proof *p,
                                                       const nsvcd__search *search, size_t s) {
-  if (!(p->memo.intervals >> s & 1)) {
-    p->intervals[s] = nsvcd__interval_of_segment(p->ask.motion, search, s);
-    p->intervals[s].t_end =
-        nsvcd__min(p->intervals[s].t_end, nsvcd__time_of(p->ask.motion, p->ask.end));
-  }
+  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
+  const size_t l = s % NSVCD__LANES;
+  nsvcd__interval *out = &p->intervals[s];
+  if (p->memo.intervals >> s & 1) return out;
   p->memo.intervals |= (uint64_t)1 << s;
-  return &p->intervals[s];
+  const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, l);
+  const double end = nsvcd__min((double)search->begin[s + 1], p->ask.end);
+  out->start.rotation = nsvcd__mat3_lane(block->rotation, l);
+  out->end.rotation = nsvcd__mat3_mix(1, &out->start.rotation, 1, &turned);
+  out->start.position = nsvcd__lane_of(block->position, l);
+  out->end.position = nsvcd__f3_add(out->start.position, nsvcd__lane_of(block->moved, l));
+  out->bend = block->bend[l];
+  out->rounding = block->rounding[l];
+  out->origin_bend = block->origin_bend[l];
+  out->axis = nsvcd__lane_of(block->axis, l);
+  out->heading = nsvcd__lane_of(block->heading, l);
+  out->bend_along_axis = block->bend_along_axis[l];
+  out->origin_along_axis = block->origin_along_axis[l];
+  out->origin_off_heading = block->origin_off_heading[l];
+  out->t_start = nsvcd__time_of(p->ask.motion, (double)search->begin[s]);
+  out->t_end = nsvcd__time_of(p->ask.motion, end);
+  return out;
 }
 
 // The interval from u0 to u1 of the arc that begins at the keyframe `first`.

@@ -84,7 +84,7 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   arc->from = nsvcd__d3_scale(from, per_metre);
   arc->moved = nsvcd__d3_scale(nsvcd__d3_sub(to, from), per_metre);
   if (!arc->fixed_moves) {
-    // its frame takes the place of the world
+    // all in the fixed body's frame
     const nsvcd__dquat frame = arc->fixed.start;
     const nsvcd__dmat3 axes = nsvcd__dmat3_of(frame);
     const nsvcd__dquat none = {0, 0, 0, 1};
