@@ -93,8 +93,8 @@
 #define NSVCD__FRESH 48
 #define NSVCD__ENOUGH_FRESH 8
 
-// Sifting tries planes and seeks witnesses. In a patch pair deeper than this, if it is the deepest,
-// a witness is sought before any plane is tried.
+// Sifting tries planes and seeks witnesses. If the first patch pair is deeper than this, a witness
+// is sought in it before any plane is tried.
 #define NSVCD__DEEP 0.2f
 // Steps of Gilbert's iteration, for a plane between two hulls.
 #define NSVCD__PLANE_STEPS 12
@@ -346,7 +346,7 @@ typedef struct nsvcd__given {
   // The resolution of the first contact, a fraction of the motion, and of the least distance; 0:
   // not asked for.
   double fraction, width;
-  // FIRST: how near the bodies may be when the motion ends; 0: no bound
+  // FIRST: the resolution as a distance, so near a contact a motion may have ended; 0: not given
   double to;
   // is more asked for than yes or no?
   int tells;
