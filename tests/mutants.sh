@@ -98,7 +98,7 @@ long: an interval settled from the start|p->known.resolved = (double)p->ask.moti
 first arc only|at < last \&\& (double)at < p->ask.end;) {|at < last \&\& at == search->begin[item->segment];) {
 a segment dropped|uint32_t met = nsvcd__group_against_members(search, h, wanted, p->met_in);|uint32_t met = nsvcd__group_against_members(search, h, wanted, p->met_in);\n      for (size_t l = 0; l < NSVCD__GROUP; l++) {\n        if (p->met_in[l] \& (p->met_in[l] - 1)) p->met_in[l] \&= p->met_in[l] - 1;\n      }
 a full buffer forgotten|if (!*left) break;|break;
-passing not seen|const int has_met = passes;|const int has_met = 0 * passes;
+passing not seen|if (!nsvcd__pair_passes(p, pair, u0, u1))|if (u0 <= u1)
 passing without a change of sides|  const int falls = before > least_before \&\& after < -least_after;|  const int falls = before != 0;
 both turn, twist forgotten|nsvcd__v_mul(turn, nsvcd__v_add(turn, fixed_turn));|nsvcd__v_mul(turn, turn);
 both turn, half of the way|nsvcd__v_fma(fixed_turn, extent, nsvcd__v_add(travel, travel))|nsvcd__v_fma(fixed_turn, extent, travel)

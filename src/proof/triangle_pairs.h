@@ -338,19 +338,19 @@ static nsvcd__outcome nsvcd__resolve_too_near(nsvcd__proof *p,
 // is narrowed down to rounding, and is the contact's. If not, it is unresolved.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_short_interval(
     nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0, double u1) {
-  int passes = nsvcd__pair_passes(p, pair, u0, u1);
-  const int has_met = passes;
-  for (size_t n = 0; passes && n < NSVCD__HALVINGS; n++) {
+  if (!nsvcd__pair_passes(p, pair, u0, u1))
+    return nsvcd__resolve_too_near(p, pair, u0, u1, 0.5 * (u0 + u1));
+  for (size_t n = 0; n < NSVCD__HALVINGS; n++) {
     const double middle = 0.5 * (u0 + u1);
     p->work++;
-    const int in_first = nsvcd__pair_passes(p, pair, u0, middle);
-    passes = in_first || nsvcd__pair_passes(p, pair, middle, u1);
-    if (!passes) break;
-    u0 = in_first ? u0 : middle;
-    u1 = in_first ? middle : u1;
+    if (nsvcd__pair_passes(p, pair, u0, middle))
+      u1 = middle;
+    else if (nsvcd__pair_passes(p, pair, middle, u1))
+      u0 = middle;
+    else
+      break;
   }
   const double when = 0.5 * (u0 + u1);
-  if (!has_met) return nsvcd__resolve_too_near(p, pair, u0, u1, when);
   nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, when);
   nearest.square = 0;
   return nsvcd__take_contact(p, pair, when, &nearest);
@@ -364,13 +364,13 @@ static nsvcd__outcome nsvcd__take_nearest(nsvcd__proof *p, const nsvcd__triangle
   for (size_t n = 0; n < NSVCD__HALVINGS / 2; n++) {
     const double middle = 0.5 * (u0 + u1);
     const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
-    const nsvcd__d3 travel = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+    const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
     p->work++;
     if (sqrt(nearest.square) < p->high &&
         nsvcd__take_contact(p, pair, middle, &nearest) == NSVCD__ANSWERED)
       return NSVCD__ANSWERED;
-    const double slope = nsvcd__d3_dot(travel, moved) / sqrt(nearest.square);
-    // a tangent is nowhere above it
+    const double slope = nsvcd__d3_dot(apart, moved) / sqrt(nearest.square);
+    // the distance is nowhere below its tangent
     if (!(fabs(slope) * (u1 - u0) > p->ask.measure)) break;
     if (slope < 0)
       u0 = middle;
