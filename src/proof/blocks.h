@@ -99,7 +99,7 @@ static nsvcd__box nsvcd__block_bounds(const nsvcd__block *block) {
   return out;
 }
 
-// Loads up to NSVCD__WINDOW blocks of resting patch j, from entry `first` on, and the boxes about
+// Loads up to NSVCD__WINDOW blocks of fixed patch j, from entry `first` on, and the boxes about
 // them. The same patch is often asked for again.
 static void nsvcd__window_load(nsvcd__proof *p, size_t j, size_t first) {
   const size_t end = p->fixed.first_triangle[j + 1];

@@ -56,12 +56,12 @@ NSVCD__INLINE nsvcd__support nsvcd__support_along(nsvcd__proof *p, nsvcd__f3 nor
     const nsvcd__v3 n = nsvcd__v3_set(normal);
     const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_start, l));
     const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_end, l));
-    const nsvcd__v at_rest = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_rest, l));
+    const nsvcd__v height = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_fixed, l));
     const nsvcd__v at_either = nsvcd__v_min(at_start, at_end);
     nsvcd__v_store(moving + l, at_either);
-    nsvcd__v_store(fixed + l, at_rest);
+    nsvcd__v_store(fixed + l, height);
     lowest = nsvcd__least_of(lowest, at_either);
-    highest = nsvcd__greatest_of(highest, at_rest);
+    highest = nsvcd__greatest_of(highest, height);
     starts |= nsvcd__v_le(at_start, at_end) << l;
   }
   NSVCD__EACH_SLICE(l) {
@@ -73,7 +73,7 @@ NSVCD__INLINE nsvcd__support nsvcd__support_along(nsvcd__proof *p, nsvcd__f3 nor
   const size_t b = nsvcd__low_bit(high | 0x8000);
   const int is_start = (starts >> a & 1) != 0;
   const nsvcd__f3 vertex = nsvcd__lane_of(is_start ? p->hull_start : p->hull_end, a);
-  const nsvcd__f3 other = nsvcd__lane_of(p->hull_rest, b);
+  const nsvcd__f3 other = nsvcd__lane_of(p->hull_fixed, b);
   const nsvcd__support out = {lowest - highest, nsvcd__f3_sub(vertex, other)};
   return out;
 }
@@ -100,7 +100,7 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, siz
     const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, i, l);
     nsvcd__v3_store(p->hull_start, l, nsvcd__v3_transform(start, hull));
     nsvcd__v3_store(p->hull_end, l, nsvcd__v3_transform(end, hull));
-    nsvcd__v3_store(p->hull_rest, l, nsvcd__hull_of(&p->fixed, j, l));
+    nsvcd__v3_store(p->hull_fixed, l, nsvcd__hull_of(&p->fixed, j, l));
   }
   const nsvcd__slab moving = nsvcd__slab_at(p->moving.slabs, p->moving.body->padded, i);
   const nsvcd__slab fixed = nsvcd__slab_at(p->fixed.slabs, p->fixed.body->padded, j);

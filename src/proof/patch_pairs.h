@@ -160,7 +160,7 @@ static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__se
 
 // Does the plane that held last separate a patch pair over its segment, moved along its normal? If
 // it does, the pair's neighbours ask for the same heights: so these are remembered, of a moving
-// patch in a segment the least, less all margins, and of a resting one the greatest.
+// patch in a segment the least, less all margins, and of a fixed one the greatest.
 static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
                              const nsvcd__patch_pair *item) {
   const size_t i = item->moving;
@@ -174,7 +174,7 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
   const uint32_t key = (uint32_t)(i * NSVCD__MAX_SEGMENTS + s);
   nsvcd__height *above =
       &memo->heights[(NSVCD__GROUP * s + i % NSVCD__GROUP) % NSVCD__HEIGHTS];
-  nsvcd__height *below = &memo->rest_heights[j % NSVCD__REST_HEIGHTS];
+  nsvcd__height *below = &memo->fixed_heights[j % NSVCD__FIXED_HEIGHTS];
   if (above->plane != memo->plane || above->key != key) {
     float lowest = HUGE_VALF;
     NSVCD__EACH_SLICE(l) {

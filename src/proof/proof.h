@@ -102,14 +102,14 @@
 // more witnesses are sought where the question is yes or no.
 #define NSVCD__FEW_MISSES 8
 #define NSVCD__MANY_MISSES 128
-// Remembered heights over the plane that held last: of moving patches, and of resting ones.
+// Remembered heights over the plane that held last: of moving patches, and of fixed ones.
 #define NSVCD__HEIGHTS 256
-#define NSVCD__REST_HEIGHTS 64
+#define NSVCD__FIXED_HEIGHTS 64
 
 // What no plane separates is resolved by its triangles, arc by arc.
 // Room for such patch pairs. When it is full, they are resolved first.
 #define NSVCD__PATCH_PAIRS 256
-// Blocks of a resting patch that are loaded at once.
+// Blocks of a fixed patch that are loaded at once.
 #define NSVCD__WINDOW 8
 // An interval is halved for all its triangle pairs once these have been halved more often than
 // this, if it is longer than this fraction of an arc.
@@ -399,15 +399,15 @@ typedef struct nsvcd__memo {
   // segments that have been made intervals
   uint64_t intervals;
   // The normal of the plane between hulls that held last, and its number, 0: none; and the heights
-  // of moving and of resting patches over it.
+  // of moving and of fixed patches over it.
   nsvcd__f3 held;
   uint32_t plane;
-  nsvcd__height heights[NSVCD__HEIGHTS], rest_heights[NSVCD__REST_HEIGHTS];
+  nsvcd__height heights[NSVCD__HEIGHTS], fixed_heights[NSVCD__FIXED_HEIGHTS];
   // the unit normal of the plane that separated a triangle pair last
   nsvcd__d3 separating;
   // triangle pairs in a row that it has separated since
   size_t shared;
-  // blocks of a resting patch in p->fixed_blocks; is one in p->moving_block?
+  // blocks of a fixed patch in p->fixed_blocks; is one in p->moving_block?
   size_t window;
   int has_block;
 } nsvcd__memo;
@@ -453,7 +453,7 @@ typedef struct nsvcd__proof {
   uint64_t clipped;
   double clipped_end;
 
-  // segments in which 16 resting patches are met
+  // segments in which 16 fixed patches are met
   uint64_t met_in[NSVCD__GROUP];
   // Patch pairs: as the search finds them, and those that no plane separates over their segment;
   // and witnesses that were sought in vain.
@@ -470,7 +470,7 @@ typedef struct nsvcd__proof {
 
   // A patch pair: its hulls, posed, and its triangles, block by block, with boxes about the fixed
   // blocks.
-  float hull_start[3][NSVCD__LANES], hull_end[3][NSVCD__LANES], hull_rest[3][NSVCD__LANES];
+  float hull_start[3][NSVCD__LANES], hull_end[3][NSVCD__LANES], hull_fixed[3][NSVCD__LANES];
   nsvcd__block moving_block, fixed_blocks[NSVCD__WINDOW];
   nsvcd__box bounds[NSVCD__WINDOW];
   // The moving block's corners at the start and at the end of the interval `over` (corner, axis,

@@ -54,15 +54,15 @@ NSVCD__INLINE nsvcd__v_range nsvcd__v_slab_range(const nsvcd__v_slab *slab, nsvc
   return nsvcd__v_slab_along(slab, along, across);
 }
 
-// Moving slabs that approach resting ones over an interval; either of them, and the interval, may
+// Moving slabs that approach fixed ones over an interval; either of them, and the interval, may
 // be the same in all lanes.
 typedef struct nsvcd__v_approach {
   // in its body's frame and units
   nsvcd__v_slab moving;
   nsvcd__v_slab fixed;
-  // from the resting centre to the moving one, and its travel
+  // from the fixed centre to the moving one, and its travel
   nsvcd__v3 from, chord;
-  // the resting slab's normal in the moving body's frame, at both ends
+  // the fixed slab's normal in the moving body's frame, at both ends
   nsvcd__v3 at_start, at_end;
   // the mean of the moving slab's normals at both ends, and half their difference
   nsvcd__v3 mean, turned;
@@ -106,7 +106,7 @@ NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate(const nsvcd__v_approach *a, n
   return out;
 }
 
-// By planes normal to the resting slabs.
+// By planes normal to the fixed slabs.
 NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_fixed(const nsvcd__v_approach *a) {
   const nsvcd__v_range fixed = {a->fixed.low, a->fixed.high};
   const nsvcd__v_range start = nsvcd__v_slab_range(&a->moving, a->at_start);
@@ -125,7 +125,7 @@ NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_moving(const nsvcd__v_appr
   return nsvcd__v_separate(a, w, moving, moving, fixed, nsvcd__v_off(a, w));
 }
 
-// Of the lanes `met` of moving group g in segment s, those that slabs do not separate from resting
+// Of the lanes `met` of moving group g in segment s, those that slabs do not separate from fixed
 // patch j.
 static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *search, size_t g,
                                   size_t j, size_t s, uint32_t met) {
@@ -170,7 +170,7 @@ static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *search, 
 }
 
 // Clears the segments in which slabs separate the moving group that is searched, whose chords are
-// in search->group, from the resting ones that it meets: a slice of segments at a time.
+// in search->group, from the fixed ones that it meets: a slice of segments at a time.
 static NSVCD__NOINLINE void nsvcd__separate_groups(nsvcd__proof *p, nsvcd__search *search) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
