@@ -11481,8 +11481,8 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__FRESH 48
 #define NSVCD__ENOUGH_FRESH 8
 
-// Sifting tries planes and seeks witnesses. In a patch pair deeper than this, if it is the deepest,
-// a witness is sought before any plane is tried.
+// Sifting tries planes and seeks witnesses. If the first patch pair is deeper than this, a witness
+// is sought in it before any plane is tried.
 #define NSVCD__DEEP 0.2f
 // Steps of Gilbert's iteration, for a plane between two hulls.
 #define NSVCD__PLANE_STEPS 12
@@ -11490,14 +11490,14 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // more witnesses are sought where the question is yes or no.
 #define NSVCD__FEW_MISSES 8
 #define NSVCD__MANY_MISSES 128
-// Remembered heights over the plane that held last: of moving patches, and of resting ones.
+// Remembered heights over the plane that held last: of moving patches, and of fixed ones.
 #define NSVCD__HEIGHTS 256
-#define NSVCD__REST_HEIGHTS 64
+#define NSVCD__FIXED_HEIGHTS 64
 
 // What no plane separates is resolved by its triangles, arc by arc.
 // Room for such patch pairs. When it is full, they are resolved first.
 #define NSVCD__PATCH_PAIRS 256
-// Blocks of a resting patch that are loaded at once.
+// Blocks of a fixed patch that are loaded at once.
 #define NSVCD__WINDOW 8
 // An interval is halved for all its triangle pairs once these have been halved more often than
 // this, if it is longer than this fraction of an arc.
@@ -11734,7 +11734,7 @@ typedef struct nsvcd__given {
   // The resolution of the first contact, a fraction of the motion, and of the least distance; 0:
   // not asked for.
   double fraction, width;
-  // FIRST: how near the bodies may be when the motion ends; 0: no bound
+  // FIRST: the resolution as a distance, so near a contact a motion may have ended; 0: not given
   double to;
   // is more asked for than yes or no?
   int tells;
@@ -11787,15 +11787,15 @@ typedef struct nsvcd__memo {
   // segments that have been made intervals
   uint64_t intervals;
   // The normal of the plane between hulls that held last, and its number, 0: none; and the heights
-  // of moving and of resting patches over it.
+  // of moving and of fixed patches over it.
   nsvcd__f3 held;
   uint32_t plane;
-  nsvcd__height heights[NSVCD__HEIGHTS], rest_heights[NSVCD__REST_HEIGHTS];
+  nsvcd__height heights[NSVCD__HEIGHTS], fixed_heights[NSVCD__FIXED_HEIGHTS];
   // the unit normal of the plane that separated a triangle pair last
   nsvcd__d3 separating;
   // triangle pairs in a row that it has separated since
   size_t shared;
-  // blocks of a resting patch in p->fixed_blocks; is one in p->moving_block?
+  // blocks of a fixed patch in p->fixed_blocks; is one in p->moving_block?
   size_t window;
   int has_block;
 } nsvcd__memo;
@@ -11841,7 +11841,7 @@ typedef struct nsvcd__proof {
   uint64_t clipped;
   double clipped_end;
 
-  // segments in which 16 resting patches are met
+  // segments in which 16 fixed patches are met
   uint64_t met_in[NSVCD__GROUP];
   // Patch pairs: as the search finds them, and those that no plane separates over their segment;
   // and witnesses that were sought in vain.
@@ -11858,7 +11858,7 @@ typedef struct nsvcd__proof {
 
   // A patch pair: its hulls, posed, and its triangles, block by block, with boxes about the fixed
   // blocks.
-  float hull_start[3][NSVCD__LANES], hull_end[3][NSVCD__LANES], hull_rest[3][NSVCD__LANES];
+  float hull_start[3][NSVCD__LANES], hull_end[3][NSVCD__LANES], hull_fixed[3][NSVCD__LANES];
   nsvcd__block moving_block, fixed_blocks[NSVCD__WINDOW];
   nsvcd__box bounds[NSVCD__WINDOW];
   // The moving block's corners at the start and at the end of the interval `over` (corner, axis,
@@ -11927,7 +11927,7 @@ static double nsvcd__off_meshes(const nsvcd__proof *p) {
 }
 
 // The sum of two patches' quantization errors.
-static float nsvcd__quanta_of(const nsvcd__proof *p, size_t i, size_t j) {
+static float nsvcd__errors_of(const nsvcd__proof *p, size_t i, size_t j) {
   return p->ask.motion->scale * p->moving.errors[i] + p->fixed.errors[j];
 }
 
@@ -11962,7 +11962,7 @@ static nsvcd__dquat nsvcd__unit_rotation(const nsvcd_pose *pose) {
   return nsvcd__dquat_unit(out);
 }
 
-static nsvcd__d3 nsvcd__place_point(const nsvcd__dtransform *at, nsvcd__d3 a) {
+static nsvcd__d3 nsvcd__d3_transform(const nsvcd__dtransform *at, nsvcd__d3 a) {
   return nsvcd__d3_add(nsvcd__dmat3_apply(&at->rotation, a), at->position);
 }
 
@@ -12036,7 +12036,7 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   arc->from = nsvcd__d3_scale(from, per_metre);
   arc->moved = nsvcd__d3_scale(nsvcd__d3_sub(to, from), per_metre);
   if (!arc->fixed_moves) {
-    // its frame takes the place of the world
+    // all in the fixed body's frame
     const nsvcd__dquat frame = arc->fixed.start;
     const nsvcd__dmat3 axes = nsvcd__dmat3_of(frame);
     const nsvcd__dquat none = {0, 0, 0, 1};
@@ -12183,39 +12183,31 @@ static void nsvcd__narrow_segments(nsvcd__search *search, double from, double to
   begin[search->segments] = (uint32_t)(finer * end);
 }
 
-static nsvcd__interval nsvcd__interval_of_segment(const nsvcd__motion *motion,
-                                                  const nsvcd__search *search, size_t s) {
-  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
-  const size_t l = s % NSVCD__LANES;
-  const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, l);
-  nsvcd__interval out;
-  out.start.rotation = nsvcd__mat3_lane(block->rotation, l);
-  out.end.rotation = nsvcd__mat3_mix(1, &out.start.rotation, 1, &turned);
-  out.start.position = nsvcd__lane_of(block->position, l);
-  out.end.position = nsvcd__f3_add(out.start.position, nsvcd__lane_of(block->moved, l));
-  out.bend = block->bend[l];
-  out.rounding = block->rounding[l];
-  out.origin_bend = block->origin_bend[l];
-  out.axis = nsvcd__lane_of(block->axis, l);
-  out.heading = nsvcd__lane_of(block->heading, l);
-  out.bend_along_axis = block->bend_along_axis[l];
-  out.origin_along_axis = block->origin_along_axis[l];
-  out.origin_off_heading = block->origin_off_heading[l];
-  out.t_start = nsvcd__time_of(motion, (double)search->begin[s]);
-  out.t_end = nsvcd__time_of(motion, (double)search->begin[s + 1]);
-  return out;
-}
-
-// Kept once it has been made, up to the end of what matters.
+// A segment, up to the end of what matters; kept once it has been made.
 static const nsvcd__interval *nsvcd__segment_interval(nsvcd__proof *p,
                                                       const nsvcd__search *search, size_t s) {
-  if (!(p->memo.intervals >> s & 1)) {
-    p->intervals[s] = nsvcd__interval_of_segment(p->ask.motion, search, s);
-    p->intervals[s].t_end =
-        nsvcd__min(p->intervals[s].t_end, nsvcd__time_of(p->ask.motion, p->ask.end));
-  }
+  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
+  const size_t l = s % NSVCD__LANES;
+  nsvcd__interval *out = &p->intervals[s];
+  if (p->memo.intervals >> s & 1) return out;
   p->memo.intervals |= (uint64_t)1 << s;
-  return &p->intervals[s];
+  const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, l);
+  const double end = nsvcd__min((double)search->begin[s + 1], p->ask.end);
+  out->start.rotation = nsvcd__mat3_lane(block->rotation, l);
+  out->end.rotation = nsvcd__mat3_mix(1, &out->start.rotation, 1, &turned);
+  out->start.position = nsvcd__lane_of(block->position, l);
+  out->end.position = nsvcd__f3_add(out->start.position, nsvcd__lane_of(block->moved, l));
+  out->bend = block->bend[l];
+  out->rounding = block->rounding[l];
+  out->origin_bend = block->origin_bend[l];
+  out->axis = nsvcd__lane_of(block->axis, l);
+  out->heading = nsvcd__lane_of(block->heading, l);
+  out->bend_along_axis = block->bend_along_axis[l];
+  out->origin_along_axis = block->origin_along_axis[l];
+  out->origin_off_heading = block->origin_off_heading[l];
+  out->t_start = nsvcd__time_of(p->ask.motion, (double)search->begin[s]);
+  out->t_end = nsvcd__time_of(p->ask.motion, end);
+  return out;
 }
 
 // The interval from u0 to u1 of the arc that begins at the keyframe `first`.
@@ -12399,15 +12391,15 @@ NSVCD__INLINE nsvcd__v_range nsvcd__v_slab_range(const nsvcd__v_slab *slab, nsvc
   return nsvcd__v_slab_along(slab, along, across);
 }
 
-// Moving slabs that approach resting ones over an interval; either of them, and the interval, may
+// Moving slabs that approach fixed ones over an interval; either of them, and the interval, may
 // be the same in all lanes.
 typedef struct nsvcd__v_approach {
   // in its body's frame and units
   nsvcd__v_slab moving;
   nsvcd__v_slab fixed;
-  // from the resting centre to the moving one, and its travel
+  // from the fixed centre to the moving one, and its travel
   nsvcd__v3 from, chord;
-  // the resting slab's normal in the moving body's frame, at both ends
+  // the fixed slab's normal in the moving body's frame, at both ends
   nsvcd__v3 at_start, at_end;
   // the mean of the moving slab's normals at both ends, and half their difference
   nsvcd__v3 mean, turned;
@@ -12433,29 +12425,30 @@ NSVCD__INLINE nsvcd__v nsvcd__v_off(const nsvcd__v_approach *a, nsvcd__v3 plane)
   return nsvcd__v_add(allowed, nsvcd__v_deviation(&a->over, plane, a->radius));
 }
 
-NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate(nsvcd__v3 plane, nsvcd__v_range moving,
+// By planes with this normal. start, end, fixed: the slabs' extents along it, the moving one's at
+// both ends, each from its centre.
+NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate(const nsvcd__v_approach *a, nsvcd__v3 plane,
+                                                   nsvcd__v_range start, nsvcd__v_range end,
                                                    nsvcd__v_range fixed, nsvcd__v off) {
+  const nsvcd__v height = nsvcd__v3_dot(plane, a->from);
+  const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(plane, a->chord));
+  const nsvcd__v low =
+      nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
+  const nsvcd__v high =
+      nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
   nsvcd__v_separated out;
   out.plane = plane;
-  out.below = nsvcd__v_lt(moving.high, nsvcd__v_sub(fixed.low, off));
-  out.lanes = out.below | nsvcd__v_lt(nsvcd__v_add(fixed.high, off), moving.low);
+  out.below = nsvcd__v_lt(high, nsvcd__v_sub(fixed.low, off));
+  out.lanes = out.below | nsvcd__v_lt(nsvcd__v_add(fixed.high, off), low);
   return out;
 }
 
-// By planes normal to the resting slabs.
+// By planes normal to the fixed slabs.
 NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_fixed(const nsvcd__v_approach *a) {
-  const nsvcd__v3 plane = a->fixed.normal;
   const nsvcd__v_range fixed = {a->fixed.low, a->fixed.high};
   const nsvcd__v_range start = nsvcd__v_slab_range(&a->moving, a->at_start);
   const nsvcd__v_range end = nsvcd__v_slab_range(&a->moving, a->at_end);
-  const nsvcd__v height = nsvcd__v3_dot(plane, a->from);
-  const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(plane, a->chord));
-  nsvcd__v_range moving;
-  moving.low =
-      nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
-  moving.high =
-      nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
-  return nsvcd__v_separate(plane, moving, fixed, a->fixed_off);
+  return nsvcd__v_separate(a, a->fixed.normal, start, end, fixed, a->fixed_off);
 }
 
 // By planes normal to the mean w of the moving slabs' normals, |w| <= 1. Both normals make the same
@@ -12464,16 +12457,12 @@ NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_moving(const nsvcd__v_appr
   const nsvcd__v3 w = a->mean;
   const nsvcd__v along = nsvcd__v_mul(a->scale, nsvcd__v3_dot(w, w));
   const nsvcd__v across = nsvcd__v_mul(a->scale, nsvcd__v3_length(a->turned));
-  const nsvcd__v_range own = nsvcd__v_slab_along(&a->moving, along, across);
-  const nsvcd__v height = nsvcd__v3_dot(w, a->from);
-  const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(w, a->chord));
-  nsvcd__v_range moving;
-  moving.low = nsvcd__v_add(nsvcd__v_min(height, height_end), own.low);
-  moving.high = nsvcd__v_add(nsvcd__v_max(height, height_end), own.high);
-  return nsvcd__v_separate(w, moving, nsvcd__v_slab_range(&a->fixed, w), nsvcd__v_off(a, w));
+  const nsvcd__v_range moving = nsvcd__v_slab_along(&a->moving, along, across);
+  const nsvcd__v_range fixed = nsvcd__v_slab_range(&a->fixed, w);
+  return nsvcd__v_separate(a, w, moving, moving, fixed, nsvcd__v_off(a, w));
 }
 
-// Of the lanes `met` of moving group g in segment s, those that slabs do not separate from resting
+// Of the lanes `met` of moving group g in segment s, those that slabs do not separate from fixed
 // patch j.
 static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *search, size_t g,
                                   size_t j, size_t s, uint32_t met) {
@@ -12518,7 +12507,7 @@ static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *search, 
 }
 
 // Clears the segments in which slabs separate the moving group that is searched, whose chords are
-// in search->group, from the resting ones that it meets: a slice of segments at a time.
+// in search->group, from the fixed ones that it meets: a slice of segments at a time.
 static NSVCD__NOINLINE void nsvcd__separate_groups(nsvcd__proof *p, nsvcd__search *search) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
@@ -12630,12 +12619,12 @@ NSVCD__INLINE nsvcd__support nsvcd__support_along(nsvcd__proof *p, nsvcd__f3 nor
     const nsvcd__v3 n = nsvcd__v3_set(normal);
     const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_start, l));
     const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_end, l));
-    const nsvcd__v at_rest = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_rest, l));
+    const nsvcd__v height = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_fixed, l));
     const nsvcd__v at_either = nsvcd__v_min(at_start, at_end);
     nsvcd__v_store(moving + l, at_either);
-    nsvcd__v_store(fixed + l, at_rest);
+    nsvcd__v_store(fixed + l, height);
     lowest = nsvcd__least_of(lowest, at_either);
-    highest = nsvcd__greatest_of(highest, at_rest);
+    highest = nsvcd__greatest_of(highest, height);
     starts |= nsvcd__v_le(at_start, at_end) << l;
   }
   NSVCD__EACH_SLICE(l) {
@@ -12647,7 +12636,7 @@ NSVCD__INLINE nsvcd__support nsvcd__support_along(nsvcd__proof *p, nsvcd__f3 nor
   const size_t b = nsvcd__low_bit(high | 0x8000);
   const int is_start = (starts >> a & 1) != 0;
   const nsvcd__f3 vertex = nsvcd__lane_of(is_start ? p->hull_start : p->hull_end, a);
-  const nsvcd__f3 other = nsvcd__lane_of(p->hull_rest, b);
+  const nsvcd__f3 other = nsvcd__lane_of(p->hull_fixed, b);
   const nsvcd__support out = {lowest - highest, nsvcd__f3_sub(vertex, other)};
   return out;
 }
@@ -12674,7 +12663,7 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, siz
     const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, i, l);
     nsvcd__v3_store(p->hull_start, l, nsvcd__v3_transform(start, hull));
     nsvcd__v3_store(p->hull_end, l, nsvcd__v3_transform(end, hull));
-    nsvcd__v3_store(p->hull_rest, l, nsvcd__hull_of(&p->fixed, j, l));
+    nsvcd__v3_store(p->hull_fixed, l, nsvcd__hull_of(&p->fixed, j, l));
   }
   const nsvcd__slab moving = nsvcd__slab_at(p->moving.slabs, p->moving.body->padded, i);
   const nsvcd__slab fixed = nsvcd__slab_at(p->fixed.slabs, p->fixed.body->padded, j);
@@ -12720,9 +12709,9 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, siz
 // In: two triangles and an interval. Out: they are separated, or in contact, or too near to tell.
 
 #ifndef NSVCD_NO_PROOF
-static void nsvcd__place_triangle(const nsvcd__dtransform *at, const nsvcd__d3 *corners,
-                                  nsvcd__d3 *out) {
-  for (size_t k = 0; k < 3; k++) out[k] = nsvcd__place_point(at, corners[k]);
+static void nsvcd__pose_triangle(const nsvcd__dtransform *at, const nsvcd__d3 *corners,
+                                 nsvcd__d3 *out) {
+  for (size_t k = 0; k < 3; k++) out[k] = nsvcd__d3_transform(at, corners[k]);
 }
 
 // Two triangles, one of each body, in their frames: the caller's own, of which entries may be
@@ -12783,7 +12772,7 @@ static int nsvcd__fixed_closed(const nsvcd__proof *p, const nsvcd__triangle_pair
 static nsvcd__nearest nsvcd__pair_nearest(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
                                           double u) {
   nsvcd__d3 moving[3];
-  nsvcd__place_triangle(nsvcd__arc_pose(p, u), pair->moving, moving);
+  nsvcd__pose_triangle(nsvcd__arc_pose(p, u), pair->moving, moving);
   return nsvcd__nearest_of(moving, pair->fixed);
 }
 
@@ -12871,8 +12860,8 @@ static int nsvcd__plane_separates(nsvcd__proof *p, const nsvcd__triangle_pair *p
   double lowest = HUGE_VAL;
   double highest = -HUGE_VAL;
   for (size_t k = 0; k < 3; k++) {
-    const nsvcd__d3 at_start = nsvcd__place_point(start, pair->moving[k]);
-    const nsvcd__d3 at_end = nsvcd__place_point(end, pair->moving[k]);
+    const nsvcd__d3 at_start = nsvcd__d3_transform(start, pair->moving[k]);
+    const nsvcd__d3 at_end = nsvcd__d3_transform(end, pair->moving[k]);
     lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_start));
     lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_end));
     highest = nsvcd__max(highest, nsvcd__d3_dot(normal, pair->fixed[k]));
@@ -12959,7 +12948,7 @@ static int nsvcd__pair_passes(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
   const double times[3] = {u0, 0.5 * (u0 + u1), u1};
   nsvcd__d3 corners[3][3];
   for (size_t n = 0; n < 3; n++)
-    nsvcd__place_triangle(nsvcd__arc_pose(p, times[n]), pair->moving, corners[n]);
+    nsvcd__pose_triangle(nsvcd__arc_pose(p, times[n]), pair->moving, corners[n]);
   const nsvcd__d3 *moving[3] = {corners[0], corners[1], corners[2]};
   const nsvcd__d3 *fixed[3] = {pair->fixed, pair->fixed, pair->fixed};
   for (size_t k = 0; k < 3; k++) {
@@ -13013,7 +13002,7 @@ static NSVCD__NOINLINE double nsvcd__aim_plane(nsvcd__proof *p,
   const nsvcd__d3 *fixed = pair->fixed;
   const nsvcd__d3 guess = *plane;
   nsvcd__d3 moving[3];
-  nsvcd__place_triangle(nsvcd__arc_pose(p, u), pair->moving, moving);
+  nsvcd__pose_triangle(nsvcd__arc_pose(p, u), pair->moving, moving);
   double best = nsvcd__beyond(guess, moving, fixed);
   const double limit = p->ask.clearance + pair->margin;
   if (best - limit > 0.5 * (distance - limit)) return best;
@@ -13054,19 +13043,19 @@ static nsvcd__outcome nsvcd__resolve_too_near(nsvcd__proof *p,
 // is narrowed down to rounding, and is the contact's. If not, it is unresolved.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_short_interval(
     nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0, double u1) {
-  int passes = nsvcd__pair_passes(p, pair, u0, u1);
-  const int has_met = passes;
-  for (size_t n = 0; passes && n < NSVCD__HALVINGS; n++) {
+  if (!nsvcd__pair_passes(p, pair, u0, u1))
+    return nsvcd__resolve_too_near(p, pair, u0, u1, 0.5 * (u0 + u1));
+  for (size_t n = 0; n < NSVCD__HALVINGS; n++) {
     const double middle = 0.5 * (u0 + u1);
     p->work++;
-    const int in_first = nsvcd__pair_passes(p, pair, u0, middle);
-    passes = in_first || nsvcd__pair_passes(p, pair, middle, u1);
-    if (!passes) break;
-    u0 = in_first ? u0 : middle;
-    u1 = in_first ? middle : u1;
+    if (nsvcd__pair_passes(p, pair, u0, middle))
+      u1 = middle;
+    else if (nsvcd__pair_passes(p, pair, middle, u1))
+      u0 = middle;
+    else
+      break;
   }
   const double when = 0.5 * (u0 + u1);
-  if (!has_met) return nsvcd__resolve_too_near(p, pair, u0, u1, when);
   nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, when);
   nearest.square = 0;
   return nsvcd__take_contact(p, pair, when, &nearest);
@@ -13080,13 +13069,13 @@ static nsvcd__outcome nsvcd__take_nearest(nsvcd__proof *p, const nsvcd__triangle
   for (size_t n = 0; n < NSVCD__HALVINGS / 2; n++) {
     const double middle = 0.5 * (u0 + u1);
     const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
-    const nsvcd__d3 travel = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+    const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
     p->work++;
     if (sqrt(nearest.square) < p->high &&
         nsvcd__take_contact(p, pair, middle, &nearest) == NSVCD__ANSWERED)
       return NSVCD__ANSWERED;
-    const double slope = nsvcd__d3_dot(travel, moved) / sqrt(nearest.square);
-    // a tangent is nowhere above it
+    const double slope = nsvcd__d3_dot(apart, moved) / sqrt(nearest.square);
+    // the distance is nowhere below its tangent
     if (!(fabs(slope) * (u1 - u0) > p->ask.measure)) break;
     if (slope < 0)
       u0 = middle;
@@ -13219,7 +13208,7 @@ static void nsvcd__block_load(const nsvcd__geometry *f, size_t patch, size_t fir
   const float step = f->steps[patch];
   const size_t bytes = nsvcd__corner_bytes(points.all);
   const unsigned char *codes =
-      f->codes + f->first_byte[patch] + 3 * bytes * (first - f->first_triangle[patch]);
+      f->entries + f->first_byte[patch] + 3 * bytes * (first - f->first_triangle[patch]);
   out->patch = patch;
   out->first = first;
   out->count = count;
@@ -13305,7 +13294,7 @@ static nsvcd__box nsvcd__block_bounds(const nsvcd__block *block) {
   return out;
 }
 
-// Loads up to NSVCD__WINDOW blocks of resting patch j, from entry `first` on, and the boxes about
+// Loads up to NSVCD__WINDOW blocks of fixed patch j, from entry `first` on, and the boxes about
 // them. The same patch is often asked for again.
 static void nsvcd__window_load(nsvcd__proof *p, size_t j, size_t first) {
   const size_t end = p->fixed.first_triangle[j + 1];
@@ -13856,7 +13845,7 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
           nsvcd__pair_of(p, i, j, entry, fixed->first + nsvcd__low_bit(met));
       nsvcd__d3 posed[3];
       nsvcd__nearest nearest = {0, {0, 0, 0}, {0, 0, 0}};
-      nsvcd__place_triangle(at, pair.moving, posed);
+      nsvcd__pose_triangle(at, pair.moving, posed);
       p->work++;
       if (p->ask.collects == NSVCD__SUPPORTING) {
         nsvcd__collect_positions(p, &pair, posed);
@@ -13905,7 +13894,7 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
   const nsvcd__transform rounded = nsvcd__transform_of(&at);
   const float lengths = p->given.lengths + nsvcd__f3_length(rounded.position);
   const float margin =
-      NSVCD__ROUNDING * lengths + nsvcd__clearance(p) + nsvcd__quanta_of(p, i, j);
+      NSVCD__ROUNDING * lengths + nsvcd__clearance(p) + nsvcd__errors_of(p, i, j);
   const size_t moving_end = p->moving.first_triangle[i + 1];
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
   NSVCD__TALLY(tries, 1);
@@ -13998,7 +13987,7 @@ static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t l, nsvcd__block
   const nsvcd__interval *over = p->over;
   const size_t i = p->moving_block.patch;
   const size_t j = fixed->patch;
-  const float errors = nsvcd__quanta_of(p, i, j);
+  const float errors = nsvcd__errors_of(p, i, j);
   p->work++;
   uint32_t met = nsvcd__row_left(p, l, fixed, margin);
   for (; met; met &= met - 1) {
@@ -14035,7 +14024,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
   const nsvcd__f3 axis = nsvcd__own_axis(over);
   const float stays =
-      nsvcd__quanta_of(p, i, j) + (over->rounding + over->origin_bend) + nsvcd__clearance(p);
+      nsvcd__errors_of(p, i, j) + (over->rounding + over->origin_bend) + nsvcd__clearance(p);
   const float error = p->moving.errors[i];
   const float extent = p->moving.body->extent + error;
   const nsvcd__arm all = {extent, extent};
@@ -14113,7 +14102,7 @@ static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__se
 
 // Does the plane that held last separate a patch pair over its segment, moved along its normal? If
 // it does, the pair's neighbours ask for the same heights: so these are remembered, of a moving
-// patch in a segment the least, less all margins, and of a resting one the greatest.
+// patch in a segment the least, less all margins, and of a fixed one the greatest.
 static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
                              const nsvcd__patch_pair *item) {
   const size_t i = item->moving;
@@ -14127,7 +14116,7 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
   const uint32_t key = (uint32_t)(i * NSVCD__MAX_SEGMENTS + s);
   nsvcd__height *above =
       &memo->heights[(NSVCD__GROUP * s + i % NSVCD__GROUP) % NSVCD__HEIGHTS];
-  nsvcd__height *below = &memo->rest_heights[j % NSVCD__REST_HEIGHTS];
+  nsvcd__height *below = &memo->fixed_heights[j % NSVCD__FIXED_HEIGHTS];
   if (above->plane != memo->plane || above->key != key) {
     float lowest = HUGE_VALF;
     NSVCD__EACH_SLICE(l) {
@@ -14744,7 +14733,7 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
       return 0;
     }
     const nsvcd__d3 seed = nsvcd__d3_load(e->inner->seeds + 3 * n);
-    const nsvcd__d3 seen = nsvcd__place_point(&e->start, seed);
+    const nsvcd__d3 seen = nsvcd__d3_transform(&e->start, seed);
     if (!nsvcd__is_enclosed(p, e->outer, e->unit, seen)) continue;
     p->enclosed = e->inner_moves ? seen : seed;
     p->inside = 1;
@@ -14765,7 +14754,7 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   if (e->inner->counts->components <= NSVCD__LANES)
     return nsvcd__encloses_seeds(p, e, 0, e->inner->counts->components);
   const nsvcd__f3 centre =
-      nsvcd__f3_round(nsvcd__place_point(&e->back, nsvcd__d3_load(outer->centre)));
+      nsvcd__f3_round(nsvcd__d3_transform(&e->back, nsvcd__d3_load(outer->centre)));
   const float extent = nsvcd__f3_length(centre) + inner->extent + outer->extent / e->scale;
   const nsvcd__surroundings here = {centre,
                                     outer->radius / e->scale + 4 * NSVCD__ROUNDING * extent};
@@ -15304,7 +15293,7 @@ static NSVCD__NOINLINE double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__sea
     size_t i = 0;
     size_t j = 0;
     for (size_t round = 0; round < 2; round++) {
-      const nsvcd__d3 seen = nsvcd__place_point(&back, nsvcd__d3_widen(fixed.centre));
+      const nsvcd__d3 seen = nsvcd__d3_transform(&back, nsvcd__d3_widen(fixed.centre));
       i = nsvcd__patch_towards(&p->moving, nsvcd__f3_round(seen));
       moving = nsvcd__sphere_of(nsvcd__body_patches(p->moving.body), i);
       j = nsvcd__patch_towards(&p->fixed, nsvcd__f3_transform(&pose, moving.centre));
@@ -15312,7 +15301,7 @@ static NSVCD__NOINLINE double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__sea
     }
     const float lengths = p->given.lengths + nsvcd__f3_length(pose.position);
     const double rounding =
-        (double)(4 * NSVCD__ROUNDING * lengths + 2 * nsvcd__quanta_of(p, i, j));
+        (double)(4 * NSVCD__ROUNDING * lengths + 2 * nsvcd__errors_of(p, i, j));
     const double apart = 1.0001 * nsvcd__vertices_apart(p, &pose, i, j) + rounding;
     if (!(apart < least)) continue;
     least = apart;
@@ -15842,7 +15831,7 @@ static NSVCD__NOINLINE void nsvcd__approach_at(nsvcd__proof *p,
   const nsvcd__dtransform at = nsvcd__dtransform_at(arc, out->u);
   out->pair = nsvcd__pair_of(p, found->moving_patch, found->fixed_patch, found->moving_entry,
                              found->fixed_entry);
-  nsvcd__place_triangle(&at, out->pair.moving, out->contact.moving);
+  nsvcd__pose_triangle(&at, out->pair.moving, out->contact.moving);
   memcpy(out->contact.fixed, out->pair.fixed, sizeof out->contact.fixed);
   out->contact.directions[0] = nsvcd__d3_scale(nsvcd__face_direction(out->contact.moving), -1);
   out->contact.directions[1] = nsvcd__face_direction(out->contact.fixed);
@@ -19273,6 +19262,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__cut_motion NSVCD__AT(cut_motion)
 #define nsvcd__cut_segments NSVCD__AT(cut_segments)
 #define nsvcd__cut_starts NSVCD__AT(cut_starts)
+#define nsvcd__d3_transform NSVCD__AT(d3_transform)
 #define nsvcd__decisive NSVCD__AT(decisive)
 #define nsvcd__decode NSVCD__AT(decode)
 #define nsvcd__decoder_gradient NSVCD__AT(decoder_gradient)
@@ -19288,6 +19278,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__enclosure NSVCD__AT(enclosure)
 #define nsvcd__end_of NSVCD__AT(end_of)
 #define nsvcd__epsilon NSVCD__AT(epsilon)
+#define nsvcd__errors_of NSVCD__AT(errors_of)
 #define nsvcd__exists NSVCD__AT(exists)
 #define nsvcd__exit_is_blocked NSVCD__AT(exit_is_blocked)
 #define nsvcd__extremes_along NSVCD__AT(extremes_along)
@@ -19337,7 +19328,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__interval_cuts NSVCD__AT(interval_cuts)
 #define nsvcd__interval_gap NSVCD__AT(interval_gap)
 #define nsvcd__interval_of_arc NSVCD__AT(interval_of_arc)
-#define nsvcd__interval_of_segment NSVCD__AT(interval_of_segment)
 #define nsvcd__intervals NSVCD__AT(intervals)
 #define nsvcd__intervals_close NSVCD__AT(intervals_close)
 #define nsvcd__invariants NSVCD__AT(invariants)
@@ -19464,8 +19454,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__patch_pair NSVCD__AT(patch_pair)
 #define nsvcd__patch_towards NSVCD__AT(patch_towards)
 #define nsvcd__patches_apart NSVCD__AT(patches_apart)
-#define nsvcd__place_point NSVCD__AT(place_point)
-#define nsvcd__place_triangle NSVCD__AT(place_triangle)
 #define nsvcd__plane_cache NSVCD__AT(plane_cache)
 #define nsvcd__plane_cache_begin NSVCD__AT(plane_cache_begin)
 #define nsvcd__plane_cache_knows NSVCD__AT(plane_cache_knows)
@@ -19475,6 +19463,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__pose_before NSVCD__AT(pose_before)
 #define nsvcd__pose_members NSVCD__AT(pose_members)
 #define nsvcd__pose_of NSVCD__AT(pose_of)
+#define nsvcd__pose_triangle NSVCD__AT(pose_triangle)
 #define nsvcd__poses_at NSVCD__AT(poses_at)
 #define nsvcd__poses_opposed NSVCD__AT(poses_opposed)
 #define nsvcd__probes NSVCD__AT(probes)
@@ -19498,7 +19487,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__push_out_along NSVCD__AT(push_out_along)
 #define nsvcd__push_out_motion NSVCD__AT(push_out_motion)
 #define nsvcd__push_out_still NSVCD__AT(push_out_still)
-#define nsvcd__quanta_of NSVCD__AT(quanta_of)
 #define nsvcd__query NSVCD__AT(query)
 #define nsvcd__query_layout NSVCD__AT(query_layout)
 #define nsvcd__query_open NSVCD__AT(query_open)

@@ -13,7 +13,7 @@ static void nsvcd__block_load(const nsvcd__geometry *f, size_t patch, size_t fir
   const float step = f->steps[patch];
   const size_t bytes = nsvcd__corner_bytes(points.all);
   const unsigned char *codes =
-      f->codes + f->first_byte[patch] + 3 * bytes * (first - f->first_triangle[patch]);
+      f->entries + f->first_byte[patch] + 3 * bytes * (first - f->first_triangle[patch]);
   out->patch = patch;
   out->first = first;
   out->count = count;
