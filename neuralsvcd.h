@@ -11227,9 +11227,9 @@ static void nsvcd__search_patch(nsvcd__search *q, const nsvcd_body *moving, size
 // THEOREM. Let both bodies be scaled and posed by the motions of motion/motion: between two
 // poses the position is linear in t and the rotation a slerp. If the proof ends in FREE,
 // then at no t in [0,1] do the surfaces of the two meshes come within the clearance of each other,
-// and no component of one lies within what closed components of the other enclose (a body that is
-// said to be open encloses nothing). src/proof/THEOREM.md walks through it. Bodies that at no time
-// come as near as their extents and the clearance together need none of this: nsvcd__prove.
+// and no component of one is contained in what closed components of the other enclose (a body
+// declared open encloses nothing). src/proof/THEOREM.md walks through it. None of this is needed
+// for bodies that never come as near as their extents and the clearance together: nsvcd__prove.
 //   1. Every point of a surface lies in a piece of some patch (surface/surface). So it is enough
 //      to separate each patch of one body from each of the other, at all times.
 //   2. The broad phase leaves out only patches and segments of time in which the spheres over the
@@ -11239,113 +11239,110 @@ static void nsvcd__search_patch(nsvcd__search *q, const nsvcd_body *moving, size
 //      moving body (body frame) leaves the chord between its positions at the two ends by no more
 //      than nsvcd__deviation_of along any direction: the deviation of motion/segments, taken along
 //      a plane's normal (within one arc of angle h of one body it is h^2 / 8 |x|, and nothing along
-//      the axis). A plane that has the moving side's places at both ends on one side,
-//      by more than that and the clearance, has their chords there too, for a chord is convex, and
-//      so all places between.
-//   4. Slabs: the plane is normal to a patch, or to a group of 16; what each side reaches along it
+//      the axis). Let a plane have the moving side at both ends on one side, by more than that and
+//      the clearance. A chord is convex: so the chords are there too, and with them all positions
+//      in between.
+//   4. Slabs: the plane is normal to a patch, or to a group of 16; each side's extent along it
 //      follows from its slab. Hulls: any plane; a patch's pieces are within its margin of the hull
-//      of its first vertices. Triangles: a plane for a triangle pair, two listed triangles. A patch
-//      lists all triangles of its pieces, whole or in parts.
+//      of its first vertices. Triangles: a plane for a triangle pair, two entries. The entries of a
+//      patch name all triangles of its pieces, whole or in parts.
 //   5. Rounding: every plane allows for NSVCD__ROUNDING of all lengths that enter a float
 //      computation: that is `rounding`, in intervals and segments alike. Stored points are off by
-//      the patch's margin or quantization error, which every plane in float allows for too.
+//      the patch's margin or quantization error, and every plane in float allows for that, too.
 //      Triangle pairs are separated in double, whole and as the caller gave them, whatever pieces
 //      are stored. No NaN occurs: questions and bodies are checked to be finite and within bounds.
-//      Where floats could overflow all the same, in hulls, a NaN separates nothing.
-//   6. Containment is decided at t = 0, component by component: a component that is inside of the
-//      other body then, and not later, or the other way about, has crossed a surface in between. A
-//      component is asked about by one of its vertices, its seed. A ray from the seed counts, with
-//      their signs, the triangles of the other body's closed components that it leaves and enters
-//      through: the sum is how often these wind about the seed, 0 outside. A ray that passes an
-//      edge within rounding, and what triangles are off the mesh's, is given up for another; open
+//      Only in hulls floats may overflow, and there a NaN separates nothing.
+//   6. Containment is decided at t = 0, component by component: a component that is contained in
+//      the other body at one time and not at another has crossed a surface in between. A component
+//      is represented by one of its vertices, its seed. A ray from the seed counts the triangles
+//      of the other body's closed components that it leaves and enters through, with their signs:
+//      the sum is the winding number about the seed, 0 outside. A ray that passes an edge within
+//      rounding, or within what triangles are off the mesh's, is given up for another one. Open
 //      components enclose nothing. Where flaws are set aside (patches/solids), what counts is still
-//      a cycle: each edge has its reverse; or it has an even number of triangles, and then a ray
-//      from inside crosses an odd number of them. Corners that were joined leave gaps between
-//      edges, and the cycle has strips there, nowhere farther from an edge than `gap`: a ray that
-//      passes an edge within that is given up as well, so it crosses no strip; and what is so near
-//      to the surface is told only by planes. FREE says then that nothing crosses the surface but
-//      through a gap. What is nearly a solid is no cycle: what most rays have inside of it is
-//      UNDECIDED. Where a triangle is that near to the seed, the answer counts only if planes
-//      separate all patches at t = 0: then the seed, the surface that was looked at and the true
-//      one are, patch by patch, on one side of a plane, and agree.
+//      a cycle: each edge has its reverse. Or it has an even number of triangles at each edge, and
+//      then a ray from inside crosses an odd number of them. Corners that were joined leave gaps
+//      between edges, which the cycle closes by strips, nowhere farther from an edge than `gap`. A
+//      ray that passes an edge within `gap` is given up as well, so that it crosses no strip; and
+//      only planes decide what is so near to the surface. FREE then says that nothing crosses the
+//      surface but through a gap. What is nearly a solid is no cycle: if most rays find a seed
+//      inside it, that is UNDECIDED. Where a triangle is that near to the seed, the answer counts
+//      only if planes separate all patches at t = 0: then the seed, the surface that was tested
+//      and the true one are, patch by patch, on one side of a plane, and agree.
 //
-// A long motion is cut into intervals (motion/choice), and 2 to 5 are applied to each: FREE is said
-// if it is true of all of them. Each begins at the tick at which the one before it ends, and the
+// A long motion is cut into intervals (motion/choice), and 2 to 5 are applied to each: the verdict
+// is FREE if each of them is. Each begins at the tick at which the one before it ends, and the
 // last ends at 1. Containment is decided at t = 0 alone: 6 holds for all of the motion.
 //
-// A witness is a pair of the meshes' triangles that share a point at the true pose, in double, or,
-// where a clearance is asked for, come within it. In a coarse body, or one that was scaled, they
-// are those of a mesh that is a little off (nsvcd__off_mesh). Faces that are parallel when they
-// meet do so at one time only, which rounded numbers miss: there, a corner that is on one side of
-// the other triangle at one time and on the other at another, and within its edges all the while,
-// has met it between (an edge and an edge likewise), and halving finds when. UNDECIDED: two
-// triangles come closer than NSVCD__TOO_NEAR and the tolerance without meeting, or the limit of
-// work was reached. After such an unresolved pair only a contact can still decide, and flat on flat
-// there are as many unresolved pairs as triangles: so a share of the limit is all that is left
-// then, more than a yes or no takes on any problem of the sets.
+// A witness is a pair of the meshes' triangles that share a point at the true pose, in double, or
+// that come within the clearance, where there is one. In a coarse body, or a scaled one, they are
+// those of a mesh that is a little off (nsvcd__off_mesh). Faces that are parallel when they meet
+// do so at one time only, which rounded numbers miss. There, a corner that changes sides of the
+// other triangle, within its edges all the while, has met it in between (so has an edge an edge),
+// and halving finds when. UNDECIDED: two triangles come closer than NSVCD__TOO_NEAR and the
+// tolerance without meeting, or the budget is exhausted. After such an unresolved pair only a
+// contact can still decide, and flat on flat has as many unresolved pairs as triangles: so only a
+// part of the budget is left then, more than a yes or no takes on any problem of the sets.
 //
-// FIRST CONTACT. Contacts end the motion: whenever one is found, only what is more than `first`
-// before it matters from then on, and is proven free, or gives an earlier contact, or is
-// unresolved. Segments are searched some at a time, in their order, so that what is found first is
-// early. Once the share that an unresolved pair leaves is spent, the unresolved pair is the end,
-// and what is before it is proven. Where there is not work enough for that, what is left goes to
-// what is proven soonest: part after part of the motion, the first a short one, from where nothing
-// is resolved on.
+// FIRST CONTACT. A contact ends the motion: only what is more than `first` before it still matters,
+// and is proven free, or gives an earlier contact, or is unresolved. Segments are searched a few at
+// a time, in order, so that early contacts are found first. Once the budget after an unresolved
+// pair is exhausted, that pair is the end, and what is before it is proven. If the budget does not
+// suffice, the rest of it goes to what is proven soonest: the motion is proven part by part from
+// where nothing is resolved, the first part a short one.
 //
-// THE LIMIT ends the search, and changes nothing before that: what is tried, and in which order,
-// depends on the units that were taken, not on those that are allowed. So a higher limit never
-// takes more units for what a lower one decides, but where this one has come to its last eighth:
-// that is the time for what has not been decided.
+// THE LIMIT ends the search and changes nothing before that: what is tried, and in which order,
+// depends on the units taken, not on those allowed. So a higher limit takes no more units for what
+// a lower one decides, except in the lower one's last eighth, which is kept for what is undecided.
 //
-// THE LEAST DISTANCE. Asked last, when it is known whether they come within the clearance. Contacts
-// lower the clearance: it begins as a distance that two vertices have, and whenever triangles are
+// THE LEAST DISTANCE is asked last, when it is known whether the bodies come within the clearance.
+// Contacts lower the clearance: it begins as the distance of two vertices, and when triangles are
 // found nearer than that, it becomes their distance less `measure`. What has been separated stays
-// separated, by more than that. So both are one search whose question shrinks, and in the end all
-// of the motion that matters is proven free at the clearance that matters.
+// separated, by more than that. So it is one search whose question shrinks, and in the end all of
+// the motion that matters is proven free at the clearance that matters.
 //
 // Work is counted in units: a plane sought for two hulls, 16 triangles against the box of 16, one
 // of them against these, a triangle pair at one time, a ray against 16 triangles or one. Spheres,
-// slabs and planes that held before are not counted. A query stops within one patch's entries, or
+// slabs and planes that held before are not counted. A query ends within one patch's entries, or
 // one ray, of its limit: nsvcd__is_exhausted.
 
 #ifndef NSVCD_NO_PROOF
 // THE SCHEDULE, in the order in which a query comes to it. A budget is in units of work.
-//
-// The search hands over patch pairs as it finds them.
-#define NSVCD__FRESH \
-  48  // patch pairs on which nothing has been tried: there is room for so many
-#define NSVCD__NEWS 8  // and so many are worth a look before the search goes on
 
-// A look tries planes and seeks witnesses, in the deepest patch pair first.
-// In patch pairs deeper than this a witness is sought before any plane is tried.
+// Room for patch pairs as the search finds them; with so many of them they are sifted before it
+// goes on.
+#define NSVCD__FRESH 48
+#define NSVCD__ENOUGH_FRESH 8
+
+// Sifting tries planes and seeks witnesses. If the first patch pair is deeper than this, a witness
+// is sought in it before any plane is tried.
 #define NSVCD__DEEP 0.2f
 // Steps of Gilbert's iteration, for a plane between two hulls.
 #define NSVCD__PLANE_STEPS 12
-// After so many failed looks for a witness, triangles are tried as well; after so many, where all
-// that is asked is yes or no, no more witnesses are sought.
-#define NSVCD__HOPE 8
-#define NSVCD__DESPAIR 128
-// Remembered heights over the plane that held last: of moving patches, and of resting ones.
+// Witnesses that were sought in vain: after so many triangles are tried as well; after so many no
+// more witnesses are sought where the question is yes or no.
+#define NSVCD__FEW_MISSES 8
+#define NSVCD__MANY_MISSES 128
+// Remembered heights over the plane that held last: of moving patches, and of fixed ones.
 #define NSVCD__HEIGHTS 256
-#define NSVCD__REST_HEIGHTS 64
+#define NSVCD__FIXED_HEIGHTS 64
 
 // What no plane separates is resolved by its triangles, arc by arc.
 // Room for such patch pairs. When it is full, they are resolved first.
 #define NSVCD__PATCH_PAIRS 256
-// Blocks of a resting patch that are loaded at once.
+// Blocks of a fixed patch that are loaded at once.
 #define NSVCD__WINDOW 8
-// A interval is halved for all its triangle pairs once these have asked for more parts than this,
-// if it is longer than this fraction of an arc.
-#define NSVCD__PATIENCE_TO_PART 1
+// An interval is halved for all its triangle pairs once these have been halved more often than
+// this, if it is longer than this fraction of an arc.
+#define NSVCD__FEW_PARTS 1
 #define NSVCD__SHORTEST 0.015
 // A plane is tried on all of two patches once it has separated so many of their triangle pairs in
 // a row.
 #define NSVCD__SHARED 4
-// Parts of an arc that wait; halvings of a interval for one triangle pair; remembered poses.
+// Parts of an arc that wait; halvings of an interval for one triangle pair; remembered poses.
 #define NSVCD__ARC_PARTS 8
 #define NSVCD__HALVINGS 40
-#define NSVCD__PLACED 8
-// In units of all lengths: a distance in double that is none; and one too short to halve for.
+#define NSVCD__KNOWN_POSES 8
+// In units of all lengths: a distance in double that is 0; one that is too near to halve for.
 #define NSVCD__SAME_POSITION 1e-13
 #define NSVCD__TOO_NEAR 1e-9
 // After an unresolved pair 1 / this of the budget is left; where the first contact is sought, so
@@ -11363,10 +11360,11 @@ static void nsvcd__search_patch(nsvcd__search *q, const nsvcd_body *moving, size
 // Times that the search for a first bound of the distance alternates between when and where the
 // bodies are nearest.
 #define NSVCD__TURNS 2
-// A long motion. An interval of many arcs is tried with a small budget, and so is what is hard.
+// A long motion. Intervals of many arcs, and hard ones, are first tried with this budget.
 #define NSVCD__TRY 64
-// What takes no more than this is easy. Then the next try takes so many times as many arcs; after
-// a try in vain so many times fewer, and up to so many intervals must be easy before the next.
+// An interval that takes no more than this is easy. The next try then takes so many times as many
+// arcs. After a try in vain it takes so many times fewer, and up to so many intervals have to be
+// easy before the next one.
 #define NSVCD__EASY 16
 #define NSVCD__LARGER 4
 #define NSVCD__SMALLER 8
@@ -11375,39 +11373,39 @@ static void nsvcd__search_patch(nsvcd__search *q, const nsvcd_body *moving, size
 #define NSVCD__FINER 2
 // Segments that are searched together where the first contact is sought.
 #define NSVCD__IN_ORDER 4
-// If that exhausts its budget, the motion is proven part by part. The first part, in segments; and
-// the budget of a part besides eight times that of the part before.
+// If that exhausts its budget, the motion is proven part by part: the length of the first one, in
+// segments; and the budget of a part besides eight times that of the part before.
 #define NSVCD__FIRST_PART 0.0625
 #define NSVCD__PART_BUDGET 250
 
-// Where there is a slop: contacts at the start that are looked at together; directions in which
-// they are undone; looks at what is touched on the way off; and the share of the slop that is kept
+// With a slop: contacts at the start that are collected at once; directions in which they are
+// undone; rounds of undoing what is met on the way out; and the fraction of the slop that is kept
 // where a body is set down.
 #define NSVCD__TOUCHES 26
 #define NSVCD__PUSH_OUTS 6
 #define NSVCD__DEEPEN 16
 #define NSVCD__SET_DOWN 0.02
-// An epsilon, of all lengths, is what a float of an answer can tell. A safe place is so many of
-// them before a contact.
+// The resolution of a float of an answer, in units of all lengths; a safe pose is so many of these
+// before a contact.
 #define NSVCD__LEAST_EPSILON 1.2e-7
 #define NSVCD__EPSILONS 3
 
-// Contact points are sought along so many directions, and along two across the line that they
-// interval if their width is less than so much of its length; in so many patch pairs.
+// Contact points are sought in so many patch pairs: the farthest along so many directions and, if
+// their area's width is less than this fraction of its length, along two more across that.
+#define NSVCD__CONTACT_PAIRS 64
 #define NSVCD__AROUND 8
 #define NSVCD__SUPPORTS 10
 #define NSVCD__SLIM 0.3
-#define NSVCD__HOLDS 64
 // Containment: triangles that a ray may cross.
 #define NSVCD__CROSSED 128
 #define NSVCD__NEVER 1e300  // ticks
 
 typedef struct nsvcd__patch_pair {
   uint16_t moving, fixed, segment;
-  uint16_t sought;  // 1: a witness has been looked for
+  uint16_t sought;  // 1: for a witness
   // 1 - least distance of the centres / (r1 + r2)
   float depth;
-  // of the segment, gone by at that time
+  // of the segment, when that is
   float fraction;
 } nsvcd__patch_pair;
 
@@ -11416,31 +11414,32 @@ typedef struct nsvcd__slerp {
   // at its poses before and after: unit, on the shorter side
   nsvcd__dquat start, end;
   double half_angle;  // between them as quaternions: half the angle of the turn
-  // where between these poses the arc begins, and how much of the way it lasts
+  // between these poses, 0 to 1: where the arc begins, and its length
   double from, fraction;
 } nsvcd__slerp;
 
-// The motion between two keyframes, in double and in the fixed body's units.
+// The motion between two keyframes, in double and in the fixed body's units. Where the fixed body
+// moves, slerps and positions have the world's axes, else the fixed body's.
 typedef struct nsvcd__arc {
-  // when it begins, and how long it lasts; no ticks: none
+  // its first tick, and its length; no ticks: none
   uint32_t first, ticks;
   int fixed_moves;
   // of the moving body
   double scale;
-  nsvcd__slerp moving;  // as the fixed body sees it; where that moves, in the world, and so is
-  nsvcd__slerp fixed;   // the fixed body's own
-  // from the fixed body's origin to the moving one's, and how it changes; in the same axes
+  nsvcd__slerp moving, fixed;
+  // from the fixed body's origin to the moving one's, and how it changes
   nsvcd__d3 from, moved;
-  // what is added to that as the fixed body sees it
+  // added to that in the fixed body's frame
   nsvcd__d3 push_out;
-  // of the turn where the arc begins, unit: as the fixed body has it, and as the moving one has it;
-  // and by how much it deviates from either, an angle, where both bodies turn
+  // The axis of the relative turn at the start, unit, in the fixed body's frame and in the moving
+  // one's. Where both bodies turn, it wavers from either by this angle at most.
   nsvcd__d3 axis, own_axis;
   double waver;
-  // over the arc, as the fixed body sees it: radians, and the way of the moving origin, at most
+  // Over the arc, in the fixed body's frame: the angle of the turn, radians, and the path of the
+  // moving origin, at most.
   double turn, speed;
-  // What points leave their chord by: a metre from the turn's axis; a metre from the moving body's
-  // origin besides, where both bodies turn; and that origin itself.
+  // Deviation from the chord: per metre from the turn's axis; where both bodies turn, besides per
+  // metre from the moving origin; and of that origin itself.
   double bend, twist, origin_bend;
 } nsvcd__arc;
 
@@ -11450,17 +11449,16 @@ typedef struct nsvcd__dtransform {
   nsvcd__d3 position;
 } nsvcd__dtransform;
 
-// A interval of the motion. t in [0,1]. In it the true place of a point of the moving body at r
-// metres from its origin is off the chord between its places at both ends by no more than origin
-// deviation + bend r, and what float computation of it is off by is no more than
-// `rounding`.
+// An interval of the motion, t in [0,1]. A point of the moving body at r metres from its origin
+// deviates from the chord between its positions at both ends by no more than origin_bend + bend r.
+// Float computation of its position is off by no more than `rounding`.
 typedef struct nsvcd__interval {
   nsvcd__transform start, end;
   double t_start, t_end;
   float rounding, origin_bend, bend;
-  // unit; of the turn from start to end, and of the origin's way
+  // unit: of the turn from start to end, and of the origin's travel
   nsvcd__f3 axis, heading;
-  // the same along the axis; and origin bend across the way
+  // the bounds along the axis; and of the origin across the heading
   float bend_along_axis, origin_along_axis, origin_off_heading;
 } nsvcd__interval;
 
@@ -11468,7 +11466,7 @@ typedef struct nsvcd__interval {
 typedef struct nsvcd__block {
   float corners[3][3][NSVCD__LANES];
   float low[3][NSVCD__LANES], high[3][NSVCD__LANES];
-  size_t first, count;  // entries
+  size_t patch, first, count;  // entries
 } nsvcd__block;
 
 typedef struct nsvcd__pair_contact {
@@ -11481,42 +11479,43 @@ typedef struct nsvcd__pair_contact {
   uint16_t moving_patch, fixed_patch;
 } nsvcd__pair_contact;
 
-// How the moving body goes, as the fixed one sees it: a point x by `along` and turn x x in a tick.
+// The velocity of the moving body in the fixed body's frame, per tick: that of a point x is
+// along + cross(turn, x).
 typedef struct nsvcd__twist {
   nsvcd__d3 along, turn;
 } nsvcd__twist;
 
-// Two triangles that touch at the start, as the fixed body sees them.
+// Two triangles that touch at the start, in the fixed body's frame.
 typedef struct nsvcd__triangle_contact {
   nsvcd__d3 moving[3], fixed[3];
-  // directions that may undo it, unit: against the normal of the moving one; the normal of the
-  // fixed one; and from its nearest point to that of the moving one, 0 if they meet
+  // Directions that may undo it, unit: the moving one's normal, reversed; the fixed one's normal;
+  // and from the fixed one's nearest point to the moving one's, 0 if they meet.
   nsvcd__d3 directions[3];
 } nsvcd__triangle_contact;
 
-// Places where the bodies touch when a contact is: proof/manifold.
+// Where the bodies touch at a contact: proof/manifold.
 typedef struct nsvcd__manifold {
   // unit: the contact's, and directions across it
   nsvcd__d3 normal, along[NSVCD__SUPPORTS];
   nsvcd__twist twist;
-  // nearer than `tolerance` is touching; nearer to each other than `same` is the same place
+  // distances: of what touches, and of points that count as one, at most
   double tolerance, same;
-  // the farthest along each: how far that is, -HUGE_VAL: there is none, HUGE_VAL: it is not
-  // sought; and the number of the corner or the edges
+  // The farthest contact along each direction; how far that is: -HUGE_VAL: there is none, HUGE_VAL:
+  // it is not sought; and the number of its corner or edges.
   nsvcd__pair_contact supports[NSVCD__SUPPORTS];
   double farthest[NSVCD__SUPPORTS];
   uint32_t numbers[NSVCD__SUPPORTS];
 } nsvcd__manifold;
 
-// What is done with triangles that come within the clearance: they are contacts; or, of a motion at
-// rest, all are gathered, as touches or as supports.
+// What is done with triangles that come within the clearance: they are contacts or, of a motion at
+// rest, all are collected, as touching or as supports.
 typedef enum nsvcd__collecting {
   NSVCD__CONTACTS,
   NSVCD__TOUCHING,
   NSVCD__SUPPORTING
 } nsvcd__collecting;
 
-// What is said of a question in the end.
+// What a question finds.
 typedef enum nsvcd__finding {
   NSVCD__FOUND_FREE,
   NSVCD__FOUND_CONTACT,
@@ -11524,32 +11523,32 @@ typedef enum nsvcd__finding {
   NSVCD__FOUND_NEITHER
 } nsvcd__finding;
 
-// What becomes of a part of it: a pair of patches, or of triangles, over a interval of the motion.
+// What becomes of a part of it: a pair of patches, or of triangles, over an interval.
 typedef enum nsvcd__outcome {
   // separated, or kept as an unresolved pair, or no longer asked about
   NSVCD__RESOLVED,
   // the same of all triangles of both patches
   NSVCD__ALL_RESOLVED,
-  // where a contact was looked for, there is none
+  // a contact was sought and not found
   NSVCD__NOTHING,
   // a contact was found that answers the question
   NSVCD__ANSWERED,
   // a contact was found that shrinks the question: ask again
   NSVCD__SHRUNK,
-  // the interval is to be looked at again: in halves, or with a clearance that is less
+  // ask again: in halves, or with a smaller clearance
   NSVCD__TOO_LONG,
-  // the work allowed is: from then on it always is
+  // the budget is exhausted, and stays so
   NSVCD__EXHAUSTED
 } nsvcd__outcome;
 
-// A pose that has been computed.
-typedef struct nsvcd__placed {
-  uint32_t arc, ticks;  // as the arc has them
+// The pose at fraction u of an arc, which its first tick and its ticks name.
+typedef struct nsvcd__known_pose {
+  uint32_t arc, ticks;
   double u;
   nsvcd__dtransform transform;
-} nsvcd__placed;
+} nsvcd__known_pose;
 
-// A patch's height over a plane, of a moving patch in a segment.
+// A patch's height over a plane. key: the patch; of a moving one, with the segment.
 typedef struct nsvcd__height {
   uint32_t plane, key;
   float height;
@@ -11557,78 +11556,78 @@ typedef struct nsvcd__height {
 
 // The question, in the fixed body's units.
 typedef struct nsvcd__given {
-  // extents of both bodies
+  // the sum of both bodies' extents
   float lengths;
   // beyond the quantization errors
   double tolerance;
   double clearance, slop;
-  // how far both bodies together go beyond their triangles: the clearance has that in it
+  // both bodies' convex radii, which the clearance includes
   double radius;
-  // to which share of the motion the first contact is asked for, and to which width the least
-  // distance; 0: it is not
+  // The resolution of the first contact, a fraction of the motion, and of the least distance; 0:
+  // not asked for.
   double fraction, width;
-  // FIRST: how far bodies may be from each other when the motion ends; 0: nothing is said
+  // FIRST: the resolution as a distance, so near a contact a motion may have ended; 0: not given
   double to;
   // is more asked for than yes or no?
   int tells;
-  // The budget, of all or, if it grows, of each interval of a long motion; and the part of it that
-  // what is beside the question may take, above all what follows an unresolved pair.
+  // The budget: of all or, if it grows, of each interval of a long motion; and the part of it for
+  // what is beside the question, above all what follows an unresolved pair.
   size_t work, aside;
   int grows;
 } nsvcd__given;
 
-// What is asked at a time, of a motion. A search only ever makes it less: a contact is two
-// triangles that come within the clearance. With `measure` each contact makes that the distance of
-// its triangles, less this; with `first` each ends the motion so many ticks before it. So what is
-// proven in the end holds for the rest.
+// The question at a time, of a motion. A contact is two triangles within the clearance. A search
+// only ever shrinks the question: with `measure` each contact lowers the clearance to the distance
+// of its triangles less this; with `first` each ends the motion so many ticks before it. So what
+// has been proven holds for what is left.
 typedef struct nsvcd__asked {
   nsvcd__motion *motion;
   // ticks: what begins then or later does not matter
   double end;
-  // The first unresolved pair ends the search, too.
+  // the first unresolved pair ends the search, too
   int unresolved_ends;
   double clearance, measure;
-  // a share of the motion, and as ticks
+  // the resolution of the first contact: a fraction of the motion, and in ticks
   double fraction, first;
-  // Budgets: of this search, of all, and of what goes on after an unresolved pair.
+  // budgets: of this search, of all, and after an unresolved pair
   size_t limit, most, after_unresolved;
-  // A first attempt, with a small budget.
+  // a first attempt, with a small budget
   int is_brief;
   nsvcd__collecting collects;
-  // how deep touches may be
+  // how deep a contact may be that is undone
   double slop;
 } nsvcd__asked;
 
-// What is known, of a motion.
+// What is known of a motion.
 typedef struct nsvcd__known {
   int has_contact;
   nsvcd__pair_contact found;
-  // ticks: when the first unresolved pair begins, two triangles too near to tell; and these
+  // the tick at which the first unresolved pair begins, two triangles too near to tell; and that
   double unresolved;
   nsvcd__pair_contact unresolved_pair;
-  // the work allowed was not enough: all from `resolved` on, ticks, is undecided
+  // the budget was exhausted: all from the tick `resolved` on is undecided
   int lost;
   double resolved;
 } nsvcd__known;
 
-// What is only remembered: where there is an NSVCD__PAUSE it may be forgotten, and what is proven
-// then is as true; only the work may differ. Zeros: nothing.
+// What is only remembered. It may be forgotten wherever there is an NSVCD__PAUSE: what is proven is
+// as true then, and only the work may differ. All zeros: nothing is remembered.
 typedef struct nsvcd__memo {
-  // poses in arcs, the next to be forgotten
-  nsvcd__placed placed[NSVCD__PLACED];
-  size_t next_placed;
+  // poses in arcs; the next to be replaced
+  nsvcd__known_pose poses[NSVCD__KNOWN_POSES];
+  size_t next_pose;
   // segments that have been made intervals
   uint64_t intervals;
-  // the normal of the plane between hulls that held last, how many held before, 0: none; and over
-  // it the heights of patches, moving ones and resting ones
+  // The normal of the plane between hulls that held last, and its number, 0: none; and the heights
+  // of moving and of fixed patches over it.
   nsvcd__f3 held;
   uint32_t plane;
-  nsvcd__height heights[NSVCD__HEIGHTS], rest_heights[NSVCD__REST_HEIGHTS];
-  // unit: of the plane that separated a triangle pair last
+  nsvcd__height heights[NSVCD__HEIGHTS], fixed_heights[NSVCD__FIXED_HEIGHTS];
+  // the unit normal of the plane that separated a triangle pair last
   nsvcd__d3 separating;
-  // how many triangle pairs it has separated after that, one after the other
+  // triangle pairs in a row that it has separated since
   size_t shared;
-  // how many blocks of a resting patch are in p->fixed_blocks; is one in p->moving_block?
+  // blocks of a fixed patch in p->fixed_blocks; is one in p->moving_block?
   size_t window;
   int has_block;
 } nsvcd__memo;
@@ -11639,45 +11638,45 @@ typedef struct nsvcd__proof {
   nsvcd__asked ask;
   nsvcd__known known;
   nsvcd__memo memo;
-  // the last one asked for, if it has ticks; patch pairs and triangle pairs are looked at within it
+  // The last one asked for, if it has ticks. Patch pairs and triangle pairs are resolved in it.
   nsvcd__arc arc;
   size_t work;
-  // the least distance is known to be between these
+  // bounds of the least distance
   double low, high;
 
-  // Containment, at the start: a component seems to be within the other body, but close to its
-  // surface; a point of it, in the fixed body's frame; or that could not be told.
+  // Containment at the start: a component seems to be inside the other body, but close to its
+  // surface; a point of it, in the fixed body's frame; or that could not be told,
   int inside;
   nsvcd__d3 enclosed;
   int unclear;
-  // it could not, since the other is nearly a solid, but not closed
+  // since the other is nearly a solid, but not closed
   int in_open;
-  // there was not work enough to know the least distance as narrowly as was asked for
+  // the budget did not suffice for the resolution of the least distance
   int wide;
   // FIRST: nothing of the motion is proven free but its start
   int starts_free;
 
-  // With a slop: how many touches have been gathered that a push-out along no normal known undoes;
-  // the normals, unit, of what the moving body touches, towards it.
+  // With a slop: collected contacts that no known normal undoes; normals, unit, of what the moving
+  // body touches, towards it.
   size_t contact_count, normal_count;
-  // one has been found that nothing undoes; of directions that undo as many, which have more faces
-  // counts, not which is shorter
+  // One contact cannot be undone. Of directions that undo as many, the one with more faces is
+  // chosen, not the one with the shorter push-out.
   int too_deep, by_faces;
   nsvcd__d3 normals[NSVCD__PUSH_OUTS];
-  // how deep it is in contact along each; and by how much a plane normal to one is to be pushed out
+  // the depth of contact along each; and how far a plane normal to one is to be pushed out
   double depths[NSVCD__PUSH_OUTS];
   double needed;
 
-  // Segments as intervals (S), where the memo says so; which have been cut off, and the end, ticks,
-  // when that was done last.
+  // Segments as intervals (S), where the memo says so. Those that have been clipped, and the end,
+  // ticks, at which the last one was.
   nsvcd__interval *intervals;
   uint64_t clipped;
   double clipped_end;
 
-  // segments in which 16 resting patches are met
+  // segments in which 16 fixed patches are met
   uint64_t met_in[NSVCD__GROUP];
   // Patch pairs: as the search finds them, and those that no plane separates over their segment;
-  // and looks for a witness that found none.
+  // and witnesses that were sought in vain.
   size_t fresh_count, count, misses;
   nsvcd__patch_pair fresh[NSVCD__FRESH];
   union {
@@ -11685,19 +11684,23 @@ typedef struct nsvcd__proof {
       nsvcd__patch_pair items[NSVCD__PATCH_PAIRS];
       nsvcd__manifold manifold;
     } kept;
-    // gathered before there are any
+    // collected before there are any
     nsvcd__triangle_contact touches[NSVCD__TOUCHES];
   } of;
 
   // A patch pair: its hulls, posed, and its triangles, block by block, with boxes about the fixed
-  // blocks; corners of the moving block at the ends of a interval.
-  float hull_start[3][NSVCD__LANES], hull_end[3][NSVCD__LANES], hull_rest[3][NSVCD__LANES];
+  // blocks.
+  float hull_start[3][NSVCD__LANES], hull_end[3][NSVCD__LANES], hull_fixed[3][NSVCD__LANES];
   nsvcd__block moving_block, fixed_blocks[NSVCD__WINDOW];
   nsvcd__box bounds[NSVCD__WINDOW];
-  float posed[2][3][3][NSVCD__LANES];
+  // The moving block's corners at the start and at the end of the interval `over` (corner, axis,
+  // lane); without an interval, NULL, 3 of them at one pose.
+  const nsvcd__interval *over;
+  float corners[6][3][NSVCD__LANES];
+  size_t corner_count;
 
-  // A patch pair over an arc, and a triangle pair: later ends of the parts to come, the last one
-  // first; and how many parts of the interval its triangle pairs asked for.
+  // A patch pair over an arc, and a triangle pair: the ends of the parts to come, the last one
+  // first; and how often the interval's triangle pairs have been halved.
   nsvcd__interval interval;
   double arc_ends[NSVCD__ARC_PARTS];
   double pair_ends[NSVCD__HALVINGS + 2];
@@ -11711,34 +11714,26 @@ typedef struct nsvcd__proof {
 
 // Forgets all that is only remembered. The tests do so at random, where NSVCD__PAUSE stands.
 static void nsvcd__forget(nsvcd__memo *memo) {
-  for (size_t n = 0; n < NSVCD__PLACED; n++) memo->placed[n].ticks = 0;
-  memo->next_placed = 0;
-  memo->intervals = 0;
-  memo->held = nsvcd__f3_of(0, 0, 0);
-  memo->plane = 0;
-  memo->separating = nsvcd__d3_of(0, 0, 0);
-  memo->shared = 0;
-  memo->window = 0;
-  memo->has_block = 0;
+  memset(memo, 0, sizeof *memo);
 }
 #ifndef NSVCD__PAUSE
 #define NSVCD__PAUSE(p) ((void)0)
 #endif
 
-// A limit that leaves so many units, if there are as many.
+// The limit that leaves a budget of so many units, or of what is left of all.
 static size_t nsvcd__limit_after(const nsvcd__proof *p, size_t units) {
   const size_t left = p->work < p->ask.most ? p->ask.most - p->work : 0;
   return left > units ? p->work + units : p->ask.most;
 }
 
-// What the search for the first contact may take; the rest is for what can be proven by time.
+// The limit of the search for the first contact; the rest is for what is proven part by part.
 static size_t nsvcd__limit_of_first(const nsvcd__proof *p) {
   return p->ask.most - p->given.aside;
 }
 
-// Is all work done that is allowed? Where the first contact is sought, what an unresolved pair has
-// left for contacts after it may be: then the unresolved pair becomes the end here, and what comes
-// before it can be proven.
+// Is the budget exhausted? Where the first contact is sought, so may be what an unresolved pair
+// left for contacts after it: then that pair becomes the end, and what comes before it can be
+// proven.
 static int nsvcd__is_exhausted(nsvcd__proof *p) {
   nsvcd__asked *ask = &p->ask;
   if (p->work > ask->limit && ask->first > 0 && !ask->is_brief && !ask->unresolved_ends &&
@@ -11752,7 +11747,7 @@ static int nsvcd__is_exhausted(nsvcd__proof *p) {
   return p->work > ask->limit;
 }
 
-// The clearance, in float: not less.
+// The clearance in float, rounded up.
 static float nsvcd__clearance(const nsvcd__proof *p) {
   return 1.000001f * (float)p->ask.clearance;
 }
@@ -11763,41 +11758,34 @@ static double nsvcd__off_meshes(const nsvcd__proof *p) {
   return p->ask.motion->ratio * moving + (double)nsvcd__off_mesh(&p->fixed);
 }
 
-// What stored points of two patches may be off by, both together.
-static float nsvcd__quanta_of(const nsvcd__proof *p, size_t i, size_t j) {
+// The sum of two patches' quantization errors.
+static float nsvcd__errors_of(const nsvcd__proof *p, size_t i, size_t j) {
   return p->ask.motion->scale * p->moving.errors[i] + p->fixed.errors[j];
 }
 
-// How far points of the moving body are, in its own units, as bends have it: none is
-// farther from its origin than `from_origin`, nor from the line through that along the axis of a
-// turn than `from_axis`.
-typedef struct nsvcd__arm {
-  float from_origin, from_axis;
-} nsvcd__arm;
-
-// Of a sphere. axis: unit, as the body has it; radial is rounded for that, too.
-static nsvcd__arm nsvcd__arm_of(nsvcd__f3 centre, float radius, nsvcd__f3 axis) {
-  const float distance = nsvcd__f3_length(centre);
-  const float aside = nsvcd__f3_length(nsvcd__f3_cross(centre, axis));
-  const nsvcd__arm out = {1.000001f * (distance + radius),
-                          1.000001f * (aside + radius) + 1e-6f * distance};
-  return out;
-}
-
-// Tests hear of every plane of slabs, hulls and triangles (spheres and boxes have tests of their
-// own): kind, patches, entries (or NSVCD_NONE), times, and the plane's normal (3), fixed body's
-// frame, which points to the moving side.
+// Tests hear of every plane of slabs, hulls and triangles (spheres have tests of their own): kind,
+// patches, entries (or NSVCD_NONE), times, and the plane's normal (3), in the fixed body's frame,
+// towards the moving side. What many planes separate at once, the tests take apart themselves.
 #ifndef NSVCD__CERTIFY
 #define NSVCD__CERTIFY(kind, moving, fixed, moving_entry, fixed_entry, t_start, t_end, \
                        normal) \
-  ((void)0)
+  ((void)(moving), (void)(fixed), (void)(moving_entry), (void)(fixed_entry), (void)(t_start), \
+   (void)(t_end), (void)(normal))
+// by slabs, in `lanes` of a slice: moving patches, from the i-th on, and patch j, in segment s; or
+// all members of groups i and j, in segments from s on
+#define NSVCD__CERTIFY_SLABS(p, search, of_groups, i, j, s, by, lanes) ((void)0)
+// all triangle pairs of `lanes` of the moving block and the `apart` lanes of a fixed one, by the
+// planes of its slice from s on or, where that is NULL, by their boxes
+#define NSVCD__CERTIFY_BLOCK(p, lanes, fixed, apart, s, plane, below) ((void)0)
+// all triangle pairs of patches i and j, from u0 to u1 of the arc, by nsvcd__plane_separates
+#define NSVCD__CERTIFY_PATCHES(p, i, j, u0, u1) ((void)0)
 #endif
 enum { NSVCD__BY_SLAB, NSVCD__BY_HULL, NSVCD__BY_TRIANGLES };
 #endif  // NSVCD_NO_PROOF
 
 // ------------------------------------------------------------------------------------- proof/poses
-// In: a motion, an arc of it and a share of that. Out: where the moving body is, in double, to the
-// last digits.
+// In: a motion, an arc of it and a fraction u in [0,1] of the arc. Out: the pose of the moving body
+// there, in double, to the last digits.
 
 #ifndef NSVCD_NO_PROOF
 static nsvcd__dquat nsvcd__unit_rotation(const nsvcd_pose *pose) {
@@ -11806,11 +11794,11 @@ static nsvcd__dquat nsvcd__unit_rotation(const nsvcd_pose *pose) {
   return nsvcd__dquat_unit(out);
 }
 
-static nsvcd__d3 nsvcd__place_point(const nsvcd__dtransform *at, nsvcd__d3 a) {
+static nsvcd__d3 nsvcd__d3_transform(const nsvcd__dtransform *at, nsvcd__d3 a) {
   return nsvcd__d3_add(nsvcd__dmat3_apply(&at->rotation, a), at->position);
 }
 
-// The rotation a share u in [0,1] of the arc later than its start; unit.
+// The rotation at fraction u of the arc, unit.
 static nsvcd__dquat nsvcd__slerp_at(const nsvcd__slerp *slerp, double u) {
   const double along = slerp->from + slerp->fraction * u;
   double before = 1 - along;
@@ -11827,19 +11815,9 @@ static nsvcd__dquat nsvcd__slerp_at(const nsvcd__slerp *slerp, double u) {
 // A track's slerp over an arc, and its positions at both ends, metres.
 static void nsvcd__slerp_init(const nsvcd__track *track, uint32_t first, uint32_t ticks,
                               nsvcd__slerp *slerp, nsvcd__d3 *ends) {
-  if (track->count == 1) {
-    slerp->start = nsvcd__unit_rotation(track->poses);
-    slerp->end = slerp->start;
-    slerp->half_angle = 0;
-    slerp->from = 0;
-    slerp->fraction = 1;
-    ends[0] = nsvcd__d3_load(track->poses->position);
-    ends[1] = ends[0];
-    return;
-  }
   const uint32_t k = nsvcd__pose_before(track, first);
   const nsvcd_pose *a = &track->poses[k];
-  const nsvcd_pose *b = a + 1;
+  const nsvcd_pose *b = track->count > 1 ? a + 1 : a;
   const uint32_t begin = nsvcd__tick_of(track, k);
   const double per_tick = 1 / (double)(nsvcd__tick_of(track, k + 1) - begin);
   slerp->fraction = (double)ticks * per_tick;
@@ -11853,10 +11831,9 @@ static void nsvcd__slerp_init(const nsvcd__track *track, uint32_t first, uint32_
   slerp->start = nsvcd__unit_rotation(a);
   slerp->end = nsvcd__dquat_scale(nsvcd__unit_rotation(b), sign);
   const nsvcd__dquat difference = nsvcd__dquat_fma(-1, slerp->end, slerp->start);
-  const double apart = nsvcd__dquat_dot(difference, difference);
   const nsvcd__dquat sum = nsvcd__dquat_fma(1, slerp->end, slerp->start);
-  const double together = nsvcd__dquat_dot(sum, sum);
-  slerp->half_angle = 2 * nsvcd__atan2(sqrt(apart), sqrt(together));
+  const double apart = sqrt(nsvcd__dquat_dot(difference, difference));
+  slerp->half_angle = 2 * nsvcd__atan2(apart, sqrt(nsvcd__dquat_dot(sum, sum)));
 }
 
 // The rotation vector of a slerp, over its arc.
@@ -11890,54 +11867,49 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   const nsvcd__d3 to = nsvcd__d3_sub(ends[1], fixed_ends[1]);
   arc->from = nsvcd__d3_scale(from, per_metre);
   arc->moved = nsvcd__d3_scale(nsvcd__d3_sub(to, from), per_metre);
-  if (arc->fixed_moves) {
-    // what both bodies' turns do: see nsvcd__cut_double_arc
-    const nsvcd__d3 fixed_turn = nsvcd__slerp_turn(&arc->fixed);
-    const nsvcd__d3 turn = nsvcd__d3_sub(nsvcd__slerp_turn(&arc->moving), fixed_turn);
-    const nsvcd__d3 end = nsvcd__d3_add(arc->from, arc->moved);
-    const double twist = nsvcd__d3_length(nsvcd__d3_cross(turn, fixed_turn));
-    const double angle = nsvcd__d3_length(fixed_turn);
-    const double swing_from = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->from));
-    const double swing_to = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, end));
-    const double swing = nsvcd__max(swing_from, swing_to);
-    const double across = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->moved));
-    const nsvcd__d3 axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
-    const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->fixed, 0));
-    const nsvcd__dmat3 moving = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->moving, 0));
-    arc->turn = nsvcd__d3_length(turn);
-    arc->speed = nsvcd__d3_length(arc->moved) + swing;
-    arc->twist = 0.1250001 * arc->scale * twist;
-    arc->origin_bend = 0.1250001 * (2 * across + angle * swing);
-    arc->axis = nsvcd__dmat3_apply_transpose(&fixed, axis);
-    arc->own_axis = nsvcd__dmat3_apply_transpose(&moving, axis);
-    arc->waver = arc->turn > 0 ? nsvcd__min(1, twist / arc->turn) : 0;
-    arc->bend = 0.1250001 * arc->scale * arc->turn * arc->turn;
-    return arc;
+  if (!arc->fixed_moves) {
+    // all in the fixed body's frame
+    const nsvcd__dquat frame = arc->fixed.start;
+    const nsvcd__dmat3 axes = nsvcd__dmat3_of(frame);
+    const nsvcd__dquat none = {0, 0, 0, 1};
+    arc->moving.start = nsvcd__dquat_inverse_mul(frame, arc->moving.start);
+    arc->moving.end = nsvcd__dquat_inverse_mul(frame, arc->moving.end);
+    arc->from = nsvcd__dmat3_apply_transpose(&axes, arc->from);
+    arc->moved = nsvcd__dmat3_apply_transpose(&axes, arc->moved);
+    arc->fixed.start = arc->fixed.end = none;
   }
 
-  const nsvcd__dmat3 fixed = nsvcd__dmat3_of(arc->fixed.start);
-  arc->moving.start = nsvcd__dquat_inverse_mul(arc->fixed.start, arc->moving.start);
-  arc->moving.end = nsvcd__dquat_inverse_mul(arc->fixed.start, arc->moving.end);
-  arc->from = nsvcd__dmat3_apply_transpose(&fixed, arc->from);
-  arc->moved = nsvcd__dmat3_apply_transpose(&fixed, arc->moved);
-  const nsvcd__d3 turn = nsvcd__slerp_turn(&arc->moving);
-  const nsvcd__dmat3 moving = nsvcd__dmat3_of(arc->moving.start);
-  arc->axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
-  arc->own_axis = nsvcd__dmat3_apply_transpose(&moving, arc->axis);
-  arc->turn = 2 * arc->moving.half_angle * arc->moving.fraction;
-  arc->speed = nsvcd__d3_length(arc->moved);
+  // the bounds of nsvcd__cut_double_arc; of one body that turns, twist and swing are 0
+  const nsvcd__d3 fixed_turn = nsvcd__slerp_turn(&arc->fixed);
+  const nsvcd__d3 turn = nsvcd__d3_sub(nsvcd__slerp_turn(&arc->moving), fixed_turn);
+  const nsvcd__d3 end = nsvcd__d3_add(arc->from, arc->moved);
+  const double twist = nsvcd__d3_length(nsvcd__d3_cross(turn, fixed_turn));
+  const double angle = nsvcd__d3_length(fixed_turn);
+  const double swing_from = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->from));
+  const double swing_to = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, end));
+  const double swing = nsvcd__max(swing_from, swing_to);
+  const double across = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->moved));
+  const nsvcd__d3 axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
+  const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->fixed, 0));
+  const nsvcd__dmat3 moving = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->moving, 0));
+  arc->turn = nsvcd__d3_length(turn);
+  arc->speed = nsvcd__d3_length(arc->moved) + swing;
+  arc->twist = 0.1250001 * arc->scale * twist;
+  arc->origin_bend = 0.1250001 * (2 * across + angle * swing);
+  arc->axis = nsvcd__dmat3_apply_transpose(&fixed, axis);
+  arc->own_axis = nsvcd__dmat3_apply_transpose(&moving, axis);
+  arc->waver = arc->turn > 0 ? nsvcd__min(1, twist / arc->turn) : 0;
   arc->bend = 0.1250001 * arc->scale * arc->turn * arc->turn;
-  arc->waver = arc->twist = arc->origin_bend = 0;
   return arc;
 }
 
-// Do all points of the moving body go along straight lines, seen from the fixed one?
+// Do all points of the moving body go along straight lines, as the fixed body sees them?
 static int nsvcd__is_straight(const nsvcd__arc *arc) {
   return !(arc->bend > 0 || arc->twist > 0 || arc->origin_bend > 0);
 }
 
-// The true pose, seen from the fixed body, a share u in [0,1] of the arc later than its start. Its
-// rotation is times the moving body's scale.
+// The true pose at fraction u of the arc, as the fixed body sees it. Its rotation is times the
+// moving body's scale.
 static nsvcd__dtransform nsvcd__dtransform_at(const nsvcd__arc *arc, double u) {
   nsvcd__dquat q = nsvcd__slerp_at(&arc->moving, u);
   nsvcd__dtransform at;
@@ -11954,51 +11926,45 @@ static nsvcd__dtransform nsvcd__dtransform_at(const nsvcd__arc *arc, double u) {
   return at;
 }
 
-// How the moving body goes there. Where both turn, what the fixed one does is taken off.
+// The moving body's twist there, as the fixed body sees it.
 static nsvcd__twist nsvcd__twist_at(const nsvcd__arc *arc, double u) {
   const nsvcd__dtransform at = nsvcd__dtransform_at(arc, u);
   const double per_tick = 1 / (double)arc->ticks;
-  nsvcd__twist out;
+  const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->fixed, u));
   nsvcd__d3 turn = nsvcd__slerp_turn(&arc->moving);
-  out.along = arc->moved;
-  out.turn = turn;
-  if (arc->fixed_moves) {
-    const nsvcd__dquat q = nsvcd__slerp_at(&arc->fixed, u);
-    const nsvcd__dmat3 fixed = nsvcd__dmat3_of(q);
-    nsvcd__d3 own = nsvcd__slerp_turn(&arc->fixed);
-    own = nsvcd__dmat3_apply_transpose(&fixed, own);
-    turn = nsvcd__dmat3_apply_transpose(&fixed, turn);
-    out.along = nsvcd__dmat3_apply_transpose(&fixed, out.along);
-    out.along = nsvcd__d3_add(out.along, nsvcd__d3_cross(own, arc->push_out));
-    out.turn = nsvcd__d3_sub(turn, own);
-  }
-  out.along = nsvcd__d3_sub(out.along, nsvcd__d3_cross(turn, at.position));
-  out.along = nsvcd__d3_scale(out.along, per_tick);
-  out.turn = nsvcd__d3_scale(out.turn, per_tick);
+  nsvcd__d3 own = nsvcd__slerp_turn(&arc->fixed);
+  turn = nsvcd__dmat3_apply_transpose(&fixed, turn);
+  own = nsvcd__dmat3_apply_transpose(&fixed, own);
+  nsvcd__d3 along = nsvcd__dmat3_apply_transpose(&fixed, arc->moved);
+  along = nsvcd__d3_add(along, nsvcd__d3_cross(own, arc->push_out));
+  along = nsvcd__d3_sub(along, nsvcd__d3_cross(turn, at.position));
+  nsvcd__twist out;
+  out.along = nsvcd__d3_scale(along, per_tick);
+  out.turn = nsvcd__d3_scale(nsvcd__d3_sub(turn, own), per_tick);
   return out;
 }
 static nsvcd__d3 nsvcd__twist_of(const nsvcd__twist *twist, nsvcd__d3 x) {
   return nsvcd__d3_add(twist->along, nsvcd__d3_cross(twist->turn, x));
 }
 
-// The true pose in p->arc, remembered: triangle pairs ask for the same poses again.
-// The last two that were asked for stay where they are.
-static const nsvcd__dtransform *nsvcd__placed_at(nsvcd__proof *p, double u) {
-  size_t n = 0;
+// The true pose at fraction u of p->arc, remembered: triangle pairs ask for the same poses again.
+// The pose of the call before stays where it is.
+static const nsvcd__dtransform *nsvcd__arc_pose(nsvcd__proof *p, double u) {
   const nsvcd__arc *arc = &p->arc;
-  for (; n < NSVCD__PLACED; n++) {
-    const nsvcd__placed *known = &p->memo.placed[n];
+  nsvcd__memo *memo = &p->memo;
+  const size_t next = memo->next_pose;
+  size_t n = 0;
+  for (; n < NSVCD__KNOWN_POSES; n++) {
+    const nsvcd__known_pose *known = &memo->poses[n];
     if (known->arc == arc->first && known->ticks == arc->ticks && known->u == u) break;
   }
-  if (n == NSVCD__PLACED) {
-    n = p->memo.next_placed;
-    p->memo.placed[n].arc = arc->first;
-    p->memo.placed[n].ticks = arc->ticks;
-    p->memo.placed[n].u = u;
-    p->memo.placed[n].transform = nsvcd__dtransform_at(arc, u);
+  if (n == NSVCD__KNOWN_POSES) {
+    const nsvcd__known_pose made = {arc->first, arc->ticks, u, nsvcd__dtransform_at(arc, u)};
+    n = next;
+    memo->poses[n] = made;
   }
-  if (n == p->memo.next_placed) p->memo.next_placed = (n + 1) % NSVCD__PLACED;
-  return &p->memo.placed[n].transform;
+  if (n == next) memo->next_pose = (n + 1) % NSVCD__KNOWN_POSES;
+  return &memo->poses[n].transform;
 }
 
 static nsvcd__transform nsvcd__transform_of(const nsvcd__dtransform *at) {
@@ -12012,73 +11978,68 @@ static nsvcd__transform nsvcd__transform_of(const nsvcd__dtransform *at) {
 #endif  // NSVCD_NO_PROOF
 
 // ----------------------------------------------------------------------------- proof/motion_bounds
-// In: a segment, or an arc and two shares of it. Out: a interval: the poses at both ends, and by
-// how much a point may leave the chord in between.
+// In: a segment, or an arc and two fractions of it. Out: an interval: the poses at both ends, and
+// how far points deviate from their chords in between.
 
 #ifndef NSVCD_NO_PROOF
-// The time at which so many ticks have gone by.
+// The time of a tick, t in [0,1].
 static double nsvcd__time_of(const nsvcd__motion *motion, double ticks) {
   return motion->begin + motion->duration * ticks / (double)motion->ticks;
 }
 
-// The time a share u of the arc last asked for later than its start.
+// The time of fraction u of p->arc.
 static double nsvcd__time_in_arc(const nsvcd__proof *p, double u) {
   return nsvcd__time_of(p->ask.motion, (double)p->arc.first + u * (double)p->arc.ticks);
 }
 
-// Leaves of the segments, whose ticks have become so much finer, a part of the motion, from one
-// place to another. These are in segments: 1.5 is in the middle of the second.
+// The tick of a position counted in segments: 1.5 is in the middle of the second.
+static double nsvcd__tick_in_segments(const uint32_t *begin, double at) {
+  const size_t s = (size_t)at;
+  const double start = (double)begin[s];
+  const double fraction = at - (double)s;
+  return fraction > 0 ? start + fraction * ((double)begin[s + 1] - start) : start;
+}
+
+// Leaves the part of the segments between two positions, in ticks so many times finer.
 static void nsvcd__narrow_segments(nsvcd__search *search, double from, double to,
                                    double finer) {
   uint32_t *begin = search->begin;
+  const double start = nsvcd__tick_in_segments(begin, from);
+  const double end = nsvcd__tick_in_segments(begin, to);
   const size_t first = (size_t)from;
   const size_t last = (size_t)to;
-  const double fraction = to - (double)last;
-  double end = (double)begin[last];
-  if (fraction > 0) end += fraction * ((double)begin[last + 1] - end);
-  const double start = (double)begin[first];
-  const double into = (from - (double)first) * ((double)begin[first + 1] - start);
-  search->segments = last - first + (fraction > 0);
+  search->segments = last - first + (to > (double)last);
   for (size_t s = 1; s < search->segments; s++)
     begin[s] = (uint32_t)(finer * (double)begin[first + s]);
-  begin[0] = (uint32_t)(finer * (start + into));
+  begin[0] = (uint32_t)(finer * start);
   begin[search->segments] = (uint32_t)(finer * end);
 }
 
-static nsvcd__interval nsvcd__interval_of_segment(const nsvcd__motion *motion,
-                                                  const nsvcd__search *search, size_t s) {
-  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
-  const size_t l = s % NSVCD__LANES;
-  const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, l);
-  nsvcd__interval interval;
-  interval.start.rotation = nsvcd__mat3_lane(block->rotation, l);
-  interval.end.rotation = nsvcd__mat3_mix(1, &interval.start.rotation, 1, &turned);
-  interval.start.position = nsvcd__lane_of(block->position, l);
-  interval.end.position =
-      nsvcd__f3_add(interval.start.position, nsvcd__lane_of(block->moved, l));
-  interval.bend = block->bend[l];
-  interval.rounding = block->rounding[l];
-  interval.origin_bend = block->origin_bend[l];
-  interval.axis = nsvcd__lane_of(block->axis, l);
-  interval.heading = nsvcd__lane_of(block->heading, l);
-  interval.bend_along_axis = block->bend_along_axis[l];
-  interval.origin_along_axis = block->origin_along_axis[l];
-  interval.origin_off_heading = block->origin_off_heading[l];
-  interval.t_start = nsvcd__time_of(motion, (double)search->begin[s]);
-  interval.t_end = nsvcd__time_of(motion, (double)search->begin[s + 1]);
-  return interval;
-}
-
-// Kept once it has been made.
+// A segment, up to the end of what matters; kept once it has been made.
 static const nsvcd__interval *nsvcd__segment_interval(nsvcd__proof *p,
                                                       const nsvcd__search *search, size_t s) {
-  if (!(p->memo.intervals >> s & 1)) {
-    p->intervals[s] = nsvcd__interval_of_segment(p->ask.motion, search, s);
-    p->intervals[s].t_end =
-        nsvcd__min(p->intervals[s].t_end, nsvcd__time_of(p->ask.motion, p->ask.end));
-  }
+  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
+  const size_t l = s % NSVCD__LANES;
+  nsvcd__interval *out = &p->intervals[s];
+  if (p->memo.intervals >> s & 1) return out;
   p->memo.intervals |= (uint64_t)1 << s;
-  return &p->intervals[s];
+  const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, l);
+  const double end = nsvcd__min((double)search->begin[s + 1], p->ask.end);
+  out->start.rotation = nsvcd__mat3_lane(block->rotation, l);
+  out->end.rotation = nsvcd__mat3_mix(1, &out->start.rotation, 1, &turned);
+  out->start.position = nsvcd__lane_of(block->position, l);
+  out->end.position = nsvcd__f3_add(out->start.position, nsvcd__lane_of(block->moved, l));
+  out->bend = block->bend[l];
+  out->rounding = block->rounding[l];
+  out->origin_bend = block->origin_bend[l];
+  out->axis = nsvcd__lane_of(block->axis, l);
+  out->heading = nsvcd__lane_of(block->heading, l);
+  out->bend_along_axis = block->bend_along_axis[l];
+  out->origin_along_axis = block->origin_along_axis[l];
+  out->origin_off_heading = block->origin_off_heading[l];
+  out->t_start = nsvcd__time_of(p->ask.motion, (double)search->begin[s]);
+  out->t_end = nsvcd__time_of(p->ask.motion, end);
+  return out;
 }
 
 // The interval from u0 to u1 of the arc that begins at the keyframe `first`.
@@ -12088,93 +12049,103 @@ static nsvcd__interval nsvcd__interval_of_arc(nsvcd__proof *p, uint32_t first, d
   const nsvcd__dtransform start = nsvcd__dtransform_at(arc, u0);
   const nsvcd__dtransform end = nsvcd__dtransform_at(arc, u1);
   const double square = (u1 - u0) * (u1 - u0);
-  nsvcd__interval interval;
-  interval.start = nsvcd__transform_of(&start);
-  interval.end = nsvcd__transform_of(&end);
-  const float extent_start = nsvcd__f3_length(interval.start.position);
-  const float extent = extent_start + nsvcd__f3_length(interval.end.position);
-  interval.bend = (float)(square * (arc->bend + arc->twist) * 1.000001);
-  interval.origin_bend = (float)(square * arc->origin_bend * 1.000001);
-  interval.rounding = NSVCD__ROUNDING * (extent + p->given.lengths);
-  interval.origin_along_axis = interval.origin_off_heading = interval.origin_bend;
-  interval.axis = nsvcd__f3_round(arc->axis);
-  interval.heading = interval.axis;  // any
+  nsvcd__interval out;
+  out.start = nsvcd__transform_of(&start);
+  out.end = nsvcd__transform_of(&end);
+  const float extent_start = nsvcd__f3_length(out.start.position);
+  const float extent = extent_start + nsvcd__f3_length(out.end.position);
+  out.bend = (float)(square * (arc->bend + arc->twist) * 1.000001);
+  out.origin_bend = (float)(square * arc->origin_bend * 1.000001);
+  out.rounding = NSVCD__ROUNDING * (extent + p->given.lengths);
+  out.origin_along_axis = out.origin_off_heading = out.origin_bend;
+  out.axis = nsvcd__f3_round(arc->axis);
+  out.heading = out.axis;  // any
   const double wavers = square * (arc->bend * arc->waver + arc->twist);
-  interval.bend_along_axis = fminf((float)wavers + 1e-6f * interval.bend, interval.bend);
-  interval.t_start = nsvcd__time_in_arc(p, u0);
-  interval.t_end = nsvcd__time_in_arc(p, u1);
-  return interval;
+  out.bend_along_axis = fminf((float)wavers + 1e-6f * out.bend, out.bend);
+  out.t_start = nsvcd__time_in_arc(p, u0);
+  out.t_end = nsvcd__time_in_arc(p, u1);
+  return out;
 }
 
-// The axis as the moving body has it, unit.
-static nsvcd__f3 nsvcd__own_axis(const nsvcd__interval *interval) {
-  const nsvcd__f3 axis =
-      nsvcd__mat3_apply_transpose(&interval->start.rotation, interval->axis);
+// The axis in the moving body's frame, unit.
+static nsvcd__f3 nsvcd__own_axis(const nsvcd__interval *over) {
+  const nsvcd__f3 axis = nsvcd__mat3_apply_transpose(&over->start.rotation, over->axis);
   const float length = nsvcd__f3_length(axis);
   return nsvcd__f3_scale(axis, length > 0 ? 1 / length : 0);
 }
 
+// How far points of the moving body are, at most, in its own units: from its origin, and from the
+// line through that along the axis of a turn.
+typedef struct nsvcd__arm {
+  float from_origin, from_axis;
+} nsvcd__arm;
+
+// Of a sphere. axis: unit to rounding, in the body's frame.
+static nsvcd__arm nsvcd__arm_of(nsvcd__f3 centre, float radius, nsvcd__f3 axis) {
+  const float distance = nsvcd__f3_length(centre);
+  const float aside = nsvcd__f3_length(nsvcd__f3_cross(centre, axis));
+  const nsvcd__arm out = {1.000001f * (distance + radius),
+                          1.000001f * (aside + radius) + 1e-6f * distance};
+  return out;
+}
+
 // Of a patch's pieces.
 static nsvcd__arm nsvcd__patch_arm(const nsvcd__geometry *f, size_t patch,
-                                   const nsvcd__interval *interval) {
+                                   const nsvcd__interval *over) {
   const float radius = nsvcd__body_r(f->body)[patch];
-  return nsvcd__arm_of(nsvcd__patch_centre(f, patch), radius, nsvcd__own_axis(interval));
+  return nsvcd__arm_of(nsvcd__patch_centre(f, patch), radius, nsvcd__own_axis(over));
 }
 
-// What points leave their chords by for the turn's sake, along any direction: |D x|, with D the
-// difference between the true rotation and the chord's at some time. Split x into its parts along
-// a', the axis as the moving body has it, and across it: then
+// The deviation that the turn causes, along any direction: |D x|, with D the difference between the
+// true rotation and the chord's at some time. Split x into its parts along a', the axis in the
+// moving body's frame, and across it: then
 //   |D x| <= |D| |x x a'| + |D a'| |x.a'|
 // and |D a'| is |D^T axis|, since both ends of the chord take a' to the axis.
-static float nsvcd__bend_of(const nsvcd__interval *interval, nsvcd__arm arm) {
-  const float by_axis =
-      interval->bend * arm.from_axis + interval->bend_along_axis * arm.from_origin;
-  return fminf(interval->bend * arm.from_origin, by_axis);
+static float nsvcd__bend_of(const nsvcd__interval *over, nsvcd__arm arm) {
+  const float by_axis = over->bend * arm.from_axis + over->bend_along_axis * arm.from_origin;
+  return fminf(over->bend * arm.from_origin, by_axis);
 }
 
-// What the points of the moving body leave their chords by along a direction n, times its length,
-// but for rounding (which is times |n| too). With d the difference of the positions, a point x is
-// off by n.(D x + d). Split n into its parts along the axis and across it: then
+// The deviation of points of the moving body along a direction n, times its length, without
+// rounding (which is times |n| too). With d the difference of the positions, a point x is off by
+// n.(D x + d). Split n into its parts along the axis and across it: then
 //   |n.D x| <= |n.axis| |D^T axis| |x| + |n x axis| |D x|
-// and |n.d| is bounded in the same way, or with the way of the origin in place of the axis.
-static float nsvcd__deviation_of(const nsvcd__interval *interval, nsvcd__f3 n,
-                                 nsvcd__arm arm) {
-  const float along = fabsf(nsvcd__f3_dot(n, interval->axis));
-  const float across = nsvcd__f3_length(nsvcd__f3_cross(n, interval->axis));
-  const float along_heading = fabsf(nsvcd__f3_dot(n, interval->heading));
-  const float across_heading = nsvcd__f3_length(nsvcd__f3_cross(n, interval->heading));
-  const float by_axis = along * interval->origin_along_axis + across * interval->origin_bend;
-  const float by_heading =
-      along_heading * interval->origin_bend + across_heading * interval->origin_off_heading;
+// and |n.d| is bounded in the same way, or with the heading in place of the axis.
+static float nsvcd__deviation_of(const nsvcd__interval *over, nsvcd__f3 n, nsvcd__arm arm) {
+  const float along = fabsf(nsvcd__f3_dot(n, over->axis));
+  const float across = nsvcd__f3_length(nsvcd__f3_cross(n, over->axis));
+  const float ahead = fabsf(nsvcd__f3_dot(n, over->heading));
+  const float aside = nsvcd__f3_length(nsvcd__f3_cross(n, over->heading));
+  const float by_axis = along * over->origin_along_axis + across * over->origin_bend;
+  const float by_heading = ahead * over->origin_bend + aside * over->origin_off_heading;
   const float origin_bend = by_axis < by_heading ? by_axis : by_heading;
-  const float turn = along * interval->bend_along_axis * arm.from_origin;
-  return origin_bend + turn + across * nsvcd__bend_of(interval, arm);
+  const float turn = along * over->bend_along_axis * arm.from_origin;
+  return origin_bend + turn + across * nsvcd__bend_of(over, arm);
 }
 
-// The same for a slice of directions, or one direction in a slice of intervals.
+// The same for a slice of directions, or for one direction in a slice of intervals.
 typedef struct nsvcd__v_interval {
   nsvcd__v3 axis, heading;
   nsvcd__v rounding, origin_bend, bend, bend_along_axis, origin_along_axis, origin_off_heading;
 } nsvcd__v_interval;
 
-NSVCD__INLINE nsvcd__v_interval nsvcd__v_interval_set(const nsvcd__interval *interval) {
+NSVCD__INLINE nsvcd__v_interval nsvcd__v_interval_set(const nsvcd__interval *over) {
   nsvcd__v_interval out;
-  out.axis = nsvcd__v3_set(interval->axis);
-  out.heading = nsvcd__v3_set(interval->heading);
-  out.rounding = nsvcd__v_set(interval->rounding);
-  out.origin_bend = nsvcd__v_set(interval->origin_bend);
-  out.bend = nsvcd__v_set(interval->bend);
-  out.bend_along_axis = nsvcd__v_set(interval->bend_along_axis);
-  out.origin_along_axis = nsvcd__v_set(interval->origin_along_axis);
-  out.origin_off_heading = nsvcd__v_set(interval->origin_off_heading);
+  out.axis = nsvcd__v3_set(over->axis);
+  out.heading = nsvcd__v3_set(over->heading);
+  out.rounding = nsvcd__v_set(over->rounding);
+  out.origin_bend = nsvcd__v_set(over->origin_bend);
+  out.bend = nsvcd__v_set(over->bend);
+  out.bend_along_axis = nsvcd__v_set(over->bend_along_axis);
+  out.origin_along_axis = nsvcd__v_set(over->origin_along_axis);
+  out.origin_off_heading = nsvcd__v_set(over->origin_off_heading);
   return out;
 }
-// Lanes l and on of a block.
-NSVCD__INLINE nsvcd__v_interval nsvcd__v_interval_load(const nsvcd__segments *block,
-                                                       size_t l) {
+// A slice of a block, from lane l on.
+NSVCD__INLINE nsvcd__v_interval nsvcd__v_interval_load(nsvcd__segments *block, size_t l) {
   nsvcd__v_interval out;
-  out.axis = nsvcd__v3_rows(block->axis[0] + l);
-  out.heading = nsvcd__v3_rows(block->heading[0] + l);
+  out.axis = nsvcd__v3_load(block->axis, l);
+  out.heading = nsvcd__v3_load(block->heading, l);
   out.rounding = nsvcd__v_load(block->rounding + l);
   out.origin_bend = nsvcd__v_load(block->origin_bend + l);
   out.bend = nsvcd__v_load(block->bend + l);
@@ -12183,25 +12154,24 @@ NSVCD__INLINE nsvcd__v_interval nsvcd__v_interval_load(const nsvcd__segments *bl
   out.origin_off_heading = nsvcd__v_load(block->origin_off_heading + l);
   return out;
 }
-NSVCD__INLINE nsvcd__v nsvcd__v_deviation(const nsvcd__v_interval *interval, nsvcd__v3 n,
+NSVCD__INLINE nsvcd__v nsvcd__v_deviation(const nsvcd__v_interval *over, nsvcd__v3 n,
                                           float from_origin) {
-  const nsvcd__v along = nsvcd__v_abs(nsvcd__v3_dot(n, interval->axis));
-  const nsvcd__v across = nsvcd__v3_length(nsvcd__v3_cross(n, interval->axis));
-  const nsvcd__v along_heading = nsvcd__v_abs(nsvcd__v3_dot(n, interval->heading));
-  const nsvcd__v across_heading = nsvcd__v3_length(nsvcd__v3_cross(n, interval->heading));
-  nsvcd__v by_axis = nsvcd__v_mul(across, interval->origin_bend);
-  by_axis = nsvcd__v_fma(along, interval->origin_along_axis, by_axis);
-  nsvcd__v by_heading = nsvcd__v_mul(across_heading, interval->origin_off_heading);
-  by_heading = nsvcd__v_fma(along_heading, interval->origin_bend, by_heading);
-  nsvcd__v turn = nsvcd__v_mul(across, interval->bend);
-  turn = nsvcd__v_fma(along, interval->bend_along_axis, turn);
+  const nsvcd__v along = nsvcd__v_abs(nsvcd__v3_dot(n, over->axis));
+  const nsvcd__v across = nsvcd__v3_length(nsvcd__v3_cross(n, over->axis));
+  const nsvcd__v ahead = nsvcd__v_abs(nsvcd__v3_dot(n, over->heading));
+  const nsvcd__v aside = nsvcd__v3_length(nsvcd__v3_cross(n, over->heading));
+  nsvcd__v by_axis = nsvcd__v_mul(across, over->origin_bend);
+  by_axis = nsvcd__v_fma(along, over->origin_along_axis, by_axis);
+  nsvcd__v by_heading = nsvcd__v_mul(aside, over->origin_off_heading);
+  by_heading = nsvcd__v_fma(ahead, over->origin_bend, by_heading);
+  nsvcd__v turn = nsvcd__v_mul(across, over->bend);
+  turn = nsvcd__v_fma(along, over->bend_along_axis, turn);
   return nsvcd__v_fma(turn, nsvcd__v_set(from_origin), nsvcd__v_min(by_axis, by_heading));
 }
 #endif  // NSVCD_NO_PROOF
 
 // ------------------------------------------------------------------------------------- proof/slabs
-// In: patch pairs, a slice at a time. Out: those that a plane along a slab's normal does not
-// separate.
+// In: patch pairs, a slice at a time. Out: those that no plane normal to a slab separates.
 
 #ifndef NSVCD_NO_PROOF
 // A slice of slabs.
@@ -12228,8 +12198,8 @@ NSVCD__INLINE nsvcd__v_slab nsvcd__v_slab_load(const float *slabs, size_t stride
   return out;
 }
 
-// By slabs, from their centres, along directions whose parts along the slabs' normals are `along`,
-// and whose lengths across these are `across`.
+// Extents of slabs, from their centres, along directions of these components: along the slabs'
+// normals, and across them.
 NSVCD__INLINE nsvcd__v_range nsvcd__v_slab_along(const nsvcd__v_slab *slab, nsvcd__v along,
                                                  nsvcd__v across) {
   const nsvcd__v a = nsvcd__v_mul(slab->low, along);
@@ -12241,194 +12211,131 @@ NSVCD__INLINE nsvcd__v_range nsvcd__v_slab_along(const nsvcd__v_slab *slab, nsvc
   return out;
 }
 
-// The extent of slabs along directions given in their own frame.
-NSVCD__INLINE nsvcd__v_range nsvcd__v_slab_range(const nsvcd__v_slab *slab,
-                                                 nsvcd__v3 direction) {
-  const nsvcd__v along = nsvcd__v3_dot(direction, slab->normal);
-  const nsvcd__v across = nsvcd__v3_length(nsvcd__v3_cross(direction, slab->normal));
+// The same, along directions given in the slabs' own frame.
+NSVCD__INLINE nsvcd__v_range nsvcd__v_slab_range(const nsvcd__v_slab *slab, nsvcd__v3 n) {
+  const nsvcd__v along = nsvcd__v3_dot(n, slab->normal);
+  const nsvcd__v across = nsvcd__v3_length(nsvcd__v3_cross(n, slab->normal));
   return nsvcd__v_slab_along(slab, along, across);
 }
 
-// Moving slabs that approach resting ones over a interval; either of them, and the interval, may be
-// one in all lanes.
+// Moving slabs that approach fixed ones over an interval; either of them, and the interval, may
+// be the same in all lanes.
 typedef struct nsvcd__v_approach {
   // in its body's frame and units
   nsvcd__v_slab moving;
   nsvcd__v_slab fixed;
-  // from the resting centre to the moving one, and its way
+  // from the fixed centre to the moving one, and its travel
   nsvcd__v3 from, chord;
-  // the resting slab's normal in the moving body's frame, at both ends
+  // the fixed slab's normal in the moving body's frame, at both ends
   nsvcd__v3 at_start, at_end;
-  // the mean of the moving slab's normals at both ends, and half of what they differ by
+  // the mean of the moving slab's normals at both ends, and half their difference
   nsvcd__v3 mean, turned;
   // of the moving body
   nsvcd__v scale;
-  nsvcd__v_interval interval;
+  nsvcd__v_interval over;
   float clearance;
-  // no point of the moving side is farther from its body's origin, in its body's units
+  // of the moving slabs' points about their body's origin, in its units
   float radius;
-  // nsvcd__v_off, of the fixed slab's normal
+  // nsvcd__v_off along the fixed slab's normal
   nsvcd__v fixed_off;
 } nsvcd__v_approach;
 
-// Lanes in which planes separate two bodies: the moving side is below, or above.
+// Lanes in which planes separate two bodies; in those of `below` the moving one is below.
 typedef struct nsvcd__v_separated {
   nsvcd__v3 plane;  // its normal
-  uint32_t below, above;
+  uint32_t lanes, below;
 } nsvcd__v_separated;
 
-// Along a plane's normal: what a moving point may be off by, and the clearance.
+// Along a plane's normal: the deviation of a moving point, and the clearance.
 NSVCD__INLINE nsvcd__v nsvcd__v_off(const nsvcd__v_approach *a, nsvcd__v3 plane) {
-  const nsvcd__v allowed = nsvcd__v_plus(a->interval.rounding, a->clearance);
-  return nsvcd__v_add(allowed, nsvcd__v_deviation(&a->interval, plane, a->radius));
+  const nsvcd__v allowed = nsvcd__v_plus(a->over.rounding, a->clearance);
+  return nsvcd__v_add(allowed, nsvcd__v_deviation(&a->over, plane, a->radius));
 }
 
-NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate(nsvcd__v3 plane, nsvcd__v_range moving,
+// By planes with this normal. start, end, fixed: the slabs' extents along it, the moving one's at
+// both ends, each from its centre.
+NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate(const nsvcd__v_approach *a, nsvcd__v3 plane,
+                                                   nsvcd__v_range start, nsvcd__v_range end,
                                                    nsvcd__v_range fixed, nsvcd__v off) {
+  const nsvcd__v height = nsvcd__v3_dot(plane, a->from);
+  const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(plane, a->chord));
+  const nsvcd__v low =
+      nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
+  const nsvcd__v high =
+      nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
   nsvcd__v_separated out;
   out.plane = plane;
-  out.below = nsvcd__v_lt(moving.high, nsvcd__v_sub(fixed.low, off));
-  out.above = nsvcd__v_lt(nsvcd__v_add(fixed.high, off), moving.low);
+  out.below = nsvcd__v_lt(high, nsvcd__v_sub(fixed.low, off));
+  out.lanes = out.below | nsvcd__v_lt(nsvcd__v_add(fixed.high, off), low);
   return out;
 }
 
-// By planes normal to the resting slabs.
+// By planes normal to the fixed slabs.
 NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_fixed(const nsvcd__v_approach *a) {
-  const nsvcd__v3 plane = a->fixed.normal;
   const nsvcd__v_range fixed = {a->fixed.low, a->fixed.high};
   const nsvcd__v_range start = nsvcd__v_slab_range(&a->moving, a->at_start);
   const nsvcd__v_range end = nsvcd__v_slab_range(&a->moving, a->at_end);
-  const nsvcd__v height = nsvcd__v3_dot(plane, a->from);
-  const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(plane, a->chord));
-  nsvcd__v_range moving;
-  moving.low =
-      nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
-  moving.high =
-      nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
-  return nsvcd__v_separate(plane, moving, fixed, a->fixed_off);
+  return nsvcd__v_separate(a, a->fixed.normal, start, end, fixed, a->fixed_off);
 }
 
-// By planes normal to the mean w of the moving slabs' normals. |w| <= 1. Both normals make the same
-// angle with w: along it they are |w|^2, across it no more than |turned|.
+// By planes normal to the mean w of the moving slabs' normals, |w| <= 1. Both normals make the same
+// angle with w: they are |w|^2 along it and no more than |turned| across it.
 NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_moving(const nsvcd__v_approach *a) {
   const nsvcd__v3 w = a->mean;
   const nsvcd__v along = nsvcd__v_mul(a->scale, nsvcd__v3_dot(w, w));
   const nsvcd__v across = nsvcd__v_mul(a->scale, nsvcd__v3_length(a->turned));
-  const nsvcd__v_range own = nsvcd__v_slab_along(&a->moving, along, across);
-  const nsvcd__v height = nsvcd__v3_dot(w, a->from);
-  const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(w, a->chord));
-  nsvcd__v_range moving;
-  moving.low = nsvcd__v_add(nsvcd__v_min(height, height_end), own.low);
-  moving.high = nsvcd__v_add(nsvcd__v_max(height, height_end), own.high);
-  return nsvcd__v_separate(w, moving, nsvcd__v_slab_range(&a->fixed, w), nsvcd__v_off(a, w));
+  const nsvcd__v_range moving = nsvcd__v_slab_along(&a->moving, along, across);
+  const nsvcd__v_range fixed = nsvcd__v_slab_range(&a->fixed, w);
+  return nsvcd__v_separate(a, w, moving, moving, fixed, nsvcd__v_off(a, w));
 }
 
-#ifdef NSVCD__CERTIFIES
-// Patches i and j, by the plane in lane l of a slice.
-static void nsvcd__certify_slab(size_t i, size_t j, const nsvcd__v_separated *separated,
-                                size_t l, const nsvcd__interval *interval) {
-  float lanes[3][NSVCD__LANES];
-  float normal[3];
-  nsvcd__v3_store(lanes, 0, separated->plane);
-  const float sign = separated->below >> l & 1 ? -1.0f : 1.0f;
-  nsvcd__f3_store(nsvcd__f3_scale(nsvcd__lane_of(lanes, l), sign), normal);
-  NSVCD__CERTIFY(NSVCD__BY_SLAB, i, j, NSVCD_NONE, NSVCD_NONE, interval->t_start,
-                 interval->t_end, normal);
-}
-// All pairs of members of groups g and h, in the segments `apart` of a slice that begins with
-// segment `first`.
-static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__search *search, size_t g,
-                                  size_t h, size_t first, uint32_t apart,
-                                  const nsvcd__v_separated *by_fixed,
-                                  const nsvcd__v_separated *by_moving) {
-  for (; apart; apart &= apart - 1) {
-    const size_t l = nsvcd__low_bit(apart);
-    const nsvcd__interval interval =
-        nsvcd__interval_of_segment(p->ask.motion, search, first + l);
-    const int is_fixed = (by_fixed->below | by_fixed->above) >> l & 1;
-    for (size_t k = 0; k < NSVCD__GROUP * NSVCD__GROUP; k++) {
-      const size_t i = NSVCD__GROUP * g + k / NSVCD__GROUP;
-      const size_t j = NSVCD__GROUP * h + k % NSVCD__GROUP;
-      if (i < p->moving.body->patches && j < p->fixed.body->patches)
-        nsvcd__certify_slab(i, j, is_fixed ? by_fixed : by_moving, l, &interval);
-    }
-  }
-}
-#define NSVCD__CERTIFY_SLAB(i, j, separated, l, interval) \
-  nsvcd__certify_slab(i, j, separated, l, interval)
-#define NSVCD__CERTIFY_GROUPS(p, search, g, h, first, apart, by_fixed, by_moving) \
-  nsvcd__certify_groups(p, search, g, h, first, apart, by_fixed, by_moving)
-#else
-#define NSVCD__CERTIFY_SLAB(i, j, separated, l, interval) \
-  ((void)(i), (void)(j), (void)(separated), (void)(l), (void)(interval))
-#define NSVCD__CERTIFY_GROUPS(p, search, g, h, first, apart, by_fixed, by_moving) ((void)0)
-#endif
-
-// The lanes of a slice among 16.
-static inline uint32_t nsvcd__lanes_of_slice(uint32_t lanes, size_t l) {
-  return lanes >> l & (((uint32_t)1 << NSVCD__SLICE) - 1);
-}
-
-// Lanes of `wanted` that are not separated: pairs of moving patches from the i-th on and patch j.
-static inline uint32_t nsvcd__not_separated(size_t i, size_t j,
-                                            const nsvcd__interval *interval,
-                                            const nsvcd__v_separated *separated,
-                                            uint32_t wanted) {
-  const uint32_t apart = (separated->above | separated->below) & wanted;
-  for (uint32_t k = apart; k; k &= k - 1) {
-    const size_t l = nsvcd__low_bit(k);
-    NSVCD__CERTIFY_SLAB(i + l, j, separated, l, interval);
-  }
-  return wanted & ~apart;
-}
-
-// Of the lanes `met` of moving group g in a segment, those that slabs do not part from resting
-// patch j. c: the chords of the group's patches; reach: no point of the group is farther from the
-// body's origin.
-static uint32_t nsvcd__slabs_meet(const nsvcd__proof *p, const nsvcd__chords *c, size_t g,
-                                  size_t j, const nsvcd__interval *interval, float radius,
-                                  uint32_t met) {
+// Of the lanes `met` of moving group g in segment s, those that slabs do not separate from fixed
+// patch j.
+static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *search, size_t g,
+                                  size_t j, size_t s, uint32_t met) {
+  const nsvcd__interval *over = nsvcd__segment_interval(p, search, s);
+  const nsvcd__chords *c = &search->members[s];
   const nsvcd__slab fixed = nsvcd__slab_at(p->fixed.slabs, p->fixed.body->padded, j);
   const nsvcd__f3 centre = nsvcd__patch_centre(&p->fixed, j);
-  const nsvcd__mat3 *from = &interval->start.rotation;
-  const nsvcd__mat3 *to = &interval->end.rotation;
+  const nsvcd__mat3 *from = &over->start.rotation;
+  const nsvcd__mat3 *to = &over->end.rotation;
   uint32_t left = 0;
   nsvcd__v_approach a;
   a.fixed = nsvcd__v_slab_set(&fixed);
   a.at_start = nsvcd__v3_set(nsvcd__mat3_apply_transpose(from, fixed.normal));
   a.at_end = nsvcd__v3_set(nsvcd__mat3_apply_transpose(to, fixed.normal));
   a.scale = nsvcd__v_set(p->ask.motion->scale);
-  a.interval = nsvcd__v_interval_set(interval);
+  a.over = nsvcd__v_interval_set(over);
   a.clearance = nsvcd__clearance(p);
-  a.radius = radius;
+  a.radius = search->extent;
   a.fixed_off = nsvcd__v_off(&a, a.fixed.normal);
   NSVCD__EACH_SLICE(l) {
     const size_t i = NSVCD__GROUP * g + l;
-    uint32_t wanted = nsvcd__lanes_of_slice(met, l);
+    uint32_t wanted = met >> l & NSVCD__SLICE_MASK;
     if (!wanted) continue;
     a.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(centre));
     a.chord = nsvcd__chords_travel(c, l);
     a.moving = nsvcd__v_slab_load(p->moving.slabs + i, p->moving.body->padded);
-    nsvcd__v_separated separated = nsvcd__v_separate_by_fixed(&a);
-    wanted = nsvcd__not_separated(i, j, interval, &separated, wanted);
+    nsvcd__v_separated by = nsvcd__v_separate_by_fixed(&a);
+    NSVCD__CERTIFY_SLABS(p, search, 0, i, j, s, &by, by.lanes & wanted);
+    wanted &= ~by.lanes;
     if (!wanted) continue;
-    // rotations in a interval are times the scale
+    // rotations in an interval are times the scale
     const float half = 0.5f * p->ask.motion->per_scale;
     const nsvcd__mat3 middle = nsvcd__mat3_mix(half, to, 1, from);
     const nsvcd__mat3 half_turn = nsvcd__mat3_mix(half, to, -1, from);
     a.mean = nsvcd__vmat3_apply(nsvcd__vmat3_set(&middle), a.moving.normal);
     a.turned = nsvcd__vmat3_apply(nsvcd__vmat3_set(&half_turn), a.moving.normal);
-    separated = nsvcd__v_separate_by_moving(&a);
-    left |= nsvcd__not_separated(i, j, interval, &separated, wanted) << l;
+    by = nsvcd__v_separate_by_moving(&a);
+    NSVCD__CERTIFY_SLABS(p, search, 0, i, j, s, &by, by.lanes & wanted);
+    left |= (wanted & ~by.lanes) << l;
   }
   return left;
 }
 
-// Clears the segments in which slabs part the moving group that is searched, whose chords are in
-// search->group, from the resting ones that it meets: 16 segments at a time. The planes are those
-// of single slabs, with all in lanes but the slabs.
-static NSVCD__NOINLINE void nsvcd__separate_groups(const nsvcd__proof *p,
-                                                   nsvcd__search *search) {
+// Clears the segments in which slabs separate the moving group that is searched, whose chords are
+// in search->group, from the fixed ones that it meets: a slice of segments at a time.
+static NSVCD__NOINLINE void nsvcd__separate_groups(nsvcd__proof *p, nsvcd__search *search) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
   const size_t next = search->order[search->step];
@@ -12449,7 +12356,7 @@ static NSVCD__NOINLINE void nsvcd__separate_groups(const nsvcd__proof *p,
     uint64_t *met = &nsvcd__nearby(search, next)[at];
     a.fixed = nsvcd__v_slab_set(&other);
     for (size_t first = 0; first < NSVCD__MAX_SEGMENTS; first += NSVCD__SLICE) {
-      const uint32_t wanted = nsvcd__lanes_of_slice((uint32_t)(*met >> first & 0xffff), 0);
+      const uint32_t wanted = (uint32_t)(*met >> first) & NSVCD__SLICE_MASK;
       nsvcd__segments *block = &search->blocks[first / NSVCD__LANES];
       const nsvcd__chords *c = &search->group[first / NSVCD__LANES];
       const size_t l = first % NSVCD__LANES;
@@ -12461,7 +12368,7 @@ static NSVCD__NOINLINE void nsvcd__separate_groups(const nsvcd__proof *p,
       const nsvcd__v whole = nsvcd__v_set(1 / search->scale);
       const nsvcd__v3 n = a.fixed.normal;
       const nsvcd__v3 m = a.moving.normal;
-      a.interval = nsvcd__v_interval_load(block, l);
+      a.over = nsvcd__v_interval_load(block, l);
       a.fixed_off = nsvcd__v_off(&a, n);
       a.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(centre));
       a.chord = nsvcd__chords_travel(c, l);
@@ -12469,12 +12376,13 @@ static NSVCD__NOINLINE void nsvcd__separate_groups(const nsvcd__proof *p,
       a.at_end = nsvcd__v3_add(a.at_start, nsvcd__vmat3_apply_transpose(turn, n));
       a.turned = nsvcd__v3_scale(nsvcd__vmat3_apply(turn, m), half);
       a.mean = nsvcd__v3_fma(whole, nsvcd__vmat3_apply(rotation, m), a.turned);
-      const nsvcd__v_separated by_fixed = nsvcd__v_separate_by_fixed(&a);
-      const nsvcd__v_separated by_moving = nsvcd__v_separate_by_moving(&a);
-      const uint32_t either =
-          by_fixed.below | by_fixed.above | by_moving.below | by_moving.above;
-      *met &= ~((uint64_t)(either & wanted) << first);
-      NSVCD__CERTIFY_GROUPS(p, search, g, h, first, either & wanted, &by_fixed, &by_moving);
+      nsvcd__v_separated by = nsvcd__v_separate_by_fixed(&a);
+      NSVCD__CERTIFY_SLABS(p, search, 1, g, h, first, &by, by.lanes & wanted);
+      uint32_t apart = by.lanes;
+      by = nsvcd__v_separate_by_moving(&a);
+      NSVCD__CERTIFY_SLABS(p, search, 1, g, h, first, &by, by.lanes & wanted);
+      apart |= by.lanes;
+      *met &= ~((uint64_t)(apart & wanted) << first);
     }
     if (!*met) search->waiting &= ~((uint32_t)1 << at);
   }
@@ -12482,87 +12390,81 @@ static NSVCD__NOINLINE void nsvcd__separate_groups(const nsvcd__proof *p,
 #endif  // NSVCD_NO_PROOF
 
 // ------------------------------------------------------------------------------------- proof/hulls
-// In: a patch pair and a interval. Out: is there a plane between the two hulls, over all of the
+// In: a patch pair and an interval. Out: is there a plane between the two hulls over all of the
 // interval?
 
 #ifndef NSVCD_NO_PROOF
-// Vertices first .. first + 15 of a patch, of which `count` are wanted: the slice of them that
-// begins with lane l. The last one wanted is repeated in the lanes that are left.
-NSVCD__INLINE nsvcd__v3 nsvcd__hull_vertices(const nsvcd__geometry *f, size_t patch,
-                                             size_t first, size_t count, size_t l) {
+// A slice, from lane l on, of a patch's hull, in its body's frame and units. Lanes without a vertex
+// repeat the last one.
+NSVCD__INLINE nsvcd__v3 nsvcd__hull_of(const nsvcd__geometry *f, size_t patch, size_t l) {
   static const float lane[NSVCD__LANES] = {0, 1, 2,  3,  4,  5,  6,  7,
                                            8, 9, 10, 11, 12, 13, 14, 15};
   const nsvcd__vertices all = nsvcd__vertices_of(f, patch);
-  const int16_t *x = all.x + first;
-  const int16_t *y = all.y + first;
-  const int16_t *z = all.z + first;
+  const size_t count = f->hull_counts[patch];
   nsvcd__v3 q;
-  q.x = nsvcd__v_load_int16(x + l);
-  q.y = nsvcd__v_load_int16(y + l);
-  q.z = nsvcd__v_load_int16(z + l);
+  q.x = nsvcd__v_load_int16(all.x + l);
+  q.y = nsvcd__v_load_int16(all.y + l);
+  q.z = nsvcd__v_load_int16(all.z + l);
   if (count < l + NSVCD__SLICE) {
     const size_t last = count - 1;
     const nsvcd__v end = nsvcd__v_set((float)last);
     const nsvcd__v index = nsvcd__v_load(lane + l);
-    q.x = nsvcd__v_pick(index, end, q.x, nsvcd__v_set((float)x[last]));
-    q.y = nsvcd__v_pick(index, end, q.y, nsvcd__v_set((float)y[last]));
-    q.z = nsvcd__v_pick(index, end, q.z, nsvcd__v_set((float)z[last]));
+    q.x = nsvcd__v_pick(index, end, q.x, nsvcd__v_set((float)all.x[last]));
+    q.y = nsvcd__v_pick(index, end, q.y, nsvcd__v_set((float)all.y[last]));
+    q.z = nsvcd__v_pick(index, end, q.z, nsvcd__v_set((float)all.z[last]));
   }
   const nsvcd__v step = nsvcd__v_set(f->steps[patch]);
   return nsvcd__v3_fma(step, q, nsvcd__v3_set(nsvcd__patch_centre(f, patch)));
 }
 
-// A slice of a patch's hull, the last vertex repeated; its body's frame and units.
-NSVCD__INLINE nsvcd__v3 nsvcd__hull_of(const nsvcd__geometry *f, size_t patch, size_t l) {
-  return nsvcd__hull_vertices(f, patch, 0, f->hull_counts[patch], l);
+// The least of a number and a slice. A NaN stays: it separates nothing.
+NSVCD__INLINE float nsvcd__least_of(float least, nsvcd__v slice) {
+  const float other = nsvcd__v_least(slice);
+  return least < other || least != least ? least : other;
 }
 
-// Posed hulls along a direction: how far the moving one, at both ends of the interval, stays ahead
-// of the resting one, and the difference of the two vertices that say so.
+// The greatest of a number and a slice. A NaN stays.
+NSVCD__INLINE float nsvcd__greatest_of(float greatest, nsvcd__v slice) {
+  return -nsvcd__least_of(-greatest, nsvcd__v_negate(slice));
+}
+
+// The gap between two posed hulls along a direction, the moving one at both ends of the interval,
+// and the difference of the two vertices that bound it.
 typedef struct nsvcd__support {
   float gap;
   nsvcd__f3 difference;
 } nsvcd__support;
 
-// The lesser of the least number so far and that of a slice. What is no number stays none, and
-// parts nothing.
-static inline float nsvcd__least_of(float least, float of_slice) {
-  return least < of_slice || least != least ? least : of_slice;
-}
-
 NSVCD__INLINE nsvcd__support nsvcd__support_along(nsvcd__proof *p, nsvcd__f3 normal) {
-  // the moving side's lower heights, and the resting side's, negated
-  float either[NSVCD__LANES], rest[NSVCD__LANES];
+  float moving[NSVCD__LANES], fixed[NSVCD__LANES];  // heights
   float lowest = HUGE_VALF;
-  float lowest_rest = HUGE_VALF;
-  uint32_t starts = 0;
-  uint32_t least = 0;
-  uint32_t least_rest = 0;
+  float highest = -HUGE_VALF;
+  uint32_t starts = 0;  // lanes that are lower at the start
+  uint32_t low = 0;
+  uint32_t high = 0;
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 n = nsvcd__v3_set(normal);
     const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_start, l));
     const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_end, l));
-    const nsvcd__v rests = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_rest, l));
-    const nsvcd__v at_rest = nsvcd__v_negate(rests);
+    const nsvcd__v height = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_fixed, l));
     const nsvcd__v at_either = nsvcd__v_min(at_start, at_end);
-    nsvcd__v_store(either + l, at_either);
-    nsvcd__v_store(rest + l, at_rest);
-    lowest = nsvcd__least_of(lowest, nsvcd__v_least(at_either));
-    lowest_rest = nsvcd__least_of(lowest_rest, nsvcd__v_least(at_rest));
+    nsvcd__v_store(moving + l, at_either);
+    nsvcd__v_store(fixed + l, height);
+    lowest = nsvcd__least_of(lowest, at_either);
+    highest = nsvcd__greatest_of(highest, height);
     starts |= nsvcd__v_le(at_start, at_end) << l;
   }
   NSVCD__EACH_SLICE(l) {
-    least |= nsvcd__v_le(nsvcd__v_load(either + l), nsvcd__v_set(lowest)) << l;
-    least_rest |= nsvcd__v_le(nsvcd__v_load(rest + l), nsvcd__v_set(lowest_rest)) << l;
+    low |= nsvcd__v_le(nsvcd__v_load(moving + l), nsvcd__v_set(lowest)) << l;
+    high |= nsvcd__v_le(nsvcd__v_set(highest), nsvcd__v_load(fixed + l)) << l;
   }
-  const float highest = -lowest_rest;
-  // Were a number not one, no lane would compare: then the last one.
-  const size_t a = nsvcd__low_bit(least | 0x8000);
-  const size_t b = nsvcd__low_bit(least_rest | 0x8000);
+  // a NaN compares with no lane: then the last one
+  const size_t a = nsvcd__low_bit(low | 0x8000);
+  const size_t b = nsvcd__low_bit(high | 0x8000);
   const int is_start = (starts >> a & 1) != 0;
-  const nsvcd__f3 moving = nsvcd__lane_of(is_start ? p->hull_start : p->hull_end, a);
-  const nsvcd__support out = {lowest - highest,
-                              nsvcd__f3_sub(moving, nsvcd__lane_of(p->hull_rest, b))};
+  const nsvcd__f3 vertex = nsvcd__lane_of(is_start ? p->hull_start : p->hull_end, a);
+  const nsvcd__f3 other = nsvcd__lane_of(p->hull_fixed, b);
+  const nsvcd__support out = {lowest - highest, nsvcd__f3_sub(vertex, other)};
   return out;
 }
 
@@ -12571,46 +12473,33 @@ static nsvcd__f3 nsvcd__f3_towards(nsvcd__f3 a, nsvcd__f3 b) {
   return nsvcd__f3_scale(a, nsvcd__f3_dot(a, b) < 0 ? -1.0f : 1.0f);
 }
 
-static float nsvcd__clamp01(float x) {
-  return x < 0 ? 0 : x < 1 ? x : 1;
-}
-
-static void nsvcd__remember_plane(nsvcd__memo *memo, nsvcd__f3 normal) {
-  // heights are of another query
-  if (memo->plane == 0) {
-    memset(memo->heights, 0, sizeof memo->heights);
-    memset(memo->rest_heights, 0, sizeof memo->rest_heights);
-  }
-  memo->held = normal;
-  memo->plane++;
-}
-
-// Is there a plane between two patches over the whole interval? A direction is tried by the gap
-// that it finds between the hulls, which must be more than the margin and what the interval
-// deviates. First guesses: the last plane that held, the slabs' normals, and the line of centres.
-// Then Gilbert's iteration (1966) from there towards the point nearest to 0 of the differences of
-// the two hulls. p->memo.held is the one that held.
+// Is there a plane between two patches over the whole interval? A direction separates them if the
+// gap between the hulls along it is more than the margin and the deviation. First guesses: the last
+// plane that held, the slabs' normals, the line of centres. Then Gilbert's iteration (1966) from
+// there towards the point nearest to 0 of the difference of the two hulls.
+// Remembers the plane that holds.
 #define NSVCD__GUESSES 4
 static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j,
-                                                  const nsvcd__interval *interval) {
+                                                  const nsvcd__interval *over) {
   const float margins = p->ask.motion->scale * p->moving.margins[i] + p->fixed.margins[j];
-  const float margin = margins + interval->rounding + nsvcd__clearance(p);
-  const nsvcd__arm arm = nsvcd__patch_arm(&p->moving, i, interval);
+  const float margin = margins + over->rounding + nsvcd__clearance(p);
+  const nsvcd__arm arm = nsvcd__patch_arm(&p->moving, i, over);
+  const nsvcd__transform *start = &over->start;
+  const nsvcd__transform *end = &over->end;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 moving = nsvcd__hull_of(&p->moving, i, l);
-    nsvcd__v3_store(p->hull_start, l, nsvcd__v3_transform(&interval->start, moving));
-    nsvcd__v3_store(p->hull_end, l, nsvcd__v3_transform(&interval->end, moving));
-    nsvcd__v3_store(p->hull_rest, l, nsvcd__hull_of(&p->fixed, j, l));
+    const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, i, l);
+    nsvcd__v3_store(p->hull_start, l, nsvcd__v3_transform(start, hull));
+    nsvcd__v3_store(p->hull_end, l, nsvcd__v3_transform(end, hull));
+    nsvcd__v3_store(p->hull_fixed, l, nsvcd__hull_of(&p->fixed, j, l));
   }
   const nsvcd__slab moving = nsvcd__slab_at(p->moving.slabs, p->moving.body->padded, i);
   const nsvcd__slab fixed = nsvcd__slab_at(p->fixed.slabs, p->fixed.body->padded, j);
   const nsvcd__f3 centre = nsvcd__patch_centre(&p->moving, i);
-  const nsvcd__f3 start = nsvcd__f3_transform(&interval->start, centre);
-  const nsvcd__f3 end = nsvcd__f3_transform(&interval->end, centre);
-  const nsvcd__f3 middle = nsvcd__f3_scale(nsvcd__f3_add(start, end), 0.5f);
-  const nsvcd__f3 line = nsvcd__f3_sub(middle, nsvcd__patch_centre(&p->fixed, j));
-  const nsvcd__f3 extreme = nsvcd__f3_transform(&interval->start, moving.normal);
-  const nsvcd__f3 turned = nsvcd__f3_sub(extreme, interval->start.position);
+  const nsvcd__f3 both =
+      nsvcd__f3_add(nsvcd__f3_transform(start, centre), nsvcd__f3_transform(end, centre));
+  const nsvcd__f3 line =
+      nsvcd__f3_sub(nsvcd__f3_scale(both, 0.5f), nsvcd__patch_centre(&p->fixed, j));
+  const nsvcd__f3 turned = nsvcd__mat3_apply(&start->rotation, moving.normal);
   const nsvcd__f3 guesses[NSVCD__GUESSES] = {p->memo.held,
                                              nsvcd__f3_towards(fixed.normal, line),
                                              nsvcd__f3_towards(turned, line), line};
@@ -12622,18 +12511,21 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, siz
     const nsvcd__support found = nsvcd__support_along(p, normal);
     const float length = nsvcd__f3_length(normal);
     if (found.gap > 0 &&
-        found.gap > margin * length + nsvcd__deviation_of(interval, normal, arm)) {
-      nsvcd__remember_plane(&p->memo, normal);
+        found.gap > margin * length + nsvcd__deviation_of(over, normal, arm)) {
+      p->memo.held = normal;
+      p->memo.plane++;
+      NSVCD__CERTIFY(NSVCD__BY_HULL, i, j, NSVCD_NONE, NSVCD_NONE, over->t_start, over->t_end,
+                     &normal.x);
       return 1;
     }
     if (step + 1 < NSVCD__GUESSES) continue;
     const nsvcd__f3 toward = nsvcd__f3_sub(found.difference, nearest);
     const float square = nsvcd__f3_dot(toward, toward);
-    const float fraction =
-        square > 0 ? nsvcd__clamp01(-nsvcd__f3_dot(nearest, toward) / square) : 0;
+    float fraction = square > 0 ? -nsvcd__f3_dot(nearest, toward) / square : 0;
+    fraction = fraction > 0 ? fminf(fraction, 1) : 0;
     const nsvcd__f3 nearer = nsvcd__f3_add(nearest, nsvcd__f3_scale(toward, fraction));
     nearest = step < NSVCD__GUESSES ? found.difference : nearer;
-    // these hulls come this near
+    // the hulls come this near
     if (nsvcd__f3_dot(nearest, nearest) <= margin * margin) return 0;
   }
   return 0;
@@ -12641,32 +12533,34 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, siz
 #endif  // NSVCD_NO_PROOF
 
 // ---------------------------------------------------------------------------- proof/triangle_pairs
-// In: two triangles and a interval. Out: separated, or in contact, or neither as long as it is
-// halved.
+// In: two triangles and an interval. Out: they are separated, or in contact, or too near to tell.
 
 #ifndef NSVCD_NO_PROOF
-static void nsvcd__place_triangle(const nsvcd__dtransform *at, const nsvcd__d3 *corners,
-                                  nsvcd__d3 *out) {
-  for (size_t k = 0; k < 3; k++) out[k] = nsvcd__place_point(at, corners[k]);
+static void nsvcd__pose_triangle(const nsvcd__dtransform *at, const nsvcd__d3 *corners,
+                                 nsvcd__d3 *out) {
+  for (size_t k = 0; k < 3; k++) out[k] = nsvcd__d3_transform(at, corners[k]);
 }
 
 // Two triangles, one of each body, in their frames: the caller's own, of which entries may be
-// pieces. What separates a triangle separates its pieces, and what it meets the mesh meets.
+// pieces. A plane that separates a triangle separates its pieces; what meets a triangle meets the
+// mesh.
 typedef struct nsvcd__triangle_pair {
   size_t moving_patch, fixed_patch, moving_entry, fixed_entry;
   nsvcd__d3 moving[3], fixed[3];
-  // of the moving one, in its body's units: no point of it is farther from its body's origin, nor,
-  // at any time of the arc, from the axis of its turn
+  // The greatest distance of the moving one's points from their body's origin and, at any time of
+  // the arc, from the axis of the turn; in its body's units.
   double from_origin, from_axis;
-  // how far the meshes' own may be off, with rounding in double; and that
+  // of the moving one, at most: the path of a point over the arc
+  double speed;
+  // how far the meshes' own triangles may be off, and rounding in double; and that rounding alone
   double margin;
   double rounding;
-  // a part of the arc in which they come so near is not worth halving
+  // too near to halve the interval for
   double close;
 } nsvcd__triangle_pair;
 
-// How far its moving triangle is from the origin and from the axis.
-static void nsvcd__pair_reaches(const nsvcd__arc *arc, nsvcd__triangle_pair *pair) {
+// Sets from_origin and from_axis.
+static void nsvcd__pair_arm(const nsvcd__arc *arc, nsvcd__triangle_pair *pair) {
   pair->from_origin = pair->from_axis = 0;
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__d3 corner = pair->moving[k];
@@ -12680,10 +12574,11 @@ static void nsvcd__pair_reaches(const nsvcd__arc *arc, nsvcd__triangle_pair *pai
 
 static nsvcd__triangle_pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size_t j, size_t a,
                                            size_t b) {
-  nsvcd__triangle_pair pair = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0, 0, 0};
+  nsvcd__triangle_pair pair = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0, 0, 0, 0};
   nsvcd__patch_triangle(&p->moving, i, a, pair.moving);
   nsvcd__patch_triangle(&p->fixed, j, b, pair.fixed);
-  nsvcd__pair_reaches(&p->arc, &pair);
+  nsvcd__pair_arm(&p->arc, &pair);
+  pair.speed = p->arc.speed + p->arc.turn * p->arc.scale * pair.from_axis;
   pair.rounding =
       NSVCD__SAME_POSITION * ((double)p->given.lengths + nsvcd__d3_length(p->arc.from));
   pair.margin = pair.rounding + nsvcd__off_meshes(p);
@@ -12692,7 +12587,7 @@ static nsvcd__triangle_pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size
   return pair;
 }
 
-// Are these of closed surfaces, of which the winding says which side is out?
+// Are these of closed surfaces, whose winding says which side is out?
 static int nsvcd__moving_closed(const nsvcd__proof *p, const nsvcd__triangle_pair *c) {
   return nsvcd__is_in_solid(&p->moving, c->moving_patch, c->moving_entry);
 }
@@ -12700,7 +12595,15 @@ static int nsvcd__fixed_closed(const nsvcd__proof *p, const nsvcd__triangle_pair
   return nsvcd__is_in_solid(&p->fixed, c->fixed_patch, c->fixed_entry);
 }
 
-// What is said of two triangles a share u of the arc later than its start.
+// The nearest points of a triangle pair at fraction u of the arc.
+static nsvcd__nearest nsvcd__pair_nearest(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
+                                          double u) {
+  nsvcd__d3 moving[3];
+  nsvcd__pose_triangle(nsvcd__arc_pose(p, u), pair->moving, moving);
+  return nsvcd__nearest_of(moving, pair->fixed);
+}
+
+// The contact of two triangles at fraction u of the arc.
 static nsvcd__pair_contact nsvcd__contact_at(const nsvcd__proof *p,
                                              const nsvcd__triangle_pair *pair, double u,
                                              const nsvcd__nearest *nearest) {
@@ -12723,8 +12626,8 @@ static nsvcd__pair_contact nsvcd__contact_at(const nsvcd__proof *p,
   return out;
 }
 
-// Two triangles come within the clearance a share u of the arc later than its start. ANSWERED if
-// that is an answer, SHRUNK if there may be a better one.
+// Two triangles come within the clearance at fraction u of the arc. ANSWERED: that is an answer;
+// SHRUNK: there may be a better one.
 static nsvcd__outcome nsvcd__take_contact(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
                                           double u, const nsvcd__nearest *nearest) {
   p->known.has_contact = 1;
@@ -12741,35 +12644,32 @@ static nsvcd__outcome nsvcd__take_contact(nsvcd__proof *p, const nsvcd__triangle
   return NSVCD__ANSWERED;
 }
 
-// Two triangles come so near from u0 to u1 of the arc that it cannot be told whether they touch.
+// Two triangles come too near to each other, from u0 to u1 of the arc, to tell whether they touch.
 static NSVCD__NOINLINE void nsvcd__keep_unresolved(nsvcd__proof *p,
                                                    const nsvcd__triangle_pair *pair, double u0,
                                                    double u1) {
   const double tick = (double)p->arc.first + u0 * (double)p->arc.ticks;
   const double middle = 0.5 * (u0 + u1);
-  nsvcd__d3 posed[3];
   const size_t left = p->ask.after_unresolved;
-  // a try is short, whatever it finds
+  // a first attempt is short anyway
   const int is_first = !(p->known.unresolved < NSVCD__NEVER) && !p->ask.is_brief;
   if (is_first && p->work + left < p->ask.limit) p->ask.limit = p->work + left;
   if (!(tick < p->known.unresolved)) return;
-  nsvcd__place_triangle(nsvcd__placed_at(p, middle), pair->moving, posed);
-  const nsvcd__nearest nearest = nsvcd__nearest_of(posed, pair->fixed);
+  const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
   p->known.unresolved_pair = nsvcd__contact_at(p, pair, middle, &nearest);
   p->known.unresolved = tick;
   if (p->ask.unresolved_ends) p->ask.end = nsvcd__min(p->ask.end, tick);
 }
 
-// What of the arc matters: the share of it at which the rest does not.
+// The fraction of the arc from which on nothing matters.
 static double nsvcd__arc_limit(const nsvcd__proof *p) {
   return (p->ask.end - (double)p->arc.first) / (double)p->arc.ticks;
 }
 
-// By how much the points of a triangle pair's moving triangle are off their chords along a unit
-// direction n, at most, over all of the arc; over a share of it by the square of that share. A
-// point at r metres from the origin and rho from the axis a of the turn is off by bend
-// rho |n x a| + twist r + origin bend; where both bodies turn, a deviates by `waver`, and so
-// do both distances from it.
+// The deviation of a triangle pair's moving triangle along a unit direction n, over all of the arc;
+// over a fraction of it, times the square of that. A point at r metres from the origin and rho from
+// the axis a of the turn deviates by bend rho |n x a| + twist r + origin_bend. Where both bodies
+// turn, a wavers, and so do both distances from it.
 static double nsvcd__off_chord_along(const nsvcd__arc *arc, const nsvcd__triangle_pair *pair,
                                      nsvcd__d3 n) {
   const double across = nsvcd__d3_length(nsvcd__d3_cross(n, arc->axis));
@@ -12778,145 +12678,117 @@ static double nsvcd__off_chord_along(const nsvcd__arc *arc, const nsvcd__triangl
   return turn + arc->twist * pair->from_origin + arc->origin_bend;
 }
 
-// Does the plane with this unit normal part the triangle pair from u0 to u1 of the arc?
+// Does the plane that separated a triangle pair last separate this one from u0 to u1 of the arc?
 static int nsvcd__plane_separates(nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0,
-                                  double u1, nsvcd__d3 normal) {
-  const nsvcd__arc *arc = &p->arc;
-  const nsvcd__dtransform *start = nsvcd__placed_at(p, u0);
-  const nsvcd__dtransform *end = nsvcd__placed_at(p, u1);
+                                  double u1) {
+  const nsvcd__d3 normal = p->memo.separating;
+  const nsvcd__dtransform *start = nsvcd__arc_pose(p, u0);
+  const nsvcd__dtransform *end = nsvcd__arc_pose(p, u1);
   double lowest = HUGE_VAL;
   double highest = -HUGE_VAL;
   for (size_t k = 0; k < 3; k++) {
-    const nsvcd__d3 at_start = nsvcd__place_point(start, pair->moving[k]);
-    const nsvcd__d3 at_end = nsvcd__place_point(end, pair->moving[k]);
+    const nsvcd__d3 at_start = nsvcd__d3_transform(start, pair->moving[k]);
+    const nsvcd__d3 at_end = nsvcd__d3_transform(end, pair->moving[k]);
     lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_start));
     lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_end));
     highest = nsvcd__max(highest, nsvcd__d3_dot(normal, pair->fixed[k]));
   }
-  const double off = nsvcd__off_chord_along(arc, pair, normal);
+  const double off = nsvcd__off_chord_along(&p->arc, pair, normal);
   const double deviation = (u1 - u0) * (u1 - u0) * off;
-  return lowest - highest > p->ask.clearance + pair->margin + deviation;
-}
-
-// Is the foot of x on the plane of a triangle within it, farther than `margin` from its edges?
-static int nsvcd__foot_well_within(nsvcd__d3 x, const nsvcd__d3 *t, double margin) {
-  const nsvcd__d3 n = nsvcd__face_normal(t);
-  const double size = nsvcd__d3_length(n);
-  for (size_t k = 0; k < 3; k++) {
-    const nsvcd__d3 edge = nsvcd__d3_sub(t[(k + 1) % 3], t[k]);
-    const double within = nsvcd__d3_dot(n, nsvcd__d3_cross(edge, nsvcd__d3_sub(x, t[k])));
-    if (!(within > margin * size * nsvcd__d3_length(edge))) return 0;
-  }
+  if (!(lowest - highest > p->ask.clearance + pair->margin + deviation)) return 0;
+  const float out[3] = {(float)normal.x, (float)normal.y, (float)normal.z};
+  NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, pair->moving_patch, pair->fixed_patch,
+                 pair->moving_entry, pair->fixed_entry, nsvcd__time_in_arc(p, u0),
+                 nsvcd__time_in_arc(p, u1), out);
   return 1;
 }
 
 // Have two heights different signs, clear of 0 by their margins?
-static int nsvcd__are_opposed(double before, double least_before, double after,
-                              double least_after) {
+static int nsvcd__are_opmoving(double before, double least_before, double after,
+                               double least_after) {
   const int falls = before > least_before && after < -least_after;
   const int rises = before < -least_before && after > least_after;
   return falls || rises;
 }
 
-// Is x on different sides of a triangle's plane, farther than `margin` from it, at two times?
-static int nsvcd__changes_sides(nsvcd__d3 x0, const nsvcd__d3 *t0, nsvcd__d3 x1,
-                                const nsvcd__d3 *t1, double margin) {
-  const nsvcd__d3 n0 = nsvcd__face_normal(t0);
-  const nsvcd__d3 n1 = nsvcd__face_normal(t1);
-  const double before = nsvcd__d3_dot(n0, nsvcd__d3_sub(x0, t0[0]));
-  const double after = nsvcd__d3_dot(n1, nsvcd__d3_sub(x1, t1[0]));
-  return nsvcd__are_opposed(before, margin * nsvcd__d3_length(n0), after,
-                            margin * nsvcd__d3_length(n1));
+// In the next three, triangles are given at three times: the start, the middle and the end of an
+// interval. Between two of them no point travels farther than `travel`, relative to the other
+// triangle.
+
+// Does corner k of triangle x pass through triangle t: does it change sides, and is its foot, in
+// the middle, well within t?
+static int nsvcd__corner_passes(const nsvcd__d3 *const *x, size_t k, const nsvcd__d3 *const *t,
+                                double travel, double margin) {
+  const nsvcd__d3 n = nsvcd__face_normal(t[1]);
+  const double room = 2 * travel * nsvcd__d3_length(n);
+  for (size_t e = 0; e < 3; e++) {
+    const nsvcd__d3 edge = nsvcd__d3_sub(t[1][(e + 1) % 3], t[1][e]);
+    const nsvcd__d3 from = nsvcd__d3_sub(x[1][k], t[1][e]);
+    const double within = nsvcd__d3_dot(n, nsvcd__d3_cross(edge, from));
+    if (!(within > room * nsvcd__d3_length(edge))) return 0;
+  }
+  const nsvcd__d3 n0 = nsvcd__face_normal(t[0]);
+  const nsvcd__d3 n2 = nsvcd__face_normal(t[2]);
+  const double before = nsvcd__d3_dot(n0, nsvcd__d3_sub(x[0][k], t[0][0]));
+  const double after = nsvcd__d3_dot(n2, nsvcd__d3_sub(x[2][k], t[2][0]));
+  return nsvcd__are_opmoving(before, margin * nsvcd__d3_length(n0), after,
+                             margin * nsvcd__d3_length(n2));
 }
 
-// A triangle pair at three times: the moving triangle's corners.
-typedef struct nsvcd__passage {
-  nsvcd__d3 corners[3][3];
-  // no point of it moves farther between these times, seen from the fixed one
-  double travel;
-} nsvcd__passage;
-
-// Do two edges pass through each other: do they change sides, and are their lines nearest to each
-// other well within both? The side is the sign of the volume of the tetrahedron of both.
-static int nsvcd__edges_cross(const nsvcd__passage *passage, size_t k, nsvcd__d3 b0,
-                              nsvcd__d3 b1, double margin) {
+// Does edge k of the moving triangle pass through edge n of the fixed one: do they change sides,
+// and are their lines, in the middle, nearest to each other well within both? The side is the sign
+// of the volume of the tetrahedron of both.
+static int nsvcd__edges_pass(const nsvcd__d3 *const *moving, size_t k, const nsvcd__d3 *fixed,
+                             size_t n, double travel, double margin) {
   const size_t next = (k + 1) % 3;
-  const nsvcd__d3 v = nsvcd__d3_sub(b1, b0);
+  const nsvcd__d3 v = nsvcd__d3_sub(fixed[(n + 1) % 3], fixed[n]);
   nsvcd__d3 across[3], from[3];
   double volumes[3];
-  for (size_t n = 0; n < 3; n++) {
-    const nsvcd__d3 *a = passage->corners[n];
-    across[n] = nsvcd__d3_cross(nsvcd__d3_sub(a[next], a[k]), v);
-    from[n] = nsvcd__d3_sub(b0, a[k]);
-    volumes[n] = nsvcd__d3_dot(across[n], from[n]);
+  for (size_t at = 0; at < 3; at++) {
+    const nsvcd__d3 *a = moving[at];
+    across[at] = nsvcd__d3_cross(nsvcd__d3_sub(a[next], a[k]), v);
+    from[at] = nsvcd__d3_sub(fixed[n], a[k]);
+    volumes[at] = nsvcd__d3_dot(across[at], from[at]);
   }
-  const nsvcd__d3 u = nsvcd__d3_sub(passage->corners[1][next], passage->corners[1][k]);
+  const nsvcd__d3 u = nsvcd__d3_sub(moving[1][next], moving[1][k]);
   const double size = nsvcd__d3_length(across[1]);
   const double lengths = nsvcd__d3_length(u) * nsvcd__d3_length(v);
   if (!(size > 0.01 * lengths)) return 0;
-  if (!nsvcd__are_opposed(volumes[0], margin * size, volumes[2], margin * size)) return 0;
+  if (!nsvcd__are_opmoving(volumes[0], margin * size, volumes[2], margin * size)) return 0;
   const double square = size * size;
   const double s = nsvcd__d3_dot(nsvcd__d3_cross(from[1], v), across[1]) / square;
   const double t = nsvcd__d3_dot(nsvcd__d3_cross(from[1], u), across[1]) / square;
-  // the lines' nearest points move no farther along them
-  const double room = 4 * passage->travel * lengths / size;
+  // the lines' nearest points travel no farther along them
+  const double room = 4 * travel * lengths / size;
   const double room_s = room / nsvcd__d3_length(u);
   const double room_t = room / nsvcd__d3_length(v);
   return s > room_s && s < 1 - room_s && t > room_t && t < 1 - room_t;
 }
 
-// Has a triangle pair met between u0 and u1 of the arc, at that speed, since a corner has passed
-// through the other triangle, or an edge through an edge? That is how faces meet which are parallel
-// then: at no single time can it be seen in rounded numbers.
+// Has a triangle pair met between u0 and u1 of the arc: has a corner passed through
+// the other triangle, or an edge through an edge? Faces that are parallel when they meet do so at
+// one time only, and rounded numbers show it at none.
 static int nsvcd__pair_passes(nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0,
-                              double u1, double speed) {
-  const nsvcd__d3 *fixed = pair->fixed;
+                              double u1) {
   const double margin = pair->rounding;
+  const double travel = pair->speed * (u1 - u0);
   const double times[3] = {u0, 0.5 * (u0 + u1), u1};
-  nsvcd__passage passage;
+  nsvcd__d3 corners[3][3];
   for (size_t n = 0; n < 3; n++)
-    nsvcd__place_triangle(nsvcd__placed_at(p, times[n]), pair->moving, passage.corners[n]);
-  const nsvcd__d3 *start = passage.corners[0];
-  const nsvcd__d3 *middle = passage.corners[1];
-  const nsvcd__d3 *end = passage.corners[2];
-  passage.travel = speed * (u1 - u0);
-  const double room = 2 * passage.travel;
+    nsvcd__pose_triangle(nsvcd__arc_pose(p, times[n]), pair->moving, corners[n]);
+  const nsvcd__d3 *moving[3] = {corners[0], corners[1], corners[2]};
+  const nsvcd__d3 *fixed[3] = {pair->fixed, pair->fixed, pair->fixed};
   for (size_t k = 0; k < 3; k++) {
-    const int is_over = nsvcd__foot_well_within(middle[k], fixed, room);
-    if (is_over && nsvcd__changes_sides(start[k], fixed, end[k], fixed, margin)) return 1;
-    const int is_under = nsvcd__foot_well_within(fixed[k], middle, room);
-    if (is_under && nsvcd__changes_sides(fixed[k], start, fixed[k], end, margin)) return 1;
-    for (size_t n = 0; n < 3; n++) {
-      if (nsvcd__edges_cross(&passage, k, fixed[n], fixed[(n + 1) % 3], margin)) return 1;
-    }
+    if (nsvcd__corner_passes(moving, k, fixed, travel, margin)) return 1;
+    if (nsvcd__corner_passes(fixed, k, moving, travel, margin)) return 1;
+    for (size_t n = 0; n < 3; n++)
+      if (nsvcd__edges_pass(moving, k, pair->fixed, n, travel, margin)) return 1;
   }
   return 0;
 }
 
-static void nsvcd__certify_triangle_pair(const nsvcd__proof *p,
-                                         const nsvcd__triangle_pair *pair, double u0,
-                                         double u1) {
-  const nsvcd__f3 plane = nsvcd__d3_narrow(p->memo.separating);
-  const float normal[3] = {plane.x, plane.y, plane.z};
-  NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, pair->moving_patch, pair->fixed_patch,
-                 pair->moving_entry, pair->fixed_entry, nsvcd__time_in_arc(p, u0),
-                 nsvcd__time_in_arc(p, u1), normal);
-  (void)pair;
-  (void)normal;
-  (void)u0;
-  (void)u1;
-}
-
-// A share u of the arc later than its start: the nearest points of a triangle pair.
-static nsvcd__nearest nsvcd__pair_nearest(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
-                                          double u) {
-  nsvcd__d3 posed[3];
-  nsvcd__place_triangle(nsvcd__placed_at(p, u), pair->moving, posed);
-  return nsvcd__nearest_of(posed, pair->fixed);
-}
-
-// How far a triangle is beyond another along a direction. Heights are over a corner of one, so that
-// no more digits are lost than need be.
+// How far a triangle is beyond another along a direction. Heights are over a corner of the one, to
+// lose as few digits as possible.
 static double nsvcd__beyond(nsvcd__d3 n, const nsvcd__d3 *over, const nsvcd__d3 *under) {
   double lowest = HUGE_VAL;
   double highest = -HUGE_VAL;
@@ -12943,11 +12815,11 @@ static nsvcd__d3 nsvcd__off_edge(nsvcd__d3 n, nsvcd__d3 a, nsvcd__d3 b) {
   return nsvcd__d3_unit(nsvcd__d3_sub(n, along), none);
 }
 
-// The direction that separates a triangle pair at a time: that of its nearest points. Their
-// roundings over their distance put it off, and points as near to a digit put it off by the root of
-// that. Where it keeps less than half of what is above the clearance, a normal of a triangle, the
-// direction across an edge of each, or the same direction made normal to an edge, may keep more.
-// The result is how far it separates them.
+// The direction that separates a triangle pair at a time: that of its nearest points. Rounding
+// turns it by their roundings over their distance, or by the root of that if several points are as
+// near to the last digit. If it keeps less than half of what is above the clearance, others may
+// keep more: the normals of the triangles, itself made normal to an edge, and those across an edge
+// of each. Returns how far the chosen one separates them.
 static NSVCD__NOINLINE double nsvcd__aim_plane(nsvcd__proof *p,
                                                const nsvcd__triangle_pair *pair, double u,
                                                const nsvcd__nearest *nearest) {
@@ -12956,18 +12828,18 @@ static NSVCD__NOINLINE double nsvcd__aim_plane(nsvcd__proof *p,
   *plane = nsvcd__d3_scale(nsvcd__d3_sub(nearest->on_a, nearest->on_b), 1 / distance);
   const nsvcd__d3 *fixed = pair->fixed;
   const nsvcd__d3 guess = *plane;
-  nsvcd__d3 posed[3];
-  nsvcd__place_triangle(nsvcd__placed_at(p, u), pair->moving, posed);
-  double best = nsvcd__beyond(guess, posed, fixed);
+  nsvcd__d3 moving[3];
+  nsvcd__pose_triangle(nsvcd__arc_pose(p, u), pair->moving, moving);
+  double best = nsvcd__beyond(guess, moving, fixed);
   const double limit = p->ask.clearance + pair->margin;
   if (best - limit > 0.5 * (distance - limit)) return best;
   for (size_t k = 0; k < 17; k++) {
-    const nsvcd__d3 *of = k % 2 ? fixed : posed;
+    const nsvcd__d3 *of = k % 2 ? fixed : moving;
     nsvcd__d3 n = k < 2   ? nsvcd__face_direction(of)
                   : k < 8 ? nsvcd__off_edge(guess, of[k / 2 - 1], of[k / 2 % 3])
-                          : nsvcd__across_edges(posed, fixed, k - 8);
+                          : nsvcd__across_edges(moving, fixed, k - 8);
     if (nsvcd__d3_dot(n, guess) < 0) n = nsvcd__d3_scale(n, -1);
-    const double beyond = nsvcd__beyond(n, posed, fixed);
+    const double beyond = nsvcd__beyond(n, moving, fixed);
     if (!(beyond > best)) continue;
     *plane = n;
     best = beyond;
@@ -12975,11 +12847,11 @@ static NSVCD__NOINLINE double nsvcd__aim_plane(nsvcd__proof *p,
   return best;
 }
 
-// A triangle pair that comes so near from u0 to u1 of the arc, the nearest at `when`, that it
-// cannot be told whether it touches: an unresolved pair. But where distances are measured, less is
-// said, for certain: these come no nearer than that. Then the clearance is lowered and the part to
-// be looked at again, TOO_LONG; ANSWERED where it is as low as is known anyway.
-static nsvcd__outcome nsvcd__resolve_doubtful(nsvcd__proof *p,
+// A triangle pair that is too near to tell from u0 to u1 of the arc, the nearest at `when`: an
+// unresolved pair. But a measured distance needs less: the pair comes no nearer than that. The
+// clearance is lowered to it. TOO_LONG: the part is to be resolved again; ANSWERED: the clearance
+// is at its known bound.
+static nsvcd__outcome nsvcd__resolve_too_near(nsvcd__proof *p,
                                               const nsvcd__triangle_pair *pair, double u0,
                                               double u1, double when) {
   if (!(p->ask.measure > 0)) {
@@ -12994,46 +12866,43 @@ static nsvcd__outcome nsvcd__resolve_doubtful(nsvcd__proof *p,
   return p->ask.clearance > p->low ? NSVCD__TOO_LONG : NSVCD__ANSWERED;
 }
 
-// What becomes of a part of the arc that is too short to be halved. Where the triangle pair has met
-// by passing, the time is narrowed down to rounding, and is the contact's. If not, it is an
-// unresolved pair.
+// Resolves a part of the arc that is too short to halve. If the triangle pair has passed, the time
+// is narrowed down to rounding, and is the contact's. If not, it is unresolved.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_short_interval(
-    nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0, double u1, double speed) {
-  int passes = nsvcd__pair_passes(p, pair, u0, u1, speed);
-  const int has_met = passes;
-  for (size_t n = 0; passes && n < NSVCD__HALVINGS; n++) {
+    nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0, double u1) {
+  if (!nsvcd__pair_passes(p, pair, u0, u1))
+    return nsvcd__resolve_too_near(p, pair, u0, u1, 0.5 * (u0 + u1));
+  for (size_t n = 0; n < NSVCD__HALVINGS; n++) {
     const double middle = 0.5 * (u0 + u1);
     p->work++;
-    const int in_first = nsvcd__pair_passes(p, pair, u0, middle, speed);
-    passes = in_first || nsvcd__pair_passes(p, pair, middle, u1, speed);
-    if (!passes) break;
-    u0 = in_first ? u0 : middle;
-    u1 = in_first ? middle : u1;
+    if (nsvcd__pair_passes(p, pair, u0, middle))
+      u1 = middle;
+    else if (nsvcd__pair_passes(p, pair, middle, u1))
+      u0 = middle;
+    else
+      break;
   }
   const double when = 0.5 * (u0 + u1);
-  if (!has_met) return nsvcd__resolve_doubtful(p, pair, u0, u1, when);
   nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, when);
   nearest.square = 0;
   return nsvcd__take_contact(p, pair, when, &nearest);
 }
 
-// Where the least distance is measured and the moving body only goes along: looks between u0 and u1
-// of the arc for when a triangle pair is nearest. The distance is convex, and falls where the
-// nearest points approach each other. Steps of `measure` would not get there.
+// Where the least distance is measured and the moving body goes straight, by `moved` over the arc:
+// finds when between u0 and u1 a triangle pair is nearest. Its distance is convex, and falls while
+// the nearest points approach each other. Steps of `measure` would not get there.
 static nsvcd__outcome nsvcd__take_nearest(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
-                                          double u0, double u1) {
-  const nsvcd__d3 from = nsvcd__placed_at(p, 0)->position;
-  const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__placed_at(p, 1)->position, from);
+                                          double u0, double u1, nsvcd__d3 moved) {
   for (size_t n = 0; n < NSVCD__HALVINGS / 2; n++) {
     const double middle = 0.5 * (u0 + u1);
     const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
-    const nsvcd__d3 travel = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+    const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
     p->work++;
     if (sqrt(nearest.square) < p->high &&
         nsvcd__take_contact(p, pair, middle, &nearest) == NSVCD__ANSWERED)
       return NSVCD__ANSWERED;
-    const double slope = nsvcd__d3_dot(travel, moved) / sqrt(nearest.square);
-    // a tangent is nowhere above it
+    const double slope = nsvcd__d3_dot(apart, moved) / sqrt(nearest.square);
+    // the distance is nowhere below its tangent
     if (!(fabs(slope) * (u1 - u0) > p->ask.measure)) break;
     if (slope < 0)
       u0 = middle;
@@ -13043,28 +12912,25 @@ static nsvcd__outcome nsvcd__take_nearest(nsvcd__proof *p, const nsvcd__triangle
   return NSVCD__SHRUNK;
 }
 
-// Resolves a triangle pair from u0 to u1 of an arc in which the moving body only goes along. Then
-// the distance is a convex function of time, and no less than the plane at its nearest points says,
-// its tangent: Newton's method, from the start on, comes to the first contact and never past it.
-// The plane that separated a pair last is tried before.
+// Resolves a triangle pair from u0 to u1 of an arc in which the moving body goes straight. Then its
+// distance is a convex function of time, and the plane at its nearest points is a tangent: Newton's
+// method, from the start on, comes to the first contact and never past it. The plane that separated
+// a pair last is tried first.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
                                                               const nsvcd__triangle_pair *pair,
                                                               double u0, double u1) {
   const nsvcd__arc *arc = &p->arc;
-  const nsvcd__d3 from = nsvcd__placed_at(p, 0)->position;
-  const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__placed_at(p, 1)->position, from);
-  const double close = pair->close;
-  nsvcd__d3 *plane = &p->memo.separating;
+  const nsvcd__d3 from = nsvcd__arc_pose(p, 0)->position;
+  const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__arc_pose(p, 1)->position, from);
   double at = u0;
   int shrunk = 0;
   size_t steps = 0;
   const double all = nsvcd__min(u1, nsvcd__arc_limit(p));
-  if (u0 < all && nsvcd__plane_separates(p, pair, u0, all, *plane)) {
+  if (u0 < all && nsvcd__plane_separates(p, pair, u0, all)) {
     p->work++;
-    nsvcd__certify_triangle_pair(p, pair, u0, all);
     return NSVCD__RESOLVED;
   }
-  for (double u = u0;;) {  // before u it is separated
+  for (double u = u0;;) {  // until u it is separated
     const double end = nsvcd__min(u1, nsvcd__arc_limit(p));
     if (!(u < end)) return shrunk ? NSVCD__SHRUNK : NSVCD__RESOLVED;
     at = nsvcd__min(at, end);
@@ -13077,25 +12943,22 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
     if (above <= pair->rounding) {
       if (nsvcd__take_contact(p, pair, at, &nearest) == NSVCD__ANSWERED)
         return NSVCD__ANSWERED;
-      if (p->ask.measure > 0 && nsvcd__take_nearest(p, pair, u, end) == NSVCD__ANSWERED)
+      if (p->ask.measure > 0 && nsvcd__take_nearest(p, pair, u, end, moved) == NSVCD__ANSWERED)
         return NSVCD__ANSWERED;
       shrunk = 1;
       at = u;
       continue;
     }
     const double beyond = nsvcd__aim_plane(p, pair, at, &nearest);
-    const double fall = -nsvcd__d3_dot(*plane, moved);
+    const double fall = -nsvcd__d3_dot(p->memo.separating, moved);
     const double room = beyond - p->ask.clearance - pair->margin - pair->rounding;
     const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;
-    if (u < until && nsvcd__plane_separates(p, pair, u, until, *plane)) {
-      nsvcd__certify_triangle_pair(p, pair, u, until);
-      u = until;
-    }
-    const int is_short = !(room > 0) || arc->speed * (at - u) <= 0.25 * close;
+    if (u < until && nsvcd__plane_separates(p, pair, u, until)) u = until;
+    const int is_short = !(room > 0) || arc->speed * (at - u) <= 0.25 * pair->close;
     const int is_unresolved = fall > 0 ? !(at < end) : is_short;
     if (u < end && (is_unresolved || steps++ == NSVCD__HALVINGS)) {
       // what follows is no nearer
-      const nsvcd__outcome part = nsvcd__resolve_doubtful(p, pair, u, at, at);
+      const nsvcd__outcome part = nsvcd__resolve_too_near(p, pair, u, at, at);
       if (part == NSVCD__ANSWERED) return part;
       if (part == NSVCD__RESOLVED) u = end;
     } else {
@@ -13105,18 +12968,13 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
 }
 
 // Resolves a triangle pair from u0 to u1 of the arc: halves the time until, in each part, a plane
-// separates the triangles, or there is a contact, or they come too close to tell. After each
-// unresolved pair parts need be less short: what is still asked is whether they meet. The planes
-// tried are the one that separated a triangle pair last, and one at the nearest points of the
-// middle.
+// separates the triangles, or there is a contact, or they are too near to tell. After each
+// unresolved part, longer ones count as too short: the question left is whether they meet. The
+// planes tried are the one that separated a pair last, and one at the nearest points in the middle.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
                                                           const nsvcd__triangle_pair *pair,
                                                           double u0, double u1) {
-  const nsvcd__arc *arc = &p->arc;
-  if (nsvcd__is_straight(arc)) return nsvcd__resolve_straight(p, pair, u0, u1);
-  const double speed = arc->speed + arc->turn * arc->scale * pair->from_axis;
-  const double close = pair->close;
-  nsvcd__d3 *plane = &p->memo.separating;
+  if (nsvcd__is_straight(&p->arc)) return nsvcd__resolve_straight(p, pair, u0, u1);
   double *ends = p->pair_ends;
   size_t left = 1;
   size_t unresolved_count = 0;
@@ -13124,13 +12982,12 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
   ends[0] = u1;
   for (double u = u0; left > 0;) {
     const double end = nsvcd__min(ends[left - 1], nsvcd__arc_limit(p));
-    // an unresolved pair may be the end
-    if (!(u < end)) break;
+    if (!(u < end)) break;  // an unresolved pair may be the end
     const double middle = 0.5 * (u + end);
     p->work++;
     NSVCD__TALLY(pairs, 1);
     if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
-    int apart = nsvcd__plane_separates(p, pair, u, end, *plane);
+    int apart = nsvcd__plane_separates(p, pair, u, end);
     if (!apart) {
       const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
       const double distance = sqrt(nearest.square);
@@ -13141,19 +12998,17 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
         continue;
       }
       (void)nsvcd__aim_plane(p, pair, middle, &nearest);
-      apart = nsvcd__plane_separates(p, pair, u, end, *plane);
+      apart = nsvcd__plane_separates(p, pair, u, end);
     }
-    if (apart) {
-      nsvcd__certify_triangle_pair(p, pair, u, end);
-    } else {
-      const double least = 0.25 * close * (double)(1 + unresolved_count);
-      const int is_short = speed * (end - u) <= least || left > NSVCD__HALVINGS;
+    if (!apart) {
+      const double least = 0.25 * pair->close * (double)(1 + unresolved_count);
+      const int is_short = pair->speed * (end - u) <= least || left > NSVCD__HALVINGS;
       if (!is_short) {
         ends[left++] = middle;
         p->parts++;
         continue;
       }
-      const nsvcd__outcome part = nsvcd__resolve_short_interval(p, pair, u, end, speed);
+      const nsvcd__outcome part = nsvcd__resolve_short_interval(p, pair, u, end);
       if (part == NSVCD__ANSWERED) return part;
       shrunk |= part == NSVCD__SHRUNK;
       if (part != NSVCD__RESOLVED) continue;
@@ -13170,37 +13025,26 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
 // In: 16 triangles of a patch, and a plane or other triangles. Out: which of them may meet.
 
 #ifndef NSVCD_NO_PROOF
-// Corner k of entries first .. first + count - 1, as vertices of their patch: what
-// nsvcd__triangle_corner says of each, the patch asked once.
-static void nsvcd__block_corners(const nsvcd__geometry *f, size_t patch, size_t first,
-                                 size_t count, size_t k, uint16_t *vertices) {
-  const size_t bytes = nsvcd__corner_bytes(nsvcd__points_of(f, patch).all);
-  const size_t at = 3 * (first - f->first_triangle[patch]) + k;
-  const unsigned char *corners = f->entries + f->first_byte[patch] + bytes * at;
-  for (size_t l = 0; l < count; l++) {
-    if (bytes == 1)
-      vertices[l] = corners[3 * l];
-    else
-      memcpy(vertices + l, corners + 6 * l, 2);
-  }
-}
-
-// Listings first .. first + count - 1 of a patch, at most 16; the last is repeated. Stored points
-// are off by no more than a quantization error, and what NSVCD__ROUNDING allows.
+// Loads entries first .. first + count - 1 of a patch, at most 16; the last one is repeated. Stored
+// points are off by no more than a quantization error, and what NSVCD__ROUNDING allows.
 static void nsvcd__block_load(const nsvcd__geometry *f, size_t patch, size_t first,
                               size_t count, nsvcd__block *out) {
   const nsvcd__patch_points points = nsvcd__points_of(f, patch);
   const nsvcd__vertices stored = nsvcd__vertices_of(f, patch);
   const nsvcd__f3 centre = nsvcd__patch_centre(f, patch);
   const float step = f->steps[patch];
+  const size_t bytes = nsvcd__corner_bytes(points.all);
+  const unsigned char *codes =
+      f->entries + f->first_byte[patch] + 3 * bytes * (first - f->first_triangle[patch]);
+  out->patch = patch;
   out->first = first;
   out->count = count;
   for (size_t k = 0; k < 3; k++) {
-    uint16_t corners[NSVCD__LANES];
     float(*to)[NSVCD__LANES] = out->corners[k];
-    nsvcd__block_corners(f, patch, first, count, k, corners);
     for (size_t l = 0; l < count; l++) {
-      const size_t i = corners[l];
+      const size_t n = 3 * l + k;
+      uint16_t i = codes[n];
+      if (bytes == 2) memcpy(&i, codes + 2 * n, sizeof i);
       if (i < points.stored) {
         to[0][l] = centre.x + step * (float)stored.x[i];
         to[1][l] = centre.y + step * (float)stored.y[i];
@@ -13208,12 +13052,10 @@ static void nsvcd__block_load(const nsvcd__geometry *f, size_t patch, size_t fir
         continue;
       }
       const float *position = nsvcd__position_of(f, patch, points, i);
-      to[0][l] = position[0];
-      to[1][l] = position[1];
-      to[2][l] = position[2];
+      nsvcd__lane_set(nsvcd__f3_load(position), to, l);
     }
     for (size_t l = count; l < NSVCD__LANES; l++)
-      for (size_t axis = 0; axis < 3; axis++) to[axis][l] = to[axis][count - 1];
+      nsvcd__lane_set(nsvcd__lane_of(to, count - 1), to, l);
   }
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 a = nsvcd__v3_load(out->corners[0], l);
@@ -13224,44 +13066,20 @@ static void nsvcd__block_load(const nsvcd__geometry *f, size_t patch, size_t fir
   }
 }
 
-// Poses the corners of the moving block, into p->posed[which].
+// Poses the corners of the moving block at both ends of an interval, and replaces its boxes by
+// those of the posed corners. Without an interval, NULL: at the pose `at` alone.
 static NSVCD__NOINLINE void nsvcd__block_pose(nsvcd__proof *p, const nsvcd__transform *at,
-                                              size_t which) {
-  for (size_t k = 0; k < 3; k++) {
-    NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 corner = nsvcd__v3_load(p->moving_block.corners[k], l);
-      nsvcd__v3_store(p->posed[which][k], l, nsvcd__v3_transform(at, corner));
-    }
-  }
-}
-
-// Of the moving block's corners. axis: unit, as the body has it.
-static nsvcd__arm nsvcd__block_arm(nsvcd__proof *p, nsvcd__f3 axis, float quantization_error) {
-  nsvcd__v farthest2 = nsvcd__v_set(0);
-  nsvcd__v aside = farthest2;
-  for (size_t k = 0; k < 3; k++) {
-    NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 corner = nsvcd__v3_load(p->moving_block.corners[k], l);
-      const nsvcd__v3 across = nsvcd__v3_cross(corner, nsvcd__v3_set(axis));
-      farthest2 = nsvcd__v_max(farthest2, nsvcd__v3_dot(corner, corner));
-      aside = nsvcd__v_max(aside, nsvcd__v3_dot(across, across));
-    }
-  }
-  const float from_origin =
-      1.00001f * sqrtf(-nsvcd__v_least(nsvcd__v_negate(farthest2))) + quantization_error;
-  const float from_axis =
-      1.00001f * sqrtf(-nsvcd__v_least(nsvcd__v_negate(aside))) + quantization_error;
-  const nsvcd__arm out = {from_origin, from_axis + 1e-6f * from_origin};
-  return out;
-}
-
-// Replaces the boxes of the moving block by those of its posed corners, at `ends` (1 or 2) poses.
-static void nsvcd__block_box(nsvcd__proof *p, size_t ends) {
+                                              const nsvcd__interval *over) {
+  p->over = over;
+  p->corner_count = over ? 6 : 3;
   NSVCD__EACH_SLICE(l) {
-    nsvcd__v3 low = nsvcd__v3_load(p->posed[0][0], l);
-    nsvcd__v3 high = low;
-    for (size_t n = 1; n < 3 * ends; n++) {
-      const nsvcd__v3 corner = nsvcd__v3_load(p->posed[n / 3][n % 3], l);
+    nsvcd__v3 low = nsvcd__v3_set(nsvcd__f3_of(HUGE_VALF, HUGE_VALF, HUGE_VALF));
+    nsvcd__v3 high = nsvcd__v3_negate(low);
+    for (size_t k = 0; k < p->corner_count; k++) {
+      const nsvcd__v3 own = nsvcd__v3_load(p->moving_block.corners[k % 3], l);
+      const nsvcd__transform *pose = !over ? at : k < 3 ? &over->start : &over->end;
+      const nsvcd__v3 corner = nsvcd__v3_transform(pose, own);
+      nsvcd__v3_store(p->corners[k], l, corner);
       low = nsvcd__v3_min(low, corner);
       high = nsvcd__v3_max(high, corner);
     }
@@ -13270,26 +13088,41 @@ static void nsvcd__block_box(nsvcd__proof *p, size_t ends) {
   }
 }
 
+// Of the moving block's corners. axis: unit, as the body has it.
+static nsvcd__arm nsvcd__block_arm(nsvcd__block *block, nsvcd__f3 axis, float error) {
+  nsvcd__v farthest = nsvcd__v_set(0);  // squares
+  nsvcd__v aside = farthest;
+  for (size_t k = 0; k < 3; k++) {
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v3 corner = nsvcd__v3_load(block->corners[k], l);
+      const nsvcd__v3 across = nsvcd__v3_cross(corner, nsvcd__v3_set(axis));
+      farthest = nsvcd__v_max(farthest, nsvcd__v3_dot(corner, corner));
+      aside = nsvcd__v_max(aside, nsvcd__v3_dot(across, across));
+    }
+  }
+  const float from_origin = 1.00001f * sqrtf(nsvcd__greatest_of(0, farthest)) + error;
+  const float from_axis = 1.00001f * sqrtf(nsvcd__greatest_of(0, aside)) + error;
+  const nsvcd__arm out = {from_origin, from_axis + 1e-6f * from_origin};
+  return out;
+}
+
 // The box about a block's boxes.
 static nsvcd__box nsvcd__block_bounds(const nsvcd__block *block) {
   float low[3], high[3];
   for (size_t k = 0; k < 3; k++) {
-    float least = HUGE_VALF;
-    float negated = HUGE_VALF;
+    low[k] = HUGE_VALF;
+    high[k] = -HUGE_VALF;
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v above = nsvcd__v_negate(nsvcd__v_load(block->high[k] + l));
-      least = nsvcd__least_of(least, nsvcd__v_least(nsvcd__v_load(block->low[k] + l)));
-      negated = nsvcd__least_of(negated, nsvcd__v_least(above));
+      low[k] = nsvcd__least_of(low[k], nsvcd__v_load(block->low[k] + l));
+      high[k] = nsvcd__greatest_of(high[k], nsvcd__v_load(block->high[k] + l));
     }
-    low[k] = least;
-    high[k] = -negated;
   }
   const nsvcd__box out = {nsvcd__f3_load(low), nsvcd__f3_load(high)};
   return out;
 }
 
-// Loads up to NSVCD__WINDOW blocks of resting patch j, from entry `first` on, and what they
-// extend to. The same patch is often asked for again.
+// Loads up to NSVCD__WINDOW blocks of fixed patch j, from entry `first` on, and the boxes about
+// them. The same patch is often asked for again.
 static void nsvcd__window_load(nsvcd__proof *p, size_t j, size_t first) {
   const size_t end = p->fixed.first_triangle[j + 1];
   if (p->memo.window > 0 && p->fixed_blocks[0].first == first) return;
@@ -13297,8 +13130,7 @@ static void nsvcd__window_load(nsvcd__proof *p, size_t j, size_t first) {
   for (size_t n = first; n < end && p->memo.window < NSVCD__WINDOW; n += NSVCD__LANES) {
     nsvcd__block *block = &p->fixed_blocks[p->memo.window];
     nsvcd__block_load(&p->fixed, j, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
-    p->bounds[p->memo.window] = nsvcd__block_bounds(block);
-    p->memo.window++;
+    p->bounds[p->memo.window++] = nsvcd__block_bounds(block);
   }
 }
 
@@ -13326,25 +13158,46 @@ NSVCD__INLINE uint32_t nsvcd__lanes_near(const nsvcd__block *block, nsvcd__box b
   return lanes & nsvcd__block_lanes(block);
 }
 
-static nsvcd__box nsvcd__box_of_lane(nsvcd__block *block, size_t l) {
-  const nsvcd__box out = {nsvcd__lane_of(block->low, l), nsvcd__lane_of(block->high, l)};
-  return out;
+// Normals of planes that may separate two triangles: the one that separated a triangle pair last;
+// those of both; and of an edge of each.
+#define NSVCD__LAST_NORMAL 0
+#define NSVCD__NORMALS 12
+
+// Normal k, of any length, for lane l of the moving block and a slice, from s on, of a fixed one. A
+// moving edge without length, of a point or a segment: its corner's travel counts instead.
+NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
+                                             size_t s, size_t k) {
+  if (k == NSVCD__LAST_NORMAL) return nsvcd__v3_set(nsvcd__f3_round(p->memo.separating));
+  if (k == 1) {
+    const nsvcd__v3 b = nsvcd__v3_load(fixed->corners[0], s);
+    const nsvcd__v3 u = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[1], s), b);
+    const nsvcd__v3 v = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2], s), b);
+    return nsvcd__v3_cross(u, v);
+  }
+  if (k == 2) {
+    const nsvcd__f3 a = nsvcd__lane_of(p->corners[0], l);
+    const nsvcd__f3 u = nsvcd__f3_sub(nsvcd__lane_of(p->corners[1], l), a);
+    const nsvcd__f3 v = nsvcd__f3_sub(nsvcd__lane_of(p->corners[2], l), a);
+    return nsvcd__v3_set(nsvcd__f3_cross(u, v));
+  }
+  const size_t of_moving = k / 3 - 1;
+  const size_t of_fixed = k % 3;
+  const nsvcd__v3 b = nsvcd__v3_load(fixed->corners[of_fixed], s);
+  const nsvcd__v3 b_next = nsvcd__v3_load(fixed->corners[(of_fixed + 1) % 3], s);
+  const nsvcd__f3 a = nsvcd__lane_of(p->corners[of_moving], l);
+  const nsvcd__f3 a_next = nsvcd__lane_of(p->corners[(of_moving + 1) % 3], l);
+  nsvcd__f3 edge = nsvcd__f3_sub(a_next, a);
+  if (p->over && !(nsvcd__f3_dot(edge, edge) > 0))
+    edge = nsvcd__f3_sub(nsvcd__lane_of(p->corners[3 + of_moving], l), a);
+  return nsvcd__v3_cross(nsvcd__v3_set(edge), nsvcd__v3_sub(b_next, b));
 }
 
-// A margin along normals of any length. Where their squares underflow it is so large that nothing
-// is beyond it.
-static nsvcd__v nsvcd__margin_along(nsvcd__v3 n, float margin) {
-  const nsvcd__v square = nsvcd__v3_dot(n, n);
-  const nsvcd__v limit = nsvcd__v_scale(nsvcd__v_sqrt(square), margin);
-  return nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit);
-}
-
-// Lanes of a slice, from s on, of a fixed block that planes with these normals, of any length, have
-// on one side of lane l of the moving one, at `ends` (1 or 2) poses, by more than `margin`. below:
-// the moving one is on the side that the normal points from.
+// Lanes of a slice, from s on, of a fixed block that planes with these normals, of any length,
+// separate from lane l of the moving one, as posed, by more than `margin`. below: the moving one is
+// on the side that the normal points from.
 NSVCD__INLINE uint32_t nsvcd__normals_separate(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
-                                               size_t s, size_t ends, float margin,
-                                               nsvcd__v3 n, uint32_t *below) {
+                                               size_t s, float margin, nsvcd__v3 n,
+                                               uint32_t *below) {
   const nsvcd__v3 b0 = nsvcd__v3_load(fixed->corners[0], s);
   const nsvcd__v3 edge1 = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[1], s), b0);
   const nsvcd__v3 edge2 = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2], s), b0);
@@ -13355,162 +13208,77 @@ NSVCD__INLINE uint32_t nsvcd__normals_separate(nsvcd__proof *p, size_t l, nsvcd_
   const nsvcd__v high = nsvcd__v_max(zero, nsvcd__v_max(height1, height2));
   nsvcd__v lowest = nsvcd__v_set(HUGE_VALF);
   nsvcd__v highest = nsvcd__v_set(-HUGE_VALF);
-  for (size_t k = 0; k < 3 * ends; k++) {
-    const nsvcd__v3 a = nsvcd__v3_set(nsvcd__lane_of(p->posed[k / 3][k % 3], l));
+  for (size_t k = 0; k < p->corner_count; k++) {
+    const nsvcd__v3 a = nsvcd__v3_set(nsvcd__lane_of(p->corners[k], l));
     const nsvcd__v height = nsvcd__v3_dot(n, nsvcd__v3_sub(a, b0));
     lowest = nsvcd__v_min(lowest, height);
     highest = nsvcd__v_max(highest, height);
   }
-  const nsvcd__v limit = nsvcd__margin_along(n, margin);
+  // where the normal's square underflows, nothing is beyond the limit
+  const nsvcd__v square = nsvcd__v3_dot(n, n);
+  nsvcd__v limit = nsvcd__v_scale(nsvcd__v_sqrt(square), margin);
+  limit = nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit);
   *below = nsvcd__v_lt(highest, nsvcd__v_sub(low, limit));
   return nsvcd__v_lt(nsvcd__v_add(high, limit), lowest) | *below;
 }
 
-// Normal number k of those that may part two triangles at `ends` (1 or 2) poses: of the fixed ones
-// in a slice, of lane l of the moving one, and of an edge of each; of an edge without length, which
-// points and segments have, it is that corner's way that counts.
-#define NSVCD__NORMALS 11
-NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
-                                             size_t s, size_t ends, size_t k) {
-  if (k == 1) {
-    const nsvcd__f3 a = nsvcd__lane_of(p->posed[0][0], l);
-    const nsvcd__f3 u = nsvcd__f3_sub(nsvcd__lane_of(p->posed[0][1], l), a);
-    const nsvcd__f3 v = nsvcd__f3_sub(nsvcd__lane_of(p->posed[0][2], l), a);
-    return nsvcd__v3_set(nsvcd__f3_cross(u, v));
-  }
-  const size_t fixed_edge = k == 0 ? 0 : (k - 2) % 3;
-  const size_t moving_edge = k == 0 ? 0 : (k - 2) / 3;
-  const nsvcd__v3 b = nsvcd__v3_load(fixed->corners[fixed_edge], s);
-  const nsvcd__v3 next = nsvcd__v3_load(fixed->corners[(fixed_edge + 1) % 3], s);
-  const nsvcd__v3 edge = nsvcd__v3_sub(next, b);
-  if (k == 0)
-    return nsvcd__v3_cross(edge, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2], s), b));
-  const nsvcd__f3 a = nsvcd__lane_of(p->posed[0][moving_edge], l);
-  const nsvcd__f3 after = nsvcd__lane_of(p->posed[0][(moving_edge + 1) % 3], l);
-  nsvcd__f3 other = nsvcd__f3_sub(after, a);
-  if (ends == 2 && !(nsvcd__f3_dot(other, other) > 0))
-    other = nsvcd__f3_sub(nsvcd__lane_of(p->posed[1][moving_edge], l), a);
-  return nsvcd__v3_cross(nsvcd__v3_set(other), edge);
-}
-
-#ifdef NSVCD__CERTIFIES
-// All triangle pairs of lane l and the `apart` lanes of a block, by the planes of their slice, from
-// s on, or, where that is NULL, by their boxes.
-static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l,
-                                 const nsvcd__block *b, const nsvcd__interval *interval,
-                                 uint32_t apart, size_t s, const nsvcd__v3 *plane,
-                                 uint32_t below) {
-  float lanes[3][NSVCD__LANES];
-  const nsvcd__block *a = &p->moving_block;
-  if (plane) nsvcd__v3_store(lanes, s, *plane);
-  for (size_t n = 0; n < b->count; n++) {
-    float normal[3] = {0, 0, 0};
-    float widest = -HUGE_VALF;
-    const float sign = below >> n & 1 ? -1.0f : 1.0f;
-    if (!(apart >> n & 1)) continue;
-    for (size_t k = 0; k < 3; k++) {
-      if (plane) normal[k] = sign * lanes[k][n];
-      const float above = a->low[k][l] - b->high[k][n];
-      const float under = b->low[k][n] - a->high[k][l];
-      if (plane || (above <= widest && under <= widest)) continue;
-      widest = above > under ? above : under;
-      normal[0] = normal[1] = normal[2] = 0;
-      normal[k] = above > under ? 1.0f : -1.0f;
-    }
-    NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, i, j, a->first + l, b->first + n, interval->t_start,
-                   interval->t_end, normal);
-  }
-}
-#define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, interval, apart, s, plane, below) \
-  nsvcd__certify_block(p, i, j, l, b, interval, apart, s, plane, below)
-#else
-#define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, interval, apart, s, plane, below) ((void)0)
-#endif
-
-// Of these lanes of a fixed block, those that the plane which separated a triangle pair last does
-// not separate from lane l of the moving one as well, by more than `margin`, at `ends` poses. Where
-// there is a clearance it parts many: triangles near by have their nearest points along nearly the
-// same direction.
-static NSVCD__NOINLINE uint32_t nsvcd__left_by_last(nsvcd__proof *p, size_t i, size_t j,
-                                                    size_t l, nsvcd__block *fixed, size_t ends,
-                                                    const nsvcd__interval *interval,
-                                                    float margin, uint32_t met) {
-  const nsvcd__v3 normal = nsvcd__v3_set(nsvcd__f3_round(p->memo.separating));
+// Of these lanes of a fixed block, those that planes with normal k do not separate from lane l of
+// the moving one by more than `margin`.
+NSVCD__INLINE uint32_t nsvcd__left_by_normal(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
+                                             size_t k, float margin, uint32_t met) {
   NSVCD__EACH_SLICE(s) {
     uint32_t below;
     if (!(met >> s & NSVCD__SLICE_MASK)) continue;
+    const nsvcd__v3 normal = nsvcd__normal_to_try(p, l, fixed, s, k);
     const uint32_t apart =
-        nsvcd__normals_separate(p, l, fixed, s, ends, margin, normal, &below) << s & met;
-    if (interval)
-      NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, interval, apart, s, &normal, below << s);
+        nsvcd__normals_separate(p, l, fixed, s, margin, normal, &below) << s & met;
+    NSVCD__CERTIFY_BLOCK(p, (uint32_t)1 << l, fixed, apart, s, &normal, below << s);
     met &= ~apart;
   }
-  (void)i;
-  (void)j;
   return met;
 }
 
 // Of these lanes of the moving block, those that the plane which separated a triangle pair last
-// does not separate from all of a fixed block, by more than `margin`, at `ends` poses.
-static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, size_t i, size_t j,
-                                                          nsvcd__block *fixed, size_t ends,
-                                                          const nsvcd__interval *interval,
+// does not separate from all of a fixed block by more than `margin`. Tried where there is a
+// clearance: then near triangles have their nearest points along nearly the same direction.
+static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, nsvcd__block *fixed,
                                                           float margin, uint32_t lanes) {
   const nsvcd__f3 last = nsvcd__f3_round(p->memo.separating);
   const nsvcd__v3 normal = nsvcd__v3_set(last);
   if (!(p->ask.clearance > 0) || !lanes) return lanes;
-  float lowest = HUGE_VALF;  // of the fixed block's heights, negated
+  float highest = -HUGE_VALF;  // of the fixed block
   for (size_t k = 0; k < 3; k++) {
     NSVCD__EACH_SLICE(s) {
-      const nsvcd__v height = nsvcd__v3_dot(normal, nsvcd__v3_load(fixed->corners[k], s));
-      lowest = nsvcd__least_of(lowest, nsvcd__v_least(nsvcd__v_negate(height)));
+      const nsvcd__v3 corner = nsvcd__v3_load(fixed->corners[k], s);
+      highest = nsvcd__greatest_of(highest, nsvcd__v3_dot(normal, corner));
     }
   }
-  const nsvcd__v limit = nsvcd__v_set(margin * nsvcd__f3_length(last) - lowest);
+  const nsvcd__v limit = nsvcd__v_set(margin * nsvcd__f3_length(last) + highest);
   uint32_t apart = 0;
   NSVCD__EACH_SLICE(s) {
-    nsvcd__v height = nsvcd__v3_dot(normal, nsvcd__v3_load(p->posed[0][0], s));
-    for (size_t k = 1; k < 3 * ends; k++) {
-      const nsvcd__v3 corner = nsvcd__v3_load(p->posed[k / 3][k % 3], s);
+    nsvcd__v height = nsvcd__v_set(HUGE_VALF);
+    for (size_t k = 0; k < p->corner_count; k++) {
+      const nsvcd__v3 corner = nsvcd__v3_load(p->corners[k], s);
       height = nsvcd__v_min(height, nsvcd__v3_dot(normal, corner));
     }
     apart |= nsvcd__v_lt(limit, height) << s;
   }
-  apart &= lanes;
-  for (uint32_t told = interval ? apart : 0; told; told &= told - 1) {
-    NSVCD__EACH_SLICE(s)
-    NSVCD__CERTIFY_BLOCK(p, i, j, nsvcd__low_bit(told), fixed, interval,
-                         NSVCD__SLICE_MASK << s, s, &normal, 0);
-  }
-  (void)i;
-  (void)j;
+  NSVCD__EACH_SLICE(s)
+  NSVCD__CERTIFY_BLOCK(p, lanes & apart, fixed, NSVCD__SLICE_MASK << s, s, &normal, 0);
   return lanes & ~apart;
 }
 
-// Lanes of a fixed block that neither boxes nor planes separate from lane l of the moving one, at
-// `ends` poses. interval: of patches i and j, for the certificates; NULL for none.
-static NSVCD__NOINLINE uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j, size_t l,
-                                                nsvcd__block *fixed, size_t ends,
-                                                const nsvcd__interval *interval,
+// Lanes of a fixed block that neither boxes nor planes separate from lane l of the moving one.
+static NSVCD__NOINLINE uint32_t nsvcd__row_left(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
                                                 float margin) {
-  uint32_t met = nsvcd__lanes_near(fixed, nsvcd__box_of_lane(&p->moving_block, l), margin);
-  if (interval) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, interval, ~met, 0, NULL, 0);
-  if (p->ask.clearance > 0)
-    met = nsvcd__left_by_last(p, i, j, l, fixed, ends, interval, margin, met);
-  for (size_t k = 0; met && k < NSVCD__NORMALS; k++) {
-    NSVCD__EACH_SLICE(s) {
-      uint32_t below;
-      if (!(met >> s & NSVCD__SLICE_MASK)) continue;
-      const nsvcd__v3 normal = nsvcd__normal_to_try(p, l, fixed, s, ends, k);
-      const uint32_t apart =
-          nsvcd__normals_separate(p, l, fixed, s, ends, margin, normal, &below) << s & met;
-      if (interval)
-        NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, interval, apart, s, &normal, below << s);
-      met &= ~apart;
-    }
-  }
-  (void)i;
-  (void)j;
+  nsvcd__block *block = &p->moving_block;
+  const nsvcd__box box = {nsvcd__lane_of(block->low, l), nsvcd__lane_of(block->high, l)};
+  uint32_t met = nsvcd__lanes_near(fixed, box, margin);
+  NSVCD__CERTIFY_BLOCK(p, (uint32_t)1 << l, fixed, ~met, 0, NULL, 0);
+  // the last plane: see nsvcd__lanes_left_by_last
+  for (size_t k = p->ask.clearance > 0 ? NSVCD__LAST_NORMAL : 1; met && k < NSVCD__NORMALS;
+       k++)
+    met = nsvcd__left_by_normal(p, l, fixed, k, margin, met);
   return met;
 }
 #endif  // NSVCD_NO_PROOF
@@ -13890,20 +13658,21 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
   nsvcd__block *fixed = &p->fixed_blocks[n];
   const double clearance = p->ask.clearance;
   const uint32_t nearby = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
-  uint32_t lanes = nsvcd__lanes_left_by_last(p, i, j, fixed, 1, NULL, margin, nearby);
+  uint32_t lanes = nsvcd__lanes_left_by_last(p, fixed, margin, nearby);
   for (; lanes; lanes &= lanes - 1) {
     const size_t l = nsvcd__low_bit(lanes);
     p->work++;
-    uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 1, NULL, margin);
+    uint32_t met = nsvcd__row_left(p, l, fixed, margin);
     for (; met; met &= met - 1) {
-      if (clearance > 0) met = nsvcd__left_by_last(p, i, j, l, fixed, 1, NULL, margin, met);
+      if (clearance > 0)
+        met = nsvcd__left_by_normal(p, l, fixed, NSVCD__LAST_NORMAL, margin, met);
       if (!met) break;
       const size_t entry = p->moving_block.first + l;
       const nsvcd__triangle_pair pair =
           nsvcd__pair_of(p, i, j, entry, fixed->first + nsvcd__low_bit(met));
       nsvcd__d3 posed[3];
       nsvcd__nearest nearest = {0, {0, 0, 0}, {0, 0, 0}};
-      nsvcd__place_triangle(at, pair.moving, posed);
+      nsvcd__pose_triangle(at, pair.moving, posed);
       p->work++;
       if (p->ask.collects == NSVCD__SUPPORTING) {
         nsvcd__collect_positions(p, &pair, posed);
@@ -13952,7 +13721,7 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
   const nsvcd__transform rounded = nsvcd__transform_of(&at);
   const float lengths = p->given.lengths + nsvcd__f3_length(rounded.position);
   const float margin =
-      NSVCD__ROUNDING * lengths + nsvcd__clearance(p) + nsvcd__quanta_of(p, i, j);
+      NSVCD__ROUNDING * lengths + nsvcd__clearance(p) + nsvcd__errors_of(p, i, j);
   const size_t moving_end = p->moving.first_triangle[i + 1];
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
   NSVCD__TALLY(tries, 1);
@@ -13961,8 +13730,7 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
     nsvcd__window_load(p, j, b);
     for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
       nsvcd__moving_block_load(p, i, a);
-      nsvcd__block_pose(p, &rounded, 0);
-      nsvcd__block_box(p, 1);
+      nsvcd__block_pose(p, &rounded, NULL);
       for (size_t n = 0; n < p->memo.window; n++) {
         p->work++;
         if (nsvcd__is_exhausted(p)) return NSVCD__NOTHING;
@@ -14002,12 +13770,12 @@ static nsvcd__outcome nsvcd__seek_in_patch_pair(nsvcd__proof *p, const nsvcd__se
 #endif  // NSVCD_NO_PROOF
 
 // ------------------------------------------------------------------------------- proof/patch_pairs
-// In: fresh patch pairs, as the search finds them. Out: each is separated by a plane between its
+// In: fresh patch pairs, as the search finds them. Out: each is separated, by a plane between its
 // hulls or by its triangles, or in contact, or kept as an unresolved pair.
 
 #ifndef NSVCD_NO_PROOF
 // Does the plane that separated a triangle pair last separate all of patches i and j from u0 to u1
-// of the arc, in double? Where flat lies on flat by less than floats tell, it mostly does.
+// of the arc, in double? Where flat lies on flat, nearer than floats can tell, it mostly does.
 static NSVCD__NOINLINE int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_t j, double u0,
                                                 double u1) {
   const size_t moving_first = p->moving.first_triangle[i];
@@ -14029,46 +13797,41 @@ static NSVCD__NOINLINE int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_
   for (size_t a = moving_first; a < moving_end; a++) {
     const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, top);
     if ((a - moving_first) % 4 == 0) p->work++;
-    if (!nsvcd__plane_separates(p, &pair, u0, u1, p->memo.separating)) return 0;
+    if (!nsvcd__plane_separates(p, &pair, u0, u1)) return 0;
   }
-#ifdef NSVCD__CERTIFIES
-  for (size_t a = moving_first; a < moving_end; a++) {
-    for (size_t b = fixed_first; b < fixed_end; b++) {
-      const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, b);
-      nsvcd__certify_triangle_pair(p, &pair, u0, u1);
-    }
-  }
-#endif
+  NSVCD__CERTIFY_PATCHES(p, i, j, u0, u1);
   return 1;
 }
 
-// Lane l of the moving block, posed at both ends of a interval from u0 to u1 of the arc, and block
-// n of the window: triangle pairs that planes do not part are resolved one by one, and what parts
-// one may part others, or, ALL_SETTLED, all of both patches. TOO_LONG when they have asked for more
-// than `patience` parts of the interval; without any, when there is such a triangle pair.
-static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t i, size_t j, size_t l,
-                                         size_t n, const nsvcd__interval *interval,
+// Lane l of the moving block, posed at both ends of an interval from u0 to u1 of the arc, and a
+// block of the window: the triangle pairs that no plane separates are resolved one by one. The
+// plane that separates one may separate others or, ALL_RESOLVED, all of both patches. TOO_LONG:
+// they ask for more than `patience` parts of the interval or, without any, there is such a triangle
+// pair.
+static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
                                          nsvcd__arm arm, float margin, double u0, double u1,
                                          size_t patience) {
-  nsvcd__block *fixed = &p->fixed_blocks[n];
-  const float errors = nsvcd__quanta_of(p, i, j);
+  const nsvcd__interval *over = p->over;
+  const size_t i = p->moving_block.patch;
+  const size_t j = fixed->patch;
+  const float errors = nsvcd__errors_of(p, i, j);
   p->work++;
-  uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 2, interval, margin);
+  uint32_t met = nsvcd__row_left(p, l, fixed, margin);
   for (; met; met &= met - 1) {
     const nsvcd__d3 before = p->memo.separating;
     const nsvcd__f3 last = nsvcd__f3_round(before);
-    const float along = errors + interval->rounding + nsvcd__clearance(p) +
-                        nsvcd__deviation_of(interval, last, arm);
-    met = nsvcd__left_by_last(p, i, j, l, fixed, 2, interval, along, met);
+    const float along =
+        errors + over->rounding + nsvcd__clearance(p) + nsvcd__deviation_of(over, last, arm);
+    met = nsvcd__left_by_normal(p, l, fixed, NSVCD__LAST_NORMAL, along, met);
     if (!met) break;
     if (patience == 0) return NSVCD__TOO_LONG;
     if (p->memo.shared > NSVCD__SHARED * p->all_tried) {
       p->all_tried++;
       if (nsvcd__patches_apart(p, i, j, u0, u1)) return NSVCD__ALL_RESOLVED;
     }
-    const size_t entry = p->moving_block.first + l;
-    const nsvcd__triangle_pair pair =
-        nsvcd__pair_of(p, i, j, entry, fixed->first + nsvcd__low_bit(met));
+    const size_t a = p->moving_block.first + l;
+    const size_t b = fixed->first + nsvcd__low_bit(met);
+    const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, b);
     const nsvcd__outcome one = nsvcd__resolve_pair(p, &pair, u0, u1);
     if (one != NSVCD__RESOLVED) return one;
     if (p->parts > patience) return NSVCD__TOO_LONG;
@@ -14078,21 +13841,22 @@ static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t i, size_t j, si
   return NSVCD__RESOLVED;
 }
 
-// All triangle pairs of a patch pair's patches over a interval from u0 to u1 of the arc.
+// All triangle pairs of patches i and j over an interval from u0 to u1 of the arc.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, size_t i,
                                                                size_t j,
-                                                               const nsvcd__interval *interval,
+                                                               const nsvcd__interval *over,
                                                                double u0, double u1,
                                                                size_t patience) {
   const size_t moving_end = p->moving.first_triangle[i + 1];
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
-  const nsvcd__f3 axis = nsvcd__own_axis(interval);
-  const float stays = nsvcd__quanta_of(p, i, j) +
-                      (interval->rounding + interval->origin_bend) + nsvcd__clearance(p);
-  const float extent = p->moving.body->extent + p->moving.errors[i];
+  const nsvcd__f3 axis = nsvcd__own_axis(over);
+  const float stays =
+      nsvcd__errors_of(p, i, j) + (over->rounding + over->origin_bend) + nsvcd__clearance(p);
+  const float error = p->moving.errors[i];
+  const float extent = p->moving.body->extent + error;
   const nsvcd__arm all = {extent, extent};
-  const int bends =
-      interval->bend * extent > 0.25f * stays;  // else it is not worth to look closely
+  // else arms of blocks gain little
+  const int bends = over->bend * extent > 0.25f * stays;
   p->parts = 0;
   p->all_tried = 0;
   for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
@@ -14100,24 +13864,19 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
     nsvcd__window_load(p, j, b);
     for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
       nsvcd__moving_block_load(p, i, a);
-      const nsvcd__arm arm = bends ? nsvcd__block_arm(p, axis, p->moving.errors[i]) : all;
-      const float margin = stays + nsvcd__bend_of(interval, arm);
-      nsvcd__block_pose(p, &interval->start, 0);
-      nsvcd__block_pose(p, &interval->end, 1);
-      nsvcd__block_box(p, 2);
+      const nsvcd__arm arm = bends ? nsvcd__block_arm(&p->moving_block, axis, error) : all;
+      const float margin = stays + nsvcd__bend_of(over, arm);
+      nsvcd__block_pose(p, NULL, over);
       for (size_t n = 0; n < p->memo.window; n++) {
         nsvcd__block *fixed = &p->fixed_blocks[n];
         const uint32_t nearby = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
-        const uint32_t lanes =
-            nsvcd__lanes_left_by_last(p, i, j, fixed, 2, interval, margin, nearby);
+        NSVCD__CERTIFY_BLOCK(p, ~nearby, fixed, 0xffff, 0, NULL, 0);
+        uint32_t lanes = nsvcd__lanes_left_by_last(p, fixed, margin, nearby);
         p->work++;
         if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
-        for (size_t l = 0; l < p->moving_block.count; l++) {
-          if (!(nearby >> l & 1))
-            NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, interval, 0xffff, 0, NULL, 0);
-          if (!(lanes >> l & 1)) continue;
-          const nsvcd__outcome row =
-              nsvcd__resolve_row(p, i, j, l, n, interval, arm, margin, u0, u1, patience);
+        for (; lanes; lanes &= lanes - 1) {
+          const nsvcd__outcome row = nsvcd__resolve_row(p, nsvcd__low_bit(lanes), fixed, arm,
+                                                        margin, u0, u1, patience);
           if (row == NSVCD__ALL_RESOLVED) return NSVCD__RESOLVED;
           if (row != NSVCD__RESOLVED) return row;
         }
@@ -14127,21 +13886,13 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
   return NSVCD__RESOLVED;
 }
 
-static void nsvcd__certify_patch_pair(const nsvcd__proof *p, const nsvcd__interval *interval,
-                                      const nsvcd__patch_pair *item) {
-  const float normal[3] = {p->memo.held.x, p->memo.held.y, p->memo.held.z};
-  NSVCD__CERTIFY(NSVCD__BY_HULL, item->moving, item->fixed, NSVCD_NONE, NSVCD_NONE,
-                 interval->t_start, interval->t_end, normal);
-  (void)normal;
-  (void)interval;
-  (void)item;
-}
-
-// Resolves a patch pair that no plane separates over its segment, arc by arc. Each arc is halved as
-// often as need be: a part of it is separated by a plane between the hulls, or by its triangles.
+// Resolves a patch pair that no plane separates over its segment, arc by arc. An arc is halved
+// until each part is resolved by a plane between the hulls, or by the triangles.
 static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__search *search,
                                                 const nsvcd__patch_pair *item) {
   const nsvcd__motion *motion = p->ask.motion;
+  const size_t i = item->moving;
+  const size_t j = item->fixed;
   const uint32_t last = search->begin[item->segment + 1u];
   double *ends = p->arc_ends;
   int is_tried = 1;  // is it all of the segment?
@@ -14158,16 +13909,13 @@ static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__se
       const double end = nsvcd__min(ends[left - 1], nsvcd__arc_limit(p));
       if (!(u < end)) break;
       p->interval = nsvcd__interval_of_arc(p, first, u, end);
-      const int apart =
-          !is_tried && nsvcd__hulls_are_apart(p, item->moving, item->fixed, &p->interval);
+      const int apart = !is_tried && nsvcd__hulls_are_apart(p, i, j, &p->interval);
       is_tried = 0;
-      if (apart) {
-        nsvcd__certify_patch_pair(p, &p->interval, item);
-      } else {
+      if (!apart) {
         const int may_halve = end - u > NSVCD__SHORTEST && left < NSVCD__ARC_PARTS;
-        const size_t patience = may_halve ? NSVCD__PATIENCE_TO_PART : (size_t)-1;
-        const nsvcd__outcome part = nsvcd__resolve_triangles(p, item->moving, item->fixed,
-                                                             &p->interval, u, end, patience);
+        const size_t patience = may_halve ? NSVCD__FEW_PARTS : (size_t)-1;
+        const nsvcd__outcome part =
+            nsvcd__resolve_triangles(p, i, j, &p->interval, u, end, patience);
         if (part == NSVCD__ANSWERED || part == NSVCD__EXHAUSTED) return part;
         if (part == NSVCD__TOO_LONG) ends[left++] = 0.5 * (u + end);
         if (part != NSVCD__RESOLVED) continue;
@@ -14179,68 +13927,64 @@ static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__se
   return NSVCD__RESOLVED;
 }
 
-// Does a plane with the normal that held last part a patch pair's patches over its segment?
-// Neighbours of a patch pair that a plane separates ask for the same again: so heights over it are
-// remembered, of a moving patch in a segment the least, all allowances taken off, and of a resting
-// one the greatest.
+// Does the plane that held last separate a patch pair over its segment, moved along its normal? If
+// it does, the pair's neighbours ask for the same heights: so these are remembered, of a moving
+// patch in a segment the least, less all margins, and of a fixed one the greatest.
 static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
                              const nsvcd__patch_pair *item) {
   const size_t i = item->moving;
   const size_t j = item->fixed;
   const size_t s = item->segment;
-  const nsvcd__interval *interval = nsvcd__segment_interval(p, search, s);
   nsvcd__memo *memo = &p->memo;
+  if (!memo->plane) return 0;
+  const nsvcd__interval *over = nsvcd__segment_interval(p, search, s);
   const nsvcd__f3 n = memo->held;
   const float length = nsvcd__f3_length(n);
   const uint32_t key = (uint32_t)(i * NSVCD__MAX_SEGMENTS + s);
   nsvcd__height *above =
       &memo->heights[(NSVCD__GROUP * s + i % NSVCD__GROUP) % NSVCD__HEIGHTS];
-  nsvcd__height *below = &memo->rest_heights[j % NSVCD__REST_HEIGHTS];
+  nsvcd__height *below = &memo->fixed_heights[j % NSVCD__FIXED_HEIGHTS];
   if (above->plane != memo->plane || above->key != key) {
     float lowest = HUGE_VALF;
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, i, l);
       const nsvcd__v3 normal = nsvcd__v3_set(n);
-      const nsvcd__v at_start =
-          nsvcd__v3_dot(normal, nsvcd__v3_transform(&interval->start, hull));
-      const nsvcd__v at_end = nsvcd__v3_dot(normal, nsvcd__v3_transform(&interval->end, hull));
-      lowest = nsvcd__least_of(lowest, nsvcd__v_least(nsvcd__v_min(at_start, at_end)));
+      const nsvcd__v at_start = nsvcd__v3_dot(normal, nsvcd__v3_transform(&over->start, hull));
+      const nsvcd__v at_end = nsvcd__v3_dot(normal, nsvcd__v3_transform(&over->end, hull));
+      lowest = nsvcd__least_of(lowest, nsvcd__v_min(at_start, at_end));
     }
     const float margin =
-        (p->ask.motion->scale * p->moving.margins[i] + interval->rounding) * length;
+        (p->ask.motion->scale * p->moving.margins[i] + over->rounding) * length;
     above->plane = memo->plane;
     above->key = key;
     above->height =
-        lowest - margin -
-        nsvcd__deviation_of(interval, n, nsvcd__patch_arm(&p->moving, i, interval));
+        lowest - margin - nsvcd__deviation_of(over, n, nsvcd__patch_arm(&p->moving, i, over));
   }
   if (below->plane != memo->plane || below->key != j) {
-    // negated
-    float highest = HUGE_VALF;
+    float highest = -HUGE_VALF;
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v height = nsvcd__v3_dot(nsvcd__v3_set(n), nsvcd__hull_of(&p->fixed, j, l));
-      highest = nsvcd__least_of(highest, nsvcd__v_least(nsvcd__v_negate(height)));
+      highest = nsvcd__greatest_of(highest, height);
     }
     below->plane = memo->plane;
     below->key = (uint32_t)j;
-    below->height = p->fixed.margins[j] * length - highest;
+    below->height = p->fixed.margins[j] * length + highest;
   }
   if (!(above->height > below->height + nsvcd__clearance(p) * length)) return 0;
-  nsvcd__certify_patch_pair(p, interval, item);
+  NSVCD__CERTIFY(NSVCD__BY_HULL, i, j, NSVCD_NONE, NSVCD_NONE, over->t_start, over->t_end,
+                 &n.x);
   return 1;
 }
 
-// Is there any plane that does?
+// Does any plane?
 static int nsvcd__is_separated(nsvcd__proof *p, const nsvcd__search *search,
                                const nsvcd__patch_pair *item) {
-  const nsvcd__interval *interval = nsvcd__segment_interval(p, search, item->segment);
-  if (!nsvcd__hulls_are_apart(p, item->moving, item->fixed, interval)) return 0;
-  nsvcd__certify_patch_pair(p, interval, item);
-  return 1;
+  const nsvcd__interval *over = nsvcd__segment_interval(p, search, item->segment);
+  return nsvcd__hulls_are_apart(p, item->moving, item->fixed, over);
 }
 
-// Is a patch pair to be looked at before another? Deepest first. For the first contact: earliest
-// closest approach within a segment, and earlier segments once a contact is known.
+// Does a patch pair come before another? Deepest first. For the first contact: earliest closest
+// approach within a segment, and earlier segments once a contact is known.
 static int nsvcd__is_before(const nsvcd__proof *p, const nsvcd__patch_pair *a,
                             const nsvcd__patch_pair *b) {
   if (!(p->ask.first > 0)) return a->depth > b->depth;
@@ -14264,9 +14008,8 @@ static int nsvcd__matters(const nsvcd__proof *p, const nsvcd__search *search, si
   return (double)search->begin[segment] < p->ask.end;
 }
 
-// Where the end of what matters lies within a segment, that segment is cut off there. What leaves a
-// chord by some length leaves that of a part of the time by no more than twice that, along any
-// direction.
+// Clips the segment in which the end of what matters lies. What leaves a chord by some length
+// leaves that of a part of the time by no more than twice that, along any direction.
 static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *search) {
   size_t s = 0;
   double u;
@@ -14297,7 +14040,7 @@ static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *
   p->clipped |= (uint64_t)1 << s;
   p->memo.intervals &= ~((uint64_t)1 << s);
   search->ready &= ~((uint64_t)1 << s);
-  // heights over the plane that held last are not what they were
+  // the heights over the plane that held last are no longer right
   p->memo.plane += p->memo.plane > 0;
 }
 
@@ -14320,8 +14063,8 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_patch_pairs(nsvcd__proof *p
   return nsvcd__is_exhausted(p) ? NSVCD__EXHAUSTED : NSVCD__RESOLVED;
 }
 
-// Looks at fresh patch pairs: parts those that planes can part, looks for a witness in the others,
-// and keeps them. The last plane that held is tried on all before anything else: it often holds for
+// Sifts fresh patch pairs: drops those that planes separate, seeks a witness in the others, and
+// keeps them. The plane that held last is tried on all of them first: it often holds for
 // neighbours.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
                                                               nsvcd__search *search) {
@@ -14329,7 +14072,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
   size_t count = 0;
   nsvcd__clip_segment(p, search);
   for (size_t n = 0; n < p->fresh_count; n++) {
-    if (p->memo.plane && nsvcd__held_again(p, search, &p->fresh[n])) continue;
+    if (nsvcd__held_again(p, search, &p->fresh[n])) continue;
     p->fresh[count++] = p->fresh[n];
   }
   p->fresh_count = 0;
@@ -14344,7 +14087,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
     if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
     nsvcd__clip_segment(p, search);
     if (!nsvcd__matters(p, search, item->segment)) continue;
-    if (p->memo.plane && nsvcd__held_again(p, search, item)) continue;
+    if (nsvcd__held_again(p, search, item)) continue;
     if (nsvcd__is_separated(p, search, item)) continue;
     double u;
     const uint32_t first = nsvcd__arc_of(p->ask.motion, search->begin[item->segment], &u);
@@ -14354,14 +14097,14 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
       if (outcome != NSVCD__RESOLVED) return outcome;
       continue;
     }
-    if (p->misses >= NSVCD__HOPE) {
-      const nsvcd__interval *interval = nsvcd__segment_interval(p, search, item->segment);
+    if (p->misses >= NSVCD__FEW_MISSES) {
+      const nsvcd__interval *over = nsvcd__segment_interval(p, search, item->segment);
       const nsvcd__outcome by_triangles =
-          nsvcd__resolve_triangles(p, item->moving, item->fixed, interval, 0, 0, 0);
+          nsvcd__resolve_triangles(p, item->moving, item->fixed, over, 0, 0, 0);
       if (by_triangles == NSVCD__RESOLVED) continue;
     }
-    const int has_hope = tells_more || p->misses < NSVCD__DESPAIR;
-    if (has_hope && !item->sought &&
+    const int may_meet = tells_more || p->misses < NSVCD__MANY_MISSES;
+    if (may_meet && !item->sought &&
         nsvcd__seek_in_patch_pair(p, search, item) == NSVCD__ANSWERED)
       return NSVCD__ANSWERED;
     p->misses++;
@@ -14374,22 +14117,22 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
   return NSVCD__RESOLVED;
 }
 
-// Is there room for touches, and a way out of those that were gathered?
+// Is there room for contacts, and can those that were collected still be undone?
 static int nsvcd__collects_on(const nsvcd__proof *p) {
   return p->contact_count < NSVCD__TOUCHES && !p->too_deep;
 }
 
-// Gathers what fresh patch pairs touch at the start, or the patch pairs where contact points may
-// be. SPENT: as much as can be looked at together, or as was allowed.
+// Collects the contacts of fresh patch pairs at the start, or the patch pairs where contact points
+// may be. EXHAUSTED: there is no room for more, or no budget.
 static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *search) {
   for (size_t n = 0; n < p->fresh_count && nsvcd__collects_on(p); n++) {
     const nsvcd__patch_pair *item = &p->fresh[n];
     NSVCD__PAUSE(p);
-    if (p->memo.plane && nsvcd__held_again(p, search, item)) continue;
+    if (nsvcd__held_again(p, search, item)) continue;
     if (nsvcd__is_separated(p, search, item)) continue;
     if (p->ask.collects == NSVCD__TOUCHING) {
       if (p->normal_count > 0) {
-        // what was pushed out of just so is farther than the clearance by less than floats tell
+        // just pushed out: farther than the clearance by less than floats can tell
         (void)nsvcd__arc_at(p, 0);
         if (nsvcd__patches_apart(p, item->moving, item->fixed, 0, 0)) continue;
       }
@@ -14402,39 +14145,39 @@ static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *se
   return nsvcd__collects_on(p) && p->work <= p->ask.limit ? NSVCD__RESOLVED : NSVCD__EXHAUSTED;
 }
 
-// How far places on both patches of a patch pair, the moving one posed, can at most be along each
-// of these directions of a manifold: they are within both hulls.
+// Bounds, along directions first .. last - 1 of a manifold, of the points on both patches of a
+// patch pair, the moving one posed: they are in both hulls.
 static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
                             const nsvcd__patch_pair *item, int first, int last, float *most) {
   const nsvcd__manifold *m = &p->of.kept.manifold;
   const float scale = p->ask.motion->scale;
-  const float moving_more = scale * p->moving.margins[item->moving] + (float)m->tolerance;
-  const float fixed_more = p->fixed.margins[item->fixed];
+  const float margin = scale * p->moving.margins[item->moving] + (float)m->tolerance;
+  const float fixed_margin = p->fixed.margins[item->fixed];
   for (int k = first; k < last; k++) {
-    const nsvcd__v3 back = nsvcd__v3_set(nsvcd__d3_narrow(nsvcd__d3_scale(m->along[k], -1)));
-    float by_moving = HUGE_VALF;
-    float by_fixed = HUGE_VALF;
+    const nsvcd__v3 along = nsvcd__v3_set(nsvcd__d3_narrow(m->along[k]));
+    float moving = -HUGE_VALF;
+    float fixed = -HUGE_VALF;
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 moving = nsvcd__hull_of(&p->moving, item->moving, l);
-      const nsvcd__v3 fixed = nsvcd__hull_of(&p->fixed, item->fixed, l);
-      const nsvcd__v height = nsvcd__v3_dot(back, nsvcd__v3_transform(pose, moving));
-      by_moving = nsvcd__least_of(by_moving, nsvcd__v_least(height));
-      by_fixed = nsvcd__least_of(by_fixed, nsvcd__v_least(nsvcd__v3_dot(back, fixed)));
+      const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, item->moving, l);
+      const nsvcd__v3 other = nsvcd__hull_of(&p->fixed, item->fixed, l);
+      const nsvcd__v height = nsvcd__v3_dot(along, nsvcd__v3_transform(pose, hull));
+      moving = nsvcd__greatest_of(moving, height);
+      fixed = nsvcd__greatest_of(fixed, nsvcd__v3_dot(along, other));
     }
-    most[k] = fminf(moving_more - by_moving, fixed_more - by_fixed);
+    most[k] = fminf(margin + moving, fixed_margin + fixed);
   }
 }
 
-// The manifold of the patch pairs that were gathered, in directions first to last - 1: at first of
-// those that may be farthest along one, then of what may still be farther. Where bodies are deep in
-// each other there are many, and few of their places are like a contact: so many are looked at, and
-// no more.
+// The manifold of the patch pairs that were collected, in directions first .. last - 1: first of
+// those with the farthest bound along one, then of those that may still be farther. Where bodies
+// are deep in each other there are many, with few points that are like a contact: so only so many
+// are tried.
 static NSVCD__NOINLINE void nsvcd__seek_positions(nsvcd__proof *p, int first, int last) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   nsvcd__patch_pair *items = p->of.kept.items;
   const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(p, 0), 0);
   const nsvcd__transform pose = nsvcd__transform_of(&at);
-  size_t looks = 0;
+  size_t tries = 0;
   float farthest[NSVCD__SUPPORTS];
   size_t best[NSVCD__SUPPORTS] = {0};
   float most[NSVCD__SUPPORTS];
@@ -14455,10 +14198,11 @@ static NSVCD__NOINLINE void nsvcd__seek_positions(nsvcd__proof *p, int first, in
     nsvcd__bound_of(p, &pose, item, first, last, most);
     for (int k = first; k < last; k++) matters |= (double)most[k] > m->farthest[k] + m->same;
     if (item->sought || !matters) continue;
-    if (looks == NSVCD__HOLDS || (looks == NSVCD__HOPE && !(m->farthest[first] > -HUGE_VAL)))
+    if (tries == NSVCD__CONTACT_PAIRS ||
+        (tries == NSVCD__FEW_MISSES && !(m->farthest[first] > -HUGE_VAL)))
       break;
     item->sought = 1;
-    looks++;
+    tries++;
     (void)nsvcd__find_witness(p, item->moving, item->fixed, 0, 0);
   }
 }
@@ -14816,7 +14560,7 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
       return 0;
     }
     const nsvcd__d3 seed = nsvcd__d3_load(e->inner->seeds + 3 * n);
-    const nsvcd__d3 seen = nsvcd__place_point(&e->start, seed);
+    const nsvcd__d3 seen = nsvcd__d3_transform(&e->start, seed);
     if (!nsvcd__is_enclosed(p, e->outer, e->unit, seen)) continue;
     p->enclosed = e->inner_moves ? seen : seed;
     p->inside = 1;
@@ -14837,7 +14581,7 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   if (e->inner->counts->components <= NSVCD__LANES)
     return nsvcd__encloses_seeds(p, e, 0, e->inner->counts->components);
   const nsvcd__f3 centre =
-      nsvcd__f3_round(nsvcd__place_point(&e->back, nsvcd__d3_load(outer->centre)));
+      nsvcd__f3_round(nsvcd__d3_transform(&e->back, nsvcd__d3_load(outer->centre)));
   const float extent = nsvcd__f3_length(centre) + inner->extent + outer->extent / e->scale;
   const nsvcd__surroundings here = {centre,
                                     outer->radius / e->scale + 4 * NSVCD__ROUNDING * extent};
@@ -14920,8 +14664,7 @@ static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *search,
     }
     NSVCD__TALLY(tests, 1);
     if (!met) continue;
-    const nsvcd__interval *interval = nsvcd__segment_interval(p, search, s);
-    met = nsvcd__slabs_meet(p, c, g, j, interval, search->extent, met);
+    met = nsvcd__slabs_meet(p, search, g, j, s, met);
     for (; met; met &= met - 1) {
       const size_t l = nsvcd__low_bit(met);
       const size_t i = NSVCD__GROUP * g + l;
@@ -14973,7 +14716,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
           if (outcome != NSVCD__RESOLVED) return outcome;
         }
       }
-      if (p->fresh_count < NSVCD__NEWS) continue;
+      if (p->fresh_count < NSVCD__ENOUGH_FRESH) continue;
       outcome = nsvcd__see_to_patch_pairs(p, search);
       if (outcome != NSVCD__RESOLVED) return outcome;
     }
@@ -15343,7 +15086,7 @@ static double nsvcd__vertices_apart(const nsvcd__proof *p, const nsvcd__transfor
     const nsvcd__v3 fixed = nsvcd__hull_of(&p->fixed, j, l);
     for (size_t n = 0; n < NSVCD__LANES; n++) {
       const nsvcd__v3 d = nsvcd__v3_sub(fixed, nsvcd__v3_set(nsvcd__lane_of(lanes, n)));
-      least = nsvcd__least_of(least, nsvcd__v_least(nsvcd__v3_dot(d, d)));
+      least = nsvcd__least_of(least, nsvcd__v3_dot(d, d));
     }
   }
   return sqrt((double)least);
@@ -15377,7 +15120,7 @@ static NSVCD__NOINLINE double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__sea
     size_t i = 0;
     size_t j = 0;
     for (size_t round = 0; round < 2; round++) {
-      const nsvcd__d3 seen = nsvcd__place_point(&back, nsvcd__d3_widen(fixed.centre));
+      const nsvcd__d3 seen = nsvcd__d3_transform(&back, nsvcd__d3_widen(fixed.centre));
       i = nsvcd__patch_towards(&p->moving, nsvcd__f3_round(seen));
       moving = nsvcd__sphere_of(nsvcd__body_patches(p->moving.body), i);
       j = nsvcd__patch_towards(&p->fixed, nsvcd__f3_transform(&pose, moving.centre));
@@ -15385,7 +15128,7 @@ static NSVCD__NOINLINE double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__sea
     }
     const float lengths = p->given.lengths + nsvcd__f3_length(pose.position);
     const double rounding =
-        (double)(4 * NSVCD__ROUNDING * lengths + 2 * nsvcd__quanta_of(p, i, j));
+        (double)(4 * NSVCD__ROUNDING * lengths + 2 * nsvcd__errors_of(p, i, j));
     const double apart = 1.0001 * nsvcd__vertices_apart(p, &pose, i, j) + rounding;
     if (!(apart < least)) continue;
     least = apart;
@@ -15915,7 +15658,7 @@ static NSVCD__NOINLINE void nsvcd__approach_at(nsvcd__proof *p,
   const nsvcd__dtransform at = nsvcd__dtransform_at(arc, out->u);
   out->pair = nsvcd__pair_of(p, found->moving_patch, found->fixed_patch, found->moving_entry,
                              found->fixed_entry);
-  nsvcd__place_triangle(&at, out->pair.moving, out->contact.moving);
+  nsvcd__pose_triangle(&at, out->pair.moving, out->contact.moving);
   memcpy(out->contact.fixed, out->pair.fixed, sizeof out->contact.fixed);
   out->contact.directions[0] = nsvcd__d3_scale(nsvcd__face_direction(out->contact.moving), -1);
   out->contact.directions[1] = nsvcd__face_direction(out->contact.fixed);
@@ -19262,7 +19005,8 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__arc_count NSVCD__AT(arc_count)
 #define nsvcd__arc_limit NSVCD__AT(arc_limit)
 #define nsvcd__arc_of NSVCD__AT(arc_of)
-#define nsvcd__are_opposed NSVCD__AT(are_opposed)
+#define nsvcd__arc_pose NSVCD__AT(arc_pose)
+#define nsvcd__are_opmoving NSVCD__AT(are_opmoving)
 #define nsvcd__arm NSVCD__AT(arm)
 #define nsvcd__arm_of NSVCD__AT(arm_of)
 #define nsvcd__ask_network NSVCD__AT(ask_network)
@@ -19277,13 +19021,10 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__block NSVCD__AT(block)
 #define nsvcd__block_arm NSVCD__AT(block_arm)
 #define nsvcd__block_bounds NSVCD__AT(block_bounds)
-#define nsvcd__block_box NSVCD__AT(block_box)
-#define nsvcd__block_corners NSVCD__AT(block_corners)
 #define nsvcd__block_lanes NSVCD__AT(block_lanes)
 #define nsvcd__block_load NSVCD__AT(block_load)
 #define nsvcd__block_pose NSVCD__AT(block_pose)
 #define nsvcd__bound_of NSVCD__AT(bound_of)
-#define nsvcd__box_of_lane NSVCD__AT(box_of_lane)
 #define nsvcd__boxes NSVCD__AT(boxes)
 #define nsvcd__boxes_of_groups NSVCD__AT(boxes_of_groups)
 #define nsvcd__by_contact NSVCD__AT(by_contact)
@@ -19305,12 +19046,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__candidates_add NSVCD__AT(candidates_add)
 #define nsvcd__candidates_start NSVCD__AT(candidates_start)
 #define nsvcd__certain_opinion NSVCD__AT(certain_opinion)
-#define nsvcd__certify_block NSVCD__AT(certify_block)
-#define nsvcd__certify_groups NSVCD__AT(certify_groups)
-#define nsvcd__certify_patch_pair NSVCD__AT(certify_patch_pair)
-#define nsvcd__certify_slab NSVCD__AT(certify_slab)
-#define nsvcd__certify_triangle_pair NSVCD__AT(certify_triangle_pair)
-#define nsvcd__changes_sides NSVCD__AT(changes_sides)
 #define nsvcd__choose_all NSVCD__AT(choose_all)
 #define nsvcd__choose_four NSVCD__AT(choose_four)
 #define nsvcd__choose_in_all NSVCD__AT(choose_in_all)
@@ -19326,7 +19061,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__chords_start NSVCD__AT(chords_start)
 #define nsvcd__chords_store NSVCD__AT(chords_store)
 #define nsvcd__chords_travel NSVCD__AT(chords_travel)
-#define nsvcd__clamp01 NSVCD__AT(clamp01)
 #define nsvcd__clear_until NSVCD__AT(clear_until)
 #define nsvcd__clearance NSVCD__AT(clearance)
 #define nsvcd__clip_segment NSVCD__AT(clip_segment)
@@ -19341,6 +19075,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__comes_within NSVCD__AT(comes_within)
 #define nsvcd__constants_hold NSVCD__AT(constants_hold)
 #define nsvcd__contact_at NSVCD__AT(contact_at)
+#define nsvcd__corner_passes NSVCD__AT(corner_passes)
 #define nsvcd__cross_all NSVCD__AT(cross_all)
 #define nsvcd__crossings NSVCD__AT(crossings)
 #define nsvcd__cut NSVCD__AT(cut)
@@ -19353,6 +19088,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__cut_motion NSVCD__AT(cut_motion)
 #define nsvcd__cut_poses NSVCD__AT(cut_poses)
 #define nsvcd__cut_segments NSVCD__AT(cut_segments)
+#define nsvcd__d3_transform NSVCD__AT(d3_transform)
 #define nsvcd__decisive NSVCD__AT(decisive)
 #define nsvcd__decode NSVCD__AT(decode)
 #define nsvcd__decoder_gradient NSVCD__AT(decoder_gradient)
@@ -19362,12 +19098,13 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__dot_tile NSVCD__AT(dot_tile)
 #define nsvcd__dtransform NSVCD__AT(dtransform)
 #define nsvcd__dtransform_at NSVCD__AT(dtransform_at)
-#define nsvcd__edges_cross NSVCD__AT(edges_cross)
+#define nsvcd__edges_pass NSVCD__AT(edges_pass)
 #define nsvcd__encloses_any NSVCD__AT(encloses_any)
 #define nsvcd__encloses_seeds NSVCD__AT(encloses_seeds)
 #define nsvcd__enclosure NSVCD__AT(enclosure)
 #define nsvcd__end_of NSVCD__AT(end_of)
 #define nsvcd__epsilon NSVCD__AT(epsilon)
+#define nsvcd__errors_of NSVCD__AT(errors_of)
 #define nsvcd__exists NSVCD__AT(exists)
 #define nsvcd__exit_is_blocked NSVCD__AT(exit_is_blocked)
 #define nsvcd__extremes_along NSVCD__AT(extremes_along)
@@ -19384,7 +19121,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__first_interval NSVCD__AT(first_interval)
 #define nsvcd__first_lanes NSVCD__AT(first_lanes)
 #define nsvcd__fixed_closed NSVCD__AT(fixed_closed)
-#define nsvcd__foot_well_within NSVCD__AT(foot_well_within)
 #define nsvcd__forget NSVCD__AT(forget)
 #define nsvcd__found_inside NSVCD__AT(found_inside)
 #define nsvcd__fraction_of NSVCD__AT(fraction_of)
@@ -19395,6 +19131,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__gaps_at NSVCD__AT(gaps_at)
 #define nsvcd__given NSVCD__AT(given)
 #define nsvcd__gradient NSVCD__AT(gradient)
+#define nsvcd__greatest_of NSVCD__AT(greatest_of)
 #define nsvcd__group_against_group NSVCD__AT(group_against_group)
 #define nsvcd__group_against_members NSVCD__AT(group_against_members)
 #define nsvcd__group_extent NSVCD__AT(group_extent)
@@ -19405,7 +19142,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__held_again NSVCD__AT(held_again)
 #define nsvcd__hint NSVCD__AT(hint)
 #define nsvcd__hull_of NSVCD__AT(hull_of)
-#define nsvcd__hull_vertices NSVCD__AT(hull_vertices)
 #define nsvcd__hulls_are_apart NSVCD__AT(hulls_are_apart)
 #define nsvcd__id_of NSVCD__AT(id_of)
 #define nsvcd__inputs NSVCD__AT(inputs)
@@ -19418,7 +19154,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__interval_cuts NSVCD__AT(interval_cuts)
 #define nsvcd__interval_gap NSVCD__AT(interval_gap)
 #define nsvcd__interval_of_arc NSVCD__AT(interval_of_arc)
-#define nsvcd__interval_of_segment NSVCD__AT(interval_of_segment)
 #define nsvcd__intervals NSVCD__AT(intervals)
 #define nsvcd__intervals_close NSVCD__AT(intervals_close)
 #define nsvcd__invariants NSVCD__AT(invariants)
@@ -19456,13 +19191,13 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__know_moving NSVCD__AT(know_moving)
 #define nsvcd__know_resting NSVCD__AT(know_resting)
 #define nsvcd__known NSVCD__AT(known)
+#define nsvcd__known_pose NSVCD__AT(known_pose)
 #define nsvcd__lane_of NSVCD__AT(lane_of)
 #define nsvcd__lane_set NSVCD__AT(lane_set)
 #define nsvcd__lanes_left_by_known NSVCD__AT(lanes_left_by_known)
 #define nsvcd__lanes_left_by_last NSVCD__AT(lanes_left_by_last)
 #define nsvcd__lanes_left_by_own NSVCD__AT(lanes_left_by_own)
 #define nsvcd__lanes_near NSVCD__AT(lanes_near)
-#define nsvcd__lanes_of_slice NSVCD__AT(lanes_of_slice)
 #define nsvcd__lanes_on_ray NSVCD__AT(lanes_on_ray)
 #define nsvcd__lanes_outside NSVCD__AT(lanes_outside)
 #define nsvcd__latent_torque NSVCD__AT(latent_torque)
@@ -19473,13 +19208,12 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__layer_tile NSVCD__AT(layer_tile)
 #define nsvcd__least_lane NSVCD__AT(least_lane)
 #define nsvcd__least_of NSVCD__AT(least_of)
-#define nsvcd__left_by_last NSVCD__AT(left_by_last)
+#define nsvcd__left_by_normal NSVCD__AT(left_by_normal)
 #define nsvcd__limit_after NSVCD__AT(limit_after)
 #define nsvcd__limit_of_first NSVCD__AT(limit_of_first)
 #define nsvcd__looks_contained_at_start NSVCD__AT(looks_contained_at_start)
 #define nsvcd__manifold NSVCD__AT(manifold)
 #define nsvcd__manifold_normals NSVCD__AT(manifold_normals)
-#define nsvcd__margin_along NSVCD__AT(margin_along)
 #define nsvcd__mat3_lane NSVCD__AT(mat3_lane)
 #define nsvcd__matters NSVCD__AT(matters)
 #define nsvcd__may_be_close NSVCD__AT(may_be_close)
@@ -19527,7 +19261,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__normal_met NSVCD__AT(normal_met)
 #define nsvcd__normal_to_try NSVCD__AT(normal_to_try)
 #define nsvcd__normals_separate NSVCD__AT(normals_separate)
-#define nsvcd__not_separated NSVCD__AT(not_separated)
 #define nsvcd__note_depth NSVCD__AT(note_depth)
 #define nsvcd__of_distance NSVCD__AT(of_distance)
 #define nsvcd__off_chord_along NSVCD__AT(off_chord_along)
@@ -19537,24 +19270,19 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__own_axis NSVCD__AT(own_axis)
 #define nsvcd__pace NSVCD__AT(pace)
 #define nsvcd__pair NSVCD__AT(pair)
+#define nsvcd__pair_arm NSVCD__AT(pair_arm)
 #define nsvcd__pair_contact NSVCD__AT(pair_contact)
 #define nsvcd__pair_nearest NSVCD__AT(pair_nearest)
 #define nsvcd__pair_of NSVCD__AT(pair_of)
 #define nsvcd__pair_passes NSVCD__AT(pair_passes)
-#define nsvcd__pair_reaches NSVCD__AT(pair_reaches)
 #define nsvcd__pairs NSVCD__AT(pairs)
 #define nsvcd__pairs_in_passing NSVCD__AT(pairs_in_passing)
 #define nsvcd__pairs_of NSVCD__AT(pairs_of)
-#define nsvcd__passage NSVCD__AT(passage)
 #define nsvcd__passing NSVCD__AT(passing)
 #define nsvcd__patch_arm NSVCD__AT(patch_arm)
 #define nsvcd__patch_pair NSVCD__AT(patch_pair)
 #define nsvcd__patch_towards NSVCD__AT(patch_towards)
 #define nsvcd__patches_apart NSVCD__AT(patches_apart)
-#define nsvcd__place_point NSVCD__AT(place_point)
-#define nsvcd__place_triangle NSVCD__AT(place_triangle)
-#define nsvcd__placed NSVCD__AT(placed)
-#define nsvcd__placed_at NSVCD__AT(placed_at)
 #define nsvcd__plane_cache NSVCD__AT(plane_cache)
 #define nsvcd__plane_cache_begin NSVCD__AT(plane_cache_begin)
 #define nsvcd__plane_separates NSVCD__AT(plane_separates)
@@ -19563,6 +19291,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__pose_before NSVCD__AT(pose_before)
 #define nsvcd__pose_members NSVCD__AT(pose_members)
 #define nsvcd__pose_of NSVCD__AT(pose_of)
+#define nsvcd__pose_triangle NSVCD__AT(pose_triangle)
 #define nsvcd__poses_at NSVCD__AT(poses_at)
 #define nsvcd__poses_opposed NSVCD__AT(poses_opposed)
 #define nsvcd__probes NSVCD__AT(probes)
@@ -19586,7 +19315,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__push_out_along NSVCD__AT(push_out_along)
 #define nsvcd__push_out_motion NSVCD__AT(push_out_motion)
 #define nsvcd__push_out_still NSVCD__AT(push_out_still)
-#define nsvcd__quanta_of NSVCD__AT(quanta_of)
 #define nsvcd__query NSVCD__AT(query)
 #define nsvcd__query_layout NSVCD__AT(query_layout)
 #define nsvcd__query_open NSVCD__AT(query_open)
@@ -19597,8 +19325,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__ray_crosses NSVCD__AT(ray_crosses)
 #define nsvcd__reach_of NSVCD__AT(reach_of)
 #define nsvcd__recede NSVCD__AT(recede)
-#define nsvcd__remember_plane NSVCD__AT(remember_plane)
-#define nsvcd__resolve_doubtful NSVCD__AT(resolve_doubtful)
 #define nsvcd__resolve_normal NSVCD__AT(resolve_normal)
 #define nsvcd__resolve_pair NSVCD__AT(resolve_pair)
 #define nsvcd__resolve_patch_pair NSVCD__AT(resolve_patch_pair)
@@ -19606,6 +19332,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__resolve_row NSVCD__AT(resolve_row)
 #define nsvcd__resolve_short_interval NSVCD__AT(resolve_short_interval)
 #define nsvcd__resolve_straight NSVCD__AT(resolve_straight)
+#define nsvcd__resolve_too_near NSVCD__AT(resolve_too_near)
 #define nsvcd__resolve_triangles NSVCD__AT(resolve_triangles)
 #define nsvcd__resolve_why NSVCD__AT(resolve_why)
 #define nsvcd__rest_at NSVCD__AT(rest_at)
@@ -19676,6 +19403,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__tell_contact NSVCD__AT(tell_contact)
 #define nsvcd__tell_manifold NSVCD__AT(tell_manifold)
 #define nsvcd__tell_safe_pose NSVCD__AT(tell_safe_pose)
+#define nsvcd__tick_in_segments NSVCD__AT(tick_in_segments)
 #define nsvcd__tick_of NSVCD__AT(tick_of)
 #define nsvcd__tile NSVCD__AT(tile)
 #define nsvcd__tile_fill NSVCD__AT(tile_fill)
