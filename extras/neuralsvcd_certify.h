@@ -182,10 +182,9 @@ NSVCDDEF nsvcd_result nsvcd_certify_models(
 // --------------------------------------------------------------------------------- ground/compiler
 #ifndef NSVCD__HAS_GROUND_COMPILER
 #define NSVCD__HAS_GROUND_COMPILER
-// In: the compiler at hand. Out: libc and libm, and three words of how a function is merged into
-// its callers.
+// In: the compiler at hand. Out: libc and libm, and how functions are inlined.
 
-#ifdef __TINYC__  // 0.9.27: where a struct and a float that calls return are passed together
+#ifdef __TINYC__  // 0.9.27: if a struct and a float, both returned by calls, are passed together
 #error "neuralsvcd.h: tcc passes arguments wrongly, and certificates would be false"
 #endif
 #include <float.h>
@@ -202,22 +201,22 @@ NSVCDDEF nsvcd_result nsvcd_certify_models(
 #error \
     "neuralsvcd.h: NSVCD_ONE_PATH: not with -ffast-math, nor where floats are computed in double"
 #endif
-// gcc has a flag for it, and a pragma that makes all slower by an order of magnitude.
+// gcc has a flag for that, and a pragma that slows everything down tenfold.
 #if defined(__clang__)
 #pragma STDC FP_CONTRACT OFF
 #elif defined(_MSC_VER)
 #pragma fp_contract(off)
 #endif
 #endif
-// gcc 12 fuses, whatever it is told, where sums and differences of products stand side by side
-// (vfmaddsub). Functions in which they do.
+// For functions in which sums and differences of products stand side by side: there gcc 12 fuses
+// whatever it is told (vfmaddsub).
 #if defined(NSVCD_ONE_PATH) && defined(__GNUC__) && !defined(__clang__)
 #define NSVCD__UNFUSED \
   static __attribute__((noinline, unused, optimize("no-tree-slp-vectorize")))
 #else
 #define NSVCD__UNFUSED static inline
 #endif
-// Functions that take more of the stack, and of flash, called than merged into their callers.
+// For functions that take less stack and flash if they are inlined.
 #if defined(__GNUC__) || defined(__clang__)
 #define NSVCD__FORCE_INLINE static inline __attribute__((always_inline))
 #elif defined(_MSC_VER)
@@ -225,14 +224,14 @@ NSVCDDEF nsvcd_result nsvcd_certify_models(
 #else
 #define NSVCD__FORCE_INLINE static inline
 #endif
-// Functions whose loops over constant arguments must be unrolled: left to its own measure, gcc may
-// not inline them, and the decoder takes four times as long (tests/bench/PERFORMANCE.md).
+// For functions whose loops over constant arguments must be unrolled. Left to itself, gcc may not
+// inline them, and the decoder takes four times as long (tests/bench/PERFORMANCE.md).
 #ifdef __OPTIMIZE_SIZE__
 #define NSVCD__INLINE static inline
 #else
 #define NSVCD__INLINE NSVCD__FORCE_INLINE
 #endif
-// Functions that must not be inlined: what they take of the stack would add up.
+// For functions whose stack would add up in a caller.
 #if defined(__GNUC__) || defined(__clang__)
 #define NSVCD__NOINLINE __attribute__((noinline))
 #elif defined(_MSC_VER)
@@ -250,20 +249,19 @@ NSVCDDEF nsvcd_result nsvcd_certify_models(
 // ----------------------------------------------------------------------------------- ground/angles
 #ifndef NSVCD__HAS_GROUND_ANGLES
 #define NSVCD__HAS_GROUND_ANGLES
-// In: angles up to a quarter turn, and lengths. Out: sines, and angles. With NSVCD_ONE_PATH they
-// are computed here, for libm's last digit is not the same everywhere; else by libm.
+// In: angles up to a quarter turn, and lengths. Out: sines, and angles. By libm; with
+// NSVCD_ONE_PATH computed here, because libm's last digit differs between machines.
 
 #ifdef NSVCD_ONE_PATH
-// sin x, 0 <= x <= pi / 2, to 1e-15: what is left of the series is less than 2e-18.
+// sin x for 0 <= x <= pi / 2, to 1e-15: the rest of the series is below 2e-18.
 static inline double nsvcd__sin(double x) {
   const double square = x * x;
   double sum = 1;
   for (int n = 20; n > 0; n -= 2) sum = 1 - sum * (square / (n * (n + 1)));
   return x * sum;
 }
-// The angle of a vector (x, y), neither below 0, to 1e-15: a quarter of it, twice halved by
-// tan(a / 2) = tan a / (1 + sqrt(1 + tan^2 a)), is less than 0.2, and of the series there 1e-18 is
-// left.
+// The angle of a vector (x, y), x, y >= 0, to 1e-15. tan(a / 2) = tan a / (1 + sqrt(1 + tan^2 a))
+// halves it twice, to below 0.2, where the rest of the series is below 1e-18.
 static inline double nsvcd__atan2(double y, double x) {
   const int steep = y > x;
   const double slope = steep ? x / y : x > 0 ? y / x : 0;
@@ -276,7 +274,7 @@ static inline double nsvcd__atan2(double y, double x) {
 static inline float nsvcd__sinf(float x) {
   return (float)nsvcd__sin((double)x);
 }
-// 0 <= x < 1
+// For 0 <= x < 1.
 static inline float nsvcd__asinf(float x) {
   const double sine = (double)x;
   return (float)nsvcd__atan2(sine, sqrt(1 - sine * sine));
@@ -292,9 +290,9 @@ static inline float nsvcd__asinf(float x) {
 // ------------------------------------------------------------------------------------- ground/bits
 #ifndef NSVCD__HAS_GROUND_BITS
 #define NSVCD__HAS_GROUND_BITS
-// In, out: whole numbers: bits that are set, sizes that are rounded up, floats on their bits.
+// In: whole numbers, and floats. Out: bits that are set, sizes rounded up, floats as bits.
 
-// Index of the lowest bit that is set, of a number that is not 0; how many are set.
+// The index of the lowest bit that is set, of a number that is not 0.
 static size_t nsvcd__low_bit(uint64_t bits) {
 #if defined(__GNUC__) || defined(__clang__)
   return (size_t)__builtin_ctzll(bits);
@@ -319,7 +317,7 @@ static size_t nsvcd__round_up(size_t n, size_t multiple) {
   return (n + multiple - 1) / multiple * multiple;
 }
 
-// |x| as bits, in the order of |x|; infinity and NaN are above all numbers.
+// |x| as bits, which are ordered as |x| is; infinity and NaN are above all numbers.
 static uint32_t nsvcd__magnitude(float x) {
   uint32_t bits;
   memcpy(&bits, &x, sizeof bits);
@@ -335,7 +333,7 @@ static inline int nsvcd__is_finite(float x) {
 #define NSVCD__HAS_GROUND_DIGESTS
 // In: words of 32 bits. Out: a digest of them.
 
-// Goes on with a digest over (count) words of 32 bits.
+// Continues a digest over (count) words of 32 bits.
 static uint32_t nsvcd__digest(uint32_t digest, const void *words, size_t count) {
   for (size_t i = 0; i < count; i++) {
     uint32_t word;
@@ -350,7 +348,7 @@ static uint32_t nsvcd__digest(uint32_t digest, const void *words, size_t count) 
 // ------------------------------------------------------------------------------------ ground/valid
 #ifndef NSVCD__HAS_GROUND_VALID
 #define NSVCD__HAS_GROUND_VALID
-// In: what a caller hands over. Out: is it in order?
+// In: what a caller passes. Out: is it valid?
 
 #define NSVCD__MAX_COUNT 0x7fffffffu  // vertices and triangles: 2^31 - 1
 
@@ -358,8 +356,8 @@ static int nsvcd__is_aligned(const void *memory) {
   return ((uintptr_t)memory & (NSVCD_ALIGNMENT - 1)) == 0;
 }
 
-// Are numbers finite, and their absolute values no greater than `most`? By their bits, so that it
-// holds under -ffast-math too.
+// Are numbers finite, and their absolute values at most `most`? By their bits, so that it holds
+// under -ffast-math too.
 static int nsvcd__in_range(const float *values, size_t count, float most) {
   for (size_t i = 0; i < count; i++) {
     if (!nsvcd__is_finite(values[i]) || fabsf(values[i]) > most) return 0;
@@ -367,20 +365,19 @@ static int nsvcd__in_range(const float *values, size_t count, float most) {
   return 1;
 }
 
-// A float not less than x, which is not negative.
+// A float that is not less than x >= 0.
 static inline float nsvcd__above(double x) {
   return (float)(x * (1 + 2e-7)) + 1e-37f;
 }
 
-// Is it a length that may be told, or 0?
+// Is it a valid length, or 0?
 static int nsvcd__is_length(float x) {
   return nsvcd__is_finite(x) && x >= 0 && x <= NSVCD_MAX_COORDINATE;
 }
 
 // Are all numbers in range and all quaternions of unit length?
 static nsvcd_result nsvcd__poses_check(const nsvcd_pose *poses, size_t count) {
-  // 7 to a pose
-  const float *numbers = poses->position;
+  const float *numbers = poses->position;  // 7 to a pose
   uint32_t most = 0;
   float shortest = 1;
   float longest = 1;
@@ -397,28 +394,26 @@ static nsvcd_result nsvcd__poses_check(const nsvcd_pose *poses, size_t count) {
   const int is_unit =
       shortest >= 1 - 2 * NSVCD_UNIT_TOLERANCE && longest <= 1 + 2 * NSVCD_UNIT_TOLERANCE;
   if (is_unit && most <= nsvcd__magnitude(NSVCD_MAX_COORDINATE)) return NSVCD_OK;
-  // which of both?
   for (size_t k = 0; k < count; k++) {
     if (!nsvcd__in_range(poses[k].position, 3, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_POSE;
   }
   return NSVCD_ERROR_QUATERNION;
 }
 
-// Do they rise from 0 to 1, or are there none?
+// Do times rise from 0 to 1, if there are any?
 static int nsvcd__times_are_valid(const float *times, size_t count) {
   if (!times || count == 1) return 1;
   int rise =
       !(times[0] < 0) && !(times[0] > 0) && times[count - 1] <= 1 && times[count - 1] >= 1;
-  // what is not a number does not rise
-  for (size_t k = 1; k < count; k++)
+  for (size_t k = 1; k < count; k++)  // NaN does not rise
     rise &= (double)times[k] - (double)times[k - 1] >= 0.99e-7;
   return rise;
 }
 
-// What a mover that is at rest at the origin is given.
+// The pose of a mover without poses.
 static const nsvcd_pose nsvcd__at_origin = {{0, 0, 0}, {0, 0, 0, 1}};
 
-// A mover's scale, which is 1 where 0 is given.
+// A mover's scale; the default is 1.
 static float nsvcd__scale_of(const nsvcd_mover *mover) {
   return mover->scale > 0 ? mover->scale : 1;
 }
@@ -434,7 +429,7 @@ static nsvcd_result nsvcd__track_check(const nsvcd_mover *mover) {
   return nsvcd__poses_check(mover->poses, mover->count);
 }
 
-// A mesh may come from anywhere: everything below relies on what is checked here.
+// A mesh may come from anywhere: all that follows relies on these checks.
 static inline nsvcd_result nsvcd__mesh_check(const nsvcd_mesh *mesh) {
   if (!mesh) return NSVCD_ERROR_ARGUMENT;
   if (mesh->triangle_count == 0) return NSVCD_ERROR_EMPTY;
@@ -446,10 +441,8 @@ static inline nsvcd_result nsvcd__mesh_check(const nsvcd_mesh *mesh) {
   for (size_t i = 0; i < 3 * triangles; i++) {
     if (mesh->indices[i] >= vertices) return NSVCD_ERROR_INDEX;
   }
-  for (size_t i = 0; i < 3 * vertices; i++) {
-    const float x = mesh->positions[i];
-    if (!nsvcd__is_finite(x) || fabsf(x) > NSVCD_MAX_COORDINATE) return NSVCD_ERROR_NUMBER;
-  }
+  if (!nsvcd__in_range(mesh->positions, 3 * vertices, NSVCD_MAX_COORDINATE))
+    return NSVCD_ERROR_NUMBER;
   return NSVCD_OK;
 }
 #endif  // NSVCD__HAS_GROUND_VALID
@@ -459,8 +452,8 @@ static inline nsvcd_result nsvcd__mesh_check(const nsvcd_mesh *mesh) {
 #define NSVCD__HAS_GROUND_POINTS
 // In, out: vectors of three numbers, as values: f3 of floats, d3 of doubles. A box is two corners.
 
-// The greater, or the less, of two; where there is a NaN, b. fmax and fmin, which look for NaN, are
-// calls with most compilers.
+// The greater, or the lesser, of two; b if one is NaN. fmax and fmin, which handle NaN, are calls
+// with most compilers.
 static inline double nsvcd__max(double a, double b) {
   return a > b ? a : b;
 }
@@ -469,9 +462,8 @@ static inline double nsvcd__min(double a, double b) {
 }
 
 // The algebra of f3 and of d3: NSVCD__VECTORS(nsvcd__f3, float, sqrtf) writes nsvcd__f3_add and so
-// on. _load and _row are from floats, of which a row has three; _fma(s, b, a) is s b + a, rounded
-// twice. Of floats a difference, and all that is built of a few of them, is as good as exact in
-// double.
+// on. _load and _row read floats, three to a row; _fma(s, b, a) is s b + a, rounded twice. In
+// double, differences of floats and what is built of a few of them are practically exact.
 #define NSVCD__VECTORS(t, scalar, sqrt) \
   typedef struct t { \
     scalar x, y, z; \
@@ -517,9 +509,9 @@ NSVCD__VECTORS(nsvcd__f3, float, sqrtf)
 NSVCD__VECTORS(nsvcd__d3, double, sqrt)
 #undef NSVCD__VECTORS
 
-// ---- of floats
+// ---- floats
 
-// From, and to, rows of x, y and z, so many numbers apart.
+// From, and to, rows of x, y and z, `stride` apart.
 static inline nsvcd__f3 nsvcd__f3_get(const float *rows, size_t stride) {
   return nsvcd__f3_of(rows[0], rows[stride], rows[2 * stride]);
 }
@@ -531,7 +523,7 @@ static inline void nsvcd__f3_put(nsvcd__f3 a, float *rows, size_t stride) {
 static inline void nsvcd__f3_store(nsvcd__f3 a, float *p) {
   nsvcd__f3_put(a, p, 1);
 }
-// Is a component of a greater than b's?
+// Is any component of a greater than b's?
 static inline int nsvcd__f3_exceeds(nsvcd__f3 a, nsvcd__f3 b) {
   return (a.x > b.x) | (a.y > b.y) | (a.z > b.z);
 }
@@ -562,15 +554,15 @@ static inline double nsvcd__d3_distance2(nsvcd__d3 a, nsvcd__d3 b) {
   const nsvcd__d3 offset = nsvcd__d3_sub(a, b);
   return nsvcd__d3_dot(offset, offset);
 }
-// Of length 1; `otherwise` if a has none.
+// Of length 1; `otherwise` if a is 0.
 static inline nsvcd__d3 nsvcd__d3_unit(nsvcd__d3 a, nsvcd__d3 otherwise) {
   const double length = nsvcd__d3_length(a);
   return length > 0 ? nsvcd__d3_scale(a, 1 / length) : otherwise;
 }
-// Rounds for certain. gcc 12 at -O2 forgets to where two doubles side by side become floats and
-// doubles again: it takes the two conversions of a vector for none, and a proof built on what is
-// stored would not hold. clang 14 for WebAssembly, in turn, reads a volatile number that fills a
-// vector once more, when another one may have taken its place.
+// Rounds for certain. gcc 12 at -O2 drops both conversions where two neighbouring doubles become
+// floats and doubles again, and a proof built on the stored floats would not hold. clang 14 for
+// WebAssembly, in turn, reads a volatile number that fills a vector a second time, when it may have
+// been overwritten.
 static inline float nsvcd__to_float(double x) {
 #ifdef __wasm_simd128__
   return (float)x;
@@ -585,7 +577,7 @@ static inline nsvcd__f3 nsvcd__f3_round(nsvcd__d3 a) {
 static inline nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
   return nsvcd__d3_of((double)a.x, (double)a.y, (double)a.z);
 }
-// A double also where registers are wider (x87), for what is compared with itself computed again.
+// Rounded to double where registers are wider (x87), so that it equals itself computed again.
 static inline double nsvcd__stored(double x) {
 #if FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 1
   return x;
@@ -603,7 +595,7 @@ static inline nsvcd__d3 nsvcd__d3_stored(nsvcd__d3 a) {
 #ifndef NSVCD__HAS_GROUND_ROTATIONS
 #define NSVCD__HAS_GROUND_ROTATIONS
 // In, out: rotations, as values: quat and mat3 of floats, dquat and dmat3 of doubles. A matrix is
-// its rows. A transform is a rotation and a place.
+// its rows. A transform is a rotation and a position.
 
 // The algebra of both: NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__f3, float, sqrtf) writes
 // nsvcd__quat_dot, nsvcd__mat3_apply and so on. _fma(s, b, a) is s b + a; _axis is that of a unit
@@ -693,7 +685,7 @@ static inline nsvcd__quat nsvcd__quat_of(float x, float y, float z, float w) {
 static inline nsvcd__quat nsvcd__quat_load(const float *p) {
   return nsvcd__quat_of(p[0], p[1], p[2], p[3]);
 }
-// To rows of x, y, z and w, so many numbers apart.
+// To rows of x, y, z and w, `stride` apart.
 static inline void nsvcd__quat_put(nsvcd__quat q, float *rows, size_t stride) {
   rows[0] = q.x;
   rows[stride] = q.y;
@@ -704,9 +696,8 @@ static inline void nsvcd__quat_store(nsvcd__quat q, float *p) {
   nsvcd__quat_put(q, p, 1);
 }
 
-// Is the shorter arc from a to b the one to -b? Products of floats are exact in double, so that
-// every machine and the exact poses of the proof say the same, also where the arcs are equally long
-// to rounding.
+// Is the shorter arc from a to b the one to -b? Products of floats are exact in double, so every
+// machine and the exact poses of the proof agree, even if both arcs are equally long to rounding.
 static inline int nsvcd__quats_opposed(nsvcd__quat a, nsvcd__quat b) {
   double dot = (double)a.x * (double)b.x;
   dot += (double)a.y * (double)b.y;
@@ -715,19 +706,18 @@ static inline int nsvcd__quats_opposed(nsvcd__quat a, nsvcd__quat b) {
   return dot < 0;
 }
 
-// The length of the arc from a to b in quaternion space: half the angle of rotation. [0, pi/2]
-// where it is the shorter one. From the chord, because acos of a dot product near 1 has no digits
-// left.
+// The length of the arc from a to b in quaternion space: half the angle of rotation, in [0, pi/2]
+// for the shorter arc. From the chord, because acos of a dot product near 1 has no digits left.
 static inline float nsvcd__quat_arc(nsvcd__quat a, nsvcd__quat b) {
   const nsvcd__quat chord = nsvcd__quat_fma(-1, b, a);
   return 2 * nsvcd__asinf(0.5f * sqrtf(nsvcd__quat_dot(chord, chord)));
 }
 
-// The same rotation on the side of another quaternion, to which q is opposed or not.
+// The same rotation, negated if it is opposed to another quaternion.
 static inline nsvcd__quat nsvcd__quat_beside(nsvcd__quat q, int opposed) {
   return opposed ? nsvcd__quat_of(-q.x, -q.y, -q.z, -q.w) : q;
 }
-// of a unit one
+// Of a unit quaternion.
 static inline nsvcd__quat nsvcd__quat_inverse(nsvcd__quat q) {
   return nsvcd__quat_of(-q.x, -q.y, -q.z, q.w);
 }
@@ -741,12 +731,12 @@ static inline nsvcd__quat nsvcd__quat_mul(nsvcd__quat a, nsvcd__quat b) {
   out.w = a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z;
   return out;
 }
-// The turn from a to b, unit ones: its axis, times the sine of half its angle.
+// The turn from a to b, both unit: its axis, times the sine of half its angle.
 static inline nsvcd__f3 nsvcd__quat_turn(nsvcd__quat a, nsvcd__quat b) {
   return nsvcd__quat_axis(nsvcd__quat_mul(b, nsvcd__quat_inverse(a)));
 }
 
-// A share u of the way from a to b, on the shorter arc. a, b: unit to 1e-4.
+// From a at u = 0 to b at u = 1, on the shorter arc. a, b: unit to 1e-4.
 static inline nsvcd__quat nsvcd__quat_slerp(nsvcd__quat a, nsvcd__quat b, float u) {
   const int opposed = nsvcd__quats_opposed(a, b);
   const nsvcd__quat start = nsvcd__quat_unit(a);
@@ -754,7 +744,7 @@ static inline nsvcd__quat nsvcd__quat_slerp(nsvcd__quat a, nsvcd__quat b, float 
   const float angle = nsvcd__quat_arc(start, end);
   float wa = 1 - u;
   float wb = u;
-  // below, the difference is less than rounding
+  // below, slerp and lerp differ by less than rounding
   if (angle > 1e-3f) {
     wa = nsvcd__sinf((1 - u) * angle);
     wb = nsvcd__sinf(u * angle);
@@ -792,8 +782,8 @@ static nsvcd__d3 nsvcd__face_normal(const nsvcd__d3 *t) {
   return nsvcd__d3_cross(nsvcd__d3_sub(t[1], t[0]), nsvcd__d3_sub(t[2], t[0]));
 }
 
-// The same as a unit vector; 0 where the triangle has no area. What rounding, or fused arithmetic,
-// makes of such a triangle's normal is some 1e-16 of its longest edge squared.
+// The unit normal; 0 if the triangle has no area. Rounding, or fused arithmetic, makes such a
+// triangle's normal some 1e-16 of its longest edge squared.
 static inline nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
   const nsvcd__d3 n = nsvcd__face_normal(t);
   double longest = 0;
@@ -813,12 +803,8 @@ static double nsvcd__clamp_fraction(double x) {
 }
 
 static void nsvcd__keep_nearer(nsvcd__nearest *best, nsvcd__d3 a, nsvcd__d3 b) {
-  const nsvcd__d3 d = nsvcd__d3_sub(a, b);
-  const double square = nsvcd__d3_dot(d, d);
-  if (square >= best->square) return;
-  best->square = square;
-  best->on_a = a;
-  best->on_b = b;
+  const nsvcd__nearest found = {nsvcd__d3_distance2(a, b), a, b};
+  if (found.square < best->square) *best = found;
 }
 
 // The nearest points of the edges a0 a1 and b0 b1 (Ericson 2005, 5.1.9).
@@ -841,7 +827,7 @@ static void nsvcd__edges_nearest(nsvcd__d3 a0, nsvcd__d3 a1, nsvcd__d3 b0, nsvcd
   nsvcd__keep_nearer(best, nsvcd__d3_mix(a0, a1, s), nsvcd__d3_mix(b0, b1, t));
 }
 
-// The foot of x on the plane of a triangle, if it is within the triangle.
+// The foot of x on the plane of a triangle, if it is inside the triangle.
 static int nsvcd__foot_within(nsvcd__d3 x, const nsvcd__d3 *t, nsvcd__d3 *foot) {
   const nsvcd__d3 n = nsvcd__face_normal(t);
   const double square = nsvcd__d3_dot(n, n);
@@ -856,8 +842,8 @@ static int nsvcd__foot_within(nsvcd__d3 x, const nsvcd__d3 *t, nsvcd__d3 *foot) 
   return 1;
 }
 
-// Do two triangles meet where an edge of one passes through the other? Heights of corners over the
-// other's plane are in units of the length of its normal, which is not made unit.
+// Does an edge of one triangle pass through the other, and where? Heights of corners over the
+// other's plane are times the length of its normal, which is not normalized.
 static int nsvcd__triangles_meet(const nsvcd__d3 *a, const nsvcd__d3 *b, nsvcd__d3 *point) {
   const nsvcd__d3 *of[2] = {a, b};
   double heights[2][3];
@@ -885,8 +871,8 @@ static int nsvcd__triangles_meet(const nsvcd__d3 *a, const nsvcd__d3 *b, nsvcd__
   return 0;
 }
 
-// How many corners of a triangle there are to look at: of a point or a segment, which a round body
-// has, as nsvcd_encode_sphere and nsvcd_encode_capsule list it, 1 or 2.
+// How many different corners a triangle has: 1 or 2 for a point or a segment of a round body, as
+// nsvcd_encode_sphere and nsvcd_encode_capsule store it.
 static size_t nsvcd__corners_of(const nsvcd__d3 *t) {
   if (nsvcd__d3_distance2(t[1], t[2]) > 0) return 3;
   return nsvcd__d3_distance2(t[0], t[1]) > 0 ? 2 : 1;
@@ -901,10 +887,8 @@ static inline nsvcd__nearest nsvcd__nearest_of(const nsvcd__d3 *a, const nsvcd__
   nsvcd__nearest best = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
   nsvcd__d3 point;
   if (corners_a > 1 && corners_b > 1 && nsvcd__triangles_meet(a, b, &point)) {
-    best.square = 0;
-    best.on_a = point;
-    best.on_b = point;
-    return best;
+    const nsvcd__nearest met = {0, point, point};
+    return met;
   }
   for (size_t k = 0; k < edges_a; k++) {
     for (size_t n = 0; n < edges_b; n++)
@@ -921,14 +905,19 @@ static inline nsvcd__nearest nsvcd__nearest_of(const nsvcd__d3 *a, const nsvcd__
 // ---------------------------------------------------------------------------------- ground/spheres
 #ifndef NSVCD__HAS_GROUND_SPHERES
 #define NSVCD__HAS_GROUND_SPHERES
-// In: rows of floats, as a body stores them. Out: one sphere, or one slab, as a value.
+// In: rows of floats, as a body stores them. Out: a sphere or a slab as a value, and constants of
+// what is stored of a patch.
+
+// The radius of padding: meets nothing, and its square is finite. A float to the last digit, for
+// blobs are compared with it, also where constants are computed in double (FLT_EVAL_METHOD).
+#define NSVCD__NOWHERE (-999999986991104.0f)
 
 typedef struct nsvcd__sphere {
   nsvcd__f3 centre;
   float radius;
 } nsvcd__sphere;
 
-// Many of them, in arrays that follow each other: x, y, z and radii.
+// Many, in arrays of x, y, z and radii.
 typedef struct nsvcd__spheres {
   const float *x, *y, *z, *r;
 } nsvcd__spheres;
@@ -948,22 +937,29 @@ static inline nsvcd__sphere nsvcd__sphere_of(nsvcd__spheres all, size_t i) {
   const nsvcd__sphere out = {nsvcd__centre_of(all, i), all.r[i]};
   return out;
 }
-// Writes the i-th of spheres in arrays of so many slots.
+// Writes sphere i into arrays of so many slots, one after the other.
 static inline void nsvcd__sphere_store(nsvcd__sphere sphere, float *first, size_t slots,
                                        size_t i) {
   nsvcd__f3_put(sphere.centre, first + i, slots);
   first[3 * slots + i] = sphere.radius;
 }
 
-// ---- extremes
+// ---- patches
 
-// points of a patch's surface that reach about as far as all of it does: surface/sorted
-#define NSVCD__EXTREMES 8
+#define NSVCD__EXTREMES 8  // points of the surface that span about all of it: surface/sorted
+#define NSVCD__HULL 16     // vertices of the hull, at most
+
+// What a stored triangle belongs to: a sheet; what is nearly a solid; a closed surface, which winds
+// about what it contains; or one whose triangles face either way, so that a ray's crossings are
+// counted without their sign. In the upper bits, above the triangle's number.
+enum { NSVCD__SHEET, NSVCD__NEARLY, NSVCD__CLOSED, NSVCD__EITHER_DIRECTION };
+#define NSVCD__KIND_SHIFT 30
+#define NSVCD__NUMBER 0x3fffffffu
 
 // ---- slabs
 
 // Points x about a centre have low <= normal.x <= high, and are no farther than `across` from the
-// line along the normal, which is no longer than 1.
+// line along the normal, |normal| <= 1.
 typedef struct nsvcd__slab {
   nsvcd__f3 normal;
   float low, high, across;
@@ -993,7 +989,7 @@ static inline void nsvcd__slab_store(nsvcd__slab slab, float *slabs, size_t stri
 #define NSVCD__HAS_GROUND_RANDOM
 // In: a state. Out: random numbers, the same from the same state.
 
-// In (0, 1]: splitmix64.
+// Splitmix64, in (0, 1].
 static inline double nsvcd__random(uint64_t *state) {
   uint64_t z = *state += UINT64_C(0x9e3779b97f4a7c15);
   z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
@@ -1005,8 +1001,7 @@ static inline double nsvcd__random(uint64_t *state) {
 // ----------------------------------------------------------------------------------- ground/memory
 #ifndef NSVCD__HAS_GROUND_MEMORY
 #define NSVCD__HAS_GROUND_MEMORY
-// In: the caller's allocator, or the workspace. Out: arrays from either; NULL, or a count alone,
-// where there is no memory.
+// In: the caller's allocator, or a workspace. Out: arrays from either.
 
 #ifndef NSVCD_NO_ENCODER
 static void *nsvcd__alloc(const nsvcd_allocator *allocator, size_t size) {
@@ -1016,21 +1011,20 @@ static void nsvcd__free(const nsvcd_allocator *allocator, void *memory) {
   if (allocator && memory) allocator->free(memory, allocator->user);
   if (!allocator) free(memory);
 }
-// count * size bytes; NULL also where that product cannot be counted.
+// count * size bytes; NULL also if that overflows.
 static void *nsvcd__alloc_array(const nsvcd_allocator *allocator, size_t count, size_t size) {
   return count > SIZE_MAX / size ? NULL : nsvcd__alloc(allocator, count * size);
 }
 
-// Arrays that are given back together. Where one cannot be had, `failed` says so: who takes several
-// asks once, after the last.
+// Arrays that are freed together. `failed` says that there was no memory for one of them: it is
+// checked once, after the last.
 typedef union nsvcd__header {
   union nsvcd__header *next;
   double aligned;
 } nsvcd__header;
 typedef struct nsvcd__arena {
   const nsvcd_allocator *allocator;
-  // an array behind each
-  nsvcd__header *last;
+  nsvcd__header *last;  // an array follows each
   int failed;
 } nsvcd__arena;
 
@@ -1046,7 +1040,7 @@ static void nsvcd__arena_free(nsvcd__arena *arena) {
   }
 }
 
-// Room for an array; NULL without memory.
+// Uninitialized memory for an array; NULL if there is none.
 static void *nsvcd__arena_room(nsvcd__arena *arena, size_t count, size_t size) {
   nsvcd__header *header = NULL;
   if (count <= (SIZE_MAX - sizeof *header) / size)
@@ -1067,8 +1061,8 @@ static void *nsvcd__arena_take(nsvcd__arena *arena, size_t count, size_t size) {
   return array ? memset(array, 0, count * size) : NULL;
 }
 
-// Room in place of an array (NULL: none), of which it keeps the first `used` bytes; without memory
-// that stays.
+// Memory in place of an array (NULL: none), whose first `used` bytes it keeps; without memory the
+// array stays.
 static void *nsvcd__arena_grow(nsvcd__arena *arena, void *old, size_t used, size_t count,
                                size_t size) {
   nsvcd__header **at = &arena->last;
@@ -1083,8 +1077,8 @@ static void *nsvcd__arena_grow(nsvcd__arena *arena, void *old, size_t used, size
 }
 #endif
 
-// The next rows of a workspace, or, where base is NULL, only counts their bytes: in 64 bits, for
-// they may be more than a machine of 32 bits can count.
+// The next array of a workspace, or, if base is NULL, only counts its bytes: in 64 bits, because a
+// 32-bit machine may not be able to address them.
 static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_size) {
   void *at = base ? base + *used : NULL;
   const uint64_t bytes = (uint64_t)rows * row_size;

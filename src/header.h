@@ -203,12 +203,14 @@ extern "C" {
 #include "lanes/turns.h"  // rotations, lane by lane
 
 // ======================================================================== motion: where bodies are
-#include "motion/motion.h"    // the moving body's poses as the fixed one sees them
-#include "motion/segments.h"  // how far a point leaves a straight line
-#include "motion/choice.h"  // how a motion is cut into segments, and a long one into intervals
+#include "motion/motion.h"     // the moving body's poses as the fixed one sees them
+#include "motion/segments.h"   // chords, and how far a point deviates from them
+#include "motion/workspace.h"  // the memory of a search: segments, chords, tiles
+#include "motion/choice.h"     // how a motion is cut into segments, a long one into intervals
+#include "motion/chords.h"     // spheres on chords, and which others they meet
 
 // ================================================================== search: which patches may meet
-#include "search/apart.h"      // patches that a plane between their extremes separates
+#include "search/planes.h"     // patches that a plane between their extremes separates
 #include "search/intervals.h"  // when the balls of two patches meet, for the network
 #include "search/search.h"     // which groups and patches meet, and in which segments
 

@@ -29,62 +29,61 @@ done
 # motion was found that uses it: what strays most does so at samples, and there axis_bulge is exact.
 cat >$work/list <<'LIST'
 none|||
-hull without deviation|margin * length + nsvcd__deviation_of(interval, normal, arm)|margin * length
-hull without slack|const float margin = margins + interval->rounding + nsvcd__clearance(p);|const float margin = 0 * margins + interval->rounding + nsvcd__clearance(p);
+hull without deviation|margin * length + nsvcd__deviation_of(over, normal, arm)|margin * length
+hull without slack|const float margin = margins + over->rounding + nsvcd__clearance(p);|const float margin = 0 * margins + over->rounding + nsvcd__clearance(p);
 hull without the slack's scale|p->ask.motion->scale * p->moving.margins[i] + p->fixed.margins[j];|0.1f * p->moving.margins[i] + p->fixed.margins[j];
-hull without clearance|margins + interval->rounding + nsvcd__clearance(p);|margins + interval->rounding;
+hull without clearance|margins + over->rounding + nsvcd__clearance(p);|margins + over->rounding;
 hull at the start only|const nsvcd__v at_either = nsvcd__v_min(at_start, at_end);|const nsvcd__v at_either = at_start;
 deviation without drift|return origin_bend + turn + across|return 0 * origin_bend + turn + across
-deviation without bulge|+ across * nsvcd__bend_of(interval, arm);|;
+deviation without bulge|+ across * nsvcd__bend_of(over, arm);|;
 deviation along the axis|return origin_bend + turn + across|return origin_bend + across
-half the distance from the axis|interval->bend * arm.from_axis +|0.5f * interval->bend * arm.from_axis +
-an axis that does not waver|arm.from_axis + interval->bend_along_axis * arm.from_origin|arm.from_axis
+half the distance from the axis|over->bend * arm.from_axis +|0.5f * over->bend * arm.from_axis +
+an axis that does not waver|arm.from_axis + over->bend_along_axis * arm.from_origin|arm.from_axis
 the axis of the other body|arc->own_axis = nsvcd__dmat3_apply_transpose(\&moving, axis);|arc->own_axis = arc->axis;
 pair at half the distance from the axis|arc->bend * pair->from_axis * off_axis|arc->bend * 0.5 * pair->from_axis * off_axis
 pair whose axis does not waver|pair->from_axis += (arc->waver + 1e-6) * pair->from_origin;|
 pair beside an axis that does not waver|across + arc->waver + 1e-6|across + 1e-6
-chords off the axis|nsvcd__v_add(keyframe_bend_along_axis, arc_bend_along_axis)|arc_bend_along_axis
+chords off the axis|nsvcd__v_bend(scale, most->arc_along_axis + l, most->along_axis + l);|nsvcd__v_mul(scale, nsvcd__v_load(most->arc_along_axis + l));
 lanes without bulge|return nsvcd__v_fma(turn, nsvcd__v_set(from_origin), nsvcd__v_min(by_axis, by_heading));|return nsvcd__v_fma(turn, nsvcd__v_set(0 * from_origin), nsvcd__v_min(by_axis, by_heading));
 lanes without drift|return nsvcd__v_fma(turn, nsvcd__v_set(from_origin), nsvcd__v_min(by_axis, by_heading));|return nsvcd__v_mul(turn, nsvcd__v_set(from_origin));
 disc without across|nsvcd__v_mul(slab->across, across);|nsvcd__v_mul(nsvcd__v_set(0), across);
 group of eight|for (size_t i = first; i < first + NSVCD__GROUP \&\& i < f->body->patches; i++) {\n    if (slab.high|for (size_t i = first; i < first + 8 \&\& i < f->body->patches; i++) {\n    if (slab.high
 group's disc at the start only|nsvcd__v3_add(a.at_start, nsvcd__vmat3_apply_transpose(turn, n));|a.at_start;
-held plane without deviation|lowest - margin - nsvcd__deviation_of(interval, n, nsvcd__patch_arm(\&p->moving, i, interval));|lowest - margin;
+held plane without deviation|lowest - margin - nsvcd__deviation_of(over, n, nsvcd__patch_arm(\&p->moving, i, over));|lowest - margin;
 groups' spheres without slack|nsvcd__above((double)f->margins[i] + rounding);|nsvcd__above(rounding);
 groups' spheres over the first half|for (size_t k = 0; k < count + !count; k++) {|for (size_t k = 0; k < (count + 1) / 2 + !count; k++) {
-held plane without slack|p->fixed.margins[j] * length - highest;|-highest;
+held plane without slack|p->fixed.margins[j] * length + highest;|highest;
 heights over another plane|above->plane != memo->plane \|\| above->key != key|above->key != key
 pair of coarse copies as if they were the meshes|pair.margin = pair.rounding + nsvcd__off_meshes(p);|pair.margin = pair.rounding;
-round: tangents from the other side|const double fall = -nsvcd__d3_dot(*plane, moved);|const double fall = nsvcd__d3_dot(*plane, moved);
+round: tangents from the other side|const double fall = -nsvcd__d3_dot(p->memo.separating, moved);|const double fall = nsvcd__d3_dot(p->memo.separating, moved);
 round: tangents a little too far|const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;|const double until = fall > 0 ? nsvcd__min(end, at + above / fall) : end;
 doubts forgotten|    nsvcd__keep_unresolved(p, pair, u0, u1);\n    return NSVCD__RESOLVED;|    return NSVCD__RESOLVED;
-round: edges without length by another pose|if (ends == 2 \&\& !(nsvcd__f3_dot(other, other) > 0))|if (!(nsvcd__f3_dot(other, other) > 0))
-a block of the question before|memo->has_block = 0;|(void)memo->has_block;
+round: edges without length by another pose|if (p->over \&\& !(nsvcd__f3_dot(edge, edge) > 0))|if (!(nsvcd__f3_dot(edge, edge) > 0))
+a block of the question before|memset(memo, 0, sizeof *memo);|const int has_block = memo->has_block;\n  memset(memo, 0, sizeof *memo);\n  memo->has_block = has_block;
 round: segments as points|nsvcd__d3_distance2(t[0], t[1]) > 0 ? 2 : 1;|nsvcd__d3_distance2(t[0], t[1]) > 0 ? 1 : 1;
 pair without bulge|return turn + arc->twist * pair->from_origin + arc->origin_bend;|return arc->origin_bend;
 pair without drift|return turn + arc->twist * pair->from_origin + arc->origin_bend;|return turn + arc->twist * pair->from_origin;
 doubt goes on|p->ask.limit = p->work + left;|p->ask.limit = p->ask.limit;
 doubt raises the limit|p->work + left < p->ask.limit|p->work > 0
-pair without clearance|> p->ask.clearance + pair->margin + deviation;|> pair->margin + deviation;
+pair without clearance|> p->ask.clearance + pair->margin + deviation)) return 0;|> pair->margin + deviation)) return 0;
 pair at the start only|lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_end));|(void)at_end;
-block without quanta|nsvcd__quanta_of(p, i, j) + (interval->rounding + interval->origin_bend) + nsvcd__clearance(p);|(interval->rounding + interval->origin_bend) + nsvcd__clearance(p);
-block without clearance|(interval->rounding + interval->origin_bend) + nsvcd__clearance(p);|(interval->rounding + interval->origin_bend);
-block without bulge|stays + nsvcd__bend_of(interval, arm)|stays
-block at the start only|nsvcd__row_left(p, i, j, l, fixed, 2, interval, margin)|nsvcd__row_left(p, i, j, l, fixed, 1, interval, margin)
-parting plane at the start only|nsvcd__left_by_last(p, i, j, l, fixed, 2, interval, along, met)|nsvcd__left_by_last(p, i, j, l, fixed, 1, interval, along, met)
-lanes parted at the start only|nsvcd__lanes_left_by_last(p, i, j, fixed, 2, interval, margin, nearby)|nsvcd__lanes_left_by_last(p, i, j, fixed, 1, interval, margin, nearby)
-lanes parted without the clearance|nsvcd__v_set(margin * nsvcd__f3_length(last) - lowest);|nsvcd__v_set(-lowest);
-rows parted by half the margin|met = nsvcd__left_by_last(p, i, j, l, fixed, ends, interval, margin, met)|met = nsvcd__left_by_last(p, i, j, l, fixed, ends, interval, 0.5f * margin, met)
-parting plane without deviation|errors + interval->rounding + nsvcd__clearance(p) + nsvcd__deviation_of(interval, last, arm);|errors + interval->rounding + nsvcd__clearance(p);
-parting plane without quanta|errors + interval->rounding + nsvcd__clearance(p) + nsvcd__deviation_of(interval, last, arm);|0 * errors + interval->rounding + nsvcd__clearance(p) + nsvcd__deviation_of(interval, last, arm);
+block without quanta|nsvcd__errors_of(p, i, j) + (over->rounding + over->origin_bend) + nsvcd__clearance(p);|(over->rounding + over->origin_bend) + nsvcd__clearance(p);
+block without clearance|(over->rounding + over->origin_bend) + nsvcd__clearance(p);|(over->rounding + over->origin_bend);
+block without bulge|stays + nsvcd__bend_of(over, arm)|stays
+block at the start only|for (size_t k = 0; k < p->corner_count; k++) {\n    const nsvcd__v3 a =|for (size_t k = 0; k < 3; k++) {\n    const nsvcd__v3 a =
+lanes parted at the start only|for (size_t k = 0; k < p->corner_count; k++) {\n      const nsvcd__v3 corner = nsvcd__v3_load(p->corners[k], s);|for (size_t k = 0; k < 3; k++) {\n      const nsvcd__v3 corner = nsvcd__v3_load(p->corners[k], s);
+lanes parted without the clearance|nsvcd__v_set(margin * nsvcd__f3_length(last) + highest);|nsvcd__v_set(highest);
+rows parted by half the margin|met = nsvcd__left_by_normal(p, l, fixed, k, margin, met);|met = nsvcd__left_by_normal(p, l, fixed, k, k > 0 ? margin : 0.5f * margin, met);
+parting plane without deviation|errors + over->rounding + nsvcd__clearance(p) + nsvcd__deviation_of(over, last, arm);|errors + over->rounding + nsvcd__clearance(p);
+parting plane without quanta|errors + over->rounding + nsvcd__clearance(p) + nsvcd__deviation_of(over, last, arm);|0 * errors + over->rounding + nsvcd__clearance(p) + nsvcd__deviation_of(over, last, arm);
 pose of another arc|known->arc == arc->first \&\& known->ticks == arc->ticks \&\& known->u == u|known->ticks == arc->ticks \&\& known->u == u
 first half only|if (part == NSVCD__TOO_LONG) ends[left++] = 0.5 * (u + end);|if (part == NSVCD__TOO_LONG) ends[left - 1] = 0.5 * (u + end);
 a window forgotten|b += NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(p, j, b);\n    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(p, i, a);\n      const|b += 2 * NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(p, j, b);\n    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(p, i, a);\n      const
-bounds of half a window's block|low[k] = least;|low[k] = 0.5f * (least - negated);
+bounds of half a window's block|p->bounds[p->memo.window++] = nsvcd__block_bounds(block);|nsvcd__box half = nsvcd__block_bounds(block);\n    half.low = nsvcd__f3_scale(nsvcd__f3_add(half.low, half.high), 0.5f);\n    p->bounds[p->memo.window++] = half;
 half of the box|nsvcd__f3_add(nsvcd__f3_load(e->outer->box + 3), margin);|nsvcd__f3_scale(nsvcd__f3_add(nsvcd__f3_load(e->outer->box + 3), nsvcd__f3_load(e->outer->box)), 0.5f);
 rays without rounding|const float rounding = NSVCD__ROUNDING * extent * f->body->extent;|const float rounding = 0 * NSVCD__ROUNDING * extent * f->body->extent;
 rays past half the groups|while (!sum.unclear \&\& nsvcd__traversal_next(\&groups, \&g)) {|while (!sum.unclear \&\& nsvcd__traversal_next(\&groups, \&g)) {\n    if (g % 2) continue;
-block's boxes at the start only|nsvcd__block_box(p, 2);|nsvcd__block_box(p, 1);
+block's boxes at the start only|low = nsvcd__v3_min(low, corner);\n      high = nsvcd__v3_max(high, corner);|if (k >= 3) continue;\n      low = nsvcd__v3_min(low, corner);\n      high = nsvcd__v3_max(high, corner);
 last triangle skipped|size_t patience) {\n  const size_t moving_end = p->moving.first_triangle[i + 1];|size_t patience) {\n  const size_t moving_end = p->moving.first_triangle[i + 1] - 1;
 containment one way|if (outer->open) return 0;\n  const int is_one|if (outer->open + (e->inner != \&p->moving)) return 0;\n  const int is_one
 long: an interval passed over|if (is_resolved) motion->from = until;|if (is_resolved) motion->from = until;\n  if (is_resolved \&\& arcs == 1 \&\& until < motion->ticks) motion->from = nsvcd__next_keyframe(motion, until);
@@ -99,7 +98,7 @@ long: an interval settled from the start|p->known.resolved = (double)p->ask.moti
 first arc only|at < last \&\& (double)at < p->ask.end;) {|at < last \&\& at == search->begin[item->segment];) {
 a segment dropped|uint32_t met = nsvcd__group_against_members(search, h, wanted, p->met_in);|uint32_t met = nsvcd__group_against_members(search, h, wanted, p->met_in);\n      for (size_t l = 0; l < NSVCD__GROUP; l++) {\n        if (p->met_in[l] \& (p->met_in[l] - 1)) p->met_in[l] \&= p->met_in[l] - 1;\n      }
 a full buffer forgotten|if (!*left) break;|break;
-passing not seen|const int has_met = passes;|const int has_met = 0 * passes;
+passing not seen|if (!nsvcd__pair_passes(p, pair, u0, u1))|if (u0 <= u1)
 passing without a change of sides|  const int falls = before > least_before \&\& after < -least_after;|  const int falls = before != 0;
 both turn, twist forgotten|nsvcd__v_mul(turn, nsvcd__v_add(turn, fixed_turn));|nsvcd__v_mul(turn, turn);
 both turn, half of the way|nsvcd__v_fma(fixed_turn, extent, nsvcd__v_add(travel, travel))|nsvcd__v_fma(fixed_turn, extent, travel)
@@ -109,12 +108,12 @@ arcs of both, no swing|(2 * across + angle * swing);|(2 * across);
 arcs of both, half of the way|(2 * across + angle * swing);|(across + angle * swing);
 a leg from its pose|slerp->from = (double)(first - begin) * per_tick;|slerp->from = 0;
 knots of one body only|return after_a < after_b ? after_a : after_b;|return after_a;
-group without scale|  sphere.radius *= search->scale;\n|
-members without scale|nsvcd__v_fma(nsvcd__v_set(scale), radius, deviation);|nsvcd__v_add(radius, deviation);
+group without scale|  sphere.radius *= q->scale;\n|
+members without scale|nsvcd__v_fma(scale, radius, deviation));|nsvcd__v_add(radius, deviation));
 discs without scale|nsvcd__v_mul(a->scale, nsvcd__v3_dot(w, w)); const nsvcd__v across = nsvcd__v_mul(a->scale, nsvcd__v3_length(a->turned));|nsvcd__v3_dot(w, w);\n  const nsvcd__v across = nsvcd__v3_length(a->turned);
-disc without clearance|a.clearance = nsvcd__clearance(p); a.radius = radius;|a.clearance = 0; a.radius = radius;
-moving disc without clearance|nsvcd__v_plus(a->interval.rounding, a->clearance);|a->interval.rounding;
-groups without clearance|a.clearance = nsvcd__clearance(p); a.radius = nsvcd__group_reach|a.clearance = 0; a.radius = nsvcd__group_reach
+disc without clearance|a.clearance = nsvcd__clearance(p);\n  a.radius = search->extent;|a.clearance = 0;\n  a.radius = search->extent;
+moving disc without clearance|nsvcd__v_plus(a->over.rounding, a->clearance);|a->over.rounding;
+groups without clearance|a.clearance = nsvcd__clearance(p); a.radius = nsvcd__group_extent|a.clearance = 0; a.radius = nsvcd__group_extent
 held plane without clearance|below->height + nsvcd__clearance(p) * length|below->height
 held plane not tried again|if (!(above->height > below->height + nsvcd__clearance(p) * length)) return 0;|
 span of before it was clipped|p->memo.intervals \&= ~((uint64_t)1 << s);|
@@ -154,15 +153,15 @@ two patches by a plane of any triangle|if (height > highest) top = b;|if (height
 two patches, but the last triangle|for (size_t a = moving_first; a < moving_end; a++) { const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, top);|for (size_t a = moving_first; a + 1 < moving_end; a++) { const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, top);
 asks: a contact before the start|nsvcd__max(nsvcd__min(nsvcd__clear_until(p), found->tick), 0);|nsvcd__min(nsvcd__clear_until(p), found->tick);
 asks: proven by parts to the end, but not free|double end = p->ask.end; double from = 0;|double end = nsvcd__min(p->ask.end, ticks); double from = 0;
-pair's last plane at the start alone|u0 < all \&\& nsvcd__plane_separates(p, pair, u0, all, *plane)|u0 < all \&\& nsvcd__plane_separates(p, pair, u0, u0, *plane)
-exact: pairs without slack|> p->ask.clearance + pair->margin + deviation;|> p->ask.clearance + deviation;
+pair's last plane at the start alone|u0 < all \&\& nsvcd__plane_separates(p, pair, u0, all)|u0 < all \&\& nsvcd__plane_separates(p, pair, u0, u0)
+exact: pairs without slack|> p->ask.clearance + pair->margin + deviation)) return 0;|> p->ask.clearance + deviation)) return 0;
 exact: pairs without rounding|NSVCD__SAME_POSITION * ((double)p->given.lengths + nsvcd__d3_length(p->arc.from));|0;
-exact: a ratio of scales in float|motion->ratio = (double)nsvcd__scale_of(moving) / (double)motion->unit;|motion->ratio = (double)(nsvcd__scale_of(moving) / motion->unit);
+exact: a ratio of scales in float|m->ratio = (double)nsvcd__scale_of(moving) / (double)m->unit;|m->ratio = (double)(nsvcd__scale_of(moving) / m->unit);
 turning contacts that are too near|distance <= p->ask.clearance + pair->rounding|distance <= p->ask.clearance + pair->close
 exact: straight contacts that are too near|if (above <= pair->rounding) {|if (above <= pair->close) {
 exact: planes of nearest points alone|for (size_t k = 0; k < 17; k++) {\n    const nsvcd__d3 *of|for (size_t k = 17; k < 17; k++) {\n    const nsvcd__d3 *of
 exact: no planes of faces|n = k < 2 ? nsvcd__face_direction(of)|n = k < 2 ? guess
-exact: no planes across edges|: nsvcd__across_edges(posed, fixed, k - 8);|: guess;
+exact: no planes across edges|: nsvcd__across_edges(moving, fixed, k - 8);|: guess;
 exact: no planes made normal to an edge|nsvcd__off_edge(guess, of[k / 2 - 1], of[k / 2 % 3])|guess
 exact: planes on one side only|if (nsvcd__d3_dot(n, guess) < 0) n = nsvcd__d3_scale(n, -1);\n    const double beyond|const double beyond
 pieces by their stored corners|} else if (f->counts->cut > 0) {|} else if (0) {
@@ -229,7 +228,7 @@ asks: contacts that hold less|if (!(spanned > 1.001 * *area)) continue;|if (*are
 asks: contacts of one normal|int tries = nsvcd__manifold_normals(p, \&found, \&twist, normals);|int tries = nsvcd__manifold_normals(p, \&found, \&twist, normals) > 0;
 asks: all of a short way|fmax(0.25 * whole,|fmax(whole,
 asks: nothing between the directions|area > NSVCD__SLIM * square) return 0;|area >= 0) return 0;
-asks: few places looked at|if (looks == NSVCD__HOLDS|if (looks == 3
+asks: few places looked at|if (tries == NSVCD__CONTACT_PAIRS|if (tries == 3
 robot: joints that do not bend|bend += step->bend[j] * arms[j];|(void)bend;
 robot: half the bend|bend += step->bend[j] * arms[j];|bend += 0.5 * step->bend[j] * arms[j];
 robot: joints that do not turn each other|(2 * inner + own)|(own)

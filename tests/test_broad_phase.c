@@ -296,20 +296,19 @@ static void deviation_is_bounded(void) {
       size_t s = pick(0, work->segments - 1);
       size_t l = s % NSVCD__LANES;
       double tau = uniform(0.4, 0.6);
-      nsvcd__segments *b = &work->blocks[s / NSVCD__LANES];
       double start = (double)work->time[s];
       const double when = start + tau * ((double)work->time[s + 1] - start);
       const oracle_pose at = pose_at(poses, count, when);
       const oracle_pose seen = seen_from(&fixed, &at);
       oracle_transform(&seen, c64, p);
-      nsvcd__chords chords;
       const nsvcd__sphere point = {{c[0], c[1], c[2]}, 0};
-      nsvcd__chords_of_sphere(b, point, &chords);
-      const float x[3] = {chords.start[0][l], chords.start[1][l], chords.start[2][l]};
-      const float v[3] = {chords.travel[0][l], chords.travel[1][l], chords.travel[2][l]};
+      nsvcd__chords_in_all(work, point);
+      const nsvcd__chords *chords = &work->group[s / NSVCD__LANES];
+      const float x[3] = {chords->start[0][l], chords->start[1][l], chords->start[2][l]};
+      const float v[3] = {chords->travel[0][l], chords->travel[1][l], chords->travel[2][l]};
       for (int k = 0; k < 3; k++) square += pow((double)x[k] + tau * (double)v[k] - p[k], 2);
-      CHECK_LE(sqrt(square), chords.radius[l]);
-      if (trial % 4 == 3) most = fmax(most, sqrt(square) / (double)chords.radius[l]);
+      CHECK_LE(sqrt(square), chords->radius[l]);
+      if (trial % 4 == 3) most = fmax(most, sqrt(square) / (double)chords->radius[l]);
     }
   }
   printf("  the bound is attained to %.4f\n", most);

@@ -5,9 +5,21 @@
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
 #include <stddef.h>
+#include <stdint.h>
 static void proof_certified(int kind, size_t i, size_t j, size_t a, size_t b, double start,
                             double end, const float *normal);
-#define NSVCD__CERTIFIES
+struct nsvcd__proof;
+struct nsvcd__search;
+struct nsvcd__block;
+struct nsvcd__v_separated;
+static void proof_slabs_certified(struct nsvcd__proof *p, const struct nsvcd__search *search,
+                                  int of_groups, size_t i, size_t j, size_t s,
+                                  const struct nsvcd__v_separated *by, uint32_t lanes);
+static void proof_block_certified(struct nsvcd__proof *p, uint32_t lanes,
+                                  const struct nsvcd__block *b, uint32_t apart, size_t s,
+                                  const void *plane, uint32_t below);
+static void proof_patches_certified(struct nsvcd__proof *p, size_t i, size_t j, double u0,
+                                    double u1);
 static unsigned forgetful;  // > 0: what is only remembered is forgotten one time in so many
 static unsigned forgotten;  // how often it was
 static int proof_forgets(void);
@@ -15,6 +27,11 @@ static int proof_forgets(void);
   (proof_forgets() ? ((p)->arc.ticks = 0, nsvcd__forget(&(p)->memo)) : (void)0)
 #define NSVCD__CERTIFY(kind, moving, fixed, moving_entry, fixed_entry, t_start, t_end, normal) \
   proof_certified(kind, moving, fixed, moving_entry, fixed_entry, t_start, t_end, normal)
+#define NSVCD__CERTIFY_SLABS(p, search, of_groups, i, j, s, by, lanes) \
+  proof_slabs_certified(p, search, of_groups, i, j, s, by, lanes)
+#define NSVCD__CERTIFY_BLOCK(p, lanes, fixed, apart, s, plane, below) \
+  proof_block_certified(p, lanes, fixed, apart, s, plane, below)
+#define NSVCD__CERTIFY_PATCHES(p, i, j, u0, u1) proof_patches_certified(p, i, j, u0, u1)
 #include "../src/ground/strings.h"
 #include "../src/body/trust.h"
 #include "../src/body/encode.h"
@@ -61,6 +78,66 @@ static void proof_certified(int kind, size_t i, size_t j, size_t a, size_t b, do
   r->start = start;
   r->end = end;
   for (int k = 0; k < 3; k++) r->normal[k] = (double)normal[k];
+}
+
+// What planes separate in `lanes` of a slice: moving patches, from the i-th on, and patch j, in
+// segment s; or all members of groups i and j, in segments from s on.
+static void proof_slabs_certified(nsvcd__proof *p, const nsvcd__search *search, int of_groups,
+                                  size_t i, size_t j, size_t s, const nsvcd__v_separated *by,
+                                  uint32_t lanes) {
+  float normals[3][NSVCD__LANES];
+  const size_t members = of_groups ? NSVCD__GROUP : 1;
+  nsvcd__v3_store(normals, 0, by->plane);
+  for (; lanes; lanes &= lanes - 1) {
+    const size_t l = nsvcd__low_bit(lanes);
+    const float sign = by->below >> l & 1 ? -1.0f : 1.0f;
+    const nsvcd__f3 n = nsvcd__f3_scale(nsvcd__lane_of(normals, l), sign);
+    const nsvcd__interval *over = nsvcd__segment_interval(p, search, of_groups ? s + l : s);
+    for (size_t k = 0; k < members * members; k++) {
+      const size_t a = of_groups ? members * i + k / members : i + l;
+      const size_t b = of_groups ? members * j + k % members : j;
+      if (a < p->moving.body->patches && b < p->fixed.body->patches)
+        proof_certified(NSVCD__BY_SLAB, a, b, NSVCD_NONE, NSVCD_NONE, over->t_start, over->t_end,
+                        &n.x);
+    }
+  }
+}
+
+// The triangle pairs of `lanes` of the moving block and the `apart` lanes of a fixed one, by the
+// planes of its slice from s on or, where that is NULL, by their boxes.
+static void proof_block_certified(nsvcd__proof *p, uint32_t lanes, const nsvcd__block *b,
+                                  uint32_t apart, size_t s, const void *plane, uint32_t below) {
+  float normals[3][NSVCD__LANES];
+  const nsvcd__block *a = &p->moving_block;
+  if (plane) nsvcd__v3_store(normals, s, *(const nsvcd__v3 *)plane);
+  for (size_t pair = 0; p->over && pair < a->count * b->count; pair++) {
+    const size_t l = pair / b->count;
+    const size_t n = pair % b->count;
+    float normal[3] = {0, 0, 0};
+    float widest = -HUGE_VALF;
+    if (!(lanes >> l & apart >> n & 1)) continue;
+    for (size_t k = 0; k < 3; k++) {
+      if (plane) normal[k] = below >> n & 1 ? -normals[k][n] : normals[k][n];
+      const float above = a->low[k][l] - b->high[k][n];
+      const float under = b->low[k][n] - a->high[k][l];
+      if (plane || (above <= widest && under <= widest)) continue;
+      widest = above > under ? above : under;
+      normal[0] = normal[1] = normal[2] = 0;
+      normal[k] = above > under ? 1.0f : -1.0f;
+    }
+    proof_certified(NSVCD__BY_TRIANGLES, a->patch, b->patch, a->first + l, b->first + n,
+                    p->over->t_start, p->over->t_end, normal);
+  }
+}
+
+// All triangle pairs of two patches, by the plane that separated one last.
+static void proof_patches_certified(nsvcd__proof *p, size_t i, size_t j, double u0, double u1) {
+  for (size_t a = p->moving.first_triangle[i]; a < p->moving.first_triangle[i + 1]; a++) {
+    for (size_t b = p->fixed.first_triangle[j]; b < p->fixed.first_triangle[j + 1]; b++) {
+      const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, b);
+      CHECK(nsvcd__plane_separates(p, &pair, u0, u1));
+    }
+  }
 }
 
 static nsvcd_mover proof_mover(const proof_body *b, const proof_track *track) {
@@ -1013,6 +1090,17 @@ static void proof_any_motion_of_both(shapes_rng *rng, proof_motion *m) {
   m->fixed.scale = (float)pow(10, shapes_uniform(rng, -1, 1));
 }
 
+// A segment, as the proof has it where nothing has been found.
+static nsvcd__interval proof_segment(nsvcd__motion *motion, const nsvcd__search *work, size_t s) {
+  static nsvcd__proof proof;
+  static nsvcd__interval spans[NSVCD__MAX_SEGMENTS];
+  proof.intervals = spans;
+  proof.ask.motion = motion;
+  proof.ask.end = HUGE_VAL;
+  proof.memo.intervals = 0;
+  return *nsvcd__segment_interval(&proof, work, s);
+}
+
 // A segment that is cut off somewhere, as where a first contact ends the motion.
 static nsvcd__interval proof_any_clip(shapes_rng *rng, nsvcd__motion *motion, nsvcd__search *work) {
   static nsvcd__proof proof;
@@ -1063,7 +1151,7 @@ static void proof_spans_hold_the_motion(void) {
     nsvcd__cut_motion(&motion, lengths, work);
     const double reach = (double)lengths / (double)fmaxf(motion.scale, 1);
     for (size_t s = 0; s < work->segments; s++) {
-      const nsvcd__interval span = nsvcd__interval_of_segment(&motion, work, s);
+      const nsvcd__interval span = proof_segment(&motion, work, s);
       const double use = proof_span_use(&m, &span, reach, &rng);
       const int has_samples =
           work->begin[s + 1] - work->begin[s] > 1;  // else the spread is for rounding alone
@@ -1253,7 +1341,7 @@ static void proof_spans_hold_along_directions(void) {
     proof_motion_init(&m, &motion);
     nsvcd__cut_motion(&motion, 2 * reach, work);
     for (size_t k = 0; k < work->segments; k++, segments++) {
-      const nsvcd__interval span = nsvcd__interval_of_segment(&motion, work, k);
+      const nsvcd__interval span = proof_segment(&motion, work, k);
       worst = fmax(worst, proof_direction_use(&m, &span, (double)reach, &rng));
       turned = fmax(turned, proof_turn_use(&m, &span, &rng));
     }
@@ -1329,7 +1417,7 @@ static double proof_arc_use(const proof_motion *m, nsvcd__motion *motion, shapes
   double off = 0;
   for (int k = 0; k < 3; k++)
     off += n[k] / size * (ends[1][k] - (1 - within) * ends[0][k] - within * ends[2][k]);
-  nsvcd__pair_reaches(arc, &pair);
+  nsvcd__pair_arm(arc, &pair);
   const nsvcd__d3 unit = nsvcd__d3_of(n[0] / size, n[1] / size, n[2] / size);
   const double allowed = length * length * nsvcd__off_chord_along(arc, &pair, unit);
   const double lengths = 1 + oracle_length(ends[0]) + oracle_length(ends[2]);

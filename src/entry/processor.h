@@ -1,11 +1,11 @@
-// In: a question. Out: its answer, by the functions for the best vectors that the processor has.
+// In: a question. Out: its answer, by the functions for the widest vectors that the processor has.
 //
-// Where the compiler's flags allow SSE2 and no more, the default on x86-64, all that a query does
-// is compiled three times: with SSE2 above, and here with AVX2 and with AVX-512. At each call the
-// processor at hand decides which of them answers. NSVCD_NO_DISPATCH leaves the first only.
+// If the compiler's flags allow SSE2 only, the default on x86-64, all that a query does is compiled
+// three times: with SSE2 above, and here with AVX2 and with AVX-512. At each call the processor
+// decides which of them answers. NSVCD_NO_DISPATCH leaves SSE2 only.
 //
-// This file takes itself in for that. Of it only the rooms that use vectors are compiled again.
-// Their private names are changed: nsvcd__prove is nsvcd__prove_avx2 there.
+// For that the header includes itself. Only the rooms that use vectors are compiled again, under
+// other private names: nsvcd__prove becomes nsvcd__prove_avx2.
 #pragma once
 #include "../query/self_test.h"
 #include "../gradient/gradient.h"
@@ -13,7 +13,7 @@
 #if NSVCD__SLICE == 4 && !defined(NSVCD_NO_DISPATCH) && !defined(NSVCD__NARROW) && \
     !defined(NSVCD__FROM_ROOMS)
 #if defined(__clang__) && defined(_MSC_VER)
-// clang-cl's <immintrin.h> has what the flags allow and no more: /arch:AVX2
+// clang-cl's <immintrin.h> has only what the flags allow: /arch:AVX2
 #elif defined(__x86_64__) && (defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 8))
 #define NSVCD__DISPATCH
 #elif defined(_M_X64) && !defined(_M_ARM64EC)
@@ -32,8 +32,8 @@
 
 // ---- the passes
 
-// gcc leaves out at -O2 what makes these loops fast: at -O3 they take 0.75 to 0.85 of the time.
-// Its clones of functions by constant arguments gain nothing: 30 KB and an eighth of its own time.
+// gcc makes these loops fast only at -O3: they take 0.75 to 0.85 of the time at -O2. Its clones of
+// functions by constant arguments gain nothing, at 30 KB and an eighth of its own time.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC push_options
 #if defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
@@ -72,7 +72,7 @@
 #pragma clang attribute pop
 #endif
 
-// from here on a name is a name again, and vectors are those above
+// from here on names and vectors are those above again
 #undef NSVCD__SLICE
 #undef NSVCD__ISA
 #undef NSVCD__VNNI
@@ -85,8 +85,8 @@
 typedef enum nsvcd__isa { NSVCD__SSE2, NSVCD__AVX2, NSVCD__AVX512 } nsvcd__isa;
 
 #if defined(_MSC_VER) && !defined(__clang__)
-// What the processor and the system have, remembered: one word, which all threads that may write it
-// at a time write alike.
+// What the processor and the system have. Remembered in one word, to which all threads write the
+// same.
 static nsvcd__isa nsvcd__isa_at_hand(void) {
   static volatile long known = -1;
   int first[4];
@@ -96,7 +96,7 @@ static nsvcd__isa nsvcd__isa_at_hand(void) {
   if (first[0] < 7) return NSVCD__SSE2;
   __cpuid(first, 1);
   __cpuidex(seventh, 7, 0);
-  // the system, of vectors: OSXSAVE
+  // OSXSAVE: the system saves vector registers
   const int keeps_registers = first[2] >> 27 & 1;
   const unsigned long long kept = keeps_registers ? _xgetbv(0) : 0;
   const int fma = first[2] >> 12 & 1;
@@ -108,7 +108,7 @@ static nsvcd__isa nsvcd__isa_at_hand(void) {
   return (nsvcd__isa)known;
 }
 #else
-// What the processor and the system have. The compiler's own library asks them before main.
+// What the processor and the system have. The compiler's runtime asks them before main.
 static nsvcd__isa nsvcd__isa_at_hand(void) {
   const int fma = __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
   if (!fma || !__builtin_cpu_supports("avx2")) return NSVCD__SSE2;
@@ -126,7 +126,7 @@ static nsvcd__isa nsvcd__isa_at_hand(void) {
 #define NSVCD__BEST(name) nsvcd__##name
 #endif  // NSVCD__DISPATCH
 
-// ---- what is asked, handed to the best of them
+// ---- the public functions of queries
 
 NSVCDDEF nsvcd_result nsvcd_self_test(void) {
   return NSVCD__BEST(run_self_test)();
@@ -138,7 +138,6 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question) {
 
 NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace,
                                   size_t workspace_size, nsvcd_answer *answer) {
-  if (!question) return NSVCD_ERROR_ARGUMENT;
   return NSVCD__BEST(run_batch)(question, 1, workspace, workspace_size, answer);
 }
 

@@ -1,19 +1,18 @@
-// In: angles up to a quarter turn, and lengths. Out: sines, and angles. With NSVCD_ONE_PATH they
-// are computed here, for libm's last digit is not the same everywhere; else by libm.
+// In: angles up to a quarter turn, and lengths. Out: sines, and angles. By libm; with
+// NSVCD_ONE_PATH computed here, because libm's last digit differs between machines.
 #pragma once
 #include "compiler.h"
 
 #ifdef NSVCD_ONE_PATH
-// sin x, 0 <= x <= pi / 2, to 1e-15: what is left of the series is less than 2e-18.
+// sin x for 0 <= x <= pi / 2, to 1e-15: the rest of the series is below 2e-18.
 static inline double nsvcd__sin(double x) {
   const double square = x * x;
   double sum = 1;
   for (int n = 20; n > 0; n -= 2) sum = 1 - sum * (square / (n * (n + 1)));
   return x * sum;
 }
-// The angle of a vector (x, y), neither below 0, to 1e-15: a quarter of it, twice halved by
-// tan(a / 2) = tan a / (1 + sqrt(1 + tan^2 a)), is less than 0.2, and of the series there 1e-18 is
-// left.
+// The angle of a vector (x, y), x, y >= 0, to 1e-15. tan(a / 2) = tan a / (1 + sqrt(1 + tan^2 a))
+// halves it twice, to below 0.2, where the rest of the series is below 1e-18.
 static inline double nsvcd__atan2(double y, double x) {
   const int steep = y > x;
   const double slope = steep ? x / y : x > 0 ? y / x : 0;
@@ -26,7 +25,7 @@ static inline double nsvcd__atan2(double y, double x) {
 static inline float nsvcd__sinf(float x) {
   return (float)nsvcd__sin((double)x);
 }
-// 0 <= x < 1
+// For 0 <= x < 1.
 static inline float nsvcd__asinf(float x) {
   const double sine = (double)x;
   return (float)nsvcd__atan2(sine, sqrt(1 - sine * sine));

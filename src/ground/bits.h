@@ -1,8 +1,8 @@
-// In, out: whole numbers: bits that are set, sizes that are rounded up, floats on their bits.
+// In: whole numbers, and floats. Out: bits that are set, sizes rounded up, floats as bits.
 #pragma once
 #include "compiler.h"
 
-// Index of the lowest bit that is set, of a number that is not 0; how many are set.
+// The index of the lowest bit that is set, of a number that is not 0.
 static size_t nsvcd__low_bit(uint64_t bits) {
 #if defined(__GNUC__) || defined(__clang__)
   return (size_t)__builtin_ctzll(bits);
@@ -27,7 +27,7 @@ static size_t nsvcd__round_up(size_t n, size_t multiple) {
   return (n + multiple - 1) / multiple * multiple;
 }
 
-// |x| as bits, in the order of |x|; infinity and NaN are above all numbers.
+// |x| as bits, which are ordered as |x| is; infinity and NaN are above all numbers.
 static uint32_t nsvcd__magnitude(float x) {
   uint32_t bits;
   memcpy(&bits, &x, sizeof bits);

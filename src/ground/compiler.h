@@ -1,9 +1,8 @@
-// In: the compiler at hand. Out: libc and libm, and three words of how a function is merged into
-// its callers.
+// In: the compiler at hand. Out: libc and libm, and how functions are inlined.
 #pragma once
 #include "../interface/options.h"
 
-#ifdef __TINYC__  // 0.9.27: where a struct and a float that calls return are passed together
+#ifdef __TINYC__  // 0.9.27: if a struct and a float, both returned by calls, are passed together
 #error "neuralsvcd.h: tcc passes arguments wrongly, and certificates would be false"
 #endif
 #include <float.h>
@@ -20,22 +19,22 @@
 #error \
     "neuralsvcd.h: NSVCD_ONE_PATH: not with -ffast-math, nor where floats are computed in double"
 #endif
-// gcc has a flag for it, and a pragma that makes all slower by an order of magnitude.
+// gcc has a flag for that, and a pragma that slows everything down tenfold.
 #if defined(__clang__)
 #pragma STDC FP_CONTRACT OFF
 #elif defined(_MSC_VER)
 #pragma fp_contract(off)
 #endif
 #endif
-// gcc 12 fuses, whatever it is told, where sums and differences of products stand side by side
-// (vfmaddsub). Functions in which they do.
+// For functions in which sums and differences of products stand side by side: there gcc 12 fuses
+// whatever it is told (vfmaddsub).
 #if defined(NSVCD_ONE_PATH) && defined(__GNUC__) && !defined(__clang__)
 #define NSVCD__UNFUSED \
   static __attribute__((noinline, unused, optimize("no-tree-slp-vectorize")))
 #else
 #define NSVCD__UNFUSED static inline
 #endif
-// Functions that take more of the stack, and of flash, called than merged into their callers.
+// For functions that take less stack and flash if they are inlined.
 #if defined(__GNUC__) || defined(__clang__)
 #define NSVCD__FORCE_INLINE static inline __attribute__((always_inline))
 #elif defined(_MSC_VER)
@@ -43,14 +42,14 @@
 #else
 #define NSVCD__FORCE_INLINE static inline
 #endif
-// Functions whose loops over constant arguments must be unrolled: left to its own measure, gcc may
-// not inline them, and the decoder takes four times as long (tests/bench/PERFORMANCE.md).
+// For functions whose loops over constant arguments must be unrolled. Left to itself, gcc may not
+// inline them, and the decoder takes four times as long (tests/bench/PERFORMANCE.md).
 #ifdef __OPTIMIZE_SIZE__
 #define NSVCD__INLINE static inline
 #else
 #define NSVCD__INLINE NSVCD__FORCE_INLINE
 #endif
-// Functions that must not be inlined: what they take of the stack would add up.
+// For functions whose stack would add up in a caller.
 #if defined(__GNUC__) || defined(__clang__)
 #define NSVCD__NOINLINE __attribute__((noinline))
 #elif defined(_MSC_VER)

@@ -2,7 +2,7 @@
 #pragma once
 #include "compiler.h"
 
-// Goes on with a digest over (count) words of 32 bits.
+// Continues a digest over (count) words of 32 bits.
 static uint32_t nsvcd__digest(uint32_t digest, const void *words, size_t count) {
   for (size_t i = 0; i < count; i++) {
     uint32_t word;

@@ -1,5 +1,4 @@
-// In: the caller's allocator, or the workspace. Out: arrays from either; NULL, or a count alone,
-// where there is no memory.
+// In: the caller's allocator, or a workspace. Out: arrays from either.
 #pragma once
 #include "../interface/bodies.h"
 #include "points.h"
@@ -12,21 +11,20 @@ static void nsvcd__free(const nsvcd_allocator *allocator, void *memory) {
   if (allocator && memory) allocator->free(memory, allocator->user);
   if (!allocator) free(memory);
 }
-// count * size bytes; NULL also where that product cannot be counted.
+// count * size bytes; NULL also if that overflows.
 static void *nsvcd__alloc_array(const nsvcd_allocator *allocator, size_t count, size_t size) {
   return count > SIZE_MAX / size ? NULL : nsvcd__alloc(allocator, count * size);
 }
 
-// Arrays that are given back together. Where one cannot be had, `failed` says so: who takes several
-// asks once, after the last.
+// Arrays that are freed together. `failed` says that there was no memory for one of them: it is
+// checked once, after the last.
 typedef union nsvcd__header {
   union nsvcd__header *next;
   double aligned;
 } nsvcd__header;
 typedef struct nsvcd__arena {
   const nsvcd_allocator *allocator;
-  // an array behind each
-  nsvcd__header *last;
+  nsvcd__header *last;  // an array follows each
   int failed;
 } nsvcd__arena;
 
@@ -42,7 +40,7 @@ static void nsvcd__arena_free(nsvcd__arena *arena) {
   }
 }
 
-// Room for an array; NULL without memory.
+// Uninitialized memory for an array; NULL if there is none.
 static void *nsvcd__arena_room(nsvcd__arena *arena, size_t count, size_t size) {
   nsvcd__header *header = NULL;
   if (count <= (SIZE_MAX - sizeof *header) / size)
@@ -63,8 +61,8 @@ static void *nsvcd__arena_take(nsvcd__arena *arena, size_t count, size_t size) {
   return array ? memset(array, 0, count * size) : NULL;
 }
 
-// Room in place of an array (NULL: none), of which it keeps the first `used` bytes; without memory
-// that stays.
+// Memory in place of an array (NULL: none), whose first `used` bytes it keeps; without memory the
+// array stays.
 static void *nsvcd__arena_grow(nsvcd__arena *arena, void *old, size_t used, size_t count,
                                size_t size) {
   nsvcd__header **at = &arena->last;
@@ -79,8 +77,8 @@ static void *nsvcd__arena_grow(nsvcd__arena *arena, void *old, size_t used, size
 }
 #endif
 
-// The next rows of a workspace, or, where base is NULL, only counts their bytes: in 64 bits, for
-// they may be more than a machine of 32 bits can count.
+// The next array of a workspace, or, if base is NULL, only counts its bytes: in 64 bits, because a
+// 32-bit machine may not be able to address them.
 static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_size) {
   void *at = base ? base + *used : NULL;
   const uint64_t bytes = (uint64_t)rows * row_size;

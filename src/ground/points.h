@@ -2,8 +2,8 @@
 #pragma once
 #include "bits.h"
 
-// The greater, or the less, of two; where there is a NaN, b. fmax and fmin, which look for NaN, are
-// calls with most compilers.
+// The greater, or the lesser, of two; b if one is NaN. fmax and fmin, which handle NaN, are calls
+// with most compilers.
 static inline double nsvcd__max(double a, double b) {
   return a > b ? a : b;
 }
@@ -12,9 +12,8 @@ static inline double nsvcd__min(double a, double b) {
 }
 
 // The algebra of f3 and of d3: NSVCD__VECTORS(nsvcd__f3, float, sqrtf) writes nsvcd__f3_add and so
-// on. _load and _row are from floats, of which a row has three; _fma(s, b, a) is s b + a, rounded
-// twice. Of floats a difference, and all that is built of a few of them, is as good as exact in
-// double.
+// on. _load and _row read floats, three to a row; _fma(s, b, a) is s b + a, rounded twice. In
+// double, differences of floats and what is built of a few of them are practically exact.
 #define NSVCD__VECTORS(t, scalar, sqrt) \
   typedef struct t { \
     scalar x, y, z; \
@@ -60,9 +59,9 @@ NSVCD__VECTORS(nsvcd__f3, float, sqrtf)
 NSVCD__VECTORS(nsvcd__d3, double, sqrt)
 #undef NSVCD__VECTORS
 
-// ---- of floats
+// ---- floats
 
-// From, and to, rows of x, y and z, so many numbers apart.
+// From, and to, rows of x, y and z, `stride` apart.
 static inline nsvcd__f3 nsvcd__f3_get(const float *rows, size_t stride) {
   return nsvcd__f3_of(rows[0], rows[stride], rows[2 * stride]);
 }
@@ -74,7 +73,7 @@ static inline void nsvcd__f3_put(nsvcd__f3 a, float *rows, size_t stride) {
 static inline void nsvcd__f3_store(nsvcd__f3 a, float *p) {
   nsvcd__f3_put(a, p, 1);
 }
-// Is a component of a greater than b's?
+// Is any component of a greater than b's?
 static inline int nsvcd__f3_exceeds(nsvcd__f3 a, nsvcd__f3 b) {
   return (a.x > b.x) | (a.y > b.y) | (a.z > b.z);
 }
@@ -105,15 +104,15 @@ static inline double nsvcd__d3_distance2(nsvcd__d3 a, nsvcd__d3 b) {
   const nsvcd__d3 offset = nsvcd__d3_sub(a, b);
   return nsvcd__d3_dot(offset, offset);
 }
-// Of length 1; `otherwise` if a has none.
+// Of length 1; `otherwise` if a is 0.
 static inline nsvcd__d3 nsvcd__d3_unit(nsvcd__d3 a, nsvcd__d3 otherwise) {
   const double length = nsvcd__d3_length(a);
   return length > 0 ? nsvcd__d3_scale(a, 1 / length) : otherwise;
 }
-// Rounds for certain. gcc 12 at -O2 forgets to where two doubles side by side become floats and
-// doubles again: it takes the two conversions of a vector for none, and a proof built on what is
-// stored would not hold. clang 14 for WebAssembly, in turn, reads a volatile number that fills a
-// vector once more, when another one may have taken its place.
+// Rounds for certain. gcc 12 at -O2 drops both conversions where two neighbouring doubles become
+// floats and doubles again, and a proof built on the stored floats would not hold. clang 14 for
+// WebAssembly, in turn, reads a volatile number that fills a vector a second time, when it may have
+// been overwritten.
 static inline float nsvcd__to_float(double x) {
 #ifdef __wasm_simd128__
   return (float)x;
@@ -128,7 +127,7 @@ static inline nsvcd__f3 nsvcd__f3_round(nsvcd__d3 a) {
 static inline nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
   return nsvcd__d3_of((double)a.x, (double)a.y, (double)a.z);
 }
-// A double also where registers are wider (x87), for what is compared with itself computed again.
+// Rounded to double where registers are wider (x87), so that it equals itself computed again.
 static inline double nsvcd__stored(double x) {
 #if FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 1
   return x;

@@ -2,7 +2,7 @@
 #pragma once
 #include "../interface/options.h"
 
-// In (0, 1]: splitmix64.
+// Splitmix64, in (0, 1].
 static inline double nsvcd__random(uint64_t *state) {
   uint64_t z = *state += UINT64_C(0x9e3779b97f4a7c15);
   z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);

@@ -1,5 +1,5 @@
 // In, out: rotations, as values: quat and mat3 of floats, dquat and dmat3 of doubles. A matrix is
-// its rows. A transform is a rotation and a place.
+// its rows. A transform is a rotation and a position.
 #pragma once
 #include "angles.h"
 #include "points.h"
@@ -92,7 +92,7 @@ static inline nsvcd__quat nsvcd__quat_of(float x, float y, float z, float w) {
 static inline nsvcd__quat nsvcd__quat_load(const float *p) {
   return nsvcd__quat_of(p[0], p[1], p[2], p[3]);
 }
-// To rows of x, y, z and w, so many numbers apart.
+// To rows of x, y, z and w, `stride` apart.
 static inline void nsvcd__quat_put(nsvcd__quat q, float *rows, size_t stride) {
   rows[0] = q.x;
   rows[stride] = q.y;
@@ -103,9 +103,8 @@ static inline void nsvcd__quat_store(nsvcd__quat q, float *p) {
   nsvcd__quat_put(q, p, 1);
 }
 
-// Is the shorter arc from a to b the one to -b? Products of floats are exact in double, so that
-// every machine and the exact poses of the proof say the same, also where the arcs are equally long
-// to rounding.
+// Is the shorter arc from a to b the one to -b? Products of floats are exact in double, so every
+// machine and the exact poses of the proof agree, even if both arcs are equally long to rounding.
 static inline int nsvcd__quats_opposed(nsvcd__quat a, nsvcd__quat b) {
   double dot = (double)a.x * (double)b.x;
   dot += (double)a.y * (double)b.y;
@@ -114,19 +113,18 @@ static inline int nsvcd__quats_opposed(nsvcd__quat a, nsvcd__quat b) {
   return dot < 0;
 }
 
-// The length of the arc from a to b in quaternion space: half the angle of rotation. [0, pi/2]
-// where it is the shorter one. From the chord, because acos of a dot product near 1 has no digits
-// left.
+// The length of the arc from a to b in quaternion space: half the angle of rotation, in [0, pi/2]
+// for the shorter arc. From the chord, because acos of a dot product near 1 has no digits left.
 static inline float nsvcd__quat_arc(nsvcd__quat a, nsvcd__quat b) {
   const nsvcd__quat chord = nsvcd__quat_fma(-1, b, a);
   return 2 * nsvcd__asinf(0.5f * sqrtf(nsvcd__quat_dot(chord, chord)));
 }
 
-// The same rotation on the side of another quaternion, to which q is opposed or not.
+// The same rotation, negated if it is opposed to another quaternion.
 static inline nsvcd__quat nsvcd__quat_beside(nsvcd__quat q, int opposed) {
   return opposed ? nsvcd__quat_of(-q.x, -q.y, -q.z, -q.w) : q;
 }
-// of a unit one
+// Of a unit quaternion.
 static inline nsvcd__quat nsvcd__quat_inverse(nsvcd__quat q) {
   return nsvcd__quat_of(-q.x, -q.y, -q.z, q.w);
 }
@@ -140,12 +138,12 @@ static inline nsvcd__quat nsvcd__quat_mul(nsvcd__quat a, nsvcd__quat b) {
   out.w = a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z;
   return out;
 }
-// The turn from a to b, unit ones: its axis, times the sine of half its angle.
+// The turn from a to b, both unit: its axis, times the sine of half its angle.
 static inline nsvcd__f3 nsvcd__quat_turn(nsvcd__quat a, nsvcd__quat b) {
   return nsvcd__quat_axis(nsvcd__quat_mul(b, nsvcd__quat_inverse(a)));
 }
 
-// A share u of the way from a to b, on the shorter arc. a, b: unit to 1e-4.
+// From a at u = 0 to b at u = 1, on the shorter arc. a, b: unit to 1e-4.
 static inline nsvcd__quat nsvcd__quat_slerp(nsvcd__quat a, nsvcd__quat b, float u) {
   const int opposed = nsvcd__quats_opposed(a, b);
   const nsvcd__quat start = nsvcd__quat_unit(a);
@@ -153,7 +151,7 @@ static inline nsvcd__quat nsvcd__quat_slerp(nsvcd__quat a, nsvcd__quat b, float 
   const float angle = nsvcd__quat_arc(start, end);
   float wa = 1 - u;
   float wb = u;
-  // below, the difference is less than rounding
+  // below, slerp and lerp differ by less than rounding
   if (angle > 1e-3f) {
     wa = nsvcd__sinf((1 - u) * angle);
     wb = nsvcd__sinf(u * angle);

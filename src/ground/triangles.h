@@ -7,8 +7,8 @@ static nsvcd__d3 nsvcd__face_normal(const nsvcd__d3 *t) {
   return nsvcd__d3_cross(nsvcd__d3_sub(t[1], t[0]), nsvcd__d3_sub(t[2], t[0]));
 }
 
-// The same as a unit vector; 0 where the triangle has no area. What rounding, or fused arithmetic,
-// makes of such a triangle's normal is some 1e-16 of its longest edge squared.
+// The unit normal; 0 if the triangle has no area. Rounding, or fused arithmetic, makes such a
+// triangle's normal some 1e-16 of its longest edge squared.
 static inline nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
   const nsvcd__d3 n = nsvcd__face_normal(t);
   double longest = 0;
@@ -28,12 +28,8 @@ static double nsvcd__clamp_fraction(double x) {
 }
 
 static void nsvcd__keep_nearer(nsvcd__nearest *best, nsvcd__d3 a, nsvcd__d3 b) {
-  const nsvcd__d3 d = nsvcd__d3_sub(a, b);
-  const double square = nsvcd__d3_dot(d, d);
-  if (square >= best->square) return;
-  best->square = square;
-  best->on_a = a;
-  best->on_b = b;
+  const nsvcd__nearest found = {nsvcd__d3_distance2(a, b), a, b};
+  if (found.square < best->square) *best = found;
 }
 
 // The nearest points of the edges a0 a1 and b0 b1 (Ericson 2005, 5.1.9).
@@ -56,7 +52,7 @@ static void nsvcd__edges_nearest(nsvcd__d3 a0, nsvcd__d3 a1, nsvcd__d3 b0, nsvcd
   nsvcd__keep_nearer(best, nsvcd__d3_mix(a0, a1, s), nsvcd__d3_mix(b0, b1, t));
 }
 
-// The foot of x on the plane of a triangle, if it is within the triangle.
+// The foot of x on the plane of a triangle, if it is inside the triangle.
 static int nsvcd__foot_within(nsvcd__d3 x, const nsvcd__d3 *t, nsvcd__d3 *foot) {
   const nsvcd__d3 n = nsvcd__face_normal(t);
   const double square = nsvcd__d3_dot(n, n);
@@ -71,8 +67,8 @@ static int nsvcd__foot_within(nsvcd__d3 x, const nsvcd__d3 *t, nsvcd__d3 *foot) 
   return 1;
 }
 
-// Do two triangles meet where an edge of one passes through the other? Heights of corners over the
-// other's plane are in units of the length of its normal, which is not made unit.
+// Does an edge of one triangle pass through the other, and where? Heights of corners over the
+// other's plane are times the length of its normal, which is not normalized.
 static int nsvcd__triangles_meet(const nsvcd__d3 *a, const nsvcd__d3 *b, nsvcd__d3 *point) {
   const nsvcd__d3 *of[2] = {a, b};
   double heights[2][3];
@@ -100,8 +96,8 @@ static int nsvcd__triangles_meet(const nsvcd__d3 *a, const nsvcd__d3 *b, nsvcd__
   return 0;
 }
 
-// How many corners of a triangle there are to look at: of a point or a segment, which a round body
-// has, as nsvcd_encode_sphere and nsvcd_encode_capsule list it, 1 or 2.
+// How many different corners a triangle has: 1 or 2 for a point or a segment of a round body, as
+// nsvcd_encode_sphere and nsvcd_encode_capsule store it.
 static size_t nsvcd__corners_of(const nsvcd__d3 *t) {
   if (nsvcd__d3_distance2(t[1], t[2]) > 0) return 3;
   return nsvcd__d3_distance2(t[0], t[1]) > 0 ? 2 : 1;
@@ -116,10 +112,8 @@ static inline nsvcd__nearest nsvcd__nearest_of(const nsvcd__d3 *a, const nsvcd__
   nsvcd__nearest best = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
   nsvcd__d3 point;
   if (corners_a > 1 && corners_b > 1 && nsvcd__triangles_meet(a, b, &point)) {
-    best.square = 0;
-    best.on_a = point;
-    best.on_b = point;
-    return best;
+    const nsvcd__nearest met = {0, point, point};
+    return met;
   }
   for (size_t k = 0; k < edges_a; k++) {
     for (size_t n = 0; n < edges_b; n++)

@@ -1,4 +1,4 @@
-// In: what a caller hands over. Out: is it in order?
+// In: what a caller passes. Out: is it valid?
 #pragma once
 #include "../interface/queries.h"
 #include "bits.h"
@@ -9,8 +9,8 @@ static int nsvcd__is_aligned(const void *memory) {
   return ((uintptr_t)memory & (NSVCD_ALIGNMENT - 1)) == 0;
 }
 
-// Are numbers finite, and their absolute values no greater than `most`? By their bits, so that it
-// holds under -ffast-math too.
+// Are numbers finite, and their absolute values at most `most`? By their bits, so that it holds
+// under -ffast-math too.
 static int nsvcd__in_range(const float *values, size_t count, float most) {
   for (size_t i = 0; i < count; i++) {
     if (!nsvcd__is_finite(values[i]) || fabsf(values[i]) > most) return 0;
@@ -18,20 +18,19 @@ static int nsvcd__in_range(const float *values, size_t count, float most) {
   return 1;
 }
 
-// A float not less than x, which is not negative.
+// A float that is not less than x >= 0.
 static inline float nsvcd__above(double x) {
   return (float)(x * (1 + 2e-7)) + 1e-37f;
 }
 
-// Is it a length that may be told, or 0?
+// Is it a valid length, or 0?
 static int nsvcd__is_length(float x) {
   return nsvcd__is_finite(x) && x >= 0 && x <= NSVCD_MAX_COORDINATE;
 }
 
 // Are all numbers in range and all quaternions of unit length?
 static nsvcd_result nsvcd__poses_check(const nsvcd_pose *poses, size_t count) {
-  // 7 to a pose
-  const float *numbers = poses->position;
+  const float *numbers = poses->position;  // 7 to a pose
   uint32_t most = 0;
   float shortest = 1;
   float longest = 1;
@@ -48,28 +47,26 @@ static nsvcd_result nsvcd__poses_check(const nsvcd_pose *poses, size_t count) {
   const int is_unit =
       shortest >= 1 - 2 * NSVCD_UNIT_TOLERANCE && longest <= 1 + 2 * NSVCD_UNIT_TOLERANCE;
   if (is_unit && most <= nsvcd__magnitude(NSVCD_MAX_COORDINATE)) return NSVCD_OK;
-  // which of both?
   for (size_t k = 0; k < count; k++) {
     if (!nsvcd__in_range(poses[k].position, 3, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_POSE;
   }
   return NSVCD_ERROR_QUATERNION;
 }
 
-// Do they rise from 0 to 1, or are there none?
+// Do times rise from 0 to 1, if there are any?
 static int nsvcd__times_are_valid(const float *times, size_t count) {
   if (!times || count == 1) return 1;
   int rise =
       !(times[0] < 0) && !(times[0] > 0) && times[count - 1] <= 1 && times[count - 1] >= 1;
-  // what is not a number does not rise
-  for (size_t k = 1; k < count; k++)
+  for (size_t k = 1; k < count; k++)  // NaN does not rise
     rise &= (double)times[k] - (double)times[k - 1] >= 0.99e-7;
   return rise;
 }
 
-// What a mover that is at rest at the origin is given.
+// The pose of a mover without poses.
 static const nsvcd_pose nsvcd__at_origin = {{0, 0, 0}, {0, 0, 0, 1}};
 
-// A mover's scale, which is 1 where 0 is given.
+// A mover's scale; the default is 1.
 static float nsvcd__scale_of(const nsvcd_mover *mover) {
   return mover->scale > 0 ? mover->scale : 1;
 }
@@ -85,7 +82,7 @@ static nsvcd_result nsvcd__track_check(const nsvcd_mover *mover) {
   return nsvcd__poses_check(mover->poses, mover->count);
 }
 
-// A mesh may come from anywhere: everything below relies on what is checked here.
+// A mesh may come from anywhere: all that follows relies on these checks.
 static inline nsvcd_result nsvcd__mesh_check(const nsvcd_mesh *mesh) {
   if (!mesh) return NSVCD_ERROR_ARGUMENT;
   if (mesh->triangle_count == 0) return NSVCD_ERROR_EMPTY;
@@ -97,9 +94,7 @@ static inline nsvcd_result nsvcd__mesh_check(const nsvcd_mesh *mesh) {
   for (size_t i = 0; i < 3 * triangles; i++) {
     if (mesh->indices[i] >= vertices) return NSVCD_ERROR_INDEX;
   }
-  for (size_t i = 0; i < 3 * vertices; i++) {
-    const float x = mesh->positions[i];
-    if (!nsvcd__is_finite(x) || fabsf(x) > NSVCD_MAX_COORDINATE) return NSVCD_ERROR_NUMBER;
-  }
+  if (!nsvcd__in_range(mesh->positions, 3 * vertices, NSVCD_MAX_COORDINATE))
+    return NSVCD_ERROR_NUMBER;
   return NSVCD_OK;
 }

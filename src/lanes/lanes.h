@@ -1,11 +1,11 @@
-// In, out: a slice of 16 lanes: as many floats as a register holds. v is such a slice, v3 a vector
-// of three, lane by lane.
+// In, out: slices of 16 lanes: as many floats as a register holds. v is a slice, v3 a vector of
+// three of them.
 #pragma once
 #include "../ground/spheres.h"
 #include "../ground/slices.h"
 
-// ---- what each set of instructions calls its operations; what they mean, plain C says. Names, not
-// functions, so that the sets of x86 are one text: entry/processor takes it in three times.
+// ---- operations, for each instruction set; the plain C ones say what they mean. Macros, so that
+// the sets of x86 share one text, which entry/processor compiles three times.
 
 #undef NSVCD__OP
 #undef NSVCD__OF_ALL
@@ -44,7 +44,7 @@ typedef v128_t nsvcd__v;
 #define nsvcd__v_load wasm_v128_load
 #define nsvcd__v_store wasm_v128_store
 #define nsvcd__v_set NSVCD__OP(splat)
-// pmin(b, a) is a < b ? a : b, one instruction of x86; min, which minds NaN and -0, is many.
+// pmin(b, a) is a < b ? a : b, one instruction of x86; min, which handles NaN and -0, takes many.
 #define NSVCD__MIN(a, b) NSVCD__OP(pmin)(b, a)
 #define NSVCD__MAX(a, b) NSVCD__OP(pmax)(b, a)
 #define nsvcd__v_sqrt NSVCD__OP(sqrt)
@@ -84,7 +84,7 @@ static inline uint32_t nsvcd__v_bits(uint32x4_t lanes) {
 #if NSVCD__SLICE == 16
 typedef __m512 nsvcd__v;
 #define NSVCD__OP(name) _mm512_##name##_ps
-// Masked, by a mask that takes all: without one gcc's own header warns, in C++.
+// With a mask of all lanes: unmasked, gcc's own header warns in C++.
 #define NSVCD__ALL ((__mmask16)0xffff)
 #define NSVCD__OF_ALL(name, ...) _mm512_maskz_##name##_ps(NSVCD__ALL, __VA_ARGS__)
 #define NSVCD__FMA(a, b, c) _mm512_fmadd_ps(a, b, c)
@@ -118,7 +118,7 @@ typedef __m128 nsvcd__v;
 #define NSVCD__FMA(a, b, c) nsvcd__v_add(nsvcd__v_mul(a, b), c)
 #endif
 #define nsvcd__v_fma(a, b, c) NSVCD__FMA(a, b, c)  // a b + c
-// Bit i is set where a <= b in lane i of the slice, or a < b.
+// Bit i is set if a <= b in lane i of the slice, or a < b.
 #define nsvcd__v_le(a, b) ((uint32_t)NSVCD__BITS(NSVCD__LE(a, b)))
 #define nsvcd__v_lt(a, b) ((uint32_t)NSVCD__BITS(NSVCD__LT(a, b)))
 static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) {
@@ -227,7 +227,7 @@ static inline nsvcd__v nsvcd__v_abs(nsvcd__v a) {
   return nsvcd__v_max(a, nsvcd__v_negate(a));
 }
 
-// A slice of vectors as a value, lane by lane.
+// A slice of vectors.
 typedef struct nsvcd__v3 {
   nsvcd__v x, y, z;
 } nsvcd__v3;
@@ -239,20 +239,21 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_of(nsvcd__v x, nsvcd__v y, nsvcd__v z) {
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_set(nsvcd__f3 a) {
   return nsvcd__v3_of(nsvcd__v_set(a.x), nsvcd__v_set(a.y), nsvcd__v_set(a.z));
 }
+#define NSVCD__BY_AXIS(op, a, b) nsvcd__v3_of(op(a.x, b.x), op(a.y, b.y), op(a.z, b.z))
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_add(nsvcd__v3 a, nsvcd__v3 b) {
-  return nsvcd__v3_of(nsvcd__v_add(a.x, b.x), nsvcd__v_add(a.y, b.y), nsvcd__v_add(a.z, b.z));
+  return NSVCD__BY_AXIS(nsvcd__v_add, a, b);
 }
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_sub(nsvcd__v3 a, nsvcd__v3 b) {
-  return nsvcd__v3_of(nsvcd__v_sub(a.x, b.x), nsvcd__v_sub(a.y, b.y), nsvcd__v_sub(a.z, b.z));
+  return NSVCD__BY_AXIS(nsvcd__v_sub, a, b);
 }
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_negate(nsvcd__v3 a) {
   return nsvcd__v3_of(nsvcd__v_negate(a.x), nsvcd__v_negate(a.y), nsvcd__v_negate(a.z));
 }
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_min(nsvcd__v3 a, nsvcd__v3 b) {
-  return nsvcd__v3_of(nsvcd__v_min(a.x, b.x), nsvcd__v_min(a.y, b.y), nsvcd__v_min(a.z, b.z));
+  return NSVCD__BY_AXIS(nsvcd__v_min, a, b);
 }
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_max(nsvcd__v3 a, nsvcd__v3 b) {
-  return nsvcd__v3_of(nsvcd__v_max(a.x, b.x), nsvcd__v_max(a.y, b.y), nsvcd__v_max(a.z, b.z));
+  return NSVCD__BY_AXIS(nsvcd__v_max, a, b);
 }
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_scale(nsvcd__v3 a, nsvcd__v s) {
   return nsvcd__v3_of(nsvcd__v_mul(s, a.x), nsvcd__v_mul(s, a.y), nsvcd__v_mul(s, a.z));
@@ -278,12 +279,12 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_cross(nsvcd__v3 a, nsvcd__v3 b) {
                       nsvcd__v_sub(nsvcd__v_mul(a.z, b.x), nsvcd__v_mul(a.x, b.z)),
                       nsvcd__v_sub(nsvcd__v_mul(a.x, b.y), nsvcd__v_mul(a.y, b.x)));
 }
-// The centres of a slice of spheres, from l on.
+// The centres of a slice of spheres.
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_centres(nsvcd__spheres all, size_t l) {
   return nsvcd__v3_of(nsvcd__v_load(all.x + l), nsvcd__v_load(all.y + l),
                       nsvcd__v_load(all.z + l));
 }
-// Rows of x, y and z, so many numbers apart.
+// From rows of x, y and z, `stride` apart.
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_load_rows(const float *p, size_t stride) {
   return nsvcd__v3_of(nsvcd__v_load(p), nsvcd__v_load(p + stride),
                       nsvcd__v_load(p + 2 * stride));
@@ -302,59 +303,61 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_rows(const float *p) {
   return nsvcd__v3_load_rows(p, NSVCD__LANES);
 }
 // Lanes l .. l + SLICE - 1 of p (3, LANES).
-NSVCD__INLINE void nsvcd__v3_store(float (*p)[NSVCD__LANES], size_t l, nsvcd__v3 a) {
+NSVCD__INLINE void nsvcd__v3_store(nsvcd__row *p, size_t l, nsvcd__v3 a) {
   nsvcd__v3_store_rows(a, p[0] + l, NSVCD__LANES);
 }
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_load(float (*p)[NSVCD__LANES], size_t l) {
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_load(nsvcd__row *p, size_t l) {
   return nsvcd__v3_load_rows(p[0] + l, NSVCD__LANES);
 }
 
-// One lane alone: the vector in lane l of (3, LANES).
-static inline nsvcd__f3 nsvcd__lane_of(float (*lanes)[NSVCD__LANES], size_t l) {
-  return nsvcd__f3_get(lanes[0] + l, NSVCD__LANES);
+// The vector in lane l alone.
+static inline nsvcd__f3 nsvcd__lane_of(nsvcd__row *p, size_t l) {
+  return nsvcd__f3_get(p[0] + l, NSVCD__LANES);
 }
-static inline void nsvcd__lane_set(nsvcd__f3 a, float (*lanes)[NSVCD__LANES], size_t l) {
-  nsvcd__f3_put(a, lanes[0] + l, NSVCD__LANES);
+static inline void nsvcd__lane_set(nsvcd__f3 a, nsvcd__row *p, size_t l) {
+  nsvcd__f3_put(a, p[0] + l, NSVCD__LANES);
 }
-// Vectors over their lengths; the x axis where that is 0.
+// Unit vectors; the x axis where the length is 0.
 static inline nsvcd__v3 nsvcd__v3_unit(nsvcd__v3 a) {
-  const nsvcd__v zero = nsvcd__v_set(0);
-  const nsvcd__v one = nsvcd__v_set(1);
+  const nsvcd__v3 x = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
   const nsvcd__v least = nsvcd__v_set(1e-18f);
   const nsvcd__v length = nsvcd__v3_length(a);
-  const nsvcd__v inverse = nsvcd__v_div(one, nsvcd__v_max(length, least));
+  const nsvcd__v inverse = nsvcd__v_div(x.x, nsvcd__v_max(length, least));
   const nsvcd__v3 unit = nsvcd__v3_scale(a, inverse);
-  return nsvcd__v3_of(nsvcd__v_pick(length, least, one, unit.x),
-                      nsvcd__v_pick(length, least, zero, unit.y),
-                      nsvcd__v_pick(length, least, zero, unit.z));
+  return nsvcd__v3_of(nsvcd__v_pick(length, least, x.x, unit.x),
+                      nsvcd__v_pick(length, least, x.y, unit.y),
+                      nsvcd__v_pick(length, least, x.z, unit.z));
 }
 
-// The square of a sum of radii, with its sign: a negative sum (padding) meets nothing.
-static inline nsvcd__v nsvcd__v_signed_square(nsvcd__v reach) {
-  return nsvcd__v_mul(reach, nsvcd__v_abs(reach));
+// Ranges along a direction.
+typedef struct nsvcd__v_range {
+  nsvcd__v low, high;
+} nsvcd__v_range;
+
+// The square of a sum of radii, with its sign: a negative sum, of padding, meets nothing.
+static inline nsvcd__v nsvcd__v_signed_square(nsvcd__v sum) {
+  return nsvcd__v_mul(sum, nsvcd__v_abs(sum));
 }
 
-// A ray in a body's frame, so wide.
+// A ray in a body's frame, with a radius.
 typedef struct nsvcd__beam {
-  nsvcd__f3 from, along;  // a unit vector
+  nsvcd__f3 from, along;  // along: a unit vector
   float width;
 } nsvcd__beam;
 
 // A filter of a traversal: spheres that a beam meets.
 static uint32_t nsvcd__is_on_beam(const void *what, nsvcd__spheres all) {
   const nsvcd__beam *beam = (const nsvcd__beam *)what;
+  const nsvcd__v3 n = nsvcd__v3_set(beam->along);
+  const nsvcd__v3 from = nsvcd__v3_set(beam->from);
   uint32_t met = 0;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 n = nsvcd__v3_set(beam->along);
-    const nsvcd__v3 from = nsvcd__v3_set(beam->from);
     const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(all, l), from);
     const nsvcd__v3 off = nsvcd__v3_cross(d, n);
-    const nsvcd__v reach = nsvcd__v_plus(nsvcd__v_load(all.r + l), beam->width);
+    const nsvcd__v sum = nsvcd__v_plus(nsvcd__v_load(all.r + l), beam->width);
     const nsvcd__v square = nsvcd__v3_dot(off, off);
-    const nsvcd__v limit = nsvcd__v_signed_square(reach);
-    const nsvcd__v behind = nsvcd__v_negate(reach);
-    const uint32_t ahead = nsvcd__v_le(behind, nsvcd__v3_dot(d, n));
-    met |= (ahead & nsvcd__v_le(square, limit)) << l;
+    const uint32_t ahead = nsvcd__v_le(nsvcd__v_negate(sum), nsvcd__v3_dot(d, n));
+    met |= (ahead & nsvcd__v_le(square, nsvcd__v_signed_square(sum))) << l;
   }
   return met;
 }

@@ -1,4 +1,4 @@
-// In, out: rotations, lane by lane: vquat and vmat3 are a slice of quaternions and of matrices.
+// In, out: rotations, lane by lane: vquat is a slice of quaternions, vmat3 of matrices.
 #pragma once
 #include "../ground/rotations.h"
 #include "lanes.h"
@@ -16,18 +16,16 @@ NSVCD__INLINE nsvcd__vquat nsvcd__vquat_of(nsvcd__v3 axis, nsvcd__v w) {
   const nsvcd__vquat out = {axis.x, axis.y, axis.z, w};
   return out;
 }
-// times the sine of half the angle
+// The axis of a unit quaternion, times the sine of half its angle.
 NSVCD__INLINE nsvcd__v3 nsvcd__vquat_axis(nsvcd__vquat q) {
   return nsvcd__v3_of(q.x, q.y, q.z);
 }
 NSVCD__INLINE nsvcd__vquat nsvcd__vquat_set(nsvcd__quat q) {
   return nsvcd__vquat_of(nsvcd__v3_set(nsvcd__f3_of(q.x, q.y, q.z)), nsvcd__v_set(q.w));
 }
-// Rows of x, y, z and w, so many numbers apart.
+// From rows of x, y, z and w, `stride` apart.
 NSVCD__INLINE nsvcd__vquat nsvcd__vquat_load(const float *p, size_t stride) {
-  const nsvcd__vquat q = {nsvcd__v_load(p), nsvcd__v_load(p + stride),
-                          nsvcd__v_load(p + 2 * stride), nsvcd__v_load(p + 3 * stride)};
-  return q;
+  return nsvcd__vquat_of(nsvcd__v3_load_rows(p, stride), nsvcd__v_load(p + 3 * stride));
 }
 NSVCD__INLINE void nsvcd__vquat_store(nsvcd__vquat q, float *p, size_t stride) {
   nsvcd__v3_store_rows(nsvcd__vquat_axis(q), p, stride);
@@ -48,7 +46,7 @@ static inline nsvcd__vquat nsvcd__vquat_unit(nsvcd__vquat q) {
                             nsvcd__v_div(q.z, length), nsvcd__v_div(q.w, length)};
   return out;
 }
-// of unit ones
+// Of unit quaternions.
 static inline nsvcd__vquat nsvcd__vquat_inverse(nsvcd__vquat q) {
   return nsvcd__vquat_of(nsvcd__v3_negate(nsvcd__vquat_axis(q)), q.w);
 }
@@ -70,17 +68,17 @@ NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_set(const nsvcd__mat3 *m) {
   return out;
 }
 // The matrix in lane l of p (9, LANES), row-major.
-static inline nsvcd__mat3 nsvcd__mat3_lane(float (*p)[NSVCD__LANES], size_t l) {
+static inline nsvcd__mat3 nsvcd__mat3_lane(nsvcd__row *p, size_t l) {
   const nsvcd__mat3 out = {nsvcd__lane_of(p, l), nsvcd__lane_of(p + 3, l),
                            nsvcd__lane_of(p + 6, l)};
   return out;
 }
 // p: (9, LANES), row-major.
-NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_load(float (*p)[NSVCD__LANES], size_t l) {
+NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_load(nsvcd__row *p, size_t l) {
   return nsvcd__vmat3_rows(nsvcd__v3_load(p, l), nsvcd__v3_load(p + 3, l),
                            nsvcd__v3_load(p + 6, l));
 }
-NSVCD__INLINE void nsvcd__vmat3_store(float (*p)[NSVCD__LANES], size_t l, nsvcd__vmat3 m) {
+NSVCD__INLINE void nsvcd__vmat3_store(nsvcd__row *p, size_t l, nsvcd__vmat3 m) {
   nsvcd__v3_store(p, l, m.x);
   nsvcd__v3_store(p + 3, l, m.y);
   nsvcd__v3_store(p + 6, l, m.z);
@@ -116,7 +114,7 @@ NSVCD__INLINE nsvcd__v3 nsvcd__vmat3_apply_add(nsvcd__vmat3 m, nsvcd__v3 a, nsvc
   return nsvcd__v3_of(nsvcd__v3_dot_add(m.x, a, p.x), nsvcd__v3_dot_add(m.y, a, p.y),
                       nsvcd__v3_dot_add(m.z, a, p.z));
 }
-// The sum of the squares of the entries.
+// The squared Frobenius norm.
 NSVCD__INLINE nsvcd__v nsvcd__vmat3_square(nsvcd__vmat3 m) {
   const nsvcd__v sum = nsvcd__v3_dot_add(m.x, m.x, nsvcd__v_set(0));
   return nsvcd__v3_dot_add(m.z, m.z, nsvcd__v3_dot_add(m.y, m.y, sum));
@@ -134,13 +132,13 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_transform(const nsvcd__transform *t, nsvcd__v3
   return nsvcd__v3_fma(a.x, nsvcd__v3_set(columns.x), sum);
 }
 
-// Of quaternions that need not be of unit length, but whose squares float holds.
+// Of quaternions of any length whose square fits a float.
 static inline nsvcd__vmat3 nsvcd__vmat3_of(nsvcd__vquat q) {
   const nsvcd__v one = nsvcd__v_set(1);
   const nsvcd__v3 axis = nsvcd__vquat_axis(q);
   const nsvcd__v square = nsvcd__v_add(nsvcd__v_mul(q.w, q.w), nsvcd__v3_dot(axis, axis));
   const nsvcd__v3 s = nsvcd__v3_scale(axis, nsvcd__v_div(nsvcd__v_set(2), square));
-  // products of twice x and of w with each, and those that are left
+  // twice x times each, twice w times each, and the products that are left
   const nsvcd__v3 x = nsvcd__v3_scale(axis, s.x);
   const nsvcd__v3 w = nsvcd__v3_scale(s, q.w);
   const nsvcd__v yy = nsvcd__v_mul(s.y, q.y);

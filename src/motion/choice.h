@@ -1,68 +1,52 @@
-// In: a motion. Out: its segments: how many, and when they begin. A motion that is too long for one
-// search is cut into *intervals*, each of which is searched anew with segments of its own: else
-// segments would hold hundreds of poses, or turn by hundreds of degrees, and part nothing. An
-// interval begins at a keyframe. It has as many arcs as there is room for, a segment each, or
-// several where an arc turns a lot. A *try* is a larger one: a few units tell whether all of it is
-// easy.
+// In: a motion. Out: its segments: how many, when they begin, and their poses and deviations.
+//
+// A motion that is too long for one search is cut into *intervals*, each of which is searched with
+// segments of its own: else a segment would hold hundreds of poses, or turn by hundreds of degrees,
+// and separate nothing. An interval begins at a keyframe. It has as many arcs as there is room for:
+// one in each segment, or one in several where it turns a lot. A *try* is larger: several arcs in
+// each segment, and a small budget tells whether all of it is easy.
 #pragma once
-#include "segments.h"
+#include "workspace.h"
 
-// Bounds of the total length of a track's rotation arcs, radians, and of the longest.
+#define NSVCD__SEGMENT_TURN 0.349f  // radians, 20 degrees
+#define NSVCD__FINE_TURN 0.131f     // 7.5 degrees: shorter segments gain nothing
+
+// Upper bounds of the sum of a track's arcs of rotation, radians, and of the longest: as in
+// nsvcd__v_arc.
 static void nsvcd__measure_turn(const nsvcd__track *track, float *turn, float *widest) {
-  float chord2[NSVCD__LANES];
-  float sums[NSVCD__LANES] = {0};
-  float longest[NSVCD__LANES] = {0};
-  for (size_t first = 0; first + 1 < track->count; first += NSVCD__LANES) {
-    const size_t left = track->count - 1 - first;
-    const size_t count = left < NSVCD__LANES ? left : NSVCD__LANES;
-    for (size_t l = 0; l < NSVCD__LANES; l++) {
-      const float *a = track->poses[first + (l < count ? l : count - 1)].rotation;
-      const float *b = track->poses[first + (l < count ? l + 1 : count - 1)].rotation;
-      const float dot = (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]);
-      const float sign = dot < 0 ? -1.0f : 1.0f;
-      float d[4];
-      for (size_t k = 0; k < 4; k++) d[k] = sign * b[k] - a[k];
-      chord2[l] = (d[0] * d[0] + d[1] * d[1]) + (d[2] * d[2] + d[3] * d[3]);
-    }
-    NSVCD__EACH_SLICE(l) {
-      const nsvcd__v arc = nsvcd__v_arc_bound(nsvcd__v_load(chord2 + l));
-      nsvcd__v_store(sums + l, nsvcd__v_add(nsvcd__v_load(sums + l), arc));
-      nsvcd__v_store(longest + l, nsvcd__v_max(nsvcd__v_load(longest + l), arc));
-    }
-  }
-  *turn = 0;
-  *widest = 0;
-  for (size_t l = 0; l < NSVCD__LANES; l++) {
-    *turn += sums[l];
-    *widest = longest[l] > *widest ? longest[l] : *widest;
+  *turn = *widest = 0;
+  for (size_t n = 1; n < track->count; n++) {
+    const nsvcd__quat a = nsvcd__quat_load(track->poses[n - 1].rotation);
+    const nsvcd__quat b = nsvcd__quat_load(track->poses[n].rotation);
+    const float sign = nsvcd__quat_dot(a, b) < 0 ? 1.0f : -1.0f;
+    const nsvcd__quat chord = nsvcd__quat_fma(sign, b, a);
+    const float x = 0.50025f * sqrtf(nsvcd__quat_dot(chord, chord));
+    const float arc = x * (4 + 2.2832f * x * x);
+    *turn += arc;
+    *widest = arc > *widest ? arc : *widest;
   }
 }
 
-// How many segments, and into how many parts a tick must be cut where there are too few for that
-// (else 1). Segments begin at ticks.
-static size_t nsvcd__segment_count(const nsvcd__motion *motion, size_t greatest,
-                                   uint32_t *parts) {
-  const size_t ticks = motion->ticks;
-  float turn;
-  float widest;
-  float fixed_turn = 0;
-  float fixed_widest = 0;
+// How many segments. They begin at ticks; if there are too few of these, each is cut into `parts`,
+// else 1.
+static size_t nsvcd__segment_count(const nsvcd__motion *m, size_t greatest, uint32_t *parts) {
+  const size_t ticks = m->ticks;
+  float turn, widest, fixed_turn, fixed_widest;
   *parts = 1;
-  if (motion->moving.count == 1 && !motion->fixed_moves) return 1;
-  nsvcd__measure_turn(&motion->moving, &turn, &widest);
-  if (motion->fixed_moves) nsvcd__measure_turn(&motion->fixed, &fixed_turn, &fixed_widest);
+  if (m->moving.count == 1 && !m->fixed_moves) return 1;
+  nsvcd__measure_turn(&m->moving, &turn, &widest);
+  nsvcd__measure_turn(&m->fixed, &fixed_turn, &fixed_widest);
   turn = turn + fixed_turn < 1e3f ? turn + fixed_turn : 1e3f;
   const size_t coarse = (size_t)ceilf(turn / NSVCD__SEGMENT_TURN);
   const size_t fine = (size_t)ceilf(turn / NSVCD__FINE_TURN);
   size_t wanted = fine < NSVCD__SEGMENTS ? fine : NSVCD__SEGMENTS;
   if (wanted < coarse) wanted = coarse < greatest ? coarse : greatest;
   if (wanted < 1) wanted = 1;
-  if (ticks > wanted)
-    return ticks < NSVCD__SEGMENTS    ? ticks
-           : wanted < NSVCD__SEGMENTS ? NSVCD__SEGMENTS
-                                      : wanted;
-  const float of_tick =
-      widest / (float)motion->moving.ticks + fixed_widest / (float)motion->fixed.ticks;
+  if (ticks > wanted) {
+    const size_t enough = wanted < NSVCD__SEGMENTS ? NSVCD__SEGMENTS : wanted;
+    return ticks < enough ? ticks : enough;
+  }
+  const float of_tick = widest / (float)m->moving.ticks + fixed_widest / (float)m->fixed.ticks;
   const size_t least = (size_t)ceilf(of_tick / NSVCD__SEGMENT_TURN);
   const size_t most = greatest / ticks;
   size_t each = wanted / ticks > least ? wanted / ticks : least;
@@ -71,38 +55,31 @@ static size_t nsvcd__segment_count(const nsvcd__motion *motion, size_t greatest,
   return ticks * *parts;
 }
 
-// Of a whole motion.
-static void nsvcd__choose_in_all(nsvcd__motion *motion, nsvcd__search *search) {
+// The segments of a whole motion: equally many ticks in each, to one.
+static void nsvcd__choose_in_all(nsvcd__motion *m, nsvcd__search *q) {
   uint32_t parts;
-  nsvcd__motion_set_ticks(motion, 1);
-  search->segments = nsvcd__segment_count(motion, search->most_segments, &parts);
-  nsvcd__motion_set_ticks(motion, parts);
-  const uint32_t segments = (uint32_t)search->segments;
-  const uint32_t each = motion->ticks / segments;
-  const uint32_t over = motion->ticks % segments;
-  uint32_t tick = 0;
-  uint32_t rest = 0;
-  for (size_t s = 0; s <= segments; s++) {
-    search->begin[s] = tick;
-    rest += over;
-    tick += each + (rest >= segments);
-    rest -= rest >= segments ? segments : 0;
-  }
-  nsvcd__motion_retime(motion, search->begin, segments);
+  nsvcd__motion_set_ticks(m, 1);
+  q->segments = nsvcd__segment_count(m, q->most_segments, &parts);
+  nsvcd__motion_set_ticks(m, parts);
+  const uint32_t segments = (uint32_t)q->segments;
+  const uint32_t each = m->ticks / segments;
+  const uint32_t over = m->ticks % segments;
+  for (uint32_t s = 0; s <= segments; s++) q->begin[s] = each * s + over * s / segments;
+  nsvcd__motion_retime(m, q->begin, segments);
 }
 
-// The ticks of a motion that is cut into intervals: the same for all of them, and so many that an
-// arc can be cut.
-static void nsvcd__motion_set_fine_ticks(nsvcd__motion *motion) {
+// Sets the ticks of a motion that is cut into intervals: the same for all of them, and so many that
+// an arc can be cut.
+static void nsvcd__motion_set_fine_ticks(nsvcd__motion *m) {
   uint32_t parts = NSVCD__MAX_SEGMENTS;
-  nsvcd__motion_set_ticks(motion, 1);
-  while (motion->ticks > 0xffffffffu / parts) parts /= 2;
-  nsvcd__motion_set_ticks(motion, parts);
-  nsvcd__motion_set_times(motion);
+  nsvcd__motion_set_ticks(m, 1);
+  while (m->ticks > 0xffffffffu / parts) parts /= 2;
+  nsvcd__motion_set_ticks(m, parts);
+  nsvcd__motion_set_times(m);
 }
 
-// How far a track turns from one tick to another, between two poses of it: about, radians.
-static float nsvcd__turn_within(const nsvcd__track *track, uint32_t from, uint32_t to) {
+// How far a track turns between ticks of the same arc: about, radians.
+static float nsvcd__track_turn(const nsvcd__track *track, uint32_t from, uint32_t to) {
   if (track->count == 1) return 0;
   const uint32_t k = nsvcd__pose_before(track, from);
   const nsvcd__quat a = nsvcd__quat_load(track->poses[k].rotation);
@@ -113,89 +90,86 @@ static float nsvcd__turn_within(const nsvcd__track *track, uint32_t from, uint32
   return (2 + 0.1f * chord * chord) * chord * (float)(to - from) / (float)length;
 }
 
-// Of an interval. A try has several arcs in each segment, and its end may be that of the motion.
-static void nsvcd__choose_in_interval(nsvcd__motion *motion, nsvcd__search *search) {
-  const size_t most = search->most_segments;
-  const int is_try = motion->arcs > 1;
-  const float step = motion->is_fine ? NSVCD__FINE_TURN : NSVCD__SEGMENT_TURN;
+// The segments of an interval.
+static void nsvcd__choose_in_interval(nsvcd__motion *m, nsvcd__search *q) {
+  const size_t most = q->most_segments;
+  const int is_try = m->arcs > 1;
+  const float step = m->is_fine ? NSVCD__FINE_TURN : NSVCD__SEGMENT_TURN;
   size_t segments = 0;
-  nsvcd__motion_set_fine_ticks(motion);
-  search->begin[0] = motion->from;
-  while (segments < most && search->begin[segments] < motion->ticks) {
-    const uint32_t from = search->begin[segments];
+  nsvcd__motion_set_fine_ticks(m);
+  q->begin[0] = m->from;
+  while (segments < most && q->begin[segments] < m->ticks) {
+    const uint32_t from = q->begin[segments];
     uint32_t to = from;
-    for (uint32_t n = 0; n < motion->arcs && to < motion->ticks; n++)
-      to = nsvcd__next_keyframe(motion, to);
-    const float turn = nsvcd__turn_within(&motion->moving, from, to) +
-                       nsvcd__turn_within(&motion->fixed, from, to);
+    for (uint32_t n = 0; n < m->arcs && to < m->ticks; n++) to = nsvcd__next_keyframe(m, to);
+    const float turn =
+        nsvcd__track_turn(&m->moving, from, to) + nsvcd__track_turn(&m->fixed, from, to);
     const float steps = ceilf(turn / step - 0.1f);
     const size_t turns = is_try || !(steps > 1) ? 1 : (size_t)steps;
     if (segments > 0 && segments + turns > most) break;
     const uint32_t parts = (uint32_t)(turns < most ? turns : most);
     const uint64_t length = to - from;
     for (uint32_t n = 1; n <= parts; n++)
-      search->begin[++segments] = from + (uint32_t)(length * n / parts);
+      q->begin[++segments] = from + (uint32_t)(length * n / parts);
   }
-  search->segments = segments;
+  q->segments = segments;
 }
 
-// Chooses the segments: how many, and when they begin.
-static void nsvcd__choose_segments(nsvcd__motion *motion, nsvcd__search *search) {
-  if (motion->arcs > 0)
-    nsvcd__choose_in_interval(motion, search);
+// Chooses how many segments there are, and when they begin.
+static void nsvcd__choose_segments(nsvcd__motion *m, nsvcd__search *q) {
+  if (m->arcs > 0)
+    nsvcd__choose_in_interval(m, q);
   else
-    nsvcd__choose_in_all(motion, search);
-  search->scale = motion->scale;
-  const double per_tick = 1 / (double)motion->ticks;
-  for (size_t s = 0; s <= search->segments; s++)
-    search->time[s] = (float)((double)search->begin[s] * per_tick);
+    nsvcd__choose_in_all(m, q);
+  q->scale = m->scale;
+  const double per_tick = 1 / (double)m->ticks;
+  for (size_t s = 0; s <= q->segments; s++)
+    q->time[s] = (float)((double)q->begin[s] * per_tick);
 }
 
 // ---- intervals
 
-// All of a motion.
-static void nsvcd__choose_all(nsvcd__motion *motion, nsvcd__search *search) {
-  motion->from = motion->arcs = 0;
-  motion->is_fine = 0;
-  nsvcd__choose_segments(motion, search);
+static void nsvcd__choose_all(nsvcd__motion *m, nsvcd__search *q) {
+  m->from = m->arcs = 0;
+  m->is_fine = 0;
+  nsvcd__choose_segments(m, q);
 }
 
 #ifndef NSVCD_NO_PROOF
-// No more keyframes than this come after a tick.
-static size_t nsvcd__keyframes_after(const nsvcd__motion *motion, uint32_t tick) {
-  const size_t moving = motion->moving.count - 1 - nsvcd__pose_before(&motion->moving, tick);
-  const size_t fixed = motion->fixed.count - 1 - nsvcd__pose_before(&motion->fixed, tick);
+// An upper bound of the keyframes after a tick.
+static size_t nsvcd__keyframes_after(const nsvcd__motion *m, uint32_t tick) {
+  const size_t moving = m->moving.count - 1 - nsvcd__pose_before(&m->moving, tick);
+  const size_t fixed = m->fixed.count - 1 - nsvcd__pose_before(&m->fixed, tick);
   return moving + fixed;
 }
 
-// The interval that begins at a tick, with so many arcs in a segment, or fewer where that is all
-// that is left of the motion. Chooses its segments.
-static void nsvcd__choose_interval(nsvcd__motion *motion, nsvcd__search *search, uint32_t from,
+// Chooses the segments of the interval that begins at a tick, with so many arcs in each, or fewer
+// at the end of the motion.
+static void nsvcd__choose_interval(nsvcd__motion *m, nsvcd__search *q, uint32_t from,
                                    uint32_t arcs) {
-  const size_t most = search->most_segments;
-  const size_t left = (nsvcd__keyframes_after(motion, from) + most - 1) / most;
-  motion->from = from;
-  motion->arcs = arcs < left ? arcs : (uint32_t)left;
-  nsvcd__choose_segments(motion, search);
+  const size_t most = q->most_segments;
+  const size_t left = (nsvcd__keyframes_after(m, from) + most - 1) / most;
+  m->from = from;
+  m->arcs = arcs < left ? arcs : (uint32_t)left;
+  nsvcd__choose_segments(m, q);
 }
 
-// Is a motion too long for one search? The segments of one that is not are chosen.
-static int nsvcd__is_long(nsvcd__motion *motion, nsvcd__search *search) {
-  const size_t most = search->most_segments;
-  const size_t keyframes = nsvcd__keyframes_after(motion, 0);
+// Is a motion too long for one search? If not, chooses its segments.
+static int nsvcd__is_long(nsvcd__motion *m, nsvcd__search *q) {
+  const size_t most = q->most_segments;
+  const size_t keyframes = nsvcd__keyframes_after(m, 0);
   if (keyframes <= most) {
-    nsvcd__choose_all(motion, search);
-    if (keyframes < 2 || search->segments < most) return 0;
+    nsvcd__choose_all(m, q);
+    if (keyframes < 2 || q->segments < most) return 0;
   }
-  nsvcd__choose_interval(motion, search, 0, 1);
-  if (search->begin[search->segments] < motion->ticks) return 1;
-  nsvcd__choose_all(motion, search);
+  nsvcd__choose_interval(m, q, 0, 1);
+  if (q->begin[q->segments] < m->ticks) return 1;
+  nsvcd__choose_all(m, q);
   return 0;
 }
 
-// The poses of a track that bear on an interval. Their ticks mean nothing.
-static nsvcd__track nsvcd__track_within(const nsvcd__track *track, uint32_t from,
-                                        uint32_t until) {
+// The poses of a track in an interval, without ticks of their own.
+static nsvcd__track nsvcd__subtrack(const nsvcd__track *track, uint32_t from, uint32_t until) {
   nsvcd__track part = *track;
   const uint32_t first = nsvcd__pose_before(track, from);
   if (track->count == 1) return part;
@@ -204,20 +178,40 @@ static nsvcd__track nsvcd__track_within(const nsvcd__track *track, uint32_t from
   return part;
 }
 
-// As nsvcd__motion_gap, of an interval.
-static float nsvcd__interval_gap(const nsvcd__motion *motion, uint32_t from, uint32_t until) {
-  nsvcd__motion part = *motion;
-  const nsvcd__track moving = nsvcd__track_within(&motion->moving, from, until);
-  const nsvcd__track fixed = nsvcd__track_within(&motion->fixed, from, until);
-  nsvcd__motion_set_box(&part, &moving, &fixed);
-  return nsvcd__motion_gap(&part);
+// nsvcd__motion_gap of an interval.
+static float nsvcd__interval_gap(const nsvcd__motion *m, uint32_t from, uint32_t until) {
+  const nsvcd__track moving = nsvcd__subtrack(&m->moving, from, until);
+  const nsvcd__track fixed = nsvcd__subtrack(&m->fixed, from, until);
+  return nsvcd__tracks_gap(&moving, &fixed, m->unit);
 }
 #endif
 
+// ---- cutting
+
+// Cuts the chosen segments. lengths: the bodies' extents; clearance: spheres that come so near
+// count as meeting.
+static void nsvcd__cut_segments(const nsvcd__motion *m, float lengths, float clearance,
+                                nsvcd__search *q) {
+  uint32_t *begin = q->begin;
+  float *turn = q->turn;
+  // segments of no length fill the last block
+  for (size_t s = q->segments; s % NSVCD__LANES; s++) begin[s + 1] = begin[s];
+  turn[0] = 0;
+  for (size_t s = 0; s < q->segments; s += NSVCD__LANES) {
+    nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
+    nsvcd__cut_block(m, begin + s, q->segments - s, lengths, block, q->cut);
+    for (size_t l = 0; l < NSVCD__LANES; l++) {
+      block->margin[l] += clearance;
+      turn[s + l + 1] = turn[s + l] + q->cut->most.turn[l];
+    }
+  }
+}
+
 #ifndef NSVCD_NO_NETWORK
-static NSVCD__NOINLINE void nsvcd__cut_motion(nsvcd__motion *motion, float lengths,
-                                              nsvcd__search *search) {
-  nsvcd__choose_all(motion, search);
-  nsvcd__cut_segments(motion, lengths, 0, search);
+// Chooses and cuts the segments of all of a motion.
+static NSVCD__NOINLINE void nsvcd__cut_motion(nsvcd__motion *m, float lengths,
+                                              nsvcd__search *q) {
+  nsvcd__choose_all(m, q);
+  nsvcd__cut_segments(m, lengths, 0, q);
 }
 #endif

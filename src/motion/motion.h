@@ -1,14 +1,16 @@
-// In: two movers: bodies, their scales, and their poses, t in [0,1]; between poses the position is
-// linear and the rotation a slerp on the shorter arc. Out: the pose of one of them, *moving*, in
-// the frame of the other, *fixed*, at any t. Both may move; "fixed" says whose frame it is, in
-// units of its scale, so that its stored numbers need no change. A point x of the moving body is at
-// scale R x + p there. Positions are subtracted in the world first, so a scene far from the origin
-// loses nothing. Two poses exactly 180 degrees apart have two shortest arcs: rounding picks one.
+// In: two movers: bodies, scales, and poses over t in [0,1]. Between poses the position is linear,
+// the rotation a slerp on the shorter arc. Out: the pose of one body, *moving*, in the frame of the
+// other, *fixed*, at any t.
+//
+// Both may move; "fixed" says whose frame it is. That frame has the axes of the fixed body and
+// its scale as the unit, so that its stored numbers need no change: a point x of the moving body is
+// at scale R x + p. Positions are subtracted in the world first, so a scene far from the origin
+// loses no precision. Poses exactly 180 degrees apart have two shortest arcs: rounding picks one.
 //
 // Time is counted in *ticks*, of which a motion has a whole number, and so has each body between
-// two of its poses: the least common multiple. Where poses have times of their own, 2^31 or more,
-// and each of these is at the nearest. A *keyframe* is a tick at which a pose of either is. Between
-// two keyframes both motions are smooth.
+// two of its poses: the least common multiple. If poses have times of their own there are at least
+// 2^31 ticks, and each time is rounded to the nearest. A *keyframe* is a tick at which either body
+// reaches a pose. Between keyframes both motions are smooth.
 #pragma once
 #include "../ground/valid.h"
 #include "../interface/queries.h"
@@ -17,15 +19,11 @@
 
 // The poses of one body.
 typedef struct nsvcd__track {
-  // (count), the caller's
-  const nsvcd_pose *poses;
-  // (count), the caller's, where there are two poses or more; NULL: uniform
-  const float *times;
+  const nsvcd_pose *poses;  // (count), the caller's
+  const float *times;       // (count), the caller's; NULL: uniform, or a single pose
   size_t count;
-  // from a pose to the next; all of them where there is one pose; 0 where there are times
-  uint32_t ticks;
-  // of the motion, where there are times
-  uint32_t whole;
+  uint32_t ticks;  // from a pose to the next; of a single pose all; 0 if there are times
+  uint32_t whole;  // ticks of the motion, if there are times
 } nsvcd__track;
 
 // The tick at which a track's pose k is.
@@ -34,7 +32,7 @@ static uint32_t nsvcd__tick_of(const nsvcd__track *track, uint32_t k) {
   return (uint32_t)((double)track->times[k] * (double)track->whole + 0.5);
 }
 
-// The last pose of a track that is not after a tick, or, at the end of several, the last but one.
+// The last pose at or before a tick, but never the last of several: an arc follows it.
 static uint32_t nsvcd__pose_before(const nsvcd__track *track, uint32_t tick) {
   if (track->count == 1) return 0;
   const uint32_t last = (uint32_t)(track->count - 2);
@@ -56,30 +54,23 @@ static uint32_t nsvcd__pose_before(const nsvcd__track *track, uint32_t tick) {
 
 typedef struct nsvcd__motion {
   nsvcd__track moving, fixed;
-  uint32_t ticks;  // in all
-  // t: 0 and 1; of one end alone 0 or 1, and 0
-  double begin, duration;
-  // else it has one pose
+  uint32_t ticks;          // in all
+  double begin, duration;  // t from begin on: 0 and 1; of one end alone 0 or 1, and 0
   int fixed_moves;
-  // of the moving body, over that of the fixed one: as triangles are placed, and rounded, for what
-  // allows for the roundings of float; and the other way round
+  // The moving body's scale over the fixed one's, as triangles are placed; rounded, as in all that
+  // allows for roundings of floats; and its inverse.
   double ratio;
   float scale, per_scale;
-  // of the fixed body's frame: its scale, metres
-  float unit;
+  float unit;                // the fixed body's scale, in metres
   nsvcd__f3 fixed_position;  // of the fixed body at t = 0, metres
-  // world axes to the fixed body's axes at t = 0
+  // from world axes to the fixed body's at t = 0
   nsvcd__mat3 to_fixed;
   nsvcd__quat to_fixed_quat;
-  // of the moving body's origin less the fixed one's, in world axes, metres
-  nsvcd__f3 low, high;
-  // by which the moving body is held off its poses, as the fixed one sees it, in its units
+  // added to the moving body's positions, in the fixed body's frame
   nsvcd__f3 push_out;
-  // of an interval: the tick at which it begins, and how many arcs a segment has; 0, 0: it is all
-  // of the motion
+  // Of an interval: its first tick, and how many arcs a segment has. 0, 0: the whole motion.
   uint32_t from, arcs;
-  // do its segments turn less than others?
-  int is_fine;
+  int is_fine;  // its segments turn by less than usual
 } nsvcd__motion;
 
 static nsvcd_result nsvcd__mover_check(const nsvcd_mover *mover) {
@@ -88,84 +79,82 @@ static nsvcd_result nsvcd__mover_check(const nsvcd_mover *mover) {
   const float scale = mover->scale;
   if (!nsvcd__is_finite(scale) || scale < 0) return NSVCD_ERROR_SCALE;
   if (scale > 0) {
+    const float radius = scale * nsvcd__whole_radius(mover->body);
+    const float extent = scale * mover->body->extent;
     if (scale < NSVCD_MIN_SCALE || scale > NSVCD_MAX_SCALE) return NSVCD_ERROR_SCALE;
-    const float radius = nsvcd__whole_radius(mover->body);
-    if (scale * radius < NSVCD_MIN_RADIUS) return NSVCD_ERROR_SCALE;
-    if (scale * mover->body->extent > 2 * NSVCD_MAX_COORDINATE) return NSVCD_ERROR_SCALE;
+    if (radius < NSVCD_MIN_RADIUS || extent > 2 * NSVCD_MAX_COORDINATE)
+      return NSVCD_ERROR_SCALE;
   }
   return nsvcd__track_check(mover);
 }
 
 static nsvcd__track nsvcd__track_of(const nsvcd_mover *mover) {
   const size_t count = nsvcd__pose_count(mover);
-  const nsvcd__track track = {mover->poses ? mover->poses : &nsvcd__at_origin,
-                              count > 1 ? mover->times : NULL, count, 0, 0};
+  const nsvcd_pose *poses = mover->poses ? mover->poses : &nsvcd__at_origin;
+  const nsvcd__track track = {poses, count > 1 ? mover->times : NULL, count, 0, 0};
   return track;
 }
 
-// The motion's ticks as if all poses were uniform, `parts` times as many as its keyframes need. No
-// more than 65,535 * 65,534, which 32 bits hold, for parts is 1 but where keyframes are few.
-static void nsvcd__motion_set_ticks(nsvcd__motion *motion, uint32_t parts) {
-  const uint32_t a = motion->moving.count > 1 ? (uint32_t)(motion->moving.count - 1) : 1;
-  const uint32_t b = motion->fixed.count > 1 ? (uint32_t)(motion->fixed.count - 1) : 1;
+static uint32_t nsvcd__arc_count(const nsvcd__track *track) {
+  return track->count > 1 ? (uint32_t)(track->count - 1) : 1;
+}
+
+// Sets the ticks as if all poses were uniform: `parts` times as many as the keyframes need. At most
+// 65,535 * 65,534, which fits 32 bits: parts is above 1 only where there are few keyframes.
+static void nsvcd__motion_set_ticks(nsvcd__motion *m, uint32_t parts) {
+  const uint32_t a = nsvcd__arc_count(&m->moving);
+  const uint32_t b = nsvcd__arc_count(&m->fixed);
   uint32_t divisor = a;
   for (uint32_t rest = b; rest;) {
     const uint32_t next = divisor % rest;
     divisor = rest;
     rest = next;
   }
-  motion->ticks = a / divisor * b * parts;
-  motion->moving.ticks = motion->ticks / a;
-  motion->fixed.ticks = motion->ticks / b;
+  m->ticks = a / divisor * b * parts;
+  m->moving.ticks = m->ticks / a;
+  m->fixed.ticks = m->ticks / b;
 }
 
 #ifndef NSVCD_NO_PROOF
-// Makes ticks finer, where there are few. Returns how many one becomes.
-static double nsvcd__motion_refine(nsvcd__motion *motion) {
+// Makes ticks finer if there are few. Returns how many a tick becomes.
+static double nsvcd__motion_refine(nsvcd__motion *m) {
   uint32_t finer = 1;
-  while (motion->ticks < 0x40000000u) {
-    motion->ticks *= 2;
-    motion->moving.ticks *= 2;
-    motion->fixed.ticks *= 2;
-    finer *= 2;
-  }
+  for (; m->ticks < 0x40000000u; m->ticks *= 2) finer *= 2;
+  m->moving.ticks *= finer;
+  m->fixed.ticks *= finer;
   return (double)finer;
 }
 #endif
 
-// The ticks of a motion of which poses have times: the poses of a uniform body times a power of
-// two, so that these, and times of few bits, are at ticks.
-static void nsvcd__motion_set_times(nsvcd__motion *motion) {
-  nsvcd__track *tracks[2] = {&motion->moving, &motion->fixed};
-  uint32_t arcs = 1;
-  if (!motion->moving.times && !motion->fixed.times) return;
-  for (size_t n = 0; n < 2; n++) {
-    if (!tracks[n]->times && tracks[n]->count > 1) arcs = (uint32_t)(tracks[n]->count - 1);
-  }
-  motion->ticks = arcs;
-  while (motion->ticks < 0x80000000u) motion->ticks *= 2;
-  for (size_t n = 0; n < 2; n++) {
-    tracks[n]->whole = motion->ticks;
-    tracks[n]->ticks = tracks[n]->times       ? 0
-                       : tracks[n]->count > 1 ? motion->ticks / arcs
-                                              : motion->ticks;
-  }
+// Sets the ticks if poses have times: the arcs of a uniform body times a power of two, so that its
+// poses, and times of few bits, fall on ticks.
+static void nsvcd__motion_set_times(nsvcd__motion *m) {
+  nsvcd__track *a = &m->moving;
+  nsvcd__track *b = &m->fixed;
+  if (!a->times && !b->times) return;
+  const uint32_t arcs_a = nsvcd__arc_count(a);
+  const uint32_t arcs_b = nsvcd__arc_count(b);
+  m->ticks = (a->times ? 1 : arcs_a) * (b->times ? 1 : arcs_b);
+  while (m->ticks < 0x80000000u) m->ticks *= 2;
+  a->whole = b->whole = m->ticks;
+  a->ticks = a->times ? 0 : m->ticks / arcs_a;
+  b->ticks = b->times ? 0 : m->ticks / arcs_b;
 }
 
-// Where poses have times, segments begin where they would if these were uniform: what counts is how
-// far bodies go in one. The uniform ticks in begin (S + 1) become the motion's.
-static void nsvcd__motion_retime(nsvcd__motion *motion, uint32_t *begin, size_t segments) {
-  const nsvcd__track *track = motion->moving.times ? &motion->moving : &motion->fixed;
+// Converts begin (S + 1) from uniform ticks to those of a motion whose poses have times. Segments
+// are chosen as if the poses were uniform, for what counts is how far bodies move in one.
+static void nsvcd__motion_retime(nsvcd__motion *m, uint32_t *begin, size_t segments) {
+  const nsvcd__track *track = m->moving.times ? &m->moving : &m->fixed;
   if (!track->times) return;
   const uint32_t each = track->ticks;
-  nsvcd__motion_set_times(motion);
+  nsvcd__motion_set_times(m);
   for (size_t s = 0; s < segments; s++) {
     const uint32_t k = begin[s] / each;
     const uint32_t from = nsvcd__tick_of(track, k);
     const uint64_t length = nsvcd__tick_of(track, k + 1) - from;
     begin[s] = from + (uint32_t)(length * (begin[s] - k * each) / each);
   }
-  begin[segments] = motion->ticks;
+  begin[segments] = m->ticks;
 }
 
 // The box of a track's positions.
@@ -180,54 +169,52 @@ static nsvcd__box nsvcd__track_box(const nsvcd__track *track) {
   return box;
 }
 
-// Prepares the box about the way of the moving body's origin as the fixed one's sees it.
-static void nsvcd__motion_set_box(nsvcd__motion *motion, const nsvcd__track *moving,
-                                  const nsvcd__track *fixed) {
-  const nsvcd__box at = nsvcd__track_box(moving);
-  const nsvcd__box from = nsvcd__track_box(fixed);
-  motion->low = nsvcd__f3_sub(at.low, from.high);
-  motion->high = nsvcd__f3_sub(at.high, from.low);
+// A lower bound of the distance between the origins of bodies on two tracks, in units: they never
+// leave the boxes of their positions.
+static float nsvcd__tracks_gap(const nsvcd__track *moving, const nsvcd__track *fixed,
+                               float unit) {
+  const nsvcd__box a = nsvcd__track_box(moving);
+  const nsvcd__box b = nsvcd__track_box(fixed);
+  const nsvcd__f3 above = nsvcd__f3_sub(a.low, b.high);
+  const nsvcd__f3 below = nsvcd__f3_sub(b.low, a.high);
+  const nsvcd__f3 none = nsvcd__f3_of(0, 0, 0);
+  const nsvcd__f3 gap = nsvcd__f3_max(nsvcd__f3_max(above, below), none);
+  return 0.99999f * nsvcd__f3_length(gap) / unit;
 }
 
-// Prepares what follows from a motion's tracks.
-static void nsvcd__motion_set_tracks(nsvcd__motion *motion, nsvcd__track moving,
+static float nsvcd__motion_gap(const nsvcd__motion *m) {
+  return nsvcd__tracks_gap(&m->moving, &m->fixed, m->unit);
+}
+
+// Sets all that follows from the tracks.
+static void nsvcd__motion_set_tracks(nsvcd__motion *m, nsvcd__track moving,
                                      nsvcd__track fixed) {
-  motion->moving = moving;
-  motion->fixed = fixed;
-  motion->fixed_moves = motion->fixed.count > 1;
-  nsvcd__motion_set_ticks(motion, 1);
-  nsvcd__motion_set_times(motion);
+  m->moving = moving;
+  m->fixed = fixed;
+  m->fixed_moves = fixed.count > 1;
+  nsvcd__motion_set_ticks(m, 1);
+  nsvcd__motion_set_times(m);
+  m->from = m->arcs = 0;
+  m->is_fine = 0;
 
-  const nsvcd_pose *first = motion->fixed.poses;
+  const nsvcd_pose *first = fixed.poses;
   const nsvcd__quat q = nsvcd__quat_unit(nsvcd__quat_load(first->rotation));
-  motion->to_fixed = nsvcd__mat3_transpose(nsvcd__mat3_of(q));
-  motion->to_fixed_quat = nsvcd__quat_inverse(q);
-  motion->fixed_position = nsvcd__f3_load(first->position);
-
-  motion->from = motion->arcs = 0;
-  motion->is_fine = 0;
-  nsvcd__motion_set_box(motion, &motion->moving, &motion->fixed);
+  m->to_fixed = nsvcd__mat3_transpose(nsvcd__mat3_of(q));
+  m->to_fixed_quat = nsvcd__quat_inverse(q);
+  m->fixed_position = nsvcd__f3_load(first->position);
 }
 
-// Prepares the motion of valid movers. Keeps the pointers to their poses.
+// The motion of valid movers, whose poses it points to.
 static void nsvcd__motion_init(const nsvcd_mover *moving, const nsvcd_mover *fixed,
-                               nsvcd__motion *motion) {
-  motion->unit = nsvcd__scale_of(fixed);
-  motion->ratio = (double)nsvcd__scale_of(moving) / (double)motion->unit;
-  motion->scale = (float)motion->ratio;
-  motion->per_scale = 1 / motion->scale;
-  motion->push_out = nsvcd__f3_of(0, 0, 0);
-  motion->begin = 0;
-  motion->duration = 1;
-  nsvcd__motion_set_tracks(motion, nsvcd__track_of(moving), nsvcd__track_of(fixed));
-}
-
-// In the fixed body's units: the moving body's origin always stays so far from the fixed one's.
-static float nsvcd__motion_gap(const nsvcd__motion *motion) {
-  const nsvcd__f3 above = nsvcd__f3_scale(motion->high, -1);
-  const nsvcd__f3 gap = nsvcd__f3_max(motion->low, above);
-  const nsvcd__f3 apart = nsvcd__f3_max(gap, nsvcd__f3_of(0, 0, 0));
-  return 0.99999f * nsvcd__f3_length(apart) / motion->unit;
+                               nsvcd__motion *m) {
+  m->unit = nsvcd__scale_of(fixed);
+  m->ratio = (double)nsvcd__scale_of(moving) / (double)m->unit;
+  m->scale = (float)m->ratio;
+  m->per_scale = 1 / m->scale;
+  m->push_out = nsvcd__f3_of(0, 0, 0);
+  m->begin = 0;
+  m->duration = 1;
+  nsvcd__motion_set_tracks(m, nsvcd__track_of(moving), nsvcd__track_of(fixed));
 }
 
 // Is the shorter arc from a to b the one to -b?
@@ -235,8 +222,8 @@ static inline int nsvcd__poses_opposed(const nsvcd_pose *a, const nsvcd_pose *b)
   return nsvcd__quats_opposed(nsvcd__quat_load(a->rotation), nsvcd__quat_load(b->rotation));
 }
 
-// A body's pose in the world: rotation unit to 1e-4, position in metres. In double: on a long way
-// past the other body, roundings of its ends would be large beside what is near.
+// A body's pose in the world: rotation unit to 1e-4, position in metres. In double, because on a
+// long path past the other body rounding its ends would be large beside the clearance.
 typedef struct nsvcd__world_pose {
   nsvcd__quat rotation;
   nsvcd__d3 position;
@@ -248,7 +235,7 @@ static nsvcd__world_pose nsvcd__world_pose_of(const nsvcd_pose *pose) {
   return out;
 }
 
-// Between two poses, a share of the way from the first.
+// The pose at a fraction between two.
 static nsvcd__world_pose nsvcd__world_pose_between(const nsvcd_pose *a, const nsvcd_pose *b,
                                                    double fraction) {
   const nsvcd__world_pose from = nsvcd__world_pose_of(a);
@@ -276,20 +263,18 @@ static uint32_t nsvcd__next_pose(const nsvcd__track *track, uint32_t tick) {
 }
 
 // The keyframe after a tick.
-static uint32_t nsvcd__next_keyframe(const nsvcd__motion *motion, uint32_t tick) {
-  if (motion->moving.ticks == 1 || motion->fixed.ticks == 1) return tick + 1;
-  const uint32_t after_a = nsvcd__next_pose(&motion->moving, tick);
-  const uint32_t after_b = nsvcd__next_pose(&motion->fixed, tick);
+static uint32_t nsvcd__next_keyframe(const nsvcd__motion *m, uint32_t tick) {
+  if (m->moving.ticks == 1 || m->fixed.ticks == 1) return tick + 1;
+  const uint32_t after_a = nsvcd__next_pose(&m->moving, tick);
+  const uint32_t after_b = nsvcd__next_pose(&m->fixed, tick);
   return after_a < after_b ? after_a : after_b;
 }
 
-// Poses of both bodies at the times of one slice, in the world.
+// A slice of poses of both bodies in the world.
 typedef struct nsvcd__v_poses {
-  // of any length
-  nsvcd__vquat moving;
-  nsvcd__vquat fixed;  // unit; only where that body moves
-  // of the moving body's origin from the fixed one's, metres
-  nsvcd__v3 offset;
+  nsvcd__vquat moving;  // of any length
+  nsvcd__vquat fixed;   // unit; only where that body moves
+  nsvcd__v3 offset;     // from the fixed body's origin to the moving one's, metres
 } nsvcd__v_poses;
 
 // A slice of poses.
@@ -298,29 +283,29 @@ typedef struct nsvcd__v_pose {
   nsvcd__v3 position;
 } nsvcd__v_pose;
 
-// The moving body's poses as the fixed one sees them: quaternions of any length, positions in its
+// The moving body's poses in the fixed body's frame: quaternions of any length, positions in its
 // units.
-static nsvcd__v_pose nsvcd__v_seen(const nsvcd__motion *motion, const nsvcd__v_poses *at) {
-  const nsvcd__v per_metre = nsvcd__v_set(1 / motion->unit);
+static nsvcd__v_pose nsvcd__v_seen(const nsvcd__motion *m, const nsvcd__v_poses *at) {
+  const nsvcd__v per_metre = nsvcd__v_set(1 / m->unit);
   nsvcd__vquat to_fixed;
   nsvcd__vmat3 matrix;
-  if (motion->fixed_moves) {
+  if (m->fixed_moves) {
     to_fixed = nsvcd__vquat_inverse(at->fixed);
     matrix = nsvcd__vmat3_of(to_fixed);
   } else {
-    to_fixed = nsvcd__vquat_set(motion->to_fixed_quat);
-    matrix = nsvcd__vmat3_set(&motion->to_fixed);
+    to_fixed = nsvcd__vquat_set(m->to_fixed_quat);
+    matrix = nsvcd__vmat3_set(&m->to_fixed);
   }
   const nsvcd__v3 metres = nsvcd__vmat3_apply(matrix, at->offset);
   nsvcd__v_pose out;
   out.rotation = nsvcd__vquat_mul(to_fixed, at->moving);
-  out.position = nsvcd__v3_fma(per_metre, metres, nsvcd__v3_set(motion->push_out));
+  out.position = nsvcd__v3_fma(per_metre, metres, nsvcd__v3_set(m->push_out));
   return out;
 }
 
 #ifndef NSVCD_NO_NETWORK
-// The pose of a track that moves before time t in [0,1], and the share of the way to the next. A
-// uniform one is not taken to ticks: derivatives by t need what floats resolve.
+// The pose of a moving track before time t in [0,1], and the fraction of the arc after it. Uniform
+// tracks are not rounded to ticks: derivatives by t need all that floats resolve.
 static size_t nsvcd__pose_at(const nsvcd__track *track, float t, float *fraction) {
   if (track->times) {
     const double tick = (double)t * (double)track->whole;
@@ -344,19 +329,19 @@ static nsvcd__world_pose nsvcd__track_pose_at(const nsvcd__track *track, float t
   return nsvcd__world_pose_between(&track->poses[k], &track->poses[k + 1], (double)fraction);
 }
 
-// The moving body in the fixed body's frame at time t, clamped to [0,1]; its points are to be
+// The moving body's pose in the fixed body's frame at time t, clamped to [0,1]. Its points are
 // multiplied by the scale first.
-static nsvcd__transform nsvcd__motion_pose(const nsvcd__motion *motion, float t) {
+static nsvcd__transform nsvcd__motion_pose(const nsvcd__motion *m, float t) {
   const float when = t < 0 ? 0 : t > 1 ? 1 : t;
-  const nsvcd__world_pose moving = nsvcd__track_pose_at(&motion->moving, when);
-  const nsvcd__world_pose fixed = nsvcd__track_pose_at(&motion->fixed, when);
+  const nsvcd__world_pose moving = nsvcd__track_pose_at(&m->moving, when);
+  const nsvcd__world_pose fixed = nsvcd__track_pose_at(&m->fixed, when);
   const nsvcd__mat3 rotation = nsvcd__mat3_of(moving.rotation);
   const nsvcd__mat3 to_fixed = nsvcd__mat3_transpose(nsvcd__mat3_of(fixed.rotation));
   const nsvcd__d3 metres = nsvcd__d3_sub(moving.position, fixed.position);
-  const nsvcd__f3 offset = nsvcd__d3_narrow(nsvcd__d3_over(metres, (double)motion->unit));
+  const nsvcd__f3 offset = nsvcd__d3_narrow(nsvcd__d3_over(metres, (double)m->unit));
   nsvcd__transform out;
   out.rotation = nsvcd__mat3_mul(&to_fixed, &rotation);
-  out.position = nsvcd__f3_add(nsvcd__mat3_apply(&to_fixed, offset), motion->push_out);
+  out.position = nsvcd__f3_add(nsvcd__mat3_apply(&to_fixed, offset), m->push_out);
   return out;
 }
 #endif

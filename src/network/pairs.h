@@ -18,7 +18,7 @@
 // latents are turned pair by pair, channels side by side), and the inputs go through the layers
 // some rows at a time.
 #pragma once
-#include "../motion/segments.h"
+#include "../search/intervals.h"
 #include "latent_rotation.h"
 
 #ifndef NSVCD_NO_NETWORK

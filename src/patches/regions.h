@@ -3,7 +3,7 @@
 // regions, triangles that are large beside them are halved first. Both halves are kept, and share
 // the new corner, so nothing is lost.
 #pragma once
-#include "../ground/slices.h"
+#include "../ground/spheres.h"
 #include "covering.h"
 #include "solids.h"
 

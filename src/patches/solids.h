@@ -17,7 +17,7 @@
 // The caller's triangles stay as they are, and are all proven apart. This decides only which of
 // them a ray counts.
 #pragma once
-#include "../ground/slices.h"
+#include "../ground/spheres.h"
 #include "samples.h"
 #include "topology.h"
 

@@ -323,7 +323,7 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
       return 0;
     }
     const nsvcd__d3 seed = nsvcd__d3_load(e->inner->seeds + 3 * n);
-    const nsvcd__d3 seen = nsvcd__place_point(&e->start, seed);
+    const nsvcd__d3 seen = nsvcd__d3_transform(&e->start, seed);
     if (!nsvcd__is_enclosed(p, e->outer, e->unit, seen)) continue;
     p->enclosed = e->inner == &p->moving ? seen : seed;
     p->inside = 1;
@@ -344,7 +344,7 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   if (e->inner->counts->components <= NSVCD__LANES)
     return nsvcd__encloses_seeds(p, e, 0, e->inner->counts->components);
   const nsvcd__f3 centre =
-      nsvcd__f3_round(nsvcd__place_point(&e->back, nsvcd__d3_load(outer->centre)));
+      nsvcd__f3_round(nsvcd__d3_transform(&e->back, nsvcd__d3_load(outer->centre)));
   const float extent = nsvcd__f3_length(centre) + inner->extent + outer->extent / e->scale;
   const float rounding = 4 * NSVCD__ROUNDING * extent;
   const nsvcd__sphere here = {centre, outer->radius / e->scale + rounding};

@@ -51,8 +51,7 @@ static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *search,
     }
     NSVCD__TALLY(tests, 1);
     if (!met) continue;
-    const nsvcd__interval *interval = nsvcd__segment_interval(p, search, s);
-    met = nsvcd__slabs_meet(p, c, g, j, interval, search->extent, met);
+    met = nsvcd__slabs_meet(p, search, g, j, s, met);
     for (; met; met &= met - 1) {
       const size_t l = nsvcd__low_bit(met);
       const size_t i = NSVCD__GROUP * g + l;
@@ -104,7 +103,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
           if (outcome != NSVCD__RESOLVED) return outcome;
         }
       }
-      if (p->fresh_count < NSVCD__NEWS) continue;
+      if (p->fresh_count < NSVCD__ENOUGH_FRESH) continue;
       outcome = nsvcd__take_patch_pairs(p, search);
       if (outcome != NSVCD__RESOLVED) return outcome;
     }

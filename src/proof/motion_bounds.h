@@ -1,73 +1,68 @@
-// In: a segment, or an arc and two shares of it. Out: a interval: the poses at both ends, and by
-// how much a point may leave the chord in between.
+// In: a segment, or an arc and two fractions of it. Out: an interval: the poses at both ends, and
+// how far points deviate from their chords in between.
 #pragma once
-#include "../motion/segments.h"
+#include "../motion/choice.h"
 #include "poses.h"
 
 #ifndef NSVCD_NO_PROOF
-// The time at which so many ticks have gone by.
+// The time of a tick, t in [0,1].
 static double nsvcd__time_of(const nsvcd__motion *motion, double ticks) {
   return motion->begin + motion->duration * ticks / (double)motion->ticks;
 }
 
-// The time a share u of the arc last asked for later than its start.
+// The time of fraction u of p->arc.
 static double nsvcd__time_in_arc(const nsvcd__proof *p, double u) {
   return nsvcd__time_of(p->ask.motion, (double)p->arc.first + u * (double)p->arc.ticks);
 }
 
-// Leaves of the segments, whose ticks have become so much finer, a part of the motion, from one
-// place to another. These are in segments: 1.5 is in the middle of the second.
+// The tick of a position counted in segments: 1.5 is in the middle of the second.
+static double nsvcd__tick_in_segments(const uint32_t *begin, double at) {
+  const size_t s = (size_t)at;
+  const double start = (double)begin[s];
+  const double fraction = at - (double)s;
+  return fraction > 0 ? start + fraction * ((double)begin[s + 1] - start) : start;
+}
+
+// Leaves the part of the segments between two positions, in ticks so many times finer.
 static void nsvcd__narrow_segments(nsvcd__search *search, double from, double to,
                                    double finer) {
   uint32_t *begin = search->begin;
+  const double start = nsvcd__tick_in_segments(begin, from);
+  const double end = nsvcd__tick_in_segments(begin, to);
   const size_t first = (size_t)from;
   const size_t last = (size_t)to;
-  const double fraction = to - (double)last;
-  double end = (double)begin[last];
-  if (fraction > 0) end += fraction * ((double)begin[last + 1] - end);
-  const double start = (double)begin[first];
-  const double into = (from - (double)first) * ((double)begin[first + 1] - start);
-  search->segments = last - first + (fraction > 0);
+  search->segments = last - first + (to > (double)last);
   for (size_t s = 1; s < search->segments; s++)
     begin[s] = (uint32_t)(finer * (double)begin[first + s]);
-  begin[0] = (uint32_t)(finer * (start + into));
+  begin[0] = (uint32_t)(finer * start);
   begin[search->segments] = (uint32_t)(finer * end);
 }
 
-static nsvcd__interval nsvcd__interval_of_segment(const nsvcd__motion *motion,
-                                                  const nsvcd__search *search, size_t s) {
-  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
-  const size_t l = s % NSVCD__LANES;
-  const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, l);
-  nsvcd__interval interval;
-  interval.start.rotation = nsvcd__mat3_lane(block->rotation, l);
-  interval.end.rotation = nsvcd__mat3_mix(1, &interval.start.rotation, 1, &turned);
-  interval.start.position = nsvcd__lane_of(block->position, l);
-  interval.end.position =
-      nsvcd__f3_add(interval.start.position, nsvcd__lane_of(block->moved, l));
-  interval.bend = block->bend[l];
-  interval.rounding = block->rounding[l];
-  interval.origin_bend = block->origin_bend[l];
-  interval.axis = nsvcd__lane_of(block->axis, l);
-  interval.heading = nsvcd__lane_of(block->heading, l);
-  interval.bend_along_axis = block->bend_along_axis[l];
-  interval.origin_along_axis = block->origin_along_axis[l];
-  interval.origin_off_heading = block->origin_off_heading[l];
-  interval.t_start = nsvcd__time_of(motion, (double)search->begin[s]);
-  interval.t_end = nsvcd__time_of(motion, (double)search->begin[s + 1]);
-  return interval;
-}
-
-// Kept once it has been made.
+// A segment, up to the end of what matters; kept once it has been made.
 static const nsvcd__interval *nsvcd__segment_interval(nsvcd__proof *p,
                                                       const nsvcd__search *search, size_t s) {
-  if (!(p->memo.intervals >> s & 1)) {
-    p->intervals[s] = nsvcd__interval_of_segment(p->ask.motion, search, s);
-    p->intervals[s].t_end =
-        nsvcd__min(p->intervals[s].t_end, nsvcd__time_of(p->ask.motion, p->ask.end));
-  }
+  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
+  const size_t l = s % NSVCD__LANES;
+  nsvcd__interval *out = &p->intervals[s];
+  if (p->memo.intervals >> s & 1) return out;
   p->memo.intervals |= (uint64_t)1 << s;
-  return &p->intervals[s];
+  const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, l);
+  const double end = nsvcd__min((double)search->begin[s + 1], p->ask.end);
+  out->start.rotation = nsvcd__mat3_lane(block->rotation, l);
+  out->end.rotation = nsvcd__mat3_mix(1, &out->start.rotation, 1, &turned);
+  out->start.position = nsvcd__lane_of(block->position, l);
+  out->end.position = nsvcd__f3_add(out->start.position, nsvcd__lane_of(block->moved, l));
+  out->bend = block->bend[l];
+  out->rounding = block->rounding[l];
+  out->origin_bend = block->origin_bend[l];
+  out->axis = nsvcd__lane_of(block->axis, l);
+  out->heading = nsvcd__lane_of(block->heading, l);
+  out->bend_along_axis = block->bend_along_axis[l];
+  out->origin_along_axis = block->origin_along_axis[l];
+  out->origin_off_heading = block->origin_off_heading[l];
+  out->t_start = nsvcd__time_of(p->ask.motion, (double)search->begin[s]);
+  out->t_end = nsvcd__time_of(p->ask.motion, end);
+  return out;
 }
 
 // The interval from u0 to u1 of the arc that begins at the keyframe `first`.
@@ -77,93 +72,103 @@ static nsvcd__interval nsvcd__interval_of_arc(nsvcd__proof *p, uint32_t first, d
   const nsvcd__dtransform start = nsvcd__dtransform_at(arc, u0);
   const nsvcd__dtransform end = nsvcd__dtransform_at(arc, u1);
   const double square = (u1 - u0) * (u1 - u0);
-  nsvcd__interval interval;
-  interval.start = nsvcd__transform_of(&start);
-  interval.end = nsvcd__transform_of(&end);
-  const float extent_start = nsvcd__f3_length(interval.start.position);
-  const float extent = extent_start + nsvcd__f3_length(interval.end.position);
-  interval.bend = (float)(square * (arc->bend + arc->twist) * 1.000001);
-  interval.origin_bend = (float)(square * arc->origin_bend * 1.000001);
-  interval.rounding = NSVCD__ROUNDING * (extent + p->given.lengths);
-  interval.origin_along_axis = interval.origin_off_heading = interval.origin_bend;
-  interval.axis = nsvcd__f3_round(arc->axis);
-  interval.heading = interval.axis;  // any
+  nsvcd__interval out;
+  out.start = nsvcd__transform_of(&start);
+  out.end = nsvcd__transform_of(&end);
+  const float extent_start = nsvcd__f3_length(out.start.position);
+  const float extent = extent_start + nsvcd__f3_length(out.end.position);
+  out.bend = (float)(square * (arc->bend + arc->twist) * 1.000001);
+  out.origin_bend = (float)(square * arc->origin_bend * 1.000001);
+  out.rounding = NSVCD__ROUNDING * (extent + p->given.lengths);
+  out.origin_along_axis = out.origin_off_heading = out.origin_bend;
+  out.axis = nsvcd__f3_round(arc->axis);
+  out.heading = out.axis;  // any
   const double wavers = square * (arc->bend * arc->waver + arc->twist);
-  interval.bend_along_axis = fminf((float)wavers + 1e-6f * interval.bend, interval.bend);
-  interval.t_start = nsvcd__time_in_arc(p, u0);
-  interval.t_end = nsvcd__time_in_arc(p, u1);
-  return interval;
+  out.bend_along_axis = fminf((float)wavers + 1e-6f * out.bend, out.bend);
+  out.t_start = nsvcd__time_in_arc(p, u0);
+  out.t_end = nsvcd__time_in_arc(p, u1);
+  return out;
 }
 
-// The axis as the moving body has it, unit.
-static nsvcd__f3 nsvcd__own_axis(const nsvcd__interval *interval) {
-  const nsvcd__f3 axis =
-      nsvcd__mat3_apply_transpose(&interval->start.rotation, interval->axis);
+// The axis in the moving body's frame, unit.
+static nsvcd__f3 nsvcd__own_axis(const nsvcd__interval *over) {
+  const nsvcd__f3 axis = nsvcd__mat3_apply_transpose(&over->start.rotation, over->axis);
   const float length = nsvcd__f3_length(axis);
   return nsvcd__f3_scale(axis, length > 0 ? 1 / length : 0);
 }
 
+// How far points of the moving body are, at most, in its own units: from its origin, and from the
+// line through that along the axis of a turn.
+typedef struct nsvcd__arm {
+  float from_origin, from_axis;
+} nsvcd__arm;
+
+// Of a sphere. axis: unit to rounding, in the body's frame.
+static nsvcd__arm nsvcd__arm_of(nsvcd__f3 centre, float radius, nsvcd__f3 axis) {
+  const float distance = nsvcd__f3_length(centre);
+  const float aside = nsvcd__f3_length(nsvcd__f3_cross(centre, axis));
+  const nsvcd__arm out = {1.000001f * (distance + radius),
+                          1.000001f * (aside + radius) + 1e-6f * distance};
+  return out;
+}
+
 // Of a patch's pieces.
 static nsvcd__arm nsvcd__patch_arm(const nsvcd__geometry *f, size_t patch,
-                                   const nsvcd__interval *interval) {
+                                   const nsvcd__interval *over) {
   const float radius = nsvcd__body_r(f->body)[patch];
-  return nsvcd__arm_of(nsvcd__patch_centre(f, patch), radius, nsvcd__own_axis(interval));
+  return nsvcd__arm_of(nsvcd__patch_centre(f, patch), radius, nsvcd__own_axis(over));
 }
 
-// What points leave their chords by for the turn's sake, along any direction: |D x|, with D the
-// difference between the true rotation and the chord's at some time. Split x into its parts along
-// a', the axis as the moving body has it, and across it: then
+// The deviation that the turn causes, along any direction: |D x|, with D the difference between the
+// true rotation and the chord's at some time. Split x into its parts along a', the axis in the
+// moving body's frame, and across it: then
 //   |D x| <= |D| |x x a'| + |D a'| |x.a'|
 // and |D a'| is |D^T axis|, since both ends of the chord take a' to the axis.
-static float nsvcd__bend_of(const nsvcd__interval *interval, nsvcd__arm arm) {
-  const float by_axis =
-      interval->bend * arm.from_axis + interval->bend_along_axis * arm.from_origin;
-  return fminf(interval->bend * arm.from_origin, by_axis);
+static float nsvcd__bend_of(const nsvcd__interval *over, nsvcd__arm arm) {
+  const float by_axis = over->bend * arm.from_axis + over->bend_along_axis * arm.from_origin;
+  return fminf(over->bend * arm.from_origin, by_axis);
 }
 
-// What the points of the moving body leave their chords by along a direction n, times its length,
-// but for rounding (which is times |n| too). With d the difference of the positions, a point x is
-// off by n.(D x + d). Split n into its parts along the axis and across it: then
+// The deviation of points of the moving body along a direction n, times its length, without
+// rounding (which is times |n| too). With d the difference of the positions, a point x is off by
+// n.(D x + d). Split n into its parts along the axis and across it: then
 //   |n.D x| <= |n.axis| |D^T axis| |x| + |n x axis| |D x|
-// and |n.d| is bounded in the same way, or with the way of the origin in place of the axis.
-static float nsvcd__deviation_of(const nsvcd__interval *interval, nsvcd__f3 n,
-                                 nsvcd__arm arm) {
-  const float along = fabsf(nsvcd__f3_dot(n, interval->axis));
-  const float across = nsvcd__f3_length(nsvcd__f3_cross(n, interval->axis));
-  const float along_heading = fabsf(nsvcd__f3_dot(n, interval->heading));
-  const float across_heading = nsvcd__f3_length(nsvcd__f3_cross(n, interval->heading));
-  const float by_axis = along * interval->origin_along_axis + across * interval->origin_bend;
-  const float by_heading =
-      along_heading * interval->origin_bend + across_heading * interval->origin_off_heading;
+// and |n.d| is bounded in the same way, or with the heading in place of the axis.
+static float nsvcd__deviation_of(const nsvcd__interval *over, nsvcd__f3 n, nsvcd__arm arm) {
+  const float along = fabsf(nsvcd__f3_dot(n, over->axis));
+  const float across = nsvcd__f3_length(nsvcd__f3_cross(n, over->axis));
+  const float ahead = fabsf(nsvcd__f3_dot(n, over->heading));
+  const float aside = nsvcd__f3_length(nsvcd__f3_cross(n, over->heading));
+  const float by_axis = along * over->origin_along_axis + across * over->origin_bend;
+  const float by_heading = ahead * over->origin_bend + aside * over->origin_off_heading;
   const float origin_bend = by_axis < by_heading ? by_axis : by_heading;
-  const float turn = along * interval->bend_along_axis * arm.from_origin;
-  return origin_bend + turn + across * nsvcd__bend_of(interval, arm);
+  const float turn = along * over->bend_along_axis * arm.from_origin;
+  return origin_bend + turn + across * nsvcd__bend_of(over, arm);
 }
 
-// The same for a slice of directions, or one direction in a slice of intervals.
+// The same for a slice of directions, or for one direction in a slice of intervals.
 typedef struct nsvcd__v_interval {
   nsvcd__v3 axis, heading;
   nsvcd__v rounding, origin_bend, bend, bend_along_axis, origin_along_axis, origin_off_heading;
 } nsvcd__v_interval;
 
-NSVCD__INLINE nsvcd__v_interval nsvcd__v_interval_set(const nsvcd__interval *interval) {
+NSVCD__INLINE nsvcd__v_interval nsvcd__v_interval_set(const nsvcd__interval *over) {
   nsvcd__v_interval out;
-  out.axis = nsvcd__v3_set(interval->axis);
-  out.heading = nsvcd__v3_set(interval->heading);
-  out.rounding = nsvcd__v_set(interval->rounding);
-  out.origin_bend = nsvcd__v_set(interval->origin_bend);
-  out.bend = nsvcd__v_set(interval->bend);
-  out.bend_along_axis = nsvcd__v_set(interval->bend_along_axis);
-  out.origin_along_axis = nsvcd__v_set(interval->origin_along_axis);
-  out.origin_off_heading = nsvcd__v_set(interval->origin_off_heading);
+  out.axis = nsvcd__v3_set(over->axis);
+  out.heading = nsvcd__v3_set(over->heading);
+  out.rounding = nsvcd__v_set(over->rounding);
+  out.origin_bend = nsvcd__v_set(over->origin_bend);
+  out.bend = nsvcd__v_set(over->bend);
+  out.bend_along_axis = nsvcd__v_set(over->bend_along_axis);
+  out.origin_along_axis = nsvcd__v_set(over->origin_along_axis);
+  out.origin_off_heading = nsvcd__v_set(over->origin_off_heading);
   return out;
 }
-// Lanes l and on of a block.
-NSVCD__INLINE nsvcd__v_interval nsvcd__v_interval_load(const nsvcd__segments *block,
-                                                       size_t l) {
+// A slice of a block, from lane l on.
+NSVCD__INLINE nsvcd__v_interval nsvcd__v_interval_load(nsvcd__segments *block, size_t l) {
   nsvcd__v_interval out;
-  out.axis = nsvcd__v3_rows(block->axis[0] + l);
-  out.heading = nsvcd__v3_rows(block->heading[0] + l);
+  out.axis = nsvcd__v3_load(block->axis, l);
+  out.heading = nsvcd__v3_load(block->heading, l);
   out.rounding = nsvcd__v_load(block->rounding + l);
   out.origin_bend = nsvcd__v_load(block->origin_bend + l);
   out.bend = nsvcd__v_load(block->bend + l);
@@ -172,18 +177,18 @@ NSVCD__INLINE nsvcd__v_interval nsvcd__v_interval_load(const nsvcd__segments *bl
   out.origin_off_heading = nsvcd__v_load(block->origin_off_heading + l);
   return out;
 }
-NSVCD__INLINE nsvcd__v nsvcd__v_deviation(const nsvcd__v_interval *interval, nsvcd__v3 n,
+NSVCD__INLINE nsvcd__v nsvcd__v_deviation(const nsvcd__v_interval *over, nsvcd__v3 n,
                                           float from_origin) {
-  const nsvcd__v along = nsvcd__v_abs(nsvcd__v3_dot(n, interval->axis));
-  const nsvcd__v across = nsvcd__v3_length(nsvcd__v3_cross(n, interval->axis));
-  const nsvcd__v along_heading = nsvcd__v_abs(nsvcd__v3_dot(n, interval->heading));
-  const nsvcd__v across_heading = nsvcd__v3_length(nsvcd__v3_cross(n, interval->heading));
-  nsvcd__v by_axis = nsvcd__v_mul(across, interval->origin_bend);
-  by_axis = nsvcd__v_fma(along, interval->origin_along_axis, by_axis);
-  nsvcd__v by_heading = nsvcd__v_mul(across_heading, interval->origin_off_heading);
-  by_heading = nsvcd__v_fma(along_heading, interval->origin_bend, by_heading);
-  nsvcd__v turn = nsvcd__v_mul(across, interval->bend);
-  turn = nsvcd__v_fma(along, interval->bend_along_axis, turn);
+  const nsvcd__v along = nsvcd__v_abs(nsvcd__v3_dot(n, over->axis));
+  const nsvcd__v across = nsvcd__v3_length(nsvcd__v3_cross(n, over->axis));
+  const nsvcd__v ahead = nsvcd__v_abs(nsvcd__v3_dot(n, over->heading));
+  const nsvcd__v aside = nsvcd__v3_length(nsvcd__v3_cross(n, over->heading));
+  nsvcd__v by_axis = nsvcd__v_mul(across, over->origin_bend);
+  by_axis = nsvcd__v_fma(along, over->origin_along_axis, by_axis);
+  nsvcd__v by_heading = nsvcd__v_mul(aside, over->origin_off_heading);
+  by_heading = nsvcd__v_fma(ahead, over->origin_bend, by_heading);
+  nsvcd__v turn = nsvcd__v_mul(across, over->bend);
+  turn = nsvcd__v_fma(along, over->bend_along_axis, turn);
   return nsvcd__v_fma(turn, nsvcd__v_set(from_origin), nsvcd__v_min(by_axis, by_heading));
 }
 #endif  // NSVCD_NO_PROOF

@@ -40,7 +40,7 @@ static NSVCD__NOINLINE void nsvcd__approach_at(nsvcd__proof *p,
   const nsvcd__dtransform at = nsvcd__dtransform_at(arc, out->u);
   out->pair = nsvcd__pair_of(p, found->moving_patch, found->fixed_patch, found->moving_entry,
                              found->fixed_entry);
-  nsvcd__place_triangle(&at, out->pair.moving, out->contact.moving);
+  nsvcd__pose_triangle(&at, out->pair.moving, out->contact.moving);
   memcpy(out->contact.fixed, out->pair.fixed, sizeof out->contact.fixed);
   out->contact.directions[0] = nsvcd__d3_scale(nsvcd__face_direction(out->contact.moving), -1);
   out->contact.directions[1] = nsvcd__face_direction(out->contact.fixed);

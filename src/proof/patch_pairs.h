@@ -1,4 +1,4 @@
-// In: fresh patch pairs, as the search finds them. Out: each is separated by a plane between its
+// In: fresh patch pairs, as the search finds them. Out: each is separated, by a plane between its
 // hulls or by its triangles, or in contact, or kept as an unresolved pair.
 #pragma once
 #include "../interface/plans.h"
@@ -6,7 +6,7 @@
 
 #ifndef NSVCD_NO_PROOF
 // Does the plane that separated a triangle pair last separate all of patches i and j from u0 to u1
-// of the arc, in double? Where flat lies on flat by less than floats tell, it mostly does.
+// of the arc, in double? Where flat lies on flat, nearer than floats can tell, it mostly does.
 static NSVCD__NOINLINE int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_t j, double u0,
                                                 double u1) {
   const size_t moving_first = p->moving.first_triangle[i];
@@ -28,46 +28,41 @@ static NSVCD__NOINLINE int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_
   for (size_t a = moving_first; a < moving_end; a++) {
     const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, top);
     if ((a - moving_first) % 4 == 0) p->work++;
-    if (!nsvcd__plane_separates(p, &pair, u0, u1, p->memo.separating)) return 0;
+    if (!nsvcd__plane_separates(p, &pair, u0, u1)) return 0;
   }
-#ifdef NSVCD__CERTIFIES
-  for (size_t a = moving_first; a < moving_end; a++) {
-    for (size_t b = fixed_first; b < fixed_end; b++) {
-      const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, b);
-      nsvcd__certify_triangle_pair(p, &pair, u0, u1);
-    }
-  }
-#endif
+  NSVCD__CERTIFY_PATCHES(p, i, j, u0, u1);
   return 1;
 }
 
-// Lane l of the moving block, posed at both ends of a interval from u0 to u1 of the arc, and block
-// n of the window: triangle pairs that planes do not part are resolved one by one, and what parts
-// one may part others, or, ALL_SETTLED, all of both patches. TOO_LONG when they have asked for more
-// than `patience` parts of the interval; without any, when there is such a triangle pair.
-static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t i, size_t j, size_t l,
-                                         size_t n, const nsvcd__interval *interval,
+// Lane l of the moving block, posed at both ends of an interval from u0 to u1 of the arc, and a
+// block of the window: the triangle pairs that no plane separates are resolved one by one. The
+// plane that separates one may separate others or, ALL_RESOLVED, all of both patches. TOO_LONG:
+// they ask for more than `patience` parts of the interval or, without any, there is such a triangle
+// pair.
+static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
                                          nsvcd__arm arm, float margin, double u0, double u1,
                                          size_t patience) {
-  nsvcd__block *fixed = &p->fixed_blocks[n];
-  const float errors = nsvcd__quanta_of(p, i, j);
+  const nsvcd__interval *over = p->over;
+  const size_t i = p->moving_block.patch;
+  const size_t j = fixed->patch;
+  const float errors = nsvcd__errors_of(p, i, j);
   p->work++;
-  uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 2, interval, margin);
+  uint32_t met = nsvcd__row_left(p, l, fixed, margin);
   for (; met; met &= met - 1) {
     const nsvcd__d3 before = p->memo.separating;
     const nsvcd__f3 last = nsvcd__f3_round(before);
-    const float along = errors + interval->rounding + nsvcd__clearance(p) +
-                        nsvcd__deviation_of(interval, last, arm);
-    met = nsvcd__left_by_last(p, i, j, l, fixed, 2, interval, along, met);
+    const float along =
+        errors + over->rounding + nsvcd__clearance(p) + nsvcd__deviation_of(over, last, arm);
+    met = nsvcd__left_by_normal(p, l, fixed, NSVCD__LAST_NORMAL, along, met);
     if (!met) break;
     if (patience == 0) return NSVCD__TOO_LONG;
     if (p->memo.shared > NSVCD__SHARED * p->all_tried) {
       p->all_tried++;
       if (nsvcd__patches_apart(p, i, j, u0, u1)) return NSVCD__ALL_RESOLVED;
     }
-    const size_t entry = p->moving_block.first + l;
-    const nsvcd__triangle_pair pair =
-        nsvcd__pair_of(p, i, j, entry, fixed->first + nsvcd__low_bit(met));
+    const size_t a = p->moving_block.first + l;
+    const size_t b = fixed->first + nsvcd__low_bit(met);
+    const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, b);
     const nsvcd__outcome one = nsvcd__resolve_pair(p, &pair, u0, u1);
     if (one != NSVCD__RESOLVED) return one;
     if (p->parts > patience) return NSVCD__TOO_LONG;
@@ -77,21 +72,22 @@ static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t i, size_t j, si
   return NSVCD__RESOLVED;
 }
 
-// All triangle pairs of a patch pair's patches over a interval from u0 to u1 of the arc.
+// All triangle pairs of patches i and j over an interval from u0 to u1 of the arc.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, size_t i,
                                                                size_t j,
-                                                               const nsvcd__interval *interval,
+                                                               const nsvcd__interval *over,
                                                                double u0, double u1,
                                                                size_t patience) {
   const size_t moving_end = p->moving.first_triangle[i + 1];
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
-  const nsvcd__f3 axis = nsvcd__own_axis(interval);
-  const float stays = nsvcd__quanta_of(p, i, j) +
-                      (interval->rounding + interval->origin_bend) + nsvcd__clearance(p);
-  const float extent = p->moving.body->extent + p->moving.errors[i];
+  const nsvcd__f3 axis = nsvcd__own_axis(over);
+  const float stays =
+      nsvcd__errors_of(p, i, j) + (over->rounding + over->origin_bend) + nsvcd__clearance(p);
+  const float error = p->moving.errors[i];
+  const float extent = p->moving.body->extent + error;
   const nsvcd__arm all = {extent, extent};
-  const int bends =
-      interval->bend * extent > 0.25f * stays;  // else it is not worth to look closely
+  // else arms of blocks gain little
+  const int bends = over->bend * extent > 0.25f * stays;
   p->parts = 0;
   p->all_tried = 0;
   for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
@@ -99,24 +95,19 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
     nsvcd__window_load(p, j, b);
     for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
       nsvcd__moving_block_load(p, i, a);
-      const nsvcd__arm arm = bends ? nsvcd__block_arm(p, axis, p->moving.errors[i]) : all;
-      const float margin = stays + nsvcd__bend_of(interval, arm);
-      nsvcd__block_pose(p, &interval->start, 0);
-      nsvcd__block_pose(p, &interval->end, 1);
-      nsvcd__block_box(p, 2);
+      const nsvcd__arm arm = bends ? nsvcd__block_arm(&p->moving_block, axis, error) : all;
+      const float margin = stays + nsvcd__bend_of(over, arm);
+      nsvcd__block_pose(p, NULL, over);
       for (size_t n = 0; n < p->memo.window; n++) {
         nsvcd__block *fixed = &p->fixed_blocks[n];
         const uint32_t nearby = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
-        const uint32_t lanes =
-            nsvcd__lanes_left_by_last(p, i, j, fixed, 2, interval, margin, nearby);
+        NSVCD__CERTIFY_BLOCK(p, ~nearby, fixed, 0xffff, 0, NULL, 0);
+        uint32_t lanes = nsvcd__lanes_left_by_last(p, fixed, margin, nearby);
         p->work++;
         if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
-        for (size_t l = 0; l < p->moving_block.count; l++) {
-          if (!(nearby >> l & 1))
-            NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, interval, 0xffff, 0, NULL, 0);
-          if (!(lanes >> l & 1)) continue;
-          const nsvcd__outcome row =
-              nsvcd__resolve_row(p, i, j, l, n, interval, arm, margin, u0, u1, patience);
+        for (; lanes; lanes &= lanes - 1) {
+          const nsvcd__outcome row = nsvcd__resolve_row(p, nsvcd__low_bit(lanes), fixed, arm,
+                                                        margin, u0, u1, patience);
           if (row == NSVCD__ALL_RESOLVED) return NSVCD__RESOLVED;
           if (row != NSVCD__RESOLVED) return row;
         }
@@ -126,21 +117,13 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
   return NSVCD__RESOLVED;
 }
 
-static void nsvcd__certify_patch_pair(const nsvcd__proof *p, const nsvcd__interval *interval,
-                                      const nsvcd__patch_pair *item) {
-  const float normal[3] = {p->memo.held.x, p->memo.held.y, p->memo.held.z};
-  NSVCD__CERTIFY(NSVCD__BY_HULL, item->moving, item->fixed, NSVCD_NONE, NSVCD_NONE,
-                 interval->t_start, interval->t_end, normal);
-  (void)normal;
-  (void)interval;
-  (void)item;
-}
-
-// Resolves a patch pair that no plane separates over its segment, arc by arc. Each arc is halved as
-// often as need be: a part of it is separated by a plane between the hulls, or by its triangles.
+// Resolves a patch pair that no plane separates over its segment, arc by arc. An arc is halved
+// until each part is resolved by a plane between the hulls, or by the triangles.
 static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__search *search,
                                                 const nsvcd__patch_pair *item) {
   const nsvcd__motion *motion = p->ask.motion;
+  const size_t i = item->moving;
+  const size_t j = item->fixed;
   const uint32_t last = search->begin[item->segment + 1u];
   double *ends = p->arc_ends;
   int is_tried = 1;  // is it all of the segment?
@@ -157,16 +140,13 @@ static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__se
       const double end = nsvcd__min(ends[left - 1], nsvcd__arc_limit(p));
       if (!(u < end)) break;
       p->interval = nsvcd__interval_of_arc(p, first, u, end);
-      const int apart =
-          !is_tried && nsvcd__hulls_are_apart(p, item->moving, item->fixed, &p->interval);
+      const int apart = !is_tried && nsvcd__hulls_are_apart(p, i, j, &p->interval);
       is_tried = 0;
-      if (apart) {
-        nsvcd__certify_patch_pair(p, &p->interval, item);
-      } else {
+      if (!apart) {
         const int may_halve = end - u > NSVCD__SHORTEST && left < NSVCD__ARC_PARTS;
-        const size_t patience = may_halve ? NSVCD__PATIENCE_TO_PART : (size_t)-1;
-        const nsvcd__outcome part = nsvcd__resolve_triangles(p, item->moving, item->fixed,
-                                                             &p->interval, u, end, patience);
+        const size_t patience = may_halve ? NSVCD__FEW_PARTS : (size_t)-1;
+        const nsvcd__outcome part =
+            nsvcd__resolve_triangles(p, i, j, &p->interval, u, end, patience);
         if (part == NSVCD__ANSWERED || part == NSVCD__EXHAUSTED) return part;
         if (part == NSVCD__TOO_LONG) ends[left++] = 0.5 * (u + end);
         if (part != NSVCD__RESOLVED) continue;
@@ -178,68 +158,64 @@ static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__se
   return NSVCD__RESOLVED;
 }
 
-// Does a plane with the normal that held last part a patch pair's patches over its segment?
-// Neighbours of a patch pair that a plane separates ask for the same again: so heights over it are
-// remembered, of a moving patch in a segment the least, all allowances taken off, and of a resting
-// one the greatest.
+// Does the plane that held last separate a patch pair over its segment, moved along its normal? If
+// it does, the pair's neighbours ask for the same heights: so these are remembered, of a moving
+// patch in a segment the least, less all margins, and of a fixed one the greatest.
 static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
                              const nsvcd__patch_pair *item) {
   const size_t i = item->moving;
   const size_t j = item->fixed;
   const size_t s = item->segment;
-  const nsvcd__interval *interval = nsvcd__segment_interval(p, search, s);
   nsvcd__memo *memo = &p->memo;
+  if (!memo->plane) return 0;
+  const nsvcd__interval *over = nsvcd__segment_interval(p, search, s);
   const nsvcd__f3 n = memo->held;
   const float length = nsvcd__f3_length(n);
   const uint32_t key = (uint32_t)(i * NSVCD__MAX_SEGMENTS + s);
   nsvcd__height *above =
       &memo->heights[(NSVCD__GROUP * s + i % NSVCD__GROUP) % NSVCD__HEIGHTS];
-  nsvcd__height *below = &memo->rest_heights[j % NSVCD__REST_HEIGHTS];
+  nsvcd__height *below = &memo->fixed_heights[j % NSVCD__FIXED_HEIGHTS];
   if (above->plane != memo->plane || above->key != key) {
     float lowest = HUGE_VALF;
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, i, l);
       const nsvcd__v3 normal = nsvcd__v3_set(n);
-      const nsvcd__v at_start =
-          nsvcd__v3_dot(normal, nsvcd__v3_transform(&interval->start, hull));
-      const nsvcd__v at_end = nsvcd__v3_dot(normal, nsvcd__v3_transform(&interval->end, hull));
-      lowest = nsvcd__least_of(lowest, nsvcd__v_least(nsvcd__v_min(at_start, at_end)));
+      const nsvcd__v at_start = nsvcd__v3_dot(normal, nsvcd__v3_transform(&over->start, hull));
+      const nsvcd__v at_end = nsvcd__v3_dot(normal, nsvcd__v3_transform(&over->end, hull));
+      lowest = nsvcd__least_of(lowest, nsvcd__v_min(at_start, at_end));
     }
     const float margin =
-        (p->ask.motion->scale * p->moving.margins[i] + interval->rounding) * length;
+        (p->ask.motion->scale * p->moving.margins[i] + over->rounding) * length;
     above->plane = memo->plane;
     above->key = key;
     above->height =
-        lowest - margin -
-        nsvcd__deviation_of(interval, n, nsvcd__patch_arm(&p->moving, i, interval));
+        lowest - margin - nsvcd__deviation_of(over, n, nsvcd__patch_arm(&p->moving, i, over));
   }
   if (below->plane != memo->plane || below->key != j) {
-    // negated
-    float highest = HUGE_VALF;
+    float highest = -HUGE_VALF;
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v height = nsvcd__v3_dot(nsvcd__v3_set(n), nsvcd__hull_of(&p->fixed, j, l));
-      highest = nsvcd__least_of(highest, nsvcd__v_least(nsvcd__v_negate(height)));
+      highest = nsvcd__greatest_of(highest, height);
     }
     below->plane = memo->plane;
     below->key = (uint32_t)j;
-    below->height = p->fixed.margins[j] * length - highest;
+    below->height = p->fixed.margins[j] * length + highest;
   }
   if (!(above->height > below->height + nsvcd__clearance(p) * length)) return 0;
-  nsvcd__certify_patch_pair(p, interval, item);
+  NSVCD__CERTIFY(NSVCD__BY_HULL, i, j, NSVCD_NONE, NSVCD_NONE, over->t_start, over->t_end,
+                 &n.x);
   return 1;
 }
 
-// Is there any plane that does?
+// Does any plane?
 static int nsvcd__is_separated(nsvcd__proof *p, const nsvcd__search *search,
                                const nsvcd__patch_pair *item) {
-  const nsvcd__interval *interval = nsvcd__segment_interval(p, search, item->segment);
-  if (!nsvcd__hulls_are_apart(p, item->moving, item->fixed, interval)) return 0;
-  nsvcd__certify_patch_pair(p, interval, item);
-  return 1;
+  const nsvcd__interval *over = nsvcd__segment_interval(p, search, item->segment);
+  return nsvcd__hulls_are_apart(p, item->moving, item->fixed, over);
 }
 
-// Is a patch pair to be looked at before another? Deepest first. For the first contact: earliest
-// closest approach within a segment, and earlier segments once a contact is known.
+// Does a patch pair come before another? Deepest first. For the first contact: earliest closest
+// approach within a segment, and earlier segments once a contact is known.
 static int nsvcd__is_before(const nsvcd__proof *p, const nsvcd__patch_pair *a,
                             const nsvcd__patch_pair *b) {
   if (!(p->ask.first > 0)) return a->depth > b->depth;
@@ -263,9 +239,8 @@ static int nsvcd__matters(const nsvcd__proof *p, const nsvcd__search *search, si
   return (double)search->begin[segment] < p->ask.end;
 }
 
-// Where the end of what matters lies within a segment, that segment is cut off there. What leaves a
-// chord by some length leaves that of a part of the time by no more than twice that, along any
-// direction.
+// Clips the segment in which the end of what matters lies. What leaves a chord by some length
+// leaves that of a part of the time by no more than twice that, along any direction.
 static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *search) {
   size_t s = 0;
   double u;
@@ -295,8 +270,8 @@ static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *
   }
   p->clipped |= (uint64_t)1 << s;
   p->memo.intervals &= ~((uint64_t)1 << s);
-  search->posed &= ~((uint64_t)1 << s);
-  // heights over the plane that held last are not what they were
+  search->ready &= ~((uint64_t)1 << s);
+  // the heights over the plane that held last are no longer right
   p->memo.plane += p->memo.plane > 0;
 }
 
@@ -319,8 +294,8 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_patch_pairs(nsvcd__proof *p
   return nsvcd__is_exhausted(p) ? NSVCD__EXHAUSTED : NSVCD__RESOLVED;
 }
 
-// Looks at fresh patch pairs: parts those that planes can part, looks for a witness in the others,
-// and keeps them. The last plane that held is tried on all before anything else: it often holds for
+// Sifts fresh patch pairs: drops those that planes separate, seeks a witness in the others, and
+// keeps them. The plane that held last is tried on all of them first: it often holds for
 // neighbours.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
                                                               nsvcd__search *search) {
@@ -328,7 +303,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
   size_t count = 0;
   nsvcd__clip_segment(p, search);
   for (size_t n = 0; n < p->fresh_count; n++) {
-    if (p->memo.plane && nsvcd__held_again(p, search, &p->fresh[n])) continue;
+    if (nsvcd__held_again(p, search, &p->fresh[n])) continue;
     p->fresh[count++] = p->fresh[n];
   }
   p->fresh_count = 0;
@@ -343,7 +318,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
     if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
     nsvcd__clip_segment(p, search);
     if (!nsvcd__matters(p, search, item->segment)) continue;
-    if (p->memo.plane && nsvcd__held_again(p, search, item)) continue;
+    if (nsvcd__held_again(p, search, item)) continue;
     if (nsvcd__is_separated(p, search, item)) continue;
     double u;
     const uint32_t first = nsvcd__arc_of(p->ask.motion, search->begin[item->segment], &u);
@@ -353,14 +328,14 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
       if (outcome != NSVCD__RESOLVED) return outcome;
       continue;
     }
-    if (p->misses >= NSVCD__HOPE) {
-      const nsvcd__interval *interval = nsvcd__segment_interval(p, search, item->segment);
+    if (p->misses >= NSVCD__FEW_MISSES) {
+      const nsvcd__interval *over = nsvcd__segment_interval(p, search, item->segment);
       const nsvcd__outcome by_triangles =
-          nsvcd__resolve_triangles(p, item->moving, item->fixed, interval, 0, 0, 0);
+          nsvcd__resolve_triangles(p, item->moving, item->fixed, over, 0, 0, 0);
       if (by_triangles == NSVCD__RESOLVED) continue;
     }
-    const int has_hope = tells_more || p->misses < NSVCD__DESPAIR;
-    if (has_hope && !item->sought &&
+    const int may_meet = tells_more || p->misses < NSVCD__MANY_MISSES;
+    if (may_meet && !item->sought &&
         nsvcd__seek_in_patch_pair(p, search, item) == NSVCD__ANSWERED)
       return NSVCD__ANSWERED;
     p->misses++;
@@ -373,22 +348,22 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
   return NSVCD__RESOLVED;
 }
 
-// Is there room for touches, and a way out of those that were gathered?
+// Is there room for contacts, and can those that were collected still be undone?
 static int nsvcd__collects_on(const nsvcd__proof *p) {
   return p->contact_count < NSVCD__TOUCHES && !p->too_deep;
 }
 
-// Gathers what fresh patch pairs touch at the start, or the patch pairs where contact points may
-// be. SPENT: as much as can be looked at together, or as was allowed.
+// Collects the contacts of fresh patch pairs at the start, or the patch pairs where contact points
+// may be. EXHAUSTED: there is no room for more, or no budget.
 static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *search) {
   for (size_t n = 0; n < p->fresh_count && nsvcd__collects_on(p); n++) {
     const nsvcd__patch_pair *item = &p->fresh[n];
     NSVCD__PAUSE(p);
-    if (p->memo.plane && nsvcd__held_again(p, search, item)) continue;
+    if (nsvcd__held_again(p, search, item)) continue;
     if (nsvcd__is_separated(p, search, item)) continue;
     if (p->ask.collects == NSVCD__TOUCHING) {
       if (p->normal_count > 0) {
-        // what was pushed out of just so is farther than the clearance by less than floats tell
+        // just pushed out: farther than the clearance by less than floats can tell
         (void)nsvcd__arc_at(p, 0);
         if (nsvcd__patches_apart(p, item->moving, item->fixed, 0, 0)) continue;
       }
@@ -401,39 +376,39 @@ static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *se
   return nsvcd__collects_on(p) && p->work <= p->ask.limit ? NSVCD__RESOLVED : NSVCD__EXHAUSTED;
 }
 
-// How far places on both patches of a patch pair, the moving one posed, can at most be along each
-// of these directions of a manifold: they are within both hulls.
+// Bounds, along directions first .. last - 1 of a manifold, of the points on both patches of a
+// patch pair, the moving one posed: they are in both hulls.
 static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
                             const nsvcd__patch_pair *item, int first, int last, float *most) {
   const nsvcd__manifold *m = &p->of.kept.manifold;
   const float scale = p->ask.motion->scale;
-  const float moving_more = scale * p->moving.margins[item->moving] + (float)m->tolerance;
-  const float fixed_more = p->fixed.margins[item->fixed];
+  const float margin = scale * p->moving.margins[item->moving] + (float)m->tolerance;
+  const float fixed_margin = p->fixed.margins[item->fixed];
   for (int k = first; k < last; k++) {
-    const nsvcd__v3 back = nsvcd__v3_set(nsvcd__d3_narrow(nsvcd__d3_scale(m->along[k], -1)));
-    float by_moving = HUGE_VALF;
-    float by_fixed = HUGE_VALF;
+    const nsvcd__v3 along = nsvcd__v3_set(nsvcd__d3_narrow(m->along[k]));
+    float moving = -HUGE_VALF;
+    float fixed = -HUGE_VALF;
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 moving = nsvcd__hull_of(&p->moving, item->moving, l);
-      const nsvcd__v3 fixed = nsvcd__hull_of(&p->fixed, item->fixed, l);
-      const nsvcd__v height = nsvcd__v3_dot(back, nsvcd__v3_transform(pose, moving));
-      by_moving = nsvcd__least_of(by_moving, nsvcd__v_least(height));
-      by_fixed = nsvcd__least_of(by_fixed, nsvcd__v_least(nsvcd__v3_dot(back, fixed)));
+      const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, item->moving, l);
+      const nsvcd__v3 other = nsvcd__hull_of(&p->fixed, item->fixed, l);
+      const nsvcd__v height = nsvcd__v3_dot(along, nsvcd__v3_transform(pose, hull));
+      moving = nsvcd__greatest_of(moving, height);
+      fixed = nsvcd__greatest_of(fixed, nsvcd__v3_dot(along, other));
     }
-    most[k] = fminf(moving_more - by_moving, fixed_more - by_fixed);
+    most[k] = fminf(margin + moving, fixed_margin + fixed);
   }
 }
 
-// The manifold of the patch pairs that were gathered, in directions first to last - 1: at first of
-// those that may be farthest along one, then of what may still be farther. Where bodies are deep in
-// each other there are many, and few of their places are like a contact: so many are looked at, and
-// no more.
+// The manifold of the patch pairs that were collected, in directions first .. last - 1: first of
+// those with the farthest bound along one, then of those that may still be farther. Where bodies
+// are deep in each other there are many, with few points that are like a contact: so only so many
+// are tried.
 static NSVCD__NOINLINE void nsvcd__seek_positions(nsvcd__proof *p, int first, int last) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   nsvcd__patch_pair *items = p->of.kept.items;
   const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(p, 0), 0);
   const nsvcd__transform pose = nsvcd__transform_of(&at);
-  size_t looks = 0;
+  size_t tries = 0;
   float farthest[NSVCD__SUPPORTS];
   size_t best[NSVCD__SUPPORTS] = {0};
   float most[NSVCD__SUPPORTS];
@@ -454,10 +429,11 @@ static NSVCD__NOINLINE void nsvcd__seek_positions(nsvcd__proof *p, int first, in
     nsvcd__bound_of(p, &pose, item, first, last, most);
     for (int k = first; k < last; k++) matters |= (double)most[k] > m->farthest[k] + m->same;
     if (item->sought || !matters) continue;
-    if (looks == NSVCD__HOLDS || (looks == NSVCD__HOPE && !(m->farthest[first] > -HUGE_VAL)))
+    if (tries == NSVCD__CONTACT_PAIRS ||
+        (tries == NSVCD__FEW_MISSES && !(m->farthest[first] > -HUGE_VAL)))
       break;
     item->sought = 1;
-    looks++;
+    tries++;
     (void)nsvcd__find_witness(p, item->moving, item->fixed, 0, 0);
   }
 }

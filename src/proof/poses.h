@@ -1,5 +1,5 @@
-// In: a motion, an arc of it and a share of that. Out: where the moving body is, in double, to the
-// last digits.
+// In: a motion, an arc of it and a fraction u in [0,1] of the arc. Out: the pose of the moving body
+// there, in double, to the last digits.
 #pragma once
 #include "proof.h"
 
@@ -10,11 +10,11 @@ static nsvcd__dquat nsvcd__unit_rotation(const nsvcd_pose *pose) {
   return nsvcd__dquat_unit(out);
 }
 
-static nsvcd__d3 nsvcd__place_point(const nsvcd__dtransform *at, nsvcd__d3 a) {
+static nsvcd__d3 nsvcd__d3_transform(const nsvcd__dtransform *at, nsvcd__d3 a) {
   return nsvcd__d3_add(nsvcd__dmat3_apply(&at->rotation, a), at->position);
 }
 
-// The rotation a share u in [0,1] of the arc later than its start; unit.
+// The rotation at fraction u of the arc, unit.
 static nsvcd__dquat nsvcd__slerp_at(const nsvcd__slerp *slerp, double u) {
   const double along = slerp->from + slerp->fraction * u;
   double before = 1 - along;
@@ -31,19 +31,9 @@ static nsvcd__dquat nsvcd__slerp_at(const nsvcd__slerp *slerp, double u) {
 // A track's slerp over an arc, and its positions at both ends, metres.
 static void nsvcd__slerp_init(const nsvcd__track *track, uint32_t first, uint32_t ticks,
                               nsvcd__slerp *slerp, nsvcd__d3 *ends) {
-  if (track->count == 1) {
-    slerp->start = nsvcd__unit_rotation(track->poses);
-    slerp->end = slerp->start;
-    slerp->half_angle = 0;
-    slerp->from = 0;
-    slerp->fraction = 1;
-    ends[0] = nsvcd__d3_load(track->poses->position);
-    ends[1] = ends[0];
-    return;
-  }
   const uint32_t k = nsvcd__pose_before(track, first);
   const nsvcd_pose *a = &track->poses[k];
-  const nsvcd_pose *b = a + 1;
+  const nsvcd_pose *b = track->count > 1 ? a + 1 : a;
   const uint32_t begin = nsvcd__tick_of(track, k);
   const double per_tick = 1 / (double)(nsvcd__tick_of(track, k + 1) - begin);
   slerp->fraction = (double)ticks * per_tick;
@@ -57,10 +47,9 @@ static void nsvcd__slerp_init(const nsvcd__track *track, uint32_t first, uint32_
   slerp->start = nsvcd__unit_rotation(a);
   slerp->end = nsvcd__dquat_scale(nsvcd__unit_rotation(b), sign);
   const nsvcd__dquat difference = nsvcd__dquat_fma(-1, slerp->end, slerp->start);
-  const double apart = nsvcd__dquat_dot(difference, difference);
   const nsvcd__dquat sum = nsvcd__dquat_fma(1, slerp->end, slerp->start);
-  const double together = nsvcd__dquat_dot(sum, sum);
-  slerp->half_angle = 2 * nsvcd__atan2(sqrt(apart), sqrt(together));
+  const double apart = sqrt(nsvcd__dquat_dot(difference, difference));
+  slerp->half_angle = 2 * nsvcd__atan2(apart, sqrt(nsvcd__dquat_dot(sum, sum)));
 }
 
 // The rotation vector of a slerp, over its arc.
@@ -94,54 +83,49 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   const nsvcd__d3 to = nsvcd__d3_sub(ends[1], fixed_ends[1]);
   arc->from = nsvcd__d3_scale(from, per_metre);
   arc->moved = nsvcd__d3_scale(nsvcd__d3_sub(to, from), per_metre);
-  if (arc->fixed_moves) {
-    // what both bodies' turns do: see nsvcd__cut_double_arc
-    const nsvcd__d3 fixed_turn = nsvcd__slerp_turn(&arc->fixed);
-    const nsvcd__d3 turn = nsvcd__d3_sub(nsvcd__slerp_turn(&arc->moving), fixed_turn);
-    const nsvcd__d3 end = nsvcd__d3_add(arc->from, arc->moved);
-    const double twist = nsvcd__d3_length(nsvcd__d3_cross(turn, fixed_turn));
-    const double angle = nsvcd__d3_length(fixed_turn);
-    const double swing_from = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->from));
-    const double swing_to = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, end));
-    const double swing = nsvcd__max(swing_from, swing_to);
-    const double across = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->moved));
-    const nsvcd__d3 axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
-    const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->fixed, 0));
-    const nsvcd__dmat3 moving = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->moving, 0));
-    arc->turn = nsvcd__d3_length(turn);
-    arc->speed = nsvcd__d3_length(arc->moved) + swing;
-    arc->twist = 0.1250001 * arc->scale * twist;
-    arc->origin_bend = 0.1250001 * (2 * across + angle * swing);
-    arc->axis = nsvcd__dmat3_apply_transpose(&fixed, axis);
-    arc->own_axis = nsvcd__dmat3_apply_transpose(&moving, axis);
-    arc->waver = arc->turn > 0 ? nsvcd__min(1, twist / arc->turn) : 0;
-    arc->bend = 0.1250001 * arc->scale * arc->turn * arc->turn;
-    return arc;
+  if (!arc->fixed_moves) {
+    // all in the fixed body's frame
+    const nsvcd__dquat frame = arc->fixed.start;
+    const nsvcd__dmat3 axes = nsvcd__dmat3_of(frame);
+    const nsvcd__dquat none = {0, 0, 0, 1};
+    arc->moving.start = nsvcd__dquat_inverse_mul(frame, arc->moving.start);
+    arc->moving.end = nsvcd__dquat_inverse_mul(frame, arc->moving.end);
+    arc->from = nsvcd__dmat3_apply_transpose(&axes, arc->from);
+    arc->moved = nsvcd__dmat3_apply_transpose(&axes, arc->moved);
+    arc->fixed.start = arc->fixed.end = none;
   }
 
-  const nsvcd__dmat3 fixed = nsvcd__dmat3_of(arc->fixed.start);
-  arc->moving.start = nsvcd__dquat_inverse_mul(arc->fixed.start, arc->moving.start);
-  arc->moving.end = nsvcd__dquat_inverse_mul(arc->fixed.start, arc->moving.end);
-  arc->from = nsvcd__dmat3_apply_transpose(&fixed, arc->from);
-  arc->moved = nsvcd__dmat3_apply_transpose(&fixed, arc->moved);
-  const nsvcd__d3 turn = nsvcd__slerp_turn(&arc->moving);
-  const nsvcd__dmat3 moving = nsvcd__dmat3_of(arc->moving.start);
-  arc->axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
-  arc->own_axis = nsvcd__dmat3_apply_transpose(&moving, arc->axis);
-  arc->turn = 2 * arc->moving.half_angle * arc->moving.fraction;
-  arc->speed = nsvcd__d3_length(arc->moved);
+  // the bounds of nsvcd__cut_double_arc; of one body that turns, twist and swing are 0
+  const nsvcd__d3 fixed_turn = nsvcd__slerp_turn(&arc->fixed);
+  const nsvcd__d3 turn = nsvcd__d3_sub(nsvcd__slerp_turn(&arc->moving), fixed_turn);
+  const nsvcd__d3 end = nsvcd__d3_add(arc->from, arc->moved);
+  const double twist = nsvcd__d3_length(nsvcd__d3_cross(turn, fixed_turn));
+  const double angle = nsvcd__d3_length(fixed_turn);
+  const double swing_from = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->from));
+  const double swing_to = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, end));
+  const double swing = nsvcd__max(swing_from, swing_to);
+  const double across = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->moved));
+  const nsvcd__d3 axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
+  const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->fixed, 0));
+  const nsvcd__dmat3 moving = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->moving, 0));
+  arc->turn = nsvcd__d3_length(turn);
+  arc->speed = nsvcd__d3_length(arc->moved) + swing;
+  arc->twist = 0.1250001 * arc->scale * twist;
+  arc->origin_bend = 0.1250001 * (2 * across + angle * swing);
+  arc->axis = nsvcd__dmat3_apply_transpose(&fixed, axis);
+  arc->own_axis = nsvcd__dmat3_apply_transpose(&moving, axis);
+  arc->waver = arc->turn > 0 ? nsvcd__min(1, twist / arc->turn) : 0;
   arc->bend = 0.1250001 * arc->scale * arc->turn * arc->turn;
-  arc->waver = arc->twist = arc->origin_bend = 0;
   return arc;
 }
 
-// Do all points of the moving body go along straight lines, seen from the fixed one?
+// Do all points of the moving body go along straight lines, as the fixed body sees them?
 static int nsvcd__is_straight(const nsvcd__arc *arc) {
   return !(arc->bend > 0 || arc->twist > 0 || arc->origin_bend > 0);
 }
 
-// The true pose, seen from the fixed body, a share u in [0,1] of the arc later than its start. Its
-// rotation is times the moving body's scale.
+// The true pose at fraction u of the arc, as the fixed body sees it. Its rotation is times the
+// moving body's scale.
 static nsvcd__dtransform nsvcd__dtransform_at(const nsvcd__arc *arc, double u) {
   nsvcd__dquat q = nsvcd__slerp_at(&arc->moving, u);
   nsvcd__dtransform at;
@@ -158,51 +142,45 @@ static nsvcd__dtransform nsvcd__dtransform_at(const nsvcd__arc *arc, double u) {
   return at;
 }
 
-// How the moving body goes there. Where both turn, what the fixed one does is taken off.
+// The moving body's twist there, as the fixed body sees it.
 static nsvcd__twist nsvcd__twist_at(const nsvcd__arc *arc, double u) {
   const nsvcd__dtransform at = nsvcd__dtransform_at(arc, u);
   const double per_tick = 1 / (double)arc->ticks;
-  nsvcd__twist out;
+  const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->fixed, u));
   nsvcd__d3 turn = nsvcd__slerp_turn(&arc->moving);
-  out.along = arc->moved;
-  out.turn = turn;
-  if (arc->fixed_moves) {
-    const nsvcd__dquat q = nsvcd__slerp_at(&arc->fixed, u);
-    const nsvcd__dmat3 fixed = nsvcd__dmat3_of(q);
-    nsvcd__d3 own = nsvcd__slerp_turn(&arc->fixed);
-    own = nsvcd__dmat3_apply_transpose(&fixed, own);
-    turn = nsvcd__dmat3_apply_transpose(&fixed, turn);
-    out.along = nsvcd__dmat3_apply_transpose(&fixed, out.along);
-    out.along = nsvcd__d3_add(out.along, nsvcd__d3_cross(own, arc->push_out));
-    out.turn = nsvcd__d3_sub(turn, own);
-  }
-  out.along = nsvcd__d3_sub(out.along, nsvcd__d3_cross(turn, at.position));
-  out.along = nsvcd__d3_scale(out.along, per_tick);
-  out.turn = nsvcd__d3_scale(out.turn, per_tick);
+  nsvcd__d3 own = nsvcd__slerp_turn(&arc->fixed);
+  turn = nsvcd__dmat3_apply_transpose(&fixed, turn);
+  own = nsvcd__dmat3_apply_transpose(&fixed, own);
+  nsvcd__d3 along = nsvcd__dmat3_apply_transpose(&fixed, arc->moved);
+  along = nsvcd__d3_add(along, nsvcd__d3_cross(own, arc->push_out));
+  along = nsvcd__d3_sub(along, nsvcd__d3_cross(turn, at.position));
+  nsvcd__twist out;
+  out.along = nsvcd__d3_scale(along, per_tick);
+  out.turn = nsvcd__d3_scale(nsvcd__d3_sub(turn, own), per_tick);
   return out;
 }
 static nsvcd__d3 nsvcd__twist_of(const nsvcd__twist *twist, nsvcd__d3 x) {
   return nsvcd__d3_add(twist->along, nsvcd__d3_cross(twist->turn, x));
 }
 
-// The true pose in p->arc, remembered: triangle pairs ask for the same poses again.
-// The last two that were asked for stay where they are.
-static const nsvcd__dtransform *nsvcd__placed_at(nsvcd__proof *p, double u) {
-  size_t n = 0;
+// The true pose at fraction u of p->arc, remembered: triangle pairs ask for the same poses again.
+// The pose of the call before stays where it is.
+static const nsvcd__dtransform *nsvcd__arc_pose(nsvcd__proof *p, double u) {
   const nsvcd__arc *arc = &p->arc;
-  for (; n < NSVCD__PLACED; n++) {
-    const nsvcd__placed *known = &p->memo.placed[n];
+  nsvcd__memo *memo = &p->memo;
+  const size_t next = memo->next_pose;
+  size_t n = 0;
+  for (; n < NSVCD__KNOWN_POSES; n++) {
+    const nsvcd__known_pose *known = &memo->poses[n];
     if (known->arc == arc->first && known->ticks == arc->ticks && known->u == u) break;
   }
-  if (n == NSVCD__PLACED) {
-    n = p->memo.next_placed;
-    p->memo.placed[n].arc = arc->first;
-    p->memo.placed[n].ticks = arc->ticks;
-    p->memo.placed[n].u = u;
-    p->memo.placed[n].transform = nsvcd__dtransform_at(arc, u);
+  if (n == NSVCD__KNOWN_POSES) {
+    const nsvcd__known_pose made = {arc->first, arc->ticks, u, nsvcd__dtransform_at(arc, u)};
+    n = next;
+    memo->poses[n] = made;
   }
-  if (n == p->memo.next_placed) p->memo.next_placed = (n + 1) % NSVCD__PLACED;
-  return &p->memo.placed[n].transform;
+  if (n == next) memo->next_pose = (n + 1) % NSVCD__KNOWN_POSES;
+  return &memo->poses[n].transform;
 }
 
 static nsvcd__transform nsvcd__transform_of(const nsvcd__dtransform *at) {

@@ -1,32 +1,34 @@
-// In: two triangles and a interval. Out: separated, or in contact, or neither as long as it is
-// halved.
+// In: two triangles and an interval. Out: they are separated, or in contact, or too near to tell.
 #pragma once
 #include "../ground/triangles.h"
 #include "motion_bounds.h"
 
 #ifndef NSVCD_NO_PROOF
-static void nsvcd__place_triangle(const nsvcd__dtransform *at, const nsvcd__d3 *corners,
-                                  nsvcd__d3 *out) {
-  for (size_t k = 0; k < 3; k++) out[k] = nsvcd__place_point(at, corners[k]);
+static void nsvcd__pose_triangle(const nsvcd__dtransform *at, const nsvcd__d3 *corners,
+                                 nsvcd__d3 *out) {
+  for (size_t k = 0; k < 3; k++) out[k] = nsvcd__d3_transform(at, corners[k]);
 }
 
 // Two triangles, one of each body, in their frames: the caller's own, of which entries may be
-// pieces. What separates a triangle separates its pieces, and what it meets the mesh meets.
+// pieces. A plane that separates a triangle separates its pieces; what meets a triangle meets the
+// mesh.
 typedef struct nsvcd__triangle_pair {
   size_t moving_patch, fixed_patch, moving_entry, fixed_entry;
   nsvcd__d3 moving[3], fixed[3];
-  // of the moving one, in its body's units: no point of it is farther from its body's origin, nor,
-  // at any time of the arc, from the axis of its turn
+  // The greatest distance of the moving one's points from their body's origin and, at any time of
+  // the arc, from the axis of the turn; in its body's units.
   double from_origin, from_axis;
-  // how far the meshes' own may be off, with rounding in double; and that
+  // of the moving one, at most: the path of a point over the arc
+  double speed;
+  // how far the meshes' own triangles may be off, and rounding in double; and that rounding alone
   double margin;
   double rounding;
-  // a part of the arc in which they come so near is not worth halving
+  // too near to halve the interval for
   double close;
 } nsvcd__triangle_pair;
 
-// How far its moving triangle is from the origin and from the axis.
-static void nsvcd__pair_reaches(const nsvcd__arc *arc, nsvcd__triangle_pair *pair) {
+// Sets from_origin and from_axis.
+static void nsvcd__pair_arm(const nsvcd__arc *arc, nsvcd__triangle_pair *pair) {
   pair->from_origin = pair->from_axis = 0;
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__d3 corner = pair->moving[k];
@@ -40,10 +42,11 @@ static void nsvcd__pair_reaches(const nsvcd__arc *arc, nsvcd__triangle_pair *pai
 
 static nsvcd__triangle_pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size_t j, size_t a,
                                            size_t b) {
-  nsvcd__triangle_pair pair = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0, 0, 0};
+  nsvcd__triangle_pair pair = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0, 0, 0, 0};
   nsvcd__patch_triangle(&p->moving, i, a, pair.moving);
   nsvcd__patch_triangle(&p->fixed, j, b, pair.fixed);
-  nsvcd__pair_reaches(&p->arc, &pair);
+  nsvcd__pair_arm(&p->arc, &pair);
+  pair.speed = p->arc.speed + p->arc.turn * p->arc.scale * pair.from_axis;
   pair.rounding =
       NSVCD__SAME_POSITION * ((double)p->given.lengths + nsvcd__d3_length(p->arc.from));
   pair.margin = pair.rounding + nsvcd__off_meshes(p);
@@ -52,7 +55,7 @@ static nsvcd__triangle_pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size
   return pair;
 }
 
-// Are these of closed surfaces, of which the winding says which side is out?
+// Are these of closed surfaces, whose winding says which side is out?
 static int nsvcd__moving_closed(const nsvcd__proof *p, const nsvcd__triangle_pair *c) {
   return nsvcd__is_in_solid(&p->moving, c->moving_patch, c->moving_entry);
 }
@@ -60,7 +63,15 @@ static int nsvcd__fixed_closed(const nsvcd__proof *p, const nsvcd__triangle_pair
   return nsvcd__is_in_solid(&p->fixed, c->fixed_patch, c->fixed_entry);
 }
 
-// What is said of two triangles a share u of the arc later than its start.
+// The nearest points of a triangle pair at fraction u of the arc.
+static nsvcd__nearest nsvcd__pair_nearest(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
+                                          double u) {
+  nsvcd__d3 moving[3];
+  nsvcd__pose_triangle(nsvcd__arc_pose(p, u), pair->moving, moving);
+  return nsvcd__nearest_of(moving, pair->fixed);
+}
+
+// The contact of two triangles at fraction u of the arc.
 static nsvcd__pair_contact nsvcd__contact_at(const nsvcd__proof *p,
                                              const nsvcd__triangle_pair *pair, double u,
                                              const nsvcd__nearest *nearest) {
@@ -83,8 +94,8 @@ static nsvcd__pair_contact nsvcd__contact_at(const nsvcd__proof *p,
   return out;
 }
 
-// Two triangles come within the clearance a share u of the arc later than its start. ANSWERED if
-// that is an answer, SHRUNK if there may be a better one.
+// Two triangles come within the clearance at fraction u of the arc. ANSWERED: that is an answer;
+// SHRUNK: there may be a better one.
 static nsvcd__outcome nsvcd__take_contact(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
                                           double u, const nsvcd__nearest *nearest) {
   p->known.has_contact = 1;
@@ -101,35 +112,32 @@ static nsvcd__outcome nsvcd__take_contact(nsvcd__proof *p, const nsvcd__triangle
   return NSVCD__ANSWERED;
 }
 
-// Two triangles come so near from u0 to u1 of the arc that it cannot be told whether they touch.
+// Two triangles come too near to each other, from u0 to u1 of the arc, to tell whether they touch.
 static NSVCD__NOINLINE void nsvcd__keep_unresolved(nsvcd__proof *p,
                                                    const nsvcd__triangle_pair *pair, double u0,
                                                    double u1) {
   const double tick = (double)p->arc.first + u0 * (double)p->arc.ticks;
   const double middle = 0.5 * (u0 + u1);
-  nsvcd__d3 posed[3];
   const size_t left = p->ask.after_unresolved;
-  // a try is short, whatever it finds
+  // a first attempt is short anyway
   const int is_first = !(p->known.unresolved < NSVCD__NEVER) && !p->ask.is_brief;
   if (is_first && p->work + left < p->ask.limit) p->ask.limit = p->work + left;
   if (!(tick < p->known.unresolved)) return;
-  nsvcd__place_triangle(nsvcd__placed_at(p, middle), pair->moving, posed);
-  const nsvcd__nearest nearest = nsvcd__nearest_of(posed, pair->fixed);
+  const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
   p->known.unresolved_pair = nsvcd__contact_at(p, pair, middle, &nearest);
   p->known.unresolved = tick;
   if (p->ask.unresolved_ends) p->ask.end = nsvcd__min(p->ask.end, tick);
 }
 
-// What of the arc matters: the share of it at which the rest does not.
+// The fraction of the arc from which on nothing matters.
 static double nsvcd__arc_limit(const nsvcd__proof *p) {
   return (p->ask.end - (double)p->arc.first) / (double)p->arc.ticks;
 }
 
-// By how much the points of a triangle pair's moving triangle are off their chords along a unit
-// direction n, at most, over all of the arc; over a share of it by the square of that share. A
-// point at r metres from the origin and rho from the axis a of the turn is off by bend
-// rho |n x a| + twist r + origin bend; where both bodies turn, a deviates by `waver`, and so
-// do both distances from it.
+// The deviation of a triangle pair's moving triangle along a unit direction n, over all of the arc;
+// over a fraction of it, times the square of that. A point at r metres from the origin and rho from
+// the axis a of the turn deviates by bend rho |n x a| + twist r + origin_bend. Where both bodies
+// turn, a wavers, and so do both distances from it.
 static double nsvcd__off_chord_along(const nsvcd__arc *arc, const nsvcd__triangle_pair *pair,
                                      nsvcd__d3 n) {
   const double across = nsvcd__d3_length(nsvcd__d3_cross(n, arc->axis));
@@ -138,145 +146,117 @@ static double nsvcd__off_chord_along(const nsvcd__arc *arc, const nsvcd__triangl
   return turn + arc->twist * pair->from_origin + arc->origin_bend;
 }
 
-// Does the plane with this unit normal part the triangle pair from u0 to u1 of the arc?
+// Does the plane that separated a triangle pair last separate this one from u0 to u1 of the arc?
 static int nsvcd__plane_separates(nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0,
-                                  double u1, nsvcd__d3 normal) {
-  const nsvcd__arc *arc = &p->arc;
-  const nsvcd__dtransform *start = nsvcd__placed_at(p, u0);
-  const nsvcd__dtransform *end = nsvcd__placed_at(p, u1);
+                                  double u1) {
+  const nsvcd__d3 normal = p->memo.separating;
+  const nsvcd__dtransform *start = nsvcd__arc_pose(p, u0);
+  const nsvcd__dtransform *end = nsvcd__arc_pose(p, u1);
   double lowest = HUGE_VAL;
   double highest = -HUGE_VAL;
   for (size_t k = 0; k < 3; k++) {
-    const nsvcd__d3 at_start = nsvcd__place_point(start, pair->moving[k]);
-    const nsvcd__d3 at_end = nsvcd__place_point(end, pair->moving[k]);
+    const nsvcd__d3 at_start = nsvcd__d3_transform(start, pair->moving[k]);
+    const nsvcd__d3 at_end = nsvcd__d3_transform(end, pair->moving[k]);
     lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_start));
     lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_end));
     highest = nsvcd__max(highest, nsvcd__d3_dot(normal, pair->fixed[k]));
   }
-  const double off = nsvcd__off_chord_along(arc, pair, normal);
+  const double off = nsvcd__off_chord_along(&p->arc, pair, normal);
   const double deviation = (u1 - u0) * (u1 - u0) * off;
-  return lowest - highest > p->ask.clearance + pair->margin + deviation;
-}
-
-// Is the foot of x on the plane of a triangle within it, farther than `margin` from its edges?
-static int nsvcd__foot_well_within(nsvcd__d3 x, const nsvcd__d3 *t, double margin) {
-  const nsvcd__d3 n = nsvcd__face_normal(t);
-  const double size = nsvcd__d3_length(n);
-  for (size_t k = 0; k < 3; k++) {
-    const nsvcd__d3 edge = nsvcd__d3_sub(t[(k + 1) % 3], t[k]);
-    const double within = nsvcd__d3_dot(n, nsvcd__d3_cross(edge, nsvcd__d3_sub(x, t[k])));
-    if (!(within > margin * size * nsvcd__d3_length(edge))) return 0;
-  }
+  if (!(lowest - highest > p->ask.clearance + pair->margin + deviation)) return 0;
+  const float out[3] = {(float)normal.x, (float)normal.y, (float)normal.z};
+  NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, pair->moving_patch, pair->fixed_patch,
+                 pair->moving_entry, pair->fixed_entry, nsvcd__time_in_arc(p, u0),
+                 nsvcd__time_in_arc(p, u1), out);
   return 1;
 }
 
 // Have two heights different signs, clear of 0 by their margins?
-static int nsvcd__are_opposed(double before, double least_before, double after,
-                              double least_after) {
+static int nsvcd__are_opmoving(double before, double least_before, double after,
+                               double least_after) {
   const int falls = before > least_before && after < -least_after;
   const int rises = before < -least_before && after > least_after;
   return falls || rises;
 }
 
-// Is x on different sides of a triangle's plane, farther than `margin` from it, at two times?
-static int nsvcd__changes_sides(nsvcd__d3 x0, const nsvcd__d3 *t0, nsvcd__d3 x1,
-                                const nsvcd__d3 *t1, double margin) {
-  const nsvcd__d3 n0 = nsvcd__face_normal(t0);
-  const nsvcd__d3 n1 = nsvcd__face_normal(t1);
-  const double before = nsvcd__d3_dot(n0, nsvcd__d3_sub(x0, t0[0]));
-  const double after = nsvcd__d3_dot(n1, nsvcd__d3_sub(x1, t1[0]));
-  return nsvcd__are_opposed(before, margin * nsvcd__d3_length(n0), after,
-                            margin * nsvcd__d3_length(n1));
+// In the next three, triangles are given at three times: the start, the middle and the end of an
+// interval. Between two of them no point travels farther than `travel`, relative to the other
+// triangle.
+
+// Does corner k of triangle x pass through triangle t: does it change sides, and is its foot, in
+// the middle, well within t?
+static int nsvcd__corner_passes(const nsvcd__d3 *const *x, size_t k, const nsvcd__d3 *const *t,
+                                double travel, double margin) {
+  const nsvcd__d3 n = nsvcd__face_normal(t[1]);
+  const double room = 2 * travel * nsvcd__d3_length(n);
+  for (size_t e = 0; e < 3; e++) {
+    const nsvcd__d3 edge = nsvcd__d3_sub(t[1][(e + 1) % 3], t[1][e]);
+    const nsvcd__d3 from = nsvcd__d3_sub(x[1][k], t[1][e]);
+    const double within = nsvcd__d3_dot(n, nsvcd__d3_cross(edge, from));
+    if (!(within > room * nsvcd__d3_length(edge))) return 0;
+  }
+  const nsvcd__d3 n0 = nsvcd__face_normal(t[0]);
+  const nsvcd__d3 n2 = nsvcd__face_normal(t[2]);
+  const double before = nsvcd__d3_dot(n0, nsvcd__d3_sub(x[0][k], t[0][0]));
+  const double after = nsvcd__d3_dot(n2, nsvcd__d3_sub(x[2][k], t[2][0]));
+  return nsvcd__are_opmoving(before, margin * nsvcd__d3_length(n0), after,
+                             margin * nsvcd__d3_length(n2));
 }
 
-// A triangle pair at three times: the moving triangle's corners.
-typedef struct nsvcd__passage {
-  nsvcd__d3 corners[3][3];
-  // no point of it moves farther between these times, seen from the fixed one
-  double travel;
-} nsvcd__passage;
-
-// Do two edges pass through each other: do they change sides, and are their lines nearest to each
-// other well within both? The side is the sign of the volume of the tetrahedron of both.
-static int nsvcd__edges_cross(const nsvcd__passage *passage, size_t k, nsvcd__d3 b0,
-                              nsvcd__d3 b1, double margin) {
+// Does edge k of the moving triangle pass through edge n of the fixed one: do they change sides,
+// and are their lines, in the middle, nearest to each other well within both? The side is the sign
+// of the volume of the tetrahedron of both.
+static int nsvcd__edges_pass(const nsvcd__d3 *const *moving, size_t k, const nsvcd__d3 *fixed,
+                             size_t n, double travel, double margin) {
   const size_t next = (k + 1) % 3;
-  const nsvcd__d3 v = nsvcd__d3_sub(b1, b0);
+  const nsvcd__d3 v = nsvcd__d3_sub(fixed[(n + 1) % 3], fixed[n]);
   nsvcd__d3 across[3], from[3];
   double volumes[3];
-  for (size_t n = 0; n < 3; n++) {
-    const nsvcd__d3 *a = passage->corners[n];
-    across[n] = nsvcd__d3_cross(nsvcd__d3_sub(a[next], a[k]), v);
-    from[n] = nsvcd__d3_sub(b0, a[k]);
-    volumes[n] = nsvcd__d3_dot(across[n], from[n]);
+  for (size_t at = 0; at < 3; at++) {
+    const nsvcd__d3 *a = moving[at];
+    across[at] = nsvcd__d3_cross(nsvcd__d3_sub(a[next], a[k]), v);
+    from[at] = nsvcd__d3_sub(fixed[n], a[k]);
+    volumes[at] = nsvcd__d3_dot(across[at], from[at]);
   }
-  const nsvcd__d3 u = nsvcd__d3_sub(passage->corners[1][next], passage->corners[1][k]);
+  const nsvcd__d3 u = nsvcd__d3_sub(moving[1][next], moving[1][k]);
   const double size = nsvcd__d3_length(across[1]);
   const double lengths = nsvcd__d3_length(u) * nsvcd__d3_length(v);
   if (!(size > 0.01 * lengths)) return 0;
-  if (!nsvcd__are_opposed(volumes[0], margin * size, volumes[2], margin * size)) return 0;
+  if (!nsvcd__are_opmoving(volumes[0], margin * size, volumes[2], margin * size)) return 0;
   const double square = size * size;
   const double s = nsvcd__d3_dot(nsvcd__d3_cross(from[1], v), across[1]) / square;
   const double t = nsvcd__d3_dot(nsvcd__d3_cross(from[1], u), across[1]) / square;
-  // the lines' nearest points move no farther along them
-  const double room = 4 * passage->travel * lengths / size;
+  // the lines' nearest points travel no farther along them
+  const double room = 4 * travel * lengths / size;
   const double room_s = room / nsvcd__d3_length(u);
   const double room_t = room / nsvcd__d3_length(v);
   return s > room_s && s < 1 - room_s && t > room_t && t < 1 - room_t;
 }
 
-// Has a triangle pair met between u0 and u1 of the arc, at that speed, since a corner has passed
-// through the other triangle, or an edge through an edge? That is how faces meet which are parallel
-// then: at no single time can it be seen in rounded numbers.
+// Has a triangle pair met between u0 and u1 of the arc: has a corner passed through
+// the other triangle, or an edge through an edge? Faces that are parallel when they meet do so at
+// one time only, and rounded numbers show it at none.
 static int nsvcd__pair_passes(nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0,
-                              double u1, double speed) {
-  const nsvcd__d3 *fixed = pair->fixed;
+                              double u1) {
   const double margin = pair->rounding;
+  const double travel = pair->speed * (u1 - u0);
   const double times[3] = {u0, 0.5 * (u0 + u1), u1};
-  nsvcd__passage passage;
+  nsvcd__d3 corners[3][3];
   for (size_t n = 0; n < 3; n++)
-    nsvcd__place_triangle(nsvcd__placed_at(p, times[n]), pair->moving, passage.corners[n]);
-  const nsvcd__d3 *start = passage.corners[0];
-  const nsvcd__d3 *middle = passage.corners[1];
-  const nsvcd__d3 *end = passage.corners[2];
-  passage.travel = speed * (u1 - u0);
-  const double room = 2 * passage.travel;
+    nsvcd__pose_triangle(nsvcd__arc_pose(p, times[n]), pair->moving, corners[n]);
+  const nsvcd__d3 *moving[3] = {corners[0], corners[1], corners[2]};
+  const nsvcd__d3 *fixed[3] = {pair->fixed, pair->fixed, pair->fixed};
   for (size_t k = 0; k < 3; k++) {
-    const int is_over = nsvcd__foot_well_within(middle[k], fixed, room);
-    if (is_over && nsvcd__changes_sides(start[k], fixed, end[k], fixed, margin)) return 1;
-    const int is_under = nsvcd__foot_well_within(fixed[k], middle, room);
-    if (is_under && nsvcd__changes_sides(fixed[k], start, fixed[k], end, margin)) return 1;
-    for (size_t n = 0; n < 3; n++) {
-      if (nsvcd__edges_cross(&passage, k, fixed[n], fixed[(n + 1) % 3], margin)) return 1;
-    }
+    if (nsvcd__corner_passes(moving, k, fixed, travel, margin)) return 1;
+    if (nsvcd__corner_passes(fixed, k, moving, travel, margin)) return 1;
+    for (size_t n = 0; n < 3; n++)
+      if (nsvcd__edges_pass(moving, k, pair->fixed, n, travel, margin)) return 1;
   }
   return 0;
 }
 
-static void nsvcd__certify_triangle_pair(const nsvcd__proof *p,
-                                         const nsvcd__triangle_pair *pair, double u0,
-                                         double u1) {
-  const nsvcd__f3 plane = nsvcd__d3_narrow(p->memo.separating);
-  const float normal[3] = {plane.x, plane.y, plane.z};
-  NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, pair->moving_patch, pair->fixed_patch,
-                 pair->moving_entry, pair->fixed_entry, nsvcd__time_in_arc(p, u0),
-                 nsvcd__time_in_arc(p, u1), normal);
-  (void)pair;
-  (void)normal;
-  (void)u0;
-  (void)u1;
-}
-
-// A share u of the arc later than its start: the nearest points of a triangle pair.
-static nsvcd__nearest nsvcd__pair_nearest(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
-                                          double u) {
-  nsvcd__d3 posed[3];
-  nsvcd__place_triangle(nsvcd__placed_at(p, u), pair->moving, posed);
-  return nsvcd__nearest_of(posed, pair->fixed);
-}
-
-// How far a triangle is beyond another along a direction. Heights are over a corner of one, so that
-// no more digits are lost than need be.
+// How far a triangle is beyond another along a direction. Heights are over a corner of the one, to
+// lose as few digits as possible.
 static double nsvcd__beyond(nsvcd__d3 n, const nsvcd__d3 *over, const nsvcd__d3 *under) {
   double lowest = HUGE_VAL;
   double highest = -HUGE_VAL;
@@ -303,11 +283,11 @@ static nsvcd__d3 nsvcd__off_edge(nsvcd__d3 n, nsvcd__d3 a, nsvcd__d3 b) {
   return nsvcd__d3_unit(nsvcd__d3_sub(n, along), none);
 }
 
-// The direction that separates a triangle pair at a time: that of its nearest points. Their
-// roundings over their distance put it off, and points as near to a digit put it off by the root of
-// that. Where it keeps less than half of what is above the clearance, a normal of a triangle, the
-// direction across an edge of each, or the same direction made normal to an edge, may keep more.
-// The result is how far it separates them.
+// The direction that separates a triangle pair at a time: that of its nearest points. Rounding
+// turns it by their roundings over their distance, or by the root of that if several points are as
+// near to the last digit. If it keeps less than half of what is above the clearance, others may
+// keep more: the normals of the triangles, itself made normal to an edge, and those across an edge
+// of each. Returns how far the chosen one separates them.
 static NSVCD__NOINLINE double nsvcd__aim_plane(nsvcd__proof *p,
                                                const nsvcd__triangle_pair *pair, double u,
                                                const nsvcd__nearest *nearest) {
@@ -316,18 +296,18 @@ static NSVCD__NOINLINE double nsvcd__aim_plane(nsvcd__proof *p,
   *plane = nsvcd__d3_scale(nsvcd__d3_sub(nearest->on_a, nearest->on_b), 1 / distance);
   const nsvcd__d3 *fixed = pair->fixed;
   const nsvcd__d3 guess = *plane;
-  nsvcd__d3 posed[3];
-  nsvcd__place_triangle(nsvcd__placed_at(p, u), pair->moving, posed);
-  double best = nsvcd__beyond(guess, posed, fixed);
+  nsvcd__d3 moving[3];
+  nsvcd__pose_triangle(nsvcd__arc_pose(p, u), pair->moving, moving);
+  double best = nsvcd__beyond(guess, moving, fixed);
   const double limit = p->ask.clearance + pair->margin;
   if (best - limit > 0.5 * (distance - limit)) return best;
   for (size_t k = 0; k < 17; k++) {
-    const nsvcd__d3 *of = k % 2 ? fixed : posed;
+    const nsvcd__d3 *of = k % 2 ? fixed : moving;
     nsvcd__d3 n = k < 2   ? nsvcd__face_direction(of)
                   : k < 8 ? nsvcd__off_edge(guess, of[k / 2 - 1], of[k / 2 % 3])
-                          : nsvcd__across_edges(posed, fixed, k - 8);
+                          : nsvcd__across_edges(moving, fixed, k - 8);
     if (nsvcd__d3_dot(n, guess) < 0) n = nsvcd__d3_scale(n, -1);
-    const double beyond = nsvcd__beyond(n, posed, fixed);
+    const double beyond = nsvcd__beyond(n, moving, fixed);
     if (!(beyond > best)) continue;
     *plane = n;
     best = beyond;
@@ -335,11 +315,11 @@ static NSVCD__NOINLINE double nsvcd__aim_plane(nsvcd__proof *p,
   return best;
 }
 
-// A triangle pair that comes so near from u0 to u1 of the arc, the nearest at `when`, that it
-// cannot be told whether it touches: an unresolved pair. But where distances are measured, less is
-// said, for certain: these come no nearer than that. Then the clearance is lowered and the part to
-// be looked at again, TOO_LONG; ANSWERED where it is as low as is known anyway.
-static nsvcd__outcome nsvcd__resolve_doubtful(nsvcd__proof *p,
+// A triangle pair that is too near to tell from u0 to u1 of the arc, the nearest at `when`: an
+// unresolved pair. But a measured distance needs less: the pair comes no nearer than that. The
+// clearance is lowered to it. TOO_LONG: the part is to be resolved again; ANSWERED: the clearance
+// is at its known bound.
+static nsvcd__outcome nsvcd__resolve_too_near(nsvcd__proof *p,
                                               const nsvcd__triangle_pair *pair, double u0,
                                               double u1, double when) {
   if (!(p->ask.measure > 0)) {
@@ -354,46 +334,43 @@ static nsvcd__outcome nsvcd__resolve_doubtful(nsvcd__proof *p,
   return p->ask.clearance > p->low ? NSVCD__TOO_LONG : NSVCD__ANSWERED;
 }
 
-// What becomes of a part of the arc that is too short to be halved. Where the triangle pair has met
-// by passing, the time is narrowed down to rounding, and is the contact's. If not, it is an
-// unresolved pair.
+// Resolves a part of the arc that is too short to halve. If the triangle pair has passed, the time
+// is narrowed down to rounding, and is the contact's. If not, it is unresolved.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_short_interval(
-    nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0, double u1, double speed) {
-  int passes = nsvcd__pair_passes(p, pair, u0, u1, speed);
-  const int has_met = passes;
-  for (size_t n = 0; passes && n < NSVCD__HALVINGS; n++) {
+    nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0, double u1) {
+  if (!nsvcd__pair_passes(p, pair, u0, u1))
+    return nsvcd__resolve_too_near(p, pair, u0, u1, 0.5 * (u0 + u1));
+  for (size_t n = 0; n < NSVCD__HALVINGS; n++) {
     const double middle = 0.5 * (u0 + u1);
     p->work++;
-    const int in_first = nsvcd__pair_passes(p, pair, u0, middle, speed);
-    passes = in_first || nsvcd__pair_passes(p, pair, middle, u1, speed);
-    if (!passes) break;
-    u0 = in_first ? u0 : middle;
-    u1 = in_first ? middle : u1;
+    if (nsvcd__pair_passes(p, pair, u0, middle))
+      u1 = middle;
+    else if (nsvcd__pair_passes(p, pair, middle, u1))
+      u0 = middle;
+    else
+      break;
   }
   const double when = 0.5 * (u0 + u1);
-  if (!has_met) return nsvcd__resolve_doubtful(p, pair, u0, u1, when);
   nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, when);
   nearest.square = 0;
   return nsvcd__take_contact(p, pair, when, &nearest);
 }
 
-// Where the least distance is measured and the moving body only goes along: looks between u0 and u1
-// of the arc for when a triangle pair is nearest. The distance is convex, and falls where the
-// nearest points approach each other. Steps of `measure` would not get there.
+// Where the least distance is measured and the moving body goes straight, by `moved` over the arc:
+// finds when between u0 and u1 a triangle pair is nearest. Its distance is convex, and falls while
+// the nearest points approach each other. Steps of `measure` would not get there.
 static nsvcd__outcome nsvcd__take_nearest(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
-                                          double u0, double u1) {
-  const nsvcd__d3 from = nsvcd__placed_at(p, 0)->position;
-  const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__placed_at(p, 1)->position, from);
+                                          double u0, double u1, nsvcd__d3 moved) {
   for (size_t n = 0; n < NSVCD__HALVINGS / 2; n++) {
     const double middle = 0.5 * (u0 + u1);
     const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
-    const nsvcd__d3 travel = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+    const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
     p->work++;
     if (sqrt(nearest.square) < p->high &&
         nsvcd__take_contact(p, pair, middle, &nearest) == NSVCD__ANSWERED)
       return NSVCD__ANSWERED;
-    const double slope = nsvcd__d3_dot(travel, moved) / sqrt(nearest.square);
-    // a tangent is nowhere above it
+    const double slope = nsvcd__d3_dot(apart, moved) / sqrt(nearest.square);
+    // the distance is nowhere below its tangent
     if (!(fabs(slope) * (u1 - u0) > p->ask.measure)) break;
     if (slope < 0)
       u0 = middle;
@@ -403,28 +380,25 @@ static nsvcd__outcome nsvcd__take_nearest(nsvcd__proof *p, const nsvcd__triangle
   return NSVCD__SHRUNK;
 }
 
-// Resolves a triangle pair from u0 to u1 of an arc in which the moving body only goes along. Then
-// the distance is a convex function of time, and no less than the plane at its nearest points says,
-// its tangent: Newton's method, from the start on, comes to the first contact and never past it.
-// The plane that separated a pair last is tried before.
+// Resolves a triangle pair from u0 to u1 of an arc in which the moving body goes straight. Then its
+// distance is a convex function of time, and the plane at its nearest points is a tangent: Newton's
+// method, from the start on, comes to the first contact and never past it. The plane that separated
+// a pair last is tried first.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
                                                               const nsvcd__triangle_pair *pair,
                                                               double u0, double u1) {
   const nsvcd__arc *arc = &p->arc;
-  const nsvcd__d3 from = nsvcd__placed_at(p, 0)->position;
-  const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__placed_at(p, 1)->position, from);
-  const double close = pair->close;
-  nsvcd__d3 *plane = &p->memo.separating;
+  const nsvcd__d3 from = nsvcd__arc_pose(p, 0)->position;
+  const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__arc_pose(p, 1)->position, from);
   double at = u0;
   int shrunk = 0;
   size_t steps = 0;
   const double all = nsvcd__min(u1, nsvcd__arc_limit(p));
-  if (u0 < all && nsvcd__plane_separates(p, pair, u0, all, *plane)) {
+  if (u0 < all && nsvcd__plane_separates(p, pair, u0, all)) {
     p->work++;
-    nsvcd__certify_triangle_pair(p, pair, u0, all);
     return NSVCD__RESOLVED;
   }
-  for (double u = u0;;) {  // before u it is separated
+  for (double u = u0;;) {  // until u it is separated
     const double end = nsvcd__min(u1, nsvcd__arc_limit(p));
     if (!(u < end)) return shrunk ? NSVCD__SHRUNK : NSVCD__RESOLVED;
     at = nsvcd__min(at, end);
@@ -437,25 +411,22 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
     if (above <= pair->rounding) {
       if (nsvcd__take_contact(p, pair, at, &nearest) == NSVCD__ANSWERED)
         return NSVCD__ANSWERED;
-      if (p->ask.measure > 0 && nsvcd__take_nearest(p, pair, u, end) == NSVCD__ANSWERED)
+      if (p->ask.measure > 0 && nsvcd__take_nearest(p, pair, u, end, moved) == NSVCD__ANSWERED)
         return NSVCD__ANSWERED;
       shrunk = 1;
       at = u;
       continue;
     }
     const double beyond = nsvcd__aim_plane(p, pair, at, &nearest);
-    const double fall = -nsvcd__d3_dot(*plane, moved);
+    const double fall = -nsvcd__d3_dot(p->memo.separating, moved);
     const double room = beyond - p->ask.clearance - pair->margin - pair->rounding;
     const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;
-    if (u < until && nsvcd__plane_separates(p, pair, u, until, *plane)) {
-      nsvcd__certify_triangle_pair(p, pair, u, until);
-      u = until;
-    }
-    const int is_short = !(room > 0) || arc->speed * (at - u) <= 0.25 * close;
+    if (u < until && nsvcd__plane_separates(p, pair, u, until)) u = until;
+    const int is_short = !(room > 0) || arc->speed * (at - u) <= 0.25 * pair->close;
     const int is_unresolved = fall > 0 ? !(at < end) : is_short;
     if (u < end && (is_unresolved || steps++ == NSVCD__HALVINGS)) {
       // what follows is no nearer
-      const nsvcd__outcome part = nsvcd__resolve_doubtful(p, pair, u, at, at);
+      const nsvcd__outcome part = nsvcd__resolve_too_near(p, pair, u, at, at);
       if (part == NSVCD__ANSWERED) return part;
       if (part == NSVCD__RESOLVED) u = end;
     } else {
@@ -465,18 +436,13 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
 }
 
 // Resolves a triangle pair from u0 to u1 of the arc: halves the time until, in each part, a plane
-// separates the triangles, or there is a contact, or they come too close to tell. After each
-// unresolved pair parts need be less short: what is still asked is whether they meet. The planes
-// tried are the one that separated a triangle pair last, and one at the nearest points of the
-// middle.
+// separates the triangles, or there is a contact, or they are too near to tell. After each
+// unresolved part, longer ones count as too short: the question left is whether they meet. The
+// planes tried are the one that separated a pair last, and one at the nearest points in the middle.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
                                                           const nsvcd__triangle_pair *pair,
                                                           double u0, double u1) {
-  const nsvcd__arc *arc = &p->arc;
-  if (nsvcd__is_straight(arc)) return nsvcd__resolve_straight(p, pair, u0, u1);
-  const double speed = arc->speed + arc->turn * arc->scale * pair->from_axis;
-  const double close = pair->close;
-  nsvcd__d3 *plane = &p->memo.separating;
+  if (nsvcd__is_straight(&p->arc)) return nsvcd__resolve_straight(p, pair, u0, u1);
   double *ends = p->pair_ends;
   size_t left = 1;
   size_t unresolved_count = 0;
@@ -484,13 +450,12 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
   ends[0] = u1;
   for (double u = u0; left > 0;) {
     const double end = nsvcd__min(ends[left - 1], nsvcd__arc_limit(p));
-    // an unresolved pair may be the end
-    if (!(u < end)) break;
+    if (!(u < end)) break;  // an unresolved pair may be the end
     const double middle = 0.5 * (u + end);
     p->work++;
     NSVCD__TALLY(pairs, 1);
     if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
-    int apart = nsvcd__plane_separates(p, pair, u, end, *plane);
+    int apart = nsvcd__plane_separates(p, pair, u, end);
     if (!apart) {
       const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
       const double distance = sqrt(nearest.square);
@@ -501,19 +466,17 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
         continue;
       }
       (void)nsvcd__aim_plane(p, pair, middle, &nearest);
-      apart = nsvcd__plane_separates(p, pair, u, end, *plane);
+      apart = nsvcd__plane_separates(p, pair, u, end);
     }
-    if (apart) {
-      nsvcd__certify_triangle_pair(p, pair, u, end);
-    } else {
-      const double least = 0.25 * close * (double)(1 + unresolved_count);
-      const int is_short = speed * (end - u) <= least || left > NSVCD__HALVINGS;
+    if (!apart) {
+      const double least = 0.25 * pair->close * (double)(1 + unresolved_count);
+      const int is_short = pair->speed * (end - u) <= least || left > NSVCD__HALVINGS;
       if (!is_short) {
         ends[left++] = middle;
         p->parts++;
         continue;
       }
-      const nsvcd__outcome part = nsvcd__resolve_short_interval(p, pair, u, end, speed);
+      const nsvcd__outcome part = nsvcd__resolve_short_interval(p, pair, u, end);
       if (part == NSVCD__ANSWERED) return part;
       shrunk |= part == NSVCD__SHRUNK;
       if (part != NSVCD__RESOLVED) continue;

@@ -312,7 +312,7 @@ static double nsvcd__vertex_distance(const nsvcd__proof *p, const nsvcd__transfo
     const nsvcd__v3 fixed = nsvcd__hull_of(&p->fixed, j, l);
     for (size_t n = 0; n < NSVCD__LANES; n++) {
       const nsvcd__v3 d = nsvcd__v3_sub(fixed, nsvcd__v3_set(nsvcd__lane_of(lanes, n)));
-      least = nsvcd__least_of(least, nsvcd__v_least(nsvcd__v3_dot(d, d)));
+      least = nsvcd__least_of(least, nsvcd__v3_dot(d, d));
     }
   }
   return sqrt((double)least);
@@ -344,7 +344,7 @@ static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__proof *p, nsvcd__sear
     size_t i = 0;
     size_t j = 0;
     for (size_t round = 0; round < 2; round++) {
-      const nsvcd__d3 seen = nsvcd__place_point(&back, nsvcd__d3_widen(fixed.centre));
+      const nsvcd__d3 seen = nsvcd__d3_transform(&back, nsvcd__d3_widen(fixed.centre));
       i = nsvcd__patch_near(&p->moving, nsvcd__f3_round(seen));
       moving = nsvcd__sphere_of(nsvcd__body_patches(p->moving.body), i);
       j = nsvcd__patch_near(&p->fixed, nsvcd__f3_transform(&pose, moving.centre));
@@ -352,7 +352,7 @@ static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__proof *p, nsvcd__sear
     }
     const float lengths = p->given.lengths + nsvcd__f3_length(pose.position);
     const double rounding =
-        (double)(4 * NSVCD__ROUNDING * lengths + 2 * nsvcd__quanta_of(p, i, j));
+        (double)(4 * NSVCD__ROUNDING * lengths + 2 * nsvcd__errors_of(p, i, j));
     const double apart = 1.0001 * nsvcd__vertex_distance(p, &pose, i, j) + rounding;
     if (!(apart < least)) continue;
     least = apart;

@@ -136,20 +136,21 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
   nsvcd__block *fixed = &p->fixed_blocks[n];
   const double clearance = p->ask.clearance;
   const uint32_t nearby = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
-  uint32_t lanes = nsvcd__lanes_left_by_last(p, i, j, fixed, 1, NULL, margin, nearby);
+  uint32_t lanes = nsvcd__lanes_left_by_last(p, fixed, margin, nearby);
   for (; lanes; lanes &= lanes - 1) {
     const size_t l = nsvcd__low_bit(lanes);
     p->work++;
-    uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 1, NULL, margin);
+    uint32_t met = nsvcd__row_left(p, l, fixed, margin);
     for (; met; met &= met - 1) {
-      if (clearance > 0) met = nsvcd__left_by_last(p, i, j, l, fixed, 1, NULL, margin, met);
+      if (clearance > 0)
+        met = nsvcd__left_by_normal(p, l, fixed, NSVCD__LAST_NORMAL, margin, met);
       if (!met) break;
       const size_t entry = p->moving_block.first + l;
       const nsvcd__triangle_pair pair =
           nsvcd__pair_of(p, i, j, entry, fixed->first + nsvcd__low_bit(met));
       nsvcd__d3 posed[3];
       nsvcd__nearest nearest = {0, {0, 0, 0}, {0, 0, 0}};
-      nsvcd__place_triangle(at, pair.moving, posed);
+      nsvcd__pose_triangle(at, pair.moving, posed);
       p->work++;
       if (p->ask.collects == NSVCD__SUPPORTING) {
         nsvcd__collect_supports(p, &pair, posed);
@@ -197,7 +198,7 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
   const nsvcd__transform rounded = nsvcd__transform_of(&at);
   const float lengths = p->given.lengths + nsvcd__f3_length(rounded.position);
   const float margin =
-      NSVCD__ROUNDING * lengths + nsvcd__clearance(p) + nsvcd__quanta_of(p, i, j);
+      NSVCD__ROUNDING * lengths + nsvcd__clearance(p) + nsvcd__errors_of(p, i, j);
   const size_t moving_end = p->moving.first_triangle[i + 1];
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
   NSVCD__TALLY(tries, 1);
@@ -206,8 +207,7 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
     nsvcd__window_load(p, j, b);
     for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
       nsvcd__moving_block_load(p, i, a);
-      nsvcd__block_pose(p, &rounded, 0);
-      nsvcd__block_box(p, 1);
+      nsvcd__block_pose(p, &rounded, NULL);
       for (size_t n = 0; n < p->memo.window; n++) {
         p->work++;
         if (nsvcd__is_exhausted(p)) return NSVCD__NOTHING;

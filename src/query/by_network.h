@@ -232,10 +232,10 @@ static NSVCD__NOINLINE void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_o
     // A deep collision shows in the first pair of groups. Planes, which would take most of the
     // time, are not asked there.
     nsvcd__candidates_start(&kept, query->kept, worth);
-    const int unasked = search->cache->unasked;
-    search->cache->unasked = 1;
+    const int balls_only = search->cache->balls_only;
+    search->cache->balls_only = 1;
     nsvcd__search_pair(search, &kept);
-    search->cache->unasked = unasked;
+    search->cache->balls_only = balls_only;
     if (nsvcd__score(task, &kept, worth, worth)) {
       left -= worth;
       clear = nsvcd__is_clear(task, &kept, 0, NSVCD__FIRST_CLEAR, out);

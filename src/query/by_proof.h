@@ -127,7 +127,7 @@ static NSVCD__NOINLINE void nsvcd__write_contact(const nsvcd__query *query,
   const double beyond = fmin((double)p->fixed.counts->convex_radius, found->distance);
   const nsvcd__d3 on = nsvcd__d3_fma(beyond, found->normal, found->point);
   const nsvcd__d3 seen = nsvcd__d3_scale(nsvcd__d3_sub(on, push_out), unit);
-  const nsvcd__d3 point = nsvcd__place_point(&world, seen);
+  const nsvcd__d3 point = nsvcd__d3_transform(&world, seen);
   const nsvcd__d3 normal = nsvcd__dmat3_apply(&world.rotation, found->normal);
   nsvcd__f3_store(nsvcd__f3_round(point), out->point);
   nsvcd__f3_store(nsvcd__f3_round(normal), out->normal);

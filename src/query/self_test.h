@@ -1,5 +1,6 @@
 // In: nothing. Out: does this build compute as it should?
 #pragma once
+#include "../motion/chords.h"
 #include "../proof/triangle_pairs.h"
 
 // As nsvcd_self_test. Computes where a body's point (1, 0, 0) is at 16 ticks, while the body turns

@@ -12,7 +12,7 @@
 #pragma once
 #include "../proof/proof.h"
 #include "../network/decoder.h"
-#include "../search/apart.h"
+#include "../search/planes.h"
 
 #ifndef NSVCD_NO_NETWORK
 #ifndef NSVCD_NO_BASE

@@ -1,18 +1,36 @@
-// In: chords of a patch, and the patches of the other body. Out: candidates, with the time in which
-// their balls meet.
+// In: the chords of patches, and the patches of the other body that they meet. Out: candidates: the
+// pairs, and when their balls meet.
 #pragma once
-#include "apart.h"
+#include "planes.h"
 
 #ifndef NSVCD_NO_NETWORK
-// The candidates kept so far: a heap with the shallowest at its root, and the count of all
-// intervals.
+// radians, 45 degrees: an interval is cut before it turns more, for the decoder's twist
+#define NSVCD__INTERVAL_TURN 0.785f
+#define NSVCD__NO_SCORE (-1e30f)
+
+// A contact interval: the balls of patches `moving` and `fixed` overlap from t_enter to t_exit,
+// with the deviation added.
+typedef struct nsvcd__candidate {
+  uint16_t moving, fixed;
+  float t_enter, t_exit;
+  float t_least;  // when they are nearest
+  float depth;    // rank, 1 - least distance / (r1 + r2): the deepest go on to the network
+  // what the network says: a logit, or NSVCD__NO_SCORE; and a distance, in tenths of r1 + r2
+  float score, apart;
+} nsvcd__candidate;
+
+// The candidates kept so far: a heap with the shallowest at its root.
 typedef struct nsvcd__candidates {
-  // (limit), the caller's
-  nsvcd__candidate *items;
+  nsvcd__candidate *items;  // (limit), the caller's
   size_t limit, count;
-  // intervals found, kept or not
-  size_t total;
+  size_t total;  // intervals found, kept or not
 } nsvcd__candidates;
+
+static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *items,
+                                    size_t limit) {
+  const nsvcd__candidates none = {items, limit, 0, 0};
+  *kept = none;
+}
 
 // A total order, so that ties do not depend on the order in which intervals were found.
 static int nsvcd__is_shallower(const nsvcd__candidate *a, const nsvcd__candidate *b) {
@@ -22,7 +40,7 @@ static int nsvcd__is_shallower(const nsvcd__candidate *a, const nsvcd__candidate
   return a->t_enter > b->t_enter;
 }
 
-// Counts an interval, and keeps it where there is room, or where the shallowest one can make some.
+// Counts an interval, and keeps it if there is room, or in place of the shallowest.
 static void nsvcd__candidates_add(nsvcd__candidates *kept, const nsvcd__candidate *item) {
   nsvcd__candidate *heap = kept->items;
   size_t hole = 0;
@@ -45,39 +63,37 @@ static void nsvcd__candidates_add(nsvcd__candidates *kept, const nsvcd__candidat
   heap[hole] = *item;
 }
 
-// Contact intervals of a slice that are still growing, one per lane. Places on a segment's line are
-// counted in segments from its start: `nearest` is where the line comes nearest to the other
-// centre. The spheres touch from `nearest` - h to `nearest` + h; half2 is the square of h.
+// Contact intervals of a slice that are still growing, one per lane. Parameters along a segment's
+// line are 0 at its start and 1 at its end: at `nearest` the line is nearest to the other centre,
+// and the spheres overlap from `nearest` - h to `nearest` + h; half2 is the square of h.
 typedef struct nsvcd__intervals {
-  uint32_t open;  // lanes
-  size_t last;    // segment that all of them reach
-  // 1 in lanes without an interval, else 0
-  nsvcd__v fresh;
+  uint32_t open;   // lanes
+  size_t last;     // the segment that all of them reach
+  nsvcd__v fresh;  // 1 in lanes without an interval, else 0
   nsvcd__v first, first_nearest, first_half2, last_nearest, last_half2;
-  // of the least distance: its square, and where
-  nsvcd__v square, least_segment, least;
+  nsvcd__v square, least_segment, least;  // the least distance, squared, and where it is
 } nsvcd__intervals;
 
-// The time at a share of segment s: at 1 that of its end, to the bit.
-static float nsvcd__time_in_segment(const nsvcd__search *search, size_t s, float fraction) {
-  const float start = search->time[s];
-  const float end = search->time[s + 1];
+// The time at a fraction of segment s: at 1 that of its end, to the bit.
+static float nsvcd__time_in_segment(const nsvcd__search *q, size_t s, float fraction) {
+  const float start = q->time[s];
+  const float end = q->time[s + 1];
   return fraction < 1 ? start + fraction * (end - start) : end;
 }
 
-// Ends the intervals of `lanes` of a slice and hands them on. Its first lane is patch i of the
-// moving body; j: the patch of the fixed one.
+// Ends the intervals of `lanes`, and adds them to the candidates. The slice's first lane is patch i
+// of the moving body; j: the patch of the fixed one.
 static void nsvcd__intervals_close(nsvcd__intervals *intervals, uint32_t lanes,
-                                   const nsvcd__search *search, size_t i, size_t j,
+                                   const nsvcd__search *q, size_t i, size_t j,
                                    nsvcd__candidates *kept) {
   const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v one = nsvcd__v_set(1);
-  const nsvcd__v own = nsvcd__v_load(nsvcd__body_r(search->moving) + i);
-  const nsvcd__v other = nsvcd__v_set(nsvcd__body_r(search->fixed)[j]);
-  const nsvcd__v scaled = nsvcd__v_scale(own, search->scale);
+  const nsvcd__v own = nsvcd__v_load(nsvcd__body_r(q->moving) + i);
+  const nsvcd__v other = nsvcd__v_set(nsvcd__body_r(q->fixed)[j]);
+  const nsvcd__v scaled = nsvcd__v_scale(own, q->scale);
   const nsvcd__v radii = nsvcd__v_max(nsvcd__v_add(scaled, other), nsvcd__v_set(1e-30f));
   intervals->open &= ~lanes;
-  // most are shallower than all of a full heap: only counted
+  // Most are shallower than all of a full heap, and are only counted.
   if (kept->count == kept->limit) {
     const float depth = kept->limit ? (1 - kept->items[0].depth) * 1.000001f : 0;
     const nsvcd__v most = nsvcd__v_scale(radii, depth > 0 ? depth : 0);
@@ -104,32 +120,31 @@ static void nsvcd__intervals_close(nsvcd__intervals *intervals, uint32_t lanes,
     nsvcd__candidate candidate;
     candidate.moving = (uint16_t)(i + l);
     candidate.fixed = (uint16_t)j;
-    candidate.t_enter = nsvcd__time_in_segment(search, (size_t)first[l], enter[l]);
-    candidate.t_exit = nsvcd__time_in_segment(search, intervals->last, leave[l]);
-    candidate.t_least = nsvcd__time_in_segment(search, (size_t)least_segment[l], least[l]);
+    candidate.t_enter = nsvcd__time_in_segment(q, (size_t)first[l], enter[l]);
+    candidate.t_exit = nsvcd__time_in_segment(q, intervals->last, leave[l]);
+    candidate.t_least = nsvcd__time_in_segment(q, (size_t)least_segment[l], least[l]);
     candidate.depth = depth[l];
     candidate.score = NSVCD__NO_SCORE;
     candidate.apart = 0;
-    // Rounding must not put the least distance outside.
+    // Rounding must not put the nearest time outside.
     if (candidate.t_enter > candidate.t_least) candidate.t_enter = candidate.t_least;
     if (candidate.t_exit < candidate.t_least) candidate.t_exit = candidate.t_least;
     nsvcd__candidates_add(kept, &candidate);
   }
 }
 
-// The segments before which all contact intervals of the members of a group are cut: the oldest of
-// them would turn too far, or a segment is left out in between. met: (segments), of those `wanted`.
-// For all 16 beforehand, so that machines with narrower slices find the same intervals.
-static uint64_t nsvcd__interval_cuts(const nsvcd__search *search, const uint16_t *met,
+// The segments at whose start all contact intervals of a group's members are cut: because the
+// oldest of them would turn too far, or the segment before is not `wanted`. met: (segments). For
+// all 16 beforehand, so that machines with narrower slices find the same intervals.
+static uint64_t nsvcd__interval_cuts(const nsvcd__search *q, const uint16_t *met,
                                      uint64_t wanted) {
-  // where the segment before is left out
   uint64_t cuts = wanted & ~(wanted << 1);
   uint32_t open = 0;
   size_t oldest = 0;
-  if (!(search->turn[search->segments] > NSVCD__INTERVAL_TURN)) return cuts;
+  if (!(q->turn[q->segments] > NSVCD__INTERVAL_TURN)) return cuts;
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__low_bit(wanted);
-    if (open && search->turn[s + 1] - search->turn[oldest] > NSVCD__INTERVAL_TURN)
+    if (open && q->turn[s + 1] - q->turn[oldest] > NSVCD__INTERVAL_TURN)
       cuts |= (uint64_t)1 << s;
     if (cuts >> s & 1) open = 0;
     open &= met[s];
@@ -139,27 +154,28 @@ static uint64_t nsvcd__interval_cuts(const nsvcd__search *search, const uint16_t
   return cuts;
 }
 
-// A slice of the moving patches, from patch i on, against patch j of the fixed body, in the
-// segments `wanted`, in which the lanes met[s] of the group meet it. cuts: nsvcd__interval_cuts.
-static NSVCD__NOINLINE void nsvcd__slice_against_patch(const nsvcd__search *search, size_t i,
+// Contact intervals of a slice of moving patches, from patch i on, with patch j of the fixed body,
+// in the segments `wanted`, in which the lanes all_met[s] of the group meet it. cuts:
+// nsvcd__interval_cuts.
+static NSVCD__NOINLINE void nsvcd__slice_against_patch(const nsvcd__search *q, size_t i,
                                                        size_t j, uint64_t wanted,
                                                        const uint16_t *all_met, uint64_t cuts,
                                                        nsvcd__candidates *kept) {
   const nsvcd__v one = nsvcd__v_set(1);
   const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v half = nsvcd__v_set(0.5f);
-  const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(search->fixed), j);
+  const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(q->fixed), j);
   const nsvcd__v3 centre = nsvcd__v3_set(patch.centre);
   const size_t l = i % NSVCD__GROUP;
   nsvcd__intervals at = {0, 0, one, zero, zero, zero, zero, zero, zero, zero, zero};
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__low_bit(wanted);
-    const nsvcd__chords *c = &search->members[s];
+    const nsvcd__chords *c = &q->members[s];
     const nsvcd__v3 travel = nsvcd__chords_travel(c, l);
     const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__chords_start(c, l), centre);
     const nsvcd__v inverse = nsvcd__v_load(c->inverse + l);
     const nsvcd__v radius = nsvcd__v_plus(nsvcd__v_load(c->radius + l), patch.radius);
-    // the square of the sum of radii; the line's nearest point, and the chord's, as places on them
+    // the square of the sum of radii; where the line is nearest, and where the chord is
     const nsvcd__v limit = nsvcd__v_signed_square(radius);
     const nsvcd__v nearest = nsvcd__v_mul(nsvcd__v3_dot(d, travel), inverse);
     const nsvcd__v tau = nsvcd__v_clamp(nearest, 0, 1);
@@ -171,13 +187,13 @@ static NSVCD__NOINLINE void nsvcd__slice_against_patch(const nsvcd__search *sear
       ended = at.open;
       at.fresh = one;
     }
-    if (ended) nsvcd__intervals_close(&at, ended, search, i, j, kept);
+    if (ended) nsvcd__intervals_close(&at, ended, q, i, j, kept);
     if (!met) {
       at.fresh = one;
       continue;
     }
 
-    // Intervals go on, or begin. |d + tau way| = reach, solved from the nearest point of the line
+    // Intervals go on, or begin. |d + tau travel| = radius, solved from the line's nearest point
     // outwards: b^2 - ac would cancel on long chords.
     const nsvcd__v segment = nsvcd__v_set((float)s);
     const nsvcd__v3 line = nsvcd__v3_fma(nearest, travel, d);
@@ -201,6 +217,6 @@ static NSVCD__NOINLINE void nsvcd__slice_against_patch(const nsvcd__search *sear
     at.open = met;
     at.last = s;
   }
-  if (at.open) nsvcd__intervals_close(&at, at.open, search, i, j, kept);
+  if (at.open) nsvcd__intervals_close(&at, at.open, q, i, j, kept);
 }
 #endif  // NSVCD_NO_NETWORK

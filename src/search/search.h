@@ -1,36 +1,27 @@
-// In: two bodies and segments. Out: each pair of patches whose spheres meet, with the segments in
-// which they do, group by group.
+// In: two bodies, and a motion that has been cut. Out: each pair of patches whose spheres meet, and
+// the segments in which they do, group by group.
+//
+// The hierarchy: body against body; boxes of groups against groups; group against group; group
+// against 16 spheres; 16 spheres against a sphere. But for the boxes every step is the same test,
+// moving spheres on chords against resting ones; lanes are segments, or members of a group. A step
+// of the search is a pair of groups. Moving groups that meet most come first, and of each the group
+// that it meets longest: a deep collision is then found before the rest is searched.
+//
+// A *tile* is up to 32 groups of one body and up to 32 of the other, which are searched together.
+// Bodies of up to 512 patches are one tile. Of larger ones, a traversal of the levels of spheres
+// above the groups finds those that the other body comes near, and they are searched tile after
+// tile: each moving tile against all tiles of the fixed body.
 #pragma once
 #include "intervals.h"
 
-// Chords of a sphere of the moving body in all segments, into search->group.
-static void nsvcd__chords_in_all(nsvcd__search *search, nsvcd__sphere sphere) {
-  sphere.radius *= search->scale;
-  for (size_t b = 0; NSVCD__LANES * b < search->segments; b++) {
-    nsvcd__chords_of_sphere(&search->blocks[b], sphere, &search->group[b]);
-  }
-}
-
-static void nsvcd__chords_of_group(nsvcd__search *search, size_t g) {
-  nsvcd__chords_in_all(search, nsvcd__sphere_of(nsvcd__groups_of(search->moving), g));
-}
-
-// Chords of 16 spheres of the moving body in segment s. remote: as nsvcd__chords_of_members has it.
-static void nsvcd__chords_in_segment(const nsvcd__search *search, size_t s,
-                                     nsvcd__spheres spheres, float extent,
-                                     nsvcd__chords *out) {
-  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
-  nsvcd__chords_of_members(block, s % NSVCD__LANES, spheres, search->scale, extent, out);
-}
-
-// Boxes in which 16 groups of the moving tile, from `first`, stay as long as they are near the
-// fixed body: its axes, metres. Empty ones, low above high, for those that never are. wanted: the
-// segments to look at.
-static void nsvcd__boxes_of_groups(const nsvcd__search *search, size_t first, uint64_t wanted,
+// Boxes that contain 16 groups of the moving tile, from `first` on, in those segments `wanted` in
+// which they meet the fixed body's sphere, in its axes and units. Empty, low above high, for groups
+// that never do.
+static void nsvcd__boxes_of_groups(const nsvcd__search *q, size_t first, uint64_t wanted,
                                    nsvcd__boxes *out) {
-  const nsvcd__spheres groups = nsvcd__spheres_from(search->moving_tile.spheres, first);
-  const nsvcd__sphere fixed = nsvcd__body_sphere(search->fixed);
-  nsvcd__chords *c = nsvcd__spare_chords(search);
+  const nsvcd__spheres groups = nsvcd__spheres_from(q->moving_tile.spheres, first);
+  const nsvcd__sphere fixed = nsvcd__body_sphere(q->fixed);
+  nsvcd__chords *c = nsvcd__spare_chords(q);
   NSVCD__TALLY(tests, nsvcd__bit_count(wanted));
   for (size_t n = 0; n < 3 * NSVCD__LANES; n++) {
     out->low[n / NSVCD__LANES][n % NSVCD__LANES] = -NSVCD__NOWHERE;
@@ -38,7 +29,7 @@ static void nsvcd__boxes_of_groups(const nsvcd__search *search, size_t first, ui
   }
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__low_bit(wanted);
-    nsvcd__chords_in_segment(search, s, groups, search->moving->extent, c);
+    nsvcd__chords_in_segment(q, s, groups, q->moving->extent, c);
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v nowhere = nsvcd__v_set(NSVCD__NOWHERE);
       const nsvcd__v3 start = nsvcd__chords_start(c, l);
@@ -59,69 +50,67 @@ static void nsvcd__boxes_of_groups(const nsvcd__search *search, size_t first, ui
   }
 }
 
-// Lanes of 16 spheres that touch a box.
+// Which of 16 spheres overlap a box?
 static uint32_t nsvcd__spheres_at_box(nsvcd__box box, nsvcd__spheres all) {
   const nsvcd__v3 none = nsvcd__v3_set(nsvcd__f3_of(0, 0, 0));
-  uint32_t touched = 0;
+  uint32_t met = 0;
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 centre = nsvcd__v3_centres(all, l);
     const nsvcd__v3 below = nsvcd__v3_sub(nsvcd__v3_set(box.low), centre);
     const nsvcd__v3 above = nsvcd__v3_sub(centre, nsvcd__v3_set(box.high));
     const nsvcd__v3 d = nsvcd__v3_max(nsvcd__v3_max(below, above), none);
     const nsvcd__v radius = nsvcd__v_load(all.r + l);
-    touched |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(radius)) << l;
+    met |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(radius)) << l;
   }
-  return touched;
+  return met;
 }
 
-static uint64_t nsvcd__all_segments(const nsvcd__search *search) {
-  return ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - search->segments);
+static uint64_t nsvcd__all_segments(const nsvcd__search *q) {
+  return ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - q->segments);
 }
 
-// Puts the steps of the search of both tiles in order: the groups of the moving tile that meet
-// some of the fixed tile, those that meet most of them for most of the time first; nearby[g] says
-// which, and in which segments. wanted: segments in which the bodies' spheres meet.
-static void nsvcd__search_tile(nsvcd__search *search, uint64_t wanted) {
+// Orders the steps of the search of both tiles: the groups of the moving tile that meet some of the
+// fixed tile, those first that meet most of them in most segments. nsvcd__nearby says which, and
+// in which segments. wanted: segments in which the bodies' spheres meet.
+static void nsvcd__search_tile(nsvcd__search *q, uint64_t wanted) {
   uint16_t meetings[NSVCD__TILE_SLOTS];
-  const nsvcd__tile *tile = &search->fixed_tile;
-  nsvcd__boxes *boxes = nsvcd__spare_boxes(search);
-  search->steps = 0;
-  search->step = 0;
-  search->waiting = 0;
-  for (size_t g = 0; g < search->moving_tile.count; g++) {
+  const nsvcd__tile *tile = &q->fixed_tile;
+  nsvcd__boxes *boxes = nsvcd__spare_boxes(q);
+  q->steps = q->step = 0;
+  q->waiting = 0;
+  for (size_t g = 0; g < q->moving_tile.count; g++) {
     const size_t l = g % NSVCD__LANES;
-    if (l == 0) nsvcd__boxes_of_groups(search, g, wanted, boxes);
+    if (l == 0) nsvcd__boxes_of_groups(q, g, wanted, boxes);
     const nsvcd__box box = {nsvcd__lane_of(boxes->low, l), nsvcd__lane_of(boxes->high, l)};
     uint32_t groups = 0;
     for (size_t first = 0; first < tile->count; first += NSVCD__LANES)
       groups |= nsvcd__spheres_at_box(box, nsvcd__spheres_from(tile->spheres, first)) << first;
     if (!groups) continue;
-    uint64_t *nearby = nsvcd__nearby(search, g);
+    uint64_t *nearby = nsvcd__nearby(q, g);
     size_t count = 0;
-    nsvcd__chords_of_group(search, search->moving_tile.groups[g]);
+    nsvcd__chords_of_group(q, q->moving_tile.groups[g]);
     memset(nearby, 0, tile->count * sizeof *nearby);
     for (; groups; groups &= groups - 1) {
       const size_t h = nsvcd__low_bit(groups);
       const nsvcd__sphere resting = nsvcd__sphere_of(tile->spheres, h);
-      nearby[h] = nsvcd__meet_in(search->group, nsvcd__all_segments(search), resting);
+      nearby[h] = nsvcd__meet_in(q, nsvcd__all_segments(q), resting);
       count += nsvcd__bit_count(nearby[h]);
     }
     if (!count) continue;
-    size_t at = search->steps;
+    size_t at = q->steps;
     for (; at > 0 && meetings[at - 1] < count; at--) {
       meetings[at] = meetings[at - 1];
-      search->order[at] = search->order[at - 1];
+      q->order[at] = q->order[at - 1];
     }
     meetings[at] = (uint16_t)count;
-    search->order[at] = (uint16_t)g;
-    search->steps++;
+    q->order[at] = (uint16_t)g;
+    q->steps++;
   }
 }
 
 static int nsvcd__is_large(const nsvcd_body *body) {
   return nsvcd__body_groups(body) > NSVCD__TILE;
 }
-// Are there several tiles?
 static int nsvcd__is_tiled(const nsvcd_body *a, const nsvcd_body *b) {
   return nsvcd__is_large(a) || nsvcd__is_large(b);
 }
@@ -129,18 +118,18 @@ static int nsvcd__is_tiled(const nsvcd_body *a, const nsvcd_body *b) {
 // Fills a tile with the next groups that a traversal finds.
 static void nsvcd__tile_fill(nsvcd__tile *tile, nsvcd__traversal *traversal) {
   size_t g;
-  tile->spheres = nsvcd__spheres_of(tile->gathered, NSVCD__TILE_SLOTS);
+  tile->spheres = nsvcd__spheres_of(tile->collected, NSVCD__TILE_SLOTS);
   for (size_t n = 0; n < 4 * NSVCD__TILE_SLOTS; n++)
-    tile->gathered[n] = n < 3 * NSVCD__TILE_SLOTS ? 0 : NSVCD__NOWHERE;
+    tile->collected[n] = n < 3 * NSVCD__TILE_SLOTS ? 0 : NSVCD__NOWHERE;
   tile->count = 0;
   while (tile->count < NSVCD__TILE && nsvcd__traversal_next(traversal, &g)) {
     const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__groups_of(traversal->body), g);
-    nsvcd__sphere_store(group, tile->gathered, NSVCD__TILE_SLOTS, tile->count);
+    nsvcd__sphere_store(group, tile->collected, NSVCD__TILE_SLOTS, tile->count);
     tile->groups[tile->count++] = (uint16_t)g;
   }
 }
 
-// Fills a tile with all groups of a body that has no more than that.
+// Fills a tile with all groups of a body.
 static void nsvcd__tile_fill_all(nsvcd__tile *tile, const nsvcd_body *body) {
   tile->count = nsvcd__body_groups(body);
   for (size_t g = 0; g < tile->count; g++) tile->groups[g] = (uint16_t)g;
@@ -149,7 +138,7 @@ static void nsvcd__tile_fill_all(nsvcd__tile *tile, const nsvcd_body *body) {
 
 // ---- filters of a traversal, which are given the search
 
-// All spheres that there are.
+// All spheres but padding.
 static uint32_t nsvcd__exists(const void *what, nsvcd__spheres all) {
   uint32_t exists = 0;
   (void)what;
@@ -159,141 +148,131 @@ static uint32_t nsvcd__exists(const void *what, nsvcd__spheres all) {
 
 // Spheres of the moving body that meet that of the fixed one.
 static uint32_t nsvcd__comes_near(const void *what, nsvcd__spheres all) {
-  const nsvcd__search *search = (const nsvcd__search *)what;
-  const nsvcd__sphere fixed = nsvcd__body_sphere(search->fixed);
-  nsvcd__chords *chords = nsvcd__spare_chords(search);
+  const nsvcd__search *q = (const nsvcd__search *)what;
+  const nsvcd__sphere fixed = nsvcd__body_sphere(q->fixed);
+  nsvcd__chords *chords = nsvcd__spare_chords(q);
   uint32_t met = 0;
-  for (uint64_t wanted = search->near_segments; wanted; wanted &= wanted - 1) {
+  for (uint64_t wanted = q->near_segments; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__low_bit(wanted);
-    nsvcd__chords_in_segment(search, s, all, search->moving->extent, chords);
+    nsvcd__chords_in_segment(q, s, all, q->moving->extent, chords);
     met |= nsvcd__meet(chords, fixed);
   }
   return met;
 }
 
-// Spheres of the fixed body that meet that of the moving tile, whose chords are search->group.
+// Spheres of the fixed body that meet that of the moving tile, whose chords are q->group.
 static uint32_t nsvcd__is_approached(const void *what, nsvcd__spheres all) {
-  const nsvcd__search *search = (const nsvcd__search *)what;
-  const uint32_t nearby = nsvcd__spheres_at_box(search->near_box, all);
+  const nsvcd__search *q = (const nsvcd__search *)what;
+  const uint32_t nearby = nsvcd__spheres_at_box(q->near_box, all);
   uint32_t met = 0;
-  for (uint64_t wanted = search->near_segments; wanted && nearby & ~met;
-       wanted &= wanted - 1) {
-    const size_t s = nsvcd__low_bit(wanted);
-    const nsvcd__chords *chords = &search->group[s / NSVCD__LANES];
-    met |= nearby & nsvcd__meet_members(chords, s % NSVCD__LANES, all);
+  for (uint64_t wanted = q->near_segments; wanted && nearby & ~met; wanted &= wanted - 1) {
+    met |= nearby & nsvcd__meet_members(q, nsvcd__low_bit(wanted), all);
   }
   return met;
 }
 
-// Poses the sphere over all groups of the moving tile, into search->group.
-static void nsvcd__chords_of_tile(nsvcd__search *search) {
-  const nsvcd__tile *tile = &search->moving_tile;
-  nsvcd__sphere sphere = nsvcd__body_sphere(search->moving);
-  if (nsvcd__is_large(search->moving))
-    sphere = nsvcd__cover_spheres(tile->spheres, tile->count);
-  nsvcd__chords_in_all(search, sphere);
+// Chords of the sphere over all groups of the moving tile, into q->group.
+static void nsvcd__chords_of_tile(nsvcd__search *q) {
+  const nsvcd__tile *tile = &q->moving_tile;
+  nsvcd__sphere sphere = nsvcd__body_sphere(q->moving);
+  if (nsvcd__is_large(q->moving)) sphere = nsvcd__cover_spheres(tile->spheres, tile->count);
+  nsvcd__chords_in_all(q, sphere);
 }
 
-// Finds the next moving tile, an empty one if there is none, and starts the traversal of the fixed
-// body's groups that come near it: that touch a box about its chords.
-static void nsvcd__search_moving_tile(nsvcd__search *search) {
+// Finds the next moving tile, an empty one if there is none, and starts a traversal of the fixed
+// body's groups that come near it.
+static void nsvcd__search_moving_tile(nsvcd__search *q) {
   nsvcd__box box = {{HUGE_VALF, HUGE_VALF, HUGE_VALF}, {-HUGE_VALF, -HUGE_VALF, -HUGE_VALF}};
-  nsvcd__tile_fill(&search->moving_tile, &search->moving_traversal);
-  if (search->moving_tile.count == 0) return;
-  nsvcd__chords_of_tile(search);
-  for (uint64_t left = search->near_segments; left; left &= left - 1) {
+  nsvcd__tile_fill(&q->moving_tile, &q->moving_traversal);
+  if (q->moving_tile.count == 0) return;
+  nsvcd__chords_of_tile(q);
+  for (uint64_t left = q->near_segments; left; left &= left - 1) {
     const size_t s = nsvcd__low_bit(left);
-    const nsvcd__chords *c = &search->group[s / NSVCD__LANES];
+    nsvcd__chords *c = &q->group[s / NSVCD__LANES];
     const size_t l = s % NSVCD__LANES;
-    const nsvcd__f3 start = nsvcd__f3_get(c->start[0] + l, NSVCD__LANES);
-    const nsvcd__f3 travel = nsvcd__f3_get(c->travel[0] + l, NSVCD__LANES);
-    const nsvcd__f3 end = nsvcd__f3_add(start, travel);
+    const nsvcd__f3 start = nsvcd__lane_of(c->start, l);
+    const nsvcd__f3 end = nsvcd__f3_add(start, nsvcd__lane_of(c->travel, l));
     const nsvcd__f3 around = nsvcd__f3_of(c->radius[l], c->radius[l], c->radius[l]);
     const nsvcd__f3 low = nsvcd__f3_sub(nsvcd__f3_min(start, end), around);
     const nsvcd__f3 high = nsvcd__f3_add(nsvcd__f3_max(start, end), around);
     box.low = nsvcd__f3_min(box.low, low);
     box.high = nsvcd__f3_max(box.high, high);
   }
-  search->near_box = box;
-  nsvcd__traversal_begin(&search->fixed_traversal, search->fixed, nsvcd__is_approached,
-                         search);
+  q->near_box = box;
+  nsvcd__traversal_begin(&q->fixed_traversal, q->fixed, nsvcd__is_approached, q);
 }
 
-// Goes on to the next tile that has a step. 0 if there is none.
-static int nsvcd__search_next_tile(nsvcd__search *search) {
-  if (!nsvcd__is_tiled(search->moving, search->fixed)) return 0;
-  while (search->moving_tile.count > 0) {
-    nsvcd__chords_of_tile(search);
-    nsvcd__tile_fill(&search->fixed_tile, &search->fixed_traversal);
-    if (search->fixed_tile.count == 0) {
-      nsvcd__search_moving_tile(search);
+// Goes on to the next pair of tiles that has a step. 0 if there is none.
+static int nsvcd__search_next_tile(nsvcd__search *q) {
+  if (!nsvcd__is_tiled(q->moving, q->fixed)) return 0;
+  while (q->moving_tile.count > 0) {
+    nsvcd__chords_of_tile(q);
+    nsvcd__tile_fill(&q->fixed_tile, &q->fixed_traversal);
+    if (q->fixed_tile.count == 0) {
+      nsvcd__search_moving_tile(q);
       continue;
     }
-    nsvcd__search_tile(search, search->near_segments);
-    if (search->steps > 0) return 1;
+    nsvcd__search_tile(q, q->near_segments);
+    if (q->steps > 0) return 1;
   }
   return 0;
 }
 
-// Starts the search of a motion that has been cut, in some of its segments. Returns 0 if the
-// groups' spheres never meet there: then there is no step to take.
+// Starts the search of some segments. Returns 0 if the groups' spheres never meet there, so that
+// there is no step to take.
 static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed,
-                               uint64_t segments, nsvcd__search *search) {
-  search->moving = moving;
-  search->fixed = fixed;
-  nsvcd__chords_in_all(search, nsvcd__body_sphere(moving));
-  const uint64_t all = segments & nsvcd__all_segments(search);
-  const uint64_t wanted = nsvcd__meet_in(search->group, all, nsvcd__body_sphere(fixed));
-  search->near_segments = wanted;
-  search->wanted = segments;
-  search->steps = 0;
-  search->step = 0;
-  search->waiting = 0;
+                               uint64_t segments, nsvcd__search *q) {
+  q->moving = moving;
+  q->fixed = fixed;
+  nsvcd__chords_in_all(q, nsvcd__body_sphere(moving));
+  const uint64_t all = segments & nsvcd__all_segments(q);
+  const uint64_t wanted = nsvcd__meet_in(q, all, nsvcd__body_sphere(fixed));
+  q->near_segments = wanted;
+  q->wanted = segments;
+  q->steps = 0;
   if (!nsvcd__is_tiled(moving, fixed)) {
-    nsvcd__tile_fill_all(&search->moving_tile, moving);
-    nsvcd__tile_fill_all(&search->fixed_tile, fixed);
-    if (wanted) nsvcd__search_tile(search, wanted);
-    return search->steps > 0;
+    nsvcd__tile_fill_all(&q->moving_tile, moving);
+    nsvcd__tile_fill_all(&q->fixed_tile, fixed);
+    if (wanted) nsvcd__search_tile(q, wanted);
+    return q->steps > 0;
   }
-  search->moving_tile.count = 0;
+  q->moving_tile.count = 0;
   if (!wanted) return 0;
   nsvcd__filter *filter = nsvcd__is_large(moving) ? nsvcd__comes_near : nsvcd__exists;
-  nsvcd__traversal_begin(&search->moving_traversal, moving, filter, search);
-  nsvcd__search_moving_tile(search);
-  return nsvcd__search_next_tile(search);
+  nsvcd__traversal_begin(&q->moving_traversal, moving, filter, q);
+  nsvcd__search_moving_tile(q);
+  return nsvcd__search_next_tile(q);
 }
 
-// No point of a group is farther from its body's origin; in the body's own units.
-static float nsvcd__group_reach(const nsvcd_body *body, size_t g) {
+// No point of a group is farther from its body's origin, in the body's own units.
+static float nsvcd__group_extent(const nsvcd_body *body, size_t g) {
   const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__groups_of(body), g);
   return 1.000002f * (nsvcd__f3_length(group.centre) + group.radius);
 }
 
-// Fills members[] with what is missing of the segments `wanted`.
-static void nsvcd__pose_members(nsvcd__search *search, size_t g, uint64_t wanted) {
-  if (!(wanted & ~search->posed)) return;
-  const nsvcd__spheres patches = nsvcd__body_patches(search->moving);
-  const nsvcd__spheres members = nsvcd__spheres_from(patches, NSVCD__GROUP * g);
-  search->extent = nsvcd__group_reach(search->moving, g);
-  for (uint64_t missing = wanted & ~search->posed; missing; missing &= missing - 1) {
+// Fills members[] for the segments `wanted` that are not ready.
+static void nsvcd__pose_members(nsvcd__search *q, size_t g, uint64_t wanted) {
+  uint64_t missing = wanted & ~q->ready;
+  if (!missing) return;
+  const nsvcd__spheres members = nsvcd__members_of(q->moving, g);
+  q->extent = nsvcd__group_extent(q->moving, g);
+  for (; missing; missing &= missing - 1) {
     const size_t s = nsvcd__low_bit(missing);
-    nsvcd__chords_in_segment(search, s, members, search->extent, &search->members[s]);
+    nsvcd__chords_in_segment(q, s, members, q->extent, &q->members[s]);
   }
-  search->posed |= wanted;
+  q->ready |= wanted;
 }
 
 #ifndef NSVCD_NO_PROOF
-// Patches of group h of the fixed body that moving group g meets, and in which segments, of those
-// `wanted`: segments (GROUP), written for these patches.
-static uint32_t nsvcd__group_against_members(const nsvcd__search *search, size_t h,
-                                             uint64_t wanted, uint64_t *segments) {
-  const nsvcd__spheres patches = nsvcd__body_patches(search->fixed);
-  const nsvcd__spheres members = nsvcd__spheres_from(patches, NSVCD__GROUP * h);
+// Patches of group h of the fixed body that the moving group meets, whose chords are q->group.
+// segments (GROUP): in which of those `wanted`; written for these patches only.
+static uint32_t nsvcd__group_against_members(const nsvcd__search *q, size_t h, uint64_t wanted,
+                                             uint64_t *segments) {
+  const nsvcd__spheres members = nsvcd__members_of(q->fixed, h);
   uint32_t met = 0;
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__low_bit(wanted);
-    const nsvcd__chords *chords = &search->group[s / NSVCD__LANES];
-    uint32_t bits = nsvcd__meet_members(chords, s % NSVCD__LANES, members);
+    uint32_t bits = nsvcd__meet_members(q, s, members);
     for (; bits; bits &= bits - 1) {
       const size_t l = nsvcd__low_bit(bits);
       segments[l] = (met >> l & 1 ? segments[l] : 0) | (uint64_t)1 << s;
@@ -304,55 +283,49 @@ static uint32_t nsvcd__group_against_members(const nsvcd__search *search, size_t
 }
 #endif
 
-// Turns to the moving group that is next in order, and the fixed group that it meets for the
-// longest time.
-static void nsvcd__search_group(nsvcd__search *search) {
-  const size_t g = search->order[search->step];
-  const uint64_t *nearby = nsvcd__nearby(search, g);
-  size_t longest = 0;
+// Turns to the next moving group in order, and to the fixed group that it meets longest.
+static void nsvcd__search_group(nsvcd__search *q) {
+  const size_t g = q->order[q->step];
+  const uint64_t *nearby = nsvcd__nearby(q, g);
   size_t most = 0;
-  for (size_t h = 0; h < search->fixed_tile.count; h++) {
-    const size_t count = nsvcd__bit_count(nearby[h] & search->wanted);
-    if (count > 0) search->waiting |= (uint32_t)1 << h;
+  q->at = 0;
+  for (size_t h = 0; h < q->fixed_tile.count; h++) {
+    const size_t count = nsvcd__bit_count(nearby[h] & q->wanted);
+    if (count > 0) q->waiting |= (uint32_t)1 << h;
     if (count > most) {
       most = count;
-      longest = h;
+      q->at = h;
     }
   }
-  if (search->waiting) nsvcd__chords_of_group(search, search->moving_tile.groups[g]);
-  search->posed = 0;
-  search->at = longest;
+  if (q->waiting) nsvcd__chords_of_group(q, q->moving_tile.groups[g]);
+  q->ready = 0;
 }
 
 #ifndef NSVCD_NO_NETWORK
-// Moving group g, whose chords are search->group, against the members `which` of group h of the
-// fixed body, in the segments `wanted`: all contact intervals.
-static void nsvcd__group_against_group(nsvcd__search *search, size_t g, size_t h,
-                                       uint32_t which, uint64_t wanted,
-                                       nsvcd__candidates *kept) {
-  const nsvcd__spheres patches = nsvcd__body_patches(search->fixed);
-  const nsvcd__spheres members = nsvcd__spheres_from(patches, NSVCD__GROUP * h);
-  const size_t stride = search->most_segments;
+// Finds all contact intervals of moving group g, whose chords are q->group, and the members
+// `which` of group h of the fixed body, in the segments `wanted`.
+static void nsvcd__group_against_group(nsvcd__search *q, size_t g, size_t h, uint32_t which,
+                                       uint64_t wanted, nsvcd__candidates *kept) {
+  const nsvcd__spheres members = nsvcd__members_of(q->fixed, h);
+  const size_t stride = q->most_segments;
   uint64_t left[NSVCD__GROUP] = {0};
   uint32_t any = 0;
-  nsvcd__plane_cache *cache = search->cache;
+  nsvcd__plane_cache *cache = q->cache;
   cache->resting_known = 0;
-  wanted = nsvcd__unparted_segments(search, h, wanted);
+  wanted = nsvcd__segments_left(q, h, wanted);
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__low_bit(wanted);
-    const nsvcd__chords *chords = &search->group[s / NSVCD__LANES];
-    uint32_t bits = which & nsvcd__meet_members(chords, s % NSVCD__LANES, members);
+    uint32_t bits = which & nsvcd__meet_members(q, s, members);
     if (!bits) continue;
-    nsvcd__pose_members(search, g, (uint64_t)1 << s);
-    const float stray = nsvcd__segment_deviation(search, s);
+    nsvcd__pose_members(q, g, (uint64_t)1 << s);
+    cache->deviation = nsvcd__segment_deviation(q, s, q->extent);
     cache->moving_known = 0;
-    bits = nsvcd__unparted_members(search, g, s, h, stray, bits);
+    bits = nsvcd__members_left(q, g, s, h, bits);
     for (; bits; bits &= bits - 1) {
       const size_t k = nsvcd__low_bit(bits);
-      const nsvcd__sphere ball = nsvcd__sphere_of(members, k);
-      uint16_t *met = search->met + stride * k;
+      uint16_t *met = q->met + stride * k;
       const uint32_t before = s > 0 && left[k] >> (s - 1) & 1 ? met[s - 1] : 0;
-      const uint32_t lanes = nsvcd__members_meet(search, g, s, h, k, ball, stray, before);
+      const uint32_t lanes = nsvcd__members_meet(q, g, s, h, k, before);
       if (!lanes) continue;
       met[s] = (uint16_t)lanes;
       left[k] |= (uint64_t)1 << s;
@@ -362,55 +335,46 @@ static void nsvcd__group_against_group(nsvcd__search *search, size_t g, size_t h
   for (; any; any &= any - 1) {
     const size_t k = nsvcd__low_bit(any);
     const size_t j = NSVCD__GROUP * h + k;
-    const uint16_t *met = search->met + stride * k;
-    const uint64_t cuts = nsvcd__interval_cuts(search, met, left[k]);
+    const uint16_t *met = q->met + stride * k;
+    const uint64_t cuts = nsvcd__interval_cuts(q, met, left[k]);
     NSVCD__EACH_SLICE(l) {
       const size_t i = NSVCD__GROUP * g + l;
-      nsvcd__slice_against_patch(search, i, j, left[k], met, cuts, kept);
+      nsvcd__slice_against_patch(q, i, j, left[k], met, cuts, kept);
     }
   }
 }
 
-// All contact intervals of the pair of groups that is next.
-static void nsvcd__search_pair(nsvcd__search *search, nsvcd__candidates *kept) {
-  if (!search->waiting) nsvcd__search_group(search);
-  const size_t next = search->order[search->step];
-  const size_t g = search->moving_tile.groups[next];
-  const size_t h = search->fixed_tile.groups[search->at];
-  const uint64_t wanted = nsvcd__nearby(search, next)[search->at];
-  nsvcd__group_against_group(search, g, h, 0xffff, wanted, kept);
+// Finds all contact intervals of the next pair of groups.
+static void nsvcd__search_pair(nsvcd__search *q, nsvcd__candidates *kept) {
+  if (!q->waiting) nsvcd__search_group(q);
+  const size_t next = q->order[q->step];
+  const size_t g = q->moving_tile.groups[next];
+  const size_t h = q->fixed_tile.groups[q->at];
+  const uint64_t wanted = nsvcd__nearby(q, next)[q->at];
+  nsvcd__group_against_group(q, g, h, 0xffff, wanted, kept);
 }
 
-// A step of the search: all contact intervals of one pair of groups. Returns 1 if there are more
-// steps to take.
-static NSVCD__NOINLINE int nsvcd__search_step(nsvcd__search *search, nsvcd__candidates *kept) {
-  nsvcd__search_pair(search, kept);
-  search->waiting &= ~((uint32_t)1 << search->at);
-  if (search->waiting)
-    search->at = nsvcd__low_bit(search->waiting);
+// A step of the search: the next pair of groups. Returns 1 if there are more.
+static NSVCD__NOINLINE int nsvcd__search_step(nsvcd__search *q, nsvcd__candidates *kept) {
+  nsvcd__search_pair(q, kept);
+  q->waiting &= ~((uint32_t)1 << q->at);
+  if (q->waiting)
+    q->at = nsvcd__low_bit(q->waiting);
   else
-    search->step++;
-  return search->step < search->steps || nsvcd__search_next_tile(search);
+    q->step++;
+  return q->step < q->steps || nsvcd__search_next_tile(q);
 }
 
-// Instead of a search, in a motion that has been cut: all contact intervals of one moving group and
-// one patch of the fixed body.
-static void nsvcd__search_patch(nsvcd__search *search, const nsvcd_body *moving, size_t g,
+// Instead of a search: finds all contact intervals of one moving group and one patch of the fixed
+// body.
+static void nsvcd__search_patch(nsvcd__search *q, const nsvcd_body *moving, size_t g,
                                 const nsvcd_body *fixed, size_t j, nsvcd__candidates *kept) {
-  const uint64_t all = nsvcd__all_segments(search);
-  search->moving = moving;
-  search->fixed = fixed;
-  search->posed = 0;
-  nsvcd__chords_of_group(search, g);
-  nsvcd__group_against_group(search, g, j / NSVCD__GROUP, 1u << j % NSVCD__GROUP, all, kept);
-}
-
-static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *items,
-                                    size_t limit) {
-  kept->items = items;
-  kept->limit = limit;
-  kept->count = 0;
-  kept->total = 0;
+  const uint64_t all = nsvcd__all_segments(q);
+  q->moving = moving;
+  q->fixed = fixed;
+  q->ready = 0;
+  nsvcd__chords_of_group(q, g);
+  nsvcd__group_against_group(q, g, j / NSVCD__GROUP, 1u << j % NSVCD__GROUP, all, kept);
 }
 
 #endif  // NSVCD_NO_NETWORK

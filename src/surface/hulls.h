@@ -1,6 +1,6 @@
 // In: points. Out: some of them, whose hull inflated by a margin contains all.
 #pragma once
-#include "../ground/slices.h"
+#include "../ground/spheres.h"
 #include "balls.h"
 
 #ifndef NSVCD_NO_ENCODER
