@@ -1880,7 +1880,7 @@ static inline double nsvcd__min(double a, double b) {
   static inline t t##_cross(t a, t b) { \
     return t##_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x); \
   } \
-  static inline scalar t##_length(t a) { \
+  static inline scalar t##_norm(t a) { \
     return sqrt(t##_dot(a, a)); \
   }
 NSVCD__VECTORS(nsvcd__f3, float, sqrtf)
@@ -1934,7 +1934,7 @@ static inline double nsvcd__d3_distance2(nsvcd__d3 a, nsvcd__d3 b) {
 }
 // Of length 1; `otherwise` if a is 0.
 static inline nsvcd__d3 nsvcd__d3_unit(nsvcd__d3 a, nsvcd__d3 otherwise) {
-  const double length = nsvcd__d3_length(a);
+  const double length = nsvcd__d3_norm(a);
   return length > 0 ? nsvcd__d3_scale(a, 1 / length) : otherwise;
 }
 // Rounds for certain. gcc 12 at -O2 drops both conversions where two neighbouring doubles become
@@ -2167,7 +2167,7 @@ static inline nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
   double longest = 0;
   for (size_t k = 0; k < 3; k++)
     longest = nsvcd__max(longest, nsvcd__d3_distance2(t[k], t[(k + 1) % 3]));
-  const double length = nsvcd__d3_length(n);
+  const double length = nsvcd__d3_norm(n);
   return nsvcd__d3_scale(n, length > 1e-9 * longest ? 1 / length : 0);
 }
 
@@ -2522,22 +2522,22 @@ typedef float nsvcd__row[NSVCD__LANES];  // a number in each lane
 // in a box.
 
 #ifndef NSVCD_NO_ENCODER
-NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator) {
+NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *alloc) {
   if (!mesh) return;
-  nsvcd__free(allocator, mesh->positions);
-  nsvcd__free(allocator, mesh->indices);
+  nsvcd__free(alloc, mesh->positions);
+  nsvcd__free(alloc, mesh->indices);
   memset(mesh, 0, sizeof *mesh);
 }
 
 // Allocates vertices and triangles. 0 without memory. Free it with nsvcd_mesh_free, on failure too.
 static int nsvcd__mesh_alloc(nsvcd_mesh *mesh, size_t vertices, size_t triangles,
-                             const nsvcd_allocator *allocator) {
+                             const nsvcd_allocator *alloc) {
   const size_t row = 3 * sizeof(float);
   mesh->vertex_count = vertices;
   mesh->triangle_count = triangles;
   // + 1: a file may hold faces and no vertex, and malloc(0) may return NULL.
-  mesh->positions = (float *)nsvcd__alloc_array(allocator, vertices + 1, row);
-  mesh->indices = (uint32_t *)nsvcd__alloc_array(allocator, triangles, row);
+  mesh->positions = (float *)nsvcd__alloc_array(alloc, vertices + 1, row);
+  mesh->indices = (uint32_t *)nsvcd__alloc_array(alloc, triangles, row);
   return mesh->positions && mesh->indices;
 }
 
@@ -2580,7 +2580,7 @@ static nsvcd__clipped nsvcd__cut_triangle(const nsvcd_mesh *mesh, size_t t, cons
 }
 
 NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
-                                     const float high[3], const nsvcd_allocator *allocator,
+                                     const float high[3], const nsvcd_allocator *alloc,
                                      nsvcd_mesh *part) {
   if (!low || !high || !part) return NSVCD_ERROR_ARGUMENT;
   for (size_t k = 0; k < 3; k++) {
@@ -2600,8 +2600,8 @@ NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
   if (vertices == 0) return NSVCD_ERROR_EMPTY;
   if (vertices > NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
   nsvcd_mesh out;
-  if (!nsvcd__mesh_alloc(&out, vertices, triangles, allocator)) {
-    nsvcd_mesh_free(&out, allocator);
+  if (!nsvcd__mesh_alloc(&out, vertices, triangles, alloc)) {
+    nsvcd_mesh_free(&out, alloc);
     return NSVCD_ERROR_MEMORY;
   }
 
@@ -2683,8 +2683,8 @@ static void nsvcd__weld_vertices(nsvcd__weld *w, size_t count, uint32_t *welded)
 
 // nsvcd__weld_vertices with a table of its own. 0 without memory.
 static int nsvcd__weld_all(const float *positions, size_t count, uint32_t *welded,
-                           const nsvcd_allocator *allocator) {
-  nsvcd__arena arena = nsvcd__arena_of(allocator);
+                           const nsvcd_allocator *alloc) {
+  nsvcd__arena arena = nsvcd__arena_of(alloc);
   nsvcd__weld w = {positions, NULL, 16, 0, 0};
   while (w.slots / 2 < count) w.slots *= 2;
   w.table = NSVCD__TAKE(&arena, uint32_t, w.slots);
@@ -2998,11 +2998,11 @@ static nsvcd_result nsvcd__faces_check(const nsvcd_faces *f, size_t *triangles,
   return *triangles ? NSVCD_OK : NSVCD_ERROR_EMPTY;
 }
 
-NSVCDDEF nsvcd_result nsvcd_mesh_of_faces(const nsvcd_faces *f,
-                                          const nsvcd_allocator *allocator, nsvcd_mesh *mesh) {
+NSVCDDEF nsvcd_result nsvcd_mesh_of_faces(const nsvcd_faces *f, const nsvcd_allocator *alloc,
+                                          nsvcd_mesh *mesh) {
   nsvcd_mesh out;
   nsvcd__polygon polygon;
-  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  nsvcd__arena arena = nsvcd__arena_of(alloc);
   size_t triangles;
   uint32_t most;
   if (!f || !mesh) return NSVCD_ERROR_ARGUMENT;
@@ -3010,10 +3010,10 @@ NSVCDDEF nsvcd_result nsvcd_mesh_of_faces(const nsvcd_faces *f,
     return NSVCD_ERROR_ARGUMENT;
   nsvcd_result result = nsvcd__faces_check(f, &triangles, &most);
   if (result) return result;
-  if (!nsvcd__mesh_alloc(&out, f->vertex_count, triangles, allocator) ||
+  if (!nsvcd__mesh_alloc(&out, f->vertex_count, triangles, alloc) ||
       !nsvcd__polygon_alloc(&polygon, most, &arena)) {
     nsvcd__arena_free(&arena);
-    nsvcd_mesh_free(&out, allocator);
+    nsvcd_mesh_free(&out, alloc);
     return NSVCD_ERROR_MEMORY;
   }
   memcpy(out.positions, f->positions, 3 * f->vertex_count * sizeof(float));
@@ -3441,11 +3441,11 @@ static nsvcd_result nsvcd__stl_text(nsvcd__obj *text, float *corners, size_t *co
 }
 
 // Welds corners (3 triangles, 3), which become vertices. 0 without memory.
-static int nsvcd__stl_weld(nsvcd_mesh *mesh, const nsvcd_allocator *allocator) {
+static int nsvcd__stl_weld(nsvcd_mesh *mesh, const nsvcd_allocator *alloc) {
   float *positions = mesh->positions;
   uint32_t *indices = mesh->indices;
   uint32_t count = 0;
-  if (!nsvcd__weld_all(positions, mesh->vertex_count, indices, allocator)) return 0;
+  if (!nsvcd__weld_all(positions, mesh->vertex_count, indices, alloc)) return 0;
   for (size_t i = 0; i < mesh->vertex_count; i++) {
     const int is_first = indices[i] == i;
     indices[i] = is_first ? count : indices[indices[i]];
@@ -3462,7 +3462,7 @@ static int nsvcd__stl_weld(nsvcd_mesh *mesh, const nsvcd_allocator *allocator) {
 // Reads a file, of which `text` is at the beginning. text->line: where it fails, or 0 if no line is
 // at fault.
 static nsvcd_result nsvcd__stl_read(nsvcd__obj *text, const void *data, size_t size,
-                                    const nsvcd_allocator *allocator, nsvcd_mesh *mesh) {
+                                    const nsvcd_allocator *alloc, nsvcd_mesh *mesh) {
   const nsvcd__obj begin = *text;
   const uint64_t needed = nsvcd__stl_size(data, size);
   const int is_binary = size == needed || !nsvcd__stl_is_solid(begin) || memchr(data, 0, size);
@@ -3475,7 +3475,7 @@ static nsvcd_result nsvcd__stl_read(nsvcd__obj *text, const void *data, size_t s
   text->line = 0;
   if (corners > NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
   if (corners == 0) return NSVCD_ERROR_EMPTY;
-  if (!nsvcd__mesh_alloc(mesh, corners, corners / 3, allocator)) return NSVCD_ERROR_MEMORY;
+  if (!nsvcd__mesh_alloc(mesh, corners, corners / 3, alloc)) return NSVCD_ERROR_MEMORY;
   if (is_binary) {
     result = nsvcd__stl_binary(data, &text->options, mesh->positions, corners);
   } else {
@@ -3485,7 +3485,7 @@ static nsvcd_result nsvcd__stl_read(nsvcd__obj *text, const void *data, size_t s
   }
   if (result) return result;
   text->line = 0;
-  return nsvcd__stl_weld(mesh, allocator) ? NSVCD_OK : NSVCD_ERROR_MEMORY;
+  return nsvcd__stl_weld(mesh, alloc) ? NSVCD_OK : NSVCD_ERROR_MEMORY;
 }
 #endif  // NSVCD_NO_OBJ
 
@@ -3495,11 +3495,11 @@ static nsvcd_result nsvcd__stl_read(nsvcd__obj *text, const void *data, size_t s
 #ifndef NSVCD_NO_OBJ
 NSVCDDEF nsvcd_result nsvcd_mesh_parse(const void *data, size_t size,
                                        const nsvcd_mesh_options *options,
-                                       const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                       const nsvcd_allocator *alloc, nsvcd_mesh *mesh,
                                        size_t *error_line) {
   nsvcd__obj text;
   nsvcd_mesh out;
-  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  nsvcd__arena arena = nsvcd__arena_of(alloc);
   if (error_line) *error_line = 0;
   if (!mesh || !data) return NSVCD_ERROR_ARGUMENT;
   memset(&out, 0, sizeof out);
@@ -3509,12 +3509,12 @@ NSVCDDEF nsvcd_result nsvcd_mesh_parse(const void *data, size_t size,
   int is_stl = text.options.format == NSVCD_MESH_STL;
   if (text.options.format == NSVCD_MESH_ANY)
     is_stl = size == nsvcd__stl_size(data, size) || nsvcd__stl_is_solid(text);
-  result = is_stl ? nsvcd__stl_read(&text, data, size, allocator, &out)
+  result = is_stl ? nsvcd__stl_read(&text, data, size, alloc, &out)
                   : nsvcd__obj_read(&text, &arena, &out);
   nsvcd__arena_free(&arena);
   if (result) {
     if (error_line) *error_line = text.line;
-    nsvcd_mesh_free(&out, allocator);
+    nsvcd_mesh_free(&out, alloc);
     return result;
   }
   *mesh = out;
@@ -3525,15 +3525,15 @@ static const nsvcd_mesh_options nsvcd__as_obj = {NSVCD_MESH_OBJ, {0, 0, 0}, 0};
 static const nsvcd_mesh_options nsvcd__as_stl = {NSVCD_MESH_STL, {0, 0, 0}, 0};
 
 NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
-                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                      const nsvcd_allocator *alloc, nsvcd_mesh *mesh,
                                       size_t *error_line) {
-  return nsvcd_mesh_parse(text, size, &nsvcd__as_obj, allocator, mesh, error_line);
+  return nsvcd_mesh_parse(text, size, &nsvcd__as_obj, alloc, mesh, error_line);
 }
 
 NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
-                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                      const nsvcd_allocator *alloc, nsvcd_mesh *mesh,
                                       size_t *error_line) {
-  return nsvcd_mesh_parse(data, size, &nsvcd__as_stl, allocator, mesh, error_line);
+  return nsvcd_mesh_parse(data, size, &nsvcd__as_stl, alloc, mesh, error_line);
 }
 
 #ifndef NSVCD_NO_STDIO
@@ -3563,27 +3563,27 @@ static nsvcd_result nsvcd__read_file(const char *path, nsvcd__arena *arena, char
 }
 
 NSVCDDEF nsvcd_result nsvcd_mesh_load(const char *path, const nsvcd_mesh_options *options,
-                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                      const nsvcd_allocator *alloc, nsvcd_mesh *mesh,
                                       size_t *error_line) {
   char *data;
   size_t size;
   if (error_line) *error_line = 0;
   if (!path || !mesh) return NSVCD_ERROR_ARGUMENT;
-  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  nsvcd__arena arena = nsvcd__arena_of(alloc);
   nsvcd_result result = nsvcd__read_file(path, &arena, &data, &size);
-  if (!result) result = nsvcd_mesh_parse(data, size, options, allocator, mesh, error_line);
+  if (!result) result = nsvcd_mesh_parse(data, size, options, alloc, mesh, error_line);
   nsvcd__arena_free(&arena);
   return result;
 }
 
-NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator,
+NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *alloc,
                                      nsvcd_mesh *mesh, size_t *error_line) {
-  return nsvcd_mesh_load(path, &nsvcd__as_obj, allocator, mesh, error_line);
+  return nsvcd_mesh_load(path, &nsvcd__as_obj, alloc, mesh, error_line);
 }
 
-NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *allocator,
+NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *alloc,
                                      nsvcd_mesh *mesh, size_t *error_line) {
-  return nsvcd_mesh_load(path, &nsvcd__as_stl, allocator, mesh, error_line);
+  return nsvcd_mesh_load(path, &nsvcd__as_stl, alloc, mesh, error_line);
 }
 #endif  // NSVCD_NO_STDIO
 #endif  // NSVCD_NO_OBJ
@@ -3676,7 +3676,7 @@ static nsvcd__d3 nsvcd__area_vector(const nsvcd__triangle *t) {
 }
 
 static double nsvcd__triangle_area(const nsvcd__triangle *t) {
-  return nsvcd__d3_length(nsvcd__area_vector(t));
+  return nsvcd__d3_norm(nsvcd__area_vector(t));
 }
 
 static double nsvcd__mesh_area(const nsvcd_mesh *mesh) {
@@ -4118,10 +4118,10 @@ static void nsvcd__join_roots(uint32_t *parents, uint32_t a, uint32_t b) {
 
 // Finds the components that are not closed: those whose directed edges do not cancel. 0 without
 // memory.
-static int nsvcd__find_open(nsvcd__topology *topo, const nsvcd_allocator *allocator) {
+static int nsvcd__find_open(nsvcd__topology *topo, const nsvcd_allocator *alloc) {
   const nsvcd_mesh *mesh = topo->mesh;
   const size_t vertices = mesh->vertex_count;
-  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  nsvcd__arena arena = nsvcd__arena_of(alloc);
   // where the edges begin whose lesser end is a vertex; while they are sorted, one entry further
   size_t *first = NSVCD__TAKE(&arena, size_t, vertices + 2);
   // the greater end
@@ -4432,9 +4432,9 @@ static size_t nsvcd__find_limits(const nsvcd__mending *m, double most, float *li
 
 // Joins corners that are near enough to each other. Returns the greatest distance joined, or -1
 // without memory.
-static double nsvcd__join_corners(nsvcd__mending *m, const nsvcd_allocator *allocator) {
+static double nsvcd__join_corners(nsvcd__mending *m, const nsvcd_allocator *alloc) {
   const nsvcd_mesh *mesh = m->topo->mesh;
-  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  nsvcd__arena arena = nsvcd__arena_of(alloc);
   nsvcd__d3 low = nsvcd__d3_row(mesh->positions, 0);
   nsvcd__d3 high = low;
   for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
@@ -4608,11 +4608,11 @@ static void nsvcd__measure_holes(const nsvcd__mending *m, const uint32_t *number
     const nsvcd__d3 n = nsvcd__d3_scale(nsvcd__d3_cross(a, b), 0.5);
     if (pass == 1) {
       hole->normal = nsvcd__d3_add(hole->normal, n);
-      hole->area += nsvcd__d3_length(n);
+      hole->area += nsvcd__d3_norm(n);
       continue;
     }
     const nsvcd__d3 along = nsvcd__area_vector(&t);
-    const double size = nsvcd__d3_length(along) * nsvcd__d3_length(hole->normal);
+    const double size = nsvcd__d3_norm(along) * nsvcd__d3_norm(hole->normal);
     const double cosine = nsvcd__d3_dot(along, hole->normal);
     hole->flush += size > 0 ? length * cosine / size : 0;
   }
@@ -4624,9 +4624,9 @@ static void nsvcd__measure_holes(const nsvcd__mending *m, const uint32_t *number
 // only a surface that is wound outwards is nearly a solid: else it is a room with a door. 0 without
 // memory.
 static int nsvcd__judge_holes(const nsvcd__mending *m, nsvcd__shell *wholes,
-                              const nsvcd_allocator *allocator) {
+                              const nsvcd_allocator *alloc) {
   const size_t vertices = m->topo->mesh->vertex_count;
-  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  nsvcd__arena arena = nsvcd__arena_of(alloc);
   uint32_t *forest = NSVCD__TAKE(&arena, uint32_t, vertices);
   uint32_t *numbers = NSVCD__TAKE(&arena, uint32_t, vertices);
   uint32_t count = 0;
@@ -5249,7 +5249,7 @@ static int nsvcd__trim(nsvcd__pieces *p, uint32_t patch, nsvcd__convex *convex) 
     const nsvcd__d3 other = nsvcd__d3_widen(patches->centres[patches->neighbours[k]]);
     const nsvcd__d3 across = nsvcd__d3_sub(other, own);
     const nsvcd__d3 middle = nsvcd__d3_mix(own, other, 0.5);
-    const double length = nsvcd__d3_length(across);
+    const double length = nsvcd__d3_norm(across);
     double beyond[NSVCD__PIECE_CORNERS];
     double most = -HUGE_VAL;
     for (size_t i = 0; i < convex->count; i++) {
@@ -5892,7 +5892,7 @@ static size_t nsvcd__choose_hull(nsvcd__points points, size_t most, double enoug
   }
   for (size_t i = 0; i < points.count; i++) {
     // the first is the farthest from the centre
-    const double distance = nsvcd__d3_length(points.at[i]);
+    const double distance = nsvcd__d3_norm(points.at[i]);
     if (distance > most_distant) next = i;
     most_distant = nsvcd__max(most_distant, distance);
     bounds[i] = HUGE_VAL;
@@ -6150,7 +6150,7 @@ static void nsvcd__describe_patch(nsvcd__sorted *all, size_t i, nsvcd__surface *
   const nsvcd__points about = nsvcd__place_points(all, centre);
   double radius = 0;
   for (size_t j = 0; j < about.count; j++)
-    radius = nsvcd__max(radius, nsvcd__d3_length(about.at[j]));
+    radius = nsvcd__max(radius, nsvcd__d3_norm(about.at[j]));
   out->ball.radius = nsvcd__float_above(radius + pieces->margin);
   const nsvcd__d3 normal = nsvcd__patch_normal(all, i);
   out->slab = nsvcd__fit_slab(about, normal, pieces->margin, pieces->thin);
@@ -6238,7 +6238,7 @@ static void nsvcd__store_patch(nsvcd__sorted *all, size_t i, nsvcd__surface *s,
       vertices[k * stored + j] = (int16_t)integer;
       nsvcd__d3_set_axis(&rounded, k, metres * integer);
     }
-    all->bounds[j] = nsvcd__d3_length(nsvcd__d3_sub(points.at[j], rounded));
+    all->bounds[j] = nsvcd__d3_norm(nsvcd__d3_sub(points.at[j], rounded));
     if (j < out->hull_count) worst_of_hull = nsvcd__max(worst_of_hull, all->bounds[j]);
   }
   s->vertex_count += stored;
@@ -6898,8 +6898,7 @@ static float nsvcd__radius_about(nsvcd__spheres all, size_t count, nsvcd__f3 poi
   const nsvcd__sphere guess = nsvcd__sphere_of(all, *farthest);
   // less than 1 by more than the roundings: the farthest sphere is never skipped
   const float fraction = 0.999998f;
-  float least =
-      fraction * (nsvcd__f3_length(nsvcd__f3_sub(guess.centre, point)) + guess.radius);
+  float least = fraction * (nsvcd__f3_norm(nsvcd__f3_sub(guess.centre, point)) + guess.radius);
   float radius = 0;
   for (size_t first = 0; first < count; first += NSVCD__GROUP) {
     const size_t end = first + nsvcd__group_members(count, first);
@@ -6907,7 +6906,7 @@ static float nsvcd__radius_about(nsvcd__spheres all, size_t count, nsvcd__f3 poi
     if (end == first + NSVCD__GROUP && nsvcd__are_within(some, point, least)) continue;
     for (size_t i = first; i < end; i++) {
       const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__centre_of(all, i), point);
-      const float to = nsvcd__f3_length(offset) + all.r[i];
+      const float to = nsvcd__f3_norm(offset) + all.r[i];
       if (to > radius) *farthest = i;
       radius = to > radius ? to : radius;
     }
@@ -7468,7 +7467,7 @@ static void nsvcd__finish_group(nsvcd_body *b, size_t g) {
   nsvcd__d3 best = {0, 0, 1};
   nsvcd__dslab thinnest = {0, HUGE_VAL, 0};
   for (size_t k = 0; k < 1 + NSVCD__GROUP; k += k == 0 ? 1 : 4) {
-    const double length = nsvcd__d3_length(normals[k]);
+    const double length = nsvcd__d3_norm(normals[k]);
     if (!(length > 1e-3)) continue;
     // as it is stored, and not longer than 1
     const nsvcd__d3 shorter = nsvcd__d3_scale(normals[k], 0.9999998 / length);
@@ -7506,7 +7505,7 @@ static void nsvcd__collect_hulls(const nsvcd__geometry *f, size_t g, nsvcd__hull
       nsvcd__d3 v = nsvcd__patch_origin(f, i);
       if (count) v = nsvcd__stored_point(f, i, k);
       // of v to float
-      const double rounding = 1.1e-7 * nsvcd__d3_length(v);
+      const double rounding = 1.1e-7 * nsvcd__d3_norm(v);
       const size_t n = out->count++;
       out->spheres[3][n] = nsvcd__above((double)f->margins[i] + rounding);
       nsvcd__f3_put(nsvcd__f3_round(v), &out->spheres[0][n], NSVCD__HULLS);
@@ -7877,7 +7876,7 @@ static void nsvcd__scale_triangles(nsvcd_body *b, float scale) {
   }
   const double off_mesh = worst + (double)nsvcd__off_mesh(&f) * by;
   for (size_t i = 0; i < b->patches; i++) {
-    const double distance = (double)nsvcd__f3_length(nsvcd__patch_centre(&f, i));
+    const double distance = (double)nsvcd__f3_norm(nsvcd__patch_centre(&f, i));
     nsvcd__slab slab = nsvcd__slab_at(f.slabs, b->padded, i);
     f.steps[i] *= scale;
     const double rounding = 2e-7 * (distance + 6e4 * (double)f.steps[i]) + off;
@@ -8347,11 +8346,11 @@ static nsvcd_result nsvcd__draft_regions(nsvcd__draft *d) {
 // Makes everything but the blob. After success, free the draft's arena. MEMORY, CANCELLED,
 // TOO_LARGE.
 static nsvcd_result nsvcd__draft_build(const nsvcd_mesh *mesh, const nsvcd_encode_options *o,
-                                       const nsvcd_allocator *allocator, nsvcd__draft *d) {
+                                       const nsvcd_allocator *alloc, nsvcd__draft *d) {
   memset(d, 0, sizeof *d);
   d->mesh = mesh;
   d->options = o;
-  d->arena = nsvcd__arena_of(allocator);
+  d->arena = nsvcd__arena_of(alloc);
   if (nsvcd__is_cancelled(o, 0)) return NSVCD_ERROR_CANCELLED;
   d->in_runs = NSVCD__PROOF && o->convex_radius > 0 && nsvcd__has_points(mesh);
   nsvcd_result result = d->in_runs ? nsvcd__draft_runs(d) : nsvcd__draft_regions(d);
@@ -8448,7 +8447,7 @@ static nsvcd_result nsvcd__encode_resolve(const nsvcd_mesh *mesh, nsvcd_encode_o
 // t.
 static nsvcd_result nsvcd__encode_mesh(const nsvcd_mesh *mesh,
                                        const nsvcd_encode_options *options,
-                                       const nsvcd_allocator *allocator, void *memory,
+                                       const nsvcd_allocator *alloc, void *memory,
                                        size_t capacity, const nsvcd_body **body) {
   if (!body) return NSVCD_ERROR_ARGUMENT;
   if (memory && !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
@@ -8457,12 +8456,12 @@ static nsvcd_result nsvcd__encode_mesh(const nsvcd_mesh *mesh,
   if (options) o = *options;
   nsvcd__draft draft;
   nsvcd_result result = nsvcd__encode_resolve(mesh, &o);
-  if (!result) result = nsvcd__draft_build(mesh, &o, allocator, &draft);
+  if (!result) result = nsvcd__draft_build(mesh, &o, alloc, &draft);
   if (result) return result;
 
   const int fits = draft.geometry_size <= 0xffffffffu - draft.latents_size;
   const size_t size = draft.latents_size + draft.geometry_size;
-  void *to = memory || !fits ? memory : nsvcd__alloc(allocator, size);
+  void *to = memory || !fits ? memory : nsvcd__alloc(alloc, size);
   if (!fits) {
     result = NSVCD_ERROR_TOO_LARGE;
   } else if (!to) {
@@ -8473,24 +8472,24 @@ static nsvcd_result nsvcd__encode_mesh(const nsvcd_mesh *mesh,
     result = nsvcd__draft_write(&draft, to);
   }
   if (!result) *body = (const nsvcd_body *)to;
-  if (result && !memory) nsvcd__free(allocator, to);
+  if (result && !memory) nsvcd__free(alloc, to);
   nsvcd__arena_free(&draft.arena);
   return result;
 }
 
 NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
-                                   const nsvcd_allocator *allocator, void *memory,
-                                   size_t capacity, const nsvcd_body **body) {
+                                   const nsvcd_allocator *alloc, void *memory, size_t capacity,
+                                   const nsvcd_body **body) {
   if (!mesh || !mesh->indices) return nsvcd__mesh_check(mesh);
-  return nsvcd__encode_mesh(mesh, options, allocator, memory, capacity, body);
+  return nsvcd__encode_mesh(mesh, options, alloc, memory, capacity, body);
 }
 
-NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *allocator) {
+NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *alloc) {
   void *memory;
   if (nsvcd__body_check(body, SIZE_MAX)) return;
   // a cast would take away a const
   memcpy(&memory, &body, sizeof memory);
-  nsvcd__free(allocator, memory);
+  nsvcd__free(alloc, memory);
 }
 #endif  // NSVCD_NO_ENCODER
 
@@ -8500,25 +8499,25 @@ NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *all
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
 static nsvcd_result nsvcd__encode_rounded(const nsvcd_mesh *mesh, float convex_radius,
-                                          const nsvcd_allocator *allocator,
+                                          const nsvcd_allocator *alloc,
                                           const nsvcd_body **body) {
   nsvcd_encode_options options;
   memset(&options, 0, sizeof options);
   options.convex_radius = convex_radius;
-  return nsvcd__encode_mesh(mesh, &options, allocator, NULL, 0, body);
+  return nsvcd__encode_mesh(mesh, &options, alloc, NULL, 0, body);
 }
 
-NSVCDDEF nsvcd_result nsvcd_encode_sphere(float radius, const nsvcd_allocator *allocator,
+NSVCDDEF nsvcd_result nsvcd_encode_sphere(float radius, const nsvcd_allocator *alloc,
                                           const nsvcd_body **body) {
   float centre[3] = {0, 0, 0};
   uint32_t point[3] = {0, 0, 0};
   const nsvcd_mesh mesh = {centre, point, 1, 1};
   if (!(radius > 0)) return NSVCD_ERROR_RADIUS;
-  return nsvcd__encode_rounded(&mesh, radius, allocator, body);
+  return nsvcd__encode_rounded(&mesh, radius, alloc, body);
 }
 
 NSVCDDEF nsvcd_result nsvcd_encode_capsule(const float from[3], const float to[3],
-                                           float radius, const nsvcd_allocator *allocator,
+                                           float radius, const nsvcd_allocator *alloc,
                                            const nsvcd_body **body) {
   float ends[6];
   uint32_t segment[3] = {0, 1, 1};
@@ -8527,12 +8526,11 @@ NSVCDDEF nsvcd_result nsvcd_encode_capsule(const float from[3], const float to[3
   if (!(radius > 0)) return NSVCD_ERROR_RADIUS;
   memcpy(ends, from, 3 * sizeof *from);
   memcpy(ends + 3, to, 3 * sizeof *to);
-  return nsvcd__encode_rounded(&mesh, radius, allocator, body);
+  return nsvcd__encode_rounded(&mesh, radius, alloc, body);
 }
 
 NSVCDDEF nsvcd_result nsvcd_encode_box(const float half[3], float convex_radius,
-                                       const nsvcd_allocator *allocator,
-                                       const nsvcd_body **body) {
+                                       const nsvcd_allocator *alloc, const nsvcd_body **body) {
   // bit k of a corner's number: it is on the positive side of axis k
   uint32_t faces[36] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
                         2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
@@ -8545,11 +8543,11 @@ NSVCDDEF nsvcd_result nsvcd_encode_box(const float half[3], float convex_radius,
     for (size_t n = 0; n < 8; n++)
       corners[3 * n + k] = n >> k & 1 ? half[k] - convex_radius : convex_radius - half[k];
   }
-  return nsvcd__encode_rounded(&mesh, convex_radius, allocator, body);
+  return nsvcd__encode_rounded(&mesh, convex_radius, alloc, body);
 }
 
 NSVCDDEF nsvcd_result nsvcd_encode_cloud(const float *points, size_t count, float radius,
-                                         const nsvcd_allocator *allocator,
+                                         const nsvcd_allocator *alloc,
                                          const nsvcd_body **body) {
   nsvcd_mesh mesh = {NULL, NULL, count, count};
   if (!points) return NSVCD_ERROR_ARGUMENT;
@@ -8559,7 +8557,7 @@ NSVCDDEF nsvcd_result nsvcd_encode_cloud(const float *points, size_t count, floa
   if (!nsvcd__in_range(points, 3 * count, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_NUMBER;
   // a cast would take away a const; nothing is written
   memcpy(&mesh.positions, &points, sizeof points);
-  return nsvcd__encode_rounded(&mesh, radius, allocator, body);
+  return nsvcd__encode_rounded(&mesh, radius, alloc, body);
 }
 #endif
 
@@ -8838,7 +8836,7 @@ NSVCD__INLINE nsvcd__v nsvcd__v3_dot_add(nsvcd__v3 a, nsvcd__v3 b, nsvcd__v s) {
   const nsvcd__v sum = nsvcd__v_fma(a.x, b.x, s);
   return nsvcd__v_fma(a.z, b.z, nsvcd__v_fma(a.y, b.y, sum));
 }
-NSVCD__INLINE nsvcd__v nsvcd__v3_length(nsvcd__v3 a) {
+NSVCD__INLINE nsvcd__v nsvcd__v3_norm(nsvcd__v3 a) {
   return nsvcd__v_sqrt(nsvcd__v3_dot(a, a));
 }
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_cross(nsvcd__v3 a, nsvcd__v3 b) {
@@ -8852,7 +8850,7 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_centres(nsvcd__spheres all, size_t l) {
                       nsvcd__v_load(all.z + l));
 }
 // From rows of x, y and z, `stride` apart.
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_load_rows(const float *p, size_t stride) {
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_get(const float *p, size_t stride) {
   return nsvcd__v3_of(nsvcd__v_load(p), nsvcd__v_load(p + stride),
                       nsvcd__v_load(p + 2 * stride));
 }
@@ -8860,21 +8858,21 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_load_int8(const int8_t *p, size_t stride) {
   return nsvcd__v3_of(nsvcd__v_load_int8(p), nsvcd__v_load_int8(p + stride),
                       nsvcd__v_load_int8(p + 2 * stride));
 }
-NSVCD__INLINE void nsvcd__v3_store_rows(nsvcd__v3 a, float *p, size_t stride) {
+NSVCD__INLINE void nsvcd__v3_put(nsvcd__v3 a, float *p, size_t stride) {
   nsvcd__v_store(p, a.x);
   nsvcd__v_store(p + stride, a.y);
   nsvcd__v_store(p + 2 * stride, a.z);
 }
 // From three rows of 16 numbers.
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_rows(const float *p) {
-  return nsvcd__v3_load_rows(p, NSVCD__LANES);
+  return nsvcd__v3_get(p, NSVCD__LANES);
 }
 // Lanes l .. l + SLICE - 1 of p (3, LANES).
 NSVCD__INLINE void nsvcd__v3_store(nsvcd__row *p, size_t l, nsvcd__v3 a) {
-  nsvcd__v3_store_rows(a, p[0] + l, NSVCD__LANES);
+  nsvcd__v3_put(a, p[0] + l, NSVCD__LANES);
 }
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_load(nsvcd__row *p, size_t l) {
-  return nsvcd__v3_load_rows(p[0] + l, NSVCD__LANES);
+  return nsvcd__v3_get(p[0] + l, NSVCD__LANES);
 }
 
 // The vector in lane l alone.
@@ -8888,7 +8886,7 @@ static inline void nsvcd__lane_set(nsvcd__f3 a, nsvcd__row *p, size_t l) {
 static inline nsvcd__v3 nsvcd__v3_unit(nsvcd__v3 a) {
   const nsvcd__v3 x = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
   const nsvcd__v least = nsvcd__v_set(1e-18f);
-  const nsvcd__v length = nsvcd__v3_length(a);
+  const nsvcd__v length = nsvcd__v3_norm(a);
   const nsvcd__v inverse = nsvcd__v_div(x.x, nsvcd__v_max(length, least));
   const nsvcd__v3 unit = nsvcd__v3_scale(a, inverse);
   return nsvcd__v3_of(nsvcd__v_pick(length, least, x.x, unit.x),
@@ -8954,10 +8952,10 @@ NSVCD__INLINE nsvcd__vquat nsvcd__vquat_set(nsvcd__quat q) {
 }
 // From rows of x, y, z and w, `stride` apart.
 NSVCD__INLINE nsvcd__vquat nsvcd__vquat_load(const float *p, size_t stride) {
-  return nsvcd__vquat_of(nsvcd__v3_load_rows(p, stride), nsvcd__v_load(p + 3 * stride));
+  return nsvcd__vquat_of(nsvcd__v3_get(p, stride), nsvcd__v_load(p + 3 * stride));
 }
 NSVCD__INLINE void nsvcd__vquat_store(nsvcd__vquat q, float *p, size_t stride) {
-  nsvcd__v3_store_rows(nsvcd__vquat_axis(q), p, stride);
+  nsvcd__v3_put(nsvcd__vquat_axis(q), p, stride);
   nsvcd__v_store(p + 3 * stride, q.w);
 }
 static inline nsvcd__v nsvcd__vquat_dot(nsvcd__vquat a, nsvcd__vquat b) {
@@ -9261,7 +9259,7 @@ static float nsvcd__tracks_gap(const nsvcd__track *moving, const nsvcd__track *f
   const nsvcd__f3 below = nsvcd__f3_sub(b.low, a.high);
   const nsvcd__f3 none = nsvcd__f3_of(0, 0, 0);
   const nsvcd__f3 gap = nsvcd__f3_max(nsvcd__f3_max(above, below), none);
-  return 0.99999f * nsvcd__f3_length(gap) / unit;
+  return 0.99999f * nsvcd__f3_norm(gap) / unit;
 }
 
 static float nsvcd__motion_gap(const nsvcd__motion *m) {
@@ -9553,7 +9551,7 @@ static void nsvcd__keyframes_read(const nsvcd__motion *m, const uint32_t *ticks,
 static nsvcd__v_poses nsvcd__keyframes_load(const nsvcd__motion *m,
                                             const nsvcd__keyframes *from, size_t l) {
   nsvcd__v_poses out;
-  out.offset = nsvcd__v3_load_rows(from->offset + l, NSVCD__ENDS);
+  out.offset = nsvcd__v3_get(from->offset + l, NSVCD__ENDS);
   out.moving = nsvcd__vquat_load(from->moving + l, NSVCD__ENDS);
   out.fixed = out.moving;
   if (m->fixed_moves) {
@@ -9569,7 +9567,7 @@ static void nsvcd__keyframes_store(const nsvcd__motion *m, const nsvcd__v_poses 
   nsvcd__vquat_store(at->moving, out->moving + l, NSVCD__ENDS);
   nsvcd__vquat_store(seen, out->seen + l, NSVCD__ENDS);
   if (!m->fixed_moves) return;
-  nsvcd__v3_store_rows(at->offset, out->offset + l, NSVCD__ENDS);
+  nsvcd__v3_put(at->offset, out->offset + l, NSVCD__ENDS);
   nsvcd__vquat_store(at->fixed, out->fixed + l, NSVCD__ENDS);
 }
 
@@ -9600,11 +9598,11 @@ static void nsvcd__cut_double_arc(const nsvcd__motion *m, const nsvcd__v_poses *
   nsvcd__v fixed_cosine;
   const nsvcd__v3 half = nsvcd__v_shorter_turn(from->moving, to->moving, &cosine);
   const nsvcd__v3 fixed_half = nsvcd__v_shorter_turn(from->fixed, to->fixed, &fixed_cosine);
-  const nsvcd__v sine = nsvcd__v3_length(half);
-  const nsvcd__v fixed_sine = nsvcd__v3_length(fixed_half);
+  const nsvcd__v sine = nsvcd__v3_norm(half);
+  const nsvcd__v fixed_sine = nsvcd__v3_norm(fixed_half);
   const nsvcd__v sines = nsvcd__v_add(sine, fixed_sine);
   const nsvcd__v least_cosine = nsvcd__v_min(cosine, fixed_cosine);
-  const nsvcd__v apart = nsvcd__v3_length(nsvcd__v3_sub(half, fixed_half));
+  const nsvcd__v apart = nsvcd__v3_norm(nsvcd__v3_sub(half, fixed_half));
   const nsvcd__v difference = nsvcd__v_pick(least_cosine, nsvcd__v_set(0.001f), sines, apart);
   // A rotation vector is 2 asin(s) / s times these halves of length s, and asin(s) - s is at most
   // (pi / 2 - 1) s^3.
@@ -9618,9 +9616,9 @@ static void nsvcd__cut_double_arc(const nsvcd__motion *m, const nsvcd__v_poses *
   const nsvcd__v squares = nsvcd__v_mul(turn, nsvcd__v_add(turn, fixed_turn));
   nsvcd__v_keep(most->arc_bend + l, nsvcd__v_mul(squares, eighth));
 
-  const nsvcd__v start = nsvcd__v3_length(from->offset);
-  const nsvcd__v extent = nsvcd__v_max(start, nsvcd__v3_length(to->offset));
-  const nsvcd__v travel = nsvcd__v3_length(nsvcd__v3_sub(to->offset, from->offset));
+  const nsvcd__v start = nsvcd__v3_norm(from->offset);
+  const nsvcd__v extent = nsvcd__v_max(start, nsvcd__v3_norm(to->offset));
+  const nsvcd__v travel = nsvcd__v3_norm(nsvcd__v3_sub(to->offset, from->offset));
   const nsvcd__v both = nsvcd__v_fma(fixed_turn, extent, nsvcd__v_add(travel, travel));
   const nsvcd__v metres = nsvcd__v_mul(nsvcd__v_mul(fixed_turn, both), eighth);
   const nsvcd__v origin_bend = nsvcd__v_div(metres, nsvcd__v_set(m->unit));
@@ -9644,8 +9642,7 @@ static void nsvcd__cut_arc(const nsvcd__motion *m, const nsvcd__v_poses *at, nsv
     const nsvcd__vquat last_seen = nsvcd__vquat_load(cut->last.seen + l, NSVCD__ENDS);
     const nsvcd__v3 w = nsvcd__v_turn(last_seen, seen);
     const nsvcd__v3 across = nsvcd__v3_cross(nsvcd__v3_load(out->axis, l), w);
-    const nsvcd__v along =
-        nsvcd__v_mul(nsvcd__v_scale(arc, 0.3931f), nsvcd__v3_length(across));
+    const nsvcd__v along = nsvcd__v_mul(nsvcd__v_scale(arc, 0.3931f), nsvcd__v3_norm(across));
     nsvcd__v_keep(most->arc_bend + l, nsvcd__v_scale(nsvcd__v_mul(arc, arc), 0.125f));
     nsvcd__v_keep(most->arc_along_axis + l, along);
   }
@@ -9751,7 +9748,7 @@ static void nsvcd__cut_deviations(const nsvcd__motion *m, float lengths, size_t 
 
   const nsvcd__v3 start = nsvcd__v3_load(out->position, l);
   const nsvcd__v3 end = nsvcd__v3_add(start, nsvcd__v3_load(out->moved, l));
-  const nsvcd__v extent = nsvcd__v_add(nsvcd__v3_length(start), nsvcd__v3_length(end));
+  const nsvcd__v extent = nsvcd__v_add(nsvcd__v3_norm(start), nsvcd__v3_norm(end));
   const nsvcd__v all = nsvcd__v_add(extent, nsvcd__v_plus(origin_bend, lengths));
   const nsvcd__v rounding = nsvcd__v_scale(all, NSVCD__ROUNDING);
   nsvcd__v_store(out->rounding + l, rounding);
@@ -10147,7 +10144,7 @@ static void nsvcd__chords_store(nsvcd__chords *c, size_t l, nsvcd__v3 start, nsv
 static void nsvcd__chords_in_all(nsvcd__search *q, nsvcd__sphere sphere) {
   sphere.radius *= q->scale;
   const nsvcd__v3 centre = nsvcd__v3_set(sphere.centre);
-  const nsvcd__v length = nsvcd__v_set(nsvcd__f3_length(sphere.centre));
+  const nsvcd__v length = nsvcd__v_set(nsvcd__f3_norm(sphere.centre));
   const nsvcd__v radius = nsvcd__v_set(sphere.radius);
   for (size_t s = 0; s < q->segments; s += NSVCD__LANES) {
     nsvcd__segments *b = &q->blocks[s / NSVCD__LANES];
@@ -10499,7 +10496,7 @@ static nsvcd__resting nsvcd__resting_of(const nsvcd_body *body, size_t j) {
     out.extremes[k] = nsvcd__f3_scale(extreme, step);
   }
   const nsvcd__f3 area = nsvcd__f3_get(nsvcd__body_areas(body) + j, body->padded);
-  const float length = nsvcd__f3_length(area);
+  const float length = nsvcd__f3_norm(area);
   out.normal = nsvcd__f3_scale(area, length > 0 ? 1 / length : 0);
   return out;
 }
@@ -10575,7 +10572,7 @@ static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_own(nsvcd__search *q, size_
         u = nsvcd__v3_unit(nsvcd__v3_fma(nsvcd__v_set(0.5f), p.travel, p.from));
       } else if (n != NSVCD__ALONG_RESTING) {
         const float *areas = nsvcd__body_areas(moving) + i;
-        const nsvcd__v3 area = nsvcd__v3_load_rows(areas, moving->padded);
+        const nsvcd__v3 area = nsvcd__v3_get(areas, moving->padded);
         const nsvcd__v3 first = nsvcd__vmat3_apply(p.start, area);
         const nsvcd__v3 last = nsvcd__vmat3_apply(p.end, area);
         const nsvcd__v3 halfway = nsvcd__v3_unit(nsvcd__v3_add(first, last));
@@ -10584,7 +10581,7 @@ static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_own(nsvcd__search *q, size_
       const uint32_t here = nsvcd__separated_along(&p, &rest, u) & lanes;
       if (here && !separated) {
         float rows[3 * NSVCD__SLICE];
-        nsvcd__v3_store_rows(u, rows, NSVCD__SLICE);
+        nsvcd__v3_put(u, rows, NSVCD__SLICE);
         plane = nsvcd__f3_get(rows + nsvcd__low_bit(here), NSVCD__SLICE);
       }
       separated |= here << l;
@@ -11086,7 +11083,7 @@ static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed
 // No point of a group is farther from its body's origin, in the body's own units.
 static float nsvcd__group_extent(const nsvcd_body *body, size_t g) {
   const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__groups_of(body), g);
-  return 1.000002f * (nsvcd__f3_length(group.centre) + group.radius);
+  return 1.000002f * (nsvcd__f3_norm(group.centre) + group.radius);
 }
 
 // Fills members[] for the segments `wanted` that are not ready.
@@ -11843,26 +11840,26 @@ static nsvcd__d3 nsvcd__slerp_turn(const nsvcd__slerp *slerp) {
   const nsvcd__d3 ahead = nsvcd__d3_scale(v, slerp->start.w);
   const nsvcd__d3 difference = nsvcd__d3_sub(ahead, nsvcd__d3_scale(u, slerp->end.w));
   const nsvcd__d3 across = nsvcd__d3_add(difference, nsvcd__d3_cross(u, v));
-  const double sine = nsvcd__d3_length(across);
+  const double sine = nsvcd__d3_norm(across);
   return nsvcd__d3_scale(across,
                          sine > 0 ? 2 * slerp->half_angle * slerp->fraction / sine : 0);
 }
 
 // The arc that begins at the keyframe `first`.
 static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
-  const nsvcd__motion *motion = p->ask.motion;
+  const nsvcd__motion *m = p->ask.motion;
   nsvcd__arc *arc = &p->arc;
-  const uint32_t ticks = nsvcd__next_keyframe(motion, first) - first;
+  const uint32_t ticks = nsvcd__next_keyframe(m, first) - first;
   if (arc->first == first && arc->ticks == ticks) return arc;
   nsvcd__d3 ends[2], fixed_ends[2];
-  const double per_metre = 1 / (double)motion->unit;
+  const double per_metre = 1 / (double)m->unit;
   arc->first = first;
   arc->ticks = ticks;
-  arc->fixed_moves = motion->fixed_moves;
-  arc->scale = motion->ratio;
-  arc->push_out = nsvcd__d3_widen(motion->push_out);
-  nsvcd__slerp_init(&motion->moving, first, ticks, &arc->moving, ends);
-  nsvcd__slerp_init(&motion->fixed, first, ticks, &arc->fixed, fixed_ends);
+  arc->fixed_moves = m->fixed_moves;
+  arc->scale = m->ratio;
+  arc->push_out = nsvcd__d3_widen(m->push_out);
+  nsvcd__slerp_init(&m->moving, first, ticks, &arc->moving, ends);
+  nsvcd__slerp_init(&m->fixed, first, ticks, &arc->fixed, fixed_ends);
   const nsvcd__d3 from = nsvcd__d3_sub(ends[0], fixed_ends[0]);
   const nsvcd__d3 to = nsvcd__d3_sub(ends[1], fixed_ends[1]);
   arc->from = nsvcd__d3_scale(from, per_metre);
@@ -11883,17 +11880,17 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   const nsvcd__d3 fixed_turn = nsvcd__slerp_turn(&arc->fixed);
   const nsvcd__d3 turn = nsvcd__d3_sub(nsvcd__slerp_turn(&arc->moving), fixed_turn);
   const nsvcd__d3 end = nsvcd__d3_add(arc->from, arc->moved);
-  const double twist = nsvcd__d3_length(nsvcd__d3_cross(turn, fixed_turn));
-  const double angle = nsvcd__d3_length(fixed_turn);
-  const double swing_from = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->from));
-  const double swing_to = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, end));
+  const double twist = nsvcd__d3_norm(nsvcd__d3_cross(turn, fixed_turn));
+  const double angle = nsvcd__d3_norm(fixed_turn);
+  const double swing_from = nsvcd__d3_norm(nsvcd__d3_cross(fixed_turn, arc->from));
+  const double swing_to = nsvcd__d3_norm(nsvcd__d3_cross(fixed_turn, end));
   const double swing = nsvcd__max(swing_from, swing_to);
-  const double across = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->moved));
+  const double across = nsvcd__d3_norm(nsvcd__d3_cross(fixed_turn, arc->moved));
   const nsvcd__d3 axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
   const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->fixed, 0));
   const nsvcd__dmat3 moving = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->moving, 0));
-  arc->turn = nsvcd__d3_length(turn);
-  arc->speed = nsvcd__d3_length(arc->moved) + swing;
+  arc->turn = nsvcd__d3_norm(turn);
+  arc->speed = nsvcd__d3_norm(arc->moved) + swing;
   arc->twist = 0.1250001 * arc->scale * twist;
   arc->origin_bend = 0.1250001 * (2 * across + angle * swing);
   arc->axis = nsvcd__dmat3_apply_transpose(&fixed, axis);
@@ -11983,8 +11980,8 @@ static nsvcd__transform nsvcd__transform_of(const nsvcd__dtransform *at) {
 
 #ifndef NSVCD_NO_PROOF
 // The time of a tick, t in [0,1].
-static double nsvcd__time_of(const nsvcd__motion *motion, double ticks) {
-  return motion->begin + motion->duration * ticks / (double)motion->ticks;
+static double nsvcd__time_of(const nsvcd__motion *m, double ticks) {
+  return m->begin + m->duration * ticks / (double)m->ticks;
 }
 
 // The time of fraction u of p->arc.
@@ -12001,30 +11998,29 @@ static double nsvcd__tick_in_segments(const uint32_t *begin, double at) {
 }
 
 // Leaves the part of the segments between two positions, in ticks so many times finer.
-static void nsvcd__narrow_segments(nsvcd__search *search, double from, double to,
-                                   double finer) {
-  uint32_t *begin = search->begin;
+static void nsvcd__narrow_segments(nsvcd__search *q, double from, double to, double finer) {
+  uint32_t *begin = q->begin;
   const double start = nsvcd__tick_in_segments(begin, from);
   const double end = nsvcd__tick_in_segments(begin, to);
   const size_t first = (size_t)from;
   const size_t last = (size_t)to;
-  search->segments = last - first + (to > (double)last);
-  for (size_t s = 1; s < search->segments; s++)
+  q->segments = last - first + (to > (double)last);
+  for (size_t s = 1; s < q->segments; s++)
     begin[s] = (uint32_t)(finer * (double)begin[first + s]);
   begin[0] = (uint32_t)(finer * start);
-  begin[search->segments] = (uint32_t)(finer * end);
+  begin[q->segments] = (uint32_t)(finer * end);
 }
 
 // A segment, up to the end of what matters; kept once it has been made.
-static const nsvcd__interval *nsvcd__segment_interval(nsvcd__proof *p,
-                                                      const nsvcd__search *search, size_t s) {
-  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
+static const nsvcd__interval *nsvcd__segment_interval(nsvcd__proof *p, const nsvcd__search *q,
+                                                      size_t s) {
+  nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
   const size_t l = s % NSVCD__LANES;
   nsvcd__interval *out = &p->intervals[s];
   if (p->memo.intervals >> s & 1) return out;
   p->memo.intervals |= (uint64_t)1 << s;
   const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, l);
-  const double end = nsvcd__min((double)search->begin[s + 1], p->ask.end);
+  const double end = nsvcd__min((double)q->begin[s + 1], p->ask.end);
   out->start.rotation = nsvcd__mat3_lane(block->rotation, l);
   out->end.rotation = nsvcd__mat3_mix(1, &out->start.rotation, 1, &turned);
   out->start.position = nsvcd__lane_of(block->position, l);
@@ -12037,7 +12033,7 @@ static const nsvcd__interval *nsvcd__segment_interval(nsvcd__proof *p,
   out->bend_along_axis = block->bend_along_axis[l];
   out->origin_along_axis = block->origin_along_axis[l];
   out->origin_off_heading = block->origin_off_heading[l];
-  out->t_start = nsvcd__time_of(p->ask.motion, (double)search->begin[s]);
+  out->t_start = nsvcd__time_of(p->ask.motion, (double)q->begin[s]);
   out->t_end = nsvcd__time_of(p->ask.motion, end);
   return out;
 }
@@ -12052,8 +12048,8 @@ static nsvcd__interval nsvcd__interval_of_arc(nsvcd__proof *p, uint32_t first, d
   nsvcd__interval out;
   out.start = nsvcd__transform_of(&start);
   out.end = nsvcd__transform_of(&end);
-  const float extent_start = nsvcd__f3_length(out.start.position);
-  const float extent = extent_start + nsvcd__f3_length(out.end.position);
+  const float extent_start = nsvcd__f3_norm(out.start.position);
+  const float extent = extent_start + nsvcd__f3_norm(out.end.position);
   out.bend = (float)(square * (arc->bend + arc->twist) * 1.000001);
   out.origin_bend = (float)(square * arc->origin_bend * 1.000001);
   out.rounding = NSVCD__ROUNDING * (extent + p->given.lengths);
@@ -12070,7 +12066,7 @@ static nsvcd__interval nsvcd__interval_of_arc(nsvcd__proof *p, uint32_t first, d
 // The axis in the moving body's frame, unit.
 static nsvcd__f3 nsvcd__own_axis(const nsvcd__interval *over) {
   const nsvcd__f3 axis = nsvcd__mat3_apply_transpose(&over->start.rotation, over->axis);
-  const float length = nsvcd__f3_length(axis);
+  const float length = nsvcd__f3_norm(axis);
   return nsvcd__f3_scale(axis, length > 0 ? 1 / length : 0);
 }
 
@@ -12082,8 +12078,8 @@ typedef struct nsvcd__arm {
 
 // Of a sphere. axis: unit to rounding, in the body's frame.
 static nsvcd__arm nsvcd__arm_of(nsvcd__f3 centre, float radius, nsvcd__f3 axis) {
-  const float distance = nsvcd__f3_length(centre);
-  const float aside = nsvcd__f3_length(nsvcd__f3_cross(centre, axis));
+  const float distance = nsvcd__f3_norm(centre);
+  const float aside = nsvcd__f3_norm(nsvcd__f3_cross(centre, axis));
   const nsvcd__arm out = {1.000001f * (distance + radius),
                           1.000001f * (aside + radius) + 1e-6f * distance};
   return out;
@@ -12113,9 +12109,9 @@ static float nsvcd__bend_of(const nsvcd__interval *over, nsvcd__arm arm) {
 // and |n.d| is bounded in the same way, or with the heading in place of the axis.
 static float nsvcd__deviation_of(const nsvcd__interval *over, nsvcd__f3 n, nsvcd__arm arm) {
   const float along = fabsf(nsvcd__f3_dot(n, over->axis));
-  const float across = nsvcd__f3_length(nsvcd__f3_cross(n, over->axis));
+  const float across = nsvcd__f3_norm(nsvcd__f3_cross(n, over->axis));
   const float ahead = fabsf(nsvcd__f3_dot(n, over->heading));
-  const float aside = nsvcd__f3_length(nsvcd__f3_cross(n, over->heading));
+  const float aside = nsvcd__f3_norm(nsvcd__f3_cross(n, over->heading));
   const float by_axis = along * over->origin_along_axis + across * over->origin_bend;
   const float by_heading = ahead * over->origin_bend + aside * over->origin_off_heading;
   const float origin_bend = by_axis < by_heading ? by_axis : by_heading;
@@ -12157,9 +12153,9 @@ NSVCD__INLINE nsvcd__v_interval nsvcd__v_interval_load(nsvcd__segments *block, s
 NSVCD__INLINE nsvcd__v nsvcd__v_deviation(const nsvcd__v_interval *over, nsvcd__v3 n,
                                           float from_origin) {
   const nsvcd__v along = nsvcd__v_abs(nsvcd__v3_dot(n, over->axis));
-  const nsvcd__v across = nsvcd__v3_length(nsvcd__v3_cross(n, over->axis));
+  const nsvcd__v across = nsvcd__v3_norm(nsvcd__v3_cross(n, over->axis));
   const nsvcd__v ahead = nsvcd__v_abs(nsvcd__v3_dot(n, over->heading));
-  const nsvcd__v aside = nsvcd__v3_length(nsvcd__v3_cross(n, over->heading));
+  const nsvcd__v aside = nsvcd__v3_norm(nsvcd__v3_cross(n, over->heading));
   nsvcd__v by_axis = nsvcd__v_mul(across, over->origin_bend);
   by_axis = nsvcd__v_fma(along, over->origin_along_axis, by_axis);
   nsvcd__v by_heading = nsvcd__v_mul(aside, over->origin_off_heading);
@@ -12191,7 +12187,7 @@ NSVCD__INLINE nsvcd__v_slab nsvcd__v_slab_set(const nsvcd__slab *slab) {
 // From (6, stride).
 NSVCD__INLINE nsvcd__v_slab nsvcd__v_slab_load(const float *slabs, size_t stride) {
   nsvcd__v_slab out;
-  out.normal = nsvcd__v3_load_rows(slabs, stride);
+  out.normal = nsvcd__v3_get(slabs, stride);
   out.low = nsvcd__v_load(slabs + 3 * stride);
   out.high = nsvcd__v_load(slabs + 4 * stride);
   out.across = nsvcd__v_load(slabs + 5 * stride);
@@ -12214,7 +12210,7 @@ NSVCD__INLINE nsvcd__v_range nsvcd__v_slab_along(const nsvcd__v_slab *slab, nsvc
 // The same, along directions given in the slabs' own frame.
 NSVCD__INLINE nsvcd__v_range nsvcd__v_slab_range(const nsvcd__v_slab *slab, nsvcd__v3 n) {
   const nsvcd__v along = nsvcd__v3_dot(n, slab->normal);
-  const nsvcd__v across = nsvcd__v3_length(nsvcd__v3_cross(n, slab->normal));
+  const nsvcd__v across = nsvcd__v3_norm(nsvcd__v3_cross(n, slab->normal));
   return nsvcd__v_slab_along(slab, along, across);
 }
 
@@ -12283,7 +12279,7 @@ NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_fixed(const nsvcd__v_appro
 NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_moving(const nsvcd__v_approach *a) {
   const nsvcd__v3 w = a->mean;
   const nsvcd__v along = nsvcd__v_mul(a->scale, nsvcd__v3_dot(w, w));
-  const nsvcd__v across = nsvcd__v_mul(a->scale, nsvcd__v3_length(a->turned));
+  const nsvcd__v across = nsvcd__v_mul(a->scale, nsvcd__v3_norm(a->turned));
   const nsvcd__v_range moving = nsvcd__v_slab_along(&a->moving, along, across);
   const nsvcd__v_range fixed = nsvcd__v_slab_range(&a->fixed, w);
   return nsvcd__v_separate(a, w, moving, moving, fixed, nsvcd__v_off(a, w));
@@ -12291,10 +12287,10 @@ NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_moving(const nsvcd__v_appr
 
 // Of the lanes `met` of moving group g in segment s, those that slabs do not separate from fixed
 // patch j.
-static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *search, size_t g,
-                                  size_t j, size_t s, uint32_t met) {
-  const nsvcd__interval *over = nsvcd__segment_interval(p, search, s);
-  const nsvcd__chords *c = &search->members[s];
+static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *q, size_t g, size_t j,
+                                  size_t s, uint32_t met) {
+  const nsvcd__interval *over = nsvcd__segment_interval(p, q, s);
+  const nsvcd__chords *c = &q->members[s];
   const nsvcd__slab fixed = nsvcd__slab_at(p->fixed.slabs, p->fixed.body->padded, j);
   const nsvcd__f3 centre = nsvcd__patch_centre(&p->fixed, j);
   const nsvcd__mat3 *from = &over->start.rotation;
@@ -12307,7 +12303,7 @@ static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *search, 
   a.scale = nsvcd__v_set(p->ask.motion->scale);
   a.over = nsvcd__v_interval_set(over);
   a.clearance = nsvcd__clearance(p);
-  a.radius = search->extent;
+  a.radius = q->extent;
   a.fixed_off = nsvcd__v_off(&a, a.fixed.normal);
   NSVCD__EACH_SLICE(l) {
     const size_t i = NSVCD__GROUP * g + l;
@@ -12317,7 +12313,7 @@ static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *search, 
     a.chord = nsvcd__chords_travel(c, l);
     a.moving = nsvcd__v_slab_load(p->moving.slabs + i, p->moving.body->padded);
     nsvcd__v_separated by = nsvcd__v_separate_by_fixed(&a);
-    NSVCD__CERTIFY_SLABS(p, search, 0, i, j, s, &by, by.lanes & wanted);
+    NSVCD__CERTIFY_SLABS(p, q, 0, i, j, s, &by, by.lanes & wanted);
     wanted &= ~by.lanes;
     if (!wanted) continue;
     // rotations in an interval are times the scale
@@ -12327,45 +12323,45 @@ static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *search, 
     a.mean = nsvcd__vmat3_apply(nsvcd__vmat3_set(&middle), a.moving.normal);
     a.turned = nsvcd__vmat3_apply(nsvcd__vmat3_set(&half_turn), a.moving.normal);
     by = nsvcd__v_separate_by_moving(&a);
-    NSVCD__CERTIFY_SLABS(p, search, 0, i, j, s, &by, by.lanes & wanted);
+    NSVCD__CERTIFY_SLABS(p, q, 0, i, j, s, &by, by.lanes & wanted);
     left |= (wanted & ~by.lanes) << l;
   }
   return left;
 }
 
 // Clears the segments in which slabs separate the moving group that is searched, whose chords are
-// in search->group, from the fixed ones that it meets: a slice of segments at a time.
-static NSVCD__NOINLINE void nsvcd__separate_groups(nsvcd__proof *p, nsvcd__search *search) {
+// in q->group, from the fixed ones that it meets: a slice of segments at a time.
+static NSVCD__NOINLINE void nsvcd__separate_groups(nsvcd__proof *p, nsvcd__search *q) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
-  const size_t next = search->order[search->step];
-  const size_t g = search->moving_tile.groups[next];
+  const size_t next = q->order[q->step];
+  const size_t g = q->moving_tile.groups[next];
   const nsvcd__slab own =
       nsvcd__slab_at(p->moving.group_slabs, nsvcd__group_slots(moving->padded), g);
   nsvcd__v_approach a;
   a.moving = nsvcd__v_slab_set(&own);
-  a.scale = nsvcd__v_set(search->scale);
+  a.scale = nsvcd__v_set(q->scale);
   a.clearance = nsvcd__clearance(p);
   a.radius = nsvcd__group_extent(moving, g);
-  for (uint32_t waiting = search->waiting; waiting; waiting &= waiting - 1) {
+  for (uint32_t waiting = q->waiting; waiting; waiting &= waiting - 1) {
     const size_t at = nsvcd__low_bit(waiting);
-    const size_t h = search->fixed_tile.groups[at];
+    const size_t h = q->fixed_tile.groups[at];
     const nsvcd__slab other =
         nsvcd__slab_at(p->fixed.group_slabs, nsvcd__group_slots(fixed->padded), h);
     const nsvcd__f3 centre = nsvcd__centre_of(nsvcd__groups_of(fixed), h);
-    uint64_t *met = &nsvcd__nearby(search, next)[at];
+    uint64_t *met = &nsvcd__nearby(q, next)[at];
     a.fixed = nsvcd__v_slab_set(&other);
     for (size_t first = 0; first < NSVCD__MAX_SEGMENTS; first += NSVCD__SLICE) {
       const uint32_t wanted = (uint32_t)(*met >> first) & NSVCD__SLICE_MASK;
-      nsvcd__segments *block = &search->blocks[first / NSVCD__LANES];
-      const nsvcd__chords *c = &search->group[first / NSVCD__LANES];
+      nsvcd__segments *block = &q->blocks[first / NSVCD__LANES];
+      const nsvcd__chords *c = &q->group[first / NSVCD__LANES];
       const size_t l = first % NSVCD__LANES;
       if (l == 0 && (*met >> first & 0xffff)) NSVCD__TALLY(tests, 1);
       if (!wanted) continue;
       const nsvcd__vmat3 rotation = nsvcd__vmat3_load(block->rotation, l);
       const nsvcd__vmat3 turn = nsvcd__vmat3_load(block->turned, l);
-      const nsvcd__v half = nsvcd__v_set(0.5f / search->scale);
-      const nsvcd__v whole = nsvcd__v_set(1 / search->scale);
+      const nsvcd__v half = nsvcd__v_set(0.5f / q->scale);
+      const nsvcd__v whole = nsvcd__v_set(1 / q->scale);
       const nsvcd__v3 n = a.fixed.normal;
       const nsvcd__v3 m = a.moving.normal;
       a.over = nsvcd__v_interval_load(block, l);
@@ -12377,14 +12373,14 @@ static NSVCD__NOINLINE void nsvcd__separate_groups(nsvcd__proof *p, nsvcd__searc
       a.turned = nsvcd__v3_scale(nsvcd__vmat3_apply(turn, m), half);
       a.mean = nsvcd__v3_fma(whole, nsvcd__vmat3_apply(rotation, m), a.turned);
       nsvcd__v_separated by = nsvcd__v_separate_by_fixed(&a);
-      NSVCD__CERTIFY_SLABS(p, search, 1, g, h, first, &by, by.lanes & wanted);
+      NSVCD__CERTIFY_SLABS(p, q, 1, g, h, first, &by, by.lanes & wanted);
       uint32_t apart = by.lanes;
       by = nsvcd__v_separate_by_moving(&a);
-      NSVCD__CERTIFY_SLABS(p, search, 1, g, h, first, &by, by.lanes & wanted);
+      NSVCD__CERTIFY_SLABS(p, q, 1, g, h, first, &by, by.lanes & wanted);
       apart |= by.lanes;
       *met &= ~((uint64_t)(apart & wanted) << first);
     }
-    if (!*met) search->waiting &= ~((uint32_t)1 << at);
+    if (!*met) q->waiting &= ~((uint32_t)1 << at);
   }
 }
 #endif  // NSVCD_NO_PROOF
@@ -12509,7 +12505,7 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, siz
   for (size_t step = 0; step < NSVCD__GUESSES + NSVCD__PLANE_STEPS; step++) {
     const nsvcd__f3 normal = step < NSVCD__GUESSES ? guesses[step] : nearest;
     const nsvcd__support found = nsvcd__support_along(p, normal);
-    const float length = nsvcd__f3_length(normal);
+    const float length = nsvcd__f3_norm(normal);
     if (found.gap > 0 &&
         found.gap > margin * length + nsvcd__deviation_of(over, normal, arm)) {
       p->memo.held = normal;
@@ -12565,8 +12561,8 @@ static void nsvcd__pair_arm(const nsvcd__arc *arc, nsvcd__triangle_pair *pair) {
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__d3 corner = pair->moving[k];
     const nsvcd__d3 across = nsvcd__d3_cross(corner, arc->own_axis);
-    pair->from_origin = nsvcd__max(pair->from_origin, nsvcd__d3_length(corner));
-    pair->from_axis = nsvcd__max(pair->from_axis, nsvcd__d3_length(across));
+    pair->from_origin = nsvcd__max(pair->from_origin, nsvcd__d3_norm(corner));
+    pair->from_axis = nsvcd__max(pair->from_axis, nsvcd__d3_norm(across));
   }
   pair->from_axis += (arc->waver + 1e-6) * pair->from_origin;
   pair->from_axis = nsvcd__min(pair->from_axis, pair->from_origin);
@@ -12580,9 +12576,9 @@ static nsvcd__triangle_pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size
   nsvcd__pair_arm(&p->arc, &pair);
   pair.speed = p->arc.speed + p->arc.turn * p->arc.scale * pair.from_axis;
   pair.rounding =
-      NSVCD__SAME_POSITION * ((double)p->given.lengths + nsvcd__d3_length(p->arc.from));
+      NSVCD__SAME_POSITION * ((double)p->given.lengths + nsvcd__d3_norm(p->arc.from));
   pair.margin = pair.rounding + nsvcd__off_meshes(p);
-  pair.margin += NSVCD__SAME_POSITION * nsvcd__d3_length(p->arc.moved);
+  pair.margin += NSVCD__SAME_POSITION * nsvcd__d3_norm(p->arc.moved);
   pair.close = pair.margin + NSVCD__TOO_NEAR * (double)p->given.lengths + p->given.tolerance;
   return pair;
 }
@@ -12672,7 +12668,7 @@ static double nsvcd__arc_limit(const nsvcd__proof *p) {
 // turn, a wavers, and so do both distances from it.
 static double nsvcd__off_chord_along(const nsvcd__arc *arc, const nsvcd__triangle_pair *pair,
                                      nsvcd__d3 n) {
-  const double across = nsvcd__d3_length(nsvcd__d3_cross(n, arc->axis));
+  const double across = nsvcd__d3_norm(nsvcd__d3_cross(n, arc->axis));
   const double off_axis = nsvcd__min(1, across + arc->waver + 1e-6);
   const double turn = arc->bend * pair->from_axis * off_axis;
   return turn + arc->twist * pair->from_origin + arc->origin_bend;
@@ -12720,19 +12716,19 @@ static int nsvcd__are_opmoving(double before, double least_before, double after,
 static int nsvcd__corner_passes(const nsvcd__d3 *const *x, size_t k, const nsvcd__d3 *const *t,
                                 double travel, double margin) {
   const nsvcd__d3 n = nsvcd__face_normal(t[1]);
-  const double room = 2 * travel * nsvcd__d3_length(n);
+  const double room = 2 * travel * nsvcd__d3_norm(n);
   for (size_t e = 0; e < 3; e++) {
     const nsvcd__d3 edge = nsvcd__d3_sub(t[1][(e + 1) % 3], t[1][e]);
     const nsvcd__d3 from = nsvcd__d3_sub(x[1][k], t[1][e]);
     const double within = nsvcd__d3_dot(n, nsvcd__d3_cross(edge, from));
-    if (!(within > room * nsvcd__d3_length(edge))) return 0;
+    if (!(within > room * nsvcd__d3_norm(edge))) return 0;
   }
   const nsvcd__d3 n0 = nsvcd__face_normal(t[0]);
   const nsvcd__d3 n2 = nsvcd__face_normal(t[2]);
   const double before = nsvcd__d3_dot(n0, nsvcd__d3_sub(x[0][k], t[0][0]));
   const double after = nsvcd__d3_dot(n2, nsvcd__d3_sub(x[2][k], t[2][0]));
-  return nsvcd__are_opmoving(before, margin * nsvcd__d3_length(n0), after,
-                             margin * nsvcd__d3_length(n2));
+  return nsvcd__are_opmoving(before, margin * nsvcd__d3_norm(n0), after,
+                             margin * nsvcd__d3_norm(n2));
 }
 
 // Does edge k of the moving triangle pass through edge n of the fixed one: do they change sides,
@@ -12751,8 +12747,8 @@ static int nsvcd__edges_pass(const nsvcd__d3 *const *moving, size_t k, const nsv
     volumes[at] = nsvcd__d3_dot(across[at], from[at]);
   }
   const nsvcd__d3 u = nsvcd__d3_sub(moving[1][next], moving[1][k]);
-  const double size = nsvcd__d3_length(across[1]);
-  const double lengths = nsvcd__d3_length(u) * nsvcd__d3_length(v);
+  const double size = nsvcd__d3_norm(across[1]);
+  const double lengths = nsvcd__d3_norm(u) * nsvcd__d3_norm(v);
   if (!(size > 0.01 * lengths)) return 0;
   if (!nsvcd__are_opmoving(volumes[0], margin * size, volumes[2], margin * size)) return 0;
   const double square = size * size;
@@ -12760,8 +12756,8 @@ static int nsvcd__edges_pass(const nsvcd__d3 *const *moving, size_t k, const nsv
   const double t = nsvcd__d3_dot(nsvcd__d3_cross(from[1], u), across[1]) / square;
   // the lines' nearest points travel no farther along them
   const double room = 4 * travel * lengths / size;
-  const double room_s = room / nsvcd__d3_length(u);
-  const double room_t = room / nsvcd__d3_length(v);
+  const double room_s = room / nsvcd__d3_norm(u);
+  const double room_t = room / nsvcd__d3_norm(v);
   return s > room_s && s < 1 - room_s && t > room_t && t < 1 - room_t;
 }
 
@@ -13253,7 +13249,7 @@ static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, nsvcd
       highest = nsvcd__greatest_of(highest, nsvcd__v3_dot(normal, corner));
     }
   }
-  const nsvcd__v limit = nsvcd__v_set(margin * nsvcd__f3_length(last) + highest);
+  const nsvcd__v limit = nsvcd__v_set(margin * nsvcd__f3_norm(last) + highest);
   uint32_t apart = 0;
   NSVCD__EACH_SLICE(s) {
     nsvcd__v height = nsvcd__v_set(HUGE_VALF);
@@ -13373,7 +13369,7 @@ static nsvcd__facing nsvcd__facing_of(const nsvcd__proof *p, const nsvcd__triang
 static int nsvcd__is_left(const nsvcd__twist *twist, nsvcd__d3 x, nsvcd__d3 normal,
                           const nsvcd__d3 *faces) {
   const nsvcd__d3 speed = nsvcd__twist_of(twist, x);
-  const double least = 1e-7 * nsvcd__d3_length(speed);
+  const double least = 1e-7 * nsvcd__d3_norm(speed);
   if (!(nsvcd__d3_dot(speed, normal) > least)) return 0;
   for (int k = 0; k < 2; k++)
     if (nsvcd__d3_dot(speed, faces[k]) < -least) return 1;
@@ -13710,7 +13706,7 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
   const nsvcd__arc *arc = nsvcd__arc_at(p, first);
   const nsvcd__dtransform at = nsvcd__dtransform_at(arc, u);
   const nsvcd__transform rounded = nsvcd__transform_of(&at);
-  const float lengths = p->given.lengths + nsvcd__f3_length(rounded.position);
+  const float lengths = p->given.lengths + nsvcd__f3_norm(rounded.position);
   const float margin =
       NSVCD__ROUNDING * lengths + nsvcd__clearance(p) + nsvcd__errors_of(p, i, j);
   const size_t moving_end = p->moving.first_triangle[i + 1];
@@ -13735,22 +13731,21 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
 
 // The keyframe at which the arc of a time in ticks begins, the last one that is not after it; and
 // how much of the arc has gone by.
-static uint32_t nsvcd__arc_of(const nsvcd__motion *motion, double time, double *fraction) {
-  const uint32_t last = motion->ticks - 1;
+static uint32_t nsvcd__arc_of(const nsvcd__motion *m, double time, double *fraction) {
+  const uint32_t last = m->ticks - 1;
   const uint32_t tick = time < (double)last ? (uint32_t)time : last;
-  const uint32_t a =
-      nsvcd__tick_of(&motion->moving, nsvcd__pose_before(&motion->moving, tick));
-  const uint32_t b = nsvcd__tick_of(&motion->fixed, nsvcd__pose_before(&motion->fixed, tick));
+  const uint32_t a = nsvcd__tick_of(&m->moving, nsvcd__pose_before(&m->moving, tick));
+  const uint32_t b = nsvcd__tick_of(&m->fixed, nsvcd__pose_before(&m->fixed, tick));
   const uint32_t first = a > b ? a : b;
-  *fraction = (time - (double)first) / (double)(nsvcd__next_keyframe(motion, first) - first);
+  *fraction = (time - (double)first) / (double)(nsvcd__next_keyframe(m, first) - first);
   return first;
 }
 
 // Seeks a contact of a patch pair when its spheres are nearest, if that still matters.
-static nsvcd__outcome nsvcd__seek_in_patch_pair(nsvcd__proof *p, const nsvcd__search *search,
+static nsvcd__outcome nsvcd__seek_in_patch_pair(nsvcd__proof *p, const nsvcd__search *q,
                                                 nsvcd__patch_pair *pair) {
-  const double start = (double)search->begin[pair->segment];
-  const double end = nsvcd__min((double)search->begin[pair->segment + 1u], p->clipped_end);
+  const double start = (double)q->begin[pair->segment];
+  const double end = nsvcd__min((double)q->begin[pair->segment + 1u], p->clipped_end);
   const double tick = start + (double)pair->fraction * (end - start);
   double u;
   pair->sought = 1;
@@ -13879,18 +13874,18 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
 
 // Resolves a patch pair that no plane separates over its segment, arc by arc. An arc is halved
 // until each part is resolved by a plane between the hulls, or by the triangles.
-static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__search *search,
+static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__search *q,
                                                 const nsvcd__patch_pair *item) {
-  const nsvcd__motion *motion = p->ask.motion;
+  const nsvcd__motion *m = p->ask.motion;
   const size_t i = item->moving;
   const size_t j = item->fixed;
-  const uint32_t last = search->begin[item->segment + 1u];
+  const uint32_t last = q->begin[item->segment + 1u];
   double *ends = p->arc_ends;
   int is_tried = 1;  // is it all of the segment?
-  for (uint32_t at = search->begin[item->segment]; at < last && (double)at < p->ask.end;) {
+  for (uint32_t at = q->begin[item->segment]; at < last && (double)at < p->ask.end;) {
     double u;
-    const uint32_t first = nsvcd__arc_of(motion, (double)at, &u);
-    const uint32_t keyframe = nsvcd__next_keyframe(motion, first);
+    const uint32_t first = nsvcd__arc_of(m, (double)at, &u);
+    const uint32_t keyframe = nsvcd__next_keyframe(m, first);
     at = last < keyframe ? last : keyframe;
     is_tried = is_tried && at == last;
     ends[0] = (double)(at - first) / (double)(keyframe - first);
@@ -13921,16 +13916,16 @@ static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__se
 // Does the plane that held last separate a patch pair over its segment, moved along its normal? If
 // it does, the pair's neighbours ask for the same heights: so these are remembered, of a moving
 // patch in a segment the least, less all margins, and of a fixed one the greatest.
-static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
+static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *q,
                              const nsvcd__patch_pair *item) {
   const size_t i = item->moving;
   const size_t j = item->fixed;
   const size_t s = item->segment;
   nsvcd__memo *memo = &p->memo;
   if (!memo->plane) return 0;
-  const nsvcd__interval *over = nsvcd__segment_interval(p, search, s);
+  const nsvcd__interval *over = nsvcd__segment_interval(p, q, s);
   const nsvcd__f3 n = memo->held;
-  const float length = nsvcd__f3_length(n);
+  const float length = nsvcd__f3_norm(n);
   const uint32_t key = (uint32_t)(i * NSVCD__MAX_SEGMENTS + s);
   nsvcd__height *above =
       &memo->heights[(NSVCD__GROUP * s + i % NSVCD__GROUP) % NSVCD__HEIGHTS];
@@ -13968,9 +13963,9 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
 }
 
 // Does any plane?
-static int nsvcd__is_separated(nsvcd__proof *p, const nsvcd__search *search,
+static int nsvcd__is_separated(nsvcd__proof *p, const nsvcd__search *q,
                                const nsvcd__patch_pair *item) {
-  const nsvcd__interval *over = nsvcd__segment_interval(p, search, item->segment);
+  const nsvcd__interval *over = nsvcd__segment_interval(p, q, item->segment);
   return nsvcd__hulls_are_apart(p, item->moving, item->fixed, over);
 }
 
@@ -13995,20 +13990,20 @@ static void nsvcd__sort_patch_pairs(const nsvcd__proof *p, nsvcd__patch_pair *it
 }
 
 // Does a segment still matter?
-static int nsvcd__matters(const nsvcd__proof *p, const nsvcd__search *search, size_t segment) {
-  return (double)search->begin[segment] < p->ask.end;
+static int nsvcd__matters(const nsvcd__proof *p, const nsvcd__search *q, size_t segment) {
+  return (double)q->begin[segment] < p->ask.end;
 }
 
 // Clips the segment in which the end of what matters lies. What leaves a chord by some length
 // leaves that of a part of the time by no more than twice that, along any direction.
-static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *search) {
+static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *q) {
   size_t s = 0;
   double u;
   if (!(p->ask.end < p->clipped_end)) return;
   p->clipped_end = p->ask.end;
-  while (s < search->segments && !((double)search->begin[s + 1] > p->ask.end)) s++;
-  if (s == search->segments || !((double)search->begin[s] < p->ask.end)) return;
-  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
+  while (s < q->segments && !((double)q->begin[s + 1] > p->ask.end)) s++;
+  if (s == q->segments || !((double)q->begin[s] < p->ask.end)) return;
+  nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
   const size_t l = s % NSVCD__LANES;
   const uint32_t first = nsvcd__arc_of(p->ask.motion, p->ask.end, &u);
   const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(p, first), u);
@@ -14030,24 +14025,24 @@ static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *
   }
   p->clipped |= (uint64_t)1 << s;
   p->memo.intervals &= ~((uint64_t)1 << s);
-  search->ready &= ~((uint64_t)1 << s);
+  q->ready &= ~((uint64_t)1 << s);
   // the heights over the plane that held last are no longer right
   p->memo.plane += p->memo.plane > 0;
 }
 
 // Resolves the patch pairs that no plane separates.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_patch_pairs(nsvcd__proof *p,
-                                                                 nsvcd__search *search) {
+                                                                 nsvcd__search *q) {
   nsvcd__sort_patch_pairs(p, p->of.kept.items, p->count);
   for (size_t n = 0; n < p->count; n++) {
     const nsvcd__patch_pair *item = &p->of.kept.items[n];
     NSVCD__PAUSE(p);
     if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
-    nsvcd__clip_segment(p, search);
-    if (!nsvcd__matters(p, search, item->segment)) continue;
+    nsvcd__clip_segment(p, q);
+    if (!nsvcd__matters(p, q, item->segment)) continue;
     const int is_clipped = (p->clipped >> item->segment & 1) != 0;
-    if (is_clipped && nsvcd__is_separated(p, search, item)) continue;
-    const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(p, search, item);
+    if (is_clipped && nsvcd__is_separated(p, q, item)) continue;
+    const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(p, q, item);
     if (outcome != NSVCD__RESOLVED) return outcome;
   }
   p->count = 0;
@@ -14058,49 +14053,48 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_patch_pairs(nsvcd__proof *p
 // keeps them. The plane that held last is tried on all of them first: it often holds for
 // neighbours.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
-                                                              nsvcd__search *search) {
+                                                              nsvcd__search *q) {
   const int tells_more = p->ask.measure > 0 || p->ask.first > 0;
   size_t count = 0;
-  nsvcd__clip_segment(p, search);
+  nsvcd__clip_segment(p, q);
   for (size_t n = 0; n < p->fresh_count; n++) {
-    if (nsvcd__held_again(p, search, &p->fresh[n])) continue;
+    if (nsvcd__held_again(p, q, &p->fresh[n])) continue;
     p->fresh[count++] = p->fresh[n];
   }
   p->fresh_count = 0;
   nsvcd__sort_patch_pairs(p, p->fresh, count);
   if (count > 0 && p->fresh[0].depth > NSVCD__DEEP &&
-      nsvcd__seek_in_patch_pair(p, search, &p->fresh[0]) == NSVCD__ANSWERED)
+      nsvcd__seek_in_patch_pair(p, q, &p->fresh[0]) == NSVCD__ANSWERED)
     return NSVCD__ANSWERED;
 
   for (size_t n = 0; n < count; n++) {
     nsvcd__patch_pair *item = &p->fresh[n];
     NSVCD__PAUSE(p);
     if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
-    nsvcd__clip_segment(p, search);
-    if (!nsvcd__matters(p, search, item->segment)) continue;
-    if (nsvcd__held_again(p, search, item)) continue;
-    if (nsvcd__is_separated(p, search, item)) continue;
+    nsvcd__clip_segment(p, q);
+    if (!nsvcd__matters(p, q, item->segment)) continue;
+    if (nsvcd__held_again(p, q, item)) continue;
+    if (nsvcd__is_separated(p, q, item)) continue;
     double u;
-    const uint32_t first = nsvcd__arc_of(p->ask.motion, search->begin[item->segment], &u);
+    const uint32_t first = nsvcd__arc_of(p->ask.motion, q->begin[item->segment], &u);
     if ((p->ask.first > 0 || p->memo.shared > 0) &&
         nsvcd__is_straight(nsvcd__arc_at(p, first))) {
-      const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(p, search, item);
+      const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(p, q, item);
       if (outcome != NSVCD__RESOLVED) return outcome;
       continue;
     }
     if (p->misses >= NSVCD__FEW_MISSES) {
-      const nsvcd__interval *over = nsvcd__segment_interval(p, search, item->segment);
+      const nsvcd__interval *over = nsvcd__segment_interval(p, q, item->segment);
       const nsvcd__outcome by_triangles =
           nsvcd__resolve_triangles(p, item->moving, item->fixed, over, 0, 0, 0);
       if (by_triangles == NSVCD__RESOLVED) continue;
     }
     const int may_meet = tells_more || p->misses < NSVCD__MANY_MISSES;
-    if (may_meet && !item->sought &&
-        nsvcd__seek_in_patch_pair(p, search, item) == NSVCD__ANSWERED)
+    if (may_meet && !item->sought && nsvcd__seek_in_patch_pair(p, q, item) == NSVCD__ANSWERED)
       return NSVCD__ANSWERED;
     p->misses++;
     if (p->count == NSVCD__PATCH_PAIRS) {
-      const nsvcd__outcome outcome = nsvcd__resolve_patch_pairs(p, search);
+      const nsvcd__outcome outcome = nsvcd__resolve_patch_pairs(p, q);
       if (outcome != NSVCD__RESOLVED) return outcome;
     }
     p->of.kept.items[p->count++] = *item;
@@ -14115,12 +14109,12 @@ static int nsvcd__collects_on(const nsvcd__proof *p) {
 
 // Collects the contacts of fresh patch pairs at the start, or the patch pairs where contact points
 // may be. EXHAUSTED: there is no room for more, or no budget.
-static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *search) {
+static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *q) {
   for (size_t n = 0; n < p->fresh_count && nsvcd__collects_on(p); n++) {
     const nsvcd__patch_pair *item = &p->fresh[n];
     NSVCD__PAUSE(p);
-    if (nsvcd__held_again(p, search, item)) continue;
-    if (nsvcd__is_separated(p, search, item)) continue;
+    if (nsvcd__held_again(p, q, item)) continue;
+    if (nsvcd__is_separated(p, q, item)) continue;
     if (p->ask.collects == NSVCD__TOUCHING) {
       if (p->normal_count > 0) {
         // just pushed out: farther than the clearance by less than floats can tell
@@ -14224,7 +14218,7 @@ static int nsvcd__ray_crosses(const nsvcd__ray *ray, const nsvcd__d3 *t, double 
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__d3 edge = nsvcd__d3_sub(t[(k + 1) % 3], t[k]);
     const nsvcd__d3 across = nsvcd__d3_cross(edge, ray->direction);
-    const double length = nsvcd__d3_length(across);
+    const double length = nsvcd__d3_norm(across);
     const double volume = nsvcd__d3_dot(across, nsvcd__d3_sub(t[k], ray->from));
     least = nsvcd__min(least, volume);
     most = nsvcd__max(most, volume);
@@ -14232,7 +14226,7 @@ static int nsvcd__ray_crosses(const nsvcd__ray *ray, const nsvcd__d3 *t, double 
   }
   const double slope = nsvcd__d3_dot(n, ray->direction);
   const double height = nsvcd__d3_dot(n, nsvcd__d3_sub(t[0], ray->from));
-  const double size = nsvcd__d3_length(n);
+  const double size = nsvcd__d3_norm(n);
   const int is_on_it = fabs(height) <= margin * size;
   if (height * slope < 0 && !is_on_it) return 0;  // it is behind
   if (nearest <= margin) {
@@ -14281,7 +14275,7 @@ static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, 
       const nsvcd__v volume = nsvcd__v3_dot(across, to_corner);
       least = nsvcd__v_min(least, volume);
       most = nsvcd__v_max(most, volume);
-      longest = nsvcd__v_max(longest, nsvcd__v3_length(across));
+      longest = nsvcd__v_max(longest, nsvcd__v3_norm(across));
     }
     const nsvcd__v allowed =
         nsvcd__v_fma(nsvcd__v_set(margin), longest, nsvcd__v_set(rounding));
@@ -14313,7 +14307,7 @@ static nsvcd__crossings nsvcd__cross_all(nsvcd__proof *p, const nsvcd__geometry 
                                          const nsvcd__ray *ray) {
   nsvcd__block *block = &p->fixed_blocks[0];
   p->memo.window = 0;
-  const float extent = (float)nsvcd__d3_length(ray->from) + f->body->extent;
+  const float extent = (float)nsvcd__d3_norm(ray->from) + f->body->extent;
   const float rounding = NSVCD__ROUNDING * extent * f->body->extent;
   nsvcd__crossings sum = {0, 0, 0, 0};
   size_t count = 0;
@@ -14373,7 +14367,7 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__geometry *f, nsv
   const nsvcd__d3 as_triangle[3] = {point, point, point};
   const nsvcd__f3 rounded = nsvcd__f3_round(point);
   const nsvcd__box at = {rounded, rounded};
-  const float extent = nsvcd__f3_length(rounded) + b->extent;
+  const float extent = nsvcd__f3_norm(rounded) + b->extent;
   const float distance =
       2 * nsvcd__widest_error(f) + (float)tolerance * 1.0001f + 4 * NSVCD__ROUNDING * extent;
   const double off = (double)nsvcd__off_mesh(f) + NSVCD__SAME_POSITION * (double)extent;
@@ -14433,7 +14427,7 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__geometry *f, double 
   for (size_t n = 0; n < 8 && p->work <= p->ask.limit; n++) {
     const double *d = directions[best ^ n];
     ray.direction = nsvcd__d3_of(d[0], d[1], d[2]);
-    ray.direction = nsvcd__d3_scale(ray.direction, 1 / nsvcd__d3_length(ray.direction));
+    ray.direction = nsvcd__d3_scale(ray.direction, 1 / nsvcd__d3_norm(ray.direction));
     const nsvcd__crossings sum = nsvcd__cross_all(p, f, &ray);
     if (sum.unclear) continue;
     // A hollow of one kind inside the other undoes it.
@@ -14499,7 +14493,7 @@ typedef struct nsvcd__enclosure {
 static int nsvcd__seed_is_near(const nsvcd__enclosure *e, const float *seed) {
   const nsvcd_body *o = e->outer->body;
   const float extents = e->scale * e->inner->body->extent + o->extent;
-  const float lengths = nsvcd__f3_length(e->rounded.position) + extents;
+  const float lengths = nsvcd__f3_norm(e->rounded.position) + extents;
   const float rounding = 4 * NSVCD__ROUNDING * lengths;
   const float radius = o->radius + rounding;
   const nsvcd__f3 margin = nsvcd__f3_of(rounding, rounding, rounding);
@@ -14544,7 +14538,7 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
     return nsvcd__encloses_seeds(p, e, 0, e->inner->counts->components);
   const nsvcd__f3 centre =
       nsvcd__f3_round(nsvcd__d3_transform(&e->back, nsvcd__d3_load(outer->centre)));
-  const float extent = nsvcd__f3_length(centre) + inner->extent + outer->extent / e->scale;
+  const float extent = nsvcd__f3_norm(centre) + inner->extent + outer->extent / e->scale;
   const float rounding = 4 * NSVCD__ROUNDING * extent;
   const nsvcd__sphere here = {centre, outer->radius / e->scale + rounding};
   size_t g;
@@ -14586,27 +14580,26 @@ static uint64_t nsvcd__segments_in(size_t from, size_t to) {
 }
 
 // The segments being searched that still matter.
-static uint64_t nsvcd__segments_that_matter(const nsvcd__proof *p,
-                                            const nsvcd__search *search) {
-  size_t s = search->segments;
-  if (!(p->ask.first > 0) || !p->known.has_contact) return search->wanted;
-  while (s > 0 && !nsvcd__matters(p, search, s - 1)) s--;
-  return search->wanted & nsvcd__segments_in(0, s);
+static uint64_t nsvcd__segments_that_matter(const nsvcd__proof *p, const nsvcd__search *q) {
+  size_t s = q->segments;
+  if (!(p->ask.first > 0) || !p->known.has_contact) return q->wanted;
+  while (s > 0 && !nsvcd__matters(p, q, s - 1)) s--;
+  return q->wanted & nsvcd__segments_in(0, s);
 }
 
 // Adds the patch pairs of moving group g and fixed patch j in the segments *left, and clears
 // these, as long as there is room for 16 more.
-static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *search, size_t g,
-                                   size_t j, uint64_t *left) {
+static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *q, size_t g, size_t j,
+                                   uint64_t *left) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
   const nsvcd__f3 centre = nsvcd__patch_centre(&p->fixed, j);
   const float radius = nsvcd__body_r(fixed)[j];
   const float *own = nsvcd__body_r(moving) + NSVCD__GROUP * g;
-  *left &= nsvcd__segments_that_matter(p, search);
+  *left &= nsvcd__segments_that_matter(p, q);
   for (; *left && p->fresh_count + NSVCD__GROUP <= NSVCD__FRESH; *left &= *left - 1) {
     const size_t s = nsvcd__low_bit(*left);
-    const nsvcd__chords *c = &search->members[s];
+    const nsvcd__chords *c = &q->members[s];
     float squares[NSVCD__LANES];
     float fraction[NSVCD__LANES];
     uint32_t met = 0;
@@ -14624,12 +14617,12 @@ static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *search,
     }
     NSVCD__TALLY(tests, 1);
     if (!met) continue;
-    met = nsvcd__slabs_meet(p, search, g, j, s, met);
+    met = nsvcd__slabs_meet(p, q, g, j, s, met);
     for (; met; met &= met - 1) {
       const size_t l = nsvcd__low_bit(met);
       const size_t i = NSVCD__GROUP * g + l;
       if (p->moving.hull_counts[i] == 0) continue;
-      const float radii = search->scale * own[l] + radius;
+      const float radii = q->scale * own[l] + radius;
       const float depth = 1 - sqrtf(squares[l]) / (radii > 1e-30f ? radii : 1e-30f);
       const nsvcd__patch_pair pair = {(uint16_t)i, (uint16_t)j, (uint16_t)s,
                                       0,           depth,       fraction[l]};
@@ -14639,9 +14632,8 @@ static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *search,
 }
 
 // Processes the patch pairs that the search has found since.
-static nsvcd__outcome nsvcd__take_patch_pairs(nsvcd__proof *p, nsvcd__search *search) {
-  return p->ask.collects ? nsvcd__collect_contacts(p, search)
-                         : nsvcd__sift_patch_pairs(p, search);
+static nsvcd__outcome nsvcd__take_patch_pairs(nsvcd__proof *p, nsvcd__search *q) {
+  return p->ask.collects ? nsvcd__collect_contacts(p, q) : nsvcd__sift_patch_pairs(p, q);
 }
 
 // THE LOOP: point 2 of the theorem. Spheres and slabs separate groups of a tile of the moving body
@@ -14651,66 +14643,65 @@ static nsvcd__outcome nsvcd__take_patch_pairs(nsvcd__proof *p, nsvcd__search *se
 // contact that answers or shrinks the question, or is an unresolved pair, or was resolved by its
 // parts; or EXHAUSTED says that it has not.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
-                                                            nsvcd__search *search) {
+                                                            nsvcd__search *q) {
   nsvcd__outcome outcome;
-  for (; search->step < search->steps; search->step++) {
-    const size_t next = search->order[search->step];
-    const size_t g = search->moving_tile.groups[next];
-    nsvcd__search_group(search);
-    nsvcd__separate_groups(p, search);
-    for (; search->waiting; search->waiting &= search->waiting - 1) {
-      const size_t at = nsvcd__low_bit(search->waiting);
-      const size_t h = search->fixed_tile.groups[at];
-      const uint64_t wanted =
-          nsvcd__nearby(search, next)[at] & nsvcd__segments_that_matter(p, search);
-      uint32_t met = nsvcd__group_against_members(search, h, wanted, p->met_in);
+  for (; q->step < q->steps; q->step++) {
+    const size_t next = q->order[q->step];
+    const size_t g = q->moving_tile.groups[next];
+    nsvcd__search_group(q);
+    nsvcd__separate_groups(p, q);
+    for (; q->waiting; q->waiting &= q->waiting - 1) {
+      const size_t at = nsvcd__low_bit(q->waiting);
+      const size_t h = q->fixed_tile.groups[at];
+      const uint64_t wanted = nsvcd__nearby(q, next)[at] & nsvcd__segments_that_matter(p, q);
+      uint32_t met = nsvcd__group_against_members(q, h, wanted, p->met_in);
       for (; met; met &= met - 1) {
         const size_t l = nsvcd__low_bit(met);
         uint64_t *left = &p->met_in[l];
         if (p->fixed.hull_counts[NSVCD__GROUP * h + l] == 0) continue;
         for (;;) {
-          nsvcd__pose_members(search, g, *left);
-          nsvcd__add_patch_pairs(p, search, g, NSVCD__GROUP * h + l, left);
+          nsvcd__pose_members(q, g, *left);
+          nsvcd__add_patch_pairs(p, q, g, NSVCD__GROUP * h + l, left);
           if (!*left) break;
-          outcome = nsvcd__take_patch_pairs(p, search);
+          outcome = nsvcd__take_patch_pairs(p, q);
           if (outcome != NSVCD__RESOLVED) return outcome;
         }
       }
       if (p->fresh_count < NSVCD__ENOUGH_FRESH) continue;
-      outcome = nsvcd__take_patch_pairs(p, search);
+      outcome = nsvcd__take_patch_pairs(p, q);
       if (outcome != NSVCD__RESOLVED) return outcome;
     }
   }
-  outcome = nsvcd__take_patch_pairs(p, search);
+  outcome = nsvcd__take_patch_pairs(p, q);
   if (outcome != NSVCD__RESOLVED || p->ask.collects) return outcome;
-  return nsvcd__resolve_patch_pairs(p, search);
+  return nsvcd__resolve_patch_pairs(p, q);
 }
 
 // The same for all tiles of a motion that has been cut. If the first contact is sought, some
 // segments of a tile at a time, until there is a contact: it is the first of the tile. What is
 // resolved in one tile says nothing of the others.
-static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search) {
+static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *q) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
-  const size_t all = search->segments;
+  const size_t all = q->segments;
   const size_t few = p->ask.first > 0 ? NSVCD__IN_ORDER : all;
   nsvcd__outcome outcome = NSVCD__RESOLVED;
-  (void)nsvcd__search_begin(moving, fixed, nsvcd__segments_in(0, all), search);
+  (void)nsvcd__search_begin(moving, fixed, nsvcd__segments_in(0, all), q);
   do {
     for (size_t s = 0; s < all && outcome == NSVCD__RESOLVED; s += few) {
       const size_t next = s + few < all ? s + few : all;
-      if (!nsvcd__matters(p, search, s)) break;
-      search->wanted = nsvcd__segments_in(s, next);
-      search->step = 0;
-      search->waiting = 0;
-      outcome = nsvcd__prove_segments(p, search);
+      if (!nsvcd__matters(p, q, s)) break;
+      q->wanted = nsvcd__segments_in(s, next);
+      q->step = 0;
+      q->waiting = 0;
+      outcome = nsvcd__prove_segments(p, q);
       const int one_tile = !nsvcd__is_tiled(moving, fixed);
       if (outcome == NSVCD__RESOLVED && !p->known.has_contact && one_tile)
-        p->known.resolved = (double)search->begin[next];
+        p->known.resolved = (double)q->begin[next];
     }
-  } while (outcome == NSVCD__RESOLVED && nsvcd__search_next_tile(search));
+  } while (outcome == NSVCD__RESOLVED && nsvcd__search_next_tile(q));
   if (outcome == NSVCD__RESOLVED && !p->known.has_contact)
-    p->known.resolved = (double)search->begin[all];
+    p->known.resolved = (double)q->begin[all];
   return outcome;
 }
 #endif  // NSVCD_NO_PROOF
@@ -14750,27 +14741,26 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
 }
 
 // Searches a motion whose segments have been chosen, and resolves what it finds.
-static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_motion(nsvcd__proof *p,
-                                                          nsvcd__search *search) {
-  nsvcd__cut_segments(p->ask.motion, p->given.lengths, nsvcd__clearance(p), search);
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_motion(nsvcd__proof *p, nsvcd__search *q) {
+  nsvcd__cut_segments(p->ask.motion, p->given.lengths, nsvcd__clearance(p), q);
   p->ask.first = p->ask.fraction * (double)p->ask.motion->ticks;
-  const nsvcd__outcome outcome = nsvcd__prove_tiles(p, search);
+  const nsvcd__outcome outcome = nsvcd__prove_tiles(p, q);
   p->known.lost = outcome == NSVCD__EXHAUSTED;
   return outcome;
 }
 
 // The same for any motion, from scratch.
-static nsvcd__outcome nsvcd__prove_anew(nsvcd__proof *p, nsvcd__search *search) {
+static nsvcd__outcome nsvcd__prove_anew(nsvcd__proof *p, nsvcd__search *q) {
   nsvcd__proof_restart(p);
-  nsvcd__choose_segments(p->ask.motion, search);
-  return nsvcd__prove_motion(p, search);
+  nsvcd__choose_segments(p->ask.motion, q);
+  return nsvcd__prove_motion(p, q);
 }
 
 // The pose at the start of a motion, or at its end, as a motion of its own.
-static nsvcd__motion nsvcd__end_of(const nsvcd__motion *motion, int at_end) {
-  nsvcd__motion still = *motion;
-  nsvcd__track moving = motion->moving;
-  nsvcd__track fixed = motion->fixed;
+static nsvcd__motion nsvcd__end_of(const nsvcd__motion *m, int at_end) {
+  nsvcd__motion still = *m;
+  nsvcd__track moving = m->moving;
+  nsvcd__track fixed = m->fixed;
   moving.poses += at_end ? moving.count - 1 : 0;
   fixed.poses += at_end ? fixed.count - 1 : 0;
   moving.count = fixed.count = 1;
@@ -14783,7 +14773,7 @@ static nsvcd__motion nsvcd__end_of(const nsvcd__motion *motion, int at_end) {
 
 // Do triangles meet at the start alone, or at the end? Takes so many units at most. If they do,
 // that is the known contact; if not, all that was known is lost.
-static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *search, int at_end,
+static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *q, int at_end,
                                            size_t units) {
   const nsvcd__asked asked = p->ask;
   nsvcd__motion still = nsvcd__end_of(asked.motion, at_end);
@@ -14791,7 +14781,7 @@ static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *searc
   p->ask.fraction = 0;
   p->ask.limit = nsvcd__limit_after(p, units);
   p->ask.is_brief = 1;
-  const int meets = nsvcd__prove_anew(p, search) == NSVCD__ANSWERED;
+  const int meets = nsvcd__prove_anew(p, q) == NSVCD__ANSWERED;
   p->known.found.tick = at_end ? (double)asked.motion->ticks : 0;
   p->ask = asked;
   p->ask.end = 0;
@@ -14802,39 +14792,38 @@ static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *searc
 // of the rest touch only at the start or at the end, so these two poses are tried before all is
 // searched again. The search for a first contact begins at the start anyway, and the ends of a long
 // motion have been tried before its intervals.
-static nsvcd__outcome nsvcd__prove_whole(nsvcd__proof *p, nsvcd__search *search,
-                                         size_t limit) {
+static nsvcd__outcome nsvcd__prove_whole(nsvcd__proof *p, nsvcd__search *q, size_t limit) {
   const int is_brief = !p->ask.motion->arcs && !(p->ask.fraction > 0);
   p->ask.is_brief = is_brief && p->work + NSVCD__LONG < limit;
   p->ask.limit = p->ask.is_brief ? p->work + NSVCD__LONG : limit;
-  const nsvcd__outcome outcome = nsvcd__prove_motion(p, search);
+  const nsvcd__outcome outcome = nsvcd__prove_motion(p, q);
   if (outcome != NSVCD__EXHAUSTED || !p->ask.is_brief) return outcome;
   // half of what may follow an unresolved pair has been used
   if (p->known.unresolved < NSVCD__NEVER)
     p->ask.after_unresolved -= p->ask.after_unresolved / 2;
   for (int at_end = 0; at_end < 2; at_end++) {
-    if (nsvcd__meets_at(p, search, at_end, NSVCD__END_BUDGET)) return NSVCD__ANSWERED;
+    if (nsvcd__meets_at(p, q, at_end, NSVCD__END_BUDGET)) return NSVCD__ANSWERED;
   }
   p->ask.is_brief = 0;
   p->ask.limit = limit;
-  return nsvcd__prove_anew(p, search);
+  return nsvcd__prove_anew(p, q);
 }
 
 // Searches a part of the motion, from one position in segments to another, for the first contact
 // there or the first unresolved pair, and adds what it finds to what is known of all before it.
 // *end: the tick from which on nothing matters.
-static void nsvcd__prove_part(nsvcd__proof *p, nsvcd__search *search, double from, double to,
+static void nsvcd__prove_part(nsvcd__proof *p, nsvcd__search *q, double from, double to,
                               nsvcd__known *known, double *end) {
   const nsvcd__known *part = &p->known;
   nsvcd__proof_restart(p);
-  nsvcd__choose_segments(p->ask.motion, search);
+  nsvcd__choose_segments(p->ask.motion, q);
   // this many ticks to one of before
   const double finer = nsvcd__motion_refine(p->ask.motion);
-  nsvcd__narrow_segments(search, from, to, finer);
+  nsvcd__narrow_segments(q, from, to, finer);
   p->ask.end = nsvcd__min(p->ask.end, finer * *end);
   p->ask.unresolved_ends = 1;
-  (void)nsvcd__prove_motion(p, search);
-  const double last = (double)search->begin[search->segments];
+  (void)nsvcd__prove_motion(p, q);
+  const double last = (double)q->begin[q->segments];
   if (part->has_contact) {
     known->has_contact = 1;
     known->found = part->found;
@@ -14852,17 +14841,17 @@ static void nsvcd__prove_part(nsvcd__proof *p, nsvcd__search *search, double fro
 
 // The budget did not suffice for the first contact. Searches again by time, from what is resolved
 // on: one part of the motion after another, a shorter one where a part takes too many units.
-static NSVCD__NOINLINE void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *search,
+static NSVCD__NOINLINE void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *q,
                                                  size_t limit) {
   nsvcd__known known = p->known;
   const double ticks = (double)p->ask.motion->ticks;
-  const double all = (double)search->segments;
+  const double all = (double)q->segments;
   double end = p->ask.end;
   double from = 0;
   double length = NSVCD__FIRST_PART;
   double grows = 4;
   size_t units = limit;
-  while (from < all && (double)search->begin[(size_t)from + 1] <= known.resolved) from++;
+  while (from < all && (double)q->begin[(size_t)from + 1] <= known.resolved) from++;
   p->ask.is_brief = 1;
   for (;;) {
     const double until = nsvcd__min(ticks, nsvcd__min(end, known.unresolved));
@@ -14872,7 +14861,7 @@ static NSVCD__NOINLINE void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search 
     const double whole = floor(from + length);
     const double to = whole > from ? nsvcd__min(whole, all) : from + length;
     p->ask.limit = limit - before > units ? before + units : limit;
-    nsvcd__prove_part(p, search, from, to, &known, &end);
+    nsvcd__prove_part(p, q, from, to, &known, &end);
     if (p->known.lost) {
       length /= 8;
       grows = 2;
@@ -14884,24 +14873,24 @@ static NSVCD__NOINLINE void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search 
   }
   p->ask.is_brief = 0;
   nsvcd__proof_restart(p);
-  nsvcd__choose_segments(p->ask.motion, search);
+  nsvcd__choose_segments(p->ask.motion, q);
   p->known = known;
   p->ask.end = end;
 }
 
 // When do they meet first? What is proven of that stays proven when the budget ends.
-static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search) {
-  const nsvcd__outcome outcome = nsvcd__prove_whole(p, search, nsvcd__limit_of_first(p));
+static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *q) {
+  const nsvcd__outcome outcome = nsvcd__prove_whole(p, q, nsvcd__limit_of_first(p));
   const double from = (double)p->ask.motion->from;
   // An interval is short, and all before it is known.
-  if (p->known.lost && !p->ask.motion->arcs) nsvcd__prove_by_time(p, search, p->ask.most);
+  if (p->known.lost && !p->ask.motion->arcs) nsvcd__prove_by_time(p, q, p->ask.most);
   const nsvcd__known known = p->known;
   const double end = p->ask.end;
   if (from > 0 && known.has_contact) {
     p->starts_free = 1;
   } else if (known.has_contact && nsvcd__clear_until(p) <= 0 && known.found.tick > 0) {
     // The contact is so early that they may meet at the start already.
-    if (nsvcd__meets_at(p, search, 0, p->given.work)) return NSVCD__ANSWERED;
+    if (nsvcd__meets_at(p, q, 0, p->given.work)) return NSVCD__ANSWERED;
     p->starts_free = !p->known.lost && !(p->known.unresolved < NSVCD__NEVER);
     p->known = known;
     p->ask.end = end;
@@ -14928,7 +14917,7 @@ static size_t nsvcd__patch_near(const nsvcd__geometry *f, nsvcd__f3 point) {
     float best = HUGE_VALF;
     for (size_t n = from; n < from + count && n < level.count; n++) {
       const nsvcd__f3 off = nsvcd__f3_sub(nsvcd__centre_of(all, n), point);
-      const float distance = nsvcd__f3_length(off) - all.r[n];
+      const float distance = nsvcd__f3_norm(off) - all.r[n];
       if (distance >= best) continue;
       best = distance;
       nearest = n;
@@ -14958,13 +14947,13 @@ static size_t nsvcd__patch_near(const nsvcd__geometry *f, nsvcd__f3 point) {
   return patch;
 }
 
-// When the sphere whose chords are search->group comes nearest to a fixed one, in ticks. Returns 0
+// When the sphere whose chords are q->group comes nearest to a fixed one, in ticks. Returns 0
 // if that is no nearer than *gap, metres; else *gap becomes how near.
-static int nsvcd__nearest_tick(const nsvcd__search *search, nsvcd__sphere fixed, float *gap,
+static int nsvcd__nearest_tick(const nsvcd__search *q, nsvcd__sphere fixed, float *gap,
                                double *tick) {
   int found = 0;
-  for (size_t b = 0; NSVCD__LANES * b < search->segments; b++) {
-    const nsvcd__chords *c = &search->group[b];
+  for (size_t b = 0; NSVCD__LANES * b < q->segments; b++) {
+    const nsvcd__chords *c = &q->group[b];
     float gaps[NSVCD__LANES], fraction[NSVCD__LANES];
     uint32_t nearer = 0;
     NSVCD__EACH_SLICE(l) {
@@ -14974,8 +14963,7 @@ static int nsvcd__nearest_tick(const nsvcd__search *search, nsvcd__sphere fixed,
       const nsvcd__v tau = nsvcd__v_clamp(
           nsvcd__v_mul(nsvcd__v3_dot(d, travel), nsvcd__v_load(c->inverse + l)), 0, 1);
       const nsvcd__v3 off = nsvcd__v3_fma(tau, travel, d);
-      const nsvcd__v between =
-          nsvcd__v_sub(nsvcd__v3_length(off), nsvcd__v_load(c->radius + l));
+      const nsvcd__v between = nsvcd__v_sub(nsvcd__v3_norm(off), nsvcd__v_load(c->radius + l));
       nearer |= nsvcd__v_lt(between, nsvcd__v_set(*gap + fixed.radius)) << l;
       nsvcd__v_store(gaps + l, between);
       nsvcd__v_store(fraction + l, tau);
@@ -14983,10 +14971,10 @@ static int nsvcd__nearest_tick(const nsvcd__search *search, nsvcd__sphere fixed,
     for (; nearer; nearer &= nearer - 1) {
       const size_t l = nsvcd__low_bit(nearer);
       const size_t s = NSVCD__LANES * b + l;
-      if (s >= search->segments || !(gaps[l] - fixed.radius < *gap)) continue;
+      if (s >= q->segments || !(gaps[l] - fixed.radius < *gap)) continue;
       *gap = gaps[l] - fixed.radius;
-      *tick = (double)search->begin[s];
-      *tick += (double)fraction[l] * ((double)search->begin[s + 1] - *tick);
+      *tick = (double)q->begin[s];
+      *tick += (double)fraction[l] * ((double)q->begin[s + 1] - *tick);
       found = 1;
     }
   }
@@ -14994,7 +14982,7 @@ static int nsvcd__nearest_tick(const nsvcd__search *search, nsvcd__sphere fixed,
 }
 
 // The two groups that come nearest to each other; of large bodies, the bodies' own spheres.
-static void nsvcd__nearest_groups(const nsvcd__proof *p, nsvcd__search *search,
+static void nsvcd__nearest_groups(const nsvcd__proof *p, nsvcd__search *q,
                                   nsvcd__sphere *moving, nsvcd__sphere *fixed) {
   const nsvcd_body *a = p->moving.body;
   const nsvcd_body *b = p->fixed.body;
@@ -15004,10 +14992,10 @@ static void nsvcd__nearest_groups(const nsvcd__proof *p, nsvcd__search *search,
   *fixed = nsvcd__body_sphere(b);
   for (size_t g = 0; g < nsvcd__body_groups(a) && !nsvcd__is_tiled(a, b); g++) {
     const nsvcd__sphere own = nsvcd__sphere_of(nsvcd__groups_of(a), g);
-    nsvcd__chords_in_all(search, own);
+    nsvcd__chords_in_all(q, own);
     for (size_t h = 0; h < nsvcd__body_groups(b); h++) {
       const nsvcd__sphere other = nsvcd__sphere_of(nsvcd__groups_of(b), h);
-      if (!nsvcd__nearest_tick(search, other, &gap, &tick)) continue;
+      if (!nsvcd__nearest_tick(q, other, &gap, &tick)) continue;
       *moving = own;
       *fixed = other;
     }
@@ -15037,7 +15025,7 @@ static double nsvcd__vertex_distance(const nsvcd__proof *p, const nsvcd__transfo
 // two patches have, and a little more. The patches, and the time when they are nearest, are found
 // in turns. If the bound is within the clearance, triangles of these patches are a contact, which
 // is sought there.
-static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__proof *p, nsvcd__search *search) {
+static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__proof *p, nsvcd__search *q) {
   nsvcd__sphere moving, fixed;
   double tick = 0;
   double least = HUGE_VAL;
@@ -15045,13 +15033,13 @@ static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__proof *p, nsvcd__sear
   uint32_t from = 0;
   size_t nearest[2] = {0, 0};
   // Bodies that never come near have been told apart without segments.
-  nsvcd__cut_segments(p->ask.motion, p->given.lengths, 0, search);
-  nsvcd__nearest_groups(p, search, &moving, &fixed);
+  nsvcd__cut_segments(p->ask.motion, p->given.lengths, 0, q);
+  nsvcd__nearest_groups(p, q, &moving, &fixed);
   for (size_t turn = 0; turn < NSVCD__TURNS; turn++) {
     float gap = HUGE_VALF;
     double u;
-    nsvcd__chords_in_all(search, moving);
-    (void)nsvcd__nearest_tick(search, fixed, &gap, &tick);
+    nsvcd__chords_in_all(q, moving);
+    (void)nsvcd__nearest_tick(q, fixed, &gap, &tick);
     const uint32_t first = nsvcd__arc_of(p->ask.motion, tick, &u);
     const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(p, first), u);
     const nsvcd__transform pose = nsvcd__transform_of(&at);
@@ -15065,7 +15053,7 @@ static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__proof *p, nsvcd__sear
       j = nsvcd__patch_near(&p->fixed, nsvcd__f3_transform(&pose, moving.centre));
       fixed = nsvcd__sphere_of(nsvcd__body_patches(p->fixed.body), j);
     }
-    const float lengths = p->given.lengths + nsvcd__f3_length(pose.position);
+    const float lengths = p->given.lengths + nsvcd__f3_norm(pose.position);
     const double rounding =
         (double)(4 * NSVCD__ROUNDING * lengths + 2 * nsvcd__errors_of(p, i, j));
     const double apart = 1.0001 * nsvcd__vertex_distance(p, &pose, i, j) + rounding;
@@ -15086,12 +15074,12 @@ static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__proof *p, nsvcd__sear
 // One pass: a search whose question shrinks, for a bracket as narrow as p->ask.measure. Adds what
 // it finds to what is known. Returns whether the budget sufficed; if so, they come no nearer than
 // p->low.
-static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *search) {
+static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *q) {
   nsvcd__known known = p->known;
   const int is_named = known.has_contact || known.unresolved < NSVCD__NEVER;
   p->ask.clearance = is_named ? nsvcd__max(p->low, p->high - p->ask.measure) : p->high;
   nsvcd__proof_restart(p);
-  const nsvcd__outcome pass = nsvcd__prove_motion(p, search);
+  const nsvcd__outcome pass = nsvcd__prove_motion(p, q);
   if (p->known.has_contact) {
     known.has_contact = 1;
     known.found = p->known.found;
@@ -15103,15 +15091,15 @@ static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *search) {
 
 // Makes the bracket as narrow as `finest`. If half of the budget does not suffice for that, the
 // rest goes to brackets that get narrower and narrower; the last that was completed stays.
-static void nsvcd__narrow(nsvcd__proof *p, nsvcd__search *search, double finest) {
+static void nsvcd__narrow(nsvcd__proof *p, nsvcd__search *q, double finest) {
   p->ask.measure = finest;
   p->ask.limit = nsvcd__limit_after(p, p->given.work / 2);
-  if (nsvcd__measure_once(p, search)) return;
+  if (nsvcd__measure_once(p, q)) return;
   p->ask.limit = p->ask.most;
   p->ask.measure = p->high - p->low;
   while (!p->wide && p->ask.measure > finest) {
     p->ask.measure = nsvcd__max(finest, p->ask.measure / NSVCD__FINER);
-    p->wide = !nsvcd__measure_once(p, search);
+    p->wide = !nsvcd__measure_once(p, q);
   }
 }
 #endif  // NSVCD_NO_PROOF
@@ -15144,9 +15132,9 @@ typedef struct nsvcd__pace {
 
 // Chooses the next interval: larger if those before took little work; with segments that turn less
 // if the one before took much; a part of a try that failed.
-static void nsvcd__next_interval(nsvcd__motion *motion, nsvcd__search *search, uint32_t until,
+static void nsvcd__next_interval(nsvcd__motion *m, nsvcd__search *q, uint32_t until,
                                  int is_resolved, size_t units, nsvcd__pace *pace) {
-  uint32_t arcs = motion->arcs;
+  uint32_t arcs = m->arcs;
   if (!is_resolved) {
     arcs = arcs > NSVCD__SMALLER ? arcs / NSVCD__SMALLER : 1;
     if (arcs == 1 && pace->wait < NSVCD__WAIT) pace->wait *= 2;
@@ -15157,23 +15145,23 @@ static void nsvcd__next_interval(nsvcd__motion *motion, nsvcd__search *search, u
   } else {
     pace->easy = units <= NSVCD__EASY ? pace->easy + 1 : 0;
     if (pace->easy >= pace->wait) arcs = NSVCD__LARGER;
-    motion->is_fine = units > NSVCD__TRY;
+    m->is_fine = units > NSVCD__TRY;
   }
-  if (is_resolved) motion->from = until;
-  if (motion->from < motion->ticks) nsvcd__choose_interval(motion, search, motion->from, arcs);
+  if (is_resolved) m->from = until;
+  if (m->from < m->ticks) nsvcd__choose_interval(m, q, m->from, arcs);
 }
 
 // The surfaces of bodies whose origins stay so far apart come no nearer than this.
 static float nsvcd__surface_gap(const nsvcd__proof *p, float origin_gap) {
-  const float pushed_out = 1.0001f * nsvcd__f3_length(p->ask.motion->push_out);
+  const float pushed_out = 1.0001f * nsvcd__f3_norm(p->ask.motion->push_out);
   return origin_gap - p->given.lengths - pushed_out;
 }
 
 // Searches a motion interval by interval, until a contact answers. In the end that contact is
 // known, and all else that is known is of the first interval that was not resolved.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
-                                                             nsvcd__search *search) {
-  nsvcd__motion *motion = p->ask.motion;
+                                                             nsvcd__search *q) {
+  nsvcd__motion *m = p->ask.motion;
   const double asked = p->ask.fraction;
   nsvcd__outcome outcome = NSVCD__RESOLVED;
   nsvcd__known open = p->known;
@@ -15182,25 +15170,24 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
   int is_open = 0;
   const size_t units = p->given.aside < NSVCD__END_BUDGET ? p->given.aside : NSVCD__END_BUDGET;
   for (int at_end = 0; at_end < 2 && !(asked > 0); at_end++) {
-    if (nsvcd__meets_at(p, search, at_end, units)) return NSVCD__ANSWERED;
+    if (nsvcd__meets_at(p, q, at_end, units)) return NSVCD__ANSWERED;
   }
   nsvcd__pace pace = {0, 1};
-  nsvcd__choose_interval(motion, search, 0, NSVCD__ALL_ARCS);
-  while (motion->from < motion->ticks) {
-    const uint32_t until = search->begin[search->segments];
-    const int is_try = motion->arcs > 1;
+  nsvcd__choose_interval(m, q, 0, NSVCD__ALL_ARCS);
+  while (m->from < m->ticks) {
+    const uint32_t until = q->begin[q->segments];
+    const int is_try = m->arcs > 1;
     const size_t before = p->work;
     if (p->given.grows) p->ask.most = p->work + p->given.work;
     nsvcd__proof_restart(p);
     outcome = NSVCD__RESOLVED;
-    const float gap = nsvcd__interval_gap(motion, motion->from, until);
+    const float gap = nsvcd__interval_gap(m, m->from, until);
     if (!(nsvcd__surface_gap(p, gap) > nsvcd__clearance(p))) {
       p->ask.is_brief = is_try;
       p->ask.fraction = is_try ? 0 : fraction;
       p->ask.after_unresolved = fraction > 0 ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.aside;
       p->ask.limit = is_try ? nsvcd__limit_after(p, NSVCD__TRY) : p->ask.most;
-      outcome =
-          p->ask.fraction > 0 ? nsvcd__prove_first(p, search) : nsvcd__prove_motion(p, search);
+      outcome = p->ask.fraction > 0 ? nsvcd__prove_first(p, q) : nsvcd__prove_motion(p, q);
     }
     const int is_resolved =
         outcome == NSVCD__RESOLVED && !(p->known.unresolved < NSVCD__NEVER);
@@ -15216,8 +15203,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
       fraction = 0;
     }
     if (has_contact || (is_open && !p->given.grows && p->work > p->ask.most)) break;
-    nsvcd__next_interval(motion, search, until, is_resolved || !is_try, p->work - before,
-                         &pace);
+    nsvcd__next_interval(m, q, until, is_resolved || !is_try, p->work - before, &pace);
   }
   p->ask.is_brief = 0;
   p->ask.fraction = asked;
@@ -15228,22 +15214,22 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
 }
 
 // Answers a question: do the bodies meet, and when?
-static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
-  nsvcd__motion *motion = p->ask.motion;
+static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *q) {
+  nsvcd__motion *m = p->ask.motion;
   const int in_order = p->ask.fraction > 0;
-  const float gap = nsvcd__surface_gap(p, nsvcd__motion_gap(motion));
+  const float gap = nsvcd__surface_gap(p, nsvcd__motion_gap(m));
   p->ask.limit = p->given.work;
   p->ask.after_unresolved = in_order ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.aside;
   if (gap > nsvcd__clearance(p)) return NSVCD__FOUND_FREE;
-  const int is_long = nsvcd__is_long(motion, search);
+  const int is_long = nsvcd__is_long(m, q);
   if (nsvcd__is_contained_at_start(p)) {
     // It is a hit. A question that asks for more gets triangles, if some meet as well.
-    const int meets = p->given.tells && nsvcd__meets_at(p, search, 0, NSVCD__INSIDE_BUDGET);
+    const int meets = p->given.tells && nsvcd__meets_at(p, q, 0, NSVCD__INSIDE_BUDGET);
     return meets ? NSVCD__FOUND_CONTACT : nsvcd__found_inside(p);
   }
-  const nsvcd__outcome outcome = is_long    ? nsvcd__prove_intervals(p, search)
-                                 : in_order ? nsvcd__prove_first(p, search)
-                                            : nsvcd__prove_whole(p, search, p->given.work);
+  const nsvcd__outcome outcome = is_long    ? nsvcd__prove_intervals(p, q)
+                                 : in_order ? nsvcd__prove_first(p, q)
+                                            : nsvcd__prove_whole(p, q, p->given.work);
   const double clear = nsvcd__clear_until(p);
   if (outcome == NSVCD__ANSWERED) return NSVCD__FOUND_CONTACT;
   if (p->inside && clear > 0) return nsvcd__found_inside(p);
@@ -15256,41 +15242,40 @@ static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
 
 // Narrows the bracket interval by interval. A budget that was given is divided by time: each
 // interval gets of what is left the share that it has of the rest of the motion.
-static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__search *search,
+static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__search *q,
                                                     double finest) {
-  nsvcd__motion *motion = p->ask.motion;
+  nsvcd__motion *m = p->ask.motion;
   const size_t most = p->ask.most;
   const size_t work = p->given.work;
   const double known = p->low;
   nsvcd__pace pace = {0, 1};
   double low = p->high;
   int is_wide = 0;
-  while (motion->from < motion->ticks) {
-    const uint32_t until = search->begin[search->segments];
+  while (m->from < m->ticks) {
+    const uint32_t until = q->begin[q->segments];
     const size_t before = p->work;
     const int is_named = p->known.has_contact || p->known.unresolved < NSVCD__NEVER;
     int is_resolved = 1;
     if (!p->given.grows) {
-      const double rest =
-          (double)(until - motion->from) / (double)(motion->ticks - motion->from);
+      const double rest = (double)(until - m->from) / (double)(m->ticks - m->from);
       p->given.work = p->work < most ? (size_t)(rest * (double)(most - p->work)) : 0;
     }
     p->ask.most = p->work + p->given.work;
-    const float gap = nsvcd__interval_gap(motion, motion->from, until);
+    const float gap = nsvcd__interval_gap(m, m->from, until);
     p->low = nsvcd__max(known, (double)nsvcd__surface_gap(p, gap));
     p->wide = 0;
     if (p->low < p->high && !(is_named && p->high - p->low <= finest)) {
-      if (motion->arcs > 1) {
+      if (m->arcs > 1) {
         p->ask.measure = finest;
         p->ask.limit = nsvcd__limit_after(p, NSVCD__TRY);
-        is_resolved = nsvcd__measure_once(p, search);
+        is_resolved = nsvcd__measure_once(p, q);
       } else {
-        nsvcd__narrow(p, search, finest);
+        nsvcd__narrow(p, q, finest);
       }
     }
     if (is_resolved) low = nsvcd__min(low, p->low);
     is_wide |= p->wide;
-    nsvcd__next_interval(motion, search, until, is_resolved, p->work - before, &pace);
+    nsvcd__next_interval(m, q, until, is_resolved, p->work - before, &pace);
   }
   p->given.work = work;
   p->ask.most = most;
@@ -15300,21 +15285,21 @@ static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__sear
 
 // Brackets the least distance over the motion, once it is known whether they come within the
 // clearance.
-static NSVCD__NOINLINE void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search,
+static NSVCD__NOINLINE void nsvcd__measure(nsvcd__proof *p, nsvcd__search *q,
                                            nsvcd__finding verdict, double finest) {
-  nsvcd__motion *motion = p->ask.motion;
+  nsvcd__motion *m = p->ask.motion;
   int is_named = p->known.has_contact || p->known.unresolved < NSVCD__NEVER;
-  const float gap = nsvcd__surface_gap(p, nsvcd__motion_gap(motion));
+  const float gap = nsvcd__surface_gap(p, nsvcd__motion_gap(m));
   p->low = nsvcd__max(verdict == NSVCD__FOUND_FREE ? p->given.clearance : 0, (double)gap);
-  const int is_long = nsvcd__is_long(motion, search);
-  if (is_long) nsvcd__choose_interval(motion, search, 0, NSVCD__ALL_ARCS);
-  p->high = is_named ? p->known.found.distance : nsvcd__bound_distance(p, search);
+  const int is_long = nsvcd__is_long(m, q);
+  if (is_long) nsvcd__choose_interval(m, q, 0, NSVCD__ALL_ARCS);
+  p->high = is_named ? p->known.found.distance : nsvcd__bound_distance(p, q);
   is_named = is_named || p->known.has_contact;
   if (is_named && !(p->high - p->low > finest)) return;
   if (is_long)
-    nsvcd__narrow_intervals(p, search, finest);
+    nsvcd__narrow_intervals(p, q, finest);
   else
-    nsvcd__narrow(p, search, finest);
+    nsvcd__narrow(p, q, finest);
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -15430,7 +15415,7 @@ static nsvcd__d3 nsvcd__push_out(const nsvcd__proof *p, double least, int by_dep
       most = nsvcd__max(most, lacks);
       if (lacks > 0) push_out = nsvcd__d3_add(push_out, nsvcd__d3_scale(p->normals[k], lacks));
     }
-    if (nsvcd__d3_length(push_out) > 4 * longest) break;
+    if (nsvcd__d3_norm(push_out) > 4 * longest) break;
     if (most <= 0.005 * longest) return push_out;
   }
   return nsvcd__d3_of(0, 0, 0);
@@ -15441,8 +15426,7 @@ static nsvcd__d3 nsvcd__push_out(const nsvcd__proof *p, double least, int by_dep
 // neighbours still touch, and there may be too many touches to collect at once: so each push-out is
 // tried. If the directions known have no push-out in common, the first one may be wrong, and is
 // forgotten, once. Returns 0 if there is no push-out.
-static int nsvcd__push_out_still(nsvcd__proof *p, nsvcd__search *search,
-                                 nsvcd__motion *still) {
+static int nsvcd__push_out_still(nsvcd__proof *p, nsvcd__search *q, nsvcd__motion *still) {
   p->normal_count = 0;
   still->push_out = nsvcd__f3_of(0, 0, 0);
   // Also what is about to touch, or where an earlier motion may have ended, is pushed out of, and
@@ -15452,7 +15436,7 @@ static int nsvcd__push_out_still(nsvcd__proof *p, nsvcd__search *search,
   double beside = nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * p->ask.slop));
   for (int turns = 0;; beside = 0.01 * p->ask.slop) {
     p->ask.clearance = p->given.clearance + beside + nsvcd__epsilon(p);
-    (void)nsvcd__prove_anew(p, search);
+    (void)nsvcd__prove_anew(p, q);
     if (p->contact_count == 0) return 1;
     const size_t known = p->normal_count;
     if (!nsvcd__choose_push_outs(p) || p->normal_count == known) return 0;
@@ -15472,7 +15456,7 @@ static int nsvcd__push_out_still(nsvcd__proof *p, nsvcd__search *search,
 // little more than the known depths, to see what it touches there, until nothing does. Triangles
 // that follow each other, as on a slope, each come free soon: so the little more doubles as long as
 // depths grow.
-static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion *still) {
+static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *q, nsvcd__motion *still) {
   const nsvcd__f3 push_out = still->push_out;
   const double least_more = 0.5 * nsvcd__epsilon(p);
   double more = least_more;
@@ -15482,7 +15466,7 @@ static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion 
   for (int round = 0; round < NSVCD__DEEPEN; round++) {
     double after = 0;
     still->push_out = nsvcd__f3_round(nsvcd__push_out(p, more, 1));
-    (void)nsvcd__prove_anew(p, search);
+    (void)nsvcd__prove_anew(p, q);
     // A touch gets out of the way along the normal that undoes it first, even if no plane normal to
     // that separates it.
     for (size_t n = 0; n < p->contact_count; n++) {
@@ -15507,7 +15491,7 @@ static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion 
 
 // Pushes the motion out of what it touches at its start, by the slop; or, if something is in the
 // way of that and nothing is too deep, by what is needed.
-static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__proof *p, nsvcd__search *search) {
+static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__proof *p, nsvcd__search *q) {
   nsvcd__motion *whole = p->ask.motion;
   nsvcd__motion start = nsvcd__end_of(whole, 0);
   p->ask.motion = &start;
@@ -15515,19 +15499,19 @@ static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__proof *p, nsvcd__searc
   p->ask.slop = p->given.slop;
   p->by_faces = 0;
   p->needed = 0;
-  int is_free = nsvcd__push_out_still(p, search, &start);
+  int is_free = nsvcd__push_out_still(p, q, &start);
   if (!is_free && !p->too_deep) {
     // The shortest push-outs may not go together.
     p->by_faces = 1;
     p->needed = 0;
-    is_free = nsvcd__push_out_still(p, search, &start);
+    is_free = nsvcd__push_out_still(p, q, &start);
   }
   const double least = 1.1 * p->needed + 4 * nsvcd__epsilon(p);
   if (!is_free && p->contact_count == 0 && least < 0.9 * p->given.slop) {
     p->ask.slop = least;
-    is_free = nsvcd__push_out_still(p, search, &start);
+    is_free = nsvcd__push_out_still(p, q, &start);
   }
-  if (is_free && p->normal_count > 0) nsvcd__deepen(p, search, &start);
+  if (is_free && p->normal_count > 0) nsvcd__deepen(p, q, &start);
   p->ask.collects = NSVCD__CONTACTS;
   p->ask.clearance = p->given.clearance;
   p->ask.motion = whole;
@@ -15625,7 +15609,7 @@ static nsvcd__d3 nsvcd__axis_apart(const nsvcd__triangle_contact *t, size_t k) {
 static NSVCD__NOINLINE int nsvcd__met_along(const nsvcd__proof *p, const nsvcd__approach *a,
                                             nsvcd__d3 travel, double most, nsvcd__d3 *normal) {
   const nsvcd__triangle_contact *t = &a->contact;
-  const double close = 16 * nsvcd__epsilon(p) / nsvcd__d3_length(travel);
+  const double close = 16 * nsvcd__epsilon(p) / nsvcd__d3_norm(travel);
   double back = HUGE_VAL;  // where they met, as a fraction of `travel`
   double before = 0;
   nsvcd__d3 moved[3];
@@ -15766,9 +15750,9 @@ static NSVCD__NOINLINE void nsvcd__wigner(const nsvcd__vmat3 *m, nsvcd__v scale,
   const nsvcd__v twice = nsvcd__v_add(root, root);
   const nsvcd__vmat3 c = nsvcd__vmat3_transpose(*m);
   nsvcd__v xy[5], yz[5], xz[5], xx[5], yy[5], zz[5];
-  nsvcd__v3_store_rows(nsvcd__v3_scale(m->x, scale), out[0], NSVCD__SLICE);
-  nsvcd__v3_store_rows(nsvcd__v3_scale(m->y, scale), out[3], NSVCD__SLICE);
-  nsvcd__v3_store_rows(nsvcd__v3_scale(m->z, scale), out[6], NSVCD__SLICE);
+  nsvcd__v3_put(nsvcd__v3_scale(m->x, scale), out[0], NSVCD__SLICE);
+  nsvcd__v3_put(nsvcd__v3_scale(m->y, scale), out[3], NSVCD__SLICE);
+  nsvcd__v3_put(nsvcd__v3_scale(m->z, scale), out[6], NSVCD__SLICE);
   nsvcd__v_degree2(c.x, c.y, xy);
   nsvcd__v_degree2(c.y, c.z, yz);
   nsvcd__v_degree2(c.x, c.z, xz);
@@ -15905,7 +15889,7 @@ static void nsvcd__probes_measure(const nsvcd_body *body, nsvcd__probes *out) {
   }
   nsvcd__sphere over;
   over.centre = nsvcd__f3_add(nsvcd__f3_scale(low, 0.5f), nsvcd__f3_scale(high, 0.5f));
-  over.radius = nsvcd__f3_length(nsvcd__f3_sub(high, over.centre));
+  over.radius = nsvcd__f3_norm(nsvcd__f3_sub(high, over.centre));
   nsvcd__traversal_begin(&traversal, body, nsvcd__may_be_close, &over);
   while (nsvcd__traversal_next(&traversal, &g)) {
     const size_t next = NSVCD__GROUP * (g + 1);
@@ -15918,7 +15902,7 @@ static void nsvcd__probes_measure(const nsvcd_body *body, nsvcd__probes *out) {
       for (size_t i = NSVCD__GROUP * g; i < end; i++) {
         const nsvcd__sphere patch = nsvcd__sphere_of(patches, i);
         const nsvcd__f3 area = nsvcd__f3_get(nsvcd__body_areas(body) + i, body->padded);
-        const float size = nsvcd__f3_length(area);
+        const float size = nsvcd__f3_norm(area);
         const nsvcd__f3 normal = nsvcd__f3_scale(area, size > 0 ? 1 / size : 0);
         const nsvcd__v3 d = nsvcd__v3_sub(at, nsvcd__v3_set(patch.centre));
         const nsvcd__v square = nsvcd__v3_dot(d, d);
@@ -15963,8 +15947,8 @@ static void nsvcd__add_dipoles(const nsvcd_body *body, size_t n, size_t first, s
     nsvcd__v sum = nsvcd__v_load(lanes + l);
     for (size_t i = l; i < count; i += NSVCD__LANES) {
       const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(spheres, i), at);
-      const nsvcd__v3 area = nsvcd__v3_load_rows(areas + first + i, stride);
-      const nsvcd__v length = nsvcd__v_max(nsvcd__v3_length(d), nsvcd__v_set(1e-30f));
+      const nsvcd__v3 area = nsvcd__v3_get(areas + first + i, stride);
+      const nsvcd__v length = nsvcd__v_max(nsvcd__v3_norm(d), nsvcd__v_set(1e-30f));
       const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), length);
       // one factor at a time, for the cube may overflow
       const nsvcd__v cosine = nsvcd__v_mul(nsvcd__v3_dot(area, d), inverse);
@@ -16021,7 +16005,7 @@ static size_t nsvcd__next_probe(nsvcd__probes *probes, uint32_t marked) {
 // is outside: from inside the ray would cross the surface.
 static int nsvcd__exit_is_blocked(const nsvcd_body *body, nsvcd__f3 point) {
   const nsvcd__f3 away = nsvcd__f3_sub(point, nsvcd__f3_load(body->centre));
-  const float length = nsvcd__f3_length(away);
+  const float length = nsvcd__f3_norm(away);
   const nsvcd__f3 along = nsvcd__f3_scale(away, length > 0 ? 1 / length : 0);
   const nsvcd__beam out = {point, along, NSVCD__ROUNDING * body->extent};
   const nsvcd__spheres patches = nsvcd__body_patches(body);
@@ -16053,7 +16037,7 @@ static int nsvcd__is_contained_in(const nsvcd_body *inner, const nsvcd_body *out
   }
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_load(probes.at, l), centre);
-    inside |= nsvcd__v_le(nsvcd__v3_length(off), nsvcd__v_set(outer->radius)) << l;
+    inside |= nsvcd__v_le(nsvcd__v3_norm(off), nsvcd__v_set(outer->radius)) << l;
   }
   for (uint32_t left = inside; left; left &= left - 1) {
     const size_t k = nsvcd__low_bit(left);
@@ -16248,10 +16232,10 @@ static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const floa
   const nsvcd__v u = nsvcd__v_load(fraction);
   const nsvcd__vquat start = nsvcd__vquat_load(rotation, NSVCD__SLICE);
   const nsvcd__vquat chord = nsvcd__vquat_load(turned, NSVCD__SLICE);
-  const nsvcd__v3 travel = nsvcd__v3_load_rows(moved, NSVCD__SLICE);
+  const nsvcd__v3 travel = nsvcd__v3_get(moved, NSVCD__SLICE);
   nsvcd__v_pose out;
   out.rotation = nsvcd__vquat_unit(nsvcd__vquat_fma(u, chord, start));
-  out.position = nsvcd__v3_fma(u, travel, nsvcd__v3_load_rows(position, NSVCD__SLICE));
+  out.position = nsvcd__v3_fma(u, travel, nsvcd__v3_get(position, NSVCD__SLICE));
   return out;
 }
 
@@ -16275,7 +16259,7 @@ static nsvcd__v_pose nsvcd__v_poses_at(const nsvcd__motion *motion, const float 
 static NSVCD__NOINLINE void nsvcd__pairs_in_passing(const nsvcd__v_pose *at,
                                                     const float *centres, nsvcd__pairs *p) {
   const nsvcd__v half = nsvcd__v_set(0.5f);
-  const nsvcd__v3 centre = nsvcd__v3_load_rows(centres, NSVCD__SLICE);
+  const nsvcd__v3 centre = nsvcd__v3_get(centres, NSVCD__SLICE);
   const nsvcd__v3 arm1 = nsvcd__vmat3_apply(nsvcd__vmat3_of(at[0].rotation), centre);
   const nsvcd__v3 arm2 = nsvcd__vmat3_apply(nsvcd__vmat3_of(at[1].rotation), centre);
   const nsvcd__v3 moved = nsvcd__v3_sub(at[1].position, at[0].position);
@@ -16317,7 +16301,7 @@ static NSVCD__NOINLINE void nsvcd__pairs_of(const nsvcd_body *moving, const nsvc
       const nsvcd__f3 area = nsvcd__f3_get(nsvcd__body_areas(body) + i, body->padded);
       const float most = fmaxf(fmaxf(fabsf(area.x), fabsf(area.y)), fabsf(area.z));
       const nsvcd__f3 even = nsvcd__f3_scale(area, most > 1e-37f ? 1 / most : 0);
-      const float length = nsvcd__f3_length(even);
+      const float length = nsvcd__f3_norm(even);
       const float fraction = most * inverse * (length * inverse);
       const nsvcd__f3 normal = nsvcd__f3_scale(even, fraction > 1e-6f ? 1 / length : 0);
       nsvcd__f3_put(normal, normals[n] + l, NSVCD__SLICE);
@@ -16327,11 +16311,11 @@ static NSVCD__NOINLINE void nsvcd__pairs_of(const nsvcd_body *moving, const nsvc
     times[1][l] = c->t_exit;
     times[2][l] = 0.5f * (c->t_enter + c->t_exit);
   }
-  p->p2 = nsvcd__v3_load_rows(centres[1], NSVCD__SLICE);
+  p->p2 = nsvcd__v3_get(centres[1], NSVCD__SLICE);
   p->r1 = nsvcd__v_load(radii[0]);
   p->r2 = nsvcd__v_load(radii[1]);
   for (size_t n = 0; n < 2; n++) {
-    p->normal[n] = nsvcd__v3_load_rows(normals[n], NSVCD__SLICE);
+    p->normal[n] = nsvcd__v3_get(normals[n], NSVCD__SLICE);
     p->flat[n] = nsvcd__v_load(flat[n]);
   }
   for (size_t k = 0; k < 3; k++) at[k] = nsvcd__v_poses_at(motion, times[k], count);
@@ -16366,7 +16350,7 @@ static nsvcd__v3 nsvcd__v3_pick(nsvcd__v a, nsvcd__v b, nsvcd__v3 x, nsvcd__v3 y
 
 // a over its length where that exceeds `least`, elsewhere `instead`.
 static nsvcd__v3 nsvcd__v_unit_or(nsvcd__v3 a, float least, nsvcd__v3 instead) {
-  const nsvcd__v length = nsvcd__v3_length(a);
+  const nsvcd__v length = nsvcd__v3_norm(a);
   const nsvcd__v floor = nsvcd__v_set(least);
   const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), nsvcd__v_max(length, floor));
   return nsvcd__v3_pick(length, floor, instead, nsvcd__v3_scale(a, inverse));
@@ -16377,7 +16361,7 @@ static NSVCD__NOINLINE void nsvcd__views_of(const nsvcd__pairs *p, nsvcd__views 
   const nsvcd__v minus = nsvcd__v_set(-1);
   const nsvcd__v3 between = nsvcd__v3_sub(p->p2, p->p1);
   // The unit of length: r1 + r2, or, between two points, what keeps the inputs finite.
-  const nsvcd__v lengths = nsvcd__v_add(nsvcd__v3_length(between), nsvcd__v3_length(p->v));
+  const nsvcd__v lengths = nsvcd__v_add(nsvcd__v3_norm(between), nsvcd__v3_norm(p->v));
   const nsvcd__v least = nsvcd__v_fma(nsvcd__v_set(1e-6f), lengths, nsvcd__v_set(1e-30f));
   const nsvcd__v unit = nsvcd__v_max(nsvcd__v_add(p->r1, p->r2), least);
   const nsvcd__v inverse = nsvcd__v_div(one, unit);
@@ -16409,7 +16393,7 @@ static NSVCD__NOINLINE void nsvcd__views_of(const nsvcd__pairs *p, nsvcd__views 
   const nsvcd__v3 forward = nsvcd__v3_scale(v_across, sign);
   const nsvcd__v3 ref = nsvcd__v3_fma(nsvcd__v_set(NSVCD__LEAN), lean_across, forward);
   // if the reference vanishes in some lane: the coordinate axis farthest from e1
-  if (nsvcd__v_le(nsvcd__v3_length(ref), nsvcd__v_set(1e-7f))) {
+  if (nsvcd__v_le(nsvcd__v3_norm(ref), nsvcd__v_set(1e-7f))) {
     const nsvcd__v3 y_axis = nsvcd__v3_set(nsvcd__f3_of(0, 1, 0));
     const nsvcd__v3 z_axis = nsvcd__v3_set(nsvcd__f3_of(0, 0, 1));
     const nsvcd__v3 size = nsvcd__v3_max(e1, nsvcd__v3_negate(e1));
@@ -16562,14 +16546,14 @@ static NSVCD__NOINLINE void nsvcd__inputs_without_gaps(const nsvcd__pairs *p,
   const nsvcd__v3 mirrored = nsvcd__v3_scale(turn, view->side);
 
   float(*facts)[NSVCD__SLICE] = out->facts;
-  nsvcd__v_store(facts[NSVCD__FACT_DISTANCE], nsvcd__v3_length(view->d));
+  nsvcd__v_store(facts[NSVCD__FACT_DISTANCE], nsvcd__v3_norm(view->d));
   nsvcd__v_store(facts[NSVCD__FACT_RADIUS], nsvcd__v_max(view->k1, view->k2));
-  nsvcd__v_store(facts[NSVCD__FACT_CLOSEST], nsvcd__v3_length(closest));
+  nsvcd__v_store(facts[NSVCD__FACT_CLOSEST], nsvcd__v3_norm(closest));
   nsvcd__v_store(facts[NSVCD__FACT_TAU], tau);
-  nsvcd__v3_store_rows(velocity, facts[NSVCD__FACT_VELOCITY], NSVCD__SLICE);
-  nsvcd__v3_store_rows(mirrored, facts[NSVCD__FACT_TURN], NSVCD__SLICE);
+  nsvcd__v3_put(velocity, facts[NSVCD__FACT_VELOCITY], NSVCD__SLICE);
+  nsvcd__v3_put(mirrored, facts[NSVCD__FACT_TURN], NSVCD__SLICE);
   nsvcd__v_store(facts[NSVCD__FACT_SPEED], nsvcd__v_sqrt(speed2));
-  nsvcd__v_store(facts[NSVCD__FACT_SPIN], nsvcd__v3_length(view->w));
+  nsvcd__v_store(facts[NSVCD__FACT_SPIN], nsvcd__v3_norm(view->w));
 
   const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v3 *fixed = &p->normal[1];
@@ -17538,7 +17522,7 @@ static double nsvcd__pose_error(const nsvcd__proof *p, double t) {
   const nsvcd__motion *motion = p->ask.motion;
   const nsvcd__d3 moving = nsvcd__dpose_at(motion, &motion->moving, t).position;
   const nsvcd__d3 fixed = nsvcd__dpose_at(motion, &motion->fixed, t).position;
-  const double positions = nsvcd__d3_length(moving) + nsvcd__d3_length(fixed);
+  const double positions = nsvcd__d3_norm(moving) + nsvcd__d3_norm(fixed);
   return 1.3e-7 * (2 * positions / (double)motion->unit + (double)p->given.lengths);
 }
 
@@ -17561,7 +17545,7 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) 
   const double kept = fmax(NSVCD__SET_DOWN * p->ask.slop, epsilons);
   const nsvcd__d3 least = nsvcd__push_out(p, kept, 1);
   const nsvcd__d3 by = nsvcd__d3_sub(push_out, least);
-  const double length = nsvcd__d3_length(by);
+  const double length = nsvcd__d3_norm(by);
   if (!(nsvcd__d3_dot(by, push_out) > 0) || !(length > kept)) return push_out;
   nsvcd__poses_at(task, t, push_out, &moving[0], &fixed[0]);
   nsvcd__poses_at(task, t, least, &moving[1], &fixed[1]);
@@ -17683,7 +17667,7 @@ static NSVCD__NOINLINE void nsvcd__write_safe_pose(nsvcd__query *query, nsvcd_an
   const int is_pushed = nsvcd__d3_dot(push_out, push_out) > 0;
   const int may_go = is_pushed && !p->inside && !p->unclear;
   if (is_pushed && !p->inside) {
-    const double depth = nsvcd__d3_length(nsvcd__push_out(p, 0, 1));
+    const double depth = nsvcd__d3_norm(nsvcd__push_out(p, 0, 1));
     answer->depth = (float)(depth * (double)task->motion.unit);
   } else if (!is_pushed && (answer->time.low > 0 || p->starts_free)) {
     answer->depth = 0;
@@ -18103,7 +18087,7 @@ static nsvcd_result nsvcd__run_self_test(void) {
 // The derivative of |a| by a, times `by`. Where |a| is 0 to rounding it is 0, the mean of all
 // directions.
 static nsvcd__f3 nsvcd__by_length(nsvcd__f3 a, float by) {
-  const float length = nsvcd__f3_length(a);
+  const float length = nsvcd__f3_norm(a);
   return nsvcd__f3_scale(a, length > 1e-6f ? by / length : 0);
 }
 
@@ -18309,13 +18293,13 @@ static void nsvcd__by_frame(const nsvcd__view *view, nsvcd__by_view *by) {
   const nsvcd__f3 e1 = view->frame.x;
   const nsvcd__f3 e2 = view->frame.y;
   const nsvcd__f3 e3 = view->frame.z;
-  const float length = nsvcd__f3_length(view->d);
+  const float length = nsvcd__f3_norm(view->d);
   const nsvcd__f3 line = nsvcd__f3_of(view->lean.x + 1e-6f, view->lean.y, view->lean.z);
 
   // Axis 2: the direction of a reference a, without its part along axis 1.
   nsvcd__f3 a = nsvcd__f3_add(nsvcd__f3_scale(view->lean, NSVCD__LEAN), view->v);
   nsvcd__f3 across = nsvcd__f3_across(a, e1);
-  const int vanishes = nsvcd__f3_length(across) <= 1e-7f;
+  const int vanishes = nsvcd__f3_norm(across) <= 1e-7f;
   if (vanishes) {
     // the coordinate axis farthest from e1
     const float x = fabsf(e1.x);
@@ -18325,7 +18309,7 @@ static void nsvcd__by_frame(const nsvcd__view *view, nsvcd__by_view *by) {
     if (x <= y && x <= z) a = nsvcd__f3_of(1, 0, 0);
     across = nsvcd__f3_across(a, e1);
   }
-  const float about = by->torque.x / nsvcd__f3_length(across);
+  const float about = by->torque.x / nsvcd__f3_norm(across);
   if (!vanishes) {
     nsvcd__add_to(&by->v, -about, e3);
     nsvcd__add_to(&by->lean, -about * NSVCD__LEAN, e3);
@@ -18337,8 +18321,8 @@ static void nsvcd__by_frame(const nsvcd__view *view, nsvcd__by_view *by) {
   nsvcd__add_to(&by_e1, -by->torque.z, e2);
   if (length > 1e-5f)
     nsvcd__add_to(&by->d, 1 / length, by_e1);
-  else if (nsvcd__f3_length(line) > 1e-9f)
-    nsvcd__add_to(&by->lean, 1 / nsvcd__f3_length(line), by_e1);
+  else if (nsvcd__f3_norm(line) > 1e-9f)
+    nsvcd__add_to(&by->lean, 1 / nsvcd__f3_norm(line), by_e1);
 }
 
 // ---- gaps
@@ -18409,13 +18393,13 @@ static nsvcd__f3 nsvcd__by_gap_axes(const nsvcd__pair *pair, const nsvcd__view *
                                     const nsvcd__f3 *u, const nsvcd__f3 *by_u,
                                     nsvcd__by_pair *out) {
   const nsvcd__f3 line = u[NSVCD__GAP_LINE];
-  const int has_fixed = nsvcd__f3_length(pair->normal[1]) > 0.5f;
-  const int has_moving = nsvcd__f3_length(view->normal) > 0.5f;
+  const int has_fixed = nsvcd__f3_norm(pair->normal[1]) > 0.5f;
+  const int has_moving = nsvcd__f3_norm(view->normal) > 0.5f;
   const size_t of_moving = view->swap > 0 ? NSVCD__GAP_LARGER : NSVCD__GAP_SMALLER;
   const size_t of_fixed = view->swap > 0 ? NSVCD__GAP_SMALLER : NSVCD__GAP_LARGER;
   const nsvcd__f3 from = has_fixed ? pair->normal[1] : line;
   const nsvcd__f3 to = has_moving ? nsvcd__f3_scale(view->normal, -1) : line;
-  const float length = nsvcd__f3_length(nsvcd__f3_add(from, to));
+  const float length = nsvcd__f3_norm(nsvcd__f3_add(from, to));
   // An axis is the direction of a constant, plus multiples of the moving patch's normal, reversed,
   // and of the line.
   float normals[NSVCD__GAPS] = {0};
@@ -18436,7 +18420,7 @@ static nsvcd__f3 nsvcd__by_gap_axes(const nsvcd__pair *pair, const nsvcd__view *
     nsvcd__add_to(&by_normal, -normals[d], across);
     nsvcd__add_to(&by_line, lines[d], across);
   }
-  const float distance = nsvcd__f3_length(nsvcd__f3_sub(pair->p1, pair->p2));
+  const float distance = nsvcd__f3_norm(nsvcd__f3_sub(pair->p1, pair->p2));
   const float inverse = 1 / fmaxf(distance, 1e-20f);
   nsvcd__add_to(&out->p1, inverse, nsvcd__f3_across(by_line, line));
   return by_normal;
@@ -18562,7 +18546,7 @@ static float nsvcd__by_poses(const nsvcd__track *track, float t, nsvcd__f3 force
   const nsvcd__quat qb = nsvcd__quat_unit(nsvcd__quat_load(b->rotation));
   const nsvcd__quat nearer = nsvcd__quat_beside(qb, nsvcd__poses_opposed(a, b));
   const nsvcd__f3 axis = nsvcd__quat_turn(qa, nearer);
-  const float sine = nsvcd__f3_length(axis);
+  const float sine = nsvcd__f3_norm(axis);
   const float inverse = sine > 0 ? 1 / sine : 0;
   const nsvcd__f3 n = nsvcd__f3_scale(axis, inverse);
   const float h = nsvcd__quat_arc(qa, nearer);
@@ -18665,7 +18649,7 @@ static void nsvcd__by_contact(const nsvcd__motion *m, nsvcd__instants *at, size_
   const nsvcd__f3 chord = nsvcd__f3_sub(nsvcd__lane_of(at->position, s + 1), start);
   const nsvcd__f3 from = nsvcd__f3_sub(start, centre);
   const nsvcd__f3 y = nsvcd__f3_fma(tau, chord, from);
-  const float least = 1e-3f * nsvcd__f3_length(y) * nsvcd__f3_length(chord);
+  const float least = 1e-3f * nsvcd__f3_norm(y) * nsvcd__f3_norm(chord);
   const float dot = fabsf(nsvcd__f3_dot(y, chord));
   if (!(least > 0)) return;
   const float along = l == NSVCD__ENTRY ? length : -length;
@@ -18711,7 +18695,7 @@ static void nsvcd__gradient(const nsvcd__task *task, nsvcd__decisive *decisive,
   // nsvcd__by_poses says.
   const nsvcd__f3 none = {0, 0, 0};
   float by_time[2];
-  const float h = nsvcd__f3_length(w);
+  const float h = nsvcd__f3_norm(w);
   const float half = 0.5f * (h > 1e-3f ? h / sinf(h) : 1);
   const nsvcd__f3 n = h > 0 ? nsvcd__f3_of(w.x / h, w.y / h, w.z / h) : none;
   const float by_middle = nsvcd__by_instant(m, &at, NSVCD__MIDDLE, by.p1, by.rotation, out);
@@ -19290,20 +19274,20 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__v3_dot NSVCD__AT(v3_dot)
 #define nsvcd__v3_dot_add NSVCD__AT(v3_dot_add)
 #define nsvcd__v3_fma NSVCD__AT(v3_fma)
-#define nsvcd__v3_length NSVCD__AT(v3_length)
+#define nsvcd__v3_get NSVCD__AT(v3_get)
 #define nsvcd__v3_load NSVCD__AT(v3_load)
 #define nsvcd__v3_load_int8 NSVCD__AT(v3_load_int8)
-#define nsvcd__v3_load_rows NSVCD__AT(v3_load_rows)
 #define nsvcd__v3_max NSVCD__AT(v3_max)
 #define nsvcd__v3_min NSVCD__AT(v3_min)
 #define nsvcd__v3_negate NSVCD__AT(v3_negate)
+#define nsvcd__v3_norm NSVCD__AT(v3_norm)
 #define nsvcd__v3_of NSVCD__AT(v3_of)
 #define nsvcd__v3_pick NSVCD__AT(v3_pick)
+#define nsvcd__v3_put NSVCD__AT(v3_put)
 #define nsvcd__v3_rows NSVCD__AT(v3_rows)
 #define nsvcd__v3_scale NSVCD__AT(v3_scale)
 #define nsvcd__v3_set NSVCD__AT(v3_set)
 #define nsvcd__v3_store NSVCD__AT(v3_store)
-#define nsvcd__v3_store_rows NSVCD__AT(v3_store_rows)
 #define nsvcd__v3_sub NSVCD__AT(v3_sub)
 #define nsvcd__v3_transform NSVCD__AT(v3_transform)
 #define nsvcd__v3_unit NSVCD__AT(v3_unit)
@@ -20046,12 +20030,12 @@ static inline int nsvcd__passes_by(const nsvcd__planner *p, size_t body, size_t 
     const nsvcd__f3 origin = nsvcd__f3_sub(at[body].pose.position, from->position);
     const nsvcd__f3 centre = nsvcd__f3_add(origin, at[body].centre);
     seen[k] = nsvcd__mat3_apply_transpose(&from->rotation, centre);
-    distance += nsvcd__f3_length(centre);
+    distance += nsvcd__f3_norm(centre);
   }
 
   // The root of 1 - cos of a sum of angles is at most the sum of their roots, and c < 3.15 bend.
   const float bend = now[body].bend + now[other].bend;
-  float deviation = nsvcd__f3_length(sphere->centre) * bend * bend;
+  float deviation = nsvcd__f3_norm(sphere->centre) * bend * bend;
   if (rests) {
     const nsvcd__f3 travel = nsvcd__f3_sub(seen[1], seen[0]);
     const float length = fabsf(travel.x) + fabsf(travel.y) + fabsf(travel.z);
@@ -20768,8 +20752,8 @@ static float nsvcd__pair_deviation(const nsvcd__planner *p, const nsvcd_body_pai
                                     nsvcd__d3_narrow(check.position)};
   const nsvcd__f3 x = nsvcd__f3_transform(&at, sphere->centre);
   const nsvcd__f3 y = nsvcd__f3_transform(&checked, sphere->centre);
-  const float shift = nsvcd__f3_length(nsvcd__f3_sub(x, y));
-  return shift + 2 * nsvcd__f3_length(nsvcd__quat_turn(check.rotation, q)) * sphere->radius;
+  const float shift = nsvcd__f3_norm(nsvcd__f3_sub(x, y));
+  return shift + 2 * nsvcd__f3_norm(nsvcd__quat_turn(check.rotation, q)) * sphere->radius;
 }
 
 // How far the spline deviates from the last check's motion between p->poses: the most of all pairs

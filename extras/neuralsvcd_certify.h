@@ -502,7 +502,7 @@ static inline double nsvcd__min(double a, double b) {
   static inline t t##_cross(t a, t b) { \
     return t##_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x); \
   } \
-  static inline scalar t##_length(t a) { \
+  static inline scalar t##_norm(t a) { \
     return sqrt(t##_dot(a, a)); \
   }
 NSVCD__VECTORS(nsvcd__f3, float, sqrtf)
@@ -556,7 +556,7 @@ static inline double nsvcd__d3_distance2(nsvcd__d3 a, nsvcd__d3 b) {
 }
 // Of length 1; `otherwise` if a is 0.
 static inline nsvcd__d3 nsvcd__d3_unit(nsvcd__d3 a, nsvcd__d3 otherwise) {
-  const double length = nsvcd__d3_length(a);
+  const double length = nsvcd__d3_norm(a);
   return length > 0 ? nsvcd__d3_scale(a, 1 / length) : otherwise;
 }
 // Rounds for certain. gcc 12 at -O2 drops both conversions where two neighbouring doubles become
@@ -789,7 +789,7 @@ static inline nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
   double longest = 0;
   for (size_t k = 0; k < 3; k++)
     longest = nsvcd__max(longest, nsvcd__d3_distance2(t[k], t[(k + 1) % 3]));
-  const double length = nsvcd__d3_length(n);
+  const double length = nsvcd__d3_norm(n);
   return nsvcd__d3_scale(n, length > 1e-9 * longest ? 1 / length : 0);
 }
 
@@ -1513,7 +1513,7 @@ static nsvcd_deviation nsvcd__mover_deviation(const void *motion, double t0, dou
   const nsvcd__d3 turn = nsvcd__dquat_axis(nsvcd__dquat_inverse_mul(arc.from, arc.to));
   const nsvcd__d3 axis = nsvcd__d3_unit(turn, nsvcd__d3_of(0, 0, 0));
   memcpy(out.axis, &axis, sizeof out.axis);
-  *(nsvcd__d3_length(axis) > 0 ? &out.turn : &out.per_metre) = 0.1250001 * h * h;
+  *(nsvcd__d3_norm(axis) > 0 ? &out.turn : &out.per_metre) = 0.1250001 * h * h;
   return out;
 }
 
@@ -1729,7 +1729,7 @@ static double nsvcd__distance_along(const nsvcd__tree_interval *s,
 static double nsvcd__node_radius(const nsvcd__moving *moving, const nsvcd__node *node) {
   const nsvcd__box *box = &moving->tree->boxes[node->box];
   const nsvcd__f3 corner = nsvcd__f3_max(box->high, nsvcd__f3_scale(box->low, -1));
-  return 1.000002 * moving->model.scale * nsvcd__d3_length(nsvcd__d3_widen(corner));
+  return 1.000002 * moving->model.scale * nsvcd__d3_norm(nsvcd__d3_widen(corner));
 }
 
 // No point of a node is farther from the line through its body's origin along a unit axis.
@@ -1761,18 +1761,18 @@ static double nsvcd__node_axis_radius(const nsvcd__moving *moving, const nsvcd__
 static double nsvcd__node_deviation(const nsvcd__moving *body, const nsvcd__node_pair *pair,
                                     const nsvcd__instant *at, size_t n, nsvcd__d3 along) {
   const nsvcd_deviation *d = &at->deviations[n];
-  const double any = nsvcd__d3_length(along) * (d->base + d->per_metre * pair->radii[n]);
+  const double any = nsvcd__d3_norm(along) * (d->base + d->per_metre * pair->radii[n]);
   if (!(d->turn > 0)) return any;
   const nsvcd__d3 own = nsvcd__d3_of(d->axis[0], d->axis[1], d->axis[2]);
   const nsvcd__d3 axis = nsvcd__dmat3_apply(&at->poses[n].turn, own);
-  const double across = nsvcd__d3_length(nsvcd__d3_cross(along, axis));
+  const double across = nsvcd__d3_norm(nsvcd__d3_cross(along, axis));
   return any + d->turn * across * nsvcd__node_axis_radius(body, &pair->nodes[n], own);
 }
 
 // Does a plane of this normal separate two nodes, at all instants and between them?
 static int nsvcd__separates(const nsvcd__tree_interval *s, const nsvcd__node_pair *pair,
                             nsvcd__d3 along) {
-  const double length = nsvcd__d3_length(along);
+  const double length = nsvcd__d3_norm(along);
   double last = HUGE_VAL;
   double last_lengths = 0;
   double deviation = 0;
@@ -1831,9 +1831,9 @@ static nsvcd__best nsvcd__gilbert(const nsvcd__tree_interval *s, const nsvcd__no
                                   const nsvcd__instant *at, nsvcd__d3 along) {
   nsvcd__best best = {along, -HUGE_VAL};
   nsvcd__d3 v = nsvcd__least_apart(s, pair, at, along);
-  const double first = nsvcd__d3_length(v);
+  const double first = nsvcd__d3_norm(v);
   for (int n = 0; n < NSVCD__GILBERT_STEPS; n++) {
-    const double length = nsvcd__d3_length(v);
+    const double length = nsvcd__d3_norm(v);
     if (!(length > NSVCD__GILBERT_LEAST * first)) break;
     const nsvcd__d3 w = nsvcd__least_apart(s, pair, at, v);
     const double distance = nsvcd__d3_dot(v, w) / length;
@@ -1901,7 +1901,7 @@ static nsvcd__seen nsvcd__seen_at(const nsvcd__moving *of, const nsvcd__moving *
   nsvcd__seen s = {of, by, nsvcd__pose_matrix_at(of, t), nsvcd__pose_matrix_at(by, t), 0, 0};
   const double scale = by->model.scale;
   const double radii = nsvcd__node_radius(of, &root) + nsvcd__node_radius(by, &root);
-  const double apart = nsvcd__d3_length(nsvcd__d3_sub(s.of_at.at, s.by_at.at));
+  const double apart = nsvcd__d3_norm(nsvcd__d3_sub(s.of_at.at, s.by_at.at));
   const double positions =
       of->model.extent + by->model.extent + nsvcd__lengths_at(&s.of_at, &s.by_at);
   s.lengths = 1.000001 * (radii + apart) / scale;
@@ -1927,7 +1927,7 @@ static void nsvcd__seen_triangle(const nsvcd__seen *s, uint32_t triangle, nsvcd_
 // or miss it (0)? UNCLEAR: by too little.
 static int nsvcd__ray_passes(const nsvcd__seen *s, uint32_t triangle, nsvcd__d3 from,
                              nsvcd__d3 along) {
-  const double length = nsvcd__d3_length(along);
+  const double length = nsvcd__d3_norm(along);
   const double rounding = 1e-4 * NSVCD__CERTIFIED_MARGIN * s->lengths * s->lengths;
   nsvcd__d3 p[3], crosses[3];
   int left = 0;
@@ -1942,7 +1942,7 @@ static int nsvcd__ray_passes(const nsvcd__seen *s, uint32_t triangle, nsvcd__d3 
     crosses[k] = nsvcd__d3_cross(p[k], p[(k + 1) % 3]);
     const double edge = sqrt(nsvcd__d3_distance2(p[k], p[(k + 1) % 3]));
     const double off =
-        length * (s->margin * edge + rounding) + 2 * s->margin * nsvcd__d3_length(crosses[k]);
+        length * (s->margin * edge + rounding) + 2 * s->margin * nsvcd__d3_norm(crosses[k]);
     left += nsvcd__d3_dot(along, crosses[k]) > off;
     right += nsvcd__d3_dot(along, crosses[k]) < -off;
   }
@@ -1950,7 +1950,7 @@ static int nsvcd__ray_passes(const nsvcd__seen *s, uint32_t triangle, nsvcd__d3 
   if (left < 3 && right < 3) return NSVCD__UNCLEAR;
   const nsvcd__d3 normal = nsvcd__d3_add(crosses[0], nsvcd__d3_add(crosses[1], crosses[2]));
   const double volume = nsvcd__d3_dot(p[2], crosses[0]);
-  const double off = s->margin * nsvcd__d3_length(normal) + rounding * s->lengths;
+  const double off = s->margin * nsvcd__d3_norm(normal) + rounding * s->lengths;
   if (!(fabs(volume) > off)) return NSVCD__UNCLEAR;
   if ((volume > 0) != (left > 0)) return 0;
   return left > 0 ? 1 : -1;
@@ -1977,7 +1977,7 @@ static int nsvcd__ray_misses(const nsvcd__box *box, nsvcd__d3 from, nsvcd__d3 al
 static int nsvcd__cast(const nsvcd__seen *s, nsvcd__d3 from, nsvcd__d3 along, int32_t *sums,
                        int *winding) {
   const nsvcd_tree *tree = s->by->tree;
-  const double margin = s->margin * nsvcd__d3_length(along);
+  const double margin = s->margin * nsvcd__d3_norm(along);
   nsvcd__node stack[NSVCD__TREE_STACK] = {{0, 0, (uint32_t)tree->mesh.triangle_count}};
   size_t height = 1;
   memset(sums, 0, tree->mesh.vertex_count * sizeof *sums);

@@ -824,7 +824,7 @@ static inline double nsvcd__min(double a, double b) {
   static inline t t##_cross(t a, t b) { \
     return t##_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x); \
   } \
-  static inline scalar t##_length(t a) { \
+  static inline scalar t##_norm(t a) { \
     return sqrt(t##_dot(a, a)); \
   }
 NSVCD__VECTORS(nsvcd__f3, float, sqrtf)
@@ -878,7 +878,7 @@ static inline double nsvcd__d3_distance2(nsvcd__d3 a, nsvcd__d3 b) {
 }
 // Of length 1; `otherwise` if a is 0.
 static inline nsvcd__d3 nsvcd__d3_unit(nsvcd__d3 a, nsvcd__d3 otherwise) {
-  const double length = nsvcd__d3_length(a);
+  const double length = nsvcd__d3_norm(a);
   return length > 0 ? nsvcd__d3_scale(a, 1 / length) : otherwise;
 }
 // Rounds for certain. gcc 12 at -O2 drops both conversions where two neighbouring doubles become
@@ -1584,7 +1584,7 @@ static void nsvcd__moment_arms_of(const nsvcd_checker *c, size_t part, const nsv
     if (!nsvcd__slides(c, j)) {
       const nsvcd__d3 off = nsvcd__d3_sub(centre, from->frames[j + 1].position);
       const nsvcd__d3 across = nsvcd__d3_cross(from->axes[j], off);
-      arms[j] = nsvcd__d3_length(across) + m->radius + moved;
+      arms[j] = nsvcd__d3_norm(across) + m->radius + moved;
     }
     moved += step->farthest[j] * arms[j];
   }
@@ -1809,7 +1809,7 @@ static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__links *at, size_t
   const nsvcd_scene *scene = c->scene;
   double most = 0;
   for (size_t link = 1; link <= scene->joint_count; link++)
-    most = nsvcd__max(most, nsvcd__d3_length(at->frames[link].position));
+    most = nsvcd__max(most, nsvcd__d3_norm(at->frames[link].position));
   for (size_t n = 0; n < scene->part_count; n++) {
     nsvcd__member *m = &c->members[n];
     if (!scene->parts[n].link) continue;
@@ -1819,7 +1819,7 @@ static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__links *at, size_t
     c->bounds[m->row + k] = bounds;
     m->bounds = k ? nsvcd__bounds_over(&m->bounds, &bounds) : bounds;
     // a joint adds some 5e-16 of its moment arm
-    const double arm = most + nsvcd__d3_length(frame.position) + m->extent;
+    const double arm = most + nsvcd__d3_norm(frame.position) + m->extent;
     m->rounding = nsvcd__max(k ? m->rounding : 0, NSVCD__FRAME_ROUNDING * arm);
   }
 }
@@ -1943,7 +1943,7 @@ static nsvcd__local nsvcd__localize(nsvcd_checker *c, const nsvcd_body_pair *pai
     for (size_t k = 0; k < (moves[n] ? count : 1); k++) {
       const nsvcd__frame in = nsvcd__frame_inverse_mul(&local.frame, &frames[n][k]);
       c->local[n][k] = nsvcd__frame_pose(&in);
-      most = nsvcd__max(most, nsvcd__d3_length(in.position));
+      most = nsvcd__max(most, nsvcd__d3_norm(in.position));
     }
     // of positions and of quaternions as floats
     if (moves[n]) local.rounding += 2 * (1.1e-7 * most + 1.3e-7 * c->members[parts[n]].extent);
@@ -2389,7 +2389,7 @@ static nsvcd_deviation nsvcd__carried_deviation(const void *motion, double t0, d
   const nsvcd_scene *scene = c->checker->scene;
   const size_t degree = c->motion.degree;
   const double n = (double)degree;
-  double between = nsvcd__d3_length(c->checker->members[c->part].frame.position);
+  double between = nsvcd__d3_norm(c->checker->members[c->part].frame.position);
   nsvcd_deviation outer, out;
   memset(&outer, 0, sizeof outer);
   memset(&out, 0, sizeof out);
@@ -2417,7 +2417,7 @@ static nsvcd_deviation nsvcd__carried_deviation(const void *motion, double t0, d
     outer.base += speed * base;
     outer.per_metre += speed * per_metre;
     const nsvcd__link *carrier = &c->checker->links[link - 1];
-    between += nsvcd__d3_length(carrier->origin.position) + (slides ? most : 0);
+    between += nsvcd__d3_norm(carrier->origin.position) + (slides ? most : 0);
   }
   out.base *= 0.1250001;
   out.per_metre *= 0.1250001;
@@ -2439,7 +2439,7 @@ static nsvcd_motion_model nsvcd__carried_model(const nsvcd__carried *c) {
   const nsvcd_part *part = &scene->parts[c->part];
   const nsvcd_joint_motion *m = &c->motion;
   const float scale = part->scale > 0 ? part->scale : 1;
-  double extent = nsvcd__d3_length(c->checker->members[c->part].frame.position);
+  double extent = nsvcd__d3_norm(c->checker->members[c->part].frame.position);
   uint32_t d = nsvcd__digest((uint32_t)c->base, part->pose.position, 7);
   d = nsvcd__digest(d, &scale, 1);
   for (size_t link = part->link; link != c->base; link = scene->joints[link - 1].parent) {
@@ -2454,7 +2454,7 @@ static nsvcd_motion_model nsvcd__carried_model(const nsvcd__carried *c) {
       most = nsvcd__max(most, fabs(value));
     }
     const nsvcd__link *carrier = &c->checker->links[link - 1];
-    extent += nsvcd__d3_length(carrier->origin.position) + (slides ? most : 0);
+    extent += nsvcd__d3_norm(carrier->origin.position) + (slides ? most : 0);
   }
   d += (uint32_t)m->degree;
   for (size_t i = 0; i <= m->pieces; i++)
@@ -2737,7 +2737,7 @@ static void nsvcd__depth_of(nsvcd_checker *c, nsvcd_question q, const nsvcd__loc
                             const nsvcd_proximity_options *o, nsvcd_proximity *out) {
   const nsvcd_body_pair *pair = &c->scene->pairs[out->pair];
   const nsvcd__d3 push_out = nsvcd__separating_push_out(c, q, o->max_depth);
-  const double length = nsvcd__d3_length(push_out);
+  const double length = nsvcd__d3_norm(push_out);
   nsvcd_answer found;
   // fractions of the push-out: they touch at the first, and are apart at the second
   double low = 0;

@@ -72,11 +72,11 @@ extern "C" {
 #include "ground/memory.h"     // the allocator; the rows of a workspace
 
 // ============================================================ robot: is a motion of joints free?
-#include "robot/chain.h"           // links, joints and frames: where everything is
-#include "robot/steps.h"           // what the joints do between two times
-#include "robot/deviation.h"       // how far a part leaves its sweep between two samples
-#include "robot/checker.h"         // the checker of a scene
-#include "robot/samples.h"         // configurations of a motion, and boxes about the parts in them
+#include "robot/chain.h"      // links, joints and frames: where everything is
+#include "robot/steps.h"      // what the joints do between two times
+#include "robot/deviation.h"  // how far a part leaves its sweep between two samples
+#include "robot/checker.h"    // the checker of a scene
+#include "robot/samples.h"    // configurations of a motion, and boxes about the parts in them
 #include "robot/local_queries.h"   // two parts, in the frame of one of them
 #include "robot/check.h"           // is a motion of the joints free?
 #include "robot/proofs.h"          // certificates of pairs

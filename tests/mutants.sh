@@ -72,7 +72,7 @@ block without clearance|(over->rounding + over->origin_bend) + nsvcd__clearance(
 block without bulge|stays + nsvcd__bend_of(over, arm)|stays
 block at the start only|for (size_t k = 0; k < p->corner_count; k++) {\n    const nsvcd__v3 a =|for (size_t k = 0; k < 3; k++) {\n    const nsvcd__v3 a =
 lanes parted at the start only|for (size_t k = 0; k < p->corner_count; k++) {\n      const nsvcd__v3 corner = nsvcd__v3_load(p->corners[k], s);|for (size_t k = 0; k < 3; k++) {\n      const nsvcd__v3 corner = nsvcd__v3_load(p->corners[k], s);
-lanes parted without the clearance|nsvcd__v_set(margin * nsvcd__f3_length(last) + highest);|nsvcd__v_set(highest);
+lanes parted without the clearance|nsvcd__v_set(margin * nsvcd__f3_norm(last) + highest);|nsvcd__v_set(highest);
 rows parted by half the margin|met = nsvcd__left_by_normal(p, l, fixed, k, margin, met);|met = nsvcd__left_by_normal(p, l, fixed, k, k > 0 ? margin : 0.5f * margin, met);
 parting plane without deviation|errors + over->rounding + nsvcd__clearance(p) + nsvcd__deviation_of(over, last, arm);|errors + over->rounding + nsvcd__clearance(p);
 parting plane without quanta|errors + over->rounding + nsvcd__clearance(p) + nsvcd__deviation_of(over, last, arm);|0 * errors + over->rounding + nsvcd__clearance(p) + nsvcd__deviation_of(over, last, arm);
@@ -86,7 +86,7 @@ rays past half the groups|while (!sum.unclear \&\& nsvcd__traversal_next(\&group
 block's boxes at the start only|low = nsvcd__v3_min(low, corner);\n      high = nsvcd__v3_max(high, corner);|if (k >= 3) continue;\n      low = nsvcd__v3_min(low, corner);\n      high = nsvcd__v3_max(high, corner);
 last triangle skipped|size_t patience) {\n  const size_t moving_end = p->moving.first_triangle[i + 1];|size_t patience) {\n  const size_t moving_end = p->moving.first_triangle[i + 1] - 1;
 containment one way|if (outer->open) return 0;\n  const int is_one|if (outer->open + (e->inner != \&p->moving)) return 0;\n  const int is_one
-long: an interval passed over|if (is_resolved) motion->from = until;|if (is_resolved) motion->from = until;\n  if (is_resolved \&\& arcs == 1 \&\& until < motion->ticks) motion->from = nsvcd__next_keyframe(motion, until);
+long: an interval passed over|if (is_resolved) m->from = until;|if (is_resolved) m->from = until;\n  if (is_resolved \&\& arcs == 1 \&\& until < m->ticks) m->from = nsvcd__next_keyframe(m, until);
 long: a try in vain is believed|is_resolved \|\| !is_try, p->work - before|1, p->work - before
 long: gaps by the first pose|part.count = nsvcd__pose_before(track, until - 1) + 2 - first;|part.count = 1;
 long: doubts of one interval forgotten|  p->known = open;\n  p->ask.end = end;\n  return NSVCD__RESOLVED;|  return NSVCD__RESOLVED;
@@ -96,7 +96,7 @@ long: contacts of a try are the first|p->known.has_contact \&\& !(is_try \&\& fr
 long: poses for work|given->grows = q->work == 0;|given->grows = 1;
 long: an interval settled from the start|p->known.resolved = (double)p->ask.motion->from;|p->known.resolved = 0;
 first arc only|at < last \&\& (double)at < p->ask.end;) {|at < last \&\& at == search->begin[item->segment];) {
-a segment dropped|uint32_t met = nsvcd__group_against_members(search, h, wanted, p->met_in);|uint32_t met = nsvcd__group_against_members(search, h, wanted, p->met_in);\n      for (size_t l = 0; l < NSVCD__GROUP; l++) {\n        if (p->met_in[l] \& (p->met_in[l] - 1)) p->met_in[l] \&= p->met_in[l] - 1;\n      }
+a segment dropped|uint32_t met = nsvcd__group_against_members(q, h, wanted, p->met_in);|uint32_t met = nsvcd__group_against_members(q, h, wanted, p->met_in);\n      for (size_t l = 0; l < NSVCD__GROUP; l++) {\n        if (p->met_in[l] \& (p->met_in[l] - 1)) p->met_in[l] \&= p->met_in[l] - 1;\n      }
 a full buffer forgotten|if (!*left) break;|break;
 passing not seen|if (!nsvcd__pair_passes(p, pair, u0, u1))|if (u0 <= u1)
 passing without a change of sides|  const int falls = before > least_before \&\& after < -least_after;|  const int falls = before != 0;
@@ -110,8 +110,8 @@ a leg from its pose|slerp->from = (double)(first - begin) * per_tick;|slerp->fro
 knots of one body only|return after_a < after_b ? after_a : after_b;|return after_a;
 group without scale|  sphere.radius *= q->scale;\n|
 members without scale|nsvcd__v_fma(scale, radius, deviation));|nsvcd__v_add(radius, deviation));
-discs without scale|nsvcd__v_mul(a->scale, nsvcd__v3_dot(w, w)); const nsvcd__v across = nsvcd__v_mul(a->scale, nsvcd__v3_length(a->turned));|nsvcd__v3_dot(w, w);\n  const nsvcd__v across = nsvcd__v3_length(a->turned);
-disc without clearance|a.clearance = nsvcd__clearance(p);\n  a.radius = search->extent;|a.clearance = 0;\n  a.radius = search->extent;
+discs without scale|nsvcd__v_mul(a->scale, nsvcd__v3_dot(w, w)); const nsvcd__v across = nsvcd__v_mul(a->scale, nsvcd__v3_norm(a->turned));|nsvcd__v3_dot(w, w);\n  const nsvcd__v across = nsvcd__v3_norm(a->turned);
+disc without clearance|a.clearance = nsvcd__clearance(p);\n  a.radius = q->extent;|a.clearance = 0;\n  a.radius = q->extent;
 moving disc without clearance|nsvcd__v_plus(a->over.rounding, a->clearance);|a->over.rounding;
 groups without clearance|a.clearance = nsvcd__clearance(p); a.radius = nsvcd__group_extent|a.clearance = 0; a.radius = nsvcd__group_extent
 held plane without clearance|below->height + nsvcd__clearance(p) * length|below->height
@@ -119,7 +119,7 @@ held plane not tried again|if (!(above->height > below->height + nsvcd__clearanc
 span of before it was clipped|p->memo.intervals \&= ~((uint64_t)1 << s);|
 search without clearance|block->margin[l] += clearance;|block->margin[l] += 0 * clearance;
 clipped without twice the bulge|    block->bend[l] *= 2;\n    block->origin_bend[l] *= 2;\n|    block->bend[l] *= 0.1f;\n
-clipped too early|(double)search->begin[segment] < p->ask.end;|(double)search->begin[segment] < 0.9 * p->ask.end;
+clipped too early|(double)q->begin[segment] < p->ask.end;|(double)q->begin[segment] < 0.9 * p->ask.end;
 every other segment|s += few) {|s += 2 * few) {
 contacts end too much|p->ask.end = p->known.found.tick - p->ask.first;|p->ask.end = 0.9 * p->known.found.tick - p->ask.first;
 a start that is not asked|known.has_contact \&\& nsvcd__clear_until(p) <= 0 \&\& known.found.tick > 0|known.has_contact \&\& known.found.tick < 0
@@ -130,7 +130,7 @@ exact poses not lifted|at.position = nsvcd__d3_add(at.position, arc->push_out);|
 lift the wrong way|if (lacks > 0)\n        push_out = nsvcd__d3_add(|if (lacks > 0)\n        push_out = nsvcd__d3_sub(
 a window of another patch|p->memo.window > 0 \&\& p->fixed_blocks[0].first == first|p->memo.window > 0
 tile: every other group|nsvcd__traversal_next(traversal, \&g)) {\n    const nsvcd__sphere group|nsvcd__traversal_next(traversal, \&g) \&\& nsvcd__traversal_next(traversal, \&g)) {\n    const nsvcd__sphere group
-tile: the first only|outcome == NSVCD__RESOLVED \&\& nsvcd__search_next_tile(search));|0);
+tile: the first only|outcome == NSVCD__RESOLVED \&\& nsvcd__search_next_tile(q));|0);
 tile: skins of the first only|p->work <= p->ask.limit ? NSVCD__RESOLVED : NSVCD__EXHAUSTED|p->work < 0 ? NSVCD__RESOLVED : NSVCD__EXHAUSTED
 tile: way without reach|nsvcd__f3_sub(nsvcd__f3_min(start, end), around);\n    const nsvcd__f3 high|nsvcd__f3_min(start, end);\n    const nsvcd__f3 high
 tile: approached in the first segment|wanted \&\& nearby \& ~met; wanted \&= wanted - 1) {|wanted \&\& nearby \& ~met; wanted = 0) {
@@ -155,7 +155,7 @@ asks: a contact before the start|nsvcd__max(nsvcd__min(nsvcd__clear_until(p), fo
 asks: proven by parts to the end, but not free|double end = p->ask.end; double from = 0;|double end = nsvcd__min(p->ask.end, ticks); double from = 0;
 pair's last plane at the start alone|u0 < all \&\& nsvcd__plane_separates(p, pair, u0, all)|u0 < all \&\& nsvcd__plane_separates(p, pair, u0, u0)
 exact: pairs without slack|> p->ask.clearance + pair->margin + deviation)) return 0;|> p->ask.clearance + deviation)) return 0;
-exact: pairs without rounding|NSVCD__SAME_POSITION * ((double)p->given.lengths + nsvcd__d3_length(p->arc.from));|0;
+exact: pairs without rounding|NSVCD__SAME_POSITION * ((double)p->given.lengths + nsvcd__d3_norm(p->arc.from));|0;
 exact: a ratio of scales in float|m->ratio = (double)nsvcd__scale_of(moving) / (double)m->unit;|m->ratio = (double)(nsvcd__scale_of(moving) / m->unit);
 turning contacts that are too near|distance <= p->ask.clearance + pair->rounding|distance <= p->ask.clearance + pair->close
 exact: straight contacts that are too near|if (above <= pair->rounding) {|if (above <= pair->close) {
@@ -197,7 +197,7 @@ asks: faces without area|length > 1e-9 * longest|length > 0
 asks: pushed through one face only|n, t->directions[0]) > -0.3 \|\| nsvcd__d3_dot(n, t->directions[1]) > -0.3|n, t->directions[0]) > -0.3 \&\& nsvcd__d3_dot(n, t->directions[1]) > -0.3
 asks: a lift that is not tried|    still->push_out = nsvcd__f3_round(push_out);|    return 0;
 asks: ends not looked at|is_brief \&\& p->work + NSVCD__LONG < limit;|0;
-asks: the start only|if (nsvcd__meets_at(p, search, at_end, NSVCD__END_BUDGET))|if (!at_end \&\& nsvcd__meets_at(p, search, at_end, NSVCD__END_BUDGET))
+asks: the start only|if (nsvcd__meets_at(p, q, at_end, NSVCD__END_BUDGET))|if (!at_end \&\& nsvcd__meets_at(p, q, at_end, NSVCD__END_BUDGET))
 asks: a bracket lost|if (pass != NSVCD__EXHAUSTED) p->low = p->ask.clearance;|p->low = 0;\n  if (pass != NSVCD__EXHAUSTED) p->low = p->ask.clearance;
 asks: a gap lost|p->low = nsvcd__max(verdict == NSVCD__FOUND_FREE ? p->given.clearance : 0, (double)gap);|p->low = 0;
 asks: a bracket as wide as may be|while (!p->wide \&\& p->ask.measure > finest) {|while (0 \&\& !p->wide) {
@@ -218,7 +218,7 @@ asks: set down with a distance asked for|  p->ask.measure = 0;\n  p->ask.clearan
 a depth of planes alone|if (nsvcd__gap_after(t, n, 0.998 * most) <= square) return most;|return most;
 asks: half of a depth|p->depths[k] = nsvcd__max(p->depths[k], depth);|p->depths[k] = fmax(p->depths[k], 0.5 * depth);
 asks: one depth for all normals|const double along = least + (by_depth ? p->depths[k] : 0);|const double along = least + (by_depth ? p->depths[0] : 0);
-no look on the way off|if (is_free \&\& p->normal_count > 0) nsvcd__deepen(p, search, \&start);|
+no look on the way off|if (is_free \&\& p->normal_count > 0) nsvcd__deepen(p, q, \&start);|
 asks: no lift under a ceiling|least < 0.9 * p->given.slop|least < 0
 asks: a floor that is near by|nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * p->ask.slop))|near_by
 asks: contacts out of reach|nsvcd__d3_distance2(posed[k], foot) <= m->tolerance * m->tolerance|1

@@ -1156,7 +1156,7 @@ static void asks_faces_without_area(void) {
       const double way = size * shapes_uniform(&rng, -1, 1);
       t[k] = nsvcd__d3_add(t[0], nsvcd__d3_of(way * d[0], way * d[1], way * d[2]));
     }
-    CHECK_EQ(nsvcd__d3_length(nsvcd__face_direction(t)), 0);
+    CHECK_EQ(nsvcd__d3_norm(nsvcd__face_direction(t)), 0);
   }
 }
 

@@ -64,7 +64,7 @@ static void half_rotation_vector(void) {
     q.z = (float)(sign * s * axis[2]);
     q.w = (float)(sign * cos(angle / 2));
     const nsvcd__v3 w = nsvcd__v_half_rotation(nsvcd__vquat_set(q));
-    nsvcd__v3_store_rows(w, lanes, NSVCD__SLICE);
+    nsvcd__v3_put(w, lanes, NSVCD__SLICE);
     for (int k = 0; k < 3; k++)
       CHECK_NEAR(lanes[k * NSVCD__SLICE + trial % NSVCD__SLICE], 0.5 * angle * axis[k], 3e-6);
   }

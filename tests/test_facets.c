@@ -60,7 +60,7 @@ static int facets_are_outward(const nsvcd_body *body, const nsvcd_body *scaled, 
   const nsvcd__slab to = nsvcd__slab_at(b.slabs, body->padded, i);
   // half a unit in the last place of a scaled vertex, as far as one can be
   const double far =
-      (double)nsvcd__f3_length(nsvcd__patch_centre(&b, i)) + 32768.0 * (double)b.steps[i];
+      (double)nsvcd__f3_norm(nsvcd__patch_centre(&b, i)) + 32768.0 * (double)b.steps[i];
   const double least = 6e-8 * far;
   return (double)to.low <= scale * (double)from.low - least &&
          (double)to.high >= scale * (double)from.high + least &&

@@ -125,7 +125,7 @@ static void math_vectors(void) {
     oracle_cross(a, b, want);
     math_check(nsvcd__f3_cross(x, y), want, 2 * size * other);
     CHECK_NEAR(nsvcd__f3_dot(x, y), oracle_dot(a, b), MATH_ROUNDING * 3 * size * other);
-    CHECK_NEAR(nsvcd__f3_length(x), oracle_length(a), MATH_ROUNDING * oracle_length(a));
+    CHECK_NEAR(nsvcd__f3_norm(x), oracle_length(a), MATH_ROUNDING * oracle_length(a));
     for (int k = 0; k < 3; k++) want[k] = fmin(a[k], b[k]);
     math_check(nsvcd__f3_min(x, y), want, 0);
     CHECK_EQ(nsvcd__f3_exceeds(x, y), want[0] < a[0] || want[1] < a[1] || want[2] < a[2]);
@@ -163,8 +163,8 @@ static void math_vectors_in_double(void) {
     oracle_cross(a, b, want);
     math_check_d3(nsvcd__d3_cross(x, y), want, 2 * size);
     CHECK_NEAR(nsvcd__d3_dot(x, y), oracle_dot(a, b), 1e-15 * 3 * size);
-    CHECK_NEAR(nsvcd__d3_length(x) / oracle_length(a), 1, 1e-15);
-    CHECK_NEAR(nsvcd__d3_length(nsvcd__d3_unit(x, none)), 1, 1e-15);
+    CHECK_NEAR(nsvcd__d3_norm(x) / oracle_length(a), 1, 1e-15);
+    CHECK_NEAR(nsvcd__d3_norm(nsvcd__d3_unit(x, none)), 1, 1e-15);
     const nsvcd__d3 low = nsvcd__d3_min(x, y);
     const nsvcd__d3 high = nsvcd__d3_max(x, y);
     nsvcd__d3 copy = none;

@@ -258,7 +258,7 @@ static void mesh_patches_are_consistent(void) {
         const nsvcd__d3 at = nsvcd__d3_load(x);
         for (int k = 0; k < 3; ++k) mean[k] += (double)x[k] / samples;
         reach = fmax(reach, nsvcd__d3_distance2(at, nsvcd__d3_widen(p.centres[i])));
-        CHECK_NEAR(nsvcd__f3_length(p.normals[s]), 1, 1e-6);
+        CHECK_NEAR(nsvcd__f3_norm(p.normals[s]), 1, 1e-6);
       }
       const float *centre = &p.centres[i].x;
       const float *area_vector = &p.area_vectors[i].x;
@@ -268,7 +268,7 @@ static void mesh_patches_are_consistent(void) {
       CHECK_NEAR((double)p.sample_radii[i], sqrt(reach), 1e-6 * sqrt(reach));
       CHECK(p.radii[i] > 0 && nsvcd__is_finite(p.radii[i]));
       for (size_t k = 0; k < 3; ++k) vector[k] += (double)area_vector[k];
-      area += (double)nsvcd__f3_length(p.area_vectors[i]);
+      area += (double)nsvcd__f3_norm(p.area_vectors[i]);
     }
     double total = nsvcd__mesh_area(&mesh);
     CHECK_LE(area, total * (1 + 1e-6));
@@ -330,7 +330,7 @@ static void mesh_patches_edge_cases(void) {
     for (size_t k = 0; k < 3; ++k) x[k] = (double)mesh.positions[3 * mesh.indices[i] + k];
     CHECK(patches_cover(&p, x));
   }
-  for (size_t i = 0; i < p.sample_count; ++i) CHECK_EQ(nsvcd__f3_length(p.normals[i]), 0);
+  for (size_t i = 0; i < p.sample_count; ++i) CHECK_EQ(nsvcd__f3_norm(p.normals[i]), 0);
   nsvcd__arena_free(&arena);
   nsvcd_mesh_free(&mesh, NULL);
 

@@ -25,7 +25,7 @@ static double segment_distance(nsvcd__d3 a, nsvcd__d3 b, nsvcd__d3 x) {
   const double squared = nsvcd__d3_dot(d, d);
   const double t =
       squared > 0 ? fmin(1, fmax(0, nsvcd__d3_dot(nsvcd__d3_sub(x, a), d) / squared)) : 0;
-  return nsvcd__d3_length(nsvcd__d3_sub(nsvcd__d3_add(a, nsvcd__d3_scale(d, t)), x));
+  return nsvcd__d3_norm(nsvcd__d3_sub(nsvcd__d3_add(a, nsvcd__d3_scale(d, t)), x));
 }
 
 static double triangle_distance(const nsvcd__d3 *c, nsvcd__d3 x) {
@@ -33,12 +33,12 @@ static double triangle_distance(const nsvcd__d3 *c, nsvcd__d3 x) {
   least = fmin(least, segment_distance(c[1], c[2], x));
   least = fmin(least, segment_distance(c[2], c[0], x));
   const nsvcd__d3 n = nsvcd__d3_cross(nsvcd__d3_sub(c[1], c[0]), nsvcd__d3_sub(c[2], c[0]));
-  if (!(nsvcd__d3_length(n) > 0)) return least;
+  if (!(nsvcd__d3_norm(n) > 0)) return least;
   for (size_t i = 0; i < 3; i++) {
     const nsvcd__d3 side = nsvcd__d3_cross(n, nsvcd__d3_sub(c[(i + 1) % 3], c[i]));
     if (nsvcd__d3_dot(side, nsvcd__d3_sub(x, c[i])) < 0) return least;
   }
-  return fmin(least, fabs(nsvcd__d3_dot(n, nsvcd__d3_sub(x, c[0]))) / nsvcd__d3_length(n));
+  return fmin(least, fabs(nsvcd__d3_dot(n, nsvcd__d3_sub(x, c[0]))) / nsvcd__d3_norm(n));
 }
 
 // From outside, the nearest point of a hull lies in a triangle of its vertices: tries them all.
@@ -63,8 +63,8 @@ static int in_tetrahedron(nsvcd__d3 a, nsvcd__d3 b, nsvcd__d3 c, nsvcd__d3 d, ns
   const double parts[4] = {
       nsvcd__d3_dot(q, nsvcd__d3_cross(r, s)), -nsvcd__d3_dot(p, nsvcd__d3_cross(r, s)),
       nsvcd__d3_dot(p, nsvcd__d3_cross(q, s)), -nsvcd__d3_dot(p, nsvcd__d3_cross(q, r))};
-  const double base = nsvcd__d3_length(nsvcd__d3_sub(b, a)) * nsvcd__d3_length(nsvcd__d3_sub(c, a));
-  const double size = base * nsvcd__d3_length(nsvcd__d3_sub(d, a));
+  const double base = nsvcd__d3_norm(nsvcd__d3_sub(b, a)) * nsvcd__d3_norm(nsvcd__d3_sub(c, a));
+  const double size = base * nsvcd__d3_norm(nsvcd__d3_sub(d, a));
   const double whole = parts[0] + parts[1] + parts[2] + parts[3];
   if (fabs(whole) <= 1e-12 * size) return 0;
   for (size_t i = 0; i < 4; i++) {
@@ -243,7 +243,7 @@ static int check_ranges(const reader *r) {
     const nsvcd__d3 normal = nsvcd__d3_load(disc);
     bad += s->patches[i].hull_count < 1 || s->patches[i].hull_count > NSVCD__HULL ||
            s->patches[i].hull_count > n;
-    bad += nsvcd__d3_length(normal) > 1 || nsvcd__d3_length(normal) < 1 - 1e-6;
+    bad += nsvcd__d3_norm(normal) > 1 || nsvcd__d3_norm(normal) < 1 - 1e-6;
     bad += !(ball[3] > 0) || !(s->patches[i].step > 0) || !(s->patches[i].margin > 0) ||
            !(s->patches[i].error >= 0);
     const size_t named = s->patches[i + 1].first_named - s->patches[i].first_named;
@@ -272,14 +272,13 @@ static int patch_holds(const reader *r, size_t i, nsvcd__d3 x, misses *m) {
   const float *ball = &s->patches[i].ball.centre.x;
   const float *disc = &s->patches[i].slab.normal.x;
   const nsvcd__d3 offset = nsvcd__d3_sub(x, nsvcd__d3_load(ball));
-  if (nsvcd__d3_length(offset) > (double)ball[3] + r->tolerance) {
+  if (nsvcd__d3_norm(offset) > (double)ball[3] + r->tolerance) {
     m->ball++;
     return 0;
   }
   const nsvcd__d3 normal = nsvcd__d3_load(disc);
   const double along = nsvcd__d3_dot(offset, normal);
-  const double across =
-      nsvcd__d3_length(nsvcd__d3_cross(offset, normal)) / nsvcd__d3_length(normal);
+  const double across = nsvcd__d3_norm(nsvcd__d3_cross(offset, normal)) / nsvcd__d3_norm(normal);
   if (along < (double)disc[3] - r->tolerance || along > (double)disc[4] + r->tolerance ||
       across > (double)disc[5] + r->tolerance) {
     m->disc++;
@@ -380,7 +379,7 @@ static int is_listed_before(const reader *r, size_t first, size_t k) {
     reader_corners(r, r->sorted[i], other);
     const double both = quantum + (double)r->surface.patches[r->patch[r->sorted[i]]].error;
     for (size_t j = 0; j < 3; j++)
-      most = fmax(most, nsvcd__d3_length(nsvcd__d3_sub(own[j], other[j])));
+      most = fmax(most, nsvcd__d3_norm(nsvcd__d3_sub(own[j], other[j])));
     if (most <= both + 10 * r->tolerance) return 1;
   }
   return 0;
@@ -399,7 +398,7 @@ static void check_enclosing(const reader *r) {
     nsvcd__d3 c[3];
     for (size_t i = 0; i < 3; i++) c[i] = surface_corner(mesh, t, i);
     const double size =
-        nsvcd__d3_length(nsvcd__d3_sub(c[1], c[0])) + nsvcd__d3_length(nsvcd__d3_sub(c[2], c[0]));
+        nsvcd__d3_norm(nsvcd__d3_sub(c[1], c[0])) + nsvcd__d3_norm(nsvcd__d3_sub(c[2], c[0]));
     const int closed = parts.closed[parts.part[mesh->indices[3 * t]]];
     nsvcd__d3 sum = closed ? nsvcd__d3_scale(area_vector(c), -1) : nsvcd__d3_of(0, 0, 0);
     double error = 100 * r->tolerance * size;
@@ -415,13 +414,13 @@ static void check_enclosing(const reader *r) {
       if (!closed || is_listed_before(r, r->listings[t], k)) continue;
       reader_corners(r, l, part);
       const double quantum = (double)r->surface.patches[r->patch[l]].error;
-      const double perimeter = nsvcd__d3_length(nsvcd__d3_sub(part[1], part[0])) +
-                               nsvcd__d3_length(nsvcd__d3_sub(part[2], part[1])) +
-                               nsvcd__d3_length(nsvcd__d3_sub(part[0], part[2]));
+      const double perimeter = nsvcd__d3_norm(nsvcd__d3_sub(part[1], part[0])) +
+                               nsvcd__d3_norm(nsvcd__d3_sub(part[2], part[1])) +
+                               nsvcd__d3_norm(nsvcd__d3_sub(part[0], part[2]));
       const double part_error = perimeter * quantum + 4 * quantum * quantum;
       const double part_volume = nsvcd__d3_dot(part[0], nsvcd__d3_cross(part[1], part[2])) / 6;
       const nsvcd__d3 rest = nsvcd__d3_sub(area_vector(part), area_vector(c));
-      whole = nsvcd__d3_length(rest) <= part_error + 100 * r->tolerance * size;
+      whole = nsvcd__d3_norm(rest) <= part_error + 100 * r->tolerance * size;
       if (whole) {  // it stands for all the others
         sum = rest;
         error = 100 * r->tolerance * size;
@@ -435,7 +434,7 @@ static void check_enclosing(const reader *r) {
     }
     if (closed && !whole) bad += flags != r->listings[t + 1] - r->listings[t];
     if (!closed) found = flags;
-    bad += nsvcd__d3_length(sum) > error;
+    bad += nsvcd__d3_norm(sum) > error;
     bad += closed ? found == 0 : found > 0;
     marked += found > 0;
     volume_error += error * surface_scale(mesh) * 2 + 1e-15 * pow(surface_scale(mesh), 3);

@@ -232,7 +232,7 @@ static void vectors_rows(void) {
   NSVCD__EACH_SLICE(l) {
     nsvcd__vquat_store(nsvcd__vquat_load(from + l, VECTORS_STRIDE), to + l, VECTORS_STRIDE);
     const nsvcd__spheres all = nsvcd__spheres_of(from, VECTORS_STRIDE);
-    nsvcd__v3_store_rows(nsvcd__v3_centres(all, l), to + 4 * VECTORS_STRIDE + l, VECTORS_STRIDE);
+    nsvcd__v3_put(nsvcd__v3_centres(all, l), to + 4 * VECTORS_STRIDE + l, VECTORS_STRIDE);
     nsvcd__vmat3_store(copy, l, nsvcd__vmat3_load(lanes, l));
   }
   for (size_t l = 0; l < NSVCD__LANES; l++) {
@@ -355,7 +355,7 @@ CASE(scale, v3_to, nsvcd__v3_scale(V3(0), V(3)), times(in[3], in, 3, out))
 CASE(fma, v3_to, nsvcd__v3_fma(V(0), V3(1), V3(4)), sum_of(in + 4, in[0], in + 1, 3, out))
 CASE(dot, v_to, nsvcd__v3_dot(V3(0), V3(3)), *out = product(in, in + 3, 3))
 CASE(dot_add, v_to, nsvcd__v3_dot_add(V3(0), V3(3), V(6)), *out = in[6] + product(in, in + 3, 3))
-CASE(length, v_to, nsvcd__v3_length(V3(0)), *out = oracle_length(in))
+CASE(length, v_to, nsvcd__v3_norm(V3(0)), *out = oracle_length(in))
 CASE(cross, v3_to, nsvcd__v3_cross(V3(0), V3(3)), oracle_cross(in, in + 3, out))
 CASE(unit, v3_to, nsvcd__v3_unit(V3(0)), times(1 / oracle_length(in), in, 3, out))
 CASE(transform, v3_to, nsvcd__v3_transform(&vectors_moved, V3(0)),

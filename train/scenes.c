@@ -659,9 +659,9 @@ static size_t pairs_write(problem *p, worker *w, const size_t *first_patch, cons
       nsvcd__inputs_of(&pairs, count, &inputs);
       for (size_t b = 0; b < 2; b++) {
         const nsvcd__vmat3 *m = &inputs.turn[b];
-        nsvcd__v3_store_rows(m->x, turns[b][0], NSVCD__SLICE);
-        nsvcd__v3_store_rows(m->y, turns[b][3], NSVCD__SLICE);
-        nsvcd__v3_store_rows(m->z, turns[b][6], NSVCD__SLICE);
+        nsvcd__v3_put(m->x, turns[b][0], NSVCD__SLICE);
+        nsvcd__v3_put(m->y, turns[b][3], NSVCD__SLICE);
+        nsvcd__v3_put(m->z, turns[b][6], NSVCD__SLICE);
       }
     }
     for (size_t l = 0; l < NSVCD__SLICE && first + l < PAIRS; l++) {

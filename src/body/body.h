@@ -297,8 +297,7 @@ static float nsvcd__radius_about(nsvcd__spheres all, size_t count, nsvcd__f3 poi
   const nsvcd__sphere guess = nsvcd__sphere_of(all, *farthest);
   // less than 1 by more than the roundings: the farthest sphere is never skipped
   const float fraction = 0.999998f;
-  float least =
-      fraction * (nsvcd__f3_length(nsvcd__f3_sub(guess.centre, point)) + guess.radius);
+  float least = fraction * (nsvcd__f3_norm(nsvcd__f3_sub(guess.centre, point)) + guess.radius);
   float radius = 0;
   for (size_t first = 0; first < count; first += NSVCD__GROUP) {
     const size_t end = first + nsvcd__group_members(count, first);
@@ -306,7 +305,7 @@ static float nsvcd__radius_about(nsvcd__spheres all, size_t count, nsvcd__f3 poi
     if (end == first + NSVCD__GROUP && nsvcd__are_within(some, point, least)) continue;
     for (size_t i = first; i < end; i++) {
       const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__centre_of(all, i), point);
-      const float to = nsvcd__f3_length(offset) + all.r[i];
+      const float to = nsvcd__f3_norm(offset) + all.r[i];
       if (to > radius) *farthest = i;
       radius = to > radius ? to : radius;
     }

@@ -162,11 +162,11 @@ static nsvcd_result nsvcd__draft_regions(nsvcd__draft *d) {
 // Makes everything but the blob. After success, free the draft's arena. MEMORY, CANCELLED,
 // TOO_LARGE.
 static nsvcd_result nsvcd__draft_build(const nsvcd_mesh *mesh, const nsvcd_encode_options *o,
-                                       const nsvcd_allocator *allocator, nsvcd__draft *d) {
+                                       const nsvcd_allocator *alloc, nsvcd__draft *d) {
   memset(d, 0, sizeof *d);
   d->mesh = mesh;
   d->options = o;
-  d->arena = nsvcd__arena_of(allocator);
+  d->arena = nsvcd__arena_of(alloc);
   if (nsvcd__is_cancelled(o, 0)) return NSVCD_ERROR_CANCELLED;
   d->in_runs = NSVCD__PROOF && o->convex_radius > 0 && nsvcd__has_points(mesh);
   nsvcd_result result = d->in_runs ? nsvcd__draft_runs(d) : nsvcd__draft_regions(d);
@@ -263,7 +263,7 @@ static nsvcd_result nsvcd__encode_resolve(const nsvcd_mesh *mesh, nsvcd_encode_o
 // t.
 static nsvcd_result nsvcd__encode_mesh(const nsvcd_mesh *mesh,
                                        const nsvcd_encode_options *options,
-                                       const nsvcd_allocator *allocator, void *memory,
+                                       const nsvcd_allocator *alloc, void *memory,
                                        size_t capacity, const nsvcd_body **body) {
   if (!body) return NSVCD_ERROR_ARGUMENT;
   if (memory && !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
@@ -272,12 +272,12 @@ static nsvcd_result nsvcd__encode_mesh(const nsvcd_mesh *mesh,
   if (options) o = *options;
   nsvcd__draft draft;
   nsvcd_result result = nsvcd__encode_resolve(mesh, &o);
-  if (!result) result = nsvcd__draft_build(mesh, &o, allocator, &draft);
+  if (!result) result = nsvcd__draft_build(mesh, &o, alloc, &draft);
   if (result) return result;
 
   const int fits = draft.geometry_size <= 0xffffffffu - draft.latents_size;
   const size_t size = draft.latents_size + draft.geometry_size;
-  void *to = memory || !fits ? memory : nsvcd__alloc(allocator, size);
+  void *to = memory || !fits ? memory : nsvcd__alloc(alloc, size);
   if (!fits) {
     result = NSVCD_ERROR_TOO_LARGE;
   } else if (!to) {
@@ -288,23 +288,23 @@ static nsvcd_result nsvcd__encode_mesh(const nsvcd_mesh *mesh,
     result = nsvcd__draft_write(&draft, to);
   }
   if (!result) *body = (const nsvcd_body *)to;
-  if (result && !memory) nsvcd__free(allocator, to);
+  if (result && !memory) nsvcd__free(alloc, to);
   nsvcd__arena_free(&draft.arena);
   return result;
 }
 
 NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
-                                   const nsvcd_allocator *allocator, void *memory,
-                                   size_t capacity, const nsvcd_body **body) {
+                                   const nsvcd_allocator *alloc, void *memory, size_t capacity,
+                                   const nsvcd_body **body) {
   if (!mesh || !mesh->indices) return nsvcd__mesh_check(mesh);
-  return nsvcd__encode_mesh(mesh, options, allocator, memory, capacity, body);
+  return nsvcd__encode_mesh(mesh, options, alloc, memory, capacity, body);
 }
 
-NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *allocator) {
+NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *alloc) {
   void *memory;
   if (nsvcd__body_check(body, SIZE_MAX)) return;
   // a cast would take away a const
   memcpy(&memory, &body, sizeof memory);
-  nsvcd__free(allocator, memory);
+  nsvcd__free(alloc, memory);
 }
 #endif  // NSVCD_NO_ENCODER

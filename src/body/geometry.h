@@ -378,7 +378,7 @@ static void nsvcd__finish_group(nsvcd_body *b, size_t g) {
   nsvcd__d3 best = {0, 0, 1};
   nsvcd__dslab thinnest = {0, HUGE_VAL, 0};
   for (size_t k = 0; k < 1 + NSVCD__GROUP; k += k == 0 ? 1 : 4) {
-    const double length = nsvcd__d3_length(normals[k]);
+    const double length = nsvcd__d3_norm(normals[k]);
     if (!(length > 1e-3)) continue;
     // as it is stored, and not longer than 1
     const nsvcd__d3 shorter = nsvcd__d3_scale(normals[k], 0.9999998 / length);
@@ -416,7 +416,7 @@ static void nsvcd__collect_hulls(const nsvcd__geometry *f, size_t g, nsvcd__hull
       nsvcd__d3 v = nsvcd__patch_origin(f, i);
       if (count) v = nsvcd__stored_point(f, i, k);
       // of v to float
-      const double rounding = 1.1e-7 * nsvcd__d3_length(v);
+      const double rounding = 1.1e-7 * nsvcd__d3_norm(v);
       const size_t n = out->count++;
       out->spheres[3][n] = nsvcd__above((double)f->margins[i] + rounding);
       nsvcd__f3_put(nsvcd__f3_round(v), &out->spheres[0][n], NSVCD__HULLS);

@@ -308,7 +308,7 @@ static void nsvcd__scale_triangles(nsvcd_body *b, float scale) {
   }
   const double off_mesh = worst + (double)nsvcd__off_mesh(&f) * by;
   for (size_t i = 0; i < b->patches; i++) {
-    const double distance = (double)nsvcd__f3_length(nsvcd__patch_centre(&f, i));
+    const double distance = (double)nsvcd__f3_norm(nsvcd__patch_centre(&f, i));
     nsvcd__slab slab = nsvcd__slab_at(f.slabs, b->padded, i);
     f.steps[i] *= scale;
     const double rounding = 2e-7 * (distance + 6e4 * (double)f.steps[i]) + off;

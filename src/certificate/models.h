@@ -118,7 +118,7 @@ static nsvcd_deviation nsvcd__mover_deviation(const void *motion, double t0, dou
   const nsvcd__d3 turn = nsvcd__dquat_axis(nsvcd__dquat_inverse_mul(arc.from, arc.to));
   const nsvcd__d3 axis = nsvcd__d3_unit(turn, nsvcd__d3_of(0, 0, 0));
   memcpy(out.axis, &axis, sizeof out.axis);
-  *(nsvcd__d3_length(axis) > 0 ? &out.turn : &out.per_metre) = 0.1250001 * h * h;
+  *(nsvcd__d3_norm(axis) > 0 ? &out.turn : &out.per_metre) = 0.1250001 * h * h;
   return out;
 }
 

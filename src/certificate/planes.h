@@ -182,7 +182,7 @@ static double nsvcd__distance_along(const nsvcd__tree_interval *s,
 static double nsvcd__node_radius(const nsvcd__moving *moving, const nsvcd__node *node) {
   const nsvcd__box *box = &moving->tree->boxes[node->box];
   const nsvcd__f3 corner = nsvcd__f3_max(box->high, nsvcd__f3_scale(box->low, -1));
-  return 1.000002 * moving->model.scale * nsvcd__d3_length(nsvcd__d3_widen(corner));
+  return 1.000002 * moving->model.scale * nsvcd__d3_norm(nsvcd__d3_widen(corner));
 }
 
 // No point of a node is farther from the line through its body's origin along a unit axis.
@@ -214,18 +214,18 @@ static double nsvcd__node_axis_radius(const nsvcd__moving *moving, const nsvcd__
 static double nsvcd__node_deviation(const nsvcd__moving *body, const nsvcd__node_pair *pair,
                                     const nsvcd__instant *at, size_t n, nsvcd__d3 along) {
   const nsvcd_deviation *d = &at->deviations[n];
-  const double any = nsvcd__d3_length(along) * (d->base + d->per_metre * pair->radii[n]);
+  const double any = nsvcd__d3_norm(along) * (d->base + d->per_metre * pair->radii[n]);
   if (!(d->turn > 0)) return any;
   const nsvcd__d3 own = nsvcd__d3_of(d->axis[0], d->axis[1], d->axis[2]);
   const nsvcd__d3 axis = nsvcd__dmat3_apply(&at->poses[n].turn, own);
-  const double across = nsvcd__d3_length(nsvcd__d3_cross(along, axis));
+  const double across = nsvcd__d3_norm(nsvcd__d3_cross(along, axis));
   return any + d->turn * across * nsvcd__node_axis_radius(body, &pair->nodes[n], own);
 }
 
 // Does a plane of this normal separate two nodes, at all instants and between them?
 static int nsvcd__separates(const nsvcd__tree_interval *s, const nsvcd__node_pair *pair,
                             nsvcd__d3 along) {
-  const double length = nsvcd__d3_length(along);
+  const double length = nsvcd__d3_norm(along);
   double last = HUGE_VAL;
   double last_lengths = 0;
   double deviation = 0;
@@ -284,9 +284,9 @@ static nsvcd__best nsvcd__gilbert(const nsvcd__tree_interval *s, const nsvcd__no
                                   const nsvcd__instant *at, nsvcd__d3 along) {
   nsvcd__best best = {along, -HUGE_VAL};
   nsvcd__d3 v = nsvcd__least_apart(s, pair, at, along);
-  const double first = nsvcd__d3_length(v);
+  const double first = nsvcd__d3_norm(v);
   for (int n = 0; n < NSVCD__GILBERT_STEPS; n++) {
-    const double length = nsvcd__d3_length(v);
+    const double length = nsvcd__d3_norm(v);
     if (!(length > NSVCD__GILBERT_LEAST * first)) break;
     const nsvcd__d3 w = nsvcd__least_apart(s, pair, at, v);
     const double distance = nsvcd__d3_dot(v, w) / length;

@@ -18,7 +18,7 @@ static nsvcd__seen nsvcd__seen_at(const nsvcd__moving *of, const nsvcd__moving *
   nsvcd__seen s = {of, by, nsvcd__pose_matrix_at(of, t), nsvcd__pose_matrix_at(by, t), 0, 0};
   const double scale = by->model.scale;
   const double radii = nsvcd__node_radius(of, &root) + nsvcd__node_radius(by, &root);
-  const double apart = nsvcd__d3_length(nsvcd__d3_sub(s.of_at.at, s.by_at.at));
+  const double apart = nsvcd__d3_norm(nsvcd__d3_sub(s.of_at.at, s.by_at.at));
   const double positions =
       of->model.extent + by->model.extent + nsvcd__lengths_at(&s.of_at, &s.by_at);
   s.lengths = 1.000001 * (radii + apart) / scale;
@@ -44,7 +44,7 @@ static void nsvcd__seen_triangle(const nsvcd__seen *s, uint32_t triangle, nsvcd_
 // or miss it (0)? UNCLEAR: by too little.
 static int nsvcd__ray_passes(const nsvcd__seen *s, uint32_t triangle, nsvcd__d3 from,
                              nsvcd__d3 along) {
-  const double length = nsvcd__d3_length(along);
+  const double length = nsvcd__d3_norm(along);
   const double rounding = 1e-4 * NSVCD__CERTIFIED_MARGIN * s->lengths * s->lengths;
   nsvcd__d3 p[3], crosses[3];
   int left = 0;
@@ -59,7 +59,7 @@ static int nsvcd__ray_passes(const nsvcd__seen *s, uint32_t triangle, nsvcd__d3 
     crosses[k] = nsvcd__d3_cross(p[k], p[(k + 1) % 3]);
     const double edge = sqrt(nsvcd__d3_distance2(p[k], p[(k + 1) % 3]));
     const double off =
-        length * (s->margin * edge + rounding) + 2 * s->margin * nsvcd__d3_length(crosses[k]);
+        length * (s->margin * edge + rounding) + 2 * s->margin * nsvcd__d3_norm(crosses[k]);
     left += nsvcd__d3_dot(along, crosses[k]) > off;
     right += nsvcd__d3_dot(along, crosses[k]) < -off;
   }
@@ -67,7 +67,7 @@ static int nsvcd__ray_passes(const nsvcd__seen *s, uint32_t triangle, nsvcd__d3 
   if (left < 3 && right < 3) return NSVCD__UNCLEAR;
   const nsvcd__d3 normal = nsvcd__d3_add(crosses[0], nsvcd__d3_add(crosses[1], crosses[2]));
   const double volume = nsvcd__d3_dot(p[2], crosses[0]);
-  const double off = s->margin * nsvcd__d3_length(normal) + rounding * s->lengths;
+  const double off = s->margin * nsvcd__d3_norm(normal) + rounding * s->lengths;
   if (!(fabs(volume) > off)) return NSVCD__UNCLEAR;
   if ((volume > 0) != (left > 0)) return 0;
   return left > 0 ? 1 : -1;
@@ -94,7 +94,7 @@ static int nsvcd__ray_misses(const nsvcd__box *box, nsvcd__d3 from, nsvcd__d3 al
 static int nsvcd__cast(const nsvcd__seen *s, nsvcd__d3 from, nsvcd__d3 along, int32_t *sums,
                        int *winding) {
   const nsvcd_tree *tree = s->by->tree;
-  const double margin = s->margin * nsvcd__d3_length(along);
+  const double margin = s->margin * nsvcd__d3_norm(along);
   nsvcd__node stack[NSVCD__TREE_STACK] = {{0, 0, (uint32_t)tree->mesh.triangle_count}};
   size_t height = 1;
   memset(sums, 0, tree->mesh.vertex_count * sizeof *sums);

@@ -20,7 +20,7 @@
 // The derivative of |a| by a, times `by`. Where |a| is 0 to rounding it is 0, the mean of all
 // directions.
 static nsvcd__f3 nsvcd__by_length(nsvcd__f3 a, float by) {
-  const float length = nsvcd__f3_length(a);
+  const float length = nsvcd__f3_norm(a);
   return nsvcd__f3_scale(a, length > 1e-6f ? by / length : 0);
 }
 
@@ -226,13 +226,13 @@ static void nsvcd__by_frame(const nsvcd__view *view, nsvcd__by_view *by) {
   const nsvcd__f3 e1 = view->frame.x;
   const nsvcd__f3 e2 = view->frame.y;
   const nsvcd__f3 e3 = view->frame.z;
-  const float length = nsvcd__f3_length(view->d);
+  const float length = nsvcd__f3_norm(view->d);
   const nsvcd__f3 line = nsvcd__f3_of(view->lean.x + 1e-6f, view->lean.y, view->lean.z);
 
   // Axis 2: the direction of a reference a, without its part along axis 1.
   nsvcd__f3 a = nsvcd__f3_add(nsvcd__f3_scale(view->lean, NSVCD__LEAN), view->v);
   nsvcd__f3 across = nsvcd__f3_across(a, e1);
-  const int vanishes = nsvcd__f3_length(across) <= 1e-7f;
+  const int vanishes = nsvcd__f3_norm(across) <= 1e-7f;
   if (vanishes) {
     // the coordinate axis farthest from e1
     const float x = fabsf(e1.x);
@@ -242,7 +242,7 @@ static void nsvcd__by_frame(const nsvcd__view *view, nsvcd__by_view *by) {
     if (x <= y && x <= z) a = nsvcd__f3_of(1, 0, 0);
     across = nsvcd__f3_across(a, e1);
   }
-  const float about = by->torque.x / nsvcd__f3_length(across);
+  const float about = by->torque.x / nsvcd__f3_norm(across);
   if (!vanishes) {
     nsvcd__add_to(&by->v, -about, e3);
     nsvcd__add_to(&by->lean, -about * NSVCD__LEAN, e3);
@@ -254,8 +254,8 @@ static void nsvcd__by_frame(const nsvcd__view *view, nsvcd__by_view *by) {
   nsvcd__add_to(&by_e1, -by->torque.z, e2);
   if (length > 1e-5f)
     nsvcd__add_to(&by->d, 1 / length, by_e1);
-  else if (nsvcd__f3_length(line) > 1e-9f)
-    nsvcd__add_to(&by->lean, 1 / nsvcd__f3_length(line), by_e1);
+  else if (nsvcd__f3_norm(line) > 1e-9f)
+    nsvcd__add_to(&by->lean, 1 / nsvcd__f3_norm(line), by_e1);
 }
 
 // ---- gaps
@@ -326,13 +326,13 @@ static nsvcd__f3 nsvcd__by_gap_axes(const nsvcd__pair *pair, const nsvcd__view *
                                     const nsvcd__f3 *u, const nsvcd__f3 *by_u,
                                     nsvcd__by_pair *out) {
   const nsvcd__f3 line = u[NSVCD__GAP_LINE];
-  const int has_fixed = nsvcd__f3_length(pair->normal[1]) > 0.5f;
-  const int has_moving = nsvcd__f3_length(view->normal) > 0.5f;
+  const int has_fixed = nsvcd__f3_norm(pair->normal[1]) > 0.5f;
+  const int has_moving = nsvcd__f3_norm(view->normal) > 0.5f;
   const size_t of_moving = view->swap > 0 ? NSVCD__GAP_LARGER : NSVCD__GAP_SMALLER;
   const size_t of_fixed = view->swap > 0 ? NSVCD__GAP_SMALLER : NSVCD__GAP_LARGER;
   const nsvcd__f3 from = has_fixed ? pair->normal[1] : line;
   const nsvcd__f3 to = has_moving ? nsvcd__f3_scale(view->normal, -1) : line;
-  const float length = nsvcd__f3_length(nsvcd__f3_add(from, to));
+  const float length = nsvcd__f3_norm(nsvcd__f3_add(from, to));
   // An axis is the direction of a constant, plus multiples of the moving patch's normal, reversed,
   // and of the line.
   float normals[NSVCD__GAPS] = {0};
@@ -353,7 +353,7 @@ static nsvcd__f3 nsvcd__by_gap_axes(const nsvcd__pair *pair, const nsvcd__view *
     nsvcd__add_to(&by_normal, -normals[d], across);
     nsvcd__add_to(&by_line, lines[d], across);
   }
-  const float distance = nsvcd__f3_length(nsvcd__f3_sub(pair->p1, pair->p2));
+  const float distance = nsvcd__f3_norm(nsvcd__f3_sub(pair->p1, pair->p2));
   const float inverse = 1 / fmaxf(distance, 1e-20f);
   nsvcd__add_to(&out->p1, inverse, nsvcd__f3_across(by_line, line));
   return by_normal;

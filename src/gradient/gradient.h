@@ -34,7 +34,7 @@ static float nsvcd__by_poses(const nsvcd__track *track, float t, nsvcd__f3 force
   const nsvcd__quat qb = nsvcd__quat_unit(nsvcd__quat_load(b->rotation));
   const nsvcd__quat nearer = nsvcd__quat_beside(qb, nsvcd__poses_opposed(a, b));
   const nsvcd__f3 axis = nsvcd__quat_turn(qa, nearer);
-  const float sine = nsvcd__f3_length(axis);
+  const float sine = nsvcd__f3_norm(axis);
   const float inverse = sine > 0 ? 1 / sine : 0;
   const nsvcd__f3 n = nsvcd__f3_scale(axis, inverse);
   const float h = nsvcd__quat_arc(qa, nearer);
@@ -137,7 +137,7 @@ static void nsvcd__by_contact(const nsvcd__motion *m, nsvcd__instants *at, size_
   const nsvcd__f3 chord = nsvcd__f3_sub(nsvcd__lane_of(at->position, s + 1), start);
   const nsvcd__f3 from = nsvcd__f3_sub(start, centre);
   const nsvcd__f3 y = nsvcd__f3_fma(tau, chord, from);
-  const float least = 1e-3f * nsvcd__f3_length(y) * nsvcd__f3_length(chord);
+  const float least = 1e-3f * nsvcd__f3_norm(y) * nsvcd__f3_norm(chord);
   const float dot = fabsf(nsvcd__f3_dot(y, chord));
   if (!(least > 0)) return;
   const float along = l == NSVCD__ENTRY ? length : -length;
@@ -183,7 +183,7 @@ static void nsvcd__gradient(const nsvcd__task *task, nsvcd__decisive *decisive,
   // nsvcd__by_poses says.
   const nsvcd__f3 none = {0, 0, 0};
   float by_time[2];
-  const float h = nsvcd__f3_length(w);
+  const float h = nsvcd__f3_norm(w);
   const float half = 0.5f * (h > 1e-3f ? h / sinf(h) : 1);
   const nsvcd__f3 n = h > 0 ? nsvcd__f3_of(w.x / h, w.y / h, w.z / h) : none;
   const float by_middle = nsvcd__by_instant(m, &at, NSVCD__MIDDLE, by.p1, by.rotation, out);

@@ -52,7 +52,7 @@ static inline double nsvcd__min(double a, double b) {
   static inline t t##_cross(t a, t b) { \
     return t##_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x); \
   } \
-  static inline scalar t##_length(t a) { \
+  static inline scalar t##_norm(t a) { \
     return sqrt(t##_dot(a, a)); \
   }
 NSVCD__VECTORS(nsvcd__f3, float, sqrtf)
@@ -106,7 +106,7 @@ static inline double nsvcd__d3_distance2(nsvcd__d3 a, nsvcd__d3 b) {
 }
 // Of length 1; `otherwise` if a is 0.
 static inline nsvcd__d3 nsvcd__d3_unit(nsvcd__d3 a, nsvcd__d3 otherwise) {
-  const double length = nsvcd__d3_length(a);
+  const double length = nsvcd__d3_norm(a);
   return length > 0 ? nsvcd__d3_scale(a, 1 / length) : otherwise;
 }
 // Rounds for certain. gcc 12 at -O2 drops both conversions where two neighbouring doubles become

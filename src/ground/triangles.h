@@ -14,7 +14,7 @@ static inline nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
   double longest = 0;
   for (size_t k = 0; k < 3; k++)
     longest = nsvcd__max(longest, nsvcd__d3_distance2(t[k], t[(k + 1) % 3]));
-  const double length = nsvcd__d3_length(n);
+  const double length = nsvcd__d3_norm(n);
   return nsvcd__d3_scale(n, length > 1e-9 * longest ? 1 / length : 0);
 }
 

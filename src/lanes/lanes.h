@@ -271,7 +271,7 @@ NSVCD__INLINE nsvcd__v nsvcd__v3_dot_add(nsvcd__v3 a, nsvcd__v3 b, nsvcd__v s) {
   const nsvcd__v sum = nsvcd__v_fma(a.x, b.x, s);
   return nsvcd__v_fma(a.z, b.z, nsvcd__v_fma(a.y, b.y, sum));
 }
-NSVCD__INLINE nsvcd__v nsvcd__v3_length(nsvcd__v3 a) {
+NSVCD__INLINE nsvcd__v nsvcd__v3_norm(nsvcd__v3 a) {
   return nsvcd__v_sqrt(nsvcd__v3_dot(a, a));
 }
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_cross(nsvcd__v3 a, nsvcd__v3 b) {
@@ -285,7 +285,7 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_centres(nsvcd__spheres all, size_t l) {
                       nsvcd__v_load(all.z + l));
 }
 // From rows of x, y and z, `stride` apart.
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_load_rows(const float *p, size_t stride) {
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_get(const float *p, size_t stride) {
   return nsvcd__v3_of(nsvcd__v_load(p), nsvcd__v_load(p + stride),
                       nsvcd__v_load(p + 2 * stride));
 }
@@ -293,21 +293,21 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_load_int8(const int8_t *p, size_t stride) {
   return nsvcd__v3_of(nsvcd__v_load_int8(p), nsvcd__v_load_int8(p + stride),
                       nsvcd__v_load_int8(p + 2 * stride));
 }
-NSVCD__INLINE void nsvcd__v3_store_rows(nsvcd__v3 a, float *p, size_t stride) {
+NSVCD__INLINE void nsvcd__v3_put(nsvcd__v3 a, float *p, size_t stride) {
   nsvcd__v_store(p, a.x);
   nsvcd__v_store(p + stride, a.y);
   nsvcd__v_store(p + 2 * stride, a.z);
 }
 // From three rows of 16 numbers.
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_rows(const float *p) {
-  return nsvcd__v3_load_rows(p, NSVCD__LANES);
+  return nsvcd__v3_get(p, NSVCD__LANES);
 }
 // Lanes l .. l + SLICE - 1 of p (3, LANES).
 NSVCD__INLINE void nsvcd__v3_store(nsvcd__row *p, size_t l, nsvcd__v3 a) {
-  nsvcd__v3_store_rows(a, p[0] + l, NSVCD__LANES);
+  nsvcd__v3_put(a, p[0] + l, NSVCD__LANES);
 }
 NSVCD__INLINE nsvcd__v3 nsvcd__v3_load(nsvcd__row *p, size_t l) {
-  return nsvcd__v3_load_rows(p[0] + l, NSVCD__LANES);
+  return nsvcd__v3_get(p[0] + l, NSVCD__LANES);
 }
 
 // The vector in lane l alone.
@@ -321,7 +321,7 @@ static inline void nsvcd__lane_set(nsvcd__f3 a, nsvcd__row *p, size_t l) {
 static inline nsvcd__v3 nsvcd__v3_unit(nsvcd__v3 a) {
   const nsvcd__v3 x = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
   const nsvcd__v least = nsvcd__v_set(1e-18f);
-  const nsvcd__v length = nsvcd__v3_length(a);
+  const nsvcd__v length = nsvcd__v3_norm(a);
   const nsvcd__v inverse = nsvcd__v_div(x.x, nsvcd__v_max(length, least));
   const nsvcd__v3 unit = nsvcd__v3_scale(a, inverse);
   return nsvcd__v3_of(nsvcd__v_pick(length, least, x.x, unit.x),

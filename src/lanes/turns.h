@@ -25,10 +25,10 @@ NSVCD__INLINE nsvcd__vquat nsvcd__vquat_set(nsvcd__quat q) {
 }
 // From rows of x, y, z and w, `stride` apart.
 NSVCD__INLINE nsvcd__vquat nsvcd__vquat_load(const float *p, size_t stride) {
-  return nsvcd__vquat_of(nsvcd__v3_load_rows(p, stride), nsvcd__v_load(p + 3 * stride));
+  return nsvcd__vquat_of(nsvcd__v3_get(p, stride), nsvcd__v_load(p + 3 * stride));
 }
 NSVCD__INLINE void nsvcd__vquat_store(nsvcd__vquat q, float *p, size_t stride) {
-  nsvcd__v3_store_rows(nsvcd__vquat_axis(q), p, stride);
+  nsvcd__v3_put(nsvcd__vquat_axis(q), p, stride);
   nsvcd__v_store(p + 3 * stride, q.w);
 }
 static inline nsvcd__v nsvcd__vquat_dot(nsvcd__vquat a, nsvcd__vquat b) {

@@ -28,11 +28,11 @@ static nsvcd_result nsvcd__faces_check(const nsvcd_faces *f, size_t *triangles,
   return *triangles ? NSVCD_OK : NSVCD_ERROR_EMPTY;
 }
 
-NSVCDDEF nsvcd_result nsvcd_mesh_of_faces(const nsvcd_faces *f,
-                                          const nsvcd_allocator *allocator, nsvcd_mesh *mesh) {
+NSVCDDEF nsvcd_result nsvcd_mesh_of_faces(const nsvcd_faces *f, const nsvcd_allocator *alloc,
+                                          nsvcd_mesh *mesh) {
   nsvcd_mesh out;
   nsvcd__polygon polygon;
-  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  nsvcd__arena arena = nsvcd__arena_of(alloc);
   size_t triangles;
   uint32_t most;
   if (!f || !mesh) return NSVCD_ERROR_ARGUMENT;
@@ -40,10 +40,10 @@ NSVCDDEF nsvcd_result nsvcd_mesh_of_faces(const nsvcd_faces *f,
     return NSVCD_ERROR_ARGUMENT;
   nsvcd_result result = nsvcd__faces_check(f, &triangles, &most);
   if (result) return result;
-  if (!nsvcd__mesh_alloc(&out, f->vertex_count, triangles, allocator) ||
+  if (!nsvcd__mesh_alloc(&out, f->vertex_count, triangles, alloc) ||
       !nsvcd__polygon_alloc(&polygon, most, &arena)) {
     nsvcd__arena_free(&arena);
-    nsvcd_mesh_free(&out, allocator);
+    nsvcd_mesh_free(&out, alloc);
     return NSVCD_ERROR_MEMORY;
   }
   memcpy(out.positions, f->positions, 3 * f->vertex_count * sizeof(float));

@@ -5,11 +5,11 @@
 #ifndef NSVCD_NO_OBJ
 NSVCDDEF nsvcd_result nsvcd_mesh_parse(const void *data, size_t size,
                                        const nsvcd_mesh_options *options,
-                                       const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                       const nsvcd_allocator *alloc, nsvcd_mesh *mesh,
                                        size_t *error_line) {
   nsvcd__obj text;
   nsvcd_mesh out;
-  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  nsvcd__arena arena = nsvcd__arena_of(alloc);
   if (error_line) *error_line = 0;
   if (!mesh || !data) return NSVCD_ERROR_ARGUMENT;
   memset(&out, 0, sizeof out);
@@ -19,12 +19,12 @@ NSVCDDEF nsvcd_result nsvcd_mesh_parse(const void *data, size_t size,
   int is_stl = text.options.format == NSVCD_MESH_STL;
   if (text.options.format == NSVCD_MESH_ANY)
     is_stl = size == nsvcd__stl_size(data, size) || nsvcd__stl_is_solid(text);
-  result = is_stl ? nsvcd__stl_read(&text, data, size, allocator, &out)
+  result = is_stl ? nsvcd__stl_read(&text, data, size, alloc, &out)
                   : nsvcd__obj_read(&text, &arena, &out);
   nsvcd__arena_free(&arena);
   if (result) {
     if (error_line) *error_line = text.line;
-    nsvcd_mesh_free(&out, allocator);
+    nsvcd_mesh_free(&out, alloc);
     return result;
   }
   *mesh = out;
@@ -35,15 +35,15 @@ static const nsvcd_mesh_options nsvcd__as_obj = {NSVCD_MESH_OBJ, {0, 0, 0}, 0};
 static const nsvcd_mesh_options nsvcd__as_stl = {NSVCD_MESH_STL, {0, 0, 0}, 0};
 
 NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
-                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                      const nsvcd_allocator *alloc, nsvcd_mesh *mesh,
                                       size_t *error_line) {
-  return nsvcd_mesh_parse(text, size, &nsvcd__as_obj, allocator, mesh, error_line);
+  return nsvcd_mesh_parse(text, size, &nsvcd__as_obj, alloc, mesh, error_line);
 }
 
 NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
-                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                      const nsvcd_allocator *alloc, nsvcd_mesh *mesh,
                                       size_t *error_line) {
-  return nsvcd_mesh_parse(data, size, &nsvcd__as_stl, allocator, mesh, error_line);
+  return nsvcd_mesh_parse(data, size, &nsvcd__as_stl, alloc, mesh, error_line);
 }
 
 #ifndef NSVCD_NO_STDIO
@@ -73,27 +73,27 @@ static nsvcd_result nsvcd__read_file(const char *path, nsvcd__arena *arena, char
 }
 
 NSVCDDEF nsvcd_result nsvcd_mesh_load(const char *path, const nsvcd_mesh_options *options,
-                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                      const nsvcd_allocator *alloc, nsvcd_mesh *mesh,
                                       size_t *error_line) {
   char *data;
   size_t size;
   if (error_line) *error_line = 0;
   if (!path || !mesh) return NSVCD_ERROR_ARGUMENT;
-  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  nsvcd__arena arena = nsvcd__arena_of(alloc);
   nsvcd_result result = nsvcd__read_file(path, &arena, &data, &size);
-  if (!result) result = nsvcd_mesh_parse(data, size, options, allocator, mesh, error_line);
+  if (!result) result = nsvcd_mesh_parse(data, size, options, alloc, mesh, error_line);
   nsvcd__arena_free(&arena);
   return result;
 }
 
-NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator,
+NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *alloc,
                                      nsvcd_mesh *mesh, size_t *error_line) {
-  return nsvcd_mesh_load(path, &nsvcd__as_obj, allocator, mesh, error_line);
+  return nsvcd_mesh_load(path, &nsvcd__as_obj, alloc, mesh, error_line);
 }
 
-NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *allocator,
+NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *alloc,
                                      nsvcd_mesh *mesh, size_t *error_line) {
-  return nsvcd_mesh_load(path, &nsvcd__as_stl, allocator, mesh, error_line);
+  return nsvcd_mesh_load(path, &nsvcd__as_stl, alloc, mesh, error_line);
 }
 #endif  // NSVCD_NO_STDIO
 #endif  // NSVCD_NO_OBJ

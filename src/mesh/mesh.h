@@ -5,22 +5,22 @@
 #include "../ground/memory.h"
 
 #ifndef NSVCD_NO_ENCODER
-NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator) {
+NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *alloc) {
   if (!mesh) return;
-  nsvcd__free(allocator, mesh->positions);
-  nsvcd__free(allocator, mesh->indices);
+  nsvcd__free(alloc, mesh->positions);
+  nsvcd__free(alloc, mesh->indices);
   memset(mesh, 0, sizeof *mesh);
 }
 
 // Allocates vertices and triangles. 0 without memory. Free it with nsvcd_mesh_free, on failure too.
 static int nsvcd__mesh_alloc(nsvcd_mesh *mesh, size_t vertices, size_t triangles,
-                             const nsvcd_allocator *allocator) {
+                             const nsvcd_allocator *alloc) {
   const size_t row = 3 * sizeof(float);
   mesh->vertex_count = vertices;
   mesh->triangle_count = triangles;
   // + 1: a file may hold faces and no vertex, and malloc(0) may return NULL.
-  mesh->positions = (float *)nsvcd__alloc_array(allocator, vertices + 1, row);
-  mesh->indices = (uint32_t *)nsvcd__alloc_array(allocator, triangles, row);
+  mesh->positions = (float *)nsvcd__alloc_array(alloc, vertices + 1, row);
+  mesh->indices = (uint32_t *)nsvcd__alloc_array(alloc, triangles, row);
   return mesh->positions && mesh->indices;
 }
 
@@ -63,7 +63,7 @@ static nsvcd__clipped nsvcd__cut_triangle(const nsvcd_mesh *mesh, size_t t, cons
 }
 
 NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
-                                     const float high[3], const nsvcd_allocator *allocator,
+                                     const float high[3], const nsvcd_allocator *alloc,
                                      nsvcd_mesh *part) {
   if (!low || !high || !part) return NSVCD_ERROR_ARGUMENT;
   for (size_t k = 0; k < 3; k++) {
@@ -83,8 +83,8 @@ NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
   if (vertices == 0) return NSVCD_ERROR_EMPTY;
   if (vertices > NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
   nsvcd_mesh out;
-  if (!nsvcd__mesh_alloc(&out, vertices, triangles, allocator)) {
-    nsvcd_mesh_free(&out, allocator);
+  if (!nsvcd__mesh_alloc(&out, vertices, triangles, alloc)) {
+    nsvcd_mesh_free(&out, alloc);
     return NSVCD_ERROR_MEMORY;
   }
 

@@ -97,11 +97,11 @@ static nsvcd_result nsvcd__stl_text(nsvcd__obj *text, float *corners, size_t *co
 }
 
 // Welds corners (3 triangles, 3), which become vertices. 0 without memory.
-static int nsvcd__stl_weld(nsvcd_mesh *mesh, const nsvcd_allocator *allocator) {
+static int nsvcd__stl_weld(nsvcd_mesh *mesh, const nsvcd_allocator *alloc) {
   float *positions = mesh->positions;
   uint32_t *indices = mesh->indices;
   uint32_t count = 0;
-  if (!nsvcd__weld_all(positions, mesh->vertex_count, indices, allocator)) return 0;
+  if (!nsvcd__weld_all(positions, mesh->vertex_count, indices, alloc)) return 0;
   for (size_t i = 0; i < mesh->vertex_count; i++) {
     const int is_first = indices[i] == i;
     indices[i] = is_first ? count : indices[indices[i]];
@@ -118,7 +118,7 @@ static int nsvcd__stl_weld(nsvcd_mesh *mesh, const nsvcd_allocator *allocator) {
 // Reads a file, of which `text` is at the beginning. text->line: where it fails, or 0 if no line is
 // at fault.
 static nsvcd_result nsvcd__stl_read(nsvcd__obj *text, const void *data, size_t size,
-                                    const nsvcd_allocator *allocator, nsvcd_mesh *mesh) {
+                                    const nsvcd_allocator *alloc, nsvcd_mesh *mesh) {
   const nsvcd__obj begin = *text;
   const uint64_t needed = nsvcd__stl_size(data, size);
   const int is_binary = size == needed || !nsvcd__stl_is_solid(begin) || memchr(data, 0, size);
@@ -131,7 +131,7 @@ static nsvcd_result nsvcd__stl_read(nsvcd__obj *text, const void *data, size_t s
   text->line = 0;
   if (corners > NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
   if (corners == 0) return NSVCD_ERROR_EMPTY;
-  if (!nsvcd__mesh_alloc(mesh, corners, corners / 3, allocator)) return NSVCD_ERROR_MEMORY;
+  if (!nsvcd__mesh_alloc(mesh, corners, corners / 3, alloc)) return NSVCD_ERROR_MEMORY;
   if (is_binary) {
     result = nsvcd__stl_binary(data, &text->options, mesh->positions, corners);
   } else {
@@ -141,6 +141,6 @@ static nsvcd_result nsvcd__stl_read(nsvcd__obj *text, const void *data, size_t s
   }
   if (result) return result;
   text->line = 0;
-  return nsvcd__stl_weld(mesh, allocator) ? NSVCD_OK : NSVCD_ERROR_MEMORY;
+  return nsvcd__stl_weld(mesh, alloc) ? NSVCD_OK : NSVCD_ERROR_MEMORY;
 }
 #endif  // NSVCD_NO_OBJ

@@ -55,8 +55,8 @@ static void nsvcd__weld_vertices(nsvcd__weld *w, size_t count, uint32_t *welded)
 
 // nsvcd__weld_vertices with a table of its own. 0 without memory.
 static int nsvcd__weld_all(const float *positions, size_t count, uint32_t *welded,
-                           const nsvcd_allocator *allocator) {
-  nsvcd__arena arena = nsvcd__arena_of(allocator);
+                           const nsvcd_allocator *alloc) {
+  nsvcd__arena arena = nsvcd__arena_of(alloc);
   nsvcd__weld w = {positions, NULL, 16, 0, 0};
   while (w.slots / 2 < count) w.slots *= 2;
   w.table = NSVCD__TAKE(&arena, uint32_t, w.slots);

@@ -28,7 +28,7 @@ static void nsvcd__chords_store(nsvcd__chords *c, size_t l, nsvcd__v3 start, nsv
 static void nsvcd__chords_in_all(nsvcd__search *q, nsvcd__sphere sphere) {
   sphere.radius *= q->scale;
   const nsvcd__v3 centre = nsvcd__v3_set(sphere.centre);
-  const nsvcd__v length = nsvcd__v_set(nsvcd__f3_length(sphere.centre));
+  const nsvcd__v length = nsvcd__v_set(nsvcd__f3_norm(sphere.centre));
   const nsvcd__v radius = nsvcd__v_set(sphere.radius);
   for (size_t s = 0; s < q->segments; s += NSVCD__LANES) {
     nsvcd__segments *b = &q->blocks[s / NSVCD__LANES];

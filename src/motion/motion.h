@@ -179,7 +179,7 @@ static float nsvcd__tracks_gap(const nsvcd__track *moving, const nsvcd__track *f
   const nsvcd__f3 below = nsvcd__f3_sub(b.low, a.high);
   const nsvcd__f3 none = nsvcd__f3_of(0, 0, 0);
   const nsvcd__f3 gap = nsvcd__f3_max(nsvcd__f3_max(above, below), none);
-  return 0.99999f * nsvcd__f3_length(gap) / unit;
+  return 0.99999f * nsvcd__f3_norm(gap) / unit;
 }
 
 static float nsvcd__motion_gap(const nsvcd__motion *m) {

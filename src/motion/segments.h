@@ -124,7 +124,7 @@ static void nsvcd__keyframes_read(const nsvcd__motion *m, const uint32_t *ticks,
 static nsvcd__v_poses nsvcd__keyframes_load(const nsvcd__motion *m,
                                             const nsvcd__keyframes *from, size_t l) {
   nsvcd__v_poses out;
-  out.offset = nsvcd__v3_load_rows(from->offset + l, NSVCD__ENDS);
+  out.offset = nsvcd__v3_get(from->offset + l, NSVCD__ENDS);
   out.moving = nsvcd__vquat_load(from->moving + l, NSVCD__ENDS);
   out.fixed = out.moving;
   if (m->fixed_moves) {
@@ -140,7 +140,7 @@ static void nsvcd__keyframes_store(const nsvcd__motion *m, const nsvcd__v_poses 
   nsvcd__vquat_store(at->moving, out->moving + l, NSVCD__ENDS);
   nsvcd__vquat_store(seen, out->seen + l, NSVCD__ENDS);
   if (!m->fixed_moves) return;
-  nsvcd__v3_store_rows(at->offset, out->offset + l, NSVCD__ENDS);
+  nsvcd__v3_put(at->offset, out->offset + l, NSVCD__ENDS);
   nsvcd__vquat_store(at->fixed, out->fixed + l, NSVCD__ENDS);
 }
 
@@ -171,11 +171,11 @@ static void nsvcd__cut_double_arc(const nsvcd__motion *m, const nsvcd__v_poses *
   nsvcd__v fixed_cosine;
   const nsvcd__v3 half = nsvcd__v_shorter_turn(from->moving, to->moving, &cosine);
   const nsvcd__v3 fixed_half = nsvcd__v_shorter_turn(from->fixed, to->fixed, &fixed_cosine);
-  const nsvcd__v sine = nsvcd__v3_length(half);
-  const nsvcd__v fixed_sine = nsvcd__v3_length(fixed_half);
+  const nsvcd__v sine = nsvcd__v3_norm(half);
+  const nsvcd__v fixed_sine = nsvcd__v3_norm(fixed_half);
   const nsvcd__v sines = nsvcd__v_add(sine, fixed_sine);
   const nsvcd__v least_cosine = nsvcd__v_min(cosine, fixed_cosine);
-  const nsvcd__v apart = nsvcd__v3_length(nsvcd__v3_sub(half, fixed_half));
+  const nsvcd__v apart = nsvcd__v3_norm(nsvcd__v3_sub(half, fixed_half));
   const nsvcd__v difference = nsvcd__v_pick(least_cosine, nsvcd__v_set(0.001f), sines, apart);
   // A rotation vector is 2 asin(s) / s times these halves of length s, and asin(s) - s is at most
   // (pi / 2 - 1) s^3.
@@ -189,9 +189,9 @@ static void nsvcd__cut_double_arc(const nsvcd__motion *m, const nsvcd__v_poses *
   const nsvcd__v squares = nsvcd__v_mul(turn, nsvcd__v_add(turn, fixed_turn));
   nsvcd__v_keep(most->arc_bend + l, nsvcd__v_mul(squares, eighth));
 
-  const nsvcd__v start = nsvcd__v3_length(from->offset);
-  const nsvcd__v extent = nsvcd__v_max(start, nsvcd__v3_length(to->offset));
-  const nsvcd__v travel = nsvcd__v3_length(nsvcd__v3_sub(to->offset, from->offset));
+  const nsvcd__v start = nsvcd__v3_norm(from->offset);
+  const nsvcd__v extent = nsvcd__v_max(start, nsvcd__v3_norm(to->offset));
+  const nsvcd__v travel = nsvcd__v3_norm(nsvcd__v3_sub(to->offset, from->offset));
   const nsvcd__v both = nsvcd__v_fma(fixed_turn, extent, nsvcd__v_add(travel, travel));
   const nsvcd__v metres = nsvcd__v_mul(nsvcd__v_mul(fixed_turn, both), eighth);
   const nsvcd__v origin_bend = nsvcd__v_div(metres, nsvcd__v_set(m->unit));
@@ -215,8 +215,7 @@ static void nsvcd__cut_arc(const nsvcd__motion *m, const nsvcd__v_poses *at, nsv
     const nsvcd__vquat last_seen = nsvcd__vquat_load(cut->last.seen + l, NSVCD__ENDS);
     const nsvcd__v3 w = nsvcd__v_turn(last_seen, seen);
     const nsvcd__v3 across = nsvcd__v3_cross(nsvcd__v3_load(out->axis, l), w);
-    const nsvcd__v along =
-        nsvcd__v_mul(nsvcd__v_scale(arc, 0.3931f), nsvcd__v3_length(across));
+    const nsvcd__v along = nsvcd__v_mul(nsvcd__v_scale(arc, 0.3931f), nsvcd__v3_norm(across));
     nsvcd__v_keep(most->arc_bend + l, nsvcd__v_scale(nsvcd__v_mul(arc, arc), 0.125f));
     nsvcd__v_keep(most->arc_along_axis + l, along);
   }
@@ -322,7 +321,7 @@ static void nsvcd__cut_deviations(const nsvcd__motion *m, float lengths, size_t 
 
   const nsvcd__v3 start = nsvcd__v3_load(out->position, l);
   const nsvcd__v3 end = nsvcd__v3_add(start, nsvcd__v3_load(out->moved, l));
-  const nsvcd__v extent = nsvcd__v_add(nsvcd__v3_length(start), nsvcd__v3_length(end));
+  const nsvcd__v extent = nsvcd__v_add(nsvcd__v3_norm(start), nsvcd__v3_norm(end));
   const nsvcd__v all = nsvcd__v_add(extent, nsvcd__v_plus(origin_bend, lengths));
   const nsvcd__v rounding = nsvcd__v_scale(all, NSVCD__ROUNDING);
   nsvcd__v_store(out->rounding + l, rounding);

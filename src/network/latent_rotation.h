@@ -41,9 +41,9 @@ static NSVCD__NOINLINE void nsvcd__wigner(const nsvcd__vmat3 *m, nsvcd__v scale,
   const nsvcd__v twice = nsvcd__v_add(root, root);
   const nsvcd__vmat3 c = nsvcd__vmat3_transpose(*m);
   nsvcd__v xy[5], yz[5], xz[5], xx[5], yy[5], zz[5];
-  nsvcd__v3_store_rows(nsvcd__v3_scale(m->x, scale), out[0], NSVCD__SLICE);
-  nsvcd__v3_store_rows(nsvcd__v3_scale(m->y, scale), out[3], NSVCD__SLICE);
-  nsvcd__v3_store_rows(nsvcd__v3_scale(m->z, scale), out[6], NSVCD__SLICE);
+  nsvcd__v3_put(nsvcd__v3_scale(m->x, scale), out[0], NSVCD__SLICE);
+  nsvcd__v3_put(nsvcd__v3_scale(m->y, scale), out[3], NSVCD__SLICE);
+  nsvcd__v3_put(nsvcd__v3_scale(m->z, scale), out[6], NSVCD__SLICE);
   nsvcd__v_degree2(c.x, c.y, xy);
   nsvcd__v_degree2(c.y, c.z, yz);
   nsvcd__v_degree2(c.x, c.z, xz);

@@ -158,10 +158,10 @@ static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const floa
   const nsvcd__v u = nsvcd__v_load(fraction);
   const nsvcd__vquat start = nsvcd__vquat_load(rotation, NSVCD__SLICE);
   const nsvcd__vquat chord = nsvcd__vquat_load(turned, NSVCD__SLICE);
-  const nsvcd__v3 travel = nsvcd__v3_load_rows(moved, NSVCD__SLICE);
+  const nsvcd__v3 travel = nsvcd__v3_get(moved, NSVCD__SLICE);
   nsvcd__v_pose out;
   out.rotation = nsvcd__vquat_unit(nsvcd__vquat_fma(u, chord, start));
-  out.position = nsvcd__v3_fma(u, travel, nsvcd__v3_load_rows(position, NSVCD__SLICE));
+  out.position = nsvcd__v3_fma(u, travel, nsvcd__v3_get(position, NSVCD__SLICE));
   return out;
 }
 
@@ -185,7 +185,7 @@ static nsvcd__v_pose nsvcd__v_poses_at(const nsvcd__motion *motion, const float 
 static NSVCD__NOINLINE void nsvcd__pairs_in_passing(const nsvcd__v_pose *at,
                                                     const float *centres, nsvcd__pairs *p) {
   const nsvcd__v half = nsvcd__v_set(0.5f);
-  const nsvcd__v3 centre = nsvcd__v3_load_rows(centres, NSVCD__SLICE);
+  const nsvcd__v3 centre = nsvcd__v3_get(centres, NSVCD__SLICE);
   const nsvcd__v3 arm1 = nsvcd__vmat3_apply(nsvcd__vmat3_of(at[0].rotation), centre);
   const nsvcd__v3 arm2 = nsvcd__vmat3_apply(nsvcd__vmat3_of(at[1].rotation), centre);
   const nsvcd__v3 moved = nsvcd__v3_sub(at[1].position, at[0].position);
@@ -227,7 +227,7 @@ static NSVCD__NOINLINE void nsvcd__pairs_of(const nsvcd_body *moving, const nsvc
       const nsvcd__f3 area = nsvcd__f3_get(nsvcd__body_areas(body) + i, body->padded);
       const float most = fmaxf(fmaxf(fabsf(area.x), fabsf(area.y)), fabsf(area.z));
       const nsvcd__f3 even = nsvcd__f3_scale(area, most > 1e-37f ? 1 / most : 0);
-      const float length = nsvcd__f3_length(even);
+      const float length = nsvcd__f3_norm(even);
       const float fraction = most * inverse * (length * inverse);
       const nsvcd__f3 normal = nsvcd__f3_scale(even, fraction > 1e-6f ? 1 / length : 0);
       nsvcd__f3_put(normal, normals[n] + l, NSVCD__SLICE);
@@ -237,11 +237,11 @@ static NSVCD__NOINLINE void nsvcd__pairs_of(const nsvcd_body *moving, const nsvc
     times[1][l] = c->t_exit;
     times[2][l] = 0.5f * (c->t_enter + c->t_exit);
   }
-  p->p2 = nsvcd__v3_load_rows(centres[1], NSVCD__SLICE);
+  p->p2 = nsvcd__v3_get(centres[1], NSVCD__SLICE);
   p->r1 = nsvcd__v_load(radii[0]);
   p->r2 = nsvcd__v_load(radii[1]);
   for (size_t n = 0; n < 2; n++) {
-    p->normal[n] = nsvcd__v3_load_rows(normals[n], NSVCD__SLICE);
+    p->normal[n] = nsvcd__v3_get(normals[n], NSVCD__SLICE);
     p->flat[n] = nsvcd__v_load(flat[n]);
   }
   for (size_t k = 0; k < 3; k++) at[k] = nsvcd__v_poses_at(motion, times[k], count);
@@ -276,7 +276,7 @@ static nsvcd__v3 nsvcd__v3_pick(nsvcd__v a, nsvcd__v b, nsvcd__v3 x, nsvcd__v3 y
 
 // a over its length where that exceeds `least`, elsewhere `instead`.
 static nsvcd__v3 nsvcd__v_unit_or(nsvcd__v3 a, float least, nsvcd__v3 instead) {
-  const nsvcd__v length = nsvcd__v3_length(a);
+  const nsvcd__v length = nsvcd__v3_norm(a);
   const nsvcd__v floor = nsvcd__v_set(least);
   const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), nsvcd__v_max(length, floor));
   return nsvcd__v3_pick(length, floor, instead, nsvcd__v3_scale(a, inverse));
@@ -287,7 +287,7 @@ static NSVCD__NOINLINE void nsvcd__views_of(const nsvcd__pairs *p, nsvcd__views 
   const nsvcd__v minus = nsvcd__v_set(-1);
   const nsvcd__v3 between = nsvcd__v3_sub(p->p2, p->p1);
   // The unit of length: r1 + r2, or, between two points, what keeps the inputs finite.
-  const nsvcd__v lengths = nsvcd__v_add(nsvcd__v3_length(between), nsvcd__v3_length(p->v));
+  const nsvcd__v lengths = nsvcd__v_add(nsvcd__v3_norm(between), nsvcd__v3_norm(p->v));
   const nsvcd__v least = nsvcd__v_fma(nsvcd__v_set(1e-6f), lengths, nsvcd__v_set(1e-30f));
   const nsvcd__v unit = nsvcd__v_max(nsvcd__v_add(p->r1, p->r2), least);
   const nsvcd__v inverse = nsvcd__v_div(one, unit);
@@ -319,7 +319,7 @@ static NSVCD__NOINLINE void nsvcd__views_of(const nsvcd__pairs *p, nsvcd__views 
   const nsvcd__v3 forward = nsvcd__v3_scale(v_across, sign);
   const nsvcd__v3 ref = nsvcd__v3_fma(nsvcd__v_set(NSVCD__LEAN), lean_across, forward);
   // if the reference vanishes in some lane: the coordinate axis farthest from e1
-  if (nsvcd__v_le(nsvcd__v3_length(ref), nsvcd__v_set(1e-7f))) {
+  if (nsvcd__v_le(nsvcd__v3_norm(ref), nsvcd__v_set(1e-7f))) {
     const nsvcd__v3 y_axis = nsvcd__v3_set(nsvcd__f3_of(0, 1, 0));
     const nsvcd__v3 z_axis = nsvcd__v3_set(nsvcd__f3_of(0, 0, 1));
     const nsvcd__v3 size = nsvcd__v3_max(e1, nsvcd__v3_negate(e1));
@@ -472,14 +472,14 @@ static NSVCD__NOINLINE void nsvcd__inputs_without_gaps(const nsvcd__pairs *p,
   const nsvcd__v3 mirrored = nsvcd__v3_scale(turn, view->side);
 
   float(*facts)[NSVCD__SLICE] = out->facts;
-  nsvcd__v_store(facts[NSVCD__FACT_DISTANCE], nsvcd__v3_length(view->d));
+  nsvcd__v_store(facts[NSVCD__FACT_DISTANCE], nsvcd__v3_norm(view->d));
   nsvcd__v_store(facts[NSVCD__FACT_RADIUS], nsvcd__v_max(view->k1, view->k2));
-  nsvcd__v_store(facts[NSVCD__FACT_CLOSEST], nsvcd__v3_length(closest));
+  nsvcd__v_store(facts[NSVCD__FACT_CLOSEST], nsvcd__v3_norm(closest));
   nsvcd__v_store(facts[NSVCD__FACT_TAU], tau);
-  nsvcd__v3_store_rows(velocity, facts[NSVCD__FACT_VELOCITY], NSVCD__SLICE);
-  nsvcd__v3_store_rows(mirrored, facts[NSVCD__FACT_TURN], NSVCD__SLICE);
+  nsvcd__v3_put(velocity, facts[NSVCD__FACT_VELOCITY], NSVCD__SLICE);
+  nsvcd__v3_put(mirrored, facts[NSVCD__FACT_TURN], NSVCD__SLICE);
   nsvcd__v_store(facts[NSVCD__FACT_SPEED], nsvcd__v_sqrt(speed2));
-  nsvcd__v_store(facts[NSVCD__FACT_SPIN], nsvcd__v3_length(view->w));
+  nsvcd__v_store(facts[NSVCD__FACT_SPIN], nsvcd__v3_norm(view->w));
 
   const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v3 *fixed = &p->normal[1];

@@ -84,7 +84,7 @@ static void nsvcd__probes_measure(const nsvcd_body *body, nsvcd__probes *out) {
   }
   nsvcd__sphere over;
   over.centre = nsvcd__f3_add(nsvcd__f3_scale(low, 0.5f), nsvcd__f3_scale(high, 0.5f));
-  over.radius = nsvcd__f3_length(nsvcd__f3_sub(high, over.centre));
+  over.radius = nsvcd__f3_norm(nsvcd__f3_sub(high, over.centre));
   nsvcd__traversal_begin(&traversal, body, nsvcd__may_be_close, &over);
   while (nsvcd__traversal_next(&traversal, &g)) {
     const size_t next = NSVCD__GROUP * (g + 1);
@@ -97,7 +97,7 @@ static void nsvcd__probes_measure(const nsvcd_body *body, nsvcd__probes *out) {
       for (size_t i = NSVCD__GROUP * g; i < end; i++) {
         const nsvcd__sphere patch = nsvcd__sphere_of(patches, i);
         const nsvcd__f3 area = nsvcd__f3_get(nsvcd__body_areas(body) + i, body->padded);
-        const float size = nsvcd__f3_length(area);
+        const float size = nsvcd__f3_norm(area);
         const nsvcd__f3 normal = nsvcd__f3_scale(area, size > 0 ? 1 / size : 0);
         const nsvcd__v3 d = nsvcd__v3_sub(at, nsvcd__v3_set(patch.centre));
         const nsvcd__v square = nsvcd__v3_dot(d, d);
@@ -142,8 +142,8 @@ static void nsvcd__add_dipoles(const nsvcd_body *body, size_t n, size_t first, s
     nsvcd__v sum = nsvcd__v_load(lanes + l);
     for (size_t i = l; i < count; i += NSVCD__LANES) {
       const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(spheres, i), at);
-      const nsvcd__v3 area = nsvcd__v3_load_rows(areas + first + i, stride);
-      const nsvcd__v length = nsvcd__v_max(nsvcd__v3_length(d), nsvcd__v_set(1e-30f));
+      const nsvcd__v3 area = nsvcd__v3_get(areas + first + i, stride);
+      const nsvcd__v length = nsvcd__v_max(nsvcd__v3_norm(d), nsvcd__v_set(1e-30f));
       const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), length);
       // one factor at a time, for the cube may overflow
       const nsvcd__v cosine = nsvcd__v_mul(nsvcd__v3_dot(area, d), inverse);
@@ -200,7 +200,7 @@ static size_t nsvcd__next_probe(nsvcd__probes *probes, uint32_t marked) {
 // is outside: from inside the ray would cross the surface.
 static int nsvcd__exit_is_blocked(const nsvcd_body *body, nsvcd__f3 point) {
   const nsvcd__f3 away = nsvcd__f3_sub(point, nsvcd__f3_load(body->centre));
-  const float length = nsvcd__f3_length(away);
+  const float length = nsvcd__f3_norm(away);
   const nsvcd__f3 along = nsvcd__f3_scale(away, length > 0 ? 1 / length : 0);
   const nsvcd__beam out = {point, along, NSVCD__ROUNDING * body->extent};
   const nsvcd__spheres patches = nsvcd__body_patches(body);
@@ -232,7 +232,7 @@ static int nsvcd__is_contained_in(const nsvcd_body *inner, const nsvcd_body *out
   }
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_load(probes.at, l), centre);
-    inside |= nsvcd__v_le(nsvcd__v3_length(off), nsvcd__v_set(outer->radius)) << l;
+    inside |= nsvcd__v_le(nsvcd__v3_norm(off), nsvcd__v_set(outer->radius)) << l;
   }
   for (uint32_t left = inside; left; left &= left - 1) {
     const size_t k = nsvcd__low_bit(left);

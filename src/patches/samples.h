@@ -85,7 +85,7 @@ static nsvcd__d3 nsvcd__area_vector(const nsvcd__triangle *t) {
 }
 
 static double nsvcd__triangle_area(const nsvcd__triangle *t) {
-  return nsvcd__d3_length(nsvcd__area_vector(t));
+  return nsvcd__d3_norm(nsvcd__area_vector(t));
 }
 
 static double nsvcd__mesh_area(const nsvcd_mesh *mesh) {

@@ -242,9 +242,9 @@ static size_t nsvcd__find_limits(const nsvcd__mending *m, double most, float *li
 
 // Joins corners that are near enough to each other. Returns the greatest distance joined, or -1
 // without memory.
-static double nsvcd__join_corners(nsvcd__mending *m, const nsvcd_allocator *allocator) {
+static double nsvcd__join_corners(nsvcd__mending *m, const nsvcd_allocator *alloc) {
   const nsvcd_mesh *mesh = m->topo->mesh;
-  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  nsvcd__arena arena = nsvcd__arena_of(alloc);
   nsvcd__d3 low = nsvcd__d3_row(mesh->positions, 0);
   nsvcd__d3 high = low;
   for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
@@ -418,11 +418,11 @@ static void nsvcd__measure_holes(const nsvcd__mending *m, const uint32_t *number
     const nsvcd__d3 n = nsvcd__d3_scale(nsvcd__d3_cross(a, b), 0.5);
     if (pass == 1) {
       hole->normal = nsvcd__d3_add(hole->normal, n);
-      hole->area += nsvcd__d3_length(n);
+      hole->area += nsvcd__d3_norm(n);
       continue;
     }
     const nsvcd__d3 along = nsvcd__area_vector(&t);
-    const double size = nsvcd__d3_length(along) * nsvcd__d3_length(hole->normal);
+    const double size = nsvcd__d3_norm(along) * nsvcd__d3_norm(hole->normal);
     const double cosine = nsvcd__d3_dot(along, hole->normal);
     hole->flush += size > 0 ? length * cosine / size : 0;
   }
@@ -434,9 +434,9 @@ static void nsvcd__measure_holes(const nsvcd__mending *m, const uint32_t *number
 // only a surface that is wound outwards is nearly a solid: else it is a room with a door. 0 without
 // memory.
 static int nsvcd__judge_holes(const nsvcd__mending *m, nsvcd__shell *wholes,
-                              const nsvcd_allocator *allocator) {
+                              const nsvcd_allocator *alloc) {
   const size_t vertices = m->topo->mesh->vertex_count;
-  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  nsvcd__arena arena = nsvcd__arena_of(alloc);
   uint32_t *forest = NSVCD__TAKE(&arena, uint32_t, vertices);
   uint32_t *numbers = NSVCD__TAKE(&arena, uint32_t, vertices);
   uint32_t count = 0;

@@ -47,10 +47,10 @@ static void nsvcd__join_roots(uint32_t *parents, uint32_t a, uint32_t b) {
 
 // Finds the components that are not closed: those whose directed edges do not cancel. 0 without
 // memory.
-static int nsvcd__find_open(nsvcd__topology *topo, const nsvcd_allocator *allocator) {
+static int nsvcd__find_open(nsvcd__topology *topo, const nsvcd_allocator *alloc) {
   const nsvcd_mesh *mesh = topo->mesh;
   const size_t vertices = mesh->vertex_count;
-  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  nsvcd__arena arena = nsvcd__arena_of(alloc);
   // where the edges begin whose lesser end is a vertex; while they are sorted, one entry further
   size_t *first = NSVCD__TAKE(&arena, size_t, vertices + 2);
   // the greater end

@@ -81,12 +81,12 @@ static inline int nsvcd__passes_by(const nsvcd__planner *p, size_t body, size_t 
     const nsvcd__f3 origin = nsvcd__f3_sub(at[body].pose.position, from->position);
     const nsvcd__f3 centre = nsvcd__f3_add(origin, at[body].centre);
     seen[k] = nsvcd__mat3_apply_transpose(&from->rotation, centre);
-    distance += nsvcd__f3_length(centre);
+    distance += nsvcd__f3_norm(centre);
   }
 
   // The root of 1 - cos of a sum of angles is at most the sum of their roots, and c < 3.15 bend.
   const float bend = now[body].bend + now[other].bend;
-  float deviation = nsvcd__f3_length(sphere->centre) * bend * bend;
+  float deviation = nsvcd__f3_norm(sphere->centre) * bend * bend;
   if (rests) {
     const nsvcd__f3 travel = nsvcd__f3_sub(seen[1], seen[0]);
     const float length = fabsf(travel.x) + fabsf(travel.y) + fabsf(travel.z);

@@ -79,8 +79,8 @@ static float nsvcd__pair_deviation(const nsvcd__planner *p, const nsvcd_body_pai
                                     nsvcd__d3_narrow(check.position)};
   const nsvcd__f3 x = nsvcd__f3_transform(&at, sphere->centre);
   const nsvcd__f3 y = nsvcd__f3_transform(&checked, sphere->centre);
-  const float shift = nsvcd__f3_length(nsvcd__f3_sub(x, y));
-  return shift + 2 * nsvcd__f3_length(nsvcd__quat_turn(check.rotation, q)) * sphere->radius;
+  const float shift = nsvcd__f3_norm(nsvcd__f3_sub(x, y));
+  return shift + 2 * nsvcd__f3_norm(nsvcd__quat_turn(check.rotation, q)) * sphere->radius;
 }
 
 // How far the spline deviates from the last check's motion between p->poses: the most of all pairs

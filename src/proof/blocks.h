@@ -231,7 +231,7 @@ static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, nsvcd
       highest = nsvcd__greatest_of(highest, nsvcd__v3_dot(normal, corner));
     }
   }
-  const nsvcd__v limit = nsvcd__v_set(margin * nsvcd__f3_length(last) + highest);
+  const nsvcd__v limit = nsvcd__v_set(margin * nsvcd__f3_norm(last) + highest);
   uint32_t apart = 0;
   NSVCD__EACH_SLICE(s) {
     nsvcd__v height = nsvcd__v_set(HUGE_VALF);

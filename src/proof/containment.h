@@ -25,7 +25,7 @@ static int nsvcd__ray_crosses(const nsvcd__ray *ray, const nsvcd__d3 *t, double 
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__d3 edge = nsvcd__d3_sub(t[(k + 1) % 3], t[k]);
     const nsvcd__d3 across = nsvcd__d3_cross(edge, ray->direction);
-    const double length = nsvcd__d3_length(across);
+    const double length = nsvcd__d3_norm(across);
     const double volume = nsvcd__d3_dot(across, nsvcd__d3_sub(t[k], ray->from));
     least = nsvcd__min(least, volume);
     most = nsvcd__max(most, volume);
@@ -33,7 +33,7 @@ static int nsvcd__ray_crosses(const nsvcd__ray *ray, const nsvcd__d3 *t, double 
   }
   const double slope = nsvcd__d3_dot(n, ray->direction);
   const double height = nsvcd__d3_dot(n, nsvcd__d3_sub(t[0], ray->from));
-  const double size = nsvcd__d3_length(n);
+  const double size = nsvcd__d3_norm(n);
   const int is_on_it = fabs(height) <= margin * size;
   if (height * slope < 0 && !is_on_it) return 0;  // it is behind
   if (nearest <= margin) {
@@ -82,7 +82,7 @@ static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, 
       const nsvcd__v volume = nsvcd__v3_dot(across, to_corner);
       least = nsvcd__v_min(least, volume);
       most = nsvcd__v_max(most, volume);
-      longest = nsvcd__v_max(longest, nsvcd__v3_length(across));
+      longest = nsvcd__v_max(longest, nsvcd__v3_norm(across));
     }
     const nsvcd__v allowed =
         nsvcd__v_fma(nsvcd__v_set(margin), longest, nsvcd__v_set(rounding));
@@ -114,7 +114,7 @@ static nsvcd__crossings nsvcd__cross_all(nsvcd__proof *p, const nsvcd__geometry 
                                          const nsvcd__ray *ray) {
   nsvcd__block *block = &p->fixed_blocks[0];
   p->memo.window = 0;
-  const float extent = (float)nsvcd__d3_length(ray->from) + f->body->extent;
+  const float extent = (float)nsvcd__d3_norm(ray->from) + f->body->extent;
   const float rounding = NSVCD__ROUNDING * extent * f->body->extent;
   nsvcd__crossings sum = {0, 0, 0, 0};
   size_t count = 0;
@@ -174,7 +174,7 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__geometry *f, nsv
   const nsvcd__d3 as_triangle[3] = {point, point, point};
   const nsvcd__f3 rounded = nsvcd__f3_round(point);
   const nsvcd__box at = {rounded, rounded};
-  const float extent = nsvcd__f3_length(rounded) + b->extent;
+  const float extent = nsvcd__f3_norm(rounded) + b->extent;
   const float distance =
       2 * nsvcd__widest_error(f) + (float)tolerance * 1.0001f + 4 * NSVCD__ROUNDING * extent;
   const double off = (double)nsvcd__off_mesh(f) + NSVCD__SAME_POSITION * (double)extent;
@@ -234,7 +234,7 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__geometry *f, double 
   for (size_t n = 0; n < 8 && p->work <= p->ask.limit; n++) {
     const double *d = directions[best ^ n];
     ray.direction = nsvcd__d3_of(d[0], d[1], d[2]);
-    ray.direction = nsvcd__d3_scale(ray.direction, 1 / nsvcd__d3_length(ray.direction));
+    ray.direction = nsvcd__d3_scale(ray.direction, 1 / nsvcd__d3_norm(ray.direction));
     const nsvcd__crossings sum = nsvcd__cross_all(p, f, &ray);
     if (sum.unclear) continue;
     // A hollow of one kind inside the other undoes it.
@@ -300,7 +300,7 @@ typedef struct nsvcd__enclosure {
 static int nsvcd__seed_is_near(const nsvcd__enclosure *e, const float *seed) {
   const nsvcd_body *o = e->outer->body;
   const float extents = e->scale * e->inner->body->extent + o->extent;
-  const float lengths = nsvcd__f3_length(e->rounded.position) + extents;
+  const float lengths = nsvcd__f3_norm(e->rounded.position) + extents;
   const float rounding = 4 * NSVCD__ROUNDING * lengths;
   const float radius = o->radius + rounding;
   const nsvcd__f3 margin = nsvcd__f3_of(rounding, rounding, rounding);
@@ -345,7 +345,7 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
     return nsvcd__encloses_seeds(p, e, 0, e->inner->counts->components);
   const nsvcd__f3 centre =
       nsvcd__f3_round(nsvcd__d3_transform(&e->back, nsvcd__d3_load(outer->centre)));
-  const float extent = nsvcd__f3_length(centre) + inner->extent + outer->extent / e->scale;
+  const float extent = nsvcd__f3_norm(centre) + inner->extent + outer->extent / e->scale;
   const float rounding = 4 * NSVCD__ROUNDING * extent;
   const nsvcd__sphere here = {centre, outer->radius / e->scale + rounding};
   size_t g;

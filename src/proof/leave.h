@@ -111,7 +111,7 @@ static nsvcd__d3 nsvcd__push_out(const nsvcd__proof *p, double least, int by_dep
       most = nsvcd__max(most, lacks);
       if (lacks > 0) push_out = nsvcd__d3_add(push_out, nsvcd__d3_scale(p->normals[k], lacks));
     }
-    if (nsvcd__d3_length(push_out) > 4 * longest) break;
+    if (nsvcd__d3_norm(push_out) > 4 * longest) break;
     if (most <= 0.005 * longest) return push_out;
   }
   return nsvcd__d3_of(0, 0, 0);
@@ -122,8 +122,7 @@ static nsvcd__d3 nsvcd__push_out(const nsvcd__proof *p, double least, int by_dep
 // neighbours still touch, and there may be too many touches to collect at once: so each push-out is
 // tried. If the directions known have no push-out in common, the first one may be wrong, and is
 // forgotten, once. Returns 0 if there is no push-out.
-static int nsvcd__push_out_still(nsvcd__proof *p, nsvcd__search *search,
-                                 nsvcd__motion *still) {
+static int nsvcd__push_out_still(nsvcd__proof *p, nsvcd__search *q, nsvcd__motion *still) {
   p->normal_count = 0;
   still->push_out = nsvcd__f3_of(0, 0, 0);
   // Also what is about to touch, or where an earlier motion may have ended, is pushed out of, and
@@ -133,7 +132,7 @@ static int nsvcd__push_out_still(nsvcd__proof *p, nsvcd__search *search,
   double beside = nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * p->ask.slop));
   for (int turns = 0;; beside = 0.01 * p->ask.slop) {
     p->ask.clearance = p->given.clearance + beside + nsvcd__epsilon(p);
-    (void)nsvcd__prove_anew(p, search);
+    (void)nsvcd__prove_anew(p, q);
     if (p->contact_count == 0) return 1;
     const size_t known = p->normal_count;
     if (!nsvcd__choose_push_outs(p) || p->normal_count == known) return 0;
@@ -153,7 +152,7 @@ static int nsvcd__push_out_still(nsvcd__proof *p, nsvcd__search *search,
 // little more than the known depths, to see what it touches there, until nothing does. Triangles
 // that follow each other, as on a slope, each come free soon: so the little more doubles as long as
 // depths grow.
-static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion *still) {
+static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *q, nsvcd__motion *still) {
   const nsvcd__f3 push_out = still->push_out;
   const double least_more = 0.5 * nsvcd__epsilon(p);
   double more = least_more;
@@ -163,7 +162,7 @@ static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion 
   for (int round = 0; round < NSVCD__DEEPEN; round++) {
     double after = 0;
     still->push_out = nsvcd__f3_round(nsvcd__push_out(p, more, 1));
-    (void)nsvcd__prove_anew(p, search);
+    (void)nsvcd__prove_anew(p, q);
     // A touch gets out of the way along the normal that undoes it first, even if no plane normal to
     // that separates it.
     for (size_t n = 0; n < p->contact_count; n++) {
@@ -188,7 +187,7 @@ static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion 
 
 // Pushes the motion out of what it touches at its start, by the slop; or, if something is in the
 // way of that and nothing is too deep, by what is needed.
-static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__proof *p, nsvcd__search *search) {
+static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__proof *p, nsvcd__search *q) {
   nsvcd__motion *whole = p->ask.motion;
   nsvcd__motion start = nsvcd__end_of(whole, 0);
   p->ask.motion = &start;
@@ -196,19 +195,19 @@ static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__proof *p, nsvcd__searc
   p->ask.slop = p->given.slop;
   p->by_faces = 0;
   p->needed = 0;
-  int is_free = nsvcd__push_out_still(p, search, &start);
+  int is_free = nsvcd__push_out_still(p, q, &start);
   if (!is_free && !p->too_deep) {
     // The shortest push-outs may not go together.
     p->by_faces = 1;
     p->needed = 0;
-    is_free = nsvcd__push_out_still(p, search, &start);
+    is_free = nsvcd__push_out_still(p, q, &start);
   }
   const double least = 1.1 * p->needed + 4 * nsvcd__epsilon(p);
   if (!is_free && p->contact_count == 0 && least < 0.9 * p->given.slop) {
     p->ask.slop = least;
-    is_free = nsvcd__push_out_still(p, search, &start);
+    is_free = nsvcd__push_out_still(p, q, &start);
   }
-  if (is_free && p->normal_count > 0) nsvcd__deepen(p, search, &start);
+  if (is_free && p->normal_count > 0) nsvcd__deepen(p, q, &start);
   p->ask.collects = NSVCD__CONTACTS;
   p->ask.clearance = p->given.clearance;
   p->ask.motion = whole;

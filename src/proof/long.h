@@ -27,9 +27,9 @@ typedef struct nsvcd__pace {
 
 // Chooses the next interval: larger if those before took little work; with segments that turn less
 // if the one before took much; a part of a try that failed.
-static void nsvcd__next_interval(nsvcd__motion *motion, nsvcd__search *search, uint32_t until,
+static void nsvcd__next_interval(nsvcd__motion *m, nsvcd__search *q, uint32_t until,
                                  int is_resolved, size_t units, nsvcd__pace *pace) {
-  uint32_t arcs = motion->arcs;
+  uint32_t arcs = m->arcs;
   if (!is_resolved) {
     arcs = arcs > NSVCD__SMALLER ? arcs / NSVCD__SMALLER : 1;
     if (arcs == 1 && pace->wait < NSVCD__WAIT) pace->wait *= 2;
@@ -40,23 +40,23 @@ static void nsvcd__next_interval(nsvcd__motion *motion, nsvcd__search *search, u
   } else {
     pace->easy = units <= NSVCD__EASY ? pace->easy + 1 : 0;
     if (pace->easy >= pace->wait) arcs = NSVCD__LARGER;
-    motion->is_fine = units > NSVCD__TRY;
+    m->is_fine = units > NSVCD__TRY;
   }
-  if (is_resolved) motion->from = until;
-  if (motion->from < motion->ticks) nsvcd__choose_interval(motion, search, motion->from, arcs);
+  if (is_resolved) m->from = until;
+  if (m->from < m->ticks) nsvcd__choose_interval(m, q, m->from, arcs);
 }
 
 // The surfaces of bodies whose origins stay so far apart come no nearer than this.
 static float nsvcd__surface_gap(const nsvcd__proof *p, float origin_gap) {
-  const float pushed_out = 1.0001f * nsvcd__f3_length(p->ask.motion->push_out);
+  const float pushed_out = 1.0001f * nsvcd__f3_norm(p->ask.motion->push_out);
   return origin_gap - p->given.lengths - pushed_out;
 }
 
 // Searches a motion interval by interval, until a contact answers. In the end that contact is
 // known, and all else that is known is of the first interval that was not resolved.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
-                                                             nsvcd__search *search) {
-  nsvcd__motion *motion = p->ask.motion;
+                                                             nsvcd__search *q) {
+  nsvcd__motion *m = p->ask.motion;
   const double asked = p->ask.fraction;
   nsvcd__outcome outcome = NSVCD__RESOLVED;
   nsvcd__known open = p->known;
@@ -65,25 +65,24 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
   int is_open = 0;
   const size_t units = p->given.aside < NSVCD__END_BUDGET ? p->given.aside : NSVCD__END_BUDGET;
   for (int at_end = 0; at_end < 2 && !(asked > 0); at_end++) {
-    if (nsvcd__meets_at(p, search, at_end, units)) return NSVCD__ANSWERED;
+    if (nsvcd__meets_at(p, q, at_end, units)) return NSVCD__ANSWERED;
   }
   nsvcd__pace pace = {0, 1};
-  nsvcd__choose_interval(motion, search, 0, NSVCD__ALL_ARCS);
-  while (motion->from < motion->ticks) {
-    const uint32_t until = search->begin[search->segments];
-    const int is_try = motion->arcs > 1;
+  nsvcd__choose_interval(m, q, 0, NSVCD__ALL_ARCS);
+  while (m->from < m->ticks) {
+    const uint32_t until = q->begin[q->segments];
+    const int is_try = m->arcs > 1;
     const size_t before = p->work;
     if (p->given.grows) p->ask.most = p->work + p->given.work;
     nsvcd__proof_restart(p);
     outcome = NSVCD__RESOLVED;
-    const float gap = nsvcd__interval_gap(motion, motion->from, until);
+    const float gap = nsvcd__interval_gap(m, m->from, until);
     if (!(nsvcd__surface_gap(p, gap) > nsvcd__clearance(p))) {
       p->ask.is_brief = is_try;
       p->ask.fraction = is_try ? 0 : fraction;
       p->ask.after_unresolved = fraction > 0 ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.aside;
       p->ask.limit = is_try ? nsvcd__limit_after(p, NSVCD__TRY) : p->ask.most;
-      outcome =
-          p->ask.fraction > 0 ? nsvcd__prove_first(p, search) : nsvcd__prove_motion(p, search);
+      outcome = p->ask.fraction > 0 ? nsvcd__prove_first(p, q) : nsvcd__prove_motion(p, q);
     }
     const int is_resolved =
         outcome == NSVCD__RESOLVED && !(p->known.unresolved < NSVCD__NEVER);
@@ -99,8 +98,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
       fraction = 0;
     }
     if (has_contact || (is_open && !p->given.grows && p->work > p->ask.most)) break;
-    nsvcd__next_interval(motion, search, until, is_resolved || !is_try, p->work - before,
-                         &pace);
+    nsvcd__next_interval(m, q, until, is_resolved || !is_try, p->work - before, &pace);
   }
   p->ask.is_brief = 0;
   p->ask.fraction = asked;
@@ -111,22 +109,22 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
 }
 
 // Answers a question: do the bodies meet, and when?
-static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
-  nsvcd__motion *motion = p->ask.motion;
+static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *q) {
+  nsvcd__motion *m = p->ask.motion;
   const int in_order = p->ask.fraction > 0;
-  const float gap = nsvcd__surface_gap(p, nsvcd__motion_gap(motion));
+  const float gap = nsvcd__surface_gap(p, nsvcd__motion_gap(m));
   p->ask.limit = p->given.work;
   p->ask.after_unresolved = in_order ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.aside;
   if (gap > nsvcd__clearance(p)) return NSVCD__FOUND_FREE;
-  const int is_long = nsvcd__is_long(motion, search);
+  const int is_long = nsvcd__is_long(m, q);
   if (nsvcd__is_contained_at_start(p)) {
     // It is a hit. A question that asks for more gets triangles, if some meet as well.
-    const int meets = p->given.tells && nsvcd__meets_at(p, search, 0, NSVCD__INSIDE_BUDGET);
+    const int meets = p->given.tells && nsvcd__meets_at(p, q, 0, NSVCD__INSIDE_BUDGET);
     return meets ? NSVCD__FOUND_CONTACT : nsvcd__found_inside(p);
   }
-  const nsvcd__outcome outcome = is_long    ? nsvcd__prove_intervals(p, search)
-                                 : in_order ? nsvcd__prove_first(p, search)
-                                            : nsvcd__prove_whole(p, search, p->given.work);
+  const nsvcd__outcome outcome = is_long    ? nsvcd__prove_intervals(p, q)
+                                 : in_order ? nsvcd__prove_first(p, q)
+                                            : nsvcd__prove_whole(p, q, p->given.work);
   const double clear = nsvcd__clear_until(p);
   if (outcome == NSVCD__ANSWERED) return NSVCD__FOUND_CONTACT;
   if (p->inside && clear > 0) return nsvcd__found_inside(p);
@@ -139,41 +137,40 @@ static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
 
 // Narrows the bracket interval by interval. A budget that was given is divided by time: each
 // interval gets of what is left the share that it has of the rest of the motion.
-static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__search *search,
+static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__search *q,
                                                     double finest) {
-  nsvcd__motion *motion = p->ask.motion;
+  nsvcd__motion *m = p->ask.motion;
   const size_t most = p->ask.most;
   const size_t work = p->given.work;
   const double known = p->low;
   nsvcd__pace pace = {0, 1};
   double low = p->high;
   int is_wide = 0;
-  while (motion->from < motion->ticks) {
-    const uint32_t until = search->begin[search->segments];
+  while (m->from < m->ticks) {
+    const uint32_t until = q->begin[q->segments];
     const size_t before = p->work;
     const int is_named = p->known.has_contact || p->known.unresolved < NSVCD__NEVER;
     int is_resolved = 1;
     if (!p->given.grows) {
-      const double rest =
-          (double)(until - motion->from) / (double)(motion->ticks - motion->from);
+      const double rest = (double)(until - m->from) / (double)(m->ticks - m->from);
       p->given.work = p->work < most ? (size_t)(rest * (double)(most - p->work)) : 0;
     }
     p->ask.most = p->work + p->given.work;
-    const float gap = nsvcd__interval_gap(motion, motion->from, until);
+    const float gap = nsvcd__interval_gap(m, m->from, until);
     p->low = nsvcd__max(known, (double)nsvcd__surface_gap(p, gap));
     p->wide = 0;
     if (p->low < p->high && !(is_named && p->high - p->low <= finest)) {
-      if (motion->arcs > 1) {
+      if (m->arcs > 1) {
         p->ask.measure = finest;
         p->ask.limit = nsvcd__limit_after(p, NSVCD__TRY);
-        is_resolved = nsvcd__measure_once(p, search);
+        is_resolved = nsvcd__measure_once(p, q);
       } else {
-        nsvcd__narrow(p, search, finest);
+        nsvcd__narrow(p, q, finest);
       }
     }
     if (is_resolved) low = nsvcd__min(low, p->low);
     is_wide |= p->wide;
-    nsvcd__next_interval(motion, search, until, is_resolved, p->work - before, &pace);
+    nsvcd__next_interval(m, q, until, is_resolved, p->work - before, &pace);
   }
   p->given.work = work;
   p->ask.most = most;
@@ -183,20 +180,20 @@ static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__sear
 
 // Brackets the least distance over the motion, once it is known whether they come within the
 // clearance.
-static NSVCD__NOINLINE void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search,
+static NSVCD__NOINLINE void nsvcd__measure(nsvcd__proof *p, nsvcd__search *q,
                                            nsvcd__finding verdict, double finest) {
-  nsvcd__motion *motion = p->ask.motion;
+  nsvcd__motion *m = p->ask.motion;
   int is_named = p->known.has_contact || p->known.unresolved < NSVCD__NEVER;
-  const float gap = nsvcd__surface_gap(p, nsvcd__motion_gap(motion));
+  const float gap = nsvcd__surface_gap(p, nsvcd__motion_gap(m));
   p->low = nsvcd__max(verdict == NSVCD__FOUND_FREE ? p->given.clearance : 0, (double)gap);
-  const int is_long = nsvcd__is_long(motion, search);
-  if (is_long) nsvcd__choose_interval(motion, search, 0, NSVCD__ALL_ARCS);
-  p->high = is_named ? p->known.found.distance : nsvcd__bound_distance(p, search);
+  const int is_long = nsvcd__is_long(m, q);
+  if (is_long) nsvcd__choose_interval(m, q, 0, NSVCD__ALL_ARCS);
+  p->high = is_named ? p->known.found.distance : nsvcd__bound_distance(p, q);
   is_named = is_named || p->known.has_contact;
   if (is_named && !(p->high - p->low > finest)) return;
   if (is_long)
-    nsvcd__narrow_intervals(p, search, finest);
+    nsvcd__narrow_intervals(p, q, finest);
   else
-    nsvcd__narrow(p, search, finest);
+    nsvcd__narrow(p, q, finest);
 }
 #endif  // NSVCD_NO_PROOF

@@ -13,27 +13,26 @@ static uint64_t nsvcd__segments_in(size_t from, size_t to) {
 }
 
 // The segments being searched that still matter.
-static uint64_t nsvcd__segments_that_matter(const nsvcd__proof *p,
-                                            const nsvcd__search *search) {
-  size_t s = search->segments;
-  if (!(p->ask.first > 0) || !p->known.has_contact) return search->wanted;
-  while (s > 0 && !nsvcd__matters(p, search, s - 1)) s--;
-  return search->wanted & nsvcd__segments_in(0, s);
+static uint64_t nsvcd__segments_that_matter(const nsvcd__proof *p, const nsvcd__search *q) {
+  size_t s = q->segments;
+  if (!(p->ask.first > 0) || !p->known.has_contact) return q->wanted;
+  while (s > 0 && !nsvcd__matters(p, q, s - 1)) s--;
+  return q->wanted & nsvcd__segments_in(0, s);
 }
 
 // Adds the patch pairs of moving group g and fixed patch j in the segments *left, and clears
 // these, as long as there is room for 16 more.
-static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *search, size_t g,
-                                   size_t j, uint64_t *left) {
+static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *q, size_t g, size_t j,
+                                   uint64_t *left) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
   const nsvcd__f3 centre = nsvcd__patch_centre(&p->fixed, j);
   const float radius = nsvcd__body_r(fixed)[j];
   const float *own = nsvcd__body_r(moving) + NSVCD__GROUP * g;
-  *left &= nsvcd__segments_that_matter(p, search);
+  *left &= nsvcd__segments_that_matter(p, q);
   for (; *left && p->fresh_count + NSVCD__GROUP <= NSVCD__FRESH; *left &= *left - 1) {
     const size_t s = nsvcd__low_bit(*left);
-    const nsvcd__chords *c = &search->members[s];
+    const nsvcd__chords *c = &q->members[s];
     float squares[NSVCD__LANES];
     float fraction[NSVCD__LANES];
     uint32_t met = 0;
@@ -51,12 +50,12 @@ static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *search,
     }
     NSVCD__TALLY(tests, 1);
     if (!met) continue;
-    met = nsvcd__slabs_meet(p, search, g, j, s, met);
+    met = nsvcd__slabs_meet(p, q, g, j, s, met);
     for (; met; met &= met - 1) {
       const size_t l = nsvcd__low_bit(met);
       const size_t i = NSVCD__GROUP * g + l;
       if (p->moving.hull_counts[i] == 0) continue;
-      const float radii = search->scale * own[l] + radius;
+      const float radii = q->scale * own[l] + radius;
       const float depth = 1 - sqrtf(squares[l]) / (radii > 1e-30f ? radii : 1e-30f);
       const nsvcd__patch_pair pair = {(uint16_t)i, (uint16_t)j, (uint16_t)s,
                                       0,           depth,       fraction[l]};
@@ -66,9 +65,8 @@ static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *search,
 }
 
 // Processes the patch pairs that the search has found since.
-static nsvcd__outcome nsvcd__take_patch_pairs(nsvcd__proof *p, nsvcd__search *search) {
-  return p->ask.collects ? nsvcd__collect_contacts(p, search)
-                         : nsvcd__sift_patch_pairs(p, search);
+static nsvcd__outcome nsvcd__take_patch_pairs(nsvcd__proof *p, nsvcd__search *q) {
+  return p->ask.collects ? nsvcd__collect_contacts(p, q) : nsvcd__sift_patch_pairs(p, q);
 }
 
 // THE LOOP: point 2 of the theorem. Spheres and slabs separate groups of a tile of the moving body
@@ -78,66 +76,65 @@ static nsvcd__outcome nsvcd__take_patch_pairs(nsvcd__proof *p, nsvcd__search *se
 // contact that answers or shrinks the question, or is an unresolved pair, or was resolved by its
 // parts; or EXHAUSTED says that it has not.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
-                                                            nsvcd__search *search) {
+                                                            nsvcd__search *q) {
   nsvcd__outcome outcome;
-  for (; search->step < search->steps; search->step++) {
-    const size_t next = search->order[search->step];
-    const size_t g = search->moving_tile.groups[next];
-    nsvcd__search_group(search);
-    nsvcd__separate_groups(p, search);
-    for (; search->waiting; search->waiting &= search->waiting - 1) {
-      const size_t at = nsvcd__low_bit(search->waiting);
-      const size_t h = search->fixed_tile.groups[at];
-      const uint64_t wanted =
-          nsvcd__nearby(search, next)[at] & nsvcd__segments_that_matter(p, search);
-      uint32_t met = nsvcd__group_against_members(search, h, wanted, p->met_in);
+  for (; q->step < q->steps; q->step++) {
+    const size_t next = q->order[q->step];
+    const size_t g = q->moving_tile.groups[next];
+    nsvcd__search_group(q);
+    nsvcd__separate_groups(p, q);
+    for (; q->waiting; q->waiting &= q->waiting - 1) {
+      const size_t at = nsvcd__low_bit(q->waiting);
+      const size_t h = q->fixed_tile.groups[at];
+      const uint64_t wanted = nsvcd__nearby(q, next)[at] & nsvcd__segments_that_matter(p, q);
+      uint32_t met = nsvcd__group_against_members(q, h, wanted, p->met_in);
       for (; met; met &= met - 1) {
         const size_t l = nsvcd__low_bit(met);
         uint64_t *left = &p->met_in[l];
         if (p->fixed.hull_counts[NSVCD__GROUP * h + l] == 0) continue;
         for (;;) {
-          nsvcd__pose_members(search, g, *left);
-          nsvcd__add_patch_pairs(p, search, g, NSVCD__GROUP * h + l, left);
+          nsvcd__pose_members(q, g, *left);
+          nsvcd__add_patch_pairs(p, q, g, NSVCD__GROUP * h + l, left);
           if (!*left) break;
-          outcome = nsvcd__take_patch_pairs(p, search);
+          outcome = nsvcd__take_patch_pairs(p, q);
           if (outcome != NSVCD__RESOLVED) return outcome;
         }
       }
       if (p->fresh_count < NSVCD__ENOUGH_FRESH) continue;
-      outcome = nsvcd__take_patch_pairs(p, search);
+      outcome = nsvcd__take_patch_pairs(p, q);
       if (outcome != NSVCD__RESOLVED) return outcome;
     }
   }
-  outcome = nsvcd__take_patch_pairs(p, search);
+  outcome = nsvcd__take_patch_pairs(p, q);
   if (outcome != NSVCD__RESOLVED || p->ask.collects) return outcome;
-  return nsvcd__resolve_patch_pairs(p, search);
+  return nsvcd__resolve_patch_pairs(p, q);
 }
 
 // The same for all tiles of a motion that has been cut. If the first contact is sought, some
 // segments of a tile at a time, until there is a contact: it is the first of the tile. What is
 // resolved in one tile says nothing of the others.
-static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search) {
+static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *q) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
-  const size_t all = search->segments;
+  const size_t all = q->segments;
   const size_t few = p->ask.first > 0 ? NSVCD__IN_ORDER : all;
   nsvcd__outcome outcome = NSVCD__RESOLVED;
-  (void)nsvcd__search_begin(moving, fixed, nsvcd__segments_in(0, all), search);
+  (void)nsvcd__search_begin(moving, fixed, nsvcd__segments_in(0, all), q);
   do {
     for (size_t s = 0; s < all && outcome == NSVCD__RESOLVED; s += few) {
       const size_t next = s + few < all ? s + few : all;
-      if (!nsvcd__matters(p, search, s)) break;
-      search->wanted = nsvcd__segments_in(s, next);
-      search->step = 0;
-      search->waiting = 0;
-      outcome = nsvcd__prove_segments(p, search);
+      if (!nsvcd__matters(p, q, s)) break;
+      q->wanted = nsvcd__segments_in(s, next);
+      q->step = 0;
+      q->waiting = 0;
+      outcome = nsvcd__prove_segments(p, q);
       const int one_tile = !nsvcd__is_tiled(moving, fixed);
       if (outcome == NSVCD__RESOLVED && !p->known.has_contact && one_tile)
-        p->known.resolved = (double)search->begin[next];
+        p->known.resolved = (double)q->begin[next];
     }
-  } while (outcome == NSVCD__RESOLVED && nsvcd__search_next_tile(search));
+  } while (outcome == NSVCD__RESOLVED && nsvcd__search_next_tile(q));
   if (outcome == NSVCD__RESOLVED && !p->known.has_contact)
-    p->known.resolved = (double)search->begin[all];
+    p->known.resolved = (double)q->begin[all];
   return outcome;
 }
 #endif  // NSVCD_NO_PROOF

@@ -89,7 +89,7 @@ static nsvcd__facing nsvcd__facing_of(const nsvcd__proof *p, const nsvcd__triang
 static int nsvcd__is_left(const nsvcd__twist *twist, nsvcd__d3 x, nsvcd__d3 normal,
                           const nsvcd__d3 *faces) {
   const nsvcd__d3 speed = nsvcd__twist_of(twist, x);
-  const double least = 1e-7 * nsvcd__d3_length(speed);
+  const double least = 1e-7 * nsvcd__d3_norm(speed);
   if (!(nsvcd__d3_dot(speed, normal) > least)) return 0;
   for (int k = 0; k < 2; k++)
     if (nsvcd__d3_dot(speed, faces[k]) < -least) return 1;

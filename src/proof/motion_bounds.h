@@ -6,8 +6,8 @@
 
 #ifndef NSVCD_NO_PROOF
 // The time of a tick, t in [0,1].
-static double nsvcd__time_of(const nsvcd__motion *motion, double ticks) {
-  return motion->begin + motion->duration * ticks / (double)motion->ticks;
+static double nsvcd__time_of(const nsvcd__motion *m, double ticks) {
+  return m->begin + m->duration * ticks / (double)m->ticks;
 }
 
 // The time of fraction u of p->arc.
@@ -24,30 +24,29 @@ static double nsvcd__tick_in_segments(const uint32_t *begin, double at) {
 }
 
 // Leaves the part of the segments between two positions, in ticks so many times finer.
-static void nsvcd__narrow_segments(nsvcd__search *search, double from, double to,
-                                   double finer) {
-  uint32_t *begin = search->begin;
+static void nsvcd__narrow_segments(nsvcd__search *q, double from, double to, double finer) {
+  uint32_t *begin = q->begin;
   const double start = nsvcd__tick_in_segments(begin, from);
   const double end = nsvcd__tick_in_segments(begin, to);
   const size_t first = (size_t)from;
   const size_t last = (size_t)to;
-  search->segments = last - first + (to > (double)last);
-  for (size_t s = 1; s < search->segments; s++)
+  q->segments = last - first + (to > (double)last);
+  for (size_t s = 1; s < q->segments; s++)
     begin[s] = (uint32_t)(finer * (double)begin[first + s]);
   begin[0] = (uint32_t)(finer * start);
-  begin[search->segments] = (uint32_t)(finer * end);
+  begin[q->segments] = (uint32_t)(finer * end);
 }
 
 // A segment, up to the end of what matters; kept once it has been made.
-static const nsvcd__interval *nsvcd__segment_interval(nsvcd__proof *p,
-                                                      const nsvcd__search *search, size_t s) {
-  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
+static const nsvcd__interval *nsvcd__segment_interval(nsvcd__proof *p, const nsvcd__search *q,
+                                                      size_t s) {
+  nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
   const size_t l = s % NSVCD__LANES;
   nsvcd__interval *out = &p->intervals[s];
   if (p->memo.intervals >> s & 1) return out;
   p->memo.intervals |= (uint64_t)1 << s;
   const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, l);
-  const double end = nsvcd__min((double)search->begin[s + 1], p->ask.end);
+  const double end = nsvcd__min((double)q->begin[s + 1], p->ask.end);
   out->start.rotation = nsvcd__mat3_lane(block->rotation, l);
   out->end.rotation = nsvcd__mat3_mix(1, &out->start.rotation, 1, &turned);
   out->start.position = nsvcd__lane_of(block->position, l);
@@ -60,7 +59,7 @@ static const nsvcd__interval *nsvcd__segment_interval(nsvcd__proof *p,
   out->bend_along_axis = block->bend_along_axis[l];
   out->origin_along_axis = block->origin_along_axis[l];
   out->origin_off_heading = block->origin_off_heading[l];
-  out->t_start = nsvcd__time_of(p->ask.motion, (double)search->begin[s]);
+  out->t_start = nsvcd__time_of(p->ask.motion, (double)q->begin[s]);
   out->t_end = nsvcd__time_of(p->ask.motion, end);
   return out;
 }
@@ -75,8 +74,8 @@ static nsvcd__interval nsvcd__interval_of_arc(nsvcd__proof *p, uint32_t first, d
   nsvcd__interval out;
   out.start = nsvcd__transform_of(&start);
   out.end = nsvcd__transform_of(&end);
-  const float extent_start = nsvcd__f3_length(out.start.position);
-  const float extent = extent_start + nsvcd__f3_length(out.end.position);
+  const float extent_start = nsvcd__f3_norm(out.start.position);
+  const float extent = extent_start + nsvcd__f3_norm(out.end.position);
   out.bend = (float)(square * (arc->bend + arc->twist) * 1.000001);
   out.origin_bend = (float)(square * arc->origin_bend * 1.000001);
   out.rounding = NSVCD__ROUNDING * (extent + p->given.lengths);
@@ -93,7 +92,7 @@ static nsvcd__interval nsvcd__interval_of_arc(nsvcd__proof *p, uint32_t first, d
 // The axis in the moving body's frame, unit.
 static nsvcd__f3 nsvcd__own_axis(const nsvcd__interval *over) {
   const nsvcd__f3 axis = nsvcd__mat3_apply_transpose(&over->start.rotation, over->axis);
-  const float length = nsvcd__f3_length(axis);
+  const float length = nsvcd__f3_norm(axis);
   return nsvcd__f3_scale(axis, length > 0 ? 1 / length : 0);
 }
 
@@ -105,8 +104,8 @@ typedef struct nsvcd__arm {
 
 // Of a sphere. axis: unit to rounding, in the body's frame.
 static nsvcd__arm nsvcd__arm_of(nsvcd__f3 centre, float radius, nsvcd__f3 axis) {
-  const float distance = nsvcd__f3_length(centre);
-  const float aside = nsvcd__f3_length(nsvcd__f3_cross(centre, axis));
+  const float distance = nsvcd__f3_norm(centre);
+  const float aside = nsvcd__f3_norm(nsvcd__f3_cross(centre, axis));
   const nsvcd__arm out = {1.000001f * (distance + radius),
                           1.000001f * (aside + radius) + 1e-6f * distance};
   return out;
@@ -136,9 +135,9 @@ static float nsvcd__bend_of(const nsvcd__interval *over, nsvcd__arm arm) {
 // and |n.d| is bounded in the same way, or with the heading in place of the axis.
 static float nsvcd__deviation_of(const nsvcd__interval *over, nsvcd__f3 n, nsvcd__arm arm) {
   const float along = fabsf(nsvcd__f3_dot(n, over->axis));
-  const float across = nsvcd__f3_length(nsvcd__f3_cross(n, over->axis));
+  const float across = nsvcd__f3_norm(nsvcd__f3_cross(n, over->axis));
   const float ahead = fabsf(nsvcd__f3_dot(n, over->heading));
-  const float aside = nsvcd__f3_length(nsvcd__f3_cross(n, over->heading));
+  const float aside = nsvcd__f3_norm(nsvcd__f3_cross(n, over->heading));
   const float by_axis = along * over->origin_along_axis + across * over->origin_bend;
   const float by_heading = ahead * over->origin_bend + aside * over->origin_off_heading;
   const float origin_bend = by_axis < by_heading ? by_axis : by_heading;
@@ -180,9 +179,9 @@ NSVCD__INLINE nsvcd__v_interval nsvcd__v_interval_load(nsvcd__segments *block, s
 NSVCD__INLINE nsvcd__v nsvcd__v_deviation(const nsvcd__v_interval *over, nsvcd__v3 n,
                                           float from_origin) {
   const nsvcd__v along = nsvcd__v_abs(nsvcd__v3_dot(n, over->axis));
-  const nsvcd__v across = nsvcd__v3_length(nsvcd__v3_cross(n, over->axis));
+  const nsvcd__v across = nsvcd__v3_norm(nsvcd__v3_cross(n, over->axis));
   const nsvcd__v ahead = nsvcd__v_abs(nsvcd__v3_dot(n, over->heading));
-  const nsvcd__v aside = nsvcd__v3_length(nsvcd__v3_cross(n, over->heading));
+  const nsvcd__v aside = nsvcd__v3_norm(nsvcd__v3_cross(n, over->heading));
   nsvcd__v by_axis = nsvcd__v_mul(across, over->origin_bend);
   by_axis = nsvcd__v_fma(along, over->origin_along_axis, by_axis);
   nsvcd__v by_heading = nsvcd__v_mul(aside, over->origin_off_heading);

@@ -88,7 +88,7 @@ static nsvcd__d3 nsvcd__axis_apart(const nsvcd__triangle_contact *t, size_t k) {
 static NSVCD__NOINLINE int nsvcd__met_along(const nsvcd__proof *p, const nsvcd__approach *a,
                                             nsvcd__d3 travel, double most, nsvcd__d3 *normal) {
   const nsvcd__triangle_contact *t = &a->contact;
-  const double close = 16 * nsvcd__epsilon(p) / nsvcd__d3_length(travel);
+  const double close = 16 * nsvcd__epsilon(p) / nsvcd__d3_norm(travel);
   double back = HUGE_VAL;  // where they met, as a fraction of `travel`
   double before = 0;
   nsvcd__d3 moved[3];

@@ -119,18 +119,18 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
 
 // Resolves a patch pair that no plane separates over its segment, arc by arc. An arc is halved
 // until each part is resolved by a plane between the hulls, or by the triangles.
-static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__search *search,
+static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__search *q,
                                                 const nsvcd__patch_pair *item) {
-  const nsvcd__motion *motion = p->ask.motion;
+  const nsvcd__motion *m = p->ask.motion;
   const size_t i = item->moving;
   const size_t j = item->fixed;
-  const uint32_t last = search->begin[item->segment + 1u];
+  const uint32_t last = q->begin[item->segment + 1u];
   double *ends = p->arc_ends;
   int is_tried = 1;  // is it all of the segment?
-  for (uint32_t at = search->begin[item->segment]; at < last && (double)at < p->ask.end;) {
+  for (uint32_t at = q->begin[item->segment]; at < last && (double)at < p->ask.end;) {
     double u;
-    const uint32_t first = nsvcd__arc_of(motion, (double)at, &u);
-    const uint32_t keyframe = nsvcd__next_keyframe(motion, first);
+    const uint32_t first = nsvcd__arc_of(m, (double)at, &u);
+    const uint32_t keyframe = nsvcd__next_keyframe(m, first);
     at = last < keyframe ? last : keyframe;
     is_tried = is_tried && at == last;
     ends[0] = (double)(at - first) / (double)(keyframe - first);
@@ -161,16 +161,16 @@ static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__se
 // Does the plane that held last separate a patch pair over its segment, moved along its normal? If
 // it does, the pair's neighbours ask for the same heights: so these are remembered, of a moving
 // patch in a segment the least, less all margins, and of a fixed one the greatest.
-static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
+static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *q,
                              const nsvcd__patch_pair *item) {
   const size_t i = item->moving;
   const size_t j = item->fixed;
   const size_t s = item->segment;
   nsvcd__memo *memo = &p->memo;
   if (!memo->plane) return 0;
-  const nsvcd__interval *over = nsvcd__segment_interval(p, search, s);
+  const nsvcd__interval *over = nsvcd__segment_interval(p, q, s);
   const nsvcd__f3 n = memo->held;
-  const float length = nsvcd__f3_length(n);
+  const float length = nsvcd__f3_norm(n);
   const uint32_t key = (uint32_t)(i * NSVCD__MAX_SEGMENTS + s);
   nsvcd__height *above =
       &memo->heights[(NSVCD__GROUP * s + i % NSVCD__GROUP) % NSVCD__HEIGHTS];
@@ -208,9 +208,9 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
 }
 
 // Does any plane?
-static int nsvcd__is_separated(nsvcd__proof *p, const nsvcd__search *search,
+static int nsvcd__is_separated(nsvcd__proof *p, const nsvcd__search *q,
                                const nsvcd__patch_pair *item) {
-  const nsvcd__interval *over = nsvcd__segment_interval(p, search, item->segment);
+  const nsvcd__interval *over = nsvcd__segment_interval(p, q, item->segment);
   return nsvcd__hulls_are_apart(p, item->moving, item->fixed, over);
 }
 
@@ -235,20 +235,20 @@ static void nsvcd__sort_patch_pairs(const nsvcd__proof *p, nsvcd__patch_pair *it
 }
 
 // Does a segment still matter?
-static int nsvcd__matters(const nsvcd__proof *p, const nsvcd__search *search, size_t segment) {
-  return (double)search->begin[segment] < p->ask.end;
+static int nsvcd__matters(const nsvcd__proof *p, const nsvcd__search *q, size_t segment) {
+  return (double)q->begin[segment] < p->ask.end;
 }
 
 // Clips the segment in which the end of what matters lies. What leaves a chord by some length
 // leaves that of a part of the time by no more than twice that, along any direction.
-static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *search) {
+static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *q) {
   size_t s = 0;
   double u;
   if (!(p->ask.end < p->clipped_end)) return;
   p->clipped_end = p->ask.end;
-  while (s < search->segments && !((double)search->begin[s + 1] > p->ask.end)) s++;
-  if (s == search->segments || !((double)search->begin[s] < p->ask.end)) return;
-  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
+  while (s < q->segments && !((double)q->begin[s + 1] > p->ask.end)) s++;
+  if (s == q->segments || !((double)q->begin[s] < p->ask.end)) return;
+  nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
   const size_t l = s % NSVCD__LANES;
   const uint32_t first = nsvcd__arc_of(p->ask.motion, p->ask.end, &u);
   const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(p, first), u);
@@ -270,24 +270,24 @@ static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *
   }
   p->clipped |= (uint64_t)1 << s;
   p->memo.intervals &= ~((uint64_t)1 << s);
-  search->ready &= ~((uint64_t)1 << s);
+  q->ready &= ~((uint64_t)1 << s);
   // the heights over the plane that held last are no longer right
   p->memo.plane += p->memo.plane > 0;
 }
 
 // Resolves the patch pairs that no plane separates.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_patch_pairs(nsvcd__proof *p,
-                                                                 nsvcd__search *search) {
+                                                                 nsvcd__search *q) {
   nsvcd__sort_patch_pairs(p, p->of.kept.items, p->count);
   for (size_t n = 0; n < p->count; n++) {
     const nsvcd__patch_pair *item = &p->of.kept.items[n];
     NSVCD__PAUSE(p);
     if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
-    nsvcd__clip_segment(p, search);
-    if (!nsvcd__matters(p, search, item->segment)) continue;
+    nsvcd__clip_segment(p, q);
+    if (!nsvcd__matters(p, q, item->segment)) continue;
     const int is_clipped = (p->clipped >> item->segment & 1) != 0;
-    if (is_clipped && nsvcd__is_separated(p, search, item)) continue;
-    const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(p, search, item);
+    if (is_clipped && nsvcd__is_separated(p, q, item)) continue;
+    const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(p, q, item);
     if (outcome != NSVCD__RESOLVED) return outcome;
   }
   p->count = 0;
@@ -298,49 +298,48 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_patch_pairs(nsvcd__proof *p
 // keeps them. The plane that held last is tried on all of them first: it often holds for
 // neighbours.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
-                                                              nsvcd__search *search) {
+                                                              nsvcd__search *q) {
   const int tells_more = p->ask.measure > 0 || p->ask.first > 0;
   size_t count = 0;
-  nsvcd__clip_segment(p, search);
+  nsvcd__clip_segment(p, q);
   for (size_t n = 0; n < p->fresh_count; n++) {
-    if (nsvcd__held_again(p, search, &p->fresh[n])) continue;
+    if (nsvcd__held_again(p, q, &p->fresh[n])) continue;
     p->fresh[count++] = p->fresh[n];
   }
   p->fresh_count = 0;
   nsvcd__sort_patch_pairs(p, p->fresh, count);
   if (count > 0 && p->fresh[0].depth > NSVCD__DEEP &&
-      nsvcd__seek_in_patch_pair(p, search, &p->fresh[0]) == NSVCD__ANSWERED)
+      nsvcd__seek_in_patch_pair(p, q, &p->fresh[0]) == NSVCD__ANSWERED)
     return NSVCD__ANSWERED;
 
   for (size_t n = 0; n < count; n++) {
     nsvcd__patch_pair *item = &p->fresh[n];
     NSVCD__PAUSE(p);
     if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
-    nsvcd__clip_segment(p, search);
-    if (!nsvcd__matters(p, search, item->segment)) continue;
-    if (nsvcd__held_again(p, search, item)) continue;
-    if (nsvcd__is_separated(p, search, item)) continue;
+    nsvcd__clip_segment(p, q);
+    if (!nsvcd__matters(p, q, item->segment)) continue;
+    if (nsvcd__held_again(p, q, item)) continue;
+    if (nsvcd__is_separated(p, q, item)) continue;
     double u;
-    const uint32_t first = nsvcd__arc_of(p->ask.motion, search->begin[item->segment], &u);
+    const uint32_t first = nsvcd__arc_of(p->ask.motion, q->begin[item->segment], &u);
     if ((p->ask.first > 0 || p->memo.shared > 0) &&
         nsvcd__is_straight(nsvcd__arc_at(p, first))) {
-      const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(p, search, item);
+      const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(p, q, item);
       if (outcome != NSVCD__RESOLVED) return outcome;
       continue;
     }
     if (p->misses >= NSVCD__FEW_MISSES) {
-      const nsvcd__interval *over = nsvcd__segment_interval(p, search, item->segment);
+      const nsvcd__interval *over = nsvcd__segment_interval(p, q, item->segment);
       const nsvcd__outcome by_triangles =
           nsvcd__resolve_triangles(p, item->moving, item->fixed, over, 0, 0, 0);
       if (by_triangles == NSVCD__RESOLVED) continue;
     }
     const int may_meet = tells_more || p->misses < NSVCD__MANY_MISSES;
-    if (may_meet && !item->sought &&
-        nsvcd__seek_in_patch_pair(p, search, item) == NSVCD__ANSWERED)
+    if (may_meet && !item->sought && nsvcd__seek_in_patch_pair(p, q, item) == NSVCD__ANSWERED)
       return NSVCD__ANSWERED;
     p->misses++;
     if (p->count == NSVCD__PATCH_PAIRS) {
-      const nsvcd__outcome outcome = nsvcd__resolve_patch_pairs(p, search);
+      const nsvcd__outcome outcome = nsvcd__resolve_patch_pairs(p, q);
       if (outcome != NSVCD__RESOLVED) return outcome;
     }
     p->of.kept.items[p->count++] = *item;
@@ -355,12 +354,12 @@ static int nsvcd__collects_on(const nsvcd__proof *p) {
 
 // Collects the contacts of fresh patch pairs at the start, or the patch pairs where contact points
 // may be. EXHAUSTED: there is no room for more, or no budget.
-static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *search) {
+static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *q) {
   for (size_t n = 0; n < p->fresh_count && nsvcd__collects_on(p); n++) {
     const nsvcd__patch_pair *item = &p->fresh[n];
     NSVCD__PAUSE(p);
-    if (nsvcd__held_again(p, search, item)) continue;
-    if (nsvcd__is_separated(p, search, item)) continue;
+    if (nsvcd__held_again(p, q, item)) continue;
+    if (nsvcd__is_separated(p, q, item)) continue;
     if (p->ask.collects == NSVCD__TOUCHING) {
       if (p->normal_count > 0) {
         // just pushed out: farther than the clearance by less than floats can tell

@@ -59,26 +59,26 @@ static nsvcd__d3 nsvcd__slerp_turn(const nsvcd__slerp *slerp) {
   const nsvcd__d3 ahead = nsvcd__d3_scale(v, slerp->start.w);
   const nsvcd__d3 difference = nsvcd__d3_sub(ahead, nsvcd__d3_scale(u, slerp->end.w));
   const nsvcd__d3 across = nsvcd__d3_add(difference, nsvcd__d3_cross(u, v));
-  const double sine = nsvcd__d3_length(across);
+  const double sine = nsvcd__d3_norm(across);
   return nsvcd__d3_scale(across,
                          sine > 0 ? 2 * slerp->half_angle * slerp->fraction / sine : 0);
 }
 
 // The arc that begins at the keyframe `first`.
 static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
-  const nsvcd__motion *motion = p->ask.motion;
+  const nsvcd__motion *m = p->ask.motion;
   nsvcd__arc *arc = &p->arc;
-  const uint32_t ticks = nsvcd__next_keyframe(motion, first) - first;
+  const uint32_t ticks = nsvcd__next_keyframe(m, first) - first;
   if (arc->first == first && arc->ticks == ticks) return arc;
   nsvcd__d3 ends[2], fixed_ends[2];
-  const double per_metre = 1 / (double)motion->unit;
+  const double per_metre = 1 / (double)m->unit;
   arc->first = first;
   arc->ticks = ticks;
-  arc->fixed_moves = motion->fixed_moves;
-  arc->scale = motion->ratio;
-  arc->push_out = nsvcd__d3_widen(motion->push_out);
-  nsvcd__slerp_init(&motion->moving, first, ticks, &arc->moving, ends);
-  nsvcd__slerp_init(&motion->fixed, first, ticks, &arc->fixed, fixed_ends);
+  arc->fixed_moves = m->fixed_moves;
+  arc->scale = m->ratio;
+  arc->push_out = nsvcd__d3_widen(m->push_out);
+  nsvcd__slerp_init(&m->moving, first, ticks, &arc->moving, ends);
+  nsvcd__slerp_init(&m->fixed, first, ticks, &arc->fixed, fixed_ends);
   const nsvcd__d3 from = nsvcd__d3_sub(ends[0], fixed_ends[0]);
   const nsvcd__d3 to = nsvcd__d3_sub(ends[1], fixed_ends[1]);
   arc->from = nsvcd__d3_scale(from, per_metre);
@@ -99,17 +99,17 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   const nsvcd__d3 fixed_turn = nsvcd__slerp_turn(&arc->fixed);
   const nsvcd__d3 turn = nsvcd__d3_sub(nsvcd__slerp_turn(&arc->moving), fixed_turn);
   const nsvcd__d3 end = nsvcd__d3_add(arc->from, arc->moved);
-  const double twist = nsvcd__d3_length(nsvcd__d3_cross(turn, fixed_turn));
-  const double angle = nsvcd__d3_length(fixed_turn);
-  const double swing_from = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->from));
-  const double swing_to = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, end));
+  const double twist = nsvcd__d3_norm(nsvcd__d3_cross(turn, fixed_turn));
+  const double angle = nsvcd__d3_norm(fixed_turn);
+  const double swing_from = nsvcd__d3_norm(nsvcd__d3_cross(fixed_turn, arc->from));
+  const double swing_to = nsvcd__d3_norm(nsvcd__d3_cross(fixed_turn, end));
   const double swing = nsvcd__max(swing_from, swing_to);
-  const double across = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->moved));
+  const double across = nsvcd__d3_norm(nsvcd__d3_cross(fixed_turn, arc->moved));
   const nsvcd__d3 axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
   const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->fixed, 0));
   const nsvcd__dmat3 moving = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->moving, 0));
-  arc->turn = nsvcd__d3_length(turn);
-  arc->speed = nsvcd__d3_length(arc->moved) + swing;
+  arc->turn = nsvcd__d3_norm(turn);
+  arc->speed = nsvcd__d3_norm(arc->moved) + swing;
   arc->twist = 0.1250001 * arc->scale * twist;
   arc->origin_bend = 0.1250001 * (2 * across + angle * swing);
   arc->axis = nsvcd__dmat3_apply_transpose(&fixed, axis);

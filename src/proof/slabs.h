@@ -22,7 +22,7 @@ NSVCD__INLINE nsvcd__v_slab nsvcd__v_slab_set(const nsvcd__slab *slab) {
 // From (6, stride).
 NSVCD__INLINE nsvcd__v_slab nsvcd__v_slab_load(const float *slabs, size_t stride) {
   nsvcd__v_slab out;
-  out.normal = nsvcd__v3_load_rows(slabs, stride);
+  out.normal = nsvcd__v3_get(slabs, stride);
   out.low = nsvcd__v_load(slabs + 3 * stride);
   out.high = nsvcd__v_load(slabs + 4 * stride);
   out.across = nsvcd__v_load(slabs + 5 * stride);
@@ -45,7 +45,7 @@ NSVCD__INLINE nsvcd__v_range nsvcd__v_slab_along(const nsvcd__v_slab *slab, nsvc
 // The same, along directions given in the slabs' own frame.
 NSVCD__INLINE nsvcd__v_range nsvcd__v_slab_range(const nsvcd__v_slab *slab, nsvcd__v3 n) {
   const nsvcd__v along = nsvcd__v3_dot(n, slab->normal);
-  const nsvcd__v across = nsvcd__v3_length(nsvcd__v3_cross(n, slab->normal));
+  const nsvcd__v across = nsvcd__v3_norm(nsvcd__v3_cross(n, slab->normal));
   return nsvcd__v_slab_along(slab, along, across);
 }
 
@@ -114,7 +114,7 @@ NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_fixed(const nsvcd__v_appro
 NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_moving(const nsvcd__v_approach *a) {
   const nsvcd__v3 w = a->mean;
   const nsvcd__v along = nsvcd__v_mul(a->scale, nsvcd__v3_dot(w, w));
-  const nsvcd__v across = nsvcd__v_mul(a->scale, nsvcd__v3_length(a->turned));
+  const nsvcd__v across = nsvcd__v_mul(a->scale, nsvcd__v3_norm(a->turned));
   const nsvcd__v_range moving = nsvcd__v_slab_along(&a->moving, along, across);
   const nsvcd__v_range fixed = nsvcd__v_slab_range(&a->fixed, w);
   return nsvcd__v_separate(a, w, moving, moving, fixed, nsvcd__v_off(a, w));
@@ -122,10 +122,10 @@ NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_moving(const nsvcd__v_appr
 
 // Of the lanes `met` of moving group g in segment s, those that slabs do not separate from fixed
 // patch j.
-static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *search, size_t g,
-                                  size_t j, size_t s, uint32_t met) {
-  const nsvcd__interval *over = nsvcd__segment_interval(p, search, s);
-  const nsvcd__chords *c = &search->members[s];
+static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *q, size_t g, size_t j,
+                                  size_t s, uint32_t met) {
+  const nsvcd__interval *over = nsvcd__segment_interval(p, q, s);
+  const nsvcd__chords *c = &q->members[s];
   const nsvcd__slab fixed = nsvcd__slab_at(p->fixed.slabs, p->fixed.body->padded, j);
   const nsvcd__f3 centre = nsvcd__patch_centre(&p->fixed, j);
   const nsvcd__mat3 *from = &over->start.rotation;
@@ -138,7 +138,7 @@ static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *search, 
   a.scale = nsvcd__v_set(p->ask.motion->scale);
   a.over = nsvcd__v_interval_set(over);
   a.clearance = nsvcd__clearance(p);
-  a.radius = search->extent;
+  a.radius = q->extent;
   a.fixed_off = nsvcd__v_off(&a, a.fixed.normal);
   NSVCD__EACH_SLICE(l) {
     const size_t i = NSVCD__GROUP * g + l;
@@ -148,7 +148,7 @@ static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *search, 
     a.chord = nsvcd__chords_travel(c, l);
     a.moving = nsvcd__v_slab_load(p->moving.slabs + i, p->moving.body->padded);
     nsvcd__v_separated by = nsvcd__v_separate_by_fixed(&a);
-    NSVCD__CERTIFY_SLABS(p, search, 0, i, j, s, &by, by.lanes & wanted);
+    NSVCD__CERTIFY_SLABS(p, q, 0, i, j, s, &by, by.lanes & wanted);
     wanted &= ~by.lanes;
     if (!wanted) continue;
     // rotations in an interval are times the scale
@@ -158,45 +158,45 @@ static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *search, 
     a.mean = nsvcd__vmat3_apply(nsvcd__vmat3_set(&middle), a.moving.normal);
     a.turned = nsvcd__vmat3_apply(nsvcd__vmat3_set(&half_turn), a.moving.normal);
     by = nsvcd__v_separate_by_moving(&a);
-    NSVCD__CERTIFY_SLABS(p, search, 0, i, j, s, &by, by.lanes & wanted);
+    NSVCD__CERTIFY_SLABS(p, q, 0, i, j, s, &by, by.lanes & wanted);
     left |= (wanted & ~by.lanes) << l;
   }
   return left;
 }
 
 // Clears the segments in which slabs separate the moving group that is searched, whose chords are
-// in search->group, from the fixed ones that it meets: a slice of segments at a time.
-static NSVCD__NOINLINE void nsvcd__separate_groups(nsvcd__proof *p, nsvcd__search *search) {
+// in q->group, from the fixed ones that it meets: a slice of segments at a time.
+static NSVCD__NOINLINE void nsvcd__separate_groups(nsvcd__proof *p, nsvcd__search *q) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
-  const size_t next = search->order[search->step];
-  const size_t g = search->moving_tile.groups[next];
+  const size_t next = q->order[q->step];
+  const size_t g = q->moving_tile.groups[next];
   const nsvcd__slab own =
       nsvcd__slab_at(p->moving.group_slabs, nsvcd__group_slots(moving->padded), g);
   nsvcd__v_approach a;
   a.moving = nsvcd__v_slab_set(&own);
-  a.scale = nsvcd__v_set(search->scale);
+  a.scale = nsvcd__v_set(q->scale);
   a.clearance = nsvcd__clearance(p);
   a.radius = nsvcd__group_extent(moving, g);
-  for (uint32_t waiting = search->waiting; waiting; waiting &= waiting - 1) {
+  for (uint32_t waiting = q->waiting; waiting; waiting &= waiting - 1) {
     const size_t at = nsvcd__low_bit(waiting);
-    const size_t h = search->fixed_tile.groups[at];
+    const size_t h = q->fixed_tile.groups[at];
     const nsvcd__slab other =
         nsvcd__slab_at(p->fixed.group_slabs, nsvcd__group_slots(fixed->padded), h);
     const nsvcd__f3 centre = nsvcd__centre_of(nsvcd__groups_of(fixed), h);
-    uint64_t *met = &nsvcd__nearby(search, next)[at];
+    uint64_t *met = &nsvcd__nearby(q, next)[at];
     a.fixed = nsvcd__v_slab_set(&other);
     for (size_t first = 0; first < NSVCD__MAX_SEGMENTS; first += NSVCD__SLICE) {
       const uint32_t wanted = (uint32_t)(*met >> first) & NSVCD__SLICE_MASK;
-      nsvcd__segments *block = &search->blocks[first / NSVCD__LANES];
-      const nsvcd__chords *c = &search->group[first / NSVCD__LANES];
+      nsvcd__segments *block = &q->blocks[first / NSVCD__LANES];
+      const nsvcd__chords *c = &q->group[first / NSVCD__LANES];
       const size_t l = first % NSVCD__LANES;
       if (l == 0 && (*met >> first & 0xffff)) NSVCD__TALLY(tests, 1);
       if (!wanted) continue;
       const nsvcd__vmat3 rotation = nsvcd__vmat3_load(block->rotation, l);
       const nsvcd__vmat3 turn = nsvcd__vmat3_load(block->turned, l);
-      const nsvcd__v half = nsvcd__v_set(0.5f / search->scale);
-      const nsvcd__v whole = nsvcd__v_set(1 / search->scale);
+      const nsvcd__v half = nsvcd__v_set(0.5f / q->scale);
+      const nsvcd__v whole = nsvcd__v_set(1 / q->scale);
       const nsvcd__v3 n = a.fixed.normal;
       const nsvcd__v3 m = a.moving.normal;
       a.over = nsvcd__v_interval_load(block, l);
@@ -208,14 +208,14 @@ static NSVCD__NOINLINE void nsvcd__separate_groups(nsvcd__proof *p, nsvcd__searc
       a.turned = nsvcd__v3_scale(nsvcd__vmat3_apply(turn, m), half);
       a.mean = nsvcd__v3_fma(whole, nsvcd__vmat3_apply(rotation, m), a.turned);
       nsvcd__v_separated by = nsvcd__v_separate_by_fixed(&a);
-      NSVCD__CERTIFY_SLABS(p, search, 1, g, h, first, &by, by.lanes & wanted);
+      NSVCD__CERTIFY_SLABS(p, q, 1, g, h, first, &by, by.lanes & wanted);
       uint32_t apart = by.lanes;
       by = nsvcd__v_separate_by_moving(&a);
-      NSVCD__CERTIFY_SLABS(p, search, 1, g, h, first, &by, by.lanes & wanted);
+      NSVCD__CERTIFY_SLABS(p, q, 1, g, h, first, &by, by.lanes & wanted);
       apart |= by.lanes;
       *met &= ~((uint64_t)(apart & wanted) << first);
     }
-    if (!*met) search->waiting &= ~((uint32_t)1 << at);
+    if (!*met) q->waiting &= ~((uint32_t)1 << at);
   }
 }
 #endif  // NSVCD_NO_PROOF

@@ -33,8 +33,8 @@ static void nsvcd__pair_arm(const nsvcd__arc *arc, nsvcd__triangle_pair *pair) {
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__d3 corner = pair->moving[k];
     const nsvcd__d3 across = nsvcd__d3_cross(corner, arc->own_axis);
-    pair->from_origin = nsvcd__max(pair->from_origin, nsvcd__d3_length(corner));
-    pair->from_axis = nsvcd__max(pair->from_axis, nsvcd__d3_length(across));
+    pair->from_origin = nsvcd__max(pair->from_origin, nsvcd__d3_norm(corner));
+    pair->from_axis = nsvcd__max(pair->from_axis, nsvcd__d3_norm(across));
   }
   pair->from_axis += (arc->waver + 1e-6) * pair->from_origin;
   pair->from_axis = nsvcd__min(pair->from_axis, pair->from_origin);
@@ -48,9 +48,9 @@ static nsvcd__triangle_pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size
   nsvcd__pair_arm(&p->arc, &pair);
   pair.speed = p->arc.speed + p->arc.turn * p->arc.scale * pair.from_axis;
   pair.rounding =
-      NSVCD__SAME_POSITION * ((double)p->given.lengths + nsvcd__d3_length(p->arc.from));
+      NSVCD__SAME_POSITION * ((double)p->given.lengths + nsvcd__d3_norm(p->arc.from));
   pair.margin = pair.rounding + nsvcd__off_meshes(p);
-  pair.margin += NSVCD__SAME_POSITION * nsvcd__d3_length(p->arc.moved);
+  pair.margin += NSVCD__SAME_POSITION * nsvcd__d3_norm(p->arc.moved);
   pair.close = pair.margin + NSVCD__TOO_NEAR * (double)p->given.lengths + p->given.tolerance;
   return pair;
 }
@@ -140,7 +140,7 @@ static double nsvcd__arc_limit(const nsvcd__proof *p) {
 // turn, a wavers, and so do both distances from it.
 static double nsvcd__off_chord_along(const nsvcd__arc *arc, const nsvcd__triangle_pair *pair,
                                      nsvcd__d3 n) {
-  const double across = nsvcd__d3_length(nsvcd__d3_cross(n, arc->axis));
+  const double across = nsvcd__d3_norm(nsvcd__d3_cross(n, arc->axis));
   const double off_axis = nsvcd__min(1, across + arc->waver + 1e-6);
   const double turn = arc->bend * pair->from_axis * off_axis;
   return turn + arc->twist * pair->from_origin + arc->origin_bend;
@@ -188,19 +188,19 @@ static int nsvcd__are_opmoving(double before, double least_before, double after,
 static int nsvcd__corner_passes(const nsvcd__d3 *const *x, size_t k, const nsvcd__d3 *const *t,
                                 double travel, double margin) {
   const nsvcd__d3 n = nsvcd__face_normal(t[1]);
-  const double room = 2 * travel * nsvcd__d3_length(n);
+  const double room = 2 * travel * nsvcd__d3_norm(n);
   for (size_t e = 0; e < 3; e++) {
     const nsvcd__d3 edge = nsvcd__d3_sub(t[1][(e + 1) % 3], t[1][e]);
     const nsvcd__d3 from = nsvcd__d3_sub(x[1][k], t[1][e]);
     const double within = nsvcd__d3_dot(n, nsvcd__d3_cross(edge, from));
-    if (!(within > room * nsvcd__d3_length(edge))) return 0;
+    if (!(within > room * nsvcd__d3_norm(edge))) return 0;
   }
   const nsvcd__d3 n0 = nsvcd__face_normal(t[0]);
   const nsvcd__d3 n2 = nsvcd__face_normal(t[2]);
   const double before = nsvcd__d3_dot(n0, nsvcd__d3_sub(x[0][k], t[0][0]));
   const double after = nsvcd__d3_dot(n2, nsvcd__d3_sub(x[2][k], t[2][0]));
-  return nsvcd__are_opmoving(before, margin * nsvcd__d3_length(n0), after,
-                             margin * nsvcd__d3_length(n2));
+  return nsvcd__are_opmoving(before, margin * nsvcd__d3_norm(n0), after,
+                             margin * nsvcd__d3_norm(n2));
 }
 
 // Does edge k of the moving triangle pass through edge n of the fixed one: do they change sides,
@@ -219,8 +219,8 @@ static int nsvcd__edges_pass(const nsvcd__d3 *const *moving, size_t k, const nsv
     volumes[at] = nsvcd__d3_dot(across[at], from[at]);
   }
   const nsvcd__d3 u = nsvcd__d3_sub(moving[1][next], moving[1][k]);
-  const double size = nsvcd__d3_length(across[1]);
-  const double lengths = nsvcd__d3_length(u) * nsvcd__d3_length(v);
+  const double size = nsvcd__d3_norm(across[1]);
+  const double lengths = nsvcd__d3_norm(u) * nsvcd__d3_norm(v);
   if (!(size > 0.01 * lengths)) return 0;
   if (!nsvcd__are_opmoving(volumes[0], margin * size, volumes[2], margin * size)) return 0;
   const double square = size * size;
@@ -228,8 +228,8 @@ static int nsvcd__edges_pass(const nsvcd__d3 *const *moving, size_t k, const nsv
   const double t = nsvcd__d3_dot(nsvcd__d3_cross(from[1], u), across[1]) / square;
   // the lines' nearest points travel no farther along them
   const double room = 4 * travel * lengths / size;
-  const double room_s = room / nsvcd__d3_length(u);
-  const double room_t = room / nsvcd__d3_length(v);
+  const double room_s = room / nsvcd__d3_norm(u);
+  const double room_t = room / nsvcd__d3_norm(v);
   return s > room_s && s < 1 - room_s && t > room_t && t < 1 - room_t;
 }
 

@@ -35,27 +35,26 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
 }
 
 // Searches a motion whose segments have been chosen, and resolves what it finds.
-static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_motion(nsvcd__proof *p,
-                                                          nsvcd__search *search) {
-  nsvcd__cut_segments(p->ask.motion, p->given.lengths, nsvcd__clearance(p), search);
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_motion(nsvcd__proof *p, nsvcd__search *q) {
+  nsvcd__cut_segments(p->ask.motion, p->given.lengths, nsvcd__clearance(p), q);
   p->ask.first = p->ask.fraction * (double)p->ask.motion->ticks;
-  const nsvcd__outcome outcome = nsvcd__prove_tiles(p, search);
+  const nsvcd__outcome outcome = nsvcd__prove_tiles(p, q);
   p->known.lost = outcome == NSVCD__EXHAUSTED;
   return outcome;
 }
 
 // The same for any motion, from scratch.
-static nsvcd__outcome nsvcd__prove_anew(nsvcd__proof *p, nsvcd__search *search) {
+static nsvcd__outcome nsvcd__prove_anew(nsvcd__proof *p, nsvcd__search *q) {
   nsvcd__proof_restart(p);
-  nsvcd__choose_segments(p->ask.motion, search);
-  return nsvcd__prove_motion(p, search);
+  nsvcd__choose_segments(p->ask.motion, q);
+  return nsvcd__prove_motion(p, q);
 }
 
 // The pose at the start of a motion, or at its end, as a motion of its own.
-static nsvcd__motion nsvcd__end_of(const nsvcd__motion *motion, int at_end) {
-  nsvcd__motion still = *motion;
-  nsvcd__track moving = motion->moving;
-  nsvcd__track fixed = motion->fixed;
+static nsvcd__motion nsvcd__end_of(const nsvcd__motion *m, int at_end) {
+  nsvcd__motion still = *m;
+  nsvcd__track moving = m->moving;
+  nsvcd__track fixed = m->fixed;
   moving.poses += at_end ? moving.count - 1 : 0;
   fixed.poses += at_end ? fixed.count - 1 : 0;
   moving.count = fixed.count = 1;
@@ -68,7 +67,7 @@ static nsvcd__motion nsvcd__end_of(const nsvcd__motion *motion, int at_end) {
 
 // Do triangles meet at the start alone, or at the end? Takes so many units at most. If they do,
 // that is the known contact; if not, all that was known is lost.
-static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *search, int at_end,
+static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *q, int at_end,
                                            size_t units) {
   const nsvcd__asked asked = p->ask;
   nsvcd__motion still = nsvcd__end_of(asked.motion, at_end);
@@ -76,7 +75,7 @@ static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *searc
   p->ask.fraction = 0;
   p->ask.limit = nsvcd__limit_after(p, units);
   p->ask.is_brief = 1;
-  const int meets = nsvcd__prove_anew(p, search) == NSVCD__ANSWERED;
+  const int meets = nsvcd__prove_anew(p, q) == NSVCD__ANSWERED;
   p->known.found.tick = at_end ? (double)asked.motion->ticks : 0;
   p->ask = asked;
   p->ask.end = 0;
@@ -87,39 +86,38 @@ static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *searc
 // of the rest touch only at the start or at the end, so these two poses are tried before all is
 // searched again. The search for a first contact begins at the start anyway, and the ends of a long
 // motion have been tried before its intervals.
-static nsvcd__outcome nsvcd__prove_whole(nsvcd__proof *p, nsvcd__search *search,
-                                         size_t limit) {
+static nsvcd__outcome nsvcd__prove_whole(nsvcd__proof *p, nsvcd__search *q, size_t limit) {
   const int is_brief = !p->ask.motion->arcs && !(p->ask.fraction > 0);
   p->ask.is_brief = is_brief && p->work + NSVCD__LONG < limit;
   p->ask.limit = p->ask.is_brief ? p->work + NSVCD__LONG : limit;
-  const nsvcd__outcome outcome = nsvcd__prove_motion(p, search);
+  const nsvcd__outcome outcome = nsvcd__prove_motion(p, q);
   if (outcome != NSVCD__EXHAUSTED || !p->ask.is_brief) return outcome;
   // half of what may follow an unresolved pair has been used
   if (p->known.unresolved < NSVCD__NEVER)
     p->ask.after_unresolved -= p->ask.after_unresolved / 2;
   for (int at_end = 0; at_end < 2; at_end++) {
-    if (nsvcd__meets_at(p, search, at_end, NSVCD__END_BUDGET)) return NSVCD__ANSWERED;
+    if (nsvcd__meets_at(p, q, at_end, NSVCD__END_BUDGET)) return NSVCD__ANSWERED;
   }
   p->ask.is_brief = 0;
   p->ask.limit = limit;
-  return nsvcd__prove_anew(p, search);
+  return nsvcd__prove_anew(p, q);
 }
 
 // Searches a part of the motion, from one position in segments to another, for the first contact
 // there or the first unresolved pair, and adds what it finds to what is known of all before it.
 // *end: the tick from which on nothing matters.
-static void nsvcd__prove_part(nsvcd__proof *p, nsvcd__search *search, double from, double to,
+static void nsvcd__prove_part(nsvcd__proof *p, nsvcd__search *q, double from, double to,
                               nsvcd__known *known, double *end) {
   const nsvcd__known *part = &p->known;
   nsvcd__proof_restart(p);
-  nsvcd__choose_segments(p->ask.motion, search);
+  nsvcd__choose_segments(p->ask.motion, q);
   // this many ticks to one of before
   const double finer = nsvcd__motion_refine(p->ask.motion);
-  nsvcd__narrow_segments(search, from, to, finer);
+  nsvcd__narrow_segments(q, from, to, finer);
   p->ask.end = nsvcd__min(p->ask.end, finer * *end);
   p->ask.unresolved_ends = 1;
-  (void)nsvcd__prove_motion(p, search);
-  const double last = (double)search->begin[search->segments];
+  (void)nsvcd__prove_motion(p, q);
+  const double last = (double)q->begin[q->segments];
   if (part->has_contact) {
     known->has_contact = 1;
     known->found = part->found;
@@ -137,17 +135,17 @@ static void nsvcd__prove_part(nsvcd__proof *p, nsvcd__search *search, double fro
 
 // The budget did not suffice for the first contact. Searches again by time, from what is resolved
 // on: one part of the motion after another, a shorter one where a part takes too many units.
-static NSVCD__NOINLINE void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *search,
+static NSVCD__NOINLINE void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *q,
                                                  size_t limit) {
   nsvcd__known known = p->known;
   const double ticks = (double)p->ask.motion->ticks;
-  const double all = (double)search->segments;
+  const double all = (double)q->segments;
   double end = p->ask.end;
   double from = 0;
   double length = NSVCD__FIRST_PART;
   double grows = 4;
   size_t units = limit;
-  while (from < all && (double)search->begin[(size_t)from + 1] <= known.resolved) from++;
+  while (from < all && (double)q->begin[(size_t)from + 1] <= known.resolved) from++;
   p->ask.is_brief = 1;
   for (;;) {
     const double until = nsvcd__min(ticks, nsvcd__min(end, known.unresolved));
@@ -157,7 +155,7 @@ static NSVCD__NOINLINE void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search 
     const double whole = floor(from + length);
     const double to = whole > from ? nsvcd__min(whole, all) : from + length;
     p->ask.limit = limit - before > units ? before + units : limit;
-    nsvcd__prove_part(p, search, from, to, &known, &end);
+    nsvcd__prove_part(p, q, from, to, &known, &end);
     if (p->known.lost) {
       length /= 8;
       grows = 2;
@@ -169,24 +167,24 @@ static NSVCD__NOINLINE void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search 
   }
   p->ask.is_brief = 0;
   nsvcd__proof_restart(p);
-  nsvcd__choose_segments(p->ask.motion, search);
+  nsvcd__choose_segments(p->ask.motion, q);
   p->known = known;
   p->ask.end = end;
 }
 
 // When do they meet first? What is proven of that stays proven when the budget ends.
-static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search) {
-  const nsvcd__outcome outcome = nsvcd__prove_whole(p, search, nsvcd__limit_of_first(p));
+static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *q) {
+  const nsvcd__outcome outcome = nsvcd__prove_whole(p, q, nsvcd__limit_of_first(p));
   const double from = (double)p->ask.motion->from;
   // An interval is short, and all before it is known.
-  if (p->known.lost && !p->ask.motion->arcs) nsvcd__prove_by_time(p, search, p->ask.most);
+  if (p->known.lost && !p->ask.motion->arcs) nsvcd__prove_by_time(p, q, p->ask.most);
   const nsvcd__known known = p->known;
   const double end = p->ask.end;
   if (from > 0 && known.has_contact) {
     p->starts_free = 1;
   } else if (known.has_contact && nsvcd__clear_until(p) <= 0 && known.found.tick > 0) {
     // The contact is so early that they may meet at the start already.
-    if (nsvcd__meets_at(p, search, 0, p->given.work)) return NSVCD__ANSWERED;
+    if (nsvcd__meets_at(p, q, 0, p->given.work)) return NSVCD__ANSWERED;
     p->starts_free = !p->known.lost && !(p->known.unresolved < NSVCD__NEVER);
     p->known = known;
     p->ask.end = end;
@@ -213,7 +211,7 @@ static size_t nsvcd__patch_near(const nsvcd__geometry *f, nsvcd__f3 point) {
     float best = HUGE_VALF;
     for (size_t n = from; n < from + count && n < level.count; n++) {
       const nsvcd__f3 off = nsvcd__f3_sub(nsvcd__centre_of(all, n), point);
-      const float distance = nsvcd__f3_length(off) - all.r[n];
+      const float distance = nsvcd__f3_norm(off) - all.r[n];
       if (distance >= best) continue;
       best = distance;
       nearest = n;
@@ -243,13 +241,13 @@ static size_t nsvcd__patch_near(const nsvcd__geometry *f, nsvcd__f3 point) {
   return patch;
 }
 
-// When the sphere whose chords are search->group comes nearest to a fixed one, in ticks. Returns 0
+// When the sphere whose chords are q->group comes nearest to a fixed one, in ticks. Returns 0
 // if that is no nearer than *gap, metres; else *gap becomes how near.
-static int nsvcd__nearest_tick(const nsvcd__search *search, nsvcd__sphere fixed, float *gap,
+static int nsvcd__nearest_tick(const nsvcd__search *q, nsvcd__sphere fixed, float *gap,
                                double *tick) {
   int found = 0;
-  for (size_t b = 0; NSVCD__LANES * b < search->segments; b++) {
-    const nsvcd__chords *c = &search->group[b];
+  for (size_t b = 0; NSVCD__LANES * b < q->segments; b++) {
+    const nsvcd__chords *c = &q->group[b];
     float gaps[NSVCD__LANES], fraction[NSVCD__LANES];
     uint32_t nearer = 0;
     NSVCD__EACH_SLICE(l) {
@@ -259,8 +257,7 @@ static int nsvcd__nearest_tick(const nsvcd__search *search, nsvcd__sphere fixed,
       const nsvcd__v tau = nsvcd__v_clamp(
           nsvcd__v_mul(nsvcd__v3_dot(d, travel), nsvcd__v_load(c->inverse + l)), 0, 1);
       const nsvcd__v3 off = nsvcd__v3_fma(tau, travel, d);
-      const nsvcd__v between =
-          nsvcd__v_sub(nsvcd__v3_length(off), nsvcd__v_load(c->radius + l));
+      const nsvcd__v between = nsvcd__v_sub(nsvcd__v3_norm(off), nsvcd__v_load(c->radius + l));
       nearer |= nsvcd__v_lt(between, nsvcd__v_set(*gap + fixed.radius)) << l;
       nsvcd__v_store(gaps + l, between);
       nsvcd__v_store(fraction + l, tau);
@@ -268,10 +265,10 @@ static int nsvcd__nearest_tick(const nsvcd__search *search, nsvcd__sphere fixed,
     for (; nearer; nearer &= nearer - 1) {
       const size_t l = nsvcd__low_bit(nearer);
       const size_t s = NSVCD__LANES * b + l;
-      if (s >= search->segments || !(gaps[l] - fixed.radius < *gap)) continue;
+      if (s >= q->segments || !(gaps[l] - fixed.radius < *gap)) continue;
       *gap = gaps[l] - fixed.radius;
-      *tick = (double)search->begin[s];
-      *tick += (double)fraction[l] * ((double)search->begin[s + 1] - *tick);
+      *tick = (double)q->begin[s];
+      *tick += (double)fraction[l] * ((double)q->begin[s + 1] - *tick);
       found = 1;
     }
   }
@@ -279,7 +276,7 @@ static int nsvcd__nearest_tick(const nsvcd__search *search, nsvcd__sphere fixed,
 }
 
 // The two groups that come nearest to each other; of large bodies, the bodies' own spheres.
-static void nsvcd__nearest_groups(const nsvcd__proof *p, nsvcd__search *search,
+static void nsvcd__nearest_groups(const nsvcd__proof *p, nsvcd__search *q,
                                   nsvcd__sphere *moving, nsvcd__sphere *fixed) {
   const nsvcd_body *a = p->moving.body;
   const nsvcd_body *b = p->fixed.body;
@@ -289,10 +286,10 @@ static void nsvcd__nearest_groups(const nsvcd__proof *p, nsvcd__search *search,
   *fixed = nsvcd__body_sphere(b);
   for (size_t g = 0; g < nsvcd__body_groups(a) && !nsvcd__is_tiled(a, b); g++) {
     const nsvcd__sphere own = nsvcd__sphere_of(nsvcd__groups_of(a), g);
-    nsvcd__chords_in_all(search, own);
+    nsvcd__chords_in_all(q, own);
     for (size_t h = 0; h < nsvcd__body_groups(b); h++) {
       const nsvcd__sphere other = nsvcd__sphere_of(nsvcd__groups_of(b), h);
-      if (!nsvcd__nearest_tick(search, other, &gap, &tick)) continue;
+      if (!nsvcd__nearest_tick(q, other, &gap, &tick)) continue;
       *moving = own;
       *fixed = other;
     }
@@ -322,7 +319,7 @@ static double nsvcd__vertex_distance(const nsvcd__proof *p, const nsvcd__transfo
 // two patches have, and a little more. The patches, and the time when they are nearest, are found
 // in turns. If the bound is within the clearance, triangles of these patches are a contact, which
 // is sought there.
-static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__proof *p, nsvcd__search *search) {
+static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__proof *p, nsvcd__search *q) {
   nsvcd__sphere moving, fixed;
   double tick = 0;
   double least = HUGE_VAL;
@@ -330,13 +327,13 @@ static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__proof *p, nsvcd__sear
   uint32_t from = 0;
   size_t nearest[2] = {0, 0};
   // Bodies that never come near have been told apart without segments.
-  nsvcd__cut_segments(p->ask.motion, p->given.lengths, 0, search);
-  nsvcd__nearest_groups(p, search, &moving, &fixed);
+  nsvcd__cut_segments(p->ask.motion, p->given.lengths, 0, q);
+  nsvcd__nearest_groups(p, q, &moving, &fixed);
   for (size_t turn = 0; turn < NSVCD__TURNS; turn++) {
     float gap = HUGE_VALF;
     double u;
-    nsvcd__chords_in_all(search, moving);
-    (void)nsvcd__nearest_tick(search, fixed, &gap, &tick);
+    nsvcd__chords_in_all(q, moving);
+    (void)nsvcd__nearest_tick(q, fixed, &gap, &tick);
     const uint32_t first = nsvcd__arc_of(p->ask.motion, tick, &u);
     const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(p, first), u);
     const nsvcd__transform pose = nsvcd__transform_of(&at);
@@ -350,7 +347,7 @@ static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__proof *p, nsvcd__sear
       j = nsvcd__patch_near(&p->fixed, nsvcd__f3_transform(&pose, moving.centre));
       fixed = nsvcd__sphere_of(nsvcd__body_patches(p->fixed.body), j);
     }
-    const float lengths = p->given.lengths + nsvcd__f3_length(pose.position);
+    const float lengths = p->given.lengths + nsvcd__f3_norm(pose.position);
     const double rounding =
         (double)(4 * NSVCD__ROUNDING * lengths + 2 * nsvcd__errors_of(p, i, j));
     const double apart = 1.0001 * nsvcd__vertex_distance(p, &pose, i, j) + rounding;
@@ -371,12 +368,12 @@ static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__proof *p, nsvcd__sear
 // One pass: a search whose question shrinks, for a bracket as narrow as p->ask.measure. Adds what
 // it finds to what is known. Returns whether the budget sufficed; if so, they come no nearer than
 // p->low.
-static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *search) {
+static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *q) {
   nsvcd__known known = p->known;
   const int is_named = known.has_contact || known.unresolved < NSVCD__NEVER;
   p->ask.clearance = is_named ? nsvcd__max(p->low, p->high - p->ask.measure) : p->high;
   nsvcd__proof_restart(p);
-  const nsvcd__outcome pass = nsvcd__prove_motion(p, search);
+  const nsvcd__outcome pass = nsvcd__prove_motion(p, q);
   if (p->known.has_contact) {
     known.has_contact = 1;
     known.found = p->known.found;
@@ -388,15 +385,15 @@ static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *search) {
 
 // Makes the bracket as narrow as `finest`. If half of the budget does not suffice for that, the
 // rest goes to brackets that get narrower and narrower; the last that was completed stays.
-static void nsvcd__narrow(nsvcd__proof *p, nsvcd__search *search, double finest) {
+static void nsvcd__narrow(nsvcd__proof *p, nsvcd__search *q, double finest) {
   p->ask.measure = finest;
   p->ask.limit = nsvcd__limit_after(p, p->given.work / 2);
-  if (nsvcd__measure_once(p, search)) return;
+  if (nsvcd__measure_once(p, q)) return;
   p->ask.limit = p->ask.most;
   p->ask.measure = p->high - p->low;
   while (!p->wide && p->ask.measure > finest) {
     p->ask.measure = nsvcd__max(finest, p->ask.measure / NSVCD__FINER);
-    p->wide = !nsvcd__measure_once(p, search);
+    p->wide = !nsvcd__measure_once(p, q);
   }
 }
 #endif  // NSVCD_NO_PROOF

@@ -196,7 +196,7 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
   const nsvcd__arc *arc = nsvcd__arc_at(p, first);
   const nsvcd__dtransform at = nsvcd__dtransform_at(arc, u);
   const nsvcd__transform rounded = nsvcd__transform_of(&at);
-  const float lengths = p->given.lengths + nsvcd__f3_length(rounded.position);
+  const float lengths = p->given.lengths + nsvcd__f3_norm(rounded.position);
   const float margin =
       NSVCD__ROUNDING * lengths + nsvcd__clearance(p) + nsvcd__errors_of(p, i, j);
   const size_t moving_end = p->moving.first_triangle[i + 1];
@@ -221,22 +221,21 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
 
 // The keyframe at which the arc of a time in ticks begins, the last one that is not after it; and
 // how much of the arc has gone by.
-static uint32_t nsvcd__arc_of(const nsvcd__motion *motion, double time, double *fraction) {
-  const uint32_t last = motion->ticks - 1;
+static uint32_t nsvcd__arc_of(const nsvcd__motion *m, double time, double *fraction) {
+  const uint32_t last = m->ticks - 1;
   const uint32_t tick = time < (double)last ? (uint32_t)time : last;
-  const uint32_t a =
-      nsvcd__tick_of(&motion->moving, nsvcd__pose_before(&motion->moving, tick));
-  const uint32_t b = nsvcd__tick_of(&motion->fixed, nsvcd__pose_before(&motion->fixed, tick));
+  const uint32_t a = nsvcd__tick_of(&m->moving, nsvcd__pose_before(&m->moving, tick));
+  const uint32_t b = nsvcd__tick_of(&m->fixed, nsvcd__pose_before(&m->fixed, tick));
   const uint32_t first = a > b ? a : b;
-  *fraction = (time - (double)first) / (double)(nsvcd__next_keyframe(motion, first) - first);
+  *fraction = (time - (double)first) / (double)(nsvcd__next_keyframe(m, first) - first);
   return first;
 }
 
 // Seeks a contact of a patch pair when its spheres are nearest, if that still matters.
-static nsvcd__outcome nsvcd__seek_in_patch_pair(nsvcd__proof *p, const nsvcd__search *search,
+static nsvcd__outcome nsvcd__seek_in_patch_pair(nsvcd__proof *p, const nsvcd__search *q,
                                                 nsvcd__patch_pair *pair) {
-  const double start = (double)search->begin[pair->segment];
-  const double end = nsvcd__min((double)search->begin[pair->segment + 1u], p->clipped_end);
+  const double start = (double)q->begin[pair->segment];
+  const double end = nsvcd__min((double)q->begin[pair->segment + 1u], p->clipped_end);
   const double tick = start + (double)pair->fraction * (end - start);
   double u;
   pair->sought = 1;

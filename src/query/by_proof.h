@@ -170,7 +170,7 @@ static double nsvcd__pose_error(const nsvcd__proof *p, double t) {
   const nsvcd__motion *motion = p->ask.motion;
   const nsvcd__d3 moving = nsvcd__dpose_at(motion, &motion->moving, t).position;
   const nsvcd__d3 fixed = nsvcd__dpose_at(motion, &motion->fixed, t).position;
-  const double positions = nsvcd__d3_length(moving) + nsvcd__d3_length(fixed);
+  const double positions = nsvcd__d3_norm(moving) + nsvcd__d3_norm(fixed);
   return 1.3e-7 * (2 * positions / (double)motion->unit + (double)p->given.lengths);
 }
 
@@ -193,7 +193,7 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) 
   const double kept = fmax(NSVCD__SET_DOWN * p->ask.slop, epsilons);
   const nsvcd__d3 least = nsvcd__push_out(p, kept, 1);
   const nsvcd__d3 by = nsvcd__d3_sub(push_out, least);
-  const double length = nsvcd__d3_length(by);
+  const double length = nsvcd__d3_norm(by);
   if (!(nsvcd__d3_dot(by, push_out) > 0) || !(length > kept)) return push_out;
   nsvcd__poses_at(task, t, push_out, &moving[0], &fixed[0]);
   nsvcd__poses_at(task, t, least, &moving[1], &fixed[1]);
@@ -315,7 +315,7 @@ static NSVCD__NOINLINE void nsvcd__write_safe_pose(nsvcd__query *query, nsvcd_an
   const int is_pushed = nsvcd__d3_dot(push_out, push_out) > 0;
   const int may_go = is_pushed && !p->inside && !p->unclear;
   if (is_pushed && !p->inside) {
-    const double depth = nsvcd__d3_length(nsvcd__push_out(p, 0, 1));
+    const double depth = nsvcd__d3_norm(nsvcd__push_out(p, 0, 1));
     answer->depth = (float)(depth * (double)task->motion.unit);
   } else if (!is_pushed && (answer->time.low > 0 || p->starts_free)) {
     answer->depth = 0;

@@ -81,7 +81,7 @@ static void nsvcd__depth_of(nsvcd_checker *c, nsvcd_question q, const nsvcd__loc
                             const nsvcd_proximity_options *o, nsvcd_proximity *out) {
   const nsvcd_body_pair *pair = &c->scene->pairs[out->pair];
   const nsvcd__d3 push_out = nsvcd__separating_push_out(c, q, o->max_depth);
-  const double length = nsvcd__d3_length(push_out);
+  const double length = nsvcd__d3_norm(push_out);
   nsvcd_answer found;
   // fractions of the push-out: they touch at the first, and are apart at the second
   double low = 0;

@@ -43,7 +43,7 @@ static void nsvcd__moment_arms_of(const nsvcd_checker *c, size_t part, const nsv
     if (!nsvcd__slides(c, j)) {
       const nsvcd__d3 off = nsvcd__d3_sub(centre, from->frames[j + 1].position);
       const nsvcd__d3 across = nsvcd__d3_cross(from->axes[j], off);
-      arms[j] = nsvcd__d3_length(across) + m->radius + moved;
+      arms[j] = nsvcd__d3_norm(across) + m->radius + moved;
     }
     moved += step->farthest[j] * arms[j];
   }

@@ -25,7 +25,7 @@ static nsvcd__local nsvcd__localize(nsvcd_checker *c, const nsvcd_body_pair *pai
     for (size_t k = 0; k < (moves[n] ? count : 1); k++) {
       const nsvcd__frame in = nsvcd__frame_inverse_mul(&local.frame, &frames[n][k]);
       c->local[n][k] = nsvcd__frame_pose(&in);
-      most = nsvcd__max(most, nsvcd__d3_length(in.position));
+      most = nsvcd__max(most, nsvcd__d3_norm(in.position));
     }
     // of positions and of quaternions as floats
     if (moves[n]) local.rounding += 2 * (1.1e-7 * most + 1.3e-7 * c->members[parts[n]].extent);

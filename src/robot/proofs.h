@@ -93,7 +93,7 @@ static nsvcd_deviation nsvcd__carried_deviation(const void *motion, double t0, d
   const nsvcd_scene *scene = c->checker->scene;
   const size_t degree = c->motion.degree;
   const double n = (double)degree;
-  double between = nsvcd__d3_length(c->checker->members[c->part].frame.position);
+  double between = nsvcd__d3_norm(c->checker->members[c->part].frame.position);
   nsvcd_deviation outer, out;
   memset(&outer, 0, sizeof outer);
   memset(&out, 0, sizeof out);
@@ -121,7 +121,7 @@ static nsvcd_deviation nsvcd__carried_deviation(const void *motion, double t0, d
     outer.base += speed * base;
     outer.per_metre += speed * per_metre;
     const nsvcd__link *carrier = &c->checker->links[link - 1];
-    between += nsvcd__d3_length(carrier->origin.position) + (slides ? most : 0);
+    between += nsvcd__d3_norm(carrier->origin.position) + (slides ? most : 0);
   }
   out.base *= 0.1250001;
   out.per_metre *= 0.1250001;
@@ -143,7 +143,7 @@ static nsvcd_motion_model nsvcd__carried_model(const nsvcd__carried *c) {
   const nsvcd_part *part = &scene->parts[c->part];
   const nsvcd_joint_motion *m = &c->motion;
   const float scale = part->scale > 0 ? part->scale : 1;
-  double extent = nsvcd__d3_length(c->checker->members[c->part].frame.position);
+  double extent = nsvcd__d3_norm(c->checker->members[c->part].frame.position);
   uint32_t d = nsvcd__digest((uint32_t)c->base, part->pose.position, 7);
   d = nsvcd__digest(d, &scale, 1);
   for (size_t link = part->link; link != c->base; link = scene->joints[link - 1].parent) {
@@ -158,7 +158,7 @@ static nsvcd_motion_model nsvcd__carried_model(const nsvcd__carried *c) {
       most = nsvcd__max(most, fabs(value));
     }
     const nsvcd__link *carrier = &c->checker->links[link - 1];
-    extent += nsvcd__d3_length(carrier->origin.position) + (slides ? most : 0);
+    extent += nsvcd__d3_norm(carrier->origin.position) + (slides ? most : 0);
   }
   d += (uint32_t)m->degree;
   for (size_t i = 0; i <= m->pieces; i++)

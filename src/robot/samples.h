@@ -11,7 +11,7 @@ static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__links *at, size_t
   const nsvcd_scene *scene = c->scene;
   double most = 0;
   for (size_t link = 1; link <= scene->joint_count; link++)
-    most = nsvcd__max(most, nsvcd__d3_length(at->frames[link].position));
+    most = nsvcd__max(most, nsvcd__d3_norm(at->frames[link].position));
   for (size_t n = 0; n < scene->part_count; n++) {
     nsvcd__member *m = &c->members[n];
     if (!scene->parts[n].link) continue;
@@ -21,7 +21,7 @@ static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__links *at, size_t
     c->bounds[m->row + k] = bounds;
     m->bounds = k ? nsvcd__bounds_over(&m->bounds, &bounds) : bounds;
     // a joint adds some 5e-16 of its moment arm
-    const double arm = most + nsvcd__d3_length(frame.position) + m->extent;
+    const double arm = most + nsvcd__d3_norm(frame.position) + m->extent;
     m->rounding = nsvcd__max(k ? m->rounding : 0, NSVCD__FRAME_ROUNDING * arm);
   }
 }

@@ -229,7 +229,7 @@ static nsvcd__resting nsvcd__resting_of(const nsvcd_body *body, size_t j) {
     out.extremes[k] = nsvcd__f3_scale(extreme, step);
   }
   const nsvcd__f3 area = nsvcd__f3_get(nsvcd__body_areas(body) + j, body->padded);
-  const float length = nsvcd__f3_length(area);
+  const float length = nsvcd__f3_norm(area);
   out.normal = nsvcd__f3_scale(area, length > 0 ? 1 / length : 0);
   return out;
 }
@@ -305,7 +305,7 @@ static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_own(nsvcd__search *q, size_
         u = nsvcd__v3_unit(nsvcd__v3_fma(nsvcd__v_set(0.5f), p.travel, p.from));
       } else if (n != NSVCD__ALONG_RESTING) {
         const float *areas = nsvcd__body_areas(moving) + i;
-        const nsvcd__v3 area = nsvcd__v3_load_rows(areas, moving->padded);
+        const nsvcd__v3 area = nsvcd__v3_get(areas, moving->padded);
         const nsvcd__v3 first = nsvcd__vmat3_apply(p.start, area);
         const nsvcd__v3 last = nsvcd__vmat3_apply(p.end, area);
         const nsvcd__v3 halfway = nsvcd__v3_unit(nsvcd__v3_add(first, last));
@@ -314,7 +314,7 @@ static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_own(nsvcd__search *q, size_
       const uint32_t here = nsvcd__separated_along(&p, &rest, u) & lanes;
       if (here && !separated) {
         float rows[3 * NSVCD__SLICE];
-        nsvcd__v3_store_rows(u, rows, NSVCD__SLICE);
+        nsvcd__v3_put(u, rows, NSVCD__SLICE);
         plane = nsvcd__f3_get(rows + nsvcd__low_bit(here), NSVCD__SLICE);
       }
       separated |= here << l;

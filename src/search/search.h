@@ -247,7 +247,7 @@ static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed
 // No point of a group is farther from its body's origin, in the body's own units.
 static float nsvcd__group_extent(const nsvcd_body *body, size_t g) {
   const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__groups_of(body), g);
-  return 1.000002f * (nsvcd__f3_length(group.centre) + group.radius);
+  return 1.000002f * (nsvcd__f3_norm(group.centre) + group.radius);
 }
 
 // Fills members[] for the segments `wanted` that are not ready.

@@ -92,7 +92,7 @@ static size_t nsvcd__choose_hull(nsvcd__points points, size_t most, double enoug
   }
   for (size_t i = 0; i < points.count; i++) {
     // the first is the farthest from the centre
-    const double distance = nsvcd__d3_length(points.at[i]);
+    const double distance = nsvcd__d3_norm(points.at[i]);
     if (distance > most_distant) next = i;
     most_distant = nsvcd__max(most_distant, distance);
     bounds[i] = HUGE_VAL;

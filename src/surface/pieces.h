@@ -171,7 +171,7 @@ static int nsvcd__trim(nsvcd__pieces *p, uint32_t patch, nsvcd__convex *convex) 
     const nsvcd__d3 other = nsvcd__d3_widen(patches->centres[patches->neighbours[k]]);
     const nsvcd__d3 across = nsvcd__d3_sub(other, own);
     const nsvcd__d3 middle = nsvcd__d3_mix(own, other, 0.5);
-    const double length = nsvcd__d3_length(across);
+    const double length = nsvcd__d3_norm(across);
     double beyond[NSVCD__PIECE_CORNERS];
     double most = -HUGE_VAL;
     for (size_t i = 0; i < convex->count; i++) {

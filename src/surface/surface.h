@@ -117,7 +117,7 @@ static void nsvcd__describe_patch(nsvcd__sorted *all, size_t i, nsvcd__surface *
   const nsvcd__points about = nsvcd__place_points(all, centre);
   double radius = 0;
   for (size_t j = 0; j < about.count; j++)
-    radius = nsvcd__max(radius, nsvcd__d3_length(about.at[j]));
+    radius = nsvcd__max(radius, nsvcd__d3_norm(about.at[j]));
   out->ball.radius = nsvcd__float_above(radius + pieces->margin);
   const nsvcd__d3 normal = nsvcd__patch_normal(all, i);
   out->slab = nsvcd__fit_slab(about, normal, pieces->margin, pieces->thin);
@@ -205,7 +205,7 @@ static void nsvcd__store_patch(nsvcd__sorted *all, size_t i, nsvcd__surface *s,
       vertices[k * stored + j] = (int16_t)integer;
       nsvcd__d3_set_axis(&rounded, k, metres * integer);
     }
-    all->bounds[j] = nsvcd__d3_length(nsvcd__d3_sub(points.at[j], rounded));
+    all->bounds[j] = nsvcd__d3_norm(nsvcd__d3_sub(points.at[j], rounded));
     if (j < out->hull_count) worst_of_hull = nsvcd__max(worst_of_hull, all->bounds[j]);
   }
   s->vertex_count += stored;
