@@ -18,11 +18,11 @@ cp examples/scenery/*.h $work/examples/scenery/
 for room in src/*/*.h; do  # for each room that a test includes it gets the header
   mkdir -p "$work/${room%/*}"
   case $room in
-    src/certificate/*) header=extras/neuralsvcd_certify.h ;;
-    src/robot/*) header=extras/neuralsvcd_robot.h ;;
-    *) header=neuralsvcd.h ;;
+    src/certificate/*) header=extras/neuralsvcd_certify.h of=_CERTIFY ;;
+    src/robot/*) header=extras/neuralsvcd_robot.h of=_ROBOT ;;
+    *) header=neuralsvcd.h of= ;;
   esac
-  echo "#include \"../../$header\"" >"$work/$room"
+  printf '#define NEURALSVCD%s_IMPLEMENTATION\n#include "../../%s"\n' "$of" "$header" >"$work/$room"
 done
 
 # name | text (occurs once, however its lines are broken) | what it becomes. Not here: axis_turn left out of bend_along_axis. The theorem needs it, but no
