@@ -95,7 +95,7 @@ long: ends not looked at|at_end < 2 \&\& !(asked > 0)|0
 long: contacts of a try are the first|p->known.has_contact \&\& !(is_try \&\& fraction > 0);|p->known.has_contact;
 long: poses for work|given->grows = q->work == 0;|given->grows = 1;
 long: an interval settled from the start|p->known.resolved = (double)p->ask.motion->from;|p->known.resolved = 0;
-first arc only|at < last \&\& (double)at < p->ask.end;) {|at < last \&\& at == search->begin[item->segment];) {
+first arc only|at < last \&\& (double)at < p->ask.end;) {|at < last \&\& at == q->begin[item->segment];) {
 a segment dropped|uint32_t met = nsvcd__group_against_members(q, h, wanted, p->met_in);|uint32_t met = nsvcd__group_against_members(q, h, wanted, p->met_in);\n      for (size_t l = 0; l < NSVCD__GROUP; l++) {\n        if (p->met_in[l] \& (p->met_in[l] - 1)) p->met_in[l] \&= p->met_in[l] - 1;\n      }
 a full buffer forgotten|if (!*left) break;|break;
 passing not seen|if (!nsvcd__pair_passes(p, pair, u0, u1))|if (u0 <= u1)
@@ -268,7 +268,7 @@ robot: a last proof that nobody ends|whole.stop = r->check.stop;|
 robot: trees that stay in their holes|if (r->idle[turn % 2] >= NSVCD__IDLE \&\&|if (0 \&\&
 robot: limits of joints that a route may leave|return answer->verdict == NSVCD_FREE \&\& answer->joint == NSVCD_NONE;|return answer->verdict == NSVCD_FREE;
 robot: whole turns are gone|at[j] -= full_turn * turns;|at[j] -= 0 * turns;
-postures: slopes by the lever alone|slope[j] += sign * nsvcd__d3_dot(normal, speed);|slope[j] += sign * nsvcd__d3_length(speed);
+postures: slopes by the lever alone|slope[j] += sign * nsvcd__d3_dot(normal, speed);|slope[j] += sign * nsvcd__d3_norm(speed);
 postures: slopes of a alone|nsvcd__slope_add(c, pair->b, \&local, point, normal, -1, out->slope);|
 postures: depths of a alone|nsvcd__slope_add(c, pair->b, local, point, normal, -1 / rate, out->slope);|
 postures: depths without a rate|nsvcd__slope_add(c, pair->a, local, on_a, normal, 1 / rate, out->slope);|nsvcd__slope_add(c, pair->a, local, on_a, normal, 1, out->slope);
