@@ -289,6 +289,14 @@ static void long_work_is_held(void) {
       if (n < 3) CHECK_EQ(answer.why, NSVCD_WHY_WORK);
     }
     CHECK_EQ(answer.verdict, to_contact ? NSVCD_HIT : NSVCD_FREE);
+    // wherever in an interval the budget ends, what is before it stays proven
+    low = 0;
+    for (size_t work = 300; work < 3000; work += work / 16) {
+      q.work = work;
+      answer = long_ask(&q);
+      CHECK_GE((double)answer.time.low, (double)low);
+      low = answer.time.low;
+    }
     q.ask = NSVCD_ASK_DISTANCE;
     for (int n = 0; n < 7; n++) {
       q.work = works[n];

@@ -74,8 +74,9 @@ static nsvcd__d3 nsvcd__regions_point(const nsvcd__regions *r, uint32_t number) 
 
 static nsvcd__triangle nsvcd__regions_corners(const nsvcd__regions *r,
                                               const uint32_t *corners) {
-  nsvcd__triangle out;
-  for (size_t k = 0; k < 3; k++) out.at[k] = nsvcd__regions_point(r, corners[k]);
+  const nsvcd__triangle out = {{nsvcd__regions_point(r, corners[0]),
+                                nsvcd__regions_point(r, corners[1]),
+                                nsvcd__regions_point(r, corners[2])}};
   return out;
 }
 
