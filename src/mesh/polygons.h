@@ -125,8 +125,9 @@ static void nsvcd__z_sort(const nsvcd__corner *corners, uint32_t *order, uint32_
   nsvcd__z_sort(corners, order + ones, count - ones, bit - 1);
 }
 
-static const nsvcd__corner_box nsvcd__no_box = {
-    {HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}, 0};
+// Contains nothing. tcc has no HUGE_VAL in constants.
+#define NSVCD__NO_BOX \
+  { {HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}, 0 }
 
 static void nsvcd__box_take(nsvcd__corner_box *box, nsvcd__d2 at) {
   if (at.x < box->low.x) box->low.x = at.x;
@@ -138,7 +139,8 @@ static void nsvcd__box_take(nsvcd__corner_box *box, nsvcd__d2 at) {
 // Makes the boxes. No corner counts as reflex yet.
 static void nsvcd__polygon_box(nsvcd__polygon *poly) {
   poly->runs = nsvcd__runs_of(poly->count);
-  for (uint32_t k = 0; k < 2 * poly->runs; k++) poly->boxes[k] = nsvcd__no_box;
+  const nsvcd__corner_box none = NSVCD__NO_BOX;
+  for (uint32_t k = 0; k < 2 * poly->runs; k++) poly->boxes[k] = none;
   for (uint32_t i = 0; i < poly->count; i++) poly->order[i] = i;
   nsvcd__z_sort(poly->corners, poly->order, poly->count, 63);
   for (uint32_t i = 0; i < poly->count; i++) {
@@ -203,7 +205,7 @@ static int nsvcd__polygon_is_ear(const nsvcd__polygon *poly, uint32_t i) {
   const nsvcd__corner *corners = poly->corners;
   const nsvcd__d2 a = corners[corners[i].previous].at;
   const nsvcd__d2 c = corners[corners[i].next].at;
-  nsvcd__ear ear = {{a, corners[i].at, c}, nsvcd__no_box};
+  nsvcd__ear ear = {{a, corners[i].at, c}, NSVCD__NO_BOX};
   if (nsvcd__d2_cross(a, ear.at[1], c) <= 0) return 0;
   for (size_t k = 0; k < 3; k++) nsvcd__box_take(&ear.box, ear.at[k]);
   for (uint32_t k = 1; k > 0;) {
