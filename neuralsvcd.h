@@ -14510,7 +14510,7 @@ static int nsvcd__seed_is_near(const nsvcd__enclosure *e, const float *seed) {
 
 // Is one of the inner body's components, with seeds first .. end - 1, in the outer body? Then
 // p->inside is set, and p->enclosed is its seed. Returns 1 if that is certain.
-static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, size_t first,
+static int nsvcd__contains_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, size_t first,
                                  size_t end) {
   for (size_t n = first; n < end; n++) {
     if (!nsvcd__seed_is_near(e, e->inner->seeds + 3 * n)) continue;
@@ -14531,14 +14531,14 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
 
 // The same of all components. Where there are many, only groups near the outer body are asked for
 // theirs.
-static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
+static int nsvcd__contains_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   const nsvcd_body *inner = e->inner->body;
   const nsvcd_body *outer = e->outer->body;
   if (outer->open) return 0;
   const int is_one = e->inner->counts->components == 1 && e->outer->kind_bits == 1;
   if (is_one && nsvcd__sticks_out(e->inner, &e->rounded, e->scale, outer)) return 0;
   if (e->inner->counts->components <= NSVCD__LANES)
-    return nsvcd__encloses_seeds(p, e, 0, e->inner->counts->components);
+    return nsvcd__contains_seeds(p, e, 0, e->inner->counts->components);
   const nsvcd__f3 centre =
       nsvcd__f3_round(nsvcd__d3_transform(&e->back, nsvcd__d3_load(outer->centre)));
   const float extent = nsvcd__f3_norm(centre) + inner->extent + outer->extent / e->scale;
@@ -14548,7 +14548,7 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   nsvcd__traversal groups;
   nsvcd__traversal_begin(&groups, inner, nsvcd__meets_sphere, &here);
   while (!p->unclear && nsvcd__traversal_next(&groups, &g)) {
-    if (nsvcd__encloses_seeds(p, e, e->inner->first_seed[g], e->inner->first_seed[g + 1]))
+    if (nsvcd__contains_seeds(p, e, e->inner->first_seed[g], e->inner->first_seed[g + 1]))
       return 1;
   }
   return 0;
@@ -14564,10 +14564,10 @@ static NSVCD__NOINLINE int nsvcd__is_contained_at_start(nsvcd__proof *p) {
   const nsvcd__dtransform back = nsvcd__inverse_dtransform(&start, p->arc.scale);
   const nsvcd__enclosure moving = {&p->moving, &p->fixed, start, nsvcd__transform_of(&start),
                                    back,       scale,     1};
-  if (nsvcd__encloses_any(p, &moving)) return 1;
+  if (nsvcd__contains_any(p, &moving)) return 1;
   const nsvcd__enclosure fixed = {
       &p->fixed, &p->moving, back, nsvcd__transform_of(&back), start, 1 / scale, p->arc.scale};
-  return nsvcd__encloses_any(p, &fixed);
+  return nsvcd__contains_any(p, &fixed);
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -17143,7 +17143,7 @@ static int nsvcd__score(const nsvcd__task *task, nsvcd__candidates *kept, size_t
 }
 
 // The sum of the radii of a candidate's patches, metres.
-static float nsvcd__candidate_reach(const nsvcd__task *task, const nsvcd__candidate *c) {
+static float nsvcd__candidate_radius(const nsvcd__task *task, const nsvcd__candidate *c) {
   const float own = task->motion.scale * nsvcd__body_r(task->moving)[c->moving];
   return task->motion.unit * (own + nsvcd__body_r(task->fixed)[c->fixed]);
 }
@@ -17152,7 +17152,7 @@ static float nsvcd__candidate_reach(const nsvcd__task *task, const nsvcd__candid
 static void nsvcd__answer_with(const nsvcd__task *task, const nsvcd__candidate *c,
                                const nsvcd__decoder *decoder, nsvcd_opinion *out) {
   out->logit = c->score - task->settings.threshold;
-  out->distance = 0.1f * c->apart * nsvcd__candidate_reach(task, c);
+  out->distance = 0.1f * c->apart * nsvcd__candidate_radius(task, c);
   out->time = c->t_least;
   out->patch_a = c->moving;
   out->patch_b = c->fixed;
@@ -17171,7 +17171,7 @@ static int nsvcd__of_distance(const nsvcd__task *task) {
 // The candidate with the greatest closeness decides.
 static float nsvcd__closeness(const nsvcd__task *task, const nsvcd__candidate *c) {
   if (!nsvcd__of_distance(task)) return c->score;
-  return -c->apart * nsvcd__candidate_reach(task, c);
+  return -c->apart * nsvcd__candidate_radius(task, c);
 }
 
 // Is a candidate clearly no collision, by the tiny decoder?
@@ -17299,7 +17299,7 @@ static NSVCD__NOINLINE void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_o
 }
 
 // Is a part of one body inside the other at the start?
-static NSVCD__NOINLINE int nsvcd__looks_contained_at_start(const nsvcd__task *task) {
+static NSVCD__NOINLINE int nsvcd__seems_contained_at_start(const nsvcd__task *task) {
   const nsvcd__transform pose = nsvcd__motion_pose(&task->motion, 0);
   return nsvcd__is_contained(task->moving, task->fixed, task->motion.scale, &pose);
 }
@@ -17337,7 +17337,7 @@ static int nsvcd__ask_network(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opin
   }
 
   // A body inside another need not touch anything.
-  if (out->logit > 0 || !nsvcd__looks_contained_at_start(task)) return 0;
+  if (out->logit > 0 || !nsvcd__seems_contained_at_start(task)) return 0;
   const size_t candidates = out->candidates;
   nsvcd__certain_opinion(NSVCD_LOGIT_CERTAIN, out);
   out->candidates = candidates;
@@ -18680,7 +18680,7 @@ static void nsvcd__gradient(const nsvcd__task *task, nsvcd__decisive *decisive,
   nsvcd__invariants(&pairs, 1, x);
   const int of_logit = !nsvcd__of_distance(task);
   const size_t output = of_logit ? NSVCD__OUT_LOGIT : NSVCD__OUT_DISTANCE;
-  const float unit = of_logit ? 1 : 0.1f * nsvcd__candidate_reach(task, c);
+  const float unit = of_logit ? 1 : 0.1f * nsvcd__candidate_radius(task, c);
   nsvcd__decoder_gradient(decisive->decoder, output, x, by_x);
   for (size_t k = 0; k < NSVCD__DECODER_IN; k++) by_x[k] *= unit;
   nsvcd__by_invariants(&pairs, &pair, x, by_x, &by);
@@ -18878,7 +18878,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__by_poses NSVCD__AT(by_poses)
 #define nsvcd__by_view NSVCD__AT(by_view)
 #define nsvcd__candidate NSVCD__AT(candidate)
-#define nsvcd__candidate_reach NSVCD__AT(candidate_reach)
+#define nsvcd__candidate_radius NSVCD__AT(candidate_radius)
 #define nsvcd__candidates NSVCD__AT(candidates)
 #define nsvcd__candidates_add NSVCD__AT(candidates_add)
 #define nsvcd__candidates_start NSVCD__AT(candidates_start)
@@ -18912,6 +18912,8 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__comes_within NSVCD__AT(comes_within)
 #define nsvcd__constants_hold NSVCD__AT(constants_hold)
 #define nsvcd__contact_at NSVCD__AT(contact_at)
+#define nsvcd__contains_any NSVCD__AT(contains_any)
+#define nsvcd__contains_seeds NSVCD__AT(contains_seeds)
 #define nsvcd__corner_passes NSVCD__AT(corner_passes)
 #define nsvcd__cross_all NSVCD__AT(cross_all)
 #define nsvcd__crossings NSVCD__AT(crossings)
@@ -18939,8 +18941,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__dtransform NSVCD__AT(dtransform)
 #define nsvcd__dtransform_at NSVCD__AT(dtransform_at)
 #define nsvcd__edges_pass NSVCD__AT(edges_pass)
-#define nsvcd__encloses_any NSVCD__AT(encloses_any)
-#define nsvcd__encloses_seeds NSVCD__AT(encloses_seeds)
 #define nsvcd__enclosure NSVCD__AT(enclosure)
 #define nsvcd__end_of NSVCD__AT(end_of)
 #define nsvcd__epsilon NSVCD__AT(epsilon)
@@ -19048,7 +19048,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__left_by_normal NSVCD__AT(left_by_normal)
 #define nsvcd__limit_after NSVCD__AT(limit_after)
 #define nsvcd__limit_of_first NSVCD__AT(limit_of_first)
-#define nsvcd__looks_contained_at_start NSVCD__AT(looks_contained_at_start)
 #define nsvcd__manifold NSVCD__AT(manifold)
 #define nsvcd__manifold_begin NSVCD__AT(manifold_begin)
 #define nsvcd__manifold_normals NSVCD__AT(manifold_normals)
@@ -19196,6 +19195,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__seek_across NSVCD__AT(seek_across)
 #define nsvcd__seek_in_patch_pair NSVCD__AT(seek_in_patch_pair)
 #define nsvcd__seek_positions NSVCD__AT(seek_positions)
+#define nsvcd__seems_contained_at_start NSVCD__AT(seems_contained_at_start)
 #define nsvcd__segment_count NSVCD__AT(segment_count)
 #define nsvcd__segment_deviation NSVCD__AT(segment_deviation)
 #define nsvcd__segment_interval NSVCD__AT(segment_interval)

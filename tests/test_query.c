@@ -257,7 +257,7 @@ static float query_least_of_all(const nsvcd_question *question, size_t *count) {
   for (size_t n = 0; n < kept.count; n++) {
     nsvcd__candidate *one = &items[n];
     nsvcd__decode(task, &one, 1, task->settings.decoder);
-    const float metres = 0.1f * one->apart * nsvcd__candidate_reach(task, one);
+    const float metres = 0.1f * one->apart * nsvcd__candidate_radius(task, one);
     least = metres < least ? metres : least;
   }
   return least;

@@ -165,7 +165,7 @@ static void nsvcd__gradient(const nsvcd__task *task, nsvcd__decisive *decisive,
   nsvcd__invariants(&pairs, 1, x);
   const int of_logit = !nsvcd__of_distance(task);
   const size_t output = of_logit ? NSVCD__OUT_LOGIT : NSVCD__OUT_DISTANCE;
-  const float unit = of_logit ? 1 : 0.1f * nsvcd__candidate_reach(task, c);
+  const float unit = of_logit ? 1 : 0.1f * nsvcd__candidate_radius(task, c);
   nsvcd__decoder_gradient(decisive->decoder, output, x, by_x);
   for (size_t k = 0; k < NSVCD__DECODER_IN; k++) by_x[k] *= unit;
   nsvcd__by_invariants(&pairs, &pair, x, by_x, &by);

@@ -314,7 +314,7 @@ static int nsvcd__seed_is_near(const nsvcd__enclosure *e, const float *seed) {
 
 // Is one of the inner body's components, with seeds first .. end - 1, in the outer body? Then
 // p->inside is set, and p->enclosed is its seed. Returns 1 if that is certain.
-static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, size_t first,
+static int nsvcd__contains_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, size_t first,
                                  size_t end) {
   for (size_t n = first; n < end; n++) {
     if (!nsvcd__seed_is_near(e, e->inner->seeds + 3 * n)) continue;
@@ -335,14 +335,14 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
 
 // The same of all components. Where there are many, only groups near the outer body are asked for
 // theirs.
-static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
+static int nsvcd__contains_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   const nsvcd_body *inner = e->inner->body;
   const nsvcd_body *outer = e->outer->body;
   if (outer->open) return 0;
   const int is_one = e->inner->counts->components == 1 && e->outer->kind_bits == 1;
   if (is_one && nsvcd__sticks_out(e->inner, &e->rounded, e->scale, outer)) return 0;
   if (e->inner->counts->components <= NSVCD__LANES)
-    return nsvcd__encloses_seeds(p, e, 0, e->inner->counts->components);
+    return nsvcd__contains_seeds(p, e, 0, e->inner->counts->components);
   const nsvcd__f3 centre =
       nsvcd__f3_round(nsvcd__d3_transform(&e->back, nsvcd__d3_load(outer->centre)));
   const float extent = nsvcd__f3_norm(centre) + inner->extent + outer->extent / e->scale;
@@ -352,7 +352,7 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   nsvcd__traversal groups;
   nsvcd__traversal_begin(&groups, inner, nsvcd__meets_sphere, &here);
   while (!p->unclear && nsvcd__traversal_next(&groups, &g)) {
-    if (nsvcd__encloses_seeds(p, e, e->inner->first_seed[g], e->inner->first_seed[g + 1]))
+    if (nsvcd__contains_seeds(p, e, e->inner->first_seed[g], e->inner->first_seed[g + 1]))
       return 1;
   }
   return 0;
@@ -368,9 +368,9 @@ static NSVCD__NOINLINE int nsvcd__is_contained_at_start(nsvcd__proof *p) {
   const nsvcd__dtransform back = nsvcd__inverse_dtransform(&start, p->arc.scale);
   const nsvcd__enclosure moving = {&p->moving, &p->fixed, start, nsvcd__transform_of(&start),
                                    back,       scale,     1};
-  if (nsvcd__encloses_any(p, &moving)) return 1;
+  if (nsvcd__contains_any(p, &moving)) return 1;
   const nsvcd__enclosure fixed = {
       &p->fixed, &p->moving, back, nsvcd__transform_of(&back), start, 1 / scale, p->arc.scale};
-  return nsvcd__encloses_any(p, &fixed);
+  return nsvcd__contains_any(p, &fixed);
 }
 #endif  // NSVCD_NO_PROOF

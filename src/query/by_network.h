@@ -104,7 +104,7 @@ static int nsvcd__score(const nsvcd__task *task, nsvcd__candidates *kept, size_t
 }
 
 // The sum of the radii of a candidate's patches, metres.
-static float nsvcd__candidate_reach(const nsvcd__task *task, const nsvcd__candidate *c) {
+static float nsvcd__candidate_radius(const nsvcd__task *task, const nsvcd__candidate *c) {
   const float own = task->motion.scale * nsvcd__body_r(task->moving)[c->moving];
   return task->motion.unit * (own + nsvcd__body_r(task->fixed)[c->fixed]);
 }
@@ -113,7 +113,7 @@ static float nsvcd__candidate_reach(const nsvcd__task *task, const nsvcd__candid
 static void nsvcd__answer_with(const nsvcd__task *task, const nsvcd__candidate *c,
                                const nsvcd__decoder *decoder, nsvcd_opinion *out) {
   out->logit = c->score - task->settings.threshold;
-  out->distance = 0.1f * c->apart * nsvcd__candidate_reach(task, c);
+  out->distance = 0.1f * c->apart * nsvcd__candidate_radius(task, c);
   out->time = c->t_least;
   out->patch_a = c->moving;
   out->patch_b = c->fixed;
@@ -132,7 +132,7 @@ static int nsvcd__of_distance(const nsvcd__task *task) {
 // The candidate with the greatest closeness decides.
 static float nsvcd__closeness(const nsvcd__task *task, const nsvcd__candidate *c) {
   if (!nsvcd__of_distance(task)) return c->score;
-  return -c->apart * nsvcd__candidate_reach(task, c);
+  return -c->apart * nsvcd__candidate_radius(task, c);
 }
 
 // Is a candidate clearly no collision, by the tiny decoder?
@@ -260,7 +260,7 @@ static NSVCD__NOINLINE void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_o
 }
 
 // Is a part of one body inside the other at the start?
-static NSVCD__NOINLINE int nsvcd__looks_contained_at_start(const nsvcd__task *task) {
+static NSVCD__NOINLINE int nsvcd__seems_contained_at_start(const nsvcd__task *task) {
   const nsvcd__transform pose = nsvcd__motion_pose(&task->motion, 0);
   return nsvcd__is_contained(task->moving, task->fixed, task->motion.scale, &pose);
 }
@@ -298,7 +298,7 @@ static int nsvcd__ask_network(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opin
   }
 
   // A body inside another need not touch anything.
-  if (out->logit > 0 || !nsvcd__looks_contained_at_start(task)) return 0;
+  if (out->logit > 0 || !nsvcd__seems_contained_at_start(task)) return 0;
   const size_t candidates = out->candidates;
   nsvcd__certain_opinion(NSVCD_LOGIT_CERTAIN, out);
   out->candidates = candidates;
