@@ -11681,7 +11681,7 @@ typedef struct nsvcd__proof {
   nsvcd__patch_pair fresh[NSVCD__FRESH];
   union {
     struct {
-      nsvcd__patch_pair items[NSVCD__PATCH_PAIRS];
+      nsvcd__patch_pair pairs[NSVCD__PATCH_PAIRS];
       nsvcd__manifold manifold;
     } kept;
     // collected before there are any
@@ -13878,14 +13878,14 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
 // Resolves a patch pair that no plane separates over its segment, arc by arc. An arc is halved
 // until each part is resolved by a plane between the hulls, or by the triangles.
 static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__search *q,
-                                                const nsvcd__patch_pair *item) {
+                                                const nsvcd__patch_pair *patches) {
   const nsvcd__motion *m = p->ask.motion;
-  const size_t i = item->moving;
-  const size_t j = item->fixed;
-  const uint32_t last = q->begin[item->segment + 1u];
+  const size_t i = patches->moving;
+  const size_t j = patches->fixed;
+  const uint32_t last = q->begin[patches->segment + 1u];
   double *ends = p->arc_ends;
   int is_tried = 1;  // is it all of the segment?
-  for (uint32_t at = q->begin[item->segment]; at < last && (double)at < p->ask.end;) {
+  for (uint32_t at = q->begin[patches->segment]; at < last && (double)at < p->ask.end;) {
     double u;
     const uint32_t first = nsvcd__arc_of(m, (double)at, &u);
     const uint32_t keyframe = nsvcd__next_keyframe(m, first);
@@ -13920,10 +13920,10 @@ static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__se
 // it does, the pair's neighbours ask for the same heights: so these are remembered, of a moving
 // patch in a segment the least, less all margins, and of a fixed one the greatest.
 static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *q,
-                             const nsvcd__patch_pair *item) {
-  const size_t i = item->moving;
-  const size_t j = item->fixed;
-  const size_t s = item->segment;
+                             const nsvcd__patch_pair *patches) {
+  const size_t i = patches->moving;
+  const size_t j = patches->fixed;
+  const size_t s = patches->segment;
   nsvcd__memo *memo = &p->memo;
   if (!memo->plane) return 0;
   const nsvcd__interval *over = nsvcd__segment_interval(p, q, s);
@@ -13967,9 +13967,9 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *q,
 
 // Does any plane?
 static int nsvcd__is_separated(nsvcd__proof *p, const nsvcd__search *q,
-                               const nsvcd__patch_pair *item) {
-  const nsvcd__interval *over = nsvcd__segment_interval(p, q, item->segment);
-  return nsvcd__hulls_are_apart(p, item->moving, item->fixed, over);
+                               const nsvcd__patch_pair *patches) {
+  const nsvcd__interval *over = nsvcd__segment_interval(p, q, patches->segment);
+  return nsvcd__hulls_are_apart(p, patches->moving, patches->fixed, over);
 }
 
 // Does a patch pair come before another? Deepest first. For the first contact: earliest closest
@@ -13981,14 +13981,14 @@ static int nsvcd__is_before(const nsvcd__proof *p, const nsvcd__patch_pair *a,
   return p->known.has_contact ? a->segment < b->segment : a->depth > b->depth;
 }
 
-static void nsvcd__sort_patch_pairs(const nsvcd__proof *p, nsvcd__patch_pair *items,
+static void nsvcd__sort_patch_pairs(const nsvcd__proof *p, nsvcd__patch_pair *pairs,
                                     size_t count) {
   for (size_t n = 1; n < count; n++) {
-    const nsvcd__patch_pair item = items[n];
+    const nsvcd__patch_pair patches = pairs[n];
     size_t at = n;
-    for (; at > 0 && nsvcd__is_before(p, &item, &items[at - 1]); at--)
-      items[at] = items[at - 1];
-    items[at] = item;
+    for (; at > 0 && nsvcd__is_before(p, &patches, &pairs[at - 1]); at--)
+      pairs[at] = pairs[at - 1];
+    pairs[at] = patches;
   }
 }
 
@@ -14036,16 +14036,16 @@ static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *
 // Resolves the patch pairs that no plane separates.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_patch_pairs(nsvcd__proof *p,
                                                                  nsvcd__search *q) {
-  nsvcd__sort_patch_pairs(p, p->of.kept.items, p->count);
+  nsvcd__sort_patch_pairs(p, p->of.kept.pairs, p->count);
   for (size_t n = 0; n < p->count; n++) {
-    const nsvcd__patch_pair *item = &p->of.kept.items[n];
+    const nsvcd__patch_pair *patches = &p->of.kept.pairs[n];
     NSVCD__PAUSE(p);
     if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
     nsvcd__clip_segment(p, q);
-    if (!nsvcd__matters(p, q, item->segment)) continue;
-    const int is_clipped = (p->clipped >> item->segment & 1) != 0;
-    if (is_clipped && nsvcd__is_separated(p, q, item)) continue;
-    const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(p, q, item);
+    if (!nsvcd__matters(p, q, patches->segment)) continue;
+    const int is_clipped = (p->clipped >> patches->segment & 1) != 0;
+    if (is_clipped && nsvcd__is_separated(p, q, patches)) continue;
+    const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(p, q, patches);
     if (outcome != NSVCD__RESOLVED) return outcome;
   }
   p->count = 0;
@@ -14071,36 +14071,37 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
     return NSVCD__ANSWERED;
 
   for (size_t n = 0; n < count; n++) {
-    nsvcd__patch_pair *item = &p->fresh[n];
+    nsvcd__patch_pair *patches = &p->fresh[n];
     NSVCD__PAUSE(p);
     if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
     nsvcd__clip_segment(p, q);
-    if (!nsvcd__matters(p, q, item->segment)) continue;
-    if (nsvcd__held_again(p, q, item)) continue;
-    if (nsvcd__is_separated(p, q, item)) continue;
+    if (!nsvcd__matters(p, q, patches->segment)) continue;
+    if (nsvcd__held_again(p, q, patches)) continue;
+    if (nsvcd__is_separated(p, q, patches)) continue;
     double u;
-    const uint32_t first = nsvcd__arc_of(p->ask.motion, q->begin[item->segment], &u);
+    const uint32_t first = nsvcd__arc_of(p->ask.motion, q->begin[patches->segment], &u);
     if ((p->ask.first > 0 || p->memo.shared > 0) &&
         nsvcd__is_straight(nsvcd__arc_at(p, first))) {
-      const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(p, q, item);
+      const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(p, q, patches);
       if (outcome != NSVCD__RESOLVED) return outcome;
       continue;
     }
     if (p->misses >= NSVCD__FEW_MISSES) {
-      const nsvcd__interval *over = nsvcd__segment_interval(p, q, item->segment);
+      const nsvcd__interval *over = nsvcd__segment_interval(p, q, patches->segment);
       const nsvcd__outcome by_triangles =
-          nsvcd__resolve_triangles(p, item->moving, item->fixed, over, 0, 0, 0);
+          nsvcd__resolve_triangles(p, patches->moving, patches->fixed, over, 0, 0, 0);
       if (by_triangles == NSVCD__RESOLVED) continue;
     }
     const int may_meet = tells_more || p->misses < NSVCD__MANY_MISSES;
-    if (may_meet && !item->sought && nsvcd__seek_in_patch_pair(p, q, item) == NSVCD__ANSWERED)
+    if (may_meet && !patches->sought &&
+        nsvcd__seek_in_patch_pair(p, q, patches) == NSVCD__ANSWERED)
       return NSVCD__ANSWERED;
     p->misses++;
     if (p->count == NSVCD__PATCH_PAIRS) {
       const nsvcd__outcome outcome = nsvcd__resolve_patch_pairs(p, q);
       if (outcome != NSVCD__RESOLVED) return outcome;
     }
-    p->of.kept.items[p->count++] = *item;
+    p->of.kept.pairs[p->count++] = *patches;
   }
   return NSVCD__RESOLVED;
 }
@@ -14114,19 +14115,19 @@ static int nsvcd__collects_on(const nsvcd__proof *p) {
 // may be. EXHAUSTED: there is no room for more, or no budget.
 static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *q) {
   for (size_t n = 0; n < p->fresh_count && nsvcd__collects_on(p); n++) {
-    const nsvcd__patch_pair *item = &p->fresh[n];
+    const nsvcd__patch_pair *patches = &p->fresh[n];
     NSVCD__PAUSE(p);
-    if (nsvcd__held_again(p, q, item)) continue;
-    if (nsvcd__is_separated(p, q, item)) continue;
+    if (nsvcd__held_again(p, q, patches)) continue;
+    if (nsvcd__is_separated(p, q, patches)) continue;
     if (p->ask.collects == NSVCD__TOUCHING) {
       if (p->normal_count > 0) {
         // just pushed out: farther than the clearance by less than floats can tell
         (void)nsvcd__arc_at(p, 0);
-        if (nsvcd__patches_apart(p, item->moving, item->fixed, 0, 0)) continue;
+        if (nsvcd__patches_apart(p, patches->moving, patches->fixed, 0, 0)) continue;
       }
-      (void)nsvcd__find_witness(p, item->moving, item->fixed, 0, 0);
+      (void)nsvcd__find_witness(p, patches->moving, patches->fixed, 0, 0);
     } else if (p->count < NSVCD__PATCH_PAIRS) {
-      p->of.kept.items[p->count++] = *item;
+      p->of.kept.pairs[p->count++] = *patches;
     }
   }
   p->fresh_count = 0;
@@ -14136,18 +14137,19 @@ static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *q)
 // Bounds, along directions first .. last - 1 of a manifold, of the points on both patches of a
 // patch pair, the moving one posed: they are in both hulls.
 static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
-                            const nsvcd__patch_pair *item, int first, int last, float *most) {
+                            const nsvcd__patch_pair *patches, int first, int last,
+                            float *most) {
   const nsvcd__manifold *m = &p->of.kept.manifold;
   const float scale = p->ask.motion->scale;
-  const float margin = scale * p->moving.margins[item->moving] + (float)m->tolerance;
-  const float fixed_margin = p->fixed.margins[item->fixed];
+  const float margin = scale * p->moving.margins[patches->moving] + (float)m->tolerance;
+  const float fixed_margin = p->fixed.margins[patches->fixed];
   for (int k = first; k < last; k++) {
     const nsvcd__v3 along = nsvcd__v3_set(nsvcd__d3_narrow(m->along[k]));
     float moving = -HUGE_VALF;
     float fixed = -HUGE_VALF;
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, item->moving, l);
-      const nsvcd__v3 other = nsvcd__hull_of(&p->fixed, item->fixed, l);
+      const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, patches->moving, l);
+      const nsvcd__v3 other = nsvcd__hull_of(&p->fixed, patches->fixed, l);
       const nsvcd__v height = nsvcd__v3_dot(along, nsvcd__v3_transform(pose, hull));
       moving = nsvcd__greatest_of(moving, height);
       fixed = nsvcd__greatest_of(fixed, nsvcd__v3_dot(along, other));
@@ -14162,7 +14164,7 @@ static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
 // are tried.
 static NSVCD__NOINLINE void nsvcd__seek_positions(nsvcd__proof *p, int first, int last) {
   nsvcd__manifold *m = &p->of.kept.manifold;
-  nsvcd__patch_pair *items = p->of.kept.items;
+  nsvcd__patch_pair *pairs = p->of.kept.pairs;
   const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(p, 0), 0);
   const nsvcd__transform pose = nsvcd__transform_of(&at);
   size_t tries = 0;
@@ -14171,8 +14173,8 @@ static NSVCD__NOINLINE void nsvcd__seek_positions(nsvcd__proof *p, int first, in
   float most[NSVCD__SUPPORTS];
   for (int k = first; k < last; k++) farthest[k] = -HUGE_VALF;
   for (size_t n = 0; n < p->count; n++) {
-    items[n].sought = 0;
-    nsvcd__bound_of(p, &pose, &items[n], first, last, most);
+    pairs[n].sought = 0;
+    nsvcd__bound_of(p, &pose, &pairs[n], first, last, most);
     for (int k = first; k < last; k++) {
       if (most[k] > farthest[k]) best[k] = n;
       farthest[k] = fmaxf(farthest[k], most[k]);
@@ -14181,17 +14183,17 @@ static NSVCD__NOINLINE void nsvcd__seek_positions(nsvcd__proof *p, int first, in
   const size_t count = (size_t)(last - first);
   for (size_t n = 0; n < count + p->count && p->count > 0; n++) {
     const size_t which = n < count ? best[(size_t)first + n] : n - count;
-    nsvcd__patch_pair *item = &items[which];
+    nsvcd__patch_pair *patches = &pairs[which];
     int matters = 0;
-    nsvcd__bound_of(p, &pose, item, first, last, most);
+    nsvcd__bound_of(p, &pose, patches, first, last, most);
     for (int k = first; k < last; k++) matters |= (double)most[k] > m->farthest[k] + m->same;
-    if (item->sought || !matters) continue;
+    if (patches->sought || !matters) continue;
     if (tries == NSVCD__CONTACT_PAIRS ||
         (tries == NSVCD__FEW_MISSES && !(m->farthest[first] > -HUGE_VAL)))
       break;
-    item->sought = 1;
+    patches->sought = 1;
     tries++;
-    (void)nsvcd__find_witness(p, item->moving, item->fixed, 0, 0);
+    (void)nsvcd__find_witness(p, patches->moving, patches->fixed, 0, 0);
   }
 }
 #endif  // NSVCD_NO_PROOF

@@ -95,7 +95,7 @@ long: ends not looked at|at_end < 2 \&\& !(asked > 0)|0
 long: contacts of a try are the first|p->known.has_contact \&\& !(is_try \&\& fraction > 0);|p->known.has_contact;
 long: poses for work|given->grows = q->work == 0;|given->grows = 1;
 long: an interval settled from the start|p->known.resolved = (double)p->ask.motion->from;|p->known.resolved = 0;
-first arc only|at < last \&\& (double)at < p->ask.end;) {|at < last \&\& at == q->begin[item->segment];) {
+first arc only|at < last \&\& (double)at < p->ask.end;) {|at < last \&\& at == q->begin[patches->segment];) {
 a segment dropped|uint32_t met = nsvcd__group_against_members(q, h, wanted, p->met_in);|uint32_t met = nsvcd__group_against_members(q, h, wanted, p->met_in);\n      for (size_t l = 0; l < NSVCD__GROUP; l++) {\n        if (p->met_in[l] \& (p->met_in[l] - 1)) p->met_in[l] \&= p->met_in[l] - 1;\n      }
 a full buffer forgotten|if (!*left) break;|break;
 passing not seen|if (!nsvcd__pair_passes(p, pair, u0, u1))|if (u0 <= u1)

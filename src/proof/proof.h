@@ -461,7 +461,7 @@ typedef struct nsvcd__proof {
   nsvcd__patch_pair fresh[NSVCD__FRESH];
   union {
     struct {
-      nsvcd__patch_pair items[NSVCD__PATCH_PAIRS];
+      nsvcd__patch_pair pairs[NSVCD__PATCH_PAIRS];
       nsvcd__manifold manifold;
     } kept;
     // collected before there are any
