@@ -1457,6 +1457,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //   candidate         two patches, and the interval in which their balls meet
 //   ranker            the tiny decoder, which picks the candidates that the chosen decoder sees
 //   patch pair, triangle pair   two patches, two entries, that the proof has yet to separate
+//   track, arc        the poses of one body, its keyframes, in time; the motion from one to the next
 //   tick              the unit of time: keyframes are at whole numbers of ticks
 //   work              the units that question.work counts
 //
