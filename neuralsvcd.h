@@ -761,8 +761,8 @@ typedef struct nsvcd_network_options {
   float inflate;
 } nsvcd_network_options;
 
-// units: of DISTANCE, and of a check of joints; of HIT and FIRST, which need as many only for the
-// verdict on a close fit
+// Units of work: for DISTANCE and checks of joints; and for HIT and FIRST, of which only close fits
+// need as many.
 #define NSVCD_DEFAULT_WORK 100000
 #define NSVCD_DEFAULT_VERDICT_WORK 10000000
 #define NSVCD_NO_TRIANGLE 0xffffffffu
@@ -835,11 +835,12 @@ typedef struct nsvcd_question {
   //   A limit that is given is for the whole motion, in the order of time. When it is reached, the
   // answer tells what was proven by then. DISTANCE divides what is left among the intervals by
   // their length.
-  //   Once surfaces have come too near to tell, an eighth of the limit is left. FIRST keeps an
-  // eighth for what is undecided by then: until when the motion is free, and whether the bodies
-  // meet at all. A manifold, and the pose of a pushed-out body, may take another eighth each. With
-  // 0, these eighths are of NSVCD_DEFAULT_WORK. Apart from them, a question takes the same work
-  // whatever the limit
+  //   Once surfaces have come too near to tell, an eighth of the limit is left; of FIRST that is
+  // for what follows them, and what precedes them has the rest. FIRST keeps an eighth for what is
+  // undecided by then: until when the motion is free, and whether the bodies meet at all. A
+  // manifold, and the pose of a pushed-out body, may take another eighth each. With 0, these
+  // eighths are of NSVCD_DEFAULT_WORK. Apart from them, a question takes the same work whatever the
+  // limit
   size_t work;
   // the most segments that a motion, or each interval of a long one, is cut into: a multiple of 16
   // up to 64; 0: 64. Fewer take less memory, and make intervals shorter
@@ -1028,7 +1029,7 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 //
 // More work never leaves undecided what less decides, nor takes more units for it, unless less has
 // reached its last eighth (DISTANCE: its half). For FIRST, time.low rises with the work, and is 0
-// only if the first moments of the motion take more than a sixteenth of it.
+// only if the first moments of the motion take more than a sixteenth of the work.
 //
 // A motion of any length, up to NSVCD_MAX_POSES poses of each body, is one question, and takes no
 // more memory than a short one. With more than 64 poses, or more than 1,280 degrees of turn, it is
@@ -1457,7 +1458,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //   candidate         two patches, and the interval in which their balls meet
 //   ranker            the tiny decoder, which picks the candidates that the chosen decoder sees
 //   patch pair, triangle pair   two patches, two entries, that the proof has yet to separate
-//   track, arc        the poses of one body, its keyframes, in time; the motion from one to the next
+//   track, arc        the poses of one body in time, its keyframes; the motion between two of them
 //   tick              the unit of time: keyframes are at whole numbers of ticks
 //   work              the units that question.work counts
 //
@@ -11304,7 +11305,7 @@ static void nsvcd__search_patch(nsvcd__search *q, const nsvcd_body *moving, size
 // Work is counted in units: a plane sought for two hulls, 16 triangles against the box of 16, one
 // of them against these, a triangle pair at one time, a ray against 16 triangles or one. Spheres,
 // slabs and planes that held before are not counted. A query ends within one patch's entries, or
-// one ray, of its limit: nsvcd__is_exhausted.
+// one ray, of its limit: nsvcd__check_budget.
 
 #ifndef NSVCD_NO_PROOF
 // THE SCHEDULE, in the order in which a query comes to it. A budget is in units of work.
@@ -11346,8 +11347,8 @@ static void nsvcd__search_patch(nsvcd__search *q, const nsvcd_body *moving, size
 // In units of all lengths: a distance in double that is 0; one that is too near to halve for.
 #define NSVCD__SAME_POSITION 1e-13
 #define NSVCD__TOO_NEAR 1e-9
-// After an unresolved pair 1 / this of the budget is left; where the first contact is sought, so
-// many units.
+// The reserve is 1 / this of the budget. It is all that is left after an unresolved pair; FIRST
+// looks for later contacts with so many units.
 #define NSVCD__AFTER_UNRESOLVED 8
 #define NSVCD__AFTER_FIRST_UNRESOLVED 3000
 
@@ -11363,9 +11364,9 @@ static void nsvcd__search_patch(nsvcd__search *q, const nsvcd_body *moving, size
 #define NSVCD__TURNS 2
 // A long motion. Intervals of many arcs, and hard ones, are first tried with this budget.
 #define NSVCD__TRY 64
-// An interval that takes no more than this is easy. The next try then takes so many times as many
-// arcs. After a try in vain it takes so many times fewer, and up to so many intervals have to be
-// easy before the next one.
+// An interval that takes no more than EASY is easy, and the next try has LARGER times as many arcs.
+// After a try that failed it has SMALLER times fewer, and up to WAIT intervals have to be easy
+// before the next try.
 #define NSVCD__EASY 16
 #define NSVCD__LARGER 4
 #define NSVCD__SMALLER 8
@@ -11573,7 +11574,7 @@ typedef struct nsvcd__given {
   int tells;
   // The budget: of all or, if it grows, of each interval of a long motion; and the part of it for
   // what is beside the question, above all what follows an unresolved pair.
-  size_t work, aside;
+  size_t work, reserve;
   int grows;
 } nsvcd__given;
 
@@ -11603,11 +11604,11 @@ typedef struct nsvcd__asked {
 typedef struct nsvcd__known {
   int has_contact;
   nsvcd__pair_contact found;
-  // the tick at which the first unresolved pair begins, two triangles too near to tell; and that
+  // the tick at which the first unresolved pair begins (two triangles too near to tell); the pair
   double unresolved;
   nsvcd__pair_contact unresolved_pair;
   // the budget was exhausted: all from the tick `resolved` on is undecided
-  int lost;
+  int ran_out;
   double resolved;
 } nsvcd__known;
 
@@ -11645,8 +11646,8 @@ typedef struct nsvcd__proof {
   // bounds of the least distance
   double low, high;
 
-  // Containment at the start: a component seems to be inside the other body, but close to its
-  // surface; a point of it, in the fixed body's frame; or that could not be told,
+  // Containment at the start. inside: a component seems to be inside the other body, but close to
+  // its surface; enclosed: a point of it, in the fixed body's frame; unclear: it could not be told,
   int inside;
   nsvcd__d3 enclosed;
   int unclear;
@@ -11721,7 +11722,7 @@ static void nsvcd__forget(nsvcd__memo *memo) {
 #define NSVCD__PAUSE(p) ((void)0)
 #endif
 
-// The limit that leaves a budget of so many units, or of what is left of all.
+// The limit that allows so many units more, but never more than the question has left.
 static size_t nsvcd__limit_after(const nsvcd__proof *p, size_t units) {
   const size_t left = p->work < p->ask.most ? p->ask.most - p->work : 0;
   return left > units ? p->work + units : p->ask.most;
@@ -11729,19 +11730,19 @@ static size_t nsvcd__limit_after(const nsvcd__proof *p, size_t units) {
 
 // The limit of the search for the first contact; the rest is for what is proven part by part.
 static size_t nsvcd__limit_of_first(const nsvcd__proof *p) {
-  return p->ask.most - p->given.aside;
+  return p->ask.most - p->given.reserve;
 }
 
-// Is the budget exhausted? Where the first contact is sought, so may be what an unresolved pair
-// left for contacts after it: then that pair becomes the end, and what comes before it can be
-// proven.
-static int nsvcd__is_exhausted(nsvcd__proof *p) {
+// Is the budget exhausted? FIRST looks for contacts after its first unresolved pair with a small
+// budget. When that is exhausted, the pair becomes the end of the motion, here, and the search goes
+// on with the rest of the budget for what lies before the pair.
+static int nsvcd__check_budget(nsvcd__proof *p) {
   nsvcd__asked *ask = &p->ask;
   if (p->work > ask->limit && ask->first > 0 && !ask->is_brief && !ask->unresolved_ends &&
       p->known.unresolved < NSVCD__NEVER) {
     ask->unresolved_ends = 1;
     ask->end = nsvcd__min(ask->end, p->known.unresolved);
-    const size_t left = (NSVCD__AFTER_UNRESOLVED - 1) * p->given.aside;
+    const size_t left = (NSVCD__AFTER_UNRESOLVED - 1) * p->given.reserve;
     ask->limit = nsvcd__limit_of_first(p);
     if (p->work + left < ask->limit) ask->limit = p->work + left;
   }
@@ -12651,7 +12652,7 @@ static NSVCD__NOINLINE void nsvcd__keep_unresolved(nsvcd__proof *p,
   const double tick = (double)p->arc.first + u0 * (double)p->arc.ticks;
   const double middle = 0.5 * (u0 + u1);
   const size_t left = p->ask.after_unresolved;
-  // a first attempt is short anyway
+  // a brief first attempt has no budget to save
   const int is_first = !(p->known.unresolved < NSVCD__NEVER) && !p->ask.is_brief;
   if (is_first && p->work + left < p->ask.limit) p->ask.limit = p->work + left;
   if (!(tick < p->known.unresolved)) return;
@@ -12666,10 +12667,10 @@ static double nsvcd__arc_limit(const nsvcd__proof *p) {
   return (p->ask.end - (double)p->arc.first) / (double)p->arc.ticks;
 }
 
-// The deviation of a triangle pair's moving triangle along a unit direction n, over all of the arc;
-// over a fraction of it, times the square of that. A point at r metres from the origin and rho from
-// the axis a of the turn deviates by bend rho |n x a| + twist r + origin_bend. Where both bodies
-// turn, a wavers, and so do both distances from it.
+// The deviation of a triangle pair's moving triangle along a unit direction n over the whole arc.
+// Over a fraction of the arc it is the square of that fraction times as large. A point at r metres
+// from the origin and rho from the axis a of the turn deviates by bend rho |n x a| + twist r +
+// origin_bend. Where both bodies turn, a wavers, and so do both distances from it.
 static double nsvcd__off_chord_along(const nsvcd__arc *arc, const nsvcd__triangle_pair *pair,
                                      nsvcd__d3 n) {
   const double across = nsvcd__d3_norm(nsvcd__d3_cross(n, arc->axis));
@@ -12704,7 +12705,7 @@ static int nsvcd__plane_separates(nsvcd__proof *p, const nsvcd__triangle_pair *p
 }
 
 // Have two heights different signs, clear of 0 by their margins?
-static int nsvcd__are_opmoving(double before, double least_before, double after,
+static int nsvcd__are_opposite(double before, double least_before, double after,
                                double least_after) {
   const int falls = before > least_before && after < -least_after;
   const int rises = before < -least_before && after > least_after;
@@ -12731,7 +12732,7 @@ static int nsvcd__corner_passes(const nsvcd__d3 *const *x, size_t k, const nsvcd
   const nsvcd__d3 n2 = nsvcd__face_normal(t[2]);
   const double before = nsvcd__d3_dot(n0, nsvcd__d3_sub(x[0][k], t[0][0]));
   const double after = nsvcd__d3_dot(n2, nsvcd__d3_sub(x[2][k], t[2][0]));
-  return nsvcd__are_opmoving(before, margin * nsvcd__d3_norm(n0), after,
+  return nsvcd__are_opposite(before, margin * nsvcd__d3_norm(n0), after,
                              margin * nsvcd__d3_norm(n2));
 }
 
@@ -12754,7 +12755,7 @@ static int nsvcd__edges_pass(const nsvcd__d3 *const *moving, size_t k, const nsv
   const double size = nsvcd__d3_norm(across[1]);
   const double lengths = nsvcd__d3_norm(u) * nsvcd__d3_norm(v);
   if (!(size > 0.01 * lengths)) return 0;
-  if (!nsvcd__are_opmoving(volumes[0], margin * size, volumes[2], margin * size)) return 0;
+  if (!nsvcd__are_opposite(volumes[0], margin * size, volumes[2], margin * size)) return 0;
   const double square = size * size;
   const double s = nsvcd__d3_dot(nsvcd__d3_cross(from[1], v), across[1]) / square;
   const double t = nsvcd__d3_dot(nsvcd__d3_cross(from[1], u), across[1]) / square;
@@ -12765,8 +12766,8 @@ static int nsvcd__edges_pass(const nsvcd__d3 *const *moving, size_t k, const nsv
   return s > room_s && s < 1 - room_s && t > room_t && t < 1 - room_t;
 }
 
-// Has a triangle pair met between u0 and u1 of the arc: has a corner passed through
-// the other triangle, or an edge through an edge? Faces that are parallel when they meet do so at
+// Has a triangle pair met between u0 and u1 of the arc: has a corner passed through the other
+// triangle, or an edge through an edge? Faces that are parallel when they meet do so at
 // one time only, and rounded numbers show it at none.
 static int nsvcd__pair_passes(nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0,
                               double u1) {
@@ -12847,10 +12848,9 @@ static NSVCD__NOINLINE double nsvcd__aim_plane(nsvcd__proof *p,
   return best;
 }
 
-// A triangle pair that is too near to tell from u0 to u1 of the arc, the nearest at `when`: an
-// unresolved pair. But a measured distance needs less: the pair comes no nearer than that. The
-// clearance is lowered to it. TOO_LONG: the part is to be resolved again; ANSWERED: the clearance
-// is at its known bound.
+// A triangle pair that is too near to tell from u0 to u1 of the arc, the nearest at `when`, is kept
+// as unresolved. DISTANCE needs only a bound of how near the pair comes, so it lowers the clearance
+// to that. TOO_LONG: resolve the part again; ANSWERED: the clearance is at its known bound.
 static nsvcd__outcome nsvcd__resolve_too_near(nsvcd__proof *p,
                                               const nsvcd__triangle_pair *pair, double u0,
                                               double u1, double when) {
@@ -12936,7 +12936,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
     at = nsvcd__min(at, end);
     p->work++;
     NSVCD__TALLY(pairs, 1);
-    if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
+    if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
     const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, at);
     const double distance = sqrt(nearest.square);
     const double above = distance - p->ask.clearance;
@@ -12970,7 +12970,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
 // Resolves a triangle pair from u0 to u1 of the arc: halves the time until, in each part, a plane
 // separates the triangles, or there is a contact, or they are too near to tell. After each
 // unresolved part, longer ones count as too short: the question left is whether they meet. The
-// planes tried are the one that separated a pair last, and one at the nearest points in the middle.
+// planes tried are the one that separated a pair last, and the one that nsvcd__aim_plane finds.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
                                                           const nsvcd__triangle_pair *pair,
                                                           double u0, double u1) {
@@ -12986,7 +12986,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
     const double middle = 0.5 * (u + end);
     p->work++;
     NSVCD__TALLY(pairs, 1);
-    if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
+    if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
     int apart = nsvcd__plane_separates(p, pair, u, end);
     if (!apart) {
       const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
@@ -13724,7 +13724,7 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
       nsvcd__block_pose(p, &rounded, NULL);
       for (size_t n = 0; n < p->memo.window; n++) {
         p->work++;
-        if (nsvcd__is_exhausted(p)) return NSVCD__NOTHING;
+        if (nsvcd__check_budget(p)) return NSVCD__NOTHING;
         const nsvcd__outcome found = nsvcd__find_witness_in(p, i, j, n, &at, u, margin);
         if (found != NSVCD__NOTHING) return found;
       }
@@ -13863,7 +13863,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
         NSVCD__CERTIFY_BLOCK(p, ~nearby, fixed, 0xffff, 0, NULL, 0);
         uint32_t lanes = nsvcd__lanes_left_by_last(p, fixed, margin, nearby);
         p->work++;
-        if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
+        if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
         for (; lanes; lanes &= lanes - 1) {
           const nsvcd__outcome row = nsvcd__resolve_row(p, nsvcd__low_bit(lanes), fixed, arm,
                                                         margin, u0, u1, patience);
@@ -14041,7 +14041,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_patch_pairs(nsvcd__proof *p
   for (size_t n = 0; n < p->count; n++) {
     const nsvcd__patch_pair *patches = &p->of.kept.pairs[n];
     NSVCD__PAUSE(p);
-    if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
+    if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
     nsvcd__clip_segment(p, q);
     if (!nsvcd__matters(p, q, patches->segment)) continue;
     const int is_clipped = (p->clipped >> patches->segment & 1) != 0;
@@ -14050,7 +14050,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_patch_pairs(nsvcd__proof *p
     if (outcome != NSVCD__RESOLVED) return outcome;
   }
   p->count = 0;
-  return nsvcd__is_exhausted(p) ? NSVCD__EXHAUSTED : NSVCD__RESOLVED;
+  return nsvcd__check_budget(p) ? NSVCD__EXHAUSTED : NSVCD__RESOLVED;
 }
 
 // Sifts fresh patch pairs: drops those that planes separate, seeks a witness in the others, and
@@ -14074,7 +14074,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
   for (size_t n = 0; n < count; n++) {
     nsvcd__patch_pair *patches = &p->fresh[n];
     NSVCD__PAUSE(p);
-    if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
+    if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
     nsvcd__clip_segment(p, q);
     if (!nsvcd__matters(p, q, patches->segment)) continue;
     if (nsvcd__held_again(p, q, patches)) continue;
@@ -14517,7 +14517,7 @@ static int nsvcd__contains_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
                                  size_t end) {
   for (size_t n = first; n < end; n++) {
     if (!nsvcd__seed_is_near(e, e->inner->seeds + 3 * n)) continue;
-    if (nsvcd__is_exhausted(p)) {
+    if (nsvcd__check_budget(p)) {
       p->unclear = 1;
       return 0;
     }
@@ -14730,7 +14730,7 @@ static nsvcd__finding nsvcd__found_inside(nsvcd__proof *p) {
 static double nsvcd__clear_until(const nsvcd__proof *p) {
   if (p->unclear) return 0;
   return nsvcd__min(nsvcd__min(p->ask.end, p->known.unresolved),
-                    p->known.lost ? p->known.resolved : NSVCD__NEVER);
+                    p->known.ran_out ? p->known.resolved : NSVCD__NEVER);
 }
 
 // Forgets all that was known of a motion, or of an interval.
@@ -14751,7 +14751,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_motion(nsvcd__proof *p, nsvcd
   nsvcd__cut_segments(p->ask.motion, p->given.lengths, nsvcd__clearance(p), q);
   p->ask.first = p->ask.fraction * (double)p->ask.motion->ticks;
   const nsvcd__outcome outcome = nsvcd__prove_tiles(p, q);
-  p->known.lost = outcome == NSVCD__EXHAUSTED;
+  p->known.ran_out = outcome == NSVCD__EXHAUSTED;
   return outcome;
 }
 
@@ -14836,7 +14836,7 @@ static void nsvcd__prove_part(nsvcd__proof *p, nsvcd__search *q, double from, do
     known->found.tick /= finer;
     *end = p->ask.end / finer;
   }
-  if (part->lost) return;
+  if (part->ran_out) return;
   if (part->unresolved < NSVCD__NEVER) {
     known->unresolved_pair = part->unresolved_pair;
     known->unresolved_pair.tick /= finer;
@@ -14861,14 +14861,14 @@ static NSVCD__NOINLINE void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search 
   p->ask.is_brief = 1;
   for (;;) {
     const double until = nsvcd__min(ticks, nsvcd__min(end, known.unresolved));
-    known.lost = known.resolved < until;
-    if (!known.lost || p->work >= limit) break;
+    known.ran_out = known.resolved < until;
+    if (!known.ran_out || p->work >= limit) break;
     const size_t before = p->work;
     const double whole = floor(from + length);
     const double to = whole > from ? nsvcd__min(whole, all) : from + length;
     p->ask.limit = limit - before > units ? before + units : limit;
     nsvcd__prove_part(p, q, from, to, &known, &end);
-    if (p->known.lost) {
+    if (p->known.ran_out) {
       length /= 8;
       grows = 2;
     } else {
@@ -14889,7 +14889,7 @@ static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *q) {
   const nsvcd__outcome outcome = nsvcd__prove_whole(p, q, nsvcd__limit_of_first(p));
   const double from = (double)p->ask.motion->from;
   // An interval is short, and all before it is known.
-  if (p->known.lost && !p->ask.motion->arcs) nsvcd__prove_by_time(p, q, p->ask.most);
+  if (p->known.ran_out && !p->ask.motion->arcs) nsvcd__prove_by_time(p, q, p->ask.most);
   const nsvcd__known known = p->known;
   const double end = p->ask.end;
   if (from > 0 && known.has_contact) {
@@ -14897,7 +14897,7 @@ static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *q) {
   } else if (known.has_contact && nsvcd__clear_until(p) <= 0 && known.found.tick > 0) {
     // The contact is so early that they may meet at the start already.
     if (nsvcd__meets_at(p, q, 0, p->given.work)) return NSVCD__ANSWERED;
-    p->starts_free = !p->known.lost && !(p->known.unresolved < NSVCD__NEVER);
+    p->starts_free = !p->known.ran_out && !(p->known.unresolved < NSVCD__NEVER);
     p->known = known;
     p->ask.end = end;
   }
@@ -15174,7 +15174,8 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
   double end = NSVCD__NEVER;
   double fraction = asked;  // 0: any contact will do
   int is_open = 0;
-  const size_t units = p->given.aside < NSVCD__END_BUDGET ? p->given.aside : NSVCD__END_BUDGET;
+  const size_t units =
+      p->given.reserve < NSVCD__END_BUDGET ? p->given.reserve : NSVCD__END_BUDGET;
   for (int at_end = 0; at_end < 2 && !(asked > 0); at_end++) {
     if (nsvcd__meets_at(p, q, at_end, units)) return NSVCD__ANSWERED;
   }
@@ -15191,7 +15192,8 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
     if (!(nsvcd__surface_gap(p, gap) > nsvcd__clearance(p))) {
       p->ask.is_brief = is_try;
       p->ask.fraction = is_try ? 0 : fraction;
-      p->ask.after_unresolved = fraction > 0 ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.aside;
+      p->ask.after_unresolved =
+          fraction > 0 ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.reserve;
       p->ask.limit = is_try ? nsvcd__limit_after(p, NSVCD__TRY) : p->ask.most;
       outcome = p->ask.fraction > 0 ? nsvcd__prove_first(p, q) : nsvcd__prove_motion(p, q);
     }
@@ -15225,7 +15227,7 @@ static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *q) {
   const int in_order = p->ask.fraction > 0;
   const float gap = nsvcd__surface_gap(p, nsvcd__motion_gap(m));
   p->ask.limit = p->given.work;
-  p->ask.after_unresolved = in_order ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.aside;
+  p->ask.after_unresolved = in_order ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.reserve;
   if (gap > nsvcd__clearance(p)) return NSVCD__FOUND_FREE;
   const int is_long = nsvcd__is_long(m, q);
   if (nsvcd__is_contained_at_start(p)) {
@@ -17451,7 +17453,7 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   const int is_verdict = q->ask != NSVCD_ASK_DISTANCE;
   const size_t most = is_verdict ? NSVCD_DEFAULT_VERDICT_WORK : NSVCD_DEFAULT_WORK;
   given->work = p->ask.limit = p->ask.most = q->work ? q->work : most;
-  given->aside = (q->work ? q->work : NSVCD_DEFAULT_WORK) / NSVCD__AFTER_UNRESOLVED;
+  given->reserve = (q->work ? q->work : NSVCD_DEFAULT_WORK) / NSVCD__AFTER_UNRESOLVED;
   given->grows = q->work == 0;
   given->tells = q->ask != NSVCD_ASK_HIT || given->slop > 0;
   p->work = p->normal_count = 0;
@@ -17561,7 +17563,7 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) 
   p->ask.fraction = kept / length;
   p->ask.measure = 0;
   p->ask.clearance = p->given.clearance;
-  p->ask.limit = p->work + p->given.aside;
+  p->ask.limit = p->work + p->given.reserve;
   (void)nsvcd__prove_anew(p, &query->broad_phase);
   p->ask.motion = whole;
   const double until = nsvcd__clear_until(p) / (double)down.ticks;
@@ -17636,7 +17638,7 @@ static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd_ans
   p->ask.motion = &still;
   p->ask.collects = NSVCD__SUPPORTING;
   p->ask.clearance = p->given.clearance + fmax(nsvcd__to_of(task), 4 * epsilon);
-  p->ask.limit = p->work + p->given.aside;
+  p->ask.limit = p->work + p->given.reserve;
   (void)nsvcd__prove_anew(p, &query->broad_phase);
   for (int k = 0; k < tries; k++) {
     int chosen[NSVCD_MAX_CONTACTS];
@@ -18846,7 +18848,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__arc_limit NSVCD__AT(arc_limit)
 #define nsvcd__arc_of NSVCD__AT(arc_of)
 #define nsvcd__arc_pose NSVCD__AT(arc_pose)
-#define nsvcd__are_opmoving NSVCD__AT(are_opmoving)
+#define nsvcd__are_opposite NSVCD__AT(are_opposite)
 #define nsvcd__arm NSVCD__AT(arm)
 #define nsvcd__arm_of NSVCD__AT(arm_of)
 #define nsvcd__ask_network NSVCD__AT(ask_network)
@@ -18886,6 +18888,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__candidates_add NSVCD__AT(candidates_add)
 #define nsvcd__candidates_start NSVCD__AT(candidates_start)
 #define nsvcd__certain_opinion NSVCD__AT(certain_opinion)
+#define nsvcd__check_budget NSVCD__AT(check_budget)
 #define nsvcd__choose_all NSVCD__AT(choose_all)
 #define nsvcd__choose_four NSVCD__AT(choose_four)
 #define nsvcd__choose_in_all NSVCD__AT(choose_in_all)
@@ -19008,7 +19011,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__is_contained_in NSVCD__AT(is_contained_in)
 #define nsvcd__is_deep NSVCD__AT(is_deep)
 #define nsvcd__is_enclosed NSVCD__AT(is_enclosed)
-#define nsvcd__is_exhausted NSVCD__AT(is_exhausted)
 #define nsvcd__is_harmless NSVCD__AT(is_harmless)
 #define nsvcd__is_large NSVCD__AT(is_large)
 #define nsvcd__is_left NSVCD__AT(is_left)

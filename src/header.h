@@ -133,7 +133,7 @@ extern "C" {
 //   candidate         two patches, and the interval in which their balls meet
 //   ranker            the tiny decoder, which picks the candidates that the chosen decoder sees
 //   patch pair, triangle pair   two patches, two entries, that the proof has yet to separate
-//   track, arc        the poses of one body, its keyframes, in time; the motion from one to the next
+//   track, arc        the poses of one body in time, its keyframes; the motion between two of them
 //   tick              the unit of time: keyframes are at whole numbers of ticks
 //   work              the units that question.work counts
 //

@@ -123,7 +123,7 @@ clipped too early|(double)q->begin[segment] < p->ask.end;|(double)q->begin[segme
 every other segment|s += few) {|s += 2 * few) {
 contacts end too much|p->ask.end = p->known.found.tick - p->ask.first;|p->ask.end = 0.9 * p->known.found.tick - p->ask.first;
 a start that is not asked|known.has_contact \&\& nsvcd__clear_until(p) <= 0 \&\& known.found.tick > 0|known.has_contact \&\& known.found.tick < 0
-a doubt taken for free|nsvcd__min(nsvcd__min(p->ask.end, p->known.unresolved), p->known.lost|nsvcd__min(p->ask.end, p->known.lost
+a doubt taken for free|nsvcd__min(nsvcd__min(p->ask.end, p->known.unresolved), p->known.ran_out|nsvcd__min(p->ask.end, p->known.ran_out
 half the first distance|const double apart = 1.0001 * nsvcd__vertex_distance(|const double apart = 0.5 * nsvcd__vertex_distance(
 distance without tolerance|p->ask.clearance = nsvcd__max(p->low, p->high - p->ask.measure);|p->ask.clearance = nsvcd__max(p->low, p->high * 1.01);
 exact poses not lifted|at.position = nsvcd__d3_add(at.position, arc->push_out);|at.position = nsvcd__d3_add(at.position, nsvcd__d3_scale(arc->push_out, 0));
@@ -167,8 +167,8 @@ exact: planes on one side only|if (nsvcd__d3_dot(n, guess) < 0) n = nsvcd__d3_sc
 pieces by their stored corners|} else if (f->counts->cut > 0) {|} else if (0) {
 a piece of the triangle before|if (f->cut[first + half] <= number) first += half;|if (f->cut[first + half] < number) first += half;
 floor: nearest times on the other side|if (slope < 0)\n      u0 = middle;|if (slope > 0)\n      u0 = middle;
-asks: parts of the time that were lost|if (part->lost) return;|
-asks: what no part settled|  p->ask.is_brief = 0;\n  nsvcd__proof_restart(p);|  known.lost = 0;\n  p->ask.is_brief = 0;\n  nsvcd__proof_restart(p);
+asks: parts of the time that were lost|if (part->ran_out) return;|
+asks: what no part settled|  p->ask.is_brief = 0;\n  nsvcd__proof_restart(p);|  known.ran_out = 0;\n  p->ask.is_brief = 0;\n  nsvcd__proof_restart(p);
 long: gaps by other poses|part.poses += first;|
 long: gaps without the lift|origin_gap - p->given.lengths - pushed_out;|origin_gap - p->given.lengths;
 long: a try that found nothing ends what is proven|!is_open \&\& !is_try \&\& !is_resolved|!is_open \&\& !is_resolved

@@ -393,7 +393,7 @@ static void long_open_intervals_stay(void) {
     nsvcd__proof_begin(query);
     nsvcd__proof *p = query->proof;
     p->given.work = p->ask.limit = p->ask.most = units;
-    p->given.aside = units / NSVCD__AFTER_UNRESOLVED;
+    p->given.reserve = units / NSVCD__AFTER_UNRESOLVED;
     const nsvcd__finding verdict = nsvcd__prove(p, &query->broad_phase);
     CHECK_EQ(verdict, trial / 2 ? NSVCD__FOUND_CONTACT : NSVCD__FOUND_NEITHER);
     CHECK_LE(nsvcd__clear_until(p), 0.2 * (double)p->ask.motion->ticks);

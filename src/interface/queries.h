@@ -111,8 +111,8 @@ typedef struct nsvcd_network_options {
   float inflate;
 } nsvcd_network_options;
 
-// units: of DISTANCE, and of a check of joints; of HIT and FIRST, which need as many only for the
-// verdict on a close fit
+// Units of work: for DISTANCE and checks of joints; and for HIT and FIRST, of which only close fits
+// need as many.
 #define NSVCD_DEFAULT_WORK 100000
 #define NSVCD_DEFAULT_VERDICT_WORK 10000000
 #define NSVCD_NO_TRIANGLE 0xffffffffu
@@ -185,11 +185,12 @@ typedef struct nsvcd_question {
   //   A limit that is given is for the whole motion, in the order of time. When it is reached, the
   // answer tells what was proven by then. DISTANCE divides what is left among the intervals by
   // their length.
-  //   Once surfaces have come too near to tell, an eighth of the limit is left. FIRST keeps an
-  // eighth for what is undecided by then: until when the motion is free, and whether the bodies
-  // meet at all. A manifold, and the pose of a pushed-out body, may take another eighth each. With
-  // 0, these eighths are of NSVCD_DEFAULT_WORK. Apart from them, a question takes the same work
-  // whatever the limit
+  //   Once surfaces have come too near to tell, an eighth of the limit is left; of FIRST that is
+  // for what follows them, and what precedes them has the rest. FIRST keeps an eighth for what is
+  // undecided by then: until when the motion is free, and whether the bodies meet at all. A
+  // manifold, and the pose of a pushed-out body, may take another eighth each. With 0, these
+  // eighths are of NSVCD_DEFAULT_WORK. Apart from them, a question takes the same work whatever the
+  // limit
   size_t work;
   // the most segments that a motion, or each interval of a long one, is cut into: a multiple of 16
   // up to 64; 0: 64. Fewer take less memory, and make intervals shorter
@@ -378,7 +379,7 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 //
 // More work never leaves undecided what less decides, nor takes more units for it, unless less has
 // reached its last eighth (DISTANCE: its half). For FIRST, time.low rises with the work, and is 0
-// only if the first moments of the motion take more than a sixteenth of it.
+// only if the first moments of the motion take more than a sixteenth of the work.
 //
 // A motion of any length, up to NSVCD_MAX_POSES poses of each body, is one question, and takes no
 // more memory than a short one. With more than 64 poses, or more than 1,280 degrees of turn, it is

@@ -318,7 +318,7 @@ static int nsvcd__contains_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
                                  size_t end) {
   for (size_t n = first; n < end; n++) {
     if (!nsvcd__seed_is_near(e, e->inner->seeds + 3 * n)) continue;
-    if (nsvcd__is_exhausted(p)) {
+    if (nsvcd__check_budget(p)) {
       p->unclear = 1;
       return 0;
     }

@@ -63,7 +63,8 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
   double end = NSVCD__NEVER;
   double fraction = asked;  // 0: any contact will do
   int is_open = 0;
-  const size_t units = p->given.aside < NSVCD__END_BUDGET ? p->given.aside : NSVCD__END_BUDGET;
+  const size_t units =
+      p->given.reserve < NSVCD__END_BUDGET ? p->given.reserve : NSVCD__END_BUDGET;
   for (int at_end = 0; at_end < 2 && !(asked > 0); at_end++) {
     if (nsvcd__meets_at(p, q, at_end, units)) return NSVCD__ANSWERED;
   }
@@ -80,7 +81,8 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
     if (!(nsvcd__surface_gap(p, gap) > nsvcd__clearance(p))) {
       p->ask.is_brief = is_try;
       p->ask.fraction = is_try ? 0 : fraction;
-      p->ask.after_unresolved = fraction > 0 ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.aside;
+      p->ask.after_unresolved =
+          fraction > 0 ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.reserve;
       p->ask.limit = is_try ? nsvcd__limit_after(p, NSVCD__TRY) : p->ask.most;
       outcome = p->ask.fraction > 0 ? nsvcd__prove_first(p, q) : nsvcd__prove_motion(p, q);
     }
@@ -114,7 +116,7 @@ static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *q) {
   const int in_order = p->ask.fraction > 0;
   const float gap = nsvcd__surface_gap(p, nsvcd__motion_gap(m));
   p->ask.limit = p->given.work;
-  p->ask.after_unresolved = in_order ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.aside;
+  p->ask.after_unresolved = in_order ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.reserve;
   if (gap > nsvcd__clearance(p)) return NSVCD__FOUND_FREE;
   const int is_long = nsvcd__is_long(m, q);
   if (nsvcd__is_contained_at_start(p)) {

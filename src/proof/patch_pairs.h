@@ -104,7 +104,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
         NSVCD__CERTIFY_BLOCK(p, ~nearby, fixed, 0xffff, 0, NULL, 0);
         uint32_t lanes = nsvcd__lanes_left_by_last(p, fixed, margin, nearby);
         p->work++;
-        if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
+        if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
         for (; lanes; lanes &= lanes - 1) {
           const nsvcd__outcome row = nsvcd__resolve_row(p, nsvcd__low_bit(lanes), fixed, arm,
                                                         margin, u0, u1, patience);
@@ -282,7 +282,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_patch_pairs(nsvcd__proof *p
   for (size_t n = 0; n < p->count; n++) {
     const nsvcd__patch_pair *patches = &p->of.kept.pairs[n];
     NSVCD__PAUSE(p);
-    if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
+    if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
     nsvcd__clip_segment(p, q);
     if (!nsvcd__matters(p, q, patches->segment)) continue;
     const int is_clipped = (p->clipped >> patches->segment & 1) != 0;
@@ -291,7 +291,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_patch_pairs(nsvcd__proof *p
     if (outcome != NSVCD__RESOLVED) return outcome;
   }
   p->count = 0;
-  return nsvcd__is_exhausted(p) ? NSVCD__EXHAUSTED : NSVCD__RESOLVED;
+  return nsvcd__check_budget(p) ? NSVCD__EXHAUSTED : NSVCD__RESOLVED;
 }
 
 // Sifts fresh patch pairs: drops those that planes separate, seeks a witness in the others, and
@@ -315,7 +315,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
   for (size_t n = 0; n < count; n++) {
     nsvcd__patch_pair *patches = &p->fresh[n];
     NSVCD__PAUSE(p);
-    if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
+    if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
     nsvcd__clip_segment(p, q);
     if (!nsvcd__matters(p, q, patches->segment)) continue;
     if (nsvcd__held_again(p, q, patches)) continue;

@@ -80,7 +80,7 @@
 // Work is counted in units: a plane sought for two hulls, 16 triangles against the box of 16, one
 // of them against these, a triangle pair at one time, a ray against 16 triangles or one. Spheres,
 // slabs and planes that held before are not counted. A query ends within one patch's entries, or
-// one ray, of its limit: nsvcd__is_exhausted.
+// one ray, of its limit: nsvcd__check_budget.
 #pragma once
 #include "../body/geometry.h"
 #include "../motion/motion.h"
@@ -125,8 +125,8 @@
 // In units of all lengths: a distance in double that is 0; one that is too near to halve for.
 #define NSVCD__SAME_POSITION 1e-13
 #define NSVCD__TOO_NEAR 1e-9
-// After an unresolved pair 1 / this of the budget is left; where the first contact is sought, so
-// many units.
+// The reserve is 1 / this of the budget. It is all that is left after an unresolved pair; FIRST
+// looks for later contacts with so many units.
 #define NSVCD__AFTER_UNRESOLVED 8
 #define NSVCD__AFTER_FIRST_UNRESOLVED 3000
 
@@ -142,9 +142,9 @@
 #define NSVCD__TURNS 2
 // A long motion. Intervals of many arcs, and hard ones, are first tried with this budget.
 #define NSVCD__TRY 64
-// An interval that takes no more than this is easy. The next try then takes so many times as many
-// arcs. After a try in vain it takes so many times fewer, and up to so many intervals have to be
-// easy before the next one.
+// An interval that takes no more than EASY is easy, and the next try has LARGER times as many arcs.
+// After a try that failed it has SMALLER times fewer, and up to WAIT intervals have to be easy
+// before the next try.
 #define NSVCD__EASY 16
 #define NSVCD__LARGER 4
 #define NSVCD__SMALLER 8
@@ -352,7 +352,7 @@ typedef struct nsvcd__given {
   int tells;
   // The budget: of all or, if it grows, of each interval of a long motion; and the part of it for
   // what is beside the question, above all what follows an unresolved pair.
-  size_t work, aside;
+  size_t work, reserve;
   int grows;
 } nsvcd__given;
 
@@ -382,11 +382,11 @@ typedef struct nsvcd__asked {
 typedef struct nsvcd__known {
   int has_contact;
   nsvcd__pair_contact found;
-  // the tick at which the first unresolved pair begins, two triangles too near to tell; and that
+  // the tick at which the first unresolved pair begins (two triangles too near to tell); the pair
   double unresolved;
   nsvcd__pair_contact unresolved_pair;
   // the budget was exhausted: all from the tick `resolved` on is undecided
-  int lost;
+  int ran_out;
   double resolved;
 } nsvcd__known;
 
@@ -424,8 +424,8 @@ typedef struct nsvcd__proof {
   // bounds of the least distance
   double low, high;
 
-  // Containment at the start: a component seems to be inside the other body, but close to its
-  // surface; a point of it, in the fixed body's frame; or that could not be told,
+  // Containment at the start. inside: a component seems to be inside the other body, but close to
+  // its surface; enclosed: a point of it, in the fixed body's frame; unclear: it could not be told,
   int inside;
   nsvcd__d3 enclosed;
   int unclear;
@@ -500,7 +500,7 @@ static void nsvcd__forget(nsvcd__memo *memo) {
 #define NSVCD__PAUSE(p) ((void)0)
 #endif
 
-// The limit that leaves a budget of so many units, or of what is left of all.
+// The limit that allows so many units more, but never more than the question has left.
 static size_t nsvcd__limit_after(const nsvcd__proof *p, size_t units) {
   const size_t left = p->work < p->ask.most ? p->ask.most - p->work : 0;
   return left > units ? p->work + units : p->ask.most;
@@ -508,19 +508,19 @@ static size_t nsvcd__limit_after(const nsvcd__proof *p, size_t units) {
 
 // The limit of the search for the first contact; the rest is for what is proven part by part.
 static size_t nsvcd__limit_of_first(const nsvcd__proof *p) {
-  return p->ask.most - p->given.aside;
+  return p->ask.most - p->given.reserve;
 }
 
-// Is the budget exhausted? Where the first contact is sought, so may be what an unresolved pair
-// left for contacts after it: then that pair becomes the end, and what comes before it can be
-// proven.
-static int nsvcd__is_exhausted(nsvcd__proof *p) {
+// Is the budget exhausted? FIRST looks for contacts after its first unresolved pair with a small
+// budget. When that is exhausted, the pair becomes the end of the motion, here, and the search goes
+// on with the rest of the budget for what lies before the pair.
+static int nsvcd__check_budget(nsvcd__proof *p) {
   nsvcd__asked *ask = &p->ask;
   if (p->work > ask->limit && ask->first > 0 && !ask->is_brief && !ask->unresolved_ends &&
       p->known.unresolved < NSVCD__NEVER) {
     ask->unresolved_ends = 1;
     ask->end = nsvcd__min(ask->end, p->known.unresolved);
-    const size_t left = (NSVCD__AFTER_UNRESOLVED - 1) * p->given.aside;
+    const size_t left = (NSVCD__AFTER_UNRESOLVED - 1) * p->given.reserve;
     ask->limit = nsvcd__limit_of_first(p);
     if (p->work + left < ask->limit) ask->limit = p->work + left;
   }

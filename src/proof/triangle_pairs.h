@@ -119,7 +119,7 @@ static NSVCD__NOINLINE void nsvcd__keep_unresolved(nsvcd__proof *p,
   const double tick = (double)p->arc.first + u0 * (double)p->arc.ticks;
   const double middle = 0.5 * (u0 + u1);
   const size_t left = p->ask.after_unresolved;
-  // a first attempt is short anyway
+  // a brief first attempt has no budget to save
   const int is_first = !(p->known.unresolved < NSVCD__NEVER) && !p->ask.is_brief;
   if (is_first && p->work + left < p->ask.limit) p->ask.limit = p->work + left;
   if (!(tick < p->known.unresolved)) return;
@@ -134,10 +134,10 @@ static double nsvcd__arc_limit(const nsvcd__proof *p) {
   return (p->ask.end - (double)p->arc.first) / (double)p->arc.ticks;
 }
 
-// The deviation of a triangle pair's moving triangle along a unit direction n, over all of the arc;
-// over a fraction of it, times the square of that. A point at r metres from the origin and rho from
-// the axis a of the turn deviates by bend rho |n x a| + twist r + origin_bend. Where both bodies
-// turn, a wavers, and so do both distances from it.
+// The deviation of a triangle pair's moving triangle along a unit direction n over the whole arc.
+// Over a fraction of the arc it is the square of that fraction times as large. A point at r metres
+// from the origin and rho from the axis a of the turn deviates by bend rho |n x a| + twist r +
+// origin_bend. Where both bodies turn, a wavers, and so do both distances from it.
 static double nsvcd__off_chord_along(const nsvcd__arc *arc, const nsvcd__triangle_pair *pair,
                                      nsvcd__d3 n) {
   const double across = nsvcd__d3_norm(nsvcd__d3_cross(n, arc->axis));
@@ -172,7 +172,7 @@ static int nsvcd__plane_separates(nsvcd__proof *p, const nsvcd__triangle_pair *p
 }
 
 // Have two heights different signs, clear of 0 by their margins?
-static int nsvcd__are_opmoving(double before, double least_before, double after,
+static int nsvcd__are_opposite(double before, double least_before, double after,
                                double least_after) {
   const int falls = before > least_before && after < -least_after;
   const int rises = before < -least_before && after > least_after;
@@ -199,7 +199,7 @@ static int nsvcd__corner_passes(const nsvcd__d3 *const *x, size_t k, const nsvcd
   const nsvcd__d3 n2 = nsvcd__face_normal(t[2]);
   const double before = nsvcd__d3_dot(n0, nsvcd__d3_sub(x[0][k], t[0][0]));
   const double after = nsvcd__d3_dot(n2, nsvcd__d3_sub(x[2][k], t[2][0]));
-  return nsvcd__are_opmoving(before, margin * nsvcd__d3_norm(n0), after,
+  return nsvcd__are_opposite(before, margin * nsvcd__d3_norm(n0), after,
                              margin * nsvcd__d3_norm(n2));
 }
 
@@ -222,7 +222,7 @@ static int nsvcd__edges_pass(const nsvcd__d3 *const *moving, size_t k, const nsv
   const double size = nsvcd__d3_norm(across[1]);
   const double lengths = nsvcd__d3_norm(u) * nsvcd__d3_norm(v);
   if (!(size > 0.01 * lengths)) return 0;
-  if (!nsvcd__are_opmoving(volumes[0], margin * size, volumes[2], margin * size)) return 0;
+  if (!nsvcd__are_opposite(volumes[0], margin * size, volumes[2], margin * size)) return 0;
   const double square = size * size;
   const double s = nsvcd__d3_dot(nsvcd__d3_cross(from[1], v), across[1]) / square;
   const double t = nsvcd__d3_dot(nsvcd__d3_cross(from[1], u), across[1]) / square;
@@ -233,8 +233,8 @@ static int nsvcd__edges_pass(const nsvcd__d3 *const *moving, size_t k, const nsv
   return s > room_s && s < 1 - room_s && t > room_t && t < 1 - room_t;
 }
 
-// Has a triangle pair met between u0 and u1 of the arc: has a corner passed through
-// the other triangle, or an edge through an edge? Faces that are parallel when they meet do so at
+// Has a triangle pair met between u0 and u1 of the arc: has a corner passed through the other
+// triangle, or an edge through an edge? Faces that are parallel when they meet do so at
 // one time only, and rounded numbers show it at none.
 static int nsvcd__pair_passes(nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0,
                               double u1) {
@@ -315,10 +315,9 @@ static NSVCD__NOINLINE double nsvcd__aim_plane(nsvcd__proof *p,
   return best;
 }
 
-// A triangle pair that is too near to tell from u0 to u1 of the arc, the nearest at `when`: an
-// unresolved pair. But a measured distance needs less: the pair comes no nearer than that. The
-// clearance is lowered to it. TOO_LONG: the part is to be resolved again; ANSWERED: the clearance
-// is at its known bound.
+// A triangle pair that is too near to tell from u0 to u1 of the arc, the nearest at `when`, is kept
+// as unresolved. DISTANCE needs only a bound of how near the pair comes, so it lowers the clearance
+// to that. TOO_LONG: resolve the part again; ANSWERED: the clearance is at its known bound.
 static nsvcd__outcome nsvcd__resolve_too_near(nsvcd__proof *p,
                                               const nsvcd__triangle_pair *pair, double u0,
                                               double u1, double when) {
@@ -404,7 +403,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
     at = nsvcd__min(at, end);
     p->work++;
     NSVCD__TALLY(pairs, 1);
-    if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
+    if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
     const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, at);
     const double distance = sqrt(nearest.square);
     const double above = distance - p->ask.clearance;
@@ -438,7 +437,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
 // Resolves a triangle pair from u0 to u1 of the arc: halves the time until, in each part, a plane
 // separates the triangles, or there is a contact, or they are too near to tell. After each
 // unresolved part, longer ones count as too short: the question left is whether they meet. The
-// planes tried are the one that separated a pair last, and one at the nearest points in the middle.
+// planes tried are the one that separated a pair last, and the one that nsvcd__aim_plane finds.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
                                                           const nsvcd__triangle_pair *pair,
                                                           double u0, double u1) {
@@ -454,7 +453,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
     const double middle = 0.5 * (u + end);
     p->work++;
     NSVCD__TALLY(pairs, 1);
-    if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
+    if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
     int apart = nsvcd__plane_separates(p, pair, u, end);
     if (!apart) {
       const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);

@@ -18,7 +18,7 @@ static nsvcd__finding nsvcd__found_inside(nsvcd__proof *p) {
 static double nsvcd__clear_until(const nsvcd__proof *p) {
   if (p->unclear) return 0;
   return nsvcd__min(nsvcd__min(p->ask.end, p->known.unresolved),
-                    p->known.lost ? p->known.resolved : NSVCD__NEVER);
+                    p->known.ran_out ? p->known.resolved : NSVCD__NEVER);
 }
 
 // Forgets all that was known of a motion, or of an interval.
@@ -39,7 +39,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_motion(nsvcd__proof *p, nsvcd
   nsvcd__cut_segments(p->ask.motion, p->given.lengths, nsvcd__clearance(p), q);
   p->ask.first = p->ask.fraction * (double)p->ask.motion->ticks;
   const nsvcd__outcome outcome = nsvcd__prove_tiles(p, q);
-  p->known.lost = outcome == NSVCD__EXHAUSTED;
+  p->known.ran_out = outcome == NSVCD__EXHAUSTED;
   return outcome;
 }
 
@@ -124,7 +124,7 @@ static void nsvcd__prove_part(nsvcd__proof *p, nsvcd__search *q, double from, do
     known->found.tick /= finer;
     *end = p->ask.end / finer;
   }
-  if (part->lost) return;
+  if (part->ran_out) return;
   if (part->unresolved < NSVCD__NEVER) {
     known->unresolved_pair = part->unresolved_pair;
     known->unresolved_pair.tick /= finer;
@@ -149,14 +149,14 @@ static NSVCD__NOINLINE void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search 
   p->ask.is_brief = 1;
   for (;;) {
     const double until = nsvcd__min(ticks, nsvcd__min(end, known.unresolved));
-    known.lost = known.resolved < until;
-    if (!known.lost || p->work >= limit) break;
+    known.ran_out = known.resolved < until;
+    if (!known.ran_out || p->work >= limit) break;
     const size_t before = p->work;
     const double whole = floor(from + length);
     const double to = whole > from ? nsvcd__min(whole, all) : from + length;
     p->ask.limit = limit - before > units ? before + units : limit;
     nsvcd__prove_part(p, q, from, to, &known, &end);
-    if (p->known.lost) {
+    if (p->known.ran_out) {
       length /= 8;
       grows = 2;
     } else {
@@ -177,7 +177,7 @@ static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *q) {
   const nsvcd__outcome outcome = nsvcd__prove_whole(p, q, nsvcd__limit_of_first(p));
   const double from = (double)p->ask.motion->from;
   // An interval is short, and all before it is known.
-  if (p->known.lost && !p->ask.motion->arcs) nsvcd__prove_by_time(p, q, p->ask.most);
+  if (p->known.ran_out && !p->ask.motion->arcs) nsvcd__prove_by_time(p, q, p->ask.most);
   const nsvcd__known known = p->known;
   const double end = p->ask.end;
   if (from > 0 && known.has_contact) {
@@ -185,7 +185,7 @@ static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *q) {
   } else if (known.has_contact && nsvcd__clear_until(p) <= 0 && known.found.tick > 0) {
     // The contact is so early that they may meet at the start already.
     if (nsvcd__meets_at(p, q, 0, p->given.work)) return NSVCD__ANSWERED;
-    p->starts_free = !p->known.lost && !(p->known.unresolved < NSVCD__NEVER);
+    p->starts_free = !p->known.ran_out && !(p->known.unresolved < NSVCD__NEVER);
     p->known = known;
     p->ask.end = end;
   }

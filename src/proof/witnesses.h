@@ -210,7 +210,7 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
       nsvcd__block_pose(p, &rounded, NULL);
       for (size_t n = 0; n < p->memo.window; n++) {
         p->work++;
-        if (nsvcd__is_exhausted(p)) return NSVCD__NOTHING;
+        if (nsvcd__check_budget(p)) return NSVCD__NOTHING;
         const nsvcd__outcome found = nsvcd__find_witness_in(p, i, j, n, &at, u, margin);
         if (found != NSVCD__NOTHING) return found;
       }

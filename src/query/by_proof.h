@@ -93,7 +93,7 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   const int is_verdict = q->ask != NSVCD_ASK_DISTANCE;
   const size_t most = is_verdict ? NSVCD_DEFAULT_VERDICT_WORK : NSVCD_DEFAULT_WORK;
   given->work = p->ask.limit = p->ask.most = q->work ? q->work : most;
-  given->aside = (q->work ? q->work : NSVCD_DEFAULT_WORK) / NSVCD__AFTER_UNRESOLVED;
+  given->reserve = (q->work ? q->work : NSVCD_DEFAULT_WORK) / NSVCD__AFTER_UNRESOLVED;
   given->grows = q->work == 0;
   given->tells = q->ask != NSVCD_ASK_HIT || given->slop > 0;
   p->work = p->normal_count = 0;
@@ -203,7 +203,7 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) 
   p->ask.fraction = kept / length;
   p->ask.measure = 0;
   p->ask.clearance = p->given.clearance;
-  p->ask.limit = p->work + p->given.aside;
+  p->ask.limit = p->work + p->given.reserve;
   (void)nsvcd__prove_anew(p, &query->broad_phase);
   p->ask.motion = whole;
   const double until = nsvcd__clear_until(p) / (double)down.ticks;
@@ -278,7 +278,7 @@ static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd_ans
   p->ask.motion = &still;
   p->ask.collects = NSVCD__SUPPORTING;
   p->ask.clearance = p->given.clearance + fmax(nsvcd__to_of(task), 4 * epsilon);
-  p->ask.limit = p->work + p->given.aside;
+  p->ask.limit = p->work + p->given.reserve;
   (void)nsvcd__prove_anew(p, &query->broad_phase);
   for (int k = 0; k < tries; k++) {
     int chosen[NSVCD_MAX_CONTACTS];
