@@ -63,7 +63,7 @@
 // OPTIONS, defined before the implementation is included
 //   NSVCD_STATIC      all functions static, in a file that has the implementation
 //   NSVCD_NO_STDIO    no file access: no nsvcd_obj_load and the like; nsvcd_obj_parse stays
-//   NSVCD_NO_OBJ      no readers of OBJ, STL and faces
+//   NSVCD_NO_READERS      no readers of OBJ, STL and faces
 //   NSVCD_NO_ENCODER  no readers, no nsvcd_mesh_cut, no nsvcd_encode: bodies come from
 //                     nsvcd_body_load
 //   NSVCD_NO_PROOF    the network alone: triangles are neither stored nor read
@@ -104,8 +104,8 @@
 #define NSVCD_VERSION_MINOR 3
 #define NSVCD_VERSION_PATCH 0
 
-#if defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_OBJ)
-#define NSVCD_NO_OBJ
+#if defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_READERS)
+#define NSVCD_NO_READERS
 #endif
 #if defined(NSVCD_NO_PROOF) && defined(NSVCD_NO_NETWORK)
 #error "neuralsvcd.h: NSVCD_NO_PROOF and NSVCD_NO_NETWORK leave nothing that answers"
@@ -304,7 +304,7 @@ typedef struct nsvcd_mesh {
   size_t triangle_count;
 } nsvcd_mesh;
 
-#ifndef NSVCD_NO_OBJ
+#ifndef NSVCD_NO_READERS
 // Reads OBJ text into a mesh. Only the lines v and f are read; lines end in LF, CR or CR LF. A
 // face's corners are v, v/vt, v//vn or v/vt/vn. The number after a slash may be missing, and a
 // corner may refer to a vertex further down. Faces of any number of corners are triangulated,
@@ -1328,6 +1328,9 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 #endif  // NEURALSVCD_H
 
 // ================================================================================== IMPLEMENTATION
+// Made from the files of src/, which are to be edited in its place: CONTRIBUTING.md has a map, and
+// says where to go for a change.
+//
 // CONTENTS: a room's name ends a line of dashes. Each uses only those above it.
 //   interface: what a program sees
 //     options         the version, and what is compiled
@@ -2709,7 +2712,7 @@ static int nsvcd__weld_all(const float *positions, size_t count, uint32_t *welde
 // sorted along a Z curve (Morton 1966); each run of 8 has a box, each two neighbouring boxes have
 // one about them, and so on up to one about all.
 
-#ifndef NSVCD_NO_OBJ
+#ifndef NSVCD_NO_READERS
 #define NSVCD__RUN 8
 
 // A point in the polygon's plane.
@@ -2972,12 +2975,12 @@ static void nsvcd__polygon_triangulate(nsvcd__polygon *poly, const float *positi
   triangles[1] = corners[corners[at].next].vertex;
   triangles[2] = corners[corners[at].previous].vertex;
 }
-#endif  // NSVCD_NO_OBJ
+#endif  // NSVCD_NO_READERS
 
 // -------------------------------------------------------------------------------------- mesh/faces
 // In: faces of any number of corners, from an engine or another reader. Out: nsvcd_mesh.
 
-#ifndef NSVCD_NO_OBJ
+#ifndef NSVCD_NO_READERS
 // Checks the faces. *triangles: how many they become; *most: corners of the largest.
 static nsvcd_result nsvcd__faces_check(const nsvcd_faces *f, size_t *triangles,
                                        uint32_t *most) {
@@ -3033,7 +3036,7 @@ NSVCDDEF nsvcd_result nsvcd_mesh_of_faces(const nsvcd_faces *f, const nsvcd_allo
   *mesh = out;
   return NSVCD_OK;
 }
-#endif  // NSVCD_NO_OBJ
+#endif  // NSVCD_NO_READERS
 
 // ---------------------------------------------------------------------------------------- mesh/obj
 // In: the text of a Wavefront OBJ file (version 3.0). Out: nsvcd_mesh. Only the statements v and f
@@ -3044,7 +3047,7 @@ NSVCDDEF nsvcd_result nsvcd_mesh_of_faces(const nsvcd_faces *f, const nsvcd_allo
 // plays no part. A keyword that is skipped consists of letters, and of digits after the first two
 // characters: curv2 is one, f1 is a mistake.
 
-#ifndef NSVCD_NO_OBJ
+#ifndef NSVCD_NO_READERS
 // Fills zeroed options with those given (NULL: none) and with defaults.
 static nsvcd_result nsvcd__mesh_options_of(const nsvcd_mesh_options *given,
                                            nsvcd_mesh_options *out) {
@@ -3346,7 +3349,7 @@ static nsvcd_result nsvcd__obj_read(nsvcd__obj *obj, nsvcd__arena *arena, nsvcd_
   *obj = begin;
   return nsvcd__obj_faces(obj, mesh, &polygon);
 }
-#endif  // NSVCD_NO_OBJ
+#endif  // NSVCD_NO_READERS
 
 // ---------------------------------------------------------------------------------------- mesh/stl
 // In: an STL file, binary or text. Out: nsvcd_mesh.
@@ -3355,7 +3358,7 @@ static nsvcd_result nsvcd__obj_read(nsvcd__obj *obj, nsvcd__arena *arena, nsvcd_
 // "solid", or holds a NUL, which no text does. Of a text only the words vertex and endloop matter:
 // three vertices a loop.
 
-#ifndef NSVCD_NO_OBJ
+#ifndef NSVCD_NO_READERS
 #define NSVCD__STL_HEADER 84  // bytes, the count of triangles included
 #define NSVCD__STL_FACET 50
 
@@ -3491,12 +3494,12 @@ static nsvcd_result nsvcd__stl_read(nsvcd__obj *text, const void *data, size_t s
   text->line = 0;
   return nsvcd__stl_weld(mesh, alloc) ? NSVCD_OK : NSVCD_ERROR_MEMORY;
 }
-#endif  // NSVCD_NO_OBJ
+#endif  // NSVCD_NO_READERS
 
 // -------------------------------------------------------------------------------------- mesh/files
 // In: an OBJ or STL file, and how its numbers become metres. Out: nsvcd_mesh.
 
-#ifndef NSVCD_NO_OBJ
+#ifndef NSVCD_NO_READERS
 NSVCDDEF nsvcd_result nsvcd_mesh_parse(const void *data, size_t size,
                                        const nsvcd_mesh_options *options,
                                        const nsvcd_allocator *alloc, nsvcd_mesh *mesh,
@@ -3590,7 +3593,7 @@ NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *al
   return nsvcd_mesh_load(path, &nsvcd__as_stl, alloc, mesh, error_line);
 }
 #endif  // NSVCD_NO_STDIO
-#endif  // NSVCD_NO_OBJ
+#endif  // NSVCD_NO_READERS
 
 // =========================================================== patches: the surface divided in parts
 
@@ -11354,7 +11357,7 @@ static void nsvcd__search_patch(nsvcd__search *q, const nsvcd_body *moving, size
 
 // What else a question asks.
 // The budget of the first attempt, before the two ends of the motion are tried by themselves.
-#define NSVCD__LONG 6000
+#define NSVCD__BRIEF_BUDGET 6000
 // The budget at each end.
 #define NSVCD__END_BUDGET 1000
 // The budget for triangles that meet where one body is inside the other.
@@ -11522,15 +11525,15 @@ typedef enum nsvcd__finding {
   NSVCD__FOUND_FREE,
   NSVCD__FOUND_CONTACT,
   NSVCD__FOUND_INSIDE,
-  NSVCD__FOUND_NEITHER
+  NSVCD__FOUND_UNDECIDED
 } nsvcd__finding;
 
 // What becomes of a part of it: a pair of patches, or of triangles, over an interval.
 typedef enum nsvcd__outcome {
   // separated, or kept as an unresolved pair, or no longer asked about
-  NSVCD__RESOLVED,
+  NSVCD__DONE,
   // the same of all triangles of both patches
-  NSVCD__ALL_RESOLVED,
+  NSVCD__ALL_DONE,
   // a contact was sought and not found
   NSVCD__NOTHING,
   // a contact was found that answers the question
@@ -11600,6 +11603,13 @@ typedef struct nsvcd__asked {
   double slop;
 } nsvcd__asked;
 
+// Why it could not be told what is inside of what: the rays do not tell, or the budget ended first.
+typedef enum nsvcd__unclear {
+  NSVCD__CLEAR,
+  NSVCD__CANNOT_TELL,
+  NSVCD__NOT_ASKED
+} nsvcd__unclear;
+
 // What is known of a motion.
 typedef struct nsvcd__known {
   int has_contact;
@@ -11650,7 +11660,7 @@ typedef struct nsvcd__proof {
   // its surface; enclosed: a point of it, in the fixed body's frame; unclear: it could not be told,
   int inside;
   nsvcd__d3 enclosed;
-  int unclear;
+  nsvcd__unclear unclear;
   // since the other is nearly a solid, but not closed
   int in_open;
   // the budget did not suffice for the resolution of the least distance
@@ -12856,7 +12866,7 @@ static nsvcd__outcome nsvcd__resolve_too_near(nsvcd__proof *p,
                                               double u1, double when) {
   if (!(p->ask.measure > 0)) {
     nsvcd__keep_unresolved(p, pair, u0, u1);
-    return NSVCD__RESOLVED;
+    return NSVCD__DONE;
   }
   const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, when);
   const double distance = sqrt(nearest.square);
@@ -12928,11 +12938,11 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
   const double all = nsvcd__min(u1, nsvcd__arc_limit(p));
   if (u0 < all && nsvcd__plane_separates(p, pair, u0, all)) {
     p->work++;
-    return NSVCD__RESOLVED;
+    return NSVCD__DONE;
   }
   for (double u = u0;;) {  // until u it is separated
     const double end = nsvcd__min(u1, nsvcd__arc_limit(p));
-    if (!(u < end)) return shrunk ? NSVCD__SHRUNK : NSVCD__RESOLVED;
+    if (!(u < end)) return shrunk ? NSVCD__SHRUNK : NSVCD__DONE;
     at = nsvcd__min(at, end);
     p->work++;
     NSVCD__TALLY(pairs, 1);
@@ -12960,7 +12970,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
       // what follows is no nearer
       const nsvcd__outcome part = nsvcd__resolve_too_near(p, pair, u, at, at);
       if (part == NSVCD__ANSWERED) return part;
-      if (part == NSVCD__RESOLVED) u = end;
+      if (part == NSVCD__DONE) u = end;
     } else {
       at = fall > 0 ? at + above / fall : 0.5 * (u + at);
     }
@@ -13011,13 +13021,13 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
       const nsvcd__outcome part = nsvcd__resolve_short_interval(p, pair, u, end);
       if (part == NSVCD__ANSWERED) return part;
       shrunk |= part == NSVCD__SHRUNK;
-      if (part != NSVCD__RESOLVED) continue;
+      if (part != NSVCD__DONE) continue;
       unresolved_count++;
     }
     u = end;
     left--;
   }
-  return shrunk ? NSVCD__SHRUNK : NSVCD__RESOLVED;
+  return shrunk ? NSVCD__SHRUNK : NSVCD__DONE;
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -13817,18 +13827,18 @@ static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t l, nsvcd__block
     if (patience == 0) return NSVCD__TOO_LONG;
     if (p->memo.shared > NSVCD__SHARED * p->all_tried) {
       p->all_tried++;
-      if (nsvcd__patches_apart(p, i, j, u0, u1)) return NSVCD__ALL_RESOLVED;
+      if (nsvcd__patches_apart(p, i, j, u0, u1)) return NSVCD__ALL_DONE;
     }
     const size_t a = p->moving_block.first + l;
     const size_t b = fixed->first + nsvcd__low_bit(met);
     const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, b);
     const nsvcd__outcome one = nsvcd__resolve_pair(p, &pair, u0, u1);
-    if (one != NSVCD__RESOLVED) return one;
+    if (one != NSVCD__DONE) return one;
     if (p->parts > patience) return NSVCD__TOO_LONG;
     p->memo.shared =
         nsvcd__d3_distance2(p->memo.separating, before) > 0 ? 0 : p->memo.shared + 1;
   }
-  return NSVCD__RESOLVED;
+  return NSVCD__DONE;
 }
 
 // All triangle pairs of patches i and j over an interval from u0 to u1 of the arc.
@@ -13867,13 +13877,13 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
         for (; lanes; lanes &= lanes - 1) {
           const nsvcd__outcome row = nsvcd__resolve_row(p, nsvcd__low_bit(lanes), fixed, arm,
                                                         margin, u0, u1, patience);
-          if (row == NSVCD__ALL_RESOLVED) return NSVCD__RESOLVED;
-          if (row != NSVCD__RESOLVED) return row;
+          if (row == NSVCD__ALL_DONE) return NSVCD__DONE;
+          if (row != NSVCD__DONE) return row;
         }
       }
     }
   }
-  return NSVCD__RESOLVED;
+  return NSVCD__DONE;
 }
 
 // Resolves a patch pair that no plane separates over its segment, arc by arc. An arc is halved
@@ -13908,13 +13918,13 @@ static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__se
             nsvcd__resolve_triangles(p, i, j, &p->interval, u, end, patience);
         if (part == NSVCD__ANSWERED || part == NSVCD__EXHAUSTED) return part;
         if (part == NSVCD__TOO_LONG) ends[left++] = 0.5 * (u + end);
-        if (part != NSVCD__RESOLVED) continue;
+        if (part != NSVCD__DONE) continue;
       }
       u = end;
       left--;
     }
   }
-  return NSVCD__RESOLVED;
+  return NSVCD__DONE;
 }
 
 // Does the plane that held last separate a patch pair over its segment, moved along its normal? If
@@ -14047,10 +14057,10 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_patch_pairs(nsvcd__proof *p
     const int is_clipped = (p->clipped >> patches->segment & 1) != 0;
     if (is_clipped && nsvcd__is_separated(p, q, patches)) continue;
     const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(p, q, patches);
-    if (outcome != NSVCD__RESOLVED) return outcome;
+    if (outcome != NSVCD__DONE) return outcome;
   }
   p->count = 0;
-  return nsvcd__check_budget(p) ? NSVCD__EXHAUSTED : NSVCD__RESOLVED;
+  return nsvcd__check_budget(p) ? NSVCD__EXHAUSTED : NSVCD__DONE;
 }
 
 // Sifts fresh patch pairs: drops those that planes separate, seeks a witness in the others, and
@@ -14084,14 +14094,14 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
     if ((p->ask.first > 0 || p->memo.shared > 0) &&
         nsvcd__is_straight(nsvcd__arc_at(p, first))) {
       const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(p, q, patches);
-      if (outcome != NSVCD__RESOLVED) return outcome;
+      if (outcome != NSVCD__DONE) return outcome;
       continue;
     }
     if (p->misses >= NSVCD__FEW_MISSES) {
       const nsvcd__interval *over = nsvcd__segment_interval(p, q, patches->segment);
       const nsvcd__outcome by_triangles =
           nsvcd__resolve_triangles(p, patches->moving, patches->fixed, over, 0, 0, 0);
-      if (by_triangles == NSVCD__RESOLVED) continue;
+      if (by_triangles == NSVCD__DONE) continue;
     }
     const int may_meet = tells_more || p->misses < NSVCD__MANY_MISSES;
     if (may_meet && !patches->sought &&
@@ -14100,11 +14110,11 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
     p->misses++;
     if (p->count == NSVCD__PATCH_PAIRS) {
       const nsvcd__outcome outcome = nsvcd__resolve_patch_pairs(p, q);
-      if (outcome != NSVCD__RESOLVED) return outcome;
+      if (outcome != NSVCD__DONE) return outcome;
     }
     p->of.kept.pairs[p->count++] = *patches;
   }
-  return NSVCD__RESOLVED;
+  return NSVCD__DONE;
 }
 
 // Is there room for contacts, and can those that were collected still be undone?
@@ -14132,7 +14142,7 @@ static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *q)
     }
   }
   p->fresh_count = 0;
-  return nsvcd__collects_on(p) && p->work <= p->ask.limit ? NSVCD__RESOLVED : NSVCD__EXHAUSTED;
+  return nsvcd__collects_on(p) && p->work <= p->ask.limit ? NSVCD__DONE : NSVCD__EXHAUSTED;
 }
 
 // Bounds, along directions first .. last - 1 of a manifold, of the points on both patches of a
@@ -14430,8 +14440,12 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__geometry *f, double 
   ray.rounding = (float)ray.margin + 4 * NSVCD__ROUNDING * f->body->extent;
   int clear = 0;
   int odd = 0;
-  for (size_t n = 0; n < 8 && p->work <= p->ask.limit; n++) {
+  for (size_t n = 0; n < 8; n++) {
     const double *d = directions[best ^ n];
+    if (p->work > p->ask.limit) {
+      p->unclear = NSVCD__NOT_ASKED;
+      return 0;
+    }
     ray.direction = nsvcd__d3_of(d[0], d[1], d[2]);
     ray.direction = nsvcd__d3_scale(ray.direction, 1 / nsvcd__d3_norm(ray.direction));
     const nsvcd__crossings sum = nsvcd__cross_all(p, f, &ray);
@@ -14442,7 +14456,7 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__geometry *f, double 
     odd += sum.nearly % 2 != 0 || sum.winds != 0;
     clear++;
   }
-  if (clear == 0 || 2 * odd > clear) p->unclear = 1;
+  if (clear == 0 || 2 * odd > clear) p->unclear = NSVCD__CANNOT_TELL;
   p->in_open |= clear > 0 && 2 * odd > clear;
   return 0;
 }
@@ -14518,7 +14532,7 @@ static int nsvcd__contains_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
   for (size_t n = first; n < end; n++) {
     if (!nsvcd__seed_is_near(e, e->inner->seeds + 3 * n)) continue;
     if (nsvcd__check_budget(p)) {
-      p->unclear = 1;
+      p->unclear = NSVCD__NOT_ASKED;
       return 0;
     }
     const nsvcd__d3 seed = nsvcd__d3_load(e->inner->seeds + 3 * n);
@@ -14670,16 +14684,16 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
           nsvcd__add_patch_pairs(p, q, g, NSVCD__GROUP * h + l, left);
           if (!*left) break;
           outcome = nsvcd__take_patch_pairs(p, q);
-          if (outcome != NSVCD__RESOLVED) return outcome;
+          if (outcome != NSVCD__DONE) return outcome;
         }
       }
       if (p->fresh_count < NSVCD__ENOUGH_FRESH) continue;
       outcome = nsvcd__take_patch_pairs(p, q);
-      if (outcome != NSVCD__RESOLVED) return outcome;
+      if (outcome != NSVCD__DONE) return outcome;
     }
   }
   outcome = nsvcd__take_patch_pairs(p, q);
-  if (outcome != NSVCD__RESOLVED || p->ask.collects) return outcome;
+  if (outcome != NSVCD__DONE || p->ask.collects) return outcome;
   return nsvcd__resolve_patch_pairs(p, q);
 }
 
@@ -14691,10 +14705,10 @@ static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *q) {
   const nsvcd_body *fixed = p->fixed.body;
   const size_t all = q->segments;
   const size_t few = p->ask.first > 0 ? NSVCD__IN_ORDER : all;
-  nsvcd__outcome outcome = NSVCD__RESOLVED;
+  nsvcd__outcome outcome = NSVCD__DONE;
   (void)nsvcd__search_begin(moving, fixed, nsvcd__segments_in(0, all), q);
   do {
-    for (size_t s = 0; s < all && outcome == NSVCD__RESOLVED; s += few) {
+    for (size_t s = 0; s < all && outcome == NSVCD__DONE; s += few) {
       const size_t next = s + few < all ? s + few : all;
       if (!nsvcd__matters(p, q, s)) break;
       q->wanted = nsvcd__segments_in(s, next);
@@ -14702,11 +14716,11 @@ static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *q) {
       q->waiting = 0;
       outcome = nsvcd__prove_segments(p, q);
       const int one_tile = !nsvcd__is_tiled(moving, fixed);
-      if (outcome == NSVCD__RESOLVED && !p->known.has_contact && one_tile)
+      if (outcome == NSVCD__DONE && !p->known.has_contact && one_tile)
         p->known.resolved = (double)q->begin[next];
     }
-  } while (outcome == NSVCD__RESOLVED && nsvcd__search_next_tile(q));
-  if (outcome == NSVCD__RESOLVED && !p->known.has_contact)
+  } while (outcome == NSVCD__DONE && nsvcd__search_next_tile(q));
+  if (outcome == NSVCD__DONE && !p->known.has_contact)
     p->known.resolved = (double)q->begin[all];
   return outcome;
 }
@@ -14800,8 +14814,8 @@ static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *q, in
 // motion have been tried before its intervals.
 static nsvcd__outcome nsvcd__prove_whole(nsvcd__proof *p, nsvcd__search *q, size_t limit) {
   const int is_brief = !p->ask.motion->arcs && !(p->ask.fraction > 0);
-  p->ask.is_brief = is_brief && p->work + NSVCD__LONG < limit;
-  p->ask.limit = p->ask.is_brief ? p->work + NSVCD__LONG : limit;
+  p->ask.is_brief = is_brief && p->work + NSVCD__BRIEF_BUDGET < limit;
+  p->ask.limit = p->ask.is_brief ? p->work + NSVCD__BRIEF_BUDGET : limit;
   const nsvcd__outcome outcome = nsvcd__prove_motion(p, q);
   if (outcome != NSVCD__EXHAUSTED || !p->ask.is_brief) return outcome;
   // half of what may follow an unresolved pair has been used
@@ -15169,7 +15183,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
                                                              nsvcd__search *q) {
   nsvcd__motion *m = p->ask.motion;
   const double asked = p->ask.fraction;
-  nsvcd__outcome outcome = NSVCD__RESOLVED;
+  nsvcd__outcome outcome = NSVCD__DONE;
   nsvcd__known open = p->known;
   double end = NSVCD__NEVER;
   double fraction = asked;  // 0: any contact will do
@@ -15187,7 +15201,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
     const size_t before = p->work;
     if (p->given.grows) p->ask.most = p->work + p->given.work;
     nsvcd__proof_restart(p);
-    outcome = NSVCD__RESOLVED;
+    outcome = NSVCD__DONE;
     const float gap = nsvcd__interval_gap(m, m->from, until);
     if (!(nsvcd__surface_gap(p, gap) > nsvcd__clearance(p))) {
       p->ask.is_brief = is_try;
@@ -15197,8 +15211,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
       p->ask.limit = is_try ? nsvcd__limit_after(p, NSVCD__TRY) : p->ask.most;
       outcome = p->ask.fraction > 0 ? nsvcd__prove_first(p, q) : nsvcd__prove_motion(p, q);
     }
-    const int is_resolved =
-        outcome == NSVCD__RESOLVED && !(p->known.unresolved < NSVCD__NEVER);
+    const int is_resolved = outcome == NSVCD__DONE && !(p->known.unresolved < NSVCD__NEVER);
     const int has_contact = p->known.has_contact && !(is_try && fraction > 0);
     if (is_open && has_contact) {
       open.has_contact = 1;
@@ -15218,7 +15231,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
   if (!is_open) return outcome;
   p->known = open;
   p->ask.end = end;
-  return NSVCD__RESOLVED;
+  return NSVCD__DONE;
 }
 
 // Answers a question: do the bodies meet, and when?
@@ -15243,7 +15256,7 @@ static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *q) {
   if (p->inside && clear > 0) return nsvcd__found_inside(p);
   if (p->known.has_contact) return NSVCD__FOUND_CONTACT;
   if (p->known.unresolved < NSVCD__NEVER) p->known.found = p->known.unresolved_pair;
-  return clear < NSVCD__NEVER ? NSVCD__FOUND_NEITHER : NSVCD__FOUND_FREE;
+  return clear < NSVCD__NEVER ? NSVCD__FOUND_UNDECIDED : NSVCD__FOUND_FREE;
 }
 
 // ---- the least distance
@@ -17459,7 +17472,8 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   p->work = p->normal_count = 0;
   p->low = 0;
   p->high = HUGE_VAL;
-  p->inside = p->unclear = p->in_open = p->wide = p->starts_free = 0;
+  p->inside = p->in_open = p->wide = p->starts_free = 0;
+  p->unclear = NSVCD__CLEAR;
   const double to = nsvcd__to_of(task);
   if (q->ask == NSVCD_ASK_DISTANCE) given->width = to;
   if (q->ask == NSVCD_ASK_FIRST) {
@@ -17719,7 +17733,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
     const int meets = p->known.has_contact && p->known.found.distance <= p->given.clearance;
     const int is_clear =
         p->low > 0 && p->low >= p->given.clearance && !p->unclear && !p->inside;
-    if (verdict == NSVCD__FOUND_NEITHER && (meets || is_clear))
+    if (verdict == NSVCD__FOUND_UNDECIDED && (meets || is_clear))
       verdict = meets ? NSVCD__FOUND_CONTACT : NSVCD__FOUND_FREE;
   }
 
@@ -17729,7 +17743,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   const int is_contact = verdict == NSVCD__FOUND_CONTACT;
   const int has_unresolved = p->known.unresolved < NSVCD__NEVER;
   const int names =
-      p->known.has_contact || (verdict == NSVCD__FOUND_NEITHER && has_unresolved);
+      p->known.has_contact || (verdict == NSVCD__FOUND_UNDECIDED && has_unresolved);
   if (names && !is_inside) nsvcd__resolve_normal(p);
   const nsvcd_verdict if_not_free = is_inside || is_contact ? NSVCD_HIT : NSVCD_UNDECIDED;
   nsvcd__answer_begin(task, is_free ? NSVCD_FREE : if_not_free, answer);
@@ -17752,7 +17766,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
 
   // Why not all is answered. Neither work nor finer triangles would tell what is in an open solid.
   if (p->wide || answer->verdict == NSVCD_UNDECIDED) answer->why = NSVCD_WHY_WORK;
-  if (answer->why && !p->wide && (has_unresolved || p->unclear))
+  if (answer->why && !p->wide && (has_unresolved || p->unclear == NSVCD__CANNOT_TELL))
     answer->why = NSVCD_WHY_TOO_NEAR;
   if (answer->why && p->in_open) answer->why = NSVCD_WHY_OPEN;
 
@@ -17969,8 +17983,8 @@ static void nsvcd__answer_query(nsvcd__query *query, nsvcd__hint *hint, nsvcd_an
   if (task->method == NSVCD_METHOD_PROOF) nsvcd__answer_by_proof(query, answer);
 #endif
 #if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_NETWORK)
-  // The network has an opinion on what a proof leaves undecided, if no more than yes or no is
-  // asked.
+  // The network has an opinion on what a proof leaves undecided, unless a clearance, a slop or a
+  // distance is asked for.
   const nsvcd_question *q = task->question;
   const int knows = task->moving->weights_id && task->fixed->weights_id &&
                     !(q->clearance > 0 || q->ask == NSVCD_ASK_DISTANCE || q->slop > 0);
@@ -18774,7 +18788,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define NSVCD__NUMBER_AT(name) NSVCD__OF_ISA(NSVCD__##name, NSVCD__ISA)
 
 // ---- the names, as src/make_header.py writes them
-#define NSVCD__ALL_RESOLVED NSVCD__NUMBER_AT(ALL_RESOLVED)
+#define NSVCD__ALL_DONE NSVCD__NUMBER_AT(ALL_DONE)
 #define NSVCD__ALONG_BOTH NSVCD__NUMBER_AT(ALONG_BOTH)
 #define NSVCD__ALONG_LINE NSVCD__NUMBER_AT(ALONG_LINE)
 #define NSVCD__ALONG_MOVING NSVCD__NUMBER_AT(ALONG_MOVING)
@@ -18784,9 +18798,12 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define NSVCD__BY_HULL NSVCD__NUMBER_AT(BY_HULL)
 #define NSVCD__BY_SLAB NSVCD__NUMBER_AT(BY_SLAB)
 #define NSVCD__BY_TRIANGLES NSVCD__NUMBER_AT(BY_TRIANGLES)
+#define NSVCD__CANNOT_TELL NSVCD__NUMBER_AT(CANNOT_TELL)
+#define NSVCD__CLEAR NSVCD__NUMBER_AT(CLEAR)
 #define NSVCD__CONTACTS NSVCD__NUMBER_AT(CONTACTS)
 #define NSVCD__DECODER_OUT NSVCD__NUMBER_AT(DECODER_OUT)
 #define NSVCD__DIRECTIONS NSVCD__NUMBER_AT(DIRECTIONS)
+#define NSVCD__DONE NSVCD__NUMBER_AT(DONE)
 #define NSVCD__ENTRY NSVCD__NUMBER_AT(ENTRY)
 #define NSVCD__ENTRY_BEGIN NSVCD__NUMBER_AT(ENTRY_BEGIN)
 #define NSVCD__ENTRY_END NSVCD__NUMBER_AT(ENTRY_END)
@@ -18810,7 +18827,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define NSVCD__FOUND_CONTACT NSVCD__NUMBER_AT(FOUND_CONTACT)
 #define NSVCD__FOUND_FREE NSVCD__NUMBER_AT(FOUND_FREE)
 #define NSVCD__FOUND_INSIDE NSVCD__NUMBER_AT(FOUND_INSIDE)
-#define NSVCD__FOUND_NEITHER NSVCD__NUMBER_AT(FOUND_NEITHER)
+#define NSVCD__FOUND_UNDECIDED NSVCD__NUMBER_AT(FOUND_UNDECIDED)
 #define NSVCD__GAPS NSVCD__NUMBER_AT(GAPS)
 #define NSVCD__GAP_BOTH NSVCD__NUMBER_AT(GAP_BOTH)
 #define NSVCD__GAP_LARGER NSVCD__NUMBER_AT(GAP_LARGER)
@@ -18819,9 +18836,9 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define NSVCD__INSTANTS NSVCD__NUMBER_AT(INSTANTS)
 #define NSVCD__MIDDLE NSVCD__NUMBER_AT(MIDDLE)
 #define NSVCD__NOTHING NSVCD__NUMBER_AT(NOTHING)
+#define NSVCD__NOT_ASKED NSVCD__NUMBER_AT(NOT_ASKED)
 #define NSVCD__OUT_DISTANCE NSVCD__NUMBER_AT(OUT_DISTANCE)
 #define NSVCD__OUT_LOGIT NSVCD__NUMBER_AT(OUT_LOGIT)
-#define NSVCD__RESOLVED NSVCD__NUMBER_AT(RESOLVED)
 #define NSVCD__SHRUNK NSVCD__NUMBER_AT(SHRUNK)
 #define NSVCD__SUPPORTING NSVCD__NUMBER_AT(SUPPORTING)
 #define NSVCD__TOO_LONG NSVCD__NUMBER_AT(TOO_LONG)
@@ -19270,6 +19287,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__twist NSVCD__AT(twist)
 #define nsvcd__twist_at NSVCD__AT(twist_at)
 #define nsvcd__twist_of NSVCD__AT(twist_of)
+#define nsvcd__unclear NSVCD__AT(unclear)
 #define nsvcd__undoes NSVCD__AT(undoes)
 #define nsvcd__undoing NSVCD__AT(undoing)
 #define nsvcd__undone_by NSVCD__AT(undone_by)

@@ -57,7 +57,7 @@ heights over another plane|above->plane != memo->plane \|\| above->key != key|ab
 pair of coarse copies as if they were the meshes|pair.margin = pair.rounding + nsvcd__off_meshes(p);|pair.margin = pair.rounding;
 round: tangents from the other side|const double fall = -nsvcd__d3_dot(p->memo.separating, moved);|const double fall = nsvcd__d3_dot(p->memo.separating, moved);
 round: tangents a little too far|const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;|const double until = fall > 0 ? nsvcd__min(end, at + above / fall) : end;
-doubts forgotten|    nsvcd__keep_unresolved(p, pair, u0, u1);\n    return NSVCD__RESOLVED;|    return NSVCD__RESOLVED;
+doubts forgotten|    nsvcd__keep_unresolved(p, pair, u0, u1);\n    return NSVCD__DONE;|    return NSVCD__DONE;
 round: edges without length by another pose|if (p->over \&\& !(nsvcd__f3_dot(edge, edge) > 0))|if (!(nsvcd__f3_dot(edge, edge) > 0))
 a block of the question before|memset(memo, 0, sizeof *memo);|const int has_block = memo->has_block;\n  memset(memo, 0, sizeof *memo);\n  memo->has_block = has_block;
 round: segments as points|nsvcd__d3_distance2(t[0], t[1]) > 0 ? 2 : 1;|nsvcd__d3_distance2(t[0], t[1]) > 0 ? 1 : 1;
@@ -89,7 +89,7 @@ containment one way|if (outer->open) return 0;\n  const int is_one|if (outer->op
 long: an interval passed over|if (is_resolved) m->from = until;|if (is_resolved) m->from = until;\n  if (is_resolved \&\& arcs == 1 \&\& until < m->ticks) m->from = nsvcd__next_keyframe(m, until);
 long: a try in vain is believed|is_resolved \|\| !is_try, p->work - before|1, p->work - before
 long: gaps by the first pose|part.count = nsvcd__pose_before(track, until - 1) + 2 - first;|part.count = 1;
-long: doubts of one interval forgotten|  p->known = open;\n  p->ask.end = end;\n  return NSVCD__RESOLVED;|  return NSVCD__RESOLVED;
+long: doubts of one interval forgotten|  p->known = open;\n  p->ask.end = end;\n  return NSVCD__DONE;|  return NSVCD__DONE;
 long: distance of the last interval|if (is_resolved) low = nsvcd__min(low, p->low);|low = p->low;
 long: ends not looked at|at_end < 2 \&\& !(asked > 0)|0
 long: contacts of a try are the first|p->known.has_contact \&\& !(is_try \&\& fraction > 0);|p->known.has_contact;
@@ -130,8 +130,8 @@ exact poses not lifted|at.position = nsvcd__d3_add(at.position, arc->push_out);|
 lift the wrong way|if (lacks > 0)\n        push_out = nsvcd__d3_add(|if (lacks > 0)\n        push_out = nsvcd__d3_sub(
 a window of another patch|p->memo.window > 0 \&\& p->fixed_blocks[0].first == first|p->memo.window > 0
 tile: every other group|nsvcd__traversal_next(traversal, \&g)) {\n    const nsvcd__sphere group|nsvcd__traversal_next(traversal, \&g) \&\& nsvcd__traversal_next(traversal, \&g)) {\n    const nsvcd__sphere group
-tile: the first only|outcome == NSVCD__RESOLVED \&\& nsvcd__search_next_tile(q));|0);
-tile: skins of the first only|p->work <= p->ask.limit ? NSVCD__RESOLVED : NSVCD__EXHAUSTED|p->work < 0 ? NSVCD__RESOLVED : NSVCD__EXHAUSTED
+tile: the first only|outcome == NSVCD__DONE \&\& nsvcd__search_next_tile(q));|0);
+tile: skins of the first only|p->work <= p->ask.limit ? NSVCD__DONE : NSVCD__EXHAUSTED|p->work < 0 ? NSVCD__DONE : NSVCD__EXHAUSTED
 tile: way without reach|nsvcd__f3_sub(nsvcd__f3_min(start, end), around);\n    const nsvcd__f3 high|nsvcd__f3_min(start, end);\n    const nsvcd__f3 high
 tile: approached in the first segment|wanted \&\& nearby \& ~met; wanted \&= wanted - 1) {|wanted \&\& nearby \& ~met; wanted = 0) {
 level: near groups as dipoles|#define NSVCD__DIPOLE 3.0f|#define NSVCD__DIPOLE 0.8f
@@ -172,7 +172,7 @@ asks: what no part settled|  p->ask.is_brief = 0;\n  nsvcd__proof_restart(p);|  
 long: gaps by other poses|part.poses += first;|
 long: gaps without the lift|origin_gap - p->given.lengths - pushed_out;|origin_gap - p->given.lengths;
 long: a try that found nothing ends what is proven|!is_open \&\& !is_try \&\& !is_resolved|!is_open \&\& !is_resolved
-long: an interval that forgets nothing|nsvcd__proof_restart(p);\n    outcome = NSVCD__RESOLVED;|outcome = NSVCD__RESOLVED;
+long: an interval that forgets nothing|nsvcd__proof_restart(p);\n    outcome = NSVCD__DONE;|outcome = NSVCD__DONE;
 long: work of the first interval for all|if (p->given.grows) p->ask.most = p->work + p->given.work;|
 solids: corners that are not joined|const double widest = nsvcd__join_corners(m, arena->allocator);|const double widest = 0;
 solids: corners joined from afar|#define NSVCD__JOINED 1e-4|#define NSVCD__JOINED 1e-3
@@ -196,7 +196,7 @@ solids: faces turned either way wind|if ((sum.winds != 0) != (sum.either_way % 2
 asks: faces without area|length > 1e-9 * longest|length > 0
 asks: pushed through one face only|n, t->directions[0]) > -0.3 \|\| nsvcd__d3_dot(n, t->directions[1]) > -0.3|n, t->directions[0]) > -0.3 \&\& nsvcd__d3_dot(n, t->directions[1]) > -0.3
 asks: a lift that is not tried|    still->push_out = nsvcd__f3_round(push_out);|    return 0;
-asks: ends not looked at|is_brief \&\& p->work + NSVCD__LONG < limit;|0;
+asks: ends not looked at|is_brief \&\& p->work + NSVCD__BRIEF_BUDGET < limit;|0;
 asks: the start only|if (nsvcd__meets_at(p, q, at_end, NSVCD__END_BUDGET))|if (!at_end \&\& nsvcd__meets_at(p, q, at_end, NSVCD__END_BUDGET))
 asks: a bracket lost|if (pass != NSVCD__EXHAUSTED) p->low = p->ask.clearance;|p->low = 0;\n  if (pass != NSVCD__EXHAUSTED) p->low = p->ask.clearance;
 asks: a gap lost|p->low = nsvcd__max(verdict == NSVCD__FOUND_FREE ? p->given.clearance : 0, (double)gap);|p->low = 0;

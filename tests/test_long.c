@@ -395,7 +395,7 @@ static void long_open_intervals_stay(void) {
     p->given.work = p->ask.limit = p->ask.most = units;
     p->given.reserve = units / NSVCD__AFTER_UNRESOLVED;
     const nsvcd__finding verdict = nsvcd__prove(p, &query->broad_phase);
-    CHECK_EQ(verdict, trial / 2 ? NSVCD__FOUND_CONTACT : NSVCD__FOUND_NEITHER);
+    CHECK_EQ(verdict, trial / 2 ? NSVCD__FOUND_CONTACT : NSVCD__FOUND_UNDECIDED);
     CHECK_LE(nsvcd__clear_until(p), 0.2 * (double)p->ask.motion->ticks);
     if (trial / 2) CHECK_GE(p->known.found.tick, 0.99 * (double)p->ask.motion->ticks);
     CHECK_LE((double)p->work, 64 * 200);

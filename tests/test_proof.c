@@ -1983,7 +1983,7 @@ static void proof_check_depth(const attack *a, const double *lift, size_t *too_s
 
 // Any bodies that touch at the start: what is said to be free is free when lifted, and the lift is
 // short; where they are sent they are apart, and their depth is what it is.
-static void proof_lifts_are_true(void) {
+static void proof_push_outs_are_true(void) {
   shapes_rng rng = {91};
   size_t asked = 0;
   size_t lifted = 0;
@@ -3083,7 +3083,7 @@ void test_proof(void) {
   RUN(proof_may_forget);
   RUN(proof_leaves_contacts);
   RUN(proof_points_are_of_the_lifted);
-  RUN(proof_lifts_are_true);
+  RUN(proof_push_outs_are_true);
   RUN(proof_knows_what_is_within);
   RUN(proof_says_where_inside);
   RUN(proof_rays_miss_nothing);

@@ -11,7 +11,7 @@ typedef struct nsvcd_mesh {
   size_t triangle_count;
 } nsvcd_mesh;
 
-#ifndef NSVCD_NO_OBJ
+#ifndef NSVCD_NO_READERS
 // Reads OBJ text into a mesh. Only the lines v and f are read; lines end in LF, CR or CR LF. A
 // face's corners are v, v/vt, v//vn or v/vt/vn. The number after a slash may be missing, and a
 // corner may refer to a vertex further down. Faces of any number of corners are triangulated,

@@ -7,8 +7,8 @@
 #define NSVCD_VERSION_MINOR 3
 #define NSVCD_VERSION_PATCH 0
 
-#if defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_OBJ)
-#define NSVCD_NO_OBJ
+#if defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_READERS)
+#define NSVCD_NO_READERS
 #endif
 #if defined(NSVCD_NO_PROOF) && defined(NSVCD_NO_NETWORK)
 #error "neuralsvcd.h: NSVCD_NO_PROOF and NSVCD_NO_NETWORK leave nothing that answers"

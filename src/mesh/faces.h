@@ -3,7 +3,7 @@
 #include "mesh.h"
 #include "polygons.h"
 
-#ifndef NSVCD_NO_OBJ
+#ifndef NSVCD_NO_READERS
 // Checks the faces. *triangles: how many they become; *most: corners of the largest.
 static nsvcd_result nsvcd__faces_check(const nsvcd_faces *f, size_t *triangles,
                                        uint32_t *most) {
@@ -59,4 +59,4 @@ NSVCDDEF nsvcd_result nsvcd_mesh_of_faces(const nsvcd_faces *f, const nsvcd_allo
   *mesh = out;
   return NSVCD_OK;
 }
-#endif  // NSVCD_NO_OBJ
+#endif  // NSVCD_NO_READERS

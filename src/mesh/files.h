@@ -2,7 +2,7 @@
 #pragma once
 #include "stl.h"
 
-#ifndef NSVCD_NO_OBJ
+#ifndef NSVCD_NO_READERS
 NSVCDDEF nsvcd_result nsvcd_mesh_parse(const void *data, size_t size,
                                        const nsvcd_mesh_options *options,
                                        const nsvcd_allocator *alloc, nsvcd_mesh *mesh,
@@ -96,4 +96,4 @@ NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *al
   return nsvcd_mesh_load(path, &nsvcd__as_stl, alloc, mesh, error_line);
 }
 #endif  // NSVCD_NO_STDIO
-#endif  // NSVCD_NO_OBJ
+#endif  // NSVCD_NO_READERS

@@ -9,7 +9,7 @@
 #include "mesh.h"
 #include "polygons.h"
 
-#ifndef NSVCD_NO_OBJ
+#ifndef NSVCD_NO_READERS
 // Fills zeroed options with those given (NULL: none) and with defaults.
 static nsvcd_result nsvcd__mesh_options_of(const nsvcd_mesh_options *given,
                                            nsvcd_mesh_options *out) {
@@ -311,4 +311,4 @@ static nsvcd_result nsvcd__obj_read(nsvcd__obj *obj, nsvcd__arena *arena, nsvcd_
   *obj = begin;
   return nsvcd__obj_faces(obj, mesh, &polygon);
 }
-#endif  // NSVCD_NO_OBJ
+#endif  // NSVCD_NO_READERS

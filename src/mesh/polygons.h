@@ -13,7 +13,7 @@
 #include "../ground/memory.h"
 #include "../ground/slices.h"
 
-#ifndef NSVCD_NO_OBJ
+#ifndef NSVCD_NO_READERS
 #define NSVCD__RUN 8
 
 // A point in the polygon's plane.
@@ -276,4 +276,4 @@ static void nsvcd__polygon_triangulate(nsvcd__polygon *poly, const float *positi
   triangles[1] = corners[corners[at].next].vertex;
   triangles[2] = corners[corners[at].previous].vertex;
 }
-#endif  // NSVCD_NO_OBJ
+#endif  // NSVCD_NO_READERS

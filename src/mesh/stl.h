@@ -7,7 +7,7 @@
 #include "weld.h"
 #include "obj.h"
 
-#ifndef NSVCD_NO_OBJ
+#ifndef NSVCD_NO_READERS
 #define NSVCD__STL_HEADER 84  // bytes, the count of triangles included
 #define NSVCD__STL_FACET 50
 
@@ -143,4 +143,4 @@ static nsvcd_result nsvcd__stl_read(nsvcd__obj *text, const void *data, size_t s
   text->line = 0;
   return nsvcd__stl_weld(mesh, alloc) ? NSVCD_OK : NSVCD_ERROR_MEMORY;
 }
-#endif  // NSVCD_NO_OBJ
+#endif  // NSVCD_NO_READERS

@@ -231,8 +231,12 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__geometry *f, double 
   ray.rounding = (float)ray.margin + 4 * NSVCD__ROUNDING * f->body->extent;
   int clear = 0;
   int odd = 0;
-  for (size_t n = 0; n < 8 && p->work <= p->ask.limit; n++) {
+  for (size_t n = 0; n < 8; n++) {
     const double *d = directions[best ^ n];
+    if (p->work > p->ask.limit) {
+      p->unclear = NSVCD__NOT_ASKED;
+      return 0;
+    }
     ray.direction = nsvcd__d3_of(d[0], d[1], d[2]);
     ray.direction = nsvcd__d3_scale(ray.direction, 1 / nsvcd__d3_norm(ray.direction));
     const nsvcd__crossings sum = nsvcd__cross_all(p, f, &ray);
@@ -243,7 +247,7 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__geometry *f, double 
     odd += sum.nearly % 2 != 0 || sum.winds != 0;
     clear++;
   }
-  if (clear == 0 || 2 * odd > clear) p->unclear = 1;
+  if (clear == 0 || 2 * odd > clear) p->unclear = NSVCD__CANNOT_TELL;
   p->in_open |= clear > 0 && 2 * odd > clear;
   return 0;
 }
@@ -319,7 +323,7 @@ static int nsvcd__contains_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
   for (size_t n = first; n < end; n++) {
     if (!nsvcd__seed_is_near(e, e->inner->seeds + 3 * n)) continue;
     if (nsvcd__check_budget(p)) {
-      p->unclear = 1;
+      p->unclear = NSVCD__NOT_ASKED;
       return 0;
     }
     const nsvcd__d3 seed = nsvcd__d3_load(e->inner->seeds + 3 * n);

@@ -58,7 +58,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
                                                              nsvcd__search *q) {
   nsvcd__motion *m = p->ask.motion;
   const double asked = p->ask.fraction;
-  nsvcd__outcome outcome = NSVCD__RESOLVED;
+  nsvcd__outcome outcome = NSVCD__DONE;
   nsvcd__known open = p->known;
   double end = NSVCD__NEVER;
   double fraction = asked;  // 0: any contact will do
@@ -76,7 +76,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
     const size_t before = p->work;
     if (p->given.grows) p->ask.most = p->work + p->given.work;
     nsvcd__proof_restart(p);
-    outcome = NSVCD__RESOLVED;
+    outcome = NSVCD__DONE;
     const float gap = nsvcd__interval_gap(m, m->from, until);
     if (!(nsvcd__surface_gap(p, gap) > nsvcd__clearance(p))) {
       p->ask.is_brief = is_try;
@@ -86,8 +86,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
       p->ask.limit = is_try ? nsvcd__limit_after(p, NSVCD__TRY) : p->ask.most;
       outcome = p->ask.fraction > 0 ? nsvcd__prove_first(p, q) : nsvcd__prove_motion(p, q);
     }
-    const int is_resolved =
-        outcome == NSVCD__RESOLVED && !(p->known.unresolved < NSVCD__NEVER);
+    const int is_resolved = outcome == NSVCD__DONE && !(p->known.unresolved < NSVCD__NEVER);
     const int has_contact = p->known.has_contact && !(is_try && fraction > 0);
     if (is_open && has_contact) {
       open.has_contact = 1;
@@ -107,7 +106,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
   if (!is_open) return outcome;
   p->known = open;
   p->ask.end = end;
-  return NSVCD__RESOLVED;
+  return NSVCD__DONE;
 }
 
 // Answers a question: do the bodies meet, and when?
@@ -132,7 +131,7 @@ static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *q) {
   if (p->inside && clear > 0) return nsvcd__found_inside(p);
   if (p->known.has_contact) return NSVCD__FOUND_CONTACT;
   if (p->known.unresolved < NSVCD__NEVER) p->known.found = p->known.unresolved_pair;
-  return clear < NSVCD__NEVER ? NSVCD__FOUND_NEITHER : NSVCD__FOUND_FREE;
+  return clear < NSVCD__NEVER ? NSVCD__FOUND_UNDECIDED : NSVCD__FOUND_FREE;
 }
 
 // ---- the least distance

@@ -97,16 +97,16 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
           nsvcd__add_patch_pairs(p, q, g, NSVCD__GROUP * h + l, left);
           if (!*left) break;
           outcome = nsvcd__take_patch_pairs(p, q);
-          if (outcome != NSVCD__RESOLVED) return outcome;
+          if (outcome != NSVCD__DONE) return outcome;
         }
       }
       if (p->fresh_count < NSVCD__ENOUGH_FRESH) continue;
       outcome = nsvcd__take_patch_pairs(p, q);
-      if (outcome != NSVCD__RESOLVED) return outcome;
+      if (outcome != NSVCD__DONE) return outcome;
     }
   }
   outcome = nsvcd__take_patch_pairs(p, q);
-  if (outcome != NSVCD__RESOLVED || p->ask.collects) return outcome;
+  if (outcome != NSVCD__DONE || p->ask.collects) return outcome;
   return nsvcd__resolve_patch_pairs(p, q);
 }
 
@@ -118,10 +118,10 @@ static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *q) {
   const nsvcd_body *fixed = p->fixed.body;
   const size_t all = q->segments;
   const size_t few = p->ask.first > 0 ? NSVCD__IN_ORDER : all;
-  nsvcd__outcome outcome = NSVCD__RESOLVED;
+  nsvcd__outcome outcome = NSVCD__DONE;
   (void)nsvcd__search_begin(moving, fixed, nsvcd__segments_in(0, all), q);
   do {
-    for (size_t s = 0; s < all && outcome == NSVCD__RESOLVED; s += few) {
+    for (size_t s = 0; s < all && outcome == NSVCD__DONE; s += few) {
       const size_t next = s + few < all ? s + few : all;
       if (!nsvcd__matters(p, q, s)) break;
       q->wanted = nsvcd__segments_in(s, next);
@@ -129,11 +129,11 @@ static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *q) {
       q->waiting = 0;
       outcome = nsvcd__prove_segments(p, q);
       const int one_tile = !nsvcd__is_tiled(moving, fixed);
-      if (outcome == NSVCD__RESOLVED && !p->known.has_contact && one_tile)
+      if (outcome == NSVCD__DONE && !p->known.has_contact && one_tile)
         p->known.resolved = (double)q->begin[next];
     }
-  } while (outcome == NSVCD__RESOLVED && nsvcd__search_next_tile(q));
-  if (outcome == NSVCD__RESOLVED && !p->known.has_contact)
+  } while (outcome == NSVCD__DONE && nsvcd__search_next_tile(q));
+  if (outcome == NSVCD__DONE && !p->known.has_contact)
     p->known.resolved = (double)q->begin[all];
   return outcome;
 }

@@ -1,7 +1,7 @@
 // In: fresh patch pairs, as the search finds them. Out: each is separated, by a plane between its
 // hulls or by its triangles, or in contact, or kept as an unresolved pair.
 #pragma once
-#include "../interface/plans.h"
+#include "../interface/queries.h"
 #include "witnesses.h"
 
 #ifndef NSVCD_NO_PROOF
@@ -58,18 +58,18 @@ static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t l, nsvcd__block
     if (patience == 0) return NSVCD__TOO_LONG;
     if (p->memo.shared > NSVCD__SHARED * p->all_tried) {
       p->all_tried++;
-      if (nsvcd__patches_apart(p, i, j, u0, u1)) return NSVCD__ALL_RESOLVED;
+      if (nsvcd__patches_apart(p, i, j, u0, u1)) return NSVCD__ALL_DONE;
     }
     const size_t a = p->moving_block.first + l;
     const size_t b = fixed->first + nsvcd__low_bit(met);
     const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, b);
     const nsvcd__outcome one = nsvcd__resolve_pair(p, &pair, u0, u1);
-    if (one != NSVCD__RESOLVED) return one;
+    if (one != NSVCD__DONE) return one;
     if (p->parts > patience) return NSVCD__TOO_LONG;
     p->memo.shared =
         nsvcd__d3_distance2(p->memo.separating, before) > 0 ? 0 : p->memo.shared + 1;
   }
-  return NSVCD__RESOLVED;
+  return NSVCD__DONE;
 }
 
 // All triangle pairs of patches i and j over an interval from u0 to u1 of the arc.
@@ -108,13 +108,13 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
         for (; lanes; lanes &= lanes - 1) {
           const nsvcd__outcome row = nsvcd__resolve_row(p, nsvcd__low_bit(lanes), fixed, arm,
                                                         margin, u0, u1, patience);
-          if (row == NSVCD__ALL_RESOLVED) return NSVCD__RESOLVED;
-          if (row != NSVCD__RESOLVED) return row;
+          if (row == NSVCD__ALL_DONE) return NSVCD__DONE;
+          if (row != NSVCD__DONE) return row;
         }
       }
     }
   }
-  return NSVCD__RESOLVED;
+  return NSVCD__DONE;
 }
 
 // Resolves a patch pair that no plane separates over its segment, arc by arc. An arc is halved
@@ -149,13 +149,13 @@ static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__se
             nsvcd__resolve_triangles(p, i, j, &p->interval, u, end, patience);
         if (part == NSVCD__ANSWERED || part == NSVCD__EXHAUSTED) return part;
         if (part == NSVCD__TOO_LONG) ends[left++] = 0.5 * (u + end);
-        if (part != NSVCD__RESOLVED) continue;
+        if (part != NSVCD__DONE) continue;
       }
       u = end;
       left--;
     }
   }
-  return NSVCD__RESOLVED;
+  return NSVCD__DONE;
 }
 
 // Does the plane that held last separate a patch pair over its segment, moved along its normal? If
@@ -288,10 +288,10 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_patch_pairs(nsvcd__proof *p
     const int is_clipped = (p->clipped >> patches->segment & 1) != 0;
     if (is_clipped && nsvcd__is_separated(p, q, patches)) continue;
     const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(p, q, patches);
-    if (outcome != NSVCD__RESOLVED) return outcome;
+    if (outcome != NSVCD__DONE) return outcome;
   }
   p->count = 0;
-  return nsvcd__check_budget(p) ? NSVCD__EXHAUSTED : NSVCD__RESOLVED;
+  return nsvcd__check_budget(p) ? NSVCD__EXHAUSTED : NSVCD__DONE;
 }
 
 // Sifts fresh patch pairs: drops those that planes separate, seeks a witness in the others, and
@@ -325,14 +325,14 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
     if ((p->ask.first > 0 || p->memo.shared > 0) &&
         nsvcd__is_straight(nsvcd__arc_at(p, first))) {
       const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(p, q, patches);
-      if (outcome != NSVCD__RESOLVED) return outcome;
+      if (outcome != NSVCD__DONE) return outcome;
       continue;
     }
     if (p->misses >= NSVCD__FEW_MISSES) {
       const nsvcd__interval *over = nsvcd__segment_interval(p, q, patches->segment);
       const nsvcd__outcome by_triangles =
           nsvcd__resolve_triangles(p, patches->moving, patches->fixed, over, 0, 0, 0);
-      if (by_triangles == NSVCD__RESOLVED) continue;
+      if (by_triangles == NSVCD__DONE) continue;
     }
     const int may_meet = tells_more || p->misses < NSVCD__MANY_MISSES;
     if (may_meet && !patches->sought &&
@@ -341,11 +341,11 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
     p->misses++;
     if (p->count == NSVCD__PATCH_PAIRS) {
       const nsvcd__outcome outcome = nsvcd__resolve_patch_pairs(p, q);
-      if (outcome != NSVCD__RESOLVED) return outcome;
+      if (outcome != NSVCD__DONE) return outcome;
     }
     p->of.kept.pairs[p->count++] = *patches;
   }
-  return NSVCD__RESOLVED;
+  return NSVCD__DONE;
 }
 
 // Is there room for contacts, and can those that were collected still be undone?
@@ -373,7 +373,7 @@ static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *q)
     }
   }
   p->fresh_count = 0;
-  return nsvcd__collects_on(p) && p->work <= p->ask.limit ? NSVCD__RESOLVED : NSVCD__EXHAUSTED;
+  return nsvcd__collects_on(p) && p->work <= p->ask.limit ? NSVCD__DONE : NSVCD__EXHAUSTED;
 }
 
 // Bounds, along directions first .. last - 1 of a manifold, of the points on both patches of a

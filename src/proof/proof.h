@@ -132,7 +132,7 @@
 
 // What else a question asks.
 // The budget of the first attempt, before the two ends of the motion are tried by themselves.
-#define NSVCD__LONG 6000
+#define NSVCD__BRIEF_BUDGET 6000
 // The budget at each end.
 #define NSVCD__END_BUDGET 1000
 // The budget for triangles that meet where one body is inside the other.
@@ -300,15 +300,15 @@ typedef enum nsvcd__finding {
   NSVCD__FOUND_FREE,
   NSVCD__FOUND_CONTACT,
   NSVCD__FOUND_INSIDE,
-  NSVCD__FOUND_NEITHER
+  NSVCD__FOUND_UNDECIDED
 } nsvcd__finding;
 
 // What becomes of a part of it: a pair of patches, or of triangles, over an interval.
 typedef enum nsvcd__outcome {
   // separated, or kept as an unresolved pair, or no longer asked about
-  NSVCD__RESOLVED,
+  NSVCD__DONE,
   // the same of all triangles of both patches
-  NSVCD__ALL_RESOLVED,
+  NSVCD__ALL_DONE,
   // a contact was sought and not found
   NSVCD__NOTHING,
   // a contact was found that answers the question
@@ -378,6 +378,13 @@ typedef struct nsvcd__asked {
   double slop;
 } nsvcd__asked;
 
+// Why it could not be told what is inside of what: the rays do not tell, or the budget ended first.
+typedef enum nsvcd__unclear {
+  NSVCD__CLEAR,
+  NSVCD__CANNOT_TELL,
+  NSVCD__NOT_ASKED
+} nsvcd__unclear;
+
 // What is known of a motion.
 typedef struct nsvcd__known {
   int has_contact;
@@ -428,7 +435,7 @@ typedef struct nsvcd__proof {
   // its surface; enclosed: a point of it, in the fixed body's frame; unclear: it could not be told,
   int inside;
   nsvcd__d3 enclosed;
-  int unclear;
+  nsvcd__unclear unclear;
   // since the other is nearly a solid, but not closed
   int in_open;
   // the budget did not suffice for the resolution of the least distance

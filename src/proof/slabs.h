@@ -1,6 +1,6 @@
 // In: patch pairs, a slice at a time. Out: those that no plane normal to a slab separates.
 #pragma once
-#include "../interface/plans.h"
+#include "../interface/queries.h"
 #include "../search/search.h"
 #include "motion_bounds.h"
 

@@ -323,7 +323,7 @@ static nsvcd__outcome nsvcd__resolve_too_near(nsvcd__proof *p,
                                               double u1, double when) {
   if (!(p->ask.measure > 0)) {
     nsvcd__keep_unresolved(p, pair, u0, u1);
-    return NSVCD__RESOLVED;
+    return NSVCD__DONE;
   }
   const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, when);
   const double distance = sqrt(nearest.square);
@@ -395,11 +395,11 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
   const double all = nsvcd__min(u1, nsvcd__arc_limit(p));
   if (u0 < all && nsvcd__plane_separates(p, pair, u0, all)) {
     p->work++;
-    return NSVCD__RESOLVED;
+    return NSVCD__DONE;
   }
   for (double u = u0;;) {  // until u it is separated
     const double end = nsvcd__min(u1, nsvcd__arc_limit(p));
-    if (!(u < end)) return shrunk ? NSVCD__SHRUNK : NSVCD__RESOLVED;
+    if (!(u < end)) return shrunk ? NSVCD__SHRUNK : NSVCD__DONE;
     at = nsvcd__min(at, end);
     p->work++;
     NSVCD__TALLY(pairs, 1);
@@ -427,7 +427,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
       // what follows is no nearer
       const nsvcd__outcome part = nsvcd__resolve_too_near(p, pair, u, at, at);
       if (part == NSVCD__ANSWERED) return part;
-      if (part == NSVCD__RESOLVED) u = end;
+      if (part == NSVCD__DONE) u = end;
     } else {
       at = fall > 0 ? at + above / fall : 0.5 * (u + at);
     }
@@ -478,12 +478,12 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
       const nsvcd__outcome part = nsvcd__resolve_short_interval(p, pair, u, end);
       if (part == NSVCD__ANSWERED) return part;
       shrunk |= part == NSVCD__SHRUNK;
-      if (part != NSVCD__RESOLVED) continue;
+      if (part != NSVCD__DONE) continue;
       unresolved_count++;
     }
     u = end;
     left--;
   }
-  return shrunk ? NSVCD__SHRUNK : NSVCD__RESOLVED;
+  return shrunk ? NSVCD__SHRUNK : NSVCD__DONE;
 }
 #endif  // NSVCD_NO_PROOF

@@ -88,8 +88,8 @@ static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *q, in
 // motion have been tried before its intervals.
 static nsvcd__outcome nsvcd__prove_whole(nsvcd__proof *p, nsvcd__search *q, size_t limit) {
   const int is_brief = !p->ask.motion->arcs && !(p->ask.fraction > 0);
-  p->ask.is_brief = is_brief && p->work + NSVCD__LONG < limit;
-  p->ask.limit = p->ask.is_brief ? p->work + NSVCD__LONG : limit;
+  p->ask.is_brief = is_brief && p->work + NSVCD__BRIEF_BUDGET < limit;
+  p->ask.limit = p->ask.is_brief ? p->work + NSVCD__BRIEF_BUDGET : limit;
   const nsvcd__outcome outcome = nsvcd__prove_motion(p, q);
   if (outcome != NSVCD__EXHAUSTED || !p->ask.is_brief) return outcome;
   // half of what may follow an unresolved pair has been used

@@ -99,7 +99,8 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   p->work = p->normal_count = 0;
   p->low = 0;
   p->high = HUGE_VAL;
-  p->inside = p->unclear = p->in_open = p->wide = p->starts_free = 0;
+  p->inside = p->in_open = p->wide = p->starts_free = 0;
+  p->unclear = NSVCD__CLEAR;
   const double to = nsvcd__to_of(task);
   if (q->ask == NSVCD_ASK_DISTANCE) given->width = to;
   if (q->ask == NSVCD_ASK_FIRST) {
@@ -359,7 +360,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
     const int meets = p->known.has_contact && p->known.found.distance <= p->given.clearance;
     const int is_clear =
         p->low > 0 && p->low >= p->given.clearance && !p->unclear && !p->inside;
-    if (verdict == NSVCD__FOUND_NEITHER && (meets || is_clear))
+    if (verdict == NSVCD__FOUND_UNDECIDED && (meets || is_clear))
       verdict = meets ? NSVCD__FOUND_CONTACT : NSVCD__FOUND_FREE;
   }
 
@@ -369,7 +370,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   const int is_contact = verdict == NSVCD__FOUND_CONTACT;
   const int has_unresolved = p->known.unresolved < NSVCD__NEVER;
   const int names =
-      p->known.has_contact || (verdict == NSVCD__FOUND_NEITHER && has_unresolved);
+      p->known.has_contact || (verdict == NSVCD__FOUND_UNDECIDED && has_unresolved);
   if (names && !is_inside) nsvcd__resolve_normal(p);
   const nsvcd_verdict if_not_free = is_inside || is_contact ? NSVCD_HIT : NSVCD_UNDECIDED;
   nsvcd__answer_begin(task, is_free ? NSVCD_FREE : if_not_free, answer);
@@ -392,7 +393,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
 
   // Why not all is answered. Neither work nor finer triangles would tell what is in an open solid.
   if (p->wide || answer->verdict == NSVCD_UNDECIDED) answer->why = NSVCD_WHY_WORK;
-  if (answer->why && !p->wide && (has_unresolved || p->unclear))
+  if (answer->why && !p->wide && (has_unresolved || p->unclear == NSVCD__CANNOT_TELL))
     answer->why = NSVCD_WHY_TOO_NEAR;
   if (answer->why && p->in_open) answer->why = NSVCD_WHY_OPEN;
 

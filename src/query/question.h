@@ -200,8 +200,8 @@ static void nsvcd__answer_query(nsvcd__query *query, nsvcd__hint *hint, nsvcd_an
   if (task->method == NSVCD_METHOD_PROOF) nsvcd__answer_by_proof(query, answer);
 #endif
 #if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_NETWORK)
-  // The network has an opinion on what a proof leaves undecided, if no more than yes or no is
-  // asked.
+  // The network has an opinion on what a proof leaves undecided, unless a clearance, a slop or a
+  // distance is asked for.
   const nsvcd_question *q = task->question;
   const int knows = task->moving->weights_id && task->fixed->weights_id &&
                     !(q->clearance > 0 || q->ask == NSVCD_ASK_DISTANCE || q->slop > 0);

@@ -478,6 +478,22 @@ static void work_that_ends_is_told_and_more_decides(void) {
   CHECK(enough.verdict == NSVCD_FREE && enough.work > little.work);
   nsvcd_body_free(drawer, NULL);
   nsvcd_body_free(side, NULL);
+
+  // also where all that is left to tell is whether one is inside of the other
+  const nsvcd_body *shelf = body_of(stacked(box_mesh(1, 1, 0.1f), box_mesh(1, 1, 0.1f), 1), NULL);
+  const nsvcd_body *books =
+      body_of(stacked(box_mesh(0.2f, 0.2f, 0.1f), box_mesh(0.2f, 0.2f, 0.1f), 0.3f), NULL);
+  const nsvcd_pose between = at(0, 0, 0.4f);
+  question = question_about(books, &between, 1, shelf);
+  nsvcd_answer answer;
+  for (question.work = 1; question.work < 1000; question.work++) {
+    answer = answer_to(&question);
+    if (answer.verdict == NSVCD_FREE) break;
+    CHECK(answer.verdict == NSVCD_UNDECIDED && answer.why == NSVCD_WHY_WORK);
+  }
+  CHECK(question.work > 1 && answer.verdict == NSVCD_FREE);
+  nsvcd_body_free(shelf, NULL);
+  nsvcd_body_free(books, NULL);
 }
 
 // A crate over a coarse table, nearer than its triangles are stored to: between which two it cannot
