@@ -166,6 +166,7 @@ extern "C" {
 #include "mesh/weld.h"      // vertices at the same position
 #include "mesh/polygons.h"  // one face into triangles
 #include "mesh/faces.h"     // faces of any number of corners into a mesh
+#include "mesh/text.h"      // tokens and numbers of a text, metres
 #include "mesh/obj.h"       // Wavefront OBJ
 #include "mesh/stl.h"       // STL, binary and text
 #include "mesh/files.h"     // either, with an origin and a scale

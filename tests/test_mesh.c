@@ -213,15 +213,15 @@ static void mesh_obj_refused(void) {
 
 // Counters close to their caps: nobody has 16 GB of text for a test.
 static void mesh_obj_counts_are_capped(void) {
-  nsvcd__obj obj;
-  nsvcd__obj_begin(&obj, "v\nv\n", 4);
+  nsvcd__text obj;
+  nsvcd__text_begin(&obj, "v\nv\n", 4);
   obj.vertices = 0x7ffffffe;
   CHECK_EQ(nsvcd__obj_count(&obj), NSVCD_ERROR_TOO_LARGE);
   CHECK_EQ(obj.line, 2);
-  nsvcd__obj_begin(&obj, "f 1 2 3\nf 1 2 3 4\n", 18);
+  nsvcd__text_begin(&obj, "f 1 2 3\nf 1 2 3 4\n", 18);
   obj.triangles = 0x7ffffffc;
   CHECK_EQ(nsvcd__obj_count(&obj), NSVCD_OK);
-  nsvcd__obj_begin(&obj, "f 1 2 3\nf 1 2 3 4\n", 18);
+  nsvcd__text_begin(&obj, "f 1 2 3\nf 1 2 3 4\n", 18);
   obj.triangles = 0x7ffffffd;
   CHECK_EQ(nsvcd__obj_count(&obj), NSVCD_ERROR_TOO_LARGE);
   CHECK_EQ(obj.line, 2);
@@ -237,10 +237,10 @@ static void mesh_obj_numbers(void) {
     char text[512];
     double x = mesh_uniform(-1, 1) * pow(10, mesh_uniform(-30, 5.9));
     snprintf(text, sizeof text, formats[i % 6], i % 12 < 6 ? x : (double)(float)x);
-    nsvcd__obj obj;
+    nsvcd__text obj;
     double value = 0;
-    nsvcd__obj_begin(&obj, text, strlen(text));
-    CHECK_EQ(nsvcd__obj_number(&obj, &value), NSVCD_OK);
+    nsvcd__text_begin(&obj, text, strlen(text));
+    CHECK_EQ(nsvcd__text_number(&obj, &value), NSVCD_OK);
     wrong += (float)value < strtof(text, NULL) || (float)value > strtof(text, NULL);
     tried++;
   }
@@ -254,10 +254,10 @@ static void mesh_obj_numbers(void) {
                                       "123456789012345678901234567890e-27",
                                       "0.000000000000000000000000000012345e27"};
   for (size_t i = 0; i < sizeof exact / sizeof exact[0]; ++i) {
-    nsvcd__obj obj;
+    nsvcd__text obj;
     double value = 0;
-    nsvcd__obj_begin(&obj, exact[i], strlen(exact[i]));
-    CHECK_EQ(nsvcd__obj_number(&obj, &value), NSVCD_OK);
+    nsvcd__text_begin(&obj, exact[i], strlen(exact[i]));
+    CHECK_EQ(nsvcd__text_number(&obj, &value), NSVCD_OK);
     CHECK_EQ((float)value, strtof(exact[i], NULL));
   }
 }

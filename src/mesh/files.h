@@ -1,5 +1,6 @@
 // In: an OBJ or STL file, and how its numbers become metres. Out: nsvcd_mesh.
 #pragma once
+#include "obj.h"
 #include "stl.h"
 
 #ifndef NSVCD_NO_READERS
@@ -7,13 +8,13 @@ NSVCDDEF nsvcd_result nsvcd_mesh_parse(const void *data, size_t size,
                                        const nsvcd_mesh_options *options,
                                        const nsvcd_allocator *alloc, nsvcd_mesh *mesh,
                                        size_t *error_line) {
-  nsvcd__obj text;
+  nsvcd__text text;
   nsvcd_mesh out;
   nsvcd__arena arena = nsvcd__arena_of(alloc);
   if (error_line) *error_line = 0;
   if (!mesh || !data) return NSVCD_ERROR_ARGUMENT;
   memset(&out, 0, sizeof out);
-  nsvcd__obj_begin(&text, (const char *)data, size);
+  nsvcd__text_begin(&text, (const char *)data, size);
   nsvcd_result result = nsvcd__mesh_options_of(options, &text.options);
   if (result) return result;
   int is_stl = text.options.format == NSVCD_MESH_STL;

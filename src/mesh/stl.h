@@ -5,7 +5,7 @@
 // three vertices a loop.
 #pragma once
 #include "weld.h"
-#include "obj.h"
+#include "text.h"
 
 #ifndef NSVCD_NO_READERS
 #define NSVCD__STL_HEADER 84  // bytes, the count of triangles included
@@ -39,10 +39,10 @@ static nsvcd_result nsvcd__stl_binary(const void *data, const nsvcd_mesh_options
 }
 
 // Goes to the next token, on whichever line; 0 at the end of the text.
-static int nsvcd__stl_token(nsvcd__obj *text) {
+static int nsvcd__stl_token(nsvcd__text *text) {
   for (;;) {
-    const size_t newline = nsvcd__obj_newline(text->at, text->end);
-    const size_t skipped = newline ? newline : nsvcd__obj_blank(text->at, text->end);
+    const size_t newline = nsvcd__text_newline(text->at, text->end);
+    const size_t skipped = newline ? newline : nsvcd__text_blank(text->at, text->end);
     if (!skipped) return text->at < text->end;
     text->line += newline > 0;
     text->at += skipped;
@@ -50,31 +50,31 @@ static int nsvcd__stl_token(nsvcd__obj *text) {
 }
 
 // Passes the token if it is this word, in whatever case.
-static int nsvcd__stl_accept(nsvcd__obj *text, const char *word) {
+static int nsvcd__stl_accept(nsvcd__text *text, const char *word) {
   const char *p = text->at;
   for (; *word; word++, p++) {
     if (p == text->end || (*p | 32) != *word) return 0;
   }
-  nsvcd__obj rest = *text;
+  nsvcd__text rest = *text;
   rest.at = p;
-  if (!nsvcd__obj_token_ends(&rest)) return 0;
+  if (!nsvcd__text_token_ends(&rest)) return 0;
   text->at = p;
   return 1;
 }
 
 // Does a text begin with the word "solid"?
-static int nsvcd__stl_is_solid(nsvcd__obj text) {
+static int nsvcd__stl_is_solid(nsvcd__text text) {
   return nsvcd__stl_token(&text) && nsvcd__stl_accept(&text, "solid");
 }
 
 // Reads the corners (count, 3) of a text; NULL: only counts them.
-static nsvcd_result nsvcd__stl_text(nsvcd__obj *text, float *corners, size_t *count) {
+static nsvcd_result nsvcd__stl_text(nsvcd__text *text, float *corners, size_t *count) {
   size_t in_loop = 0;
   *count = 0;
   while (nsvcd__stl_token(text)) {
     if (nsvcd__stl_accept(text, "solid") || nsvcd__stl_accept(text, "endsolid")) {
       // a name follows
-      while (!nsvcd__obj_line_ends(text)) text->at++;
+      while (!nsvcd__text_line_ends(text)) text->at++;
     } else if (nsvcd__stl_accept(text, "endloop")) {
       if (in_loop != 3) return NSVCD_ERROR_SYNTAX;
       in_loop = 0;
@@ -82,7 +82,7 @@ static nsvcd_result nsvcd__stl_text(nsvcd__obj *text, float *corners, size_t *co
       for (size_t k = 0; k < 3 && corners; k++) {
         double value = 0;
         if (!nsvcd__stl_token(text)) return NSVCD_ERROR_SYNTAX;
-        nsvcd_result result = nsvcd__obj_number(text, &value);
+        nsvcd_result result = nsvcd__text_number(text, &value);
         float *corner = corners + 3 * *count + k;
         if (!result) result = nsvcd__mesh_number(&text->options, k, value, corner);
         if (result) return result;
@@ -90,7 +90,7 @@ static nsvcd_result nsvcd__stl_text(nsvcd__obj *text, float *corners, size_t *co
       in_loop++;
       ++*count;
     } else {
-      nsvcd__obj_skip_token(text);
+      nsvcd__text_skip_token(text);
     }
   }
   return in_loop == 0 ? NSVCD_OK : NSVCD_ERROR_SYNTAX;
@@ -117,9 +117,9 @@ static int nsvcd__stl_weld(nsvcd_mesh *mesh, const nsvcd_allocator *alloc) {
 
 // Reads a file, of which `text` is at the beginning. text->line: where it fails, or 0 if no line is
 // at fault.
-static nsvcd_result nsvcd__stl_read(nsvcd__obj *text, const void *data, size_t size,
+static nsvcd_result nsvcd__stl_read(nsvcd__text *text, const void *data, size_t size,
                                     const nsvcd_allocator *alloc, nsvcd_mesh *mesh) {
-  const nsvcd__obj begin = *text;
+  const nsvcd__text begin = *text;
   const uint64_t needed = nsvcd__stl_size(data, size);
   const int is_binary = size == needed || !nsvcd__stl_is_solid(begin) || memchr(data, 0, size);
   if (is_binary && size < needed) return NSVCD_ERROR_FORMAT;
