@@ -80,7 +80,7 @@ if clang --version 2>/dev/null | grep -q 'version 14'; then  # others know other
 else
   echo "header: no clang 14: -Weverything not tested"
 fi
-compile "${CC:-cc}" c c99 "-DNSVCD_NO_ENCODER -DNSVCD_NO_OBJ -O2"
+compile "${CC:-cc}" c c99 "-DNSVCD_NO_ENCODER -DNSVCD_NO_READERS -O2"
 ! nm "$dir/twice.o" | grep -E ' U .*(alloc|free|brk|mmap)' >&2 || fail "a query can allocate"
 compile "${CC:-cc}" c c99 "-Dnear= -Dfar= -O0"  # as windows.h does
 compile "${CC:-cc}" c c99 "-DNSVCD_NO_SIMD -O0"

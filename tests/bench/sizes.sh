@@ -32,7 +32,7 @@ row 'nothing: all there is'
 row 'the network (`NSVCD_NO_NETWORK`)' -DNSVCD_NO_NETWORK
 row '... and the encoder: proofs of bodies made elsewhere (`NSVCD_NO_ENCODER`)' -DNSVCD_NO_NETWORK -DNSVCD_NO_ENCODER
 row 'the proof (`NSVCD_NO_PROOF`)' -DNSVCD_NO_PROOF
-row 'the OBJ reader (`NSVCD_NO_READERS`)' -DNSVCD_NO_OBJ
+row 'the OBJ reader (`NSVCD_NO_READERS`)' -DNSVCD_NO_READERS
 row 'encoder and OBJ reader (`NSVCD_NO_ENCODER`)' -DNSVCD_NO_ENCODER
 row '... and float arithmetic in the decoders (`NSVCD_NO_FLOAT`)' -DNSVCD_NO_ENCODER -DNSVCD_NO_FLOAT
 row '... and the base decoder (`NSVCD_NO_BASE`)' -DNSVCD_NO_ENCODER -DNSVCD_NO_FLOAT -DNSVCD_NO_BASE
