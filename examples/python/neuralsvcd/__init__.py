@@ -1436,7 +1436,7 @@ class Plan(NamedTuple):
     collides      by the last check, or of the start or the goal where the status says so
     joint, pair   that leaves its limits; of the greatest logit; or None
     logit, time   the greatest of the last check, and when
-    deviation         metres that the spline strays from what the last check is about, the motion that is straight and
+    deviation         metres that the spline deviates by from what the last check is about, the motion that is straight and
                   slerped between its poses; measured, not proven. To have the spline clear too, ask for more clearance
     cost, smoothness  of the trajectory; the latter without collision and limits
     seeds, iterations, trajectories, sweeps  how many it took
