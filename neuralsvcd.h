@@ -1387,52 +1387,58 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     write           a surface -> what the proof reads
 //     encode          nsvcd_encode
 //     shapes          spheres, capsules, boxes, clouds
+//   motion: where bodies are, and the memory of their search
+//     motion          the moving body's poses as the fixed one sees them
+//     workspace       the memory of a search: segments, chords, tiles, candidates
+//     choice          how a motion is cut into segments, a long one into intervals
+//   proof: the theorem, and what is told of two triangles
+//     proof           the theorem; what a proof is asked, knows and remembers
+//     poses           poses in double
+//     motion_bounds   an interval of time, and how far points deviate in it
+//     triangle_pairs  two triangles, in double: separated, or in contact
+//     touches         how deep triangles that touch are, and what undoes it
+//     manifold        up to four contact points
+//   task: a question, and what it needs
+//     task            a question that has been checked, its memory, and its kernels
 //   lanes: 16 numbers at a time
 //     lanes           AVX-512, AVX2, SSE2, NEON, SIMD128 or plain C
 //     turns           rotations, lane by lane
-//   motion: where bodies are
-//     motion          the moving body's poses as the fixed one sees them
+//   segments: 16 parts of a motion
 //     segments        chords, and how far a point deviates from them
-//     workspace       the memory of a search: segments, chords, tiles
-//     choice          how a motion is cut into segments, a long one into intervals
 //     chords          spheres on chords, and which others they meet
+//     self_test       are these vectors right?
 //   search: which patches may meet
 //     planes          patches that a plane between their extremes separates
 //     intervals       when the balls of two patches meet, for the network
 //     search          which groups and patches meet, and in which segments
-//   proof: whether surfaces meet
-//     proof           the theorem; what a proof is asked, knows and remembers
-//     poses           poses in double
-//     motion_bounds   an interval of time, and how far points deviate in it
+//   separate: until when surfaces stay apart
 //     slabs           planes along the slabs of patches and of groups
 //     hulls           planes between hulls
-//     triangle_pairs  two triangles, in double: separated, or in contact
 //     blocks          16 triangles at a time
-//     manifold        up to four contact points
 //     witnesses       two triangles that meet at one time
-//     patch_pairs     two patches: separated by planes or by triangles, or in contact
+//     patch_pairs     two patches: separated, or in contact
 //     containment     whether one body is inside the other, by rays
-//     loop            the loop: every patch pair that a search finds is resolved
-//     verdict         of one search: do they meet, when first, how near
-//     long            the same of a motion of any length
-//     leave           pushing out of a contact, and how deep it is
-//     normals         a contact's normal, against the motion
+//     loop            every patch pair that a search finds is resolved
+//     distance_bound  a distance that two vertices have: the first bound
 //   network: an opinion
 //     latent_rotation Wigner matrices; latents rotated by them
 //     winding_number  whether one body is inside the other, estimated
 //     pairs           pairs of patches -> invariants
 //     decoder         invariants -> logits and distances, in float or int8
-//   query: a question, and its answer
-//     task            a question that has been checked, and its memory
-//     by_network      an answer by the network
-//     by_proof        an answer by proof
-//     question        check, choose who moves, lay out the workspace, answer
-//     self_test       a question whose answer is known
+//     opinion         candidates, ranked, and a logit for the best of them
 //   gradient: of distance or logit, by poses
 //     by_pair         by the decoder's inputs, and by the pair
 //     gradient        by the poses, and by the times of contact
-//   entry: the processor picks the vectors
-//     processor       SSE2, AVX2 or AVX-512; the public functions of queries
+//   entry: the kernels of each set, and the best ones
+//     kernels         the table of what has been compiled for a set
+//     processor       SSE2, AVX2 or AVX-512: the processor decides
+//   query: a question, and its answer
+//     verdict         of one search: do they meet, when first, how near
+//     long            the same of a motion of any length
+//     leave           pushing out of a contact, and how deep it is
+//     normals         a contact's normal, against the motion
+//     by_proof        an answer by proof
+//     question        check, choose who moves, lay out the workspace, answer
 //   plan: a motion that hits nothing
 //     spline          quintic Hermite
 //     problem         a planning problem in the caller's workspace
@@ -1537,8 +1543,10 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 #endif
 #if defined(__GNUC__) && !defined(__clang__)
 #define NSVCD__UNROLL _Pragma("GCC unroll 8")  // at -O2 too, so that sums stay in registers
+#define NSVCD__O3 __attribute__((optimize("O3")))  // short loops, that -O2 leaves as they are
 #else
 #define NSVCD__UNROLL
+#define NSVCD__O3
 #endif
 #endif  // NSVCD__HAS_GROUND_COMPILER
 
@@ -8575,526 +8583,7 @@ NSVCDDEF nsvcd_result nsvcd_encode_cloud(const float *points, size_t count, floa
 }
 #endif
 
-#endif  // NSVCD__ISA
-
-// ===================================================================== lanes: 16 numbers at a time
-
-// ------------------------------------------------------------------------------------- lanes/lanes
-// In, out: slices of 16 lanes: as many floats as a register holds. v is a slice, v3 a vector of
-// three of them.
-
-// ---- operations, for each instruction set; the plain C ones say what they mean. Macros, so that
-// the sets of x86 share one text, which entry/processor compiles three times.
-
-#undef NSVCD__OP
-#undef NSVCD__OF_ALL
-#undef NSVCD__FMA
-#undef NSVCD__LE
-#undef NSVCD__LT
-#undef NSVCD__BITS
-#undef NSVCD__SELECT
-
-#if NSVCD__SLICE == 1
-typedef float nsvcd__v;
-#define nsvcd__v_load(p) (*(p))
-#define nsvcd__v_store(p, a) (*(p) = (a))
-#define nsvcd__v_set(x) ((float)(x))
-#define nsvcd__v_add(a, b) ((float)((a) + (b)))
-#define nsvcd__v_sub(a, b) ((float)((a) - (b)))
-#define nsvcd__v_mul(a, b) ((float)((a) * (b)))
-#define nsvcd__v_div(a, b) ((float)((a) / (b)))
-#define NSVCD__MIN(a, b) (a < b ? a : b)
-#define NSVCD__MAX(a, b) (a > b ? a : b)
-#define nsvcd__v_sqrt sqrtf
-#define NSVCD__LE(a, b) ((a) <= (b))
-#define NSVCD__LT(a, b) ((a) < (b))
-#define NSVCD__BITS(mask) (mask)
-#define NSVCD__SELECT(mask, x, y) (mask ? x : y)
-#else
-#define nsvcd__v_add NSVCD__OP(add)
-#define nsvcd__v_sub NSVCD__OP(sub)
-#define nsvcd__v_mul NSVCD__OP(mul)
-#define nsvcd__v_div NSVCD__OP(div)
-#endif
-
-#if defined(__wasm_simd128__) && NSVCD__SLICE == 4
-typedef v128_t nsvcd__v;
-#define NSVCD__OP(name) wasm_f32x4_##name
-#define nsvcd__v_load wasm_v128_load
-#define nsvcd__v_store wasm_v128_store
-#define nsvcd__v_set NSVCD__OP(splat)
-// pmin(b, a) is a < b ? a : b, one instruction of x86; min, which handles NaN and -0, takes many.
-#define NSVCD__MIN(a, b) NSVCD__OP(pmin)(b, a)
-#define NSVCD__MAX(a, b) NSVCD__OP(pmax)(b, a)
-#define nsvcd__v_sqrt NSVCD__OP(sqrt)
-#define NSVCD__LE(a, b) NSVCD__OP(le)(a, b)
-#define NSVCD__LT(a, b) NSVCD__OP(lt)(a, b)
-#define NSVCD__BITS(mask) wasm_i32x4_bitmask(mask)
-#define NSVCD__SELECT(mask, x, y) wasm_v128_bitselect(x, y, mask)
-
-#elif defined(__aarch64__) && NSVCD__SLICE == 4
-typedef float32x4_t nsvcd__v;
-#define NSVCD__OP(name) v##name##q_f32
-#define nsvcd__v_load vld1q_f32
-#define nsvcd__v_store vst1q_f32
-#define nsvcd__v_set vdupq_n_f32
-#define NSVCD__FMA(a, b, c) vfmaq_f32(c, a, b)
-#define NSVCD__MIN(a, b) NSVCD__OP(min)(a, b)
-#define NSVCD__MAX(a, b) NSVCD__OP(max)(a, b)
-#define nsvcd__v_sqrt NSVCD__OP(sqrt)
-#define NSVCD__LE(a, b) NSVCD__OP(cle)(a, b)
-#define NSVCD__LT(a, b) NSVCD__OP(clt)(a, b)
-#define NSVCD__BITS(mask) nsvcd__v_bits(mask)
-#define NSVCD__SELECT(mask, x, y) NSVCD__OP(bsl)(mask, x, y)
-static inline uint32_t nsvcd__v_bits(uint32x4_t lanes) {
-  static const uint32_t bit[4] = {1, 2, 4, 8};
-  return vaddvq_u32(vandq_u32(lanes, vld1q_u32(bit)));
-}
-
-#elif NSVCD__SLICE > 1  // x86
-#define nsvcd__v_load NSVCD__OP(loadu)
-#define nsvcd__v_store NSVCD__OP(storeu)
-#define nsvcd__v_set NSVCD__OP(set1)
-#define NSVCD__MIN(a, b) NSVCD__OF_ALL(min, a, b)
-#define NSVCD__MAX(a, b) NSVCD__OF_ALL(max, a, b)
-#define nsvcd__v_sqrt(a) NSVCD__OF_ALL(sqrt, a)
-#endif
-
-#if NSVCD__SLICE == 16
-typedef __m512 nsvcd__v;
-#define NSVCD__OP(name) _mm512_##name##_ps
-// With a mask of all lanes: unmasked, gcc's own header warns in C++.
-#define NSVCD__ALL ((__mmask16)0xffff)
-#define NSVCD__OF_ALL(name, ...) _mm512_maskz_##name##_ps(NSVCD__ALL, __VA_ARGS__)
-#define NSVCD__FMA(a, b, c) _mm512_fmadd_ps(a, b, c)
-#define NSVCD__LE(a, b) _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ)
-#define NSVCD__LT(a, b) _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ)
-#define NSVCD__BITS(mask) mask
-#define NSVCD__SELECT(mask, x, y) _mm512_mask_blend_ps(mask, y, x)
-#elif NSVCD__SLICE == 8
-typedef __m256 nsvcd__v;
-#define NSVCD__OP(name) _mm256_##name##_ps
-#define NSVCD__OF_ALL(name, ...) _mm256_##name##_ps(__VA_ARGS__)
-#define NSVCD__FMA(a, b, c) _mm256_fmadd_ps(a, b, c)
-#define NSVCD__LE(a, b) _mm256_cmp_ps(a, b, _CMP_LE_OQ)
-#define NSVCD__LT(a, b) _mm256_cmp_ps(a, b, _CMP_LT_OQ)
-#define NSVCD__BITS(mask) _mm256_movemask_ps(mask)
-#define NSVCD__SELECT(mask, x, y) _mm256_blendv_ps(y, x, mask)
-#elif NSVCD__SLICE == 4 && !defined(NSVCD__OP)
-typedef __m128 nsvcd__v;
-#define NSVCD__OP(name) _mm_##name##_ps
-#define NSVCD__OF_ALL(name, ...) _mm_##name##_ps(__VA_ARGS__)
-#define NSVCD__LE(a, b) _mm_cmple_ps(a, b)
-#define NSVCD__LT(a, b) _mm_cmplt_ps(a, b)
-#define NSVCD__BITS(mask) _mm_movemask_ps(mask)
-#define NSVCD__SELECT(mask, x, y) _mm_or_ps(_mm_and_ps(mask, x), _mm_andnot_ps(mask, y))
-#endif
-
-#ifdef NSVCD_ONE_PATH
-#undef NSVCD__FMA
-#endif
-#ifndef NSVCD__FMA
-#define NSVCD__FMA(a, b, c) nsvcd__v_add(nsvcd__v_mul(a, b), c)
-#endif
-#define nsvcd__v_fma(a, b, c) NSVCD__FMA(a, b, c)  // a b + c
-// Bit i is set if a <= b in lane i of the slice, or a < b.
-#define nsvcd__v_le(a, b) ((uint32_t)NSVCD__BITS(NSVCD__LE(a, b)))
-#define nsvcd__v_lt(a, b) ((uint32_t)NSVCD__BITS(NSVCD__LT(a, b)))
-static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) {
-  return NSVCD__MIN(a, b);
-}
-static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) {
-  return NSVCD__MAX(a, b);
-}
-// a <= b ? x : y.
-static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
-  return NSVCD__SELECT(NSVCD__LE(a, b), x, y);
-}
-// The least of all lanes.
-static inline float nsvcd__v_least(nsvcd__v a) {
-#if NSVCD__SLICE == 1
-  return a;
-#elif defined(__aarch64__)
-  return vminvq_f32(a);
-#elif defined(__wasm_simd128__)
-  const nsvcd__v two = nsvcd__v_min(a, wasm_i32x4_shuffle(a, a, 2, 3, 0, 1));
-  return wasm_f32x4_extract_lane(nsvcd__v_min(two, wasm_i32x4_shuffle(two, two, 1, 0, 3, 2)),
-                                 0);
-#else
-#if NSVCD__SLICE == 4
-  const __m128 four = a;
-#else
-#if NSVCD__SLICE == 8
-  const __m256 eight = a;
-#else
-  const __m512d whole = _mm512_castps_pd(a);
-  const __m256d low = _mm512_maskz_extractf64x4_pd(0xf, whole, 0);
-  const __m256d high = _mm512_maskz_extractf64x4_pd(0xf, whole, 1);
-  const __m256 eight = _mm256_min_ps(_mm256_castpd_ps(low), _mm256_castpd_ps(high));
-#endif
-  const __m128 four =
-      _mm_min_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps(eight, 1));
-#endif
-  const __m128 two = _mm_min_ps(four, _mm_movehl_ps(four, four));
-  return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
-#endif
-}
-static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
-#if NSVCD__SLICE == 1
-  return (float)*p;
-#elif defined(__aarch64__)
-  return vcvtq_f32_s32(vmovl_s16(vld1_s16(p)));
-#elif defined(__wasm_simd128__)
-  return wasm_f32x4_convert_i32x4(wasm_i32x4_load16x4(p));
-#elif NSVCD__SLICE == 4
-  const __m128i packed = _mm_loadl_epi64((const __m128i *)(const void *)p);
-  return _mm_cvtepi32_ps(_mm_srai_epi32(_mm_unpacklo_epi16(packed, packed), 16));
-#elif NSVCD__SLICE == 8
-  const __m128i packed = _mm_loadu_si128((const __m128i *)(const void *)p);
-  return _mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(packed));
-#else
-  const __m256i packed = _mm256_loadu_si256((const __m256i *)(const void *)p);
-  const __m512i wide = _mm512_maskz_cvtepi16_epi32(NSVCD__ALL, packed);
-  return _mm512_maskz_cvtepi32_ps(NSVCD__ALL, wide);
-#endif
-}
-static inline nsvcd__v nsvcd__v_load_int8(const int8_t *p) {
-#if NSVCD__SLICE == 1
-  return (float)*p;
-#elif defined(__wasm_simd128__)
-  const v128_t wide = wasm_i16x8_extend_low_i8x16(wasm_v128_load32_zero(p));
-  return wasm_f32x4_convert_i32x4(wasm_i32x4_extend_low_i16x8(wide));
-#elif NSVCD__SLICE == 4
-  int32_t word;
-  memcpy(&word, p, sizeof word);
-#if defined(__aarch64__)
-  const int16x8_t wide = vmovl_s8(vcreate_s8((uint64_t)(uint32_t)word));
-  return vcvtq_f32_s32(vmovl_s16(vget_low_s16(wide)));
-#else
-  const __m128i packed = _mm_cvtsi32_si128(word);
-  const __m128i pairs = _mm_unpacklo_epi8(packed, packed);
-  return _mm_cvtepi32_ps(_mm_srai_epi32(_mm_unpacklo_epi16(pairs, pairs), 24));
-#endif
-#elif NSVCD__SLICE == 8
-  const __m128i packed = _mm_loadl_epi64((const __m128i *)(const void *)p);
-  return _mm256_cvtepi32_ps(_mm256_cvtepi8_epi32(packed));
-#else
-  const __m128i packed = _mm_loadu_si128((const __m128i *)(const void *)p);
-  const __m512i wide = _mm512_maskz_cvtepi8_epi32(NSVCD__ALL, packed);
-  return _mm512_maskz_cvtepi32_ps(NSVCD__ALL, wide);
-#endif
-}
-
-#define NSVCD__SLICE_MASK (((uint32_t)1 << (NSVCD__SLICE - 1) << 1) - 1)
-#define NSVCD__EACH_SLICE(l) for (size_t l = 0; l < NSVCD__LANES; l += NSVCD__SLICE)
-
-static inline nsvcd__v nsvcd__v_clamp(nsvcd__v a, float low, float high) {
-  return nsvcd__v_min(nsvcd__v_max(a, nsvcd__v_set(low)), nsvcd__v_set(high));
-}
-// All lanes times a number, and plus a number.
-static inline nsvcd__v nsvcd__v_scale(nsvcd__v a, float s) {
-  return nsvcd__v_mul(a, nsvcd__v_set(s));
-}
-static inline nsvcd__v nsvcd__v_plus(nsvcd__v a, float s) {
-  return nsvcd__v_add(a, nsvcd__v_set(s));
-}
-static inline nsvcd__v nsvcd__v_negate(nsvcd__v a) {
-  return nsvcd__v_sub(nsvcd__v_set(0), a);
-}
-
-static inline nsvcd__v nsvcd__v_abs(nsvcd__v a) {
-  return nsvcd__v_max(a, nsvcd__v_negate(a));
-}
-
-// A slice of vectors.
-typedef struct nsvcd__v3 {
-  nsvcd__v x, y, z;
-} nsvcd__v3;
-
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_of(nsvcd__v x, nsvcd__v y, nsvcd__v z) {
-  const nsvcd__v3 out = {x, y, z};
-  return out;
-}
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_set(nsvcd__f3 a) {
-  return nsvcd__v3_of(nsvcd__v_set(a.x), nsvcd__v_set(a.y), nsvcd__v_set(a.z));
-}
-#define NSVCD__BY_AXIS(op, a, b) nsvcd__v3_of(op(a.x, b.x), op(a.y, b.y), op(a.z, b.z))
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_add(nsvcd__v3 a, nsvcd__v3 b) {
-  return NSVCD__BY_AXIS(nsvcd__v_add, a, b);
-}
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_sub(nsvcd__v3 a, nsvcd__v3 b) {
-  return NSVCD__BY_AXIS(nsvcd__v_sub, a, b);
-}
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_negate(nsvcd__v3 a) {
-  return nsvcd__v3_of(nsvcd__v_negate(a.x), nsvcd__v_negate(a.y), nsvcd__v_negate(a.z));
-}
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_min(nsvcd__v3 a, nsvcd__v3 b) {
-  return NSVCD__BY_AXIS(nsvcd__v_min, a, b);
-}
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_max(nsvcd__v3 a, nsvcd__v3 b) {
-  return NSVCD__BY_AXIS(nsvcd__v_max, a, b);
-}
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_scale(nsvcd__v3 a, nsvcd__v s) {
-  return nsvcd__v3_of(nsvcd__v_mul(s, a.x), nsvcd__v_mul(s, a.y), nsvcd__v_mul(s, a.z));
-}
-// a + s b.
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_fma(nsvcd__v s, nsvcd__v3 b, nsvcd__v3 a) {
-  return nsvcd__v3_of(nsvcd__v_fma(s, b.x, a.x), nsvcd__v_fma(s, b.y, a.y),
-                      nsvcd__v_fma(s, b.z, a.z));
-}
-NSVCD__INLINE nsvcd__v nsvcd__v3_dot(nsvcd__v3 a, nsvcd__v3 b) {
-  return nsvcd__v_fma(a.x, b.x, nsvcd__v_fma(a.y, b.y, nsvcd__v_mul(a.z, b.z)));
-}
-// s + a b.
-NSVCD__INLINE nsvcd__v nsvcd__v3_dot_add(nsvcd__v3 a, nsvcd__v3 b, nsvcd__v s) {
-  const nsvcd__v sum = nsvcd__v_fma(a.x, b.x, s);
-  return nsvcd__v_fma(a.z, b.z, nsvcd__v_fma(a.y, b.y, sum));
-}
-NSVCD__INLINE nsvcd__v nsvcd__v3_norm(nsvcd__v3 a) {
-  return nsvcd__v_sqrt(nsvcd__v3_dot(a, a));
-}
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_cross(nsvcd__v3 a, nsvcd__v3 b) {
-  return nsvcd__v3_of(nsvcd__v_sub(nsvcd__v_mul(a.y, b.z), nsvcd__v_mul(a.z, b.y)),
-                      nsvcd__v_sub(nsvcd__v_mul(a.z, b.x), nsvcd__v_mul(a.x, b.z)),
-                      nsvcd__v_sub(nsvcd__v_mul(a.x, b.y), nsvcd__v_mul(a.y, b.x)));
-}
-// The centres of a slice of spheres.
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_centres(nsvcd__spheres all, size_t l) {
-  return nsvcd__v3_of(nsvcd__v_load(all.x + l), nsvcd__v_load(all.y + l),
-                      nsvcd__v_load(all.z + l));
-}
-// From rows of x, y and z, `stride` apart.
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_get(const float *p, size_t stride) {
-  return nsvcd__v3_of(nsvcd__v_load(p), nsvcd__v_load(p + stride),
-                      nsvcd__v_load(p + 2 * stride));
-}
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_load_int8(const int8_t *p, size_t stride) {
-  return nsvcd__v3_of(nsvcd__v_load_int8(p), nsvcd__v_load_int8(p + stride),
-                      nsvcd__v_load_int8(p + 2 * stride));
-}
-NSVCD__INLINE void nsvcd__v3_put(nsvcd__v3 a, float *p, size_t stride) {
-  nsvcd__v_store(p, a.x);
-  nsvcd__v_store(p + stride, a.y);
-  nsvcd__v_store(p + 2 * stride, a.z);
-}
-// From three rows of 16 numbers.
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_rows(const float *p) {
-  return nsvcd__v3_get(p, NSVCD__LANES);
-}
-// Lanes l .. l + SLICE - 1 of p (3, LANES).
-NSVCD__INLINE void nsvcd__v3_store(nsvcd__row *p, size_t l, nsvcd__v3 a) {
-  nsvcd__v3_put(a, p[0] + l, NSVCD__LANES);
-}
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_load(nsvcd__row *p, size_t l) {
-  return nsvcd__v3_get(p[0] + l, NSVCD__LANES);
-}
-
-// The vector in lane l alone.
-static inline nsvcd__f3 nsvcd__lane_of(nsvcd__row *p, size_t l) {
-  return nsvcd__f3_get(p[0] + l, NSVCD__LANES);
-}
-static inline void nsvcd__lane_set(nsvcd__f3 a, nsvcd__row *p, size_t l) {
-  nsvcd__f3_put(a, p[0] + l, NSVCD__LANES);
-}
-// Unit vectors; the x axis where the length is 0.
-static inline nsvcd__v3 nsvcd__v3_unit(nsvcd__v3 a) {
-  const nsvcd__v3 x = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
-  const nsvcd__v least = nsvcd__v_set(1e-18f);
-  const nsvcd__v length = nsvcd__v3_norm(a);
-  const nsvcd__v inverse = nsvcd__v_div(x.x, nsvcd__v_max(length, least));
-  const nsvcd__v3 unit = nsvcd__v3_scale(a, inverse);
-  return nsvcd__v3_of(nsvcd__v_pick(length, least, x.x, unit.x),
-                      nsvcd__v_pick(length, least, x.y, unit.y),
-                      nsvcd__v_pick(length, least, x.z, unit.z));
-}
-
-// Ranges along a direction.
-typedef struct nsvcd__v_range {
-  nsvcd__v low, high;
-} nsvcd__v_range;
-
-// The square of a sum of radii, with its sign: a negative sum, of padding, meets nothing.
-static inline nsvcd__v nsvcd__v_signed_square(nsvcd__v sum) {
-  return nsvcd__v_mul(sum, nsvcd__v_abs(sum));
-}
-
-// A ray in a body's frame, with a radius.
-typedef struct nsvcd__beam {
-  nsvcd__f3 from, along;  // along: a unit vector
-  float width;
-} nsvcd__beam;
-
-// A filter of a traversal: spheres that a beam meets.
-static uint32_t nsvcd__is_on_beam(const void *what, nsvcd__spheres all) {
-  const nsvcd__beam *beam = (const nsvcd__beam *)what;
-  const nsvcd__v3 n = nsvcd__v3_set(beam->along);
-  const nsvcd__v3 from = nsvcd__v3_set(beam->from);
-  uint32_t met = 0;
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(all, l), from);
-    const nsvcd__v3 off = nsvcd__v3_cross(d, n);
-    const nsvcd__v sum = nsvcd__v_plus(nsvcd__v_load(all.r + l), beam->width);
-    const nsvcd__v square = nsvcd__v3_dot(off, off);
-    const uint32_t ahead = nsvcd__v_le(nsvcd__v_negate(sum), nsvcd__v3_dot(d, n));
-    met |= (ahead & nsvcd__v_le(square, nsvcd__v_signed_square(sum))) << l;
-  }
-  return met;
-}
-
-// ------------------------------------------------------------------------------------- lanes/turns
-// In, out: rotations, lane by lane: vquat is a slice of quaternions, vmat3 of matrices.
-
-typedef struct nsvcd__vquat {
-  nsvcd__v x, y, z, w;
-} nsvcd__vquat;
-
-// Matrices by their rows.
-typedef struct nsvcd__vmat3 {
-  nsvcd__v3 x, y, z;
-} nsvcd__vmat3;
-
-NSVCD__INLINE nsvcd__vquat nsvcd__vquat_of(nsvcd__v3 axis, nsvcd__v w) {
-  const nsvcd__vquat out = {axis.x, axis.y, axis.z, w};
-  return out;
-}
-// The axis of a unit quaternion, times the sine of half its angle.
-NSVCD__INLINE nsvcd__v3 nsvcd__vquat_axis(nsvcd__vquat q) {
-  return nsvcd__v3_of(q.x, q.y, q.z);
-}
-NSVCD__INLINE nsvcd__vquat nsvcd__vquat_set(nsvcd__quat q) {
-  return nsvcd__vquat_of(nsvcd__v3_set(nsvcd__f3_of(q.x, q.y, q.z)), nsvcd__v_set(q.w));
-}
-// From rows of x, y, z and w, `stride` apart.
-NSVCD__INLINE nsvcd__vquat nsvcd__vquat_load(const float *p, size_t stride) {
-  return nsvcd__vquat_of(nsvcd__v3_get(p, stride), nsvcd__v_load(p + 3 * stride));
-}
-NSVCD__INLINE void nsvcd__vquat_store(nsvcd__vquat q, float *p, size_t stride) {
-  nsvcd__v3_put(nsvcd__vquat_axis(q), p, stride);
-  nsvcd__v_store(p + 3 * stride, q.w);
-}
-static inline nsvcd__v nsvcd__vquat_dot(nsvcd__vquat a, nsvcd__vquat b) {
-  const nsvcd__v sum = nsvcd__v_fma(a.y, b.y, nsvcd__v_mul(a.x, b.x));
-  return nsvcd__v_fma(a.w, b.w, nsvcd__v_fma(a.z, b.z, sum));
-}
-// a + s b.
-static inline nsvcd__vquat nsvcd__vquat_fma(nsvcd__v s, nsvcd__vquat b, nsvcd__vquat a) {
-  return nsvcd__vquat_of(nsvcd__v3_fma(s, nsvcd__vquat_axis(b), nsvcd__vquat_axis(a)),
-                         nsvcd__v_fma(s, b.w, a.w));
-}
-static inline nsvcd__vquat nsvcd__vquat_unit(nsvcd__vquat q) {
-  const nsvcd__v length = nsvcd__v_sqrt(nsvcd__vquat_dot(q, q));
-  const nsvcd__vquat out = {nsvcd__v_div(q.x, length), nsvcd__v_div(q.y, length),
-                            nsvcd__v_div(q.z, length), nsvcd__v_div(q.w, length)};
-  return out;
-}
-// Of unit quaternions.
-static inline nsvcd__vquat nsvcd__vquat_inverse(nsvcd__vquat q) {
-  return nsvcd__vquat_of(nsvcd__v3_negate(nsvcd__vquat_axis(q)), q.w);
-}
-static inline nsvcd__vquat nsvcd__vquat_mul(nsvcd__vquat a, nsvcd__vquat b) {
-  const nsvcd__v3 u = nsvcd__vquat_axis(a);
-  const nsvcd__v3 v = nsvcd__vquat_axis(b);
-  const nsvcd__v3 along = nsvcd__v3_fma(a.w, v, nsvcd__v3_scale(u, b.w));
-  const nsvcd__v cosines = nsvcd__v_mul(a.w, b.w);
-  return nsvcd__vquat_of(nsvcd__v3_add(nsvcd__v3_cross(u, v), along),
-                         nsvcd__v_sub(cosines, nsvcd__v3_dot(u, v)));
-}
-
-NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_rows(nsvcd__v3 x, nsvcd__v3 y, nsvcd__v3 z) {
-  const nsvcd__vmat3 out = {x, y, z};
-  return out;
-}
-NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_set(const nsvcd__mat3 *m) {
-  const nsvcd__vmat3 out = {nsvcd__v3_set(m->x), nsvcd__v3_set(m->y), nsvcd__v3_set(m->z)};
-  return out;
-}
-// The matrix in lane l of p (9, LANES), row-major.
-static inline nsvcd__mat3 nsvcd__mat3_lane(nsvcd__row *p, size_t l) {
-  const nsvcd__mat3 out = {nsvcd__lane_of(p, l), nsvcd__lane_of(p + 3, l),
-                           nsvcd__lane_of(p + 6, l)};
-  return out;
-}
-// p: (9, LANES), row-major.
-NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_load(nsvcd__row *p, size_t l) {
-  return nsvcd__vmat3_rows(nsvcd__v3_load(p, l), nsvcd__v3_load(p + 3, l),
-                           nsvcd__v3_load(p + 6, l));
-}
-NSVCD__INLINE void nsvcd__vmat3_store(nsvcd__row *p, size_t l, nsvcd__vmat3 m) {
-  nsvcd__v3_store(p, l, m.x);
-  nsvcd__v3_store(p + 3, l, m.y);
-  nsvcd__v3_store(p + 6, l, m.z);
-}
-NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_scale(nsvcd__vmat3 m, nsvcd__v s) {
-  return nsvcd__vmat3_rows(nsvcd__v3_scale(m.x, s), nsvcd__v3_scale(m.y, s),
-                           nsvcd__v3_scale(m.z, s));
-}
-NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_sub(nsvcd__vmat3 a, nsvcd__vmat3 b) {
-  return nsvcd__vmat3_rows(nsvcd__v3_sub(a.x, b.x), nsvcd__v3_sub(a.y, b.y),
-                           nsvcd__v3_sub(a.z, b.z));
-}
-// a + s b.
-NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_fma(nsvcd__v s, nsvcd__vmat3 b, nsvcd__vmat3 a) {
-  return nsvcd__vmat3_rows(nsvcd__v3_fma(s, b.x, a.x), nsvcd__v3_fma(s, b.y, a.y),
-                           nsvcd__v3_fma(s, b.z, a.z));
-}
-NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_transpose(nsvcd__vmat3 m) {
-  return nsvcd__vmat3_rows(nsvcd__v3_of(m.x.x, m.y.x, m.z.x),
-                           nsvcd__v3_of(m.x.y, m.y.y, m.z.y),
-                           nsvcd__v3_of(m.x.z, m.y.z, m.z.z));
-}
-NSVCD__INLINE nsvcd__v3 nsvcd__vmat3_apply(nsvcd__vmat3 m, nsvcd__v3 a) {
-  return nsvcd__v3_of(nsvcd__v3_dot(m.x, a), nsvcd__v3_dot(m.y, a), nsvcd__v3_dot(m.z, a));
-}
-NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_mul(nsvcd__vmat3 a, nsvcd__vmat3 b) {
-  const nsvcd__vmat3 columns = nsvcd__vmat3_transpose(b);
-  return nsvcd__vmat3_rows(nsvcd__vmat3_apply(columns, a.x), nsvcd__vmat3_apply(columns, a.y),
-                           nsvcd__vmat3_apply(columns, a.z));
-}
-// p + m a.
-NSVCD__INLINE nsvcd__v3 nsvcd__vmat3_apply_add(nsvcd__vmat3 m, nsvcd__v3 a, nsvcd__v3 p) {
-  return nsvcd__v3_of(nsvcd__v3_dot_add(m.x, a, p.x), nsvcd__v3_dot_add(m.y, a, p.y),
-                      nsvcd__v3_dot_add(m.z, a, p.z));
-}
-// The squared Frobenius norm.
-NSVCD__INLINE nsvcd__v nsvcd__vmat3_square(nsvcd__vmat3 m) {
-  const nsvcd__v sum = nsvcd__v3_dot_add(m.x, m.x, nsvcd__v_set(0));
-  return nsvcd__v3_dot_add(m.z, m.z, nsvcd__v3_dot_add(m.y, m.y, sum));
-}
-// The transpose of m, times a.
-NSVCD__INLINE nsvcd__v3 nsvcd__vmat3_apply_transpose(nsvcd__vmat3 m, nsvcd__v3 a) {
-  return nsvcd__v3_fma(a.z, m.z, nsvcd__v3_fma(a.y, m.y, nsvcd__v3_scale(m.x, a.x)));
-}
-// One rotation and position for all lanes.
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_transform(const nsvcd__transform *t, nsvcd__v3 a) {
-  const nsvcd__mat3 columns = nsvcd__mat3_transpose(t->rotation);
-  nsvcd__v3 sum = nsvcd__v3_set(t->position);
-  sum = nsvcd__v3_fma(a.z, nsvcd__v3_set(columns.z), sum);
-  sum = nsvcd__v3_fma(a.y, nsvcd__v3_set(columns.y), sum);
-  return nsvcd__v3_fma(a.x, nsvcd__v3_set(columns.x), sum);
-}
-
-// Of quaternions of any length whose square fits a float.
-static inline nsvcd__vmat3 nsvcd__vmat3_of(nsvcd__vquat q) {
-  const nsvcd__v one = nsvcd__v_set(1);
-  const nsvcd__v3 axis = nsvcd__vquat_axis(q);
-  const nsvcd__v square = nsvcd__v_add(nsvcd__v_mul(q.w, q.w), nsvcd__v3_dot(axis, axis));
-  const nsvcd__v3 s = nsvcd__v3_scale(axis, nsvcd__v_div(nsvcd__v_set(2), square));
-  // twice x times each, twice w times each, and the products that are left
-  const nsvcd__v3 x = nsvcd__v3_scale(axis, s.x);
-  const nsvcd__v3 w = nsvcd__v3_scale(s, q.w);
-  const nsvcd__v yy = nsvcd__v_mul(s.y, q.y);
-  const nsvcd__v zz = nsvcd__v_mul(s.z, q.z);
-  const nsvcd__v yz = nsvcd__v_mul(s.y, q.z);
-  return nsvcd__vmat3_rows(
-      nsvcd__v3_of(nsvcd__v_sub(one, nsvcd__v_add(yy, zz)), nsvcd__v_sub(x.y, w.z),
-                   nsvcd__v_add(x.z, w.y)),
-      nsvcd__v3_of(nsvcd__v_add(x.y, w.z), nsvcd__v_sub(one, nsvcd__v_add(x.x, zz)),
-                   nsvcd__v_sub(yz, w.x)),
-      nsvcd__v3_of(nsvcd__v_sub(x.z, w.y), nsvcd__v_add(yz, w.x),
-                   nsvcd__v_sub(one, nsvcd__v_add(x.x, yy))));
-}
-
-// ======================================================================== motion: where bodies are
+// ======================================== motion: where bodies are, and the memory of their search
 
 // ----------------------------------------------------------------------------------- motion/motion
 // In: two movers: bodies, scales, and poses over t in [0,1]. Between poses the position is linear,
@@ -9364,39 +8853,6 @@ static uint32_t nsvcd__next_keyframe(const nsvcd__motion *m, uint32_t tick) {
   return after_a < after_b ? after_a : after_b;
 }
 
-// A slice of poses of both bodies in the world.
-typedef struct nsvcd__v_poses {
-  nsvcd__vquat moving;  // of any length
-  nsvcd__vquat fixed;   // unit; only where that body moves
-  nsvcd__v3 offset;     // from the fixed body's origin to the moving one's, metres
-} nsvcd__v_poses;
-
-// A slice of poses.
-typedef struct nsvcd__v_pose {
-  nsvcd__vquat rotation;
-  nsvcd__v3 position;
-} nsvcd__v_pose;
-
-// The moving body's poses in the fixed body's frame: quaternions of any length, positions in its
-// units.
-static nsvcd__v_pose nsvcd__v_seen(const nsvcd__motion *m, const nsvcd__v_poses *at) {
-  const nsvcd__v per_metre = nsvcd__v_set(1 / m->unit);
-  nsvcd__vquat to_fixed;
-  nsvcd__vmat3 matrix;
-  if (m->fixed_moves) {
-    to_fixed = nsvcd__vquat_inverse(at->fixed);
-    matrix = nsvcd__vmat3_of(to_fixed);
-  } else {
-    to_fixed = nsvcd__vquat_set(m->to_fixed_quat);
-    matrix = nsvcd__vmat3_set(&m->to_fixed);
-  }
-  const nsvcd__v3 metres = nsvcd__vmat3_apply(matrix, at->offset);
-  nsvcd__v_pose out;
-  out.rotation = nsvcd__vquat_mul(to_fixed, at->moving);
-  out.position = nsvcd__v3_fma(per_metre, metres, nsvcd__v3_set(m->push_out));
-  return out;
-}
-
 #ifndef NSVCD_NO_NETWORK
 // The pose of a moving track before time t in [0,1], and the fraction of the arc after it. Uniform
 // tracks are not rounded to ticks: derivatives by t need all that floats resolve.
@@ -9440,30 +8896,32 @@ static nsvcd__transform nsvcd__motion_pose(const nsvcd__motion *m, float t) {
 }
 #endif
 
-// --------------------------------------------------------------------------------- motion/segments
-// In: a motion, and the ticks at which its segments begin. Out: for 16 segments at a time the
-// moving body's pose at the start, its change until the end, and how far points deviate from that.
-//
-// Within a segment a point c of the moving body, in its frame, is taken along the chord between its
-// positions at both ends, x0 + tau v, tau in [0,1]. Its true position M(t) c + p(t), where M is the
-// rotation times the scale, is no farther from the chord's than
-//   origin_bend + bend |c|
-// Proof: let L(t) interpolate M linearly between the segment's ends, K(t) piecewise between the
-// keyframes inside. Between two keyframes a chord misses a curve by at most max|second derivative|
-// / 8, with time from 0 to 1 there. If one body moves, that is h^2 |c| / 8 on an arc of angle h,
-// and its origin moves straight; if both do, see nsvcd__cut_double_arc. K - L is piecewise linear
-// and its norm convex, so it is largest at a keyframe. Hence
-//   bend        = max over arcs of their bend per metre
-//                 + max over keyframes ||M_k - L(t_k)||  (Frobenius >= 2-norm)
-//   origin_bend = max over arcs of the origin's bend
-//                 + max over keyframes |p_k - its linear interpolation|
-//   margin      = origin_bend + rounding + the clearance asked for
-//
-// Along a direction n, |n| <= 1, the deviation is smaller. A turn by h about the unit axis a bends
-// the path of a point x by a x (a x y) h^2, y being x, turned; and n.(a x (a x y)) = (n x a).(a x
-// y), at most |n x a| |x|: nothing along the axis. `bend_along_axis` and `origin_along_axis` are
-// what is left along the axis of the whole segment's turn, from which the axes of its arcs may
-// differ. nsvcd__deviation_of puts them together.
+// -------------------------------------------------------------------------------- motion/workspace
+// In: how large a query's bodies and motions are. Out: the memory of its search, laid out: the
+// segments of a motion, spheres on chords in them, and tiles of groups.
+
+// ---- lanes
+
+// The vector in lane l alone.
+static inline nsvcd__f3 nsvcd__lane_of(nsvcd__row *p, size_t l) {
+  return nsvcd__f3_get(p[0] + l, NSVCD__LANES);
+}
+static inline void nsvcd__lane_set(nsvcd__f3 a, nsvcd__row *p, size_t l) {
+  nsvcd__f3_put(a, p[0] + l, NSVCD__LANES);
+}
+// The matrix in lane l of p (9, LANES), row-major.
+static inline nsvcd__mat3 nsvcd__mat3_lane(nsvcd__row *p, size_t l) {
+  const nsvcd__mat3 out = {nsvcd__lane_of(p, l), nsvcd__lane_of(p + 3, l),
+                           nsvcd__lane_of(p + 6, l)};
+  return out;
+}
+
+// ---- segments, and what is searched
+
+// of a motion that turns by no more than NSVCD__SEGMENT_TURN in each
+#define NSVCD__SEGMENTS 16
+// at most: enough for 1280 degrees; what turns more is cut into intervals (motion/choice)
+#define NSVCD__MAX_SEGMENTS 64
 
 // Times the lengths that enter a difference of positions: about 15 float operations of 6e-8 each,
 // doubled.
@@ -9507,305 +8965,6 @@ typedef struct nsvcd__cut {
   nsvcd__bends most;
 } nsvcd__cut;
 
-// ---- turns between quaternions
-
-// 1 where x >= 0, else -1.
-static nsvcd__v nsvcd__v_sign(nsvcd__v x) {
-  return nsvcd__v_pick(nsvcd__v_set(0), x, nsvcd__v_set(1), nsvcd__v_set(-1));
-}
-
-// An upper bound of the angle between two rotations, unit to 1e-4, tight where it is small: 4
-// asin(chord / 2) of their chord as quaternions, with asin x <= x + (pi/2 - 1) x^3, and half a
-// thousandth for the lengths.
-static nsvcd__v nsvcd__v_arc(nsvcd__vquat a, nsvcd__vquat b) {
-  const nsvcd__v sign = nsvcd__v_sign(nsvcd__vquat_dot(a, b));
-  const nsvcd__vquat chord = nsvcd__vquat_fma(nsvcd__v_negate(sign), b, a);
-  const nsvcd__v length = nsvcd__v_sqrt(nsvcd__vquat_dot(chord, chord));
-  const nsvcd__v x = nsvcd__v_scale(length, 0.50025f);
-  const nsvcd__v square = nsvcd__v_mul(x, x);
-  return nsvcd__v_mul(x, nsvcd__v_fma(nsvcd__v_set(2.2832f), square, nsvcd__v_set(4)));
-}
-
-// The vector part of b a^-1: the axis of the turn from a to b, times the sine of half its angle.
-static nsvcd__v3 nsvcd__v_turn(nsvcd__vquat a, nsvcd__vquat b) {
-  const nsvcd__v3 u = nsvcd__vquat_axis(a);
-  const nsvcd__v3 v = nsvcd__vquat_axis(b);
-  const nsvcd__v3 sum = nsvcd__v3_fma(nsvcd__v_negate(b.w), u, nsvcd__v3_cross(u, v));
-  return nsvcd__v3_fma(a.w, v, sum);
-}
-
-// The same on the shorter arc. cosine: of half the angle; near 0, rounding may have taken the
-// longer one.
-static nsvcd__v3 nsvcd__v_shorter_turn(nsvcd__vquat a, nsvcd__vquat b, nsvcd__v *cosine) {
-  const nsvcd__v dot = nsvcd__vquat_dot(a, b);
-  const nsvcd__v sign = nsvcd__v_sign(dot);
-  *cosine = nsvcd__v_mul(sign, dot);
-  return nsvcd__v3_scale(nsvcd__v_turn(a, b), sign);
-}
-
-// ---- keyframes
-
-// Reads the poses of both bodies at `count` ticks.
-static void nsvcd__keyframes_read(const nsvcd__motion *m, const uint32_t *ticks, size_t count,
-                                  nsvcd__keyframes *out) {
-  nsvcd__world_pose fixed = {{0, 0, 0, 1}, nsvcd__d3_widen(m->fixed_position)};
-  for (size_t l = 0; l < count; l++) {
-    const nsvcd__world_pose moving = nsvcd__track_pose(&m->moving, ticks[l]);
-    nsvcd__quat_put(moving.rotation, out->moving + l, NSVCD__ENDS);
-    if (m->fixed_moves) {
-      fixed = nsvcd__track_pose(&m->fixed, ticks[l]);
-      nsvcd__quat_put(fixed.rotation, out->fixed + l, NSVCD__ENDS);
-    }
-    const nsvcd__d3 offset = nsvcd__d3_sub(moving.position, fixed.position);
-    nsvcd__f3_put(nsvcd__d3_narrow(offset), out->offset + l, NSVCD__ENDS);
-  }
-}
-
-// A slice of them from lane l on; l may be 1, for there is one keyframe more than lanes.
-static nsvcd__v_poses nsvcd__keyframes_load(const nsvcd__motion *m,
-                                            const nsvcd__keyframes *from, size_t l) {
-  nsvcd__v_poses out;
-  out.offset = nsvcd__v3_get(from->offset + l, NSVCD__ENDS);
-  out.moving = nsvcd__vquat_load(from->moving + l, NSVCD__ENDS);
-  out.fixed = out.moving;
-  if (m->fixed_moves) {
-    out.moving = nsvcd__vquat_unit(out.moving);
-    out.fixed = nsvcd__vquat_unit(nsvcd__vquat_load(from->fixed + l, NSVCD__ENDS));
-  }
-  return out;
-}
-
-// Stores a slice with its rotations in the fixed body's frame.
-static void nsvcd__keyframes_store(const nsvcd__motion *m, const nsvcd__v_poses *at,
-                                   nsvcd__vquat seen, size_t l, nsvcd__keyframes *out) {
-  nsvcd__vquat_store(at->moving, out->moving + l, NSVCD__ENDS);
-  nsvcd__vquat_store(seen, out->seen + l, NSVCD__ENDS);
-  if (!m->fixed_moves) return;
-  nsvcd__v3_put(at->offset, out->offset + l, NSVCD__ENDS);
-  nsvcd__vquat_store(at->fixed, out->fixed + l, NSVCD__ENDS);
-}
-
-// Rotations times the scale.
-NSVCD__INLINE nsvcd__vmat3 nsvcd__v_scaled(const nsvcd__motion *m, nsvcd__vquat q) {
-  return nsvcd__vmat3_scale(nsvcd__vmat3_of(q), nsvcd__v_set(m->scale));
-}
-
-// ---- the deviation of arcs and of keyframes
-
-static void nsvcd__v_keep(float *most, nsvcd__v value) {
-  nsvcd__v_store(most, nsvcd__v_max(nsvcd__v_load(most), value));
-}
-static void nsvcd__v_add_to(float *sum, nsvcd__v value) {
-  nsvcd__v_store(sum, nsvcd__v_add(nsvcd__v_load(sum), value));
-}
-
-// An arc in which both bodies move. With w and w' the rotation vectors of the moving and the fixed
-// body over the arc, in the world, o = w - w', and d the vector from the fixed origin to the moving
-// one, which moves by v, the second derivative of a point x in the fixed body's frame is
-//   o x (o x Rx) + (o x w') x Rx   -   2 w' x v + w' x (w' x d)
-// so that the arc leaves its chord by (|o|^2 + |o x w'|) / 8 |x| and (2 |w' x v| + |w'| |w' x d|) /
-// 8 at most.
-static void nsvcd__cut_double_arc(const nsvcd__motion *m, const nsvcd__v_poses *from,
-                                  const nsvcd__v_poses *to, size_t l, nsvcd__bends *most) {
-  const nsvcd__v eighth = nsvcd__v_set(0.12501f);
-  nsvcd__v cosine;
-  nsvcd__v fixed_cosine;
-  const nsvcd__v3 half = nsvcd__v_shorter_turn(from->moving, to->moving, &cosine);
-  const nsvcd__v3 fixed_half = nsvcd__v_shorter_turn(from->fixed, to->fixed, &fixed_cosine);
-  const nsvcd__v sine = nsvcd__v3_norm(half);
-  const nsvcd__v fixed_sine = nsvcd__v3_norm(fixed_half);
-  const nsvcd__v sines = nsvcd__v_add(sine, fixed_sine);
-  const nsvcd__v least_cosine = nsvcd__v_min(cosine, fixed_cosine);
-  const nsvcd__v apart = nsvcd__v3_norm(nsvcd__v3_sub(half, fixed_half));
-  const nsvcd__v difference = nsvcd__v_pick(least_cosine, nsvcd__v_set(0.001f), sines, apart);
-  // A rotation vector is 2 asin(s) / s times these halves of length s, and asin(s) - s is at most
-  // (pi / 2 - 1) s^3.
-  const nsvcd__v square = nsvcd__v_mul(sine, sine);
-  const nsvcd__v fixed_square = nsvcd__v_mul(fixed_sine, fixed_sine);
-  const nsvcd__v cubes = nsvcd__v_fma(square, sine, nsvcd__v_mul(fixed_square, fixed_sine));
-  nsvcd__v turn = nsvcd__v_scale(difference, 2.00001f);
-  turn = nsvcd__v_fma(nsvcd__v_set(1.1417f), cubes, turn);
-  turn = nsvcd__v_fma(nsvcd__v_set(2e-6f), sines, turn);
-  const nsvcd__v fixed_turn = nsvcd__v_arc(from->fixed, to->fixed);
-  const nsvcd__v squares = nsvcd__v_mul(turn, nsvcd__v_add(turn, fixed_turn));
-  nsvcd__v_keep(most->arc_bend + l, nsvcd__v_mul(squares, eighth));
-
-  const nsvcd__v start = nsvcd__v3_norm(from->offset);
-  const nsvcd__v extent = nsvcd__v_max(start, nsvcd__v3_norm(to->offset));
-  const nsvcd__v travel = nsvcd__v3_norm(nsvcd__v3_sub(to->offset, from->offset));
-  const nsvcd__v both = nsvcd__v_fma(fixed_turn, extent, nsvcd__v_add(travel, travel));
-  const nsvcd__v metres = nsvcd__v_mul(nsvcd__v_mul(fixed_turn, both), eighth);
-  const nsvcd__v origin_bend = nsvcd__v_div(metres, nsvcd__v_set(m->unit));
-  nsvcd__v_keep(most->arc_origin + l, origin_bend);
-  nsvcd__v_add_to(most->turn + l, fixed_turn);
-}
-
-// Adds the arc from the last keyframes to these, which become the last. seen: their rotations in
-// the fixed body's frame.
-static void nsvcd__cut_arc(const nsvcd__motion *m, const nsvcd__v_poses *at, nsvcd__vquat seen,
-                           size_t l, nsvcd__segments *out, nsvcd__cut *cut) {
-  nsvcd__bends *most = &cut->most;
-  const nsvcd__v_poses last = nsvcd__keyframes_load(m, &cut->last, l);
-  const nsvcd__v arc = nsvcd__v_arc(last.moving, at->moving);
-  nsvcd__v_add_to(most->turn + l, arc);
-  if (m->fixed_moves) {
-    nsvcd__cut_double_arc(m, &last, at, l, most);
-  } else {
-    // Along the axis: h^2 / 8 |axis x a| of a turn by h about a. With w = a sin(h / 2) that is at
-    // most pi / 8 h |axis x w|.
-    const nsvcd__vquat last_seen = nsvcd__vquat_load(cut->last.seen + l, NSVCD__ENDS);
-    const nsvcd__v3 w = nsvcd__v_turn(last_seen, seen);
-    const nsvcd__v3 across = nsvcd__v3_cross(nsvcd__v3_load(out->axis, l), w);
-    const nsvcd__v along = nsvcd__v_mul(nsvcd__v_scale(arc, 0.3931f), nsvcd__v3_norm(across));
-    nsvcd__v_keep(most->arc_bend + l, nsvcd__v_scale(nsvcd__v_mul(arc, arc), 0.125f));
-    nsvcd__v_keep(most->arc_along_axis + l, along);
-  }
-  nsvcd__keyframes_store(m, at, seen, l, &cut->last);
-}
-
-// Visits a keyframe of each segment: ticks (16), begin (17) as nsvcd__cut_block has it. Adds the
-// arc before it, and how far it is off its segment's chord.
-static NSVCD__NOINLINE void nsvcd__cut_keyframe(const nsvcd__motion *m, const uint32_t *begin,
-                                                const uint32_t *ticks, nsvcd__segments *out,
-                                                nsvcd__cut *cut) {
-  nsvcd__bends *most = &cut->most;
-  nsvcd__row fraction;  // of the segment, before the keyframe
-  nsvcd__keyframes_read(m, ticks, NSVCD__LANES, &cut->here);
-  for (size_t l = 0; l < NSVCD__LANES; l++) {
-    const uint32_t length = begin[l + 1] - begin[l];
-    fraction[l] = length ? (float)(ticks[l] - begin[l]) / (float)length : 0;
-  }
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v_poses at = nsvcd__keyframes_load(m, &cut->here, l);
-    const nsvcd__v_pose seen = nsvcd__v_seen(m, &at);
-    nsvcd__cut_arc(m, &at, seen.rotation, l, out, cut);
-    const nsvcd__v u = nsvcd__v_load(fraction + l);
-    const nsvcd__vmat3 start = nsvcd__vmat3_load(out->rotation, l);
-    const nsvcd__vmat3 turned = nsvcd__vmat3_load(out->turned, l);
-    const nsvcd__vmat3 scaled = nsvcd__v_scaled(m, seen.rotation);
-    const nsvcd__vmat3 off = nsvcd__vmat3_sub(scaled, nsvcd__vmat3_fma(u, turned, start));
-    const nsvcd__v3 position = nsvcd__v3_load(out->position, l);
-    const nsvcd__v3 chord = nsvcd__v3_fma(u, nsvcd__v3_load(out->moved, l), position);
-    const nsvcd__v3 aside = nsvcd__v3_sub(seen.position, chord);
-    nsvcd__v_keep(most->off + l, nsvcd__vmat3_square(off));
-    nsvcd__v_keep(most->origin_off + l, nsvcd__v3_dot(aside, aside));
-
-    const nsvcd__v3 axis = nsvcd__v3_load(out->axis, l);
-    const nsvcd__v3 along = nsvcd__vmat3_apply_transpose(off, axis);
-    const nsvcd__v3 across = nsvcd__v3_cross(nsvcd__v3_load(out->heading, l), aside);
-    const nsvcd__v height = nsvcd__v3_dot(axis, aside);
-    nsvcd__v_keep(most->along_axis + l, nsvcd__v3_dot(along, along));
-    nsvcd__v_keep(most->origin_along_axis + l, nsvcd__v_mul(height, height));
-    nsvcd__v_keep(most->origin_off_heading + l, nsvcd__v3_dot(across, across));
-  }
-}
-
-// ---- segments
-
-// Poses at the starts of 16 segments; at their ends, if `to` is 1.
-static NSVCD__NOINLINE void nsvcd__cut_poses(const nsvcd__motion *m,
-                                             const nsvcd__keyframes *here, size_t to,
-                                             nsvcd__row *rotation, nsvcd__row *position,
-                                             nsvcd__keyframes *out) {
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v_poses at = nsvcd__keyframes_load(m, here, l + to);
-    const nsvcd__v_pose seen = nsvcd__v_seen(m, &at);
-    nsvcd__keyframes_store(m, &at, seen.rotation, l, out);
-    nsvcd__vmat3_store(rotation, l, nsvcd__v_scaled(m, seen.rotation));
-    nsvcd__v3_store(position, l, seen.position);
-  }
-}
-
-// Sets the poses at the segments' starts, and their change until the ends: begin (17).
-static NSVCD__NOINLINE void nsvcd__cut_ends(const nsvcd__motion *m, const uint32_t *begin,
-                                            nsvcd__segments *out, nsvcd__cut *cut) {
-  nsvcd__keyframes_read(m, begin, NSVCD__ENDS, &cut->here);
-  nsvcd__cut_poses(m, &cut->here, 0, out->rotation, out->position, &cut->last);
-  nsvcd__cut_poses(m, &cut->here, 1, out->turned, out->moved, &cut->end);
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__vquat from = nsvcd__vquat_load(cut->last.seen + l, NSVCD__ENDS);
-    const nsvcd__vquat to = nsvcd__vquat_load(cut->end.seen + l, NSVCD__ENDS);
-    const nsvcd__vmat3 start = nsvcd__vmat3_load(out->rotation, l);
-    const nsvcd__vmat3 end = nsvcd__vmat3_load(out->turned, l);
-    const nsvcd__v3 position = nsvcd__v3_load(out->position, l);
-    const nsvcd__v3 moved = nsvcd__v3_sub(nsvcd__v3_load(out->moved, l), position);
-    nsvcd__vmat3_store(out->turned, l, nsvcd__vmat3_sub(end, start));
-    nsvcd__v3_store(out->moved, l, moved);
-    nsvcd__v3_store(out->axis, l, nsvcd__v3_unit(nsvcd__v_turn(from, to)));
-    nsvcd__v3_store(out->heading, l, nsvcd__v3_unit(moved));
-  }
-}
-
-// The scale times what arcs are off, plus what keyframes are, whose square is given.
-static nsvcd__v nsvcd__v_bend(nsvcd__v scale, const float *arcs, const float *keyframes) {
-  const nsvcd__v off = nsvcd__v_sqrt(nsvcd__v_load(keyframes));
-  return nsvcd__v_add(off, nsvcd__v_mul(scale, nsvcd__v_load(arcs)));
-}
-
-// Sets the deviations, once all keyframes have been visited. If both bodies move, they are not
-// smaller along any direction.
-static void nsvcd__cut_deviations(const nsvcd__motion *m, float lengths, size_t l,
-                                  nsvcd__segments *out, const nsvcd__bends *most) {
-  const int both = m->fixed_moves;
-  const nsvcd__v scale = nsvcd__v_set(m->scale);
-  const nsvcd__v bend = nsvcd__v_bend(scale, most->arc_bend + l, most->off + l);
-  const nsvcd__v off = nsvcd__v_sqrt(nsvcd__v_load(most->origin_off + l));
-  const nsvcd__v origin_bend = nsvcd__v_add(off, nsvcd__v_load(most->arc_origin + l));
-  const nsvcd__v along = nsvcd__v_bend(scale, most->arc_along_axis + l, most->along_axis + l);
-  const nsvcd__v origin_along = nsvcd__v_sqrt(nsvcd__v_load(most->origin_along_axis + l));
-  const nsvcd__v across = nsvcd__v_sqrt(nsvcd__v_load(most->origin_off_heading + l));
-  nsvcd__v_store(out->bend + l, bend);
-  nsvcd__v_store(out->origin_bend + l, origin_bend);
-  nsvcd__v_store(out->bend_along_axis + l, both ? bend : along);
-  nsvcd__v_store(out->origin_along_axis + l, both ? origin_bend : origin_along);
-  nsvcd__v_store(out->origin_off_heading + l, both ? origin_bend : across);
-
-  const nsvcd__v3 start = nsvcd__v3_load(out->position, l);
-  const nsvcd__v3 end = nsvcd__v3_add(start, nsvcd__v3_load(out->moved, l));
-  const nsvcd__v extent = nsvcd__v_add(nsvcd__v3_norm(start), nsvcd__v3_norm(end));
-  const nsvcd__v all = nsvcd__v_add(extent, nsvcd__v_plus(origin_bend, lengths));
-  const nsvcd__v rounding = nsvcd__v_scale(all, NSVCD__ROUNDING);
-  nsvcd__v_store(out->rounding + l, rounding);
-  nsvcd__v_store(out->margin + l, nsvcd__v_add(rounding, origin_bend));
-}
-
-// Cuts 16 segments, of which the first `count` exist. begin: (17) ticks at which they begin, and
-// the last one ends. lengths: the bodies' extents. Leaves the angle by which each turns in
-// cut->most.turn.
-static void nsvcd__cut_block(const nsvcd__motion *m, const uint32_t *begin, size_t count,
-                             float lengths, nsvcd__segments *out, nsvcd__cut *cut) {
-  uint32_t ticks[NSVCD__LANES];
-  memset(&cut->most, 0, sizeof cut->most);
-  memcpy(ticks, begin, sizeof ticks);
-  nsvcd__cut_ends(m, begin, out, cut);
-  for (int is_inside = 1; is_inside;) {
-    is_inside = 0;
-    for (size_t l = 0; l < NSVCD__LANES; l++) {
-      if (ticks[l] < begin[l + 1]) ticks[l] = nsvcd__next_keyframe(m, ticks[l]);
-      if (ticks[l] > begin[l + 1]) ticks[l] = begin[l + 1];
-      is_inside |= ticks[l] < begin[l + 1];
-    }
-    if (is_inside) nsvcd__cut_keyframe(m, begin, ticks, out, cut);
-  }
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v_poses end = nsvcd__keyframes_load(m, &cut->end, l);
-    const nsvcd__vquat seen = nsvcd__vquat_load(cut->end.seen + l, NSVCD__ENDS);
-    nsvcd__cut_arc(m, &end, seen, l, out, cut);
-    nsvcd__cut_deviations(m, lengths, l, out, &cut->most);
-  }
-  // the rest meet nothing
-  for (size_t l = count; l < NSVCD__LANES; l++) out->margin[l] = NSVCD__NOWHERE;
-}
-
-// -------------------------------------------------------------------------------- motion/workspace
-// In: how large a query's bodies and motions are. Out: the memory of its search, laid out: the
-// segments of a motion, spheres on chords in them, and tiles of groups.
-
-// of a motion that turns by no more than NSVCD__SEGMENT_TURN in each
-#define NSVCD__SEGMENTS 16
-// at most: enough for 1280 degrees; what turns more is cut into intervals (motion/choice)
-#define NSVCD__MAX_SEGMENTS 64
-
 // 16 spheres on chords start + tau travel; their radii plus deviation, and -1 / |travel|^2.
 typedef struct nsvcd__chords {
   nsvcd__row start[3], travel[3];
@@ -9823,6 +8982,45 @@ typedef struct nsvcd__tile {
   nsvcd__spheres spheres;  // the body's own if it has a single tile, else collected
   float *collected;        // (4, NSVCD__TILE_SLOTS), or NULL
 } nsvcd__tile;
+
+#ifndef NSVCD_NO_NETWORK
+// The ranges of 16 patches along a plane's normal.
+typedef struct nsvcd__ranges {
+  nsvcd__row low, high;
+} nsvcd__ranges;
+
+#define NSVCD__PLANES 2  // that are remembered
+
+// Planes that separated others, and the ranges of two groups along them: of the moving one in one
+// segment.
+typedef struct nsvcd__plane_cache {
+  nsvcd__f3 planes[NSVCD__PLANES];  // normals: the last of those found
+  uint32_t found, best;             // how many; which of them separated last
+  float inflate;                    // patches, by so much of their radii
+  int balls_only;                   // no planes are tried
+  nsvcd__ranges moving[NSVCD__PLANES], resting[NSVCD__PLANES];
+  uint32_t moving_known, resting_known;  // bits of planes whose ranges are filled in
+  float deviation;                       // of the moving group's points in the segment
+} nsvcd__plane_cache;
+
+// A contact interval: the balls of patches `moving` and `fixed` overlap from t_enter to t_exit,
+// with the deviation added.
+typedef struct nsvcd__candidate {
+  uint16_t moving, fixed;
+  float t_enter, t_exit;
+  float t_least;  // when they are nearest
+  float depth;    // rank, 1 - least distance / (r1 + r2): the deepest go on to the network
+  // what the network says: a logit, or NSVCD__NO_SCORE; and a distance, in tenths of r1 + r2
+  float score, apart;
+} nsvcd__candidate;
+
+// The candidates kept so far: a heap with the shallowest at its root.
+typedef struct nsvcd__candidates {
+  nsvcd__candidate *items;  // (limit), the caller's
+  size_t limit, count;
+  size_t total;  // intervals found, kept or not
+} nsvcd__candidates;
+#endif
 
 // What a query needs memory for.
 typedef struct nsvcd__needs {
@@ -9864,9 +9062,9 @@ typedef struct nsvcd__search {
   uint64_t ready;    // segments for which members[] is filled
   float extent;      // of these members, from the body's origin
 #ifndef NSVCD_NO_NETWORK
-  struct nsvcd__plane_cache *cache;  // search/planes
-  uint16_t *met;                     // (GROUP, S) lanes of a group that meet each of another
-  int balls_met;                     // 0: no patches' balls meet, which proves free
+  nsvcd__plane_cache *cache;
+  uint16_t *met;  // (GROUP, S) lanes of a group that meet each of another
+  int balls_met;  // 0: no patches' balls meet, which proves free
 #endif
 } nsvcd__search;
 
@@ -9910,6 +9108,13 @@ static nsvcd__boxes *nsvcd__spare_boxes(const nsvcd__search *q) {
 // The segments in which group g of the moving tile meets each one of the fixed tile.
 static uint64_t *nsvcd__nearby(const nsvcd__search *q, size_t g) {
   return q->nearby + g * q->nearby_stride;
+}
+
+static int nsvcd__is_large(const nsvcd_body *body) {
+  return nsvcd__body_groups(body) > NSVCD__TILE;
+}
+static int nsvcd__is_tiled(const nsvcd_body *a, const nsvcd_body *b) {
+  return nsvcd__is_large(a) || nsvcd__is_large(b);
 }
 
 // ----------------------------------------------------------------------------------- motion/choice
@@ -10099,1137 +9304,7 @@ static float nsvcd__interval_gap(const nsvcd__motion *m, uint32_t from, uint32_t
 }
 #endif
 
-// ---- cutting
-
-// Cuts the chosen segments. lengths: the bodies' extents; clearance: spheres that come so near
-// count as meeting.
-static void nsvcd__cut_segments(const nsvcd__motion *m, float lengths, float clearance,
-                                nsvcd__search *q) {
-  uint32_t *begin = q->begin;
-  float *turn = q->turn;
-  // segments of no length fill the last block
-  for (size_t s = q->segments; s % NSVCD__LANES; s++) begin[s + 1] = begin[s];
-  turn[0] = 0;
-  for (size_t s = 0; s < q->segments; s += NSVCD__LANES) {
-    nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
-    nsvcd__cut_block(m, begin + s, q->segments - s, lengths, block, q->cut);
-    for (size_t l = 0; l < NSVCD__LANES; l++) {
-      block->margin[l] += clearance;
-      turn[s + l + 1] = turn[s + l] + q->cut->most.turn[l];
-    }
-  }
-}
-
-#ifndef NSVCD_NO_NETWORK
-// Chooses and cuts the segments of all of a motion.
-static NSVCD__NOINLINE void nsvcd__cut_motion(nsvcd__motion *m, float lengths,
-                                              nsvcd__search *q) {
-  nsvcd__choose_all(m, q);
-  nsvcd__cut_segments(m, lengths, 0, q);
-}
-#endif
-
-// ----------------------------------------------------------------------------------- motion/chords
-// In: a motion that has been cut, and spheres of the moving body. Out: the spheres on chords, in
-// all segments or in one, and which of them meet spheres of the fixed body.
-//
-// Along its chord a sphere's radius grows by margin + bend |c|, c being its centre, so that it
-// covers the sphere at its true pose all the time. So the test is conservative: spheres that meet
-// at any time have chords that meet then, and if no chords do, the surfaces never meet, which is a
-// proof. A group or a whole body is a sphere like any other: its sphere contains its members'.
-
-NSVCD__INLINE nsvcd__v3 nsvcd__chords_start(const nsvcd__chords *c, size_t l) {
-  return nsvcd__v3_rows(c->start[0] + l);
-}
-NSVCD__INLINE nsvcd__v3 nsvcd__chords_travel(const nsvcd__chords *c, size_t l) {
-  return nsvcd__v3_rows(c->travel[0] + l);
-}
-// Stores a slice of chords. FLT_MIN keeps a chord of no length finite.
-static void nsvcd__chords_store(nsvcd__chords *c, size_t l, nsvcd__v3 start, nsvcd__v3 travel,
-                                nsvcd__v radius) {
-  const nsvcd__v square = nsvcd__v_max(nsvcd__v3_dot(travel, travel), nsvcd__v_set(1.2e-38f));
-  nsvcd__v3_store(c->start, l, start);
-  nsvcd__v3_store(c->travel, l, travel);
-  nsvcd__v_store(c->inverse + l, nsvcd__v_div(nsvcd__v_set(-1), square));
-  nsvcd__v_store(c->radius + l, radius);
-}
-
-// Chords of a sphere of the moving body in all segments, into q->group.
-static void nsvcd__chords_in_all(nsvcd__search *q, nsvcd__sphere sphere) {
-  sphere.radius *= q->scale;
-  const nsvcd__v3 centre = nsvcd__v3_set(sphere.centre);
-  const nsvcd__v length = nsvcd__v_set(nsvcd__f3_norm(sphere.centre));
-  const nsvcd__v radius = nsvcd__v_set(sphere.radius);
-  for (size_t s = 0; s < q->segments; s += NSVCD__LANES) {
-    nsvcd__segments *b = &q->blocks[s / NSVCD__LANES];
-    nsvcd__chords *out = &q->group[s / NSVCD__LANES];
-    NSVCD__EACH_SLICE(l) {
-      const nsvcd__vmat3 rotation = nsvcd__vmat3_load(b->rotation, l);
-      const nsvcd__vmat3 turned = nsvcd__vmat3_load(b->turned, l);
-      const nsvcd__v3 position = nsvcd__v3_load(b->position, l);
-      const nsvcd__v3 moved = nsvcd__v3_load(b->moved, l);
-      const nsvcd__v3 start = nsvcd__vmat3_apply_add(rotation, centre, position);
-      const nsvcd__v3 travel = nsvcd__vmat3_apply_add(turned, centre, moved);
-      const nsvcd__v margin = nsvcd__v_load(b->margin + l);
-      const nsvcd__v deviation = nsvcd__v_fma(nsvcd__v_load(b->bend + l), length, margin);
-      nsvcd__chords_store(out, l, start, travel, nsvcd__v_add(deviation, radius));
-    }
-  }
-}
-
-// The 16 patches of a group.
-static nsvcd__spheres nsvcd__members_of(const nsvcd_body *body, size_t g) {
-  return nsvcd__spheres_from(nsvcd__body_patches(body), NSVCD__GROUP * g);
-}
-
-static void nsvcd__chords_of_group(nsvcd__search *q, size_t g) {
-  nsvcd__chords_in_all(q, nsvcd__sphere_of(nsvcd__groups_of(q->moving), g));
-}
-
-// The deviation in segment s of points no farther than `extent` from the moving body's origin.
-static float nsvcd__segment_deviation(const nsvcd__search *q, size_t s, float extent) {
-  const nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
-  return block->margin[s % NSVCD__LANES] + block->bend[s % NSVCD__LANES] * extent;
-}
-
-// Chords of 16 spheres of the moving body in segment s. The patches in them are no farther than
-// `extent` from the body's origin. Centres of spheres over patches may be farther, but on their
-// chords the points of a body do not move relative to each other, so that the deviation of the
-// patches is all to allow for.
-static void nsvcd__chords_in_segment(const nsvcd__search *q, size_t s, nsvcd__spheres spheres,
-                                     float extent, nsvcd__chords *out) {
-  nsvcd__segments *b = &q->blocks[s / NSVCD__LANES];
-  const size_t lane = s % NSVCD__LANES;
-  const nsvcd__v deviation = nsvcd__v_set(nsvcd__segment_deviation(q, s, extent));
-  const nsvcd__v scale = nsvcd__v_set(q->scale);
-  const nsvcd__mat3 rotation = nsvcd__mat3_lane(b->rotation, lane);
-  const nsvcd__mat3 turned = nsvcd__mat3_lane(b->turned, lane);
-  const nsvcd__v3 position = nsvcd__v3_set(nsvcd__lane_of(b->position, lane));
-  const nsvcd__v3 moved = nsvcd__v3_set(nsvcd__lane_of(b->moved, lane));
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 centre = nsvcd__v3_centres(spheres, l);
-    const nsvcd__vmat3 rotations = nsvcd__vmat3_set(&rotation);
-    const nsvcd__vmat3 turns = nsvcd__vmat3_set(&turned);
-    const nsvcd__v3 start = nsvcd__vmat3_apply_add(rotations, centre, position);
-    const nsvcd__v3 travel = nsvcd__vmat3_apply_add(turns, centre, moved);
-    const nsvcd__v radius = nsvcd__v_load(spheres.r + l);
-    nsvcd__chords_store(out, l, start, travel, nsvcd__v_fma(scale, radius, deviation));
-  }
-}
-
-// ---- tests
-
-// The square of a chord's distance from a resting centre. d: from that to the start of the chord.
-NSVCD__INLINE nsvcd__v nsvcd__nearest2(nsvcd__v3 d, nsvcd__v3 travel, nsvcd__v inverse) {
-  const nsvcd__v tau = nsvcd__v_clamp(nsvcd__v_mul(nsvcd__v3_dot(d, travel), inverse), 0, 1);
-  const nsvcd__v3 nearest = nsvcd__v3_fma(tau, travel, d);
-  return nsvcd__v3_dot(nearest, nearest);
-}
-
-// Lanes in which a chord comes within `radius` of a resting centre.
-NSVCD__INLINE uint32_t nsvcd__comes_within(nsvcd__v3 d, nsvcd__v3 travel, nsvcd__v inverse,
-                                           nsvcd__v radius) {
-  return nsvcd__v_le(nsvcd__nearest2(d, travel, inverse), nsvcd__v_signed_square(radius));
-}
-
-// 16 moving spheres, or one in 16 segments, against one resting sphere.
-static uint32_t nsvcd__meet(const nsvcd__chords *c, nsvcd__sphere resting) {
-  const nsvcd__v3 centre = nsvcd__v3_set(resting.centre);
-  const nsvcd__v radius = nsvcd__v_set(resting.radius);
-  uint32_t met = 0;
-  NSVCD__TALLY(tests, 1);
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__chords_start(c, l), centre);
-    const nsvcd__v sum = nsvcd__v_add(nsvcd__v_load(c->radius + l), radius);
-    const nsvcd__v inverse = nsvcd__v_load(c->inverse + l);
-    met |= nsvcd__comes_within(d, nsvcd__chords_travel(c, l), inverse, sum) << l;
-  }
-  return met;
-}
-
-// The sphere whose chords are q->group, in segment s, against 16 resting spheres.
-NSVCD__INLINE uint32_t nsvcd__meet_members(const nsvcd__search *q, size_t s,
-                                           nsvcd__spheres resting) {
-  nsvcd__chords *c = &q->group[s / NSVCD__LANES];
-  const size_t lane = s % NSVCD__LANES;
-  const nsvcd__v3 start = nsvcd__v3_set(nsvcd__lane_of(c->start, lane));
-  const nsvcd__v3 travel = nsvcd__v3_set(nsvcd__lane_of(c->travel, lane));
-  const nsvcd__v inverse = nsvcd__v_set(c->inverse[lane]);
-  const nsvcd__v own = nsvcd__v_set(c->radius[lane]);
-  uint32_t met = 0;
-  NSVCD__TALLY(tests, 1);
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_centres(resting, l));
-    const nsvcd__v radius = nsvcd__v_add(own, nsvcd__v_load(resting.r + l));
-    met |= nsvcd__comes_within(d, travel, inverse, radius) << l;
-  }
-  return met;
-}
-
-// The segments among `wanted` in which the sphere whose chords are q->group meets a resting
-// one.
-static uint64_t nsvcd__meet_in(const nsvcd__search *q, uint64_t wanted,
-                               nsvcd__sphere resting) {
-  uint64_t met = 0;
-  for (size_t s = 0; s < NSVCD__MAX_SEGMENTS && wanted >> s; s += NSVCD__LANES) {
-    if (wanted >> s & 0xffff)
-      met |= (uint64_t)nsvcd__meet(&q->group[s / NSVCD__LANES], resting) << s;
-  }
-  return met & wanted;
-}
-
-// ================================================================== search: which patches may meet
-
-// ----------------------------------------------------------------------------------- search/planes
-// In: 16 moving patches whose balls meet that of a resting one in a segment. Out: those that no
-// plane separates from it all the time, by the hulls of their extremes.
-//
-// Planes are tried across the resting patch's normal, the moving patches', their difference, the
-// lines between the centres, and first across the last few that separated other patches of the same
-// query: one plane separates a table from what stands on it, whole groups at a time. Extremes go on
-// chords, as centres do, and the deviation of points is allowed for. But extremes are not all of a
-// patch, so this is no proof: if a greater recall is asked for, patches are inflated first.
-
-#ifndef NSVCD_NO_NETWORK
-// The ranges of 16 patches along a plane's normal.
-typedef struct nsvcd__ranges {
-  nsvcd__row low, high;
-} nsvcd__ranges;
-
-#define NSVCD__PLANES 2  // that are remembered
-
-// Planes that separated others, and the ranges of two groups along them: of the moving one in one
-// segment.
-typedef struct nsvcd__plane_cache {
-  nsvcd__f3 planes[NSVCD__PLANES];  // normals: the last of those found
-  uint32_t found, best;             // how many; which of them separated last
-  float inflate;                    // patches, by so much of their radii
-  int balls_only;                   // no planes are tried
-  nsvcd__ranges moving[NSVCD__PLANES], resting[NSVCD__PLANES];
-  uint32_t moving_known, resting_known;  // bits of planes whose ranges are filled in
-  float deviation;                       // of the moving group's points in the segment
-} nsvcd__plane_cache;
-
-// Begins the search of a motion.
-static void nsvcd__plane_cache_begin(nsvcd__search *q, float inflate) {
-  q->cache->found = q->cache->best = 0;
-  q->cache->inflate = inflate;
-  // inflated by their radii, patches meet wherever their balls do
-  q->cache->balls_only = inflate >= 1;
-  q->balls_met = 0;
-}
-
-static size_t nsvcd__planes_known(const nsvcd__search *q) {
-  const size_t found = q->cache->found;
-  return found < NSVCD__PLANES ? found : NSVCD__PLANES;
-}
-
-// ---- ranges
-
-// Of the extremes (EXTREMES, 3, 16) of a slice of patches, along u. step: of the extremes, in the
-// body's units; height: of the patches' centres.
-NSVCD__INLINE nsvcd__v_range nsvcd__extremes_along(const int8_t *extremes, nsvcd__v step,
-                                                   nsvcd__v3 u, nsvcd__v height) {
-  nsvcd__v low = nsvcd__v_set(1e30f);
-  nsvcd__v high = nsvcd__v_set(-1e30f);
-  for (size_t k = 0; k < NSVCD__EXTREMES; k++, extremes += 3 * NSVCD__LANES) {
-    const nsvcd__v3 x = nsvcd__v3_load_int8(extremes, NSVCD__LANES);
-    const nsvcd__v along = nsvcd__v3_dot(x, u);
-    low = nsvcd__v_min(low, along);
-    high = nsvcd__v_max(high, along);
-  }
-  const nsvcd__v_range out = {nsvcd__v_fma(step, low, height),
-                              nsvcd__v_fma(step, high, height)};
-  return out;
-}
-
-// The same at both ends of a segment, between which the normal turns in the body's frame.
-NSVCD__INLINE nsvcd__v_range nsvcd__moving_range(const int8_t *extremes, nsvcd__v step,
-                                                 nsvcd__v3 u, nsvcd__v3 u_end, nsvcd__v height,
-                                                 nsvcd__v height_end) {
-  const nsvcd__v_range a = nsvcd__extremes_along(extremes, step, u, height);
-  const nsvcd__v_range b = nsvcd__extremes_along(extremes, step, u_end, height_end);
-  const nsvcd__v_range out = {nsvcd__v_min(a.low, b.low), nsvcd__v_max(a.high, b.high)};
-  return out;
-}
-
-// Stores a range that is wider by `off` on both sides.
-static void nsvcd__ranges_store(nsvcd__v_range range, nsvcd__v off, size_t l,
-                                nsvcd__ranges *out) {
-  nsvcd__v_store(out->low + l, nsvcd__v_sub(range.low, off));
-  nsvcd__v_store(out->high + l, nsvcd__v_add(range.high, off));
-}
-
-// Fills in the ranges of group h of the fixed body along plane n.
-static void nsvcd__know_resting(const nsvcd__search *q, size_t h, size_t n) {
-  nsvcd__plane_cache *cache = q->cache;
-  if (cache->resting_known >> n & 1) return;
-  cache->resting_known |= 1u << n;
-  const nsvcd__spheres patches = nsvcd__members_of(q->fixed, h);
-  const int8_t *extremes = nsvcd__group_extremes(q->fixed, h);
-  const nsvcd__v3 u = nsvcd__v3_set(cache->planes[n]);
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v step = nsvcd__v_scale(nsvcd__v_load(patches.r + l), 1.0f / 127);
-    const nsvcd__v height = nsvcd__v3_dot(u, nsvcd__v3_centres(patches, l));
-    const nsvcd__v_range range = nsvcd__extremes_along(extremes + l, step, u, height);
-    const nsvcd__v inflate = nsvcd__v_scale(step, 127 * cache->inflate);
-    nsvcd__ranges_store(range, inflate, l, &cache->resting[n]);
-  }
-}
-
-// Fills in the ranges of moving group g in segment s along plane n, deviation included.
-static void nsvcd__know_moving(const nsvcd__search *q, size_t g, size_t s, size_t n) {
-  nsvcd__plane_cache *cache = q->cache;
-  if (cache->moving_known >> n & 1) return;
-  cache->moving_known |= 1u << n;
-  nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
-  const nsvcd__chords *c = &q->members[s];
-  const nsvcd__f3 normal = cache->planes[n];
-  const nsvcd__mat3 rotation = nsvcd__mat3_lane(block->rotation, s % NSVCD__LANES);
-  const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, s % NSVCD__LANES);
-  const nsvcd__f3 start = nsvcd__mat3_apply_transpose(&rotation, normal);
-  const nsvcd__f3 change = nsvcd__mat3_apply_transpose(&turned, normal);
-  const nsvcd__v3 u_start = nsvcd__v3_set(start);
-  const nsvcd__v3 u_end = nsvcd__v3_set(nsvcd__f3_add(start, change));
-  const nsvcd__v3 u = nsvcd__v3_set(normal);
-  const float *radii = nsvcd__body_r(q->moving) + NSVCD__GROUP * g;
-  const int8_t *extremes = nsvcd__group_extremes(q->moving, g);
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v step = nsvcd__v_scale(nsvcd__v_load(radii + l), 1.0f / 127);
-    const nsvcd__v height = nsvcd__v3_dot(u, nsvcd__chords_start(c, l));
-    const nsvcd__v height_end = nsvcd__v3_dot_add(u, nsvcd__chords_travel(c, l), height);
-    const nsvcd__v_range range =
-        nsvcd__moving_range(extremes + l, step, u_start, u_end, height, height_end);
-    const nsvcd__v inflate = nsvcd__v_scale(step, 127 * q->scale * cache->inflate);
-    nsvcd__ranges_store(range, nsvcd__v_plus(inflate, cache->deviation), l, &cache->moving[n]);
-  }
-}
-
-// ---- planes that separated others
-
-// The least of all lanes, times a sign.
-static float nsvcd__least_lane(const float *lanes, float sign) {
-  nsvcd__v least = nsvcd__v_set(1e30f);
-  NSVCD__EACH_SLICE(l)
-  least = nsvcd__v_min(least, nsvcd__v_scale(nsvcd__v_load(lanes + l), sign));
-  return nsvcd__v_least(least);
-}
-
-// Lanes whose ranges do not overlap low to high.
-static uint32_t nsvcd__lanes_outside(const nsvcd__ranges *ranges, float low, float high) {
-  const nsvcd__v lowest = nsvcd__v_set(low);
-  const nsvcd__v highest = nsvcd__v_set(high);
-  uint32_t outside = 0;
-  NSVCD__EACH_SLICE(l) {
-    outside |= nsvcd__v_lt(highest, nsvcd__v_load(ranges->low + l)) << l;
-    outside |= nsvcd__v_lt(nsvcd__v_load(ranges->high + l), lowest) << l;
-  }
-  return outside;
-}
-
-// Of the segments `wanted`, those in which the plane that separated last does not separate the
-// moving group's ball, whose chords are q->group, from all of group h of the fixed body.
-static uint64_t nsvcd__segments_left(const nsvcd__search *q, size_t h, uint64_t wanted) {
-  nsvcd__plane_cache *cache = q->cache;
-  const size_t n = cache->best;
-  uint64_t separated = 0;
-  if (n >= nsvcd__planes_known(q)) return wanted;
-  nsvcd__know_resting(q, h, n);
-  const nsvcd__ranges *resting = &cache->resting[n];
-  const nsvcd__v below = nsvcd__v_set(nsvcd__least_lane(resting->low, 1));
-  const nsvcd__v above = nsvcd__v_set(-nsvcd__least_lane(resting->high, -1));
-  const nsvcd__v3 u = nsvcd__v3_set(cache->planes[n]);
-  for (size_t s = 0; s < q->segments; s += NSVCD__LANES) {
-    const nsvcd__chords *c = &q->group[s / NSVCD__LANES];
-    NSVCD__EACH_SLICE(l) {
-      const nsvcd__v start = nsvcd__v3_dot(u, nsvcd__chords_start(c, l));
-      const nsvcd__v end = nsvcd__v3_dot_add(u, nsvcd__chords_travel(c, l), start);
-      const nsvcd__v radius = nsvcd__v_scale(nsvcd__v_load(c->radius + l), 1 + cache->inflate);
-      const nsvcd__v low = nsvcd__v_sub(nsvcd__v_min(start, end), radius);
-      const nsvcd__v high = nsvcd__v_add(nsvcd__v_max(start, end), radius);
-      const uint32_t here = nsvcd__v_lt(above, low) | nsvcd__v_lt(high, below);
-      separated |= (uint64_t)here << (s + l);
-    }
-  }
-  return wanted & ~separated;
-}
-
-// Of the members `bits` of group h of the fixed body, those that the same plane does not separate
-// from all of moving group g in segment s.
-static uint32_t nsvcd__members_left(const nsvcd__search *q, size_t g, size_t s, size_t h,
-                                    uint32_t bits) {
-  const nsvcd__plane_cache *cache = q->cache;
-  const size_t n = cache->best;
-  if (n >= nsvcd__planes_known(q)) return bits;
-  nsvcd__know_resting(q, h, n);
-  nsvcd__know_moving(q, g, s, n);
-  const float low = nsvcd__least_lane(cache->moving[n].low, 1);
-  const float high = -nsvcd__least_lane(cache->moving[n].high, -1);
-  return bits & ~nsvcd__lanes_outside(&cache->resting[n], low, high);
-}
-
-// Of the lanes `met` of moving group g in segment s, those that no remembered plane separates from
-// member k of group h of the fixed body.
-static uint32_t nsvcd__lanes_left_by_known(nsvcd__search *q, size_t g, size_t s, size_t h,
-                                           size_t k, uint32_t met) {
-  nsvcd__plane_cache *cache = q->cache;
-  const size_t planes = nsvcd__planes_known(q);
-  for (size_t m = 0; m < planes && met; m++) {
-    const size_t n = (cache->best + m) % planes;  // the one that separated last, first
-    nsvcd__know_resting(q, h, n);
-    nsvcd__know_moving(q, g, s, n);
-    const nsvcd__ranges *resting = &cache->resting[n];
-    const uint32_t separated =
-        nsvcd__lanes_outside(&cache->moving[n], resting->low[k], resting->high[k]);
-    if (met & separated) cache->best = (uint32_t)n;
-    met &= ~separated;
-  }
-  return met;
-}
-
-// ---- planes of their own
-
-// A resting patch: its extremes are relative to its centre, metres.
-typedef struct nsvcd__resting {
-  nsvcd__f3 centre;
-  float radius;
-  nsvcd__f3 extremes[NSVCD__EXTREMES];
-  nsvcd__f3 normal;  // the mean
-} nsvcd__resting;
-
-static nsvcd__resting nsvcd__resting_of(const nsvcd_body *body, size_t j) {
-  const int8_t *extremes = nsvcd__group_extremes(body, j / NSVCD__GROUP) + j % NSVCD__GROUP;
-  nsvcd__resting out;
-  const nsvcd__sphere ball = nsvcd__sphere_of(nsvcd__body_patches(body), j);
-  const float step = ball.radius / 127;
-  out.centre = ball.centre;
-  out.radius = ball.radius;
-  for (size_t k = 0; k < NSVCD__EXTREMES; k++, extremes += 3 * NSVCD__GROUP) {
-    const nsvcd__f3 extreme =
-        nsvcd__f3_of(extremes[0], extremes[NSVCD__GROUP], extremes[2 * NSVCD__GROUP]);
-    out.extremes[k] = nsvcd__f3_scale(extreme, step);
-  }
-  const nsvcd__f3 area = nsvcd__f3_get(nsvcd__body_areas(body) + j, body->padded);
-  const float length = nsvcd__f3_norm(area);
-  out.normal = nsvcd__f3_scale(area, length > 0 ? 1 / length : 0);
-  return out;
-}
-
-// A slice of moving patches, over a segment.
-typedef struct nsvcd__passing {
-  const int8_t *extremes;   // (EXTREMES, 3, 16) and lane l, of the moving group
-  nsvcd__v step;            // of the extremes, in the body's units
-  nsvcd__v3 from, travel;   // from the resting centre to the moving one; and along the chord
-  nsvcd__vmat3 start, end;  // rotations, times the scale
-  nsvcd__v deviation;       // of points, and what patches are inflated by
-} nsvcd__passing;
-
-// Lanes in which a plane across u separates both, on either side.
-NSVCD__INLINE uint32_t nsvcd__separated_along(const nsvcd__passing *p,
-                                              const nsvcd__resting *rest, nsvcd__v3 u) {
-  const nsvcd__v3 u_start = nsvcd__vmat3_apply_transpose(p->start, u);
-  const nsvcd__v3 u_end = nsvcd__vmat3_apply_transpose(p->end, u);
-  const nsvcd__v height = nsvcd__v3_dot(u, p->from);
-  const nsvcd__v height_end = nsvcd__v3_dot_add(u, p->travel, height);
-  const nsvcd__v_range moving =
-      nsvcd__moving_range(p->extremes, p->step, u_start, u_end, height, height_end);
-  nsvcd__v below = nsvcd__v_set(1e30f);
-  nsvcd__v above = nsvcd__v_set(-1e30f);
-  for (size_t k = 0; k < NSVCD__EXTREMES; k++) {
-    const nsvcd__v along = nsvcd__v3_dot(nsvcd__v3_set(rest->extremes[k]), u);
-    below = nsvcd__v_min(below, along);
-    above = nsvcd__v_max(above, along);
-  }
-  return nsvcd__v_lt(above, nsvcd__v_sub(moving.low, p->deviation)) |
-         nsvcd__v_lt(nsvcd__v_add(moving.high, p->deviation), below);
-}
-
-enum {
-  NSVCD__ALONG_RESTING,  // normal
-  NSVCD__ALONG_MOVING,   // normals
-  NSVCD__ALONG_LINE,     // between the centres
-  NSVCD__ALONG_BOTH,     // normals, from one to the other
-  NSVCD__DIRECTIONS
-};
-
-// Of the lanes `met` of moving group g in segment s, those that no plane of their own separates
-// from patch j of the fixed body. A plane that does replaces the oldest that is remembered.
-static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_own(nsvcd__search *q, size_t g, size_t s,
-                                                         size_t j, uint32_t met) {
-  nsvcd__plane_cache *cache = q->cache;
-  const nsvcd__resting rest = nsvcd__resting_of(q->fixed, j);
-  const int8_t *extremes = nsvcd__group_extremes(q->moving, g);
-  const nsvcd_body *moving = q->moving;
-  const nsvcd__chords *c = &q->members[s];
-  nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
-  const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, s % NSVCD__LANES);
-  const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, s % NSVCD__LANES);
-  const nsvcd__mat3 end = nsvcd__mat3_mix(1, &start, 1, &turned);
-  nsvcd__passing p;
-  p.start = nsvcd__vmat3_set(&start);
-  p.end = nsvcd__vmat3_set(&end);
-  for (size_t n = 0; n < NSVCD__DIRECTIONS && met; n++) {
-    nsvcd__f3 plane = {0, 0, 0};
-    uint32_t separated = 0;
-    NSVCD__EACH_SLICE(l) {
-      const size_t i = NSVCD__GROUP * g + l;
-      const uint32_t lanes = met >> l & NSVCD__SLICE_MASK;
-      if (!lanes) continue;
-      p.extremes = extremes + l;
-      p.step = nsvcd__v_scale(nsvcd__v_load(nsvcd__body_r(moving) + i), 1.0f / 127);
-      p.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(rest.centre));
-      p.travel = nsvcd__chords_travel(c, l);
-      const nsvcd__v inflate = nsvcd__v_scale(p.step, 127 * q->scale * cache->inflate);
-      p.deviation = nsvcd__v_plus(inflate, cache->deviation + rest.radius * cache->inflate);
-      nsvcd__v3 u = nsvcd__v3_set(rest.normal);
-      if (n == NSVCD__ALONG_LINE) {
-        u = nsvcd__v3_unit(nsvcd__v3_fma(nsvcd__v_set(0.5f), p.travel, p.from));
-      } else if (n != NSVCD__ALONG_RESTING) {
-        const float *areas = nsvcd__body_areas(moving) + i;
-        const nsvcd__v3 area = nsvcd__v3_get(areas, moving->padded);
-        const nsvcd__v3 first = nsvcd__vmat3_apply(p.start, area);
-        const nsvcd__v3 last = nsvcd__vmat3_apply(p.end, area);
-        const nsvcd__v3 halfway = nsvcd__v3_unit(nsvcd__v3_add(first, last));
-        u = n == NSVCD__ALONG_MOVING ? halfway : nsvcd__v3_unit(nsvcd__v3_sub(u, halfway));
-      }
-      const uint32_t here = nsvcd__separated_along(&p, &rest, u) & lanes;
-      if (here && !separated) {
-        float rows[3 * NSVCD__SLICE];
-        nsvcd__v3_put(u, rows, NSVCD__SLICE);
-        plane = nsvcd__f3_get(rows + nsvcd__low_bit(here), NSVCD__SLICE);
-      }
-      separated |= here << l;
-    }
-    met &= ~separated;
-    if (!separated) continue;
-    const size_t oldest = cache->found++ % NSVCD__PLANES;
-    cache->planes[oldest] = plane;
-    cache->moving_known &= ~(1u << oldest);
-    cache->resting_known &= ~(1u << oldest);
-  }
-  return met;
-}
-
-// The lanes of moving group g whose balls meet member k of group h of the fixed body in segment s,
-// and that no plane separates from it. before: those that met it in the segment before: planes of
-// their own would rarely separate them now.
-static uint32_t nsvcd__members_meet(nsvcd__search *q, size_t g, size_t s, size_t h, size_t k,
-                                    uint32_t before) {
-  const size_t j = NSVCD__GROUP * h + k;
-  const nsvcd__sphere ball = nsvcd__sphere_of(nsvcd__body_patches(q->fixed), j);
-  uint32_t met = nsvcd__meet(&q->members[s], ball);
-  q->balls_met |= met != 0;
-  if (q->cache->balls_only) return met;
-  if (met) met = nsvcd__lanes_left_by_known(q, g, s, h, k, met);
-  const uint32_t fresh = met & ~before;
-  if (!fresh) return met;
-  return (met & before) | nsvcd__lanes_left_by_own(q, g, s, j, fresh);
-}
-#endif  // NSVCD_NO_NETWORK
-
-// -------------------------------------------------------------------------------- search/intervals
-// In: the chords of patches, and the patches of the other body that they meet. Out: candidates: the
-// pairs, and when their balls meet.
-
-#ifndef NSVCD_NO_NETWORK
-// radians, 45 degrees: an interval is cut before it turns more, for the decoder's twist
-#define NSVCD__INTERVAL_TURN 0.785f
-#define NSVCD__NO_SCORE (-1e30f)
-
-// A contact interval: the balls of patches `moving` and `fixed` overlap from t_enter to t_exit,
-// with the deviation added.
-typedef struct nsvcd__candidate {
-  uint16_t moving, fixed;
-  float t_enter, t_exit;
-  float t_least;  // when they are nearest
-  float depth;    // rank, 1 - least distance / (r1 + r2): the deepest go on to the network
-  // what the network says: a logit, or NSVCD__NO_SCORE; and a distance, in tenths of r1 + r2
-  float score, apart;
-} nsvcd__candidate;
-
-// The candidates kept so far: a heap with the shallowest at its root.
-typedef struct nsvcd__candidates {
-  nsvcd__candidate *items;  // (limit), the caller's
-  size_t limit, count;
-  size_t total;  // intervals found, kept or not
-} nsvcd__candidates;
-
-static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *items,
-                                    size_t limit) {
-  const nsvcd__candidates none = {items, limit, 0, 0};
-  *kept = none;
-}
-
-// A total order, so that ties do not depend on the order in which intervals were found.
-static int nsvcd__is_shallower(const nsvcd__candidate *a, const nsvcd__candidate *b) {
-  if (a->depth < b->depth || a->depth > b->depth) return a->depth < b->depth;
-  if (a->moving != b->moving) return a->moving > b->moving;
-  if (a->fixed != b->fixed) return a->fixed > b->fixed;
-  return a->t_enter > b->t_enter;
-}
-
-// Counts an interval, and keeps it if there is room, or in place of the shallowest.
-static void nsvcd__candidates_add(nsvcd__candidates *kept, const nsvcd__candidate *item) {
-  nsvcd__candidate *heap = kept->items;
-  size_t hole = 0;
-  kept->total++;
-  if (kept->count < kept->limit) {
-    for (hole = kept->count++; hole > 0; hole = (hole - 1) / 2) {
-      if (!nsvcd__is_shallower(item, &heap[(hole - 1) / 2])) break;
-      heap[hole] = heap[(hole - 1) / 2];
-    }
-  } else {
-    if (kept->limit == 0 || !nsvcd__is_shallower(&heap[0], item)) return;
-    for (size_t child = 1; child < kept->count; child = 2 * hole + 1) {
-      if (child + 1 < kept->count && nsvcd__is_shallower(&heap[child + 1], &heap[child]))
-        child++;
-      if (!nsvcd__is_shallower(&heap[child], item)) break;
-      heap[hole] = heap[child];
-      hole = child;
-    }
-  }
-  heap[hole] = *item;
-}
-
-// Contact intervals of a slice that are still growing, one per lane. Parameters along a segment's
-// line are 0 at its start and 1 at its end: at `nearest` the line is nearest to the other centre,
-// and the spheres overlap from `nearest` - h to `nearest` + h; half2 is the square of h.
-typedef struct nsvcd__intervals {
-  uint32_t open;   // lanes
-  size_t last;     // the segment that all of them reach
-  nsvcd__v fresh;  // 1 in lanes without an interval, else 0
-  nsvcd__v first, first_nearest, first_half2, last_nearest, last_half2;
-  nsvcd__v square, least_segment, least;  // the least distance, squared, and where it is
-} nsvcd__intervals;
-
-// The time at a fraction of segment s: at 1 that of its end, to the bit.
-static float nsvcd__time_in_segment(const nsvcd__search *q, size_t s, float fraction) {
-  const float start = q->time[s];
-  const float end = q->time[s + 1];
-  return fraction < 1 ? start + fraction * (end - start) : end;
-}
-
-// Ends the intervals of `lanes`, and adds them to the candidates. The slice's first lane is patch i
-// of the moving body; j: the patch of the fixed one.
-static void nsvcd__intervals_close(nsvcd__intervals *intervals, uint32_t lanes,
-                                   const nsvcd__search *q, size_t i, size_t j,
-                                   nsvcd__candidates *kept) {
-  const nsvcd__v zero = nsvcd__v_set(0);
-  const nsvcd__v one = nsvcd__v_set(1);
-  const nsvcd__v own = nsvcd__v_load(nsvcd__body_r(q->moving) + i);
-  const nsvcd__v other = nsvcd__v_set(nsvcd__body_r(q->fixed)[j]);
-  const nsvcd__v scaled = nsvcd__v_scale(own, q->scale);
-  const nsvcd__v radii = nsvcd__v_max(nsvcd__v_add(scaled, other), nsvcd__v_set(1e-30f));
-  intervals->open &= ~lanes;
-  // Most are shallower than all of a full heap, and are only counted.
-  if (kept->count == kept->limit) {
-    const float depth = kept->limit ? (1 - kept->items[0].depth) * 1.000001f : 0;
-    const nsvcd__v most = nsvcd__v_scale(radii, depth > 0 ? depth : 0);
-    uint32_t deep = 0;
-    if (kept->limit) deep = lanes & nsvcd__v_le(intervals->square, nsvcd__v_mul(most, most));
-    kept->total += nsvcd__bit_count(lanes & ~deep);
-    lanes = deep;
-    if (!lanes) return;
-  }
-
-  float first[NSVCD__SLICE], enter[NSVCD__SLICE], leave[NSVCD__SLICE];
-  float least_segment[NSVCD__SLICE], least[NSVCD__SLICE], depth[NSVCD__SLICE];
-  const nsvcd__v before = nsvcd__v_sqrt(nsvcd__v_max(intervals->first_half2, zero));
-  const nsvcd__v after = nsvcd__v_sqrt(nsvcd__v_max(intervals->last_half2, zero));
-  const nsvcd__v fraction = nsvcd__v_div(nsvcd__v_sqrt(intervals->square), radii);
-  nsvcd__v_store(first, intervals->first);
-  nsvcd__v_store(least_segment, intervals->least_segment);
-  nsvcd__v_store(enter, nsvcd__v_max(nsvcd__v_sub(intervals->first_nearest, before), zero));
-  nsvcd__v_store(leave, nsvcd__v_min(nsvcd__v_add(intervals->last_nearest, after), one));
-  nsvcd__v_store(least, intervals->least);
-  nsvcd__v_store(depth, nsvcd__v_sub(one, fraction));
-  for (; lanes; lanes &= lanes - 1) {
-    const size_t l = nsvcd__low_bit(lanes);
-    nsvcd__candidate candidate;
-    candidate.moving = (uint16_t)(i + l);
-    candidate.fixed = (uint16_t)j;
-    candidate.t_enter = nsvcd__time_in_segment(q, (size_t)first[l], enter[l]);
-    candidate.t_exit = nsvcd__time_in_segment(q, intervals->last, leave[l]);
-    candidate.t_least = nsvcd__time_in_segment(q, (size_t)least_segment[l], least[l]);
-    candidate.depth = depth[l];
-    candidate.score = NSVCD__NO_SCORE;
-    candidate.apart = 0;
-    // Rounding must not put the nearest time outside.
-    if (candidate.t_enter > candidate.t_least) candidate.t_enter = candidate.t_least;
-    if (candidate.t_exit < candidate.t_least) candidate.t_exit = candidate.t_least;
-    nsvcd__candidates_add(kept, &candidate);
-  }
-}
-
-// The segments at whose start all contact intervals of a group's members are cut: because the
-// oldest of them would turn too far, or the segment before is not `wanted`. met: (segments). For
-// all 16 beforehand, so that machines with narrower slices find the same intervals.
-static uint64_t nsvcd__interval_cuts(const nsvcd__search *q, const uint16_t *met,
-                                     uint64_t wanted) {
-  uint64_t cuts = wanted & ~(wanted << 1);
-  uint32_t open = 0;
-  size_t oldest = 0;
-  if (!(q->turn[q->segments] > NSVCD__INTERVAL_TURN)) return cuts;
-  for (; wanted; wanted &= wanted - 1) {
-    const size_t s = nsvcd__low_bit(wanted);
-    if (open && q->turn[s + 1] - q->turn[oldest] > NSVCD__INTERVAL_TURN)
-      cuts |= (uint64_t)1 << s;
-    if (cuts >> s & 1) open = 0;
-    open &= met[s];
-    if (!open) oldest = s;
-    open = met[s];
-  }
-  return cuts;
-}
-
-// Contact intervals of a slice of moving patches, from patch i on, with patch j of the fixed body,
-// in the segments `wanted`, in which the lanes all_met[s] of the group meet it. cuts:
-// nsvcd__interval_cuts.
-static NSVCD__NOINLINE void nsvcd__slice_against_patch(const nsvcd__search *q, size_t i,
-                                                       size_t j, uint64_t wanted,
-                                                       const uint16_t *all_met, uint64_t cuts,
-                                                       nsvcd__candidates *kept) {
-  const nsvcd__v one = nsvcd__v_set(1);
-  const nsvcd__v zero = nsvcd__v_set(0);
-  const nsvcd__v half = nsvcd__v_set(0.5f);
-  const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(q->fixed), j);
-  const nsvcd__v3 centre = nsvcd__v3_set(patch.centre);
-  const size_t l = i % NSVCD__GROUP;
-  nsvcd__intervals at = {0, 0, one, zero, zero, zero, zero, zero, zero, zero, zero};
-  for (; wanted; wanted &= wanted - 1) {
-    const size_t s = nsvcd__low_bit(wanted);
-    const nsvcd__chords *c = &q->members[s];
-    const nsvcd__v3 travel = nsvcd__chords_travel(c, l);
-    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__chords_start(c, l), centre);
-    const nsvcd__v inverse = nsvcd__v_load(c->inverse + l);
-    const nsvcd__v radius = nsvcd__v_plus(nsvcd__v_load(c->radius + l), patch.radius);
-    // the square of the sum of radii; where the line is nearest, and where the chord is
-    const nsvcd__v limit = nsvcd__v_signed_square(radius);
-    const nsvcd__v nearest = nsvcd__v_mul(nsvcd__v3_dot(d, travel), inverse);
-    const nsvcd__v tau = nsvcd__v_clamp(nearest, 0, 1);
-    const nsvcd__v3 chord = nsvcd__v3_fma(tau, travel, d);
-    const nsvcd__v square = nsvcd__v3_dot(chord, chord);
-    const uint32_t met = all_met[s] >> l & NSVCD__SLICE_MASK;
-    uint32_t ended = at.open & ~met;
-    if (cuts >> s & 1) {
-      ended = at.open;
-      at.fresh = one;
-    }
-    if (ended) nsvcd__intervals_close(&at, ended, q, i, j, kept);
-    if (!met) {
-      at.fresh = one;
-      continue;
-    }
-
-    // Intervals go on, or begin. |d + tau travel| = radius, solved from the line's nearest point
-    // outwards: b^2 - ac would cancel on long chords.
-    const nsvcd__v segment = nsvcd__v_set((float)s);
-    const nsvcd__v3 line = nsvcd__v3_fma(nearest, travel, d);
-    const nsvcd__v half2 =
-        nsvcd__v_mul(nsvcd__v_sub(nsvcd__v3_dot(line, line), limit), inverse);
-    const nsvcd__v before = nsvcd__v_pick(half, at.fresh, nsvcd__v_set(1e38f), at.square);
-    at.first = nsvcd__v_pick(half, at.fresh, segment, at.first);
-    at.first_nearest = nsvcd__v_pick(half, at.fresh, nearest, at.first_nearest);
-    at.first_half2 = nsvcd__v_pick(half, at.fresh, half2, at.first_half2);
-    at.last_nearest = nearest;
-    at.last_half2 = half2;
-    at.least_segment = nsvcd__v_pick(square, before, segment, at.least_segment);
-    at.least = nsvcd__v_pick(square, before, tau, at.least);
-    at.square = nsvcd__v_min(square, before);
-    at.fresh = nsvcd__v_pick(square, limit, zero, one);
-    if (met != nsvcd__v_le(square, limit)) {
-      float fresh[NSVCD__SLICE];
-      for (size_t k = 0; k < NSVCD__SLICE; k++) fresh[k] = met >> k & 1 ? 0.0f : 1.0f;
-      at.fresh = nsvcd__v_load(fresh);
-    }
-    at.open = met;
-    at.last = s;
-  }
-  if (at.open) nsvcd__intervals_close(&at, at.open, q, i, j, kept);
-}
-#endif  // NSVCD_NO_NETWORK
-
-// ----------------------------------------------------------------------------------- search/search
-// In: two bodies, and a motion that has been cut. Out: each pair of patches whose spheres meet, and
-// the segments in which they do, group by group.
-//
-// The hierarchy: body against body; boxes of groups against groups; group against group; group
-// against 16 spheres; 16 spheres against a sphere. But for the boxes every step is the same test,
-// moving spheres on chords against resting ones; lanes are segments, or members of a group. A step
-// of the search is a pair of groups. Moving groups that meet most come first, and of each the group
-// that it meets longest: a deep collision is then found before the rest is searched.
-//
-// A *tile* is up to 32 groups of one body and up to 32 of the other, which are searched together.
-// Bodies of up to 512 patches are one tile. Of larger ones, a traversal of the levels of spheres
-// above the groups finds those that the other body comes near, and they are searched tile after
-// tile: each moving tile against all tiles of the fixed body.
-
-// Boxes that contain 16 groups of the moving tile, from `first` on, in those segments `wanted` in
-// which they meet the fixed body's sphere, in its axes and units. Empty, low above high, for groups
-// that never do.
-static void nsvcd__boxes_of_groups(const nsvcd__search *q, size_t first, uint64_t wanted,
-                                   nsvcd__boxes *out) {
-  const nsvcd__spheres groups = nsvcd__spheres_from(q->moving_tile.spheres, first);
-  const nsvcd__sphere fixed = nsvcd__body_sphere(q->fixed);
-  nsvcd__chords *c = nsvcd__spare_chords(q);
-  NSVCD__TALLY(tests, nsvcd__bit_count(wanted));
-  for (size_t n = 0; n < 3 * NSVCD__LANES; n++) {
-    out->low[n / NSVCD__LANES][n % NSVCD__LANES] = -NSVCD__NOWHERE;
-    out->high[n / NSVCD__LANES][n % NSVCD__LANES] = NSVCD__NOWHERE;
-  }
-  for (; wanted; wanted &= wanted - 1) {
-    const size_t s = nsvcd__low_bit(wanted);
-    nsvcd__chords_in_segment(q, s, groups, q->moving->extent, c);
-    NSVCD__EACH_SLICE(l) {
-      const nsvcd__v nowhere = nsvcd__v_set(NSVCD__NOWHERE);
-      const nsvcd__v3 start = nsvcd__chords_start(c, l);
-      const nsvcd__v3 travel = nsvcd__chords_travel(c, l);
-      const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_set(fixed.centre));
-      const nsvcd__v radius = nsvcd__v_load(c->radius + l);
-      const nsvcd__v sum = nsvcd__v_plus(radius, fixed.radius);
-      const nsvcd__v square = nsvcd__nearest2(d, travel, nsvcd__v_load(c->inverse + l));
-      const nsvcd__v nearby =
-          nsvcd__v_pick(square, nsvcd__v_signed_square(sum), radius, nowhere);
-      const nsvcd__v3 end = nsvcd__v3_add(start, travel);
-      const nsvcd__v3 around = nsvcd__v3_of(nearby, nearby, nearby);
-      const nsvcd__v3 low = nsvcd__v3_sub(nsvcd__v3_min(start, end), around);
-      const nsvcd__v3 high = nsvcd__v3_add(nsvcd__v3_max(start, end), around);
-      nsvcd__v3_store(out->low, l, nsvcd__v3_min(nsvcd__v3_load(out->low, l), low));
-      nsvcd__v3_store(out->high, l, nsvcd__v3_max(nsvcd__v3_load(out->high, l), high));
-    }
-  }
-}
-
-// Which of 16 spheres overlap a box?
-static uint32_t nsvcd__spheres_at_box(nsvcd__box box, nsvcd__spheres all) {
-  const nsvcd__v3 none = nsvcd__v3_set(nsvcd__f3_of(0, 0, 0));
-  uint32_t met = 0;
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 centre = nsvcd__v3_centres(all, l);
-    const nsvcd__v3 below = nsvcd__v3_sub(nsvcd__v3_set(box.low), centre);
-    const nsvcd__v3 above = nsvcd__v3_sub(centre, nsvcd__v3_set(box.high));
-    const nsvcd__v3 d = nsvcd__v3_max(nsvcd__v3_max(below, above), none);
-    const nsvcd__v radius = nsvcd__v_load(all.r + l);
-    met |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(radius)) << l;
-  }
-  return met;
-}
-
-static uint64_t nsvcd__all_segments(const nsvcd__search *q) {
-  return ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - q->segments);
-}
-
-// Orders the steps of the search of both tiles: the groups of the moving tile that meet some of the
-// fixed tile, those first that meet most of them in most segments. nsvcd__nearby says which, and
-// in which segments. wanted: segments in which the bodies' spheres meet.
-static void nsvcd__search_tile(nsvcd__search *q, uint64_t wanted) {
-  uint16_t meetings[NSVCD__TILE_SLOTS];
-  const nsvcd__tile *tile = &q->fixed_tile;
-  nsvcd__boxes *boxes = nsvcd__spare_boxes(q);
-  q->steps = q->step = 0;
-  q->waiting = 0;
-  for (size_t g = 0; g < q->moving_tile.count; g++) {
-    const size_t l = g % NSVCD__LANES;
-    if (l == 0) nsvcd__boxes_of_groups(q, g, wanted, boxes);
-    const nsvcd__box box = {nsvcd__lane_of(boxes->low, l), nsvcd__lane_of(boxes->high, l)};
-    uint32_t groups = 0;
-    for (size_t first = 0; first < tile->count; first += NSVCD__LANES)
-      groups |= nsvcd__spheres_at_box(box, nsvcd__spheres_from(tile->spheres, first)) << first;
-    if (!groups) continue;
-    uint64_t *nearby = nsvcd__nearby(q, g);
-    size_t count = 0;
-    nsvcd__chords_of_group(q, q->moving_tile.groups[g]);
-    memset(nearby, 0, tile->count * sizeof *nearby);
-    for (; groups; groups &= groups - 1) {
-      const size_t h = nsvcd__low_bit(groups);
-      const nsvcd__sphere resting = nsvcd__sphere_of(tile->spheres, h);
-      nearby[h] = nsvcd__meet_in(q, nsvcd__all_segments(q), resting);
-      count += nsvcd__bit_count(nearby[h]);
-    }
-    if (!count) continue;
-    size_t at = q->steps;
-    for (; at > 0 && meetings[at - 1] < count; at--) {
-      meetings[at] = meetings[at - 1];
-      q->order[at] = q->order[at - 1];
-    }
-    meetings[at] = (uint16_t)count;
-    q->order[at] = (uint16_t)g;
-    q->steps++;
-  }
-}
-
-static int nsvcd__is_large(const nsvcd_body *body) {
-  return nsvcd__body_groups(body) > NSVCD__TILE;
-}
-static int nsvcd__is_tiled(const nsvcd_body *a, const nsvcd_body *b) {
-  return nsvcd__is_large(a) || nsvcd__is_large(b);
-}
-
-// Fills a tile with the next groups that a traversal finds.
-static void nsvcd__tile_fill(nsvcd__tile *tile, nsvcd__traversal *traversal) {
-  size_t g;
-  tile->spheres = nsvcd__spheres_of(tile->collected, NSVCD__TILE_SLOTS);
-  for (size_t n = 0; n < 4 * NSVCD__TILE_SLOTS; n++)
-    tile->collected[n] = n < 3 * NSVCD__TILE_SLOTS ? 0 : NSVCD__NOWHERE;
-  tile->count = 0;
-  while (tile->count < NSVCD__TILE && nsvcd__traversal_next(traversal, &g)) {
-    const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__groups_of(traversal->body), g);
-    nsvcd__sphere_store(group, tile->collected, NSVCD__TILE_SLOTS, tile->count);
-    tile->groups[tile->count++] = (uint16_t)g;
-  }
-}
-
-// Fills a tile with all groups of a body.
-static void nsvcd__tile_fill_all(nsvcd__tile *tile, const nsvcd_body *body) {
-  tile->count = nsvcd__body_groups(body);
-  for (size_t g = 0; g < tile->count; g++) tile->groups[g] = (uint16_t)g;
-  tile->spheres = nsvcd__groups_of(body);
-}
-
-// ---- filters of a traversal, which are given the search
-
-// All spheres but padding.
-static uint32_t nsvcd__exists(const void *what, nsvcd__spheres all) {
-  uint32_t exists = 0;
-  (void)what;
-  NSVCD__EACH_SLICE(l) exists |= nsvcd__v_le(nsvcd__v_set(0), nsvcd__v_load(all.r + l)) << l;
-  return exists;
-}
-
-// Spheres of the moving body that meet that of the fixed one.
-static uint32_t nsvcd__comes_near(const void *what, nsvcd__spheres all) {
-  const nsvcd__search *q = (const nsvcd__search *)what;
-  const nsvcd__sphere fixed = nsvcd__body_sphere(q->fixed);
-  nsvcd__chords *chords = nsvcd__spare_chords(q);
-  uint32_t met = 0;
-  for (uint64_t wanted = q->near_segments; wanted; wanted &= wanted - 1) {
-    const size_t s = nsvcd__low_bit(wanted);
-    nsvcd__chords_in_segment(q, s, all, q->moving->extent, chords);
-    met |= nsvcd__meet(chords, fixed);
-  }
-  return met;
-}
-
-// Spheres of the fixed body that meet that of the moving tile, whose chords are q->group.
-static uint32_t nsvcd__is_approached(const void *what, nsvcd__spheres all) {
-  const nsvcd__search *q = (const nsvcd__search *)what;
-  const uint32_t nearby = nsvcd__spheres_at_box(q->near_box, all);
-  uint32_t met = 0;
-  for (uint64_t wanted = q->near_segments; wanted && nearby & ~met; wanted &= wanted - 1) {
-    met |= nearby & nsvcd__meet_members(q, nsvcd__low_bit(wanted), all);
-  }
-  return met;
-}
-
-// Chords of the sphere over all groups of the moving tile, into q->group.
-static void nsvcd__chords_of_tile(nsvcd__search *q) {
-  const nsvcd__tile *tile = &q->moving_tile;
-  nsvcd__sphere sphere = nsvcd__body_sphere(q->moving);
-  if (nsvcd__is_large(q->moving)) sphere = nsvcd__cover_spheres(tile->spheres, tile->count);
-  nsvcd__chords_in_all(q, sphere);
-}
-
-// Finds the next moving tile, an empty one if there is none, and starts a traversal of the fixed
-// body's groups that come near it.
-static void nsvcd__search_moving_tile(nsvcd__search *q) {
-  nsvcd__box box = {{HUGE_VALF, HUGE_VALF, HUGE_VALF}, {-HUGE_VALF, -HUGE_VALF, -HUGE_VALF}};
-  nsvcd__tile_fill(&q->moving_tile, &q->moving_traversal);
-  if (q->moving_tile.count == 0) return;
-  nsvcd__chords_of_tile(q);
-  for (uint64_t left = q->near_segments; left; left &= left - 1) {
-    const size_t s = nsvcd__low_bit(left);
-    nsvcd__chords *c = &q->group[s / NSVCD__LANES];
-    const size_t l = s % NSVCD__LANES;
-    const nsvcd__f3 start = nsvcd__lane_of(c->start, l);
-    const nsvcd__f3 end = nsvcd__f3_add(start, nsvcd__lane_of(c->travel, l));
-    const nsvcd__f3 around = nsvcd__f3_of(c->radius[l], c->radius[l], c->radius[l]);
-    const nsvcd__f3 low = nsvcd__f3_sub(nsvcd__f3_min(start, end), around);
-    const nsvcd__f3 high = nsvcd__f3_add(nsvcd__f3_max(start, end), around);
-    box.low = nsvcd__f3_min(box.low, low);
-    box.high = nsvcd__f3_max(box.high, high);
-  }
-  q->near_box = box;
-  nsvcd__traversal_begin(&q->fixed_traversal, q->fixed, nsvcd__is_approached, q);
-}
-
-// Goes on to the next pair of tiles that has a step. 0 if there is none.
-static int nsvcd__search_next_tile(nsvcd__search *q) {
-  if (!nsvcd__is_tiled(q->moving, q->fixed)) return 0;
-  while (q->moving_tile.count > 0) {
-    nsvcd__chords_of_tile(q);
-    nsvcd__tile_fill(&q->fixed_tile, &q->fixed_traversal);
-    if (q->fixed_tile.count == 0) {
-      nsvcd__search_moving_tile(q);
-      continue;
-    }
-    nsvcd__search_tile(q, q->near_segments);
-    if (q->steps > 0) return 1;
-  }
-  return 0;
-}
-
-// Starts the search of some segments. Returns 0 if the groups' spheres never meet there, so that
-// there is no step to take.
-static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed,
-                               uint64_t segments, nsvcd__search *q) {
-  q->moving = moving;
-  q->fixed = fixed;
-  nsvcd__chords_in_all(q, nsvcd__body_sphere(moving));
-  const uint64_t all = segments & nsvcd__all_segments(q);
-  const uint64_t wanted = nsvcd__meet_in(q, all, nsvcd__body_sphere(fixed));
-  q->near_segments = wanted;
-  q->wanted = segments;
-  q->steps = 0;
-  if (!nsvcd__is_tiled(moving, fixed)) {
-    nsvcd__tile_fill_all(&q->moving_tile, moving);
-    nsvcd__tile_fill_all(&q->fixed_tile, fixed);
-    if (wanted) nsvcd__search_tile(q, wanted);
-    return q->steps > 0;
-  }
-  q->moving_tile.count = 0;
-  if (!wanted) return 0;
-  nsvcd__filter *filter = nsvcd__is_large(moving) ? nsvcd__comes_near : nsvcd__exists;
-  nsvcd__traversal_begin(&q->moving_traversal, moving, filter, q);
-  nsvcd__search_moving_tile(q);
-  return nsvcd__search_next_tile(q);
-}
-
-// No point of a group is farther from its body's origin, in the body's own units.
-static float nsvcd__group_extent(const nsvcd_body *body, size_t g) {
-  const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__groups_of(body), g);
-  return 1.000002f * (nsvcd__f3_norm(group.centre) + group.radius);
-}
-
-// Fills members[] for the segments `wanted` that are not ready.
-static void nsvcd__pose_members(nsvcd__search *q, size_t g, uint64_t wanted) {
-  uint64_t missing = wanted & ~q->ready;
-  if (!missing) return;
-  const nsvcd__spheres members = nsvcd__members_of(q->moving, g);
-  q->extent = nsvcd__group_extent(q->moving, g);
-  for (; missing; missing &= missing - 1) {
-    const size_t s = nsvcd__low_bit(missing);
-    nsvcd__chords_in_segment(q, s, members, q->extent, &q->members[s]);
-  }
-  q->ready |= wanted;
-}
-
-#ifndef NSVCD_NO_PROOF
-// Patches of group h of the fixed body that the moving group meets, whose chords are q->group.
-// segments (GROUP): in which of those `wanted`; written for these patches only.
-static uint32_t nsvcd__group_against_members(const nsvcd__search *q, size_t h, uint64_t wanted,
-                                             uint64_t *segments) {
-  const nsvcd__spheres members = nsvcd__members_of(q->fixed, h);
-  uint32_t met = 0;
-  for (; wanted; wanted &= wanted - 1) {
-    const size_t s = nsvcd__low_bit(wanted);
-    uint32_t bits = nsvcd__meet_members(q, s, members);
-    for (; bits; bits &= bits - 1) {
-      const size_t l = nsvcd__low_bit(bits);
-      segments[l] = (met >> l & 1 ? segments[l] : 0) | (uint64_t)1 << s;
-      met |= 1u << l;
-    }
-  }
-  return met;
-}
-#endif
-
-// Turns to the next moving group in order, and to the fixed group that it meets longest.
-static void nsvcd__search_group(nsvcd__search *q) {
-  const size_t g = q->order[q->step];
-  const uint64_t *nearby = nsvcd__nearby(q, g);
-  size_t most = 0;
-  q->at = 0;
-  for (size_t h = 0; h < q->fixed_tile.count; h++) {
-    const size_t count = nsvcd__bit_count(nearby[h] & q->wanted);
-    if (count > 0) q->waiting |= (uint32_t)1 << h;
-    if (count > most) {
-      most = count;
-      q->at = h;
-    }
-  }
-  if (q->waiting) nsvcd__chords_of_group(q, q->moving_tile.groups[g]);
-  q->ready = 0;
-}
-
-#ifndef NSVCD_NO_NETWORK
-// Finds all contact intervals of moving group g, whose chords are q->group, and the members
-// `which` of group h of the fixed body, in the segments `wanted`.
-static void nsvcd__group_against_group(nsvcd__search *q, size_t g, size_t h, uint32_t which,
-                                       uint64_t wanted, nsvcd__candidates *kept) {
-  const nsvcd__spheres members = nsvcd__members_of(q->fixed, h);
-  const size_t stride = q->most_segments;
-  uint64_t left[NSVCD__GROUP] = {0};
-  uint32_t any = 0;
-  nsvcd__plane_cache *cache = q->cache;
-  cache->resting_known = 0;
-  wanted = nsvcd__segments_left(q, h, wanted);
-  for (; wanted; wanted &= wanted - 1) {
-    const size_t s = nsvcd__low_bit(wanted);
-    uint32_t bits = which & nsvcd__meet_members(q, s, members);
-    if (!bits) continue;
-    nsvcd__pose_members(q, g, (uint64_t)1 << s);
-    cache->deviation = nsvcd__segment_deviation(q, s, q->extent);
-    cache->moving_known = 0;
-    bits = nsvcd__members_left(q, g, s, h, bits);
-    for (; bits; bits &= bits - 1) {
-      const size_t k = nsvcd__low_bit(bits);
-      uint16_t *met = q->met + stride * k;
-      const uint32_t before = s > 0 && left[k] >> (s - 1) & 1 ? met[s - 1] : 0;
-      const uint32_t lanes = nsvcd__members_meet(q, g, s, h, k, before);
-      if (!lanes) continue;
-      met[s] = (uint16_t)lanes;
-      left[k] |= (uint64_t)1 << s;
-      any |= 1u << k;
-    }
-  }
-  for (; any; any &= any - 1) {
-    const size_t k = nsvcd__low_bit(any);
-    const size_t j = NSVCD__GROUP * h + k;
-    const uint16_t *met = q->met + stride * k;
-    const uint64_t cuts = nsvcd__interval_cuts(q, met, left[k]);
-    NSVCD__EACH_SLICE(l) {
-      const size_t i = NSVCD__GROUP * g + l;
-      nsvcd__slice_against_patch(q, i, j, left[k], met, cuts, kept);
-    }
-  }
-}
-
-// Finds all contact intervals of the next pair of groups.
-static void nsvcd__search_pair(nsvcd__search *q, nsvcd__candidates *kept) {
-  if (!q->waiting) nsvcd__search_group(q);
-  const size_t next = q->order[q->step];
-  const size_t g = q->moving_tile.groups[next];
-  const size_t h = q->fixed_tile.groups[q->at];
-  const uint64_t wanted = nsvcd__nearby(q, next)[q->at];
-  nsvcd__group_against_group(q, g, h, 0xffff, wanted, kept);
-}
-
-// A step of the search: the next pair of groups. Returns 1 if there are more.
-static NSVCD__NOINLINE int nsvcd__search_step(nsvcd__search *q, nsvcd__candidates *kept) {
-  nsvcd__search_pair(q, kept);
-  q->waiting &= ~((uint32_t)1 << q->at);
-  if (q->waiting)
-    q->at = nsvcd__low_bit(q->waiting);
-  else
-    q->step++;
-  return q->step < q->steps || nsvcd__search_next_tile(q);
-}
-
-// Instead of a search: finds all contact intervals of one moving group and one patch of the fixed
-// body.
-static void nsvcd__search_patch(nsvcd__search *q, const nsvcd_body *moving, size_t g,
-                                const nsvcd_body *fixed, size_t j, nsvcd__candidates *kept) {
-  const uint64_t all = nsvcd__all_segments(q);
-  q->moving = moving;
-  q->fixed = fixed;
-  q->ready = 0;
-  nsvcd__chords_of_group(q, g);
-  nsvcd__group_against_group(q, g, j / NSVCD__GROUP, 1u << j % NSVCD__GROUP, all, kept);
-}
-
-#endif  // NSVCD_NO_NETWORK
-
-// ==================================================================== proof: whether surfaces meet
+// ========================================== proof: the theorem, and what is told of two triangles
 
 // ------------------------------------------------------------------------------------- proof/proof
 // In: two bodies of triangles and a motion. Out: a witness (two triangles that meet, and when), a
@@ -11248,8 +9323,8 @@ static void nsvcd__search_patch(nsvcd__search *q, const nsvcd_body *moving, size
 //      pair is separated by one of the steps below, or the verdict is not FREE.
 //   3. An *interval* of the motion is a segment or a part of one. Within it, a point x of the
 //      moving body (body frame) leaves the chord between its positions at the two ends by no more
-//      than nsvcd__deviation_of along any direction: the deviation of motion/segments, taken along
-//      a plane's normal (within one arc of angle h of one body it is h^2 / 8 |x|, and nothing along
+//      than nsvcd__deviation_of along any direction: the deviation of segments/segments, along a
+//      plane's normal (within one arc of angle h of one body it is h^2 / 8 |x|, and nothing along
 //      the axis). Let a plane have the moving side at both ends on one side, by more than that and
 //      the clearance. A chord is convex: so the chords are there too, and with them all positions
 //      in between.
@@ -11651,6 +9726,7 @@ typedef struct nsvcd__memo {
 } nsvcd__memo;
 
 typedef struct nsvcd__proof {
+  const struct nsvcd__kernels *kernels;
   nsvcd__geometry moving, fixed;
   nsvcd__given given;
   nsvcd__asked ask;
@@ -11814,6 +9890,16 @@ static nsvcd__dquat nsvcd__unit_rotation(const nsvcd_pose *pose) {
 
 static nsvcd__d3 nsvcd__d3_transform(const nsvcd__dtransform *at, nsvcd__d3 a) {
   return nsvcd__d3_add(nsvcd__dmat3_apply(&at->rotation, a), at->position);
+}
+
+// The inverse of a pose, whose rotation is times this scale.
+static nsvcd__dtransform nsvcd__inverse_dtransform(const nsvcd__dtransform *at, double scale) {
+  const double inverse = 1 / (scale * scale);
+  nsvcd__dtransform out;
+  const nsvcd__dmat3 transpose = nsvcd__dmat3_transpose(at->rotation);
+  out.rotation = nsvcd__dmat3_scale(&transpose, inverse);
+  out.position = nsvcd__d3_scale(nsvcd__dmat3_apply(&out.rotation, at->position), -1);
+  return out;
 }
 
 // The rotation at fraction u of the arc, unit.
@@ -12140,413 +10226,6 @@ static float nsvcd__deviation_of(const nsvcd__interval *over, nsvcd__f3 n, nsvcd
   return origin_bend + turn + across * nsvcd__bend_of(over, arm);
 }
 
-// The same for a slice of directions, or for one direction in a slice of intervals.
-typedef struct nsvcd__v_interval {
-  nsvcd__v3 axis, heading;
-  nsvcd__v rounding, origin_bend, bend, bend_along_axis, origin_along_axis, origin_off_heading;
-} nsvcd__v_interval;
-
-NSVCD__INLINE nsvcd__v_interval nsvcd__v_interval_set(const nsvcd__interval *over) {
-  nsvcd__v_interval out;
-  out.axis = nsvcd__v3_set(over->axis);
-  out.heading = nsvcd__v3_set(over->heading);
-  out.rounding = nsvcd__v_set(over->rounding);
-  out.origin_bend = nsvcd__v_set(over->origin_bend);
-  out.bend = nsvcd__v_set(over->bend);
-  out.bend_along_axis = nsvcd__v_set(over->bend_along_axis);
-  out.origin_along_axis = nsvcd__v_set(over->origin_along_axis);
-  out.origin_off_heading = nsvcd__v_set(over->origin_off_heading);
-  return out;
-}
-// A slice of a block, from lane l on.
-NSVCD__INLINE nsvcd__v_interval nsvcd__v_interval_load(nsvcd__segments *block, size_t l) {
-  nsvcd__v_interval out;
-  out.axis = nsvcd__v3_load(block->axis, l);
-  out.heading = nsvcd__v3_load(block->heading, l);
-  out.rounding = nsvcd__v_load(block->rounding + l);
-  out.origin_bend = nsvcd__v_load(block->origin_bend + l);
-  out.bend = nsvcd__v_load(block->bend + l);
-  out.bend_along_axis = nsvcd__v_load(block->bend_along_axis + l);
-  out.origin_along_axis = nsvcd__v_load(block->origin_along_axis + l);
-  out.origin_off_heading = nsvcd__v_load(block->origin_off_heading + l);
-  return out;
-}
-NSVCD__INLINE nsvcd__v nsvcd__v_deviation(const nsvcd__v_interval *over, nsvcd__v3 n,
-                                          float from_origin) {
-  const nsvcd__v along = nsvcd__v_abs(nsvcd__v3_dot(n, over->axis));
-  const nsvcd__v across = nsvcd__v3_norm(nsvcd__v3_cross(n, over->axis));
-  const nsvcd__v ahead = nsvcd__v_abs(nsvcd__v3_dot(n, over->heading));
-  const nsvcd__v aside = nsvcd__v3_norm(nsvcd__v3_cross(n, over->heading));
-  nsvcd__v by_axis = nsvcd__v_mul(across, over->origin_bend);
-  by_axis = nsvcd__v_fma(along, over->origin_along_axis, by_axis);
-  nsvcd__v by_heading = nsvcd__v_mul(aside, over->origin_off_heading);
-  by_heading = nsvcd__v_fma(ahead, over->origin_bend, by_heading);
-  nsvcd__v turn = nsvcd__v_mul(across, over->bend);
-  turn = nsvcd__v_fma(along, over->bend_along_axis, turn);
-  return nsvcd__v_fma(turn, nsvcd__v_set(from_origin), nsvcd__v_min(by_axis, by_heading));
-}
-#endif  // NSVCD_NO_PROOF
-
-// ------------------------------------------------------------------------------------- proof/slabs
-// In: patch pairs, a slice at a time. Out: those that no plane normal to a slab separates.
-
-#ifndef NSVCD_NO_PROOF
-// A slice of slabs.
-typedef struct nsvcd__v_slab {
-  nsvcd__v3 normal;
-  nsvcd__v low, high, across;
-} nsvcd__v_slab;
-
-NSVCD__INLINE nsvcd__v_slab nsvcd__v_slab_set(const nsvcd__slab *slab) {
-  nsvcd__v_slab out;
-  out.normal = nsvcd__v3_set(slab->normal);
-  out.low = nsvcd__v_set(slab->low);
-  out.high = nsvcd__v_set(slab->high);
-  out.across = nsvcd__v_set(slab->across);
-  return out;
-}
-// From (6, stride).
-NSVCD__INLINE nsvcd__v_slab nsvcd__v_slab_load(const float *slabs, size_t stride) {
-  nsvcd__v_slab out;
-  out.normal = nsvcd__v3_get(slabs, stride);
-  out.low = nsvcd__v_load(slabs + 3 * stride);
-  out.high = nsvcd__v_load(slabs + 4 * stride);
-  out.across = nsvcd__v_load(slabs + 5 * stride);
-  return out;
-}
-
-// Extents of slabs, from their centres, along directions of these components: along the slabs'
-// normals, and across them.
-NSVCD__INLINE nsvcd__v_range nsvcd__v_slab_along(const nsvcd__v_slab *slab, nsvcd__v along,
-                                                 nsvcd__v across) {
-  const nsvcd__v a = nsvcd__v_mul(slab->low, along);
-  const nsvcd__v b = nsvcd__v_mul(slab->high, along);
-  const nsvcd__v side = nsvcd__v_mul(slab->across, across);
-  nsvcd__v_range out;
-  out.low = nsvcd__v_sub(nsvcd__v_min(a, b), side);
-  out.high = nsvcd__v_add(nsvcd__v_max(a, b), side);
-  return out;
-}
-
-// The same, along directions given in the slabs' own frame.
-NSVCD__INLINE nsvcd__v_range nsvcd__v_slab_range(const nsvcd__v_slab *slab, nsvcd__v3 n) {
-  const nsvcd__v along = nsvcd__v3_dot(n, slab->normal);
-  const nsvcd__v across = nsvcd__v3_norm(nsvcd__v3_cross(n, slab->normal));
-  return nsvcd__v_slab_along(slab, along, across);
-}
-
-// Moving slabs that approach fixed ones over an interval; either of them, and the interval, may
-// be the same in all lanes.
-typedef struct nsvcd__v_approach {
-  // in its body's frame and units
-  nsvcd__v_slab moving;
-  nsvcd__v_slab fixed;
-  // from the fixed centre to the moving one, and its travel
-  nsvcd__v3 from, chord;
-  // the fixed slab's normal in the moving body's frame, at both ends
-  nsvcd__v3 at_start, at_end;
-  // the mean of the moving slab's normals at both ends, and half their difference
-  nsvcd__v3 mean, turned;
-  // of the moving body
-  nsvcd__v scale;
-  nsvcd__v_interval over;
-  float clearance;
-  // of the moving slabs' points about their body's origin, in its units
-  float radius;
-  // nsvcd__v_off along the fixed slab's normal
-  nsvcd__v fixed_off;
-} nsvcd__v_approach;
-
-// Lanes in which planes separate two bodies; in those of `below` the moving one is below.
-typedef struct nsvcd__v_separated {
-  nsvcd__v3 plane;  // its normal
-  uint32_t lanes, below;
-} nsvcd__v_separated;
-
-// Along a plane's normal: the deviation of a moving point, and the clearance.
-NSVCD__INLINE nsvcd__v nsvcd__v_off(const nsvcd__v_approach *a, nsvcd__v3 plane) {
-  const nsvcd__v allowed = nsvcd__v_plus(a->over.rounding, a->clearance);
-  return nsvcd__v_add(allowed, nsvcd__v_deviation(&a->over, plane, a->radius));
-}
-
-// By planes with this normal. start, end, fixed: the slabs' extents along it, the moving one's at
-// both ends, each from its centre.
-NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate(const nsvcd__v_approach *a, nsvcd__v3 plane,
-                                                   nsvcd__v_range start, nsvcd__v_range end,
-                                                   nsvcd__v_range fixed, nsvcd__v off) {
-  const nsvcd__v height = nsvcd__v3_dot(plane, a->from);
-  const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(plane, a->chord));
-  const nsvcd__v low =
-      nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
-  const nsvcd__v high =
-      nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
-  nsvcd__v_separated out;
-  out.plane = plane;
-  out.below = nsvcd__v_lt(high, nsvcd__v_sub(fixed.low, off));
-  out.lanes = out.below | nsvcd__v_lt(nsvcd__v_add(fixed.high, off), low);
-  return out;
-}
-
-// By planes normal to the fixed slabs.
-NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_fixed(const nsvcd__v_approach *a) {
-  const nsvcd__v_range fixed = {a->fixed.low, a->fixed.high};
-  const nsvcd__v_range start = nsvcd__v_slab_range(&a->moving, a->at_start);
-  const nsvcd__v_range end = nsvcd__v_slab_range(&a->moving, a->at_end);
-  return nsvcd__v_separate(a, a->fixed.normal, start, end, fixed, a->fixed_off);
-}
-
-// By planes normal to the mean w of the moving slabs' normals, |w| <= 1. Both normals make the same
-// angle with w: they are |w|^2 along it and no more than |turned| across it.
-NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_moving(const nsvcd__v_approach *a) {
-  const nsvcd__v3 w = a->mean;
-  const nsvcd__v along = nsvcd__v_mul(a->scale, nsvcd__v3_dot(w, w));
-  const nsvcd__v across = nsvcd__v_mul(a->scale, nsvcd__v3_norm(a->turned));
-  const nsvcd__v_range moving = nsvcd__v_slab_along(&a->moving, along, across);
-  const nsvcd__v_range fixed = nsvcd__v_slab_range(&a->fixed, w);
-  return nsvcd__v_separate(a, w, moving, moving, fixed, nsvcd__v_off(a, w));
-}
-
-// Of the lanes `met` of moving group g in segment s, those that slabs do not separate from fixed
-// patch j.
-static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *q, size_t g, size_t j,
-                                  size_t s, uint32_t met) {
-  const nsvcd__interval *over = nsvcd__segment_interval(p, q, s);
-  const nsvcd__chords *c = &q->members[s];
-  const nsvcd__slab fixed = nsvcd__slab_at(p->fixed.slabs, p->fixed.body->padded, j);
-  const nsvcd__f3 centre = nsvcd__patch_centre(&p->fixed, j);
-  const nsvcd__mat3 *from = &over->start.rotation;
-  const nsvcd__mat3 *to = &over->end.rotation;
-  uint32_t left = 0;
-  nsvcd__v_approach a;
-  a.fixed = nsvcd__v_slab_set(&fixed);
-  a.at_start = nsvcd__v3_set(nsvcd__mat3_apply_transpose(from, fixed.normal));
-  a.at_end = nsvcd__v3_set(nsvcd__mat3_apply_transpose(to, fixed.normal));
-  a.scale = nsvcd__v_set(p->ask.motion->scale);
-  a.over = nsvcd__v_interval_set(over);
-  a.clearance = nsvcd__clearance(p);
-  a.radius = q->extent;
-  a.fixed_off = nsvcd__v_off(&a, a.fixed.normal);
-  NSVCD__EACH_SLICE(l) {
-    const size_t i = NSVCD__GROUP * g + l;
-    uint32_t wanted = met >> l & NSVCD__SLICE_MASK;
-    if (!wanted) continue;
-    a.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(centre));
-    a.chord = nsvcd__chords_travel(c, l);
-    a.moving = nsvcd__v_slab_load(p->moving.slabs + i, p->moving.body->padded);
-    nsvcd__v_separated by = nsvcd__v_separate_by_fixed(&a);
-    NSVCD__CERTIFY_SLABS(p, q, 0, i, j, s, &by, by.lanes & wanted);
-    wanted &= ~by.lanes;
-    if (!wanted) continue;
-    // rotations in an interval are times the scale
-    const float half = 0.5f * p->ask.motion->per_scale;
-    const nsvcd__mat3 middle = nsvcd__mat3_mix(half, to, 1, from);
-    const nsvcd__mat3 half_turn = nsvcd__mat3_mix(half, to, -1, from);
-    a.mean = nsvcd__vmat3_apply(nsvcd__vmat3_set(&middle), a.moving.normal);
-    a.turned = nsvcd__vmat3_apply(nsvcd__vmat3_set(&half_turn), a.moving.normal);
-    by = nsvcd__v_separate_by_moving(&a);
-    NSVCD__CERTIFY_SLABS(p, q, 0, i, j, s, &by, by.lanes & wanted);
-    left |= (wanted & ~by.lanes) << l;
-  }
-  return left;
-}
-
-// Clears the segments in which slabs separate the moving group that is searched, whose chords are
-// in q->group, from the fixed ones that it meets: a slice of segments at a time.
-static NSVCD__NOINLINE void nsvcd__separate_groups(nsvcd__proof *p, nsvcd__search *q) {
-  const nsvcd_body *moving = p->moving.body;
-  const nsvcd_body *fixed = p->fixed.body;
-  const size_t next = q->order[q->step];
-  const size_t g = q->moving_tile.groups[next];
-  const nsvcd__slab own =
-      nsvcd__slab_at(p->moving.group_slabs, nsvcd__group_slots(moving->padded), g);
-  nsvcd__v_approach a;
-  a.moving = nsvcd__v_slab_set(&own);
-  a.scale = nsvcd__v_set(q->scale);
-  a.clearance = nsvcd__clearance(p);
-  a.radius = nsvcd__group_extent(moving, g);
-  for (uint32_t waiting = q->waiting; waiting; waiting &= waiting - 1) {
-    const size_t at = nsvcd__low_bit(waiting);
-    const size_t h = q->fixed_tile.groups[at];
-    const nsvcd__slab other =
-        nsvcd__slab_at(p->fixed.group_slabs, nsvcd__group_slots(fixed->padded), h);
-    const nsvcd__f3 centre = nsvcd__centre_of(nsvcd__groups_of(fixed), h);
-    uint64_t *met = &nsvcd__nearby(q, next)[at];
-    a.fixed = nsvcd__v_slab_set(&other);
-    for (size_t first = 0; first < NSVCD__MAX_SEGMENTS; first += NSVCD__SLICE) {
-      const uint32_t wanted = (uint32_t)(*met >> first) & NSVCD__SLICE_MASK;
-      nsvcd__segments *block = &q->blocks[first / NSVCD__LANES];
-      const nsvcd__chords *c = &q->group[first / NSVCD__LANES];
-      const size_t l = first % NSVCD__LANES;
-      if (l == 0 && (*met >> first & 0xffff)) NSVCD__TALLY(tests, 1);
-      if (!wanted) continue;
-      const nsvcd__vmat3 rotation = nsvcd__vmat3_load(block->rotation, l);
-      const nsvcd__vmat3 turn = nsvcd__vmat3_load(block->turned, l);
-      const nsvcd__v half = nsvcd__v_set(0.5f / q->scale);
-      const nsvcd__v whole = nsvcd__v_set(1 / q->scale);
-      const nsvcd__v3 n = a.fixed.normal;
-      const nsvcd__v3 m = a.moving.normal;
-      a.over = nsvcd__v_interval_load(block, l);
-      a.fixed_off = nsvcd__v_off(&a, n);
-      a.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(centre));
-      a.chord = nsvcd__chords_travel(c, l);
-      a.at_start = nsvcd__vmat3_apply_transpose(rotation, n);
-      a.at_end = nsvcd__v3_add(a.at_start, nsvcd__vmat3_apply_transpose(turn, n));
-      a.turned = nsvcd__v3_scale(nsvcd__vmat3_apply(turn, m), half);
-      a.mean = nsvcd__v3_fma(whole, nsvcd__vmat3_apply(rotation, m), a.turned);
-      nsvcd__v_separated by = nsvcd__v_separate_by_fixed(&a);
-      NSVCD__CERTIFY_SLABS(p, q, 1, g, h, first, &by, by.lanes & wanted);
-      uint32_t apart = by.lanes;
-      by = nsvcd__v_separate_by_moving(&a);
-      NSVCD__CERTIFY_SLABS(p, q, 1, g, h, first, &by, by.lanes & wanted);
-      apart |= by.lanes;
-      *met &= ~((uint64_t)(apart & wanted) << first);
-    }
-    if (!*met) q->waiting &= ~((uint32_t)1 << at);
-  }
-}
-#endif  // NSVCD_NO_PROOF
-
-// ------------------------------------------------------------------------------------- proof/hulls
-// In: a patch pair and an interval. Out: is there a plane between the two hulls over all of the
-// interval?
-
-#ifndef NSVCD_NO_PROOF
-// A slice, from lane l on, of a patch's hull, in its body's frame and units. Lanes without a vertex
-// repeat the last one.
-NSVCD__INLINE nsvcd__v3 nsvcd__hull_of(const nsvcd__geometry *f, size_t patch, size_t l) {
-  static const float lane[NSVCD__LANES] = {0, 1, 2,  3,  4,  5,  6,  7,
-                                           8, 9, 10, 11, 12, 13, 14, 15};
-  const nsvcd__vertices all = nsvcd__vertices_of(f, patch);
-  const size_t count = f->hull_counts[patch];
-  nsvcd__v3 q;
-  q.x = nsvcd__v_load_int16(all.x + l);
-  q.y = nsvcd__v_load_int16(all.y + l);
-  q.z = nsvcd__v_load_int16(all.z + l);
-  if (count < l + NSVCD__SLICE) {
-    const size_t last = count - 1;
-    const nsvcd__v end = nsvcd__v_set((float)last);
-    const nsvcd__v index = nsvcd__v_load(lane + l);
-    q.x = nsvcd__v_pick(index, end, q.x, nsvcd__v_set((float)all.x[last]));
-    q.y = nsvcd__v_pick(index, end, q.y, nsvcd__v_set((float)all.y[last]));
-    q.z = nsvcd__v_pick(index, end, q.z, nsvcd__v_set((float)all.z[last]));
-  }
-  const nsvcd__v step = nsvcd__v_set(f->steps[patch]);
-  return nsvcd__v3_fma(step, q, nsvcd__v3_set(nsvcd__patch_centre(f, patch)));
-}
-
-// The least of a number and a slice. A NaN stays: it separates nothing.
-NSVCD__INLINE float nsvcd__least_of(float least, nsvcd__v slice) {
-  const float other = nsvcd__v_least(slice);
-  return least < other || least != least ? least : other;
-}
-
-// The greatest of a number and a slice. A NaN stays.
-NSVCD__INLINE float nsvcd__greatest_of(float greatest, nsvcd__v slice) {
-  return -nsvcd__least_of(-greatest, nsvcd__v_negate(slice));
-}
-
-// The gap between two posed hulls along a direction, the moving one at both ends of the interval,
-// and the difference of the two vertices that bound it.
-typedef struct nsvcd__support {
-  float gap;
-  nsvcd__f3 difference;
-} nsvcd__support;
-
-NSVCD__INLINE nsvcd__support nsvcd__support_along(nsvcd__proof *p, nsvcd__f3 normal) {
-  float moving[NSVCD__LANES], fixed[NSVCD__LANES];  // heights
-  float lowest = HUGE_VALF;
-  float highest = -HUGE_VALF;
-  uint32_t starts = 0;  // lanes that are lower at the start
-  uint32_t low = 0;
-  uint32_t high = 0;
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 n = nsvcd__v3_set(normal);
-    const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_start, l));
-    const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_end, l));
-    const nsvcd__v height = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_fixed, l));
-    const nsvcd__v at_either = nsvcd__v_min(at_start, at_end);
-    nsvcd__v_store(moving + l, at_either);
-    nsvcd__v_store(fixed + l, height);
-    lowest = nsvcd__least_of(lowest, at_either);
-    highest = nsvcd__greatest_of(highest, height);
-    starts |= nsvcd__v_le(at_start, at_end) << l;
-  }
-  NSVCD__EACH_SLICE(l) {
-    low |= nsvcd__v_le(nsvcd__v_load(moving + l), nsvcd__v_set(lowest)) << l;
-    high |= nsvcd__v_le(nsvcd__v_set(highest), nsvcd__v_load(fixed + l)) << l;
-  }
-  // a NaN compares with no lane: then the last one
-  const size_t a = nsvcd__low_bit(low | 0x8000);
-  const size_t b = nsvcd__low_bit(high | 0x8000);
-  const int is_start = (starts >> a & 1) != 0;
-  const nsvcd__f3 vertex = nsvcd__lane_of(is_start ? p->hull_start : p->hull_end, a);
-  const nsvcd__f3 other = nsvcd__lane_of(p->hull_fixed, b);
-  const nsvcd__support out = {lowest - highest, nsvcd__f3_sub(vertex, other)};
-  return out;
-}
-
-// a or -a, on the side of b.
-static nsvcd__f3 nsvcd__f3_towards(nsvcd__f3 a, nsvcd__f3 b) {
-  return nsvcd__f3_scale(a, nsvcd__f3_dot(a, b) < 0 ? -1.0f : 1.0f);
-}
-
-// Is there a plane between two patches over the whole interval? A direction separates them if the
-// gap between the hulls along it is more than the margin and the deviation. First guesses: the last
-// plane that held, the slabs' normals, the line of centres. Then Gilbert's iteration (1966) from
-// there towards the point nearest to 0 of the difference of the two hulls.
-// Remembers the plane that holds.
-#define NSVCD__GUESSES 4
-static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j,
-                                                  const nsvcd__interval *over) {
-  const float margins = p->ask.motion->scale * p->moving.margins[i] + p->fixed.margins[j];
-  const float margin = margins + over->rounding + nsvcd__clearance(p);
-  const nsvcd__arm arm = nsvcd__patch_arm(&p->moving, i, over);
-  const nsvcd__transform *start = &over->start;
-  const nsvcd__transform *end = &over->end;
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, i, l);
-    nsvcd__v3_store(p->hull_start, l, nsvcd__v3_transform(start, hull));
-    nsvcd__v3_store(p->hull_end, l, nsvcd__v3_transform(end, hull));
-    nsvcd__v3_store(p->hull_fixed, l, nsvcd__hull_of(&p->fixed, j, l));
-  }
-  const nsvcd__slab moving = nsvcd__slab_at(p->moving.slabs, p->moving.body->padded, i);
-  const nsvcd__slab fixed = nsvcd__slab_at(p->fixed.slabs, p->fixed.body->padded, j);
-  const nsvcd__f3 centre = nsvcd__patch_centre(&p->moving, i);
-  const nsvcd__f3 both =
-      nsvcd__f3_add(nsvcd__f3_transform(start, centre), nsvcd__f3_transform(end, centre));
-  const nsvcd__f3 line =
-      nsvcd__f3_sub(nsvcd__f3_scale(both, 0.5f), nsvcd__patch_centre(&p->fixed, j));
-  const nsvcd__f3 turned = nsvcd__mat3_apply(&start->rotation, moving.normal);
-  const nsvcd__f3 guesses[NSVCD__GUESSES] = {p->memo.held,
-                                             nsvcd__f3_towards(fixed.normal, line),
-                                             nsvcd__f3_towards(turned, line), line};
-  nsvcd__f3 nearest = {0, 0, 0};
-  p->work++;
-  NSVCD__TALLY(planes, 1);
-  for (size_t step = 0; step < NSVCD__GUESSES + NSVCD__PLANE_STEPS; step++) {
-    const nsvcd__f3 normal = step < NSVCD__GUESSES ? guesses[step] : nearest;
-    const nsvcd__support found = nsvcd__support_along(p, normal);
-    const float length = nsvcd__f3_norm(normal);
-    if (found.gap > 0 &&
-        found.gap > margin * length + nsvcd__deviation_of(over, normal, arm)) {
-      p->memo.held = normal;
-      p->memo.plane++;
-      NSVCD__CERTIFY(NSVCD__BY_HULL, i, j, NSVCD_NONE, NSVCD_NONE, over->t_start, over->t_end,
-                     &normal.x);
-      return 1;
-    }
-    if (step + 1 < NSVCD__GUESSES) continue;
-    const nsvcd__f3 toward = nsvcd__f3_sub(found.difference, nearest);
-    const float square = nsvcd__f3_dot(toward, toward);
-    float fraction = square > 0 ? -nsvcd__f3_dot(nearest, toward) / square : 0;
-    fraction = fraction > 0 ? fminf(fraction, 1) : 0;
-    const nsvcd__f3 nearer = nsvcd__f3_add(nearest, nsvcd__f3_scale(toward, fraction));
-    nearest = step < NSVCD__GUESSES ? found.difference : nearer;
-    // the hulls come this near
-    if (nsvcd__f3_dot(nearest, nearest) <= margin * margin) return 0;
-  }
-  return 0;
-}
 #endif  // NSVCD_NO_PROOF
 
 // ---------------------------------------------------------------------------- proof/triangle_pairs
@@ -13037,7 +10716,3022 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
 }
 #endif  // NSVCD_NO_PROOF
 
-// ------------------------------------------------------------------------------------ proof/blocks
+// ----------------------------------------------------------------------------------- proof/touches
+// In: two triangles that touch at the start of a motion. Out: how deep, and which directions undo
+// it.
+
+#ifndef NSVCD_NO_PROOF
+// Answers in float cannot tell things apart that are nearer to each other than this.
+static double nsvcd__epsilon(const nsvcd__proof *p) {
+  return nsvcd__off_meshes(p) + NSVCD__LEAST_EPSILON * (double)p->given.lengths;
+}
+
+// How deep a touch is along n: how far the moving triangle must go to be beyond the other; negative
+// if it is beyond it already.
+static double nsvcd__depth_along(nsvcd__d3 n, const nsvcd__triangle_contact *t) {
+  return -nsvcd__beyond(n, t->moving, t->fixed);
+}
+
+// Is a touch too deep for the slop in every direction? Those to try are the separating axes: a
+// normal of either triangle, or across an edge of each.
+static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__triangle_contact *t) {
+  const nsvcd__d3 push_out = nsvcd__d3_widen(p->ask.motion->push_out);
+  const double most = p->ask.slop - p->given.clearance;
+  for (size_t k = 0; k < 12; k++) {
+    nsvcd__d3 n = k < 3 ? t->directions[k] : nsvcd__across_edges(t->moving, t->fixed, k - 3);
+    if (!(nsvcd__d3_dot(n, n) > 0.5)) continue;
+    for (int side = 0; side < 2; side++) {
+      const double pushed_out = nsvcd__d3_dot(push_out, n);
+      if (pushed_out + nsvcd__depth_along(n, t) <= most) return 0;
+      n = nsvcd__d3_scale(n, -1);
+    }
+  }
+  return 1;
+}
+
+// Does a push-out along n, by what is left of the slop in that direction, undo a touch? If it has
+// to push, it must not go through both faces. Going through one is harmless: a cone's side, which
+// rises from the rim that the cone stands on, looks up, and so does the floor under it.
+static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n,
+                         const nsvcd__triangle_contact *t) {
+  const double more = nsvcd__depth_along(n, t);
+  const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->push_out), n);
+  if (!(nsvcd__d3_dot(n, n) > 0.5)) return 0;
+  if (pushed_out + more + p->given.clearance > p->ask.slop) return 0;
+  if (more < 0) return 1;
+  return nsvcd__d3_dot(n, t->directions[0]) > -0.3 ||
+         nsvcd__d3_dot(n, t->directions[1]) > -0.3;
+}
+
+// The squared distance of two triangles after the moving one has gone so far along n.
+static double nsvcd__gap_after(const nsvcd__triangle_contact *t, nsvcd__d3 n,
+                               double distance) {
+  nsvcd__d3 moved[3];
+  for (int k = 0; k < 3; k++)
+    moved[k] = nsvcd__d3_add(t->moving[k], nsvcd__d3_scale(n, distance));
+  return nsvcd__nearest_of(moved, t->fixed).square;
+}
+
+// How far along n the moving triangle of a touch must go until it is beyond the clearance for good,
+// which it is after `most`; -HUGE_VAL if it never is within it. The distance is convex: thirds find
+// where it is least, and halves where it is the clearance. epsilon: of depths, in double.
+static NSVCD__NOINLINE double nsvcd__exit_depth(const nsvcd__triangle_contact *t, nsvcd__d3 n,
+                                                double clearance, double most,
+                                                double epsilon) {
+  // Parallel faces meet at one time only.
+  const double limit = clearance + nsvcd__min(0.003 * most, epsilon);
+  const double square = limit * limit;
+  // nearly always
+  if (nsvcd__gap_after(t, n, 0.998 * most) <= square) return most;
+  double low = 0;
+  double high = most;
+  double inner = 0;  // where it is within the clearance
+  int met = nsvcd__gap_after(t, n, 0) <= square;
+  for (int k = 0; k < 16 && !met; k++) {
+    const double third = (high - low) / 3;
+    const double before = nsvcd__gap_after(t, n, low + third);
+    const double after = nsvcd__gap_after(t, n, high - third);
+    met = before <= square || after <= square;
+    inner = after <= square ? high - third : low + third;
+    if (before < after) high -= third;
+    if (!(before < after)) low += third;
+  }
+  if (!met) return -HUGE_VAL;
+  for (double beyond = most; beyond - inner > nsvcd__max(1e-3 * beyond, 1e-5 * most);) {
+    const double middle = 0.5 * (inner + beyond);
+    const int is_inner = nsvcd__gap_after(t, n, middle) <= square;
+    *(is_inner ? &inner : &beyond) = middle;
+  }
+  return inner;
+}
+
+// Notes how deep a touch is along normal k.
+static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__triangle_contact *t) {
+  const nsvcd__d3 n = p->normals[k];
+  const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->push_out), n);
+  const double most = nsvcd__depth_along(n, t) + p->given.clearance;
+  p->needed = nsvcd__max(p->needed, pushed_out + most);
+  if (!(most > 0) || !(pushed_out + most > p->depths[k])) return;
+  const double epsilon = nsvcd__off_meshes(p) + NSVCD__TOO_NEAR * (double)p->given.lengths;
+  const double depth = pushed_out + nsvcd__exit_depth(t, n, p->given.clearance, most, epsilon);
+  p->depths[k] = nsvcd__max(p->depths[k], depth);
+}
+
+// Does normal k undo a touch? Then its depth is noted.
+static int nsvcd__undone_by(nsvcd__proof *p, size_t k, const nsvcd__triangle_contact *t) {
+  if (!nsvcd__undoes(p, p->normals[k], t)) return 0;
+  nsvcd__note_depth(p, k, t);
+  return 1;
+}
+
+// Keeps two triangles that are within the clearance at the start, unless a known direction undoes
+// that.
+static void nsvcd__collect_contact(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
+                                   const nsvcd__d3 *posed) {
+  nsvcd__triangle_contact contact;
+  memcpy(contact.moving, posed, sizeof contact.moving);
+  memcpy(contact.fixed, pair->fixed, sizeof contact.fixed);
+  const nsvcd__nearest nearest = nsvcd__nearest_of(posed, pair->fixed);
+  const int are_apart = nearest.square > 1e6 * pair->rounding * pair->rounding;
+  const nsvcd__d3 distance = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+  contact.directions[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
+  contact.directions[1] = nsvcd__face_direction(pair->fixed);
+  contact.directions[2] = nsvcd__d3_scale(distance, are_apart ? 1 / sqrt(nearest.square) : 0);
+  for (size_t k = 0; k < p->normal_count; k++) {
+    if (nsvcd__undone_by(p, k, &contact)) return;
+  }
+  p->too_deep = p->too_deep || nsvcd__is_deep(p, &contact);
+  if (p->contact_count < NSVCD__TOUCHES) p->of.touches[p->contact_count++] = contact;
+}
+#endif  // NSVCD_NO_PROOF
+
+// ---------------------------------------------------------------------------------- proof/manifold
+// In: triangle pairs that are near each other when a contact is. Out: up to four contact points
+// that hold the body: those that span the largest area, seen along the contact's normal.
+//
+// Two triangles touch where a corner of one is over the other, or where two edges cross. Of all
+// such points the farthest along eight directions are kept, for a slim contact those across it too,
+// and of these the best four. Of two points equally far, the one with the lower number is kept: so
+// the same points are chosen again when little has moved. Only normals close to the contact's
+// count: where a side rises from the floor, corners of the floor's triangles are near the side as
+// well, but the body does not stand on it.
+
+#ifndef NSVCD_NO_PROOF
+// Prepares a manifold of contacts with about this normal, unit, of bodies that move like this.
+static void nsvcd__manifold_begin(nsvcd__proof *p, nsvcd__d3 n, const nsvcd__twist *twist,
+                                  double tolerance, double same) {
+  nsvcd__manifold *m = &p->of.kept.manifold;
+  const int flattest = fabs(n.x) < fabs(n.y) ? 0 : 1;
+  const nsvcd__d3 aside = nsvcd__d3_of(flattest == 0, flattest == 1, 0);
+  const nsvcd__d3 u = nsvcd__d3_unit(nsvcd__d3_cross(n, aside), nsvcd__d3_of(1, 0, 0));
+  memset(m, 0, sizeof *m);
+  m->normal = n;
+  m->twist = *twist;
+  m->tolerance = tolerance;
+  m->same = same;
+  // An eighth of a turn each: the sum of a direction and of that a quarter on, made unit.
+  nsvcd__d3 along = u;
+  for (int k = 0; k < NSVCD__AROUND; k++) {
+    m->along[k] = along;
+    m->farthest[k] = -HUGE_VAL;
+    along = nsvcd__d3_scale(nsvcd__d3_add(along, nsvcd__d3_cross(n, along)), sqrt(0.5));
+  }
+  for (int k = NSVCD__AROUND; k < NSVCD__SUPPORTS; k++) m->farthest[k] = HUGE_VAL;
+}
+
+// If what has been found spans little for its length, prepares the two directions across it, for
+// what is between the eight. area: twice what is spanned. Returns 0 if it is not so slim.
+static int nsvcd__seek_across(nsvcd__manifold *m, double area) {
+  nsvcd__d3 longest = {0, 0, 0};
+  for (int k = 0; k < NSVCD__AROUND; k++) {
+    for (int n = 0; n < k && m->farthest[k] > -HUGE_VAL && m->farthest[n] > -HUGE_VAL; n++) {
+      const nsvcd__d3 offset = nsvcd__d3_sub(m->supports[k].point, m->supports[n].point);
+      if (nsvcd__d3_dot(offset, offset) > nsvcd__d3_dot(longest, longest)) longest = offset;
+    }
+  }
+  const double square = nsvcd__d3_dot(longest, longest);
+  if (!(square > m->same * m->same) || area > NSVCD__SLIM * square) return 0;
+  const nsvcd__d3 across = nsvcd__d3_unit(nsvcd__d3_cross(m->normal, longest), m->along[0]);
+  for (int k = NSVCD__AROUND; k < NSVCD__SUPPORTS; k++) {
+    m->along[k] = nsvcd__d3_scale(across, k == NSVCD__AROUND ? 1 : -1);
+    m->farthest[k] = -HUGE_VAL;
+    for (int n = 0; n < NSVCD__AROUND; n++) {
+      const double along_it = nsvcd__d3_dot(m->along[k], m->supports[n].point);
+      if (!(m->farthest[n] > -HUGE_VAL) || !(along_it > m->farthest[k])) continue;
+      m->farthest[k] = along_it;
+      m->supports[k] = m->supports[n];
+      m->numbers[k] = m->numbers[n];
+    }
+  }
+  return 1;
+}
+
+// A triangle pair of a manifold.
+typedef struct nsvcd__facing {
+  const nsvcd__triangle_pair *pair;
+  const nsvcd__d3 *posed;  // the moving triangle
+  // normals out of the fixed body; of an open surface on the side of the contact's
+  nsvcd__d3 faces[2];
+  int is_open;  // one is of an open surface
+} nsvcd__facing;
+
+static nsvcd__facing nsvcd__facing_of(const nsvcd__proof *p, const nsvcd__triangle_pair *pair,
+                                      const nsvcd__d3 *posed) {
+  const nsvcd__d3 n = p->of.kept.manifold.normal;
+  const int closed[2] = {nsvcd__moving_closed(p, pair), nsvcd__fixed_closed(p, pair)};
+  nsvcd__facing out = {pair, posed, {{0, 0, 0}, {0, 0, 0}}, !closed[0] || !closed[1]};
+  out.faces[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
+  out.faces[1] = nsvcd__face_direction(pair->fixed);
+  for (int k = 0; k < 2; k++) {
+    nsvcd__d3 *face = &out.faces[k];
+    const int turned = nsvcd__d3_dot(*face, n) < 0;
+    if (turned && !closed[k]) *face = nsvcd__d3_scale(*face, -1);
+  }
+  return out;
+}
+
+// Does point x come apart along its normal, while one of its faces comes nearer? Then it is no
+// contact, or one of another triangle pair.
+static int nsvcd__is_left(const nsvcd__twist *twist, nsvcd__d3 x, nsvcd__d3 normal,
+                          const nsvcd__d3 *faces) {
+  const nsvcd__d3 speed = nsvcd__twist_of(twist, x);
+  const double least = 1e-7 * nsvcd__d3_norm(speed);
+  if (!(nsvcd__d3_dot(speed, normal) > least)) return 0;
+  for (int k = 0; k < 2; k++)
+    if (nsvcd__d3_dot(speed, faces[k]) < -least) return 1;
+  return 0;
+}
+
+// Keeps a point where a triangle pair touches, if it is farther out than those kept. normal: of a
+// face, or across two edges, of either sign.
+static NSVCD__NOINLINE void nsvcd__keep_support(nsvcd__proof *p, const nsvcd__facing *f,
+                                                nsvcd__d3 on_moving, nsvcd__d3 on_fixed,
+                                                nsvcd__d3 normal, uint32_t number) {
+  nsvcd__manifold *m = &p->of.kept.manifold;
+  const double side = nsvcd__d3_dot(normal, m->normal) < 0 ? -1 : 1;
+  const nsvcd__d3 offset = nsvcd__d3_sub(on_moving, on_fixed);
+  const double gap = side * nsvcd__d3_dot(offset, normal);
+  const double aside = nsvcd__d3_dot(offset, offset) - gap * gap;
+  nsvcd__d3 point;
+  // Past the end of an edge they are not over each other.
+  if (aside > 0.01 * m->same * m->same) return;
+  // Nor are they on the far side of a sheet that they do not pass through.
+  if (gap < 0 && f->is_open && !nsvcd__triangles_meet(f->posed, f->pair->fixed, &point))
+    return;
+  if (nsvcd__is_left(&m->twist, on_fixed, nsvcd__d3_scale(normal, side), f->faces)) return;
+  nsvcd__nearest nearest = {gap > 0 ? gap * gap : 0, on_moving, on_fixed};
+  nsvcd__pair_contact contact;
+  int known = 0;
+  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
+    const double along_it = nsvcd__d3_dot(m->along[k], on_fixed);
+    const double more = along_it - m->farthest[k];
+    if (!(more > m->same || (more >= -m->same && number < m->numbers[k]))) continue;
+    if (!known) contact = nsvcd__contact_at(p, f->pair, 0, &nearest);
+    known = 1;
+    contact.normal = nsvcd__d3_scale(normal, side);
+    m->supports[k] = contact;
+    m->numbers[k] = number;
+    m->farthest[k] = along_it;
+  }
+}
+
+// Keeps all points where a triangle pair touches, within the tolerance. posed: the moving triangle.
+// Corner k of entry e has the number 4 (3 e + k), and 1 more if it is of the fixed body.
+static NSVCD__NOINLINE void nsvcd__collect_supports(nsvcd__proof *p,
+                                                    const nsvcd__triangle_pair *pair,
+                                                    const nsvcd__d3 *posed) {
+  const nsvcd__manifold *m = &p->of.kept.manifold;
+  const nsvcd__d3 *fixed = pair->fixed;
+  nsvcd__d3 foot;
+  int farther = 0;
+  for (int k = 0; k < NSVCD__SUPPORTS && !farther; k++) {
+    for (int i = 0; i < 3; i++)
+      farther |=
+          nsvcd__d3_dot(m->along[k], posed[i]) + m->tolerance >= m->farthest[k] - m->same;
+  }
+  if (!farther) return;
+  // Faces must be about normal to the contact's.
+  const nsvcd__facing facing = nsvcd__facing_of(p, pair, posed);
+  const int moving_faces = nsvcd__d3_dot(facing.faces[0], m->normal) >= 0.8;
+  const int fixed_faces = nsvcd__d3_dot(facing.faces[1], m->normal) >= 0.8;
+  for (size_t k = 0; k < 3; k++) {
+    const uint32_t moving_id = (uint32_t)(3 * pair->moving_entry + k) << 2;
+    const uint32_t fixed_id = (uint32_t)(3 * pair->fixed_entry + k) << 2 | 1;
+    if (fixed_faces && nsvcd__foot_within(posed[k], fixed, &foot) &&
+        nsvcd__d3_distance2(posed[k], foot) <= m->tolerance * m->tolerance)
+      nsvcd__keep_support(p, &facing, posed[k], foot, facing.faces[1], moving_id);
+    if (moving_faces && nsvcd__foot_within(fixed[k], posed, &foot) &&
+        nsvcd__d3_distance2(fixed[k], foot) <= m->tolerance * m->tolerance)
+      nsvcd__keep_support(p, &facing, foot, fixed[k], facing.faces[0], fixed_id);
+    for (size_t i = 0; i < 3; i++) {
+      const nsvcd__d3 a = posed[(k + 1) % 3];
+      const nsvcd__d3 b = fixed[(i + 1) % 3];
+      const nsvcd__d3 u = nsvcd__d3_sub(a, posed[k]);
+      const nsvcd__d3 v = nsvcd__d3_sub(b, fixed[i]);
+      const nsvcd__d3 across = nsvcd__d3_cross(u, v);
+      const double along = nsvcd__d3_dot(across, m->normal);
+      const double square = nsvcd__d3_dot(across, across);
+      const double lengths = nsvcd__d3_dot(u, u) * nsvcd__d3_dot(v, v);
+      nsvcd__nearest nearest = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
+      if (!(square > 1e-4 * lengths)) continue;
+      if (along * along < 0.64 * square) continue;
+      nsvcd__edges_nearest(posed[k], a, fixed[i], b, &nearest);
+      if (!(nearest.square <= m->tolerance * m->tolerance)) continue;
+      const uint32_t number = moving_id * 3 + fixed_id * 5 + (uint32_t)(1 + i) * 0x9e3779b9u;
+      nsvcd__keep_support(p, &facing, nearest.on_a, nearest.on_b,
+                          nsvcd__d3_unit(across, facing.faces[1]), number | 2);
+    }
+  }
+}
+
+// Twice the area that four points span, seen along the normal.
+static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
+  double most = 0;
+  for (int k = 0; k < 3; k++) {
+    const nsvcd__d3 a = m->supports[of[0]].point;
+    const nsvcd__d3 b = m->supports[of[1 + k]].point;
+    const nsvcd__d3 c = m->supports[of[1 + (k + 1) % 3]].point;
+    const nsvcd__d3 d = m->supports[of[1 + (k + 2) % 3]].point;
+    const nsvcd__d3 both = nsvcd__d3_cross(nsvcd__d3_sub(b, a), nsvcd__d3_sub(d, c));
+    most = nsvcd__max(most, fabs(nsvcd__d3_dot(both, m->normal)));
+  }
+  return most;
+}
+
+// Chooses the contacts: which supports, and twice the area that they span. Returns how many.
+static NSVCD__NOINLINE int nsvcd__choose_four(const nsvcd__manifold *m, int *chosen,
+                                              double *area) {
+  int kept[NSVCD__SUPPORTS];
+  int count = 0;
+  // Each point once, in the order of their numbers.
+  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
+    int at = count;
+    int is_new = m->farthest[k] > -HUGE_VAL && m->farthest[k] < HUGE_VAL;
+    for (int n = 0; n < count; n++) {
+      const nsvcd__d3 other = m->supports[kept[n]].point;
+      is_new &= nsvcd__d3_distance2(m->supports[k].point, other) > m->same * m->same;
+    }
+    if (!is_new) continue;
+    for (; at > 0 && m->numbers[k] < m->numbers[kept[at - 1]]; at--) kept[at] = kept[at - 1];
+    kept[at] = k;
+    count++;
+  }
+  memcpy(chosen, kept, sizeof(int) * (size_t)(count < 4 ? count : 4));
+  *area = 0;
+  for (int n = count; n < 4 && count > 0; n++) kept[n] = kept[count - 1];
+  if (count > 0 && count <= 4) *area = nsvcd__spanned(m, kept);
+  if (count <= 4) return count;
+  for (uint32_t all = 0; all < 1u << count; all++) {
+    int four[4];
+    int size = 0;
+    if (nsvcd__bit_count(all) != 4) continue;
+    for (uint32_t left = all; left; left &= left - 1)
+      four[size++] = kept[nsvcd__low_bit(left)];
+    const double spanned = nsvcd__spanned(m, four);
+    if (!(spanned > 1.001 * *area)) continue;
+    *area = spanned;
+    memcpy(chosen, four, 4 * sizeof *chosen);
+  }
+  return 4;
+}
+#endif  // NSVCD_NO_PROOF
+
+// ============================================================= task: a question, and what it needs
+
+// --------------------------------------------------------------------------------------- task/task
+// In: two bodies and a motion. Out: an answer, by proof (proof/proof) or by the network
+// (NeuralSVCD, algorithm 1). This room has what a question needs, and its memory; query/question
+// takes it through these phases:
+//
+//   check       is it in order, which method can answer it, and is the workspace large enough?
+//   who moves   of its two bodies; all is computed in the other's frame and units
+//   lay out     what it needs, and where in the workspace that is
+//   answer      by proof, or by the network
+//   write       what was found about moving and fixed, as facts about a and b
+//
+// A batch checks all of its questions before it answers the first one.
+
+#ifndef NSVCD_NO_NETWORK
+#ifndef NSVCD_NO_BASE
+#define NSVCD__LARGEST_MODEL NSVCD_MODEL_BASE
+#elif !defined(NSVCD_NO_SMALL)
+#define NSVCD__LARGEST_MODEL NSVCD_MODEL_SMALL
+#else
+#define NSVCD__LARGEST_MODEL NSVCD_MODEL_TINY
+#endif
+
+// ---- the network's schedule
+//
+// The search finds pairs of patches whose balls meet. The deepest of them make the shortlist. The
+// ranker, which is the tiny decoder, scores these while the search goes on, and the chosen decoder
+// judges the K most suspicious. K is network.pairs, by default NSVCD_DEFAULT_PAIRS. The broad phase
+// says how a motion is cut, into 16 to 64 segments; network/decoder how much goes through a decoder
+// at once (NSVCD__BATCH, NSVCD__ROWS); and proof/proof what a proof may take.
+
+// Pairs on the shortlist, times K. The tiny decoder needs none: K.
+#define NSVCD__SHORTLIST 4
+// New pairs that are worth a first run of the ranker before the search is done. Later runs wait for
+// NSVCD__BATCH pairs.
+#define NSVCD__FIRST_BATCH 8
+// Pairs that runs before the end of the search may take, times the shortlist.
+#define NSVCD__RANKED_TWICE 2
+// Pairs that the chosen decoder gets at once, until one is clear; and pairs that are kept where the
+// last of a batch collided.
+#define NSVCD__PORTION 4
+// By how much patches are inflated before planes separate them, as a fraction of their radii, at
+// N = 32, and less the more patches there are: at a recall of 0.999, and of 0.9999.
+#define NSVCD__INFLATE 0.04f
+#define NSVCD__MOST_INFLATE 0.1f
+// The same where a distance is asked for: the decoder knows distances up to a patch's radius.
+#define NSVCD__INFLATE_DISTANCE 1.0f
+// A logit this far from 0 is clear. A clear collision needs no second pair, and what is clear to
+// the ranker no second decoder: 37,000 answers on held-out sets, N = 128 to 512, are the same as
+// with twice this and twice the next, but for four.
+#define NSVCD__CLEAR_LOGIT 3.0f
+// The same in the first pair of groups, where planes are not asked yet: at 3, earlier weights
+// stopped one more free motion of 2,000, 2 mm from contact.
+#define NSVCD__FIRST_CLEAR 4.0f
+// How often the patches where the last of a batch collided may mislead before they are forgotten.
+#define NSVCD__MISLEADS 2
+
+// The network's options, with the defaults filled in.
+typedef struct nsvcd__settings {
+  size_t pairs;      // K
+  size_t shortlist;  // pairs that are kept
+  const nsvcd__decoder *decoder, *ranker;
+  int int8;
+  float threshold;  // subtracted from the decoder's logit
+  float inflate;    // as NSVCD__INFLATE, for these bodies
+} nsvcd__settings;
+
+// The candidate that an answer is about, and the decoder that gave its logit.
+typedef struct nsvcd__decisive {
+  nsvcd__candidate candidate;
+  const nsvcd__decoder *decoder;
+} nsvcd__decisive;
+
+// The settings for two bodies of so many patches. On an error, where the options ask for what is
+// not there, *settings is not whole. weights.h has a threshold per decoder, recall and N = 32, 64,
+// ..., 512. Between those, and for two bodies that differ, it is interpolated at the mean of log2
+// N.
+static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t patches1,
+                                       size_t patches2, nsvcd__settings *settings) {
+  if (o->pairs > NSVCD_MAX_PAIRS) return NSVCD_ERROR_PAIRS;
+  if ((unsigned)o->model > (unsigned)NSVCD_MODEL_BASE) return NSVCD_ERROR_MODEL;
+  if (!nsvcd__is_finite(o->inflate) || o->inflate < 0) return NSVCD_ERROR_INFLATE;
+  if (o->precision != NSVCD_PRECISION_FLOAT && o->precision != NSVCD_PRECISION_INT8)
+    return NSVCD_ERROR_PRECISION;
+  const nsvcd_model model = o->model ? o->model : NSVCD__LARGEST_MODEL;
+  const size_t decoder = (size_t)model - (size_t)NSVCD_MODEL_TINY;
+  if (!nsvcd_w_decoders[decoder].layers) return NSVCD_ERROR_MODEL;  // compiled out
+  settings->pairs = o->pairs ? o->pairs : NSVCD_DEFAULT_PAIRS;
+  settings->shortlist = decoder == 0 ? settings->pairs : NSVCD__SHORTLIST * settings->pairs;
+  settings->decoder = &nsvcd_w_decoders[decoder];
+  settings->ranker = &nsvcd_w_decoders[0];
+#ifdef NSVCD_NO_FLOAT
+  settings->int8 = 1;
+#else
+  settings->int8 = o->precision == NSVCD_PRECISION_INT8;
+#endif
+#ifdef NSVCD_NO_INT8
+  if (settings->int8) return NSVCD_ERROR_PRECISION;
+#endif
+  for (size_t k = 0; k < NSVCD_W_RECALLS && nsvcd__is_finite(o->recall); k++) {
+    if (o->recall < nsvcd_w_recall[k] || o->recall > nsvcd_w_recall[k]) continue;
+    const float n = sqrtf((float)patches1 * (float)patches2);
+    const float last = NSVCD_W_SIZES - 1;
+    const float size = log2f(n) - 5;
+    const float at = size < 0 ? 0 : size > last ? last : size;
+    const size_t row = at < last ? (size_t)at : NSVCD_W_SIZES - 2;
+    const float low = nsvcd_w_threshold[decoder][row][k];
+    const float high = nsvcd_w_threshold[decoder][row + 1][k];
+    settings->threshold = low + (at - (float)row) * (high - low);
+    const float least = k < 2 ? 0 : k == 2 ? NSVCD__INFLATE : NSVCD__MOST_INFLATE;
+    settings->inflate = fmaxf(o->inflate, least * 32 / n);
+    return NSVCD_OK;
+  }
+  return NSVCD_ERROR_RECALL;
+}
+#endif  // NSVCD_NO_NETWORK
+
+// ---- tasks, and their memory
+
+// A question that has been checked.
+typedef struct nsvcd__task {
+  const nsvcd_body *moving, *fixed;
+  nsvcd__motion motion;
+  int swapped;          // the moving body is b, not a
+  float lengths;        // extents of both bodies, in the fixed one's units
+  nsvcd_method method;  // PROOF or NETWORK
+  const nsvcd_question *question;
+#ifndef NSVCD_NO_NETWORK
+  nsvcd__settings settings;
+  nsvcd__decisive *decisive;  // written unless NULL
+#if NSVCD__SLICE == 1
+  // (DECODER_IN) the decoder's inputs, in memory that the search does not need between two groups:
+  // stack is scarce where rows go one by one
+  float *row;
+#endif
+#endif
+} nsvcd__task;
+
+// What a workspace begins with. The network's memory and the proof's are the same, for one follows
+// the other.
+typedef struct nsvcd__query {
+  const struct nsvcd__kernels *kernels;
+  nsvcd__search broad_phase;
+  nsvcd__task task;
+#ifndef NSVCD_NO_NETWORK
+  nsvcd__candidate *kept;  // (shortlist)
+#endif
+#ifndef NSVCD_NO_PROOF
+  nsvcd__proof *proof;
+  nsvcd__interval *intervals;  // (S)
+#endif
+} nsvcd__query;
+
+// NSVCD_PROOF_WORKSPACE_BYTES and NSVCD_NETWORK_WORKSPACE_BYTES count on these. Where this does not
+// compile they are wrong.
+#define NSVCD__MUST_HOLD(condition) ((condition) ? 1 : -1)
+typedef char nsvcd__constants_hold[NSVCD__MUST_HOLD(
+    sizeof(nsvcd__query) + 3 * NSVCD_ALIGNMENT + NSVCD__PASSED_OVER <= 1088 &&
+    sizeof(nsvcd__segments) <= 148 * 16 && sizeof(nsvcd__chords) <= 512 &&
+    sizeof(nsvcd__cut) <= 16 * 512 && NSVCD__TILE_SLOTS == 32 &&
+    NSVCD_ALIGNMENT == sizeof(uint64_t))];
+#ifndef NSVCD_NO_PROOF
+typedef char nsvcd__proof_constants_hold[NSVCD__MUST_HOLD(sizeof(nsvcd__proof) <= 24832 &&
+                                                          sizeof(nsvcd__interval) <= 168)];
+#endif
+#ifndef NSVCD_NO_NETWORK
+typedef char nsvcd__network_constants_hold[NSVCD__MUST_HOLD(
+    NSVCD__SHORTLIST * sizeof(nsvcd__candidate) <= 112 && NSVCD__LATENT == 40 &&
+    sizeof(nsvcd__plane_cache) <= 576)];
+#endif
+
+// Lays a query out at `base`, which is aligned, or only counts if that is NULL. Returns the bytes
+// that it takes.
+static size_t nsvcd__query_layout(const nsvcd__needs *needs, char *base) {
+  nsvcd__query counted;
+  uint64_t used = 0;
+  nsvcd__query *query = NSVCD__TAKE_ROWS(nsvcd__query, 1, base, &used);
+  if (!query) query = &counted;
+  nsvcd__search_layout(needs, base, &used, &query->broad_phase);
+  uint64_t end = used;
+#ifndef NSVCD_NO_NETWORK
+  nsvcd__search *search = &query->broad_phase;
+  const size_t asked = needs->candidates > 0;
+  const size_t meetings = asked * NSVCD__GROUP * needs->segments;
+  query->kept = NSVCD__TAKE_ROWS(nsvcd__candidate, needs->candidates, base, &end);
+  search->cache = NSVCD__TAKE_ROWS(nsvcd__plane_cache, asked, base, &end);
+  search->met = NSVCD__TAKE_ROWS(uint16_t, meetings, base, &end);
+#endif
+#ifndef NSVCD_NO_PROOF
+  const size_t proofs = needs->proof != 0;
+  const size_t intervals = proofs * needs->segments;
+  query->proof = NSVCD__TAKE_ROWS(nsvcd__proof, proofs, base, &used);
+  query->intervals = NSVCD__TAKE_ROWS(nsvcd__interval, intervals, base, &used);
+#endif
+  return (size_t)(used > end ? used : end);
+}
+
+// Writes what a verdict alone tells: the bodies may go to the end of a motion that is free, else
+// nowhere.
+static void nsvcd__answer_begin(const nsvcd__task *task, nsvcd_verdict verdict,
+                                nsvcd_answer *answer) {
+  const nsvcd__track *moving = &task->motion.moving;
+  const nsvcd__track *fixed = &task->motion.fixed;
+  const int is_free = verdict == NSVCD_FREE;
+  memset(answer, 0, sizeof *answer);
+  answer->verdict = verdict;
+  answer->time.low = answer->safe.time = is_free ? 1.0f : 0.0f;
+  answer->time.high = is_free ? 1 : HUGE_VALF;
+  answer->distance.high = HUGE_VALF;
+  answer->depth = is_free ? 0 : HUGE_VALF;
+  answer->safe.a = moving->poses[is_free ? moving->count - 1 : 0];
+  answer->safe.b = fixed->poses[is_free ? fixed->count - 1 : 0];
+  answer->nearest.gap = HUGE_VALF;
+  answer->nearest.triangle_a = NSVCD_NO_TRIANGLE;
+  answer->nearest.triangle_b = NSVCD_NO_TRIANGLE;
+}
+
+// Where the last question of a batch collided, by the network: the next one is tried there first.
+// Forgotten when it has misled MISLEADS times, or the bodies change.
+typedef struct nsvcd__hint {
+  int known, misled;
+  uint32_t moving, fixed;  // patches
+} nsvcd__hint;
+
+// The functions of a query that work on vectors, of one instruction set: all that is compiled more
+// than once. What stands above them calls them through this table.
+typedef struct nsvcd__kernels {
+  int (*self_test)(void);
+#ifndef NSVCD_NO_PROOF
+  nsvcd__outcome (*separate)(nsvcd__proof *p, nsvcd__search *q);
+  int (*is_contained_at_start)(nsvcd__proof *p);
+  double (*bound_distance)(nsvcd__proof *p, nsvcd__search *q);
+  void (*seek_positions)(nsvcd__proof *p, int first, int last);
+#endif
+#ifndef NSVCD_NO_NETWORK
+  int (*ask_network)(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opinion *out);
+#endif
+#ifndef NSVCD_NO_GRADIENT
+  void (*gradient)(const nsvcd__task *task, nsvcd__decisive *decisive, const float *time,
+                   float *const *out);
+#endif
+} nsvcd__kernels;
+
+#endif  // NSVCD__ISA
+
+// ===================================================================== lanes: 16 numbers at a time
+
+// ------------------------------------------------------------------------------------- lanes/lanes
+// In, out: slices of 16 lanes: as many floats as a register holds. v is a slice, v3 a vector of
+// three of them.
+
+// ---- operations, for each instruction set; the plain C ones say what they mean. Macros, so that
+// the sets of x86 share one text, which entry/processor compiles three times.
+
+#undef NSVCD__OP
+#undef NSVCD__OF_ALL
+#undef NSVCD__FMA
+#undef NSVCD__LE
+#undef NSVCD__LT
+#undef NSVCD__BITS
+#undef NSVCD__SELECT
+
+#if NSVCD__SLICE == 1
+typedef float nsvcd__v;
+#define nsvcd__v_load(p) (*(p))
+#define nsvcd__v_store(p, a) (*(p) = (a))
+#define nsvcd__v_set(x) ((float)(x))
+#define nsvcd__v_add(a, b) ((float)((a) + (b)))
+#define nsvcd__v_sub(a, b) ((float)((a) - (b)))
+#define nsvcd__v_mul(a, b) ((float)((a) * (b)))
+#define nsvcd__v_div(a, b) ((float)((a) / (b)))
+#define NSVCD__MIN(a, b) (a < b ? a : b)
+#define NSVCD__MAX(a, b) (a > b ? a : b)
+#define nsvcd__v_sqrt sqrtf
+#define NSVCD__LE(a, b) ((a) <= (b))
+#define NSVCD__LT(a, b) ((a) < (b))
+#define NSVCD__BITS(mask) (mask)
+#define NSVCD__SELECT(mask, x, y) (mask ? x : y)
+#else
+#define nsvcd__v_add NSVCD__OP(add)
+#define nsvcd__v_sub NSVCD__OP(sub)
+#define nsvcd__v_mul NSVCD__OP(mul)
+#define nsvcd__v_div NSVCD__OP(div)
+#endif
+
+#if defined(__wasm_simd128__) && NSVCD__SLICE == 4
+typedef v128_t nsvcd__v;
+#define NSVCD__OP(name) wasm_f32x4_##name
+#define nsvcd__v_load wasm_v128_load
+#define nsvcd__v_store wasm_v128_store
+#define nsvcd__v_set NSVCD__OP(splat)
+// pmin(b, a) is a < b ? a : b, one instruction of x86; min, which handles NaN and -0, takes many.
+#define NSVCD__MIN(a, b) NSVCD__OP(pmin)(b, a)
+#define NSVCD__MAX(a, b) NSVCD__OP(pmax)(b, a)
+#define nsvcd__v_sqrt NSVCD__OP(sqrt)
+#define NSVCD__LE(a, b) NSVCD__OP(le)(a, b)
+#define NSVCD__LT(a, b) NSVCD__OP(lt)(a, b)
+#define NSVCD__BITS(mask) wasm_i32x4_bitmask(mask)
+#define NSVCD__SELECT(mask, x, y) wasm_v128_bitselect(x, y, mask)
+
+#elif defined(__aarch64__) && NSVCD__SLICE == 4
+typedef float32x4_t nsvcd__v;
+#define NSVCD__OP(name) v##name##q_f32
+#define nsvcd__v_load vld1q_f32
+#define nsvcd__v_store vst1q_f32
+#define nsvcd__v_set vdupq_n_f32
+#define NSVCD__FMA(a, b, c) vfmaq_f32(c, a, b)
+#define NSVCD__MIN(a, b) NSVCD__OP(min)(a, b)
+#define NSVCD__MAX(a, b) NSVCD__OP(max)(a, b)
+#define nsvcd__v_sqrt NSVCD__OP(sqrt)
+#define NSVCD__LE(a, b) NSVCD__OP(cle)(a, b)
+#define NSVCD__LT(a, b) NSVCD__OP(clt)(a, b)
+#define NSVCD__BITS(mask) nsvcd__v_bits(mask)
+#define NSVCD__SELECT(mask, x, y) NSVCD__OP(bsl)(mask, x, y)
+static inline uint32_t nsvcd__v_bits(uint32x4_t lanes) {
+  static const uint32_t bit[4] = {1, 2, 4, 8};
+  return vaddvq_u32(vandq_u32(lanes, vld1q_u32(bit)));
+}
+
+#elif NSVCD__SLICE > 1  // x86
+#define nsvcd__v_load NSVCD__OP(loadu)
+#define nsvcd__v_store NSVCD__OP(storeu)
+#define nsvcd__v_set NSVCD__OP(set1)
+#define NSVCD__MIN(a, b) NSVCD__OF_ALL(min, a, b)
+#define NSVCD__MAX(a, b) NSVCD__OF_ALL(max, a, b)
+#define nsvcd__v_sqrt(a) NSVCD__OF_ALL(sqrt, a)
+#endif
+
+#if NSVCD__SLICE == 16
+typedef __m512 nsvcd__v;
+#define NSVCD__OP(name) _mm512_##name##_ps
+// With a mask of all lanes: unmasked, gcc's own header warns in C++.
+#define NSVCD__ALL ((__mmask16)0xffff)
+#define NSVCD__OF_ALL(name, ...) _mm512_maskz_##name##_ps(NSVCD__ALL, __VA_ARGS__)
+#define NSVCD__FMA(a, b, c) _mm512_fmadd_ps(a, b, c)
+#define NSVCD__LE(a, b) _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ)
+#define NSVCD__LT(a, b) _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ)
+#define NSVCD__BITS(mask) mask
+#define NSVCD__SELECT(mask, x, y) _mm512_mask_blend_ps(mask, y, x)
+#elif NSVCD__SLICE == 8
+typedef __m256 nsvcd__v;
+#define NSVCD__OP(name) _mm256_##name##_ps
+#define NSVCD__OF_ALL(name, ...) _mm256_##name##_ps(__VA_ARGS__)
+#define NSVCD__FMA(a, b, c) _mm256_fmadd_ps(a, b, c)
+#define NSVCD__LE(a, b) _mm256_cmp_ps(a, b, _CMP_LE_OQ)
+#define NSVCD__LT(a, b) _mm256_cmp_ps(a, b, _CMP_LT_OQ)
+#define NSVCD__BITS(mask) _mm256_movemask_ps(mask)
+#define NSVCD__SELECT(mask, x, y) _mm256_blendv_ps(y, x, mask)
+#elif NSVCD__SLICE == 4 && !defined(NSVCD__OP)
+typedef __m128 nsvcd__v;
+#define NSVCD__OP(name) _mm_##name##_ps
+#define NSVCD__OF_ALL(name, ...) _mm_##name##_ps(__VA_ARGS__)
+#define NSVCD__LE(a, b) _mm_cmple_ps(a, b)
+#define NSVCD__LT(a, b) _mm_cmplt_ps(a, b)
+#define NSVCD__BITS(mask) _mm_movemask_ps(mask)
+#define NSVCD__SELECT(mask, x, y) _mm_or_ps(_mm_and_ps(mask, x), _mm_andnot_ps(mask, y))
+#endif
+
+#ifdef NSVCD_ONE_PATH
+#undef NSVCD__FMA
+#endif
+#ifndef NSVCD__FMA
+#define NSVCD__FMA(a, b, c) nsvcd__v_add(nsvcd__v_mul(a, b), c)
+#endif
+#define nsvcd__v_fma(a, b, c) NSVCD__FMA(a, b, c)  // a b + c
+// Bit i is set if a <= b in lane i of the slice, or a < b.
+#define nsvcd__v_le(a, b) ((uint32_t)NSVCD__BITS(NSVCD__LE(a, b)))
+#define nsvcd__v_lt(a, b) ((uint32_t)NSVCD__BITS(NSVCD__LT(a, b)))
+static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) {
+  return NSVCD__MIN(a, b);
+}
+static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) {
+  return NSVCD__MAX(a, b);
+}
+// a <= b ? x : y.
+static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
+  return NSVCD__SELECT(NSVCD__LE(a, b), x, y);
+}
+// The least of all lanes.
+static inline float nsvcd__v_least(nsvcd__v a) {
+#if NSVCD__SLICE == 1
+  return a;
+#elif defined(__aarch64__)
+  return vminvq_f32(a);
+#elif defined(__wasm_simd128__)
+  const nsvcd__v two = nsvcd__v_min(a, wasm_i32x4_shuffle(a, a, 2, 3, 0, 1));
+  return wasm_f32x4_extract_lane(nsvcd__v_min(two, wasm_i32x4_shuffle(two, two, 1, 0, 3, 2)),
+                                 0);
+#else
+#if NSVCD__SLICE == 4
+  const __m128 four = a;
+#else
+#if NSVCD__SLICE == 8
+  const __m256 eight = a;
+#else
+  const __m512d whole = _mm512_castps_pd(a);
+  const __m256d low = _mm512_maskz_extractf64x4_pd(0xf, whole, 0);
+  const __m256d high = _mm512_maskz_extractf64x4_pd(0xf, whole, 1);
+  const __m256 eight = _mm256_min_ps(_mm256_castpd_ps(low), _mm256_castpd_ps(high));
+#endif
+  const __m128 four =
+      _mm_min_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps(eight, 1));
+#endif
+  const __m128 two = _mm_min_ps(four, _mm_movehl_ps(four, four));
+  return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
+#endif
+}
+static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
+#if NSVCD__SLICE == 1
+  return (float)*p;
+#elif defined(__aarch64__)
+  return vcvtq_f32_s32(vmovl_s16(vld1_s16(p)));
+#elif defined(__wasm_simd128__)
+  return wasm_f32x4_convert_i32x4(wasm_i32x4_load16x4(p));
+#elif NSVCD__SLICE == 4
+  const __m128i packed = _mm_loadl_epi64((const __m128i *)(const void *)p);
+  return _mm_cvtepi32_ps(_mm_srai_epi32(_mm_unpacklo_epi16(packed, packed), 16));
+#elif NSVCD__SLICE == 8
+  const __m128i packed = _mm_loadu_si128((const __m128i *)(const void *)p);
+  return _mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(packed));
+#else
+  const __m256i packed = _mm256_loadu_si256((const __m256i *)(const void *)p);
+  const __m512i wide = _mm512_maskz_cvtepi16_epi32(NSVCD__ALL, packed);
+  return _mm512_maskz_cvtepi32_ps(NSVCD__ALL, wide);
+#endif
+}
+static inline nsvcd__v nsvcd__v_load_int8(const int8_t *p) {
+#if NSVCD__SLICE == 1
+  return (float)*p;
+#elif defined(__wasm_simd128__)
+  const v128_t wide = wasm_i16x8_extend_low_i8x16(wasm_v128_load32_zero(p));
+  return wasm_f32x4_convert_i32x4(wasm_i32x4_extend_low_i16x8(wide));
+#elif NSVCD__SLICE == 4
+  int32_t word;
+  memcpy(&word, p, sizeof word);
+#if defined(__aarch64__)
+  const int16x8_t wide = vmovl_s8(vcreate_s8((uint64_t)(uint32_t)word));
+  return vcvtq_f32_s32(vmovl_s16(vget_low_s16(wide)));
+#else
+  const __m128i packed = _mm_cvtsi32_si128(word);
+  const __m128i pairs = _mm_unpacklo_epi8(packed, packed);
+  return _mm_cvtepi32_ps(_mm_srai_epi32(_mm_unpacklo_epi16(pairs, pairs), 24));
+#endif
+#elif NSVCD__SLICE == 8
+  const __m128i packed = _mm_loadl_epi64((const __m128i *)(const void *)p);
+  return _mm256_cvtepi32_ps(_mm256_cvtepi8_epi32(packed));
+#else
+  const __m128i packed = _mm_loadu_si128((const __m128i *)(const void *)p);
+  const __m512i wide = _mm512_maskz_cvtepi8_epi32(NSVCD__ALL, packed);
+  return _mm512_maskz_cvtepi32_ps(NSVCD__ALL, wide);
+#endif
+}
+
+#define NSVCD__SLICE_MASK (((uint32_t)1 << (NSVCD__SLICE - 1) << 1) - 1)
+#define NSVCD__EACH_SLICE(l) for (size_t l = 0; l < NSVCD__LANES; l += NSVCD__SLICE)
+
+static inline nsvcd__v nsvcd__v_clamp(nsvcd__v a, float low, float high) {
+  return nsvcd__v_min(nsvcd__v_max(a, nsvcd__v_set(low)), nsvcd__v_set(high));
+}
+// All lanes times a number, and plus a number.
+static inline nsvcd__v nsvcd__v_scale(nsvcd__v a, float s) {
+  return nsvcd__v_mul(a, nsvcd__v_set(s));
+}
+static inline nsvcd__v nsvcd__v_plus(nsvcd__v a, float s) {
+  return nsvcd__v_add(a, nsvcd__v_set(s));
+}
+static inline nsvcd__v nsvcd__v_negate(nsvcd__v a) {
+  return nsvcd__v_sub(nsvcd__v_set(0), a);
+}
+
+static inline nsvcd__v nsvcd__v_abs(nsvcd__v a) {
+  return nsvcd__v_max(a, nsvcd__v_negate(a));
+}
+
+// A slice of vectors.
+typedef struct nsvcd__v3 {
+  nsvcd__v x, y, z;
+} nsvcd__v3;
+
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_of(nsvcd__v x, nsvcd__v y, nsvcd__v z) {
+  const nsvcd__v3 out = {x, y, z};
+  return out;
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_set(nsvcd__f3 a) {
+  return nsvcd__v3_of(nsvcd__v_set(a.x), nsvcd__v_set(a.y), nsvcd__v_set(a.z));
+}
+#define NSVCD__BY_AXIS(op, a, b) nsvcd__v3_of(op(a.x, b.x), op(a.y, b.y), op(a.z, b.z))
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_add(nsvcd__v3 a, nsvcd__v3 b) {
+  return NSVCD__BY_AXIS(nsvcd__v_add, a, b);
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_sub(nsvcd__v3 a, nsvcd__v3 b) {
+  return NSVCD__BY_AXIS(nsvcd__v_sub, a, b);
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_negate(nsvcd__v3 a) {
+  return nsvcd__v3_of(nsvcd__v_negate(a.x), nsvcd__v_negate(a.y), nsvcd__v_negate(a.z));
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_min(nsvcd__v3 a, nsvcd__v3 b) {
+  return NSVCD__BY_AXIS(nsvcd__v_min, a, b);
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_max(nsvcd__v3 a, nsvcd__v3 b) {
+  return NSVCD__BY_AXIS(nsvcd__v_max, a, b);
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_scale(nsvcd__v3 a, nsvcd__v s) {
+  return nsvcd__v3_of(nsvcd__v_mul(s, a.x), nsvcd__v_mul(s, a.y), nsvcd__v_mul(s, a.z));
+}
+// a + s b.
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_fma(nsvcd__v s, nsvcd__v3 b, nsvcd__v3 a) {
+  return nsvcd__v3_of(nsvcd__v_fma(s, b.x, a.x), nsvcd__v_fma(s, b.y, a.y),
+                      nsvcd__v_fma(s, b.z, a.z));
+}
+NSVCD__INLINE nsvcd__v nsvcd__v3_dot(nsvcd__v3 a, nsvcd__v3 b) {
+  return nsvcd__v_fma(a.x, b.x, nsvcd__v_fma(a.y, b.y, nsvcd__v_mul(a.z, b.z)));
+}
+// s + a b.
+NSVCD__INLINE nsvcd__v nsvcd__v3_dot_add(nsvcd__v3 a, nsvcd__v3 b, nsvcd__v s) {
+  const nsvcd__v sum = nsvcd__v_fma(a.x, b.x, s);
+  return nsvcd__v_fma(a.z, b.z, nsvcd__v_fma(a.y, b.y, sum));
+}
+NSVCD__INLINE nsvcd__v nsvcd__v3_norm(nsvcd__v3 a) {
+  return nsvcd__v_sqrt(nsvcd__v3_dot(a, a));
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_cross(nsvcd__v3 a, nsvcd__v3 b) {
+  return nsvcd__v3_of(nsvcd__v_sub(nsvcd__v_mul(a.y, b.z), nsvcd__v_mul(a.z, b.y)),
+                      nsvcd__v_sub(nsvcd__v_mul(a.z, b.x), nsvcd__v_mul(a.x, b.z)),
+                      nsvcd__v_sub(nsvcd__v_mul(a.x, b.y), nsvcd__v_mul(a.y, b.x)));
+}
+// The centres of a slice of spheres.
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_centres(nsvcd__spheres all, size_t l) {
+  return nsvcd__v3_of(nsvcd__v_load(all.x + l), nsvcd__v_load(all.y + l),
+                      nsvcd__v_load(all.z + l));
+}
+// From rows of x, y and z, `stride` apart.
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_get(const float *p, size_t stride) {
+  return nsvcd__v3_of(nsvcd__v_load(p), nsvcd__v_load(p + stride),
+                      nsvcd__v_load(p + 2 * stride));
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_load_int8(const int8_t *p, size_t stride) {
+  return nsvcd__v3_of(nsvcd__v_load_int8(p), nsvcd__v_load_int8(p + stride),
+                      nsvcd__v_load_int8(p + 2 * stride));
+}
+NSVCD__INLINE void nsvcd__v3_put(nsvcd__v3 a, float *p, size_t stride) {
+  nsvcd__v_store(p, a.x);
+  nsvcd__v_store(p + stride, a.y);
+  nsvcd__v_store(p + 2 * stride, a.z);
+}
+// From three rows of 16 numbers.
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_rows(const float *p) {
+  return nsvcd__v3_get(p, NSVCD__LANES);
+}
+// Lanes l .. l + SLICE - 1 of p (3, LANES).
+NSVCD__INLINE void nsvcd__v3_store(nsvcd__row *p, size_t l, nsvcd__v3 a) {
+  nsvcd__v3_put(a, p[0] + l, NSVCD__LANES);
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_load(nsvcd__row *p, size_t l) {
+  return nsvcd__v3_get(p[0] + l, NSVCD__LANES);
+}
+
+// Unit vectors; the x axis where the length is 0.
+static inline nsvcd__v3 nsvcd__v3_unit(nsvcd__v3 a) {
+  const nsvcd__v3 x = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
+  const nsvcd__v least = nsvcd__v_set(1e-18f);
+  const nsvcd__v length = nsvcd__v3_norm(a);
+  const nsvcd__v inverse = nsvcd__v_div(x.x, nsvcd__v_max(length, least));
+  const nsvcd__v3 unit = nsvcd__v3_scale(a, inverse);
+  return nsvcd__v3_of(nsvcd__v_pick(length, least, x.x, unit.x),
+                      nsvcd__v_pick(length, least, x.y, unit.y),
+                      nsvcd__v_pick(length, least, x.z, unit.z));
+}
+
+// Ranges along a direction.
+typedef struct nsvcd__v_range {
+  nsvcd__v low, high;
+} nsvcd__v_range;
+
+// The square of a sum of radii, with its sign: a negative sum, of padding, meets nothing.
+static inline nsvcd__v nsvcd__v_signed_square(nsvcd__v sum) {
+  return nsvcd__v_mul(sum, nsvcd__v_abs(sum));
+}
+
+// A ray in a body's frame, with a radius.
+typedef struct nsvcd__beam {
+  nsvcd__f3 from, along;  // along: a unit vector
+  float width;
+} nsvcd__beam;
+
+// A filter of a traversal: spheres that a beam meets.
+static uint32_t nsvcd__is_on_beam(const void *what, nsvcd__spheres all) {
+  const nsvcd__beam *beam = (const nsvcd__beam *)what;
+  const nsvcd__v3 n = nsvcd__v3_set(beam->along);
+  const nsvcd__v3 from = nsvcd__v3_set(beam->from);
+  uint32_t met = 0;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(all, l), from);
+    const nsvcd__v3 off = nsvcd__v3_cross(d, n);
+    const nsvcd__v sum = nsvcd__v_plus(nsvcd__v_load(all.r + l), beam->width);
+    const nsvcd__v square = nsvcd__v3_dot(off, off);
+    const uint32_t ahead = nsvcd__v_le(nsvcd__v_negate(sum), nsvcd__v3_dot(d, n));
+    met |= (ahead & nsvcd__v_le(square, nsvcd__v_signed_square(sum))) << l;
+  }
+  return met;
+}
+
+// ------------------------------------------------------------------------------------- lanes/turns
+// In, out: rotations, lane by lane: vquat is a slice of quaternions, vmat3 of matrices.
+
+typedef struct nsvcd__vquat {
+  nsvcd__v x, y, z, w;
+} nsvcd__vquat;
+
+// Matrices by their rows.
+typedef struct nsvcd__vmat3 {
+  nsvcd__v3 x, y, z;
+} nsvcd__vmat3;
+
+NSVCD__INLINE nsvcd__vquat nsvcd__vquat_of(nsvcd__v3 axis, nsvcd__v w) {
+  const nsvcd__vquat out = {axis.x, axis.y, axis.z, w};
+  return out;
+}
+// The axis of a unit quaternion, times the sine of half its angle.
+NSVCD__INLINE nsvcd__v3 nsvcd__vquat_axis(nsvcd__vquat q) {
+  return nsvcd__v3_of(q.x, q.y, q.z);
+}
+NSVCD__INLINE nsvcd__vquat nsvcd__vquat_set(nsvcd__quat q) {
+  return nsvcd__vquat_of(nsvcd__v3_set(nsvcd__f3_of(q.x, q.y, q.z)), nsvcd__v_set(q.w));
+}
+// From rows of x, y, z and w, `stride` apart.
+NSVCD__INLINE nsvcd__vquat nsvcd__vquat_load(const float *p, size_t stride) {
+  return nsvcd__vquat_of(nsvcd__v3_get(p, stride), nsvcd__v_load(p + 3 * stride));
+}
+NSVCD__INLINE void nsvcd__vquat_store(nsvcd__vquat q, float *p, size_t stride) {
+  nsvcd__v3_put(nsvcd__vquat_axis(q), p, stride);
+  nsvcd__v_store(p + 3 * stride, q.w);
+}
+static inline nsvcd__v nsvcd__vquat_dot(nsvcd__vquat a, nsvcd__vquat b) {
+  const nsvcd__v sum = nsvcd__v_fma(a.y, b.y, nsvcd__v_mul(a.x, b.x));
+  return nsvcd__v_fma(a.w, b.w, nsvcd__v_fma(a.z, b.z, sum));
+}
+// a + s b.
+static inline nsvcd__vquat nsvcd__vquat_fma(nsvcd__v s, nsvcd__vquat b, nsvcd__vquat a) {
+  return nsvcd__vquat_of(nsvcd__v3_fma(s, nsvcd__vquat_axis(b), nsvcd__vquat_axis(a)),
+                         nsvcd__v_fma(s, b.w, a.w));
+}
+static inline nsvcd__vquat nsvcd__vquat_unit(nsvcd__vquat q) {
+  const nsvcd__v length = nsvcd__v_sqrt(nsvcd__vquat_dot(q, q));
+  const nsvcd__vquat out = {nsvcd__v_div(q.x, length), nsvcd__v_div(q.y, length),
+                            nsvcd__v_div(q.z, length), nsvcd__v_div(q.w, length)};
+  return out;
+}
+// Of unit quaternions.
+static inline nsvcd__vquat nsvcd__vquat_inverse(nsvcd__vquat q) {
+  return nsvcd__vquat_of(nsvcd__v3_negate(nsvcd__vquat_axis(q)), q.w);
+}
+static inline nsvcd__vquat nsvcd__vquat_mul(nsvcd__vquat a, nsvcd__vquat b) {
+  const nsvcd__v3 u = nsvcd__vquat_axis(a);
+  const nsvcd__v3 v = nsvcd__vquat_axis(b);
+  const nsvcd__v3 along = nsvcd__v3_fma(a.w, v, nsvcd__v3_scale(u, b.w));
+  const nsvcd__v cosines = nsvcd__v_mul(a.w, b.w);
+  return nsvcd__vquat_of(nsvcd__v3_add(nsvcd__v3_cross(u, v), along),
+                         nsvcd__v_sub(cosines, nsvcd__v3_dot(u, v)));
+}
+
+NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_rows(nsvcd__v3 x, nsvcd__v3 y, nsvcd__v3 z) {
+  const nsvcd__vmat3 out = {x, y, z};
+  return out;
+}
+NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_set(const nsvcd__mat3 *m) {
+  const nsvcd__vmat3 out = {nsvcd__v3_set(m->x), nsvcd__v3_set(m->y), nsvcd__v3_set(m->z)};
+  return out;
+}
+// p: (9, LANES), row-major.
+NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_load(nsvcd__row *p, size_t l) {
+  return nsvcd__vmat3_rows(nsvcd__v3_load(p, l), nsvcd__v3_load(p + 3, l),
+                           nsvcd__v3_load(p + 6, l));
+}
+NSVCD__INLINE void nsvcd__vmat3_store(nsvcd__row *p, size_t l, nsvcd__vmat3 m) {
+  nsvcd__v3_store(p, l, m.x);
+  nsvcd__v3_store(p + 3, l, m.y);
+  nsvcd__v3_store(p + 6, l, m.z);
+}
+NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_scale(nsvcd__vmat3 m, nsvcd__v s) {
+  return nsvcd__vmat3_rows(nsvcd__v3_scale(m.x, s), nsvcd__v3_scale(m.y, s),
+                           nsvcd__v3_scale(m.z, s));
+}
+NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_sub(nsvcd__vmat3 a, nsvcd__vmat3 b) {
+  return nsvcd__vmat3_rows(nsvcd__v3_sub(a.x, b.x), nsvcd__v3_sub(a.y, b.y),
+                           nsvcd__v3_sub(a.z, b.z));
+}
+// a + s b.
+NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_fma(nsvcd__v s, nsvcd__vmat3 b, nsvcd__vmat3 a) {
+  return nsvcd__vmat3_rows(nsvcd__v3_fma(s, b.x, a.x), nsvcd__v3_fma(s, b.y, a.y),
+                           nsvcd__v3_fma(s, b.z, a.z));
+}
+NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_transpose(nsvcd__vmat3 m) {
+  return nsvcd__vmat3_rows(nsvcd__v3_of(m.x.x, m.y.x, m.z.x),
+                           nsvcd__v3_of(m.x.y, m.y.y, m.z.y),
+                           nsvcd__v3_of(m.x.z, m.y.z, m.z.z));
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__vmat3_apply(nsvcd__vmat3 m, nsvcd__v3 a) {
+  return nsvcd__v3_of(nsvcd__v3_dot(m.x, a), nsvcd__v3_dot(m.y, a), nsvcd__v3_dot(m.z, a));
+}
+NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_mul(nsvcd__vmat3 a, nsvcd__vmat3 b) {
+  const nsvcd__vmat3 columns = nsvcd__vmat3_transpose(b);
+  return nsvcd__vmat3_rows(nsvcd__vmat3_apply(columns, a.x), nsvcd__vmat3_apply(columns, a.y),
+                           nsvcd__vmat3_apply(columns, a.z));
+}
+// p + m a.
+NSVCD__INLINE nsvcd__v3 nsvcd__vmat3_apply_add(nsvcd__vmat3 m, nsvcd__v3 a, nsvcd__v3 p) {
+  return nsvcd__v3_of(nsvcd__v3_dot_add(m.x, a, p.x), nsvcd__v3_dot_add(m.y, a, p.y),
+                      nsvcd__v3_dot_add(m.z, a, p.z));
+}
+// The squared Frobenius norm.
+NSVCD__INLINE nsvcd__v nsvcd__vmat3_square(nsvcd__vmat3 m) {
+  const nsvcd__v sum = nsvcd__v3_dot_add(m.x, m.x, nsvcd__v_set(0));
+  return nsvcd__v3_dot_add(m.z, m.z, nsvcd__v3_dot_add(m.y, m.y, sum));
+}
+// The transpose of m, times a.
+NSVCD__INLINE nsvcd__v3 nsvcd__vmat3_apply_transpose(nsvcd__vmat3 m, nsvcd__v3 a) {
+  return nsvcd__v3_fma(a.z, m.z, nsvcd__v3_fma(a.y, m.y, nsvcd__v3_scale(m.x, a.x)));
+}
+// One rotation and position for all lanes.
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_transform(const nsvcd__transform *t, nsvcd__v3 a) {
+  const nsvcd__mat3 columns = nsvcd__mat3_transpose(t->rotation);
+  nsvcd__v3 sum = nsvcd__v3_set(t->position);
+  sum = nsvcd__v3_fma(a.z, nsvcd__v3_set(columns.z), sum);
+  sum = nsvcd__v3_fma(a.y, nsvcd__v3_set(columns.y), sum);
+  return nsvcd__v3_fma(a.x, nsvcd__v3_set(columns.x), sum);
+}
+
+// Of quaternions of any length whose square fits a float.
+static inline nsvcd__vmat3 nsvcd__vmat3_of(nsvcd__vquat q) {
+  const nsvcd__v one = nsvcd__v_set(1);
+  const nsvcd__v3 axis = nsvcd__vquat_axis(q);
+  const nsvcd__v square = nsvcd__v_add(nsvcd__v_mul(q.w, q.w), nsvcd__v3_dot(axis, axis));
+  const nsvcd__v3 s = nsvcd__v3_scale(axis, nsvcd__v_div(nsvcd__v_set(2), square));
+  // twice x times each, twice w times each, and the products that are left
+  const nsvcd__v3 x = nsvcd__v3_scale(axis, s.x);
+  const nsvcd__v3 w = nsvcd__v3_scale(s, q.w);
+  const nsvcd__v yy = nsvcd__v_mul(s.y, q.y);
+  const nsvcd__v zz = nsvcd__v_mul(s.z, q.z);
+  const nsvcd__v yz = nsvcd__v_mul(s.y, q.z);
+  return nsvcd__vmat3_rows(
+      nsvcd__v3_of(nsvcd__v_sub(one, nsvcd__v_add(yy, zz)), nsvcd__v_sub(x.y, w.z),
+                   nsvcd__v_add(x.z, w.y)),
+      nsvcd__v3_of(nsvcd__v_add(x.y, w.z), nsvcd__v_sub(one, nsvcd__v_add(x.x, zz)),
+                   nsvcd__v_sub(yz, w.x)),
+      nsvcd__v3_of(nsvcd__v_sub(x.z, w.y), nsvcd__v_add(yz, w.x),
+                   nsvcd__v_sub(one, nsvcd__v_add(x.x, yy))));
+}
+
+// ================================================================ segments: 16 parts of a motion
+
+// ------------------------------------------------------------------------------- segments/segments
+// In: a motion, and the ticks at which its segments begin. Out: for 16 segments at a time the
+// moving body's pose at the start, its change until the end, and how far points deviate from that.
+//
+// Within a segment a point c of the moving body, in its frame, is taken along the chord between its
+// positions at both ends, x0 + tau v, tau in [0,1]. Its true position M(t) c + p(t), where M is the
+// rotation times the scale, is no farther from the chord's than
+//   origin_bend + bend |c|
+// Proof: let L(t) interpolate M linearly between the segment's ends, K(t) piecewise between the
+// keyframes inside. Between two keyframes a chord misses a curve by at most max|second derivative|
+// / 8, with time from 0 to 1 there. If one body moves, that is h^2 |c| / 8 on an arc of angle h,
+// and its origin moves straight; if both do, see nsvcd__cut_double_arc. K - L is piecewise linear
+// and its norm convex, so it is largest at a keyframe. Hence
+//   bend        = max over arcs of their bend per metre
+//                 + max over keyframes ||M_k - L(t_k)||  (Frobenius >= 2-norm)
+//   origin_bend = max over arcs of the origin's bend
+//                 + max over keyframes |p_k - its linear interpolation|
+//   margin      = origin_bend + rounding + the clearance asked for
+//
+// Along a direction n, |n| <= 1, the deviation is smaller. A turn by h about the unit axis a bends
+// the path of a point x by a x (a x y) h^2, y being x, turned; and n.(a x (a x y)) = (n x a).(a x
+// y), at most |n x a| |x|: nothing along the axis. `bend_along_axis` and `origin_along_axis` are
+// what is left along the axis of the whole segment's turn, from which the axes of its arcs may
+// differ. nsvcd__deviation_of puts them together.
+
+// A slice of poses of both bodies in the world.
+typedef struct nsvcd__v_poses {
+  nsvcd__vquat moving;  // of any length
+  nsvcd__vquat fixed;   // unit; only where that body moves
+  nsvcd__v3 offset;     // from the fixed body's origin to the moving one's, metres
+} nsvcd__v_poses;
+
+// A slice of poses.
+typedef struct nsvcd__v_pose {
+  nsvcd__vquat rotation;
+  nsvcd__v3 position;
+} nsvcd__v_pose;
+
+// The moving body's poses in the fixed body's frame: quaternions of any length, positions in its
+// units.
+static nsvcd__v_pose nsvcd__v_seen(const nsvcd__motion *m, const nsvcd__v_poses *at) {
+  const nsvcd__v per_metre = nsvcd__v_set(1 / m->unit);
+  nsvcd__vquat to_fixed;
+  nsvcd__vmat3 matrix;
+  if (m->fixed_moves) {
+    to_fixed = nsvcd__vquat_inverse(at->fixed);
+    matrix = nsvcd__vmat3_of(to_fixed);
+  } else {
+    to_fixed = nsvcd__vquat_set(m->to_fixed_quat);
+    matrix = nsvcd__vmat3_set(&m->to_fixed);
+  }
+  const nsvcd__v3 metres = nsvcd__vmat3_apply(matrix, at->offset);
+  nsvcd__v_pose out;
+  out.rotation = nsvcd__vquat_mul(to_fixed, at->moving);
+  out.position = nsvcd__v3_fma(per_metre, metres, nsvcd__v3_set(m->push_out));
+  return out;
+}
+
+// ---- turns between quaternions
+
+// 1 where x >= 0, else -1.
+static nsvcd__v nsvcd__v_sign(nsvcd__v x) {
+  return nsvcd__v_pick(nsvcd__v_set(0), x, nsvcd__v_set(1), nsvcd__v_set(-1));
+}
+
+// An upper bound of the angle between two rotations, unit to 1e-4, tight where it is small: 4
+// asin(chord / 2) of their chord as quaternions, with asin x <= x + (pi/2 - 1) x^3, and half a
+// thousandth for the lengths.
+static nsvcd__v nsvcd__v_arc(nsvcd__vquat a, nsvcd__vquat b) {
+  const nsvcd__v sign = nsvcd__v_sign(nsvcd__vquat_dot(a, b));
+  const nsvcd__vquat chord = nsvcd__vquat_fma(nsvcd__v_negate(sign), b, a);
+  const nsvcd__v length = nsvcd__v_sqrt(nsvcd__vquat_dot(chord, chord));
+  const nsvcd__v x = nsvcd__v_scale(length, 0.50025f);
+  const nsvcd__v square = nsvcd__v_mul(x, x);
+  return nsvcd__v_mul(x, nsvcd__v_fma(nsvcd__v_set(2.2832f), square, nsvcd__v_set(4)));
+}
+
+// The vector part of b a^-1: the axis of the turn from a to b, times the sine of half its angle.
+static nsvcd__v3 nsvcd__v_turn(nsvcd__vquat a, nsvcd__vquat b) {
+  const nsvcd__v3 u = nsvcd__vquat_axis(a);
+  const nsvcd__v3 v = nsvcd__vquat_axis(b);
+  const nsvcd__v3 sum = nsvcd__v3_fma(nsvcd__v_negate(b.w), u, nsvcd__v3_cross(u, v));
+  return nsvcd__v3_fma(a.w, v, sum);
+}
+
+// The same on the shorter arc. cosine: of half the angle; near 0, rounding may have taken the
+// longer one.
+static nsvcd__v3 nsvcd__v_shorter_turn(nsvcd__vquat a, nsvcd__vquat b, nsvcd__v *cosine) {
+  const nsvcd__v dot = nsvcd__vquat_dot(a, b);
+  const nsvcd__v sign = nsvcd__v_sign(dot);
+  *cosine = nsvcd__v_mul(sign, dot);
+  return nsvcd__v3_scale(nsvcd__v_turn(a, b), sign);
+}
+
+// ---- keyframes
+
+// Reads the poses of both bodies at `count` ticks.
+static void nsvcd__keyframes_read(const nsvcd__motion *m, const uint32_t *ticks, size_t count,
+                                  nsvcd__keyframes *out) {
+  nsvcd__world_pose fixed = {{0, 0, 0, 1}, nsvcd__d3_widen(m->fixed_position)};
+  for (size_t l = 0; l < count; l++) {
+    const nsvcd__world_pose moving = nsvcd__track_pose(&m->moving, ticks[l]);
+    nsvcd__quat_put(moving.rotation, out->moving + l, NSVCD__ENDS);
+    if (m->fixed_moves) {
+      fixed = nsvcd__track_pose(&m->fixed, ticks[l]);
+      nsvcd__quat_put(fixed.rotation, out->fixed + l, NSVCD__ENDS);
+    }
+    const nsvcd__d3 offset = nsvcd__d3_sub(moving.position, fixed.position);
+    nsvcd__f3_put(nsvcd__d3_narrow(offset), out->offset + l, NSVCD__ENDS);
+  }
+}
+
+// A slice of them from lane l on; l may be 1, for there is one keyframe more than lanes.
+static nsvcd__v_poses nsvcd__keyframes_load(const nsvcd__motion *m,
+                                            const nsvcd__keyframes *from, size_t l) {
+  nsvcd__v_poses out;
+  out.offset = nsvcd__v3_get(from->offset + l, NSVCD__ENDS);
+  out.moving = nsvcd__vquat_load(from->moving + l, NSVCD__ENDS);
+  out.fixed = out.moving;
+  if (m->fixed_moves) {
+    out.moving = nsvcd__vquat_unit(out.moving);
+    out.fixed = nsvcd__vquat_unit(nsvcd__vquat_load(from->fixed + l, NSVCD__ENDS));
+  }
+  return out;
+}
+
+// Stores a slice with its rotations in the fixed body's frame.
+static void nsvcd__keyframes_store(const nsvcd__motion *m, const nsvcd__v_poses *at,
+                                   nsvcd__vquat seen, size_t l, nsvcd__keyframes *out) {
+  nsvcd__vquat_store(at->moving, out->moving + l, NSVCD__ENDS);
+  nsvcd__vquat_store(seen, out->seen + l, NSVCD__ENDS);
+  if (!m->fixed_moves) return;
+  nsvcd__v3_put(at->offset, out->offset + l, NSVCD__ENDS);
+  nsvcd__vquat_store(at->fixed, out->fixed + l, NSVCD__ENDS);
+}
+
+// Rotations times the scale.
+NSVCD__INLINE nsvcd__vmat3 nsvcd__v_scaled(const nsvcd__motion *m, nsvcd__vquat q) {
+  return nsvcd__vmat3_scale(nsvcd__vmat3_of(q), nsvcd__v_set(m->scale));
+}
+
+// ---- the deviation of arcs and of keyframes
+
+static void nsvcd__v_keep(float *most, nsvcd__v value) {
+  nsvcd__v_store(most, nsvcd__v_max(nsvcd__v_load(most), value));
+}
+static void nsvcd__v_add_to(float *sum, nsvcd__v value) {
+  nsvcd__v_store(sum, nsvcd__v_add(nsvcd__v_load(sum), value));
+}
+
+// An arc in which both bodies move. With w and w' the rotation vectors of the moving and the fixed
+// body over the arc, in the world, o = w - w', and d the vector from the fixed origin to the moving
+// one, which moves by v, the second derivative of a point x in the fixed body's frame is
+//   o x (o x Rx) + (o x w') x Rx   -   2 w' x v + w' x (w' x d)
+// so that the arc leaves its chord by (|o|^2 + |o x w'|) / 8 |x| and (2 |w' x v| + |w'| |w' x d|) /
+// 8 at most.
+static void nsvcd__cut_double_arc(const nsvcd__motion *m, const nsvcd__v_poses *from,
+                                  const nsvcd__v_poses *to, size_t l, nsvcd__bends *most) {
+  const nsvcd__v eighth = nsvcd__v_set(0.12501f);
+  nsvcd__v cosine;
+  nsvcd__v fixed_cosine;
+  const nsvcd__v3 half = nsvcd__v_shorter_turn(from->moving, to->moving, &cosine);
+  const nsvcd__v3 fixed_half = nsvcd__v_shorter_turn(from->fixed, to->fixed, &fixed_cosine);
+  const nsvcd__v sine = nsvcd__v3_norm(half);
+  const nsvcd__v fixed_sine = nsvcd__v3_norm(fixed_half);
+  const nsvcd__v sines = nsvcd__v_add(sine, fixed_sine);
+  const nsvcd__v least_cosine = nsvcd__v_min(cosine, fixed_cosine);
+  const nsvcd__v apart = nsvcd__v3_norm(nsvcd__v3_sub(half, fixed_half));
+  const nsvcd__v difference = nsvcd__v_pick(least_cosine, nsvcd__v_set(0.001f), sines, apart);
+  // A rotation vector is 2 asin(s) / s times these halves of length s, and asin(s) - s is at most
+  // (pi / 2 - 1) s^3.
+  const nsvcd__v square = nsvcd__v_mul(sine, sine);
+  const nsvcd__v fixed_square = nsvcd__v_mul(fixed_sine, fixed_sine);
+  const nsvcd__v cubes = nsvcd__v_fma(square, sine, nsvcd__v_mul(fixed_square, fixed_sine));
+  nsvcd__v turn = nsvcd__v_scale(difference, 2.00001f);
+  turn = nsvcd__v_fma(nsvcd__v_set(1.1417f), cubes, turn);
+  turn = nsvcd__v_fma(nsvcd__v_set(2e-6f), sines, turn);
+  const nsvcd__v fixed_turn = nsvcd__v_arc(from->fixed, to->fixed);
+  const nsvcd__v squares = nsvcd__v_mul(turn, nsvcd__v_add(turn, fixed_turn));
+  nsvcd__v_keep(most->arc_bend + l, nsvcd__v_mul(squares, eighth));
+
+  const nsvcd__v start = nsvcd__v3_norm(from->offset);
+  const nsvcd__v extent = nsvcd__v_max(start, nsvcd__v3_norm(to->offset));
+  const nsvcd__v travel = nsvcd__v3_norm(nsvcd__v3_sub(to->offset, from->offset));
+  const nsvcd__v both = nsvcd__v_fma(fixed_turn, extent, nsvcd__v_add(travel, travel));
+  const nsvcd__v metres = nsvcd__v_mul(nsvcd__v_mul(fixed_turn, both), eighth);
+  const nsvcd__v origin_bend = nsvcd__v_div(metres, nsvcd__v_set(m->unit));
+  nsvcd__v_keep(most->arc_origin + l, origin_bend);
+  nsvcd__v_add_to(most->turn + l, fixed_turn);
+}
+
+// Adds the arc from the last keyframes to these, which become the last. seen: their rotations in
+// the fixed body's frame.
+static void nsvcd__cut_arc(const nsvcd__motion *m, const nsvcd__v_poses *at, nsvcd__vquat seen,
+                           size_t l, nsvcd__segments *out, nsvcd__cut *cut) {
+  nsvcd__bends *most = &cut->most;
+  const nsvcd__v_poses last = nsvcd__keyframes_load(m, &cut->last, l);
+  const nsvcd__v arc = nsvcd__v_arc(last.moving, at->moving);
+  nsvcd__v_add_to(most->turn + l, arc);
+  if (m->fixed_moves) {
+    nsvcd__cut_double_arc(m, &last, at, l, most);
+  } else {
+    // Along the axis: h^2 / 8 |axis x a| of a turn by h about a. With w = a sin(h / 2) that is at
+    // most pi / 8 h |axis x w|.
+    const nsvcd__vquat last_seen = nsvcd__vquat_load(cut->last.seen + l, NSVCD__ENDS);
+    const nsvcd__v3 w = nsvcd__v_turn(last_seen, seen);
+    const nsvcd__v3 across = nsvcd__v3_cross(nsvcd__v3_load(out->axis, l), w);
+    const nsvcd__v along = nsvcd__v_mul(nsvcd__v_scale(arc, 0.3931f), nsvcd__v3_norm(across));
+    nsvcd__v_keep(most->arc_bend + l, nsvcd__v_scale(nsvcd__v_mul(arc, arc), 0.125f));
+    nsvcd__v_keep(most->arc_along_axis + l, along);
+  }
+  nsvcd__keyframes_store(m, at, seen, l, &cut->last);
+}
+
+// Visits a keyframe of each segment: ticks (16), begin (17) as nsvcd__cut_block has it. Adds the
+// arc before it, and how far it is off its segment's chord.
+static NSVCD__NOINLINE void nsvcd__cut_keyframe(const nsvcd__motion *m, const uint32_t *begin,
+                                                const uint32_t *ticks, nsvcd__segments *out,
+                                                nsvcd__cut *cut) {
+  nsvcd__bends *most = &cut->most;
+  nsvcd__row fraction;  // of the segment, before the keyframe
+  nsvcd__keyframes_read(m, ticks, NSVCD__LANES, &cut->here);
+  for (size_t l = 0; l < NSVCD__LANES; l++) {
+    const uint32_t length = begin[l + 1] - begin[l];
+    fraction[l] = length ? (float)(ticks[l] - begin[l]) / (float)length : 0;
+  }
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v_poses at = nsvcd__keyframes_load(m, &cut->here, l);
+    const nsvcd__v_pose seen = nsvcd__v_seen(m, &at);
+    nsvcd__cut_arc(m, &at, seen.rotation, l, out, cut);
+    const nsvcd__v u = nsvcd__v_load(fraction + l);
+    const nsvcd__vmat3 start = nsvcd__vmat3_load(out->rotation, l);
+    const nsvcd__vmat3 turned = nsvcd__vmat3_load(out->turned, l);
+    const nsvcd__vmat3 scaled = nsvcd__v_scaled(m, seen.rotation);
+    const nsvcd__vmat3 off = nsvcd__vmat3_sub(scaled, nsvcd__vmat3_fma(u, turned, start));
+    const nsvcd__v3 position = nsvcd__v3_load(out->position, l);
+    const nsvcd__v3 chord = nsvcd__v3_fma(u, nsvcd__v3_load(out->moved, l), position);
+    const nsvcd__v3 aside = nsvcd__v3_sub(seen.position, chord);
+    nsvcd__v_keep(most->off + l, nsvcd__vmat3_square(off));
+    nsvcd__v_keep(most->origin_off + l, nsvcd__v3_dot(aside, aside));
+
+    const nsvcd__v3 axis = nsvcd__v3_load(out->axis, l);
+    const nsvcd__v3 along = nsvcd__vmat3_apply_transpose(off, axis);
+    const nsvcd__v3 across = nsvcd__v3_cross(nsvcd__v3_load(out->heading, l), aside);
+    const nsvcd__v height = nsvcd__v3_dot(axis, aside);
+    nsvcd__v_keep(most->along_axis + l, nsvcd__v3_dot(along, along));
+    nsvcd__v_keep(most->origin_along_axis + l, nsvcd__v_mul(height, height));
+    nsvcd__v_keep(most->origin_off_heading + l, nsvcd__v3_dot(across, across));
+  }
+}
+
+// ---- segments
+
+// Poses at the starts of 16 segments; at their ends, if `to` is 1.
+static NSVCD__NOINLINE void nsvcd__cut_poses(const nsvcd__motion *m,
+                                             const nsvcd__keyframes *here, size_t to,
+                                             nsvcd__row *rotation, nsvcd__row *position,
+                                             nsvcd__keyframes *out) {
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v_poses at = nsvcd__keyframes_load(m, here, l + to);
+    const nsvcd__v_pose seen = nsvcd__v_seen(m, &at);
+    nsvcd__keyframes_store(m, &at, seen.rotation, l, out);
+    nsvcd__vmat3_store(rotation, l, nsvcd__v_scaled(m, seen.rotation));
+    nsvcd__v3_store(position, l, seen.position);
+  }
+}
+
+// Sets the poses at the segments' starts, and their change until the ends: begin (17).
+static NSVCD__NOINLINE void nsvcd__cut_ends(const nsvcd__motion *m, const uint32_t *begin,
+                                            nsvcd__segments *out, nsvcd__cut *cut) {
+  nsvcd__keyframes_read(m, begin, NSVCD__ENDS, &cut->here);
+  nsvcd__cut_poses(m, &cut->here, 0, out->rotation, out->position, &cut->last);
+  nsvcd__cut_poses(m, &cut->here, 1, out->turned, out->moved, &cut->end);
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__vquat from = nsvcd__vquat_load(cut->last.seen + l, NSVCD__ENDS);
+    const nsvcd__vquat to = nsvcd__vquat_load(cut->end.seen + l, NSVCD__ENDS);
+    const nsvcd__vmat3 start = nsvcd__vmat3_load(out->rotation, l);
+    const nsvcd__vmat3 end = nsvcd__vmat3_load(out->turned, l);
+    const nsvcd__v3 position = nsvcd__v3_load(out->position, l);
+    const nsvcd__v3 moved = nsvcd__v3_sub(nsvcd__v3_load(out->moved, l), position);
+    nsvcd__vmat3_store(out->turned, l, nsvcd__vmat3_sub(end, start));
+    nsvcd__v3_store(out->moved, l, moved);
+    nsvcd__v3_store(out->axis, l, nsvcd__v3_unit(nsvcd__v_turn(from, to)));
+    nsvcd__v3_store(out->heading, l, nsvcd__v3_unit(moved));
+  }
+}
+
+// The scale times what arcs are off, plus what keyframes are, whose square is given.
+static nsvcd__v nsvcd__v_bend(nsvcd__v scale, const float *arcs, const float *keyframes) {
+  const nsvcd__v off = nsvcd__v_sqrt(nsvcd__v_load(keyframes));
+  return nsvcd__v_add(off, nsvcd__v_mul(scale, nsvcd__v_load(arcs)));
+}
+
+// Sets the deviations, once all keyframes have been visited. If both bodies move, they are not
+// smaller along any direction.
+static void nsvcd__cut_deviations(const nsvcd__motion *m, float lengths, size_t l,
+                                  nsvcd__segments *out, const nsvcd__bends *most) {
+  const int both = m->fixed_moves;
+  const nsvcd__v scale = nsvcd__v_set(m->scale);
+  const nsvcd__v bend = nsvcd__v_bend(scale, most->arc_bend + l, most->off + l);
+  const nsvcd__v off = nsvcd__v_sqrt(nsvcd__v_load(most->origin_off + l));
+  const nsvcd__v origin_bend = nsvcd__v_add(off, nsvcd__v_load(most->arc_origin + l));
+  const nsvcd__v along = nsvcd__v_bend(scale, most->arc_along_axis + l, most->along_axis + l);
+  const nsvcd__v origin_along = nsvcd__v_sqrt(nsvcd__v_load(most->origin_along_axis + l));
+  const nsvcd__v across = nsvcd__v_sqrt(nsvcd__v_load(most->origin_off_heading + l));
+  nsvcd__v_store(out->bend + l, bend);
+  nsvcd__v_store(out->origin_bend + l, origin_bend);
+  nsvcd__v_store(out->bend_along_axis + l, both ? bend : along);
+  nsvcd__v_store(out->origin_along_axis + l, both ? origin_bend : origin_along);
+  nsvcd__v_store(out->origin_off_heading + l, both ? origin_bend : across);
+
+  const nsvcd__v3 start = nsvcd__v3_load(out->position, l);
+  const nsvcd__v3 end = nsvcd__v3_add(start, nsvcd__v3_load(out->moved, l));
+  const nsvcd__v extent = nsvcd__v_add(nsvcd__v3_norm(start), nsvcd__v3_norm(end));
+  const nsvcd__v all = nsvcd__v_add(extent, nsvcd__v_plus(origin_bend, lengths));
+  const nsvcd__v rounding = nsvcd__v_scale(all, NSVCD__ROUNDING);
+  nsvcd__v_store(out->rounding + l, rounding);
+  nsvcd__v_store(out->margin + l, nsvcd__v_add(rounding, origin_bend));
+}
+
+// Cuts 16 segments, of which the first `count` exist. begin: (17) ticks at which they begin, and
+// the last one ends. lengths: the bodies' extents. Leaves the angle by which each turns in
+// cut->most.turn.
+static void nsvcd__cut_block(const nsvcd__motion *m, const uint32_t *begin, size_t count,
+                             float lengths, nsvcd__segments *out, nsvcd__cut *cut) {
+  uint32_t ticks[NSVCD__LANES];
+  memset(&cut->most, 0, sizeof cut->most);
+  memcpy(ticks, begin, sizeof ticks);
+  nsvcd__cut_ends(m, begin, out, cut);
+  for (int is_inside = 1; is_inside;) {
+    is_inside = 0;
+    for (size_t l = 0; l < NSVCD__LANES; l++) {
+      if (ticks[l] < begin[l + 1]) ticks[l] = nsvcd__next_keyframe(m, ticks[l]);
+      if (ticks[l] > begin[l + 1]) ticks[l] = begin[l + 1];
+      is_inside |= ticks[l] < begin[l + 1];
+    }
+    if (is_inside) nsvcd__cut_keyframe(m, begin, ticks, out, cut);
+  }
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v_poses end = nsvcd__keyframes_load(m, &cut->end, l);
+    const nsvcd__vquat seen = nsvcd__vquat_load(cut->end.seen + l, NSVCD__ENDS);
+    nsvcd__cut_arc(m, &end, seen, l, out, cut);
+    nsvcd__cut_deviations(m, lengths, l, out, &cut->most);
+  }
+  // the rest meet nothing
+  for (size_t l = count; l < NSVCD__LANES; l++) out->margin[l] = NSVCD__NOWHERE;
+}
+
+// ---- all segments
+
+// Cuts the chosen segments. lengths: the bodies' extents; clearance: spheres that come so near
+// count as meeting.
+static void nsvcd__cut_segments(const nsvcd__motion *m, float lengths, float clearance,
+                                nsvcd__search *q) {
+  uint32_t *begin = q->begin;
+  float *turn = q->turn;
+  // segments of no length fill the last block
+  for (size_t s = q->segments; s % NSVCD__LANES; s++) begin[s + 1] = begin[s];
+  turn[0] = 0;
+  for (size_t s = 0; s < q->segments; s += NSVCD__LANES) {
+    nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
+    nsvcd__cut_block(m, begin + s, q->segments - s, lengths, block, q->cut);
+    for (size_t l = 0; l < NSVCD__LANES; l++) {
+      block->margin[l] += clearance;
+      turn[s + l + 1] = turn[s + l] + q->cut->most.turn[l];
+    }
+  }
+}
+
+#ifndef NSVCD_NO_NETWORK
+// Chooses and cuts the segments of all of a motion.
+static NSVCD__NOINLINE void nsvcd__cut_motion(nsvcd__motion *m, float lengths,
+                                              nsvcd__search *q) {
+  nsvcd__choose_all(m, q);
+  nsvcd__cut_segments(m, lengths, 0, q);
+}
+#endif
+
+// --------------------------------------------------------------------------------- segments/chords
+// In: a motion that has been cut, and spheres of the moving body. Out: the spheres on chords, in
+// all segments or in one, and which of them meet spheres of the fixed body.
+//
+// Along its chord a sphere's radius grows by margin + bend |c|, c being its centre, so that it
+// covers the sphere at its true pose all the time. So the test is conservative: spheres that meet
+// at any time have chords that meet then, and if no chords do, the surfaces never meet, which is a
+// proof. A group or a whole body is a sphere like any other: its sphere contains its members'.
+
+NSVCD__INLINE nsvcd__v3 nsvcd__chords_start(const nsvcd__chords *c, size_t l) {
+  return nsvcd__v3_rows(c->start[0] + l);
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__chords_travel(const nsvcd__chords *c, size_t l) {
+  return nsvcd__v3_rows(c->travel[0] + l);
+}
+// Stores a slice of chords. FLT_MIN keeps a chord of no length finite.
+static void nsvcd__chords_store(nsvcd__chords *c, size_t l, nsvcd__v3 start, nsvcd__v3 travel,
+                                nsvcd__v radius) {
+  const nsvcd__v square = nsvcd__v_max(nsvcd__v3_dot(travel, travel), nsvcd__v_set(1.2e-38f));
+  nsvcd__v3_store(c->start, l, start);
+  nsvcd__v3_store(c->travel, l, travel);
+  nsvcd__v_store(c->inverse + l, nsvcd__v_div(nsvcd__v_set(-1), square));
+  nsvcd__v_store(c->radius + l, radius);
+}
+
+// Chords of a sphere of the moving body in all segments, into q->group.
+static void nsvcd__chords_in_all(nsvcd__search *q, nsvcd__sphere sphere) {
+  sphere.radius *= q->scale;
+  const nsvcd__v3 centre = nsvcd__v3_set(sphere.centre);
+  const nsvcd__v length = nsvcd__v_set(nsvcd__f3_norm(sphere.centre));
+  const nsvcd__v radius = nsvcd__v_set(sphere.radius);
+  for (size_t s = 0; s < q->segments; s += NSVCD__LANES) {
+    nsvcd__segments *b = &q->blocks[s / NSVCD__LANES];
+    nsvcd__chords *out = &q->group[s / NSVCD__LANES];
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__vmat3 rotation = nsvcd__vmat3_load(b->rotation, l);
+      const nsvcd__vmat3 turned = nsvcd__vmat3_load(b->turned, l);
+      const nsvcd__v3 position = nsvcd__v3_load(b->position, l);
+      const nsvcd__v3 moved = nsvcd__v3_load(b->moved, l);
+      const nsvcd__v3 start = nsvcd__vmat3_apply_add(rotation, centre, position);
+      const nsvcd__v3 travel = nsvcd__vmat3_apply_add(turned, centre, moved);
+      const nsvcd__v margin = nsvcd__v_load(b->margin + l);
+      const nsvcd__v deviation = nsvcd__v_fma(nsvcd__v_load(b->bend + l), length, margin);
+      nsvcd__chords_store(out, l, start, travel, nsvcd__v_add(deviation, radius));
+    }
+  }
+}
+
+// The 16 patches of a group.
+static nsvcd__spheres nsvcd__members_of(const nsvcd_body *body, size_t g) {
+  return nsvcd__spheres_from(nsvcd__body_patches(body), NSVCD__GROUP * g);
+}
+
+static void nsvcd__chords_of_group(nsvcd__search *q, size_t g) {
+  nsvcd__chords_in_all(q, nsvcd__sphere_of(nsvcd__groups_of(q->moving), g));
+}
+
+// The deviation in segment s of points no farther than `extent` from the moving body's origin.
+static float nsvcd__segment_deviation(const nsvcd__search *q, size_t s, float extent) {
+  const nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
+  return block->margin[s % NSVCD__LANES] + block->bend[s % NSVCD__LANES] * extent;
+}
+
+// Chords of 16 spheres of the moving body in segment s. The patches in them are no farther than
+// `extent` from the body's origin. Centres of spheres over patches may be farther, but on their
+// chords the points of a body do not move relative to each other, so that the deviation of the
+// patches is all to allow for.
+static void nsvcd__chords_in_segment(const nsvcd__search *q, size_t s, nsvcd__spheres spheres,
+                                     float extent, nsvcd__chords *out) {
+  nsvcd__segments *b = &q->blocks[s / NSVCD__LANES];
+  const size_t lane = s % NSVCD__LANES;
+  const nsvcd__v deviation = nsvcd__v_set(nsvcd__segment_deviation(q, s, extent));
+  const nsvcd__v scale = nsvcd__v_set(q->scale);
+  const nsvcd__mat3 rotation = nsvcd__mat3_lane(b->rotation, lane);
+  const nsvcd__mat3 turned = nsvcd__mat3_lane(b->turned, lane);
+  const nsvcd__v3 position = nsvcd__v3_set(nsvcd__lane_of(b->position, lane));
+  const nsvcd__v3 moved = nsvcd__v3_set(nsvcd__lane_of(b->moved, lane));
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 centre = nsvcd__v3_centres(spheres, l);
+    const nsvcd__vmat3 rotations = nsvcd__vmat3_set(&rotation);
+    const nsvcd__vmat3 turns = nsvcd__vmat3_set(&turned);
+    const nsvcd__v3 start = nsvcd__vmat3_apply_add(rotations, centre, position);
+    const nsvcd__v3 travel = nsvcd__vmat3_apply_add(turns, centre, moved);
+    const nsvcd__v radius = nsvcd__v_load(spheres.r + l);
+    nsvcd__chords_store(out, l, start, travel, nsvcd__v_fma(scale, radius, deviation));
+  }
+}
+
+// ---- tests
+
+// The square of a chord's distance from a resting centre. d: from that to the start of the chord.
+NSVCD__INLINE nsvcd__v nsvcd__nearest2(nsvcd__v3 d, nsvcd__v3 travel, nsvcd__v inverse) {
+  const nsvcd__v tau = nsvcd__v_clamp(nsvcd__v_mul(nsvcd__v3_dot(d, travel), inverse), 0, 1);
+  const nsvcd__v3 nearest = nsvcd__v3_fma(tau, travel, d);
+  return nsvcd__v3_dot(nearest, nearest);
+}
+
+// Lanes in which a chord comes within `radius` of a resting centre.
+NSVCD__INLINE uint32_t nsvcd__comes_within(nsvcd__v3 d, nsvcd__v3 travel, nsvcd__v inverse,
+                                           nsvcd__v radius) {
+  return nsvcd__v_le(nsvcd__nearest2(d, travel, inverse), nsvcd__v_signed_square(radius));
+}
+
+// 16 moving spheres, or one in 16 segments, against one resting sphere.
+NSVCD__INLINE uint32_t nsvcd__meet(const nsvcd__chords *c, nsvcd__sphere resting) {
+  const nsvcd__v3 centre = nsvcd__v3_set(resting.centre);
+  const nsvcd__v radius = nsvcd__v_set(resting.radius);
+  uint32_t met = 0;
+  NSVCD__TALLY(tests, 1);
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__chords_start(c, l), centre);
+    const nsvcd__v sum = nsvcd__v_add(nsvcd__v_load(c->radius + l), radius);
+    const nsvcd__v inverse = nsvcd__v_load(c->inverse + l);
+    met |= nsvcd__comes_within(d, nsvcd__chords_travel(c, l), inverse, sum) << l;
+  }
+  return met;
+}
+
+// The sphere whose chords are q->group, in segment s, against 16 resting spheres.
+NSVCD__INLINE uint32_t nsvcd__meet_members(const nsvcd__search *q, size_t s,
+                                           nsvcd__spheres resting) {
+  nsvcd__chords *c = &q->group[s / NSVCD__LANES];
+  const size_t lane = s % NSVCD__LANES;
+  const nsvcd__v3 start = nsvcd__v3_set(nsvcd__lane_of(c->start, lane));
+  const nsvcd__v3 travel = nsvcd__v3_set(nsvcd__lane_of(c->travel, lane));
+  const nsvcd__v inverse = nsvcd__v_set(c->inverse[lane]);
+  const nsvcd__v own = nsvcd__v_set(c->radius[lane]);
+  uint32_t met = 0;
+  NSVCD__TALLY(tests, 1);
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_centres(resting, l));
+    const nsvcd__v radius = nsvcd__v_add(own, nsvcd__v_load(resting.r + l));
+    met |= nsvcd__comes_within(d, travel, inverse, radius) << l;
+  }
+  return met;
+}
+
+// The segments among `wanted` in which the sphere whose chords are q->group meets a resting
+// one.
+NSVCD__INLINE uint64_t nsvcd__meet_in(const nsvcd__search *q, uint64_t wanted,
+                                      nsvcd__sphere resting) {
+  uint64_t met = 0;
+  for (size_t s = 0; s < NSVCD__MAX_SEGMENTS && wanted >> s; s += NSVCD__LANES) {
+    if (wanted >> s & 0xffff)
+      met |= (uint64_t)nsvcd__meet(&q->group[s / NSVCD__LANES], resting) << s;
+  }
+  return met & wanted;
+}
+
+// ------------------------------------------------------------------------------ segments/self_test
+// In: nothing. Out: do these vectors compute as they should?
+
+// The part of nsvcd_self_test that is about vectors: computes where a body's point (1, 0, 0) is at
+// 16 ticks, while the body turns by 90 degrees about z from (4, 0, 0) to (-4, 0, 0), seen from a
+// body at (1, 2, 3) whose x, y, z are y, z, x.
+static int nsvcd__self_test_lanes(void) {
+  // volatile, or the compiler would compute all this
+  const volatile float half = 0.70710678f;
+  const float turn = half;
+  const nsvcd_pose path[2] = {{{4, 0, 0}, {0, 0, 0, 1}}, {{-4, 0, 0}, {0, 0, turn, turn}}};
+  const nsvcd_pose rest = {{1, 2, 3}, {0.5f, 0.5f, 0.5f, 0.5f}};
+  const nsvcd_mover moving = {NULL, path, 2, NULL, 0};
+  const nsvcd_mover fixed = {NULL, &rest, 1, NULL, 0};
+  nsvcd__chords chords;
+  // A block, so that what comes after it shares its stack.
+  {
+    nsvcd__motion motion;
+    nsvcd__keyframes keyframes;
+    uint32_t ticks[NSVCD__LANES];
+    for (uint32_t l = 0; l < NSVCD__LANES; l++) ticks[l] = l;
+    nsvcd__motion_init(&moving, &fixed, &motion);
+    nsvcd__motion_set_ticks(&motion, NSVCD__LANES);
+    nsvcd__keyframes_read(&motion, ticks, NSVCD__LANES, &keyframes);
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v_poses at = nsvcd__keyframes_load(&motion, &keyframes, l);
+      const nsvcd__v_pose seen = nsvcd__v_seen(&motion, &at);
+      const nsvcd__v3 arm = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
+      const nsvcd__vmat3 rotation = nsvcd__vmat3_of(seen.rotation);
+      const nsvcd__v3 start = nsvcd__vmat3_apply_add(rotation, arm, seen.position);
+      const nsvcd__v3 travel = nsvcd__v3_set(nsvcd__f3_of(0, 0, -0.5f));
+      nsvcd__chords_store(&chords, l, start, travel, nsvcd__v_set(0.1f));
+    }
+  }
+  int right = 1;
+  for (size_t l = 0; l < NSVCD__LANES; l++) {
+    const double angle = 1.5707963267948966 * (double)l / NSVCD__LANES;
+    const double x = 3 - 0.5 * (double)l + cos(angle);
+    right &= fabs((double)chords.start[0][l] - (sin(angle) - 2)) < 1e-4;
+    right &= fabs((double)chords.start[1][l] + 3) < 1e-4;
+    right &= fabs((double)chords.start[2][l] - x) < 1e-4;
+  }
+  // Only two of these chords come within 0.2 of the ninth point.
+  nsvcd__sphere resting = {{half - 2, -3, half - 1}, 0.1f};
+  right &= nsvcd__meet(&chords, resting) == 0x180;
+  resting.centre.y += 1;
+  right &= nsvcd__meet(&chords, resting) == 0;
+#ifdef NSVCD_ONE_PATH
+  // A product is rounded. If it were fused with the difference, 2^-24 would be left.
+  const volatile float one_up = 1 + 1.0f / 4096;
+  const volatile float square = 1 + 1.0f / 2048;
+  const float factor = one_up;
+  const float left = factor * factor - square;
+  right &= !(left > 0);
+#endif
+  return right;
+}
+
+// ================================================================== search: which patches may meet
+
+// ----------------------------------------------------------------------------------- search/planes
+// In: 16 moving patches whose balls meet that of a resting one in a segment. Out: those that no
+// plane separates from it all the time, by the hulls of their extremes.
+//
+// Planes are tried across the resting patch's normal, the moving patches', their difference, the
+// lines between the centres, and first across the last few that separated other patches of the same
+// query: one plane separates a table from what stands on it, whole groups at a time. Extremes go on
+// chords, as centres do, and the deviation of points is allowed for. But extremes are not all of a
+// patch, so this is no proof: if a greater recall is asked for, patches are inflated first.
+
+#ifndef NSVCD_NO_NETWORK
+// Begins the search of a motion.
+static void nsvcd__plane_cache_begin(nsvcd__search *q, float inflate) {
+  q->cache->found = q->cache->best = 0;
+  q->cache->inflate = inflate;
+  // inflated by their radii, patches meet wherever their balls do
+  q->cache->balls_only = inflate >= 1;
+  q->balls_met = 0;
+}
+
+static size_t nsvcd__planes_known(const nsvcd__search *q) {
+  const size_t found = q->cache->found;
+  return found < NSVCD__PLANES ? found : NSVCD__PLANES;
+}
+
+// ---- ranges
+
+// Of the extremes (EXTREMES, 3, 16) of a slice of patches, along u. step: of the extremes, in the
+// body's units; height: of the patches' centres.
+NSVCD__INLINE nsvcd__v_range nsvcd__extremes_along(const int8_t *extremes, nsvcd__v step,
+                                                   nsvcd__v3 u, nsvcd__v height) {
+  nsvcd__v low = nsvcd__v_set(1e30f);
+  nsvcd__v high = nsvcd__v_set(-1e30f);
+  for (size_t k = 0; k < NSVCD__EXTREMES; k++, extremes += 3 * NSVCD__LANES) {
+    const nsvcd__v3 x = nsvcd__v3_load_int8(extremes, NSVCD__LANES);
+    const nsvcd__v along = nsvcd__v3_dot(x, u);
+    low = nsvcd__v_min(low, along);
+    high = nsvcd__v_max(high, along);
+  }
+  const nsvcd__v_range out = {nsvcd__v_fma(step, low, height),
+                              nsvcd__v_fma(step, high, height)};
+  return out;
+}
+
+// The same at both ends of a segment, between which the normal turns in the body's frame.
+NSVCD__INLINE nsvcd__v_range nsvcd__moving_range(const int8_t *extremes, nsvcd__v step,
+                                                 nsvcd__v3 u, nsvcd__v3 u_end, nsvcd__v height,
+                                                 nsvcd__v height_end) {
+  const nsvcd__v_range a = nsvcd__extremes_along(extremes, step, u, height);
+  const nsvcd__v_range b = nsvcd__extremes_along(extremes, step, u_end, height_end);
+  const nsvcd__v_range out = {nsvcd__v_min(a.low, b.low), nsvcd__v_max(a.high, b.high)};
+  return out;
+}
+
+// Stores a range that is wider by `off` on both sides.
+static void nsvcd__ranges_store(nsvcd__v_range range, nsvcd__v off, size_t l,
+                                nsvcd__ranges *out) {
+  nsvcd__v_store(out->low + l, nsvcd__v_sub(range.low, off));
+  nsvcd__v_store(out->high + l, nsvcd__v_add(range.high, off));
+}
+
+// Fills in the ranges of group h of the fixed body along plane n.
+static void nsvcd__know_resting(const nsvcd__search *q, size_t h, size_t n) {
+  nsvcd__plane_cache *cache = q->cache;
+  if (cache->resting_known >> n & 1) return;
+  cache->resting_known |= 1u << n;
+  const nsvcd__spheres patches = nsvcd__members_of(q->fixed, h);
+  const int8_t *extremes = nsvcd__group_extremes(q->fixed, h);
+  const nsvcd__v3 u = nsvcd__v3_set(cache->planes[n]);
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v step = nsvcd__v_scale(nsvcd__v_load(patches.r + l), 1.0f / 127);
+    const nsvcd__v height = nsvcd__v3_dot(u, nsvcd__v3_centres(patches, l));
+    const nsvcd__v_range range = nsvcd__extremes_along(extremes + l, step, u, height);
+    const nsvcd__v inflate = nsvcd__v_scale(step, 127 * cache->inflate);
+    nsvcd__ranges_store(range, inflate, l, &cache->resting[n]);
+  }
+}
+
+// Fills in the ranges of moving group g in segment s along plane n, deviation included.
+static void nsvcd__know_moving(const nsvcd__search *q, size_t g, size_t s, size_t n) {
+  nsvcd__plane_cache *cache = q->cache;
+  if (cache->moving_known >> n & 1) return;
+  cache->moving_known |= 1u << n;
+  nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
+  const nsvcd__chords *c = &q->members[s];
+  const nsvcd__f3 normal = cache->planes[n];
+  const nsvcd__mat3 rotation = nsvcd__mat3_lane(block->rotation, s % NSVCD__LANES);
+  const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, s % NSVCD__LANES);
+  const nsvcd__f3 start = nsvcd__mat3_apply_transpose(&rotation, normal);
+  const nsvcd__f3 change = nsvcd__mat3_apply_transpose(&turned, normal);
+  const nsvcd__v3 u_start = nsvcd__v3_set(start);
+  const nsvcd__v3 u_end = nsvcd__v3_set(nsvcd__f3_add(start, change));
+  const nsvcd__v3 u = nsvcd__v3_set(normal);
+  const float *radii = nsvcd__body_r(q->moving) + NSVCD__GROUP * g;
+  const int8_t *extremes = nsvcd__group_extremes(q->moving, g);
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v step = nsvcd__v_scale(nsvcd__v_load(radii + l), 1.0f / 127);
+    const nsvcd__v height = nsvcd__v3_dot(u, nsvcd__chords_start(c, l));
+    const nsvcd__v height_end = nsvcd__v3_dot_add(u, nsvcd__chords_travel(c, l), height);
+    const nsvcd__v_range range =
+        nsvcd__moving_range(extremes + l, step, u_start, u_end, height, height_end);
+    const nsvcd__v inflate = nsvcd__v_scale(step, 127 * q->scale * cache->inflate);
+    nsvcd__ranges_store(range, nsvcd__v_plus(inflate, cache->deviation), l, &cache->moving[n]);
+  }
+}
+
+// ---- planes that separated others
+
+// The least of all lanes, times a sign.
+static float nsvcd__least_lane(const float *lanes, float sign) {
+  nsvcd__v least = nsvcd__v_set(1e30f);
+  NSVCD__EACH_SLICE(l)
+  least = nsvcd__v_min(least, nsvcd__v_scale(nsvcd__v_load(lanes + l), sign));
+  return nsvcd__v_least(least);
+}
+
+// Lanes whose ranges do not overlap low to high.
+static uint32_t nsvcd__lanes_outside(const nsvcd__ranges *ranges, float low, float high) {
+  const nsvcd__v lowest = nsvcd__v_set(low);
+  const nsvcd__v highest = nsvcd__v_set(high);
+  uint32_t outside = 0;
+  NSVCD__EACH_SLICE(l) {
+    outside |= nsvcd__v_lt(highest, nsvcd__v_load(ranges->low + l)) << l;
+    outside |= nsvcd__v_lt(nsvcd__v_load(ranges->high + l), lowest) << l;
+  }
+  return outside;
+}
+
+// Of the segments `wanted`, those in which the plane that separated last does not separate the
+// moving group's ball, whose chords are q->group, from all of group h of the fixed body.
+static uint64_t nsvcd__segments_left(const nsvcd__search *q, size_t h, uint64_t wanted) {
+  nsvcd__plane_cache *cache = q->cache;
+  const size_t n = cache->best;
+  uint64_t separated = 0;
+  if (n >= nsvcd__planes_known(q)) return wanted;
+  nsvcd__know_resting(q, h, n);
+  const nsvcd__ranges *resting = &cache->resting[n];
+  const nsvcd__v below = nsvcd__v_set(nsvcd__least_lane(resting->low, 1));
+  const nsvcd__v above = nsvcd__v_set(-nsvcd__least_lane(resting->high, -1));
+  const nsvcd__v3 u = nsvcd__v3_set(cache->planes[n]);
+  for (size_t s = 0; s < q->segments; s += NSVCD__LANES) {
+    const nsvcd__chords *c = &q->group[s / NSVCD__LANES];
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v start = nsvcd__v3_dot(u, nsvcd__chords_start(c, l));
+      const nsvcd__v end = nsvcd__v3_dot_add(u, nsvcd__chords_travel(c, l), start);
+      const nsvcd__v radius = nsvcd__v_scale(nsvcd__v_load(c->radius + l), 1 + cache->inflate);
+      const nsvcd__v low = nsvcd__v_sub(nsvcd__v_min(start, end), radius);
+      const nsvcd__v high = nsvcd__v_add(nsvcd__v_max(start, end), radius);
+      const uint32_t here = nsvcd__v_lt(above, low) | nsvcd__v_lt(high, below);
+      separated |= (uint64_t)here << (s + l);
+    }
+  }
+  return wanted & ~separated;
+}
+
+// Of the members `bits` of group h of the fixed body, those that the same plane does not separate
+// from all of moving group g in segment s.
+static uint32_t nsvcd__members_left(const nsvcd__search *q, size_t g, size_t s, size_t h,
+                                    uint32_t bits) {
+  const nsvcd__plane_cache *cache = q->cache;
+  const size_t n = cache->best;
+  if (n >= nsvcd__planes_known(q)) return bits;
+  nsvcd__know_resting(q, h, n);
+  nsvcd__know_moving(q, g, s, n);
+  const float low = nsvcd__least_lane(cache->moving[n].low, 1);
+  const float high = -nsvcd__least_lane(cache->moving[n].high, -1);
+  return bits & ~nsvcd__lanes_outside(&cache->resting[n], low, high);
+}
+
+// Of the lanes `met` of moving group g in segment s, those that no remembered plane separates from
+// member k of group h of the fixed body.
+static uint32_t nsvcd__lanes_left_by_known(nsvcd__search *q, size_t g, size_t s, size_t h,
+                                           size_t k, uint32_t met) {
+  nsvcd__plane_cache *cache = q->cache;
+  const size_t planes = nsvcd__planes_known(q);
+  for (size_t m = 0; m < planes && met; m++) {
+    const size_t n = (cache->best + m) % planes;  // the one that separated last, first
+    nsvcd__know_resting(q, h, n);
+    nsvcd__know_moving(q, g, s, n);
+    const nsvcd__ranges *resting = &cache->resting[n];
+    const uint32_t separated =
+        nsvcd__lanes_outside(&cache->moving[n], resting->low[k], resting->high[k]);
+    if (met & separated) cache->best = (uint32_t)n;
+    met &= ~separated;
+  }
+  return met;
+}
+
+// ---- planes of their own
+
+// A resting patch: its extremes are relative to its centre, metres.
+typedef struct nsvcd__resting {
+  nsvcd__f3 centre;
+  float radius;
+  nsvcd__f3 extremes[NSVCD__EXTREMES];
+  nsvcd__f3 normal;  // the mean
+} nsvcd__resting;
+
+static nsvcd__resting nsvcd__resting_of(const nsvcd_body *body, size_t j) {
+  const int8_t *extremes = nsvcd__group_extremes(body, j / NSVCD__GROUP) + j % NSVCD__GROUP;
+  nsvcd__resting out;
+  const nsvcd__sphere ball = nsvcd__sphere_of(nsvcd__body_patches(body), j);
+  const float step = ball.radius / 127;
+  out.centre = ball.centre;
+  out.radius = ball.radius;
+  for (size_t k = 0; k < NSVCD__EXTREMES; k++, extremes += 3 * NSVCD__GROUP) {
+    const nsvcd__f3 extreme =
+        nsvcd__f3_of(extremes[0], extremes[NSVCD__GROUP], extremes[2 * NSVCD__GROUP]);
+    out.extremes[k] = nsvcd__f3_scale(extreme, step);
+  }
+  const nsvcd__f3 area = nsvcd__f3_get(nsvcd__body_areas(body) + j, body->padded);
+  const float length = nsvcd__f3_norm(area);
+  out.normal = nsvcd__f3_scale(area, length > 0 ? 1 / length : 0);
+  return out;
+}
+
+// A slice of moving patches, over a segment.
+typedef struct nsvcd__passing {
+  const int8_t *extremes;   // (EXTREMES, 3, 16) and lane l, of the moving group
+  nsvcd__v step;            // of the extremes, in the body's units
+  nsvcd__v3 from, travel;   // from the resting centre to the moving one; and along the chord
+  nsvcd__vmat3 start, end;  // rotations, times the scale
+  nsvcd__v deviation;       // of points, and what patches are inflated by
+} nsvcd__passing;
+
+// Lanes in which a plane across u separates both, on either side.
+NSVCD__INLINE uint32_t nsvcd__separated_along(const nsvcd__passing *p,
+                                              const nsvcd__resting *rest, nsvcd__v3 u) {
+  const nsvcd__v3 u_start = nsvcd__vmat3_apply_transpose(p->start, u);
+  const nsvcd__v3 u_end = nsvcd__vmat3_apply_transpose(p->end, u);
+  const nsvcd__v height = nsvcd__v3_dot(u, p->from);
+  const nsvcd__v height_end = nsvcd__v3_dot_add(u, p->travel, height);
+  const nsvcd__v_range moving =
+      nsvcd__moving_range(p->extremes, p->step, u_start, u_end, height, height_end);
+  nsvcd__v below = nsvcd__v_set(1e30f);
+  nsvcd__v above = nsvcd__v_set(-1e30f);
+  for (size_t k = 0; k < NSVCD__EXTREMES; k++) {
+    const nsvcd__v along = nsvcd__v3_dot(nsvcd__v3_set(rest->extremes[k]), u);
+    below = nsvcd__v_min(below, along);
+    above = nsvcd__v_max(above, along);
+  }
+  return nsvcd__v_lt(above, nsvcd__v_sub(moving.low, p->deviation)) |
+         nsvcd__v_lt(nsvcd__v_add(moving.high, p->deviation), below);
+}
+
+enum {
+  NSVCD__ALONG_RESTING,  // normal
+  NSVCD__ALONG_MOVING,   // normals
+  NSVCD__ALONG_LINE,     // between the centres
+  NSVCD__ALONG_BOTH,     // normals, from one to the other
+  NSVCD__DIRECTIONS
+};
+
+// Of the lanes `met` of moving group g in segment s, those that no plane of their own separates
+// from patch j of the fixed body. A plane that does replaces the oldest that is remembered.
+static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_own(nsvcd__search *q, size_t g, size_t s,
+                                                         size_t j, uint32_t met) {
+  nsvcd__plane_cache *cache = q->cache;
+  const nsvcd__resting rest = nsvcd__resting_of(q->fixed, j);
+  const int8_t *extremes = nsvcd__group_extremes(q->moving, g);
+  const nsvcd_body *moving = q->moving;
+  const nsvcd__chords *c = &q->members[s];
+  nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
+  const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, s % NSVCD__LANES);
+  const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, s % NSVCD__LANES);
+  const nsvcd__mat3 end = nsvcd__mat3_mix(1, &start, 1, &turned);
+  nsvcd__passing p;
+  p.start = nsvcd__vmat3_set(&start);
+  p.end = nsvcd__vmat3_set(&end);
+  for (size_t n = 0; n < NSVCD__DIRECTIONS && met; n++) {
+    nsvcd__f3 plane = {0, 0, 0};
+    uint32_t separated = 0;
+    NSVCD__EACH_SLICE(l) {
+      const size_t i = NSVCD__GROUP * g + l;
+      const uint32_t lanes = met >> l & NSVCD__SLICE_MASK;
+      if (!lanes) continue;
+      p.extremes = extremes + l;
+      p.step = nsvcd__v_scale(nsvcd__v_load(nsvcd__body_r(moving) + i), 1.0f / 127);
+      p.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(rest.centre));
+      p.travel = nsvcd__chords_travel(c, l);
+      const nsvcd__v inflate = nsvcd__v_scale(p.step, 127 * q->scale * cache->inflate);
+      p.deviation = nsvcd__v_plus(inflate, cache->deviation + rest.radius * cache->inflate);
+      nsvcd__v3 u = nsvcd__v3_set(rest.normal);
+      if (n == NSVCD__ALONG_LINE) {
+        u = nsvcd__v3_unit(nsvcd__v3_fma(nsvcd__v_set(0.5f), p.travel, p.from));
+      } else if (n != NSVCD__ALONG_RESTING) {
+        const float *areas = nsvcd__body_areas(moving) + i;
+        const nsvcd__v3 area = nsvcd__v3_get(areas, moving->padded);
+        const nsvcd__v3 first = nsvcd__vmat3_apply(p.start, area);
+        const nsvcd__v3 last = nsvcd__vmat3_apply(p.end, area);
+        const nsvcd__v3 halfway = nsvcd__v3_unit(nsvcd__v3_add(first, last));
+        u = n == NSVCD__ALONG_MOVING ? halfway : nsvcd__v3_unit(nsvcd__v3_sub(u, halfway));
+      }
+      const uint32_t here = nsvcd__separated_along(&p, &rest, u) & lanes;
+      if (here && !separated) {
+        float rows[3 * NSVCD__SLICE];
+        nsvcd__v3_put(u, rows, NSVCD__SLICE);
+        plane = nsvcd__f3_get(rows + nsvcd__low_bit(here), NSVCD__SLICE);
+      }
+      separated |= here << l;
+    }
+    met &= ~separated;
+    if (!separated) continue;
+    const size_t oldest = cache->found++ % NSVCD__PLANES;
+    cache->planes[oldest] = plane;
+    cache->moving_known &= ~(1u << oldest);
+    cache->resting_known &= ~(1u << oldest);
+  }
+  return met;
+}
+
+// The lanes of moving group g whose balls meet member k of group h of the fixed body in segment s,
+// and that no plane separates from it. before: those that met it in the segment before: planes of
+// their own would rarely separate them now.
+static uint32_t nsvcd__members_meet(nsvcd__search *q, size_t g, size_t s, size_t h, size_t k,
+                                    uint32_t before) {
+  const size_t j = NSVCD__GROUP * h + k;
+  const nsvcd__sphere ball = nsvcd__sphere_of(nsvcd__body_patches(q->fixed), j);
+  uint32_t met = nsvcd__meet(&q->members[s], ball);
+  q->balls_met |= met != 0;
+  if (q->cache->balls_only) return met;
+  if (met) met = nsvcd__lanes_left_by_known(q, g, s, h, k, met);
+  const uint32_t fresh = met & ~before;
+  if (!fresh) return met;
+  return (met & before) | nsvcd__lanes_left_by_own(q, g, s, j, fresh);
+}
+#endif  // NSVCD_NO_NETWORK
+
+// -------------------------------------------------------------------------------- search/intervals
+// In: the chords of patches, and the patches of the other body that they meet. Out: candidates: the
+// pairs, and when their balls meet.
+
+#ifndef NSVCD_NO_NETWORK
+// radians, 45 degrees: an interval is cut before it turns more, for the decoder's twist
+#define NSVCD__INTERVAL_TURN 0.785f
+#define NSVCD__NO_SCORE (-1e30f)
+
+static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *items,
+                                    size_t limit) {
+  const nsvcd__candidates none = {items, limit, 0, 0};
+  *kept = none;
+}
+
+// A total order, so that ties do not depend on the order in which intervals were found.
+static int nsvcd__is_shallower(const nsvcd__candidate *a, const nsvcd__candidate *b) {
+  if (a->depth < b->depth || a->depth > b->depth) return a->depth < b->depth;
+  if (a->moving != b->moving) return a->moving > b->moving;
+  if (a->fixed != b->fixed) return a->fixed > b->fixed;
+  return a->t_enter > b->t_enter;
+}
+
+// Counts an interval, and keeps it if there is room, or in place of the shallowest.
+static void nsvcd__candidates_add(nsvcd__candidates *kept, const nsvcd__candidate *item) {
+  nsvcd__candidate *heap = kept->items;
+  size_t hole = 0;
+  kept->total++;
+  if (kept->count < kept->limit) {
+    for (hole = kept->count++; hole > 0; hole = (hole - 1) / 2) {
+      if (!nsvcd__is_shallower(item, &heap[(hole - 1) / 2])) break;
+      heap[hole] = heap[(hole - 1) / 2];
+    }
+  } else {
+    if (kept->limit == 0 || !nsvcd__is_shallower(&heap[0], item)) return;
+    for (size_t child = 1; child < kept->count; child = 2 * hole + 1) {
+      if (child + 1 < kept->count && nsvcd__is_shallower(&heap[child + 1], &heap[child]))
+        child++;
+      if (!nsvcd__is_shallower(&heap[child], item)) break;
+      heap[hole] = heap[child];
+      hole = child;
+    }
+  }
+  heap[hole] = *item;
+}
+
+// Contact intervals of a slice that are still growing, one per lane. Parameters along a segment's
+// line are 0 at its start and 1 at its end: at `nearest` the line is nearest to the other centre,
+// and the spheres overlap from `nearest` - h to `nearest` + h; half2 is the square of h.
+typedef struct nsvcd__intervals {
+  uint32_t open;   // lanes
+  size_t last;     // the segment that all of them reach
+  nsvcd__v fresh;  // 1 in lanes without an interval, else 0
+  nsvcd__v first, first_nearest, first_half2, last_nearest, last_half2;
+  nsvcd__v square, least_segment, least;  // the least distance, squared, and where it is
+} nsvcd__intervals;
+
+// The time at a fraction of segment s: at 1 that of its end, to the bit.
+static float nsvcd__time_in_segment(const nsvcd__search *q, size_t s, float fraction) {
+  const float start = q->time[s];
+  const float end = q->time[s + 1];
+  return fraction < 1 ? start + fraction * (end - start) : end;
+}
+
+// Ends the intervals of `lanes`, and adds them to the candidates. The slice's first lane is patch i
+// of the moving body; j: the patch of the fixed one.
+static void nsvcd__intervals_close(nsvcd__intervals *intervals, uint32_t lanes,
+                                   const nsvcd__search *q, size_t i, size_t j,
+                                   nsvcd__candidates *kept) {
+  const nsvcd__v zero = nsvcd__v_set(0);
+  const nsvcd__v one = nsvcd__v_set(1);
+  const nsvcd__v own = nsvcd__v_load(nsvcd__body_r(q->moving) + i);
+  const nsvcd__v other = nsvcd__v_set(nsvcd__body_r(q->fixed)[j]);
+  const nsvcd__v scaled = nsvcd__v_scale(own, q->scale);
+  const nsvcd__v radii = nsvcd__v_max(nsvcd__v_add(scaled, other), nsvcd__v_set(1e-30f));
+  intervals->open &= ~lanes;
+  // Most are shallower than all of a full heap, and are only counted.
+  if (kept->count == kept->limit) {
+    const float depth = kept->limit ? (1 - kept->items[0].depth) * 1.000001f : 0;
+    const nsvcd__v most = nsvcd__v_scale(radii, depth > 0 ? depth : 0);
+    uint32_t deep = 0;
+    if (kept->limit) deep = lanes & nsvcd__v_le(intervals->square, nsvcd__v_mul(most, most));
+    kept->total += nsvcd__bit_count(lanes & ~deep);
+    lanes = deep;
+    if (!lanes) return;
+  }
+
+  float first[NSVCD__SLICE], enter[NSVCD__SLICE], leave[NSVCD__SLICE];
+  float least_segment[NSVCD__SLICE], least[NSVCD__SLICE], depth[NSVCD__SLICE];
+  const nsvcd__v before = nsvcd__v_sqrt(nsvcd__v_max(intervals->first_half2, zero));
+  const nsvcd__v after = nsvcd__v_sqrt(nsvcd__v_max(intervals->last_half2, zero));
+  const nsvcd__v fraction = nsvcd__v_div(nsvcd__v_sqrt(intervals->square), radii);
+  nsvcd__v_store(first, intervals->first);
+  nsvcd__v_store(least_segment, intervals->least_segment);
+  nsvcd__v_store(enter, nsvcd__v_max(nsvcd__v_sub(intervals->first_nearest, before), zero));
+  nsvcd__v_store(leave, nsvcd__v_min(nsvcd__v_add(intervals->last_nearest, after), one));
+  nsvcd__v_store(least, intervals->least);
+  nsvcd__v_store(depth, nsvcd__v_sub(one, fraction));
+  for (; lanes; lanes &= lanes - 1) {
+    const size_t l = nsvcd__low_bit(lanes);
+    nsvcd__candidate candidate;
+    candidate.moving = (uint16_t)(i + l);
+    candidate.fixed = (uint16_t)j;
+    candidate.t_enter = nsvcd__time_in_segment(q, (size_t)first[l], enter[l]);
+    candidate.t_exit = nsvcd__time_in_segment(q, intervals->last, leave[l]);
+    candidate.t_least = nsvcd__time_in_segment(q, (size_t)least_segment[l], least[l]);
+    candidate.depth = depth[l];
+    candidate.score = NSVCD__NO_SCORE;
+    candidate.apart = 0;
+    // Rounding must not put the nearest time outside.
+    if (candidate.t_enter > candidate.t_least) candidate.t_enter = candidate.t_least;
+    if (candidate.t_exit < candidate.t_least) candidate.t_exit = candidate.t_least;
+    nsvcd__candidates_add(kept, &candidate);
+  }
+}
+
+// The segments at whose start all contact intervals of a group's members are cut: because the
+// oldest of them would turn too far, or the segment before is not `wanted`. met: (segments). For
+// all 16 beforehand, so that machines with narrower slices find the same intervals.
+static uint64_t nsvcd__interval_cuts(const nsvcd__search *q, const uint16_t *met,
+                                     uint64_t wanted) {
+  uint64_t cuts = wanted & ~(wanted << 1);
+  uint32_t open = 0;
+  size_t oldest = 0;
+  if (!(q->turn[q->segments] > NSVCD__INTERVAL_TURN)) return cuts;
+  for (; wanted; wanted &= wanted - 1) {
+    const size_t s = nsvcd__low_bit(wanted);
+    if (open && q->turn[s + 1] - q->turn[oldest] > NSVCD__INTERVAL_TURN)
+      cuts |= (uint64_t)1 << s;
+    if (cuts >> s & 1) open = 0;
+    open &= met[s];
+    if (!open) oldest = s;
+    open = met[s];
+  }
+  return cuts;
+}
+
+// Contact intervals of a slice of moving patches, from patch i on, with patch j of the fixed body,
+// in the segments `wanted`, in which the lanes all_met[s] of the group meet it. cuts:
+// nsvcd__interval_cuts.
+static NSVCD__NOINLINE void nsvcd__slice_against_patch(const nsvcd__search *q, size_t i,
+                                                       size_t j, uint64_t wanted,
+                                                       const uint16_t *all_met, uint64_t cuts,
+                                                       nsvcd__candidates *kept) {
+  const nsvcd__v one = nsvcd__v_set(1);
+  const nsvcd__v zero = nsvcd__v_set(0);
+  const nsvcd__v half = nsvcd__v_set(0.5f);
+  const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(q->fixed), j);
+  const nsvcd__v3 centre = nsvcd__v3_set(patch.centre);
+  const size_t l = i % NSVCD__GROUP;
+  nsvcd__intervals at = {0, 0, one, zero, zero, zero, zero, zero, zero, zero, zero};
+  for (; wanted; wanted &= wanted - 1) {
+    const size_t s = nsvcd__low_bit(wanted);
+    const nsvcd__chords *c = &q->members[s];
+    const nsvcd__v3 travel = nsvcd__chords_travel(c, l);
+    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__chords_start(c, l), centre);
+    const nsvcd__v inverse = nsvcd__v_load(c->inverse + l);
+    const nsvcd__v radius = nsvcd__v_plus(nsvcd__v_load(c->radius + l), patch.radius);
+    // the square of the sum of radii; where the line is nearest, and where the chord is
+    const nsvcd__v limit = nsvcd__v_signed_square(radius);
+    const nsvcd__v nearest = nsvcd__v_mul(nsvcd__v3_dot(d, travel), inverse);
+    const nsvcd__v tau = nsvcd__v_clamp(nearest, 0, 1);
+    const nsvcd__v3 chord = nsvcd__v3_fma(tau, travel, d);
+    const nsvcd__v square = nsvcd__v3_dot(chord, chord);
+    const uint32_t met = all_met[s] >> l & NSVCD__SLICE_MASK;
+    uint32_t ended = at.open & ~met;
+    if (cuts >> s & 1) {
+      ended = at.open;
+      at.fresh = one;
+    }
+    if (ended) nsvcd__intervals_close(&at, ended, q, i, j, kept);
+    if (!met) {
+      at.fresh = one;
+      continue;
+    }
+
+    // Intervals go on, or begin. |d + tau travel| = radius, solved from the line's nearest point
+    // outwards: b^2 - ac would cancel on long chords.
+    const nsvcd__v segment = nsvcd__v_set((float)s);
+    const nsvcd__v3 line = nsvcd__v3_fma(nearest, travel, d);
+    const nsvcd__v half2 =
+        nsvcd__v_mul(nsvcd__v_sub(nsvcd__v3_dot(line, line), limit), inverse);
+    const nsvcd__v before = nsvcd__v_pick(half, at.fresh, nsvcd__v_set(1e38f), at.square);
+    at.first = nsvcd__v_pick(half, at.fresh, segment, at.first);
+    at.first_nearest = nsvcd__v_pick(half, at.fresh, nearest, at.first_nearest);
+    at.first_half2 = nsvcd__v_pick(half, at.fresh, half2, at.first_half2);
+    at.last_nearest = nearest;
+    at.last_half2 = half2;
+    at.least_segment = nsvcd__v_pick(square, before, segment, at.least_segment);
+    at.least = nsvcd__v_pick(square, before, tau, at.least);
+    at.square = nsvcd__v_min(square, before);
+    at.fresh = nsvcd__v_pick(square, limit, zero, one);
+    if (met != nsvcd__v_le(square, limit)) {
+      float fresh[NSVCD__SLICE];
+      for (size_t k = 0; k < NSVCD__SLICE; k++) fresh[k] = met >> k & 1 ? 0.0f : 1.0f;
+      at.fresh = nsvcd__v_load(fresh);
+    }
+    at.open = met;
+    at.last = s;
+  }
+  if (at.open) nsvcd__intervals_close(&at, at.open, q, i, j, kept);
+}
+#endif  // NSVCD_NO_NETWORK
+
+// ----------------------------------------------------------------------------------- search/search
+// In: two bodies, and a motion that has been cut. Out: each pair of patches whose spheres meet, and
+// the segments in which they do, group by group.
+//
+// The hierarchy: body against body; boxes of groups against groups; group against group; group
+// against 16 spheres; 16 spheres against a sphere. But for the boxes every step is the same test,
+// moving spheres on chords against resting ones; lanes are segments, or members of a group. A step
+// of the search is a pair of groups. Moving groups that meet most come first, and of each the group
+// that it meets longest: a deep collision is then found before the rest is searched.
+//
+// A *tile* is up to 32 groups of one body and up to 32 of the other, which are searched together.
+// Bodies of up to 512 patches are one tile. Of larger ones, a traversal of the levels of spheres
+// above the groups finds those that the other body comes near, and they are searched tile after
+// tile: each moving tile against all tiles of the fixed body.
+
+// Boxes that contain 16 groups of the moving tile, from `first` on, in those segments `wanted` in
+// which they meet the fixed body's sphere, in its axes and units. Empty, low above high, for groups
+// that never do.
+static void nsvcd__boxes_of_groups(const nsvcd__search *q, size_t first, uint64_t wanted,
+                                   nsvcd__boxes *out) {
+  const nsvcd__spheres groups = nsvcd__spheres_from(q->moving_tile.spheres, first);
+  const nsvcd__sphere fixed = nsvcd__body_sphere(q->fixed);
+  nsvcd__chords *c = nsvcd__spare_chords(q);
+  NSVCD__TALLY(tests, nsvcd__bit_count(wanted));
+  for (size_t n = 0; n < 3 * NSVCD__LANES; n++) {
+    out->low[n / NSVCD__LANES][n % NSVCD__LANES] = -NSVCD__NOWHERE;
+    out->high[n / NSVCD__LANES][n % NSVCD__LANES] = NSVCD__NOWHERE;
+  }
+  for (; wanted; wanted &= wanted - 1) {
+    const size_t s = nsvcd__low_bit(wanted);
+    nsvcd__chords_in_segment(q, s, groups, q->moving->extent, c);
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v nowhere = nsvcd__v_set(NSVCD__NOWHERE);
+      const nsvcd__v3 start = nsvcd__chords_start(c, l);
+      const nsvcd__v3 travel = nsvcd__chords_travel(c, l);
+      const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_set(fixed.centre));
+      const nsvcd__v radius = nsvcd__v_load(c->radius + l);
+      const nsvcd__v sum = nsvcd__v_plus(radius, fixed.radius);
+      const nsvcd__v square = nsvcd__nearest2(d, travel, nsvcd__v_load(c->inverse + l));
+      const nsvcd__v nearby =
+          nsvcd__v_pick(square, nsvcd__v_signed_square(sum), radius, nowhere);
+      const nsvcd__v3 end = nsvcd__v3_add(start, travel);
+      const nsvcd__v3 around = nsvcd__v3_of(nearby, nearby, nearby);
+      const nsvcd__v3 low = nsvcd__v3_sub(nsvcd__v3_min(start, end), around);
+      const nsvcd__v3 high = nsvcd__v3_add(nsvcd__v3_max(start, end), around);
+      nsvcd__v3_store(out->low, l, nsvcd__v3_min(nsvcd__v3_load(out->low, l), low));
+      nsvcd__v3_store(out->high, l, nsvcd__v3_max(nsvcd__v3_load(out->high, l), high));
+    }
+  }
+}
+
+// Which of 16 spheres overlap a box?
+static uint32_t nsvcd__spheres_at_box(nsvcd__box box, nsvcd__spheres all) {
+  const nsvcd__v3 none = nsvcd__v3_set(nsvcd__f3_of(0, 0, 0));
+  uint32_t met = 0;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 centre = nsvcd__v3_centres(all, l);
+    const nsvcd__v3 below = nsvcd__v3_sub(nsvcd__v3_set(box.low), centre);
+    const nsvcd__v3 above = nsvcd__v3_sub(centre, nsvcd__v3_set(box.high));
+    const nsvcd__v3 d = nsvcd__v3_max(nsvcd__v3_max(below, above), none);
+    const nsvcd__v radius = nsvcd__v_load(all.r + l);
+    met |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(radius)) << l;
+  }
+  return met;
+}
+
+static uint64_t nsvcd__all_segments(const nsvcd__search *q) {
+  return ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - q->segments);
+}
+
+// Orders the steps of the search of both tiles: the groups of the moving tile that meet some of the
+// fixed tile, those first that meet most of them in most segments. nsvcd__nearby says which, and
+// in which segments. wanted: segments in which the bodies' spheres meet.
+static void nsvcd__search_tile(nsvcd__search *q, uint64_t wanted) {
+  uint16_t meetings[NSVCD__TILE_SLOTS];
+  const nsvcd__tile *tile = &q->fixed_tile;
+  nsvcd__boxes *boxes = nsvcd__spare_boxes(q);
+  q->steps = q->step = 0;
+  q->waiting = 0;
+  for (size_t g = 0; g < q->moving_tile.count; g++) {
+    const size_t l = g % NSVCD__LANES;
+    if (l == 0) nsvcd__boxes_of_groups(q, g, wanted, boxes);
+    const nsvcd__box box = {nsvcd__lane_of(boxes->low, l), nsvcd__lane_of(boxes->high, l)};
+    uint32_t groups = 0;
+    for (size_t first = 0; first < tile->count; first += NSVCD__LANES)
+      groups |= nsvcd__spheres_at_box(box, nsvcd__spheres_from(tile->spheres, first)) << first;
+    if (!groups) continue;
+    uint64_t *nearby = nsvcd__nearby(q, g);
+    size_t count = 0;
+    nsvcd__chords_of_group(q, q->moving_tile.groups[g]);
+    memset(nearby, 0, tile->count * sizeof *nearby);
+    for (; groups; groups &= groups - 1) {
+      const size_t h = nsvcd__low_bit(groups);
+      const nsvcd__sphere resting = nsvcd__sphere_of(tile->spheres, h);
+      nearby[h] = nsvcd__meet_in(q, nsvcd__all_segments(q), resting);
+      count += nsvcd__bit_count(nearby[h]);
+    }
+    if (!count) continue;
+    size_t at = q->steps;
+    for (; at > 0 && meetings[at - 1] < count; at--) {
+      meetings[at] = meetings[at - 1];
+      q->order[at] = q->order[at - 1];
+    }
+    meetings[at] = (uint16_t)count;
+    q->order[at] = (uint16_t)g;
+    q->steps++;
+  }
+}
+
+// Fills a tile with the next groups that a traversal finds.
+static void nsvcd__tile_fill(nsvcd__tile *tile, nsvcd__traversal *traversal) {
+  size_t g;
+  tile->spheres = nsvcd__spheres_of(tile->collected, NSVCD__TILE_SLOTS);
+  for (size_t n = 0; n < 4 * NSVCD__TILE_SLOTS; n++)
+    tile->collected[n] = n < 3 * NSVCD__TILE_SLOTS ? 0 : NSVCD__NOWHERE;
+  tile->count = 0;
+  while (tile->count < NSVCD__TILE && nsvcd__traversal_next(traversal, &g)) {
+    const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__groups_of(traversal->body), g);
+    nsvcd__sphere_store(group, tile->collected, NSVCD__TILE_SLOTS, tile->count);
+    tile->groups[tile->count++] = (uint16_t)g;
+  }
+}
+
+// Fills a tile with all groups of a body.
+static void nsvcd__tile_fill_all(nsvcd__tile *tile, const nsvcd_body *body) {
+  tile->count = nsvcd__body_groups(body);
+  for (size_t g = 0; g < tile->count; g++) tile->groups[g] = (uint16_t)g;
+  tile->spheres = nsvcd__groups_of(body);
+}
+
+// ---- filters of a traversal, which are given the search
+
+// All spheres but padding.
+static uint32_t nsvcd__exists(const void *what, nsvcd__spheres all) {
+  uint32_t exists = 0;
+  (void)what;
+  NSVCD__EACH_SLICE(l) exists |= nsvcd__v_le(nsvcd__v_set(0), nsvcd__v_load(all.r + l)) << l;
+  return exists;
+}
+
+// Spheres of the moving body that meet that of the fixed one.
+static uint32_t nsvcd__comes_near(const void *what, nsvcd__spheres all) {
+  const nsvcd__search *q = (const nsvcd__search *)what;
+  const nsvcd__sphere fixed = nsvcd__body_sphere(q->fixed);
+  nsvcd__chords *chords = nsvcd__spare_chords(q);
+  uint32_t met = 0;
+  for (uint64_t wanted = q->near_segments; wanted; wanted &= wanted - 1) {
+    const size_t s = nsvcd__low_bit(wanted);
+    nsvcd__chords_in_segment(q, s, all, q->moving->extent, chords);
+    met |= nsvcd__meet(chords, fixed);
+  }
+  return met;
+}
+
+// Spheres of the fixed body that meet that of the moving tile, whose chords are q->group.
+static uint32_t nsvcd__is_approached(const void *what, nsvcd__spheres all) {
+  const nsvcd__search *q = (const nsvcd__search *)what;
+  const uint32_t nearby = nsvcd__spheres_at_box(q->near_box, all);
+  uint32_t met = 0;
+  for (uint64_t wanted = q->near_segments; wanted && nearby & ~met; wanted &= wanted - 1) {
+    met |= nearby & nsvcd__meet_members(q, nsvcd__low_bit(wanted), all);
+  }
+  return met;
+}
+
+// Chords of the sphere over all groups of the moving tile, into q->group.
+static void nsvcd__chords_of_tile(nsvcd__search *q) {
+  const nsvcd__tile *tile = &q->moving_tile;
+  nsvcd__sphere sphere = nsvcd__body_sphere(q->moving);
+  if (nsvcd__is_large(q->moving)) sphere = nsvcd__cover_spheres(tile->spheres, tile->count);
+  nsvcd__chords_in_all(q, sphere);
+}
+
+// Finds the next moving tile, an empty one if there is none, and starts a traversal of the fixed
+// body's groups that come near it.
+static void nsvcd__search_moving_tile(nsvcd__search *q) {
+  nsvcd__box box = {{HUGE_VALF, HUGE_VALF, HUGE_VALF}, {-HUGE_VALF, -HUGE_VALF, -HUGE_VALF}};
+  nsvcd__tile_fill(&q->moving_tile, &q->moving_traversal);
+  if (q->moving_tile.count == 0) return;
+  nsvcd__chords_of_tile(q);
+  for (uint64_t left = q->near_segments; left; left &= left - 1) {
+    const size_t s = nsvcd__low_bit(left);
+    nsvcd__chords *c = &q->group[s / NSVCD__LANES];
+    const size_t l = s % NSVCD__LANES;
+    const nsvcd__f3 start = nsvcd__lane_of(c->start, l);
+    const nsvcd__f3 end = nsvcd__f3_add(start, nsvcd__lane_of(c->travel, l));
+    const nsvcd__f3 around = nsvcd__f3_of(c->radius[l], c->radius[l], c->radius[l]);
+    const nsvcd__f3 low = nsvcd__f3_sub(nsvcd__f3_min(start, end), around);
+    const nsvcd__f3 high = nsvcd__f3_add(nsvcd__f3_max(start, end), around);
+    box.low = nsvcd__f3_min(box.low, low);
+    box.high = nsvcd__f3_max(box.high, high);
+  }
+  q->near_box = box;
+  nsvcd__traversal_begin(&q->fixed_traversal, q->fixed, nsvcd__is_approached, q);
+}
+
+// Goes on to the next pair of tiles that has a step. 0 if there is none.
+static int nsvcd__search_next_tile(nsvcd__search *q) {
+  if (!nsvcd__is_tiled(q->moving, q->fixed)) return 0;
+  while (q->moving_tile.count > 0) {
+    nsvcd__chords_of_tile(q);
+    nsvcd__tile_fill(&q->fixed_tile, &q->fixed_traversal);
+    if (q->fixed_tile.count == 0) {
+      nsvcd__search_moving_tile(q);
+      continue;
+    }
+    nsvcd__search_tile(q, q->near_segments);
+    if (q->steps > 0) return 1;
+  }
+  return 0;
+}
+
+// Starts the search of some segments. Returns 0 if the groups' spheres never meet there, so that
+// there is no step to take.
+static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed,
+                               uint64_t segments, nsvcd__search *q) {
+  q->moving = moving;
+  q->fixed = fixed;
+  nsvcd__chords_in_all(q, nsvcd__body_sphere(moving));
+  const uint64_t all = segments & nsvcd__all_segments(q);
+  const uint64_t wanted = nsvcd__meet_in(q, all, nsvcd__body_sphere(fixed));
+  q->near_segments = wanted;
+  q->wanted = segments;
+  q->steps = 0;
+  if (!nsvcd__is_tiled(moving, fixed)) {
+    nsvcd__tile_fill_all(&q->moving_tile, moving);
+    nsvcd__tile_fill_all(&q->fixed_tile, fixed);
+    if (wanted) nsvcd__search_tile(q, wanted);
+    return q->steps > 0;
+  }
+  q->moving_tile.count = 0;
+  if (!wanted) return 0;
+  nsvcd__filter *filter = nsvcd__is_large(moving) ? nsvcd__comes_near : nsvcd__exists;
+  nsvcd__traversal_begin(&q->moving_traversal, moving, filter, q);
+  nsvcd__search_moving_tile(q);
+  return nsvcd__search_next_tile(q);
+}
+
+// No point of a group is farther from its body's origin, in the body's own units.
+static float nsvcd__group_extent(const nsvcd_body *body, size_t g) {
+  const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__groups_of(body), g);
+  return 1.000002f * (nsvcd__f3_norm(group.centre) + group.radius);
+}
+
+// Fills members[] for the segments `wanted` that are not ready.
+static void nsvcd__pose_members(nsvcd__search *q, size_t g, uint64_t wanted) {
+  uint64_t missing = wanted & ~q->ready;
+  if (!missing) return;
+  const nsvcd__spheres members = nsvcd__members_of(q->moving, g);
+  q->extent = nsvcd__group_extent(q->moving, g);
+  for (; missing; missing &= missing - 1) {
+    const size_t s = nsvcd__low_bit(missing);
+    nsvcd__chords_in_segment(q, s, members, q->extent, &q->members[s]);
+  }
+  q->ready |= wanted;
+}
+
+#ifndef NSVCD_NO_PROOF
+// Patches of group h of the fixed body that the moving group meets, whose chords are q->group.
+// segments (GROUP): in which of those `wanted`; written for these patches only.
+static uint32_t nsvcd__group_against_members(const nsvcd__search *q, size_t h, uint64_t wanted,
+                                             uint64_t *segments) {
+  const nsvcd__spheres members = nsvcd__members_of(q->fixed, h);
+  uint32_t met = 0;
+  for (; wanted; wanted &= wanted - 1) {
+    const size_t s = nsvcd__low_bit(wanted);
+    uint32_t bits = nsvcd__meet_members(q, s, members);
+    for (; bits; bits &= bits - 1) {
+      const size_t l = nsvcd__low_bit(bits);
+      segments[l] = (met >> l & 1 ? segments[l] : 0) | (uint64_t)1 << s;
+      met |= 1u << l;
+    }
+  }
+  return met;
+}
+#endif
+
+// Turns to the next moving group in order, and to the fixed group that it meets longest.
+static void nsvcd__search_group(nsvcd__search *q) {
+  const size_t g = q->order[q->step];
+  const uint64_t *nearby = nsvcd__nearby(q, g);
+  size_t most = 0;
+  q->at = 0;
+  for (size_t h = 0; h < q->fixed_tile.count; h++) {
+    const size_t count = nsvcd__bit_count(nearby[h] & q->wanted);
+    if (count > 0) q->waiting |= (uint32_t)1 << h;
+    if (count > most) {
+      most = count;
+      q->at = h;
+    }
+  }
+  if (q->waiting) nsvcd__chords_of_group(q, q->moving_tile.groups[g]);
+  q->ready = 0;
+}
+
+#ifndef NSVCD_NO_NETWORK
+// Finds all contact intervals of moving group g, whose chords are q->group, and the members
+// `which` of group h of the fixed body, in the segments `wanted`.
+static void nsvcd__group_against_group(nsvcd__search *q, size_t g, size_t h, uint32_t which,
+                                       uint64_t wanted, nsvcd__candidates *kept) {
+  const nsvcd__spheres members = nsvcd__members_of(q->fixed, h);
+  const size_t stride = q->most_segments;
+  uint64_t left[NSVCD__GROUP] = {0};
+  uint32_t any = 0;
+  nsvcd__plane_cache *cache = q->cache;
+  cache->resting_known = 0;
+  wanted = nsvcd__segments_left(q, h, wanted);
+  for (; wanted; wanted &= wanted - 1) {
+    const size_t s = nsvcd__low_bit(wanted);
+    uint32_t bits = which & nsvcd__meet_members(q, s, members);
+    if (!bits) continue;
+    nsvcd__pose_members(q, g, (uint64_t)1 << s);
+    cache->deviation = nsvcd__segment_deviation(q, s, q->extent);
+    cache->moving_known = 0;
+    bits = nsvcd__members_left(q, g, s, h, bits);
+    for (; bits; bits &= bits - 1) {
+      const size_t k = nsvcd__low_bit(bits);
+      uint16_t *met = q->met + stride * k;
+      const uint32_t before = s > 0 && left[k] >> (s - 1) & 1 ? met[s - 1] : 0;
+      const uint32_t lanes = nsvcd__members_meet(q, g, s, h, k, before);
+      if (!lanes) continue;
+      met[s] = (uint16_t)lanes;
+      left[k] |= (uint64_t)1 << s;
+      any |= 1u << k;
+    }
+  }
+  for (; any; any &= any - 1) {
+    const size_t k = nsvcd__low_bit(any);
+    const size_t j = NSVCD__GROUP * h + k;
+    const uint16_t *met = q->met + stride * k;
+    const uint64_t cuts = nsvcd__interval_cuts(q, met, left[k]);
+    NSVCD__EACH_SLICE(l) {
+      const size_t i = NSVCD__GROUP * g + l;
+      nsvcd__slice_against_patch(q, i, j, left[k], met, cuts, kept);
+    }
+  }
+}
+
+// Finds all contact intervals of the next pair of groups.
+static void nsvcd__search_pair(nsvcd__search *q, nsvcd__candidates *kept) {
+  if (!q->waiting) nsvcd__search_group(q);
+  const size_t next = q->order[q->step];
+  const size_t g = q->moving_tile.groups[next];
+  const size_t h = q->fixed_tile.groups[q->at];
+  const uint64_t wanted = nsvcd__nearby(q, next)[q->at];
+  nsvcd__group_against_group(q, g, h, 0xffff, wanted, kept);
+}
+
+// A step of the search: the next pair of groups. Returns 1 if there are more.
+static NSVCD__NOINLINE int nsvcd__search_step(nsvcd__search *q, nsvcd__candidates *kept) {
+  nsvcd__search_pair(q, kept);
+  q->waiting &= ~((uint32_t)1 << q->at);
+  if (q->waiting)
+    q->at = nsvcd__low_bit(q->waiting);
+  else
+    q->step++;
+  return q->step < q->steps || nsvcd__search_next_tile(q);
+}
+
+// Instead of a search: finds all contact intervals of one moving group and one patch of the fixed
+// body.
+static void nsvcd__search_patch(nsvcd__search *q, const nsvcd_body *moving, size_t g,
+                                const nsvcd_body *fixed, size_t j, nsvcd__candidates *kept) {
+  const uint64_t all = nsvcd__all_segments(q);
+  q->moving = moving;
+  q->fixed = fixed;
+  q->ready = 0;
+  nsvcd__chords_of_group(q, g);
+  nsvcd__group_against_group(q, g, j / NSVCD__GROUP, 1u << j % NSVCD__GROUP, all, kept);
+}
+
+#endif  // NSVCD_NO_NETWORK
+
+// ======================================================== separate: until when surfaces stay apart
+
+// ---------------------------------------------------------------------------------- separate/slabs
+// In: patch pairs, a slice at a time. Out: those that no plane normal to a slab separates.
+
+#ifndef NSVCD_NO_PROOF
+// nsvcd__interval and nsvcd__deviation_of for a slice of directions, or for one direction in a
+// slice of intervals.
+typedef struct nsvcd__v_interval {
+  nsvcd__v3 axis, heading;
+  nsvcd__v rounding, origin_bend, bend, bend_along_axis, origin_along_axis, origin_off_heading;
+} nsvcd__v_interval;
+
+NSVCD__INLINE nsvcd__v_interval nsvcd__v_interval_set(const nsvcd__interval *over) {
+  nsvcd__v_interval out;
+  out.axis = nsvcd__v3_set(over->axis);
+  out.heading = nsvcd__v3_set(over->heading);
+  out.rounding = nsvcd__v_set(over->rounding);
+  out.origin_bend = nsvcd__v_set(over->origin_bend);
+  out.bend = nsvcd__v_set(over->bend);
+  out.bend_along_axis = nsvcd__v_set(over->bend_along_axis);
+  out.origin_along_axis = nsvcd__v_set(over->origin_along_axis);
+  out.origin_off_heading = nsvcd__v_set(over->origin_off_heading);
+  return out;
+}
+// A slice of a block, from lane l on.
+NSVCD__INLINE nsvcd__v_interval nsvcd__v_interval_load(nsvcd__segments *block, size_t l) {
+  nsvcd__v_interval out;
+  out.axis = nsvcd__v3_load(block->axis, l);
+  out.heading = nsvcd__v3_load(block->heading, l);
+  out.rounding = nsvcd__v_load(block->rounding + l);
+  out.origin_bend = nsvcd__v_load(block->origin_bend + l);
+  out.bend = nsvcd__v_load(block->bend + l);
+  out.bend_along_axis = nsvcd__v_load(block->bend_along_axis + l);
+  out.origin_along_axis = nsvcd__v_load(block->origin_along_axis + l);
+  out.origin_off_heading = nsvcd__v_load(block->origin_off_heading + l);
+  return out;
+}
+NSVCD__INLINE nsvcd__v nsvcd__v_deviation(const nsvcd__v_interval *over, nsvcd__v3 n,
+                                          float from_origin) {
+  const nsvcd__v along = nsvcd__v_abs(nsvcd__v3_dot(n, over->axis));
+  const nsvcd__v across = nsvcd__v3_norm(nsvcd__v3_cross(n, over->axis));
+  const nsvcd__v ahead = nsvcd__v_abs(nsvcd__v3_dot(n, over->heading));
+  const nsvcd__v aside = nsvcd__v3_norm(nsvcd__v3_cross(n, over->heading));
+  nsvcd__v by_axis = nsvcd__v_mul(across, over->origin_bend);
+  by_axis = nsvcd__v_fma(along, over->origin_along_axis, by_axis);
+  nsvcd__v by_heading = nsvcd__v_mul(aside, over->origin_off_heading);
+  by_heading = nsvcd__v_fma(ahead, over->origin_bend, by_heading);
+  nsvcd__v turn = nsvcd__v_mul(across, over->bend);
+  turn = nsvcd__v_fma(along, over->bend_along_axis, turn);
+  return nsvcd__v_fma(turn, nsvcd__v_set(from_origin), nsvcd__v_min(by_axis, by_heading));
+}
+
+// A slice of slabs.
+typedef struct nsvcd__v_slab {
+  nsvcd__v3 normal;
+  nsvcd__v low, high, across;
+} nsvcd__v_slab;
+
+NSVCD__INLINE nsvcd__v_slab nsvcd__v_slab_set(const nsvcd__slab *slab) {
+  nsvcd__v_slab out;
+  out.normal = nsvcd__v3_set(slab->normal);
+  out.low = nsvcd__v_set(slab->low);
+  out.high = nsvcd__v_set(slab->high);
+  out.across = nsvcd__v_set(slab->across);
+  return out;
+}
+// From (6, stride).
+NSVCD__INLINE nsvcd__v_slab nsvcd__v_slab_load(const float *slabs, size_t stride) {
+  nsvcd__v_slab out;
+  out.normal = nsvcd__v3_get(slabs, stride);
+  out.low = nsvcd__v_load(slabs + 3 * stride);
+  out.high = nsvcd__v_load(slabs + 4 * stride);
+  out.across = nsvcd__v_load(slabs + 5 * stride);
+  return out;
+}
+
+// Extents of slabs, from their centres, along directions of these components: along the slabs'
+// normals, and across them.
+NSVCD__INLINE nsvcd__v_range nsvcd__v_slab_along(const nsvcd__v_slab *slab, nsvcd__v along,
+                                                 nsvcd__v across) {
+  const nsvcd__v a = nsvcd__v_mul(slab->low, along);
+  const nsvcd__v b = nsvcd__v_mul(slab->high, along);
+  const nsvcd__v side = nsvcd__v_mul(slab->across, across);
+  nsvcd__v_range out;
+  out.low = nsvcd__v_sub(nsvcd__v_min(a, b), side);
+  out.high = nsvcd__v_add(nsvcd__v_max(a, b), side);
+  return out;
+}
+
+// The same, along directions given in the slabs' own frame.
+NSVCD__INLINE nsvcd__v_range nsvcd__v_slab_range(const nsvcd__v_slab *slab, nsvcd__v3 n) {
+  const nsvcd__v along = nsvcd__v3_dot(n, slab->normal);
+  const nsvcd__v across = nsvcd__v3_norm(nsvcd__v3_cross(n, slab->normal));
+  return nsvcd__v_slab_along(slab, along, across);
+}
+
+// Moving slabs that approach fixed ones over an interval; either of them, and the interval, may
+// be the same in all lanes.
+typedef struct nsvcd__v_approach {
+  // in its body's frame and units
+  nsvcd__v_slab moving;
+  nsvcd__v_slab fixed;
+  // from the fixed centre to the moving one, and its travel
+  nsvcd__v3 from, chord;
+  // the fixed slab's normal in the moving body's frame, at both ends
+  nsvcd__v3 at_start, at_end;
+  // the mean of the moving slab's normals at both ends, and half their difference
+  nsvcd__v3 mean, turned;
+  // of the moving body
+  nsvcd__v scale;
+  nsvcd__v_interval over;
+  float clearance;
+  // of the moving slabs' points about their body's origin, in its units
+  float radius;
+  // nsvcd__v_off along the fixed slab's normal
+  nsvcd__v fixed_off;
+} nsvcd__v_approach;
+
+// Lanes in which planes separate two bodies; in those of `below` the moving one is below.
+typedef struct nsvcd__v_separated {
+  nsvcd__v3 plane;  // its normal
+  uint32_t lanes, below;
+} nsvcd__v_separated;
+
+// Along a plane's normal: the deviation of a moving point, and the clearance.
+NSVCD__INLINE nsvcd__v nsvcd__v_off(const nsvcd__v_approach *a, nsvcd__v3 plane) {
+  const nsvcd__v allowed = nsvcd__v_plus(a->over.rounding, a->clearance);
+  return nsvcd__v_add(allowed, nsvcd__v_deviation(&a->over, plane, a->radius));
+}
+
+// By planes with this normal. start, end, fixed: the slabs' extents along it, the moving one's at
+// both ends, each from its centre.
+NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate(const nsvcd__v_approach *a, nsvcd__v3 plane,
+                                                   nsvcd__v_range start, nsvcd__v_range end,
+                                                   nsvcd__v_range fixed, nsvcd__v off) {
+  const nsvcd__v height = nsvcd__v3_dot(plane, a->from);
+  const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(plane, a->chord));
+  const nsvcd__v low =
+      nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
+  const nsvcd__v high =
+      nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
+  nsvcd__v_separated out;
+  out.plane = plane;
+  out.below = nsvcd__v_lt(high, nsvcd__v_sub(fixed.low, off));
+  out.lanes = out.below | nsvcd__v_lt(nsvcd__v_add(fixed.high, off), low);
+  return out;
+}
+
+// By planes normal to the fixed slabs.
+NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_fixed(const nsvcd__v_approach *a) {
+  const nsvcd__v_range fixed = {a->fixed.low, a->fixed.high};
+  const nsvcd__v_range start = nsvcd__v_slab_range(&a->moving, a->at_start);
+  const nsvcd__v_range end = nsvcd__v_slab_range(&a->moving, a->at_end);
+  return nsvcd__v_separate(a, a->fixed.normal, start, end, fixed, a->fixed_off);
+}
+
+// By planes normal to the mean w of the moving slabs' normals, |w| <= 1. Both normals make the same
+// angle with w: they are |w|^2 along it and no more than |turned| across it.
+NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_moving(const nsvcd__v_approach *a) {
+  const nsvcd__v3 w = a->mean;
+  const nsvcd__v along = nsvcd__v_mul(a->scale, nsvcd__v3_dot(w, w));
+  const nsvcd__v across = nsvcd__v_mul(a->scale, nsvcd__v3_norm(a->turned));
+  const nsvcd__v_range moving = nsvcd__v_slab_along(&a->moving, along, across);
+  const nsvcd__v_range fixed = nsvcd__v_slab_range(&a->fixed, w);
+  return nsvcd__v_separate(a, w, moving, moving, fixed, nsvcd__v_off(a, w));
+}
+
+// Of the lanes `met` of moving group g in segment s, those that slabs do not separate from fixed
+// patch j.
+static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *q, size_t g, size_t j,
+                                  size_t s, uint32_t met) {
+  const nsvcd__interval *over = nsvcd__segment_interval(p, q, s);
+  const nsvcd__chords *c = &q->members[s];
+  const nsvcd__slab fixed = nsvcd__slab_at(p->fixed.slabs, p->fixed.body->padded, j);
+  const nsvcd__f3 centre = nsvcd__patch_centre(&p->fixed, j);
+  const nsvcd__mat3 *from = &over->start.rotation;
+  const nsvcd__mat3 *to = &over->end.rotation;
+  uint32_t left = 0;
+  nsvcd__v_approach a;
+  a.fixed = nsvcd__v_slab_set(&fixed);
+  a.at_start = nsvcd__v3_set(nsvcd__mat3_apply_transpose(from, fixed.normal));
+  a.at_end = nsvcd__v3_set(nsvcd__mat3_apply_transpose(to, fixed.normal));
+  a.scale = nsvcd__v_set(p->ask.motion->scale);
+  a.over = nsvcd__v_interval_set(over);
+  a.clearance = nsvcd__clearance(p);
+  a.radius = q->extent;
+  a.fixed_off = nsvcd__v_off(&a, a.fixed.normal);
+  NSVCD__EACH_SLICE(l) {
+    const size_t i = NSVCD__GROUP * g + l;
+    uint32_t wanted = met >> l & NSVCD__SLICE_MASK;
+    if (!wanted) continue;
+    a.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(centre));
+    a.chord = nsvcd__chords_travel(c, l);
+    a.moving = nsvcd__v_slab_load(p->moving.slabs + i, p->moving.body->padded);
+    nsvcd__v_separated by = nsvcd__v_separate_by_fixed(&a);
+    NSVCD__CERTIFY_SLABS(p, q, 0, i, j, s, &by, by.lanes & wanted);
+    wanted &= ~by.lanes;
+    if (!wanted) continue;
+    // rotations in an interval are times the scale
+    const float half = 0.5f * p->ask.motion->per_scale;
+    const nsvcd__mat3 middle = nsvcd__mat3_mix(half, to, 1, from);
+    const nsvcd__mat3 half_turn = nsvcd__mat3_mix(half, to, -1, from);
+    a.mean = nsvcd__vmat3_apply(nsvcd__vmat3_set(&middle), a.moving.normal);
+    a.turned = nsvcd__vmat3_apply(nsvcd__vmat3_set(&half_turn), a.moving.normal);
+    by = nsvcd__v_separate_by_moving(&a);
+    NSVCD__CERTIFY_SLABS(p, q, 0, i, j, s, &by, by.lanes & wanted);
+    left |= (wanted & ~by.lanes) << l;
+  }
+  return left;
+}
+
+// Clears the segments in which slabs separate the moving group that is searched, whose chords are
+// in q->group, from the fixed ones that it meets: a slice of segments at a time.
+static NSVCD__NOINLINE void nsvcd__separate_groups(nsvcd__proof *p, nsvcd__search *q) {
+  const nsvcd_body *moving = p->moving.body;
+  const nsvcd_body *fixed = p->fixed.body;
+  const size_t next = q->order[q->step];
+  const size_t g = q->moving_tile.groups[next];
+  const nsvcd__slab own =
+      nsvcd__slab_at(p->moving.group_slabs, nsvcd__group_slots(moving->padded), g);
+  nsvcd__v_approach a;
+  a.moving = nsvcd__v_slab_set(&own);
+  a.scale = nsvcd__v_set(q->scale);
+  a.clearance = nsvcd__clearance(p);
+  a.radius = nsvcd__group_extent(moving, g);
+  for (uint32_t waiting = q->waiting; waiting; waiting &= waiting - 1) {
+    const size_t at = nsvcd__low_bit(waiting);
+    const size_t h = q->fixed_tile.groups[at];
+    const nsvcd__slab other =
+        nsvcd__slab_at(p->fixed.group_slabs, nsvcd__group_slots(fixed->padded), h);
+    const nsvcd__f3 centre = nsvcd__centre_of(nsvcd__groups_of(fixed), h);
+    uint64_t *met = &nsvcd__nearby(q, next)[at];
+    a.fixed = nsvcd__v_slab_set(&other);
+    for (size_t first = 0; first < NSVCD__MAX_SEGMENTS; first += NSVCD__SLICE) {
+      const uint32_t wanted = (uint32_t)(*met >> first) & NSVCD__SLICE_MASK;
+      nsvcd__segments *block = &q->blocks[first / NSVCD__LANES];
+      const nsvcd__chords *c = &q->group[first / NSVCD__LANES];
+      const size_t l = first % NSVCD__LANES;
+      if (l == 0 && (*met >> first & 0xffff)) NSVCD__TALLY(tests, 1);
+      if (!wanted) continue;
+      const nsvcd__vmat3 rotation = nsvcd__vmat3_load(block->rotation, l);
+      const nsvcd__vmat3 turn = nsvcd__vmat3_load(block->turned, l);
+      const nsvcd__v half = nsvcd__v_set(0.5f / q->scale);
+      const nsvcd__v whole = nsvcd__v_set(1 / q->scale);
+      const nsvcd__v3 n = a.fixed.normal;
+      const nsvcd__v3 m = a.moving.normal;
+      a.over = nsvcd__v_interval_load(block, l);
+      a.fixed_off = nsvcd__v_off(&a, n);
+      a.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(centre));
+      a.chord = nsvcd__chords_travel(c, l);
+      a.at_start = nsvcd__vmat3_apply_transpose(rotation, n);
+      a.at_end = nsvcd__v3_add(a.at_start, nsvcd__vmat3_apply_transpose(turn, n));
+      a.turned = nsvcd__v3_scale(nsvcd__vmat3_apply(turn, m), half);
+      a.mean = nsvcd__v3_fma(whole, nsvcd__vmat3_apply(rotation, m), a.turned);
+      nsvcd__v_separated by = nsvcd__v_separate_by_fixed(&a);
+      NSVCD__CERTIFY_SLABS(p, q, 1, g, h, first, &by, by.lanes & wanted);
+      uint32_t apart = by.lanes;
+      by = nsvcd__v_separate_by_moving(&a);
+      NSVCD__CERTIFY_SLABS(p, q, 1, g, h, first, &by, by.lanes & wanted);
+      apart |= by.lanes;
+      *met &= ~((uint64_t)(apart & wanted) << first);
+    }
+    if (!*met) q->waiting &= ~((uint32_t)1 << at);
+  }
+}
+#endif  // NSVCD_NO_PROOF
+
+// ---------------------------------------------------------------------------------- separate/hulls
+// In: a patch pair and an interval. Out: is there a plane between the two hulls over all of the
+// interval?
+
+#ifndef NSVCD_NO_PROOF
+// A slice, from lane l on, of a patch's hull, in its body's frame and units. Lanes without a vertex
+// repeat the last one.
+NSVCD__INLINE nsvcd__v3 nsvcd__hull_of(const nsvcd__geometry *f, size_t patch, size_t l) {
+  static const float lane[NSVCD__LANES] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                           8, 9, 10, 11, 12, 13, 14, 15};
+  const nsvcd__vertices all = nsvcd__vertices_of(f, patch);
+  const size_t count = f->hull_counts[patch];
+  nsvcd__v3 q;
+  q.x = nsvcd__v_load_int16(all.x + l);
+  q.y = nsvcd__v_load_int16(all.y + l);
+  q.z = nsvcd__v_load_int16(all.z + l);
+  if (count < l + NSVCD__SLICE) {
+    const size_t last = count - 1;
+    const nsvcd__v end = nsvcd__v_set((float)last);
+    const nsvcd__v index = nsvcd__v_load(lane + l);
+    q.x = nsvcd__v_pick(index, end, q.x, nsvcd__v_set((float)all.x[last]));
+    q.y = nsvcd__v_pick(index, end, q.y, nsvcd__v_set((float)all.y[last]));
+    q.z = nsvcd__v_pick(index, end, q.z, nsvcd__v_set((float)all.z[last]));
+  }
+  const nsvcd__v step = nsvcd__v_set(f->steps[patch]);
+  return nsvcd__v3_fma(step, q, nsvcd__v3_set(nsvcd__patch_centre(f, patch)));
+}
+
+// The least of a number and a slice. A NaN stays: it separates nothing.
+NSVCD__INLINE float nsvcd__least_of(float least, nsvcd__v slice) {
+  const float other = nsvcd__v_least(slice);
+  return least < other || least != least ? least : other;
+}
+
+// The greatest of a number and a slice. A NaN stays.
+NSVCD__INLINE float nsvcd__greatest_of(float greatest, nsvcd__v slice) {
+  return -nsvcd__least_of(-greatest, nsvcd__v_negate(slice));
+}
+
+// The gap between two posed hulls along a direction, the moving one at both ends of the interval,
+// and the difference of the two vertices that bound it.
+typedef struct nsvcd__support {
+  float gap;
+  nsvcd__f3 difference;
+} nsvcd__support;
+
+NSVCD__INLINE nsvcd__support nsvcd__support_along(nsvcd__proof *p, nsvcd__f3 normal) {
+  float moving[NSVCD__LANES], fixed[NSVCD__LANES];  // heights
+  float lowest = HUGE_VALF;
+  float highest = -HUGE_VALF;
+  uint32_t starts = 0;  // lanes that are lower at the start
+  uint32_t low = 0;
+  uint32_t high = 0;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 n = nsvcd__v3_set(normal);
+    const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_start, l));
+    const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_end, l));
+    const nsvcd__v height = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_fixed, l));
+    const nsvcd__v at_either = nsvcd__v_min(at_start, at_end);
+    nsvcd__v_store(moving + l, at_either);
+    nsvcd__v_store(fixed + l, height);
+    lowest = nsvcd__least_of(lowest, at_either);
+    highest = nsvcd__greatest_of(highest, height);
+    starts |= nsvcd__v_le(at_start, at_end) << l;
+  }
+  NSVCD__EACH_SLICE(l) {
+    low |= nsvcd__v_le(nsvcd__v_load(moving + l), nsvcd__v_set(lowest)) << l;
+    high |= nsvcd__v_le(nsvcd__v_set(highest), nsvcd__v_load(fixed + l)) << l;
+  }
+  // a NaN compares with no lane: then the last one
+  const size_t a = nsvcd__low_bit(low | 0x8000);
+  const size_t b = nsvcd__low_bit(high | 0x8000);
+  const int is_start = (starts >> a & 1) != 0;
+  const nsvcd__f3 vertex = nsvcd__lane_of(is_start ? p->hull_start : p->hull_end, a);
+  const nsvcd__f3 other = nsvcd__lane_of(p->hull_fixed, b);
+  const nsvcd__support out = {lowest - highest, nsvcd__f3_sub(vertex, other)};
+  return out;
+}
+
+// a or -a, on the side of b.
+static nsvcd__f3 nsvcd__f3_towards(nsvcd__f3 a, nsvcd__f3 b) {
+  return nsvcd__f3_scale(a, nsvcd__f3_dot(a, b) < 0 ? -1.0f : 1.0f);
+}
+
+// Is there a plane between two patches over the whole interval? A direction separates them if the
+// gap between the hulls along it is more than the margin and the deviation. First guesses: the last
+// plane that held, the slabs' normals, the line of centres. Then Gilbert's iteration (1966) from
+// there towards the point nearest to 0 of the difference of the two hulls.
+// Remembers the plane that holds.
+#define NSVCD__GUESSES 4
+static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j,
+                                                  const nsvcd__interval *over) {
+  const float margins = p->ask.motion->scale * p->moving.margins[i] + p->fixed.margins[j];
+  const float margin = margins + over->rounding + nsvcd__clearance(p);
+  const nsvcd__arm arm = nsvcd__patch_arm(&p->moving, i, over);
+  const nsvcd__transform *start = &over->start;
+  const nsvcd__transform *end = &over->end;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, i, l);
+    nsvcd__v3_store(p->hull_start, l, nsvcd__v3_transform(start, hull));
+    nsvcd__v3_store(p->hull_end, l, nsvcd__v3_transform(end, hull));
+    nsvcd__v3_store(p->hull_fixed, l, nsvcd__hull_of(&p->fixed, j, l));
+  }
+  const nsvcd__slab moving = nsvcd__slab_at(p->moving.slabs, p->moving.body->padded, i);
+  const nsvcd__slab fixed = nsvcd__slab_at(p->fixed.slabs, p->fixed.body->padded, j);
+  const nsvcd__f3 centre = nsvcd__patch_centre(&p->moving, i);
+  const nsvcd__f3 both =
+      nsvcd__f3_add(nsvcd__f3_transform(start, centre), nsvcd__f3_transform(end, centre));
+  const nsvcd__f3 line =
+      nsvcd__f3_sub(nsvcd__f3_scale(both, 0.5f), nsvcd__patch_centre(&p->fixed, j));
+  const nsvcd__f3 turned = nsvcd__mat3_apply(&start->rotation, moving.normal);
+  const nsvcd__f3 guesses[NSVCD__GUESSES] = {p->memo.held,
+                                             nsvcd__f3_towards(fixed.normal, line),
+                                             nsvcd__f3_towards(turned, line), line};
+  nsvcd__f3 nearest = {0, 0, 0};
+  p->work++;
+  NSVCD__TALLY(planes, 1);
+  for (size_t step = 0; step < NSVCD__GUESSES + NSVCD__PLANE_STEPS; step++) {
+    const nsvcd__f3 normal = step < NSVCD__GUESSES ? guesses[step] : nearest;
+    const nsvcd__support found = nsvcd__support_along(p, normal);
+    const float length = nsvcd__f3_norm(normal);
+    if (found.gap > 0 &&
+        found.gap > margin * length + nsvcd__deviation_of(over, normal, arm)) {
+      p->memo.held = normal;
+      p->memo.plane++;
+      NSVCD__CERTIFY(NSVCD__BY_HULL, i, j, NSVCD_NONE, NSVCD_NONE, over->t_start, over->t_end,
+                     &normal.x);
+      return 1;
+    }
+    if (step + 1 < NSVCD__GUESSES) continue;
+    const nsvcd__f3 toward = nsvcd__f3_sub(found.difference, nearest);
+    const float square = nsvcd__f3_dot(toward, toward);
+    float fraction = square > 0 ? -nsvcd__f3_dot(nearest, toward) / square : 0;
+    fraction = fraction > 0 ? fminf(fraction, 1) : 0;
+    const nsvcd__f3 nearer = nsvcd__f3_add(nearest, nsvcd__f3_scale(toward, fraction));
+    nearest = step < NSVCD__GUESSES ? found.difference : nearer;
+    // the hulls come this near
+    if (nsvcd__f3_dot(nearest, nearest) <= margin * margin) return 0;
+  }
+  return 0;
+}
+#endif  // NSVCD_NO_PROOF
+
+// --------------------------------------------------------------------------------- separate/blocks
 // In: 16 triangles of a patch, and a plane or other triangles. Out: which of them may meet.
 
 #ifndef NSVCD_NO_PROOF
@@ -13299,365 +13993,11 @@ static NSVCD__NOINLINE uint32_t nsvcd__row_left(nsvcd__proof *p, size_t l, nsvcd
 }
 #endif  // NSVCD_NO_PROOF
 
-// ---------------------------------------------------------------------------------- proof/manifold
-// In: triangle pairs that are near each other when a contact is. Out: up to four contact points
-// that hold the body: those that span the largest area, seen along the contact's normal.
-//
-// Two triangles touch where a corner of one is over the other, or where two edges cross. Of all
-// such points the farthest along eight directions are kept, for a slim contact those across it too,
-// and of these the best four. Of two points equally far, the one with the lower number is kept: so
-// the same points are chosen again when little has moved. Only normals close to the contact's
-// count: where a side rises from the floor, corners of the floor's triangles are near the side as
-// well, but the body does not stand on it.
-
-#ifndef NSVCD_NO_PROOF
-// Prepares a manifold of contacts with about this normal, unit, of bodies that move like this.
-static void nsvcd__manifold_begin(nsvcd__proof *p, nsvcd__d3 n, const nsvcd__twist *twist,
-                                  double tolerance, double same) {
-  nsvcd__manifold *m = &p->of.kept.manifold;
-  const int flattest = fabs(n.x) < fabs(n.y) ? 0 : 1;
-  const nsvcd__d3 aside = nsvcd__d3_of(flattest == 0, flattest == 1, 0);
-  const nsvcd__d3 u = nsvcd__d3_unit(nsvcd__d3_cross(n, aside), nsvcd__d3_of(1, 0, 0));
-  memset(m, 0, sizeof *m);
-  m->normal = n;
-  m->twist = *twist;
-  m->tolerance = tolerance;
-  m->same = same;
-  // An eighth of a turn each: the sum of a direction and of that a quarter on, made unit.
-  nsvcd__d3 along = u;
-  for (int k = 0; k < NSVCD__AROUND; k++) {
-    m->along[k] = along;
-    m->farthest[k] = -HUGE_VAL;
-    along = nsvcd__d3_scale(nsvcd__d3_add(along, nsvcd__d3_cross(n, along)), sqrt(0.5));
-  }
-  for (int k = NSVCD__AROUND; k < NSVCD__SUPPORTS; k++) m->farthest[k] = HUGE_VAL;
-}
-
-// If what has been found spans little for its length, prepares the two directions across it, for
-// what is between the eight. area: twice what is spanned. Returns 0 if it is not so slim.
-static int nsvcd__seek_across(nsvcd__manifold *m, double area) {
-  nsvcd__d3 longest = {0, 0, 0};
-  for (int k = 0; k < NSVCD__AROUND; k++) {
-    for (int n = 0; n < k && m->farthest[k] > -HUGE_VAL && m->farthest[n] > -HUGE_VAL; n++) {
-      const nsvcd__d3 offset = nsvcd__d3_sub(m->supports[k].point, m->supports[n].point);
-      if (nsvcd__d3_dot(offset, offset) > nsvcd__d3_dot(longest, longest)) longest = offset;
-    }
-  }
-  const double square = nsvcd__d3_dot(longest, longest);
-  if (!(square > m->same * m->same) || area > NSVCD__SLIM * square) return 0;
-  const nsvcd__d3 across = nsvcd__d3_unit(nsvcd__d3_cross(m->normal, longest), m->along[0]);
-  for (int k = NSVCD__AROUND; k < NSVCD__SUPPORTS; k++) {
-    m->along[k] = nsvcd__d3_scale(across, k == NSVCD__AROUND ? 1 : -1);
-    m->farthest[k] = -HUGE_VAL;
-    for (int n = 0; n < NSVCD__AROUND; n++) {
-      const double along_it = nsvcd__d3_dot(m->along[k], m->supports[n].point);
-      if (!(m->farthest[n] > -HUGE_VAL) || !(along_it > m->farthest[k])) continue;
-      m->farthest[k] = along_it;
-      m->supports[k] = m->supports[n];
-      m->numbers[k] = m->numbers[n];
-    }
-  }
-  return 1;
-}
-
-// A triangle pair of a manifold.
-typedef struct nsvcd__facing {
-  const nsvcd__triangle_pair *pair;
-  const nsvcd__d3 *posed;  // the moving triangle
-  // normals out of the fixed body; of an open surface on the side of the contact's
-  nsvcd__d3 faces[2];
-  int is_open;  // one is of an open surface
-} nsvcd__facing;
-
-static nsvcd__facing nsvcd__facing_of(const nsvcd__proof *p, const nsvcd__triangle_pair *pair,
-                                      const nsvcd__d3 *posed) {
-  const nsvcd__d3 n = p->of.kept.manifold.normal;
-  const int closed[2] = {nsvcd__moving_closed(p, pair), nsvcd__fixed_closed(p, pair)};
-  nsvcd__facing out = {pair, posed, {{0, 0, 0}, {0, 0, 0}}, !closed[0] || !closed[1]};
-  out.faces[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
-  out.faces[1] = nsvcd__face_direction(pair->fixed);
-  for (int k = 0; k < 2; k++) {
-    nsvcd__d3 *face = &out.faces[k];
-    const int turned = nsvcd__d3_dot(*face, n) < 0;
-    if (turned && !closed[k]) *face = nsvcd__d3_scale(*face, -1);
-  }
-  return out;
-}
-
-// Does point x come apart along its normal, while one of its faces comes nearer? Then it is no
-// contact, or one of another triangle pair.
-static int nsvcd__is_left(const nsvcd__twist *twist, nsvcd__d3 x, nsvcd__d3 normal,
-                          const nsvcd__d3 *faces) {
-  const nsvcd__d3 speed = nsvcd__twist_of(twist, x);
-  const double least = 1e-7 * nsvcd__d3_norm(speed);
-  if (!(nsvcd__d3_dot(speed, normal) > least)) return 0;
-  for (int k = 0; k < 2; k++)
-    if (nsvcd__d3_dot(speed, faces[k]) < -least) return 1;
-  return 0;
-}
-
-// Keeps a point where a triangle pair touches, if it is farther out than those kept. normal: of a
-// face, or across two edges, of either sign.
-static NSVCD__NOINLINE void nsvcd__keep_support(nsvcd__proof *p, const nsvcd__facing *f,
-                                                nsvcd__d3 on_moving, nsvcd__d3 on_fixed,
-                                                nsvcd__d3 normal, uint32_t number) {
-  nsvcd__manifold *m = &p->of.kept.manifold;
-  const double side = nsvcd__d3_dot(normal, m->normal) < 0 ? -1 : 1;
-  const nsvcd__d3 offset = nsvcd__d3_sub(on_moving, on_fixed);
-  const double gap = side * nsvcd__d3_dot(offset, normal);
-  const double aside = nsvcd__d3_dot(offset, offset) - gap * gap;
-  nsvcd__d3 point;
-  // Past the end of an edge they are not over each other.
-  if (aside > 0.01 * m->same * m->same) return;
-  // Nor are they on the far side of a sheet that they do not pass through.
-  if (gap < 0 && f->is_open && !nsvcd__triangles_meet(f->posed, f->pair->fixed, &point))
-    return;
-  if (nsvcd__is_left(&m->twist, on_fixed, nsvcd__d3_scale(normal, side), f->faces)) return;
-  nsvcd__nearest nearest = {gap > 0 ? gap * gap : 0, on_moving, on_fixed};
-  nsvcd__pair_contact contact;
-  int known = 0;
-  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
-    const double along_it = nsvcd__d3_dot(m->along[k], on_fixed);
-    const double more = along_it - m->farthest[k];
-    if (!(more > m->same || (more >= -m->same && number < m->numbers[k]))) continue;
-    if (!known) contact = nsvcd__contact_at(p, f->pair, 0, &nearest);
-    known = 1;
-    contact.normal = nsvcd__d3_scale(normal, side);
-    m->supports[k] = contact;
-    m->numbers[k] = number;
-    m->farthest[k] = along_it;
-  }
-}
-
-// Keeps all points where a triangle pair touches, within the tolerance. posed: the moving triangle.
-// Corner k of entry e has the number 4 (3 e + k), and 1 more if it is of the fixed body.
-static NSVCD__NOINLINE void nsvcd__collect_supports(nsvcd__proof *p,
-                                                    const nsvcd__triangle_pair *pair,
-                                                    const nsvcd__d3 *posed) {
-  const nsvcd__manifold *m = &p->of.kept.manifold;
-  const nsvcd__d3 *fixed = pair->fixed;
-  nsvcd__d3 foot;
-  int farther = 0;
-  for (int k = 0; k < NSVCD__SUPPORTS && !farther; k++) {
-    for (int i = 0; i < 3; i++)
-      farther |=
-          nsvcd__d3_dot(m->along[k], posed[i]) + m->tolerance >= m->farthest[k] - m->same;
-  }
-  if (!farther) return;
-  // Faces must be about normal to the contact's.
-  const nsvcd__facing facing = nsvcd__facing_of(p, pair, posed);
-  const int moving_faces = nsvcd__d3_dot(facing.faces[0], m->normal) >= 0.8;
-  const int fixed_faces = nsvcd__d3_dot(facing.faces[1], m->normal) >= 0.8;
-  for (size_t k = 0; k < 3; k++) {
-    const uint32_t moving_id = (uint32_t)(3 * pair->moving_entry + k) << 2;
-    const uint32_t fixed_id = (uint32_t)(3 * pair->fixed_entry + k) << 2 | 1;
-    if (fixed_faces && nsvcd__foot_within(posed[k], fixed, &foot) &&
-        nsvcd__d3_distance2(posed[k], foot) <= m->tolerance * m->tolerance)
-      nsvcd__keep_support(p, &facing, posed[k], foot, facing.faces[1], moving_id);
-    if (moving_faces && nsvcd__foot_within(fixed[k], posed, &foot) &&
-        nsvcd__d3_distance2(fixed[k], foot) <= m->tolerance * m->tolerance)
-      nsvcd__keep_support(p, &facing, foot, fixed[k], facing.faces[0], fixed_id);
-    for (size_t i = 0; i < 3; i++) {
-      const nsvcd__d3 a = posed[(k + 1) % 3];
-      const nsvcd__d3 b = fixed[(i + 1) % 3];
-      const nsvcd__d3 u = nsvcd__d3_sub(a, posed[k]);
-      const nsvcd__d3 v = nsvcd__d3_sub(b, fixed[i]);
-      const nsvcd__d3 across = nsvcd__d3_cross(u, v);
-      const double along = nsvcd__d3_dot(across, m->normal);
-      const double square = nsvcd__d3_dot(across, across);
-      const double lengths = nsvcd__d3_dot(u, u) * nsvcd__d3_dot(v, v);
-      nsvcd__nearest nearest = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
-      if (!(square > 1e-4 * lengths)) continue;
-      if (along * along < 0.64 * square) continue;
-      nsvcd__edges_nearest(posed[k], a, fixed[i], b, &nearest);
-      if (!(nearest.square <= m->tolerance * m->tolerance)) continue;
-      const uint32_t number = moving_id * 3 + fixed_id * 5 + (uint32_t)(1 + i) * 0x9e3779b9u;
-      nsvcd__keep_support(p, &facing, nearest.on_a, nearest.on_b,
-                          nsvcd__d3_unit(across, facing.faces[1]), number | 2);
-    }
-  }
-}
-
-// Twice the area that four points span, seen along the normal.
-static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
-  double most = 0;
-  for (int k = 0; k < 3; k++) {
-    const nsvcd__d3 a = m->supports[of[0]].point;
-    const nsvcd__d3 b = m->supports[of[1 + k]].point;
-    const nsvcd__d3 c = m->supports[of[1 + (k + 1) % 3]].point;
-    const nsvcd__d3 d = m->supports[of[1 + (k + 2) % 3]].point;
-    const nsvcd__d3 both = nsvcd__d3_cross(nsvcd__d3_sub(b, a), nsvcd__d3_sub(d, c));
-    most = nsvcd__max(most, fabs(nsvcd__d3_dot(both, m->normal)));
-  }
-  return most;
-}
-
-// Chooses the contacts: which supports, and twice the area that they span. Returns how many.
-static NSVCD__NOINLINE int nsvcd__choose_four(const nsvcd__manifold *m, int *chosen,
-                                              double *area) {
-  int kept[NSVCD__SUPPORTS];
-  int count = 0;
-  // Each point once, in the order of their numbers.
-  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
-    int at = count;
-    int is_new = m->farthest[k] > -HUGE_VAL && m->farthest[k] < HUGE_VAL;
-    for (int n = 0; n < count; n++) {
-      const nsvcd__d3 other = m->supports[kept[n]].point;
-      is_new &= nsvcd__d3_distance2(m->supports[k].point, other) > m->same * m->same;
-    }
-    if (!is_new) continue;
-    for (; at > 0 && m->numbers[k] < m->numbers[kept[at - 1]]; at--) kept[at] = kept[at - 1];
-    kept[at] = k;
-    count++;
-  }
-  memcpy(chosen, kept, sizeof(int) * (size_t)(count < 4 ? count : 4));
-  *area = 0;
-  for (int n = count; n < 4 && count > 0; n++) kept[n] = kept[count - 1];
-  if (count > 0 && count <= 4) *area = nsvcd__spanned(m, kept);
-  if (count <= 4) return count;
-  for (uint32_t all = 0; all < 1u << count; all++) {
-    int four[4];
-    int size = 0;
-    if (nsvcd__bit_count(all) != 4) continue;
-    for (uint32_t left = all; left; left &= left - 1)
-      four[size++] = kept[nsvcd__low_bit(left)];
-    const double spanned = nsvcd__spanned(m, four);
-    if (!(spanned > 1.001 * *area)) continue;
-    *area = spanned;
-    memcpy(chosen, four, 4 * sizeof *chosen);
-  }
-  return 4;
-}
-#endif  // NSVCD_NO_PROOF
-
-// --------------------------------------------------------------------------------- proof/witnesses
+// ------------------------------------------------------------------------------ separate/witnesses
 // In: a patch pair and a time. Out: a contact: two triangles that meet then, or come within the
 // clearance; with a slop, what touches at the start and which directions undo it.
 
 #ifndef NSVCD_NO_PROOF
-// Answers in float cannot tell things apart that are nearer to each other than this.
-static double nsvcd__epsilon(const nsvcd__proof *p) {
-  return nsvcd__off_meshes(p) + NSVCD__LEAST_EPSILON * (double)p->given.lengths;
-}
-
-// How deep a touch is along n: how far the moving triangle must go to be beyond the other; negative
-// if it is beyond it already.
-static double nsvcd__depth_along(nsvcd__d3 n, const nsvcd__triangle_contact *t) {
-  return -nsvcd__beyond(n, t->moving, t->fixed);
-}
-
-// Is a touch too deep for the slop in every direction? Those to try are the separating axes: a
-// normal of either triangle, or across an edge of each.
-static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__triangle_contact *t) {
-  const nsvcd__d3 push_out = nsvcd__d3_widen(p->ask.motion->push_out);
-  const double most = p->ask.slop - p->given.clearance;
-  for (size_t k = 0; k < 12; k++) {
-    nsvcd__d3 n = k < 3 ? t->directions[k] : nsvcd__across_edges(t->moving, t->fixed, k - 3);
-    if (!(nsvcd__d3_dot(n, n) > 0.5)) continue;
-    for (int side = 0; side < 2; side++) {
-      const double pushed_out = nsvcd__d3_dot(push_out, n);
-      if (pushed_out + nsvcd__depth_along(n, t) <= most) return 0;
-      n = nsvcd__d3_scale(n, -1);
-    }
-  }
-  return 1;
-}
-
-// Does a push-out along n, by what is left of the slop in that direction, undo a touch? If it has
-// to push, it must not go through both faces. Going through one is harmless: a cone's side, which
-// rises from the rim that the cone stands on, looks up, and so does the floor under it.
-static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n,
-                         const nsvcd__triangle_contact *t) {
-  const double more = nsvcd__depth_along(n, t);
-  const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->push_out), n);
-  if (!(nsvcd__d3_dot(n, n) > 0.5)) return 0;
-  if (pushed_out + more + p->given.clearance > p->ask.slop) return 0;
-  if (more < 0) return 1;
-  return nsvcd__d3_dot(n, t->directions[0]) > -0.3 ||
-         nsvcd__d3_dot(n, t->directions[1]) > -0.3;
-}
-
-// The squared distance of two triangles after the moving one has gone so far along n.
-static double nsvcd__gap_after(const nsvcd__triangle_contact *t, nsvcd__d3 n,
-                               double distance) {
-  nsvcd__d3 moved[3];
-  for (int k = 0; k < 3; k++)
-    moved[k] = nsvcd__d3_add(t->moving[k], nsvcd__d3_scale(n, distance));
-  return nsvcd__nearest_of(moved, t->fixed).square;
-}
-
-// How far along n the moving triangle of a touch must go until it is beyond the clearance for good,
-// which it is after `most`; -HUGE_VAL if it never is within it. The distance is convex: thirds find
-// where it is least, and halves where it is the clearance. epsilon: of depths, in double.
-static NSVCD__NOINLINE double nsvcd__exit_depth(const nsvcd__triangle_contact *t, nsvcd__d3 n,
-                                                double clearance, double most,
-                                                double epsilon) {
-  // Parallel faces meet at one time only.
-  const double limit = clearance + nsvcd__min(0.003 * most, epsilon);
-  const double square = limit * limit;
-  // nearly always
-  if (nsvcd__gap_after(t, n, 0.998 * most) <= square) return most;
-  double low = 0;
-  double high = most;
-  double inner = 0;  // where it is within the clearance
-  int met = nsvcd__gap_after(t, n, 0) <= square;
-  for (int k = 0; k < 16 && !met; k++) {
-    const double third = (high - low) / 3;
-    const double before = nsvcd__gap_after(t, n, low + third);
-    const double after = nsvcd__gap_after(t, n, high - third);
-    met = before <= square || after <= square;
-    inner = after <= square ? high - third : low + third;
-    if (before < after) high -= third;
-    if (!(before < after)) low += third;
-  }
-  if (!met) return -HUGE_VAL;
-  for (double beyond = most; beyond - inner > nsvcd__max(1e-3 * beyond, 1e-5 * most);) {
-    const double middle = 0.5 * (inner + beyond);
-    const int is_inner = nsvcd__gap_after(t, n, middle) <= square;
-    *(is_inner ? &inner : &beyond) = middle;
-  }
-  return inner;
-}
-
-// Notes how deep a touch is along normal k.
-static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__triangle_contact *t) {
-  const nsvcd__d3 n = p->normals[k];
-  const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->push_out), n);
-  const double most = nsvcd__depth_along(n, t) + p->given.clearance;
-  p->needed = nsvcd__max(p->needed, pushed_out + most);
-  if (!(most > 0) || !(pushed_out + most > p->depths[k])) return;
-  const double epsilon = nsvcd__off_meshes(p) + NSVCD__TOO_NEAR * (double)p->given.lengths;
-  const double depth = pushed_out + nsvcd__exit_depth(t, n, p->given.clearance, most, epsilon);
-  p->depths[k] = nsvcd__max(p->depths[k], depth);
-}
-
-// Does normal k undo a touch? Then its depth is noted.
-static int nsvcd__undone_by(nsvcd__proof *p, size_t k, const nsvcd__triangle_contact *t) {
-  if (!nsvcd__undoes(p, p->normals[k], t)) return 0;
-  nsvcd__note_depth(p, k, t);
-  return 1;
-}
-
-// Keeps two triangles that are within the clearance at the start, unless a known direction undoes
-// that.
-static void nsvcd__collect_contact(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
-                                   const nsvcd__d3 *posed) {
-  nsvcd__triangle_contact contact;
-  memcpy(contact.moving, posed, sizeof contact.moving);
-  memcpy(contact.fixed, pair->fixed, sizeof contact.fixed);
-  const nsvcd__nearest nearest = nsvcd__nearest_of(posed, pair->fixed);
-  const int are_apart = nearest.square > 1e6 * pair->rounding * pair->rounding;
-  const nsvcd__d3 distance = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
-  contact.directions[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
-  contact.directions[1] = nsvcd__face_direction(pair->fixed);
-  contact.directions[2] = nsvcd__d3_scale(distance, are_apart ? 1 / sqrt(nearest.square) : 0);
-  for (size_t k = 0; k < p->normal_count; k++) {
-    if (nsvcd__undone_by(p, k, &contact)) return;
-  }
-  p->too_deep = p->too_deep || nsvcd__is_deep(p, &contact);
-  if (p->contact_count < NSVCD__TOUCHES) p->of.touches[p->contact_count++] = contact;
-}
-
 // Seeks a contact of the moving block, posed `at`, and block n of the window, at fraction u of the
 // arc.
 static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j, size_t n,
@@ -13775,7 +14115,7 @@ static nsvcd__outcome nsvcd__seek_in_patch_pair(nsvcd__proof *p, const nsvcd__se
 }
 #endif  // NSVCD_NO_PROOF
 
-// ------------------------------------------------------------------------------- proof/patch_pairs
+// ---------------------------------------------------------------------------- separate/patch_pairs
 // In: fresh patch pairs, as the search finds them. Out: each is separated, by a plane between its
 // hulls or by its triangles, or in contact, or kept as an unresolved pair.
 
@@ -14215,7 +14555,7 @@ static NSVCD__NOINLINE void nsvcd__seek_positions(nsvcd__proof *p, int first, in
 }
 #endif  // NSVCD_NO_PROOF
 
-// ------------------------------------------------------------------------------- proof/containment
+// ---------------------------------------------------------------------------- separate/containment
 // In: two bodies that do not touch at a time. Out: is a component of one inside the other? By rays,
 // in double.
 
@@ -14493,16 +14833,6 @@ static int nsvcd__sticks_out(const nsvcd__geometry *inner, const nsvcd__transfor
   return 0;
 }
 
-// The inverse of a pose, whose rotation is times this scale.
-static nsvcd__dtransform nsvcd__inverse_dtransform(const nsvcd__dtransform *at, double scale) {
-  const double inverse = 1 / (scale * scale);
-  nsvcd__dtransform out;
-  const nsvcd__dmat3 transpose = nsvcd__dmat3_transpose(at->rotation);
-  out.rotation = nsvcd__dmat3_scale(&transpose, inverse);
-  out.position = nsvcd__d3_scale(nsvcd__dmat3_apply(&out.rotation, at->position), -1);
-  return out;
-}
-
 // Two bodies at the start of the motion: is `inner` in `outer`?
 typedef struct nsvcd__enclosure {
   const nsvcd__geometry *inner, *outer;
@@ -14594,7 +14924,7 @@ static NSVCD__NOINLINE int nsvcd__is_contained_at_start(nsvcd__proof *p) {
 }
 #endif  // NSVCD_NO_PROOF
 
-// -------------------------------------------------------------------------------------- proof/loop
+// ----------------------------------------------------------------------------------- separate/loop
 // In: a question, and a motion that has been cut into segments. Out: all of it resolved, or a
 // contact that answers the question, or the budget exhausted.
 
@@ -14730,202 +15060,19 @@ static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *q) {
     p->known.resolved = (double)q->begin[all];
   return outcome;
 }
+
+// Cuts the segments that have been chosen, and separates the bodies in them.
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__separate(nsvcd__proof *p, nsvcd__search *q) {
+  nsvcd__cut_segments(p->ask.motion, p->given.lengths, nsvcd__clearance(p), q);
+  return nsvcd__prove_tiles(p, q);
+}
 #endif  // NSVCD_NO_PROOF
 
-// ----------------------------------------------------------------------------------- proof/verdict
-// In: a question, and the segments chosen of a motion or of an interval of it. Out: do the bodies
-// meet; where asked, when first, and how near they come.
+// ------------------------------------------------------------------------- separate/distance_bound
+// In: a motion whose segments have been chosen. Out: an upper bound of the least distance, which
+// two vertices have at some time: the search for that distance begins with it.
 
 #ifndef NSVCD_NO_PROOF
-// A component is inside the other body. That replaces any contact found since.
-static nsvcd__finding nsvcd__found_inside(nsvcd__proof *p) {
-  memset(&p->known.found, 0, sizeof p->known.found);
-  p->known.found.point = p->enclosed;
-  p->known.found.moving_triangle = NSVCD_NO_TRIANGLE;
-  p->known.found.fixed_triangle = NSVCD_NO_TRIANGLE;
-  return NSVCD__FOUND_INSIDE;
-}
-
-// The tick before which nothing meets, or NEVER.
-static double nsvcd__clear_until(const nsvcd__proof *p) {
-  if (p->unclear) return 0;
-  return nsvcd__min(nsvcd__min(p->ask.end, p->known.unresolved),
-                    p->known.ran_out ? p->known.resolved : NSVCD__NEVER);
-}
-
-// Forgets all that was known of a motion, or of an interval.
-static void nsvcd__proof_restart(nsvcd__proof *p) {
-  memset(&p->known, 0, sizeof p->known);
-  p->known.resolved = (double)p->ask.motion->from;
-  p->ask.end = p->clipped_end = p->known.unresolved = NSVCD__NEVER;
-  p->ask.unresolved_ends = 0;
-  p->clipped = 0;
-  p->arc.ticks = 0;
-  p->count = p->fresh_count = p->misses = p->contact_count = 0;
-  p->too_deep = 0;
-  nsvcd__forget(&p->memo);
-}
-
-// Searches a motion whose segments have been chosen, and resolves what it finds.
-static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_motion(nsvcd__proof *p, nsvcd__search *q) {
-  nsvcd__cut_segments(p->ask.motion, p->given.lengths, nsvcd__clearance(p), q);
-  p->ask.first = p->ask.fraction * (double)p->ask.motion->ticks;
-  const nsvcd__outcome outcome = nsvcd__prove_tiles(p, q);
-  p->known.ran_out = outcome == NSVCD__EXHAUSTED;
-  return outcome;
-}
-
-// The same for any motion, from scratch.
-static nsvcd__outcome nsvcd__prove_anew(nsvcd__proof *p, nsvcd__search *q) {
-  nsvcd__proof_restart(p);
-  nsvcd__choose_segments(p->ask.motion, q);
-  return nsvcd__prove_motion(p, q);
-}
-
-// The pose at the start of a motion, or at its end, as a motion of its own.
-static nsvcd__motion nsvcd__end_of(const nsvcd__motion *m, int at_end) {
-  nsvcd__motion still = *m;
-  nsvcd__track moving = m->moving;
-  nsvcd__track fixed = m->fixed;
-  moving.poses += at_end ? moving.count - 1 : 0;
-  fixed.poses += at_end ? fixed.count - 1 : 0;
-  moving.count = fixed.count = 1;
-  moving.times = fixed.times = NULL;
-  still.begin = at_end ? 1 : 0;
-  still.duration = 0;
-  nsvcd__motion_set_tracks(&still, moving, fixed);
-  return still;
-}
-
-// Do triangles meet at the start alone, or at the end? Takes so many units at most. If they do,
-// that is the known contact; if not, all that was known is lost.
-static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *q, int at_end,
-                                           size_t units) {
-  const nsvcd__asked asked = p->ask;
-  nsvcd__motion still = nsvcd__end_of(asked.motion, at_end);
-  p->ask.motion = &still;
-  p->ask.fraction = 0;
-  p->ask.limit = nsvcd__limit_after(p, units);
-  p->ask.is_brief = 1;
-  const int meets = nsvcd__prove_anew(p, q) == NSVCD__ANSWERED;
-  p->known.found.tick = at_end ? (double)asked.motion->ticks : 0;
-  p->ask = asked;
-  p->ask.end = 0;
-  return meets;
-}
-
-// Searches segments that have been chosen, first with a small budget: most queries end there. Many
-// of the rest touch only at the start or at the end, so these two poses are tried before all is
-// searched again. The search for a first contact begins at the start anyway, and the ends of a long
-// motion have been tried before its intervals.
-static nsvcd__outcome nsvcd__prove_whole(nsvcd__proof *p, nsvcd__search *q, size_t limit) {
-  const int is_brief = !p->ask.motion->arcs && !(p->ask.fraction > 0);
-  p->ask.is_brief = is_brief && p->work + NSVCD__BRIEF_BUDGET < limit;
-  p->ask.limit = p->ask.is_brief ? p->work + NSVCD__BRIEF_BUDGET : limit;
-  const nsvcd__outcome outcome = nsvcd__prove_motion(p, q);
-  if (outcome != NSVCD__EXHAUSTED || !p->ask.is_brief) return outcome;
-  // half of what may follow an unresolved pair has been used
-  if (p->known.unresolved < NSVCD__NEVER)
-    p->ask.after_unresolved -= p->ask.after_unresolved / 2;
-  for (int at_end = 0; at_end < 2; at_end++) {
-    if (nsvcd__meets_at(p, q, at_end, NSVCD__END_BUDGET)) return NSVCD__ANSWERED;
-  }
-  p->ask.is_brief = 0;
-  p->ask.limit = limit;
-  return nsvcd__prove_anew(p, q);
-}
-
-// Searches a part of the motion, from one position in segments to another, for the first contact
-// there or the first unresolved pair, and adds what it finds to what is known of all before it.
-// *end: the tick from which on nothing matters.
-static void nsvcd__prove_part(nsvcd__proof *p, nsvcd__search *q, double from, double to,
-                              nsvcd__known *known, double *end) {
-  const nsvcd__known *part = &p->known;
-  nsvcd__proof_restart(p);
-  nsvcd__choose_segments(p->ask.motion, q);
-  // this many ticks to one of before
-  const double finer = nsvcd__motion_refine(p->ask.motion);
-  nsvcd__narrow_segments(q, from, to, finer);
-  p->ask.end = nsvcd__min(p->ask.end, finer * *end);
-  p->ask.unresolved_ends = 1;
-  (void)nsvcd__prove_motion(p, q);
-  const double last = (double)q->begin[q->segments];
-  if (part->has_contact) {
-    known->has_contact = 1;
-    known->found = part->found;
-    known->found.tick /= finer;
-    *end = p->ask.end / finer;
-  }
-  if (part->ran_out) return;
-  if (part->unresolved < NSVCD__NEVER) {
-    known->unresolved_pair = part->unresolved_pair;
-    known->unresolved_pair.tick /= finer;
-    known->unresolved = part->unresolved / finer;
-  }
-  known->resolved = nsvcd__min(last, p->ask.end) / finer;
-}
-
-// The budget did not suffice for the first contact. Searches again by time, from what is resolved
-// on: one part of the motion after another, a shorter one where a part takes too many units.
-static NSVCD__NOINLINE void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *q,
-                                                 size_t limit) {
-  nsvcd__known known = p->known;
-  const double ticks = (double)p->ask.motion->ticks;
-  const double all = (double)q->segments;
-  double end = p->ask.end;
-  double from = 0;
-  double length = NSVCD__FIRST_PART;
-  double grows = 4;
-  size_t units = limit;
-  while (from < all && (double)q->begin[(size_t)from + 1] <= known.resolved) from++;
-  p->ask.is_brief = 1;
-  for (;;) {
-    const double until = nsvcd__min(ticks, nsvcd__min(end, known.unresolved));
-    known.ran_out = known.resolved < until;
-    if (!known.ran_out || p->work >= limit) break;
-    const size_t before = p->work;
-    const double whole = floor(from + length);
-    const double to = whole > from ? nsvcd__min(whole, all) : from + length;
-    p->ask.limit = limit - before > units ? before + units : limit;
-    nsvcd__prove_part(p, q, from, to, &known, &end);
-    if (p->known.ran_out) {
-      length /= 8;
-      grows = 2;
-    } else {
-      from = to;
-      length *= grows;
-      units = 8 * (p->work - before) + NSVCD__PART_BUDGET;
-    }
-  }
-  p->ask.is_brief = 0;
-  nsvcd__proof_restart(p);
-  nsvcd__choose_segments(p->ask.motion, q);
-  p->known = known;
-  p->ask.end = end;
-}
-
-// When do they meet first? What is proven of that stays proven when the budget ends.
-static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *q) {
-  const nsvcd__outcome outcome = nsvcd__prove_whole(p, q, nsvcd__limit_of_first(p));
-  const double from = (double)p->ask.motion->from;
-  // An interval is short, and all before it is known.
-  if (p->known.ran_out && !p->ask.motion->arcs) nsvcd__prove_by_time(p, q, p->ask.most);
-  const nsvcd__known known = p->known;
-  const double end = p->ask.end;
-  if (from > 0 && known.has_contact) {
-    p->starts_free = 1;
-  } else if (known.has_contact && nsvcd__clear_until(p) <= 0 && known.found.tick > 0) {
-    // The contact is so early that they may meet at the start already.
-    if (nsvcd__meets_at(p, q, 0, p->given.work)) return NSVCD__ANSWERED;
-    p->starts_free = !p->known.ran_out && !(p->known.unresolved < NSVCD__NEVER);
-    p->known = known;
-    p->ask.end = end;
-  }
-  return outcome;
-}
-
-// ---- the least distance
-
 // Of the patches with a surface, the one whose centre is nearest to a point of the body's frame. Of
 // a large body, one near it: the nearest sphere on each level leads there.
 static size_t nsvcd__patch_near(const nsvcd__geometry *f, nsvcd__f3 point) {
@@ -15096,642 +15243,6 @@ static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__proof *p, nsvcd__sear
   (void)nsvcd__find_witness(p, nearest[0], nearest[1], from, fraction);
   return p->known.has_contact ? p->known.found.distance : least;
 }
-
-// One pass: a search whose question shrinks, for a bracket as narrow as p->ask.measure. Adds what
-// it finds to what is known. Returns whether the budget sufficed; if so, they come no nearer than
-// p->low.
-static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *q) {
-  nsvcd__known known = p->known;
-  const int is_named = known.has_contact || known.unresolved < NSVCD__NEVER;
-  p->ask.clearance = is_named ? nsvcd__max(p->low, p->high - p->ask.measure) : p->high;
-  nsvcd__proof_restart(p);
-  const nsvcd__outcome pass = nsvcd__prove_motion(p, q);
-  if (p->known.has_contact) {
-    known.has_contact = 1;
-    known.found = p->known.found;
-  }
-  p->known = known;
-  if (pass != NSVCD__EXHAUSTED) p->low = p->ask.clearance;
-  return pass != NSVCD__EXHAUSTED;
-}
-
-// Makes the bracket as narrow as `finest`. If half of the budget does not suffice for that, the
-// rest goes to brackets that get narrower and narrower; the last that was completed stays.
-static void nsvcd__narrow(nsvcd__proof *p, nsvcd__search *q, double finest) {
-  p->ask.measure = finest;
-  p->ask.limit = nsvcd__limit_after(p, p->given.work / 2);
-  if (nsvcd__measure_once(p, q)) return;
-  p->ask.limit = p->ask.most;
-  p->ask.measure = p->high - p->low;
-  while (!p->wide && p->ask.measure > finest) {
-    p->ask.measure = nsvcd__max(finest, p->ask.measure / NSVCD__FINER);
-    p->wide = !nsvcd__measure_once(p, q);
-  }
-}
-#endif  // NSVCD_NO_PROOF
-
-// -------------------------------------------------------------------------------------- proof/long
-// In: a question about a motion of any length. Out: the verdict; where asked, when the bodies first
-// meet, and how near they come.
-//
-// A motion that is too long for one search (motion/choice) is searched interval by interval, in the
-// order of time, each as if it were all of the motion: memory is needed for one. The motion is free
-// if all intervals are. Containment is decided once, at t = 0: what is inside of what later on, and
-// not then, has crossed a surface in between. A contact in any interval answers a yes or no, so the
-// ends of the motion, where most contacts are, are tried first. The first contact is in the first
-// interval that has one. An interval that stays unresolved before it ends what is proven, and from
-// there on the question is only whether they meet at all. For the least distance each contact
-// lowers the bound, and later intervals need only stay beyond it.
-//
-// Most of a long motion is far from anything, or easy. So a *try* takes many more arcs than an
-// interval has, with a small budget. If that does not suffice, it is searched in smaller parts.
-
-#ifndef NSVCD_NO_PROOF
-// How fast intervals go through a motion: how many in a row have been easy, and how many must be
-// before the next try.
-typedef struct nsvcd__pace {
-  uint32_t easy, wait;
-} nsvcd__pace;
-
-// The arcs of the first interval: all of the motion, as a try.
-#define NSVCD__ALL_ARCS 0xffffffffu
-
-// Chooses the next interval: larger if those before took little work; with segments that turn less
-// if the one before took much; a part of a try that failed.
-static void nsvcd__next_interval(nsvcd__motion *m, nsvcd__search *q, uint32_t until,
-                                 int is_resolved, size_t units, nsvcd__pace *pace) {
-  uint32_t arcs = m->arcs;
-  if (!is_resolved) {
-    arcs = arcs > NSVCD__SMALLER ? arcs / NSVCD__SMALLER : 1;
-    if (arcs == 1 && pace->wait < NSVCD__WAIT) pace->wait *= 2;
-    pace->easy = 0;
-  } else if (arcs > 1) {
-    arcs *= NSVCD__LARGER;
-    pace->wait = 1;
-  } else {
-    pace->easy = units <= NSVCD__EASY ? pace->easy + 1 : 0;
-    if (pace->easy >= pace->wait) arcs = NSVCD__LARGER;
-    m->is_fine = units > NSVCD__TRY;
-  }
-  if (is_resolved) m->from = until;
-  if (m->from < m->ticks) nsvcd__choose_interval(m, q, m->from, arcs);
-}
-
-// The surfaces of bodies whose origins stay so far apart come no nearer than this.
-static float nsvcd__surface_gap(const nsvcd__proof *p, float origin_gap) {
-  const float pushed_out = 1.0001f * nsvcd__f3_norm(p->ask.motion->push_out);
-  return origin_gap - p->given.lengths - pushed_out;
-}
-
-// Searches a motion interval by interval, until a contact answers. In the end that contact is
-// known, and all else that is known is of the first interval that was not resolved.
-static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
-                                                             nsvcd__search *q) {
-  nsvcd__motion *m = p->ask.motion;
-  const double asked = p->ask.fraction;
-  nsvcd__outcome outcome = NSVCD__DONE;
-  nsvcd__known open = p->known;
-  double end = NSVCD__NEVER;
-  double fraction = asked;  // 0: any contact will do
-  int is_open = 0;
-  const size_t units =
-      p->given.reserve < NSVCD__END_BUDGET ? p->given.reserve : NSVCD__END_BUDGET;
-  for (int at_end = 0; at_end < 2 && !(asked > 0); at_end++) {
-    if (nsvcd__meets_at(p, q, at_end, units)) return NSVCD__ANSWERED;
-  }
-  nsvcd__pace pace = {0, 1};
-  nsvcd__choose_interval(m, q, 0, NSVCD__ALL_ARCS);
-  while (m->from < m->ticks) {
-    const uint32_t until = q->begin[q->segments];
-    const int is_try = m->arcs > 1;
-    const size_t before = p->work;
-    if (p->given.grows) p->ask.most = p->work + p->given.work;
-    nsvcd__proof_restart(p);
-    outcome = NSVCD__DONE;
-    const float gap = nsvcd__interval_gap(m, m->from, until);
-    if (!(nsvcd__surface_gap(p, gap) > nsvcd__clearance(p))) {
-      p->ask.is_brief = is_try;
-      p->ask.fraction = is_try ? 0 : fraction;
-      p->ask.after_unresolved =
-          fraction > 0 ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.reserve;
-      p->ask.limit = is_try ? nsvcd__limit_after(p, NSVCD__TRY) : p->ask.most;
-      outcome = p->ask.fraction > 0 ? nsvcd__prove_first(p, q) : nsvcd__prove_motion(p, q);
-    }
-    const int is_resolved = outcome == NSVCD__DONE && !(p->known.unresolved < NSVCD__NEVER);
-    const int has_contact = p->known.has_contact && !(is_try && fraction > 0);
-    if (is_open && has_contact) {
-      open.has_contact = 1;
-      open.found = p->known.found;
-    }
-    if (!is_open && !is_try && !is_resolved && !has_contact) {
-      open = p->known;
-      end = p->ask.end;
-      is_open = 1;
-      fraction = 0;
-    }
-    if (has_contact || (is_open && !p->given.grows && p->work > p->ask.most)) break;
-    nsvcd__next_interval(m, q, until, is_resolved || !is_try, p->work - before, &pace);
-  }
-  p->ask.is_brief = 0;
-  p->ask.fraction = asked;
-  if (!is_open) return outcome;
-  p->known = open;
-  p->ask.end = end;
-  return NSVCD__DONE;
-}
-
-// Answers a question: do the bodies meet, and when?
-static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *q) {
-  nsvcd__motion *m = p->ask.motion;
-  const int in_order = p->ask.fraction > 0;
-  const float gap = nsvcd__surface_gap(p, nsvcd__motion_gap(m));
-  p->ask.limit = p->given.work;
-  p->ask.after_unresolved = in_order ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.reserve;
-  if (gap > nsvcd__clearance(p)) return NSVCD__FOUND_FREE;
-  const int is_long = nsvcd__is_long(m, q);
-  if (nsvcd__is_contained_at_start(p)) {
-    // It is a hit. A question that asks for more gets triangles, if some meet as well.
-    const int meets = p->given.tells && nsvcd__meets_at(p, q, 0, NSVCD__INSIDE_BUDGET);
-    return meets ? NSVCD__FOUND_CONTACT : nsvcd__found_inside(p);
-  }
-  const nsvcd__outcome outcome = is_long    ? nsvcd__prove_intervals(p, q)
-                                 : in_order ? nsvcd__prove_first(p, q)
-                                            : nsvcd__prove_whole(p, q, p->given.work);
-  const double clear = nsvcd__clear_until(p);
-  if (outcome == NSVCD__ANSWERED) return NSVCD__FOUND_CONTACT;
-  if (p->inside && clear > 0) return nsvcd__found_inside(p);
-  if (p->known.has_contact) return NSVCD__FOUND_CONTACT;
-  if (p->known.unresolved < NSVCD__NEVER) p->known.found = p->known.unresolved_pair;
-  return clear < NSVCD__NEVER ? NSVCD__FOUND_UNDECIDED : NSVCD__FOUND_FREE;
-}
-
-// ---- the least distance
-
-// Narrows the bracket interval by interval. A budget that was given is divided by time: each
-// interval gets of what is left the share that it has of the rest of the motion.
-static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__search *q,
-                                                    double finest) {
-  nsvcd__motion *m = p->ask.motion;
-  const size_t most = p->ask.most;
-  const size_t work = p->given.work;
-  const double known = p->low;
-  nsvcd__pace pace = {0, 1};
-  double low = p->high;
-  int is_wide = 0;
-  while (m->from < m->ticks) {
-    const uint32_t until = q->begin[q->segments];
-    const size_t before = p->work;
-    const int is_named = p->known.has_contact || p->known.unresolved < NSVCD__NEVER;
-    int is_resolved = 1;
-    if (!p->given.grows) {
-      const double rest = (double)(until - m->from) / (double)(m->ticks - m->from);
-      p->given.work = p->work < most ? (size_t)(rest * (double)(most - p->work)) : 0;
-    }
-    p->ask.most = p->work + p->given.work;
-    const float gap = nsvcd__interval_gap(m, m->from, until);
-    p->low = nsvcd__max(known, (double)nsvcd__surface_gap(p, gap));
-    p->wide = 0;
-    if (p->low < p->high && !(is_named && p->high - p->low <= finest)) {
-      if (m->arcs > 1) {
-        p->ask.measure = finest;
-        p->ask.limit = nsvcd__limit_after(p, NSVCD__TRY);
-        is_resolved = nsvcd__measure_once(p, q);
-      } else {
-        nsvcd__narrow(p, q, finest);
-      }
-    }
-    if (is_resolved) low = nsvcd__min(low, p->low);
-    is_wide |= p->wide;
-    nsvcd__next_interval(m, q, until, is_resolved, p->work - before, &pace);
-  }
-  p->given.work = work;
-  p->ask.most = most;
-  p->low = nsvcd__min(low, p->high);
-  p->wide = is_wide && p->high - p->low > finest;
-}
-
-// Brackets the least distance over the motion, once it is known whether they come within the
-// clearance.
-static NSVCD__NOINLINE void nsvcd__measure(nsvcd__proof *p, nsvcd__search *q,
-                                           nsvcd__finding verdict, double finest) {
-  nsvcd__motion *m = p->ask.motion;
-  int is_named = p->known.has_contact || p->known.unresolved < NSVCD__NEVER;
-  const float gap = nsvcd__surface_gap(p, nsvcd__motion_gap(m));
-  p->low = nsvcd__max(verdict == NSVCD__FOUND_FREE ? p->given.clearance : 0, (double)gap);
-  const int is_long = nsvcd__is_long(m, q);
-  if (is_long) nsvcd__choose_interval(m, q, 0, NSVCD__ALL_ARCS);
-  p->high = is_named ? p->known.found.distance : nsvcd__bound_distance(p, q);
-  is_named = is_named || p->known.has_contact;
-  if (is_named && !(p->high - p->low > finest)) return;
-  if (is_long)
-    nsvcd__narrow_intervals(p, q, finest);
-  else
-    nsvcd__narrow(p, q, finest);
-}
-#endif  // NSVCD_NO_PROOF
-
-// ------------------------------------------------------------------------------------- proof/leave
-// In: a question with a slop. Out: the question about a body pushed out of what it touches at the
-// start.
-//
-// What carries a body must not stop it. Which contacts are those? The proof is about the body
-// displaced by a vector v that has the slop's length along every normal that it touches at the
-// start. That is a motion like any other, and what is proven of it is proven: the displaced body
-// stays clear of everything, so the body itself goes no deeper than |v| into anything. There is no
-// such v for what presses in deeper than the slop, or is held from opposite sides: that is hit as
-// ever. v is constant as the fixed body sees it.
-
-#ifndef NSVCD_NO_PROOF
-// How good a push-out along a direction is.
-typedef struct nsvcd__undoing {
-  nsvcd__d3 n;
-  // Twice how many touches it undoes. A touch counts once if the push-out goes against its faces:
-  // what is beyond a face already, or is round and its middle is, would go further in.
-  size_t count;
-  size_t faces;     // touches with a face of about this normal
-  double distance;  // how far it has to go
-} nsvcd__undoing;
-
-// Does a push-out along n go against all faces of a touch? A triangle without area has none.
-static int nsvcd__is_against(nsvcd__d3 n, const nsvcd__triangle_contact *t) {
-  int against = 0;
-  for (size_t i = 0; i < 2; i++) {
-    const int is_face = nsvcd__d3_dot(t->directions[i], t->directions[i]) > 0.5;
-    if (is_face && nsvcd__d3_dot(n, t->directions[i]) > -0.3) return 0;
-    against |= is_face;
-  }
-  return against;
-}
-
-// Takes a direction, unit, if it is better than the best so far: if it undoes more; of equals, if
-// it goes less far; of those that go as far, if more faces have it.
-static void nsvcd__try_push_out(const nsvcd__proof *p, nsvcd__d3 n, nsvcd__undoing *best) {
-  const double same = nsvcd__epsilon(p) + 0.01 * nsvcd__max(best->distance, 0);
-  nsvcd__undoing by = {n, 0, 0, -HUGE_VAL};
-  if (best->count > 0 && nsvcd__d3_dot(n, best->n) > 0.99999) return;
-  for (size_t k = 0; k < p->contact_count; k++) {
-    const nsvcd__triangle_contact *t = &p->of.touches[k];
-    const size_t left = 2 * (p->contact_count - k);
-    if (by.count + left < best->count) return;
-    if (by.count + left == best->count && by.distance > best->distance + same) return;
-    if (!nsvcd__undoes(p, n, t)) continue;
-    const double distance = nsvcd__depth_along(n, t);
-    by.count += distance < 0 && !p->by_faces && nsvcd__is_against(n, t) ? 1u : 2u;
-    by.faces +=
-        nsvcd__d3_dot(n, t->directions[0]) > 0.9 || nsvcd__d3_dot(n, t->directions[1]) > 0.9;
-    by.distance = p->by_faces ? 0 : nsvcd__max(by.distance, distance);
-  }
-  if (by.count == 0 || by.count < best->count) return;
-  const int is_as_far = by.distance > best->distance - same;
-  if (by.count == best->count && by.distance > best->distance + same) return;
-  if (by.count == best->count && is_as_far && by.faces <= best->faces) return;
-  *best = by;
-}
-
-// The best of the normals of all touches and of the directions across an edge of each. Its count is
-// 0 if none undoes any touch.
-static nsvcd__undoing nsvcd__best_push_out(const nsvcd__proof *p) {
-  nsvcd__undoing best = {{0, 0, 0}, 0, 0, HUGE_VAL};
-  for (size_t k = 0; k < p->contact_count; k++) {
-    for (size_t i = 0; i < 3; i++)
-      nsvcd__try_push_out(p, p->of.touches[k].directions[i], &best);
-  }
-  // an edge on an edge
-  for (size_t k = 0; k < 9 * p->contact_count && best.distance > nsvcd__epsilon(p); k++) {
-    const nsvcd__triangle_contact *t = &p->of.touches[k / 9];
-    const nsvcd__d3 n = nsvcd__across_edges(t->moving, t->fixed, k % 9);
-    const nsvcd__d3 out = nsvcd__d3_add(t->directions[0], t->directions[1]);
-    const double side = nsvcd__d3_dot(n, out) < 0 ? -1 : 1;
-    nsvcd__try_push_out(p, nsvcd__d3_scale(n, side), &best);
-  }
-  return best;
-}
-
-// Finds directions that undo all touches. Returns 0 if nothing undoes one, or it takes too many.
-static int nsvcd__choose_push_outs(nsvcd__proof *p) {
-  if (p->too_deep) return 0;
-  while (p->contact_count > 0) {
-    const size_t k = p->normal_count;
-    if (k == NSVCD__PUSH_OUTS) return 0;
-    const nsvcd__undoing best = nsvcd__best_push_out(p);
-    if (best.count == 0) return 0;
-    p->normals[k] = best.n;
-    p->depths[k] = 0;
-    p->normal_count++;
-    size_t left = 0;
-    for (size_t n = 0; n < p->contact_count; n++) {
-      if (!nsvcd__undone_by(p, k, &p->of.touches[n])) p->of.touches[left++] = p->of.touches[n];
-    }
-    p->contact_count = left;
-  }
-  return 1;
-}
-
-// Nearly the shortest vector that has at least `least` along all known normals, plus, with
-// by_depth, the depth along each: projections onto one half space after another (the relaxation
-// method, Agmon 1954). 0 if there is none below four times the longest of these.
-static nsvcd__d3 nsvcd__push_out(const nsvcd__proof *p, double least, int by_depth) {
-  nsvcd__d3 push_out = {0, 0, 0};
-  double longest = 0;
-  for (size_t round = 0; round < 64; round++) {
-    double most = 0;
-    for (size_t k = 0; k < p->normal_count; k++) {
-      const double along = least + (by_depth ? p->depths[k] : 0);
-      const double lacks = along - nsvcd__d3_dot(push_out, p->normals[k]);
-      longest = nsvcd__max(longest, along);
-      most = nsvcd__max(most, lacks);
-      if (lacks > 0) push_out = nsvcd__d3_add(push_out, nsvcd__d3_scale(p->normals[k], lacks));
-    }
-    if (nsvcd__d3_norm(push_out) > 4 * longest) break;
-    if (most <= 0.005 * longest) return push_out;
-  }
-  return nsvcd__d3_of(0, 0, 0);
-}
-
-// Pushes a body at rest out of what it touches: by nothing at first, and by more as long as
-// something touches. Triangles smaller than the slop can be separated along a wall that their
-// neighbours still touch, and there may be too many touches to collect at once: so each push-out is
-// tried. If the directions known have no push-out in common, the first one may be wrong, and is
-// forgotten, once. Returns 0 if there is no push-out.
-static int nsvcd__push_out_still(nsvcd__proof *p, nsvcd__search *q, nsvcd__motion *still) {
-  p->normal_count = 0;
-  still->push_out = nsvcd__f3_of(0, 0, 0);
-  // Also what is about to touch, or where an earlier motion may have ended, is pushed out of, and
-  // may not touch afterwards.
-  const double size = (double)p->given.lengths + p->given.radius;
-  const double near_by = nsvcd__min(0.05 * p->ask.slop, 0.02 * size);
-  double beside = nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * p->ask.slop));
-  for (int turns = 0;; beside = 0.01 * p->ask.slop) {
-    p->ask.clearance = p->given.clearance + beside + nsvcd__epsilon(p);
-    (void)nsvcd__prove_anew(p, q);
-    if (p->contact_count == 0) return 1;
-    const size_t known = p->normal_count;
-    if (!nsvcd__choose_push_outs(p) || p->normal_count == known) return 0;
-    nsvcd__d3 push_out = nsvcd__push_out(p, p->ask.slop, 0);
-    if (!(nsvcd__d3_dot(push_out, push_out) > 0) && turns++ == 0) {
-      memmove(p->normals, p->normals + 1, --p->normal_count * sizeof *p->normals);
-      memmove(p->depths, p->depths + 1, p->normal_count * sizeof *p->depths);
-      push_out = nsvcd__push_out(p, p->ask.slop, 0);
-    }
-    if (!(nsvcd__d3_dot(push_out, push_out) > 0)) return 0;
-    still->push_out = nsvcd__f3_round(push_out);
-  }
-}
-
-// Makes the depths known as exact as need be. What is not in touch at the start may be where the
-// body is pushed out to, and not all touches may have been collected. So the body is pushed out by
-// little more than the known depths, to see what it touches there, until nothing does. Triangles
-// that follow each other, as on a slope, each come free soon: so the little more doubles as long as
-// depths grow.
-static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *q, nsvcd__motion *still) {
-  const nsvcd__f3 push_out = still->push_out;
-  const double least_more = 0.5 * nsvcd__epsilon(p);
-  double more = least_more;
-  double before = 0;
-  p->ask.clearance = p->given.clearance;
-  for (size_t k = 0; k < p->normal_count; k++) before += p->depths[k];
-  for (int round = 0; round < NSVCD__DEEPEN; round++) {
-    double after = 0;
-    still->push_out = nsvcd__f3_round(nsvcd__push_out(p, more, 1));
-    (void)nsvcd__prove_anew(p, q);
-    // A touch gets out of the way along the normal that undoes it first, even if no plane normal to
-    // that separates it.
-    for (size_t n = 0; n < p->contact_count; n++) {
-      const nsvcd__triangle_contact *t = &p->of.touches[n];
-      size_t best = 0;
-      double least = HUGE_VAL;
-      for (size_t k = 0; k < p->normal_count; k++) {
-        const double distance = nsvcd__depth_along(p->normals[k], t);
-        if (distance < least) best = k;
-        least = nsvcd__min(least, distance);
-      }
-      nsvcd__note_depth(p, best, t);
-    }
-    for (size_t k = 0; k < p->normal_count; k++) after += p->depths[k];
-    const int is_deeper = after > before;
-    if (!is_deeper && more <= nsvcd__max(least_more, 0.002 * after)) break;
-    more = is_deeper ? 2 * more : nsvcd__max(least_more, 0.125 * more);
-    before = after;
-  }
-  still->push_out = push_out;
-}
-
-// Pushes the motion out of what it touches at its start, by the slop; or, if something is in the
-// way of that and nothing is too deep, by what is needed.
-static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__proof *p, nsvcd__search *q) {
-  nsvcd__motion *whole = p->ask.motion;
-  nsvcd__motion start = nsvcd__end_of(whole, 0);
-  p->ask.motion = &start;
-  p->ask.collects = NSVCD__TOUCHING;
-  p->ask.slop = p->given.slop;
-  p->by_faces = 0;
-  p->needed = 0;
-  int is_free = nsvcd__push_out_still(p, q, &start);
-  if (!is_free && !p->too_deep) {
-    // The shortest push-outs may not go together.
-    p->by_faces = 1;
-    p->needed = 0;
-    is_free = nsvcd__push_out_still(p, q, &start);
-  }
-  const double least = 1.1 * p->needed + 4 * nsvcd__epsilon(p);
-  if (!is_free && p->contact_count == 0 && least < 0.9 * p->given.slop) {
-    p->ask.slop = least;
-    is_free = nsvcd__push_out_still(p, q, &start);
-  }
-  if (is_free && p->normal_count > 0) nsvcd__deepen(p, q, &start);
-  p->ask.collects = NSVCD__CONTACTS;
-  p->ask.clearance = p->given.clearance;
-  p->ask.motion = whole;
-  whole->push_out = is_free ? start.push_out : nsvcd__f3_of(0, 0, 0);
-  nsvcd__proof_restart(p);
-}
-#endif  // NSVCD_NO_PROOF
-
-// ----------------------------------------------------------------------------------- proof/normals
-// In: a contact, and the motion that led to it. Out: its normal.
-//
-// Just before two triangles meet, the direction between their nearest points still separates them:
-// of all directions left at the contact, it is the one most against the motion. Where a corner
-// comes to a face it is the face's normal, on the side that the corner comes from; where an edge
-// crosses an edge, across both; where a corner comes to a corner, against the motion. A contact may
-// be found a little after they have met: so one triangle is moved back, with the contact point's
-// velocity, until they are separated. If they have touched from the start, the motion tells
-// nothing: then it is the direction along which they are the least deep.
-//
-// Triangles within the clearance that do not meet have a direction: their nearest points'. It is
-// along the motion only if they have been nearer, and then the contact is moved to before that.
-
-#ifndef NSVCD_NO_PROOF
-// The arc of a time in ticks; at a keyframe, the arc that ends there: by that one the body came to
-// the contact.
-static const nsvcd__arc *nsvcd__arc_before(nsvcd__proof *p, double tick, double *u) {
-  uint32_t first = nsvcd__arc_of(p->ask.motion, tick, u);
-  if (first > 0 && tick - (double)first < 6e-8 * (double)p->ask.motion->ticks) {
-    first = nsvcd__arc_of(p->ask.motion, (double)first - 0.5, u);
-    *u = 1;
-  }
-  return nsvcd__arc_at(p, first);
-}
-
-// The triangles of a contact at a time, and how the bodies move then.
-typedef struct nsvcd__approach {
-  nsvcd__triangle_pair pair;
-  nsvcd__triangle_contact contact;
-  nsvcd__twist twist;
-  double u;
-} nsvcd__approach;
-
-static NSVCD__NOINLINE void nsvcd__approach_at(nsvcd__proof *p,
-                                               const nsvcd__pair_contact *found, double tick,
-                                               nsvcd__approach *out) {
-  const nsvcd__arc *arc = nsvcd__arc_before(p, tick, &out->u);
-  const nsvcd__dtransform at = nsvcd__dtransform_at(arc, out->u);
-  out->pair = nsvcd__pair_of(p, found->moving_patch, found->fixed_patch, found->moving_entry,
-                             found->fixed_entry);
-  nsvcd__pose_triangle(&at, out->pair.moving, out->contact.moving);
-  memcpy(out->contact.fixed, out->pair.fixed, sizeof out->contact.fixed);
-  out->contact.directions[0] = nsvcd__d3_scale(nsvcd__face_direction(out->contact.moving), -1);
-  out->contact.directions[1] = nsvcd__face_direction(out->contact.fixed);
-  out->twist = nsvcd__twist_at(arc, out->u);
-}
-
-// Moves a contact to an earlier time, from `since` on, when its triangles were as near and did not
-// come apart; if they meet, to when they began to. It stays if they touched at `since` and have
-// come apart ever since.
-static NSVCD__NOINLINE void nsvcd__move_back(nsvcd__proof *p, double since) {
-  nsvcd__pair_contact *found = &p->known.found;
-  nsvcd__pair_contact sooner = *found;
-  double early = since;
-  double late = found->tick;
-  double tick = late;
-  for (size_t k = 0; k < NSVCD__HALVINGS && early < late; k++) {
-    nsvcd__approach then;
-    nsvcd__approach_at(p, found, tick, &then);
-    const nsvcd__nearest nearest = nsvcd__nearest_of(then.contact.moving, then.contact.fixed);
-    const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
-    const nsvcd__d3 speed = nsvcd__twist_of(&then.twist, nearest.on_b);
-    const double gap = sqrt(nearest.square);
-    const int are_near = k == 0 || gap <= found->distance + then.pair.rounding;
-    const int nearing = gap > then.pair.rounding && !(nsvcd__d3_dot(speed, apart) > 0);
-    if (are_near && k > 0) sooner = nsvcd__contact_at(p, &then.pair, then.u, &nearest);
-    if (are_near && nearing) break;
-    *(are_near ? &late : &early) = tick;
-    tick = k == 0 ? early : 0.5 * (early + late);
-  }
-  if (early < late) *found = sooner;
-}
-
-// The separating axes of two triangles that touch: two normals and nine products of edges, both
-// ways. 0: edges are parallel.
-enum { NSVCD__AXES = 22 };
-static nsvcd__d3 nsvcd__axis_apart(const nsvcd__triangle_contact *t, size_t k) {
-  const nsvcd__d3 n =
-      k < 4 ? t->directions[1 - k / 2] : nsvcd__across_edges(t->moving, t->fixed, k / 2 - 2);
-  return nsvcd__d3_scale(n, k % 2 ? -1 : 1);
-}
-
-// The normal at which two triangles met that touch, if the moving one came straight along `travel`,
-// by `most` times that at most. 0: it did not. Nearer than the triangles are known, nothing tells
-// which of them a corner met: so it is the normal a little before.
-static NSVCD__NOINLINE int nsvcd__met_along(const nsvcd__proof *p, const nsvcd__approach *a,
-                                            nsvcd__d3 travel, double most, nsvcd__d3 *normal) {
-  const nsvcd__triangle_contact *t = &a->contact;
-  const double close = 16 * nsvcd__epsilon(p) / nsvcd__d3_norm(travel);
-  double back = HUGE_VAL;  // where they met, as a fraction of `travel`
-  double before = 0;
-  nsvcd__d3 moved[3];
-  for (size_t k = 0; k < NSVCD__AXES; k++) {
-    const nsvcd__d3 n = nsvcd__axis_apart(t, k);
-    const double fall = -nsvcd__d3_dot(n, travel);
-    const double deep = nsvcd__depth_along(n, t);
-    if (!(fall > 0) || !(deep < back * fall)) continue;
-    back = deep / fall;
-    before = nsvcd__max(close, 1e4 * a->pair.rounding / fall);
-    *normal = n;
-  }
-  if (!(back < most)) return 0;
-  const nsvcd__d3 off = nsvcd__d3_scale(travel, back + before);
-  for (int n = 0; n < 3; n++) moved[n] = nsvcd__d3_sub(t->moving[n], off);
-  const nsvcd__nearest nearest = nsvcd__nearest_of(moved, t->fixed);
-  const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
-  if (nsvcd__d3_dot(apart, travel) < 0) *normal = nsvcd__d3_unit(apart, *normal);
-  return 1;
-}
-
-// The direction along which two triangles that touch are the least deep in each other; of several
-// the one most against `travel`. A face of a closed surface has one side, and the direction is not
-// against both faces.
-static NSVCD__NOINLINE nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p,
-                                                   const nsvcd__approach *a,
-                                                   nsvcd__d3 travel) {
-  const int moving_closed = nsvcd__moving_closed(p, &a->pair);
-  const int fixed_closed = nsvcd__fixed_closed(p, &a->pair);
-  const nsvcd__triangle_contact *t = &a->contact;
-  const double same = 1e4 * a->pair.rounding;
-  nsvcd__d3 best = t->directions[1];
-  double least = HUGE_VAL;
-  for (size_t k = 0; k < NSVCD__AXES; k++) {
-    const nsvcd__d3 n = nsvcd__axis_apart(t, k);
-    const int out_of_a = !moving_closed || nsvcd__d3_dot(n, t->directions[0]) >= -1e-9;
-    const int out_of_b = !fixed_closed || nsvcd__d3_dot(n, t->directions[1]) >= -1e-9;
-    int is_out = out_of_a || out_of_b;
-    if (k < 4) is_out = k < 2 ? out_of_b : out_of_a;
-    if (!is_out || !(nsvcd__d3_dot(n, n) > 0.5)) continue;
-    const double depth = nsvcd__depth_along(n, t);
-    const double more = nsvcd__d3_dot(nsvcd__d3_sub(best, n), travel);
-    if (depth > least - same && !(depth < least + same && more > 0)) continue;
-    best = n;
-    least = nsvcd__min(least, depth);
-  }
-  return best;
-}
-
-// The normal at which the triangles of the known contact met, if that was after `since`, or, if
-// they were free of each other then, at any time. 0: it was not.
-static int nsvcd__normal_met(nsvcd__proof *p, double since, int is_free,
-                             nsvcd__approach *now) {
-  nsvcd__pair_contact *found = &p->known.found;
-  nsvcd__approach_at(p, found, found->tick, now);
-  const nsvcd__d3 speed = nsvcd__twist_of(&now->twist, found->point);
-  const nsvcd__d3 travel = nsvcd__d3_scale(speed, found->tick - since);
-  return nsvcd__met_along(p, now, travel, is_free ? HUGE_VAL : 1, &found->normal);
-}
-
-// Are two times, in ticks, in different arcs?
-static int nsvcd__has_turned(const nsvcd__proof *p, double since, double until) {
-  double u;
-  const uint32_t first = nsvcd__arc_of(p->ask.motion, since, &u);
-  return first != nsvcd__arc_of(p->ask.motion, until, &u);
-}
-
-// Gives the known contact its normal.
-static NSVCD__NOINLINE void nsvcd__resolve_normal(nsvcd__proof *p) {
-  nsvcd__pair_contact *found = &p->known.found;
-  const double until = nsvcd__max(nsvcd__min(nsvcd__clear_until(p), found->tick), 0);
-  const double since = p->given.fraction > 0 ? until : 0;
-  const int is_free = since > 0 || (p->given.fraction > 0 && p->starts_free);
-  nsvcd__approach now;
-  // What comes to a pose and goes back may have been found on its way back.
-  const int has_turned = is_free && nsvcd__has_turned(p, since, found->tick);
-  if (found->distance > 0 || has_turned) nsvcd__move_back(p, since);
-  if (found->distance > 0) return;
-  if (has_turned && nsvcd__has_turned(p, since, found->tick)) {
-    // These met on the way back alone, but others did on the way there.
-    nsvcd__approach_at(p, found, since, &now);
-    const nsvcd__nearest nearest = nsvcd__nearest_of(now.contact.moving, now.contact.fixed);
-    const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
-    found->normal = nsvcd__d3_unit(apart, found->normal);
-    return;
-  }
-  if (nsvcd__normal_met(p, since, 0, &now)) return;
-  if (is_free) {
-    // The motion has turned since, and they may come apart again.
-    nsvcd__move_back(p, since);
-    if (nsvcd__normal_met(p, since, 1, &now)) return;
-  }
-  const nsvcd__d3 speed = nsvcd__twist_of(&now.twist, found->point);
-  found->normal = nsvcd__shallowest(p, &now, speed);
-}
 #endif  // NSVCD_NO_PROOF
 
 // ============================================================================= network: an opinion
@@ -15815,8 +15326,9 @@ NSVCD__INLINE void nsvcd__rotate_degree(const float *latent, float (*turn)[NSVCD
 
 // Turns a stored latent by D (WIGNER, SLICE) of lane l, and writes it as latent `slot`, 0 or 1, of
 // a row of the decoder's inputs: vectors (2, 8, CHANNELS), then scalars (2, SCALARS).
-static NSVCD__NOINLINE void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE],
-                                                 size_t l, size_t slot, float *row) {
+static NSVCD__O3 NSVCD__NOINLINE void nsvcd__rotate_latent(const int8_t *z,
+                                                           float (*turn)[NSVCD__SLICE],
+                                                           size_t l, size_t slot, float *row) {
   float *vectors = row + NSVCD__VECTORS * slot;
   float *scalars = row + 2 * NSVCD__VECTORS + NSVCD_W_SCALARS * slot;
   // one degree after the other: a query's stack is deepest here
@@ -16883,236 +16395,10 @@ static NSVCD__NOINLINE void nsvcd__decoder_run(const nsvcd__decoder *decoder, co
 }
 #endif  // NSVCD_NO_NETWORK
 
-// =============================================================== query: a question, and its answer
-
-// -------------------------------------------------------------------------------------- query/task
-// In: two bodies and a motion. Out: an answer, by proof (proof/proof) or by the network
-// (NeuralSVCD, algorithm 1). This room has what a question needs, and its memory; query/question
-// takes it through these phases:
-//
-//   check       is it in order, which method can answer it, and is the workspace large enough?
-//   who moves   of its two bodies; all is computed in the other's frame and units
-//   lay out     what it needs, and where in the workspace that is
-//   answer      by proof, or by the network
-//   write       what was found about moving and fixed, as facts about a and b
-//
-// A batch checks all of its questions before it answers the first one.
+// --------------------------------------------------------------------------------- network/opinion
+// In: a task. Out: the network's opinion: candidates, ranked, and a logit for the best of them.
 
 #ifndef NSVCD_NO_NETWORK
-#ifndef NSVCD_NO_BASE
-#define NSVCD__LARGEST_MODEL NSVCD_MODEL_BASE
-#elif !defined(NSVCD_NO_SMALL)
-#define NSVCD__LARGEST_MODEL NSVCD_MODEL_SMALL
-#else
-#define NSVCD__LARGEST_MODEL NSVCD_MODEL_TINY
-#endif
-
-// ---- the network's schedule
-//
-// The search finds pairs of patches whose balls meet. The deepest of them make the shortlist. The
-// ranker, which is the tiny decoder, scores these while the search goes on, and the chosen decoder
-// judges the K most suspicious. K is network.pairs, by default NSVCD_DEFAULT_PAIRS. The broad phase
-// says how a motion is cut, into 16 to 64 segments; network/decoder how much goes through a decoder
-// at once (NSVCD__BATCH, NSVCD__ROWS); and proof/proof what a proof may take.
-
-// Pairs on the shortlist, times K. The tiny decoder needs none: K.
-#define NSVCD__SHORTLIST 4
-// New pairs that are worth a first run of the ranker before the search is done. Later runs wait for
-// NSVCD__BATCH pairs.
-#define NSVCD__FIRST_BATCH 8
-// Pairs that runs before the end of the search may take, times the shortlist.
-#define NSVCD__RANKED_TWICE 2
-// Pairs that the chosen decoder gets at once, until one is clear; and pairs that are kept where the
-// last of a batch collided.
-#define NSVCD__PORTION 4
-// By how much patches are inflated before planes separate them, as a fraction of their radii, at
-// N = 32, and less the more patches there are: at a recall of 0.999, and of 0.9999.
-#define NSVCD__INFLATE 0.04f
-#define NSVCD__MOST_INFLATE 0.1f
-// The same where a distance is asked for: the decoder knows distances up to a patch's radius.
-#define NSVCD__INFLATE_DISTANCE 1.0f
-// A logit this far from 0 is clear. A clear collision needs no second pair, and what is clear to
-// the ranker no second decoder: 37,000 answers on held-out sets, N = 128 to 512, are the same as
-// with twice this and twice the next, but for four.
-#define NSVCD__CLEAR_LOGIT 3.0f
-// The same in the first pair of groups, where planes are not asked yet: at 3, earlier weights
-// stopped one more free motion of 2,000, 2 mm from contact.
-#define NSVCD__FIRST_CLEAR 4.0f
-// How often the patches where the last of a batch collided may mislead before they are forgotten.
-#define NSVCD__MISLEADS 2
-
-// The network's options, with the defaults filled in.
-typedef struct nsvcd__settings {
-  size_t pairs;      // K
-  size_t shortlist;  // pairs that are kept
-  const nsvcd__decoder *decoder, *ranker;
-  int int8;
-  float threshold;  // subtracted from the decoder's logit
-  float inflate;    // as NSVCD__INFLATE, for these bodies
-} nsvcd__settings;
-
-// The candidate that an answer is about, and the decoder that gave its logit.
-typedef struct nsvcd__decisive {
-  nsvcd__candidate candidate;
-  const nsvcd__decoder *decoder;
-} nsvcd__decisive;
-#endif  // NSVCD_NO_NETWORK
-
-// ---- tasks, and their memory
-
-// A question that has been checked.
-typedef struct nsvcd__task {
-  const nsvcd_body *moving, *fixed;
-  nsvcd__motion motion;
-  int swapped;          // the moving body is b, not a
-  float lengths;        // extents of both bodies, in the fixed one's units
-  nsvcd_method method;  // PROOF or NETWORK
-  const nsvcd_question *question;
-#ifndef NSVCD_NO_NETWORK
-  nsvcd__settings settings;
-  nsvcd__decisive *decisive;  // written unless NULL
-#if NSVCD__ROWS == 1
-  // (DECODER_IN) the decoder's inputs, in memory that the search does not need between two groups:
-  // stack is scarce where rows go one by one
-  float *row;
-#endif
-#endif
-} nsvcd__task;
-
-// What a workspace begins with. The network's memory and the proof's are the same, for one follows
-// the other.
-typedef struct nsvcd__query {
-  nsvcd__search broad_phase;
-  nsvcd__task task;
-#ifndef NSVCD_NO_NETWORK
-  nsvcd__candidate *kept;  // (shortlist)
-#endif
-#ifndef NSVCD_NO_PROOF
-  nsvcd__proof *proof;
-  nsvcd__interval *intervals;  // (S)
-#endif
-} nsvcd__query;
-
-// NSVCD_PROOF_WORKSPACE_BYTES and NSVCD_NETWORK_WORKSPACE_BYTES count on these. Where this does not
-// compile they are wrong.
-#define NSVCD__MUST_HOLD(condition) ((condition) ? 1 : -1)
-typedef char nsvcd__constants_hold[NSVCD__MUST_HOLD(
-    sizeof(nsvcd__query) + 3 * NSVCD_ALIGNMENT + NSVCD__PASSED_OVER <= 1088 &&
-    sizeof(nsvcd__segments) <= 148 * 16 && sizeof(nsvcd__chords) <= 512 &&
-    sizeof(nsvcd__cut) <= 16 * 512 && NSVCD__TILE_SLOTS == 32 &&
-    NSVCD_ALIGNMENT == sizeof(uint64_t))];
-#ifndef NSVCD_NO_PROOF
-typedef char nsvcd__proof_constants_hold[NSVCD__MUST_HOLD(sizeof(nsvcd__proof) <= 24832 &&
-                                                          sizeof(nsvcd__interval) <= 168)];
-#endif
-#ifndef NSVCD_NO_NETWORK
-typedef char nsvcd__network_constants_hold[NSVCD__MUST_HOLD(
-    NSVCD__SHORTLIST * sizeof(nsvcd__candidate) <= 112 && NSVCD__LATENT == 40 &&
-    sizeof(nsvcd__plane_cache) <= 576 &&
-    sizeof(float) * NSVCD__DECODER_IN <= sizeof(uint16_t) * NSVCD__GROUP * NSVCD__LANES)];
-#endif
-
-// Lays a query out at `base`, which is aligned, or only counts if that is NULL. Returns the bytes
-// that it takes.
-static size_t nsvcd__query_layout(const nsvcd__needs *needs, char *base) {
-  nsvcd__query counted;
-  uint64_t used = 0;
-  nsvcd__query *query = NSVCD__TAKE_ROWS(nsvcd__query, 1, base, &used);
-  if (!query) query = &counted;
-  nsvcd__search_layout(needs, base, &used, &query->broad_phase);
-  uint64_t end = used;
-#ifndef NSVCD_NO_NETWORK
-  nsvcd__search *search = &query->broad_phase;
-  const size_t asked = needs->candidates > 0;
-  const size_t meetings = asked * NSVCD__GROUP * needs->segments;
-  query->kept = NSVCD__TAKE_ROWS(nsvcd__candidate, needs->candidates, base, &end);
-  search->cache = NSVCD__TAKE_ROWS(nsvcd__plane_cache, asked, base, &end);
-  search->met = NSVCD__TAKE_ROWS(uint16_t, meetings, base, &end);
-#endif
-#ifndef NSVCD_NO_PROOF
-  const size_t proofs = needs->proof != 0;
-  const size_t intervals = proofs * needs->segments;
-  query->proof = NSVCD__TAKE_ROWS(nsvcd__proof, proofs, base, &used);
-  query->intervals = NSVCD__TAKE_ROWS(nsvcd__interval, intervals, base, &used);
-#endif
-  return (size_t)(used > end ? used : end);
-}
-
-// Writes what a verdict alone tells: the bodies may go to the end of a motion that is free, else
-// nowhere.
-static void nsvcd__answer_begin(const nsvcd__task *task, nsvcd_verdict verdict,
-                                nsvcd_answer *answer) {
-  const nsvcd__track *moving = &task->motion.moving;
-  const nsvcd__track *fixed = &task->motion.fixed;
-  const int is_free = verdict == NSVCD_FREE;
-  memset(answer, 0, sizeof *answer);
-  answer->verdict = verdict;
-  answer->time.low = answer->safe.time = is_free ? 1.0f : 0.0f;
-  answer->time.high = is_free ? 1 : HUGE_VALF;
-  answer->distance.high = HUGE_VALF;
-  answer->depth = is_free ? 0 : HUGE_VALF;
-  answer->safe.a = moving->poses[is_free ? moving->count - 1 : 0];
-  answer->safe.b = fixed->poses[is_free ? fixed->count - 1 : 0];
-  answer->nearest.gap = HUGE_VALF;
-  answer->nearest.triangle_a = NSVCD_NO_TRIANGLE;
-  answer->nearest.triangle_b = NSVCD_NO_TRIANGLE;
-}
-
-// Where the last question of a batch collided, by the network: the next one is tried there first.
-// Forgotten when it has misled MISLEADS times, or the bodies change.
-typedef struct nsvcd__hint {
-  int known, misled;
-  uint32_t moving, fixed;  // patches
-} nsvcd__hint;
-
-// -------------------------------------------------------------------------------- query/by_network
-// In: a task. Out: its answer, by the network: candidates, ranked, and a logit for the best of
-// them.
-
-#ifndef NSVCD_NO_NETWORK
-// The settings for two bodies of so many patches. On an error, where the options ask for what is
-// not there, *settings is not whole. weights.h has a threshold per decoder, recall and N = 32, 64,
-// ..., 512. Between those, and for two bodies that differ, it is interpolated at the mean of log2
-// N.
-static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t patches1,
-                                       size_t patches2, nsvcd__settings *settings) {
-  if (o->pairs > NSVCD_MAX_PAIRS) return NSVCD_ERROR_PAIRS;
-  if ((unsigned)o->model > (unsigned)NSVCD_MODEL_BASE) return NSVCD_ERROR_MODEL;
-  if (!nsvcd__is_finite(o->inflate) || o->inflate < 0) return NSVCD_ERROR_INFLATE;
-  if (o->precision != NSVCD_PRECISION_FLOAT && o->precision != NSVCD_PRECISION_INT8)
-    return NSVCD_ERROR_PRECISION;
-  const nsvcd_model model = o->model ? o->model : NSVCD__LARGEST_MODEL;
-  const size_t decoder = (size_t)model - (size_t)NSVCD_MODEL_TINY;
-  if (!nsvcd_w_decoders[decoder].layers) return NSVCD_ERROR_MODEL;  // compiled out
-  settings->pairs = o->pairs ? o->pairs : NSVCD_DEFAULT_PAIRS;
-  settings->shortlist = decoder == 0 ? settings->pairs : NSVCD__SHORTLIST * settings->pairs;
-  settings->decoder = &nsvcd_w_decoders[decoder];
-  settings->ranker = &nsvcd_w_decoders[0];
-#ifdef NSVCD_NO_FLOAT
-  settings->int8 = 1;
-#else
-  settings->int8 = o->precision == NSVCD_PRECISION_INT8;
-#endif
-#ifdef NSVCD_NO_INT8
-  if (settings->int8) return NSVCD_ERROR_PRECISION;
-#endif
-  for (size_t k = 0; k < NSVCD_W_RECALLS && nsvcd__is_finite(o->recall); k++) {
-    if (o->recall < nsvcd_w_recall[k] || o->recall > nsvcd_w_recall[k]) continue;
-    const float n = sqrtf((float)patches1 * (float)patches2);
-    const float last = NSVCD_W_SIZES - 1;
-    const float size = log2f(n) - 5;
-    const float at = size < 0 ? 0 : size > last ? last : size;
-    const size_t row = at < last ? (size_t)at : NSVCD_W_SIZES - 2;
-    const float low = nsvcd_w_threshold[decoder][row][k];
-    const float high = nsvcd_w_threshold[decoder][row + 1][k];
-    settings->threshold = low + (at - (float)row) * (high - low);
-    const float least = k < 2 ? 0 : k == 2 ? NSVCD__INFLATE : NSVCD__MOST_INFLATE;
-    settings->inflate = fmaxf(o->inflate, least * 32 / n);
-    return NSVCD_OK;
-  }
-  return NSVCD_ERROR_RECALL;
-}
-
 // Scores `count` candidates, 1 to 16, by a decoder.
 static void nsvcd__decode(const nsvcd__task *task, nsvcd__candidate *const *candidates,
                           size_t count, const nsvcd__decoder *decoder) {
@@ -17368,729 +16654,7 @@ static int nsvcd__ask_network(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opin
   return 1;
 }
 
-// Answers a question whose motion has been prepared.
-static void nsvcd__answer_by_network(nsvcd__query *query, nsvcd__hint *hint,
-                                     nsvcd_answer *answer) {
-  nsvcd_opinion opinion;
-  const int inside = nsvcd__ask_network(query, hint, &opinion);
-  nsvcd__answer_begin(&query->task, opinion.logit > 0 ? NSVCD_HIT : NSVCD_FREE, answer);
-  answer->inside = inside;
-  answer->opinion = opinion;
-  if (query->broad_phase.balls_met || inside) answer->by = NSVCD_BY_NETWORK;
-  if (opinion.logit > 0) answer->time.high = opinion.time;
-}
 #endif  // NSVCD_NO_NETWORK
-
-// ---------------------------------------------------------------------------------- query/by_proof
-// In: a task. Out: its answer, by proof, with contacts as points in the world.
-
-#ifndef NSVCD_NO_PROOF
-typedef struct nsvcd__dpose {
-  nsvcd__dquat rotation;
-  nsvcd__d3 position;
-} nsvcd__dpose;
-
-// A body's pose at time t in [0,1], in the world.
-static nsvcd__dpose nsvcd__dpose_at(const nsvcd__motion *motion, const nsvcd__track *track,
-                                    double t) {
-  nsvcd__slerp slerp;
-  nsvcd__d3 ends[2];
-  double u;
-  const uint32_t first = nsvcd__arc_of(motion, t * (double)motion->ticks, &u);
-  nsvcd__slerp_init(track, first, nsvcd__next_keyframe(motion, first) - first, &slerp, ends);
-  const nsvcd__dpose out = {nsvcd__slerp_at(&slerp, u), nsvcd__d3_mix(ends[0], ends[1], u)};
-  return out;
-}
-
-static nsvcd_pose nsvcd__pose_round(const nsvcd__dpose *pose) {
-  const nsvcd__dquat q = pose->rotation;
-  nsvcd_pose out = {{0, 0, 0}, {(float)q.x, (float)q.y, (float)q.z, (float)q.w}};
-  nsvcd__f3_store(nsvcd__f3_round(pose->position), out.position);
-  return out;
-}
-
-// From the fixed body's frame, in metres, to the world, at time t.
-static nsvcd__dtransform nsvcd__world_at(const nsvcd__motion *motion, double t) {
-  const nsvcd__dpose pose = nsvcd__dpose_at(motion, &motion->fixed, t);
-  const nsvcd__dtransform out = {nsvcd__dmat3_of(pose.rotation), pose.position};
-  return out;
-}
-
-// The length to which an answer is asked for, or the default, in the fixed body's units.
-static double nsvcd__to_of(const nsvcd__task *task) {
-  const nsvcd_question *q = task->question;
-  const float moving = task->motion.scale * nsvcd__whole_radius(task->moving);
-  const float fixed = nsvcd__whole_radius(task->fixed);
-  const float usual = NSVCD_DEFAULT_TO * (moving < fixed ? moving : fixed);
-  return q->to > 0 ? (double)q->to / (double)task->motion.unit : (double)usual;
-}
-
-// How far points of the moving body travel in an arc, at most.
-static double nsvcd__travel_in(const nsvcd__proof *p, const nsvcd__arc *arc) {
-  return arc->speed + arc->turn * arc->scale * (double)p->moving.body->extent;
-}
-
-// The fraction of the motion in which no point of the moving body travels farther than `to`, at
-// most `fraction`; 0: that is not asked for. Of a short motion it is at most a quarter, so that a
-// contact does not cost all of it, but no less than a safe pose backs off.
-static double nsvcd__fraction_of(nsvcd__proof *p, double to, double fraction) {
-  const nsvcd__motion *motion = p->ask.motion;
-  const double most = fraction > 0 ? fraction : 1;
-  double fastest = 0;  // per tick
-  // The arc known is of the question before.
-  p->arc.ticks = 0;
-  for (uint32_t first = 0; to > 0 && first < motion->ticks;) {
-    const nsvcd__arc *arc = nsvcd__arc_at(p, first);
-    fastest = fmax(fastest, nsvcd__travel_in(p, arc) / (double)arc->ticks);
-    first += arc->ticks;
-  }
-  const double whole = fastest * (double)motion->ticks;
-  const double least = fmin(to, fmax(0.25 * whole, NSVCD__EPSILONS * nsvcd__epsilon(p)));
-  return least < most * whole ? least / whole : most;
-}
-
-// Prepares the proof for a question whose motion has been prepared.
-static void nsvcd__proof_begin(nsvcd__query *query) {
-  const nsvcd__task *task = &query->task;
-  const nsvcd_question *q = task->question;
-  const double unit = (double)task->motion.unit;
-  nsvcd__proof *p = query->proof;
-  nsvcd__given *given = &p->given;
-  memset(given, 0, sizeof *given);
-  memset(&p->ask, 0, sizeof p->ask);
-  p->intervals = query->intervals;
-  p->ask.motion = &query->task.motion;
-  p->moving = nsvcd__geometry_of(nsvcd__triangles_of(task->moving));
-  p->fixed = nsvcd__geometry_of(nsvcd__triangles_of(task->fixed));
-  given->lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
-  given->tolerance = (double)q->tolerance / unit;
-  const double moving_radius = (double)p->moving.counts->convex_radius * task->motion.ratio;
-  given->radius = moving_radius + (double)p->fixed.counts->convex_radius;
-  given->clearance = (double)q->clearance / unit + given->radius;
-  p->ask.clearance = given->clearance;
-  given->slop = (double)q->slop / unit;
-  const int is_verdict = q->ask != NSVCD_ASK_DISTANCE;
-  const size_t most = is_verdict ? NSVCD_DEFAULT_VERDICT_WORK : NSVCD_DEFAULT_WORK;
-  given->work = p->ask.limit = p->ask.most = q->work ? q->work : most;
-  given->reserve = (q->work ? q->work : NSVCD_DEFAULT_WORK) / NSVCD__AFTER_UNRESOLVED;
-  given->grows = q->work == 0;
-  given->tells = q->ask != NSVCD_ASK_HIT || given->slop > 0;
-  p->work = p->normal_count = 0;
-  p->low = 0;
-  p->high = HUGE_VAL;
-  p->inside = p->in_open = p->wide = p->starts_free = 0;
-  p->unclear = NSVCD__CLEAR;
-  const double to = nsvcd__to_of(task);
-  if (q->ask == NSVCD_ASK_DISTANCE) given->width = to;
-  if (q->ask == NSVCD_ASK_FIRST) {
-    const int by_time = q->to_time > 0 && !(q->to > 0);
-    given->to = q->to > 0 ? to : 0;
-    given->fraction = nsvcd__fraction_of(p, by_time ? 0 : to, (double)q->to_time);
-  }
-  p->ask.fraction = given->fraction;
-  nsvcd__proof_restart(p);
-}
-
-// Writes the contact that a proof has found: when, where, and of what. If the bodies were swapped,
-// the fixed one counts as pushed out, in the opposite direction.
-static NSVCD__NOINLINE void nsvcd__write_contact(const nsvcd__query *query,
-                                                 const nsvcd__pair_contact *found,
-                                                 nsvcd_contact *out) {
-  const nsvcd__proof *p = query->proof;
-  const nsvcd__task *task = &query->task;
-  const nsvcd__motion *motion = &task->motion;
-  const int rests = motion->moving.count == 1 && !motion->fixed_moves;
-  const double time = rests ? 0 : found->tick / (double)motion->ticks;
-  const double unit = (double)motion->unit;
-  const nsvcd__dtransform world = nsvcd__world_at(motion, time);
-  const nsvcd__d3 push_out = nsvcd__d3_scale(nsvcd__d3_widen(motion->push_out), task->swapped);
-  const double beyond = fmin((double)p->fixed.counts->convex_radius, found->distance);
-  const nsvcd__d3 on = nsvcd__d3_fma(beyond, found->normal, found->point);
-  const nsvcd__d3 seen = nsvcd__d3_scale(nsvcd__d3_sub(on, push_out), unit);
-  const nsvcd__d3 point = nsvcd__d3_transform(&world, seen);
-  const nsvcd__d3 normal = nsvcd__dmat3_apply(&world.rotation, found->normal);
-  nsvcd__f3_store(nsvcd__f3_round(point), out->point);
-  nsvcd__f3_store(nsvcd__f3_round(normal), out->normal);
-  out->gap = (float)(fmax(found->distance - p->given.radius, 0) * unit);
-  // Rounded up: by then they have met.
-  out->time = (float)time;
-  if ((double)out->time < time) out->time = nextafterf(out->time, 1);
-  out->triangle_a = found->moving_triangle;
-  out->triangle_b = found->fixed_triangle;
-  out->patch_a = found->moving_patch;
-  out->patch_b = found->fixed_patch;
-}
-
-// The moving body takes the push-out; if both or none move, a does.
-static int nsvcd__takes_push_out(const nsvcd__task *task) {
-  return !task->swapped || !(task->motion.fixed_moves || task->motion.moving.count == 1);
-}
-
-// The poses of both bodies at time t, with one of them displaced by a push-out, which is in the
-// fixed body's frame and units.
-static NSVCD__NOINLINE void nsvcd__poses_at(const nsvcd__task *task, double t,
-                                            nsvcd__d3 push_out, nsvcd_pose *moving,
-                                            nsvcd_pose *fixed) {
-  const nsvcd__motion *motion = &task->motion;
-  const double unit = (double)motion->unit;
-  const int moving_takes_it = nsvcd__takes_push_out(task);
-  const nsvcd__dtransform world = nsvcd__world_at(motion, t);
-  const nsvcd__d3 seen = nsvcd__dmat3_apply(&world.rotation, push_out);
-  for (int n = 0; n < 2; n++) {
-    const double by = n == moving_takes_it ? 0 : n ? -unit : unit;
-    nsvcd__dpose pose = nsvcd__dpose_at(motion, n ? &motion->fixed : &motion->moving, t);
-    pose.position = nsvcd__d3_add(pose.position, nsvcd__d3_scale(seen, by));
-    *(n ? fixed : moving) = nsvcd__pose_round(&pose);
-  }
-}
-
-// How far the poses of an answer, in float, are off at time t, at most, in the fixed body's units:
-// positions and quaternions are off by 6e-8 of their length.
-static double nsvcd__pose_error(const nsvcd__proof *p, double t) {
-  const nsvcd__motion *motion = p->ask.motion;
-  const nsvcd__d3 moving = nsvcd__dpose_at(motion, &motion->moving, t).position;
-  const nsvcd__d3 fixed = nsvcd__dpose_at(motion, &motion->fixed, t).position;
-  const double positions = nsvcd__d3_norm(moving) + nsvcd__d3_norm(fixed);
-  return 1.3e-7 * (2 * positions / (double)motion->unit + (double)p->given.lengths);
-}
-
-// Sets the bodies down at time t, at which they are free of each other when pushed out as the
-// motion is: to a little more than their depth at the start, or to a little before they are in
-// contact. Returns the push-out left. It is proven to be free, and so is the way down to it. All
-// else that was known of the question is lost.
-static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
-  nsvcd__proof *p = query->proof;
-  const nsvcd__task *task = &query->task;
-  nsvcd__motion *whole = p->ask.motion;
-  nsvcd__motion down = *whole;
-  nsvcd_pose moving[2], fixed[2];
-  const int takes_it = nsvcd__takes_push_out(task);
-  const nsvcd__track moves = {moving, NULL, takes_it ? 2u : 1u, 0, 0};
-  const nsvcd__track rests = {fixed, NULL, takes_it ? 1u : 2u, 0, 0};
-  const nsvcd__d3 push_out = nsvcd__d3_widen(whole->push_out);
-  // Nearer to each other than stored triangles are known, nothing would be separated.
-  const double epsilons = 4 * nsvcd__epsilon(p) + nsvcd__pose_error(p, t);
-  const double kept = fmax(NSVCD__SET_DOWN * p->ask.slop, epsilons);
-  const nsvcd__d3 least = nsvcd__push_out(p, kept, 1);
-  const nsvcd__d3 by = nsvcd__d3_sub(push_out, least);
-  const double length = nsvcd__d3_norm(by);
-  if (!(nsvcd__d3_dot(by, push_out) > 0) || !(length > kept)) return push_out;
-  nsvcd__poses_at(task, t, push_out, &moving[0], &fixed[0]);
-  nsvcd__poses_at(task, t, least, &moving[1], &fixed[1]);
-  nsvcd__motion_set_tracks(&down, moves, rests);
-  down.push_out = nsvcd__f3_of(0, 0, 0);
-  p->ask.motion = &down;
-  p->ask.fraction = kept / length;
-  p->ask.measure = 0;
-  p->ask.clearance = p->given.clearance;
-  p->ask.limit = p->work + p->given.reserve;
-  (void)nsvcd__prove_anew(p, &query->broad_phase);
-  p->ask.motion = whole;
-  const double until = nsvcd__clear_until(p) / (double)down.ticks;
-  // All before an unresolved pair is proven, but a query from close to it might not prove it again.
-  const double clear =
-      p->known.unresolved < p->ask.end ? until - 0.5 * p->ask.fraction : until;
-  return nsvcd__d3_sub(push_out, nsvcd__d3_scale(by, fmin(fmax(clear, 0), 1)));
-}
-
-// The bodies at rest as they are at time t, with the fixed one's origin in the world's: so points
-// in its frame are as exact as they can be.
-static nsvcd__motion nsvcd__rest_at(const nsvcd__task *task, double t, nsvcd_pose *poses) {
-  nsvcd__motion still = task->motion;
-  const nsvcd__track tracks[2] = {{&poses[0], NULL, 1, 0, 0}, {&poses[1], NULL, 1, 0, 0}};
-  nsvcd__dpose moving = nsvcd__dpose_at(&still, &still.moving, t);
-  nsvcd__dpose fixed = nsvcd__dpose_at(&still, &still.fixed, t);
-  const nsvcd__dmat3 rotation = nsvcd__dmat3_of(fixed.rotation);
-  const nsvcd__d3 push_out = nsvcd__dmat3_apply(&rotation, nsvcd__d3_widen(still.push_out));
-  const nsvcd__d3 offset = nsvcd__d3_sub(moving.position, fixed.position);
-  moving.position = nsvcd__d3_add(offset, nsvcd__d3_scale(push_out, (double)still.unit));
-  fixed.position = nsvcd__d3_of(0, 0, 0);
-  poses[0] = nsvcd__pose_round(&moving);
-  poses[1] = nsvcd__pose_round(&fixed);
-  nsvcd__motion_set_tracks(&still, tracks[0], tracks[1]);
-  still.push_out = nsvcd__f3_of(0, 0, 0);
-  return still;
-}
-
-// The normals that a manifold may have: that of the contact found, and those of its faces that are
-// not against it and along which the bodies do not part. Returns how many. *twist: how the bodies
-// move; 0 at the start, where they only touch.
-static NSVCD__NOINLINE int nsvcd__manifold_normals(nsvcd__proof *p,
-                                                   const nsvcd__pair_contact *found,
-                                                   nsvcd__twist *twist, nsvcd__d3 *normals) {
-  nsvcd__approach now;
-  int count = 1;
-  nsvcd__approach_at(p, found, found->tick, &now);
-  memset(twist, 0, sizeof *twist);
-  if (found->tick > 0) *twist = now.twist;
-  p->of.kept.manifold.normal = normals[0] = found->normal;
-  const nsvcd__facing facing = nsvcd__facing_of(p, &now.pair, now.contact.moving);
-  for (int k = 1; k >= 0; k--) {
-    const nsvcd__d3 n = facing.faces[k];
-    const nsvcd__d3 all[2] = {found->normal, found->normal};
-    int is_new = nsvcd__d3_dot(n, found->normal) > -0.1;
-    is_new &= !nsvcd__is_left(twist, found->point, n, all);
-    for (int i = 0; i < count; i++) is_new &= nsvcd__d3_dot(n, normals[i]) <= 0.9;
-    if (is_new) normals[count++] = n;
-  }
-  return count;
-}
-
-// Writes the manifold of the contact found. If a body stands on something, that contact may be with
-// a side that rises from it: so the normals of both triangles are tried too, and the manifold that
-// spans the most is taken. All else that was known of the question is lost.
-static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd_answer *answer) {
-  nsvcd__proof *p = query->proof;
-  const nsvcd__task *task = &query->task;
-  const nsvcd__pair_contact found = p->known.found;
-  const nsvcd__asked asked = p->ask;
-  const double epsilon = nsvcd__epsilon(p);
-  const double same = epsilon + 1e-5 * (double)p->given.lengths;
-  const float radius = task->motion.scale * task->moving->radius;
-  const double extent = (double)fminf(radius, task->fixed->radius);
-  const nsvcd__manifold *m = &p->of.kept.manifold;
-  nsvcd__d3 normals[3];
-  double widest = -1;
-  nsvcd_pose poses[2];
-  nsvcd__twist twist;
-  int tries = nsvcd__manifold_normals(p, &found, &twist, normals);
-  nsvcd__motion still = nsvcd__rest_at(task, (double)answer->nearest.time, poses);
-  p->ask.motion = &still;
-  p->ask.collects = NSVCD__SUPPORTING;
-  p->ask.clearance = p->given.clearance + fmax(nsvcd__to_of(task), 4 * epsilon);
-  p->ask.limit = p->work + p->given.reserve;
-  (void)nsvcd__prove_anew(p, &query->broad_phase);
-  for (int k = 0; k < tries; k++) {
-    int chosen[NSVCD_MAX_CONTACTS];
-    double area;
-    nsvcd__manifold_begin(p, normals[k], &twist, p->ask.clearance, same);
-    nsvcd__seek_positions(p, 0, NSVCD__AROUND);
-    int count = nsvcd__choose_four(m, chosen, &area);
-    if (nsvcd__seek_across(&p->of.kept.manifold, area)) {
-      nsvcd__seek_positions(p, NSVCD__AROUND, NSVCD__SUPPORTS);
-      count = nsvcd__choose_four(m, chosen, &area);
-    }
-    if (count == 0 || !(area > 1.001 * widest)) continue;
-    widest = area;
-    if (count > 2 && area > 0.1 * extent * extent) tries = 1;
-    answer->contact_count = (size_t)count;
-    for (int n = 0; n < count; n++) {
-      nsvcd__pair_contact support = m->supports[chosen[n]];
-      support.tick = found.tick;
-      nsvcd__write_contact(query, &support, &answer->contacts[n]);
-      // The last bit tells which body a corner is of.
-      answer->contacts[n].id = m->numbers[chosen[n]] ^ (uint32_t)task->swapped;
-    }
-  }
-  p->ask = asked;
-}
-
-// Writes where the bodies may go, which are proven free until answer->time.low, and how deep they
-// are in contact at the start. If one may be inside the other, no push-out helps, and they stay.
-static NSVCD__NOINLINE void nsvcd__write_safe_pose(nsvcd__query *query, nsvcd_answer *answer) {
-  const nsvcd__task *task = &query->task;
-  const nsvcd__proof *p = query->proof;
-  const double t = (double)answer->safe.time;
-  nsvcd__d3 push_out = nsvcd__d3_widen(task->motion.push_out);
-  const int is_pushed = nsvcd__d3_dot(push_out, push_out) > 0;
-  const int may_go = is_pushed && !p->inside && !p->unclear;
-  if (is_pushed && !p->inside) {
-    const double depth = nsvcd__d3_norm(nsvcd__push_out(p, 0, 1));
-    answer->depth = (float)(depth * (double)task->motion.unit);
-  } else if (!is_pushed && (answer->time.low > 0 || p->starts_free)) {
-    answer->depth = 0;
-  }
-  if (may_go) push_out = nsvcd__set_down(query, t);
-  // nsvcd__answer_begin has set the poses at the ends, as the caller has them.
-  if (may_go || (t > 0 && t < 1))
-    nsvcd__poses_at(task, t, push_out, &answer->safe.a, &answer->safe.b);
-}
-
-// Writes until when the motion is proven free, and up to which time the bodies may go.
-static void nsvcd__write_time(nsvcd__proof *p, nsvcd_answer *answer) {
-  const nsvcd__motion *motion = p->ask.motion;
-  const double ticks = (double)motion->ticks;
-  const double until = fmin(fmax(nsvcd__clear_until(p) / ticks, 0), 1);
-  const double late = (double)answer->time.high - until;
-  answer->time.low = (float)(until * (1 - 1e-7));
-  if (late > p->given.fraction * 1.0001 + 1e-6) answer->why = NSVCD_WHY_WORK;
-  // Closer poses are proven free here, but a new query from there could not prove it again.
-  double u;
-  const nsvcd__arc *arc = nsvcd__arc_at(p, nsvcd__arc_of(motion, until * ticks, &u));
-  const double length = nsvcd__travel_in(p, arc) * ticks / (double)arc->ticks;
-  const double epsilons = NSVCD__EPSILONS * nsvcd__epsilon(p) + nsvcd__pose_error(p, until);
-  const double back = length > epsilons ? epsilons / length : p->given.fraction;
-  answer->safe.time = (float)(fmax(0, until - back) * (1 - 1e-7));
-}
-
-// Answers a question whose motion has been prepared.
-static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
-  const nsvcd__task *task = &query->task;
-  const nsvcd_question *q = task->question;
-  const double unit = (double)task->motion.unit;
-  nsvcd__search *search = &query->broad_phase;
-  nsvcd__proof *p = query->proof;
-  nsvcd__proof_begin(query);
-  if (p->given.slop > 0) nsvcd__push_out_motion(p, search);
-  nsvcd__finding verdict = nsvcd__prove(p, search);
-  if (p->given.width > 0 && verdict != NSVCD__FOUND_INSIDE) {
-    nsvcd__measure(p, search, verdict, p->given.width);
-    // A distance decides what was left undecided, but says nothing of containment.
-    const int meets = p->known.has_contact && p->known.found.distance <= p->given.clearance;
-    const int is_clear =
-        p->low > 0 && p->low >= p->given.clearance && !p->unclear && !p->inside;
-    if (verdict == NSVCD__FOUND_UNDECIDED && (meets || is_clear))
-      verdict = meets ? NSVCD__FOUND_CONTACT : NSVCD__FOUND_FREE;
-  }
-
-  // The answer names the triangles of a contact, or else of an unresolved pair.
-  const int is_free = verdict == NSVCD__FOUND_FREE;
-  const int is_inside = verdict == NSVCD__FOUND_INSIDE;
-  const int is_contact = verdict == NSVCD__FOUND_CONTACT;
-  const int has_unresolved = p->known.unresolved < NSVCD__NEVER;
-  const int names =
-      p->known.has_contact || (verdict == NSVCD__FOUND_UNDECIDED && has_unresolved);
-  if (names && !is_inside) nsvcd__resolve_normal(p);
-  const nsvcd_verdict if_not_free = is_inside || is_contact ? NSVCD_HIT : NSVCD_UNDECIDED;
-  nsvcd__answer_begin(task, is_free ? NSVCD_FREE : if_not_free, answer);
-  answer->inside = is_inside;
-  if (names || is_inside) nsvcd__write_contact(query, &p->known.found, &answer->nearest);
-  if (is_inside) answer->nearest.gap = HUGE_VALF;
-  if (is_inside || is_contact) answer->time.high = answer->nearest.time;
-  if (is_contact) answer->contacts[answer->contact_count++] = answer->nearest;
-  if (p->given.fraction > 0 && !is_free && !is_inside) nsvcd__write_time(p, answer);
-
-  const double radius = p->given.radius;
-  const double low = is_free ? fmax(p->given.clearance, p->low) : p->low;
-  double high = names ? p->known.found.distance : p->high;
-  // A contact, found or moved to where it is nearer, may have made the bracket narrow enough.
-  p->wide = p->wide && high - p->low > p->given.width;
-  const double off = nsvcd__off_meshes(p) + 1e-12 * (double)p->given.lengths;
-  if (names) high = fmax(high, radius) + off;
-  answer->distance.low = (float)(fmax(low - radius, 0) * unit * (1 - 1e-6));
-  answer->distance.high = is_inside ? 0 : (float)(fmax(high - radius, 0) * unit * (1 + 1e-6));
-
-  // Why not all is answered. Neither work nor finer triangles would tell what is in an open solid.
-  if (p->wide || answer->verdict == NSVCD_UNDECIDED) answer->why = NSVCD_WHY_WORK;
-  if (answer->why && !p->wide && (has_unresolved || p->unclear == NSVCD__CANNOT_TELL))
-    answer->why = NSVCD_WHY_TOO_NEAR;
-  if (answer->why && p->in_open) answer->why = NSVCD_WHY_OPEN;
-
-  // The push-out in the world, at the start.
-  const nsvcd__d3 push_out = nsvcd__d3_widen(task->motion.push_out);
-  if (nsvcd__d3_dot(push_out, push_out) > 0) {
-    const nsvcd__dtransform world = nsvcd__world_at(&task->motion, 0);
-    const nsvcd__d3 turned = nsvcd__dmat3_apply(&world.rotation, push_out);
-    nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_scale(turned, unit)), answer->push_out);
-  }
-  if (q->manifold && is_contact) nsvcd__write_manifold(query, answer);
-  nsvcd__write_safe_pose(query, answer);
-  answer->work = p->work;
-}
-#endif  // NSVCD_NO_PROOF
-
-// ---------------------------------------------------------------------------------- query/question
-// In: questions and a workspace. Out: answers, or why not.
-
-// The method that answers, or DEFAULT where there is none.
-static nsvcd_method nsvcd__method_of(const nsvcd_body *moving, const nsvcd_body *fixed,
-                                     nsvcd_method wanted) {
-  int can_prove = 0;
-  int can_ask = 0;
-#ifndef NSVCD_NO_PROOF
-  can_prove = moving->triangles && fixed->triangles;
-#endif
-#ifndef NSVCD_NO_NETWORK
-  can_ask = moving->weights_id && fixed->weights_id;
-#endif
-  if (can_prove && wanted != NSVCD_METHOD_NETWORK) return NSVCD_METHOD_PROOF;
-  if (can_ask && wanted != NSVCD_METHOD_PROOF) return NSVCD_METHOD_NETWORK;
-  return NSVCD_METHOD_DEFAULT;
-}
-
-// Is a question in order?
-static nsvcd_result nsvcd__question_check(const nsvcd_question *q) {
-  const nsvcd_mover *a = &q->a;
-  const nsvcd_mover *b = &q->b;
-  nsvcd_result result = nsvcd__mover_check(a);
-  if (!result) result = nsvcd__mover_check(b);
-  if (result) return result;
-  // The same body in the same motion: something was passed twice.
-  const float scale_a = nsvcd__scale_of(a);
-  const float scale_b = nsvcd__scale_of(b);
-  const int same_size = !(scale_a < scale_b) && !(scale_b < scale_a);
-  const int same_motion = a->poses == b->poses && a->times == b->times && a->count == b->count;
-  if (a->body == b->body && same_motion && same_size) return NSVCD_ERROR_SAME;
-
-  // Are the options' numbers in their ranges, and do they go together?
-  if ((unsigned)q->method > (unsigned)NSVCD_METHOD_NETWORK) return NSVCD_ERROR_METHOD;
-  if ((unsigned)q->ask > (unsigned)NSVCD_ASK_DISTANCE) return NSVCD_ERROR_ASK;
-  if (q->segments > NSVCD__MAX_SEGMENTS || q->segments % NSVCD__LANES)
-    return NSVCD_ERROR_SEGMENTS;
-  if (!nsvcd__is_length(q->tolerance)) return NSVCD_ERROR_TOLERANCE;
-  if (!nsvcd__is_length(q->clearance)) return NSVCD_ERROR_CLEARANCE;
-  if (!nsvcd__is_length(q->slop)) return NSVCD_ERROR_SLOP;
-  const int is_first = q->ask == NSVCD_ASK_FIRST;
-  if (!nsvcd__is_length(q->to) || (q->to > 0 && q->ask == NSVCD_ASK_HIT))
-    return NSVCD_ERROR_TO;
-  if (!nsvcd__is_length(q->to_time) || q->to_time > (is_first ? 1.0f : 0.0f))
-    return NSVCD_ERROR_TO_TIME;
-  if (q->manifold && !is_first) return NSVCD_ERROR_MANIFOLD;
-  // The network knows nothing of these.
-  const int by_network = q->method == NSVCD_METHOD_NETWORK;
-  const int needs_proof = q->clearance > 0 || q->slop > 0 || is_first || q->to > 0 ||
-                          (q->ask == NSVCD_ASK_DISTANCE && !by_network);
-  if (needs_proof && by_network) return NSVCD_ERROR_METHOD;
-  const nsvcd_method wanted = needs_proof ? NSVCD_METHOD_PROOF : q->method;
-  if (nsvcd__method_of(a->body, b->body, wanted) == NSVCD_METHOD_DEFAULT)
-    return wanted == NSVCD_METHOD_NETWORK ? NSVCD_ERROR_LATENTS : NSVCD_ERROR_TRIANGLES;
-#ifndef NSVCD_NO_NETWORK
-  nsvcd__settings unused;
-  return nsvcd__settings_of(&q->network, a->body->patches, b->body->patches, &unused);
-#else
-  return NSVCD_OK;
-#endif
-}
-
-// ---- who moves
-
-// The extent of a body, with what it goes beyond its triangles.
-static float nsvcd__extent_of(const nsvcd_mover *mover) {
-  const nsvcd_body *body = mover->body;
-  return nsvcd__scale_of(mover) * (body->extent + (nsvcd__whole_radius(body) - body->radius));
-}
-
-// Does b move, seen in a's frame? Of two bodies the one that moves does, else the smaller one. If
-// they are equal, any rule will do that does not depend on which of them is a: then both ways of
-// asking get the same answer.
-static int nsvcd__is_swapped(const nsvcd_mover *a, const nsvcd_mover *b) {
-  const size_t count_a = nsvcd__pose_count(a);
-  const size_t count_b = nsvcd__pose_count(b);
-  if ((count_a > 1) != (count_b > 1)) return count_b > 1;
-  const float size_a = nsvcd__extent_of(a);
-  const float size_b = nsvcd__extent_of(b);
-  if (size_a < size_b || size_b < size_a) return size_b < size_a;
-  if (a->body->checksum != b->body->checksum) return b->body->checksum < a->body->checksum;
-  if (count_a != count_b) return count_b < count_a;
-  const nsvcd_pose *poses_a = a->poses ? a->poses : &nsvcd__at_origin;
-  const nsvcd_pose *poses_b = b->poses ? b->poses : &nsvcd__at_origin;
-  const int order = memcmp(poses_b, poses_a, count_a * sizeof *poses_a);
-  if (order || count_a == 1 || a->times == b->times) return order < 0;
-  if (!a->times || !b->times) return !b->times;
-  return memcmp(b->times, a->times, count_a * sizeof *a->times) < 0;
-}
-
-// ---- lay out
-
-// What a question that is in order needs; NULL: what any may need.
-static nsvcd__needs nsvcd__needs_of(const nsvcd_question *q) {
-  nsvcd__needs needs = {NSVCD__TILE_SLOTS, NSVCD__TILE_SLOTS, 1, NSVCD__MAX_SEGMENTS, 0, 1};
-#ifndef NSVCD_NO_NETWORK
-  needs.candidates = NSVCD__SHORTLIST * NSVCD_MAX_PAIRS;
-#endif
-  if (!q) return needs;
-  const nsvcd_body *a = q->a.body;
-  const nsvcd_body *b = q->b.body;
-  const int swapped = nsvcd__is_swapped(&q->a, &q->b);
-  const size_t moving_groups = nsvcd__body_groups(swapped ? b : a);
-  const size_t fixed_groups = nsvcd__body_groups(swapped ? a : b);
-  if (moving_groups < NSVCD__TILE_SLOTS) needs.moving_groups = moving_groups;
-  if (fixed_groups < NSVCD__TILE_SLOTS) needs.fixed_groups = fixed_groups;
-  needs.large = nsvcd__is_tiled(a, b);
-  if (q->segments) needs.segments = nsvcd__round_up(q->segments, NSVCD__LANES);
-  needs.proof = nsvcd__method_of(a, b, q->method) == NSVCD_METHOD_PROOF;
-#ifndef NSVCD_NO_NETWORK
-  const nsvcd_network_options *o = &q->network;
-  const size_t pairs = o->pairs ? o->pairs : NSVCD_DEFAULT_PAIRS;
-  const size_t most = o->model == NSVCD_MODEL_TINY ? pairs : NSVCD__SHORTLIST * pairs;
-  needs.candidates = most > NSVCD__PORTION ? most : NSVCD__PORTION;
-  if (!a->weights_id || !b->weights_id) needs.candidates = 0;
-#endif
-  return needs;
-}
-
-// As nsvcd_sweep_workspace_size.
-static size_t nsvcd__sweep_size(const nsvcd_question *q) {
-  if (q && nsvcd__question_check(q)) return 0;
-  const nsvcd__needs needs = nsvcd__needs_of(q);
-  return nsvcd__query_layout(&needs, NULL);
-}
-
-// Checks a question, and that the workspace is large enough for it.
-static NSVCD__NOINLINE nsvcd_result nsvcd__sweep_check(const nsvcd_question *q,
-                                                       const void *workspace,
-                                                       size_t workspace_size) {
-  const nsvcd_result result = nsvcd__question_check(q);
-  if (result) return result;
-  if (!workspace || !nsvcd__is_aligned(workspace)) return NSVCD_ERROR_WORKSPACE;
-  const nsvcd__needs needs = nsvcd__needs_of(q);
-  const size_t size = nsvcd__query_layout(&needs, NULL);
-  return workspace_size >= size ? NSVCD_OK : NSVCD_ERROR_WORKSPACE;
-}
-
-// Lays out a checked question in the workspace, and chooses who moves.
-static NSVCD__NOINLINE nsvcd__query *nsvcd__query_open(const nsvcd_question *q,
-                                                       void *workspace) {
-  const nsvcd__needs needs = nsvcd__needs_of(q);
-  nsvcd__query *query = (nsvcd__query *)workspace;
-  nsvcd__task *task = &query->task;
-  (void)nsvcd__query_layout(&needs, (char *)workspace);
-  task->swapped = nsvcd__is_swapped(&q->a, &q->b);
-  const nsvcd_mover *moving = task->swapped ? &q->b : &q->a;
-  const nsvcd_mover *fixed = task->swapped ? &q->a : &q->b;
-  nsvcd__motion_init(moving, fixed, &task->motion);
-  task->moving = moving->body;
-  task->fixed = fixed->body;
-  task->lengths = task->motion.scale * task->moving->extent + task->fixed->extent;
-  task->method = nsvcd__method_of(task->moving, task->fixed, q->method);
-  task->question = q;
-#ifndef NSVCD_NO_NETWORK
-  task->decisive = NULL;
-#if NSVCD__ROWS == 1
-  task->row = (float *)(void *)query->broad_phase.met;
-#endif
-#endif
-  return query;
-}
-
-// ---- answer, and write
-
-static void nsvcd__swap(uint32_t *a, uint32_t *b) {
-  const uint32_t first = *a;
-  *a = *b;
-  *b = first;
-}
-
-// Exchanges a and b in what was found about the moving body and the fixed one.
-static void nsvcd__swap_contact(nsvcd_contact *c) {
-  nsvcd__swap(&c->patch_a, &c->patch_b);
-  nsvcd__swap(&c->triangle_a, &c->triangle_b);
-  const float gap = c->gap < HUGE_VALF ? c->gap : 0;
-  for (size_t k = 0; k < 3; k++) {
-    c->point[k] += gap * c->normal[k];
-    c->normal[k] = 0 - c->normal[k];
-  }
-}
-static void nsvcd__swap_answer(nsvcd_answer *answer) {
-  const nsvcd_pose moving = answer->safe.a;
-  answer->safe.a = answer->safe.b;
-  answer->safe.b = moving;
-  nsvcd__swap(&answer->opinion.patch_a, &answer->opinion.patch_b);
-  nsvcd__swap_contact(&answer->nearest);
-  for (size_t n = 0; n < answer->contact_count; n++) nsvcd__swap_contact(&answer->contacts[n]);
-  for (size_t k = 0; k < 3; k++) answer->push_out[k] = 0 - answer->push_out[k];
-}
-
-// Answers a question that has been checked and laid out. hint: NULL, or a batch's, for the network.
-static void nsvcd__answer_query(nsvcd__query *query, nsvcd__hint *hint, nsvcd_answer *answer) {
-  const nsvcd__task *task = &query->task;
-  (void)hint;
-#ifndef NSVCD_NO_PROOF
-  if (task->method == NSVCD_METHOD_PROOF) nsvcd__answer_by_proof(query, answer);
-#endif
-#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_NETWORK)
-  // The network has an opinion on what a proof leaves undecided, unless a clearance, a slop or a
-  // distance is asked for.
-  const nsvcd_question *q = task->question;
-  const int knows = task->moving->weights_id && task->fixed->weights_id &&
-                    !(q->clearance > 0 || q->ask == NSVCD_ASK_DISTANCE || q->slop > 0);
-  if (task->method == NSVCD_METHOD_PROOF && answer->verdict == NSVCD_UNDECIDED && knows)
-    (void)nsvcd__ask_network(query, NULL, &answer->opinion);
-#endif
-#ifndef NSVCD_NO_NETWORK
-  if (task->method == NSVCD_METHOD_NETWORK) nsvcd__answer_by_network(query, hint, answer);
-#endif
-  if (task->swapped) nsvcd__swap_answer(answer);
-}
-
-// As nsvcd_sweep_batch.
-static nsvcd_result nsvcd__run_batch(const nsvcd_question *questions, size_t count,
-                                     void *workspace, size_t workspace_size,
-                                     nsvcd_answer *answers) {
-  nsvcd__hint hint = {0, 0, 0, 0};
-  int swapped = 0;
-  if (count > 0 && (!questions || !answers)) return NSVCD_ERROR_ARGUMENT;
-  for (size_t k = 0; k < count; k++) {
-    const nsvcd_result result = nsvcd__sweep_check(&questions[k], workspace, workspace_size);
-    if (result) return result;
-  }
-  for (size_t k = 0; k < count; k++) {
-    const nsvcd_question *q = &questions[k];
-    nsvcd__query *query = nsvcd__query_open(q, workspace);
-    // The hint is about patches of the moving body and of the fixed one.
-    const int same = k > 0 && q->a.body == q[-1].a.body && q->b.body == q[-1].b.body;
-    if (!same || query->task.swapped != swapped) memset(&hint, 0, sizeof hint);
-    swapped = query->task.swapped;
-    nsvcd__answer_query(query, &hint, &answers[k]);
-  }
-  return NSVCD_OK;
-}
-
-// --------------------------------------------------------------------------------- query/self_test
-// In: nothing. Out: does this build compute as it should?
-
-// As nsvcd_self_test. Computes where a body's point (1, 0, 0) is at 16 ticks, while the body turns
-// by 90 degrees about z from (4, 0, 0) to (-4, 0, 0), seen from a body at (1, 2, 3) whose x, y, z
-// are y, z, x. Then two triangles that meet, and are apart when one of them is raised.
-static nsvcd_result nsvcd__run_self_test(void) {
-  // volatile, or the compiler would compute all this
-  const volatile float half = 0.70710678f;
-  const float turn = half;
-  const nsvcd_pose path[2] = {{{4, 0, 0}, {0, 0, 0, 1}}, {{-4, 0, 0}, {0, 0, turn, turn}}};
-  const nsvcd_pose rest = {{1, 2, 3}, {0.5f, 0.5f, 0.5f, 0.5f}};
-  const nsvcd_mover moving = {NULL, path, 2, NULL, 0};
-  const nsvcd_mover fixed = {NULL, &rest, 1, NULL, 0};
-  nsvcd__chords chords;
-  // A block, so that what comes after it shares its stack.
-  {
-    nsvcd__motion motion;
-    nsvcd__keyframes keyframes;
-    uint32_t ticks[NSVCD__LANES];
-    for (uint32_t l = 0; l < NSVCD__LANES; l++) ticks[l] = l;
-    nsvcd__motion_init(&moving, &fixed, &motion);
-    nsvcd__motion_set_ticks(&motion, NSVCD__LANES);
-    nsvcd__keyframes_read(&motion, ticks, NSVCD__LANES, &keyframes);
-    NSVCD__EACH_SLICE(l) {
-      const nsvcd__v_poses at = nsvcd__keyframes_load(&motion, &keyframes, l);
-      const nsvcd__v_pose seen = nsvcd__v_seen(&motion, &at);
-      const nsvcd__v3 arm = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
-      const nsvcd__vmat3 rotation = nsvcd__vmat3_of(seen.rotation);
-      const nsvcd__v3 start = nsvcd__vmat3_apply_add(rotation, arm, seen.position);
-      const nsvcd__v3 travel = nsvcd__v3_set(nsvcd__f3_of(0, 0, -0.5f));
-      nsvcd__chords_store(&chords, l, start, travel, nsvcd__v_set(0.1f));
-    }
-  }
-  int right = 1;
-  for (size_t l = 0; l < NSVCD__LANES; l++) {
-    const double angle = 1.5707963267948966 * (double)l / NSVCD__LANES;
-    const double x = 3 - 0.5 * (double)l + cos(angle);
-    right &= fabs((double)chords.start[0][l] - (sin(angle) - 2)) < 1e-4;
-    right &= fabs((double)chords.start[1][l] + 3) < 1e-4;
-    right &= fabs((double)chords.start[2][l] - x) < 1e-4;
-  }
-  // Only two of these chords come within 0.2 of the ninth point.
-  nsvcd__sphere resting = {{half - 2, -3, half - 1}, 0.1f};
-  right &= nsvcd__meet(&chords, resting) == 0x180;
-  resting.centre.y += 1;
-  right &= nsvcd__meet(&chords, resting) == 0;
-#ifndef NSVCD_NO_PROOF
-  const double height = 4 * (double)half;
-  const nsvcd__d3 a[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  nsvcd__d3 b[3] = {{0.25, 0.25, -1}, {0.25, 0.25, 1}, {2, 2, 1}};
-  right &= !(nsvcd__nearest_of(a, b).square > 0);
-  for (size_t k = 0; k < 3; k++) b[k].z += 1 + height;
-  right &= fabs(nsvcd__nearest_of(a, b).square - height * height) < 1e-9;
-#endif
-#ifdef NSVCD_ONE_PATH
-  // A product is rounded. If it were fused with the difference, 2^-24 would be left.
-  const volatile float one_up = 1 + 1.0f / 4096;
-  const volatile float square = 1 + 1.0f / 2048;
-  const float factor = one_up;
-  const float left = factor * factor - square;
-  right &= !(left > 0);
-#endif
-  return right ? NSVCD_OK : NSVCD_ERROR_BUILD;
-}
 
 // ======================================================== gradient: of distance or logit, by poses
 
@@ -18737,43 +17301,35 @@ static void nsvcd__gradient(const nsvcd__task *task, nsvcd__decisive *decisive,
   if (at.leaves) nsvcd__by_contact(m, &at, NSVCD__EXIT, pair.p2, by_time[1], out);
 }
 
-// As nsvcd_sweep_gradient.
-static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *workspace,
-                                        size_t workspace_size, nsvcd_answer *answer,
-                                        float *gradient_a, float *gradient_b) {
-  if (!question || !answer || (!gradient_a && !gradient_b)) return NSVCD_ERROR_ARGUMENT;
-  if (question->method == NSVCD_METHOD_PROOF) return NSVCD_ERROR_METHOD;
-  nsvcd_question by_network = *question;
-  by_network.method = NSVCD_METHOD_NETWORK;
-  const nsvcd_result result = nsvcd__sweep_check(&by_network, workspace, workspace_size);
-  if (result) return result;
-  nsvcd__query *query = nsvcd__query_open(&by_network, workspace);
-  nsvcd__task *task = &query->task;
-  nsvcd__decisive decisive;
-  task->decisive = &decisive;
-  nsvcd__answer_query(query, NULL, answer);
-  float *const out[2] = {task->swapped ? gradient_b : gradient_a,
-                         task->swapped ? gradient_a : gradient_b};
-  if (out[0]) memset(out[0], 0, 6 * task->motion.moving.count * sizeof(float));
-  if (out[1]) memset(out[1], 0, 6 * task->motion.fixed.count * sizeof(float));
-  if (answer->opinion.candidates > 0 && !answer->inside)
-    nsvcd__gradient(task, &decisive, query->broad_phase.time, out);
-  return NSVCD_OK;
-}
 #endif  // NSVCD_NO_GRADIENT
 
+// =============================================== entry: the kernels of each set, and the best ones
+
+// ----------------------------------------------------------------------------------- entry/kernels
+// In: the functions that work on vectors. Out: a table of them, one for each instruction set.
+
+static const nsvcd__kernels nsvcd__table = {
+    nsvcd__self_test_lanes,
+#ifndef NSVCD_NO_PROOF
+    nsvcd__separate,        nsvcd__is_contained_at_start,
+    nsvcd__bound_distance,  nsvcd__seek_positions,
+#endif
+#ifndef NSVCD_NO_NETWORK
+    nsvcd__ask_network,
+#endif
+#ifndef NSVCD_NO_GRADIENT
+    nsvcd__gradient,
+#endif
+};
 #ifndef NSVCD__ISA
-// ========================================================== entry: the processor picks the vectors
 
 // --------------------------------------------------------------------------------- entry/processor
-// In: a question. Out: its answer, by the functions for the widest vectors that the processor has.
+// In: a processor. Out: the kernels for the widest vectors that it has.
 //
-// If the compiler's flags allow SSE2 only, the default on x86-64, all that a query does is compiled
-// three times: with SSE2 above, and here with AVX2 and with AVX-512. At each call the processor
-// decides which of them answers. NSVCD_NO_DISPATCH leaves SSE2 only.
-//
-// For that the header includes itself. Only the rooms that use vectors are compiled again, under
-// other private names: nsvcd__prove becomes nsvcd__prove_avx2.
+// If the compiler's flags allow SSE2 only, the default on x86-64, the rooms that use vectors are
+// compiled three times: with SSE2 above, and here with AVX2 and with AVX-512, under other private
+// names: nsvcd__separate becomes nsvcd__separate_avx2. For that the header includes itself. At each
+// call the processor decides which of them answers. NSVCD_NO_DISPATCH leaves SSE2 only.
 
 #if NSVCD__SLICE == 4 && !defined(NSVCD_NO_DISPATCH) && !defined(NSVCD__NARROW) && \
     !defined(NSVCD__FROM_ROOMS)
@@ -18794,26 +17350,15 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define NSVCD__NUMBER_AT(name) NSVCD__OF_ISA(NSVCD__##name, NSVCD__ISA)
 
 // ---- the names, as src/make_header.py writes them
-#define NSVCD__ALL_DONE NSVCD__NUMBER_AT(ALL_DONE)
 #define NSVCD__ALONG_BOTH NSVCD__NUMBER_AT(ALONG_BOTH)
 #define NSVCD__ALONG_LINE NSVCD__NUMBER_AT(ALONG_LINE)
 #define NSVCD__ALONG_MOVING NSVCD__NUMBER_AT(ALONG_MOVING)
 #define NSVCD__ALONG_RESTING NSVCD__NUMBER_AT(ALONG_RESTING)
-#define NSVCD__ANSWERED NSVCD__NUMBER_AT(ANSWERED)
-#define NSVCD__AXES NSVCD__NUMBER_AT(AXES)
-#define NSVCD__BY_HULL NSVCD__NUMBER_AT(BY_HULL)
-#define NSVCD__BY_SLAB NSVCD__NUMBER_AT(BY_SLAB)
-#define NSVCD__BY_TRIANGLES NSVCD__NUMBER_AT(BY_TRIANGLES)
-#define NSVCD__CANNOT_TELL NSVCD__NUMBER_AT(CANNOT_TELL)
-#define NSVCD__CLEAR NSVCD__NUMBER_AT(CLEAR)
-#define NSVCD__CONTACTS NSVCD__NUMBER_AT(CONTACTS)
 #define NSVCD__DECODER_OUT NSVCD__NUMBER_AT(DECODER_OUT)
 #define NSVCD__DIRECTIONS NSVCD__NUMBER_AT(DIRECTIONS)
-#define NSVCD__DONE NSVCD__NUMBER_AT(DONE)
 #define NSVCD__ENTRY NSVCD__NUMBER_AT(ENTRY)
 #define NSVCD__ENTRY_BEGIN NSVCD__NUMBER_AT(ENTRY_BEGIN)
 #define NSVCD__ENTRY_END NSVCD__NUMBER_AT(ENTRY_END)
-#define NSVCD__EXHAUSTED NSVCD__NUMBER_AT(EXHAUSTED)
 #define NSVCD__EXIT NSVCD__NUMBER_AT(EXIT)
 #define NSVCD__EXIT_BEGIN NSVCD__NUMBER_AT(EXIT_BEGIN)
 #define NSVCD__EXIT_END NSVCD__NUMBER_AT(EXIT_END)
@@ -18830,10 +17375,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define NSVCD__FACT_TURN NSVCD__NUMBER_AT(FACT_TURN)
 #define NSVCD__FACT_VELOCITY NSVCD__NUMBER_AT(FACT_VELOCITY)
 #define NSVCD__FACT_WIDEST NSVCD__NUMBER_AT(FACT_WIDEST)
-#define NSVCD__FOUND_CONTACT NSVCD__NUMBER_AT(FOUND_CONTACT)
-#define NSVCD__FOUND_FREE NSVCD__NUMBER_AT(FOUND_FREE)
-#define NSVCD__FOUND_INSIDE NSVCD__NUMBER_AT(FOUND_INSIDE)
-#define NSVCD__FOUND_UNDECIDED NSVCD__NUMBER_AT(FOUND_UNDECIDED)
 #define NSVCD__GAPS NSVCD__NUMBER_AT(GAPS)
 #define NSVCD__GAP_BOTH NSVCD__NUMBER_AT(GAP_BOTH)
 #define NSVCD__GAP_LARGER NSVCD__NUMBER_AT(GAP_LARGER)
@@ -18841,48 +17382,18 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define NSVCD__GAP_SMALLER NSVCD__NUMBER_AT(GAP_SMALLER)
 #define NSVCD__INSTANTS NSVCD__NUMBER_AT(INSTANTS)
 #define NSVCD__MIDDLE NSVCD__NUMBER_AT(MIDDLE)
-#define NSVCD__NOTHING NSVCD__NUMBER_AT(NOTHING)
-#define NSVCD__NOT_ASKED NSVCD__NUMBER_AT(NOT_ASKED)
 #define NSVCD__OUT_DISTANCE NSVCD__NUMBER_AT(OUT_DISTANCE)
 #define NSVCD__OUT_LOGIT NSVCD__NUMBER_AT(OUT_LOGIT)
-#define NSVCD__SHRUNK NSVCD__NUMBER_AT(SHRUNK)
-#define NSVCD__SUPPORTING NSVCD__NUMBER_AT(SUPPORTING)
-#define NSVCD__TOO_LONG NSVCD__NUMBER_AT(TOO_LONG)
-#define NSVCD__TOUCHING NSVCD__NUMBER_AT(TOUCHING)
-#define nsvcd__across_edges NSVCD__AT(across_edges)
 #define nsvcd__add_dipoles NSVCD__AT(add_dipoles)
 #define nsvcd__add_patch_pairs NSVCD__AT(add_patch_pairs)
 #define nsvcd__add_to NSVCD__AT(add_to)
 #define nsvcd__add_transpose NSVCD__AT(add_transpose)
 #define nsvcd__add_wrench NSVCD__AT(add_wrench)
-#define nsvcd__aim_plane NSVCD__AT(aim_plane)
 #define nsvcd__all_segments NSVCD__AT(all_segments)
-#define nsvcd__answer_begin NSVCD__AT(answer_begin)
-#define nsvcd__answer_by_network NSVCD__AT(answer_by_network)
-#define nsvcd__answer_by_proof NSVCD__AT(answer_by_proof)
-#define nsvcd__answer_query NSVCD__AT(answer_query)
 #define nsvcd__answer_with NSVCD__AT(answer_with)
-#define nsvcd__approach NSVCD__AT(approach)
-#define nsvcd__approach_at NSVCD__AT(approach_at)
-#define nsvcd__arc NSVCD__AT(arc)
-#define nsvcd__arc_at NSVCD__AT(arc_at)
-#define nsvcd__arc_before NSVCD__AT(arc_before)
-#define nsvcd__arc_count NSVCD__AT(arc_count)
-#define nsvcd__arc_limit NSVCD__AT(arc_limit)
 #define nsvcd__arc_of NSVCD__AT(arc_of)
-#define nsvcd__arc_pose NSVCD__AT(arc_pose)
-#define nsvcd__are_opposite NSVCD__AT(are_opposite)
-#define nsvcd__arm NSVCD__AT(arm)
-#define nsvcd__arm_of NSVCD__AT(arm_of)
 #define nsvcd__ask_network NSVCD__AT(ask_network)
-#define nsvcd__asked NSVCD__AT(asked)
-#define nsvcd__axis_apart NSVCD__AT(axis_apart)
 #define nsvcd__beam NSVCD__AT(beam)
-#define nsvcd__bend_of NSVCD__AT(bend_of)
-#define nsvcd__bends NSVCD__AT(bends)
-#define nsvcd__best_push_out NSVCD__AT(best_push_out)
-#define nsvcd__beyond NSVCD__AT(beyond)
-#define nsvcd__block NSVCD__AT(block)
 #define nsvcd__block_arm NSVCD__AT(block_arm)
 #define nsvcd__block_bounds NSVCD__AT(block_bounds)
 #define nsvcd__block_lanes NSVCD__AT(block_lanes)
@@ -18890,7 +17401,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__block_pose NSVCD__AT(block_pose)
 #define nsvcd__bound_distance NSVCD__AT(bound_distance)
 #define nsvcd__bound_of NSVCD__AT(bound_of)
-#define nsvcd__boxes NSVCD__AT(boxes)
 #define nsvcd__boxes_of_groups NSVCD__AT(boxes_of_groups)
 #define nsvcd__by_contact NSVCD__AT(by_contact)
 #define nsvcd__by_facts NSVCD__AT(by_facts)
@@ -18905,21 +17415,10 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__by_pair NSVCD__AT(by_pair)
 #define nsvcd__by_poses NSVCD__AT(by_poses)
 #define nsvcd__by_view NSVCD__AT(by_view)
-#define nsvcd__candidate NSVCD__AT(candidate)
 #define nsvcd__candidate_radius NSVCD__AT(candidate_radius)
-#define nsvcd__candidates NSVCD__AT(candidates)
 #define nsvcd__candidates_add NSVCD__AT(candidates_add)
 #define nsvcd__candidates_start NSVCD__AT(candidates_start)
 #define nsvcd__certain_opinion NSVCD__AT(certain_opinion)
-#define nsvcd__check_budget NSVCD__AT(check_budget)
-#define nsvcd__choose_all NSVCD__AT(choose_all)
-#define nsvcd__choose_four NSVCD__AT(choose_four)
-#define nsvcd__choose_in_all NSVCD__AT(choose_in_all)
-#define nsvcd__choose_in_interval NSVCD__AT(choose_in_interval)
-#define nsvcd__choose_interval NSVCD__AT(choose_interval)
-#define nsvcd__choose_push_outs NSVCD__AT(choose_push_outs)
-#define nsvcd__choose_segments NSVCD__AT(choose_segments)
-#define nsvcd__chords NSVCD__AT(chords)
 #define nsvcd__chords_in_all NSVCD__AT(chords_in_all)
 #define nsvcd__chords_in_segment NSVCD__AT(chords_in_segment)
 #define nsvcd__chords_of_group NSVCD__AT(chords_of_group)
@@ -18927,26 +17426,17 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__chords_start NSVCD__AT(chords_start)
 #define nsvcd__chords_store NSVCD__AT(chords_store)
 #define nsvcd__chords_travel NSVCD__AT(chords_travel)
-#define nsvcd__clear_until NSVCD__AT(clear_until)
-#define nsvcd__clearance NSVCD__AT(clearance)
 #define nsvcd__clip_segment NSVCD__AT(clip_segment)
 #define nsvcd__closeness NSVCD__AT(closeness)
-#define nsvcd__collect_contact NSVCD__AT(collect_contact)
 #define nsvcd__collect_contacts NSVCD__AT(collect_contacts)
-#define nsvcd__collect_supports NSVCD__AT(collect_supports)
-#define nsvcd__collecting NSVCD__AT(collecting)
 #define nsvcd__collects_on NSVCD__AT(collects_on)
 #define nsvcd__collides_again NSVCD__AT(collides_again)
 #define nsvcd__comes_near NSVCD__AT(comes_near)
 #define nsvcd__comes_within NSVCD__AT(comes_within)
-#define nsvcd__constants_hold NSVCD__AT(constants_hold)
-#define nsvcd__contact_at NSVCD__AT(contact_at)
 #define nsvcd__contains_any NSVCD__AT(contains_any)
 #define nsvcd__contains_seeds NSVCD__AT(contains_seeds)
-#define nsvcd__corner_passes NSVCD__AT(corner_passes)
 #define nsvcd__cross_all NSVCD__AT(cross_all)
 #define nsvcd__crossings NSVCD__AT(crossings)
-#define nsvcd__cut NSVCD__AT(cut)
 #define nsvcd__cut_arc NSVCD__AT(cut_arc)
 #define nsvcd__cut_block NSVCD__AT(cut_block)
 #define nsvcd__cut_deviations NSVCD__AT(cut_deviations)
@@ -18956,59 +17446,32 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__cut_motion NSVCD__AT(cut_motion)
 #define nsvcd__cut_poses NSVCD__AT(cut_poses)
 #define nsvcd__cut_segments NSVCD__AT(cut_segments)
-#define nsvcd__d3_transform NSVCD__AT(d3_transform)
-#define nsvcd__decisive NSVCD__AT(decisive)
 #define nsvcd__decode NSVCD__AT(decode)
 #define nsvcd__decoder_gradient NSVCD__AT(decoder_gradient)
 #define nsvcd__decoder_run NSVCD__AT(decoder_run)
-#define nsvcd__deepen NSVCD__AT(deepen)
-#define nsvcd__depth_along NSVCD__AT(depth_along)
-#define nsvcd__deviation_of NSVCD__AT(deviation_of)
 #define nsvcd__dot_tile NSVCD__AT(dot_tile)
-#define nsvcd__dpose NSVCD__AT(dpose)
-#define nsvcd__dpose_at NSVCD__AT(dpose_at)
-#define nsvcd__dtransform NSVCD__AT(dtransform)
-#define nsvcd__dtransform_at NSVCD__AT(dtransform_at)
-#define nsvcd__edges_pass NSVCD__AT(edges_pass)
 #define nsvcd__enclosure NSVCD__AT(enclosure)
-#define nsvcd__end_of NSVCD__AT(end_of)
-#define nsvcd__epsilon NSVCD__AT(epsilon)
-#define nsvcd__errors_of NSVCD__AT(errors_of)
 #define nsvcd__exists NSVCD__AT(exists)
-#define nsvcd__exit_depth NSVCD__AT(exit_depth)
 #define nsvcd__exit_is_blocked NSVCD__AT(exit_is_blocked)
-#define nsvcd__extent_of NSVCD__AT(extent_of)
 #define nsvcd__extremes_along NSVCD__AT(extremes_along)
 #define nsvcd__extremes_collect NSVCD__AT(extremes_collect)
 #define nsvcd__f3_across NSVCD__AT(f3_across)
 #define nsvcd__f3_towards NSVCD__AT(f3_towards)
 #define nsvcd__f3_turned_back NSVCD__AT(f3_turned_back)
-#define nsvcd__facing NSVCD__AT(facing)
-#define nsvcd__facing_of NSVCD__AT(facing_of)
 #define nsvcd__farthest_extreme NSVCD__AT(farthest_extreme)
 #define nsvcd__find_witness NSVCD__AT(find_witness)
 #define nsvcd__find_witness_in NSVCD__AT(find_witness_in)
-#define nsvcd__finding NSVCD__AT(finding)
 #define nsvcd__first_lanes NSVCD__AT(first_lanes)
-#define nsvcd__fixed_closed NSVCD__AT(fixed_closed)
-#define nsvcd__forget NSVCD__AT(forget)
-#define nsvcd__found_inside NSVCD__AT(found_inside)
-#define nsvcd__fraction_of NSVCD__AT(fraction_of)
-#define nsvcd__gap_after NSVCD__AT(gap_after)
 #define nsvcd__gap_axes_of NSVCD__AT(gap_axes_of)
 #define nsvcd__gap_fact NSVCD__AT(gap_fact)
 #define nsvcd__gap_facts NSVCD__AT(gap_facts)
 #define nsvcd__gaps_at NSVCD__AT(gaps_at)
-#define nsvcd__given NSVCD__AT(given)
 #define nsvcd__gradient NSVCD__AT(gradient)
 #define nsvcd__greatest_of NSVCD__AT(greatest_of)
 #define nsvcd__group_against_group NSVCD__AT(group_against_group)
 #define nsvcd__group_against_members NSVCD__AT(group_against_members)
 #define nsvcd__group_extent NSVCD__AT(group_extent)
-#define nsvcd__has_turned NSVCD__AT(has_turned)
-#define nsvcd__height NSVCD__AT(height)
 #define nsvcd__held_again NSVCD__AT(held_again)
-#define nsvcd__hint NSVCD__AT(hint)
 #define nsvcd__hull_of NSVCD__AT(hull_of)
 #define nsvcd__hulls_are_apart NSVCD__AT(hulls_are_apart)
 #define nsvcd__inputs NSVCD__AT(inputs)
@@ -19017,48 +17480,28 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__inputs_write NSVCD__AT(inputs_write)
 #define nsvcd__instants NSVCD__AT(instants)
 #define nsvcd__instants_of NSVCD__AT(instants_of)
-#define nsvcd__interval NSVCD__AT(interval)
 #define nsvcd__interval_cuts NSVCD__AT(interval_cuts)
-#define nsvcd__interval_gap NSVCD__AT(interval_gap)
-#define nsvcd__interval_of_arc NSVCD__AT(interval_of_arc)
 #define nsvcd__intervals NSVCD__AT(intervals)
 #define nsvcd__intervals_close NSVCD__AT(intervals_close)
 #define nsvcd__invariants NSVCD__AT(invariants)
-#define nsvcd__inverse_dtransform NSVCD__AT(inverse_dtransform)
-#define nsvcd__is_against NSVCD__AT(is_against)
 #define nsvcd__is_approached NSVCD__AT(is_approached)
 #define nsvcd__is_before NSVCD__AT(is_before)
 #define nsvcd__is_clear NSVCD__AT(is_clear)
 #define nsvcd__is_contained NSVCD__AT(is_contained)
 #define nsvcd__is_contained_at_start NSVCD__AT(is_contained_at_start)
 #define nsvcd__is_contained_in NSVCD__AT(is_contained_in)
-#define nsvcd__is_deep NSVCD__AT(is_deep)
 #define nsvcd__is_enclosed NSVCD__AT(is_enclosed)
 #define nsvcd__is_harmless NSVCD__AT(is_harmless)
-#define nsvcd__is_large NSVCD__AT(is_large)
-#define nsvcd__is_left NSVCD__AT(is_left)
-#define nsvcd__is_long NSVCD__AT(is_long)
 #define nsvcd__is_new NSVCD__AT(is_new)
 #define nsvcd__is_on_beam NSVCD__AT(is_on_beam)
 #define nsvcd__is_separated NSVCD__AT(is_separated)
 #define nsvcd__is_shallower NSVCD__AT(is_shallower)
-#define nsvcd__is_straight NSVCD__AT(is_straight)
-#define nsvcd__is_swapped NSVCD__AT(is_swapped)
-#define nsvcd__is_tiled NSVCD__AT(is_tiled)
 #define nsvcd__judge NSVCD__AT(judge)
-#define nsvcd__keep_support NSVCD__AT(keep_support)
-#define nsvcd__keep_unresolved NSVCD__AT(keep_unresolved)
-#define nsvcd__keyframes NSVCD__AT(keyframes)
-#define nsvcd__keyframes_after NSVCD__AT(keyframes_after)
 #define nsvcd__keyframes_load NSVCD__AT(keyframes_load)
 #define nsvcd__keyframes_read NSVCD__AT(keyframes_read)
 #define nsvcd__keyframes_store NSVCD__AT(keyframes_store)
 #define nsvcd__know_moving NSVCD__AT(know_moving)
 #define nsvcd__know_resting NSVCD__AT(know_resting)
-#define nsvcd__known NSVCD__AT(known)
-#define nsvcd__known_pose NSVCD__AT(known_pose)
-#define nsvcd__lane_of NSVCD__AT(lane_of)
-#define nsvcd__lane_set NSVCD__AT(lane_set)
 #define nsvcd__lanes_left_by_known NSVCD__AT(lanes_left_by_known)
 #define nsvcd__lanes_left_by_last NSVCD__AT(lanes_left_by_last)
 #define nsvcd__lanes_left_by_own NSVCD__AT(lanes_left_by_own)
@@ -19074,145 +17517,54 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__least_lane NSVCD__AT(least_lane)
 #define nsvcd__least_of NSVCD__AT(least_of)
 #define nsvcd__left_by_normal NSVCD__AT(left_by_normal)
-#define nsvcd__limit_after NSVCD__AT(limit_after)
-#define nsvcd__limit_of_first NSVCD__AT(limit_of_first)
-#define nsvcd__manifold NSVCD__AT(manifold)
-#define nsvcd__manifold_begin NSVCD__AT(manifold_begin)
-#define nsvcd__manifold_normals NSVCD__AT(manifold_normals)
-#define nsvcd__mat3_lane NSVCD__AT(mat3_lane)
 #define nsvcd__matters NSVCD__AT(matters)
 #define nsvcd__may_be_close NSVCD__AT(may_be_close)
-#define nsvcd__measure NSVCD__AT(measure)
-#define nsvcd__measure_once NSVCD__AT(measure_once)
-#define nsvcd__measure_turn NSVCD__AT(measure_turn)
 #define nsvcd__meet NSVCD__AT(meet)
 #define nsvcd__meet_in NSVCD__AT(meet_in)
 #define nsvcd__meet_members NSVCD__AT(meet_members)
-#define nsvcd__meets_at NSVCD__AT(meets_at)
 #define nsvcd__meets_sphere NSVCD__AT(meets_sphere)
 #define nsvcd__members_left NSVCD__AT(members_left)
 #define nsvcd__members_meet NSVCD__AT(members_meet)
 #define nsvcd__members_of NSVCD__AT(members_of)
-#define nsvcd__memo NSVCD__AT(memo)
-#define nsvcd__met_along NSVCD__AT(met_along)
-#define nsvcd__method_of NSVCD__AT(method_of)
-#define nsvcd__motion NSVCD__AT(motion)
-#define nsvcd__motion_gap NSVCD__AT(motion_gap)
-#define nsvcd__motion_init NSVCD__AT(motion_init)
-#define nsvcd__motion_pose NSVCD__AT(motion_pose)
-#define nsvcd__motion_refine NSVCD__AT(motion_refine)
-#define nsvcd__motion_retime NSVCD__AT(motion_retime)
-#define nsvcd__motion_set_fine_ticks NSVCD__AT(motion_set_fine_ticks)
-#define nsvcd__motion_set_ticks NSVCD__AT(motion_set_ticks)
-#define nsvcd__motion_set_times NSVCD__AT(motion_set_times)
-#define nsvcd__motion_set_tracks NSVCD__AT(motion_set_tracks)
-#define nsvcd__move_back NSVCD__AT(move_back)
-#define nsvcd__mover_check NSVCD__AT(mover_check)
 #define nsvcd__moving_block_load NSVCD__AT(moving_block_load)
-#define nsvcd__moving_closed NSVCD__AT(moving_closed)
 #define nsvcd__moving_range NSVCD__AT(moving_range)
-#define nsvcd__narrow NSVCD__AT(narrow)
-#define nsvcd__narrow_intervals NSVCD__AT(narrow_intervals)
-#define nsvcd__narrow_segments NSVCD__AT(narrow_segments)
-#define nsvcd__nearby NSVCD__AT(nearby)
 #define nsvcd__nearest2 NSVCD__AT(nearest2)
 #define nsvcd__nearest_groups NSVCD__AT(nearest_groups)
 #define nsvcd__nearest_tick NSVCD__AT(nearest_tick)
-#define nsvcd__needs NSVCD__AT(needs)
-#define nsvcd__needs_of NSVCD__AT(needs_of)
-#define nsvcd__network_constants_hold NSVCD__AT(network_constants_hold)
-#define nsvcd__next_interval NSVCD__AT(next_interval)
-#define nsvcd__next_keyframe NSVCD__AT(next_keyframe)
-#define nsvcd__next_pose NSVCD__AT(next_pose)
 #define nsvcd__next_probe NSVCD__AT(next_probe)
-#define nsvcd__normal_met NSVCD__AT(normal_met)
 #define nsvcd__normal_to_try NSVCD__AT(normal_to_try)
 #define nsvcd__normals_separate NSVCD__AT(normals_separate)
-#define nsvcd__note_depth NSVCD__AT(note_depth)
 #define nsvcd__of_distance NSVCD__AT(of_distance)
-#define nsvcd__off_chord_along NSVCD__AT(off_chord_along)
-#define nsvcd__off_edge NSVCD__AT(off_edge)
-#define nsvcd__off_meshes NSVCD__AT(off_meshes)
-#define nsvcd__outcome NSVCD__AT(outcome)
-#define nsvcd__own_axis NSVCD__AT(own_axis)
-#define nsvcd__pace NSVCD__AT(pace)
 #define nsvcd__pair NSVCD__AT(pair)
-#define nsvcd__pair_arm NSVCD__AT(pair_arm)
-#define nsvcd__pair_contact NSVCD__AT(pair_contact)
-#define nsvcd__pair_nearest NSVCD__AT(pair_nearest)
-#define nsvcd__pair_of NSVCD__AT(pair_of)
-#define nsvcd__pair_passes NSVCD__AT(pair_passes)
 #define nsvcd__pairs NSVCD__AT(pairs)
 #define nsvcd__pairs_in_passing NSVCD__AT(pairs_in_passing)
 #define nsvcd__pairs_of NSVCD__AT(pairs_of)
 #define nsvcd__passing NSVCD__AT(passing)
-#define nsvcd__patch_arm NSVCD__AT(patch_arm)
 #define nsvcd__patch_near NSVCD__AT(patch_near)
-#define nsvcd__patch_pair NSVCD__AT(patch_pair)
 #define nsvcd__patches_apart NSVCD__AT(patches_apart)
-#define nsvcd__plane_cache NSVCD__AT(plane_cache)
 #define nsvcd__plane_cache_begin NSVCD__AT(plane_cache_begin)
-#define nsvcd__plane_separates NSVCD__AT(plane_separates)
 #define nsvcd__planes_known NSVCD__AT(planes_known)
-#define nsvcd__pose_at NSVCD__AT(pose_at)
-#define nsvcd__pose_before NSVCD__AT(pose_before)
-#define nsvcd__pose_error NSVCD__AT(pose_error)
 #define nsvcd__pose_members NSVCD__AT(pose_members)
-#define nsvcd__pose_round NSVCD__AT(pose_round)
-#define nsvcd__pose_triangle NSVCD__AT(pose_triangle)
-#define nsvcd__poses_at NSVCD__AT(poses_at)
-#define nsvcd__poses_opposed NSVCD__AT(poses_opposed)
 #define nsvcd__probes NSVCD__AT(probes)
 #define nsvcd__probes_measure NSVCD__AT(probes_measure)
-#define nsvcd__proof NSVCD__AT(proof)
-#define nsvcd__proof_begin NSVCD__AT(proof_begin)
-#define nsvcd__proof_constants_hold NSVCD__AT(proof_constants_hold)
-#define nsvcd__proof_restart NSVCD__AT(proof_restart)
-#define nsvcd__prove NSVCD__AT(prove)
-#define nsvcd__prove_anew NSVCD__AT(prove_anew)
-#define nsvcd__prove_by_time NSVCD__AT(prove_by_time)
-#define nsvcd__prove_first NSVCD__AT(prove_first)
-#define nsvcd__prove_intervals NSVCD__AT(prove_intervals)
-#define nsvcd__prove_motion NSVCD__AT(prove_motion)
-#define nsvcd__prove_part NSVCD__AT(prove_part)
 #define nsvcd__prove_segments NSVCD__AT(prove_segments)
 #define nsvcd__prove_tiles NSVCD__AT(prove_tiles)
-#define nsvcd__prove_whole NSVCD__AT(prove_whole)
-#define nsvcd__push_out NSVCD__AT(push_out)
-#define nsvcd__push_out_motion NSVCD__AT(push_out_motion)
-#define nsvcd__push_out_still NSVCD__AT(push_out_still)
-#define nsvcd__query NSVCD__AT(query)
-#define nsvcd__query_layout NSVCD__AT(query_layout)
-#define nsvcd__query_open NSVCD__AT(query_open)
-#define nsvcd__question_check NSVCD__AT(question_check)
-#define nsvcd__ranges NSVCD__AT(ranges)
 #define nsvcd__ranges_store NSVCD__AT(ranges_store)
 #define nsvcd__ray NSVCD__AT(ray)
 #define nsvcd__ray_crosses NSVCD__AT(ray_crosses)
-#define nsvcd__resolve_normal NSVCD__AT(resolve_normal)
-#define nsvcd__resolve_pair NSVCD__AT(resolve_pair)
 #define nsvcd__resolve_patch_pair NSVCD__AT(resolve_patch_pair)
 #define nsvcd__resolve_patch_pairs NSVCD__AT(resolve_patch_pairs)
 #define nsvcd__resolve_row NSVCD__AT(resolve_row)
-#define nsvcd__resolve_short_interval NSVCD__AT(resolve_short_interval)
-#define nsvcd__resolve_straight NSVCD__AT(resolve_straight)
-#define nsvcd__resolve_too_near NSVCD__AT(resolve_too_near)
 #define nsvcd__resolve_triangles NSVCD__AT(resolve_triangles)
-#define nsvcd__rest_at NSVCD__AT(rest_at)
 #define nsvcd__resting NSVCD__AT(resting)
 #define nsvcd__resting_of NSVCD__AT(resting_of)
 #define nsvcd__rotate_degree NSVCD__AT(rotate_degree)
 #define nsvcd__rotate_latent NSVCD__AT(rotate_latent)
 #define nsvcd__row_left NSVCD__AT(row_left)
-#define nsvcd__run_batch NSVCD__AT(run_batch)
-#define nsvcd__run_gradient NSVCD__AT(run_gradient)
-#define nsvcd__run_self_test NSVCD__AT(run_self_test)
 #define nsvcd__score NSVCD__AT(score)
-#define nsvcd__search NSVCD__AT(search)
 #define nsvcd__search_and_judge NSVCD__AT(search_and_judge)
 #define nsvcd__search_begin NSVCD__AT(search_begin)
 #define nsvcd__search_group NSVCD__AT(search_group)
-#define nsvcd__search_layout NSVCD__AT(search_layout)
 #define nsvcd__search_moving_tile NSVCD__AT(search_moving_tile)
 #define nsvcd__search_next_tile NSVCD__AT(search_next_tile)
 #define nsvcd__search_pair NSVCD__AT(search_pair)
@@ -19220,84 +17572,35 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__search_step NSVCD__AT(search_step)
 #define nsvcd__search_tile NSVCD__AT(search_tile)
 #define nsvcd__seed_is_near NSVCD__AT(seed_is_near)
-#define nsvcd__seek_across NSVCD__AT(seek_across)
 #define nsvcd__seek_in_patch_pair NSVCD__AT(seek_in_patch_pair)
 #define nsvcd__seek_positions NSVCD__AT(seek_positions)
 #define nsvcd__seems_contained_at_start NSVCD__AT(seems_contained_at_start)
-#define nsvcd__segment_count NSVCD__AT(segment_count)
 #define nsvcd__segment_deviation NSVCD__AT(segment_deviation)
-#define nsvcd__segment_interval NSVCD__AT(segment_interval)
-#define nsvcd__segments NSVCD__AT(segments)
 #define nsvcd__segments_in NSVCD__AT(segments_in)
 #define nsvcd__segments_left NSVCD__AT(segments_left)
 #define nsvcd__segments_that_matter NSVCD__AT(segments_that_matter)
+#define nsvcd__self_test_lanes NSVCD__AT(self_test_lanes)
+#define nsvcd__separate NSVCD__AT(separate)
 #define nsvcd__separate_groups NSVCD__AT(separate_groups)
 #define nsvcd__separated_along NSVCD__AT(separated_along)
-#define nsvcd__set_down NSVCD__AT(set_down)
-#define nsvcd__settings NSVCD__AT(settings)
-#define nsvcd__settings_of NSVCD__AT(settings_of)
-#define nsvcd__shallowest NSVCD__AT(shallowest)
 #define nsvcd__sift_patch_pairs NSVCD__AT(sift_patch_pairs)
 #define nsvcd__slabs_meet NSVCD__AT(slabs_meet)
-#define nsvcd__slerp NSVCD__AT(slerp)
-#define nsvcd__slerp_at NSVCD__AT(slerp_at)
-#define nsvcd__slerp_init NSVCD__AT(slerp_init)
-#define nsvcd__slerp_turn NSVCD__AT(slerp_turn)
 #define nsvcd__slice_against_patch NSVCD__AT(slice_against_patch)
 #define nsvcd__sort_patch_pairs NSVCD__AT(sort_patch_pairs)
-#define nsvcd__spanned NSVCD__AT(spanned)
-#define nsvcd__spare_boxes NSVCD__AT(spare_boxes)
-#define nsvcd__spare_chords NSVCD__AT(spare_chords)
 #define nsvcd__spheres_at_box NSVCD__AT(spheres_at_box)
 #define nsvcd__sticks_out NSVCD__AT(sticks_out)
-#define nsvcd__subtrack NSVCD__AT(subtrack)
 #define nsvcd__support NSVCD__AT(support)
 #define nsvcd__support_along NSVCD__AT(support_along)
-#define nsvcd__surface_gap NSVCD__AT(surface_gap)
 #define nsvcd__surface_is_near NSVCD__AT(surface_is_near)
-#define nsvcd__swap NSVCD__AT(swap)
-#define nsvcd__swap_answer NSVCD__AT(swap_answer)
-#define nsvcd__swap_contact NSVCD__AT(swap_contact)
-#define nsvcd__sweep_check NSVCD__AT(sweep_check)
-#define nsvcd__sweep_size NSVCD__AT(sweep_size)
-#define nsvcd__take_contact NSVCD__AT(take_contact)
-#define nsvcd__take_nearest NSVCD__AT(take_nearest)
+#define nsvcd__table NSVCD__AT(table)
 #define nsvcd__take_patch_pairs NSVCD__AT(take_patch_pairs)
-#define nsvcd__takes_push_out NSVCD__AT(takes_push_out)
-#define nsvcd__task NSVCD__AT(task)
-#define nsvcd__tick_in_segments NSVCD__AT(tick_in_segments)
-#define nsvcd__tick_of NSVCD__AT(tick_of)
-#define nsvcd__tile NSVCD__AT(tile)
 #define nsvcd__tile_fill NSVCD__AT(tile_fill)
 #define nsvcd__tile_fill_all NSVCD__AT(tile_fill_all)
-#define nsvcd__time_in_arc NSVCD__AT(time_in_arc)
 #define nsvcd__time_in_segment NSVCD__AT(time_in_segment)
-#define nsvcd__time_of NSVCD__AT(time_of)
-#define nsvcd__to_of NSVCD__AT(to_of)
-#define nsvcd__track NSVCD__AT(track)
-#define nsvcd__track_box NSVCD__AT(track_box)
-#define nsvcd__track_of NSVCD__AT(track_of)
-#define nsvcd__track_pose NSVCD__AT(track_pose)
-#define nsvcd__track_pose_at NSVCD__AT(track_pose_at)
 #define nsvcd__track_poses_at NSVCD__AT(track_poses_at)
-#define nsvcd__track_turn NSVCD__AT(track_turn)
-#define nsvcd__tracks_gap NSVCD__AT(tracks_gap)
-#define nsvcd__transform_of NSVCD__AT(transform_of)
-#define nsvcd__travel_in NSVCD__AT(travel_in)
-#define nsvcd__triangle_contact NSVCD__AT(triangle_contact)
-#define nsvcd__triangle_pair NSVCD__AT(triangle_pair)
-#define nsvcd__try_push_out NSVCD__AT(try_push_out)
 #define nsvcd__turned NSVCD__AT(turned)
 #define nsvcd__turned_back NSVCD__AT(turned_back)
 #define nsvcd__turned_back_by_w NSVCD__AT(turned_back_by_w)
-#define nsvcd__twist NSVCD__AT(twist)
-#define nsvcd__twist_at NSVCD__AT(twist_at)
-#define nsvcd__twist_of NSVCD__AT(twist_of)
-#define nsvcd__unclear NSVCD__AT(unclear)
-#define nsvcd__undoes NSVCD__AT(undoes)
-#define nsvcd__undoing NSVCD__AT(undoing)
-#define nsvcd__undone_by NSVCD__AT(undone_by)
-#define nsvcd__unit_rotation NSVCD__AT(unit_rotation)
 #define nsvcd__v NSVCD__AT(v)
 #define nsvcd__v3 NSVCD__AT(v3)
 #define nsvcd__v3_add NSVCD__AT(v3_add)
@@ -19402,24 +17705,11 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__wigner NSVCD__AT(wigner)
 #define nsvcd__winding_number NSVCD__AT(winding_number)
 #define nsvcd__window_load NSVCD__AT(window_load)
-#define nsvcd__world_at NSVCD__AT(world_at)
-#define nsvcd__world_pose NSVCD__AT(world_pose)
-#define nsvcd__world_pose_between NSVCD__AT(world_pose_between)
-#define nsvcd__world_pose_of NSVCD__AT(world_pose_of)
-#define nsvcd__write_contact NSVCD__AT(write_contact)
-#define nsvcd__write_manifold NSVCD__AT(write_manifold)
-#define nsvcd__write_safe_pose NSVCD__AT(write_safe_pose)
-#define nsvcd__write_time NSVCD__AT(write_time)
 
 // ---- the passes
 
-// gcc makes these loops fast only at -O3: they take 0.75 to 0.85 of the time at -O2. Its clones of
-// functions by constant arguments gain nothing, at 30 KB and an eighth of its own time.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC push_options
-#if defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
-#pragma GCC optimize("O3", "no-ipa-cp-clone")
-#endif
 #pragma GCC target("avx2,fma,bmi,bmi2,lzcnt,popcnt")
 #elif defined(__clang__)
 #pragma clang attribute push(__attribute__((target("avx2,fma,bmi,bmi2,lzcnt,popcnt"))), \
@@ -19499,41 +17789,1574 @@ static nsvcd__isa nsvcd__isa_at_hand(void) {
 }
 #endif
 
-#define NSVCD__BEST(name) \
-  (nsvcd__isa_at_hand() == NSVCD__AVX512 ? nsvcd__##name##_avx512 \
-   : nsvcd__isa_at_hand() == NSVCD__AVX2 ? nsvcd__##name##_avx2 \
-                                         : nsvcd__##name)
+// The kernels for the widest vectors that the processor has.
+static const nsvcd__kernels *nsvcd__best_kernels(void) {
+  static const nsvcd__kernels *const all[] = {&nsvcd__table, &nsvcd__table_avx2,
+                                              &nsvcd__table_avx512};
+  return all[nsvcd__isa_at_hand()];
+}
 #else
-#define NSVCD__BEST(name) nsvcd__##name
+static const nsvcd__kernels *nsvcd__best_kernels(void) {
+  return &nsvcd__table;
+}
 #endif  // NSVCD__DISPATCH
 
-// ---- the public functions of queries
+// By the kernels of one instruction set. The triangles are apart when one of them is raised.
+static nsvcd_result nsvcd__run_self_test(const nsvcd__kernels *kernels) {
+  int right = kernels->self_test();
+#ifndef NSVCD_NO_PROOF
+  const volatile double height = 2.8;  // volatile, or the compiler would compute all this
+  const nsvcd__d3 a[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  nsvcd__d3 b[3] = {{0.25, 0.25, -1}, {0.25, 0.25, 1}, {2, 2, 1}};
+  right &= !(nsvcd__nearest_of(a, b).square > 0);
+  for (size_t k = 0; k < 3; k++) b[k].z += 1 + height;
+  right &= fabs(nsvcd__nearest_of(a, b).square - height * height) < 1e-9;
+#endif
+  return right ? NSVCD_OK : NSVCD_ERROR_BUILD;
+}
 
 NSVCDDEF nsvcd_result nsvcd_self_test(void) {
-  return NSVCD__BEST(run_self_test)();
+  return nsvcd__run_self_test(nsvcd__best_kernels());
+}
+
+// =============================================================== query: a question, and its answer
+
+// ----------------------------------------------------------------------------------- query/verdict
+// In: a question, and the segments chosen of a motion or of an interval of it. Out: do the bodies
+// meet; where asked, when first, and how near they come.
+
+#ifndef NSVCD_NO_PROOF
+// A component is inside the other body. That replaces any contact found since.
+static nsvcd__finding nsvcd__found_inside(nsvcd__proof *p) {
+  memset(&p->known.found, 0, sizeof p->known.found);
+  p->known.found.point = p->enclosed;
+  p->known.found.moving_triangle = NSVCD_NO_TRIANGLE;
+  p->known.found.fixed_triangle = NSVCD_NO_TRIANGLE;
+  return NSVCD__FOUND_INSIDE;
+}
+
+// The tick before which nothing meets, or NEVER.
+static double nsvcd__clear_until(const nsvcd__proof *p) {
+  if (p->unclear) return 0;
+  return nsvcd__min(nsvcd__min(p->ask.end, p->known.unresolved),
+                    p->known.ran_out ? p->known.resolved : NSVCD__NEVER);
+}
+
+// Forgets all that was known of a motion, or of an interval.
+static void nsvcd__proof_restart(nsvcd__proof *p) {
+  memset(&p->known, 0, sizeof p->known);
+  p->known.resolved = (double)p->ask.motion->from;
+  p->ask.end = p->clipped_end = p->known.unresolved = NSVCD__NEVER;
+  p->ask.unresolved_ends = 0;
+  p->clipped = 0;
+  p->arc.ticks = 0;
+  p->count = p->fresh_count = p->misses = p->contact_count = 0;
+  p->too_deep = 0;
+  nsvcd__forget(&p->memo);
+}
+
+// Searches a motion whose segments have been chosen, and resolves what it finds.
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_motion(nsvcd__proof *p, nsvcd__search *q) {
+  p->ask.first = p->ask.fraction * (double)p->ask.motion->ticks;
+  const nsvcd__outcome outcome = p->kernels->separate(p, q);
+  p->known.ran_out = outcome == NSVCD__EXHAUSTED;
+  return outcome;
+}
+
+// The same for any motion, from scratch.
+static nsvcd__outcome nsvcd__prove_anew(nsvcd__proof *p, nsvcd__search *q) {
+  nsvcd__proof_restart(p);
+  nsvcd__choose_segments(p->ask.motion, q);
+  return nsvcd__prove_motion(p, q);
+}
+
+// The pose at the start of a motion, or at its end, as a motion of its own.
+static nsvcd__motion nsvcd__end_of(const nsvcd__motion *m, int at_end) {
+  nsvcd__motion still = *m;
+  nsvcd__track moving = m->moving;
+  nsvcd__track fixed = m->fixed;
+  moving.poses += at_end ? moving.count - 1 : 0;
+  fixed.poses += at_end ? fixed.count - 1 : 0;
+  moving.count = fixed.count = 1;
+  moving.times = fixed.times = NULL;
+  still.begin = at_end ? 1 : 0;
+  still.duration = 0;
+  nsvcd__motion_set_tracks(&still, moving, fixed);
+  return still;
+}
+
+// Do triangles meet at the start alone, or at the end? Takes so many units at most. If they do,
+// that is the known contact; if not, all that was known is lost.
+static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *q, int at_end,
+                                           size_t units) {
+  const nsvcd__asked asked = p->ask;
+  nsvcd__motion still = nsvcd__end_of(asked.motion, at_end);
+  p->ask.motion = &still;
+  p->ask.fraction = 0;
+  p->ask.limit = nsvcd__limit_after(p, units);
+  p->ask.is_brief = 1;
+  const int meets = nsvcd__prove_anew(p, q) == NSVCD__ANSWERED;
+  p->known.found.tick = at_end ? (double)asked.motion->ticks : 0;
+  p->ask = asked;
+  p->ask.end = 0;
+  return meets;
+}
+
+// Searches segments that have been chosen, first with a small budget: most queries end there. Many
+// of the rest touch only at the start or at the end, so these two poses are tried before all is
+// searched again. The search for a first contact begins at the start anyway, and the ends of a long
+// motion have been tried before its intervals.
+static nsvcd__outcome nsvcd__prove_whole(nsvcd__proof *p, nsvcd__search *q, size_t limit) {
+  const int is_brief = !p->ask.motion->arcs && !(p->ask.fraction > 0);
+  p->ask.is_brief = is_brief && p->work + NSVCD__BRIEF_BUDGET < limit;
+  p->ask.limit = p->ask.is_brief ? p->work + NSVCD__BRIEF_BUDGET : limit;
+  const nsvcd__outcome outcome = nsvcd__prove_motion(p, q);
+  if (outcome != NSVCD__EXHAUSTED || !p->ask.is_brief) return outcome;
+  // half of what may follow an unresolved pair has been used
+  if (p->known.unresolved < NSVCD__NEVER)
+    p->ask.after_unresolved -= p->ask.after_unresolved / 2;
+  for (int at_end = 0; at_end < 2; at_end++) {
+    if (nsvcd__meets_at(p, q, at_end, NSVCD__END_BUDGET)) return NSVCD__ANSWERED;
+  }
+  p->ask.is_brief = 0;
+  p->ask.limit = limit;
+  return nsvcd__prove_anew(p, q);
+}
+
+// Searches a part of the motion, from one position in segments to another, for the first contact
+// there or the first unresolved pair, and adds what it finds to what is known of all before it.
+// *end: the tick from which on nothing matters.
+static void nsvcd__prove_part(nsvcd__proof *p, nsvcd__search *q, double from, double to,
+                              nsvcd__known *known, double *end) {
+  const nsvcd__known *part = &p->known;
+  nsvcd__proof_restart(p);
+  nsvcd__choose_segments(p->ask.motion, q);
+  // this many ticks to one of before
+  const double finer = nsvcd__motion_refine(p->ask.motion);
+  nsvcd__narrow_segments(q, from, to, finer);
+  p->ask.end = nsvcd__min(p->ask.end, finer * *end);
+  p->ask.unresolved_ends = 1;
+  (void)nsvcd__prove_motion(p, q);
+  const double last = (double)q->begin[q->segments];
+  if (part->has_contact) {
+    known->has_contact = 1;
+    known->found = part->found;
+    known->found.tick /= finer;
+    *end = p->ask.end / finer;
+  }
+  if (part->ran_out) return;
+  if (part->unresolved < NSVCD__NEVER) {
+    known->unresolved_pair = part->unresolved_pair;
+    known->unresolved_pair.tick /= finer;
+    known->unresolved = part->unresolved / finer;
+  }
+  known->resolved = nsvcd__min(last, p->ask.end) / finer;
+}
+
+// The budget did not suffice for the first contact. Searches again by time, from what is resolved
+// on: one part of the motion after another, a shorter one where a part takes too many units.
+static NSVCD__NOINLINE void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *q,
+                                                 size_t limit) {
+  nsvcd__known known = p->known;
+  const double ticks = (double)p->ask.motion->ticks;
+  const double all = (double)q->segments;
+  double end = p->ask.end;
+  double from = 0;
+  double length = NSVCD__FIRST_PART;
+  double grows = 4;
+  size_t units = limit;
+  while (from < all && (double)q->begin[(size_t)from + 1] <= known.resolved) from++;
+  p->ask.is_brief = 1;
+  for (;;) {
+    const double until = nsvcd__min(ticks, nsvcd__min(end, known.unresolved));
+    known.ran_out = known.resolved < until;
+    if (!known.ran_out || p->work >= limit) break;
+    const size_t before = p->work;
+    const double whole = floor(from + length);
+    const double to = whole > from ? nsvcd__min(whole, all) : from + length;
+    p->ask.limit = limit - before > units ? before + units : limit;
+    nsvcd__prove_part(p, q, from, to, &known, &end);
+    if (p->known.ran_out) {
+      length /= 8;
+      grows = 2;
+    } else {
+      from = to;
+      length *= grows;
+      units = 8 * (p->work - before) + NSVCD__PART_BUDGET;
+    }
+  }
+  p->ask.is_brief = 0;
+  nsvcd__proof_restart(p);
+  nsvcd__choose_segments(p->ask.motion, q);
+  p->known = known;
+  p->ask.end = end;
+}
+
+// When do they meet first? What is proven of that stays proven when the budget ends.
+static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *q) {
+  const nsvcd__outcome outcome = nsvcd__prove_whole(p, q, nsvcd__limit_of_first(p));
+  const double from = (double)p->ask.motion->from;
+  // An interval is short, and all before it is known.
+  if (p->known.ran_out && !p->ask.motion->arcs) nsvcd__prove_by_time(p, q, p->ask.most);
+  const nsvcd__known known = p->known;
+  const double end = p->ask.end;
+  if (from > 0 && known.has_contact) {
+    p->starts_free = 1;
+  } else if (known.has_contact && nsvcd__clear_until(p) <= 0 && known.found.tick > 0) {
+    // The contact is so early that they may meet at the start already.
+    if (nsvcd__meets_at(p, q, 0, p->given.work)) return NSVCD__ANSWERED;
+    p->starts_free = !p->known.ran_out && !(p->known.unresolved < NSVCD__NEVER);
+    p->known = known;
+    p->ask.end = end;
+  }
+  return outcome;
+}
+
+// ---- the least distance
+
+// One pass: a search whose question shrinks, for a bracket as narrow as p->ask.measure. Adds what
+// it finds to what is known. Returns whether the budget sufficed; if so, they come no nearer than
+// p->low.
+static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *q) {
+  nsvcd__known known = p->known;
+  const int is_named = known.has_contact || known.unresolved < NSVCD__NEVER;
+  p->ask.clearance = is_named ? nsvcd__max(p->low, p->high - p->ask.measure) : p->high;
+  nsvcd__proof_restart(p);
+  const nsvcd__outcome pass = nsvcd__prove_motion(p, q);
+  if (p->known.has_contact) {
+    known.has_contact = 1;
+    known.found = p->known.found;
+  }
+  p->known = known;
+  if (pass != NSVCD__EXHAUSTED) p->low = p->ask.clearance;
+  return pass != NSVCD__EXHAUSTED;
+}
+
+// Makes the bracket as narrow as `finest`. If half of the budget does not suffice for that, the
+// rest goes to brackets that get narrower and narrower; the last that was completed stays.
+static void nsvcd__narrow(nsvcd__proof *p, nsvcd__search *q, double finest) {
+  p->ask.measure = finest;
+  p->ask.limit = nsvcd__limit_after(p, p->given.work / 2);
+  if (nsvcd__measure_once(p, q)) return;
+  p->ask.limit = p->ask.most;
+  p->ask.measure = p->high - p->low;
+  while (!p->wide && p->ask.measure > finest) {
+    p->ask.measure = nsvcd__max(finest, p->ask.measure / NSVCD__FINER);
+    p->wide = !nsvcd__measure_once(p, q);
+  }
+}
+#endif  // NSVCD_NO_PROOF
+
+// -------------------------------------------------------------------------------------- query/long
+// In: a question about a motion of any length. Out: the verdict; where asked, when the bodies first
+// meet, and how near they come.
+//
+// A motion that is too long for one search (motion/choice) is searched interval by interval, in the
+// order of time, each as if it were all of the motion: memory is needed for one. The motion is free
+// if all intervals are. Containment is decided once, at t = 0: what is inside of what later on, and
+// not then, has crossed a surface in between. A contact in any interval answers a yes or no, so the
+// ends of the motion, where most contacts are, are tried first. The first contact is in the first
+// interval that has one. An interval that stays unresolved before it ends what is proven, and from
+// there on the question is only whether they meet at all. For the least distance each contact
+// lowers the bound, and later intervals need only stay beyond it.
+//
+// Most of a long motion is far from anything, or easy. So a *try* takes many more arcs than an
+// interval has, with a small budget. If that does not suffice, it is searched in smaller parts.
+
+#ifndef NSVCD_NO_PROOF
+// How fast intervals go through a motion: how many in a row have been easy, and how many must be
+// before the next try.
+typedef struct nsvcd__pace {
+  uint32_t easy, wait;
+} nsvcd__pace;
+
+// The arcs of the first interval: all of the motion, as a try.
+#define NSVCD__ALL_ARCS 0xffffffffu
+
+// Chooses the next interval: larger if those before took little work; with segments that turn less
+// if the one before took much; a part of a try that failed.
+static void nsvcd__next_interval(nsvcd__motion *m, nsvcd__search *q, uint32_t until,
+                                 int is_resolved, size_t units, nsvcd__pace *pace) {
+  uint32_t arcs = m->arcs;
+  if (!is_resolved) {
+    arcs = arcs > NSVCD__SMALLER ? arcs / NSVCD__SMALLER : 1;
+    if (arcs == 1 && pace->wait < NSVCD__WAIT) pace->wait *= 2;
+    pace->easy = 0;
+  } else if (arcs > 1) {
+    arcs *= NSVCD__LARGER;
+    pace->wait = 1;
+  } else {
+    pace->easy = units <= NSVCD__EASY ? pace->easy + 1 : 0;
+    if (pace->easy >= pace->wait) arcs = NSVCD__LARGER;
+    m->is_fine = units > NSVCD__TRY;
+  }
+  if (is_resolved) m->from = until;
+  if (m->from < m->ticks) nsvcd__choose_interval(m, q, m->from, arcs);
+}
+
+// The surfaces of bodies whose origins stay so far apart come no nearer than this.
+static float nsvcd__surface_gap(const nsvcd__proof *p, float origin_gap) {
+  const float pushed_out = 1.0001f * nsvcd__f3_norm(p->ask.motion->push_out);
+  return origin_gap - p->given.lengths - pushed_out;
+}
+
+// Searches a motion interval by interval, until a contact answers. In the end that contact is
+// known, and all else that is known is of the first interval that was not resolved.
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
+                                                             nsvcd__search *q) {
+  nsvcd__motion *m = p->ask.motion;
+  const double asked = p->ask.fraction;
+  nsvcd__outcome outcome = NSVCD__DONE;
+  nsvcd__known open = p->known;
+  double end = NSVCD__NEVER;
+  double fraction = asked;  // 0: any contact will do
+  int is_open = 0;
+  const size_t units =
+      p->given.reserve < NSVCD__END_BUDGET ? p->given.reserve : NSVCD__END_BUDGET;
+  for (int at_end = 0; at_end < 2 && !(asked > 0); at_end++) {
+    if (nsvcd__meets_at(p, q, at_end, units)) return NSVCD__ANSWERED;
+  }
+  nsvcd__pace pace = {0, 1};
+  nsvcd__choose_interval(m, q, 0, NSVCD__ALL_ARCS);
+  while (m->from < m->ticks) {
+    const uint32_t until = q->begin[q->segments];
+    const int is_try = m->arcs > 1;
+    const size_t before = p->work;
+    if (p->given.grows) p->ask.most = p->work + p->given.work;
+    nsvcd__proof_restart(p);
+    outcome = NSVCD__DONE;
+    const float gap = nsvcd__interval_gap(m, m->from, until);
+    if (!(nsvcd__surface_gap(p, gap) > nsvcd__clearance(p))) {
+      p->ask.is_brief = is_try;
+      p->ask.fraction = is_try ? 0 : fraction;
+      p->ask.after_unresolved =
+          fraction > 0 ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.reserve;
+      p->ask.limit = is_try ? nsvcd__limit_after(p, NSVCD__TRY) : p->ask.most;
+      outcome = p->ask.fraction > 0 ? nsvcd__prove_first(p, q) : nsvcd__prove_motion(p, q);
+    }
+    const int is_resolved = outcome == NSVCD__DONE && !(p->known.unresolved < NSVCD__NEVER);
+    const int has_contact = p->known.has_contact && !(is_try && fraction > 0);
+    if (is_open && has_contact) {
+      open.has_contact = 1;
+      open.found = p->known.found;
+    }
+    if (!is_open && !is_try && !is_resolved && !has_contact) {
+      open = p->known;
+      end = p->ask.end;
+      is_open = 1;
+      fraction = 0;
+    }
+    if (has_contact || (is_open && !p->given.grows && p->work > p->ask.most)) break;
+    nsvcd__next_interval(m, q, until, is_resolved || !is_try, p->work - before, &pace);
+  }
+  p->ask.is_brief = 0;
+  p->ask.fraction = asked;
+  if (!is_open) return outcome;
+  p->known = open;
+  p->ask.end = end;
+  return NSVCD__DONE;
+}
+
+// Answers a question: do the bodies meet, and when?
+static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *q) {
+  nsvcd__motion *m = p->ask.motion;
+  const int in_order = p->ask.fraction > 0;
+  const float gap = nsvcd__surface_gap(p, nsvcd__motion_gap(m));
+  p->ask.limit = p->given.work;
+  p->ask.after_unresolved = in_order ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.reserve;
+  if (gap > nsvcd__clearance(p)) return NSVCD__FOUND_FREE;
+  const int is_long = nsvcd__is_long(m, q);
+  if (p->kernels->is_contained_at_start(p)) {
+    // It is a hit. A question that asks for more gets triangles, if some meet as well.
+    const int meets = p->given.tells && nsvcd__meets_at(p, q, 0, NSVCD__INSIDE_BUDGET);
+    return meets ? NSVCD__FOUND_CONTACT : nsvcd__found_inside(p);
+  }
+  const nsvcd__outcome outcome = is_long    ? nsvcd__prove_intervals(p, q)
+                                 : in_order ? nsvcd__prove_first(p, q)
+                                            : nsvcd__prove_whole(p, q, p->given.work);
+  const double clear = nsvcd__clear_until(p);
+  if (outcome == NSVCD__ANSWERED) return NSVCD__FOUND_CONTACT;
+  if (p->inside && clear > 0) return nsvcd__found_inside(p);
+  if (p->known.has_contact) return NSVCD__FOUND_CONTACT;
+  if (p->known.unresolved < NSVCD__NEVER) p->known.found = p->known.unresolved_pair;
+  return clear < NSVCD__NEVER ? NSVCD__FOUND_UNDECIDED : NSVCD__FOUND_FREE;
+}
+
+// ---- the least distance
+
+// Narrows the bracket interval by interval. A budget that was given is divided by time: each
+// interval gets of what is left the share that it has of the rest of the motion.
+static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__search *q,
+                                                    double finest) {
+  nsvcd__motion *m = p->ask.motion;
+  const size_t most = p->ask.most;
+  const size_t work = p->given.work;
+  const double known = p->low;
+  nsvcd__pace pace = {0, 1};
+  double low = p->high;
+  int is_wide = 0;
+  while (m->from < m->ticks) {
+    const uint32_t until = q->begin[q->segments];
+    const size_t before = p->work;
+    const int is_named = p->known.has_contact || p->known.unresolved < NSVCD__NEVER;
+    int is_resolved = 1;
+    if (!p->given.grows) {
+      const double rest = (double)(until - m->from) / (double)(m->ticks - m->from);
+      p->given.work = p->work < most ? (size_t)(rest * (double)(most - p->work)) : 0;
+    }
+    p->ask.most = p->work + p->given.work;
+    const float gap = nsvcd__interval_gap(m, m->from, until);
+    p->low = nsvcd__max(known, (double)nsvcd__surface_gap(p, gap));
+    p->wide = 0;
+    if (p->low < p->high && !(is_named && p->high - p->low <= finest)) {
+      if (m->arcs > 1) {
+        p->ask.measure = finest;
+        p->ask.limit = nsvcd__limit_after(p, NSVCD__TRY);
+        is_resolved = nsvcd__measure_once(p, q);
+      } else {
+        nsvcd__narrow(p, q, finest);
+      }
+    }
+    if (is_resolved) low = nsvcd__min(low, p->low);
+    is_wide |= p->wide;
+    nsvcd__next_interval(m, q, until, is_resolved, p->work - before, &pace);
+  }
+  p->given.work = work;
+  p->ask.most = most;
+  p->low = nsvcd__min(low, p->high);
+  p->wide = is_wide && p->high - p->low > finest;
+}
+
+// Brackets the least distance over the motion, once it is known whether they come within the
+// clearance.
+static NSVCD__NOINLINE void nsvcd__measure(nsvcd__proof *p, nsvcd__search *q,
+                                           nsvcd__finding verdict, double finest) {
+  nsvcd__motion *m = p->ask.motion;
+  int is_named = p->known.has_contact || p->known.unresolved < NSVCD__NEVER;
+  const float gap = nsvcd__surface_gap(p, nsvcd__motion_gap(m));
+  p->low = nsvcd__max(verdict == NSVCD__FOUND_FREE ? p->given.clearance : 0, (double)gap);
+  const int is_long = nsvcd__is_long(m, q);
+  if (is_long) nsvcd__choose_interval(m, q, 0, NSVCD__ALL_ARCS);
+  p->high = is_named ? p->known.found.distance : p->kernels->bound_distance(p, q);
+  is_named = is_named || p->known.has_contact;
+  if (is_named && !(p->high - p->low > finest)) return;
+  if (is_long)
+    nsvcd__narrow_intervals(p, q, finest);
+  else
+    nsvcd__narrow(p, q, finest);
+}
+#endif  // NSVCD_NO_PROOF
+
+// ------------------------------------------------------------------------------------- query/leave
+// In: a question with a slop. Out: the question about a body pushed out of what it touches at the
+// start.
+//
+// What carries a body must not stop it. Which contacts are those? The proof is about the body
+// displaced by a vector v that has the slop's length along every normal that it touches at the
+// start. That is a motion like any other, and what is proven of it is proven: the displaced body
+// stays clear of everything, so the body itself goes no deeper than |v| into anything. There is no
+// such v for what presses in deeper than the slop, or is held from opposite sides: that is hit as
+// ever. v is constant as the fixed body sees it.
+
+#ifndef NSVCD_NO_PROOF
+// How good a push-out along a direction is.
+typedef struct nsvcd__undoing {
+  nsvcd__d3 n;
+  // Twice how many touches it undoes. A touch counts once if the push-out goes against its faces:
+  // what is beyond a face already, or is round and its middle is, would go further in.
+  size_t count;
+  size_t faces;     // touches with a face of about this normal
+  double distance;  // how far it has to go
+} nsvcd__undoing;
+
+// Does a push-out along n go against all faces of a touch? A triangle without area has none.
+static int nsvcd__is_against(nsvcd__d3 n, const nsvcd__triangle_contact *t) {
+  int against = 0;
+  for (size_t i = 0; i < 2; i++) {
+    const int is_face = nsvcd__d3_dot(t->directions[i], t->directions[i]) > 0.5;
+    if (is_face && nsvcd__d3_dot(n, t->directions[i]) > -0.3) return 0;
+    against |= is_face;
+  }
+  return against;
+}
+
+// Takes a direction, unit, if it is better than the best so far: if it undoes more; of equals, if
+// it goes less far; of those that go as far, if more faces have it.
+static void nsvcd__try_push_out(const nsvcd__proof *p, nsvcd__d3 n, nsvcd__undoing *best) {
+  const double same = nsvcd__epsilon(p) + 0.01 * nsvcd__max(best->distance, 0);
+  nsvcd__undoing by = {n, 0, 0, -HUGE_VAL};
+  if (best->count > 0 && nsvcd__d3_dot(n, best->n) > 0.99999) return;
+  for (size_t k = 0; k < p->contact_count; k++) {
+    const nsvcd__triangle_contact *t = &p->of.touches[k];
+    const size_t left = 2 * (p->contact_count - k);
+    if (by.count + left < best->count) return;
+    if (by.count + left == best->count && by.distance > best->distance + same) return;
+    if (!nsvcd__undoes(p, n, t)) continue;
+    const double distance = nsvcd__depth_along(n, t);
+    by.count += distance < 0 && !p->by_faces && nsvcd__is_against(n, t) ? 1u : 2u;
+    by.faces +=
+        nsvcd__d3_dot(n, t->directions[0]) > 0.9 || nsvcd__d3_dot(n, t->directions[1]) > 0.9;
+    by.distance = p->by_faces ? 0 : nsvcd__max(by.distance, distance);
+  }
+  if (by.count == 0 || by.count < best->count) return;
+  const int is_as_far = by.distance > best->distance - same;
+  if (by.count == best->count && by.distance > best->distance + same) return;
+  if (by.count == best->count && is_as_far && by.faces <= best->faces) return;
+  *best = by;
+}
+
+// The best of the normals of all touches and of the directions across an edge of each. Its count is
+// 0 if none undoes any touch.
+static nsvcd__undoing nsvcd__best_push_out(const nsvcd__proof *p) {
+  nsvcd__undoing best = {{0, 0, 0}, 0, 0, HUGE_VAL};
+  for (size_t k = 0; k < p->contact_count; k++) {
+    for (size_t i = 0; i < 3; i++)
+      nsvcd__try_push_out(p, p->of.touches[k].directions[i], &best);
+  }
+  // an edge on an edge
+  for (size_t k = 0; k < 9 * p->contact_count && best.distance > nsvcd__epsilon(p); k++) {
+    const nsvcd__triangle_contact *t = &p->of.touches[k / 9];
+    const nsvcd__d3 n = nsvcd__across_edges(t->moving, t->fixed, k % 9);
+    const nsvcd__d3 out = nsvcd__d3_add(t->directions[0], t->directions[1]);
+    const double side = nsvcd__d3_dot(n, out) < 0 ? -1 : 1;
+    nsvcd__try_push_out(p, nsvcd__d3_scale(n, side), &best);
+  }
+  return best;
+}
+
+// Finds directions that undo all touches. Returns 0 if nothing undoes one, or it takes too many.
+static int nsvcd__choose_push_outs(nsvcd__proof *p) {
+  if (p->too_deep) return 0;
+  while (p->contact_count > 0) {
+    const size_t k = p->normal_count;
+    if (k == NSVCD__PUSH_OUTS) return 0;
+    const nsvcd__undoing best = nsvcd__best_push_out(p);
+    if (best.count == 0) return 0;
+    p->normals[k] = best.n;
+    p->depths[k] = 0;
+    p->normal_count++;
+    size_t left = 0;
+    for (size_t n = 0; n < p->contact_count; n++) {
+      if (!nsvcd__undone_by(p, k, &p->of.touches[n])) p->of.touches[left++] = p->of.touches[n];
+    }
+    p->contact_count = left;
+  }
+  return 1;
+}
+
+// Nearly the shortest vector that has at least `least` along all known normals, plus, with
+// by_depth, the depth along each: projections onto one half space after another (the relaxation
+// method, Agmon 1954). 0 if there is none below four times the longest of these.
+static nsvcd__d3 nsvcd__push_out(const nsvcd__proof *p, double least, int by_depth) {
+  nsvcd__d3 push_out = {0, 0, 0};
+  double longest = 0;
+  for (size_t round = 0; round < 64; round++) {
+    double most = 0;
+    for (size_t k = 0; k < p->normal_count; k++) {
+      const double along = least + (by_depth ? p->depths[k] : 0);
+      const double lacks = along - nsvcd__d3_dot(push_out, p->normals[k]);
+      longest = nsvcd__max(longest, along);
+      most = nsvcd__max(most, lacks);
+      if (lacks > 0) push_out = nsvcd__d3_add(push_out, nsvcd__d3_scale(p->normals[k], lacks));
+    }
+    if (nsvcd__d3_norm(push_out) > 4 * longest) break;
+    if (most <= 0.005 * longest) return push_out;
+  }
+  return nsvcd__d3_of(0, 0, 0);
+}
+
+// Pushes a body at rest out of what it touches: by nothing at first, and by more as long as
+// something touches. Triangles smaller than the slop can be separated along a wall that their
+// neighbours still touch, and there may be too many touches to collect at once: so each push-out is
+// tried. If the directions known have no push-out in common, the first one may be wrong, and is
+// forgotten, once. Returns 0 if there is no push-out.
+static int nsvcd__push_out_still(nsvcd__proof *p, nsvcd__search *q, nsvcd__motion *still) {
+  p->normal_count = 0;
+  still->push_out = nsvcd__f3_of(0, 0, 0);
+  // Also what is about to touch, or where an earlier motion may have ended, is pushed out of, and
+  // may not touch afterwards.
+  const double size = (double)p->given.lengths + p->given.radius;
+  const double near_by = nsvcd__min(0.05 * p->ask.slop, 0.02 * size);
+  double beside = nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * p->ask.slop));
+  for (int turns = 0;; beside = 0.01 * p->ask.slop) {
+    p->ask.clearance = p->given.clearance + beside + nsvcd__epsilon(p);
+    (void)nsvcd__prove_anew(p, q);
+    if (p->contact_count == 0) return 1;
+    const size_t known = p->normal_count;
+    if (!nsvcd__choose_push_outs(p) || p->normal_count == known) return 0;
+    nsvcd__d3 push_out = nsvcd__push_out(p, p->ask.slop, 0);
+    if (!(nsvcd__d3_dot(push_out, push_out) > 0) && turns++ == 0) {
+      memmove(p->normals, p->normals + 1, --p->normal_count * sizeof *p->normals);
+      memmove(p->depths, p->depths + 1, p->normal_count * sizeof *p->depths);
+      push_out = nsvcd__push_out(p, p->ask.slop, 0);
+    }
+    if (!(nsvcd__d3_dot(push_out, push_out) > 0)) return 0;
+    still->push_out = nsvcd__f3_round(push_out);
+  }
+}
+
+// Makes the depths known as exact as need be. What is not in touch at the start may be where the
+// body is pushed out to, and not all touches may have been collected. So the body is pushed out by
+// little more than the known depths, to see what it touches there, until nothing does. Triangles
+// that follow each other, as on a slope, each come free soon: so the little more doubles as long as
+// depths grow.
+static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *q, nsvcd__motion *still) {
+  const nsvcd__f3 push_out = still->push_out;
+  const double least_more = 0.5 * nsvcd__epsilon(p);
+  double more = least_more;
+  double before = 0;
+  p->ask.clearance = p->given.clearance;
+  for (size_t k = 0; k < p->normal_count; k++) before += p->depths[k];
+  for (int round = 0; round < NSVCD__DEEPEN; round++) {
+    double after = 0;
+    still->push_out = nsvcd__f3_round(nsvcd__push_out(p, more, 1));
+    (void)nsvcd__prove_anew(p, q);
+    // A touch gets out of the way along the normal that undoes it first, even if no plane normal to
+    // that separates it.
+    for (size_t n = 0; n < p->contact_count; n++) {
+      const nsvcd__triangle_contact *t = &p->of.touches[n];
+      size_t best = 0;
+      double least = HUGE_VAL;
+      for (size_t k = 0; k < p->normal_count; k++) {
+        const double distance = nsvcd__depth_along(p->normals[k], t);
+        if (distance < least) best = k;
+        least = nsvcd__min(least, distance);
+      }
+      nsvcd__note_depth(p, best, t);
+    }
+    for (size_t k = 0; k < p->normal_count; k++) after += p->depths[k];
+    const int is_deeper = after > before;
+    if (!is_deeper && more <= nsvcd__max(least_more, 0.002 * after)) break;
+    more = is_deeper ? 2 * more : nsvcd__max(least_more, 0.125 * more);
+    before = after;
+  }
+  still->push_out = push_out;
+}
+
+// Pushes the motion out of what it touches at its start, by the slop; or, if something is in the
+// way of that and nothing is too deep, by what is needed.
+static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__proof *p, nsvcd__search *q) {
+  nsvcd__motion *whole = p->ask.motion;
+  nsvcd__motion start = nsvcd__end_of(whole, 0);
+  p->ask.motion = &start;
+  p->ask.collects = NSVCD__TOUCHING;
+  p->ask.slop = p->given.slop;
+  p->by_faces = 0;
+  p->needed = 0;
+  int is_free = nsvcd__push_out_still(p, q, &start);
+  if (!is_free && !p->too_deep) {
+    // The shortest push-outs may not go together.
+    p->by_faces = 1;
+    p->needed = 0;
+    is_free = nsvcd__push_out_still(p, q, &start);
+  }
+  const double least = 1.1 * p->needed + 4 * nsvcd__epsilon(p);
+  if (!is_free && p->contact_count == 0 && least < 0.9 * p->given.slop) {
+    p->ask.slop = least;
+    is_free = nsvcd__push_out_still(p, q, &start);
+  }
+  if (is_free && p->normal_count > 0) nsvcd__deepen(p, q, &start);
+  p->ask.collects = NSVCD__CONTACTS;
+  p->ask.clearance = p->given.clearance;
+  p->ask.motion = whole;
+  whole->push_out = is_free ? start.push_out : nsvcd__f3_of(0, 0, 0);
+  nsvcd__proof_restart(p);
+}
+#endif  // NSVCD_NO_PROOF
+
+// ----------------------------------------------------------------------------------- query/normals
+// In: a contact, and the motion that led to it. Out: its normal.
+//
+// Just before two triangles meet, the direction between their nearest points still separates them:
+// of all directions left at the contact, it is the one most against the motion. Where a corner
+// comes to a face it is the face's normal, on the side that the corner comes from; where an edge
+// crosses an edge, across both; where a corner comes to a corner, against the motion. A contact may
+// be found a little after they have met: so one triangle is moved back, with the contact point's
+// velocity, until they are separated. If they have touched from the start, the motion tells
+// nothing: then it is the direction along which they are the least deep.
+//
+// Triangles within the clearance that do not meet have a direction: their nearest points'. It is
+// along the motion only if they have been nearer, and then the contact is moved to before that.
+
+#ifndef NSVCD_NO_PROOF
+// The arc of a time in ticks; at a keyframe, the arc that ends there: by that one the body came to
+// the contact.
+static const nsvcd__arc *nsvcd__arc_before(nsvcd__proof *p, double tick, double *u) {
+  uint32_t first = nsvcd__arc_of(p->ask.motion, tick, u);
+  if (first > 0 && tick - (double)first < 6e-8 * (double)p->ask.motion->ticks) {
+    first = nsvcd__arc_of(p->ask.motion, (double)first - 0.5, u);
+    *u = 1;
+  }
+  return nsvcd__arc_at(p, first);
+}
+
+// The triangles of a contact at a time, and how the bodies move then.
+typedef struct nsvcd__approach {
+  nsvcd__triangle_pair pair;
+  nsvcd__triangle_contact contact;
+  nsvcd__twist twist;
+  double u;
+} nsvcd__approach;
+
+static NSVCD__NOINLINE void nsvcd__approach_at(nsvcd__proof *p,
+                                               const nsvcd__pair_contact *found, double tick,
+                                               nsvcd__approach *out) {
+  const nsvcd__arc *arc = nsvcd__arc_before(p, tick, &out->u);
+  const nsvcd__dtransform at = nsvcd__dtransform_at(arc, out->u);
+  out->pair = nsvcd__pair_of(p, found->moving_patch, found->fixed_patch, found->moving_entry,
+                             found->fixed_entry);
+  nsvcd__pose_triangle(&at, out->pair.moving, out->contact.moving);
+  memcpy(out->contact.fixed, out->pair.fixed, sizeof out->contact.fixed);
+  out->contact.directions[0] = nsvcd__d3_scale(nsvcd__face_direction(out->contact.moving), -1);
+  out->contact.directions[1] = nsvcd__face_direction(out->contact.fixed);
+  out->twist = nsvcd__twist_at(arc, out->u);
+}
+
+// Moves a contact to an earlier time, from `since` on, when its triangles were as near and did not
+// come apart; if they meet, to when they began to. It stays if they touched at `since` and have
+// come apart ever since.
+static NSVCD__NOINLINE void nsvcd__move_back(nsvcd__proof *p, double since) {
+  nsvcd__pair_contact *found = &p->known.found;
+  nsvcd__pair_contact sooner = *found;
+  double early = since;
+  double late = found->tick;
+  double tick = late;
+  for (size_t k = 0; k < NSVCD__HALVINGS && early < late; k++) {
+    nsvcd__approach then;
+    nsvcd__approach_at(p, found, tick, &then);
+    const nsvcd__nearest nearest = nsvcd__nearest_of(then.contact.moving, then.contact.fixed);
+    const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+    const nsvcd__d3 speed = nsvcd__twist_of(&then.twist, nearest.on_b);
+    const double gap = sqrt(nearest.square);
+    const int are_near = k == 0 || gap <= found->distance + then.pair.rounding;
+    const int nearing = gap > then.pair.rounding && !(nsvcd__d3_dot(speed, apart) > 0);
+    if (are_near && k > 0) sooner = nsvcd__contact_at(p, &then.pair, then.u, &nearest);
+    if (are_near && nearing) break;
+    *(are_near ? &late : &early) = tick;
+    tick = k == 0 ? early : 0.5 * (early + late);
+  }
+  if (early < late) *found = sooner;
+}
+
+// The separating axes of two triangles that touch: two normals and nine products of edges, both
+// ways. 0: edges are parallel.
+enum { NSVCD__AXES = 22 };
+static nsvcd__d3 nsvcd__axis_apart(const nsvcd__triangle_contact *t, size_t k) {
+  const nsvcd__d3 n =
+      k < 4 ? t->directions[1 - k / 2] : nsvcd__across_edges(t->moving, t->fixed, k / 2 - 2);
+  return nsvcd__d3_scale(n, k % 2 ? -1 : 1);
+}
+
+// The normal at which two triangles met that touch, if the moving one came straight along `travel`,
+// by `most` times that at most. 0: it did not. Nearer than the triangles are known, nothing tells
+// which of them a corner met: so it is the normal a little before.
+static NSVCD__NOINLINE int nsvcd__met_along(const nsvcd__proof *p, const nsvcd__approach *a,
+                                            nsvcd__d3 travel, double most, nsvcd__d3 *normal) {
+  const nsvcd__triangle_contact *t = &a->contact;
+  const double close = 16 * nsvcd__epsilon(p) / nsvcd__d3_norm(travel);
+  double back = HUGE_VAL;  // where they met, as a fraction of `travel`
+  double before = 0;
+  nsvcd__d3 moved[3];
+  for (size_t k = 0; k < NSVCD__AXES; k++) {
+    const nsvcd__d3 n = nsvcd__axis_apart(t, k);
+    const double fall = -nsvcd__d3_dot(n, travel);
+    const double deep = nsvcd__depth_along(n, t);
+    if (!(fall > 0) || !(deep < back * fall)) continue;
+    back = deep / fall;
+    before = nsvcd__max(close, 1e4 * a->pair.rounding / fall);
+    *normal = n;
+  }
+  if (!(back < most)) return 0;
+  const nsvcd__d3 off = nsvcd__d3_scale(travel, back + before);
+  for (int n = 0; n < 3; n++) moved[n] = nsvcd__d3_sub(t->moving[n], off);
+  const nsvcd__nearest nearest = nsvcd__nearest_of(moved, t->fixed);
+  const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+  if (nsvcd__d3_dot(apart, travel) < 0) *normal = nsvcd__d3_unit(apart, *normal);
+  return 1;
+}
+
+// The direction along which two triangles that touch are the least deep in each other; of several
+// the one most against `travel`. A face of a closed surface has one side, and the direction is not
+// against both faces.
+static NSVCD__NOINLINE nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p,
+                                                   const nsvcd__approach *a,
+                                                   nsvcd__d3 travel) {
+  const int moving_closed = nsvcd__moving_closed(p, &a->pair);
+  const int fixed_closed = nsvcd__fixed_closed(p, &a->pair);
+  const nsvcd__triangle_contact *t = &a->contact;
+  const double same = 1e4 * a->pair.rounding;
+  nsvcd__d3 best = t->directions[1];
+  double least = HUGE_VAL;
+  for (size_t k = 0; k < NSVCD__AXES; k++) {
+    const nsvcd__d3 n = nsvcd__axis_apart(t, k);
+    const int out_of_a = !moving_closed || nsvcd__d3_dot(n, t->directions[0]) >= -1e-9;
+    const int out_of_b = !fixed_closed || nsvcd__d3_dot(n, t->directions[1]) >= -1e-9;
+    int is_out = out_of_a || out_of_b;
+    if (k < 4) is_out = k < 2 ? out_of_b : out_of_a;
+    if (!is_out || !(nsvcd__d3_dot(n, n) > 0.5)) continue;
+    const double depth = nsvcd__depth_along(n, t);
+    const double more = nsvcd__d3_dot(nsvcd__d3_sub(best, n), travel);
+    if (depth > least - same && !(depth < least + same && more > 0)) continue;
+    best = n;
+    least = nsvcd__min(least, depth);
+  }
+  return best;
+}
+
+// The normal at which the triangles of the known contact met, if that was after `since`, or, if
+// they were free of each other then, at any time. 0: it was not.
+static int nsvcd__normal_met(nsvcd__proof *p, double since, int is_free,
+                             nsvcd__approach *now) {
+  nsvcd__pair_contact *found = &p->known.found;
+  nsvcd__approach_at(p, found, found->tick, now);
+  const nsvcd__d3 speed = nsvcd__twist_of(&now->twist, found->point);
+  const nsvcd__d3 travel = nsvcd__d3_scale(speed, found->tick - since);
+  return nsvcd__met_along(p, now, travel, is_free ? HUGE_VAL : 1, &found->normal);
+}
+
+// Are two times, in ticks, in different arcs?
+static int nsvcd__has_turned(const nsvcd__proof *p, double since, double until) {
+  double u;
+  const uint32_t first = nsvcd__arc_of(p->ask.motion, since, &u);
+  return first != nsvcd__arc_of(p->ask.motion, until, &u);
+}
+
+// Gives the known contact its normal.
+static NSVCD__NOINLINE void nsvcd__resolve_normal(nsvcd__proof *p) {
+  nsvcd__pair_contact *found = &p->known.found;
+  const double until = nsvcd__max(nsvcd__min(nsvcd__clear_until(p), found->tick), 0);
+  const double since = p->given.fraction > 0 ? until : 0;
+  const int is_free = since > 0 || (p->given.fraction > 0 && p->starts_free);
+  nsvcd__approach now;
+  // What comes to a pose and goes back may have been found on its way back.
+  const int has_turned = is_free && nsvcd__has_turned(p, since, found->tick);
+  if (found->distance > 0 || has_turned) nsvcd__move_back(p, since);
+  if (found->distance > 0) return;
+  if (has_turned && nsvcd__has_turned(p, since, found->tick)) {
+    // These met on the way back alone, but others did on the way there.
+    nsvcd__approach_at(p, found, since, &now);
+    const nsvcd__nearest nearest = nsvcd__nearest_of(now.contact.moving, now.contact.fixed);
+    const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+    found->normal = nsvcd__d3_unit(apart, found->normal);
+    return;
+  }
+  if (nsvcd__normal_met(p, since, 0, &now)) return;
+  if (is_free) {
+    // The motion has turned since, and they may come apart again.
+    nsvcd__move_back(p, since);
+    if (nsvcd__normal_met(p, since, 1, &now)) return;
+  }
+  const nsvcd__d3 speed = nsvcd__twist_of(&now.twist, found->point);
+  found->normal = nsvcd__shallowest(p, &now, speed);
+}
+#endif  // NSVCD_NO_PROOF
+
+// ---------------------------------------------------------------------------------- query/by_proof
+// In: a task. Out: its answer, by proof, with contacts as points in the world.
+
+#ifndef NSVCD_NO_PROOF
+typedef struct nsvcd__dpose {
+  nsvcd__dquat rotation;
+  nsvcd__d3 position;
+} nsvcd__dpose;
+
+// A body's pose at time t in [0,1], in the world.
+static nsvcd__dpose nsvcd__dpose_at(const nsvcd__motion *motion, const nsvcd__track *track,
+                                    double t) {
+  nsvcd__slerp slerp;
+  nsvcd__d3 ends[2];
+  double u;
+  const uint32_t first = nsvcd__arc_of(motion, t * (double)motion->ticks, &u);
+  nsvcd__slerp_init(track, first, nsvcd__next_keyframe(motion, first) - first, &slerp, ends);
+  const nsvcd__dpose out = {nsvcd__slerp_at(&slerp, u), nsvcd__d3_mix(ends[0], ends[1], u)};
+  return out;
+}
+
+static nsvcd_pose nsvcd__pose_round(const nsvcd__dpose *pose) {
+  const nsvcd__dquat q = pose->rotation;
+  nsvcd_pose out = {{0, 0, 0}, {(float)q.x, (float)q.y, (float)q.z, (float)q.w}};
+  nsvcd__f3_store(nsvcd__f3_round(pose->position), out.position);
+  return out;
+}
+
+// From the fixed body's frame, in metres, to the world, at time t.
+static nsvcd__dtransform nsvcd__world_at(const nsvcd__motion *motion, double t) {
+  const nsvcd__dpose pose = nsvcd__dpose_at(motion, &motion->fixed, t);
+  const nsvcd__dtransform out = {nsvcd__dmat3_of(pose.rotation), pose.position};
+  return out;
+}
+
+// The length to which an answer is asked for, or the default, in the fixed body's units.
+static double nsvcd__to_of(const nsvcd__task *task) {
+  const nsvcd_question *q = task->question;
+  const float moving = task->motion.scale * nsvcd__whole_radius(task->moving);
+  const float fixed = nsvcd__whole_radius(task->fixed);
+  const float usual = NSVCD_DEFAULT_TO * (moving < fixed ? moving : fixed);
+  return q->to > 0 ? (double)q->to / (double)task->motion.unit : (double)usual;
+}
+
+// How far points of the moving body travel in an arc, at most.
+static double nsvcd__travel_in(const nsvcd__proof *p, const nsvcd__arc *arc) {
+  return arc->speed + arc->turn * arc->scale * (double)p->moving.body->extent;
+}
+
+// The fraction of the motion in which no point of the moving body travels farther than `to`, at
+// most `fraction`; 0: that is not asked for. Of a short motion it is at most a quarter, so that a
+// contact does not cost all of it, but no less than a safe pose backs off.
+static double nsvcd__fraction_of(nsvcd__proof *p, double to, double fraction) {
+  const nsvcd__motion *motion = p->ask.motion;
+  const double most = fraction > 0 ? fraction : 1;
+  double fastest = 0;  // per tick
+  // The arc known is of the question before.
+  p->arc.ticks = 0;
+  for (uint32_t first = 0; to > 0 && first < motion->ticks;) {
+    const nsvcd__arc *arc = nsvcd__arc_at(p, first);
+    fastest = fmax(fastest, nsvcd__travel_in(p, arc) / (double)arc->ticks);
+    first += arc->ticks;
+  }
+  const double whole = fastest * (double)motion->ticks;
+  const double least = fmin(to, fmax(0.25 * whole, NSVCD__EPSILONS * nsvcd__epsilon(p)));
+  return least < most * whole ? least / whole : most;
+}
+
+// Prepares the proof for a question whose motion has been prepared.
+static void nsvcd__proof_begin(nsvcd__query *query) {
+  const nsvcd__task *task = &query->task;
+  const nsvcd_question *q = task->question;
+  const double unit = (double)task->motion.unit;
+  nsvcd__proof *p = query->proof;
+  nsvcd__given *given = &p->given;
+  memset(given, 0, sizeof *given);
+  memset(&p->ask, 0, sizeof p->ask);
+  p->kernels = query->kernels;
+  p->intervals = query->intervals;
+  p->ask.motion = &query->task.motion;
+  p->moving = nsvcd__geometry_of(nsvcd__triangles_of(task->moving));
+  p->fixed = nsvcd__geometry_of(nsvcd__triangles_of(task->fixed));
+  given->lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
+  given->tolerance = (double)q->tolerance / unit;
+  const double moving_radius = (double)p->moving.counts->convex_radius * task->motion.ratio;
+  given->radius = moving_radius + (double)p->fixed.counts->convex_radius;
+  given->clearance = (double)q->clearance / unit + given->radius;
+  p->ask.clearance = given->clearance;
+  given->slop = (double)q->slop / unit;
+  const int is_verdict = q->ask != NSVCD_ASK_DISTANCE;
+  const size_t most = is_verdict ? NSVCD_DEFAULT_VERDICT_WORK : NSVCD_DEFAULT_WORK;
+  given->work = p->ask.limit = p->ask.most = q->work ? q->work : most;
+  given->reserve = (q->work ? q->work : NSVCD_DEFAULT_WORK) / NSVCD__AFTER_UNRESOLVED;
+  given->grows = q->work == 0;
+  given->tells = q->ask != NSVCD_ASK_HIT || given->slop > 0;
+  p->work = p->normal_count = 0;
+  p->low = 0;
+  p->high = HUGE_VAL;
+  p->inside = p->in_open = p->wide = p->starts_free = 0;
+  p->unclear = NSVCD__CLEAR;
+  const double to = nsvcd__to_of(task);
+  if (q->ask == NSVCD_ASK_DISTANCE) given->width = to;
+  if (q->ask == NSVCD_ASK_FIRST) {
+    const int by_time = q->to_time > 0 && !(q->to > 0);
+    given->to = q->to > 0 ? to : 0;
+    given->fraction = nsvcd__fraction_of(p, by_time ? 0 : to, (double)q->to_time);
+  }
+  p->ask.fraction = given->fraction;
+  nsvcd__proof_restart(p);
+}
+
+// Writes the contact that a proof has found: when, where, and of what. If the bodies were swapped,
+// the fixed one counts as pushed out, in the opposite direction.
+static NSVCD__NOINLINE void nsvcd__write_contact(const nsvcd__query *query,
+                                                 const nsvcd__pair_contact *found,
+                                                 nsvcd_contact *out) {
+  const nsvcd__proof *p = query->proof;
+  const nsvcd__task *task = &query->task;
+  const nsvcd__motion *motion = &task->motion;
+  const int rests = motion->moving.count == 1 && !motion->fixed_moves;
+  const double time = rests ? 0 : found->tick / (double)motion->ticks;
+  const double unit = (double)motion->unit;
+  const nsvcd__dtransform world = nsvcd__world_at(motion, time);
+  const nsvcd__d3 push_out = nsvcd__d3_scale(nsvcd__d3_widen(motion->push_out), task->swapped);
+  const double beyond = fmin((double)p->fixed.counts->convex_radius, found->distance);
+  const nsvcd__d3 on = nsvcd__d3_fma(beyond, found->normal, found->point);
+  const nsvcd__d3 seen = nsvcd__d3_scale(nsvcd__d3_sub(on, push_out), unit);
+  const nsvcd__d3 point = nsvcd__d3_transform(&world, seen);
+  const nsvcd__d3 normal = nsvcd__dmat3_apply(&world.rotation, found->normal);
+  nsvcd__f3_store(nsvcd__f3_round(point), out->point);
+  nsvcd__f3_store(nsvcd__f3_round(normal), out->normal);
+  out->gap = (float)(fmax(found->distance - p->given.radius, 0) * unit);
+  // Rounded up: by then they have met.
+  out->time = (float)time;
+  if ((double)out->time < time) out->time = nextafterf(out->time, 1);
+  out->triangle_a = found->moving_triangle;
+  out->triangle_b = found->fixed_triangle;
+  out->patch_a = found->moving_patch;
+  out->patch_b = found->fixed_patch;
+}
+
+// The moving body takes the push-out; if both or none move, a does.
+static int nsvcd__takes_push_out(const nsvcd__task *task) {
+  return !task->swapped || !(task->motion.fixed_moves || task->motion.moving.count == 1);
+}
+
+// The poses of both bodies at time t, with one of them displaced by a push-out, which is in the
+// fixed body's frame and units.
+static NSVCD__NOINLINE void nsvcd__poses_at(const nsvcd__task *task, double t,
+                                            nsvcd__d3 push_out, nsvcd_pose *moving,
+                                            nsvcd_pose *fixed) {
+  const nsvcd__motion *motion = &task->motion;
+  const double unit = (double)motion->unit;
+  const int moving_takes_it = nsvcd__takes_push_out(task);
+  const nsvcd__dtransform world = nsvcd__world_at(motion, t);
+  const nsvcd__d3 seen = nsvcd__dmat3_apply(&world.rotation, push_out);
+  for (int n = 0; n < 2; n++) {
+    const double by = n == moving_takes_it ? 0 : n ? -unit : unit;
+    nsvcd__dpose pose = nsvcd__dpose_at(motion, n ? &motion->fixed : &motion->moving, t);
+    pose.position = nsvcd__d3_add(pose.position, nsvcd__d3_scale(seen, by));
+    *(n ? fixed : moving) = nsvcd__pose_round(&pose);
+  }
+}
+
+// How far the poses of an answer, in float, are off at time t, at most, in the fixed body's units:
+// positions and quaternions are off by 6e-8 of their length.
+static double nsvcd__pose_error(const nsvcd__proof *p, double t) {
+  const nsvcd__motion *motion = p->ask.motion;
+  const nsvcd__d3 moving = nsvcd__dpose_at(motion, &motion->moving, t).position;
+  const nsvcd__d3 fixed = nsvcd__dpose_at(motion, &motion->fixed, t).position;
+  const double positions = nsvcd__d3_norm(moving) + nsvcd__d3_norm(fixed);
+  return 1.3e-7 * (2 * positions / (double)motion->unit + (double)p->given.lengths);
+}
+
+// Sets the bodies down at time t, at which they are free of each other when pushed out as the
+// motion is: to a little more than their depth at the start, or to a little before they are in
+// contact. Returns the push-out left. It is proven to be free, and so is the way down to it. All
+// else that was known of the question is lost.
+static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
+  nsvcd__proof *p = query->proof;
+  const nsvcd__task *task = &query->task;
+  nsvcd__motion *whole = p->ask.motion;
+  nsvcd__motion down = *whole;
+  nsvcd_pose moving[2], fixed[2];
+  const int takes_it = nsvcd__takes_push_out(task);
+  const nsvcd__track moves = {moving, NULL, takes_it ? 2u : 1u, 0, 0};
+  const nsvcd__track rests = {fixed, NULL, takes_it ? 1u : 2u, 0, 0};
+  const nsvcd__d3 push_out = nsvcd__d3_widen(whole->push_out);
+  // Nearer to each other than stored triangles are known, nothing would be separated.
+  const double epsilons = 4 * nsvcd__epsilon(p) + nsvcd__pose_error(p, t);
+  const double kept = fmax(NSVCD__SET_DOWN * p->ask.slop, epsilons);
+  const nsvcd__d3 least = nsvcd__push_out(p, kept, 1);
+  const nsvcd__d3 by = nsvcd__d3_sub(push_out, least);
+  const double length = nsvcd__d3_norm(by);
+  if (!(nsvcd__d3_dot(by, push_out) > 0) || !(length > kept)) return push_out;
+  nsvcd__poses_at(task, t, push_out, &moving[0], &fixed[0]);
+  nsvcd__poses_at(task, t, least, &moving[1], &fixed[1]);
+  nsvcd__motion_set_tracks(&down, moves, rests);
+  down.push_out = nsvcd__f3_of(0, 0, 0);
+  p->ask.motion = &down;
+  p->ask.fraction = kept / length;
+  p->ask.measure = 0;
+  p->ask.clearance = p->given.clearance;
+  p->ask.limit = p->work + p->given.reserve;
+  (void)nsvcd__prove_anew(p, &query->broad_phase);
+  p->ask.motion = whole;
+  const double until = nsvcd__clear_until(p) / (double)down.ticks;
+  // All before an unresolved pair is proven, but a query from close to it might not prove it again.
+  const double clear =
+      p->known.unresolved < p->ask.end ? until - 0.5 * p->ask.fraction : until;
+  return nsvcd__d3_sub(push_out, nsvcd__d3_scale(by, fmin(fmax(clear, 0), 1)));
+}
+
+// The bodies at rest as they are at time t, with the fixed one's origin in the world's: so points
+// in its frame are as exact as they can be.
+static nsvcd__motion nsvcd__rest_at(const nsvcd__task *task, double t, nsvcd_pose *poses) {
+  nsvcd__motion still = task->motion;
+  const nsvcd__track tracks[2] = {{&poses[0], NULL, 1, 0, 0}, {&poses[1], NULL, 1, 0, 0}};
+  nsvcd__dpose moving = nsvcd__dpose_at(&still, &still.moving, t);
+  nsvcd__dpose fixed = nsvcd__dpose_at(&still, &still.fixed, t);
+  const nsvcd__dmat3 rotation = nsvcd__dmat3_of(fixed.rotation);
+  const nsvcd__d3 push_out = nsvcd__dmat3_apply(&rotation, nsvcd__d3_widen(still.push_out));
+  const nsvcd__d3 offset = nsvcd__d3_sub(moving.position, fixed.position);
+  moving.position = nsvcd__d3_add(offset, nsvcd__d3_scale(push_out, (double)still.unit));
+  fixed.position = nsvcd__d3_of(0, 0, 0);
+  poses[0] = nsvcd__pose_round(&moving);
+  poses[1] = nsvcd__pose_round(&fixed);
+  nsvcd__motion_set_tracks(&still, tracks[0], tracks[1]);
+  still.push_out = nsvcd__f3_of(0, 0, 0);
+  return still;
+}
+
+// The normals that a manifold may have: that of the contact found, and those of its faces that are
+// not against it and along which the bodies do not part. Returns how many. *twist: how the bodies
+// move; 0 at the start, where they only touch.
+static NSVCD__NOINLINE int nsvcd__manifold_normals(nsvcd__proof *p,
+                                                   const nsvcd__pair_contact *found,
+                                                   nsvcd__twist *twist, nsvcd__d3 *normals) {
+  nsvcd__approach now;
+  int count = 1;
+  nsvcd__approach_at(p, found, found->tick, &now);
+  memset(twist, 0, sizeof *twist);
+  if (found->tick > 0) *twist = now.twist;
+  p->of.kept.manifold.normal = normals[0] = found->normal;
+  const nsvcd__facing facing = nsvcd__facing_of(p, &now.pair, now.contact.moving);
+  for (int k = 1; k >= 0; k--) {
+    const nsvcd__d3 n = facing.faces[k];
+    const nsvcd__d3 all[2] = {found->normal, found->normal};
+    int is_new = nsvcd__d3_dot(n, found->normal) > -0.1;
+    is_new &= !nsvcd__is_left(twist, found->point, n, all);
+    for (int i = 0; i < count; i++) is_new &= nsvcd__d3_dot(n, normals[i]) <= 0.9;
+    if (is_new) normals[count++] = n;
+  }
+  return count;
+}
+
+// Writes the manifold of the contact found. If a body stands on something, that contact may be with
+// a side that rises from it: so the normals of both triangles are tried too, and the manifold that
+// spans the most is taken. All else that was known of the question is lost.
+static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd_answer *answer) {
+  nsvcd__proof *p = query->proof;
+  const nsvcd__task *task = &query->task;
+  const nsvcd__pair_contact found = p->known.found;
+  const nsvcd__asked asked = p->ask;
+  const double epsilon = nsvcd__epsilon(p);
+  const double same = epsilon + 1e-5 * (double)p->given.lengths;
+  const float radius = task->motion.scale * task->moving->radius;
+  const double extent = (double)fminf(radius, task->fixed->radius);
+  const nsvcd__manifold *m = &p->of.kept.manifold;
+  nsvcd__d3 normals[3];
+  double widest = -1;
+  nsvcd_pose poses[2];
+  nsvcd__twist twist;
+  int tries = nsvcd__manifold_normals(p, &found, &twist, normals);
+  nsvcd__motion still = nsvcd__rest_at(task, (double)answer->nearest.time, poses);
+  p->ask.motion = &still;
+  p->ask.collects = NSVCD__SUPPORTING;
+  p->ask.clearance = p->given.clearance + fmax(nsvcd__to_of(task), 4 * epsilon);
+  p->ask.limit = p->work + p->given.reserve;
+  (void)nsvcd__prove_anew(p, &query->broad_phase);
+  for (int k = 0; k < tries; k++) {
+    int chosen[NSVCD_MAX_CONTACTS];
+    double area;
+    nsvcd__manifold_begin(p, normals[k], &twist, p->ask.clearance, same);
+    p->kernels->seek_positions(p, 0, NSVCD__AROUND);
+    int count = nsvcd__choose_four(m, chosen, &area);
+    if (nsvcd__seek_across(&p->of.kept.manifold, area)) {
+      p->kernels->seek_positions(p, NSVCD__AROUND, NSVCD__SUPPORTS);
+      count = nsvcd__choose_four(m, chosen, &area);
+    }
+    if (count == 0 || !(area > 1.001 * widest)) continue;
+    widest = area;
+    if (count > 2 && area > 0.1 * extent * extent) tries = 1;
+    answer->contact_count = (size_t)count;
+    for (int n = 0; n < count; n++) {
+      nsvcd__pair_contact support = m->supports[chosen[n]];
+      support.tick = found.tick;
+      nsvcd__write_contact(query, &support, &answer->contacts[n]);
+      // The last bit tells which body a corner is of.
+      answer->contacts[n].id = m->numbers[chosen[n]] ^ (uint32_t)task->swapped;
+    }
+  }
+  p->ask = asked;
+}
+
+// Writes where the bodies may go, which are proven free until answer->time.low, and how deep they
+// are in contact at the start. If one may be inside the other, no push-out helps, and they stay.
+static NSVCD__NOINLINE void nsvcd__write_safe_pose(nsvcd__query *query, nsvcd_answer *answer) {
+  const nsvcd__task *task = &query->task;
+  const nsvcd__proof *p = query->proof;
+  const double t = (double)answer->safe.time;
+  nsvcd__d3 push_out = nsvcd__d3_widen(task->motion.push_out);
+  const int is_pushed = nsvcd__d3_dot(push_out, push_out) > 0;
+  const int may_go = is_pushed && !p->inside && !p->unclear;
+  if (is_pushed && !p->inside) {
+    const double depth = nsvcd__d3_norm(nsvcd__push_out(p, 0, 1));
+    answer->depth = (float)(depth * (double)task->motion.unit);
+  } else if (!is_pushed && (answer->time.low > 0 || p->starts_free)) {
+    answer->depth = 0;
+  }
+  if (may_go) push_out = nsvcd__set_down(query, t);
+  // nsvcd__answer_begin has set the poses at the ends, as the caller has them.
+  if (may_go || (t > 0 && t < 1))
+    nsvcd__poses_at(task, t, push_out, &answer->safe.a, &answer->safe.b);
+}
+
+// Writes until when the motion is proven free, and up to which time the bodies may go.
+static void nsvcd__write_time(nsvcd__proof *p, nsvcd_answer *answer) {
+  const nsvcd__motion *motion = p->ask.motion;
+  const double ticks = (double)motion->ticks;
+  const double until = fmin(fmax(nsvcd__clear_until(p) / ticks, 0), 1);
+  const double late = (double)answer->time.high - until;
+  answer->time.low = (float)(until * (1 - 1e-7));
+  if (late > p->given.fraction * 1.0001 + 1e-6) answer->why = NSVCD_WHY_WORK;
+  // Closer poses are proven free here, but a new query from there could not prove it again.
+  double u;
+  const nsvcd__arc *arc = nsvcd__arc_at(p, nsvcd__arc_of(motion, until * ticks, &u));
+  const double length = nsvcd__travel_in(p, arc) * ticks / (double)arc->ticks;
+  const double epsilons = NSVCD__EPSILONS * nsvcd__epsilon(p) + nsvcd__pose_error(p, until);
+  const double back = length > epsilons ? epsilons / length : p->given.fraction;
+  answer->safe.time = (float)(fmax(0, until - back) * (1 - 1e-7));
+}
+
+// Answers a question whose motion has been prepared.
+static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
+  const nsvcd__task *task = &query->task;
+  const nsvcd_question *q = task->question;
+  const double unit = (double)task->motion.unit;
+  nsvcd__search *search = &query->broad_phase;
+  nsvcd__proof *p = query->proof;
+  nsvcd__proof_begin(query);
+  if (p->given.slop > 0) nsvcd__push_out_motion(p, search);
+  nsvcd__finding verdict = nsvcd__prove(p, search);
+  if (p->given.width > 0 && verdict != NSVCD__FOUND_INSIDE) {
+    nsvcd__measure(p, search, verdict, p->given.width);
+    // A distance decides what was left undecided, but says nothing of containment.
+    const int meets = p->known.has_contact && p->known.found.distance <= p->given.clearance;
+    const int is_clear =
+        p->low > 0 && p->low >= p->given.clearance && !p->unclear && !p->inside;
+    if (verdict == NSVCD__FOUND_UNDECIDED && (meets || is_clear))
+      verdict = meets ? NSVCD__FOUND_CONTACT : NSVCD__FOUND_FREE;
+  }
+
+  // The answer names the triangles of a contact, or else of an unresolved pair.
+  const int is_free = verdict == NSVCD__FOUND_FREE;
+  const int is_inside = verdict == NSVCD__FOUND_INSIDE;
+  const int is_contact = verdict == NSVCD__FOUND_CONTACT;
+  const int has_unresolved = p->known.unresolved < NSVCD__NEVER;
+  const int names =
+      p->known.has_contact || (verdict == NSVCD__FOUND_UNDECIDED && has_unresolved);
+  if (names && !is_inside) nsvcd__resolve_normal(p);
+  const nsvcd_verdict if_not_free = is_inside || is_contact ? NSVCD_HIT : NSVCD_UNDECIDED;
+  nsvcd__answer_begin(task, is_free ? NSVCD_FREE : if_not_free, answer);
+  answer->inside = is_inside;
+  if (names || is_inside) nsvcd__write_contact(query, &p->known.found, &answer->nearest);
+  if (is_inside) answer->nearest.gap = HUGE_VALF;
+  if (is_inside || is_contact) answer->time.high = answer->nearest.time;
+  if (is_contact) answer->contacts[answer->contact_count++] = answer->nearest;
+  if (p->given.fraction > 0 && !is_free && !is_inside) nsvcd__write_time(p, answer);
+
+  const double radius = p->given.radius;
+  const double low = is_free ? fmax(p->given.clearance, p->low) : p->low;
+  double high = names ? p->known.found.distance : p->high;
+  // A contact, found or moved to where it is nearer, may have made the bracket narrow enough.
+  p->wide = p->wide && high - p->low > p->given.width;
+  const double off = nsvcd__off_meshes(p) + 1e-12 * (double)p->given.lengths;
+  if (names) high = fmax(high, radius) + off;
+  answer->distance.low = (float)(fmax(low - radius, 0) * unit * (1 - 1e-6));
+  answer->distance.high = is_inside ? 0 : (float)(fmax(high - radius, 0) * unit * (1 + 1e-6));
+
+  // Why not all is answered. Neither work nor finer triangles would tell what is in an open solid.
+  if (p->wide || answer->verdict == NSVCD_UNDECIDED) answer->why = NSVCD_WHY_WORK;
+  if (answer->why && !p->wide && (has_unresolved || p->unclear == NSVCD__CANNOT_TELL))
+    answer->why = NSVCD_WHY_TOO_NEAR;
+  if (answer->why && p->in_open) answer->why = NSVCD_WHY_OPEN;
+
+  // The push-out in the world, at the start.
+  const nsvcd__d3 push_out = nsvcd__d3_widen(task->motion.push_out);
+  if (nsvcd__d3_dot(push_out, push_out) > 0) {
+    const nsvcd__dtransform world = nsvcd__world_at(&task->motion, 0);
+    const nsvcd__d3 turned = nsvcd__dmat3_apply(&world.rotation, push_out);
+    nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_scale(turned, unit)), answer->push_out);
+  }
+  if (q->manifold && is_contact) nsvcd__write_manifold(query, answer);
+  nsvcd__write_safe_pose(query, answer);
+  answer->work = p->work;
+}
+#endif  // NSVCD_NO_PROOF
+
+// ---------------------------------------------------------------------------------- query/question
+// In: questions and a workspace. Out: answers, or why not. The public functions of queries.
+
+// The method that answers, or DEFAULT where there is none.
+static nsvcd_method nsvcd__method_of(const nsvcd_body *moving, const nsvcd_body *fixed,
+                                     nsvcd_method wanted) {
+  int can_prove = 0;
+  int can_ask = 0;
+#ifndef NSVCD_NO_PROOF
+  can_prove = moving->triangles && fixed->triangles;
+#endif
+#ifndef NSVCD_NO_NETWORK
+  can_ask = moving->weights_id && fixed->weights_id;
+#endif
+  if (can_prove && wanted != NSVCD_METHOD_NETWORK) return NSVCD_METHOD_PROOF;
+  if (can_ask && wanted != NSVCD_METHOD_PROOF) return NSVCD_METHOD_NETWORK;
+  return NSVCD_METHOD_DEFAULT;
+}
+
+// Is a question in order?
+static nsvcd_result nsvcd__question_check(const nsvcd_question *q) {
+  const nsvcd_mover *a = &q->a;
+  const nsvcd_mover *b = &q->b;
+  nsvcd_result result = nsvcd__mover_check(a);
+  if (!result) result = nsvcd__mover_check(b);
+  if (result) return result;
+  // The same body in the same motion: something was passed twice.
+  const float scale_a = nsvcd__scale_of(a);
+  const float scale_b = nsvcd__scale_of(b);
+  const int same_size = !(scale_a < scale_b) && !(scale_b < scale_a);
+  const int same_motion = a->poses == b->poses && a->times == b->times && a->count == b->count;
+  if (a->body == b->body && same_motion && same_size) return NSVCD_ERROR_SAME;
+
+  // Are the options' numbers in their ranges, and do they go together?
+  if ((unsigned)q->method > (unsigned)NSVCD_METHOD_NETWORK) return NSVCD_ERROR_METHOD;
+  if ((unsigned)q->ask > (unsigned)NSVCD_ASK_DISTANCE) return NSVCD_ERROR_ASK;
+  if (q->segments > NSVCD__MAX_SEGMENTS || q->segments % NSVCD__LANES)
+    return NSVCD_ERROR_SEGMENTS;
+  if (!nsvcd__is_length(q->tolerance)) return NSVCD_ERROR_TOLERANCE;
+  if (!nsvcd__is_length(q->clearance)) return NSVCD_ERROR_CLEARANCE;
+  if (!nsvcd__is_length(q->slop)) return NSVCD_ERROR_SLOP;
+  const int is_first = q->ask == NSVCD_ASK_FIRST;
+  if (!nsvcd__is_length(q->to) || (q->to > 0 && q->ask == NSVCD_ASK_HIT))
+    return NSVCD_ERROR_TO;
+  if (!nsvcd__is_length(q->to_time) || q->to_time > (is_first ? 1.0f : 0.0f))
+    return NSVCD_ERROR_TO_TIME;
+  if (q->manifold && !is_first) return NSVCD_ERROR_MANIFOLD;
+  // The network knows nothing of these.
+  const int by_network = q->method == NSVCD_METHOD_NETWORK;
+  const int needs_proof = q->clearance > 0 || q->slop > 0 || is_first || q->to > 0 ||
+                          (q->ask == NSVCD_ASK_DISTANCE && !by_network);
+  if (needs_proof && by_network) return NSVCD_ERROR_METHOD;
+  const nsvcd_method wanted = needs_proof ? NSVCD_METHOD_PROOF : q->method;
+  if (nsvcd__method_of(a->body, b->body, wanted) == NSVCD_METHOD_DEFAULT)
+    return wanted == NSVCD_METHOD_NETWORK ? NSVCD_ERROR_LATENTS : NSVCD_ERROR_TRIANGLES;
+#ifndef NSVCD_NO_NETWORK
+  nsvcd__settings unused;
+  return nsvcd__settings_of(&q->network, a->body->patches, b->body->patches, &unused);
+#else
+  return NSVCD_OK;
+#endif
+}
+
+// ---- who moves
+
+// The extent of a body, with what it goes beyond its triangles.
+static float nsvcd__extent_of(const nsvcd_mover *mover) {
+  const nsvcd_body *body = mover->body;
+  return nsvcd__scale_of(mover) * (body->extent + (nsvcd__whole_radius(body) - body->radius));
+}
+
+// Does b move, seen in a's frame? Of two bodies the one that moves does, else the smaller one. If
+// they are equal, any rule will do that does not depend on which of them is a: then both ways of
+// asking get the same answer.
+static int nsvcd__is_swapped(const nsvcd_mover *a, const nsvcd_mover *b) {
+  const size_t count_a = nsvcd__pose_count(a);
+  const size_t count_b = nsvcd__pose_count(b);
+  if ((count_a > 1) != (count_b > 1)) return count_b > 1;
+  const float size_a = nsvcd__extent_of(a);
+  const float size_b = nsvcd__extent_of(b);
+  if (size_a < size_b || size_b < size_a) return size_b < size_a;
+  if (a->body->checksum != b->body->checksum) return b->body->checksum < a->body->checksum;
+  if (count_a != count_b) return count_b < count_a;
+  const nsvcd_pose *poses_a = a->poses ? a->poses : &nsvcd__at_origin;
+  const nsvcd_pose *poses_b = b->poses ? b->poses : &nsvcd__at_origin;
+  const int order = memcmp(poses_b, poses_a, count_a * sizeof *poses_a);
+  if (order || count_a == 1 || a->times == b->times) return order < 0;
+  if (!a->times || !b->times) return !b->times;
+  return memcmp(b->times, a->times, count_a * sizeof *a->times) < 0;
+}
+
+// ---- lay out
+
+// What a question that is in order needs; NULL: what any may need.
+static nsvcd__needs nsvcd__needs_of(const nsvcd_question *q) {
+  nsvcd__needs needs = {NSVCD__TILE_SLOTS, NSVCD__TILE_SLOTS, 1, NSVCD__MAX_SEGMENTS, 0, 1};
+#ifndef NSVCD_NO_NETWORK
+  needs.candidates = NSVCD__SHORTLIST * NSVCD_MAX_PAIRS;
+#endif
+  if (!q) return needs;
+  const nsvcd_body *a = q->a.body;
+  const nsvcd_body *b = q->b.body;
+  const int swapped = nsvcd__is_swapped(&q->a, &q->b);
+  const size_t moving_groups = nsvcd__body_groups(swapped ? b : a);
+  const size_t fixed_groups = nsvcd__body_groups(swapped ? a : b);
+  if (moving_groups < NSVCD__TILE_SLOTS) needs.moving_groups = moving_groups;
+  if (fixed_groups < NSVCD__TILE_SLOTS) needs.fixed_groups = fixed_groups;
+  needs.large = nsvcd__is_tiled(a, b);
+  if (q->segments) needs.segments = nsvcd__round_up(q->segments, NSVCD__LANES);
+  needs.proof = nsvcd__method_of(a, b, q->method) == NSVCD_METHOD_PROOF;
+#ifndef NSVCD_NO_NETWORK
+  const nsvcd_network_options *o = &q->network;
+  const size_t pairs = o->pairs ? o->pairs : NSVCD_DEFAULT_PAIRS;
+  const size_t most = o->model == NSVCD_MODEL_TINY ? pairs : NSVCD__SHORTLIST * pairs;
+  needs.candidates = most > NSVCD__PORTION ? most : NSVCD__PORTION;
+  if (!a->weights_id || !b->weights_id) needs.candidates = 0;
+#endif
+  return needs;
 }
 
 NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question) {
-  return NSVCD__BEST(sweep_size)(question);
+  if (question && nsvcd__question_check(question)) return 0;
+  const nsvcd__needs needs = nsvcd__needs_of(question);
+  return nsvcd__query_layout(&needs, NULL);
+}
+
+// Checks a question, and that the workspace is large enough for it.
+static NSVCD__NOINLINE nsvcd_result nsvcd__sweep_check(const nsvcd_question *q,
+                                                       const void *workspace,
+                                                       size_t workspace_size) {
+  const nsvcd_result result = nsvcd__question_check(q);
+  if (result) return result;
+  if (!workspace || !nsvcd__is_aligned(workspace)) return NSVCD_ERROR_WORKSPACE;
+  const nsvcd__needs needs = nsvcd__needs_of(q);
+  const size_t size = nsvcd__query_layout(&needs, NULL);
+  return workspace_size >= size ? NSVCD_OK : NSVCD_ERROR_WORKSPACE;
+}
+
+// Lays out a checked question in the workspace, and chooses who moves.
+static NSVCD__NOINLINE nsvcd__query *nsvcd__query_open(const nsvcd__kernels *kernels,
+                                                       const nsvcd_question *q,
+                                                       void *workspace) {
+  const nsvcd__needs needs = nsvcd__needs_of(q);
+  nsvcd__query *query = (nsvcd__query *)workspace;
+  nsvcd__task *task = &query->task;
+  (void)nsvcd__query_layout(&needs, (char *)workspace);
+  query->kernels = kernels;
+  task->swapped = nsvcd__is_swapped(&q->a, &q->b);
+  const nsvcd_mover *moving = task->swapped ? &q->b : &q->a;
+  const nsvcd_mover *fixed = task->swapped ? &q->a : &q->b;
+  nsvcd__motion_init(moving, fixed, &task->motion);
+  task->moving = moving->body;
+  task->fixed = fixed->body;
+  task->lengths = task->motion.scale * task->moving->extent + task->fixed->extent;
+  task->method = nsvcd__method_of(task->moving, task->fixed, q->method);
+  task->question = q;
+#ifndef NSVCD_NO_NETWORK
+  task->decisive = NULL;
+#if NSVCD__ROWS == 1
+  task->row = (float *)(void *)query->broad_phase.met;
+#endif
+#endif
+  return query;
+}
+
+// ---- answer, and write
+
+static void nsvcd__swap(uint32_t *a, uint32_t *b) {
+  const uint32_t first = *a;
+  *a = *b;
+  *b = first;
+}
+
+// Exchanges a and b in what was found about the moving body and the fixed one.
+static void nsvcd__swap_contact(nsvcd_contact *c) {
+  nsvcd__swap(&c->patch_a, &c->patch_b);
+  nsvcd__swap(&c->triangle_a, &c->triangle_b);
+  const float gap = c->gap < HUGE_VALF ? c->gap : 0;
+  for (size_t k = 0; k < 3; k++) {
+    c->point[k] += gap * c->normal[k];
+    c->normal[k] = 0 - c->normal[k];
+  }
+}
+static void nsvcd__swap_answer(nsvcd_answer *answer) {
+  const nsvcd_pose moving = answer->safe.a;
+  answer->safe.a = answer->safe.b;
+  answer->safe.b = moving;
+  nsvcd__swap(&answer->opinion.patch_a, &answer->opinion.patch_b);
+  nsvcd__swap_contact(&answer->nearest);
+  for (size_t n = 0; n < answer->contact_count; n++) nsvcd__swap_contact(&answer->contacts[n]);
+  for (size_t k = 0; k < 3; k++) answer->push_out[k] = 0 - answer->push_out[k];
+}
+
+#ifndef NSVCD_NO_NETWORK
+// Answers a question whose motion has been prepared, by the network.
+static void nsvcd__answer_by_network(nsvcd__query *query, nsvcd__hint *hint,
+                                     nsvcd_answer *answer) {
+  nsvcd_opinion opinion;
+  const int inside = query->kernels->ask_network(query, hint, &opinion);
+  nsvcd__answer_begin(&query->task, opinion.logit > 0 ? NSVCD_HIT : NSVCD_FREE, answer);
+  answer->inside = inside;
+  answer->opinion = opinion;
+  if (query->broad_phase.balls_met || inside) answer->by = NSVCD_BY_NETWORK;
+  if (opinion.logit > 0) answer->time.high = opinion.time;
+}
+#endif
+
+// Answers a question that has been checked and laid out. hint: NULL, or a batch's, for the network.
+static void nsvcd__answer_query(nsvcd__query *query, nsvcd__hint *hint, nsvcd_answer *answer) {
+  const nsvcd__task *task = &query->task;
+  (void)hint;
+#ifndef NSVCD_NO_PROOF
+  if (task->method == NSVCD_METHOD_PROOF) nsvcd__answer_by_proof(query, answer);
+#endif
+#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_NETWORK)
+  // The network has an opinion on what a proof leaves undecided, unless a clearance, a slop or a
+  // distance is asked for.
+  const nsvcd_question *q = task->question;
+  const int knows = task->moving->weights_id && task->fixed->weights_id &&
+                    !(q->clearance > 0 || q->ask == NSVCD_ASK_DISTANCE || q->slop > 0);
+  if (task->method == NSVCD_METHOD_PROOF && answer->verdict == NSVCD_UNDECIDED && knows)
+    (void)query->kernels->ask_network(query, NULL, &answer->opinion);
+#endif
+#ifndef NSVCD_NO_NETWORK
+  if (task->method == NSVCD_METHOD_NETWORK) nsvcd__answer_by_network(query, hint, answer);
+#endif
+  if (task->swapped) nsvcd__swap_answer(answer);
+}
+
+// As nsvcd_sweep_batch, by the kernels of one instruction set.
+static nsvcd_result nsvcd__run_batch(const nsvcd__kernels *kernels,
+                                     const nsvcd_question *questions, size_t count,
+                                     void *workspace, size_t workspace_size,
+                                     nsvcd_answer *answers) {
+  nsvcd__hint hint = {0, 0, 0, 0};
+  int swapped = 0;
+  if (count > 0 && (!questions || !answers)) return NSVCD_ERROR_ARGUMENT;
+  for (size_t k = 0; k < count; k++) {
+    const nsvcd_result result = nsvcd__sweep_check(&questions[k], workspace, workspace_size);
+    if (result) return result;
+  }
+  for (size_t k = 0; k < count; k++) {
+    const nsvcd_question *q = &questions[k];
+    nsvcd__query *query = nsvcd__query_open(kernels, q, workspace);
+    // The hint is about patches of the moving body and of the fixed one.
+    const int same = k > 0 && q->a.body == q[-1].a.body && q->b.body == q[-1].b.body;
+    if (!same || query->task.swapped != swapped) memset(&hint, 0, sizeof hint);
+    swapped = query->task.swapped;
+    nsvcd__answer_query(query, &hint, &answers[k]);
+  }
+  return NSVCD_OK;
 }
 
 NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace,
                                   size_t workspace_size, nsvcd_answer *answer) {
-  return NSVCD__BEST(run_batch)(question, 1, workspace, workspace_size, answer);
+  return nsvcd__run_batch(nsvcd__best_kernels(), question, 1, workspace, workspace_size,
+                          answer);
 }
 
 NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t count,
                                         void *workspace, size_t workspace_size,
                                         nsvcd_answer *answers) {
-  return NSVCD__BEST(run_batch)(questions, count, workspace, workspace_size, answers);
+  return nsvcd__run_batch(nsvcd__best_kernels(), questions, count, workspace, workspace_size,
+                          answers);
 }
 
 #ifndef NSVCD_NO_GRADIENT
+// As nsvcd_sweep_gradient, by the kernels of one instruction set.
+static nsvcd_result nsvcd__run_gradient(const nsvcd__kernels *kernels,
+                                        const nsvcd_question *question, void *workspace,
+                                        size_t workspace_size, nsvcd_answer *answer,
+                                        float *gradient_a, float *gradient_b) {
+  if (!question || !answer || (!gradient_a && !gradient_b)) return NSVCD_ERROR_ARGUMENT;
+  if (question->method == NSVCD_METHOD_PROOF) return NSVCD_ERROR_METHOD;
+  nsvcd_question by_network = *question;
+  by_network.method = NSVCD_METHOD_NETWORK;
+  const nsvcd_result result = nsvcd__sweep_check(&by_network, workspace, workspace_size);
+  if (result) return result;
+  nsvcd__query *query = nsvcd__query_open(kernels, &by_network, workspace);
+  nsvcd__task *task = &query->task;
+  nsvcd__decisive decisive;
+  task->decisive = &decisive;
+  nsvcd__answer_query(query, NULL, answer);
+  float *const out[2] = {task->swapped ? gradient_b : gradient_a,
+                         task->swapped ? gradient_a : gradient_b};
+  if (out[0]) memset(out[0], 0, 6 * task->motion.moving.count * sizeof(float));
+  if (out[1]) memset(out[1], 0, 6 * task->motion.fixed.count * sizeof(float));
+  if (answer->opinion.candidates > 0 && !answer->inside)
+    kernels->gradient(task, &decisive, query->broad_phase.time, out);
+  return NSVCD_OK;
+}
+
 NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace,
                                            size_t workspace_size, nsvcd_answer *answer,
                                            float *gradient_a, float *gradient_b) {
-  return NSVCD__BEST(run_gradient)(question, workspace, workspace_size, answer, gradient_a,
-                                   gradient_b);
+  return nsvcd__run_gradient(nsvcd__best_kernels(), question, workspace, workspace_size,
+                             answer, gradient_a, gradient_b);
 }
 #endif
 

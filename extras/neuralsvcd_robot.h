@@ -563,8 +563,10 @@ NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
 #endif
 #if defined(__GNUC__) && !defined(__clang__)
 #define NSVCD__UNROLL _Pragma("GCC unroll 8")  // at -O2 too, so that sums stay in registers
+#define NSVCD__O3 __attribute__((optimize("O3")))  // short loops, that -O2 leaves as they are
 #else
 #define NSVCD__UNROLL
+#define NSVCD__O3
 #endif
 #endif  // NSVCD__HAS_GROUND_COMPILER
 

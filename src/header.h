@@ -201,62 +201,71 @@ extern "C" {
 #include "body/encode.h"     // nsvcd_encode
 #include "body/shapes.h"     // spheres, capsules, boxes, clouds
 
+// ======================================== motion: where bodies are, and the memory of their search
+#include "motion/motion.h"     // the moving body's poses as the fixed one sees them
+#include "motion/workspace.h"  // the memory of a search: segments, chords, tiles, candidates
+#include "motion/choice.h"     // how a motion is cut into segments, a long one into intervals
+
+// ========================================== proof: the theorem, and what is told of two triangles
+#include "proof/proof.h"           // the theorem; what a proof is asked, knows and remembers
+#include "proof/poses.h"           // poses in double
+#include "proof/motion_bounds.h"   // an interval of time, and how far points deviate in it
+#include "proof/triangle_pairs.h"  // two triangles, in double: separated, or in contact
+#include "proof/touches.h"         // how deep triangles that touch are, and what undoes it
+#include "proof/manifold.h"        // up to four contact points
+
+// ============================================================= task: a question, and what it needs
+#include "task/task.h"  // a question that has been checked, its memory, and its kernels
+
 #endif  // NSVCD__ISA
 
 // ===================================================================== lanes: 16 numbers at a time
 #include "lanes/lanes.h"  // AVX-512, AVX2, SSE2, NEON, SIMD128 or plain C
 #include "lanes/turns.h"  // rotations, lane by lane
 
-// ======================================================================== motion: where bodies are
-#include "motion/motion.h"     // the moving body's poses as the fixed one sees them
-#include "motion/segments.h"   // chords, and how far a point deviates from them
-#include "motion/workspace.h"  // the memory of a search: segments, chords, tiles
-#include "motion/choice.h"     // how a motion is cut into segments, a long one into intervals
-#include "motion/chords.h"     // spheres on chords, and which others they meet
+// ================================================================ segments: 16 parts of a motion
+#include "segments/segments.h"   // chords, and how far a point deviates from them
+#include "segments/chords.h"     // spheres on chords, and which others they meet
+#include "segments/self_test.h"  // are these vectors right?
 
 // ================================================================== search: which patches may meet
 #include "search/planes.h"     // patches that a plane between their extremes separates
 #include "search/intervals.h"  // when the balls of two patches meet, for the network
 #include "search/search.h"     // which groups and patches meet, and in which segments
 
-// ==================================================================== proof: whether surfaces meet
-#include "proof/proof.h"           // the theorem; what a proof is asked, knows and remembers
-#include "proof/poses.h"           // poses in double
-#include "proof/motion_bounds.h"   // an interval of time, and how far points deviate in it
-#include "proof/slabs.h"           // planes along the slabs of patches and of groups
-#include "proof/hulls.h"           // planes between hulls
-#include "proof/triangle_pairs.h"  // two triangles, in double: separated, or in contact
-#include "proof/blocks.h"          // 16 triangles at a time
-#include "proof/manifold.h"        // up to four contact points
-#include "proof/witnesses.h"       // two triangles that meet at one time
-#include "proof/patch_pairs.h"  // two patches: separated by planes or by triangles, or in contact
-#include "proof/containment.h"  // whether one body is inside the other, by rays
-#include "proof/loop.h"         // the loop: every patch pair that a search finds is resolved
-#include "proof/verdict.h"      // of one search: do they meet, when first, how near
-#include "proof/long.h"         // the same of a motion of any length
-#include "proof/leave.h"        // pushing out of a contact, and how deep it is
-#include "proof/normals.h"      // a contact's normal, against the motion
+// ======================================================== separate: until when surfaces stay apart
+#include "separate/slabs.h"           // planes along the slabs of patches and of groups
+#include "separate/hulls.h"           // planes between hulls
+#include "separate/blocks.h"          // 16 triangles at a time
+#include "separate/witnesses.h"       // two triangles that meet at one time
+#include "separate/patch_pairs.h"     // two patches: separated, or in contact
+#include "separate/containment.h"     // whether one body is inside the other, by rays
+#include "separate/loop.h"            // every patch pair that a search finds is resolved
+#include "separate/distance_bound.h"  // a distance that two vertices have: the first bound
 
 // ============================================================================= network: an opinion
 #include "network/latent_rotation.h"  // Wigner matrices; latents rotated by them
 #include "network/winding_number.h"   // whether one body is inside the other, estimated
 #include "network/pairs.h"            // pairs of patches -> invariants
 #include "network/decoder.h"          // invariants -> logits and distances, in float or int8
-
-// =============================================================== query: a question, and its answer
-#include "query/task.h"        // a question that has been checked, and its memory
-#include "query/by_network.h"  // an answer by the network
-#include "query/by_proof.h"    // an answer by proof
-#include "query/question.h"    // check, choose who moves, lay out the workspace, answer
-#include "query/self_test.h"   // a question whose answer is known
+#include "network/opinion.h"          // candidates, ranked, and a logit for the best of them
 
 // ======================================================== gradient: of distance or logit, by poses
 #include "gradient/by_pair.h"   // by the decoder's inputs, and by the pair
 #include "gradient/gradient.h"  // by the poses, and by the times of contact
 
+// =============================================== entry: the kernels of each set, and the best ones
+#include "entry/kernels.h"  // the table of what has been compiled for a set
 #ifndef NSVCD__ISA
-// ========================================================== entry: the processor picks the vectors
-#include "entry/processor.h"  // SSE2, AVX2 or AVX-512; the public functions of queries
+#include "entry/processor.h"  // SSE2, AVX2 or AVX-512: the processor decides
+
+// =============================================================== query: a question, and its answer
+#include "query/verdict.h"   // of one search: do they meet, when first, how near
+#include "query/long.h"      // the same of a motion of any length
+#include "query/leave.h"     // pushing out of a contact, and how deep it is
+#include "query/normals.h"   // a contact's normal, against the motion
+#include "query/by_proof.h"  // an answer by proof
+#include "query/question.h"  // check, choose who moves, lay out the workspace, answer
 
 // ================================================================ plan: a motion that hits nothing
 #include "plan/spline.h"   // quintic Hermite

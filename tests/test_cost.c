@@ -17,7 +17,7 @@ static OF_THREAD struct {
 } tally;
 #define NSVCD__TALLY(what, amount) (tally.what += (amount))
 #include "../src/body/encode.h"
-#include "../src/entry/processor.h"
+#include "../src/query/question.h"
 
 #include "any_query.h"
 #include "query_scene.h"

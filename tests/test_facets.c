@@ -5,7 +5,7 @@
 #include "../src/ground/strings.h"
 #include "../src/body/trust.h"
 #include "../src/body/encode.h"
-#include "../src/entry/processor.h"
+#include "../src/query/question.h"
 
 #include "query_scene.h"
 #include "proof_scene.h"

@@ -3,7 +3,7 @@
 #define NSVCD_NO_NETWORK
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
-#include "../src/entry/processor.h"
+#include "../src/query/question.h"
 #include "../src/body/shapes.h"
 
 #include "check.h"
@@ -389,7 +389,7 @@ static void long_open_intervals_stay(void) {
     if (trial / 2) poses[998].position[2] -= 2.04f;
     nsvcd_question q = long_question(bodies, 1000, 0, 0, 0);
     if (trial % 2) q.ask = NSVCD_ASK_FIRST;
-    nsvcd__query *query = nsvcd__query_open(&q, workspace);
+    nsvcd__query *query = nsvcd__query_open(&nsvcd__table, &q, workspace);
     nsvcd__proof_begin(query);
     nsvcd__proof *p = query->proof;
     p->given.work = p->ask.limit = p->ask.most = units;

@@ -5,7 +5,7 @@
 #include "../src/ground/strings.h"
 #include "../src/body/trust.h"
 #include "../src/body/shapes.h"
-#include "../src/entry/processor.h"
+#include "../src/query/question.h"
 
 #include "body_of.h"
 #include "../examples/scenery/oracle.h"

@@ -13,17 +13,11 @@ void test_processor(void);
 #ifdef NSVCD__DISPATCH
 typedef struct processor_set {
   const char *name;
-  size_t (*size)(const nsvcd_question *question);
-  nsvcd_result (*sweep)(const nsvcd_question *questions, size_t count, void *workspace,
-                        size_t workspace_size, nsvcd_answer *answers);
-  nsvcd_result (*gradient)(const nsvcd_question *question, void *workspace, size_t workspace_size,
-                           nsvcd_answer *answer, float *gradient_a, float *gradient_b);
+  const nsvcd__kernels *kernels;
 } processor_set;
 
 static const processor_set processor_sets[3] = {
-    {"SSE2", nsvcd__sweep_size, nsvcd__run_batch, nsvcd__run_gradient},
-    {"AVX2", nsvcd__sweep_size_avx2, nsvcd__run_batch_avx2, nsvcd__run_gradient_avx2},
-    {"AVX-512", nsvcd__sweep_size_avx512, nsvcd__run_batch_avx512, nsvcd__run_gradient_avx512}};
+    {"SSE2", &nsvcd__table}, {"AVX2", &nsvcd__table_avx2}, {"AVX-512", &nsvcd__table_avx512}};
 
 // How many of them this processor has.
 static size_t processor_count(void) {
@@ -63,7 +57,7 @@ static nsvcd_answer processor_ask(const processor_set *set, const nsvcd_question
   nsvcd_answer answer;
   memset(&answer, 0, sizeof answer);
   const size_t size = nsvcd_sweep_workspace_size(NULL);
-  CHECK_EQ(set->sweep(question, 1, query_workspace(), size, &answer), NSVCD_OK);
+  CHECK_EQ(nsvcd__run_batch(set->kernels, question, 1, query_workspace(), size, &answer), NSVCD_OK);
   return answer;
 }
 
@@ -132,7 +126,6 @@ static void processor_the_best_answers(void) {
     processor_open(&s, seed);
     s.question.method = NSVCD_METHOD_NETWORK;
     const size_t size = nsvcd_sweep_workspace_size(&s.question);
-    CHECK_EQ(size, best->size(&s.question));
     CHECK_EQ(nsvcd_sweep(&s.question, query_workspace(), size, &answer), NSVCD_OK);
     const nsvcd_answer expected = processor_ask(best, &s.question);
     CHECK(query_same_answer(&answer, &expected));
@@ -142,7 +135,9 @@ static void processor_the_best_answers(void) {
     nsvcd_answer by_best;
     CHECK_EQ(nsvcd_sweep_gradient(&s.question, query_workspace(), size, &answer, one, NULL),
              NSVCD_OK);
-    CHECK_EQ(best->gradient(&s.question, query_workspace(), size, &by_best, other, NULL), NSVCD_OK);
+    CHECK_EQ(nsvcd__run_gradient(best->kernels, &s.question, query_workspace(), size, &by_best,
+                                 other, NULL),
+             NSVCD_OK);
     CHECK(memcmp(one, other, sizeof one) == 0);
     processor_close(&s);
   }
@@ -150,17 +145,10 @@ static void processor_the_best_answers(void) {
   if (processor_count() > 1) CHECK_GE(different, 1);
 }
 
-// Workspaces are laid out alike: one that suffices for one suffices for all.
-static void processor_sizes_are_the_same(void) {
-  for (size_t n = 1; n < 3; n++)
-    CHECK_EQ(processor_sets[n].size(NULL), processor_sets[0].size(NULL));
-}
-
 // Each reckons rightly; and the public function asks the best.
 static void processor_self_tests(void) {
-  nsvcd_result (*const tests[3])(void) = {nsvcd__run_self_test, nsvcd__run_self_test_avx2,
-                                          nsvcd__run_self_test_avx512};
-  for (size_t n = 0; n < processor_count(); n++) CHECK_EQ(tests[n](), NSVCD_OK);
+  for (size_t n = 0; n < processor_count(); n++)
+    CHECK_EQ(nsvcd__run_self_test(processor_sets[n].kernels), NSVCD_OK);
   int failed = 0;
   for (int n = 0; n < 100; n++) failed += nsvcd_self_test() != NSVCD_OK;
   CHECK_EQ(failed, 0);
@@ -171,7 +159,6 @@ void test_processor(void) {
   RUN(processor_proofs_agree);
   RUN(processor_networks_agree);
   RUN(processor_the_best_answers);
-  RUN(processor_sizes_are_the_same);
 }
 #else
 void test_processor(void) {

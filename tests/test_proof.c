@@ -35,7 +35,7 @@ static int proof_forgets(void);
 #include "../src/ground/strings.h"
 #include "../src/body/trust.h"
 #include "../src/body/encode.h"
-#include "../src/entry/processor.h"
+#include "../src/query/question.h"
 
 #include "any_query.h"
 #include "question_of.h"

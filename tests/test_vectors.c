@@ -2,6 +2,7 @@
 // double. On the vectors that the compiler's flags allow: `make check-levels` tries each level.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
+#include "../src/motion/workspace.h"
 #include "../src/lanes/turns.h"
 
 #include "../examples/scenery/oracle.h"

@@ -1,14 +1,11 @@
-// In: a question. Out: its answer, by the functions for the widest vectors that the processor has.
+// In: a processor. Out: the kernels for the widest vectors that it has.
 //
-// If the compiler's flags allow SSE2 only, the default on x86-64, all that a query does is compiled
-// three times: with SSE2 above, and here with AVX2 and with AVX-512. At each call the processor
-// decides which of them answers. NSVCD_NO_DISPATCH leaves SSE2 only.
-//
-// For that the header includes itself. Only the rooms that use vectors are compiled again, under
-// other private names: nsvcd__prove becomes nsvcd__prove_avx2.
+// If the compiler's flags allow SSE2 only, the default on x86-64, the rooms that use vectors are
+// compiled three times: with SSE2 above, and here with AVX2 and with AVX-512, under other private
+// names: nsvcd__separate becomes nsvcd__separate_avx2. For that the header includes itself. At each
+// call the processor decides which of them answers. NSVCD_NO_DISPATCH leaves SSE2 only.
 #pragma once
-#include "../query/self_test.h"
-#include "../gradient/gradient.h"
+#include "kernels.h"
 
 #if NSVCD__SLICE == 4 && !defined(NSVCD_NO_DISPATCH) && !defined(NSVCD__NARROW) && \
     !defined(NSVCD__FROM_ROOMS)
@@ -32,13 +29,8 @@
 
 // ---- the passes
 
-// gcc makes these loops fast only at -O3: they take 0.75 to 0.85 of the time at -O2. Its clones of
-// functions by constant arguments gain nothing, at 30 KB and an eighth of its own time.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC push_options
-#if defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
-#pragma GCC optimize("O3", "no-ipa-cp-clone")
-#endif
 #pragma GCC target("avx2,fma,bmi,bmi2,lzcnt,popcnt")
 #elif defined(__clang__)
 #pragma clang attribute push(__attribute__((target("avx2,fma,bmi,bmi2,lzcnt,popcnt"))), \
@@ -118,40 +110,32 @@ static nsvcd__isa nsvcd__isa_at_hand(void) {
 }
 #endif
 
-#define NSVCD__BEST(name) \
-  (nsvcd__isa_at_hand() == NSVCD__AVX512 ? nsvcd__##name##_avx512 \
-   : nsvcd__isa_at_hand() == NSVCD__AVX2 ? nsvcd__##name##_avx2 \
-                                         : nsvcd__##name)
+// The kernels for the widest vectors that the processor has.
+static const nsvcd__kernels *nsvcd__best_kernels(void) {
+  static const nsvcd__kernels *const all[] = {&nsvcd__table, &nsvcd__table_avx2,
+                                              &nsvcd__table_avx512};
+  return all[nsvcd__isa_at_hand()];
+}
 #else
-#define NSVCD__BEST(name) nsvcd__##name
+static const nsvcd__kernels *nsvcd__best_kernels(void) {
+  return &nsvcd__table;
+}
 #endif  // NSVCD__DISPATCH
 
-// ---- the public functions of queries
+// By the kernels of one instruction set. The triangles are apart when one of them is raised.
+static nsvcd_result nsvcd__run_self_test(const nsvcd__kernels *kernels) {
+  int right = kernels->self_test();
+#ifndef NSVCD_NO_PROOF
+  const volatile double height = 2.8;  // volatile, or the compiler would compute all this
+  const nsvcd__d3 a[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  nsvcd__d3 b[3] = {{0.25, 0.25, -1}, {0.25, 0.25, 1}, {2, 2, 1}};
+  right &= !(nsvcd__nearest_of(a, b).square > 0);
+  for (size_t k = 0; k < 3; k++) b[k].z += 1 + height;
+  right &= fabs(nsvcd__nearest_of(a, b).square - height * height) < 1e-9;
+#endif
+  return right ? NSVCD_OK : NSVCD_ERROR_BUILD;
+}
 
 NSVCDDEF nsvcd_result nsvcd_self_test(void) {
-  return NSVCD__BEST(run_self_test)();
+  return nsvcd__run_self_test(nsvcd__best_kernels());
 }
-
-NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question) {
-  return NSVCD__BEST(sweep_size)(question);
-}
-
-NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace,
-                                  size_t workspace_size, nsvcd_answer *answer) {
-  return NSVCD__BEST(run_batch)(question, 1, workspace, workspace_size, answer);
-}
-
-NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t count,
-                                        void *workspace, size_t workspace_size,
-                                        nsvcd_answer *answers) {
-  return NSVCD__BEST(run_batch)(questions, count, workspace, workspace_size, answers);
-}
-
-#ifndef NSVCD_NO_GRADIENT
-NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace,
-                                           size_t workspace_size, nsvcd_answer *answer,
-                                           float *gradient_a, float *gradient_b) {
-  return NSVCD__BEST(run_gradient)(question, workspace, workspace_size, answer, gradient_a,
-                                   gradient_b);
-}
-#endif

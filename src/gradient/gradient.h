@@ -1,6 +1,6 @@
 // In: derivatives by a pair. Out: those by the poses of both movers.
 #pragma once
-#include "../query/question.h"
+#include "../network/opinion.h"
 #include "by_pair.h"
 
 #ifndef NSVCD_NO_GRADIENT
@@ -197,27 +197,4 @@ static void nsvcd__gradient(const nsvcd__task *task, nsvcd__decisive *decisive,
   if (at.leaves) nsvcd__by_contact(m, &at, NSVCD__EXIT, pair.p2, by_time[1], out);
 }
 
-// As nsvcd_sweep_gradient.
-static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *workspace,
-                                        size_t workspace_size, nsvcd_answer *answer,
-                                        float *gradient_a, float *gradient_b) {
-  if (!question || !answer || (!gradient_a && !gradient_b)) return NSVCD_ERROR_ARGUMENT;
-  if (question->method == NSVCD_METHOD_PROOF) return NSVCD_ERROR_METHOD;
-  nsvcd_question by_network = *question;
-  by_network.method = NSVCD_METHOD_NETWORK;
-  const nsvcd_result result = nsvcd__sweep_check(&by_network, workspace, workspace_size);
-  if (result) return result;
-  nsvcd__query *query = nsvcd__query_open(&by_network, workspace);
-  nsvcd__task *task = &query->task;
-  nsvcd__decisive decisive;
-  task->decisive = &decisive;
-  nsvcd__answer_query(query, NULL, answer);
-  float *const out[2] = {task->swapped ? gradient_b : gradient_a,
-                         task->swapped ? gradient_a : gradient_b};
-  if (out[0]) memset(out[0], 0, 6 * task->motion.moving.count * sizeof(float));
-  if (out[1]) memset(out[1], 0, 6 * task->motion.fixed.count * sizeof(float));
-  if (answer->opinion.candidates > 0 && !answer->inside)
-    nsvcd__gradient(task, &decisive, query->broad_phase.time, out);
-  return NSVCD_OK;
-}
 #endif  // NSVCD_NO_GRADIENT

@@ -310,13 +310,6 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_load(nsvcd__row *p, size_t l) {
   return nsvcd__v3_get(p[0] + l, NSVCD__LANES);
 }
 
-// The vector in lane l alone.
-static inline nsvcd__f3 nsvcd__lane_of(nsvcd__row *p, size_t l) {
-  return nsvcd__f3_get(p[0] + l, NSVCD__LANES);
-}
-static inline void nsvcd__lane_set(nsvcd__f3 a, nsvcd__row *p, size_t l) {
-  nsvcd__f3_put(a, p[0] + l, NSVCD__LANES);
-}
 // Unit vectors; the x axis where the length is 0.
 static inline nsvcd__v3 nsvcd__v3_unit(nsvcd__v3 a) {
   const nsvcd__v3 x = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));

@@ -67,12 +67,6 @@ NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_set(const nsvcd__mat3 *m) {
   const nsvcd__vmat3 out = {nsvcd__v3_set(m->x), nsvcd__v3_set(m->y), nsvcd__v3_set(m->z)};
   return out;
 }
-// The matrix in lane l of p (9, LANES), row-major.
-static inline nsvcd__mat3 nsvcd__mat3_lane(nsvcd__row *p, size_t l) {
-  const nsvcd__mat3 out = {nsvcd__lane_of(p, l), nsvcd__lane_of(p + 3, l),
-                           nsvcd__lane_of(p + 6, l)};
-  return out;
-}
 // p: (9, LANES), row-major.
 NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_load(nsvcd__row *p, size_t l) {
   return nsvcd__vmat3_rows(nsvcd__v3_load(p, l), nsvcd__v3_load(p + 3, l),

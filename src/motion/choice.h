@@ -185,33 +185,3 @@ static float nsvcd__interval_gap(const nsvcd__motion *m, uint32_t from, uint32_t
   return nsvcd__tracks_gap(&moving, &fixed, m->unit);
 }
 #endif
-
-// ---- cutting
-
-// Cuts the chosen segments. lengths: the bodies' extents; clearance: spheres that come so near
-// count as meeting.
-static void nsvcd__cut_segments(const nsvcd__motion *m, float lengths, float clearance,
-                                nsvcd__search *q) {
-  uint32_t *begin = q->begin;
-  float *turn = q->turn;
-  // segments of no length fill the last block
-  for (size_t s = q->segments; s % NSVCD__LANES; s++) begin[s + 1] = begin[s];
-  turn[0] = 0;
-  for (size_t s = 0; s < q->segments; s += NSVCD__LANES) {
-    nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
-    nsvcd__cut_block(m, begin + s, q->segments - s, lengths, block, q->cut);
-    for (size_t l = 0; l < NSVCD__LANES; l++) {
-      block->margin[l] += clearance;
-      turn[s + l + 1] = turn[s + l] + q->cut->most.turn[l];
-    }
-  }
-}
-
-#ifndef NSVCD_NO_NETWORK
-// Chooses and cuts the segments of all of a motion.
-static NSVCD__NOINLINE void nsvcd__cut_motion(nsvcd__motion *m, float lengths,
-                                              nsvcd__search *q) {
-  nsvcd__choose_all(m, q);
-  nsvcd__cut_segments(m, lengths, 0, q);
-}
-#endif

@@ -15,7 +15,8 @@
 #include "../ground/valid.h"
 #include "../interface/queries.h"
 #include "../body/trust.h"
-#include "../lanes/turns.h"
+#include "../ground/rotations.h"
+#include "../ground/slices.h"
 
 // The poses of one body.
 typedef struct nsvcd__track {
@@ -268,39 +269,6 @@ static uint32_t nsvcd__next_keyframe(const nsvcd__motion *m, uint32_t tick) {
   const uint32_t after_a = nsvcd__next_pose(&m->moving, tick);
   const uint32_t after_b = nsvcd__next_pose(&m->fixed, tick);
   return after_a < after_b ? after_a : after_b;
-}
-
-// A slice of poses of both bodies in the world.
-typedef struct nsvcd__v_poses {
-  nsvcd__vquat moving;  // of any length
-  nsvcd__vquat fixed;   // unit; only where that body moves
-  nsvcd__v3 offset;     // from the fixed body's origin to the moving one's, metres
-} nsvcd__v_poses;
-
-// A slice of poses.
-typedef struct nsvcd__v_pose {
-  nsvcd__vquat rotation;
-  nsvcd__v3 position;
-} nsvcd__v_pose;
-
-// The moving body's poses in the fixed body's frame: quaternions of any length, positions in its
-// units.
-static nsvcd__v_pose nsvcd__v_seen(const nsvcd__motion *m, const nsvcd__v_poses *at) {
-  const nsvcd__v per_metre = nsvcd__v_set(1 / m->unit);
-  nsvcd__vquat to_fixed;
-  nsvcd__vmat3 matrix;
-  if (m->fixed_moves) {
-    to_fixed = nsvcd__vquat_inverse(at->fixed);
-    matrix = nsvcd__vmat3_of(to_fixed);
-  } else {
-    to_fixed = nsvcd__vquat_set(m->to_fixed_quat);
-    matrix = nsvcd__vmat3_set(&m->to_fixed);
-  }
-  const nsvcd__v3 metres = nsvcd__vmat3_apply(matrix, at->offset);
-  nsvcd__v_pose out;
-  out.rotation = nsvcd__vquat_mul(to_fixed, at->moving);
-  out.position = nsvcd__v3_fma(per_metre, metres, nsvcd__v3_set(m->push_out));
-  return out;
 }
 
 #ifndef NSVCD_NO_NETWORK

@@ -79,8 +79,9 @@ NSVCD__INLINE void nsvcd__rotate_degree(const float *latent, float (*turn)[NSVCD
 
 // Turns a stored latent by D (WIGNER, SLICE) of lane l, and writes it as latent `slot`, 0 or 1, of
 // a row of the decoder's inputs: vectors (2, 8, CHANNELS), then scalars (2, SCALARS).
-static NSVCD__NOINLINE void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE],
-                                                 size_t l, size_t slot, float *row) {
+static NSVCD__O3 NSVCD__NOINLINE void nsvcd__rotate_latent(const int8_t *z,
+                                                           float (*turn)[NSVCD__SLICE],
+                                                           size_t l, size_t slot, float *row) {
   float *vectors = row + NSVCD__VECTORS * slot;
   float *scalars = row + 2 * NSVCD__VECTORS + NSVCD_W_SCALARS * slot;
   // one degree after the other: a query's stack is deepest here

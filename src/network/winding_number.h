@@ -24,7 +24,7 @@
 // Cost: at most NSVCD__PROBES * N distances for each of the two bodies, if centres of one are in
 // the other's sphere and a ray out of it is blocked; of large bodies only those to groups nearby.
 #pragma once
-#include "../motion/segments.h"
+#include "../segments/segments.h"
 
 #ifndef NSVCD_NO_NETWORK
 #define NSVCD__PROBES NSVCD__LANES  // patch centres of the inner body

@@ -22,7 +22,7 @@
 #pragma once
 #include "../ground/memory.h"
 #include "../ground/rotations.h"
-#include "../entry/processor.h"
+#include "../query/question.h"
 #include "spline.h"
 
 #ifndef NSVCD_NO_OPTIMIZER

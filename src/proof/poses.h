@@ -14,6 +14,16 @@ static nsvcd__d3 nsvcd__d3_transform(const nsvcd__dtransform *at, nsvcd__d3 a) {
   return nsvcd__d3_add(nsvcd__dmat3_apply(&at->rotation, a), at->position);
 }
 
+// The inverse of a pose, whose rotation is times this scale.
+static nsvcd__dtransform nsvcd__inverse_dtransform(const nsvcd__dtransform *at, double scale) {
+  const double inverse = 1 / (scale * scale);
+  nsvcd__dtransform out;
+  const nsvcd__dmat3 transpose = nsvcd__dmat3_transpose(at->rotation);
+  out.rotation = nsvcd__dmat3_scale(&transpose, inverse);
+  out.position = nsvcd__d3_scale(nsvcd__dmat3_apply(&out.rotation, at->position), -1);
+  return out;
+}
+
 // The rotation at fraction u of the arc, unit.
 static nsvcd__dquat nsvcd__slerp_at(const nsvcd__slerp *slerp, double u) {
   const double along = slerp->from + slerp->fraction * u;

@@ -14,8 +14,8 @@
 //      pair is separated by one of the steps below, or the verdict is not FREE.
 //   3. An *interval* of the motion is a segment or a part of one. Within it, a point x of the
 //      moving body (body frame) leaves the chord between its positions at the two ends by no more
-//      than nsvcd__deviation_of along any direction: the deviation of motion/segments, taken along
-//      a plane's normal (within one arc of angle h of one body it is h^2 / 8 |x|, and nothing along
+//      than nsvcd__deviation_of along any direction: the deviation of segments/segments, along a
+//      plane's normal (within one arc of angle h of one body it is h^2 / 8 |x|, and nothing along
 //      the axis). Let a plane have the moving side at both ends on one side, by more than that and
 //      the clearance. A chord is convex: so the chords are there too, and with them all positions
 //      in between.
@@ -420,6 +420,7 @@ typedef struct nsvcd__memo {
 } nsvcd__memo;
 
 typedef struct nsvcd__proof {
+  const struct nsvcd__kernels *kernels;
   nsvcd__geometry moving, fixed;
   nsvcd__given given;
   nsvcd__asked ask;

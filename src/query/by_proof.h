@@ -1,9 +1,9 @@
 // In: a task. Out: its answer, by proof, with contacts as points in the world.
 #pragma once
-#include "../proof/leave.h"
-#include "../proof/long.h"
-#include "../proof/normals.h"
-#include "task.h"
+#include "leave.h"
+#include "long.h"
+#include "normals.h"
+#include "../task/task.h"
 
 #ifndef NSVCD_NO_PROOF
 typedef struct nsvcd__dpose {
@@ -79,6 +79,7 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   nsvcd__given *given = &p->given;
   memset(given, 0, sizeof *given);
   memset(&p->ask, 0, sizeof p->ask);
+  p->kernels = query->kernels;
   p->intervals = query->intervals;
   p->ask.motion = &query->task.motion;
   p->moving = nsvcd__geometry_of(nsvcd__triangles_of(task->moving));
@@ -285,10 +286,10 @@ static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd_ans
     int chosen[NSVCD_MAX_CONTACTS];
     double area;
     nsvcd__manifold_begin(p, normals[k], &twist, p->ask.clearance, same);
-    nsvcd__seek_positions(p, 0, NSVCD__AROUND);
+    p->kernels->seek_positions(p, 0, NSVCD__AROUND);
     int count = nsvcd__choose_four(m, chosen, &area);
     if (nsvcd__seek_across(&p->of.kept.manifold, area)) {
-      nsvcd__seek_positions(p, NSVCD__AROUND, NSVCD__SUPPORTS);
+      p->kernels->seek_positions(p, NSVCD__AROUND, NSVCD__SUPPORTS);
       count = nsvcd__choose_four(m, chosen, &area);
     }
     if (count == 0 || !(area > 1.001 * widest)) continue;

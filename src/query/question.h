@@ -1,6 +1,5 @@
-// In: questions and a workspace. Out: answers, or why not.
+// In: questions and a workspace. Out: answers, or why not. The public functions of queries.
 #pragma once
-#include "by_network.h"
 #include "by_proof.h"
 
 // The method that answers, or DEFAULT where there is none.
@@ -120,10 +119,9 @@ static nsvcd__needs nsvcd__needs_of(const nsvcd_question *q) {
   return needs;
 }
 
-// As nsvcd_sweep_workspace_size.
-static size_t nsvcd__sweep_size(const nsvcd_question *q) {
-  if (q && nsvcd__question_check(q)) return 0;
-  const nsvcd__needs needs = nsvcd__needs_of(q);
+NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question) {
+  if (question && nsvcd__question_check(question)) return 0;
+  const nsvcd__needs needs = nsvcd__needs_of(question);
   return nsvcd__query_layout(&needs, NULL);
 }
 
@@ -140,12 +138,14 @@ static NSVCD__NOINLINE nsvcd_result nsvcd__sweep_check(const nsvcd_question *q,
 }
 
 // Lays out a checked question in the workspace, and chooses who moves.
-static NSVCD__NOINLINE nsvcd__query *nsvcd__query_open(const nsvcd_question *q,
+static NSVCD__NOINLINE nsvcd__query *nsvcd__query_open(const nsvcd__kernels *kernels,
+                                                       const nsvcd_question *q,
                                                        void *workspace) {
   const nsvcd__needs needs = nsvcd__needs_of(q);
   nsvcd__query *query = (nsvcd__query *)workspace;
   nsvcd__task *task = &query->task;
   (void)nsvcd__query_layout(&needs, (char *)workspace);
+  query->kernels = kernels;
   task->swapped = nsvcd__is_swapped(&q->a, &q->b);
   const nsvcd_mover *moving = task->swapped ? &q->b : &q->a;
   const nsvcd_mover *fixed = task->swapped ? &q->a : &q->b;
@@ -192,6 +192,20 @@ static void nsvcd__swap_answer(nsvcd_answer *answer) {
   for (size_t k = 0; k < 3; k++) answer->push_out[k] = 0 - answer->push_out[k];
 }
 
+#ifndef NSVCD_NO_NETWORK
+// Answers a question whose motion has been prepared, by the network.
+static void nsvcd__answer_by_network(nsvcd__query *query, nsvcd__hint *hint,
+                                     nsvcd_answer *answer) {
+  nsvcd_opinion opinion;
+  const int inside = query->kernels->ask_network(query, hint, &opinion);
+  nsvcd__answer_begin(&query->task, opinion.logit > 0 ? NSVCD_HIT : NSVCD_FREE, answer);
+  answer->inside = inside;
+  answer->opinion = opinion;
+  if (query->broad_phase.balls_met || inside) answer->by = NSVCD_BY_NETWORK;
+  if (opinion.logit > 0) answer->time.high = opinion.time;
+}
+#endif
+
 // Answers a question that has been checked and laid out. hint: NULL, or a batch's, for the network.
 static void nsvcd__answer_query(nsvcd__query *query, nsvcd__hint *hint, nsvcd_answer *answer) {
   const nsvcd__task *task = &query->task;
@@ -206,7 +220,7 @@ static void nsvcd__answer_query(nsvcd__query *query, nsvcd__hint *hint, nsvcd_an
   const int knows = task->moving->weights_id && task->fixed->weights_id &&
                     !(q->clearance > 0 || q->ask == NSVCD_ASK_DISTANCE || q->slop > 0);
   if (task->method == NSVCD_METHOD_PROOF && answer->verdict == NSVCD_UNDECIDED && knows)
-    (void)nsvcd__ask_network(query, NULL, &answer->opinion);
+    (void)query->kernels->ask_network(query, NULL, &answer->opinion);
 #endif
 #ifndef NSVCD_NO_NETWORK
   if (task->method == NSVCD_METHOD_NETWORK) nsvcd__answer_by_network(query, hint, answer);
@@ -214,8 +228,9 @@ static void nsvcd__answer_query(nsvcd__query *query, nsvcd__hint *hint, nsvcd_an
   if (task->swapped) nsvcd__swap_answer(answer);
 }
 
-// As nsvcd_sweep_batch.
-static nsvcd_result nsvcd__run_batch(const nsvcd_question *questions, size_t count,
+// As nsvcd_sweep_batch, by the kernels of one instruction set.
+static nsvcd_result nsvcd__run_batch(const nsvcd__kernels *kernels,
+                                     const nsvcd_question *questions, size_t count,
                                      void *workspace, size_t workspace_size,
                                      nsvcd_answer *answers) {
   nsvcd__hint hint = {0, 0, 0, 0};
@@ -227,7 +242,7 @@ static nsvcd_result nsvcd__run_batch(const nsvcd_question *questions, size_t cou
   }
   for (size_t k = 0; k < count; k++) {
     const nsvcd_question *q = &questions[k];
-    nsvcd__query *query = nsvcd__query_open(q, workspace);
+    nsvcd__query *query = nsvcd__query_open(kernels, q, workspace);
     // The hint is about patches of the moving body and of the fixed one.
     const int same = k > 0 && q->a.body == q[-1].a.body && q->b.body == q[-1].b.body;
     if (!same || query->task.swapped != swapped) memset(&hint, 0, sizeof hint);
@@ -236,3 +251,50 @@ static nsvcd_result nsvcd__run_batch(const nsvcd_question *questions, size_t cou
   }
   return NSVCD_OK;
 }
+
+NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace,
+                                  size_t workspace_size, nsvcd_answer *answer) {
+  return nsvcd__run_batch(nsvcd__best_kernels(), question, 1, workspace, workspace_size,
+                          answer);
+}
+
+NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t count,
+                                        void *workspace, size_t workspace_size,
+                                        nsvcd_answer *answers) {
+  return nsvcd__run_batch(nsvcd__best_kernels(), questions, count, workspace, workspace_size,
+                          answers);
+}
+
+#ifndef NSVCD_NO_GRADIENT
+// As nsvcd_sweep_gradient, by the kernels of one instruction set.
+static nsvcd_result nsvcd__run_gradient(const nsvcd__kernels *kernels,
+                                        const nsvcd_question *question, void *workspace,
+                                        size_t workspace_size, nsvcd_answer *answer,
+                                        float *gradient_a, float *gradient_b) {
+  if (!question || !answer || (!gradient_a && !gradient_b)) return NSVCD_ERROR_ARGUMENT;
+  if (question->method == NSVCD_METHOD_PROOF) return NSVCD_ERROR_METHOD;
+  nsvcd_question by_network = *question;
+  by_network.method = NSVCD_METHOD_NETWORK;
+  const nsvcd_result result = nsvcd__sweep_check(&by_network, workspace, workspace_size);
+  if (result) return result;
+  nsvcd__query *query = nsvcd__query_open(kernels, &by_network, workspace);
+  nsvcd__task *task = &query->task;
+  nsvcd__decisive decisive;
+  task->decisive = &decisive;
+  nsvcd__answer_query(query, NULL, answer);
+  float *const out[2] = {task->swapped ? gradient_b : gradient_a,
+                         task->swapped ? gradient_a : gradient_b};
+  if (out[0]) memset(out[0], 0, 6 * task->motion.moving.count * sizeof(float));
+  if (out[1]) memset(out[1], 0, 6 * task->motion.fixed.count * sizeof(float));
+  if (answer->opinion.candidates > 0 && !answer->inside)
+    kernels->gradient(task, &decisive, query->broad_phase.time, out);
+  return NSVCD_OK;
+}
+
+NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace,
+                                           size_t workspace_size, nsvcd_answer *answer,
+                                           float *gradient_a, float *gradient_b) {
+  return nsvcd__run_gradient(nsvcd__best_kernels(), question, workspace, workspace_size,
+                             answer, gradient_a, gradient_b);
+}
+#endif

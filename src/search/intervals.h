@@ -8,24 +8,6 @@
 #define NSVCD__INTERVAL_TURN 0.785f
 #define NSVCD__NO_SCORE (-1e30f)
 
-// A contact interval: the balls of patches `moving` and `fixed` overlap from t_enter to t_exit,
-// with the deviation added.
-typedef struct nsvcd__candidate {
-  uint16_t moving, fixed;
-  float t_enter, t_exit;
-  float t_least;  // when they are nearest
-  float depth;    // rank, 1 - least distance / (r1 + r2): the deepest go on to the network
-  // what the network says: a logit, or NSVCD__NO_SCORE; and a distance, in tenths of r1 + r2
-  float score, apart;
-} nsvcd__candidate;
-
-// The candidates kept so far: a heap with the shallowest at its root.
-typedef struct nsvcd__candidates {
-  nsvcd__candidate *items;  // (limit), the caller's
-  size_t limit, count;
-  size_t total;  // intervals found, kept or not
-} nsvcd__candidates;
-
 static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *items,
                                     size_t limit) {
   const nsvcd__candidates none = {items, limit, 0, 0};

@@ -7,28 +7,9 @@
 // chords, as centres do, and the deviation of points is allowed for. But extremes are not all of a
 // patch, so this is no proof: if a greater recall is asked for, patches are inflated first.
 #pragma once
-#include "../motion/chords.h"
+#include "../segments/chords.h"
 
 #ifndef NSVCD_NO_NETWORK
-// The ranges of 16 patches along a plane's normal.
-typedef struct nsvcd__ranges {
-  nsvcd__row low, high;
-} nsvcd__ranges;
-
-#define NSVCD__PLANES 2  // that are remembered
-
-// Planes that separated others, and the ranges of two groups along them: of the moving one in one
-// segment.
-typedef struct nsvcd__plane_cache {
-  nsvcd__f3 planes[NSVCD__PLANES];  // normals: the last of those found
-  uint32_t found, best;             // how many; which of them separated last
-  float inflate;                    // patches, by so much of their radii
-  int balls_only;                   // no planes are tried
-  nsvcd__ranges moving[NSVCD__PLANES], resting[NSVCD__PLANES];
-  uint32_t moving_known, resting_known;  // bits of planes whose ranges are filled in
-  float deviation;                       // of the moving group's points in the segment
-} nsvcd__plane_cache;
-
 // Begins the search of a motion.
 static void nsvcd__plane_cache_begin(nsvcd__search *q, float inflate) {
   q->cache->found = q->cache->best = 0;

@@ -108,13 +108,6 @@ static void nsvcd__search_tile(nsvcd__search *q, uint64_t wanted) {
   }
 }
 
-static int nsvcd__is_large(const nsvcd_body *body) {
-  return nsvcd__body_groups(body) > NSVCD__TILE;
-}
-static int nsvcd__is_tiled(const nsvcd_body *a, const nsvcd_body *b) {
-  return nsvcd__is_large(a) || nsvcd__is_large(b);
-}
-
 // Fills a tile with the next groups that a traversal finds.
 static void nsvcd__tile_fill(nsvcd__tile *tile, nsvcd__traversal *traversal) {
   size_t g;

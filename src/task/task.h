@@ -10,9 +10,9 @@
 //
 // A batch checks all of its questions before it answers the first one.
 #pragma once
+#include "../motion/workspace.h"
 #include "../proof/proof.h"
-#include "../network/decoder.h"
-#include "../search/planes.h"
+#include "../encoder/model.h"
 
 #ifndef NSVCD_NO_NETWORK
 #ifndef NSVCD_NO_BASE
@@ -72,6 +72,49 @@ typedef struct nsvcd__decisive {
   nsvcd__candidate candidate;
   const nsvcd__decoder *decoder;
 } nsvcd__decisive;
+
+// The settings for two bodies of so many patches. On an error, where the options ask for what is
+// not there, *settings is not whole. weights.h has a threshold per decoder, recall and N = 32, 64,
+// ..., 512. Between those, and for two bodies that differ, it is interpolated at the mean of log2
+// N.
+static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t patches1,
+                                       size_t patches2, nsvcd__settings *settings) {
+  if (o->pairs > NSVCD_MAX_PAIRS) return NSVCD_ERROR_PAIRS;
+  if ((unsigned)o->model > (unsigned)NSVCD_MODEL_BASE) return NSVCD_ERROR_MODEL;
+  if (!nsvcd__is_finite(o->inflate) || o->inflate < 0) return NSVCD_ERROR_INFLATE;
+  if (o->precision != NSVCD_PRECISION_FLOAT && o->precision != NSVCD_PRECISION_INT8)
+    return NSVCD_ERROR_PRECISION;
+  const nsvcd_model model = o->model ? o->model : NSVCD__LARGEST_MODEL;
+  const size_t decoder = (size_t)model - (size_t)NSVCD_MODEL_TINY;
+  if (!nsvcd_w_decoders[decoder].layers) return NSVCD_ERROR_MODEL;  // compiled out
+  settings->pairs = o->pairs ? o->pairs : NSVCD_DEFAULT_PAIRS;
+  settings->shortlist = decoder == 0 ? settings->pairs : NSVCD__SHORTLIST * settings->pairs;
+  settings->decoder = &nsvcd_w_decoders[decoder];
+  settings->ranker = &nsvcd_w_decoders[0];
+#ifdef NSVCD_NO_FLOAT
+  settings->int8 = 1;
+#else
+  settings->int8 = o->precision == NSVCD_PRECISION_INT8;
+#endif
+#ifdef NSVCD_NO_INT8
+  if (settings->int8) return NSVCD_ERROR_PRECISION;
+#endif
+  for (size_t k = 0; k < NSVCD_W_RECALLS && nsvcd__is_finite(o->recall); k++) {
+    if (o->recall < nsvcd_w_recall[k] || o->recall > nsvcd_w_recall[k]) continue;
+    const float n = sqrtf((float)patches1 * (float)patches2);
+    const float last = NSVCD_W_SIZES - 1;
+    const float size = log2f(n) - 5;
+    const float at = size < 0 ? 0 : size > last ? last : size;
+    const size_t row = at < last ? (size_t)at : NSVCD_W_SIZES - 2;
+    const float low = nsvcd_w_threshold[decoder][row][k];
+    const float high = nsvcd_w_threshold[decoder][row + 1][k];
+    settings->threshold = low + (at - (float)row) * (high - low);
+    const float least = k < 2 ? 0 : k == 2 ? NSVCD__INFLATE : NSVCD__MOST_INFLATE;
+    settings->inflate = fmaxf(o->inflate, least * 32 / n);
+    return NSVCD_OK;
+  }
+  return NSVCD_ERROR_RECALL;
+}
 #endif  // NSVCD_NO_NETWORK
 
 // ---- tasks, and their memory
@@ -87,7 +130,7 @@ typedef struct nsvcd__task {
 #ifndef NSVCD_NO_NETWORK
   nsvcd__settings settings;
   nsvcd__decisive *decisive;  // written unless NULL
-#if NSVCD__ROWS == 1
+#if NSVCD__SLICE == 1
   // (DECODER_IN) the decoder's inputs, in memory that the search does not need between two groups:
   // stack is scarce where rows go one by one
   float *row;
@@ -98,6 +141,7 @@ typedef struct nsvcd__task {
 // What a workspace begins with. The network's memory and the proof's are the same, for one follows
 // the other.
 typedef struct nsvcd__query {
+  const struct nsvcd__kernels *kernels;
   nsvcd__search broad_phase;
   nsvcd__task task;
 #ifndef NSVCD_NO_NETWORK
@@ -124,8 +168,7 @@ typedef char nsvcd__proof_constants_hold[NSVCD__MUST_HOLD(sizeof(nsvcd__proof) <
 #ifndef NSVCD_NO_NETWORK
 typedef char nsvcd__network_constants_hold[NSVCD__MUST_HOLD(
     NSVCD__SHORTLIST * sizeof(nsvcd__candidate) <= 112 && NSVCD__LATENT == 40 &&
-    sizeof(nsvcd__plane_cache) <= 576 &&
-    sizeof(float) * NSVCD__DECODER_IN <= sizeof(uint16_t) * NSVCD__GROUP * NSVCD__LANES)];
+    sizeof(nsvcd__plane_cache) <= 576)];
 #endif
 
 // Lays a query out at `base`, which is aligned, or only counts if that is NULL. Returns the bytes
@@ -180,3 +223,22 @@ typedef struct nsvcd__hint {
   int known, misled;
   uint32_t moving, fixed;  // patches
 } nsvcd__hint;
+
+// The functions of a query that work on vectors, of one instruction set: all that is compiled more
+// than once. What stands above them calls them through this table.
+typedef struct nsvcd__kernels {
+  int (*self_test)(void);
+#ifndef NSVCD_NO_PROOF
+  nsvcd__outcome (*separate)(nsvcd__proof *p, nsvcd__search *q);
+  int (*is_contained_at_start)(nsvcd__proof *p);
+  double (*bound_distance)(nsvcd__proof *p, nsvcd__search *q);
+  void (*seek_positions)(nsvcd__proof *p, int first, int last);
+#endif
+#ifndef NSVCD_NO_NETWORK
+  int (*ask_network)(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opinion *out);
+#endif
+#ifndef NSVCD_NO_GRADIENT
+  void (*gradient)(const nsvcd__task *task, nsvcd__decisive *decisive, const float *time,
+                   float *const *out);
+#endif
+} nsvcd__kernels;

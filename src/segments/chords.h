@@ -6,7 +6,7 @@
 // at any time have chords that meet then, and if no chords do, the surfaces never meet, which is a
 // proof. A group or a whole body is a sphere like any other: its sphere contains its members'.
 #pragma once
-#include "choice.h"
+#include "segments.h"
 
 NSVCD__INLINE nsvcd__v3 nsvcd__chords_start(const nsvcd__chords *c, size_t l) {
   return nsvcd__v3_rows(c->start[0] + l);
@@ -103,7 +103,7 @@ NSVCD__INLINE uint32_t nsvcd__comes_within(nsvcd__v3 d, nsvcd__v3 travel, nsvcd_
 }
 
 // 16 moving spheres, or one in 16 segments, against one resting sphere.
-static uint32_t nsvcd__meet(const nsvcd__chords *c, nsvcd__sphere resting) {
+NSVCD__INLINE uint32_t nsvcd__meet(const nsvcd__chords *c, nsvcd__sphere resting) {
   const nsvcd__v3 centre = nsvcd__v3_set(resting.centre);
   const nsvcd__v radius = nsvcd__v_set(resting.radius);
   uint32_t met = 0;
@@ -138,8 +138,8 @@ NSVCD__INLINE uint32_t nsvcd__meet_members(const nsvcd__search *q, size_t s,
 
 // The segments among `wanted` in which the sphere whose chords are q->group meets a resting
 // one.
-static uint64_t nsvcd__meet_in(const nsvcd__search *q, uint64_t wanted,
-                               nsvcd__sphere resting) {
+NSVCD__INLINE uint64_t nsvcd__meet_in(const nsvcd__search *q, uint64_t wanted,
+                                      nsvcd__sphere resting) {
   uint64_t met = 0;
   for (size_t s = 0; s < NSVCD__MAX_SEGMENTS && wanted >> s; s += NSVCD__LANES) {
     if (wanted >> s & 0xffff)

@@ -22,49 +22,41 @@
 // what is left along the axis of the whole segment's turn, from which the axes of its arcs may
 // differ. nsvcd__deviation_of puts them together.
 #pragma once
-#include "motion.h"
+#include "../lanes/turns.h"
+#include "../motion/choice.h"
 
-// Times the lengths that enter a difference of positions: about 15 float operations of 6e-8 each,
-// doubled.
-#define NSVCD__ROUNDING 2e-6f
+// A slice of poses of both bodies in the world.
+typedef struct nsvcd__v_poses {
+  nsvcd__vquat moving;  // of any length
+  nsvcd__vquat fixed;   // unit; only where that body moves
+  nsvcd__v3 offset;     // from the fixed body's origin to the moving one's, metres
+} nsvcd__v_poses;
 
-// 16 segments: the pose at the start, its change until the end, and bounds of the deviation.
-typedef struct nsvcd__segments {
-  nsvcd__row rotation[9], position[3];
-  nsvcd__row turned[9], moved[3];
-  nsvcd__row margin, bend;
-  // For the proof, along directions: see nsvcd__deviation_of.
-  nsvcd__row rounding, axis[3], heading[3];
-  nsvcd__row bend_along_axis;
-  nsvcd__row origin_bend, origin_along_axis;
-  nsvcd__row origin_off_heading;
-} nsvcd__segments;
+// A slice of poses.
+typedef struct nsvcd__v_pose {
+  nsvcd__vquat rotation;
+  nsvcd__v3 position;
+} nsvcd__v_pose;
 
-#define NSVCD__ENDS (NSVCD__LANES + 1)  // of 16 segments, one after the other
-
-// Poses of both bodies at the ends of segments, or at other ticks, in the world.
-typedef struct nsvcd__keyframes {
-  float moving[4 * NSVCD__ENDS];  // (4, ENDS) quaternions, as the next two
-  float fixed[4 * NSVCD__ENDS];
-  float seen[4 * NSVCD__ENDS];    // the moving body's, in the fixed body's frame
-  float offset[3 * NSVCD__ENDS];  // (3, ENDS) see nsvcd__v_poses
-} nsvcd__keyframes;
-
-// The greatest values so far of 16 segments, while their keyframes are visited.
-typedef struct nsvcd__bends {
-  nsvcd__row turn;  // the sum of the arcs' angles
-  // arcs off their chords: per metre from the moving origin, along the axis too, and that origin
-  nsvcd__row arc_bend, arc_along_axis, arc_origin;
-  // keyframes off the segment's chord, squared: the rotation and the position, and both along the
-  // axis; the position across the heading
-  nsvcd__row off, origin_off, along_axis;
-  nsvcd__row origin_along_axis, origin_off_heading;
-} nsvcd__bends;
-
-typedef struct nsvcd__cut {
-  nsvcd__keyframes here, last, end;  // read now, the ones before, and at the segments' ends
-  nsvcd__bends most;
-} nsvcd__cut;
+// The moving body's poses in the fixed body's frame: quaternions of any length, positions in its
+// units.
+static nsvcd__v_pose nsvcd__v_seen(const nsvcd__motion *m, const nsvcd__v_poses *at) {
+  const nsvcd__v per_metre = nsvcd__v_set(1 / m->unit);
+  nsvcd__vquat to_fixed;
+  nsvcd__vmat3 matrix;
+  if (m->fixed_moves) {
+    to_fixed = nsvcd__vquat_inverse(at->fixed);
+    matrix = nsvcd__vmat3_of(to_fixed);
+  } else {
+    to_fixed = nsvcd__vquat_set(m->to_fixed_quat);
+    matrix = nsvcd__vmat3_set(&m->to_fixed);
+  }
+  const nsvcd__v3 metres = nsvcd__vmat3_apply(matrix, at->offset);
+  nsvcd__v_pose out;
+  out.rotation = nsvcd__vquat_mul(to_fixed, at->moving);
+  out.position = nsvcd__v3_fma(per_metre, metres, nsvcd__v3_set(m->push_out));
+  return out;
+}
 
 // ---- turns between quaternions
 
@@ -355,3 +347,33 @@ static void nsvcd__cut_block(const nsvcd__motion *m, const uint32_t *begin, size
   // the rest meet nothing
   for (size_t l = count; l < NSVCD__LANES; l++) out->margin[l] = NSVCD__NOWHERE;
 }
+
+// ---- all segments
+
+// Cuts the chosen segments. lengths: the bodies' extents; clearance: spheres that come so near
+// count as meeting.
+static void nsvcd__cut_segments(const nsvcd__motion *m, float lengths, float clearance,
+                                nsvcd__search *q) {
+  uint32_t *begin = q->begin;
+  float *turn = q->turn;
+  // segments of no length fill the last block
+  for (size_t s = q->segments; s % NSVCD__LANES; s++) begin[s + 1] = begin[s];
+  turn[0] = 0;
+  for (size_t s = 0; s < q->segments; s += NSVCD__LANES) {
+    nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
+    nsvcd__cut_block(m, begin + s, q->segments - s, lengths, block, q->cut);
+    for (size_t l = 0; l < NSVCD__LANES; l++) {
+      block->margin[l] += clearance;
+      turn[s + l + 1] = turn[s + l] + q->cut->most.turn[l];
+    }
+  }
+}
+
+#ifndef NSVCD_NO_NETWORK
+// Chooses and cuts the segments of all of a motion.
+static NSVCD__NOINLINE void nsvcd__cut_motion(nsvcd__motion *m, float lengths,
+                                              nsvcd__search *q) {
+  nsvcd__choose_all(m, q);
+  nsvcd__cut_segments(m, lengths, 0, q);
+}
+#endif

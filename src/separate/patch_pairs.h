@@ -2,6 +2,7 @@
 // hulls or by its triangles, or in contact, or kept as an unresolved pair.
 #pragma once
 #include "../interface/queries.h"
+#include "../search/search.h"
 #include "witnesses.h"
 
 #ifndef NSVCD_NO_PROOF

@@ -118,7 +118,7 @@ static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *q) {
   p->ask.after_unresolved = in_order ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.reserve;
   if (gap > nsvcd__clearance(p)) return NSVCD__FOUND_FREE;
   const int is_long = nsvcd__is_long(m, q);
-  if (nsvcd__is_contained_at_start(p)) {
+  if (p->kernels->is_contained_at_start(p)) {
     // It is a hit. A question that asks for more gets triangles, if some meet as well.
     const int meets = p->given.tells && nsvcd__meets_at(p, q, 0, NSVCD__INSIDE_BUDGET);
     return meets ? NSVCD__FOUND_CONTACT : nsvcd__found_inside(p);
@@ -189,7 +189,7 @@ static NSVCD__NOINLINE void nsvcd__measure(nsvcd__proof *p, nsvcd__search *q,
   p->low = nsvcd__max(verdict == NSVCD__FOUND_FREE ? p->given.clearance : 0, (double)gap);
   const int is_long = nsvcd__is_long(m, q);
   if (is_long) nsvcd__choose_interval(m, q, 0, NSVCD__ALL_ARCS);
-  p->high = is_named ? p->known.found.distance : nsvcd__bound_distance(p, q);
+  p->high = is_named ? p->known.found.distance : p->kernels->bound_distance(p, q);
   is_named = is_named || p->known.has_contact;
   if (is_named && !(p->high - p->low > finest)) return;
   if (is_long)

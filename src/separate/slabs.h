@@ -2,9 +2,56 @@
 #pragma once
 #include "../interface/queries.h"
 #include "../search/search.h"
-#include "motion_bounds.h"
+#include "../proof/motion_bounds.h"
 
 #ifndef NSVCD_NO_PROOF
+// nsvcd__interval and nsvcd__deviation_of for a slice of directions, or for one direction in a
+// slice of intervals.
+typedef struct nsvcd__v_interval {
+  nsvcd__v3 axis, heading;
+  nsvcd__v rounding, origin_bend, bend, bend_along_axis, origin_along_axis, origin_off_heading;
+} nsvcd__v_interval;
+
+NSVCD__INLINE nsvcd__v_interval nsvcd__v_interval_set(const nsvcd__interval *over) {
+  nsvcd__v_interval out;
+  out.axis = nsvcd__v3_set(over->axis);
+  out.heading = nsvcd__v3_set(over->heading);
+  out.rounding = nsvcd__v_set(over->rounding);
+  out.origin_bend = nsvcd__v_set(over->origin_bend);
+  out.bend = nsvcd__v_set(over->bend);
+  out.bend_along_axis = nsvcd__v_set(over->bend_along_axis);
+  out.origin_along_axis = nsvcd__v_set(over->origin_along_axis);
+  out.origin_off_heading = nsvcd__v_set(over->origin_off_heading);
+  return out;
+}
+// A slice of a block, from lane l on.
+NSVCD__INLINE nsvcd__v_interval nsvcd__v_interval_load(nsvcd__segments *block, size_t l) {
+  nsvcd__v_interval out;
+  out.axis = nsvcd__v3_load(block->axis, l);
+  out.heading = nsvcd__v3_load(block->heading, l);
+  out.rounding = nsvcd__v_load(block->rounding + l);
+  out.origin_bend = nsvcd__v_load(block->origin_bend + l);
+  out.bend = nsvcd__v_load(block->bend + l);
+  out.bend_along_axis = nsvcd__v_load(block->bend_along_axis + l);
+  out.origin_along_axis = nsvcd__v_load(block->origin_along_axis + l);
+  out.origin_off_heading = nsvcd__v_load(block->origin_off_heading + l);
+  return out;
+}
+NSVCD__INLINE nsvcd__v nsvcd__v_deviation(const nsvcd__v_interval *over, nsvcd__v3 n,
+                                          float from_origin) {
+  const nsvcd__v along = nsvcd__v_abs(nsvcd__v3_dot(n, over->axis));
+  const nsvcd__v across = nsvcd__v3_norm(nsvcd__v3_cross(n, over->axis));
+  const nsvcd__v ahead = nsvcd__v_abs(nsvcd__v3_dot(n, over->heading));
+  const nsvcd__v aside = nsvcd__v3_norm(nsvcd__v3_cross(n, over->heading));
+  nsvcd__v by_axis = nsvcd__v_mul(across, over->origin_bend);
+  by_axis = nsvcd__v_fma(along, over->origin_along_axis, by_axis);
+  nsvcd__v by_heading = nsvcd__v_mul(aside, over->origin_off_heading);
+  by_heading = nsvcd__v_fma(ahead, over->origin_bend, by_heading);
+  nsvcd__v turn = nsvcd__v_mul(across, over->bend);
+  turn = nsvcd__v_fma(along, over->bend_along_axis, turn);
+  return nsvcd__v_fma(turn, nsvcd__v_set(from_origin), nsvcd__v_min(by_axis, by_heading));
+}
+
 // A slice of slabs.
 typedef struct nsvcd__v_slab {
   nsvcd__v3 normal;

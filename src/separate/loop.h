@@ -137,4 +137,10 @@ static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *q) {
     p->known.resolved = (double)q->begin[all];
   return outcome;
 }
+
+// Cuts the segments that have been chosen, and separates the bodies in them.
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__separate(nsvcd__proof *p, nsvcd__search *q) {
+  nsvcd__cut_segments(p->ask.motion, p->given.lengths, nsvcd__clearance(p), q);
+  return nsvcd__prove_tiles(p, q);
+}
 #endif  // NSVCD_NO_PROOF

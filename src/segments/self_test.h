@@ -1,12 +1,11 @@
-// In: nothing. Out: does this build compute as it should?
+// In: nothing. Out: do these vectors compute as they should?
 #pragma once
-#include "../motion/chords.h"
-#include "../proof/triangle_pairs.h"
+#include "chords.h"
 
-// As nsvcd_self_test. Computes where a body's point (1, 0, 0) is at 16 ticks, while the body turns
-// by 90 degrees about z from (4, 0, 0) to (-4, 0, 0), seen from a body at (1, 2, 3) whose x, y, z
-// are y, z, x. Then two triangles that meet, and are apart when one of them is raised.
-static nsvcd_result nsvcd__run_self_test(void) {
+// The part of nsvcd_self_test that is about vectors: computes where a body's point (1, 0, 0) is at
+// 16 ticks, while the body turns by 90 degrees about z from (4, 0, 0) to (-4, 0, 0), seen from a
+// body at (1, 2, 3) whose x, y, z are y, z, x.
+static int nsvcd__self_test_lanes(void) {
   // volatile, or the compiler would compute all this
   const volatile float half = 0.70710678f;
   const float turn = half;
@@ -47,14 +46,6 @@ static nsvcd_result nsvcd__run_self_test(void) {
   right &= nsvcd__meet(&chords, resting) == 0x180;
   resting.centre.y += 1;
   right &= nsvcd__meet(&chords, resting) == 0;
-#ifndef NSVCD_NO_PROOF
-  const double height = 4 * (double)half;
-  const nsvcd__d3 a[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  nsvcd__d3 b[3] = {{0.25, 0.25, -1}, {0.25, 0.25, 1}, {2, 2, 1}};
-  right &= !(nsvcd__nearest_of(a, b).square > 0);
-  for (size_t k = 0; k < 3; k++) b[k].z += 1 + height;
-  right &= fabs(nsvcd__nearest_of(a, b).square - height * height) < 1e-9;
-#endif
 #ifdef NSVCD_ONE_PATH
   // A product is rounded. If it were fused with the difference, 2^-24 would be left.
   const volatile float one_up = 1 + 1.0f / 4096;
@@ -63,5 +54,5 @@ static nsvcd_result nsvcd__run_self_test(void) {
   const float left = factor * factor - square;
   right &= !(left > 0);
 #endif
-  return right ? NSVCD_OK : NSVCD_ERROR_BUILD;
+  return right;
 }

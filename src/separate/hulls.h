@@ -1,7 +1,8 @@
 // In: a patch pair and an interval. Out: is there a plane between the two hulls over all of the
 // interval?
 #pragma once
-#include "motion_bounds.h"
+#include "../lanes/turns.h"
+#include "../proof/motion_bounds.h"
 
 #ifndef NSVCD_NO_PROOF
 // A slice, from lane l on, of a patch's hull, in its body's frame and units. Lanes without a vertex

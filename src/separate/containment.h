@@ -1,7 +1,7 @@
 // In: two bodies that do not touch at a time. Out: is a component of one inside the other? By rays,
 // in double.
 #pragma once
-#include "triangle_pairs.h"
+#include "../proof/triangle_pairs.h"
 #include "blocks.h"
 
 #ifndef NSVCD_NO_PROOF
@@ -276,16 +276,6 @@ static int nsvcd__sticks_out(const nsvcd__geometry *inner, const nsvcd__transfor
     }
   }
   return 0;
-}
-
-// The inverse of a pose, whose rotation is times this scale.
-static nsvcd__dtransform nsvcd__inverse_dtransform(const nsvcd__dtransform *at, double scale) {
-  const double inverse = 1 / (scale * scale);
-  nsvcd__dtransform out;
-  const nsvcd__dmat3 transpose = nsvcd__dmat3_transpose(at->rotation);
-  out.rotation = nsvcd__dmat3_scale(&transpose, inverse);
-  out.position = nsvcd__d3_scale(nsvcd__dmat3_apply(&out.rotation, at->position), -1);
-  return out;
 }
 
 // Two bodies at the start of the motion: is `inner` in `outer`?

@@ -1,55 +1,11 @@
-// In: a task. Out: its answer, by the network: candidates, ranked, and a logit for the best of
-// them.
+// In: a task. Out: the network's opinion: candidates, ranked, and a logit for the best of them.
 #pragma once
-#include "../motion/choice.h"
+#include "../task/task.h"
 #include "../search/search.h"
-#include "../network/winding_number.h"
-#include "task.h"
+#include "decoder.h"
+#include "winding_number.h"
 
 #ifndef NSVCD_NO_NETWORK
-// The settings for two bodies of so many patches. On an error, where the options ask for what is
-// not there, *settings is not whole. weights.h has a threshold per decoder, recall and N = 32, 64,
-// ..., 512. Between those, and for two bodies that differ, it is interpolated at the mean of log2
-// N.
-static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t patches1,
-                                       size_t patches2, nsvcd__settings *settings) {
-  if (o->pairs > NSVCD_MAX_PAIRS) return NSVCD_ERROR_PAIRS;
-  if ((unsigned)o->model > (unsigned)NSVCD_MODEL_BASE) return NSVCD_ERROR_MODEL;
-  if (!nsvcd__is_finite(o->inflate) || o->inflate < 0) return NSVCD_ERROR_INFLATE;
-  if (o->precision != NSVCD_PRECISION_FLOAT && o->precision != NSVCD_PRECISION_INT8)
-    return NSVCD_ERROR_PRECISION;
-  const nsvcd_model model = o->model ? o->model : NSVCD__LARGEST_MODEL;
-  const size_t decoder = (size_t)model - (size_t)NSVCD_MODEL_TINY;
-  if (!nsvcd_w_decoders[decoder].layers) return NSVCD_ERROR_MODEL;  // compiled out
-  settings->pairs = o->pairs ? o->pairs : NSVCD_DEFAULT_PAIRS;
-  settings->shortlist = decoder == 0 ? settings->pairs : NSVCD__SHORTLIST * settings->pairs;
-  settings->decoder = &nsvcd_w_decoders[decoder];
-  settings->ranker = &nsvcd_w_decoders[0];
-#ifdef NSVCD_NO_FLOAT
-  settings->int8 = 1;
-#else
-  settings->int8 = o->precision == NSVCD_PRECISION_INT8;
-#endif
-#ifdef NSVCD_NO_INT8
-  if (settings->int8) return NSVCD_ERROR_PRECISION;
-#endif
-  for (size_t k = 0; k < NSVCD_W_RECALLS && nsvcd__is_finite(o->recall); k++) {
-    if (o->recall < nsvcd_w_recall[k] || o->recall > nsvcd_w_recall[k]) continue;
-    const float n = sqrtf((float)patches1 * (float)patches2);
-    const float last = NSVCD_W_SIZES - 1;
-    const float size = log2f(n) - 5;
-    const float at = size < 0 ? 0 : size > last ? last : size;
-    const size_t row = at < last ? (size_t)at : NSVCD_W_SIZES - 2;
-    const float low = nsvcd_w_threshold[decoder][row][k];
-    const float high = nsvcd_w_threshold[decoder][row + 1][k];
-    settings->threshold = low + (at - (float)row) * (high - low);
-    const float least = k < 2 ? 0 : k == 2 ? NSVCD__INFLATE : NSVCD__MOST_INFLATE;
-    settings->inflate = fmaxf(o->inflate, least * 32 / n);
-    return NSVCD_OK;
-  }
-  return NSVCD_ERROR_RECALL;
-}
-
 // Scores `count` candidates, 1 to 16, by a decoder.
 static void nsvcd__decode(const nsvcd__task *task, nsvcd__candidate *const *candidates,
                           size_t count, const nsvcd__decoder *decoder) {
@@ -305,15 +261,4 @@ static int nsvcd__ask_network(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opin
   return 1;
 }
 
-// Answers a question whose motion has been prepared.
-static void nsvcd__answer_by_network(nsvcd__query *query, nsvcd__hint *hint,
-                                     nsvcd_answer *answer) {
-  nsvcd_opinion opinion;
-  const int inside = nsvcd__ask_network(query, hint, &opinion);
-  nsvcd__answer_begin(&query->task, opinion.logit > 0 ? NSVCD_HIT : NSVCD_FREE, answer);
-  answer->inside = inside;
-  answer->opinion = opinion;
-  if (query->broad_phase.balls_met || inside) answer->by = NSVCD_BY_NETWORK;
-  if (opinion.logit > 0) answer->time.high = opinion.time;
-}
 #endif  // NSVCD_NO_NETWORK
