@@ -1,12 +1,14 @@
-// In: a robot among obstacles, and a motion of its joints. Out: is it free, as the joints make it?
+// In: a robot among obstacles, and a motion of its joints. Out: is that motion free?
 //
-// nsvcd_sweep is about a line and a slerp between two poses. Between two samples of a joint motion
-// a link deviates from these, by a bound that follows from the joints (robot/deviation.h): with
-// that as clearance the sweep proves the joints' own motion, at all times.
+// The motion is proven free as the joints make it, at all times, and not only at samples. A sweep
+// (nsvcd_sweep) moves a part in a line and a slerp from one sample of the motion to the next. The
+// joints move it along a curve, which deviates from the sweep by no more than a bound that follows
+// from the joints (robot/deviation.h). If the sweep is free with that bound as a clearance, the
+// curve is free.
 #pragma once
 #include "queries.h"
 
-// of a piece of a motion
+// the largest degree of a piece of a motion
 #define NSVCD_MAX_DEGREE 5
 #define NSVCD_MAX_PARTS 65536
 
@@ -16,95 +18,109 @@ typedef enum nsvcd_joint_kind {
   NSVCD_JOINT_PRISMATIC      // slides along its axis, within limits
 } nsvcd_joint_kind;
 
-// Joint i carries link i + 1. Link 0 is the world.
+// A joint of a robot. Joint i carries link i + 1. Link 0 is the world.
 typedef struct nsvcd_joint {
   nsvcd_joint_kind kind;
-  // the link that the joint is on, i at most
+  // the link that the joint is on: 0..i
   uint32_t parent;
   // the joint's frame, in that link
   nsvcd_pose origin;
-  // in the joint's frame; any length but 0
+  // the joint's axis, in its frame, of any length but 0
   float axis[3];
-  // limits, radians or metres; unused if CONTINUOUS
+  // limits of the joint, radians or metres; unused if it is CONTINUOUS
   double low, high;
-  // limits of routes only: radians or metres, per s and per s^2; 0: 1
+  // limits of its speed and acceleration, radians or metres per s and per s^2; default 1. Only
+  // routes have to keep them
   double speed, acceleration;
 } nsvcd_joint;
 
-// A body on a link. On link 0 it rests.
+// A body on a link. A part of link 0 rests.
 typedef struct nsvcd_part {
+  // a body with triangles
   const nsvcd_body *body;
+  // the link's number
   uint32_t link;
-  // in its link
+  // the body's pose, in the link
   nsvcd_pose pose;
-  // NSVCD_MIN_SCALE..NSVCD_MAX_SCALE; 0: 1
+  // scale of the body about its origin, NSVCD_MIN_SCALE..NSVCD_MAX_SCALE; default 1
   float scale;
 } nsvcd_part;
 
 // A robot and its obstacles. Only the pairs named here are checked.
 typedef struct nsvcd_scene {
-  // (F), up to NSVCD_MAX_JOINTS
+  // (F) joints of the robot
   const nsvcd_joint *joints;
+  // F, up to NSVCD_MAX_JOINTS
   size_t joint_count;
-  // (B), up to NSVCD_MAX_PARTS
+  // (B) parts, of the robot and its obstacles
   const nsvcd_part *parts;
+  // B, up to NSVCD_MAX_PARTS
   size_t part_count;
-  // (P) of parts; on links that differ
+  // (P) pairs of parts that can meet, by their indices. The two parts are on different links
   const nsvcd_body_pair *pairs;
+  // P
   size_t pair_count;
 } nsvcd_scene;
 
-// A motion of the joints: pieces one after another, each a Bezier curve of this degree in time that
-// begins where the one before ends. A polyline has degree 1. Without pieces it is one
-// configuration, in which the robot rests.
+// A motion of the joints, in pieces one after another. A piece is a Bezier curve in time. It begins
+// where the piece before it ends. The pieces of a polyline have degree 1. Without pieces the robot
+// rests in one configuration.
 typedef struct nsvcd_joint_motion {
+  // number of pieces
   size_t pieces;
-  // 1..NSVCD_MAX_DEGREE
+  // degree of each piece, 1..NSVCD_MAX_DEGREE; unused without pieces
   size_t degree;
-  // (pieces degree + 1, F), radians or metres
+  // (pieces * degree + 1, F) control points of the curves, radians or metres. Two pieces share the
+  // point between them
   const double *points;
-  // (pieces + 1), seconds, rising; NULL: each piece takes one. A motion whose speed does not jump
-  // takes fewer sweeps
+  // (pieces + 1) times of the pieces' ends, seconds, rising; NULL: each piece takes a second. A
+  // motion whose speed does not jump takes fewer sweeps
   const double *times;
 } nsvcd_joint_motion;
 
-// The joints at a time of a motion.
+// Tells where the joints are at a time of a motion.
 //   motion     not NULL, as nsvcd_check takes it
-//   joints     F
+//   joints     F, the number of joints
 //   time       seconds, as motion->times has them; clamped to the motion
-//   out        (F), not NULL
+//   out        (F) radians or metres, not NULL
+//   allocates  nothing
 NSVCDDEF void nsvcd_motion_at(const nsvcd_joint_motion *motion, size_t joints, double time,
                               double *out);
 
-// Zero means the default.
+// How a motion is checked. Zero means the default.
 typedef struct nsvcd_check_options {
-  // metres: parts that come within this of each other are a hit
+  // metres: parts that come within this distance of each other are a hit; default 0: only parts
+  // that meet are
   float clearance;
-  // metres: steps in which links deviate from their sweeps by less are not cut further; 10 um
+  // metres: a step of the motion is not cut further if links deviate from their sweeps by less than
+  // this in it; default 10 um
   float finest;
-  // units for each proof of a pair; NSVCD_DEFAULT_WORK
+  // units for each proof of a pair; default NSVCD_DEFAULT_WORK
   size_t work;
-  // called before each question about a pair; if it returns other than 0 the check ends UNDECIDED,
-  // NSVCD_WHY_WORK. May be NULL
+  // called before each question about a pair; may be NULL. If it returns anything but 0, the check
+  // ends UNDECIDED, with NSVCD_WHY_WORK
   int (*stop)(void *user);
+  // passed to `stop`
   void *user;
 } nsvcd_check_options;
 
+// What is known of a motion.
 typedef struct nsvcd_check_answer {
-  // FREE: at no time of the motion do two parts of a pair come within the clearance. HIT: in the
-  // configuration that is named two do, or one is inside of the other
+  // FREE: at no time of the motion do two parts of a pair come within the clearance, and none is
+  // inside the other. HIT: in the configuration that is named, two do, or one is inside the other
   nsvcd_verdict verdict;
+  // the reason if the verdict is UNDECIDED
   nsvcd_why why;
-  // where the HIT is, which need not be the motion's first, or what is UNDECIDED: one of the
-  // scene's pairs, and a piece of the motion. NSVCD_NONE if there is none
+  // the pair that is hit or undecided, an index of the scene's, and the piece of the motion where
+  // it is. A HIT need not be the motion's first. NSVCD_NONE: there is none
   size_t pair, piece;
-  // of the piece, in [0,1]
+  // fraction of that piece, in [0,1]
   double fraction;
-  // of a HIT, as nsvcd_answer.nearest has it; its time is 0
+  // the contact of a HIT, as nsvcd_answer.nearest has it; its time is 0
   nsvcd_contact contact;
-  // a joint that leaves its limits somewhere; NSVCD_NONE: none does
+  // a joint that leaves its limits somewhere, whatever the verdict; NSVCD_NONE: none does
   size_t joint;
-  // configurations that parts were placed in, and questions asked
+  // number of configurations that parts were placed in, and of questions asked
   size_t placed, sweeps;
 } nsvcd_check_answer;
 
@@ -112,25 +128,28 @@ typedef struct nsvcd_check_answer {
 typedef struct nsvcd_checker nsvcd_checker;
 
 // Bytes that nsvcd_checker_open needs; 0 if the scene is refused.
+//   scene      may be NULL
 NSVCDDEF size_t nsvcd_checker_size(const nsvcd_scene *scene);
 
 // Makes a checker of a scene.
 //   scene      not NULL; it and all that it points to must not change while the checker is used
 //   memory     (size) bytes, nsvcd_checker_size(scene) or more, not NULL, aligned to
-//              NSVCD_ALIGNMENT
-//   checker    not NULL; left as it was on failure
+//              NSVCD_ALIGNMENT; the checker is in it
+//   checker    not NULL; set to the checker, or left as it was on failure
 //   allocates  nothing
-//   threads    each with a checker of its own
-//   errors     ARGUMENT (NULL), COUNT, of joints JOINT, AXIS, LIMITS, SPEED, of parts BODY,
-//              VERSION, TRIANGLES, LINK, SCALE, of both POSE, QUATERNION, PAIR (also of two parts
-//              on one link), WORKSPACE
+//   threads    each needs a checker of its own; scenes may be shared
+//   errors     ARGUMENT (NULL), COUNT, WORKSPACE; of a joint JOINT, AXIS, LIMITS, SPEED; of a part
+//              BODY, VERSION, TRIANGLES, LINK, SCALE; of either POSE, QUATERNION; of a pair PAIR
+//              (also if both parts are on one link)
 NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory, size_t size,
                                          nsvcd_checker **checker);
 
-// Where the parts are, for a picture, say. Poses in the world are rounded to float: far from its
-// origin that is coarser than what nsvcd_check computes with.
-//   joints     (F), radians or metres; not checked
-//   poses      (B), in the world
+// Tells where the parts are in a configuration, for a picture, say. The poses are rounded to float:
+// far from the world's origin, that is coarser than what nsvcd_check computes with.
+//   checker    not NULL
+//   joints     (F) radians or metres, not NULL; not checked
+//   poses      (B) poses of the parts in the world, not NULL
+//   allocates  nothing
 NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const double *joints,
                                        nsvcd_pose *poses);
 
@@ -140,10 +159,12 @@ NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const doubl
 //   options    NULL: the defaults
 //   answer     not NULL; left as it was on failure
 //   allocates  nothing
+//   threads    each needs a checker of its own
 //   errors     ARGUMENT, DEGREE, VALUE (points not finite or beyond NSVCD_MAX_COORDINATE), TIMES,
-//              CLEARANCE, FINEST
-//   source     this library: robot/deviation.h, slerps and lines against joints, by second
-//              derivatives
+//              CLEARANCE, FINEST; POSE, SCALE (a part is, or is carried, beyond
+//              NSVCD_MAX_COORDINATE)
+//   source     this library: robot/deviation.h bounds how far joints deviate from lines and slerps,
+//              by second derivatives
 //
 // FREE holds for the joints' own motion, with exact joint values and frames, and bodies as
 // nsvcd_sweep has them. A HIT is in the configuration named, up to the rounding of a pose to float:
