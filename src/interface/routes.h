@@ -1,92 +1,104 @@
-// In: a robot among obstacles, a configuration and others to get to. Out: a motion, proven free.
+// In: a robot among obstacles, a start and goals. Out: a motion from the start to a goal, proven
+// free.
 //
-// A straight line is tried, then two trees grow of edges that are proven free. The path is made
-// shorter, timed, and smoothed within the limits of speed and acceleration; the motion is proven
-// as a whole before it is handed out.
+// A straight line is tried first. If it is not free, two trees grow, from the start and from the
+// goals, whose edges are proven free. The path that joins them is made shorter, timed, and smoothed
+// within the limits of speed and acceleration. In the end the motion is proven as a whole.
 #pragma once
 #include "robots.h"
 
-// of a route's trees
+// the most nodes of both trees
 #define NSVCD_MAX_NODES 10000000
 
 typedef enum nsvcd_route_status {
   // the motion is proven free, within the limits, and ends at a goal
   NSVCD_ROUTE_FOUND = 0,
-  // no path with as many nodes or tries as options allow; or one of more than 680 corners, as a
-  // guess may have
+  // there is no path with as many nodes or tries as options allow; or the path, or a guess, has
+  // more than 680 corners
   NSVCD_ROUTE_LIMIT,
-  // by the caller
+  // the caller's `stop` or `abandon` ended the search
   NSVCD_ROUTE_STOPPED,
-  // the start, or every goal, is out of its limits or not proven free: answer.check says why
+  // the start is out of its limits or not proven free: answer.check says why
   NSVCD_ROUTE_START,
+  // no goal is within its limits and proven free: answer.check says why, of the last one
   NSVCD_ROUTE_GOAL
 } nsvcd_route_status;
 
-// A status in a word or two, for a person; never NULL.
+// The status in a word or two, for people; never NULL.
 NSVCDDEF const char *nsvcd_route_status_string(nsvcd_route_status status);
 
+// What is sought. A configuration has a value for each of the scene's F joints, radians or metres.
 typedef struct nsvcd_route_problem {
-  // (F)
+  // (F) the configuration in which the motion begins
   const double *start;
-  // (G, F); one is enough
+  // (G, F) configurations; the motion ends in one of them
   const double *goals;
+  // G, 1 to NSVCD_MAX_NODES
   size_t goal_count;
-  // (W, F): corners of a path from the start to a goal, without these two, that may be free, or
+  // (W, F) corners of a path from the start to a goal, without these two, that may be free, or
   // nearly. NULL: none
   const double *guess;
+  // W
   size_t guess_count;
-  // called before each proof; if it returns other than 0 the search ends. A path found by then is
-  // still proven as a whole. May be NULL
+  // called before each proof; may be NULL. If it returns anything but 0, the search ends. A path
+  // found by then is still proven as a whole
   int (*stop)(void *user);
-  // called before each question about a pair, also in that last proof; if it returns other than 0
-  // that ends too: a bound of the time. May be NULL
+  // called before each question about a pair, also in that last proof; may be NULL. If it returns
+  // anything but 0, the proof ends as well, so that it bounds the time
   int (*abandon)(void *user);
+  // passed to both
   void *user;
 } nsvcd_route_problem;
 
-// Zero means the default.
+// How a route is sought. Zero means the default.
 typedef struct nsvcd_route_options {
-  // of all random numbers: other seeds find other routes
+  // seed of all random numbers; other seeds find other routes
   uint64_t seed;
-  // metres: between the parts, in the whole motion
+  // metres: the distance that the parts of a pair keep, in the whole motion; default 0
   float clearance;
-  // of the trees, at most; 20,000
+  // the most nodes of both trees, up to NSVCD_MAX_NODES; default 20,000
   size_t nodes;
-  // motions checked, free or not, at most: where nothing is free the trees do not grow, and nodes
-  // alone would not end the search; 4 times the nodes
+  // the most motions that are checked, free or not; default 4 times `nodes`. Where nothing is free
+  // the trees do not grow, so `nodes` alone would not end the search
   size_t tries;
-  // radians or metres: an edge's length, at most; 1
+  // radians or metres: the greatest length of an edge; default 1
   double edge;
-  // tries to shorten the path, up to NSVCD_MAX_NODES, and to smooth the motion; 20 and 200.
-  // NSVCD_NONE: none
+  // tries to shorten the path, up to NSVCD_MAX_NODES, default 20; and tries to smooth the motion,
+  // default 200. NSVCD_NONE: no tries
   size_t shortcuts, smoothings;
 } nsvcd_route_options;
 
+// What was found.
 typedef struct nsvcd_route_answer {
   nsvcd_route_status status;
-  // if FOUND: which one is reached
+  // if FOUND: the index of the goal that is reached
   size_t goal;
-  // if FOUND: of degree 2, with times, at rest at both ends; in the memory that was given. It has
-  // no pieces if the goal is the start
+  // if FOUND: the motion, of degree 2, with times, at rest at both ends. Its arrays are in the
+  // memory that was given. It has no pieces if the goal is the start
   nsvcd_joint_motion motion;
-  // times in between at which it rests, where no smooth motion round a corner was found
+  // number of times in between at which the motion rests, where no smooth way round a corner was
+  // found
   size_t stops;
-  // seconds: of the motion; of the straight line, if nothing were in its way
+  // seconds that the motion takes; and that the straight line would take, if nothing were in its
+  // way
   double duration, unhindered;
-  // FOUND: the last proof. START, GOAL: what is wrong with the start, or the last goal
+  // FOUND: the last proof. START and GOAL: what is wrong with the start, or with the last goal
   nsvcd_check_answer check;
-  // of the trees; motions checked, and those of them that were free
+  // number of nodes of the trees, of motions checked, and of those among them that were free
   size_t nodes, checks, proven;
 } nsvcd_route_answer;
 
 // Bytes that nsvcd_route needs; 0 if the problem or the options are refused.
+//   checker    not NULL
+//   problem    not NULL
 //   options    NULL: the defaults
 NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
                                  const nsvcd_route_problem *problem,
                                  const nsvcd_route_options *options);
 
 // Seeks a motion from the start to a goal on which no pair meets. The same problem and seed give
-// the same motion if the checker is opened anew each time, since it remembers what was hit last.
+// the same motion if the checker is opened anew each time; a checker remembers which pairs were hit
+// last.
 //   checker    not NULL
 //   problem    not NULL
 //   options    NULL: the defaults
@@ -94,11 +106,12 @@ NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
 //              to NSVCD_ALIGNMENT; the motion's arrays are in it
 //   answer     not NULL; left as it was on failure
 //   allocates  nothing
+//   threads    each needs a checker and memory of its own
 //   errors     ARGUMENT (NULL), COUNT (of goals, of a guess), ROUTE (nodes, shortcuts, edge),
 //              VALUE (a configuration not finite or beyond NSVCD_MAX_COORDINATE), CLEARANCE,
-//              WORKSPACE
+//              WORKSPACE; POSE, SCALE, as nsvcd_check
 //   source     RRT-Connect (Kuffner and LaValle 2000); bounded-acceleration shortcuts (Hauser and
-//              Ng-Thow-Hing 2010); with proofs in place of samples: this library
+//              Ng-Thow-Hing 2010). Differences: edges are proven, not sampled; this library
 NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_problem *problem,
                                   const nsvcd_route_options *options, void *memory,
                                   size_t size, nsvcd_route_answer *answer);
