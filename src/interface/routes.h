@@ -111,7 +111,7 @@ NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
 //              VALUE (a configuration not finite or beyond NSVCD_MAX_COORDINATE), CLEARANCE,
 //              WORKSPACE; POSE, SCALE, as nsvcd_check
 //   source     RRT-Connect (Kuffner and LaValle 2000); bounded-acceleration shortcuts (Hauser and
-//              Ng-Thow-Hing 2010). Differences: edges are proven, not sampled; this library
+//              Ng-Thow-Hing 2010). Difference: edges and shortcuts are proven, not sampled
 NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_problem *problem,
                                   const nsvcd_route_options *options, void *memory,
                                   size_t size, nsvcd_route_answer *answer);
