@@ -63,7 +63,7 @@
 // OPTIONS, defined before the implementation is included
 //   NSVCD_STATIC      all functions static, in a file that has the implementation
 //   NSVCD_NO_STDIO    no file access: no nsvcd_obj_load and the like; nsvcd_obj_parse stays
-//   NSVCD_NO_READERS      no readers of OBJ, STL and faces
+//   NSVCD_NO_READERS  no readers of OBJ, STL and faces
 //   NSVCD_NO_ENCODER  no readers, no nsvcd_mesh_cut, no nsvcd_encode: bodies come from
 //                     nsvcd_body_load
 //   NSVCD_NO_PROOF    the network alone: triangles are neither stored nor read

@@ -10,7 +10,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_IO,
   // the allocator returned NULL
   NSVCD_ERROR_MEMORY,
-  // the memory given is NULL, not aligned to NSVCD_ALIGNMENT, or too small: size, capacity
+  // the memory given is NULL, not aligned to NSVCD_ALIGNMENT, or smaller than needed
   NSVCD_ERROR_WORKSPACE,
   // the caller's progress function cancelled
   NSVCD_ERROR_CANCELLED,
@@ -43,7 +43,7 @@ typedef enum nsvcd_result {
   // ---- bodies
   // what is passed as a body is not one, or is damaged, cut short or misaligned
   NSVCD_ERROR_BODY,
-  // the body has another version, model or byte order
+  // the body has another version, other weights or the other byte order
   NSVCD_ERROR_VERSION,
   // the body has no triangles, which a proof needs
   NSVCD_ERROR_TRIANGLES,
@@ -54,7 +54,7 @@ typedef enum nsvcd_result {
   // ---- questions
   // count must be 0 where poses is NULL, else 1 to NSVCD_MAX_POSES
   NSVCD_ERROR_POSES,
-  // times do not rise, or those of poses do not go from 0 to 1
+  // times do not rise, or those of a mover do not go from 0 to 1
   NSVCD_ERROR_TIMES,
   // a pose's position is not finite, or beyond NSVCD_MAX_COORDINATE
   NSVCD_ERROR_POSE,
@@ -62,7 +62,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_QUATERNION,
   // a scale is not finite, negative or out of range, or makes a body too small or too large
   NSVCD_ERROR_SCALE,
-  // both sides of a question are the same body in the same motion: something was passed twice
+  // a and b of a question are the same body in the same motion, so something was passed twice
   NSVCD_ERROR_SAME,
   // `ask` is none of its values
   NSVCD_ERROR_ASK,
@@ -73,9 +73,9 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_TO,
   // `to_time` is not in [0,1], or set without FIRST
   NSVCD_ERROR_TO_TIME,
-  // `clearance` is negative, not finite or too large
+  // a clearance is negative, not finite or too large
   NSVCD_ERROR_CLEARANCE,
-  // `slop` is negative, not finite or too large, or set for a certificate
+  // `slop` is negative, not finite or too large; or it is set for a certificate
   NSVCD_ERROR_SLOP,
   // `tolerance` is negative, not finite or too large
   NSVCD_ERROR_TOLERANCE,
@@ -105,13 +105,14 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_SPEED,
   // a link or a part is not one of the scene's
   NSVCD_ERROR_LINK,
-  // a pair is not one of the scene's, names a part that is not, or two parts that never move apart
+  // a pair is not one of the scene's; or it names a part that is not, one part twice, or two parts
+  // on one link
   NSVCD_ERROR_PAIR,
   // a joint's value in a start, a goal or a motion is not finite or too large
   NSVCD_ERROR_VALUE,
   // `degree` is not 1 to NSVCD_MAX_DEGREE, or there are more pieces than can be counted
   NSVCD_ERROR_DEGREE,
-  // the joints turn too far in a piece of the motion to be certified
+  // the motion has no pieces, or too many, or its joints move too far or too fast to be certified
   NSVCD_ERROR_TURN,
   // `finest` is negative or not finite
   NSVCD_ERROR_FINEST,
@@ -137,14 +138,16 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result);
 
 // Does this build compute correctly on this processor? If not, what it proves may be false. Call
 // this once at the start if the compiler is not gcc, clang or MSVC, or if its flags are unusual. It
-// tests how structs and floats are passed, vectors, rotations, the test of a plane that proofs rest
-// on, and two triangles; anything else may still be wrong.
-//   allocates  nothing, and takes a microsecond (tests/test_processor.c)
+// takes a microsecond (tests/test_processor.c). It tests how structs and floats are passed,
+// vectors, rotations, the test of a plane that proofs rest on, and two triangles. Anything else may
+// still be wrong.
+//   allocates  nothing
 //   errors     BUILD
 NSVCDDEF nsvcd_result nsvcd_self_test(void);
 
 // Where memory comes from. A NULL allocator means malloc and free.
 //   alloc      returns memory aligned as malloc's, or NULL on failure
+//   free       takes back memory that alloc returned
 //   user       passed to both
 typedef struct nsvcd_allocator {
   void *(*alloc)(size_t size, void *user);
