@@ -64,13 +64,15 @@ extern "C" {
 #endif
 
 // -------------------------------------------------------------------------------- interface/robots
-// In: a robot among obstacles, and a motion of its joints. Out: is it free, as the joints make it?
+// In: a robot among obstacles, and a motion of its joints. Out: is that motion free?
 //
-// nsvcd_sweep is about a line and a slerp between two poses. Between two samples of a joint motion
-// a link deviates from these, by a bound that follows from the joints (robot/deviation.h): with
-// that as clearance the sweep proves the joints' own motion, at all times.
+// The motion is proven free as the joints make it, at all times, and not only at samples. A sweep
+// (nsvcd_sweep) moves a part in a line and a slerp from one sample of the motion to the next. The
+// joints move it along a curve, which deviates from the sweep by no more than a bound that follows
+// from the joints (robot/deviation.h). If the sweep is free with that bound as a clearance, the
+// curve is free.
 
-// of a piece of a motion
+// the largest degree of a piece of a motion
 #define NSVCD_MAX_DEGREE 5
 #define NSVCD_MAX_PARTS 65536
 
@@ -80,95 +82,109 @@ typedef enum nsvcd_joint_kind {
   NSVCD_JOINT_PRISMATIC      // slides along its axis, within limits
 } nsvcd_joint_kind;
 
-// Joint i carries link i + 1. Link 0 is the world.
+// A joint of a robot. Joint i carries link i + 1. Link 0 is the world.
 typedef struct nsvcd_joint {
   nsvcd_joint_kind kind;
-  // the link that the joint is on, i at most
+  // the link that the joint is on: 0..i
   uint32_t parent;
   // the joint's frame, in that link
   nsvcd_pose origin;
-  // in the joint's frame; any length but 0
+  // the joint's axis, in its frame, of any length but 0
   float axis[3];
-  // limits, radians or metres; unused if CONTINUOUS
+  // limits of the joint, radians or metres; unused if it is CONTINUOUS
   double low, high;
-  // limits of routes only: radians or metres, per s and per s^2; 0: 1
+  // limits of its speed and acceleration, radians or metres per s and per s^2; default 1. Only
+  // routes have to keep them
   double speed, acceleration;
 } nsvcd_joint;
 
-// A body on a link. On link 0 it rests.
+// A body on a link. A part of link 0 rests.
 typedef struct nsvcd_part {
+  // a body with triangles
   const nsvcd_body *body;
+  // the link's number
   uint32_t link;
-  // in its link
+  // the body's pose, in the link
   nsvcd_pose pose;
-  // NSVCD_MIN_SCALE..NSVCD_MAX_SCALE; 0: 1
+  // scale of the body about its origin, NSVCD_MIN_SCALE..NSVCD_MAX_SCALE; default 1
   float scale;
 } nsvcd_part;
 
 // A robot and its obstacles. Only the pairs named here are checked.
 typedef struct nsvcd_scene {
-  // (F), up to NSVCD_MAX_JOINTS
+  // (F) joints of the robot
   const nsvcd_joint *joints;
+  // F, up to NSVCD_MAX_JOINTS
   size_t joint_count;
-  // (B), up to NSVCD_MAX_PARTS
+  // (B) parts, of the robot and its obstacles
   const nsvcd_part *parts;
+  // B, up to NSVCD_MAX_PARTS
   size_t part_count;
-  // (P) of parts; on links that differ
+  // (P) pairs of parts that can meet, by their indices. The two parts are on different links
   const nsvcd_body_pair *pairs;
+  // P
   size_t pair_count;
 } nsvcd_scene;
 
-// A motion of the joints: pieces one after another, each a Bezier curve of this degree in time that
-// begins where the one before ends. A polyline has degree 1. Without pieces it is one
-// configuration, in which the robot rests.
+// A motion of the joints, in pieces one after another. A piece is a Bezier curve in time. It begins
+// where the piece before it ends. The pieces of a polyline have degree 1. Without pieces the robot
+// rests in one configuration.
 typedef struct nsvcd_joint_motion {
+  // number of pieces
   size_t pieces;
-  // 1..NSVCD_MAX_DEGREE
+  // degree of each piece, 1..NSVCD_MAX_DEGREE; unused without pieces
   size_t degree;
-  // (pieces degree + 1, F), radians or metres
+  // (pieces * degree + 1, F) control points of the curves, radians or metres. Two pieces share the
+  // point between them
   const double *points;
-  // (pieces + 1), seconds, rising; NULL: each piece takes one. A motion whose speed does not jump
-  // takes fewer sweeps
+  // (pieces + 1) times of the pieces' ends, seconds, rising; NULL: each piece takes a second. A
+  // motion whose speed does not jump takes fewer sweeps
   const double *times;
 } nsvcd_joint_motion;
 
-// The joints at a time of a motion.
+// Tells where the joints are at a time of a motion.
 //   motion     not NULL, as nsvcd_check takes it
-//   joints     F
+//   joints     F, the number of joints
 //   time       seconds, as motion->times has them; clamped to the motion
-//   out        (F), not NULL
+//   out        (F) radians or metres, not NULL
+//   allocates  nothing
 NSVCDDEF void nsvcd_motion_at(const nsvcd_joint_motion *motion, size_t joints, double time,
                               double *out);
 
-// Zero means the default.
+// How a motion is checked. Zero means the default.
 typedef struct nsvcd_check_options {
-  // metres: parts that come within this of each other are a hit
+  // metres: parts that come within this distance of each other are a hit; default 0: only parts
+  // that meet are
   float clearance;
-  // metres: steps in which links deviate from their sweeps by less are not cut further; 10 um
+  // metres: a step of the motion is not cut further if links deviate from their sweeps by less than
+  // this in it; default 10 um
   float finest;
-  // units for each proof of a pair; NSVCD_DEFAULT_WORK
+  // units for each proof of a pair; default NSVCD_DEFAULT_WORK
   size_t work;
-  // called before each question about a pair; if it returns other than 0 the check ends UNDECIDED,
-  // NSVCD_WHY_WORK. May be NULL
+  // called before each question about a pair; may be NULL. If it returns anything but 0, the check
+  // ends UNDECIDED, with NSVCD_WHY_WORK
   int (*stop)(void *user);
+  // passed to `stop`
   void *user;
 } nsvcd_check_options;
 
+// What is known of a motion.
 typedef struct nsvcd_check_answer {
-  // FREE: at no time of the motion do two parts of a pair come within the clearance. HIT: in the
-  // configuration that is named two do, or one is inside of the other
+  // FREE: at no time of the motion do two parts of a pair come within the clearance, and none is
+  // inside the other. HIT: in the configuration that is named, two do, or one is inside the other
   nsvcd_verdict verdict;
+  // the reason if the verdict is UNDECIDED
   nsvcd_why why;
-  // where the HIT is, which need not be the motion's first, or what is UNDECIDED: one of the
-  // scene's pairs, and a piece of the motion. NSVCD_NONE if there is none
+  // the pair that is hit or undecided, an index of the scene's, and the piece of the motion where
+  // it is. A HIT need not be the motion's first. NSVCD_NONE: there is none
   size_t pair, piece;
-  // of the piece, in [0,1]
+  // fraction of that piece, in [0,1]
   double fraction;
-  // of a HIT, as nsvcd_answer.nearest has it; its time is 0
+  // the contact of a HIT, as nsvcd_answer.nearest has it; its time is 0
   nsvcd_contact contact;
-  // a joint that leaves its limits somewhere; NSVCD_NONE: none does
+  // a joint that leaves its limits somewhere, whatever the verdict; NSVCD_NONE: none does
   size_t joint;
-  // configurations that parts were placed in, and questions asked
+  // number of configurations that parts were placed in, and of questions asked
   size_t placed, sweeps;
 } nsvcd_check_answer;
 
@@ -176,25 +192,28 @@ typedef struct nsvcd_check_answer {
 typedef struct nsvcd_checker nsvcd_checker;
 
 // Bytes that nsvcd_checker_open needs; 0 if the scene is refused.
+//   scene      may be NULL
 NSVCDDEF size_t nsvcd_checker_size(const nsvcd_scene *scene);
 
 // Makes a checker of a scene.
 //   scene      not NULL; it and all that it points to must not change while the checker is used
 //   memory     (size) bytes, nsvcd_checker_size(scene) or more, not NULL, aligned to
-//              NSVCD_ALIGNMENT
-//   checker    not NULL; left as it was on failure
+//              NSVCD_ALIGNMENT; the checker is in it
+//   checker    not NULL; set to the checker, or left as it was on failure
 //   allocates  nothing
-//   threads    each with a checker of its own
-//   errors     ARGUMENT (NULL), COUNT, of joints JOINT, AXIS, LIMITS, SPEED, of parts BODY,
-//              VERSION, TRIANGLES, LINK, SCALE, of both POSE, QUATERNION, PAIR (also of two parts
-//              on one link), WORKSPACE
+//   threads    each needs a checker of its own; scenes may be shared
+//   errors     ARGUMENT (NULL), COUNT, WORKSPACE; of a joint JOINT, AXIS, LIMITS, SPEED; of a part
+//              BODY, VERSION, TRIANGLES, LINK, SCALE; of either POSE, QUATERNION; of a pair PAIR
+//              (also if both parts are on one link)
 NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory, size_t size,
                                          nsvcd_checker **checker);
 
-// Where the parts are, for a picture, say. Poses in the world are rounded to float: far from its
-// origin that is coarser than what nsvcd_check computes with.
-//   joints     (F), radians or metres; not checked
-//   poses      (B), in the world
+// Tells where the parts are in a configuration, for a picture, say. The poses are rounded to float:
+// far from the world's origin, that is coarser than what nsvcd_check computes with.
+//   checker    not NULL
+//   joints     (F) radians or metres, not NULL; not checked
+//   poses      (B) poses of the parts in the world, not NULL
+//   allocates  nothing
 NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const double *joints,
                                        nsvcd_pose *poses);
 
@@ -204,10 +223,12 @@ NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const doubl
 //   options    NULL: the defaults
 //   answer     not NULL; left as it was on failure
 //   allocates  nothing
+//   threads    each needs a checker of its own
 //   errors     ARGUMENT, DEGREE, VALUE (points not finite or beyond NSVCD_MAX_COORDINATE), TIMES,
-//              CLEARANCE, FINEST
-//   source     this library: robot/deviation.h, slerps and lines against joints, by second
-//              derivatives
+//              CLEARANCE, FINEST; POSE, SCALE (a part is, or is carried, beyond
+//              NSVCD_MAX_COORDINATE)
+//   source     this library: robot/deviation.h bounds how far joints deviate from lines and slerps,
+//              by second derivatives
 //
 // FREE holds for the joints' own motion, with exact joint values and frames, and bodies as
 // nsvcd_sweep has them. A HIT is in the configuration named, up to the rounding of a pose to float:
@@ -221,52 +242,57 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
 // In: a robot in one configuration. Out: which parts are near each other, and how that changes with
 // the joints; the nearest free configuration; which pairs can meet; a part on another link.
 
-// Two parts of a pair that are near each other.
+// Two parts of a pair, a and b, that are near each other.
 typedef struct nsvcd_proximity {
-  // of the scene's
+  // the pair, an index of the scene's
   size_t pair;
-  // HIT: they touch, or one is inside of the other. FREE: they are proven to be apart. UNDECIDED:
-  // too near to tell, or too little work
+  // HIT: they touch, or one is inside the other. FREE: they are proven to be apart. UNDECIDED: they
+  // are too near to tell, or the work was not enough
   nsvcd_verdict verdict;
+  // the reason if the verdict is UNDECIDED, or if `distance` is wider than options.to says
   nsvcd_why why;
-  // metres: no less than `low`, no more than `high`
+  // metres: the distance of the two parts
   nsvcd_range distance;
-  // metres, of a HIT: moving a by this along the contact's normal is proven to separate them, and
-  // hardly less along that normal does. HUGE_VALF: no push-out up to options.max_depth was found,
-  // as where one is inside of the other or held from all sides. 0 unless it is a HIT
+  // metres: how deep a HIT is. Moving a by this along the contact's normal is proven to separate
+  // the parts, and hardly less along that normal does. HUGE_VALF: no push-out of up to
+  // options.max_depth was found, as where one part is inside the other or held from all sides. 0:
+  // it is no HIT
   float depth;
-  // where they are nearest, as nsvcd_answer.nearest has it; of a HIT, where they are nearest once
-  // pushed out, with the push-out's direction as the normal
+  // where the parts are nearest, as nsvcd_answer.nearest has it. Of a HIT it is where they are
+  // nearest once pushed out, and the normal is the push-out's direction
   nsvcd_contact contact;
-  // (F), metres per radian or metre: how the distance between the two points of the contact grows
-  // with each joint; of a HIT, how the depth along its normal shrinks. Where several points are as
-  // near, or as deep, it is that of one of them. 0 without a normal
+  // (F) metres per radian or metre: how the distance between the two points of the contact grows
+  // with each joint, or, of a HIT, how the depth along its normal shrinks. Where several points are
+  // as near, or as deep, the slope is that of one of them. 0: there is no normal
   double slope[NSVCD_MAX_JOINTS];
 } nsvcd_proximity;
 
-// Zero means the default. Lengths are at most NSVCD_MAX_COORDINATE.
+// What counts as near. Zero means the default. Lengths are at most NSVCD_MAX_COORDINATE.
 typedef struct nsvcd_proximity_options {
-  // metres: pairs within this of each other are reported; 0.05
+  // metres: pairs within this distance of each other are reported; default 0.05
   float max_distance;
-  // metres: width of the bracket of a distance, beside the rounding of poses to float; 20 um
+  // metres: the bracket of a distance is no wider than this and the rounding of poses to float;
+  // default 20 um
   float to;
-  // metres: larger depths are not found; 20 mm. One much larger than the depths that there are
-  // makes none of them better
+  // metres: depths up to this are found; default 20 mm. A value much larger than the depths that
+  // there are makes none of them better
   float max_depth;
-  // units for each question; NSVCD_DEFAULT_WORK
+  // units for each question; default NSVCD_DEFAULT_WORK
   size_t work;
 } nsvcd_proximity_options;
 
-// All pairs of parts that are near each other in a configuration: what is wrong with a start or a
-// goal, or what a controller must keep away from.
+// Finds all pairs of parts that are near each other in a configuration: what is wrong with a start
+// or a goal, or what a controller must keep away from.
 //   checker    not NULL
-//   joints     (F), radians or metres
+//   joints     (F) radians or metres, not NULL
 //   options    NULL: the defaults
-//   out        (capacity), not NULL unless that is 0; in the order of the pairs. scene.pair_count
-//              is always enough. Some may be written on failure
-//   count      not NULL: how many there are; if more than the capacity, the first are written
+//   out        (capacity), not NULL unless that is 0; in the order of the scene's pairs. Some may
+//              be written on failure
+//   capacity   scene.pair_count is always enough
+//   count      not NULL; set to how many there are, of which `capacity` at most are written; left
+//              as it was on failure
 //   allocates  nothing
-//   threads    each with a checker of its own, as in all of this page
+//   threads    each needs a checker of its own
 //   errors     ARGUMENT, VALUE (joints not finite or beyond NSVCD_MAX_COORDINATE), DISTANCE, TO;
 //              POSE, SCALE (a part is, or is carried, beyond NSVCD_MAX_COORDINATE)
 //   source     this library; slopes as any Jacobian's, by the product of axis and moment arm
@@ -274,166 +300,185 @@ NSVCDDEF nsvcd_result nsvcd_proximities(nsvcd_checker *checker, const double *jo
                                         const nsvcd_proximity_options *options,
                                         nsvcd_proximity *out, size_t capacity, size_t *count);
 
-// Zero means the default.
+// How a free configuration is sought. Zero means the default.
 typedef struct nsvcd_nearest_free_options {
-  // metres: between the parts
+  // metres: the distance that the parts of a pair keep; default 0
   float clearance;
-  // radians and metres alike: how far away the configuration may be, Euclidean; 0.5
+  // the greatest distance of the configuration from the joints, Euclidean, with radians and metres
+  // alike; default 0.5
   double farthest;
-  // of the random numbers
+  // seed of the random numbers
   uint64_t seed;
-  // called before each question and each draw; if it returns other than 0 the search ends with what
-  // it has found. May be NULL
+  // called before each question and each draw; may be NULL. If it returns anything but 0, the
+  // search ends with what it has found
   int (*stop)(void *user);
+  // passed to `stop`
   void *user;
 } nsvcd_nearest_free_options;
 
-// Seeks a configuration, proven free and within the limits, as near as possible to one that is not:
-// for a start or a goal that is in contact. Some hundred configurations are drawn at random, nearer
-// and nearer; each free one is moved back towards the joints as far as it stays free. What lies in
-// between need not be free.
+// Seeks a configuration that is proven free and within the limits, as near as possible to one that
+// is not, such as a start or a goal in contact. Some hundred configurations are drawn at random,
+// nearer and nearer; each free one is moved back towards the joints as far as it stays free. What
+// lies in between need not be free.
 //   checker    not NULL
-//   joints     (F), radians or metres; clamped to the limits first
+//   joints     (F) radians or metres, not NULL; clamped to the limits first
 //   options    NULL: the defaults
-//   out        (F), not NULL; the joints themselves if they are free. Left as it was if none is
-//              found
-//   is_found   not NULL
+//   out        (F) radians or metres, not NULL; the joints themselves if they are free. Left as it
+//              was if none is found, or on failure
+//   is_found   not NULL; 1 if a free configuration is found, else 0. Left as it was on failure
 //   allocates  nothing
+//   threads    each needs a checker of its own
 //   errors     ARGUMENT, VALUE, CLEARANCE, FARTHEST; POSE, SCALE, as nsvcd_proximities
 //   source     this library
 NSVCDDEF nsvcd_result nsvcd_nearest_free(nsvcd_checker *checker, const double *joints,
                                          const nsvcd_nearest_free_options *options,
                                          double *out, int *is_found);
 
-// Of the pairs that nsvcd_find_pairs writes: how many of each kind, in this order.
+// How many pairs nsvcd_find_pairs writes of each kind. They are written in this order.
 typedef struct nsvcd_pair_counts {
-  // to be checked
+  // pairs to be checked
   size_t asked;
-  // of parts on the two links of one joint, neither of them the world
+  // pairs of parts on the two links of one joint, neither of them the world
   size_t adjacent;
-  // of others that touch in all random configurations. That does not prove that they always do: to
-  // be checked, unless the caller knows more
+  // other pairs that touch in all random configurations. That does not prove that they always do:
+  // they are to be checked, unless the caller knows more
   size_t touching;
 } nsvcd_pair_counts;
 
-// Which pairs of parts should a scene have? All on different links, but adjacent ones: joints are
-// made to keep these apart, or to overlap. Pairs that touch in all random configurations are listed
-// apart: two that separate only in a narrow range of a joint are among them. To leave one out is
-// the caller's decision. Pairs that seem never to meet are not left out, since they cost little.
-//   checker    of the parts and joints, whatever pairs its scene has
-//   draws      random configurations within the limits in which a pair is asked about, at most;
-//              0: 64
-//   seed       of the random numbers
+// Finds the pairs of parts that a scene should have: all pairs on different links but the adjacent
+// ones, which joints are made to keep apart, or to overlap. Pairs that touch in all random
+// configurations are listed by themselves, since two that separate only in a narrow range of a
+// joint may be among them. To leave one out is the caller's decision. Pairs that seem never to meet
+// are not left out, since they cost little.
+//   checker    not NULL; made of the parts and joints, whatever pairs its scene has
+//   draws      the most random configurations, within the limits, in which a pair is asked about;
+//              default 64
+//   seed       seed of the random numbers
 //   pairs      (capacity), not NULL unless that is 0; some may be written on failure
-//   capacity   B (B - 1) / 2 is always enough, of B parts
+//   capacity   B (B - 1) / 2 is always enough, for B parts
 //   counts     not NULL; left as it was on failure
 //   allocates  nothing
+//   threads    each needs a checker of its own
 //   errors     ARGUMENT, WORKSPACE (capacity); POSE, SCALE, as nsvcd_proximities
-//   source     as setup assistants do (MoveIt's), but none is left out as "never" or "always"
+//   source     setup assistants (MoveIt's); difference: none is left out as "never" or "always"
 NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t draws, uint64_t seed,
                                        nsvcd_body_pair *pairs, size_t capacity,
                                        nsvcd_pair_counts *counts);
 
-// The same part on another link, from where it is: to grasp a thing, or, on link 0, to let go of
-// it. Put it into the scene, choose its pairs anew, and open a checker.
-//   joints     (F), in which the link takes it over
+// Puts a part on another link, at the place where it is: to grasp a thing, or, on link 0, to let go
+// of it. Put the new part into the scene, choose the scene's pairs anew, and open a checker.
+//   checker    not NULL
+//   joints     (F) radians or metres, not NULL: the configuration in which the link takes it over
 //   part       an index of the scene's parts
-//   link       the new one; 0: the world
+//   link       the new link; 0: the world
 //   out        not NULL; left as it was on failure. Its pose is rounded to float: 1e-7 of its
 //              distance from the link
+//   allocates  nothing
 //   errors     ARGUMENT, VALUE, LINK (or no such part), POSE (farther than NSVCD_MAX_COORDINATE
 //              from the link)
 NSVCDDEF nsvcd_result nsvcd_reparent(const nsvcd_checker *checker, const double *joints,
                                      size_t part, uint32_t link, nsvcd_part *out);
 
 // -------------------------------------------------------------------------------- interface/routes
-// In: a robot among obstacles, a configuration and others to get to. Out: a motion, proven free.
+// In: a robot among obstacles, a start and goals. Out: a motion from the start to a goal, proven
+// free.
 //
-// A straight line is tried, then two trees grow of edges that are proven free. The path is made
-// shorter, timed, and smoothed within the limits of speed and acceleration; the motion is proven
-// as a whole before it is handed out.
+// A straight line is tried first. If it is not free, two trees grow, from the start and from the
+// goals, whose edges are proven free. The path that joins them is made shorter, timed, and smoothed
+// within the limits of speed and acceleration. In the end the motion is proven as a whole.
 
-// of a route's trees
+// the most nodes of both trees
 #define NSVCD_MAX_NODES 10000000
 
 typedef enum nsvcd_route_status {
   // the motion is proven free, within the limits, and ends at a goal
   NSVCD_ROUTE_FOUND = 0,
-  // no path with as many nodes or tries as options allow; or one of more than 680 corners, as a
-  // guess may have
+  // there is no path with as many nodes or tries as options allow; or the path, or a guess, has
+  // more than 680 corners
   NSVCD_ROUTE_LIMIT,
-  // by the caller
+  // the caller's `stop` or `abandon` ended the search
   NSVCD_ROUTE_STOPPED,
-  // the start, or every goal, is out of its limits or not proven free: answer.check says why
+  // the start is out of its limits or not proven free: answer.check says why
   NSVCD_ROUTE_START,
+  // no goal is within its limits and proven free: answer.check says why, of the last one
   NSVCD_ROUTE_GOAL
 } nsvcd_route_status;
 
-// A status in a word or two, for a person; never NULL.
+// The status in a word or two, for people; never NULL.
 NSVCDDEF const char *nsvcd_route_status_string(nsvcd_route_status status);
 
+// What is sought. A configuration has a value for each of the scene's F joints, radians or metres.
 typedef struct nsvcd_route_problem {
-  // (F)
+  // (F) the configuration in which the motion begins
   const double *start;
-  // (G, F); one is enough
+  // (G, F) configurations; the motion ends in one of them
   const double *goals;
+  // G, 1 to NSVCD_MAX_NODES
   size_t goal_count;
-  // (W, F): corners of a path from the start to a goal, without these two, that may be free, or
+  // (W, F) corners of a path from the start to a goal, without these two, that may be free, or
   // nearly. NULL: none
   const double *guess;
+  // W
   size_t guess_count;
-  // called before each proof; if it returns other than 0 the search ends. A path found by then is
-  // still proven as a whole. May be NULL
+  // called before each proof; may be NULL. If it returns anything but 0, the search ends. A path
+  // found by then is still proven as a whole
   int (*stop)(void *user);
-  // called before each question about a pair, also in that last proof; if it returns other than 0
-  // that ends too: a bound of the time. May be NULL
+  // called before each question about a pair, also in that last proof; may be NULL. If it returns
+  // anything but 0, the proof ends as well, so that it bounds the time
   int (*abandon)(void *user);
+  // passed to both
   void *user;
 } nsvcd_route_problem;
 
-// Zero means the default.
+// How a route is sought. Zero means the default.
 typedef struct nsvcd_route_options {
-  // of all random numbers: other seeds find other routes
+  // seed of all random numbers; other seeds find other routes
   uint64_t seed;
-  // metres: between the parts, in the whole motion
+  // metres: the distance that the parts of a pair keep, in the whole motion; default 0
   float clearance;
-  // of the trees, at most; 20,000
+  // the most nodes of both trees, up to NSVCD_MAX_NODES; default 20,000
   size_t nodes;
-  // motions checked, free or not, at most: where nothing is free the trees do not grow, and nodes
-  // alone would not end the search; 4 times the nodes
+  // the most motions that are checked, free or not; default 4 times `nodes`. Where nothing is free
+  // the trees do not grow, so `nodes` alone would not end the search
   size_t tries;
-  // radians or metres: an edge's length, at most; 1
+  // radians or metres: the greatest length of an edge; default 1
   double edge;
-  // tries to shorten the path, up to NSVCD_MAX_NODES, and to smooth the motion; 20 and 200.
-  // NSVCD_NONE: none
+  // tries to shorten the path, up to NSVCD_MAX_NODES, default 20; and tries to smooth the motion,
+  // default 200. NSVCD_NONE: no tries
   size_t shortcuts, smoothings;
 } nsvcd_route_options;
 
+// What was found.
 typedef struct nsvcd_route_answer {
   nsvcd_route_status status;
-  // if FOUND: which one is reached
+  // if FOUND: the index of the goal that is reached
   size_t goal;
-  // if FOUND: of degree 2, with times, at rest at both ends; in the memory that was given. It has
-  // no pieces if the goal is the start
+  // if FOUND: the motion, of degree 2, with times, at rest at both ends. Its arrays are in the
+  // memory that was given. It has no pieces if the goal is the start
   nsvcd_joint_motion motion;
-  // times in between at which it rests, where no smooth motion round a corner was found
+  // number of times in between at which the motion rests, where no smooth way round a corner was
+  // found
   size_t stops;
-  // seconds: of the motion; of the straight line, if nothing were in its way
+  // seconds that the motion takes; and that the straight line would take, if nothing were in its
+  // way
   double duration, unhindered;
-  // FOUND: the last proof. START, GOAL: what is wrong with the start, or the last goal
+  // FOUND: the last proof. START and GOAL: what is wrong with the start, or with the last goal
   nsvcd_check_answer check;
-  // of the trees; motions checked, and those of them that were free
+  // number of nodes of the trees, of motions checked, and of those among them that were free
   size_t nodes, checks, proven;
 } nsvcd_route_answer;
 
 // Bytes that nsvcd_route needs; 0 if the problem or the options are refused.
+//   checker    not NULL
+//   problem    not NULL
 //   options    NULL: the defaults
 NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
                                  const nsvcd_route_problem *problem,
                                  const nsvcd_route_options *options);
 
 // Seeks a motion from the start to a goal on which no pair meets. The same problem and seed give
-// the same motion if the checker is opened anew each time, since it remembers what was hit last.
+// the same motion if the checker is opened anew each time; a checker remembers which pairs were hit
+// last.
 //   checker    not NULL
 //   problem    not NULL
 //   options    NULL: the defaults
@@ -441,11 +486,12 @@ NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
 //              to NSVCD_ALIGNMENT; the motion's arrays are in it
 //   answer     not NULL; left as it was on failure
 //   allocates  nothing
+//   threads    each needs a checker and memory of its own
 //   errors     ARGUMENT (NULL), COUNT (of goals, of a guess), ROUTE (nodes, shortcuts, edge),
 //              VALUE (a configuration not finite or beyond NSVCD_MAX_COORDINATE), CLEARANCE,
-//              WORKSPACE
+//              WORKSPACE; POSE, SCALE, as nsvcd_check
 //   source     RRT-Connect (Kuffner and LaValle 2000); bounded-acceleration shortcuts (Hauser and
-//              Ng-Thow-Hing 2010); with proofs in place of samples: this library
+//              Ng-Thow-Hing 2010). Difference: edges and shortcuts are proven, not sampled
 NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_problem *problem,
                                   const nsvcd_route_options *options, void *memory,
                                   size_t size, nsvcd_route_answer *answer);
@@ -462,23 +508,35 @@ extern "C" {
 
 // --------------------------------------------------------------------------------- interface/pairs
 // In: a pair of a robot's parts, a motion of its joints, and the trees of their meshes. Out: bytes
-// that prove that the two never meet.
+// that prove that the two parts never meet.
 
-// Bytes of the workspace of nsvcd_certify_pair: some 300 for each piece, and 4 for each vertex of
-// the mesh that has more.
+// Bytes of workspace that nsvcd_certify_pair needs: some 300 for each piece of the motion, and 4
+// for each vertex of the mesh that has more.
+//   motion     not NULL, as nsvcd_check takes it
+//   a, b       trees of the meshes of the pair's parts, not NULL
 NSVCDDEF size_t nsvcd_certify_pair_workspace_size(const nsvcd_joint_motion *motion,
                                                   const nsvcd_tree *a, const nsvcd_tree *b);
 
-// nsvcd_certify for a pair of parts, as a motion of the joints moves them. FREE certificates of all
-// pairs prove that the motion is free (examples/verify/nsvcd_verify_robot.h).
+// Proves that a pair of parts never meets, as a motion of the joints moves them, and writes the
+// proof: nsvcd_certify for a pair. FREE certificates of all pairs prove that the motion is free
+// (examples/verify/nsvcd_verify_robot.h).
 //   checker    not NULL
 //   motion     not NULL, as nsvcd_check takes it, of one piece or more
-//   pair       of the scene's pairs
+//   pair       an index of the scene's pairs
 //   clearance  metres
 //   a, b       trees of the meshes of the pair's parts, not NULL
-//   errors     those of nsvcd_certify and nsvcd_check, PAIR, and TURN: no pieces, or more than
-//              NSVCD_MAX_POSES; one that takes less than 1e-9 of the motion's time; a joint that is
-//              turned by more than 1,000, or as fast as 100,000 in that time
+//   options    NULL: the defaults
+//   workspace  (workspace_size) bytes, nsvcd_certify_pair_workspace_size or more, not NULL, aligned
+//              to NSVCD_ALIGNMENT
+//   bytes      (capacity): the certificate, as far as there is room; NULL if capacity is 0
+//   made       not NULL; left as it was on failure
+//   allocates  nothing
+//   threads    each needs a checker and a workspace of its own; trees may be shared
+//   errors     those of nsvcd_certify and nsvcd_check; PAIR; TURN (there are no pieces, or more
+//              than NSVCD_MAX_POSES; or a piece takes less than 1e-9 of the motion's time; or a
+//              joint is turned to more than 1,000 radians; or it moves as fast as 100,000 radians
+//              or metres in the motion's time)
+//   source     this library
 NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
                                          const nsvcd_joint_motion *motion, size_t pair,
                                          float clearance, const nsvcd_tree *a,
