@@ -12,10 +12,10 @@
 //   #define NEURALSVCD_IMPLEMENTATION
 //   #include "neuralsvcd.h"
 //
-// Include the header alone everywhere else. With NSVCD_NO_NETWORK there is the proof alone, and
-// weights.h is not needed.
+// Everywhere else, include the header alone. With NSVCD_NO_NETWORK, weights.h is not needed: there
+// is only the proof.
 //
-// Ask a question. This is a whole program:
+// This is a whole program, which asks a question:
 //
 //   #define NEURALSVCD_IMPLEMENTATION
 //   #include "neuralsvcd.h"
@@ -46,7 +46,7 @@
 //     return 0;
 //   }
 //
-// Or plan a motion that hits nothing: nsvcd_plan. A larger program is examples/quickstart.c.
+// A larger program is examples/quickstart.c.
 //
 // FUNCTIONS, each with its contract below
 //   nsvcd_obj_load        a file -> a mesh; so do nsvcd_stl_load and nsvcd_mesh_load
@@ -55,41 +55,44 @@
 //   nsvcd_body_load       bytes -> a body, every byte checked
 //   nsvcd_body_describe   a body -> its size, box, triangles; is it closed?
 //   nsvcd_sweep           a question -> an answer; nsvcd_sweep_batch: many
-//   nsvcd_sweep_gradient  the same by the network, with derivatives by the poses
-//   nsvcd_plan            joints -> a smooth motion that hits nothing
-//   extras/neuralsvcd_robot.h    is a motion of a robot's joints free? Find one that is
-//   extras/neuralsvcd_certify.h  answers as bytes that others can check
+//   nsvcd_sweep_gradient  a question -> the network's answer, and its derivatives by the poses
+//   nsvcd_plan            a start and a goal -> a smooth motion of joints that hits nothing
+//   extras/neuralsvcd_robot.h    a robot's joints: is their motion free? Find one that is
+//   extras/neuralsvcd_certify.h  an answer -> bytes that prove it, which others can check
 //
 // OPTIONS, defined before the implementation is included
-//   NSVCD_STATIC      all functions static, in a file that has the implementation
+//   NSVCD_STATIC      all functions are static, in a file that has the implementation
 //   NSVCD_NO_STDIO    no file access: no nsvcd_obj_load and the like; nsvcd_obj_parse stays
 //   NSVCD_NO_READERS  no readers of OBJ, STL and faces
 //   NSVCD_NO_ENCODER  no readers, no nsvcd_mesh_cut, no nsvcd_encode: bodies come from
 //                     nsvcd_body_load
 //   NSVCD_NO_PROOF    the network alone: triangles are neither stored nor read
 //   NSVCD_NO_NETWORK  the proof alone: no weights.h, no gradient, no optimizer
-//   NSVCD_NO_SMALL, NSVCD_NO_BASE   without these decoders; the default is the largest that is left
-//   NSVCD_NO_INT8, NSVCD_NO_FLOAT   without this arithmetic of the decoders; the default is float
-//                                   where there is float
+//   NSVCD_NO_SMALL, NSVCD_NO_BASE   no such decoder; the default is the largest that is left
+//   NSVCD_NO_INT8, NSVCD_NO_FLOAT   no such arithmetic of the decoders; the default is float, if it
+//                                   is left
 //   NSVCD_NO_GRADIENT    no nsvcd_sweep_gradient, no optimizer
 //   NSVCD_NO_OPTIMIZER   no nsvcd_plan, no nsvcd_spline
 //   NSVCD_NO_SIMD     plain C in place of AVX-512, AVX2 with FMA, SSE2, NEON and SIMD128
 //   NSVCD_ONE_PATH    the same bits on all machines: see DETERMINISM
-//   NSVCD_NO_DISPATCH    on x86-64 only what the compiler's flags allow, SSE2 by default. Otherwise
-//                     a build for SSE2 also holds queries for AVX2 and AVX-512, and the processor
-//                     decides
+//   NSVCD_NO_DISPATCH    only the vectors that the compiler's flags allow, on x86-64 by default
+//                     SSE2. Without this option, a build for SSE2 also holds queries for AVX2 and
+//                     AVX-512, and the processor decides
 //
 // CONVENTIONS
-//   Metres, radians, right-handed; quaternions x y z w of unit length; time in [0,1]; arrays
-//   row-major, their shape beside the pointer. Triangles are counter-clockwise seen from outside:
-//   the winding gives the normals, and flipping it costs accuracy. Options are structs in which
-//   zero means the default. What can fail returns an nsvcd_result, 0 on success, and on failure
-//   leaves its outputs as they were. (Sizes and nsvcd_body_patch return 0 instead; nsvcd_spline
-//   then writes nothing.) Functions are re-entrant, and there are no global variables. Memory is
-//   the caller's, or comes from the allocator that a function takes.
+//   Units are metres and radians, axes right-handed. Quaternions are x y z w, of unit length. Time
+//   is in [0,1]. Arrays are row-major, and their shape stands beside the pointer: (count, 3).
+//   Triangles are counter-clockwise seen from outside. The winding gives the normals, and flipping
+//   it costs accuracy. Options are structs in which zero means the default.
 //
-// What an answer is worth, numeric limits and determinism stand with the queries below; which
-// meshes count as closed, with the bodies; what was measured, in tests/bench/RESULTS.md.
+//   A function that can fail returns an nsvcd_result, 0 on success. On failure it leaves its
+//   outputs as they were. (Functions that return a size, and nsvcd_body_patch, return 0 instead.
+//   nsvcd_spline writes nothing.) Functions are re-entrant, and there are no global variables.
+//   Memory is the caller's, or comes from the allocator that a function takes.
+//
+// The queries below say what an answer is worth, and what is known of numeric limits and of
+// determinism. The bodies say which meshes count as closed. tests/bench/RESULTS.md has what was
+// measured.
 #ifndef NEURALSVCD_H
 #define NEURALSVCD_H
 #define NSVCD__FROM_ROOMS  // only here: neuralsvcd.h, which is made of this file, goes without
