@@ -1143,6 +1143,7 @@ static void mesh_files_are_told_apart(void) {
   }
   check_refused("a.DAZ.DAE", obj, strlen(obj), "none of these", 0, "convert it");
   check_refused("a.fbx", obj, strlen(obj), "none of these", 0, "convert it");
+  check_refused("a.OFF", "OFF\n3 1 0\n", 10, "none of these", 0, "convert it");
   check_refused("a.b.GLTF", "{}", 2, "none of these", 0, "convert it");
   check_refused("a.ply", obj, strlen(obj), "PLY", 0, "does not begin with 'ply'");
   check_refused("a.glb", "", 0, "GLB", 0, "does not begin with 'glTF'");

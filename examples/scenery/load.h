@@ -54,7 +54,8 @@ static int look_at_mesh(const char *from, const char *path, const char *bytes, s
   while (zeros < size && bytes[zeros] == 0) zeros++;
   mesh_ending(path, ending);
   if (zeros > 84) return complain("%s%s: it begins with zeros, as no mesh does", from, path);
-  if (strcmp(ending, "obj") == 0 && format && format[0] == 'O' && memchr(bytes, 0, size))
+  const int is_obj = format && strcmp(format, "OBJ") == 0;
+  if (is_obj && strcmp(ending, "obj") == 0 && memchr(bytes, 0, size))
     return complain("%s%s: not a text file, as an OBJ is: it has a zero byte", from, path);
   return 1;
 }

@@ -1,5 +1,5 @@
-// mesh_files.h - a mesh from the bytes of a file: OBJ, STL, PLY or GLB, by what they are, and by the
-// file's name where that is not plain. No stdio. Include neuralsvcd.h first.
+// mesh_files.h - a mesh from the bytes of a file: OBJ, STL, PLY or GLB. The bytes tell which, or
+// else the file's name. No stdio. Include neuralsvcd.h first.
 //
 //   mesh_fault fault;
 //   if (!mesh_parse("part.ply", data, size, NULL, &mesh, &fault))
@@ -11,7 +11,7 @@
 #include "ply.h"
 #include "glb.h"
 
-// What follows the last point of a name, in small letters; "" where that is long.
+// What follows the last point of a name, in small letters; "" if that is longer than 7.
 static inline void mesh_ending(const char *name, char out[8]) {
   const char *dot = strrchr(name, '.');
   const size_t length = dot ? strlen(dot + 1) : 8;
@@ -22,7 +22,8 @@ static inline void mesh_ending(const char *name, char out[8]) {
   }
 }
 
-// What the file is, "OBJ" where nothing else is plain; NULL where it is known not to be read.
+// The format of a file: "OBJ" if nothing tells, NULL if it is known not to be read. A new format
+// needs a line here, and its reader in mesh_parse_to.
 static inline const char *mesh_format(const char *name, const unsigned char *data, size_t size) {
   static const char *const others[] = {"fbx", "dae",  "3ds", "step",  "stp",  "iges", "igs",
                                        "usd", "usdz", "3mf", "blend", "gltf", "off"};
@@ -42,7 +43,8 @@ static inline const char *mesh_format(const char *name, const unsigned char *dat
   return size >= 6 && memcmp(data, "solid ", 6) == 0 ? "STL" : "OBJ";
 }
 
-// An STL. The library takes what is longer than its count says, and would lose triangles.
+// Reads an STL. Refuses a file that is longer than its count of triangles says: the library would
+// take it, and lose triangles.
 static inline int mesh_take_stl(const unsigned char *data, size_t size,
                                 const nsvcd_mesh_options *options, const nsvcd_allocator *allocator,
                                 nsvcd_mesh *mesh, mesh_fault *fault) {
@@ -59,8 +61,8 @@ static inline int mesh_take_stl(const unsigned char *data, size_t size,
   return !result || mesh_refuse(fault, nsvcd_result_string(result));
 }
 
-// Returns 1, or 0 with a reason in *fault. data: (size), not NULL. name: of the file, or "". given:
-// NULL: the numbers are metres; its format is not asked for.
+// Reads a mesh. Returns 1, or 0 with a reason in *fault. name: the file's, or "". data: (size)
+// bytes, not NULL. given: how numbers become metres; NULL: they are. Its format is not used.
 static inline int mesh_parse_to(const char *name, const void *data, size_t size,
                                 const nsvcd_mesh_options *given, const nsvcd_allocator *allocator,
                                 nsvcd_mesh *mesh, mesh_fault *fault) {
@@ -74,17 +76,17 @@ static inline int mesh_parse_to(const char *name, const void *data, size_t size,
     fault->format = "none of these";
     return mesh_refuse(fault, "OBJ, STL, PLY and GLB are read, and no other: convert it");
   }
-  if (fault->format[0] == 'G') {
+  if (strcmp(fault->format, "GLB") == 0) {
     if (size >= 4 && memcmp(bytes, "glTF", 4) == 0)
       return glb_parse(data, size, &options, allocator, mesh, fault);
     return mesh_refuse(fault, "it does not begin with 'glTF', as a GLB does");
   }
-  if (fault->format[0] == 'P') {
+  if (strcmp(fault->format, "PLY") == 0) {
     if (size >= 4 && memcmp(bytes, "ply", 3) == 0)
       return ply_parse(bytes, size, &options, allocator, mesh, fault);
     return mesh_refuse(fault, "it does not begin with 'ply', as a PLY does");
   }
-  options.format = fault->format[0] == 'S' ? NSVCD_MESH_STL : NSVCD_MESH_OBJ;
+  options.format = strcmp(fault->format, "STL") == 0 ? NSVCD_MESH_STL : NSVCD_MESH_OBJ;
   if (options.format == NSVCD_MESH_STL)
     return mesh_take_stl((const unsigned char *)data, size, &options, allocator, mesh, fault);
   const nsvcd_result result = nsvcd_mesh_parse(data, size, &options, allocator, mesh, &fault->line);
