@@ -28,7 +28,7 @@ static const float corners[4][3] = {{-8, 8, 0.9f}, {8, 8, 1.2f}, {-8, -8, 0.9f},
 
 typedef struct flight {
   nsvcd_pose at;
-  size_t corner;  // where it is going
+  size_t corner;  // the corner that it is going to
   nsvcd_pose path[FRAMES];
   size_t frames, questions, turned, stuck;
   double microseconds, worst;

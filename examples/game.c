@@ -43,7 +43,7 @@ typedef struct game {
   size_t parts[4];  // triangles of the level: ground, things on it, what is built
   physics_world *world;
   physics_walker walker;
-  size_t stop;  // of the route, that it is going to
+  size_t stop;  // the stop of the route that it is going to
   size_t props[PROPS], needles[NEEDLES];
   oracle_mesh exact[THINGS];
   nsvcd_pose trail[64];

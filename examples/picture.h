@@ -203,7 +203,7 @@ static void picture_scene(FILE *svg, const oracle_mesh *moving, const oracle_mes
 static void picture_captions(FILE *svg, const picture_panel *panel) {
   const nsvcd_answer *a = &panel->answer;
   const int is_free = a->verdict == NSVCD_FREE;
-  const char *const says[3] = {"MAY HIT IT", "CLEARS IT", "HITS THE RACK"};  // by the verdict
+  const char *const says[3] = {"MAY HIT IT", "CLEARS IT", "HITS THE RACK"};  // by verdict
   const int pill = is_free ? 130 : 170;
   fprintf(
       svg,

@@ -95,7 +95,7 @@ int main(int argc, char **argv) {
     if (result) return fprintf(stderr, "%s\n", nsvcd_result_string(result)), 1;
 
     // What the answer says is proven: two triangles that meet are the witness of a hit.
-    const char *const says[3] = {"may hit", "clears", "HITS"};  // by the verdict
+    const char *const says[3] = {"may hit", "clears", "HITS"};  // a word for each verdict
     const char *const proofs[3] = {"undecided", "certified-free", "witness"};
     printf("%-12s -> %s (%s; %.0f us)", names[i], says[answer.verdict],
            answer.inside ? "inside" : proofs[answer.verdict], least);

@@ -26,11 +26,11 @@ typedef struct planner_user {
 typedef struct planner_motion {
   // (PLANNER_SAMPLES, joint_count), uniform in time
   float joints[PLANNER_SAMPLES * TASK_MAX_JOINTS];
-  double metres[PLANNER_SAMPLES];  // that the held thing has come by then
+  double metres[PLANNER_SAMPLES];  // way that the held thing has come by then
   nsvcd_plan_answer answer;        // the network's opinion
   task_verdict verdict;            // the oracle's
   double seconds;
-  // by the oracle: free, within the limits, from the start to the goal
+  // 1: free, within the limits, from the start to the goal, by the oracle
   int good;
   float naive_hit[TASK_MAX_JOINTS];  // where the straight line in joint space first hits something,
   int naive_hits;                    // if it does
@@ -124,7 +124,7 @@ PLANNER_DEF void planner_judge(const task_scene *scene, planner_motion *motion) 
   for (int j = 0; motion->naive_hits && j < n; j++)
     motion->naive_hit[j] = (float)(line[j] + naive.time * (line[n + j] - line[j]));
 }
-// What it took, what it is worth, and by whose word.
+// Prints what a motion took, what it is worth, and by whose word.
 PLANNER_DEF void planner_report(const task_scene *scene, const planner_motion *motion) {
   const nsvcd_plan_answer *answer = &motion->answer;
   const task_verdict *v = &motion->verdict;

@@ -64,7 +64,7 @@ int board_measures(void) {
 
 #define PAINT 0x5ac3c35au
 
-extern uint32_t stack_limit[], stack_top[];  // by mps2.ld
+extern uint32_t stack_limit[], stack_top[];  // in mps2.ld
 
 void board_stack_paint(void) {
   uintptr_t here;
@@ -86,7 +86,7 @@ size_t board_stack_used(void) {
 
 // ----------------------------------------------------------------------------------------- startup
 
-extern uint32_t data_begin[], data_end[], data_in_flash[], bss_begin[], bss_end[];  // by mps2.ld
+extern uint32_t data_begin[], data_end[], data_in_flash[], bss_begin[], bss_end[];  // in mps2.ld
 
 void reset(void) {
   volatile uint32_t *const coprocessor_access = (volatile uint32_t *)0xe000ed88;

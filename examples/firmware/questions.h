@@ -1,14 +1,14 @@
 // questions.h - how a mug and a dish rack move, in 32 ways. After neuralsvcd.h.
 //
-// The same on every machine, to the bit: integers, and of floats only + * / and sqrtf. For that the
-// compiler must not fuse * and +, which gcc does not with -std=c99.
+// The motions are the same on every machine, to the bit: they are made with integers, and with
+// floats only by + * / and sqrtf. The compiler must not fuse * and +; gcc with -std=c99 does not.
 #ifndef QUESTIONS_H
 #define QUESTIONS_H
 
 #define QUESTIONS 32
-#define POSES 4  // of a motion, at most
+#define POSES 4  // the most of a motion
 
-// In -1..1.
+// A random number in -1..1.
 static float random_of(uint32_t *seed) {
   *seed = *seed * 1664525u + 1013904223u;
   return (float)((int32_t)(*seed >> 16) - 32768) / 32768;
@@ -43,7 +43,7 @@ static void pose_question(uint32_t number, nsvcd_pose *poses, nsvcd_pose *b_pose
   question->a.count = 2;
   switch (number % 8) {
     case 0:  // along the front of the rack, 1.5 mm too near up to 1.5 mm off
-    case 1:  // the same while the mug turns about its axis
+    case 1:  // that path, while the mug turns about its axis
       poses[0] = upright(-0.3f, -0.1925f - 0.001f * step, 0.001f);
       poses[1] = upright(0.3f, -0.1925f - 0.001f * step, 0.001f);
       if (number % 8 == 1) poses[1] = pose_of(0.3f, -0.1925f - 0.001f * step, 0.001f, 0, 0, 1, 1);

@@ -11,7 +11,7 @@
 #include "print.h"
 
 typedef struct scene {
-  uint32_t number;  // of the question
+  uint32_t number;  // the question's
   int free;         // 1: the bodies never meet
   float scale, clearance;
   uint32_t poses, a_count, b_count;  // the first of poses_body; so many of a, then of b

@@ -226,7 +226,7 @@ typedef struct draw_outline {
 
 typedef struct draw_outlines {
   draw_outline *all;
-  int (*points)[2];  // in half samples
+  int (*points)[2];  // corners, in half samples
   size_t count, point_count, room, point_room;
   int failed;  // no memory
 } draw_outlines;
@@ -249,7 +249,7 @@ DRAW_DEF void draw_put(draw_outlines *out, int x, int y) {
 DRAW_DEF void draw_follow(const draw_raster *r, int left, int top, char *done, draw_outlines *out) {
   static const int steps[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
   static const int aheads[4][2] = {
-      {0, 0}, {-1, 0}, {-1, -1}, {0, -1}};  // on the right, of a corner
+      {0, 0}, {-1, 0}, {-1, -1}, {0, -1}};  // the sample on the right of a corner
   const uint32_t fill = draw_at(r, left, top);
   int x = left;
   int y = top;
@@ -389,7 +389,7 @@ DRAW_DEF void draw_flush(FILE *svg, draw_list *list) {
   list->triangles = NULL;
   list->count = list->capacity = 0;
 }
-// In the `d` of a path: to this point, or, the first, from it.
+// Writes a point into the `d` of a path: the first begins the path, others are drawn to.
 DRAW_DEF void draw_to(FILE *svg, const draw_view *view, int first, const double *world) {
   double p[3];
   draw_project(view, world, p);

@@ -115,8 +115,8 @@ static const char *shown_name(const char *path) {
   return is_standard_input(path) ? "standard input" : path;
 }
 
-// A whole file, aligned, with a 0 behind it. from: what asks for it, for messages. look: NULL, or what refuses a file, with a complaint,
-// for how it begins. NULL after a complaint.
+// Reads a whole file, aligned, with a 0 behind it. Returns NULL after a complaint. from: what asks
+// for it, for messages. look: refuses a file, with a complaint, by its beginning; may be NULL.
 static char *read_file(const char *from, const char *path, size_t *size,
                        int (*look)(const char *from, const char *path, const char *bytes,
                                    size_t size)) {
@@ -161,11 +161,11 @@ static int close_written(FILE *file, const char *path) {
 
 // ---------------------------------------------------------------------------------------- progress
 
-// On a terminal, and where it takes more than a second: "answering: 120 of 600".
+// A line on a terminal, if the work takes more than a second: "answering: 120 of 600".
 typedef struct progress_bar {
   const char *what;
   size_t of;
-  double next;  // when it is told again; 0: not yet begun
+  double next;  // time of the next line; 0: not yet begun
   int is_told;
 } progress_bar;
 

@@ -102,9 +102,9 @@ typedef struct gif_codes {
   FILE *file;
   uint8_t block[255];
   int filled;     // bytes of the block
-  uint32_t bits;  // that are no byte yet
+  uint32_t bits;  // bits that are no byte yet
   int bit_count;
-  int width;  // of a code, bits
+  int width;  // bits of a code
 } gif_codes;
 
 static void gif_flush(gif_codes *out) {
@@ -124,7 +124,7 @@ static void gif_code(gif_codes *out, int code) {
 // Welch 1984, with codes of 9 to 12 bits: a string that was seen gets a code, and when there are no
 // more codes all are forgotten.
 static void gif_compress(FILE *file, const uint8_t *indices, size_t count) {
-  static uint16_t next[GIF_CODES][256];  // of a string and one index more; 0: not seen
+  static uint16_t next[GIF_CODES][256];  // the code of a string and one index more; 0: not seen
   gif_codes out = {file, {0}, 0, 0, 0, 9};
   int known = 258;  // 256 forgets all, 257 ends
   int string = indices[0];

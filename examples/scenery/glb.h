@@ -20,7 +20,7 @@ typedef struct glb_list {
 
 typedef struct glb {
   json j;
-  const unsigned char *data;  // of the binary chunk
+  const unsigned char *data;  // the binary chunk
   size_t size;
   int is_outside;  // the data is in another file
   glb_list accessors, views, nodes, meshes;
@@ -100,7 +100,7 @@ static inline int glb_take_place(const glb *g, size_t node, glb_place *out) {
 typedef struct glb_rows {
   const unsigned char *at;
   size_t count, stride, columns;
-  size_t bytes;  // of a number
+  size_t bytes;  // bytes of a number
   int is_real, is_signed, is_normalized;
 } glb_rows;
 

@@ -12,7 +12,7 @@
 typedef struct json_value {
   char kind;  // { [ " 0 (a number), t f n
   const char *at;
-  size_t length;  // of a string, without its quotes
+  size_t length;  // a string's, without its quotes
   size_t next;    // the value behind this one and all that is in it
 } json_value;
 

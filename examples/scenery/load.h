@@ -81,7 +81,7 @@ static const char *parse_mesh(const char *from, const char *path, const char *by
   return NULL;
 }
 
-// The same of a file.
+// Loads the mesh of a file, in metres. Returns its format, or NULL after a complaint.
 static const char *load_mesh(const char *from, const char *path, nsvcd_mesh *mesh) {
   size_t size;
   char *bytes = read_file(from, path, &size, look_at_mesh);
@@ -149,7 +149,8 @@ typedef struct proof_mesh {
   const nsvcd_tree *tree;
 } proof_mesh;
 
-// That a file names, scaled (NULL: as it is). Returns 0 after a complaint.
+// Loads a mesh that a file names, scaled (NULL: as it is), and makes its tree. Returns 0 after a
+// complaint.
 static int load_tree(const char *file, const char *name, const double *scale, proof_mesh *out) {
   char path[4096];
   path_of(file, name, path, sizeof path);
@@ -209,10 +210,10 @@ static int take_scales(const char *text, size_t count, float *scales) {
 // A file that was given: a mesh and the body that is made of it, or a .body file.
 typedef struct thing {
   const char *path;  // as it is shown
-  char *bytes;       // of the file; of a mesh only until it is loaded
+  char *bytes;       // the file's; a mesh has them only until it is loaded
   size_t size;
   int is_body;
-  const char *format;  // of a mesh
+  const char *format;  // a mesh's
   nsvcd_mesh mesh;     // metres
   mesh_report report;
   char faults[MESH_FINDINGS][MESH_LINE];
@@ -340,7 +341,7 @@ static void box_of_balls(thing *t) {
       t->high[k] = fmax(t->high[k], (double)t->scale * (double)(centre[k] + radius));
     }
 }
-// Of a .body file. Returns 0 after a complaint.
+// Makes a thing of a .body file. Returns 0 after a complaint.
 static int take_body(thing *t, float scale) {
   t->scale = scale;
   const nsvcd_result result = nsvcd_body_load(t->bytes, t->size, &t->body);

@@ -3,13 +3,13 @@
 #ifndef NSVCD_SCENERY_MANUAL_H
 #define NSVCD_SCENERY_MANUAL_H
 
-typedef struct settings settings;  // of the program
+typedef struct settings settings;  // the program's own
 
 typedef struct command {
   const char *name;
-  unsigned bit;  // of its options
+  unsigned bit;  // the bit that its options have set
   int (*run)(settings *options);
-  size_t paths;         // at most
+  size_t paths;         // the most that it takes
   const char *files;    // as the manual names them
   const char *summary;  // a line
   const char *text;     // what it does
@@ -191,7 +191,7 @@ static void manual_fish(FILE *out, const manual *m) {
   }
 }
 
-// In this form: man, bash, zsh or fish. 0 where there is no such.
+// Prints the manual in a form: man, bash, zsh or fish. Returns 0 if there is no such form.
 static int manual_print(FILE *out, const manual *m, const char *form) {
   static const struct {
     const char *form;

@@ -19,20 +19,20 @@
 
 #define MESH_DEF ORACLE_DEF
 #define MESH_LARGE 30.0     // metres
-#define MESH_LARGE_STL 3.0  // of a format whose files are mostly in millimetres
+#define MESH_LARGE_STL 3.0  // metres, for STL: its files are mostly in millimetres
 
 typedef struct mesh_report {
-  double scale;  // that takes the mesh's units to metres
+  double scale;  // metres in one of the mesh's units
   double large;  // metres: a body beyond this is hardly meant
   size_t triangles, vertices;
-  double low[3], high[3];  // metres, of what triangles use
+  double low[3], high[3];  // metres: a box of the vertices that triangles use
   double area;             // square metres
   double volume;           // cubic metres, of the closed components; negative: inside out
   size_t components, closed;
   size_t inwards;        // closed components of negative volume: cavities, or inside out
-  size_t open_edges;     // of one triangle
-  size_t crowded_edges;  // of more than two
-  size_t turned_edges;   // of two triangles that do not agree which side is out
+  size_t open_edges;     // edges of one triangle
+  size_t crowded_edges;  // edges of more than two
+  size_t turned_edges;   // edges of two triangles that do not agree which side is out
   size_t flat;           // triangles without area
 } mesh_report;
 
@@ -45,7 +45,7 @@ typedef struct mesh_component {
 
 typedef struct mesh_edge {
   uint64_t ends;  // the lesser one first
-  uint32_t root;  // of the component
+  uint32_t root;  // the component's
   int along;      // 1: from the lesser end to the greater, -1: back
 } mesh_edge;
 

@@ -67,9 +67,9 @@ static inline uint64_t mesh_word(const unsigned char *at, size_t bytes, int big)
 
 typedef struct mesh_soup {
   float *positions;           // (vertices, 3)
-  uint32_t *corners, *sizes;  // of faces
+  uint32_t *corners, *sizes;  // faces: their corners, and how many each has
   size_t vertices, corner_count, faces;
-  size_t room[3];                     // of these
+  size_t room[3];                     // room for positions, corners and sizes
   const nsvcd_mesh_options *options;  // NULL: the numbers are metres
 } mesh_soup;
 
@@ -111,7 +111,7 @@ static inline int mesh_soup_corner(mesh_soup *soup, uint32_t vertex) {
   soup->corners[soup->corner_count++] = vertex;
   return 1;
 }
-// Of the last `size` corners.
+// Adds a face of the last `size` corners.
 static inline int mesh_soup_face(mesh_soup *soup, uint32_t size) {
   if (!mesh_soup_grow(&soup->sizes, soup->faces, &soup->room[2], sizeof(uint32_t))) return 0;
   soup->sizes[soup->faces++] = size;

@@ -14,9 +14,9 @@ typedef enum option_kind {
 
 typedef struct option {
   const char *name;   // "--points"
-  unsigned commands;  // bits of those that have it
+  unsigned commands;  // bits of the commands that have it
   option_kind kind;
-  size_t offset;  // of its value in the settings
+  size_t offset;  // place of its value in the settings
   double low, high;
   const char *text;   // "one|two" words, or NULL, or the name of the limit
   const char *value;  // what stands behind it in the manual; NULL: the words, or nothing
@@ -124,7 +124,7 @@ typedef struct command_line {
   const option *options;
   size_t option_count;
   unsigned command;
-  const char *name;  // of the command, for messages
+  const char *name;  // the command's, for messages
   char **arguments;
   int count;
 } command_line;

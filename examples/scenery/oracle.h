@@ -221,7 +221,7 @@ typedef struct oracle_mesh {
   double *seeds;       // (seed_count, 3): one vertex of every connected component
   size_t triangle_count, node_count, seed_count;
   double low[3], high[3];    // bounds
-  double center[3], radius;  // of the bounds; the radius reaches the farthest vertex
+  double center[3], radius;  // the bounds' centre; the radius reaches the farthest vertex
 } oracle_mesh;
 
 ORACLE_DEF void oracle_mesh_free(oracle_mesh *mesh) {

@@ -88,13 +88,13 @@ PHYSICS_DEF physics_vec physics_turn(const float *q, physics_vec v, int back) {
 // Meshes are about their centres of mass: physics_encode sees to that.
 typedef struct physics_shape {
   const nsvcd_body *body;
-  physics_vec half;  // of what its box measures: for inertia
+  physics_vec half;  // half the lengths of its box, for inertia
 } physics_shape;
 
 typedef struct physics_thing {
   size_t shape;  // PHYSICS_NOTHING: there is nothing
   float scale;
-  float reach;  // of a sphere about its origin that contains it
+  float reach;  // radius of a sphere about its origin that contains it
   nsvcd_pose pose;
   physics_vec velocity, spin;   // metres and radians a second
   float inverse_mass;           // 0: it does not move by itself
@@ -108,7 +108,7 @@ typedef struct physics_thing {
 // Where two things touch. The points are in their own frames, the normal in that of b.
 typedef struct physics_touch {
   size_t a, b;
-  physics_vec on_a, on_b, normal;  // from b to a
+  physics_vec on_a, on_b, normal;  // the normal goes from b to a
   float bounce;                    // metres a second: away from each other, as fast as that
   float pushed, carried;  // newton seconds along the normal: this frame, and at its beginning
   physics_vec rubbed;     // across it
@@ -136,9 +136,9 @@ typedef struct physics_world {
   float restitution, friction;
   physics_ask *ask;     // NULL: nsvcd_sweep_batch
   void *user;           // told to it
-  nsvcd_result result;  // of the first question that was refused; then nothing moves
+  nsvcd_result result;  // why a question was refused, the first; then nothing moves
   physics_counts counts;
-  // of the thing that is moving
+  // the thing that is moving: its path, and what is near
   nsvcd_pose path[2];
   size_t near_count, near_things[PHYSICS_NEAR];
   nsvcd_question questions[PHYSICS_NEAR];
@@ -288,7 +288,7 @@ PHYSICS_DEF size_t physics_add(physics_world *w, size_t shape, float scale, floa
   if (!(mass > 0)) return i;
   const physics_vec squares = physics_of(h.x * h.x, h.y * h.y, h.z * h.z);
   t->inverse_mass = 1 / mass;
-  // of a box, no thinner than a tenth of its reach: slivers spin too wildly
+  // the inertia of a box, no thinner than a tenth of its reach: slivers spin too wildly
   const float least = 0.01f * t->reach * t->reach;
   t->inverse_inertia = physics_of(3 / mass / (squares.y + squares.z + least),
                                   3 / mass / (squares.z + squares.x + least),
@@ -350,7 +350,7 @@ PHYSICS_DEF physics_vec physics_speed(const physics_thing *t, physics_vec arm) {
 // A touch as it is now.
 typedef struct physics_seen {
   physics_thing *a, *b;
-  physics_vec arm_a, arm_b, normal, way;  // from b's point to a's
+  physics_vec arm_a, arm_b, normal, way;  // the way goes from b's point to a's
 } physics_seen;
 
 PHYSICS_DEF physics_seen physics_see(const physics_world *w, const physics_touch *touch) {

@@ -17,7 +17,7 @@ typedef struct ply_type {
 
 typedef struct ply_property {
   ply_type type;
-  ply_type length;  // of a list
+  ply_type length;  // the type of a list's length
   int part;         // 0 to 2: x, y, z of a vertex; 3: corners of a face, 4: of a strip; -1: skipped
 } ply_property;
 
@@ -300,7 +300,7 @@ static inline int ply_parse(const char *data, size_t size, const nsvcd_mesh_opti
   if (good && !soup.faces) good = mesh_refuse(fault, "no faces: a cloud of points?");
   good = good && mesh_soup_finish(&soup, allocator, mesh, fault);
   if (!elements) mesh_refuse(fault, PLY_NO_MEMORY);
-  // of what is binary only the header has lines
+  // a binary file has lines only in its header
   fault->line = good || (count && !r.is_text) ? 0 : r.line;
   free(elements);
   mesh_soup_free(&soup);

@@ -63,7 +63,7 @@ static int parse_count(const char *text, size_t low, size_t high, size_t *out) {
 // ----------------------------------------------------------------------------------- problem files
 
 typedef struct mesh_entry {
-  const char *name, *path;  // in the text of the file
+  const char *name, *path;  // parts of the file's text
   size_t line;
 } mesh_entry;
 
@@ -72,7 +72,7 @@ typedef struct problem {
   size_t line, moving, fixed;  // the bodies: indices into meshes
   float moving_scale, fixed_scale;
   nsvcd_pose fixed_pose;
-  size_t first_pose, count;  // of the motion
+  size_t first_pose, count;  // the moving body's poses
   size_t fixed_count;        // poses of the other body, behind those; 0: it rests at fixed_pose
   int label;                 // 1, 0 or -1
   double margin;             // metres, or nan
@@ -83,18 +83,18 @@ typedef struct problem_file {
   char *text;
   mesh_entry *meshes;
   problem *problems;
-  nsvcd_pose *poses;  // of all motions, one after the other
+  nsvcd_pose *poses;  // all motions' poses, one after the other
   size_t mesh_count, problem_count, pose_count, mesh_capacity, problem_capacity, pose_capacity;
 } problem_file;
 
 #define POSE_FIELDS 7
 #define PROBLEM_FIELDS 16
-#define MOST_FIELDS 80  // of a line; those of a problem may be one more than PROBLEM_FIELDS
+#define MOST_FIELDS 80  // a line's; a problem may have one more than PROBLEM_FIELDS
 
 typedef struct reader {
   const char *path;
   char *next;   // text still to be read
-  size_t line;  // of the fields, from 1
+  size_t line;  // number of the line that the fields are of, from 1
   char *fields[MOST_FIELDS];
   size_t field_count;  // may exceed MOST_FIELDS: then those beyond are not kept
 } reader;

@@ -5,11 +5,11 @@
 #define NSVCD_SCENERY_PROBLEM_SUMMARY_H
 
 typedef struct encoded {
-  const nsvcd_body *body;  // in the units of its file
-  double seconds;          // that encoding took
+  const nsvcd_body *body;  // its units are the file's
+  double seconds;          // time that encoding took
 } encoded;
 
-typedef struct outcome {  // of a problem
+typedef struct outcome {  // what came of a problem
   nsvcd_answer answer;
   double microseconds;
 } outcome;

@@ -35,7 +35,7 @@ typedef struct robot_thing {
 
 typedef struct robot_room {  // a scene
   const char *name;
-  size_t first, count;  // of the things: its obstacles
+  size_t first, count;  // its obstacles, among the file's things
 } robot_room;
 
 typedef struct robot_task {
@@ -131,8 +131,8 @@ static size_t robot_find_mesh(robot_file *file, const reader *r, const char *pat
   return file->mesh_count - 1;
 }
 
-// What may follow from a field on: `pose` and `scale`, each once. pose: NULL where the line has one
-// of its own.
+// Reads what may follow from a field on: `pose` and `scale`, each once. pose: NULL if the line has
+// one of its own.
 static int robot_read_words(const reader *r, size_t at, nsvcd_pose *pose, double scale[3]) {
   int has_scale = 0;
   scale[0] = scale[1] = scale[2] = 1;

@@ -14,7 +14,7 @@
 
 typedef struct robot_picture {
   const robot_in_room *in;
-  oracle_mesh *meshes;  // of the file's
+  oracle_mesh *meshes;  // the file's meshes
   draw_view view;
 } robot_picture;
 
@@ -69,8 +69,8 @@ static void robot_picture_fit(robot_picture *p, const nsvcd_joint_motion *m) {
   const size_t parts = p->in->scene.part_count;
   const size_t bodies = p->in->file->body_count;
   nsvcd_pose *poses = (nsvcd_pose *)allocate(parts * sizeof *poses);
-  double middles[2][3] = {{0, 0, 0}, {0, 0, 0}};   // of the obstacles, of the robot's places
-  double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};  // of these
+  double middles[2][3] = {{0, 0, 0}, {0, 0, 0}};   // the obstacles' middle, and the robot's places'
+  double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};  // a box of both
   double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   sweep_frame frame = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
   for (int pass = 0; pass < 2; pass++) {
@@ -100,7 +100,7 @@ static void robot_picture_fit(robot_picture *p, const nsvcd_joint_motion *m) {
     memset(&p->view, 0, sizeof p->view);
     p->view.scale = 1;
     p->view.elevation = 0.42;
-    // from the obstacles to the robot, and a little aside
+    // the view goes from the obstacles to the robot, and a little aside
     p->view.azimuth = atan2(middles[1][1] - middles[0][1], middles[1][0] - middles[0][0]) + 0.65;
   }
   sweep_fit_frame(&frame, ROBOT_WIDTH, ROBOT_HEIGHT, ROBOT_EDGE, &p->view);

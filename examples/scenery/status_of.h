@@ -24,7 +24,7 @@ static inline const char *status_string(status s) {
   return words[s];
 }
 
-// Of collision: the network's where it was asked.
+// The logit of a collision: the network's if it was asked.
 static inline float logit_of(const nsvcd_answer *a) {
   if (a->opinion.asked) return a->opinion.logit;
   return a->verdict == NSVCD_FREE ? -NSVCD_LOGIT_CERTAIN : NSVCD_LOGIT_CERTAIN;

@@ -53,7 +53,7 @@ typedef struct task_body {
   const char *name;
   nsvcd_mesh mesh;     // for nsvcd_encode
   oracle_mesh exact;   // the same triangles
-  oracle_pose offset;  // in its link
+  oracle_pose offset;  // its pose in the link
   int link;
   task_kind kind;
   // a robot's body is not tested against those on this many links before its own: they overlap by
@@ -347,7 +347,7 @@ TASK_DEF int task_keeps(const task_scene *scene, const double *joints, int sampl
       most = fmax(most, fabs(joints[(s + 1) * joint_count + j] - joints[s * joint_count + j]));
     count += (int)fmax(1, ceil(most / TASK_FINE));
   }
-  double *times = (double *)malloc((size_t)count * sizeof *times);  // of the fine poses
+  double *times = (double *)malloc((size_t)count * sizeof *times);  // times of the fine poses
   oracle_pose *world =
       (oracle_pose *)malloc((size_t)count * (size_t)(scene->body_count + 1) * sizeof *world);
   oracle_pose *relative = world + (size_t)count * (size_t)scene->body_count;
@@ -633,7 +633,7 @@ TASK_DEF int task_add_armada_arm(task_scene *scene, int side) {
 
 // metres: start, goal and the way out of the goal keep this from everything. Chosen.
 #define TASK_CLEAR 0.003
-// of starts, or of ways to reach a goal, before the whole scene is drawn anew. Chosen.
+// starts, or ways to reach a goal, that are tried before the whole scene is drawn anew. Chosen.
 #define TASK_SAMPLES 100
 
 // Makes problem `index` the one that bodies and pairs are arranged for. A dish rests in the rack

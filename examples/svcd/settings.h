@@ -56,7 +56,7 @@ static void ask_first(nsvcd_question *question, const settings *options) {
 #define DECIDE_SECONDS 10
 typedef struct waiting {
   double began, end;
-  int is_bounded;  // by --work
+  int is_bounded;  // --work limits the work
   int is_told;     // a line on the terminal says that it takes long
 } waiting;
 

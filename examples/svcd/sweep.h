@@ -12,7 +12,7 @@ typedef struct sweep_job {
   int by_proof;
   void *workspace;
   nsvcd_answer answer;
-  nsvcd_answer nearest;  // with --measure, if they are free of each other
+  nsvcd_answer nearest;  // the distance, with --measure, if they are free of each other
   waiting wait;
   size_t repeated;            // timed runs
   double microseconds;        // median, to know whether they meet

@@ -26,7 +26,7 @@ typedef struct nsvcd_verify_report {
 typedef struct verify__instant {
   double t;
   nsvcd_verify_place a, b;
-  double stray_a[6], stray_b[6];  // from here to the next instant
+  double stray_a[6], stray_b[6];  // strays from here to the next instant
 } verify__instant;
 
 typedef struct verify__reader {
@@ -117,8 +117,8 @@ static inline void verify__seen(const nsvcd_verify_mover *of, const nsvcd_verify
   }
 }
 
-// In the frame of one mover, in units of its scale: no coordinate is longer than `lengths`, and
-// each point is nearer than the margin to where it truly is.
+// What is known of points in the frame of one mover, in units of its scale: no coordinate is longer
+// than `lengths`, and each is nearer than the margin to where it truly is.
 typedef struct verify__extent {
   double lengths, margin;
 } verify__extent;

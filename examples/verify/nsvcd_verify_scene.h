@@ -64,9 +64,9 @@ typedef struct nsvcd_verify_mover {
   void (*stray)(const void *motion, double t0, double t1, double *stray);
   const void *motion;
   double reach;       // metres: what its places are reckoned from is no farther off
-  uint32_t digest;    // of scale and motion
-  const void *clock;  // of joints: their motion, which both movers share; of paths: NULL
-  uint32_t base;      // the link from which it is seen, the same for both; of paths: 0, the world
+  uint32_t digest;    // digest of the scale and the motion
+  const void *clock;  // the joints' motion, which both movers share; NULL for paths
+  uint32_t base;      // the link from which it is seen, the same for both; 0, the world, for paths
 } nsvcd_verify_mover;
 
 // Between two poses the position is linear and the rotation a slerp, the shorter way round. Both
@@ -78,7 +78,7 @@ typedef struct nsvcd_verify_path {
   size_t count;
 } nsvcd_verify_path;
 
-// Of two numbers; fmin and fmax, which look for NaN, are calls.
+// The lesser of two numbers, and the greater; fmin and fmax, which look for NaN, are calls.
 static inline double verify__min(double a, double b) {
   return a < b ? a : b;
 }

@@ -85,7 +85,7 @@ static int check_problem(const char *path, char **text, char **words, size_t cou
   read_pose(path, words + 6, poses + 7 * (poses_a + poses_b));
   a.path.poses = poses;
   a.path.count = poses_a;
-  b.path.poses = poses + 7 * poses_a;  // of one that rests the pose of the line itself, behind
+  b.path.poses = poses + 7 * poses_a;  // for one that rests, the line's own pose is behind
   b.path.count = poses_b > 0 ? poses_b : 1;
   a.path.times = b.path.times = NULL;
   const float scales[2] = {(float)number_of(path, words[3]), (float)number_of(path, words[5])};

@@ -340,12 +340,12 @@ static const nsvcd_verify_mesh *mesh_of_file(const char *file, const char *name,
   read_mesh(path, scale, mesh);
   return mesh;
 }
-// Which certificates, and of what.
+// What is asked for: which certificates, and of which problems.
 typedef struct request {
   const char *folder;
   const char *only;  // ID,ID: these alone; NULL: all
   float clearance;
-  size_t found;  // of those
+  size_t found;  // how many of those there were
 } request;
 
 static int is_wanted(request *asked, const char *id) {

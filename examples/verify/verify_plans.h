@@ -20,8 +20,8 @@ typedef struct robot {
   int continuous[NSVCD_VERIFY_JOINTS];
   nsvcd_verify_joint joints[NSVCD_VERIFY_JOINTS];
   size_t joint_count;
-  list bodies;  // of the robot, then obstacles of the scene, which is read last
-  size_t own;   // of the robot
+  list bodies;  // the robot's, then the scene's obstacles, which are read last
+  size_t own;   // how many of them are the robot's
   list pairs;   // (2)
 } robot;
 

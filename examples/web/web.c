@@ -46,18 +46,18 @@ typedef struct side {
   void *baked;  // the memory of a body that was not encoded here, or NULL
   nsvcd_body_facts facts;
   int has_latents;         // what the network needs, and which takes most of the time
-  void *memory;            // of the tree
-  const nsvcd_tree *tree;  // of the mesh; NULL: not yet built
+  void *memory;            // the tree's
+  const nsvcd_tree *tree;  // the mesh's; NULL: not yet built
 } side;
 
 static side sides[2];
-static nsvcd_pose motion[2];  // of A; B rests at the origin
+static nsvcd_pose motion[2];  // A's; B rests at the origin
 static nsvcd_answer answer;
 static nsvcd_certificate certificate;
-static uint8_t proof[1 << 20];  // its bytes
+static uint8_t proof[1 << 20];  // the certificate's bytes
 static void *workspace;
 static size_t workspace_size;
-static mesh_fault fault;  // of the last file
+static mesh_fault fault;  // the last file's
 static char findings[MESH_FINDINGS * MESH_LINE];
 
 // Room for a text of so many bytes, to be written by the page and given to a function that frees
