@@ -24,9 +24,9 @@
 //                 farther apart than that, and little more, to be certified free.
 //   Quantization  Triangles of a coarse or scaled body are off by a few micrometres at most, if it
 //                 measures 0.3 m.
-//   Far away      Everything is computed in the frame of one body, in units of its scale. That body
-//                 is the one that rests, or else the larger. A scene 10 km from the origin loses
-//                 only what its own coordinates lose, about 1 mm.
+//   Far away      Positions are first taken relative to one body, which is the one that rests, or
+//                 else the larger. Everything is computed in its frame, in units of its scale. So a
+//                 scene 10 km from the origin loses only what its own coordinates lose, about 1 mm.
 //   Resolution    The network needs patches that are not much larger than the clearance in
 //                 question. For a body of 5 cm against one of 20 m, with 256 patches each, 62 % of
 //                 its answers near contact are right (RESULTS.md, *mixed*). Cut the large mesh to
@@ -157,7 +157,7 @@ typedef struct nsvcd_mover {
   float scale;
 } nsvcd_mover;
 
-// Do two bodies hit each other? Zero is the default of everything but the bodies.
+// A question about two bodies. Zero is the default of everything but the bodies.
 typedef struct nsvcd_question {
   // the bodies. Either may move, or both, over the same time; their counts of poses may differ
   nsvcd_mover a, b;
@@ -165,25 +165,26 @@ typedef struct nsvcd_question {
   // metres: how exact the answer has to be; not set with HIT. FIRST: from time.low to time.high no
   // point of one body travels farther than this, as the other body sees it; nor farther than a
   // quarter of its whole travel, if triangles are stored that exactly. DISTANCE: the bracket is no
-  // wider than this. Default NSVCD_DEFAULT_TO, unless to_time is set
+  // wider than this and the quantization errors. Default NSVCD_DEFAULT_TO, unless to_time is set
   float to;
   // how exact a FIRST has to be, as a fraction of the motion, up to 1: time.low to time.high is no
   // longer than this. If `to` is set as well, both hold. Default: only `to` holds
   float to_time;
   // metres: coming within this distance is a hit; default 0: only meeting is
   float clearance;
-  // metres: a body may be in contact at the start, up to this deep: so it may rest on another,
-  // slide along it or leave it. Penetration counts, or violation of the clearance, or their sum.
-  //   The question is then about a body that is pushed out by this much, along the normals of all
-  // that it touches at the start: answer.push_out. Surfaces nearer than a twentieth of the slop
-  // count as touching.
+  // metres: a contact at the start does not count if it is no deeper than this. So a body may rest
+  // on another, slide along it or leave it. Its depth is that of the penetration, or of the
+  // violation of the clearance, or the sum of both.
+  //   The question is then about a body that is pushed out by the slop (answer.push_out), along the
+  // normals of all that it touches at the start. Surfaces nearer than a twentieth of the slop count
+  // as touching.
   //   With FIRST, so do surfaces nearer than `to`, up to half of the slop. A body that was stopped
   // before a contact can then go on: entering it by less than the slop is FREE, although HIT, which
   // has no `to`, reports a contact. Where surfaces were so near but did not touch, answer.depth
   // is 0
   float slop;
-  // metres: surfaces may be left undecided if they come closer than the clearance and this together
-  // without being a hit
+  // metres: surfaces that come within the clearance and this together, but not within the
+  // clearance, may be left undecided
   float tolerance;
   // FIRST: 1 reports up to NSVCD_MAX_CONTACTS contacts, which hold the body; default one contact
   int manifold;
@@ -267,9 +268,9 @@ typedef struct nsvcd_contact {
   // has the face's normal, on the side that the corner came from, whatever the winding. An edge
   // across an edge has the direction across both. A corner on a corner or an edge, or an edge along
   // an edge, has the direction most against v of all that still separated them.
-  //   Two kinds of contacts may point along v. Triangles that touch from the start have the
-  // direction of least depth, out of closed surfaces. Points of a manifold may be where both faces
-  // are being left.
+  //   Two kinds of normals may point along v: those of triangles that touch from the start, which
+  // have the direction of least depth, out of closed surfaces; and those of a manifold where both
+  // faces are being left.
   //   The normal is 0 if no triangles are named, or if they have no area and so no direction
   float normal[3];
   // metres: the distance of the stored triangles, less convex radii; 0: they meet. In a manifold it
@@ -353,8 +354,8 @@ typedef struct nsvcd_answer {
   // metres, world, at the start: how a was pushed out of b for the slop. The answer is about the
   // motion displaced by it, which touches nothing at the start. The push-out turns with b; or with
   // a, if a rests, or if both move and a's extent, convex radius included, is the larger.
-  //   It is 0 if nothing touched, or was near enough to count. It is also 0 if no push-out helps,
-  // since a is pressed in deeper than the slop or held from all sides: then the contact counts
+  //   It is 0 if nothing touched or was near enough to count. It is also 0 if no push-out helps,
+  // since a is pressed in deeper than the slop or held from all sides. Then the contact counts
   float push_out[3];
   // number of contacts at time.high, of a HIT with known triangles: one, or those of a manifold
   size_t contact_count;
@@ -362,7 +363,7 @@ typedef struct nsvcd_answer {
   // farther apart than the clearance and `to` (its default if only to_time is given). They are in
   // the order of their ids
   nsvcd_contact contacts[NSVCD_MAX_CONTACTS];
-  // the triangles that distance.high is about, whatever the verdict. HIT: the contact that was
+  // the two triangles that distance.high is about, whatever the verdict. HIT: the contact that was
   // found. UNDECIDED: two that come too near to tell, for FIRST the earliest such. No triangles are
   // named if none were found. If one body is inside the other, only the point is set, to a point of
   // the inner body
