@@ -1,7 +1,7 @@
 // In: the switches that a program defines. Out: the version, switches that follow, NSVCDDEF.
 #pragma once
 
-// as in the first line; before 1.0 a minor version may change what a program sees
+// the version, as in the first line; before 1.0 a minor version may change what a program sees
 #define NSVCD_VERSION "0.3.0"
 #define NSVCD_VERSION_MAJOR 0
 #define NSVCD_VERSION_MINOR 3

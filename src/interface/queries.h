@@ -39,10 +39,10 @@
 //   the same plan, to the bit, whatever the workspace held and in any thread. There is one
 //   exception: an answer of nsvcd_sweep_batch may depend on the question before it.
 //
-//   Two builds round differently if their compilers, flags or libms differ, or if their processors
-//   select different vectors. Given the same blobs, they never refute each other: by the theorem,
-//   every proven verdict is true. But one may leave undecided what the other proves, and times,
-//   points, patches and work differ.
+//   Two builds round differently if their compilers, flags or libms differ. So does one build on
+//   two processors that select different vectors. Given the same blobs, one never refutes what the
+//   other proves: by the theorem, every proven verdict is true. But one may leave undecided what
+//   the other proves, and times, points, patches and work differ.
 //
 //   The network's logits differ by more than rounding. Its search ends at the first pair that is
 //   clear. Where a pair is near that bound, or near another pair in rank, two builds may answer by
