@@ -162,10 +162,11 @@ typedef struct nsvcd_question {
   // the bodies. Either may move, or both, over the same time; their counts of poses may differ
   nsvcd_mover a, b;
   nsvcd_ask ask;
-  // metres: how exact the answer has to be; not set with HIT. FIRST: from time.low to time.high no
-  // point of one body travels farther than this, as the other body sees it; nor farther than a
-  // quarter of its whole travel, if triangles are stored that exactly. DISTANCE: the bracket is no
-  // wider than this and the quantization errors. Default NSVCD_DEFAULT_TO, unless to_time is set
+  // metres: how exact the answer has to be; not set with HIT. FIRST: no point of one body travels
+  // farther than this from time.low to time.high, as the other body sees it. Nor does it travel
+  // more than a quarter of its whole way, if triangles are stored that exactly. DISTANCE: the
+  // bracket is no wider than this and the quantization errors. Default NSVCD_DEFAULT_TO, unless
+  // to_time is set
   float to;
   // how exact a FIRST has to be, as a fraction of the motion, up to 1: time.low to time.high is no
   // longer than this. If `to` is set as well, both hold. Default: only `to` holds
@@ -268,9 +269,9 @@ typedef struct nsvcd_contact {
   // has the face's normal, on the side that the corner came from, whatever the winding. An edge
   // across an edge has the direction across both. A corner on a corner or an edge, or an edge along
   // an edge, has the direction most against v of all that still separated them.
-  //   Two kinds of normals may point along v: those of triangles that touch from the start, which
-  // have the direction of least depth, out of closed surfaces; and those of a manifold where both
-  // faces are being left.
+  //   Two kinds of normals may point along v. Triangles that touch from the start have the
+  // direction of least depth, out of closed surfaces. A manifold has points where both faces are
+  // being left.
   //   The normal is 0 if no triangles are named, or if they have no area and so no direction
   float normal[3];
   // metres: the distance of the stored triangles, less convex radii; 0: they meet. In a manifold it
@@ -415,14 +416,14 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 // the first contact. After an undecided interval, later ones are only asked whether the bodies meet
 // at all.
 //
-// The cost: let Ga and Gb be the bodies' numbers of groups of 16 patches, and S the number of
-// segments of the motion or interval, about 16 up to 320 degrees of turn, 64 at most. The search
-// takes at most 18 S Ga Gb + 3 S tests of 16 spheres against one. Of a body of more than 512
-// patches, only groups that the other body comes near count; for each level of spheres, and each 16
-// spheres of it that the other body comes near, about 16 more tests are made. Then a proof takes up
-// to question.work units. The network takes 18 S more tests, since it searches a first pair of
-// groups twice. It runs the tiny decoder on 12 K pairs and the chosen one on K (the tiny alone: on
-// 3 K), and computes 32 distances for each patch.
+// What it costs: let Ga and Gb be the bodies' numbers of groups of 16 patches. Let S be the number
+// of segments of the motion or interval: about 16 up to 320 degrees of turn, 64 at most. The search
+// takes at most 18 S Ga Gb + 3 S tests of 16 spheres against one. In a body of more than 512
+// patches, only groups that the other body comes near count. About 16 more tests are made there for
+// each level of spheres, and for each 16 spheres of it that the other body comes near. Then a proof
+// takes up to question.work units. The network takes 18 S more tests, since it searches a first
+// pair of groups twice. It runs the tiny decoder on 12 K pairs and the chosen one on K (the tiny
+// alone: on 3 K), and computes 32 distances for each patch.
 NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace,
                                   size_t workspace_size, nsvcd_answer *answer);
 
@@ -444,7 +445,7 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspac
   (NSVCD__SEARCH_BYTES(patches_a, patches_b, segments) + 576 + 32 * (segments) + 112 * (pairs))
 
 // Answers many questions, such as a frame of a game or a sampling planner has. The answers are
-// those of nsvcd_sweep, to the bit, with one exception: if a question and the one before it ask the
+// those of nsvcd_sweep, to the bit, with one exception. If a question and the one before it ask the
 // network about the same two bodies, the pair of patches that collided before is tried first. If
 // that pair collides clearly again (logit above 3), it is the answer, and nothing else is searched.
 //   questions  (count); count may be 0
