@@ -15,7 +15,7 @@
 #include "scenery/poses.h"
 
 #define SIDE 20.0         // metres
-#define SEED 1            // of the level
+#define SEED 1            // seed of the level
 #define FRAMES 1800       // half a minute
 #define STEP (1.0f / 60)  // seconds
 #define SPEED 3.0f        // metres a second
@@ -42,7 +42,7 @@ static void to_mesh(const shapes_mesh *shape, nsvcd_mesh *mesh) {
   for (size_t i = 0; i < 3 * shape->vertices; i++) mesh->positions[i] = (float)shape->positions[i];
 }
 
-// Four rings about a box.
+// Makes the drone: four rings about a box.
 static void make_drone(shapes_mesh *mesh) {
   shapes_box(mesh, 0.12, 0.12, 0.05, 3);
   for (int k = 0; k < 4; k++) {
@@ -73,7 +73,7 @@ static nsvcd_pose pose_after(const nsvcd_pose *from, const float *direction, flo
   return to;
 }
 
-// Way number n of those to try: to the sides and upwards or down, by ever more.
+// The n-th way to try: to the sides and upwards or down, by ever more.
 static void turned_way(const float *towards, int n, float *out) {
   const float off = 0.35f * (float)((n + 3) / 4);
   const float side = n == 0 ? 0 : n % 4 == 1 ? off : n % 4 == 2 ? -off : 0;

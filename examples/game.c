@@ -25,13 +25,13 @@ enum { KINDS = 12, NEEDLE = KINDS, LEVEL, WALKER, SHAPES };
 #define FRAME (1.0f / 60)
 #define SIDE 16.0     // metres
 #define GROUND 40000  // triangles
-#define BUILT 100000  // of what stands on it, about; in all so many that it is a level by default
-#define GAP 0.002f    // metres: as near as this is a contact
+#define BUILT 100000  // triangles on it, about; together enough to make it a level by default
+#define GAP 0.002f    // metres: things as near as this are in contact
 #define BOLT 100.0f   // metres a second
 #define CAPSULE_RADIUS 0.25f
-#define CAPSULE_HALF 0.55f  // of its axis
-#define SPEED 1.6f          // of walking
-#define EACH 7              // a question of so many is written as a problem
+#define CAPSULE_HALF 0.55f  // metres: half its axis
+#define SPEED 1.6f          // metres a second, walking
+#define EACH 7              // every seventh question is written as a problem
 
 // Where the character goes: up the stairs, down the ramp, over the hills.
 static const float route[][2] = {{-3.4f, -2}, {-0.2f, -2}, {3.9f, -2}, {3.4f, 1}, {2.4f, 2.6f}};
@@ -139,7 +139,7 @@ static nsvcd_pose pose_at(float x, float y, float z) {
   return pose;
 }
 
-// The level, the character, and props in the air, in layers.
+// Makes the level, the character, and props in the air, in layers.
 static int fill_world(game *g) {
   static const float scales[4] = {0.8f, 1, 1.2f, 1.5f};
   const nsvcd_pose origin = pose_at(0, 0, 0);
@@ -238,7 +238,7 @@ static void walk(game *g) {
     g->trail[g->trail_count++] = g->world->things[g->walker.thing].pose;
 }
 
-// From somewhere above, at one of the props; the oldest needle is gone then.
+// Shoots a needle from somewhere above at one of the props. The oldest needle is gone then.
 static int shoot(game *g) {
   static size_t next;
   const physics_thing *prop = &g->world->things[g->props[shapes_pick(&g->rng, PROPS)]];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// hello.c - two meshes, one motion, one answer: the program of which README shows the middle. It prints
-// `hit, t = 0.60`.
+// hello.c - two meshes, one motion, one answer. It prints `hit, t = 0.60`. README shows the middle
+// of this program.
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
 #include <stdio.h>

@@ -3,12 +3,12 @@
 //
 //   build/plan     ends with 0 if the way is certified free
 //
-// Certified is the motion through the poses of the last check, straight and slerped in between, and
-// that it keeps 1 mm. The spline that the gantry follows strays from that by answer.stray: as long
-// as this is less than 1 mm, the spline is clear too, by measure.
+// What is certified is that the motion through the poses of the last check, straight and slerped in
+// between, keeps 1 mm of clearance. The gantry follows a spline, which deviates from that motion by
+// answer.deviation. As long as this is less than 1 mm, the spline is clear too, as measured.
 //
-// Two bodies, of which one moves: say how the joints place them, which of them can meet, where to
-// start and where to end. nsvcd_plan finds the way.
+// There are two bodies, of which one moves. The program says how the joints place them, which of
+// them can meet, where to start and where to end. nsvcd_plan finds the way.
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -19,7 +19,7 @@ enum { MUG, RACK, BODIES };
 enum { JOINTS = 3 };  // the gantry slides along x, y and z
 static const float clearance = 0.001f;
 
-// Once per mesh. NULL, with a message, if the file is no mesh.
+// Loads and encodes a mesh, once. Returns NULL, with a message, if the file is no mesh.
 static const nsvcd_body *load(const char *path) {
   const nsvcd_encode_options options = {.latents = 1};  // a planner asks the network first
   nsvcd_mesh mesh;
@@ -34,7 +34,8 @@ static const nsvcd_body *load(const char *path) {
   return body;
 }
 
-// Where all bodies are at these joints. What is held moves with the hand because this says so.
+// Tells where all bodies are at these joints. What is held moves with the hand because this says
+// so.
 static void place(void *user, const float *joints, nsvcd_pose *poses) {
   const nsvcd_pose at_origin = {{0, 0, 0}, {0, 0, 0, 1}};
   (void)user;

@@ -2,8 +2,8 @@
 // quickstart.c - a mug is carried into a dish rack, once too low and once high enough. Which of the
 // two motions hits, and when first?
 //
-// Two OBJ files, two encoded bodies, two motions, two answers, and a picture of them (`make demo`:
-// build/demo.svg). `build/quickstart build/demo.gif` writes a film of them as well.
+// It loads two OBJ files, encodes two bodies, asks about two motions, and draws the answers (`make
+// demo`: build/demo.svg). `build/quickstart build/demo.gif` writes a film of them as well.
 #define _POSIX_C_SOURCE 200112L  // scenery/clock.h
 #include <math.h>
 #include <stdio.h>
@@ -16,9 +16,9 @@
 #include "film.h"
 #include "scenery/clock.h"
 
-#define POSES 65  // per motion
+#define POSES 65  // poses of a motion
 
-// Loads a mesh and encodes it. NULL, with a message, if that fails.
+// Loads a mesh and encodes it. Returns NULL, with a message, if that fails.
 static const nsvcd_body *load(const char *path, nsvcd_mesh *mesh) {
   size_t line = 0;
   const nsvcd_body *body = NULL;
@@ -32,8 +32,8 @@ static const nsvcd_body *load(const char *path, nsvcd_mesh *mesh) {
   return body;
 }
 
-// A cubic Bezier curve through the air, `height` metres high; the mug, at first tilted, comes
-// upright on the way.
+// Makes the poses of a cubic Bezier curve through the air, `height` metres high. The mug, at first
+// tilted, comes upright on the way.
 static void carry(float height, nsvcd_pose *poses) {
   const float control[4][3] = {
       {0.04f, -0.46f, 0.03f}, {0, -0.36f, height}, {0, -0.01f, height}, {0, 0, 0.02f}};

@@ -14,7 +14,7 @@
 #define PLANNER_DEF SHAPES_DEF
 // patches per body; 256 are faster, but wires and holes are better seen with more
 #define PLANNER_POINTS 512
-#define PLANNER_SAMPLES 201  // of a motion, for the oracle and the pictures
+#define PLANNER_SAMPLES 201  // samples of a motion, for the oracle and the pictures
 
 // What nsvcd_plan's callbacks get: one pointer serves them all.
 typedef struct planner_user {
@@ -59,9 +59,9 @@ PLANNER_DEF int planner_encode(const task_scene *scene, const nsvcd_body **bodie
 
 // -------------------------------------------------------------------------------------------- plan
 
-// Forward kinematics: where all bodies are at these joint values, those that stand still too. In
-// doubles, and still less than a microsecond, of the ten or more that a segment of a trajectory
-// costs: not worth a faster version.
+// Forward kinematics: tells where all bodies are at these joint values, those that stand still too.
+// It computes in doubles, and still takes less than one of the ten or more microseconds that a
+// segment of a trajectory costs: a faster version is not worth it.
 PLANNER_DEF void planner_place(void *user, const float *joints, nsvcd_pose *poses) {
   task_place(((planner_user *)user)->scene, joints, poses);
 }
@@ -153,8 +153,8 @@ PLANNER_DEF void planner_report(const task_scene *scene, const planner_motion *m
 
 // ------------------------------------------------------------------------------------ command line
 
-// [SEED] [PICTURE.svg], and [SECONDS] where that is not NULL. Returns 0, after a message, if they
-// are something else.
+// Reads the arguments [SEED] [PICTURE.svg], and [SECONDS] if `patience` is not NULL. Returns 0,
+// after a message, if they are something else.
 PLANNER_DEF int planner_arguments(int argc, char **argv, uint64_t *seed, const char **picture,
                                   double *patience) {
   char *end = NULL;
@@ -190,7 +190,7 @@ PLANNER_DEF int planner_arguments(int argc, char **argv, uint64_t *seed, const c
 
 static const draw_colour planner_pale = {{110, 130, 160}, {214, 226, 242}};
 
-// The joints when the held thing has come `share` of its way: spread evenly in space, not in time.
+// The joints when the held thing has come `share` of its way, in space, not in time.
 PLANNER_DEF const float *planner_joints_at(const task_scene *scene, const planner_motion *motion,
                                            double fraction) {
   int s = 0;

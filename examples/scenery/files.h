@@ -37,7 +37,8 @@ static size_t shown_character(const unsigned char *p) {
   return p[0] == 0xc2 && p[1] < 0xa0 ? 0 : length;
 }
 
-// What is none becomes '?': texts come from files, and a file may hold anything.
+// Replaces what a terminal may not be shown by '?': texts come from files, and a file may hold
+// anything.
 static void make_shown(char *text) {
   while (*text) {
     const size_t length = shown_character((const unsigned char *)text);
@@ -58,7 +59,8 @@ static int complain(const char *format, ...) {
   return 0;
 }
 
-// What a program ends with that cannot go on. Where 1 is an answer (svcd sweep --exit-code), another.
+// The exit status of a program that cannot go on. It is another one where 1 is an answer (svcd
+// sweep --exit-code).
 static int status_of_failure = 1;
 
 // Memory for bodies and workspaces: malloc's is aligned for any type, and so to NSVCD_ALIGNMENT. A

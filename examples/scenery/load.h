@@ -8,7 +8,7 @@
 
 // ------------------------------------------------------------------------------------------ meshes
 
-// What a result says; where a number is too large, the limit.
+// What a result says; if a number is too large, with the limit.
 static const char *reason_of(nsvcd_result result) {
   static char text[160];
   snprintf(text, sizeof text, "%s", nsvcd_result_string(result));
@@ -90,7 +90,7 @@ static const char *load_mesh(const char *from, const char *path, nsvcd_mesh *mes
   return format;
 }
 
-// On a terminal, of a mesh that takes about a second or more.
+// Says on a terminal that a mesh is being encoded, if it takes about a second or more.
 static progress_bar tell_encoding(const char *path, size_t triangles) {
   progress_bar working = {"", 0, 0, 0};
   if (triangles > 100000 && is_terminal()) {
@@ -124,13 +124,13 @@ static const nsvcd_body *encode_mesh(const char *from, const char *path, const n
   return body;
 }
 
-// Where a mesh is that a file names, by its path from that file's folder.
+// The path of a mesh that a file names, which is from that file's folder.
 static void path_of(const char *file, const char *name, char *path, size_t size) {
   const size_t folder = (size_t)(file_name(file) - file);
   snprintf(path, size, "%.*s%s", name[0] == '/' ? 0 : (int)folder, file, name);
 }
 
-// Along x, y, z, in double. A mesh that is mirrored is turned the right way out again.
+// Scales a mesh along x, y, z, in double. If that mirrors it, it is turned the right way out again.
 static void scale_mesh(nsvcd_mesh *mesh, const double scale[3]) {
   for (size_t i = 0; i < 3 * mesh->vertex_count; i++)
     mesh->positions[i] = (float)((double)mesh->positions[i] * scale[i % 3]);
@@ -170,7 +170,7 @@ static void free_tree(proof_mesh *mesh) {
   free(mesh->memory);
 }
 
-// The same, encoded.
+// Loads and encodes a mesh that a file names, scaled (NULL: as it is).
 static const nsvcd_body *encode_named(const char *from, const char *file, const char *name,
                                       const double *scale, const nsvcd_encode_options *options,
                                       double *taken) {
@@ -189,7 +189,7 @@ static const nsvcd_body *encode_named(const char *from, const char *file, const 
 
 // ------------------------------------------------------------------------------------------ things
 
-// "0.001", or "0.001,1" where two files are given: of each. 0 after a complaint.
+// Takes the scales "0.001", or, of two files, "0.001,1". Returns 0 after a complaint.
 static int take_scales(const char *text, size_t count, float *scales) {
   char copy[64];
   const char *comma = text ? strchr(text, ',') : NULL;
@@ -238,7 +238,8 @@ static int ends_with(const char *text, const char *end) {
   return n >= m && strcmp(text + n - m, end) == 0;
 }
 
-// Reads a file, and knows by its begin or its name whether it is a body. Returns 0 after a complaint.
+// Reads a file, and tells by its beginning or its name whether it is a body. Returns 0 after a
+// complaint.
 static int open_thing(const char *path, thing *t) {
   memset(t, 0, sizeof *t);
   t->path = shown_name(path);
@@ -354,7 +355,7 @@ static int take_body(thing *t, float scale) {
   return 1;
 }
 
-// Returns 0 after a complaint.
+// Makes a thing of a file that has been read. Returns 0 after a complaint.
 static int take_thing(thing *t, float scale, const nsvcd_encode_options *options) {
   const int good =
       t->is_body ? take_body(t, scale) : take_mesh(t, scale) && encode_thing(t, options);

@@ -62,7 +62,7 @@ typedef struct robot_file {
       number_capacity;
 } robot_file;
 
-// Room for one more item of a list, which is counted, and cleared.
+// Adds an item to a list, and clears it.
 #define ROBOT_ADD(list, count, capacity)                                       \
   ((list) = room_for_one(list, count, &(capacity), sizeof *(list)), (count)++, \
    memset(&(list)[(count)-1], 0, sizeof *(list)), &(list)[(count)-1])
@@ -160,7 +160,7 @@ static int robot_read_words(const reader *r, size_t at, nsvcd_pose *pose, double
   return 1;
 }
 
-// Among the robot's bodies, and the obstacles from the one that is named first on.
+// Finds a thing by its name, among the robot's bodies, and the obstacles from `first` on.
 static int robot_find(const robot_file *file, size_t first, const char *name, size_t *at) {
   for (*at = 0; *at < file->thing_count; ++*at) {
     if (*at >= file->body_count && *at < first) continue;

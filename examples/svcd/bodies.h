@@ -91,7 +91,7 @@ static void print_facts(const char *path, const nsvcd_body *body) {
          (double)least, (double)most);
 }
 
-// The same, as a member "body".
+// Writes the facts of a body as a member "body".
 static void json_facts(json_out *j, const nsvcd_body *body) {
   const nsvcd_body_facts facts = nsvcd_body_describe(body);
   json_open(j, "body", '{');
@@ -109,7 +109,7 @@ static void json_faults(json_out *j, const thing *t) {
   json_close(j, ']');
 }
 
-// With --recentre: the new origin.
+// Prints the new origin, with --recentre.
 static void print_origin(const thing *t) {
   if (t->recentre)
     printf("origin: %.0f %.0f %.0f, in the file's units\n", t->origin[0], t->origin[1],

@@ -47,14 +47,15 @@ static int sweep_method(sweep_job *job, settings *options) {
   return DONE;
 }
 
-// Returns 0 after a complaint.
+// Asks the question once. Returns 0 after a complaint.
 static int sweep_once(sweep_job *job, nsvcd_answer *answer) {
   const nsvcd_result result =
       nsvcd_sweep(&job->question, job->workspace, nsvcd_sweep_workspace_size(NULL), answer);
   return result ? complain("%s", reason_of(result)) : 1;
 }
 
-// The same, until it is decided or time is up. The question keeps the work that it took.
+// Asks the question until it is decided or time is up. It keeps the work that it took. Returns 0
+// after a complaint.
 static int sweep_decided(sweep_job *job, size_t work, nsvcd_answer *answer) {
   int good = 1;
   for (int again = 1; again && good;) {
@@ -267,7 +268,8 @@ static void print_json(const sweep_job *job) {
 
 // ------------------------------------------------------------------------------------- its picture
 
-// The mesh; for a .body file, the balls of its patches. Returns 0 after a complaint.
+// Makes what is drawn of a thing: its mesh, or, of a .body file, the balls of its patches. Returns
+// 0 after a complaint.
 static int picture_body(const thing *t, sweep_body *out) {
   shapes_mesh balls;
   float centre[3], radius;
@@ -324,7 +326,7 @@ static int draw_job(const sweep_job *job, const settings *options) {
   return good;
 }
 
-// Warns if one of them may be in millimetres and the other not; a body file is always in metres.
+// Warns if one thing may be in millimetres and the other not; a body file is always in metres.
 static void warn_of_sizes(const sweep_job *job, const float *scales) {
   const thing *t[2] = {&job->a, &job->b};
   double extents[2];
