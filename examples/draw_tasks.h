@@ -19,7 +19,7 @@ DRAW_DEF void draw_floor(draw_list *list, const task_scene *scene) {
     if (scene->bodies[i].kind == TASK_FLOOR)
       draw_solid(list, &scene->bodies[i].exact, &scene->bodies[i].offset, &draw_cream, 1);
 }
-// What stands still on it; rock towards the viewer is left out, as it would hide what goes on
+// Lists what stands still. Rock towards the viewer is left out, as it would hide what goes on
 // behind it.
 DRAW_DEF void draw_still(draw_list *list, const task_scene *scene) {
   for (int i = 0; i < scene->body_count; i++) {

@@ -10,9 +10,9 @@
 #define FILM_HEIGHT 430
 #define FILM_WIDE (DRAW_SAMPLES * FILM_WIDTH)  // samples
 #define FILM_TALL (DRAW_SAMPLES * FILM_HEIGHT)
-#define FILM_STEPS 40  // of a whole motion, forth; half as many back
-#define FILM_DELAY 4   // of a frame, hundredths of a second
-#define FILM_BAR 404   // where the bar is, pixels from the top
+#define FILM_STEPS 40  // steps of a whole motion, forth; half as many back
+#define FILM_DELAY 4   // hundredths of a second that a frame stands
+#define FILM_BAR 404   // pixels from the top to the bar
 #define FILM_LEFT 40   // ... and from the side
 
 static const draw_view film_view = {-0.42, 0.30,       {0, -0.1428, 0.1651},
@@ -118,7 +118,7 @@ static void film_table_top(film *f) {
   }
 }
 
-// On the table, of light from straight above.
+// Casts a mesh's shadow on the table, of light from straight above.
 static void film_cast(film *f, const oracle_mesh *mesh, const oracle_pose *pose) {
   for (size_t i = 0; i < mesh->triangle_count; i++) {
     double world[3], p[3][3];
@@ -237,7 +237,7 @@ static int film_frame(film *f, double time, const draw_colour *colour, double ma
   return gif_add(&f->gif, f->pixels, delay);
 }
 
-// From the start to the contact or the end, a rest there, and back.
+// Films a motion from the start to the contact or the end, a rest there, and the way back.
 static int film_motion(film *f, const picture_panel *panel) {
   const int is_hit = panel->answer.verdict == NSVCD_HIT;
   const double end = is_hit ? (double)panel->answer.time.low : 1;

@@ -18,7 +18,7 @@
 #include "scenery/walker.h"
 
 #define PROPS 50
-#define NEEDLES 10  // at a time
+#define NEEDLES 10  // the most at a time
 #define THINGS (PROPS + NEEDLES + 2)
 enum { KINDS = 12, NEEDLE = KINDS, LEVEL, WALKER, SHAPES };
 
@@ -33,7 +33,7 @@ enum { KINDS = 12, NEEDLE = KINDS, LEVEL, WALKER, SHAPES };
 #define SPEED 1.6f          // metres a second, walking
 #define EACH 7              // every seventh question is written as a problem
 
-// Where the character goes: up the stairs, down the ramp, over the hills.
+// The character's route: up the stairs, down the ramp, over the hills.
 static const float route[][2] = {{-3.4f, -2}, {-0.2f, -2}, {3.9f, -2}, {3.4f, 1}, {2.4f, 2.6f}};
 #define STOPS (sizeof route / sizeof *route)
 
@@ -346,7 +346,7 @@ static void draw_props(const game *g, draw_list *list) {
   for (size_t k = 0; k < SHAPES; k++) shapes_free(&coarse[k]);
 }
 
-// Where the character has been.
+// Draws the way that the character has been.
 static void draw_trail(const game *g, draw_list *list) {
   shapes_mesh coarse;
   oracle_mesh mesh;

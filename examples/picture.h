@@ -16,7 +16,7 @@
 #include "scenery/poses.h"
 
 #define PICTURE_MAX_POSES 128
-#define PICTURE_WIDTH 664  // of a panel, pixels
+#define PICTURE_WIDTH 664  // pixels of a panel
 #define PICTURE_HEIGHT 520
 #define PICTURE_TOP 84  // of the panels
 #define PICTURE_GHOSTS 9
@@ -137,8 +137,8 @@ static void picture_contact(FILE *svg, const picture_panel *panel) {
           q[1] + 14 * uy, q[0] - 7 * uy, q[1] + 7 * ux, q[0] + 7 * uy, q[1] - 7 * ux);
 }
 
-// What of the fixed mesh covers the moving one, or all the rest. Seen from above, nothing that lies
-// lower can cover it.
+// Draws that part of the fixed mesh which covers the moving one, or all the rest. Seen from above,
+// nothing that lies lower can cover it.
 static void picture_fixed(FILE *svg, const oracle_mesh *mesh, double depth, double lowest,
                           int covering) {
   draw_list list = {&picture_view, NULL, 0, 0, 0};

@@ -27,7 +27,7 @@ static int name_of(const char *path, char *name, size_t size) {
   return 1;
 }
 
-// As words of 8 bytes, because a body has to be aligned so, and C99 has no other way to say it.
+// Writes a body as words of 8 bytes: it has to be aligned so, and C99 has no other way to say it.
 static void write_body(FILE *file, const char *path, const char *name, const nsvcd_body *body) {
   const nsvcd_body_facts facts = nsvcd_body_describe(body);
   const unsigned char *bytes = (const unsigned char *)body;

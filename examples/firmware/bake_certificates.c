@@ -16,7 +16,7 @@
 #include "questions.h"
 
 #define SCENES (QUESTIONS + 4)
-#define ROOM 65536  // of all certificates
+#define ROOM 65536  // bytes for all certificates
 
 typedef struct baker {
   nsvcd_mesh meshes[2];

@@ -75,7 +75,8 @@ void board_stack_paint(void) {
   }
 }
 
-// What is reserved but never written at the very bottom of the deepest frame is not seen.
+// The bytes of the stack that were used. Not seen is what is reserved, but never written, at the
+// very bottom of the deepest frame.
 size_t board_stack_used(void) {
   const volatile uint32_t *word = stack_limit;
   while (word < stack_top && *word == PAINT) {

@@ -11,7 +11,7 @@
 #include "extras/neuralsvcd_robot.h"
 #include "examples/scenery/mesh_files.h"
 
-// As the module calls them. Where the header says otherwise, this does not compile.
+// The functions as the module calls them. If the header says otherwise, this does not compile.
 const char *nsvcd_result_string(nsvcd_result);
 nsvcd_result nsvcd_obj_parse(const char *, size_t, const nsvcd_allocator *, nsvcd_mesh *, size_t *);
 nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *, const float[3], const float[3],

@@ -123,7 +123,7 @@ DRAW_DEF void draw_solid(draw_list *list, const oracle_mesh *mesh, const oracle_
   for (size_t i = 0; i < mesh->triangle_count; i++)
     draw_one(list, &mesh->triangles[i], pose, colour, opacity);
 }
-// The same, from both sides: for what is not closed, or inside out.
+// Lists a mesh to be seen from both sides, as one is that is not closed, or inside out.
 DRAW_DEF void draw_sheet(draw_list *list, const oracle_mesh *mesh, const oracle_pose *pose,
                          const draw_colour *colour, double opacity) {
   for (size_t i = 0; i < mesh->triangle_count; i++) {
@@ -148,7 +148,7 @@ DRAW_DEF void draw_shape(draw_list *list, const shapes_mesh *shape, double scale
 // ------------------------------------------------------------------------------------ what is seen
 
 #define DRAW_SAMPLES 2  // a pixel, along each axis
-#define DRAW_STEPS 24   // of light: more the eye does not see
+#define DRAW_STEPS 24   // steps of light: more the eye does not see
 
 // What is seen at each sample: the fill, 0 for nothing, and how near it is.
 typedef struct draw_raster {
@@ -298,7 +298,7 @@ DRAW_DEF int draw_compare(const void *a, const void *b) {
   return x->first < y->first ? -1 : 1;
 }
 
-// All of them, by their fills. 0 without memory.
+// Finds all outlines, by their fills. Returns 0 without memory.
 DRAW_DEF int draw_find_outlines(const draw_raster *r, draw_outlines *out) {
   char *done = (char *)calloc((size_t)r->width * (size_t)r->height, 1);
   memset(out, 0, sizeof *out);
@@ -438,7 +438,7 @@ DRAW_DEF int draw_close(FILE *svg) {
   if (fclose(svg) == 0 && good) return 1;
   return fprintf(stderr, "the picture cannot be written\n"), 0;
 }
-// What follows is drawn in this panel, cut off at its edges, until draw_panel_end.
+// Begins a panel: until draw_panel_end, all is drawn in it, cut off at its edges.
 DRAW_DEF void draw_panel(FILE *svg, int x, int y, const draw_view *view) {
   fprintf(svg,
           "<g transform=\"translate(%d %d)\"><clipPath id=\"panel%d-%d\"><rect width=\"%d\" "

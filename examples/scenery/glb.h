@@ -29,7 +29,7 @@ typedef struct glb {
   mesh_fault *fault;
 } glb;
 
-// From a node to the world, column by column: 3 of the axes, 1 of the place.
+// A node's place in the world, column by column: three axes, and the origin.
 typedef struct glb_place {
   double columns[4][3];
 } glb_place;
@@ -270,7 +270,7 @@ static inline int glb_node(glb *g, size_t index, const glb_place *parent, int de
   return 1;
 }
 
-// All roots of the scene that is shown.
+// Takes all roots of the scene that is shown.
 static inline int glb_scene(glb *g) {
   const glb_place world = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}}};
   const json *j = &g->j;

@@ -92,7 +92,7 @@ static inline int json_take(json *j, int depth) {
   return good;
 }
 
-// All of a text. 0 where it is no JSON, or there is no memory. Free j->values either way.
+// Reads a text. Returns 0 if it is no JSON, or there is no memory. Free j->values either way.
 static inline int json_parse(json *j, const char *text, size_t size) {
   memset(j, 0, sizeof *j);
   j->at = text;

@@ -8,7 +8,7 @@ typedef struct json_out {
   int follows;  // a value was written at this depth
 } json_out;
 
-// What stands before a value. key: NULL in a list.
+// Writes what stands before a value. key: NULL in a list.
 static void json_key(json_out *j, const char *key) {
   if (j->follows) fputs(", ", j->file);
   if (key) fprintf(j->file, "\"%s\": ", key);

@@ -209,7 +209,7 @@ static int take_scales(const char *text, size_t count, float *scales) {
 
 // A file that was given: a mesh and the body that is made of it, or a .body file.
 typedef struct thing {
-  const char *path;  // as it is shown
+  const char *path;  // its name, as it is shown
   char *bytes;       // the file's; a mesh has them only until it is loaded
   size_t size;
   int is_body;
@@ -217,11 +217,11 @@ typedef struct thing {
   nsvcd_mesh mesh;     // metres
   mesh_report report;
   char faults[MESH_FINDINGS][MESH_LINE];
-  int fault_count, grave;  // so many, the first ones, can change an answer
+  int fault_count, grave;  // grave: how many of them, the first ones, can change an answer
   const nsvcd_body *body;
   double taken;            // seconds, by encoding
   int recentre;            // a mesh: the middle of its box is to be the origin
-  double origin[3];        // in the file's units: what became the origin
+  double origin[3];        // the point that became the origin, in the file's units
   float scale;             // for the question: 1 where the mesh is in metres already
   double low[3], high[3];  // metres
 } thing;

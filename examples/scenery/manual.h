@@ -10,7 +10,7 @@ typedef struct command {
   unsigned bit;  // the bit that its options have set
   int (*run)(settings *options);
   size_t paths;         // the most that it takes
-  const char *files;    // as the manual names them
+  const char *files;    // their names in the manual
   const char *summary;  // a line
   const char *text;     // what it does
 } command;
@@ -123,7 +123,7 @@ static void manual_page(FILE *out, const manual *m) {
   manual_roff(out, m->other_text);
 }
 
-// All names, with blanks between.
+// Prints all names, with blanks between.
 static void manual_names(FILE *out, const manual *m, unsigned bit) {
   for (size_t i = 0; i < (bit ? m->option_count : m->command_count); i++) {
     if (bit && !manual_has(&m->options[i], bit)) continue;

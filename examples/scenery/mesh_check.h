@@ -141,7 +141,8 @@ MESH_DEF int mesh_edge_compare(const void *pa, const void *pb) {
   return (a > b) - (a < b);
 }
 
-// All edges, but those of triangles with two corners at one place: they cancel among themselves.
+// Lists all edges, but those of triangles with two corners at one place: they cancel among
+// themselves.
 MESH_DEF void mesh_list_edges(const nsvcd_mesh *mesh, mesh_parts *parts) {
   for (size_t t = 0; t < mesh->triangle_count; t++) {
     uint32_t corners[3];
@@ -225,7 +226,7 @@ MESH_DEF int mesh_find_size(const mesh_report *report, char *line) {
              extent, report->scale * 1000);
   return large || extent < MESH_SMALL;
 }
-// Where floats are a millimetre apart or more, for the mesh lies so far from its origin.
+// Is the mesh so far from its origin that floats are a millimetre apart or more there?
 MESH_DEF int mesh_find_far(const mesh_report *report, char *line) {
   double far_off = 0;
   for (int k = 0; k < 3; k++) far_off = fmax(far_off, fmax(report->high[k], -report->low[k]));
@@ -286,8 +287,8 @@ MESH_DEF int mesh_find_open(const nsvcd_body_facts *facts, char *line) {
            facts->components, facts->components == 1 ? "" : "s");
   return 1;
 }
-// What is wrong with it, a line each, without its name. Returns how many. *grave: so many of them,
-// the first ones, can change an answer. Two more are found of the body.
+// Writes what is wrong with a mesh, a line each, without its name. Returns how many. *grave: how
+// many of them, the first ones, can change an answer. Two more are found of the body.
 MESH_DEF int mesh_findings(const mesh_report *report, char lines[MESH_FINDINGS][MESH_LINE],
                            int *grave) {
   int count = mesh_find_size(report, lines[0]);

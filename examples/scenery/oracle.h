@@ -499,7 +499,7 @@ typedef struct oracle_search {
   double rotation[9], position[3];  // b's body frame as seen from a's
   double magnitude[9];              // |rotation|, element by element
   double best;                      // squared distance found so far, or the limit
-  double on_a[3], on_b[3];          // in a's frame
+  double on_a[3], on_b[3];          // the nearest points, in a's frame
   size_t triangle_a, triangle_b;    // the pair that gave it: a good first guess for a pose nearby
 } oracle_search;
 
@@ -746,7 +746,7 @@ typedef struct oracle_result {
   // least separation, at most `tolerance` too large; 0 if colliding (an upper bound with `enough`)
   double distance;
   double lower;                      // proven: the surfaces never come closer than this
-  double time;                       // of `distance`, in [0,1]
+  double time;                       // time of `distance`, in [0,1]
   double on_moving[3], on_fixed[3];  // the closest points, in the world
   // the largest |winding number| seen, about 0 or 1 for closed meshes
   double winding;

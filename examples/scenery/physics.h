@@ -37,7 +37,7 @@
 #define PHYSICS_NOTHING ((size_t)-1)
 #define PHYSICS_NEAR 128    // things that one asks about in one go, at most
 #define PHYSICS_TOUCHES 16  // places where a thing touches others, about
-#define PHYSICS_ROUNDS 2  // of going and bouncing of a thing in a frame; what is left then is lost
+#define PHYSICS_ROUNDS 2    // times that a thing goes and bounces in a frame; what is left is lost
 #define PHYSICS_ITERATIONS 20
 #define PHYSICS_WORK 4000    // units a question: what takes more is stopped early
 #define PHYSICS_STILL 2e-4f  // metres in a frame: nobody sees that, and it is not asked about
@@ -76,7 +76,7 @@ PHYSICS_DEF physics_vec physics_cross(physics_vec a, physics_vec b) {
 PHYSICS_DEF float physics_length(physics_vec a) {
   return sqrtf(physics_dot(a, a));
 }
-// By a unit quaternion x y z w; or back by it.
+// Turns a vector by a unit quaternion x y z w, or back by it.
 PHYSICS_DEF physics_vec physics_turn(const float *q, physics_vec v, int back) {
   const physics_vec u = physics_times(back ? -1.0f : 1.0f, physics_from(q));
   const physics_vec c = physics_plus(physics_cross(u, v), q[3], v);
@@ -102,7 +102,7 @@ typedef struct physics_thing {
   int asleep;
   int calm;     // for so many frames it has been slow
   int touched;  // this frame
-  int pressed;  // so many times it does without a fifth of the clearance
+  int pressed;  // how often it does without a fifth of the clearance
 } physics_thing;
 
 // Where two things touch. The points are in their own frames, the normal in that of b.
@@ -219,7 +219,7 @@ PHYSICS_DEF int physics_is_near(const physics_world *w, const physics_thing *t,
   return physics_length(physics_plus(to, -along, way)) <= 1.0001f * reach;
 }
 
-// What was stopped where it was asks for less, and so gets away.
+// The clearance of a thing. If it was stopped where it was, it asks for less, and so gets away.
 PHYSICS_DEF float physics_clearance(const physics_world *w, const physics_thing *t) {
   return w->clearance * powf(0.8f, (float)t->pressed);
 }
@@ -333,7 +333,7 @@ PHYSICS_DEF physics_vec physics_spun(const physics_thing *t, physics_vec turn) {
   own.z *= t->inverse_inertia.z;
   return physics_turn(t->pose.rotation, own, 0);
 }
-// By how much a push along n at an arm changes the speed there.
+// The change of speed at an arm, along n, by a push there.
 PHYSICS_DEF float physics_give(const physics_thing *t, physics_vec arm, physics_vec n) {
   const physics_vec turn = physics_cross(arm, n);
   return physics_moves(t) ? t->inverse_mass + physics_dot(turn, physics_spun(t, turn)) : 0;
@@ -399,7 +399,7 @@ PHYSICS_DEF void physics_respond(const physics_world *w, physics_touch *touch, f
   physics_push(s.b, s.arm_b, physics_times(-1, push));
 }
 
-// All touches, or those of one thing.
+// Solves all touches, or those of one thing.
 PHYSICS_DEF void physics_solve(physics_world *w, size_t only, float seconds) {
   for (int round = 0; round < PHYSICS_ITERATIONS; round++) {
     for (size_t k = 0; k < w->touch_count; k++) {
@@ -526,7 +526,7 @@ PHYSICS_DEF float physics_share(const physics_world *w, size_t *by) {
   return fraction;
 }
 
-// What stopped a thing, or was about to, is now touched.
+// Notes as touches what stopped a thing, or was about to.
 PHYSICS_DEF void physics_meet(physics_world *w, size_t i, float fraction) {
   physics_thing *t = &w->things[i];
   int is_pressed = 0;
@@ -605,7 +605,7 @@ PHYSICS_DEF void physics_move(physics_world *w, size_t i, float seconds) {
   t->spin = physics_times(1 - left / seconds, t->spin);
 }
 
-// What is slow for a while sleeps, if what it touches is slow as well.
+// Puts to sleep what has been slow for a while, if what it touches is slow as well.
 PHYSICS_DEF void physics_calm(physics_world *w) {
   for (size_t i = 0; i < w->count; i++) {
     physics_thing *t = &w->things[i];

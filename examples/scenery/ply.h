@@ -5,7 +5,7 @@
 
 #include "mesh_soup.h"
 
-#define PLY_PROPERTIES 64  // of an element, at most
+#define PLY_PROPERTIES 64  // the most of an element
 #define PLY_NO_MEMORY "out of memory"
 
 typedef enum ply_kind { PLY_INTEGER, PLY_UNSIGNED, PLY_REAL } ply_kind;

@@ -18,7 +18,7 @@
 typedef struct robot_mesh {
   const char *path;
   double scale[3];
-  size_t line;              // where it is named first
+  size_t line;              // the line that names it first
   const char *kind, *name;  // "body" or "obstacle", and its name, there
   int is_needed;
   const nsvcd_body *body;
@@ -42,7 +42,7 @@ typedef struct robot_task {
   const char *id;
   size_t line, room;
   size_t points;  // 0: a plan, whose start and goal are two rows
-  size_t first;   // of the numbers
+  size_t first;   // the first of its numbers
 } robot_task;
 
 typedef struct robot_file {

@@ -8,9 +8,9 @@
 #define ROBOT_EDGE 24
 #define ROBOT_BESIDE 0.2  // metres about the robot that are shown
 #define ROBOT_GROUND 1.0  // metres: obstacles of this radius lie below all others
-#define ROBOT_GHOSTS 5    // between the start and the end
-#define ROBOT_FRAMES 40   // of a film
-#define ROBOT_LOOKS 200   // of the way that is drawn as a line
+#define ROBOT_GHOSTS 5    // robots drawn between the start and the end
+#define ROBOT_FRAMES 40   // frames of a film
+#define ROBOT_LOOKS 200   // points of the way that is drawn as a line
 
 typedef struct robot_picture {
   const robot_in_room *in;
@@ -107,7 +107,7 @@ static void robot_picture_fit(robot_picture *p, const nsvcd_joint_motion *m) {
   free(poses);
 }
 
-// Where the last body's middle goes.
+// Draws the way of the last body's middle.
 static void robot_picture_way(FILE *svg, const robot_picture *p, const nsvcd_joint_motion *m) {
   const size_t last = p->in->file->body_count - 1;
   const double end = m->pieces ? m->times[m->pieces] : 0;

@@ -33,7 +33,7 @@ static inline int collides_of(const nsvcd_answer *a) {
   return logit_of(a) > 0;
 }
 
-// What an answer names by time and patches: triangles, or else the network's pair.
+// Are the patches that an answer names those of triangles? Else they are the network's pair.
 static inline int names_triangles(const nsvcd_answer *a) {
   return a->nearest.triangle_a != NSVCD_NO_TRIANGLE || !a->opinion.asked;
 }

@@ -94,7 +94,7 @@ typedef struct motion_told {
   double shift[3];                 // metres, to what is told of A's place
 } motion_told;
 
-// Returns 0 after a complaint.
+// Makes the motion that was told. Returns 0 after a complaint.
 static int take_motion(const motion_told *told, const thing *a, const thing *b, motion *m) {
   oracle_pose from = {{told->shift[0], told->shift[1], told->shift[2]}, {0, 0, 0, 1}};
   oracle_pose to = from;

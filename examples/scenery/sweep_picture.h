@@ -8,7 +8,7 @@
 typedef struct sweep_body {
   const char *name;
   oracle_mesh mesh;  // metres
-  int sheet;         // to be seen from both sides
+  int sheet;         // 1: it is seen from both sides
   double pale;       // opacity at the start and at the end
 } sweep_body;
 
@@ -20,16 +20,16 @@ typedef struct sweep_picture {
   int collides;
   double shown;          // time at which a is drawn solid
   const char *shown_as;  // "contact"; "": at the start or the end
-  const float *point;    // of contact, or NULL
+  const float *point;    // the contact's, or NULL
   const float *normal;
 } sweep_picture;
 
-#define SWEEP_WIDTH 912  // of the panel, pixels
+#define SWEEP_WIDTH 912  // pixels of the panel
 #define SWEEP_HEIGHT 600
 #define SWEEP_LEFT 24
 #define SWEEP_TOP 84
 #define SWEEP_EDGE 56   // pixels left free in the panel
-#define SWEEP_STEPS 32  // of the path
+#define SWEEP_STEPS 32  // steps of the path
 #define SWEEP_NAME 512
 
 // Text for XML; bytes that XML cannot have become '?'.
@@ -51,7 +51,8 @@ static const char *sweep_escape(const char *text, char *out, size_t size) {
 
 // ---------------------------------------------------------------------------------------- the view
 
-// Along the path of A's middle, left to right, a little from its start and from above.
+// Turns the view: along the path of A's middle, left to right, a little from its start and from
+// above.
 static void sweep_camera(const sweep_picture *p, draw_view *view) {
   double from[3], to[3], d[3];
   oracle_transform(&p->poses[0], p->a.mesh.center, from);
@@ -63,7 +64,7 @@ static void sweep_camera(const sweep_picture *p, draw_view *view) {
     view->azimuth = atan2(d[1], d[0]) - SHAPES_PI / 2 - 0.2;
 }
 
-typedef struct sweep_frame {  // in pixels, before the view is fitted
+typedef struct sweep_frame {  // a box in pixels, before the view is fitted
   double low[2], high[2];
 } sweep_frame;
 
@@ -115,7 +116,8 @@ static void sweep_fit_frame(const sweep_frame *frame, int width, int height, int
   view->look_at[2] = cos(view->elevation) * up;
 }
 
-// All of A's way fits into the panel, and all of B, or, where B is much larger, what is near by.
+// The view in which all of A's way fits into the panel, and all of B; if B is much larger, what is
+// near by.
 static draw_view sweep_fit(const sweep_picture *p) {
   draw_view view = {0, 0, {0, 0, 0}, 1, 0, 0};
   sweep_frame frame = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};

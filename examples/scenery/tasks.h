@@ -52,7 +52,7 @@ typedef enum task_kind {
 typedef struct task_body {
   const char *name;
   nsvcd_mesh mesh;     // for nsvcd_encode
-  oracle_mesh exact;   // the same triangles
+  oracle_mesh exact;   // those triangles, for the oracle
   oracle_pose offset;  // its pose in the link
   int link;
   task_kind kind;
@@ -81,8 +81,8 @@ typedef struct task_scene {
   int problem_count;
   int selected;            // problem
   int held[3];             // bodies: the dish of each problem; peg and block; pickaxe
-  oracle_pose grasps[3];   // of the dishes in the hand
-  oracle_pose settled[3];  // and in the rack, once released
+  oracle_pose grasps[3];   // poses of the dishes in the hand
+  oracle_pose settled[3];  // their poses in the rack, once released
   shapes_rng rng;
   int failed;  // no memory, or too many bodies or pairs
 } task_scene;
@@ -494,13 +494,13 @@ TASK_DEF void task_random_joints(task_scene *scene, const double *around, double
     joints[j] = shapes_uniform(&scene->rng, low, high);
   }
 }
-// As floats, and back: what is checked shall be what is handed out.
+// Rounds joints to floats, and takes them back: what is checked shall be what is handed out.
 TASK_DEF void task_round(const task_scene *scene, double *joints, float *out) {
   for (int j = 0; j < scene->joint_count; j++) joints[j] = (double)(out[j] = (float)joints[j]);
 }
-#define TASK_STEPS 12  // of an insertion
-// From joints at `target`, backs out along `direction` (in base's frame, metres) in a straight
-// line. Returns 1 and the joints reached if all of it is free by `clearance`.
+#define TASK_STEPS 12  // steps of an insertion
+// Backs out from joints at `target` along `direction` (in base's frame, metres) in a straight line.
+// Returns 1 and the joints reached if all of it is free by `clearance`.
 TASK_DEF int task_back_out(const task_scene *scene, const double *joints, int body, int base,
                            const oracle_pose *target, const double *direction, double clearance,
                            double *reached) {
@@ -1163,7 +1163,8 @@ typedef struct task_statement {
   nsvcd_body_pair pairs[TASK_MAX_PAIRS];
 } task_statement;
 
-// All but the callbacks. The statement must stay where it is, and the scene and bodies too.
+// States all of a problem but the callbacks. The statement must stay where it is, and the scene and
+// bodies too.
 TASK_DEF void task_state(const task_scene *scene, const nsvcd_body *const *bodies,
                          task_statement *statement) {
   nsvcd_plan_problem *problem = &statement->problem;

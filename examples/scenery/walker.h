@@ -28,7 +28,7 @@ PHYSICS_DEF float physics_cast(physics_world *w, size_t i, physics_vec way, phys
   return physics_length(way) > PHYSICS_STILL ? physics_go(w, i, &to, normal) : 1;
 }
 
-// What is in the way of the walker is to be as fast as that.
+// Gives what is in the way of the walker that speed.
 PHYSICS_DEF void physics_shove(physics_world *w, const physics_walker *walker, physics_vec speed) {
   for (size_t k = 0; k < w->touch_count; k++) {
     const physics_seen s = physics_see(w, &w->touches[k]);
@@ -71,7 +71,8 @@ PHYSICS_DEF int physics_is_stair(physics_world *w, const physics_walker *walker,
          physics_cast(w, walker->thing, physics_times(walker->step / length, way), &normal) >= 1;
 }
 
-// Up by `rise`, sideways, and down again. 0: that leads up what is too steep.
+// Takes a step up by `rise`, sideways, and down again. Returns 0 if that leads up what is too
+// steep.
 PHYSICS_DEF int physics_stride(physics_world *w, physics_walker *walker, physics_vec speed,
                                float rise, float seconds) {
   physics_thing *t = &w->things[walker->thing];

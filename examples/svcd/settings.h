@@ -24,7 +24,7 @@ struct settings {
   float first[2];        // a fraction of the motion, or metres; 0: not asked for
   float measure;         // metres
   float seconds;         // 0: for a plan as long as it takes, for a question DECIDE_SECONDS
-  size_t visits;         // of certificates; 0: the library's default
+  size_t visits;         // the most for a certificate; 0: the library's default
   size_t repeat;         // 0: the command's default
   const char *from, *to, *rotate, *scale, *picture, *film, *details, *only, *joints;
   const char *certificate, *certificates;

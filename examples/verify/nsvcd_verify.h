@@ -63,7 +63,7 @@
 #include "nsvcd_verify_rays.h"
 
 #define VERIFY__EXACT 24        // triangles: of no more, corners count; of more, the box
-#define VERIFY__SHORTEST 1e-12  // of a stretch that is halved
+#define VERIFY__SHORTEST 1e-12  // the shortest stretch that is halved
 #define VERIFY__STACK 128       // two trees of 30 levels, and 40 halvings
 
 typedef struct verify__visit {

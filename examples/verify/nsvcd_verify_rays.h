@@ -17,9 +17,9 @@ typedef enum nsvcd_verify_kind {
 
 typedef struct nsvcd_verify_report {
   const char *reason;      // why it is refused; NULL: it is not
-  size_t position;         // of the byte that would be read next
+  size_t position;         // the byte that would be read next
   nsvcd_verify_kind kind;  // what is proven; NOTHING: it is refused
-  double time;             // of HIT, NEAR and INSIDE
+  double time;             // when, for HIT, NEAR and INSIDE
   uint32_t a, b;           // HIT, NEAR: triangles. INSIDE: a corner, and whose: 0 a's, 1 b's
 } nsvcd_verify_report;
 
@@ -190,7 +190,7 @@ static inline int verify__cast(const verify__reader *r, const nsvcd_verify_mesh 
   const double *d = r->normals[0];
   nsvcd_verify_node stack[VERIFY__LEVELS] = {{0, 0, (uint32_t)m->triangles}};
   size_t height = 1;
-  if (!(verify__dot(y, y) < VERIFY__BEYOND)) return 0;  // where a NaN would pass for a miss
+  if (!(verify__dot(y, y) < VERIFY__BEYOND)) return 0;  // a NaN would pass for a miss
   memset(m->sums, 0, m->vertices * sizeof *m->sums);
   while (height > 0) {
     const nsvcd_verify_node node = stack[--height];

@@ -35,7 +35,7 @@ typedef struct nsvcd_verify_joint {
   uint32_t slides;  // 0: it turns
   uint32_t parent;  // the link that it is on, no more than its own number
   float origin[7];  // x y z qx qy qz qw, in that link
-  float axis[3];    // in its frame, of any length but 0
+  float axis[3];    // any length but 0, in its frame
 } nsvcd_verify_joint;
 
 typedef struct nsvcd_verify_motion {

@@ -21,7 +21,7 @@
 #endif
 
 #define NSVCD_VERIFY_NONE 0xffffffffu
-#define VERIFY__LEVELS 40     // of a tree, and some more
+#define VERIFY__LEVELS 40     // levels of a tree, and some more
 #define VERIFY__BEYOND 1e100  // more than anything becomes; infinities are not used
 
 // A mesh, its components (triangles joined by corners at the same place), and a tree over its
@@ -52,10 +52,10 @@ typedef struct nsvcd_verify_place {
 
 // A mesh that moves. A motion is three functions: where it is at a time; the next knot (a time at
 // which it has a corner) after a time before 1; and by how much, at most, a point leaves its chord
-// between two times without a knot between. Along a unit direction n of the world that is
-// stray[0] + stray[1] r + stray[2] rho |n x R a|, for a point at r metres from the body's origin and
-// rho from the line through that along a = stray[3..5], a unit vector of the body that R takes to
-// the same one at all these times. What is not set is 0.
+// between two times without a knot between. Along a unit direction n of the world that is stray[0]
+// + stray[1] r + stray[2] rho |n x R a|, for a point at r metres from the body's origin and rho
+// from the line through that along a = stray[3..5], a unit vector of the body that R takes to the
+// same one at all these times. What is not set is 0.
 typedef struct nsvcd_verify_mover {
   const nsvcd_verify_mesh *mesh;
   double scale;
@@ -87,7 +87,8 @@ static inline double verify__max(double a, double b) {
 }
 
 // A double also where registers are wider (x87), for what is compared with itself reckoned again: a
-// knot, or it would be the next one after itself; a key to sort by, or nothing would be at its place.
+// knot, or it would be the next one after itself; a key to sort by, or nothing would be at its
+// place.
 static inline double verify__stored(double x) {
 #if FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 1
   return x;
@@ -98,7 +99,8 @@ static inline double verify__stored(double x) {
 }
 
 // Is a number no larger than a bound, whatever its sign? By their bits without the sign, which are
-// in the order of the numbers, with infinity and NaN above: so no option of a compiler lets them by.
+// in the order of the numbers, with infinity and NaN above: so no option of a compiler lets them
+// by.
 static inline int verify__within(float x, float most) {
   uint32_t bits, limit;
   memcpy(&bits, &x, sizeof bits);
@@ -114,8 +116,8 @@ static inline int verify__within_double(double x, double most) {
 
 // NULL, or what of this thread's arithmetic a proof cannot rest on. A processor can be told to
 // round otherwise, to fewer digits, or to take subnormal floats for 0, which a library may do as it
-// is loaded; a compiler can be told, without a macro, to reorder sums, to divide by reciprocals, and
-// that there is no NaN. None of this is an invalid operation, which some have trapped.
+// is loaded; a compiler can be told, without a macro, to reorder sums, to divide by reciprocals,
+// and that there is no NaN. None of this is an invalid operation, which some have trapped.
 static inline const char *verify__arithmetic(void) {
   static const uint64_t quiet_nan = 0x7ff8000000000000u;
   volatile double input[5] = {1, 1e30, 49, 0.5 * DBL_EPSILON, 0.75 * DBL_EPSILON};
@@ -225,8 +227,9 @@ static inline int verify__vertex_order(const nsvcd_verify_mesh *m, uint32_t i, u
   return 0;
 }
 
-// The same of edges by their ends, the lower one first, whichever way they go. Edge 3 t + k begins
-// at corner k of triangle t. Vertices count as the one that stands for their place, in m->sums.
+// Below 0, 0 or above it: edge i is before, at or after edge j, by their ends, the lower end first,
+// whichever way they go. Edge 3 t + k begins at corner k of triangle t. Vertices count as the one
+// that stands for their place, in m->sums.
 static inline int verify__edge_order(const nsvcd_verify_mesh *m, uint32_t i, uint32_t j) {
   const uint32_t *weld = (const uint32_t *)m->sums;
   const uint32_t edges[2] = {i, j};
@@ -443,13 +446,13 @@ static inline double verify__path_next(const void *motion, double t) {
   return p->count > 1 ? verify__knot(p, verify__pose_before(p, t) + 1) : 1;
 }
 
-// A turn by h at a constant rate about an axis a has a second derivative of h^2 a x (a x y) at y = R
-// x. Along n that is h^2 (n x a).(a x y), no more than h^2 |n x a| rho, and the stray is an eighth of
-// it. The turn from q to q' is about the vector of q^-1 q', as the body has it: off by 1e-15 / h, and
-// the stray by 1e-16 h r for that.
-// The pose before is looked up half way. Where t0 and t1 are neighbours, half way may be t1 (ties go
-// to even), the knot at the end, and the pose one too late. Then t1 - t0 < 1.2e-16, of a stretch of 0.99e-7 at
-// least: a turn by less than 4e-9, a true stray below 2e-18 r, which the margin, 1e-10 r, holds.
+// A turn by h at a constant rate about an axis a has a second derivative of h^2 a x (a x y) at y =
+// R x. Along n that is h^2 (n x a).(a x y), no more than h^2 |n x a| rho, and the stray is an
+// eighth of it. The turn from q to q' is about the vector of q^-1 q', as the body has it: off by
+// 1e-15 / h, and the stray by 1e-16 h r for that. The pose before is looked up half way. Where t0
+// and t1 are neighbours, half way may be t1 (ties go to even), the knot at the end, and the pose
+// one too late. Then t1 - t0 < 1.2e-16, of a stretch of 0.99e-7 at least: a turn by less than 4e-9,
+// a true stray below 2e-18 r, which the margin, 1e-10 r, holds.
 static inline void verify__path_stray(const void *motion, double t0, double t1, double *stray) {
   const nsvcd_verify_path *p = (const nsvcd_verify_path *)motion;
   const size_t k = verify__pose_before(p, 0.5 * (t0 + t1));

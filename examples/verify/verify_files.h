@@ -44,7 +44,7 @@ static void add_index(list *l, uint32_t i) {
   *(uint32_t *)add(l, sizeof(uint32_t)) = i;
 }
 
-// All bytes of a file, and a 0 behind them. NULL: it cannot be read.
+// Reads all bytes of a file, and puts a 0 behind them. Returns NULL if it cannot be read.
 static char *read_file(const char *path, size_t *size) {
   list bytes = {NULL, 0, 0};
   FILE *file = fopen(path, "rb");
@@ -292,7 +292,7 @@ static void read_stl(const char *path, char *text, size_t size, list *positions,
   weld(positions, indices);
 }
 
-// Along x, y, z; a mesh that is mirrored is turned the right way out again.
+// Scales a mesh along x, y, z. If that mirrors it, it is turned the right way out again.
 static void scale_mesh(list *positions, list *indices, const double *scale) {
   float *x = (float *)positions->items;
   uint32_t *t = (uint32_t *)indices->items;

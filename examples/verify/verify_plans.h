@@ -212,8 +212,8 @@ static void pair_with_obstacles(robot *r) {
   }
 }
 
-// All plans of a planning file: the robot, then a scene, its obstacles, and plans and paths in it,
-// and perhaps another scene. 1: all are accepted.
+// Checks all plans of a planning file: the robot, then a scene, its obstacles, and plans and paths
+// in it, and perhaps another scene. Returns 1 if all are accepted.
 static int check_plans(const char *path, char *text, request *asked) {
   robot r;
   char *words[80];

@@ -95,7 +95,7 @@ const nsvcd_mesh *EXPORT(arm_mesh)(size_t part) {
   return &arm_meshes[part];
 }
 
-// Where all parts are at a time of the motion, seconds.
+// The poses of all parts at a time of the motion, seconds.
 const nsvcd_pose *EXPORT(arm_place)(double time) {
   double at[NSVCD_MAX_JOINTS];
   nsvcd_motion_at(&arm_way, arm_scene.joint_count, time, at);

@@ -20,7 +20,7 @@ _Static_assert(sizeof(physics_thing) == 4 * 24 && offsetof(physics_thing, asleep
 enum { KINDS = 9, WALKER = KINDS, ROOM, FLOOR, WALLS, BUILT, MESHES };
 #define MOST 60  // thrown things at a time: then the oldest goes
 #define CAPSULE_RADIUS 0.25f
-#define CAPSULE_HALF 0.55f  // of its axis
+#define CAPSULE_HALF 0.55f  // metres: half its axis
 #define BOTTOM (-8.0f)      // metres: what fell as low as that is gone
 
 static shapes_mesh meshes[MESHES];

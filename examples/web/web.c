@@ -116,8 +116,8 @@ static nsvcd_result add_latents(side *s) {
   return NSVCD_OK;
 }
 
-// What `svcd info` warns of, a line each; but for its size, which depends on the scale, and about
-// which the page asks.
+// The lines of what `svcd info` warns of. The size is left out: it depends on the scale, and the
+// page asks about it.
 const char *EXPORT(web_findings)(size_t which) {
   static char lines[MESH_FINDINGS][MESH_LINE];
   const nsvcd_mesh *mesh = &sides[which].mesh;
@@ -148,8 +148,8 @@ static nsvcd_question make_question(float scale_a, float scale_b, float clearanc
   return question;
 }
 
-// Asks `times` times whether A hits B, for the clock; once is enough for web_answer. first: to which
-// share of the motion the first contact is timed; 0: any contact will do.
+// Asks `times` times whether A hits B, for the clock; once is enough for web_answer. first: to
+// which share of the motion the first contact is timed; 0: any contact will do.
 nsvcd_result EXPORT(web_sweep)(float scale_a, float scale_b, float first, float clearance,
                                nsvcd_method method, size_t times) {
   nsvcd_result result = NSVCD_OK;
