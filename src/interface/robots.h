@@ -106,8 +106,8 @@ typedef struct nsvcd_check_options {
 
 // What is known of a motion.
 typedef struct nsvcd_check_answer {
-  // FREE: at no time of the motion do two parts of a pair come within the clearance, and none is
-  // inside the other. HIT: in the configuration that is named, two do, or one is inside the other
+  // FREE: at no time of the motion do the parts of a pair come within the clearance, or is one
+  // inside the other. HIT: in the configuration that is named, those of a pair do, or one is
   nsvcd_verdict verdict;
   // the reason if the verdict is UNDECIDED
   nsvcd_why why;

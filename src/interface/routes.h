@@ -44,7 +44,7 @@ typedef struct nsvcd_route_problem {
   // found by then is still proven as a whole
   int (*stop)(void *user);
   // called before each question about a pair, also in that last proof; may be NULL. If it returns
-  // anything but 0, the proof ends as well, so that it bounds the time
+  // anything but 0, that proof ends as well: so this bounds the time
   int (*abandon)(void *user);
   // passed to both
   void *user;
