@@ -12,10 +12,10 @@
 //   #define NEURALSVCD_IMPLEMENTATION
 //   #include "neuralsvcd.h"
 //
-// Include the header alone everywhere else. With NSVCD_NO_NETWORK there is the proof alone, and
-// weights.h is not needed.
+// Everywhere else, include the header alone. With NSVCD_NO_NETWORK, weights.h is not needed: there
+// is only the proof.
 //
-// Ask a question. This is a whole program:
+// This is a whole program, which asks a question:
 //
 //   #define NEURALSVCD_IMPLEMENTATION
 //   #include "neuralsvcd.h"
@@ -46,7 +46,7 @@
 //     return 0;
 //   }
 //
-// Or plan a motion that hits nothing: nsvcd_plan. A larger program is examples/quickstart.c.
+// A larger program is examples/quickstart.c.
 //
 // FUNCTIONS, each with its contract below
 //   nsvcd_obj_load        a file -> a mesh; so do nsvcd_stl_load and nsvcd_mesh_load
@@ -55,41 +55,44 @@
 //   nsvcd_body_load       bytes -> a body, every byte checked
 //   nsvcd_body_describe   a body -> its size, box, triangles; is it closed?
 //   nsvcd_sweep           a question -> an answer; nsvcd_sweep_batch: many
-//   nsvcd_sweep_gradient  the same by the network, with derivatives by the poses
-//   nsvcd_plan            joints -> a smooth motion that hits nothing
-//   extras/neuralsvcd_robot.h    is a motion of a robot's joints free? Find one that is
-//   extras/neuralsvcd_certify.h  answers as bytes that others can check
+//   nsvcd_sweep_gradient  a question -> the network's answer, and its derivatives by the poses
+//   nsvcd_plan            a start and a goal -> a smooth motion of joints that hits nothing
+//   extras/neuralsvcd_robot.h    a robot's joints: is their motion free? Find one that is
+//   extras/neuralsvcd_certify.h  an answer -> bytes that prove it, which others can check
 //
 // OPTIONS, defined before the implementation is included
-//   NSVCD_STATIC      all functions static, in a file that has the implementation
+//   NSVCD_STATIC      all functions are static, in a file that has the implementation
 //   NSVCD_NO_STDIO    no file access: no nsvcd_obj_load and the like; nsvcd_obj_parse stays
-//   NSVCD_NO_READERS      no readers of OBJ, STL and faces
+//   NSVCD_NO_READERS  no readers of OBJ, STL and faces
 //   NSVCD_NO_ENCODER  no readers, no nsvcd_mesh_cut, no nsvcd_encode: bodies come from
 //                     nsvcd_body_load
 //   NSVCD_NO_PROOF    the network alone: triangles are neither stored nor read
 //   NSVCD_NO_NETWORK  the proof alone: no weights.h, no gradient, no optimizer
-//   NSVCD_NO_SMALL, NSVCD_NO_BASE   without these decoders; the default is the largest that is left
-//   NSVCD_NO_INT8, NSVCD_NO_FLOAT   without this arithmetic of the decoders; the default is float
-//                                   where there is float
+//   NSVCD_NO_SMALL, NSVCD_NO_BASE   no such decoder; the default is the largest that is left
+//   NSVCD_NO_INT8, NSVCD_NO_FLOAT   no such arithmetic of the decoders; the default is float, if it
+//                                   is left
 //   NSVCD_NO_GRADIENT    no nsvcd_sweep_gradient, no optimizer
 //   NSVCD_NO_OPTIMIZER   no nsvcd_plan, no nsvcd_spline
 //   NSVCD_NO_SIMD     plain C in place of AVX-512, AVX2 with FMA, SSE2, NEON and SIMD128
 //   NSVCD_ONE_PATH    the same bits on all machines: see DETERMINISM
-//   NSVCD_NO_DISPATCH    on x86-64 only what the compiler's flags allow, SSE2 by default. Otherwise
-//                     a build for SSE2 also holds queries for AVX2 and AVX-512, and the processor
-//                     decides
+//   NSVCD_NO_DISPATCH    only the vectors that the compiler's flags allow, on x86-64 by default
+//                     SSE2. Without this option, a build for SSE2 also holds queries for AVX2 and
+//                     AVX-512, and the processor decides
 //
 // CONVENTIONS
-//   Metres, radians, right-handed; quaternions x y z w of unit length; time in [0,1]; arrays
-//   row-major, their shape beside the pointer. Triangles are counter-clockwise seen from outside:
-//   the winding gives the normals, and flipping it costs accuracy. Options are structs in which
-//   zero means the default. What can fail returns an nsvcd_result, 0 on success, and on failure
-//   leaves its outputs as they were. (Sizes and nsvcd_body_patch return 0 instead; nsvcd_spline
-//   then writes nothing.) Functions are re-entrant, and there are no global variables. Memory is
-//   the caller's, or comes from the allocator that a function takes.
+//   Units are metres and radians, axes right-handed. Quaternions are x y z w, of unit length. Time
+//   is in [0,1]. Arrays are row-major, and their shape stands beside the pointer: (count, 3).
+//   Triangles are counter-clockwise seen from outside. The winding gives the normals, and flipping
+//   it costs accuracy. Options are structs in which zero means the default.
 //
-// What an answer is worth, numeric limits and determinism stand with the queries below; which
-// meshes count as closed, with the bodies; what was measured, in tests/bench/RESULTS.md.
+//   A function that can fail returns an nsvcd_result, 0 on success. On failure it leaves its
+//   outputs as they were. (Functions that return a size, and nsvcd_body_patch, return 0 instead.
+//   nsvcd_spline writes nothing.) Functions are re-entrant, and there are no global variables.
+//   Memory is the caller's, or comes from the allocator that a function takes.
+//
+// The queries below say what an answer is worth, and what is known of numeric limits and of
+// determinism. The bodies say which meshes count as closed. tests/bench/RESULTS.md has what was
+// measured.
 #ifndef NEURALSVCD_H
 #define NEURALSVCD_H
 
@@ -98,7 +101,7 @@
 // ------------------------------------------------------------------------------- interface/options
 // In: the switches that a program defines. Out: the version, switches that follow, NSVCDDEF.
 
-// as in the first line; before 1.0 a minor version may change what a program sees
+// the version, as in the first line; before 1.0 a minor version may change what a program sees
 #define NSVCD_VERSION "0.3.0"
 #define NSVCD_VERSION_MAJOR 0
 #define NSVCD_VERSION_MINOR 3
@@ -150,7 +153,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_IO,
   // the allocator returned NULL
   NSVCD_ERROR_MEMORY,
-  // the memory given is NULL, not aligned to NSVCD_ALIGNMENT, or too small: size, capacity
+  // the memory given is NULL, not aligned to NSVCD_ALIGNMENT, or smaller than needed
   NSVCD_ERROR_WORKSPACE,
   // the caller's progress function cancelled
   NSVCD_ERROR_CANCELLED,
@@ -183,7 +186,7 @@ typedef enum nsvcd_result {
   // ---- bodies
   // what is passed as a body is not one, or is damaged, cut short or misaligned
   NSVCD_ERROR_BODY,
-  // the body has another version, model or byte order
+  // the body has another version, other weights or the other byte order
   NSVCD_ERROR_VERSION,
   // the body has no triangles, which a proof needs
   NSVCD_ERROR_TRIANGLES,
@@ -194,7 +197,7 @@ typedef enum nsvcd_result {
   // ---- questions
   // count must be 0 where poses is NULL, else 1 to NSVCD_MAX_POSES
   NSVCD_ERROR_POSES,
-  // times do not rise, or those of poses do not go from 0 to 1
+  // times do not rise, or those of a mover do not go from 0 to 1
   NSVCD_ERROR_TIMES,
   // a pose's position is not finite, or beyond NSVCD_MAX_COORDINATE
   NSVCD_ERROR_POSE,
@@ -202,7 +205,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_QUATERNION,
   // a scale is not finite, negative or out of range, or makes a body too small or too large
   NSVCD_ERROR_SCALE,
-  // both sides of a question are the same body in the same motion: something was passed twice
+  // a and b of a question are the same body in the same motion, so something was passed twice
   NSVCD_ERROR_SAME,
   // `ask` is none of its values
   NSVCD_ERROR_ASK,
@@ -213,9 +216,9 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_TO,
   // `to_time` is not in [0,1], or set without FIRST
   NSVCD_ERROR_TO_TIME,
-  // `clearance` is negative, not finite or too large
+  // a clearance is negative, not finite or too large
   NSVCD_ERROR_CLEARANCE,
-  // `slop` is negative, not finite or too large, or set for a certificate
+  // `slop` is negative, not finite or too large; or it is set for a certificate
   NSVCD_ERROR_SLOP,
   // `tolerance` is negative, not finite or too large
   NSVCD_ERROR_TOLERANCE,
@@ -245,13 +248,14 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_SPEED,
   // a link or a part is not one of the scene's
   NSVCD_ERROR_LINK,
-  // a pair is not one of the scene's, names a part that is not, or two parts that never move apart
+  // a pair is not one of the scene's; or it names a part that is not, one part twice, or two parts
+  // on one link
   NSVCD_ERROR_PAIR,
   // a joint's value in a start, a goal or a motion is not finite or too large
   NSVCD_ERROR_VALUE,
   // `degree` is not 1 to NSVCD_MAX_DEGREE, or there are more pieces than can be counted
   NSVCD_ERROR_DEGREE,
-  // the joints turn too far in a piece of the motion to be certified
+  // the motion has no pieces, or too many, or its joints move too far or too fast to be certified
   NSVCD_ERROR_TURN,
   // `finest` is negative or not finite
   NSVCD_ERROR_FINEST,
@@ -277,14 +281,16 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result);
 
 // Does this build compute correctly on this processor? If not, what it proves may be false. Call
 // this once at the start if the compiler is not gcc, clang or MSVC, or if its flags are unusual. It
-// tests how structs and floats are passed, vectors, rotations, the test of a plane that proofs rest
-// on, and two triangles; anything else may still be wrong.
-//   allocates  nothing, and takes a microsecond (tests/test_processor.c)
+// takes a microsecond (tests/test_processor.c). It tests how structs and floats are passed,
+// vectors, rotations, the test of a plane that proofs rest on, and two triangles. Anything else may
+// still be wrong.
+//   allocates  nothing
 //   errors     BUILD
 NSVCDDEF nsvcd_result nsvcd_self_test(void);
 
 // Where memory comes from. A NULL allocator means malloc and free.
 //   alloc      returns memory aligned as malloc's, or NULL on failure
+//   free       takes back memory that alloc returned
 //   user       passed to both
 typedef struct nsvcd_allocator {
   void *(*alloc)(size_t size, void *user);
@@ -295,10 +301,11 @@ typedef struct nsvcd_allocator {
 // -------------------------------------------------------------------------------- interface/meshes
 // In: an OBJ or STL file, or the caller's faces. Out: nsvcd_mesh, or a part of one.
 
+// Triangles. Those that functions here make are freed with nsvcd_mesh_free.
 typedef struct nsvcd_mesh {
   // (vertex_count, 3) metres
   float *positions;
-  // (triangle_count, 3) vertex numbers, counter-clockwise seen from outside
+  // (triangle_count, 3) vertex numbers from 0, counter-clockwise seen from outside
   uint32_t *indices;
   size_t vertex_count;
   size_t triangle_count;
@@ -307,26 +314,27 @@ typedef struct nsvcd_mesh {
 #ifndef NSVCD_NO_READERS
 // Reads OBJ text into a mesh. Only the lines v and f are read; lines end in LF, CR or CR LF. A
 // face's corners are v, v/vt, v//vn or v/vt/vn. The number after a slash may be missing, and a
-// corner may refer to a vertex further down. Faces of any number of corners are triangulated,
-// concave ones too: n corners always make n - 2 triangles, numbered in the order of the faces.
-// Whatever follows x y z (a weight, a colour) is skipped, even NaN.
+// corner may refer to a vertex further down. Whatever follows x y z (a weight, a colour) is
+// skipped, even NaN. Faces of any number of corners are triangulated, concave ones too. A face of n
+// corners always makes n - 2 triangles. Triangles are numbered in the order of the faces.
 //   text       (size) characters, not NULL; no final NUL or newline is needed
 //   allocator  NULL: malloc and free
 //   mesh       not NULL; free it with nsvcd_mesh_free; left as it was on failure
-//   error_line NULL, or set to the line at fault, from 1; 0 if no line is at fault
+//   error_line set to the line at fault, from 1, or to 0 if no line is; may be NULL
 //   allocates  the mesh, and working memory that is freed again. Time is linear in size, except for
 //              concave faces of thousands of corners: n^1.5 for n corners in the worst shapes that
 //              tests/test_mesh.c tries
 //   errors     ARGUMENT, MEMORY, FORMAT (no line is one of OBJ's), SYNTAX, INDEX, NUMBER (a
-//              coordinate in metres), EMPTY, TOO_LARGE. Of several faults the first one found:
-//              statements and counts are checked before vertices, vertices before faces
+//              coordinate in metres), EMPTY, TOO_LARGE. If there are several faults, it is the
+//              first one found: statements and counts are checked first, then vertices, then faces
 //   source     Wavefront, "Object Files", version 3.0; ear clipping after Meisters 1975
 NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
                                       const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
                                       size_t *error_line);
 #ifndef NSVCD_NO_STDIO
-// nsvcd_obj_parse of a file.
+// Reads an OBJ file into a mesh, as nsvcd_obj_parse reads a text.
 //   path       not NULL, as fopen takes it; on Windows in the code page of the process
+//   allocator, mesh, error_line  as for nsvcd_obj_parse
 //   errors     those of nsvcd_obj_parse, and IO
 NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator,
                                      nsvcd_mesh *mesh, size_t *error_line);
@@ -335,16 +343,20 @@ NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *al
 // Reads STL, binary or text, into a mesh. Corners at the same position become one vertex; normals
 // and attributes are skipped.
 //   data       (size) bytes, not NULL
-//   allocator, mesh, error_line  as above; in a binary file no line is at fault
-//   allocates  the mesh, with room for three vertices a triangle, and working memory
-//   errors     ARGUMENT, MEMORY, FORMAT (neither text that begins with "solid" nor as long as its
+//   allocator, mesh, error_line  as for nsvcd_obj_parse; in a binary file no line is at fault
+//   allocates  the mesh, with room for three vertices a triangle, and working memory that is freed
+//              again
+//   errors     ARGUMENT, MEMORY, FORMAT (it is no text that begins with "solid", nor as long as its
 //              count of triangles says), SYNTAX, NUMBER, EMPTY, TOO_LARGE
 //   source     3D Systems, "StereoLithography Interface Specification", 1989
 NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
                                       const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
                                       size_t *error_line);
 #ifndef NSVCD_NO_STDIO
-// nsvcd_stl_parse of a file.
+// Reads an STL file into a mesh, as nsvcd_stl_parse reads bytes.
+//   path       not NULL, as fopen takes it; on Windows in the code page of the process
+//   allocator, mesh, error_line  as for nsvcd_stl_parse
+//   errors     those of nsvcd_stl_parse, and IO
 NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *allocator,
                                      nsvcd_mesh *mesh, size_t *error_line);
 #endif
@@ -356,28 +368,34 @@ typedef enum nsvcd_mesh_format {
   NSVCD_MESH_STL
 } nsvcd_mesh_format;
 
-// How a file's numbers become metres: in double, before they are rounded to float and compared with
-// NSVCD_MAX_COORDINATE. Zero means the default.
+// How a file is read, and how its numbers become metres. That is computed in double. Only then are
+// the metres rounded to float, and compared with NSVCD_MAX_COORDINATE. Zero means the default.
 typedef struct nsvcd_mesh_options {
   nsvcd_mesh_format format;
-  // in the file's units: this point becomes the mesh's origin. In a map, whose coordinates are in
-  // the millions, choose one near the objects: floats near 5,400,000 are half a metre apart
+  // the point, in the file's units, that becomes the mesh's origin. In a map, whose coordinates are
+  // in the millions, choose one near the objects: floats near 5,400,000 are half a metre apart
   double origin[3];
-  // then to metres: 0.001 for millimetres; 0: 1
+  // metres in one of the file's units: 0.001 for millimetres; default 1
   double scale;
 } nsvcd_mesh_options;
 
-// Reads OBJ or STL into a mesh: nsvcd_obj_parse or nsvcd_stl_parse, with options.
+// Reads OBJ or STL into a mesh, as nsvcd_obj_parse or nsvcd_stl_parse does, with options.
 //   data       (size) bytes, not NULL
 //   options    NULL: either format, in metres
-//   allocator, mesh, error_line  as above
-//   errors     those of both, SCALE, and NUMBER for an origin that is not finite
+//   allocator, mesh, error_line  as for nsvcd_obj_parse; in a binary file no line is at fault
+//   allocates  as nsvcd_obj_parse or nsvcd_stl_parse
+//   errors     those of nsvcd_obj_parse and nsvcd_stl_parse, SCALE, and NUMBER for an origin that
+//              is not finite
 NSVCDDEF nsvcd_result nsvcd_mesh_parse(const void *data, size_t size,
                                        const nsvcd_mesh_options *options,
                                        const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
                                        size_t *error_line);
 #ifndef NSVCD_NO_STDIO
-// nsvcd_mesh_parse of a file.
+// Reads an OBJ or STL file into a mesh, as nsvcd_mesh_parse reads bytes.
+//   path       not NULL, as fopen takes it; on Windows in the code page of the process
+//   options    NULL: either format, in metres
+//   allocator, mesh, error_line  as for nsvcd_mesh_parse
+//   errors     those of nsvcd_mesh_parse, and IO
 NSVCDDEF nsvcd_result nsvcd_mesh_load(const char *path, const nsvcd_mesh_options *options,
                                       const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
                                       size_t *error_line);
@@ -387,9 +405,10 @@ NSVCDDEF nsvcd_result nsvcd_mesh_load(const char *path, const nsvcd_mesh_options
 typedef struct nsvcd_faces {
   // (vertex_count, 3) metres
   const float *positions;
-  // (corner_count) vertex numbers, face after face, counter-clockwise seen from outside
+  // (corner_count) vertex numbers from 0, face after face, counter-clockwise seen from outside
   const uint32_t *corners;
-  // (face_count), 3 or more each, corner_count in all; NULL: all faces are triangles
+  // (face_count) numbers of corners, 3 or more each, corner_count in all; NULL: all faces are
+  // triangles
   const uint32_t *sizes;
   size_t vertex_count;
   size_t corner_count;
@@ -397,20 +416,21 @@ typedef struct nsvcd_faces {
 } nsvcd_faces;
 
 // Triangulates faces, concave ones too, as nsvcd_obj_parse does.
-//   faces      not NULL
+//   faces      not NULL, not kept
 //   allocator  NULL: malloc and free
 //   mesh       not NULL; free it with nsvcd_mesh_free; left as it was on failure
 //   allocates  the mesh, and working memory that is freed again; takes as long as nsvcd_obj_parse
 //   errors     ARGUMENT, SIZES, INDEX, NUMBER, EMPTY, TOO_LARGE, MEMORY
+//   source     ear clipping after Meisters 1975
 NSVCDDEF nsvcd_result nsvcd_mesh_of_faces(const nsvcd_faces *faces,
                                           const nsvcd_allocator *allocator, nsvcd_mesh *mesh);
 #endif
 #ifndef NSVCD_NO_ENCODER
 // Cuts out the part of a mesh that lies in a box. Triangles are cut at the box; vertices are not
-// shared. Use it for a large mesh that keeps changing, or that is for the network, whose patches
-// must not be much larger than the gap in question: encode the part that the moving body can reach
-// (the box of its sweep, grown a little) as an `open` body. A mesh that does not change is better
-// encoded whole, once.
+// shared. Use it for a large mesh that keeps changing, or for the network, whose patches must not
+// be much larger than the gap in question. Encode the part that the moving body can reach (the box
+// of its sweep, grown a little) as an `open` body. A mesh that does not change is better encoded
+// whole, once.
 //   mesh       not NULL
 //   low, high  the box in the mesh's frame, metres, not NULL, finite, low < high on each axis
 //   allocator  NULL: malloc and free
@@ -421,7 +441,7 @@ NSVCDDEF nsvcd_result nsvcd_mesh_of_faces(const nsvcd_faces *faces,
 NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
                                      const float high[3], const nsvcd_allocator *allocator,
                                      nsvcd_mesh *part);
-// Frees what the functions above allocated, and empties *mesh.
+// Frees a mesh that a function here allocated, and empties *mesh.
 //   mesh       may be NULL
 //   allocator  the one that the mesh came from
 NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator);
@@ -432,90 +452,99 @@ NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator
 //
 // CLOSED MESHES
 //   Only a closed component of a mesh has an inside. A component is closed if every edge has its
-//   reverse, whichever way it is wound as a whole. Flaws that do no harm to that are set aside:
-//   faces that occur twice or turned round, fins, inner walls, slivers, and gaps between corners
-//   that are no farther apart than a ten-thousandth of the diagonal of the mesh's box and a
-//   hundredth of the longest edge at either. (What is thinner than such a gap may slip through it.)
-//   A component that is still open encloses nothing for certain: nsvcd_body_facts counts these.
+//   reverse, whichever way it is wound as a whole. Some flaws are set aside, since they do no harm
+//   to that: faces that occur twice or turned round, fins, inner walls, slivers, and small gaps
+//   between corners. A gap is small if it is at most a ten-thousandth of the diagonal of the mesh's
+//   box, and at most a hundredth of the longest edge at either corner. (What is thinner than such a
+//   gap may slip through it.) A component that is still open encloses nothing for certain.
+//   nsvcd_body_facts counts these components.
 //
-//   Nearly a solid is an open component with small holes: its surface goes on across each hole, as
-//   it does not at the rim of a bin, a tube or a floor, and either each hole is a slit or a single
-//   triangle, and together they are less than half of the area; or the component is wound outwards,
-//   and its holes are less than a fiftieth of its area. What seems to be inside of one is
-//   UNDECIDED, unless the mesh is said to be `open`.
+//   An open component with small holes is nearly a solid. Its surface goes on across each hole, as
+//   it does not at the rim of a bin, a tube or a floor. Its holes are small if each is a slit or a
+//   single triangle, and together they are less than half of the area. They are also small if they
+//   are less than a fiftieth of the area, and the component is wound outwards. If something seems
+//   to be inside a component that is nearly a solid, a question is UNDECIDED, unless the mesh was
+//   encoded as `open`.
 
 // An encoded body: one relocatable blob without pointers, aligned to NSVCD_ALIGNMENT. Copy it with
-// memcpy, write it with fwrite, map it, or bake it into flash as a const array;
-// nsvcd_body_facts.size is its size. Floats are IEEE 754, and all is in the byte order of the
-// machine that encoded it: the blob begins with "NSVB" on a little-endian one and with "BVSN" on a
-// big-endian one, and machines of the other order refuse it. Threads may share it. Functions that
-// take a body check its first bytes (errors BODY, VERSION) and trust the rest.
+// memcpy, write it with fwrite, map it, or bake it into flash as a const array. Its size is
+// nsvcd_body_facts.size. Threads may share it. Functions that take a body check its first bytes
+// (errors BODY, VERSION) and trust the rest.
+//
+// Floats are IEEE 754, and everything is in the byte order of the machine that encoded the body.
+// The blob begins with "NSVB" on a little-endian machine and with "BVSN" on a big-endian one.
+// Machines of the other order refuse it.
 typedef struct nsvcd_body nsvcd_body;
 
 #define NSVCD_ALIGNMENT 8
-// Default number of patches: of a body with triangles, and of one for the network alone, which
-// needs finer patches than a proof.
+// The default number of patches of most bodies with triangles, and of a body for the network alone,
+// which needs finer patches than a proof.
 #define NSVCD_DEFAULT_PATCHES 192
 #define NSVCD_DEFAULT_NETWORK_PATCHES 256
 #define NSVCD_MAX_PATCHES 65536
 // A body of more patches is a level: its patches are in a tree.
 #define NSVCD_SMALL_PATCHES 512
-// By default, a mesh of up to VERY_FEW triangles has one patch per triangle, but at least LEAST;
-// one of up to MANY has one per NSVCD_PATCH_TRIANGLES, but at least NSVCD_DEFAULT_PATCHES and at
-// most NSVCD_SMALL_PATCHES. A larger mesh is a level, with one patch per NSVCD_LEVEL_TRIANGLES.
+// By default, a mesh of up to NSVCD_VERY_FEW_TRIANGLES has one patch for each triangle, but at
+// least NSVCD_LEAST_PATCHES. A mesh of up to NSVCD_MANY_TRIANGLES has one patch for every
+// NSVCD_PATCH_TRIANGLES triangles, but at least NSVCD_DEFAULT_PATCHES and at most
+// NSVCD_SMALL_PATCHES. A larger mesh is a level, with one patch for every NSVCD_LEVEL_TRIANGLES.
 #define NSVCD_LEAST_PATCHES 12
 #define NSVCD_VERY_FEW_TRIANGLES 48
 #define NSVCD_PATCH_TRIANGLES 50
 #define NSVCD_MANY_TRIANGLES 131072
 #define NSVCD_LEVEL_TRIANGLES 12
-// metres
+// metres: the largest coordinate of a vertex or a position
 #define NSVCD_MAX_COORDINATE 1e6f
-// metres, of a body's bounding sphere
+// metres: the smallest radius of a body's bounding sphere
 #define NSVCD_MIN_RADIUS 1e-12f
-// of a motion
+// the most poses of a body in a question
 #define NSVCD_MAX_POSES 65536
-// of a body in a question
+// the scales that a body may have in a question
 #define NSVCD_MIN_SCALE 1e-6f
 #define NSVCD_MAX_SCALE 1e6f
 
-// Called now and then with the fraction done, in [0,1]. Return 0 to go on; anything else ends the
-// work with NSVCD_ERROR_CANCELLED.
+// A function that is called now and then with the fraction done, in [0,1]. It returns 0 to go on;
+// anything else ends the work with NSVCD_ERROR_CANCELLED.
 typedef int nsvcd_progress(float done, void *user);
 
-// Zero means the default.
+// How a mesh is encoded. Zero means the default.
 typedef struct nsvcd_encode_options {
-  // N, 1..NSVCD_MAX_PATCHES; 0: by the number of triangles, see above
+  // N, the number of patches, 1..NSVCD_MAX_PATCHES; default by patch_radius, if that is set, or
+  // else by the number of triangles, as above
   size_t patches;
-  // metres; if > 0 and patches is 0: as many patches as give each about this radius. For a level,
-  // take half the size of the bodies that move in it
+  // metres: the mesh gets as many patches as give each about this radius, if `patches` is 0. For a
+  // level, take half the size of the bodies that move in it
   float patch_radius;
-  // metres: the body is everything within this distance of the mesh. If > 0, triangles need no
-  // area: one vertex three times makes a ball, two vertices make a capsule. Such a body has no
-  // latents
+  // metres: the body is everything within this distance of the mesh. If it is not 0, triangles need
+  // no area: one vertex three times makes a ball, two vertices make a capsule. A body with a convex
+  // radius has no latents
   float convex_radius;
-  // 1: the mesh is not closed (a sheet, or a part cut out), and nothing is inside it. 0: what seems
-  // to be inside of nearly a solid is undecided, see CLOSED MESHES
+  // 1: the mesh is not closed (a sheet, or a part cut out), and nothing is inside it. 0: if
+  // something seems to be inside a component that is nearly a solid, a question is undecided; see
+  // CLOSED MESHES
   int open;
-  // 1: for the network as well. The proof needs no latents; they take 93 bytes a patch, and time
+  // 1: the network can answer as well. The proof needs no latents, which take 93 bytes a patch, and
+  // time to encode
   int latents;
-  // 1: for the network alone, in fewer bytes; there is then no proof
+  // 1: only the network can answer. The body takes fewer bytes, and there is no proof
   int no_triangles;
-  // 1: store the proof's triangles with 16 bits a coordinate, for scarce flash: about 5 % fewer
-  // bytes, 10 to 40 % fewer for a fine mesh. Verdicts are then about these triangles, which are
-  // within nsvcd_body_facts.quantization_error of the mesh's own: a HIT says that the mesh comes
-  // that near
+  // 1: the proof's triangles are stored with 16 bits a coordinate, for scarce flash. That takes
+  // about 5 % fewer bytes, 10 to 40 % fewer for a fine mesh. Verdicts are then about these
+  // triangles, which are within nsvcd_body_facts.quantization_error of the mesh's own: a HIT says
+  // that the mesh comes that near
   int coarse;
-  // NULL, or called with the fraction done
+  // called with the fraction done; may be NULL
   nsvcd_progress *progress;
-  // passed to progress
+  // passed to `progress`
   void *user;
 } nsvcd_encode_options;
 
 #ifndef NSVCD_NO_NETWORK
 // Bytes of a body without triangles; 0 if there can be no such body. A body with triangles is
 // larger: let nsvcd_encode allocate it.
+//   patches    1..NSVCD_MAX_PATCHES
 NSVCDDEF size_t nsvcd_body_size(size_t patches);
-// The same as a constant, for 1 to NSVCD_SMALL_PATCHES patches.
+// nsvcd_body_size as a constant, for 1 to NSVCD_SMALL_PATCHES patches.
 #define NSVCD_BODY_BYTES(patches) \
   ((64 + 52 * (((patches) + 15) / 16 * 16) + 16 * ((((patches) + 15) / 16 + 15) / 16 * 16) + \
     40 * (patches) + 7) / \
@@ -523,14 +552,14 @@ NSVCDDEF size_t nsvcd_body_size(size_t patches);
 #endif
 
 #ifndef NSVCD_NO_ENCODER
-// Encodes a mesh into a body, which may have fewer patches than asked for if the surface has too
-// few distinct points. Same mesh, same bytes, in one build: see DETERMINISM below.
+// Encodes a mesh into a body. It may have fewer patches than asked for, if the surface has too few
+// distinct points. The same mesh gives the same bytes, in one build: see DETERMINISM below.
 //   mesh       not NULL; not kept
 //   options    NULL: the defaults, for the proof
 //   allocator  NULL: malloc and free
 //   memory     (capacity) bytes, aligned to NSVCD_ALIGNMENT, for the body. NULL: the body comes
 //              from the allocator; free it with nsvcd_body_free
-//   body       not NULL; set to the body; left as it was on failure
+//   body       not NULL; set to the body, or left as it was on failure
 //   allocates  working memory, which is freed again, and the body if memory is NULL
 //   errors     ARGUMENT, PATCHES, RADIUS (`convex_radius`), LATENTS, INDEX, NUMBER, EMPTY,
 //              TOO_LARGE, MEMORY, WORKSPACE, CANCELLED
@@ -539,23 +568,27 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
                                    const nsvcd_allocator *allocator, void *memory,
                                    size_t capacity, const nsvcd_body **body);
 #ifndef NSVCD_NO_PROOF
-// Bodies of simple shapes, for the proof, exact but for rounding to float: what nsvcd_encode makes
-// of a point, a segment, a box or points with options.convex_radius. They are faster to query than
-// meshes of many triangles: a capsule is a single segment.
+// Encode bodies of simple shapes, for the proof: a sphere, a capsule, a box, a cloud of spheres.
+// They are exact but for rounding to float. Each is what nsvcd_encode makes of a point, a segment,
+// a box or points with options.convex_radius. They are faster to query than meshes of many
+// triangles: a capsule is a single segment.
 //
-// Voxels: a cloud of their centres with a radius of 0.8661 edges contains the cubes, with half an
-// edge it lies within them; only a mesh of their faces is exact. Keep a map that changes in chunks
-// of about 16 x 16 x 16 cells, a body each, encode only those that changed anew, and ask all that
-// are near with nsvcd_sweep_batch.
+// A cloud may be a map of voxels, of which it has the centres. With a radius of 0.8661 edges it
+// contains the cubes; with half an edge it lies within them. Only a mesh of their faces is exact.
+// Keep a map that changes in chunks of about 16 x 16 x 16 cells, each a body. Encode only those
+// anew that changed, and ask about all that are near with nsvcd_sweep_batch.
 //   radius, convex_radius  metres, > 0; a box's may be 0
 //   from, to        the ends of the capsule's axis, not NULL, metres; may be the same
-//   half            half-extents including convex_radius, each >= that; not NULL, metres
-//   points          (count, 3) metres, not NULL, not kept
+//   half            half the box's lengths, including convex_radius and no less than it; (3)
+//                   metres, not NULL
+//   points          (count, 3) centres of the spheres, metres, not NULL, not kept
 //   allocator       NULL: malloc and free
-//   body            not NULL; set to the body, which is centred at the origin, or lies where its
-//                   ends or points do; free it with nsvcd_body_free; left as it was on failure
+//   body            not NULL; set to the body, or left as it was on failure. Free it with
+//                   nsvcd_body_free. A sphere and a box are centred at the origin; a capsule and
+//                   a cloud lie where their ends and points do
 //   allocates       the body, and working memory, which is freed again
 //   errors          ARGUMENT, RADIUS, NUMBER, EMPTY, TOO_LARGE, MEMORY
+//   source          this library
 NSVCDDEF nsvcd_result nsvcd_encode_sphere(float radius, const nsvcd_allocator *allocator,
                                           const nsvcd_body **body);
 NSVCDDEF nsvcd_result nsvcd_encode_capsule(const float from[3], const float to[3],
@@ -569,58 +602,64 @@ NSVCDDEF nsvcd_result nsvcd_encode_cloud(const float *points, size_t count, floa
                                          const nsvcd_body **body);
 #endif
 // Frees a body that nsvcd_encode or one of the shapes allocated.
-//   body       may be NULL; memory that does not begin as a body does is left alone
+//   body       may be NULL; what does not begin as a body does is left alone
 //   allocator  the one that the body came from
 NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *allocator);
 #endif
 
 // Takes untrusted bytes for a body, after checking every one of them.
 //   memory     (size) bytes, not NULL, aligned to NSVCD_ALIGNMENT; the body stays in it
-//   body       not NULL; set to the body; left as it was on failure
+//   body       not NULL; set to the body, or left as it was on failure
 //   allocates  nothing
-//   errors     ARGUMENT (NULL), VERSION (a body, but of another version, other weights or the other
+//   errors     ARGUMENT (NULL), VERSION (the body has another version, other weights or the other
 //              byte order), BODY (anything else is wrong)
 NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size,
                                       const nsvcd_body **body);
 
-// nsvcd_body_load for bytes that are known to be as nsvcd_encode made them. Only the header is
-// checked: version, weights and size. For an array baked into the program, or a large mapped file
-// that was loaded once before: its pages are then read as queries need them. Bytes that have
-// changed since do harm: wrong answers, or reads out of bounds. Arguments and errors are those of
-// nsvcd_body_load.
+// Takes bytes for a body that are known to be as nsvcd_encode made them. Only the header is
+// checked: version, weights and size. Use it for an array baked into the program, or for a large
+// mapped file that was loaded once before, whose pages are then read as queries need them. Bytes
+// that have changed since do harm: answers are wrong, or reads go out of bounds.
+//   memory     (size) bytes, not NULL, aligned to NSVCD_ALIGNMENT; the body stays in it
+//   body       not NULL; set to the body, or left as it was on failure
+//   allocates  nothing
+//   errors     those of nsvcd_body_load
 NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size,
                                        const nsvcd_body **body);
 
-// Writes a copy of a body, scaled about its origin: for a planner, or to bake one. (A question has
-// scales of its own.) Latents do not depend on scale, and answers scale along, up to rounding.
+// Writes a copy of a body, scaled about its origin: for a planner, or to bake it. A question needs
+// no such copy, since a mover has a scale. Latents do not depend on scale, and answers scale along,
+// up to rounding.
 //   body       not NULL
 //   scale      > 0
-//   memory     (capacity) bytes, not NULL, aligned to NSVCD_ALIGNMENT; may be the body's own
-//   scaled     not NULL; set to the copy; left as it was on failure
+//   memory     (capacity) bytes, as many as the body has or more, not NULL, aligned to
+//              NSVCD_ALIGNMENT; may be the body's own
+//   scaled     not NULL; set to the copy, or left as it was on failure
 //   allocates  nothing
 //   errors     ARGUMENT, BODY, VERSION, SCALE (also if the copy would be smaller or larger than a
-//              body may be), WORKSPACE; with NSVCD_NO_PROOF also TRIANGLES: that build cannot scale
-//              them
+//              body may be), WORKSPACE, TRIANGLES (only with NSVCD_NO_PROOF, which cannot scale
+//              them)
 NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void *memory,
                                        size_t capacity, const nsvcd_body **scaled);
 
+// What a body is. The mesh is the one that it was encoded from, in the body's frame.
 typedef struct nsvcd_body_facts {
-  // bytes to save
+  // bytes of the body
   size_t size;
-  // N
+  // N, the number of patches
   size_t patches;
   // metres: a sphere that contains the body
   float centre[3];
   float radius;
-  // metres: no point of the mesh is farther from its origin
+  // metres: no point of the mesh is farther from the body's origin
   float extent;
-  // metres: a box that contains the mesh; 0 where no triangles are stored
+  // metres: a box that contains the mesh; 0 if no triangles are stored
   float low[3], high[3];
   // metres
   float mean_patch_radius;
-  // of the mesh; 0: none are stored
+  // number of the mesh's triangles; 0: none are stored
   size_t triangles;
-  // entries: triangles, and parts of them, patch by patch
+  // number of entries, which are triangles, and parts of them, patch by patch
   size_t stored_triangles;
   // metres: the triangles that verdicts are about are within this of the mesh's. 0: they are the
   // mesh's own floats. Otherwise the body is coarse, or nsvcd_body_scale has rounded it
@@ -629,21 +668,23 @@ typedef struct nsvcd_body_facts {
   float convex_radius;
   // 1: the network can answer
   int latents;
-  // of the mesh, and how many of them are open, see CLOSED MESHES; none: all of it is solid. 0, 0
-  // if no triangles are stored
+  // number of the mesh's components, and of those among them that are open (see CLOSED MESHES);
+  // both are 0 if no triangles are stored. No open ones: all of the mesh is solid
   size_t components, open_components;
-  // of the open components: edges with an odd number of triangles, mostly one
+  // number of edges of the open components that have an odd number of triangles, mostly one
   size_t open_edges;
-  // 1: options.open was set
+  // 1: the mesh was encoded as `open`
   int open;
 } nsvcd_body_facts;
 
-// Describes a body; all 0 if it is none.
+// Describes a body. If it is none, all facts are 0.
 //   body       may be NULL
 NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body);
 
-// The sphere of one patch. Returns 1; or 0, writing nothing, if there is no such patch or body.
-//   patch      as in nsvcd_answer
+// Writes the sphere of one patch. Returns 1; or 0, writing nothing, if there is no such patch or
+// body.
+//   body       may be NULL
+//   patch      a number, as nsvcd_answer has it
 //   centre     not NULL, metres, body frame
 //   radius     not NULL, metres
 NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float centre[3],
@@ -656,53 +697,60 @@ NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float cent
 //   By proof, the default, FREE and HIT are facts. They are about the surfaces of the two meshes,
 //   and about the motion as nsvcd_sweep describes it. The theorem stands in proof/proof, and
 //   tests/test_proof.c replays its certificates in double precision. UNDECIDED comes with a reason,
-//   nsvcd_why, and with the network's opinion where it has one. By the network everything is an
-//   opinion, whose measured error rates are in tests/bench/RESULTS.md. Where bodies of 0.1 to 0.4 m
-//   come within a millimetre of each other, two to six of a hundred answers are wrong: if a wrong
-//   answer does harm, ask for a proof. Whether one body is inside the other is estimated, by a
-//   winding number of patches: reliable for closed meshes.
+//   nsvcd_why, and with the network's opinion where it has one.
+//
+//   By the network, everything is an opinion. Its measured error rates are in
+//   tests/bench/RESULTS.md: two to six of a hundred answers are wrong where bodies of 0.1 to 0.4 m
+//   come within a millimetre of each other. If a wrong answer does harm, ask for a proof. Whether
+//   one body is inside the other is estimated by a winding number of patches, which is reliable for
+//   closed meshes.
 //
 // NUMERIC ROBUSTNESS, as measured by `make race`, `make bench`, tests/test_proof.c and
 // tests/bench/extremes.sh
-//   A query computes in float32; pairs of triangles, and whether one body is inside the other, in
+//   A query computes in float32, but for triangle pairs and containment, which are computed in
 //   double.
-//   Range         coordinates up to NSVCD_MAX_COORDINATE; bodies from NSVCD_MIN_RADIUS, below which
-//                 squares underflow. Proofs are tested from 3e-11 to 3e5 m.
-//   Rounding      proofs allow for NSVCD__ROUNDING, two millionths, of the distances and extents
+//   Range         Coordinates reach up to NSVCD_MAX_COORDINATE. Radii of bodies begin at
+//                 NSVCD_MIN_RADIUS, below which squares underflow. Proofs are tested from 3e-11 to
+//                 3e5 m.
+//   Rounding      Proofs allow for NSVCD__ROUNDING, two millionths, of the distances and extents
 //                 involved: 2 um for bodies of 0.3 m, 80 um if one measures 20 m. Surfaces must be
 //                 farther apart than that, and little more, to be certified free.
-//   Quantization  triangles of a coarse or scaled body are off by a few micrometres at most, if it
+//   Quantization  Triangles of a coarse or scaled body are off by a few micrometres at most, if it
 //                 measures 0.3 m.
-//   Far away      positions are first taken relative to the fixed body: a scene 10 km from the
-//                 origin loses what its own coordinates lose, about 1 mm. Everything is computed in
-//                 the frame of one body, the one that rests or else the larger, in units of its
-//                 scale.
-//   Resolution    limits the network: a patch must not be much larger than the clearance in
-//                 question. A body of 5 cm against one of 20 m, with 256 patches each, is judged
-//                 right in 62 % of problems near contact (RESULTS.md, *mixed*): cut the large mesh
-//                 to what the motion can reach, with nsvcd_mesh_cut. For a proof, the size of
-//                 patches decides only what an answer costs.
-//   Bad numbers   NaN and infinity are detected by their bits and refused, also under -ffast-math.
+//   Far away      Positions are first taken relative to one body, which is the one that rests, or
+//                 else the larger. Everything is computed in its frame, in units of its scale. So a
+//                 scene 10 km from the origin loses only what its own coordinates lose, about 1 mm.
+//   Resolution    The network needs patches that are not much larger than the clearance in
+//                 question. For a body of 5 cm against one of 20 m, with 256 patches each, 62 % of
+//                 its answers near contact are right (RESULTS.md, *mixed*). Cut the large mesh to
+//                 what the motion can reach, with nsvcd_mesh_cut. For a proof, the size of patches
+//                 decides only what an answer costs.
+//   Bad numbers   NaN and infinity are refused, also under -ffast-math: their bits are tested.
 //
 // DETERMINISM
 //   One binary on one processor makes the same blob of a mesh, the same answer to a question and
-//   the same plan, to the bit, whatever the workspace held and in any thread. One exception: an
-//   answer of nsvcd_sweep_batch may depend on the question before. Another compiler, other flags,
-//   another libm, and another processor where that selects the vectors, round differently. Given
-//   the same blobs, none of these refutes what another proves: by the theorem every proven verdict
-//   is true. But one may leave undecided what another proves, and times, points, patches and work
-//   differ. Logits differ by more than rounding: the search ends at the first pair that is clear,
-//   and when a pair is near that bound, or near another in rank, another pair or decoder may
-//   answer. So the network's verdict may differ where logits are near 0, or the ranker's near its
-//   bounds of +-3. The same holds for bodies that two builds encode, and for plans. Joints
-//   (nsvcd_plan, neuralsvcd_robot.h) are placed by libm's sines. With NSVCD_ONE_PATH, blobs without
-//   latents and answers by proof are the same to the bit with SSE2, AVX2, AVX-512, NEON, SIMD128
-//   and plain C, so that two machines replay a game alike: the same operations in the same order,
-//   no products fused into sums, this header's own sines and angles. gcc fuses unless it is told
-//   -std=c99 or the like, or -ffp-contract=off; clang fuses with -ffp-contract=fast: then
-//   nsvcd_self_test returns BUILD. It costs 4 to 14 % of the time (`make bench-one-path`).
+//   the same plan, to the bit, whatever the workspace held and in any thread. There is one
+//   exception: an answer of nsvcd_sweep_batch may depend on the question before it.
+//
+//   Two builds round differently if their compilers, flags or libms differ. So does one build on
+//   two processors that select different vectors. Given the same blobs, one never refutes what the
+//   other proves: by the theorem, every proven verdict is true. But one may leave undecided what
+//   the other proves, and times, points, patches and work differ.
+//
+//   The network's logits differ by more than rounding. Its search ends at the first pair that is
+//   clear. Where a pair is near that bound, or near another pair in rank, two builds may answer by
+//   different pairs or decoders. So the network's verdict may differ where the logit is near 0, or
+//   the ranker's near its bounds of +-3. So may bodies that two builds encode, and plans. The
+//   joints of nsvcd_plan and neuralsvcd_robot.h are placed by libm's sines.
+//
+//   NSVCD_ONE_PATH makes blobs without latents, and answers by proof, the same to the bit with
+//   SSE2, AVX2, AVX-512, NEON, SIMD128 and plain C, so that two machines replay a game alike. It
+//   does the same operations in the same order, fuses no products into sums, and has its own sines
+//   and angles. It costs 4 to 14 % of the time (`make bench-one-path`). The compiler must not fuse
+//   either: gcc does unless it is told -std=c99 or the like, or -ffp-contract=off; clang does with
+//   -ffp-contract=fast. In a build that fuses, nsvcd_self_test returns BUILD.
 
-// Takes a point x from the body's frame to the world: rotation x + position.
+// The place of a body. A point x of its frame is at `rotation` x + position in the world.
 typedef struct nsvcd_pose {
   float position[3];  // metres
   // unit quaternion x y z w; its length is 1 within NSVCD_UNIT_TOLERANCE
@@ -713,13 +761,13 @@ typedef struct nsvcd_pose {
 
 // What is asked about two moving bodies.
 typedef enum nsvcd_ask {
-  // do they hit each other at all? The search ends at any contact, and the answer's time is that of
+  // do they hit each other at all? The search ends at any contact. The answer's time is that of
   // this contact, which is usually not the first
   NSVCD_ASK_HIT = 0,
-  // do they, and when first? The answer says how far things may move
+  // do they, and when first? The answer also says how far the bodies may move
   NSVCD_ASK_FIRST,
-  // do they, and how near do they come? The time is as for HIT. The network, if it is named as the
-  // method, gives its opinion of the distance
+  // do they, and how near do they come? The answer's time is that of some contact, as for HIT. The
+  // network gives its opinion of the distance if it is named as the method
   NSVCD_ASK_DISTANCE
 } nsvcd_ask;
 
@@ -731,8 +779,8 @@ typedef enum nsvcd_method {
   NSVCD_METHOD_NETWORK  // an opinion, in strictly bounded time
 } nsvcd_method;
 
-// The decoders, all of the same latents: about 4, 13 and 40 thousand multiplications per pair of
-// patches.
+// The network's decoders. All decode the same latents. They take about 4, 13 and 40 thousand
+// multiplications for each pair of patches.
 typedef enum nsvcd_model {
   // the largest that is compiled in
   NSVCD_MODEL_DEFAULT = 0,
@@ -749,32 +797,33 @@ typedef enum nsvcd_precision {
 
 // Options of the network. Zero means the default.
 typedef struct nsvcd_network_options {
-  // K, the pairs of patches that are decoded, 1..NSVCD_MAX_PAIRS; 0: NSVCD_DEFAULT_PAIRS
+  // K, the number of patch pairs that are decoded, 1..NSVCD_MAX_PAIRS; default NSVCD_DEFAULT_PAIRS
   size_t pairs;
   nsvcd_model model;
   nsvcd_precision precision;
-  // fraction of collisions to be found: 0 (balanced errors), 0.99f, 0.999f or 0.9999f
+  // fraction of collisions to be found: 0.99f, 0.999f or 0.9999f; default 0, balanced errors
   float recall;
-  // Patches are inflated by this fraction of their radii before planes separate them, so that those
-  // that only come near are decoded too: the logit rises before contact and has a gradient there,
-  // but more near misses are called hits. 0: as much as `recall` needs; for a distance, 1
+  // fraction of their radii by which patches are inflated before planes separate them; default as
+  // much as `recall` needs, or 1 for a distance. Patches that only come near are then decoded too:
+  // the logit rises before contact and has a gradient there, but more near misses are called hits
   float inflate;
 } nsvcd_network_options;
 
-// Units of work: for DISTANCE and checks of joints; and for HIT and FIRST, of which only close fits
-// need as many.
+// units of work for DISTANCE and for checks of joints
 #define NSVCD_DEFAULT_WORK 100000
+// units of work for HIT and FIRST; only close fits need as many
 #define NSVCD_DEFAULT_VERDICT_WORK 10000000
 #define NSVCD_NO_TRIANGLE 0xffffffffu
-// of an answer
+// the most contacts of an answer
 #define NSVCD_MAX_CONTACTS 4
 #define NSVCD_DEFAULT_PAIRS 8
 #define NSVCD_MAX_PAIRS 256
 // the logit of a proven hit; proven free is its negative
 #define NSVCD_LOGIT_CERTAIN 100.0f
-// of the radius of the smaller body's sphere: the default of `to`
+// the default of `to`, as a fraction of the radius of the smaller body's sphere
 #define NSVCD_DEFAULT_TO 0.001f
 
+// no index
 #define NSVCD_NONE ((size_t)-1)
 #define NSVCD_MAX_JOINTS 32
 
@@ -783,78 +832,85 @@ typedef struct nsvcd_body_pair {
   uint32_t a, b;
 } nsvcd_body_pair;
 
-// A body in a scene: how it moves, and its size. Many movers may share one body.
+// A body in a question: its motion and its size. Many movers may share one body.
 typedef struct nsvcd_mover {
-  // from nsvcd_encode, nsvcd_body_load, nsvcd_body_trust or nsvcd_body_scale
+  // the body, from nsvcd_encode, nsvcd_body_load, nsvcd_body_trust or nsvcd_body_scale
   const nsvcd_body *body;
-  // (count) poses; in between the position is linear and the rotation a slerp. One: it rests there.
-  // NULL, with count 0: it rests at the origin
+  // (count) poses. Between two of them the position is linear in time and the rotation a slerp. One
+  // pose: the body rests there. NULL, with count 0: it rests at the origin
   const nsvcd_pose *poses;
-  // up to NSVCD_MAX_POSES
+  // number of poses, up to NSVCD_MAX_POSES
   size_t count;
-  // (count) the times of the poses, from 0 to 1, each at least 1e-7 after the one before; rounded
-  // to 2^-32. NULL: uniform
+  // (count) times of the poses, from 0 to 1, each at least 1e-7 after the one before; they are
+  // rounded to 2^-32. NULL: uniform
   const float *times;
-  // of the body, about its origin, NSVCD_MIN_SCALE..NSVCD_MAX_SCALE; 0: 1
+  // scale of the body about its origin, NSVCD_MIN_SCALE..NSVCD_MAX_SCALE; default 1
   float scale;
 } nsvcd_mover;
 
-// Do two bodies hit each other? Zero is the default of everything but the bodies.
+// A question about two bodies. Zero is the default of everything but the bodies.
 typedef struct nsvcd_question {
-  // either may move, or both, over the same time; their counts of poses may differ
+  // the bodies. Either may move, or both, over the same time; their counts of poses may differ
   nsvcd_mover a, b;
   nsvcd_ask ask;
-  // metres. FIRST: how far any point of one body may travel, as the other sees it, from time.low to
-  // time.high; at most a quarter of its whole travel, if triangles are stored that exactly.
-  // DISTANCE: how wide the bracket may be. 0 (and to_time 0): NSVCD_DEFAULT_TO of the smaller body.
-  // Not with HIT
+  // metres: how exact the answer has to be; not set with HIT. FIRST: no point of one body travels
+  // farther than this from time.low to time.high, as the other body sees it. Nor does it travel
+  // more than a quarter of its whole way, if triangles are stored that exactly. DISTANCE: the
+  // bracket is no wider than this and the quantization errors. Default NSVCD_DEFAULT_TO, unless
+  // to_time is set
   float to;
-  // FIRST: the same as a fraction of the motion, up to 1. If both are set, both hold
+  // how exact a FIRST has to be, as a fraction of the motion, up to 1: time.low to time.high is no
+  // longer than this. If `to` is set as well, both hold. Default: only `to` holds
   float to_time;
-  // metres: coming within this distance is a hit; 0: only meeting is
+  // metres: coming within this distance is a hit; default 0: only meeting is
   float clearance;
-  // metres: initial penetration, or violation of the clearance, up to this is ignored (their sum,
-  // if both). So a body may rest on another, slide along it or leave it. The question is then about
-  // a body that is pushed out by this much along the normals of all that it touches at the start:
-  // answer.push_out. Surfaces nearer than a twentieth of this count as touching. With FIRST, so do
-  // surfaces nearer than `to`, up to half of this, so that a body that was stopped before a contact
-  // can go on: entering it by less than the slop is FREE, although HIT, which has no `to`, reports
-  // a contact. answer.depth is 0 for surfaces that were so near but did not touch
+  // metres: a contact at the start does not count if it is no deeper than this. So a body may rest
+  // on another, slide along it or leave it. Its depth is that of the penetration, or of the
+  // violation of the clearance, or the sum of both.
+  //   The question is then about a body that is pushed out by the slop (answer.push_out), along the
+  // normals of all that it touches at the start. Surfaces nearer than a twentieth of the slop count
+  // as touching.
+  //   With FIRST, so do surfaces nearer than `to`, up to half of the slop. A body that was stopped
+  // before a contact can then go on: entering it by less than the slop is FREE, although HIT, which
+  // has no `to`, reports a contact. Where surfaces were so near but did not touch, answer.depth
+  // is 0
   float slop;
-  // metres: surfaces that come closer than this (than this and the clearance) without meeting may
-  // be left undecided
+  // metres: surfaces that come within the clearance and this together, but not within the
+  // clearance, may be left undecided
   float tolerance;
-  // FIRST: 1: report up to four contacts that hold the body, not one
+  // FIRST: 1 reports up to NSVCD_MAX_CONTACTS contacts, which hold the body; default one contact
   int manifold;
   nsvcd_method method;
-  // Units that a proof may take, approximately. 0: NSVCD_DEFAULT_VERDICT_WORK, for DISTANCE
-  // NSVCD_DEFAULT_WORK; each interval of a long motion (see nsvcd_sweep) may then take as much, so
-  // that the limit grows with the length.
+  // units that a proof may take, approximately; default NSVCD_DEFAULT_VERDICT_WORK, for DISTANCE
+  // NSVCD_DEFAULT_WORK. By default, each interval of a long motion (see nsvcd_sweep) may take as
+  // much, so that the limit grows with the length.
   //   A unit is one search for a plane between two patches, 16 triangles against the box of 16, one
   // triangle against 16, two triangles at one time, or a ray against 16 triangles or one.
   //   A limit that is given is for the whole motion, in the order of time. When it is reached, the
   // answer tells what was proven by then. DISTANCE divides what is left among the intervals by
   // their length.
-  //   Once surfaces have come too near to tell, an eighth of the limit is left; of FIRST that is
-  // for what follows them, and what precedes them has the rest. FIRST keeps an eighth for what is
-  // undecided by then: until when the motion is free, and whether the bodies meet at all. A
-  // manifold, and the pose of a pushed-out body, may take another eighth each. With 0, these
-  // eighths are of NSVCD_DEFAULT_WORK. Apart from them, a question takes the same work whatever the
-  // limit
+  //   An eighth of the limit (by default, of NSVCD_DEFAULT_WORK) is a reserve. Once surfaces have
+  // come too near to tell, only the reserve is left. FIRST spends it on what follows them, and the
+  // rest of the limit on what precedes them. FIRST also has the reserve for what is undecided when
+  // the limit is reached: until when the motion is free, and whether the bodies meet at all. A
+  // manifold may take another eighth, and so may the pose of a pushed-out body. Apart from these
+  // eighths, a question takes the same work whatever the limit
   size_t work;
-  // the most segments that a motion, or each interval of a long one, is cut into: a multiple of 16
-  // up to 64; 0: 64. Fewer take less memory, and make intervals shorter
+  // the most segments that a motion, or each interval of a long one, is cut into: 16, 32, 48 or 64;
+  // default 64. Fewer segments take less memory, and make intervals shorter
   size_t segments;
-  // if the network answers. It has no FIRST, clearance or slop, and no bounds of a DISTANCE: `to`
-  // is for proofs
+  // options of the network, if it answers. The network has no FIRST, no clearance and no slop, and
+  // does not bracket a DISTANCE: `to` is for proofs
   nsvcd_network_options network;
 } nsvcd_question;
 
 typedef enum nsvcd_verdict {
+  // neither is known; nsvcd_answer.why has the reason
   NSVCD_UNDECIDED = 0,
-  // the surfaces never come within the clearance, and nothing is inside of anything
+  // the surfaces never come within the clearance, and no part of one body is inside the other
   NSVCD_FREE,
-  // they do, or one body, or a part of it, is inside the other at the start
+  // the surfaces come within the clearance, or one body, or a part of it, is inside the other at
+  // the start
   NSVCD_HIT
 } nsvcd_verdict;
 
@@ -863,8 +919,8 @@ NSVCDDEF const char *nsvcd_verdict_string(nsvcd_verdict verdict);
 
 // Which method reached the verdict.
 typedef enum nsvcd_by {
-  // a fact. Bodies without triangles can also be FREE by proof: spheres that cover their surfaces
-  // never meet; only that nothing is inside is then an estimate
+  // a fact. Bodies without triangles can also be FREE by proof, if spheres that cover their
+  // surfaces never meet. Whether one of them is inside the other is then still an estimate
   NSVCD_BY_PROOF = 0,
   // an opinion
   NSVCD_BY_NETWORK
@@ -872,16 +928,16 @@ typedef enum nsvcd_by {
 
 // Why part of the question is not answered.
 typedef enum nsvcd_why {
-  // all of it is
+  // all of it is answered
   NSVCD_WHY_NOTHING = 0,
-  // surfaces come within the tolerance, within 1e-9 of all lengths, or, of coarse and scaled
-  // bodies, within their quantization errors, without meeting; or none of eight rays could tell
-  // whether one body is inside the other
+  // surfaces come too near each other without meeting: within question.tolerance, or within 1e-9 of
+  // all lengths, or, if a body is coarse or scaled, within the quantization errors. Or eight rays
+  // could not tell whether one body is inside the other
   NSVCD_WHY_TOO_NEAR,
   // question.work was not enough
   NSVCD_WHY_WORK,
-  // at the start, a part of one seems to be inside the other, which is nearly a solid (see CLOSED
-  // MESHES) but not closed: encode that one as `open` if nothing is inside of it
+  // a part of one body seems to be inside the other at the start, and the other is nearly a solid
+  // but not closed (see CLOSED MESHES). If nothing is inside it, encode it as `open`
   NSVCD_WHY_OPEN
 } nsvcd_why;
 
@@ -892,41 +948,44 @@ typedef struct nsvcd_range {
 
 // Two triangles, and where they meet or are nearest.
 typedef struct nsvcd_contact {
-  // metres, world: where they meet, or the point of b that is nearest to a, on b's surface if it
-  // has a convex radius. Large triangles are stored in parts; the point is on the part examined
-  // last
+  // metres, world: where the triangles meet, or else the point of b's that is nearest to a's. If b
+  // has a convex radius, the point is on b's surface. Large triangles are stored in parts: the
+  // point is on the part examined last
   float point[3];
-  // world, unit, from b to a, and against the motion: let v be the velocity of a's point relative
-  // to b's; if a motion has led to the contact, v . normal <= 0 (at a pose, v is that before it).
-  // For triangles that are apart it is the direction from b's nearest point to a's. For triangles
-  // that meet it is the direction in which they met, by their velocities at that time. A corner on
-  // a face: the face's normal, on the side that the corner came from, whatever the winding. An edge
-  // across an edge: the direction across both. A corner on a corner or an edge, or an edge along an
-  // edge: of all directions that still separated them, the one most against v.
-  //   Two kinds of contacts may point along v: triangles that touch from the start, which have the
-  // direction of least depth, out of closed surfaces; and points of a manifold where both faces are
-  // being left. 0 if no triangles are named, or if they have no area and so no direction
+  // unit, world: the direction from b to a, against the motion. Let v be the velocity of a's point
+  // relative to b's; if the contact is at a pose, just before that. If a motion has led to the
+  // contact, v . normal <= 0.
+  //   Triangles that are apart have the direction from b's nearest point to a's. Triangles that
+  // meet have the direction in which they met, by their velocities at that time. A corner on a face
+  // has the face's normal, on the side that the corner came from, whatever the winding. An edge
+  // across an edge has the direction across both. A corner on a corner or an edge, or an edge along
+  // an edge, has the direction most against v of all that still separated them.
+  //   Two kinds of normals may point along v. Triangles that touch from the start have the
+  // direction of least depth, out of closed surfaces. A manifold has points where both faces are
+  // being left.
+  //   The normal is 0 if no triangles are named, or if they have no area and so no direction
   float normal[3];
-  // metres between the stored triangles, less convex radii; in a manifold, at that point. 0: they
-  // meet
+  // metres: the distance of the stored triangles, less convex radii; 0: they meet. In a manifold it
+  // is the distance at that point
   float gap;
-  // in [0,1], rounded up
+  // time of the contact in [0,1], rounded up
   float time;
-  // as numbered in the caller's meshes; NSVCD_NO_TRIANGLE if none are named
+  // the triangles' numbers in the caller's meshes; NSVCD_NO_TRIANGLE if none are named
   uint32_t triangle_a, triangle_b;
-  // that hold these triangles
+  // the patches that hold these triangles
   uint32_t patch_a, patch_b;
-  // in a manifold: identifies the corner, or the two edges, that touch; the same as long as they do
+  // in a manifold: a number of the corner, or of the two edges, that touch. It stays the same as
+  // long as these touch
   uint32_t id;
 } nsvcd_contact;
 
 // Where the bodies may go: their poses at a time until which they are free of each other, pushed
-// out of what they touch. No such pose exists if they are in contact at the start and no push-out
-// ends that (depth is HUGE_VALF), or if one is, or may be, inside the other: then these are the
-// poses at the start, as the caller gave them.
+// out of what they touch. There is no such pose if they are in contact at the start and no push-out
+// ends that (answer.depth is HUGE_VALF), or if one body is, or may be, inside the other. Then the
+// poses are those at the start, as the caller gave them.
 typedef struct nsvcd_safe_pose {
-  // time.low; or, if they are about to touch then, a little less: by the error of poses in float
-  // and of coarse triangles
+  // time of the poses: time.low of the answer. If the bodies are about to touch then, it is a
+  // little less, by the error of poses in float and of coarse triangles
   float time;
   // world. The push-out is in the pose of a, or of b if only b moves. A slop below the resolution
   // of floats at that distance from the origin is lost in rounding
@@ -935,66 +994,71 @@ typedef struct nsvcd_safe_pose {
 
 // What the network estimates.
 typedef struct nsvcd_opinion {
-  // 1: it was asked. Otherwise everything here is 0
+  // 1: the network was asked. 0: everything here is 0
   int asked;
-  // of collision; positive means yes. The largest of the pairs decoded, less the threshold for
-  // `recall`; the search ends at the first above 3. Where the tiny decoder, which ranks the pairs,
-  // is clear (beyond +-3), its logit is the answer. NSVCD_LOGIT_CERTAIN or its negative: no decoder
-  // was needed. For DISTANCE: of the pair that comes nearest
+  // logit of a collision; positive means yes. It is the largest of the pairs decoded, less the
+  // threshold for `recall`. The search ends at the first logit above 3. Where the tiny decoder,
+  // which ranks the pairs, is clear (beyond +-3), its logit is the answer. NSVCD_LOGIT_CERTAIN or
+  // its negative: no decoder was needed. DISTANCE: the logit of the pair that comes nearest
   float logit;
-  // metres, of the same pair: the gap, or, negative, the depth. For DISTANCE it is the least of all
-  // pairs decoded, and within a patch's radius of contact usually right to a tenth of that radius;
-  // otherwise a by-product. HUGE_VALF if no decoder was needed
+  // metres: the gap of the pair that `logit` is of; if negative, the depth. HUGE_VALF: no decoder
+  // was needed. DISTANCE: the least gap of all pairs decoded, which within a patch's radius of
+  // contact is usually right to a tenth of that radius. For other questions it is a by-product
   float distance;
-  // in [0,1]: when the most suspicious pair comes closest
+  // time in [0,1] at which the most suspicious pair comes closest
   float time;
-  // that pair
+  // the patches of that pair
   uint32_t patch_a, patch_b;
-  // pairs of patches whose spheres meet and that no plane separates, each counted once per interval
-  // of time, until the search ends
+  // number of patch pairs whose spheres meet and that no plane separates, until the search ends. A
+  // pair counts once in each interval of time
   size_t candidates;
   // 1: there were more candidates than `pairs` let through
   int limited;
 } nsvcd_opinion;
 
-// Each field means the same whatever was asked and by which method. Unknown numbers are HUGE_VALF,
-// unknown counts 0.
+// What is known. Each field means the same whatever was asked and by which method. Unknown numbers
+// are HUGE_VALF, unknown counts 0.
 typedef struct nsvcd_answer {
   nsvcd_verdict verdict;
   nsvcd_by by;
+  // the reason if the verdict is UNDECIDED, or if a bracket of the time or distance is wider than
+  // the question says; else NSVCD_WHY_NOTHING. Of several reasons the first in this order is given:
+  // OPEN; WORK, if it is the bracket of a DISTANCE that is too wide; TOO_NEAR; WORK
   nsvcd_why why;
   // 1: a hit because one body, or a part of it, lies inside the other at the start, by proof or by
   // the network's estimate. Their surfaces may meet as well: HIT without a slop does not look
   int inside;
-  // in [0,1], of the first contact: the bodies are free of each other before `low`, and in contact
-  // at `high`. FIRST: as close together as `to` says. HIT, DISTANCE: low is 0, and high the time of
-  // some contact, perhaps not the first; by the network, when the pair that it suspects comes
-  // closest. FREE: 1, 1
+  // time of the first contact, in [0,1]: the bodies are free of each other before `low`, and in
+  // contact at `high`. FIRST: both are as close together as `to` and to_time say. HIT and DISTANCE:
+  // low is 0, and high is the time of some contact, perhaps not the first. By the network, high is
+  // when the pair that it suspects comes closest. FREE: both are 1
   nsvcd_range time;
-  // metres: the least distance over the motion, up to time.high if that is known; for a hit, at
-  // most the clearance. Quantization errors are allowed for, so `high` may be above 0 even where
-  // they meet
+  // metres: the least distance over the motion, or up to time.high if that is known. The distance
+  // of a hit is at most the clearance. Quantization errors are allowed for, so `high` may be above
+  // 0 even where the surfaces meet
   nsvcd_range distance;
   nsvcd_safe_pose safe;
-  // metres: of a contact at the start, the smallest push-out of a from b that ends it, up to the
-  // slop (or, if it combines several normals, their sum): along normals of what touches, or across
-  // two of its edges; to within a few per cent and quantization errors. 0: no contact at the start
+  // metres: how deep a contact at the start is, to within a few per cent and quantization errors.
+  // That is the length of the smallest push-out of a from b that ends it, along normals of what
+  // touches, or across two of its edges. The push-out goes up to the slop along each of these, so
+  // it may be longer where it combines several. 0: there is no contact at the start
   float depth;
-  // metres, world, at the start: how a was pushed out of b for the slop. It turns with b; or with
-  // a, if a rests, or if both move and a's extent, convex radius included, is the larger. The
-  // answer is about the motion displaced by it, which touches nothing at the start. 0: nothing
-  // touched, or was near enough to count; or no push-out helps, since a is pressed in deeper than
-  // the slop or held from all sides: then the contact counts
+  // metres, world, at the start: how a was pushed out of b for the slop. The answer is about the
+  // motion displaced by it, which touches nothing at the start. The push-out turns with b; or with
+  // a, if a rests, or if both move and a's extent, convex radius included, is the larger.
+  //   It is 0 if nothing touched or was near enough to count. It is also 0 if no push-out helps,
+  // since a is pressed in deeper than the slop or held from all sides. Then the contact counts
   float push_out[3];
-  // of a HIT with known triangles, at time.high: one contact; or a manifold, in the order of its
-  // ids: of all points no farther apart than the clearance and `to` (its default if only to_time is
-  // given), the four that span the largest area
+  // number of contacts at time.high, of a HIT with known triangles: one, or those of a manifold
   size_t contact_count;
+  // the contacts. A manifold has those four points that span the largest area, of all that are no
+  // farther apart than the clearance and `to` (its default if only to_time is given). They are in
+  // the order of their ids
   nsvcd_contact contacts[NSVCD_MAX_CONTACTS];
-  // the triangles that distance.high is about, whatever the verdict. HIT: the contact that was
-  // found; UNDECIDED: two that come too near to tell, for FIRST the earliest such. No triangles are
-  // named if none were found. If one body is inside the other, only the point is set, to one of the
-  // inner body
+  // the two triangles that distance.high is about, whatever the verdict. HIT: the contact that was
+  // found. UNDECIDED: two that come too near to tell, for FIRST the earliest such. No triangles are
+  // named if none were found. If one body is inside the other, only the point is set, to a point of
+  // the inner body
   nsvcd_contact nearest;
   nsvcd_opinion opinion;
   // units that the proof took
@@ -1006,8 +1070,8 @@ typedef struct nsvcd_answer {
 //   question   NULL: enough for any question
 NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 
-// Answers a question. Same question, same answer, in one build (see DETERMINISM), and the same
-// verdict if a and b are swapped.
+// Answers a question. The same question gets the same answer, in one build (see DETERMINISM), and
+// the same verdict if a and b are swapped.
 //   question   not NULL
 //   workspace  (workspace_size) bytes, nsvcd_sweep_workspace_size(question) or more, not NULL,
 //              aligned to NSVCD_ALIGNMENT
@@ -1021,32 +1085,36 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 //   source     the proof: this library, proof/proof; the network: NeuralSVCD, algorithm 1
 //
 // What is proven is about the surfaces of the two meshes, scaled and posed exactly as described.
-// FREE and HIT hold for the meshes' own floats: the triangles of a HIT meet, or come within the
-// clearance, to 1e-12 of all lengths (both extents and the distance of the bodies). UNDECIDED are
-// surfaces that come within 1e-9 of these without meeting, or questions that take more work than
-// allowed. If a body's nsvcd_body_facts.quantization_error is not 0 (it is coarse, or was scaled),
-// a HIT is one to within both errors, and surfaces nearer than these errors are undecided.
+// FREE and HIT hold for the meshes' own floats. The triangles of a HIT meet, or come within the
+// clearance, to 1e-12 of all lengths: both extents and the distance of the bodies. A question is
+// UNDECIDED if surfaces come within 1e-9 of these lengths without meeting, or if it takes more work
+// than allowed. Bodies that are coarse or were scaled have a quantization error, which
+// nsvcd_body_facts tells. Their HIT is one to within both bodies' errors, and surfaces nearer than
+// these errors are undecided.
 //
-// More work never leaves undecided what less decides, nor takes more units for it, unless less has
-// reached its last eighth (DISTANCE: its half). For FIRST, time.low rises with the work, and is 0
-// only if the first moments of the motion take more than a sixteenth of the work.
+// More work never leaves undecided what less decides. Nor does it take more units for that, unless
+// less has reached its last eighth (DISTANCE: its half). For FIRST, time.low rises with the work,
+// and is 0 only if the first moments of the motion take more than a sixteenth of the work.
 //
 // A motion of any length, up to NSVCD_MAX_POSES poses of each body, is one question, and takes no
-// more memory than a short one. With more than 64 poses, or more than 1,280 degrees of turn, it is
-// searched interval by interval, in the order of time: an interval has as many arcs from pose to
-// pose as make 64 segments, or question.segments, of at most 20 degrees each. Easy parts are
-// searched in much larger intervals. HIT tries both ends first. FIRST ends with the interval that
-// has the first contact. After an undecided interval, later ones are only asked whether the bodies
-// meet at all. Times are floats: among 65,536 poses they resolve a 250th of the time from one to
-// the next. More poses are refused with NSVCD_ERROR_POSES.
+// more memory than a short one. More poses are refused with NSVCD_ERROR_POSES. Times are floats:
+// among 65,536 poses they resolve a 250th of the time from one to the next.
 //
-// Cost: let Ga and Gb be the bodies' numbers of groups of 16 patches, and S the number of segments
-// of the motion or interval: about 16 up to 320 degrees of turn, 64 at most. The search takes at
-// most 18 S Ga Gb + 3 S tests of 16 spheres against one. For bodies of more than 512 patches, only
-// groups that the other body comes near count, and about 16 more tests for each level of spheres
-// and each 16 spheres of it that it comes near. Then a proof takes up to question.work units. The
-// network takes 18 S more tests, since it searches a first pair of groups twice, the tiny decoder
-// on 12 K pairs and the chosen one on K (the tiny alone: on 3 K), and 32 distances per patch.
+// A long motion, with more than 64 poses or more than 1,280 degrees of turn, is searched interval
+// by interval, in the order of time. An interval has as many arcs from pose to pose as make 64
+// segments, or question.segments, of at most 20 degrees each. Easy parts are searched in much
+// larger intervals. HIT tries both ends of the motion first. FIRST ends with the interval that has
+// the first contact. After an undecided interval, later ones are only asked whether the bodies meet
+// at all.
+//
+// What it costs: let Ga and Gb be the bodies' numbers of groups of 16 patches. Let S be the number
+// of segments of the motion or interval: about 16 up to 320 degrees of turn, 64 at most. The search
+// takes at most 18 S Ga Gb + 3 S tests of 16 spheres against one. In a body of more than 512
+// patches, only groups that the other body comes near count. About 16 more tests are made there for
+// each level of spheres, and for each 16 spheres of it that the other body comes near. Then a proof
+// takes up to question.work units. The network takes 18 S more tests, since it searches a first
+// pair of groups twice. It runs the tiny decoder on 12 K pairs and the chosen one on K (the tiny
+// alone: on 3 K), and computes 32 distances for each patch.
 NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace,
                                   size_t workspace_size, nsvcd_answer *answer);
 
@@ -1067,15 +1135,15 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspac
 #define NSVCD_NETWORK_WORKSPACE_BYTES(patches_a, patches_b, segments, pairs) \
   (NSVCD__SEARCH_BYTES(patches_a, patches_b, segments) + 576 + 32 * (segments) + 112 * (pairs))
 
-// Answers many questions, such as a frame of a game or a sampling planner has. If a question and
-// the one before it ask the network about the same two bodies, the pair of patches that collided
-// before is tried first. If it collides clearly again (logit above 3), that is the answer, and
-// nothing else is searched. All other answers are nsvcd_sweep's, to the bit.
+// Answers many questions, such as a frame of a game or a sampling planner has. The answers are
+// those of nsvcd_sweep, to the bit, with one exception. If a question and the one before it ask the
+// network about the same two bodies, the pair of patches that collided before is tried first. If
+// that pair collides clearly again (logit above 3), it is the answer, and nothing else is searched.
 //   questions  (count); count may be 0
-//   workspace  as for nsvcd_sweep, large enough for each question
+//   workspace  (workspace_size) bytes, as for nsvcd_sweep, large enough for each question
 //   answers    (count); left as they were on failure
 //   allocates  nothing
-//   threads    as nsvcd_sweep
+//   threads    each needs a workspace of its own; bodies may be shared
 //   errors     those of nsvcd_sweep, for the first question that has one
 //   source     this library; physics engines call it temporal coherence
 NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t count,
@@ -1083,28 +1151,28 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
                                         nsvcd_answer *answers);
 
 #ifndef NSVCD_NO_GRADIENT
-// Answers a question by the network, with the derivatives of its logit by the poses of a and b; for
-// DISTANCE, of opinion.distance, along which lies the shortest way out. Whatever drives the poses
-// (joints, a spline) goes on from there by the chain rule.
+// Answers a question by the network, with the derivatives of its logit by the poses of a and b. For
+// DISTANCE they are the derivatives of opinion.distance, along which lies the shortest way out.
+// Whatever drives the poses (joints, a spline) goes on from there by the chain rule.
 //   question   its method is not PROOF, and it asks nothing that only a proof answers
 //   workspace, answer   as for nsvcd_sweep
 //   gradient_a, gradient_b   (count, 6), one row for a body without poses; one of them may be NULL;
-//              left as they were on failure. Of each pose: by a displacement of the body's origin
-//              (metres, world axes), then by a small rotation about that origin (rotation vector,
-//              radians, world axes, applied on the left)
+//              left as they were on failure. A pose's row has the derivatives by a displacement of
+//              the body's origin (metres, world axes), then by a small rotation about that origin
+//              (rotation vector, radians, world axes, applied on the left)
 //   allocates  nothing
-//   threads    as nsvcd_sweep
+//   threads    each needs a workspace of its own; bodies may be shared
 //   errors     those of nsvcd_sweep
 //   source     reverse mode; this library
 //
-// It is zero if no decoder was needed, and for poses that do not affect the decisive pair. It is
-// the gradient of the pair and the interval of time that decided. As a maximum over pairs, the
-// logit has kinks; it also has those of the network (ReLU) and of a pair's frame, and some where a
-// flat patch does not turn. At rest it is the mean of both sides. The ends of the interval move
-// with the poses, except at t = 0 and 1 and where a segment of the search begins or ends. The unit
-// of length, and the spheres' allowance for the motion between keyframes, are taken as constant.
-// With int8 it is the derivative of the float decoder, or, if that is compiled out, of the function
-// that int8 rounds.
+// The gradient is that of the pair and the interval of time that decided. It is zero if no decoder
+// was needed, and for poses that do not affect that pair. As a maximum over pairs, the logit has
+// kinks. Others come from the network (ReLU) and from a pair's frame, and there are some where a
+// flat patch does not turn. There is one where nothing moves: the gradient is then the mean of both
+// its sides. The ends of the interval move with the poses, except at t = 0 and 1 and where a
+// segment of the search begins or ends. The unit of length, and the spheres' allowance for the
+// motion between keyframes, are taken as constant. With int8 it is the derivative of the float
+// decoder, or, if that is compiled out, of the function that int8 rounds.
 NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace,
                                            size_t workspace_size, nsvcd_answer *answer,
                                            float *gradient_a, float *gradient_b);
@@ -1113,20 +1181,21 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
 // --------------------------------------------------------------------------------- interface/plans
 // In: a planning problem, or control points. Out: control points, or the joints at a time.
 //
-// A trajectory of F joints is a spline through control points: the start, M via points, the goal;
-// control (M + 2, F), uniform in t in [0,1]. It has degree five between two points. At via points
-// its velocity and acceleration are those of central differences, and it rests at both ends, so
-// both are continuous everywhere.
+// A trajectory of F joints is a spline through control points: the start, M via points and the
+// goal, at uniform times t in [0,1]. They are an array `control` (M + 2, F). Between two of them
+// the spline has degree five. At a via point its velocity and acceleration are central differences
+// of the control points; at both ends it rests. So both are continuous everywhere.
 
 #ifndef NSVCD_NO_OPTIMIZER
 #define NSVCD_MAX_VIA_POINTS 32
-// of a stage of the planner
+// the most segments of a stage of the planner
 #define NSVCD_MAX_PLAN_SEGMENTS 4096
 
-// The joints at a time, or their derivatives by t.
-//   control    (via_points + 2, joints), not NULL
+// Evaluates a spline: tells where the joints are at a time, or their derivatives by t.
+//   control    (via_points + 2, joints) radians or metres, not NULL
 //   via_points M, up to NSVCD_MAX_VIA_POINTS; if more, nothing is written
-//   t          clamped to [0,1]
+//   joints     F, the number of joints
+//   t          time, clamped to [0,1]
 //   derivative 0: the joints; 1, 2, 3: velocity, acceleration, jerk; if more, nothing is written
 //   out        (joints), not NULL
 //   allocates  nothing
@@ -1135,167 +1204,178 @@ NSVCDDEF void nsvcd_spline(const float *control, size_t via_points, size_t joint
                            size_t derivative, float *out);
 
 typedef enum nsvcd_plan_status {
-  // the trajectory is within the limits and free of collision: proven where bodies have triangles,
-  // otherwise as far as the network knows; up to its deviation from the last check's motion,
-  // answer.deviation
+  // the trajectory is within the limits and free of collision. That is proven where bodies have
+  // triangles; otherwise it is so as far as the network knows. It is about the motion of the last
+  // check, from which the trajectory deviates by answer.deviation
   NSVCD_PLAN_CONVERGED = 0,
-  // the iterations ended before a free one was found; this is the best
+  // the iterations ended before a free trajectory was found; this is the best
   NSVCD_PLAN_LIMIT,
-  // by the progress callback; this is the best so far
+  // the progress callback ended the search; this is the best trajectory so far
   NSVCD_PLAN_CANCELLED,
-  // the start is out of the limits or in collision; control is the smoothest path to the goal
+  // the start is out of the limits or in collision; `control` is the smoothest path to the goal
   NSVCD_PLAN_START,
-  // the same of the goal
+  // the goal is out of the limits or in collision; `control` is the smoothest path to it
   NSVCD_PLAN_GOAL
 } nsvcd_plan_status;
 
 // The status in a word or two, for people; never NULL.
 NSVCDDEF const char *nsvcd_plan_status_string(nsvcd_plan_status status);
 
+// How far a plan has come.
 typedef struct nsvcd_plan_progress {
-  // from 0
+  // the number of the initial trajectory, and of the stage's iteration with it, from 0
   size_t seed, iteration;
-  // of this stage; L-BFGS starts again if the proof finds a hit
+  // how many iterations this stage has. L-BFGS starts again if the proof finds a hit
   size_t iterations;
   // 0: MPPI, 1: L-BFGS
   int refining;
-  // of the best trajectory of this stage. Stages evaluate different poses, so their costs do not
-  // compare
+  // cost of the best trajectory of this stage. Stages evaluate different poses, so their costs do
+  // not compare
   float cost;
   // the part of the cost due to collision; 0: free, as far as the stage's segments show
   float collision;
-  // (via_points + 2, F), valid during the call
+  // (via_points + 2, F) the best trajectory, valid during the call
   const float *control;
+  // M
   size_t via_points;
 } nsvcd_plan_progress;
 
-// A scene: how bodies move, and which pairs can meet; no others are checked. All callbacks get the
-// same `user`, and must depend on nothing but that and their arguments.
+// A scene: how bodies move, and which pairs can meet. No other pairs are checked. All callbacks get
+// the same `user`, and must depend on nothing but that and their arguments. Joints are in radians
+// or metres.
 typedef struct nsvcd_plan_problem {
   // F, 1..NSVCD_MAX_JOINTS
   size_t joints;
-  // (F), limits
+  // (F) limits of the joints
   const float *low, *high;
-  // (F)
+  // (F) joints
   const float *start, *goal;
-  // (B), up to 65536, with latents; those in no pair may be NULL
+  // (B) bodies, with latents; those in no pair may be NULL
   const nsvcd_body *const *bodies;
+  // B, up to 65536
   size_t body_count;
-  // (P). The planner asks about a's motion as seen from b. Let b be the body that rests, or else
-  // the larger: the other way round is a little less accurate
+  // (P) pairs of indices of bodies. The planner asks about a's motion as seen from b. Let b be the
+  // body that rests, or else the larger: the other way round is a little less accurate
   const nsvcd_body_pair *pairs;
+  // P
   size_t pair_count;
-  // joints (F) -> poses (B), in the world. To grasp a thing, let this move it with the hand;
-  // nothing is encoded again
+  // computes the poses (B) of the bodies in the world, for joints (F). To grasp a thing, let this
+  // move it with the hand; nothing is encoded again
   void (*kinematics)(void *user, const float *joints, nsvcd_pose *poses);
-  // joints (F) -> jacobian (B, 6, F): for each body and joint, the displacement of the body's
-  // origin and its rotation vector, in world axes. NULL: by differences of `kinematics`
+  // computes the jacobian (B, 6, F) for joints (F): for each body and joint, the displacement of
+  // the body's origin and its rotation vector, in world axes. NULL: by differences of `kinematics`
   void (*jacobian)(void *user, const float *joints, float *jacobian);
-  // NULL: the network. Otherwise the cost of collision of poses (T, B) at T times along the
-  // trajectory. It may return as soon as the sum exceeds `limit`. Sets *collides if there is a
-  // collision. Unless `gradient` is NULL, adds the cost's derivative to it, (T, B, 6), as
+  // returns the cost of collision of poses (times, B) along the trajectory; NULL: the network's. It
+  // may return as soon as the sum exceeds `limit`. It sets *collides if there is a collision.
+  // Unless `gradient` is NULL, it adds the cost's derivative to it, (times, B, 6), as
   // nsvcd_sweep_gradient has it
   float (*collision)(void *user, const nsvcd_pose *poses, size_t times, float limit,
                      int *collides, float *gradient);
-  // called once per iteration; not 0 cancels. May be NULL
+  // called once per iteration; may be NULL. If it returns anything but 0, the plan is cancelled
   int (*progress)(void *user, const nsvcd_plan_progress *progress);
+  // passed to all of these
   void *user;
 } nsvcd_plan_problem;
 
-// Zero means the stage's default.
+// One of the planner's two stages. Zero means its default, which nsvcd_plan_options tells.
 typedef struct nsvcd_plan_stage {
   // M, up to NSVCD_MAX_VIA_POINTS
   size_t via_points;
-  // of the trajectory, each swept as one motion; with `discrete`, their ends are checked; up to
-  // NSVCD_MAX_PLAN_SEGMENTS
+  // number of segments of the trajectory, up to NSVCD_MAX_PLAN_SEGMENTS. Each is swept as one
+  // motion; with `discrete`, its ends are checked
   size_t segments;
-  // at most, up to 100000; NSVCD_NONE: skip the stage
+  // the most iterations, up to 100000; NSVCD_NONE: the stage is skipped
   size_t iterations;
-  // random trajectories in an iteration of MPPI, or gradients in a bundle of L-BFGS; up to 10000
+  // number of random trajectories in an iteration of MPPI, or of gradients in a bundle of L-BFGS;
+  // up to 10000
   size_t draws;
-  // their standard deviation around the trajectory, radians or metres: for MPPI at mid-motion, in
-  // the first iteration; for L-BFGS's bundle at all via points. Negative: 0
+  // radians or metres: their standard deviation around the trajectory. That is at mid-motion in the
+  // first iteration of MPPI, and at all via points for L-BFGS's bundle. Negative: 0
   float noise;
 } nsvcd_plan_stage;
 
-// Zero means the default, which is given last; negative weights count as zero. If an exact check
-// finds contacts, raise sweep.network.recall, `collision` or the bodies' number of patches; if the
+// How a plan is made. Zero means the default; negative weights count as zero. If an exact check
+// finds contacts, raise sweep.network.recall, `collision` or the bodies' number of patches. If the
 // status is LIMIT, raise `seeds` or explore.draws. Smoothness counts radians and metres alike: for
 // paths of hundreds of metres, raise `duration` or `collision`.
 typedef struct nsvcd_plan_options {
-  // of all random numbers
+  // seed of all random numbers
   uint64_t seed;
-  // initial trajectories, tried until one ends free, up to 1000; 6
+  // the most initial trajectories, which are tried until one ends free, up to 1000; default 6
   size_t seeds;
-  // MPPI: 5 via points, 24 segments, 40 iterations, 100 draws, noise 0.3
+  // MPPI; default 5 via points, 24 segments, 40 iterations, 100 draws, noise 0.3
   nsvcd_plan_stage explore;
-  // L-BFGS: 10, 22, 10, 10, 0.01
+  // L-BFGS; default 10 via points, 22 segments, 10 iterations, 10 draws, noise 0.01
   nsvcd_plan_stage refine;
-  // weights of the mean squares over the motion: 10, 2, 10
+  // weights of their mean squares over the motion; default 10, 2, 10
   float velocity, acceleration, jerk;
-  // weight of the sum of logits over pairs and segments: 20; the paper's is 1
+  // weight of the sum of logits over pairs and segments; default 20 (the paper's is 1)
   float collision;
-  // seconds from start to goal; they only weight the terms above: 20
+  // seconds from start to goal, which only weight the terms above; default 20
   float duration;
-  // logits above minus this cost: 2
+  // logits above minus this have a cost; default 2
   float margin;
-  // 1: check poses instead of sweeps
+  // 1: poses are checked instead of sweeps
   int discrete;
-  // segments of the last check, up to 4 NSVCD_MAX_PLAN_SEGMENTS; 16 times the finest stage's, or
-  // that limit. Joint limits are checked between segments and at via points. Twice as many make
-  // answer.deviation a quarter
+  // segments of the last check, up to 4 NSVCD_MAX_PLAN_SEGMENTS; default 16 times those of the
+  // finest stage, or that limit. Joint limits are checked between segments and at via points. Twice
+  // as many segments make answer.deviation a quarter
   size_t check;
   // how questions are asked; sweep.network.recall = 0.999f keeps more distance. The search asks the
-  // network; `method`, `clearance`, `slop` and the like apply to the start, the goal and the last
+  // network. `method`, `clearance`, `slop` and the like apply to the start, the goal and the last
   // check. Not read: a, b, ask, to and to_time
   nsvcd_question sweep;
 } nsvcd_plan_options;
 
+// What was found.
 typedef struct nsvcd_plan_answer {
   nsvcd_plan_status status;
-  // by the last check, or of the start or the goal if the status names it
+  // 1: the trajectory collides, by the last check; or the start or the goal does, if the status
+  // names it
   int collides;
-  // a joint that leaves its limits, or NSVCD_NONE
+  // a joint that leaves its limits; NSVCD_NONE: none does
   size_t joint;
-  // the pair with the largest logit, or NSVCD_NONE
+  // the pair with the largest logit; NSVCD_NONE: there is none
   size_t pair;
-  // the largest of the last check; with a custom cost of collision, that cost
+  // the largest logit of the last check; with a custom cost of collision, that cost
   float logit;
-  // of that logit, in [0,1]
+  // time of that logit, in [0,1]
   float time;
-  // metres: how far the spline leaves the motion of the last check, through whose poses it goes:
-  // the largest deviation of any point of a's bounding sphere, as b sees it, over all pairs whose a
-  // is given, also with a custom cost of collision. Measured, not proven: half way between two
-  // poses, where a smooth curve deviates most, at 16 or more times in each piece of the spline. 0
-  // if no trajectory was sought
+  // metres: how far the spline deviates from the motion of the last check, through whose poses it
+  // goes. It is the largest deviation of any point of a's bounding sphere, as b sees it, over all
+  // pairs whose body a is given, also with a custom cost of collision. It is measured, not proven:
+  // half way between two poses, where a smooth curve deviates most, at 16 or more times in each
+  // piece of the spline. 0: no trajectory was sought
   float deviation;
-  // of the trajectory; smoothness is without collision and limits. 0 if none was sought
+  // cost of the trajectory, and the part of it that is due to neither collision nor limits; 0: no
+  // trajectory was sought
   float cost, smoothness;
   // M of `control`
   size_t via_points;
-  // used; iterations of both stages
+  // number of initial trajectories that were used, and of iterations of both stages
   size_t seeds, iterations;
-  // whose cost was computed
+  // number of trajectories whose cost was computed
   size_t trajectories;
-  // queries asked
+  // number of queries asked
   size_t sweeps;
 } nsvcd_plan_answer;
 
 // Bytes of workspace that nsvcd_plan needs; 0 if problem or options are refused, or if it would be
 // more than SIZE_MAX.
+//   problem    not NULL
 //   options    NULL: the defaults
 NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
                                           const nsvcd_plan_options *options);
 
-// Finds a smooth trajectory from start to goal on which no pair meets. Same problem, same
-// trajectory, in one build: see DETERMINISM above.
+// Finds a smooth trajectory from start to goal on which no pair meets. The same problem gives the
+// same trajectory, in one build: see DETERMINISM above.
 //   problem    not NULL
 //   options    NULL: the defaults
 //   workspace  (workspace_size) bytes, nsvcd_plan_workspace_size(problem, options) or more, not
 //              NULL, aligned to NSVCD_ALIGNMENT
-//   control    (M + 2, F), not NULL, with the M of options.refine, or of explore if that is
-//              skipped; NSVCD_MAX_VIA_POINTS + 2 rows are always enough. Written whatever the
-//              status, but not on failure
+//   control    (M + 2, F) radians or metres, not NULL; M is that of options.refine, or of explore
+//              if refine is skipped. NSVCD_MAX_VIA_POINTS + 2 rows are always enough. It is written
+//              whatever the status, but not on failure
 //   answer     not NULL; left as it was on failure
 //   allocates  nothing
 //   threads    each needs a workspace of its own; bodies may be shared
@@ -1309,8 +1389,8 @@ NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
 // If bodies have triangles, the start, the goal and the final trajectory are proven free. The proof
 // is about the motion of each pair, as seen from b, between the poses of the check's segments, with
 // linear positions and slerped rotations. The spline goes through these poses, and deviates from
-// that motion in between by answer.deviation, which is not proven: to clear the spline itself, as
-// measured, ask for a larger sweep.clearance than that. With `discrete`, or a custom cost of
+// that motion in between by answer.deviation, which is measured, not proven. To clear the spline
+// itself, ask for a larger sweep.clearance than that. With `discrete`, or a custom cost of
 // collision, nothing is proven between the poses.
 //
 // If the proof finds a hit, the refinement goes on from there with twice the margin and a little
