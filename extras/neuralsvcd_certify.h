@@ -19,6 +19,7 @@
 //     valid           is what a caller hands over in order?
 //     points          vectors of three, of floats and of doubles
 //     rotations       quaternions and matrices, of floats and of doubles
+//     motions         between two poses: lines and slerps, in double
 //     triangles       two triangles: where they meet, or are nearest
 //     spheres         spheres and slabs, as bodies store them
 //     random          random numbers
@@ -626,16 +627,21 @@ static inline nsvcd__d3 nsvcd__d3_stored(nsvcd__d3 a) {
 // its rows. A transform is a rotation and a position.
 
 // The algebra of both: NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__f3, float, sqrtf) writes
-// nsvcd__quat_dot, nsvcd__mat3_apply and so on. _fma(s, b, a) is s b + a; _axis is that of a unit
-// quaternion, times the sine of half its angle; _of is the matrix of a unit quaternion;
-// _apply_transpose is the transpose of m, times a.
-#define NSVCD__ROTATIONS(quat, mat, vec, scalar, sqrt) \
+// nsvcd__quat_dot, nsvcd__mat3_apply and so on. _fma(s, b, a) is s b + a; _inverse and _axis are
+// those of a unit quaternion, the axis times the sine of half its angle; _mul(a, b) is the rotation
+// by b, then by a; _of is the matrix of a unit quaternion; _apply_transpose is the transpose of m,
+// times a. A transform takes a to rotation a + position.
+#define NSVCD__ROTATIONS(quat, mat, placed, vec, scalar, sqrt) \
   typedef struct quat { \
     scalar x, y, z, w; \
   } quat; \
   typedef struct mat { \
     vec x, y, z; \
   } mat; \
+  typedef struct placed { \
+    mat rotation; \
+    vec position; \
+  } placed; \
   static inline scalar quat##_dot(quat a, quat b) { \
     return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w; \
   } \
@@ -652,6 +658,18 @@ static inline nsvcd__d3 nsvcd__d3_stored(nsvcd__d3 a) {
   } \
   static inline vec quat##_axis(quat q) { \
     return vec##_of(q.x, q.y, q.z); \
+  } \
+  static inline quat quat##_inverse(quat q) { \
+    const quat out = {-q.x, -q.y, -q.z, q.w}; \
+    return out; \
+  } \
+  static inline quat quat##_mul(quat a, quat b) { \
+    quat out; \
+    out.x = a.w * b.x + a.x * b.w + (a.y * b.z - a.z * b.y); \
+    out.y = a.w * b.y + a.y * b.w + (a.z * b.x - a.x * b.z); \
+    out.z = a.w * b.z + a.z * b.w + (a.x * b.y - a.y * b.x); \
+    out.w = a.w * b.w - (a.x * b.x + a.y * b.y + a.z * b.z); \
+    return out; \
   } \
   NSVCD__UNFUSED mat mat##_of(quat q) { \
     mat m; \
@@ -677,20 +695,13 @@ static inline nsvcd__d3 nsvcd__d3_stored(nsvcd__d3 a) {
   static inline vec mat##_apply_transpose(const mat *m, vec a) { \
     const mat back = mat##_transpose(*m); \
     return mat##_apply(&back, a); \
+  } \
+  static inline vec vec##_transform(const placed *t, vec a) { \
+    return vec##_add(mat##_apply(&t->rotation, a), t->position); \
   }
-NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__f3, float, sqrtf)
-NSVCD__ROTATIONS(nsvcd__dquat, nsvcd__dmat3, nsvcd__d3, double, sqrt)
+NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__transform, nsvcd__f3, float, sqrtf)
+NSVCD__ROTATIONS(nsvcd__dquat, nsvcd__dmat3, nsvcd__dtransform, nsvcd__d3, double, sqrt)
 #undef NSVCD__ROTATIONS
-
-// The inverse of a, unit, times b.
-static inline nsvcd__dquat nsvcd__dquat_inverse_mul(nsvcd__dquat a, nsvcd__dquat b) {
-  const nsvcd__d3 u = nsvcd__dquat_axis(a);
-  const nsvcd__d3 v = nsvcd__dquat_axis(b);
-  const nsvcd__d3 along = nsvcd__d3_sub(nsvcd__d3_scale(v, a.w), nsvcd__d3_scale(u, b.w));
-  const nsvcd__d3 axis = nsvcd__d3_sub(along, nsvcd__d3_cross(u, v));
-  const nsvcd__dquat out = {axis.x, axis.y, axis.z, a.w * b.w + nsvcd__d3_dot(u, v)};
-  return out;
-}
 
 static inline nsvcd__dmat3 nsvcd__dmat3_scale(const nsvcd__dmat3 *m, double s) {
   const nsvcd__dmat3 out = {nsvcd__d3_scale(m->x, s), nsvcd__d3_scale(m->y, s),
@@ -699,12 +710,6 @@ static inline nsvcd__dmat3 nsvcd__dmat3_scale(const nsvcd__dmat3 *m, double s) {
 }
 
 // ---- quaternions and matrices of floats
-
-// A rotation and a position: a -> rotation a + position.
-typedef struct nsvcd__transform {
-  nsvcd__mat3 rotation;
-  nsvcd__f3 position;
-} nsvcd__transform;
 
 static inline nsvcd__quat nsvcd__quat_of(float x, float y, float z, float w) {
   const nsvcd__quat out = {x, y, z, w};
@@ -725,12 +730,13 @@ static inline void nsvcd__quat_store(nsvcd__quat q, float *p) {
 }
 
 // Is the shorter arc from a to b the one to -b? Products of floats are exact in double, so every
-// machine and the exact poses of the proof agree, even if both arcs are equally long to rounding.
+// machine agrees, and so do poses in float and in double, even if both arcs are equally long to
+// rounding.
 static inline int nsvcd__quats_opposed(nsvcd__quat a, nsvcd__quat b) {
   double dot = (double)a.x * (double)b.x;
-  dot += (double)a.y * (double)b.y;
-  dot += (double)a.z * (double)b.z;
-  dot += (double)a.w * (double)b.w;
+  dot = nsvcd__stored(dot + (double)a.y * (double)b.y);
+  dot = nsvcd__stored(dot + (double)a.z * (double)b.z);
+  dot = nsvcd__stored(dot + (double)a.w * (double)b.w);
   return dot < 0;
 }
 
@@ -745,20 +751,7 @@ static inline float nsvcd__quat_arc(nsvcd__quat a, nsvcd__quat b) {
 static inline nsvcd__quat nsvcd__quat_beside(nsvcd__quat q, int opposed) {
   return opposed ? nsvcd__quat_of(-q.x, -q.y, -q.z, -q.w) : q;
 }
-// Of a unit quaternion.
-static inline nsvcd__quat nsvcd__quat_inverse(nsvcd__quat q) {
-  return nsvcd__quat_of(-q.x, -q.y, -q.z, q.w);
-}
 
-// The rotation by b, then by a.
-static inline nsvcd__quat nsvcd__quat_mul(nsvcd__quat a, nsvcd__quat b) {
-  nsvcd__quat out;
-  out.x = a.w * b.x + a.x * b.w + (a.y * b.z - a.z * b.y);
-  out.y = a.w * b.y + a.y * b.w + (a.z * b.x - a.x * b.z);
-  out.z = a.w * b.z + a.z * b.w + (a.x * b.y - a.y * b.x);
-  out.w = a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z;
-  return out;
-}
 // The turn from a to b, both unit: its axis, times the sine of half its angle.
 static inline nsvcd__f3 nsvcd__quat_turn(nsvcd__quat a, nsvcd__quat b) {
   return nsvcd__quat_axis(nsvcd__quat_mul(b, nsvcd__quat_inverse(a)));
@@ -795,10 +788,118 @@ static inline nsvcd__mat3 nsvcd__mat3_mul(const nsvcd__mat3 *a, const nsvcd__mat
                            nsvcd__mat3_apply(&columns, a->z)};
   return out;
 }
-static inline nsvcd__f3 nsvcd__f3_transform(const nsvcd__transform *t, nsvcd__f3 a) {
-  return nsvcd__f3_add(nsvcd__mat3_apply(&t->rotation, a), t->position);
-}
 #endif  // NSVCD__HAS_GROUND_ROTATIONS
+
+// ---------------------------------------------------------------------------------- ground/motions
+#ifndef NSVCD__HAS_GROUND_MOTIONS
+#define NSVCD__HAS_GROUND_MOTIONS
+// In: poses, as a caller gives them. Out: in double, where a body is between two of them, and how
+// it turns on the way: its position is linear, its rotation a slerp on the shorter arc.
+
+// A pose in double. Its rotation is of any length.
+typedef struct nsvcd__dpose {
+  nsvcd__dquat rotation;
+  nsvcd__d3 position;
+} nsvcd__dpose;
+
+static inline nsvcd__dpose nsvcd__dpose_of(const nsvcd_pose *pose) {
+  const float *q = pose->rotation;
+  const nsvcd__dpose out = {{(double)q[0], (double)q[1], (double)q[2], (double)q[3]},
+                            nsvcd__d3_load(pose->position)};
+  return out;
+}
+
+// With a unit rotation.
+static inline nsvcd__dpose nsvcd__unit_dpose(const nsvcd_pose *pose) {
+  nsvcd__dpose out = nsvcd__dpose_of(pose);
+  out.rotation = nsvcd__dquat_unit(out.rotation);
+  return out;
+}
+
+static inline nsvcd__dtransform nsvcd__dtransform_of(const nsvcd__dpose *pose) {
+  const nsvcd__dtransform out = {nsvcd__dmat3_of(nsvcd__dquat_unit(pose->rotation)),
+                                 pose->position};
+  return out;
+}
+
+static inline nsvcd_pose nsvcd__dpose_round(const nsvcd__dpose *pose) {
+  const nsvcd__dquat turn = nsvcd__dquat_unit(pose->rotation);
+  nsvcd_pose out;
+  nsvcd__f3_store(nsvcd__f3_round(pose->position), out.position);
+  nsvcd__f3_store(nsvcd__f3_round(nsvcd__dquat_axis(turn)), out.rotation);
+  out.rotation[3] = nsvcd__to_float(turn.w);
+  return out;
+}
+
+// The length of the arc from a to b, both unit, in quaternion space: half the angle of the turn.
+static inline double nsvcd__dquat_arc(nsvcd__dquat a, nsvcd__dquat b) {
+  const nsvcd__dquat difference = nsvcd__dquat_fma(-1, b, a);
+  const nsvcd__dquat sum = nsvcd__dquat_fma(1, b, a);
+  const double apart = sqrt(nsvcd__dquat_dot(difference, difference));
+  return 2 * nsvcd__atan2(apart, sqrt(nsvcd__dquat_dot(sum, sum)));
+}
+
+// How a body turns from a pose to the next, or in a part of that time.
+typedef struct nsvcd__slerp {
+  // at the poses: unit, on the shorter side
+  nsvcd__dquat start, end;
+  double half_angle;  // between them as quaternions: half the angle of the turn
+  // between the poses, 0 to 1: where the part begins, and its length
+  double from, fraction;
+} nsvcd__slerp;
+
+// All of the turn from a to b.
+static inline nsvcd__slerp nsvcd__slerp_of(const nsvcd_pose *a, const nsvcd_pose *b) {
+  const int opposed =
+      nsvcd__quats_opposed(nsvcd__quat_load(a->rotation), nsvcd__quat_load(b->rotation));
+  const nsvcd__dquat start = nsvcd__unit_dpose(a).rotation;
+  const nsvcd__dquat end = nsvcd__unit_dpose(b).rotation;
+  nsvcd__slerp out = {start, nsvcd__dquat_scale(end, opposed ? -1 : 1), 0, 0, 1};
+  out.half_angle = nsvcd__dquat_arc(out.start, out.end);
+  return out;
+}
+
+// The rotation at fraction u of the part, of any length.
+static inline nsvcd__dquat nsvcd__slerp_mix(const nsvcd__slerp *slerp, double u) {
+  const double along = slerp->from + slerp->fraction * u;
+  double before = 1 - along;
+  double after = along;
+  // below, the difference is less than rounding
+  if (slerp->half_angle > 1e-7) {
+    before = nsvcd__sin((1 - along) * slerp->half_angle);
+    after = nsvcd__sin(along * slerp->half_angle);
+  }
+  const nsvcd__dquat start = nsvcd__dquat_scale(slerp->start, before);
+  return nsvcd__dquat_fma(after, slerp->end, start);
+}
+
+// The same, unit.
+static inline nsvcd__dquat nsvcd__slerp_at(const nsvcd__slerp *slerp, double u) {
+  return nsvcd__dquat_unit(nsvcd__slerp_mix(slerp, u));
+}
+
+// The rotation vector of the part. Points bend off their chords by an eighth of its square, per
+// metre from its axis: a turn by h at a constant rate about a moves a point y with a second
+// derivative of h^2 a x (a x y), by the fraction of the turn that has gone by. Along a direction n
+// that is h^2 (n x a).(a x y).
+static inline nsvcd__d3 nsvcd__slerp_turn(const nsvcd__slerp *slerp) {
+  const nsvcd__dquat back = nsvcd__dquat_inverse(slerp->start);
+  const nsvcd__d3 axis = nsvcd__dquat_axis(nsvcd__dquat_mul(slerp->end, back));
+  const double sine = nsvcd__d3_norm(axis);
+  const double angle = 2 * slerp->half_angle * slerp->fraction;
+  return nsvcd__d3_scale(axis, sine > 0 ? angle / sine : 0);
+}
+
+// The pose at fraction u between two.
+static inline nsvcd__dpose nsvcd__dpose_between(const nsvcd_pose *a, const nsvcd_pose *b,
+                                                double u) {
+  const nsvcd__slerp slerp = nsvcd__slerp_of(a, b);
+  const nsvcd__d3 from = nsvcd__d3_load(a->position);
+  const nsvcd__dpose out = {nsvcd__slerp_mix(&slerp, u),
+                            nsvcd__d3_mix(from, nsvcd__d3_load(b->position), u)};
+  return out;
+}
+#endif  // NSVCD__HAS_GROUND_MOTIONS
 
 // -------------------------------------------------------------------------------- ground/triangles
 #ifndef NSVCD__HAS_GROUND_TRIANGLES
@@ -1425,14 +1526,8 @@ NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, siz
 
 // ------------------------------------------------------------------------------ certificate/models
 // In: a mesh that moves. Out: where it is at a time, and how far points leave the chords between
-// their positions at two times. In double, and shares nothing with the floor of motions: a
-// certificate is a second opinion.
-
-// A pose as a matrix: takes a corner x to turn (scale x) + at.
-typedef struct nsvcd__pose_matrix {
-  nsvcd__dmat3 turn;
-  nsvcd__d3 at;
-} nsvcd__pose_matrix;
+// their positions at two times. With the proof it shares the law of motion, ground/motions, and
+// nothing else: a certificate is a second opinion, and its checker has a law of its own.
 
 // A mesh that moves.
 typedef struct nsvcd__moving {
@@ -1440,14 +1535,13 @@ typedef struct nsvcd__moving {
   nsvcd_motion_model model;
 } nsvcd__moving;
 
-static nsvcd__pose_matrix nsvcd__pose_matrix_at(const nsvcd__moving *moving, double t) {
+// Where it is at a time: takes a corner x to rotation (scale x) + position.
+static nsvcd__dtransform nsvcd__transform_at(const nsvcd__moving *moving, double t) {
   const nsvcd_pose64 at = moving->model.pose_at(moving->model.motion, t);
   const double *q = at.rotation;
-  const double *p = at.position;
-  const nsvcd__dquat turn = {q[0], q[1], q[2], q[3]};
-  const nsvcd__pose_matrix out = {nsvcd__dmat3_of(nsvcd__dquat_unit(turn)),
-                                  nsvcd__d3_of(p[0], p[1], p[2])};
-  return out;
+  const nsvcd__dpose pose = {{q[0], q[1], q[2], q[3]},
+                             {at.position[0], at.position[1], at.position[2]}};
+  return nsvcd__dtransform_of(&pose);
 }
 
 // ---- of poses: nsvcd_mover
@@ -1469,55 +1563,19 @@ static size_t nsvcd__pose_index(const nsvcd_mover *mover, double t) {
   return low;
 }
 
-// The slerp from a pose to the next: unit rotations, on the shorter side; half of its angle.
-typedef struct nsvcd__turning {
-  nsvcd__dquat from, to;
-  double half_angle;
-} nsvcd__turning;
-
-static nsvcd__dquat nsvcd__pose_rotation(const nsvcd_pose *pose) {
-  const float *q = pose->rotation;
-  const nsvcd__dquat out = {(double)q[0], (double)q[1], (double)q[2], (double)q[3]};
-  return out;
-}
-
-static nsvcd__turning nsvcd__turning_of(const nsvcd_pose *a, const nsvcd_pose *b) {
-  nsvcd__turning out;
-  // rounded to double at each sum: its sign says in which direction a turn by 180 degrees goes
-  double dot = 0;
-  for (size_t k = 0; k < 4; k++)
-    dot = nsvcd__stored(dot + (double)a->rotation[k] * (double)b->rotation[k]);
-  const double side = dot < 0 ? -1 : 1;
-  out.from = nsvcd__dquat_unit(nsvcd__pose_rotation(a));
-  out.to = nsvcd__dquat_scale(nsvcd__dquat_unit(nsvcd__pose_rotation(b)), side);
-  const nsvcd__dquat d = nsvcd__dquat_fma(-1, out.from, out.to);
-  const nsvcd__dquat s = nsvcd__dquat_fma(1, out.from, out.to);
-  out.half_angle = 2 * atan2(sqrt(nsvcd__dquat_dot(d, d)), sqrt(nsvcd__dquat_dot(s, s)));
-  return out;
-}
-
 static nsvcd_pose64 nsvcd__mover_pose(const void *motion, double t) {
   const nsvcd_mover *mover = (const nsvcd_mover *)motion;
-  const nsvcd_pose *a = mover->poses;
-  nsvcd__dquat q = nsvcd__pose_rotation(a);
-  nsvcd__d3 at = nsvcd__d3_load(a->position);
+  nsvcd__dpose at = nsvcd__dpose_of(mover->poses);
   if (mover->count > 1) {
     const size_t k = nsvcd__pose_index(mover, t);
+    const nsvcd_pose *a = mover->poses + k;
     const double from = nsvcd__mover_keyframe(mover, k);
-    const double u = (t - from) / (nsvcd__mover_keyframe(mover, k + 1) - from);
-    a += k;
-    const nsvcd__turning arc = nsvcd__turning_of(a, a + 1);
-    double before = 1 - u;
-    double after = u;
-    // below, a line is as good
-    if (arc.half_angle > 1e-7) {
-      before = sin((1 - u) * arc.half_angle);
-      after = sin(u * arc.half_angle);
-    }
-    q = nsvcd__dquat_fma(after, arc.to, nsvcd__dquat_scale(arc.from, before));
-    at = nsvcd__d3_mix(nsvcd__d3_load(a->position), nsvcd__d3_load(a[1].position), u);
+    const double whole = nsvcd__mover_keyframe(mover, k + 1) - from;
+    at = nsvcd__dpose_between(a, a + 1, (t - from) / whole);
   }
-  const nsvcd_pose64 out = {{at.x, at.y, at.z}, {q.x, q.y, q.z, q.w}};
+  const nsvcd__dquat q = at.rotation;
+  const nsvcd_pose64 out = {{at.position.x, at.position.y, at.position.z},
+                            {q.x, q.y, q.z, q.w}};
   return out;
 }
 
@@ -1526,22 +1584,22 @@ static double nsvcd__mover_next(const void *motion, double t) {
   return mover->count > 1 ? nsvcd__mover_keyframe(mover, nsvcd__pose_index(mover, t) + 1) : 1;
 }
 
-// A turn by h at a constant rate about an axis a moves a point y with a second derivative of h^2 a
-// x (a x y). The point leaves its chord by an eighth of that: along n, by h^2 / 8 (n x a).(a x y).
+// Along a direction n a turn by h bends by h^2 / 8 (n x a).(a x y): see nsvcd__slerp_turn.
 static nsvcd_deviation nsvcd__mover_deviation(const void *motion, double t0, double t1) {
   const nsvcd_mover *mover = (const nsvcd_mover *)motion;
   nsvcd_deviation out;
   memset(&out, 0, sizeof out);
   if (mover->count == 1) return out;
   const size_t k = nsvcd__pose_index(mover, 0.5 * (t0 + t1));
-  const nsvcd_pose *a = mover->poses + k;
   const double whole = nsvcd__mover_keyframe(mover, k + 1) - nsvcd__mover_keyframe(mover, k);
-  const nsvcd__turning arc = nsvcd__turning_of(a, a + 1);
-  const double h = 2 * arc.half_angle * (t1 - t0) / whole;
-  const nsvcd__d3 turn = nsvcd__dquat_axis(nsvcd__dquat_inverse_mul(arc.from, arc.to));
-  const nsvcd__d3 axis = nsvcd__d3_unit(turn, nsvcd__d3_of(0, 0, 0));
+  nsvcd__slerp arc = nsvcd__slerp_of(mover->poses + k, mover->poses + k + 1);
+  arc.fraction = (t1 - t0) / whole;
+  const nsvcd__d3 turn = nsvcd__slerp_turn(&arc);
+  const nsvcd__dmat3 start = nsvcd__dmat3_of(arc.start);
+  const nsvcd__d3 own = nsvcd__dmat3_apply_transpose(&start, turn);
+  const nsvcd__d3 axis = nsvcd__d3_unit(own, own);
   memcpy(out.axis, &axis, sizeof out.axis);
-  *(nsvcd__d3_norm(axis) > 0 ? &out.turn : &out.per_metre) = 0.1250001 * h * h;
+  out.turn = 0.1250001 * nsvcd__d3_dot(turn, turn);
   return out;
 }
 
@@ -1592,7 +1650,7 @@ static nsvcd_result nsvcd__model_of(const nsvcd_mover *mover, nsvcd_mover *meant
 // Both bodies at a time, and how far points leave their chords to the next instant.
 typedef struct nsvcd__instant {
   double t;
-  nsvcd__pose_matrix poses[2];
+  nsvcd__dtransform poses[2];
   // of both positions, and of what they are computed from
   double lengths;
   nsvcd_deviation deviations[2];
@@ -1629,9 +1687,9 @@ typedef struct nsvcd__coded_normal {
   int bits;
 } nsvcd__coded_normal;
 
-static double nsvcd__lengths_at(const nsvcd__pose_matrix *a, const nsvcd__pose_matrix *b) {
-  return fabs(a->at.x) + fabs(a->at.y) + fabs(a->at.z) + fabs(b->at.x) + fabs(b->at.y) +
-         fabs(b->at.z);
+static double nsvcd__lengths_at(const nsvcd__dtransform *a, const nsvcd__dtransform *b) {
+  return fabs(a->position.x) + fabs(a->position.y) + fabs(a->position.z) +
+         fabs(b->position.x) + fabs(b->position.y) + fabs(b->position.z);
 }
 
 static nsvcd__instant nsvcd__instant_at(const nsvcd__moving *bodies, double t) {
@@ -1639,7 +1697,7 @@ static nsvcd__instant nsvcd__instant_at(const nsvcd__moving *bodies, double t) {
   memset(&at, 0, sizeof at);
   at.t = t;
   for (size_t n = 0; n < 2; n++) {
-    at.poses[n] = nsvcd__pose_matrix_at(&bodies[n], t);
+    at.poses[n] = nsvcd__transform_at(&bodies[n], t);
     at.lengths += bodies[n].model.extent;
   }
   at.lengths += nsvcd__lengths_at(&at.poses[0], &at.poses[1]);
@@ -1695,19 +1753,19 @@ static nsvcd__d3 nsvcd__farthest(const nsvcd_tree *tree, const nsvcd__node *node
   return nsvcd__d3_row(corners, farthest);
 }
 
-static nsvcd__d3 nsvcd__turned_by(const nsvcd__moving *moving, const nsvcd__pose_matrix *at,
+static nsvcd__d3 nsvcd__turned_by(const nsvcd__moving *moving, const nsvcd__dtransform *at,
                                   nsvcd__d3 x) {
-  return nsvcd__d3_scale(nsvcd__dmat3_apply(&at->turn, x), moving->model.scale);
+  return nsvcd__d3_scale(nsvcd__dmat3_apply(&at->rotation, x), moving->model.scale);
 }
 
 // A direction of the world in a body's frame; for a, reversed: from each node to the other.
 static nsvcd__d3 nsvcd__inward(const nsvcd__instant *at, size_t n, nsvcd__d3 along) {
-  const nsvcd__d3 in = nsvcd__dmat3_apply_transpose(&at->poses[n].turn, along);
+  const nsvcd__d3 in = nsvcd__dmat3_apply_transpose(&at->poses[n].rotation, along);
   return nsvcd__d3_scale(in, n ? 1 : -1);
 }
 
 static nsvcd__d3 nsvcd__offset_at(const nsvcd__instant *at) {
-  return nsvcd__d3_sub(at->poses[0].at, at->poses[1].at);
+  return nsvcd__d3_sub(at->poses[0].position, at->poses[1].position);
 }
 
 // Of all points a and b of two nodes, the difference a - b that is least along a direction.
@@ -1792,7 +1850,7 @@ static double nsvcd__node_deviation(const nsvcd__moving *body, const nsvcd__node
   const double any = nsvcd__d3_norm(along) * (d->base + d->per_metre * pair->radii[n]);
   if (!(d->turn > 0)) return any;
   const nsvcd__d3 own = nsvcd__d3_of(d->axis[0], d->axis[1], d->axis[2]);
-  const nsvcd__d3 axis = nsvcd__dmat3_apply(&at->poses[n].turn, own);
+  const nsvcd__d3 axis = nsvcd__dmat3_apply(&at->poses[n].rotation, own);
   const double across = nsvcd__d3_norm(nsvcd__d3_cross(along, axis));
   return any + d->turn * across * nsvcd__node_axis_radius(body, &pair->nodes[n], own);
 }
@@ -1919,17 +1977,17 @@ static int nsvcd__find_normal(nsvcd__tree_interval *s, const nsvcd__node_pair *p
 // One body as another one sees it: in the other's frame, in units of its scale.
 typedef struct nsvcd__seen {
   const nsvcd__moving *of, *by;
-  nsvcd__pose_matrix of_at, by_at;
+  nsvcd__dtransform of_at, by_at;
   // no length is more; no point is off by as much as the margin
   double lengths, margin;
 } nsvcd__seen;
 
 static nsvcd__seen nsvcd__seen_at(const nsvcd__moving *of, const nsvcd__moving *by, double t) {
   const nsvcd__node root = {0, 0, 1};
-  nsvcd__seen s = {of, by, nsvcd__pose_matrix_at(of, t), nsvcd__pose_matrix_at(by, t), 0, 0};
+  nsvcd__seen s = {of, by, nsvcd__transform_at(of, t), nsvcd__transform_at(by, t), 0, 0};
   const double scale = by->model.scale;
   const double radii = nsvcd__node_radius(of, &root) + nsvcd__node_radius(by, &root);
-  const double apart = nsvcd__d3_norm(nsvcd__d3_sub(s.of_at.at, s.by_at.at));
+  const double apart = nsvcd__d3_norm(nsvcd__d3_sub(s.of_at.position, s.by_at.position));
   const double positions =
       of->model.extent + by->model.extent + nsvcd__lengths_at(&s.of_at, &s.by_at);
   s.lengths = 1.000001 * (radii + apart) / scale;
@@ -1939,9 +1997,9 @@ static nsvcd__seen nsvcd__seen_at(const nsvcd__moving *of, const nsvcd__moving *
 
 static nsvcd__d3 nsvcd__seen_vertex(const nsvcd__seen *s, uint32_t vertex) {
   const nsvcd__d3 x = nsvcd__d3_row(s->of->tree->mesh.positions, vertex);
-  const nsvcd__d3 offset = nsvcd__d3_sub(s->of_at.at, s->by_at.at);
+  const nsvcd__d3 offset = nsvcd__d3_sub(s->of_at.position, s->by_at.position);
   const nsvcd__d3 world = nsvcd__d3_add(nsvcd__turned_by(s->of, &s->of_at, x), offset);
-  return nsvcd__d3_scale(nsvcd__dmat3_apply_transpose(&s->by_at.turn, world),
+  return nsvcd__d3_scale(nsvcd__dmat3_apply_transpose(&s->by_at.rotation, world),
                          1 / s->by->model.scale);
 }
 

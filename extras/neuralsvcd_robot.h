@@ -24,6 +24,7 @@
 //     valid           is what a caller hands over in order?
 //     points          vectors of three, of floats and of doubles
 //     rotations       quaternions and matrices, of floats and of doubles
+//     motions         between two poses: lines and slerps, in double
 //     random          random numbers
 //     memory          the allocator; the rows of a workspace
 //   robot: is a motion of joints free?
@@ -980,16 +981,21 @@ static inline nsvcd__d3 nsvcd__d3_stored(nsvcd__d3 a) {
 // its rows. A transform is a rotation and a position.
 
 // The algebra of both: NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__f3, float, sqrtf) writes
-// nsvcd__quat_dot, nsvcd__mat3_apply and so on. _fma(s, b, a) is s b + a; _axis is that of a unit
-// quaternion, times the sine of half its angle; _of is the matrix of a unit quaternion;
-// _apply_transpose is the transpose of m, times a.
-#define NSVCD__ROTATIONS(quat, mat, vec, scalar, sqrt) \
+// nsvcd__quat_dot, nsvcd__mat3_apply and so on. _fma(s, b, a) is s b + a; _inverse and _axis are
+// those of a unit quaternion, the axis times the sine of half its angle; _mul(a, b) is the rotation
+// by b, then by a; _of is the matrix of a unit quaternion; _apply_transpose is the transpose of m,
+// times a. A transform takes a to rotation a + position.
+#define NSVCD__ROTATIONS(quat, mat, placed, vec, scalar, sqrt) \
   typedef struct quat { \
     scalar x, y, z, w; \
   } quat; \
   typedef struct mat { \
     vec x, y, z; \
   } mat; \
+  typedef struct placed { \
+    mat rotation; \
+    vec position; \
+  } placed; \
   static inline scalar quat##_dot(quat a, quat b) { \
     return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w; \
   } \
@@ -1006,6 +1012,18 @@ static inline nsvcd__d3 nsvcd__d3_stored(nsvcd__d3 a) {
   } \
   static inline vec quat##_axis(quat q) { \
     return vec##_of(q.x, q.y, q.z); \
+  } \
+  static inline quat quat##_inverse(quat q) { \
+    const quat out = {-q.x, -q.y, -q.z, q.w}; \
+    return out; \
+  } \
+  static inline quat quat##_mul(quat a, quat b) { \
+    quat out; \
+    out.x = a.w * b.x + a.x * b.w + (a.y * b.z - a.z * b.y); \
+    out.y = a.w * b.y + a.y * b.w + (a.z * b.x - a.x * b.z); \
+    out.z = a.w * b.z + a.z * b.w + (a.x * b.y - a.y * b.x); \
+    out.w = a.w * b.w - (a.x * b.x + a.y * b.y + a.z * b.z); \
+    return out; \
   } \
   NSVCD__UNFUSED mat mat##_of(quat q) { \
     mat m; \
@@ -1031,20 +1049,13 @@ static inline nsvcd__d3 nsvcd__d3_stored(nsvcd__d3 a) {
   static inline vec mat##_apply_transpose(const mat *m, vec a) { \
     const mat back = mat##_transpose(*m); \
     return mat##_apply(&back, a); \
+  } \
+  static inline vec vec##_transform(const placed *t, vec a) { \
+    return vec##_add(mat##_apply(&t->rotation, a), t->position); \
   }
-NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__f3, float, sqrtf)
-NSVCD__ROTATIONS(nsvcd__dquat, nsvcd__dmat3, nsvcd__d3, double, sqrt)
+NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__transform, nsvcd__f3, float, sqrtf)
+NSVCD__ROTATIONS(nsvcd__dquat, nsvcd__dmat3, nsvcd__dtransform, nsvcd__d3, double, sqrt)
 #undef NSVCD__ROTATIONS
-
-// The inverse of a, unit, times b.
-static inline nsvcd__dquat nsvcd__dquat_inverse_mul(nsvcd__dquat a, nsvcd__dquat b) {
-  const nsvcd__d3 u = nsvcd__dquat_axis(a);
-  const nsvcd__d3 v = nsvcd__dquat_axis(b);
-  const nsvcd__d3 along = nsvcd__d3_sub(nsvcd__d3_scale(v, a.w), nsvcd__d3_scale(u, b.w));
-  const nsvcd__d3 axis = nsvcd__d3_sub(along, nsvcd__d3_cross(u, v));
-  const nsvcd__dquat out = {axis.x, axis.y, axis.z, a.w * b.w + nsvcd__d3_dot(u, v)};
-  return out;
-}
 
 static inline nsvcd__dmat3 nsvcd__dmat3_scale(const nsvcd__dmat3 *m, double s) {
   const nsvcd__dmat3 out = {nsvcd__d3_scale(m->x, s), nsvcd__d3_scale(m->y, s),
@@ -1053,12 +1064,6 @@ static inline nsvcd__dmat3 nsvcd__dmat3_scale(const nsvcd__dmat3 *m, double s) {
 }
 
 // ---- quaternions and matrices of floats
-
-// A rotation and a position: a -> rotation a + position.
-typedef struct nsvcd__transform {
-  nsvcd__mat3 rotation;
-  nsvcd__f3 position;
-} nsvcd__transform;
 
 static inline nsvcd__quat nsvcd__quat_of(float x, float y, float z, float w) {
   const nsvcd__quat out = {x, y, z, w};
@@ -1079,12 +1084,13 @@ static inline void nsvcd__quat_store(nsvcd__quat q, float *p) {
 }
 
 // Is the shorter arc from a to b the one to -b? Products of floats are exact in double, so every
-// machine and the exact poses of the proof agree, even if both arcs are equally long to rounding.
+// machine agrees, and so do poses in float and in double, even if both arcs are equally long to
+// rounding.
 static inline int nsvcd__quats_opposed(nsvcd__quat a, nsvcd__quat b) {
   double dot = (double)a.x * (double)b.x;
-  dot += (double)a.y * (double)b.y;
-  dot += (double)a.z * (double)b.z;
-  dot += (double)a.w * (double)b.w;
+  dot = nsvcd__stored(dot + (double)a.y * (double)b.y);
+  dot = nsvcd__stored(dot + (double)a.z * (double)b.z);
+  dot = nsvcd__stored(dot + (double)a.w * (double)b.w);
   return dot < 0;
 }
 
@@ -1099,20 +1105,7 @@ static inline float nsvcd__quat_arc(nsvcd__quat a, nsvcd__quat b) {
 static inline nsvcd__quat nsvcd__quat_beside(nsvcd__quat q, int opposed) {
   return opposed ? nsvcd__quat_of(-q.x, -q.y, -q.z, -q.w) : q;
 }
-// Of a unit quaternion.
-static inline nsvcd__quat nsvcd__quat_inverse(nsvcd__quat q) {
-  return nsvcd__quat_of(-q.x, -q.y, -q.z, q.w);
-}
 
-// The rotation by b, then by a.
-static inline nsvcd__quat nsvcd__quat_mul(nsvcd__quat a, nsvcd__quat b) {
-  nsvcd__quat out;
-  out.x = a.w * b.x + a.x * b.w + (a.y * b.z - a.z * b.y);
-  out.y = a.w * b.y + a.y * b.w + (a.z * b.x - a.x * b.z);
-  out.z = a.w * b.z + a.z * b.w + (a.x * b.y - a.y * b.x);
-  out.w = a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z;
-  return out;
-}
 // The turn from a to b, both unit: its axis, times the sine of half its angle.
 static inline nsvcd__f3 nsvcd__quat_turn(nsvcd__quat a, nsvcd__quat b) {
   return nsvcd__quat_axis(nsvcd__quat_mul(b, nsvcd__quat_inverse(a)));
@@ -1149,10 +1142,118 @@ static inline nsvcd__mat3 nsvcd__mat3_mul(const nsvcd__mat3 *a, const nsvcd__mat
                            nsvcd__mat3_apply(&columns, a->z)};
   return out;
 }
-static inline nsvcd__f3 nsvcd__f3_transform(const nsvcd__transform *t, nsvcd__f3 a) {
-  return nsvcd__f3_add(nsvcd__mat3_apply(&t->rotation, a), t->position);
-}
 #endif  // NSVCD__HAS_GROUND_ROTATIONS
+
+// ---------------------------------------------------------------------------------- ground/motions
+#ifndef NSVCD__HAS_GROUND_MOTIONS
+#define NSVCD__HAS_GROUND_MOTIONS
+// In: poses, as a caller gives them. Out: in double, where a body is between two of them, and how
+// it turns on the way: its position is linear, its rotation a slerp on the shorter arc.
+
+// A pose in double. Its rotation is of any length.
+typedef struct nsvcd__dpose {
+  nsvcd__dquat rotation;
+  nsvcd__d3 position;
+} nsvcd__dpose;
+
+static inline nsvcd__dpose nsvcd__dpose_of(const nsvcd_pose *pose) {
+  const float *q = pose->rotation;
+  const nsvcd__dpose out = {{(double)q[0], (double)q[1], (double)q[2], (double)q[3]},
+                            nsvcd__d3_load(pose->position)};
+  return out;
+}
+
+// With a unit rotation.
+static inline nsvcd__dpose nsvcd__unit_dpose(const nsvcd_pose *pose) {
+  nsvcd__dpose out = nsvcd__dpose_of(pose);
+  out.rotation = nsvcd__dquat_unit(out.rotation);
+  return out;
+}
+
+static inline nsvcd__dtransform nsvcd__dtransform_of(const nsvcd__dpose *pose) {
+  const nsvcd__dtransform out = {nsvcd__dmat3_of(nsvcd__dquat_unit(pose->rotation)),
+                                 pose->position};
+  return out;
+}
+
+static inline nsvcd_pose nsvcd__dpose_round(const nsvcd__dpose *pose) {
+  const nsvcd__dquat turn = nsvcd__dquat_unit(pose->rotation);
+  nsvcd_pose out;
+  nsvcd__f3_store(nsvcd__f3_round(pose->position), out.position);
+  nsvcd__f3_store(nsvcd__f3_round(nsvcd__dquat_axis(turn)), out.rotation);
+  out.rotation[3] = nsvcd__to_float(turn.w);
+  return out;
+}
+
+// The length of the arc from a to b, both unit, in quaternion space: half the angle of the turn.
+static inline double nsvcd__dquat_arc(nsvcd__dquat a, nsvcd__dquat b) {
+  const nsvcd__dquat difference = nsvcd__dquat_fma(-1, b, a);
+  const nsvcd__dquat sum = nsvcd__dquat_fma(1, b, a);
+  const double apart = sqrt(nsvcd__dquat_dot(difference, difference));
+  return 2 * nsvcd__atan2(apart, sqrt(nsvcd__dquat_dot(sum, sum)));
+}
+
+// How a body turns from a pose to the next, or in a part of that time.
+typedef struct nsvcd__slerp {
+  // at the poses: unit, on the shorter side
+  nsvcd__dquat start, end;
+  double half_angle;  // between them as quaternions: half the angle of the turn
+  // between the poses, 0 to 1: where the part begins, and its length
+  double from, fraction;
+} nsvcd__slerp;
+
+// All of the turn from a to b.
+static inline nsvcd__slerp nsvcd__slerp_of(const nsvcd_pose *a, const nsvcd_pose *b) {
+  const int opposed =
+      nsvcd__quats_opposed(nsvcd__quat_load(a->rotation), nsvcd__quat_load(b->rotation));
+  const nsvcd__dquat start = nsvcd__unit_dpose(a).rotation;
+  const nsvcd__dquat end = nsvcd__unit_dpose(b).rotation;
+  nsvcd__slerp out = {start, nsvcd__dquat_scale(end, opposed ? -1 : 1), 0, 0, 1};
+  out.half_angle = nsvcd__dquat_arc(out.start, out.end);
+  return out;
+}
+
+// The rotation at fraction u of the part, of any length.
+static inline nsvcd__dquat nsvcd__slerp_mix(const nsvcd__slerp *slerp, double u) {
+  const double along = slerp->from + slerp->fraction * u;
+  double before = 1 - along;
+  double after = along;
+  // below, the difference is less than rounding
+  if (slerp->half_angle > 1e-7) {
+    before = nsvcd__sin((1 - along) * slerp->half_angle);
+    after = nsvcd__sin(along * slerp->half_angle);
+  }
+  const nsvcd__dquat start = nsvcd__dquat_scale(slerp->start, before);
+  return nsvcd__dquat_fma(after, slerp->end, start);
+}
+
+// The same, unit.
+static inline nsvcd__dquat nsvcd__slerp_at(const nsvcd__slerp *slerp, double u) {
+  return nsvcd__dquat_unit(nsvcd__slerp_mix(slerp, u));
+}
+
+// The rotation vector of the part. Points bend off their chords by an eighth of its square, per
+// metre from its axis: a turn by h at a constant rate about a moves a point y with a second
+// derivative of h^2 a x (a x y), by the fraction of the turn that has gone by. Along a direction n
+// that is h^2 (n x a).(a x y).
+static inline nsvcd__d3 nsvcd__slerp_turn(const nsvcd__slerp *slerp) {
+  const nsvcd__dquat back = nsvcd__dquat_inverse(slerp->start);
+  const nsvcd__d3 axis = nsvcd__dquat_axis(nsvcd__dquat_mul(slerp->end, back));
+  const double sine = nsvcd__d3_norm(axis);
+  const double angle = 2 * slerp->half_angle * slerp->fraction;
+  return nsvcd__d3_scale(axis, sine > 0 ? angle / sine : 0);
+}
+
+// The pose at fraction u between two.
+static inline nsvcd__dpose nsvcd__dpose_between(const nsvcd_pose *a, const nsvcd_pose *b,
+                                                double u) {
+  const nsvcd__slerp slerp = nsvcd__slerp_of(a, b);
+  const nsvcd__d3 from = nsvcd__d3_load(a->position);
+  const nsvcd__dpose out = {nsvcd__slerp_mix(&slerp, u),
+                            nsvcd__d3_mix(from, nsvcd__d3_load(b->position), u)};
+  return out;
+}
+#endif  // NSVCD__HAS_GROUND_MOTIONS
 
 // ----------------------------------------------------------------------------------- ground/random
 #ifndef NSVCD__HAS_GROUND_RANDOM
@@ -1284,17 +1385,10 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
 // steps of a check that are asked about together, at most
 #define NSVCD__MOST_STEPS 256
 
-// A rotation and a position, in double.
-typedef struct nsvcd__frame {
-  // unit
-  nsvcd__dquat turn;
-  nsvcd__d3 position;
-} nsvcd__frame;
-
 // A joint, as the checker has it, and the link that it carries.
 typedef struct nsvcd__link {
   // of the joint, in its parent link
-  nsvcd__frame origin;
+  nsvcd__dpose origin;
   // unit, in the joint's frame
   nsvcd__d3 axis;
   // joints from the world to this link, its own too: bit i is joint i
@@ -1304,7 +1398,7 @@ typedef struct nsvcd__link {
 // Where the links are in a configuration, in the world.
 typedef struct nsvcd__links {
   // of the links, the world first
-  nsvcd__frame frames[NSVCD_MAX_JOINTS + 1];
+  nsvcd__dpose frames[NSVCD_MAX_JOINTS + 1];
   // of the joints: unit
   nsvcd__d3 axes[NSVCD_MAX_JOINTS];
 } nsvcd__links;
@@ -1317,7 +1411,7 @@ typedef struct nsvcd__bounds {
 // A part, as the checker has it.
 typedef struct nsvcd__member {
   // in its link
-  nsvcd__frame frame;
+  nsvcd__dpose frame;
   // a sphere about its triangles, in its link; and no point is farther from its origin
   nsvcd__d3 centre;
   double radius, extent;
@@ -1341,7 +1435,7 @@ struct nsvcd_checker {
   // (P): those of an interval that are not proven yet
   uint32_t *left;
   // (moving parts, NSVCD__MOST_STEPS + 1): samples, in the world
-  nsvcd__frame *frames;
+  nsvcd__dpose *frames;
   nsvcd__bounds *bounds;
   // (NSVCD__MOST_STEPS + 1): of both parts of a pair, see local_queries
   nsvcd_pose *local[2];
@@ -1354,50 +1448,29 @@ struct nsvcd_checker {
   nsvcd_result result;
 };
 
-static nsvcd__dquat nsvcd__dquat_mul(nsvcd__dquat a, nsvcd__dquat b) {
-  const nsvcd__dquat back = {-a.x, -a.y, -a.z, a.w};
-  return nsvcd__dquat_inverse_mul(back, b);
-}
-
 static nsvcd__d3 nsvcd__dquat_rotate(nsvcd__dquat q, nsvcd__d3 a) {
   const nsvcd__d3 axis = nsvcd__dquat_axis(q);
   const nsvcd__d3 twice = nsvcd__d3_scale(nsvcd__d3_cross(axis, a), 2);
   return nsvcd__d3_add(nsvcd__d3_fma(q.w, twice, a), nsvcd__d3_cross(axis, twice));
 }
 
-static nsvcd__frame nsvcd__frame_of(const nsvcd_pose *pose) {
-  const float *q = pose->rotation;
-  const nsvcd__dquat turn = {(double)q[0], (double)q[1], (double)q[2], (double)q[3]};
-  const nsvcd__frame out = {nsvcd__dquat_unit(turn), nsvcd__d3_load(pose->position)};
-  return out;
+static nsvcd__d3 nsvcd__dpose_apply(const nsvcd__dpose *frame, nsvcd__d3 a) {
+  return nsvcd__d3_add(nsvcd__dquat_rotate(frame->rotation, a), frame->position);
 }
 
-static nsvcd__d3 nsvcd__frame_apply(const nsvcd__frame *frame, nsvcd__d3 a) {
-  return nsvcd__d3_add(nsvcd__dquat_rotate(frame->turn, a), frame->position);
-}
-
-static nsvcd__frame nsvcd__frame_mul(const nsvcd__frame *a, const nsvcd__frame *b) {
-  const nsvcd__d3 position = nsvcd__dquat_rotate(a->turn, b->position);
-  const nsvcd__frame out = {nsvcd__dquat_mul(a->turn, b->turn),
+static nsvcd__dpose nsvcd__dpose_mul(const nsvcd__dpose *a, const nsvcd__dpose *b) {
+  const nsvcd__d3 position = nsvcd__dquat_rotate(a->rotation, b->position);
+  const nsvcd__dpose out = {nsvcd__dquat_mul(a->rotation, b->rotation),
                             nsvcd__d3_add(a->position, position)};
   return out;
 }
 
 // b, as seen from a.
-static nsvcd__frame nsvcd__frame_inverse_mul(const nsvcd__frame *a, const nsvcd__frame *b) {
-  const nsvcd__dquat back = {-a->turn.x, -a->turn.y, -a->turn.z, a->turn.w};
+static nsvcd__dpose nsvcd__dpose_inverse_mul(const nsvcd__dpose *a, const nsvcd__dpose *b) {
+  const nsvcd__dquat back = nsvcd__dquat_inverse(a->rotation);
   const nsvcd__d3 offset = nsvcd__d3_sub(b->position, a->position);
-  const nsvcd__frame out = {nsvcd__dquat_inverse_mul(a->turn, b->turn),
+  const nsvcd__dpose out = {nsvcd__dquat_mul(back, b->rotation),
                             nsvcd__dquat_rotate(back, offset)};
-  return out;
-}
-
-static nsvcd_pose nsvcd__frame_pose(const nsvcd__frame *frame) {
-  const nsvcd__dquat turn = nsvcd__dquat_unit(frame->turn);
-  nsvcd_pose out;
-  nsvcd__f3_store(nsvcd__f3_round(frame->position), out.position);
-  nsvcd__f3_store(nsvcd__f3_round(nsvcd__dquat_axis(turn)), out.rotation);
-  out.rotation[3] = (float)turn.w;
   return out;
 }
 
@@ -1405,32 +1478,32 @@ static int nsvcd__slides(const nsvcd_checker *c, size_t joint) {
   return c->scene->joints[joint].kind == NSVCD_JOINT_PRISMATIC;
 }
 
+// What a joint carries, in the joint's parent link.
+static nsvcd__dpose nsvcd__joint_frame(const nsvcd_checker *c, size_t joint, double value) {
+  const nsvcd__link *link = &c->links[joint];
+  const int slides = nsvcd__slides(c, joint);
+  const nsvcd__d3 axis = nsvcd__d3_scale(link->axis, slides ? value : sin(0.5 * value));
+  const nsvcd__dpose slid = {{0, 0, 0, 1}, axis};
+  const nsvcd__dpose turned = {{axis.x, axis.y, axis.z, cos(0.5 * value)}, {0, 0, 0}};
+  return nsvcd__dpose_mul(&link->origin, slides ? &slid : &turned);
+}
+
 // Forward kinematics.
 static void nsvcd__place_links(const nsvcd_checker *c, const double *joints,
                                nsvcd__links *out) {
-  const nsvcd__frame world = {{0, 0, 0, 1}, {0, 0, 0}};
+  const nsvcd__dpose world = {{0, 0, 0, 1}, {0, 0, 0}};
   out->frames[0] = world;
   for (size_t i = 0; i < c->scene->joint_count; i++) {
-    const nsvcd__link *link = &c->links[i];
-    const nsvcd__frame *parent = &out->frames[c->scene->joints[i].parent];
-    nsvcd__frame frame = nsvcd__frame_mul(parent, &link->origin);
-    out->axes[i] = nsvcd__dquat_rotate(frame.turn, link->axis);
-    if (nsvcd__slides(c, i)) {
-      frame.position = nsvcd__d3_fma(joints[i], out->axes[i], frame.position);
-    } else {
-      const double half = 0.5 * joints[i];
-      const nsvcd__d3 axis = nsvcd__d3_scale(link->axis, sin(half));
-      const nsvcd__dquat turn = {axis.x, axis.y, axis.z, cos(half)};
-      frame.turn = nsvcd__dquat_mul(frame.turn, turn);
-    }
-    out->frames[i + 1] = frame;
+    const nsvcd__dpose link = nsvcd__joint_frame(c, i, joints[i]);
+    out->frames[i + 1] = nsvcd__dpose_mul(&out->frames[c->scene->joints[i].parent], &link);
+    out->axes[i] = nsvcd__dquat_rotate(out->frames[i + 1].rotation, c->links[i].axis);
   }
 }
 
-static nsvcd__frame nsvcd__frame_of_part(const nsvcd_checker *c, const nsvcd__links *at,
+static nsvcd__dpose nsvcd__frame_of_part(const nsvcd_checker *c, const nsvcd__links *at,
                                          size_t part) {
   const uint32_t link = c->scene->parts[part].link;
-  return nsvcd__frame_mul(&at->frames[link], &c->members[part].frame);
+  return nsvcd__dpose_mul(&at->frames[link], &c->members[part].frame);
 }
 
 NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const double *joints,
@@ -1438,8 +1511,8 @@ NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const doubl
   nsvcd__links at;
   nsvcd__place_links(checker, joints, &at);
   for (size_t n = 0; n < checker->scene->part_count; n++) {
-    const nsvcd__frame frame = nsvcd__frame_of_part(checker, &at, n);
-    poses[n] = nsvcd__frame_pose(&frame);
+    const nsvcd__dpose frame = nsvcd__frame_of_part(checker, &at, n);
+    poses[n] = nsvcd__dpose_round(&frame);
   }
 }
 
@@ -1624,8 +1697,7 @@ static void nsvcd__step_of(const nsvcd_joint_motion *m, size_t joints, double t0
 // The angle of the turn from a to b, radians: the shorter one.
 static double nsvcd__angle_between(nsvcd__dquat a, nsvcd__dquat b) {
   const double side = nsvcd__dquat_dot(a, b) < 0 ? -1 : 1;
-  const nsvcd__dquat chord = nsvcd__dquat_fma(-side, b, a);
-  return 4 * asin(nsvcd__min(0.5 * sqrt(nsvcd__dquat_dot(chord, chord)), 1));
+  return 2 * nsvcd__dquat_arc(a, nsvcd__dquat_scale(b, side));
 }
 
 // r of the banner, (F): how far points of a part can be from the axes of the joints of its chain,
@@ -1635,7 +1707,7 @@ static void nsvcd__moment_arms_of(const nsvcd_checker *c, size_t part, const nsv
   const nsvcd__member *m = &c->members[part];
   const size_t link = c->scene->parts[part].link;
   const uint32_t chain = c->links[link - 1].chain;
-  const nsvcd__d3 centre = nsvcd__frame_apply(&from->frames[link], m->centre);
+  const nsvcd__d3 centre = nsvcd__dpose_apply(&from->frames[link], m->centre);
   // by joints beyond this one
   double moved = 0;
   for (size_t j = link; j-- > 0;) {
@@ -1655,7 +1727,8 @@ static double nsvcd__part_deviation(const nsvcd_checker *c, size_t part,
                                     const nsvcd__step *step, const nsvcd__links *from,
                                     const nsvcd__links *to) {
   const size_t link = c->scene->parts[part].link;
-  const double w = nsvcd__angle_between(from->frames[link].turn, to->frames[link].turn);
+  const double w =
+      nsvcd__angle_between(from->frames[link].rotation, to->frames[link].rotation);
   double arms[NSVCD_MAX_JOINTS];
   double bend = 0;
   double second = 0;
@@ -1744,8 +1817,8 @@ static nsvcd_result nsvcd__scene_check(const nsvcd_scene *scene) {
 // ---- boxes
 
 // Of a part whose frame in the world this is.
-static nsvcd__bounds nsvcd__bounds_of(const nsvcd__member *m, const nsvcd__frame *frame) {
-  const nsvcd__dmat3 axes = nsvcd__dmat3_of(frame->turn);
+static nsvcd__bounds nsvcd__bounds_of(const nsvcd__member *m, const nsvcd__dpose *frame) {
+  const nsvcd__dmat3 axes = nsvcd__dmat3_of(frame->rotation);
   const nsvcd__d3 *rows[3] = {&axes.x, &axes.y, &axes.z};
   nsvcd__d3 half = {0, 0, 0};
   for (size_t k = 0; k < 3; k++) {
@@ -1790,7 +1863,7 @@ static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
   c->members = NSVCD__TAKE_ROWS(nsvcd__member, parts, base, &used);
   c->order = NSVCD__TAKE_ROWS(uint32_t, pairs, base, &used);
   c->left = NSVCD__TAKE_ROWS(uint32_t, pairs, base, &used);
-  c->frames = NSVCD__TAKE_ROWS(nsvcd__frame, rows, base, &used);
+  c->frames = NSVCD__TAKE_ROWS(nsvcd__dpose, rows, base, &used);
   c->bounds = NSVCD__TAKE_ROWS(nsvcd__bounds, rows, base, &used);
   for (size_t n = 0; n < 2; n++)
     c->local[n] = NSVCD__TAKE_ROWS(nsvcd_pose, samples, base, &used);
@@ -1815,8 +1888,8 @@ static nsvcd__member nsvcd__member_of(const nsvcd_part *part) {
   const nsvcd__d3 half = nsvcd__d3_scale(nsvcd__d3_sub(high, low), 0.5 * scale);
   nsvcd__member m;
   memset(&m, 0, sizeof m);
-  m.frame = nsvcd__frame_of(&part->pose);
-  m.centre = nsvcd__frame_apply(&m.frame, centre);
+  m.frame = nsvcd__unit_dpose(&part->pose);
+  m.centre = nsvcd__dpose_apply(&m.frame, centre);
   // spheres are computed in float
   m.radius = 1.000001 * scale * (double)(facts.radius - facts.convex_radius);
   m.extent = 1.000001 * scale * (double)facts.extent;
@@ -1842,7 +1915,7 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
   for (size_t i = 0; i < scene->joint_count; i++) {
     const nsvcd_joint *joint = &scene->joints[i];
     nsvcd__link *link = &c->links[i];
-    link->origin = nsvcd__frame_of(&joint->origin);
+    link->origin = nsvcd__unit_dpose(&joint->origin);
     link->axis = nsvcd__d3_unit(nsvcd__d3_load(joint->axis), nsvcd__d3_of(0, 0, 1));
     link->chain = (uint32_t)1 << i | (joint->parent ? c->links[joint->parent - 1].chain : 0);
   }
@@ -1873,7 +1946,7 @@ static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__links *at, size_t
   for (size_t n = 0; n < scene->part_count; n++) {
     nsvcd__member *m = &c->members[n];
     if (!scene->parts[n].link) continue;
-    const nsvcd__frame frame = nsvcd__frame_of_part(c, at, n);
+    const nsvcd__dpose frame = nsvcd__frame_of_part(c, at, n);
     const nsvcd__bounds bounds = nsvcd__bounds_of(m, &frame);
     c->frames[m->row + k] = frame;
     c->bounds[m->row + k] = bounds;
@@ -1971,7 +2044,7 @@ static double nsvcd__part_error(const nsvcd_checker *c, size_t part) {
 }
 
 // The frames of a part from a sample on; of one that rests there is only one.
-static const nsvcd__frame *nsvcd__frames_at(const nsvcd_checker *c, size_t part,
+static const nsvcd__dpose *nsvcd__frames_at(const nsvcd_checker *c, size_t part,
                                             size_t sample) {
   const nsvcd__member *m = &c->members[part];
   return c->scene->parts[part].link ? c->frames + m->row + sample : &m->frame;
@@ -1987,22 +2060,22 @@ static const nsvcd__frame *nsvcd__frames_at(const nsvcd_checker *c, size_t part,
 // The frame that local poses are in.
 typedef struct nsvcd__local {
   // in the world
-  nsvcd__frame frame;
+  nsvcd__dpose frame;
   // metres, at most: the sum of both parts' errors by poses in float
   double rounding;
 } nsvcd__local;
 
 // Fills in c->local. frames: of a and of b, (count) each, but one of a part that rests.
 static nsvcd__local nsvcd__localize(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                                    const nsvcd__frame *const *frames, size_t count) {
+                                    const nsvcd__dpose *const *frames, size_t count) {
   const size_t parts[2] = {pair->a, pair->b};
   const int moves[2] = {c->scene->parts[pair->a].link > 0, c->scene->parts[pair->b].link > 0};
   nsvcd__local local = {moves[0] ? frames[1][moves[1] ? count / 2 : 0] : frames[0][0], 0};
   for (size_t n = 0; n < 2; n++) {
     double most = 0;
     for (size_t k = 0; k < (moves[n] ? count : 1); k++) {
-      const nsvcd__frame in = nsvcd__frame_inverse_mul(&local.frame, &frames[n][k]);
-      c->local[n][k] = nsvcd__frame_pose(&in);
+      const nsvcd__dpose in = nsvcd__dpose_inverse_mul(&local.frame, &frames[n][k]);
+      c->local[n][k] = nsvcd__dpose_round(&in);
       most = nsvcd__max(most, nsvcd__d3_norm(in.position));
     }
     // of positions and of quaternions as floats
@@ -2013,17 +2086,18 @@ static nsvcd__local nsvcd__localize(nsvcd_checker *c, const nsvcd_body_pair *pai
 
 // The same in the configuration c->at.
 static nsvcd__local nsvcd__localize_at(nsvcd_checker *c, const nsvcd_body_pair *pair) {
-  const nsvcd__frame a = nsvcd__frame_of_part(c, &c->at, pair->a);
-  const nsvcd__frame b = nsvcd__frame_of_part(c, &c->at, pair->b);
-  const nsvcd__frame *const frames[2] = {&a, &b};
+  const nsvcd__dpose a = nsvcd__frame_of_part(c, &c->at, pair->a);
+  const nsvcd__dpose b = nsvcd__frame_of_part(c, &c->at, pair->b);
+  const nsvcd__dpose *const frames[2] = {&a, &b};
   return nsvcd__localize(c, pair, frames, 1);
 }
 
 // Takes a contact from the local frame to the world.
 static void nsvcd__contact_to_world(const nsvcd__local *local, nsvcd_contact *contact) {
-  const nsvcd__frame *frame = &local->frame;
-  const nsvcd__d3 point = nsvcd__frame_apply(frame, nsvcd__d3_load(contact->point));
-  const nsvcd__d3 normal = nsvcd__dquat_rotate(frame->turn, nsvcd__d3_load(contact->normal));
+  const nsvcd__dpose *frame = &local->frame;
+  const nsvcd__d3 point = nsvcd__dpose_apply(frame, nsvcd__d3_load(contact->point));
+  const nsvcd__d3 normal =
+      nsvcd__dquat_rotate(frame->rotation, nsvcd__d3_load(contact->normal));
   nsvcd__f3_store(nsvcd__f3_round(point), contact->point);
   nsvcd__f3_store(nsvcd__f3_round(normal), contact->normal);
 }
@@ -2114,7 +2188,7 @@ static nsvcd_verdict nsvcd__ask_pair(nsvcd__check_state *s, const nsvcd_body_pai
   const double room = (double)s->options->clearance + error;
   if (!nsvcd__steps_near(c, pair, s->steps, room * (1 + 1e-9), range)) return NSVCD_FREE;
   const size_t count = range->steps + 1;
-  const nsvcd__frame *const frames[2] = {nsvcd__frames_at(c, pair->a, range->first),
+  const nsvcd__dpose *const frames[2] = {nsvcd__frames_at(c, pair->a, range->first),
                                          nsvcd__frames_at(c, pair->b, range->first)};
   const nsvcd__local local = nsvcd__localize(c, pair, frames, count);
   const double errors = is_proof ? error + local.rounding : 0;
@@ -2419,21 +2493,16 @@ static double nsvcd__curve_of(const nsvcd__carried *c, size_t joint, double t0, 
 static nsvcd_pose64 nsvcd__carried_pose(const void *motion, double t) {
   const nsvcd__carried *c = (const nsvcd__carried *)motion;
   const nsvcd_scene *scene = c->checker->scene;
-  nsvcd__frame at = c->checker->members[c->part].frame;
+  nsvcd__dpose at = c->checker->members[c->part].frame;
   for (size_t link = scene->parts[c->part].link; link != c->base;
        link = scene->joints[link - 1].parent) {
-    const nsvcd__link *carrier = &c->checker->links[link - 1];
-    const int slides = nsvcd__slides(c->checker, link - 1);
     double q[NSVCD_MAX_DEGREE + 1];
     (void)nsvcd__curve_of(c, link - 1, t, t, q);
-    const nsvcd__d3 axis = nsvcd__d3_scale(carrier->axis, slides ? q[0] : sin(0.5 * q[0]));
-    const nsvcd__frame slid = {{0, 0, 0, 1}, axis};
-    const nsvcd__frame turned = {{axis.x, axis.y, axis.z, cos(0.5 * q[0])}, {0, 0, 0}};
-    at = nsvcd__frame_mul(slides ? &slid : &turned, &at);
-    at = nsvcd__frame_mul(&carrier->origin, &at);
+    const nsvcd__dpose carrier = nsvcd__joint_frame(c->checker, link - 1, q[0]);
+    at = nsvcd__dpose_mul(&carrier, &at);
   }
   const nsvcd_pose64 out = {{at.position.x, at.position.y, at.position.z},
-                            {at.turn.x, at.turn.y, at.turn.z, at.turn.w}};
+                            {at.rotation.x, at.rotation.y, at.rotation.z, at.rotation.w}};
   return out;
 }
 
@@ -2756,8 +2825,8 @@ static nsvcd_result nsvcd__check_joints(const nsvcd_checker *c, const double *jo
 // The point and the direction are in the local frame.
 static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, const nsvcd__local *local,
                              nsvcd__d3 at, nsvcd__d3 along, double sign, double *slope) {
-  const nsvcd__d3 point = nsvcd__frame_apply(&local->frame, at);
-  const nsvcd__d3 normal = nsvcd__dquat_rotate(local->frame.turn, along);
+  const nsvcd__d3 point = nsvcd__dpose_apply(&local->frame, at);
+  const nsvcd__d3 normal = nsvcd__dquat_rotate(local->frame.rotation, along);
   const uint32_t link = c->scene->parts[part].link;
   for (uint32_t chain = link ? c->links[link - 1].chain : 0; chain; chain &= chain - 1) {
     const size_t j = nsvcd__low_bit(chain);
@@ -3089,11 +3158,11 @@ NSVCDDEF nsvcd_result nsvcd_reparent(const nsvcd_checker *c, const double *joint
   if (!out) return NSVCD_ERROR_ARGUMENT;
   if (part >= scene->part_count || link > scene->joint_count) return NSVCD_ERROR_LINK;
   nsvcd__place_links(c, joints, &at);
-  const nsvcd__frame world = nsvcd__frame_of_part(c, &at, part);
-  const nsvcd__frame frame = nsvcd__frame_inverse_mul(&at.frames[link], &world);
+  const nsvcd__dpose world = nsvcd__frame_of_part(c, &at, part);
+  const nsvcd__dpose frame = nsvcd__dpose_inverse_mul(&at.frames[link], &world);
   nsvcd_part moved = scene->parts[part];
   moved.link = link;
-  moved.pose = nsvcd__frame_pose(&frame);
+  moved.pose = nsvcd__dpose_round(&frame);
   result = nsvcd__poses_check(&moved.pose, 1);
   if (!result) *out = moved;
   return result;

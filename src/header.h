@@ -158,6 +158,7 @@ extern "C" {
 #include "ground/valid.h"      // checks of what a caller passes
 #include "ground/points.h"     // vectors of three, of floats and of doubles
 #include "ground/rotations.h"  // quaternions and matrices, of floats and of doubles
+#include "ground/motions.h"    // between two poses: lines and slerps, in double
 #include "ground/triangles.h"  // two triangles: where they meet, or are nearest
 #include "ground/spheres.h"    // spheres and slabs, as bodies store them
 #include "ground/random.h"     // random numbers

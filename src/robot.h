@@ -68,6 +68,7 @@ extern "C" {
 #include "ground/valid.h"      // is what a caller hands over in order?
 #include "ground/points.h"     // vectors of three, of floats and of doubles
 #include "ground/rotations.h"  // quaternions and matrices, of floats and of doubles
+#include "ground/motions.h"    // between two poses: lines and slerps, in double
 #include "ground/random.h"     // random numbers
 #include "ground/memory.h"     // the allocator; the rows of a workspace
 

@@ -240,7 +240,7 @@ robot: levers of the centre|+ m->radius + moved;|+ moved;
 robot: levers of the sample|+ m->radius + moved;|+ m->radius;
 robot: a step of a ninth|return (bend + second + w * w * c->members[part].extent) / 8;|return (bend + second + w * w * c->members[part].extent) / 9;
 postures: poses without rounding|if (moves[n]) local.rounding += 2|if (0) local.rounding += 2
-postures: poses seen from the world|const nsvcd__frame in = nsvcd__frame_inverse_mul(\&local.frame, \&frames[n][k]);|const nsvcd__frame in = frames[n][k];
+postures: poses seen from the world|const nsvcd__dpose in = nsvcd__dpose_inverse_mul(\&local.frame, \&frames[n][k]);|const nsvcd__dpose in = frames[n][k];
 postures: free of each other as floats|if (out->verdict != NSVCD_FREE \|\| out->distance.low > 0) return 1;|return 1;
 postures: depths of floats|q.clearance = nsvcd__above(error + 2e-7 * (double)o->max_depth);|
 robot: strays of one part|nsvcd__part_error(c, pair->a) + nsvcd__part_error(c, pair->b);|nsvcd__part_error(c, pair->a);
@@ -288,7 +288,7 @@ postures: what touches once touches always|if (nsvcd__ask_sweep(c, &q, &found) !
 postures: out of the limits|joints[j] = nsvcd__max(low, nsvcd__min(high, joints[j]));|
 postures: the world is adjacent|return a > 0 && b > 0 && (scene->joints[a - 1].parent == b|return a > 0 && (b == 0 \|\| scene->joints[a - 1].parent == b
 postures: never touching|pairs[in_all ? total - ++found.touching : found.asked++] = pair;|pairs[found.asked++] = pair;
-postures: handed over unturned|const nsvcd__frame out = {nsvcd__dquat_inverse_mul(a->turn, b->turn),|const nsvcd__frame out = {b->turn,
+postures: handed over unturned|const nsvcd__dpose out = {nsvcd__dquat_mul(back, b->rotation),|const nsvcd__dpose out = {b->rotation,
 postures: handed over from the world|const nsvcd__d3 offset = nsvcd__d3_sub(b->position, a->position);|const nsvcd__d3 offset = b->position;
 verify: nothing is needed|if (!(gap > least \&\& last > least \&\& gap < VERIFY__BEYOND)) return 0;|if (!(gap > -1e9)) return 0;
 verify: parted at the start alone|if (!(gap > least \&\& last > least \&\& gap < VERIFY__BEYOND)) return 0;|if (at == r->instants \&\& !(gap > least)) return 0;

@@ -268,7 +268,7 @@ static void math_rotations_in_double(void) {
     const nsvcd__dquat q = math_dquat(b);
     for (int k = 0; k < 4; k++) inverse[k] = k < 3 ? -a[k] : a[k];
     oracle_quat_mul(inverse, b, ab);
-    const nsvcd__dquat turn = nsvcd__dquat_inverse_mul(p, q);
+    const nsvcd__dquat turn = nsvcd__dquat_mul(nsvcd__dquat_inverse(p), q);
     math_check_d3(nsvcd__dquat_axis(turn), ab, 4);
     CHECK_NEAR(turn.w, ab[3], 4e-15);
     const nsvcd__dquat sum = nsvcd__dquat_fma(length, q, p);

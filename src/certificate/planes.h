@@ -17,7 +17,7 @@
 // Both bodies at a time, and how far points leave their chords to the next instant.
 typedef struct nsvcd__instant {
   double t;
-  nsvcd__pose_matrix poses[2];
+  nsvcd__dtransform poses[2];
   // of both positions, and of what they are computed from
   double lengths;
   nsvcd_deviation deviations[2];
@@ -54,9 +54,9 @@ typedef struct nsvcd__coded_normal {
   int bits;
 } nsvcd__coded_normal;
 
-static double nsvcd__lengths_at(const nsvcd__pose_matrix *a, const nsvcd__pose_matrix *b) {
-  return fabs(a->at.x) + fabs(a->at.y) + fabs(a->at.z) + fabs(b->at.x) + fabs(b->at.y) +
-         fabs(b->at.z);
+static double nsvcd__lengths_at(const nsvcd__dtransform *a, const nsvcd__dtransform *b) {
+  return fabs(a->position.x) + fabs(a->position.y) + fabs(a->position.z) +
+         fabs(b->position.x) + fabs(b->position.y) + fabs(b->position.z);
 }
 
 static nsvcd__instant nsvcd__instant_at(const nsvcd__moving *bodies, double t) {
@@ -64,7 +64,7 @@ static nsvcd__instant nsvcd__instant_at(const nsvcd__moving *bodies, double t) {
   memset(&at, 0, sizeof at);
   at.t = t;
   for (size_t n = 0; n < 2; n++) {
-    at.poses[n] = nsvcd__pose_matrix_at(&bodies[n], t);
+    at.poses[n] = nsvcd__transform_at(&bodies[n], t);
     at.lengths += bodies[n].model.extent;
   }
   at.lengths += nsvcd__lengths_at(&at.poses[0], &at.poses[1]);
@@ -120,19 +120,19 @@ static nsvcd__d3 nsvcd__farthest(const nsvcd_tree *tree, const nsvcd__node *node
   return nsvcd__d3_row(corners, farthest);
 }
 
-static nsvcd__d3 nsvcd__turned_by(const nsvcd__moving *moving, const nsvcd__pose_matrix *at,
+static nsvcd__d3 nsvcd__turned_by(const nsvcd__moving *moving, const nsvcd__dtransform *at,
                                   nsvcd__d3 x) {
-  return nsvcd__d3_scale(nsvcd__dmat3_apply(&at->turn, x), moving->model.scale);
+  return nsvcd__d3_scale(nsvcd__dmat3_apply(&at->rotation, x), moving->model.scale);
 }
 
 // A direction of the world in a body's frame; for a, reversed: from each node to the other.
 static nsvcd__d3 nsvcd__inward(const nsvcd__instant *at, size_t n, nsvcd__d3 along) {
-  const nsvcd__d3 in = nsvcd__dmat3_apply_transpose(&at->poses[n].turn, along);
+  const nsvcd__d3 in = nsvcd__dmat3_apply_transpose(&at->poses[n].rotation, along);
   return nsvcd__d3_scale(in, n ? 1 : -1);
 }
 
 static nsvcd__d3 nsvcd__offset_at(const nsvcd__instant *at) {
-  return nsvcd__d3_sub(at->poses[0].at, at->poses[1].at);
+  return nsvcd__d3_sub(at->poses[0].position, at->poses[1].position);
 }
 
 // Of all points a and b of two nodes, the difference a - b that is least along a direction.
@@ -217,7 +217,7 @@ static double nsvcd__node_deviation(const nsvcd__moving *body, const nsvcd__node
   const double any = nsvcd__d3_norm(along) * (d->base + d->per_metre * pair->radii[n]);
   if (!(d->turn > 0)) return any;
   const nsvcd__d3 own = nsvcd__d3_of(d->axis[0], d->axis[1], d->axis[2]);
-  const nsvcd__d3 axis = nsvcd__dmat3_apply(&at->poses[n].turn, own);
+  const nsvcd__d3 axis = nsvcd__dmat3_apply(&at->poses[n].rotation, own);
   const double across = nsvcd__d3_norm(nsvcd__d3_cross(along, axis));
   return any + d->turn * across * nsvcd__node_axis_radius(body, &pair->nodes[n], own);
 }

@@ -8,17 +8,17 @@
 // One body as another one sees it: in the other's frame, in units of its scale.
 typedef struct nsvcd__seen {
   const nsvcd__moving *of, *by;
-  nsvcd__pose_matrix of_at, by_at;
+  nsvcd__dtransform of_at, by_at;
   // no length is more; no point is off by as much as the margin
   double lengths, margin;
 } nsvcd__seen;
 
 static nsvcd__seen nsvcd__seen_at(const nsvcd__moving *of, const nsvcd__moving *by, double t) {
   const nsvcd__node root = {0, 0, 1};
-  nsvcd__seen s = {of, by, nsvcd__pose_matrix_at(of, t), nsvcd__pose_matrix_at(by, t), 0, 0};
+  nsvcd__seen s = {of, by, nsvcd__transform_at(of, t), nsvcd__transform_at(by, t), 0, 0};
   const double scale = by->model.scale;
   const double radii = nsvcd__node_radius(of, &root) + nsvcd__node_radius(by, &root);
-  const double apart = nsvcd__d3_norm(nsvcd__d3_sub(s.of_at.at, s.by_at.at));
+  const double apart = nsvcd__d3_norm(nsvcd__d3_sub(s.of_at.position, s.by_at.position));
   const double positions =
       of->model.extent + by->model.extent + nsvcd__lengths_at(&s.of_at, &s.by_at);
   s.lengths = 1.000001 * (radii + apart) / scale;
@@ -28,9 +28,9 @@ static nsvcd__seen nsvcd__seen_at(const nsvcd__moving *of, const nsvcd__moving *
 
 static nsvcd__d3 nsvcd__seen_vertex(const nsvcd__seen *s, uint32_t vertex) {
   const nsvcd__d3 x = nsvcd__d3_row(s->of->tree->mesh.positions, vertex);
-  const nsvcd__d3 offset = nsvcd__d3_sub(s->of_at.at, s->by_at.at);
+  const nsvcd__d3 offset = nsvcd__d3_sub(s->of_at.position, s->by_at.position);
   const nsvcd__d3 world = nsvcd__d3_add(nsvcd__turned_by(s->of, &s->of_at, x), offset);
-  return nsvcd__d3_scale(nsvcd__dmat3_apply_transpose(&s->by_at.turn, world),
+  return nsvcd__d3_scale(nsvcd__dmat3_apply_transpose(&s->by_at.rotation, world),
                          1 / s->by->model.scale);
 }
 

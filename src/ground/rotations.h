@@ -5,16 +5,21 @@
 #include "points.h"
 
 // The algebra of both: NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__f3, float, sqrtf) writes
-// nsvcd__quat_dot, nsvcd__mat3_apply and so on. _fma(s, b, a) is s b + a; _axis is that of a unit
-// quaternion, times the sine of half its angle; _of is the matrix of a unit quaternion;
-// _apply_transpose is the transpose of m, times a.
-#define NSVCD__ROTATIONS(quat, mat, vec, scalar, sqrt) \
+// nsvcd__quat_dot, nsvcd__mat3_apply and so on. _fma(s, b, a) is s b + a; _inverse and _axis are
+// those of a unit quaternion, the axis times the sine of half its angle; _mul(a, b) is the rotation
+// by b, then by a; _of is the matrix of a unit quaternion; _apply_transpose is the transpose of m,
+// times a. A transform takes a to rotation a + position.
+#define NSVCD__ROTATIONS(quat, mat, placed, vec, scalar, sqrt) \
   typedef struct quat { \
     scalar x, y, z, w; \
   } quat; \
   typedef struct mat { \
     vec x, y, z; \
   } mat; \
+  typedef struct placed { \
+    mat rotation; \
+    vec position; \
+  } placed; \
   static inline scalar quat##_dot(quat a, quat b) { \
     return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w; \
   } \
@@ -31,6 +36,18 @@
   } \
   static inline vec quat##_axis(quat q) { \
     return vec##_of(q.x, q.y, q.z); \
+  } \
+  static inline quat quat##_inverse(quat q) { \
+    const quat out = {-q.x, -q.y, -q.z, q.w}; \
+    return out; \
+  } \
+  static inline quat quat##_mul(quat a, quat b) { \
+    quat out; \
+    out.x = a.w * b.x + a.x * b.w + (a.y * b.z - a.z * b.y); \
+    out.y = a.w * b.y + a.y * b.w + (a.z * b.x - a.x * b.z); \
+    out.z = a.w * b.z + a.z * b.w + (a.x * b.y - a.y * b.x); \
+    out.w = a.w * b.w - (a.x * b.x + a.y * b.y + a.z * b.z); \
+    return out; \
   } \
   NSVCD__UNFUSED mat mat##_of(quat q) { \
     mat m; \
@@ -56,20 +73,13 @@
   static inline vec mat##_apply_transpose(const mat *m, vec a) { \
     const mat back = mat##_transpose(*m); \
     return mat##_apply(&back, a); \
+  } \
+  static inline vec vec##_transform(const placed *t, vec a) { \
+    return vec##_add(mat##_apply(&t->rotation, a), t->position); \
   }
-NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__f3, float, sqrtf)
-NSVCD__ROTATIONS(nsvcd__dquat, nsvcd__dmat3, nsvcd__d3, double, sqrt)
+NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__transform, nsvcd__f3, float, sqrtf)
+NSVCD__ROTATIONS(nsvcd__dquat, nsvcd__dmat3, nsvcd__dtransform, nsvcd__d3, double, sqrt)
 #undef NSVCD__ROTATIONS
-
-// The inverse of a, unit, times b.
-static inline nsvcd__dquat nsvcd__dquat_inverse_mul(nsvcd__dquat a, nsvcd__dquat b) {
-  const nsvcd__d3 u = nsvcd__dquat_axis(a);
-  const nsvcd__d3 v = nsvcd__dquat_axis(b);
-  const nsvcd__d3 along = nsvcd__d3_sub(nsvcd__d3_scale(v, a.w), nsvcd__d3_scale(u, b.w));
-  const nsvcd__d3 axis = nsvcd__d3_sub(along, nsvcd__d3_cross(u, v));
-  const nsvcd__dquat out = {axis.x, axis.y, axis.z, a.w * b.w + nsvcd__d3_dot(u, v)};
-  return out;
-}
 
 static inline nsvcd__dmat3 nsvcd__dmat3_scale(const nsvcd__dmat3 *m, double s) {
   const nsvcd__dmat3 out = {nsvcd__d3_scale(m->x, s), nsvcd__d3_scale(m->y, s),
@@ -78,12 +88,6 @@ static inline nsvcd__dmat3 nsvcd__dmat3_scale(const nsvcd__dmat3 *m, double s) {
 }
 
 // ---- quaternions and matrices of floats
-
-// A rotation and a position: a -> rotation a + position.
-typedef struct nsvcd__transform {
-  nsvcd__mat3 rotation;
-  nsvcd__f3 position;
-} nsvcd__transform;
 
 static inline nsvcd__quat nsvcd__quat_of(float x, float y, float z, float w) {
   const nsvcd__quat out = {x, y, z, w};
@@ -104,12 +108,13 @@ static inline void nsvcd__quat_store(nsvcd__quat q, float *p) {
 }
 
 // Is the shorter arc from a to b the one to -b? Products of floats are exact in double, so every
-// machine and the exact poses of the proof agree, even if both arcs are equally long to rounding.
+// machine agrees, and so do poses in float and in double, even if both arcs are equally long to
+// rounding.
 static inline int nsvcd__quats_opposed(nsvcd__quat a, nsvcd__quat b) {
   double dot = (double)a.x * (double)b.x;
-  dot += (double)a.y * (double)b.y;
-  dot += (double)a.z * (double)b.z;
-  dot += (double)a.w * (double)b.w;
+  dot = nsvcd__stored(dot + (double)a.y * (double)b.y);
+  dot = nsvcd__stored(dot + (double)a.z * (double)b.z);
+  dot = nsvcd__stored(dot + (double)a.w * (double)b.w);
   return dot < 0;
 }
 
@@ -124,20 +129,7 @@ static inline float nsvcd__quat_arc(nsvcd__quat a, nsvcd__quat b) {
 static inline nsvcd__quat nsvcd__quat_beside(nsvcd__quat q, int opposed) {
   return opposed ? nsvcd__quat_of(-q.x, -q.y, -q.z, -q.w) : q;
 }
-// Of a unit quaternion.
-static inline nsvcd__quat nsvcd__quat_inverse(nsvcd__quat q) {
-  return nsvcd__quat_of(-q.x, -q.y, -q.z, q.w);
-}
 
-// The rotation by b, then by a.
-static inline nsvcd__quat nsvcd__quat_mul(nsvcd__quat a, nsvcd__quat b) {
-  nsvcd__quat out;
-  out.x = a.w * b.x + a.x * b.w + (a.y * b.z - a.z * b.y);
-  out.y = a.w * b.y + a.y * b.w + (a.z * b.x - a.x * b.z);
-  out.z = a.w * b.z + a.z * b.w + (a.x * b.y - a.y * b.x);
-  out.w = a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z;
-  return out;
-}
 // The turn from a to b, both unit: its axis, times the sine of half its angle.
 static inline nsvcd__f3 nsvcd__quat_turn(nsvcd__quat a, nsvcd__quat b) {
   return nsvcd__quat_axis(nsvcd__quat_mul(b, nsvcd__quat_inverse(a)));
@@ -173,7 +165,4 @@ static inline nsvcd__mat3 nsvcd__mat3_mul(const nsvcd__mat3 *a, const nsvcd__mat
                            nsvcd__mat3_apply(&columns, a->y),
                            nsvcd__mat3_apply(&columns, a->z)};
   return out;
-}
-static inline nsvcd__f3 nsvcd__f3_transform(const nsvcd__transform *t, nsvcd__f3 a) {
-  return nsvcd__f3_add(nsvcd__mat3_apply(&t->rotation, a), t->position);
 }

@@ -4,16 +4,6 @@
 #include "proof.h"
 
 #ifndef NSVCD_NO_PROOF
-static nsvcd__dquat nsvcd__unit_rotation(const nsvcd_pose *pose) {
-  const float *q = pose->rotation;
-  const nsvcd__dquat out = {(double)q[0], (double)q[1], (double)q[2], (double)q[3]};
-  return nsvcd__dquat_unit(out);
-}
-
-static nsvcd__d3 nsvcd__d3_transform(const nsvcd__dtransform *at, nsvcd__d3 a) {
-  return nsvcd__d3_add(nsvcd__dmat3_apply(&at->rotation, a), at->position);
-}
-
 // The inverse of a pose, whose rotation is times this scale.
 static nsvcd__dtransform nsvcd__inverse_dtransform(const nsvcd__dtransform *at, double scale) {
   const double inverse = 1 / (scale * scale);
@@ -24,54 +14,22 @@ static nsvcd__dtransform nsvcd__inverse_dtransform(const nsvcd__dtransform *at, 
   return out;
 }
 
-// The rotation at fraction u of the arc, unit.
-static nsvcd__dquat nsvcd__slerp_at(const nsvcd__slerp *slerp, double u) {
-  const double along = slerp->from + slerp->fraction * u;
-  double before = 1 - along;
-  double after = along;
-  // below, the difference is less than rounding
-  if (slerp->half_angle > 1e-7) {
-    before = nsvcd__sin((1 - along) * slerp->half_angle);
-    after = nsvcd__sin(along * slerp->half_angle);
-  }
-  const nsvcd__dquat start = nsvcd__dquat_scale(slerp->start, before);
-  return nsvcd__dquat_unit(nsvcd__dquat_fma(after, slerp->end, start));
-}
-
 // A track's slerp over an arc, and its positions at both ends, metres.
-static void nsvcd__slerp_init(const nsvcd__track *track, uint32_t first, uint32_t ticks,
-                              nsvcd__slerp *slerp, nsvcd__d3 *ends) {
+static nsvcd__slerp nsvcd__slerp_in(const nsvcd__track *track, uint32_t first, uint32_t ticks,
+                                    nsvcd__d3 *ends) {
   const uint32_t k = nsvcd__pose_before(track, first);
   const nsvcd_pose *a = &track->poses[k];
   const nsvcd_pose *b = track->count > 1 ? a + 1 : a;
   const uint32_t begin = nsvcd__tick_of(track, k);
   const double per_tick = 1 / (double)(nsvcd__tick_of(track, k + 1) - begin);
-  slerp->fraction = (double)ticks * per_tick;
-  slerp->from = (double)(first - begin) * per_tick;
   const nsvcd__d3 start = nsvcd__d3_load(a->position);
-  const nsvcd__d3 along = nsvcd__d3_sub(nsvcd__d3_load(b->position), start);
-  ends[0] = nsvcd__d3_add(start, nsvcd__d3_scale(along, slerp->from));
-  ends[1] = nsvcd__d3_add(start, nsvcd__d3_scale(along, slerp->from + slerp->fraction));
-
-  const double sign = nsvcd__poses_opposed(a, b) ? -1 : 1;
-  slerp->start = nsvcd__unit_rotation(a);
-  slerp->end = nsvcd__dquat_scale(nsvcd__unit_rotation(b), sign);
-  const nsvcd__dquat difference = nsvcd__dquat_fma(-1, slerp->end, slerp->start);
-  const nsvcd__dquat sum = nsvcd__dquat_fma(1, slerp->end, slerp->start);
-  const double apart = sqrt(nsvcd__dquat_dot(difference, difference));
-  slerp->half_angle = 2 * nsvcd__atan2(apart, sqrt(nsvcd__dquat_dot(sum, sum)));
-}
-
-// The rotation vector of a slerp, over its arc.
-static nsvcd__d3 nsvcd__slerp_turn(const nsvcd__slerp *slerp) {
-  const nsvcd__d3 u = nsvcd__dquat_axis(slerp->start);
-  const nsvcd__d3 v = nsvcd__dquat_axis(slerp->end);
-  const nsvcd__d3 ahead = nsvcd__d3_scale(v, slerp->start.w);
-  const nsvcd__d3 difference = nsvcd__d3_sub(ahead, nsvcd__d3_scale(u, slerp->end.w));
-  const nsvcd__d3 across = nsvcd__d3_add(difference, nsvcd__d3_cross(u, v));
-  const double sine = nsvcd__d3_norm(across);
-  return nsvcd__d3_scale(across,
-                         sine > 0 ? 2 * slerp->half_angle * slerp->fraction / sine : 0);
+  const nsvcd__d3 end = nsvcd__d3_load(b->position);
+  nsvcd__slerp out = nsvcd__slerp_of(a, b);
+  out.fraction = (double)ticks * per_tick;
+  out.from = (double)(first - begin) * per_tick;
+  ends[0] = nsvcd__d3_mix(start, end, out.from);
+  ends[1] = nsvcd__d3_mix(start, end, out.from + out.fraction);
+  return out;
 }
 
 // The arc that begins at the keyframe `first`.
@@ -87,19 +45,19 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   arc->fixed_moves = m->fixed_moves;
   arc->scale = m->ratio;
   arc->push_out = nsvcd__d3_widen(m->push_out);
-  nsvcd__slerp_init(&m->moving, first, ticks, &arc->moving, ends);
-  nsvcd__slerp_init(&m->fixed, first, ticks, &arc->fixed, fixed_ends);
+  arc->moving = nsvcd__slerp_in(&m->moving, first, ticks, ends);
+  arc->fixed = nsvcd__slerp_in(&m->fixed, first, ticks, fixed_ends);
   const nsvcd__d3 from = nsvcd__d3_sub(ends[0], fixed_ends[0]);
   const nsvcd__d3 to = nsvcd__d3_sub(ends[1], fixed_ends[1]);
   arc->from = nsvcd__d3_scale(from, per_metre);
   arc->moved = nsvcd__d3_scale(nsvcd__d3_sub(to, from), per_metre);
   if (!arc->fixed_moves) {
     // all in the fixed body's frame
-    const nsvcd__dquat frame = arc->fixed.start;
-    const nsvcd__dmat3 axes = nsvcd__dmat3_of(frame);
+    const nsvcd__dquat back = nsvcd__dquat_inverse(arc->fixed.start);
+    const nsvcd__dmat3 axes = nsvcd__dmat3_of(arc->fixed.start);
     const nsvcd__dquat none = {0, 0, 0, 1};
-    arc->moving.start = nsvcd__dquat_inverse_mul(frame, arc->moving.start);
-    arc->moving.end = nsvcd__dquat_inverse_mul(frame, arc->moving.end);
+    arc->moving.start = nsvcd__dquat_mul(back, arc->moving.start);
+    arc->moving.end = nsvcd__dquat_mul(back, arc->moving.end);
     arc->from = nsvcd__dmat3_apply_transpose(&axes, arc->from);
     arc->moved = nsvcd__dmat3_apply_transpose(&axes, arc->moved);
     arc->fixed.start = arc->fixed.end = none;
@@ -143,7 +101,7 @@ static nsvcd__dtransform nsvcd__dtransform_at(const nsvcd__arc *arc, double u) {
   if (arc->fixed_moves) {
     const nsvcd__dquat fixed = nsvcd__slerp_at(&arc->fixed, u);
     const nsvcd__dmat3 matrix = nsvcd__dmat3_of(fixed);
-    q = nsvcd__dquat_inverse_mul(fixed, q);
+    q = nsvcd__dquat_mul(nsvcd__dquat_inverse(fixed), q);
     at.position = nsvcd__dmat3_apply_transpose(&matrix, at.position);
   }
   const nsvcd__dmat3 rotation = nsvcd__dmat3_of(q);

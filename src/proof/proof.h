@@ -83,6 +83,7 @@
 // one ray, of its limit: nsvcd__check_budget.
 #pragma once
 #include "../body/geometry.h"
+#include "../ground/motions.h"
 #include "../motion/motion.h"
 
 #ifndef NSVCD_NO_PROOF
@@ -189,15 +190,6 @@ typedef struct nsvcd__patch_pair {
   float fraction;
 } nsvcd__patch_pair;
 
-// How a body turns over an arc.
-typedef struct nsvcd__slerp {
-  // at its poses before and after: unit, on the shorter side
-  nsvcd__dquat start, end;
-  double half_angle;  // between them as quaternions: half the angle of the turn
-  // between these poses, 0 to 1: where the arc begins, and its length
-  double from, fraction;
-} nsvcd__slerp;
-
 // The motion between two keyframes, in double and in the fixed body's units. Where the fixed body
 // moves, slerps and positions have the world's axes, else the fixed body's.
 typedef struct nsvcd__arc {
@@ -222,12 +214,6 @@ typedef struct nsvcd__arc {
   // metre from the moving origin; and of that origin itself.
   double bend, twist, origin_bend;
 } nsvcd__arc;
-
-// A pose in double.
-typedef struct nsvcd__dtransform {
-  nsvcd__dmat3 rotation;
-  nsvcd__d3 position;
-} nsvcd__dtransform;
 
 // An interval of the motion, t in [0,1]. A point of the moving body at r metres from its origin
 // deviates from the chord between its positions at both ends by no more than origin_bend + bend r.

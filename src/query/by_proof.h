@@ -6,35 +6,22 @@
 #include "../task/task.h"
 
 #ifndef NSVCD_NO_PROOF
-typedef struct nsvcd__dpose {
-  nsvcd__dquat rotation;
-  nsvcd__d3 position;
-} nsvcd__dpose;
-
 // A body's pose at time t in [0,1], in the world.
 static nsvcd__dpose nsvcd__dpose_at(const nsvcd__motion *motion, const nsvcd__track *track,
                                     double t) {
-  nsvcd__slerp slerp;
-  nsvcd__d3 ends[2];
-  double u;
-  const uint32_t first = nsvcd__arc_of(motion, t * (double)motion->ticks, &u);
-  nsvcd__slerp_init(track, first, nsvcd__next_keyframe(motion, first) - first, &slerp, ends);
-  const nsvcd__dpose out = {nsvcd__slerp_at(&slerp, u), nsvcd__d3_mix(ends[0], ends[1], u)};
-  return out;
-}
-
-static nsvcd_pose nsvcd__pose_round(const nsvcd__dpose *pose) {
-  const nsvcd__dquat q = pose->rotation;
-  nsvcd_pose out = {{0, 0, 0}, {(float)q.x, (float)q.y, (float)q.z, (float)q.w}};
-  nsvcd__f3_store(nsvcd__f3_round(pose->position), out.position);
-  return out;
+  const double tick = t * (double)motion->ticks;
+  const uint32_t k = nsvcd__pose_before(track, (uint32_t)tick);
+  const uint32_t from = nsvcd__tick_of(track, k);
+  const uint32_t length = nsvcd__tick_of(track, k + 1) - from;
+  const nsvcd_pose *a = &track->poses[k];
+  const nsvcd_pose *b = track->count > 1 ? a + 1 : a;
+  return nsvcd__dpose_between(a, b, (tick - (double)from) / (double)length);
 }
 
 // From the fixed body's frame, in metres, to the world, at time t.
 static nsvcd__dtransform nsvcd__world_at(const nsvcd__motion *motion, double t) {
   const nsvcd__dpose pose = nsvcd__dpose_at(motion, &motion->fixed, t);
-  const nsvcd__dtransform out = {nsvcd__dmat3_of(pose.rotation), pose.position};
-  return out;
+  return nsvcd__dtransform_of(&pose);
 }
 
 // The length to which an answer is asked for, or the default, in the fixed body's units.
@@ -162,7 +149,7 @@ static NSVCD__NOINLINE void nsvcd__poses_at(const nsvcd__task *task, double t,
     const double by = n == moving_takes_it ? 0 : n ? -unit : unit;
     nsvcd__dpose pose = nsvcd__dpose_at(motion, n ? &motion->fixed : &motion->moving, t);
     pose.position = nsvcd__d3_add(pose.position, nsvcd__d3_scale(seen, by));
-    *(n ? fixed : moving) = nsvcd__pose_round(&pose);
+    *(n ? fixed : moving) = nsvcd__dpose_round(&pose);
   }
 }
 
@@ -222,13 +209,13 @@ static nsvcd__motion nsvcd__rest_at(const nsvcd__task *task, double t, nsvcd_pos
   const nsvcd__track tracks[2] = {{&poses[0], NULL, 1, 0, 0}, {&poses[1], NULL, 1, 0, 0}};
   nsvcd__dpose moving = nsvcd__dpose_at(&still, &still.moving, t);
   nsvcd__dpose fixed = nsvcd__dpose_at(&still, &still.fixed, t);
-  const nsvcd__dmat3 rotation = nsvcd__dmat3_of(fixed.rotation);
+  const nsvcd__dmat3 rotation = nsvcd__dtransform_of(&fixed).rotation;
   const nsvcd__d3 push_out = nsvcd__dmat3_apply(&rotation, nsvcd__d3_widen(still.push_out));
   const nsvcd__d3 offset = nsvcd__d3_sub(moving.position, fixed.position);
   moving.position = nsvcd__d3_add(offset, nsvcd__d3_scale(push_out, (double)still.unit));
   fixed.position = nsvcd__d3_of(0, 0, 0);
-  poses[0] = nsvcd__pose_round(&moving);
-  poses[1] = nsvcd__pose_round(&fixed);
+  poses[0] = nsvcd__dpose_round(&moving);
+  poses[1] = nsvcd__dpose_round(&fixed);
   nsvcd__motion_set_tracks(&still, tracks[0], tracks[1]);
   still.push_out = nsvcd__f3_of(0, 0, 0);
   return still;

@@ -18,24 +18,17 @@
 // All questions about bodies are asked by nsvcd_sweep, as any program asks them.
 #pragma once
 #include "../ground/memory.h"
-#include "../ground/rotations.h"
+#include "../ground/motions.h"
 #include "../ground/valid.h"
 #include "../interface/robots.h"
 
 // steps of a check that are asked about together, at most
 #define NSVCD__MOST_STEPS 256
 
-// A rotation and a position, in double.
-typedef struct nsvcd__frame {
-  // unit
-  nsvcd__dquat turn;
-  nsvcd__d3 position;
-} nsvcd__frame;
-
 // A joint, as the checker has it, and the link that it carries.
 typedef struct nsvcd__link {
   // of the joint, in its parent link
-  nsvcd__frame origin;
+  nsvcd__dpose origin;
   // unit, in the joint's frame
   nsvcd__d3 axis;
   // joints from the world to this link, its own too: bit i is joint i
@@ -45,7 +38,7 @@ typedef struct nsvcd__link {
 // Where the links are in a configuration, in the world.
 typedef struct nsvcd__links {
   // of the links, the world first
-  nsvcd__frame frames[NSVCD_MAX_JOINTS + 1];
+  nsvcd__dpose frames[NSVCD_MAX_JOINTS + 1];
   // of the joints: unit
   nsvcd__d3 axes[NSVCD_MAX_JOINTS];
 } nsvcd__links;
@@ -58,7 +51,7 @@ typedef struct nsvcd__bounds {
 // A part, as the checker has it.
 typedef struct nsvcd__member {
   // in its link
-  nsvcd__frame frame;
+  nsvcd__dpose frame;
   // a sphere about its triangles, in its link; and no point is farther from its origin
   nsvcd__d3 centre;
   double radius, extent;
@@ -82,7 +75,7 @@ struct nsvcd_checker {
   // (P): those of an interval that are not proven yet
   uint32_t *left;
   // (moving parts, NSVCD__MOST_STEPS + 1): samples, in the world
-  nsvcd__frame *frames;
+  nsvcd__dpose *frames;
   nsvcd__bounds *bounds;
   // (NSVCD__MOST_STEPS + 1): of both parts of a pair, see local_queries
   nsvcd_pose *local[2];
@@ -95,50 +88,29 @@ struct nsvcd_checker {
   nsvcd_result result;
 };
 
-static nsvcd__dquat nsvcd__dquat_mul(nsvcd__dquat a, nsvcd__dquat b) {
-  const nsvcd__dquat back = {-a.x, -a.y, -a.z, a.w};
-  return nsvcd__dquat_inverse_mul(back, b);
-}
-
 static nsvcd__d3 nsvcd__dquat_rotate(nsvcd__dquat q, nsvcd__d3 a) {
   const nsvcd__d3 axis = nsvcd__dquat_axis(q);
   const nsvcd__d3 twice = nsvcd__d3_scale(nsvcd__d3_cross(axis, a), 2);
   return nsvcd__d3_add(nsvcd__d3_fma(q.w, twice, a), nsvcd__d3_cross(axis, twice));
 }
 
-static nsvcd__frame nsvcd__frame_of(const nsvcd_pose *pose) {
-  const float *q = pose->rotation;
-  const nsvcd__dquat turn = {(double)q[0], (double)q[1], (double)q[2], (double)q[3]};
-  const nsvcd__frame out = {nsvcd__dquat_unit(turn), nsvcd__d3_load(pose->position)};
-  return out;
+static nsvcd__d3 nsvcd__dpose_apply(const nsvcd__dpose *frame, nsvcd__d3 a) {
+  return nsvcd__d3_add(nsvcd__dquat_rotate(frame->rotation, a), frame->position);
 }
 
-static nsvcd__d3 nsvcd__frame_apply(const nsvcd__frame *frame, nsvcd__d3 a) {
-  return nsvcd__d3_add(nsvcd__dquat_rotate(frame->turn, a), frame->position);
-}
-
-static nsvcd__frame nsvcd__frame_mul(const nsvcd__frame *a, const nsvcd__frame *b) {
-  const nsvcd__d3 position = nsvcd__dquat_rotate(a->turn, b->position);
-  const nsvcd__frame out = {nsvcd__dquat_mul(a->turn, b->turn),
+static nsvcd__dpose nsvcd__dpose_mul(const nsvcd__dpose *a, const nsvcd__dpose *b) {
+  const nsvcd__d3 position = nsvcd__dquat_rotate(a->rotation, b->position);
+  const nsvcd__dpose out = {nsvcd__dquat_mul(a->rotation, b->rotation),
                             nsvcd__d3_add(a->position, position)};
   return out;
 }
 
 // b, as seen from a.
-static nsvcd__frame nsvcd__frame_inverse_mul(const nsvcd__frame *a, const nsvcd__frame *b) {
-  const nsvcd__dquat back = {-a->turn.x, -a->turn.y, -a->turn.z, a->turn.w};
+static nsvcd__dpose nsvcd__dpose_inverse_mul(const nsvcd__dpose *a, const nsvcd__dpose *b) {
+  const nsvcd__dquat back = nsvcd__dquat_inverse(a->rotation);
   const nsvcd__d3 offset = nsvcd__d3_sub(b->position, a->position);
-  const nsvcd__frame out = {nsvcd__dquat_inverse_mul(a->turn, b->turn),
+  const nsvcd__dpose out = {nsvcd__dquat_mul(back, b->rotation),
                             nsvcd__dquat_rotate(back, offset)};
-  return out;
-}
-
-static nsvcd_pose nsvcd__frame_pose(const nsvcd__frame *frame) {
-  const nsvcd__dquat turn = nsvcd__dquat_unit(frame->turn);
-  nsvcd_pose out;
-  nsvcd__f3_store(nsvcd__f3_round(frame->position), out.position);
-  nsvcd__f3_store(nsvcd__f3_round(nsvcd__dquat_axis(turn)), out.rotation);
-  out.rotation[3] = (float)turn.w;
   return out;
 }
 
@@ -146,32 +118,32 @@ static int nsvcd__slides(const nsvcd_checker *c, size_t joint) {
   return c->scene->joints[joint].kind == NSVCD_JOINT_PRISMATIC;
 }
 
+// What a joint carries, in the joint's parent link.
+static nsvcd__dpose nsvcd__joint_frame(const nsvcd_checker *c, size_t joint, double value) {
+  const nsvcd__link *link = &c->links[joint];
+  const int slides = nsvcd__slides(c, joint);
+  const nsvcd__d3 axis = nsvcd__d3_scale(link->axis, slides ? value : sin(0.5 * value));
+  const nsvcd__dpose slid = {{0, 0, 0, 1}, axis};
+  const nsvcd__dpose turned = {{axis.x, axis.y, axis.z, cos(0.5 * value)}, {0, 0, 0}};
+  return nsvcd__dpose_mul(&link->origin, slides ? &slid : &turned);
+}
+
 // Forward kinematics.
 static void nsvcd__place_links(const nsvcd_checker *c, const double *joints,
                                nsvcd__links *out) {
-  const nsvcd__frame world = {{0, 0, 0, 1}, {0, 0, 0}};
+  const nsvcd__dpose world = {{0, 0, 0, 1}, {0, 0, 0}};
   out->frames[0] = world;
   for (size_t i = 0; i < c->scene->joint_count; i++) {
-    const nsvcd__link *link = &c->links[i];
-    const nsvcd__frame *parent = &out->frames[c->scene->joints[i].parent];
-    nsvcd__frame frame = nsvcd__frame_mul(parent, &link->origin);
-    out->axes[i] = nsvcd__dquat_rotate(frame.turn, link->axis);
-    if (nsvcd__slides(c, i)) {
-      frame.position = nsvcd__d3_fma(joints[i], out->axes[i], frame.position);
-    } else {
-      const double half = 0.5 * joints[i];
-      const nsvcd__d3 axis = nsvcd__d3_scale(link->axis, sin(half));
-      const nsvcd__dquat turn = {axis.x, axis.y, axis.z, cos(half)};
-      frame.turn = nsvcd__dquat_mul(frame.turn, turn);
-    }
-    out->frames[i + 1] = frame;
+    const nsvcd__dpose link = nsvcd__joint_frame(c, i, joints[i]);
+    out->frames[i + 1] = nsvcd__dpose_mul(&out->frames[c->scene->joints[i].parent], &link);
+    out->axes[i] = nsvcd__dquat_rotate(out->frames[i + 1].rotation, c->links[i].axis);
   }
 }
 
-static nsvcd__frame nsvcd__frame_of_part(const nsvcd_checker *c, const nsvcd__links *at,
+static nsvcd__dpose nsvcd__frame_of_part(const nsvcd_checker *c, const nsvcd__links *at,
                                          size_t part) {
   const uint32_t link = c->scene->parts[part].link;
-  return nsvcd__frame_mul(&at->frames[link], &c->members[part].frame);
+  return nsvcd__dpose_mul(&at->frames[link], &c->members[part].frame);
 }
 
 NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const double *joints,
@@ -179,7 +151,7 @@ NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const doubl
   nsvcd__links at;
   nsvcd__place_links(checker, joints, &at);
   for (size_t n = 0; n < checker->scene->part_count; n++) {
-    const nsvcd__frame frame = nsvcd__frame_of_part(checker, &at, n);
-    poses[n] = nsvcd__frame_pose(&frame);
+    const nsvcd__dpose frame = nsvcd__frame_of_part(checker, &at, n);
+    poses[n] = nsvcd__dpose_round(&frame);
   }
 }

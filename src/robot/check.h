@@ -58,7 +58,7 @@ static nsvcd_verdict nsvcd__ask_pair(nsvcd__check_state *s, const nsvcd_body_pai
   const double room = (double)s->options->clearance + error;
   if (!nsvcd__steps_near(c, pair, s->steps, room * (1 + 1e-9), range)) return NSVCD_FREE;
   const size_t count = range->steps + 1;
-  const nsvcd__frame *const frames[2] = {nsvcd__frames_at(c, pair->a, range->first),
+  const nsvcd__dpose *const frames[2] = {nsvcd__frames_at(c, pair->a, range->first),
                                          nsvcd__frames_at(c, pair->b, range->first)};
   const nsvcd__local local = nsvcd__localize(c, pair, frames, count);
   const double errors = is_proof ? error + local.rounding : 0;

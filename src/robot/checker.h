@@ -72,8 +72,8 @@ static nsvcd_result nsvcd__scene_check(const nsvcd_scene *scene) {
 // ---- boxes
 
 // Of a part whose frame in the world this is.
-static nsvcd__bounds nsvcd__bounds_of(const nsvcd__member *m, const nsvcd__frame *frame) {
-  const nsvcd__dmat3 axes = nsvcd__dmat3_of(frame->turn);
+static nsvcd__bounds nsvcd__bounds_of(const nsvcd__member *m, const nsvcd__dpose *frame) {
+  const nsvcd__dmat3 axes = nsvcd__dmat3_of(frame->rotation);
   const nsvcd__d3 *rows[3] = {&axes.x, &axes.y, &axes.z};
   nsvcd__d3 half = {0, 0, 0};
   for (size_t k = 0; k < 3; k++) {
@@ -118,7 +118,7 @@ static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
   c->members = NSVCD__TAKE_ROWS(nsvcd__member, parts, base, &used);
   c->order = NSVCD__TAKE_ROWS(uint32_t, pairs, base, &used);
   c->left = NSVCD__TAKE_ROWS(uint32_t, pairs, base, &used);
-  c->frames = NSVCD__TAKE_ROWS(nsvcd__frame, rows, base, &used);
+  c->frames = NSVCD__TAKE_ROWS(nsvcd__dpose, rows, base, &used);
   c->bounds = NSVCD__TAKE_ROWS(nsvcd__bounds, rows, base, &used);
   for (size_t n = 0; n < 2; n++)
     c->local[n] = NSVCD__TAKE_ROWS(nsvcd_pose, samples, base, &used);
@@ -143,8 +143,8 @@ static nsvcd__member nsvcd__member_of(const nsvcd_part *part) {
   const nsvcd__d3 half = nsvcd__d3_scale(nsvcd__d3_sub(high, low), 0.5 * scale);
   nsvcd__member m;
   memset(&m, 0, sizeof m);
-  m.frame = nsvcd__frame_of(&part->pose);
-  m.centre = nsvcd__frame_apply(&m.frame, centre);
+  m.frame = nsvcd__unit_dpose(&part->pose);
+  m.centre = nsvcd__dpose_apply(&m.frame, centre);
   // spheres are computed in float
   m.radius = 1.000001 * scale * (double)(facts.radius - facts.convex_radius);
   m.extent = 1.000001 * scale * (double)facts.extent;
@@ -170,7 +170,7 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
   for (size_t i = 0; i < scene->joint_count; i++) {
     const nsvcd_joint *joint = &scene->joints[i];
     nsvcd__link *link = &c->links[i];
-    link->origin = nsvcd__frame_of(&joint->origin);
+    link->origin = nsvcd__unit_dpose(&joint->origin);
     link->axis = nsvcd__d3_unit(nsvcd__d3_load(joint->axis), nsvcd__d3_of(0, 0, 1));
     link->chain = (uint32_t)1 << i | (joint->parent ? c->links[joint->parent - 1].chain : 0);
   }

@@ -40,8 +40,8 @@ static nsvcd_result nsvcd__check_joints(const nsvcd_checker *c, const double *jo
 // The point and the direction are in the local frame.
 static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, const nsvcd__local *local,
                              nsvcd__d3 at, nsvcd__d3 along, double sign, double *slope) {
-  const nsvcd__d3 point = nsvcd__frame_apply(&local->frame, at);
-  const nsvcd__d3 normal = nsvcd__dquat_rotate(local->frame.turn, along);
+  const nsvcd__d3 point = nsvcd__dpose_apply(&local->frame, at);
+  const nsvcd__d3 normal = nsvcd__dquat_rotate(local->frame.rotation, along);
   const uint32_t link = c->scene->parts[part].link;
   for (uint32_t chain = link ? c->links[link - 1].chain : 0; chain; chain &= chain - 1) {
     const size_t j = nsvcd__low_bit(chain);
@@ -373,11 +373,11 @@ NSVCDDEF nsvcd_result nsvcd_reparent(const nsvcd_checker *c, const double *joint
   if (!out) return NSVCD_ERROR_ARGUMENT;
   if (part >= scene->part_count || link > scene->joint_count) return NSVCD_ERROR_LINK;
   nsvcd__place_links(c, joints, &at);
-  const nsvcd__frame world = nsvcd__frame_of_part(c, &at, part);
-  const nsvcd__frame frame = nsvcd__frame_inverse_mul(&at.frames[link], &world);
+  const nsvcd__dpose world = nsvcd__frame_of_part(c, &at, part);
+  const nsvcd__dpose frame = nsvcd__dpose_inverse_mul(&at.frames[link], &world);
   nsvcd_part moved = scene->parts[part];
   moved.link = link;
-  moved.pose = nsvcd__frame_pose(&frame);
+  moved.pose = nsvcd__dpose_round(&frame);
   result = nsvcd__poses_check(&moved.pose, 1);
   if (!result) *out = moved;
   return result;

@@ -23,8 +23,7 @@
 // The angle of the turn from a to b, radians: the shorter one.
 static double nsvcd__angle_between(nsvcd__dquat a, nsvcd__dquat b) {
   const double side = nsvcd__dquat_dot(a, b) < 0 ? -1 : 1;
-  const nsvcd__dquat chord = nsvcd__dquat_fma(-side, b, a);
-  return 4 * asin(nsvcd__min(0.5 * sqrt(nsvcd__dquat_dot(chord, chord)), 1));
+  return 2 * nsvcd__dquat_arc(a, nsvcd__dquat_scale(b, side));
 }
 
 // r of the banner, (F): how far points of a part can be from the axes of the joints of its chain,
@@ -34,7 +33,7 @@ static void nsvcd__moment_arms_of(const nsvcd_checker *c, size_t part, const nsv
   const nsvcd__member *m = &c->members[part];
   const size_t link = c->scene->parts[part].link;
   const uint32_t chain = c->links[link - 1].chain;
-  const nsvcd__d3 centre = nsvcd__frame_apply(&from->frames[link], m->centre);
+  const nsvcd__d3 centre = nsvcd__dpose_apply(&from->frames[link], m->centre);
   // by joints beyond this one
   double moved = 0;
   for (size_t j = link; j-- > 0;) {
@@ -54,7 +53,8 @@ static double nsvcd__part_deviation(const nsvcd_checker *c, size_t part,
                                     const nsvcd__step *step, const nsvcd__links *from,
                                     const nsvcd__links *to) {
   const size_t link = c->scene->parts[part].link;
-  const double w = nsvcd__angle_between(from->frames[link].turn, to->frames[link].turn);
+  const double w =
+      nsvcd__angle_between(from->frames[link].rotation, to->frames[link].rotation);
   double arms[NSVCD_MAX_JOINTS];
   double bend = 0;
   double second = 0;

@@ -9,22 +9,22 @@
 // The frame that local poses are in.
 typedef struct nsvcd__local {
   // in the world
-  nsvcd__frame frame;
+  nsvcd__dpose frame;
   // metres, at most: the sum of both parts' errors by poses in float
   double rounding;
 } nsvcd__local;
 
 // Fills in c->local. frames: of a and of b, (count) each, but one of a part that rests.
 static nsvcd__local nsvcd__localize(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                                    const nsvcd__frame *const *frames, size_t count) {
+                                    const nsvcd__dpose *const *frames, size_t count) {
   const size_t parts[2] = {pair->a, pair->b};
   const int moves[2] = {c->scene->parts[pair->a].link > 0, c->scene->parts[pair->b].link > 0};
   nsvcd__local local = {moves[0] ? frames[1][moves[1] ? count / 2 : 0] : frames[0][0], 0};
   for (size_t n = 0; n < 2; n++) {
     double most = 0;
     for (size_t k = 0; k < (moves[n] ? count : 1); k++) {
-      const nsvcd__frame in = nsvcd__frame_inverse_mul(&local.frame, &frames[n][k]);
-      c->local[n][k] = nsvcd__frame_pose(&in);
+      const nsvcd__dpose in = nsvcd__dpose_inverse_mul(&local.frame, &frames[n][k]);
+      c->local[n][k] = nsvcd__dpose_round(&in);
       most = nsvcd__max(most, nsvcd__d3_norm(in.position));
     }
     // of positions and of quaternions as floats
@@ -35,17 +35,18 @@ static nsvcd__local nsvcd__localize(nsvcd_checker *c, const nsvcd_body_pair *pai
 
 // The same in the configuration c->at.
 static nsvcd__local nsvcd__localize_at(nsvcd_checker *c, const nsvcd_body_pair *pair) {
-  const nsvcd__frame a = nsvcd__frame_of_part(c, &c->at, pair->a);
-  const nsvcd__frame b = nsvcd__frame_of_part(c, &c->at, pair->b);
-  const nsvcd__frame *const frames[2] = {&a, &b};
+  const nsvcd__dpose a = nsvcd__frame_of_part(c, &c->at, pair->a);
+  const nsvcd__dpose b = nsvcd__frame_of_part(c, &c->at, pair->b);
+  const nsvcd__dpose *const frames[2] = {&a, &b};
   return nsvcd__localize(c, pair, frames, 1);
 }
 
 // Takes a contact from the local frame to the world.
 static void nsvcd__contact_to_world(const nsvcd__local *local, nsvcd_contact *contact) {
-  const nsvcd__frame *frame = &local->frame;
-  const nsvcd__d3 point = nsvcd__frame_apply(frame, nsvcd__d3_load(contact->point));
-  const nsvcd__d3 normal = nsvcd__dquat_rotate(frame->turn, nsvcd__d3_load(contact->normal));
+  const nsvcd__dpose *frame = &local->frame;
+  const nsvcd__d3 point = nsvcd__dpose_apply(frame, nsvcd__d3_load(contact->point));
+  const nsvcd__d3 normal =
+      nsvcd__dquat_rotate(frame->rotation, nsvcd__d3_load(contact->normal));
   nsvcd__f3_store(nsvcd__f3_round(point), contact->point);
   nsvcd__f3_store(nsvcd__f3_round(normal), contact->normal);
 }

@@ -63,21 +63,16 @@ static double nsvcd__curve_of(const nsvcd__carried *c, size_t joint, double t0, 
 static nsvcd_pose64 nsvcd__carried_pose(const void *motion, double t) {
   const nsvcd__carried *c = (const nsvcd__carried *)motion;
   const nsvcd_scene *scene = c->checker->scene;
-  nsvcd__frame at = c->checker->members[c->part].frame;
+  nsvcd__dpose at = c->checker->members[c->part].frame;
   for (size_t link = scene->parts[c->part].link; link != c->base;
        link = scene->joints[link - 1].parent) {
-    const nsvcd__link *carrier = &c->checker->links[link - 1];
-    const int slides = nsvcd__slides(c->checker, link - 1);
     double q[NSVCD_MAX_DEGREE + 1];
     (void)nsvcd__curve_of(c, link - 1, t, t, q);
-    const nsvcd__d3 axis = nsvcd__d3_scale(carrier->axis, slides ? q[0] : sin(0.5 * q[0]));
-    const nsvcd__frame slid = {{0, 0, 0, 1}, axis};
-    const nsvcd__frame turned = {{axis.x, axis.y, axis.z, cos(0.5 * q[0])}, {0, 0, 0}};
-    at = nsvcd__frame_mul(slides ? &slid : &turned, &at);
-    at = nsvcd__frame_mul(&carrier->origin, &at);
+    const nsvcd__dpose carrier = nsvcd__joint_frame(c->checker, link - 1, q[0]);
+    at = nsvcd__dpose_mul(&carrier, &at);
   }
   const nsvcd_pose64 out = {{at.position.x, at.position.y, at.position.z},
-                            {at.turn.x, at.turn.y, at.turn.z, at.turn.w}};
+                            {at.rotation.x, at.rotation.y, at.rotation.z, at.rotation.w}};
   return out;
 }
 

@@ -15,7 +15,7 @@ static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__links *at, size_t
   for (size_t n = 0; n < scene->part_count; n++) {
     nsvcd__member *m = &c->members[n];
     if (!scene->parts[n].link) continue;
-    const nsvcd__frame frame = nsvcd__frame_of_part(c, at, n);
+    const nsvcd__dpose frame = nsvcd__frame_of_part(c, at, n);
     const nsvcd__bounds bounds = nsvcd__bounds_of(m, &frame);
     c->frames[m->row + k] = frame;
     c->bounds[m->row + k] = bounds;
@@ -113,7 +113,7 @@ static double nsvcd__part_error(const nsvcd_checker *c, size_t part) {
 }
 
 // The frames of a part from a sample on; of one that rests there is only one.
-static const nsvcd__frame *nsvcd__frames_at(const nsvcd_checker *c, size_t part,
+static const nsvcd__dpose *nsvcd__frames_at(const nsvcd_checker *c, size_t part,
                                             size_t sample) {
   const nsvcd__member *m = &c->members[part];
   return c->scene->parts[part].link ? c->frames + m->row + sample : &m->frame;
