@@ -1135,13 +1135,6 @@ static inline nsvcd__mat3 nsvcd__mat3_mix(float s, const nsvcd__mat3 *a, float t
                            nsvcd__f3_scale(nsvcd__f3_fma(t, b->z, a->z), s)};
   return out;
 }
-static inline nsvcd__mat3 nsvcd__mat3_mul(const nsvcd__mat3 *a, const nsvcd__mat3 *b) {
-  const nsvcd__mat3 columns = nsvcd__mat3_transpose(*b);
-  const nsvcd__mat3 out = {nsvcd__mat3_apply(&columns, a->x),
-                           nsvcd__mat3_apply(&columns, a->y),
-                           nsvcd__mat3_apply(&columns, a->z)};
-  return out;
-}
 #endif  // NSVCD__HAS_GROUND_ROTATIONS
 
 // ---------------------------------------------------------------------------------- ground/motions

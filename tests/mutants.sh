@@ -106,7 +106,7 @@ both turn, no swing|nsvcd__v_fma(fixed_turn, extent, nsvcd__v_add(travel, travel
 arcs of both, twist forgotten|arc->scale * twist;|arc->scale * 0 * twist;
 arcs of both, no swing|(2 * across + angle * swing);|(2 * across);
 arcs of both, half of the way|(2 * across + angle * swing);|(across + angle * swing);
-a leg from its pose|slerp->from = (double)(first - begin) * per_tick;|slerp->from = 0;
+a leg from its pose|out.from = (double)(first - begin) * per_tick;|out.from = 0;
 knots of one body only|return after_a < after_b ? after_a : after_b;|return after_a;
 group without scale|  sphere.radius *= q->scale;\n|
 members without scale|nsvcd__v_fma(scale, radius, deviation));|nsvcd__v_add(radius, deviation));
@@ -235,7 +235,7 @@ robot: joints that do not turn each other|(2 * inner + own)|(own)
 robot: joints that turn each other once|(2 * inner + own)|(inner + own)
 robot: joints without a square|(2 * inner + own)|(2 * inner)
 robot: no slerp|w * w * c->members[part].extent) / 8|0 * w * c->members[part].extent) / 8
-robot: a slerp of half the angle|return 4 * asin(|return 2 * asin(
+robot: a slerp of half the angle|return 2 * nsvcd__dquat_arc(|return nsvcd__dquat_arc(
 robot: levers of the centre|+ m->radius + moved;|+ moved;
 robot: levers of the sample|+ m->radius + moved;|+ m->radius;
 robot: a step of a ninth|return (bend + second + w * w * c->members[part].extent) / 8;|return (bend + second + w * w * c->members[part].extent) / 9;

@@ -20,8 +20,9 @@ void test_robot(void);
 
 // A sample of a checker.
 static oracle_pose pose_of_frame(const nsvcd__dpose *frame) {
-  const oracle_pose out = {{frame->position.x, frame->position.y, frame->position.z},
-                           {frame->rotation.x, frame->rotation.y, frame->rotation.z, frame->rotation.w}};
+  const oracle_pose out = {
+      {frame->position.x, frame->position.y, frame->position.z},
+      {frame->rotation.x, frame->rotation.y, frame->rotation.z, frame->rotation.w}};
   return out;
 }
 

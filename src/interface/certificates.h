@@ -94,8 +94,8 @@ NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
                                              const nsvcd_tree *a, const nsvcd_tree *b);
 
 // Proves the answer to a question anew, and writes the proof. It shares two things with
-// nsvcd_sweep: what a pose is; and how the nearest points of two triangles are found, which is
-// checked.
+// nsvcd_sweep, both of which are checked: where a body is between two poses, and how the nearest
+// points of two triangles are found.
 //
 // FREE: the two surfaces never come within the clearance, and neither mesh is inside the other.
 // HIT: at the certificate's time an edge passes through a triangle, or points are nearer than the

@@ -296,20 +296,4 @@ static nsvcd__world_pose nsvcd__track_pose_at(const nsvcd__track *track, float t
   const size_t k = nsvcd__pose_at(track, t, &fraction);
   return nsvcd__world_pose_between(&track->poses[k], &track->poses[k + 1], (double)fraction);
 }
-
-// The moving body's pose in the fixed body's frame at time t, clamped to [0,1]. Its points are
-// multiplied by the scale first.
-static nsvcd__transform nsvcd__motion_pose(const nsvcd__motion *m, float t) {
-  const float when = t < 0 ? 0 : t > 1 ? 1 : t;
-  const nsvcd__world_pose moving = nsvcd__track_pose_at(&m->moving, when);
-  const nsvcd__world_pose fixed = nsvcd__track_pose_at(&m->fixed, when);
-  const nsvcd__mat3 rotation = nsvcd__mat3_of(moving.rotation);
-  const nsvcd__mat3 to_fixed = nsvcd__mat3_transpose(nsvcd__mat3_of(fixed.rotation));
-  const nsvcd__d3 metres = nsvcd__d3_sub(moving.position, fixed.position);
-  const nsvcd__f3 offset = nsvcd__d3_narrow(nsvcd__d3_over(metres, (double)m->unit));
-  nsvcd__transform out;
-  out.rotation = nsvcd__mat3_mul(&to_fixed, &rotation);
-  out.position = nsvcd__f3_add(nsvcd__mat3_apply(&to_fixed, offset), m->push_out);
-  return out;
-}
 #endif

@@ -216,9 +216,14 @@ static NSVCD__NOINLINE void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_o
 }
 
 // Is a part of one body inside the other at the start?
-static NSVCD__NOINLINE int nsvcd__seems_contained_at_start(const nsvcd__task *task) {
-  const nsvcd__transform pose = nsvcd__motion_pose(&task->motion, 0);
-  return nsvcd__is_contained(task->moving, task->fixed, task->motion.scale, &pose);
+static NSVCD__NOINLINE int nsvcd__seems_contained_at_start(nsvcd__query *query) {
+  const nsvcd__task *task = &query->task;
+  const nsvcd__motion *m = &task->motion;
+  nsvcd__segments *first = query->broad_phase.blocks;
+  const nsvcd__mat3 scaled = nsvcd__mat3_lane(first->rotation, 0);
+  const nsvcd__transform pose = {nsvcd__mat3_mix(m->per_scale, &scaled, 0, &scaled),
+                                 nsvcd__lane_of(first->position, 0)};
+  return nsvcd__is_contained(task->moving, task->fixed, m->scale, &pose);
 }
 
 // An opinion that needs no decoder.
@@ -254,7 +259,7 @@ static int nsvcd__ask_network(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opin
   }
 
   // A body inside another need not touch anything.
-  if (out->logit > 0 || !nsvcd__seems_contained_at_start(task)) return 0;
+  if (out->logit > 0 || !nsvcd__seems_contained_at_start(query)) return 0;
   const size_t candidates = out->candidates;
   nsvcd__certain_opinion(NSVCD_LOGIT_CERTAIN, out);
   out->candidates = candidates;

@@ -76,7 +76,8 @@ static void run_stages(const question *q, nsvcd__query *work, double *times) {
   while (more) more = nsvcd__search_step(&work->broad_phase, &kept);
   keep_least(times, STEPS, start);
   start = seconds();
-  const nsvcd__transform pose = nsvcd__motion_pose(&motion, 0);
+  const nsvcd__transform pose = {nsvcd__mat3_lane(work->broad_phase.blocks->rotation, 0),
+                                 nsvcd__lane_of(work->broad_phase.blocks->position, 0)};
   (void)nsvcd__is_contained(q->moving, q->fixed, 1, &pose);
   keep_least(times, INSIDE, start);
   if (!kept.count) return;
