@@ -980,12 +980,17 @@ static inline nsvcd__d3 nsvcd__d3_stored(nsvcd__d3 a) {
 // In, out: rotations, as values: quat and mat3 of floats, dquat and dmat3 of doubles. A matrix is
 // its rows. A transform is a rotation and a position.
 
-// The algebra of both: NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__f3, float, sqrtf) writes
-// nsvcd__quat_dot, nsvcd__mat3_apply and so on. _fma(s, b, a) is s b + a; _inverse and _axis are
-// those of a unit quaternion, the axis times the sine of half its angle; _mul(a, b) is the rotation
-// by b, then by a; _of is the matrix of a unit quaternion; _apply_transpose is the transpose of m,
-// times a. A transform takes a to rotation a + position.
-#define NSVCD__ROTATIONS(quat, mat, placed, vec, scalar, sqrt) \
+// The algebra of both: NSVCD__ROTATIONS writes nsvcd__quat_dot, nsvcd__mat3_apply and so on.
+//   _fma(s, b, a)        s b + a
+//   _axis, _inverse      of a unit quaternion; the axis times the sine of half its angle
+//   _mul(a, b)           the rotation by b, then by a
+//   _turn(a, b)          the turn from a to b, both unit: its axis, times the sine of half its angle
+//   _along(a, b, arc, u) the slerp from a to b, which are that arc apart, at fraction u: of any
+//                        length. Up to the arc `least` a line is as good, to rounding
+//   _of                  the matrix of a unit quaternion
+//   _apply_transpose     the transpose of m, times a
+//   _transform           rotation a + position
+#define NSVCD__ROTATIONS(quat, mat, placed, vec, scalar, sqrt, sin, least) \
   typedef struct quat { \
     scalar x, y, z, w; \
   } quat; \
@@ -1025,6 +1030,15 @@ static inline nsvcd__d3 nsvcd__d3_stored(nsvcd__d3 a) {
     out.w = a.w * b.w - (a.x * b.x + a.y * b.y + a.z * b.z); \
     return out; \
   } \
+  static inline vec quat##_turn(quat a, quat b) { \
+    return quat##_axis(quat##_mul(b, quat##_inverse(a))); \
+  } \
+  static inline quat quat##_along(quat a, quat b, scalar arc, scalar u) { \
+    const int bends = arc > least; \
+    const scalar before = bends ? sin((1 - u) * arc) : 1 - u; \
+    const scalar after = bends ? sin(u * arc) : u; \
+    return quat##_fma(after, b, quat##_scale(a, before)); \
+  } \
   NSVCD__UNFUSED mat mat##_of(quat q) { \
     mat m; \
     m.x.x = 1 - 2 * (q.y * q.y + q.z * q.z); \
@@ -1053,8 +1067,10 @@ static inline nsvcd__d3 nsvcd__d3_stored(nsvcd__d3 a) {
   static inline vec vec##_transform(const placed *t, vec a) { \
     return vec##_add(mat##_apply(&t->rotation, a), t->position); \
   }
-NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__transform, nsvcd__f3, float, sqrtf)
-NSVCD__ROTATIONS(nsvcd__dquat, nsvcd__dmat3, nsvcd__dtransform, nsvcd__d3, double, sqrt)
+NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__transform, nsvcd__f3, float, sqrtf,
+                 nsvcd__sinf, 1e-3f)
+NSVCD__ROTATIONS(nsvcd__dquat, nsvcd__dmat3, nsvcd__dtransform, nsvcd__d3, double, sqrt,
+                 nsvcd__sin, 1e-7)
 #undef NSVCD__ROTATIONS
 
 static inline nsvcd__dmat3 nsvcd__dmat3_scale(const nsvcd__dmat3 *m, double s) {
@@ -1106,25 +1122,13 @@ static inline nsvcd__quat nsvcd__quat_beside(nsvcd__quat q, int opposed) {
   return opposed ? nsvcd__quat_of(-q.x, -q.y, -q.z, -q.w) : q;
 }
 
-// The turn from a to b, both unit: its axis, times the sine of half its angle.
-static inline nsvcd__f3 nsvcd__quat_turn(nsvcd__quat a, nsvcd__quat b) {
-  return nsvcd__quat_axis(nsvcd__quat_mul(b, nsvcd__quat_inverse(a)));
-}
-
 // From a at u = 0 to b at u = 1, on the shorter arc. a, b: unit to 1e-4.
 static inline nsvcd__quat nsvcd__quat_slerp(nsvcd__quat a, nsvcd__quat b, float u) {
   const int opposed = nsvcd__quats_opposed(a, b);
   const nsvcd__quat start = nsvcd__quat_unit(a);
   const nsvcd__quat end = nsvcd__quat_beside(nsvcd__quat_unit(b), opposed);
-  const float angle = nsvcd__quat_arc(start, end);
-  float wa = 1 - u;
-  float wb = u;
-  // below, slerp and lerp differ by less than rounding
-  if (angle > 1e-3f) {
-    wa = nsvcd__sinf((1 - u) * angle);
-    wb = nsvcd__sinf(u * angle);
-  }
-  return nsvcd__quat_unit(nsvcd__quat_fma(wb, end, nsvcd__quat_scale(start, wa)));
+  const float arc = nsvcd__quat_arc(start, end);
+  return nsvcd__quat_unit(nsvcd__quat_along(start, end, arc, u));
 }
 
 // s (a + t b).
@@ -1178,6 +1182,11 @@ static inline nsvcd_pose nsvcd__dpose_round(const nsvcd__dpose *pose) {
   return out;
 }
 
+// Is the shorter arc from a to b the one to -b?
+static inline int nsvcd__poses_opposed(const nsvcd_pose *a, const nsvcd_pose *b) {
+  return nsvcd__quats_opposed(nsvcd__quat_load(a->rotation), nsvcd__quat_load(b->rotation));
+}
+
 // The length of the arc from a to b, both unit, in quaternion space: half the angle of the turn.
 static inline double nsvcd__dquat_arc(nsvcd__dquat a, nsvcd__dquat b) {
   const nsvcd__dquat difference = nsvcd__dquat_fma(-1, b, a);
@@ -1197,32 +1206,18 @@ typedef struct nsvcd__slerp {
 
 // All of the turn from a to b.
 static inline nsvcd__slerp nsvcd__slerp_of(const nsvcd_pose *a, const nsvcd_pose *b) {
-  const int opposed =
-      nsvcd__quats_opposed(nsvcd__quat_load(a->rotation), nsvcd__quat_load(b->rotation));
+  const double side = nsvcd__poses_opposed(a, b) ? -1 : 1;
   const nsvcd__dquat start = nsvcd__unit_dpose(a).rotation;
   const nsvcd__dquat end = nsvcd__unit_dpose(b).rotation;
-  nsvcd__slerp out = {start, nsvcd__dquat_scale(end, opposed ? -1 : 1), 0, 0, 1};
+  nsvcd__slerp out = {start, nsvcd__dquat_scale(end, side), 0, 0, 1};
   out.half_angle = nsvcd__dquat_arc(out.start, out.end);
   return out;
 }
 
-// The rotation at fraction u of the part, of any length.
-static inline nsvcd__dquat nsvcd__slerp_mix(const nsvcd__slerp *slerp, double u) {
-  const double along = slerp->from + slerp->fraction * u;
-  double before = 1 - along;
-  double after = along;
-  // below, the difference is less than rounding
-  if (slerp->half_angle > 1e-7) {
-    before = nsvcd__sin((1 - along) * slerp->half_angle);
-    after = nsvcd__sin(along * slerp->half_angle);
-  }
-  const nsvcd__dquat start = nsvcd__dquat_scale(slerp->start, before);
-  return nsvcd__dquat_fma(after, slerp->end, start);
-}
-
-// The same, unit.
-static inline nsvcd__dquat nsvcd__slerp_at(const nsvcd__slerp *slerp, double u) {
-  return nsvcd__dquat_unit(nsvcd__slerp_mix(slerp, u));
+// The rotation at fraction u of the part, unit.
+static inline nsvcd__dquat nsvcd__slerp_at(const nsvcd__slerp *s, double u) {
+  const double along = s->from + s->fraction * u;
+  return nsvcd__dquat_unit(nsvcd__dquat_along(s->start, s->end, s->half_angle, along));
 }
 
 // The rotation vector of the part. Points bend off their chords by an eighth of its square, per
@@ -1230,8 +1225,7 @@ static inline nsvcd__dquat nsvcd__slerp_at(const nsvcd__slerp *slerp, double u) 
 // derivative of h^2 a x (a x y), by the fraction of the turn that has gone by. Along a direction n
 // that is h^2 (n x a).(a x y).
 static inline nsvcd__d3 nsvcd__slerp_turn(const nsvcd__slerp *slerp) {
-  const nsvcd__dquat back = nsvcd__dquat_inverse(slerp->start);
-  const nsvcd__d3 axis = nsvcd__dquat_axis(nsvcd__dquat_mul(slerp->end, back));
+  const nsvcd__d3 axis = nsvcd__dquat_turn(slerp->start, slerp->end);
   const double sine = nsvcd__d3_norm(axis);
   const double angle = 2 * slerp->half_angle * slerp->fraction;
   return nsvcd__d3_scale(axis, sine > 0 ? angle / sine : 0);
@@ -1240,9 +1234,9 @@ static inline nsvcd__d3 nsvcd__slerp_turn(const nsvcd__slerp *slerp) {
 // The pose at fraction u between two.
 static inline nsvcd__dpose nsvcd__dpose_between(const nsvcd_pose *a, const nsvcd_pose *b,
                                                 double u) {
-  const nsvcd__slerp slerp = nsvcd__slerp_of(a, b);
+  const nsvcd__slerp s = nsvcd__slerp_of(a, b);
   const nsvcd__d3 from = nsvcd__d3_load(a->position);
-  const nsvcd__dpose out = {nsvcd__slerp_mix(&slerp, u),
+  const nsvcd__dpose out = {nsvcd__dquat_along(s.start, s.end, s.half_angle, u),
                             nsvcd__d3_mix(from, nsvcd__d3_load(b->position), u)};
   return out;
 }

@@ -39,6 +39,11 @@ static inline nsvcd_pose nsvcd__dpose_round(const nsvcd__dpose *pose) {
   return out;
 }
 
+// Is the shorter arc from a to b the one to -b?
+static inline int nsvcd__poses_opposed(const nsvcd_pose *a, const nsvcd_pose *b) {
+  return nsvcd__quats_opposed(nsvcd__quat_load(a->rotation), nsvcd__quat_load(b->rotation));
+}
+
 // The length of the arc from a to b, both unit, in quaternion space: half the angle of the turn.
 static inline double nsvcd__dquat_arc(nsvcd__dquat a, nsvcd__dquat b) {
   const nsvcd__dquat difference = nsvcd__dquat_fma(-1, b, a);
@@ -58,32 +63,18 @@ typedef struct nsvcd__slerp {
 
 // All of the turn from a to b.
 static inline nsvcd__slerp nsvcd__slerp_of(const nsvcd_pose *a, const nsvcd_pose *b) {
-  const int opposed =
-      nsvcd__quats_opposed(nsvcd__quat_load(a->rotation), nsvcd__quat_load(b->rotation));
+  const double side = nsvcd__poses_opposed(a, b) ? -1 : 1;
   const nsvcd__dquat start = nsvcd__unit_dpose(a).rotation;
   const nsvcd__dquat end = nsvcd__unit_dpose(b).rotation;
-  nsvcd__slerp out = {start, nsvcd__dquat_scale(end, opposed ? -1 : 1), 0, 0, 1};
+  nsvcd__slerp out = {start, nsvcd__dquat_scale(end, side), 0, 0, 1};
   out.half_angle = nsvcd__dquat_arc(out.start, out.end);
   return out;
 }
 
-// The rotation at fraction u of the part, of any length.
-static inline nsvcd__dquat nsvcd__slerp_mix(const nsvcd__slerp *slerp, double u) {
-  const double along = slerp->from + slerp->fraction * u;
-  double before = 1 - along;
-  double after = along;
-  // below, the difference is less than rounding
-  if (slerp->half_angle > 1e-7) {
-    before = nsvcd__sin((1 - along) * slerp->half_angle);
-    after = nsvcd__sin(along * slerp->half_angle);
-  }
-  const nsvcd__dquat start = nsvcd__dquat_scale(slerp->start, before);
-  return nsvcd__dquat_fma(after, slerp->end, start);
-}
-
-// The same, unit.
-static inline nsvcd__dquat nsvcd__slerp_at(const nsvcd__slerp *slerp, double u) {
-  return nsvcd__dquat_unit(nsvcd__slerp_mix(slerp, u));
+// The rotation at fraction u of the part, unit.
+static inline nsvcd__dquat nsvcd__slerp_at(const nsvcd__slerp *s, double u) {
+  const double along = s->from + s->fraction * u;
+  return nsvcd__dquat_unit(nsvcd__dquat_along(s->start, s->end, s->half_angle, along));
 }
 
 // The rotation vector of the part. Points bend off their chords by an eighth of its square, per
@@ -91,8 +82,7 @@ static inline nsvcd__dquat nsvcd__slerp_at(const nsvcd__slerp *slerp, double u) 
 // derivative of h^2 a x (a x y), by the fraction of the turn that has gone by. Along a direction n
 // that is h^2 (n x a).(a x y).
 static inline nsvcd__d3 nsvcd__slerp_turn(const nsvcd__slerp *slerp) {
-  const nsvcd__dquat back = nsvcd__dquat_inverse(slerp->start);
-  const nsvcd__d3 axis = nsvcd__dquat_axis(nsvcd__dquat_mul(slerp->end, back));
+  const nsvcd__d3 axis = nsvcd__dquat_turn(slerp->start, slerp->end);
   const double sine = nsvcd__d3_norm(axis);
   const double angle = 2 * slerp->half_angle * slerp->fraction;
   return nsvcd__d3_scale(axis, sine > 0 ? angle / sine : 0);
@@ -101,9 +91,9 @@ static inline nsvcd__d3 nsvcd__slerp_turn(const nsvcd__slerp *slerp) {
 // The pose at fraction u between two.
 static inline nsvcd__dpose nsvcd__dpose_between(const nsvcd_pose *a, const nsvcd_pose *b,
                                                 double u) {
-  const nsvcd__slerp slerp = nsvcd__slerp_of(a, b);
+  const nsvcd__slerp s = nsvcd__slerp_of(a, b);
   const nsvcd__d3 from = nsvcd__d3_load(a->position);
-  const nsvcd__dpose out = {nsvcd__slerp_mix(&slerp, u),
+  const nsvcd__dpose out = {nsvcd__dquat_along(s.start, s.end, s.half_angle, u),
                             nsvcd__d3_mix(from, nsvcd__d3_load(b->position), u)};
   return out;
 }

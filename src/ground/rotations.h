@@ -4,12 +4,17 @@
 #include "angles.h"
 #include "points.h"
 
-// The algebra of both: NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__f3, float, sqrtf) writes
-// nsvcd__quat_dot, nsvcd__mat3_apply and so on. _fma(s, b, a) is s b + a; _inverse and _axis are
-// those of a unit quaternion, the axis times the sine of half its angle; _mul(a, b) is the rotation
-// by b, then by a; _of is the matrix of a unit quaternion; _apply_transpose is the transpose of m,
-// times a. A transform takes a to rotation a + position.
-#define NSVCD__ROTATIONS(quat, mat, placed, vec, scalar, sqrt) \
+// The algebra of both: NSVCD__ROTATIONS writes nsvcd__quat_dot, nsvcd__mat3_apply and so on.
+//   _fma(s, b, a)        s b + a
+//   _axis, _inverse      of a unit quaternion; the axis times the sine of half its angle
+//   _mul(a, b)           the rotation by b, then by a
+//   _turn(a, b)          the turn from a to b, both unit: its axis, times the sine of half its angle
+//   _along(a, b, arc, u) the slerp from a to b, which are that arc apart, at fraction u: of any
+//                        length. Up to the arc `least` a line is as good, to rounding
+//   _of                  the matrix of a unit quaternion
+//   _apply_transpose     the transpose of m, times a
+//   _transform           rotation a + position
+#define NSVCD__ROTATIONS(quat, mat, placed, vec, scalar, sqrt, sin, least) \
   typedef struct quat { \
     scalar x, y, z, w; \
   } quat; \
@@ -49,6 +54,15 @@
     out.w = a.w * b.w - (a.x * b.x + a.y * b.y + a.z * b.z); \
     return out; \
   } \
+  static inline vec quat##_turn(quat a, quat b) { \
+    return quat##_axis(quat##_mul(b, quat##_inverse(a))); \
+  } \
+  static inline quat quat##_along(quat a, quat b, scalar arc, scalar u) { \
+    const int bends = arc > least; \
+    const scalar before = bends ? sin((1 - u) * arc) : 1 - u; \
+    const scalar after = bends ? sin(u * arc) : u; \
+    return quat##_fma(after, b, quat##_scale(a, before)); \
+  } \
   NSVCD__UNFUSED mat mat##_of(quat q) { \
     mat m; \
     m.x.x = 1 - 2 * (q.y * q.y + q.z * q.z); \
@@ -77,8 +91,10 @@
   static inline vec vec##_transform(const placed *t, vec a) { \
     return vec##_add(mat##_apply(&t->rotation, a), t->position); \
   }
-NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__transform, nsvcd__f3, float, sqrtf)
-NSVCD__ROTATIONS(nsvcd__dquat, nsvcd__dmat3, nsvcd__dtransform, nsvcd__d3, double, sqrt)
+NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__transform, nsvcd__f3, float, sqrtf,
+                 nsvcd__sinf, 1e-3f)
+NSVCD__ROTATIONS(nsvcd__dquat, nsvcd__dmat3, nsvcd__dtransform, nsvcd__d3, double, sqrt,
+                 nsvcd__sin, 1e-7)
 #undef NSVCD__ROTATIONS
 
 static inline nsvcd__dmat3 nsvcd__dmat3_scale(const nsvcd__dmat3 *m, double s) {
@@ -130,25 +146,13 @@ static inline nsvcd__quat nsvcd__quat_beside(nsvcd__quat q, int opposed) {
   return opposed ? nsvcd__quat_of(-q.x, -q.y, -q.z, -q.w) : q;
 }
 
-// The turn from a to b, both unit: its axis, times the sine of half its angle.
-static inline nsvcd__f3 nsvcd__quat_turn(nsvcd__quat a, nsvcd__quat b) {
-  return nsvcd__quat_axis(nsvcd__quat_mul(b, nsvcd__quat_inverse(a)));
-}
-
 // From a at u = 0 to b at u = 1, on the shorter arc. a, b: unit to 1e-4.
 static inline nsvcd__quat nsvcd__quat_slerp(nsvcd__quat a, nsvcd__quat b, float u) {
   const int opposed = nsvcd__quats_opposed(a, b);
   const nsvcd__quat start = nsvcd__quat_unit(a);
   const nsvcd__quat end = nsvcd__quat_beside(nsvcd__quat_unit(b), opposed);
-  const float angle = nsvcd__quat_arc(start, end);
-  float wa = 1 - u;
-  float wb = u;
-  // below, slerp and lerp differ by less than rounding
-  if (angle > 1e-3f) {
-    wa = nsvcd__sinf((1 - u) * angle);
-    wb = nsvcd__sinf(u * angle);
-  }
-  return nsvcd__quat_unit(nsvcd__quat_fma(wb, end, nsvcd__quat_scale(start, wa)));
+  const float arc = nsvcd__quat_arc(start, end);
+  return nsvcd__quat_unit(nsvcd__quat_along(start, end, arc, u));
 }
 
 // s (a + t b).

@@ -12,6 +12,7 @@
 // 2^31 ticks, and each time is rounded to the nearest. A *keyframe* is a tick at which either body
 // reaches a pose. Between keyframes both motions are smooth.
 #pragma once
+#include "../ground/motions.h"
 #include "../ground/valid.h"
 #include "../interface/queries.h"
 #include "../body/trust.h"
@@ -216,11 +217,6 @@ static void nsvcd__motion_init(const nsvcd_mover *moving, const nsvcd_mover *fix
   m->begin = 0;
   m->duration = 1;
   nsvcd__motion_set_tracks(m, nsvcd__track_of(moving), nsvcd__track_of(fixed));
-}
-
-// Is the shorter arc from a to b the one to -b?
-static inline int nsvcd__poses_opposed(const nsvcd_pose *a, const nsvcd_pose *b) {
-  return nsvcd__quats_opposed(nsvcd__quat_load(a->rotation), nsvcd__quat_load(b->rotation));
 }
 
 // A body's pose in the world: rotation unit to 1e-4, position in metres. In double, because on a

@@ -83,7 +83,6 @@
 // one ray, of its limit: nsvcd__check_budget.
 #pragma once
 #include "../body/geometry.h"
-#include "../ground/motions.h"
 #include "../motion/motion.h"
 
 #ifndef NSVCD_NO_PROOF
