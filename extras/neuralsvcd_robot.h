@@ -984,7 +984,7 @@ static inline nsvcd__d3 nsvcd__d3_stored(nsvcd__d3 a) {
 //   _fma(s, b, a)        s b + a
 //   _axis, _inverse      of a unit quaternion; the axis times the sine of half its angle
 //   _mul(a, b)           the rotation by b, then by a
-//   _turn(a, b)          the turn from a to b, both unit: its axis, times the sine of half its angle
+//   _turn(a, b)          from a to b, both unit: the axis, times the sine of half the angle
 //   _along(a, b, arc, u) the slerp from a to b, which are that arc apart, at fraction u: of any
 //                        length. Up to the arc `least` a line is as good, to rounding
 //   _of                  the matrix of a unit quaternion
