@@ -2,7 +2,7 @@
 // (examples/scenery/oracle.h); where numbers lie in rows; bits and sizes.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
-#include "../src/ground/rotations.h"
+#include "../src/ground/motions.h"
 #include "../src/ground/spheres.h"
 #include "../src/ground/bits.h"
 
@@ -392,6 +392,68 @@ static void math_slerps(void) {
   CHECK_LE(worst, 4e-7);
 }
 
+// Between two poses a body is where the oracle has it. In a part of the way no point leaves its
+// chord, along any direction n, by more than |w|^2 / 8 times its distance from the axis of w, the
+// rotation vector, and |n x that axis|.
+static void math_between_poses(void) {
+  double worst = 0;
+  double most = 0;
+  for (int trial = 0; trial < MATH_TRIALS; trial++) {
+    nsvcd_pose ends[2];
+    oracle_pose wide[2];
+    double x[3], along[3], turn[4], axis[3];
+    const double angle = trial % 4 ? pow(10, uniform(-3, 0.49)) : 3.14;
+    (void)math_quat(wide[0].rotation);
+    (void)math_quat(turn);
+    for (int k = 0; k < 3; k++) {
+      axis[k] = turn[k] / oracle_length(turn);
+      x[k] = uniform(-1, 1);
+      along[k] = uniform(-1, 1);
+    }
+    oracle_axis_angle(axis, angle, turn);
+    oracle_quat_mul(turn, wide[0].rotation, wide[1].rotation);
+    for (int n = 0; n < 2; n++) {
+      for (int k = 0; k < 3; k++)
+        wide[n].position[k] = (double)(ends[n].position[k] = (float)uniform(-1, 1));
+      for (int k = 0; k < 4; k++)
+        wide[n].rotation[k] = (double)(ends[n].rotation[k] = (float)wide[n].rotation[k]);
+      oracle_quat_normalize(wide[n].rotation);
+    }
+    const double u0 = uniform(0, 0.9);
+    const double u1 = uniform(u0, 1);
+    const double v = trial % 3 ? 0.5 : uniform(0, 1);
+    const double at[3] = {u0, u0 + v * (u1 - u0), u1};
+    nsvcd__slerp s = nsvcd__slerp_of(&ends[0], &ends[1]);
+    s.from = u0;
+    s.fraction = u1 - u0;
+    nsvcd__d3 seen[3];
+    for (int n = 0; n < 3; n++) {
+      const oracle_pose want = oracle_pose_between(&wide[0], &wide[1], at[n]);
+      const nsvcd__dpose pose = nsvcd__dpose_between(&ends[0], &ends[1], at[n]);
+      const nsvcd__dtransform found = nsvcd__dtransform_of(&pose);
+      const nsvcd__d3 here = nsvcd__d3_transform(&found, nsvcd__d3_of(x[0], x[1], x[2]));
+      double there[3];
+      oracle_transform(&want, x, there);
+      seen[n] = nsvcd__d3_of(there[0], there[1], there[2]);
+      worst = fmax(worst, sqrt(nsvcd__d3_distance2(here, seen[n])));
+    }
+    const nsvcd__d3 w = nsvcd__slerp_turn(&s);
+    const nsvcd__d3 about = nsvcd__d3_unit(w, w);
+    const nsvcd__d3 n = nsvcd__d3_of(along[0], along[1], along[2]);
+    const nsvcd__d3 middle = nsvcd__d3_mix(seen[0], seen[2], v);
+    const nsvcd__d3 origin =
+        nsvcd__d3_mix(nsvcd__d3_load(ends[0].position), nsvcd__d3_load(ends[1].position), u0);
+    const double rho = nsvcd__d3_norm(nsvcd__d3_cross(nsvcd__d3_sub(seen[0], origin), about));
+    const double bend =
+        0.125 * nsvcd__d3_dot(w, w) * rho * nsvcd__d3_norm(nsvcd__d3_cross(n, about));
+    const double off = fabs(nsvcd__d3_dot(n, nsvcd__d3_sub(seen[1], middle)));
+    CHECK_LE(off, bend * (1 + 1e-9) + 1e-14);
+    if (bend > 1e-9) most = fmax(most, off / bend);
+  }
+  CHECK_LE(worst, 1e-13);
+  CHECK_GE(most, 0.99);  // the bound is as close as that
+}
+
 // -------------------------------------------------------------------------------------------- rows
 
 #define MATH_STRIDE 7
@@ -495,6 +557,7 @@ void test_math(void) {
   RUN(math_arcs);
   RUN(math_sides_are_exact);
   RUN(math_slerps);
+  RUN(math_between_poses);
   RUN(math_rows);
   RUN(math_bits);
   RUN(math_sizes_are_rounded_up);
