@@ -412,6 +412,7 @@ static void math_between_poses(void) {
     }
     oracle_axis_angle(axis, angle, turn);
     oracle_quat_mul(turn, wide[0].rotation, wide[1].rotation);
+    for (int k = 0; k < 4 && trial % 2; k++) wide[1].rotation[k] *= -1;  // as good
     for (int n = 0; n < 2; n++) {
       for (int k = 0; k < 3; k++)
         wide[n].position[k] = (double)(ends[n].position[k] = (float)uniform(-1, 1));
