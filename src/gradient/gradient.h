@@ -102,6 +102,14 @@ static void nsvcd__instants_of(const nsvcd__task *task, const nsvcd__candidate *
   }
 }
 
+// A track's pose at time t in [0,1].
+static nsvcd__world_pose nsvcd__track_pose_at(const nsvcd__track *track, float t) {
+  if (track->count == 1) return nsvcd__world_pose_between(track->poses, track->poses, 0);
+  float fraction;
+  const size_t k = nsvcd__pose_at(track, t, &fraction);
+  return nsvcd__world_pose_between(&track->poses[k], &track->poses[k + 1], (double)fraction);
+}
+
 // Adds to out (2), of which one may be NULL, what a force on the patch's centre at instant l and a
 // torque on the moving body, in the fixed body's axes and units, are by the poses of the moving
 // body and of the fixed one. The two wrenches are opposite. Returns the derivative by the time.

@@ -284,12 +284,4 @@ static size_t nsvcd__pose_at(const nsvcd__track *track, float t, float *fraction
   *fraction = at - (float)k;
   return k;
 }
-
-// A track's pose at time t in [0,1].
-static nsvcd__world_pose nsvcd__track_pose_at(const nsvcd__track *track, float t) {
-  if (track->count == 1) return nsvcd__world_pose_between(track->poses, track->poses, 0);
-  float fraction;
-  const size_t k = nsvcd__pose_at(track, t, &fraction);
-  return nsvcd__world_pose_between(&track->poses[k], &track->poses[k + 1], (double)fraction);
-}
 #endif
