@@ -799,6 +799,10 @@ static inline nsvcd__mat3 nsvcd__mat3_mul(const nsvcd__mat3 *a, const nsvcd__mat
 #define NSVCD__HAS_GROUND_MOTIONS
 // In: poses, as a caller gives them. Out: in double, where a body is between two of them, and how
 // it turns on the way: its position is linear, its rotation a slerp on the shorter arc.
+//
+// This is the law of motion, for proofs, certificates and robots. The floor of motions has it again
+// in float, 16 segments at a time: every query cuts its motion, and poses in double alone would
+// take longer than that.
 
 // A pose in double. Its rotation is of any length.
 typedef struct nsvcd__dpose {

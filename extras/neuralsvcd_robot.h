@@ -1146,6 +1146,10 @@ static inline nsvcd__mat3 nsvcd__mat3_mix(float s, const nsvcd__mat3 *a, float t
 #define NSVCD__HAS_GROUND_MOTIONS
 // In: poses, as a caller gives them. Out: in double, where a body is between two of them, and how
 // it turns on the way: its position is linear, its rotation a slerp on the shorter arc.
+//
+// This is the law of motion, for proofs, certificates and robots. The floor of motions has it again
+// in float, 16 segments at a time: every query cuts its motion, and poses in double alone would
+// take longer than that.
 
 // A pose in double. Its rotation is of any length.
 typedef struct nsvcd__dpose {
