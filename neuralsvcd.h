@@ -1427,6 +1427,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     valid           checks of what a caller passes
 //     points          vectors of three, of floats and of doubles
 //     rotations       quaternions and matrices, of floats and of doubles
+//     motions         between two poses: lines and slerps, in double
 //     triangles       two triangles: where they meet, or are nearest
 //     spheres         spheres and slabs, as bodies store them
 //     random          random numbers
@@ -2069,17 +2070,27 @@ static inline nsvcd__d3 nsvcd__d3_stored(nsvcd__d3 a) {
 // In, out: rotations, as values: quat and mat3 of floats, dquat and dmat3 of doubles. A matrix is
 // its rows. A transform is a rotation and a position.
 
-// The algebra of both: NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__f3, float, sqrtf) writes
-// nsvcd__quat_dot, nsvcd__mat3_apply and so on. _fma(s, b, a) is s b + a; _axis is that of a unit
-// quaternion, times the sine of half its angle; _of is the matrix of a unit quaternion;
-// _apply_transpose is the transpose of m, times a.
-#define NSVCD__ROTATIONS(quat, mat, vec, scalar, sqrt) \
+// The algebra of both: NSVCD__ROTATIONS writes nsvcd__quat_dot, nsvcd__mat3_apply and so on.
+//   _fma(s, b, a)        s b + a
+//   _axis, _inverse      of a unit quaternion; the axis times the sine of half its angle
+//   _mul(a, b)           the rotation by b, then by a
+//   _turn(a, b)          from a to b, both unit: the axis, times the sine of half the angle
+//   _along(a, b, arc, u) the slerp from a to b, which are that arc apart, at fraction u: of any
+//                        length. Up to the arc `least` a line is as good, to rounding
+//   _of                  the matrix of a unit quaternion
+//   _apply_transpose     the transpose of m, times a
+//   _transform           rotation a + position
+#define NSVCD__ROTATIONS(quat, mat, placed, vec, scalar, sqrt, sin, least) \
   typedef struct quat { \
     scalar x, y, z, w; \
   } quat; \
   typedef struct mat { \
     vec x, y, z; \
   } mat; \
+  typedef struct placed { \
+    mat rotation; \
+    vec position; \
+  } placed; \
   static inline scalar quat##_dot(quat a, quat b) { \
     return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w; \
   } \
@@ -2096,6 +2107,27 @@ static inline nsvcd__d3 nsvcd__d3_stored(nsvcd__d3 a) {
   } \
   static inline vec quat##_axis(quat q) { \
     return vec##_of(q.x, q.y, q.z); \
+  } \
+  static inline quat quat##_inverse(quat q) { \
+    const quat out = {-q.x, -q.y, -q.z, q.w}; \
+    return out; \
+  } \
+  static inline quat quat##_mul(quat a, quat b) { \
+    quat out; \
+    out.x = a.w * b.x + a.x * b.w + (a.y * b.z - a.z * b.y); \
+    out.y = a.w * b.y + a.y * b.w + (a.z * b.x - a.x * b.z); \
+    out.z = a.w * b.z + a.z * b.w + (a.x * b.y - a.y * b.x); \
+    out.w = a.w * b.w - (a.x * b.x + a.y * b.y + a.z * b.z); \
+    return out; \
+  } \
+  static inline vec quat##_turn(quat a, quat b) { \
+    return quat##_axis(quat##_mul(b, quat##_inverse(a))); \
+  } \
+  static inline quat quat##_along(quat a, quat b, scalar arc, scalar u) { \
+    const int bends = arc > least; \
+    const scalar before = bends ? sin((1 - u) * arc) : 1 - u; \
+    const scalar after = bends ? sin(u * arc) : u; \
+    return quat##_fma(after, b, quat##_scale(a, before)); \
   } \
   NSVCD__UNFUSED mat mat##_of(quat q) { \
     mat m; \
@@ -2121,20 +2153,15 @@ static inline nsvcd__d3 nsvcd__d3_stored(nsvcd__d3 a) {
   static inline vec mat##_apply_transpose(const mat *m, vec a) { \
     const mat back = mat##_transpose(*m); \
     return mat##_apply(&back, a); \
+  } \
+  static inline vec vec##_transform(const placed *t, vec a) { \
+    return vec##_add(mat##_apply(&t->rotation, a), t->position); \
   }
-NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__f3, float, sqrtf)
-NSVCD__ROTATIONS(nsvcd__dquat, nsvcd__dmat3, nsvcd__d3, double, sqrt)
+NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__transform, nsvcd__f3, float, sqrtf,
+                 nsvcd__sinf, 1e-3f)
+NSVCD__ROTATIONS(nsvcd__dquat, nsvcd__dmat3, nsvcd__dtransform, nsvcd__d3, double, sqrt,
+                 nsvcd__sin, 1e-7)
 #undef NSVCD__ROTATIONS
-
-// The inverse of a, unit, times b.
-static inline nsvcd__dquat nsvcd__dquat_inverse_mul(nsvcd__dquat a, nsvcd__dquat b) {
-  const nsvcd__d3 u = nsvcd__dquat_axis(a);
-  const nsvcd__d3 v = nsvcd__dquat_axis(b);
-  const nsvcd__d3 along = nsvcd__d3_sub(nsvcd__d3_scale(v, a.w), nsvcd__d3_scale(u, b.w));
-  const nsvcd__d3 axis = nsvcd__d3_sub(along, nsvcd__d3_cross(u, v));
-  const nsvcd__dquat out = {axis.x, axis.y, axis.z, a.w * b.w + nsvcd__d3_dot(u, v)};
-  return out;
-}
 
 static inline nsvcd__dmat3 nsvcd__dmat3_scale(const nsvcd__dmat3 *m, double s) {
   const nsvcd__dmat3 out = {nsvcd__d3_scale(m->x, s), nsvcd__d3_scale(m->y, s),
@@ -2143,12 +2170,6 @@ static inline nsvcd__dmat3 nsvcd__dmat3_scale(const nsvcd__dmat3 *m, double s) {
 }
 
 // ---- quaternions and matrices of floats
-
-// A rotation and a position: a -> rotation a + position.
-typedef struct nsvcd__transform {
-  nsvcd__mat3 rotation;
-  nsvcd__f3 position;
-} nsvcd__transform;
 
 static inline nsvcd__quat nsvcd__quat_of(float x, float y, float z, float w) {
   const nsvcd__quat out = {x, y, z, w};
@@ -2169,12 +2190,13 @@ static inline void nsvcd__quat_store(nsvcd__quat q, float *p) {
 }
 
 // Is the shorter arc from a to b the one to -b? Products of floats are exact in double, so every
-// machine and the exact poses of the proof agree, even if both arcs are equally long to rounding.
+// machine agrees, and so do poses in float and in double, even if both arcs are equally long to
+// rounding.
 static inline int nsvcd__quats_opposed(nsvcd__quat a, nsvcd__quat b) {
   double dot = (double)a.x * (double)b.x;
-  dot += (double)a.y * (double)b.y;
-  dot += (double)a.z * (double)b.z;
-  dot += (double)a.w * (double)b.w;
+  dot = nsvcd__stored(dot + (double)a.y * (double)b.y);
+  dot = nsvcd__stored(dot + (double)a.z * (double)b.z);
+  dot = nsvcd__stored(dot + (double)a.w * (double)b.w);
   return dot < 0;
 }
 
@@ -2189,39 +2211,14 @@ static inline float nsvcd__quat_arc(nsvcd__quat a, nsvcd__quat b) {
 static inline nsvcd__quat nsvcd__quat_beside(nsvcd__quat q, int opposed) {
   return opposed ? nsvcd__quat_of(-q.x, -q.y, -q.z, -q.w) : q;
 }
-// Of a unit quaternion.
-static inline nsvcd__quat nsvcd__quat_inverse(nsvcd__quat q) {
-  return nsvcd__quat_of(-q.x, -q.y, -q.z, q.w);
-}
-
-// The rotation by b, then by a.
-static inline nsvcd__quat nsvcd__quat_mul(nsvcd__quat a, nsvcd__quat b) {
-  nsvcd__quat out;
-  out.x = a.w * b.x + a.x * b.w + (a.y * b.z - a.z * b.y);
-  out.y = a.w * b.y + a.y * b.w + (a.z * b.x - a.x * b.z);
-  out.z = a.w * b.z + a.z * b.w + (a.x * b.y - a.y * b.x);
-  out.w = a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z;
-  return out;
-}
-// The turn from a to b, both unit: its axis, times the sine of half its angle.
-static inline nsvcd__f3 nsvcd__quat_turn(nsvcd__quat a, nsvcd__quat b) {
-  return nsvcd__quat_axis(nsvcd__quat_mul(b, nsvcd__quat_inverse(a)));
-}
 
 // From a at u = 0 to b at u = 1, on the shorter arc. a, b: unit to 1e-4.
 static inline nsvcd__quat nsvcd__quat_slerp(nsvcd__quat a, nsvcd__quat b, float u) {
   const int opposed = nsvcd__quats_opposed(a, b);
   const nsvcd__quat start = nsvcd__quat_unit(a);
   const nsvcd__quat end = nsvcd__quat_beside(nsvcd__quat_unit(b), opposed);
-  const float angle = nsvcd__quat_arc(start, end);
-  float wa = 1 - u;
-  float wb = u;
-  // below, slerp and lerp differ by less than rounding
-  if (angle > 1e-3f) {
-    wa = nsvcd__sinf((1 - u) * angle);
-    wb = nsvcd__sinf(u * angle);
-  }
-  return nsvcd__quat_unit(nsvcd__quat_fma(wb, end, nsvcd__quat_scale(start, wa)));
+  const float arc = nsvcd__quat_arc(start, end);
+  return nsvcd__quat_unit(nsvcd__quat_along(start, end, arc, u));
 }
 
 // s (a + t b).
@@ -2232,17 +2229,112 @@ static inline nsvcd__mat3 nsvcd__mat3_mix(float s, const nsvcd__mat3 *a, float t
                            nsvcd__f3_scale(nsvcd__f3_fma(t, b->z, a->z), s)};
   return out;
 }
-static inline nsvcd__mat3 nsvcd__mat3_mul(const nsvcd__mat3 *a, const nsvcd__mat3 *b) {
-  const nsvcd__mat3 columns = nsvcd__mat3_transpose(*b);
-  const nsvcd__mat3 out = {nsvcd__mat3_apply(&columns, a->x),
-                           nsvcd__mat3_apply(&columns, a->y),
-                           nsvcd__mat3_apply(&columns, a->z)};
+#endif  // NSVCD__HAS_GROUND_ROTATIONS
+
+// ---------------------------------------------------------------------------------- ground/motions
+#ifndef NSVCD__HAS_GROUND_MOTIONS
+#define NSVCD__HAS_GROUND_MOTIONS
+// In: poses, as a caller gives them. Out: in double, where a body is between two of them, and how
+// it turns on the way: its position is linear, its rotation a slerp on the shorter arc.
+//
+// This is the law of motion, for proofs, certificates and robots. The floor of motions has it again
+// in float, 16 segments at a time: every query cuts its motion, and poses in double alone would
+// take longer than that.
+
+// A pose in double. Its rotation is of any length.
+typedef struct nsvcd__dpose {
+  nsvcd__dquat rotation;
+  nsvcd__d3 position;
+} nsvcd__dpose;
+
+static inline nsvcd__dpose nsvcd__dpose_of(const nsvcd_pose *pose) {
+  const float *q = pose->rotation;
+  const nsvcd__dpose out = {{(double)q[0], (double)q[1], (double)q[2], (double)q[3]},
+                            nsvcd__d3_load(pose->position)};
   return out;
 }
-static inline nsvcd__f3 nsvcd__f3_transform(const nsvcd__transform *t, nsvcd__f3 a) {
-  return nsvcd__f3_add(nsvcd__mat3_apply(&t->rotation, a), t->position);
+
+// With a unit rotation.
+static inline nsvcd__dpose nsvcd__unit_dpose(const nsvcd_pose *pose) {
+  nsvcd__dpose out = nsvcd__dpose_of(pose);
+  out.rotation = nsvcd__dquat_unit(out.rotation);
+  return out;
 }
-#endif  // NSVCD__HAS_GROUND_ROTATIONS
+
+static inline nsvcd__dtransform nsvcd__dtransform_of(const nsvcd__dpose *pose) {
+  const nsvcd__dtransform out = {nsvcd__dmat3_of(nsvcd__dquat_unit(pose->rotation)),
+                                 pose->position};
+  return out;
+}
+
+static inline nsvcd_pose nsvcd__dpose_round(const nsvcd__dpose *pose) {
+  const nsvcd__dquat turn = nsvcd__dquat_unit(pose->rotation);
+  nsvcd_pose out;
+  nsvcd__f3_store(nsvcd__f3_round(pose->position), out.position);
+  nsvcd__f3_store(nsvcd__f3_round(nsvcd__dquat_axis(turn)), out.rotation);
+  out.rotation[3] = nsvcd__to_float(turn.w);
+  return out;
+}
+
+// Is the shorter arc from a to b the one to -b?
+static inline int nsvcd__poses_opposed(const nsvcd_pose *a, const nsvcd_pose *b) {
+  return nsvcd__quats_opposed(nsvcd__quat_load(a->rotation), nsvcd__quat_load(b->rotation));
+}
+
+// The length of the arc from a to b, both unit, in quaternion space: half the angle of the turn.
+static inline double nsvcd__dquat_arc(nsvcd__dquat a, nsvcd__dquat b) {
+  const nsvcd__dquat difference = nsvcd__dquat_fma(-1, b, a);
+  const nsvcd__dquat sum = nsvcd__dquat_fma(1, b, a);
+  const double apart = sqrt(nsvcd__dquat_dot(difference, difference));
+  return 2 * nsvcd__atan2(apart, sqrt(nsvcd__dquat_dot(sum, sum)));
+}
+
+// How a body turns from a pose to the next, or in a part of that time.
+typedef struct nsvcd__slerp {
+  // at the poses: unit, on the shorter side
+  nsvcd__dquat start, end;
+  double half_angle;  // between them as quaternions: half the angle of the turn
+  // between the poses, 0 to 1: where the part begins, and its length
+  double from, fraction;
+} nsvcd__slerp;
+
+// All of the turn from a to b.
+static inline nsvcd__slerp nsvcd__slerp_of(const nsvcd_pose *a, const nsvcd_pose *b) {
+  const double side = nsvcd__poses_opposed(a, b) ? -1 : 1;
+  const nsvcd__dquat start = nsvcd__unit_dpose(a).rotation;
+  const nsvcd__dquat end = nsvcd__unit_dpose(b).rotation;
+  nsvcd__slerp out = {start, nsvcd__dquat_scale(end, side), 0, 0, 1};
+  out.half_angle = nsvcd__dquat_arc(out.start, out.end);
+  return out;
+}
+
+// The rotation at fraction u of the part, unit.
+static inline nsvcd__dquat nsvcd__slerp_at(const nsvcd__slerp *s, double u) {
+  const double along = s->from + s->fraction * u;
+  return nsvcd__dquat_unit(nsvcd__dquat_along(s->start, s->end, s->half_angle, along));
+}
+
+// The rotation vector of the part. Points bend off their chords by an eighth of its square, per
+// metre from its axis: a turn by h at a constant rate about a moves a point y with a second
+// derivative of h^2 a x (a x y), by the fraction of the turn that has gone by. Along a direction n
+// that is h^2 (n x a).(a x y).
+static inline nsvcd__d3 nsvcd__slerp_turn(const nsvcd__slerp *slerp) {
+  const nsvcd__d3 axis = nsvcd__dquat_turn(slerp->start, slerp->end);
+  const double sine = nsvcd__d3_norm(axis);
+  const double angle = 2 * slerp->half_angle * slerp->fraction;
+  return nsvcd__d3_scale(axis, sine > 0 ? angle / sine : 0);
+}
+
+// The pose at fraction u between two.
+static inline nsvcd__dpose nsvcd__dpose_between(const nsvcd_pose *a, const nsvcd_pose *b,
+                                                double u) {
+  const nsvcd__slerp s = nsvcd__slerp_of(a, b);
+  const nsvcd__d3 from = nsvcd__d3_load(a->position);
+  const nsvcd__dpose out = {nsvcd__dquat_along(s.start, s.end, s.half_angle, u),
+                            nsvcd__d3_mix(from, nsvcd__d3_load(b->position), u)};
+  return out;
+}
+#endif  // NSVCD__HAS_GROUND_MOTIONS
 
 // -------------------------------------------------------------------------------- ground/triangles
 #ifndef NSVCD__HAS_GROUND_TRIANGLES
@@ -8880,11 +8972,6 @@ static void nsvcd__motion_init(const nsvcd_mover *moving, const nsvcd_mover *fix
   nsvcd__motion_set_tracks(m, nsvcd__track_of(moving), nsvcd__track_of(fixed));
 }
 
-// Is the shorter arc from a to b the one to -b?
-static inline int nsvcd__poses_opposed(const nsvcd_pose *a, const nsvcd_pose *b) {
-  return nsvcd__quats_opposed(nsvcd__quat_load(a->rotation), nsvcd__quat_load(b->rotation));
-}
-
 // A body's pose in the world: rotation unit to 1e-4, position in metres. In double, because on a
 // long path past the other body rounding its ends would be large beside the clearance.
 typedef struct nsvcd__world_pose {
@@ -8949,30 +9036,6 @@ static size_t nsvcd__pose_at(const nsvcd__track *track, float t, float *fraction
   const size_t k = (size_t)at < last ? (size_t)at : last;
   *fraction = at - (float)k;
   return k;
-}
-
-// A track's pose at time t in [0,1].
-static nsvcd__world_pose nsvcd__track_pose_at(const nsvcd__track *track, float t) {
-  if (track->count == 1) return nsvcd__world_pose_between(track->poses, track->poses, 0);
-  float fraction;
-  const size_t k = nsvcd__pose_at(track, t, &fraction);
-  return nsvcd__world_pose_between(&track->poses[k], &track->poses[k + 1], (double)fraction);
-}
-
-// The moving body's pose in the fixed body's frame at time t, clamped to [0,1]. Its points are
-// multiplied by the scale first.
-static nsvcd__transform nsvcd__motion_pose(const nsvcd__motion *m, float t) {
-  const float when = t < 0 ? 0 : t > 1 ? 1 : t;
-  const nsvcd__world_pose moving = nsvcd__track_pose_at(&m->moving, when);
-  const nsvcd__world_pose fixed = nsvcd__track_pose_at(&m->fixed, when);
-  const nsvcd__mat3 rotation = nsvcd__mat3_of(moving.rotation);
-  const nsvcd__mat3 to_fixed = nsvcd__mat3_transpose(nsvcd__mat3_of(fixed.rotation));
-  const nsvcd__d3 metres = nsvcd__d3_sub(moving.position, fixed.position);
-  const nsvcd__f3 offset = nsvcd__d3_narrow(nsvcd__d3_over(metres, (double)m->unit));
-  nsvcd__transform out;
-  out.rotation = nsvcd__mat3_mul(&to_fixed, &rotation);
-  out.position = nsvcd__f3_add(nsvcd__mat3_apply(&to_fixed, offset), m->push_out);
-  return out;
 }
 #endif
 
@@ -9575,15 +9638,6 @@ typedef struct nsvcd__patch_pair {
   float fraction;
 } nsvcd__patch_pair;
 
-// How a body turns over an arc.
-typedef struct nsvcd__slerp {
-  // at its poses before and after: unit, on the shorter side
-  nsvcd__dquat start, end;
-  double half_angle;  // between them as quaternions: half the angle of the turn
-  // between these poses, 0 to 1: where the arc begins, and its length
-  double from, fraction;
-} nsvcd__slerp;
-
 // The motion between two keyframes, in double and in the fixed body's units. Where the fixed body
 // moves, slerps and positions have the world's axes, else the fixed body's.
 typedef struct nsvcd__arc {
@@ -9608,12 +9662,6 @@ typedef struct nsvcd__arc {
   // metre from the moving origin; and of that origin itself.
   double bend, twist, origin_bend;
 } nsvcd__arc;
-
-// A pose in double.
-typedef struct nsvcd__dtransform {
-  nsvcd__dmat3 rotation;
-  nsvcd__d3 position;
-} nsvcd__dtransform;
 
 // An interval of the motion, t in [0,1]. A point of the moving body at r metres from its origin
 // deviates from the chord between its positions at both ends by no more than origin_bend + bend r.
@@ -9962,16 +10010,6 @@ enum { NSVCD__BY_SLAB, NSVCD__BY_HULL, NSVCD__BY_TRIANGLES };
 // there, in double, to the last digits.
 
 #ifndef NSVCD_NO_PROOF
-static nsvcd__dquat nsvcd__unit_rotation(const nsvcd_pose *pose) {
-  const float *q = pose->rotation;
-  const nsvcd__dquat out = {(double)q[0], (double)q[1], (double)q[2], (double)q[3]};
-  return nsvcd__dquat_unit(out);
-}
-
-static nsvcd__d3 nsvcd__d3_transform(const nsvcd__dtransform *at, nsvcd__d3 a) {
-  return nsvcd__d3_add(nsvcd__dmat3_apply(&at->rotation, a), at->position);
-}
-
 // The inverse of a pose, whose rotation is times this scale.
 static nsvcd__dtransform nsvcd__inverse_dtransform(const nsvcd__dtransform *at, double scale) {
   const double inverse = 1 / (scale * scale);
@@ -9982,54 +10020,22 @@ static nsvcd__dtransform nsvcd__inverse_dtransform(const nsvcd__dtransform *at, 
   return out;
 }
 
-// The rotation at fraction u of the arc, unit.
-static nsvcd__dquat nsvcd__slerp_at(const nsvcd__slerp *slerp, double u) {
-  const double along = slerp->from + slerp->fraction * u;
-  double before = 1 - along;
-  double after = along;
-  // below, the difference is less than rounding
-  if (slerp->half_angle > 1e-7) {
-    before = nsvcd__sin((1 - along) * slerp->half_angle);
-    after = nsvcd__sin(along * slerp->half_angle);
-  }
-  const nsvcd__dquat start = nsvcd__dquat_scale(slerp->start, before);
-  return nsvcd__dquat_unit(nsvcd__dquat_fma(after, slerp->end, start));
-}
-
 // A track's slerp over an arc, and its positions at both ends, metres.
-static void nsvcd__slerp_init(const nsvcd__track *track, uint32_t first, uint32_t ticks,
-                              nsvcd__slerp *slerp, nsvcd__d3 *ends) {
+static nsvcd__slerp nsvcd__slerp_in(const nsvcd__track *track, uint32_t first, uint32_t ticks,
+                                    nsvcd__d3 *ends) {
   const uint32_t k = nsvcd__pose_before(track, first);
   const nsvcd_pose *a = &track->poses[k];
   const nsvcd_pose *b = track->count > 1 ? a + 1 : a;
   const uint32_t begin = nsvcd__tick_of(track, k);
   const double per_tick = 1 / (double)(nsvcd__tick_of(track, k + 1) - begin);
-  slerp->fraction = (double)ticks * per_tick;
-  slerp->from = (double)(first - begin) * per_tick;
   const nsvcd__d3 start = nsvcd__d3_load(a->position);
-  const nsvcd__d3 along = nsvcd__d3_sub(nsvcd__d3_load(b->position), start);
-  ends[0] = nsvcd__d3_add(start, nsvcd__d3_scale(along, slerp->from));
-  ends[1] = nsvcd__d3_add(start, nsvcd__d3_scale(along, slerp->from + slerp->fraction));
-
-  const double sign = nsvcd__poses_opposed(a, b) ? -1 : 1;
-  slerp->start = nsvcd__unit_rotation(a);
-  slerp->end = nsvcd__dquat_scale(nsvcd__unit_rotation(b), sign);
-  const nsvcd__dquat difference = nsvcd__dquat_fma(-1, slerp->end, slerp->start);
-  const nsvcd__dquat sum = nsvcd__dquat_fma(1, slerp->end, slerp->start);
-  const double apart = sqrt(nsvcd__dquat_dot(difference, difference));
-  slerp->half_angle = 2 * nsvcd__atan2(apart, sqrt(nsvcd__dquat_dot(sum, sum)));
-}
-
-// The rotation vector of a slerp, over its arc.
-static nsvcd__d3 nsvcd__slerp_turn(const nsvcd__slerp *slerp) {
-  const nsvcd__d3 u = nsvcd__dquat_axis(slerp->start);
-  const nsvcd__d3 v = nsvcd__dquat_axis(slerp->end);
-  const nsvcd__d3 ahead = nsvcd__d3_scale(v, slerp->start.w);
-  const nsvcd__d3 difference = nsvcd__d3_sub(ahead, nsvcd__d3_scale(u, slerp->end.w));
-  const nsvcd__d3 across = nsvcd__d3_add(difference, nsvcd__d3_cross(u, v));
-  const double sine = nsvcd__d3_norm(across);
-  return nsvcd__d3_scale(across,
-                         sine > 0 ? 2 * slerp->half_angle * slerp->fraction / sine : 0);
+  const nsvcd__d3 end = nsvcd__d3_load(b->position);
+  nsvcd__slerp out = nsvcd__slerp_of(a, b);
+  out.fraction = (double)ticks * per_tick;
+  out.from = (double)(first - begin) * per_tick;
+  ends[0] = nsvcd__d3_mix(start, end, out.from);
+  ends[1] = nsvcd__d3_mix(start, end, out.from + out.fraction);
+  return out;
 }
 
 // The arc that begins at the keyframe `first`.
@@ -10045,19 +10051,19 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   arc->fixed_moves = m->fixed_moves;
   arc->scale = m->ratio;
   arc->push_out = nsvcd__d3_widen(m->push_out);
-  nsvcd__slerp_init(&m->moving, first, ticks, &arc->moving, ends);
-  nsvcd__slerp_init(&m->fixed, first, ticks, &arc->fixed, fixed_ends);
+  arc->moving = nsvcd__slerp_in(&m->moving, first, ticks, ends);
+  arc->fixed = nsvcd__slerp_in(&m->fixed, first, ticks, fixed_ends);
   const nsvcd__d3 from = nsvcd__d3_sub(ends[0], fixed_ends[0]);
   const nsvcd__d3 to = nsvcd__d3_sub(ends[1], fixed_ends[1]);
   arc->from = nsvcd__d3_scale(from, per_metre);
   arc->moved = nsvcd__d3_scale(nsvcd__d3_sub(to, from), per_metre);
   if (!arc->fixed_moves) {
     // all in the fixed body's frame
-    const nsvcd__dquat frame = arc->fixed.start;
-    const nsvcd__dmat3 axes = nsvcd__dmat3_of(frame);
+    const nsvcd__dquat back = nsvcd__dquat_inverse(arc->fixed.start);
+    const nsvcd__dmat3 axes = nsvcd__dmat3_of(arc->fixed.start);
     const nsvcd__dquat none = {0, 0, 0, 1};
-    arc->moving.start = nsvcd__dquat_inverse_mul(frame, arc->moving.start);
-    arc->moving.end = nsvcd__dquat_inverse_mul(frame, arc->moving.end);
+    arc->moving.start = nsvcd__dquat_mul(back, arc->moving.start);
+    arc->moving.end = nsvcd__dquat_mul(back, arc->moving.end);
     arc->from = nsvcd__dmat3_apply_transpose(&axes, arc->from);
     arc->moved = nsvcd__dmat3_apply_transpose(&axes, arc->moved);
     arc->fixed.start = arc->fixed.end = none;
@@ -10101,7 +10107,7 @@ static nsvcd__dtransform nsvcd__dtransform_at(const nsvcd__arc *arc, double u) {
   if (arc->fixed_moves) {
     const nsvcd__dquat fixed = nsvcd__slerp_at(&arc->fixed, u);
     const nsvcd__dmat3 matrix = nsvcd__dmat3_of(fixed);
-    q = nsvcd__dquat_inverse_mul(fixed, q);
+    q = nsvcd__dquat_mul(nsvcd__dquat_inverse(fixed), q);
     at.position = nsvcd__dmat3_apply_transpose(&matrix, at.position);
   }
   const nsvcd__dmat3 rotation = nsvcd__dmat3_of(q);
@@ -16689,9 +16695,14 @@ static NSVCD__NOINLINE void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_o
 }
 
 // Is a part of one body inside the other at the start?
-static NSVCD__NOINLINE int nsvcd__seems_contained_at_start(const nsvcd__task *task) {
-  const nsvcd__transform pose = nsvcd__motion_pose(&task->motion, 0);
-  return nsvcd__is_contained(task->moving, task->fixed, task->motion.scale, &pose);
+static NSVCD__NOINLINE int nsvcd__seems_contained_at_start(nsvcd__query *query) {
+  const nsvcd__task *task = &query->task;
+  const nsvcd__motion *m = &task->motion;
+  nsvcd__segments *first = query->broad_phase.blocks;
+  const nsvcd__mat3 scaled = nsvcd__mat3_lane(first->rotation, 0);
+  const nsvcd__transform pose = {nsvcd__mat3_mix(m->per_scale, &scaled, 0, &scaled),
+                                 nsvcd__lane_of(first->position, 0)};
+  return nsvcd__is_contained(task->moving, task->fixed, m->scale, &pose);
 }
 
 // An opinion that needs no decoder.
@@ -16727,7 +16738,7 @@ static int nsvcd__ask_network(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opin
   }
 
   // A body inside another need not touch anything.
-  if (out->logit > 0 || !nsvcd__seems_contained_at_start(task)) return 0;
+  if (out->logit > 0 || !nsvcd__seems_contained_at_start(query)) return 0;
   const size_t candidates = out->candidates;
   nsvcd__certain_opinion(NSVCD_LOGIT_CERTAIN, out);
   out->candidates = candidates;
@@ -17286,6 +17297,14 @@ static void nsvcd__instants_of(const nsvcd__task *task, const nsvcd__candidate *
   }
 }
 
+// A track's pose at time t in [0,1].
+static nsvcd__world_pose nsvcd__track_pose_at(const nsvcd__track *track, float t) {
+  if (track->count == 1) return nsvcd__world_pose_between(track->poses, track->poses, 0);
+  float fraction;
+  const size_t k = nsvcd__pose_at(track, t, &fraction);
+  return nsvcd__world_pose_between(&track->poses[k], &track->poses[k + 1], (double)fraction);
+}
+
 // Adds to out (2), of which one may be NULL, what a force on the patch's centre at instant l and a
 // torque on the moving body, in the fixed body's axes and units, are by the poses of the moving
 // body and of the fixed one. The two wrenches are opposite. Returns the derivative by the time.
@@ -17677,6 +17696,7 @@ static const nsvcd__kernels nsvcd__table = {
 #define nsvcd__tile_fill NSVCD__AT(tile_fill)
 #define nsvcd__tile_fill_all NSVCD__AT(tile_fill_all)
 #define nsvcd__time_in_segment NSVCD__AT(time_in_segment)
+#define nsvcd__track_pose_at NSVCD__AT(track_pose_at)
 #define nsvcd__track_poses_at NSVCD__AT(track_poses_at)
 #define nsvcd__turned NSVCD__AT(turned)
 #define nsvcd__turned_back NSVCD__AT(turned_back)
@@ -18735,35 +18755,22 @@ static NSVCD__NOINLINE void nsvcd__resolve_normal(nsvcd__proof *p) {
 // In: a task. Out: its answer, by proof, with contacts as points in the world.
 
 #ifndef NSVCD_NO_PROOF
-typedef struct nsvcd__dpose {
-  nsvcd__dquat rotation;
-  nsvcd__d3 position;
-} nsvcd__dpose;
-
 // A body's pose at time t in [0,1], in the world.
 static nsvcd__dpose nsvcd__dpose_at(const nsvcd__motion *motion, const nsvcd__track *track,
                                     double t) {
-  nsvcd__slerp slerp;
-  nsvcd__d3 ends[2];
-  double u;
-  const uint32_t first = nsvcd__arc_of(motion, t * (double)motion->ticks, &u);
-  nsvcd__slerp_init(track, first, nsvcd__next_keyframe(motion, first) - first, &slerp, ends);
-  const nsvcd__dpose out = {nsvcd__slerp_at(&slerp, u), nsvcd__d3_mix(ends[0], ends[1], u)};
-  return out;
-}
-
-static nsvcd_pose nsvcd__pose_round(const nsvcd__dpose *pose) {
-  const nsvcd__dquat q = pose->rotation;
-  nsvcd_pose out = {{0, 0, 0}, {(float)q.x, (float)q.y, (float)q.z, (float)q.w}};
-  nsvcd__f3_store(nsvcd__f3_round(pose->position), out.position);
-  return out;
+  const double tick = t * (double)motion->ticks;
+  const uint32_t k = nsvcd__pose_before(track, (uint32_t)tick);
+  const uint32_t from = nsvcd__tick_of(track, k);
+  const uint32_t length = nsvcd__tick_of(track, k + 1) - from;
+  const nsvcd_pose *a = &track->poses[k];
+  const nsvcd_pose *b = track->count > 1 ? a + 1 : a;
+  return nsvcd__dpose_between(a, b, (tick - (double)from) / (double)length);
 }
 
 // From the fixed body's frame, in metres, to the world, at time t.
 static nsvcd__dtransform nsvcd__world_at(const nsvcd__motion *motion, double t) {
   const nsvcd__dpose pose = nsvcd__dpose_at(motion, &motion->fixed, t);
-  const nsvcd__dtransform out = {nsvcd__dmat3_of(pose.rotation), pose.position};
-  return out;
+  return nsvcd__dtransform_of(&pose);
 }
 
 // The length to which an answer is asked for, or the default, in the fixed body's units.
@@ -18891,7 +18898,7 @@ static NSVCD__NOINLINE void nsvcd__poses_at(const nsvcd__task *task, double t,
     const double by = n == moving_takes_it ? 0 : n ? -unit : unit;
     nsvcd__dpose pose = nsvcd__dpose_at(motion, n ? &motion->fixed : &motion->moving, t);
     pose.position = nsvcd__d3_add(pose.position, nsvcd__d3_scale(seen, by));
-    *(n ? fixed : moving) = nsvcd__pose_round(&pose);
+    *(n ? fixed : moving) = nsvcd__dpose_round(&pose);
   }
 }
 
@@ -18951,13 +18958,13 @@ static nsvcd__motion nsvcd__rest_at(const nsvcd__task *task, double t, nsvcd_pos
   const nsvcd__track tracks[2] = {{&poses[0], NULL, 1, 0, 0}, {&poses[1], NULL, 1, 0, 0}};
   nsvcd__dpose moving = nsvcd__dpose_at(&still, &still.moving, t);
   nsvcd__dpose fixed = nsvcd__dpose_at(&still, &still.fixed, t);
-  const nsvcd__dmat3 rotation = nsvcd__dmat3_of(fixed.rotation);
+  const nsvcd__dmat3 rotation = nsvcd__dtransform_of(&fixed).rotation;
   const nsvcd__d3 push_out = nsvcd__dmat3_apply(&rotation, nsvcd__d3_widen(still.push_out));
   const nsvcd__d3 offset = nsvcd__d3_sub(moving.position, fixed.position);
   moving.position = nsvcd__d3_add(offset, nsvcd__d3_scale(push_out, (double)still.unit));
   fixed.position = nsvcd__d3_of(0, 0, 0);
-  poses[0] = nsvcd__pose_round(&moving);
-  poses[1] = nsvcd__pose_round(&fixed);
+  poses[0] = nsvcd__dpose_round(&moving);
+  poses[1] = nsvcd__dpose_round(&fixed);
   nsvcd__motion_set_tracks(&still, tracks[0], tracks[1]);
   still.push_out = nsvcd__f3_of(0, 0, 0);
   return still;

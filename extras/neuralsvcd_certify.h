@@ -140,8 +140,8 @@ NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
                                              const nsvcd_tree *a, const nsvcd_tree *b);
 
 // Proves the answer to a question anew, and writes the proof. It shares two things with
-// nsvcd_sweep: what a pose is; and how the nearest points of two triangles are found, which is
-// checked.
+// nsvcd_sweep, both of which are checked: where a body is between two poses, and how the nearest
+// points of two triangles are found.
 //
 // FREE: the two surfaces never come within the clearance, and neither mesh is inside the other.
 // HIT: at the certificate's time an edge passes through a triangle, or points are nearer than the
@@ -783,13 +783,6 @@ static inline nsvcd__mat3 nsvcd__mat3_mix(float s, const nsvcd__mat3 *a, float t
   const nsvcd__mat3 out = {nsvcd__f3_scale(nsvcd__f3_fma(t, b->x, a->x), s),
                            nsvcd__f3_scale(nsvcd__f3_fma(t, b->y, a->y), s),
                            nsvcd__f3_scale(nsvcd__f3_fma(t, b->z, a->z), s)};
-  return out;
-}
-static inline nsvcd__mat3 nsvcd__mat3_mul(const nsvcd__mat3 *a, const nsvcd__mat3 *b) {
-  const nsvcd__mat3 columns = nsvcd__mat3_transpose(*b);
-  const nsvcd__mat3 out = {nsvcd__mat3_apply(&columns, a->x),
-                           nsvcd__mat3_apply(&columns, a->y),
-                           nsvcd__mat3_apply(&columns, a->z)};
   return out;
 }
 #endif  // NSVCD__HAS_GROUND_ROTATIONS
