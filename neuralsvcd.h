@@ -2663,11 +2663,6 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
 #define NSVCD__LANES 16
 typedef float nsvcd__row[NSVCD__LANES];  // a number in each lane
 
-// Tests count the work of a query, and compare it with the bound that nsvcd_sweep states.
-#ifndef NSVCD__TALLY
-#define NSVCD__TALLY(what, amount) ((void)0)
-#endif
-
 #ifndef NSVCD__ISA
 // gcc on Windows does not align the stack for what is wider than 16 bytes, and programs crash: its
 // bug 54412.
@@ -3091,7 +3086,6 @@ static int nsvcd__polygon_is_ear(const nsvcd__polygon *poly, uint32_t i) {
   for (uint32_t k = 1; k > 0;) {
     const nsvcd__corner_box *box = &poly->boxes[k];
     const int meets = box->reflex > 0 && nsvcd__ear_meets(&ear, box);
-    NSVCD__TALLY(boxes, 1);
     if (meets && k < poly->runs) {
       k *= 2;
       continue;
@@ -7548,7 +7542,6 @@ static void nsvcd__read_number(nsvcd__numbers *numbers, size_t n) {
     const unsigned bits = numbers->kind_bits;
     numbers->number = (numbers->number + (code >> bits)) & NSVCD__NUMBER;
     numbers->kind = bits == 1 ? (code & 1) * NSVCD__CLOSED : code & 3;
-    NSVCD__TALLY(numbers, 1);
   }
 }
 
@@ -9663,12 +9656,11 @@ typedef struct nsvcd__arc {
   double bend, twist, origin_bend;
 } nsvcd__arc;
 
-// An interval of the motion, t in [0,1]. A point of the moving body at r metres from its origin
+// An interval of the motion. A point of the moving body at r metres from its origin
 // deviates from the chord between its positions at both ends by no more than origin_bend + bend r.
 // Float computation of its position is off by no more than `rounding`.
 typedef struct nsvcd__interval {
   nsvcd__transform start, end;
-  double t_start, t_end;
   float rounding, origin_bend, bend;
   // unit: of the turn from start to end, and of the origin's travel
   nsvcd__f3 axis, heading;
@@ -9831,8 +9823,8 @@ typedef struct nsvcd__known {
   double resolved;
 } nsvcd__known;
 
-// What is only remembered. It may be forgotten wherever there is an NSVCD__PAUSE: what is proven is
-// as true then, and only the work may differ. All zeros: nothing is remembered.
+// What is only remembered. It may be forgotten between patch pairs and between parts of one: what
+// is proven is as true then, and only the work may differ. All zeros: nothing is remembered.
 typedef struct nsvcd__memo {
   // poses in arcs; the next to be replaced
   nsvcd__known_pose poses[NSVCD__KNOWN_POSES];
@@ -9934,13 +9926,10 @@ typedef struct nsvcd__proof {
   uint32_t crossed[NSVCD__CROSSED];
 } nsvcd__proof;
 
-// Forgets all that is only remembered. The tests do so at random, where NSVCD__PAUSE stands.
+// Forgets all that is only remembered.
 static void nsvcd__forget(nsvcd__memo *memo) {
   memset(memo, 0, sizeof *memo);
 }
-#ifndef NSVCD__PAUSE
-#define NSVCD__PAUSE(p) ((void)0)
-#endif
 
 // The limit that allows so many units more, but never more than the question has left.
 static size_t nsvcd__limit_after(const nsvcd__proof *p, size_t units) {
@@ -9984,25 +9973,6 @@ static double nsvcd__off_meshes(const nsvcd__proof *p) {
 static float nsvcd__errors_of(const nsvcd__proof *p, size_t i, size_t j) {
   return p->ask.motion->scale * p->moving.errors[i] + p->fixed.errors[j];
 }
-
-// Tests hear of every plane of slabs, hulls and triangles (spheres have tests of their own): kind,
-// patches, entries (or NSVCD_NONE), times, and the plane's normal (3), in the fixed body's frame,
-// towards the moving side. What many planes separate at once, the tests take apart themselves.
-#ifndef NSVCD__CERTIFY
-#define NSVCD__CERTIFY(kind, moving, fixed, moving_entry, fixed_entry, t_start, t_end, \
-                       normal) \
-  ((void)(moving), (void)(fixed), (void)(moving_entry), (void)(fixed_entry), (void)(t_start), \
-   (void)(t_end), (void)(normal))
-// by slabs, in `lanes` of a slice: moving patches, from the i-th on, and patch j, in segment s; or
-// all members of groups i and j, in segments from s on
-#define NSVCD__CERTIFY_SLABS(p, search, of_groups, i, j, s, by, lanes) ((void)0)
-// all triangle pairs of `lanes` of the moving block and the `apart` lanes of a fixed one, by the
-// planes of its slice from s on or, where that is NULL, by their boxes
-#define NSVCD__CERTIFY_BLOCK(p, lanes, fixed, apart, s, plane, below) ((void)0)
-// all triangle pairs of patches i and j, from u0 to u1 of the arc, by nsvcd__plane_separates
-#define NSVCD__CERTIFY_PATCHES(p, i, j, u0, u1) ((void)0)
-#endif
-enum { NSVCD__BY_SLAB, NSVCD__BY_HULL, NSVCD__BY_TRIANGLES };
 #endif  // NSVCD_NO_PROOF
 
 // ------------------------------------------------------------------------------------- proof/poses
@@ -10172,16 +10142,6 @@ static nsvcd__transform nsvcd__transform_of(const nsvcd__dtransform *at) {
 // how far points deviate from their chords in between.
 
 #ifndef NSVCD_NO_PROOF
-// The time of a tick, t in [0,1].
-static double nsvcd__time_of(const nsvcd__motion *m, double ticks) {
-  return m->begin + m->duration * ticks / (double)m->ticks;
-}
-
-// The time of fraction u of p->arc.
-static double nsvcd__time_in_arc(const nsvcd__proof *p, double u) {
-  return nsvcd__time_of(p->ask.motion, (double)p->arc.first + u * (double)p->arc.ticks);
-}
-
 // The tick of a position counted in segments: 1.5 is in the middle of the second.
 static double nsvcd__tick_in_segments(const uint32_t *begin, double at) {
   const size_t s = (size_t)at;
@@ -10213,7 +10173,6 @@ static const nsvcd__interval *nsvcd__segment_interval(nsvcd__proof *p, const nsv
   if (p->memo.intervals >> s & 1) return out;
   p->memo.intervals |= (uint64_t)1 << s;
   const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, l);
-  const double end = nsvcd__min((double)q->begin[s + 1], p->ask.end);
   out->start.rotation = nsvcd__mat3_lane(block->rotation, l);
   out->end.rotation = nsvcd__mat3_mix(1, &out->start.rotation, 1, &turned);
   out->start.position = nsvcd__lane_of(block->position, l);
@@ -10226,8 +10185,6 @@ static const nsvcd__interval *nsvcd__segment_interval(nsvcd__proof *p, const nsv
   out->bend_along_axis = block->bend_along_axis[l];
   out->origin_along_axis = block->origin_along_axis[l];
   out->origin_off_heading = block->origin_off_heading[l];
-  out->t_start = nsvcd__time_of(p->ask.motion, (double)q->begin[s]);
-  out->t_end = nsvcd__time_of(p->ask.motion, end);
   return out;
 }
 
@@ -10251,8 +10208,6 @@ static nsvcd__interval nsvcd__interval_of_arc(nsvcd__proof *p, uint32_t first, d
   out.heading = out.axis;  // any
   const double wavers = square * (arc->bend * arc->waver + arc->twist);
   out.bend_along_axis = fminf((float)wavers + 1e-6f * out.bend, out.bend);
-  out.t_start = nsvcd__time_in_arc(p, u0);
-  out.t_end = nsvcd__time_in_arc(p, u1);
   return out;
 }
 
@@ -10477,12 +10432,7 @@ static int nsvcd__plane_separates(nsvcd__proof *p, const nsvcd__triangle_pair *p
   }
   const double off = nsvcd__off_chord_along(&p->arc, pair, normal);
   const double deviation = (u1 - u0) * (u1 - u0) * off;
-  if (!(lowest - highest > p->ask.clearance + pair->margin + deviation)) return 0;
-  const float out[3] = {(float)normal.x, (float)normal.y, (float)normal.z};
-  NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, pair->moving_patch, pair->fixed_patch,
-                 pair->moving_entry, pair->fixed_entry, nsvcd__time_in_arc(p, u0),
-                 nsvcd__time_in_arc(p, u1), out);
-  return 1;
+  return lowest - highest > p->ask.clearance + pair->margin + deviation;
 }
 
 // Have two heights different signs, clear of 0 by their margins?
@@ -10716,7 +10666,6 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
     if (!(u < end)) return shrunk ? NSVCD__SHRUNK : NSVCD__DONE;
     at = nsvcd__min(at, end);
     p->work++;
-    NSVCD__TALLY(pairs, 1);
     if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
     const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, at);
     const double distance = sqrt(nearest.square);
@@ -10766,7 +10715,6 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
     if (!(u < end)) break;  // an unresolved pair may be the end
     const double middle = 0.5 * (u + end);
     p->work++;
-    NSVCD__TALLY(pairs, 1);
     if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
     int apart = nsvcd__plane_separates(p, pair, u, end);
     if (!apart) {
@@ -12400,7 +12348,6 @@ NSVCD__INLINE uint32_t nsvcd__meet(const nsvcd__chords *c, nsvcd__sphere resting
   const nsvcd__v3 centre = nsvcd__v3_set(resting.centre);
   const nsvcd__v radius = nsvcd__v_set(resting.radius);
   uint32_t met = 0;
-  NSVCD__TALLY(tests, 1);
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__chords_start(c, l), centre);
     const nsvcd__v sum = nsvcd__v_add(nsvcd__v_load(c->radius + l), radius);
@@ -12420,7 +12367,6 @@ NSVCD__INLINE uint32_t nsvcd__meet_members(const nsvcd__search *q, size_t s,
   const nsvcd__v inverse = nsvcd__v_set(c->inverse[lane]);
   const nsvcd__v own = nsvcd__v_set(c->radius[lane]);
   uint32_t met = 0;
-  NSVCD__TALLY(tests, 1);
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_centres(resting, l));
     const nsvcd__v radius = nsvcd__v_add(own, nsvcd__v_load(resting.r + l));
@@ -13056,7 +13002,6 @@ static void nsvcd__boxes_of_groups(const nsvcd__search *q, size_t first, uint64_
   const nsvcd__spheres groups = nsvcd__spheres_from(q->moving_tile.spheres, first);
   const nsvcd__sphere fixed = nsvcd__body_sphere(q->fixed);
   nsvcd__chords *c = nsvcd__spare_chords(q);
-  NSVCD__TALLY(tests, nsvcd__bit_count(wanted));
   for (size_t n = 0; n < 3 * NSVCD__LANES; n++) {
     out->low[n / NSVCD__LANES][n % NSVCD__LANES] = -NSVCD__NOWHERE;
     out->high[n / NSVCD__LANES][n % NSVCD__LANES] = NSVCD__NOWHERE;
@@ -13525,47 +13470,38 @@ typedef struct nsvcd__v_approach {
   nsvcd__v fixed_off;
 } nsvcd__v_approach;
 
-// Lanes in which planes separate two bodies; in those of `below` the moving one is below.
-typedef struct nsvcd__v_separated {
-  nsvcd__v3 plane;  // its normal
-  uint32_t lanes, below;
-} nsvcd__v_separated;
-
 // Along a plane's normal: the deviation of a moving point, and the clearance.
 NSVCD__INLINE nsvcd__v nsvcd__v_off(const nsvcd__v_approach *a, nsvcd__v3 plane) {
   const nsvcd__v allowed = nsvcd__v_plus(a->over.rounding, a->clearance);
   return nsvcd__v_add(allowed, nsvcd__v_deviation(&a->over, plane, a->radius));
 }
 
-// By planes with this normal. start, end, fixed: the slabs' extents along it, the moving one's at
-// both ends, each from its centre.
-NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate(const nsvcd__v_approach *a, nsvcd__v3 plane,
-                                                   nsvcd__v_range start, nsvcd__v_range end,
-                                                   nsvcd__v_range fixed, nsvcd__v off) {
+// Lanes that planes with this normal separate. start, end, fixed: the slabs' extents along it, the
+// moving one's at both ends, each from its centre.
+NSVCD__INLINE uint32_t nsvcd__v_separate(const nsvcd__v_approach *a, nsvcd__v3 plane,
+                                         nsvcd__v_range start, nsvcd__v_range end,
+                                         nsvcd__v_range fixed, nsvcd__v off) {
   const nsvcd__v height = nsvcd__v3_dot(plane, a->from);
   const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(plane, a->chord));
   const nsvcd__v low =
       nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
   const nsvcd__v high =
       nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
-  nsvcd__v_separated out;
-  out.plane = plane;
-  out.below = nsvcd__v_lt(high, nsvcd__v_sub(fixed.low, off));
-  out.lanes = out.below | nsvcd__v_lt(nsvcd__v_add(fixed.high, off), low);
-  return out;
+  const uint32_t below = nsvcd__v_lt(high, nsvcd__v_sub(fixed.low, off));
+  return below | nsvcd__v_lt(nsvcd__v_add(fixed.high, off), low);
 }
 
-// By planes normal to the fixed slabs.
-NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_fixed(const nsvcd__v_approach *a) {
+// Lanes that planes with the fixed slabs' normals separate.
+NSVCD__INLINE uint32_t nsvcd__v_separate_by_fixed(const nsvcd__v_approach *a) {
   const nsvcd__v_range fixed = {a->fixed.low, a->fixed.high};
   const nsvcd__v_range start = nsvcd__v_slab_range(&a->moving, a->at_start);
   const nsvcd__v_range end = nsvcd__v_slab_range(&a->moving, a->at_end);
   return nsvcd__v_separate(a, a->fixed.normal, start, end, fixed, a->fixed_off);
 }
 
-// By planes normal to the mean w of the moving slabs' normals, |w| <= 1. Both normals make the same
-// angle with w: they are |w|^2 along it and no more than |turned| across it.
-NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_moving(const nsvcd__v_approach *a) {
+// Lanes that planes with normal w separate: the mean of the moving slabs' normals, |w| <= 1. Both
+// normals make the same angle with w: they are |w|^2 along it and no more than |turned| across it.
+NSVCD__INLINE uint32_t nsvcd__v_separate_by_moving(const nsvcd__v_approach *a) {
   const nsvcd__v3 w = a->mean;
   const nsvcd__v along = nsvcd__v_mul(a->scale, nsvcd__v3_dot(w, w));
   const nsvcd__v across = nsvcd__v_mul(a->scale, nsvcd__v3_norm(a->turned));
@@ -13601,9 +13537,7 @@ static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *q, size_
     a.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(centre));
     a.chord = nsvcd__chords_travel(c, l);
     a.moving = nsvcd__v_slab_load(p->moving.slabs + i, p->moving.body->padded);
-    nsvcd__v_separated by = nsvcd__v_separate_by_fixed(&a);
-    NSVCD__CERTIFY_SLABS(p, q, 0, i, j, s, &by, by.lanes & wanted);
-    wanted &= ~by.lanes;
+    wanted &= ~nsvcd__v_separate_by_fixed(&a);
     if (!wanted) continue;
     // rotations in an interval are times the scale
     const float half = 0.5f * p->ask.motion->per_scale;
@@ -13611,9 +13545,7 @@ static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *q, size_
     const nsvcd__mat3 half_turn = nsvcd__mat3_mix(half, to, -1, from);
     a.mean = nsvcd__vmat3_apply(nsvcd__vmat3_set(&middle), a.moving.normal);
     a.turned = nsvcd__vmat3_apply(nsvcd__vmat3_set(&half_turn), a.moving.normal);
-    by = nsvcd__v_separate_by_moving(&a);
-    NSVCD__CERTIFY_SLABS(p, q, 0, i, j, s, &by, by.lanes & wanted);
-    left |= (wanted & ~by.lanes) << l;
+    left |= (wanted & ~nsvcd__v_separate_by_moving(&a)) << l;
   }
   return left;
 }
@@ -13645,7 +13577,6 @@ static NSVCD__NOINLINE void nsvcd__separate_groups(nsvcd__proof *p, nsvcd__searc
       nsvcd__segments *block = &q->blocks[first / NSVCD__LANES];
       const nsvcd__chords *c = &q->group[first / NSVCD__LANES];
       const size_t l = first % NSVCD__LANES;
-      if (l == 0 && (*met >> first & 0xffff)) NSVCD__TALLY(tests, 1);
       if (!wanted) continue;
       const nsvcd__vmat3 rotation = nsvcd__vmat3_load(block->rotation, l);
       const nsvcd__vmat3 turn = nsvcd__vmat3_load(block->turned, l);
@@ -13661,12 +13592,7 @@ static NSVCD__NOINLINE void nsvcd__separate_groups(nsvcd__proof *p, nsvcd__searc
       a.at_end = nsvcd__v3_add(a.at_start, nsvcd__vmat3_apply_transpose(turn, n));
       a.turned = nsvcd__v3_scale(nsvcd__vmat3_apply(turn, m), half);
       a.mean = nsvcd__v3_fma(whole, nsvcd__vmat3_apply(rotation, m), a.turned);
-      nsvcd__v_separated by = nsvcd__v_separate_by_fixed(&a);
-      NSVCD__CERTIFY_SLABS(p, q, 1, g, h, first, &by, by.lanes & wanted);
-      uint32_t apart = by.lanes;
-      by = nsvcd__v_separate_by_moving(&a);
-      NSVCD__CERTIFY_SLABS(p, q, 1, g, h, first, &by, by.lanes & wanted);
-      apart |= by.lanes;
+      const uint32_t apart = nsvcd__v_separate_by_fixed(&a) | nsvcd__v_separate_by_moving(&a);
       *met &= ~((uint64_t)(apart & wanted) << first);
     }
     if (!*met) q->waiting &= ~((uint32_t)1 << at);
@@ -13790,7 +13716,6 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, siz
                                              nsvcd__f3_towards(turned, line), line};
   nsvcd__f3 nearest = {0, 0, 0};
   p->work++;
-  NSVCD__TALLY(planes, 1);
   for (size_t step = 0; step < NSVCD__GUESSES + NSVCD__PLANE_STEPS; step++) {
     const nsvcd__f3 normal = step < NSVCD__GUESSES ? guesses[step] : nearest;
     const nsvcd__support found = nsvcd__support_along(p, normal);
@@ -13799,8 +13724,6 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, siz
         found.gap > margin * length + nsvcd__deviation_of(over, normal, arm)) {
       p->memo.held = normal;
       p->memo.plane++;
-      NSVCD__CERTIFY(NSVCD__BY_HULL, i, j, NSVCD_NONE, NSVCD_NONE, over->t_start, over->t_end,
-                     &normal.x);
       return 1;
     }
     if (step + 1 < NSVCD__GUESSES) continue;
@@ -13814,6 +13737,52 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, siz
     if (nsvcd__f3_dot(nearest, nearest) <= margin * margin) return 0;
   }
   return 0;
+}
+
+// Does the plane that held last separate a patch pair over its segment, moved along its normal? If
+// it does, the pair's neighbours ask for the same heights: so these are remembered, of a moving
+// patch in a segment the least, less all margins, and of a fixed one the greatest.
+static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *q,
+                             const nsvcd__patch_pair *patches) {
+  const size_t i = patches->moving;
+  const size_t j = patches->fixed;
+  const size_t s = patches->segment;
+  nsvcd__memo *memo = &p->memo;
+  if (!memo->plane) return 0;
+  const nsvcd__interval *over = nsvcd__segment_interval(p, q, s);
+  const nsvcd__f3 n = memo->held;
+  const float length = nsvcd__f3_norm(n);
+  const uint32_t key = (uint32_t)(i * NSVCD__MAX_SEGMENTS + s);
+  nsvcd__height *above =
+      &memo->heights[(NSVCD__GROUP * s + i % NSVCD__GROUP) % NSVCD__HEIGHTS];
+  nsvcd__height *below = &memo->fixed_heights[j % NSVCD__FIXED_HEIGHTS];
+  if (above->plane != memo->plane || above->key != key) {
+    float lowest = HUGE_VALF;
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, i, l);
+      const nsvcd__v3 normal = nsvcd__v3_set(n);
+      const nsvcd__v at_start = nsvcd__v3_dot(normal, nsvcd__v3_transform(&over->start, hull));
+      const nsvcd__v at_end = nsvcd__v3_dot(normal, nsvcd__v3_transform(&over->end, hull));
+      lowest = nsvcd__least_of(lowest, nsvcd__v_min(at_start, at_end));
+    }
+    const float margin =
+        (p->ask.motion->scale * p->moving.margins[i] + over->rounding) * length;
+    above->plane = memo->plane;
+    above->key = key;
+    above->height =
+        lowest - margin - nsvcd__deviation_of(over, n, nsvcd__patch_arm(&p->moving, i, over));
+  }
+  if (below->plane != memo->plane || below->key != j) {
+    float highest = -HUGE_VALF;
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v height = nsvcd__v3_dot(nsvcd__v3_set(n), nsvcd__hull_of(&p->fixed, j, l));
+      highest = nsvcd__greatest_of(highest, height);
+    }
+    below->plane = memo->plane;
+    below->key = (uint32_t)j;
+    below->height = p->fixed.margins[j] * length + highest;
+  }
+  return above->height > below->height + nsvcd__clearance(p) * length;
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -13989,11 +13958,9 @@ NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__b
 }
 
 // Lanes of a slice, from s on, of a fixed block that planes with these normals, of any length,
-// separate from lane l of the moving one, as posed, by more than `margin`. below: the moving one is
-// on the side that the normal points from.
+// separate from lane l of the moving one, as posed, by more than `margin`.
 NSVCD__INLINE uint32_t nsvcd__normals_separate(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
-                                               size_t s, float margin, nsvcd__v3 n,
-                                               uint32_t *below) {
+                                               size_t s, float margin, nsvcd__v3 n) {
   const nsvcd__v3 b0 = nsvcd__v3_load(fixed->corners[0], s);
   const nsvcd__v3 edge1 = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[1], s), b0);
   const nsvcd__v3 edge2 = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2], s), b0);
@@ -14014,8 +13981,8 @@ NSVCD__INLINE uint32_t nsvcd__normals_separate(nsvcd__proof *p, size_t l, nsvcd_
   const nsvcd__v square = nsvcd__v3_dot(n, n);
   nsvcd__v limit = nsvcd__v_scale(nsvcd__v_sqrt(square), margin);
   limit = nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit);
-  *below = nsvcd__v_lt(highest, nsvcd__v_sub(low, limit));
-  return nsvcd__v_lt(nsvcd__v_add(high, limit), lowest) | *below;
+  const uint32_t below = nsvcd__v_lt(highest, nsvcd__v_sub(low, limit));
+  return nsvcd__v_lt(nsvcd__v_add(high, limit), lowest) | below;
 }
 
 // Of these lanes of a fixed block, those that planes with normal k do not separate from lane l of
@@ -14023,13 +13990,9 @@ NSVCD__INLINE uint32_t nsvcd__normals_separate(nsvcd__proof *p, size_t l, nsvcd_
 NSVCD__INLINE uint32_t nsvcd__left_by_normal(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
                                              size_t k, float margin, uint32_t met) {
   NSVCD__EACH_SLICE(s) {
-    uint32_t below;
     if (!(met >> s & NSVCD__SLICE_MASK)) continue;
     const nsvcd__v3 normal = nsvcd__normal_to_try(p, l, fixed, s, k);
-    const uint32_t apart =
-        nsvcd__normals_separate(p, l, fixed, s, margin, normal, &below) << s & met;
-    NSVCD__CERTIFY_BLOCK(p, (uint32_t)1 << l, fixed, apart, s, &normal, below << s);
-    met &= ~apart;
+    met &= ~(nsvcd__normals_separate(p, l, fixed, s, margin, normal) << s);
   }
   return met;
 }
@@ -14059,8 +14022,6 @@ static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, nsvcd
     }
     apart |= nsvcd__v_lt(limit, height) << s;
   }
-  NSVCD__EACH_SLICE(s)
-  NSVCD__CERTIFY_BLOCK(p, lanes & apart, fixed, NSVCD__SLICE_MASK << s, s, &normal, 0);
   return lanes & ~apart;
 }
 
@@ -14070,7 +14031,6 @@ static NSVCD__NOINLINE uint32_t nsvcd__row_left(nsvcd__proof *p, size_t l, nsvcd
   nsvcd__block *block = &p->moving_block;
   const nsvcd__box box = {nsvcd__lane_of(block->low, l), nsvcd__lane_of(block->high, l)};
   uint32_t met = nsvcd__lanes_near(fixed, box, margin);
-  NSVCD__CERTIFY_BLOCK(p, (uint32_t)1 << l, fixed, ~met, 0, NULL, 0);
   // the last plane: see nsvcd__lanes_left_by_last
   for (size_t k = p->ask.clearance > 0 ? NSVCD__LAST_NORMAL : 1; met && k < NSVCD__NORMALS;
        k++)
@@ -14157,7 +14117,6 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
       NSVCD__ROUNDING * lengths + nsvcd__clearance(p) + nsvcd__errors_of(p, i, j);
   const size_t moving_end = p->moving.first_triangle[i + 1];
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
-  NSVCD__TALLY(tries, 1);
   for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
        b += NSVCD__WINDOW * NSVCD__LANES) {
     nsvcd__window_load(p, j, b);
@@ -14231,7 +14190,6 @@ static NSVCD__NOINLINE int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_
     if ((a - moving_first) % 4 == 0) p->work++;
     if (!nsvcd__plane_separates(p, &pair, u0, u1)) return 0;
   }
-  NSVCD__CERTIFY_PATCHES(p, i, j, u0, u1);
   return 1;
 }
 
@@ -14302,7 +14260,6 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
       for (size_t n = 0; n < p->memo.window; n++) {
         nsvcd__block *fixed = &p->fixed_blocks[n];
         const uint32_t nearby = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
-        NSVCD__CERTIFY_BLOCK(p, ~nearby, fixed, 0xffff, 0, NULL, 0);
         uint32_t lanes = nsvcd__lanes_left_by_last(p, fixed, margin, nearby);
         p->work++;
         if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
@@ -14336,7 +14293,6 @@ static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__se
     is_tried = is_tried && at == last;
     ends[0] = (double)(at - first) / (double)(keyframe - first);
     for (size_t left = 1; left > 0;) {
-      NSVCD__PAUSE(p);
       nsvcd__arc_at(p, first);
       const double end = nsvcd__min(ends[left - 1], nsvcd__arc_limit(p));
       if (!(u < end)) break;
@@ -14359,56 +14315,7 @@ static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__se
   return NSVCD__DONE;
 }
 
-// Does the plane that held last separate a patch pair over its segment, moved along its normal? If
-// it does, the pair's neighbours ask for the same heights: so these are remembered, of a moving
-// patch in a segment the least, less all margins, and of a fixed one the greatest.
-static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *q,
-                             const nsvcd__patch_pair *patches) {
-  const size_t i = patches->moving;
-  const size_t j = patches->fixed;
-  const size_t s = patches->segment;
-  nsvcd__memo *memo = &p->memo;
-  if (!memo->plane) return 0;
-  const nsvcd__interval *over = nsvcd__segment_interval(p, q, s);
-  const nsvcd__f3 n = memo->held;
-  const float length = nsvcd__f3_norm(n);
-  const uint32_t key = (uint32_t)(i * NSVCD__MAX_SEGMENTS + s);
-  nsvcd__height *above =
-      &memo->heights[(NSVCD__GROUP * s + i % NSVCD__GROUP) % NSVCD__HEIGHTS];
-  nsvcd__height *below = &memo->fixed_heights[j % NSVCD__FIXED_HEIGHTS];
-  if (above->plane != memo->plane || above->key != key) {
-    float lowest = HUGE_VALF;
-    NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, i, l);
-      const nsvcd__v3 normal = nsvcd__v3_set(n);
-      const nsvcd__v at_start = nsvcd__v3_dot(normal, nsvcd__v3_transform(&over->start, hull));
-      const nsvcd__v at_end = nsvcd__v3_dot(normal, nsvcd__v3_transform(&over->end, hull));
-      lowest = nsvcd__least_of(lowest, nsvcd__v_min(at_start, at_end));
-    }
-    const float margin =
-        (p->ask.motion->scale * p->moving.margins[i] + over->rounding) * length;
-    above->plane = memo->plane;
-    above->key = key;
-    above->height =
-        lowest - margin - nsvcd__deviation_of(over, n, nsvcd__patch_arm(&p->moving, i, over));
-  }
-  if (below->plane != memo->plane || below->key != j) {
-    float highest = -HUGE_VALF;
-    NSVCD__EACH_SLICE(l) {
-      const nsvcd__v height = nsvcd__v3_dot(nsvcd__v3_set(n), nsvcd__hull_of(&p->fixed, j, l));
-      highest = nsvcd__greatest_of(highest, height);
-    }
-    below->plane = memo->plane;
-    below->key = (uint32_t)j;
-    below->height = p->fixed.margins[j] * length + highest;
-  }
-  if (!(above->height > below->height + nsvcd__clearance(p) * length)) return 0;
-  NSVCD__CERTIFY(NSVCD__BY_HULL, i, j, NSVCD_NONE, NSVCD_NONE, over->t_start, over->t_end,
-                 &n.x);
-  return 1;
-}
-
-// Does any plane?
+// Does any plane separate a patch pair over its segment?
 static int nsvcd__is_separated(nsvcd__proof *p, const nsvcd__search *q,
                                const nsvcd__patch_pair *patches) {
   const nsvcd__interval *over = nsvcd__segment_interval(p, q, patches->segment);
@@ -14482,7 +14389,6 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_patch_pairs(nsvcd__proof *p
   nsvcd__sort_patch_pairs(p, p->of.kept.pairs, p->count);
   for (size_t n = 0; n < p->count; n++) {
     const nsvcd__patch_pair *patches = &p->of.kept.pairs[n];
-    NSVCD__PAUSE(p);
     if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
     nsvcd__clip_segment(p, q);
     if (!nsvcd__matters(p, q, patches->segment)) continue;
@@ -14515,7 +14421,6 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
 
   for (size_t n = 0; n < count; n++) {
     nsvcd__patch_pair *patches = &p->fresh[n];
-    NSVCD__PAUSE(p);
     if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
     nsvcd__clip_segment(p, q);
     if (!nsvcd__matters(p, q, patches->segment)) continue;
@@ -14559,7 +14464,6 @@ static int nsvcd__collects_on(const nsvcd__proof *p) {
 static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *q) {
   for (size_t n = 0; n < p->fresh_count && nsvcd__collects_on(p); n++) {
     const nsvcd__patch_pair *patches = &p->fresh[n];
-    NSVCD__PAUSE(p);
     if (nsvcd__held_again(p, q, patches)) continue;
     if (nsvcd__is_separated(p, q, patches)) continue;
     if (p->ask.collects == NSVCD__TOUCHING) {
@@ -15057,7 +14961,6 @@ static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *q, size
       nsvcd__v_store(squares + l, square);
       nsvcd__v_store(fraction + l, tau);
     }
-    NSVCD__TALLY(tests, 1);
     if (!met) continue;
     met = nsvcd__slabs_meet(p, q, g, j, s, met);
     for (; met; met &= met - 1) {
@@ -16530,7 +16433,6 @@ static int nsvcd__score(const nsvcd__task *task, nsvcd__candidates *kept, size_t
     if (c->score > NSVCD__NO_SCORE) continue;
     batch[count++] = c;
     if (count < NSVCD__BATCH && count < left) continue;
-    NSVCD__TALLY(ranked, count);
     nsvcd__decode(task, batch, count, task->settings.ranker);
     left -= count;
     count = 0;
@@ -16619,10 +16521,8 @@ static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept,
     const size_t left = count - first;
     const size_t size = left < NSVCD__PORTION ? left : NSVCD__PORTION;
     for (size_t k = 0; k < size; k++) portion[k] = &items[first + k];
-    if (settings->decoder != settings->ranker) {
-      NSVCD__TALLY(judged, size);
+    if (settings->decoder != settings->ranker)
       nsvcd__decode(task, portion, size, settings->decoder);
-    }
     for (size_t k = 0; k < size; k++) {
       const float closeness = nsvcd__closeness(task, portion[k]);
       if (!(closeness > most)) continue;
@@ -17760,7 +17660,6 @@ static const nsvcd__kernels nsvcd__table = {
 #define nsvcd__v_separate NSVCD__AT(v_separate)
 #define nsvcd__v_separate_by_fixed NSVCD__AT(v_separate_by_fixed)
 #define nsvcd__v_separate_by_moving NSVCD__AT(v_separate_by_moving)
-#define nsvcd__v_separated NSVCD__AT(v_separated)
 #define nsvcd__v_shorter_turn NSVCD__AT(v_shorter_turn)
 #define nsvcd__v_sign NSVCD__AT(v_sign)
 #define nsvcd__v_signed_square NSVCD__AT(v_signed_square)
@@ -20325,9 +20224,7 @@ static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage,
 
   const float left = weight > 0 ? (limit - cost.total) / weight : INFINITY;
   if (wrenches) memset(wrenches, 0, numbers * sizeof *wrenches);
-  NSVCD__TALLY(collision, 0);  // begins
   nsvcd__add_collision(p, stage->moments, left, wrenches, at_end, &cost);
-  NSVCD__TALLY(collision, 1);  // ends
   cost.total += weight * cost.collision;
   if (gradient) nsvcd__add_collision_gradient(p, stage, gradient);
   if (!nsvcd__is_finite(cost.total)) p->error = NSVCD_ERROR_NUMBER;

@@ -176,7 +176,7 @@ def all_sites(text: str, compiled: set[int]) -> list[Site]:
     for n, line in enumerate(lines):
         if n not in inside or n not in compiled or line.lstrip().startswith("#") or line.endswith("\\"):
             continue
-        if '"' in line or "NSVCD__TALLY" in line or "NSVCD__AT(" in line or "(void)" in line:
+        if '"' in line or "NSVCD__AT(" in line or "(void)" in line:
             continue
         sites += sites_of(n, line)
     return sites

@@ -1,5 +1,5 @@
 // What tests/test_proof.c tries the proof with: bodies whose stored surface is read and held
-// against the mesh in double, motions, and the certificates that queries issue. Independent of the
+// against the mesh in double, and motions. Independent of the
 // header's arithmetic: from the header only the layout of a body is taken. Include after
 // neuralsvcd.h with its implementation.
 #ifndef PROOF_SCENE_H
@@ -526,30 +526,6 @@ static void proof_apply(const proof_place *at, const double *x, double *out) {
   double turned[3];
   oracle_rotate(at->matrix, x, turned);
   for (int k = 0; k < 3; k++) out[k] = turned[k] + at->position[k];
-}
-
-// -------------------------------------------------------------------------------------------------
-// certificates
-
-typedef struct proof_record {
-  int kind;
-  size_t i, j, a, b;
-  double start, end;
-  double normal[3];
-} proof_record;
-
-static proof_record *proof_sorted(proof_record *items, size_t count);
-
-static int proof_compare(const void *pa, const void *pb) {
-  const proof_record *a = (const proof_record *)pa;
-  const proof_record *b = (const proof_record *)pb;
-  if (a->i != b->i) return a->i < b->i ? -1 : 1;
-  if (a->j != b->j) return a->j < b->j ? -1 : 1;
-  return (a->kind > b->kind) - (a->kind < b->kind);
-}
-static proof_record *proof_sorted(proof_record *items, size_t count) {
-  qsort(items, count, sizeof *items, proof_compare);
-  return items;
 }
 
 // -------------------------------------------------------------------------------------------------

@@ -1,22 +1,42 @@
 // What a query costs: the bound that nsvcd_sweep states, batches, threads, numbers read, and stack.
-// Across sections (broad phase, proof, query), and a file of its own: here the header counts what
-// it does (NSVCD__TALLY), and threads ask.
+// Across sections (broad phase, proof, query), and a file of its own: here calls between rooms are
+// counted, and threads ask.
 #define _POSIX_C_SOURCE 200809L
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
-#include <stddef.h>
+#include "../src/body/encode.h"
+#include "../src/segments/chords.h"
+
 // Each thread counts for itself; so what the thread sanitizer sees is the library's.
 #if defined(__GNUC__)
 #define OF_THREAD __thread
 #else
 #define OF_THREAD
 #endif
-static OF_THREAD struct {
-  size_t tests, ranked, judged, planes, pairs, tries, numbers;
-  size_t collision, boxes;  // of no interest here
-} tally;
-#define NSVCD__TALLY(what, amount) (tally.what += (amount))
-#include "../src/body/encode.h"
+// Tests of spheres, a slice at a time; pairs, by the tiny decoder and by others; numbers read.
+static OF_THREAD struct { size_t slices, ranked, judged, numbers; } counted;
+// Blocks of 16 segments, some of which are wanted.
+static size_t cost_blocks(uint64_t wanted) {
+  size_t blocks = 0;
+  for (; wanted; wanted >>= NSVCD__LANES) blocks += (wanted & 0xffff) > 0;
+  return blocks;
+}
+// What a room calls is counted where that room is included: a macro is not expanded in itself.
+#define COST_ALL (NSVCD__LANES / NSVCD__SLICE)
+#define nsvcd__nearest2(d, travel, inverse) (counted.slices++, nsvcd__nearest2(d, travel, inverse))
+#define nsvcd__meet(chords, resting) (counted.slices += COST_ALL, nsvcd__meet(chords, resting))
+#define nsvcd__meet_members(q, s, resting) \
+  (counted.slices += COST_ALL, nsvcd__meet_members(q, s, resting))
+#define nsvcd__meet_in(q, wanted, resting) \
+  (counted.slices += cost_blocks(wanted) * COST_ALL, nsvcd__meet_in(q, wanted, resting))
+#define nsvcd__read_number(of, n) \
+  (counted.numbers += (n) + 1 - (of)->next, nsvcd__read_number(of, n))
+#define nsvcd__is_in_solid(f, patch, n) \
+  (counted.numbers += (n) + 1 - (f)->first_triangle[patch], nsvcd__is_in_solid(f, patch, n))
+#include "../src/network/decoder.h"
+#define nsvcd__decoder_run(decoder, x, rows, int8, out)                            \
+  (*((decoder) == nsvcd_w_decoders ? &counted.ranked : &counted.judged) += (rows), \
+   nsvcd__decoder_run(decoder, x, rows, int8, out))
 #include "../src/query/question.h"
 
 #include "any_query.h"
@@ -222,12 +242,12 @@ static void cost_reads_numbers_once(void) {
   CHECK_EQ(nsvcd_encode(&speck, NULL, NULL, NULL, 0, &small), NSVCD_OK);
   const nsvcd_pose pose = query_pose(0.2 * way[0], 0.2 * way[1], 0.2 * way[2]);
   const nsvcd_pose still = query_pose(0, 0, 0);
-  memset(&tally, 0, sizeof tally);
+  memset(&counted, 0, sizeof counted);
   const nsvcd_answer answer = query_ask(small, &pose, 1, large, &still, NULL);
-  printf("  %zu numbers read on a ray past %zu triangles\n", tally.numbers, mesh.triangle_count);
+  printf("  %zu numbers read on a ray past %zu triangles\n", counted.numbers, mesh.triangle_count);
   CHECK_EQ(status_of(&answer), STATUS_INSIDE);
-  CHECK_GE(tally.numbers, 500);  // or the ray is not where it should be
-  CHECK_LE(tally.numbers, 4 * mesh.triangle_count);
+  CHECK_GE(counted.numbers, 500);  // or the ray is not where it should be
+  CHECK_LE(counted.numbers, 4 * mesh.triangle_count);
   nsvcd_body_free(large, NULL);
   nsvcd_body_free(small, NULL);
   nsvcd_mesh_free(&mesh, NULL);
@@ -341,23 +361,23 @@ static void cost_is_bounded(void) {
       cost_blow_up(&s.memory[0], seed > 120 ? 100 : 1.5f);
       cost_blow_up(&s.memory[1], seed > 120 ? 100 : 1.5f);
     }
-    memset(&tally, 0, sizeof tally);
+    memset(&counted, 0, sizeof counted);
     const size_t segments = cost_search(&s);
     const size_t bound = 18 * segments * groups + 3 * segments;
-    CHECK_GE(bound, tally.tests);
-    fraction = fmax(fraction, (double)tally.tests / (double)bound);
+    CHECK_GE(bound, counted.slices / COST_ALL);
+    fraction = fmax(fraction, (double)counted.slices / COST_ALL / (double)bound);
     for (size_t n = 0; n < 12; n++) {
       const size_t k = pairs[n / 3];
       nsvcd_question options = query_options(k, models[n % 3], seed % 2 ? 0.9999f : 0);
       options.network.inflate = seed % 4 ? 1.0f : 0.0f;  // 1: planes part nothing
-      memset(&tally, 0, sizeof tally);
+      memset(&counted, 0, sizeof counted);
       query_ask(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, &options);
-      CHECK_GE(bound + 18 * segments, tally.tests);  // the first pair of groups twice
-      CHECK_GE(n % 3 == 0 ? 3 * k : 12 * k, tally.ranked);
-      CHECK_GE(n % 3 == 0 ? 0 : k, tally.judged);
+      CHECK_GE(bound + 18 * segments, counted.slices / COST_ALL);  // the first pair of groups twice
+      CHECK_GE(n % 3 == 0 ? 3 * k : 12 * k, counted.ranked);
+      CHECK_GE(n % 3 == 0 ? 0 : k, counted.judged);
       if (k != 8) continue;
-      most_ranked = tally.ranked > most_ranked ? tally.ranked : most_ranked;
-      most_judged = tally.judged > most_judged ? tally.judged : most_judged;
+      most_ranked = counted.ranked > most_ranked ? counted.ranked : most_ranked;
+      most_judged = counted.judged > most_judged ? counted.judged : most_judged;
     }
     query_scene_close(&s);
   }

@@ -4,34 +4,7 @@
 // times more crossings.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
-#include <stddef.h>
-#include <stdint.h>
-static void proof_certified(int kind, size_t i, size_t j, size_t a, size_t b, double start,
-                            double end, const float *normal);
-struct nsvcd__proof;
-struct nsvcd__search;
-struct nsvcd__block;
-struct nsvcd__v_separated;
-static void proof_slabs_certified(struct nsvcd__proof *p, const struct nsvcd__search *search,
-                                  int of_groups, size_t i, size_t j, size_t s,
-                                  const struct nsvcd__v_separated *by, uint32_t lanes);
-static void proof_block_certified(struct nsvcd__proof *p, uint32_t lanes,
-                                  const struct nsvcd__block *b, uint32_t apart, size_t s,
-                                  const void *plane, uint32_t below);
-static void proof_patches_certified(struct nsvcd__proof *p, size_t i, size_t j, double u0,
-                                    double u1);
-static unsigned forgetful;  // > 0: what is only remembered is forgotten one time in so many
-static unsigned forgotten;  // how often it was
-static int proof_forgets(void);
-#define NSVCD__PAUSE(p) \
-  (proof_forgets() ? ((p)->arc.ticks = 0, nsvcd__forget(&(p)->memo)) : (void)0)
-#define NSVCD__CERTIFY(kind, moving, fixed, moving_entry, fixed_entry, t_start, t_end, normal) \
-  proof_certified(kind, moving, fixed, moving_entry, fixed_entry, t_start, t_end, normal)
-#define NSVCD__CERTIFY_SLABS(p, search, of_groups, i, j, s, by, lanes) \
-  proof_slabs_certified(p, search, of_groups, i, j, s, by, lanes)
-#define NSVCD__CERTIFY_BLOCK(p, lanes, fixed, apart, s, plane, below) \
-  proof_block_certified(p, lanes, fixed, apart, s, plane, below)
-#define NSVCD__CERTIFY_PATCHES(p, i, j, u0, u1) proof_patches_certified(p, i, j, u0, u1)
+#include "proof_ears.h"
 #include "../src/ground/strings.h"
 #include "../src/body/trust.h"
 #include "../src/body/encode.h"
@@ -45,100 +18,12 @@ static int proof_forgets(void);
 
 void test_proof(void);
 
-#define CERTIFICATES 300000  // kept of one query
-
 // A question, and what came of it.
 typedef struct attack {
   const proof_body *moving, *fixed;
   proof_motion motion;
   nsvcd_answer answer;
 } attack;
-
-static struct {
-  int deaf;
-  proof_record *items;
-  size_t count, left_out;
-} heard;
-
-static void proof_certified(int kind, size_t i, size_t j, size_t a, size_t b, double start,
-                            double end, const float *normal) {
-  if (heard.deaf) return;
-  if (!heard.items) heard.items = (proof_record *)malloc(CERTIFICATES * sizeof *heard.items);
-  if (!heard.items) exit(1);
-  if (heard.count == CERTIFICATES) {
-    heard.left_out++;
-    return;
-  }
-  proof_record *r = &heard.items[heard.count++];
-  r->kind = kind;
-  r->i = i;
-  r->j = j;
-  r->a = a;
-  r->b = b;
-  r->start = start;
-  r->end = end;
-  for (int k = 0; k < 3; k++) r->normal[k] = (double)normal[k];
-}
-
-// What planes separate in `lanes` of a slice: moving patches, from the i-th on, and patch j, in
-// segment s; or all members of groups i and j, in segments from s on.
-static void proof_slabs_certified(nsvcd__proof *p, const nsvcd__search *search, int of_groups,
-                                  size_t i, size_t j, size_t s, const nsvcd__v_separated *by,
-                                  uint32_t lanes) {
-  float normals[3][NSVCD__LANES];
-  const size_t members = of_groups ? NSVCD__GROUP : 1;
-  nsvcd__v3_store(normals, 0, by->plane);
-  for (; lanes; lanes &= lanes - 1) {
-    const size_t l = nsvcd__low_bit(lanes);
-    const float sign = by->below >> l & 1 ? -1.0f : 1.0f;
-    const nsvcd__f3 n = nsvcd__f3_scale(nsvcd__lane_of(normals, l), sign);
-    const nsvcd__interval *over = nsvcd__segment_interval(p, search, of_groups ? s + l : s);
-    for (size_t k = 0; k < members * members; k++) {
-      const size_t a = of_groups ? members * i + k / members : i + l;
-      const size_t b = of_groups ? members * j + k % members : j;
-      if (a < p->moving.body->patches && b < p->fixed.body->patches)
-        proof_certified(NSVCD__BY_SLAB, a, b, NSVCD_NONE, NSVCD_NONE, over->t_start, over->t_end,
-                        &n.x);
-    }
-  }
-}
-
-// The triangle pairs of `lanes` of the moving block and the `apart` lanes of a fixed one, by the
-// planes of its slice from s on or, where that is NULL, by their boxes.
-static void proof_block_certified(nsvcd__proof *p, uint32_t lanes, const nsvcd__block *b,
-                                  uint32_t apart, size_t s, const void *plane, uint32_t below) {
-  float normals[3][NSVCD__LANES];
-  const nsvcd__block *a = &p->moving_block;
-  if (plane) nsvcd__v3_store(normals, s, *(const nsvcd__v3 *)plane);
-  for (size_t pair = 0; p->over && pair < a->count * b->count; pair++) {
-    const size_t l = pair / b->count;
-    const size_t n = pair % b->count;
-    float normal[3] = {0, 0, 0};
-    float widest = -HUGE_VALF;
-    if (!(lanes >> l & apart >> n & 1)) continue;
-    for (size_t k = 0; k < 3; k++) {
-      if (plane) normal[k] = below >> n & 1 ? -normals[k][n] : normals[k][n];
-      const float above = a->low[k][l] - b->high[k][n];
-      const float under = b->low[k][n] - a->high[k][l];
-      if (plane || (above <= widest && under <= widest)) continue;
-      widest = above > under ? above : under;
-      normal[0] = normal[1] = normal[2] = 0;
-      normal[k] = above > under ? 1.0f : -1.0f;
-    }
-    proof_certified(NSVCD__BY_TRIANGLES, a->patch, b->patch, a->first + l, b->first + n,
-                    p->over->t_start, p->over->t_end, normal);
-  }
-}
-
-// All triangle pairs of two patches, by the plane that separated one last.
-static void proof_patches_certified(nsvcd__proof *p, size_t i, size_t j, double u0, double u1) {
-  for (size_t a = p->moving.first_triangle[i]; a < p->moving.first_triangle[i + 1]; a++) {
-    for (size_t b = p->fixed.first_triangle[j]; b < p->fixed.first_triangle[j + 1]; b++) {
-      const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, b);
-      CHECK(nsvcd__plane_separates(p, &pair, u0, u1));
-    }
-  }
-}
 
 static nsvcd_mover proof_mover(const proof_body *b, const proof_track *track) {
   nsvcd_mover mover;
@@ -348,6 +233,13 @@ typedef struct replay {
   double worst;  // gap over what is allowed, where wrong
 } replay;
 
+// Of each kind of what separates: how much was looked at, and the least gap, of the sum of both
+// sizes.
+static struct {
+  size_t count;
+  double least;
+} looked_at[HEARD_KINDS];
+
 // normal . (x(t) - y), least over the points of both sides.
 static double proof_gap(const double *normal, const proof_place *at, const double (*x)[3],
                         size_t xs, const double (*y)[3], size_t ys) {
@@ -360,41 +252,50 @@ static double proof_gap(const double *normal, const proof_place *at, const doubl
   return lowest + oracle_dot(normal, at->position) - highest;
 }
 
-// Does what the certificate says hold at t? A plane between patches has to part all that they hold.
-// One between pairs of triangles has been rounded to float on its way to us: that much is allowed.
-static int proof_is_true(const attack *a, const proof_record *r, double t, replay *sum) {
+// By how much a plane with this normal parts, at t, what it has to: all that two patches hold, or
+// two triangles. A piece of a triangle is stored in integers, and the library parts the triangle:
+// what the piece is off is allowed.
+static double proof_plane_gap(const attack *a, const proof_record *r, const double *normal,
+                              double t) {
   const proof_patch *p = &a->moving->patches[r->i];
   const proof_patch *q = &a->fixed->patches[r->j];
   const proof_place at = proof_place_at(&a->motion, t);
-  const double scale = oracle_length(r->normal);
-  double gap;
-  double allowed = 0;
-  if (r->kind == NSVCD__BY_TRIANGLES) {
-    const proof_listing *x = &a->moving->listings[r->a];
-    const proof_listing *y = &a->fixed->listings[r->b];
-    double d[3], place[3];
-    proof_apply(&at, x->corners[0], place);
-    oracle_sub(place, y->corners[0], d);
-    gap = proof_gap(r->normal, &at, (const double(*)[3])x->corners, 3,
-                    (const double(*)[3])y->corners, 3);
-    for (int k = 0; k < 3; k++) {
-      double edge[3], other[3];
-      oracle_sub(x->corners[k], x->corners[0], edge);
-      oracle_sub(y->corners[k], y->corners[0], other);
-      allowed = fmax(allowed, oracle_length(edge) + oracle_length(other));
-    }
-    allowed = 1e-7 * scale * (allowed + oracle_length(d));
-    // a piece is stored in integers: its triangle, of which it is, was looked at
-    if (!x->whole) allowed += scale * proof_ratio(a) * p->quantum;
-    if (!y->whole) allowed += scale * q->quantum;
-  } else {
-    if (!p->pool_count || !q->pool_count) return 1;
-    gap = proof_gap(r->normal, &at, (const double(*)[3])p->pool, p->pool_count,
-                    (const double(*)[3])q->pool, q->pool_count);
+  const double length = oracle_length(normal);
+  if (!(length > 0)) return -DBL_MAX;
+  if (r->kind < HEARD_BLOCKS)
+    return proof_gap(normal, &at, (const double(*)[3])p->pool, p->pool_count,
+                     (const double(*)[3])q->pool, q->pool_count) /
+           length;
+  const proof_listing *x = &a->moving->listings[r->a];
+  const proof_listing *y = &a->fixed->listings[r->b];
+  const double gap =
+      proof_gap(normal, &at, (const double(*)[3])x->corners, 3, (const double(*)[3])y->corners, 3);
+  return gap / length + (x->whole ? 0 : proof_ratio(a) * p->quantum) + (y->whole ? 0 : q->quantum);
+}
+
+// Does one plane of those that the certificate names, or an axis, hold at all of the times?
+static int proof_is_true(const attack *a, const proof_record *r, const double *times, int count,
+                         replay *sum) {
+  static const double axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const int boxes = r->kind == HEARD_BLOCKS || r->kind == HEARD_ROWS;
+  double best = -DBL_MAX;
+  if (r->kind == HEARD_RESOLVED) return 1;
+  if (r->kind < HEARD_BLOCKS &&
+      (!a->moving->patches[r->i].pool_count || !a->fixed->patches[r->j].pool_count))
+    return 1;
+  for (int n = 0; n < (boxes ? 10 : 4) && !(best > 0); n++) {
+    const double *from = n < 4 ? &r->normals[n / 2].x : axes[n / 2 - 2];
+    double normal[3], least = DBL_MAX;
+    for (int k = 0; k < 3; k++) normal[k] = n % 2 ? -from[k] : from[k];
+    for (int k = 0; k < count && least > best; k++)
+      least = fmin(least, proof_plane_gap(a, r, normal, times[k]));
+    best = fmax(best, least);
   }
   sum->evaluations++;
-  if (gap > -allowed) return 1;
-  sum->worst = fmin(sum->worst, gap / scale / proof_size(a));
+  best /= proof_size(a);
+  looked_at[r->kind].least = fmin(looked_at[r->kind].count++ ? looked_at[r->kind].least : 1, best);
+  if (best > 0) return 1;
+  sum->worst = fmin(sum->worst, best);
   return 0;
 }
 
@@ -405,21 +306,23 @@ static void proof_replay_records(const attack *a, shapes_rng *rng, replay *sum) 
   for (size_t n = shapes_next(rng) % stride; n < heard.count; n += stride) {
     const proof_record *r = &heard.items[n];
     const double random = shapes_uniform(rng, 0, 1);
-    const double shares[4] = {0.5, random, 0, 1};
-    const int times = r->kind == NSVCD__BY_TRIANGLES ? 2 : 4;
-    for (int k = 0; k < times; k++) {
-      const double t = r->start + shares[k] * (r->end - r->start);
-      if (proof_is_true(a, r, t, sum)) continue;
-      sum->wrong++;
-    }
+    const double middle = 0.5 * (r->start + r->end);
+    const double times[4] = {middle, r->start + random * (r->end - r->start), r->start, r->end};
+    sum->wrong += !proof_is_true(a, r, times, r->kind < HEARD_BLOCKS ? 4 : 2, sum);
   }
 }
 
+static int proof_compare(const void *pa, const void *pb) {
+  const proof_record *a = (const proof_record *)pa;
+  const proof_record *b = (const proof_record *)pb;
+  if (a->i != b->i) return a->i < b->i ? -1 : 1;
+  return (a->j > b->j) - (a->j < b->j);
+}
 // Where the certificates of pair (i, j) begin, in order: (patches, patches) + 1.
 static const size_t *proof_index(const attack *a) {
   static size_t *first, room;
   const size_t pairs = a->moving->count * a->fixed->count;
-  proof_sorted(heard.items, heard.count);
+  qsort(heard.items, heard.count, sizeof *heard.items, proof_compare);
   if (room < pairs + 1) {
     free(first);
     first = (size_t *)malloc((pairs + 1) * sizeof *first);
@@ -446,7 +349,7 @@ static int proof_triangles_covered(const attack *a, size_t i, size_t j, const pr
   if (!seen) exit(1);
   for (size_t n = 0; n < count; n++) {
     const proof_record *r = &records[n];
-    if (r->kind != NSVCD__BY_TRIANGLES || t < r->start || t > r->end) continue;
+    if (r->kind < HEARD_BLOCKS || t < r->start || t > r->end) continue;
     unsigned char *mark = &seen[(r->a - p->first) * wide + (r->b - q->first)];
     covered += !*mark;
     *mark = 1;
@@ -461,7 +364,7 @@ static int proof_is_covered(const attack *a, const size_t *first, size_t i, size
   const size_t count = first[pair + 1] - first[pair];
   for (size_t n = 0; n < count; n++) {
     const proof_record *r = &records[n];
-    if (r->kind != NSVCD__BY_TRIANGLES && t >= r->start && t <= r->end) return 1;
+    if (r->kind < HEARD_BLOCKS && t >= r->start && t <= r->end) return 1;
   }
   return proof_triangles_covered(a, i, j, records, count, t);
 }
@@ -522,9 +425,10 @@ static void proof_nearest_at(const attack *a, const size_t *first, double t, rep
       sum->nearest++;
       for (size_t n = first[pair]; n < first[pair + 1]; n++) {
         const proof_record *r = &heard.items[n];
-        if (r->kind == NSVCD__BY_TRIANGLES || t < r->start || t > r->end) continue;
-        const double gap =
-            proof_gap(r->normal, &at, (const double(*)[3])x, 1, (const double(*)[3])s.on_a, 1);
+        if (r->kind != HEARD_HULLS && r->kind != HEARD_AGAIN) continue;
+        if (t < r->start || t > r->end) continue;
+        const double gap = proof_gap(&r->normals[0].x, &at, (const double(*)[3])x, 1,
+                                     (const double(*)[3])s.on_a, 1);
         sum->wrong += !(gap > 0);
       }
     }
@@ -549,6 +453,19 @@ static void proof_replay(attack *a, shapes_rng *rng, replay *sum) {
     if (k == 3 && heard.count) t = heard.items[shapes_next(rng) % heard.count].end;
     proof_cover_at(a, first, t, sum);
     proof_nearest_at(a, first, t, sum);
+  }
+}
+
+// Each kind has separated something, and some of it by little.
+static void proof_check_kinds(void) {
+  static const char *const names[HEARD_RESOLVED] = {
+      "slabs of groups",    "slabs", "hulls", "held again", "blocks", "rows", "last",
+      "all of two patches", "pairs"};
+  for (int k = 0; k < HEARD_RESOLVED; k++) {
+    printf("  %s: %zu looked at, the least gap %.2g\n", names[k], looked_at[k].count,
+           looked_at[k].least);
+    CHECK_GE(looked_at[k].count, 20);
+    CHECK_LE(looked_at[k].least, 2e-3);
   }
 }
 
@@ -856,7 +773,7 @@ static void proof_none_covers(const attack *a, size_t x, size_t y, const double 
   for (size_t n = 0; n < heard.count; n++) {
     const proof_record *r = &heard.items[n];
     if (t < r->start || t > r->end) continue;
-    if (r->kind == NSVCD__BY_TRIANGLES) {
+    if (r->kind >= HEARD_BLOCKS) {
       const proof_listing *one = &a->moving->listings[r->a];
       const proof_listing *other = &a->fixed->listings[r->b];
       sum->records += one->triangle == x && other->triangle == y && one->whole && other->whole;
@@ -1037,7 +954,7 @@ static double proof_span_use(const proof_motion *m, const nsvcd__interval *span,
   double worst = 0;
   for (int k = 0; k < 6; k++) {
     const double fraction = k == 0 ? 0 : k == 1 ? 1 : shapes_uniform(rng, 0, 1);
-    const double t = span->t_start + fraction * (span->t_end - span->t_start);
+    const double t = heard.start + fraction * (heard.end - heard.start);
     const proof_place at = proof_place_at(m, t);
     double x[3], off[3];
     shapes_direction(rng, x);
@@ -1184,7 +1101,7 @@ static double proof_direction_use(const proof_motion *m, const nsvcd__interval *
   double worst = 0;
   for (int k = 0; k < 8; k++) {
     const double fraction = shapes_uniform(rng, 0, 1);
-    const double t = span->t_start + fraction * (span->t_end - span->t_start);
+    const double t = heard.start + fraction * (heard.end - heard.start);
     const proof_place at = proof_place_at(m, t);
     const nsvcd__f3 special[3] = {span->axis, span->heading,
                                   nsvcd__f3_cross(span->axis, span->heading)};
@@ -1227,7 +1144,7 @@ static double proof_turn_use(const proof_motion *m, const nsvcd__interval *span,
   double worst = 0;
   for (int k = 0; k < 8; k++) {
     const double fraction = shapes_uniform(rng, 0, 1);
-    const double t = span->t_start + fraction * (span->t_end - span->t_start);
+    const double t = heard.start + fraction * (heard.end - heard.start);
     const proof_place at = proof_place_at(m, t);
     const double axis[3] = {(double)span->axis.x, (double)span->axis.y, (double)span->axis.z};
     const double zero[3] = {0, 0, 0};
@@ -1401,7 +1318,7 @@ static double proof_arc_use(const proof_motion *m, nsvcd__motion *motion, shapes
   if (looks == 0) memcpy(n, &arc->axis.x, sizeof n);
   if (looks == 1) {  // where it is off the most, if both turn about one axis
     double out[3], place[3];
-    proof_place at = proof_place_at(m, nsvcd__time_in_arc(&proof, u[1]));
+    proof_place at = proof_place_at(m, proof_time_in_arc(&proof, u[1]));
     memset(at.position, 0, sizeof at.position);
     proof_apply(&at, x, place);
     const double axis[3] = {arc->axis.x, arc->axis.y, arc->axis.z};
@@ -1411,7 +1328,7 @@ static double proof_arc_use(const proof_motion *m, nsvcd__motion *motion, shapes
   const double size = oracle_length(n);
   if (!(size > 1e-9)) return 0;
   for (int k = 0; k < 3; k++) {
-    const proof_place at = proof_place_at(m, nsvcd__time_in_arc(&proof, u[k]));
+    const proof_place at = proof_place_at(m, proof_time_in_arc(&proof, u[k]));
     proof_apply(&at, x, ends[k]);
   }
   double off = 0;
@@ -1766,22 +1683,13 @@ static void proof_keeps_clearances(void) {
 // -------------------------------------------------------------------------------------------------
 // what is only remembered
 
-static int proof_forgets(void) {
-  static uint32_t random = 1;
-  if (forgetful == 0) return 0;
-  random = random * 1664525u + 1013904223u;
-  const int forgets = (random >> 8) % forgetful == 0;
-  forgotten += (unsigned)forgets;
-  return forgets;
-}
-
 // What a proof remembers may be forgotten at any time, and no verdict changes; with skins, first
 // contacts, clearances and distances too.
 static void proof_may_forget(void) {
   shapes_rng rng = {0xf0};
   size_t asked = 0;
   size_t more_work = 0;
-  forgotten = 0;
+  heard.forgotten = 0;
   while (asked < check_many(100)) {
     attack a;
     if (!proof_timing_scene(&rng, &a)) continue;
@@ -1794,9 +1702,9 @@ static void proof_may_forget(void) {
     if (asked % 5 == 4) proof_ask_distance(&options, (float)(0.01 * size));
     CHECK_EQ(proof_ask_with(&a, &options), NSVCD_OK);
     const nsvcd_answer whole = a.answer;
-    forgetful = 1 + (unsigned)asked % 3;
+    heard.forgetful = 1 + (unsigned)asked % 3;
     CHECK_EQ(proof_ask_with(&a, &options), NSVCD_OK);
-    forgetful = 0;
+    heard.forgetful = 0;
     CHECK_EQ(status_of(&a.answer), status_of(&whole));
     if (options.ask == NSVCD_ASK_FIRST) {
       CHECK_LE(fabs((double)(a.answer.nearest.time - whole.nearest.time)), 0.0101);
@@ -1809,9 +1717,9 @@ static void proof_may_forget(void) {
     more_work += a.answer.work > whole.work;
     asked++;
   }
-  printf("  %zu questions, forgotten %u times, %zu took more work for it\n", asked, forgotten,
+  printf("  %zu questions, forgotten %u times, %zu took more work for it\n", asked, heard.forgotten,
          more_work);
-  CHECK_GE(forgotten, asked);
+  CHECK_GE(heard.forgotten, asked);
   CHECK_GE(more_work, asked / 10);
 }
 
@@ -2979,6 +2887,7 @@ static void proof_certificates_hold_where_both_move(void) {
   replay sum;
   attack a;
   memset(&sum, 0, sizeof sum);
+  memset(looked_at, 0, sizeof looked_at);
   for (size_t trial = 0; trial < check_many(120); trial++) {
     const double gap = pow(10, shapes_uniform(&rng, -6, -1.3));
     proof_any_two(&rng, &a);
@@ -2989,6 +2898,7 @@ static void proof_certificates_hold_where_both_move(void) {
     proof_replay(&a, &rng, &sum);
   }
   proof_report("both move", &sum);
+  proof_check_kinds();
   CHECK_GE(sum.verdicts[STATUS_CERTIFIED_FREE], check_many(25));
 }
 

@@ -265,7 +265,6 @@ static void nsvcd__read_number(nsvcd__numbers *numbers, size_t n) {
     const unsigned bits = numbers->kind_bits;
     numbers->number = (numbers->number + (code >> bits)) & NSVCD__NUMBER;
     numbers->kind = bits == 1 ? (code & 1) * NSVCD__CLOSED : code & 3;
-    NSVCD__TALLY(numbers, 1);
   }
 }
 

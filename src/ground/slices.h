@@ -9,11 +9,6 @@
 #define NSVCD__LANES 16
 typedef float nsvcd__row[NSVCD__LANES];  // a number in each lane
 
-// Tests count the work of a query, and compare it with the bound that nsvcd_sweep states.
-#ifndef NSVCD__TALLY
-#define NSVCD__TALLY(what, amount) ((void)0)
-#endif
-
 #ifndef NSVCD__ISA
 // gcc on Windows does not align the stack for what is wider than 16 bytes, and programs crash: its
 // bug 54412.

@@ -211,7 +211,6 @@ static int nsvcd__polygon_is_ear(const nsvcd__polygon *poly, uint32_t i) {
   for (uint32_t k = 1; k > 0;) {
     const nsvcd__corner_box *box = &poly->boxes[k];
     const int meets = box->reflex > 0 && nsvcd__ear_meets(&ear, box);
-    NSVCD__TALLY(boxes, 1);
     if (meets && k < poly->runs) {
       k *= 2;
       continue;

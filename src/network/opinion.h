@@ -51,7 +51,6 @@ static int nsvcd__score(const nsvcd__task *task, nsvcd__candidates *kept, size_t
     if (c->score > NSVCD__NO_SCORE) continue;
     batch[count++] = c;
     if (count < NSVCD__BATCH && count < left) continue;
-    NSVCD__TALLY(ranked, count);
     nsvcd__decode(task, batch, count, task->settings.ranker);
     left -= count;
     count = 0;
@@ -140,10 +139,8 @@ static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept,
     const size_t left = count - first;
     const size_t size = left < NSVCD__PORTION ? left : NSVCD__PORTION;
     for (size_t k = 0; k < size; k++) portion[k] = &items[first + k];
-    if (settings->decoder != settings->ranker) {
-      NSVCD__TALLY(judged, size);
+    if (settings->decoder != settings->ranker)
       nsvcd__decode(task, portion, size, settings->decoder);
-    }
     for (size_t k = 0; k < size; k++) {
       const float closeness = nsvcd__closeness(task, portion[k]);
       if (!(closeness > most)) continue;

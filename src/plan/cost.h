@@ -147,9 +147,7 @@ static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage,
 
   const float left = weight > 0 ? (limit - cost.total) / weight : INFINITY;
   if (wrenches) memset(wrenches, 0, numbers * sizeof *wrenches);
-  NSVCD__TALLY(collision, 0);  // begins
   nsvcd__add_collision(p, stage->moments, left, wrenches, at_end, &cost);
-  NSVCD__TALLY(collision, 1);  // ends
   cost.total += weight * cost.collision;
   if (gradient) nsvcd__add_collision_gradient(p, stage, gradient);
   if (!nsvcd__is_finite(cost.total)) p->error = NSVCD_ERROR_NUMBER;

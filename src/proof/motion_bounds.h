@@ -5,16 +5,6 @@
 #include "poses.h"
 
 #ifndef NSVCD_NO_PROOF
-// The time of a tick, t in [0,1].
-static double nsvcd__time_of(const nsvcd__motion *m, double ticks) {
-  return m->begin + m->duration * ticks / (double)m->ticks;
-}
-
-// The time of fraction u of p->arc.
-static double nsvcd__time_in_arc(const nsvcd__proof *p, double u) {
-  return nsvcd__time_of(p->ask.motion, (double)p->arc.first + u * (double)p->arc.ticks);
-}
-
 // The tick of a position counted in segments: 1.5 is in the middle of the second.
 static double nsvcd__tick_in_segments(const uint32_t *begin, double at) {
   const size_t s = (size_t)at;
@@ -46,7 +36,6 @@ static const nsvcd__interval *nsvcd__segment_interval(nsvcd__proof *p, const nsv
   if (p->memo.intervals >> s & 1) return out;
   p->memo.intervals |= (uint64_t)1 << s;
   const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, l);
-  const double end = nsvcd__min((double)q->begin[s + 1], p->ask.end);
   out->start.rotation = nsvcd__mat3_lane(block->rotation, l);
   out->end.rotation = nsvcd__mat3_mix(1, &out->start.rotation, 1, &turned);
   out->start.position = nsvcd__lane_of(block->position, l);
@@ -59,8 +48,6 @@ static const nsvcd__interval *nsvcd__segment_interval(nsvcd__proof *p, const nsv
   out->bend_along_axis = block->bend_along_axis[l];
   out->origin_along_axis = block->origin_along_axis[l];
   out->origin_off_heading = block->origin_off_heading[l];
-  out->t_start = nsvcd__time_of(p->ask.motion, (double)q->begin[s]);
-  out->t_end = nsvcd__time_of(p->ask.motion, end);
   return out;
 }
 
@@ -84,8 +71,6 @@ static nsvcd__interval nsvcd__interval_of_arc(nsvcd__proof *p, uint32_t first, d
   out.heading = out.axis;  // any
   const double wavers = square * (arc->bend * arc->waver + arc->twist);
   out.bend_along_axis = fminf((float)wavers + 1e-6f * out.bend, out.bend);
-  out.t_start = nsvcd__time_in_arc(p, u0);
-  out.t_end = nsvcd__time_in_arc(p, u1);
   return out;
 }
 

@@ -214,12 +214,11 @@ typedef struct nsvcd__arc {
   double bend, twist, origin_bend;
 } nsvcd__arc;
 
-// An interval of the motion, t in [0,1]. A point of the moving body at r metres from its origin
+// An interval of the motion. A point of the moving body at r metres from its origin
 // deviates from the chord between its positions at both ends by no more than origin_bend + bend r.
 // Float computation of its position is off by no more than `rounding`.
 typedef struct nsvcd__interval {
   nsvcd__transform start, end;
-  double t_start, t_end;
   float rounding, origin_bend, bend;
   // unit: of the turn from start to end, and of the origin's travel
   nsvcd__f3 axis, heading;
@@ -382,8 +381,8 @@ typedef struct nsvcd__known {
   double resolved;
 } nsvcd__known;
 
-// What is only remembered. It may be forgotten wherever there is an NSVCD__PAUSE: what is proven is
-// as true then, and only the work may differ. All zeros: nothing is remembered.
+// What is only remembered. It may be forgotten between patch pairs and between parts of one: what
+// is proven is as true then, and only the work may differ. All zeros: nothing is remembered.
 typedef struct nsvcd__memo {
   // poses in arcs; the next to be replaced
   nsvcd__known_pose poses[NSVCD__KNOWN_POSES];
@@ -485,13 +484,10 @@ typedef struct nsvcd__proof {
   uint32_t crossed[NSVCD__CROSSED];
 } nsvcd__proof;
 
-// Forgets all that is only remembered. The tests do so at random, where NSVCD__PAUSE stands.
+// Forgets all that is only remembered.
 static void nsvcd__forget(nsvcd__memo *memo) {
   memset(memo, 0, sizeof *memo);
 }
-#ifndef NSVCD__PAUSE
-#define NSVCD__PAUSE(p) ((void)0)
-#endif
 
 // The limit that allows so many units more, but never more than the question has left.
 static size_t nsvcd__limit_after(const nsvcd__proof *p, size_t units) {
@@ -535,23 +531,4 @@ static double nsvcd__off_meshes(const nsvcd__proof *p) {
 static float nsvcd__errors_of(const nsvcd__proof *p, size_t i, size_t j) {
   return p->ask.motion->scale * p->moving.errors[i] + p->fixed.errors[j];
 }
-
-// Tests hear of every plane of slabs, hulls and triangles (spheres have tests of their own): kind,
-// patches, entries (or NSVCD_NONE), times, and the plane's normal (3), in the fixed body's frame,
-// towards the moving side. What many planes separate at once, the tests take apart themselves.
-#ifndef NSVCD__CERTIFY
-#define NSVCD__CERTIFY(kind, moving, fixed, moving_entry, fixed_entry, t_start, t_end, \
-                       normal) \
-  ((void)(moving), (void)(fixed), (void)(moving_entry), (void)(fixed_entry), (void)(t_start), \
-   (void)(t_end), (void)(normal))
-// by slabs, in `lanes` of a slice: moving patches, from the i-th on, and patch j, in segment s; or
-// all members of groups i and j, in segments from s on
-#define NSVCD__CERTIFY_SLABS(p, search, of_groups, i, j, s, by, lanes) ((void)0)
-// all triangle pairs of `lanes` of the moving block and the `apart` lanes of a fixed one, by the
-// planes of its slice from s on or, where that is NULL, by their boxes
-#define NSVCD__CERTIFY_BLOCK(p, lanes, fixed, apart, s, plane, below) ((void)0)
-// all triangle pairs of patches i and j, from u0 to u1 of the arc, by nsvcd__plane_separates
-#define NSVCD__CERTIFY_PATCHES(p, i, j, u0, u1) ((void)0)
-#endif
-enum { NSVCD__BY_SLAB, NSVCD__BY_HULL, NSVCD__BY_TRIANGLES };
 #endif  // NSVCD_NO_PROOF

@@ -163,12 +163,7 @@ static int nsvcd__plane_separates(nsvcd__proof *p, const nsvcd__triangle_pair *p
   }
   const double off = nsvcd__off_chord_along(&p->arc, pair, normal);
   const double deviation = (u1 - u0) * (u1 - u0) * off;
-  if (!(lowest - highest > p->ask.clearance + pair->margin + deviation)) return 0;
-  const float out[3] = {(float)normal.x, (float)normal.y, (float)normal.z};
-  NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, pair->moving_patch, pair->fixed_patch,
-                 pair->moving_entry, pair->fixed_entry, nsvcd__time_in_arc(p, u0),
-                 nsvcd__time_in_arc(p, u1), out);
-  return 1;
+  return lowest - highest > p->ask.clearance + pair->margin + deviation;
 }
 
 // Have two heights different signs, clear of 0 by their margins?
@@ -402,7 +397,6 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
     if (!(u < end)) return shrunk ? NSVCD__SHRUNK : NSVCD__DONE;
     at = nsvcd__min(at, end);
     p->work++;
-    NSVCD__TALLY(pairs, 1);
     if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
     const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, at);
     const double distance = sqrt(nearest.square);
@@ -452,7 +446,6 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
     if (!(u < end)) break;  // an unresolved pair may be the end
     const double middle = 0.5 * (u + end);
     p->work++;
-    NSVCD__TALLY(pairs, 1);
     if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
     int apart = nsvcd__plane_separates(p, pair, u, end);
     if (!apart) {

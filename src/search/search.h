@@ -22,7 +22,6 @@ static void nsvcd__boxes_of_groups(const nsvcd__search *q, size_t first, uint64_
   const nsvcd__spheres groups = nsvcd__spheres_from(q->moving_tile.spheres, first);
   const nsvcd__sphere fixed = nsvcd__body_sphere(q->fixed);
   nsvcd__chords *c = nsvcd__spare_chords(q);
-  NSVCD__TALLY(tests, nsvcd__bit_count(wanted));
   for (size_t n = 0; n < 3 * NSVCD__LANES; n++) {
     out->low[n / NSVCD__LANES][n % NSVCD__LANES] = -NSVCD__NOWHERE;
     out->high[n / NSVCD__LANES][n % NSVCD__LANES] = NSVCD__NOWHERE;

@@ -107,7 +107,6 @@ NSVCD__INLINE uint32_t nsvcd__meet(const nsvcd__chords *c, nsvcd__sphere resting
   const nsvcd__v3 centre = nsvcd__v3_set(resting.centre);
   const nsvcd__v radius = nsvcd__v_set(resting.radius);
   uint32_t met = 0;
-  NSVCD__TALLY(tests, 1);
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__chords_start(c, l), centre);
     const nsvcd__v sum = nsvcd__v_add(nsvcd__v_load(c->radius + l), radius);
@@ -127,7 +126,6 @@ NSVCD__INLINE uint32_t nsvcd__meet_members(const nsvcd__search *q, size_t s,
   const nsvcd__v inverse = nsvcd__v_set(c->inverse[lane]);
   const nsvcd__v own = nsvcd__v_set(c->radius[lane]);
   uint32_t met = 0;
-  NSVCD__TALLY(tests, 1);
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_centres(resting, l));
     const nsvcd__v radius = nsvcd__v_add(own, nsvcd__v_load(resting.r + l));

@@ -171,11 +171,9 @@ NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__b
 }
 
 // Lanes of a slice, from s on, of a fixed block that planes with these normals, of any length,
-// separate from lane l of the moving one, as posed, by more than `margin`. below: the moving one is
-// on the side that the normal points from.
+// separate from lane l of the moving one, as posed, by more than `margin`.
 NSVCD__INLINE uint32_t nsvcd__normals_separate(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
-                                               size_t s, float margin, nsvcd__v3 n,
-                                               uint32_t *below) {
+                                               size_t s, float margin, nsvcd__v3 n) {
   const nsvcd__v3 b0 = nsvcd__v3_load(fixed->corners[0], s);
   const nsvcd__v3 edge1 = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[1], s), b0);
   const nsvcd__v3 edge2 = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2], s), b0);
@@ -196,8 +194,8 @@ NSVCD__INLINE uint32_t nsvcd__normals_separate(nsvcd__proof *p, size_t l, nsvcd_
   const nsvcd__v square = nsvcd__v3_dot(n, n);
   nsvcd__v limit = nsvcd__v_scale(nsvcd__v_sqrt(square), margin);
   limit = nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit);
-  *below = nsvcd__v_lt(highest, nsvcd__v_sub(low, limit));
-  return nsvcd__v_lt(nsvcd__v_add(high, limit), lowest) | *below;
+  const uint32_t below = nsvcd__v_lt(highest, nsvcd__v_sub(low, limit));
+  return nsvcd__v_lt(nsvcd__v_add(high, limit), lowest) | below;
 }
 
 // Of these lanes of a fixed block, those that planes with normal k do not separate from lane l of
@@ -205,13 +203,9 @@ NSVCD__INLINE uint32_t nsvcd__normals_separate(nsvcd__proof *p, size_t l, nsvcd_
 NSVCD__INLINE uint32_t nsvcd__left_by_normal(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
                                              size_t k, float margin, uint32_t met) {
   NSVCD__EACH_SLICE(s) {
-    uint32_t below;
     if (!(met >> s & NSVCD__SLICE_MASK)) continue;
     const nsvcd__v3 normal = nsvcd__normal_to_try(p, l, fixed, s, k);
-    const uint32_t apart =
-        nsvcd__normals_separate(p, l, fixed, s, margin, normal, &below) << s & met;
-    NSVCD__CERTIFY_BLOCK(p, (uint32_t)1 << l, fixed, apart, s, &normal, below << s);
-    met &= ~apart;
+    met &= ~(nsvcd__normals_separate(p, l, fixed, s, margin, normal) << s);
   }
   return met;
 }
@@ -241,8 +235,6 @@ static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, nsvcd
     }
     apart |= nsvcd__v_lt(limit, height) << s;
   }
-  NSVCD__EACH_SLICE(s)
-  NSVCD__CERTIFY_BLOCK(p, lanes & apart, fixed, NSVCD__SLICE_MASK << s, s, &normal, 0);
   return lanes & ~apart;
 }
 
@@ -252,7 +244,6 @@ static NSVCD__NOINLINE uint32_t nsvcd__row_left(nsvcd__proof *p, size_t l, nsvcd
   nsvcd__block *block = &p->moving_block;
   const nsvcd__box box = {nsvcd__lane_of(block->low, l), nsvcd__lane_of(block->high, l)};
   uint32_t met = nsvcd__lanes_near(fixed, box, margin);
-  NSVCD__CERTIFY_BLOCK(p, (uint32_t)1 << l, fixed, ~met, 0, NULL, 0);
   // the last plane: see nsvcd__lanes_left_by_last
   for (size_t k = p->ask.clearance > 0 ? NSVCD__LAST_NORMAL : 1; met && k < NSVCD__NORMALS;
        k++)

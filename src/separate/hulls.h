@@ -116,7 +116,6 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, siz
                                              nsvcd__f3_towards(turned, line), line};
   nsvcd__f3 nearest = {0, 0, 0};
   p->work++;
-  NSVCD__TALLY(planes, 1);
   for (size_t step = 0; step < NSVCD__GUESSES + NSVCD__PLANE_STEPS; step++) {
     const nsvcd__f3 normal = step < NSVCD__GUESSES ? guesses[step] : nearest;
     const nsvcd__support found = nsvcd__support_along(p, normal);
@@ -125,8 +124,6 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, siz
         found.gap > margin * length + nsvcd__deviation_of(over, normal, arm)) {
       p->memo.held = normal;
       p->memo.plane++;
-      NSVCD__CERTIFY(NSVCD__BY_HULL, i, j, NSVCD_NONE, NSVCD_NONE, over->t_start, over->t_end,
-                     &normal.x);
       return 1;
     }
     if (step + 1 < NSVCD__GUESSES) continue;
@@ -140,5 +137,51 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, siz
     if (nsvcd__f3_dot(nearest, nearest) <= margin * margin) return 0;
   }
   return 0;
+}
+
+// Does the plane that held last separate a patch pair over its segment, moved along its normal? If
+// it does, the pair's neighbours ask for the same heights: so these are remembered, of a moving
+// patch in a segment the least, less all margins, and of a fixed one the greatest.
+static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *q,
+                             const nsvcd__patch_pair *patches) {
+  const size_t i = patches->moving;
+  const size_t j = patches->fixed;
+  const size_t s = patches->segment;
+  nsvcd__memo *memo = &p->memo;
+  if (!memo->plane) return 0;
+  const nsvcd__interval *over = nsvcd__segment_interval(p, q, s);
+  const nsvcd__f3 n = memo->held;
+  const float length = nsvcd__f3_norm(n);
+  const uint32_t key = (uint32_t)(i * NSVCD__MAX_SEGMENTS + s);
+  nsvcd__height *above =
+      &memo->heights[(NSVCD__GROUP * s + i % NSVCD__GROUP) % NSVCD__HEIGHTS];
+  nsvcd__height *below = &memo->fixed_heights[j % NSVCD__FIXED_HEIGHTS];
+  if (above->plane != memo->plane || above->key != key) {
+    float lowest = HUGE_VALF;
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, i, l);
+      const nsvcd__v3 normal = nsvcd__v3_set(n);
+      const nsvcd__v at_start = nsvcd__v3_dot(normal, nsvcd__v3_transform(&over->start, hull));
+      const nsvcd__v at_end = nsvcd__v3_dot(normal, nsvcd__v3_transform(&over->end, hull));
+      lowest = nsvcd__least_of(lowest, nsvcd__v_min(at_start, at_end));
+    }
+    const float margin =
+        (p->ask.motion->scale * p->moving.margins[i] + over->rounding) * length;
+    above->plane = memo->plane;
+    above->key = key;
+    above->height =
+        lowest - margin - nsvcd__deviation_of(over, n, nsvcd__patch_arm(&p->moving, i, over));
+  }
+  if (below->plane != memo->plane || below->key != j) {
+    float highest = -HUGE_VALF;
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v height = nsvcd__v3_dot(nsvcd__v3_set(n), nsvcd__hull_of(&p->fixed, j, l));
+      highest = nsvcd__greatest_of(highest, height);
+    }
+    below->plane = memo->plane;
+    below->key = (uint32_t)j;
+    below->height = p->fixed.margins[j] * length + highest;
+  }
+  return above->height > below->height + nsvcd__clearance(p) * length;
 }
 #endif  // NSVCD_NO_PROOF

@@ -48,7 +48,6 @@ static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *q, size
       nsvcd__v_store(squares + l, square);
       nsvcd__v_store(fraction + l, tau);
     }
-    NSVCD__TALLY(tests, 1);
     if (!met) continue;
     met = nsvcd__slabs_meet(p, q, g, j, s, met);
     for (; met; met &= met - 1) {

@@ -31,7 +31,6 @@ static NSVCD__NOINLINE int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_
     if ((a - moving_first) % 4 == 0) p->work++;
     if (!nsvcd__plane_separates(p, &pair, u0, u1)) return 0;
   }
-  NSVCD__CERTIFY_PATCHES(p, i, j, u0, u1);
   return 1;
 }
 
@@ -102,7 +101,6 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
       for (size_t n = 0; n < p->memo.window; n++) {
         nsvcd__block *fixed = &p->fixed_blocks[n];
         const uint32_t nearby = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
-        NSVCD__CERTIFY_BLOCK(p, ~nearby, fixed, 0xffff, 0, NULL, 0);
         uint32_t lanes = nsvcd__lanes_left_by_last(p, fixed, margin, nearby);
         p->work++;
         if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
@@ -136,7 +134,6 @@ static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__se
     is_tried = is_tried && at == last;
     ends[0] = (double)(at - first) / (double)(keyframe - first);
     for (size_t left = 1; left > 0;) {
-      NSVCD__PAUSE(p);
       nsvcd__arc_at(p, first);
       const double end = nsvcd__min(ends[left - 1], nsvcd__arc_limit(p));
       if (!(u < end)) break;
@@ -159,56 +156,7 @@ static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__se
   return NSVCD__DONE;
 }
 
-// Does the plane that held last separate a patch pair over its segment, moved along its normal? If
-// it does, the pair's neighbours ask for the same heights: so these are remembered, of a moving
-// patch in a segment the least, less all margins, and of a fixed one the greatest.
-static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *q,
-                             const nsvcd__patch_pair *patches) {
-  const size_t i = patches->moving;
-  const size_t j = patches->fixed;
-  const size_t s = patches->segment;
-  nsvcd__memo *memo = &p->memo;
-  if (!memo->plane) return 0;
-  const nsvcd__interval *over = nsvcd__segment_interval(p, q, s);
-  const nsvcd__f3 n = memo->held;
-  const float length = nsvcd__f3_norm(n);
-  const uint32_t key = (uint32_t)(i * NSVCD__MAX_SEGMENTS + s);
-  nsvcd__height *above =
-      &memo->heights[(NSVCD__GROUP * s + i % NSVCD__GROUP) % NSVCD__HEIGHTS];
-  nsvcd__height *below = &memo->fixed_heights[j % NSVCD__FIXED_HEIGHTS];
-  if (above->plane != memo->plane || above->key != key) {
-    float lowest = HUGE_VALF;
-    NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, i, l);
-      const nsvcd__v3 normal = nsvcd__v3_set(n);
-      const nsvcd__v at_start = nsvcd__v3_dot(normal, nsvcd__v3_transform(&over->start, hull));
-      const nsvcd__v at_end = nsvcd__v3_dot(normal, nsvcd__v3_transform(&over->end, hull));
-      lowest = nsvcd__least_of(lowest, nsvcd__v_min(at_start, at_end));
-    }
-    const float margin =
-        (p->ask.motion->scale * p->moving.margins[i] + over->rounding) * length;
-    above->plane = memo->plane;
-    above->key = key;
-    above->height =
-        lowest - margin - nsvcd__deviation_of(over, n, nsvcd__patch_arm(&p->moving, i, over));
-  }
-  if (below->plane != memo->plane || below->key != j) {
-    float highest = -HUGE_VALF;
-    NSVCD__EACH_SLICE(l) {
-      const nsvcd__v height = nsvcd__v3_dot(nsvcd__v3_set(n), nsvcd__hull_of(&p->fixed, j, l));
-      highest = nsvcd__greatest_of(highest, height);
-    }
-    below->plane = memo->plane;
-    below->key = (uint32_t)j;
-    below->height = p->fixed.margins[j] * length + highest;
-  }
-  if (!(above->height > below->height + nsvcd__clearance(p) * length)) return 0;
-  NSVCD__CERTIFY(NSVCD__BY_HULL, i, j, NSVCD_NONE, NSVCD_NONE, over->t_start, over->t_end,
-                 &n.x);
-  return 1;
-}
-
-// Does any plane?
+// Does any plane separate a patch pair over its segment?
 static int nsvcd__is_separated(nsvcd__proof *p, const nsvcd__search *q,
                                const nsvcd__patch_pair *patches) {
   const nsvcd__interval *over = nsvcd__segment_interval(p, q, patches->segment);
@@ -282,7 +230,6 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_patch_pairs(nsvcd__proof *p
   nsvcd__sort_patch_pairs(p, p->of.kept.pairs, p->count);
   for (size_t n = 0; n < p->count; n++) {
     const nsvcd__patch_pair *patches = &p->of.kept.pairs[n];
-    NSVCD__PAUSE(p);
     if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
     nsvcd__clip_segment(p, q);
     if (!nsvcd__matters(p, q, patches->segment)) continue;
@@ -315,7 +262,6 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
 
   for (size_t n = 0; n < count; n++) {
     nsvcd__patch_pair *patches = &p->fresh[n];
-    NSVCD__PAUSE(p);
     if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
     nsvcd__clip_segment(p, q);
     if (!nsvcd__matters(p, q, patches->segment)) continue;
@@ -359,7 +305,6 @@ static int nsvcd__collects_on(const nsvcd__proof *p) {
 static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *q) {
   for (size_t n = 0; n < p->fresh_count && nsvcd__collects_on(p); n++) {
     const nsvcd__patch_pair *patches = &p->fresh[n];
-    NSVCD__PAUSE(p);
     if (nsvcd__held_again(p, q, patches)) continue;
     if (nsvcd__is_separated(p, q, patches)) continue;
     if (p->ask.collects == NSVCD__TOUCHING) {

@@ -79,7 +79,6 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
       NSVCD__ROUNDING * lengths + nsvcd__clearance(p) + nsvcd__errors_of(p, i, j);
   const size_t moving_end = p->moving.first_triangle[i + 1];
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
-  NSVCD__TALLY(tries, 1);
   for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
        b += NSVCD__WINDOW * NSVCD__LANES) {
     nsvcd__window_load(p, j, b);

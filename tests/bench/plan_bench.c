@@ -16,17 +16,6 @@
 // The last planner has the library's defaults. How far motions stray from the last check, median and
 // most of those that converged, is asked of it: --planner defaults --episodes 140 are 700 motions.
 #define _POSIX_C_SOURCE 200112L
-#define NSVCD__TALLY(what, amount) TALLY_##what(amount)
-#define TALLY_boxes(amount) ((void)0)
-#define TALLY_tests(amount) ((void)0)
-#define TALLY_ranked(amount) ((void)0)
-#define TALLY_judged(amount) ((void)0)
-#define TALLY_planes(amount) ((void)0)
-#define TALLY_pairs(amount) ((void)0)
-#define TALLY_tries(amount) ((void)0)
-#define TALLY_numbers(amount) ((void)0)
-#define TALLY_collision(amount) (collision_seconds += (amount) ? seconds() : -seconds())
-static double collision_seconds;  // spent in the cost of collision
 #include "meter.h"
 #define NEURALSVCD_IMPLEMENTATION
 #include "../../examples/scenery/tasks.h"
@@ -125,8 +114,8 @@ static nsvcd_plan_options options_of(int task, const planner *p, uint64_t seed, 
 typedef struct outcome {
   // wrong: converged, but not by the oracle
   int motions, solved, converged, wrong, start, goal, limit;
-  double strays[MAX_MOTIONS];                             // millimetres, of converged motions
-  double seconds, collision_seconds, length, smoothness;  // the latter two: of solved motions
+  double strays[MAX_MOTIONS];          // millimetres, of converged motions
+  double seconds, length, smoothness;  // the latter two: of solved motions
 } outcome;
 
 // What the callbacks see.
@@ -172,11 +161,9 @@ static void run_motion(int task, const planner *planner, uint64_t seed, size_t c
 
   const size_t size = nsvcd_plan_workspace_size(&problem, &options);
   void *workspace = allocate(size);
-  collision_seconds = 0;
   const double start = seconds();
   const nsvcd_result result = nsvcd_plan(&problem, &options, workspace, size, control, &answer);
   out->seconds += seconds() - start;
-  out->collision_seconds += collision_seconds;
   free(workspace);
   if (result) {
     fprintf(stderr, "plan_bench: %s\n", nsvcd_result_string(result));
@@ -248,8 +235,6 @@ static void print_row(FILE *tsv, int task, const planner *planner, const outcome
     sum.start += o->start;
     sum.goal += o->goal;
     sum.limit += o->limit;
-    sum.seconds += o->seconds;
-    sum.collision_seconds += o->collision_seconds;
     sum.length += o->length;
     sum.smoothness += o->smoothness;
   }
@@ -259,17 +244,16 @@ static void print_row(FILE *tsv, int task, const planner *planner, const outcome
   const int strayed = sum.converged ? sum.converged : 1;
   const double each = sum.solved ? 1.0 / sum.solved : 0;
   printf(
-      "| %s | %s | %.0f [%.0f, %.0f] | %d of %d | %d / %d / %d / %d | %.2f / %.2f | %.0f %% | %.2f "
+      "| %s | %s | %.0f [%.0f, %.0f] | %d of %d | %d / %d / %d / %d | %.2f / %.2f | %.2f "
       "| %.3g | %.3f / %.3f |\n",
       task_names[task], planner->name, 100.0 * solved / count, 100 * low, 100 * high, sum.solved,
-      sum.motions, sum.limit, sum.wrong, sum.start, sum.goal, median, p90,
-      100 * sum.collision_seconds / sum.seconds, sum.length * each, sum.smoothness * each,
-      quantile(strays, strayed, 0.5), quantile(strays, strayed, 1));
+      sum.motions, sum.limit, sum.wrong, sum.start, sum.goal, median, p90, sum.length * each,
+      sum.smoothness * each, quantile(strays, strayed, 0.5), quantile(strays, strayed, 1));
   if (tsv) {
-    fprintf(tsv, "%s\t%s\t%.2f\t%.2f\t%.2f\t%d\t%d\t%d\t%d\t%d\t%d\t%.4f\t%.4f\t%.4f\t%.4f\t%.5g\n",
+    fprintf(tsv, "%s\t%s\t%.2f\t%.2f\t%.2f\t%d\t%d\t%d\t%d\t%d\t%d\t%.4f\t%.4f\t%.4f\t%.5g\n",
             task_names[task], planner->name, 100.0 * solved / count, 100 * low, 100 * high,
             sum.motions, sum.solved, sum.limit, sum.wrong, sum.start, sum.goal, median, p90,
-            sum.collision_seconds / sum.seconds, sum.length * each, sum.smoothness * each);
+            sum.length * each, sum.smoothness * each);
   }
   free(times);
   free(strays);
@@ -459,17 +443,15 @@ int main(int argc, char **argv) {
   if (tsv) {
     fprintf(tsv,
             "task\tplanner\tsuccess\tlow\thigh\tmotions\tsolved\tlimit\twrong\tstart\tgoal\tmedian_"
-            "s\tp90_s\t"
-            "collision_share\tlength\tsmoothness\n");
+            "s\tp90_s\tlength\tsmoothness\n");
   }
   printf("%d episodes a task, seeds from %lu\n\n", count, first);
   printf(
       "| task | planner | episodes solved, %% [95 %%] | motions solved | not found / wrong / start "
       "/ goal refused | "
-      "s per episode, median / 90 %% | in collision | length, rad | smoothness | strays, mm, "
-      "median / "
-      "most |\n");
-  printf("|---|---|---|---|---|---|---|---|---|---|\n");
+      "s per episode, median / 90 %% | length, rad | smoothness | strays, mm, "
+      "median / most |\n");
+  printf("|---|---|---|---|---|---|---|---|---|\n");
   for (int t = 0; t < TASKS; t++) {
     outcome *outcomes;
     if (only_task >= 0 && t != only_task) continue;

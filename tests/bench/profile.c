@@ -5,14 +5,8 @@
 //
 // Prints the median and the mean, in microseconds, over the problems; warm, the least of five runs;
 // the clock's own 0.03 to 0.05 us are in each number. Stages of a query at the defaults: base
-// decoder, 8 pairs, the 32 deepest ranked. Then the proof, verdict by verdict: time, and what it
-// took.
+// decoder, 8 pairs, the 32 deepest ranked. Then the proof, verdict by verdict: time and units.
 #define _POSIX_C_SOURCE 200112L
-#include <stddef.h>
-static struct {
-  size_t tests, ranked, judged, planes, pairs, tries, numbers, collision, boxes;
-} tally;
-#define NSVCD__TALLY(what, amount) (tally.what += (amount))
 #define NEURALSVCD_IMPLEMENTATION
 #include "../../neuralsvcd.h"
 #include "../any_query.h"
@@ -281,7 +275,7 @@ static void profile(const problem_file *file, size_t points) {
 // What the proofs that end in one verdict took, in all.
 typedef struct verdict_sum {
   size_t count;
-  double microseconds, tests, planes, tries, pairs, work;
+  double microseconds, work;
 } verdict_sum;
 
 static void add_proof(const question *q, nsvcd__query *work, verdict_sum *sums, double *least) {
@@ -290,7 +284,6 @@ static void add_proof(const question *q, nsvcd__query *work, verdict_sum *sums, 
       question_of(q->moving, q->poses, q->count, q->fixed, q->fixed_pose, NULL);
   *least = 1e9;
   for (int run = 0; run < 5; run++) {
-    memset(&tally, 0, sizeof tally);
     const double start = seconds();
     nsvcd_sweep(&question, work, nsvcd_sweep_workspace_size(NULL), &answer);
     keep_least(least, 0, start);
@@ -298,10 +291,6 @@ static void add_proof(const question *q, nsvcd__query *work, verdict_sum *sums, 
   verdict_sum *sum = &sums[status_of(&answer)];
   sum->count++;
   sum->microseconds += *least;
-  sum->tests += (double)tally.tests;
-  sum->planes += (double)tally.planes;
-  sum->tries += (double)tally.tries;
-  sum->pairs += (double)tally.pairs;
   sum->work += (double)answer.work;
 }
 
@@ -349,12 +338,8 @@ static void profile_proof(const problem_file *file, size_t points) {
     const verdict_sum *sum = &sums[k];
     const double n = (double)sum->count;
     if (!sum->count) continue;
-    printf(
-        "  %-15s %5zu, mean %6.2f us: %5.0f tests of spheres and discs, %6.1f planes sought, %4.1f "
-        "looks for a "
-        "witness, %5.1f pairs of triangles, %6.1f units\n",
-        status_string((status)k), sum->count, sum->microseconds / n, sum->tests / n,
-        sum->planes / n, sum->tries / n, sum->pairs / n, sum->work / n);
+    printf("  %-15s %5zu, mean %6.2f us, %6.1f units\n", status_string((status)k), sum->count,
+           sum->microseconds / n, sum->work / n);
   }
   for (size_t i = 0; i < file->mesh_count; i++) nsvcd_body_free(bodies[i], NULL);
   free(bodies);
