@@ -387,7 +387,7 @@ static int nsvcd__is_aligned(const void *memory) {
 
 // Are numbers finite, and their absolute values at most `most`? By their bits, so that it holds
 // under -ffast-math too.
-static int nsvcd__in_range(const float *values, size_t count, float most) {
+static NSVCD__NOINLINE int nsvcd__in_range(const float *values, size_t count, float most) {
   for (size_t i = 0; i < count; i++) {
     if (!nsvcd__is_finite(values[i]) || fabsf(values[i]) > most) return 0;
   }
@@ -904,7 +904,7 @@ static nsvcd__d3 nsvcd__face_normal(const nsvcd__d3 *t) {
 
 // The unit normal; 0 if the triangle has no area. Rounding, or fused arithmetic, makes such a
 // triangle's normal some 1e-16 of its longest edge squared.
-static inline nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
+static NSVCD__NOINLINE nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
   const nsvcd__d3 n = nsvcd__face_normal(t);
   double longest = 0;
   for (size_t k = 0; k < 3; k++)

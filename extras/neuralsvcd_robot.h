@@ -741,7 +741,7 @@ static int nsvcd__is_aligned(const void *memory) {
 
 // Are numbers finite, and their absolute values at most `most`? By their bits, so that it holds
 // under -ffast-math too.
-static int nsvcd__in_range(const float *values, size_t count, float most) {
+static NSVCD__NOINLINE int nsvcd__in_range(const float *values, size_t count, float most) {
   for (size_t i = 0; i < count; i++) {
     if (!nsvcd__is_finite(values[i]) || fabsf(values[i]) > most) return 0;
   }

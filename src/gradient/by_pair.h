@@ -36,7 +36,7 @@ static void nsvcd__first_lanes(const void *slices, size_t count, void *out) {
 }
 
 // *sum += s a
-static void nsvcd__add_to(nsvcd__f3 *sum, float s, nsvcd__f3 a) {
+static NSVCD__NOINLINE void nsvcd__add_to(nsvcd__f3 *sum, float s, nsvcd__f3 a) {
   *sum = nsvcd__f3_fma(s, a, *sum);
 }
 
@@ -290,9 +290,10 @@ static nsvcd__f3 nsvcd__farthest_extreme(const int8_t *extremes, nsvcd__f3 u) {
 
 // The adjoint of a gap along u at tau, times `by`, added to `out`; returns that by u. extremes: of
 // the moving patch and of the fixed one. moves: 0 at rest, else 1.
-static nsvcd__f3 nsvcd__by_gap(const nsvcd__pair *pair, const int8_t *const *extremes,
-                               nsvcd__f3 u, float tau, float moves, float by,
-                               nsvcd__by_pair *out) {
+static NSVCD__NOINLINE nsvcd__f3 nsvcd__by_gap(const nsvcd__pair *pair,
+                                               const int8_t *const *extremes, nsvcd__f3 u,
+                                               float tau, float moves, float by,
+                                               nsvcd__by_pair *out) {
   const float half = 0.5f * tau;
   const nsvcd__f3 w = pair->w;
   const nsvcd__f3 back = nsvcd__f3_turned_back(u, w, half);

@@ -5,7 +5,8 @@
 
 #ifndef NSVCD_NO_GRADIENT
 // Adds a force and a torque, times `scale`, to a wrench, row (6).
-static void nsvcd__add_wrench(float scale, nsvcd__f3 force, nsvcd__f3 torque, float *row) {
+static NSVCD__NOINLINE void nsvcd__add_wrench(float scale, nsvcd__f3 force, nsvcd__f3 torque,
+                                              float *row) {
   nsvcd__f3_store(nsvcd__f3_fma(scale, force, nsvcd__f3_load(row)), row);
   nsvcd__f3_store(nsvcd__f3_fma(scale, torque, nsvcd__f3_load(row + 3)), row + 3);
 }

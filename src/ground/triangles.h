@@ -9,7 +9,7 @@ static nsvcd__d3 nsvcd__face_normal(const nsvcd__d3 *t) {
 
 // The unit normal; 0 if the triangle has no area. Rounding, or fused arithmetic, makes such a
 // triangle's normal some 1e-16 of its longest edge squared.
-static inline nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
+static NSVCD__NOINLINE nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
   const nsvcd__d3 n = nsvcd__face_normal(t);
   double longest = 0;
   for (size_t k = 0; k < 3; k++)

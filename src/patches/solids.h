@@ -87,7 +87,7 @@ typedef struct nsvcd__edge {
   int rises;
 } nsvcd__edge;
 
-static nsvcd__edge nsvcd__mending_edge(const nsvcd__mending *m, size_t e) {
+static NSVCD__NOINLINE nsvcd__edge nsvcd__mending_edge(const nsvcd__mending *m, size_t e) {
   uint32_t face[3];
   nsvcd__mending_face(m, e / 3, face);
   const uint32_t from = face[e % 3];

@@ -45,7 +45,7 @@ static int nsvcd__solve_weights(const nsvcd__d3 *points, size_t count, int ball,
 }
 
 // The least float that is not below x.
-static float nsvcd__float_above(double x) {
+static NSVCD__NOINLINE float nsvcd__float_above(double x) {
   const float rounded = nsvcd__to_float(x);
   return (double)rounded < x ? nextafterf(rounded, HUGE_VALF) : rounded;
 }
