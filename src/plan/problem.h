@@ -268,19 +268,18 @@ static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
     stage->numbers = stage->via * f;
     stage->bytes = all * f * sizeof(float);
     stage->form = (double *)nsvcd__take(base, &used, all, all * sizeof(double));
-    stage->factor =
-        (double *)nsvcd__take(base, &used, stage->via, stage->via * sizeof(double));
+    stage->factor = NSVCD__TAKE_ROWS(double, stage->via * stage->via, base, &used);
     stage->weights = nsvcd__take_floats(base, &used, stage->moments, all);
   }
 
   p->path = nsvcd__take_floats(base, &used, moments, f);
-  p->poses = (nsvcd_pose *)nsvcd__take(base, &used, poses, sizeof(nsvcd_pose));
-  p->stances = (nsvcd__stance *)nsvcd__take(base, &used, poses, sizeof(nsvcd__stance));
-  p->shapes = (nsvcd__shape *)nsvcd__take(base, &used, bodies, sizeof(nsvcd__shape));
-  p->meets = (unsigned char *)nsvcd__take(base, &used, moments, 1);
-  p->queue = (uint32_t *)nsvcd__take(base, &used, p->in->pair_count, sizeof(uint32_t));
+  p->poses = NSVCD__TAKE_ROWS(nsvcd_pose, poses, base, &used);
+  p->stances = NSVCD__TAKE_ROWS(nsvcd__stance, poses, base, &used);
+  p->shapes = NSVCD__TAKE_ROWS(nsvcd__shape, bodies, base, &used);
+  p->meets = NSVCD__TAKE_ROWS(unsigned char, moments, base, &used);
+  p->queue = NSVCD__TAKE_ROWS(uint32_t, p->in->pair_count, base, &used);
   p->wrenches = nsvcd__take_floats(base, &used, poses, 6);
-  p->moved = (nsvcd_pose *)nsvcd__take(base, &used, bodies, sizeof(nsvcd_pose));
+  p->moved = NSVCD__TAKE_ROWS(nsvcd_pose, bodies, base, &used);
   p->jacobian = nsvcd__take_floats(base, &used, bodies, 6 * f);
   p->by_path = nsvcd__take_floats(base, &used, 1, f);
 
@@ -289,7 +288,7 @@ static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
   p->costs = nsvcd__take_floats(base, &used, 1, draws);
   p->steps = nsvcd__take_floats(base, &used, NSVCD__HISTORY, point);
   p->changes = nsvcd__take_floats(base, &used, NSVCD__HISTORY, point);
-  p->vector = (double *)nsvcd__take(base, &used, 1, (via + 2) * sizeof(double));
+  p->vector = NSVCD__TAKE_ROWS(double, via + 2, base, &used);
   return used <= SIZE_MAX ? (size_t)used : 0;
 }
 
