@@ -923,6 +923,11 @@ static inline double nsvcd__d3_axis(nsvcd__d3 a, size_t axis) {
 static inline void nsvcd__d3_set_axis(nsvcd__d3 *a, size_t axis, double to) {
   *(axis == 0 ? &a->x : axis == 1 ? &a->y : &a->z) = to;
 }
+// The axis of the greatest component; of equals the first.
+static inline size_t nsvcd__d3_longest(nsvcd__d3 a) {
+  if (a.y > a.x && a.y >= a.z) return 1;
+  return a.z > a.x ? 2 : 0;
+}
 static inline nsvcd__d3 nsvcd__d3_over(nsvcd__d3 a, double s) {
   return nsvcd__d3_of(a.x / s, a.y / s, a.z / s);
 }

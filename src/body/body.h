@@ -238,8 +238,7 @@ static void nsvcd__body_order(const nsvcd__f3 *centres, uint16_t *order, uint16_
     high = nsvcd__f3_max(high, centres[order[i]]);
   }
   const nsvcd__f3 size = nsvcd__f3_sub(high, low);
-  size_t axis = size.y > size.x ? 1 : 0;
-  if (size.z > fmaxf(size.x, size.y)) axis = 2;
+  const size_t axis = nsvcd__d3_longest(nsvcd__d3_widen(size));
   nsvcd__sort_along(centres, axis, order, spare, count);
   size_t unit = NSVCD__GROUP;
   while (2 * NSVCD__GROUP * unit < count) unit *= NSVCD__GROUP;

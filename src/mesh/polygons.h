@@ -90,8 +90,8 @@ static void nsvcd__polygon_project(nsvcd__polygon *poly, const float *positions)
     const nsvcd__d3 q = nsvcd__d3_sub(nsvcd__d3_row(positions, next), origin);
     normal = nsvcd__d3_add(normal, nsvcd__d3_cross(p, q));
   }
-  size_t axis = fabs(normal.y) > fabs(normal.x) ? 1 : 0;
-  if (fabs(normal.z) > fabs(nsvcd__d3_axis(normal, axis))) axis = 2;
+  const nsvcd__d3 size = {fabs(normal.x), fabs(normal.y), fabs(normal.z)};
+  const size_t axis = nsvcd__d3_longest(size);
   const size_t turned = nsvcd__d3_axis(normal, axis) < 0;
   for (uint32_t i = 0; i < poly->count; i++) {
     const float *p = positions + 3 * (size_t)corners[i].vertex;

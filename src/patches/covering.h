@@ -8,22 +8,18 @@
 #include "clusters.h"
 
 #ifndef NSVCD_NO_ENCODER
-static inline size_t nsvcd__longest_of(const double *e) {
-  if (e[1] > e[0] && e[1] >= e[2]) return 1;
-  return e[2] > e[0] ? 2 : 0;
-}
 // The squared lengths of a triangle's edges, each from a corner to the next. Returns which is the
 // longest; of equals the first.
 static inline size_t nsvcd__edge_squares(const nsvcd__triangle *t, double *e) {
   for (size_t k = 0; k < 3; k++)
     e[k] = nsvcd__d3_distance2(t->at[k], t->at[k == 2 ? 0 : k + 1]);
-  return nsvcd__longest_of(e);
+  return nsvcd__d3_longest(nsvcd__d3_of(e[0], e[1], e[2]));
 }
 
 // How many halves a triangle makes; stops counting beyond `most`. The new edge is the median of the
 // longest one (Apollonius's theorem), so lengths are all that it takes.
 static double nsvcd__count_pieces(const double *e, double limit, double most) {
-  const size_t k = nsvcd__longest_of(e);
+  const size_t k = nsvcd__d3_longest(nsvcd__d3_of(e[0], e[1], e[2]));
   const size_t next = k == 2 ? 0 : k + 1;
   const double ab = e[k];
   const double bc = e[next];

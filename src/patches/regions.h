@@ -121,8 +121,7 @@ static size_t nsvcd__regions_split(const nsvcd__regions *r, size_t first, size_t
     high = nsvcd__d3_max(high, at);
   }
   const nsvcd__d3 size = nsvcd__d3_sub(high, low);
-  size_t axis = size.y > size.x ? 1 : 0;
-  if (size.z > nsvcd__d3_axis(size, axis)) axis = 2;
+  const size_t axis = nsvcd__d3_longest(size);
   const double longest = nsvcd__d3_axis(size, axis);
   const double per_metre = longest > 1e-30 ? NSVCD__REGION_BINS / longest : 0;
 
