@@ -1831,7 +1831,7 @@ static int nsvcd__is_aligned(const void *memory) {
 
 // Are numbers finite, and their absolute values at most `most`? By their bits, so that it holds
 // under -ffast-math too.
-static int nsvcd__in_range(const float *values, size_t count, float most) {
+static NSVCD__NOINLINE int nsvcd__in_range(const float *values, size_t count, float most) {
   for (size_t i = 0; i < count; i++) {
     if (!nsvcd__is_finite(values[i]) || fabsf(values[i]) > most) return 0;
   }
@@ -2012,6 +2012,11 @@ static inline double nsvcd__d3_axis(nsvcd__d3 a, size_t axis) {
 }
 static inline void nsvcd__d3_set_axis(nsvcd__d3 *a, size_t axis, double to) {
   *(axis == 0 ? &a->x : axis == 1 ? &a->y : &a->z) = to;
+}
+// The axis of the greatest component; of equals the first.
+static inline size_t nsvcd__d3_longest(nsvcd__d3 a) {
+  if (a.y > a.x && a.y >= a.z) return 1;
+  return a.z > a.x ? 2 : 0;
 }
 static inline nsvcd__d3 nsvcd__d3_over(nsvcd__d3 a, double s) {
   return nsvcd__d3_of(a.x / s, a.y / s, a.z / s);
@@ -2348,7 +2353,7 @@ static nsvcd__d3 nsvcd__face_normal(const nsvcd__d3 *t) {
 
 // The unit normal; 0 if the triangle has no area. Rounding, or fused arithmetic, makes such a
 // triangle's normal some 1e-16 of its longest edge squared.
-static inline nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
+static NSVCD__NOINLINE nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
   const nsvcd__d3 n = nsvcd__face_normal(t);
   double longest = 0;
   for (size_t k = 0; k < 3; k++)
@@ -2683,7 +2688,11 @@ typedef float nsvcd__row[NSVCD__LANES];  // a number in each lane
 #include <wasm_simd128.h>
 #define NSVCD__SLICE 4
 #elif defined(__SSE2__) || defined(_M_X64)
+#ifdef NSVCD_NO_DISPATCH
+#include <emmintrin.h>  // SSE2 alone: compilers take 0.2 s for all of <immintrin.h>
+#else
 #include <immintrin.h>
+#endif
 #define NSVCD__SLICE 4
 #elif defined(__aarch64__)
 #include <arm_neon.h>
@@ -2965,8 +2974,8 @@ static void nsvcd__polygon_project(nsvcd__polygon *poly, const float *positions)
     const nsvcd__d3 q = nsvcd__d3_sub(nsvcd__d3_row(positions, next), origin);
     normal = nsvcd__d3_add(normal, nsvcd__d3_cross(p, q));
   }
-  size_t axis = fabs(normal.y) > fabs(normal.x) ? 1 : 0;
-  if (fabs(normal.z) > fabs(nsvcd__d3_axis(normal, axis))) axis = 2;
+  const nsvcd__d3 size = {fabs(normal.x), fabs(normal.y), fabs(normal.z)};
+  const size_t axis = nsvcd__d3_longest(size);
   const size_t turned = nsvcd__d3_axis(normal, axis) < 0;
   for (uint32_t i = 0; i < poly->count; i++) {
     const float *p = positions + 3 * (size_t)corners[i].vertex;
@@ -4128,22 +4137,18 @@ static void nsvcd__group_samples(nsvcd__patches *p) {
 // three corners, and so all of it.
 
 #ifndef NSVCD_NO_ENCODER
-static inline size_t nsvcd__longest_of(const double *e) {
-  if (e[1] > e[0] && e[1] >= e[2]) return 1;
-  return e[2] > e[0] ? 2 : 0;
-}
 // The squared lengths of a triangle's edges, each from a corner to the next. Returns which is the
 // longest; of equals the first.
 static inline size_t nsvcd__edge_squares(const nsvcd__triangle *t, double *e) {
   for (size_t k = 0; k < 3; k++)
     e[k] = nsvcd__d3_distance2(t->at[k], t->at[k == 2 ? 0 : k + 1]);
-  return nsvcd__longest_of(e);
+  return nsvcd__d3_longest(nsvcd__d3_of(e[0], e[1], e[2]));
 }
 
 // How many halves a triangle makes; stops counting beyond `most`. The new edge is the median of the
 // longest one (Apollonius's theorem), so lengths are all that it takes.
 static double nsvcd__count_pieces(const double *e, double limit, double most) {
-  const size_t k = nsvcd__longest_of(e);
+  const size_t k = nsvcd__d3_longest(nsvcd__d3_of(e[0], e[1], e[2]));
   const size_t next = k == 2 ? 0 : k + 1;
   const double ab = e[k];
   const double bc = e[next];
@@ -4464,7 +4469,7 @@ typedef struct nsvcd__edge {
   int rises;
 } nsvcd__edge;
 
-static nsvcd__edge nsvcd__mending_edge(const nsvcd__mending *m, size_t e) {
+static NSVCD__NOINLINE nsvcd__edge nsvcd__mending_edge(const nsvcd__mending *m, size_t e) {
   uint32_t face[3];
   nsvcd__mending_face(m, e / 3, face);
   const uint32_t from = face[e % 3];
@@ -5095,8 +5100,7 @@ static size_t nsvcd__regions_split(const nsvcd__regions *r, size_t first, size_t
     high = nsvcd__d3_max(high, at);
   }
   const nsvcd__d3 size = nsvcd__d3_sub(high, low);
-  size_t axis = size.y > size.x ? 1 : 0;
-  if (size.z > nsvcd__d3_axis(size, axis)) axis = 2;
+  const size_t axis = nsvcd__d3_longest(size);
   const double longest = nsvcd__d3_axis(size, axis);
   const double per_metre = longest > 1e-30 ? NSVCD__REGION_BINS / longest : 0;
 
@@ -5777,7 +5781,7 @@ static int nsvcd__solve_weights(const nsvcd__d3 *points, size_t count, int ball,
 }
 
 // The least float that is not below x.
-static float nsvcd__float_above(double x) {
+static NSVCD__NOINLINE float nsvcd__float_above(double x) {
   const float rounded = nsvcd__to_float(x);
   return (double)rounded < x ? nextafterf(rounded, HUGE_VALF) : rounded;
 }
@@ -7027,8 +7031,7 @@ static void nsvcd__body_order(const nsvcd__f3 *centres, uint16_t *order, uint16_
     high = nsvcd__f3_max(high, centres[order[i]]);
   }
   const nsvcd__f3 size = nsvcd__f3_sub(high, low);
-  size_t axis = size.y > size.x ? 1 : 0;
-  if (size.z > fmaxf(size.x, size.y)) axis = 2;
+  const size_t axis = nsvcd__d3_longest(nsvcd__d3_widen(size));
   nsvcd__sort_along(centres, axis, order, spare, count);
   size_t unit = NSVCD__GROUP;
   while (2 * NSVCD__GROUP * unit < count) unit *= NSVCD__GROUP;
@@ -16686,7 +16689,7 @@ static void nsvcd__first_lanes(const void *slices, size_t count, void *out) {
 }
 
 // *sum += s a
-static void nsvcd__add_to(nsvcd__f3 *sum, float s, nsvcd__f3 a) {
+static NSVCD__NOINLINE void nsvcd__add_to(nsvcd__f3 *sum, float s, nsvcd__f3 a) {
   *sum = nsvcd__f3_fma(s, a, *sum);
 }
 
@@ -16940,9 +16943,10 @@ static nsvcd__f3 nsvcd__farthest_extreme(const int8_t *extremes, nsvcd__f3 u) {
 
 // The adjoint of a gap along u at tau, times `by`, added to `out`; returns that by u. extremes: of
 // the moving patch and of the fixed one. moves: 0 at rest, else 1.
-static nsvcd__f3 nsvcd__by_gap(const nsvcd__pair *pair, const int8_t *const *extremes,
-                               nsvcd__f3 u, float tau, float moves, float by,
-                               nsvcd__by_pair *out) {
+static NSVCD__NOINLINE nsvcd__f3 nsvcd__by_gap(const nsvcd__pair *pair,
+                                               const int8_t *const *extremes, nsvcd__f3 u,
+                                               float tau, float moves, float by,
+                                               nsvcd__by_pair *out) {
   const float half = 0.5f * tau;
   const nsvcd__f3 w = pair->w;
   const nsvcd__f3 back = nsvcd__f3_turned_back(u, w, half);
@@ -17100,7 +17104,8 @@ static NSVCD__NOINLINE void nsvcd__by_invariants(const nsvcd__pairs *pairs,
 
 #ifndef NSVCD_NO_GRADIENT
 // Adds a force and a torque, times `scale`, to a wrench, row (6).
-static void nsvcd__add_wrench(float scale, nsvcd__f3 force, nsvcd__f3 torque, float *row) {
+static NSVCD__NOINLINE void nsvcd__add_wrench(float scale, nsvcd__f3 force, nsvcd__f3 torque,
+                                              float *row) {
   nsvcd__f3_store(nsvcd__f3_fma(scale, force, nsvcd__f3_load(row)), row);
   nsvcd__f3_store(nsvcd__f3_fma(scale, torque, nsvcd__f3_load(row + 3)), row + 3);
 }
@@ -19731,19 +19736,18 @@ static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
     stage->numbers = stage->via * f;
     stage->bytes = all * f * sizeof(float);
     stage->form = (double *)nsvcd__take(base, &used, all, all * sizeof(double));
-    stage->factor =
-        (double *)nsvcd__take(base, &used, stage->via, stage->via * sizeof(double));
+    stage->factor = NSVCD__TAKE_ROWS(double, stage->via * stage->via, base, &used);
     stage->weights = nsvcd__take_floats(base, &used, stage->moments, all);
   }
 
   p->path = nsvcd__take_floats(base, &used, moments, f);
-  p->poses = (nsvcd_pose *)nsvcd__take(base, &used, poses, sizeof(nsvcd_pose));
-  p->stances = (nsvcd__stance *)nsvcd__take(base, &used, poses, sizeof(nsvcd__stance));
-  p->shapes = (nsvcd__shape *)nsvcd__take(base, &used, bodies, sizeof(nsvcd__shape));
-  p->meets = (unsigned char *)nsvcd__take(base, &used, moments, 1);
-  p->queue = (uint32_t *)nsvcd__take(base, &used, p->in->pair_count, sizeof(uint32_t));
+  p->poses = NSVCD__TAKE_ROWS(nsvcd_pose, poses, base, &used);
+  p->stances = NSVCD__TAKE_ROWS(nsvcd__stance, poses, base, &used);
+  p->shapes = NSVCD__TAKE_ROWS(nsvcd__shape, bodies, base, &used);
+  p->meets = NSVCD__TAKE_ROWS(unsigned char, moments, base, &used);
+  p->queue = NSVCD__TAKE_ROWS(uint32_t, p->in->pair_count, base, &used);
   p->wrenches = nsvcd__take_floats(base, &used, poses, 6);
-  p->moved = (nsvcd_pose *)nsvcd__take(base, &used, bodies, sizeof(nsvcd_pose));
+  p->moved = NSVCD__TAKE_ROWS(nsvcd_pose, bodies, base, &used);
   p->jacobian = nsvcd__take_floats(base, &used, bodies, 6 * f);
   p->by_path = nsvcd__take_floats(base, &used, 1, f);
 
@@ -19752,7 +19756,7 @@ static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
   p->costs = nsvcd__take_floats(base, &used, 1, draws);
   p->steps = nsvcd__take_floats(base, &used, NSVCD__HISTORY, point);
   p->changes = nsvcd__take_floats(base, &used, NSVCD__HISTORY, point);
-  p->vector = (double *)nsvcd__take(base, &used, 1, (via + 2) * sizeof(double));
+  p->vector = NSVCD__TAKE_ROWS(double, via + 2, base, &used);
   return used <= SIZE_MAX ? (size_t)used : 0;
 }
 
