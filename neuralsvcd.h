@@ -9785,18 +9785,21 @@ typedef struct nsvcd__given {
   int grows;
 } nsvcd__given;
 
-// The question at a time, of a motion. A contact is two triangles within the clearance. A search
-// only ever shrinks the question: with `measure` each contact lowers the clearance to the distance
-// of its triangles less this; with `first` each ends the motion so many ticks before it. So what
-// has been proven holds for what is left.
-typedef struct nsvcd__asked {
+// What one search is asked. A value: the search narrows a copy of its own, and only ever shrinks
+// it, so that what has been proven holds for what is left. A contact is two triangles within the
+// clearance.
+typedef struct nsvcd__goal {
   nsvcd__motion *motion;
   // ticks: what begins then or later does not matter
   double end;
   // the first unresolved pair ends the search, too
   int unresolved_ends;
-  double clearance, measure;
-  // the resolution of the first contact: a fraction of the motion, and in ticks
+  double clearance;
+  // DISTANCE: each contact lowers the clearance to the distance of its triangles less `measure`, 0:
+  // not asked for; and the bracket of the least distance as it is known
+  double measure, low, high;
+  // FIRST: each contact ends the motion so much before it: a fraction of the motion, and in ticks;
+  // 0: not asked for
   double fraction, first;
   // budgets: of this search, of all, and after an unresolved pair
   size_t limit, most, after_unresolved;
@@ -9805,7 +9808,7 @@ typedef struct nsvcd__asked {
   nsvcd__collecting collects;
   // how deep a contact may be that is undone
   double slop;
-} nsvcd__asked;
+} nsvcd__goal;
 
 // Why it could not be told what is inside of what: the rays do not tell, or the budget ended first.
 typedef enum nsvcd__unclear {
@@ -9814,17 +9817,22 @@ typedef enum nsvcd__unclear {
   NSVCD__NOT_ASKED
 } nsvcd__unclear;
 
-// What is known of a motion.
-typedef struct nsvcd__known {
+// What a search has proven of a motion.
+typedef struct nsvcd__search_result {
+  nsvcd__outcome outcome;
   int has_contact;
   nsvcd__pair_contact found;
   // the tick at which the first unresolved pair begins (two triangles too near to tell); the pair
   double unresolved;
   nsvcd__pair_contact unresolved_pair;
-  // the budget was exhausted: all from the tick `resolved` on is undecided
+  // the budget was exhausted: all from the tick `proven_until` on is undecided
   int ran_out;
-  double resolved;
-} nsvcd__known;
+  double proven_until;
+  // the goal's end and clearance, as the search has narrowed them
+  double end, clearance;
+  // FIRST: nothing of the motion is proven free but its start
+  int starts_free;
+} nsvcd__search_result;
 
 // What is only remembered. It may be forgotten between patch pairs and between parts of one: what
 // is proven is as true then, and only the work may differ. All zeros: nothing is remembered.
@@ -9848,33 +9856,10 @@ typedef struct nsvcd__memo {
   int has_block;
 } nsvcd__memo;
 
-typedef struct nsvcd__proof {
-  const struct nsvcd__kernels *kernels;
-  nsvcd__geometry moving, fixed;
-  nsvcd__given given;
-  nsvcd__asked ask;
-  nsvcd__known known;
-  nsvcd__memo memo;
-  // The last one asked for, if it has ticks. Patch pairs and triangle pairs are resolved in it.
-  nsvcd__arc arc;
-  size_t work;
-  // bounds of the least distance
-  double low, high;
-
-  // Containment at the start. inside: a component seems to be inside the other body, but close to
-  // its surface; enclosed: a point of it, in the fixed body's frame; unclear: it could not be told,
-  int inside;
-  nsvcd__d3 enclosed;
-  nsvcd__unclear unclear;
-  // since the other is nearly a solid, but not closed
-  int in_open;
-  // the budget did not suffice for the resolution of the least distance
-  int wide;
-  // FIRST: nothing of the motion is proven free but its start
-  int starts_free;
-
-  // With a slop: collected contacts that no known normal undoes; normals, unit, of what the moving
-  // body touches, towards it.
+// With a slop: what the moving body touches at the start, and how that is undone.
+typedef struct nsvcd__push_outs {
+  // collected contacts that no known normal undoes; normals, unit, of what the moving body touches,
+  // towards it
   size_t contact_count, normal_count;
   // One contact cannot be undone. Of directions that undo as many, the one with more faces is
   // chosen, not the one with the shorter push-out.
@@ -9883,6 +9868,31 @@ typedef struct nsvcd__proof {
   // the depth of contact along each; and how far a plane normal to one is to be pushed out
   double depths[NSVCD__PUSH_OUTS];
   double needed;
+  double slop;  // that was undone
+} nsvcd__push_outs;
+
+typedef struct nsvcd__proof {
+  const struct nsvcd__kernels *kernels;
+  nsvcd__geometry moving, fixed;
+  nsvcd__given given;
+  // of the search now or the last one: whose arcs are asked for, what is asked, what is known
+  nsvcd__motion *motion;
+  nsvcd__goal goal;
+  nsvcd__search_result known;
+  nsvcd__memo memo;
+  // The last one asked for, if it has ticks. Patch pairs and triangle pairs are resolved in it.
+  nsvcd__arc arc;
+  size_t work;
+
+  // Containment at the start. inside: a component seems to be inside the other body, but close to
+  // its surface; enclosed: a point of it, in the fixed body's frame; unclear: it could not be told,
+  int inside;
+  nsvcd__d3 enclosed;
+  nsvcd__unclear unclear;
+  // since the other is nearly a solid, but not closed
+  int in_open;
+
+  nsvcd__push_outs push;
 
   // Segments as intervals (S), where the memo says so. Those that have been clipped, and the end,
   // ticks, at which the last one was.
@@ -9935,46 +9945,47 @@ static void nsvcd__forget(nsvcd__memo *memo) {
 }
 
 // The limit that allows so many units more, but never more than the question has left.
-static size_t nsvcd__limit_after(const nsvcd__proof *p, size_t units) {
-  const size_t left = p->work < p->ask.most ? p->ask.most - p->work : 0;
-  return left > units ? p->work + units : p->ask.most;
+static size_t nsvcd__limit_after(const nsvcd__proof *p, const nsvcd__goal *goal,
+                                 size_t units) {
+  const size_t left = p->work < goal->most ? goal->most - p->work : 0;
+  return left > units ? p->work + units : goal->most;
 }
 
 // The limit of the search for the first contact; the rest is for what is proven part by part.
-static size_t nsvcd__limit_of_first(const nsvcd__proof *p) {
-  return p->ask.most - p->given.reserve;
+static size_t nsvcd__limit_of_first(const nsvcd__given *given, const nsvcd__goal *goal) {
+  return goal->most - given->reserve;
 }
 
 // Is the budget exhausted? FIRST looks for contacts after its first unresolved pair with a small
 // budget. When that is exhausted, the pair becomes the end of the motion, here, and the search goes
 // on with the rest of the budget for what lies before the pair.
 static int nsvcd__check_budget(nsvcd__proof *p) {
-  nsvcd__asked *ask = &p->ask;
-  if (p->work > ask->limit && ask->first > 0 && !ask->is_brief && !ask->unresolved_ends &&
+  nsvcd__goal *goal = &p->goal;
+  if (p->work > goal->limit && goal->first > 0 && !goal->is_brief && !goal->unresolved_ends &&
       p->known.unresolved < NSVCD__NEVER) {
-    ask->unresolved_ends = 1;
-    ask->end = nsvcd__min(ask->end, p->known.unresolved);
+    goal->unresolved_ends = 1;
+    p->known.end = nsvcd__min(p->known.end, p->known.unresolved);
     const size_t left = (NSVCD__AFTER_UNRESOLVED - 1) * p->given.reserve;
-    ask->limit = nsvcd__limit_of_first(p);
-    if (p->work + left < ask->limit) ask->limit = p->work + left;
+    goal->limit = nsvcd__limit_of_first(&p->given, goal);
+    if (p->work + left < goal->limit) goal->limit = p->work + left;
   }
-  return p->work > ask->limit;
+  return p->work > goal->limit;
 }
 
 // The clearance in float, rounded up.
-static float nsvcd__clearance(const nsvcd__proof *p) {
-  return 1.000001f * (float)p->ask.clearance;
+static float nsvcd__clearance(const nsvcd__goal *goal) {
+  return 1.000001f * (float)goal->clearance;
 }
 
 // How far triangles may be off the meshes', both together.
 static double nsvcd__off_meshes(const nsvcd__proof *p) {
   const double moving = (double)nsvcd__off_mesh(&p->moving);
-  return p->ask.motion->ratio * moving + (double)nsvcd__off_mesh(&p->fixed);
+  return p->motion->ratio * moving + (double)nsvcd__off_mesh(&p->fixed);
 }
 
 // The sum of two patches' quantization errors.
 static float nsvcd__errors_of(const nsvcd__proof *p, size_t i, size_t j) {
-  return p->ask.motion->scale * p->moving.errors[i] + p->fixed.errors[j];
+  return p->motion->scale * p->moving.errors[i] + p->fixed.errors[j];
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -10013,7 +10024,7 @@ static nsvcd__slerp nsvcd__slerp_in(const nsvcd__track *track, uint32_t first, u
 
 // The arc that begins at the keyframe `first`.
 static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
-  const nsvcd__motion *m = p->ask.motion;
+  const nsvcd__motion *m = p->motion;
   nsvcd__arc *arc = &p->arc;
   const uint32_t ticks = nsvcd__next_keyframe(m, first) - first;
   if (arc->first == first && arc->ticks == ticks) return arc;
@@ -10372,14 +10383,14 @@ static nsvcd__outcome nsvcd__take_contact(nsvcd__proof *p, const nsvcd__triangle
                                           double u, const nsvcd__nearest *nearest) {
   p->known.has_contact = 1;
   p->known.found = nsvcd__contact_at(p, pair, u, nearest);
-  if (p->ask.measure > 0) {
-    p->high = p->known.found.distance;
-    p->ask.clearance = nsvcd__max(p->low, p->high - p->ask.measure);
-    return p->ask.clearance > p->low ? NSVCD__SHRUNK : NSVCD__ANSWERED;
+  if (p->goal.measure > 0) {
+    p->goal.high = p->known.found.distance;
+    p->goal.clearance = nsvcd__max(p->goal.low, p->goal.high - p->goal.measure);
+    return p->goal.clearance > p->goal.low ? NSVCD__SHRUNK : NSVCD__ANSWERED;
   }
-  if (p->ask.first > 0) {
-    p->ask.end = p->known.found.tick - p->ask.first;
-    return p->ask.end > 0 ? NSVCD__SHRUNK : NSVCD__ANSWERED;
+  if (p->goal.first > 0) {
+    p->known.end = p->known.found.tick - p->goal.first;
+    return p->known.end > 0 ? NSVCD__SHRUNK : NSVCD__ANSWERED;
   }
   return NSVCD__ANSWERED;
 }
@@ -10390,20 +10401,20 @@ static NSVCD__NOINLINE void nsvcd__keep_unresolved(nsvcd__proof *p,
                                                    double u1) {
   const double tick = (double)p->arc.first + u0 * (double)p->arc.ticks;
   const double middle = 0.5 * (u0 + u1);
-  const size_t left = p->ask.after_unresolved;
+  const size_t left = p->goal.after_unresolved;
   // a brief first attempt has no budget to save
-  const int is_first = !(p->known.unresolved < NSVCD__NEVER) && !p->ask.is_brief;
-  if (is_first && p->work + left < p->ask.limit) p->ask.limit = p->work + left;
+  const int is_first = !(p->known.unresolved < NSVCD__NEVER) && !p->goal.is_brief;
+  if (is_first && p->work + left < p->goal.limit) p->goal.limit = p->work + left;
   if (!(tick < p->known.unresolved)) return;
   const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
   p->known.unresolved_pair = nsvcd__contact_at(p, pair, middle, &nearest);
   p->known.unresolved = tick;
-  if (p->ask.unresolved_ends) p->ask.end = nsvcd__min(p->ask.end, tick);
+  if (p->goal.unresolved_ends) p->known.end = nsvcd__min(p->known.end, tick);
 }
 
 // The fraction of the arc from which on nothing matters.
 static double nsvcd__arc_limit(const nsvcd__proof *p) {
-  return (p->ask.end - (double)p->arc.first) / (double)p->arc.ticks;
+  return (p->known.end - (double)p->arc.first) / (double)p->arc.ticks;
 }
 
 // The deviation of a triangle pair's moving triangle along a unit direction n over the whole arc.
@@ -10435,7 +10446,7 @@ static int nsvcd__plane_separates(nsvcd__proof *p, const nsvcd__triangle_pair *p
   }
   const double off = nsvcd__off_chord_along(&p->arc, pair, normal);
   const double deviation = (u1 - u0) * (u1 - u0) * off;
-  return lowest - highest > p->ask.clearance + pair->margin + deviation;
+  return lowest - highest > p->goal.clearance + pair->margin + deviation;
 }
 
 // Have two heights different signs, clear of 0 by their margins?
@@ -10566,7 +10577,7 @@ static NSVCD__NOINLINE double nsvcd__aim_plane(nsvcd__proof *p,
   nsvcd__d3 moving[3];
   nsvcd__pose_triangle(nsvcd__arc_pose(p, u), pair->moving, moving);
   double best = nsvcd__beyond(guess, moving, fixed);
-  const double limit = p->ask.clearance + pair->margin;
+  const double limit = p->goal.clearance + pair->margin;
   if (best - limit > 0.5 * (distance - limit)) return best;
   for (size_t k = 0; k < 17; k++) {
     const nsvcd__d3 *of = k % 2 ? fixed : moving;
@@ -10588,16 +10599,16 @@ static NSVCD__NOINLINE double nsvcd__aim_plane(nsvcd__proof *p,
 static nsvcd__outcome nsvcd__resolve_too_near(nsvcd__proof *p,
                                               const nsvcd__triangle_pair *pair, double u0,
                                               double u1, double when) {
-  if (!(p->ask.measure > 0)) {
+  if (!(p->goal.measure > 0)) {
     nsvcd__keep_unresolved(p, pair, u0, u1);
     return NSVCD__DONE;
   }
   const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, when);
   const double distance = sqrt(nearest.square);
-  if (distance < p->high) (void)nsvcd__take_contact(p, pair, when, &nearest);
+  if (distance < p->goal.high) (void)nsvcd__take_contact(p, pair, when, &nearest);
   const double separated = distance - 2 * pair->close;
-  p->ask.clearance = nsvcd__max(p->low, nsvcd__min(p->ask.clearance, separated));
-  return p->ask.clearance > p->low ? NSVCD__TOO_LONG : NSVCD__ANSWERED;
+  p->goal.clearance = nsvcd__max(p->goal.low, nsvcd__min(p->goal.clearance, separated));
+  return p->goal.clearance > p->goal.low ? NSVCD__TOO_LONG : NSVCD__ANSWERED;
 }
 
 // Resolves a part of the arc that is too short to halve. If the triangle pair has passed, the time
@@ -10632,12 +10643,12 @@ static nsvcd__outcome nsvcd__take_nearest(nsvcd__proof *p, const nsvcd__triangle
     const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
     const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
     p->work++;
-    if (sqrt(nearest.square) < p->high &&
+    if (sqrt(nearest.square) < p->goal.high &&
         nsvcd__take_contact(p, pair, middle, &nearest) == NSVCD__ANSWERED)
       return NSVCD__ANSWERED;
     const double slope = nsvcd__d3_dot(apart, moved) / sqrt(nearest.square);
     // the distance is nowhere below its tangent
-    if (!(fabs(slope) * (u1 - u0) > p->ask.measure)) break;
+    if (!(fabs(slope) * (u1 - u0) > p->goal.measure)) break;
     if (slope < 0)
       u0 = middle;
     else
@@ -10672,11 +10683,12 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
     if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
     const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, at);
     const double distance = sqrt(nearest.square);
-    const double above = distance - p->ask.clearance;
+    const double above = distance - p->goal.clearance;
     if (above <= pair->rounding) {
       if (nsvcd__take_contact(p, pair, at, &nearest) == NSVCD__ANSWERED)
         return NSVCD__ANSWERED;
-      if (p->ask.measure > 0 && nsvcd__take_nearest(p, pair, u, end, moved) == NSVCD__ANSWERED)
+      if (p->goal.measure > 0 &&
+          nsvcd__take_nearest(p, pair, u, end, moved) == NSVCD__ANSWERED)
         return NSVCD__ANSWERED;
       shrunk = 1;
       at = u;
@@ -10684,7 +10696,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
     }
     const double beyond = nsvcd__aim_plane(p, pair, at, &nearest);
     const double fall = -nsvcd__d3_dot(p->memo.separating, moved);
-    const double room = beyond - p->ask.clearance - pair->margin - pair->rounding;
+    const double room = beyond - p->goal.clearance - pair->margin - pair->rounding;
     const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;
     if (u < until && nsvcd__plane_separates(p, pair, u, until)) u = until;
     const int is_short = !(room > 0) || arc->speed * (at - u) <= 0.25 * pair->close;
@@ -10723,7 +10735,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
     if (!apart) {
       const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
       const double distance = sqrt(nearest.square);
-      if (distance <= p->ask.clearance + pair->rounding) {
+      if (distance <= p->goal.clearance + pair->rounding) {
         if (nsvcd__take_contact(p, pair, middle, &nearest) == NSVCD__ANSWERED)
           return NSVCD__ANSWERED;
         shrunk = 1;
@@ -10772,8 +10784,8 @@ static double nsvcd__depth_along(nsvcd__d3 n, const nsvcd__triangle_contact *t) 
 // Is a touch too deep for the slop in every direction? Those to try are the separating axes: a
 // normal of either triangle, or across an edge of each.
 static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__triangle_contact *t) {
-  const nsvcd__d3 push_out = nsvcd__d3_widen(p->ask.motion->push_out);
-  const double most = p->ask.slop - p->given.clearance;
+  const nsvcd__d3 push_out = nsvcd__d3_widen(p->motion->push_out);
+  const double most = p->goal.slop - p->given.clearance;
   for (size_t k = 0; k < 12; k++) {
     nsvcd__d3 n = k < 3 ? t->directions[k] : nsvcd__across_edges(t->moving, t->fixed, k - 3);
     if (!(nsvcd__d3_dot(n, n) > 0.5)) continue;
@@ -10792,9 +10804,9 @@ static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__triangle_contact *
 static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n,
                          const nsvcd__triangle_contact *t) {
   const double more = nsvcd__depth_along(n, t);
-  const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->push_out), n);
+  const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->motion->push_out), n);
   if (!(nsvcd__d3_dot(n, n) > 0.5)) return 0;
-  if (pushed_out + more + p->given.clearance > p->ask.slop) return 0;
+  if (pushed_out + more + p->given.clearance > p->goal.slop) return 0;
   if (more < 0) return 1;
   return nsvcd__d3_dot(n, t->directions[0]) > -0.3 ||
          nsvcd__d3_dot(n, t->directions[1]) > -0.3;
@@ -10844,19 +10856,19 @@ static NSVCD__NOINLINE double nsvcd__exit_depth(const nsvcd__triangle_contact *t
 
 // Notes how deep a touch is along normal k.
 static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__triangle_contact *t) {
-  const nsvcd__d3 n = p->normals[k];
-  const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->push_out), n);
+  const nsvcd__d3 n = p->push.normals[k];
+  const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->motion->push_out), n);
   const double most = nsvcd__depth_along(n, t) + p->given.clearance;
-  p->needed = nsvcd__max(p->needed, pushed_out + most);
-  if (!(most > 0) || !(pushed_out + most > p->depths[k])) return;
+  p->push.needed = nsvcd__max(p->push.needed, pushed_out + most);
+  if (!(most > 0) || !(pushed_out + most > p->push.depths[k])) return;
   const double epsilon = nsvcd__off_meshes(p) + NSVCD__TOO_NEAR * (double)p->given.lengths;
   const double depth = pushed_out + nsvcd__exit_depth(t, n, p->given.clearance, most, epsilon);
-  p->depths[k] = nsvcd__max(p->depths[k], depth);
+  p->push.depths[k] = nsvcd__max(p->push.depths[k], depth);
 }
 
 // Does normal k undo a touch? Then its depth is noted.
 static int nsvcd__undone_by(nsvcd__proof *p, size_t k, const nsvcd__triangle_contact *t) {
-  if (!nsvcd__undoes(p, p->normals[k], t)) return 0;
+  if (!nsvcd__undoes(p, p->push.normals[k], t)) return 0;
   nsvcd__note_depth(p, k, t);
   return 1;
 }
@@ -10874,11 +10886,11 @@ static void nsvcd__collect_contact(nsvcd__proof *p, const nsvcd__triangle_pair *
   contact.directions[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
   contact.directions[1] = nsvcd__face_direction(pair->fixed);
   contact.directions[2] = nsvcd__d3_scale(distance, are_apart ? 1 / sqrt(nearest.square) : 0);
-  for (size_t k = 0; k < p->normal_count; k++) {
+  for (size_t k = 0; k < p->push.normal_count; k++) {
     if (nsvcd__undone_by(p, k, &contact)) return;
   }
-  p->too_deep = p->too_deep || nsvcd__is_deep(p, &contact);
-  if (p->contact_count < NSVCD__TOUCHES) p->of.touches[p->contact_count++] = contact;
+  p->push.too_deep = p->push.too_deep || nsvcd__is_deep(p, &contact);
+  if (p->push.contact_count < NSVCD__TOUCHES) p->of.touches[p->push.contact_count++] = contact;
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -11343,7 +11355,7 @@ typedef struct nsvcd__hint {
 typedef struct nsvcd__kernels {
   int (*self_test)(void);
 #ifndef NSVCD_NO_PROOF
-  nsvcd__outcome (*separate)(nsvcd__proof *p, nsvcd__search *q);
+  void (*separate)(nsvcd__proof *p, nsvcd__search *q, const nsvcd__goal *goal);
   int (*is_contained_at_start)(nsvcd__proof *p);
   double (*bound_distance)(nsvcd__proof *p, nsvcd__search *q);
   void (*seek_positions)(nsvcd__proof *p, int first, int last);
@@ -13528,9 +13540,9 @@ static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *q, size_
   a.fixed = nsvcd__v_slab_set(&fixed);
   a.at_start = nsvcd__v3_set(nsvcd__mat3_apply_transpose(from, fixed.normal));
   a.at_end = nsvcd__v3_set(nsvcd__mat3_apply_transpose(to, fixed.normal));
-  a.scale = nsvcd__v_set(p->ask.motion->scale);
+  a.scale = nsvcd__v_set(p->motion->scale);
   a.over = nsvcd__v_interval_set(over);
-  a.clearance = nsvcd__clearance(p);
+  a.clearance = nsvcd__clearance(&p->goal);
   a.radius = q->extent;
   a.fixed_off = nsvcd__v_off(&a, a.fixed.normal);
   NSVCD__EACH_SLICE(l) {
@@ -13543,7 +13555,7 @@ static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *q, size_
     wanted &= ~nsvcd__v_separate_by_fixed(&a);
     if (!wanted) continue;
     // rotations in an interval are times the scale
-    const float half = 0.5f * p->ask.motion->per_scale;
+    const float half = 0.5f * p->motion->per_scale;
     const nsvcd__mat3 middle = nsvcd__mat3_mix(half, to, 1, from);
     const nsvcd__mat3 half_turn = nsvcd__mat3_mix(half, to, -1, from);
     a.mean = nsvcd__vmat3_apply(nsvcd__vmat3_set(&middle), a.moving.normal);
@@ -13565,7 +13577,7 @@ static NSVCD__NOINLINE void nsvcd__separate_groups(nsvcd__proof *p, nsvcd__searc
   nsvcd__v_approach a;
   a.moving = nsvcd__v_slab_set(&own);
   a.scale = nsvcd__v_set(q->scale);
-  a.clearance = nsvcd__clearance(p);
+  a.clearance = nsvcd__clearance(&p->goal);
   a.radius = nsvcd__group_extent(moving, g);
   for (uint32_t waiting = q->waiting; waiting; waiting &= waiting - 1) {
     const size_t at = nsvcd__low_bit(waiting);
@@ -13695,8 +13707,8 @@ static nsvcd__f3 nsvcd__f3_towards(nsvcd__f3 a, nsvcd__f3 b) {
 #define NSVCD__GUESSES 4
 static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j,
                                                   const nsvcd__interval *over) {
-  const float margins = p->ask.motion->scale * p->moving.margins[i] + p->fixed.margins[j];
-  const float margin = margins + over->rounding + nsvcd__clearance(p);
+  const float margins = p->motion->scale * p->moving.margins[i] + p->fixed.margins[j];
+  const float margin = margins + over->rounding + nsvcd__clearance(&p->goal);
   const nsvcd__arm arm = nsvcd__patch_arm(&p->moving, i, over);
   const nsvcd__transform *start = &over->start;
   const nsvcd__transform *end = &over->end;
@@ -13768,8 +13780,7 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *q,
       const nsvcd__v at_end = nsvcd__v3_dot(normal, nsvcd__v3_transform(&over->end, hull));
       lowest = nsvcd__least_of(lowest, nsvcd__v_min(at_start, at_end));
     }
-    const float margin =
-        (p->ask.motion->scale * p->moving.margins[i] + over->rounding) * length;
+    const float margin = (p->motion->scale * p->moving.margins[i] + over->rounding) * length;
     above->plane = memo->plane;
     above->key = key;
     above->height =
@@ -13785,7 +13796,7 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *q,
     below->key = (uint32_t)j;
     below->height = p->fixed.margins[j] * length + highest;
   }
-  return above->height > below->height + nsvcd__clearance(p) * length;
+  return above->height > below->height + nsvcd__clearance(&p->goal) * length;
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -14007,7 +14018,7 @@ static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, nsvcd
                                                           float margin, uint32_t lanes) {
   const nsvcd__f3 last = nsvcd__f3_round(p->memo.separating);
   const nsvcd__v3 normal = nsvcd__v3_set(last);
-  if (!(p->ask.clearance > 0) || !lanes) return lanes;
+  if (!(p->goal.clearance > 0) || !lanes) return lanes;
   float highest = -HUGE_VALF;  // of the fixed block
   for (size_t k = 0; k < 3; k++) {
     NSVCD__EACH_SLICE(s) {
@@ -14035,7 +14046,7 @@ static NSVCD__NOINLINE uint32_t nsvcd__row_left(nsvcd__proof *p, size_t l, nsvcd
   const nsvcd__box box = {nsvcd__lane_of(block->low, l), nsvcd__lane_of(block->high, l)};
   uint32_t met = nsvcd__lanes_near(fixed, box, margin);
   // the last plane: see nsvcd__lanes_left_by_last
-  for (size_t k = p->ask.clearance > 0 ? NSVCD__LAST_NORMAL : 1; met && k < NSVCD__NORMALS;
+  for (size_t k = p->goal.clearance > 0 ? NSVCD__LAST_NORMAL : 1; met && k < NSVCD__NORMALS;
        k++)
     met = nsvcd__left_by_normal(p, l, fixed, k, margin, met);
   return met;
@@ -14053,7 +14064,7 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
                                              const nsvcd__dtransform *at, double u,
                                              float margin) {
   nsvcd__block *fixed = &p->fixed_blocks[n];
-  const double clearance = p->ask.clearance;
+  const double clearance = p->goal.clearance;
   const uint32_t nearby = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
   uint32_t lanes = nsvcd__lanes_left_by_last(p, fixed, margin, nearby);
   for (; lanes; lanes &= lanes - 1) {
@@ -14071,7 +14082,7 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
       nsvcd__nearest nearest = {0, {0, 0, 0}, {0, 0, 0}};
       nsvcd__pose_triangle(at, pair.moving, posed);
       p->work++;
-      if (p->ask.collects == NSVCD__SUPPORTING) {
+      if (p->goal.collects == NSVCD__SUPPORTING) {
         nsvcd__collect_supports(p, &pair, posed);
         continue;
       }
@@ -14086,7 +14097,7 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
           continue;
         }
       }
-      if (p->ask.collects == NSVCD__TOUCHING) {
+      if (p->goal.collects == NSVCD__TOUCHING) {
         nsvcd__collect_contact(p, &pair, posed);
         continue;
       }
@@ -14117,7 +14128,7 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
   const nsvcd__transform rounded = nsvcd__transform_of(&at);
   const float lengths = p->given.lengths + nsvcd__f3_norm(rounded.position);
   const float margin =
-      NSVCD__ROUNDING * lengths + nsvcd__clearance(p) + nsvcd__errors_of(p, i, j);
+      NSVCD__ROUNDING * lengths + nsvcd__clearance(&p->goal) + nsvcd__errors_of(p, i, j);
   const size_t moving_end = p->moving.first_triangle[i + 1];
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
   for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
@@ -14157,8 +14168,8 @@ static nsvcd__outcome nsvcd__seek_in_patch_pair(nsvcd__proof *p, const nsvcd__se
   const double tick = start + (double)pair->fraction * (end - start);
   double u;
   pair->sought = 1;
-  if (!(tick < p->ask.end)) return NSVCD__NOTHING;
-  const uint32_t first = nsvcd__arc_of(p->ask.motion, tick, &u);
+  if (!(tick < p->known.end)) return NSVCD__NOTHING;
+  const uint32_t first = nsvcd__arc_of(p->motion, tick, &u);
   return nsvcd__find_witness(p, pair->moving, pair->fixed, first, u);
 }
 #endif  // NSVCD_NO_PROOF
@@ -14213,8 +14224,8 @@ static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t l, nsvcd__block
   for (; met; met &= met - 1) {
     const nsvcd__d3 before = p->memo.separating;
     const nsvcd__f3 last = nsvcd__f3_round(before);
-    const float along =
-        errors + over->rounding + nsvcd__clearance(p) + nsvcd__deviation_of(over, last, arm);
+    const float along = errors + over->rounding + nsvcd__clearance(&p->goal) +
+                        nsvcd__deviation_of(over, last, arm);
     met = nsvcd__left_by_normal(p, l, fixed, NSVCD__LAST_NORMAL, along, met);
     if (!met) break;
     if (patience == 0) return NSVCD__TOO_LONG;
@@ -14243,8 +14254,8 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
   const size_t moving_end = p->moving.first_triangle[i + 1];
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
   const nsvcd__f3 axis = nsvcd__own_axis(over);
-  const float stays =
-      nsvcd__errors_of(p, i, j) + (over->rounding + over->origin_bend) + nsvcd__clearance(p);
+  const float stays = nsvcd__errors_of(p, i, j) + (over->rounding + over->origin_bend) +
+                      nsvcd__clearance(&p->goal);
   const float error = p->moving.errors[i];
   const float extent = p->moving.body->extent + error;
   const nsvcd__arm all = {extent, extent};
@@ -14282,13 +14293,13 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
 // until each part is resolved by a plane between the hulls, or by the triangles.
 static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__search *q,
                                                 const nsvcd__patch_pair *patches) {
-  const nsvcd__motion *m = p->ask.motion;
+  const nsvcd__motion *m = p->motion;
   const size_t i = patches->moving;
   const size_t j = patches->fixed;
   const uint32_t last = q->begin[patches->segment + 1u];
   double *ends = p->arc_ends;
   int is_tried = 1;  // is it all of the segment?
-  for (uint32_t at = q->begin[patches->segment]; at < last && (double)at < p->ask.end;) {
+  for (uint32_t at = q->begin[patches->segment]; at < last && (double)at < p->known.end;) {
     double u;
     const uint32_t first = nsvcd__arc_of(m, (double)at, &u);
     const uint32_t keyframe = nsvcd__next_keyframe(m, first);
@@ -14329,7 +14340,7 @@ static int nsvcd__is_separated(nsvcd__proof *p, const nsvcd__search *q,
 // approach within a segment, and earlier segments once a contact is known.
 static int nsvcd__is_before(const nsvcd__proof *p, const nsvcd__patch_pair *a,
                             const nsvcd__patch_pair *b) {
-  if (!(p->ask.first > 0)) return a->depth > b->depth;
+  if (!(p->goal.first > 0)) return a->depth > b->depth;
   if (a->segment == b->segment) return a->fraction < b->fraction;
   return p->known.has_contact ? a->segment < b->segment : a->depth > b->depth;
 }
@@ -14347,7 +14358,7 @@ static void nsvcd__sort_patch_pairs(const nsvcd__proof *p, nsvcd__patch_pair *pa
 
 // Does a segment still matter?
 static int nsvcd__matters(const nsvcd__proof *p, const nsvcd__search *q, size_t segment) {
-  return (double)q->begin[segment] < p->ask.end;
+  return (double)q->begin[segment] < p->known.end;
 }
 
 // Clips the segment in which the end of what matters lies. What leaves a chord by some length
@@ -14355,13 +14366,13 @@ static int nsvcd__matters(const nsvcd__proof *p, const nsvcd__search *q, size_t 
 static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *q) {
   size_t s = 0;
   double u;
-  if (!(p->ask.end < p->clipped_end)) return;
-  p->clipped_end = p->ask.end;
-  while (s < q->segments && !((double)q->begin[s + 1] > p->ask.end)) s++;
-  if (s == q->segments || !((double)q->begin[s] < p->ask.end)) return;
+  if (!(p->known.end < p->clipped_end)) return;
+  p->clipped_end = p->known.end;
+  while (s < q->segments && !((double)q->begin[s + 1] > p->known.end)) s++;
+  if (s == q->segments || !((double)q->begin[s] < p->known.end)) return;
   nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
   const size_t l = s % NSVCD__LANES;
-  const uint32_t first = nsvcd__arc_of(p->ask.motion, p->ask.end, &u);
+  const uint32_t first = nsvcd__arc_of(p->motion, p->known.end, &u);
   const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(p, first), u);
   const nsvcd__transform end = nsvcd__transform_of(&at);
   const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, l);
@@ -14409,7 +14420,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_patch_pairs(nsvcd__proof *p
 // neighbours.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
                                                               nsvcd__search *q) {
-  const int tells_more = p->ask.measure > 0 || p->ask.first > 0;
+  const int tells_more = p->goal.measure > 0 || p->goal.first > 0;
   size_t count = 0;
   nsvcd__clip_segment(p, q);
   for (size_t n = 0; n < p->fresh_count; n++) {
@@ -14430,8 +14441,8 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
     if (nsvcd__held_again(p, q, patches)) continue;
     if (nsvcd__is_separated(p, q, patches)) continue;
     double u;
-    const uint32_t first = nsvcd__arc_of(p->ask.motion, q->begin[patches->segment], &u);
-    if ((p->ask.first > 0 || p->memo.shared > 0) &&
+    const uint32_t first = nsvcd__arc_of(p->motion, q->begin[patches->segment], &u);
+    if ((p->goal.first > 0 || p->memo.shared > 0) &&
         nsvcd__is_straight(nsvcd__arc_at(p, first))) {
       const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(p, q, patches);
       if (outcome != NSVCD__DONE) return outcome;
@@ -14459,7 +14470,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
 
 // Is there room for contacts, and can those that were collected still be undone?
 static int nsvcd__collects_on(const nsvcd__proof *p) {
-  return p->contact_count < NSVCD__TOUCHES && !p->too_deep;
+  return p->push.contact_count < NSVCD__TOUCHES && !p->push.too_deep;
 }
 
 // Collects the contacts of fresh patch pairs at the start, or the patch pairs where contact points
@@ -14469,8 +14480,8 @@ static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *q)
     const nsvcd__patch_pair *patches = &p->fresh[n];
     if (nsvcd__held_again(p, q, patches)) continue;
     if (nsvcd__is_separated(p, q, patches)) continue;
-    if (p->ask.collects == NSVCD__TOUCHING) {
-      if (p->normal_count > 0) {
+    if (p->goal.collects == NSVCD__TOUCHING) {
+      if (p->push.normal_count > 0) {
         // just pushed out: farther than the clearance by less than floats can tell
         (void)nsvcd__arc_at(p, 0);
         if (nsvcd__patches_apart(p, patches->moving, patches->fixed, 0, 0)) continue;
@@ -14481,7 +14492,7 @@ static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *q)
     }
   }
   p->fresh_count = 0;
-  return nsvcd__collects_on(p) && p->work <= p->ask.limit ? NSVCD__DONE : NSVCD__EXHAUSTED;
+  return nsvcd__collects_on(p) && p->work <= p->goal.limit ? NSVCD__DONE : NSVCD__EXHAUSTED;
 }
 
 // Bounds, along directions first .. last - 1 of a manifold, of the points on both patches of a
@@ -14490,7 +14501,7 @@ static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
                             const nsvcd__patch_pair *patches, int first, int last,
                             float *most) {
   const nsvcd__manifold *m = &p->of.kept.manifold;
-  const float scale = p->ask.motion->scale;
+  const float scale = p->motion->scale;
   const float margin = scale * p->moving.margins[patches->moving] + (float)m->tolerance;
   const float fixed_margin = p->fixed.margins[patches->fixed];
   for (int k = first; k < last; k++) {
@@ -14781,7 +14792,7 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__geometry *f, double 
   int odd = 0;
   for (size_t n = 0; n < 8; n++) {
     const double *d = directions[best ^ n];
-    if (p->work > p->ask.limit) {
+    if (p->work > p->goal.limit) {
       p->unclear = NSVCD__NOT_ASKED;
       return 0;
     }
@@ -14905,7 +14916,7 @@ static int nsvcd__contains_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
 // then separate all patches at t = 0, the seed, the surface that was tested and the true one are,
 // patch by patch, on one side of a plane and agree: it is inside.
 static NSVCD__NOINLINE int nsvcd__is_contained_at_start(nsvcd__proof *p) {
-  const float scale = p->ask.motion->scale;
+  const float scale = p->motion->scale;
   const nsvcd__dtransform start = nsvcd__dtransform_at(nsvcd__arc_at(p, 0), 0);
   const nsvcd__dtransform back = nsvcd__inverse_dtransform(&start, p->arc.scale);
   const nsvcd__enclosure moving = {&p->moving, &p->fixed, start, nsvcd__transform_of(&start),
@@ -14931,7 +14942,7 @@ static uint64_t nsvcd__segments_in(size_t from, size_t to) {
 // The segments being searched that still matter.
 static uint64_t nsvcd__segments_that_matter(const nsvcd__proof *p, const nsvcd__search *q) {
   size_t s = q->segments;
-  if (!(p->ask.first > 0) || !p->known.has_contact) return q->wanted;
+  if (!(p->goal.first > 0) || !p->known.has_contact) return q->wanted;
   while (s > 0 && !nsvcd__matters(p, q, s - 1)) s--;
   return q->wanted & nsvcd__segments_in(0, s);
 }
@@ -14981,7 +14992,7 @@ static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *q, size
 
 // Processes the patch pairs that the search has found since.
 static nsvcd__outcome nsvcd__take_patch_pairs(nsvcd__proof *p, nsvcd__search *q) {
-  return p->ask.collects ? nsvcd__collect_contacts(p, q) : nsvcd__sift_patch_pairs(p, q);
+  return p->goal.collects ? nsvcd__collect_contacts(p, q) : nsvcd__sift_patch_pairs(p, q);
 }
 
 // THE LOOP: point 2 of the theorem. Spheres and slabs separate groups of a tile of the moving body
@@ -15021,7 +15032,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
     }
   }
   outcome = nsvcd__take_patch_pairs(p, q);
-  if (outcome != NSVCD__DONE || p->ask.collects) return outcome;
+  if (outcome != NSVCD__DONE || p->goal.collects) return outcome;
   return nsvcd__resolve_patch_pairs(p, q);
 }
 
@@ -15032,7 +15043,7 @@ static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *q) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
   const size_t all = q->segments;
-  const size_t few = p->ask.first > 0 ? NSVCD__IN_ORDER : all;
+  const size_t few = p->goal.first > 0 ? NSVCD__IN_ORDER : all;
   nsvcd__outcome outcome = NSVCD__DONE;
   (void)nsvcd__search_begin(moving, fixed, nsvcd__segments_in(0, all), q);
   do {
@@ -15045,18 +15056,25 @@ static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *q) {
       outcome = nsvcd__prove_segments(p, q);
       const int one_tile = !nsvcd__is_tiled(moving, fixed);
       if (outcome == NSVCD__DONE && !p->known.has_contact && one_tile)
-        p->known.resolved = (double)q->begin[next];
+        p->known.proven_until = (double)q->begin[next];
     }
   } while (outcome == NSVCD__DONE && nsvcd__search_next_tile(q));
   if (outcome == NSVCD__DONE && !p->known.has_contact)
-    p->known.resolved = (double)q->begin[all];
+    p->known.proven_until = (double)q->begin[all];
   return outcome;
 }
 
-// Cuts the segments that have been chosen, and separates the bodies in them.
-static NSVCD__NOINLINE nsvcd__outcome nsvcd__separate(nsvcd__proof *p, nsvcd__search *q) {
-  nsvcd__cut_segments(p->ask.motion, p->given.lengths, nsvcd__clearance(p), q);
-  return nsvcd__prove_tiles(p, q);
+// THE WAIST: until when do the bodies stay apart in the segments that have been chosen, and what do
+// they meet? Cuts the segments, and separates the bodies in them. p->known is the result.
+static NSVCD__NOINLINE void nsvcd__separate(nsvcd__proof *p, nsvcd__search *q,
+                                            const nsvcd__goal *goal) {
+  p->motion = goal->motion;
+  p->goal = *goal;
+  p->known.end = nsvcd__min(p->known.end, goal->end);
+  nsvcd__cut_segments(p->motion, p->given.lengths, nsvcd__clearance(&p->goal), q);
+  p->known.outcome = nsvcd__prove_tiles(p, q);
+  p->known.ran_out = p->known.outcome == NSVCD__EXHAUSTED;
+  p->known.clearance = p->goal.clearance;
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -15198,14 +15216,14 @@ static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__proof *p, nsvcd__sear
   uint32_t from = 0;
   size_t nearest[2] = {0, 0};
   // Bodies that never come near have been told apart without segments.
-  nsvcd__cut_segments(p->ask.motion, p->given.lengths, 0, q);
+  nsvcd__cut_segments(p->motion, p->given.lengths, 0, q);
   nsvcd__nearest_groups(p, q, &moving, &fixed);
   for (size_t turn = 0; turn < NSVCD__TURNS; turn++) {
     float gap = HUGE_VALF;
     double u;
     nsvcd__chords_in_all(q, moving);
     (void)nsvcd__nearest_tick(q, fixed, &gap, &tick);
-    const uint32_t first = nsvcd__arc_of(p->ask.motion, tick, &u);
+    const uint32_t first = nsvcd__arc_of(p->motion, tick, &u);
     const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(p, first), u);
     const nsvcd__transform pose = nsvcd__transform_of(&at);
     const nsvcd__dtransform back = nsvcd__inverse_dtransform(&at, p->arc.scale);
@@ -15229,9 +15247,10 @@ static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__proof *p, nsvcd__sear
     nearest[0] = i;
     nearest[1] = j;
   }
+  p->known.has_contact = 0;
   if (!(least <= p->given.clearance)) return least;
-  p->ask.clearance = least;
-  p->ask.limit = p->work + NSVCD__END_BUDGET;
+  p->goal.clearance = least;
+  p->goal.limit = p->work + NSVCD__END_BUDGET;
   (void)nsvcd__find_witness(p, nearest[0], nearest[1], from, fraction);
   return p->known.has_contact ? p->known.found.distance : least;
 }
@@ -17826,52 +17845,53 @@ NSVCDDEF nsvcd_result nsvcd_self_test(void) {
 // =============================================================== query: a question, and its answer
 
 // ----------------------------------------------------------------------------------- query/verdict
-// In: a question, and the segments chosen of a motion or of an interval of it. Out: do the bodies
-// meet; where asked, when first, and how near they come.
+// In: a goal, and the segments chosen of a motion or of an interval of it. Out: a result: do the
+// bodies meet; where asked, when first, and how near they come.
+//
+// Goals and results are values. What stands here and above asks the waist (p->kernels->separate)
+// with goals of its own, and writes nothing into the proof but whose motion it is about.
 
 #ifndef NSVCD_NO_PROOF
-// A component is inside the other body. That replaces any contact found since.
-static nsvcd__finding nsvcd__found_inside(nsvcd__proof *p) {
-  memset(&p->known.found, 0, sizeof p->known.found);
-  p->known.found.point = p->enclosed;
-  p->known.found.moving_triangle = NSVCD_NO_TRIANGLE;
-  p->known.found.fixed_triangle = NSVCD_NO_TRIANGLE;
-  return NSVCD__FOUND_INSIDE;
-}
-
 // The tick before which nothing meets, or NEVER.
-static double nsvcd__clear_until(const nsvcd__proof *p) {
+static double nsvcd__clear_until(const nsvcd__proof *p, const nsvcd__search_result *r) {
   if (p->unclear) return 0;
-  return nsvcd__min(nsvcd__min(p->ask.end, p->known.unresolved),
-                    p->known.ran_out ? p->known.resolved : NSVCD__NEVER);
+  return nsvcd__min(nsvcd__min(r->end, r->unresolved),
+                    r->ran_out ? r->proven_until : NSVCD__NEVER);
 }
 
-// Forgets all that was known of a motion, or of an interval.
-static void nsvcd__proof_restart(nsvcd__proof *p) {
+// Has a search found two triangles that can be named: in contact, or too near to tell?
+static int nsvcd__has_pair(const nsvcd__search_result *r) {
+  return r->has_contact || r->unresolved < NSVCD__NEVER;
+}
+
+// Forgets all that was known of a motion, or of an interval, before another one is searched.
+static void nsvcd__restart(nsvcd__proof *p, nsvcd__motion *motion) {
   memset(&p->known, 0, sizeof p->known);
-  p->known.resolved = (double)p->ask.motion->from;
-  p->ask.end = p->clipped_end = p->known.unresolved = NSVCD__NEVER;
-  p->ask.unresolved_ends = 0;
+  p->motion = motion;
+  p->known.proven_until = (double)motion->from;
+  p->known.end = p->clipped_end = p->known.unresolved = NSVCD__NEVER;
   p->clipped = 0;
   p->arc.ticks = 0;
-  p->count = p->fresh_count = p->misses = p->contact_count = 0;
-  p->too_deep = 0;
+  p->count = p->fresh_count = p->misses = p->push.contact_count = 0;
+  p->push.too_deep = 0;
   nsvcd__forget(&p->memo);
 }
 
-// Searches a motion whose segments have been chosen, and resolves what it finds.
-static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_motion(nsvcd__proof *p, nsvcd__search *q) {
-  p->ask.first = p->ask.fraction * (double)p->ask.motion->ticks;
-  const nsvcd__outcome outcome = p->kernels->separate(p, q);
-  p->known.ran_out = outcome == NSVCD__EXHAUSTED;
-  return outcome;
+// Searches a motion whose segments have been chosen.
+static NSVCD__NOINLINE nsvcd__search_result nsvcd__search_motion(nsvcd__proof *p,
+                                                                 nsvcd__search *q,
+                                                                 nsvcd__goal goal) {
+  goal.first = goal.fraction * (double)goal.motion->ticks;
+  p->kernels->separate(p, q, &goal);
+  return p->known;
 }
 
-// The same for any motion, from scratch.
-static nsvcd__outcome nsvcd__prove_anew(nsvcd__proof *p, nsvcd__search *q) {
-  nsvcd__proof_restart(p);
-  nsvcd__choose_segments(p->ask.motion, q);
-  return nsvcd__prove_motion(p, q);
+// Searches any motion, from scratch.
+static nsvcd__search_result nsvcd__search_anew(nsvcd__proof *p, nsvcd__search *q,
+                                               nsvcd__goal goal) {
+  nsvcd__restart(p, goal.motion);
+  nsvcd__choose_segments(goal.motion, q);
+  return nsvcd__search_motion(p, q, goal);
 }
 
 // The pose at the start of a motion, or at its end, as a motion of its own.
@@ -17889,98 +17909,100 @@ static nsvcd__motion nsvcd__end_of(const nsvcd__motion *m, int at_end) {
   return still;
 }
 
-// Do triangles meet at the start alone, or at the end? Takes so many units at most. If they do,
-// that is the known contact; if not, all that was known is lost.
-static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *q, int at_end,
-                                           size_t units) {
-  const nsvcd__asked asked = p->ask;
-  nsvcd__motion still = nsvcd__end_of(asked.motion, at_end);
-  p->ask.motion = &still;
-  p->ask.fraction = 0;
-  p->ask.limit = nsvcd__limit_after(p, units);
-  p->ask.is_brief = 1;
-  const int meets = nsvcd__prove_anew(p, q) == NSVCD__ANSWERED;
-  p->known.found.tick = at_end ? (double)asked.motion->ticks : 0;
-  p->ask = asked;
-  p->ask.end = 0;
-  return meets;
+// Do triangles meet at the start alone, or at the end? Takes so many units at most. If they do, the
+// result is that contact.
+static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *q, nsvcd__goal goal,
+                                           int at_end, size_t units,
+                                           nsvcd__search_result *out) {
+  nsvcd__motion *whole = goal.motion;
+  nsvcd__motion still = nsvcd__end_of(whole, at_end);
+  goal.motion = &still;
+  goal.fraction = 0;
+  goal.limit = nsvcd__limit_after(p, &goal, units);
+  goal.is_brief = 1;
+  const nsvcd__search_result at = nsvcd__search_anew(p, q, goal);
+  p->motion = whole;
+  if (at.outcome != NSVCD__ANSWERED) return 0;
+  *out = at;
+  out->found.tick = at_end ? (double)whole->ticks : 0;
+  out->end = 0;
+  return 1;
 }
 
 // Searches segments that have been chosen, first with a small budget: most queries end there. Many
 // of the rest touch only at the start or at the end, so these two poses are tried before all is
 // searched again. The search for a first contact begins at the start anyway, and the ends of a long
 // motion have been tried before its intervals.
-static nsvcd__outcome nsvcd__prove_whole(nsvcd__proof *p, nsvcd__search *q, size_t limit) {
-  const int is_brief = !p->ask.motion->arcs && !(p->ask.fraction > 0);
-  p->ask.is_brief = is_brief && p->work + NSVCD__BRIEF_BUDGET < limit;
-  p->ask.limit = p->ask.is_brief ? p->work + NSVCD__BRIEF_BUDGET : limit;
-  const nsvcd__outcome outcome = nsvcd__prove_motion(p, q);
-  if (outcome != NSVCD__EXHAUSTED || !p->ask.is_brief) return outcome;
+static nsvcd__search_result nsvcd__search_whole(nsvcd__proof *p, nsvcd__search *q,
+                                                nsvcd__goal goal) {
+  const size_t limit = goal.limit;
+  const int may_be_brief = !goal.motion->arcs && !(goal.fraction > 0);
+  goal.is_brief = may_be_brief && p->work + NSVCD__BRIEF_BUDGET < limit;
+  if (goal.is_brief) goal.limit = p->work + NSVCD__BRIEF_BUDGET;
+  nsvcd__search_result result = nsvcd__search_motion(p, q, goal);
+  if (result.outcome != NSVCD__EXHAUSTED || !goal.is_brief) return result;
   // half of what may follow an unresolved pair has been used
-  if (p->known.unresolved < NSVCD__NEVER)
-    p->ask.after_unresolved -= p->ask.after_unresolved / 2;
+  if (result.unresolved < NSVCD__NEVER) goal.after_unresolved -= goal.after_unresolved / 2;
   for (int at_end = 0; at_end < 2; at_end++) {
-    if (nsvcd__meets_at(p, q, at_end, NSVCD__END_BUDGET)) return NSVCD__ANSWERED;
+    if (nsvcd__meets_at(p, q, goal, at_end, NSVCD__END_BUDGET, &result)) return result;
   }
-  p->ask.is_brief = 0;
-  p->ask.limit = limit;
-  return nsvcd__prove_anew(p, q);
+  goal.is_brief = 0;
+  goal.limit = limit;
+  return nsvcd__search_anew(p, q, goal);
 }
 
 // Searches a part of the motion, from one position in segments to another, for the first contact
 // there or the first unresolved pair, and adds what it finds to what is known of all before it.
-// *end: the tick from which on nothing matters.
-static void nsvcd__prove_part(nsvcd__proof *p, nsvcd__search *q, double from, double to,
-                              nsvcd__known *known, double *end) {
-  const nsvcd__known *part = &p->known;
-  nsvcd__proof_restart(p);
-  nsvcd__choose_segments(p->ask.motion, q);
+static void nsvcd__search_part(nsvcd__proof *p, nsvcd__search *q, nsvcd__goal goal,
+                               double from, double to, nsvcd__search_result *known) {
+  nsvcd__restart(p, goal.motion);
+  nsvcd__choose_segments(goal.motion, q);
   // this many ticks to one of before
-  const double finer = nsvcd__motion_refine(p->ask.motion);
+  const double finer = nsvcd__motion_refine(goal.motion);
   nsvcd__narrow_segments(q, from, to, finer);
-  p->ask.end = nsvcd__min(p->ask.end, finer * *end);
-  p->ask.unresolved_ends = 1;
-  (void)nsvcd__prove_motion(p, q);
-  const double last = (double)q->begin[q->segments];
-  if (part->has_contact) {
+  goal.end = nsvcd__min(NSVCD__NEVER, finer * known->end);
+  goal.unresolved_ends = 1;
+  const nsvcd__search_result part = nsvcd__search_motion(p, q, goal);
+  if (part.has_contact) {
     known->has_contact = 1;
-    known->found = part->found;
+    known->found = part.found;
     known->found.tick /= finer;
-    *end = p->ask.end / finer;
+    known->end = part.end / finer;
   }
-  if (part->ran_out) return;
-  if (part->unresolved < NSVCD__NEVER) {
-    known->unresolved_pair = part->unresolved_pair;
+  known->ran_out = part.ran_out;
+  if (part.ran_out) return;
+  if (part.unresolved < NSVCD__NEVER) {
+    known->unresolved_pair = part.unresolved_pair;
     known->unresolved_pair.tick /= finer;
-    known->unresolved = part->unresolved / finer;
+    known->unresolved = part.unresolved / finer;
   }
-  known->resolved = nsvcd__min(last, p->ask.end) / finer;
+  known->proven_until = nsvcd__min((double)q->begin[q->segments], part.end) / finer;
 }
 
-// The budget did not suffice for the first contact. Searches again by time, from what is resolved
-// on: one part of the motion after another, a shorter one where a part takes too many units.
-static NSVCD__NOINLINE void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *q,
-                                                 size_t limit) {
-  nsvcd__known known = p->known;
-  const double ticks = (double)p->ask.motion->ticks;
+// The budget did not suffice for the first contact. Searches again by time, from what is proven on:
+// one part of the motion after another, a shorter one where a part takes too many units.
+static NSVCD__NOINLINE void nsvcd__search_by_time(nsvcd__proof *p, nsvcd__search *q,
+                                                  nsvcd__goal goal,
+                                                  nsvcd__search_result *known) {
+  const size_t limit = goal.most;
+  const double ticks = (double)goal.motion->ticks;
   const double all = (double)q->segments;
-  double end = p->ask.end;
   double from = 0;
   double length = NSVCD__FIRST_PART;
   double grows = 4;
   size_t units = limit;
-  while (from < all && (double)q->begin[(size_t)from + 1] <= known.resolved) from++;
-  p->ask.is_brief = 1;
+  while (from < all && (double)q->begin[(size_t)from + 1] <= known->proven_until) from++;
+  goal.is_brief = 1;
   for (;;) {
-    const double until = nsvcd__min(ticks, nsvcd__min(end, known.unresolved));
-    known.ran_out = known.resolved < until;
-    if (!known.ran_out || p->work >= limit) break;
+    const double until = nsvcd__min(ticks, nsvcd__min(known->end, known->unresolved));
+    known->ran_out = known->proven_until < until;
+    if (!known->ran_out || p->work >= limit) break;
     const size_t before = p->work;
     const double whole = floor(from + length);
     const double to = whole > from ? nsvcd__min(whole, all) : from + length;
-    p->ask.limit = limit - before > units ? before + units : limit;
-    nsvcd__prove_part(p, q, from, to, &known, &end);
-    if (p->known.ran_out) {
+    goal.limit = limit - before > units ? before + units : limit;
+    nsvcd__search_part(p, q, goal, from, to, known);
+    if (known->ran_out) {
       length /= 8;
       grows = 2;
     } else {
@@ -17989,64 +18011,71 @@ static NSVCD__NOINLINE void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search 
       units = 8 * (p->work - before) + NSVCD__PART_BUDGET;
     }
   }
-  p->ask.is_brief = 0;
-  nsvcd__proof_restart(p);
-  nsvcd__choose_segments(p->ask.motion, q);
-  p->known = known;
-  p->ask.end = end;
+  nsvcd__restart(p, goal.motion);
+  nsvcd__choose_segments(goal.motion, q);
 }
 
 // When do they meet first? What is proven of that stays proven when the budget ends.
-static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *q) {
-  const nsvcd__outcome outcome = nsvcd__prove_whole(p, q, nsvcd__limit_of_first(p));
-  const double from = (double)p->ask.motion->from;
+static nsvcd__search_result nsvcd__search_first(nsvcd__proof *p, nsvcd__search *q,
+                                                nsvcd__goal goal) {
+  goal.limit = nsvcd__limit_of_first(&p->given, &goal);
+  nsvcd__search_result result = nsvcd__search_whole(p, q, goal);
   // An interval is short, and all before it is known.
-  if (p->known.ran_out && !p->ask.motion->arcs) nsvcd__prove_by_time(p, q, p->ask.most);
-  const nsvcd__known known = p->known;
-  const double end = p->ask.end;
-  if (from > 0 && known.has_contact) {
-    p->starts_free = 1;
-  } else if (known.has_contact && nsvcd__clear_until(p) <= 0 && known.found.tick > 0) {
+  if (result.ran_out && !goal.motion->arcs) nsvcd__search_by_time(p, q, goal, &result);
+  if (!result.has_contact) return result;
+  if (goal.motion->from > 0) {
+    result.starts_free = 1;
+  } else if (nsvcd__clear_until(p, &result) <= 0 && result.found.tick > 0) {
     // The contact is so early that they may meet at the start already.
-    if (nsvcd__meets_at(p, q, 0, p->given.work)) return NSVCD__ANSWERED;
-    p->starts_free = !p->known.ran_out && !(p->known.unresolved < NSVCD__NEVER);
-    p->known = known;
-    p->ask.end = end;
+    if (nsvcd__meets_at(p, q, goal, 0, p->given.work, &result)) return result;
+    result.starts_free = !p->known.ran_out && !(p->known.unresolved < NSVCD__NEVER);
   }
-  return outcome;
+  return result;
 }
 
 // ---- the least distance
 
-// One pass: a search whose question shrinks, for a bracket as narrow as p->ask.measure. Adds what
-// it finds to what is known. Returns whether the budget sufficed; if so, they come no nearer than
-// p->low.
-static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *q) {
-  nsvcd__known known = p->known;
-  const int is_named = known.has_contact || known.unresolved < NSVCD__NEVER;
-  p->ask.clearance = is_named ? nsvcd__max(p->low, p->high - p->ask.measure) : p->high;
-  nsvcd__proof_restart(p);
-  const nsvcd__outcome pass = nsvcd__prove_motion(p, q);
-  if (p->known.has_contact) {
-    known.has_contact = 1;
-    known.found = p->known.found;
+// The bracket of the least distance.
+typedef struct nsvcd__bracket {
+  double low, high;
+  // the budget did not suffice for the resolution asked for
+  int is_wide;
+} nsvcd__bracket;
+
+// One pass: a search whose question shrinks, for a bracket as narrow as goal.measure. Adds what it
+// finds to what is known, and narrows the bracket. Returns 0 if the budget did not suffice.
+static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *q, nsvcd__goal goal,
+                               nsvcd__bracket *bracket, nsvcd__search_result *known) {
+  goal.low = bracket->low;
+  goal.high = bracket->high;
+  goal.clearance =
+      nsvcd__has_pair(known) ? nsvcd__max(goal.low, goal.high - goal.measure) : goal.high;
+  nsvcd__restart(p, goal.motion);
+  const nsvcd__search_result pass = nsvcd__search_motion(p, q, goal);
+  if (pass.has_contact) {
+    known->has_contact = 1;
+    known->found = pass.found;
+    bracket->high = pass.found.distance;
   }
-  p->known = known;
-  if (pass != NSVCD__EXHAUSTED) p->low = p->ask.clearance;
-  return pass != NSVCD__EXHAUSTED;
+  if (pass.outcome == NSVCD__EXHAUSTED) return 0;
+  bracket->low = pass.clearance;
+  return 1;
 }
 
 // Makes the bracket as narrow as `finest`. If half of the budget does not suffice for that, the
-// rest goes to brackets that get narrower and narrower; the last that was completed stays.
-static void nsvcd__narrow(nsvcd__proof *p, nsvcd__search *q, double finest) {
-  p->ask.measure = finest;
-  p->ask.limit = nsvcd__limit_after(p, p->given.work / 2);
-  if (nsvcd__measure_once(p, q)) return;
-  p->ask.limit = p->ask.most;
-  p->ask.measure = p->high - p->low;
-  while (!p->wide && p->ask.measure > finest) {
-    p->ask.measure = nsvcd__max(finest, p->ask.measure / NSVCD__FINER);
-    p->wide = !nsvcd__measure_once(p, q);
+// rest goes to brackets that get narrower and narrower; the last that was completed stays. work:
+// the budget.
+static void nsvcd__narrow(nsvcd__proof *p, nsvcd__search *q, nsvcd__goal goal, size_t work,
+                          double finest, nsvcd__bracket *bracket,
+                          nsvcd__search_result *known) {
+  goal.measure = finest;
+  goal.limit = nsvcd__limit_after(p, &goal, work / 2);
+  if (nsvcd__measure_once(p, q, goal, bracket, known)) return;
+  goal.limit = goal.most;
+  goal.measure = bracket->high - bracket->low;
+  while (!bracket->is_wide && goal.measure > finest) {
+    goal.measure = nsvcd__max(finest, goal.measure / NSVCD__FINER);
+    bracket->is_wide = !nsvcd__measure_once(p, q, goal, bracket, known);
   }
 }
 #endif  // NSVCD_NO_PROOF
@@ -18099,26 +18128,25 @@ static void nsvcd__next_interval(nsvcd__motion *m, nsvcd__search *q, uint32_t un
 }
 
 // The surfaces of bodies whose origins stay so far apart come no nearer than this.
-static float nsvcd__surface_gap(const nsvcd__proof *p, float origin_gap) {
-  const float pushed_out = 1.0001f * nsvcd__f3_norm(p->ask.motion->push_out);
-  return origin_gap - p->given.lengths - pushed_out;
+static float nsvcd__surface_gap(const nsvcd__proof *p, const nsvcd__motion *m,
+                                float origin_gap) {
+  return origin_gap - p->given.lengths - 1.0001f * nsvcd__f3_norm(m->push_out);
 }
 
 // Searches a motion interval by interval, until a contact answers. In the end that contact is
 // known, and all else that is known is of the first interval that was not resolved.
-static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
-                                                             nsvcd__search *q) {
-  nsvcd__motion *m = p->ask.motion;
-  const double asked = p->ask.fraction;
-  nsvcd__outcome outcome = NSVCD__DONE;
-  nsvcd__known open = p->known;
-  double end = NSVCD__NEVER;
-  double fraction = asked;  // 0: any contact will do
+static NSVCD__NOINLINE nsvcd__search_result nsvcd__search_intervals(nsvcd__proof *p,
+                                                                    nsvcd__search *q,
+                                                                    nsvcd__goal goal) {
+  nsvcd__motion *m = goal.motion;
+  double fraction = goal.fraction;  // 0: any contact will do
+  const nsvcd__given *given = &p->given;
+  nsvcd__search_result result = p->known;
+  nsvcd__search_result open = result;
   int is_open = 0;
-  const size_t units =
-      p->given.reserve < NSVCD__END_BUDGET ? p->given.reserve : NSVCD__END_BUDGET;
-  for (int at_end = 0; at_end < 2 && !(asked > 0); at_end++) {
-    if (nsvcd__meets_at(p, q, at_end, units)) return NSVCD__ANSWERED;
+  const size_t units = given->reserve < NSVCD__END_BUDGET ? given->reserve : NSVCD__END_BUDGET;
+  for (int at_end = 0; at_end < 2 && !(fraction > 0); at_end++) {
+    if (nsvcd__meets_at(p, q, goal, at_end, units, &result)) return result;
   }
   nsvcd__pace pace = {0, 1};
   nsvcd__choose_interval(m, q, 0, NSVCD__ALL_ARCS);
@@ -18126,63 +18154,70 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
     const uint32_t until = q->begin[q->segments];
     const int is_try = m->arcs > 1;
     const size_t before = p->work;
-    if (p->given.grows) p->ask.most = p->work + p->given.work;
-    nsvcd__proof_restart(p);
-    outcome = NSVCD__DONE;
+    if (given->grows) goal.most = p->work + given->work;
+    nsvcd__restart(p, m);
+    result = p->known;
     const float gap = nsvcd__interval_gap(m, m->from, until);
-    if (!(nsvcd__surface_gap(p, gap) > nsvcd__clearance(p))) {
-      p->ask.is_brief = is_try;
-      p->ask.fraction = is_try ? 0 : fraction;
-      p->ask.after_unresolved =
-          fraction > 0 ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.reserve;
-      p->ask.limit = is_try ? nsvcd__limit_after(p, NSVCD__TRY) : p->ask.most;
-      outcome = p->ask.fraction > 0 ? nsvcd__prove_first(p, q) : nsvcd__prove_motion(p, q);
+    if (!(nsvcd__surface_gap(p, m, gap) > nsvcd__clearance(&goal))) {
+      goal.is_brief = is_try;
+      goal.fraction = is_try ? 0 : fraction;
+      goal.after_unresolved = fraction > 0 ? NSVCD__AFTER_FIRST_UNRESOLVED : given->reserve;
+      goal.limit = is_try ? nsvcd__limit_after(p, &goal, NSVCD__TRY) : goal.most;
+      result = goal.fraction > 0 ? nsvcd__search_first(p, q, goal)
+                                 : nsvcd__search_motion(p, q, goal);
     }
-    const int is_resolved = outcome == NSVCD__DONE && !(p->known.unresolved < NSVCD__NEVER);
-    const int has_contact = p->known.has_contact && !(is_try && fraction > 0);
+    const int is_resolved =
+        result.outcome == NSVCD__DONE && !(result.unresolved < NSVCD__NEVER);
+    const int has_contact = result.has_contact && !(is_try && fraction > 0);
     if (is_open && has_contact) {
       open.has_contact = 1;
-      open.found = p->known.found;
+      open.found = result.found;
     }
     if (!is_open && !is_try && !is_resolved && !has_contact) {
-      open = p->known;
-      end = p->ask.end;
+      open = result;
+      open.outcome = NSVCD__DONE;
       is_open = 1;
       fraction = 0;
     }
-    if (has_contact || (is_open && !p->given.grows && p->work > p->ask.most)) break;
+    if (has_contact || (is_open && !given->grows && p->work > goal.most)) break;
     nsvcd__next_interval(m, q, until, is_resolved || !is_try, p->work - before, &pace);
   }
-  p->ask.is_brief = 0;
-  p->ask.fraction = asked;
-  if (!is_open) return outcome;
-  p->known = open;
-  p->ask.end = end;
-  return NSVCD__DONE;
+  return is_open ? open : result;
 }
 
-// Answers a question: do the bodies meet, and when?
-static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *q) {
-  nsvcd__motion *m = p->ask.motion;
-  const int in_order = p->ask.fraction > 0;
-  const float gap = nsvcd__surface_gap(p, nsvcd__motion_gap(m));
-  p->ask.limit = p->given.work;
-  p->ask.after_unresolved = in_order ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.reserve;
-  if (gap > nsvcd__clearance(p)) return NSVCD__FOUND_FREE;
+// A component is inside the other body. That replaces any contact found since.
+static nsvcd__finding nsvcd__found_inside(const nsvcd__proof *p,
+                                          nsvcd__search_result *result) {
+  memset(&result->found, 0, sizeof result->found);
+  result->found.point = p->enclosed;
+  result->found.moving_triangle = NSVCD_NO_TRIANGLE;
+  result->found.fixed_triangle = NSVCD_NO_TRIANGLE;
+  return NSVCD__FOUND_INSIDE;
+}
+
+// Do the bodies meet, and when? goal: of all of the motion. *result: what is known of it.
+static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *q, nsvcd__goal goal,
+                                   nsvcd__search_result *result) {
+  nsvcd__motion *m = goal.motion;
+  const int in_order = goal.fraction > 0;
+  const float gap = nsvcd__surface_gap(p, m, nsvcd__motion_gap(m));
+  *result = p->known;
+  if (gap > nsvcd__clearance(&goal)) return NSVCD__FOUND_FREE;
   const int is_long = nsvcd__is_long(m, q);
   if (p->kernels->is_contained_at_start(p)) {
     // It is a hit. A question that asks for more gets triangles, if some meet as well.
-    const int meets = p->given.tells && nsvcd__meets_at(p, q, 0, NSVCD__INSIDE_BUDGET);
-    return meets ? NSVCD__FOUND_CONTACT : nsvcd__found_inside(p);
+    const size_t units = NSVCD__INSIDE_BUDGET;
+    const int meets = p->given.tells && nsvcd__meets_at(p, q, goal, 0, units, result);
+    return meets ? NSVCD__FOUND_CONTACT : nsvcd__found_inside(p, result);
   }
-  const nsvcd__outcome outcome = is_long    ? nsvcd__prove_intervals(p, q)
-                                 : in_order ? nsvcd__prove_first(p, q)
-                                            : nsvcd__prove_whole(p, q, p->given.work);
-  const double clear = nsvcd__clear_until(p);
-  if (outcome == NSVCD__ANSWERED) return NSVCD__FOUND_CONTACT;
-  if (p->inside && clear > 0) return nsvcd__found_inside(p);
-  if (p->known.has_contact) return NSVCD__FOUND_CONTACT;
-  if (p->known.unresolved < NSVCD__NEVER) p->known.found = p->known.unresolved_pair;
+  *result = is_long    ? nsvcd__search_intervals(p, q, goal)
+            : in_order ? nsvcd__search_first(p, q, goal)
+                       : nsvcd__search_whole(p, q, goal);
+  const double clear = nsvcd__clear_until(p, result);
+  if (result->outcome == NSVCD__ANSWERED) return NSVCD__FOUND_CONTACT;
+  if (p->inside && clear > 0) return nsvcd__found_inside(p, result);
+  if (result->has_contact) return NSVCD__FOUND_CONTACT;
+  if (result->unresolved < NSVCD__NEVER) result->found = result->unresolved_pair;
   return clear < NSVCD__NEVER ? NSVCD__FOUND_UNDECIDED : NSVCD__FOUND_FREE;
 }
 
@@ -18191,63 +18226,71 @@ static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *q) {
 // Narrows the bracket interval by interval. A budget that was given is divided by time: each
 // interval gets of what is left the share that it has of the rest of the motion.
 static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__search *q,
-                                                    double finest) {
-  nsvcd__motion *m = p->ask.motion;
-  const size_t most = p->ask.most;
-  const size_t work = p->given.work;
-  const double known = p->low;
+                                                    nsvcd__goal goal, double finest,
+                                                    nsvcd__bracket *bracket,
+                                                    nsvcd__search_result *known) {
+  nsvcd__motion *m = goal.motion;
+  const size_t most = goal.most;
+  const double known_low = bracket->low;
+  size_t work = p->given.work;
   nsvcd__pace pace = {0, 1};
-  double low = p->high;
+  double low = bracket->high;
   int is_wide = 0;
   while (m->from < m->ticks) {
     const uint32_t until = q->begin[q->segments];
     const size_t before = p->work;
-    const int is_named = p->known.has_contact || p->known.unresolved < NSVCD__NEVER;
     int is_resolved = 1;
     if (!p->given.grows) {
       const double rest = (double)(until - m->from) / (double)(m->ticks - m->from);
-      p->given.work = p->work < most ? (size_t)(rest * (double)(most - p->work)) : 0;
+      work = before < most ? (size_t)(rest * (double)(most - before)) : 0;
     }
-    p->ask.most = p->work + p->given.work;
+    goal.most = before + work;
     const float gap = nsvcd__interval_gap(m, m->from, until);
-    p->low = nsvcd__max(known, (double)nsvcd__surface_gap(p, gap));
-    p->wide = 0;
-    if (p->low < p->high && !(is_named && p->high - p->low <= finest)) {
+    bracket->low = nsvcd__max(known_low, (double)nsvcd__surface_gap(p, m, gap));
+    bracket->is_wide = 0;
+    const int is_narrow = nsvcd__has_pair(known) && bracket->high - bracket->low <= finest;
+    if (bracket->low < bracket->high && !is_narrow) {
       if (m->arcs > 1) {
-        p->ask.measure = finest;
-        p->ask.limit = nsvcd__limit_after(p, NSVCD__TRY);
-        is_resolved = nsvcd__measure_once(p, q);
+        goal.measure = finest;
+        goal.limit = nsvcd__limit_after(p, &goal, NSVCD__TRY);
+        is_resolved = nsvcd__measure_once(p, q, goal, bracket, known);
       } else {
-        nsvcd__narrow(p, q, finest);
+        nsvcd__narrow(p, q, goal, work, finest, bracket, known);
       }
     }
-    if (is_resolved) low = nsvcd__min(low, p->low);
-    is_wide |= p->wide;
+    if (is_resolved) low = nsvcd__min(low, bracket->low);
+    is_wide |= bracket->is_wide;
     nsvcd__next_interval(m, q, until, is_resolved, p->work - before, &pace);
   }
-  p->given.work = work;
-  p->ask.most = most;
-  p->low = nsvcd__min(low, p->high);
-  p->wide = is_wide && p->high - p->low > finest;
+  bracket->low = nsvcd__min(low, bracket->high);
+  bracket->is_wide = is_wide && bracket->high - bracket->low > finest;
 }
 
-// Brackets the least distance over the motion, once it is known whether they come within the
+// Brackets the least distance over the motion, once it is known whether the bodies come within the
 // clearance.
-static NSVCD__NOINLINE void nsvcd__measure(nsvcd__proof *p, nsvcd__search *q,
-                                           nsvcd__finding verdict, double finest) {
-  nsvcd__motion *m = p->ask.motion;
-  int is_named = p->known.has_contact || p->known.unresolved < NSVCD__NEVER;
-  const float gap = nsvcd__surface_gap(p, nsvcd__motion_gap(m));
-  p->low = nsvcd__max(verdict == NSVCD__FOUND_FREE ? p->given.clearance : 0, (double)gap);
+static NSVCD__NOINLINE nsvcd__bracket nsvcd__measure(nsvcd__proof *p, nsvcd__search *q,
+                                                     nsvcd__goal goal, nsvcd__finding verdict,
+                                                     nsvcd__search_result *known) {
+  nsvcd__motion *m = goal.motion;
+  const double finest = p->given.width;
+  int is_named = nsvcd__has_pair(known);
+  const float gap = nsvcd__surface_gap(p, m, nsvcd__motion_gap(m));
+  const double clear = verdict == NSVCD__FOUND_FREE ? p->given.clearance : 0;
+  nsvcd__bracket bracket = {nsvcd__max(clear, (double)gap), known->found.distance, 0};
   const int is_long = nsvcd__is_long(m, q);
   if (is_long) nsvcd__choose_interval(m, q, 0, NSVCD__ALL_ARCS);
-  p->high = is_named ? p->known.found.distance : p->kernels->bound_distance(p, q);
-  is_named = is_named || p->known.has_contact;
-  if (is_named && !(p->high - p->low > finest)) return;
+  if (!is_named) {
+    bracket.high = p->kernels->bound_distance(p, q);
+    known->has_contact = p->known.has_contact;
+    known->found = p->known.found;
+    is_named = known->has_contact;
+  }
+  if (is_named && !(bracket.high - bracket.low > finest)) return bracket;
   if (is_long)
-    nsvcd__narrow_intervals(p, q, finest);
+    nsvcd__narrow_intervals(p, q, goal, finest, &bracket, known);
   else
-    nsvcd__narrow(p, q, finest);
+    nsvcd__narrow(p, q, goal, p->given.work, finest, &bracket, known);
+  return bracket;
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -18290,17 +18333,17 @@ static void nsvcd__try_push_out(const nsvcd__proof *p, nsvcd__d3 n, nsvcd__undoi
   const double same = nsvcd__epsilon(p) + 0.01 * nsvcd__max(best->distance, 0);
   nsvcd__undoing by = {n, 0, 0, -HUGE_VAL};
   if (best->count > 0 && nsvcd__d3_dot(n, best->n) > 0.99999) return;
-  for (size_t k = 0; k < p->contact_count; k++) {
+  for (size_t k = 0; k < p->push.contact_count; k++) {
     const nsvcd__triangle_contact *t = &p->of.touches[k];
-    const size_t left = 2 * (p->contact_count - k);
+    const size_t left = 2 * (p->push.contact_count - k);
     if (by.count + left < best->count) return;
     if (by.count + left == best->count && by.distance > best->distance + same) return;
     if (!nsvcd__undoes(p, n, t)) continue;
     const double distance = nsvcd__depth_along(n, t);
-    by.count += distance < 0 && !p->by_faces && nsvcd__is_against(n, t) ? 1u : 2u;
+    by.count += distance < 0 && !p->push.by_faces && nsvcd__is_against(n, t) ? 1u : 2u;
     by.faces +=
         nsvcd__d3_dot(n, t->directions[0]) > 0.9 || nsvcd__d3_dot(n, t->directions[1]) > 0.9;
-    by.distance = p->by_faces ? 0 : nsvcd__max(by.distance, distance);
+    by.distance = p->push.by_faces ? 0 : nsvcd__max(by.distance, distance);
   }
   if (by.count == 0 || by.count < best->count) return;
   const int is_as_far = by.distance > best->distance - same;
@@ -18313,12 +18356,12 @@ static void nsvcd__try_push_out(const nsvcd__proof *p, nsvcd__d3 n, nsvcd__undoi
 // 0 if none undoes any touch.
 static nsvcd__undoing nsvcd__best_push_out(const nsvcd__proof *p) {
   nsvcd__undoing best = {{0, 0, 0}, 0, 0, HUGE_VAL};
-  for (size_t k = 0; k < p->contact_count; k++) {
+  for (size_t k = 0; k < p->push.contact_count; k++) {
     for (size_t i = 0; i < 3; i++)
       nsvcd__try_push_out(p, p->of.touches[k].directions[i], &best);
   }
   // an edge on an edge
-  for (size_t k = 0; k < 9 * p->contact_count && best.distance > nsvcd__epsilon(p); k++) {
+  for (size_t k = 0; k < 9 * p->push.contact_count && best.distance > nsvcd__epsilon(p); k++) {
     const nsvcd__triangle_contact *t = &p->of.touches[k / 9];
     const nsvcd__d3 n = nsvcd__across_edges(t->moving, t->fixed, k % 9);
     const nsvcd__d3 out = nsvcd__d3_add(t->directions[0], t->directions[1]);
@@ -18330,20 +18373,20 @@ static nsvcd__undoing nsvcd__best_push_out(const nsvcd__proof *p) {
 
 // Finds directions that undo all touches. Returns 0 if nothing undoes one, or it takes too many.
 static int nsvcd__choose_push_outs(nsvcd__proof *p) {
-  if (p->too_deep) return 0;
-  while (p->contact_count > 0) {
-    const size_t k = p->normal_count;
+  if (p->push.too_deep) return 0;
+  while (p->push.contact_count > 0) {
+    const size_t k = p->push.normal_count;
     if (k == NSVCD__PUSH_OUTS) return 0;
     const nsvcd__undoing best = nsvcd__best_push_out(p);
     if (best.count == 0) return 0;
-    p->normals[k] = best.n;
-    p->depths[k] = 0;
-    p->normal_count++;
+    p->push.normals[k] = best.n;
+    p->push.depths[k] = 0;
+    p->push.normal_count++;
     size_t left = 0;
-    for (size_t n = 0; n < p->contact_count; n++) {
+    for (size_t n = 0; n < p->push.contact_count; n++) {
       if (!nsvcd__undone_by(p, k, &p->of.touches[n])) p->of.touches[left++] = p->of.touches[n];
     }
-    p->contact_count = left;
+    p->push.contact_count = left;
   }
   return 1;
 }
@@ -18351,17 +18394,18 @@ static int nsvcd__choose_push_outs(nsvcd__proof *p) {
 // Nearly the shortest vector that has at least `least` along all known normals, plus, with
 // by_depth, the depth along each: projections onto one half space after another (the relaxation
 // method, Agmon 1954). 0 if there is none below four times the longest of these.
-static nsvcd__d3 nsvcd__push_out(const nsvcd__proof *p, double least, int by_depth) {
+static nsvcd__d3 nsvcd__push_out(const nsvcd__push_outs *push, double least, int by_depth) {
   nsvcd__d3 push_out = {0, 0, 0};
   double longest = 0;
   for (size_t round = 0; round < 64; round++) {
     double most = 0;
-    for (size_t k = 0; k < p->normal_count; k++) {
-      const double along = least + (by_depth ? p->depths[k] : 0);
-      const double lacks = along - nsvcd__d3_dot(push_out, p->normals[k]);
+    for (size_t k = 0; k < push->normal_count; k++) {
+      const double along = least + (by_depth ? push->depths[k] : 0);
+      const double lacks = along - nsvcd__d3_dot(push_out, push->normals[k]);
       longest = nsvcd__max(longest, along);
       most = nsvcd__max(most, lacks);
-      if (lacks > 0) push_out = nsvcd__d3_add(push_out, nsvcd__d3_scale(p->normals[k], lacks));
+      if (lacks > 0)
+        push_out = nsvcd__d3_add(push_out, nsvcd__d3_scale(push->normals[k], lacks));
     }
     if (nsvcd__d3_norm(push_out) > 4 * longest) break;
     if (most <= 0.005 * longest) return push_out;
@@ -18374,25 +18418,28 @@ static nsvcd__d3 nsvcd__push_out(const nsvcd__proof *p, double least, int by_dep
 // neighbours still touch, and there may be too many touches to collect at once: so each push-out is
 // tried. If the directions known have no push-out in common, the first one may be wrong, and is
 // forgotten, once. Returns 0 if there is no push-out.
-static int nsvcd__push_out_still(nsvcd__proof *p, nsvcd__search *q, nsvcd__motion *still) {
-  p->normal_count = 0;
+static int nsvcd__push_out_still(nsvcd__proof *p, nsvcd__search *q, nsvcd__goal goal) {
+  nsvcd__motion *still = goal.motion;
+  p->push.normal_count = 0;
   still->push_out = nsvcd__f3_of(0, 0, 0);
   // Also what is about to touch, or where an earlier motion may have ended, is pushed out of, and
   // may not touch afterwards.
   const double size = (double)p->given.lengths + p->given.radius;
-  const double near_by = nsvcd__min(0.05 * p->ask.slop, 0.02 * size);
-  double beside = nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * p->ask.slop));
-  for (int turns = 0;; beside = 0.01 * p->ask.slop) {
-    p->ask.clearance = p->given.clearance + beside + nsvcd__epsilon(p);
-    (void)nsvcd__prove_anew(p, q);
-    if (p->contact_count == 0) return 1;
-    const size_t known = p->normal_count;
-    if (!nsvcd__choose_push_outs(p) || p->normal_count == known) return 0;
-    nsvcd__d3 push_out = nsvcd__push_out(p, p->ask.slop, 0);
+  const double near_by = nsvcd__min(0.05 * goal.slop, 0.02 * size);
+  double beside = nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * goal.slop));
+  for (int turns = 0;; beside = 0.01 * goal.slop) {
+    goal.clearance = p->given.clearance + beside + nsvcd__epsilon(p);
+    (void)nsvcd__search_anew(p, q, goal);
+    if (p->push.contact_count == 0) return 1;
+    const size_t known = p->push.normal_count;
+    if (!nsvcd__choose_push_outs(p) || p->push.normal_count == known) return 0;
+    nsvcd__d3 push_out = nsvcd__push_out(&p->push, goal.slop, 0);
     if (!(nsvcd__d3_dot(push_out, push_out) > 0) && turns++ == 0) {
-      memmove(p->normals, p->normals + 1, --p->normal_count * sizeof *p->normals);
-      memmove(p->depths, p->depths + 1, p->normal_count * sizeof *p->depths);
-      push_out = nsvcd__push_out(p, p->ask.slop, 0);
+      memmove(p->push.normals, p->push.normals + 1,
+              --p->push.normal_count * sizeof *p->push.normals);
+      memmove(p->push.depths, p->push.depths + 1,
+              p->push.normal_count * sizeof *p->push.depths);
+      push_out = nsvcd__push_out(&p->push, goal.slop, 0);
     }
     if (!(nsvcd__d3_dot(push_out, push_out) > 0)) return 0;
     still->push_out = nsvcd__f3_round(push_out);
@@ -18404,31 +18451,32 @@ static int nsvcd__push_out_still(nsvcd__proof *p, nsvcd__search *q, nsvcd__motio
 // little more than the known depths, to see what it touches there, until nothing does. Triangles
 // that follow each other, as on a slope, each come free soon: so the little more doubles as long as
 // depths grow.
-static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *q, nsvcd__motion *still) {
+static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *q, nsvcd__goal goal) {
+  nsvcd__motion *still = goal.motion;
   const nsvcd__f3 push_out = still->push_out;
   const double least_more = 0.5 * nsvcd__epsilon(p);
   double more = least_more;
   double before = 0;
-  p->ask.clearance = p->given.clearance;
-  for (size_t k = 0; k < p->normal_count; k++) before += p->depths[k];
+  goal.clearance = p->given.clearance;
+  for (size_t k = 0; k < p->push.normal_count; k++) before += p->push.depths[k];
   for (int round = 0; round < NSVCD__DEEPEN; round++) {
     double after = 0;
-    still->push_out = nsvcd__f3_round(nsvcd__push_out(p, more, 1));
-    (void)nsvcd__prove_anew(p, q);
+    still->push_out = nsvcd__f3_round(nsvcd__push_out(&p->push, more, 1));
+    (void)nsvcd__search_anew(p, q, goal);
     // A touch gets out of the way along the normal that undoes it first, even if no plane normal to
     // that separates it.
-    for (size_t n = 0; n < p->contact_count; n++) {
+    for (size_t n = 0; n < p->push.contact_count; n++) {
       const nsvcd__triangle_contact *t = &p->of.touches[n];
       size_t best = 0;
       double least = HUGE_VAL;
-      for (size_t k = 0; k < p->normal_count; k++) {
-        const double distance = nsvcd__depth_along(p->normals[k], t);
+      for (size_t k = 0; k < p->push.normal_count; k++) {
+        const double distance = nsvcd__depth_along(p->push.normals[k], t);
         if (distance < least) best = k;
         least = nsvcd__min(least, distance);
       }
       nsvcd__note_depth(p, best, t);
     }
-    for (size_t k = 0; k < p->normal_count; k++) after += p->depths[k];
+    for (size_t k = 0; k < p->push.normal_count; k++) after += p->push.depths[k];
     const int is_deeper = after > before;
     if (!is_deeper && more <= nsvcd__max(least_more, 0.002 * after)) break;
     more = is_deeper ? 2 * more : nsvcd__max(least_more, 0.125 * more);
@@ -18439,32 +18487,31 @@ static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *q, nsvcd__motion *stil
 
 // Pushes the motion out of what it touches at its start, by the slop; or, if something is in the
 // way of that and nothing is too deep, by what is needed.
-static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__proof *p, nsvcd__search *q) {
-  nsvcd__motion *whole = p->ask.motion;
+static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__proof *p, nsvcd__search *q,
+                                                   nsvcd__goal goal) {
+  nsvcd__motion *whole = goal.motion;
   nsvcd__motion start = nsvcd__end_of(whole, 0);
-  p->ask.motion = &start;
-  p->ask.collects = NSVCD__TOUCHING;
-  p->ask.slop = p->given.slop;
-  p->by_faces = 0;
-  p->needed = 0;
-  int is_free = nsvcd__push_out_still(p, q, &start);
-  if (!is_free && !p->too_deep) {
+  goal.motion = &start;
+  goal.collects = NSVCD__TOUCHING;
+  goal.slop = p->given.slop;
+  p->push.by_faces = 0;
+  p->push.needed = 0;
+  int is_free = nsvcd__push_out_still(p, q, goal);
+  if (!is_free && !p->push.too_deep) {
     // The shortest push-outs may not go together.
-    p->by_faces = 1;
-    p->needed = 0;
-    is_free = nsvcd__push_out_still(p, q, &start);
+    p->push.by_faces = 1;
+    p->push.needed = 0;
+    is_free = nsvcd__push_out_still(p, q, goal);
   }
-  const double least = 1.1 * p->needed + 4 * nsvcd__epsilon(p);
-  if (!is_free && p->contact_count == 0 && least < 0.9 * p->given.slop) {
-    p->ask.slop = least;
-    is_free = nsvcd__push_out_still(p, q, &start);
+  const double least = 1.1 * p->push.needed + 4 * nsvcd__epsilon(p);
+  if (!is_free && p->push.contact_count == 0 && least < 0.9 * p->given.slop) {
+    goal.slop = least;
+    is_free = nsvcd__push_out_still(p, q, goal);
   }
-  if (is_free && p->normal_count > 0) nsvcd__deepen(p, q, &start);
-  p->ask.collects = NSVCD__CONTACTS;
-  p->ask.clearance = p->given.clearance;
-  p->ask.motion = whole;
+  if (is_free && p->push.normal_count > 0) nsvcd__deepen(p, q, goal);
+  p->push.slop = goal.slop;
   whole->push_out = is_free ? start.push_out : nsvcd__f3_of(0, 0, 0);
-  nsvcd__proof_restart(p);
+  nsvcd__restart(p, whole);
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -18486,9 +18533,9 @@ static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__proof *p, nsvcd__searc
 // The arc of a time in ticks; at a keyframe, the arc that ends there: by that one the body came to
 // the contact.
 static const nsvcd__arc *nsvcd__arc_before(nsvcd__proof *p, double tick, double *u) {
-  uint32_t first = nsvcd__arc_of(p->ask.motion, tick, u);
-  if (first > 0 && tick - (double)first < 6e-8 * (double)p->ask.motion->ticks) {
-    first = nsvcd__arc_of(p->ask.motion, (double)first - 0.5, u);
+  uint32_t first = nsvcd__arc_of(p->motion, tick, u);
+  if (first > 0 && tick - (double)first < 6e-8 * (double)p->motion->ticks) {
+    first = nsvcd__arc_of(p->motion, (double)first - 0.5, u);
     *u = 1;
   }
   return nsvcd__arc_at(p, first);
@@ -18519,8 +18566,8 @@ static NSVCD__NOINLINE void nsvcd__approach_at(nsvcd__proof *p,
 // Moves a contact to an earlier time, from `since` on, when its triangles were as near and did not
 // come apart; if they meet, to when they began to. It stays if they touched at `since` and have
 // come apart ever since.
-static NSVCD__NOINLINE void nsvcd__move_back(nsvcd__proof *p, double since) {
-  nsvcd__pair_contact *found = &p->known.found;
+static NSVCD__NOINLINE void nsvcd__move_back(nsvcd__proof *p, nsvcd__pair_contact *found,
+                                             double since) {
   nsvcd__pair_contact sooner = *found;
   double early = since;
   double late = found->tick;
@@ -18609,9 +18656,8 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p,
 
 // The normal at which the triangles of the known contact met, if that was after `since`, or, if
 // they were free of each other then, at any time. 0: it was not.
-static int nsvcd__normal_met(nsvcd__proof *p, double since, int is_free,
-                             nsvcd__approach *now) {
-  nsvcd__pair_contact *found = &p->known.found;
+static int nsvcd__normal_met(nsvcd__proof *p, nsvcd__pair_contact *found, double since,
+                             int is_free, nsvcd__approach *now) {
   nsvcd__approach_at(p, found, found->tick, now);
   const nsvcd__d3 speed = nsvcd__twist_of(&now->twist, found->point);
   const nsvcd__d3 travel = nsvcd__d3_scale(speed, found->tick - since);
@@ -18621,20 +18667,21 @@ static int nsvcd__normal_met(nsvcd__proof *p, double since, int is_free,
 // Are two times, in ticks, in different arcs?
 static int nsvcd__has_turned(const nsvcd__proof *p, double since, double until) {
   double u;
-  const uint32_t first = nsvcd__arc_of(p->ask.motion, since, &u);
-  return first != nsvcd__arc_of(p->ask.motion, until, &u);
+  const uint32_t first = nsvcd__arc_of(p->motion, since, &u);
+  return first != nsvcd__arc_of(p->motion, until, &u);
 }
 
 // Gives the known contact its normal.
-static NSVCD__NOINLINE void nsvcd__resolve_normal(nsvcd__proof *p) {
-  nsvcd__pair_contact *found = &p->known.found;
-  const double until = nsvcd__max(nsvcd__min(nsvcd__clear_until(p), found->tick), 0);
+static NSVCD__NOINLINE void nsvcd__resolve_normal(nsvcd__proof *p,
+                                                  nsvcd__search_result *result) {
+  nsvcd__pair_contact *found = &result->found;
+  const double until = nsvcd__max(nsvcd__min(nsvcd__clear_until(p, result), found->tick), 0);
   const double since = p->given.fraction > 0 ? until : 0;
-  const int is_free = since > 0 || (p->given.fraction > 0 && p->starts_free);
+  const int is_free = since > 0 || (p->given.fraction > 0 && result->starts_free);
   nsvcd__approach now;
   // What comes to a pose and goes back may have been found on its way back.
   const int has_turned = is_free && nsvcd__has_turned(p, since, found->tick);
-  if (found->distance > 0 || has_turned) nsvcd__move_back(p, since);
+  if (found->distance > 0 || has_turned) nsvcd__move_back(p, found, since);
   if (found->distance > 0) return;
   if (has_turned && nsvcd__has_turned(p, since, found->tick)) {
     // These met on the way back alone, but others did on the way there.
@@ -18644,11 +18691,11 @@ static NSVCD__NOINLINE void nsvcd__resolve_normal(nsvcd__proof *p) {
     found->normal = nsvcd__d3_unit(apart, found->normal);
     return;
   }
-  if (nsvcd__normal_met(p, since, 0, &now)) return;
+  if (nsvcd__normal_met(p, found, since, 0, &now)) return;
   if (is_free) {
     // The motion has turned since, and they may come apart again.
-    nsvcd__move_back(p, since);
-    if (nsvcd__normal_met(p, since, 1, &now)) return;
+    nsvcd__move_back(p, found, since);
+    if (nsvcd__normal_met(p, found, since, 1, &now)) return;
   }
   const nsvcd__d3 speed = nsvcd__twist_of(&now.twist, found->point);
   found->normal = nsvcd__shallowest(p, &now, speed);
@@ -18695,7 +18742,7 @@ static double nsvcd__travel_in(const nsvcd__proof *p, const nsvcd__arc *arc) {
 // most `fraction`; 0: that is not asked for. Of a short motion it is at most a quarter, so that a
 // contact does not cost all of it, but no less than a safe pose backs off.
 static double nsvcd__fraction_of(nsvcd__proof *p, double to, double fraction) {
-  const nsvcd__motion *motion = p->ask.motion;
+  const nsvcd__motion *motion = p->motion;
   const double most = fraction > 0 ? fraction : 1;
   double fastest = 0;  // per tick
   // The arc known is of the question before.
@@ -18710,18 +18757,20 @@ static double nsvcd__fraction_of(nsvcd__proof *p, double to, double fraction) {
   return least < most * whole ? least / whole : most;
 }
 
-// Prepares the proof for a question whose motion has been prepared.
-static void nsvcd__proof_begin(nsvcd__query *query) {
+// Prepares the proof for a question whose motion has been prepared. Returns what is asked of all of
+// the motion.
+static nsvcd__goal nsvcd__proof_begin(nsvcd__query *query) {
   const nsvcd__task *task = &query->task;
   const nsvcd_question *q = task->question;
   const double unit = (double)task->motion.unit;
   nsvcd__proof *p = query->proof;
   nsvcd__given *given = &p->given;
+  nsvcd__goal goal;
   memset(given, 0, sizeof *given);
-  memset(&p->ask, 0, sizeof p->ask);
+  memset(&goal, 0, sizeof goal);
   p->kernels = query->kernels;
   p->intervals = query->intervals;
-  p->ask.motion = &query->task.motion;
+  p->motion = goal.motion = &query->task.motion;
   p->moving = nsvcd__geometry_of(nsvcd__triangles_of(task->moving));
   p->fixed = nsvcd__geometry_of(nsvcd__triangles_of(task->fixed));
   given->lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
@@ -18729,18 +18778,16 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   const double moving_radius = (double)p->moving.counts->convex_radius * task->motion.ratio;
   given->radius = moving_radius + (double)p->fixed.counts->convex_radius;
   given->clearance = (double)q->clearance / unit + given->radius;
-  p->ask.clearance = given->clearance;
+  goal.clearance = given->clearance;
   given->slop = (double)q->slop / unit;
   const int is_verdict = q->ask != NSVCD_ASK_DISTANCE;
   const size_t most = is_verdict ? NSVCD_DEFAULT_VERDICT_WORK : NSVCD_DEFAULT_WORK;
-  given->work = p->ask.limit = p->ask.most = q->work ? q->work : most;
+  given->work = goal.limit = goal.most = q->work ? q->work : most;
   given->reserve = (q->work ? q->work : NSVCD_DEFAULT_WORK) / NSVCD__AFTER_UNRESOLVED;
   given->grows = q->work == 0;
   given->tells = q->ask != NSVCD_ASK_HIT || given->slop > 0;
-  p->work = p->normal_count = 0;
-  p->low = 0;
-  p->high = HUGE_VAL;
-  p->inside = p->in_open = p->wide = p->starts_free = 0;
+  p->work = p->push.normal_count = 0;
+  p->inside = p->in_open = 0;
   p->unclear = NSVCD__CLEAR;
   const double to = nsvcd__to_of(task);
   if (q->ask == NSVCD_ASK_DISTANCE) given->width = to;
@@ -18749,8 +18796,13 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
     given->to = q->to > 0 ? to : 0;
     given->fraction = nsvcd__fraction_of(p, by_time ? 0 : to, (double)q->to_time);
   }
-  p->ask.fraction = given->fraction;
-  nsvcd__proof_restart(p);
+  goal.end = NSVCD__NEVER;
+  goal.high = HUGE_VAL;
+  goal.fraction = given->fraction;
+  goal.after_unresolved = goal.fraction > 0 ? NSVCD__AFTER_FIRST_UNRESOLVED : given->reserve;
+  p->goal = goal;
+  nsvcd__restart(p, goal.motion);
+  return goal;
 }
 
 // Writes the contact that a proof has found: when, where, and of what. If the bodies were swapped,
@@ -18809,7 +18861,7 @@ static NSVCD__NOINLINE void nsvcd__poses_at(const nsvcd__task *task, double t,
 // How far the poses of an answer, in float, are off at time t, at most, in the fixed body's units:
 // positions and quaternions are off by 6e-8 of their length.
 static double nsvcd__pose_error(const nsvcd__proof *p, double t) {
-  const nsvcd__motion *motion = p->ask.motion;
+  const nsvcd__motion *motion = p->motion;
   const nsvcd__d3 moving = nsvcd__dpose_at(motion, &motion->moving, t).position;
   const nsvcd__d3 fixed = nsvcd__dpose_at(motion, &motion->fixed, t).position;
   const double positions = nsvcd__d3_norm(moving) + nsvcd__d3_norm(fixed);
@@ -18818,12 +18870,12 @@ static double nsvcd__pose_error(const nsvcd__proof *p, double t) {
 
 // Sets the bodies down at time t, at which they are free of each other when pushed out as the
 // motion is: to a little more than their depth at the start, or to a little before they are in
-// contact. Returns the push-out left. It is proven to be free, and so is the way down to it. All
-// else that was known of the question is lost.
-static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
+// contact. Returns the push-out left. It is proven to be free, and so is the way down to it.
+static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, nsvcd__goal goal,
+                                                 double t) {
   nsvcd__proof *p = query->proof;
   const nsvcd__task *task = &query->task;
-  nsvcd__motion *whole = p->ask.motion;
+  nsvcd__motion *whole = goal.motion;
   nsvcd__motion down = *whole;
   nsvcd_pose moving[2], fixed[2];
   const int takes_it = nsvcd__takes_push_out(task);
@@ -18832,8 +18884,8 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) 
   const nsvcd__d3 push_out = nsvcd__d3_widen(whole->push_out);
   // Nearer to each other than stored triangles are known, nothing would be separated.
   const double epsilons = 4 * nsvcd__epsilon(p) + nsvcd__pose_error(p, t);
-  const double kept = fmax(NSVCD__SET_DOWN * p->ask.slop, epsilons);
-  const nsvcd__d3 least = nsvcd__push_out(p, kept, 1);
+  const double kept = fmax(NSVCD__SET_DOWN * p->push.slop, epsilons);
+  const nsvcd__d3 least = nsvcd__push_out(&p->push, kept, 1);
   const nsvcd__d3 by = nsvcd__d3_sub(push_out, least);
   const double length = nsvcd__d3_norm(by);
   if (!(nsvcd__d3_dot(by, push_out) > 0) || !(length > kept)) return push_out;
@@ -18841,17 +18893,14 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) 
   nsvcd__poses_at(task, t, least, &moving[1], &fixed[1]);
   nsvcd__motion_set_tracks(&down, moves, rests);
   down.push_out = nsvcd__f3_of(0, 0, 0);
-  p->ask.motion = &down;
-  p->ask.fraction = kept / length;
-  p->ask.measure = 0;
-  p->ask.clearance = p->given.clearance;
-  p->ask.limit = p->work + p->given.reserve;
-  (void)nsvcd__prove_anew(p, &query->broad_phase);
-  p->ask.motion = whole;
-  const double until = nsvcd__clear_until(p) / (double)down.ticks;
+  goal.motion = &down;
+  goal.fraction = kept / length;
+  goal.limit = p->work + p->given.reserve;
+  const nsvcd__search_result result = nsvcd__search_anew(p, &query->broad_phase, goal);
+  p->motion = whole;
+  const double until = nsvcd__clear_until(p, &result) / (double)down.ticks;
   // All before an unresolved pair is proven, but a query from close to it might not prove it again.
-  const double clear =
-      p->known.unresolved < p->ask.end ? until - 0.5 * p->ask.fraction : until;
+  const double clear = result.unresolved < result.end ? until - 0.5 * goal.fraction : until;
   return nsvcd__d3_sub(push_out, nsvcd__d3_scale(by, fmin(fmax(clear, 0), 1)));
 }
 
@@ -18900,12 +18949,12 @@ static NSVCD__NOINLINE int nsvcd__manifold_normals(nsvcd__proof *p,
 
 // Writes the manifold of the contact found. If a body stands on something, that contact may be with
 // a side that rises from it: so the normals of both triangles are tried too, and the manifold that
-// spans the most is taken. All else that was known of the question is lost.
-static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd_answer *answer) {
+// spans the most is taken.
+static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd__goal goal,
+                                                  const nsvcd__pair_contact *found,
+                                                  nsvcd_answer *answer) {
   nsvcd__proof *p = query->proof;
   const nsvcd__task *task = &query->task;
-  const nsvcd__pair_contact found = p->known.found;
-  const nsvcd__asked asked = p->ask;
   const double epsilon = nsvcd__epsilon(p);
   const double same = epsilon + 1e-5 * (double)p->given.lengths;
   const float radius = task->motion.scale * task->moving->radius;
@@ -18915,17 +18964,18 @@ static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd_ans
   double widest = -1;
   nsvcd_pose poses[2];
   nsvcd__twist twist;
-  int tries = nsvcd__manifold_normals(p, &found, &twist, normals);
+  int tries = nsvcd__manifold_normals(p, found, &twist, normals);
   nsvcd__motion still = nsvcd__rest_at(task, (double)answer->nearest.time, poses);
-  p->ask.motion = &still;
-  p->ask.collects = NSVCD__SUPPORTING;
-  p->ask.clearance = p->given.clearance + fmax(nsvcd__to_of(task), 4 * epsilon);
-  p->ask.limit = p->work + p->given.reserve;
-  (void)nsvcd__prove_anew(p, &query->broad_phase);
+  nsvcd__motion *whole = goal.motion;
+  goal.motion = &still;
+  goal.collects = NSVCD__SUPPORTING;
+  goal.clearance = p->given.clearance + fmax(nsvcd__to_of(task), 4 * epsilon);
+  goal.limit = p->work + p->given.reserve;
+  (void)nsvcd__search_anew(p, &query->broad_phase, goal);
   for (int k = 0; k < tries; k++) {
     int chosen[NSVCD_MAX_CONTACTS];
     double area;
-    nsvcd__manifold_begin(p, normals[k], &twist, p->ask.clearance, same);
+    nsvcd__manifold_begin(p, normals[k], &twist, goal.clearance, same);
     p->kernels->seek_positions(p, 0, NSVCD__AROUND);
     int count = nsvcd__choose_four(m, chosen, &area);
     if (nsvcd__seek_across(&p->of.kept.manifold, area)) {
@@ -18938,18 +18988,19 @@ static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd_ans
     answer->contact_count = (size_t)count;
     for (int n = 0; n < count; n++) {
       nsvcd__pair_contact support = m->supports[chosen[n]];
-      support.tick = found.tick;
+      support.tick = found->tick;
       nsvcd__write_contact(query, &support, &answer->contacts[n]);
       // The last bit tells which body a corner is of.
       answer->contacts[n].id = m->numbers[chosen[n]] ^ (uint32_t)task->swapped;
     }
   }
-  p->ask = asked;
+  p->motion = whole;
 }
 
 // Writes where the bodies may go, which are proven free until answer->time.low, and how deep they
 // are in contact at the start. If one may be inside the other, no push-out helps, and they stay.
-static NSVCD__NOINLINE void nsvcd__write_safe_pose(nsvcd__query *query, nsvcd_answer *answer) {
+static NSVCD__NOINLINE void nsvcd__write_safe_pose(nsvcd__query *query, nsvcd__goal goal,
+                                                   int starts_free, nsvcd_answer *answer) {
   const nsvcd__task *task = &query->task;
   const nsvcd__proof *p = query->proof;
   const double t = (double)answer->safe.time;
@@ -18957,22 +19008,23 @@ static NSVCD__NOINLINE void nsvcd__write_safe_pose(nsvcd__query *query, nsvcd_an
   const int is_pushed = nsvcd__d3_dot(push_out, push_out) > 0;
   const int may_go = is_pushed && !p->inside && !p->unclear;
   if (is_pushed && !p->inside) {
-    const double depth = nsvcd__d3_norm(nsvcd__push_out(p, 0, 1));
+    const double depth = nsvcd__d3_norm(nsvcd__push_out(&p->push, 0, 1));
     answer->depth = (float)(depth * (double)task->motion.unit);
-  } else if (!is_pushed && (answer->time.low > 0 || p->starts_free)) {
+  } else if (!is_pushed && (answer->time.low > 0 || starts_free)) {
     answer->depth = 0;
   }
-  if (may_go) push_out = nsvcd__set_down(query, t);
+  if (may_go) push_out = nsvcd__set_down(query, goal, t);
   // nsvcd__answer_begin has set the poses at the ends, as the caller has them.
   if (may_go || (t > 0 && t < 1))
     nsvcd__poses_at(task, t, push_out, &answer->safe.a, &answer->safe.b);
 }
 
 // Writes until when the motion is proven free, and up to which time the bodies may go.
-static void nsvcd__write_time(nsvcd__proof *p, nsvcd_answer *answer) {
-  const nsvcd__motion *motion = p->ask.motion;
+static void nsvcd__write_time(nsvcd__proof *p, const nsvcd__search_result *result,
+                              nsvcd_answer *answer) {
+  const nsvcd__motion *motion = p->motion;
   const double ticks = (double)motion->ticks;
-  const double until = fmin(fmax(nsvcd__clear_until(p) / ticks, 0), 1);
+  const double until = fmin(fmax(nsvcd__clear_until(p, result) / ticks, 0), 1);
   const double late = (double)answer->time.high - until;
   answer->time.low = (float)(until * (1 - 1e-7));
   if (late > p->given.fraction * 1.0001 + 1e-6) answer->why = NSVCD_WHY_WORK;
@@ -18985,68 +19037,91 @@ static void nsvcd__write_time(nsvcd__proof *p, nsvcd_answer *answer) {
   answer->safe.time = (float)(fmax(0, until - back) * (1 - 1e-7));
 }
 
+// Writes the bracket of the least distance.
+static void nsvcd__write_distance(const nsvcd__proof *p, nsvcd_verdict verdict,
+                                  const nsvcd__bracket *bracket,
+                                  const nsvcd__search_result *named, nsvcd_answer *answer) {
+  const double unit = (double)p->motion->unit;
+  const double radius = p->given.radius;
+  const double off = nsvcd__off_meshes(p) + 1e-12 * (double)p->given.lengths;
+  double low = bracket->low;
+  double high = bracket->high;
+  if (verdict == NSVCD_FREE) low = fmax(p->given.clearance, low);
+  if (named) high = fmax(named->found.distance, radius) + off;
+  answer->distance.low = (float)(fmax(low - radius, 0) * unit * (1 - 1e-6));
+  answer->distance.high = (float)(fmax(high - radius, 0) * unit * (1 + 1e-6));
+}
+
+// Why not all is answered; `why` unless there is a better reason. Neither work nor finer triangles
+// would tell what is in an open solid.
+static nsvcd_why nsvcd__why_of(const nsvcd__proof *p, nsvcd_why why, int is_wide,
+                               nsvcd_verdict verdict, const nsvcd__search_result *result) {
+  const int is_too_near =
+      result->unresolved < NSVCD__NEVER || p->unclear == NSVCD__CANNOT_TELL;
+  if (is_wide || verdict == NSVCD_UNDECIDED) why = NSVCD_WHY_WORK;
+  if (why && p->in_open) return NSVCD_WHY_OPEN;
+  return why && !is_wide && is_too_near ? NSVCD_WHY_TOO_NEAR : why;
+}
+
+// Writes the push-out in the world, at the start.
+static void nsvcd__write_push_out(const nsvcd__motion *motion, nsvcd_answer *answer) {
+  const nsvcd__d3 push_out = nsvcd__d3_widen(motion->push_out);
+  if (!(nsvcd__d3_dot(push_out, push_out) > 0)) return;
+  const nsvcd__dtransform world = nsvcd__world_at(motion, 0);
+  const nsvcd__d3 turned = nsvcd__dmat3_apply(&world.rotation, push_out);
+  const nsvcd__d3 metres = nsvcd__d3_scale(turned, (double)motion->unit);
+  nsvcd__f3_store(nsvcd__f3_round(metres), answer->push_out);
+}
+
 // Answers a question whose motion has been prepared.
 static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   const nsvcd__task *task = &query->task;
-  const nsvcd_question *q = task->question;
-  const double unit = (double)task->motion.unit;
   nsvcd__search *search = &query->broad_phase;
   nsvcd__proof *p = query->proof;
-  nsvcd__proof_begin(query);
-  if (p->given.slop > 0) nsvcd__push_out_motion(p, search);
-  nsvcd__finding verdict = nsvcd__prove(p, search);
-  if (p->given.width > 0 && verdict != NSVCD__FOUND_INSIDE) {
-    nsvcd__measure(p, search, verdict, p->given.width);
+  const nsvcd__goal goal = nsvcd__proof_begin(query);
+  const nsvcd__given *given = &p->given;
+  nsvcd__bracket bracket = {0, HUGE_VAL, 0};
+  nsvcd__search_result result;
+  if (given->slop > 0) nsvcd__push_out_motion(p, search, goal);
+  nsvcd__finding finding = nsvcd__prove(p, search, goal, &result);
+  if (given->width > 0 && finding != NSVCD__FOUND_INSIDE) {
+    bracket = nsvcd__measure(p, search, goal, finding, &result);
     // A distance decides what was left undecided, but says nothing of containment.
-    const int meets = p->known.has_contact && p->known.found.distance <= p->given.clearance;
-    const int is_clear =
-        p->low > 0 && p->low >= p->given.clearance && !p->unclear && !p->inside;
-    if (verdict == NSVCD__FOUND_UNDECIDED && (meets || is_clear))
-      verdict = meets ? NSVCD__FOUND_CONTACT : NSVCD__FOUND_FREE;
+    const int meets = result.has_contact && result.found.distance <= given->clearance;
+    const int is_beyond = bracket.low > 0 && bracket.low >= given->clearance;
+    const int is_clear = is_beyond && !p->unclear && !p->inside;
+    if (finding == NSVCD__FOUND_UNDECIDED && (meets || is_clear))
+      finding = meets ? NSVCD__FOUND_CONTACT : NSVCD__FOUND_FREE;
   }
 
   // The answer names the triangles of a contact, or else of an unresolved pair.
-  const int is_free = verdict == NSVCD__FOUND_FREE;
-  const int is_inside = verdict == NSVCD__FOUND_INSIDE;
-  const int is_contact = verdict == NSVCD__FOUND_CONTACT;
-  const int has_unresolved = p->known.unresolved < NSVCD__NEVER;
-  const int names =
-      p->known.has_contact || (verdict == NSVCD__FOUND_UNDECIDED && has_unresolved);
-  if (names && !is_inside) nsvcd__resolve_normal(p);
-  const nsvcd_verdict if_not_free = is_inside || is_contact ? NSVCD_HIT : NSVCD_UNDECIDED;
-  nsvcd__answer_begin(task, is_free ? NSVCD_FREE : if_not_free, answer);
+  const int is_inside = finding == NSVCD__FOUND_INSIDE;
+  const int is_contact = finding == NSVCD__FOUND_CONTACT;
+  const int is_unresolved =
+      finding == NSVCD__FOUND_UNDECIDED && result.unresolved < NSVCD__NEVER;
+  const int names = (result.has_contact || is_unresolved) && !is_inside;
+  const nsvcd_verdict verdict = finding == NSVCD__FOUND_FREE ? NSVCD_FREE
+                                : is_inside || is_contact    ? NSVCD_HIT
+                                                             : NSVCD_UNDECIDED;
+  if (names) nsvcd__resolve_normal(p, &result);
+  nsvcd__answer_begin(task, verdict, answer);
   answer->inside = is_inside;
-  if (names || is_inside) nsvcd__write_contact(query, &p->known.found, &answer->nearest);
+  if (names || is_inside) nsvcd__write_contact(query, &result.found, &answer->nearest);
   if (is_inside) answer->nearest.gap = HUGE_VALF;
-  if (is_inside || is_contact) answer->time.high = answer->nearest.time;
+  if (verdict == NSVCD_HIT) answer->time.high = answer->nearest.time;
   if (is_contact) answer->contacts[answer->contact_count++] = answer->nearest;
-  if (p->given.fraction > 0 && !is_free && !is_inside) nsvcd__write_time(p, answer);
-
-  const double radius = p->given.radius;
-  const double low = is_free ? fmax(p->given.clearance, p->low) : p->low;
-  double high = names ? p->known.found.distance : p->high;
+  if (given->fraction > 0 && verdict != NSVCD_FREE && !is_inside)
+    nsvcd__write_time(p, &result, answer);
+  nsvcd__write_distance(p, verdict, &bracket, names ? &result : NULL, answer);
+  if (is_inside) answer->distance.high = 0;
   // A contact, found or moved to where it is nearer, may have made the bracket narrow enough.
-  p->wide = p->wide && high - p->low > p->given.width;
-  const double off = nsvcd__off_meshes(p) + 1e-12 * (double)p->given.lengths;
-  if (names) high = fmax(high, radius) + off;
-  answer->distance.low = (float)(fmax(low - radius, 0) * unit * (1 - 1e-6));
-  answer->distance.high = is_inside ? 0 : (float)(fmax(high - radius, 0) * unit * (1 + 1e-6));
-
-  // Why not all is answered. Neither work nor finer triangles would tell what is in an open solid.
-  if (p->wide || answer->verdict == NSVCD_UNDECIDED) answer->why = NSVCD_WHY_WORK;
-  if (answer->why && !p->wide && (has_unresolved || p->unclear == NSVCD__CANNOT_TELL))
-    answer->why = NSVCD_WHY_TOO_NEAR;
-  if (answer->why && p->in_open) answer->why = NSVCD_WHY_OPEN;
-
-  // The push-out in the world, at the start.
-  const nsvcd__d3 push_out = nsvcd__d3_widen(task->motion.push_out);
-  if (nsvcd__d3_dot(push_out, push_out) > 0) {
-    const nsvcd__dtransform world = nsvcd__world_at(&task->motion, 0);
-    const nsvcd__d3 turned = nsvcd__dmat3_apply(&world.rotation, push_out);
-    nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_scale(turned, unit)), answer->push_out);
-  }
-  if (q->manifold && is_contact) nsvcd__write_manifold(query, answer);
-  nsvcd__write_safe_pose(query, answer);
+  const double high = names ? result.found.distance : bracket.high;
+  const int is_wide = bracket.is_wide && high - bracket.low > given->width;
+  answer->why = nsvcd__why_of(p, answer->why, is_wide, verdict, &result);
+  nsvcd__write_push_out(&task->motion, answer);
+  if (task->question->manifold && is_contact)
+    nsvcd__write_manifold(query, goal, &result.found, answer);
+  nsvcd__write_safe_pose(query, goal, result.starts_free, answer);
   answer->work = p->work;
 }
 #endif  // NSVCD_NO_PROOF

@@ -73,15 +73,15 @@ static void proof_may_lose(nsvcd__proof *p) {
 
 // The time of a tick, t in [0,1].
 static double proof_time(const nsvcd__proof *p, double tick) {
-  const nsvcd__motion *m = p->ask.motion;
+  const nsvcd__motion *m = p->motion;
   return m->begin + m->duration * tick / (double)m->ticks;
 }
 static double proof_time_in_arc(const nsvcd__proof *p, double u) {
   return proof_time(p, (double)p->arc.first + u * (double)p->arc.ticks);
 }
-#define nsvcd__segment_interval(p, q, s)                                        \
-  (heard.start = proof_time(p, (double)(q)->begin[s]),                          \
-   heard.end = proof_time(p, fmin((double)(q)->begin[(s) + 1u], (p)->ask.end)), \
+#define nsvcd__segment_interval(p, q, s)                                          \
+  (heard.start = proof_time(p, (double)(q)->begin[s]),                            \
+   heard.end = proof_time(p, fmin((double)(q)->begin[(s) + 1u], (p)->known.end)), \
    nsvcd__segment_interval(p, q, s))
 #define nsvcd__interval_of_arc(p, first, u0, u1)                                             \
   (proof_may_lose(p), (void)nsvcd__arc_at(p, first), heard.start = proof_time_in_arc(p, u0), \

@@ -390,14 +390,15 @@ static void long_open_intervals_stay(void) {
     nsvcd_question q = long_question(bodies, 1000, 0, 0, 0);
     if (trial % 2) q.ask = NSVCD_ASK_FIRST;
     nsvcd__query *query = nsvcd__query_open(&nsvcd__table, &q, workspace);
-    nsvcd__proof_begin(query);
+    nsvcd__search_result result;
+    nsvcd__goal goal = nsvcd__proof_begin(query);
     nsvcd__proof *p = query->proof;
-    p->given.work = p->ask.limit = p->ask.most = units;
+    p->given.work = goal.limit = goal.most = units;
     p->given.reserve = units / NSVCD__AFTER_UNRESOLVED;
-    const nsvcd__finding verdict = nsvcd__prove(p, &query->broad_phase);
+    const nsvcd__finding verdict = nsvcd__prove(p, &query->broad_phase, goal, &result);
     CHECK_EQ(verdict, trial / 2 ? NSVCD__FOUND_CONTACT : NSVCD__FOUND_UNDECIDED);
-    CHECK_LE(nsvcd__clear_until(p), 0.2 * (double)p->ask.motion->ticks);
-    if (trial / 2) CHECK_GE(p->known.found.tick, 0.99 * (double)p->ask.motion->ticks);
+    CHECK_LE(nsvcd__clear_until(p, &result), 0.2 * (double)goal.motion->ticks);
+    if (trial / 2) CHECK_GE(result.found.tick, 0.99 * (double)goal.motion->ticks);
     CHECK_LE((double)p->work, 64 * 200);
   }
   for (int n = 0; n < 2; n++) nsvcd_body_free(bodies[n], NULL);

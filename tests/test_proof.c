@@ -1012,8 +1012,8 @@ static nsvcd__interval proof_segment(nsvcd__motion *motion, const nsvcd__search 
   static nsvcd__proof proof;
   static nsvcd__interval spans[NSVCD__MAX_SEGMENTS];
   proof.intervals = spans;
-  proof.ask.motion = motion;
-  proof.ask.end = HUGE_VAL;
+  proof.motion = motion;
+  proof.known.end = HUGE_VAL;
   proof.memo.intervals = 0;
   return *nsvcd__segment_interval(&proof, work, s);
 }
@@ -1024,16 +1024,16 @@ static nsvcd__interval proof_any_clip(shapes_rng *rng, nsvcd__motion *motion, ns
   static nsvcd__interval spans[NSVCD__MAX_SEGMENTS];
   size_t s = 0;
   proof.intervals = spans;
-  proof.ask.motion = motion;
+  proof.motion = motion;
   proof.arc.ticks = 0;
   proof.clipped = proof.memo.intervals = 0;
   proof.memo.plane = 0;
   proof.clipped_end = HUGE_VAL;
   for (int k = 0; k < 3; k++) {  // more than once: what is allowed doubles only once
-    proof.ask.end = shapes_uniform(rng, 0, 1) * fmin(proof.clipped_end, (double)motion->ticks);
+    proof.known.end = shapes_uniform(rng, 0, 1) * fmin(proof.clipped_end, (double)motion->ticks);
     nsvcd__clip_segment(&proof, work);
   }
-  while (s + 1 < work->segments && (double)work->begin[s + 1] <= proof.ask.end) s++;
+  while (s + 1 < work->segments && (double)work->begin[s + 1] <= proof.known.end) s++;
   return *nsvcd__segment_interval(&proof, work, s);
 }
 
@@ -1041,7 +1041,7 @@ static nsvcd__interval proof_any_clip(shapes_rng *rng, nsvcd__motion *motion, ns
 static nsvcd__interval proof_any_arc(shapes_rng *rng, nsvcd__motion *motion, float lengths) {
   static nsvcd__proof proof;
   double u;
-  proof.ask.motion = motion;
+  proof.motion = motion;
   proof.given.lengths = lengths;
   proof.arc.ticks = 0;
   const uint32_t first =
@@ -1300,7 +1300,7 @@ static double proof_arc_use(const proof_motion *m, nsvcd__motion *motion, shapes
   static nsvcd__proof proof;
   nsvcd__triangle_pair pair;
   double fraction, ends[3][3], n[3], x[3];
-  proof.ask.motion = motion;
+  proof.motion = motion;
   proof.arc.ticks = 0;
   const uint32_t first =
       nsvcd__arc_of(motion, shapes_uniform(rng, 0, 1) * (double)motion->ticks, &fraction);

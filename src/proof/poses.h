@@ -34,7 +34,7 @@ static nsvcd__slerp nsvcd__slerp_in(const nsvcd__track *track, uint32_t first, u
 
 // The arc that begins at the keyframe `first`.
 static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
-  const nsvcd__motion *m = p->ask.motion;
+  const nsvcd__motion *m = p->motion;
   nsvcd__arc *arc = &p->arc;
   const uint32_t ticks = nsvcd__next_keyframe(m, first) - first;
   if (arc->first == first && arc->ticks == ticks) return arc;

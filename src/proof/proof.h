@@ -340,18 +340,21 @@ typedef struct nsvcd__given {
   int grows;
 } nsvcd__given;
 
-// The question at a time, of a motion. A contact is two triangles within the clearance. A search
-// only ever shrinks the question: with `measure` each contact lowers the clearance to the distance
-// of its triangles less this; with `first` each ends the motion so many ticks before it. So what
-// has been proven holds for what is left.
-typedef struct nsvcd__asked {
+// What one search is asked. A value: the search narrows a copy of its own, and only ever shrinks
+// it, so that what has been proven holds for what is left. A contact is two triangles within the
+// clearance.
+typedef struct nsvcd__goal {
   nsvcd__motion *motion;
   // ticks: what begins then or later does not matter
   double end;
   // the first unresolved pair ends the search, too
   int unresolved_ends;
-  double clearance, measure;
-  // the resolution of the first contact: a fraction of the motion, and in ticks
+  double clearance;
+  // DISTANCE: each contact lowers the clearance to the distance of its triangles less `measure`, 0:
+  // not asked for; and the bracket of the least distance as it is known
+  double measure, low, high;
+  // FIRST: each contact ends the motion so much before it: a fraction of the motion, and in ticks;
+  // 0: not asked for
   double fraction, first;
   // budgets: of this search, of all, and after an unresolved pair
   size_t limit, most, after_unresolved;
@@ -360,7 +363,7 @@ typedef struct nsvcd__asked {
   nsvcd__collecting collects;
   // how deep a contact may be that is undone
   double slop;
-} nsvcd__asked;
+} nsvcd__goal;
 
 // Why it could not be told what is inside of what: the rays do not tell, or the budget ended first.
 typedef enum nsvcd__unclear {
@@ -369,17 +372,22 @@ typedef enum nsvcd__unclear {
   NSVCD__NOT_ASKED
 } nsvcd__unclear;
 
-// What is known of a motion.
-typedef struct nsvcd__known {
+// What a search has proven of a motion.
+typedef struct nsvcd__search_result {
+  nsvcd__outcome outcome;
   int has_contact;
   nsvcd__pair_contact found;
   // the tick at which the first unresolved pair begins (two triangles too near to tell); the pair
   double unresolved;
   nsvcd__pair_contact unresolved_pair;
-  // the budget was exhausted: all from the tick `resolved` on is undecided
+  // the budget was exhausted: all from the tick `proven_until` on is undecided
   int ran_out;
-  double resolved;
-} nsvcd__known;
+  double proven_until;
+  // the goal's end and clearance, as the search has narrowed them
+  double end, clearance;
+  // FIRST: nothing of the motion is proven free but its start
+  int starts_free;
+} nsvcd__search_result;
 
 // What is only remembered. It may be forgotten between patch pairs and between parts of one: what
 // is proven is as true then, and only the work may differ. All zeros: nothing is remembered.
@@ -403,33 +411,10 @@ typedef struct nsvcd__memo {
   int has_block;
 } nsvcd__memo;
 
-typedef struct nsvcd__proof {
-  const struct nsvcd__kernels *kernels;
-  nsvcd__geometry moving, fixed;
-  nsvcd__given given;
-  nsvcd__asked ask;
-  nsvcd__known known;
-  nsvcd__memo memo;
-  // The last one asked for, if it has ticks. Patch pairs and triangle pairs are resolved in it.
-  nsvcd__arc arc;
-  size_t work;
-  // bounds of the least distance
-  double low, high;
-
-  // Containment at the start. inside: a component seems to be inside the other body, but close to
-  // its surface; enclosed: a point of it, in the fixed body's frame; unclear: it could not be told,
-  int inside;
-  nsvcd__d3 enclosed;
-  nsvcd__unclear unclear;
-  // since the other is nearly a solid, but not closed
-  int in_open;
-  // the budget did not suffice for the resolution of the least distance
-  int wide;
-  // FIRST: nothing of the motion is proven free but its start
-  int starts_free;
-
-  // With a slop: collected contacts that no known normal undoes; normals, unit, of what the moving
-  // body touches, towards it.
+// With a slop: what the moving body touches at the start, and how that is undone.
+typedef struct nsvcd__push_outs {
+  // collected contacts that no known normal undoes; normals, unit, of what the moving body touches,
+  // towards it
   size_t contact_count, normal_count;
   // One contact cannot be undone. Of directions that undo as many, the one with more faces is
   // chosen, not the one with the shorter push-out.
@@ -438,6 +423,31 @@ typedef struct nsvcd__proof {
   // the depth of contact along each; and how far a plane normal to one is to be pushed out
   double depths[NSVCD__PUSH_OUTS];
   double needed;
+  double slop;  // that was undone
+} nsvcd__push_outs;
+
+typedef struct nsvcd__proof {
+  const struct nsvcd__kernels *kernels;
+  nsvcd__geometry moving, fixed;
+  nsvcd__given given;
+  // of the search now or the last one: whose arcs are asked for, what is asked, what is known
+  nsvcd__motion *motion;
+  nsvcd__goal goal;
+  nsvcd__search_result known;
+  nsvcd__memo memo;
+  // The last one asked for, if it has ticks. Patch pairs and triangle pairs are resolved in it.
+  nsvcd__arc arc;
+  size_t work;
+
+  // Containment at the start. inside: a component seems to be inside the other body, but close to
+  // its surface; enclosed: a point of it, in the fixed body's frame; unclear: it could not be told,
+  int inside;
+  nsvcd__d3 enclosed;
+  nsvcd__unclear unclear;
+  // since the other is nearly a solid, but not closed
+  int in_open;
+
+  nsvcd__push_outs push;
 
   // Segments as intervals (S), where the memo says so. Those that have been clipped, and the end,
   // ticks, at which the last one was.
@@ -490,45 +500,46 @@ static void nsvcd__forget(nsvcd__memo *memo) {
 }
 
 // The limit that allows so many units more, but never more than the question has left.
-static size_t nsvcd__limit_after(const nsvcd__proof *p, size_t units) {
-  const size_t left = p->work < p->ask.most ? p->ask.most - p->work : 0;
-  return left > units ? p->work + units : p->ask.most;
+static size_t nsvcd__limit_after(const nsvcd__proof *p, const nsvcd__goal *goal,
+                                 size_t units) {
+  const size_t left = p->work < goal->most ? goal->most - p->work : 0;
+  return left > units ? p->work + units : goal->most;
 }
 
 // The limit of the search for the first contact; the rest is for what is proven part by part.
-static size_t nsvcd__limit_of_first(const nsvcd__proof *p) {
-  return p->ask.most - p->given.reserve;
+static size_t nsvcd__limit_of_first(const nsvcd__given *given, const nsvcd__goal *goal) {
+  return goal->most - given->reserve;
 }
 
 // Is the budget exhausted? FIRST looks for contacts after its first unresolved pair with a small
 // budget. When that is exhausted, the pair becomes the end of the motion, here, and the search goes
 // on with the rest of the budget for what lies before the pair.
 static int nsvcd__check_budget(nsvcd__proof *p) {
-  nsvcd__asked *ask = &p->ask;
-  if (p->work > ask->limit && ask->first > 0 && !ask->is_brief && !ask->unresolved_ends &&
+  nsvcd__goal *goal = &p->goal;
+  if (p->work > goal->limit && goal->first > 0 && !goal->is_brief && !goal->unresolved_ends &&
       p->known.unresolved < NSVCD__NEVER) {
-    ask->unresolved_ends = 1;
-    ask->end = nsvcd__min(ask->end, p->known.unresolved);
+    goal->unresolved_ends = 1;
+    p->known.end = nsvcd__min(p->known.end, p->known.unresolved);
     const size_t left = (NSVCD__AFTER_UNRESOLVED - 1) * p->given.reserve;
-    ask->limit = nsvcd__limit_of_first(p);
-    if (p->work + left < ask->limit) ask->limit = p->work + left;
+    goal->limit = nsvcd__limit_of_first(&p->given, goal);
+    if (p->work + left < goal->limit) goal->limit = p->work + left;
   }
-  return p->work > ask->limit;
+  return p->work > goal->limit;
 }
 
 // The clearance in float, rounded up.
-static float nsvcd__clearance(const nsvcd__proof *p) {
-  return 1.000001f * (float)p->ask.clearance;
+static float nsvcd__clearance(const nsvcd__goal *goal) {
+  return 1.000001f * (float)goal->clearance;
 }
 
 // How far triangles may be off the meshes', both together.
 static double nsvcd__off_meshes(const nsvcd__proof *p) {
   const double moving = (double)nsvcd__off_mesh(&p->moving);
-  return p->ask.motion->ratio * moving + (double)nsvcd__off_mesh(&p->fixed);
+  return p->motion->ratio * moving + (double)nsvcd__off_mesh(&p->fixed);
 }
 
 // The sum of two patches' quantization errors.
 static float nsvcd__errors_of(const nsvcd__proof *p, size_t i, size_t j) {
-  return p->ask.motion->scale * p->moving.errors[i] + p->fixed.errors[j];
+  return p->motion->scale * p->moving.errors[i] + p->fixed.errors[j];
 }
 #endif  // NSVCD_NO_PROOF

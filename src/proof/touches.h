@@ -18,8 +18,8 @@ static double nsvcd__depth_along(nsvcd__d3 n, const nsvcd__triangle_contact *t) 
 // Is a touch too deep for the slop in every direction? Those to try are the separating axes: a
 // normal of either triangle, or across an edge of each.
 static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__triangle_contact *t) {
-  const nsvcd__d3 push_out = nsvcd__d3_widen(p->ask.motion->push_out);
-  const double most = p->ask.slop - p->given.clearance;
+  const nsvcd__d3 push_out = nsvcd__d3_widen(p->motion->push_out);
+  const double most = p->goal.slop - p->given.clearance;
   for (size_t k = 0; k < 12; k++) {
     nsvcd__d3 n = k < 3 ? t->directions[k] : nsvcd__across_edges(t->moving, t->fixed, k - 3);
     if (!(nsvcd__d3_dot(n, n) > 0.5)) continue;
@@ -38,9 +38,9 @@ static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__triangle_contact *
 static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n,
                          const nsvcd__triangle_contact *t) {
   const double more = nsvcd__depth_along(n, t);
-  const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->push_out), n);
+  const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->motion->push_out), n);
   if (!(nsvcd__d3_dot(n, n) > 0.5)) return 0;
-  if (pushed_out + more + p->given.clearance > p->ask.slop) return 0;
+  if (pushed_out + more + p->given.clearance > p->goal.slop) return 0;
   if (more < 0) return 1;
   return nsvcd__d3_dot(n, t->directions[0]) > -0.3 ||
          nsvcd__d3_dot(n, t->directions[1]) > -0.3;
@@ -90,19 +90,19 @@ static NSVCD__NOINLINE double nsvcd__exit_depth(const nsvcd__triangle_contact *t
 
 // Notes how deep a touch is along normal k.
 static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__triangle_contact *t) {
-  const nsvcd__d3 n = p->normals[k];
-  const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->push_out), n);
+  const nsvcd__d3 n = p->push.normals[k];
+  const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->motion->push_out), n);
   const double most = nsvcd__depth_along(n, t) + p->given.clearance;
-  p->needed = nsvcd__max(p->needed, pushed_out + most);
-  if (!(most > 0) || !(pushed_out + most > p->depths[k])) return;
+  p->push.needed = nsvcd__max(p->push.needed, pushed_out + most);
+  if (!(most > 0) || !(pushed_out + most > p->push.depths[k])) return;
   const double epsilon = nsvcd__off_meshes(p) + NSVCD__TOO_NEAR * (double)p->given.lengths;
   const double depth = pushed_out + nsvcd__exit_depth(t, n, p->given.clearance, most, epsilon);
-  p->depths[k] = nsvcd__max(p->depths[k], depth);
+  p->push.depths[k] = nsvcd__max(p->push.depths[k], depth);
 }
 
 // Does normal k undo a touch? Then its depth is noted.
 static int nsvcd__undone_by(nsvcd__proof *p, size_t k, const nsvcd__triangle_contact *t) {
-  if (!nsvcd__undoes(p, p->normals[k], t)) return 0;
+  if (!nsvcd__undoes(p, p->push.normals[k], t)) return 0;
   nsvcd__note_depth(p, k, t);
   return 1;
 }
@@ -120,10 +120,10 @@ static void nsvcd__collect_contact(nsvcd__proof *p, const nsvcd__triangle_pair *
   contact.directions[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
   contact.directions[1] = nsvcd__face_direction(pair->fixed);
   contact.directions[2] = nsvcd__d3_scale(distance, are_apart ? 1 / sqrt(nearest.square) : 0);
-  for (size_t k = 0; k < p->normal_count; k++) {
+  for (size_t k = 0; k < p->push.normal_count; k++) {
     if (nsvcd__undone_by(p, k, &contact)) return;
   }
-  p->too_deep = p->too_deep || nsvcd__is_deep(p, &contact);
-  if (p->contact_count < NSVCD__TOUCHES) p->of.touches[p->contact_count++] = contact;
+  p->push.too_deep = p->push.too_deep || nsvcd__is_deep(p, &contact);
+  if (p->push.contact_count < NSVCD__TOUCHES) p->of.touches[p->push.contact_count++] = contact;
 }
 #endif  // NSVCD_NO_PROOF

@@ -100,14 +100,14 @@ static nsvcd__outcome nsvcd__take_contact(nsvcd__proof *p, const nsvcd__triangle
                                           double u, const nsvcd__nearest *nearest) {
   p->known.has_contact = 1;
   p->known.found = nsvcd__contact_at(p, pair, u, nearest);
-  if (p->ask.measure > 0) {
-    p->high = p->known.found.distance;
-    p->ask.clearance = nsvcd__max(p->low, p->high - p->ask.measure);
-    return p->ask.clearance > p->low ? NSVCD__SHRUNK : NSVCD__ANSWERED;
+  if (p->goal.measure > 0) {
+    p->goal.high = p->known.found.distance;
+    p->goal.clearance = nsvcd__max(p->goal.low, p->goal.high - p->goal.measure);
+    return p->goal.clearance > p->goal.low ? NSVCD__SHRUNK : NSVCD__ANSWERED;
   }
-  if (p->ask.first > 0) {
-    p->ask.end = p->known.found.tick - p->ask.first;
-    return p->ask.end > 0 ? NSVCD__SHRUNK : NSVCD__ANSWERED;
+  if (p->goal.first > 0) {
+    p->known.end = p->known.found.tick - p->goal.first;
+    return p->known.end > 0 ? NSVCD__SHRUNK : NSVCD__ANSWERED;
   }
   return NSVCD__ANSWERED;
 }
@@ -118,20 +118,20 @@ static NSVCD__NOINLINE void nsvcd__keep_unresolved(nsvcd__proof *p,
                                                    double u1) {
   const double tick = (double)p->arc.first + u0 * (double)p->arc.ticks;
   const double middle = 0.5 * (u0 + u1);
-  const size_t left = p->ask.after_unresolved;
+  const size_t left = p->goal.after_unresolved;
   // a brief first attempt has no budget to save
-  const int is_first = !(p->known.unresolved < NSVCD__NEVER) && !p->ask.is_brief;
-  if (is_first && p->work + left < p->ask.limit) p->ask.limit = p->work + left;
+  const int is_first = !(p->known.unresolved < NSVCD__NEVER) && !p->goal.is_brief;
+  if (is_first && p->work + left < p->goal.limit) p->goal.limit = p->work + left;
   if (!(tick < p->known.unresolved)) return;
   const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
   p->known.unresolved_pair = nsvcd__contact_at(p, pair, middle, &nearest);
   p->known.unresolved = tick;
-  if (p->ask.unresolved_ends) p->ask.end = nsvcd__min(p->ask.end, tick);
+  if (p->goal.unresolved_ends) p->known.end = nsvcd__min(p->known.end, tick);
 }
 
 // The fraction of the arc from which on nothing matters.
 static double nsvcd__arc_limit(const nsvcd__proof *p) {
-  return (p->ask.end - (double)p->arc.first) / (double)p->arc.ticks;
+  return (p->known.end - (double)p->arc.first) / (double)p->arc.ticks;
 }
 
 // The deviation of a triangle pair's moving triangle along a unit direction n over the whole arc.
@@ -163,7 +163,7 @@ static int nsvcd__plane_separates(nsvcd__proof *p, const nsvcd__triangle_pair *p
   }
   const double off = nsvcd__off_chord_along(&p->arc, pair, normal);
   const double deviation = (u1 - u0) * (u1 - u0) * off;
-  return lowest - highest > p->ask.clearance + pair->margin + deviation;
+  return lowest - highest > p->goal.clearance + pair->margin + deviation;
 }
 
 // Have two heights different signs, clear of 0 by their margins?
@@ -294,7 +294,7 @@ static NSVCD__NOINLINE double nsvcd__aim_plane(nsvcd__proof *p,
   nsvcd__d3 moving[3];
   nsvcd__pose_triangle(nsvcd__arc_pose(p, u), pair->moving, moving);
   double best = nsvcd__beyond(guess, moving, fixed);
-  const double limit = p->ask.clearance + pair->margin;
+  const double limit = p->goal.clearance + pair->margin;
   if (best - limit > 0.5 * (distance - limit)) return best;
   for (size_t k = 0; k < 17; k++) {
     const nsvcd__d3 *of = k % 2 ? fixed : moving;
@@ -316,16 +316,16 @@ static NSVCD__NOINLINE double nsvcd__aim_plane(nsvcd__proof *p,
 static nsvcd__outcome nsvcd__resolve_too_near(nsvcd__proof *p,
                                               const nsvcd__triangle_pair *pair, double u0,
                                               double u1, double when) {
-  if (!(p->ask.measure > 0)) {
+  if (!(p->goal.measure > 0)) {
     nsvcd__keep_unresolved(p, pair, u0, u1);
     return NSVCD__DONE;
   }
   const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, when);
   const double distance = sqrt(nearest.square);
-  if (distance < p->high) (void)nsvcd__take_contact(p, pair, when, &nearest);
+  if (distance < p->goal.high) (void)nsvcd__take_contact(p, pair, when, &nearest);
   const double separated = distance - 2 * pair->close;
-  p->ask.clearance = nsvcd__max(p->low, nsvcd__min(p->ask.clearance, separated));
-  return p->ask.clearance > p->low ? NSVCD__TOO_LONG : NSVCD__ANSWERED;
+  p->goal.clearance = nsvcd__max(p->goal.low, nsvcd__min(p->goal.clearance, separated));
+  return p->goal.clearance > p->goal.low ? NSVCD__TOO_LONG : NSVCD__ANSWERED;
 }
 
 // Resolves a part of the arc that is too short to halve. If the triangle pair has passed, the time
@@ -360,12 +360,12 @@ static nsvcd__outcome nsvcd__take_nearest(nsvcd__proof *p, const nsvcd__triangle
     const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
     const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
     p->work++;
-    if (sqrt(nearest.square) < p->high &&
+    if (sqrt(nearest.square) < p->goal.high &&
         nsvcd__take_contact(p, pair, middle, &nearest) == NSVCD__ANSWERED)
       return NSVCD__ANSWERED;
     const double slope = nsvcd__d3_dot(apart, moved) / sqrt(nearest.square);
     // the distance is nowhere below its tangent
-    if (!(fabs(slope) * (u1 - u0) > p->ask.measure)) break;
+    if (!(fabs(slope) * (u1 - u0) > p->goal.measure)) break;
     if (slope < 0)
       u0 = middle;
     else
@@ -400,11 +400,12 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
     if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
     const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, at);
     const double distance = sqrt(nearest.square);
-    const double above = distance - p->ask.clearance;
+    const double above = distance - p->goal.clearance;
     if (above <= pair->rounding) {
       if (nsvcd__take_contact(p, pair, at, &nearest) == NSVCD__ANSWERED)
         return NSVCD__ANSWERED;
-      if (p->ask.measure > 0 && nsvcd__take_nearest(p, pair, u, end, moved) == NSVCD__ANSWERED)
+      if (p->goal.measure > 0 &&
+          nsvcd__take_nearest(p, pair, u, end, moved) == NSVCD__ANSWERED)
         return NSVCD__ANSWERED;
       shrunk = 1;
       at = u;
@@ -412,7 +413,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
     }
     const double beyond = nsvcd__aim_plane(p, pair, at, &nearest);
     const double fall = -nsvcd__d3_dot(p->memo.separating, moved);
-    const double room = beyond - p->ask.clearance - pair->margin - pair->rounding;
+    const double room = beyond - p->goal.clearance - pair->margin - pair->rounding;
     const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;
     if (u < until && nsvcd__plane_separates(p, pair, u, until)) u = until;
     const int is_short = !(room > 0) || arc->speed * (at - u) <= 0.25 * pair->close;
@@ -451,7 +452,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
     if (!apart) {
       const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
       const double distance = sqrt(nearest.square);
-      if (distance <= p->ask.clearance + pair->rounding) {
+      if (distance <= p->goal.clearance + pair->rounding) {
         if (nsvcd__take_contact(p, pair, middle, &nearest) == NSVCD__ANSWERED)
           return NSVCD__ANSWERED;
         shrunk = 1;

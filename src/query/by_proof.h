@@ -42,7 +42,7 @@ static double nsvcd__travel_in(const nsvcd__proof *p, const nsvcd__arc *arc) {
 // most `fraction`; 0: that is not asked for. Of a short motion it is at most a quarter, so that a
 // contact does not cost all of it, but no less than a safe pose backs off.
 static double nsvcd__fraction_of(nsvcd__proof *p, double to, double fraction) {
-  const nsvcd__motion *motion = p->ask.motion;
+  const nsvcd__motion *motion = p->motion;
   const double most = fraction > 0 ? fraction : 1;
   double fastest = 0;  // per tick
   // The arc known is of the question before.
@@ -57,18 +57,20 @@ static double nsvcd__fraction_of(nsvcd__proof *p, double to, double fraction) {
   return least < most * whole ? least / whole : most;
 }
 
-// Prepares the proof for a question whose motion has been prepared.
-static void nsvcd__proof_begin(nsvcd__query *query) {
+// Prepares the proof for a question whose motion has been prepared. Returns what is asked of all of
+// the motion.
+static nsvcd__goal nsvcd__proof_begin(nsvcd__query *query) {
   const nsvcd__task *task = &query->task;
   const nsvcd_question *q = task->question;
   const double unit = (double)task->motion.unit;
   nsvcd__proof *p = query->proof;
   nsvcd__given *given = &p->given;
+  nsvcd__goal goal;
   memset(given, 0, sizeof *given);
-  memset(&p->ask, 0, sizeof p->ask);
+  memset(&goal, 0, sizeof goal);
   p->kernels = query->kernels;
   p->intervals = query->intervals;
-  p->ask.motion = &query->task.motion;
+  p->motion = goal.motion = &query->task.motion;
   p->moving = nsvcd__geometry_of(nsvcd__triangles_of(task->moving));
   p->fixed = nsvcd__geometry_of(nsvcd__triangles_of(task->fixed));
   given->lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
@@ -76,18 +78,16 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   const double moving_radius = (double)p->moving.counts->convex_radius * task->motion.ratio;
   given->radius = moving_radius + (double)p->fixed.counts->convex_radius;
   given->clearance = (double)q->clearance / unit + given->radius;
-  p->ask.clearance = given->clearance;
+  goal.clearance = given->clearance;
   given->slop = (double)q->slop / unit;
   const int is_verdict = q->ask != NSVCD_ASK_DISTANCE;
   const size_t most = is_verdict ? NSVCD_DEFAULT_VERDICT_WORK : NSVCD_DEFAULT_WORK;
-  given->work = p->ask.limit = p->ask.most = q->work ? q->work : most;
+  given->work = goal.limit = goal.most = q->work ? q->work : most;
   given->reserve = (q->work ? q->work : NSVCD_DEFAULT_WORK) / NSVCD__AFTER_UNRESOLVED;
   given->grows = q->work == 0;
   given->tells = q->ask != NSVCD_ASK_HIT || given->slop > 0;
-  p->work = p->normal_count = 0;
-  p->low = 0;
-  p->high = HUGE_VAL;
-  p->inside = p->in_open = p->wide = p->starts_free = 0;
+  p->work = p->push.normal_count = 0;
+  p->inside = p->in_open = 0;
   p->unclear = NSVCD__CLEAR;
   const double to = nsvcd__to_of(task);
   if (q->ask == NSVCD_ASK_DISTANCE) given->width = to;
@@ -96,8 +96,13 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
     given->to = q->to > 0 ? to : 0;
     given->fraction = nsvcd__fraction_of(p, by_time ? 0 : to, (double)q->to_time);
   }
-  p->ask.fraction = given->fraction;
-  nsvcd__proof_restart(p);
+  goal.end = NSVCD__NEVER;
+  goal.high = HUGE_VAL;
+  goal.fraction = given->fraction;
+  goal.after_unresolved = goal.fraction > 0 ? NSVCD__AFTER_FIRST_UNRESOLVED : given->reserve;
+  p->goal = goal;
+  nsvcd__restart(p, goal.motion);
+  return goal;
 }
 
 // Writes the contact that a proof has found: when, where, and of what. If the bodies were swapped,
@@ -156,7 +161,7 @@ static NSVCD__NOINLINE void nsvcd__poses_at(const nsvcd__task *task, double t,
 // How far the poses of an answer, in float, are off at time t, at most, in the fixed body's units:
 // positions and quaternions are off by 6e-8 of their length.
 static double nsvcd__pose_error(const nsvcd__proof *p, double t) {
-  const nsvcd__motion *motion = p->ask.motion;
+  const nsvcd__motion *motion = p->motion;
   const nsvcd__d3 moving = nsvcd__dpose_at(motion, &motion->moving, t).position;
   const nsvcd__d3 fixed = nsvcd__dpose_at(motion, &motion->fixed, t).position;
   const double positions = nsvcd__d3_norm(moving) + nsvcd__d3_norm(fixed);
@@ -165,12 +170,12 @@ static double nsvcd__pose_error(const nsvcd__proof *p, double t) {
 
 // Sets the bodies down at time t, at which they are free of each other when pushed out as the
 // motion is: to a little more than their depth at the start, or to a little before they are in
-// contact. Returns the push-out left. It is proven to be free, and so is the way down to it. All
-// else that was known of the question is lost.
-static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
+// contact. Returns the push-out left. It is proven to be free, and so is the way down to it.
+static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, nsvcd__goal goal,
+                                                 double t) {
   nsvcd__proof *p = query->proof;
   const nsvcd__task *task = &query->task;
-  nsvcd__motion *whole = p->ask.motion;
+  nsvcd__motion *whole = goal.motion;
   nsvcd__motion down = *whole;
   nsvcd_pose moving[2], fixed[2];
   const int takes_it = nsvcd__takes_push_out(task);
@@ -179,8 +184,8 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) 
   const nsvcd__d3 push_out = nsvcd__d3_widen(whole->push_out);
   // Nearer to each other than stored triangles are known, nothing would be separated.
   const double epsilons = 4 * nsvcd__epsilon(p) + nsvcd__pose_error(p, t);
-  const double kept = fmax(NSVCD__SET_DOWN * p->ask.slop, epsilons);
-  const nsvcd__d3 least = nsvcd__push_out(p, kept, 1);
+  const double kept = fmax(NSVCD__SET_DOWN * p->push.slop, epsilons);
+  const nsvcd__d3 least = nsvcd__push_out(&p->push, kept, 1);
   const nsvcd__d3 by = nsvcd__d3_sub(push_out, least);
   const double length = nsvcd__d3_norm(by);
   if (!(nsvcd__d3_dot(by, push_out) > 0) || !(length > kept)) return push_out;
@@ -188,17 +193,14 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) 
   nsvcd__poses_at(task, t, least, &moving[1], &fixed[1]);
   nsvcd__motion_set_tracks(&down, moves, rests);
   down.push_out = nsvcd__f3_of(0, 0, 0);
-  p->ask.motion = &down;
-  p->ask.fraction = kept / length;
-  p->ask.measure = 0;
-  p->ask.clearance = p->given.clearance;
-  p->ask.limit = p->work + p->given.reserve;
-  (void)nsvcd__prove_anew(p, &query->broad_phase);
-  p->ask.motion = whole;
-  const double until = nsvcd__clear_until(p) / (double)down.ticks;
+  goal.motion = &down;
+  goal.fraction = kept / length;
+  goal.limit = p->work + p->given.reserve;
+  const nsvcd__search_result result = nsvcd__search_anew(p, &query->broad_phase, goal);
+  p->motion = whole;
+  const double until = nsvcd__clear_until(p, &result) / (double)down.ticks;
   // All before an unresolved pair is proven, but a query from close to it might not prove it again.
-  const double clear =
-      p->known.unresolved < p->ask.end ? until - 0.5 * p->ask.fraction : until;
+  const double clear = result.unresolved < result.end ? until - 0.5 * goal.fraction : until;
   return nsvcd__d3_sub(push_out, nsvcd__d3_scale(by, fmin(fmax(clear, 0), 1)));
 }
 
@@ -247,12 +249,12 @@ static NSVCD__NOINLINE int nsvcd__manifold_normals(nsvcd__proof *p,
 
 // Writes the manifold of the contact found. If a body stands on something, that contact may be with
 // a side that rises from it: so the normals of both triangles are tried too, and the manifold that
-// spans the most is taken. All else that was known of the question is lost.
-static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd_answer *answer) {
+// spans the most is taken.
+static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd__goal goal,
+                                                  const nsvcd__pair_contact *found,
+                                                  nsvcd_answer *answer) {
   nsvcd__proof *p = query->proof;
   const nsvcd__task *task = &query->task;
-  const nsvcd__pair_contact found = p->known.found;
-  const nsvcd__asked asked = p->ask;
   const double epsilon = nsvcd__epsilon(p);
   const double same = epsilon + 1e-5 * (double)p->given.lengths;
   const float radius = task->motion.scale * task->moving->radius;
@@ -262,17 +264,18 @@ static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd_ans
   double widest = -1;
   nsvcd_pose poses[2];
   nsvcd__twist twist;
-  int tries = nsvcd__manifold_normals(p, &found, &twist, normals);
+  int tries = nsvcd__manifold_normals(p, found, &twist, normals);
   nsvcd__motion still = nsvcd__rest_at(task, (double)answer->nearest.time, poses);
-  p->ask.motion = &still;
-  p->ask.collects = NSVCD__SUPPORTING;
-  p->ask.clearance = p->given.clearance + fmax(nsvcd__to_of(task), 4 * epsilon);
-  p->ask.limit = p->work + p->given.reserve;
-  (void)nsvcd__prove_anew(p, &query->broad_phase);
+  nsvcd__motion *whole = goal.motion;
+  goal.motion = &still;
+  goal.collects = NSVCD__SUPPORTING;
+  goal.clearance = p->given.clearance + fmax(nsvcd__to_of(task), 4 * epsilon);
+  goal.limit = p->work + p->given.reserve;
+  (void)nsvcd__search_anew(p, &query->broad_phase, goal);
   for (int k = 0; k < tries; k++) {
     int chosen[NSVCD_MAX_CONTACTS];
     double area;
-    nsvcd__manifold_begin(p, normals[k], &twist, p->ask.clearance, same);
+    nsvcd__manifold_begin(p, normals[k], &twist, goal.clearance, same);
     p->kernels->seek_positions(p, 0, NSVCD__AROUND);
     int count = nsvcd__choose_four(m, chosen, &area);
     if (nsvcd__seek_across(&p->of.kept.manifold, area)) {
@@ -285,18 +288,19 @@ static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd_ans
     answer->contact_count = (size_t)count;
     for (int n = 0; n < count; n++) {
       nsvcd__pair_contact support = m->supports[chosen[n]];
-      support.tick = found.tick;
+      support.tick = found->tick;
       nsvcd__write_contact(query, &support, &answer->contacts[n]);
       // The last bit tells which body a corner is of.
       answer->contacts[n].id = m->numbers[chosen[n]] ^ (uint32_t)task->swapped;
     }
   }
-  p->ask = asked;
+  p->motion = whole;
 }
 
 // Writes where the bodies may go, which are proven free until answer->time.low, and how deep they
 // are in contact at the start. If one may be inside the other, no push-out helps, and they stay.
-static NSVCD__NOINLINE void nsvcd__write_safe_pose(nsvcd__query *query, nsvcd_answer *answer) {
+static NSVCD__NOINLINE void nsvcd__write_safe_pose(nsvcd__query *query, nsvcd__goal goal,
+                                                   int starts_free, nsvcd_answer *answer) {
   const nsvcd__task *task = &query->task;
   const nsvcd__proof *p = query->proof;
   const double t = (double)answer->safe.time;
@@ -304,22 +308,23 @@ static NSVCD__NOINLINE void nsvcd__write_safe_pose(nsvcd__query *query, nsvcd_an
   const int is_pushed = nsvcd__d3_dot(push_out, push_out) > 0;
   const int may_go = is_pushed && !p->inside && !p->unclear;
   if (is_pushed && !p->inside) {
-    const double depth = nsvcd__d3_norm(nsvcd__push_out(p, 0, 1));
+    const double depth = nsvcd__d3_norm(nsvcd__push_out(&p->push, 0, 1));
     answer->depth = (float)(depth * (double)task->motion.unit);
-  } else if (!is_pushed && (answer->time.low > 0 || p->starts_free)) {
+  } else if (!is_pushed && (answer->time.low > 0 || starts_free)) {
     answer->depth = 0;
   }
-  if (may_go) push_out = nsvcd__set_down(query, t);
+  if (may_go) push_out = nsvcd__set_down(query, goal, t);
   // nsvcd__answer_begin has set the poses at the ends, as the caller has them.
   if (may_go || (t > 0 && t < 1))
     nsvcd__poses_at(task, t, push_out, &answer->safe.a, &answer->safe.b);
 }
 
 // Writes until when the motion is proven free, and up to which time the bodies may go.
-static void nsvcd__write_time(nsvcd__proof *p, nsvcd_answer *answer) {
-  const nsvcd__motion *motion = p->ask.motion;
+static void nsvcd__write_time(nsvcd__proof *p, const nsvcd__search_result *result,
+                              nsvcd_answer *answer) {
+  const nsvcd__motion *motion = p->motion;
   const double ticks = (double)motion->ticks;
-  const double until = fmin(fmax(nsvcd__clear_until(p) / ticks, 0), 1);
+  const double until = fmin(fmax(nsvcd__clear_until(p, result) / ticks, 0), 1);
   const double late = (double)answer->time.high - until;
   answer->time.low = (float)(until * (1 - 1e-7));
   if (late > p->given.fraction * 1.0001 + 1e-6) answer->why = NSVCD_WHY_WORK;
@@ -332,68 +337,91 @@ static void nsvcd__write_time(nsvcd__proof *p, nsvcd_answer *answer) {
   answer->safe.time = (float)(fmax(0, until - back) * (1 - 1e-7));
 }
 
+// Writes the bracket of the least distance.
+static void nsvcd__write_distance(const nsvcd__proof *p, nsvcd_verdict verdict,
+                                  const nsvcd__bracket *bracket,
+                                  const nsvcd__search_result *named, nsvcd_answer *answer) {
+  const double unit = (double)p->motion->unit;
+  const double radius = p->given.radius;
+  const double off = nsvcd__off_meshes(p) + 1e-12 * (double)p->given.lengths;
+  double low = bracket->low;
+  double high = bracket->high;
+  if (verdict == NSVCD_FREE) low = fmax(p->given.clearance, low);
+  if (named) high = fmax(named->found.distance, radius) + off;
+  answer->distance.low = (float)(fmax(low - radius, 0) * unit * (1 - 1e-6));
+  answer->distance.high = (float)(fmax(high - radius, 0) * unit * (1 + 1e-6));
+}
+
+// Why not all is answered; `why` unless there is a better reason. Neither work nor finer triangles
+// would tell what is in an open solid.
+static nsvcd_why nsvcd__why_of(const nsvcd__proof *p, nsvcd_why why, int is_wide,
+                               nsvcd_verdict verdict, const nsvcd__search_result *result) {
+  const int is_too_near =
+      result->unresolved < NSVCD__NEVER || p->unclear == NSVCD__CANNOT_TELL;
+  if (is_wide || verdict == NSVCD_UNDECIDED) why = NSVCD_WHY_WORK;
+  if (why && p->in_open) return NSVCD_WHY_OPEN;
+  return why && !is_wide && is_too_near ? NSVCD_WHY_TOO_NEAR : why;
+}
+
+// Writes the push-out in the world, at the start.
+static void nsvcd__write_push_out(const nsvcd__motion *motion, nsvcd_answer *answer) {
+  const nsvcd__d3 push_out = nsvcd__d3_widen(motion->push_out);
+  if (!(nsvcd__d3_dot(push_out, push_out) > 0)) return;
+  const nsvcd__dtransform world = nsvcd__world_at(motion, 0);
+  const nsvcd__d3 turned = nsvcd__dmat3_apply(&world.rotation, push_out);
+  const nsvcd__d3 metres = nsvcd__d3_scale(turned, (double)motion->unit);
+  nsvcd__f3_store(nsvcd__f3_round(metres), answer->push_out);
+}
+
 // Answers a question whose motion has been prepared.
 static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   const nsvcd__task *task = &query->task;
-  const nsvcd_question *q = task->question;
-  const double unit = (double)task->motion.unit;
   nsvcd__search *search = &query->broad_phase;
   nsvcd__proof *p = query->proof;
-  nsvcd__proof_begin(query);
-  if (p->given.slop > 0) nsvcd__push_out_motion(p, search);
-  nsvcd__finding verdict = nsvcd__prove(p, search);
-  if (p->given.width > 0 && verdict != NSVCD__FOUND_INSIDE) {
-    nsvcd__measure(p, search, verdict, p->given.width);
+  const nsvcd__goal goal = nsvcd__proof_begin(query);
+  const nsvcd__given *given = &p->given;
+  nsvcd__bracket bracket = {0, HUGE_VAL, 0};
+  nsvcd__search_result result;
+  if (given->slop > 0) nsvcd__push_out_motion(p, search, goal);
+  nsvcd__finding finding = nsvcd__prove(p, search, goal, &result);
+  if (given->width > 0 && finding != NSVCD__FOUND_INSIDE) {
+    bracket = nsvcd__measure(p, search, goal, finding, &result);
     // A distance decides what was left undecided, but says nothing of containment.
-    const int meets = p->known.has_contact && p->known.found.distance <= p->given.clearance;
-    const int is_clear =
-        p->low > 0 && p->low >= p->given.clearance && !p->unclear && !p->inside;
-    if (verdict == NSVCD__FOUND_UNDECIDED && (meets || is_clear))
-      verdict = meets ? NSVCD__FOUND_CONTACT : NSVCD__FOUND_FREE;
+    const int meets = result.has_contact && result.found.distance <= given->clearance;
+    const int is_beyond = bracket.low > 0 && bracket.low >= given->clearance;
+    const int is_clear = is_beyond && !p->unclear && !p->inside;
+    if (finding == NSVCD__FOUND_UNDECIDED && (meets || is_clear))
+      finding = meets ? NSVCD__FOUND_CONTACT : NSVCD__FOUND_FREE;
   }
 
   // The answer names the triangles of a contact, or else of an unresolved pair.
-  const int is_free = verdict == NSVCD__FOUND_FREE;
-  const int is_inside = verdict == NSVCD__FOUND_INSIDE;
-  const int is_contact = verdict == NSVCD__FOUND_CONTACT;
-  const int has_unresolved = p->known.unresolved < NSVCD__NEVER;
-  const int names =
-      p->known.has_contact || (verdict == NSVCD__FOUND_UNDECIDED && has_unresolved);
-  if (names && !is_inside) nsvcd__resolve_normal(p);
-  const nsvcd_verdict if_not_free = is_inside || is_contact ? NSVCD_HIT : NSVCD_UNDECIDED;
-  nsvcd__answer_begin(task, is_free ? NSVCD_FREE : if_not_free, answer);
+  const int is_inside = finding == NSVCD__FOUND_INSIDE;
+  const int is_contact = finding == NSVCD__FOUND_CONTACT;
+  const int is_unresolved =
+      finding == NSVCD__FOUND_UNDECIDED && result.unresolved < NSVCD__NEVER;
+  const int names = (result.has_contact || is_unresolved) && !is_inside;
+  const nsvcd_verdict verdict = finding == NSVCD__FOUND_FREE ? NSVCD_FREE
+                                : is_inside || is_contact    ? NSVCD_HIT
+                                                             : NSVCD_UNDECIDED;
+  if (names) nsvcd__resolve_normal(p, &result);
+  nsvcd__answer_begin(task, verdict, answer);
   answer->inside = is_inside;
-  if (names || is_inside) nsvcd__write_contact(query, &p->known.found, &answer->nearest);
+  if (names || is_inside) nsvcd__write_contact(query, &result.found, &answer->nearest);
   if (is_inside) answer->nearest.gap = HUGE_VALF;
-  if (is_inside || is_contact) answer->time.high = answer->nearest.time;
+  if (verdict == NSVCD_HIT) answer->time.high = answer->nearest.time;
   if (is_contact) answer->contacts[answer->contact_count++] = answer->nearest;
-  if (p->given.fraction > 0 && !is_free && !is_inside) nsvcd__write_time(p, answer);
-
-  const double radius = p->given.radius;
-  const double low = is_free ? fmax(p->given.clearance, p->low) : p->low;
-  double high = names ? p->known.found.distance : p->high;
+  if (given->fraction > 0 && verdict != NSVCD_FREE && !is_inside)
+    nsvcd__write_time(p, &result, answer);
+  nsvcd__write_distance(p, verdict, &bracket, names ? &result : NULL, answer);
+  if (is_inside) answer->distance.high = 0;
   // A contact, found or moved to where it is nearer, may have made the bracket narrow enough.
-  p->wide = p->wide && high - p->low > p->given.width;
-  const double off = nsvcd__off_meshes(p) + 1e-12 * (double)p->given.lengths;
-  if (names) high = fmax(high, radius) + off;
-  answer->distance.low = (float)(fmax(low - radius, 0) * unit * (1 - 1e-6));
-  answer->distance.high = is_inside ? 0 : (float)(fmax(high - radius, 0) * unit * (1 + 1e-6));
-
-  // Why not all is answered. Neither work nor finer triangles would tell what is in an open solid.
-  if (p->wide || answer->verdict == NSVCD_UNDECIDED) answer->why = NSVCD_WHY_WORK;
-  if (answer->why && !p->wide && (has_unresolved || p->unclear == NSVCD__CANNOT_TELL))
-    answer->why = NSVCD_WHY_TOO_NEAR;
-  if (answer->why && p->in_open) answer->why = NSVCD_WHY_OPEN;
-
-  // The push-out in the world, at the start.
-  const nsvcd__d3 push_out = nsvcd__d3_widen(task->motion.push_out);
-  if (nsvcd__d3_dot(push_out, push_out) > 0) {
-    const nsvcd__dtransform world = nsvcd__world_at(&task->motion, 0);
-    const nsvcd__d3 turned = nsvcd__dmat3_apply(&world.rotation, push_out);
-    nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_scale(turned, unit)), answer->push_out);
-  }
-  if (q->manifold && is_contact) nsvcd__write_manifold(query, answer);
-  nsvcd__write_safe_pose(query, answer);
+  const double high = names ? result.found.distance : bracket.high;
+  const int is_wide = bracket.is_wide && high - bracket.low > given->width;
+  answer->why = nsvcd__why_of(p, answer->why, is_wide, verdict, &result);
+  nsvcd__write_push_out(&task->motion, answer);
+  if (task->question->manifold && is_contact)
+    nsvcd__write_manifold(query, goal, &result.found, answer);
+  nsvcd__write_safe_pose(query, goal, result.starts_free, answer);
   answer->work = p->work;
 }
 #endif  // NSVCD_NO_PROOF

@@ -38,17 +38,17 @@ static void nsvcd__try_push_out(const nsvcd__proof *p, nsvcd__d3 n, nsvcd__undoi
   const double same = nsvcd__epsilon(p) + 0.01 * nsvcd__max(best->distance, 0);
   nsvcd__undoing by = {n, 0, 0, -HUGE_VAL};
   if (best->count > 0 && nsvcd__d3_dot(n, best->n) > 0.99999) return;
-  for (size_t k = 0; k < p->contact_count; k++) {
+  for (size_t k = 0; k < p->push.contact_count; k++) {
     const nsvcd__triangle_contact *t = &p->of.touches[k];
-    const size_t left = 2 * (p->contact_count - k);
+    const size_t left = 2 * (p->push.contact_count - k);
     if (by.count + left < best->count) return;
     if (by.count + left == best->count && by.distance > best->distance + same) return;
     if (!nsvcd__undoes(p, n, t)) continue;
     const double distance = nsvcd__depth_along(n, t);
-    by.count += distance < 0 && !p->by_faces && nsvcd__is_against(n, t) ? 1u : 2u;
+    by.count += distance < 0 && !p->push.by_faces && nsvcd__is_against(n, t) ? 1u : 2u;
     by.faces +=
         nsvcd__d3_dot(n, t->directions[0]) > 0.9 || nsvcd__d3_dot(n, t->directions[1]) > 0.9;
-    by.distance = p->by_faces ? 0 : nsvcd__max(by.distance, distance);
+    by.distance = p->push.by_faces ? 0 : nsvcd__max(by.distance, distance);
   }
   if (by.count == 0 || by.count < best->count) return;
   const int is_as_far = by.distance > best->distance - same;
@@ -61,12 +61,12 @@ static void nsvcd__try_push_out(const nsvcd__proof *p, nsvcd__d3 n, nsvcd__undoi
 // 0 if none undoes any touch.
 static nsvcd__undoing nsvcd__best_push_out(const nsvcd__proof *p) {
   nsvcd__undoing best = {{0, 0, 0}, 0, 0, HUGE_VAL};
-  for (size_t k = 0; k < p->contact_count; k++) {
+  for (size_t k = 0; k < p->push.contact_count; k++) {
     for (size_t i = 0; i < 3; i++)
       nsvcd__try_push_out(p, p->of.touches[k].directions[i], &best);
   }
   // an edge on an edge
-  for (size_t k = 0; k < 9 * p->contact_count && best.distance > nsvcd__epsilon(p); k++) {
+  for (size_t k = 0; k < 9 * p->push.contact_count && best.distance > nsvcd__epsilon(p); k++) {
     const nsvcd__triangle_contact *t = &p->of.touches[k / 9];
     const nsvcd__d3 n = nsvcd__across_edges(t->moving, t->fixed, k % 9);
     const nsvcd__d3 out = nsvcd__d3_add(t->directions[0], t->directions[1]);
@@ -78,20 +78,20 @@ static nsvcd__undoing nsvcd__best_push_out(const nsvcd__proof *p) {
 
 // Finds directions that undo all touches. Returns 0 if nothing undoes one, or it takes too many.
 static int nsvcd__choose_push_outs(nsvcd__proof *p) {
-  if (p->too_deep) return 0;
-  while (p->contact_count > 0) {
-    const size_t k = p->normal_count;
+  if (p->push.too_deep) return 0;
+  while (p->push.contact_count > 0) {
+    const size_t k = p->push.normal_count;
     if (k == NSVCD__PUSH_OUTS) return 0;
     const nsvcd__undoing best = nsvcd__best_push_out(p);
     if (best.count == 0) return 0;
-    p->normals[k] = best.n;
-    p->depths[k] = 0;
-    p->normal_count++;
+    p->push.normals[k] = best.n;
+    p->push.depths[k] = 0;
+    p->push.normal_count++;
     size_t left = 0;
-    for (size_t n = 0; n < p->contact_count; n++) {
+    for (size_t n = 0; n < p->push.contact_count; n++) {
       if (!nsvcd__undone_by(p, k, &p->of.touches[n])) p->of.touches[left++] = p->of.touches[n];
     }
-    p->contact_count = left;
+    p->push.contact_count = left;
   }
   return 1;
 }
@@ -99,17 +99,18 @@ static int nsvcd__choose_push_outs(nsvcd__proof *p) {
 // Nearly the shortest vector that has at least `least` along all known normals, plus, with
 // by_depth, the depth along each: projections onto one half space after another (the relaxation
 // method, Agmon 1954). 0 if there is none below four times the longest of these.
-static nsvcd__d3 nsvcd__push_out(const nsvcd__proof *p, double least, int by_depth) {
+static nsvcd__d3 nsvcd__push_out(const nsvcd__push_outs *push, double least, int by_depth) {
   nsvcd__d3 push_out = {0, 0, 0};
   double longest = 0;
   for (size_t round = 0; round < 64; round++) {
     double most = 0;
-    for (size_t k = 0; k < p->normal_count; k++) {
-      const double along = least + (by_depth ? p->depths[k] : 0);
-      const double lacks = along - nsvcd__d3_dot(push_out, p->normals[k]);
+    for (size_t k = 0; k < push->normal_count; k++) {
+      const double along = least + (by_depth ? push->depths[k] : 0);
+      const double lacks = along - nsvcd__d3_dot(push_out, push->normals[k]);
       longest = nsvcd__max(longest, along);
       most = nsvcd__max(most, lacks);
-      if (lacks > 0) push_out = nsvcd__d3_add(push_out, nsvcd__d3_scale(p->normals[k], lacks));
+      if (lacks > 0)
+        push_out = nsvcd__d3_add(push_out, nsvcd__d3_scale(push->normals[k], lacks));
     }
     if (nsvcd__d3_norm(push_out) > 4 * longest) break;
     if (most <= 0.005 * longest) return push_out;
@@ -122,25 +123,28 @@ static nsvcd__d3 nsvcd__push_out(const nsvcd__proof *p, double least, int by_dep
 // neighbours still touch, and there may be too many touches to collect at once: so each push-out is
 // tried. If the directions known have no push-out in common, the first one may be wrong, and is
 // forgotten, once. Returns 0 if there is no push-out.
-static int nsvcd__push_out_still(nsvcd__proof *p, nsvcd__search *q, nsvcd__motion *still) {
-  p->normal_count = 0;
+static int nsvcd__push_out_still(nsvcd__proof *p, nsvcd__search *q, nsvcd__goal goal) {
+  nsvcd__motion *still = goal.motion;
+  p->push.normal_count = 0;
   still->push_out = nsvcd__f3_of(0, 0, 0);
   // Also what is about to touch, or where an earlier motion may have ended, is pushed out of, and
   // may not touch afterwards.
   const double size = (double)p->given.lengths + p->given.radius;
-  const double near_by = nsvcd__min(0.05 * p->ask.slop, 0.02 * size);
-  double beside = nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * p->ask.slop));
-  for (int turns = 0;; beside = 0.01 * p->ask.slop) {
-    p->ask.clearance = p->given.clearance + beside + nsvcd__epsilon(p);
-    (void)nsvcd__prove_anew(p, q);
-    if (p->contact_count == 0) return 1;
-    const size_t known = p->normal_count;
-    if (!nsvcd__choose_push_outs(p) || p->normal_count == known) return 0;
-    nsvcd__d3 push_out = nsvcd__push_out(p, p->ask.slop, 0);
+  const double near_by = nsvcd__min(0.05 * goal.slop, 0.02 * size);
+  double beside = nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * goal.slop));
+  for (int turns = 0;; beside = 0.01 * goal.slop) {
+    goal.clearance = p->given.clearance + beside + nsvcd__epsilon(p);
+    (void)nsvcd__search_anew(p, q, goal);
+    if (p->push.contact_count == 0) return 1;
+    const size_t known = p->push.normal_count;
+    if (!nsvcd__choose_push_outs(p) || p->push.normal_count == known) return 0;
+    nsvcd__d3 push_out = nsvcd__push_out(&p->push, goal.slop, 0);
     if (!(nsvcd__d3_dot(push_out, push_out) > 0) && turns++ == 0) {
-      memmove(p->normals, p->normals + 1, --p->normal_count * sizeof *p->normals);
-      memmove(p->depths, p->depths + 1, p->normal_count * sizeof *p->depths);
-      push_out = nsvcd__push_out(p, p->ask.slop, 0);
+      memmove(p->push.normals, p->push.normals + 1,
+              --p->push.normal_count * sizeof *p->push.normals);
+      memmove(p->push.depths, p->push.depths + 1,
+              p->push.normal_count * sizeof *p->push.depths);
+      push_out = nsvcd__push_out(&p->push, goal.slop, 0);
     }
     if (!(nsvcd__d3_dot(push_out, push_out) > 0)) return 0;
     still->push_out = nsvcd__f3_round(push_out);
@@ -152,31 +156,32 @@ static int nsvcd__push_out_still(nsvcd__proof *p, nsvcd__search *q, nsvcd__motio
 // little more than the known depths, to see what it touches there, until nothing does. Triangles
 // that follow each other, as on a slope, each come free soon: so the little more doubles as long as
 // depths grow.
-static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *q, nsvcd__motion *still) {
+static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *q, nsvcd__goal goal) {
+  nsvcd__motion *still = goal.motion;
   const nsvcd__f3 push_out = still->push_out;
   const double least_more = 0.5 * nsvcd__epsilon(p);
   double more = least_more;
   double before = 0;
-  p->ask.clearance = p->given.clearance;
-  for (size_t k = 0; k < p->normal_count; k++) before += p->depths[k];
+  goal.clearance = p->given.clearance;
+  for (size_t k = 0; k < p->push.normal_count; k++) before += p->push.depths[k];
   for (int round = 0; round < NSVCD__DEEPEN; round++) {
     double after = 0;
-    still->push_out = nsvcd__f3_round(nsvcd__push_out(p, more, 1));
-    (void)nsvcd__prove_anew(p, q);
+    still->push_out = nsvcd__f3_round(nsvcd__push_out(&p->push, more, 1));
+    (void)nsvcd__search_anew(p, q, goal);
     // A touch gets out of the way along the normal that undoes it first, even if no plane normal to
     // that separates it.
-    for (size_t n = 0; n < p->contact_count; n++) {
+    for (size_t n = 0; n < p->push.contact_count; n++) {
       const nsvcd__triangle_contact *t = &p->of.touches[n];
       size_t best = 0;
       double least = HUGE_VAL;
-      for (size_t k = 0; k < p->normal_count; k++) {
-        const double distance = nsvcd__depth_along(p->normals[k], t);
+      for (size_t k = 0; k < p->push.normal_count; k++) {
+        const double distance = nsvcd__depth_along(p->push.normals[k], t);
         if (distance < least) best = k;
         least = nsvcd__min(least, distance);
       }
       nsvcd__note_depth(p, best, t);
     }
-    for (size_t k = 0; k < p->normal_count; k++) after += p->depths[k];
+    for (size_t k = 0; k < p->push.normal_count; k++) after += p->push.depths[k];
     const int is_deeper = after > before;
     if (!is_deeper && more <= nsvcd__max(least_more, 0.002 * after)) break;
     more = is_deeper ? 2 * more : nsvcd__max(least_more, 0.125 * more);
@@ -187,31 +192,30 @@ static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *q, nsvcd__motion *stil
 
 // Pushes the motion out of what it touches at its start, by the slop; or, if something is in the
 // way of that and nothing is too deep, by what is needed.
-static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__proof *p, nsvcd__search *q) {
-  nsvcd__motion *whole = p->ask.motion;
+static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__proof *p, nsvcd__search *q,
+                                                   nsvcd__goal goal) {
+  nsvcd__motion *whole = goal.motion;
   nsvcd__motion start = nsvcd__end_of(whole, 0);
-  p->ask.motion = &start;
-  p->ask.collects = NSVCD__TOUCHING;
-  p->ask.slop = p->given.slop;
-  p->by_faces = 0;
-  p->needed = 0;
-  int is_free = nsvcd__push_out_still(p, q, &start);
-  if (!is_free && !p->too_deep) {
+  goal.motion = &start;
+  goal.collects = NSVCD__TOUCHING;
+  goal.slop = p->given.slop;
+  p->push.by_faces = 0;
+  p->push.needed = 0;
+  int is_free = nsvcd__push_out_still(p, q, goal);
+  if (!is_free && !p->push.too_deep) {
     // The shortest push-outs may not go together.
-    p->by_faces = 1;
-    p->needed = 0;
-    is_free = nsvcd__push_out_still(p, q, &start);
+    p->push.by_faces = 1;
+    p->push.needed = 0;
+    is_free = nsvcd__push_out_still(p, q, goal);
   }
-  const double least = 1.1 * p->needed + 4 * nsvcd__epsilon(p);
-  if (!is_free && p->contact_count == 0 && least < 0.9 * p->given.slop) {
-    p->ask.slop = least;
-    is_free = nsvcd__push_out_still(p, q, &start);
+  const double least = 1.1 * p->push.needed + 4 * nsvcd__epsilon(p);
+  if (!is_free && p->push.contact_count == 0 && least < 0.9 * p->given.slop) {
+    goal.slop = least;
+    is_free = nsvcd__push_out_still(p, q, goal);
   }
-  if (is_free && p->normal_count > 0) nsvcd__deepen(p, q, &start);
-  p->ask.collects = NSVCD__CONTACTS;
-  p->ask.clearance = p->given.clearance;
-  p->ask.motion = whole;
+  if (is_free && p->push.normal_count > 0) nsvcd__deepen(p, q, goal);
+  p->push.slop = goal.slop;
   whole->push_out = is_free ? start.push_out : nsvcd__f3_of(0, 0, 0);
-  nsvcd__proof_restart(p);
+  nsvcd__restart(p, whole);
 }
 #endif  // NSVCD_NO_PROOF

@@ -47,26 +47,25 @@ static void nsvcd__next_interval(nsvcd__motion *m, nsvcd__search *q, uint32_t un
 }
 
 // The surfaces of bodies whose origins stay so far apart come no nearer than this.
-static float nsvcd__surface_gap(const nsvcd__proof *p, float origin_gap) {
-  const float pushed_out = 1.0001f * nsvcd__f3_norm(p->ask.motion->push_out);
-  return origin_gap - p->given.lengths - pushed_out;
+static float nsvcd__surface_gap(const nsvcd__proof *p, const nsvcd__motion *m,
+                                float origin_gap) {
+  return origin_gap - p->given.lengths - 1.0001f * nsvcd__f3_norm(m->push_out);
 }
 
 // Searches a motion interval by interval, until a contact answers. In the end that contact is
 // known, and all else that is known is of the first interval that was not resolved.
-static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
-                                                             nsvcd__search *q) {
-  nsvcd__motion *m = p->ask.motion;
-  const double asked = p->ask.fraction;
-  nsvcd__outcome outcome = NSVCD__DONE;
-  nsvcd__known open = p->known;
-  double end = NSVCD__NEVER;
-  double fraction = asked;  // 0: any contact will do
+static NSVCD__NOINLINE nsvcd__search_result nsvcd__search_intervals(nsvcd__proof *p,
+                                                                    nsvcd__search *q,
+                                                                    nsvcd__goal goal) {
+  nsvcd__motion *m = goal.motion;
+  double fraction = goal.fraction;  // 0: any contact will do
+  const nsvcd__given *given = &p->given;
+  nsvcd__search_result result = p->known;
+  nsvcd__search_result open = result;
   int is_open = 0;
-  const size_t units =
-      p->given.reserve < NSVCD__END_BUDGET ? p->given.reserve : NSVCD__END_BUDGET;
-  for (int at_end = 0; at_end < 2 && !(asked > 0); at_end++) {
-    if (nsvcd__meets_at(p, q, at_end, units)) return NSVCD__ANSWERED;
+  const size_t units = given->reserve < NSVCD__END_BUDGET ? given->reserve : NSVCD__END_BUDGET;
+  for (int at_end = 0; at_end < 2 && !(fraction > 0); at_end++) {
+    if (nsvcd__meets_at(p, q, goal, at_end, units, &result)) return result;
   }
   nsvcd__pace pace = {0, 1};
   nsvcd__choose_interval(m, q, 0, NSVCD__ALL_ARCS);
@@ -74,63 +73,70 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
     const uint32_t until = q->begin[q->segments];
     const int is_try = m->arcs > 1;
     const size_t before = p->work;
-    if (p->given.grows) p->ask.most = p->work + p->given.work;
-    nsvcd__proof_restart(p);
-    outcome = NSVCD__DONE;
+    if (given->grows) goal.most = p->work + given->work;
+    nsvcd__restart(p, m);
+    result = p->known;
     const float gap = nsvcd__interval_gap(m, m->from, until);
-    if (!(nsvcd__surface_gap(p, gap) > nsvcd__clearance(p))) {
-      p->ask.is_brief = is_try;
-      p->ask.fraction = is_try ? 0 : fraction;
-      p->ask.after_unresolved =
-          fraction > 0 ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.reserve;
-      p->ask.limit = is_try ? nsvcd__limit_after(p, NSVCD__TRY) : p->ask.most;
-      outcome = p->ask.fraction > 0 ? nsvcd__prove_first(p, q) : nsvcd__prove_motion(p, q);
+    if (!(nsvcd__surface_gap(p, m, gap) > nsvcd__clearance(&goal))) {
+      goal.is_brief = is_try;
+      goal.fraction = is_try ? 0 : fraction;
+      goal.after_unresolved = fraction > 0 ? NSVCD__AFTER_FIRST_UNRESOLVED : given->reserve;
+      goal.limit = is_try ? nsvcd__limit_after(p, &goal, NSVCD__TRY) : goal.most;
+      result = goal.fraction > 0 ? nsvcd__search_first(p, q, goal)
+                                 : nsvcd__search_motion(p, q, goal);
     }
-    const int is_resolved = outcome == NSVCD__DONE && !(p->known.unresolved < NSVCD__NEVER);
-    const int has_contact = p->known.has_contact && !(is_try && fraction > 0);
+    const int is_resolved =
+        result.outcome == NSVCD__DONE && !(result.unresolved < NSVCD__NEVER);
+    const int has_contact = result.has_contact && !(is_try && fraction > 0);
     if (is_open && has_contact) {
       open.has_contact = 1;
-      open.found = p->known.found;
+      open.found = result.found;
     }
     if (!is_open && !is_try && !is_resolved && !has_contact) {
-      open = p->known;
-      end = p->ask.end;
+      open = result;
+      open.outcome = NSVCD__DONE;
       is_open = 1;
       fraction = 0;
     }
-    if (has_contact || (is_open && !p->given.grows && p->work > p->ask.most)) break;
+    if (has_contact || (is_open && !given->grows && p->work > goal.most)) break;
     nsvcd__next_interval(m, q, until, is_resolved || !is_try, p->work - before, &pace);
   }
-  p->ask.is_brief = 0;
-  p->ask.fraction = asked;
-  if (!is_open) return outcome;
-  p->known = open;
-  p->ask.end = end;
-  return NSVCD__DONE;
+  return is_open ? open : result;
 }
 
-// Answers a question: do the bodies meet, and when?
-static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *q) {
-  nsvcd__motion *m = p->ask.motion;
-  const int in_order = p->ask.fraction > 0;
-  const float gap = nsvcd__surface_gap(p, nsvcd__motion_gap(m));
-  p->ask.limit = p->given.work;
-  p->ask.after_unresolved = in_order ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.reserve;
-  if (gap > nsvcd__clearance(p)) return NSVCD__FOUND_FREE;
+// A component is inside the other body. That replaces any contact found since.
+static nsvcd__finding nsvcd__found_inside(const nsvcd__proof *p,
+                                          nsvcd__search_result *result) {
+  memset(&result->found, 0, sizeof result->found);
+  result->found.point = p->enclosed;
+  result->found.moving_triangle = NSVCD_NO_TRIANGLE;
+  result->found.fixed_triangle = NSVCD_NO_TRIANGLE;
+  return NSVCD__FOUND_INSIDE;
+}
+
+// Do the bodies meet, and when? goal: of all of the motion. *result: what is known of it.
+static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *q, nsvcd__goal goal,
+                                   nsvcd__search_result *result) {
+  nsvcd__motion *m = goal.motion;
+  const int in_order = goal.fraction > 0;
+  const float gap = nsvcd__surface_gap(p, m, nsvcd__motion_gap(m));
+  *result = p->known;
+  if (gap > nsvcd__clearance(&goal)) return NSVCD__FOUND_FREE;
   const int is_long = nsvcd__is_long(m, q);
   if (p->kernels->is_contained_at_start(p)) {
     // It is a hit. A question that asks for more gets triangles, if some meet as well.
-    const int meets = p->given.tells && nsvcd__meets_at(p, q, 0, NSVCD__INSIDE_BUDGET);
-    return meets ? NSVCD__FOUND_CONTACT : nsvcd__found_inside(p);
+    const size_t units = NSVCD__INSIDE_BUDGET;
+    const int meets = p->given.tells && nsvcd__meets_at(p, q, goal, 0, units, result);
+    return meets ? NSVCD__FOUND_CONTACT : nsvcd__found_inside(p, result);
   }
-  const nsvcd__outcome outcome = is_long    ? nsvcd__prove_intervals(p, q)
-                                 : in_order ? nsvcd__prove_first(p, q)
-                                            : nsvcd__prove_whole(p, q, p->given.work);
-  const double clear = nsvcd__clear_until(p);
-  if (outcome == NSVCD__ANSWERED) return NSVCD__FOUND_CONTACT;
-  if (p->inside && clear > 0) return nsvcd__found_inside(p);
-  if (p->known.has_contact) return NSVCD__FOUND_CONTACT;
-  if (p->known.unresolved < NSVCD__NEVER) p->known.found = p->known.unresolved_pair;
+  *result = is_long    ? nsvcd__search_intervals(p, q, goal)
+            : in_order ? nsvcd__search_first(p, q, goal)
+                       : nsvcd__search_whole(p, q, goal);
+  const double clear = nsvcd__clear_until(p, result);
+  if (result->outcome == NSVCD__ANSWERED) return NSVCD__FOUND_CONTACT;
+  if (p->inside && clear > 0) return nsvcd__found_inside(p, result);
+  if (result->has_contact) return NSVCD__FOUND_CONTACT;
+  if (result->unresolved < NSVCD__NEVER) result->found = result->unresolved_pair;
   return clear < NSVCD__NEVER ? NSVCD__FOUND_UNDECIDED : NSVCD__FOUND_FREE;
 }
 
@@ -139,62 +145,70 @@ static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *q) {
 // Narrows the bracket interval by interval. A budget that was given is divided by time: each
 // interval gets of what is left the share that it has of the rest of the motion.
 static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__search *q,
-                                                    double finest) {
-  nsvcd__motion *m = p->ask.motion;
-  const size_t most = p->ask.most;
-  const size_t work = p->given.work;
-  const double known = p->low;
+                                                    nsvcd__goal goal, double finest,
+                                                    nsvcd__bracket *bracket,
+                                                    nsvcd__search_result *known) {
+  nsvcd__motion *m = goal.motion;
+  const size_t most = goal.most;
+  const double known_low = bracket->low;
+  size_t work = p->given.work;
   nsvcd__pace pace = {0, 1};
-  double low = p->high;
+  double low = bracket->high;
   int is_wide = 0;
   while (m->from < m->ticks) {
     const uint32_t until = q->begin[q->segments];
     const size_t before = p->work;
-    const int is_named = p->known.has_contact || p->known.unresolved < NSVCD__NEVER;
     int is_resolved = 1;
     if (!p->given.grows) {
       const double rest = (double)(until - m->from) / (double)(m->ticks - m->from);
-      p->given.work = p->work < most ? (size_t)(rest * (double)(most - p->work)) : 0;
+      work = before < most ? (size_t)(rest * (double)(most - before)) : 0;
     }
-    p->ask.most = p->work + p->given.work;
+    goal.most = before + work;
     const float gap = nsvcd__interval_gap(m, m->from, until);
-    p->low = nsvcd__max(known, (double)nsvcd__surface_gap(p, gap));
-    p->wide = 0;
-    if (p->low < p->high && !(is_named && p->high - p->low <= finest)) {
+    bracket->low = nsvcd__max(known_low, (double)nsvcd__surface_gap(p, m, gap));
+    bracket->is_wide = 0;
+    const int is_narrow = nsvcd__has_pair(known) && bracket->high - bracket->low <= finest;
+    if (bracket->low < bracket->high && !is_narrow) {
       if (m->arcs > 1) {
-        p->ask.measure = finest;
-        p->ask.limit = nsvcd__limit_after(p, NSVCD__TRY);
-        is_resolved = nsvcd__measure_once(p, q);
+        goal.measure = finest;
+        goal.limit = nsvcd__limit_after(p, &goal, NSVCD__TRY);
+        is_resolved = nsvcd__measure_once(p, q, goal, bracket, known);
       } else {
-        nsvcd__narrow(p, q, finest);
+        nsvcd__narrow(p, q, goal, work, finest, bracket, known);
       }
     }
-    if (is_resolved) low = nsvcd__min(low, p->low);
-    is_wide |= p->wide;
+    if (is_resolved) low = nsvcd__min(low, bracket->low);
+    is_wide |= bracket->is_wide;
     nsvcd__next_interval(m, q, until, is_resolved, p->work - before, &pace);
   }
-  p->given.work = work;
-  p->ask.most = most;
-  p->low = nsvcd__min(low, p->high);
-  p->wide = is_wide && p->high - p->low > finest;
+  bracket->low = nsvcd__min(low, bracket->high);
+  bracket->is_wide = is_wide && bracket->high - bracket->low > finest;
 }
 
-// Brackets the least distance over the motion, once it is known whether they come within the
+// Brackets the least distance over the motion, once it is known whether the bodies come within the
 // clearance.
-static NSVCD__NOINLINE void nsvcd__measure(nsvcd__proof *p, nsvcd__search *q,
-                                           nsvcd__finding verdict, double finest) {
-  nsvcd__motion *m = p->ask.motion;
-  int is_named = p->known.has_contact || p->known.unresolved < NSVCD__NEVER;
-  const float gap = nsvcd__surface_gap(p, nsvcd__motion_gap(m));
-  p->low = nsvcd__max(verdict == NSVCD__FOUND_FREE ? p->given.clearance : 0, (double)gap);
+static NSVCD__NOINLINE nsvcd__bracket nsvcd__measure(nsvcd__proof *p, nsvcd__search *q,
+                                                     nsvcd__goal goal, nsvcd__finding verdict,
+                                                     nsvcd__search_result *known) {
+  nsvcd__motion *m = goal.motion;
+  const double finest = p->given.width;
+  int is_named = nsvcd__has_pair(known);
+  const float gap = nsvcd__surface_gap(p, m, nsvcd__motion_gap(m));
+  const double clear = verdict == NSVCD__FOUND_FREE ? p->given.clearance : 0;
+  nsvcd__bracket bracket = {nsvcd__max(clear, (double)gap), known->found.distance, 0};
   const int is_long = nsvcd__is_long(m, q);
   if (is_long) nsvcd__choose_interval(m, q, 0, NSVCD__ALL_ARCS);
-  p->high = is_named ? p->known.found.distance : p->kernels->bound_distance(p, q);
-  is_named = is_named || p->known.has_contact;
-  if (is_named && !(p->high - p->low > finest)) return;
+  if (!is_named) {
+    bracket.high = p->kernels->bound_distance(p, q);
+    known->has_contact = p->known.has_contact;
+    known->found = p->known.found;
+    is_named = known->has_contact;
+  }
+  if (is_named && !(bracket.high - bracket.low > finest)) return bracket;
   if (is_long)
-    nsvcd__narrow_intervals(p, q, finest);
+    nsvcd__narrow_intervals(p, q, goal, finest, &bracket, known);
   else
-    nsvcd__narrow(p, q, finest);
+    nsvcd__narrow(p, q, goal, p->given.work, finest, &bracket, known);
+  return bracket;
 }
 #endif  // NSVCD_NO_PROOF

@@ -17,9 +17,9 @@
 // The arc of a time in ticks; at a keyframe, the arc that ends there: by that one the body came to
 // the contact.
 static const nsvcd__arc *nsvcd__arc_before(nsvcd__proof *p, double tick, double *u) {
-  uint32_t first = nsvcd__arc_of(p->ask.motion, tick, u);
-  if (first > 0 && tick - (double)first < 6e-8 * (double)p->ask.motion->ticks) {
-    first = nsvcd__arc_of(p->ask.motion, (double)first - 0.5, u);
+  uint32_t first = nsvcd__arc_of(p->motion, tick, u);
+  if (first > 0 && tick - (double)first < 6e-8 * (double)p->motion->ticks) {
+    first = nsvcd__arc_of(p->motion, (double)first - 0.5, u);
     *u = 1;
   }
   return nsvcd__arc_at(p, first);
@@ -50,8 +50,8 @@ static NSVCD__NOINLINE void nsvcd__approach_at(nsvcd__proof *p,
 // Moves a contact to an earlier time, from `since` on, when its triangles were as near and did not
 // come apart; if they meet, to when they began to. It stays if they touched at `since` and have
 // come apart ever since.
-static NSVCD__NOINLINE void nsvcd__move_back(nsvcd__proof *p, double since) {
-  nsvcd__pair_contact *found = &p->known.found;
+static NSVCD__NOINLINE void nsvcd__move_back(nsvcd__proof *p, nsvcd__pair_contact *found,
+                                             double since) {
   nsvcd__pair_contact sooner = *found;
   double early = since;
   double late = found->tick;
@@ -140,9 +140,8 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p,
 
 // The normal at which the triangles of the known contact met, if that was after `since`, or, if
 // they were free of each other then, at any time. 0: it was not.
-static int nsvcd__normal_met(nsvcd__proof *p, double since, int is_free,
-                             nsvcd__approach *now) {
-  nsvcd__pair_contact *found = &p->known.found;
+static int nsvcd__normal_met(nsvcd__proof *p, nsvcd__pair_contact *found, double since,
+                             int is_free, nsvcd__approach *now) {
   nsvcd__approach_at(p, found, found->tick, now);
   const nsvcd__d3 speed = nsvcd__twist_of(&now->twist, found->point);
   const nsvcd__d3 travel = nsvcd__d3_scale(speed, found->tick - since);
@@ -152,20 +151,21 @@ static int nsvcd__normal_met(nsvcd__proof *p, double since, int is_free,
 // Are two times, in ticks, in different arcs?
 static int nsvcd__has_turned(const nsvcd__proof *p, double since, double until) {
   double u;
-  const uint32_t first = nsvcd__arc_of(p->ask.motion, since, &u);
-  return first != nsvcd__arc_of(p->ask.motion, until, &u);
+  const uint32_t first = nsvcd__arc_of(p->motion, since, &u);
+  return first != nsvcd__arc_of(p->motion, until, &u);
 }
 
 // Gives the known contact its normal.
-static NSVCD__NOINLINE void nsvcd__resolve_normal(nsvcd__proof *p) {
-  nsvcd__pair_contact *found = &p->known.found;
-  const double until = nsvcd__max(nsvcd__min(nsvcd__clear_until(p), found->tick), 0);
+static NSVCD__NOINLINE void nsvcd__resolve_normal(nsvcd__proof *p,
+                                                  nsvcd__search_result *result) {
+  nsvcd__pair_contact *found = &result->found;
+  const double until = nsvcd__max(nsvcd__min(nsvcd__clear_until(p, result), found->tick), 0);
   const double since = p->given.fraction > 0 ? until : 0;
-  const int is_free = since > 0 || (p->given.fraction > 0 && p->starts_free);
+  const int is_free = since > 0 || (p->given.fraction > 0 && result->starts_free);
   nsvcd__approach now;
   // What comes to a pose and goes back may have been found on its way back.
   const int has_turned = is_free && nsvcd__has_turned(p, since, found->tick);
-  if (found->distance > 0 || has_turned) nsvcd__move_back(p, since);
+  if (found->distance > 0 || has_turned) nsvcd__move_back(p, found, since);
   if (found->distance > 0) return;
   if (has_turned && nsvcd__has_turned(p, since, found->tick)) {
     // These met on the way back alone, but others did on the way there.
@@ -175,11 +175,11 @@ static NSVCD__NOINLINE void nsvcd__resolve_normal(nsvcd__proof *p) {
     found->normal = nsvcd__d3_unit(apart, found->normal);
     return;
   }
-  if (nsvcd__normal_met(p, since, 0, &now)) return;
+  if (nsvcd__normal_met(p, found, since, 0, &now)) return;
   if (is_free) {
     // The motion has turned since, and they may come apart again.
-    nsvcd__move_back(p, since);
-    if (nsvcd__normal_met(p, since, 1, &now)) return;
+    nsvcd__move_back(p, found, since);
+    if (nsvcd__normal_met(p, found, since, 1, &now)) return;
   }
   const nsvcd__d3 speed = nsvcd__twist_of(&now.twist, found->point);
   found->normal = nsvcd__shallowest(p, &now, speed);

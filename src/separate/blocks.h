@@ -217,7 +217,7 @@ static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, nsvcd
                                                           float margin, uint32_t lanes) {
   const nsvcd__f3 last = nsvcd__f3_round(p->memo.separating);
   const nsvcd__v3 normal = nsvcd__v3_set(last);
-  if (!(p->ask.clearance > 0) || !lanes) return lanes;
+  if (!(p->goal.clearance > 0) || !lanes) return lanes;
   float highest = -HUGE_VALF;  // of the fixed block
   for (size_t k = 0; k < 3; k++) {
     NSVCD__EACH_SLICE(s) {
@@ -245,7 +245,7 @@ static NSVCD__NOINLINE uint32_t nsvcd__row_left(nsvcd__proof *p, size_t l, nsvcd
   const nsvcd__box box = {nsvcd__lane_of(block->low, l), nsvcd__lane_of(block->high, l)};
   uint32_t met = nsvcd__lanes_near(fixed, box, margin);
   // the last plane: see nsvcd__lanes_left_by_last
-  for (size_t k = p->ask.clearance > 0 ? NSVCD__LAST_NORMAL : 1; met && k < NSVCD__NORMALS;
+  for (size_t k = p->goal.clearance > 0 ? NSVCD__LAST_NORMAL : 1; met && k < NSVCD__NORMALS;
        k++)
     met = nsvcd__left_by_normal(p, l, fixed, k, margin, met);
   return met;

@@ -233,7 +233,7 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__geometry *f, double 
   int odd = 0;
   for (size_t n = 0; n < 8; n++) {
     const double *d = directions[best ^ n];
-    if (p->work > p->ask.limit) {
+    if (p->work > p->goal.limit) {
       p->unclear = NSVCD__NOT_ASKED;
       return 0;
     }
@@ -357,7 +357,7 @@ static int nsvcd__contains_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
 // then separate all patches at t = 0, the seed, the surface that was tested and the true one are,
 // patch by patch, on one side of a plane and agree: it is inside.
 static NSVCD__NOINLINE int nsvcd__is_contained_at_start(nsvcd__proof *p) {
-  const float scale = p->ask.motion->scale;
+  const float scale = p->motion->scale;
   const nsvcd__dtransform start = nsvcd__dtransform_at(nsvcd__arc_at(p, 0), 0);
   const nsvcd__dtransform back = nsvcd__inverse_dtransform(&start, p->arc.scale);
   const nsvcd__enclosure moving = {&p->moving, &p->fixed, start, nsvcd__transform_of(&start),

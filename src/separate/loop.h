@@ -15,7 +15,7 @@ static uint64_t nsvcd__segments_in(size_t from, size_t to) {
 // The segments being searched that still matter.
 static uint64_t nsvcd__segments_that_matter(const nsvcd__proof *p, const nsvcd__search *q) {
   size_t s = q->segments;
-  if (!(p->ask.first > 0) || !p->known.has_contact) return q->wanted;
+  if (!(p->goal.first > 0) || !p->known.has_contact) return q->wanted;
   while (s > 0 && !nsvcd__matters(p, q, s - 1)) s--;
   return q->wanted & nsvcd__segments_in(0, s);
 }
@@ -65,7 +65,7 @@ static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *q, size
 
 // Processes the patch pairs that the search has found since.
 static nsvcd__outcome nsvcd__take_patch_pairs(nsvcd__proof *p, nsvcd__search *q) {
-  return p->ask.collects ? nsvcd__collect_contacts(p, q) : nsvcd__sift_patch_pairs(p, q);
+  return p->goal.collects ? nsvcd__collect_contacts(p, q) : nsvcd__sift_patch_pairs(p, q);
 }
 
 // THE LOOP: point 2 of the theorem. Spheres and slabs separate groups of a tile of the moving body
@@ -105,7 +105,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
     }
   }
   outcome = nsvcd__take_patch_pairs(p, q);
-  if (outcome != NSVCD__DONE || p->ask.collects) return outcome;
+  if (outcome != NSVCD__DONE || p->goal.collects) return outcome;
   return nsvcd__resolve_patch_pairs(p, q);
 }
 
@@ -116,7 +116,7 @@ static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *q) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
   const size_t all = q->segments;
-  const size_t few = p->ask.first > 0 ? NSVCD__IN_ORDER : all;
+  const size_t few = p->goal.first > 0 ? NSVCD__IN_ORDER : all;
   nsvcd__outcome outcome = NSVCD__DONE;
   (void)nsvcd__search_begin(moving, fixed, nsvcd__segments_in(0, all), q);
   do {
@@ -129,17 +129,24 @@ static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *q) {
       outcome = nsvcd__prove_segments(p, q);
       const int one_tile = !nsvcd__is_tiled(moving, fixed);
       if (outcome == NSVCD__DONE && !p->known.has_contact && one_tile)
-        p->known.resolved = (double)q->begin[next];
+        p->known.proven_until = (double)q->begin[next];
     }
   } while (outcome == NSVCD__DONE && nsvcd__search_next_tile(q));
   if (outcome == NSVCD__DONE && !p->known.has_contact)
-    p->known.resolved = (double)q->begin[all];
+    p->known.proven_until = (double)q->begin[all];
   return outcome;
 }
 
-// Cuts the segments that have been chosen, and separates the bodies in them.
-static NSVCD__NOINLINE nsvcd__outcome nsvcd__separate(nsvcd__proof *p, nsvcd__search *q) {
-  nsvcd__cut_segments(p->ask.motion, p->given.lengths, nsvcd__clearance(p), q);
-  return nsvcd__prove_tiles(p, q);
+// THE WAIST: until when do the bodies stay apart in the segments that have been chosen, and what do
+// they meet? Cuts the segments, and separates the bodies in them. p->known is the result.
+static NSVCD__NOINLINE void nsvcd__separate(nsvcd__proof *p, nsvcd__search *q,
+                                            const nsvcd__goal *goal) {
+  p->motion = goal->motion;
+  p->goal = *goal;
+  p->known.end = nsvcd__min(p->known.end, goal->end);
+  nsvcd__cut_segments(p->motion, p->given.lengths, nsvcd__clearance(&p->goal), q);
+  p->known.outcome = nsvcd__prove_tiles(p, q);
+  p->known.ran_out = p->known.outcome == NSVCD__EXHAUSTED;
+  p->known.clearance = p->goal.clearance;
 }
 #endif  // NSVCD_NO_PROOF

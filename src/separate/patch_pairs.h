@@ -51,8 +51,8 @@ static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t l, nsvcd__block
   for (; met; met &= met - 1) {
     const nsvcd__d3 before = p->memo.separating;
     const nsvcd__f3 last = nsvcd__f3_round(before);
-    const float along =
-        errors + over->rounding + nsvcd__clearance(p) + nsvcd__deviation_of(over, last, arm);
+    const float along = errors + over->rounding + nsvcd__clearance(&p->goal) +
+                        nsvcd__deviation_of(over, last, arm);
     met = nsvcd__left_by_normal(p, l, fixed, NSVCD__LAST_NORMAL, along, met);
     if (!met) break;
     if (patience == 0) return NSVCD__TOO_LONG;
@@ -81,8 +81,8 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
   const size_t moving_end = p->moving.first_triangle[i + 1];
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
   const nsvcd__f3 axis = nsvcd__own_axis(over);
-  const float stays =
-      nsvcd__errors_of(p, i, j) + (over->rounding + over->origin_bend) + nsvcd__clearance(p);
+  const float stays = nsvcd__errors_of(p, i, j) + (over->rounding + over->origin_bend) +
+                      nsvcd__clearance(&p->goal);
   const float error = p->moving.errors[i];
   const float extent = p->moving.body->extent + error;
   const nsvcd__arm all = {extent, extent};
@@ -120,13 +120,13 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
 // until each part is resolved by a plane between the hulls, or by the triangles.
 static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__search *q,
                                                 const nsvcd__patch_pair *patches) {
-  const nsvcd__motion *m = p->ask.motion;
+  const nsvcd__motion *m = p->motion;
   const size_t i = patches->moving;
   const size_t j = patches->fixed;
   const uint32_t last = q->begin[patches->segment + 1u];
   double *ends = p->arc_ends;
   int is_tried = 1;  // is it all of the segment?
-  for (uint32_t at = q->begin[patches->segment]; at < last && (double)at < p->ask.end;) {
+  for (uint32_t at = q->begin[patches->segment]; at < last && (double)at < p->known.end;) {
     double u;
     const uint32_t first = nsvcd__arc_of(m, (double)at, &u);
     const uint32_t keyframe = nsvcd__next_keyframe(m, first);
@@ -167,7 +167,7 @@ static int nsvcd__is_separated(nsvcd__proof *p, const nsvcd__search *q,
 // approach within a segment, and earlier segments once a contact is known.
 static int nsvcd__is_before(const nsvcd__proof *p, const nsvcd__patch_pair *a,
                             const nsvcd__patch_pair *b) {
-  if (!(p->ask.first > 0)) return a->depth > b->depth;
+  if (!(p->goal.first > 0)) return a->depth > b->depth;
   if (a->segment == b->segment) return a->fraction < b->fraction;
   return p->known.has_contact ? a->segment < b->segment : a->depth > b->depth;
 }
@@ -185,7 +185,7 @@ static void nsvcd__sort_patch_pairs(const nsvcd__proof *p, nsvcd__patch_pair *pa
 
 // Does a segment still matter?
 static int nsvcd__matters(const nsvcd__proof *p, const nsvcd__search *q, size_t segment) {
-  return (double)q->begin[segment] < p->ask.end;
+  return (double)q->begin[segment] < p->known.end;
 }
 
 // Clips the segment in which the end of what matters lies. What leaves a chord by some length
@@ -193,13 +193,13 @@ static int nsvcd__matters(const nsvcd__proof *p, const nsvcd__search *q, size_t 
 static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *q) {
   size_t s = 0;
   double u;
-  if (!(p->ask.end < p->clipped_end)) return;
-  p->clipped_end = p->ask.end;
-  while (s < q->segments && !((double)q->begin[s + 1] > p->ask.end)) s++;
-  if (s == q->segments || !((double)q->begin[s] < p->ask.end)) return;
+  if (!(p->known.end < p->clipped_end)) return;
+  p->clipped_end = p->known.end;
+  while (s < q->segments && !((double)q->begin[s + 1] > p->known.end)) s++;
+  if (s == q->segments || !((double)q->begin[s] < p->known.end)) return;
   nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
   const size_t l = s % NSVCD__LANES;
-  const uint32_t first = nsvcd__arc_of(p->ask.motion, p->ask.end, &u);
+  const uint32_t first = nsvcd__arc_of(p->motion, p->known.end, &u);
   const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(p, first), u);
   const nsvcd__transform end = nsvcd__transform_of(&at);
   const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, l);
@@ -247,7 +247,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_patch_pairs(nsvcd__proof *p
 // neighbours.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
                                                               nsvcd__search *q) {
-  const int tells_more = p->ask.measure > 0 || p->ask.first > 0;
+  const int tells_more = p->goal.measure > 0 || p->goal.first > 0;
   size_t count = 0;
   nsvcd__clip_segment(p, q);
   for (size_t n = 0; n < p->fresh_count; n++) {
@@ -268,8 +268,8 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
     if (nsvcd__held_again(p, q, patches)) continue;
     if (nsvcd__is_separated(p, q, patches)) continue;
     double u;
-    const uint32_t first = nsvcd__arc_of(p->ask.motion, q->begin[patches->segment], &u);
-    if ((p->ask.first > 0 || p->memo.shared > 0) &&
+    const uint32_t first = nsvcd__arc_of(p->motion, q->begin[patches->segment], &u);
+    if ((p->goal.first > 0 || p->memo.shared > 0) &&
         nsvcd__is_straight(nsvcd__arc_at(p, first))) {
       const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(p, q, patches);
       if (outcome != NSVCD__DONE) return outcome;
@@ -297,7 +297,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
 
 // Is there room for contacts, and can those that were collected still be undone?
 static int nsvcd__collects_on(const nsvcd__proof *p) {
-  return p->contact_count < NSVCD__TOUCHES && !p->too_deep;
+  return p->push.contact_count < NSVCD__TOUCHES && !p->push.too_deep;
 }
 
 // Collects the contacts of fresh patch pairs at the start, or the patch pairs where contact points
@@ -307,8 +307,8 @@ static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *q)
     const nsvcd__patch_pair *patches = &p->fresh[n];
     if (nsvcd__held_again(p, q, patches)) continue;
     if (nsvcd__is_separated(p, q, patches)) continue;
-    if (p->ask.collects == NSVCD__TOUCHING) {
-      if (p->normal_count > 0) {
+    if (p->goal.collects == NSVCD__TOUCHING) {
+      if (p->push.normal_count > 0) {
         // just pushed out: farther than the clearance by less than floats can tell
         (void)nsvcd__arc_at(p, 0);
         if (nsvcd__patches_apart(p, patches->moving, patches->fixed, 0, 0)) continue;
@@ -319,7 +319,7 @@ static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *q)
     }
   }
   p->fresh_count = 0;
-  return nsvcd__collects_on(p) && p->work <= p->ask.limit ? NSVCD__DONE : NSVCD__EXHAUSTED;
+  return nsvcd__collects_on(p) && p->work <= p->goal.limit ? NSVCD__DONE : NSVCD__EXHAUSTED;
 }
 
 // Bounds, along directions first .. last - 1 of a manifold, of the points on both patches of a
@@ -328,7 +328,7 @@ static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
                             const nsvcd__patch_pair *patches, int first, int last,
                             float *most) {
   const nsvcd__manifold *m = &p->of.kept.manifold;
-  const float scale = p->ask.motion->scale;
+  const float scale = p->motion->scale;
   const float margin = scale * p->moving.margins[patches->moving] + (float)m->tolerance;
   const float fixed_margin = p->fixed.margins[patches->fixed];
   for (int k = first; k < last; k++) {

@@ -173,9 +173,9 @@ static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *q, size_
   a.fixed = nsvcd__v_slab_set(&fixed);
   a.at_start = nsvcd__v3_set(nsvcd__mat3_apply_transpose(from, fixed.normal));
   a.at_end = nsvcd__v3_set(nsvcd__mat3_apply_transpose(to, fixed.normal));
-  a.scale = nsvcd__v_set(p->ask.motion->scale);
+  a.scale = nsvcd__v_set(p->motion->scale);
   a.over = nsvcd__v_interval_set(over);
-  a.clearance = nsvcd__clearance(p);
+  a.clearance = nsvcd__clearance(&p->goal);
   a.radius = q->extent;
   a.fixed_off = nsvcd__v_off(&a, a.fixed.normal);
   NSVCD__EACH_SLICE(l) {
@@ -188,7 +188,7 @@ static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *q, size_
     wanted &= ~nsvcd__v_separate_by_fixed(&a);
     if (!wanted) continue;
     // rotations in an interval are times the scale
-    const float half = 0.5f * p->ask.motion->per_scale;
+    const float half = 0.5f * p->motion->per_scale;
     const nsvcd__mat3 middle = nsvcd__mat3_mix(half, to, 1, from);
     const nsvcd__mat3 half_turn = nsvcd__mat3_mix(half, to, -1, from);
     a.mean = nsvcd__vmat3_apply(nsvcd__vmat3_set(&middle), a.moving.normal);
@@ -210,7 +210,7 @@ static NSVCD__NOINLINE void nsvcd__separate_groups(nsvcd__proof *p, nsvcd__searc
   nsvcd__v_approach a;
   a.moving = nsvcd__v_slab_set(&own);
   a.scale = nsvcd__v_set(q->scale);
-  a.clearance = nsvcd__clearance(p);
+  a.clearance = nsvcd__clearance(&p->goal);
   a.radius = nsvcd__group_extent(moving, g);
   for (uint32_t waiting = q->waiting; waiting; waiting &= waiting - 1) {
     const size_t at = nsvcd__low_bit(waiting);

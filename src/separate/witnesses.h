@@ -12,7 +12,7 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
                                              const nsvcd__dtransform *at, double u,
                                              float margin) {
   nsvcd__block *fixed = &p->fixed_blocks[n];
-  const double clearance = p->ask.clearance;
+  const double clearance = p->goal.clearance;
   const uint32_t nearby = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
   uint32_t lanes = nsvcd__lanes_left_by_last(p, fixed, margin, nearby);
   for (; lanes; lanes &= lanes - 1) {
@@ -30,7 +30,7 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
       nsvcd__nearest nearest = {0, {0, 0, 0}, {0, 0, 0}};
       nsvcd__pose_triangle(at, pair.moving, posed);
       p->work++;
-      if (p->ask.collects == NSVCD__SUPPORTING) {
+      if (p->goal.collects == NSVCD__SUPPORTING) {
         nsvcd__collect_supports(p, &pair, posed);
         continue;
       }
@@ -45,7 +45,7 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
           continue;
         }
       }
-      if (p->ask.collects == NSVCD__TOUCHING) {
+      if (p->goal.collects == NSVCD__TOUCHING) {
         nsvcd__collect_contact(p, &pair, posed);
         continue;
       }
@@ -76,7 +76,7 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
   const nsvcd__transform rounded = nsvcd__transform_of(&at);
   const float lengths = p->given.lengths + nsvcd__f3_norm(rounded.position);
   const float margin =
-      NSVCD__ROUNDING * lengths + nsvcd__clearance(p) + nsvcd__errors_of(p, i, j);
+      NSVCD__ROUNDING * lengths + nsvcd__clearance(&p->goal) + nsvcd__errors_of(p, i, j);
   const size_t moving_end = p->moving.first_triangle[i + 1];
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
   for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
@@ -116,8 +116,8 @@ static nsvcd__outcome nsvcd__seek_in_patch_pair(nsvcd__proof *p, const nsvcd__se
   const double tick = start + (double)pair->fraction * (end - start);
   double u;
   pair->sought = 1;
-  if (!(tick < p->ask.end)) return NSVCD__NOTHING;
-  const uint32_t first = nsvcd__arc_of(p->ask.motion, tick, &u);
+  if (!(tick < p->known.end)) return NSVCD__NOTHING;
+  const uint32_t first = nsvcd__arc_of(p->motion, tick, &u);
   return nsvcd__find_witness(p, pair->moving, pair->fixed, first, u);
 }
 #endif  // NSVCD_NO_PROOF

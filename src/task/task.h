@@ -229,7 +229,7 @@ typedef struct nsvcd__hint {
 typedef struct nsvcd__kernels {
   int (*self_test)(void);
 #ifndef NSVCD_NO_PROOF
-  nsvcd__outcome (*separate)(nsvcd__proof *p, nsvcd__search *q);
+  void (*separate)(nsvcd__proof *p, nsvcd__search *q, const nsvcd__goal *goal);
   int (*is_contained_at_start)(nsvcd__proof *p);
   double (*bound_distance)(nsvcd__proof *p, nsvcd__search *q);
   void (*seek_positions)(nsvcd__proof *p, int first, int last);
