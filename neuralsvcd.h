@@ -1473,6 +1473,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     workspace       the memory of a search: segments, chords, tiles, candidates
 //     choice          how a motion is cut into segments, a long one into intervals
 //   proof: the theorem, and what is told of two triangles
+//     schedule        what a proof may take, and how much of it
 //     proof           the theorem; what a proof is asked, knows and remembers
 //     poses           poses in double
 //     motion_bounds   an interval of time, and how far points deviate in it
@@ -9445,93 +9446,12 @@ static float nsvcd__interval_gap(const nsvcd__motion *m, uint32_t from, uint32_t
 
 // ========================================== proof: the theorem, and what is told of two triangles
 
-// ------------------------------------------------------------------------------------- proof/proof
-// In: two bodies of triangles and a motion. Out: a witness (two triangles that meet, and when), a
-// certificate that the surfaces never do, or neither: undecided.
-//
-// THEOREM. Let both bodies be scaled and posed by the motions of motion/motion: between two
-// poses the position is linear in t and the rotation a slerp. If the proof ends in FREE,
-// then at no t in [0,1] do the surfaces of the two meshes come within the clearance of each other,
-// and no component of one is contained in what closed components of the other enclose (a body
-// declared open encloses nothing). src/proof/THEOREM.md walks through it. None of this is needed
-// for bodies that never come as near as their extents and the clearance together: nsvcd__prove.
-//   1. Every point of a surface lies in a piece of some patch (surface/surface). So it is enough
-//      to separate each patch of one body from each of the other, at all times.
-//   2. The broad phase leaves out only patches and segments of time in which the spheres over the
-//      pieces stay apart. What it leaves is a *patch pair*: two patches in one segment. Every patch
-//      pair is separated by one of the steps below, or the verdict is not FREE.
-//   3. An *interval* of the motion is a segment or a part of one. Within it, a point x of the
-//      moving body (body frame) leaves the chord between its positions at the two ends by no more
-//      than nsvcd__deviation_of along any direction: the deviation of segments/segments, along a
-//      plane's normal (within one arc of angle h of one body it is h^2 / 8 |x|, and nothing along
-//      the axis). Let a plane have the moving side at both ends on one side, by more than that and
-//      the clearance. A chord is convex: so the chords are there too, and with them all positions
-//      in between.
-//   4. Slabs: the plane is normal to a patch, or to a group of 16; each side's extent along it
-//      follows from its slab. Hulls: any plane; a patch's pieces are within its margin of the hull
-//      of its first vertices. Triangles: a plane for a triangle pair, two entries. The entries of a
-//      patch name all triangles of its pieces, whole or in parts.
-//   5. Rounding: every plane allows for NSVCD__ROUNDING of all lengths that enter a float
-//      computation: that is `rounding`, in intervals and segments alike. Stored points are off by
-//      the patch's margin or quantization error, and every plane in float allows for that, too.
-//      Triangle pairs are separated in double, whole and as the caller gave them, whatever pieces
-//      are stored. No NaN occurs: questions and bodies are checked to be finite and within bounds.
-//      Only in hulls floats may overflow, and there a NaN separates nothing.
-//   6. Containment is decided at t = 0, component by component: a component that is contained in
-//      the other body at one time and not at another has crossed a surface in between. A component
-//      is represented by one of its vertices, its seed. A ray from the seed counts the triangles
-//      of the other body's closed components that it leaves and enters through, with their signs:
-//      the sum is the winding number about the seed, 0 outside. A ray that passes an edge within
-//      rounding, or within what triangles are off the mesh's, is given up for another one. Open
-//      components enclose nothing. Where flaws are set aside (patches/solids), what counts is still
-//      a cycle: each edge has its reverse. Or it has an even number of triangles at each edge, and
-//      then a ray from inside crosses an odd number of them. Corners that were joined leave gaps
-//      between edges, which the cycle closes by strips, nowhere farther from an edge than `gap`. A
-//      ray that passes an edge within `gap` is given up as well, so that it crosses no strip; and
-//      only planes decide what is so near to the surface. FREE then says that nothing crosses the
-//      surface but through a gap. What is nearly a solid is no cycle: if most rays find a seed
-//      inside it, that is UNDECIDED. Where a triangle is that near to the seed, the answer counts
-//      only if planes separate all patches at t = 0: then the seed, the surface that was tested
-//      and the true one are, patch by patch, on one side of a plane, and agree.
-//
-// A long motion is cut into intervals (motion/choice), and 2 to 5 are applied to each: the verdict
-// is FREE if each of them is. Each begins at the tick at which the one before it ends, and the
-// last ends at 1. Containment is decided at t = 0 alone: 6 holds for all of the motion.
-//
-// A witness is a pair of the meshes' triangles that share a point at the true pose, in double, or
-// that come within the clearance, where there is one. In a coarse body, or a scaled one, they are
-// those of a mesh that is a little off (nsvcd__off_mesh). Faces that are parallel when they meet
-// do so at one time only, which rounded numbers miss. There, a corner that changes sides of the
-// other triangle, within its edges all the while, has met it in between (so has an edge an edge),
-// and halving finds when. UNDECIDED: two triangles come closer than NSVCD__TOO_NEAR and the
-// tolerance without meeting, or the budget is exhausted. After such an unresolved pair only a
-// contact can still decide, and flat on flat has as many unresolved pairs as triangles: so only a
-// part of the budget is left then, more than a yes or no takes on any problem of the sets.
-//
-// FIRST CONTACT. A contact ends the motion: only what is more than `first` before it still matters,
-// and is proven free, or gives an earlier contact, or is unresolved. Segments are searched a few at
-// a time, in order, so that early contacts are found first. Once the budget after an unresolved
-// pair is exhausted, that pair is the end, and what is before it is proven. If the budget does not
-// suffice, the rest of it goes to what is proven soonest: the motion is proven part by part from
-// where nothing is resolved, the first part a short one.
-//
-// THE LIMIT ends the search and changes nothing before that: what is tried, and in which order,
-// depends on the units taken, not on those allowed. So a higher limit takes no more units for what
-// a lower one decides, except in the lower one's last eighth, which is kept for what is undecided.
-//
-// THE LEAST DISTANCE is asked last, when it is known whether the bodies come within the clearance.
-// Contacts lower the clearance: it begins as the distance of two vertices, and when triangles are
-// found nearer than that, it becomes their distance less `measure`. What has been separated stays
-// separated, by more than that. So it is one search whose question shrinks, and in the end all of
-// the motion that matters is proven free at the clearance that matters.
-//
-// Work is counted in units: a plane sought for two hulls, 16 triangles against the box of 16, one
-// of them against these, a triangle pair at one time, a ray against 16 triangles or one. Spheres,
-// slabs and planes that held before are not counted. A query ends within one patch's entries, or
-// one ray, of its limit: nsvcd__check_budget.
+// ---------------------------------------------------------------------------------- proof/schedule
+// In: nothing. Out: what a proof may take, and how much of it, in the order in which a query comes
+// to it.
 
 #ifndef NSVCD_NO_PROOF
-// THE SCHEDULE, in the order in which a query comes to it. A budget is in units of work.
+// A budget is in units of work.
 
 // Room for patch pairs as the search finds them; with so many of them they are sifted before it
 // goes on.
@@ -9624,7 +9544,94 @@ static float nsvcd__interval_gap(const nsvcd__motion *m, uint32_t from, uint32_t
 // Containment: triangles that a ray may cross.
 #define NSVCD__CROSSED 128
 #define NSVCD__NEVER 1e300  // ticks
+#endif                      // NSVCD_NO_PROOF
 
+// ------------------------------------------------------------------------------------- proof/proof
+// In: two bodies of triangles and a motion. Out: a witness (two triangles that meet, and when), a
+// certificate that the surfaces never do, or neither: undecided.
+//
+// THEOREM. Let both bodies be scaled and posed by the motions of motion/motion: between two
+// poses the position is linear in t and the rotation a slerp. If the proof ends in FREE,
+// then at no t in [0,1] do the surfaces of the two meshes come within the clearance of each other,
+// and no component of one is contained in what closed components of the other enclose (a body
+// declared open encloses nothing). src/proof/THEOREM.md walks through it. None of this is needed
+// for bodies that never come as near as their extents and the clearance together: nsvcd__prove.
+//   1. Every point of a surface lies in a piece of some patch (surface/surface). So it is enough
+//      to separate each patch of one body from each of the other, at all times.
+//   2. The broad phase leaves out only patches and segments of time in which the spheres over the
+//      pieces stay apart. What it leaves is a *patch pair*: two patches in one segment. Every patch
+//      pair is separated by one of the steps below, or the verdict is not FREE.
+//   3. An *interval* of the motion is a segment or a part of one. Within it, a point x of the
+//      moving body (body frame) leaves the chord between its positions at the two ends by no more
+//      than nsvcd__deviation_of along any direction: the deviation of segments/segments, along a
+//      plane's normal (within one arc of angle h of one body it is h^2 / 8 |x|, and nothing along
+//      the axis). Let a plane have the moving side at both ends on one side, by more than that and
+//      the clearance. A chord is convex: so the chords are there too, and with them all positions
+//      in between.
+//   4. Slabs: the plane is normal to a patch, or to a group of 16; each side's extent along it
+//      follows from its slab. Hulls: any plane; a patch's pieces are within its margin of the hull
+//      of its first vertices. Triangles: a plane for a triangle pair, two entries. The entries of a
+//      patch name all triangles of its pieces, whole or in parts.
+//   5. Rounding: every plane allows for NSVCD__ROUNDING of all lengths that enter a float
+//      computation: that is `rounding`, in intervals and segments alike. Stored points are off by
+//      the patch's margin or quantization error, and every plane in float allows for that, too.
+//      Triangle pairs are separated in double, whole and as the caller gave them, whatever pieces
+//      are stored. No NaN occurs: questions and bodies are checked to be finite and within bounds.
+//      Only in hulls floats may overflow, and there a NaN separates nothing.
+//   6. Containment is decided at t = 0, component by component: a component that is contained in
+//      the other body at one time and not at another has crossed a surface in between. A component
+//      is represented by one of its vertices, its seed. A ray from the seed counts the triangles
+//      of the other body's closed components that it leaves and enters through, with their signs:
+//      the sum is the winding number about the seed, 0 outside. A ray that passes an edge within
+//      rounding, or within what triangles are off the mesh's, is given up for another one. Open
+//      components enclose nothing. Where flaws are set aside (patches/solids), what counts is still
+//      a cycle: each edge has its reverse. Or it has an even number of triangles at each edge, and
+//      then a ray from inside crosses an odd number of them. Corners that were joined leave gaps
+//      between edges, which the cycle closes by strips, nowhere farther from an edge than `gap`. A
+//      ray that passes an edge within `gap` is given up as well, so that it crosses no strip; and
+//      only planes decide what is so near to the surface. FREE then says that nothing crosses the
+//      surface but through a gap. What is nearly a solid is no cycle: if most rays find a seed
+//      inside it, that is UNDECIDED. Where a triangle is that near to the seed, the answer counts
+//      only if planes separate all patches at t = 0: then the seed, the surface that was tested
+//      and the true one are, patch by patch, on one side of a plane, and agree.
+//
+// A long motion is cut into intervals (motion/choice), and 2 to 5 are applied to each: the verdict
+// is FREE if each of them is. Each begins at the tick at which the one before it ends, and the
+// last ends at 1. Containment is decided at t = 0 alone: 6 holds for all of the motion.
+//
+// A witness is a pair of the meshes' triangles that share a point at the true pose, in double, or
+// that come within the clearance, where there is one. In a coarse body, or a scaled one, they are
+// those of a mesh that is a little off (nsvcd__off_mesh). Faces that are parallel when they meet
+// do so at one time only, which rounded numbers miss. There, a corner that changes sides of the
+// other triangle, within its edges all the while, has met it in between (so has an edge an edge),
+// and halving finds when. UNDECIDED: two triangles come closer than NSVCD__TOO_NEAR and the
+// tolerance without meeting, or the budget is exhausted. After such an unresolved pair only a
+// contact can still decide, and flat on flat has as many unresolved pairs as triangles: so only a
+// part of the budget is left then, more than a yes or no takes on any problem of the sets.
+//
+// FIRST CONTACT. A contact ends the motion: only what is more than `first` before it still matters,
+// and is proven free, or gives an earlier contact, or is unresolved. Segments are searched a few at
+// a time, in order, so that early contacts are found first. Once the budget after an unresolved
+// pair is exhausted, that pair is the end, and what is before it is proven. If the budget does not
+// suffice, the rest of it goes to what is proven soonest: the motion is proven part by part from
+// where nothing is resolved, the first part a short one.
+//
+// THE LIMIT ends the search and changes nothing before that: what is tried, and in which order,
+// depends on the units taken, not on those allowed. So a higher limit takes no more units for what
+// a lower one decides, except in the lower one's last eighth, which is kept for what is undecided.
+//
+// THE LEAST DISTANCE is asked last, when it is known whether the bodies come within the clearance.
+// Contacts lower the clearance: it begins as the distance of two vertices, and when triangles are
+// found nearer than that, it becomes their distance less `measure`. What has been separated stays
+// separated, by more than that. So it is one search whose question shrinks, and in the end all of
+// the motion that matters is proven free at the clearance that matters.
+//
+// Work is counted in units: a plane sought for two hulls, 16 triangles against the box of 16, one
+// of them against these, a triangle pair at one time, a ray against 16 triangles or one. Spheres,
+// slabs and planes that held before are not counted. A query ends within one patch's entries, or
+// one ray, of its limit: nsvcd__check_budget.
+
+#ifndef NSVCD_NO_PROOF
 typedef struct nsvcd__patch_pair {
   uint16_t moving, fixed, segment;
   uint16_t sought;  // 1: for a witness
@@ -9658,6 +9665,22 @@ typedef struct nsvcd__arc {
   // metre from the moving origin; and of that origin itself.
   double bend, twist, origin_bend;
 } nsvcd__arc;
+
+// The pose at fraction u of an arc, which its first tick and its ticks name.
+typedef struct nsvcd__known_pose {
+  uint32_t arc, ticks;
+  double u;
+  nsvcd__dtransform transform;
+} nsvcd__known_pose;
+
+// A motion, arc by arc: the arc that was asked for last, if it has ticks, and poses in arcs that
+// are remembered, of which `next` is the next to be replaced.
+typedef struct nsvcd__arcs {
+  nsvcd__motion *motion;
+  nsvcd__arc arc;
+  nsvcd__known_pose poses[NSVCD__KNOWN_POSES];
+  size_t next;
+} nsvcd__arcs;
 
 // An interval of the motion. A point of the moving body at r metres from its origin
 // deviates from the chord between its positions at both ends by no more than origin_bend + bend r.
@@ -9750,13 +9773,6 @@ typedef enum nsvcd__outcome {
   NSVCD__EXHAUSTED
 } nsvcd__outcome;
 
-// The pose at fraction u of an arc, which its first tick and its ticks name.
-typedef struct nsvcd__known_pose {
-  uint32_t arc, ticks;
-  double u;
-  nsvcd__dtransform transform;
-} nsvcd__known_pose;
-
 // A patch's height over a plane. key: the patch; of a moving one, with the segment.
 typedef struct nsvcd__height {
   uint32_t plane, key;
@@ -9837,9 +9853,6 @@ typedef struct nsvcd__search_result {
 // What is only remembered. It may be forgotten between patch pairs and between parts of one: what
 // is proven is as true then, and only the work may differ. All zeros: nothing is remembered.
 typedef struct nsvcd__memo {
-  // poses in arcs; the next to be replaced
-  nsvcd__known_pose poses[NSVCD__KNOWN_POSES];
-  size_t next_pose;
   // segments that have been made intervals
   uint64_t intervals;
   // The normal of the plane between hulls that held last, and its number, 0: none; and the heights
@@ -9875,13 +9888,12 @@ typedef struct nsvcd__proof {
   const struct nsvcd__kernels *kernels;
   nsvcd__geometry moving, fixed;
   nsvcd__given given;
-  // of the search now or the last one: whose arcs are asked for, what is asked, what is known
-  nsvcd__motion *motion;
+  // of the search now or the last one: its motion, in whose last arc patch pairs and triangle pairs
+  // are resolved; what is asked, and what is known
+  nsvcd__arcs arcs;
   nsvcd__goal goal;
   nsvcd__search_result known;
   nsvcd__memo memo;
-  // The last one asked for, if it has ticks. Patch pairs and triangle pairs are resolved in it.
-  nsvcd__arc arc;
   size_t work;
 
   // Containment at the start. inside: a component seems to be inside the other body, but close to
@@ -9939,11 +9951,6 @@ typedef struct nsvcd__proof {
   uint32_t crossed[NSVCD__CROSSED];
 } nsvcd__proof;
 
-// Forgets all that is only remembered.
-static void nsvcd__forget(nsvcd__memo *memo) {
-  memset(memo, 0, sizeof *memo);
-}
-
 // The limit that allows so many units more, but never more than the question has left.
 static size_t nsvcd__limit_after(const nsvcd__proof *p, const nsvcd__goal *goal,
                                  size_t units) {
@@ -9980,12 +9987,12 @@ static float nsvcd__clearance(const nsvcd__goal *goal) {
 // How far triangles may be off the meshes', both together.
 static double nsvcd__off_meshes(const nsvcd__proof *p) {
   const double moving = (double)nsvcd__off_mesh(&p->moving);
-  return p->motion->ratio * moving + (double)nsvcd__off_mesh(&p->fixed);
+  return p->arcs.motion->ratio * moving + (double)nsvcd__off_mesh(&p->fixed);
 }
 
 // The sum of two patches' quantization errors.
 static float nsvcd__errors_of(const nsvcd__proof *p, size_t i, size_t j) {
-  return p->motion->scale * p->moving.errors[i] + p->fixed.errors[j];
+  return p->arcs.motion->scale * p->moving.errors[i] + p->fixed.errors[j];
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -10022,10 +10029,16 @@ static nsvcd__slerp nsvcd__slerp_in(const nsvcd__track *track, uint32_t first, u
   return out;
 }
 
+// Turns to a motion. None of its arcs is known, nor any pose.
+static void nsvcd__arcs_begin(nsvcd__arcs *arcs, nsvcd__motion *motion) {
+  memset(arcs, 0, sizeof *arcs);
+  arcs->motion = motion;
+}
+
 // The arc that begins at the keyframe `first`.
-static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
-  const nsvcd__motion *m = p->motion;
-  nsvcd__arc *arc = &p->arc;
+static const nsvcd__arc *nsvcd__arc_at(nsvcd__arcs *arcs, uint32_t first) {
+  const nsvcd__motion *m = arcs->motion;
+  nsvcd__arc *arc = &arcs->arc;
   const uint32_t ticks = nsvcd__next_keyframe(m, first) - first;
   if (arc->first == first && arc->ticks == ticks) return arc;
   nsvcd__d3 ends[2], fixed_ends[2];
@@ -10123,22 +10136,21 @@ static nsvcd__d3 nsvcd__twist_of(const nsvcd__twist *twist, nsvcd__d3 x) {
 
 // The true pose at fraction u of p->arc, remembered: triangle pairs ask for the same poses again.
 // The pose of the call before stays where it is.
-static const nsvcd__dtransform *nsvcd__arc_pose(nsvcd__proof *p, double u) {
-  const nsvcd__arc *arc = &p->arc;
-  nsvcd__memo *memo = &p->memo;
-  const size_t next = memo->next_pose;
+static const nsvcd__dtransform *nsvcd__arc_pose(nsvcd__arcs *arcs, double u) {
+  const nsvcd__arc *arc = &arcs->arc;
+  const size_t next = arcs->next;
   size_t n = 0;
   for (; n < NSVCD__KNOWN_POSES; n++) {
-    const nsvcd__known_pose *known = &memo->poses[n];
+    const nsvcd__known_pose *known = &arcs->poses[n];
     if (known->arc == arc->first && known->ticks == arc->ticks && known->u == u) break;
   }
   if (n == NSVCD__KNOWN_POSES) {
     const nsvcd__known_pose made = {arc->first, arc->ticks, u, nsvcd__dtransform_at(arc, u)};
     n = next;
-    memo->poses[n] = made;
+    arcs->poses[n] = made;
   }
-  if (n == next) memo->next_pose = (n + 1) % NSVCD__KNOWN_POSES;
-  return &memo->poses[n].transform;
+  if (n == next) arcs->next = (n + 1) % NSVCD__KNOWN_POSES;
+  return &arcs->poses[n].transform;
 }
 
 static nsvcd__transform nsvcd__transform_of(const nsvcd__dtransform *at) {
@@ -10205,7 +10217,7 @@ static const nsvcd__interval *nsvcd__segment_interval(nsvcd__proof *p, const nsv
 // The interval from u0 to u1 of the arc that begins at the keyframe `first`.
 static nsvcd__interval nsvcd__interval_of_arc(nsvcd__proof *p, uint32_t first, double u0,
                                               double u1) {
-  const nsvcd__arc *arc = nsvcd__arc_at(p, first);
+  const nsvcd__arc *arc = nsvcd__arc_at(&p->arcs, first);
   const nsvcd__dtransform start = nsvcd__dtransform_at(arc, u0);
   const nsvcd__dtransform end = nsvcd__dtransform_at(arc, u1);
   const double square = (u1 - u0) * (u1 - u0);
@@ -10328,12 +10340,12 @@ static nsvcd__triangle_pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size
   nsvcd__triangle_pair pair = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0, 0, 0, 0};
   nsvcd__patch_triangle(&p->moving, i, a, pair.moving);
   nsvcd__patch_triangle(&p->fixed, j, b, pair.fixed);
-  nsvcd__pair_arm(&p->arc, &pair);
-  pair.speed = p->arc.speed + p->arc.turn * p->arc.scale * pair.from_axis;
+  nsvcd__pair_arm(&p->arcs.arc, &pair);
+  pair.speed = p->arcs.arc.speed + p->arcs.arc.turn * p->arcs.arc.scale * pair.from_axis;
   pair.rounding =
-      NSVCD__SAME_POSITION * ((double)p->given.lengths + nsvcd__d3_norm(p->arc.from));
+      NSVCD__SAME_POSITION * ((double)p->given.lengths + nsvcd__d3_norm(p->arcs.arc.from));
   pair.margin = pair.rounding + nsvcd__off_meshes(p);
-  pair.margin += NSVCD__SAME_POSITION * nsvcd__d3_norm(p->arc.moved);
+  pair.margin += NSVCD__SAME_POSITION * nsvcd__d3_norm(p->arcs.arc.moved);
   pair.close = pair.margin + NSVCD__TOO_NEAR * (double)p->given.lengths + p->given.tolerance;
   return pair;
 }
@@ -10350,7 +10362,7 @@ static int nsvcd__fixed_closed(const nsvcd__proof *p, const nsvcd__triangle_pair
 static nsvcd__nearest nsvcd__pair_nearest(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
                                           double u) {
   nsvcd__d3 moving[3];
-  nsvcd__pose_triangle(nsvcd__arc_pose(p, u), pair->moving, moving);
+  nsvcd__pose_triangle(nsvcd__arc_pose(&p->arcs, u), pair->moving, moving);
   return nsvcd__nearest_of(moving, pair->fixed);
 }
 
@@ -10363,7 +10375,7 @@ static nsvcd__pair_contact nsvcd__contact_at(const nsvcd__proof *p,
   const double distance = sqrt(nearest->square);
   const int touches = distance <= pair->rounding;
   nsvcd__pair_contact out;
-  out.tick = (double)p->arc.first + u * (double)p->arc.ticks;
+  out.tick = (double)p->arcs.arc.first + u * (double)p->arcs.arc.ticks;
   out.distance = touches ? 0 : distance;
   out.point = nearest->on_b;
   out.normal = touches ? face : nsvcd__d3_unit(apart, nsvcd__d3_of(0, 0, 0));
@@ -10399,7 +10411,7 @@ static nsvcd__outcome nsvcd__take_contact(nsvcd__proof *p, const nsvcd__triangle
 static NSVCD__NOINLINE void nsvcd__keep_unresolved(nsvcd__proof *p,
                                                    const nsvcd__triangle_pair *pair, double u0,
                                                    double u1) {
-  const double tick = (double)p->arc.first + u0 * (double)p->arc.ticks;
+  const double tick = (double)p->arcs.arc.first + u0 * (double)p->arcs.arc.ticks;
   const double middle = 0.5 * (u0 + u1);
   const size_t left = p->goal.after_unresolved;
   // a brief first attempt has no budget to save
@@ -10414,7 +10426,7 @@ static NSVCD__NOINLINE void nsvcd__keep_unresolved(nsvcd__proof *p,
 
 // The fraction of the arc from which on nothing matters.
 static double nsvcd__arc_limit(const nsvcd__proof *p) {
-  return (p->known.end - (double)p->arc.first) / (double)p->arc.ticks;
+  return (p->known.end - (double)p->arcs.arc.first) / (double)p->arcs.arc.ticks;
 }
 
 // The deviation of a triangle pair's moving triangle along a unit direction n over the whole arc.
@@ -10433,8 +10445,8 @@ static double nsvcd__off_chord_along(const nsvcd__arc *arc, const nsvcd__triangl
 static int nsvcd__plane_separates(nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0,
                                   double u1) {
   const nsvcd__d3 normal = p->memo.separating;
-  const nsvcd__dtransform *start = nsvcd__arc_pose(p, u0);
-  const nsvcd__dtransform *end = nsvcd__arc_pose(p, u1);
+  const nsvcd__dtransform *start = nsvcd__arc_pose(&p->arcs, u0);
+  const nsvcd__dtransform *end = nsvcd__arc_pose(&p->arcs, u1);
   double lowest = HUGE_VAL;
   double highest = -HUGE_VAL;
   for (size_t k = 0; k < 3; k++) {
@@ -10444,7 +10456,7 @@ static int nsvcd__plane_separates(nsvcd__proof *p, const nsvcd__triangle_pair *p
     lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_end));
     highest = nsvcd__max(highest, nsvcd__d3_dot(normal, pair->fixed[k]));
   }
-  const double off = nsvcd__off_chord_along(&p->arc, pair, normal);
+  const double off = nsvcd__off_chord_along(&p->arcs.arc, pair, normal);
   const double deviation = (u1 - u0) * (u1 - u0) * off;
   return lowest - highest > p->goal.clearance + pair->margin + deviation;
 }
@@ -10521,7 +10533,7 @@ static int nsvcd__pair_passes(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
   const double times[3] = {u0, 0.5 * (u0 + u1), u1};
   nsvcd__d3 corners[3][3];
   for (size_t n = 0; n < 3; n++)
-    nsvcd__pose_triangle(nsvcd__arc_pose(p, times[n]), pair->moving, corners[n]);
+    nsvcd__pose_triangle(nsvcd__arc_pose(&p->arcs, times[n]), pair->moving, corners[n]);
   const nsvcd__d3 *moving[3] = {corners[0], corners[1], corners[2]};
   const nsvcd__d3 *fixed[3] = {pair->fixed, pair->fixed, pair->fixed};
   for (size_t k = 0; k < 3; k++) {
@@ -10575,7 +10587,7 @@ static NSVCD__NOINLINE double nsvcd__aim_plane(nsvcd__proof *p,
   const nsvcd__d3 *fixed = pair->fixed;
   const nsvcd__d3 guess = *plane;
   nsvcd__d3 moving[3];
-  nsvcd__pose_triangle(nsvcd__arc_pose(p, u), pair->moving, moving);
+  nsvcd__pose_triangle(nsvcd__arc_pose(&p->arcs, u), pair->moving, moving);
   double best = nsvcd__beyond(guess, moving, fixed);
   const double limit = p->goal.clearance + pair->margin;
   if (best - limit > 0.5 * (distance - limit)) return best;
@@ -10664,9 +10676,9 @@ static nsvcd__outcome nsvcd__take_nearest(nsvcd__proof *p, const nsvcd__triangle
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
                                                               const nsvcd__triangle_pair *pair,
                                                               double u0, double u1) {
-  const nsvcd__arc *arc = &p->arc;
-  const nsvcd__d3 from = nsvcd__arc_pose(p, 0)->position;
-  const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__arc_pose(p, 1)->position, from);
+  const nsvcd__arc *arc = &p->arcs.arc;
+  const nsvcd__d3 from = nsvcd__arc_pose(&p->arcs, 0)->position;
+  const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__arc_pose(&p->arcs, 1)->position, from);
   double at = u0;
   int shrunk = 0;
   size_t steps = 0;
@@ -10719,7 +10731,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
                                                           const nsvcd__triangle_pair *pair,
                                                           double u0, double u1) {
-  if (nsvcd__is_straight(&p->arc)) return nsvcd__resolve_straight(p, pair, u0, u1);
+  if (nsvcd__is_straight(&p->arcs.arc)) return nsvcd__resolve_straight(p, pair, u0, u1);
   double *ends = p->pair_ends;
   size_t left = 1;
   size_t unresolved_count = 0;
@@ -10784,7 +10796,7 @@ static double nsvcd__depth_along(nsvcd__d3 n, const nsvcd__triangle_contact *t) 
 // Is a touch too deep for the slop in every direction? Those to try are the separating axes: a
 // normal of either triangle, or across an edge of each.
 static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__triangle_contact *t) {
-  const nsvcd__d3 push_out = nsvcd__d3_widen(p->motion->push_out);
+  const nsvcd__d3 push_out = nsvcd__d3_widen(p->arcs.motion->push_out);
   const double most = p->goal.slop - p->given.clearance;
   for (size_t k = 0; k < 12; k++) {
     nsvcd__d3 n = k < 3 ? t->directions[k] : nsvcd__across_edges(t->moving, t->fixed, k - 3);
@@ -10804,7 +10816,7 @@ static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__triangle_contact *
 static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n,
                          const nsvcd__triangle_contact *t) {
   const double more = nsvcd__depth_along(n, t);
-  const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->motion->push_out), n);
+  const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->arcs.motion->push_out), n);
   if (!(nsvcd__d3_dot(n, n) > 0.5)) return 0;
   if (pushed_out + more + p->given.clearance > p->goal.slop) return 0;
   if (more < 0) return 1;
@@ -10857,7 +10869,7 @@ static NSVCD__NOINLINE double nsvcd__exit_depth(const nsvcd__triangle_contact *t
 // Notes how deep a touch is along normal k.
 static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__triangle_contact *t) {
   const nsvcd__d3 n = p->push.normals[k];
-  const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->motion->push_out), n);
+  const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->arcs.motion->push_out), n);
   const double most = nsvcd__depth_along(n, t) + p->given.clearance;
   p->push.needed = nsvcd__max(p->push.needed, pushed_out + most);
   if (!(most > 0) || !(pushed_out + most > p->push.depths[k])) return;
@@ -13540,7 +13552,7 @@ static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *q, size_
   a.fixed = nsvcd__v_slab_set(&fixed);
   a.at_start = nsvcd__v3_set(nsvcd__mat3_apply_transpose(from, fixed.normal));
   a.at_end = nsvcd__v3_set(nsvcd__mat3_apply_transpose(to, fixed.normal));
-  a.scale = nsvcd__v_set(p->motion->scale);
+  a.scale = nsvcd__v_set(p->arcs.motion->scale);
   a.over = nsvcd__v_interval_set(over);
   a.clearance = nsvcd__clearance(&p->goal);
   a.radius = q->extent;
@@ -13555,7 +13567,7 @@ static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *q, size_
     wanted &= ~nsvcd__v_separate_by_fixed(&a);
     if (!wanted) continue;
     // rotations in an interval are times the scale
-    const float half = 0.5f * p->motion->per_scale;
+    const float half = 0.5f * p->arcs.motion->per_scale;
     const nsvcd__mat3 middle = nsvcd__mat3_mix(half, to, 1, from);
     const nsvcd__mat3 half_turn = nsvcd__mat3_mix(half, to, -1, from);
     a.mean = nsvcd__vmat3_apply(nsvcd__vmat3_set(&middle), a.moving.normal);
@@ -13707,7 +13719,7 @@ static nsvcd__f3 nsvcd__f3_towards(nsvcd__f3 a, nsvcd__f3 b) {
 #define NSVCD__GUESSES 4
 static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j,
                                                   const nsvcd__interval *over) {
-  const float margins = p->motion->scale * p->moving.margins[i] + p->fixed.margins[j];
+  const float margins = p->arcs.motion->scale * p->moving.margins[i] + p->fixed.margins[j];
   const float margin = margins + over->rounding + nsvcd__clearance(&p->goal);
   const nsvcd__arm arm = nsvcd__patch_arm(&p->moving, i, over);
   const nsvcd__transform *start = &over->start;
@@ -13780,7 +13792,8 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *q,
       const nsvcd__v at_end = nsvcd__v3_dot(normal, nsvcd__v3_transform(&over->end, hull));
       lowest = nsvcd__least_of(lowest, nsvcd__v_min(at_start, at_end));
     }
-    const float margin = (p->motion->scale * p->moving.margins[i] + over->rounding) * length;
+    const float margin =
+        (p->arcs.motion->scale * p->moving.margins[i] + over->rounding) * length;
     above->plane = memo->plane;
     above->key = key;
     above->height =
@@ -14123,7 +14136,7 @@ static void nsvcd__moving_block_load(nsvcd__proof *p, size_t i, size_t first) {
 // Seeks a contact of triangles of patches i and j at fraction u of an arc.
 static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, uint32_t first,
                                           double u) {
-  const nsvcd__arc *arc = nsvcd__arc_at(p, first);
+  const nsvcd__arc *arc = nsvcd__arc_at(&p->arcs, first);
   const nsvcd__dtransform at = nsvcd__dtransform_at(arc, u);
   const nsvcd__transform rounded = nsvcd__transform_of(&at);
   const float lengths = p->given.lengths + nsvcd__f3_norm(rounded.position);
@@ -14169,7 +14182,7 @@ static nsvcd__outcome nsvcd__seek_in_patch_pair(nsvcd__proof *p, const nsvcd__se
   double u;
   pair->sought = 1;
   if (!(tick < p->known.end)) return NSVCD__NOTHING;
-  const uint32_t first = nsvcd__arc_of(p->motion, tick, &u);
+  const uint32_t first = nsvcd__arc_of(p->arcs.motion, tick, &u);
   return nsvcd__find_witness(p, pair->moving, pair->fixed, first, u);
 }
 #endif  // NSVCD_NO_PROOF
@@ -14293,7 +14306,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
 // until each part is resolved by a plane between the hulls, or by the triangles.
 static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__search *q,
                                                 const nsvcd__patch_pair *patches) {
-  const nsvcd__motion *m = p->motion;
+  const nsvcd__motion *m = p->arcs.motion;
   const size_t i = patches->moving;
   const size_t j = patches->fixed;
   const uint32_t last = q->begin[patches->segment + 1u];
@@ -14307,7 +14320,7 @@ static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__se
     is_tried = is_tried && at == last;
     ends[0] = (double)(at - first) / (double)(keyframe - first);
     for (size_t left = 1; left > 0;) {
-      nsvcd__arc_at(p, first);
+      nsvcd__arc_at(&p->arcs, first);
       const double end = nsvcd__min(ends[left - 1], nsvcd__arc_limit(p));
       if (!(u < end)) break;
       p->interval = nsvcd__interval_of_arc(p, first, u, end);
@@ -14372,8 +14385,8 @@ static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *
   if (s == q->segments || !((double)q->begin[s] < p->known.end)) return;
   nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
   const size_t l = s % NSVCD__LANES;
-  const uint32_t first = nsvcd__arc_of(p->motion, p->known.end, &u);
-  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(p, first), u);
+  const uint32_t first = nsvcd__arc_of(p->arcs.motion, p->known.end, &u);
+  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, first), u);
   const nsvcd__transform end = nsvcd__transform_of(&at);
   const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, l);
   const nsvcd__mat3 turned = nsvcd__mat3_mix(1, &end.rotation, -1, &start);
@@ -14441,9 +14454,9 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
     if (nsvcd__held_again(p, q, patches)) continue;
     if (nsvcd__is_separated(p, q, patches)) continue;
     double u;
-    const uint32_t first = nsvcd__arc_of(p->motion, q->begin[patches->segment], &u);
+    const uint32_t first = nsvcd__arc_of(p->arcs.motion, q->begin[patches->segment], &u);
     if ((p->goal.first > 0 || p->memo.shared > 0) &&
-        nsvcd__is_straight(nsvcd__arc_at(p, first))) {
+        nsvcd__is_straight(nsvcd__arc_at(&p->arcs, first))) {
       const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(p, q, patches);
       if (outcome != NSVCD__DONE) return outcome;
       continue;
@@ -14483,7 +14496,7 @@ static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *q)
     if (p->goal.collects == NSVCD__TOUCHING) {
       if (p->push.normal_count > 0) {
         // just pushed out: farther than the clearance by less than floats can tell
-        (void)nsvcd__arc_at(p, 0);
+        (void)nsvcd__arc_at(&p->arcs, 0);
         if (nsvcd__patches_apart(p, patches->moving, patches->fixed, 0, 0)) continue;
       }
       (void)nsvcd__find_witness(p, patches->moving, patches->fixed, 0, 0);
@@ -14501,7 +14514,7 @@ static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
                             const nsvcd__patch_pair *patches, int first, int last,
                             float *most) {
   const nsvcd__manifold *m = &p->of.kept.manifold;
-  const float scale = p->motion->scale;
+  const float scale = p->arcs.motion->scale;
   const float margin = scale * p->moving.margins[patches->moving] + (float)m->tolerance;
   const float fixed_margin = p->fixed.margins[patches->fixed];
   for (int k = first; k < last; k++) {
@@ -14526,7 +14539,7 @@ static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
 static NSVCD__NOINLINE void nsvcd__seek_positions(nsvcd__proof *p, int first, int last) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   nsvcd__patch_pair *pairs = p->of.kept.pairs;
-  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(p, 0), 0);
+  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, 0), 0);
   const nsvcd__transform pose = nsvcd__transform_of(&at);
   size_t tries = 0;
   float farthest[NSVCD__SUPPORTS];
@@ -14916,14 +14929,15 @@ static int nsvcd__contains_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
 // then separate all patches at t = 0, the seed, the surface that was tested and the true one are,
 // patch by patch, on one side of a plane and agree: it is inside.
 static NSVCD__NOINLINE int nsvcd__is_contained_at_start(nsvcd__proof *p) {
-  const float scale = p->motion->scale;
-  const nsvcd__dtransform start = nsvcd__dtransform_at(nsvcd__arc_at(p, 0), 0);
-  const nsvcd__dtransform back = nsvcd__inverse_dtransform(&start, p->arc.scale);
+  const float scale = p->arcs.motion->scale;
+  const nsvcd__dtransform start = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, 0), 0);
+  const nsvcd__dtransform back = nsvcd__inverse_dtransform(&start, p->arcs.arc.scale);
   const nsvcd__enclosure moving = {&p->moving, &p->fixed, start, nsvcd__transform_of(&start),
                                    back,       scale,     1};
   if (nsvcd__contains_any(p, &moving)) return 1;
   const nsvcd__enclosure fixed = {
-      &p->fixed, &p->moving, back, nsvcd__transform_of(&back), start, 1 / scale, p->arc.scale};
+      &p->fixed, &p->moving,       back, nsvcd__transform_of(&back), start,
+      1 / scale, p->arcs.arc.scale};
   return nsvcd__contains_any(p, &fixed);
 }
 #endif  // NSVCD_NO_PROOF
@@ -15068,10 +15082,10 @@ static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *q) {
 // they meet? Cuts the segments, and separates the bodies in them. p->known is the result.
 static NSVCD__NOINLINE void nsvcd__separate(nsvcd__proof *p, nsvcd__search *q,
                                             const nsvcd__goal *goal) {
-  p->motion = goal->motion;
+  p->arcs.motion = goal->motion;
   p->goal = *goal;
   p->known.end = nsvcd__min(p->known.end, goal->end);
-  nsvcd__cut_segments(p->motion, p->given.lengths, nsvcd__clearance(&p->goal), q);
+  nsvcd__cut_segments(p->arcs.motion, p->given.lengths, nsvcd__clearance(&p->goal), q);
   p->known.outcome = nsvcd__prove_tiles(p, q);
   p->known.ran_out = p->known.outcome == NSVCD__EXHAUSTED;
   p->known.clearance = p->goal.clearance;
@@ -15216,17 +15230,17 @@ static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__proof *p, nsvcd__sear
   uint32_t from = 0;
   size_t nearest[2] = {0, 0};
   // Bodies that never come near have been told apart without segments.
-  nsvcd__cut_segments(p->motion, p->given.lengths, 0, q);
+  nsvcd__cut_segments(p->arcs.motion, p->given.lengths, 0, q);
   nsvcd__nearest_groups(p, q, &moving, &fixed);
   for (size_t turn = 0; turn < NSVCD__TURNS; turn++) {
     float gap = HUGE_VALF;
     double u;
     nsvcd__chords_in_all(q, moving);
     (void)nsvcd__nearest_tick(q, fixed, &gap, &tick);
-    const uint32_t first = nsvcd__arc_of(p->motion, tick, &u);
-    const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(p, first), u);
+    const uint32_t first = nsvcd__arc_of(p->arcs.motion, tick, &u);
+    const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, first), u);
     const nsvcd__transform pose = nsvcd__transform_of(&at);
-    const nsvcd__dtransform back = nsvcd__inverse_dtransform(&at, p->arc.scale);
+    const nsvcd__dtransform back = nsvcd__inverse_dtransform(&at, p->arcs.arc.scale);
     size_t i = 0;
     size_t j = 0;
     for (size_t round = 0; round < 2; round++) {
@@ -17867,14 +17881,13 @@ static int nsvcd__has_pair(const nsvcd__search_result *r) {
 // Forgets all that was known of a motion, or of an interval, before another one is searched.
 static void nsvcd__restart(nsvcd__proof *p, nsvcd__motion *motion) {
   memset(&p->known, 0, sizeof p->known);
-  p->motion = motion;
+  nsvcd__arcs_begin(&p->arcs, motion);
   p->known.proven_until = (double)motion->from;
   p->known.end = p->clipped_end = p->known.unresolved = NSVCD__NEVER;
   p->clipped = 0;
-  p->arc.ticks = 0;
   p->count = p->fresh_count = p->misses = p->push.contact_count = 0;
   p->push.too_deep = 0;
-  nsvcd__forget(&p->memo);
+  memset(&p->memo, 0, sizeof p->memo);
 }
 
 // Searches a motion whose segments have been chosen.
@@ -17921,7 +17934,7 @@ static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *q, ns
   goal.limit = nsvcd__limit_after(p, &goal, units);
   goal.is_brief = 1;
   const nsvcd__search_result at = nsvcd__search_anew(p, q, goal);
-  p->motion = whole;
+  nsvcd__arcs_begin(&p->arcs, whole);
   if (at.outcome != NSVCD__ANSWERED) return 0;
   *out = at;
   out->found.tick = at_end ? (double)whole->ticks : 0;
@@ -18533,12 +18546,12 @@ static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__proof *p, nsvcd__searc
 // The arc of a time in ticks; at a keyframe, the arc that ends there: by that one the body came to
 // the contact.
 static const nsvcd__arc *nsvcd__arc_before(nsvcd__proof *p, double tick, double *u) {
-  uint32_t first = nsvcd__arc_of(p->motion, tick, u);
-  if (first > 0 && tick - (double)first < 6e-8 * (double)p->motion->ticks) {
-    first = nsvcd__arc_of(p->motion, (double)first - 0.5, u);
+  uint32_t first = nsvcd__arc_of(p->arcs.motion, tick, u);
+  if (first > 0 && tick - (double)first < 6e-8 * (double)p->arcs.motion->ticks) {
+    first = nsvcd__arc_of(p->arcs.motion, (double)first - 0.5, u);
     *u = 1;
   }
-  return nsvcd__arc_at(p, first);
+  return nsvcd__arc_at(&p->arcs, first);
 }
 
 // The triangles of a contact at a time, and how the bodies move then.
@@ -18667,8 +18680,8 @@ static int nsvcd__normal_met(nsvcd__proof *p, nsvcd__pair_contact *found, double
 // Are two times, in ticks, in different arcs?
 static int nsvcd__has_turned(const nsvcd__proof *p, double since, double until) {
   double u;
-  const uint32_t first = nsvcd__arc_of(p->motion, since, &u);
-  return first != nsvcd__arc_of(p->motion, until, &u);
+  const uint32_t first = nsvcd__arc_of(p->arcs.motion, since, &u);
+  return first != nsvcd__arc_of(p->arcs.motion, until, &u);
 }
 
 // Gives the known contact its normal.
@@ -18742,13 +18755,11 @@ static double nsvcd__travel_in(const nsvcd__proof *p, const nsvcd__arc *arc) {
 // most `fraction`; 0: that is not asked for. Of a short motion it is at most a quarter, so that a
 // contact does not cost all of it, but no less than a safe pose backs off.
 static double nsvcd__fraction_of(nsvcd__proof *p, double to, double fraction) {
-  const nsvcd__motion *motion = p->motion;
+  const nsvcd__motion *motion = p->arcs.motion;
   const double most = fraction > 0 ? fraction : 1;
   double fastest = 0;  // per tick
-  // The arc known is of the question before.
-  p->arc.ticks = 0;
   for (uint32_t first = 0; to > 0 && first < motion->ticks;) {
-    const nsvcd__arc *arc = nsvcd__arc_at(p, first);
+    const nsvcd__arc *arc = nsvcd__arc_at(&p->arcs, first);
     fastest = fmax(fastest, nsvcd__travel_in(p, arc) / (double)arc->ticks);
     first += arc->ticks;
   }
@@ -18770,7 +18781,8 @@ static nsvcd__goal nsvcd__proof_begin(nsvcd__query *query) {
   memset(&goal, 0, sizeof goal);
   p->kernels = query->kernels;
   p->intervals = query->intervals;
-  p->motion = goal.motion = &query->task.motion;
+  goal.motion = &query->task.motion;
+  nsvcd__arcs_begin(&p->arcs, goal.motion);
   p->moving = nsvcd__geometry_of(nsvcd__triangles_of(task->moving));
   p->fixed = nsvcd__geometry_of(nsvcd__triangles_of(task->fixed));
   given->lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
@@ -18861,7 +18873,7 @@ static NSVCD__NOINLINE void nsvcd__poses_at(const nsvcd__task *task, double t,
 // How far the poses of an answer, in float, are off at time t, at most, in the fixed body's units:
 // positions and quaternions are off by 6e-8 of their length.
 static double nsvcd__pose_error(const nsvcd__proof *p, double t) {
-  const nsvcd__motion *motion = p->motion;
+  const nsvcd__motion *motion = p->arcs.motion;
   const nsvcd__d3 moving = nsvcd__dpose_at(motion, &motion->moving, t).position;
   const nsvcd__d3 fixed = nsvcd__dpose_at(motion, &motion->fixed, t).position;
   const double positions = nsvcd__d3_norm(moving) + nsvcd__d3_norm(fixed);
@@ -18897,7 +18909,7 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, nsvcd__goa
   goal.fraction = kept / length;
   goal.limit = p->work + p->given.reserve;
   const nsvcd__search_result result = nsvcd__search_anew(p, &query->broad_phase, goal);
-  p->motion = whole;
+  nsvcd__arcs_begin(&p->arcs, whole);
   const double until = nsvcd__clear_until(p, &result) / (double)down.ticks;
   // All before an unresolved pair is proven, but a query from close to it might not prove it again.
   const double clear = result.unresolved < result.end ? until - 0.5 * goal.fraction : until;
@@ -18994,7 +19006,7 @@ static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd__go
       answer->contacts[n].id = m->numbers[chosen[n]] ^ (uint32_t)task->swapped;
     }
   }
-  p->motion = whole;
+  nsvcd__arcs_begin(&p->arcs, whole);
 }
 
 // Writes where the bodies may go, which are proven free until answer->time.low, and how deep they
@@ -19022,7 +19034,7 @@ static NSVCD__NOINLINE void nsvcd__write_safe_pose(nsvcd__query *query, nsvcd__g
 // Writes until when the motion is proven free, and up to which time the bodies may go.
 static void nsvcd__write_time(nsvcd__proof *p, const nsvcd__search_result *result,
                               nsvcd_answer *answer) {
-  const nsvcd__motion *motion = p->motion;
+  const nsvcd__motion *motion = p->arcs.motion;
   const double ticks = (double)motion->ticks;
   const double until = fmin(fmax(nsvcd__clear_until(p, result) / ticks, 0), 1);
   const double late = (double)answer->time.high - until;
@@ -19030,7 +19042,7 @@ static void nsvcd__write_time(nsvcd__proof *p, const nsvcd__search_result *resul
   if (late > p->given.fraction * 1.0001 + 1e-6) answer->why = NSVCD_WHY_WORK;
   // Closer poses are proven free here, but a new query from there could not prove it again.
   double u;
-  const nsvcd__arc *arc = nsvcd__arc_at(p, nsvcd__arc_of(motion, until * ticks, &u));
+  const nsvcd__arc *arc = nsvcd__arc_at(&p->arcs, nsvcd__arc_of(motion, until * ticks, &u));
   const double length = nsvcd__travel_in(p, arc) * ticks / (double)arc->ticks;
   const double epsilons = NSVCD__EPSILONS * nsvcd__epsilon(p) + nsvcd__pose_error(p, until);
   const double back = length > epsilons ? epsilons / length : p->given.fraction;
@@ -19041,7 +19053,7 @@ static void nsvcd__write_time(nsvcd__proof *p, const nsvcd__search_result *resul
 static void nsvcd__write_distance(const nsvcd__proof *p, nsvcd_verdict verdict,
                                   const nsvcd__bracket *bracket,
                                   const nsvcd__search_result *named, nsvcd_answer *answer) {
-  const double unit = (double)p->motion->unit;
+  const double unit = (double)p->arcs.motion->unit;
   const double radius = p->given.radius;
   const double off = nsvcd__off_meshes(p) + 1e-12 * (double)p->given.lengths;
   double low = bracket->low;

@@ -211,6 +211,7 @@ extern "C" {
 #include "motion/choice.h"     // how a motion is cut into segments, a long one into intervals
 
 // ========================================== proof: the theorem, and what is told of two triangles
+#include "proof/schedule.h"        // what a proof may take, and how much of it
 #include "proof/proof.h"           // the theorem; what a proof is asked, knows and remembers
 #include "proof/poses.h"           // poses in double
 #include "proof/motion_bounds.h"   // an interval of time, and how far points deviate in it

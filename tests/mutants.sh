@@ -22,7 +22,7 @@ cat >$work/list <<'LIST'
 none|||
 hull without deviation|margin * length + nsvcd__deviation_of(over, normal, arm)|margin * length
 hull without slack|const float margin = margins + over->rounding + nsvcd__clearance(&p->goal);|const float margin = 0 * margins + over->rounding + nsvcd__clearance(&p->goal);
-hull without the slack's scale|p->motion->scale * p->moving.margins[i] + p->fixed.margins[j];|0.1f * p->moving.margins[i] + p->fixed.margins[j];
+hull without the slack's scale|p->arcs.motion->scale * p->moving.margins[i] + p->fixed.margins[j];|0.1f * p->moving.margins[i] + p->fixed.margins[j];
 hull without clearance|margins + over->rounding + nsvcd__clearance(&p->goal);|margins + over->rounding;
 hull at the start only|const nsvcd__v at_either = nsvcd__v_min(at_start, at_end);|const nsvcd__v at_either = at_start;
 deviation without drift|return origin_bend + turn + across|return 0 * origin_bend + turn + across
@@ -50,7 +50,7 @@ round: tangents from the other side|const double fall = -nsvcd__d3_dot(p->memo.s
 round: tangents a little too far|const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;|const double until = fall > 0 ? nsvcd__min(end, at + above / fall) : end;
 doubts forgotten|    nsvcd__keep_unresolved(p, pair, u0, u1);\n    return NSVCD__DONE;|    return NSVCD__DONE;
 round: edges without length by another pose|if (p->over \&\& !(nsvcd__f3_dot(edge, edge) > 0))|if (!(nsvcd__f3_dot(edge, edge) > 0))
-a block of the question before|memset(memo, 0, sizeof *memo);|const int has_block = memo->has_block;\n  memset(memo, 0, sizeof *memo);\n  memo->has_block = has_block;
+a block of the question before|memset(\&p->memo, 0, sizeof p->memo);|const int has_block = p->memo.has_block;\n  memset(\&p->memo, 0, sizeof p->memo);\n  p->memo.has_block = has_block;
 round: segments as points|nsvcd__d3_distance2(t[0], t[1]) > 0 ? 2 : 1;|nsvcd__d3_distance2(t[0], t[1]) > 0 ? 1 : 1;
 pair without bulge|return turn + arc->twist * pair->from_origin + arc->origin_bend;|return arc->origin_bend;
 pair without drift|return turn + arc->twist * pair->from_origin + arc->origin_bend;|return turn + arc->twist * pair->from_origin;
@@ -146,7 +146,7 @@ asks: a contact before the start|nsvcd__max(nsvcd__min(nsvcd__clear_until(p, res
 asks: proven by parts to the end, but not free|nsvcd__choose_segments(goal.motion, q);\n}\n// When do they meet first?|nsvcd__choose_segments(goal.motion, q);\n  known->end = nsvcd__min(known->end, ticks);\n}\n// When do they meet first?
 pair's last plane at the start alone|u0 < all \&\& nsvcd__plane_separates(p, pair, u0, all)|u0 < all \&\& nsvcd__plane_separates(p, pair, u0, u0)
 exact: pairs without slack|return lowest - highest > p->goal.clearance + pair->margin + deviation;|return lowest - highest > p->goal.clearance + deviation;
-exact: pairs without rounding|NSVCD__SAME_POSITION * ((double)p->given.lengths + nsvcd__d3_norm(p->arc.from));|0;
+exact: pairs without rounding|NSVCD__SAME_POSITION * ((double)p->given.lengths + nsvcd__d3_norm(p->arcs.arc.from));|0;
 exact: a ratio of scales in float|m->ratio = (double)nsvcd__scale_of(moving) / (double)m->unit;|m->ratio = (double)(nsvcd__scale_of(moving) / m->unit);
 turning contacts that are too near|distance <= p->goal.clearance + pair->rounding|distance <= p->goal.clearance + pair->close
 exact: straight contacts that are too near|if (above <= pair->rounding) {|if (above <= pair->close) {
@@ -198,7 +198,7 @@ asks: metres without the turn|return arc->speed + arc->turn|return arc->speed + 
 asks: too deep for the manifold too|  p->push.too_deep = 0;|
 asks: depth across edges forgotten|for (size_t k = 0; k < 12; k++) {\n    nsvcd__d3 n = k < 3|for (size_t k = 0; k < 3; k++) {\n    nsvcd__d3 n = k < 3
 asks: deep in one direction|for (int side = 0; side < 2; side++) {\n      const double pushed_out|for (int side = 0; side < 1; side++) {\n      const double pushed_out
-asks: metres of the arc before|  // The arc known is of the question before.\n  p->arc.ticks = 0;|
+asks: metres of the arc before|  nsvcd__arcs_begin(\&p->arcs, goal.motion);\n  p->moving = |  p->arcs.motion = goal.motion;\n  p->moving = 
 asks: a safe place not lifted|n == moving_takes_it ? 0 : n ? -unit : unit|0
 asks: a safe place on the other side|n == moving_takes_it ? 0 : n ? -unit : unit|n == moving_takes_it ? 0 : n ? unit : -unit
 asks: a safe place too late|const double t = (double)answer->safe.time;|const double t = fmin(1, 1.05 * (double)answer->safe.time + 0.01);

@@ -67,25 +67,27 @@ static void proof_may_lose(nsvcd__proof *p) {
   random = random * 1664525u + 1013904223u;
   if ((random >> 8) % heard.forgetful) return;
   heard.forgotten++;
-  p->arc.ticks = 0;
-  nsvcd__forget(&p->memo);
+  p->arcs.arc.ticks = 0;
+  memset(&p->memo, 0, sizeof p->memo);
+  memset(p->arcs.poses, 0, sizeof p->arcs.poses);
 }
 
 // The time of a tick, t in [0,1].
 static double proof_time(const nsvcd__proof *p, double tick) {
-  const nsvcd__motion *m = p->motion;
+  const nsvcd__motion *m = p->arcs.motion;
   return m->begin + m->duration * tick / (double)m->ticks;
 }
 static double proof_time_in_arc(const nsvcd__proof *p, double u) {
-  return proof_time(p, (double)p->arc.first + u * (double)p->arc.ticks);
+  return proof_time(p, (double)p->arcs.arc.first + u * (double)p->arcs.arc.ticks);
 }
 #define nsvcd__segment_interval(p, q, s)                                          \
   (heard.start = proof_time(p, (double)(q)->begin[s]),                            \
    heard.end = proof_time(p, fmin((double)(q)->begin[(s) + 1u], (p)->known.end)), \
    nsvcd__segment_interval(p, q, s))
-#define nsvcd__interval_of_arc(p, first, u0, u1)                                             \
-  (proof_may_lose(p), (void)nsvcd__arc_at(p, first), heard.start = proof_time_in_arc(p, u0), \
-   heard.end = proof_time_in_arc(p, u1), nsvcd__interval_of_arc(p, first, u0, u1))
+#define nsvcd__interval_of_arc(p, first, u0, u1)                                 \
+  (proof_may_lose(p), (void)nsvcd__arc_at(&(p)->arcs, first),                    \
+   heard.start = proof_time_in_arc(p, u0), heard.end = proof_time_in_arc(p, u1), \
+   nsvcd__interval_of_arc(p, first, u0, u1))
 #include "../src/separate/slabs.h"
 #include "../src/separate/hulls.h"
 #include "../src/separate/containment.h"

@@ -1012,7 +1012,7 @@ static nsvcd__interval proof_segment(nsvcd__motion *motion, const nsvcd__search 
   static nsvcd__proof proof;
   static nsvcd__interval spans[NSVCD__MAX_SEGMENTS];
   proof.intervals = spans;
-  proof.motion = motion;
+  proof.arcs.motion = motion;
   proof.known.end = HUGE_VAL;
   proof.memo.intervals = 0;
   return *nsvcd__segment_interval(&proof, work, s);
@@ -1024,8 +1024,8 @@ static nsvcd__interval proof_any_clip(shapes_rng *rng, nsvcd__motion *motion, ns
   static nsvcd__interval spans[NSVCD__MAX_SEGMENTS];
   size_t s = 0;
   proof.intervals = spans;
-  proof.motion = motion;
-  proof.arc.ticks = 0;
+  proof.arcs.motion = motion;
+  proof.arcs.arc.ticks = 0;
   proof.clipped = proof.memo.intervals = 0;
   proof.memo.plane = 0;
   proof.clipped_end = HUGE_VAL;
@@ -1041,9 +1041,9 @@ static nsvcd__interval proof_any_clip(shapes_rng *rng, nsvcd__motion *motion, ns
 static nsvcd__interval proof_any_arc(shapes_rng *rng, nsvcd__motion *motion, float lengths) {
   static nsvcd__proof proof;
   double u;
-  proof.motion = motion;
+  proof.arcs.motion = motion;
   proof.given.lengths = lengths;
-  proof.arc.ticks = 0;
+  proof.arcs.arc.ticks = 0;
   const uint32_t first =
       nsvcd__arc_of(motion, shapes_uniform(rng, 0, 1) * (double)motion->ticks, &u);
   const double length = pow(2, -shapes_pick(rng, 12));
@@ -1300,11 +1300,11 @@ static double proof_arc_use(const proof_motion *m, nsvcd__motion *motion, shapes
   static nsvcd__proof proof;
   nsvcd__triangle_pair pair;
   double fraction, ends[3][3], n[3], x[3];
-  proof.motion = motion;
-  proof.arc.ticks = 0;
+  proof.arcs.motion = motion;
+  proof.arcs.arc.ticks = 0;
   const uint32_t first =
       nsvcd__arc_of(motion, shapes_uniform(rng, 0, 1) * (double)motion->ticks, &fraction);
-  const nsvcd__arc *arc = nsvcd__arc_at(&proof, first);
+  const nsvcd__arc *arc = nsvcd__arc_at(&proof.arcs, first);
   const double length = pow(2, -shapes_pick(rng, 8));
   const double u0 = shapes_uniform(rng, 0, 1 - length);
   const double within = shapes_pick(rng, 2) ? 0.5 : shapes_uniform(rng, 0, 1);

@@ -54,7 +54,7 @@ static const nsvcd__interval *nsvcd__segment_interval(nsvcd__proof *p, const nsv
 // The interval from u0 to u1 of the arc that begins at the keyframe `first`.
 static nsvcd__interval nsvcd__interval_of_arc(nsvcd__proof *p, uint32_t first, double u0,
                                               double u1) {
-  const nsvcd__arc *arc = nsvcd__arc_at(p, first);
+  const nsvcd__arc *arc = nsvcd__arc_at(&p->arcs, first);
   const nsvcd__dtransform start = nsvcd__dtransform_at(arc, u0);
   const nsvcd__dtransform end = nsvcd__dtransform_at(arc, u1);
   const double square = (u1 - u0) * (u1 - u0);

@@ -32,10 +32,16 @@ static nsvcd__slerp nsvcd__slerp_in(const nsvcd__track *track, uint32_t first, u
   return out;
 }
 
+// Turns to a motion. None of its arcs is known, nor any pose.
+static void nsvcd__arcs_begin(nsvcd__arcs *arcs, nsvcd__motion *motion) {
+  memset(arcs, 0, sizeof *arcs);
+  arcs->motion = motion;
+}
+
 // The arc that begins at the keyframe `first`.
-static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
-  const nsvcd__motion *m = p->motion;
-  nsvcd__arc *arc = &p->arc;
+static const nsvcd__arc *nsvcd__arc_at(nsvcd__arcs *arcs, uint32_t first) {
+  const nsvcd__motion *m = arcs->motion;
+  nsvcd__arc *arc = &arcs->arc;
   const uint32_t ticks = nsvcd__next_keyframe(m, first) - first;
   if (arc->first == first && arc->ticks == ticks) return arc;
   nsvcd__d3 ends[2], fixed_ends[2];
@@ -133,22 +139,21 @@ static nsvcd__d3 nsvcd__twist_of(const nsvcd__twist *twist, nsvcd__d3 x) {
 
 // The true pose at fraction u of p->arc, remembered: triangle pairs ask for the same poses again.
 // The pose of the call before stays where it is.
-static const nsvcd__dtransform *nsvcd__arc_pose(nsvcd__proof *p, double u) {
-  const nsvcd__arc *arc = &p->arc;
-  nsvcd__memo *memo = &p->memo;
-  const size_t next = memo->next_pose;
+static const nsvcd__dtransform *nsvcd__arc_pose(nsvcd__arcs *arcs, double u) {
+  const nsvcd__arc *arc = &arcs->arc;
+  const size_t next = arcs->next;
   size_t n = 0;
   for (; n < NSVCD__KNOWN_POSES; n++) {
-    const nsvcd__known_pose *known = &memo->poses[n];
+    const nsvcd__known_pose *known = &arcs->poses[n];
     if (known->arc == arc->first && known->ticks == arc->ticks && known->u == u) break;
   }
   if (n == NSVCD__KNOWN_POSES) {
     const nsvcd__known_pose made = {arc->first, arc->ticks, u, nsvcd__dtransform_at(arc, u)};
     n = next;
-    memo->poses[n] = made;
+    arcs->poses[n] = made;
   }
-  if (n == next) memo->next_pose = (n + 1) % NSVCD__KNOWN_POSES;
-  return &memo->poses[n].transform;
+  if (n == next) arcs->next = (n + 1) % NSVCD__KNOWN_POSES;
+  return &arcs->poses[n].transform;
 }
 
 static nsvcd__transform nsvcd__transform_of(const nsvcd__dtransform *at) {

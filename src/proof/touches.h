@@ -18,7 +18,7 @@ static double nsvcd__depth_along(nsvcd__d3 n, const nsvcd__triangle_contact *t) 
 // Is a touch too deep for the slop in every direction? Those to try are the separating axes: a
 // normal of either triangle, or across an edge of each.
 static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__triangle_contact *t) {
-  const nsvcd__d3 push_out = nsvcd__d3_widen(p->motion->push_out);
+  const nsvcd__d3 push_out = nsvcd__d3_widen(p->arcs.motion->push_out);
   const double most = p->goal.slop - p->given.clearance;
   for (size_t k = 0; k < 12; k++) {
     nsvcd__d3 n = k < 3 ? t->directions[k] : nsvcd__across_edges(t->moving, t->fixed, k - 3);
@@ -38,7 +38,7 @@ static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__triangle_contact *
 static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n,
                          const nsvcd__triangle_contact *t) {
   const double more = nsvcd__depth_along(n, t);
-  const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->motion->push_out), n);
+  const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->arcs.motion->push_out), n);
   if (!(nsvcd__d3_dot(n, n) > 0.5)) return 0;
   if (pushed_out + more + p->given.clearance > p->goal.slop) return 0;
   if (more < 0) return 1;
@@ -91,7 +91,7 @@ static NSVCD__NOINLINE double nsvcd__exit_depth(const nsvcd__triangle_contact *t
 // Notes how deep a touch is along normal k.
 static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__triangle_contact *t) {
   const nsvcd__d3 n = p->push.normals[k];
-  const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->motion->push_out), n);
+  const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->arcs.motion->push_out), n);
   const double most = nsvcd__depth_along(n, t) + p->given.clearance;
   p->push.needed = nsvcd__max(p->push.needed, pushed_out + most);
   if (!(most > 0) || !(pushed_out + most > p->push.depths[k])) return;

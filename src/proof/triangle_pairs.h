@@ -45,12 +45,12 @@ static nsvcd__triangle_pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size
   nsvcd__triangle_pair pair = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0, 0, 0, 0};
   nsvcd__patch_triangle(&p->moving, i, a, pair.moving);
   nsvcd__patch_triangle(&p->fixed, j, b, pair.fixed);
-  nsvcd__pair_arm(&p->arc, &pair);
-  pair.speed = p->arc.speed + p->arc.turn * p->arc.scale * pair.from_axis;
+  nsvcd__pair_arm(&p->arcs.arc, &pair);
+  pair.speed = p->arcs.arc.speed + p->arcs.arc.turn * p->arcs.arc.scale * pair.from_axis;
   pair.rounding =
-      NSVCD__SAME_POSITION * ((double)p->given.lengths + nsvcd__d3_norm(p->arc.from));
+      NSVCD__SAME_POSITION * ((double)p->given.lengths + nsvcd__d3_norm(p->arcs.arc.from));
   pair.margin = pair.rounding + nsvcd__off_meshes(p);
-  pair.margin += NSVCD__SAME_POSITION * nsvcd__d3_norm(p->arc.moved);
+  pair.margin += NSVCD__SAME_POSITION * nsvcd__d3_norm(p->arcs.arc.moved);
   pair.close = pair.margin + NSVCD__TOO_NEAR * (double)p->given.lengths + p->given.tolerance;
   return pair;
 }
@@ -67,7 +67,7 @@ static int nsvcd__fixed_closed(const nsvcd__proof *p, const nsvcd__triangle_pair
 static nsvcd__nearest nsvcd__pair_nearest(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
                                           double u) {
   nsvcd__d3 moving[3];
-  nsvcd__pose_triangle(nsvcd__arc_pose(p, u), pair->moving, moving);
+  nsvcd__pose_triangle(nsvcd__arc_pose(&p->arcs, u), pair->moving, moving);
   return nsvcd__nearest_of(moving, pair->fixed);
 }
 
@@ -80,7 +80,7 @@ static nsvcd__pair_contact nsvcd__contact_at(const nsvcd__proof *p,
   const double distance = sqrt(nearest->square);
   const int touches = distance <= pair->rounding;
   nsvcd__pair_contact out;
-  out.tick = (double)p->arc.first + u * (double)p->arc.ticks;
+  out.tick = (double)p->arcs.arc.first + u * (double)p->arcs.arc.ticks;
   out.distance = touches ? 0 : distance;
   out.point = nearest->on_b;
   out.normal = touches ? face : nsvcd__d3_unit(apart, nsvcd__d3_of(0, 0, 0));
@@ -116,7 +116,7 @@ static nsvcd__outcome nsvcd__take_contact(nsvcd__proof *p, const nsvcd__triangle
 static NSVCD__NOINLINE void nsvcd__keep_unresolved(nsvcd__proof *p,
                                                    const nsvcd__triangle_pair *pair, double u0,
                                                    double u1) {
-  const double tick = (double)p->arc.first + u0 * (double)p->arc.ticks;
+  const double tick = (double)p->arcs.arc.first + u0 * (double)p->arcs.arc.ticks;
   const double middle = 0.5 * (u0 + u1);
   const size_t left = p->goal.after_unresolved;
   // a brief first attempt has no budget to save
@@ -131,7 +131,7 @@ static NSVCD__NOINLINE void nsvcd__keep_unresolved(nsvcd__proof *p,
 
 // The fraction of the arc from which on nothing matters.
 static double nsvcd__arc_limit(const nsvcd__proof *p) {
-  return (p->known.end - (double)p->arc.first) / (double)p->arc.ticks;
+  return (p->known.end - (double)p->arcs.arc.first) / (double)p->arcs.arc.ticks;
 }
 
 // The deviation of a triangle pair's moving triangle along a unit direction n over the whole arc.
@@ -150,8 +150,8 @@ static double nsvcd__off_chord_along(const nsvcd__arc *arc, const nsvcd__triangl
 static int nsvcd__plane_separates(nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0,
                                   double u1) {
   const nsvcd__d3 normal = p->memo.separating;
-  const nsvcd__dtransform *start = nsvcd__arc_pose(p, u0);
-  const nsvcd__dtransform *end = nsvcd__arc_pose(p, u1);
+  const nsvcd__dtransform *start = nsvcd__arc_pose(&p->arcs, u0);
+  const nsvcd__dtransform *end = nsvcd__arc_pose(&p->arcs, u1);
   double lowest = HUGE_VAL;
   double highest = -HUGE_VAL;
   for (size_t k = 0; k < 3; k++) {
@@ -161,7 +161,7 @@ static int nsvcd__plane_separates(nsvcd__proof *p, const nsvcd__triangle_pair *p
     lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_end));
     highest = nsvcd__max(highest, nsvcd__d3_dot(normal, pair->fixed[k]));
   }
-  const double off = nsvcd__off_chord_along(&p->arc, pair, normal);
+  const double off = nsvcd__off_chord_along(&p->arcs.arc, pair, normal);
   const double deviation = (u1 - u0) * (u1 - u0) * off;
   return lowest - highest > p->goal.clearance + pair->margin + deviation;
 }
@@ -238,7 +238,7 @@ static int nsvcd__pair_passes(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
   const double times[3] = {u0, 0.5 * (u0 + u1), u1};
   nsvcd__d3 corners[3][3];
   for (size_t n = 0; n < 3; n++)
-    nsvcd__pose_triangle(nsvcd__arc_pose(p, times[n]), pair->moving, corners[n]);
+    nsvcd__pose_triangle(nsvcd__arc_pose(&p->arcs, times[n]), pair->moving, corners[n]);
   const nsvcd__d3 *moving[3] = {corners[0], corners[1], corners[2]};
   const nsvcd__d3 *fixed[3] = {pair->fixed, pair->fixed, pair->fixed};
   for (size_t k = 0; k < 3; k++) {
@@ -292,7 +292,7 @@ static NSVCD__NOINLINE double nsvcd__aim_plane(nsvcd__proof *p,
   const nsvcd__d3 *fixed = pair->fixed;
   const nsvcd__d3 guess = *plane;
   nsvcd__d3 moving[3];
-  nsvcd__pose_triangle(nsvcd__arc_pose(p, u), pair->moving, moving);
+  nsvcd__pose_triangle(nsvcd__arc_pose(&p->arcs, u), pair->moving, moving);
   double best = nsvcd__beyond(guess, moving, fixed);
   const double limit = p->goal.clearance + pair->margin;
   if (best - limit > 0.5 * (distance - limit)) return best;
@@ -381,9 +381,9 @@ static nsvcd__outcome nsvcd__take_nearest(nsvcd__proof *p, const nsvcd__triangle
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
                                                               const nsvcd__triangle_pair *pair,
                                                               double u0, double u1) {
-  const nsvcd__arc *arc = &p->arc;
-  const nsvcd__d3 from = nsvcd__arc_pose(p, 0)->position;
-  const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__arc_pose(p, 1)->position, from);
+  const nsvcd__arc *arc = &p->arcs.arc;
+  const nsvcd__d3 from = nsvcd__arc_pose(&p->arcs, 0)->position;
+  const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__arc_pose(&p->arcs, 1)->position, from);
   double at = u0;
   int shrunk = 0;
   size_t steps = 0;
@@ -436,7 +436,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
                                                           const nsvcd__triangle_pair *pair,
                                                           double u0, double u1) {
-  if (nsvcd__is_straight(&p->arc)) return nsvcd__resolve_straight(p, pair, u0, u1);
+  if (nsvcd__is_straight(&p->arcs.arc)) return nsvcd__resolve_straight(p, pair, u0, u1);
   double *ends = p->pair_ends;
   size_t left = 1;
   size_t unresolved_count = 0;

@@ -42,13 +42,11 @@ static double nsvcd__travel_in(const nsvcd__proof *p, const nsvcd__arc *arc) {
 // most `fraction`; 0: that is not asked for. Of a short motion it is at most a quarter, so that a
 // contact does not cost all of it, but no less than a safe pose backs off.
 static double nsvcd__fraction_of(nsvcd__proof *p, double to, double fraction) {
-  const nsvcd__motion *motion = p->motion;
+  const nsvcd__motion *motion = p->arcs.motion;
   const double most = fraction > 0 ? fraction : 1;
   double fastest = 0;  // per tick
-  // The arc known is of the question before.
-  p->arc.ticks = 0;
   for (uint32_t first = 0; to > 0 && first < motion->ticks;) {
-    const nsvcd__arc *arc = nsvcd__arc_at(p, first);
+    const nsvcd__arc *arc = nsvcd__arc_at(&p->arcs, first);
     fastest = fmax(fastest, nsvcd__travel_in(p, arc) / (double)arc->ticks);
     first += arc->ticks;
   }
@@ -70,7 +68,8 @@ static nsvcd__goal nsvcd__proof_begin(nsvcd__query *query) {
   memset(&goal, 0, sizeof goal);
   p->kernels = query->kernels;
   p->intervals = query->intervals;
-  p->motion = goal.motion = &query->task.motion;
+  goal.motion = &query->task.motion;
+  nsvcd__arcs_begin(&p->arcs, goal.motion);
   p->moving = nsvcd__geometry_of(nsvcd__triangles_of(task->moving));
   p->fixed = nsvcd__geometry_of(nsvcd__triangles_of(task->fixed));
   given->lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
@@ -161,7 +160,7 @@ static NSVCD__NOINLINE void nsvcd__poses_at(const nsvcd__task *task, double t,
 // How far the poses of an answer, in float, are off at time t, at most, in the fixed body's units:
 // positions and quaternions are off by 6e-8 of their length.
 static double nsvcd__pose_error(const nsvcd__proof *p, double t) {
-  const nsvcd__motion *motion = p->motion;
+  const nsvcd__motion *motion = p->arcs.motion;
   const nsvcd__d3 moving = nsvcd__dpose_at(motion, &motion->moving, t).position;
   const nsvcd__d3 fixed = nsvcd__dpose_at(motion, &motion->fixed, t).position;
   const double positions = nsvcd__d3_norm(moving) + nsvcd__d3_norm(fixed);
@@ -197,7 +196,7 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, nsvcd__goa
   goal.fraction = kept / length;
   goal.limit = p->work + p->given.reserve;
   const nsvcd__search_result result = nsvcd__search_anew(p, &query->broad_phase, goal);
-  p->motion = whole;
+  nsvcd__arcs_begin(&p->arcs, whole);
   const double until = nsvcd__clear_until(p, &result) / (double)down.ticks;
   // All before an unresolved pair is proven, but a query from close to it might not prove it again.
   const double clear = result.unresolved < result.end ? until - 0.5 * goal.fraction : until;
@@ -294,7 +293,7 @@ static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd__go
       answer->contacts[n].id = m->numbers[chosen[n]] ^ (uint32_t)task->swapped;
     }
   }
-  p->motion = whole;
+  nsvcd__arcs_begin(&p->arcs, whole);
 }
 
 // Writes where the bodies may go, which are proven free until answer->time.low, and how deep they
@@ -322,7 +321,7 @@ static NSVCD__NOINLINE void nsvcd__write_safe_pose(nsvcd__query *query, nsvcd__g
 // Writes until when the motion is proven free, and up to which time the bodies may go.
 static void nsvcd__write_time(nsvcd__proof *p, const nsvcd__search_result *result,
                               nsvcd_answer *answer) {
-  const nsvcd__motion *motion = p->motion;
+  const nsvcd__motion *motion = p->arcs.motion;
   const double ticks = (double)motion->ticks;
   const double until = fmin(fmax(nsvcd__clear_until(p, result) / ticks, 0), 1);
   const double late = (double)answer->time.high - until;
@@ -330,7 +329,7 @@ static void nsvcd__write_time(nsvcd__proof *p, const nsvcd__search_result *resul
   if (late > p->given.fraction * 1.0001 + 1e-6) answer->why = NSVCD_WHY_WORK;
   // Closer poses are proven free here, but a new query from there could not prove it again.
   double u;
-  const nsvcd__arc *arc = nsvcd__arc_at(p, nsvcd__arc_of(motion, until * ticks, &u));
+  const nsvcd__arc *arc = nsvcd__arc_at(&p->arcs, nsvcd__arc_of(motion, until * ticks, &u));
   const double length = nsvcd__travel_in(p, arc) * ticks / (double)arc->ticks;
   const double epsilons = NSVCD__EPSILONS * nsvcd__epsilon(p) + nsvcd__pose_error(p, until);
   const double back = length > epsilons ? epsilons / length : p->given.fraction;
@@ -341,7 +340,7 @@ static void nsvcd__write_time(nsvcd__proof *p, const nsvcd__search_result *resul
 static void nsvcd__write_distance(const nsvcd__proof *p, nsvcd_verdict verdict,
                                   const nsvcd__bracket *bracket,
                                   const nsvcd__search_result *named, nsvcd_answer *answer) {
-  const double unit = (double)p->motion->unit;
+  const double unit = (double)p->arcs.motion->unit;
   const double radius = p->given.radius;
   const double off = nsvcd__off_meshes(p) + 1e-12 * (double)p->given.lengths;
   double low = bracket->low;

@@ -17,12 +17,12 @@
 // The arc of a time in ticks; at a keyframe, the arc that ends there: by that one the body came to
 // the contact.
 static const nsvcd__arc *nsvcd__arc_before(nsvcd__proof *p, double tick, double *u) {
-  uint32_t first = nsvcd__arc_of(p->motion, tick, u);
-  if (first > 0 && tick - (double)first < 6e-8 * (double)p->motion->ticks) {
-    first = nsvcd__arc_of(p->motion, (double)first - 0.5, u);
+  uint32_t first = nsvcd__arc_of(p->arcs.motion, tick, u);
+  if (first > 0 && tick - (double)first < 6e-8 * (double)p->arcs.motion->ticks) {
+    first = nsvcd__arc_of(p->arcs.motion, (double)first - 0.5, u);
     *u = 1;
   }
-  return nsvcd__arc_at(p, first);
+  return nsvcd__arc_at(&p->arcs, first);
 }
 
 // The triangles of a contact at a time, and how the bodies move then.
@@ -151,8 +151,8 @@ static int nsvcd__normal_met(nsvcd__proof *p, nsvcd__pair_contact *found, double
 // Are two times, in ticks, in different arcs?
 static int nsvcd__has_turned(const nsvcd__proof *p, double since, double until) {
   double u;
-  const uint32_t first = nsvcd__arc_of(p->motion, since, &u);
-  return first != nsvcd__arc_of(p->motion, until, &u);
+  const uint32_t first = nsvcd__arc_of(p->arcs.motion, since, &u);
+  return first != nsvcd__arc_of(p->arcs.motion, until, &u);
 }
 
 // Gives the known contact its normal.

@@ -22,14 +22,13 @@ static int nsvcd__has_pair(const nsvcd__search_result *r) {
 // Forgets all that was known of a motion, or of an interval, before another one is searched.
 static void nsvcd__restart(nsvcd__proof *p, nsvcd__motion *motion) {
   memset(&p->known, 0, sizeof p->known);
-  p->motion = motion;
+  nsvcd__arcs_begin(&p->arcs, motion);
   p->known.proven_until = (double)motion->from;
   p->known.end = p->clipped_end = p->known.unresolved = NSVCD__NEVER;
   p->clipped = 0;
-  p->arc.ticks = 0;
   p->count = p->fresh_count = p->misses = p->push.contact_count = 0;
   p->push.too_deep = 0;
-  nsvcd__forget(&p->memo);
+  memset(&p->memo, 0, sizeof p->memo);
 }
 
 // Searches a motion whose segments have been chosen.
@@ -76,7 +75,7 @@ static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *q, ns
   goal.limit = nsvcd__limit_after(p, &goal, units);
   goal.is_brief = 1;
   const nsvcd__search_result at = nsvcd__search_anew(p, q, goal);
-  p->motion = whole;
+  nsvcd__arcs_begin(&p->arcs, whole);
   if (at.outcome != NSVCD__ANSWERED) return 0;
   *out = at;
   out->found.tick = at_end ? (double)whole->ticks : 0;

@@ -357,14 +357,15 @@ static int nsvcd__contains_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
 // then separate all patches at t = 0, the seed, the surface that was tested and the true one are,
 // patch by patch, on one side of a plane and agree: it is inside.
 static NSVCD__NOINLINE int nsvcd__is_contained_at_start(nsvcd__proof *p) {
-  const float scale = p->motion->scale;
-  const nsvcd__dtransform start = nsvcd__dtransform_at(nsvcd__arc_at(p, 0), 0);
-  const nsvcd__dtransform back = nsvcd__inverse_dtransform(&start, p->arc.scale);
+  const float scale = p->arcs.motion->scale;
+  const nsvcd__dtransform start = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, 0), 0);
+  const nsvcd__dtransform back = nsvcd__inverse_dtransform(&start, p->arcs.arc.scale);
   const nsvcd__enclosure moving = {&p->moving, &p->fixed, start, nsvcd__transform_of(&start),
                                    back,       scale,     1};
   if (nsvcd__contains_any(p, &moving)) return 1;
   const nsvcd__enclosure fixed = {
-      &p->fixed, &p->moving, back, nsvcd__transform_of(&back), start, 1 / scale, p->arc.scale};
+      &p->fixed, &p->moving,       back, nsvcd__transform_of(&back), start,
+      1 / scale, p->arcs.arc.scale};
   return nsvcd__contains_any(p, &fixed);
 }
 #endif  // NSVCD_NO_PROOF

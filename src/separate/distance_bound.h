@@ -138,17 +138,17 @@ static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__proof *p, nsvcd__sear
   uint32_t from = 0;
   size_t nearest[2] = {0, 0};
   // Bodies that never come near have been told apart without segments.
-  nsvcd__cut_segments(p->motion, p->given.lengths, 0, q);
+  nsvcd__cut_segments(p->arcs.motion, p->given.lengths, 0, q);
   nsvcd__nearest_groups(p, q, &moving, &fixed);
   for (size_t turn = 0; turn < NSVCD__TURNS; turn++) {
     float gap = HUGE_VALF;
     double u;
     nsvcd__chords_in_all(q, moving);
     (void)nsvcd__nearest_tick(q, fixed, &gap, &tick);
-    const uint32_t first = nsvcd__arc_of(p->motion, tick, &u);
-    const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(p, first), u);
+    const uint32_t first = nsvcd__arc_of(p->arcs.motion, tick, &u);
+    const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, first), u);
     const nsvcd__transform pose = nsvcd__transform_of(&at);
-    const nsvcd__dtransform back = nsvcd__inverse_dtransform(&at, p->arc.scale);
+    const nsvcd__dtransform back = nsvcd__inverse_dtransform(&at, p->arcs.arc.scale);
     size_t i = 0;
     size_t j = 0;
     for (size_t round = 0; round < 2; round++) {

@@ -92,7 +92,7 @@ static nsvcd__f3 nsvcd__f3_towards(nsvcd__f3 a, nsvcd__f3 b) {
 #define NSVCD__GUESSES 4
 static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j,
                                                   const nsvcd__interval *over) {
-  const float margins = p->motion->scale * p->moving.margins[i] + p->fixed.margins[j];
+  const float margins = p->arcs.motion->scale * p->moving.margins[i] + p->fixed.margins[j];
   const float margin = margins + over->rounding + nsvcd__clearance(&p->goal);
   const nsvcd__arm arm = nsvcd__patch_arm(&p->moving, i, over);
   const nsvcd__transform *start = &over->start;
@@ -165,7 +165,8 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *q,
       const nsvcd__v at_end = nsvcd__v3_dot(normal, nsvcd__v3_transform(&over->end, hull));
       lowest = nsvcd__least_of(lowest, nsvcd__v_min(at_start, at_end));
     }
-    const float margin = (p->motion->scale * p->moving.margins[i] + over->rounding) * length;
+    const float margin =
+        (p->arcs.motion->scale * p->moving.margins[i] + over->rounding) * length;
     above->plane = memo->plane;
     above->key = key;
     above->height =

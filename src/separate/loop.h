@@ -141,10 +141,10 @@ static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *q) {
 // they meet? Cuts the segments, and separates the bodies in them. p->known is the result.
 static NSVCD__NOINLINE void nsvcd__separate(nsvcd__proof *p, nsvcd__search *q,
                                             const nsvcd__goal *goal) {
-  p->motion = goal->motion;
+  p->arcs.motion = goal->motion;
   p->goal = *goal;
   p->known.end = nsvcd__min(p->known.end, goal->end);
-  nsvcd__cut_segments(p->motion, p->given.lengths, nsvcd__clearance(&p->goal), q);
+  nsvcd__cut_segments(p->arcs.motion, p->given.lengths, nsvcd__clearance(&p->goal), q);
   p->known.outcome = nsvcd__prove_tiles(p, q);
   p->known.ran_out = p->known.outcome == NSVCD__EXHAUSTED;
   p->known.clearance = p->goal.clearance;

@@ -120,7 +120,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
 // until each part is resolved by a plane between the hulls, or by the triangles.
 static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__search *q,
                                                 const nsvcd__patch_pair *patches) {
-  const nsvcd__motion *m = p->motion;
+  const nsvcd__motion *m = p->arcs.motion;
   const size_t i = patches->moving;
   const size_t j = patches->fixed;
   const uint32_t last = q->begin[patches->segment + 1u];
@@ -134,7 +134,7 @@ static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__se
     is_tried = is_tried && at == last;
     ends[0] = (double)(at - first) / (double)(keyframe - first);
     for (size_t left = 1; left > 0;) {
-      nsvcd__arc_at(p, first);
+      nsvcd__arc_at(&p->arcs, first);
       const double end = nsvcd__min(ends[left - 1], nsvcd__arc_limit(p));
       if (!(u < end)) break;
       p->interval = nsvcd__interval_of_arc(p, first, u, end);
@@ -199,8 +199,8 @@ static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *
   if (s == q->segments || !((double)q->begin[s] < p->known.end)) return;
   nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
   const size_t l = s % NSVCD__LANES;
-  const uint32_t first = nsvcd__arc_of(p->motion, p->known.end, &u);
-  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(p, first), u);
+  const uint32_t first = nsvcd__arc_of(p->arcs.motion, p->known.end, &u);
+  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, first), u);
   const nsvcd__transform end = nsvcd__transform_of(&at);
   const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, l);
   const nsvcd__mat3 turned = nsvcd__mat3_mix(1, &end.rotation, -1, &start);
@@ -268,9 +268,9 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
     if (nsvcd__held_again(p, q, patches)) continue;
     if (nsvcd__is_separated(p, q, patches)) continue;
     double u;
-    const uint32_t first = nsvcd__arc_of(p->motion, q->begin[patches->segment], &u);
+    const uint32_t first = nsvcd__arc_of(p->arcs.motion, q->begin[patches->segment], &u);
     if ((p->goal.first > 0 || p->memo.shared > 0) &&
-        nsvcd__is_straight(nsvcd__arc_at(p, first))) {
+        nsvcd__is_straight(nsvcd__arc_at(&p->arcs, first))) {
       const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(p, q, patches);
       if (outcome != NSVCD__DONE) return outcome;
       continue;
@@ -310,7 +310,7 @@ static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *q)
     if (p->goal.collects == NSVCD__TOUCHING) {
       if (p->push.normal_count > 0) {
         // just pushed out: farther than the clearance by less than floats can tell
-        (void)nsvcd__arc_at(p, 0);
+        (void)nsvcd__arc_at(&p->arcs, 0);
         if (nsvcd__patches_apart(p, patches->moving, patches->fixed, 0, 0)) continue;
       }
       (void)nsvcd__find_witness(p, patches->moving, patches->fixed, 0, 0);
@@ -328,7 +328,7 @@ static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
                             const nsvcd__patch_pair *patches, int first, int last,
                             float *most) {
   const nsvcd__manifold *m = &p->of.kept.manifold;
-  const float scale = p->motion->scale;
+  const float scale = p->arcs.motion->scale;
   const float margin = scale * p->moving.margins[patches->moving] + (float)m->tolerance;
   const float fixed_margin = p->fixed.margins[patches->fixed];
   for (int k = first; k < last; k++) {
@@ -353,7 +353,7 @@ static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
 static NSVCD__NOINLINE void nsvcd__seek_positions(nsvcd__proof *p, int first, int last) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   nsvcd__patch_pair *pairs = p->of.kept.pairs;
-  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(p, 0), 0);
+  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, 0), 0);
   const nsvcd__transform pose = nsvcd__transform_of(&at);
   size_t tries = 0;
   float farthest[NSVCD__SUPPORTS];

@@ -173,7 +173,7 @@ static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *q, size_
   a.fixed = nsvcd__v_slab_set(&fixed);
   a.at_start = nsvcd__v3_set(nsvcd__mat3_apply_transpose(from, fixed.normal));
   a.at_end = nsvcd__v3_set(nsvcd__mat3_apply_transpose(to, fixed.normal));
-  a.scale = nsvcd__v_set(p->motion->scale);
+  a.scale = nsvcd__v_set(p->arcs.motion->scale);
   a.over = nsvcd__v_interval_set(over);
   a.clearance = nsvcd__clearance(&p->goal);
   a.radius = q->extent;
@@ -188,7 +188,7 @@ static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *q, size_
     wanted &= ~nsvcd__v_separate_by_fixed(&a);
     if (!wanted) continue;
     // rotations in an interval are times the scale
-    const float half = 0.5f * p->motion->per_scale;
+    const float half = 0.5f * p->arcs.motion->per_scale;
     const nsvcd__mat3 middle = nsvcd__mat3_mix(half, to, 1, from);
     const nsvcd__mat3 half_turn = nsvcd__mat3_mix(half, to, -1, from);
     a.mean = nsvcd__vmat3_apply(nsvcd__vmat3_set(&middle), a.moving.normal);

@@ -71,7 +71,7 @@ static void nsvcd__moving_block_load(nsvcd__proof *p, size_t i, size_t first) {
 // Seeks a contact of triangles of patches i and j at fraction u of an arc.
 static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, uint32_t first,
                                           double u) {
-  const nsvcd__arc *arc = nsvcd__arc_at(p, first);
+  const nsvcd__arc *arc = nsvcd__arc_at(&p->arcs, first);
   const nsvcd__dtransform at = nsvcd__dtransform_at(arc, u);
   const nsvcd__transform rounded = nsvcd__transform_of(&at);
   const float lengths = p->given.lengths + nsvcd__f3_norm(rounded.position);
@@ -117,7 +117,7 @@ static nsvcd__outcome nsvcd__seek_in_patch_pair(nsvcd__proof *p, const nsvcd__se
   double u;
   pair->sought = 1;
   if (!(tick < p->known.end)) return NSVCD__NOTHING;
-  const uint32_t first = nsvcd__arc_of(p->motion, tick, &u);
+  const uint32_t first = nsvcd__arc_of(p->arcs.motion, tick, &u);
   return nsvcd__find_witness(p, pair->moving, pair->fixed, first, u);
 }
 #endif  // NSVCD_NO_PROOF
