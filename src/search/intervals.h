@@ -164,16 +164,11 @@ static NSVCD__NOINLINE void nsvcd__slice_against_patch(const nsvcd__search *q, s
     const nsvcd__v3 chord = nsvcd__v3_fma(tau, travel, d);
     const nsvcd__v square = nsvcd__v3_dot(chord, chord);
     const uint32_t met = all_met[s] >> l & NSVCD__SLICE_MASK;
-    uint32_t ended = at.open & ~met;
-    if (cuts >> s & 1) {
-      ended = at.open;
-      at.fresh = one;
-    }
+    const int is_cut = (int)(cuts >> s & 1);
+    const uint32_t ended = is_cut ? at.open : at.open & ~met;
     if (ended) nsvcd__intervals_close(&at, ended, q, i, j, kept);
-    if (!met) {
-      at.fresh = one;
-      continue;
-    }
+    if (is_cut || !met) at.fresh = one;
+    if (!met) continue;
 
     // Intervals go on, or begin. |d + tau travel| = radius, solved from the line's nearest point
     // outwards: b^2 - ac would cancel on long chords.

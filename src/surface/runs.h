@@ -128,10 +128,38 @@ static size_t nsvcd__run_begin(size_t triangles, size_t run, size_t runs) {
   return (size_t)(((uint64_t)triangles * run + runs - 1) / runs);
 }
 
+// Numbers the vertices of a block in the order in which its triangles have them, and copies them. A
+// triangle may be a component of its own if none of its vertices was met before.
+static void nsvcd__block_vertices(nsvcd__curve *c, nsvcd__region *b) {
+  const nsvcd_mesh *mesh = c->mesh;
+  const size_t count = b->mesh.triangle_count;
+  const uint32_t before = c->met_count;
+  if (!mesh->indices) {
+    memcpy(b->vertices, b->ids, count * sizeof *b->vertices);
+    memset(b->seeds, 1, count);
+    b->mesh.vertex_count = count;
+  }
+  for (size_t n = 0; mesh->indices && n < 3 * count; n++) {
+    const uint32_t *face = &b->mesh.indices[n / 3 * 3];
+    uint32_t *met = &c->met[b->mesh.indices[n]];
+    if (*met <= before) {
+      b->seeds[b->mesh.vertex_count] =
+          n % 3 == 0 && !c->met[face[0]] && !c->met[face[1]] && !c->met[face[2]];
+      b->vertices[b->mesh.vertex_count++] = b->mesh.indices[n];
+      *met = ++c->met_count;
+    }
+    b->mesh.indices[n] = *met - 1 - before;
+  }
+  for (size_t i = 0; i < b->mesh.vertex_count; i++) {
+    const nsvcd__f3 at = nsvcd__f3_row(mesh->positions, b->vertices[i]);
+    nsvcd__f3_store(at, b->mesh.positions + 3 * i);
+  }
+}
+
 // Makes runs first .. last - 1, each a patch; b and patches are what their pieces refer to. The
 // triangles and vertices of a block are copied in the order of the curve, so that the rest reads
-// memory from front to back. A triangle may be a component of its own if none of its vertices was
-// met before. 0 without memory.
+// memory from front to back; in short loops, each of which can have many loads from far away in
+// flight. 0 without memory.
 static int nsvcd__runs_build(nsvcd__curve *c, size_t first, size_t last, size_t runs,
                              nsvcd__arena *arena, nsvcd__region *b, nsvcd__patches *patches,
                              nsvcd__pieces *pieces) {
@@ -139,7 +167,6 @@ static int nsvcd__runs_build(nsvcd__curve *c, size_t first, size_t last, size_t 
   const size_t all = mesh->triangle_count;
   const size_t begin = nsvcd__run_begin(all, first, runs);
   const size_t count = nsvcd__run_begin(all, last, runs) - begin;
-  const uint32_t before = c->met_count;
   memset(b, 0, sizeof *b);
   memset(patches, 0, sizeof *patches);
   memset(pieces, 0, sizeof *pieces);
@@ -161,7 +188,6 @@ static int nsvcd__runs_build(nsvcd__curve *c, size_t first, size_t last, size_t 
     return 0;
   nsvcd__piece *out = (nsvcd__piece *)pieces->list.items;
   pieces->list.count = count;
-  // Each of the short loops below can have many loads from far away in flight.
   size_t run = first;
   size_t end = 0;
   for (size_t k = 0; k < count; k++) {
@@ -175,26 +201,7 @@ static int nsvcd__runs_build(nsvcd__curve *c, size_t first, size_t last, size_t 
       b->mesh.indices[n] = mesh->indices ? mesh->indices[corner] : (uint32_t)k;
     }
   }
-  if (!mesh->indices) {
-    memcpy(b->vertices, b->ids, count * sizeof *b->vertices);
-    memset(b->seeds, 1, count);
-    b->mesh.vertex_count = count;
-  }
-  for (size_t n = 0; mesh->indices && n < 3 * count; n++) {
-    const uint32_t *face = &b->mesh.indices[n / 3 * 3];
-    uint32_t *met = &c->met[b->mesh.indices[n]];
-    if (*met <= before) {
-      b->seeds[b->mesh.vertex_count] =
-          n % 3 == 0 && !c->met[face[0]] && !c->met[face[1]] && !c->met[face[2]];
-      b->vertices[b->mesh.vertex_count++] = b->mesh.indices[n];
-      *met = ++c->met_count;
-    }
-    b->mesh.indices[n] = *met - 1 - before;
-  }
-  for (size_t i = 0; i < b->mesh.vertex_count; i++) {
-    const nsvcd__f3 at = nsvcd__f3_row(mesh->positions, b->vertices[i]);
-    nsvcd__f3_store(at, b->mesh.positions + 3 * i);
-  }
+  nsvcd__block_vertices(c, b);
   return 1;
 }
 #endif  // NSVCD_NO_ENCODER
