@@ -180,6 +180,7 @@ extern "C" {
 #include "patches/clusters.h"  // farthest point sampling, then Lloyd's algorithm
 #include "patches/covering.h"  // balls that cover the surface; patches as a whole
 #include "patches/topology.h"  // welded vertices, components, which of them are closed
+#include "patches/edges.h"     // which triangles share an edge; corners that are joined
 #include "patches/solids.h"    // what still encloses something despite its flaws
 #include "patches/regions.h"   // a large mesh in regions, each with its own patches
 

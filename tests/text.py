@@ -2,8 +2,8 @@
 and how much text there is; exit status 1 if something is not. That a room uses none below it, src/make_header.py sees to.
 
   lines      100 columns at most
-  rooms      800 lines at most; each says first what comes in and what goes out
-  functions  80 lines at most
+  rooms      500 lines at most; each says first what comes in and what goes out
+  functions  60 lines at most
   statements one a line: none joined by commas, but in the head of a for loop
   width      a line of code has 39.4 characters at most, on average, without indentation and comments
   names      no private name is a public one but for an underscore
@@ -20,8 +20,8 @@ from pathlib import Path
 
 SRC = Path(__file__).parent.parent / "src"
 COLUMNS = 100
-ROOM = 800
-LINES = 80
+ROOM = 500
+LINES = 60
 WIDTH = 39.4
 PAGE = 110
 NUMBERS = 25
