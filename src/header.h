@@ -252,7 +252,8 @@ extern "C" {
 // ============================================================================= network: an opinion
 #include "network/latent_rotation.h"  // Wigner matrices; latents rotated by them
 #include "network/winding_number.h"   // whether one body is inside the other, estimated
-#include "network/pairs.h"            // pairs of patches -> invariants
+#include "network/pairs.h"            // candidates -> pairs of patches, and how they move
+#include "network/invariants.h"       // pairs -> invariants, the inputs of the decoder
 #include "network/decoder.h"          // invariants -> logits and distances, in float or int8
 #include "network/opinion.h"          // candidates, ranked, and a logit for the best of them
 

@@ -1,8 +1,35 @@
-// In: invariants of pairs (n, DECODER_IN). Out: a logit each, and the pair's least distance.
+// In: invariants of pairs (n, DECODER_IN). Out: a logit each, and the pair's least distance. Pairs
+// come in batches of up to 16, and their invariants go through the layers some rows at a time.
 #pragma once
-#include "pairs.h"
+#include "invariants.h"
 
 #ifndef NSVCD_NO_NETWORK
+#define NSVCD__BATCH NSVCD__LANES
+// Rows of inputs at a time, and how many of them layers of floats take together. A machine without
+// vectors may have no stack for more; without floats, more than one row at a time gains nothing.
+#if NSVCD__SLICE > 1
+#define NSVCD__ROWS NSVCD__BATCH
+#define NSVCD__ROW_STEP 4
+#elif !defined(NSVCD_NO_FLOAT)
+#define NSVCD__ROWS 4
+#define NSVCD__ROW_STEP 4
+#else
+#define NSVCD__ROWS 1
+#define NSVCD__ROW_STEP 1
+#endif
+// Most outputs of a layer in the decoders that are compiled. The tests compare them to weights.h.
+#define NSVCD__WIDEST_TINY 32
+#define NSVCD__WIDEST_SMALL 96
+#ifndef NSVCD_NO_BASE
+#define NSVCD__WIDEST NSVCD_W_WIDEST
+#elif !defined(NSVCD_NO_SMALL)
+#define NSVCD__WIDEST NSVCD__WIDEST_SMALL
+#else
+#define NSVCD__WIDEST NSVCD__WIDEST_TINY
+#endif
+#define NSVCD__MOST_INPUTS \
+  (NSVCD__WIDEST > NSVCD__DECODER_IN ? NSVCD__WIDEST : NSVCD__DECODER_IN)
+
 // What a decoder makes of a pair.
 enum {
   NSVCD__OUT_LOGIT,
