@@ -1447,6 +1447,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     clusters        farthest point sampling, then Lloyd's algorithm
 //     covering        balls that cover the surface; patches as a whole
 //     topology        welded vertices, components, which of them are closed
+//     edges           which triangles share an edge; corners that are joined
 //     solids          what still encloses something despite its flaws
 //     regions         a large mesh in regions, each with its own patches
 //   surface: the shape of each patch, bounded
@@ -1505,7 +1506,8 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //   network: an opinion
 //     latent_rotation Wigner matrices; latents rotated by them
 //     winding_number  whether one body is inside the other, estimated
-//     pairs           pairs of patches -> invariants
+//     pairs           candidates -> pairs of patches, and how they move
+//     invariants      pairs -> invariants, the inputs of the decoder
 //     decoder         invariants -> logits and distances, in float or int8
 //     opinion         candidates, ranked, and a logit for the best of them
 //   gradient: of distance or logit, by poses
@@ -1642,77 +1644,78 @@ static const char *nsvcd__text_of(const char *texts, size_t n) {
   return texts;
 }
 
+static const char nsvcd__result_texts[] =
+    "ok\0"
+    "a pointer is NULL that must not be: an argument, or a body or an array in one\0"
+    "the file is missing or cannot be read\0"
+    "out of memory\0"
+    "the memory given is NULL, misaligned, or too small: its size or capacity\0"
+    "cancelled\0"
+    "a count is 0, or larger than the library takes: joint_count, joints, part_count, "
+    "body_count, goal_count or guess_count\0"
+    "the file is of another format than is read here, or is cut short\0"
+    "a line cannot be understood, or a face has fewer than three corners\0"
+    "an index is zero or refers to no vertex\0"
+    "a coordinate is not finite, or beyond a million metres\0"
+    "there is no triangle, or no area, or the mesh is smaller than 1e-12 metres\0"
+    "more vertices, triangles or bytes than can be counted\0"
+    "sizes: a face has fewer than three corners, or all together not corner_count\0"
+    "low or high is not finite, or low is not less than high on each axis\0"
+    "patches is more than 65536, or patch_radius is negative or not finite\0"
+    "radius, convex_radius or half is negative, wrongly zero, not finite or too large\0"
+    "this is not a body: its first bytes are others, or it is damaged, "
+    "cut short or misaligned\0"
+    "the body is of another version, model or byte order: encode the mesh again\0"
+    "a body holds no triangles, which a proof needs: encode it without no_triangles\0"
+    "a body holds no latents, which the network needs: encode it with latents, "
+    "and without convex_radius\0"
+    "poses and count do not agree: count is 0 where poses is NULL, else 1 to 65536\0"
+    "times do not rise, or, of poses, not from 0 to 1 by 1e-7 or more\0"
+    "the position of a pose is not finite, or beyond a million metres\0"
+    "a quaternion (x y z w) is not of unit length, to 1e-4\0"
+    "a scale is not finite, negative or out of range, "
+    "or makes a body too small or too large\0"
+    "both sides are the same body in the same motion\0"
+    "ask is none of its values\0"
+    "method is none of its values, or cannot answer this: the network knows no FIRST, "
+    "to, clearance or slop, and no proof has a gradient\0"
+    "to is negative, not finite or beyond a million metres, or set where HIT is asked, "
+    "which has no use for it\0"
+    "to_time is not in 0 to 1, or set where FIRST is not asked\0"
+    "clearance is negative, not finite or too large\0"
+    "slop is negative, not finite or too large, or set for a certificate, "
+    "which knows none\0"
+    "tolerance is negative, not finite or beyond a million metres\0"
+    "manifold is set where FIRST is not asked\0"
+    "segments is not a multiple of 16 up to 64\0"
+    "network.pairs is more than 256\0"
+    "network.model is none of its values, or not compiled in\0"
+    "network.precision is none of its values, or not compiled in\0"
+    "network.recall is none of 0, 0.99, 0.999 and 0.9999\0"
+    "network.inflate is negative or not finite\0"
+    "a joint's kind is none of its values, or its parent does not come before it\0"
+    "a joint's axis has no length, or is not finite\0"
+    "a joint's limits are not finite or too large, or low is above high\0"
+    "a joint's speed or acceleration is negative, not finite or too large\0"
+    "a link is no joint of the scene, or a part none of its parts\0"
+    "a pair is not there, or names a part that is not there, one twice, "
+    "or two of one link\0"
+    "a joint's value (start, goal, guess, points) is not finite or too large\0"
+    "degree is not 1 to 5, or pieces are more than can be counted\0"
+    "joints turn too far in a piece of the motion to be certified\0"
+    "finest is negative or not finite\0"
+    "max_distance or max_depth is negative, not finite or too large\0"
+    "farthest is negative, not finite or too large\0"
+    "nodes or shortcuts is too large, or edge is negative or no number\0"
+    "explore or refine: via_points, segments, iterations, "
+    "draws or noise is out of range\0"
+    "velocity, acceleration, jerk, collision, duration or margin is not finite, "
+    "or seeds or check too large\0"
+    "this build computes wrongly: see the compiler, and its flags\0"
+    "unknown result\0";
+
 NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
-  return nsvcd__text_of(
-      "ok\0"
-      "a pointer is NULL that must not be: an argument, or a body or an array in one\0"
-      "the file is missing or cannot be read\0"
-      "out of memory\0"
-      "the memory given is NULL, misaligned, or too small: its size or capacity\0"
-      "cancelled\0"
-      "a count is 0, or larger than the library takes: joint_count, joints, part_count, "
-      "body_count, goal_count or guess_count\0"
-      "the file is of another format than is read here, or is cut short\0"
-      "a line cannot be understood, or a face has fewer than three corners\0"
-      "an index is zero or refers to no vertex\0"
-      "a coordinate is not finite, or beyond a million metres\0"
-      "there is no triangle, or no area, or the mesh is smaller than 1e-12 metres\0"
-      "more vertices, triangles or bytes than can be counted\0"
-      "sizes: a face has fewer than three corners, or all together not corner_count\0"
-      "low or high is not finite, or low is not less than high on each axis\0"
-      "patches is more than 65536, or patch_radius is negative or not finite\0"
-      "radius, convex_radius or half is negative, wrongly zero, not finite or too large\0"
-      "this is not a body: its first bytes are others, or it is damaged, "
-      "cut short or misaligned\0"
-      "the body is of another version, model or byte order: encode the mesh again\0"
-      "a body holds no triangles, which a proof needs: encode it without no_triangles\0"
-      "a body holds no latents, which the network needs: encode it with latents, "
-      "and without convex_radius\0"
-      "poses and count do not agree: count is 0 where poses is NULL, else 1 to 65536\0"
-      "times do not rise, or, of poses, not from 0 to 1 by 1e-7 or more\0"
-      "the position of a pose is not finite, or beyond a million metres\0"
-      "a quaternion (x y z w) is not of unit length, to 1e-4\0"
-      "a scale is not finite, negative or out of range, "
-      "or makes a body too small or too large\0"
-      "both sides are the same body in the same motion\0"
-      "ask is none of its values\0"
-      "method is none of its values, or cannot answer this: the network knows no FIRST, "
-      "to, clearance or slop, and no proof has a gradient\0"
-      "to is negative, not finite or beyond a million metres, or set where HIT is asked, "
-      "which has no use for it\0"
-      "to_time is not in 0 to 1, or set where FIRST is not asked\0"
-      "clearance is negative, not finite or too large\0"
-      "slop is negative, not finite or too large, or set for a certificate, "
-      "which knows none\0"
-      "tolerance is negative, not finite or beyond a million metres\0"
-      "manifold is set where FIRST is not asked\0"
-      "segments is not a multiple of 16 up to 64\0"
-      "network.pairs is more than 256\0"
-      "network.model is none of its values, or not compiled in\0"
-      "network.precision is none of its values, or not compiled in\0"
-      "network.recall is none of 0, 0.99, 0.999 and 0.9999\0"
-      "network.inflate is negative or not finite\0"
-      "a joint's kind is none of its values, or its parent does not come before it\0"
-      "a joint's axis has no length, or is not finite\0"
-      "a joint's limits are not finite or too large, or low is above high\0"
-      "a joint's speed or acceleration is negative, not finite or too large\0"
-      "a link is no joint of the scene, or a part none of its parts\0"
-      "a pair is not there, or names a part that is not there, one twice, "
-      "or two of one link\0"
-      "a joint's value (start, goal, guess, points) is not finite or too large\0"
-      "degree is not 1 to 5, or pieces are more than can be counted\0"
-      "joints turn too far in a piece of the motion to be certified\0"
-      "finest is negative or not finite\0"
-      "max_distance or max_depth is negative, not finite or too large\0"
-      "farthest is negative, not finite or too large\0"
-      "nodes or shortcuts is too large, or edge is negative or no number\0"
-      "explore or refine: via_points, segments, iterations, "
-      "draws or noise is out of range\0"
-      "velocity, acceleration, jerk, collision, duration or margin is not finite, "
-      "or seeds or check too large\0"
-      "this build computes wrongly: see the compiler, and its flags\0"
-      "unknown result\0",
-      (size_t)result);
+  return nsvcd__text_of(nsvcd__result_texts, (size_t)result);
 }
 
 NSVCDDEF const char *nsvcd_verdict_string(nsvcd_verdict verdict) {
@@ -4384,25 +4387,10 @@ static int nsvcd__topology_build(const nsvcd_mesh *mesh, nsvcd__arena *arena,
 }
 #endif  // NSVCD_NO_ENCODER
 
-// ---------------------------------------------------------------------------------- patches/solids
-// In: a mesh's topology. Out: what each triangle is part of: a sheet, a closed surface, one that is
-// closed but for its winding, or nearly a solid: one with a hole.
-//
-// A point is inside closed components if they wind about it. That needs a cycle: each directed edge
-// has its reverse. A component that is none may contain one, once harmless flaws are set aside, in
-// this order:
-//   1. Corners at edges that lack a triangle are joined to others that are near enough.
-//   2. Of triangles with the same three corners one stays; those with only two distinct corners go.
-//   3. Fins, triangles with an edge that no other has, are set aside, until none is left. So are
-//      inner walls: where edges of three meet, the part with the least area.
-//   4. What is left is judged part by part (triangles that share edges). It is a cycle; or each
-//      edge has an even number of triangles, and then a ray from inside crosses it an odd number of
-//      times, however it is wound. Of a sheet nothing is left. A part of the second kind is a sheet
-//      if it has less than half the area of all that its edges join: rooms on a terrain are not
-//      turned inside out.
-//   5. What is still open is a sheet, or nearly a solid: see nsvcd__judge_holes.
-// The caller's triangles stay as they are, and are all proven apart. This decides only which of
-// them a ray counts.
+// ----------------------------------------------------------------------------------- patches/edges
+// In: the triangles of a mesh's components that are not closed. Out: which of them share each edge,
+// after corners at edges that lack a triangle have been joined to others that are near enough, and
+// triangles that are there twice or have equal corners have been set aside.
 
 #ifndef NSVCD_NO_ENCODER
 // Corners are joined up to this distance, as a fraction of the diagonal of the mesh's box, and of
@@ -4411,24 +4399,6 @@ static int nsvcd__topology_build(const nsvcd_mesh *mesh, nsvcd__arena *arena,
 #define NSVCD__JOINED_OF_EDGE 0.01
 // vertices that are tried in a cell
 #define NSVCD__JOIN_TRIES 64
-// Nearly a solid: its holes have at most this fraction of its area; a hole of three edges counts
-// only this fraction of itself.
-#define NSVCD__HOLES 0.02
-#define NSVCD__HOLE_OF_THREE 0.04
-// least mean cosine between a hole and the surface about it, if that goes on across the hole
-#define NSVCD__FLUSH 0.25
-// a hole is a slit if its area is at most this fraction of its border's length squared
-#define NSVCD__SLIT 1e-3
-
-typedef struct nsvcd__solids {
-  // (triangles) NSVCD__SHEET and so on
-  uint8_t *kinds;
-  size_t components, open_components, open_edges;
-  // metres: the widest gap that was closed
-  double gap;
-  // 1: there are kinds other than SHEET and CLOSED
-  int is_mixed;
-} nsvcd__solids;
 
 // The triangles of components that are not closed, without those that are points or segments.
 typedef struct nsvcd__mending {
@@ -4652,6 +4622,72 @@ static double nsvcd__join_corners(nsvcd__mending *m, const nsvcd_allocator *allo
   nsvcd__arena_free(&arena);
   return arena.failed ? -1 : widest;
 }
+
+// Groups the edges of `m` and joins corners, of the triangles and the topology that stand in it. 0
+// without memory.
+static int nsvcd__mending_build(nsvcd__mending *m, nsvcd__arena *arena) {
+  const size_t vertices = m->topo->mesh->vertex_count;
+  const size_t count = m->count;
+  m->joined = NSVCD__TAKE(arena, uint32_t, vertices);
+  m->alive = NSVCD__TAKE(arena, uint8_t, count);
+  m->order = NSVCD__TAKE(arena, uint32_t, 3 * count);
+  m->groups = NSVCD__TAKE(arena, uint32_t, 3 * count);
+  m->group_first = NSVCD__TAKE(arena, uint32_t, 3 * count + 1);
+  m->degrees = NSVCD__TAKE(arena, uint32_t, 3 * count);
+  m->others = NSVCD__TAKE(arena, uint32_t, 3 * count);
+  m->wholes = NSVCD__TAKE(arena, uint32_t, count);
+  m->parts = NSVCD__TAKE(arena, uint32_t, count);
+  m->first = NSVCD__TAKE(arena, size_t, vertices + 1);
+  m->spare = NSVCD__TAKE(arena, uint32_t, 3 * count);
+  if (arena->failed) return 0;
+  for (uint32_t v = 0; v < vertices; v++) m->joined[v] = v;
+  nsvcd__group_edges(m);
+  const double widest = nsvcd__join_corners(m, arena->allocator);
+  if (widest < 0) return 0;
+  if (widest > 0) nsvcd__group_edges(m);
+  return 1;
+}
+#endif  // NSVCD_NO_ENCODER
+
+// ---------------------------------------------------------------------------------- patches/solids
+// In: a mesh's topology. Out: what each triangle is part of: a sheet, a closed surface, one that is
+// closed but for its winding, or nearly a solid: one with a hole.
+//
+// A point is inside closed components if they wind about it. That needs a cycle: each directed edge
+// has its reverse. A component that is none may contain one, once harmless flaws are set aside, in
+// this order, the first two by patches/edges:
+//   1. Corners at edges that lack a triangle are joined to others that are near enough.
+//   2. Of triangles with the same three corners one stays; those with only two distinct corners go.
+//   3. Fins, triangles with an edge that no other has, are set aside, until none is left. So are
+//      inner walls: where edges of three meet, the part with the least area.
+//   4. What is left is judged part by part (triangles that share edges). It is a cycle; or each
+//      edge has an even number of triangles, and then a ray from inside crosses it an odd number of
+//      times, however it is wound. Of a sheet nothing is left. A part of the second kind is a sheet
+//      if it has less than half the area of all that its edges join: rooms on a terrain are not
+//      turned inside out.
+//   5. What is still open is a sheet, or nearly a solid: see nsvcd__judge_holes.
+// The caller's triangles stay as they are, and are all proven apart. This decides only which of
+// them a ray counts.
+
+#ifndef NSVCD_NO_ENCODER
+// Nearly a solid: its holes have at most this fraction of its area; a hole of three edges counts
+// only this fraction of itself.
+#define NSVCD__HOLES 0.02
+#define NSVCD__HOLE_OF_THREE 0.04
+// least mean cosine between a hole and the surface about it, if that goes on across the hole
+#define NSVCD__FLUSH 0.25
+// a hole is a slit if its area is at most this fraction of its border's length squared
+#define NSVCD__SLIT 1e-3
+
+typedef struct nsvcd__solids {
+  // (triangles) NSVCD__SHEET and so on
+  uint8_t *kinds;
+  size_t components, open_components, open_edges;
+  // metres: the widest gap that was closed
+  double gap;
+  // 1: there are kinds other than SHEET and CLOSED
+  int is_mixed;
+} nsvcd__solids;
 
 // ---- parts
 
@@ -4917,28 +4953,11 @@ static void nsvcd__mark_wholes(const nsvcd__mending *m, nsvcd__shell *wholes,
 
 // Judges all triangles of `m`. 0 without memory.
 static int nsvcd__mend(nsvcd__mending *m, nsvcd__arena *arena, nsvcd__solids *out) {
-  const size_t vertices = m->topo->mesh->vertex_count;
   const size_t count = m->count;
-  m->joined = NSVCD__TAKE(arena, uint32_t, vertices);
-  m->alive = NSVCD__TAKE(arena, uint8_t, count);
-  m->order = NSVCD__TAKE(arena, uint32_t, 3 * count);
-  m->groups = NSVCD__TAKE(arena, uint32_t, 3 * count);
-  m->group_first = NSVCD__TAKE(arena, uint32_t, 3 * count + 1);
-  m->degrees = NSVCD__TAKE(arena, uint32_t, 3 * count);
-  m->others = NSVCD__TAKE(arena, uint32_t, 3 * count);
-  m->wholes = NSVCD__TAKE(arena, uint32_t, count);
-  m->parts = NSVCD__TAKE(arena, uint32_t, count);
-  m->first = NSVCD__TAKE(arena, size_t, vertices + 1);
-  m->spare = NSVCD__TAKE(arena, uint32_t, 3 * count);
   uint8_t *distinct = NSVCD__TAKE(arena, uint8_t, count);
   nsvcd__shell *wholes = NSVCD__TAKE(arena, nsvcd__shell, count);
   nsvcd__shell *parts = NSVCD__TAKE(arena, nsvcd__shell, count);
-  if (arena->failed) return 0;
-  for (uint32_t v = 0; v < vertices; v++) m->joined[v] = v;
-  nsvcd__group_edges(m);
-  const double widest = nsvcd__join_corners(m, arena->allocator);
-  if (widest < 0) return 0;
-  if (widest > 0) nsvcd__group_edges(m);
+  if (arena->failed || !nsvcd__mending_build(m, arena)) return 0;
   memcpy(distinct, m->alive, count);
   nsvcd__join_triangles(m, UINT32_MAX, m->wholes);
   nsvcd__measure_wholes(m, wholes);
@@ -5665,10 +5684,38 @@ static size_t nsvcd__run_begin(size_t triangles, size_t run, size_t runs) {
   return (size_t)(((uint64_t)triangles * run + runs - 1) / runs);
 }
 
+// Numbers the vertices of a block in the order in which its triangles have them, and copies them. A
+// triangle may be a component of its own if none of its vertices was met before.
+static void nsvcd__block_vertices(nsvcd__curve *c, nsvcd__region *b) {
+  const nsvcd_mesh *mesh = c->mesh;
+  const size_t count = b->mesh.triangle_count;
+  const uint32_t before = c->met_count;
+  if (!mesh->indices) {
+    memcpy(b->vertices, b->ids, count * sizeof *b->vertices);
+    memset(b->seeds, 1, count);
+    b->mesh.vertex_count = count;
+  }
+  for (size_t n = 0; mesh->indices && n < 3 * count; n++) {
+    const uint32_t *face = &b->mesh.indices[n / 3 * 3];
+    uint32_t *met = &c->met[b->mesh.indices[n]];
+    if (*met <= before) {
+      b->seeds[b->mesh.vertex_count] =
+          n % 3 == 0 && !c->met[face[0]] && !c->met[face[1]] && !c->met[face[2]];
+      b->vertices[b->mesh.vertex_count++] = b->mesh.indices[n];
+      *met = ++c->met_count;
+    }
+    b->mesh.indices[n] = *met - 1 - before;
+  }
+  for (size_t i = 0; i < b->mesh.vertex_count; i++) {
+    const nsvcd__f3 at = nsvcd__f3_row(mesh->positions, b->vertices[i]);
+    nsvcd__f3_store(at, b->mesh.positions + 3 * i);
+  }
+}
+
 // Makes runs first .. last - 1, each a patch; b and patches are what their pieces refer to. The
 // triangles and vertices of a block are copied in the order of the curve, so that the rest reads
-// memory from front to back. A triangle may be a component of its own if none of its vertices was
-// met before. 0 without memory.
+// memory from front to back; in short loops, each of which can have many loads from far away in
+// flight. 0 without memory.
 static int nsvcd__runs_build(nsvcd__curve *c, size_t first, size_t last, size_t runs,
                              nsvcd__arena *arena, nsvcd__region *b, nsvcd__patches *patches,
                              nsvcd__pieces *pieces) {
@@ -5676,7 +5723,6 @@ static int nsvcd__runs_build(nsvcd__curve *c, size_t first, size_t last, size_t 
   const size_t all = mesh->triangle_count;
   const size_t begin = nsvcd__run_begin(all, first, runs);
   const size_t count = nsvcd__run_begin(all, last, runs) - begin;
-  const uint32_t before = c->met_count;
   memset(b, 0, sizeof *b);
   memset(patches, 0, sizeof *patches);
   memset(pieces, 0, sizeof *pieces);
@@ -5698,7 +5744,6 @@ static int nsvcd__runs_build(nsvcd__curve *c, size_t first, size_t last, size_t 
     return 0;
   nsvcd__piece *out = (nsvcd__piece *)pieces->list.items;
   pieces->list.count = count;
-  // Each of the short loops below can have many loads from far away in flight.
   size_t run = first;
   size_t end = 0;
   for (size_t k = 0; k < count; k++) {
@@ -5712,26 +5757,7 @@ static int nsvcd__runs_build(nsvcd__curve *c, size_t first, size_t last, size_t 
       b->mesh.indices[n] = mesh->indices ? mesh->indices[corner] : (uint32_t)k;
     }
   }
-  if (!mesh->indices) {
-    memcpy(b->vertices, b->ids, count * sizeof *b->vertices);
-    memset(b->seeds, 1, count);
-    b->mesh.vertex_count = count;
-  }
-  for (size_t n = 0; mesh->indices && n < 3 * count; n++) {
-    const uint32_t *face = &b->mesh.indices[n / 3 * 3];
-    uint32_t *met = &c->met[b->mesh.indices[n]];
-    if (*met <= before) {
-      b->seeds[b->mesh.vertex_count] =
-          n % 3 == 0 && !c->met[face[0]] && !c->met[face[1]] && !c->met[face[2]];
-      b->vertices[b->mesh.vertex_count++] = b->mesh.indices[n];
-      *met = ++c->met_count;
-    }
-    b->mesh.indices[n] = *met - 1 - before;
-  }
-  for (size_t i = 0; i < b->mesh.vertex_count; i++) {
-    const nsvcd__f3 at = nsvcd__f3_row(mesh->positions, b->vertices[i]);
-    nsvcd__f3_store(at, b->mesh.positions + 3 * i);
-  }
+  nsvcd__block_vertices(c, b);
   return 1;
 }
 #endif  // NSVCD_NO_ENCODER
@@ -12967,16 +12993,11 @@ static NSVCD__NOINLINE void nsvcd__slice_against_patch(const nsvcd__search *q, s
     const nsvcd__v3 chord = nsvcd__v3_fma(tau, travel, d);
     const nsvcd__v square = nsvcd__v3_dot(chord, chord);
     const uint32_t met = all_met[s] >> l & NSVCD__SLICE_MASK;
-    uint32_t ended = at.open & ~met;
-    if (cuts >> s & 1) {
-      ended = at.open;
-      at.fresh = one;
-    }
+    const int is_cut = (int)(cuts >> s & 1);
+    const uint32_t ended = is_cut ? at.open : at.open & ~met;
     if (ended) nsvcd__intervals_close(&at, ended, q, i, j, kept);
-    if (!met) {
-      at.fresh = one;
-      continue;
-    }
+    if (is_cut || !met) at.fresh = one;
+    if (!met) continue;
 
     // Intervals go on, or begin. |d + tau travel| = radius, solved from the line's nearest point
     // outwards: b^2 - ac would cancel on long chords.
@@ -15639,86 +15660,11 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
 #endif  // NSVCD_NO_NETWORK
 
 // ----------------------------------------------------------------------------------- network/pairs
-// In: candidate pairs of patches, and the motion over the intervals in which their balls meet.
-// Out: the decoder's inputs, invariants (n, DECODER_IN).
-//
-// The motion is linearised about the middle of the interval. All is expressed in a frame that moves
-// with the pair, in units of r1 + r2 (NeuralSVCD, appendix F), so that the logit is invariant to
-// rigid motion and scale. The other symmetries are not learned, but removed by conventions:
-//   swap           the larger patch comes first
-//   axis 1         the line between the centres
-//   axis 2         the velocity across the line, plus a twentieth of the lean (the difference of
-//                  the patches' normals), so that it has a limit where the velocity vanishes
-//   time reversal  time runs so that velocity and lean, across the line, do not oppose each other
-//   mirror         axis 3 points to the side of the lean; if the lean is on neither side, as for a
-//                  pair at rest, the frame is right-handed
-// Degenerate cases: if the centres coincide (to 1e-5 of r1 + r2), axis 1 is the lean, else x; if
-// the reference for axis 2 vanishes, that is the coordinate axis farthest from axis 1.
-//
-// Candidates come in batches of up to 16. They become inputs a slice at a time, one per lane (only
-// latents are turned pair by pair, channels side by side), and the inputs go through the layers
-// some rows at a time.
+// In: candidates, and the motion. Out: pairs of patches in the fixed body's frame: where they are
+// halfway through the interval in which their balls meet, and how they move, linearised about that
+// time. A slice of candidates at a time, one per lane.
 
 #ifndef NSVCD_NO_NETWORK
-#define NSVCD__BATCH NSVCD__LANES
-// Rows of inputs at a time, and how many of them layers of floats take together. A machine without
-// vectors may have no stack for more; without floats, more than one row at a time gains nothing.
-#if NSVCD__SLICE > 1
-#define NSVCD__ROWS NSVCD__BATCH
-#define NSVCD__ROW_STEP 4
-#elif !defined(NSVCD_NO_FLOAT)
-#define NSVCD__ROWS 4
-#define NSVCD__ROW_STEP 4
-#else
-#define NSVCD__ROWS 1
-#define NSVCD__ROW_STEP 1
-#endif
-// The facts: what the decoder sees of a pair's geometry, in the pair's frame and units.
-enum {
-  NSVCD__FACT_DISTANCE = 0,  // of the centres
-  NSVCD__FACT_RADIUS = 1,    // the larger one
-  NSVCD__FACT_CLOSEST = 2,   // the centres' distance at their closest approach
-  NSVCD__FACT_TAU = 3,       // the time of that: -1 and 1 are the ends of the interval
-  NSVCD__FACT_VELOCITY = 4,  // (3)
-  NSVCD__FACT_TURN = 7,      // (3)
-  NSVCD__FACT_SPEED = 10,    // the lengths of these two
-  NSVCD__FACT_SPIN = 11,
-  NSVCD__FACT_GAPS = 12,    // (GAPS, MOMENTS): between the extreme points
-  NSVCD__FACT_WIDEST = 24,  // (MOMENTS): the widest of these
-  // (3): products of the normals: with each other; the larger patch's, and the smaller one's, with
-  // the line from the larger to the smaller
-  NSVCD__FACT_FACING = 27,
-  NSVCD__FACT_FLAT = 30,  // (2): how flat the larger patch is, and the smaller
-  NSVCD__FACTS = 32
-};
-// The axes, from the fixed patch to the moving one, along which gaps are measured: the larger
-// patch's normal, the smaller one's, the line between the centres, and the sum of the normals.
-enum { NSVCD__GAP_LARGER, NSVCD__GAP_SMALLER, NSVCD__GAP_LINE, NSVCD__GAP_BOTH, NSVCD__GAPS };
-#define NSVCD__MOMENTS 3  // both ends of the interval, and its middle
-// The fact about a gap g, in units of r1 + r2, is x / (1 + |x|), where x is g times the first of
-// these. The widest uses the second: near contact it must not be lost in the steps of int8.
-#define NSVCD__GAP_STEEP 8.0f
-#define NSVCD__WIDEST_STEEP 40.0f
-#define NSVCD__INPUTS (2 * NSVCD__LATENT + NSVCD__FACTS)
-#define NSVCD__DECODER_IN ((NSVCD__INPUTS + 15) / 16 * 16)  // zeros at the end
-// Most outputs of a layer in the decoders that are compiled. The tests compare them to weights.h.
-#define NSVCD__WIDEST_TINY 32
-#define NSVCD__WIDEST_SMALL 96
-#ifndef NSVCD_NO_BASE
-#define NSVCD__WIDEST NSVCD_W_WIDEST
-#elif !defined(NSVCD_NO_SMALL)
-#define NSVCD__WIDEST NSVCD__WIDEST_SMALL
-#else
-#define NSVCD__WIDEST NSVCD__WIDEST_TINY
-#endif
-#define NSVCD__MOST_INPUTS \
-  (NSVCD__WIDEST > NSVCD__DECODER_IN ? NSVCD__WIDEST : NSVCD__DECODER_IN)
-#define NSVCD__LEAN 0.05f  // share of the lean in axis 2
-// A lean that is this near to the plane of axes 1 and 2 is on neither side.
-#define NSVCD__SIDE 1e-4f
-
-// ---- pairs in motion
-
 // A slice of pairs, in the fixed body's frame; first the moving patch, then the fixed one.
 typedef struct nsvcd__pairs {
   nsvcd__v3 p1, p2;       // centres at mid-interval
@@ -15885,6 +15831,59 @@ static NSVCD__NOINLINE void nsvcd__pairs_of(const nsvcd_body *moving, const nsvc
   for (size_t k = 0; k < 3; k++) at[k] = nsvcd__v_poses_at(motion, times[k], count);
   nsvcd__pairs_in_passing(at, centres[0], p);
 }
+#endif  // NSVCD_NO_NETWORK
+
+// ------------------------------------------------------------------------------ network/invariants
+// In: pairs of patches in motion. Out: the decoder's inputs, invariants (n, DECODER_IN).
+//
+// All is expressed in a frame that moves with the pair, in units of r1 + r2 (NeuralSVCD, appendix
+// F), so that the logit is invariant to rigid motion and scale. The other symmetries are not
+// learned, but removed by conventions:
+//   swap           the larger patch comes first
+//   axis 1         the line between the centres
+//   axis 2         the velocity across the line, plus a twentieth of the lean (the difference of
+//                  the patches' normals), so that it has a limit where the velocity vanishes
+//   time reversal  time runs so that velocity and lean, across the line, do not oppose each other
+//   mirror         axis 3 points to the side of the lean; if the lean is on neither side, as for a
+//                  pair at rest, the frame is right-handed
+// Degenerate cases: if the centres coincide (to 1e-5 of r1 + r2), axis 1 is the lean, else x; if
+// the reference for axis 2 vanishes, that is the coordinate axis farthest from axis 1.
+//
+// Pairs become inputs a slice at a time, one per lane; only latents are turned pair by pair,
+// channels side by side.
+
+#ifndef NSVCD_NO_NETWORK
+// The facts: what the decoder sees of a pair's geometry, in the pair's frame and units.
+enum {
+  NSVCD__FACT_DISTANCE = 0,  // of the centres
+  NSVCD__FACT_RADIUS = 1,    // the larger one
+  NSVCD__FACT_CLOSEST = 2,   // the centres' distance at their closest approach
+  NSVCD__FACT_TAU = 3,       // the time of that: -1 and 1 are the ends of the interval
+  NSVCD__FACT_VELOCITY = 4,  // (3)
+  NSVCD__FACT_TURN = 7,      // (3)
+  NSVCD__FACT_SPEED = 10,    // the lengths of these two
+  NSVCD__FACT_SPIN = 11,
+  NSVCD__FACT_GAPS = 12,    // (GAPS, MOMENTS): between the extreme points
+  NSVCD__FACT_WIDEST = 24,  // (MOMENTS): the widest of these
+  // (3): products of the normals: with each other; the larger patch's, and the smaller one's, with
+  // the line from the larger to the smaller
+  NSVCD__FACT_FACING = 27,
+  NSVCD__FACT_FLAT = 30,  // (2): how flat the larger patch is, and the smaller
+  NSVCD__FACTS = 32
+};
+// The axes, from the fixed patch to the moving one, along which gaps are measured: the larger
+// patch's normal, the smaller one's, the line between the centres, and the sum of the normals.
+enum { NSVCD__GAP_LARGER, NSVCD__GAP_SMALLER, NSVCD__GAP_LINE, NSVCD__GAP_BOTH, NSVCD__GAPS };
+#define NSVCD__MOMENTS 3  // both ends of the interval, and its middle
+// The fact about a gap g, in units of r1 + r2, is x / (1 + |x|), where x is g times the first of
+// these. The widest uses the second: near contact it must not be lost in the steps of int8.
+#define NSVCD__GAP_STEEP 8.0f
+#define NSVCD__WIDEST_STEEP 40.0f
+#define NSVCD__INPUTS (2 * NSVCD__LATENT + NSVCD__FACTS)
+#define NSVCD__DECODER_IN ((NSVCD__INPUTS + 15) / 16 * 16)  // zeros at the end
+#define NSVCD__LEAN 0.05f                                   // share of the lean in axis 2
+// A lean that is this near to the plane of axes 1 and 2 is on neither side.
+#define NSVCD__SIDE 1e-4f
 
 // ---- frames and facts
 
@@ -16169,9 +16168,36 @@ static NSVCD__NOINLINE void nsvcd__invariants(const nsvcd__pairs *p, size_t coun
 #endif  // NSVCD_NO_NETWORK
 
 // --------------------------------------------------------------------------------- network/decoder
-// In: invariants of pairs (n, DECODER_IN). Out: a logit each, and the pair's least distance.
+// In: invariants of pairs (n, DECODER_IN). Out: a logit each, and the pair's least distance. Pairs
+// come in batches of up to 16, and their invariants go through the layers some rows at a time.
 
 #ifndef NSVCD_NO_NETWORK
+#define NSVCD__BATCH NSVCD__LANES
+// Rows of inputs at a time, and how many of them layers of floats take together. A machine without
+// vectors may have no stack for more; without floats, more than one row at a time gains nothing.
+#if NSVCD__SLICE > 1
+#define NSVCD__ROWS NSVCD__BATCH
+#define NSVCD__ROW_STEP 4
+#elif !defined(NSVCD_NO_FLOAT)
+#define NSVCD__ROWS 4
+#define NSVCD__ROW_STEP 4
+#else
+#define NSVCD__ROWS 1
+#define NSVCD__ROW_STEP 1
+#endif
+// Most outputs of a layer in the decoders that are compiled. The tests compare them to weights.h.
+#define NSVCD__WIDEST_TINY 32
+#define NSVCD__WIDEST_SMALL 96
+#ifndef NSVCD_NO_BASE
+#define NSVCD__WIDEST NSVCD_W_WIDEST
+#elif !defined(NSVCD_NO_SMALL)
+#define NSVCD__WIDEST NSVCD__WIDEST_SMALL
+#else
+#define NSVCD__WIDEST NSVCD__WIDEST_TINY
+#endif
+#define NSVCD__MOST_INPUTS \
+  (NSVCD__WIDEST > NSVCD__DECODER_IN ? NSVCD__WIDEST : NSVCD__DECODER_IN)
+
 // What a decoder makes of a pair.
 enum {
   NSVCD__OUT_LOGIT,
