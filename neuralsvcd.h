@@ -13600,7 +13600,7 @@ static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *q, size_
 
 // Clears the segments in which slabs separate the moving group that is searched, whose chords are
 // in q->group, from the fixed ones that it meets: a slice of segments at a time.
-static NSVCD__NOINLINE void nsvcd__separate_groups(nsvcd__proof *p, nsvcd__search *q) {
+static NSVCD__NOINLINE void nsvcd__separate_groups(const nsvcd__proof *p, nsvcd__search *q) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
   const size_t next = q->order[q->step];
@@ -14509,7 +14509,7 @@ static int nsvcd__collects_on(const nsvcd__proof *p) {
 
 // Collects the contacts of fresh patch pairs at the start, or the patch pairs where contact points
 // may be. EXHAUSTED: there is no room for more, or no budget.
-static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *q) {
+static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, const nsvcd__search *q) {
   for (size_t n = 0; n < p->fresh_count && nsvcd__collects_on(p); n++) {
     const nsvcd__patch_pair *patches = &p->fresh[n];
     if (nsvcd__held_again(p, q, patches)) continue;

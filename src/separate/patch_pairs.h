@@ -302,7 +302,7 @@ static int nsvcd__collects_on(const nsvcd__proof *p) {
 
 // Collects the contacts of fresh patch pairs at the start, or the patch pairs where contact points
 // may be. EXHAUSTED: there is no room for more, or no budget.
-static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *q) {
+static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, const nsvcd__search *q) {
   for (size_t n = 0; n < p->fresh_count && nsvcd__collects_on(p); n++) {
     const nsvcd__patch_pair *patches = &p->fresh[n];
     if (nsvcd__held_again(p, q, patches)) continue;

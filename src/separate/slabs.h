@@ -200,7 +200,7 @@ static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *q, size_
 
 // Clears the segments in which slabs separate the moving group that is searched, whose chords are
 // in q->group, from the fixed ones that it meets: a slice of segments at a time.
-static NSVCD__NOINLINE void nsvcd__separate_groups(nsvcd__proof *p, nsvcd__search *q) {
+static NSVCD__NOINLINE void nsvcd__separate_groups(const nsvcd__proof *p, nsvcd__search *q) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
   const size_t next = q->order[q->step];
