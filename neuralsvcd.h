@@ -1482,6 +1482,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     touches         how deep triangles that touch are, and what undoes it
 //     manifold        up to four contact points
 //   task: a question, and what it needs
+//     facts           what a decoder sees of a pair; the tape of its derivative
 //     task            a question that has been checked, its memory, and its kernels
 //   lanes: 16 numbers at a time
 //     lanes           AVX-512, AVX2, SSE2, NEON, SIMD128 or plain C
@@ -1510,12 +1511,13 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     invariants      pairs -> invariants, the inputs of the decoder
 //     decoder         invariants -> logits and distances, in float or int8
 //     opinion         candidates, ranked, and a logit for the best of them
-//   gradient: of distance or logit, by poses
-//     by_pair         by the decoder's inputs, and by the pair
-//     gradient        by the poses, and by the times of contact
+//     tape            what the derivative of that is made of
 //   entry: the kernels of each set, and the best ones
 //     kernels         the table of what has been compiled for a set
 //     processor       SSE2, AVX2 or AVX-512: the processor decides
+//   gradient: of distance or logit, by poses
+//     by_pair         by the decoder's inputs, and by the pair
+//     gradient        by the poses, and by the times of contact
 //   query: a question, and its answer
 //     verdict         of one search: do they meet, when first, how near
 //     long            the same of a motion of any length
@@ -11165,6 +11167,96 @@ static NSVCD__NOINLINE int nsvcd__choose_four(const nsvcd__manifold *m, int *cho
 
 // ============================================================= task: a question, and what it needs
 
+// -------------------------------------------------------------------------------------- task/facts
+// In: weights.h. Out: the names of what the decoder sees of two patches, and the tape: what the
+// derivative of an opinion is made of.
+
+#ifndef NSVCD_NO_NETWORK
+// The facts: what the decoder sees of a pair's geometry, in the pair's frame and units.
+enum {
+  NSVCD__FACT_DISTANCE = 0,  // of the centres
+  NSVCD__FACT_RADIUS = 1,    // the larger one
+  NSVCD__FACT_CLOSEST = 2,   // the centres' distance at their closest approach
+  NSVCD__FACT_TAU = 3,       // the time of that: -1 and 1 are the ends of the interval
+  NSVCD__FACT_VELOCITY = 4,  // (3)
+  NSVCD__FACT_TURN = 7,      // (3)
+  NSVCD__FACT_SPEED = 10,    // the lengths of these two
+  NSVCD__FACT_SPIN = 11,
+  NSVCD__FACT_GAPS = 12,    // (GAPS, MOMENTS): between the extreme points
+  NSVCD__FACT_WIDEST = 24,  // (MOMENTS): the widest of these
+  // (3): products of the normals: with each other; the larger patch's, and the smaller one's, with
+  // the line from the larger to the smaller
+  NSVCD__FACT_FACING = 27,
+  NSVCD__FACT_FLAT = 30,  // (2): how flat the larger patch is, and the smaller
+  NSVCD__FACTS = 32
+};
+// The axes, from the fixed patch to the moving one, along which gaps are measured: the larger
+// patch's normal, the smaller one's, the line between the centres, and the sum of the normals.
+enum { NSVCD__GAP_LARGER, NSVCD__GAP_SMALLER, NSVCD__GAP_LINE, NSVCD__GAP_BOTH, NSVCD__GAPS };
+#define NSVCD__MOMENTS 3  // both ends of the interval, and its middle
+// The fact about a gap g, in units of r1 + r2, is x / (1 + |x|), where x is g times the first of
+// these. The widest uses the second: near contact it must not be lost in the steps of int8.
+#define NSVCD__GAP_STEEP 8.0f
+#define NSVCD__WIDEST_STEEP 40.0f
+#define NSVCD__INPUTS (2 * NSVCD__LATENT + NSVCD__FACTS)
+// Zeros at the end.
+#define NSVCD__DECODER_IN ((NSVCD__INPUTS + 15) / 16 * 16)
+#define NSVCD__LEAN 0.05f  // share of the lean in axis 2
+
+// A pair in motion: lane 0 of nsvcd__pairs, number by number, without the bytes.
+typedef struct nsvcd__pair {
+  nsvcd__f3 p1, p2;
+  float r1, r2;
+  nsvcd__mat3 rotation;
+  nsvcd__f3 v, w, normal[2];
+  float flat[2];
+} nsvcd__pair;
+
+// The pair in its own units, and its frame: lane 0 of nsvcd__views, number by number.
+typedef struct nsvcd__view {
+  float inverse, k1, k2, swap;
+  nsvcd__f3 d, lean, normal;
+  float time;
+  nsvcd__f3 v, w;
+  nsvcd__mat3 frame;
+  float side;
+} nsvcd__view;
+
+// The times that matter of a candidate's motion.
+enum {
+  NSVCD__ENTRY = 0,
+  NSVCD__EXIT = 1,
+  NSVCD__MIDDLE = 2,       // of these two
+  NSVCD__ENTRY_BEGIN = 3,  // the segment in which the balls meet
+  NSVCD__ENTRY_END = 4,
+  NSVCD__EXIT_BEGIN = 5,  // the segment in which they separate
+  NSVCD__EXIT_END = 6,
+  NSVCD__INSTANTS = 7
+};
+
+// The moving patch's centre at these times, in the fixed body's axes and units.
+typedef struct nsvcd__instants {
+  float t[NSVCD__INSTANTS];
+  float arm[3][NSVCD__LANES];  // from the body's origin
+  float position[3][NSVCD__LANES];
+  // inside of the segment? At one of its ends the time is constant
+  int enters, leaves;
+} nsvcd__instants;
+
+// What vectors compute for the derivative by one pair. network/tape records it, and gradient/ reads
+// it in scalars.
+typedef struct nsvcd__tape {
+  nsvcd__pair pair;
+  nsvcd__view view;
+  nsvcd__f3 axes[NSVCD__GAPS];              // along which gaps are measured
+  float gaps[NSVCD__MOMENTS][NSVCD__GAPS];  // in the fixed body's units
+  const int8_t *extremes[2];                // (EXTREMES, 3) at a stride of GROUP
+  nsvcd__instants at;                       // its times are given
+  float x[NSVCD__DECODER_IN];               // the decoder's inputs
+  float by_x[NSVCD__DECODER_IN];            // the derivative by these
+} nsvcd__tape;
+#endif  // NSVCD_NO_NETWORK
+
 // --------------------------------------------------------------------------------------- task/task
 // In: two bodies and a motion. Out: an answer, by proof (proof/proof) or by the network
 // (NeuralSVCD, algorithm 1). This room has what a question needs, and its memory; query/question
@@ -11402,8 +11494,7 @@ typedef struct nsvcd__kernels {
   int (*ask_network)(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opinion *out);
 #endif
 #ifndef NSVCD_NO_GRADIENT
-  void (*gradient)(const nsvcd__task *task, nsvcd__decisive *decisive, const float *time,
-                   float *const *out);
+  void (*record)(const nsvcd__task *task, nsvcd__tape *tape);
 #endif
 } nsvcd__kernels;
 
@@ -15853,35 +15944,6 @@ static NSVCD__NOINLINE void nsvcd__pairs_of(const nsvcd_body *moving, const nsvc
 // channels side by side.
 
 #ifndef NSVCD_NO_NETWORK
-// The facts: what the decoder sees of a pair's geometry, in the pair's frame and units.
-enum {
-  NSVCD__FACT_DISTANCE = 0,  // of the centres
-  NSVCD__FACT_RADIUS = 1,    // the larger one
-  NSVCD__FACT_CLOSEST = 2,   // the centres' distance at their closest approach
-  NSVCD__FACT_TAU = 3,       // the time of that: -1 and 1 are the ends of the interval
-  NSVCD__FACT_VELOCITY = 4,  // (3)
-  NSVCD__FACT_TURN = 7,      // (3)
-  NSVCD__FACT_SPEED = 10,    // the lengths of these two
-  NSVCD__FACT_SPIN = 11,
-  NSVCD__FACT_GAPS = 12,    // (GAPS, MOMENTS): between the extreme points
-  NSVCD__FACT_WIDEST = 24,  // (MOMENTS): the widest of these
-  // (3): products of the normals: with each other; the larger patch's, and the smaller one's, with
-  // the line from the larger to the smaller
-  NSVCD__FACT_FACING = 27,
-  NSVCD__FACT_FLAT = 30,  // (2): how flat the larger patch is, and the smaller
-  NSVCD__FACTS = 32
-};
-// The axes, from the fixed patch to the moving one, along which gaps are measured: the larger
-// patch's normal, the smaller one's, the line between the centres, and the sum of the normals.
-enum { NSVCD__GAP_LARGER, NSVCD__GAP_SMALLER, NSVCD__GAP_LINE, NSVCD__GAP_BOTH, NSVCD__GAPS };
-#define NSVCD__MOMENTS 3  // both ends of the interval, and its middle
-// The fact about a gap g, in units of r1 + r2, is x / (1 + |x|), where x is g times the first of
-// these. The widest uses the second: near contact it must not be lost in the steps of int8.
-#define NSVCD__GAP_STEEP 8.0f
-#define NSVCD__WIDEST_STEEP 40.0f
-#define NSVCD__INPUTS (2 * NSVCD__LATENT + NSVCD__FACTS)
-#define NSVCD__DECODER_IN ((NSVCD__INPUTS + 15) / 16 * 16)  // zeros at the end
-#define NSVCD__LEAN 0.05f                                   // share of the lean in axis 2
 // A lean that is this near to the plane of axes 1 and 2 is on neither side.
 #define NSVCD__SIDE 1e-4f
 
@@ -16709,33 +16771,10 @@ static int nsvcd__ask_network(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opin
 
 #endif  // NSVCD_NO_NETWORK
 
-// ======================================================== gradient: of distance or logit, by poses
-
-// -------------------------------------------------------------------------------- gradient/by_pair
-// In: the pair that decided an answer. Out: the derivative of its logit by the poses. Reverse mode,
-// step by step from the end, over one pair and in scalars. `by_x` is the derivative of the logit by
-// x:
-//
-//   decoder     by the decoder's inputs
-//   pair        by the line between the centres, the velocity, and the rotations, through the frame
-//               and the facts
-//   instants    by the moving body's poses at t_enter, t_exit and in the middle, and by these times
-//   contact     from the times to the poses at the ends of the segment in which the balls meet or
-//               separate
-//   poses       from the pose at any time to the caller's poses
-//
-// The derivative by the pose of a rigid body is a wrench: a force (by a displacement of its origin)
-// and a torque (by a small rotation about that). A force f on a point at `arm` from the origin is
-// the force f and the torque arm x f.
+// ------------------------------------------------------------------------------------ network/tape
+// In: the candidate that decided an answer. Out: its tape: what its derivative takes from vectors.
 
 #ifndef NSVCD_NO_GRADIENT
-// The derivative of |a| by a, times `by`. Where |a| is 0 to rounding it is 0, the mean of all
-// directions.
-static nsvcd__f3 nsvcd__by_length(nsvcd__f3 a, float by) {
-  const float length = nsvcd__f3_norm(a);
-  return nsvcd__f3_scale(a, length > 1e-6f ? by / length : 0);
-}
-
 // Lane 0 of each of so many slices: out (count).
 static void nsvcd__first_lanes(const void *slices, size_t count, void *out) {
   for (size_t k = 0; k < count; k++) {
@@ -16746,29 +16785,6 @@ static void nsvcd__first_lanes(const void *slices, size_t count, void *out) {
     memcpy((char *)out + k * sizeof *lanes, lanes, sizeof *lanes);
   }
 }
-
-// *sum += s a
-static NSVCD__NOINLINE void nsvcd__add_to(nsvcd__f3 *sum, float s, nsvcd__f3 a) {
-  *sum = nsvcd__f3_fma(s, a, *sum);
-}
-
-// a without its part along the unit vector n.
-static nsvcd__f3 nsvcd__f3_across(nsvcd__f3 a, nsvcd__f3 n) {
-  return nsvcd__f3_fma(-nsvcd__f3_dot(a, n), n, a);
-}
-
-// a's part along the unit vector n (or 0), times `along`, plus the rest, turned about n by `angle`,
-// times `across`. Every linear map that commutes with rotations about n is of this form.
-static nsvcd__f3 nsvcd__turned(nsvcd__f3 a, nsvcd__f3 n, float along, float across,
-                               float angle) {
-  const float c = across * cosf(angle);
-  const float rest = (along - c) * nsvcd__f3_dot(n, a);
-  const nsvcd__f3 side = nsvcd__f3_scale(n, across * sinf(angle));
-  const nsvcd__f3 sum = nsvcd__f3_fma(rest, n, nsvcd__f3_scale(a, c));
-  return nsvcd__f3_add(sum, nsvcd__f3_cross(side, a));
-}
-
-// ---- decoder
 
 // The weights of a layer from input i to outputs o .. o + SLICE - 1.
 NSVCD__INLINE nsvcd__v nsvcd__weights_at(const nsvcd__layer *layer, size_t i, size_t o) {
@@ -16831,7 +16847,560 @@ static NSVCD__NOINLINE void nsvcd__decoder_gradient(const nsvcd__decoder *decode
   memcpy(by_x, by, NSVCD__DECODER_IN * sizeof *by_x);
 }
 
-// ---- pair
+// Writes a tape whose times are known.
+static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
+  const nsvcd__motion *m = &task->motion;
+  nsvcd__candidate *c = &task->decisive->candidate;
+  nsvcd__pairs pairs;
+  nsvcd__views views;
+  nsvcd__v3 axes[NSVCD__GAPS];
+  nsvcd__v gaps[NSVCD__GAPS];
+  int8_t extremes[2 * 3 * NSVCD__EXTREMES * NSVCD__SLICE];
+  nsvcd__pairs_of(task->moving, task->fixed, m, &c, 1, &pairs);
+  nsvcd__views_of(&pairs, &views);
+  nsvcd__first_lanes(&pairs, sizeof tape->pair / sizeof(float), &tape->pair);
+  nsvcd__first_lanes(&views, sizeof tape->view / sizeof(float), &tape->view);
+  nsvcd__gap_axes_of(&pairs, &views, axes);
+  nsvcd__first_lanes(axes, 3 * NSVCD__GAPS, tape->axes);
+  nsvcd__extremes_collect(&pairs, 1, extremes);
+  for (size_t k = 0; k < NSVCD__MOMENTS; k++) {
+    const nsvcd__v tau = nsvcd__v_scale(views.time, (float)k - 1);
+    nsvcd__gaps_at(&pairs, axes, extremes, tau, gaps);
+    nsvcd__first_lanes(gaps, NSVCD__GAPS, tape->gaps[k]);
+  }
+  for (size_t n = 0; n < 2; n++) tape->extremes[n] = pairs.extremes[n][0];
+
+  const int of_logit = !nsvcd__of_distance(task);
+  const size_t output = of_logit ? NSVCD__OUT_LOGIT : NSVCD__OUT_DISTANCE;
+  const float unit = of_logit ? 1 : 0.1f * nsvcd__candidate_radius(task, c);
+  nsvcd__invariants(&pairs, 1, tape->x);
+  nsvcd__decoder_gradient(task->decisive->decoder, output, tape->x, tape->by_x);
+  for (size_t k = 0; k < NSVCD__DECODER_IN; k++) tape->by_x[k] *= unit;
+
+  const nsvcd__f3 own = nsvcd__centre_of(nsvcd__body_patches(task->moving), c->moving);
+  const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_scale(own, m->scale));
+  for (size_t first = 0; first < NSVCD__INSTANTS; first += NSVCD__SLICE) {
+    const size_t left = NSVCD__INSTANTS - first;
+    const size_t count = left < NSVCD__SLICE ? left : NSVCD__SLICE;
+    const nsvcd__v_pose pose = nsvcd__v_poses_at(m, tape->at.t + first, count);
+    const nsvcd__v3 arm = nsvcd__vmat3_apply(nsvcd__vmat3_of(pose.rotation), centre);
+    nsvcd__v3_store(tape->at.arm, first, arm);
+    nsvcd__v3_store(tape->at.position, first, nsvcd__v3_add(arm, pose.position));
+  }
+}
+#endif  // NSVCD_NO_GRADIENT
+
+// =============================================== entry: the kernels of each set, and the best ones
+
+// ----------------------------------------------------------------------------------- entry/kernels
+// In: the functions that work on vectors. Out: a table of them, one for each instruction set.
+
+static const nsvcd__kernels nsvcd__table = {
+    nsvcd__self_test_lanes,
+#ifndef NSVCD_NO_PROOF
+    nsvcd__separate,        nsvcd__is_contained_at_start,
+    nsvcd__bound_distance,  nsvcd__seek_positions,
+#endif
+#ifndef NSVCD_NO_NETWORK
+    nsvcd__ask_network,
+#endif
+#ifndef NSVCD_NO_GRADIENT
+    nsvcd__record,
+#endif
+};
+#ifndef NSVCD__ISA
+
+// --------------------------------------------------------------------------------- entry/processor
+// In: a processor. Out: the kernels for the widest vectors that it has.
+//
+// If the compiler's flags allow SSE2 only, the default on x86-64, the rooms that use vectors are
+// compiled three times: with SSE2 above, and here with AVX2 and with AVX-512, under other private
+// names: nsvcd__separate becomes nsvcd__separate_avx2. For that the header includes itself. At each
+// call the processor decides which of them answers. NSVCD_NO_DISPATCH leaves SSE2 only.
+
+#if NSVCD__SLICE == 4 && !defined(NSVCD_NO_DISPATCH) && !defined(NSVCD__NARROW) && \
+    !defined(NSVCD__FROM_ROOMS)
+#if defined(__clang__) && defined(_MSC_VER)
+// clang-cl's <immintrin.h> has only what the flags allow: /arch:AVX2
+#elif defined(__x86_64__) && (defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 8))
+#define NSVCD__DISPATCH
+#elif defined(_M_X64) && !defined(_M_ARM64EC)
+#include <intrin.h>
+#define NSVCD__DISPATCH
+#endif
+#endif
+
+#ifdef NSVCD__DISPATCH
+#define NSVCD__JOIN(name, isa) name##isa
+#define NSVCD__OF_ISA(name, isa) NSVCD__JOIN(name, isa)
+#define NSVCD__AT(name) NSVCD__OF_ISA(nsvcd__##name, NSVCD__ISA)
+#define NSVCD__NUMBER_AT(name) NSVCD__OF_ISA(NSVCD__##name, NSVCD__ISA)
+
+// ---- the names, as src/make_header.py writes them
+#define NSVCD__ALONG_BOTH NSVCD__NUMBER_AT(ALONG_BOTH)
+#define NSVCD__ALONG_LINE NSVCD__NUMBER_AT(ALONG_LINE)
+#define NSVCD__ALONG_MOVING NSVCD__NUMBER_AT(ALONG_MOVING)
+#define NSVCD__ALONG_RESTING NSVCD__NUMBER_AT(ALONG_RESTING)
+#define NSVCD__DECODER_OUT NSVCD__NUMBER_AT(DECODER_OUT)
+#define NSVCD__DIRECTIONS NSVCD__NUMBER_AT(DIRECTIONS)
+#define NSVCD__OUT_DISTANCE NSVCD__NUMBER_AT(OUT_DISTANCE)
+#define NSVCD__OUT_LOGIT NSVCD__NUMBER_AT(OUT_LOGIT)
+#define nsvcd__add_dipoles NSVCD__AT(add_dipoles)
+#define nsvcd__add_patch_pairs NSVCD__AT(add_patch_pairs)
+#define nsvcd__all_segments NSVCD__AT(all_segments)
+#define nsvcd__answer_with NSVCD__AT(answer_with)
+#define nsvcd__arc_of NSVCD__AT(arc_of)
+#define nsvcd__ask_network NSVCD__AT(ask_network)
+#define nsvcd__beam NSVCD__AT(beam)
+#define nsvcd__block_arm NSVCD__AT(block_arm)
+#define nsvcd__block_bounds NSVCD__AT(block_bounds)
+#define nsvcd__block_lanes NSVCD__AT(block_lanes)
+#define nsvcd__block_load NSVCD__AT(block_load)
+#define nsvcd__block_pose NSVCD__AT(block_pose)
+#define nsvcd__bound_distance NSVCD__AT(bound_distance)
+#define nsvcd__bound_of NSVCD__AT(bound_of)
+#define nsvcd__boxes_of_groups NSVCD__AT(boxes_of_groups)
+#define nsvcd__candidate_radius NSVCD__AT(candidate_radius)
+#define nsvcd__candidates_add NSVCD__AT(candidates_add)
+#define nsvcd__candidates_start NSVCD__AT(candidates_start)
+#define nsvcd__certain_opinion NSVCD__AT(certain_opinion)
+#define nsvcd__chords_in_all NSVCD__AT(chords_in_all)
+#define nsvcd__chords_in_segment NSVCD__AT(chords_in_segment)
+#define nsvcd__chords_of_group NSVCD__AT(chords_of_group)
+#define nsvcd__chords_of_tile NSVCD__AT(chords_of_tile)
+#define nsvcd__chords_start NSVCD__AT(chords_start)
+#define nsvcd__chords_store NSVCD__AT(chords_store)
+#define nsvcd__chords_travel NSVCD__AT(chords_travel)
+#define nsvcd__clip_segment NSVCD__AT(clip_segment)
+#define nsvcd__closeness NSVCD__AT(closeness)
+#define nsvcd__collect_contacts NSVCD__AT(collect_contacts)
+#define nsvcd__collects_on NSVCD__AT(collects_on)
+#define nsvcd__collides_again NSVCD__AT(collides_again)
+#define nsvcd__comes_near NSVCD__AT(comes_near)
+#define nsvcd__comes_within NSVCD__AT(comes_within)
+#define nsvcd__contains_any NSVCD__AT(contains_any)
+#define nsvcd__contains_seeds NSVCD__AT(contains_seeds)
+#define nsvcd__cross_all NSVCD__AT(cross_all)
+#define nsvcd__crossings NSVCD__AT(crossings)
+#define nsvcd__cut_arc NSVCD__AT(cut_arc)
+#define nsvcd__cut_block NSVCD__AT(cut_block)
+#define nsvcd__cut_deviations NSVCD__AT(cut_deviations)
+#define nsvcd__cut_double_arc NSVCD__AT(cut_double_arc)
+#define nsvcd__cut_ends NSVCD__AT(cut_ends)
+#define nsvcd__cut_keyframe NSVCD__AT(cut_keyframe)
+#define nsvcd__cut_motion NSVCD__AT(cut_motion)
+#define nsvcd__cut_poses NSVCD__AT(cut_poses)
+#define nsvcd__cut_segments NSVCD__AT(cut_segments)
+#define nsvcd__decode NSVCD__AT(decode)
+#define nsvcd__decoder_gradient NSVCD__AT(decoder_gradient)
+#define nsvcd__decoder_run NSVCD__AT(decoder_run)
+#define nsvcd__dot_tile NSVCD__AT(dot_tile)
+#define nsvcd__enclosure NSVCD__AT(enclosure)
+#define nsvcd__exists NSVCD__AT(exists)
+#define nsvcd__exit_is_blocked NSVCD__AT(exit_is_blocked)
+#define nsvcd__extremes_along NSVCD__AT(extremes_along)
+#define nsvcd__extremes_collect NSVCD__AT(extremes_collect)
+#define nsvcd__f3_towards NSVCD__AT(f3_towards)
+#define nsvcd__find_witness NSVCD__AT(find_witness)
+#define nsvcd__find_witness_in NSVCD__AT(find_witness_in)
+#define nsvcd__first_lanes NSVCD__AT(first_lanes)
+#define nsvcd__gap_axes_of NSVCD__AT(gap_axes_of)
+#define nsvcd__gap_fact NSVCD__AT(gap_fact)
+#define nsvcd__gap_facts NSVCD__AT(gap_facts)
+#define nsvcd__gaps_at NSVCD__AT(gaps_at)
+#define nsvcd__greatest_of NSVCD__AT(greatest_of)
+#define nsvcd__group_against_group NSVCD__AT(group_against_group)
+#define nsvcd__group_against_members NSVCD__AT(group_against_members)
+#define nsvcd__group_extent NSVCD__AT(group_extent)
+#define nsvcd__held_again NSVCD__AT(held_again)
+#define nsvcd__hull_of NSVCD__AT(hull_of)
+#define nsvcd__hulls_are_apart NSVCD__AT(hulls_are_apart)
+#define nsvcd__inputs NSVCD__AT(inputs)
+#define nsvcd__inputs_of NSVCD__AT(inputs_of)
+#define nsvcd__inputs_without_gaps NSVCD__AT(inputs_without_gaps)
+#define nsvcd__inputs_write NSVCD__AT(inputs_write)
+#define nsvcd__interval_cuts NSVCD__AT(interval_cuts)
+#define nsvcd__intervals NSVCD__AT(intervals)
+#define nsvcd__intervals_close NSVCD__AT(intervals_close)
+#define nsvcd__invariants NSVCD__AT(invariants)
+#define nsvcd__is_approached NSVCD__AT(is_approached)
+#define nsvcd__is_before NSVCD__AT(is_before)
+#define nsvcd__is_clear NSVCD__AT(is_clear)
+#define nsvcd__is_contained NSVCD__AT(is_contained)
+#define nsvcd__is_contained_at_start NSVCD__AT(is_contained_at_start)
+#define nsvcd__is_contained_in NSVCD__AT(is_contained_in)
+#define nsvcd__is_enclosed NSVCD__AT(is_enclosed)
+#define nsvcd__is_harmless NSVCD__AT(is_harmless)
+#define nsvcd__is_new NSVCD__AT(is_new)
+#define nsvcd__is_on_beam NSVCD__AT(is_on_beam)
+#define nsvcd__is_separated NSVCD__AT(is_separated)
+#define nsvcd__is_shallower NSVCD__AT(is_shallower)
+#define nsvcd__judge NSVCD__AT(judge)
+#define nsvcd__keyframes_load NSVCD__AT(keyframes_load)
+#define nsvcd__keyframes_read NSVCD__AT(keyframes_read)
+#define nsvcd__keyframes_store NSVCD__AT(keyframes_store)
+#define nsvcd__know_moving NSVCD__AT(know_moving)
+#define nsvcd__know_resting NSVCD__AT(know_resting)
+#define nsvcd__lanes_left_by_known NSVCD__AT(lanes_left_by_known)
+#define nsvcd__lanes_left_by_last NSVCD__AT(lanes_left_by_last)
+#define nsvcd__lanes_left_by_own NSVCD__AT(lanes_left_by_own)
+#define nsvcd__lanes_near NSVCD__AT(lanes_near)
+#define nsvcd__lanes_on_ray NSVCD__AT(lanes_on_ray)
+#define nsvcd__lanes_outside NSVCD__AT(lanes_outside)
+#define nsvcd__layer NSVCD__AT(layer)
+#define nsvcd__layer_by_bytes NSVCD__AT(layer_by_bytes)
+#define nsvcd__layer_by_floats NSVCD__AT(layer_by_floats)
+#define nsvcd__layer_of NSVCD__AT(layer_of)
+#define nsvcd__layer_tile NSVCD__AT(layer_tile)
+#define nsvcd__least_lane NSVCD__AT(least_lane)
+#define nsvcd__least_of NSVCD__AT(least_of)
+#define nsvcd__left_by_normal NSVCD__AT(left_by_normal)
+#define nsvcd__matters NSVCD__AT(matters)
+#define nsvcd__may_be_close NSVCD__AT(may_be_close)
+#define nsvcd__meet NSVCD__AT(meet)
+#define nsvcd__meet_in NSVCD__AT(meet_in)
+#define nsvcd__meet_members NSVCD__AT(meet_members)
+#define nsvcd__meets_sphere NSVCD__AT(meets_sphere)
+#define nsvcd__members_left NSVCD__AT(members_left)
+#define nsvcd__members_meet NSVCD__AT(members_meet)
+#define nsvcd__members_of NSVCD__AT(members_of)
+#define nsvcd__moving_block_load NSVCD__AT(moving_block_load)
+#define nsvcd__moving_range NSVCD__AT(moving_range)
+#define nsvcd__nearest2 NSVCD__AT(nearest2)
+#define nsvcd__nearest_groups NSVCD__AT(nearest_groups)
+#define nsvcd__nearest_tick NSVCD__AT(nearest_tick)
+#define nsvcd__next_probe NSVCD__AT(next_probe)
+#define nsvcd__normal_to_try NSVCD__AT(normal_to_try)
+#define nsvcd__normals_separate NSVCD__AT(normals_separate)
+#define nsvcd__of_distance NSVCD__AT(of_distance)
+#define nsvcd__pairs NSVCD__AT(pairs)
+#define nsvcd__pairs_in_passing NSVCD__AT(pairs_in_passing)
+#define nsvcd__pairs_of NSVCD__AT(pairs_of)
+#define nsvcd__passing NSVCD__AT(passing)
+#define nsvcd__patch_near NSVCD__AT(patch_near)
+#define nsvcd__patches_apart NSVCD__AT(patches_apart)
+#define nsvcd__plane_cache_begin NSVCD__AT(plane_cache_begin)
+#define nsvcd__planes_known NSVCD__AT(planes_known)
+#define nsvcd__pose_members NSVCD__AT(pose_members)
+#define nsvcd__probes NSVCD__AT(probes)
+#define nsvcd__probes_measure NSVCD__AT(probes_measure)
+#define nsvcd__prove_segments NSVCD__AT(prove_segments)
+#define nsvcd__prove_tiles NSVCD__AT(prove_tiles)
+#define nsvcd__ranges_store NSVCD__AT(ranges_store)
+#define nsvcd__ray NSVCD__AT(ray)
+#define nsvcd__ray_crosses NSVCD__AT(ray_crosses)
+#define nsvcd__record NSVCD__AT(record)
+#define nsvcd__resolve_patch_pair NSVCD__AT(resolve_patch_pair)
+#define nsvcd__resolve_patch_pairs NSVCD__AT(resolve_patch_pairs)
+#define nsvcd__resolve_row NSVCD__AT(resolve_row)
+#define nsvcd__resolve_triangles NSVCD__AT(resolve_triangles)
+#define nsvcd__resting NSVCD__AT(resting)
+#define nsvcd__resting_of NSVCD__AT(resting_of)
+#define nsvcd__rotate_degree NSVCD__AT(rotate_degree)
+#define nsvcd__rotate_latent NSVCD__AT(rotate_latent)
+#define nsvcd__row_left NSVCD__AT(row_left)
+#define nsvcd__score NSVCD__AT(score)
+#define nsvcd__search_and_judge NSVCD__AT(search_and_judge)
+#define nsvcd__search_begin NSVCD__AT(search_begin)
+#define nsvcd__search_group NSVCD__AT(search_group)
+#define nsvcd__search_moving_tile NSVCD__AT(search_moving_tile)
+#define nsvcd__search_next_tile NSVCD__AT(search_next_tile)
+#define nsvcd__search_pair NSVCD__AT(search_pair)
+#define nsvcd__search_patch NSVCD__AT(search_patch)
+#define nsvcd__search_step NSVCD__AT(search_step)
+#define nsvcd__search_tile NSVCD__AT(search_tile)
+#define nsvcd__seed_is_near NSVCD__AT(seed_is_near)
+#define nsvcd__seek_in_patch_pair NSVCD__AT(seek_in_patch_pair)
+#define nsvcd__seek_positions NSVCD__AT(seek_positions)
+#define nsvcd__seems_contained_at_start NSVCD__AT(seems_contained_at_start)
+#define nsvcd__segment_deviation NSVCD__AT(segment_deviation)
+#define nsvcd__segments_in NSVCD__AT(segments_in)
+#define nsvcd__segments_left NSVCD__AT(segments_left)
+#define nsvcd__segments_that_matter NSVCD__AT(segments_that_matter)
+#define nsvcd__self_test_lanes NSVCD__AT(self_test_lanes)
+#define nsvcd__separate NSVCD__AT(separate)
+#define nsvcd__separate_groups NSVCD__AT(separate_groups)
+#define nsvcd__separated_along NSVCD__AT(separated_along)
+#define nsvcd__sift_patch_pairs NSVCD__AT(sift_patch_pairs)
+#define nsvcd__slabs_meet NSVCD__AT(slabs_meet)
+#define nsvcd__slice_against_patch NSVCD__AT(slice_against_patch)
+#define nsvcd__sort_patch_pairs NSVCD__AT(sort_patch_pairs)
+#define nsvcd__spheres_at_box NSVCD__AT(spheres_at_box)
+#define nsvcd__sticks_out NSVCD__AT(sticks_out)
+#define nsvcd__support NSVCD__AT(support)
+#define nsvcd__support_along NSVCD__AT(support_along)
+#define nsvcd__surface_is_near NSVCD__AT(surface_is_near)
+#define nsvcd__table NSVCD__AT(table)
+#define nsvcd__take_patch_pairs NSVCD__AT(take_patch_pairs)
+#define nsvcd__tile_fill NSVCD__AT(tile_fill)
+#define nsvcd__tile_fill_all NSVCD__AT(tile_fill_all)
+#define nsvcd__time_in_segment NSVCD__AT(time_in_segment)
+#define nsvcd__track_poses_at NSVCD__AT(track_poses_at)
+#define nsvcd__turned_back NSVCD__AT(turned_back)
+#define nsvcd__v NSVCD__AT(v)
+#define nsvcd__v3 NSVCD__AT(v3)
+#define nsvcd__v3_add NSVCD__AT(v3_add)
+#define nsvcd__v3_centres NSVCD__AT(v3_centres)
+#define nsvcd__v3_cross NSVCD__AT(v3_cross)
+#define nsvcd__v3_dot NSVCD__AT(v3_dot)
+#define nsvcd__v3_dot_add NSVCD__AT(v3_dot_add)
+#define nsvcd__v3_fma NSVCD__AT(v3_fma)
+#define nsvcd__v3_get NSVCD__AT(v3_get)
+#define nsvcd__v3_load NSVCD__AT(v3_load)
+#define nsvcd__v3_load_int8 NSVCD__AT(v3_load_int8)
+#define nsvcd__v3_max NSVCD__AT(v3_max)
+#define nsvcd__v3_min NSVCD__AT(v3_min)
+#define nsvcd__v3_negate NSVCD__AT(v3_negate)
+#define nsvcd__v3_norm NSVCD__AT(v3_norm)
+#define nsvcd__v3_of NSVCD__AT(v3_of)
+#define nsvcd__v3_pick NSVCD__AT(v3_pick)
+#define nsvcd__v3_put NSVCD__AT(v3_put)
+#define nsvcd__v3_rows NSVCD__AT(v3_rows)
+#define nsvcd__v3_scale NSVCD__AT(v3_scale)
+#define nsvcd__v3_set NSVCD__AT(v3_set)
+#define nsvcd__v3_store NSVCD__AT(v3_store)
+#define nsvcd__v3_sub NSVCD__AT(v3_sub)
+#define nsvcd__v3_transform NSVCD__AT(v3_transform)
+#define nsvcd__v3_unit NSVCD__AT(v3_unit)
+#define nsvcd__v_abs NSVCD__AT(v_abs)
+#define nsvcd__v_across NSVCD__AT(v_across)
+#define nsvcd__v_add_to NSVCD__AT(v_add_to)
+#define nsvcd__v_approach NSVCD__AT(v_approach)
+#define nsvcd__v_arc NSVCD__AT(v_arc)
+#define nsvcd__v_bend NSVCD__AT(v_bend)
+#define nsvcd__v_bits NSVCD__AT(v_bits)
+#define nsvcd__v_clamp NSVCD__AT(v_clamp)
+#define nsvcd__v_degree2 NSVCD__AT(v_degree2)
+#define nsvcd__v_deviation NSVCD__AT(v_deviation)
+#define nsvcd__v_half_rotation NSVCD__AT(v_half_rotation)
+#define nsvcd__v_interval NSVCD__AT(v_interval)
+#define nsvcd__v_interval_load NSVCD__AT(v_interval_load)
+#define nsvcd__v_interval_set NSVCD__AT(v_interval_set)
+#define nsvcd__v_keep NSVCD__AT(v_keep)
+#define nsvcd__v_least NSVCD__AT(v_least)
+#define nsvcd__v_load_int16 NSVCD__AT(v_load_int16)
+#define nsvcd__v_load_int8 NSVCD__AT(v_load_int8)
+#define nsvcd__v_max NSVCD__AT(v_max)
+#define nsvcd__v_min NSVCD__AT(v_min)
+#define nsvcd__v_negate NSVCD__AT(v_negate)
+#define nsvcd__v_off NSVCD__AT(v_off)
+#define nsvcd__v_pick NSVCD__AT(v_pick)
+#define nsvcd__v_plus NSVCD__AT(v_plus)
+#define nsvcd__v_pose NSVCD__AT(v_pose)
+#define nsvcd__v_poses NSVCD__AT(v_poses)
+#define nsvcd__v_poses_at NSVCD__AT(v_poses_at)
+#define nsvcd__v_range NSVCD__AT(v_range)
+#define nsvcd__v_scale NSVCD__AT(v_scale)
+#define nsvcd__v_scaled NSVCD__AT(v_scaled)
+#define nsvcd__v_seen NSVCD__AT(v_seen)
+#define nsvcd__v_separate NSVCD__AT(v_separate)
+#define nsvcd__v_separate_by_fixed NSVCD__AT(v_separate_by_fixed)
+#define nsvcd__v_separate_by_moving NSVCD__AT(v_separate_by_moving)
+#define nsvcd__v_shorter_turn NSVCD__AT(v_shorter_turn)
+#define nsvcd__v_sign NSVCD__AT(v_sign)
+#define nsvcd__v_signed_square NSVCD__AT(v_signed_square)
+#define nsvcd__v_slab NSVCD__AT(v_slab)
+#define nsvcd__v_slab_along NSVCD__AT(v_slab_along)
+#define nsvcd__v_slab_load NSVCD__AT(v_slab_load)
+#define nsvcd__v_slab_range NSVCD__AT(v_slab_range)
+#define nsvcd__v_slab_set NSVCD__AT(v_slab_set)
+#define nsvcd__v_turn NSVCD__AT(v_turn)
+#define nsvcd__v_unit_or NSVCD__AT(v_unit_or)
+#define nsvcd__vertex_distance NSVCD__AT(vertex_distance)
+#define nsvcd__views NSVCD__AT(views)
+#define nsvcd__views_of NSVCD__AT(views_of)
+#define nsvcd__vmat3 NSVCD__AT(vmat3)
+#define nsvcd__vmat3_apply NSVCD__AT(vmat3_apply)
+#define nsvcd__vmat3_apply_add NSVCD__AT(vmat3_apply_add)
+#define nsvcd__vmat3_apply_transpose NSVCD__AT(vmat3_apply_transpose)
+#define nsvcd__vmat3_fma NSVCD__AT(vmat3_fma)
+#define nsvcd__vmat3_load NSVCD__AT(vmat3_load)
+#define nsvcd__vmat3_mul NSVCD__AT(vmat3_mul)
+#define nsvcd__vmat3_of NSVCD__AT(vmat3_of)
+#define nsvcd__vmat3_rows NSVCD__AT(vmat3_rows)
+#define nsvcd__vmat3_scale NSVCD__AT(vmat3_scale)
+#define nsvcd__vmat3_set NSVCD__AT(vmat3_set)
+#define nsvcd__vmat3_square NSVCD__AT(vmat3_square)
+#define nsvcd__vmat3_store NSVCD__AT(vmat3_store)
+#define nsvcd__vmat3_sub NSVCD__AT(vmat3_sub)
+#define nsvcd__vmat3_transpose NSVCD__AT(vmat3_transpose)
+#define nsvcd__vquat NSVCD__AT(vquat)
+#define nsvcd__vquat_axis NSVCD__AT(vquat_axis)
+#define nsvcd__vquat_dot NSVCD__AT(vquat_dot)
+#define nsvcd__vquat_fma NSVCD__AT(vquat_fma)
+#define nsvcd__vquat_inverse NSVCD__AT(vquat_inverse)
+#define nsvcd__vquat_load NSVCD__AT(vquat_load)
+#define nsvcd__vquat_mul NSVCD__AT(vquat_mul)
+#define nsvcd__vquat_of NSVCD__AT(vquat_of)
+#define nsvcd__vquat_set NSVCD__AT(vquat_set)
+#define nsvcd__vquat_store NSVCD__AT(vquat_store)
+#define nsvcd__vquat_unit NSVCD__AT(vquat_unit)
+#define nsvcd__weights_at NSVCD__AT(weights_at)
+#define nsvcd__wigner NSVCD__AT(wigner)
+#define nsvcd__winding_number NSVCD__AT(winding_number)
+#define nsvcd__window_load NSVCD__AT(window_load)
+
+// ---- the passes
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC push_options
+#pragma GCC target("avx2,fma,bmi,bmi2,lzcnt,popcnt")
+#elif defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx2,fma,bmi,bmi2,lzcnt,popcnt"))), \
+                             apply_to = function)
+#endif
+#undef NSVCD__SLICE
+#define NSVCD__SLICE 8
+#define NSVCD__ISA _avx2
+#include "neuralsvcd.h"
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC target("avx512f,avx512vl,avx512vnni")
+#elif defined(__clang__)
+#pragma clang attribute pop
+#pragma clang attribute push( \
+    __attribute__((target("avx512f,avx512vl,avx512vnni,fma,bmi,bmi2,lzcnt,popcnt"))), \
+    apply_to = function)
+#endif
+#undef NSVCD__SLICE
+#undef NSVCD__ISA
+#undef NSVCD__BYTE_ROWS
+#undef NSVCD__VNNI
+#define NSVCD__SLICE 16
+#define NSVCD__ISA _avx512
+#define NSVCD__VNNI
+#include "neuralsvcd.h"
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC pop_options
+#elif defined(__clang__)
+#pragma clang attribute pop
+#endif
+
+// from here on names and vectors are those above again
+#undef NSVCD__SLICE
+#undef NSVCD__ISA
+#undef NSVCD__VNNI
+#define NSVCD__SLICE 4
+#undef NSVCD__AT
+#undef NSVCD__NUMBER_AT
+#define NSVCD__AT(name) nsvcd__##name
+#define NSVCD__NUMBER_AT(name) NSVCD__##name
+
+typedef enum nsvcd__isa { NSVCD__SSE2, NSVCD__AVX2, NSVCD__AVX512 } nsvcd__isa;
+
+#if defined(_MSC_VER) && !defined(__clang__)
+// What the processor and the system have. Remembered in one word, to which all threads write the
+// same.
+static nsvcd__isa nsvcd__isa_at_hand(void) {
+  static volatile long known = -1;
+  int first[4];
+  int seventh[4];
+  if (known >= 0) return (nsvcd__isa)known;
+  __cpuid(first, 0);
+  if (first[0] < 7) return NSVCD__SSE2;
+  __cpuid(first, 1);
+  __cpuidex(seventh, 7, 0);
+  // OSXSAVE: the system saves vector registers
+  const int keeps_registers = first[2] >> 27 & 1;
+  const unsigned long long kept = keeps_registers ? _xgetbv(0) : 0;
+  const int fma = first[2] >> 12 & 1;
+  const unsigned has = (unsigned)seventh[1];
+  const unsigned bmi = has >> 3 & has >> 8 & 1;
+  const int avx2 = (kept & 6) == 6 && fma && bmi && has >> 5 & 1;
+  const unsigned vnni = has >> 16 & has >> 31 & (unsigned)seventh[2] >> 11 & 1;
+  known = !avx2 ? NSVCD__SSE2 : (kept & 0xe0) == 0xe0 && vnni ? NSVCD__AVX512 : NSVCD__AVX2;
+  return (nsvcd__isa)known;
+}
+#else
+// What the processor and the system have. The compiler's runtime asks them before main.
+static nsvcd__isa nsvcd__isa_at_hand(void) {
+  const int fma = __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
+  if (!fma || !__builtin_cpu_supports("avx2")) return NSVCD__SSE2;
+  if (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512vnni"))
+    return NSVCD__AVX512;
+  return NSVCD__AVX2;
+}
+#endif
+
+// The kernels for the widest vectors that the processor has.
+static const nsvcd__kernels *nsvcd__best_kernels(void) {
+  static const nsvcd__kernels *const all[] = {&nsvcd__table, &nsvcd__table_avx2,
+                                              &nsvcd__table_avx512};
+  return all[nsvcd__isa_at_hand()];
+}
+#else
+static const nsvcd__kernels *nsvcd__best_kernels(void) {
+  return &nsvcd__table;
+}
+#endif  // NSVCD__DISPATCH
+
+// By the kernels of one instruction set. The triangles are apart when one of them is raised.
+static nsvcd_result nsvcd__run_self_test(const nsvcd__kernels *kernels) {
+  int right = kernels->self_test();
+#ifndef NSVCD_NO_PROOF
+  const volatile double height = 2.8;  // volatile, or the compiler would compute all this
+  const nsvcd__d3 a[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  nsvcd__d3 b[3] = {{0.25, 0.25, -1}, {0.25, 0.25, 1}, {2, 2, 1}};
+  right &= !(nsvcd__nearest_of(a, b).square > 0);
+  for (size_t k = 0; k < 3; k++) b[k].z += 1 + height;
+  right &= fabs(nsvcd__nearest_of(a, b).square - height * height) < 1e-9;
+#endif
+  return right ? NSVCD_OK : NSVCD_ERROR_BUILD;
+}
+
+NSVCDDEF nsvcd_result nsvcd_self_test(void) {
+  return nsvcd__run_self_test(nsvcd__best_kernels());
+}
+
+// ======================================================== gradient: of distance or logit, by poses
+
+// -------------------------------------------------------------------------------- gradient/by_pair
+// In: the tape of the pair that decided an answer. Out: the derivative of its logit by the poses.
+// Reverse mode, step by step from the end, over one pair. `by_x` is the derivative of the logit by
+// x:
+//
+//   decoder     by the decoder's inputs: network/tape, for its weights are many. All else is in
+//               scalars
+//   pair        by the line between the centres, the velocity, and the rotations, through the frame
+//               and the facts
+//   instants    by the moving body's poses at t_enter, t_exit and in the middle, and by these times
+//   contact     from the times to the poses at the ends of the segment in which the balls meet or
+//               separate
+//   poses       from the pose at any time to the caller's poses
+//
+// The derivative by the pose of a rigid body is a wrench: a force (by a displacement of its origin)
+// and a torque (by a small rotation about that). A force f on a point at `arm` from the origin is
+// the force f and the torque arm x f.
+
+#ifndef NSVCD_NO_GRADIENT
+// The derivative of |a| by a, times `by`. Where |a| is 0 to rounding it is 0, the mean of all
+// directions.
+static nsvcd__f3 nsvcd__by_length(nsvcd__f3 a, float by) {
+  const float length = nsvcd__f3_norm(a);
+  return nsvcd__f3_scale(a, length > 1e-6f ? by / length : 0);
+}
+
+// *sum += s a
+static NSVCD__NOINLINE void nsvcd__add_to(nsvcd__f3 *sum, float s, nsvcd__f3 a) {
+  *sum = nsvcd__f3_fma(s, a, *sum);
+}
+
+// a without its part along the unit vector n.
+static nsvcd__f3 nsvcd__f3_across(nsvcd__f3 a, nsvcd__f3 n) {
+  return nsvcd__f3_fma(-nsvcd__f3_dot(a, n), n, a);
+}
+
+// a's part along the unit vector n (or 0), times `along`, plus the rest, turned about n by `angle`,
+// times `across`. Every linear map that commutes with rotations about n is of this form.
+static nsvcd__f3 nsvcd__turned(nsvcd__f3 a, nsvcd__f3 n, float along, float across,
+                               float angle) {
+  const float c = across * cosf(angle);
+  const float rest = (along - c) * nsvcd__f3_dot(n, a);
+  const nsvcd__f3 side = nsvcd__f3_scale(n, across * sinf(angle));
+  const nsvcd__f3 sum = nsvcd__f3_fma(rest, n, nsvcd__f3_scale(a, c));
+  return nsvcd__f3_add(sum, nsvcd__f3_cross(side, a));
+}
 
 // The derivative by a small rotation of a latent, from its vectors x and the derivative by these,
 // both (3, CHANNELS), then (5, CHANNELS). On degree 2, in the basis of nsvcd__degree2, a rotation
@@ -16866,25 +17435,6 @@ typedef struct nsvcd__by_pair {
   nsvcd__f3 p1, v, w;
   nsvcd__f3 rotation;  // by a small rotation of the moving patch about its centre
 } nsvcd__by_pair;
-
-// Lane 0 of nsvcd__pairs, number by number, without the bytes.
-typedef struct nsvcd__pair {
-  nsvcd__f3 p1, p2;
-  float r1, r2;
-  nsvcd__mat3 rotation;
-  nsvcd__f3 v, w, normal[2];
-  float flat[2];
-} nsvcd__pair;
-
-// Lane 0 of nsvcd__views, number by number.
-typedef struct nsvcd__view {
-  float inverse, k1, k2, swap;
-  nsvcd__f3 d, lean, normal;
-  float time;
-  nsvcd__f3 v, w;
-  nsvcd__mat3 frame;
-  float side;
-} nsvcd__view;
 
 // The derivative of a logit by what the frame sees, by axis 1, and the torque on all of that, in
 // the frame.
@@ -17073,29 +17623,19 @@ static nsvcd__f3 nsvcd__by_gap_axes(const nsvcd__pair *pair, const nsvcd__view *
 }
 
 // The adjoint of nsvcd__gap_facts, and of the facts about normals: by (FACTS), added to `out` and,
-// by axis 1, to `seen`. pair, view: lane 0 of pairs and views. moves: 0 at rest, else 1.
-static NSVCD__NOINLINE void nsvcd__by_gaps(const nsvcd__pairs *pairs,
-                                           const nsvcd__views *views, const nsvcd__pair *pair,
-                                           const nsvcd__view *view, float moves,
-                                           const float *by, nsvcd__by_pair *out,
-                                           nsvcd__by_view *seen) {
-  const int8_t *const of_pair[2] = {pairs->extremes[0][0], pairs->extremes[1][0]};
+// by axis 1, to `seen`. moves: 0 at rest, else 1.
+static void nsvcd__by_gaps(const nsvcd__tape *tape, float moves, const float *by,
+                           nsvcd__by_pair *out, nsvcd__by_view *seen) {
+  const nsvcd__pair *pair = &tape->pair;
+  const nsvcd__view *view = &tape->view;
+  const nsvcd__f3 *u = tape->axes;
   const nsvcd__f3 fixed = pair->normal[1];
-  nsvcd__v3 axes[NSVCD__GAPS];
-  nsvcd__f3 u[NSVCD__GAPS];
   nsvcd__f3 by_u[NSVCD__GAPS];
-  int8_t extremes[2 * 3 * NSVCD__EXTREMES * NSVCD__SLICE];
-  nsvcd__gap_axes_of(pairs, views, axes);
-  nsvcd__first_lanes(axes, 3 * NSVCD__GAPS, u);
-  nsvcd__extremes_collect(pairs, 1, extremes);
   memset(by_u, 0, sizeof by_u);
   for (size_t m = 0; m < NSVCD__MOMENTS; m++) {
     const float tau = view->time * ((float)m - 1);
-    nsvcd__v at[NSVCD__GAPS];
-    float wide[NSVCD__GAPS];
+    const float *wide = tape->gaps[m];
     size_t widest = 0;
-    nsvcd__gaps_at(pairs, axes, extremes, nsvcd__v_set(tau), at);
-    nsvcd__first_lanes(at, NSVCD__GAPS, wide);
     for (size_t d = 1; d < NSVCD__GAPS; d++) widest = wide[d] > wide[widest] ? d : widest;
     for (size_t d = 0; d < NSVCD__GAPS; d++) {
       const float size = fabsf(view->inverse * wide[d]);
@@ -17104,7 +17644,8 @@ static NSVCD__NOINLINE void nsvcd__by_gaps(const nsvcd__pairs *pairs,
       const float by_own = nsvcd__by_gap_fact(own, size, NSVCD__GAP_STEEP);
       const float by_most = nsvcd__by_gap_fact(most, size, NSVCD__WIDEST_STEEP);
       const float by_gap = view->inverse * (by_own + by_most);
-      const nsvcd__f3 more = nsvcd__by_gap(pair, of_pair, u[d], tau, moves, by_gap, out);
+      const nsvcd__f3 more =
+          nsvcd__by_gap(pair, tape->extremes, u[d], tau, moves, by_gap, out);
       nsvcd__add_to(&by_u[d], 1, more);
     }
   }
@@ -17120,15 +17661,11 @@ static NSVCD__NOINLINE void nsvcd__by_gaps(const nsvcd__pairs *pairs,
   nsvcd__add_to(&out->rotation, 1, nsvcd__f3_cross(view->normal, by_normal));
 }
 
-// The adjoint of nsvcd__invariants for the pair in lane 0; x, by_x (DECODER_IN). The unit of length
-// is taken as constant.
-static NSVCD__NOINLINE void nsvcd__by_invariants(const nsvcd__pairs *pairs,
-                                                 const nsvcd__pair *pair, const float *x,
-                                                 const float *by_x, nsvcd__by_pair *by) {
-  nsvcd__views views;
-  nsvcd__view view;
-  nsvcd__views_of(pairs, &views);
-  nsvcd__first_lanes(&views, sizeof view / sizeof(float), &view);
+// The adjoint of nsvcd__invariants. The unit of length is taken as constant.
+static void nsvcd__by_invariants(const nsvcd__tape *tape, nsvcd__by_pair *by) {
+  const nsvcd__view view = tape->view;
+  const float *x = tape->x;
+  const float *by_x = tape->by_x;
   // The direction of time; 0 at rest, to rounding: the logit is even in the motion, with a kink
   // there, and the mean of its two sides is 0.
   const float moves = nsvcd__f3_dot(view.v, view.v) + nsvcd__f3_dot(view.w, view.w);
@@ -17145,7 +17682,7 @@ static NSVCD__NOINLINE void nsvcd__by_invariants(const nsvcd__pairs *pairs,
   seen.torque = nsvcd__f3_add(on_moving, on_fixed);
   nsvcd__by_facts(&view, x + facts, by_x + facts, &seen);
   memset(by, 0, sizeof *by);
-  nsvcd__by_gaps(pairs, &views, pair, &view, fabsf(sign), by_x + facts, by, &seen);
+  nsvcd__by_gaps(tape, fabsf(sign), by_x + facts, by, &seen);
   nsvcd__by_frame(&view, &seen);
 
   const nsvcd__f3 lean1 = nsvcd__f3_scale(view.normal, view.swap * view.k1);
@@ -17213,35 +17750,11 @@ static float nsvcd__by_poses(const nsvcd__track *track, float t, nsvcd__f3 force
 
 // ---- instants and contact
 
-// The times that matter of a candidate's motion.
-enum {
-  NSVCD__ENTRY = 0,
-  NSVCD__EXIT = 1,
-  NSVCD__MIDDLE = 2,       // of these two
-  NSVCD__ENTRY_BEGIN = 3,  // the segment in which the balls meet
-  NSVCD__ENTRY_END = 4,
-  NSVCD__EXIT_BEGIN = 5,  // the segment in which they separate
-  NSVCD__EXIT_END = 6,
-  NSVCD__INSTANTS = 7
-};
-
-// The moving patch's centre at these times, in the fixed body's axes and units.
-typedef struct nsvcd__instants {
-  float t[NSVCD__INSTANTS];
-  float arm[3][NSVCD__LANES];  // from the body's origin
-  float position[3][NSVCD__LANES];
-  // inside of the segment? At one of its ends the time is constant
-  int enters, leaves;
-} nsvcd__instants;
-
-// time: of the segments' ends.
-static void nsvcd__instants_of(const nsvcd__task *task, const nsvcd__candidate *c,
-                               const float *time, nsvcd__instants *at) {
+// The instants' times. time: of the segments' ends.
+static void nsvcd__instants_of(const nsvcd__candidate *c, const float *time,
+                               nsvcd__instants *at) {
   const float t0 = c->t_enter;
   const float t1 = c->t_exit;
-  const nsvcd__motion *m = &task->motion;
-  const nsvcd__f3 own = nsvcd__centre_of(nsvcd__body_patches(task->moving), c->moving);
-  const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_scale(own, m->scale));
   size_t a = 0;
   size_t b = 0;
   while (!(t0 < time[a + 1]) && time[a + 1] < 1) a++;
@@ -17250,15 +17763,6 @@ static void nsvcd__instants_of(const nsvcd__task *task, const nsvcd__candidate *
   memcpy(at->t, t, sizeof t);
   at->enters = time[a] < t0 && t0 < time[a + 1];
   at->leaves = time[b] < t1 && t1 < time[b + 1];
-
-  for (size_t first = 0; first < NSVCD__INSTANTS; first += NSVCD__SLICE) {
-    const size_t left = NSVCD__INSTANTS - first;
-    const size_t count = left < NSVCD__SLICE ? left : NSVCD__SLICE;
-    const nsvcd__v_pose pose = nsvcd__v_poses_at(m, t + first, count);
-    const nsvcd__v3 arm = nsvcd__vmat3_apply(nsvcd__vmat3_of(pose.rotation), centre);
-    nsvcd__v3_store(at->arm, first, arm);
-    nsvcd__v3_store(at->position, first, nsvcd__v3_add(arm, pose.position));
-  }
 }
 
 // A track's pose at time t in [0,1].
@@ -17315,34 +17819,23 @@ static void nsvcd__by_contact(const nsvcd__motion *m, nsvcd__instants *at, size_
   nsvcd__by_instant(m, at, s + 1, after, none, out);
 }
 
-// Adds the derivative of the decisive distance, or logit, by the poses to out (2). time: of the
-// segments' ends.
-static void nsvcd__gradient(const nsvcd__task *task, nsvcd__decisive *decisive,
-                            const float *time, float *const *out) {
+// Adds the derivative of the decisive distance, or logit, of a question that the network has
+// answered, by the poses to out (2).
+static void nsvcd__gradient(const nsvcd__query *query, float *const *out) {
+  const nsvcd__task *task = &query->task;
   const nsvcd__motion *m = &task->motion;
-  nsvcd__candidate *c = &decisive->candidate;
-  nsvcd__pairs pairs;
-  nsvcd__pair pair;
+  nsvcd__tape tape;
+  nsvcd__instants *at = &tape.at;
   nsvcd__by_pair by;
-  nsvcd__instants at;
-  float x[NSVCD__DECODER_IN];
-  float by_x[NSVCD__DECODER_IN];
-  nsvcd__pairs_of(task->moving, task->fixed, m, &c, 1, &pairs);
-  nsvcd__first_lanes(&pairs, sizeof pair / sizeof(float), &pair);
-  nsvcd__invariants(&pairs, 1, x);
-  const int of_logit = !nsvcd__of_distance(task);
-  const size_t output = of_logit ? NSVCD__OUT_LOGIT : NSVCD__OUT_DISTANCE;
-  const float unit = of_logit ? 1 : 0.1f * nsvcd__candidate_radius(task, c);
-  nsvcd__decoder_gradient(decisive->decoder, output, x, by_x);
-  for (size_t k = 0; k < NSVCD__DECODER_IN; k++) by_x[k] *= unit;
-  nsvcd__by_invariants(&pairs, &pair, x, by_x, &by);
-  nsvcd__instants_of(task, c, time, &at);
+  nsvcd__instants_of(&task->decisive->candidate, query->broad_phase.time, at);
+  query->kernels->record(task, &tape);
+  nsvcd__by_invariants(&tape, &by);
 
   // The adjoint of nsvcd__pairs_of. v = w x arm + (x1 - x0) / 2, where arm goes from the moving
   // centre half way to the other.
-  const nsvcd__f3 w = pair.w;
-  const nsvcd__f3 middle = nsvcd__lane_of(at.position, NSVCD__MIDDLE);
-  const nsvcd__f3 line = nsvcd__f3_sub(pair.p2, middle);
+  const nsvcd__f3 w = tape.pair.w;
+  const nsvcd__f3 middle = nsvcd__lane_of(at->position, NSVCD__MIDDLE);
+  const nsvcd__f3 line = nsvcd__f3_sub(tape.pair.p2, middle);
   const nsvcd__f3 arm = nsvcd__f3_scale(line, 0.5f);
   nsvcd__add_to(&by.p1, -0.5f, nsvcd__f3_cross(by.v, w));
   nsvcd__add_to(&by.w, 1, nsvcd__f3_cross(arm, by.v));
@@ -17353,534 +17846,18 @@ static void nsvcd__gradient(const nsvcd__task *task, nsvcd__decisive *decisive,
   const float h = nsvcd__f3_norm(w);
   const float half = 0.5f * (h > 1e-3f ? h / sinf(h) : 1);
   const nsvcd__f3 n = h > 0 ? nsvcd__f3_of(w.x / h, w.y / h, w.z / h) : none;
-  const float by_middle = nsvcd__by_instant(m, &at, NSVCD__MIDDLE, by.p1, by.rotation, out);
+  const float by_middle = nsvcd__by_instant(m, at, NSVCD__MIDDLE, by.p1, by.rotation, out);
   for (size_t l = NSVCD__ENTRY; l <= NSVCD__EXIT; l++) {
     const float side = l == NSVCD__ENTRY ? -1.0f : 1.0f;
     const nsvcd__f3 force = nsvcd__f3_scale(by.v, 0.5f * side);
     const nsvcd__f3 torque = nsvcd__turned(by.w, n, 0.5f * side, half * side, h * side);
-    by_time[l] = 0.5f * by_middle + nsvcd__by_instant(m, &at, l, force, torque, out);
+    by_time[l] = 0.5f * by_middle + nsvcd__by_instant(m, at, l, force, torque, out);
   }
-  if (at.enters) nsvcd__by_contact(m, &at, NSVCD__ENTRY, pair.p2, by_time[0], out);
-  if (at.leaves) nsvcd__by_contact(m, &at, NSVCD__EXIT, pair.p2, by_time[1], out);
+  if (at->enters) nsvcd__by_contact(m, at, NSVCD__ENTRY, tape.pair.p2, by_time[0], out);
+  if (at->leaves) nsvcd__by_contact(m, at, NSVCD__EXIT, tape.pair.p2, by_time[1], out);
 }
 
 #endif  // NSVCD_NO_GRADIENT
-
-// =============================================== entry: the kernels of each set, and the best ones
-
-// ----------------------------------------------------------------------------------- entry/kernels
-// In: the functions that work on vectors. Out: a table of them, one for each instruction set.
-
-static const nsvcd__kernels nsvcd__table = {
-    nsvcd__self_test_lanes,
-#ifndef NSVCD_NO_PROOF
-    nsvcd__separate,        nsvcd__is_contained_at_start,
-    nsvcd__bound_distance,  nsvcd__seek_positions,
-#endif
-#ifndef NSVCD_NO_NETWORK
-    nsvcd__ask_network,
-#endif
-#ifndef NSVCD_NO_GRADIENT
-    nsvcd__gradient,
-#endif
-};
-#ifndef NSVCD__ISA
-
-// --------------------------------------------------------------------------------- entry/processor
-// In: a processor. Out: the kernels for the widest vectors that it has.
-//
-// If the compiler's flags allow SSE2 only, the default on x86-64, the rooms that use vectors are
-// compiled three times: with SSE2 above, and here with AVX2 and with AVX-512, under other private
-// names: nsvcd__separate becomes nsvcd__separate_avx2. For that the header includes itself. At each
-// call the processor decides which of them answers. NSVCD_NO_DISPATCH leaves SSE2 only.
-
-#if NSVCD__SLICE == 4 && !defined(NSVCD_NO_DISPATCH) && !defined(NSVCD__NARROW) && \
-    !defined(NSVCD__FROM_ROOMS)
-#if defined(__clang__) && defined(_MSC_VER)
-// clang-cl's <immintrin.h> has only what the flags allow: /arch:AVX2
-#elif defined(__x86_64__) && (defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 8))
-#define NSVCD__DISPATCH
-#elif defined(_M_X64) && !defined(_M_ARM64EC)
-#include <intrin.h>
-#define NSVCD__DISPATCH
-#endif
-#endif
-
-#ifdef NSVCD__DISPATCH
-#define NSVCD__JOIN(name, isa) name##isa
-#define NSVCD__OF_ISA(name, isa) NSVCD__JOIN(name, isa)
-#define NSVCD__AT(name) NSVCD__OF_ISA(nsvcd__##name, NSVCD__ISA)
-#define NSVCD__NUMBER_AT(name) NSVCD__OF_ISA(NSVCD__##name, NSVCD__ISA)
-
-// ---- the names, as src/make_header.py writes them
-#define NSVCD__ALONG_BOTH NSVCD__NUMBER_AT(ALONG_BOTH)
-#define NSVCD__ALONG_LINE NSVCD__NUMBER_AT(ALONG_LINE)
-#define NSVCD__ALONG_MOVING NSVCD__NUMBER_AT(ALONG_MOVING)
-#define NSVCD__ALONG_RESTING NSVCD__NUMBER_AT(ALONG_RESTING)
-#define NSVCD__DECODER_OUT NSVCD__NUMBER_AT(DECODER_OUT)
-#define NSVCD__DIRECTIONS NSVCD__NUMBER_AT(DIRECTIONS)
-#define NSVCD__ENTRY NSVCD__NUMBER_AT(ENTRY)
-#define NSVCD__ENTRY_BEGIN NSVCD__NUMBER_AT(ENTRY_BEGIN)
-#define NSVCD__ENTRY_END NSVCD__NUMBER_AT(ENTRY_END)
-#define NSVCD__EXIT NSVCD__NUMBER_AT(EXIT)
-#define NSVCD__EXIT_BEGIN NSVCD__NUMBER_AT(EXIT_BEGIN)
-#define NSVCD__EXIT_END NSVCD__NUMBER_AT(EXIT_END)
-#define NSVCD__FACTS NSVCD__NUMBER_AT(FACTS)
-#define NSVCD__FACT_CLOSEST NSVCD__NUMBER_AT(FACT_CLOSEST)
-#define NSVCD__FACT_DISTANCE NSVCD__NUMBER_AT(FACT_DISTANCE)
-#define NSVCD__FACT_FACING NSVCD__NUMBER_AT(FACT_FACING)
-#define NSVCD__FACT_FLAT NSVCD__NUMBER_AT(FACT_FLAT)
-#define NSVCD__FACT_GAPS NSVCD__NUMBER_AT(FACT_GAPS)
-#define NSVCD__FACT_RADIUS NSVCD__NUMBER_AT(FACT_RADIUS)
-#define NSVCD__FACT_SPEED NSVCD__NUMBER_AT(FACT_SPEED)
-#define NSVCD__FACT_SPIN NSVCD__NUMBER_AT(FACT_SPIN)
-#define NSVCD__FACT_TAU NSVCD__NUMBER_AT(FACT_TAU)
-#define NSVCD__FACT_TURN NSVCD__NUMBER_AT(FACT_TURN)
-#define NSVCD__FACT_VELOCITY NSVCD__NUMBER_AT(FACT_VELOCITY)
-#define NSVCD__FACT_WIDEST NSVCD__NUMBER_AT(FACT_WIDEST)
-#define NSVCD__GAPS NSVCD__NUMBER_AT(GAPS)
-#define NSVCD__GAP_BOTH NSVCD__NUMBER_AT(GAP_BOTH)
-#define NSVCD__GAP_LARGER NSVCD__NUMBER_AT(GAP_LARGER)
-#define NSVCD__GAP_LINE NSVCD__NUMBER_AT(GAP_LINE)
-#define NSVCD__GAP_SMALLER NSVCD__NUMBER_AT(GAP_SMALLER)
-#define NSVCD__INSTANTS NSVCD__NUMBER_AT(INSTANTS)
-#define NSVCD__MIDDLE NSVCD__NUMBER_AT(MIDDLE)
-#define NSVCD__OUT_DISTANCE NSVCD__NUMBER_AT(OUT_DISTANCE)
-#define NSVCD__OUT_LOGIT NSVCD__NUMBER_AT(OUT_LOGIT)
-#define nsvcd__add_dipoles NSVCD__AT(add_dipoles)
-#define nsvcd__add_patch_pairs NSVCD__AT(add_patch_pairs)
-#define nsvcd__add_to NSVCD__AT(add_to)
-#define nsvcd__add_transpose NSVCD__AT(add_transpose)
-#define nsvcd__add_wrench NSVCD__AT(add_wrench)
-#define nsvcd__all_segments NSVCD__AT(all_segments)
-#define nsvcd__answer_with NSVCD__AT(answer_with)
-#define nsvcd__arc_of NSVCD__AT(arc_of)
-#define nsvcd__ask_network NSVCD__AT(ask_network)
-#define nsvcd__beam NSVCD__AT(beam)
-#define nsvcd__block_arm NSVCD__AT(block_arm)
-#define nsvcd__block_bounds NSVCD__AT(block_bounds)
-#define nsvcd__block_lanes NSVCD__AT(block_lanes)
-#define nsvcd__block_load NSVCD__AT(block_load)
-#define nsvcd__block_pose NSVCD__AT(block_pose)
-#define nsvcd__bound_distance NSVCD__AT(bound_distance)
-#define nsvcd__bound_of NSVCD__AT(bound_of)
-#define nsvcd__boxes_of_groups NSVCD__AT(boxes_of_groups)
-#define nsvcd__by_contact NSVCD__AT(by_contact)
-#define nsvcd__by_facts NSVCD__AT(by_facts)
-#define nsvcd__by_frame NSVCD__AT(by_frame)
-#define nsvcd__by_gap NSVCD__AT(by_gap)
-#define nsvcd__by_gap_axes NSVCD__AT(by_gap_axes)
-#define nsvcd__by_gap_fact NSVCD__AT(by_gap_fact)
-#define nsvcd__by_gaps NSVCD__AT(by_gaps)
-#define nsvcd__by_instant NSVCD__AT(by_instant)
-#define nsvcd__by_invariants NSVCD__AT(by_invariants)
-#define nsvcd__by_length NSVCD__AT(by_length)
-#define nsvcd__by_pair NSVCD__AT(by_pair)
-#define nsvcd__by_poses NSVCD__AT(by_poses)
-#define nsvcd__by_view NSVCD__AT(by_view)
-#define nsvcd__candidate_radius NSVCD__AT(candidate_radius)
-#define nsvcd__candidates_add NSVCD__AT(candidates_add)
-#define nsvcd__candidates_start NSVCD__AT(candidates_start)
-#define nsvcd__certain_opinion NSVCD__AT(certain_opinion)
-#define nsvcd__chords_in_all NSVCD__AT(chords_in_all)
-#define nsvcd__chords_in_segment NSVCD__AT(chords_in_segment)
-#define nsvcd__chords_of_group NSVCD__AT(chords_of_group)
-#define nsvcd__chords_of_tile NSVCD__AT(chords_of_tile)
-#define nsvcd__chords_start NSVCD__AT(chords_start)
-#define nsvcd__chords_store NSVCD__AT(chords_store)
-#define nsvcd__chords_travel NSVCD__AT(chords_travel)
-#define nsvcd__clip_segment NSVCD__AT(clip_segment)
-#define nsvcd__closeness NSVCD__AT(closeness)
-#define nsvcd__collect_contacts NSVCD__AT(collect_contacts)
-#define nsvcd__collects_on NSVCD__AT(collects_on)
-#define nsvcd__collides_again NSVCD__AT(collides_again)
-#define nsvcd__comes_near NSVCD__AT(comes_near)
-#define nsvcd__comes_within NSVCD__AT(comes_within)
-#define nsvcd__contains_any NSVCD__AT(contains_any)
-#define nsvcd__contains_seeds NSVCD__AT(contains_seeds)
-#define nsvcd__cross_all NSVCD__AT(cross_all)
-#define nsvcd__crossings NSVCD__AT(crossings)
-#define nsvcd__cut_arc NSVCD__AT(cut_arc)
-#define nsvcd__cut_block NSVCD__AT(cut_block)
-#define nsvcd__cut_deviations NSVCD__AT(cut_deviations)
-#define nsvcd__cut_double_arc NSVCD__AT(cut_double_arc)
-#define nsvcd__cut_ends NSVCD__AT(cut_ends)
-#define nsvcd__cut_keyframe NSVCD__AT(cut_keyframe)
-#define nsvcd__cut_motion NSVCD__AT(cut_motion)
-#define nsvcd__cut_poses NSVCD__AT(cut_poses)
-#define nsvcd__cut_segments NSVCD__AT(cut_segments)
-#define nsvcd__decode NSVCD__AT(decode)
-#define nsvcd__decoder_gradient NSVCD__AT(decoder_gradient)
-#define nsvcd__decoder_run NSVCD__AT(decoder_run)
-#define nsvcd__dot_tile NSVCD__AT(dot_tile)
-#define nsvcd__enclosure NSVCD__AT(enclosure)
-#define nsvcd__exists NSVCD__AT(exists)
-#define nsvcd__exit_is_blocked NSVCD__AT(exit_is_blocked)
-#define nsvcd__extremes_along NSVCD__AT(extremes_along)
-#define nsvcd__extremes_collect NSVCD__AT(extremes_collect)
-#define nsvcd__f3_across NSVCD__AT(f3_across)
-#define nsvcd__f3_towards NSVCD__AT(f3_towards)
-#define nsvcd__f3_turned_back NSVCD__AT(f3_turned_back)
-#define nsvcd__farthest_extreme NSVCD__AT(farthest_extreme)
-#define nsvcd__find_witness NSVCD__AT(find_witness)
-#define nsvcd__find_witness_in NSVCD__AT(find_witness_in)
-#define nsvcd__first_lanes NSVCD__AT(first_lanes)
-#define nsvcd__gap_axes_of NSVCD__AT(gap_axes_of)
-#define nsvcd__gap_fact NSVCD__AT(gap_fact)
-#define nsvcd__gap_facts NSVCD__AT(gap_facts)
-#define nsvcd__gaps_at NSVCD__AT(gaps_at)
-#define nsvcd__gradient NSVCD__AT(gradient)
-#define nsvcd__greatest_of NSVCD__AT(greatest_of)
-#define nsvcd__group_against_group NSVCD__AT(group_against_group)
-#define nsvcd__group_against_members NSVCD__AT(group_against_members)
-#define nsvcd__group_extent NSVCD__AT(group_extent)
-#define nsvcd__held_again NSVCD__AT(held_again)
-#define nsvcd__hull_of NSVCD__AT(hull_of)
-#define nsvcd__hulls_are_apart NSVCD__AT(hulls_are_apart)
-#define nsvcd__inputs NSVCD__AT(inputs)
-#define nsvcd__inputs_of NSVCD__AT(inputs_of)
-#define nsvcd__inputs_without_gaps NSVCD__AT(inputs_without_gaps)
-#define nsvcd__inputs_write NSVCD__AT(inputs_write)
-#define nsvcd__instants NSVCD__AT(instants)
-#define nsvcd__instants_of NSVCD__AT(instants_of)
-#define nsvcd__interval_cuts NSVCD__AT(interval_cuts)
-#define nsvcd__intervals NSVCD__AT(intervals)
-#define nsvcd__intervals_close NSVCD__AT(intervals_close)
-#define nsvcd__invariants NSVCD__AT(invariants)
-#define nsvcd__is_approached NSVCD__AT(is_approached)
-#define nsvcd__is_before NSVCD__AT(is_before)
-#define nsvcd__is_clear NSVCD__AT(is_clear)
-#define nsvcd__is_contained NSVCD__AT(is_contained)
-#define nsvcd__is_contained_at_start NSVCD__AT(is_contained_at_start)
-#define nsvcd__is_contained_in NSVCD__AT(is_contained_in)
-#define nsvcd__is_enclosed NSVCD__AT(is_enclosed)
-#define nsvcd__is_harmless NSVCD__AT(is_harmless)
-#define nsvcd__is_new NSVCD__AT(is_new)
-#define nsvcd__is_on_beam NSVCD__AT(is_on_beam)
-#define nsvcd__is_separated NSVCD__AT(is_separated)
-#define nsvcd__is_shallower NSVCD__AT(is_shallower)
-#define nsvcd__judge NSVCD__AT(judge)
-#define nsvcd__keyframes_load NSVCD__AT(keyframes_load)
-#define nsvcd__keyframes_read NSVCD__AT(keyframes_read)
-#define nsvcd__keyframes_store NSVCD__AT(keyframes_store)
-#define nsvcd__know_moving NSVCD__AT(know_moving)
-#define nsvcd__know_resting NSVCD__AT(know_resting)
-#define nsvcd__lanes_left_by_known NSVCD__AT(lanes_left_by_known)
-#define nsvcd__lanes_left_by_last NSVCD__AT(lanes_left_by_last)
-#define nsvcd__lanes_left_by_own NSVCD__AT(lanes_left_by_own)
-#define nsvcd__lanes_near NSVCD__AT(lanes_near)
-#define nsvcd__lanes_on_ray NSVCD__AT(lanes_on_ray)
-#define nsvcd__lanes_outside NSVCD__AT(lanes_outside)
-#define nsvcd__latent_torque NSVCD__AT(latent_torque)
-#define nsvcd__layer NSVCD__AT(layer)
-#define nsvcd__layer_by_bytes NSVCD__AT(layer_by_bytes)
-#define nsvcd__layer_by_floats NSVCD__AT(layer_by_floats)
-#define nsvcd__layer_of NSVCD__AT(layer_of)
-#define nsvcd__layer_tile NSVCD__AT(layer_tile)
-#define nsvcd__least_lane NSVCD__AT(least_lane)
-#define nsvcd__least_of NSVCD__AT(least_of)
-#define nsvcd__left_by_normal NSVCD__AT(left_by_normal)
-#define nsvcd__matters NSVCD__AT(matters)
-#define nsvcd__may_be_close NSVCD__AT(may_be_close)
-#define nsvcd__meet NSVCD__AT(meet)
-#define nsvcd__meet_in NSVCD__AT(meet_in)
-#define nsvcd__meet_members NSVCD__AT(meet_members)
-#define nsvcd__meets_sphere NSVCD__AT(meets_sphere)
-#define nsvcd__members_left NSVCD__AT(members_left)
-#define nsvcd__members_meet NSVCD__AT(members_meet)
-#define nsvcd__members_of NSVCD__AT(members_of)
-#define nsvcd__moving_block_load NSVCD__AT(moving_block_load)
-#define nsvcd__moving_range NSVCD__AT(moving_range)
-#define nsvcd__nearest2 NSVCD__AT(nearest2)
-#define nsvcd__nearest_groups NSVCD__AT(nearest_groups)
-#define nsvcd__nearest_tick NSVCD__AT(nearest_tick)
-#define nsvcd__next_probe NSVCD__AT(next_probe)
-#define nsvcd__normal_to_try NSVCD__AT(normal_to_try)
-#define nsvcd__normals_separate NSVCD__AT(normals_separate)
-#define nsvcd__of_distance NSVCD__AT(of_distance)
-#define nsvcd__pair NSVCD__AT(pair)
-#define nsvcd__pairs NSVCD__AT(pairs)
-#define nsvcd__pairs_in_passing NSVCD__AT(pairs_in_passing)
-#define nsvcd__pairs_of NSVCD__AT(pairs_of)
-#define nsvcd__passing NSVCD__AT(passing)
-#define nsvcd__patch_near NSVCD__AT(patch_near)
-#define nsvcd__patches_apart NSVCD__AT(patches_apart)
-#define nsvcd__plane_cache_begin NSVCD__AT(plane_cache_begin)
-#define nsvcd__planes_known NSVCD__AT(planes_known)
-#define nsvcd__pose_members NSVCD__AT(pose_members)
-#define nsvcd__probes NSVCD__AT(probes)
-#define nsvcd__probes_measure NSVCD__AT(probes_measure)
-#define nsvcd__prove_segments NSVCD__AT(prove_segments)
-#define nsvcd__prove_tiles NSVCD__AT(prove_tiles)
-#define nsvcd__ranges_store NSVCD__AT(ranges_store)
-#define nsvcd__ray NSVCD__AT(ray)
-#define nsvcd__ray_crosses NSVCD__AT(ray_crosses)
-#define nsvcd__resolve_patch_pair NSVCD__AT(resolve_patch_pair)
-#define nsvcd__resolve_patch_pairs NSVCD__AT(resolve_patch_pairs)
-#define nsvcd__resolve_row NSVCD__AT(resolve_row)
-#define nsvcd__resolve_triangles NSVCD__AT(resolve_triangles)
-#define nsvcd__resting NSVCD__AT(resting)
-#define nsvcd__resting_of NSVCD__AT(resting_of)
-#define nsvcd__rotate_degree NSVCD__AT(rotate_degree)
-#define nsvcd__rotate_latent NSVCD__AT(rotate_latent)
-#define nsvcd__row_left NSVCD__AT(row_left)
-#define nsvcd__score NSVCD__AT(score)
-#define nsvcd__search_and_judge NSVCD__AT(search_and_judge)
-#define nsvcd__search_begin NSVCD__AT(search_begin)
-#define nsvcd__search_group NSVCD__AT(search_group)
-#define nsvcd__search_moving_tile NSVCD__AT(search_moving_tile)
-#define nsvcd__search_next_tile NSVCD__AT(search_next_tile)
-#define nsvcd__search_pair NSVCD__AT(search_pair)
-#define nsvcd__search_patch NSVCD__AT(search_patch)
-#define nsvcd__search_step NSVCD__AT(search_step)
-#define nsvcd__search_tile NSVCD__AT(search_tile)
-#define nsvcd__seed_is_near NSVCD__AT(seed_is_near)
-#define nsvcd__seek_in_patch_pair NSVCD__AT(seek_in_patch_pair)
-#define nsvcd__seek_positions NSVCD__AT(seek_positions)
-#define nsvcd__seems_contained_at_start NSVCD__AT(seems_contained_at_start)
-#define nsvcd__segment_deviation NSVCD__AT(segment_deviation)
-#define nsvcd__segments_in NSVCD__AT(segments_in)
-#define nsvcd__segments_left NSVCD__AT(segments_left)
-#define nsvcd__segments_that_matter NSVCD__AT(segments_that_matter)
-#define nsvcd__self_test_lanes NSVCD__AT(self_test_lanes)
-#define nsvcd__separate NSVCD__AT(separate)
-#define nsvcd__separate_groups NSVCD__AT(separate_groups)
-#define nsvcd__separated_along NSVCD__AT(separated_along)
-#define nsvcd__sift_patch_pairs NSVCD__AT(sift_patch_pairs)
-#define nsvcd__slabs_meet NSVCD__AT(slabs_meet)
-#define nsvcd__slice_against_patch NSVCD__AT(slice_against_patch)
-#define nsvcd__sort_patch_pairs NSVCD__AT(sort_patch_pairs)
-#define nsvcd__spheres_at_box NSVCD__AT(spheres_at_box)
-#define nsvcd__sticks_out NSVCD__AT(sticks_out)
-#define nsvcd__support NSVCD__AT(support)
-#define nsvcd__support_along NSVCD__AT(support_along)
-#define nsvcd__surface_is_near NSVCD__AT(surface_is_near)
-#define nsvcd__table NSVCD__AT(table)
-#define nsvcd__take_patch_pairs NSVCD__AT(take_patch_pairs)
-#define nsvcd__tile_fill NSVCD__AT(tile_fill)
-#define nsvcd__tile_fill_all NSVCD__AT(tile_fill_all)
-#define nsvcd__time_in_segment NSVCD__AT(time_in_segment)
-#define nsvcd__track_pose_at NSVCD__AT(track_pose_at)
-#define nsvcd__track_poses_at NSVCD__AT(track_poses_at)
-#define nsvcd__turned NSVCD__AT(turned)
-#define nsvcd__turned_back NSVCD__AT(turned_back)
-#define nsvcd__turned_back_by_w NSVCD__AT(turned_back_by_w)
-#define nsvcd__v NSVCD__AT(v)
-#define nsvcd__v3 NSVCD__AT(v3)
-#define nsvcd__v3_add NSVCD__AT(v3_add)
-#define nsvcd__v3_centres NSVCD__AT(v3_centres)
-#define nsvcd__v3_cross NSVCD__AT(v3_cross)
-#define nsvcd__v3_dot NSVCD__AT(v3_dot)
-#define nsvcd__v3_dot_add NSVCD__AT(v3_dot_add)
-#define nsvcd__v3_fma NSVCD__AT(v3_fma)
-#define nsvcd__v3_get NSVCD__AT(v3_get)
-#define nsvcd__v3_load NSVCD__AT(v3_load)
-#define nsvcd__v3_load_int8 NSVCD__AT(v3_load_int8)
-#define nsvcd__v3_max NSVCD__AT(v3_max)
-#define nsvcd__v3_min NSVCD__AT(v3_min)
-#define nsvcd__v3_negate NSVCD__AT(v3_negate)
-#define nsvcd__v3_norm NSVCD__AT(v3_norm)
-#define nsvcd__v3_of NSVCD__AT(v3_of)
-#define nsvcd__v3_pick NSVCD__AT(v3_pick)
-#define nsvcd__v3_put NSVCD__AT(v3_put)
-#define nsvcd__v3_rows NSVCD__AT(v3_rows)
-#define nsvcd__v3_scale NSVCD__AT(v3_scale)
-#define nsvcd__v3_set NSVCD__AT(v3_set)
-#define nsvcd__v3_store NSVCD__AT(v3_store)
-#define nsvcd__v3_sub NSVCD__AT(v3_sub)
-#define nsvcd__v3_transform NSVCD__AT(v3_transform)
-#define nsvcd__v3_unit NSVCD__AT(v3_unit)
-#define nsvcd__v_abs NSVCD__AT(v_abs)
-#define nsvcd__v_across NSVCD__AT(v_across)
-#define nsvcd__v_add_to NSVCD__AT(v_add_to)
-#define nsvcd__v_approach NSVCD__AT(v_approach)
-#define nsvcd__v_arc NSVCD__AT(v_arc)
-#define nsvcd__v_bend NSVCD__AT(v_bend)
-#define nsvcd__v_bits NSVCD__AT(v_bits)
-#define nsvcd__v_clamp NSVCD__AT(v_clamp)
-#define nsvcd__v_degree2 NSVCD__AT(v_degree2)
-#define nsvcd__v_deviation NSVCD__AT(v_deviation)
-#define nsvcd__v_half_rotation NSVCD__AT(v_half_rotation)
-#define nsvcd__v_interval NSVCD__AT(v_interval)
-#define nsvcd__v_interval_load NSVCD__AT(v_interval_load)
-#define nsvcd__v_interval_set NSVCD__AT(v_interval_set)
-#define nsvcd__v_keep NSVCD__AT(v_keep)
-#define nsvcd__v_least NSVCD__AT(v_least)
-#define nsvcd__v_load_int16 NSVCD__AT(v_load_int16)
-#define nsvcd__v_load_int8 NSVCD__AT(v_load_int8)
-#define nsvcd__v_max NSVCD__AT(v_max)
-#define nsvcd__v_min NSVCD__AT(v_min)
-#define nsvcd__v_negate NSVCD__AT(v_negate)
-#define nsvcd__v_off NSVCD__AT(v_off)
-#define nsvcd__v_pick NSVCD__AT(v_pick)
-#define nsvcd__v_plus NSVCD__AT(v_plus)
-#define nsvcd__v_pose NSVCD__AT(v_pose)
-#define nsvcd__v_poses NSVCD__AT(v_poses)
-#define nsvcd__v_poses_at NSVCD__AT(v_poses_at)
-#define nsvcd__v_range NSVCD__AT(v_range)
-#define nsvcd__v_scale NSVCD__AT(v_scale)
-#define nsvcd__v_scaled NSVCD__AT(v_scaled)
-#define nsvcd__v_seen NSVCD__AT(v_seen)
-#define nsvcd__v_separate NSVCD__AT(v_separate)
-#define nsvcd__v_separate_by_fixed NSVCD__AT(v_separate_by_fixed)
-#define nsvcd__v_separate_by_moving NSVCD__AT(v_separate_by_moving)
-#define nsvcd__v_shorter_turn NSVCD__AT(v_shorter_turn)
-#define nsvcd__v_sign NSVCD__AT(v_sign)
-#define nsvcd__v_signed_square NSVCD__AT(v_signed_square)
-#define nsvcd__v_slab NSVCD__AT(v_slab)
-#define nsvcd__v_slab_along NSVCD__AT(v_slab_along)
-#define nsvcd__v_slab_load NSVCD__AT(v_slab_load)
-#define nsvcd__v_slab_range NSVCD__AT(v_slab_range)
-#define nsvcd__v_slab_set NSVCD__AT(v_slab_set)
-#define nsvcd__v_turn NSVCD__AT(v_turn)
-#define nsvcd__v_unit_or NSVCD__AT(v_unit_or)
-#define nsvcd__vertex_distance NSVCD__AT(vertex_distance)
-#define nsvcd__view NSVCD__AT(view)
-#define nsvcd__views NSVCD__AT(views)
-#define nsvcd__views_of NSVCD__AT(views_of)
-#define nsvcd__vmat3 NSVCD__AT(vmat3)
-#define nsvcd__vmat3_apply NSVCD__AT(vmat3_apply)
-#define nsvcd__vmat3_apply_add NSVCD__AT(vmat3_apply_add)
-#define nsvcd__vmat3_apply_transpose NSVCD__AT(vmat3_apply_transpose)
-#define nsvcd__vmat3_fma NSVCD__AT(vmat3_fma)
-#define nsvcd__vmat3_load NSVCD__AT(vmat3_load)
-#define nsvcd__vmat3_mul NSVCD__AT(vmat3_mul)
-#define nsvcd__vmat3_of NSVCD__AT(vmat3_of)
-#define nsvcd__vmat3_rows NSVCD__AT(vmat3_rows)
-#define nsvcd__vmat3_scale NSVCD__AT(vmat3_scale)
-#define nsvcd__vmat3_set NSVCD__AT(vmat3_set)
-#define nsvcd__vmat3_square NSVCD__AT(vmat3_square)
-#define nsvcd__vmat3_store NSVCD__AT(vmat3_store)
-#define nsvcd__vmat3_sub NSVCD__AT(vmat3_sub)
-#define nsvcd__vmat3_transpose NSVCD__AT(vmat3_transpose)
-#define nsvcd__vquat NSVCD__AT(vquat)
-#define nsvcd__vquat_axis NSVCD__AT(vquat_axis)
-#define nsvcd__vquat_dot NSVCD__AT(vquat_dot)
-#define nsvcd__vquat_fma NSVCD__AT(vquat_fma)
-#define nsvcd__vquat_inverse NSVCD__AT(vquat_inverse)
-#define nsvcd__vquat_load NSVCD__AT(vquat_load)
-#define nsvcd__vquat_mul NSVCD__AT(vquat_mul)
-#define nsvcd__vquat_of NSVCD__AT(vquat_of)
-#define nsvcd__vquat_set NSVCD__AT(vquat_set)
-#define nsvcd__vquat_store NSVCD__AT(vquat_store)
-#define nsvcd__vquat_unit NSVCD__AT(vquat_unit)
-#define nsvcd__weights_at NSVCD__AT(weights_at)
-#define nsvcd__wigner NSVCD__AT(wigner)
-#define nsvcd__winding_number NSVCD__AT(winding_number)
-#define nsvcd__window_load NSVCD__AT(window_load)
-
-// ---- the passes
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC push_options
-#pragma GCC target("avx2,fma,bmi,bmi2,lzcnt,popcnt")
-#elif defined(__clang__)
-#pragma clang attribute push(__attribute__((target("avx2,fma,bmi,bmi2,lzcnt,popcnt"))), \
-                             apply_to = function)
-#endif
-#undef NSVCD__SLICE
-#define NSVCD__SLICE 8
-#define NSVCD__ISA _avx2
-#include "neuralsvcd.h"
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC target("avx512f,avx512vl,avx512vnni")
-#elif defined(__clang__)
-#pragma clang attribute pop
-#pragma clang attribute push( \
-    __attribute__((target("avx512f,avx512vl,avx512vnni,fma,bmi,bmi2,lzcnt,popcnt"))), \
-    apply_to = function)
-#endif
-#undef NSVCD__SLICE
-#undef NSVCD__ISA
-#undef NSVCD__BYTE_ROWS
-#undef NSVCD__VNNI
-#define NSVCD__SLICE 16
-#define NSVCD__ISA _avx512
-#define NSVCD__VNNI
-#include "neuralsvcd.h"
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC pop_options
-#elif defined(__clang__)
-#pragma clang attribute pop
-#endif
-
-// from here on names and vectors are those above again
-#undef NSVCD__SLICE
-#undef NSVCD__ISA
-#undef NSVCD__VNNI
-#define NSVCD__SLICE 4
-#undef NSVCD__AT
-#undef NSVCD__NUMBER_AT
-#define NSVCD__AT(name) nsvcd__##name
-#define NSVCD__NUMBER_AT(name) NSVCD__##name
-
-typedef enum nsvcd__isa { NSVCD__SSE2, NSVCD__AVX2, NSVCD__AVX512 } nsvcd__isa;
-
-#if defined(_MSC_VER) && !defined(__clang__)
-// What the processor and the system have. Remembered in one word, to which all threads write the
-// same.
-static nsvcd__isa nsvcd__isa_at_hand(void) {
-  static volatile long known = -1;
-  int first[4];
-  int seventh[4];
-  if (known >= 0) return (nsvcd__isa)known;
-  __cpuid(first, 0);
-  if (first[0] < 7) return NSVCD__SSE2;
-  __cpuid(first, 1);
-  __cpuidex(seventh, 7, 0);
-  // OSXSAVE: the system saves vector registers
-  const int keeps_registers = first[2] >> 27 & 1;
-  const unsigned long long kept = keeps_registers ? _xgetbv(0) : 0;
-  const int fma = first[2] >> 12 & 1;
-  const unsigned has = (unsigned)seventh[1];
-  const unsigned bmi = has >> 3 & has >> 8 & 1;
-  const int avx2 = (kept & 6) == 6 && fma && bmi && has >> 5 & 1;
-  const unsigned vnni = has >> 16 & has >> 31 & (unsigned)seventh[2] >> 11 & 1;
-  known = !avx2 ? NSVCD__SSE2 : (kept & 0xe0) == 0xe0 && vnni ? NSVCD__AVX512 : NSVCD__AVX2;
-  return (nsvcd__isa)known;
-}
-#else
-// What the processor and the system have. The compiler's runtime asks them before main.
-static nsvcd__isa nsvcd__isa_at_hand(void) {
-  const int fma = __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
-  if (!fma || !__builtin_cpu_supports("avx2")) return NSVCD__SSE2;
-  if (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512vnni"))
-    return NSVCD__AVX512;
-  return NSVCD__AVX2;
-}
-#endif
-
-// The kernels for the widest vectors that the processor has.
-static const nsvcd__kernels *nsvcd__best_kernels(void) {
-  static const nsvcd__kernels *const all[] = {&nsvcd__table, &nsvcd__table_avx2,
-                                              &nsvcd__table_avx512};
-  return all[nsvcd__isa_at_hand()];
-}
-#else
-static const nsvcd__kernels *nsvcd__best_kernels(void) {
-  return &nsvcd__table;
-}
-#endif  // NSVCD__DISPATCH
-
-// By the kernels of one instruction set. The triangles are apart when one of them is raised.
-static nsvcd_result nsvcd__run_self_test(const nsvcd__kernels *kernels) {
-  int right = kernels->self_test();
-#ifndef NSVCD_NO_PROOF
-  const volatile double height = 2.8;  // volatile, or the compiler would compute all this
-  const nsvcd__d3 a[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  nsvcd__d3 b[3] = {{0.25, 0.25, -1}, {0.25, 0.25, 1}, {2, 2, 1}};
-  right &= !(nsvcd__nearest_of(a, b).square > 0);
-  for (size_t k = 0; k < 3; k++) b[k].z += 1 + height;
-  right &= fabs(nsvcd__nearest_of(a, b).square - height * height) < 1e-9;
-#endif
-  return right ? NSVCD_OK : NSVCD_ERROR_BUILD;
-}
-
-NSVCDDEF nsvcd_result nsvcd_self_test(void) {
-  return nsvcd__run_self_test(nsvcd__best_kernels());
-}
 
 // =============================================================== query: a question, and its answer
 
@@ -19451,8 +19428,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd__kernels *kernels,
                          task->swapped ? gradient_a : gradient_b};
   if (out[0]) memset(out[0], 0, 6 * task->motion.moving.count * sizeof(float));
   if (out[1]) memset(out[1], 0, 6 * task->motion.fixed.count * sizeof(float));
-  if (answer->opinion.candidates > 0 && !answer->inside)
-    kernels->gradient(task, &decisive, query->broad_phase.time, out);
+  if (answer->opinion.candidates > 0 && !answer->inside) nsvcd__gradient(query, out);
   return NSVCD_OK;
 }
 

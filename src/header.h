@@ -221,7 +221,8 @@ extern "C" {
 #include "proof/manifold.h"        // up to four contact points
 
 // ============================================================= task: a question, and what it needs
-#include "task/task.h"  // a question that has been checked, its memory, and its kernels
+#include "task/facts.h"  // what a decoder sees of a pair; the tape of its derivative
+#include "task/task.h"   // a question that has been checked, its memory, and its kernels
 
 #endif  // NSVCD__ISA
 
@@ -256,15 +257,16 @@ extern "C" {
 #include "network/invariants.h"       // pairs -> invariants, the inputs of the decoder
 #include "network/decoder.h"          // invariants -> logits and distances, in float or int8
 #include "network/opinion.h"          // candidates, ranked, and a logit for the best of them
-
-// ======================================================== gradient: of distance or logit, by poses
-#include "gradient/by_pair.h"   // by the decoder's inputs, and by the pair
-#include "gradient/gradient.h"  // by the poses, and by the times of contact
+#include "network/tape.h"             // what the derivative of that is made of
 
 // =============================================== entry: the kernels of each set, and the best ones
 #include "entry/kernels.h"  // the table of what has been compiled for a set
 #ifndef NSVCD__ISA
 #include "entry/processor.h"  // SSE2, AVX2 or AVX-512: the processor decides
+
+// ======================================================== gradient: of distance or logit, by poses
+#include "gradient/by_pair.h"   // by the decoder's inputs, and by the pair
+#include "gradient/gradient.h"  // by the poses, and by the times of contact
 
 // =============================================================== query: a question, and its answer
 #include "query/verdict.h"   // of one search: do they meet, when first, how near

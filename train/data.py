@@ -8,7 +8,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
-BODIES, PROBLEMS, PAIRS, POINTS, FACTS = 40, 1024, 24, 32, 32  # as in scenes.c and network/invariants.h
+BODIES, PROBLEMS, PAIRS, POINTS, FACTS = 40, 1024, 24, 32, 32  # as in scenes.c and task/facts.h
 
 
 @dataclass

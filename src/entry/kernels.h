@@ -1,7 +1,6 @@
 // In: the functions that work on vectors. Out: a table of them, one for each instruction set.
 #pragma once
-#include "../gradient/gradient.h"
-#include "../network/opinion.h"
+#include "../network/tape.h"
 #include "../separate/distance_bound.h"
 #include "../separate/loop.h"
 #include "../segments/self_test.h"
@@ -16,6 +15,6 @@ static const nsvcd__kernels nsvcd__table = {
     nsvcd__ask_network,
 #endif
 #ifndef NSVCD_NO_GRADIENT
-    nsvcd__gradient,
+    nsvcd__record,
 #endif
 };

@@ -1,8 +1,9 @@
-// In: the pair that decided an answer. Out: the derivative of its logit by the poses. Reverse mode,
-// step by step from the end, over one pair and in scalars. `by_x` is the derivative of the logit by
+// In: the tape of the pair that decided an answer. Out: the derivative of its logit by the poses.
+// Reverse mode, step by step from the end, over one pair. `by_x` is the derivative of the logit by
 // x:
 //
-//   decoder     by the decoder's inputs
+//   decoder     by the decoder's inputs: network/tape, for its weights are many. All else is in
+//               scalars
 //   pair        by the line between the centres, the velocity, and the rotations, through the frame
 //               and the facts
 //   instants    by the moving body's poses at t_enter, t_exit and in the middle, and by these times
@@ -14,7 +15,9 @@
 // and a torque (by a small rotation about that). A force f on a point at `arm` from the origin is
 // the force f and the torque arm x f.
 #pragma once
-#include "../network/decoder.h"
+#include "../body/body.h"
+#include "../network/latent_rotation.h"
+#include "../task/facts.h"
 
 #ifndef NSVCD_NO_GRADIENT
 // The derivative of |a| by a, times `by`. Where |a| is 0 to rounding it is 0, the mean of all
@@ -22,17 +25,6 @@
 static nsvcd__f3 nsvcd__by_length(nsvcd__f3 a, float by) {
   const float length = nsvcd__f3_norm(a);
   return nsvcd__f3_scale(a, length > 1e-6f ? by / length : 0);
-}
-
-// Lane 0 of each of so many slices: out (count).
-static void nsvcd__first_lanes(const void *slices, size_t count, void *out) {
-  for (size_t k = 0; k < count; k++) {
-    nsvcd__v slice;
-    float lanes[NSVCD__SLICE];
-    memcpy(&slice, (const char *)slices + k * sizeof slice, sizeof slice);
-    nsvcd__v_store(lanes, slice);
-    memcpy((char *)out + k * sizeof *lanes, lanes, sizeof *lanes);
-  }
 }
 
 // *sum += s a
@@ -55,71 +47,6 @@ static nsvcd__f3 nsvcd__turned(nsvcd__f3 a, nsvcd__f3 n, float along, float acro
   const nsvcd__f3 sum = nsvcd__f3_fma(rest, n, nsvcd__f3_scale(a, c));
   return nsvcd__f3_add(sum, nsvcd__f3_cross(side, a));
 }
-
-// ---- decoder
-
-// The weights of a layer from input i to outputs o .. o + SLICE - 1.
-NSVCD__INLINE nsvcd__v nsvcd__weights_at(const nsvcd__layer *layer, size_t i, size_t o) {
-#ifndef NSVCD_NO_FLOAT
-  return nsvcd__v_load(nsvcd_w_decoder + layer->weights + layer->outputs * i + o);
-#else
-  const size_t at = 4 * (layer->outputs * (i / 4) + o) + i % 4;
-  const int8_t *w = nsvcd_w_decoder_int8 + layer->weights + at;
-  const float *scale = nsvcd_w_decoder_scale + layer->first + o;
-  float lanes[NSVCD__SLICE];
-  for (size_t l = 0; l < NSVCD__SLICE; l++) lanes[l] = (float)w[4 * l] * scale[l];
-  return nsvcd__v_load(lanes);
-#endif
-}
-
-// The derivative of a decoder's output by its inputs: x, by_x (DECODER_IN). A ReLU's derivative at
-// 0 is 0.
-static NSVCD__NOINLINE void nsvcd__decoder_gradient(const nsvcd__decoder *decoder,
-                                                    size_t output, const float *x,
-                                                    float *by_x) {
-  // the outputs of all layers but the last
-  float values[5][NSVCD__WIDEST];
-  float by[NSVCD__MOST_INPUTS] = {0};
-  by[output] = 1;
-  const size_t last = decoder->layers - 1;
-  for (size_t n = 0; n < last; n++) {
-    const nsvcd__layer layer = nsvcd__layer_of(decoder, n);
-    const float *from = n > 0 ? values[n - 1] : x;
-    float *y = values[n];
-    memcpy(y, nsvcd_w_decoder_bias + layer.first, layer.outputs * sizeof *y);
-    for (size_t i = 0; i < layer.inputs; i++) {
-      // about half of the inputs are 0
-      if (!(from[i] < 0 || from[i] > 0)) continue;
-      const nsvcd__v input = nsvcd__v_set(from[i]);
-      for (size_t o = 0; o < layer.outputs; o += NSVCD__SLICE) {
-        const nsvcd__v w = nsvcd__weights_at(&layer, i, o);
-        nsvcd__v_store(y + o, nsvcd__v_fma(input, w, nsvcd__v_load(y + o)));
-      }
-    }
-    for (size_t o = 0; o < layer.outputs; o++) y[o] = y[o] > 0 ? y[o] : 0;
-  }
-  for (size_t n = last + 1; n-- > 0;) {
-    const nsvcd__layer layer = nsvcd__layer_of(decoder, n);
-    float by_inputs[NSVCD__MOST_INPUTS] = {0};
-    for (size_t i = 0; i < layer.inputs; i++) {
-      if (n > 0 && !(values[n - 1][i] > 0)) continue;
-      float lanes[NSVCD__LANES];
-      NSVCD__EACH_SLICE(l) {
-        nsvcd__v sum = nsvcd__v_set(0);
-        for (size_t o = l; o < layer.outputs; o += NSVCD__LANES) {
-          const nsvcd__v w = nsvcd__weights_at(&layer, i, o);
-          sum = nsvcd__v_fma(w, nsvcd__v_load(by + o), sum);
-        }
-        nsvcd__v_store(lanes + l, sum);
-      }
-      for (size_t k = 0; k < NSVCD__LANES; k++) by_inputs[i] += lanes[k];
-    }
-    memcpy(by, by_inputs, layer.inputs * sizeof *by);
-  }
-  memcpy(by_x, by, NSVCD__DECODER_IN * sizeof *by_x);
-}
-
-// ---- pair
 
 // The derivative by a small rotation of a latent, from its vectors x and the derivative by these,
 // both (3, CHANNELS), then (5, CHANNELS). On degree 2, in the basis of nsvcd__degree2, a rotation
@@ -154,25 +81,6 @@ typedef struct nsvcd__by_pair {
   nsvcd__f3 p1, v, w;
   nsvcd__f3 rotation;  // by a small rotation of the moving patch about its centre
 } nsvcd__by_pair;
-
-// Lane 0 of nsvcd__pairs, number by number, without the bytes.
-typedef struct nsvcd__pair {
-  nsvcd__f3 p1, p2;
-  float r1, r2;
-  nsvcd__mat3 rotation;
-  nsvcd__f3 v, w, normal[2];
-  float flat[2];
-} nsvcd__pair;
-
-// Lane 0 of nsvcd__views, number by number.
-typedef struct nsvcd__view {
-  float inverse, k1, k2, swap;
-  nsvcd__f3 d, lean, normal;
-  float time;
-  nsvcd__f3 v, w;
-  nsvcd__mat3 frame;
-  float side;
-} nsvcd__view;
 
 // The derivative of a logit by what the frame sees, by axis 1, and the torque on all of that, in
 // the frame.
@@ -361,29 +269,19 @@ static nsvcd__f3 nsvcd__by_gap_axes(const nsvcd__pair *pair, const nsvcd__view *
 }
 
 // The adjoint of nsvcd__gap_facts, and of the facts about normals: by (FACTS), added to `out` and,
-// by axis 1, to `seen`. pair, view: lane 0 of pairs and views. moves: 0 at rest, else 1.
-static NSVCD__NOINLINE void nsvcd__by_gaps(const nsvcd__pairs *pairs,
-                                           const nsvcd__views *views, const nsvcd__pair *pair,
-                                           const nsvcd__view *view, float moves,
-                                           const float *by, nsvcd__by_pair *out,
-                                           nsvcd__by_view *seen) {
-  const int8_t *const of_pair[2] = {pairs->extremes[0][0], pairs->extremes[1][0]};
+// by axis 1, to `seen`. moves: 0 at rest, else 1.
+static void nsvcd__by_gaps(const nsvcd__tape *tape, float moves, const float *by,
+                           nsvcd__by_pair *out, nsvcd__by_view *seen) {
+  const nsvcd__pair *pair = &tape->pair;
+  const nsvcd__view *view = &tape->view;
+  const nsvcd__f3 *u = tape->axes;
   const nsvcd__f3 fixed = pair->normal[1];
-  nsvcd__v3 axes[NSVCD__GAPS];
-  nsvcd__f3 u[NSVCD__GAPS];
   nsvcd__f3 by_u[NSVCD__GAPS];
-  int8_t extremes[2 * 3 * NSVCD__EXTREMES * NSVCD__SLICE];
-  nsvcd__gap_axes_of(pairs, views, axes);
-  nsvcd__first_lanes(axes, 3 * NSVCD__GAPS, u);
-  nsvcd__extremes_collect(pairs, 1, extremes);
   memset(by_u, 0, sizeof by_u);
   for (size_t m = 0; m < NSVCD__MOMENTS; m++) {
     const float tau = view->time * ((float)m - 1);
-    nsvcd__v at[NSVCD__GAPS];
-    float wide[NSVCD__GAPS];
+    const float *wide = tape->gaps[m];
     size_t widest = 0;
-    nsvcd__gaps_at(pairs, axes, extremes, nsvcd__v_set(tau), at);
-    nsvcd__first_lanes(at, NSVCD__GAPS, wide);
     for (size_t d = 1; d < NSVCD__GAPS; d++) widest = wide[d] > wide[widest] ? d : widest;
     for (size_t d = 0; d < NSVCD__GAPS; d++) {
       const float size = fabsf(view->inverse * wide[d]);
@@ -392,7 +290,8 @@ static NSVCD__NOINLINE void nsvcd__by_gaps(const nsvcd__pairs *pairs,
       const float by_own = nsvcd__by_gap_fact(own, size, NSVCD__GAP_STEEP);
       const float by_most = nsvcd__by_gap_fact(most, size, NSVCD__WIDEST_STEEP);
       const float by_gap = view->inverse * (by_own + by_most);
-      const nsvcd__f3 more = nsvcd__by_gap(pair, of_pair, u[d], tau, moves, by_gap, out);
+      const nsvcd__f3 more =
+          nsvcd__by_gap(pair, tape->extremes, u[d], tau, moves, by_gap, out);
       nsvcd__add_to(&by_u[d], 1, more);
     }
   }
@@ -408,15 +307,11 @@ static NSVCD__NOINLINE void nsvcd__by_gaps(const nsvcd__pairs *pairs,
   nsvcd__add_to(&out->rotation, 1, nsvcd__f3_cross(view->normal, by_normal));
 }
 
-// The adjoint of nsvcd__invariants for the pair in lane 0; x, by_x (DECODER_IN). The unit of length
-// is taken as constant.
-static NSVCD__NOINLINE void nsvcd__by_invariants(const nsvcd__pairs *pairs,
-                                                 const nsvcd__pair *pair, const float *x,
-                                                 const float *by_x, nsvcd__by_pair *by) {
-  nsvcd__views views;
-  nsvcd__view view;
-  nsvcd__views_of(pairs, &views);
-  nsvcd__first_lanes(&views, sizeof view / sizeof(float), &view);
+// The adjoint of nsvcd__invariants. The unit of length is taken as constant.
+static void nsvcd__by_invariants(const nsvcd__tape *tape, nsvcd__by_pair *by) {
+  const nsvcd__view view = tape->view;
+  const float *x = tape->x;
+  const float *by_x = tape->by_x;
   // The direction of time; 0 at rest, to rounding: the logit is even in the motion, with a kink
   // there, and the mean of its two sides is 0.
   const float moves = nsvcd__f3_dot(view.v, view.v) + nsvcd__f3_dot(view.w, view.w);
@@ -433,7 +328,7 @@ static NSVCD__NOINLINE void nsvcd__by_invariants(const nsvcd__pairs *pairs,
   seen.torque = nsvcd__f3_add(on_moving, on_fixed);
   nsvcd__by_facts(&view, x + facts, by_x + facts, &seen);
   memset(by, 0, sizeof *by);
-  nsvcd__by_gaps(pairs, &views, pair, &view, fabsf(sign), by_x + facts, by, &seen);
+  nsvcd__by_gaps(tape, fabsf(sign), by_x + facts, by, &seen);
   nsvcd__by_frame(&view, &seen);
 
   const nsvcd__f3 lean1 = nsvcd__f3_scale(view.normal, view.swap * view.k1);

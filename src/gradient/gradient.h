@@ -1,6 +1,6 @@
 // In: derivatives by a pair. Out: those by the poses of both movers.
 #pragma once
-#include "../network/opinion.h"
+#include "../entry/processor.h"
 #include "by_pair.h"
 
 #ifndef NSVCD_NO_GRADIENT
@@ -55,35 +55,11 @@ static float nsvcd__by_poses(const nsvcd__track *track, float t, nsvcd__f3 force
 
 // ---- instants and contact
 
-// The times that matter of a candidate's motion.
-enum {
-  NSVCD__ENTRY = 0,
-  NSVCD__EXIT = 1,
-  NSVCD__MIDDLE = 2,       // of these two
-  NSVCD__ENTRY_BEGIN = 3,  // the segment in which the balls meet
-  NSVCD__ENTRY_END = 4,
-  NSVCD__EXIT_BEGIN = 5,  // the segment in which they separate
-  NSVCD__EXIT_END = 6,
-  NSVCD__INSTANTS = 7
-};
-
-// The moving patch's centre at these times, in the fixed body's axes and units.
-typedef struct nsvcd__instants {
-  float t[NSVCD__INSTANTS];
-  float arm[3][NSVCD__LANES];  // from the body's origin
-  float position[3][NSVCD__LANES];
-  // inside of the segment? At one of its ends the time is constant
-  int enters, leaves;
-} nsvcd__instants;
-
-// time: of the segments' ends.
-static void nsvcd__instants_of(const nsvcd__task *task, const nsvcd__candidate *c,
-                               const float *time, nsvcd__instants *at) {
+// The instants' times. time: of the segments' ends.
+static void nsvcd__instants_of(const nsvcd__candidate *c, const float *time,
+                               nsvcd__instants *at) {
   const float t0 = c->t_enter;
   const float t1 = c->t_exit;
-  const nsvcd__motion *m = &task->motion;
-  const nsvcd__f3 own = nsvcd__centre_of(nsvcd__body_patches(task->moving), c->moving);
-  const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_scale(own, m->scale));
   size_t a = 0;
   size_t b = 0;
   while (!(t0 < time[a + 1]) && time[a + 1] < 1) a++;
@@ -92,15 +68,6 @@ static void nsvcd__instants_of(const nsvcd__task *task, const nsvcd__candidate *
   memcpy(at->t, t, sizeof t);
   at->enters = time[a] < t0 && t0 < time[a + 1];
   at->leaves = time[b] < t1 && t1 < time[b + 1];
-
-  for (size_t first = 0; first < NSVCD__INSTANTS; first += NSVCD__SLICE) {
-    const size_t left = NSVCD__INSTANTS - first;
-    const size_t count = left < NSVCD__SLICE ? left : NSVCD__SLICE;
-    const nsvcd__v_pose pose = nsvcd__v_poses_at(m, t + first, count);
-    const nsvcd__v3 arm = nsvcd__vmat3_apply(nsvcd__vmat3_of(pose.rotation), centre);
-    nsvcd__v3_store(at->arm, first, arm);
-    nsvcd__v3_store(at->position, first, nsvcd__v3_add(arm, pose.position));
-  }
 }
 
 // A track's pose at time t in [0,1].
@@ -157,34 +124,23 @@ static void nsvcd__by_contact(const nsvcd__motion *m, nsvcd__instants *at, size_
   nsvcd__by_instant(m, at, s + 1, after, none, out);
 }
 
-// Adds the derivative of the decisive distance, or logit, by the poses to out (2). time: of the
-// segments' ends.
-static void nsvcd__gradient(const nsvcd__task *task, nsvcd__decisive *decisive,
-                            const float *time, float *const *out) {
+// Adds the derivative of the decisive distance, or logit, of a question that the network has
+// answered, by the poses to out (2).
+static void nsvcd__gradient(const nsvcd__query *query, float *const *out) {
+  const nsvcd__task *task = &query->task;
   const nsvcd__motion *m = &task->motion;
-  nsvcd__candidate *c = &decisive->candidate;
-  nsvcd__pairs pairs;
-  nsvcd__pair pair;
+  nsvcd__tape tape;
+  nsvcd__instants *at = &tape.at;
   nsvcd__by_pair by;
-  nsvcd__instants at;
-  float x[NSVCD__DECODER_IN];
-  float by_x[NSVCD__DECODER_IN];
-  nsvcd__pairs_of(task->moving, task->fixed, m, &c, 1, &pairs);
-  nsvcd__first_lanes(&pairs, sizeof pair / sizeof(float), &pair);
-  nsvcd__invariants(&pairs, 1, x);
-  const int of_logit = !nsvcd__of_distance(task);
-  const size_t output = of_logit ? NSVCD__OUT_LOGIT : NSVCD__OUT_DISTANCE;
-  const float unit = of_logit ? 1 : 0.1f * nsvcd__candidate_radius(task, c);
-  nsvcd__decoder_gradient(decisive->decoder, output, x, by_x);
-  for (size_t k = 0; k < NSVCD__DECODER_IN; k++) by_x[k] *= unit;
-  nsvcd__by_invariants(&pairs, &pair, x, by_x, &by);
-  nsvcd__instants_of(task, c, time, &at);
+  nsvcd__instants_of(&task->decisive->candidate, query->broad_phase.time, at);
+  query->kernels->record(task, &tape);
+  nsvcd__by_invariants(&tape, &by);
 
   // The adjoint of nsvcd__pairs_of. v = w x arm + (x1 - x0) / 2, where arm goes from the moving
   // centre half way to the other.
-  const nsvcd__f3 w = pair.w;
-  const nsvcd__f3 middle = nsvcd__lane_of(at.position, NSVCD__MIDDLE);
-  const nsvcd__f3 line = nsvcd__f3_sub(pair.p2, middle);
+  const nsvcd__f3 w = tape.pair.w;
+  const nsvcd__f3 middle = nsvcd__lane_of(at->position, NSVCD__MIDDLE);
+  const nsvcd__f3 line = nsvcd__f3_sub(tape.pair.p2, middle);
   const nsvcd__f3 arm = nsvcd__f3_scale(line, 0.5f);
   nsvcd__add_to(&by.p1, -0.5f, nsvcd__f3_cross(by.v, w));
   nsvcd__add_to(&by.w, 1, nsvcd__f3_cross(arm, by.v));
@@ -195,15 +151,15 @@ static void nsvcd__gradient(const nsvcd__task *task, nsvcd__decisive *decisive,
   const float h = nsvcd__f3_norm(w);
   const float half = 0.5f * (h > 1e-3f ? h / sinf(h) : 1);
   const nsvcd__f3 n = h > 0 ? nsvcd__f3_of(w.x / h, w.y / h, w.z / h) : none;
-  const float by_middle = nsvcd__by_instant(m, &at, NSVCD__MIDDLE, by.p1, by.rotation, out);
+  const float by_middle = nsvcd__by_instant(m, at, NSVCD__MIDDLE, by.p1, by.rotation, out);
   for (size_t l = NSVCD__ENTRY; l <= NSVCD__EXIT; l++) {
     const float side = l == NSVCD__ENTRY ? -1.0f : 1.0f;
     const nsvcd__f3 force = nsvcd__f3_scale(by.v, 0.5f * side);
     const nsvcd__f3 torque = nsvcd__turned(by.w, n, 0.5f * side, half * side, h * side);
-    by_time[l] = 0.5f * by_middle + nsvcd__by_instant(m, &at, l, force, torque, out);
+    by_time[l] = 0.5f * by_middle + nsvcd__by_instant(m, at, l, force, torque, out);
   }
-  if (at.enters) nsvcd__by_contact(m, &at, NSVCD__ENTRY, pair.p2, by_time[0], out);
-  if (at.leaves) nsvcd__by_contact(m, &at, NSVCD__EXIT, pair.p2, by_time[1], out);
+  if (at->enters) nsvcd__by_contact(m, at, NSVCD__ENTRY, tape.pair.p2, by_time[0], out);
+  if (at->leaves) nsvcd__by_contact(m, at, NSVCD__EXIT, tape.pair.p2, by_time[1], out);
 }
 
 #endif  // NSVCD_NO_GRADIENT

@@ -16,39 +16,11 @@
 // Pairs become inputs a slice at a time, one per lane; only latents are turned pair by pair,
 // channels side by side.
 #pragma once
+#include "../task/facts.h"
 #include "latent_rotation.h"
 #include "pairs.h"
 
 #ifndef NSVCD_NO_NETWORK
-// The facts: what the decoder sees of a pair's geometry, in the pair's frame and units.
-enum {
-  NSVCD__FACT_DISTANCE = 0,  // of the centres
-  NSVCD__FACT_RADIUS = 1,    // the larger one
-  NSVCD__FACT_CLOSEST = 2,   // the centres' distance at their closest approach
-  NSVCD__FACT_TAU = 3,       // the time of that: -1 and 1 are the ends of the interval
-  NSVCD__FACT_VELOCITY = 4,  // (3)
-  NSVCD__FACT_TURN = 7,      // (3)
-  NSVCD__FACT_SPEED = 10,    // the lengths of these two
-  NSVCD__FACT_SPIN = 11,
-  NSVCD__FACT_GAPS = 12,    // (GAPS, MOMENTS): between the extreme points
-  NSVCD__FACT_WIDEST = 24,  // (MOMENTS): the widest of these
-  // (3): products of the normals: with each other; the larger patch's, and the smaller one's, with
-  // the line from the larger to the smaller
-  NSVCD__FACT_FACING = 27,
-  NSVCD__FACT_FLAT = 30,  // (2): how flat the larger patch is, and the smaller
-  NSVCD__FACTS = 32
-};
-// The axes, from the fixed patch to the moving one, along which gaps are measured: the larger
-// patch's normal, the smaller one's, the line between the centres, and the sum of the normals.
-enum { NSVCD__GAP_LARGER, NSVCD__GAP_SMALLER, NSVCD__GAP_LINE, NSVCD__GAP_BOTH, NSVCD__GAPS };
-#define NSVCD__MOMENTS 3  // both ends of the interval, and its middle
-// The fact about a gap g, in units of r1 + r2, is x / (1 + |x|), where x is g times the first of
-// these. The widest uses the second: near contact it must not be lost in the steps of int8.
-#define NSVCD__GAP_STEEP 8.0f
-#define NSVCD__WIDEST_STEEP 40.0f
-#define NSVCD__INPUTS (2 * NSVCD__LATENT + NSVCD__FACTS)
-#define NSVCD__DECODER_IN ((NSVCD__INPUTS + 15) / 16 * 16)  // zeros at the end
-#define NSVCD__LEAN 0.05f                                   // share of the lean in axis 2
 // A lean that is this near to the plane of axes 1 and 2 is on neither side.
 #define NSVCD__SIDE 1e-4f
 

@@ -1,5 +1,6 @@
 // In: questions and a workspace. Out: answers, or why not. The public functions of queries.
 #pragma once
+#include "../gradient/gradient.h"
 #include "by_proof.h"
 
 // The method that answers, or DEFAULT where there is none.
@@ -286,8 +287,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd__kernels *kernels,
                          task->swapped ? gradient_a : gradient_b};
   if (out[0]) memset(out[0], 0, 6 * task->motion.moving.count * sizeof(float));
   if (out[1]) memset(out[1], 0, 6 * task->motion.fixed.count * sizeof(float));
-  if (answer->opinion.candidates > 0 && !answer->inside)
-    kernels->gradient(task, &decisive, query->broad_phase.time, out);
+  if (answer->opinion.candidates > 0 && !answer->inside) nsvcd__gradient(query, out);
   return NSVCD_OK;
 }
 

@@ -12,7 +12,7 @@
 #pragma once
 #include "../motion/workspace.h"
 #include "../proof/proof.h"
-#include "../encoder/model.h"
+#include "facts.h"
 
 #ifndef NSVCD_NO_NETWORK
 #ifndef NSVCD_NO_BASE
@@ -238,7 +238,6 @@ typedef struct nsvcd__kernels {
   int (*ask_network)(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opinion *out);
 #endif
 #ifndef NSVCD_NO_GRADIENT
-  void (*gradient)(const nsvcd__task *task, nsvcd__decisive *decisive, const float *time,
-                   float *const *out);
+  void (*record)(const nsvcd__task *task, nsvcd__tape *tape);
 #endif
 } nsvcd__kernels;
