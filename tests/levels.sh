@@ -26,7 +26,7 @@ supports() {
 level() {
   name=$1 lanes=$2 files=$3 run=$4 cc=$5
   shift 5
-  "$cc" -O1 "$@" -std=c99 -Wall -Wextra -Werror -Wno-unused-function -DTEST_ALONE -o "$dir/vectors" tests/test_vectors.c -lm
+  "$cc" -O1 "$@" -std=c99 -Wall -Wextra -Werror -Wno-unused-function -DTEST_ALONE -I. -o "$dir/vectors" tests/test_vectors.c -lm
   $run "$dir/vectors" >"$dir/out" || { cat "$dir/out"; fail "$name: lanes are not floats"; }
   grep -q "^  $lanes lanes at a time" "$dir/out" || fail "$name: not $lanes lanes at a time"
   "$cc" -O1 "$@" -o "$dir/svcd" examples/svcd.c -lm
