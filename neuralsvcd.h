@@ -1473,14 +1473,9 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     motion          the moving body's poses as the fixed one sees them
 //     workspace       the memory of a search: segments, chords, tiles, candidates
 //     choice          how a motion is cut into segments, a long one into intervals
-//   proof: the theorem, and what is told of two triangles
+//   proof: the theorem, and its state
 //     schedule        what a proof may take, and how much of it
 //     proof           the theorem; what a proof is asked, knows and remembers
-//     poses           poses in double
-//     motion_bounds   an interval of time, and how far points deviate in it
-//     triangle_pairs  two triangles, in double: separated, or in contact
-//     touches         how deep triangles that touch are, and what undoes it
-//     manifold        up to four contact points
 //   task: a question, and what it needs
 //     facts           what a decoder sees of a pair; the tape of its derivative
 //     task            a question that has been checked, its memory, and its kernels
@@ -1495,6 +1490,12 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     planes          patches that a plane between their extremes separates
 //     intervals       when the balls of two patches meet, for the network
 //     search          which groups and patches meet, and in which segments
+//   triangles: two triangles over an interval, in double
+//     poses           poses in double
+//     motion_bounds   an interval of time, and how far points deviate in it
+//     triangle_pairs  two triangles, in double: separated, or in contact
+//     touches         how deep triangles that touch are, and what undoes it
+//     manifold        up to four contact points
 //   separate: until when surfaces stay apart
 //     slabs           planes along the slabs of patches and of groups
 //     hulls           planes between hulls
@@ -2355,17 +2356,6 @@ static inline nsvcd__dpose nsvcd__dpose_between(const nsvcd_pose *a, const nsvcd
 // The normal of a triangle (3 corners); its length is twice the area.
 static nsvcd__d3 nsvcd__face_normal(const nsvcd__d3 *t) {
   return nsvcd__d3_cross(nsvcd__d3_sub(t[1], t[0]), nsvcd__d3_sub(t[2], t[0]));
-}
-
-// The unit normal; 0 if the triangle has no area. Rounding, or fused arithmetic, makes such a
-// triangle's normal some 1e-16 of its longest edge squared.
-static NSVCD__NOINLINE nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
-  const nsvcd__d3 n = nsvcd__face_normal(t);
-  double longest = 0;
-  for (size_t k = 0; k < 3; k++)
-    longest = nsvcd__max(longest, nsvcd__d3_distance2(t[k], t[(k + 1) % 3]));
-  const double length = nsvcd__d3_norm(n);
-  return nsvcd__d3_scale(n, length > 1e-9 * longest ? 1 / length : 0);
 }
 
 typedef struct nsvcd__nearest {
@@ -9472,7 +9462,7 @@ static float nsvcd__interval_gap(const nsvcd__motion *m, uint32_t from, uint32_t
 }
 #endif
 
-// ========================================== proof: the theorem, and what is told of two triangles
+// ============================================================== proof: the theorem, and its state
 
 // ---------------------------------------------------------------------------------- proof/schedule
 // In: nothing. Out: what a proof may take, and how much of it, in the order in which a query comes
@@ -9753,7 +9743,7 @@ typedef struct nsvcd__triangle_contact {
   nsvcd__d3 directions[3];
 } nsvcd__triangle_contact;
 
-// Where the bodies touch at a contact: proof/manifold.
+// Where the bodies touch at a contact: triangles/manifold.
 typedef struct nsvcd__manifold {
   // unit: the contact's, and directions across it
   nsvcd__d3 normal, along[NSVCD__SUPPORTS];
@@ -10021,1147 +10011,6 @@ static double nsvcd__off_meshes(const nsvcd__proof *p) {
 // The sum of two patches' quantization errors.
 static float nsvcd__errors_of(const nsvcd__proof *p, size_t i, size_t j) {
   return p->arcs.motion->scale * p->moving.errors[i] + p->fixed.errors[j];
-}
-#endif  // NSVCD_NO_PROOF
-
-// ------------------------------------------------------------------------------------- proof/poses
-// In: a motion, an arc of it and a fraction u in [0,1] of the arc. Out: the pose of the moving body
-// there, in double, to the last digits.
-
-#ifndef NSVCD_NO_PROOF
-// The inverse of a pose, whose rotation is times this scale.
-static nsvcd__dtransform nsvcd__inverse_dtransform(const nsvcd__dtransform *at, double scale) {
-  const double inverse = 1 / (scale * scale);
-  nsvcd__dtransform out;
-  const nsvcd__dmat3 transpose = nsvcd__dmat3_transpose(at->rotation);
-  out.rotation = nsvcd__dmat3_scale(&transpose, inverse);
-  out.position = nsvcd__d3_scale(nsvcd__dmat3_apply(&out.rotation, at->position), -1);
-  return out;
-}
-
-// A track's slerp over an arc, and its positions at both ends, metres.
-static nsvcd__slerp nsvcd__slerp_in(const nsvcd__track *track, uint32_t first, uint32_t ticks,
-                                    nsvcd__d3 *ends) {
-  const uint32_t k = nsvcd__pose_before(track, first);
-  const nsvcd_pose *a = &track->poses[k];
-  const nsvcd_pose *b = track->count > 1 ? a + 1 : a;
-  const uint32_t begin = nsvcd__tick_of(track, k);
-  const double per_tick = 1 / (double)(nsvcd__tick_of(track, k + 1) - begin);
-  const nsvcd__d3 start = nsvcd__d3_load(a->position);
-  const nsvcd__d3 end = nsvcd__d3_load(b->position);
-  nsvcd__slerp out = nsvcd__slerp_of(a, b);
-  out.fraction = (double)ticks * per_tick;
-  out.from = (double)(first - begin) * per_tick;
-  ends[0] = nsvcd__d3_mix(start, end, out.from);
-  ends[1] = nsvcd__d3_mix(start, end, out.from + out.fraction);
-  return out;
-}
-
-// Turns to a motion. None of its arcs is known, nor any pose.
-static void nsvcd__arcs_begin(nsvcd__arcs *arcs, nsvcd__motion *motion) {
-  memset(arcs, 0, sizeof *arcs);
-  arcs->motion = motion;
-}
-
-// The arc that begins at the keyframe `first`.
-static const nsvcd__arc *nsvcd__arc_at(nsvcd__arcs *arcs, uint32_t first) {
-  const nsvcd__motion *m = arcs->motion;
-  nsvcd__arc *arc = &arcs->arc;
-  const uint32_t ticks = nsvcd__next_keyframe(m, first) - first;
-  if (arc->first == first && arc->ticks == ticks) return arc;
-  nsvcd__d3 ends[2], fixed_ends[2];
-  const double per_metre = 1 / (double)m->unit;
-  arc->first = first;
-  arc->ticks = ticks;
-  arc->fixed_moves = m->fixed_moves;
-  arc->scale = m->ratio;
-  arc->push_out = nsvcd__d3_widen(m->push_out);
-  arc->moving = nsvcd__slerp_in(&m->moving, first, ticks, ends);
-  arc->fixed = nsvcd__slerp_in(&m->fixed, first, ticks, fixed_ends);
-  const nsvcd__d3 from = nsvcd__d3_sub(ends[0], fixed_ends[0]);
-  const nsvcd__d3 to = nsvcd__d3_sub(ends[1], fixed_ends[1]);
-  arc->from = nsvcd__d3_scale(from, per_metre);
-  arc->moved = nsvcd__d3_scale(nsvcd__d3_sub(to, from), per_metre);
-  if (!arc->fixed_moves) {
-    // all in the fixed body's frame
-    const nsvcd__dquat back = nsvcd__dquat_inverse(arc->fixed.start);
-    const nsvcd__dmat3 axes = nsvcd__dmat3_of(arc->fixed.start);
-    const nsvcd__dquat none = {0, 0, 0, 1};
-    arc->moving.start = nsvcd__dquat_mul(back, arc->moving.start);
-    arc->moving.end = nsvcd__dquat_mul(back, arc->moving.end);
-    arc->from = nsvcd__dmat3_apply_transpose(&axes, arc->from);
-    arc->moved = nsvcd__dmat3_apply_transpose(&axes, arc->moved);
-    arc->fixed.start = arc->fixed.end = none;
-  }
-
-  // the bounds of nsvcd__cut_double_arc; of one body that turns, twist and swing are 0
-  const nsvcd__d3 fixed_turn = nsvcd__slerp_turn(&arc->fixed);
-  const nsvcd__d3 turn = nsvcd__d3_sub(nsvcd__slerp_turn(&arc->moving), fixed_turn);
-  const nsvcd__d3 end = nsvcd__d3_add(arc->from, arc->moved);
-  const double twist = nsvcd__d3_norm(nsvcd__d3_cross(turn, fixed_turn));
-  const double angle = nsvcd__d3_norm(fixed_turn);
-  const double swing_from = nsvcd__d3_norm(nsvcd__d3_cross(fixed_turn, arc->from));
-  const double swing_to = nsvcd__d3_norm(nsvcd__d3_cross(fixed_turn, end));
-  const double swing = nsvcd__max(swing_from, swing_to);
-  const double across = nsvcd__d3_norm(nsvcd__d3_cross(fixed_turn, arc->moved));
-  const nsvcd__d3 axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
-  const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->fixed, 0));
-  const nsvcd__dmat3 moving = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->moving, 0));
-  arc->turn = nsvcd__d3_norm(turn);
-  arc->speed = nsvcd__d3_norm(arc->moved) + swing;
-  arc->twist = 0.1250001 * arc->scale * twist;
-  arc->origin_bend = 0.1250001 * (2 * across + angle * swing);
-  arc->axis = nsvcd__dmat3_apply_transpose(&fixed, axis);
-  arc->own_axis = nsvcd__dmat3_apply_transpose(&moving, axis);
-  arc->waver = arc->turn > 0 ? nsvcd__min(1, twist / arc->turn) : 0;
-  arc->bend = 0.1250001 * arc->scale * arc->turn * arc->turn;
-  return arc;
-}
-
-// Do all points of the moving body go along straight lines, as the fixed body sees them?
-static int nsvcd__is_straight(const nsvcd__arc *arc) {
-  return !(arc->bend > 0 || arc->twist > 0 || arc->origin_bend > 0);
-}
-
-// The true pose at fraction u of the arc, as the fixed body sees it. Its rotation is times the
-// moving body's scale.
-static nsvcd__dtransform nsvcd__dtransform_at(const nsvcd__arc *arc, double u) {
-  nsvcd__dquat q = nsvcd__slerp_at(&arc->moving, u);
-  nsvcd__dtransform at;
-  at.position = nsvcd__d3_add(arc->from, nsvcd__d3_scale(arc->moved, u));
-  if (arc->fixed_moves) {
-    const nsvcd__dquat fixed = nsvcd__slerp_at(&arc->fixed, u);
-    const nsvcd__dmat3 matrix = nsvcd__dmat3_of(fixed);
-    q = nsvcd__dquat_mul(nsvcd__dquat_inverse(fixed), q);
-    at.position = nsvcd__dmat3_apply_transpose(&matrix, at.position);
-  }
-  const nsvcd__dmat3 rotation = nsvcd__dmat3_of(q);
-  at.rotation = nsvcd__dmat3_scale(&rotation, arc->scale);
-  at.position = nsvcd__d3_add(at.position, arc->push_out);
-  return at;
-}
-
-// The moving body's twist there, as the fixed body sees it.
-static nsvcd__twist nsvcd__twist_at(const nsvcd__arc *arc, double u) {
-  const nsvcd__dtransform at = nsvcd__dtransform_at(arc, u);
-  const double per_tick = 1 / (double)arc->ticks;
-  const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->fixed, u));
-  nsvcd__d3 turn = nsvcd__slerp_turn(&arc->moving);
-  nsvcd__d3 own = nsvcd__slerp_turn(&arc->fixed);
-  turn = nsvcd__dmat3_apply_transpose(&fixed, turn);
-  own = nsvcd__dmat3_apply_transpose(&fixed, own);
-  nsvcd__d3 along = nsvcd__dmat3_apply_transpose(&fixed, arc->moved);
-  along = nsvcd__d3_add(along, nsvcd__d3_cross(own, arc->push_out));
-  along = nsvcd__d3_sub(along, nsvcd__d3_cross(turn, at.position));
-  nsvcd__twist out;
-  out.along = nsvcd__d3_scale(along, per_tick);
-  out.turn = nsvcd__d3_scale(nsvcd__d3_sub(turn, own), per_tick);
-  return out;
-}
-static nsvcd__d3 nsvcd__twist_of(const nsvcd__twist *twist, nsvcd__d3 x) {
-  return nsvcd__d3_add(twist->along, nsvcd__d3_cross(twist->turn, x));
-}
-
-// The true pose at fraction u of p->arc, remembered: triangle pairs ask for the same poses again.
-// The pose of the call before stays where it is.
-static const nsvcd__dtransform *nsvcd__arc_pose(nsvcd__arcs *arcs, double u) {
-  const nsvcd__arc *arc = &arcs->arc;
-  const size_t next = arcs->next;
-  size_t n = 0;
-  for (; n < NSVCD__KNOWN_POSES; n++) {
-    const nsvcd__known_pose *known = &arcs->poses[n];
-    if (known->arc == arc->first && known->ticks == arc->ticks && known->u == u) break;
-  }
-  if (n == NSVCD__KNOWN_POSES) {
-    const nsvcd__known_pose made = {arc->first, arc->ticks, u, nsvcd__dtransform_at(arc, u)};
-    n = next;
-    arcs->poses[n] = made;
-  }
-  if (n == next) arcs->next = (n + 1) % NSVCD__KNOWN_POSES;
-  return &arcs->poses[n].transform;
-}
-
-static nsvcd__transform nsvcd__transform_of(const nsvcd__dtransform *at) {
-  nsvcd__transform out;
-  out.rotation.x = nsvcd__d3_narrow(at->rotation.x);
-  out.rotation.y = nsvcd__d3_narrow(at->rotation.y);
-  out.rotation.z = nsvcd__d3_narrow(at->rotation.z);
-  out.position = nsvcd__f3_round(at->position);
-  return out;
-}
-#endif  // NSVCD_NO_PROOF
-
-// ----------------------------------------------------------------------------- proof/motion_bounds
-// In: a segment, or an arc and two fractions of it. Out: an interval: the poses at both ends, and
-// how far points deviate from their chords in between.
-
-#ifndef NSVCD_NO_PROOF
-// The tick of a position counted in segments: 1.5 is in the middle of the second.
-static double nsvcd__tick_in_segments(const uint32_t *begin, double at) {
-  const size_t s = (size_t)at;
-  const double start = (double)begin[s];
-  const double fraction = at - (double)s;
-  return fraction > 0 ? start + fraction * ((double)begin[s + 1] - start) : start;
-}
-
-// Leaves the part of the segments between two positions, in ticks so many times finer.
-static void nsvcd__narrow_segments(nsvcd__search *q, double from, double to, double finer) {
-  uint32_t *begin = q->begin;
-  const double start = nsvcd__tick_in_segments(begin, from);
-  const double end = nsvcd__tick_in_segments(begin, to);
-  const size_t first = (size_t)from;
-  const size_t last = (size_t)to;
-  q->segments = last - first + (to > (double)last);
-  for (size_t s = 1; s < q->segments; s++)
-    begin[s] = (uint32_t)(finer * (double)begin[first + s]);
-  begin[0] = (uint32_t)(finer * start);
-  begin[q->segments] = (uint32_t)(finer * end);
-}
-
-// A segment, up to the end of what matters; kept once it has been made.
-static const nsvcd__interval *nsvcd__segment_interval(nsvcd__proof *p, const nsvcd__search *q,
-                                                      size_t s) {
-  nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
-  const size_t l = s % NSVCD__LANES;
-  nsvcd__interval *out = &p->intervals[s];
-  if (p->memo.intervals >> s & 1) return out;
-  p->memo.intervals |= (uint64_t)1 << s;
-  const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, l);
-  out->start.rotation = nsvcd__mat3_lane(block->rotation, l);
-  out->end.rotation = nsvcd__mat3_mix(1, &out->start.rotation, 1, &turned);
-  out->start.position = nsvcd__lane_of(block->position, l);
-  out->end.position = nsvcd__f3_add(out->start.position, nsvcd__lane_of(block->moved, l));
-  out->bend = block->bend[l];
-  out->rounding = block->rounding[l];
-  out->origin_bend = block->origin_bend[l];
-  out->axis = nsvcd__lane_of(block->axis, l);
-  out->heading = nsvcd__lane_of(block->heading, l);
-  out->bend_along_axis = block->bend_along_axis[l];
-  out->origin_along_axis = block->origin_along_axis[l];
-  out->origin_off_heading = block->origin_off_heading[l];
-  return out;
-}
-
-// The interval from u0 to u1 of the arc that begins at the keyframe `first`.
-static nsvcd__interval nsvcd__interval_of_arc(nsvcd__proof *p, uint32_t first, double u0,
-                                              double u1) {
-  const nsvcd__arc *arc = nsvcd__arc_at(&p->arcs, first);
-  const nsvcd__dtransform start = nsvcd__dtransform_at(arc, u0);
-  const nsvcd__dtransform end = nsvcd__dtransform_at(arc, u1);
-  const double square = (u1 - u0) * (u1 - u0);
-  nsvcd__interval out;
-  out.start = nsvcd__transform_of(&start);
-  out.end = nsvcd__transform_of(&end);
-  const float extent_start = nsvcd__f3_norm(out.start.position);
-  const float extent = extent_start + nsvcd__f3_norm(out.end.position);
-  out.bend = (float)(square * (arc->bend + arc->twist) * 1.000001);
-  out.origin_bend = (float)(square * arc->origin_bend * 1.000001);
-  out.rounding = NSVCD__ROUNDING * (extent + p->given.lengths);
-  out.origin_along_axis = out.origin_off_heading = out.origin_bend;
-  out.axis = nsvcd__f3_round(arc->axis);
-  out.heading = out.axis;  // any
-  const double wavers = square * (arc->bend * arc->waver + arc->twist);
-  out.bend_along_axis = fminf((float)wavers + 1e-6f * out.bend, out.bend);
-  return out;
-}
-
-// The axis in the moving body's frame, unit.
-static nsvcd__f3 nsvcd__own_axis(const nsvcd__interval *over) {
-  const nsvcd__f3 axis = nsvcd__mat3_apply_transpose(&over->start.rotation, over->axis);
-  const float length = nsvcd__f3_norm(axis);
-  return nsvcd__f3_scale(axis, length > 0 ? 1 / length : 0);
-}
-
-// How far points of the moving body are, at most, in its own units: from its origin, and from the
-// line through that along the axis of a turn.
-typedef struct nsvcd__arm {
-  float from_origin, from_axis;
-} nsvcd__arm;
-
-// Of a sphere. axis: unit to rounding, in the body's frame.
-static nsvcd__arm nsvcd__arm_of(nsvcd__f3 centre, float radius, nsvcd__f3 axis) {
-  const float distance = nsvcd__f3_norm(centre);
-  const float aside = nsvcd__f3_norm(nsvcd__f3_cross(centre, axis));
-  const nsvcd__arm out = {1.000001f * (distance + radius),
-                          1.000001f * (aside + radius) + 1e-6f * distance};
-  return out;
-}
-
-// Of a patch's pieces.
-static nsvcd__arm nsvcd__patch_arm(const nsvcd__geometry *f, size_t patch,
-                                   const nsvcd__interval *over) {
-  const float radius = nsvcd__body_r(f->body)[patch];
-  return nsvcd__arm_of(nsvcd__patch_centre(f, patch), radius, nsvcd__own_axis(over));
-}
-
-// The deviation that the turn causes, along any direction: |D x|, with D the difference between the
-// true rotation and the chord's at some time. Split x into its parts along a', the axis in the
-// moving body's frame, and across it: then
-//   |D x| <= |D| |x x a'| + |D a'| |x.a'|
-// and |D a'| is |D^T axis|, since both ends of the chord take a' to the axis.
-static float nsvcd__bend_of(const nsvcd__interval *over, nsvcd__arm arm) {
-  const float by_axis = over->bend * arm.from_axis + over->bend_along_axis * arm.from_origin;
-  return fminf(over->bend * arm.from_origin, by_axis);
-}
-
-// The deviation of points of the moving body along a direction n, times its length, without
-// rounding (which is times |n| too). With d the difference of the positions, a point x is off by
-// n.(D x + d). Split n into its parts along the axis and across it: then
-//   |n.D x| <= |n.axis| |D^T axis| |x| + |n x axis| |D x|
-// and |n.d| is bounded in the same way, or with the heading in place of the axis.
-static float nsvcd__deviation_of(const nsvcd__interval *over, nsvcd__f3 n, nsvcd__arm arm) {
-  const float along = fabsf(nsvcd__f3_dot(n, over->axis));
-  const float across = nsvcd__f3_norm(nsvcd__f3_cross(n, over->axis));
-  const float ahead = fabsf(nsvcd__f3_dot(n, over->heading));
-  const float aside = nsvcd__f3_norm(nsvcd__f3_cross(n, over->heading));
-  const float by_axis = along * over->origin_along_axis + across * over->origin_bend;
-  const float by_heading = ahead * over->origin_bend + aside * over->origin_off_heading;
-  const float origin_bend = by_axis < by_heading ? by_axis : by_heading;
-  const float turn = along * over->bend_along_axis * arm.from_origin;
-  return origin_bend + turn + across * nsvcd__bend_of(over, arm);
-}
-
-#endif  // NSVCD_NO_PROOF
-
-// ---------------------------------------------------------------------------- proof/triangle_pairs
-// In: two triangles and an interval. Out: they are separated, or in contact, or too near to tell.
-
-#ifndef NSVCD_NO_PROOF
-static void nsvcd__pose_triangle(const nsvcd__dtransform *at, const nsvcd__d3 *corners,
-                                 nsvcd__d3 *out) {
-  for (size_t k = 0; k < 3; k++) out[k] = nsvcd__d3_transform(at, corners[k]);
-}
-
-// Two triangles, one of each body, in their frames: the caller's own, of which entries may be
-// pieces. A plane that separates a triangle separates its pieces; what meets a triangle meets the
-// mesh.
-typedef struct nsvcd__triangle_pair {
-  size_t moving_patch, fixed_patch, moving_entry, fixed_entry;
-  nsvcd__d3 moving[3], fixed[3];
-  // The greatest distance of the moving one's points from their body's origin and, at any time of
-  // the arc, from the axis of the turn; in its body's units.
-  double from_origin, from_axis;
-  // of the moving one, at most: the path of a point over the arc
-  double speed;
-  // how far the meshes' own triangles may be off, and rounding in double; and that rounding alone
-  double margin;
-  double rounding;
-  // too near to halve the interval for
-  double close;
-} nsvcd__triangle_pair;
-
-// Sets from_origin and from_axis.
-static void nsvcd__pair_arm(const nsvcd__arc *arc, nsvcd__triangle_pair *pair) {
-  pair->from_origin = pair->from_axis = 0;
-  for (size_t k = 0; k < 3; k++) {
-    const nsvcd__d3 corner = pair->moving[k];
-    const nsvcd__d3 across = nsvcd__d3_cross(corner, arc->own_axis);
-    pair->from_origin = nsvcd__max(pair->from_origin, nsvcd__d3_norm(corner));
-    pair->from_axis = nsvcd__max(pair->from_axis, nsvcd__d3_norm(across));
-  }
-  pair->from_axis += (arc->waver + 1e-6) * pair->from_origin;
-  pair->from_axis = nsvcd__min(pair->from_axis, pair->from_origin);
-}
-
-static nsvcd__triangle_pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size_t j, size_t a,
-                                           size_t b) {
-  nsvcd__triangle_pair pair = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0, 0, 0, 0};
-  nsvcd__patch_triangle(&p->moving, i, a, pair.moving);
-  nsvcd__patch_triangle(&p->fixed, j, b, pair.fixed);
-  nsvcd__pair_arm(&p->arcs.arc, &pair);
-  pair.speed = p->arcs.arc.speed + p->arcs.arc.turn * p->arcs.arc.scale * pair.from_axis;
-  pair.rounding =
-      NSVCD__SAME_POSITION * ((double)p->given.lengths + nsvcd__d3_norm(p->arcs.arc.from));
-  pair.margin = pair.rounding + nsvcd__off_meshes(p);
-  pair.margin += NSVCD__SAME_POSITION * nsvcd__d3_norm(p->arcs.arc.moved);
-  pair.close = pair.margin + NSVCD__TOO_NEAR * (double)p->given.lengths + p->given.tolerance;
-  return pair;
-}
-
-// Are these of closed surfaces, whose winding says which side is out?
-static int nsvcd__moving_closed(const nsvcd__proof *p, const nsvcd__triangle_pair *c) {
-  return nsvcd__is_in_solid(&p->moving, c->moving_patch, c->moving_entry);
-}
-static int nsvcd__fixed_closed(const nsvcd__proof *p, const nsvcd__triangle_pair *c) {
-  return nsvcd__is_in_solid(&p->fixed, c->fixed_patch, c->fixed_entry);
-}
-
-// The nearest points of a triangle pair at fraction u of the arc.
-static nsvcd__nearest nsvcd__pair_nearest(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
-                                          double u) {
-  nsvcd__d3 moving[3];
-  nsvcd__pose_triangle(nsvcd__arc_pose(&p->arcs, u), pair->moving, moving);
-  return nsvcd__nearest_of(moving, pair->fixed);
-}
-
-// The contact of two triangles at fraction u of the arc.
-static nsvcd__pair_contact nsvcd__contact_at(const nsvcd__proof *p,
-                                             const nsvcd__triangle_pair *pair, double u,
-                                             const nsvcd__nearest *nearest) {
-  const nsvcd__d3 face = nsvcd__face_direction(pair->fixed);
-  const nsvcd__d3 apart = nsvcd__d3_sub(nearest->on_a, nearest->on_b);
-  const double distance = sqrt(nearest->square);
-  const int touches = distance <= pair->rounding;
-  nsvcd__pair_contact out;
-  out.tick = (double)p->arcs.arc.first + u * (double)p->arcs.arc.ticks;
-  out.distance = touches ? 0 : distance;
-  out.point = nearest->on_b;
-  out.normal = touches ? face : nsvcd__d3_unit(apart, nsvcd__d3_of(0, 0, 0));
-  out.moving_triangle =
-      nsvcd__triangle_number(&p->moving, pair->moving_patch, pair->moving_entry);
-  out.fixed_triangle = nsvcd__triangle_number(&p->fixed, pair->fixed_patch, pair->fixed_entry);
-  out.moving_entry = (uint32_t)pair->moving_entry;
-  out.fixed_entry = (uint32_t)pair->fixed_entry;
-  out.moving_patch = (uint16_t)pair->moving_patch;
-  out.fixed_patch = (uint16_t)pair->fixed_patch;
-  return out;
-}
-
-// Two triangles come within the clearance at fraction u of the arc. ANSWERED: that is an answer;
-// SHRUNK: there may be a better one.
-static nsvcd__outcome nsvcd__take_contact(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
-                                          double u, const nsvcd__nearest *nearest) {
-  p->known.has_contact = 1;
-  p->known.found = nsvcd__contact_at(p, pair, u, nearest);
-  if (p->goal.measure > 0) {
-    p->goal.high = p->known.found.distance;
-    p->goal.clearance = nsvcd__max(p->goal.low, p->goal.high - p->goal.measure);
-    return p->goal.clearance > p->goal.low ? NSVCD__SHRUNK : NSVCD__ANSWERED;
-  }
-  if (p->goal.first > 0) {
-    p->known.end = p->known.found.tick - p->goal.first;
-    return p->known.end > 0 ? NSVCD__SHRUNK : NSVCD__ANSWERED;
-  }
-  return NSVCD__ANSWERED;
-}
-
-// Two triangles come too near to each other, from u0 to u1 of the arc, to tell whether they touch.
-static NSVCD__NOINLINE void nsvcd__keep_unresolved(nsvcd__proof *p,
-                                                   const nsvcd__triangle_pair *pair, double u0,
-                                                   double u1) {
-  const double tick = (double)p->arcs.arc.first + u0 * (double)p->arcs.arc.ticks;
-  const double middle = 0.5 * (u0 + u1);
-  const size_t left = p->goal.after_unresolved;
-  // a brief first attempt has no budget to save
-  const int is_first = !(p->known.unresolved < NSVCD__NEVER) && !p->goal.is_brief;
-  if (is_first && p->work + left < p->goal.limit) p->goal.limit = p->work + left;
-  if (!(tick < p->known.unresolved)) return;
-  const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
-  p->known.unresolved_pair = nsvcd__contact_at(p, pair, middle, &nearest);
-  p->known.unresolved = tick;
-  if (p->goal.unresolved_ends) p->known.end = nsvcd__min(p->known.end, tick);
-}
-
-// The fraction of the arc from which on nothing matters.
-static double nsvcd__arc_limit(const nsvcd__proof *p) {
-  return (p->known.end - (double)p->arcs.arc.first) / (double)p->arcs.arc.ticks;
-}
-
-// The deviation of a triangle pair's moving triangle along a unit direction n over the whole arc.
-// Over a fraction of the arc it is the square of that fraction times as large. A point at r metres
-// from the origin and rho from the axis a of the turn deviates by bend rho |n x a| + twist r +
-// origin_bend. Where both bodies turn, a wavers, and so do both distances from it.
-static double nsvcd__off_chord_along(const nsvcd__arc *arc, const nsvcd__triangle_pair *pair,
-                                     nsvcd__d3 n) {
-  const double across = nsvcd__d3_norm(nsvcd__d3_cross(n, arc->axis));
-  const double off_axis = nsvcd__min(1, across + arc->waver + 1e-6);
-  const double turn = arc->bend * pair->from_axis * off_axis;
-  return turn + arc->twist * pair->from_origin + arc->origin_bend;
-}
-
-// Does the plane that separated a triangle pair last separate this one from u0 to u1 of the arc?
-static int nsvcd__plane_separates(nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0,
-                                  double u1) {
-  const nsvcd__d3 normal = p->memo.separating;
-  const nsvcd__dtransform *start = nsvcd__arc_pose(&p->arcs, u0);
-  const nsvcd__dtransform *end = nsvcd__arc_pose(&p->arcs, u1);
-  double lowest = HUGE_VAL;
-  double highest = -HUGE_VAL;
-  for (size_t k = 0; k < 3; k++) {
-    const nsvcd__d3 at_start = nsvcd__d3_transform(start, pair->moving[k]);
-    const nsvcd__d3 at_end = nsvcd__d3_transform(end, pair->moving[k]);
-    lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_start));
-    lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_end));
-    highest = nsvcd__max(highest, nsvcd__d3_dot(normal, pair->fixed[k]));
-  }
-  const double off = nsvcd__off_chord_along(&p->arcs.arc, pair, normal);
-  const double deviation = (u1 - u0) * (u1 - u0) * off;
-  return lowest - highest > p->goal.clearance + pair->margin + deviation;
-}
-
-// Have two heights different signs, clear of 0 by their margins?
-static int nsvcd__are_opposite(double before, double least_before, double after,
-                               double least_after) {
-  const int falls = before > least_before && after < -least_after;
-  const int rises = before < -least_before && after > least_after;
-  return falls || rises;
-}
-
-// In the next three, triangles are given at three times: the start, the middle and the end of an
-// interval. Between two of them no point travels farther than `travel`, relative to the other
-// triangle.
-
-// Does corner k of triangle x pass through triangle t: does it change sides, and is its foot, in
-// the middle, well within t?
-static int nsvcd__corner_passes(const nsvcd__d3 *const *x, size_t k, const nsvcd__d3 *const *t,
-                                double travel, double margin) {
-  const nsvcd__d3 n = nsvcd__face_normal(t[1]);
-  const double room = 2 * travel * nsvcd__d3_norm(n);
-  for (size_t e = 0; e < 3; e++) {
-    const nsvcd__d3 edge = nsvcd__d3_sub(t[1][(e + 1) % 3], t[1][e]);
-    const nsvcd__d3 from = nsvcd__d3_sub(x[1][k], t[1][e]);
-    const double within = nsvcd__d3_dot(n, nsvcd__d3_cross(edge, from));
-    if (!(within > room * nsvcd__d3_norm(edge))) return 0;
-  }
-  const nsvcd__d3 n0 = nsvcd__face_normal(t[0]);
-  const nsvcd__d3 n2 = nsvcd__face_normal(t[2]);
-  const double before = nsvcd__d3_dot(n0, nsvcd__d3_sub(x[0][k], t[0][0]));
-  const double after = nsvcd__d3_dot(n2, nsvcd__d3_sub(x[2][k], t[2][0]));
-  return nsvcd__are_opposite(before, margin * nsvcd__d3_norm(n0), after,
-                             margin * nsvcd__d3_norm(n2));
-}
-
-// Does edge k of the moving triangle pass through edge n of the fixed one: do they change sides,
-// and are their lines, in the middle, nearest to each other well within both? The side is the sign
-// of the volume of the tetrahedron of both.
-static int nsvcd__edges_pass(const nsvcd__d3 *const *moving, size_t k, const nsvcd__d3 *fixed,
-                             size_t n, double travel, double margin) {
-  const size_t next = (k + 1) % 3;
-  const nsvcd__d3 v = nsvcd__d3_sub(fixed[(n + 1) % 3], fixed[n]);
-  nsvcd__d3 across[3], from[3];
-  double volumes[3];
-  for (size_t at = 0; at < 3; at++) {
-    const nsvcd__d3 *a = moving[at];
-    across[at] = nsvcd__d3_cross(nsvcd__d3_sub(a[next], a[k]), v);
-    from[at] = nsvcd__d3_sub(fixed[n], a[k]);
-    volumes[at] = nsvcd__d3_dot(across[at], from[at]);
-  }
-  const nsvcd__d3 u = nsvcd__d3_sub(moving[1][next], moving[1][k]);
-  const double size = nsvcd__d3_norm(across[1]);
-  const double lengths = nsvcd__d3_norm(u) * nsvcd__d3_norm(v);
-  if (!(size > 0.01 * lengths)) return 0;
-  if (!nsvcd__are_opposite(volumes[0], margin * size, volumes[2], margin * size)) return 0;
-  const double square = size * size;
-  const double s = nsvcd__d3_dot(nsvcd__d3_cross(from[1], v), across[1]) / square;
-  const double t = nsvcd__d3_dot(nsvcd__d3_cross(from[1], u), across[1]) / square;
-  // the lines' nearest points travel no farther along them
-  const double room = 4 * travel * lengths / size;
-  const double room_s = room / nsvcd__d3_norm(u);
-  const double room_t = room / nsvcd__d3_norm(v);
-  return s > room_s && s < 1 - room_s && t > room_t && t < 1 - room_t;
-}
-
-// Has a triangle pair met between u0 and u1 of the arc: has a corner passed through the other
-// triangle, or an edge through an edge? Faces that are parallel when they meet do so at
-// one time only, and rounded numbers show it at none.
-static int nsvcd__pair_passes(nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0,
-                              double u1) {
-  const double margin = pair->rounding;
-  const double travel = pair->speed * (u1 - u0);
-  const double times[3] = {u0, 0.5 * (u0 + u1), u1};
-  nsvcd__d3 corners[3][3];
-  for (size_t n = 0; n < 3; n++)
-    nsvcd__pose_triangle(nsvcd__arc_pose(&p->arcs, times[n]), pair->moving, corners[n]);
-  const nsvcd__d3 *moving[3] = {corners[0], corners[1], corners[2]};
-  const nsvcd__d3 *fixed[3] = {pair->fixed, pair->fixed, pair->fixed};
-  for (size_t k = 0; k < 3; k++) {
-    if (nsvcd__corner_passes(moving, k, fixed, travel, margin)) return 1;
-    if (nsvcd__corner_passes(fixed, k, moving, travel, margin)) return 1;
-    for (size_t n = 0; n < 3; n++)
-      if (nsvcd__edges_pass(moving, k, pair->fixed, n, travel, margin)) return 1;
-  }
-  return 0;
-}
-
-// How far a triangle is beyond another along a direction. Heights are over a corner of the one, to
-// lose as few digits as possible.
-static double nsvcd__beyond(nsvcd__d3 n, const nsvcd__d3 *over, const nsvcd__d3 *under) {
-  double lowest = HUGE_VAL;
-  double highest = -HUGE_VAL;
-  for (size_t k = 0; k < 3; k++) {
-    lowest = nsvcd__min(lowest, nsvcd__d3_dot(n, nsvcd__d3_sub(over[k], under[0])));
-    highest = nsvcd__max(highest, nsvcd__d3_dot(n, nsvcd__d3_sub(under[k], under[0])));
-  }
-  return lowest - highest;
-}
-
-// The direction across an edge of each of two triangles, unit: the k-th of 9. 0 if they are
-// parallel.
-static nsvcd__d3 nsvcd__across_edges(const nsvcd__d3 *a, const nsvcd__d3 *b, size_t k) {
-  const nsvcd__d3 u = nsvcd__d3_sub(a[(k + 1) % 3], a[k % 3]);
-  const nsvcd__d3 v = nsvcd__d3_sub(b[(k / 3 + 1) % 3], b[k / 3]);
-  return nsvcd__d3_unit(nsvcd__d3_cross(u, v), nsvcd__d3_of(0, 0, 0));
-}
-
-// A direction made normal to the edge from a to b, unit; 0 if it is along that.
-static nsvcd__d3 nsvcd__off_edge(nsvcd__d3 n, nsvcd__d3 a, nsvcd__d3 b) {
-  const nsvcd__d3 none = nsvcd__d3_of(0, 0, 0);
-  const nsvcd__d3 edge = nsvcd__d3_unit(nsvcd__d3_sub(b, a), none);
-  const nsvcd__d3 along = nsvcd__d3_scale(edge, nsvcd__d3_dot(n, edge));
-  return nsvcd__d3_unit(nsvcd__d3_sub(n, along), none);
-}
-
-// The direction that separates a triangle pair at a time: that of its nearest points. Rounding
-// turns it by their roundings over their distance, or by the root of that if several points are as
-// near to the last digit. If it keeps less than half of what is above the clearance, others may
-// keep more: the normals of the triangles, itself made normal to an edge, and those across an edge
-// of each. Returns how far the chosen one separates them.
-static NSVCD__NOINLINE double nsvcd__aim_plane(nsvcd__proof *p,
-                                               const nsvcd__triangle_pair *pair, double u,
-                                               const nsvcd__nearest *nearest) {
-  const double distance = sqrt(nearest->square);
-  nsvcd__d3 *plane = &p->memo.separating;
-  *plane = nsvcd__d3_scale(nsvcd__d3_sub(nearest->on_a, nearest->on_b), 1 / distance);
-  const nsvcd__d3 *fixed = pair->fixed;
-  const nsvcd__d3 guess = *plane;
-  nsvcd__d3 moving[3];
-  nsvcd__pose_triangle(nsvcd__arc_pose(&p->arcs, u), pair->moving, moving);
-  double best = nsvcd__beyond(guess, moving, fixed);
-  const double limit = p->goal.clearance + pair->margin;
-  if (best - limit > 0.5 * (distance - limit)) return best;
-  for (size_t k = 0; k < 17; k++) {
-    const nsvcd__d3 *of = k % 2 ? fixed : moving;
-    nsvcd__d3 n = k < 2   ? nsvcd__face_direction(of)
-                  : k < 8 ? nsvcd__off_edge(guess, of[k / 2 - 1], of[k / 2 % 3])
-                          : nsvcd__across_edges(moving, fixed, k - 8);
-    if (nsvcd__d3_dot(n, guess) < 0) n = nsvcd__d3_scale(n, -1);
-    const double beyond = nsvcd__beyond(n, moving, fixed);
-    if (!(beyond > best)) continue;
-    *plane = n;
-    best = beyond;
-  }
-  return best;
-}
-
-// A triangle pair that is too near to tell from u0 to u1 of the arc, the nearest at `when`, is kept
-// as unresolved. DISTANCE needs only a bound of how near the pair comes, so it lowers the clearance
-// to that. TOO_LONG: resolve the part again; ANSWERED: the clearance is at its known bound.
-static nsvcd__outcome nsvcd__resolve_too_near(nsvcd__proof *p,
-                                              const nsvcd__triangle_pair *pair, double u0,
-                                              double u1, double when) {
-  if (!(p->goal.measure > 0)) {
-    nsvcd__keep_unresolved(p, pair, u0, u1);
-    return NSVCD__DONE;
-  }
-  const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, when);
-  const double distance = sqrt(nearest.square);
-  if (distance < p->goal.high) (void)nsvcd__take_contact(p, pair, when, &nearest);
-  const double separated = distance - 2 * pair->close;
-  p->goal.clearance = nsvcd__max(p->goal.low, nsvcd__min(p->goal.clearance, separated));
-  return p->goal.clearance > p->goal.low ? NSVCD__TOO_LONG : NSVCD__ANSWERED;
-}
-
-// Resolves a part of the arc that is too short to halve. If the triangle pair has passed, the time
-// is narrowed down to rounding, and is the contact's. If not, it is unresolved.
-static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_short_interval(
-    nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0, double u1) {
-  if (!nsvcd__pair_passes(p, pair, u0, u1))
-    return nsvcd__resolve_too_near(p, pair, u0, u1, 0.5 * (u0 + u1));
-  for (size_t n = 0; n < NSVCD__HALVINGS; n++) {
-    const double middle = 0.5 * (u0 + u1);
-    p->work++;
-    if (nsvcd__pair_passes(p, pair, u0, middle))
-      u1 = middle;
-    else if (nsvcd__pair_passes(p, pair, middle, u1))
-      u0 = middle;
-    else
-      break;
-  }
-  const double when = 0.5 * (u0 + u1);
-  nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, when);
-  nearest.square = 0;
-  return nsvcd__take_contact(p, pair, when, &nearest);
-}
-
-// Where the least distance is measured and the moving body goes straight, by `moved` over the arc:
-// finds when between u0 and u1 a triangle pair is nearest. Its distance is convex, and falls while
-// the nearest points approach each other. Steps of `measure` would not get there.
-static nsvcd__outcome nsvcd__take_nearest(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
-                                          double u0, double u1, nsvcd__d3 moved) {
-  for (size_t n = 0; n < NSVCD__HALVINGS / 2; n++) {
-    const double middle = 0.5 * (u0 + u1);
-    const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
-    const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
-    p->work++;
-    if (sqrt(nearest.square) < p->goal.high &&
-        nsvcd__take_contact(p, pair, middle, &nearest) == NSVCD__ANSWERED)
-      return NSVCD__ANSWERED;
-    const double slope = nsvcd__d3_dot(apart, moved) / sqrt(nearest.square);
-    // the distance is nowhere below its tangent
-    if (!(fabs(slope) * (u1 - u0) > p->goal.measure)) break;
-    if (slope < 0)
-      u0 = middle;
-    else
-      u1 = middle;
-  }
-  return NSVCD__SHRUNK;
-}
-
-// Resolves a triangle pair from u0 to u1 of an arc in which the moving body goes straight. Then its
-// distance is a convex function of time, and the plane at its nearest points is a tangent: Newton's
-// method, from the start on, comes to the first contact and never past it. The plane that separated
-// a pair last is tried first.
-static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
-                                                              const nsvcd__triangle_pair *pair,
-                                                              double u0, double u1) {
-  const nsvcd__arc *arc = &p->arcs.arc;
-  const nsvcd__d3 from = nsvcd__arc_pose(&p->arcs, 0)->position;
-  const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__arc_pose(&p->arcs, 1)->position, from);
-  double at = u0;
-  int shrunk = 0;
-  size_t steps = 0;
-  const double all = nsvcd__min(u1, nsvcd__arc_limit(p));
-  if (u0 < all && nsvcd__plane_separates(p, pair, u0, all)) {
-    p->work++;
-    return NSVCD__DONE;
-  }
-  for (double u = u0;;) {  // until u it is separated
-    const double end = nsvcd__min(u1, nsvcd__arc_limit(p));
-    if (!(u < end)) return shrunk ? NSVCD__SHRUNK : NSVCD__DONE;
-    at = nsvcd__min(at, end);
-    p->work++;
-    if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
-    const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, at);
-    const double distance = sqrt(nearest.square);
-    const double above = distance - p->goal.clearance;
-    if (above <= pair->rounding) {
-      if (nsvcd__take_contact(p, pair, at, &nearest) == NSVCD__ANSWERED)
-        return NSVCD__ANSWERED;
-      if (p->goal.measure > 0 &&
-          nsvcd__take_nearest(p, pair, u, end, moved) == NSVCD__ANSWERED)
-        return NSVCD__ANSWERED;
-      shrunk = 1;
-      at = u;
-      continue;
-    }
-    const double beyond = nsvcd__aim_plane(p, pair, at, &nearest);
-    const double fall = -nsvcd__d3_dot(p->memo.separating, moved);
-    const double room = beyond - p->goal.clearance - pair->margin - pair->rounding;
-    const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;
-    if (u < until && nsvcd__plane_separates(p, pair, u, until)) u = until;
-    const int is_short = !(room > 0) || arc->speed * (at - u) <= 0.25 * pair->close;
-    const int is_unresolved = fall > 0 ? !(at < end) : is_short;
-    if (u < end && (is_unresolved || steps++ == NSVCD__HALVINGS)) {
-      // what follows is no nearer
-      const nsvcd__outcome part = nsvcd__resolve_too_near(p, pair, u, at, at);
-      if (part == NSVCD__ANSWERED) return part;
-      if (part == NSVCD__DONE) u = end;
-    } else {
-      at = fall > 0 ? at + above / fall : 0.5 * (u + at);
-    }
-  }
-}
-
-// Resolves a triangle pair from u0 to u1 of the arc: halves the time until, in each part, a plane
-// separates the triangles, or there is a contact, or they are too near to tell. After each
-// unresolved part, longer ones count as too short: the question left is whether they meet. The
-// planes tried are the one that separated a pair last, and the one that nsvcd__aim_plane finds.
-static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
-                                                          const nsvcd__triangle_pair *pair,
-                                                          double u0, double u1) {
-  if (nsvcd__is_straight(&p->arcs.arc)) return nsvcd__resolve_straight(p, pair, u0, u1);
-  double *ends = p->pair_ends;
-  size_t left = 1;
-  size_t unresolved_count = 0;
-  int shrunk = 0;
-  ends[0] = u1;
-  for (double u = u0; left > 0;) {
-    const double end = nsvcd__min(ends[left - 1], nsvcd__arc_limit(p));
-    if (!(u < end)) break;  // an unresolved pair may be the end
-    const double middle = 0.5 * (u + end);
-    p->work++;
-    if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
-    int apart = nsvcd__plane_separates(p, pair, u, end);
-    if (!apart) {
-      const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
-      const double distance = sqrt(nearest.square);
-      if (distance <= p->goal.clearance + pair->rounding) {
-        if (nsvcd__take_contact(p, pair, middle, &nearest) == NSVCD__ANSWERED)
-          return NSVCD__ANSWERED;
-        shrunk = 1;
-        continue;
-      }
-      (void)nsvcd__aim_plane(p, pair, middle, &nearest);
-      apart = nsvcd__plane_separates(p, pair, u, end);
-    }
-    if (!apart) {
-      const double least = 0.25 * pair->close * (double)(1 + unresolved_count);
-      const int is_short = pair->speed * (end - u) <= least || left > NSVCD__HALVINGS;
-      if (!is_short) {
-        ends[left++] = middle;
-        p->parts++;
-        continue;
-      }
-      const nsvcd__outcome part = nsvcd__resolve_short_interval(p, pair, u, end);
-      if (part == NSVCD__ANSWERED) return part;
-      shrunk |= part == NSVCD__SHRUNK;
-      if (part != NSVCD__DONE) continue;
-      unresolved_count++;
-    }
-    u = end;
-    left--;
-  }
-  return shrunk ? NSVCD__SHRUNK : NSVCD__DONE;
-}
-#endif  // NSVCD_NO_PROOF
-
-// ----------------------------------------------------------------------------------- proof/touches
-// In: two triangles that touch at the start of a motion. Out: how deep, and which directions undo
-// it.
-
-#ifndef NSVCD_NO_PROOF
-// Answers in float cannot tell things apart that are nearer to each other than this.
-static double nsvcd__epsilon(const nsvcd__proof *p) {
-  return nsvcd__off_meshes(p) + NSVCD__LEAST_EPSILON * (double)p->given.lengths;
-}
-
-// How deep a touch is along n: how far the moving triangle must go to be beyond the other; negative
-// if it is beyond it already.
-static double nsvcd__depth_along(nsvcd__d3 n, const nsvcd__triangle_contact *t) {
-  return -nsvcd__beyond(n, t->moving, t->fixed);
-}
-
-// Is a touch too deep for the slop in every direction? Those to try are the separating axes: a
-// normal of either triangle, or across an edge of each.
-static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__triangle_contact *t) {
-  const nsvcd__d3 push_out = nsvcd__d3_widen(p->arcs.motion->push_out);
-  const double most = p->goal.slop - p->given.clearance;
-  for (size_t k = 0; k < 12; k++) {
-    nsvcd__d3 n = k < 3 ? t->directions[k] : nsvcd__across_edges(t->moving, t->fixed, k - 3);
-    if (!(nsvcd__d3_dot(n, n) > 0.5)) continue;
-    for (int side = 0; side < 2; side++) {
-      const double pushed_out = nsvcd__d3_dot(push_out, n);
-      if (pushed_out + nsvcd__depth_along(n, t) <= most) return 0;
-      n = nsvcd__d3_scale(n, -1);
-    }
-  }
-  return 1;
-}
-
-// Does a push-out along n, by what is left of the slop in that direction, undo a touch? If it has
-// to push, it must not go through both faces. Going through one is harmless: a cone's side, which
-// rises from the rim that the cone stands on, looks up, and so does the floor under it.
-static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n,
-                         const nsvcd__triangle_contact *t) {
-  const double more = nsvcd__depth_along(n, t);
-  const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->arcs.motion->push_out), n);
-  if (!(nsvcd__d3_dot(n, n) > 0.5)) return 0;
-  if (pushed_out + more + p->given.clearance > p->goal.slop) return 0;
-  if (more < 0) return 1;
-  return nsvcd__d3_dot(n, t->directions[0]) > -0.3 ||
-         nsvcd__d3_dot(n, t->directions[1]) > -0.3;
-}
-
-// The squared distance of two triangles after the moving one has gone so far along n.
-static double nsvcd__gap_after(const nsvcd__triangle_contact *t, nsvcd__d3 n,
-                               double distance) {
-  nsvcd__d3 moved[3];
-  for (int k = 0; k < 3; k++)
-    moved[k] = nsvcd__d3_add(t->moving[k], nsvcd__d3_scale(n, distance));
-  return nsvcd__nearest_of(moved, t->fixed).square;
-}
-
-// How far along n the moving triangle of a touch must go until it is beyond the clearance for good,
-// which it is after `most`; -HUGE_VAL if it never is within it. The distance is convex: thirds find
-// where it is least, and halves where it is the clearance. epsilon: of depths, in double.
-static NSVCD__NOINLINE double nsvcd__exit_depth(const nsvcd__triangle_contact *t, nsvcd__d3 n,
-                                                double clearance, double most,
-                                                double epsilon) {
-  // Parallel faces meet at one time only.
-  const double limit = clearance + nsvcd__min(0.003 * most, epsilon);
-  const double square = limit * limit;
-  // nearly always
-  if (nsvcd__gap_after(t, n, 0.998 * most) <= square) return most;
-  double low = 0;
-  double high = most;
-  double inner = 0;  // where it is within the clearance
-  int met = nsvcd__gap_after(t, n, 0) <= square;
-  for (int k = 0; k < 16 && !met; k++) {
-    const double third = (high - low) / 3;
-    const double before = nsvcd__gap_after(t, n, low + third);
-    const double after = nsvcd__gap_after(t, n, high - third);
-    met = before <= square || after <= square;
-    inner = after <= square ? high - third : low + third;
-    if (before < after) high -= third;
-    if (!(before < after)) low += third;
-  }
-  if (!met) return -HUGE_VAL;
-  for (double beyond = most; beyond - inner > nsvcd__max(1e-3 * beyond, 1e-5 * most);) {
-    const double middle = 0.5 * (inner + beyond);
-    const int is_inner = nsvcd__gap_after(t, n, middle) <= square;
-    *(is_inner ? &inner : &beyond) = middle;
-  }
-  return inner;
-}
-
-// Notes how deep a touch is along normal k.
-static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__triangle_contact *t) {
-  const nsvcd__d3 n = p->push.normals[k];
-  const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->arcs.motion->push_out), n);
-  const double most = nsvcd__depth_along(n, t) + p->given.clearance;
-  p->push.needed = nsvcd__max(p->push.needed, pushed_out + most);
-  if (!(most > 0) || !(pushed_out + most > p->push.depths[k])) return;
-  const double epsilon = nsvcd__off_meshes(p) + NSVCD__TOO_NEAR * (double)p->given.lengths;
-  const double depth = pushed_out + nsvcd__exit_depth(t, n, p->given.clearance, most, epsilon);
-  p->push.depths[k] = nsvcd__max(p->push.depths[k], depth);
-}
-
-// Does normal k undo a touch? Then its depth is noted.
-static int nsvcd__undone_by(nsvcd__proof *p, size_t k, const nsvcd__triangle_contact *t) {
-  if (!nsvcd__undoes(p, p->push.normals[k], t)) return 0;
-  nsvcd__note_depth(p, k, t);
-  return 1;
-}
-
-// Keeps two triangles that are within the clearance at the start, unless a known direction undoes
-// that.
-static void nsvcd__collect_contact(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
-                                   const nsvcd__d3 *posed) {
-  nsvcd__triangle_contact contact;
-  memcpy(contact.moving, posed, sizeof contact.moving);
-  memcpy(contact.fixed, pair->fixed, sizeof contact.fixed);
-  const nsvcd__nearest nearest = nsvcd__nearest_of(posed, pair->fixed);
-  const int are_apart = nearest.square > 1e6 * pair->rounding * pair->rounding;
-  const nsvcd__d3 distance = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
-  contact.directions[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
-  contact.directions[1] = nsvcd__face_direction(pair->fixed);
-  contact.directions[2] = nsvcd__d3_scale(distance, are_apart ? 1 / sqrt(nearest.square) : 0);
-  for (size_t k = 0; k < p->push.normal_count; k++) {
-    if (nsvcd__undone_by(p, k, &contact)) return;
-  }
-  p->push.too_deep = p->push.too_deep || nsvcd__is_deep(p, &contact);
-  if (p->push.contact_count < NSVCD__TOUCHES) p->of.touches[p->push.contact_count++] = contact;
-}
-#endif  // NSVCD_NO_PROOF
-
-// ---------------------------------------------------------------------------------- proof/manifold
-// In: triangle pairs that are near each other when a contact is. Out: up to four contact points
-// that hold the body: those that span the largest area, seen along the contact's normal.
-//
-// Two triangles touch where a corner of one is over the other, or where two edges cross. Of all
-// such points the farthest along eight directions are kept, for a slim contact those across it too,
-// and of these the best four. Of two points equally far, the one with the lower number is kept: so
-// the same points are chosen again when little has moved. Only normals close to the contact's
-// count: where a side rises from the floor, corners of the floor's triangles are near the side as
-// well, but the body does not stand on it.
-
-#ifndef NSVCD_NO_PROOF
-// Prepares a manifold of contacts with about this normal, unit, of bodies that move like this.
-static void nsvcd__manifold_begin(nsvcd__proof *p, nsvcd__d3 n, const nsvcd__twist *twist,
-                                  double tolerance, double same) {
-  nsvcd__manifold *m = &p->of.kept.manifold;
-  const int flattest = fabs(n.x) < fabs(n.y) ? 0 : 1;
-  const nsvcd__d3 aside = nsvcd__d3_of(flattest == 0, flattest == 1, 0);
-  const nsvcd__d3 u = nsvcd__d3_unit(nsvcd__d3_cross(n, aside), nsvcd__d3_of(1, 0, 0));
-  memset(m, 0, sizeof *m);
-  m->normal = n;
-  m->twist = *twist;
-  m->tolerance = tolerance;
-  m->same = same;
-  // An eighth of a turn each: the sum of a direction and of that a quarter on, made unit.
-  nsvcd__d3 along = u;
-  for (int k = 0; k < NSVCD__AROUND; k++) {
-    m->along[k] = along;
-    m->farthest[k] = -HUGE_VAL;
-    along = nsvcd__d3_scale(nsvcd__d3_add(along, nsvcd__d3_cross(n, along)), sqrt(0.5));
-  }
-  for (int k = NSVCD__AROUND; k < NSVCD__SUPPORTS; k++) m->farthest[k] = HUGE_VAL;
-}
-
-// If what has been found spans little for its length, prepares the two directions across it, for
-// what is between the eight. area: twice what is spanned. Returns 0 if it is not so slim.
-static int nsvcd__seek_across(nsvcd__manifold *m, double area) {
-  nsvcd__d3 longest = {0, 0, 0};
-  for (int k = 0; k < NSVCD__AROUND; k++) {
-    for (int n = 0; n < k && m->farthest[k] > -HUGE_VAL && m->farthest[n] > -HUGE_VAL; n++) {
-      const nsvcd__d3 offset = nsvcd__d3_sub(m->supports[k].point, m->supports[n].point);
-      if (nsvcd__d3_dot(offset, offset) > nsvcd__d3_dot(longest, longest)) longest = offset;
-    }
-  }
-  const double square = nsvcd__d3_dot(longest, longest);
-  if (!(square > m->same * m->same) || area > NSVCD__SLIM * square) return 0;
-  const nsvcd__d3 across = nsvcd__d3_unit(nsvcd__d3_cross(m->normal, longest), m->along[0]);
-  for (int k = NSVCD__AROUND; k < NSVCD__SUPPORTS; k++) {
-    m->along[k] = nsvcd__d3_scale(across, k == NSVCD__AROUND ? 1 : -1);
-    m->farthest[k] = -HUGE_VAL;
-    for (int n = 0; n < NSVCD__AROUND; n++) {
-      const double along_it = nsvcd__d3_dot(m->along[k], m->supports[n].point);
-      if (!(m->farthest[n] > -HUGE_VAL) || !(along_it > m->farthest[k])) continue;
-      m->farthest[k] = along_it;
-      m->supports[k] = m->supports[n];
-      m->numbers[k] = m->numbers[n];
-    }
-  }
-  return 1;
-}
-
-// A triangle pair of a manifold.
-typedef struct nsvcd__facing {
-  const nsvcd__triangle_pair *pair;
-  const nsvcd__d3 *posed;  // the moving triangle
-  // normals out of the fixed body; of an open surface on the side of the contact's
-  nsvcd__d3 faces[2];
-  int is_open;  // one is of an open surface
-} nsvcd__facing;
-
-static nsvcd__facing nsvcd__facing_of(const nsvcd__proof *p, const nsvcd__triangle_pair *pair,
-                                      const nsvcd__d3 *posed) {
-  const nsvcd__d3 n = p->of.kept.manifold.normal;
-  const int closed[2] = {nsvcd__moving_closed(p, pair), nsvcd__fixed_closed(p, pair)};
-  nsvcd__facing out = {pair, posed, {{0, 0, 0}, {0, 0, 0}}, !closed[0] || !closed[1]};
-  out.faces[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
-  out.faces[1] = nsvcd__face_direction(pair->fixed);
-  for (int k = 0; k < 2; k++) {
-    nsvcd__d3 *face = &out.faces[k];
-    const int turned = nsvcd__d3_dot(*face, n) < 0;
-    if (turned && !closed[k]) *face = nsvcd__d3_scale(*face, -1);
-  }
-  return out;
-}
-
-// Does point x come apart along its normal, while one of its faces comes nearer? Then it is no
-// contact, or one of another triangle pair.
-static int nsvcd__is_left(const nsvcd__twist *twist, nsvcd__d3 x, nsvcd__d3 normal,
-                          const nsvcd__d3 *faces) {
-  const nsvcd__d3 speed = nsvcd__twist_of(twist, x);
-  const double least = 1e-7 * nsvcd__d3_norm(speed);
-  if (!(nsvcd__d3_dot(speed, normal) > least)) return 0;
-  for (int k = 0; k < 2; k++)
-    if (nsvcd__d3_dot(speed, faces[k]) < -least) return 1;
-  return 0;
-}
-
-// Keeps a point where a triangle pair touches, if it is farther out than those kept. normal: of a
-// face, or across two edges, of either sign.
-static NSVCD__NOINLINE void nsvcd__keep_support(nsvcd__proof *p, const nsvcd__facing *f,
-                                                nsvcd__d3 on_moving, nsvcd__d3 on_fixed,
-                                                nsvcd__d3 normal, uint32_t number) {
-  nsvcd__manifold *m = &p->of.kept.manifold;
-  const double side = nsvcd__d3_dot(normal, m->normal) < 0 ? -1 : 1;
-  const nsvcd__d3 offset = nsvcd__d3_sub(on_moving, on_fixed);
-  const double gap = side * nsvcd__d3_dot(offset, normal);
-  const double aside = nsvcd__d3_dot(offset, offset) - gap * gap;
-  nsvcd__d3 point;
-  // Past the end of an edge they are not over each other.
-  if (aside > 0.01 * m->same * m->same) return;
-  // Nor are they on the far side of a sheet that they do not pass through.
-  if (gap < 0 && f->is_open && !nsvcd__triangles_meet(f->posed, f->pair->fixed, &point))
-    return;
-  if (nsvcd__is_left(&m->twist, on_fixed, nsvcd__d3_scale(normal, side), f->faces)) return;
-  nsvcd__nearest nearest = {gap > 0 ? gap * gap : 0, on_moving, on_fixed};
-  nsvcd__pair_contact contact;
-  int known = 0;
-  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
-    const double along_it = nsvcd__d3_dot(m->along[k], on_fixed);
-    const double more = along_it - m->farthest[k];
-    if (!(more > m->same || (more >= -m->same && number < m->numbers[k]))) continue;
-    if (!known) contact = nsvcd__contact_at(p, f->pair, 0, &nearest);
-    known = 1;
-    contact.normal = nsvcd__d3_scale(normal, side);
-    m->supports[k] = contact;
-    m->numbers[k] = number;
-    m->farthest[k] = along_it;
-  }
-}
-
-// Keeps all points where a triangle pair touches, within the tolerance. posed: the moving triangle.
-// Corner k of entry e has the number 4 (3 e + k), and 1 more if it is of the fixed body.
-static NSVCD__NOINLINE void nsvcd__collect_supports(nsvcd__proof *p,
-                                                    const nsvcd__triangle_pair *pair,
-                                                    const nsvcd__d3 *posed) {
-  const nsvcd__manifold *m = &p->of.kept.manifold;
-  const nsvcd__d3 *fixed = pair->fixed;
-  nsvcd__d3 foot;
-  int farther = 0;
-  for (int k = 0; k < NSVCD__SUPPORTS && !farther; k++) {
-    for (int i = 0; i < 3; i++)
-      farther |=
-          nsvcd__d3_dot(m->along[k], posed[i]) + m->tolerance >= m->farthest[k] - m->same;
-  }
-  if (!farther) return;
-  // Faces must be about normal to the contact's.
-  const nsvcd__facing facing = nsvcd__facing_of(p, pair, posed);
-  const int moving_faces = nsvcd__d3_dot(facing.faces[0], m->normal) >= 0.8;
-  const int fixed_faces = nsvcd__d3_dot(facing.faces[1], m->normal) >= 0.8;
-  for (size_t k = 0; k < 3; k++) {
-    const uint32_t moving_id = (uint32_t)(3 * pair->moving_entry + k) << 2;
-    const uint32_t fixed_id = (uint32_t)(3 * pair->fixed_entry + k) << 2 | 1;
-    if (fixed_faces && nsvcd__foot_within(posed[k], fixed, &foot) &&
-        nsvcd__d3_distance2(posed[k], foot) <= m->tolerance * m->tolerance)
-      nsvcd__keep_support(p, &facing, posed[k], foot, facing.faces[1], moving_id);
-    if (moving_faces && nsvcd__foot_within(fixed[k], posed, &foot) &&
-        nsvcd__d3_distance2(fixed[k], foot) <= m->tolerance * m->tolerance)
-      nsvcd__keep_support(p, &facing, foot, fixed[k], facing.faces[0], fixed_id);
-    for (size_t i = 0; i < 3; i++) {
-      const nsvcd__d3 a = posed[(k + 1) % 3];
-      const nsvcd__d3 b = fixed[(i + 1) % 3];
-      const nsvcd__d3 u = nsvcd__d3_sub(a, posed[k]);
-      const nsvcd__d3 v = nsvcd__d3_sub(b, fixed[i]);
-      const nsvcd__d3 across = nsvcd__d3_cross(u, v);
-      const double along = nsvcd__d3_dot(across, m->normal);
-      const double square = nsvcd__d3_dot(across, across);
-      const double lengths = nsvcd__d3_dot(u, u) * nsvcd__d3_dot(v, v);
-      nsvcd__nearest nearest = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
-      if (!(square > 1e-4 * lengths)) continue;
-      if (along * along < 0.64 * square) continue;
-      nsvcd__edges_nearest(posed[k], a, fixed[i], b, &nearest);
-      if (!(nearest.square <= m->tolerance * m->tolerance)) continue;
-      const uint32_t number = moving_id * 3 + fixed_id * 5 + (uint32_t)(1 + i) * 0x9e3779b9u;
-      nsvcd__keep_support(p, &facing, nearest.on_a, nearest.on_b,
-                          nsvcd__d3_unit(across, facing.faces[1]), number | 2);
-    }
-  }
-}
-
-// Twice the area that four points span, seen along the normal.
-static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
-  double most = 0;
-  for (int k = 0; k < 3; k++) {
-    const nsvcd__d3 a = m->supports[of[0]].point;
-    const nsvcd__d3 b = m->supports[of[1 + k]].point;
-    const nsvcd__d3 c = m->supports[of[1 + (k + 1) % 3]].point;
-    const nsvcd__d3 d = m->supports[of[1 + (k + 2) % 3]].point;
-    const nsvcd__d3 both = nsvcd__d3_cross(nsvcd__d3_sub(b, a), nsvcd__d3_sub(d, c));
-    most = nsvcd__max(most, fabs(nsvcd__d3_dot(both, m->normal)));
-  }
-  return most;
-}
-
-// Chooses the contacts: which supports, and twice the area that they span. Returns how many.
-static NSVCD__NOINLINE int nsvcd__choose_four(const nsvcd__manifold *m, int *chosen,
-                                              double *area) {
-  int kept[NSVCD__SUPPORTS];
-  int count = 0;
-  // Each point once, in the order of their numbers.
-  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
-    int at = count;
-    int is_new = m->farthest[k] > -HUGE_VAL && m->farthest[k] < HUGE_VAL;
-    for (int n = 0; n < count; n++) {
-      const nsvcd__d3 other = m->supports[kept[n]].point;
-      is_new &= nsvcd__d3_distance2(m->supports[k].point, other) > m->same * m->same;
-    }
-    if (!is_new) continue;
-    for (; at > 0 && m->numbers[k] < m->numbers[kept[at - 1]]; at--) kept[at] = kept[at - 1];
-    kept[at] = k;
-    count++;
-  }
-  memcpy(chosen, kept, sizeof(int) * (size_t)(count < 4 ? count : 4));
-  *area = 0;
-  for (int n = count; n < 4 && count > 0; n++) kept[n] = kept[count - 1];
-  if (count > 0 && count <= 4) *area = nsvcd__spanned(m, kept);
-  if (count <= 4) return count;
-  for (uint32_t all = 0; all < 1u << count; all++) {
-    int four[4];
-    int size = 0;
-    if (nsvcd__bit_count(all) != 4) continue;
-    for (uint32_t left = all; left; left &= left - 1)
-      four[size++] = kept[nsvcd__low_bit(left)];
-    const double spanned = nsvcd__spanned(m, four);
-    if (!(spanned > 1.001 * *area)) continue;
-    *area = spanned;
-    memcpy(chosen, four, 4 * sizeof *chosen);
-  }
-  return 4;
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -13489,6 +12338,1160 @@ static void nsvcd__search_patch(nsvcd__search *q, const nsvcd_body *moving, size
 }
 
 #endif  // NSVCD_NO_NETWORK
+
+// ========================================== triangles: two triangles over an interval, in double
+
+// --------------------------------------------------------------------------------- triangles/poses
+// In: a motion, an arc of it and a fraction u in [0,1] of the arc. Out: the pose of the moving body
+// there, in double, to the last digits.
+
+#ifndef NSVCD_NO_PROOF
+// The inverse of a pose, whose rotation is times this scale.
+static nsvcd__dtransform nsvcd__inverse_dtransform(const nsvcd__dtransform *at, double scale) {
+  const double inverse = 1 / (scale * scale);
+  nsvcd__dtransform out;
+  const nsvcd__dmat3 transpose = nsvcd__dmat3_transpose(at->rotation);
+  out.rotation = nsvcd__dmat3_scale(&transpose, inverse);
+  out.position = nsvcd__d3_scale(nsvcd__dmat3_apply(&out.rotation, at->position), -1);
+  return out;
+}
+
+// A track's slerp over an arc, and its positions at both ends, metres.
+static nsvcd__slerp nsvcd__slerp_in(const nsvcd__track *track, uint32_t first, uint32_t ticks,
+                                    nsvcd__d3 *ends) {
+  const uint32_t k = nsvcd__pose_before(track, first);
+  const nsvcd_pose *a = &track->poses[k];
+  const nsvcd_pose *b = track->count > 1 ? a + 1 : a;
+  const uint32_t begin = nsvcd__tick_of(track, k);
+  const double per_tick = 1 / (double)(nsvcd__tick_of(track, k + 1) - begin);
+  const nsvcd__d3 start = nsvcd__d3_load(a->position);
+  const nsvcd__d3 end = nsvcd__d3_load(b->position);
+  nsvcd__slerp out = nsvcd__slerp_of(a, b);
+  out.fraction = (double)ticks * per_tick;
+  out.from = (double)(first - begin) * per_tick;
+  ends[0] = nsvcd__d3_mix(start, end, out.from);
+  ends[1] = nsvcd__d3_mix(start, end, out.from + out.fraction);
+  return out;
+}
+
+// Turns to a motion. None of its arcs is known, nor any pose.
+static void nsvcd__arcs_begin(nsvcd__arcs *arcs, nsvcd__motion *motion) {
+  memset(arcs, 0, sizeof *arcs);
+  arcs->motion = motion;
+}
+
+// The arc that begins at the keyframe `first`.
+static const nsvcd__arc *nsvcd__arc_at(nsvcd__arcs *arcs, uint32_t first) {
+  const nsvcd__motion *m = arcs->motion;
+  nsvcd__arc *arc = &arcs->arc;
+  const uint32_t ticks = nsvcd__next_keyframe(m, first) - first;
+  if (arc->first == first && arc->ticks == ticks) return arc;
+  nsvcd__d3 ends[2], fixed_ends[2];
+  const double per_metre = 1 / (double)m->unit;
+  arc->first = first;
+  arc->ticks = ticks;
+  arc->fixed_moves = m->fixed_moves;
+  arc->scale = m->ratio;
+  arc->push_out = nsvcd__d3_widen(m->push_out);
+  arc->moving = nsvcd__slerp_in(&m->moving, first, ticks, ends);
+  arc->fixed = nsvcd__slerp_in(&m->fixed, first, ticks, fixed_ends);
+  const nsvcd__d3 from = nsvcd__d3_sub(ends[0], fixed_ends[0]);
+  const nsvcd__d3 to = nsvcd__d3_sub(ends[1], fixed_ends[1]);
+  arc->from = nsvcd__d3_scale(from, per_metre);
+  arc->moved = nsvcd__d3_scale(nsvcd__d3_sub(to, from), per_metre);
+  if (!arc->fixed_moves) {
+    // all in the fixed body's frame
+    const nsvcd__dquat back = nsvcd__dquat_inverse(arc->fixed.start);
+    const nsvcd__dmat3 axes = nsvcd__dmat3_of(arc->fixed.start);
+    const nsvcd__dquat none = {0, 0, 0, 1};
+    arc->moving.start = nsvcd__dquat_mul(back, arc->moving.start);
+    arc->moving.end = nsvcd__dquat_mul(back, arc->moving.end);
+    arc->from = nsvcd__dmat3_apply_transpose(&axes, arc->from);
+    arc->moved = nsvcd__dmat3_apply_transpose(&axes, arc->moved);
+    arc->fixed.start = arc->fixed.end = none;
+  }
+
+  // the bounds of nsvcd__cut_double_arc; of one body that turns, twist and swing are 0
+  const nsvcd__d3 fixed_turn = nsvcd__slerp_turn(&arc->fixed);
+  const nsvcd__d3 turn = nsvcd__d3_sub(nsvcd__slerp_turn(&arc->moving), fixed_turn);
+  const nsvcd__d3 end = nsvcd__d3_add(arc->from, arc->moved);
+  const double twist = nsvcd__d3_norm(nsvcd__d3_cross(turn, fixed_turn));
+  const double angle = nsvcd__d3_norm(fixed_turn);
+  const double swing_from = nsvcd__d3_norm(nsvcd__d3_cross(fixed_turn, arc->from));
+  const double swing_to = nsvcd__d3_norm(nsvcd__d3_cross(fixed_turn, end));
+  const double swing = nsvcd__max(swing_from, swing_to);
+  const double across = nsvcd__d3_norm(nsvcd__d3_cross(fixed_turn, arc->moved));
+  const nsvcd__d3 axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
+  const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->fixed, 0));
+  const nsvcd__dmat3 moving = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->moving, 0));
+  arc->turn = nsvcd__d3_norm(turn);
+  arc->speed = nsvcd__d3_norm(arc->moved) + swing;
+  arc->twist = 0.1250001 * arc->scale * twist;
+  arc->origin_bend = 0.1250001 * (2 * across + angle * swing);
+  arc->axis = nsvcd__dmat3_apply_transpose(&fixed, axis);
+  arc->own_axis = nsvcd__dmat3_apply_transpose(&moving, axis);
+  arc->waver = arc->turn > 0 ? nsvcd__min(1, twist / arc->turn) : 0;
+  arc->bend = 0.1250001 * arc->scale * arc->turn * arc->turn;
+  return arc;
+}
+
+// Do all points of the moving body go along straight lines, as the fixed body sees them?
+static int nsvcd__is_straight(const nsvcd__arc *arc) {
+  return !(arc->bend > 0 || arc->twist > 0 || arc->origin_bend > 0);
+}
+
+// The true pose at fraction u of the arc, as the fixed body sees it. Its rotation is times the
+// moving body's scale.
+static nsvcd__dtransform nsvcd__dtransform_at(const nsvcd__arc *arc, double u) {
+  nsvcd__dquat q = nsvcd__slerp_at(&arc->moving, u);
+  nsvcd__dtransform at;
+  at.position = nsvcd__d3_add(arc->from, nsvcd__d3_scale(arc->moved, u));
+  if (arc->fixed_moves) {
+    const nsvcd__dquat fixed = nsvcd__slerp_at(&arc->fixed, u);
+    const nsvcd__dmat3 matrix = nsvcd__dmat3_of(fixed);
+    q = nsvcd__dquat_mul(nsvcd__dquat_inverse(fixed), q);
+    at.position = nsvcd__dmat3_apply_transpose(&matrix, at.position);
+  }
+  const nsvcd__dmat3 rotation = nsvcd__dmat3_of(q);
+  at.rotation = nsvcd__dmat3_scale(&rotation, arc->scale);
+  at.position = nsvcd__d3_add(at.position, arc->push_out);
+  return at;
+}
+
+// The moving body's twist there, as the fixed body sees it.
+static nsvcd__twist nsvcd__twist_at(const nsvcd__arc *arc, double u) {
+  const nsvcd__dtransform at = nsvcd__dtransform_at(arc, u);
+  const double per_tick = 1 / (double)arc->ticks;
+  const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->fixed, u));
+  nsvcd__d3 turn = nsvcd__slerp_turn(&arc->moving);
+  nsvcd__d3 own = nsvcd__slerp_turn(&arc->fixed);
+  turn = nsvcd__dmat3_apply_transpose(&fixed, turn);
+  own = nsvcd__dmat3_apply_transpose(&fixed, own);
+  nsvcd__d3 along = nsvcd__dmat3_apply_transpose(&fixed, arc->moved);
+  along = nsvcd__d3_add(along, nsvcd__d3_cross(own, arc->push_out));
+  along = nsvcd__d3_sub(along, nsvcd__d3_cross(turn, at.position));
+  nsvcd__twist out;
+  out.along = nsvcd__d3_scale(along, per_tick);
+  out.turn = nsvcd__d3_scale(nsvcd__d3_sub(turn, own), per_tick);
+  return out;
+}
+static nsvcd__d3 nsvcd__twist_of(const nsvcd__twist *twist, nsvcd__d3 x) {
+  return nsvcd__d3_add(twist->along, nsvcd__d3_cross(twist->turn, x));
+}
+
+// The true pose at fraction u of p->arc, remembered: triangle pairs ask for the same poses again.
+// The pose of the call before stays where it is.
+static const nsvcd__dtransform *nsvcd__arc_pose(nsvcd__arcs *arcs, double u) {
+  const nsvcd__arc *arc = &arcs->arc;
+  const size_t next = arcs->next;
+  size_t n = 0;
+  for (; n < NSVCD__KNOWN_POSES; n++) {
+    const nsvcd__known_pose *known = &arcs->poses[n];
+    if (known->arc == arc->first && known->ticks == arc->ticks && known->u == u) break;
+  }
+  if (n == NSVCD__KNOWN_POSES) {
+    const nsvcd__known_pose made = {arc->first, arc->ticks, u, nsvcd__dtransform_at(arc, u)};
+    n = next;
+    arcs->poses[n] = made;
+  }
+  if (n == next) arcs->next = (n + 1) % NSVCD__KNOWN_POSES;
+  return &arcs->poses[n].transform;
+}
+
+static nsvcd__transform nsvcd__transform_of(const nsvcd__dtransform *at) {
+  nsvcd__transform out;
+  out.rotation.x = nsvcd__d3_narrow(at->rotation.x);
+  out.rotation.y = nsvcd__d3_narrow(at->rotation.y);
+  out.rotation.z = nsvcd__d3_narrow(at->rotation.z);
+  out.position = nsvcd__f3_round(at->position);
+  return out;
+}
+#endif  // NSVCD_NO_PROOF
+
+// ------------------------------------------------------------------------- triangles/motion_bounds
+// In: a segment, or an arc and two fractions of it. Out: an interval: the poses at both ends, and
+// how far points deviate from their chords in between.
+
+#ifndef NSVCD_NO_PROOF
+// The tick of a position counted in segments: 1.5 is in the middle of the second.
+static double nsvcd__tick_in_segments(const uint32_t *begin, double at) {
+  const size_t s = (size_t)at;
+  const double start = (double)begin[s];
+  const double fraction = at - (double)s;
+  return fraction > 0 ? start + fraction * ((double)begin[s + 1] - start) : start;
+}
+
+// Leaves the part of the segments between two positions, in ticks so many times finer.
+static void nsvcd__narrow_segments(nsvcd__search *q, double from, double to, double finer) {
+  uint32_t *begin = q->begin;
+  const double start = nsvcd__tick_in_segments(begin, from);
+  const double end = nsvcd__tick_in_segments(begin, to);
+  const size_t first = (size_t)from;
+  const size_t last = (size_t)to;
+  q->segments = last - first + (to > (double)last);
+  for (size_t s = 1; s < q->segments; s++)
+    begin[s] = (uint32_t)(finer * (double)begin[first + s]);
+  begin[0] = (uint32_t)(finer * start);
+  begin[q->segments] = (uint32_t)(finer * end);
+}
+
+// A segment, up to the end of what matters; kept once it has been made.
+static const nsvcd__interval *nsvcd__segment_interval(nsvcd__proof *p, const nsvcd__search *q,
+                                                      size_t s) {
+  nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
+  const size_t l = s % NSVCD__LANES;
+  nsvcd__interval *out = &p->intervals[s];
+  if (p->memo.intervals >> s & 1) return out;
+  p->memo.intervals |= (uint64_t)1 << s;
+  const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, l);
+  out->start.rotation = nsvcd__mat3_lane(block->rotation, l);
+  out->end.rotation = nsvcd__mat3_mix(1, &out->start.rotation, 1, &turned);
+  out->start.position = nsvcd__lane_of(block->position, l);
+  out->end.position = nsvcd__f3_add(out->start.position, nsvcd__lane_of(block->moved, l));
+  out->bend = block->bend[l];
+  out->rounding = block->rounding[l];
+  out->origin_bend = block->origin_bend[l];
+  out->axis = nsvcd__lane_of(block->axis, l);
+  out->heading = nsvcd__lane_of(block->heading, l);
+  out->bend_along_axis = block->bend_along_axis[l];
+  out->origin_along_axis = block->origin_along_axis[l];
+  out->origin_off_heading = block->origin_off_heading[l];
+  return out;
+}
+
+// The interval from u0 to u1 of the arc that begins at the keyframe `first`.
+static nsvcd__interval nsvcd__interval_of_arc(nsvcd__proof *p, uint32_t first, double u0,
+                                              double u1) {
+  const nsvcd__arc *arc = nsvcd__arc_at(&p->arcs, first);
+  const nsvcd__dtransform start = nsvcd__dtransform_at(arc, u0);
+  const nsvcd__dtransform end = nsvcd__dtransform_at(arc, u1);
+  const double square = (u1 - u0) * (u1 - u0);
+  nsvcd__interval out;
+  out.start = nsvcd__transform_of(&start);
+  out.end = nsvcd__transform_of(&end);
+  const float extent_start = nsvcd__f3_norm(out.start.position);
+  const float extent = extent_start + nsvcd__f3_norm(out.end.position);
+  out.bend = (float)(square * (arc->bend + arc->twist) * 1.000001);
+  out.origin_bend = (float)(square * arc->origin_bend * 1.000001);
+  out.rounding = NSVCD__ROUNDING * (extent + p->given.lengths);
+  out.origin_along_axis = out.origin_off_heading = out.origin_bend;
+  out.axis = nsvcd__f3_round(arc->axis);
+  out.heading = out.axis;  // any
+  const double wavers = square * (arc->bend * arc->waver + arc->twist);
+  out.bend_along_axis = fminf((float)wavers + 1e-6f * out.bend, out.bend);
+  return out;
+}
+
+// The axis in the moving body's frame, unit.
+static nsvcd__f3 nsvcd__own_axis(const nsvcd__interval *over) {
+  const nsvcd__f3 axis = nsvcd__mat3_apply_transpose(&over->start.rotation, over->axis);
+  const float length = nsvcd__f3_norm(axis);
+  return nsvcd__f3_scale(axis, length > 0 ? 1 / length : 0);
+}
+
+// How far points of the moving body are, at most, in its own units: from its origin, and from the
+// line through that along the axis of a turn.
+typedef struct nsvcd__arm {
+  float from_origin, from_axis;
+} nsvcd__arm;
+
+// Of a sphere. axis: unit to rounding, in the body's frame.
+static nsvcd__arm nsvcd__arm_of(nsvcd__f3 centre, float radius, nsvcd__f3 axis) {
+  const float distance = nsvcd__f3_norm(centre);
+  const float aside = nsvcd__f3_norm(nsvcd__f3_cross(centre, axis));
+  const nsvcd__arm out = {1.000001f * (distance + radius),
+                          1.000001f * (aside + radius) + 1e-6f * distance};
+  return out;
+}
+
+// Of a patch's pieces.
+static nsvcd__arm nsvcd__patch_arm(const nsvcd__geometry *f, size_t patch,
+                                   const nsvcd__interval *over) {
+  const float radius = nsvcd__body_r(f->body)[patch];
+  return nsvcd__arm_of(nsvcd__patch_centre(f, patch), radius, nsvcd__own_axis(over));
+}
+
+// The deviation that the turn causes, along any direction: |D x|, with D the difference between the
+// true rotation and the chord's at some time. Split x into its parts along a', the axis in the
+// moving body's frame, and across it: then
+//   |D x| <= |D| |x x a'| + |D a'| |x.a'|
+// and |D a'| is |D^T axis|, since both ends of the chord take a' to the axis.
+static float nsvcd__bend_of(const nsvcd__interval *over, nsvcd__arm arm) {
+  const float by_axis = over->bend * arm.from_axis + over->bend_along_axis * arm.from_origin;
+  return fminf(over->bend * arm.from_origin, by_axis);
+}
+
+// The deviation of points of the moving body along a direction n, times its length, without
+// rounding (which is times |n| too). With d the difference of the positions, a point x is off by
+// n.(D x + d). Split n into its parts along the axis and across it: then
+//   |n.D x| <= |n.axis| |D^T axis| |x| + |n x axis| |D x|
+// and |n.d| is bounded in the same way, or with the heading in place of the axis.
+static float nsvcd__deviation_of(const nsvcd__interval *over, nsvcd__f3 n, nsvcd__arm arm) {
+  const float along = fabsf(nsvcd__f3_dot(n, over->axis));
+  const float across = nsvcd__f3_norm(nsvcd__f3_cross(n, over->axis));
+  const float ahead = fabsf(nsvcd__f3_dot(n, over->heading));
+  const float aside = nsvcd__f3_norm(nsvcd__f3_cross(n, over->heading));
+  const float by_axis = along * over->origin_along_axis + across * over->origin_bend;
+  const float by_heading = ahead * over->origin_bend + aside * over->origin_off_heading;
+  const float origin_bend = by_axis < by_heading ? by_axis : by_heading;
+  const float turn = along * over->bend_along_axis * arm.from_origin;
+  return origin_bend + turn + across * nsvcd__bend_of(over, arm);
+}
+
+#endif  // NSVCD_NO_PROOF
+
+// ------------------------------------------------------------------------ triangles/triangle_pairs
+// In: two triangles and an interval. Out: they are separated, or in contact, or too near to tell.
+
+#ifndef NSVCD_NO_PROOF
+// The unit normal of a triangle; 0 if the triangle has no area. Rounding, or fused arithmetic,
+// makes such a triangle's normal some 1e-16 of its longest edge squared.
+static NSVCD__NOINLINE nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
+  const nsvcd__d3 n = nsvcd__face_normal(t);
+  double longest = 0;
+  for (size_t k = 0; k < 3; k++)
+    longest = nsvcd__max(longest, nsvcd__d3_distance2(t[k], t[(k + 1) % 3]));
+  const double length = nsvcd__d3_norm(n);
+  return nsvcd__d3_scale(n, length > 1e-9 * longest ? 1 / length : 0);
+}
+
+static void nsvcd__pose_triangle(const nsvcd__dtransform *at, const nsvcd__d3 *corners,
+                                 nsvcd__d3 *out) {
+  for (size_t k = 0; k < 3; k++) out[k] = nsvcd__d3_transform(at, corners[k]);
+}
+
+// Two triangles, one of each body, in their frames: the caller's own, of which entries may be
+// pieces. A plane that separates a triangle separates its pieces; what meets a triangle meets the
+// mesh.
+typedef struct nsvcd__triangle_pair {
+  size_t moving_patch, fixed_patch, moving_entry, fixed_entry;
+  nsvcd__d3 moving[3], fixed[3];
+  // The greatest distance of the moving one's points from their body's origin and, at any time of
+  // the arc, from the axis of the turn; in its body's units.
+  double from_origin, from_axis;
+  // of the moving one, at most: the path of a point over the arc
+  double speed;
+  // how far the meshes' own triangles may be off, and rounding in double; and that rounding alone
+  double margin;
+  double rounding;
+  // too near to halve the interval for
+  double close;
+} nsvcd__triangle_pair;
+
+// Sets from_origin and from_axis.
+static void nsvcd__pair_arm(const nsvcd__arc *arc, nsvcd__triangle_pair *pair) {
+  pair->from_origin = pair->from_axis = 0;
+  for (size_t k = 0; k < 3; k++) {
+    const nsvcd__d3 corner = pair->moving[k];
+    const nsvcd__d3 across = nsvcd__d3_cross(corner, arc->own_axis);
+    pair->from_origin = nsvcd__max(pair->from_origin, nsvcd__d3_norm(corner));
+    pair->from_axis = nsvcd__max(pair->from_axis, nsvcd__d3_norm(across));
+  }
+  pair->from_axis += (arc->waver + 1e-6) * pair->from_origin;
+  pair->from_axis = nsvcd__min(pair->from_axis, pair->from_origin);
+}
+
+static nsvcd__triangle_pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size_t j, size_t a,
+                                           size_t b) {
+  nsvcd__triangle_pair pair = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0, 0, 0, 0};
+  nsvcd__patch_triangle(&p->moving, i, a, pair.moving);
+  nsvcd__patch_triangle(&p->fixed, j, b, pair.fixed);
+  nsvcd__pair_arm(&p->arcs.arc, &pair);
+  pair.speed = p->arcs.arc.speed + p->arcs.arc.turn * p->arcs.arc.scale * pair.from_axis;
+  pair.rounding =
+      NSVCD__SAME_POSITION * ((double)p->given.lengths + nsvcd__d3_norm(p->arcs.arc.from));
+  pair.margin = pair.rounding + nsvcd__off_meshes(p);
+  pair.margin += NSVCD__SAME_POSITION * nsvcd__d3_norm(p->arcs.arc.moved);
+  pair.close = pair.margin + NSVCD__TOO_NEAR * (double)p->given.lengths + p->given.tolerance;
+  return pair;
+}
+
+// Are these of closed surfaces, whose winding says which side is out?
+static int nsvcd__moving_closed(const nsvcd__proof *p, const nsvcd__triangle_pair *c) {
+  return nsvcd__is_in_solid(&p->moving, c->moving_patch, c->moving_entry);
+}
+static int nsvcd__fixed_closed(const nsvcd__proof *p, const nsvcd__triangle_pair *c) {
+  return nsvcd__is_in_solid(&p->fixed, c->fixed_patch, c->fixed_entry);
+}
+
+// The nearest points of a triangle pair at fraction u of the arc.
+static nsvcd__nearest nsvcd__pair_nearest(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
+                                          double u) {
+  nsvcd__d3 moving[3];
+  nsvcd__pose_triangle(nsvcd__arc_pose(&p->arcs, u), pair->moving, moving);
+  return nsvcd__nearest_of(moving, pair->fixed);
+}
+
+// The contact of two triangles at fraction u of the arc.
+static nsvcd__pair_contact nsvcd__contact_at(const nsvcd__proof *p,
+                                             const nsvcd__triangle_pair *pair, double u,
+                                             const nsvcd__nearest *nearest) {
+  const nsvcd__d3 face = nsvcd__face_direction(pair->fixed);
+  const nsvcd__d3 apart = nsvcd__d3_sub(nearest->on_a, nearest->on_b);
+  const double distance = sqrt(nearest->square);
+  const int touches = distance <= pair->rounding;
+  nsvcd__pair_contact out;
+  out.tick = (double)p->arcs.arc.first + u * (double)p->arcs.arc.ticks;
+  out.distance = touches ? 0 : distance;
+  out.point = nearest->on_b;
+  out.normal = touches ? face : nsvcd__d3_unit(apart, nsvcd__d3_of(0, 0, 0));
+  out.moving_triangle =
+      nsvcd__triangle_number(&p->moving, pair->moving_patch, pair->moving_entry);
+  out.fixed_triangle = nsvcd__triangle_number(&p->fixed, pair->fixed_patch, pair->fixed_entry);
+  out.moving_entry = (uint32_t)pair->moving_entry;
+  out.fixed_entry = (uint32_t)pair->fixed_entry;
+  out.moving_patch = (uint16_t)pair->moving_patch;
+  out.fixed_patch = (uint16_t)pair->fixed_patch;
+  return out;
+}
+
+// Two triangles come within the clearance at fraction u of the arc. ANSWERED: that is an answer;
+// SHRUNK: there may be a better one.
+static nsvcd__outcome nsvcd__take_contact(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
+                                          double u, const nsvcd__nearest *nearest) {
+  p->known.has_contact = 1;
+  p->known.found = nsvcd__contact_at(p, pair, u, nearest);
+  if (p->goal.measure > 0) {
+    p->goal.high = p->known.found.distance;
+    p->goal.clearance = nsvcd__max(p->goal.low, p->goal.high - p->goal.measure);
+    return p->goal.clearance > p->goal.low ? NSVCD__SHRUNK : NSVCD__ANSWERED;
+  }
+  if (p->goal.first > 0) {
+    p->known.end = p->known.found.tick - p->goal.first;
+    return p->known.end > 0 ? NSVCD__SHRUNK : NSVCD__ANSWERED;
+  }
+  return NSVCD__ANSWERED;
+}
+
+// Two triangles come too near to each other, from u0 to u1 of the arc, to tell whether they touch.
+static NSVCD__NOINLINE void nsvcd__keep_unresolved(nsvcd__proof *p,
+                                                   const nsvcd__triangle_pair *pair, double u0,
+                                                   double u1) {
+  const double tick = (double)p->arcs.arc.first + u0 * (double)p->arcs.arc.ticks;
+  const double middle = 0.5 * (u0 + u1);
+  const size_t left = p->goal.after_unresolved;
+  // a brief first attempt has no budget to save
+  const int is_first = !(p->known.unresolved < NSVCD__NEVER) && !p->goal.is_brief;
+  if (is_first && p->work + left < p->goal.limit) p->goal.limit = p->work + left;
+  if (!(tick < p->known.unresolved)) return;
+  const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
+  p->known.unresolved_pair = nsvcd__contact_at(p, pair, middle, &nearest);
+  p->known.unresolved = tick;
+  if (p->goal.unresolved_ends) p->known.end = nsvcd__min(p->known.end, tick);
+}
+
+// The fraction of the arc from which on nothing matters.
+static double nsvcd__arc_limit(const nsvcd__proof *p) {
+  return (p->known.end - (double)p->arcs.arc.first) / (double)p->arcs.arc.ticks;
+}
+
+// The deviation of a triangle pair's moving triangle along a unit direction n over the whole arc.
+// Over a fraction of the arc it is the square of that fraction times as large. A point at r metres
+// from the origin and rho from the axis a of the turn deviates by bend rho |n x a| + twist r +
+// origin_bend. Where both bodies turn, a wavers, and so do both distances from it.
+static double nsvcd__off_chord_along(const nsvcd__arc *arc, const nsvcd__triangle_pair *pair,
+                                     nsvcd__d3 n) {
+  const double across = nsvcd__d3_norm(nsvcd__d3_cross(n, arc->axis));
+  const double off_axis = nsvcd__min(1, across + arc->waver + 1e-6);
+  const double turn = arc->bend * pair->from_axis * off_axis;
+  return turn + arc->twist * pair->from_origin + arc->origin_bend;
+}
+
+// Does the plane that separated a triangle pair last separate this one from u0 to u1 of the arc?
+static int nsvcd__plane_separates(nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0,
+                                  double u1) {
+  const nsvcd__d3 normal = p->memo.separating;
+  const nsvcd__dtransform *start = nsvcd__arc_pose(&p->arcs, u0);
+  const nsvcd__dtransform *end = nsvcd__arc_pose(&p->arcs, u1);
+  double lowest = HUGE_VAL;
+  double highest = -HUGE_VAL;
+  for (size_t k = 0; k < 3; k++) {
+    const nsvcd__d3 at_start = nsvcd__d3_transform(start, pair->moving[k]);
+    const nsvcd__d3 at_end = nsvcd__d3_transform(end, pair->moving[k]);
+    lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_start));
+    lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_end));
+    highest = nsvcd__max(highest, nsvcd__d3_dot(normal, pair->fixed[k]));
+  }
+  const double off = nsvcd__off_chord_along(&p->arcs.arc, pair, normal);
+  const double deviation = (u1 - u0) * (u1 - u0) * off;
+  return lowest - highest > p->goal.clearance + pair->margin + deviation;
+}
+
+// Have two heights different signs, clear of 0 by their margins?
+static int nsvcd__are_opposite(double before, double least_before, double after,
+                               double least_after) {
+  const int falls = before > least_before && after < -least_after;
+  const int rises = before < -least_before && after > least_after;
+  return falls || rises;
+}
+
+// In the next three, triangles are given at three times: the start, the middle and the end of an
+// interval. Between two of them no point travels farther than `travel`, relative to the other
+// triangle.
+
+// Does corner k of triangle x pass through triangle t: does it change sides, and is its foot, in
+// the middle, well within t?
+static int nsvcd__corner_passes(const nsvcd__d3 *const *x, size_t k, const nsvcd__d3 *const *t,
+                                double travel, double margin) {
+  const nsvcd__d3 n = nsvcd__face_normal(t[1]);
+  const double room = 2 * travel * nsvcd__d3_norm(n);
+  for (size_t e = 0; e < 3; e++) {
+    const nsvcd__d3 edge = nsvcd__d3_sub(t[1][(e + 1) % 3], t[1][e]);
+    const nsvcd__d3 from = nsvcd__d3_sub(x[1][k], t[1][e]);
+    const double within = nsvcd__d3_dot(n, nsvcd__d3_cross(edge, from));
+    if (!(within > room * nsvcd__d3_norm(edge))) return 0;
+  }
+  const nsvcd__d3 n0 = nsvcd__face_normal(t[0]);
+  const nsvcd__d3 n2 = nsvcd__face_normal(t[2]);
+  const double before = nsvcd__d3_dot(n0, nsvcd__d3_sub(x[0][k], t[0][0]));
+  const double after = nsvcd__d3_dot(n2, nsvcd__d3_sub(x[2][k], t[2][0]));
+  return nsvcd__are_opposite(before, margin * nsvcd__d3_norm(n0), after,
+                             margin * nsvcd__d3_norm(n2));
+}
+
+// Does edge k of the moving triangle pass through edge n of the fixed one: do they change sides,
+// and are their lines, in the middle, nearest to each other well within both? The side is the sign
+// of the volume of the tetrahedron of both.
+static int nsvcd__edges_pass(const nsvcd__d3 *const *moving, size_t k, const nsvcd__d3 *fixed,
+                             size_t n, double travel, double margin) {
+  const size_t next = (k + 1) % 3;
+  const nsvcd__d3 v = nsvcd__d3_sub(fixed[(n + 1) % 3], fixed[n]);
+  nsvcd__d3 across[3], from[3];
+  double volumes[3];
+  for (size_t at = 0; at < 3; at++) {
+    const nsvcd__d3 *a = moving[at];
+    across[at] = nsvcd__d3_cross(nsvcd__d3_sub(a[next], a[k]), v);
+    from[at] = nsvcd__d3_sub(fixed[n], a[k]);
+    volumes[at] = nsvcd__d3_dot(across[at], from[at]);
+  }
+  const nsvcd__d3 u = nsvcd__d3_sub(moving[1][next], moving[1][k]);
+  const double size = nsvcd__d3_norm(across[1]);
+  const double lengths = nsvcd__d3_norm(u) * nsvcd__d3_norm(v);
+  if (!(size > 0.01 * lengths)) return 0;
+  if (!nsvcd__are_opposite(volumes[0], margin * size, volumes[2], margin * size)) return 0;
+  const double square = size * size;
+  const double s = nsvcd__d3_dot(nsvcd__d3_cross(from[1], v), across[1]) / square;
+  const double t = nsvcd__d3_dot(nsvcd__d3_cross(from[1], u), across[1]) / square;
+  // the lines' nearest points travel no farther along them
+  const double room = 4 * travel * lengths / size;
+  const double room_s = room / nsvcd__d3_norm(u);
+  const double room_t = room / nsvcd__d3_norm(v);
+  return s > room_s && s < 1 - room_s && t > room_t && t < 1 - room_t;
+}
+
+// Has a triangle pair met between u0 and u1 of the arc: has a corner passed through the other
+// triangle, or an edge through an edge? Faces that are parallel when they meet do so at
+// one time only, and rounded numbers show it at none.
+static int nsvcd__pair_passes(nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0,
+                              double u1) {
+  const double margin = pair->rounding;
+  const double travel = pair->speed * (u1 - u0);
+  const double times[3] = {u0, 0.5 * (u0 + u1), u1};
+  nsvcd__d3 corners[3][3];
+  for (size_t n = 0; n < 3; n++)
+    nsvcd__pose_triangle(nsvcd__arc_pose(&p->arcs, times[n]), pair->moving, corners[n]);
+  const nsvcd__d3 *moving[3] = {corners[0], corners[1], corners[2]};
+  const nsvcd__d3 *fixed[3] = {pair->fixed, pair->fixed, pair->fixed};
+  for (size_t k = 0; k < 3; k++) {
+    if (nsvcd__corner_passes(moving, k, fixed, travel, margin)) return 1;
+    if (nsvcd__corner_passes(fixed, k, moving, travel, margin)) return 1;
+    for (size_t n = 0; n < 3; n++)
+      if (nsvcd__edges_pass(moving, k, pair->fixed, n, travel, margin)) return 1;
+  }
+  return 0;
+}
+
+// How far a triangle is beyond another along a direction. Heights are over a corner of the one, to
+// lose as few digits as possible.
+static double nsvcd__beyond(nsvcd__d3 n, const nsvcd__d3 *over, const nsvcd__d3 *under) {
+  double lowest = HUGE_VAL;
+  double highest = -HUGE_VAL;
+  for (size_t k = 0; k < 3; k++) {
+    lowest = nsvcd__min(lowest, nsvcd__d3_dot(n, nsvcd__d3_sub(over[k], under[0])));
+    highest = nsvcd__max(highest, nsvcd__d3_dot(n, nsvcd__d3_sub(under[k], under[0])));
+  }
+  return lowest - highest;
+}
+
+// The direction across an edge of each of two triangles, unit: the k-th of 9. 0 if they are
+// parallel.
+static nsvcd__d3 nsvcd__across_edges(const nsvcd__d3 *a, const nsvcd__d3 *b, size_t k) {
+  const nsvcd__d3 u = nsvcd__d3_sub(a[(k + 1) % 3], a[k % 3]);
+  const nsvcd__d3 v = nsvcd__d3_sub(b[(k / 3 + 1) % 3], b[k / 3]);
+  return nsvcd__d3_unit(nsvcd__d3_cross(u, v), nsvcd__d3_of(0, 0, 0));
+}
+
+// A direction made normal to the edge from a to b, unit; 0 if it is along that.
+static nsvcd__d3 nsvcd__off_edge(nsvcd__d3 n, nsvcd__d3 a, nsvcd__d3 b) {
+  const nsvcd__d3 none = nsvcd__d3_of(0, 0, 0);
+  const nsvcd__d3 edge = nsvcd__d3_unit(nsvcd__d3_sub(b, a), none);
+  const nsvcd__d3 along = nsvcd__d3_scale(edge, nsvcd__d3_dot(n, edge));
+  return nsvcd__d3_unit(nsvcd__d3_sub(n, along), none);
+}
+
+// The direction that separates a triangle pair at a time: that of its nearest points. Rounding
+// turns it by their roundings over their distance, or by the root of that if several points are as
+// near to the last digit. If it keeps less than half of what is above the clearance, others may
+// keep more: the normals of the triangles, itself made normal to an edge, and those across an edge
+// of each. Returns how far the chosen one separates them.
+static NSVCD__NOINLINE double nsvcd__aim_plane(nsvcd__proof *p,
+                                               const nsvcd__triangle_pair *pair, double u,
+                                               const nsvcd__nearest *nearest) {
+  const double distance = sqrt(nearest->square);
+  nsvcd__d3 *plane = &p->memo.separating;
+  *plane = nsvcd__d3_scale(nsvcd__d3_sub(nearest->on_a, nearest->on_b), 1 / distance);
+  const nsvcd__d3 *fixed = pair->fixed;
+  const nsvcd__d3 guess = *plane;
+  nsvcd__d3 moving[3];
+  nsvcd__pose_triangle(nsvcd__arc_pose(&p->arcs, u), pair->moving, moving);
+  double best = nsvcd__beyond(guess, moving, fixed);
+  const double limit = p->goal.clearance + pair->margin;
+  if (best - limit > 0.5 * (distance - limit)) return best;
+  for (size_t k = 0; k < 17; k++) {
+    const nsvcd__d3 *of = k % 2 ? fixed : moving;
+    nsvcd__d3 n = k < 2   ? nsvcd__face_direction(of)
+                  : k < 8 ? nsvcd__off_edge(guess, of[k / 2 - 1], of[k / 2 % 3])
+                          : nsvcd__across_edges(moving, fixed, k - 8);
+    if (nsvcd__d3_dot(n, guess) < 0) n = nsvcd__d3_scale(n, -1);
+    const double beyond = nsvcd__beyond(n, moving, fixed);
+    if (!(beyond > best)) continue;
+    *plane = n;
+    best = beyond;
+  }
+  return best;
+}
+
+// A triangle pair that is too near to tell from u0 to u1 of the arc, the nearest at `when`, is kept
+// as unresolved. DISTANCE needs only a bound of how near the pair comes, so it lowers the clearance
+// to that. TOO_LONG: resolve the part again; ANSWERED: the clearance is at its known bound.
+static nsvcd__outcome nsvcd__resolve_too_near(nsvcd__proof *p,
+                                              const nsvcd__triangle_pair *pair, double u0,
+                                              double u1, double when) {
+  if (!(p->goal.measure > 0)) {
+    nsvcd__keep_unresolved(p, pair, u0, u1);
+    return NSVCD__DONE;
+  }
+  const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, when);
+  const double distance = sqrt(nearest.square);
+  if (distance < p->goal.high) (void)nsvcd__take_contact(p, pair, when, &nearest);
+  const double separated = distance - 2 * pair->close;
+  p->goal.clearance = nsvcd__max(p->goal.low, nsvcd__min(p->goal.clearance, separated));
+  return p->goal.clearance > p->goal.low ? NSVCD__TOO_LONG : NSVCD__ANSWERED;
+}
+
+// Resolves a part of the arc that is too short to halve. If the triangle pair has passed, the time
+// is narrowed down to rounding, and is the contact's. If not, it is unresolved.
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_short_interval(
+    nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0, double u1) {
+  if (!nsvcd__pair_passes(p, pair, u0, u1))
+    return nsvcd__resolve_too_near(p, pair, u0, u1, 0.5 * (u0 + u1));
+  for (size_t n = 0; n < NSVCD__HALVINGS; n++) {
+    const double middle = 0.5 * (u0 + u1);
+    p->work++;
+    if (nsvcd__pair_passes(p, pair, u0, middle))
+      u1 = middle;
+    else if (nsvcd__pair_passes(p, pair, middle, u1))
+      u0 = middle;
+    else
+      break;
+  }
+  const double when = 0.5 * (u0 + u1);
+  nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, when);
+  nearest.square = 0;
+  return nsvcd__take_contact(p, pair, when, &nearest);
+}
+
+// Where the least distance is measured and the moving body goes straight, by `moved` over the arc:
+// finds when between u0 and u1 a triangle pair is nearest. Its distance is convex, and falls while
+// the nearest points approach each other. Steps of `measure` would not get there.
+static nsvcd__outcome nsvcd__take_nearest(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
+                                          double u0, double u1, nsvcd__d3 moved) {
+  for (size_t n = 0; n < NSVCD__HALVINGS / 2; n++) {
+    const double middle = 0.5 * (u0 + u1);
+    const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
+    const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+    p->work++;
+    if (sqrt(nearest.square) < p->goal.high &&
+        nsvcd__take_contact(p, pair, middle, &nearest) == NSVCD__ANSWERED)
+      return NSVCD__ANSWERED;
+    const double slope = nsvcd__d3_dot(apart, moved) / sqrt(nearest.square);
+    // the distance is nowhere below its tangent
+    if (!(fabs(slope) * (u1 - u0) > p->goal.measure)) break;
+    if (slope < 0)
+      u0 = middle;
+    else
+      u1 = middle;
+  }
+  return NSVCD__SHRUNK;
+}
+
+// Resolves a triangle pair from u0 to u1 of an arc in which the moving body goes straight. Then its
+// distance is a convex function of time, and the plane at its nearest points is a tangent: Newton's
+// method, from the start on, comes to the first contact and never past it. The plane that separated
+// a pair last is tried first.
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
+                                                              const nsvcd__triangle_pair *pair,
+                                                              double u0, double u1) {
+  const nsvcd__arc *arc = &p->arcs.arc;
+  const nsvcd__d3 from = nsvcd__arc_pose(&p->arcs, 0)->position;
+  const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__arc_pose(&p->arcs, 1)->position, from);
+  double at = u0;
+  int shrunk = 0;
+  size_t steps = 0;
+  const double all = nsvcd__min(u1, nsvcd__arc_limit(p));
+  if (u0 < all && nsvcd__plane_separates(p, pair, u0, all)) {
+    p->work++;
+    return NSVCD__DONE;
+  }
+  for (double u = u0;;) {  // until u it is separated
+    const double end = nsvcd__min(u1, nsvcd__arc_limit(p));
+    if (!(u < end)) return shrunk ? NSVCD__SHRUNK : NSVCD__DONE;
+    at = nsvcd__min(at, end);
+    p->work++;
+    if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
+    const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, at);
+    const double distance = sqrt(nearest.square);
+    const double above = distance - p->goal.clearance;
+    if (above <= pair->rounding) {
+      if (nsvcd__take_contact(p, pair, at, &nearest) == NSVCD__ANSWERED)
+        return NSVCD__ANSWERED;
+      if (p->goal.measure > 0 &&
+          nsvcd__take_nearest(p, pair, u, end, moved) == NSVCD__ANSWERED)
+        return NSVCD__ANSWERED;
+      shrunk = 1;
+      at = u;
+      continue;
+    }
+    const double beyond = nsvcd__aim_plane(p, pair, at, &nearest);
+    const double fall = -nsvcd__d3_dot(p->memo.separating, moved);
+    const double room = beyond - p->goal.clearance - pair->margin - pair->rounding;
+    const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;
+    if (u < until && nsvcd__plane_separates(p, pair, u, until)) u = until;
+    const int is_short = !(room > 0) || arc->speed * (at - u) <= 0.25 * pair->close;
+    const int is_unresolved = fall > 0 ? !(at < end) : is_short;
+    if (u < end && (is_unresolved || steps++ == NSVCD__HALVINGS)) {
+      // what follows is no nearer
+      const nsvcd__outcome part = nsvcd__resolve_too_near(p, pair, u, at, at);
+      if (part == NSVCD__ANSWERED) return part;
+      if (part == NSVCD__DONE) u = end;
+    } else {
+      at = fall > 0 ? at + above / fall : 0.5 * (u + at);
+    }
+  }
+}
+
+// Resolves a triangle pair from u0 to u1 of the arc: halves the time until, in each part, a plane
+// separates the triangles, or there is a contact, or they are too near to tell. After each
+// unresolved part, longer ones count as too short: the question left is whether they meet. The
+// planes tried are the one that separated a pair last, and the one that nsvcd__aim_plane finds.
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
+                                                          const nsvcd__triangle_pair *pair,
+                                                          double u0, double u1) {
+  if (nsvcd__is_straight(&p->arcs.arc)) return nsvcd__resolve_straight(p, pair, u0, u1);
+  double *ends = p->pair_ends;
+  size_t left = 1;
+  size_t unresolved_count = 0;
+  int shrunk = 0;
+  ends[0] = u1;
+  for (double u = u0; left > 0;) {
+    const double end = nsvcd__min(ends[left - 1], nsvcd__arc_limit(p));
+    if (!(u < end)) break;  // an unresolved pair may be the end
+    const double middle = 0.5 * (u + end);
+    p->work++;
+    if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
+    int apart = nsvcd__plane_separates(p, pair, u, end);
+    if (!apart) {
+      const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
+      const double distance = sqrt(nearest.square);
+      if (distance <= p->goal.clearance + pair->rounding) {
+        if (nsvcd__take_contact(p, pair, middle, &nearest) == NSVCD__ANSWERED)
+          return NSVCD__ANSWERED;
+        shrunk = 1;
+        continue;
+      }
+      (void)nsvcd__aim_plane(p, pair, middle, &nearest);
+      apart = nsvcd__plane_separates(p, pair, u, end);
+    }
+    if (!apart) {
+      const double least = 0.25 * pair->close * (double)(1 + unresolved_count);
+      const int is_short = pair->speed * (end - u) <= least || left > NSVCD__HALVINGS;
+      if (!is_short) {
+        ends[left++] = middle;
+        p->parts++;
+        continue;
+      }
+      const nsvcd__outcome part = nsvcd__resolve_short_interval(p, pair, u, end);
+      if (part == NSVCD__ANSWERED) return part;
+      shrunk |= part == NSVCD__SHRUNK;
+      if (part != NSVCD__DONE) continue;
+      unresolved_count++;
+    }
+    u = end;
+    left--;
+  }
+  return shrunk ? NSVCD__SHRUNK : NSVCD__DONE;
+}
+#endif  // NSVCD_NO_PROOF
+
+// ------------------------------------------------------------------------------- triangles/touches
+// In: two triangles that touch at the start of a motion. Out: how deep, and which directions undo
+// it.
+
+#ifndef NSVCD_NO_PROOF
+// Answers in float cannot tell things apart that are nearer to each other than this.
+static double nsvcd__epsilon(const nsvcd__proof *p) {
+  return nsvcd__off_meshes(p) + NSVCD__LEAST_EPSILON * (double)p->given.lengths;
+}
+
+// How deep a touch is along n: how far the moving triangle must go to be beyond the other; negative
+// if it is beyond it already.
+static double nsvcd__depth_along(nsvcd__d3 n, const nsvcd__triangle_contact *t) {
+  return -nsvcd__beyond(n, t->moving, t->fixed);
+}
+
+// Is a touch too deep for the slop in every direction? Those to try are the separating axes: a
+// normal of either triangle, or across an edge of each.
+static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__triangle_contact *t) {
+  const nsvcd__d3 push_out = nsvcd__d3_widen(p->arcs.motion->push_out);
+  const double most = p->goal.slop - p->given.clearance;
+  for (size_t k = 0; k < 12; k++) {
+    nsvcd__d3 n = k < 3 ? t->directions[k] : nsvcd__across_edges(t->moving, t->fixed, k - 3);
+    if (!(nsvcd__d3_dot(n, n) > 0.5)) continue;
+    for (int side = 0; side < 2; side++) {
+      const double pushed_out = nsvcd__d3_dot(push_out, n);
+      if (pushed_out + nsvcd__depth_along(n, t) <= most) return 0;
+      n = nsvcd__d3_scale(n, -1);
+    }
+  }
+  return 1;
+}
+
+// Does a push-out along n, by what is left of the slop in that direction, undo a touch? If it has
+// to push, it must not go through both faces. Going through one is harmless: a cone's side, which
+// rises from the rim that the cone stands on, looks up, and so does the floor under it.
+static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n,
+                         const nsvcd__triangle_contact *t) {
+  const double more = nsvcd__depth_along(n, t);
+  const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->arcs.motion->push_out), n);
+  if (!(nsvcd__d3_dot(n, n) > 0.5)) return 0;
+  if (pushed_out + more + p->given.clearance > p->goal.slop) return 0;
+  if (more < 0) return 1;
+  return nsvcd__d3_dot(n, t->directions[0]) > -0.3 ||
+         nsvcd__d3_dot(n, t->directions[1]) > -0.3;
+}
+
+// The squared distance of two triangles after the moving one has gone so far along n.
+static double nsvcd__gap_after(const nsvcd__triangle_contact *t, nsvcd__d3 n,
+                               double distance) {
+  nsvcd__d3 moved[3];
+  for (int k = 0; k < 3; k++)
+    moved[k] = nsvcd__d3_add(t->moving[k], nsvcd__d3_scale(n, distance));
+  return nsvcd__nearest_of(moved, t->fixed).square;
+}
+
+// How far along n the moving triangle of a touch must go until it is beyond the clearance for good,
+// which it is after `most`; -HUGE_VAL if it never is within it. The distance is convex: thirds find
+// where it is least, and halves where it is the clearance. epsilon: of depths, in double.
+static NSVCD__NOINLINE double nsvcd__exit_depth(const nsvcd__triangle_contact *t, nsvcd__d3 n,
+                                                double clearance, double most,
+                                                double epsilon) {
+  // Parallel faces meet at one time only.
+  const double limit = clearance + nsvcd__min(0.003 * most, epsilon);
+  const double square = limit * limit;
+  // nearly always
+  if (nsvcd__gap_after(t, n, 0.998 * most) <= square) return most;
+  double low = 0;
+  double high = most;
+  double inner = 0;  // where it is within the clearance
+  int met = nsvcd__gap_after(t, n, 0) <= square;
+  for (int k = 0; k < 16 && !met; k++) {
+    const double third = (high - low) / 3;
+    const double before = nsvcd__gap_after(t, n, low + third);
+    const double after = nsvcd__gap_after(t, n, high - third);
+    met = before <= square || after <= square;
+    inner = after <= square ? high - third : low + third;
+    if (before < after) high -= third;
+    if (!(before < after)) low += third;
+  }
+  if (!met) return -HUGE_VAL;
+  for (double beyond = most; beyond - inner > nsvcd__max(1e-3 * beyond, 1e-5 * most);) {
+    const double middle = 0.5 * (inner + beyond);
+    const int is_inner = nsvcd__gap_after(t, n, middle) <= square;
+    *(is_inner ? &inner : &beyond) = middle;
+  }
+  return inner;
+}
+
+// Notes how deep a touch is along normal k.
+static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__triangle_contact *t) {
+  const nsvcd__d3 n = p->push.normals[k];
+  const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->arcs.motion->push_out), n);
+  const double most = nsvcd__depth_along(n, t) + p->given.clearance;
+  p->push.needed = nsvcd__max(p->push.needed, pushed_out + most);
+  if (!(most > 0) || !(pushed_out + most > p->push.depths[k])) return;
+  const double epsilon = nsvcd__off_meshes(p) + NSVCD__TOO_NEAR * (double)p->given.lengths;
+  const double depth = pushed_out + nsvcd__exit_depth(t, n, p->given.clearance, most, epsilon);
+  p->push.depths[k] = nsvcd__max(p->push.depths[k], depth);
+}
+
+// Does normal k undo a touch? Then its depth is noted.
+static int nsvcd__undone_by(nsvcd__proof *p, size_t k, const nsvcd__triangle_contact *t) {
+  if (!nsvcd__undoes(p, p->push.normals[k], t)) return 0;
+  nsvcd__note_depth(p, k, t);
+  return 1;
+}
+
+// Keeps two triangles that are within the clearance at the start, unless a known direction undoes
+// that.
+static void nsvcd__collect_contact(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
+                                   const nsvcd__d3 *posed) {
+  nsvcd__triangle_contact contact;
+  memcpy(contact.moving, posed, sizeof contact.moving);
+  memcpy(contact.fixed, pair->fixed, sizeof contact.fixed);
+  const nsvcd__nearest nearest = nsvcd__nearest_of(posed, pair->fixed);
+  const int are_apart = nearest.square > 1e6 * pair->rounding * pair->rounding;
+  const nsvcd__d3 distance = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+  contact.directions[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
+  contact.directions[1] = nsvcd__face_direction(pair->fixed);
+  contact.directions[2] = nsvcd__d3_scale(distance, are_apart ? 1 / sqrt(nearest.square) : 0);
+  for (size_t k = 0; k < p->push.normal_count; k++) {
+    if (nsvcd__undone_by(p, k, &contact)) return;
+  }
+  p->push.too_deep = p->push.too_deep || nsvcd__is_deep(p, &contact);
+  if (p->push.contact_count < NSVCD__TOUCHES) p->of.touches[p->push.contact_count++] = contact;
+}
+#endif  // NSVCD_NO_PROOF
+
+// ------------------------------------------------------------------------------ triangles/manifold
+// In: triangle pairs that are near each other when a contact is. Out: up to four contact points
+// that hold the body: those that span the largest area, seen along the contact's normal.
+//
+// Two triangles touch where a corner of one is over the other, or where two edges cross. Of all
+// such points the farthest along eight directions are kept, for a slim contact those across it too,
+// and of these the best four. Of two points equally far, the one with the lower number is kept: so
+// the same points are chosen again when little has moved. Only normals close to the contact's
+// count: where a side rises from the floor, corners of the floor's triangles are near the side as
+// well, but the body does not stand on it.
+
+#ifndef NSVCD_NO_PROOF
+// Prepares a manifold of contacts with about this normal, unit, of bodies that move like this.
+static void nsvcd__manifold_begin(nsvcd__proof *p, nsvcd__d3 n, const nsvcd__twist *twist,
+                                  double tolerance, double same) {
+  nsvcd__manifold *m = &p->of.kept.manifold;
+  const int flattest = fabs(n.x) < fabs(n.y) ? 0 : 1;
+  const nsvcd__d3 aside = nsvcd__d3_of(flattest == 0, flattest == 1, 0);
+  const nsvcd__d3 u = nsvcd__d3_unit(nsvcd__d3_cross(n, aside), nsvcd__d3_of(1, 0, 0));
+  memset(m, 0, sizeof *m);
+  m->normal = n;
+  m->twist = *twist;
+  m->tolerance = tolerance;
+  m->same = same;
+  // An eighth of a turn each: the sum of a direction and of that a quarter on, made unit.
+  nsvcd__d3 along = u;
+  for (int k = 0; k < NSVCD__AROUND; k++) {
+    m->along[k] = along;
+    m->farthest[k] = -HUGE_VAL;
+    along = nsvcd__d3_scale(nsvcd__d3_add(along, nsvcd__d3_cross(n, along)), sqrt(0.5));
+  }
+  for (int k = NSVCD__AROUND; k < NSVCD__SUPPORTS; k++) m->farthest[k] = HUGE_VAL;
+}
+
+// If what has been found spans little for its length, prepares the two directions across it, for
+// what is between the eight. area: twice what is spanned. Returns 0 if it is not so slim.
+static int nsvcd__seek_across(nsvcd__manifold *m, double area) {
+  nsvcd__d3 longest = {0, 0, 0};
+  for (int k = 0; k < NSVCD__AROUND; k++) {
+    for (int n = 0; n < k && m->farthest[k] > -HUGE_VAL && m->farthest[n] > -HUGE_VAL; n++) {
+      const nsvcd__d3 offset = nsvcd__d3_sub(m->supports[k].point, m->supports[n].point);
+      if (nsvcd__d3_dot(offset, offset) > nsvcd__d3_dot(longest, longest)) longest = offset;
+    }
+  }
+  const double square = nsvcd__d3_dot(longest, longest);
+  if (!(square > m->same * m->same) || area > NSVCD__SLIM * square) return 0;
+  const nsvcd__d3 across = nsvcd__d3_unit(nsvcd__d3_cross(m->normal, longest), m->along[0]);
+  for (int k = NSVCD__AROUND; k < NSVCD__SUPPORTS; k++) {
+    m->along[k] = nsvcd__d3_scale(across, k == NSVCD__AROUND ? 1 : -1);
+    m->farthest[k] = -HUGE_VAL;
+    for (int n = 0; n < NSVCD__AROUND; n++) {
+      const double along_it = nsvcd__d3_dot(m->along[k], m->supports[n].point);
+      if (!(m->farthest[n] > -HUGE_VAL) || !(along_it > m->farthest[k])) continue;
+      m->farthest[k] = along_it;
+      m->supports[k] = m->supports[n];
+      m->numbers[k] = m->numbers[n];
+    }
+  }
+  return 1;
+}
+
+// A triangle pair of a manifold.
+typedef struct nsvcd__facing {
+  const nsvcd__triangle_pair *pair;
+  const nsvcd__d3 *posed;  // the moving triangle
+  // normals out of the fixed body; of an open surface on the side of the contact's
+  nsvcd__d3 faces[2];
+  int is_open;  // one is of an open surface
+} nsvcd__facing;
+
+static nsvcd__facing nsvcd__facing_of(const nsvcd__proof *p, const nsvcd__triangle_pair *pair,
+                                      const nsvcd__d3 *posed) {
+  const nsvcd__d3 n = p->of.kept.manifold.normal;
+  const int closed[2] = {nsvcd__moving_closed(p, pair), nsvcd__fixed_closed(p, pair)};
+  nsvcd__facing out = {pair, posed, {{0, 0, 0}, {0, 0, 0}}, !closed[0] || !closed[1]};
+  out.faces[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
+  out.faces[1] = nsvcd__face_direction(pair->fixed);
+  for (int k = 0; k < 2; k++) {
+    nsvcd__d3 *face = &out.faces[k];
+    const int turned = nsvcd__d3_dot(*face, n) < 0;
+    if (turned && !closed[k]) *face = nsvcd__d3_scale(*face, -1);
+  }
+  return out;
+}
+
+// Does point x come apart along its normal, while one of its faces comes nearer? Then it is no
+// contact, or one of another triangle pair.
+static int nsvcd__is_left(const nsvcd__twist *twist, nsvcd__d3 x, nsvcd__d3 normal,
+                          const nsvcd__d3 *faces) {
+  const nsvcd__d3 speed = nsvcd__twist_of(twist, x);
+  const double least = 1e-7 * nsvcd__d3_norm(speed);
+  if (!(nsvcd__d3_dot(speed, normal) > least)) return 0;
+  for (int k = 0; k < 2; k++)
+    if (nsvcd__d3_dot(speed, faces[k]) < -least) return 1;
+  return 0;
+}
+
+// Keeps a point where a triangle pair touches, if it is farther out than those kept. normal: of a
+// face, or across two edges, of either sign.
+static NSVCD__NOINLINE void nsvcd__keep_support(nsvcd__proof *p, const nsvcd__facing *f,
+                                                nsvcd__d3 on_moving, nsvcd__d3 on_fixed,
+                                                nsvcd__d3 normal, uint32_t number) {
+  nsvcd__manifold *m = &p->of.kept.manifold;
+  const double side = nsvcd__d3_dot(normal, m->normal) < 0 ? -1 : 1;
+  const nsvcd__d3 offset = nsvcd__d3_sub(on_moving, on_fixed);
+  const double gap = side * nsvcd__d3_dot(offset, normal);
+  const double aside = nsvcd__d3_dot(offset, offset) - gap * gap;
+  nsvcd__d3 point;
+  // Past the end of an edge they are not over each other.
+  if (aside > 0.01 * m->same * m->same) return;
+  // Nor are they on the far side of a sheet that they do not pass through.
+  if (gap < 0 && f->is_open && !nsvcd__triangles_meet(f->posed, f->pair->fixed, &point))
+    return;
+  if (nsvcd__is_left(&m->twist, on_fixed, nsvcd__d3_scale(normal, side), f->faces)) return;
+  nsvcd__nearest nearest = {gap > 0 ? gap * gap : 0, on_moving, on_fixed};
+  nsvcd__pair_contact contact;
+  int known = 0;
+  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
+    const double along_it = nsvcd__d3_dot(m->along[k], on_fixed);
+    const double more = along_it - m->farthest[k];
+    if (!(more > m->same || (more >= -m->same && number < m->numbers[k]))) continue;
+    if (!known) contact = nsvcd__contact_at(p, f->pair, 0, &nearest);
+    known = 1;
+    contact.normal = nsvcd__d3_scale(normal, side);
+    m->supports[k] = contact;
+    m->numbers[k] = number;
+    m->farthest[k] = along_it;
+  }
+}
+
+// Keeps all points where a triangle pair touches, within the tolerance. posed: the moving triangle.
+// Corner k of entry e has the number 4 (3 e + k), and 1 more if it is of the fixed body.
+static NSVCD__NOINLINE void nsvcd__collect_supports(nsvcd__proof *p,
+                                                    const nsvcd__triangle_pair *pair,
+                                                    const nsvcd__d3 *posed) {
+  const nsvcd__manifold *m = &p->of.kept.manifold;
+  const nsvcd__d3 *fixed = pair->fixed;
+  nsvcd__d3 foot;
+  int farther = 0;
+  for (int k = 0; k < NSVCD__SUPPORTS && !farther; k++) {
+    for (int i = 0; i < 3; i++)
+      farther |=
+          nsvcd__d3_dot(m->along[k], posed[i]) + m->tolerance >= m->farthest[k] - m->same;
+  }
+  if (!farther) return;
+  // Faces must be about normal to the contact's.
+  const nsvcd__facing facing = nsvcd__facing_of(p, pair, posed);
+  const int moving_faces = nsvcd__d3_dot(facing.faces[0], m->normal) >= 0.8;
+  const int fixed_faces = nsvcd__d3_dot(facing.faces[1], m->normal) >= 0.8;
+  for (size_t k = 0; k < 3; k++) {
+    const uint32_t moving_id = (uint32_t)(3 * pair->moving_entry + k) << 2;
+    const uint32_t fixed_id = (uint32_t)(3 * pair->fixed_entry + k) << 2 | 1;
+    if (fixed_faces && nsvcd__foot_within(posed[k], fixed, &foot) &&
+        nsvcd__d3_distance2(posed[k], foot) <= m->tolerance * m->tolerance)
+      nsvcd__keep_support(p, &facing, posed[k], foot, facing.faces[1], moving_id);
+    if (moving_faces && nsvcd__foot_within(fixed[k], posed, &foot) &&
+        nsvcd__d3_distance2(fixed[k], foot) <= m->tolerance * m->tolerance)
+      nsvcd__keep_support(p, &facing, foot, fixed[k], facing.faces[0], fixed_id);
+    for (size_t i = 0; i < 3; i++) {
+      const nsvcd__d3 a = posed[(k + 1) % 3];
+      const nsvcd__d3 b = fixed[(i + 1) % 3];
+      const nsvcd__d3 u = nsvcd__d3_sub(a, posed[k]);
+      const nsvcd__d3 v = nsvcd__d3_sub(b, fixed[i]);
+      const nsvcd__d3 across = nsvcd__d3_cross(u, v);
+      const double along = nsvcd__d3_dot(across, m->normal);
+      const double square = nsvcd__d3_dot(across, across);
+      const double lengths = nsvcd__d3_dot(u, u) * nsvcd__d3_dot(v, v);
+      nsvcd__nearest nearest = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
+      if (!(square > 1e-4 * lengths)) continue;
+      if (along * along < 0.64 * square) continue;
+      nsvcd__edges_nearest(posed[k], a, fixed[i], b, &nearest);
+      if (!(nearest.square <= m->tolerance * m->tolerance)) continue;
+      const uint32_t number = moving_id * 3 + fixed_id * 5 + (uint32_t)(1 + i) * 0x9e3779b9u;
+      nsvcd__keep_support(p, &facing, nearest.on_a, nearest.on_b,
+                          nsvcd__d3_unit(across, facing.faces[1]), number | 2);
+    }
+  }
+}
+
+// Twice the area that four points span, seen along the normal.
+static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
+  double most = 0;
+  for (int k = 0; k < 3; k++) {
+    const nsvcd__d3 a = m->supports[of[0]].point;
+    const nsvcd__d3 b = m->supports[of[1 + k]].point;
+    const nsvcd__d3 c = m->supports[of[1 + (k + 1) % 3]].point;
+    const nsvcd__d3 d = m->supports[of[1 + (k + 2) % 3]].point;
+    const nsvcd__d3 both = nsvcd__d3_cross(nsvcd__d3_sub(b, a), nsvcd__d3_sub(d, c));
+    most = nsvcd__max(most, fabs(nsvcd__d3_dot(both, m->normal)));
+  }
+  return most;
+}
+
+// Chooses the contacts: which supports, and twice the area that they span. Returns how many.
+static NSVCD__NOINLINE int nsvcd__choose_four(const nsvcd__manifold *m, int *chosen,
+                                              double *area) {
+  int kept[NSVCD__SUPPORTS];
+  int count = 0;
+  // Each point once, in the order of their numbers.
+  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
+    int at = count;
+    int is_new = m->farthest[k] > -HUGE_VAL && m->farthest[k] < HUGE_VAL;
+    for (int n = 0; n < count; n++) {
+      const nsvcd__d3 other = m->supports[kept[n]].point;
+      is_new &= nsvcd__d3_distance2(m->supports[k].point, other) > m->same * m->same;
+    }
+    if (!is_new) continue;
+    for (; at > 0 && m->numbers[k] < m->numbers[kept[at - 1]]; at--) kept[at] = kept[at - 1];
+    kept[at] = k;
+    count++;
+  }
+  memcpy(chosen, kept, sizeof(int) * (size_t)(count < 4 ? count : 4));
+  *area = 0;
+  for (int n = count; n < 4 && count > 0; n++) kept[n] = kept[count - 1];
+  if (count > 0 && count <= 4) *area = nsvcd__spanned(m, kept);
+  if (count <= 4) return count;
+  for (uint32_t all = 0; all < 1u << count; all++) {
+    int four[4];
+    int size = 0;
+    if (nsvcd__bit_count(all) != 4) continue;
+    for (uint32_t left = all; left; left &= left - 1)
+      four[size++] = kept[nsvcd__low_bit(left)];
+    const double spanned = nsvcd__spanned(m, four);
+    if (!(spanned > 1.001 * *area)) continue;
+    *area = spanned;
+    memcpy(chosen, four, 4 * sizeof *chosen);
+  }
+  return 4;
+}
+#endif  // NSVCD_NO_PROOF
 
 // ======================================================== separate: until when surfaces stay apart
 
@@ -16945,13 +16948,24 @@ static const nsvcd__kernels nsvcd__table = {
 #define NSVCD__DIRECTIONS NSVCD__NUMBER_AT(DIRECTIONS)
 #define NSVCD__OUT_DISTANCE NSVCD__NUMBER_AT(OUT_DISTANCE)
 #define NSVCD__OUT_LOGIT NSVCD__NUMBER_AT(OUT_LOGIT)
+#define nsvcd__across_edges NSVCD__AT(across_edges)
 #define nsvcd__add_dipoles NSVCD__AT(add_dipoles)
 #define nsvcd__add_patch_pairs NSVCD__AT(add_patch_pairs)
+#define nsvcd__aim_plane NSVCD__AT(aim_plane)
 #define nsvcd__all_segments NSVCD__AT(all_segments)
 #define nsvcd__answer_with NSVCD__AT(answer_with)
+#define nsvcd__arc_at NSVCD__AT(arc_at)
+#define nsvcd__arc_limit NSVCD__AT(arc_limit)
 #define nsvcd__arc_of NSVCD__AT(arc_of)
+#define nsvcd__arc_pose NSVCD__AT(arc_pose)
+#define nsvcd__arcs_begin NSVCD__AT(arcs_begin)
+#define nsvcd__are_opposite NSVCD__AT(are_opposite)
+#define nsvcd__arm NSVCD__AT(arm)
+#define nsvcd__arm_of NSVCD__AT(arm_of)
 #define nsvcd__ask_network NSVCD__AT(ask_network)
 #define nsvcd__beam NSVCD__AT(beam)
+#define nsvcd__bend_of NSVCD__AT(bend_of)
+#define nsvcd__beyond NSVCD__AT(beyond)
 #define nsvcd__block_arm NSVCD__AT(block_arm)
 #define nsvcd__block_bounds NSVCD__AT(block_bounds)
 #define nsvcd__block_lanes NSVCD__AT(block_lanes)
@@ -16964,6 +16978,7 @@ static const nsvcd__kernels nsvcd__table = {
 #define nsvcd__candidates_add NSVCD__AT(candidates_add)
 #define nsvcd__candidates_start NSVCD__AT(candidates_start)
 #define nsvcd__certain_opinion NSVCD__AT(certain_opinion)
+#define nsvcd__choose_four NSVCD__AT(choose_four)
 #define nsvcd__chords_in_all NSVCD__AT(chords_in_all)
 #define nsvcd__chords_in_segment NSVCD__AT(chords_in_segment)
 #define nsvcd__chords_of_group NSVCD__AT(chords_of_group)
@@ -16973,13 +16988,17 @@ static const nsvcd__kernels nsvcd__table = {
 #define nsvcd__chords_travel NSVCD__AT(chords_travel)
 #define nsvcd__clip_segment NSVCD__AT(clip_segment)
 #define nsvcd__closeness NSVCD__AT(closeness)
+#define nsvcd__collect_contact NSVCD__AT(collect_contact)
 #define nsvcd__collect_contacts NSVCD__AT(collect_contacts)
+#define nsvcd__collect_supports NSVCD__AT(collect_supports)
 #define nsvcd__collects_on NSVCD__AT(collects_on)
 #define nsvcd__collides_again NSVCD__AT(collides_again)
 #define nsvcd__comes_near NSVCD__AT(comes_near)
 #define nsvcd__comes_within NSVCD__AT(comes_within)
+#define nsvcd__contact_at NSVCD__AT(contact_at)
 #define nsvcd__contains_any NSVCD__AT(contains_any)
 #define nsvcd__contains_seeds NSVCD__AT(contains_seeds)
+#define nsvcd__corner_passes NSVCD__AT(corner_passes)
 #define nsvcd__cross_all NSVCD__AT(cross_all)
 #define nsvcd__crossings NSVCD__AT(crossings)
 #define nsvcd__cut_arc NSVCD__AT(cut_arc)
@@ -16994,16 +17013,27 @@ static const nsvcd__kernels nsvcd__table = {
 #define nsvcd__decode NSVCD__AT(decode)
 #define nsvcd__decoder_gradient NSVCD__AT(decoder_gradient)
 #define nsvcd__decoder_run NSVCD__AT(decoder_run)
+#define nsvcd__depth_along NSVCD__AT(depth_along)
+#define nsvcd__deviation_of NSVCD__AT(deviation_of)
 #define nsvcd__dot_tile NSVCD__AT(dot_tile)
+#define nsvcd__dtransform_at NSVCD__AT(dtransform_at)
+#define nsvcd__edges_pass NSVCD__AT(edges_pass)
 #define nsvcd__enclosure NSVCD__AT(enclosure)
+#define nsvcd__epsilon NSVCD__AT(epsilon)
 #define nsvcd__exists NSVCD__AT(exists)
+#define nsvcd__exit_depth NSVCD__AT(exit_depth)
 #define nsvcd__exit_is_blocked NSVCD__AT(exit_is_blocked)
 #define nsvcd__extremes_along NSVCD__AT(extremes_along)
 #define nsvcd__extremes_collect NSVCD__AT(extremes_collect)
 #define nsvcd__f3_towards NSVCD__AT(f3_towards)
+#define nsvcd__face_direction NSVCD__AT(face_direction)
+#define nsvcd__facing NSVCD__AT(facing)
+#define nsvcd__facing_of NSVCD__AT(facing_of)
 #define nsvcd__find_witness NSVCD__AT(find_witness)
 #define nsvcd__find_witness_in NSVCD__AT(find_witness_in)
 #define nsvcd__first_lanes NSVCD__AT(first_lanes)
+#define nsvcd__fixed_closed NSVCD__AT(fixed_closed)
+#define nsvcd__gap_after NSVCD__AT(gap_after)
 #define nsvcd__gap_axes_of NSVCD__AT(gap_axes_of)
 #define nsvcd__gap_fact NSVCD__AT(gap_fact)
 #define nsvcd__gap_facts NSVCD__AT(gap_facts)
@@ -17020,22 +17050,29 @@ static const nsvcd__kernels nsvcd__table = {
 #define nsvcd__inputs_without_gaps NSVCD__AT(inputs_without_gaps)
 #define nsvcd__inputs_write NSVCD__AT(inputs_write)
 #define nsvcd__interval_cuts NSVCD__AT(interval_cuts)
+#define nsvcd__interval_of_arc NSVCD__AT(interval_of_arc)
 #define nsvcd__intervals NSVCD__AT(intervals)
 #define nsvcd__intervals_close NSVCD__AT(intervals_close)
 #define nsvcd__invariants NSVCD__AT(invariants)
+#define nsvcd__inverse_dtransform NSVCD__AT(inverse_dtransform)
 #define nsvcd__is_approached NSVCD__AT(is_approached)
 #define nsvcd__is_before NSVCD__AT(is_before)
 #define nsvcd__is_clear NSVCD__AT(is_clear)
 #define nsvcd__is_contained NSVCD__AT(is_contained)
 #define nsvcd__is_contained_at_start NSVCD__AT(is_contained_at_start)
 #define nsvcd__is_contained_in NSVCD__AT(is_contained_in)
+#define nsvcd__is_deep NSVCD__AT(is_deep)
 #define nsvcd__is_enclosed NSVCD__AT(is_enclosed)
 #define nsvcd__is_harmless NSVCD__AT(is_harmless)
+#define nsvcd__is_left NSVCD__AT(is_left)
 #define nsvcd__is_new NSVCD__AT(is_new)
 #define nsvcd__is_on_beam NSVCD__AT(is_on_beam)
 #define nsvcd__is_separated NSVCD__AT(is_separated)
 #define nsvcd__is_shallower NSVCD__AT(is_shallower)
+#define nsvcd__is_straight NSVCD__AT(is_straight)
 #define nsvcd__judge NSVCD__AT(judge)
+#define nsvcd__keep_support NSVCD__AT(keep_support)
+#define nsvcd__keep_unresolved NSVCD__AT(keep_unresolved)
 #define nsvcd__keyframes_load NSVCD__AT(keyframes_load)
 #define nsvcd__keyframes_read NSVCD__AT(keyframes_read)
 #define nsvcd__keyframes_store NSVCD__AT(keyframes_store)
@@ -17055,6 +17092,7 @@ static const nsvcd__kernels nsvcd__table = {
 #define nsvcd__least_lane NSVCD__AT(least_lane)
 #define nsvcd__least_of NSVCD__AT(least_of)
 #define nsvcd__left_by_normal NSVCD__AT(left_by_normal)
+#define nsvcd__manifold_begin NSVCD__AT(manifold_begin)
 #define nsvcd__matters NSVCD__AT(matters)
 #define nsvcd__may_be_close NSVCD__AT(may_be_close)
 #define nsvcd__meet NSVCD__AT(meet)
@@ -17065,23 +17103,36 @@ static const nsvcd__kernels nsvcd__table = {
 #define nsvcd__members_meet NSVCD__AT(members_meet)
 #define nsvcd__members_of NSVCD__AT(members_of)
 #define nsvcd__moving_block_load NSVCD__AT(moving_block_load)
+#define nsvcd__moving_closed NSVCD__AT(moving_closed)
 #define nsvcd__moving_range NSVCD__AT(moving_range)
+#define nsvcd__narrow_segments NSVCD__AT(narrow_segments)
 #define nsvcd__nearest2 NSVCD__AT(nearest2)
 #define nsvcd__nearest_groups NSVCD__AT(nearest_groups)
 #define nsvcd__nearest_tick NSVCD__AT(nearest_tick)
 #define nsvcd__next_probe NSVCD__AT(next_probe)
 #define nsvcd__normal_to_try NSVCD__AT(normal_to_try)
 #define nsvcd__normals_separate NSVCD__AT(normals_separate)
+#define nsvcd__note_depth NSVCD__AT(note_depth)
 #define nsvcd__of_distance NSVCD__AT(of_distance)
+#define nsvcd__off_chord_along NSVCD__AT(off_chord_along)
+#define nsvcd__off_edge NSVCD__AT(off_edge)
+#define nsvcd__own_axis NSVCD__AT(own_axis)
+#define nsvcd__pair_arm NSVCD__AT(pair_arm)
+#define nsvcd__pair_nearest NSVCD__AT(pair_nearest)
+#define nsvcd__pair_of NSVCD__AT(pair_of)
+#define nsvcd__pair_passes NSVCD__AT(pair_passes)
 #define nsvcd__pairs NSVCD__AT(pairs)
 #define nsvcd__pairs_in_passing NSVCD__AT(pairs_in_passing)
 #define nsvcd__pairs_of NSVCD__AT(pairs_of)
 #define nsvcd__passing NSVCD__AT(passing)
+#define nsvcd__patch_arm NSVCD__AT(patch_arm)
 #define nsvcd__patch_near NSVCD__AT(patch_near)
 #define nsvcd__patches_apart NSVCD__AT(patches_apart)
 #define nsvcd__plane_cache_begin NSVCD__AT(plane_cache_begin)
+#define nsvcd__plane_separates NSVCD__AT(plane_separates)
 #define nsvcd__planes_known NSVCD__AT(planes_known)
 #define nsvcd__pose_members NSVCD__AT(pose_members)
+#define nsvcd__pose_triangle NSVCD__AT(pose_triangle)
 #define nsvcd__probes NSVCD__AT(probes)
 #define nsvcd__probes_measure NSVCD__AT(probes_measure)
 #define nsvcd__prove_segments NSVCD__AT(prove_segments)
@@ -17090,9 +17141,13 @@ static const nsvcd__kernels nsvcd__table = {
 #define nsvcd__ray NSVCD__AT(ray)
 #define nsvcd__ray_crosses NSVCD__AT(ray_crosses)
 #define nsvcd__record NSVCD__AT(record)
+#define nsvcd__resolve_pair NSVCD__AT(resolve_pair)
 #define nsvcd__resolve_patch_pair NSVCD__AT(resolve_patch_pair)
 #define nsvcd__resolve_patch_pairs NSVCD__AT(resolve_patch_pairs)
 #define nsvcd__resolve_row NSVCD__AT(resolve_row)
+#define nsvcd__resolve_short_interval NSVCD__AT(resolve_short_interval)
+#define nsvcd__resolve_straight NSVCD__AT(resolve_straight)
+#define nsvcd__resolve_too_near NSVCD__AT(resolve_too_near)
 #define nsvcd__resolve_triangles NSVCD__AT(resolve_triangles)
 #define nsvcd__resting NSVCD__AT(resting)
 #define nsvcd__resting_of NSVCD__AT(resting_of)
@@ -17110,10 +17165,12 @@ static const nsvcd__kernels nsvcd__table = {
 #define nsvcd__search_step NSVCD__AT(search_step)
 #define nsvcd__search_tile NSVCD__AT(search_tile)
 #define nsvcd__seed_is_near NSVCD__AT(seed_is_near)
+#define nsvcd__seek_across NSVCD__AT(seek_across)
 #define nsvcd__seek_in_patch_pair NSVCD__AT(seek_in_patch_pair)
 #define nsvcd__seek_positions NSVCD__AT(seek_positions)
 #define nsvcd__seems_contained_at_start NSVCD__AT(seems_contained_at_start)
 #define nsvcd__segment_deviation NSVCD__AT(segment_deviation)
+#define nsvcd__segment_interval NSVCD__AT(segment_interval)
 #define nsvcd__segments_in NSVCD__AT(segments_in)
 #define nsvcd__segments_left NSVCD__AT(segments_left)
 #define nsvcd__segments_that_matter NSVCD__AT(segments_that_matter)
@@ -17123,20 +17180,31 @@ static const nsvcd__kernels nsvcd__table = {
 #define nsvcd__separated_along NSVCD__AT(separated_along)
 #define nsvcd__sift_patch_pairs NSVCD__AT(sift_patch_pairs)
 #define nsvcd__slabs_meet NSVCD__AT(slabs_meet)
+#define nsvcd__slerp_in NSVCD__AT(slerp_in)
 #define nsvcd__slice_against_patch NSVCD__AT(slice_against_patch)
 #define nsvcd__sort_patch_pairs NSVCD__AT(sort_patch_pairs)
+#define nsvcd__spanned NSVCD__AT(spanned)
 #define nsvcd__spheres_at_box NSVCD__AT(spheres_at_box)
 #define nsvcd__sticks_out NSVCD__AT(sticks_out)
 #define nsvcd__support NSVCD__AT(support)
 #define nsvcd__support_along NSVCD__AT(support_along)
 #define nsvcd__surface_is_near NSVCD__AT(surface_is_near)
 #define nsvcd__table NSVCD__AT(table)
+#define nsvcd__take_contact NSVCD__AT(take_contact)
+#define nsvcd__take_nearest NSVCD__AT(take_nearest)
 #define nsvcd__take_patch_pairs NSVCD__AT(take_patch_pairs)
+#define nsvcd__tick_in_segments NSVCD__AT(tick_in_segments)
 #define nsvcd__tile_fill NSVCD__AT(tile_fill)
 #define nsvcd__tile_fill_all NSVCD__AT(tile_fill_all)
 #define nsvcd__time_in_segment NSVCD__AT(time_in_segment)
 #define nsvcd__track_poses_at NSVCD__AT(track_poses_at)
+#define nsvcd__transform_of NSVCD__AT(transform_of)
+#define nsvcd__triangle_pair NSVCD__AT(triangle_pair)
 #define nsvcd__turned_back NSVCD__AT(turned_back)
+#define nsvcd__twist_at NSVCD__AT(twist_at)
+#define nsvcd__twist_of NSVCD__AT(twist_of)
+#define nsvcd__undoes NSVCD__AT(undoes)
+#define nsvcd__undone_by NSVCD__AT(undone_by)
 #define nsvcd__v NSVCD__AT(v)
 #define nsvcd__v3 NSVCD__AT(v3)
 #define nsvcd__v3_add NSVCD__AT(v3_add)

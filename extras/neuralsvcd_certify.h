@@ -907,17 +907,6 @@ static nsvcd__d3 nsvcd__face_normal(const nsvcd__d3 *t) {
   return nsvcd__d3_cross(nsvcd__d3_sub(t[1], t[0]), nsvcd__d3_sub(t[2], t[0]));
 }
 
-// The unit normal; 0 if the triangle has no area. Rounding, or fused arithmetic, makes such a
-// triangle's normal some 1e-16 of its longest edge squared.
-static NSVCD__NOINLINE nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
-  const nsvcd__d3 n = nsvcd__face_normal(t);
-  double longest = 0;
-  for (size_t k = 0; k < 3; k++)
-    longest = nsvcd__max(longest, nsvcd__d3_distance2(t[k], t[(k + 1) % 3]));
-  const double length = nsvcd__d3_norm(n);
-  return nsvcd__d3_scale(n, length > 1e-9 * longest ? 1 / length : 0);
-}
-
 typedef struct nsvcd__nearest {
   double square;  // of the distance
   nsvcd__d3 on_a, on_b;

@@ -211,14 +211,9 @@ extern "C" {
 #include "motion/workspace.h"  // the memory of a search: segments, chords, tiles, candidates
 #include "motion/choice.h"     // how a motion is cut into segments, a long one into intervals
 
-// ========================================== proof: the theorem, and what is told of two triangles
-#include "proof/schedule.h"        // what a proof may take, and how much of it
-#include "proof/proof.h"           // the theorem; what a proof is asked, knows and remembers
-#include "proof/poses.h"           // poses in double
-#include "proof/motion_bounds.h"   // an interval of time, and how far points deviate in it
-#include "proof/triangle_pairs.h"  // two triangles, in double: separated, or in contact
-#include "proof/touches.h"         // how deep triangles that touch are, and what undoes it
-#include "proof/manifold.h"        // up to four contact points
+// ============================================================== proof: the theorem, and its state
+#include "proof/schedule.h"  // what a proof may take, and how much of it
+#include "proof/proof.h"     // the theorem; what a proof is asked, knows and remembers
 
 // ============================================================= task: a question, and what it needs
 #include "task/facts.h"  // what a decoder sees of a pair; the tape of its derivative
@@ -239,6 +234,13 @@ extern "C" {
 #include "search/planes.h"     // patches that a plane between their extremes separates
 #include "search/intervals.h"  // when the balls of two patches meet, for the network
 #include "search/search.h"     // which groups and patches meet, and in which segments
+
+// ========================================== triangles: two triangles over an interval, in double
+#include "triangles/poses.h"           // poses in double
+#include "triangles/motion_bounds.h"   // an interval of time, and how far points deviate in it
+#include "triangles/triangle_pairs.h"  // two triangles, in double: separated, or in contact
+#include "triangles/touches.h"         // how deep triangles that touch are, and what undoes it
+#include "triangles/manifold.h"        // up to four contact points
 
 // ======================================================== separate: until when surfaces stay apart
 #include "separate/slabs.h"           // planes along the slabs of patches and of groups

@@ -5,7 +5,7 @@
 #ifndef PROOF_EARS_H
 #define PROOF_EARS_H
 
-#include "../src/proof/motion_bounds.h"
+#include "../src/triangles/motion_bounds.h"
 
 #include <stdlib.h>
 

@@ -180,7 +180,7 @@ typedef struct nsvcd__triangle_contact {
   nsvcd__d3 directions[3];
 } nsvcd__triangle_contact;
 
-// Where the bodies touch at a contact: proof/manifold.
+// Where the bodies touch at a contact: triangles/manifold.
 typedef struct nsvcd__manifold {
   // unit: the contact's, and directions across it
   nsvcd__d3 normal, along[NSVCD__SUPPORTS];

@@ -1,7 +1,7 @@
 // In: two bodies that do not touch at a time. Out: is a component of one inside the other? By rays,
 // in double.
 #pragma once
-#include "../proof/triangle_pairs.h"
+#include "../triangles/triangle_pairs.h"
 #include "blocks.h"
 
 #ifndef NSVCD_NO_PROOF

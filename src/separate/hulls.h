@@ -2,7 +2,7 @@
 // interval?
 #pragma once
 #include "../lanes/turns.h"
-#include "../proof/motion_bounds.h"
+#include "../triangles/motion_bounds.h"
 
 #ifndef NSVCD_NO_PROOF
 // A slice, from lane l on, of a patch's hull, in its body's frame and units. Lanes without a vertex

@@ -2,7 +2,7 @@
 #pragma once
 #include "../interface/queries.h"
 #include "../search/search.h"
-#include "../proof/motion_bounds.h"
+#include "../triangles/motion_bounds.h"
 
 #ifndef NSVCD_NO_PROOF
 // nsvcd__interval and nsvcd__deviation_of for a slice of directions, or for one direction in a

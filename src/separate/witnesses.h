@@ -1,8 +1,8 @@
 // In: a patch pair and a time. Out: a contact: two triangles that meet then, or come within the
 // clearance; with a slop, what touches at the start and which directions undo it.
 #pragma once
-#include "../proof/manifold.h"
-#include "../proof/touches.h"
+#include "../triangles/manifold.h"
+#include "../triangles/touches.h"
 #include "blocks.h"
 
 #ifndef NSVCD_NO_PROOF

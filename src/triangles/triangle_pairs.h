@@ -4,6 +4,17 @@
 #include "motion_bounds.h"
 
 #ifndef NSVCD_NO_PROOF
+// The unit normal of a triangle; 0 if the triangle has no area. Rounding, or fused arithmetic,
+// makes such a triangle's normal some 1e-16 of its longest edge squared.
+static NSVCD__NOINLINE nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
+  const nsvcd__d3 n = nsvcd__face_normal(t);
+  double longest = 0;
+  for (size_t k = 0; k < 3; k++)
+    longest = nsvcd__max(longest, nsvcd__d3_distance2(t[k], t[(k + 1) % 3]));
+  const double length = nsvcd__d3_norm(n);
+  return nsvcd__d3_scale(n, length > 1e-9 * longest ? 1 / length : 0);
+}
+
 static void nsvcd__pose_triangle(const nsvcd__dtransform *at, const nsvcd__d3 *corners,
                                  nsvcd__d3 *out) {
   for (size_t k = 0; k < 3; k++) out[k] = nsvcd__d3_transform(at, corners[k]);

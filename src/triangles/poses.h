@@ -1,7 +1,7 @@
 // In: a motion, an arc of it and a fraction u in [0,1] of the arc. Out: the pose of the moving body
 // there, in double, to the last digits.
 #pragma once
-#include "proof.h"
+#include "../proof/proof.h"
 
 #ifndef NSVCD_NO_PROOF
 // The inverse of a pose, whose rotation is times this scale.
