@@ -1495,7 +1495,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     motion_bounds   an interval of time, and how far points deviate in it
 //     triangle_pairs  two triangles, in double: separated, or in contact
 //     touches         how deep triangles that touch are, and what undoes it
-//     manifold        up to four contact points
+//     manifold        contact points, the farthest along directions
 //   separate: until when surfaces stay apart
 //     slabs           planes along the slabs of patches and of groups
 //     hulls           planes between hulls
@@ -1524,6 +1524,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     long            the same of a motion of any length
 //     leave           pushing out of a contact, and how deep it is
 //     normals         a contact's normal, against the motion
+//     supports        up to four contact points: where to seek them, and which
 //     by_proof        an answer by proof
 //     question        check, choose who moves, lay out the workspace, answer
 //   plan: a motion that hits nothing
@@ -9412,6 +9413,28 @@ static void nsvcd__choose_all(nsvcd__motion *m, nsvcd__search *q) {
 }
 
 #ifndef NSVCD_NO_PROOF
+// The tick of a position counted in segments: 1.5 is in the middle of the second.
+static double nsvcd__tick_in_segments(const uint32_t *begin, double at) {
+  const size_t s = (size_t)at;
+  const double start = (double)begin[s];
+  const double fraction = at - (double)s;
+  return fraction > 0 ? start + fraction * ((double)begin[s + 1] - start) : start;
+}
+
+// Leaves the part of the segments between two positions, in ticks so many times finer.
+static void nsvcd__narrow_segments(nsvcd__search *q, double from, double to, double finer) {
+  uint32_t *begin = q->begin;
+  const double start = nsvcd__tick_in_segments(begin, from);
+  const double end = nsvcd__tick_in_segments(begin, to);
+  const size_t first = (size_t)from;
+  const size_t last = (size_t)to;
+  q->segments = last - first + (to > (double)last);
+  for (size_t s = 1; s < q->segments; s++)
+    begin[s] = (uint32_t)(finer * (double)begin[first + s]);
+  begin[0] = (uint32_t)(finer * start);
+  begin[q->segments] = (uint32_t)(finer * end);
+}
+
 // An upper bound of the keyframes after a tick.
 static size_t nsvcd__keyframes_after(const nsvcd__motion *m, uint32_t tick) {
   const size_t moving = m->moving.count - 1 - nsvcd__pose_before(&m->moving, tick);
@@ -10011,6 +10034,17 @@ static double nsvcd__off_meshes(const nsvcd__proof *p) {
 // The sum of two patches' quantization errors.
 static float nsvcd__errors_of(const nsvcd__proof *p, size_t i, size_t j) {
   return p->arcs.motion->scale * p->moving.errors[i] + p->fixed.errors[j];
+}
+
+// Turns to a motion. None of its arcs is known, nor any pose.
+static void nsvcd__arcs_begin(nsvcd__arcs *arcs, nsvcd__motion *motion) {
+  memset(arcs, 0, sizeof *arcs);
+  arcs->motion = motion;
+}
+
+// Answers in float cannot tell things apart that are nearer to each other than this.
+static double nsvcd__epsilon(const nsvcd__proof *p) {
+  return nsvcd__off_meshes(p) + NSVCD__LEAST_EPSILON * (double)p->given.lengths;
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -12374,12 +12408,6 @@ static nsvcd__slerp nsvcd__slerp_in(const nsvcd__track *track, uint32_t first, u
   return out;
 }
 
-// Turns to a motion. None of its arcs is known, nor any pose.
-static void nsvcd__arcs_begin(nsvcd__arcs *arcs, nsvcd__motion *motion) {
-  memset(arcs, 0, sizeof *arcs);
-  arcs->motion = motion;
-}
-
 // The arc that begins at the keyframe `first`.
 static const nsvcd__arc *nsvcd__arc_at(nsvcd__arcs *arcs, uint32_t first) {
   const nsvcd__motion *m = arcs->motion;
@@ -12458,23 +12486,6 @@ static nsvcd__dtransform nsvcd__dtransform_at(const nsvcd__arc *arc, double u) {
   return at;
 }
 
-// The moving body's twist there, as the fixed body sees it.
-static nsvcd__twist nsvcd__twist_at(const nsvcd__arc *arc, double u) {
-  const nsvcd__dtransform at = nsvcd__dtransform_at(arc, u);
-  const double per_tick = 1 / (double)arc->ticks;
-  const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->fixed, u));
-  nsvcd__d3 turn = nsvcd__slerp_turn(&arc->moving);
-  nsvcd__d3 own = nsvcd__slerp_turn(&arc->fixed);
-  turn = nsvcd__dmat3_apply_transpose(&fixed, turn);
-  own = nsvcd__dmat3_apply_transpose(&fixed, own);
-  nsvcd__d3 along = nsvcd__dmat3_apply_transpose(&fixed, arc->moved);
-  along = nsvcd__d3_add(along, nsvcd__d3_cross(own, arc->push_out));
-  along = nsvcd__d3_sub(along, nsvcd__d3_cross(turn, at.position));
-  nsvcd__twist out;
-  out.along = nsvcd__d3_scale(along, per_tick);
-  out.turn = nsvcd__d3_scale(nsvcd__d3_sub(turn, own), per_tick);
-  return out;
-}
 static nsvcd__d3 nsvcd__twist_of(const nsvcd__twist *twist, nsvcd__d3 x) {
   return nsvcd__d3_add(twist->along, nsvcd__d3_cross(twist->turn, x));
 }
@@ -12513,28 +12524,6 @@ static nsvcd__transform nsvcd__transform_of(const nsvcd__dtransform *at) {
 // how far points deviate from their chords in between.
 
 #ifndef NSVCD_NO_PROOF
-// The tick of a position counted in segments: 1.5 is in the middle of the second.
-static double nsvcd__tick_in_segments(const uint32_t *begin, double at) {
-  const size_t s = (size_t)at;
-  const double start = (double)begin[s];
-  const double fraction = at - (double)s;
-  return fraction > 0 ? start + fraction * ((double)begin[s + 1] - start) : start;
-}
-
-// Leaves the part of the segments between two positions, in ticks so many times finer.
-static void nsvcd__narrow_segments(nsvcd__search *q, double from, double to, double finer) {
-  uint32_t *begin = q->begin;
-  const double start = nsvcd__tick_in_segments(begin, from);
-  const double end = nsvcd__tick_in_segments(begin, to);
-  const size_t first = (size_t)from;
-  const size_t last = (size_t)to;
-  q->segments = last - first + (to > (double)last);
-  for (size_t s = 1; s < q->segments; s++)
-    begin[s] = (uint32_t)(finer * (double)begin[first + s]);
-  begin[0] = (uint32_t)(finer * start);
-  begin[q->segments] = (uint32_t)(finer * end);
-}
-
 // A segment, up to the end of what matters; kept once it has been made.
 static const nsvcd__interval *nsvcd__segment_interval(nsvcd__proof *p, const nsvcd__search *q,
                                                       size_t s) {
@@ -13138,11 +13127,6 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
 // it.
 
 #ifndef NSVCD_NO_PROOF
-// Answers in float cannot tell things apart that are nearer to each other than this.
-static double nsvcd__epsilon(const nsvcd__proof *p) {
-  return nsvcd__off_meshes(p) + NSVCD__LEAST_EPSILON * (double)p->given.lengths;
-}
-
 // How deep a touch is along n: how far the moving triangle must go to be beyond the other; negative
 // if it is beyond it already.
 static double nsvcd__depth_along(nsvcd__d3 n, const nsvcd__triangle_contact *t) {
@@ -13274,55 +13258,6 @@ static void nsvcd__collect_contact(nsvcd__proof *p, const nsvcd__triangle_pair *
 // well, but the body does not stand on it.
 
 #ifndef NSVCD_NO_PROOF
-// Prepares a manifold of contacts with about this normal, unit, of bodies that move like this.
-static void nsvcd__manifold_begin(nsvcd__proof *p, nsvcd__d3 n, const nsvcd__twist *twist,
-                                  double tolerance, double same) {
-  nsvcd__manifold *m = &p->of.kept.manifold;
-  const int flattest = fabs(n.x) < fabs(n.y) ? 0 : 1;
-  const nsvcd__d3 aside = nsvcd__d3_of(flattest == 0, flattest == 1, 0);
-  const nsvcd__d3 u = nsvcd__d3_unit(nsvcd__d3_cross(n, aside), nsvcd__d3_of(1, 0, 0));
-  memset(m, 0, sizeof *m);
-  m->normal = n;
-  m->twist = *twist;
-  m->tolerance = tolerance;
-  m->same = same;
-  // An eighth of a turn each: the sum of a direction and of that a quarter on, made unit.
-  nsvcd__d3 along = u;
-  for (int k = 0; k < NSVCD__AROUND; k++) {
-    m->along[k] = along;
-    m->farthest[k] = -HUGE_VAL;
-    along = nsvcd__d3_scale(nsvcd__d3_add(along, nsvcd__d3_cross(n, along)), sqrt(0.5));
-  }
-  for (int k = NSVCD__AROUND; k < NSVCD__SUPPORTS; k++) m->farthest[k] = HUGE_VAL;
-}
-
-// If what has been found spans little for its length, prepares the two directions across it, for
-// what is between the eight. area: twice what is spanned. Returns 0 if it is not so slim.
-static int nsvcd__seek_across(nsvcd__manifold *m, double area) {
-  nsvcd__d3 longest = {0, 0, 0};
-  for (int k = 0; k < NSVCD__AROUND; k++) {
-    for (int n = 0; n < k && m->farthest[k] > -HUGE_VAL && m->farthest[n] > -HUGE_VAL; n++) {
-      const nsvcd__d3 offset = nsvcd__d3_sub(m->supports[k].point, m->supports[n].point);
-      if (nsvcd__d3_dot(offset, offset) > nsvcd__d3_dot(longest, longest)) longest = offset;
-    }
-  }
-  const double square = nsvcd__d3_dot(longest, longest);
-  if (!(square > m->same * m->same) || area > NSVCD__SLIM * square) return 0;
-  const nsvcd__d3 across = nsvcd__d3_unit(nsvcd__d3_cross(m->normal, longest), m->along[0]);
-  for (int k = NSVCD__AROUND; k < NSVCD__SUPPORTS; k++) {
-    m->along[k] = nsvcd__d3_scale(across, k == NSVCD__AROUND ? 1 : -1);
-    m->farthest[k] = -HUGE_VAL;
-    for (int n = 0; n < NSVCD__AROUND; n++) {
-      const double along_it = nsvcd__d3_dot(m->along[k], m->supports[n].point);
-      if (!(m->farthest[n] > -HUGE_VAL) || !(along_it > m->farthest[k])) continue;
-      m->farthest[k] = along_it;
-      m->supports[k] = m->supports[n];
-      m->numbers[k] = m->numbers[n];
-    }
-  }
-  return 1;
-}
-
 // A triangle pair of a manifold.
 typedef struct nsvcd__facing {
   const nsvcd__triangle_pair *pair;
@@ -13441,56 +13376,6 @@ static NSVCD__NOINLINE void nsvcd__collect_supports(nsvcd__proof *p,
   }
 }
 
-// Twice the area that four points span, seen along the normal.
-static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
-  double most = 0;
-  for (int k = 0; k < 3; k++) {
-    const nsvcd__d3 a = m->supports[of[0]].point;
-    const nsvcd__d3 b = m->supports[of[1 + k]].point;
-    const nsvcd__d3 c = m->supports[of[1 + (k + 1) % 3]].point;
-    const nsvcd__d3 d = m->supports[of[1 + (k + 2) % 3]].point;
-    const nsvcd__d3 both = nsvcd__d3_cross(nsvcd__d3_sub(b, a), nsvcd__d3_sub(d, c));
-    most = nsvcd__max(most, fabs(nsvcd__d3_dot(both, m->normal)));
-  }
-  return most;
-}
-
-// Chooses the contacts: which supports, and twice the area that they span. Returns how many.
-static NSVCD__NOINLINE int nsvcd__choose_four(const nsvcd__manifold *m, int *chosen,
-                                              double *area) {
-  int kept[NSVCD__SUPPORTS];
-  int count = 0;
-  // Each point once, in the order of their numbers.
-  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
-    int at = count;
-    int is_new = m->farthest[k] > -HUGE_VAL && m->farthest[k] < HUGE_VAL;
-    for (int n = 0; n < count; n++) {
-      const nsvcd__d3 other = m->supports[kept[n]].point;
-      is_new &= nsvcd__d3_distance2(m->supports[k].point, other) > m->same * m->same;
-    }
-    if (!is_new) continue;
-    for (; at > 0 && m->numbers[k] < m->numbers[kept[at - 1]]; at--) kept[at] = kept[at - 1];
-    kept[at] = k;
-    count++;
-  }
-  memcpy(chosen, kept, sizeof(int) * (size_t)(count < 4 ? count : 4));
-  *area = 0;
-  for (int n = count; n < 4 && count > 0; n++) kept[n] = kept[count - 1];
-  if (count > 0 && count <= 4) *area = nsvcd__spanned(m, kept);
-  if (count <= 4) return count;
-  for (uint32_t all = 0; all < 1u << count; all++) {
-    int four[4];
-    int size = 0;
-    if (nsvcd__bit_count(all) != 4) continue;
-    for (uint32_t left = all; left; left &= left - 1)
-      four[size++] = kept[nsvcd__low_bit(left)];
-    const double spanned = nsvcd__spanned(m, four);
-    if (!(spanned > 1.001 * *area)) continue;
-    *area = spanned;
-    memcpy(chosen, four, 4 * sizeof *chosen);
-  }
-  return 4;
-}
 #endif  // NSVCD_NO_PROOF
 
 // ======================================================== separate: until when surfaces stay apart
@@ -16958,7 +16843,6 @@ static const nsvcd__kernels nsvcd__table = {
 #define nsvcd__arc_limit NSVCD__AT(arc_limit)
 #define nsvcd__arc_of NSVCD__AT(arc_of)
 #define nsvcd__arc_pose NSVCD__AT(arc_pose)
-#define nsvcd__arcs_begin NSVCD__AT(arcs_begin)
 #define nsvcd__are_opposite NSVCD__AT(are_opposite)
 #define nsvcd__arm NSVCD__AT(arm)
 #define nsvcd__arm_of NSVCD__AT(arm_of)
@@ -16978,7 +16862,6 @@ static const nsvcd__kernels nsvcd__table = {
 #define nsvcd__candidates_add NSVCD__AT(candidates_add)
 #define nsvcd__candidates_start NSVCD__AT(candidates_start)
 #define nsvcd__certain_opinion NSVCD__AT(certain_opinion)
-#define nsvcd__choose_four NSVCD__AT(choose_four)
 #define nsvcd__chords_in_all NSVCD__AT(chords_in_all)
 #define nsvcd__chords_in_segment NSVCD__AT(chords_in_segment)
 #define nsvcd__chords_of_group NSVCD__AT(chords_of_group)
@@ -17019,7 +16902,6 @@ static const nsvcd__kernels nsvcd__table = {
 #define nsvcd__dtransform_at NSVCD__AT(dtransform_at)
 #define nsvcd__edges_pass NSVCD__AT(edges_pass)
 #define nsvcd__enclosure NSVCD__AT(enclosure)
-#define nsvcd__epsilon NSVCD__AT(epsilon)
 #define nsvcd__exists NSVCD__AT(exists)
 #define nsvcd__exit_depth NSVCD__AT(exit_depth)
 #define nsvcd__exit_is_blocked NSVCD__AT(exit_is_blocked)
@@ -17092,7 +16974,6 @@ static const nsvcd__kernels nsvcd__table = {
 #define nsvcd__least_lane NSVCD__AT(least_lane)
 #define nsvcd__least_of NSVCD__AT(least_of)
 #define nsvcd__left_by_normal NSVCD__AT(left_by_normal)
-#define nsvcd__manifold_begin NSVCD__AT(manifold_begin)
 #define nsvcd__matters NSVCD__AT(matters)
 #define nsvcd__may_be_close NSVCD__AT(may_be_close)
 #define nsvcd__meet NSVCD__AT(meet)
@@ -17105,7 +16986,6 @@ static const nsvcd__kernels nsvcd__table = {
 #define nsvcd__moving_block_load NSVCD__AT(moving_block_load)
 #define nsvcd__moving_closed NSVCD__AT(moving_closed)
 #define nsvcd__moving_range NSVCD__AT(moving_range)
-#define nsvcd__narrow_segments NSVCD__AT(narrow_segments)
 #define nsvcd__nearest2 NSVCD__AT(nearest2)
 #define nsvcd__nearest_groups NSVCD__AT(nearest_groups)
 #define nsvcd__nearest_tick NSVCD__AT(nearest_tick)
@@ -17165,7 +17045,6 @@ static const nsvcd__kernels nsvcd__table = {
 #define nsvcd__search_step NSVCD__AT(search_step)
 #define nsvcd__search_tile NSVCD__AT(search_tile)
 #define nsvcd__seed_is_near NSVCD__AT(seed_is_near)
-#define nsvcd__seek_across NSVCD__AT(seek_across)
 #define nsvcd__seek_in_patch_pair NSVCD__AT(seek_in_patch_pair)
 #define nsvcd__seek_positions NSVCD__AT(seek_positions)
 #define nsvcd__seems_contained_at_start NSVCD__AT(seems_contained_at_start)
@@ -17183,7 +17062,6 @@ static const nsvcd__kernels nsvcd__table = {
 #define nsvcd__slerp_in NSVCD__AT(slerp_in)
 #define nsvcd__slice_against_patch NSVCD__AT(slice_against_patch)
 #define nsvcd__sort_patch_pairs NSVCD__AT(sort_patch_pairs)
-#define nsvcd__spanned NSVCD__AT(spanned)
 #define nsvcd__spheres_at_box NSVCD__AT(spheres_at_box)
 #define nsvcd__sticks_out NSVCD__AT(sticks_out)
 #define nsvcd__support NSVCD__AT(support)
@@ -17193,7 +17071,6 @@ static const nsvcd__kernels nsvcd__table = {
 #define nsvcd__take_contact NSVCD__AT(take_contact)
 #define nsvcd__take_nearest NSVCD__AT(take_nearest)
 #define nsvcd__take_patch_pairs NSVCD__AT(take_patch_pairs)
-#define nsvcd__tick_in_segments NSVCD__AT(tick_in_segments)
 #define nsvcd__tile_fill NSVCD__AT(tile_fill)
 #define nsvcd__tile_fill_all NSVCD__AT(tile_fill_all)
 #define nsvcd__time_in_segment NSVCD__AT(time_in_segment)
@@ -17201,7 +17078,6 @@ static const nsvcd__kernels nsvcd__table = {
 #define nsvcd__transform_of NSVCD__AT(transform_of)
 #define nsvcd__triangle_pair NSVCD__AT(triangle_pair)
 #define nsvcd__turned_back NSVCD__AT(turned_back)
-#define nsvcd__twist_at NSVCD__AT(twist_at)
 #define nsvcd__twist_of NSVCD__AT(twist_of)
 #define nsvcd__undoes NSVCD__AT(undoes)
 #define nsvcd__undone_by NSVCD__AT(undone_by)
@@ -17889,7 +17765,7 @@ static void nsvcd__by_contact(const nsvcd__motion *m, nsvcd__instants *at, size_
 
 // Adds the derivative of the decisive distance, or logit, of a question that the network has
 // answered, by the poses to out (2).
-static void nsvcd__gradient(const nsvcd__query *query, float *const *out) {
+static NSVCD__NOINLINE void nsvcd__gradient(const nsvcd__query *query, float *const *out) {
   const nsvcd__task *task = &query->task;
   const nsvcd__motion *m = &task->motion;
   nsvcd__tape tape;
@@ -18614,6 +18490,24 @@ static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__proof *p, nsvcd__searc
 // along the motion only if they have been nearer, and then the contact is moved to before that.
 
 #ifndef NSVCD_NO_PROOF
+// The moving body's twist there, as the fixed body sees it.
+static nsvcd__twist nsvcd__twist_at(const nsvcd__arc *arc, double u) {
+  const nsvcd__dtransform at = nsvcd__dtransform_at(arc, u);
+  const double per_tick = 1 / (double)arc->ticks;
+  const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->fixed, u));
+  nsvcd__d3 turn = nsvcd__slerp_turn(&arc->moving);
+  nsvcd__d3 own = nsvcd__slerp_turn(&arc->fixed);
+  turn = nsvcd__dmat3_apply_transpose(&fixed, turn);
+  own = nsvcd__dmat3_apply_transpose(&fixed, own);
+  nsvcd__d3 along = nsvcd__dmat3_apply_transpose(&fixed, arc->moved);
+  along = nsvcd__d3_add(along, nsvcd__d3_cross(own, arc->push_out));
+  along = nsvcd__d3_sub(along, nsvcd__d3_cross(turn, at.position));
+  nsvcd__twist out;
+  out.along = nsvcd__d3_scale(along, per_tick);
+  out.turn = nsvcd__d3_scale(nsvcd__d3_sub(turn, own), per_tick);
+  return out;
+}
+
 // The arc of a time in ticks; at a keyframe, the arc that ends there: by that one the body came to
 // the contact.
 static const nsvcd__arc *nsvcd__arc_before(nsvcd__proof *p, double tick, double *u) {
@@ -18783,6 +18677,111 @@ static NSVCD__NOINLINE void nsvcd__resolve_normal(nsvcd__proof *p,
   }
   const nsvcd__d3 speed = nsvcd__twist_of(&now.twist, found->point);
   found->normal = nsvcd__shallowest(p, &now, speed);
+}
+#endif  // NSVCD_NO_PROOF
+
+// ---------------------------------------------------------------------------------- query/supports
+// In: the farthest contact points along directions. Out: the directions, and the best four points.
+
+#ifndef NSVCD_NO_PROOF
+// Prepares a manifold of contacts with about this normal, unit, of bodies that move like this.
+static void nsvcd__manifold_begin(nsvcd__proof *p, nsvcd__d3 n, const nsvcd__twist *twist,
+                                  double tolerance, double same) {
+  nsvcd__manifold *m = &p->of.kept.manifold;
+  const int flattest = fabs(n.x) < fabs(n.y) ? 0 : 1;
+  const nsvcd__d3 aside = nsvcd__d3_of(flattest == 0, flattest == 1, 0);
+  const nsvcd__d3 u = nsvcd__d3_unit(nsvcd__d3_cross(n, aside), nsvcd__d3_of(1, 0, 0));
+  memset(m, 0, sizeof *m);
+  m->normal = n;
+  m->twist = *twist;
+  m->tolerance = tolerance;
+  m->same = same;
+  // An eighth of a turn each: the sum of a direction and of that a quarter on, made unit.
+  nsvcd__d3 along = u;
+  for (int k = 0; k < NSVCD__AROUND; k++) {
+    m->along[k] = along;
+    m->farthest[k] = -HUGE_VAL;
+    along = nsvcd__d3_scale(nsvcd__d3_add(along, nsvcd__d3_cross(n, along)), sqrt(0.5));
+  }
+  for (int k = NSVCD__AROUND; k < NSVCD__SUPPORTS; k++) m->farthest[k] = HUGE_VAL;
+}
+
+// If what has been found spans little for its length, prepares the two directions across it, for
+// what is between the eight. area: twice what is spanned. Returns 0 if it is not so slim.
+static int nsvcd__seek_across(nsvcd__manifold *m, double area) {
+  nsvcd__d3 longest = {0, 0, 0};
+  for (int k = 0; k < NSVCD__AROUND; k++) {
+    for (int n = 0; n < k && m->farthest[k] > -HUGE_VAL && m->farthest[n] > -HUGE_VAL; n++) {
+      const nsvcd__d3 offset = nsvcd__d3_sub(m->supports[k].point, m->supports[n].point);
+      if (nsvcd__d3_dot(offset, offset) > nsvcd__d3_dot(longest, longest)) longest = offset;
+    }
+  }
+  const double square = nsvcd__d3_dot(longest, longest);
+  if (!(square > m->same * m->same) || area > NSVCD__SLIM * square) return 0;
+  const nsvcd__d3 across = nsvcd__d3_unit(nsvcd__d3_cross(m->normal, longest), m->along[0]);
+  for (int k = NSVCD__AROUND; k < NSVCD__SUPPORTS; k++) {
+    m->along[k] = nsvcd__d3_scale(across, k == NSVCD__AROUND ? 1 : -1);
+    m->farthest[k] = -HUGE_VAL;
+    for (int n = 0; n < NSVCD__AROUND; n++) {
+      const double along_it = nsvcd__d3_dot(m->along[k], m->supports[n].point);
+      if (!(m->farthest[n] > -HUGE_VAL) || !(along_it > m->farthest[k])) continue;
+      m->farthest[k] = along_it;
+      m->supports[k] = m->supports[n];
+      m->numbers[k] = m->numbers[n];
+    }
+  }
+  return 1;
+}
+
+// Twice the area that four points span, seen along the normal.
+static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
+  double most = 0;
+  for (int k = 0; k < 3; k++) {
+    const nsvcd__d3 a = m->supports[of[0]].point;
+    const nsvcd__d3 b = m->supports[of[1 + k]].point;
+    const nsvcd__d3 c = m->supports[of[1 + (k + 1) % 3]].point;
+    const nsvcd__d3 d = m->supports[of[1 + (k + 2) % 3]].point;
+    const nsvcd__d3 both = nsvcd__d3_cross(nsvcd__d3_sub(b, a), nsvcd__d3_sub(d, c));
+    most = nsvcd__max(most, fabs(nsvcd__d3_dot(both, m->normal)));
+  }
+  return most;
+}
+
+// Chooses the contacts: which supports, and twice the area that they span. Returns how many.
+static NSVCD__NOINLINE int nsvcd__choose_four(const nsvcd__manifold *m, int *chosen,
+                                              double *area) {
+  int kept[NSVCD__SUPPORTS];
+  int count = 0;
+  // Each point once, in the order of their numbers.
+  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
+    int at = count;
+    int is_new = m->farthest[k] > -HUGE_VAL && m->farthest[k] < HUGE_VAL;
+    for (int n = 0; n < count; n++) {
+      const nsvcd__d3 other = m->supports[kept[n]].point;
+      is_new &= nsvcd__d3_distance2(m->supports[k].point, other) > m->same * m->same;
+    }
+    if (!is_new) continue;
+    for (; at > 0 && m->numbers[k] < m->numbers[kept[at - 1]]; at--) kept[at] = kept[at - 1];
+    kept[at] = k;
+    count++;
+  }
+  memcpy(chosen, kept, sizeof(int) * (size_t)(count < 4 ? count : 4));
+  *area = 0;
+  for (int n = count; n < 4 && count > 0; n++) kept[n] = kept[count - 1];
+  if (count > 0 && count <= 4) *area = nsvcd__spanned(m, kept);
+  if (count <= 4) return count;
+  for (uint32_t all = 0; all < 1u << count; all++) {
+    int four[4];
+    int size = 0;
+    if (nsvcd__bit_count(all) != 4) continue;
+    for (uint32_t left = all; left; left &= left - 1)
+      four[size++] = kept[nsvcd__low_bit(left)];
+    const double spanned = nsvcd__spanned(m, four);
+    if (!(spanned > 1.001 * *area)) continue;
+    *area = spanned;
+    memcpy(chosen, four, 4 * sizeof *chosen);
+  }
+  return 4;
 }
 #endif  // NSVCD_NO_PROOF
 

@@ -240,7 +240,7 @@ extern "C" {
 #include "triangles/motion_bounds.h"   // an interval of time, and how far points deviate in it
 #include "triangles/triangle_pairs.h"  // two triangles, in double: separated, or in contact
 #include "triangles/touches.h"         // how deep triangles that touch are, and what undoes it
-#include "triangles/manifold.h"        // up to four contact points
+#include "triangles/manifold.h"        // contact points, the farthest along directions
 
 // ======================================================== separate: until when surfaces stay apart
 #include "separate/slabs.h"           // planes along the slabs of patches and of groups
@@ -275,6 +275,7 @@ extern "C" {
 #include "query/long.h"      // the same of a motion of any length
 #include "query/leave.h"     // pushing out of a contact, and how deep it is
 #include "query/normals.h"   // a contact's normal, against the motion
+#include "query/supports.h"  // up to four contact points: where to seek them, and which
 #include "query/by_proof.h"  // an answer by proof
 #include "query/question.h"  // check, choose who moves, lay out the workspace, answer
 

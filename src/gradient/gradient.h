@@ -126,7 +126,7 @@ static void nsvcd__by_contact(const nsvcd__motion *m, nsvcd__instants *at, size_
 
 // Adds the derivative of the decisive distance, or logit, of a question that the network has
 // answered, by the poses to out (2).
-static void nsvcd__gradient(const nsvcd__query *query, float *const *out) {
+static NSVCD__NOINLINE void nsvcd__gradient(const nsvcd__query *query, float *const *out) {
   const nsvcd__task *task = &query->task;
   const nsvcd__motion *m = &task->motion;
   nsvcd__tape tape;

@@ -136,6 +136,28 @@ static void nsvcd__choose_all(nsvcd__motion *m, nsvcd__search *q) {
 }
 
 #ifndef NSVCD_NO_PROOF
+// The tick of a position counted in segments: 1.5 is in the middle of the second.
+static double nsvcd__tick_in_segments(const uint32_t *begin, double at) {
+  const size_t s = (size_t)at;
+  const double start = (double)begin[s];
+  const double fraction = at - (double)s;
+  return fraction > 0 ? start + fraction * ((double)begin[s + 1] - start) : start;
+}
+
+// Leaves the part of the segments between two positions, in ticks so many times finer.
+static void nsvcd__narrow_segments(nsvcd__search *q, double from, double to, double finer) {
+  uint32_t *begin = q->begin;
+  const double start = nsvcd__tick_in_segments(begin, from);
+  const double end = nsvcd__tick_in_segments(begin, to);
+  const size_t first = (size_t)from;
+  const size_t last = (size_t)to;
+  q->segments = last - first + (to > (double)last);
+  for (size_t s = 1; s < q->segments; s++)
+    begin[s] = (uint32_t)(finer * (double)begin[first + s]);
+  begin[0] = (uint32_t)(finer * start);
+  begin[q->segments] = (uint32_t)(finer * end);
+}
+
 // An upper bound of the keyframes after a tick.
 static size_t nsvcd__keyframes_after(const nsvcd__motion *m, uint32_t tick) {
   const size_t moving = m->moving.count - 1 - nsvcd__pose_before(&m->moving, tick);

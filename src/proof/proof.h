@@ -449,4 +449,15 @@ static double nsvcd__off_meshes(const nsvcd__proof *p) {
 static float nsvcd__errors_of(const nsvcd__proof *p, size_t i, size_t j) {
   return p->arcs.motion->scale * p->moving.errors[i] + p->fixed.errors[j];
 }
+
+// Turns to a motion. None of its arcs is known, nor any pose.
+static void nsvcd__arcs_begin(nsvcd__arcs *arcs, nsvcd__motion *motion) {
+  memset(arcs, 0, sizeof *arcs);
+  arcs->motion = motion;
+}
+
+// Answers in float cannot tell things apart that are nearer to each other than this.
+static double nsvcd__epsilon(const nsvcd__proof *p) {
+  return nsvcd__off_meshes(p) + NSVCD__LEAST_EPSILON * (double)p->given.lengths;
+}
 #endif  // NSVCD_NO_PROOF

@@ -3,6 +3,7 @@
 #include "leave.h"
 #include "long.h"
 #include "normals.h"
+#include "supports.h"
 #include "../task/task.h"
 
 #ifndef NSVCD_NO_PROOF

@@ -14,6 +14,24 @@
 #include "verdict.h"
 
 #ifndef NSVCD_NO_PROOF
+// The moving body's twist there, as the fixed body sees it.
+static nsvcd__twist nsvcd__twist_at(const nsvcd__arc *arc, double u) {
+  const nsvcd__dtransform at = nsvcd__dtransform_at(arc, u);
+  const double per_tick = 1 / (double)arc->ticks;
+  const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->fixed, u));
+  nsvcd__d3 turn = nsvcd__slerp_turn(&arc->moving);
+  nsvcd__d3 own = nsvcd__slerp_turn(&arc->fixed);
+  turn = nsvcd__dmat3_apply_transpose(&fixed, turn);
+  own = nsvcd__dmat3_apply_transpose(&fixed, own);
+  nsvcd__d3 along = nsvcd__dmat3_apply_transpose(&fixed, arc->moved);
+  along = nsvcd__d3_add(along, nsvcd__d3_cross(own, arc->push_out));
+  along = nsvcd__d3_sub(along, nsvcd__d3_cross(turn, at.position));
+  nsvcd__twist out;
+  out.along = nsvcd__d3_scale(along, per_tick);
+  out.turn = nsvcd__d3_scale(nsvcd__d3_sub(turn, own), per_tick);
+  return out;
+}
+
 // The arc of a time in ticks; at a keyframe, the arc that ends there: by that one the body came to
 // the contact.
 static const nsvcd__arc *nsvcd__arc_before(nsvcd__proof *p, double tick, double *u) {

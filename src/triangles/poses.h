@@ -32,12 +32,6 @@ static nsvcd__slerp nsvcd__slerp_in(const nsvcd__track *track, uint32_t first, u
   return out;
 }
 
-// Turns to a motion. None of its arcs is known, nor any pose.
-static void nsvcd__arcs_begin(nsvcd__arcs *arcs, nsvcd__motion *motion) {
-  memset(arcs, 0, sizeof *arcs);
-  arcs->motion = motion;
-}
-
 // The arc that begins at the keyframe `first`.
 static const nsvcd__arc *nsvcd__arc_at(nsvcd__arcs *arcs, uint32_t first) {
   const nsvcd__motion *m = arcs->motion;
@@ -116,23 +110,6 @@ static nsvcd__dtransform nsvcd__dtransform_at(const nsvcd__arc *arc, double u) {
   return at;
 }
 
-// The moving body's twist there, as the fixed body sees it.
-static nsvcd__twist nsvcd__twist_at(const nsvcd__arc *arc, double u) {
-  const nsvcd__dtransform at = nsvcd__dtransform_at(arc, u);
-  const double per_tick = 1 / (double)arc->ticks;
-  const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->fixed, u));
-  nsvcd__d3 turn = nsvcd__slerp_turn(&arc->moving);
-  nsvcd__d3 own = nsvcd__slerp_turn(&arc->fixed);
-  turn = nsvcd__dmat3_apply_transpose(&fixed, turn);
-  own = nsvcd__dmat3_apply_transpose(&fixed, own);
-  nsvcd__d3 along = nsvcd__dmat3_apply_transpose(&fixed, arc->moved);
-  along = nsvcd__d3_add(along, nsvcd__d3_cross(own, arc->push_out));
-  along = nsvcd__d3_sub(along, nsvcd__d3_cross(turn, at.position));
-  nsvcd__twist out;
-  out.along = nsvcd__d3_scale(along, per_tick);
-  out.turn = nsvcd__d3_scale(nsvcd__d3_sub(turn, own), per_tick);
-  return out;
-}
 static nsvcd__d3 nsvcd__twist_of(const nsvcd__twist *twist, nsvcd__d3 x) {
   return nsvcd__d3_add(twist->along, nsvcd__d3_cross(twist->turn, x));
 }

@@ -4,11 +4,6 @@
 #include "triangle_pairs.h"
 
 #ifndef NSVCD_NO_PROOF
-// Answers in float cannot tell things apart that are nearer to each other than this.
-static double nsvcd__epsilon(const nsvcd__proof *p) {
-  return nsvcd__off_meshes(p) + NSVCD__LEAST_EPSILON * (double)p->given.lengths;
-}
-
 // How deep a touch is along n: how far the moving triangle must go to be beyond the other; negative
 // if it is beyond it already.
 static double nsvcd__depth_along(nsvcd__d3 n, const nsvcd__triangle_contact *t) {
