@@ -88,13 +88,13 @@ if test "$(uname -m)" = x86_64; then
   compile "${CC:-cc}" c c99 "-mavx2 -mfma -O0"
   compile "${CXX:-c++}" cc c++11 "-mavx512f -O0"
 fi
-for without in STDIO CERTIFICATES PROOF NETWORK "NETWORK ENCODER" "PROOF ENCODER" ENCODER OBJ SMALL BASE INT8 FLOAT GRADIENT OPTIMIZER "GRADIENT OPTIMIZER" "SMALL BASE" "ENCODER SMALL BASE FLOAT STDIO"; do
+for without in STDIO PROOF NETWORK "NETWORK ENCODER" "PROOF ENCODER" ENCODER READERS SMALL BASE INT8 FLOAT GRADIENT OPTIMIZER "GRADIENT OPTIMIZER" "SMALL BASE" "ENCODER SMALL BASE FLOAT STDIO"; do
   compile "${CC:-cc}" c c99 "$(printf ' -DNSVCD_NO_%s' DISPATCH $without) -O0"
 done
 compile "${CC:-cc}" c c99 "-DNSVCD_NO_ENCODER -DNSVCD_NO_SMALL -DNSVCD_NO_INT8 -O0"  # and with all three copies
 
 # The header's first example is a program as it stands.
-sed -n '/^\/\/ Ask a question/,/^\/\/ Or plan/{/^\/\/   /s/^\/\/   //p;/^\/\/$/s/.*//p;}' neuralsvcd.h >"$dir/example.c"
+sed -n '/^\/\/ This is a whole program/,/^\/\/ A larger program/{/^\/\/   /s/^\/\/   //p;/^\/\/$/s/.*//p;}' neuralsvcd.h >"$dir/example.c"
 grep -q 'int main' "$dir/example.c" || fail "the header has no first example"
 "${CC:-cc}" -std=c99 -Wall -Wextra -Werror -I"$here" -O0 "$dir/example.c" -o "$dir/example" -lm || fail "the header's first example, in C"
 "${CXX:-c++}" -std=c++11 -Wall -I"$here" -O0 -x c++ "$dir/example.c" -o "$dir/example_cc" -lm || fail "the header's first example, in C++"
