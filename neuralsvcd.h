@@ -1478,7 +1478,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     proof           the theorem; what a proof is asked, knows and remembers
 //   task: a question, and what it needs
 //     facts           what a decoder sees of a pair; the tape of its derivative
-//     task            a question that has been checked, its memory, and its kernels
+//     task            a question that has been checked, and its memory
 //   lanes: 16 numbers at a time
 //     lanes           AVX-512, AVX2, SSE2, NEON, SIMD128 or plain C
 //     turns           rotations, lane by lane
@@ -1514,7 +1514,6 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     opinion         candidates, ranked, and a logit for the best of them
 //     tape            what the derivative of that is made of
 //   entry: the kernels of each set, and the best ones
-//     kernels         the table of what has been compiled for a set
 //     processor       SSE2, AVX2 or AVX-512: the processor decides
 //   gradient: of distance or logit, by poses
 //     by_pair         by the decoder's inputs, and by the pair
@@ -2700,6 +2699,9 @@ typedef float nsvcd__row[NSVCD__LANES];  // a number in each lane
 #if NSVCD__SLICE == 16 && defined(__AVX512VNNI__)
 #define NSVCD__VNNI  // instructions that multiply bytes
 #endif
+
+// The instruction sets that one build may have kernels for: entry/processor.
+typedef enum nsvcd__isa { NSVCD__FLAGS, NSVCD__AVX2, NSVCD__AVX512 } nsvcd__isa;
 #endif  // NSVCD__ISA
 
 // ======================================================================= mesh: files and triangles
@@ -9926,7 +9928,7 @@ typedef struct nsvcd__push_outs {
 } nsvcd__push_outs;
 
 typedef struct nsvcd__proof {
-  const struct nsvcd__kernels *kernels;
+  nsvcd__isa isa;  // whose kernels search
   nsvcd__geometry moving, fixed;
   nsvcd__given given;
   // of the search now or the last one: its motion, in whose last arc patch pairs and triangle pairs
@@ -10280,7 +10282,7 @@ typedef struct nsvcd__task {
 // What a workspace begins with. The network's memory and the proof's are the same, for one follows
 // the other.
 typedef struct nsvcd__query {
-  const struct nsvcd__kernels *kernels;
+  nsvcd__isa isa;  // whose kernels answer
   nsvcd__search broad_phase;
   nsvcd__task task;
 #ifndef NSVCD_NO_NETWORK
@@ -10362,24 +10364,6 @@ typedef struct nsvcd__hint {
   int known, misled;
   uint32_t moving, fixed;  // patches
 } nsvcd__hint;
-
-// The functions of a query that work on vectors, of one instruction set: all that is compiled more
-// than once. What stands above them calls them through this table.
-typedef struct nsvcd__kernels {
-  int (*self_test)(void);
-#ifndef NSVCD_NO_PROOF
-  void (*separate)(nsvcd__proof *p, nsvcd__search *q, const nsvcd__goal *goal);
-  int (*is_contained_at_start)(nsvcd__proof *p);
-  double (*bound_distance)(nsvcd__proof *p, nsvcd__search *q);
-  void (*seek_positions)(nsvcd__proof *p, int first, int last);
-#endif
-#ifndef NSVCD_NO_NETWORK
-  int (*ask_network)(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opinion *out);
-#endif
-#ifndef NSVCD_NO_GRADIENT
-  void (*record)(const nsvcd__task *task, nsvcd__tape *tape);
-#endif
-} nsvcd__kernels;
 
 #endif  // NSVCD__ISA
 
@@ -16778,28 +16762,15 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 }
 #endif  // NSVCD_NO_GRADIENT
 
-// =============================================== entry: the kernels of each set, and the best ones
-
-// ----------------------------------------------------------------------------------- entry/kernels
-// In: the functions that work on vectors. Out: a table of them, one for each instruction set.
-
-static const nsvcd__kernels nsvcd__table = {
-    nsvcd__self_test_lanes,
-#ifndef NSVCD_NO_PROOF
-    nsvcd__separate,        nsvcd__is_contained_at_start,
-    nsvcd__bound_distance,  nsvcd__seek_positions,
-#endif
-#ifndef NSVCD_NO_NETWORK
-    nsvcd__ask_network,
-#endif
-#ifndef NSVCD_NO_GRADIENT
-    nsvcd__record,
-#endif
-};
 #ifndef NSVCD__ISA
+// =============================================== entry: the kernels of each set, and the best ones
 
 // --------------------------------------------------------------------------------- entry/processor
 // In: a processor. Out: the kernels for the widest vectors that it has.
+//
+// THE WAIST. A *kernel* is a function that works on vectors and is called from above. There are
+// seven: self_test_lanes, separate, is_contained_at_start, bound_distance, seek_positions,
+// ask_network and record. NSVCD__KERNEL(isa, separate)(...) calls one of them.
 //
 // If the compiler's flags allow SSE2 only, the default on x86-64, the rooms that use vectors are
 // compiled three times: with SSE2 above, and here with AVX2 and with AVX-512, under other private
@@ -17067,7 +17038,6 @@ static const nsvcd__kernels nsvcd__table = {
 #define nsvcd__support NSVCD__AT(support)
 #define nsvcd__support_along NSVCD__AT(support_along)
 #define nsvcd__surface_is_near NSVCD__AT(surface_is_near)
-#define nsvcd__table NSVCD__AT(table)
 #define nsvcd__take_contact NSVCD__AT(take_contact)
 #define nsvcd__take_nearest NSVCD__AT(take_nearest)
 #define nsvcd__take_patch_pairs NSVCD__AT(take_patch_pairs)
@@ -17231,8 +17201,6 @@ static const nsvcd__kernels nsvcd__table = {
 #define NSVCD__AT(name) nsvcd__##name
 #define NSVCD__NUMBER_AT(name) NSVCD__##name
 
-typedef enum nsvcd__isa { NSVCD__SSE2, NSVCD__AVX2, NSVCD__AVX512 } nsvcd__isa;
-
 #if defined(_MSC_VER) && !defined(__clang__)
 // What the processor and the system have. Remembered in one word, to which all threads write the
 // same.
@@ -17242,7 +17210,7 @@ static nsvcd__isa nsvcd__isa_at_hand(void) {
   int seventh[4];
   if (known >= 0) return (nsvcd__isa)known;
   __cpuid(first, 0);
-  if (first[0] < 7) return NSVCD__SSE2;
+  if (first[0] < 7) return NSVCD__FLAGS;
   __cpuid(first, 1);
   __cpuidex(seventh, 7, 0);
   // OSXSAVE: the system saves vector registers
@@ -17253,35 +17221,34 @@ static nsvcd__isa nsvcd__isa_at_hand(void) {
   const unsigned bmi = has >> 3 & has >> 8 & 1;
   const int avx2 = (kept & 6) == 6 && fma && bmi && has >> 5 & 1;
   const unsigned vnni = has >> 16 & has >> 31 & (unsigned)seventh[2] >> 11 & 1;
-  known = !avx2 ? NSVCD__SSE2 : (kept & 0xe0) == 0xe0 && vnni ? NSVCD__AVX512 : NSVCD__AVX2;
+  known = !avx2 ? NSVCD__FLAGS : (kept & 0xe0) == 0xe0 && vnni ? NSVCD__AVX512 : NSVCD__AVX2;
   return (nsvcd__isa)known;
 }
 #else
 // What the processor and the system have. The compiler's runtime asks them before main.
 static nsvcd__isa nsvcd__isa_at_hand(void) {
   const int fma = __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
-  if (!fma || !__builtin_cpu_supports("avx2")) return NSVCD__SSE2;
+  if (!fma || !__builtin_cpu_supports("avx2")) return NSVCD__FLAGS;
   if (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512vnni"))
     return NSVCD__AVX512;
   return NSVCD__AVX2;
 }
 #endif
 
-// The kernels for the widest vectors that the processor has.
-static const nsvcd__kernels *nsvcd__best_kernels(void) {
-  static const nsvcd__kernels *const all[] = {&nsvcd__table, &nsvcd__table_avx2,
-                                              &nsvcd__table_avx512};
-  return all[nsvcd__isa_at_hand()];
-}
+#define NSVCD__KERNEL(isa, name) \
+  ((isa) == NSVCD__AVX512 ? nsvcd__##name##_avx512 \
+   : (isa) == NSVCD__AVX2 ? nsvcd__##name##_avx2 \
+                          : nsvcd__##name)
 #else
-static const nsvcd__kernels *nsvcd__best_kernels(void) {
-  return &nsvcd__table;
+static nsvcd__isa nsvcd__isa_at_hand(void) {
+  return NSVCD__FLAGS;
 }
+#define NSVCD__KERNEL(isa, name) ((void)(isa), nsvcd__##name)
 #endif  // NSVCD__DISPATCH
 
 // By the kernels of one instruction set. The triangles are apart when one of them is raised.
-static nsvcd_result nsvcd__run_self_test(const nsvcd__kernels *kernels) {
-  int right = kernels->self_test();
+static nsvcd_result nsvcd__run_self_test(nsvcd__isa isa) {
+  int right = NSVCD__KERNEL(isa, self_test_lanes)();
 #ifndef NSVCD_NO_PROOF
   const volatile double height = 2.8;  // volatile, or the compiler would compute all this
   const nsvcd__d3 a[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -17294,7 +17261,7 @@ static nsvcd_result nsvcd__run_self_test(const nsvcd__kernels *kernels) {
 }
 
 NSVCDDEF nsvcd_result nsvcd_self_test(void) {
-  return nsvcd__run_self_test(nsvcd__best_kernels());
+  return nsvcd__run_self_test(nsvcd__isa_at_hand());
 }
 
 // ======================================================== gradient: of distance or logit, by poses
@@ -17772,7 +17739,7 @@ static NSVCD__NOINLINE void nsvcd__gradient(const nsvcd__query *query, float *co
   nsvcd__instants *at = &tape.at;
   nsvcd__by_pair by;
   nsvcd__instants_of(&task->decisive->candidate, query->broad_phase.time, at);
-  query->kernels->record(task, &tape);
+  NSVCD__KERNEL(query->isa, record)(task, &tape);
   nsvcd__by_invariants(&tape, &by);
 
   // The adjoint of nsvcd__pairs_of. v = w x arm + (x1 - x0) / 2, where arm goes from the moving
@@ -17809,7 +17776,7 @@ static NSVCD__NOINLINE void nsvcd__gradient(const nsvcd__query *query, float *co
 // In: a goal, and the segments chosen of a motion or of an interval of it. Out: a result: do the
 // bodies meet; where asked, when first, and how near they come.
 //
-// Goals and results are values. What stands here and above asks the waist (p->kernels->separate)
+// Goals and results are values. What stands here and above asks the waist (the kernel nsvcd__separate)
 // with goals of its own, and writes nothing into the proof but whose motion it is about.
 
 #ifndef NSVCD_NO_PROOF
@@ -17842,7 +17809,7 @@ static NSVCD__NOINLINE nsvcd__search_result nsvcd__search_motion(nsvcd__proof *p
                                                                  nsvcd__search *q,
                                                                  nsvcd__goal goal) {
   goal.first = goal.fraction * (double)goal.motion->ticks;
-  p->kernels->separate(p, q, &goal);
+  NSVCD__KERNEL(p->isa, separate)(p, q, &goal);
   return p->known;
 }
 
@@ -18164,7 +18131,7 @@ static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *q, nsvcd__goa
   *result = p->known;
   if (gap > nsvcd__clearance(&goal)) return NSVCD__FOUND_FREE;
   const int is_long = nsvcd__is_long(m, q);
-  if (p->kernels->is_contained_at_start(p)) {
+  if (NSVCD__KERNEL(p->isa, is_contained_at_start)(p)) {
     // It is a hit. A question that asks for more gets triangles, if some meet as well.
     const size_t units = NSVCD__INSIDE_BUDGET;
     const int meets = p->given.tells && nsvcd__meets_at(p, q, goal, 0, units, result);
@@ -18240,7 +18207,7 @@ static NSVCD__NOINLINE nsvcd__bracket nsvcd__measure(nsvcd__proof *p, nsvcd__sea
   const int is_long = nsvcd__is_long(m, q);
   if (is_long) nsvcd__choose_interval(m, q, 0, NSVCD__ALL_ARCS);
   if (!is_named) {
-    bracket.high = p->kernels->bound_distance(p, q);
+    bracket.high = NSVCD__KERNEL(p->isa, bound_distance)(p, q);
     known->has_contact = p->known.has_contact;
     known->found = p->known.found;
     is_named = known->has_contact;
@@ -18849,7 +18816,7 @@ static nsvcd__goal nsvcd__proof_begin(nsvcd__query *query) {
   nsvcd__goal goal;
   memset(given, 0, sizeof *given);
   memset(&goal, 0, sizeof goal);
-  p->kernels = query->kernels;
+  p->isa = query->isa;
   p->intervals = query->intervals;
   goal.motion = &query->task.motion;
   nsvcd__arcs_begin(&p->arcs, goal.motion);
@@ -19058,10 +19025,10 @@ static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd__go
     int chosen[NSVCD_MAX_CONTACTS];
     double area;
     nsvcd__manifold_begin(p, normals[k], &twist, goal.clearance, same);
-    p->kernels->seek_positions(p, 0, NSVCD__AROUND);
+    NSVCD__KERNEL(p->isa, seek_positions)(p, 0, NSVCD__AROUND);
     int count = nsvcd__choose_four(m, chosen, &area);
     if (nsvcd__seek_across(&p->of.kept.manifold, area)) {
-      p->kernels->seek_positions(p, NSVCD__AROUND, NSVCD__SUPPORTS);
+      NSVCD__KERNEL(p->isa, seek_positions)(p, NSVCD__AROUND, NSVCD__SUPPORTS);
       count = nsvcd__choose_four(m, chosen, &area);
     }
     if (count == 0 || !(area > 1.001 * widest)) continue;
@@ -19347,14 +19314,13 @@ static NSVCD__NOINLINE nsvcd_result nsvcd__sweep_check(const nsvcd_question *q,
 }
 
 // Lays out a checked question in the workspace, and chooses who moves.
-static NSVCD__NOINLINE nsvcd__query *nsvcd__query_open(const nsvcd__kernels *kernels,
-                                                       const nsvcd_question *q,
+static NSVCD__NOINLINE nsvcd__query *nsvcd__query_open(nsvcd__isa isa, const nsvcd_question *q,
                                                        void *workspace) {
   const nsvcd__needs needs = nsvcd__needs_of(q);
   nsvcd__query *query = (nsvcd__query *)workspace;
   nsvcd__task *task = &query->task;
   (void)nsvcd__query_layout(&needs, (char *)workspace);
-  query->kernels = kernels;
+  query->isa = isa;
   task->swapped = nsvcd__is_swapped(&q->a, &q->b);
   const nsvcd_mover *moving = task->swapped ? &q->b : &q->a;
   const nsvcd_mover *fixed = task->swapped ? &q->a : &q->b;
@@ -19406,7 +19372,7 @@ static void nsvcd__swap_answer(nsvcd_answer *answer) {
 static void nsvcd__answer_by_network(nsvcd__query *query, nsvcd__hint *hint,
                                      nsvcd_answer *answer) {
   nsvcd_opinion opinion;
-  const int inside = query->kernels->ask_network(query, hint, &opinion);
+  const int inside = NSVCD__KERNEL(query->isa, ask_network)(query, hint, &opinion);
   nsvcd__answer_begin(&query->task, opinion.logit > 0 ? NSVCD_HIT : NSVCD_FREE, answer);
   answer->inside = inside;
   answer->opinion = opinion;
@@ -19429,7 +19395,7 @@ static void nsvcd__answer_query(nsvcd__query *query, nsvcd__hint *hint, nsvcd_an
   const int knows = task->moving->weights_id && task->fixed->weights_id &&
                     !(q->clearance > 0 || q->ask == NSVCD_ASK_DISTANCE || q->slop > 0);
   if (task->method == NSVCD_METHOD_PROOF && answer->verdict == NSVCD_UNDECIDED && knows)
-    (void)query->kernels->ask_network(query, NULL, &answer->opinion);
+    (void)NSVCD__KERNEL(query->isa, ask_network)(query, NULL, &answer->opinion);
 #endif
 #ifndef NSVCD_NO_NETWORK
   if (task->method == NSVCD_METHOD_NETWORK) nsvcd__answer_by_network(query, hint, answer);
@@ -19438,9 +19404,8 @@ static void nsvcd__answer_query(nsvcd__query *query, nsvcd__hint *hint, nsvcd_an
 }
 
 // As nsvcd_sweep_batch, by the kernels of one instruction set.
-static nsvcd_result nsvcd__run_batch(const nsvcd__kernels *kernels,
-                                     const nsvcd_question *questions, size_t count,
-                                     void *workspace, size_t workspace_size,
+static nsvcd_result nsvcd__run_batch(nsvcd__isa isa, const nsvcd_question *questions,
+                                     size_t count, void *workspace, size_t workspace_size,
                                      nsvcd_answer *answers) {
   nsvcd__hint hint = {0, 0, 0, 0};
   int swapped = 0;
@@ -19451,7 +19416,7 @@ static nsvcd_result nsvcd__run_batch(const nsvcd__kernels *kernels,
   }
   for (size_t k = 0; k < count; k++) {
     const nsvcd_question *q = &questions[k];
-    nsvcd__query *query = nsvcd__query_open(kernels, q, workspace);
+    nsvcd__query *query = nsvcd__query_open(isa, q, workspace);
     // The hint is about patches of the moving body and of the fixed one.
     const int same = k > 0 && q->a.body == q[-1].a.body && q->b.body == q[-1].b.body;
     if (!same || query->task.swapped != swapped) memset(&hint, 0, sizeof hint);
@@ -19463,30 +19428,30 @@ static nsvcd_result nsvcd__run_batch(const nsvcd__kernels *kernels,
 
 NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace,
                                   size_t workspace_size, nsvcd_answer *answer) {
-  return nsvcd__run_batch(nsvcd__best_kernels(), question, 1, workspace, workspace_size,
+  return nsvcd__run_batch(nsvcd__isa_at_hand(), question, 1, workspace, workspace_size,
                           answer);
 }
 
 NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t count,
                                         void *workspace, size_t workspace_size,
                                         nsvcd_answer *answers) {
-  return nsvcd__run_batch(nsvcd__best_kernels(), questions, count, workspace, workspace_size,
+  return nsvcd__run_batch(nsvcd__isa_at_hand(), questions, count, workspace, workspace_size,
                           answers);
 }
 
 #ifndef NSVCD_NO_GRADIENT
 // As nsvcd_sweep_gradient, by the kernels of one instruction set.
-static nsvcd_result nsvcd__run_gradient(const nsvcd__kernels *kernels,
-                                        const nsvcd_question *question, void *workspace,
-                                        size_t workspace_size, nsvcd_answer *answer,
-                                        float *gradient_a, float *gradient_b) {
+static nsvcd_result nsvcd__run_gradient(nsvcd__isa isa, const nsvcd_question *question,
+                                        void *workspace, size_t workspace_size,
+                                        nsvcd_answer *answer, float *gradient_a,
+                                        float *gradient_b) {
   if (!question || !answer || (!gradient_a && !gradient_b)) return NSVCD_ERROR_ARGUMENT;
   if (question->method == NSVCD_METHOD_PROOF) return NSVCD_ERROR_METHOD;
   nsvcd_question by_network = *question;
   by_network.method = NSVCD_METHOD_NETWORK;
   const nsvcd_result result = nsvcd__sweep_check(&by_network, workspace, workspace_size);
   if (result) return result;
-  nsvcd__query *query = nsvcd__query_open(kernels, &by_network, workspace);
+  nsvcd__query *query = nsvcd__query_open(isa, &by_network, workspace);
   nsvcd__task *task = &query->task;
   nsvcd__decisive decisive;
   task->decisive = &decisive;
@@ -19502,8 +19467,8 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd__kernels *kernels,
 NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace,
                                            size_t workspace_size, nsvcd_answer *answer,
                                            float *gradient_a, float *gradient_b) {
-  return nsvcd__run_gradient(nsvcd__best_kernels(), question, workspace, workspace_size,
-                             answer, gradient_a, gradient_b);
+  return nsvcd__run_gradient(nsvcd__isa_at_hand(), question, workspace, workspace_size, answer,
+                             gradient_a, gradient_b);
 }
 #endif
 

@@ -217,7 +217,7 @@ extern "C" {
 
 // ============================================================= task: a question, and what it needs
 #include "task/facts.h"  // what a decoder sees of a pair; the tape of its derivative
-#include "task/task.h"   // a question that has been checked, its memory, and its kernels
+#include "task/task.h"   // a question that has been checked, and its memory
 
 #endif  // NSVCD__ISA
 
@@ -261,9 +261,8 @@ extern "C" {
 #include "network/opinion.h"          // candidates, ranked, and a logit for the best of them
 #include "network/tape.h"             // what the derivative of that is made of
 
-// =============================================== entry: the kernels of each set, and the best ones
-#include "entry/kernels.h"  // the table of what has been compiled for a set
 #ifndef NSVCD__ISA
+// =============================================== entry: the kernels of each set, and the best ones
 #include "entry/processor.h"  // SSE2, AVX2 or AVX-512: the processor decides
 
 // ======================================================== gradient: of distance or logit, by poses

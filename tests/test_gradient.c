@@ -58,7 +58,7 @@ static int decide(const scene *s, nsvcd_answer *answer, nsvcd__decisive *decisiv
       question_of(s->moving, s->poses, s->count, s->fixed, &s->fixed_pose, &s->options);
   question.method = NSVCD_METHOD_NETWORK;
   CHECK_EQ(nsvcd__question_check(&question), NSVCD_OK);
-  nsvcd__query *query = nsvcd__query_open(&nsvcd__table, &question, query_workspace());
+  nsvcd__query *query = nsvcd__query_open(NSVCD__FLAGS, &question, query_workspace());
   query->task.decisive = decisive;
   nsvcd__answer_query(query, NULL, answer);
   return answer->opinion.candidates > 0 && answer->by == NSVCD_BY_NETWORK && !answer->inside;

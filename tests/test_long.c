@@ -389,7 +389,7 @@ static void long_open_intervals_stay(void) {
     if (trial / 2) poses[998].position[2] -= 2.04f;
     nsvcd_question q = long_question(bodies, 1000, 0, 0, 0);
     if (trial % 2) q.ask = NSVCD_ASK_FIRST;
-    nsvcd__query *query = nsvcd__query_open(&nsvcd__table, &q, workspace);
+    nsvcd__query *query = nsvcd__query_open(NSVCD__FLAGS, &q, workspace);
     nsvcd__search_result result;
     nsvcd__goal goal = nsvcd__proof_begin(query);
     nsvcd__proof *p = query->proof;

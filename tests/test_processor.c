@@ -13,11 +13,11 @@ void test_processor(void);
 #ifdef NSVCD__DISPATCH
 typedef struct processor_set {
   const char *name;
-  const nsvcd__kernels *kernels;
+  nsvcd__isa isa;
 } processor_set;
 
 static const processor_set processor_sets[3] = {
-    {"SSE2", &nsvcd__table}, {"AVX2", &nsvcd__table_avx2}, {"AVX-512", &nsvcd__table_avx512}};
+    {"SSE2", NSVCD__FLAGS}, {"AVX2", NSVCD__AVX2}, {"AVX-512", NSVCD__AVX512}};
 
 // How many of them this processor has.
 static size_t processor_count(void) {
@@ -57,7 +57,7 @@ static nsvcd_answer processor_ask(const processor_set *set, const nsvcd_question
   nsvcd_answer answer;
   memset(&answer, 0, sizeof answer);
   const size_t size = nsvcd_sweep_workspace_size(NULL);
-  CHECK_EQ(nsvcd__run_batch(set->kernels, question, 1, query_workspace(), size, &answer), NSVCD_OK);
+  CHECK_EQ(nsvcd__run_batch(set->isa, question, 1, query_workspace(), size, &answer), NSVCD_OK);
   return answer;
 }
 
@@ -135,9 +135,9 @@ static void processor_the_best_answers(void) {
     nsvcd_answer by_best;
     CHECK_EQ(nsvcd_sweep_gradient(&s.question, query_workspace(), size, &answer, one, NULL),
              NSVCD_OK);
-    CHECK_EQ(nsvcd__run_gradient(best->kernels, &s.question, query_workspace(), size, &by_best,
-                                 other, NULL),
-             NSVCD_OK);
+    CHECK_EQ(
+        nsvcd__run_gradient(best->isa, &s.question, query_workspace(), size, &by_best, other, NULL),
+        NSVCD_OK);
     CHECK(memcmp(one, other, sizeof one) == 0);
     processor_close(&s);
   }
@@ -148,7 +148,7 @@ static void processor_the_best_answers(void) {
 // Each reckons rightly; and the public function asks the best.
 static void processor_self_tests(void) {
   for (size_t n = 0; n < processor_count(); n++)
-    CHECK_EQ(nsvcd__run_self_test(processor_sets[n].kernels), NSVCD_OK);
+    CHECK_EQ(nsvcd__run_self_test(processor_sets[n].isa), NSVCD_OK);
   int failed = 0;
   for (int n = 0; n < 100; n++) failed += nsvcd_self_test() != NSVCD_OK;
   CHECK_EQ(failed, 0);

@@ -241,7 +241,7 @@ static float query_least_of_all(const nsvcd_question *question, size_t *count) {
   float least = HUGE_VALF;
   CHECK_EQ(nsvcd__sweep_check(question, query_workspace(), nsvcd_sweep_workspace_size(NULL)),
            NSVCD_OK);
-  nsvcd__query *query = nsvcd__query_open(&nsvcd__table, question, query_workspace());
+  nsvcd__query *query = nsvcd__query_open(NSVCD__FLAGS, question, query_workspace());
   nsvcd__task *task = &query->task;
   CHECK_EQ(nsvcd__settings_of(&question->network, task->moving->patches, task->fixed->patches,
                               &task->settings),

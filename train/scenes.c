@@ -635,7 +635,7 @@ static size_t pairs_write(problem *p, worker *w, const size_t *first_patch, cons
   nsvcd__candidate items[PAIRS];
   nsvcd__candidates kept;
   if (nsvcd__sweep_check(&q, w->workspace, w->workspace_size)) return 0;
-  nsvcd__query *query = nsvcd__query_open(&nsvcd__table, &q, w->workspace);
+  nsvcd__query *query = nsvcd__query_open(NSVCD__FLAGS, &q, w->workspace);
   nsvcd__task *task = &query->task;
   if (nsvcd__motion_gap(&task->motion) > task->lengths) return 0;
   nsvcd__cut_motion(&task->motion, task->lengths, &query->broad_phase);

@@ -1,11 +1,18 @@
 // In: a processor. Out: the kernels for the widest vectors that it has.
 //
+// THE WAIST. A *kernel* is a function that works on vectors and is called from above. There are
+// seven: self_test_lanes, separate, is_contained_at_start, bound_distance, seek_positions,
+// ask_network and record. NSVCD__KERNEL(isa, separate)(...) calls one of them.
+//
 // If the compiler's flags allow SSE2 only, the default on x86-64, the rooms that use vectors are
 // compiled three times: with SSE2 above, and here with AVX2 and with AVX-512, under other private
 // names: nsvcd__separate becomes nsvcd__separate_avx2. For that the header includes itself. At each
 // call the processor decides which of them answers. NSVCD_NO_DISPATCH leaves SSE2 only.
 #pragma once
-#include "kernels.h"
+#include "../network/tape.h"
+#include "../segments/self_test.h"
+#include "../separate/distance_bound.h"
+#include "../separate/loop.h"
 
 #if NSVCD__SLICE == 4 && !defined(NSVCD_NO_DISPATCH) && !defined(NSVCD__NARROW) && \
     !defined(NSVCD__FROM_ROOMS)
@@ -74,8 +81,6 @@
 #define NSVCD__AT(name) nsvcd__##name
 #define NSVCD__NUMBER_AT(name) NSVCD__##name
 
-typedef enum nsvcd__isa { NSVCD__SSE2, NSVCD__AVX2, NSVCD__AVX512 } nsvcd__isa;
-
 #if defined(_MSC_VER) && !defined(__clang__)
 // What the processor and the system have. Remembered in one word, to which all threads write the
 // same.
@@ -85,7 +90,7 @@ static nsvcd__isa nsvcd__isa_at_hand(void) {
   int seventh[4];
   if (known >= 0) return (nsvcd__isa)known;
   __cpuid(first, 0);
-  if (first[0] < 7) return NSVCD__SSE2;
+  if (first[0] < 7) return NSVCD__FLAGS;
   __cpuid(first, 1);
   __cpuidex(seventh, 7, 0);
   // OSXSAVE: the system saves vector registers
@@ -96,35 +101,34 @@ static nsvcd__isa nsvcd__isa_at_hand(void) {
   const unsigned bmi = has >> 3 & has >> 8 & 1;
   const int avx2 = (kept & 6) == 6 && fma && bmi && has >> 5 & 1;
   const unsigned vnni = has >> 16 & has >> 31 & (unsigned)seventh[2] >> 11 & 1;
-  known = !avx2 ? NSVCD__SSE2 : (kept & 0xe0) == 0xe0 && vnni ? NSVCD__AVX512 : NSVCD__AVX2;
+  known = !avx2 ? NSVCD__FLAGS : (kept & 0xe0) == 0xe0 && vnni ? NSVCD__AVX512 : NSVCD__AVX2;
   return (nsvcd__isa)known;
 }
 #else
 // What the processor and the system have. The compiler's runtime asks them before main.
 static nsvcd__isa nsvcd__isa_at_hand(void) {
   const int fma = __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
-  if (!fma || !__builtin_cpu_supports("avx2")) return NSVCD__SSE2;
+  if (!fma || !__builtin_cpu_supports("avx2")) return NSVCD__FLAGS;
   if (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512vnni"))
     return NSVCD__AVX512;
   return NSVCD__AVX2;
 }
 #endif
 
-// The kernels for the widest vectors that the processor has.
-static const nsvcd__kernels *nsvcd__best_kernels(void) {
-  static const nsvcd__kernels *const all[] = {&nsvcd__table, &nsvcd__table_avx2,
-                                              &nsvcd__table_avx512};
-  return all[nsvcd__isa_at_hand()];
-}
+#define NSVCD__KERNEL(isa, name) \
+  ((isa) == NSVCD__AVX512 ? nsvcd__##name##_avx512 \
+   : (isa) == NSVCD__AVX2 ? nsvcd__##name##_avx2 \
+                          : nsvcd__##name)
 #else
-static const nsvcd__kernels *nsvcd__best_kernels(void) {
-  return &nsvcd__table;
+static nsvcd__isa nsvcd__isa_at_hand(void) {
+  return NSVCD__FLAGS;
 }
+#define NSVCD__KERNEL(isa, name) ((void)(isa), nsvcd__##name)
 #endif  // NSVCD__DISPATCH
 
 // By the kernels of one instruction set. The triangles are apart when one of them is raised.
-static nsvcd_result nsvcd__run_self_test(const nsvcd__kernels *kernels) {
-  int right = kernels->self_test();
+static nsvcd_result nsvcd__run_self_test(nsvcd__isa isa) {
+  int right = NSVCD__KERNEL(isa, self_test_lanes)();
 #ifndef NSVCD_NO_PROOF
   const volatile double height = 2.8;  // volatile, or the compiler would compute all this
   const nsvcd__d3 a[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -137,5 +141,5 @@ static nsvcd_result nsvcd__run_self_test(const nsvcd__kernels *kernels) {
 }
 
 NSVCDDEF nsvcd_result nsvcd_self_test(void) {
-  return nsvcd__run_self_test(nsvcd__best_kernels());
+  return nsvcd__run_self_test(nsvcd__isa_at_hand());
 }

@@ -133,7 +133,7 @@ static NSVCD__NOINLINE void nsvcd__gradient(const nsvcd__query *query, float *co
   nsvcd__instants *at = &tape.at;
   nsvcd__by_pair by;
   nsvcd__instants_of(&task->decisive->candidate, query->broad_phase.time, at);
-  query->kernels->record(task, &tape);
+  NSVCD__KERNEL(query->isa, record)(task, &tape);
   nsvcd__by_invariants(&tape, &by);
 
   // The adjoint of nsvcd__pairs_of. v = w x arm + (x1 - x0) / 2, where arm goes from the moving

@@ -44,4 +44,7 @@ typedef float nsvcd__row[NSVCD__LANES];  // a number in each lane
 #if NSVCD__SLICE == 16 && defined(__AVX512VNNI__)
 #define NSVCD__VNNI  // instructions that multiply bytes
 #endif
+
+// The instruction sets that one build may have kernels for: entry/processor.
+typedef enum nsvcd__isa { NSVCD__FLAGS, NSVCD__AVX2, NSVCD__AVX512 } nsvcd__isa;
 #endif  // NSVCD__ISA

@@ -340,7 +340,7 @@ typedef struct nsvcd__push_outs {
 } nsvcd__push_outs;
 
 typedef struct nsvcd__proof {
-  const struct nsvcd__kernels *kernels;
+  nsvcd__isa isa;  // whose kernels search
   nsvcd__geometry moving, fixed;
   nsvcd__given given;
   // of the search now or the last one: its motion, in whose last arc patch pairs and triangle pairs

@@ -67,7 +67,7 @@ static nsvcd__goal nsvcd__proof_begin(nsvcd__query *query) {
   nsvcd__goal goal;
   memset(given, 0, sizeof *given);
   memset(&goal, 0, sizeof goal);
-  p->kernels = query->kernels;
+  p->isa = query->isa;
   p->intervals = query->intervals;
   goal.motion = &query->task.motion;
   nsvcd__arcs_begin(&p->arcs, goal.motion);
@@ -276,10 +276,10 @@ static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd__go
     int chosen[NSVCD_MAX_CONTACTS];
     double area;
     nsvcd__manifold_begin(p, normals[k], &twist, goal.clearance, same);
-    p->kernels->seek_positions(p, 0, NSVCD__AROUND);
+    NSVCD__KERNEL(p->isa, seek_positions)(p, 0, NSVCD__AROUND);
     int count = nsvcd__choose_four(m, chosen, &area);
     if (nsvcd__seek_across(&p->of.kept.manifold, area)) {
-      p->kernels->seek_positions(p, NSVCD__AROUND, NSVCD__SUPPORTS);
+      NSVCD__KERNEL(p->isa, seek_positions)(p, NSVCD__AROUND, NSVCD__SUPPORTS);
       count = nsvcd__choose_four(m, chosen, &area);
     }
     if (count == 0 || !(area > 1.001 * widest)) continue;

@@ -123,7 +123,7 @@ static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *q, nsvcd__goa
   *result = p->known;
   if (gap > nsvcd__clearance(&goal)) return NSVCD__FOUND_FREE;
   const int is_long = nsvcd__is_long(m, q);
-  if (p->kernels->is_contained_at_start(p)) {
+  if (NSVCD__KERNEL(p->isa, is_contained_at_start)(p)) {
     // It is a hit. A question that asks for more gets triangles, if some meet as well.
     const size_t units = NSVCD__INSIDE_BUDGET;
     const int meets = p->given.tells && nsvcd__meets_at(p, q, goal, 0, units, result);
@@ -199,7 +199,7 @@ static NSVCD__NOINLINE nsvcd__bracket nsvcd__measure(nsvcd__proof *p, nsvcd__sea
   const int is_long = nsvcd__is_long(m, q);
   if (is_long) nsvcd__choose_interval(m, q, 0, NSVCD__ALL_ARCS);
   if (!is_named) {
-    bracket.high = p->kernels->bound_distance(p, q);
+    bracket.high = NSVCD__KERNEL(p->isa, bound_distance)(p, q);
     known->has_contact = p->known.has_contact;
     known->found = p->known.found;
     is_named = known->has_contact;

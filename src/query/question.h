@@ -139,14 +139,13 @@ static NSVCD__NOINLINE nsvcd_result nsvcd__sweep_check(const nsvcd_question *q,
 }
 
 // Lays out a checked question in the workspace, and chooses who moves.
-static NSVCD__NOINLINE nsvcd__query *nsvcd__query_open(const nsvcd__kernels *kernels,
-                                                       const nsvcd_question *q,
+static NSVCD__NOINLINE nsvcd__query *nsvcd__query_open(nsvcd__isa isa, const nsvcd_question *q,
                                                        void *workspace) {
   const nsvcd__needs needs = nsvcd__needs_of(q);
   nsvcd__query *query = (nsvcd__query *)workspace;
   nsvcd__task *task = &query->task;
   (void)nsvcd__query_layout(&needs, (char *)workspace);
-  query->kernels = kernels;
+  query->isa = isa;
   task->swapped = nsvcd__is_swapped(&q->a, &q->b);
   const nsvcd_mover *moving = task->swapped ? &q->b : &q->a;
   const nsvcd_mover *fixed = task->swapped ? &q->a : &q->b;
@@ -198,7 +197,7 @@ static void nsvcd__swap_answer(nsvcd_answer *answer) {
 static void nsvcd__answer_by_network(nsvcd__query *query, nsvcd__hint *hint,
                                      nsvcd_answer *answer) {
   nsvcd_opinion opinion;
-  const int inside = query->kernels->ask_network(query, hint, &opinion);
+  const int inside = NSVCD__KERNEL(query->isa, ask_network)(query, hint, &opinion);
   nsvcd__answer_begin(&query->task, opinion.logit > 0 ? NSVCD_HIT : NSVCD_FREE, answer);
   answer->inside = inside;
   answer->opinion = opinion;
@@ -221,7 +220,7 @@ static void nsvcd__answer_query(nsvcd__query *query, nsvcd__hint *hint, nsvcd_an
   const int knows = task->moving->weights_id && task->fixed->weights_id &&
                     !(q->clearance > 0 || q->ask == NSVCD_ASK_DISTANCE || q->slop > 0);
   if (task->method == NSVCD_METHOD_PROOF && answer->verdict == NSVCD_UNDECIDED && knows)
-    (void)query->kernels->ask_network(query, NULL, &answer->opinion);
+    (void)NSVCD__KERNEL(query->isa, ask_network)(query, NULL, &answer->opinion);
 #endif
 #ifndef NSVCD_NO_NETWORK
   if (task->method == NSVCD_METHOD_NETWORK) nsvcd__answer_by_network(query, hint, answer);
@@ -230,9 +229,8 @@ static void nsvcd__answer_query(nsvcd__query *query, nsvcd__hint *hint, nsvcd_an
 }
 
 // As nsvcd_sweep_batch, by the kernels of one instruction set.
-static nsvcd_result nsvcd__run_batch(const nsvcd__kernels *kernels,
-                                     const nsvcd_question *questions, size_t count,
-                                     void *workspace, size_t workspace_size,
+static nsvcd_result nsvcd__run_batch(nsvcd__isa isa, const nsvcd_question *questions,
+                                     size_t count, void *workspace, size_t workspace_size,
                                      nsvcd_answer *answers) {
   nsvcd__hint hint = {0, 0, 0, 0};
   int swapped = 0;
@@ -243,7 +241,7 @@ static nsvcd_result nsvcd__run_batch(const nsvcd__kernels *kernels,
   }
   for (size_t k = 0; k < count; k++) {
     const nsvcd_question *q = &questions[k];
-    nsvcd__query *query = nsvcd__query_open(kernels, q, workspace);
+    nsvcd__query *query = nsvcd__query_open(isa, q, workspace);
     // The hint is about patches of the moving body and of the fixed one.
     const int same = k > 0 && q->a.body == q[-1].a.body && q->b.body == q[-1].b.body;
     if (!same || query->task.swapped != swapped) memset(&hint, 0, sizeof hint);
@@ -255,30 +253,30 @@ static nsvcd_result nsvcd__run_batch(const nsvcd__kernels *kernels,
 
 NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace,
                                   size_t workspace_size, nsvcd_answer *answer) {
-  return nsvcd__run_batch(nsvcd__best_kernels(), question, 1, workspace, workspace_size,
+  return nsvcd__run_batch(nsvcd__isa_at_hand(), question, 1, workspace, workspace_size,
                           answer);
 }
 
 NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t count,
                                         void *workspace, size_t workspace_size,
                                         nsvcd_answer *answers) {
-  return nsvcd__run_batch(nsvcd__best_kernels(), questions, count, workspace, workspace_size,
+  return nsvcd__run_batch(nsvcd__isa_at_hand(), questions, count, workspace, workspace_size,
                           answers);
 }
 
 #ifndef NSVCD_NO_GRADIENT
 // As nsvcd_sweep_gradient, by the kernels of one instruction set.
-static nsvcd_result nsvcd__run_gradient(const nsvcd__kernels *kernels,
-                                        const nsvcd_question *question, void *workspace,
-                                        size_t workspace_size, nsvcd_answer *answer,
-                                        float *gradient_a, float *gradient_b) {
+static nsvcd_result nsvcd__run_gradient(nsvcd__isa isa, const nsvcd_question *question,
+                                        void *workspace, size_t workspace_size,
+                                        nsvcd_answer *answer, float *gradient_a,
+                                        float *gradient_b) {
   if (!question || !answer || (!gradient_a && !gradient_b)) return NSVCD_ERROR_ARGUMENT;
   if (question->method == NSVCD_METHOD_PROOF) return NSVCD_ERROR_METHOD;
   nsvcd_question by_network = *question;
   by_network.method = NSVCD_METHOD_NETWORK;
   const nsvcd_result result = nsvcd__sweep_check(&by_network, workspace, workspace_size);
   if (result) return result;
-  nsvcd__query *query = nsvcd__query_open(kernels, &by_network, workspace);
+  nsvcd__query *query = nsvcd__query_open(isa, &by_network, workspace);
   nsvcd__task *task = &query->task;
   nsvcd__decisive decisive;
   task->decisive = &decisive;
@@ -294,7 +292,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd__kernels *kernels,
 NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace,
                                            size_t workspace_size, nsvcd_answer *answer,
                                            float *gradient_a, float *gradient_b) {
-  return nsvcd__run_gradient(nsvcd__best_kernels(), question, workspace, workspace_size,
-                             answer, gradient_a, gradient_b);
+  return nsvcd__run_gradient(nsvcd__isa_at_hand(), question, workspace, workspace_size, answer,
+                             gradient_a, gradient_b);
 }
 #endif

@@ -1,7 +1,7 @@
 // In: a goal, and the segments chosen of a motion or of an interval of it. Out: a result: do the
 // bodies meet; where asked, when first, and how near they come.
 //
-// Goals and results are values. What stands here and above asks the waist (p->kernels->separate)
+// Goals and results are values. What stands here and above asks the waist (the kernel nsvcd__separate)
 // with goals of its own, and writes nothing into the proof but whose motion it is about.
 #pragma once
 #include "../entry/processor.h"
@@ -36,7 +36,7 @@ static NSVCD__NOINLINE nsvcd__search_result nsvcd__search_motion(nsvcd__proof *p
                                                                  nsvcd__search *q,
                                                                  nsvcd__goal goal) {
   goal.first = goal.fraction * (double)goal.motion->ticks;
-  p->kernels->separate(p, q, &goal);
+  NSVCD__KERNEL(p->isa, separate)(p, q, &goal);
   return p->known;
 }
 

@@ -141,7 +141,7 @@ typedef struct nsvcd__task {
 // What a workspace begins with. The network's memory and the proof's are the same, for one follows
 // the other.
 typedef struct nsvcd__query {
-  const struct nsvcd__kernels *kernels;
+  nsvcd__isa isa;  // whose kernels answer
   nsvcd__search broad_phase;
   nsvcd__task task;
 #ifndef NSVCD_NO_NETWORK
@@ -223,21 +223,3 @@ typedef struct nsvcd__hint {
   int known, misled;
   uint32_t moving, fixed;  // patches
 } nsvcd__hint;
-
-// The functions of a query that work on vectors, of one instruction set: all that is compiled more
-// than once. What stands above them calls them through this table.
-typedef struct nsvcd__kernels {
-  int (*self_test)(void);
-#ifndef NSVCD_NO_PROOF
-  void (*separate)(nsvcd__proof *p, nsvcd__search *q, const nsvcd__goal *goal);
-  int (*is_contained_at_start)(nsvcd__proof *p);
-  double (*bound_distance)(nsvcd__proof *p, nsvcd__search *q);
-  void (*seek_positions)(nsvcd__proof *p, int first, int last);
-#endif
-#ifndef NSVCD_NO_NETWORK
-  int (*ask_network)(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opinion *out);
-#endif
-#ifndef NSVCD_NO_GRADIENT
-  void (*record)(const nsvcd__task *task, nsvcd__tape *tape);
-#endif
-} nsvcd__kernels;
