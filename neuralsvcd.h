@@ -17776,8 +17776,9 @@ static NSVCD__NOINLINE void nsvcd__gradient(const nsvcd__query *query, float *co
 // In: a goal, and the segments chosen of a motion or of an interval of it. Out: a result: do the
 // bodies meet; where asked, when first, and how near they come.
 //
-// Goals and results are values. What stands here and above asks the waist (the kernel nsvcd__separate)
-// with goals of its own, and writes nothing into the proof but whose motion it is about.
+// Goals and results are values. What stands here and above asks the waist, the kernel
+// nsvcd__separate, with goals of its own, and writes nothing into the proof but whose motion it is
+// about.
 
 #ifndef NSVCD_NO_PROOF
 // The tick before which nothing meets, or NEVER.

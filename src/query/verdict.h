@@ -1,8 +1,9 @@
 // In: a goal, and the segments chosen of a motion or of an interval of it. Out: a result: do the
 // bodies meet; where asked, when first, and how near they come.
 //
-// Goals and results are values. What stands here and above asks the waist (the kernel nsvcd__separate)
-// with goals of its own, and writes nothing into the proof but whose motion it is about.
+// Goals and results are values. What stands here and above asks the waist, the kernel
+// nsvcd__separate, with goals of its own, and writes nothing into the proof but whose motion it is
+// about.
 #pragma once
 #include "../entry/processor.h"
 
