@@ -9865,8 +9865,6 @@ typedef struct nsvcd__goal {
   // a first attempt, with a small budget
   int is_brief;
   nsvcd__collecting collects;
-  // how deep a contact may be that is undone
-  double slop;
 } nsvcd__goal;
 
 // Why it could not be told what is inside of what: the rays do not tell, or the budget ended first.
@@ -9924,7 +9922,7 @@ typedef struct nsvcd__push_outs {
   // the depth of contact along each; and how far a plane normal to one is to be pushed out
   double depths[NSVCD__PUSH_OUTS];
   double needed;
-  double slop;  // that was undone
+  double slop;  // how deep a contact may be that is undone
 } nsvcd__push_outs;
 
 typedef struct nsvcd__proof {
@@ -11341,9 +11339,15 @@ static void nsvcd__chords_in_segment(const nsvcd__search *q, size_t s, nsvcd__sp
 
 // ---- tests
 
+// The fraction of a chord at which it is nearest to a resting centre. d: from that to the start of
+// the chord.
+NSVCD__INLINE nsvcd__v nsvcd__nearest_at(nsvcd__v3 d, nsvcd__v3 travel, nsvcd__v inverse) {
+  return nsvcd__v_clamp(nsvcd__v_mul(nsvcd__v3_dot(d, travel), inverse), 0, 1);
+}
+
 // The square of a chord's distance from a resting centre. d: from that to the start of the chord.
 NSVCD__INLINE nsvcd__v nsvcd__nearest2(nsvcd__v3 d, nsvcd__v3 travel, nsvcd__v inverse) {
-  const nsvcd__v tau = nsvcd__v_clamp(nsvcd__v_mul(nsvcd__v3_dot(d, travel), inverse), 0, 1);
+  const nsvcd__v tau = nsvcd__nearest_at(d, travel, inverse);
   const nsvcd__v3 nearest = nsvcd__v3_fma(tau, travel, d);
   return nsvcd__v3_dot(nearest, nearest);
 }
@@ -13121,7 +13125,7 @@ static double nsvcd__depth_along(nsvcd__d3 n, const nsvcd__triangle_contact *t) 
 // normal of either triangle, or across an edge of each.
 static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__triangle_contact *t) {
   const nsvcd__d3 push_out = nsvcd__d3_widen(p->arcs.motion->push_out);
-  const double most = p->goal.slop - p->given.clearance;
+  const double most = p->push.slop - p->given.clearance;
   for (size_t k = 0; k < 12; k++) {
     nsvcd__d3 n = k < 3 ? t->directions[k] : nsvcd__across_edges(t->moving, t->fixed, k - 3);
     if (!(nsvcd__d3_dot(n, n) > 0.5)) continue;
@@ -13142,7 +13146,7 @@ static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n,
   const double more = nsvcd__depth_along(n, t);
   const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->arcs.motion->push_out), n);
   if (!(nsvcd__d3_dot(n, n) > 0.5)) return 0;
-  if (pushed_out + more + p->given.clearance > p->goal.slop) return 0;
+  if (pushed_out + more + p->given.clearance > p->push.slop) return 0;
   if (more < 0) return 1;
   return nsvcd__d3_dot(n, t->directions[0]) > -0.3 ||
          nsvcd__d3_dot(n, t->directions[1]) > -0.3;
@@ -14964,8 +14968,7 @@ static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *q, size
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v3 travel = nsvcd__chords_travel(c, l);
       const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(centre));
-      const nsvcd__v tau = nsvcd__v_clamp(
-          nsvcd__v_mul(nsvcd__v3_dot(d, travel), nsvcd__v_load(c->inverse + l)), 0, 1);
+      const nsvcd__v tau = nsvcd__nearest_at(d, travel, nsvcd__v_load(c->inverse + l));
       const nsvcd__v3 closest = nsvcd__v3_fma(tau, travel, d);
       const nsvcd__v square = nsvcd__v3_dot(closest, closest);
       const nsvcd__v sum = nsvcd__v_plus(nsvcd__v_load(c->radius + l), radius);
@@ -15141,8 +15144,7 @@ static int nsvcd__nearest_tick(const nsvcd__search *q, nsvcd__sphere fixed, floa
       const nsvcd__v3 travel = nsvcd__chords_travel(c, l);
       const nsvcd__v3 d =
           nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(fixed.centre));
-      const nsvcd__v tau = nsvcd__v_clamp(
-          nsvcd__v_mul(nsvcd__v3_dot(d, travel), nsvcd__v_load(c->inverse + l)), 0, 1);
+      const nsvcd__v tau = nsvcd__nearest_at(d, travel, nsvcd__v_load(c->inverse + l));
       const nsvcd__v3 off = nsvcd__v3_fma(tau, travel, d);
       const nsvcd__v between = nsvcd__v_sub(nsvcd__v3_norm(off), nsvcd__v_load(c->radius + l));
       nearer |= nsvcd__v_lt(between, nsvcd__v_set(*gap + fixed.radius)) << l;
@@ -16958,6 +16960,7 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__moving_closed NSVCD__AT(moving_closed)
 #define nsvcd__moving_range NSVCD__AT(moving_range)
 #define nsvcd__nearest2 NSVCD__AT(nearest2)
+#define nsvcd__nearest_at NSVCD__AT(nearest_at)
 #define nsvcd__nearest_groups NSVCD__AT(nearest_groups)
 #define nsvcd__nearest_tick NSVCD__AT(nearest_tick)
 #define nsvcd__next_probe NSVCD__AT(next_probe)
@@ -17767,7 +17770,6 @@ static NSVCD__NOINLINE void nsvcd__gradient(const nsvcd__query *query, float *co
   if (at->enters) nsvcd__by_contact(m, at, NSVCD__ENTRY, tape.pair.p2, by_time[0], out);
   if (at->leaves) nsvcd__by_contact(m, at, NSVCD__EXIT, tape.pair.p2, by_time[1], out);
 }
-
 #endif  // NSVCD_NO_GRADIENT
 
 // =============================================================== query: a question, and its answer
@@ -18353,21 +18355,21 @@ static int nsvcd__push_out_still(nsvcd__proof *p, nsvcd__search *q, nsvcd__goal 
   // Also what is about to touch, or where an earlier motion may have ended, is pushed out of, and
   // may not touch afterwards.
   const double size = (double)p->given.lengths + p->given.radius;
-  const double near_by = nsvcd__min(0.05 * goal.slop, 0.02 * size);
-  double beside = nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * goal.slop));
-  for (int turns = 0;; beside = 0.01 * goal.slop) {
+  const double near_by = nsvcd__min(0.05 * p->push.slop, 0.02 * size);
+  double beside = nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * p->push.slop));
+  for (int turns = 0;; beside = 0.01 * p->push.slop) {
     goal.clearance = p->given.clearance + beside + nsvcd__epsilon(p);
     (void)nsvcd__search_anew(p, q, goal);
     if (p->push.contact_count == 0) return 1;
     const size_t known = p->push.normal_count;
     if (!nsvcd__choose_push_outs(p) || p->push.normal_count == known) return 0;
-    nsvcd__d3 push_out = nsvcd__push_out(&p->push, goal.slop, 0);
+    nsvcd__d3 push_out = nsvcd__push_out(&p->push, p->push.slop, 0);
     if (!(nsvcd__d3_dot(push_out, push_out) > 0) && turns++ == 0) {
       memmove(p->push.normals, p->push.normals + 1,
               --p->push.normal_count * sizeof *p->push.normals);
       memmove(p->push.depths, p->push.depths + 1,
               p->push.normal_count * sizeof *p->push.depths);
-      push_out = nsvcd__push_out(&p->push, goal.slop, 0);
+      push_out = nsvcd__push_out(&p->push, p->push.slop, 0);
     }
     if (!(nsvcd__d3_dot(push_out, push_out) > 0)) return 0;
     still->push_out = nsvcd__f3_round(push_out);
@@ -18421,7 +18423,7 @@ static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__proof *p, nsvcd__searc
   nsvcd__motion start = nsvcd__end_of(whole, 0);
   goal.motion = &start;
   goal.collects = NSVCD__TOUCHING;
-  goal.slop = p->given.slop;
+  p->push.slop = p->given.slop;
   p->push.by_faces = 0;
   p->push.needed = 0;
   int is_free = nsvcd__push_out_still(p, q, goal);
@@ -18433,11 +18435,10 @@ static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__proof *p, nsvcd__searc
   }
   const double least = 1.1 * p->push.needed + 4 * nsvcd__epsilon(p);
   if (!is_free && p->push.contact_count == 0 && least < 0.9 * p->given.slop) {
-    goal.slop = least;
+    p->push.slop = least;
     is_free = nsvcd__push_out_still(p, q, goal);
   }
   if (is_free && p->push.normal_count > 0) nsvcd__deepen(p, q, goal);
-  p->push.slop = goal.slop;
   whole->push_out = is_free ? start.push_out : nsvcd__f3_of(0, 0, 0);
   nsvcd__restart(p, whole);
 }
@@ -18820,7 +18821,7 @@ static nsvcd__goal nsvcd__proof_begin(nsvcd__query *query) {
   p->isa = query->isa;
   p->intervals = query->intervals;
   goal.motion = &query->task.motion;
-  nsvcd__arcs_begin(&p->arcs, goal.motion);
+  nsvcd__restart(p, goal.motion);
   p->moving = nsvcd__geometry_of(nsvcd__triangles_of(task->moving));
   p->fixed = nsvcd__geometry_of(nsvcd__triangles_of(task->fixed));
   given->lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
@@ -18851,7 +18852,6 @@ static nsvcd__goal nsvcd__proof_begin(nsvcd__query *query) {
   goal.fraction = given->fraction;
   goal.after_unresolved = goal.fraction > 0 ? NSVCD__AFTER_FIRST_UNRESOLVED : given->reserve;
   p->goal = goal;
-  nsvcd__restart(p, goal.motion);
   return goal;
 }
 

@@ -198,7 +198,7 @@ asks: metres without the turn|return arc->speed + arc->turn|return arc->speed + 
 asks: too deep for the manifold too|  p->push.too_deep = 0;|
 asks: depth across edges forgotten|for (size_t k = 0; k < 12; k++) {\n    nsvcd__d3 n = k < 3|for (size_t k = 0; k < 3; k++) {\n    nsvcd__d3 n = k < 3
 asks: deep in one direction|for (int side = 0; side < 2; side++) {\n      const double pushed_out|for (int side = 0; side < 1; side++) {\n      const double pushed_out
-asks: metres of the arc before|  nsvcd__arcs_begin(\&p->arcs, goal.motion);\n  p->moving = |  p->arcs.motion = goal.motion;\n  p->moving = 
+asks: metres of the arc before|  nsvcd__arcs_begin(\&p->arcs, motion);|  p->arcs.motion = motion;
 asks: a safe place not lifted|n == moving_takes_it ? 0 : n ? -unit : unit|0
 asks: a safe place on the other side|n == moving_takes_it ? 0 : n ? -unit : unit|n == moving_takes_it ? 0 : n ? unit : -unit
 asks: a safe place too late|const double t = (double)answer->safe.time;|const double t = fmin(1, 1.05 * (double)answer->safe.time + 0.01);
@@ -210,7 +210,7 @@ asks: half of a depth|p->push.depths[k] = nsvcd__max(p->push.depths[k], depth);|
 asks: one depth for all normals|const double along = least + (by_depth ? push->depths[k] : 0);|const double along = least + (by_depth ? push->depths[0] : 0);
 no look on the way off|if (is_free \&\& p->push.normal_count > 0) nsvcd__deepen(p, q, goal);|
 asks: no lift under a ceiling|least < 0.9 * p->given.slop|least < 0
-asks: a floor that is near by|nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * goal.slop))|near_by
+asks: a floor that is near by|nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * p->push.slop))|near_by
 asks: contacts out of reach|nsvcd__d3_distance2(posed[k], foot) <= m->tolerance * m->tolerance|1
 asks: contacts past an edge|if (aside > 0.01 * m->same * m->same) return;|
 asks: contacts of any normal|if (along * along < 0.64 * square) continue;|

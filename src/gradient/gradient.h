@@ -161,5 +161,4 @@ static NSVCD__NOINLINE void nsvcd__gradient(const nsvcd__query *query, float *co
   if (at->enters) nsvcd__by_contact(m, at, NSVCD__ENTRY, tape.pair.p2, by_time[0], out);
   if (at->leaves) nsvcd__by_contact(m, at, NSVCD__EXIT, tape.pair.p2, by_time[1], out);
 }
-
 #endif  // NSVCD_NO_GRADIENT

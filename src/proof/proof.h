@@ -277,8 +277,6 @@ typedef struct nsvcd__goal {
   // a first attempt, with a small budget
   int is_brief;
   nsvcd__collecting collects;
-  // how deep a contact may be that is undone
-  double slop;
 } nsvcd__goal;
 
 // Why it could not be told what is inside of what: the rays do not tell, or the budget ended first.
@@ -336,7 +334,7 @@ typedef struct nsvcd__push_outs {
   // the depth of contact along each; and how far a plane normal to one is to be pushed out
   double depths[NSVCD__PUSH_OUTS];
   double needed;
-  double slop;  // that was undone
+  double slop;  // how deep a contact may be that is undone
 } nsvcd__push_outs;
 
 typedef struct nsvcd__proof {

@@ -70,7 +70,7 @@ static nsvcd__goal nsvcd__proof_begin(nsvcd__query *query) {
   p->isa = query->isa;
   p->intervals = query->intervals;
   goal.motion = &query->task.motion;
-  nsvcd__arcs_begin(&p->arcs, goal.motion);
+  nsvcd__restart(p, goal.motion);
   p->moving = nsvcd__geometry_of(nsvcd__triangles_of(task->moving));
   p->fixed = nsvcd__geometry_of(nsvcd__triangles_of(task->fixed));
   given->lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
@@ -101,7 +101,6 @@ static nsvcd__goal nsvcd__proof_begin(nsvcd__query *query) {
   goal.fraction = given->fraction;
   goal.after_unresolved = goal.fraction > 0 ? NSVCD__AFTER_FIRST_UNRESOLVED : given->reserve;
   p->goal = goal;
-  nsvcd__restart(p, goal.motion);
   return goal;
 }
 

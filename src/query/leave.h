@@ -130,21 +130,21 @@ static int nsvcd__push_out_still(nsvcd__proof *p, nsvcd__search *q, nsvcd__goal 
   // Also what is about to touch, or where an earlier motion may have ended, is pushed out of, and
   // may not touch afterwards.
   const double size = (double)p->given.lengths + p->given.radius;
-  const double near_by = nsvcd__min(0.05 * goal.slop, 0.02 * size);
-  double beside = nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * goal.slop));
-  for (int turns = 0;; beside = 0.01 * goal.slop) {
+  const double near_by = nsvcd__min(0.05 * p->push.slop, 0.02 * size);
+  double beside = nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * p->push.slop));
+  for (int turns = 0;; beside = 0.01 * p->push.slop) {
     goal.clearance = p->given.clearance + beside + nsvcd__epsilon(p);
     (void)nsvcd__search_anew(p, q, goal);
     if (p->push.contact_count == 0) return 1;
     const size_t known = p->push.normal_count;
     if (!nsvcd__choose_push_outs(p) || p->push.normal_count == known) return 0;
-    nsvcd__d3 push_out = nsvcd__push_out(&p->push, goal.slop, 0);
+    nsvcd__d3 push_out = nsvcd__push_out(&p->push, p->push.slop, 0);
     if (!(nsvcd__d3_dot(push_out, push_out) > 0) && turns++ == 0) {
       memmove(p->push.normals, p->push.normals + 1,
               --p->push.normal_count * sizeof *p->push.normals);
       memmove(p->push.depths, p->push.depths + 1,
               p->push.normal_count * sizeof *p->push.depths);
-      push_out = nsvcd__push_out(&p->push, goal.slop, 0);
+      push_out = nsvcd__push_out(&p->push, p->push.slop, 0);
     }
     if (!(nsvcd__d3_dot(push_out, push_out) > 0)) return 0;
     still->push_out = nsvcd__f3_round(push_out);
@@ -198,7 +198,7 @@ static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__proof *p, nsvcd__searc
   nsvcd__motion start = nsvcd__end_of(whole, 0);
   goal.motion = &start;
   goal.collects = NSVCD__TOUCHING;
-  goal.slop = p->given.slop;
+  p->push.slop = p->given.slop;
   p->push.by_faces = 0;
   p->push.needed = 0;
   int is_free = nsvcd__push_out_still(p, q, goal);
@@ -210,11 +210,10 @@ static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__proof *p, nsvcd__searc
   }
   const double least = 1.1 * p->push.needed + 4 * nsvcd__epsilon(p);
   if (!is_free && p->push.contact_count == 0 && least < 0.9 * p->given.slop) {
-    goal.slop = least;
+    p->push.slop = least;
     is_free = nsvcd__push_out_still(p, q, goal);
   }
   if (is_free && p->push.normal_count > 0) nsvcd__deepen(p, q, goal);
-  p->push.slop = goal.slop;
   whole->push_out = is_free ? start.push_out : nsvcd__f3_of(0, 0, 0);
   nsvcd__restart(p, whole);
 }

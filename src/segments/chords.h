@@ -89,9 +89,15 @@ static void nsvcd__chords_in_segment(const nsvcd__search *q, size_t s, nsvcd__sp
 
 // ---- tests
 
+// The fraction of a chord at which it is nearest to a resting centre. d: from that to the start of
+// the chord.
+NSVCD__INLINE nsvcd__v nsvcd__nearest_at(nsvcd__v3 d, nsvcd__v3 travel, nsvcd__v inverse) {
+  return nsvcd__v_clamp(nsvcd__v_mul(nsvcd__v3_dot(d, travel), inverse), 0, 1);
+}
+
 // The square of a chord's distance from a resting centre. d: from that to the start of the chord.
 NSVCD__INLINE nsvcd__v nsvcd__nearest2(nsvcd__v3 d, nsvcd__v3 travel, nsvcd__v inverse) {
-  const nsvcd__v tau = nsvcd__v_clamp(nsvcd__v_mul(nsvcd__v3_dot(d, travel), inverse), 0, 1);
+  const nsvcd__v tau = nsvcd__nearest_at(d, travel, inverse);
   const nsvcd__v3 nearest = nsvcd__v3_fma(tau, travel, d);
   return nsvcd__v3_dot(nearest, nearest);
 }

@@ -65,8 +65,7 @@ static int nsvcd__nearest_tick(const nsvcd__search *q, nsvcd__sphere fixed, floa
       const nsvcd__v3 travel = nsvcd__chords_travel(c, l);
       const nsvcd__v3 d =
           nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(fixed.centre));
-      const nsvcd__v tau = nsvcd__v_clamp(
-          nsvcd__v_mul(nsvcd__v3_dot(d, travel), nsvcd__v_load(c->inverse + l)), 0, 1);
+      const nsvcd__v tau = nsvcd__nearest_at(d, travel, nsvcd__v_load(c->inverse + l));
       const nsvcd__v3 off = nsvcd__v3_fma(tau, travel, d);
       const nsvcd__v between = nsvcd__v_sub(nsvcd__v3_norm(off), nsvcd__v_load(c->radius + l));
       nearer |= nsvcd__v_lt(between, nsvcd__v_set(*gap + fixed.radius)) << l;

@@ -39,8 +39,7 @@ static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *q, size
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v3 travel = nsvcd__chords_travel(c, l);
       const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(centre));
-      const nsvcd__v tau = nsvcd__v_clamp(
-          nsvcd__v_mul(nsvcd__v3_dot(d, travel), nsvcd__v_load(c->inverse + l)), 0, 1);
+      const nsvcd__v tau = nsvcd__nearest_at(d, travel, nsvcd__v_load(c->inverse + l));
       const nsvcd__v3 closest = nsvcd__v3_fma(tau, travel, d);
       const nsvcd__v square = nsvcd__v3_dot(closest, closest);
       const nsvcd__v sum = nsvcd__v_plus(nsvcd__v_load(c->radius + l), radius);

@@ -14,7 +14,7 @@ static double nsvcd__depth_along(nsvcd__d3 n, const nsvcd__triangle_contact *t) 
 // normal of either triangle, or across an edge of each.
 static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__triangle_contact *t) {
   const nsvcd__d3 push_out = nsvcd__d3_widen(p->arcs.motion->push_out);
-  const double most = p->goal.slop - p->given.clearance;
+  const double most = p->push.slop - p->given.clearance;
   for (size_t k = 0; k < 12; k++) {
     nsvcd__d3 n = k < 3 ? t->directions[k] : nsvcd__across_edges(t->moving, t->fixed, k - 3);
     if (!(nsvcd__d3_dot(n, n) > 0.5)) continue;
@@ -35,7 +35,7 @@ static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n,
   const double more = nsvcd__depth_along(n, t);
   const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->arcs.motion->push_out), n);
   if (!(nsvcd__d3_dot(n, n) > 0.5)) return 0;
-  if (pushed_out + more + p->given.clearance > p->goal.slop) return 0;
+  if (pushed_out + more + p->given.clearance > p->push.slop) return 0;
   if (more < 0) return 1;
   return nsvcd__d3_dot(n, t->directions[0]) > -0.3 ||
          nsvcd__d3_dot(n, t->directions[1]) > -0.3;
