@@ -205,6 +205,8 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_QUATERNION,
   // a scale is not finite, negative or out of range, or makes a body too small or too large
   NSVCD_ERROR_SCALE,
+  // `pivot` is not finite, or, scaled, beyond NSVCD_MAX_COORDINATE; or it is set for a certificate
+  NSVCD_ERROR_PIVOT,
   // a and b of a question are the same body in the same motion, so something was passed twice
   NSVCD_ERROR_SAME,
   // `ask` is none of its values
@@ -836,8 +838,8 @@ typedef struct nsvcd_body_pair {
 typedef struct nsvcd_mover {
   // the body, from nsvcd_encode, nsvcd_body_load, nsvcd_body_trust or nsvcd_body_scale
   const nsvcd_body *body;
-  // (count) poses. Between two of them the position is linear in time and the rotation a slerp. One
-  // pose: the body rests there. NULL, with count 0: it rests at the origin
+  // (count) poses. Between two of them the rotation is a slerp, and the position of the pivot is
+  // linear in time. One pose: the body rests there. NULL, with count 0: it rests at the origin
   const nsvcd_pose *poses;
   // number of poses, up to NSVCD_MAX_POSES
   size_t count;
@@ -846,6 +848,10 @@ typedef struct nsvcd_mover {
   const float *times;
   // scale of the body about its origin, NSVCD_MIN_SCALE..NSVCD_MAX_SCALE; default 1
   float scale;
+  // the pivot, a point of the body's frame before scaling: between two poses it goes straight, and
+  // the body turns about it. Default its origin. A body in flight turns about its centre of mass, a
+  // door about any point of its hinge, a screw about any point of its axis
+  float pivot[3];
 } nsvcd_mover;
 
 // A question about two bodies. Zero is the default of everything but the bodies.
@@ -1080,8 +1086,8 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 //   threads    each needs a workspace of its own; bodies may be shared
 //   errors     ARGUMENT, WORKSPACE, BODY and VERSION (by a body's first bytes), SAME, TRIANGLES or
 //              LATENTS if a body lacks what the method needs, and the code of the field at fault:
-//              POSES, TIMES, POSE, QUATERNION, SCALE; ASK, METHOD, TO, TO_TIME, CLEARANCE, SLOP,
-//              TOLERANCE, MANIFOLD, SEGMENTS; PAIRS, MODEL, PRECISION, RECALL, INFLATE
+//              POSES, TIMES, POSE, QUATERNION, SCALE, PIVOT; ASK, METHOD, TO, TO_TIME, CLEARANCE,
+//              SLOP, TOLERANCE, MANIFOLD, SEGMENTS; PAIRS, MODEL, PRECISION, RECALL, INFLATE
 //   source     the proof: this library, proof/proof; the network: NeuralSVCD, algorithm 1
 //
 // What is proven is about the surfaces of the two meshes, scaled and posed exactly as described.
@@ -1678,6 +1684,7 @@ static const char nsvcd__result_texts[] =
     "a quaternion (x y z w) is not of unit length, to 1e-4\0"
     "a scale is not finite, negative or out of range, "
     "or makes a body too small or too large\0"
+    "a pivot is not finite or too large, or is set for a certificate\0"
     "both sides are the same body in the same motion\0"
     "ask is none of its values\0"
     "method is none of its values, or cannot answer this: the network knows no FIRST, "
@@ -1903,6 +1910,9 @@ static size_t nsvcd__pose_count(const nsvcd_mover *mover) {
 }
 
 static nsvcd_result nsvcd__track_check(const nsvcd_mover *mover) {
+  const float scale = nsvcd__scale_of(mover);
+  const float most = NSVCD_MAX_COORDINATE / (scale > 1 ? scale : 1);
+  if (!nsvcd__in_range(mover->pivot, 3, most)) return NSVCD_ERROR_PIVOT;
   if (!mover->poses) return mover->count == 0 ? NSVCD_OK : NSVCD_ERROR_POSES;
   if (mover->count < 1 || mover->count > NSVCD_MAX_POSES) return NSVCD_ERROR_POSES;
   if (!nsvcd__times_are_valid(mover->times, mover->count)) return NSVCD_ERROR_TIMES;
@@ -2247,7 +2257,8 @@ static inline nsvcd__mat3 nsvcd__mat3_mix(float s, const nsvcd__mat3 *a, float t
 #ifndef NSVCD__HAS_GROUND_MOTIONS
 #define NSVCD__HAS_GROUND_MOTIONS
 // In: poses, as a caller gives them. Out: in double, where a body is between two of them, and how
-// it turns on the way: its position is linear, its rotation a slerp on the shorter arc.
+// it turns on the way: its rotation is a slerp on the shorter arc, and the position of its pivot
+// linear. With the pivot c of the body's frame, scaled, the pivot of a pose is at position + R c.
 //
 // This is the law of motion, for proofs, certificates and robots. The floor of motions has it again
 // in float, 16 segments at a time: every query cuts its motion, and poses in double alone would
@@ -2337,13 +2348,26 @@ static inline nsvcd__d3 nsvcd__slerp_turn(const nsvcd__slerp *slerp) {
   return nsvcd__d3_scale(axis, sine > 0 ? angle / sine : 0);
 }
 
-// The pose at fraction u between two.
+// From a pose's origin s times to its pivot c.
+static inline nsvcd__d3 nsvcd__to_pivot(const nsvcd__dpose *pose, nsvcd__d3 c, double s) {
+  if (!(nsvcd__d3_dot(c, c) > 0)) return pose->position;
+  const nsvcd__dtransform at = nsvcd__dtransform_of(pose);
+  return nsvcd__d3_transform(&at, nsvcd__d3_scale(c, s));
+}
+
+// The position of a pose's pivot c.
+static inline nsvcd__d3 nsvcd__pivot_of(const nsvcd_pose *pose, nsvcd__d3 c) {
+  const nsvcd__dpose at = nsvcd__dpose_of(pose);
+  return nsvcd__to_pivot(&at, c, 1);
+}
+
+// The pose at fraction u between two, with the pivot c.
 static inline nsvcd__dpose nsvcd__dpose_between(const nsvcd_pose *a, const nsvcd_pose *b,
-                                                double u) {
+                                                nsvcd__d3 c, double u) {
   const nsvcd__slerp s = nsvcd__slerp_of(a, b);
-  const nsvcd__d3 from = nsvcd__d3_load(a->position);
-  const nsvcd__dpose out = {nsvcd__dquat_along(s.start, s.end, s.half_angle, u),
-                            nsvcd__d3_mix(from, nsvcd__d3_load(b->position), u)};
+  nsvcd__dpose out = {nsvcd__dquat_along(s.start, s.end, s.half_angle, u),
+                      nsvcd__d3_mix(nsvcd__pivot_of(a, c), nsvcd__pivot_of(b, c), u)};
+  out.position = nsvcd__to_pivot(&out, c, -1);
   return out;
 }
 #endif  // NSVCD__HAS_GROUND_MOTIONS
@@ -8776,9 +8800,9 @@ NSVCDDEF nsvcd_result nsvcd_encode_cloud(const float *points, size_t count, floa
 // ======================================== motion: where bodies are, and the memory of their search
 
 // ----------------------------------------------------------------------------------- motion/motion
-// In: two movers: bodies, scales, and poses over t in [0,1]. Between poses the position is linear,
-// the rotation a slerp on the shorter arc. Out: the pose of one body, *moving*, in the frame of the
-// other, *fixed*, at any t.
+// In: two movers: bodies, scales, pivots, and poses over t in [0,1]. Between poses the position of
+// the pivot is linear, the rotation a slerp on the shorter arc. Out: the pose of one body,
+// *moving*, in the frame of the other, *fixed*, at any t.
 //
 // Both may move; "fixed" says whose frame it is. That frame has the axes of the fixed body and
 // its scale as the unit, so that its stored numbers need no change: a point x of the moving body is
@@ -8797,7 +8821,15 @@ typedef struct nsvcd__track {
   size_t count;
   uint32_t ticks;  // from a pose to the next; of a single pose all; 0 if there are times
   uint32_t whole;  // ticks of the motion, if there are times
+  float scale;
+  const float *pivot;  // (3), the caller's; NULL: the origin, or a single pose
 } nsvcd__track;
+
+// From the body's origin to its pivot, in the body's axes, metres.
+static nsvcd__d3 nsvcd__track_pivot(const nsvcd__track *track) {
+  if (!track->pivot) return nsvcd__d3_of(0, 0, 0);
+  return nsvcd__d3_scale(nsvcd__d3_load(track->pivot), (double)track->scale);
+}
 
 // The tick at which a track's pose k is.
 static uint32_t nsvcd__tick_of(const nsvcd__track *track, uint32_t k) {
@@ -8864,7 +8896,12 @@ static nsvcd_result nsvcd__mover_check(const nsvcd_mover *mover) {
 static nsvcd__track nsvcd__track_of(const nsvcd_mover *mover) {
   const size_t count = nsvcd__pose_count(mover);
   const nsvcd_pose *poses = mover->poses ? mover->poses : &nsvcd__at_origin;
-  const nsvcd__track track = {poses, count > 1 ? mover->times : NULL, count, 0, 0};
+  const float *c = mover->pivot;
+  const int has_pivot = fabsf(c[0]) + fabsf(c[1]) + fabsf(c[2]) > 0;
+  nsvcd__track track = {poses, NULL, count, 0, 0, 1, NULL};
+  track.scale = nsvcd__scale_of(mover);
+  if (count > 1) track.times = mover->times;
+  if (count > 1 && has_pivot) track.pivot = c;
   return track;
 }
 
@@ -8930,19 +8967,20 @@ static void nsvcd__motion_retime(nsvcd__motion *m, uint32_t *begin, size_t segme
   begin[segments] = m->ticks;
 }
 
-// The box of a track's positions.
+// The box of the positions of a track's pivot.
 static nsvcd__box nsvcd__track_box(const nsvcd__track *track) {
+  const nsvcd__d3 pivot = nsvcd__track_pivot(track);
   nsvcd__box box;
-  box.low = box.high = nsvcd__f3_load(track->poses->position);
+  box.low = box.high = nsvcd__f3_round(nsvcd__pivot_of(track->poses, pivot));
   for (size_t n = 1; n < track->count; n++) {
-    const nsvcd__f3 position = nsvcd__f3_load(track->poses[n].position);
+    const nsvcd__f3 position = nsvcd__f3_round(nsvcd__pivot_of(&track->poses[n], pivot));
     box.low = nsvcd__f3_min(box.low, position);
     box.high = nsvcd__f3_max(box.high, position);
   }
   return box;
 }
 
-// A lower bound of the distance between the origins of bodies on two tracks, in units: they never
+// A lower bound of the distance between the pivots of bodies on two tracks, in units: they never
 // leave the boxes of their positions.
 static float nsvcd__tracks_gap(const nsvcd__track *moving, const nsvcd__track *fixed,
                                float unit) {
@@ -8955,6 +8993,15 @@ static float nsvcd__tracks_gap(const nsvcd__track *moving, const nsvcd__track *f
   return 0.99999f * nsvcd__f3_norm(gap) / unit;
 }
 
+// How far a body's pivot is from its origin, in units.
+static float nsvcd__pivot_arm(const nsvcd__motion *m, const nsvcd__track *track) {
+  if (!track->pivot) return 0;
+  return nsvcd__above(nsvcd__d3_norm(nsvcd__track_pivot(track)) / (double)m->unit);
+}
+static float nsvcd__pivot_arms(const nsvcd__motion *m) {
+  return nsvcd__pivot_arm(m, &m->moving) + nsvcd__pivot_arm(m, &m->fixed);
+}
+
 static float nsvcd__motion_gap(const nsvcd__motion *m) {
   return nsvcd__tracks_gap(&m->moving, &m->fixed, m->unit);
 }
@@ -8962,6 +9009,8 @@ static float nsvcd__motion_gap(const nsvcd__motion *m) {
 // Sets all that follows from the tracks.
 static void nsvcd__motion_set_tracks(nsvcd__motion *m, nsvcd__track moving,
                                      nsvcd__track fixed) {
+  if (moving.count == 1) moving.pivot = NULL;
+  if (fixed.count == 1) fixed.pivot = NULL;
   m->moving = moving;
   m->fixed = fixed;
   m->fixed_moves = fixed.count > 1;
@@ -8990,24 +9039,24 @@ static void nsvcd__motion_init(const nsvcd_mover *moving, const nsvcd_mover *fix
   nsvcd__motion_set_tracks(m, nsvcd__track_of(moving), nsvcd__track_of(fixed));
 }
 
-// A body's pose in the world: rotation unit to 1e-4, position in metres. In double, because on a
-// long path past the other body rounding its ends would be large beside the clearance.
+// A body's rotation in the world, unit to 1e-4, and the position of its pivot, metres. In double,
+// because on a long path past the other body rounding its ends would be large beside the clearance.
 typedef struct nsvcd__world_pose {
   nsvcd__quat rotation;
   nsvcd__d3 position;
 } nsvcd__world_pose;
 
-static nsvcd__world_pose nsvcd__world_pose_of(const nsvcd_pose *pose) {
+static nsvcd__world_pose nsvcd__world_pose_of(const nsvcd_pose *pose, nsvcd__d3 pivot) {
   const nsvcd__world_pose out = {nsvcd__quat_load(pose->rotation),
-                                 nsvcd__d3_load(pose->position)};
+                                 nsvcd__pivot_of(pose, pivot)};
   return out;
 }
 
 // The pose at a fraction between two.
 static nsvcd__world_pose nsvcd__world_pose_between(const nsvcd_pose *a, const nsvcd_pose *b,
-                                                   double fraction) {
-  const nsvcd__world_pose from = nsvcd__world_pose_of(a);
-  const nsvcd__world_pose to = nsvcd__world_pose_of(b);
+                                                   nsvcd__d3 pivot, double fraction) {
+  const nsvcd__world_pose from = nsvcd__world_pose_of(a, pivot);
+  const nsvcd__world_pose to = nsvcd__world_pose_of(b, pivot);
   nsvcd__world_pose out;
   out.rotation = nsvcd__quat_slerp(from.rotation, to.rotation, (float)fraction);
   out.position = nsvcd__d3_mix(from.position, to.position, fraction);
@@ -9019,10 +9068,12 @@ static nsvcd__world_pose nsvcd__track_pose(const nsvcd__track *track, uint32_t t
   const uint32_t k = nsvcd__pose_before(track, tick);
   const nsvcd_pose *a = &track->poses[k];
   const uint32_t from = nsvcd__tick_of(track, k);
-  if (tick == from || track->count == 1) return nsvcd__world_pose_of(a);
+  const nsvcd__d3 pivot = nsvcd__track_pivot(track);
+  if (tick == from || track->count == 1) return nsvcd__world_pose_of(a, pivot);
   const uint32_t to = nsvcd__tick_of(track, k + 1);
-  if (tick == to) return nsvcd__world_pose_of(a + 1);
-  return nsvcd__world_pose_between(a, a + 1, (double)(tick - from) / (double)(to - from));
+  if (tick == to) return nsvcd__world_pose_of(a + 1, pivot);
+  const double fraction = (double)(tick - from) / (double)(to - from);
+  return nsvcd__world_pose_between(a, a + 1, pivot, fraction);
 }
 
 // The tick of a track's next pose after a tick that is not the last.
@@ -9693,10 +9744,11 @@ typedef struct nsvcd__arc {
   // of the moving body
   double scale;
   nsvcd__slerp moving, fixed;
-  // from the fixed body's origin to the moving one's, and how it changes
+  // from the fixed body's pivot to the moving one's, and how it changes
   nsvcd__d3 from, moved;
-  // added to that in the fixed body's frame
-  nsvcd__d3 push_out;
+  // added to that in the fixed body's frame: its pivot, and the push-out; and taken away in the
+  // moving one's
+  nsvcd__d3 added, pivot;
   // The axis of the relative turn at the start, unit, in the fixed body's frame and in the moving
   // one's. Where both bodies turn, it wavers from either by this angle at most.
   nsvcd__d3 axis, own_axis;
@@ -9824,7 +9876,7 @@ typedef struct nsvcd__height {
 
 // The question, in the fixed body's units.
 typedef struct nsvcd__given {
-  // the sum of both bodies' extents
+  // the sum of both bodies' extents, and of their pivots' distances from the origins
   float lengths;
   // beyond the quantization errors
   double tolerance;
@@ -10263,7 +10315,7 @@ typedef struct nsvcd__task {
   const nsvcd_body *moving, *fixed;
   nsvcd__motion motion;
   int swapped;          // the moving body is b, not a
-  float lengths;        // extents of both bodies, in the fixed one's units
+  float lengths;        // extents of both bodies and their pivots, in the fixed one's units
   nsvcd_method method;  // PROOF or NETWORK
   const nsvcd_question *question;
 #ifndef NSVCD_NO_NETWORK
@@ -10890,6 +10942,9 @@ static inline nsvcd__vmat3 nsvcd__vmat3_of(nsvcd__vquat q) {
 //                 + max over keyframes |p_k - its linear interpolation|
 //   margin      = origin_bend + rounding + the clearance asked for
 //
+// A body that turns about a pivot is one whose origin is there, with points shifted by -pivot: so
+// its origin is no farther from its chord than its arcs bend times |pivot| more.
+//
 // Along a direction n, |n| <= 1, the deviation is smaller. A turn by h about the unit axis a bends
 // the path of a point x by a x (a x y) h^2, y being x, turned; and n.(a x (a x y)) = (n x a).(a x
 // y), at most |n x a| |x|: nothing along the axis. `bend_along_axis` and `origin_along_axis` are
@@ -10900,7 +10955,7 @@ static inline nsvcd__vmat3 nsvcd__vmat3_of(nsvcd__vquat q) {
 typedef struct nsvcd__v_poses {
   nsvcd__vquat moving;  // of any length
   nsvcd__vquat fixed;   // unit; only where that body moves
-  nsvcd__v3 offset;     // from the fixed body's origin to the moving one's, metres
+  nsvcd__v3 offset;     // from the fixed body's pivot to the moving one's, metres
 } nsvcd__v_poses;
 
 // A slice of poses.
@@ -10926,6 +10981,15 @@ static nsvcd__v_pose nsvcd__v_seen(const nsvcd__motion *m, const nsvcd__v_poses 
   nsvcd__v_pose out;
   out.rotation = nsvcd__vquat_mul(to_fixed, at->moving);
   out.position = nsvcd__v3_fma(per_metre, metres, nsvcd__v3_set(m->push_out));
+  if (m->fixed.pivot) {
+    const nsvcd__v3 pivot = nsvcd__v3_set(nsvcd__f3_load(m->fixed.pivot));
+    out.position = nsvcd__v3_add(out.position, pivot);
+  }
+  if (m->moving.pivot) {
+    const nsvcd__v3 pivot = nsvcd__v3_set(nsvcd__f3_load(m->moving.pivot));
+    const nsvcd__v3 arm = nsvcd__vmat3_apply(nsvcd__vmat3_of(out.rotation), pivot);
+    out.position = nsvcd__v3_fma(nsvcd__v_set(-m->scale), arm, out.position);
+  }
   return out;
 }
 
@@ -11158,10 +11222,10 @@ static NSVCD__NOINLINE void nsvcd__cut_ends(const nsvcd__motion *m, const uint32
   }
 }
 
-// The scale times what arcs are off, plus what keyframes are, whose square is given.
-static nsvcd__v nsvcd__v_bend(nsvcd__v scale, const float *arcs, const float *keyframes) {
+// What arcs are off, times the arm, plus what keyframes are, whose square is given.
+static nsvcd__v nsvcd__v_bend(nsvcd__v arm, const float *arcs, const float *keyframes) {
   const nsvcd__v off = nsvcd__v_sqrt(nsvcd__v_load(keyframes));
-  return nsvcd__v_add(off, nsvcd__v_mul(scale, nsvcd__v_load(arcs)));
+  return nsvcd__v_add(off, nsvcd__v_mul(arm, nsvcd__v_load(arcs)));
 }
 
 // Sets the deviations, once all keyframes have been visited. If both bodies move, they are not
@@ -11170,12 +11234,15 @@ static void nsvcd__cut_deviations(const nsvcd__motion *m, float lengths, size_t 
                                   nsvcd__segments *out, const nsvcd__bends *most) {
   const int both = m->fixed_moves;
   const nsvcd__v scale = nsvcd__v_set(m->scale);
+  const nsvcd__v pivot = nsvcd__v_set(nsvcd__pivot_arm(m, &m->moving));
   const nsvcd__v bend = nsvcd__v_bend(scale, most->arc_bend + l, most->off + l);
-  const nsvcd__v off = nsvcd__v_sqrt(nsvcd__v_load(most->origin_off + l));
+  const nsvcd__v off = nsvcd__v_bend(pivot, most->arc_bend + l, most->origin_off + l);
   const nsvcd__v origin_bend = nsvcd__v_add(off, nsvcd__v_load(most->arc_origin + l));
   const nsvcd__v along = nsvcd__v_bend(scale, most->arc_along_axis + l, most->along_axis + l);
-  const nsvcd__v origin_along = nsvcd__v_sqrt(nsvcd__v_load(most->origin_along_axis + l));
-  const nsvcd__v across = nsvcd__v_sqrt(nsvcd__v_load(most->origin_off_heading + l));
+  const nsvcd__v origin_along =
+      nsvcd__v_bend(pivot, most->arc_along_axis + l, most->origin_along_axis + l);
+  const nsvcd__v across =
+      nsvcd__v_bend(pivot, most->arc_bend + l, most->origin_off_heading + l);
   nsvcd__v_store(out->bend + l, bend);
   nsvcd__v_store(out->origin_bend + l, origin_bend);
   nsvcd__v_store(out->bend_along_axis + l, both ? bend : along);
@@ -11414,8 +11481,8 @@ static int nsvcd__self_test_lanes(void) {
   const float turn = half;
   const nsvcd_pose path[2] = {{{4, 0, 0}, {0, 0, 0, 1}}, {{-4, 0, 0}, {0, 0, turn, turn}}};
   const nsvcd_pose rest = {{1, 2, 3}, {0.5f, 0.5f, 0.5f, 0.5f}};
-  const nsvcd_mover moving = {NULL, path, 2, NULL, 0};
-  const nsvcd_mover fixed = {NULL, &rest, 1, NULL, 0};
+  const nsvcd_mover moving = {NULL, path, 2, NULL, 0, {0}};
+  const nsvcd_mover fixed = {NULL, &rest, 1, NULL, 0, {0}};
   nsvcd__chords chords;
   // A block, so that what comes after it shares its stack.
   {
@@ -12378,7 +12445,7 @@ static nsvcd__dtransform nsvcd__inverse_dtransform(const nsvcd__dtransform *at, 
   return out;
 }
 
-// A track's slerp over an arc, and its positions at both ends, metres.
+// A track's slerp over an arc, and its pivot's positions at both ends, metres.
 static nsvcd__slerp nsvcd__slerp_in(const nsvcd__track *track, uint32_t first, uint32_t ticks,
                                     nsvcd__d3 *ends) {
   const uint32_t k = nsvcd__pose_before(track, first);
@@ -12386,8 +12453,9 @@ static nsvcd__slerp nsvcd__slerp_in(const nsvcd__track *track, uint32_t first, u
   const nsvcd_pose *b = track->count > 1 ? a + 1 : a;
   const uint32_t begin = nsvcd__tick_of(track, k);
   const double per_tick = 1 / (double)(nsvcd__tick_of(track, k + 1) - begin);
-  const nsvcd__d3 start = nsvcd__d3_load(a->position);
-  const nsvcd__d3 end = nsvcd__d3_load(b->position);
+  const nsvcd__d3 pivot = nsvcd__track_pivot(track);
+  const nsvcd__d3 start = nsvcd__pivot_of(a, pivot);
+  const nsvcd__d3 end = nsvcd__pivot_of(b, pivot);
   nsvcd__slerp out = nsvcd__slerp_of(a, b);
   out.fraction = (double)ticks * per_tick;
   out.from = (double)(first - begin) * per_tick;
@@ -12408,7 +12476,9 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__arcs *arcs, uint32_t first) {
   arc->ticks = ticks;
   arc->fixed_moves = m->fixed_moves;
   arc->scale = m->ratio;
-  arc->push_out = nsvcd__d3_widen(m->push_out);
+  const nsvcd__d3 fixed_pivot = nsvcd__d3_scale(nsvcd__track_pivot(&m->fixed), per_metre);
+  arc->added = nsvcd__d3_add(fixed_pivot, nsvcd__d3_widen(m->push_out));
+  arc->pivot = nsvcd__d3_scale(nsvcd__track_pivot(&m->moving), per_metre);
   arc->moving = nsvcd__slerp_in(&m->moving, first, ticks, ends);
   arc->fixed = nsvcd__slerp_in(&m->fixed, first, ticks, fixed_ends);
   const nsvcd__d3 from = nsvcd__d3_sub(ends[0], fixed_ends[0]);
@@ -12440,10 +12510,12 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__arcs *arcs, uint32_t first) {
   const nsvcd__d3 axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
   const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->fixed, 0));
   const nsvcd__dmat3 moving = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->moving, 0));
+  const double arm = nsvcd__d3_norm(arc->pivot);
   arc->turn = nsvcd__d3_norm(turn);
-  arc->speed = nsvcd__d3_norm(arc->moved) + swing;
+  arc->speed = nsvcd__d3_norm(arc->moved) + swing + arc->turn * arm;
   arc->twist = 0.1250001 * arc->scale * twist;
   arc->origin_bend = 0.1250001 * (2 * across + angle * swing);
+  arc->origin_bend += 0.1250001 * arm * (arc->turn * arc->turn + twist);
   arc->axis = nsvcd__dmat3_apply_transpose(&fixed, axis);
   arc->own_axis = nsvcd__dmat3_apply_transpose(&moving, axis);
   arc->waver = arc->turn > 0 ? nsvcd__min(1, twist / arc->turn) : 0;
@@ -12470,7 +12542,8 @@ static nsvcd__dtransform nsvcd__dtransform_at(const nsvcd__arc *arc, double u) {
   }
   const nsvcd__dmat3 rotation = nsvcd__dmat3_of(q);
   at.rotation = nsvcd__dmat3_scale(&rotation, arc->scale);
-  at.position = nsvcd__d3_add(at.position, arc->push_out);
+  at.position = nsvcd__d3_add(at.position, arc->added);
+  at.position = nsvcd__d3_sub(at.position, nsvcd__dmat3_apply(&rotation, arc->pivot));
   return at;
 }
 
@@ -15674,7 +15747,7 @@ static nsvcd__v3 nsvcd__v_half_rotation(nsvcd__vquat q) {
 }
 
 // A track's poses at `count` times t in [0,1], 1 to SLICE, one per lane: unit quaternions, and
-// positions relative to an origin.
+// positions of the pivot relative to an origin.
 static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const float *t,
                                            size_t count, nsvcd__f3 origin) {
   float fraction[NSVCD__SLICE] = {0};
@@ -15683,13 +15756,14 @@ static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const floa
   float position[3 * NSVCD__SLICE] = {0};
   float moved[3 * NSVCD__SLICE] = {0};
   const int moves = track->count > 1;
+  const nsvcd__d3 pivot = nsvcd__track_pivot(track);
   for (size_t l = count; l < NSVCD__SLICE; l++) rotation[3 * NSVCD__SLICE + l] = 1;
   for (size_t l = 0; l < count; l++) {
     const size_t k = moves ? nsvcd__pose_at(track, t[l], &fraction[l]) : 0;
     const nsvcd_pose *a = &track->poses[k];
     const nsvcd_pose *b = moves ? a + 1 : a;
-    const nsvcd__f3 from = nsvcd__f3_load(a->position);
-    const nsvcd__f3 to = nsvcd__f3_load(b->position);
+    const nsvcd__f3 from = nsvcd__f3_round(nsvcd__pivot_of(a, pivot));
+    const nsvcd__f3 to = nsvcd__f3_round(nsvcd__pivot_of(b, pivot));
     nsvcd__quat q = nsvcd__quat_load(a->rotation);
     const nsvcd__quat next = nsvcd__quat_load(b->rotation);
     const float cosine = nsvcd__quat_dot(q, next);
@@ -16753,13 +16827,17 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 
   const nsvcd__f3 own = nsvcd__centre_of(nsvcd__body_patches(task->moving), c->moving);
   const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_scale(own, m->scale));
+  nsvcd__f3 from_pivot = own;
+  if (m->moving.pivot) from_pivot = nsvcd__f3_sub(own, nsvcd__f3_load(m->moving.pivot));
+  const nsvcd__v3 arm = nsvcd__v3_set(nsvcd__f3_scale(from_pivot, m->scale));
   for (size_t first = 0; first < NSVCD__INSTANTS; first += NSVCD__SLICE) {
     const size_t left = NSVCD__INSTANTS - first;
     const size_t count = left < NSVCD__SLICE ? left : NSVCD__SLICE;
     const nsvcd__v_pose pose = nsvcd__v_poses_at(m, tape->at.t + first, count);
-    const nsvcd__v3 arm = nsvcd__vmat3_apply(nsvcd__vmat3_of(pose.rotation), centre);
-    nsvcd__v3_store(tape->at.arm, first, arm);
-    nsvcd__v3_store(tape->at.position, first, nsvcd__v3_add(arm, pose.position));
+    const nsvcd__vmat3 rotation = nsvcd__vmat3_of(pose.rotation);
+    nsvcd__v3_store(tape->at.arm, first, nsvcd__vmat3_apply(rotation, arm));
+    const nsvcd__v3 to_centre = nsvcd__vmat3_apply(rotation, centre);
+    nsvcd__v3_store(tape->at.position, first, nsvcd__v3_add(to_centre, pose.position));
   }
 }
 #endif  // NSVCD_NO_GRADIENT
@@ -17620,10 +17698,20 @@ static NSVCD__NOINLINE void nsvcd__add_wrench(float scale, nsvcd__f3 force, nsvc
   nsvcd__f3_store(nsvcd__f3_fma(scale, torque, nsvcd__f3_load(row + 3)), row + 3);
 }
 
-// Adds to `gradient` (count, 6), or NULL, what a force and a torque on a body at time t, in the
-// world, are by its poses before and after t. Returns the derivative by t. Let R = exp(2 u h n) A,
-// on the shorter arc from A to B = exp(2 h n) A. Small rotations a of A and b of B (on the left)
-// turn R
+// Adds what a force on a pivot c, and a torque about it, are by a pose.
+static void nsvcd__add_at_pivot(const nsvcd_pose *pose, nsvcd__d3 c, nsvcd__f3 force,
+                                nsvcd__f3 torque, float *row) {
+  const nsvcd__d3 pivot = nsvcd__pivot_of(pose, c);
+  const nsvcd__d3 origin = nsvcd__d3_load(pose->position);
+  const nsvcd__f3 arm = nsvcd__d3_narrow(nsvcd__d3_sub(pivot, origin));
+  const nsvcd__f3 moment = nsvcd__f3_cross(arm, force);
+  nsvcd__add_wrench(1, force, nsvcd__f3_add(torque, moment), row);
+}
+
+// Adds to `gradient` (count, 6), or NULL, what a force on a body's pivot and a torque about it at
+// time t, in the world, are by its poses before and after t. Returns the derivative by t. Let R =
+// exp(2 u h n) A, on the shorter arc from A to B = exp(2 h n) A. Small rotations a of A and b of B
+// (on the left) turn R
 //   along n    by (1 - u) a + u b,
 //   across n   by sin((1 - u) h) / sin h of a, turned by u h about n,
 //              and sin(u h) / sin h of b, turned by -(1 - u) h.
@@ -17639,6 +17727,7 @@ static float nsvcd__by_poses(const nsvcd__track *track, float t, nsvcd__f3 force
   const float per_t = times ? 1 / (times[k + 1] - times[k]) : (float)(track->count - 1);
   const nsvcd_pose *a = &track->poses[k];
   const nsvcd_pose *b = &track->poses[k + 1];
+  const nsvcd__d3 pivot = nsvcd__track_pivot(track);
   // From a to b on the shorter arc: a turn by 2 h about the unit vector n, or 0 if nothing turns.
   const nsvcd__quat qa = nsvcd__quat_unit(nsvcd__quat_load(a->rotation));
   const nsvcd__quat qb = nsvcd__quat_unit(nsvcd__quat_load(b->rotation));
@@ -17653,11 +17742,12 @@ static float nsvcd__by_poses(const nsvcd__track *track, float t, nsvcd__f3 force
     const float wb = h > 1e-3f ? sinf(u * h) * inverse : u;
     const nsvcd__f3 on_a = nsvcd__turned(torque, n, 1 - u, wa, -u * h);
     const nsvcd__f3 on_b = nsvcd__turned(torque, n, u, wb, (1 - u) * h);
-    nsvcd__add_wrench(1, nsvcd__f3_scale(force, 1 - u), on_a, out + 6 * k);
-    nsvcd__add_wrench(1, nsvcd__f3_scale(force, u), on_b, out + 6 * (k + 1));
+    nsvcd__add_at_pivot(a, pivot, nsvcd__f3_scale(force, 1 - u), on_a, out + 6 * k);
+    nsvcd__add_at_pivot(b, pivot, nsvcd__f3_scale(force, u), on_b, out + 6 * (k + 1));
   }
-  const nsvcd__f3 from = nsvcd__f3_load(a->position);
-  const nsvcd__f3 moved = nsvcd__f3_sub(nsvcd__f3_load(b->position), from);
+  const nsvcd__d3 from = nsvcd__pivot_of(a, pivot);
+  const nsvcd__d3 to = nsvcd__pivot_of(b, pivot);
+  const nsvcd__f3 moved = nsvcd__d3_narrow(nsvcd__d3_sub(to, from));
   const float by_turn = 2 * h * nsvcd__f3_dot(torque, n);
   return per_t * (nsvcd__f3_dot(force, moved) + by_turn);
 }
@@ -17681,10 +17771,12 @@ static void nsvcd__instants_of(const nsvcd__candidate *c, const float *time,
 
 // A track's pose at time t in [0,1].
 static nsvcd__world_pose nsvcd__track_pose_at(const nsvcd__track *track, float t) {
-  if (track->count == 1) return nsvcd__world_pose_between(track->poses, track->poses, 0);
+  const nsvcd__d3 pivot = nsvcd__track_pivot(track);
+  if (track->count == 1) return nsvcd__world_pose_of(track->poses, pivot);
   float fraction;
   const size_t k = nsvcd__pose_at(track, t, &fraction);
-  return nsvcd__world_pose_between(&track->poses[k], &track->poses[k + 1], (double)fraction);
+  const nsvcd_pose *a = &track->poses[k];
+  return nsvcd__world_pose_between(a, a + 1, pivot, (double)fraction);
 }
 
 // Adds to out (2), of which one may be NULL, what a force on the patch's centre at instant l and a
@@ -18468,9 +18560,12 @@ static nsvcd__twist nsvcd__twist_at(const nsvcd__arc *arc, double u) {
   nsvcd__d3 own = nsvcd__slerp_turn(&arc->fixed);
   turn = nsvcd__dmat3_apply_transpose(&fixed, turn);
   own = nsvcd__dmat3_apply_transpose(&fixed, own);
+  // the moving body's pivot, as it moves; with what is added, the fixed body turns about its own
+  const nsvcd__d3 arm = nsvcd__dmat3_apply(&at.rotation, arc->pivot);
+  const nsvcd__d3 pivot = nsvcd__d3_fma(1 / arc->scale, arm, at.position);
   nsvcd__d3 along = nsvcd__dmat3_apply_transpose(&fixed, arc->moved);
-  along = nsvcd__d3_add(along, nsvcd__d3_cross(own, arc->push_out));
-  along = nsvcd__d3_sub(along, nsvcd__d3_cross(turn, at.position));
+  along = nsvcd__d3_add(along, nsvcd__d3_cross(own, arc->added));
+  along = nsvcd__d3_sub(along, nsvcd__d3_cross(turn, pivot));
   nsvcd__twist out;
   out.along = nsvcd__d3_scale(along, per_tick);
   out.turn = nsvcd__d3_scale(nsvcd__d3_sub(turn, own), per_tick);
@@ -18767,7 +18862,8 @@ static nsvcd__dpose nsvcd__dpose_at(const nsvcd__motion *motion, const nsvcd__tr
   const uint32_t length = nsvcd__tick_of(track, k + 1) - from;
   const nsvcd_pose *a = &track->poses[k];
   const nsvcd_pose *b = track->count > 1 ? a + 1 : a;
-  return nsvcd__dpose_between(a, b, (tick - (double)from) / (double)length);
+  const double fraction = (tick - (double)from) / (double)length;
+  return nsvcd__dpose_between(a, b, nsvcd__track_pivot(track), fraction);
 }
 
 // From the fixed body's frame, in metres, to the world, at time t.
@@ -18825,6 +18921,7 @@ static nsvcd__goal nsvcd__proof_begin(nsvcd__query *query) {
   p->moving = nsvcd__geometry_of(nsvcd__triangles_of(task->moving));
   p->fixed = nsvcd__geometry_of(nsvcd__triangles_of(task->fixed));
   given->lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
+  given->lengths += nsvcd__pivot_arms(&task->motion);
   given->tolerance = (double)q->tolerance / unit;
   const double moving_radius = (double)p->moving.counts->convex_radius * task->motion.ratio;
   given->radius = moving_radius + (double)p->fixed.counts->convex_radius;
@@ -18929,8 +19026,8 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, nsvcd__goa
   nsvcd__motion down = *whole;
   nsvcd_pose moving[2], fixed[2];
   const int takes_it = nsvcd__takes_push_out(task);
-  const nsvcd__track moves = {moving, NULL, takes_it ? 2u : 1u, 0, 0};
-  const nsvcd__track rests = {fixed, NULL, takes_it ? 1u : 2u, 0, 0};
+  const nsvcd__track moves = {moving, NULL, takes_it ? 2u : 1u, 0, 0, 1, NULL};
+  const nsvcd__track rests = {fixed, NULL, takes_it ? 1u : 2u, 0, 0, 1, NULL};
   const nsvcd__d3 push_out = nsvcd__d3_widen(whole->push_out);
   // Nearer to each other than stored triangles are known, nothing would be separated.
   const double epsilons = 4 * nsvcd__epsilon(p) + nsvcd__pose_error(p, t);
@@ -18958,7 +19055,8 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, nsvcd__goa
 // in its frame are as exact as they can be.
 static nsvcd__motion nsvcd__rest_at(const nsvcd__task *task, double t, nsvcd_pose *poses) {
   nsvcd__motion still = task->motion;
-  const nsvcd__track tracks[2] = {{&poses[0], NULL, 1, 0, 0}, {&poses[1], NULL, 1, 0, 0}};
+  const nsvcd__track tracks[2] = {{&poses[0], NULL, 1, 0, 0, 1, NULL},
+                                  {&poses[1], NULL, 1, 0, 0, 1, NULL}};
   nsvcd__dpose moving = nsvcd__dpose_at(&still, &still.moving, t);
   nsvcd__dpose fixed = nsvcd__dpose_at(&still, &still.fixed, t);
   const nsvcd__dmat3 rotation = nsvcd__dtransform_of(&fixed).rotation;
@@ -19329,6 +19427,7 @@ static NSVCD__NOINLINE nsvcd__query *nsvcd__query_open(nsvcd__isa isa, const nsv
   task->moving = moving->body;
   task->fixed = fixed->body;
   task->lengths = task->motion.scale * task->moving->extent + task->fixed->extent;
+  task->lengths += nsvcd__pivot_arms(&task->motion);
   task->method = nsvcd__method_of(task->moving, task->fixed, q->method);
   task->question = q;
 #ifndef NSVCD_NO_NETWORK
@@ -20082,8 +20181,8 @@ static nsvcd_answer nsvcd__ask_segments(nsvcd__planner *p, uint32_t k, size_t fi
     motion[n] = nsvcd__relative_pose(&row[pair->a], &row[pair->b]);
   }
 
-  const nsvcd_mover a = {p->in->bodies[pair->a], motion, segments + 1, NULL, 0};
-  const nsvcd_mover b = {p->in->bodies[pair->b], NULL, 0, NULL, 0};
+  const nsvcd_mover a = {p->in->bodies[pair->a], motion, segments + 1, NULL, 0, {0}};
+  const nsvcd_mover b = {p->in->bodies[pair->b], NULL, 0, NULL, 0, {0}};
   nsvcd_question question = p->options.sweep;
   question.a = a;
   question.b = b;
@@ -20710,7 +20809,8 @@ static float nsvcd__pair_deviation(const nsvcd__planner *p, const nsvcd_body_pai
   const nsvcd_pose start = nsvcd__relative_pose(&from[pair->a], &from[pair->b]);
   const nsvcd_pose end = nsvcd__relative_pose(&to[pair->a], &to[pair->b]);
   const nsvcd_pose spline = nsvcd__relative_pose(&p->moved[pair->a], &p->moved[pair->b]);
-  const nsvcd__world_pose check = nsvcd__world_pose_between(&start, &end, fraction);
+  const nsvcd__d3 pivot = nsvcd__d3_of(0, 0, 0);
+  const nsvcd__world_pose check = nsvcd__world_pose_between(&start, &end, pivot, fraction);
   const nsvcd__quat q = nsvcd__quat_load(spline.rotation);
   const nsvcd__transform at = {nsvcd__mat3_of(q), nsvcd__f3_load(spline.position)};
   const nsvcd__transform checked = {nsvcd__mat3_of(check.rotation),

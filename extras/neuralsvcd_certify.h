@@ -159,8 +159,8 @@ NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
 //   made       not NULL; left as it was on failure
 //   allocates  nothing
 //   threads    each needs a workspace of its own; trees may be shared
-//   errors     ARGUMENT, SLOP (if there is one), SCALE, POSES, TIMES, POSE, QUATERNION, CLEARANCE,
-//              WORKSPACE
+//   errors     ARGUMENT, SLOP and PIVOT (if there is one), SCALE, POSES, TIMES, POSE, QUATERNION,
+//              CLEARANCE, WORKSPACE
 //   source     this library; examples/verify/nsvcd_verify.h describes the traversal. Planes by
 //              Gilbert 1966
 NSVCDDEF nsvcd_result nsvcd_certify(const nsvcd_question *question, const nsvcd_tree *a,
@@ -452,6 +452,9 @@ static size_t nsvcd__pose_count(const nsvcd_mover *mover) {
 }
 
 static nsvcd_result nsvcd__track_check(const nsvcd_mover *mover) {
+  const float scale = nsvcd__scale_of(mover);
+  const float most = NSVCD_MAX_COORDINATE / (scale > 1 ? scale : 1);
+  if (!nsvcd__in_range(mover->pivot, 3, most)) return NSVCD_ERROR_PIVOT;
   if (!mover->poses) return mover->count == 0 ? NSVCD_OK : NSVCD_ERROR_POSES;
   if (mover->count < 1 || mover->count > NSVCD_MAX_POSES) return NSVCD_ERROR_POSES;
   if (!nsvcd__times_are_valid(mover->times, mover->count)) return NSVCD_ERROR_TIMES;
@@ -796,7 +799,8 @@ static inline nsvcd__mat3 nsvcd__mat3_mix(float s, const nsvcd__mat3 *a, float t
 #ifndef NSVCD__HAS_GROUND_MOTIONS
 #define NSVCD__HAS_GROUND_MOTIONS
 // In: poses, as a caller gives them. Out: in double, where a body is between two of them, and how
-// it turns on the way: its position is linear, its rotation a slerp on the shorter arc.
+// it turns on the way: its rotation is a slerp on the shorter arc, and the position of its pivot
+// linear. With the pivot c of the body's frame, scaled, the pivot of a pose is at position + R c.
 //
 // This is the law of motion, for proofs, certificates and robots. The floor of motions has it again
 // in float, 16 segments at a time: every query cuts its motion, and poses in double alone would
@@ -886,13 +890,26 @@ static inline nsvcd__d3 nsvcd__slerp_turn(const nsvcd__slerp *slerp) {
   return nsvcd__d3_scale(axis, sine > 0 ? angle / sine : 0);
 }
 
-// The pose at fraction u between two.
+// From a pose's origin s times to its pivot c.
+static inline nsvcd__d3 nsvcd__to_pivot(const nsvcd__dpose *pose, nsvcd__d3 c, double s) {
+  if (!(nsvcd__d3_dot(c, c) > 0)) return pose->position;
+  const nsvcd__dtransform at = nsvcd__dtransform_of(pose);
+  return nsvcd__d3_transform(&at, nsvcd__d3_scale(c, s));
+}
+
+// The position of a pose's pivot c.
+static inline nsvcd__d3 nsvcd__pivot_of(const nsvcd_pose *pose, nsvcd__d3 c) {
+  const nsvcd__dpose at = nsvcd__dpose_of(pose);
+  return nsvcd__to_pivot(&at, c, 1);
+}
+
+// The pose at fraction u between two, with the pivot c.
 static inline nsvcd__dpose nsvcd__dpose_between(const nsvcd_pose *a, const nsvcd_pose *b,
-                                                double u) {
+                                                nsvcd__d3 c, double u) {
   const nsvcd__slerp s = nsvcd__slerp_of(a, b);
-  const nsvcd__d3 from = nsvcd__d3_load(a->position);
-  const nsvcd__dpose out = {nsvcd__dquat_along(s.start, s.end, s.half_angle, u),
-                            nsvcd__d3_mix(from, nsvcd__d3_load(b->position), u)};
+  nsvcd__dpose out = {nsvcd__dquat_along(s.start, s.end, s.half_angle, u),
+                      nsvcd__d3_mix(nsvcd__pivot_of(a, c), nsvcd__pivot_of(b, c), u)};
+  out.position = nsvcd__to_pivot(&out, c, -1);
   return out;
 }
 #endif  // NSVCD__HAS_GROUND_MOTIONS
@@ -1556,7 +1573,7 @@ static nsvcd_pose64 nsvcd__mover_pose(const void *motion, double t) {
     const nsvcd_pose *a = mover->poses + k;
     const double from = nsvcd__mover_keyframe(mover, k);
     const double whole = nsvcd__mover_keyframe(mover, k + 1) - from;
-    at = nsvcd__dpose_between(a, a + 1, (t - from) / whole);
+    at = nsvcd__dpose_between(a, a + 1, nsvcd__d3_of(0, 0, 0), (t - from) / whole);
   }
   const nsvcd__dquat q = at.rotation;
   const nsvcd_pose64 out = {{at.position.x, at.position.y, at.position.z},
@@ -1597,6 +1614,9 @@ static nsvcd_result nsvcd__model_of(const nsvcd_mover *mover, nsvcd_mover *meant
   if (scale < NSVCD_MIN_SCALE || scale > NSVCD_MAX_SCALE) return NSVCD_ERROR_SCALE;
   const nsvcd_result result = nsvcd__track_check(mover);
   if (result) return result;
+  for (size_t k = 0; k < 3; k++) {
+    if (!(mover->pivot[k] <= 0 && mover->pivot[k] >= 0)) return NSVCD_ERROR_PIVOT;
+  }
   if (!mover->poses) {
     meant->poses = &nsvcd__at_origin;
     meant->count = 1;

@@ -28,6 +28,7 @@ typedef struct reference_pair {
   size_t output;  // of the head
   size_t count;
   const float *times;  // of the poses, or NULL
+  const float *pivot;  // of the moving body's axes, metres
 } reference_pair;
 
 static double reference_dot(const double *a, const double *b) {
@@ -108,8 +109,16 @@ static void reference_at(const reference_pair *pair, const reference_pose *poses
   reference_turn(along, a->rotation, q);
   reference_matrix(q, world);
   reference_mul33(pair->to_fixed, world, m);
+  const double own[3] = {(double)pair->pivot[0], (double)pair->pivot[1], (double)pair->pivot[2]};
+  double matrix[9], arms[3][3];
+  reference_mul(world, own, arms[2]);
+  reference_matrix(a->rotation, matrix);
+  reference_mul(matrix, own, arms[0]);
+  reference_matrix(b->rotation, matrix);
+  reference_mul(matrix, own, arms[1]);
   for (int i = 0; i < 3; i++) {
-    along[i] = a->position[i] + (arcs ? u * (b->position[i] - a->position[i]) : 0);
+    const double from = a->position[i] + arms[0][i];
+    along[i] = from + (arcs ? u * (b->position[i] + arms[1][i] - from) : 0) - arms[2][i];
   }
   reference_mul(pair->to_fixed, along, p);
 }
@@ -432,19 +441,21 @@ static void reference_gradient(const reference_pair *pair, const reference_pose 
   }
 }
 
-// What a query in float decided, for the reference, and its poses. work: as that query left it.
-static void reference_open(const nsvcd_body *moving, const nsvcd_pose *poses, const float *times,
-                           size_t count, const nsvcd_body *fixed, const nsvcd_pose *fixed_pose,
-                           const nsvcd__search *work, const nsvcd__candidate *candidate,
-                           const nsvcd__decoder *head, reference_pair *pair,
-                           reference_pose *exact) {
+// What a query in float decided, for the reference, and its poses. mover: its times and its pivot.
+// work: as that query left it.
+static void reference_open(const nsvcd_mover *mover, const nsvcd_body *moving,
+                           const nsvcd_pose *poses, size_t count, const nsvcd_body *fixed,
+                           const nsvcd_pose *fixed_pose, const nsvcd__search *work,
+                           const nsvcd__candidate *candidate, const nsvcd__decoder *head,
+                           reference_pair *pair, reference_pose *exact) {
   const size_t i = candidate->moving;
   const size_t j = candidate->fixed;
   double q[4], m[9];
   pair->head = head;
   pair->output = 0;
   pair->count = count;
-  pair->times = times;
+  pair->times = mover->times;
+  pair->pivot = mover->pivot;
   for (size_t n = 0; n < count; n++) {
     for (int k = 0; k < 3; k++) {
       exact[n].position[k] = (double)poses[n].position[k] - (double)fixed_pose->position[k];

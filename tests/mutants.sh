@@ -52,6 +52,9 @@ doubts forgotten|    nsvcd__keep_unresolved(p, pair, u0, u1);\n    return NSVCD_
 round: edges without length by another pose|if (p->over \&\& !(nsvcd__f3_dot(edge, edge) > 0))|if (!(nsvcd__f3_dot(edge, edge) > 0))
 a block of the question before|memset(\&p->memo, 0, sizeof p->memo);|const int has_block = p->memo.has_block;\n  memset(\&p->memo, 0, sizeof p->memo);\n  p->memo.has_block = has_block;
 round: segments as points|nsvcd__d3_distance2(t[0], t[1]) > 0 ? 2 : 1;|nsvcd__d3_distance2(t[0], t[1]) > 0 ? 1 : 1;
+pivot without its bend|nsvcd__v_set(nsvcd__pivot_arm(m, &m->moving));|nsvcd__v_set(0 * nsvcd__pivot_arm(m, &m->moving));
+pivot of an arc without its bend|arc->origin_bend += 0.1250001 * arm|arc->origin_bend += 0 * arm
+pivots not among the lengths|given->lengths += nsvcd__pivot_arms(&task->motion);|given->lengths += 0 * nsvcd__pivot_arms(&task->motion);
 pair without bulge|return turn + arc->twist * pair->from_origin + arc->origin_bend;|return arc->origin_bend;
 pair without drift|return turn + arc->twist * pair->from_origin + arc->origin_bend;|return turn + arc->twist * pair->from_origin;
 doubt goes on|p->goal.limit = p->work + left;|p->goal.limit = p->goal.limit;

@@ -410,7 +410,8 @@ typedef struct proof_track {
   float times[PROOF_POSES];        // of them, if it is timed; else they are uniform
   int timed;
   size_t count;
-  float scale;  // of the body
+  float scale;     // of the body
+  float pivot[3];  // of the body's mesh
 } proof_track;
 
 typedef struct proof_motion {
@@ -428,6 +429,7 @@ static void proof_track_set(proof_track *track, const oracle_pose *poses, size_t
   track->count = count;
   track->scale = 1;
   track->timed = 0;
+  memset(track->pivot, 0, sizeof track->pivot);
   for (size_t i = 0; i < count; i++) {
     track->raw[i] = pose_rounded(&poses[i]);
     track->poses[i] = pose_widened(&track->raw[i]);
@@ -469,6 +471,41 @@ static void proof_set_times(shapes_rng rng, proof_track *track) {
     track->times[k] = (float)(rint(sums[k] / sums[track->count - 1] * 1048576) / 1048576);
 }
 
+// Gives some tracks pivots, as far from the origin as the body moves, or less. rng: a copy, too.
+static void proof_set_pivot(shapes_rng rng, proof_track *track) {
+  double moved[3], direction[3];
+  if (track->count < 2 || shapes_next(&rng) % 4) return;
+  oracle_sub(track->poses[track->count - 1].position, track->poses[0].position, moved);
+  const double length = pow(10, shapes_uniform(&rng, -2, 0)) * oracle_length(moved);
+  shapes_direction(&rng, direction);
+  for (int k = 0; k < 3; k++)
+    track->pivot[k] = (float)(length * direction[k] / (double)track->scale);
+}
+
+// From the origin of a pose to the track's pivot, and where that is.
+static void proof_pivot_arm(const proof_track *m, const oracle_pose *pose, double *arm) {
+  double turn[9], own[3];
+  for (int i = 0; i < 3; i++) own[i] = (double)m->scale * (double)m->pivot[i];
+  oracle_matrix(pose->rotation, turn);
+  oracle_rotate(turn, own, arm);
+}
+static void proof_pivot_of(const proof_track *m, const oracle_pose *pose, double *out) {
+  proof_pivot_arm(m, pose, out);
+  for (int i = 0; i < 3; i++) out[i] += pose->position[i];
+}
+
+// How far a track's pivot moves from pose k to the next, with what points at most `size` from the
+// origin add by their turn.
+static double proof_track_way(const proof_track *m, size_t k, double size) {
+  double from[3], to[3], moved[3], arm[3], axis[3];
+  proof_pivot_of(m, &m->poses[k], from);
+  proof_pivot_of(m, &m->poses[k + 1], to);
+  oracle_sub(to, from, moved);
+  proof_pivot_arm(m, &m->poses[k], arm);
+  const double turn = oracle_quat_arc(m->poses[k].rotation, m->poses[k + 1].rotation, axis);
+  return oracle_length(moved) + turn * (size + oracle_length(arm));
+}
+
 // When pose k is, and the last pose before t, which is not the last of all.
 static double proof_time_of(const proof_track *m, size_t k) {
   return m->timed ? (double)m->times[k] : (double)k / (double)(m->count - 1);
@@ -507,10 +544,14 @@ static oracle_pose proof_pose_at(const proof_track *m, double t) {
   const double before = half > 1e-9 ? sin((1 - f) * half) / sin(half) : 1 - f;
   const double after = half > 1e-9 ? sin(f * half) / sin(half) : f;
   oracle_pose out;
+  double pivots[2][3], arm[3];
   for (int i = 0; i < 4; i++) out.rotation[i] = before * a->rotation[i] + after * q[i];
-  for (int i = 0; i < 3; i++)
-    out.position[i] = a->position[i] + f * (b->position[i] - a->position[i]);
   oracle_quat_normalize(out.rotation);
+  proof_pivot_of(m, a, pivots[0]);
+  proof_pivot_of(m, b, pivots[1]);
+  proof_pivot_arm(m, &out, arm);
+  for (int i = 0; i < 3; i++)
+    out.position[i] = pivots[0][i] + f * (pivots[1][i] - pivots[0][i]) - arm[i];
   return out;
 }
 static proof_place proof_place_at(const proof_motion *m, double t) {

@@ -112,7 +112,7 @@ static int decisive_centres(const scene *s, double *moving, double *fixed) {
   reference_pose poses[REFERENCE_POSES];
   double in_fixed[2][3], m[9], q[4];
   if (!decide(s, &answer, &decisive)) return 0;
-  reference_open(s->moving, s->poses, s->options.a.times, s->count, s->fixed, &s->fixed_pose,
+  reference_open(&s->options.a, s->moving, s->poses, s->count, s->fixed, &s->fixed_pose,
                  &((nsvcd__query *)query_workspace())->broad_phase, &decisive.candidate,
                  decisive.decoder, &pair, poses);
   reference_place(&pair, poses, 0.5, in_fixed[0]);
@@ -197,6 +197,18 @@ static int at_their_times(scene *s, shapes_rng *rng, size_t n) {
   for (size_t k = 1; k < s->count; k++) s->times[k] /= s->times[s->count - 1];
   s->times[s->count - 1] = 1;
   s->options.a.times = s->times;
+  return 1;
+}
+static int about_pivots(scene *s, shapes_rng *rng, size_t n) {
+  double direction[3];
+  if (n % 2) {
+    moderate(s, rng, n);
+  } else {
+    many_samples(s, rng, n);
+  }
+  shapes_direction(rng, direction);
+  const double length = shapes_uniform(rng, 0.1, 2) * (double)s->moving->extent;
+  for (int k = 0; k < 3; k++) s->options.a.pivot[k] = (float)(length * direction[k]);
   return 1;
 }
 static int at_rest(scene *s, shapes_rng *rng, size_t n) {  // one pose, or the same one repeated
@@ -419,6 +431,7 @@ static const family families[] = {
     {"without lean", without_lean},
     {"other options", other_options},
     {"at their times", at_their_times},
+    {"about pivots", about_pivots},
 };
 #define FAMILIES (sizeof families / sizeof families[0])
 #define SHALLOW 12
@@ -501,7 +514,7 @@ static void check_gradient_once(size_t f, size_t n, gradient_sum *sum) {
   float gradient[6 * REFERENCE_POSES];
   double found[6 * REFERENCE_POSES], expected[6 * REFERENCE_POSES];
   if (!scene_of(f, n, &s, &answer, &decisive)) return;
-  reference_open(s.moving, s.poses, s.options.a.times, s.count, s.fixed, &s.fixed_pose,
+  reference_open(&s.options.a, s.moving, s.poses, s.count, s.fixed, &s.fixed_pose,
                  &((nsvcd__query *)query_workspace())->broad_phase, &decisive.candidate,
                  decisive.decoder, &pair, poses);
   CHECK_EQ(ask_gradient(&s, &answer, gradient), NSVCD_OK);

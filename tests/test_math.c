@@ -427,10 +427,19 @@ static void math_between_poses(void) {
     nsvcd__slerp s = nsvcd__slerp_of(&ends[0], &ends[1]);
     s.from = u0;
     s.fraction = u1 - u0;
+    // about the origin, or about a pivot
+    const double own[3] = {trial % 5 ? 0 : uniform(-1, 1), 0, trial % 5 ? 0 : uniform(-1, 1)};
+    const nsvcd__d3 pivot = nsvcd__d3_of(own[0], own[1], own[2]);
+    double pivots[2][3], turn_at[9], arm[3];
+    for (int n = 0; n < 2; n++) oracle_transform(&wide[n], own, pivots[n]);
     nsvcd__d3 seen[3];
     for (int n = 0; n < 3; n++) {
-      const oracle_pose want = oracle_pose_between(&wide[0], &wide[1], at[n]);
-      const nsvcd__dpose pose = nsvcd__dpose_between(&ends[0], &ends[1], at[n]);
+      oracle_pose want = oracle_pose_between(&wide[0], &wide[1], at[n]);
+      const nsvcd__dpose pose = nsvcd__dpose_between(&ends[0], &ends[1], pivot, at[n]);
+      oracle_matrix(want.rotation, turn_at);
+      oracle_rotate(turn_at, own, arm);
+      for (int k = 0; k < 3; k++)
+        want.position[k] = (1 - at[n]) * pivots[0][k] + at[n] * pivots[1][k] - arm[k];
       const nsvcd__dtransform found = nsvcd__dtransform_of(&pose);
       const nsvcd__d3 here = nsvcd__d3_transform(&found, nsvcd__d3_of(x[0], x[1], x[2]));
       double there[3];
@@ -443,7 +452,7 @@ static void math_between_poses(void) {
     const nsvcd__d3 n = nsvcd__d3_of(along[0], along[1], along[2]);
     const nsvcd__d3 middle = nsvcd__d3_mix(seen[0], seen[2], v);
     const nsvcd__d3 origin =
-        nsvcd__d3_mix(nsvcd__d3_load(ends[0].position), nsvcd__d3_load(ends[1].position), u0);
+        nsvcd__d3_mix(nsvcd__pivot_of(&ends[0], pivot), nsvcd__pivot_of(&ends[1], pivot), u0);
     const double rho = nsvcd__d3_norm(nsvcd__d3_cross(nsvcd__d3_sub(seen[0], origin), about));
     const double bend =
         0.125 * nsvcd__d3_dot(w, w) * rho * nsvcd__d3_norm(nsvcd__d3_cross(n, about));

@@ -32,6 +32,7 @@ static nsvcd_mover proof_mover(const proof_body *b, const proof_track *track) {
   mover.times = track->timed ? track->times : NULL;
   mover.count = track->count;
   mover.scale = track->scale;
+  memcpy(mover.pivot, track->pivot, sizeof mover.pivot);
   return mover;
 }
 static nsvcd_question proof_question(const attack *a, const nsvcd_question *options) {
@@ -170,6 +171,7 @@ static int proof_scene(shapes_rng *rng, attack *a, double gap, double offset) {
   proof_motion_past(rng, &pose, point, away, size, angle, count, poses);
   proof_motion_set(&a->motion, poses, count, &fixed);
   proof_set_times(*rng, &a->motion.moving);
+  proof_set_pivot(*rng, &a->motion.moving);
   return 1;
 }
 
@@ -221,6 +223,10 @@ static void proof_carry_unevenly(shapes_rng *rng, attack *a, double angle, doubl
   proof_set_times(aside, &a->motion.moving);
   aside.state++;
   proof_set_times(aside, &a->motion.fixed);
+  aside.state++;
+  proof_set_pivot(aside, &a->motion.moving);
+  aside.state++;
+  proof_set_pivot(aside, &a->motion.fixed);
 }
 
 // -------------------------------------------------------------------------------------
@@ -497,10 +503,7 @@ static double proof_track_speed(const proof_track *m, double size, double t, dou
   for (int side = -1; side <= 1; side++) {
     const size_t k = proof_pose_before(m, t + side * interval);
     const double duration = proof_time_of(m, k + 1) - proof_time_of(m, k);
-    double moved[3], axis[3];
-    oracle_sub(m->poses[k + 1].position, m->poses[k].position, moved);
-    const double turn = oracle_quat_arc(m->poses[k].rotation, m->poses[k + 1].rotation, axis);
-    const double way = oracle_length(moved) + turn * size * (double)m->scale;
+    const double way = proof_track_way(m, k, size * (double)m->scale);
     fastest = fmax(fastest, way / duration);
   }
   return fastest * interval;
@@ -931,7 +934,11 @@ static void proof_motion_init(const proof_motion *m, nsvcd__motion *motion) {
   question.b.times = m->fixed.timed ? m->fixed.times : NULL;
   question.a.scale = m->moving.scale;
   question.b.scale = m->fixed.scale;
+  memcpy(question.a.pivot, m->moving.pivot, sizeof question.a.pivot);
+  memcpy(question.b.pivot, m->fixed.pivot, sizeof question.b.pivot);
   nsvcd__motion_init(&question.a, &question.b, motion);
+  if (motion->moving.pivot) motion->moving.pivot = m->moving.pivot;  // the question's goes
+  if (motion->fixed.pivot) motion->fixed.pivot = m->fixed.pivot;
 }
 
 // Where point x of the moving body is at a share of a span, less where its chord has it.
@@ -995,6 +1002,7 @@ static void proof_any_motion(shapes_rng *rng, proof_motion *m) {
   }
   proof_motion_set(m, poses, count, &fixed);
   proof_set_times(*rng, &m->moving);
+  proof_set_pivot(*rng, &m->moving);
 }
 
 // The same of both bodies, each on its own, and of any size.
@@ -1065,20 +1073,21 @@ static void proof_spans_hold_the_motion(void) {
     if (trial % 2) proof_any_motion(&rng, &m);
     if (trial % 2 == 0) proof_any_motion_of_both(&rng, &m);
     proof_motion_init(&m, &motion);
-    nsvcd__cut_motion(&motion, lengths, work);
+    const float all = lengths + nsvcd__pivot_arms(&motion);
+    nsvcd__cut_motion(&motion, all, work);
     const double reach = (double)lengths / (double)fmaxf(motion.scale, 1);
     for (size_t s = 0; s < work->segments; s++) {
       const nsvcd__interval span = proof_segment(&motion, work, s);
       const double use = proof_span_use(&m, &span, reach, &rng);
-      const int has_samples =
-          work->begin[s + 1] - work->begin[s] > 1;  // else the spread is for rounding alone
+      // else the spread is for rounding alone
+      const int has_samples = work->begin[s + 1] - work->begin[s] > 1 || motion.moving.pivot;
       const int kind = motion.fixed_moves ? 2 : has_samples;
       worst[kind] = fmax(worst[kind], use);
       segments++;
     }
     const nsvcd__interval clipped = proof_any_clip(&rng, &motion, work);
     worst[4] = fmax(worst[4], proof_span_use(&m, &clipped, reach, &rng));
-    const nsvcd__interval part = proof_any_arc(&rng, &motion, lengths);
+    const nsvcd__interval part = proof_any_arc(&rng, &motion, all);
     worst[3] = fmax(worst[3], proof_span_use(&m, &part, reach, &rng));
   }
   printf(
@@ -1256,7 +1265,7 @@ static void proof_spans_hold_along_directions(void) {
       m.fixed = other.moving;
     }
     proof_motion_init(&m, &motion);
-    nsvcd__cut_motion(&motion, 2 * reach, work);
+    nsvcd__cut_motion(&motion, 2 * reach + nsvcd__pivot_arms(&motion), work);
     for (size_t k = 0; k < work->segments; k++, segments++) {
       const nsvcd__interval span = proof_segment(&motion, work, k);
       worst = fmax(worst, proof_direction_use(&m, &span, (double)reach, &rng));
@@ -1376,15 +1385,11 @@ static double proof_distance_at(const attack *a, double t) {
 
 // How fast points of a body may be from t until its next pose, at *next.
 static double proof_track_rate(const proof_track *m, double size, double t, double *next) {
-  double moved[3], axis[3];
   *next = 1;
   if (m->count < 2) return 0;
   const size_t k = proof_pose_before(m, t);
-  oracle_sub(m->poses[k + 1].position, m->poses[k].position, moved);
   *next = proof_time_of(m, k + 1);
-  return (oracle_length(moved) +
-          size * oracle_quat_arc(m->poses[k].rotation, m->poses[k + 1].rotation, axis)) /
-         (*next - proof_time_of(m, k));
+  return proof_track_way(m, k, size) / (*next - proof_time_of(m, k));
 }
 
 // The first time from which it cannot be said that surfaces are farther apart than `clearance`:
@@ -2870,6 +2875,7 @@ static void proof_certificates_hold_for_scaled_bodies(void) {
       one.motion = multiplied.motion;
       one.motion.moving.scale = scale;
       one.motion.fixed.scale = fixed_scale;
+      for (int i = 0; i < 3; i++) one.motion.moving.pivot[i] /= scale;  // as far in metres
       if (trial % 4 == 0)
         proof_carry(&rng, &one, shapes_uniform(&rng, 0, 6), moving.size + fixed.size);
       proof_replay(&one, &rng, &sum);

@@ -367,18 +367,18 @@ static void query_refuses(const nsvcd_question *question, nsvcd_result expected)
 
 // Every number of a question: not finite, out of range, or hardly less than nothing.
 static void query_refuses_bad_numbers(void) {
-  enum { FIELDS = 9, POSES = 14 };
+  enum { FIELDS = 11, POSES = 14 };
   static const float bad[6] = {NAN, INFINITY, -INFINITY, 3e38f, 1.1e6f, -1e-30f};
   query_scene s;
   query_scene_open(&s, 1);
   nsvcd_question q = question_of(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL);
-  float *const fields[FIELDS] = {&q.a.scale,   &q.b.scale,        &q.tolerance,
-                                 &q.clearance, &q.slop,           &q.to,
-                                 &q.to_time,   &q.network.recall, &q.network.inflate};
+  float *const fields[FIELDS] = {
+      &q.a.scale, &q.b.scale,        &q.tolerance,       &q.clearance,  &q.slop,      &q.to,
+      &q.to_time, &q.network.recall, &q.network.inflate, &q.a.pivot[1], &q.b.pivot[2]};
   static const nsvcd_result codes[FIELDS] = {
-      NSVCD_ERROR_SCALE,     NSVCD_ERROR_SCALE,  NSVCD_ERROR_TOLERANCE,
-      NSVCD_ERROR_CLEARANCE, NSVCD_ERROR_SLOP,   NSVCD_ERROR_TO,
-      NSVCD_ERROR_TO_TIME,   NSVCD_ERROR_RECALL, NSVCD_ERROR_INFLATE};
+      NSVCD_ERROR_SCALE,   NSVCD_ERROR_SCALE, NSVCD_ERROR_TOLERANCE, NSVCD_ERROR_CLEARANCE,
+      NSVCD_ERROR_SLOP,    NSVCD_ERROR_TO,    NSVCD_ERROR_TO_TIME,   NSVCD_ERROR_RECALL,
+      NSVCD_ERROR_INFLATE, NSVCD_ERROR_PIVOT, NSVCD_ERROR_PIVOT};
   for (int n = 0; n < FIELDS + POSES; n++) {
     const int of_pose = (n - FIELDS) % 7;
     nsvcd_pose *pose = n < FIELDS + 7 ? &s.motion[QUERY_POSES - 1] : &s.fixed_pose;
@@ -391,6 +391,7 @@ static void query_refuses_bad_numbers(void) {
     const float kept = *number;
     for (int k = 0; k < (n < FIELDS ? 6 : 5); k++) {
       if (n == 8 && (k == 3 || k == 4)) continue;  // inflate may be any length
+      if (n >= 9 && k == 5) continue;              // and a pivot anywhere
       *number = bad[k];
       q.ask = n == 6 || (n == 5 && k % 2) ? NSVCD_ASK_FIRST
               : n == 5                    ? NSVCD_ASK_DISTANCE

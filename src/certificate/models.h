@@ -47,7 +47,7 @@ static nsvcd_pose64 nsvcd__mover_pose(const void *motion, double t) {
     const nsvcd_pose *a = mover->poses + k;
     const double from = nsvcd__mover_keyframe(mover, k);
     const double whole = nsvcd__mover_keyframe(mover, k + 1) - from;
-    at = nsvcd__dpose_between(a, a + 1, (t - from) / whole);
+    at = nsvcd__dpose_between(a, a + 1, nsvcd__d3_of(0, 0, 0), (t - from) / whole);
   }
   const nsvcd__dquat q = at.rotation;
   const nsvcd_pose64 out = {{at.position.x, at.position.y, at.position.z},
@@ -88,6 +88,9 @@ static nsvcd_result nsvcd__model_of(const nsvcd_mover *mover, nsvcd_mover *meant
   if (scale < NSVCD_MIN_SCALE || scale > NSVCD_MAX_SCALE) return NSVCD_ERROR_SCALE;
   const nsvcd_result result = nsvcd__track_check(mover);
   if (result) return result;
+  for (size_t k = 0; k < 3; k++) {
+    if (!(mover->pivot[k] <= 0 && mover->pivot[k] >= 0)) return NSVCD_ERROR_PIVOT;
+  }
   if (!mover->poses) {
     meant->poses = &nsvcd__at_origin;
     meant->count = 1;

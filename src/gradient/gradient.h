@@ -11,10 +11,20 @@ static NSVCD__NOINLINE void nsvcd__add_wrench(float scale, nsvcd__f3 force, nsvc
   nsvcd__f3_store(nsvcd__f3_fma(scale, torque, nsvcd__f3_load(row + 3)), row + 3);
 }
 
-// Adds to `gradient` (count, 6), or NULL, what a force and a torque on a body at time t, in the
-// world, are by its poses before and after t. Returns the derivative by t. Let R = exp(2 u h n) A,
-// on the shorter arc from A to B = exp(2 h n) A. Small rotations a of A and b of B (on the left)
-// turn R
+// Adds what a force on a pivot c, and a torque about it, are by a pose.
+static void nsvcd__add_at_pivot(const nsvcd_pose *pose, nsvcd__d3 c, nsvcd__f3 force,
+                                nsvcd__f3 torque, float *row) {
+  const nsvcd__d3 pivot = nsvcd__pivot_of(pose, c);
+  const nsvcd__d3 origin = nsvcd__d3_load(pose->position);
+  const nsvcd__f3 arm = nsvcd__d3_narrow(nsvcd__d3_sub(pivot, origin));
+  const nsvcd__f3 moment = nsvcd__f3_cross(arm, force);
+  nsvcd__add_wrench(1, force, nsvcd__f3_add(torque, moment), row);
+}
+
+// Adds to `gradient` (count, 6), or NULL, what a force on a body's pivot and a torque about it at
+// time t, in the world, are by its poses before and after t. Returns the derivative by t. Let R =
+// exp(2 u h n) A, on the shorter arc from A to B = exp(2 h n) A. Small rotations a of A and b of B
+// (on the left) turn R
 //   along n    by (1 - u) a + u b,
 //   across n   by sin((1 - u) h) / sin h of a, turned by u h about n,
 //              and sin(u h) / sin h of b, turned by -(1 - u) h.
@@ -30,6 +40,7 @@ static float nsvcd__by_poses(const nsvcd__track *track, float t, nsvcd__f3 force
   const float per_t = times ? 1 / (times[k + 1] - times[k]) : (float)(track->count - 1);
   const nsvcd_pose *a = &track->poses[k];
   const nsvcd_pose *b = &track->poses[k + 1];
+  const nsvcd__d3 pivot = nsvcd__track_pivot(track);
   // From a to b on the shorter arc: a turn by 2 h about the unit vector n, or 0 if nothing turns.
   const nsvcd__quat qa = nsvcd__quat_unit(nsvcd__quat_load(a->rotation));
   const nsvcd__quat qb = nsvcd__quat_unit(nsvcd__quat_load(b->rotation));
@@ -44,11 +55,12 @@ static float nsvcd__by_poses(const nsvcd__track *track, float t, nsvcd__f3 force
     const float wb = h > 1e-3f ? sinf(u * h) * inverse : u;
     const nsvcd__f3 on_a = nsvcd__turned(torque, n, 1 - u, wa, -u * h);
     const nsvcd__f3 on_b = nsvcd__turned(torque, n, u, wb, (1 - u) * h);
-    nsvcd__add_wrench(1, nsvcd__f3_scale(force, 1 - u), on_a, out + 6 * k);
-    nsvcd__add_wrench(1, nsvcd__f3_scale(force, u), on_b, out + 6 * (k + 1));
+    nsvcd__add_at_pivot(a, pivot, nsvcd__f3_scale(force, 1 - u), on_a, out + 6 * k);
+    nsvcd__add_at_pivot(b, pivot, nsvcd__f3_scale(force, u), on_b, out + 6 * (k + 1));
   }
-  const nsvcd__f3 from = nsvcd__f3_load(a->position);
-  const nsvcd__f3 moved = nsvcd__f3_sub(nsvcd__f3_load(b->position), from);
+  const nsvcd__d3 from = nsvcd__pivot_of(a, pivot);
+  const nsvcd__d3 to = nsvcd__pivot_of(b, pivot);
+  const nsvcd__f3 moved = nsvcd__d3_narrow(nsvcd__d3_sub(to, from));
   const float by_turn = 2 * h * nsvcd__f3_dot(torque, n);
   return per_t * (nsvcd__f3_dot(force, moved) + by_turn);
 }
@@ -72,10 +84,12 @@ static void nsvcd__instants_of(const nsvcd__candidate *c, const float *time,
 
 // A track's pose at time t in [0,1].
 static nsvcd__world_pose nsvcd__track_pose_at(const nsvcd__track *track, float t) {
-  if (track->count == 1) return nsvcd__world_pose_between(track->poses, track->poses, 0);
+  const nsvcd__d3 pivot = nsvcd__track_pivot(track);
+  if (track->count == 1) return nsvcd__world_pose_of(track->poses, pivot);
   float fraction;
   const size_t k = nsvcd__pose_at(track, t, &fraction);
-  return nsvcd__world_pose_between(&track->poses[k], &track->poses[k + 1], (double)fraction);
+  const nsvcd_pose *a = &track->poses[k];
+  return nsvcd__world_pose_between(a, a + 1, pivot, (double)fraction);
 }
 
 // Adds to out (2), of which one may be NULL, what a force on the patch's centre at instant l and a

@@ -1,5 +1,6 @@
 // In: poses, as a caller gives them. Out: in double, where a body is between two of them, and how
-// it turns on the way: its position is linear, its rotation a slerp on the shorter arc.
+// it turns on the way: its rotation is a slerp on the shorter arc, and the position of its pivot
+// linear. With the pivot c of the body's frame, scaled, the pivot of a pose is at position + R c.
 //
 // This is the law of motion, for proofs, certificates and robots. The floor of motions has it again
 // in float, 16 segments at a time: every query cuts its motion, and poses in double alone would
@@ -92,12 +93,25 @@ static inline nsvcd__d3 nsvcd__slerp_turn(const nsvcd__slerp *slerp) {
   return nsvcd__d3_scale(axis, sine > 0 ? angle / sine : 0);
 }
 
-// The pose at fraction u between two.
+// From a pose's origin s times to its pivot c.
+static inline nsvcd__d3 nsvcd__to_pivot(const nsvcd__dpose *pose, nsvcd__d3 c, double s) {
+  if (!(nsvcd__d3_dot(c, c) > 0)) return pose->position;
+  const nsvcd__dtransform at = nsvcd__dtransform_of(pose);
+  return nsvcd__d3_transform(&at, nsvcd__d3_scale(c, s));
+}
+
+// The position of a pose's pivot c.
+static inline nsvcd__d3 nsvcd__pivot_of(const nsvcd_pose *pose, nsvcd__d3 c) {
+  const nsvcd__dpose at = nsvcd__dpose_of(pose);
+  return nsvcd__to_pivot(&at, c, 1);
+}
+
+// The pose at fraction u between two, with the pivot c.
 static inline nsvcd__dpose nsvcd__dpose_between(const nsvcd_pose *a, const nsvcd_pose *b,
-                                                double u) {
+                                                nsvcd__d3 c, double u) {
   const nsvcd__slerp s = nsvcd__slerp_of(a, b);
-  const nsvcd__d3 from = nsvcd__d3_load(a->position);
-  const nsvcd__dpose out = {nsvcd__dquat_along(s.start, s.end, s.half_angle, u),
-                            nsvcd__d3_mix(from, nsvcd__d3_load(b->position), u)};
+  nsvcd__dpose out = {nsvcd__dquat_along(s.start, s.end, s.half_angle, u),
+                      nsvcd__d3_mix(nsvcd__pivot_of(a, c), nsvcd__pivot_of(b, c), u)};
+  out.position = nsvcd__to_pivot(&out, c, -1);
   return out;
 }

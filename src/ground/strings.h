@@ -41,6 +41,7 @@ static const char nsvcd__result_texts[] =
     "a quaternion (x y z w) is not of unit length, to 1e-4\0"
     "a scale is not finite, negative or out of range, "
     "or makes a body too small or too large\0"
+    "a pivot is not finite or too large, or is set for a certificate\0"
     "both sides are the same body in the same motion\0"
     "ask is none of its values\0"
     "method is none of its values, or cannot answer this: the network knows no FIRST, "

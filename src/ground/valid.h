@@ -76,6 +76,9 @@ static size_t nsvcd__pose_count(const nsvcd_mover *mover) {
 }
 
 static nsvcd_result nsvcd__track_check(const nsvcd_mover *mover) {
+  const float scale = nsvcd__scale_of(mover);
+  const float most = NSVCD_MAX_COORDINATE / (scale > 1 ? scale : 1);
+  if (!nsvcd__in_range(mover->pivot, 3, most)) return NSVCD_ERROR_PIVOT;
   if (!mover->poses) return mover->count == 0 ? NSVCD_OK : NSVCD_ERROR_POSES;
   if (mover->count < 1 || mover->count > NSVCD_MAX_POSES) return NSVCD_ERROR_POSES;
   if (!nsvcd__times_are_valid(mover->times, mover->count)) return NSVCD_ERROR_TIMES;

@@ -113,8 +113,8 @@ NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
 //   made       not NULL; left as it was on failure
 //   allocates  nothing
 //   threads    each needs a workspace of its own; trees may be shared
-//   errors     ARGUMENT, SLOP (if there is one), SCALE, POSES, TIMES, POSE, QUATERNION, CLEARANCE,
-//              WORKSPACE
+//   errors     ARGUMENT, SLOP and PIVOT (if there is one), SCALE, POSES, TIMES, POSE, QUATERNION,
+//              CLEARANCE, WORKSPACE
 //   source     this library; examples/verify/nsvcd_verify.h describes the traversal. Planes by
 //              Gilbert 1966
 NSVCDDEF nsvcd_result nsvcd_certify(const nsvcd_question *question, const nsvcd_tree *a,

@@ -145,8 +145,8 @@ typedef struct nsvcd_body_pair {
 typedef struct nsvcd_mover {
   // the body, from nsvcd_encode, nsvcd_body_load, nsvcd_body_trust or nsvcd_body_scale
   const nsvcd_body *body;
-  // (count) poses. Between two of them the position is linear in time and the rotation a slerp. One
-  // pose: the body rests there. NULL, with count 0: it rests at the origin
+  // (count) poses. Between two of them the rotation is a slerp, and the position of the pivot is
+  // linear in time. One pose: the body rests there. NULL, with count 0: it rests at the origin
   const nsvcd_pose *poses;
   // number of poses, up to NSVCD_MAX_POSES
   size_t count;
@@ -155,6 +155,10 @@ typedef struct nsvcd_mover {
   const float *times;
   // scale of the body about its origin, NSVCD_MIN_SCALE..NSVCD_MAX_SCALE; default 1
   float scale;
+  // the pivot, a point of the body's frame before scaling: between two poses it goes straight, and
+  // the body turns about it. Default its origin. A body in flight turns about its centre of mass, a
+  // door about any point of its hinge, a screw about any point of its axis
+  float pivot[3];
 } nsvcd_mover;
 
 // A question about two bodies. Zero is the default of everything but the bodies.
@@ -389,8 +393,8 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 //   threads    each needs a workspace of its own; bodies may be shared
 //   errors     ARGUMENT, WORKSPACE, BODY and VERSION (by a body's first bytes), SAME, TRIANGLES or
 //              LATENTS if a body lacks what the method needs, and the code of the field at fault:
-//              POSES, TIMES, POSE, QUATERNION, SCALE; ASK, METHOD, TO, TO_TIME, CLEARANCE, SLOP,
-//              TOLERANCE, MANIFOLD, SEGMENTS; PAIRS, MODEL, PRECISION, RECALL, INFLATE
+//              POSES, TIMES, POSE, QUATERNION, SCALE, PIVOT; ASK, METHOD, TO, TO_TIME, CLEARANCE,
+//              SLOP, TOLERANCE, MANIFOLD, SEGMENTS; PAIRS, MODEL, PRECISION, RECALL, INFLATE
 //   source     the proof: this library, proof/proof; the network: NeuralSVCD, algorithm 1
 //
 // What is proven is about the surfaces of the two meshes, scaled and posed exactly as described.

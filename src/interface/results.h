@@ -62,6 +62,8 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_QUATERNION,
   // a scale is not finite, negative or out of range, or makes a body too small or too large
   NSVCD_ERROR_SCALE,
+  // `pivot` is not finite, or, scaled, beyond NSVCD_MAX_COORDINATE; or it is set for a certificate
+  NSVCD_ERROR_PIVOT,
   // a and b of a question are the same body in the same motion, so something was passed twice
   NSVCD_ERROR_SAME,
   // `ask` is none of its values

@@ -1,6 +1,6 @@
-// In: two movers: bodies, scales, and poses over t in [0,1]. Between poses the position is linear,
-// the rotation a slerp on the shorter arc. Out: the pose of one body, *moving*, in the frame of the
-// other, *fixed*, at any t.
+// In: two movers: bodies, scales, pivots, and poses over t in [0,1]. Between poses the position of
+// the pivot is linear, the rotation a slerp on the shorter arc. Out: the pose of one body,
+// *moving*, in the frame of the other, *fixed*, at any t.
 //
 // Both may move; "fixed" says whose frame it is. That frame has the axes of the fixed body and
 // its scale as the unit, so that its stored numbers need no change: a point x of the moving body is
@@ -26,7 +26,15 @@ typedef struct nsvcd__track {
   size_t count;
   uint32_t ticks;  // from a pose to the next; of a single pose all; 0 if there are times
   uint32_t whole;  // ticks of the motion, if there are times
+  float scale;
+  const float *pivot;  // (3), the caller's; NULL: the origin, or a single pose
 } nsvcd__track;
+
+// From the body's origin to its pivot, in the body's axes, metres.
+static nsvcd__d3 nsvcd__track_pivot(const nsvcd__track *track) {
+  if (!track->pivot) return nsvcd__d3_of(0, 0, 0);
+  return nsvcd__d3_scale(nsvcd__d3_load(track->pivot), (double)track->scale);
+}
 
 // The tick at which a track's pose k is.
 static uint32_t nsvcd__tick_of(const nsvcd__track *track, uint32_t k) {
@@ -93,7 +101,12 @@ static nsvcd_result nsvcd__mover_check(const nsvcd_mover *mover) {
 static nsvcd__track nsvcd__track_of(const nsvcd_mover *mover) {
   const size_t count = nsvcd__pose_count(mover);
   const nsvcd_pose *poses = mover->poses ? mover->poses : &nsvcd__at_origin;
-  const nsvcd__track track = {poses, count > 1 ? mover->times : NULL, count, 0, 0};
+  const float *c = mover->pivot;
+  const int has_pivot = fabsf(c[0]) + fabsf(c[1]) + fabsf(c[2]) > 0;
+  nsvcd__track track = {poses, NULL, count, 0, 0, 1, NULL};
+  track.scale = nsvcd__scale_of(mover);
+  if (count > 1) track.times = mover->times;
+  if (count > 1 && has_pivot) track.pivot = c;
   return track;
 }
 
@@ -159,19 +172,20 @@ static void nsvcd__motion_retime(nsvcd__motion *m, uint32_t *begin, size_t segme
   begin[segments] = m->ticks;
 }
 
-// The box of a track's positions.
+// The box of the positions of a track's pivot.
 static nsvcd__box nsvcd__track_box(const nsvcd__track *track) {
+  const nsvcd__d3 pivot = nsvcd__track_pivot(track);
   nsvcd__box box;
-  box.low = box.high = nsvcd__f3_load(track->poses->position);
+  box.low = box.high = nsvcd__f3_round(nsvcd__pivot_of(track->poses, pivot));
   for (size_t n = 1; n < track->count; n++) {
-    const nsvcd__f3 position = nsvcd__f3_load(track->poses[n].position);
+    const nsvcd__f3 position = nsvcd__f3_round(nsvcd__pivot_of(&track->poses[n], pivot));
     box.low = nsvcd__f3_min(box.low, position);
     box.high = nsvcd__f3_max(box.high, position);
   }
   return box;
 }
 
-// A lower bound of the distance between the origins of bodies on two tracks, in units: they never
+// A lower bound of the distance between the pivots of bodies on two tracks, in units: they never
 // leave the boxes of their positions.
 static float nsvcd__tracks_gap(const nsvcd__track *moving, const nsvcd__track *fixed,
                                float unit) {
@@ -184,6 +198,15 @@ static float nsvcd__tracks_gap(const nsvcd__track *moving, const nsvcd__track *f
   return 0.99999f * nsvcd__f3_norm(gap) / unit;
 }
 
+// How far a body's pivot is from its origin, in units.
+static float nsvcd__pivot_arm(const nsvcd__motion *m, const nsvcd__track *track) {
+  if (!track->pivot) return 0;
+  return nsvcd__above(nsvcd__d3_norm(nsvcd__track_pivot(track)) / (double)m->unit);
+}
+static float nsvcd__pivot_arms(const nsvcd__motion *m) {
+  return nsvcd__pivot_arm(m, &m->moving) + nsvcd__pivot_arm(m, &m->fixed);
+}
+
 static float nsvcd__motion_gap(const nsvcd__motion *m) {
   return nsvcd__tracks_gap(&m->moving, &m->fixed, m->unit);
 }
@@ -191,6 +214,8 @@ static float nsvcd__motion_gap(const nsvcd__motion *m) {
 // Sets all that follows from the tracks.
 static void nsvcd__motion_set_tracks(nsvcd__motion *m, nsvcd__track moving,
                                      nsvcd__track fixed) {
+  if (moving.count == 1) moving.pivot = NULL;
+  if (fixed.count == 1) fixed.pivot = NULL;
   m->moving = moving;
   m->fixed = fixed;
   m->fixed_moves = fixed.count > 1;
@@ -219,24 +244,24 @@ static void nsvcd__motion_init(const nsvcd_mover *moving, const nsvcd_mover *fix
   nsvcd__motion_set_tracks(m, nsvcd__track_of(moving), nsvcd__track_of(fixed));
 }
 
-// A body's pose in the world: rotation unit to 1e-4, position in metres. In double, because on a
-// long path past the other body rounding its ends would be large beside the clearance.
+// A body's rotation in the world, unit to 1e-4, and the position of its pivot, metres. In double,
+// because on a long path past the other body rounding its ends would be large beside the clearance.
 typedef struct nsvcd__world_pose {
   nsvcd__quat rotation;
   nsvcd__d3 position;
 } nsvcd__world_pose;
 
-static nsvcd__world_pose nsvcd__world_pose_of(const nsvcd_pose *pose) {
+static nsvcd__world_pose nsvcd__world_pose_of(const nsvcd_pose *pose, nsvcd__d3 pivot) {
   const nsvcd__world_pose out = {nsvcd__quat_load(pose->rotation),
-                                 nsvcd__d3_load(pose->position)};
+                                 nsvcd__pivot_of(pose, pivot)};
   return out;
 }
 
 // The pose at a fraction between two.
 static nsvcd__world_pose nsvcd__world_pose_between(const nsvcd_pose *a, const nsvcd_pose *b,
-                                                   double fraction) {
-  const nsvcd__world_pose from = nsvcd__world_pose_of(a);
-  const nsvcd__world_pose to = nsvcd__world_pose_of(b);
+                                                   nsvcd__d3 pivot, double fraction) {
+  const nsvcd__world_pose from = nsvcd__world_pose_of(a, pivot);
+  const nsvcd__world_pose to = nsvcd__world_pose_of(b, pivot);
   nsvcd__world_pose out;
   out.rotation = nsvcd__quat_slerp(from.rotation, to.rotation, (float)fraction);
   out.position = nsvcd__d3_mix(from.position, to.position, fraction);
@@ -248,10 +273,12 @@ static nsvcd__world_pose nsvcd__track_pose(const nsvcd__track *track, uint32_t t
   const uint32_t k = nsvcd__pose_before(track, tick);
   const nsvcd_pose *a = &track->poses[k];
   const uint32_t from = nsvcd__tick_of(track, k);
-  if (tick == from || track->count == 1) return nsvcd__world_pose_of(a);
+  const nsvcd__d3 pivot = nsvcd__track_pivot(track);
+  if (tick == from || track->count == 1) return nsvcd__world_pose_of(a, pivot);
   const uint32_t to = nsvcd__tick_of(track, k + 1);
-  if (tick == to) return nsvcd__world_pose_of(a + 1);
-  return nsvcd__world_pose_between(a, a + 1, (double)(tick - from) / (double)(to - from));
+  if (tick == to) return nsvcd__world_pose_of(a + 1, pivot);
+  const double fraction = (double)(tick - from) / (double)(to - from);
+  return nsvcd__world_pose_between(a, a + 1, pivot, fraction);
 }
 
 // The tick of a track's next pose after a tick that is not the last.

@@ -49,7 +49,7 @@ static nsvcd__v3 nsvcd__v_half_rotation(nsvcd__vquat q) {
 }
 
 // A track's poses at `count` times t in [0,1], 1 to SLICE, one per lane: unit quaternions, and
-// positions relative to an origin.
+// positions of the pivot relative to an origin.
 static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const float *t,
                                            size_t count, nsvcd__f3 origin) {
   float fraction[NSVCD__SLICE] = {0};
@@ -58,13 +58,14 @@ static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const floa
   float position[3 * NSVCD__SLICE] = {0};
   float moved[3 * NSVCD__SLICE] = {0};
   const int moves = track->count > 1;
+  const nsvcd__d3 pivot = nsvcd__track_pivot(track);
   for (size_t l = count; l < NSVCD__SLICE; l++) rotation[3 * NSVCD__SLICE + l] = 1;
   for (size_t l = 0; l < count; l++) {
     const size_t k = moves ? nsvcd__pose_at(track, t[l], &fraction[l]) : 0;
     const nsvcd_pose *a = &track->poses[k];
     const nsvcd_pose *b = moves ? a + 1 : a;
-    const nsvcd__f3 from = nsvcd__f3_load(a->position);
-    const nsvcd__f3 to = nsvcd__f3_load(b->position);
+    const nsvcd__f3 from = nsvcd__f3_round(nsvcd__pivot_of(a, pivot));
+    const nsvcd__f3 to = nsvcd__f3_round(nsvcd__pivot_of(b, pivot));
     nsvcd__quat q = nsvcd__quat_load(a->rotation);
     const nsvcd__quat next = nsvcd__quat_load(b->rotation);
     const float cosine = nsvcd__quat_dot(q, next);

@@ -107,13 +107,17 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 
   const nsvcd__f3 own = nsvcd__centre_of(nsvcd__body_patches(task->moving), c->moving);
   const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_scale(own, m->scale));
+  nsvcd__f3 from_pivot = own;
+  if (m->moving.pivot) from_pivot = nsvcd__f3_sub(own, nsvcd__f3_load(m->moving.pivot));
+  const nsvcd__v3 arm = nsvcd__v3_set(nsvcd__f3_scale(from_pivot, m->scale));
   for (size_t first = 0; first < NSVCD__INSTANTS; first += NSVCD__SLICE) {
     const size_t left = NSVCD__INSTANTS - first;
     const size_t count = left < NSVCD__SLICE ? left : NSVCD__SLICE;
     const nsvcd__v_pose pose = nsvcd__v_poses_at(m, tape->at.t + first, count);
-    const nsvcd__v3 arm = nsvcd__vmat3_apply(nsvcd__vmat3_of(pose.rotation), centre);
-    nsvcd__v3_store(tape->at.arm, first, arm);
-    nsvcd__v3_store(tape->at.position, first, nsvcd__v3_add(arm, pose.position));
+    const nsvcd__vmat3 rotation = nsvcd__vmat3_of(pose.rotation);
+    nsvcd__v3_store(tape->at.arm, first, nsvcd__vmat3_apply(rotation, arm));
+    const nsvcd__v3 to_centre = nsvcd__vmat3_apply(rotation, centre);
+    nsvcd__v3_store(tape->at.position, first, nsvcd__v3_add(to_centre, pose.position));
   }
 }
 #endif  // NSVCD_NO_GRADIENT

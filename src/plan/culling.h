@@ -166,8 +166,8 @@ static nsvcd_answer nsvcd__ask_segments(nsvcd__planner *p, uint32_t k, size_t fi
     motion[n] = nsvcd__relative_pose(&row[pair->a], &row[pair->b]);
   }
 
-  const nsvcd_mover a = {p->in->bodies[pair->a], motion, segments + 1, NULL, 0};
-  const nsvcd_mover b = {p->in->bodies[pair->b], NULL, 0, NULL, 0};
+  const nsvcd_mover a = {p->in->bodies[pair->a], motion, segments + 1, NULL, 0, {0}};
+  const nsvcd_mover b = {p->in->bodies[pair->b], NULL, 0, NULL, 0, {0}};
   nsvcd_question question = p->options.sweep;
   question.a = a;
   question.b = b;

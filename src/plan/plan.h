@@ -72,7 +72,8 @@ static float nsvcd__pair_deviation(const nsvcd__planner *p, const nsvcd_body_pai
   const nsvcd_pose start = nsvcd__relative_pose(&from[pair->a], &from[pair->b]);
   const nsvcd_pose end = nsvcd__relative_pose(&to[pair->a], &to[pair->b]);
   const nsvcd_pose spline = nsvcd__relative_pose(&p->moved[pair->a], &p->moved[pair->b]);
-  const nsvcd__world_pose check = nsvcd__world_pose_between(&start, &end, fraction);
+  const nsvcd__d3 pivot = nsvcd__d3_of(0, 0, 0);
+  const nsvcd__world_pose check = nsvcd__world_pose_between(&start, &end, pivot, fraction);
   const nsvcd__quat q = nsvcd__quat_load(spline.rotation);
   const nsvcd__transform at = {nsvcd__mat3_of(q), nsvcd__f3_load(spline.position)};
   const nsvcd__transform checked = {nsvcd__mat3_of(check.rotation),

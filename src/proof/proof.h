@@ -105,10 +105,11 @@ typedef struct nsvcd__arc {
   // of the moving body
   double scale;
   nsvcd__slerp moving, fixed;
-  // from the fixed body's origin to the moving one's, and how it changes
+  // from the fixed body's pivot to the moving one's, and how it changes
   nsvcd__d3 from, moved;
-  // added to that in the fixed body's frame
-  nsvcd__d3 push_out;
+  // added to that in the fixed body's frame: its pivot, and the push-out; and taken away in the
+  // moving one's
+  nsvcd__d3 added, pivot;
   // The axis of the relative turn at the start, unit, in the fixed body's frame and in the moving
   // one's. Where both bodies turn, it wavers from either by this angle at most.
   nsvcd__d3 axis, own_axis;
@@ -236,7 +237,7 @@ typedef struct nsvcd__height {
 
 // The question, in the fixed body's units.
 typedef struct nsvcd__given {
-  // the sum of both bodies' extents
+  // the sum of both bodies' extents, and of their pivots' distances from the origins
   float lengths;
   // beyond the quantization errors
   double tolerance;

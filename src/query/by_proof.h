@@ -16,7 +16,8 @@ static nsvcd__dpose nsvcd__dpose_at(const nsvcd__motion *motion, const nsvcd__tr
   const uint32_t length = nsvcd__tick_of(track, k + 1) - from;
   const nsvcd_pose *a = &track->poses[k];
   const nsvcd_pose *b = track->count > 1 ? a + 1 : a;
-  return nsvcd__dpose_between(a, b, (tick - (double)from) / (double)length);
+  const double fraction = (tick - (double)from) / (double)length;
+  return nsvcd__dpose_between(a, b, nsvcd__track_pivot(track), fraction);
 }
 
 // From the fixed body's frame, in metres, to the world, at time t.
@@ -74,6 +75,7 @@ static nsvcd__goal nsvcd__proof_begin(nsvcd__query *query) {
   p->moving = nsvcd__geometry_of(nsvcd__triangles_of(task->moving));
   p->fixed = nsvcd__geometry_of(nsvcd__triangles_of(task->fixed));
   given->lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
+  given->lengths += nsvcd__pivot_arms(&task->motion);
   given->tolerance = (double)q->tolerance / unit;
   const double moving_radius = (double)p->moving.counts->convex_radius * task->motion.ratio;
   given->radius = moving_radius + (double)p->fixed.counts->convex_radius;
@@ -178,8 +180,8 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, nsvcd__goa
   nsvcd__motion down = *whole;
   nsvcd_pose moving[2], fixed[2];
   const int takes_it = nsvcd__takes_push_out(task);
-  const nsvcd__track moves = {moving, NULL, takes_it ? 2u : 1u, 0, 0};
-  const nsvcd__track rests = {fixed, NULL, takes_it ? 1u : 2u, 0, 0};
+  const nsvcd__track moves = {moving, NULL, takes_it ? 2u : 1u, 0, 0, 1, NULL};
+  const nsvcd__track rests = {fixed, NULL, takes_it ? 1u : 2u, 0, 0, 1, NULL};
   const nsvcd__d3 push_out = nsvcd__d3_widen(whole->push_out);
   // Nearer to each other than stored triangles are known, nothing would be separated.
   const double epsilons = 4 * nsvcd__epsilon(p) + nsvcd__pose_error(p, t);
@@ -207,7 +209,8 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, nsvcd__goa
 // in its frame are as exact as they can be.
 static nsvcd__motion nsvcd__rest_at(const nsvcd__task *task, double t, nsvcd_pose *poses) {
   nsvcd__motion still = task->motion;
-  const nsvcd__track tracks[2] = {{&poses[0], NULL, 1, 0, 0}, {&poses[1], NULL, 1, 0, 0}};
+  const nsvcd__track tracks[2] = {{&poses[0], NULL, 1, 0, 0, 1, NULL},
+                                  {&poses[1], NULL, 1, 0, 0, 1, NULL}};
   nsvcd__dpose moving = nsvcd__dpose_at(&still, &still.moving, t);
   nsvcd__dpose fixed = nsvcd__dpose_at(&still, &still.fixed, t);
   const nsvcd__dmat3 rotation = nsvcd__dtransform_of(&fixed).rotation;

@@ -23,9 +23,12 @@ static nsvcd__twist nsvcd__twist_at(const nsvcd__arc *arc, double u) {
   nsvcd__d3 own = nsvcd__slerp_turn(&arc->fixed);
   turn = nsvcd__dmat3_apply_transpose(&fixed, turn);
   own = nsvcd__dmat3_apply_transpose(&fixed, own);
+  // the moving body's pivot, as it moves; with what is added, the fixed body turns about its own
+  const nsvcd__d3 arm = nsvcd__dmat3_apply(&at.rotation, arc->pivot);
+  const nsvcd__d3 pivot = nsvcd__d3_fma(1 / arc->scale, arm, at.position);
   nsvcd__d3 along = nsvcd__dmat3_apply_transpose(&fixed, arc->moved);
-  along = nsvcd__d3_add(along, nsvcd__d3_cross(own, arc->push_out));
-  along = nsvcd__d3_sub(along, nsvcd__d3_cross(turn, at.position));
+  along = nsvcd__d3_add(along, nsvcd__d3_cross(own, arc->added));
+  along = nsvcd__d3_sub(along, nsvcd__d3_cross(turn, pivot));
   nsvcd__twist out;
   out.along = nsvcd__d3_scale(along, per_tick);
   out.turn = nsvcd__d3_scale(nsvcd__d3_sub(turn, own), per_tick);

@@ -153,6 +153,7 @@ static NSVCD__NOINLINE nsvcd__query *nsvcd__query_open(nsvcd__isa isa, const nsv
   task->moving = moving->body;
   task->fixed = fixed->body;
   task->lengths = task->motion.scale * task->moving->extent + task->fixed->extent;
+  task->lengths += nsvcd__pivot_arms(&task->motion);
   task->method = nsvcd__method_of(task->moving, task->fixed, q->method);
   task->question = q;
 #ifndef NSVCD_NO_NETWORK

@@ -16,6 +16,9 @@
 //                 + max over keyframes |p_k - its linear interpolation|
 //   margin      = origin_bend + rounding + the clearance asked for
 //
+// A body that turns about a pivot is one whose origin is there, with points shifted by -pivot: so
+// its origin is no farther from its chord than its arcs bend times |pivot| more.
+//
 // Along a direction n, |n| <= 1, the deviation is smaller. A turn by h about the unit axis a bends
 // the path of a point x by a x (a x y) h^2, y being x, turned; and n.(a x (a x y)) = (n x a).(a x
 // y), at most |n x a| |x|: nothing along the axis. `bend_along_axis` and `origin_along_axis` are
@@ -29,7 +32,7 @@
 typedef struct nsvcd__v_poses {
   nsvcd__vquat moving;  // of any length
   nsvcd__vquat fixed;   // unit; only where that body moves
-  nsvcd__v3 offset;     // from the fixed body's origin to the moving one's, metres
+  nsvcd__v3 offset;     // from the fixed body's pivot to the moving one's, metres
 } nsvcd__v_poses;
 
 // A slice of poses.
@@ -55,6 +58,15 @@ static nsvcd__v_pose nsvcd__v_seen(const nsvcd__motion *m, const nsvcd__v_poses 
   nsvcd__v_pose out;
   out.rotation = nsvcd__vquat_mul(to_fixed, at->moving);
   out.position = nsvcd__v3_fma(per_metre, metres, nsvcd__v3_set(m->push_out));
+  if (m->fixed.pivot) {
+    const nsvcd__v3 pivot = nsvcd__v3_set(nsvcd__f3_load(m->fixed.pivot));
+    out.position = nsvcd__v3_add(out.position, pivot);
+  }
+  if (m->moving.pivot) {
+    const nsvcd__v3 pivot = nsvcd__v3_set(nsvcd__f3_load(m->moving.pivot));
+    const nsvcd__v3 arm = nsvcd__vmat3_apply(nsvcd__vmat3_of(out.rotation), pivot);
+    out.position = nsvcd__v3_fma(nsvcd__v_set(-m->scale), arm, out.position);
+  }
   return out;
 }
 
@@ -287,10 +299,10 @@ static NSVCD__NOINLINE void nsvcd__cut_ends(const nsvcd__motion *m, const uint32
   }
 }
 
-// The scale times what arcs are off, plus what keyframes are, whose square is given.
-static nsvcd__v nsvcd__v_bend(nsvcd__v scale, const float *arcs, const float *keyframes) {
+// What arcs are off, times the arm, plus what keyframes are, whose square is given.
+static nsvcd__v nsvcd__v_bend(nsvcd__v arm, const float *arcs, const float *keyframes) {
   const nsvcd__v off = nsvcd__v_sqrt(nsvcd__v_load(keyframes));
-  return nsvcd__v_add(off, nsvcd__v_mul(scale, nsvcd__v_load(arcs)));
+  return nsvcd__v_add(off, nsvcd__v_mul(arm, nsvcd__v_load(arcs)));
 }
 
 // Sets the deviations, once all keyframes have been visited. If both bodies move, they are not
@@ -299,12 +311,15 @@ static void nsvcd__cut_deviations(const nsvcd__motion *m, float lengths, size_t 
                                   nsvcd__segments *out, const nsvcd__bends *most) {
   const int both = m->fixed_moves;
   const nsvcd__v scale = nsvcd__v_set(m->scale);
+  const nsvcd__v pivot = nsvcd__v_set(nsvcd__pivot_arm(m, &m->moving));
   const nsvcd__v bend = nsvcd__v_bend(scale, most->arc_bend + l, most->off + l);
-  const nsvcd__v off = nsvcd__v_sqrt(nsvcd__v_load(most->origin_off + l));
+  const nsvcd__v off = nsvcd__v_bend(pivot, most->arc_bend + l, most->origin_off + l);
   const nsvcd__v origin_bend = nsvcd__v_add(off, nsvcd__v_load(most->arc_origin + l));
   const nsvcd__v along = nsvcd__v_bend(scale, most->arc_along_axis + l, most->along_axis + l);
-  const nsvcd__v origin_along = nsvcd__v_sqrt(nsvcd__v_load(most->origin_along_axis + l));
-  const nsvcd__v across = nsvcd__v_sqrt(nsvcd__v_load(most->origin_off_heading + l));
+  const nsvcd__v origin_along =
+      nsvcd__v_bend(pivot, most->arc_along_axis + l, most->origin_along_axis + l);
+  const nsvcd__v across =
+      nsvcd__v_bend(pivot, most->arc_bend + l, most->origin_off_heading + l);
   nsvcd__v_store(out->bend + l, bend);
   nsvcd__v_store(out->origin_bend + l, origin_bend);
   nsvcd__v_store(out->bend_along_axis + l, both ? bend : along);

@@ -11,8 +11,8 @@ static int nsvcd__self_test_lanes(void) {
   const float turn = half;
   const nsvcd_pose path[2] = {{{4, 0, 0}, {0, 0, 0, 1}}, {{-4, 0, 0}, {0, 0, turn, turn}}};
   const nsvcd_pose rest = {{1, 2, 3}, {0.5f, 0.5f, 0.5f, 0.5f}};
-  const nsvcd_mover moving = {NULL, path, 2, NULL, 0};
-  const nsvcd_mover fixed = {NULL, &rest, 1, NULL, 0};
+  const nsvcd_mover moving = {NULL, path, 2, NULL, 0, {0}};
+  const nsvcd_mover fixed = {NULL, &rest, 1, NULL, 0, {0}};
   nsvcd__chords chords;
   // A block, so that what comes after it shares its stack.
   {

@@ -124,7 +124,7 @@ typedef struct nsvcd__task {
   const nsvcd_body *moving, *fixed;
   nsvcd__motion motion;
   int swapped;          // the moving body is b, not a
-  float lengths;        // extents of both bodies, in the fixed one's units
+  float lengths;        // extents of both bodies and their pivots, in the fixed one's units
   nsvcd_method method;  // PROOF or NETWORK
   const nsvcd_question *question;
 #ifndef NSVCD_NO_NETWORK

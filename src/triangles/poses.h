@@ -14,7 +14,7 @@ static nsvcd__dtransform nsvcd__inverse_dtransform(const nsvcd__dtransform *at, 
   return out;
 }
 
-// A track's slerp over an arc, and its positions at both ends, metres.
+// A track's slerp over an arc, and its pivot's positions at both ends, metres.
 static nsvcd__slerp nsvcd__slerp_in(const nsvcd__track *track, uint32_t first, uint32_t ticks,
                                     nsvcd__d3 *ends) {
   const uint32_t k = nsvcd__pose_before(track, first);
@@ -22,8 +22,9 @@ static nsvcd__slerp nsvcd__slerp_in(const nsvcd__track *track, uint32_t first, u
   const nsvcd_pose *b = track->count > 1 ? a + 1 : a;
   const uint32_t begin = nsvcd__tick_of(track, k);
   const double per_tick = 1 / (double)(nsvcd__tick_of(track, k + 1) - begin);
-  const nsvcd__d3 start = nsvcd__d3_load(a->position);
-  const nsvcd__d3 end = nsvcd__d3_load(b->position);
+  const nsvcd__d3 pivot = nsvcd__track_pivot(track);
+  const nsvcd__d3 start = nsvcd__pivot_of(a, pivot);
+  const nsvcd__d3 end = nsvcd__pivot_of(b, pivot);
   nsvcd__slerp out = nsvcd__slerp_of(a, b);
   out.fraction = (double)ticks * per_tick;
   out.from = (double)(first - begin) * per_tick;
@@ -44,7 +45,9 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__arcs *arcs, uint32_t first) {
   arc->ticks = ticks;
   arc->fixed_moves = m->fixed_moves;
   arc->scale = m->ratio;
-  arc->push_out = nsvcd__d3_widen(m->push_out);
+  const nsvcd__d3 fixed_pivot = nsvcd__d3_scale(nsvcd__track_pivot(&m->fixed), per_metre);
+  arc->added = nsvcd__d3_add(fixed_pivot, nsvcd__d3_widen(m->push_out));
+  arc->pivot = nsvcd__d3_scale(nsvcd__track_pivot(&m->moving), per_metre);
   arc->moving = nsvcd__slerp_in(&m->moving, first, ticks, ends);
   arc->fixed = nsvcd__slerp_in(&m->fixed, first, ticks, fixed_ends);
   const nsvcd__d3 from = nsvcd__d3_sub(ends[0], fixed_ends[0]);
@@ -76,10 +79,12 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__arcs *arcs, uint32_t first) {
   const nsvcd__d3 axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
   const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->fixed, 0));
   const nsvcd__dmat3 moving = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->moving, 0));
+  const double arm = nsvcd__d3_norm(arc->pivot);
   arc->turn = nsvcd__d3_norm(turn);
-  arc->speed = nsvcd__d3_norm(arc->moved) + swing;
+  arc->speed = nsvcd__d3_norm(arc->moved) + swing + arc->turn * arm;
   arc->twist = 0.1250001 * arc->scale * twist;
   arc->origin_bend = 0.1250001 * (2 * across + angle * swing);
+  arc->origin_bend += 0.1250001 * arm * (arc->turn * arc->turn + twist);
   arc->axis = nsvcd__dmat3_apply_transpose(&fixed, axis);
   arc->own_axis = nsvcd__dmat3_apply_transpose(&moving, axis);
   arc->waver = arc->turn > 0 ? nsvcd__min(1, twist / arc->turn) : 0;
@@ -106,7 +111,8 @@ static nsvcd__dtransform nsvcd__dtransform_at(const nsvcd__arc *arc, double u) {
   }
   const nsvcd__dmat3 rotation = nsvcd__dmat3_of(q);
   at.rotation = nsvcd__dmat3_scale(&rotation, arc->scale);
-  at.position = nsvcd__d3_add(at.position, arc->push_out);
+  at.position = nsvcd__d3_add(at.position, arc->added);
+  at.position = nsvcd__d3_sub(at.position, nsvcd__dmat3_apply(&rotation, arc->pivot));
   return at;
 }
 

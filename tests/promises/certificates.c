@@ -137,6 +137,10 @@ static void a_certificate_is_refused_by_the_field_at_fault(void) {
   question.slop = 0.01f;
   CHECK_EQ(nsvcd_certify(&question, cart.tree, cart.tree, NULL, workspace, 0, bytes, ROOM, &made),
            NSVCD_ERROR_SLOP);
+  question.slop = 0;
+  question.a.pivot[1] = 0.1f;
+  CHECK_EQ(nsvcd_certify(&question, cart.tree, cart.tree, NULL, workspace, 0, bytes, ROOM, &made),
+           NSVCD_ERROR_PIVOT);
   CHECK_EQ(nsvcd_certify(&question, NULL, cart.tree, NULL, workspace, 0, bytes, ROOM, &made),
            NSVCD_ERROR_ARGUMENT);
   certified_free(&cart);

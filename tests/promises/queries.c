@@ -57,6 +57,79 @@ static void between_poses_a_motion_is_a_line_and_a_slerp(void) {
   nsvcd_body_free(post, NULL);
 }
 
+// A door of two poses, whose origin is in its middle, sweeps a quarter of a circle about its hinge:
+// as one of 200 poses does, whose origin goes round. A post in its way is not where it would pass
+// without a pivot. And a door twice as large hits it sooner.
+static void a_body_turns_about_its_pivot(void) {
+  enum { POSES = 200 };
+  const float quarter = 1.57079633f;  // of a turn, radians
+  const nsvcd_body *door = box(2, 0.05f, 0.5f), *post = box(0.1f, 0.1f, 2);
+  const nsvcd_pose stands = at(1.34f, 1.34f, 0), ends[2] = {at(1, 0, 0), turned(0, 1, 0, quarter)};
+  nsvcd_pose round[POSES];
+  for (int k = 0; k < POSES; k++) {
+    const float angle = quarter * (float)k / (POSES - 1);
+    round[k] = turned(cosf(angle), sinf(angle), 0, angle);
+  }
+  nsvcd_question question = question_about(door, ends, 2, post);
+  question.b.poses = &stands;
+  question.b.count = 1;
+  question.ask = NSVCD_ASK_FIRST;
+  question.to = 1e-4f;
+  CHECK_EQ(verdict_of(&question), NSVCD_FREE);
+  question.a.pivot[0] = -1;
+  const nsvcd_range time = answer_to(&question).time;
+  const nsvcd_mover by_pivot = question.a;
+  question.a = question.b;  // it does not matter which one it is
+  question.b = by_pivot;
+  CHECK_NEAR(answer_to(&question).time.high, time.high, 1e-4);
+  question = question_about(door, round, POSES, post);
+  question.b.poses = &stands;
+  question.b.count = 1;
+  question.ask = NSVCD_ASK_FIRST;
+  question.to = 1e-4f;
+  CHECK_NEAR(answer_to(&question).time.high, time.high, 1e-3);
+  const nsvcd_pose larger[2] = {at(2, 0, 0), turned(0, 2, 0, quarter)};
+  question.a = by_pivot;
+  question.a.poses = larger;
+  question.a.scale = 2;  // the pivot, too
+  const nsvcd_range sooner = answer_to(&question).time;
+  CHECK(time.low > 0.4f && sooner.high < time.low && sooner.low > 0.4f);
+  nsvcd_body_free(door, NULL);
+  nsvcd_body_free(post, NULL);
+}
+
+// A screw is a turn about a pivot on its axis: two poses are as good as a helix of 200. The thread
+// comes round under a pin that it would pass beside.
+static void a_screw_turns_about_its_axis(void) {
+  enum { POSES = 200 };
+  const nsvcd_body *thread = box(0.2f, 0.2f, 0.02f), *pin = box(0.1f, 0.1f, 0.1f);
+  nsvcd_pose helix[POSES];
+  for (int k = 0; k < POSES; k++) {
+    const float share = (float)k / (POSES - 1);
+    const float angle = 3 * share;  // radians
+    helix[k] = turned(cosf(angle), sinf(angle), share, angle);
+  }
+  const nsvcd_pose ends[2] = {helix[0], helix[POSES - 1]};
+  const nsvcd_pose stands = at(cosf(1.5f), sinf(1.5f), 0.5f);
+  nsvcd_question question = question_about(thread, ends, 2, pin);
+  question.b.poses = &stands;
+  question.b.count = 1;
+  question.ask = NSVCD_ASK_FIRST;
+  question.to = 1e-4f;
+  CHECK_EQ(verdict_of(&question), NSVCD_FREE);
+  question.a.pivot[0] = -1;
+  const nsvcd_range time = answer_to(&question).time;
+  question.a.pivot[2] = 7;  // any point of the axis
+  CHECK_NEAR(answer_to(&question).time.high, time.high, 1e-4);
+  question.a.pivot[0] = question.a.pivot[2] = 0;
+  question.a.poses = helix;
+  question.a.count = POSES;
+  CHECK_NEAR(answer_to(&question).time.high, time.high, 1e-3);
+  CHECK(time.low > 0.3f && time.high < 0.5f);
+  nsvcd_body_free(thread, NULL);
+  nsvcd_body_free(pin, NULL);
+}
+
 static void one_low_pose_of_a_thousand_is_found(void) {
   enum { POSES = 1000, LOW = 700 };
   const nsvcd_body *cart = box(0.4f, 0.4f, 0.4f), *table = box(20, 2, 0.1f);
@@ -636,6 +709,8 @@ static void a_question_is_refused_by_the_field_at_fault(void) {
   REFUSED(NSVCD_ERROR_TIMES, q.a.times = falling);
   REFUSED(NSVCD_ERROR_TIMES, q.a.times = late);
   REFUSED(NSVCD_ERROR_SCALE, q.b.scale = -1);
+  REFUSED(NSVCD_ERROR_PIVOT, q.a.pivot[2] = NAN);
+  REFUSED(NSVCD_ERROR_PIVOT, (q.b.pivot[0] = 1e4f, q.b.scale = 1000));
   REFUSED(NSVCD_ERROR_ASK, q.ask = (nsvcd_ask)3);
   REFUSED(NSVCD_ERROR_ASK, q.ask = (nsvcd_ask)-1);
   REFUSED(NSVCD_ERROR_METHOD, q.method = (nsvcd_method)3);
@@ -835,6 +910,8 @@ void promises_queries(void) {
   RUN(a_cart_that_drives_past_is_free_and_into_a_post_is_a_hit);
   RUN(what_happens_between_two_poses_is_seen);
   RUN(between_poses_a_motion_is_a_line_and_a_slerp);
+  RUN(a_body_turns_about_its_pivot);
+  RUN(a_screw_turns_about_its_axis);
   RUN(one_low_pose_of_a_thousand_is_found);
   RUN(a_close_fit_is_told_from_a_hit);
   RUN(a_floor_of_two_kilometres_is_told_to_a_hair);

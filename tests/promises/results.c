@@ -39,6 +39,7 @@ static void a_text_names_the_field_at_fault(void) {
       {NSVCD_ERROR_POSE, {"position", "pose"}},
       {NSVCD_ERROR_QUATERNION, {"quaternion", "1e-4"}},
       {NSVCD_ERROR_SCALE, {"scale"}},
+      {NSVCD_ERROR_PIVOT, {"pivot", "certificate"}},
       {NSVCD_ERROR_ASK, {"ask"}},
       {NSVCD_ERROR_METHOD, {"method", "network", "gradient"}},
       {NSVCD_ERROR_TO, {"to is", "HIT"}},

@@ -79,37 +79,38 @@ class Code(enum.IntEnum):
     POSE = 23
     QUATERNION = 24
     SCALE = 25
-    SAME = 26
-    ASK = 27
-    METHOD = 28
-    TO = 29
-    TO_TIME = 30
-    CLEARANCE = 31
-    SLOP = 32
-    TOLERANCE = 33
-    MANIFOLD = 34
-    SEGMENTS = 35
-    PAIRS = 36
-    MODEL = 37
-    PRECISION = 38
-    RECALL = 39
-    INFLATE = 40
-    JOINT = 41
-    AXIS = 42
-    LIMITS = 43
-    SPEED = 44
-    LINK = 45
-    PAIR = 46
-    VALUE = 47
-    DEGREE = 48
-    TURN = 49
-    FINEST = 50
-    DISTANCE = 51
-    FARTHEST = 52
-    ROUTE = 53
-    STAGE = 54
-    PLAN = 55
-    BUILD = 56
+    PIVOT = 26
+    SAME = 27
+    ASK = 28
+    METHOD = 29
+    TO = 30
+    TO_TIME = 31
+    CLEARANCE = 32
+    SLOP = 33
+    TOLERANCE = 34
+    MANIFOLD = 35
+    SEGMENTS = 36
+    PAIRS = 37
+    MODEL = 38
+    PRECISION = 39
+    RECALL = 40
+    INFLATE = 41
+    JOINT = 42
+    AXIS = 43
+    LIMITS = 44
+    SPEED = 45
+    LINK = 46
+    PAIR = 47
+    VALUE = 48
+    DEGREE = 49
+    TURN = 50
+    FINEST = 51
+    DISTANCE = 52
+    FARTHEST = 53
+    ROUTE = 54
+    STAGE = 55
+    PLAN = 56
+    BUILD = 57
 
 
 class _Word(str, enum.Enum):
@@ -232,7 +233,8 @@ _BodyFacts = _struct(
 _Pose = _struct("nsvcd_pose", position=c_float * 3, rotation=c_float * 4)
 _NetworkOptions = _struct("nsvcd_network_options", pairs=c_size_t, model=c_int, precision=c_int, recall=c_float,
                           inflate=c_float)
-_Mover = _struct("nsvcd_mover", body=c_void_p, poses=c_void_p, count=c_size_t, times=c_void_p, scale=c_float)
+_Mover = _struct("nsvcd_mover", body=c_void_p, poses=c_void_p, count=c_size_t, times=c_void_p, scale=c_float,
+                 pivot=c_float * 3)
 _Question = _struct(
     "nsvcd_question", a=_Mover, b=_Mover, ask=c_int, to=c_float, to_time=c_float, clearance=c_float, slop=c_float,
     tolerance=c_float, manifold=c_int, method=c_int, work=c_size_t, segments=c_size_t, network=_NetworkOptions)
