@@ -9796,6 +9796,19 @@ typedef struct nsvcd__block {
   size_t patch, first, count;  // entries
 } nsvcd__block;
 
+// The triangles of a patch pair, block by block, with boxes about the fixed blocks.
+typedef struct nsvcd__blocks {
+  nsvcd__block moving, fixed[NSVCD__WINDOW];
+  nsvcd__box bounds[NSVCD__WINDOW];
+  // The moving block's corners at the start and at the end of the interval `over` (corner, axis,
+  // lane); without an interval, NULL, 3 of them at one pose.
+  const nsvcd__interval *over;
+  float corners[6][3][NSVCD__LANES];
+  // Only remembered, as a memo: blocks of a fixed patch in `fixed`; is one in `moving`?
+  size_t corner_count, window;
+  int has_block;
+} nsvcd__blocks;
+
 typedef struct nsvcd__pair_contact {
   double tick;      // when
   double distance;  // of the triangles
@@ -9943,8 +9956,9 @@ typedef struct nsvcd__search_result {
   int starts_free;
 } nsvcd__search_result;
 
-// What is only remembered. It may be forgotten between patch pairs and between parts of one: what
-// is proven is as true then, and only the work may differ. All zeros: nothing is remembered.
+// What is only remembered of patch pairs. It may be forgotten between patch pairs and between parts
+// of one: what is proven is as true then, and only the work may differ. All zeros: nothing is
+// remembered.
 typedef struct nsvcd__memo {
   // segments that have been made intervals
   uint64_t intervals;
@@ -9953,13 +9967,6 @@ typedef struct nsvcd__memo {
   nsvcd__f3 held;
   uint32_t plane;
   nsvcd__height heights[NSVCD__HEIGHTS], fixed_heights[NSVCD__FIXED_HEIGHTS];
-  // the unit normal of the plane that separated a triangle pair last
-  nsvcd__d3 separating;
-  // triangle pairs in a row that it has separated since
-  size_t shared;
-  // blocks of a fixed patch in p->fixed_blocks; is one in p->moving_block?
-  size_t window;
-  int has_block;
 } nsvcd__memo;
 
 // With a slop: what the moving body touches at the start, and how that is undone.
@@ -9977,27 +9984,49 @@ typedef struct nsvcd__push_outs {
   double slop;  // how deep a contact may be that is undone
 } nsvcd__push_outs;
 
+// What two triangles need, and all that the floor `triangles` may write: the bodies and the
+// question, which stay as they are given; the goal of the search now or the last one, and what it
+// has found. Everywhere it is called p.
 typedef struct nsvcd__proof {
-  nsvcd__isa isa;  // whose kernels search
   nsvcd__geometry moving, fixed;
   nsvcd__given given;
-  // of the search now or the last one: its motion, in whose last arc patch pairs and triangle pairs
-  // are resolved; what is asked, and what is known
+  // the goal's motion, in whose last arc patch pairs and triangle pairs are resolved
   nsvcd__arcs arcs;
   nsvcd__goal goal;
   nsvcd__search_result known;
-  nsvcd__memo memo;
   size_t work;
+  // Only remembered, as a memo: the unit normal of the plane that separated a triangle pair last.
+  // shared: the triangle pairs in a row that it has separated since.
+  nsvcd__d3 separating;
+  nsvcd__push_outs push;
+  union {
+    struct {
+      // that no plane separates over their segment
+      nsvcd__patch_pair pairs[NSVCD__PATCH_PAIRS];
+      nsvcd__manifold manifold;
+    } kept;
+    // collected before there are any
+    nsvcd__triangle_contact touches[NSVCD__TOUCHES];
+  } of;
+  // A triangle pair over an arc: the ends of the parts to come, the last one first. parts: how
+  // often the interval's triangle pairs have been halved.
+  double pair_ends[NSVCD__HALVINGS + 2];
+  size_t shared, parts;
+} nsvcd__proof;
+
+// What patches need besides, which the floor `separate` writes. Everywhere it is called w, and its
+// proof w->p.
+typedef struct nsvcd__solver {
+  nsvcd__proof p;
+  nsvcd__isa isa;  // whose kernels search
+  nsvcd__memo memo;
 
   // Containment at the start. inside: a component seems to be inside the other body, but close to
   // its surface; enclosed: a point of it, in the fixed body's frame; unclear: it could not be told,
-  int inside;
+  // in_open: since the other is nearly a solid, but not closed.
+  int inside, in_open;
   nsvcd__d3 enclosed;
   nsvcd__unclear unclear;
-  // since the other is nearly a solid, but not closed
-  int in_open;
-
-  nsvcd__push_outs push;
 
   // Segments as intervals (S), where the memo says so. Those that have been clipped, and the end,
   // ticks, at which the last one was.
@@ -10008,41 +10037,22 @@ typedef struct nsvcd__proof {
   // segments in which 16 fixed patches are met
   uint64_t met_in[NSVCD__GROUP];
   // Patch pairs: as the search finds them, and those that no plane separates over their segment;
-  // and witnesses that were sought in vain.
-  size_t fresh_count, count, misses;
+  // witnesses that were sought in vain; and how often a plane has been tried on all of both
+  // patches.
+  size_t fresh_count, count, misses, all_tried;
   nsvcd__patch_pair fresh[NSVCD__FRESH];
-  union {
-    struct {
-      nsvcd__patch_pair pairs[NSVCD__PATCH_PAIRS];
-      nsvcd__manifold manifold;
-    } kept;
-    // collected before there are any
-    nsvcd__triangle_contact touches[NSVCD__TOUCHES];
-  } of;
 
-  // A patch pair: its hulls, posed, and its triangles, block by block, with boxes about the fixed
-  // blocks.
+  // a patch pair: its hulls, posed, and its triangles
   float hull_start[3][NSVCD__LANES], hull_end[3][NSVCD__LANES], hull_fixed[3][NSVCD__LANES];
-  nsvcd__block moving_block, fixed_blocks[NSVCD__WINDOW];
-  nsvcd__box bounds[NSVCD__WINDOW];
-  // The moving block's corners at the start and at the end of the interval `over` (corner, axis,
-  // lane); without an interval, NULL, 3 of them at one pose.
-  const nsvcd__interval *over;
-  float corners[6][3][NSVCD__LANES];
-  size_t corner_count;
+  nsvcd__blocks blocks;
 
-  // A patch pair over an arc, and a triangle pair: the ends of the parts to come, the last one
-  // first; and how often the interval's triangle pairs have been halved.
+  // A patch pair over an arc: the part now, and the ends of those to come, the last one first
   nsvcd__interval interval;
   double arc_ends[NSVCD__ARC_PARTS];
-  double pair_ends[NSVCD__HALVINGS + 2];
-  size_t parts;
-  // how often a plane has been tried on all of both patches
-  size_t all_tried;
 
   // triangles that a ray has crossed
   uint32_t crossed[NSVCD__CROSSED];
-} nsvcd__proof;
+} nsvcd__solver;
 
 // The limit that allows so many units more, but never more than the question has left.
 static size_t nsvcd__limit_after(const nsvcd__proof *p, const nsvcd__goal *goal,
@@ -10339,7 +10349,7 @@ typedef struct nsvcd__query {
   nsvcd__candidate *kept;  // (shortlist)
 #endif
 #ifndef NSVCD_NO_PROOF
-  nsvcd__proof *proof;
+  nsvcd__solver *solver;
   nsvcd__interval *intervals;  // (S)
 #endif
 } nsvcd__query;
@@ -10353,7 +10363,7 @@ typedef char nsvcd__constants_hold[NSVCD__MUST_HOLD(
     sizeof(nsvcd__cut) <= 16 * 512 && NSVCD__TILE_SLOTS == 32 &&
     NSVCD_ALIGNMENT == sizeof(uint64_t))];
 #ifndef NSVCD_NO_PROOF
-typedef char nsvcd__proof_constants_hold[NSVCD__MUST_HOLD(sizeof(nsvcd__proof) <= 24832 &&
+typedef char nsvcd__proof_constants_hold[NSVCD__MUST_HOLD(sizeof(nsvcd__solver) <= 24832 &&
                                                           sizeof(nsvcd__interval) <= 168)];
 #endif
 #ifndef NSVCD_NO_NETWORK
@@ -10382,7 +10392,7 @@ static size_t nsvcd__query_layout(const nsvcd__needs *needs, char *base) {
 #ifndef NSVCD_NO_PROOF
   const size_t proofs = needs->proof != 0;
   const size_t intervals = proofs * needs->segments;
-  query->proof = NSVCD__TAKE_ROWS(nsvcd__proof, proofs, base, &used);
+  query->solver = NSVCD__TAKE_ROWS(nsvcd__solver, proofs, base, &used);
   query->intervals = NSVCD__TAKE_ROWS(nsvcd__interval, intervals, base, &used);
 #endif
   return (size_t)(used > end ? used : end);
@@ -12586,13 +12596,13 @@ static nsvcd__transform nsvcd__transform_of(const nsvcd__dtransform *at) {
 
 #ifndef NSVCD_NO_PROOF
 // A segment, up to the end of what matters; kept once it has been made.
-static const nsvcd__interval *nsvcd__segment_interval(nsvcd__proof *p, const nsvcd__search *q,
+static const nsvcd__interval *nsvcd__segment_interval(nsvcd__solver *w, const nsvcd__search *q,
                                                       size_t s) {
   nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
   const size_t l = s % NSVCD__LANES;
-  nsvcd__interval *out = &p->intervals[s];
-  if (p->memo.intervals >> s & 1) return out;
-  p->memo.intervals |= (uint64_t)1 << s;
+  nsvcd__interval *out = &w->intervals[s];
+  if (w->memo.intervals >> s & 1) return out;
+  w->memo.intervals |= (uint64_t)1 << s;
   const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, l);
   out->start.rotation = nsvcd__mat3_lane(block->rotation, l);
   out->end.rotation = nsvcd__mat3_mix(1, &out->start.rotation, 1, &turned);
@@ -12765,10 +12775,10 @@ static int nsvcd__fixed_closed(const nsvcd__proof *p, const nsvcd__triangle_pair
 }
 
 // The nearest points of a triangle pair at fraction u of the arc.
-static nsvcd__nearest nsvcd__pair_nearest(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
+static nsvcd__nearest nsvcd__pair_nearest(nsvcd__arcs *arcs, const nsvcd__triangle_pair *pair,
                                           double u) {
   nsvcd__d3 moving[3];
-  nsvcd__pose_triangle(nsvcd__arc_pose(&p->arcs, u), pair->moving, moving);
+  nsvcd__pose_triangle(nsvcd__arc_pose(arcs, u), pair->moving, moving);
   return nsvcd__nearest_of(moving, pair->fixed);
 }
 
@@ -12824,7 +12834,7 @@ static NSVCD__NOINLINE void nsvcd__keep_unresolved(nsvcd__proof *p,
   const int is_first = !(p->known.unresolved < NSVCD__NEVER) && !p->goal.is_brief;
   if (is_first && p->work + left < p->goal.limit) p->goal.limit = p->work + left;
   if (!(tick < p->known.unresolved)) return;
-  const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
+  const nsvcd__nearest nearest = nsvcd__pair_nearest(&p->arcs, pair, middle);
   p->known.unresolved_pair = nsvcd__contact_at(p, pair, middle, &nearest);
   p->known.unresolved = tick;
   if (p->goal.unresolved_ends) p->known.end = nsvcd__min(p->known.end, tick);
@@ -12850,7 +12860,7 @@ static double nsvcd__off_chord_along(const nsvcd__arc *arc, const nsvcd__triangl
 // Does the plane that separated a triangle pair last separate this one from u0 to u1 of the arc?
 static int nsvcd__plane_separates(nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0,
                                   double u1) {
-  const nsvcd__d3 normal = p->memo.separating;
+  const nsvcd__d3 normal = p->separating;
   const nsvcd__dtransform *start = nsvcd__arc_pose(&p->arcs, u0);
   const nsvcd__dtransform *end = nsvcd__arc_pose(&p->arcs, u1);
   double lowest = HUGE_VAL;
@@ -12932,14 +12942,14 @@ static int nsvcd__edges_pass(const nsvcd__d3 *const *moving, size_t k, const nsv
 // Has a triangle pair met between u0 and u1 of the arc: has a corner passed through the other
 // triangle, or an edge through an edge? Faces that are parallel when they meet do so at
 // one time only, and rounded numbers show it at none.
-static int nsvcd__pair_passes(nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0,
+static int nsvcd__pair_passes(nsvcd__arcs *arcs, const nsvcd__triangle_pair *pair, double u0,
                               double u1) {
   const double margin = pair->rounding;
   const double travel = pair->speed * (u1 - u0);
   const double times[3] = {u0, 0.5 * (u0 + u1), u1};
   nsvcd__d3 corners[3][3];
   for (size_t n = 0; n < 3; n++)
-    nsvcd__pose_triangle(nsvcd__arc_pose(&p->arcs, times[n]), pair->moving, corners[n]);
+    nsvcd__pose_triangle(nsvcd__arc_pose(arcs, times[n]), pair->moving, corners[n]);
   const nsvcd__d3 *moving[3] = {corners[0], corners[1], corners[2]};
   const nsvcd__d3 *fixed[3] = {pair->fixed, pair->fixed, pair->fixed};
   for (size_t k = 0; k < 3; k++) {
@@ -12988,7 +12998,7 @@ static NSVCD__NOINLINE double nsvcd__aim_plane(nsvcd__proof *p,
                                                const nsvcd__triangle_pair *pair, double u,
                                                const nsvcd__nearest *nearest) {
   const double distance = sqrt(nearest->square);
-  nsvcd__d3 *plane = &p->memo.separating;
+  nsvcd__d3 *plane = &p->separating;
   *plane = nsvcd__d3_scale(nsvcd__d3_sub(nearest->on_a, nearest->on_b), 1 / distance);
   const nsvcd__d3 *fixed = pair->fixed;
   const nsvcd__d3 guess = *plane;
@@ -13021,7 +13031,7 @@ static nsvcd__outcome nsvcd__resolve_too_near(nsvcd__proof *p,
     nsvcd__keep_unresolved(p, pair, u0, u1);
     return NSVCD__DONE;
   }
-  const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, when);
+  const nsvcd__nearest nearest = nsvcd__pair_nearest(&p->arcs, pair, when);
   const double distance = sqrt(nearest.square);
   if (distance < p->goal.high) (void)nsvcd__take_contact(p, pair, when, &nearest);
   const double separated = distance - 2 * pair->close;
@@ -13033,20 +13043,20 @@ static nsvcd__outcome nsvcd__resolve_too_near(nsvcd__proof *p,
 // is narrowed down to rounding, and is the contact's. If not, it is unresolved.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_short_interval(
     nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0, double u1) {
-  if (!nsvcd__pair_passes(p, pair, u0, u1))
+  if (!nsvcd__pair_passes(&p->arcs, pair, u0, u1))
     return nsvcd__resolve_too_near(p, pair, u0, u1, 0.5 * (u0 + u1));
   for (size_t n = 0; n < NSVCD__HALVINGS; n++) {
     const double middle = 0.5 * (u0 + u1);
     p->work++;
-    if (nsvcd__pair_passes(p, pair, u0, middle))
+    if (nsvcd__pair_passes(&p->arcs, pair, u0, middle))
       u1 = middle;
-    else if (nsvcd__pair_passes(p, pair, middle, u1))
+    else if (nsvcd__pair_passes(&p->arcs, pair, middle, u1))
       u0 = middle;
     else
       break;
   }
   const double when = 0.5 * (u0 + u1);
-  nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, when);
+  nsvcd__nearest nearest = nsvcd__pair_nearest(&p->arcs, pair, when);
   nearest.square = 0;
   return nsvcd__take_contact(p, pair, when, &nearest);
 }
@@ -13058,7 +13068,7 @@ static nsvcd__outcome nsvcd__take_nearest(nsvcd__proof *p, const nsvcd__triangle
                                           double u0, double u1, nsvcd__d3 moved) {
   for (size_t n = 0; n < NSVCD__HALVINGS / 2; n++) {
     const double middle = 0.5 * (u0 + u1);
-    const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
+    const nsvcd__nearest nearest = nsvcd__pair_nearest(&p->arcs, pair, middle);
     const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
     p->work++;
     if (sqrt(nearest.square) < p->goal.high &&
@@ -13099,7 +13109,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
     at = nsvcd__min(at, end);
     p->work++;
     if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
-    const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, at);
+    const nsvcd__nearest nearest = nsvcd__pair_nearest(&p->arcs, pair, at);
     const double distance = sqrt(nearest.square);
     const double above = distance - p->goal.clearance;
     if (above <= pair->rounding) {
@@ -13113,7 +13123,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
       continue;
     }
     const double beyond = nsvcd__aim_plane(p, pair, at, &nearest);
-    const double fall = -nsvcd__d3_dot(p->memo.separating, moved);
+    const double fall = -nsvcd__d3_dot(p->separating, moved);
     const double room = beyond - p->goal.clearance - pair->margin - pair->rounding;
     const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;
     if (u < until && nsvcd__plane_separates(p, pair, u, until)) u = until;
@@ -13151,7 +13161,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
     if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
     int apart = nsvcd__plane_separates(p, pair, u, end);
     if (!apart) {
-      const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
+      const nsvcd__nearest nearest = nsvcd__pair_nearest(&p->arcs, pair, middle);
       const double distance = sqrt(nearest.square);
       if (distance <= p->goal.clearance + pair->rounding) {
         if (nsvcd__take_contact(p, pair, middle, &nearest) == NSVCD__ANSWERED)
@@ -13328,9 +13338,9 @@ typedef struct nsvcd__facing {
   int is_open;  // one is of an open surface
 } nsvcd__facing;
 
-static nsvcd__facing nsvcd__facing_of(const nsvcd__proof *p, const nsvcd__triangle_pair *pair,
+static nsvcd__facing nsvcd__facing_of(const nsvcd__proof *p, nsvcd__d3 n,
+                                      const nsvcd__triangle_pair *pair,
                                       const nsvcd__d3 *posed) {
-  const nsvcd__d3 n = p->of.kept.manifold.normal;
   const int closed[2] = {nsvcd__moving_closed(p, pair), nsvcd__fixed_closed(p, pair)};
   nsvcd__facing out = {pair, posed, {{0, 0, 0}, {0, 0, 0}}, !closed[0] || !closed[1]};
   out.faces[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
@@ -13357,10 +13367,10 @@ static int nsvcd__is_left(const nsvcd__twist *twist, nsvcd__d3 x, nsvcd__d3 norm
 
 // Keeps a point where a triangle pair touches, if it is farther out than those kept. normal: of a
 // face, or across two edges, of either sign.
-static NSVCD__NOINLINE void nsvcd__keep_support(nsvcd__proof *p, const nsvcd__facing *f,
-                                                nsvcd__d3 on_moving, nsvcd__d3 on_fixed,
-                                                nsvcd__d3 normal, uint32_t number) {
-  nsvcd__manifold *m = &p->of.kept.manifold;
+static NSVCD__NOINLINE void nsvcd__keep_support(const nsvcd__proof *p, nsvcd__manifold *m,
+                                                const nsvcd__facing *f, nsvcd__d3 on_moving,
+                                                nsvcd__d3 on_fixed, nsvcd__d3 normal,
+                                                uint32_t number) {
   const double side = nsvcd__d3_dot(normal, m->normal) < 0 ? -1 : 1;
   const nsvcd__d3 offset = nsvcd__d3_sub(on_moving, on_fixed);
   const double gap = side * nsvcd__d3_dot(offset, normal);
@@ -13390,10 +13400,9 @@ static NSVCD__NOINLINE void nsvcd__keep_support(nsvcd__proof *p, const nsvcd__fa
 
 // Keeps all points where a triangle pair touches, within the tolerance. posed: the moving triangle.
 // Corner k of entry e has the number 4 (3 e + k), and 1 more if it is of the fixed body.
-static NSVCD__NOINLINE void nsvcd__collect_supports(nsvcd__proof *p,
+static NSVCD__NOINLINE void nsvcd__collect_supports(const nsvcd__proof *p, nsvcd__manifold *m,
                                                     const nsvcd__triangle_pair *pair,
                                                     const nsvcd__d3 *posed) {
-  const nsvcd__manifold *m = &p->of.kept.manifold;
   const nsvcd__d3 *fixed = pair->fixed;
   nsvcd__d3 foot;
   int farther = 0;
@@ -13404,7 +13413,7 @@ static NSVCD__NOINLINE void nsvcd__collect_supports(nsvcd__proof *p,
   }
   if (!farther) return;
   // Faces must be about normal to the contact's.
-  const nsvcd__facing facing = nsvcd__facing_of(p, pair, posed);
+  const nsvcd__facing facing = nsvcd__facing_of(p, m->normal, pair, posed);
   const int moving_faces = nsvcd__d3_dot(facing.faces[0], m->normal) >= 0.8;
   const int fixed_faces = nsvcd__d3_dot(facing.faces[1], m->normal) >= 0.8;
   for (size_t k = 0; k < 3; k++) {
@@ -13412,10 +13421,10 @@ static NSVCD__NOINLINE void nsvcd__collect_supports(nsvcd__proof *p,
     const uint32_t fixed_id = (uint32_t)(3 * pair->fixed_entry + k) << 2 | 1;
     if (fixed_faces && nsvcd__foot_within(posed[k], fixed, &foot) &&
         nsvcd__d3_distance2(posed[k], foot) <= m->tolerance * m->tolerance)
-      nsvcd__keep_support(p, &facing, posed[k], foot, facing.faces[1], moving_id);
+      nsvcd__keep_support(p, m, &facing, posed[k], foot, facing.faces[1], moving_id);
     if (moving_faces && nsvcd__foot_within(fixed[k], posed, &foot) &&
         nsvcd__d3_distance2(fixed[k], foot) <= m->tolerance * m->tolerance)
-      nsvcd__keep_support(p, &facing, foot, fixed[k], facing.faces[0], fixed_id);
+      nsvcd__keep_support(p, m, &facing, foot, fixed[k], facing.faces[0], fixed_id);
     for (size_t i = 0; i < 3; i++) {
       const nsvcd__d3 a = posed[(k + 1) % 3];
       const nsvcd__d3 b = fixed[(i + 1) % 3];
@@ -13431,7 +13440,7 @@ static NSVCD__NOINLINE void nsvcd__collect_supports(nsvcd__proof *p,
       nsvcd__edges_nearest(posed[k], a, fixed[i], b, &nearest);
       if (!(nearest.square <= m->tolerance * m->tolerance)) continue;
       const uint32_t number = moving_id * 3 + fixed_id * 5 + (uint32_t)(1 + i) * 0x9e3779b9u;
-      nsvcd__keep_support(p, &facing, nearest.on_a, nearest.on_b,
+      nsvcd__keep_support(p, m, &facing, nearest.on_a, nearest.on_b,
                           nsvcd__d3_unit(across, facing.faces[1]), number | 2);
     }
   }
@@ -13600,9 +13609,9 @@ NSVCD__INLINE uint32_t nsvcd__v_separate_by_moving(const nsvcd__v_approach *a) {
 
 // Of the lanes `met` of moving group g in segment s, those that slabs do not separate from fixed
 // patch j.
-static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *q, size_t g, size_t j,
-                                  size_t s, uint32_t met) {
-  const nsvcd__interval *over = nsvcd__segment_interval(p, q, s);
+static uint32_t nsvcd__slabs_meet(const nsvcd__proof *p, const nsvcd__interval *over,
+                                  const nsvcd__search *q, size_t g, size_t j, size_t s,
+                                  uint32_t met) {
   const nsvcd__chords *c = &q->members[s];
   const nsvcd__slab fixed = nsvcd__slab_at(p->fixed.slabs, p->fixed.body->padded, j);
   const nsvcd__f3 centre = nsvcd__patch_centre(&p->fixed, j);
@@ -13734,7 +13743,7 @@ typedef struct nsvcd__support {
   nsvcd__f3 difference;
 } nsvcd__support;
 
-NSVCD__INLINE nsvcd__support nsvcd__support_along(nsvcd__proof *p, nsvcd__f3 normal) {
+NSVCD__INLINE nsvcd__support nsvcd__support_along(nsvcd__solver *w, nsvcd__f3 normal) {
   float moving[NSVCD__LANES], fixed[NSVCD__LANES];  // heights
   float lowest = HUGE_VALF;
   float highest = -HUGE_VALF;
@@ -13743,9 +13752,9 @@ NSVCD__INLINE nsvcd__support nsvcd__support_along(nsvcd__proof *p, nsvcd__f3 nor
   uint32_t high = 0;
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 n = nsvcd__v3_set(normal);
-    const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_start, l));
-    const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_end, l));
-    const nsvcd__v height = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_fixed, l));
+    const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_load(w->hull_start, l));
+    const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_load(w->hull_end, l));
+    const nsvcd__v height = nsvcd__v3_dot(n, nsvcd__v3_load(w->hull_fixed, l));
     const nsvcd__v at_either = nsvcd__v_min(at_start, at_end);
     nsvcd__v_store(moving + l, at_either);
     nsvcd__v_store(fixed + l, height);
@@ -13761,8 +13770,8 @@ NSVCD__INLINE nsvcd__support nsvcd__support_along(nsvcd__proof *p, nsvcd__f3 nor
   const size_t a = nsvcd__low_bit(low | 0x8000);
   const size_t b = nsvcd__low_bit(high | 0x8000);
   const int is_start = (starts >> a & 1) != 0;
-  const nsvcd__f3 vertex = nsvcd__lane_of(is_start ? p->hull_start : p->hull_end, a);
-  const nsvcd__f3 other = nsvcd__lane_of(p->hull_fixed, b);
+  const nsvcd__f3 vertex = nsvcd__lane_of(is_start ? w->hull_start : w->hull_end, a);
+  const nsvcd__f3 other = nsvcd__lane_of(w->hull_fixed, b);
   const nsvcd__support out = {lowest - highest, nsvcd__f3_sub(vertex, other)};
   return out;
 }
@@ -13778,40 +13787,41 @@ static nsvcd__f3 nsvcd__f3_towards(nsvcd__f3 a, nsvcd__f3 b) {
 // there towards the point nearest to 0 of the difference of the two hulls.
 // Remembers the plane that holds.
 #define NSVCD__GUESSES 4
-static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j,
+static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__solver *w, size_t i, size_t j,
                                                   const nsvcd__interval *over) {
-  const float margins = p->arcs.motion->scale * p->moving.margins[i] + p->fixed.margins[j];
-  const float margin = margins + over->rounding + nsvcd__clearance(&p->goal);
-  const nsvcd__arm arm = nsvcd__patch_arm(&p->moving, i, over);
+  const nsvcd__geometry *f = &w->p.moving;
+  const nsvcd__geometry *g = &w->p.fixed;
+  const float margins = w->p.arcs.motion->scale * f->margins[i] + g->margins[j];
+  const float margin = margins + over->rounding + nsvcd__clearance(&w->p.goal);
+  const nsvcd__arm arm = nsvcd__patch_arm(f, i, over);
   const nsvcd__transform *start = &over->start;
   const nsvcd__transform *end = &over->end;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, i, l);
-    nsvcd__v3_store(p->hull_start, l, nsvcd__v3_transform(start, hull));
-    nsvcd__v3_store(p->hull_end, l, nsvcd__v3_transform(end, hull));
-    nsvcd__v3_store(p->hull_fixed, l, nsvcd__hull_of(&p->fixed, j, l));
+    const nsvcd__v3 hull = nsvcd__hull_of(f, i, l);
+    nsvcd__v3_store(w->hull_start, l, nsvcd__v3_transform(start, hull));
+    nsvcd__v3_store(w->hull_end, l, nsvcd__v3_transform(end, hull));
+    nsvcd__v3_store(w->hull_fixed, l, nsvcd__hull_of(g, j, l));
   }
-  const nsvcd__slab moving = nsvcd__slab_at(p->moving.slabs, p->moving.body->padded, i);
-  const nsvcd__slab fixed = nsvcd__slab_at(p->fixed.slabs, p->fixed.body->padded, j);
-  const nsvcd__f3 centre = nsvcd__patch_centre(&p->moving, i);
+  const nsvcd__slab moving = nsvcd__slab_at(f->slabs, f->body->padded, i);
+  const nsvcd__slab fixed = nsvcd__slab_at(g->slabs, g->body->padded, j);
+  const nsvcd__f3 centre = nsvcd__patch_centre(f, i);
   const nsvcd__f3 both =
       nsvcd__f3_add(nsvcd__f3_transform(start, centre), nsvcd__f3_transform(end, centre));
-  const nsvcd__f3 line =
-      nsvcd__f3_sub(nsvcd__f3_scale(both, 0.5f), nsvcd__patch_centre(&p->fixed, j));
+  const nsvcd__f3 line = nsvcd__f3_sub(nsvcd__f3_scale(both, 0.5f), nsvcd__patch_centre(g, j));
   const nsvcd__f3 turned = nsvcd__mat3_apply(&start->rotation, moving.normal);
-  const nsvcd__f3 guesses[NSVCD__GUESSES] = {p->memo.held,
+  const nsvcd__f3 guesses[NSVCD__GUESSES] = {w->memo.held,
                                              nsvcd__f3_towards(fixed.normal, line),
                                              nsvcd__f3_towards(turned, line), line};
   nsvcd__f3 nearest = {0, 0, 0};
-  p->work++;
+  w->p.work++;
   for (size_t step = 0; step < NSVCD__GUESSES + NSVCD__PLANE_STEPS; step++) {
     const nsvcd__f3 normal = step < NSVCD__GUESSES ? guesses[step] : nearest;
-    const nsvcd__support found = nsvcd__support_along(p, normal);
+    const nsvcd__support found = nsvcd__support_along(w, normal);
     const float length = nsvcd__f3_norm(normal);
     if (found.gap > 0 &&
         found.gap > margin * length + nsvcd__deviation_of(over, normal, arm)) {
-      p->memo.held = normal;
-      p->memo.plane++;
+      w->memo.held = normal;
+      w->memo.plane++;
       return 1;
     }
     if (step + 1 < NSVCD__GUESSES) continue;
@@ -13830,14 +13840,16 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, siz
 // Does the plane that held last separate a patch pair over its segment, moved along its normal? If
 // it does, the pair's neighbours ask for the same heights: so these are remembered, of a moving
 // patch in a segment the least, less all margins, and of a fixed one the greatest.
-static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *q,
+static int nsvcd__held_again(nsvcd__solver *w, const nsvcd__search *q,
                              const nsvcd__patch_pair *patches) {
   const size_t i = patches->moving;
   const size_t j = patches->fixed;
   const size_t s = patches->segment;
-  nsvcd__memo *memo = &p->memo;
+  const nsvcd__geometry *f = &w->p.moving;
+  const nsvcd__geometry *g = &w->p.fixed;
+  nsvcd__memo *memo = &w->memo;
   if (!memo->plane) return 0;
-  const nsvcd__interval *over = nsvcd__segment_interval(p, q, s);
+  const nsvcd__interval *over = nsvcd__segment_interval(w, q, s);
   const nsvcd__f3 n = memo->held;
   const float length = nsvcd__f3_norm(n);
   const uint32_t key = (uint32_t)(i * NSVCD__MAX_SEGMENTS + s);
@@ -13847,30 +13859,29 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *q,
   if (above->plane != memo->plane || above->key != key) {
     float lowest = HUGE_VALF;
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, i, l);
+      const nsvcd__v3 hull = nsvcd__hull_of(f, i, l);
       const nsvcd__v3 normal = nsvcd__v3_set(n);
       const nsvcd__v at_start = nsvcd__v3_dot(normal, nsvcd__v3_transform(&over->start, hull));
       const nsvcd__v at_end = nsvcd__v3_dot(normal, nsvcd__v3_transform(&over->end, hull));
       lowest = nsvcd__least_of(lowest, nsvcd__v_min(at_start, at_end));
     }
-    const float margin =
-        (p->arcs.motion->scale * p->moving.margins[i] + over->rounding) * length;
+    const float margin = (w->p.arcs.motion->scale * f->margins[i] + over->rounding) * length;
     above->plane = memo->plane;
     above->key = key;
     above->height =
-        lowest - margin - nsvcd__deviation_of(over, n, nsvcd__patch_arm(&p->moving, i, over));
+        lowest - margin - nsvcd__deviation_of(over, n, nsvcd__patch_arm(f, i, over));
   }
   if (below->plane != memo->plane || below->key != j) {
     float highest = -HUGE_VALF;
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v height = nsvcd__v3_dot(nsvcd__v3_set(n), nsvcd__hull_of(&p->fixed, j, l));
+      const nsvcd__v height = nsvcd__v3_dot(nsvcd__v3_set(n), nsvcd__hull_of(g, j, l));
       highest = nsvcd__greatest_of(highest, height);
     }
     below->plane = memo->plane;
     below->key = (uint32_t)j;
-    below->height = p->fixed.margins[j] * length + highest;
+    below->height = g->margins[j] * length + highest;
   }
-  return above->height > below->height + nsvcd__clearance(&p->goal) * length;
+  return above->height > below->height + nsvcd__clearance(&w->p.goal) * length;
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -13921,23 +13932,23 @@ static void nsvcd__block_load(const nsvcd__geometry *f, size_t patch, size_t fir
 
 // Poses the corners of the moving block at both ends of an interval, and replaces its boxes by
 // those of the posed corners. Without an interval, NULL: at the pose `at` alone.
-static NSVCD__NOINLINE void nsvcd__block_pose(nsvcd__proof *p, const nsvcd__transform *at,
+static NSVCD__NOINLINE void nsvcd__block_pose(nsvcd__blocks *b, const nsvcd__transform *at,
                                               const nsvcd__interval *over) {
-  p->over = over;
-  p->corner_count = over ? 6 : 3;
+  b->over = over;
+  b->corner_count = over ? 6 : 3;
   NSVCD__EACH_SLICE(l) {
     nsvcd__v3 low = nsvcd__v3_set(nsvcd__f3_of(HUGE_VALF, HUGE_VALF, HUGE_VALF));
     nsvcd__v3 high = nsvcd__v3_negate(low);
-    for (size_t k = 0; k < p->corner_count; k++) {
-      const nsvcd__v3 own = nsvcd__v3_load(p->moving_block.corners[k % 3], l);
+    for (size_t k = 0; k < b->corner_count; k++) {
+      const nsvcd__v3 own = nsvcd__v3_load(b->moving.corners[k % 3], l);
       const nsvcd__transform *pose = !over ? at : k < 3 ? &over->start : &over->end;
       const nsvcd__v3 corner = nsvcd__v3_transform(pose, own);
-      nsvcd__v3_store(p->corners[k], l, corner);
+      nsvcd__v3_store(b->corners[k], l, corner);
       low = nsvcd__v3_min(low, corner);
       high = nsvcd__v3_max(high, corner);
     }
-    nsvcd__v3_store(p->moving_block.low, l, low);
-    nsvcd__v3_store(p->moving_block.high, l, high);
+    nsvcd__v3_store(b->moving.low, l, low);
+    nsvcd__v3_store(b->moving.high, l, high);
   }
 }
 
@@ -13976,14 +13987,15 @@ static nsvcd__box nsvcd__block_bounds(const nsvcd__block *block) {
 
 // Loads up to NSVCD__WINDOW blocks of fixed patch j, from entry `first` on, and the boxes about
 // them. The same patch is often asked for again.
-static void nsvcd__window_load(nsvcd__proof *p, size_t j, size_t first) {
-  const size_t end = p->fixed.first_triangle[j + 1];
-  if (p->memo.window > 0 && p->fixed_blocks[0].first == first) return;
-  p->memo.window = 0;
-  for (size_t n = first; n < end && p->memo.window < NSVCD__WINDOW; n += NSVCD__LANES) {
-    nsvcd__block *block = &p->fixed_blocks[p->memo.window];
-    nsvcd__block_load(&p->fixed, j, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
-    p->bounds[p->memo.window++] = nsvcd__block_bounds(block);
+static void nsvcd__window_load(nsvcd__blocks *b, const nsvcd__geometry *f, size_t j,
+                               size_t first) {
+  const size_t end = f->first_triangle[j + 1];
+  if (b->window > 0 && b->fixed[0].first == first) return;
+  b->window = 0;
+  for (size_t n = first; n < end && b->window < NSVCD__WINDOW; n += NSVCD__LANES) {
+    nsvcd__block *block = &b->fixed[b->window];
+    nsvcd__block_load(f, j, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
+    b->bounds[b->window++] = nsvcd__block_bounds(block);
   }
 }
 
@@ -14018,9 +14030,9 @@ NSVCD__INLINE uint32_t nsvcd__lanes_near(const nsvcd__block *block, nsvcd__box b
 
 // Normal k, of any length, for lane l of the moving block and a slice, from s on, of a fixed one. A
 // moving edge without length, of a point or a segment: its corner's travel counts instead.
-NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
+NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__solver *w, size_t l, nsvcd__block *fixed,
                                              size_t s, size_t k) {
-  if (k == NSVCD__LAST_NORMAL) return nsvcd__v3_set(nsvcd__f3_round(p->memo.separating));
+  if (k == NSVCD__LAST_NORMAL) return nsvcd__v3_set(nsvcd__f3_round(w->p.separating));
   if (k == 1) {
     const nsvcd__v3 b = nsvcd__v3_load(fixed->corners[0], s);
     const nsvcd__v3 u = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[1], s), b);
@@ -14028,26 +14040,26 @@ NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__b
     return nsvcd__v3_cross(u, v);
   }
   if (k == 2) {
-    const nsvcd__f3 a = nsvcd__lane_of(p->corners[0], l);
-    const nsvcd__f3 u = nsvcd__f3_sub(nsvcd__lane_of(p->corners[1], l), a);
-    const nsvcd__f3 v = nsvcd__f3_sub(nsvcd__lane_of(p->corners[2], l), a);
+    const nsvcd__f3 a = nsvcd__lane_of(w->blocks.corners[0], l);
+    const nsvcd__f3 u = nsvcd__f3_sub(nsvcd__lane_of(w->blocks.corners[1], l), a);
+    const nsvcd__f3 v = nsvcd__f3_sub(nsvcd__lane_of(w->blocks.corners[2], l), a);
     return nsvcd__v3_set(nsvcd__f3_cross(u, v));
   }
   const size_t of_moving = k / 3 - 1;
   const size_t of_fixed = k % 3;
   const nsvcd__v3 b = nsvcd__v3_load(fixed->corners[of_fixed], s);
   const nsvcd__v3 b_next = nsvcd__v3_load(fixed->corners[(of_fixed + 1) % 3], s);
-  const nsvcd__f3 a = nsvcd__lane_of(p->corners[of_moving], l);
-  const nsvcd__f3 a_next = nsvcd__lane_of(p->corners[(of_moving + 1) % 3], l);
+  const nsvcd__f3 a = nsvcd__lane_of(w->blocks.corners[of_moving], l);
+  const nsvcd__f3 a_next = nsvcd__lane_of(w->blocks.corners[(of_moving + 1) % 3], l);
   nsvcd__f3 edge = nsvcd__f3_sub(a_next, a);
-  if (p->over && !(nsvcd__f3_dot(edge, edge) > 0))
-    edge = nsvcd__f3_sub(nsvcd__lane_of(p->corners[3 + of_moving], l), a);
+  if (w->blocks.over && !(nsvcd__f3_dot(edge, edge) > 0))
+    edge = nsvcd__f3_sub(nsvcd__lane_of(w->blocks.corners[3 + of_moving], l), a);
   return nsvcd__v3_cross(nsvcd__v3_set(edge), nsvcd__v3_sub(b_next, b));
 }
 
 // Lanes of a slice, from s on, of a fixed block that planes with these normals, of any length,
 // separate from lane l of the moving one, as posed, by more than `margin`.
-NSVCD__INLINE uint32_t nsvcd__normals_separate(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
+NSVCD__INLINE uint32_t nsvcd__normals_separate(nsvcd__blocks *b, size_t l, nsvcd__block *fixed,
                                                size_t s, float margin, nsvcd__v3 n) {
   const nsvcd__v3 b0 = nsvcd__v3_load(fixed->corners[0], s);
   const nsvcd__v3 edge1 = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[1], s), b0);
@@ -14059,8 +14071,8 @@ NSVCD__INLINE uint32_t nsvcd__normals_separate(nsvcd__proof *p, size_t l, nsvcd_
   const nsvcd__v high = nsvcd__v_max(zero, nsvcd__v_max(height1, height2));
   nsvcd__v lowest = nsvcd__v_set(HUGE_VALF);
   nsvcd__v highest = nsvcd__v_set(-HUGE_VALF);
-  for (size_t k = 0; k < p->corner_count; k++) {
-    const nsvcd__v3 a = nsvcd__v3_set(nsvcd__lane_of(p->corners[k], l));
+  for (size_t k = 0; k < b->corner_count; k++) {
+    const nsvcd__v3 a = nsvcd__v3_set(nsvcd__lane_of(b->corners[k], l));
     const nsvcd__v height = nsvcd__v3_dot(n, nsvcd__v3_sub(a, b0));
     lowest = nsvcd__v_min(lowest, height);
     highest = nsvcd__v_max(highest, height);
@@ -14075,12 +14087,12 @@ NSVCD__INLINE uint32_t nsvcd__normals_separate(nsvcd__proof *p, size_t l, nsvcd_
 
 // Of these lanes of a fixed block, those that planes with normal k do not separate from lane l of
 // the moving one by more than `margin`.
-NSVCD__INLINE uint32_t nsvcd__left_by_normal(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
+NSVCD__INLINE uint32_t nsvcd__left_by_normal(nsvcd__solver *w, size_t l, nsvcd__block *fixed,
                                              size_t k, float margin, uint32_t met) {
   NSVCD__EACH_SLICE(s) {
     if (!(met >> s & NSVCD__SLICE_MASK)) continue;
-    const nsvcd__v3 normal = nsvcd__normal_to_try(p, l, fixed, s, k);
-    met &= ~(nsvcd__normals_separate(p, l, fixed, s, margin, normal) << s);
+    const nsvcd__v3 normal = nsvcd__normal_to_try(w, l, fixed, s, k);
+    met &= ~(nsvcd__normals_separate(&w->blocks, l, fixed, s, margin, normal) << s);
   }
   return met;
 }
@@ -14088,11 +14100,12 @@ NSVCD__INLINE uint32_t nsvcd__left_by_normal(nsvcd__proof *p, size_t l, nsvcd__b
 // Of these lanes of the moving block, those that the plane which separated a triangle pair last
 // does not separate from all of a fixed block by more than `margin`. Tried where there is a
 // clearance: then near triangles have their nearest points along nearly the same direction.
-static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, nsvcd__block *fixed,
-                                                          float margin, uint32_t lanes) {
-  const nsvcd__f3 last = nsvcd__f3_round(p->memo.separating);
+static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_last(nsvcd__solver *w,
+                                                          nsvcd__block *fixed, float margin,
+                                                          uint32_t lanes) {
+  const nsvcd__f3 last = nsvcd__f3_round(w->p.separating);
   const nsvcd__v3 normal = nsvcd__v3_set(last);
-  if (!(p->goal.clearance > 0) || !lanes) return lanes;
+  if (!(w->p.goal.clearance > 0) || !lanes) return lanes;
   float highest = -HUGE_VALF;  // of the fixed block
   for (size_t k = 0; k < 3; k++) {
     NSVCD__EACH_SLICE(s) {
@@ -14104,8 +14117,8 @@ static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, nsvcd
   uint32_t apart = 0;
   NSVCD__EACH_SLICE(s) {
     nsvcd__v height = nsvcd__v_set(HUGE_VALF);
-    for (size_t k = 0; k < p->corner_count; k++) {
-      const nsvcd__v3 corner = nsvcd__v3_load(p->corners[k], s);
+    for (size_t k = 0; k < w->blocks.corner_count; k++) {
+      const nsvcd__v3 corner = nsvcd__v3_load(w->blocks.corners[k], s);
       height = nsvcd__v_min(height, nsvcd__v3_dot(normal, corner));
     }
     apart |= nsvcd__v_lt(limit, height) << s;
@@ -14114,15 +14127,15 @@ static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, nsvcd
 }
 
 // Lanes of a fixed block that neither boxes nor planes separate from lane l of the moving one.
-static NSVCD__NOINLINE uint32_t nsvcd__row_left(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
-                                                float margin) {
-  nsvcd__block *block = &p->moving_block;
+static NSVCD__NOINLINE uint32_t nsvcd__row_left(nsvcd__solver *w, size_t l,
+                                                nsvcd__block *fixed, float margin) {
+  nsvcd__block *block = &w->blocks.moving;
   const nsvcd__box box = {nsvcd__lane_of(block->low, l), nsvcd__lane_of(block->high, l)};
   uint32_t met = nsvcd__lanes_near(fixed, box, margin);
   // the last plane: see nsvcd__lanes_left_by_last
-  for (size_t k = p->goal.clearance > 0 ? NSVCD__LAST_NORMAL : 1; met && k < NSVCD__NORMALS;
+  for (size_t k = w->p.goal.clearance > 0 ? NSVCD__LAST_NORMAL : 1; met && k < NSVCD__NORMALS;
        k++)
-    met = nsvcd__left_by_normal(p, l, fixed, k, margin, met);
+    met = nsvcd__left_by_normal(w, l, fixed, k, margin, met);
   return met;
 }
 #endif  // NSVCD_NO_PROOF
@@ -14134,30 +14147,30 @@ static NSVCD__NOINLINE uint32_t nsvcd__row_left(nsvcd__proof *p, size_t l, nsvcd
 #ifndef NSVCD_NO_PROOF
 // Seeks a contact of the moving block, posed `at`, and block n of the window, at fraction u of the
 // arc.
-static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j, size_t n,
+static nsvcd__outcome nsvcd__find_witness_in(nsvcd__solver *w, size_t i, size_t j, size_t n,
                                              const nsvcd__dtransform *at, double u,
                                              float margin) {
-  nsvcd__block *fixed = &p->fixed_blocks[n];
-  const double clearance = p->goal.clearance;
-  const uint32_t nearby = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
-  uint32_t lanes = nsvcd__lanes_left_by_last(p, fixed, margin, nearby);
+  nsvcd__block *fixed = &w->blocks.fixed[n];
+  const double clearance = w->p.goal.clearance;
+  const uint32_t nearby = nsvcd__lanes_near(&w->blocks.moving, w->blocks.bounds[n], margin);
+  uint32_t lanes = nsvcd__lanes_left_by_last(w, fixed, margin, nearby);
   for (; lanes; lanes &= lanes - 1) {
     const size_t l = nsvcd__low_bit(lanes);
-    p->work++;
-    uint32_t met = nsvcd__row_left(p, l, fixed, margin);
+    w->p.work++;
+    uint32_t met = nsvcd__row_left(w, l, fixed, margin);
     for (; met; met &= met - 1) {
       if (clearance > 0)
-        met = nsvcd__left_by_normal(p, l, fixed, NSVCD__LAST_NORMAL, margin, met);
+        met = nsvcd__left_by_normal(w, l, fixed, NSVCD__LAST_NORMAL, margin, met);
       if (!met) break;
-      const size_t entry = p->moving_block.first + l;
+      const size_t entry = w->blocks.moving.first + l;
       const nsvcd__triangle_pair pair =
-          nsvcd__pair_of(p, i, j, entry, fixed->first + nsvcd__low_bit(met));
+          nsvcd__pair_of(&w->p, i, j, entry, fixed->first + nsvcd__low_bit(met));
       nsvcd__d3 posed[3];
       nsvcd__nearest nearest = {0, {0, 0, 0}, {0, 0, 0}};
       nsvcd__pose_triangle(at, pair.moving, posed);
-      p->work++;
-      if (p->goal.collects == NSVCD__SUPPORTING) {
-        nsvcd__collect_supports(p, &pair, posed);
+      w->p.work++;
+      if (w->p.goal.collects == NSVCD__SUPPORTING) {
+        nsvcd__collect_supports(&w->p, &w->p.of.kept.manifold, &pair, posed);
         continue;
       }
       if (nsvcd__triangles_meet(posed, pair.fixed, &nearest.on_b)) {
@@ -14167,18 +14180,18 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
         nearest = nsvcd__nearest_of(posed, pair.fixed);
         if (!(nearest.square <= clearance * clearance)) {
           const nsvcd__d3 distance = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
-          p->memo.separating = nsvcd__d3_scale(distance, 1 / sqrt(nearest.square));
+          w->p.separating = nsvcd__d3_scale(distance, 1 / sqrt(nearest.square));
           continue;
         }
       }
-      if (p->goal.collects == NSVCD__TOUCHING) {
-        nsvcd__collect_contact(p, &pair, posed);
+      if (w->p.goal.collects == NSVCD__TOUCHING) {
+        nsvcd__collect_contact(&w->p, &pair, posed);
         continue;
       }
-      const nsvcd__outcome contact = nsvcd__take_contact(p, &pair, u, &nearest);
+      const nsvcd__outcome contact = nsvcd__take_contact(&w->p, &pair, u, &nearest);
       if (contact == NSVCD__ANSWERED) return contact;
       // They may touch sooner, or come closer.
-      const nsvcd__outcome better = nsvcd__resolve_pair(p, &pair, 0, 1);
+      const nsvcd__outcome better = nsvcd__resolve_pair(&w->p, &pair, 0, 1);
       return better == NSVCD__ANSWERED ? better : contact;
     }
   }
@@ -14186,35 +14199,35 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
 }
 
 // Loads 16 triangles of moving patch i, from entry `first` on. They are often loaded already.
-static void nsvcd__moving_block_load(nsvcd__proof *p, size_t i, size_t first) {
-  const size_t left = p->moving.first_triangle[i + 1] - first;
-  if (p->memo.has_block && p->moving_block.first == first) return;
-  p->memo.has_block = 1;
-  nsvcd__block_load(&p->moving, i, first, left < NSVCD__LANES ? left : NSVCD__LANES,
-                    &p->moving_block);
+static void nsvcd__moving_block_load(nsvcd__blocks *b, const nsvcd__geometry *f, size_t i,
+                                     size_t first) {
+  const size_t left = f->first_triangle[i + 1] - first;
+  if (b->has_block && b->moving.first == first) return;
+  b->has_block = 1;
+  nsvcd__block_load(f, i, first, left < NSVCD__LANES ? left : NSVCD__LANES, &b->moving);
 }
 
 // Seeks a contact of triangles of patches i and j at fraction u of an arc.
-static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, uint32_t first,
+static nsvcd__outcome nsvcd__find_witness(nsvcd__solver *w, size_t i, size_t j, uint32_t first,
                                           double u) {
-  const nsvcd__arc *arc = nsvcd__arc_at(&p->arcs, first);
+  const nsvcd__arc *arc = nsvcd__arc_at(&w->p.arcs, first);
   const nsvcd__dtransform at = nsvcd__dtransform_at(arc, u);
   const nsvcd__transform rounded = nsvcd__transform_of(&at);
-  const float lengths = p->given.lengths + nsvcd__f3_norm(rounded.position);
+  const float lengths = w->p.given.lengths + nsvcd__f3_norm(rounded.position);
   const float margin =
-      NSVCD__ROUNDING * lengths + nsvcd__clearance(&p->goal) + nsvcd__errors_of(p, i, j);
-  const size_t moving_end = p->moving.first_triangle[i + 1];
-  const size_t fixed_end = p->fixed.first_triangle[j + 1];
-  for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
+      NSVCD__ROUNDING * lengths + nsvcd__clearance(&w->p.goal) + nsvcd__errors_of(&w->p, i, j);
+  const size_t moving_end = w->p.moving.first_triangle[i + 1];
+  const size_t fixed_end = w->p.fixed.first_triangle[j + 1];
+  for (size_t b = w->p.fixed.first_triangle[j]; b < fixed_end;
        b += NSVCD__WINDOW * NSVCD__LANES) {
-    nsvcd__window_load(p, j, b);
-    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
-      nsvcd__moving_block_load(p, i, a);
-      nsvcd__block_pose(p, &rounded, NULL);
-      for (size_t n = 0; n < p->memo.window; n++) {
-        p->work++;
-        if (nsvcd__check_budget(p)) return NSVCD__NOTHING;
-        const nsvcd__outcome found = nsvcd__find_witness_in(p, i, j, n, &at, u, margin);
+    nsvcd__window_load(&w->blocks, &w->p.fixed, j, b);
+    for (size_t a = w->p.moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
+      nsvcd__moving_block_load(&w->blocks, &w->p.moving, i, a);
+      nsvcd__block_pose(&w->blocks, &rounded, NULL);
+      for (size_t n = 0; n < w->blocks.window; n++) {
+        w->p.work++;
+        if (nsvcd__check_budget(&w->p)) return NSVCD__NOTHING;
+        const nsvcd__outcome found = nsvcd__find_witness_in(w, i, j, n, &at, u, margin);
         if (found != NSVCD__NOTHING) return found;
       }
     }
@@ -14235,16 +14248,16 @@ static uint32_t nsvcd__arc_of(const nsvcd__motion *m, double time, double *fract
 }
 
 // Seeks a contact of a patch pair when its spheres are nearest, if that still matters.
-static nsvcd__outcome nsvcd__seek_in_patch_pair(nsvcd__proof *p, const nsvcd__search *q,
+static nsvcd__outcome nsvcd__seek_in_patch_pair(nsvcd__solver *w, const nsvcd__search *q,
                                                 nsvcd__patch_pair *pair) {
   const double start = (double)q->begin[pair->segment];
-  const double end = nsvcd__min((double)q->begin[pair->segment + 1u], p->clipped_end);
+  const double end = nsvcd__min((double)q->begin[pair->segment + 1u], w->clipped_end);
   const double tick = start + (double)pair->fraction * (end - start);
   double u;
   pair->sought = 1;
-  if (!(tick < p->known.end)) return NSVCD__NOTHING;
-  const uint32_t first = nsvcd__arc_of(p->arcs.motion, tick, &u);
-  return nsvcd__find_witness(p, pair->moving, pair->fixed, first, u);
+  if (!(tick < w->p.known.end)) return NSVCD__NOTHING;
+  const uint32_t first = nsvcd__arc_of(w->p.arcs.motion, tick, &u);
+  return nsvcd__find_witness(w, pair->moving, pair->fixed, first, u);
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -14267,7 +14280,7 @@ static NSVCD__NOINLINE int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_
     nsvcd__d3 corners[3];
     nsvcd__patch_triangle(&p->fixed, j, b, corners);
     for (size_t k = 0; k < 3; k++) {
-      const double height = nsvcd__d3_dot(p->memo.separating, corners[k]);
+      const double height = nsvcd__d3_dot(p->separating, corners[k]);
       if (height > highest) top = b;
       highest = nsvcd__max(highest, height);
     }
@@ -14286,73 +14299,73 @@ static NSVCD__NOINLINE int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_
 // plane that separates one may separate others or, ALL_RESOLVED, all of both patches. TOO_LONG:
 // they ask for more than `patience` parts of the interval or, without any, there is such a triangle
 // pair.
-static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
+static nsvcd__outcome nsvcd__resolve_row(nsvcd__solver *w, size_t l, nsvcd__block *fixed,
                                          nsvcd__arm arm, float margin, double u0, double u1,
                                          size_t patience) {
-  const nsvcd__interval *over = p->over;
-  const size_t i = p->moving_block.patch;
+  const nsvcd__interval *over = w->blocks.over;
+  const size_t i = w->blocks.moving.patch;
   const size_t j = fixed->patch;
-  const float errors = nsvcd__errors_of(p, i, j);
-  p->work++;
-  uint32_t met = nsvcd__row_left(p, l, fixed, margin);
+  const float errors = nsvcd__errors_of(&w->p, i, j);
+  w->p.work++;
+  uint32_t met = nsvcd__row_left(w, l, fixed, margin);
   for (; met; met &= met - 1) {
-    const nsvcd__d3 before = p->memo.separating;
+    const nsvcd__d3 before = w->p.separating;
     const nsvcd__f3 last = nsvcd__f3_round(before);
-    const float along = errors + over->rounding + nsvcd__clearance(&p->goal) +
+    const float along = errors + over->rounding + nsvcd__clearance(&w->p.goal) +
                         nsvcd__deviation_of(over, last, arm);
-    met = nsvcd__left_by_normal(p, l, fixed, NSVCD__LAST_NORMAL, along, met);
+    met = nsvcd__left_by_normal(w, l, fixed, NSVCD__LAST_NORMAL, along, met);
     if (!met) break;
     if (patience == 0) return NSVCD__TOO_LONG;
-    if (p->memo.shared > NSVCD__SHARED * p->all_tried) {
-      p->all_tried++;
-      if (nsvcd__patches_apart(p, i, j, u0, u1)) return NSVCD__ALL_DONE;
+    if (w->p.shared > NSVCD__SHARED * w->all_tried) {
+      w->all_tried++;
+      if (nsvcd__patches_apart(&w->p, i, j, u0, u1)) return NSVCD__ALL_DONE;
     }
-    const size_t a = p->moving_block.first + l;
+    const size_t a = w->blocks.moving.first + l;
     const size_t b = fixed->first + nsvcd__low_bit(met);
-    const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, b);
-    const nsvcd__outcome one = nsvcd__resolve_pair(p, &pair, u0, u1);
+    const nsvcd__triangle_pair pair = nsvcd__pair_of(&w->p, i, j, a, b);
+    const nsvcd__outcome one = nsvcd__resolve_pair(&w->p, &pair, u0, u1);
     if (one != NSVCD__DONE) return one;
-    if (p->parts > patience) return NSVCD__TOO_LONG;
-    p->memo.shared =
-        nsvcd__d3_distance2(p->memo.separating, before) > 0 ? 0 : p->memo.shared + 1;
+    if (w->p.parts > patience) return NSVCD__TOO_LONG;
+    w->p.shared = nsvcd__d3_distance2(w->p.separating, before) > 0 ? 0 : w->p.shared + 1;
   }
   return NSVCD__DONE;
 }
 
 // All triangle pairs of patches i and j over an interval from u0 to u1 of the arc.
-static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, size_t i,
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__solver *w, size_t i,
                                                                size_t j,
                                                                const nsvcd__interval *over,
                                                                double u0, double u1,
                                                                size_t patience) {
-  const size_t moving_end = p->moving.first_triangle[i + 1];
-  const size_t fixed_end = p->fixed.first_triangle[j + 1];
+  const size_t moving_end = w->p.moving.first_triangle[i + 1];
+  const size_t fixed_end = w->p.fixed.first_triangle[j + 1];
   const nsvcd__f3 axis = nsvcd__own_axis(over);
-  const float stays = nsvcd__errors_of(p, i, j) + (over->rounding + over->origin_bend) +
-                      nsvcd__clearance(&p->goal);
-  const float error = p->moving.errors[i];
-  const float extent = p->moving.body->extent + error;
+  const float stays = nsvcd__errors_of(&w->p, i, j) + (over->rounding + over->origin_bend) +
+                      nsvcd__clearance(&w->p.goal);
+  const float error = w->p.moving.errors[i];
+  const float extent = w->p.moving.body->extent + error;
   const nsvcd__arm all = {extent, extent};
   // else arms of blocks gain little
   const int bends = over->bend * extent > 0.25f * stays;
-  p->parts = 0;
-  p->all_tried = 0;
-  for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
+  w->p.parts = 0;
+  w->all_tried = 0;
+  for (size_t b = w->p.fixed.first_triangle[j]; b < fixed_end;
        b += NSVCD__WINDOW * NSVCD__LANES) {
-    nsvcd__window_load(p, j, b);
-    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
-      nsvcd__moving_block_load(p, i, a);
-      const nsvcd__arm arm = bends ? nsvcd__block_arm(&p->moving_block, axis, error) : all;
+    nsvcd__window_load(&w->blocks, &w->p.fixed, j, b);
+    for (size_t a = w->p.moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
+      nsvcd__moving_block_load(&w->blocks, &w->p.moving, i, a);
+      const nsvcd__arm arm = bends ? nsvcd__block_arm(&w->blocks.moving, axis, error) : all;
       const float margin = stays + nsvcd__bend_of(over, arm);
-      nsvcd__block_pose(p, NULL, over);
-      for (size_t n = 0; n < p->memo.window; n++) {
-        nsvcd__block *fixed = &p->fixed_blocks[n];
-        const uint32_t nearby = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
-        uint32_t lanes = nsvcd__lanes_left_by_last(p, fixed, margin, nearby);
-        p->work++;
-        if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
+      nsvcd__block_pose(&w->blocks, NULL, over);
+      for (size_t n = 0; n < w->blocks.window; n++) {
+        nsvcd__block *fixed = &w->blocks.fixed[n];
+        const uint32_t nearby =
+            nsvcd__lanes_near(&w->blocks.moving, w->blocks.bounds[n], margin);
+        uint32_t lanes = nsvcd__lanes_left_by_last(w, fixed, margin, nearby);
+        w->p.work++;
+        if (nsvcd__check_budget(&w->p)) return NSVCD__EXHAUSTED;
         for (; lanes; lanes &= lanes - 1) {
-          const nsvcd__outcome row = nsvcd__resolve_row(p, nsvcd__low_bit(lanes), fixed, arm,
+          const nsvcd__outcome row = nsvcd__resolve_row(w, nsvcd__low_bit(lanes), fixed, arm,
                                                         margin, u0, u1, patience);
           if (row == NSVCD__ALL_DONE) return NSVCD__DONE;
           if (row != NSVCD__DONE) return row;
@@ -14365,15 +14378,15 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, 
 
 // Resolves a patch pair that no plane separates over its segment, arc by arc. An arc is halved
 // until each part is resolved by a plane between the hulls, or by the triangles.
-static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__search *q,
+static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__solver *w, const nsvcd__search *q,
                                                 const nsvcd__patch_pair *patches) {
-  const nsvcd__motion *m = p->arcs.motion;
+  const nsvcd__motion *m = w->p.arcs.motion;
   const size_t i = patches->moving;
   const size_t j = patches->fixed;
   const uint32_t last = q->begin[patches->segment + 1u];
-  double *ends = p->arc_ends;
+  double *ends = w->arc_ends;
   int is_tried = 1;  // is it all of the segment?
-  for (uint32_t at = q->begin[patches->segment]; at < last && (double)at < p->known.end;) {
+  for (uint32_t at = q->begin[patches->segment]; at < last && (double)at < w->p.known.end;) {
     double u;
     const uint32_t first = nsvcd__arc_of(m, (double)at, &u);
     const uint32_t keyframe = nsvcd__next_keyframe(m, first);
@@ -14381,17 +14394,17 @@ static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__se
     is_tried = is_tried && at == last;
     ends[0] = (double)(at - first) / (double)(keyframe - first);
     for (size_t left = 1; left > 0;) {
-      nsvcd__arc_at(&p->arcs, first);
-      const double end = nsvcd__min(ends[left - 1], nsvcd__arc_limit(p));
+      nsvcd__arc_at(&w->p.arcs, first);
+      const double end = nsvcd__min(ends[left - 1], nsvcd__arc_limit(&w->p));
       if (!(u < end)) break;
-      p->interval = nsvcd__interval_of_arc(p, first, u, end);
-      const int apart = !is_tried && nsvcd__hulls_are_apart(p, i, j, &p->interval);
+      w->interval = nsvcd__interval_of_arc(&w->p, first, u, end);
+      const int apart = !is_tried && nsvcd__hulls_are_apart(w, i, j, &w->interval);
       is_tried = 0;
       if (!apart) {
         const int may_halve = end - u > NSVCD__SHORTEST && left < NSVCD__ARC_PARTS;
         const size_t patience = may_halve ? NSVCD__FEW_PARTS : (size_t)-1;
         const nsvcd__outcome part =
-            nsvcd__resolve_triangles(p, i, j, &p->interval, u, end, patience);
+            nsvcd__resolve_triangles(w, i, j, &w->interval, u, end, patience);
         if (part == NSVCD__ANSWERED || part == NSVCD__EXHAUSTED) return part;
         if (part == NSVCD__TOO_LONG) ends[left++] = 0.5 * (u + end);
         if (part != NSVCD__DONE) continue;
@@ -14404,10 +14417,10 @@ static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__se
 }
 
 // Does any plane separate a patch pair over its segment?
-static int nsvcd__is_separated(nsvcd__proof *p, const nsvcd__search *q,
+static int nsvcd__is_separated(nsvcd__solver *w, const nsvcd__search *q,
                                const nsvcd__patch_pair *patches) {
-  const nsvcd__interval *over = nsvcd__segment_interval(p, q, patches->segment);
-  return nsvcd__hulls_are_apart(p, patches->moving, patches->fixed, over);
+  const nsvcd__interval *over = nsvcd__segment_interval(w, q, patches->segment);
+  return nsvcd__hulls_are_apart(w, patches->moving, patches->fixed, over);
 }
 
 // Does a patch pair come before another? Deepest first. For the first contact: earliest closest
@@ -14437,17 +14450,17 @@ static int nsvcd__matters(const nsvcd__proof *p, const nsvcd__search *q, size_t 
 
 // Clips the segment in which the end of what matters lies. What leaves a chord by some length
 // leaves that of a part of the time by no more than twice that, along any direction.
-static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *q) {
+static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__solver *w, nsvcd__search *q) {
   size_t s = 0;
   double u;
-  if (!(p->known.end < p->clipped_end)) return;
-  p->clipped_end = p->known.end;
-  while (s < q->segments && !((double)q->begin[s + 1] > p->known.end)) s++;
-  if (s == q->segments || !((double)q->begin[s] < p->known.end)) return;
+  if (!(w->p.known.end < w->clipped_end)) return;
+  w->clipped_end = w->p.known.end;
+  while (s < q->segments && !((double)q->begin[s + 1] > w->p.known.end)) s++;
+  if (s == q->segments || !((double)q->begin[s] < w->p.known.end)) return;
   nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
   const size_t l = s % NSVCD__LANES;
-  const uint32_t first = nsvcd__arc_of(p->arcs.motion, p->known.end, &u);
-  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, first), u);
+  const uint32_t first = nsvcd__arc_of(w->p.arcs.motion, w->p.known.end, &u);
+  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&w->p.arcs, first), u);
   const nsvcd__transform end = nsvcd__transform_of(&at);
   const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, l);
   const nsvcd__mat3 turned = nsvcd__mat3_mix(1, &end.rotation, -1, &start);
@@ -14456,7 +14469,7 @@ static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *
   nsvcd__lane_set(turned.x, block->turned, l);
   nsvcd__lane_set(turned.y, block->turned + 3, l);
   nsvcd__lane_set(turned.z, block->turned + 6, l);
-  if (!(p->clipped >> s & 1)) {
+  if (!(w->clipped >> s & 1)) {
     block->margin[l] += block->origin_bend[l];
     block->bend[l] *= 2;
     block->origin_bend[l] *= 2;
@@ -14464,80 +14477,80 @@ static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *
     block->origin_along_axis[l] *= 2;
     block->origin_off_heading[l] *= 2;
   }
-  p->clipped |= (uint64_t)1 << s;
-  p->memo.intervals &= ~((uint64_t)1 << s);
+  w->clipped |= (uint64_t)1 << s;
+  w->memo.intervals &= ~((uint64_t)1 << s);
   q->ready &= ~((uint64_t)1 << s);
   // the heights over the plane that held last are no longer right
-  p->memo.plane += p->memo.plane > 0;
+  w->memo.plane += w->memo.plane > 0;
 }
 
 // Resolves the patch pairs that no plane separates.
-static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_patch_pairs(nsvcd__proof *p,
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_patch_pairs(nsvcd__solver *w,
                                                                  nsvcd__search *q) {
-  nsvcd__sort_patch_pairs(p, p->of.kept.pairs, p->count);
-  for (size_t n = 0; n < p->count; n++) {
-    const nsvcd__patch_pair *patches = &p->of.kept.pairs[n];
-    if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
-    nsvcd__clip_segment(p, q);
-    if (!nsvcd__matters(p, q, patches->segment)) continue;
-    const int is_clipped = (p->clipped >> patches->segment & 1) != 0;
-    if (is_clipped && nsvcd__is_separated(p, q, patches)) continue;
-    const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(p, q, patches);
+  nsvcd__sort_patch_pairs(&w->p, w->p.of.kept.pairs, w->count);
+  for (size_t n = 0; n < w->count; n++) {
+    const nsvcd__patch_pair *patches = &w->p.of.kept.pairs[n];
+    if (nsvcd__check_budget(&w->p)) return NSVCD__EXHAUSTED;
+    nsvcd__clip_segment(w, q);
+    if (!nsvcd__matters(&w->p, q, patches->segment)) continue;
+    const int is_clipped = (w->clipped >> patches->segment & 1) != 0;
+    if (is_clipped && nsvcd__is_separated(w, q, patches)) continue;
+    const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(w, q, patches);
     if (outcome != NSVCD__DONE) return outcome;
   }
-  p->count = 0;
-  return nsvcd__check_budget(p) ? NSVCD__EXHAUSTED : NSVCD__DONE;
+  w->count = 0;
+  return nsvcd__check_budget(&w->p) ? NSVCD__EXHAUSTED : NSVCD__DONE;
 }
 
 // Sifts fresh patch pairs: drops those that planes separate, seeks a witness in the others, and
 // keeps them. The plane that held last is tried on all of them first: it often holds for
 // neighbours.
-static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__solver *w,
                                                               nsvcd__search *q) {
-  const int tells_more = p->goal.measure > 0 || p->goal.first > 0;
+  const int tells_more = w->p.goal.measure > 0 || w->p.goal.first > 0;
   size_t count = 0;
-  nsvcd__clip_segment(p, q);
-  for (size_t n = 0; n < p->fresh_count; n++) {
-    if (nsvcd__held_again(p, q, &p->fresh[n])) continue;
-    p->fresh[count++] = p->fresh[n];
+  nsvcd__clip_segment(w, q);
+  for (size_t n = 0; n < w->fresh_count; n++) {
+    if (nsvcd__held_again(w, q, &w->fresh[n])) continue;
+    w->fresh[count++] = w->fresh[n];
   }
-  p->fresh_count = 0;
-  nsvcd__sort_patch_pairs(p, p->fresh, count);
-  if (count > 0 && p->fresh[0].depth > NSVCD__DEEP &&
-      nsvcd__seek_in_patch_pair(p, q, &p->fresh[0]) == NSVCD__ANSWERED)
+  w->fresh_count = 0;
+  nsvcd__sort_patch_pairs(&w->p, w->fresh, count);
+  if (count > 0 && w->fresh[0].depth > NSVCD__DEEP &&
+      nsvcd__seek_in_patch_pair(w, q, &w->fresh[0]) == NSVCD__ANSWERED)
     return NSVCD__ANSWERED;
 
   for (size_t n = 0; n < count; n++) {
-    nsvcd__patch_pair *patches = &p->fresh[n];
-    if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
-    nsvcd__clip_segment(p, q);
-    if (!nsvcd__matters(p, q, patches->segment)) continue;
-    if (nsvcd__held_again(p, q, patches)) continue;
-    if (nsvcd__is_separated(p, q, patches)) continue;
+    nsvcd__patch_pair *patches = &w->fresh[n];
+    if (nsvcd__check_budget(&w->p)) return NSVCD__EXHAUSTED;
+    nsvcd__clip_segment(w, q);
+    if (!nsvcd__matters(&w->p, q, patches->segment)) continue;
+    if (nsvcd__held_again(w, q, patches)) continue;
+    if (nsvcd__is_separated(w, q, patches)) continue;
     double u;
-    const uint32_t first = nsvcd__arc_of(p->arcs.motion, q->begin[patches->segment], &u);
-    if ((p->goal.first > 0 || p->memo.shared > 0) &&
-        nsvcd__is_straight(nsvcd__arc_at(&p->arcs, first))) {
-      const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(p, q, patches);
+    const uint32_t first = nsvcd__arc_of(w->p.arcs.motion, q->begin[patches->segment], &u);
+    if ((w->p.goal.first > 0 || w->p.shared > 0) &&
+        nsvcd__is_straight(nsvcd__arc_at(&w->p.arcs, first))) {
+      const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(w, q, patches);
       if (outcome != NSVCD__DONE) return outcome;
       continue;
     }
-    if (p->misses >= NSVCD__FEW_MISSES) {
-      const nsvcd__interval *over = nsvcd__segment_interval(p, q, patches->segment);
+    if (w->misses >= NSVCD__FEW_MISSES) {
+      const nsvcd__interval *over = nsvcd__segment_interval(w, q, patches->segment);
       const nsvcd__outcome by_triangles =
-          nsvcd__resolve_triangles(p, patches->moving, patches->fixed, over, 0, 0, 0);
+          nsvcd__resolve_triangles(w, patches->moving, patches->fixed, over, 0, 0, 0);
       if (by_triangles == NSVCD__DONE) continue;
     }
-    const int may_meet = tells_more || p->misses < NSVCD__MANY_MISSES;
+    const int may_meet = tells_more || w->misses < NSVCD__MANY_MISSES;
     if (may_meet && !patches->sought &&
-        nsvcd__seek_in_patch_pair(p, q, patches) == NSVCD__ANSWERED)
+        nsvcd__seek_in_patch_pair(w, q, patches) == NSVCD__ANSWERED)
       return NSVCD__ANSWERED;
-    p->misses++;
-    if (p->count == NSVCD__PATCH_PAIRS) {
-      const nsvcd__outcome outcome = nsvcd__resolve_patch_pairs(p, q);
+    w->misses++;
+    if (w->count == NSVCD__PATCH_PAIRS) {
+      const nsvcd__outcome outcome = nsvcd__resolve_patch_pairs(w, q);
       if (outcome != NSVCD__DONE) return outcome;
     }
-    p->of.kept.pairs[p->count++] = *patches;
+    w->p.of.kept.pairs[w->count++] = *patches;
   }
   return NSVCD__DONE;
 }
@@ -14549,24 +14562,25 @@ static int nsvcd__collects_on(const nsvcd__proof *p) {
 
 // Collects the contacts of fresh patch pairs at the start, or the patch pairs where contact points
 // may be. EXHAUSTED: there is no room for more, or no budget.
-static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, const nsvcd__search *q) {
-  for (size_t n = 0; n < p->fresh_count && nsvcd__collects_on(p); n++) {
-    const nsvcd__patch_pair *patches = &p->fresh[n];
-    if (nsvcd__held_again(p, q, patches)) continue;
-    if (nsvcd__is_separated(p, q, patches)) continue;
-    if (p->goal.collects == NSVCD__TOUCHING) {
-      if (p->push.normal_count > 0) {
+static nsvcd__outcome nsvcd__collect_contacts(nsvcd__solver *w, const nsvcd__search *q) {
+  for (size_t n = 0; n < w->fresh_count && nsvcd__collects_on(&w->p); n++) {
+    const nsvcd__patch_pair *patches = &w->fresh[n];
+    if (nsvcd__held_again(w, q, patches)) continue;
+    if (nsvcd__is_separated(w, q, patches)) continue;
+    if (w->p.goal.collects == NSVCD__TOUCHING) {
+      if (w->p.push.normal_count > 0) {
         // just pushed out: farther than the clearance by less than floats can tell
-        (void)nsvcd__arc_at(&p->arcs, 0);
-        if (nsvcd__patches_apart(p, patches->moving, patches->fixed, 0, 0)) continue;
+        (void)nsvcd__arc_at(&w->p.arcs, 0);
+        if (nsvcd__patches_apart(&w->p, patches->moving, patches->fixed, 0, 0)) continue;
       }
-      (void)nsvcd__find_witness(p, patches->moving, patches->fixed, 0, 0);
-    } else if (p->count < NSVCD__PATCH_PAIRS) {
-      p->of.kept.pairs[p->count++] = *patches;
+      (void)nsvcd__find_witness(w, patches->moving, patches->fixed, 0, 0);
+    } else if (w->count < NSVCD__PATCH_PAIRS) {
+      w->p.of.kept.pairs[w->count++] = *patches;
     }
   }
-  p->fresh_count = 0;
-  return nsvcd__collects_on(p) && p->work <= p->goal.limit ? NSVCD__DONE : NSVCD__EXHAUSTED;
+  w->fresh_count = 0;
+  const int goes_on = nsvcd__collects_on(&w->p) && w->p.work <= w->p.goal.limit;
+  return goes_on ? NSVCD__DONE : NSVCD__EXHAUSTED;
 }
 
 // Bounds, along directions first .. last - 1 of a manifold, of the points on both patches of a
@@ -14597,30 +14611,30 @@ static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
 // those with the farthest bound along one, then of those that may still be farther. Where bodies
 // are deep in each other there are many, with few points that are like a contact: so only so many
 // are tried.
-static NSVCD__NOINLINE void nsvcd__seek_positions(nsvcd__proof *p, int first, int last) {
-  nsvcd__manifold *m = &p->of.kept.manifold;
-  nsvcd__patch_pair *pairs = p->of.kept.pairs;
-  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, 0), 0);
+static NSVCD__NOINLINE void nsvcd__seek_positions(nsvcd__solver *w, int first, int last) {
+  nsvcd__manifold *m = &w->p.of.kept.manifold;
+  nsvcd__patch_pair *pairs = w->p.of.kept.pairs;
+  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&w->p.arcs, 0), 0);
   const nsvcd__transform pose = nsvcd__transform_of(&at);
   size_t tries = 0;
   float farthest[NSVCD__SUPPORTS];
   size_t best[NSVCD__SUPPORTS] = {0};
   float most[NSVCD__SUPPORTS];
   for (int k = first; k < last; k++) farthest[k] = -HUGE_VALF;
-  for (size_t n = 0; n < p->count; n++) {
+  for (size_t n = 0; n < w->count; n++) {
     pairs[n].sought = 0;
-    nsvcd__bound_of(p, &pose, &pairs[n], first, last, most);
+    nsvcd__bound_of(&w->p, &pose, &pairs[n], first, last, most);
     for (int k = first; k < last; k++) {
       if (most[k] > farthest[k]) best[k] = n;
       farthest[k] = fmaxf(farthest[k], most[k]);
     }
   }
   const size_t count = (size_t)(last - first);
-  for (size_t n = 0; n < count + p->count && p->count > 0; n++) {
+  for (size_t n = 0; n < count + w->count && w->count > 0; n++) {
     const size_t which = n < count ? best[(size_t)first + n] : n - count;
     nsvcd__patch_pair *patches = &pairs[which];
     int matters = 0;
-    nsvcd__bound_of(p, &pose, patches, first, last, most);
+    nsvcd__bound_of(&w->p, &pose, patches, first, last, most);
     for (int k = first; k < last; k++) matters |= (double)most[k] > m->farthest[k] + m->same;
     if (patches->sought || !matters) continue;
     if (tries == NSVCD__CONTACT_PAIRS ||
@@ -14628,7 +14642,7 @@ static NSVCD__NOINLINE void nsvcd__seek_positions(nsvcd__proof *p, int first, in
       break;
     patches->sought = 1;
     tries++;
-    (void)nsvcd__find_witness(p, patches->moving, patches->fixed, 0, 0);
+    (void)nsvcd__find_witness(w, patches->moving, patches->fixed, 0, 0);
   }
 }
 #endif  // NSVCD_NO_PROOF
@@ -14685,12 +14699,12 @@ static int nsvcd__ray_crosses(const nsvcd__ray *ray, const nsvcd__d3 *t, double 
 
 // Adds a triangle to the list of those that a ray has crossed. Returns 0 if it is there already.
 // Sets *unclear if there is no room.
-static int nsvcd__is_new(nsvcd__proof *p, size_t *count, uint32_t number, int *unclear) {
+static int nsvcd__is_new(nsvcd__solver *w, size_t *count, uint32_t number, int *unclear) {
   for (size_t k = 0; k < *count; k++) {
-    if (p->crossed[k] == number) return 0;
+    if (w->crossed[k] == number) return 0;
   }
   if (*count == NSVCD__CROSSED) *unclear = 1;
-  if (*count < NSVCD__CROSSED) p->crossed[(*count)++] = number;
+  if (*count < NSVCD__CROSSED) w->crossed[(*count)++] = number;
   return 1;
 }
 
@@ -14743,10 +14757,10 @@ typedef struct nsvcd__crossings {
 // and so on are no more than 1.155 |a| |b| together) = 12.7 u E. A point on the edge, up to R from
 // the ray's, is off by 3 u R. So the volume is off by 12.7 u E R + 2 E x 3 u R, and by 3 roundings
 // of up to 2 E R: 24.7 u E R, less than 1.5e-6 E R. NSVCD__ROUNDING is more.
-static nsvcd__crossings nsvcd__cross_all(nsvcd__proof *p, const nsvcd__geometry *f,
+static nsvcd__crossings nsvcd__cross_all(nsvcd__solver *w, const nsvcd__geometry *f,
                                          const nsvcd__ray *ray) {
-  nsvcd__block *block = &p->fixed_blocks[0];
-  p->memo.window = 0;
+  nsvcd__block *block = &w->blocks.fixed[0];
+  w->blocks.window = 0;
   const float extent = (float)nsvcd__d3_norm(ray->from) + f->body->extent;
   const float rounding = NSVCD__ROUNDING * extent * f->body->extent;
   nsvcd__crossings sum = {0, 0, 0, 0};
@@ -14767,17 +14781,17 @@ static nsvcd__crossings nsvcd__cross_all(nsvcd__proof *p, const nsvcd__geometry 
       nsvcd__numbers numbers = nsvcd__numbers_of(f, i);
       for (size_t n = f->first_triangle[i]; n < end; n += NSVCD__LANES) {
         nsvcd__block_load(f, i, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
-        p->work++;
+        w->p.work++;
         uint32_t lanes = nsvcd__lanes_on_ray(block, ray, about, rounding);
         for (; lanes; lanes &= lanes - 1) {
           const size_t entry = n + nsvcd__low_bit(lanes);
           nsvcd__d3 corners[3];
           nsvcd__read_number(&numbers, entry);
           if (numbers.kind == NSVCD__SHEET) continue;
-          p->work++;
+          w->p.work++;
           nsvcd__patch_triangle(f, i, entry, corners);
           const int crossing = nsvcd__ray_crosses(ray, corners, ray->margin, &sum.unclear);
-          if (!crossing || !nsvcd__is_new(p, &count, numbers.number, &sum.unclear)) continue;
+          if (!crossing || !nsvcd__is_new(w, &count, numbers.number, &sum.unclear)) continue;
           if (numbers.kind == NSVCD__CLOSED) sum.winds += crossing;
           sum.either_way += numbers.kind == NSVCD__EITHER_DIRECTION;
           sum.nearly += numbers.kind == NSVCD__NEARLY;
@@ -14801,7 +14815,7 @@ static uint32_t nsvcd__meets_sphere(const void *what, nsvcd__spheres all) {
 }
 
 // Is a triangle so close to the point that the mesh's own may be on the other side of it?
-static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__geometry *f, nsvcd__d3 point,
+static int nsvcd__surface_is_near(nsvcd__solver *w, const nsvcd__geometry *f, nsvcd__d3 point,
                                   double tolerance) {
   const nsvcd_body *b = f->body;
   const nsvcd__d3 as_triangle[3] = {point, point, point};
@@ -14813,10 +14827,10 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__geometry *f, nsv
   const double off = (double)nsvcd__off_mesh(f) + NSVCD__SAME_POSITION * (double)extent;
   const double limit = 2 * off + tolerance;
   const nsvcd__sphere here = {rounded, distance};
-  nsvcd__block *block = &p->fixed_blocks[0];
+  nsvcd__block *block = &w->blocks.fixed[0];
   size_t g;
   nsvcd__traversal groups;
-  p->memo.window = 0;
+  w->blocks.window = 0;
   nsvcd__traversal_begin(&groups, b, nsvcd__meets_sphere, &here);
   while (nsvcd__traversal_next(&groups, &g)) {
     const size_t first = NSVCD__GROUP * g;
@@ -14827,7 +14841,7 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__geometry *f, nsv
       const size_t end = f->first_triangle[i + 1];
       for (size_t n = f->first_triangle[i]; n < end; n += NSVCD__LANES) {
         nsvcd__block_load(f, i, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
-        p->work++;
+        w->p.work++;
         uint32_t lanes = nsvcd__lanes_near(block, at, distance);
         for (; lanes; lanes &= lanes - 1) {
           nsvcd__d3 corners[3];
@@ -14846,7 +14860,7 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__geometry *f, nsv
 // the majority of the rays tells whether its winding number is more than a half: then the point is
 // not known to be outside. (Difference from Jacobson 2013: rays, not a sum of solid angles.) unit:
 // of the body's frame.
-static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__geometry *f, double unit,
+static int nsvcd__is_enclosed(nsvcd__solver *w, const nsvcd__geometry *f, double unit,
                               nsvcd__d3 point) {
   static const double directions[8][3] = {
       {0.5359, 0.6013, 0.5927},   {-0.5741, 0.6229, 0.5314},  {0.6127, -0.5531, 0.5644},
@@ -14859,20 +14873,20 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__geometry *f, double 
   const size_t best = (off.x < 0 ? 1u : 0u) + (off.y < 0 ? 2u : 0u) + (off.z < 0 ? 4u : 0u);
   nsvcd__ray ray;
   ray.from = point;
-  ray.margin = NSVCD__SAME_POSITION * (double)p->given.lengths / unit;
+  ray.margin = NSVCD__SAME_POSITION * (double)w->p.given.lengths / unit;
   ray.margin += (double)nsvcd__off_mesh(f) + (double)f->counts->gap;
   ray.rounding = (float)ray.margin + 4 * NSVCD__ROUNDING * f->body->extent;
   int clear = 0;
   int odd = 0;
   for (size_t n = 0; n < 8; n++) {
     const double *d = directions[best ^ n];
-    if (p->work > p->goal.limit) {
-      p->unclear = NSVCD__NOT_ASKED;
+    if (w->p.work > w->p.goal.limit) {
+      w->unclear = NSVCD__NOT_ASKED;
       return 0;
     }
     ray.direction = nsvcd__d3_of(d[0], d[1], d[2]);
     ray.direction = nsvcd__d3_scale(ray.direction, 1 / nsvcd__d3_norm(ray.direction));
-    const nsvcd__crossings sum = nsvcd__cross_all(p, f, &ray);
+    const nsvcd__crossings sum = nsvcd__cross_all(w, f, &ray);
     if (sum.unclear) continue;
     // A hollow of one kind inside the other undoes it.
     if ((sum.winds != 0) != (sum.either_way % 2 != 0)) return 1;
@@ -14880,8 +14894,8 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__geometry *f, double 
     odd += sum.nearly % 2 != 0 || sum.winds != 0;
     clear++;
   }
-  if (clear == 0 || 2 * odd > clear) p->unclear = NSVCD__CANNOT_TELL;
-  p->in_open |= clear > 0 && 2 * odd > clear;
+  if (clear == 0 || 2 * odd > clear) w->unclear = NSVCD__CANNOT_TELL;
+  w->in_open |= clear > 0 && 2 * odd > clear;
   return 0;
 }
 
@@ -14940,36 +14954,36 @@ static int nsvcd__seed_is_near(const nsvcd__enclosure *e, const float *seed) {
 }
 
 // Is one of the inner body's components, with seeds first .. end - 1, in the outer body? Then
-// p->inside is set, and p->enclosed is its seed. Returns 1 if that is certain.
-static int nsvcd__contains_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, size_t first,
+// w->inside is set, and w->enclosed is its seed. Returns 1 if that is certain.
+static int nsvcd__contains_seeds(nsvcd__solver *w, const nsvcd__enclosure *e, size_t first,
                                  size_t end) {
   for (size_t n = first; n < end; n++) {
     if (!nsvcd__seed_is_near(e, e->inner->seeds + 3 * n)) continue;
-    if (nsvcd__check_budget(p)) {
-      p->unclear = NSVCD__NOT_ASKED;
+    if (nsvcd__check_budget(&w->p)) {
+      w->unclear = NSVCD__NOT_ASKED;
       return 0;
     }
     const nsvcd__d3 seed = nsvcd__d3_load(e->inner->seeds + 3 * n);
     const nsvcd__d3 seen = nsvcd__d3_transform(&e->start, seed);
-    if (!nsvcd__is_enclosed(p, e->outer, e->unit, seen)) continue;
-    p->enclosed = e->inner == &p->moving ? seen : seed;
-    p->inside = 1;
-    const double room = p->given.tolerance / e->unit + (double)e->outer->counts->gap;
-    if (!nsvcd__surface_is_near(p, e->outer, seen, room)) return 1;
+    if (!nsvcd__is_enclosed(w, e->outer, e->unit, seen)) continue;
+    w->enclosed = e->inner == &w->p.moving ? seen : seed;
+    w->inside = 1;
+    const double room = w->p.given.tolerance / e->unit + (double)e->outer->counts->gap;
+    if (!nsvcd__surface_is_near(w, e->outer, seen, room)) return 1;
   }
   return 0;
 }
 
 // The same of all components. Where there are many, only groups near the outer body are asked for
 // theirs.
-static int nsvcd__contains_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
+static int nsvcd__contains_any(nsvcd__solver *w, const nsvcd__enclosure *e) {
   const nsvcd_body *inner = e->inner->body;
   const nsvcd_body *outer = e->outer->body;
   if (outer->open) return 0;
   const int is_one = e->inner->counts->components == 1 && e->outer->kind_bits == 1;
   if (is_one && nsvcd__sticks_out(e->inner, &e->rounded, e->scale, outer)) return 0;
   if (e->inner->counts->components <= NSVCD__LANES)
-    return nsvcd__contains_seeds(p, e, 0, e->inner->counts->components);
+    return nsvcd__contains_seeds(w, e, 0, e->inner->counts->components);
   const nsvcd__f3 centre =
       nsvcd__f3_round(nsvcd__d3_transform(&e->back, nsvcd__d3_load(outer->centre)));
   const float extent = nsvcd__f3_norm(centre) + inner->extent + outer->extent / e->scale;
@@ -14978,28 +14992,28 @@ static int nsvcd__contains_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   size_t g;
   nsvcd__traversal groups;
   nsvcd__traversal_begin(&groups, inner, nsvcd__meets_sphere, &here);
-  while (!p->unclear && nsvcd__traversal_next(&groups, &g)) {
-    if (nsvcd__contains_seeds(p, e, e->inner->first_seed[g], e->inner->first_seed[g + 1]))
+  while (!w->unclear && nsvcd__traversal_next(&groups, &g)) {
+    if (nsvcd__contains_seeds(w, e, e->inner->first_seed[g], e->inner->first_seed[g + 1]))
       return 1;
   }
   return 0;
 }
 
-// Is a component of one body inside the other at the start of the motion? Then p->enclosed is its
-// seed. A seed so close to the surface that errors matter returns 0, with p->inside set. If planes
+// Is a component of one body inside the other at the start of the motion? Then w->enclosed is its
+// seed. A seed so close to the surface that errors matter returns 0, with w->inside set. If planes
 // then separate all patches at t = 0, the seed, the surface that was tested and the true one are,
 // patch by patch, on one side of a plane and agree: it is inside.
-static NSVCD__NOINLINE int nsvcd__is_contained_at_start(nsvcd__proof *p) {
-  const float scale = p->arcs.motion->scale;
-  const nsvcd__dtransform start = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, 0), 0);
-  const nsvcd__dtransform back = nsvcd__inverse_dtransform(&start, p->arcs.arc.scale);
-  const nsvcd__enclosure moving = {&p->moving, &p->fixed, start, nsvcd__transform_of(&start),
-                                   back,       scale,     1};
-  if (nsvcd__contains_any(p, &moving)) return 1;
+static NSVCD__NOINLINE int nsvcd__is_contained_at_start(nsvcd__solver *w) {
+  const float scale = w->p.arcs.motion->scale;
+  const nsvcd__dtransform start = nsvcd__dtransform_at(nsvcd__arc_at(&w->p.arcs, 0), 0);
+  const nsvcd__dtransform back = nsvcd__inverse_dtransform(&start, w->p.arcs.arc.scale);
+  const nsvcd__enclosure moving = {
+      &w->p.moving, &w->p.fixed, start, nsvcd__transform_of(&start), back, scale, 1};
+  if (nsvcd__contains_any(w, &moving)) return 1;
   const nsvcd__enclosure fixed = {
-      &p->fixed, &p->moving,       back, nsvcd__transform_of(&back), start,
-      1 / scale, p->arcs.arc.scale};
-  return nsvcd__contains_any(p, &fixed);
+      &w->p.fixed, &w->p.moving,       back, nsvcd__transform_of(&back), start,
+      1 / scale,   w->p.arcs.arc.scale};
+  return nsvcd__contains_any(w, &fixed);
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -15024,15 +15038,15 @@ static uint64_t nsvcd__segments_that_matter(const nsvcd__proof *p, const nsvcd__
 
 // Adds the patch pairs of moving group g and fixed patch j in the segments *left, and clears
 // these, as long as there is room for 16 more.
-static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *q, size_t g, size_t j,
-                                   uint64_t *left) {
-  const nsvcd_body *moving = p->moving.body;
-  const nsvcd_body *fixed = p->fixed.body;
-  const nsvcd__f3 centre = nsvcd__patch_centre(&p->fixed, j);
+static void nsvcd__add_patch_pairs(nsvcd__solver *w, const nsvcd__search *q, size_t g,
+                                   size_t j, uint64_t *left) {
+  const nsvcd_body *moving = w->p.moving.body;
+  const nsvcd_body *fixed = w->p.fixed.body;
+  const nsvcd__f3 centre = nsvcd__patch_centre(&w->p.fixed, j);
   const float radius = nsvcd__body_r(fixed)[j];
   const float *own = nsvcd__body_r(moving) + NSVCD__GROUP * g;
-  *left &= nsvcd__segments_that_matter(p, q);
-  for (; *left && p->fresh_count + NSVCD__GROUP <= NSVCD__FRESH; *left &= *left - 1) {
+  *left &= nsvcd__segments_that_matter(&w->p, q);
+  for (; *left && w->fresh_count + NSVCD__GROUP <= NSVCD__FRESH; *left &= *left - 1) {
     const size_t s = nsvcd__low_bit(*left);
     const nsvcd__chords *c = &q->members[s];
     float squares[NSVCD__LANES];
@@ -15050,23 +15064,23 @@ static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *q, size
       nsvcd__v_store(fraction + l, tau);
     }
     if (!met) continue;
-    met = nsvcd__slabs_meet(p, q, g, j, s, met);
+    met = nsvcd__slabs_meet(&w->p, nsvcd__segment_interval(w, q, s), q, g, j, s, met);
     for (; met; met &= met - 1) {
       const size_t l = nsvcd__low_bit(met);
       const size_t i = NSVCD__GROUP * g + l;
-      if (p->moving.hull_counts[i] == 0) continue;
+      if (w->p.moving.hull_counts[i] == 0) continue;
       const float radii = q->scale * own[l] + radius;
       const float depth = 1 - sqrtf(squares[l]) / (radii > 1e-30f ? radii : 1e-30f);
       const nsvcd__patch_pair pair = {(uint16_t)i, (uint16_t)j, (uint16_t)s,
                                       0,           depth,       fraction[l]};
-      p->fresh[p->fresh_count++] = pair;
+      w->fresh[w->fresh_count++] = pair;
     }
   }
 }
 
 // Processes the patch pairs that the search has found since.
-static nsvcd__outcome nsvcd__take_patch_pairs(nsvcd__proof *p, nsvcd__search *q) {
-  return p->goal.collects ? nsvcd__collect_contacts(p, q) : nsvcd__sift_patch_pairs(p, q);
+static nsvcd__outcome nsvcd__take_patch_pairs(nsvcd__solver *w, nsvcd__search *q) {
+  return w->p.goal.collects ? nsvcd__collect_contacts(w, q) : nsvcd__sift_patch_pairs(w, q);
 }
 
 // THE LOOP: point 2 of the theorem. Spheres and slabs separate groups of a tile of the moving body
@@ -15075,80 +15089,83 @@ static nsvcd__outcome nsvcd__take_patch_pairs(nsvcd__proof *p, nsvcd__search *q)
 // patches, in each segment that is wanted and still matters, has been separated, or has given a
 // contact that answers or shrinks the question, or is an unresolved pair, or was resolved by its
 // parts; or EXHAUSTED says that it has not.
-static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_segments(nsvcd__solver *w,
                                                             nsvcd__search *q) {
   nsvcd__outcome outcome;
   for (; q->step < q->steps; q->step++) {
     const size_t next = q->order[q->step];
     const size_t g = q->moving_tile.groups[next];
     nsvcd__search_group(q);
-    nsvcd__separate_groups(p, q);
+    nsvcd__separate_groups(&w->p, q);
     for (; q->waiting; q->waiting &= q->waiting - 1) {
       const size_t at = nsvcd__low_bit(q->waiting);
       const size_t h = q->fixed_tile.groups[at];
-      const uint64_t wanted = nsvcd__nearby(q, next)[at] & nsvcd__segments_that_matter(p, q);
-      uint32_t met = nsvcd__group_against_members(q, h, wanted, p->met_in);
+      const uint64_t wanted =
+          nsvcd__nearby(q, next)[at] & nsvcd__segments_that_matter(&w->p, q);
+      uint32_t met = nsvcd__group_against_members(q, h, wanted, w->met_in);
       for (; met; met &= met - 1) {
         const size_t l = nsvcd__low_bit(met);
-        uint64_t *left = &p->met_in[l];
-        if (p->fixed.hull_counts[NSVCD__GROUP * h + l] == 0) continue;
+        uint64_t *left = &w->met_in[l];
+        if (w->p.fixed.hull_counts[NSVCD__GROUP * h + l] == 0) continue;
         for (;;) {
           nsvcd__pose_members(q, g, *left);
-          nsvcd__add_patch_pairs(p, q, g, NSVCD__GROUP * h + l, left);
+          nsvcd__add_patch_pairs(w, q, g, NSVCD__GROUP * h + l, left);
           if (!*left) break;
-          outcome = nsvcd__take_patch_pairs(p, q);
+          outcome = nsvcd__take_patch_pairs(w, q);
           if (outcome != NSVCD__DONE) return outcome;
         }
       }
-      if (p->fresh_count < NSVCD__ENOUGH_FRESH) continue;
-      outcome = nsvcd__take_patch_pairs(p, q);
+      if (w->fresh_count < NSVCD__ENOUGH_FRESH) continue;
+      outcome = nsvcd__take_patch_pairs(w, q);
       if (outcome != NSVCD__DONE) return outcome;
     }
   }
-  outcome = nsvcd__take_patch_pairs(p, q);
-  if (outcome != NSVCD__DONE || p->goal.collects) return outcome;
-  return nsvcd__resolve_patch_pairs(p, q);
+  outcome = nsvcd__take_patch_pairs(w, q);
+  if (outcome != NSVCD__DONE || w->p.goal.collects) return outcome;
+  return nsvcd__resolve_patch_pairs(w, q);
 }
 
 // The same for all tiles of a motion that has been cut. If the first contact is sought, some
 // segments of a tile at a time, until there is a contact: it is the first of the tile. What is
 // resolved in one tile says nothing of the others.
-static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *q) {
-  const nsvcd_body *moving = p->moving.body;
-  const nsvcd_body *fixed = p->fixed.body;
+static nsvcd__outcome nsvcd__prove_tiles(nsvcd__solver *w, nsvcd__search *q) {
+  const nsvcd_body *moving = w->p.moving.body;
+  const nsvcd_body *fixed = w->p.fixed.body;
   const size_t all = q->segments;
-  const size_t few = p->goal.first > 0 ? NSVCD__IN_ORDER : all;
+  const size_t few = w->p.goal.first > 0 ? NSVCD__IN_ORDER : all;
   nsvcd__outcome outcome = NSVCD__DONE;
   (void)nsvcd__search_begin(moving, fixed, nsvcd__segments_in(0, all), q);
   do {
     for (size_t s = 0; s < all && outcome == NSVCD__DONE; s += few) {
       const size_t next = s + few < all ? s + few : all;
-      if (!nsvcd__matters(p, q, s)) break;
+      if (!nsvcd__matters(&w->p, q, s)) break;
       q->wanted = nsvcd__segments_in(s, next);
       q->step = 0;
       q->waiting = 0;
-      outcome = nsvcd__prove_segments(p, q);
+      outcome = nsvcd__prove_segments(w, q);
       const int one_tile = !nsvcd__is_tiled(moving, fixed);
-      if (outcome == NSVCD__DONE && !p->known.has_contact && one_tile)
-        p->known.proven_until = (double)q->begin[next];
+      if (outcome == NSVCD__DONE && !w->p.known.has_contact && one_tile)
+        w->p.known.proven_until = (double)q->begin[next];
     }
   } while (outcome == NSVCD__DONE && nsvcd__search_next_tile(q));
-  if (outcome == NSVCD__DONE && !p->known.has_contact)
-    p->known.proven_until = (double)q->begin[all];
+  if (outcome == NSVCD__DONE && !w->p.known.has_contact)
+    w->p.known.proven_until = (double)q->begin[all];
   return outcome;
 }
 
 // THE WAIST: until when do the bodies stay apart in the segments that have been chosen, and what do
-// they meet? Cuts the segments, and separates the bodies in them. p->known is the result.
-static NSVCD__NOINLINE void nsvcd__separate(nsvcd__proof *p, nsvcd__search *q,
-                                            const nsvcd__goal *goal) {
-  p->arcs.motion = goal->motion;
-  p->goal = *goal;
-  p->known.end = nsvcd__min(p->known.end, goal->end);
-  nsvcd__cut_segments(p->arcs.motion, p->given.lengths, nsvcd__clearance(&p->goal), q);
-  p->known.outcome = nsvcd__prove_tiles(p, q);
-  p->known.ran_out = p->known.outcome == NSVCD__EXHAUSTED;
-  p->known.clearance = p->goal.clearance;
+// they meet? Cuts the segments, and separates the bodies in them.
+static NSVCD__NOINLINE nsvcd__search_result nsvcd__separate(nsvcd__solver *w, nsvcd__search *q,
+                                                            const nsvcd__goal *goal) {
+  w->p.arcs.motion = goal->motion;
+  w->p.goal = *goal;
+  w->p.goal.first = goal->fraction * (double)goal->motion->ticks;
+  w->p.known.end = nsvcd__min(w->p.known.end, goal->end);
+  nsvcd__cut_segments(goal->motion, w->p.given.lengths, nsvcd__clearance(goal), q);
+  w->p.known.outcome = nsvcd__prove_tiles(w, q);
+  w->p.known.ran_out = w->p.known.outcome == NSVCD__EXHAUSTED;
+  w->p.known.clearance = w->p.goal.clearance;
+  return w->p.known;
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -15281,7 +15298,7 @@ static double nsvcd__vertex_distance(const nsvcd__proof *p, const nsvcd__transfo
 // two patches have, and a little more. The patches, and the time when they are nearest, are found
 // in turns. If the bound is within the clearance, triangles of these patches are a contact, which
 // is sought there.
-static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__proof *p, nsvcd__search *q) {
+static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__solver *w, nsvcd__search *q) {
   nsvcd__sphere moving, fixed;
   double tick = 0;
   double least = HUGE_VAL;
@@ -15289,30 +15306,30 @@ static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__proof *p, nsvcd__sear
   uint32_t from = 0;
   size_t nearest[2] = {0, 0};
   // Bodies that never come near have been told apart without segments.
-  nsvcd__cut_segments(p->arcs.motion, p->given.lengths, 0, q);
-  nsvcd__nearest_groups(p, q, &moving, &fixed);
+  nsvcd__cut_segments(w->p.arcs.motion, w->p.given.lengths, 0, q);
+  nsvcd__nearest_groups(&w->p, q, &moving, &fixed);
   for (size_t turn = 0; turn < NSVCD__TURNS; turn++) {
     float gap = HUGE_VALF;
     double u;
     nsvcd__chords_in_all(q, moving);
     (void)nsvcd__nearest_tick(q, fixed, &gap, &tick);
-    const uint32_t first = nsvcd__arc_of(p->arcs.motion, tick, &u);
-    const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, first), u);
+    const uint32_t first = nsvcd__arc_of(w->p.arcs.motion, tick, &u);
+    const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&w->p.arcs, first), u);
     const nsvcd__transform pose = nsvcd__transform_of(&at);
-    const nsvcd__dtransform back = nsvcd__inverse_dtransform(&at, p->arcs.arc.scale);
+    const nsvcd__dtransform back = nsvcd__inverse_dtransform(&at, w->p.arcs.arc.scale);
     size_t i = 0;
     size_t j = 0;
     for (size_t round = 0; round < 2; round++) {
       const nsvcd__d3 seen = nsvcd__d3_transform(&back, nsvcd__d3_widen(fixed.centre));
-      i = nsvcd__patch_near(&p->moving, nsvcd__f3_round(seen));
-      moving = nsvcd__sphere_of(nsvcd__body_patches(p->moving.body), i);
-      j = nsvcd__patch_near(&p->fixed, nsvcd__f3_transform(&pose, moving.centre));
-      fixed = nsvcd__sphere_of(nsvcd__body_patches(p->fixed.body), j);
+      i = nsvcd__patch_near(&w->p.moving, nsvcd__f3_round(seen));
+      moving = nsvcd__sphere_of(nsvcd__body_patches(w->p.moving.body), i);
+      j = nsvcd__patch_near(&w->p.fixed, nsvcd__f3_transform(&pose, moving.centre));
+      fixed = nsvcd__sphere_of(nsvcd__body_patches(w->p.fixed.body), j);
     }
-    const float lengths = p->given.lengths + nsvcd__f3_norm(pose.position);
+    const float lengths = w->p.given.lengths + nsvcd__f3_norm(pose.position);
     const double rounding =
-        (double)(4 * NSVCD__ROUNDING * lengths + 2 * nsvcd__errors_of(p, i, j));
-    const double apart = 1.0001 * nsvcd__vertex_distance(p, &pose, i, j) + rounding;
+        (double)(4 * NSVCD__ROUNDING * lengths + 2 * nsvcd__errors_of(&w->p, i, j));
+    const double apart = 1.0001 * nsvcd__vertex_distance(&w->p, &pose, i, j) + rounding;
     if (!(apart < least)) continue;
     least = apart;
     fraction = u;
@@ -15320,12 +15337,12 @@ static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__proof *p, nsvcd__sear
     nearest[0] = i;
     nearest[1] = j;
   }
-  p->known.has_contact = 0;
-  if (!(least <= p->given.clearance)) return least;
-  p->goal.clearance = least;
-  p->goal.limit = p->work + NSVCD__END_BUDGET;
-  (void)nsvcd__find_witness(p, nearest[0], nearest[1], from, fraction);
-  return p->known.has_contact ? p->known.found.distance : least;
+  w->p.known.has_contact = 0;
+  if (!(least <= w->p.given.clearance)) return least;
+  w->p.goal.clearance = least;
+  w->p.goal.limit = w->p.work + NSVCD__END_BUDGET;
+  (void)nsvcd__find_witness(w, nearest[0], nearest[1], from, fraction);
+  return w->p.known.has_contact ? w->p.known.found.distance : least;
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -17876,8 +17893,8 @@ static NSVCD__NOINLINE void nsvcd__gradient(const nsvcd__query *query, float *co
 
 #ifndef NSVCD_NO_PROOF
 // The tick before which nothing meets, or NEVER.
-static double nsvcd__clear_until(const nsvcd__proof *p, const nsvcd__search_result *r) {
-  if (p->unclear) return 0;
+static double nsvcd__clear_until(const nsvcd__solver *w, const nsvcd__search_result *r) {
+  if (w->unclear) return 0;
   return nsvcd__min(nsvcd__min(r->end, r->unresolved),
                     r->ran_out ? r->proven_until : NSVCD__NEVER);
 }
@@ -17888,32 +17905,25 @@ static int nsvcd__has_pair(const nsvcd__search_result *r) {
 }
 
 // Forgets all that was known of a motion, or of an interval, before another one is searched.
-static void nsvcd__restart(nsvcd__proof *p, nsvcd__motion *motion) {
-  memset(&p->known, 0, sizeof p->known);
-  nsvcd__arcs_begin(&p->arcs, motion);
-  p->known.proven_until = (double)motion->from;
-  p->known.end = p->clipped_end = p->known.unresolved = NSVCD__NEVER;
-  p->clipped = 0;
-  p->count = p->fresh_count = p->misses = p->push.contact_count = 0;
-  p->push.too_deep = 0;
-  memset(&p->memo, 0, sizeof p->memo);
-}
-
-// Searches a motion whose segments have been chosen.
-static NSVCD__NOINLINE nsvcd__search_result nsvcd__search_motion(nsvcd__proof *p,
-                                                                 nsvcd__search *q,
-                                                                 nsvcd__goal goal) {
-  goal.first = goal.fraction * (double)goal.motion->ticks;
-  NSVCD__KERNEL(p->isa, separate)(p, q, &goal);
-  return p->known;
+static void nsvcd__restart(nsvcd__solver *w, nsvcd__motion *motion) {
+  memset(&w->p.known, 0, sizeof w->p.known);
+  nsvcd__arcs_begin(&w->p.arcs, motion);
+  w->p.known.proven_until = (double)motion->from;
+  w->p.known.end = w->clipped_end = w->p.known.unresolved = NSVCD__NEVER;
+  w->clipped = 0;
+  w->count = w->fresh_count = w->misses = w->p.push.contact_count = 0;
+  w->p.shared = w->blocks.window = 0;
+  w->p.push.too_deep = w->blocks.has_block = 0;
+  w->p.separating = nsvcd__d3_of(0, 0, 0);
+  memset(&w->memo, 0, sizeof w->memo);
 }
 
 // Searches any motion, from scratch.
-static nsvcd__search_result nsvcd__search_anew(nsvcd__proof *p, nsvcd__search *q,
+static nsvcd__search_result nsvcd__search_anew(nsvcd__solver *w, nsvcd__search *q,
                                                nsvcd__goal goal) {
-  nsvcd__restart(p, goal.motion);
+  nsvcd__restart(w, goal.motion);
   nsvcd__choose_segments(goal.motion, q);
-  return nsvcd__search_motion(p, q, goal);
+  return NSVCD__KERNEL(w->isa, separate)(w, q, &goal);
 }
 
 // The pose at the start of a motion, or at its end, as a motion of its own.
@@ -17933,17 +17943,17 @@ static nsvcd__motion nsvcd__end_of(const nsvcd__motion *m, int at_end) {
 
 // Do triangles meet at the start alone, or at the end? Takes so many units at most. If they do, the
 // result is that contact.
-static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *q, nsvcd__goal goal,
-                                           int at_end, size_t units,
+static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__solver *w, nsvcd__search *q,
+                                           nsvcd__goal goal, int at_end, size_t units,
                                            nsvcd__search_result *out) {
   nsvcd__motion *whole = goal.motion;
   nsvcd__motion still = nsvcd__end_of(whole, at_end);
   goal.motion = &still;
   goal.fraction = 0;
-  goal.limit = nsvcd__limit_after(p, &goal, units);
+  goal.limit = nsvcd__limit_after(&w->p, &goal, units);
   goal.is_brief = 1;
-  const nsvcd__search_result at = nsvcd__search_anew(p, q, goal);
-  nsvcd__arcs_begin(&p->arcs, whole);
+  const nsvcd__search_result at = nsvcd__search_anew(w, q, goal);
+  nsvcd__arcs_begin(&w->p.arcs, whole);
   if (at.outcome != NSVCD__ANSWERED) return 0;
   *out = at;
   out->found.tick = at_end ? (double)whole->ticks : 0;
@@ -17955,36 +17965,36 @@ static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *q, ns
 // of the rest touch only at the start or at the end, so these two poses are tried before all is
 // searched again. The search for a first contact begins at the start anyway, and the ends of a long
 // motion have been tried before its intervals.
-static nsvcd__search_result nsvcd__search_whole(nsvcd__proof *p, nsvcd__search *q,
+static nsvcd__search_result nsvcd__search_whole(nsvcd__solver *w, nsvcd__search *q,
                                                 nsvcd__goal goal) {
   const size_t limit = goal.limit;
   const int may_be_brief = !goal.motion->arcs && !(goal.fraction > 0);
-  goal.is_brief = may_be_brief && p->work + NSVCD__BRIEF_BUDGET < limit;
-  if (goal.is_brief) goal.limit = p->work + NSVCD__BRIEF_BUDGET;
-  nsvcd__search_result result = nsvcd__search_motion(p, q, goal);
+  goal.is_brief = may_be_brief && w->p.work + NSVCD__BRIEF_BUDGET < limit;
+  if (goal.is_brief) goal.limit = w->p.work + NSVCD__BRIEF_BUDGET;
+  nsvcd__search_result result = NSVCD__KERNEL(w->isa, separate)(w, q, &goal);
   if (result.outcome != NSVCD__EXHAUSTED || !goal.is_brief) return result;
   // half of what may follow an unresolved pair has been used
   if (result.unresolved < NSVCD__NEVER) goal.after_unresolved -= goal.after_unresolved / 2;
   for (int at_end = 0; at_end < 2; at_end++) {
-    if (nsvcd__meets_at(p, q, goal, at_end, NSVCD__END_BUDGET, &result)) return result;
+    if (nsvcd__meets_at(w, q, goal, at_end, NSVCD__END_BUDGET, &result)) return result;
   }
   goal.is_brief = 0;
   goal.limit = limit;
-  return nsvcd__search_anew(p, q, goal);
+  return nsvcd__search_anew(w, q, goal);
 }
 
 // Searches a part of the motion, from one position in segments to another, for the first contact
 // there or the first unresolved pair, and adds what it finds to what is known of all before it.
-static void nsvcd__search_part(nsvcd__proof *p, nsvcd__search *q, nsvcd__goal goal,
+static void nsvcd__search_part(nsvcd__solver *w, nsvcd__search *q, nsvcd__goal goal,
                                double from, double to, nsvcd__search_result *known) {
-  nsvcd__restart(p, goal.motion);
+  nsvcd__restart(w, goal.motion);
   nsvcd__choose_segments(goal.motion, q);
   // this many ticks to one of before
   const double finer = nsvcd__motion_refine(goal.motion);
   nsvcd__narrow_segments(q, from, to, finer);
   goal.end = nsvcd__min(NSVCD__NEVER, finer * known->end);
   goal.unresolved_ends = 1;
-  const nsvcd__search_result part = nsvcd__search_motion(p, q, goal);
+  const nsvcd__search_result part = NSVCD__KERNEL(w->isa, separate)(w, q, &goal);
   if (part.has_contact) {
     known->has_contact = 1;
     known->found = part.found;
@@ -18003,7 +18013,7 @@ static void nsvcd__search_part(nsvcd__proof *p, nsvcd__search *q, nsvcd__goal go
 
 // The budget did not suffice for the first contact. Searches again by time, from what is proven on:
 // one part of the motion after another, a shorter one where a part takes too many units.
-static NSVCD__NOINLINE void nsvcd__search_by_time(nsvcd__proof *p, nsvcd__search *q,
+static NSVCD__NOINLINE void nsvcd__search_by_time(nsvcd__solver *w, nsvcd__search *q,
                                                   nsvcd__goal goal,
                                                   nsvcd__search_result *known) {
   const size_t limit = goal.most;
@@ -18018,39 +18028,39 @@ static NSVCD__NOINLINE void nsvcd__search_by_time(nsvcd__proof *p, nsvcd__search
   for (;;) {
     const double until = nsvcd__min(ticks, nsvcd__min(known->end, known->unresolved));
     known->ran_out = known->proven_until < until;
-    if (!known->ran_out || p->work >= limit) break;
-    const size_t before = p->work;
+    if (!known->ran_out || w->p.work >= limit) break;
+    const size_t before = w->p.work;
     const double whole = floor(from + length);
     const double to = whole > from ? nsvcd__min(whole, all) : from + length;
     goal.limit = limit - before > units ? before + units : limit;
-    nsvcd__search_part(p, q, goal, from, to, known);
+    nsvcd__search_part(w, q, goal, from, to, known);
     if (known->ran_out) {
       length /= 8;
       grows = 2;
     } else {
       from = to;
       length *= grows;
-      units = 8 * (p->work - before) + NSVCD__PART_BUDGET;
+      units = 8 * (w->p.work - before) + NSVCD__PART_BUDGET;
     }
   }
-  nsvcd__restart(p, goal.motion);
+  nsvcd__restart(w, goal.motion);
   nsvcd__choose_segments(goal.motion, q);
 }
 
 // When do they meet first? What is proven of that stays proven when the budget ends.
-static nsvcd__search_result nsvcd__search_first(nsvcd__proof *p, nsvcd__search *q,
+static nsvcd__search_result nsvcd__search_first(nsvcd__solver *w, nsvcd__search *q,
                                                 nsvcd__goal goal) {
-  goal.limit = nsvcd__limit_of_first(&p->given, &goal);
-  nsvcd__search_result result = nsvcd__search_whole(p, q, goal);
+  goal.limit = nsvcd__limit_of_first(&w->p.given, &goal);
+  nsvcd__search_result result = nsvcd__search_whole(w, q, goal);
   // An interval is short, and all before it is known.
-  if (result.ran_out && !goal.motion->arcs) nsvcd__search_by_time(p, q, goal, &result);
+  if (result.ran_out && !goal.motion->arcs) nsvcd__search_by_time(w, q, goal, &result);
   if (!result.has_contact) return result;
   if (goal.motion->from > 0) {
     result.starts_free = 1;
-  } else if (nsvcd__clear_until(p, &result) <= 0 && result.found.tick > 0) {
+  } else if (nsvcd__clear_until(w, &result) <= 0 && result.found.tick > 0) {
     // The contact is so early that they may meet at the start already.
-    if (nsvcd__meets_at(p, q, goal, 0, p->given.work, &result)) return result;
-    result.starts_free = !p->known.ran_out && !(p->known.unresolved < NSVCD__NEVER);
+    if (nsvcd__meets_at(w, q, goal, 0, w->p.given.work, &result)) return result;
+    result.starts_free = !w->p.known.ran_out && !(w->p.known.unresolved < NSVCD__NEVER);
   }
   return result;
 }
@@ -18066,14 +18076,14 @@ typedef struct nsvcd__bracket {
 
 // One pass: a search whose question shrinks, for a bracket as narrow as goal.measure. Adds what it
 // finds to what is known, and narrows the bracket. Returns 0 if the budget did not suffice.
-static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *q, nsvcd__goal goal,
+static int nsvcd__measure_once(nsvcd__solver *w, nsvcd__search *q, nsvcd__goal goal,
                                nsvcd__bracket *bracket, nsvcd__search_result *known) {
   goal.low = bracket->low;
   goal.high = bracket->high;
   goal.clearance =
       nsvcd__has_pair(known) ? nsvcd__max(goal.low, goal.high - goal.measure) : goal.high;
-  nsvcd__restart(p, goal.motion);
-  const nsvcd__search_result pass = nsvcd__search_motion(p, q, goal);
+  nsvcd__restart(w, goal.motion);
+  const nsvcd__search_result pass = NSVCD__KERNEL(w->isa, separate)(w, q, &goal);
   if (pass.has_contact) {
     known->has_contact = 1;
     known->found = pass.found;
@@ -18087,17 +18097,17 @@ static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *q, nsvcd__goal go
 // Makes the bracket as narrow as `finest`. If half of the budget does not suffice for that, the
 // rest goes to brackets that get narrower and narrower; the last that was completed stays. work:
 // the budget.
-static void nsvcd__narrow(nsvcd__proof *p, nsvcd__search *q, nsvcd__goal goal, size_t work,
+static void nsvcd__narrow(nsvcd__solver *w, nsvcd__search *q, nsvcd__goal goal, size_t work,
                           double finest, nsvcd__bracket *bracket,
                           nsvcd__search_result *known) {
   goal.measure = finest;
-  goal.limit = nsvcd__limit_after(p, &goal, work / 2);
-  if (nsvcd__measure_once(p, q, goal, bracket, known)) return;
+  goal.limit = nsvcd__limit_after(&w->p, &goal, work / 2);
+  if (nsvcd__measure_once(w, q, goal, bracket, known)) return;
   goal.limit = goal.most;
   goal.measure = bracket->high - bracket->low;
   while (!bracket->is_wide && goal.measure > finest) {
     goal.measure = nsvcd__max(finest, goal.measure / NSVCD__FINER);
-    bracket->is_wide = !nsvcd__measure_once(p, q, goal, bracket, known);
+    bracket->is_wide = !nsvcd__measure_once(w, q, goal, bracket, known);
   }
 }
 #endif  // NSVCD_NO_PROOF
@@ -18157,36 +18167,36 @@ static float nsvcd__surface_gap(const nsvcd__proof *p, const nsvcd__motion *m,
 
 // Searches a motion interval by interval, until a contact answers. In the end that contact is
 // known, and all else that is known is of the first interval that was not resolved.
-static NSVCD__NOINLINE nsvcd__search_result nsvcd__search_intervals(nsvcd__proof *p,
+static NSVCD__NOINLINE nsvcd__search_result nsvcd__search_intervals(nsvcd__solver *w,
                                                                     nsvcd__search *q,
                                                                     nsvcd__goal goal) {
   nsvcd__motion *m = goal.motion;
   double fraction = goal.fraction;  // 0: any contact will do
-  const nsvcd__given *given = &p->given;
-  nsvcd__search_result result = p->known;
+  const nsvcd__given *given = &w->p.given;
+  nsvcd__search_result result = w->p.known;
   nsvcd__search_result open = result;
   int is_open = 0;
   const size_t units = given->reserve < NSVCD__END_BUDGET ? given->reserve : NSVCD__END_BUDGET;
   for (int at_end = 0; at_end < 2 && !(fraction > 0); at_end++) {
-    if (nsvcd__meets_at(p, q, goal, at_end, units, &result)) return result;
+    if (nsvcd__meets_at(w, q, goal, at_end, units, &result)) return result;
   }
   nsvcd__pace pace = {0, 1};
   nsvcd__choose_interval(m, q, 0, NSVCD__ALL_ARCS);
   while (m->from < m->ticks) {
     const uint32_t until = q->begin[q->segments];
     const int is_try = m->arcs > 1;
-    const size_t before = p->work;
-    if (given->grows) goal.most = p->work + given->work;
-    nsvcd__restart(p, m);
-    result = p->known;
+    const size_t before = w->p.work;
+    if (given->grows) goal.most = w->p.work + given->work;
+    nsvcd__restart(w, m);
+    result = w->p.known;
     const float gap = nsvcd__interval_gap(m, m->from, until);
-    if (!(nsvcd__surface_gap(p, m, gap) > nsvcd__clearance(&goal))) {
+    if (!(nsvcd__surface_gap(&w->p, m, gap) > nsvcd__clearance(&goal))) {
       goal.is_brief = is_try;
       goal.fraction = is_try ? 0 : fraction;
       goal.after_unresolved = fraction > 0 ? NSVCD__AFTER_FIRST_UNRESOLVED : given->reserve;
-      goal.limit = is_try ? nsvcd__limit_after(p, &goal, NSVCD__TRY) : goal.most;
-      result = goal.fraction > 0 ? nsvcd__search_first(p, q, goal)
-                                 : nsvcd__search_motion(p, q, goal);
+      goal.limit = is_try ? nsvcd__limit_after(&w->p, &goal, NSVCD__TRY) : goal.most;
+      result = goal.fraction > 0 ? nsvcd__search_first(w, q, goal)
+                                 : NSVCD__KERNEL(w->isa, separate)(w, q, &goal);
     }
     const int is_resolved =
         result.outcome == NSVCD__DONE && !(result.unresolved < NSVCD__NEVER);
@@ -18201,43 +18211,43 @@ static NSVCD__NOINLINE nsvcd__search_result nsvcd__search_intervals(nsvcd__proof
       is_open = 1;
       fraction = 0;
     }
-    if (has_contact || (is_open && !given->grows && p->work > goal.most)) break;
-    nsvcd__next_interval(m, q, until, is_resolved || !is_try, p->work - before, &pace);
+    if (has_contact || (is_open && !given->grows && w->p.work > goal.most)) break;
+    nsvcd__next_interval(m, q, until, is_resolved || !is_try, w->p.work - before, &pace);
   }
   return is_open ? open : result;
 }
 
 // A component is inside the other body. That replaces any contact found since.
-static nsvcd__finding nsvcd__found_inside(const nsvcd__proof *p,
+static nsvcd__finding nsvcd__found_inside(const nsvcd__solver *w,
                                           nsvcd__search_result *result) {
   memset(&result->found, 0, sizeof result->found);
-  result->found.point = p->enclosed;
+  result->found.point = w->enclosed;
   result->found.moving_triangle = NSVCD_NO_TRIANGLE;
   result->found.fixed_triangle = NSVCD_NO_TRIANGLE;
   return NSVCD__FOUND_INSIDE;
 }
 
 // Do the bodies meet, and when? goal: of all of the motion. *result: what is known of it.
-static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *q, nsvcd__goal goal,
+static nsvcd__finding nsvcd__prove(nsvcd__solver *w, nsvcd__search *q, nsvcd__goal goal,
                                    nsvcd__search_result *result) {
   nsvcd__motion *m = goal.motion;
   const int in_order = goal.fraction > 0;
-  const float gap = nsvcd__surface_gap(p, m, nsvcd__motion_gap(m));
-  *result = p->known;
+  const float gap = nsvcd__surface_gap(&w->p, m, nsvcd__motion_gap(m));
+  *result = w->p.known;
   if (gap > nsvcd__clearance(&goal)) return NSVCD__FOUND_FREE;
   const int is_long = nsvcd__is_long(m, q);
-  if (NSVCD__KERNEL(p->isa, is_contained_at_start)(p)) {
+  if (NSVCD__KERNEL(w->isa, is_contained_at_start)(w)) {
     // It is a hit. A question that asks for more gets triangles, if some meet as well.
     const size_t units = NSVCD__INSIDE_BUDGET;
-    const int meets = p->given.tells && nsvcd__meets_at(p, q, goal, 0, units, result);
-    return meets ? NSVCD__FOUND_CONTACT : nsvcd__found_inside(p, result);
+    const int meets = w->p.given.tells && nsvcd__meets_at(w, q, goal, 0, units, result);
+    return meets ? NSVCD__FOUND_CONTACT : nsvcd__found_inside(w, result);
   }
-  *result = is_long    ? nsvcd__search_intervals(p, q, goal)
-            : in_order ? nsvcd__search_first(p, q, goal)
-                       : nsvcd__search_whole(p, q, goal);
-  const double clear = nsvcd__clear_until(p, result);
+  *result = is_long    ? nsvcd__search_intervals(w, q, goal)
+            : in_order ? nsvcd__search_first(w, q, goal)
+                       : nsvcd__search_whole(w, q, goal);
+  const double clear = nsvcd__clear_until(w, result);
   if (result->outcome == NSVCD__ANSWERED) return NSVCD__FOUND_CONTACT;
-  if (p->inside && clear > 0) return nsvcd__found_inside(p, result);
+  if (w->inside && clear > 0) return nsvcd__found_inside(w, result);
   if (result->has_contact) return NSVCD__FOUND_CONTACT;
   if (result->unresolved < NSVCD__NEVER) result->found = result->unresolved_pair;
   return clear < NSVCD__NEVER ? NSVCD__FOUND_UNDECIDED : NSVCD__FOUND_FREE;
@@ -18247,42 +18257,42 @@ static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *q, nsvcd__goa
 
 // Narrows the bracket interval by interval. A budget that was given is divided by time: each
 // interval gets of what is left the share that it has of the rest of the motion.
-static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__search *q,
+static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__solver *w, nsvcd__search *q,
                                                     nsvcd__goal goal, double finest,
                                                     nsvcd__bracket *bracket,
                                                     nsvcd__search_result *known) {
   nsvcd__motion *m = goal.motion;
   const size_t most = goal.most;
   const double known_low = bracket->low;
-  size_t work = p->given.work;
+  size_t work = w->p.given.work;
   nsvcd__pace pace = {0, 1};
   double low = bracket->high;
   int is_wide = 0;
   while (m->from < m->ticks) {
     const uint32_t until = q->begin[q->segments];
-    const size_t before = p->work;
+    const size_t before = w->p.work;
     int is_resolved = 1;
-    if (!p->given.grows) {
+    if (!w->p.given.grows) {
       const double rest = (double)(until - m->from) / (double)(m->ticks - m->from);
       work = before < most ? (size_t)(rest * (double)(most - before)) : 0;
     }
     goal.most = before + work;
     const float gap = nsvcd__interval_gap(m, m->from, until);
-    bracket->low = nsvcd__max(known_low, (double)nsvcd__surface_gap(p, m, gap));
+    bracket->low = nsvcd__max(known_low, (double)nsvcd__surface_gap(&w->p, m, gap));
     bracket->is_wide = 0;
     const int is_narrow = nsvcd__has_pair(known) && bracket->high - bracket->low <= finest;
     if (bracket->low < bracket->high && !is_narrow) {
       if (m->arcs > 1) {
         goal.measure = finest;
-        goal.limit = nsvcd__limit_after(p, &goal, NSVCD__TRY);
-        is_resolved = nsvcd__measure_once(p, q, goal, bracket, known);
+        goal.limit = nsvcd__limit_after(&w->p, &goal, NSVCD__TRY);
+        is_resolved = nsvcd__measure_once(w, q, goal, bracket, known);
       } else {
-        nsvcd__narrow(p, q, goal, work, finest, bracket, known);
+        nsvcd__narrow(w, q, goal, work, finest, bracket, known);
       }
     }
     if (is_resolved) low = nsvcd__min(low, bracket->low);
     is_wide |= bracket->is_wide;
-    nsvcd__next_interval(m, q, until, is_resolved, p->work - before, &pace);
+    nsvcd__next_interval(m, q, until, is_resolved, w->p.work - before, &pace);
   }
   bracket->low = nsvcd__min(low, bracket->high);
   bracket->is_wide = is_wide && bracket->high - bracket->low > finest;
@@ -18290,28 +18300,27 @@ static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__sear
 
 // Brackets the least distance over the motion, once it is known whether the bodies come within the
 // clearance.
-static NSVCD__NOINLINE nsvcd__bracket nsvcd__measure(nsvcd__proof *p, nsvcd__search *q,
+static NSVCD__NOINLINE nsvcd__bracket nsvcd__measure(nsvcd__solver *w, nsvcd__search *q,
                                                      nsvcd__goal goal, nsvcd__finding verdict,
                                                      nsvcd__search_result *known) {
   nsvcd__motion *m = goal.motion;
-  const double finest = p->given.width;
+  const double finest = w->p.given.width;
   int is_named = nsvcd__has_pair(known);
-  const float gap = nsvcd__surface_gap(p, m, nsvcd__motion_gap(m));
-  const double clear = verdict == NSVCD__FOUND_FREE ? p->given.clearance : 0;
+  const float gap = nsvcd__surface_gap(&w->p, m, nsvcd__motion_gap(m));
+  const double clear = verdict == NSVCD__FOUND_FREE ? w->p.given.clearance : 0;
   nsvcd__bracket bracket = {nsvcd__max(clear, (double)gap), known->found.distance, 0};
   const int is_long = nsvcd__is_long(m, q);
   if (is_long) nsvcd__choose_interval(m, q, 0, NSVCD__ALL_ARCS);
   if (!is_named) {
-    bracket.high = NSVCD__KERNEL(p->isa, bound_distance)(p, q);
-    known->has_contact = p->known.has_contact;
-    known->found = p->known.found;
-    is_named = known->has_contact;
+    bracket.high = NSVCD__KERNEL(w->isa, bound_distance)(w, q);
+    is_named = known->has_contact = w->p.known.has_contact;
+    known->found = w->p.known.found;
   }
   if (is_named && !(bracket.high - bracket.low > finest)) return bracket;
   if (is_long)
-    nsvcd__narrow_intervals(p, q, goal, finest, &bracket, known);
+    nsvcd__narrow_intervals(w, q, goal, finest, &bracket, known);
   else
-    nsvcd__narrow(p, q, goal, p->given.work, finest, &bracket, known);
+    nsvcd__narrow(w, q, goal, w->p.given.work, finest, &bracket, known);
   return bracket;
 }
 #endif  // NSVCD_NO_PROOF
@@ -18440,28 +18449,28 @@ static nsvcd__d3 nsvcd__push_out(const nsvcd__push_outs *push, double least, int
 // neighbours still touch, and there may be too many touches to collect at once: so each push-out is
 // tried. If the directions known have no push-out in common, the first one may be wrong, and is
 // forgotten, once. Returns 0 if there is no push-out.
-static int nsvcd__push_out_still(nsvcd__proof *p, nsvcd__search *q, nsvcd__goal goal) {
+static int nsvcd__push_out_still(nsvcd__solver *w, nsvcd__search *q, nsvcd__goal goal) {
   nsvcd__motion *still = goal.motion;
-  p->push.normal_count = 0;
+  nsvcd__push_outs *push = &w->p.push;
+  push->normal_count = 0;
+  push->needed = 0;
   still->push_out = nsvcd__f3_of(0, 0, 0);
   // Also what is about to touch, or where an earlier motion may have ended, is pushed out of, and
   // may not touch afterwards.
-  const double size = (double)p->given.lengths + p->given.radius;
-  const double near_by = nsvcd__min(0.05 * p->push.slop, 0.02 * size);
-  double beside = nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * p->push.slop));
-  for (int turns = 0;; beside = 0.01 * p->push.slop) {
-    goal.clearance = p->given.clearance + beside + nsvcd__epsilon(p);
-    (void)nsvcd__search_anew(p, q, goal);
-    if (p->push.contact_count == 0) return 1;
-    const size_t known = p->push.normal_count;
-    if (!nsvcd__choose_push_outs(p) || p->push.normal_count == known) return 0;
-    nsvcd__d3 push_out = nsvcd__push_out(&p->push, p->push.slop, 0);
+  const double size = (double)w->p.given.lengths + w->p.given.radius;
+  const double near_by = nsvcd__min(0.05 * push->slop, 0.02 * size);
+  double beside = nsvcd__max(near_by, nsvcd__min(w->p.given.to, 0.5 * push->slop));
+  for (int turns = 0;; beside = 0.01 * push->slop) {
+    goal.clearance = w->p.given.clearance + beside + nsvcd__epsilon(&w->p);
+    (void)nsvcd__search_anew(w, q, goal);
+    if (push->contact_count == 0) return 1;
+    const size_t known = push->normal_count;
+    if (!nsvcd__choose_push_outs(&w->p) || push->normal_count == known) return 0;
+    nsvcd__d3 push_out = nsvcd__push_out(push, push->slop, 0);
     if (!(nsvcd__d3_dot(push_out, push_out) > 0) && turns++ == 0) {
-      memmove(p->push.normals, p->push.normals + 1,
-              --p->push.normal_count * sizeof *p->push.normals);
-      memmove(p->push.depths, p->push.depths + 1,
-              p->push.normal_count * sizeof *p->push.depths);
-      push_out = nsvcd__push_out(&p->push, p->push.slop, 0);
+      memmove(push->normals, push->normals + 1, --push->normal_count * sizeof *push->normals);
+      memmove(push->depths, push->depths + 1, push->normal_count * sizeof *push->depths);
+      push_out = nsvcd__push_out(push, push->slop, 0);
     }
     if (!(nsvcd__d3_dot(push_out, push_out) > 0)) return 0;
     still->push_out = nsvcd__f3_round(push_out);
@@ -18473,32 +18482,32 @@ static int nsvcd__push_out_still(nsvcd__proof *p, nsvcd__search *q, nsvcd__goal 
 // little more than the known depths, to see what it touches there, until nothing does. Triangles
 // that follow each other, as on a slope, each come free soon: so the little more doubles as long as
 // depths grow.
-static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *q, nsvcd__goal goal) {
+static void nsvcd__deepen(nsvcd__solver *w, nsvcd__search *q, nsvcd__goal goal) {
   nsvcd__motion *still = goal.motion;
   const nsvcd__f3 push_out = still->push_out;
-  const double least_more = 0.5 * nsvcd__epsilon(p);
+  const double least_more = 0.5 * nsvcd__epsilon(&w->p);
   double more = least_more;
   double before = 0;
-  goal.clearance = p->given.clearance;
-  for (size_t k = 0; k < p->push.normal_count; k++) before += p->push.depths[k];
+  goal.clearance = w->p.given.clearance;
+  for (size_t k = 0; k < w->p.push.normal_count; k++) before += w->p.push.depths[k];
   for (int round = 0; round < NSVCD__DEEPEN; round++) {
     double after = 0;
-    still->push_out = nsvcd__f3_round(nsvcd__push_out(&p->push, more, 1));
-    (void)nsvcd__search_anew(p, q, goal);
+    still->push_out = nsvcd__f3_round(nsvcd__push_out(&w->p.push, more, 1));
+    (void)nsvcd__search_anew(w, q, goal);
     // A touch gets out of the way along the normal that undoes it first, even if no plane normal to
     // that separates it.
-    for (size_t n = 0; n < p->push.contact_count; n++) {
-      const nsvcd__triangle_contact *t = &p->of.touches[n];
+    for (size_t n = 0; n < w->p.push.contact_count; n++) {
+      const nsvcd__triangle_contact *t = &w->p.of.touches[n];
       size_t best = 0;
       double least = HUGE_VAL;
-      for (size_t k = 0; k < p->push.normal_count; k++) {
-        const double distance = nsvcd__depth_along(p->push.normals[k], t);
+      for (size_t k = 0; k < w->p.push.normal_count; k++) {
+        const double distance = nsvcd__depth_along(w->p.push.normals[k], t);
         if (distance < least) best = k;
         least = nsvcd__min(least, distance);
       }
-      nsvcd__note_depth(p, best, t);
+      nsvcd__note_depth(&w->p, best, t);
     }
-    for (size_t k = 0; k < p->push.normal_count; k++) after += p->push.depths[k];
+    for (size_t k = 0; k < w->p.push.normal_count; k++) after += w->p.push.depths[k];
     const int is_deeper = after > before;
     if (!is_deeper && more <= nsvcd__max(least_more, 0.002 * after)) break;
     more = is_deeper ? 2 * more : nsvcd__max(least_more, 0.125 * more);
@@ -18509,30 +18518,28 @@ static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *q, nsvcd__goal goal) {
 
 // Pushes the motion out of what it touches at its start, by the slop; or, if something is in the
 // way of that and nothing is too deep, by what is needed.
-static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__proof *p, nsvcd__search *q,
+static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__solver *w, nsvcd__search *q,
                                                    nsvcd__goal goal) {
   nsvcd__motion *whole = goal.motion;
   nsvcd__motion start = nsvcd__end_of(whole, 0);
   goal.motion = &start;
   goal.collects = NSVCD__TOUCHING;
-  p->push.slop = p->given.slop;
-  p->push.by_faces = 0;
-  p->push.needed = 0;
-  int is_free = nsvcd__push_out_still(p, q, goal);
-  if (!is_free && !p->push.too_deep) {
+  w->p.push.slop = w->p.given.slop;
+  w->p.push.by_faces = 0;
+  int is_free = nsvcd__push_out_still(w, q, goal);
+  if (!is_free && !w->p.push.too_deep) {
     // The shortest push-outs may not go together.
-    p->push.by_faces = 1;
-    p->push.needed = 0;
-    is_free = nsvcd__push_out_still(p, q, goal);
+    w->p.push.by_faces = 1;
+    is_free = nsvcd__push_out_still(w, q, goal);
   }
-  const double least = 1.1 * p->push.needed + 4 * nsvcd__epsilon(p);
-  if (!is_free && p->push.contact_count == 0 && least < 0.9 * p->given.slop) {
-    p->push.slop = least;
-    is_free = nsvcd__push_out_still(p, q, goal);
+  const double least = 1.1 * w->p.push.needed + 4 * nsvcd__epsilon(&w->p);
+  if (!is_free && w->p.push.contact_count == 0 && least < 0.9 * w->p.given.slop) {
+    w->p.push.slop = least;
+    is_free = nsvcd__push_out_still(w, q, goal);
   }
-  if (is_free && p->push.normal_count > 0) nsvcd__deepen(p, q, goal);
+  if (is_free && w->p.push.normal_count > 0) nsvcd__deepen(w, q, goal);
   whole->push_out = is_free ? start.push_out : nsvcd__f3_of(0, 0, 0);
-  nsvcd__restart(p, whole);
+  nsvcd__restart(w, whole);
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -18574,13 +18581,13 @@ static nsvcd__twist nsvcd__twist_at(const nsvcd__arc *arc, double u) {
 
 // The arc of a time in ticks; at a keyframe, the arc that ends there: by that one the body came to
 // the contact.
-static const nsvcd__arc *nsvcd__arc_before(nsvcd__proof *p, double tick, double *u) {
-  uint32_t first = nsvcd__arc_of(p->arcs.motion, tick, u);
-  if (first > 0 && tick - (double)first < 6e-8 * (double)p->arcs.motion->ticks) {
-    first = nsvcd__arc_of(p->arcs.motion, (double)first - 0.5, u);
+static const nsvcd__arc *nsvcd__arc_before(nsvcd__arcs *arcs, double tick, double *u) {
+  uint32_t first = nsvcd__arc_of(arcs->motion, tick, u);
+  if (first > 0 && tick - (double)first < 6e-8 * (double)arcs->motion->ticks) {
+    first = nsvcd__arc_of(arcs->motion, (double)first - 0.5, u);
     *u = 1;
   }
-  return nsvcd__arc_at(&p->arcs, first);
+  return nsvcd__arc_at(arcs, first);
 }
 
 // The triangles of a contact at a time, and how the bodies move then.
@@ -18594,7 +18601,7 @@ typedef struct nsvcd__approach {
 static NSVCD__NOINLINE void nsvcd__approach_at(nsvcd__proof *p,
                                                const nsvcd__pair_contact *found, double tick,
                                                nsvcd__approach *out) {
-  const nsvcd__arc *arc = nsvcd__arc_before(p, tick, &out->u);
+  const nsvcd__arc *arc = nsvcd__arc_before(&p->arcs, tick, &out->u);
   const nsvcd__dtransform at = nsvcd__dtransform_at(arc, out->u);
   out->pair = nsvcd__pair_of(p, found->moving_patch, found->fixed_patch, found->moving_entry,
                              found->fixed_entry);
@@ -18714,10 +18721,10 @@ static int nsvcd__has_turned(const nsvcd__proof *p, double since, double until) 
 }
 
 // Gives the known contact its normal.
-static NSVCD__NOINLINE void nsvcd__resolve_normal(nsvcd__proof *p,
+static NSVCD__NOINLINE void nsvcd__resolve_normal(nsvcd__proof *p, double clear_until,
                                                   nsvcd__search_result *result) {
   nsvcd__pair_contact *found = &result->found;
-  const double until = nsvcd__max(nsvcd__min(nsvcd__clear_until(p, result), found->tick), 0);
+  const double until = nsvcd__max(nsvcd__min(clear_until, found->tick), 0);
   const double since = p->given.fraction > 0 ? until : 0;
   const int is_free = since > 0 || (p->given.fraction > 0 && result->starts_free);
   nsvcd__approach now;
@@ -18749,9 +18756,8 @@ static NSVCD__NOINLINE void nsvcd__resolve_normal(nsvcd__proof *p,
 
 #ifndef NSVCD_NO_PROOF
 // Prepares a manifold of contacts with about this normal, unit, of bodies that move like this.
-static void nsvcd__manifold_begin(nsvcd__proof *p, nsvcd__d3 n, const nsvcd__twist *twist,
+static void nsvcd__manifold_begin(nsvcd__manifold *m, nsvcd__d3 n, const nsvcd__twist *twist,
                                   double tolerance, double same) {
-  nsvcd__manifold *m = &p->of.kept.manifold;
   const int flattest = fabs(n.x) < fabs(n.y) ? 0 : 1;
   const nsvcd__d3 aside = nsvcd__d3_of(flattest == 0, flattest == 1, 0);
   const nsvcd__d3 u = nsvcd__d3_unit(nsvcd__d3_cross(n, aside), nsvcd__d3_of(1, 0, 0));
@@ -18909,22 +18915,22 @@ static nsvcd__goal nsvcd__proof_begin(nsvcd__query *query) {
   const nsvcd__task *task = &query->task;
   const nsvcd_question *q = task->question;
   const double unit = (double)task->motion.unit;
-  nsvcd__proof *p = query->proof;
-  nsvcd__given *given = &p->given;
+  nsvcd__solver *w = query->solver;
+  nsvcd__given *given = &w->p.given;
   nsvcd__goal goal;
   memset(given, 0, sizeof *given);
   memset(&goal, 0, sizeof goal);
-  p->isa = query->isa;
-  p->intervals = query->intervals;
+  w->isa = query->isa;
+  w->intervals = query->intervals;
   goal.motion = &query->task.motion;
-  nsvcd__restart(p, goal.motion);
-  p->moving = nsvcd__geometry_of(nsvcd__triangles_of(task->moving));
-  p->fixed = nsvcd__geometry_of(nsvcd__triangles_of(task->fixed));
-  given->lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
+  nsvcd__restart(w, goal.motion);
+  w->p.moving = nsvcd__geometry_of(nsvcd__triangles_of(task->moving));
+  w->p.fixed = nsvcd__geometry_of(nsvcd__triangles_of(task->fixed));
+  given->lengths = task->motion.scale * w->p.moving.body->extent + w->p.fixed.body->extent;
   given->lengths += nsvcd__pivot_arms(&task->motion);
   given->tolerance = (double)q->tolerance / unit;
-  const double moving_radius = (double)p->moving.counts->convex_radius * task->motion.ratio;
-  given->radius = moving_radius + (double)p->fixed.counts->convex_radius;
+  const double moving_radius = (double)w->p.moving.counts->convex_radius * task->motion.ratio;
+  given->radius = moving_radius + (double)w->p.fixed.counts->convex_radius;
   given->clearance = (double)q->clearance / unit + given->radius;
   goal.clearance = given->clearance;
   given->slop = (double)q->slop / unit;
@@ -18934,21 +18940,21 @@ static nsvcd__goal nsvcd__proof_begin(nsvcd__query *query) {
   given->reserve = (q->work ? q->work : NSVCD_DEFAULT_WORK) / NSVCD__AFTER_UNRESOLVED;
   given->grows = q->work == 0;
   given->tells = q->ask != NSVCD_ASK_HIT || given->slop > 0;
-  p->work = p->push.normal_count = 0;
-  p->inside = p->in_open = 0;
-  p->unclear = NSVCD__CLEAR;
+  w->p.work = w->p.push.normal_count = 0;
+  w->inside = w->in_open = 0;
+  w->unclear = NSVCD__CLEAR;
   const double to = nsvcd__to_of(task);
   if (q->ask == NSVCD_ASK_DISTANCE) given->width = to;
   if (q->ask == NSVCD_ASK_FIRST) {
     const int by_time = q->to_time > 0 && !(q->to > 0);
     given->to = q->to > 0 ? to : 0;
-    given->fraction = nsvcd__fraction_of(p, by_time ? 0 : to, (double)q->to_time);
+    given->fraction = nsvcd__fraction_of(&w->p, by_time ? 0 : to, (double)q->to_time);
   }
   goal.end = NSVCD__NEVER;
   goal.high = HUGE_VAL;
   goal.fraction = given->fraction;
   goal.after_unresolved = goal.fraction > 0 ? NSVCD__AFTER_FIRST_UNRESOLVED : given->reserve;
-  p->goal = goal;
+  w->p.goal = goal;
   return goal;
 }
 
@@ -18957,7 +18963,7 @@ static nsvcd__goal nsvcd__proof_begin(nsvcd__query *query) {
 static NSVCD__NOINLINE void nsvcd__write_contact(const nsvcd__query *query,
                                                  const nsvcd__pair_contact *found,
                                                  nsvcd_contact *out) {
-  const nsvcd__proof *p = query->proof;
+  const nsvcd__proof *p = &query->solver->p;
   const nsvcd__task *task = &query->task;
   const nsvcd__motion *motion = &task->motion;
   const int rests = motion->moving.count == 1 && !motion->fixed_moves;
@@ -19020,7 +19026,7 @@ static double nsvcd__pose_error(const nsvcd__proof *p, double t) {
 // contact. Returns the push-out left. It is proven to be free, and so is the way down to it.
 static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, nsvcd__goal goal,
                                                  double t) {
-  nsvcd__proof *p = query->proof;
+  nsvcd__solver *w = query->solver;
   const nsvcd__task *task = &query->task;
   nsvcd__motion *whole = goal.motion;
   nsvcd__motion down = *whole;
@@ -19030,9 +19036,9 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, nsvcd__goa
   const nsvcd__track rests = {fixed, NULL, takes_it ? 1u : 2u, 0, 0, 1, NULL};
   const nsvcd__d3 push_out = nsvcd__d3_widen(whole->push_out);
   // Nearer to each other than stored triangles are known, nothing would be separated.
-  const double epsilons = 4 * nsvcd__epsilon(p) + nsvcd__pose_error(p, t);
-  const double kept = fmax(NSVCD__SET_DOWN * p->push.slop, epsilons);
-  const nsvcd__d3 least = nsvcd__push_out(&p->push, kept, 1);
+  const double epsilons = 4 * nsvcd__epsilon(&w->p) + nsvcd__pose_error(&w->p, t);
+  const double kept = fmax(NSVCD__SET_DOWN * w->p.push.slop, epsilons);
+  const nsvcd__d3 least = nsvcd__push_out(&w->p.push, kept, 1);
   const nsvcd__d3 by = nsvcd__d3_sub(push_out, least);
   const double length = nsvcd__d3_norm(by);
   if (!(nsvcd__d3_dot(by, push_out) > 0) || !(length > kept)) return push_out;
@@ -19042,10 +19048,10 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, nsvcd__goa
   down.push_out = nsvcd__f3_of(0, 0, 0);
   goal.motion = &down;
   goal.fraction = kept / length;
-  goal.limit = p->work + p->given.reserve;
-  const nsvcd__search_result result = nsvcd__search_anew(p, &query->broad_phase, goal);
-  nsvcd__arcs_begin(&p->arcs, whole);
-  const double until = nsvcd__clear_until(p, &result) / (double)down.ticks;
+  goal.limit = w->p.work + w->p.given.reserve;
+  const nsvcd__search_result result = nsvcd__search_anew(w, &query->broad_phase, goal);
+  nsvcd__arcs_begin(&w->p.arcs, whole);
+  const double until = nsvcd__clear_until(w, &result) / (double)down.ticks;
   // All before an unresolved pair is proven, but a query from close to it might not prove it again.
   const double clear = result.unresolved < result.end ? until - 0.5 * goal.fraction : until;
   return nsvcd__d3_sub(push_out, nsvcd__d3_scale(by, fmin(fmax(clear, 0), 1)));
@@ -19082,10 +19088,10 @@ static NSVCD__NOINLINE int nsvcd__manifold_normals(nsvcd__proof *p,
   nsvcd__approach_at(p, found, found->tick, &now);
   memset(twist, 0, sizeof *twist);
   if (found->tick > 0) *twist = now.twist;
-  p->of.kept.manifold.normal = normals[0] = found->normal;
-  const nsvcd__facing facing = nsvcd__facing_of(p, &now.pair, now.contact.moving);
+  normals[0] = found->normal;
+  const nsvcd__facing f = nsvcd__facing_of(p, found->normal, &now.pair, now.contact.moving);
   for (int k = 1; k >= 0; k--) {
-    const nsvcd__d3 n = facing.faces[k];
+    const nsvcd__d3 n = f.faces[k];
     const nsvcd__d3 all[2] = {found->normal, found->normal};
     int is_new = nsvcd__d3_dot(n, found->normal) > -0.1;
     is_new &= !nsvcd__is_left(twist, found->point, n, all);
@@ -19101,33 +19107,33 @@ static NSVCD__NOINLINE int nsvcd__manifold_normals(nsvcd__proof *p,
 static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd__goal goal,
                                                   const nsvcd__pair_contact *found,
                                                   nsvcd_answer *answer) {
-  nsvcd__proof *p = query->proof;
+  nsvcd__solver *w = query->solver;
   const nsvcd__task *task = &query->task;
-  const double epsilon = nsvcd__epsilon(p);
-  const double same = epsilon + 1e-5 * (double)p->given.lengths;
+  const double epsilon = nsvcd__epsilon(&w->p);
+  const double same = epsilon + 1e-5 * (double)w->p.given.lengths;
   const float radius = task->motion.scale * task->moving->radius;
   const double extent = (double)fminf(radius, task->fixed->radius);
-  const nsvcd__manifold *m = &p->of.kept.manifold;
+  nsvcd__manifold *m = &w->p.of.kept.manifold;
   nsvcd__d3 normals[3];
   double widest = -1;
   nsvcd_pose poses[2];
   nsvcd__twist twist;
-  int tries = nsvcd__manifold_normals(p, found, &twist, normals);
+  int tries = nsvcd__manifold_normals(&w->p, found, &twist, normals);
   nsvcd__motion still = nsvcd__rest_at(task, (double)answer->nearest.time, poses);
   nsvcd__motion *whole = goal.motion;
   goal.motion = &still;
   goal.collects = NSVCD__SUPPORTING;
-  goal.clearance = p->given.clearance + fmax(nsvcd__to_of(task), 4 * epsilon);
-  goal.limit = p->work + p->given.reserve;
-  (void)nsvcd__search_anew(p, &query->broad_phase, goal);
+  goal.clearance = w->p.given.clearance + fmax(nsvcd__to_of(task), 4 * epsilon);
+  goal.limit = w->p.work + w->p.given.reserve;
+  (void)nsvcd__search_anew(w, &query->broad_phase, goal);
   for (int k = 0; k < tries; k++) {
     int chosen[NSVCD_MAX_CONTACTS];
     double area;
-    nsvcd__manifold_begin(p, normals[k], &twist, goal.clearance, same);
-    NSVCD__KERNEL(p->isa, seek_positions)(p, 0, NSVCD__AROUND);
+    nsvcd__manifold_begin(m, normals[k], &twist, goal.clearance, same);
+    NSVCD__KERNEL(w->isa, seek_positions)(w, 0, NSVCD__AROUND);
     int count = nsvcd__choose_four(m, chosen, &area);
-    if (nsvcd__seek_across(&p->of.kept.manifold, area)) {
-      NSVCD__KERNEL(p->isa, seek_positions)(p, NSVCD__AROUND, NSVCD__SUPPORTS);
+    if (nsvcd__seek_across(m, area)) {
+      NSVCD__KERNEL(w->isa, seek_positions)(w, NSVCD__AROUND, NSVCD__SUPPORTS);
       count = nsvcd__choose_four(m, chosen, &area);
     }
     if (count == 0 || !(area > 1.001 * widest)) continue;
@@ -19142,7 +19148,7 @@ static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd__go
       answer->contacts[n].id = m->numbers[chosen[n]] ^ (uint32_t)task->swapped;
     }
   }
-  nsvcd__arcs_begin(&p->arcs, whole);
+  nsvcd__arcs_begin(&w->p.arcs, whole);
 }
 
 // Writes where the bodies may go, which are proven free until answer->time.low, and how deep they
@@ -19150,13 +19156,13 @@ static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd__go
 static NSVCD__NOINLINE void nsvcd__write_safe_pose(nsvcd__query *query, nsvcd__goal goal,
                                                    int starts_free, nsvcd_answer *answer) {
   const nsvcd__task *task = &query->task;
-  const nsvcd__proof *p = query->proof;
+  const nsvcd__solver *w = query->solver;
   const double t = (double)answer->safe.time;
   nsvcd__d3 push_out = nsvcd__d3_widen(task->motion.push_out);
   const int is_pushed = nsvcd__d3_dot(push_out, push_out) > 0;
-  const int may_go = is_pushed && !p->inside && !p->unclear;
-  if (is_pushed && !p->inside) {
-    const double depth = nsvcd__d3_norm(nsvcd__push_out(&p->push, 0, 1));
+  const int may_go = is_pushed && !w->inside && !w->unclear;
+  if (is_pushed && !w->inside) {
+    const double depth = nsvcd__d3_norm(nsvcd__push_out(&w->p.push, 0, 1));
     answer->depth = (float)(depth * (double)task->motion.unit);
   } else if (!is_pushed && (answer->time.low > 0 || starts_free)) {
     answer->depth = 0;
@@ -19168,11 +19174,10 @@ static NSVCD__NOINLINE void nsvcd__write_safe_pose(nsvcd__query *query, nsvcd__g
 }
 
 // Writes until when the motion is proven free, and up to which time the bodies may go.
-static void nsvcd__write_time(nsvcd__proof *p, const nsvcd__search_result *result,
-                              nsvcd_answer *answer) {
+static void nsvcd__write_time(nsvcd__proof *p, double clear_until, nsvcd_answer *answer) {
   const nsvcd__motion *motion = p->arcs.motion;
   const double ticks = (double)motion->ticks;
-  const double until = fmin(fmax(nsvcd__clear_until(p, result) / ticks, 0), 1);
+  const double until = fmin(fmax(clear_until / ticks, 0), 1);
   const double late = (double)answer->time.high - until;
   answer->time.low = (float)(until * (1 - 1e-7));
   if (late > p->given.fraction * 1.0001 + 1e-6) answer->why = NSVCD_WHY_WORK;
@@ -19202,12 +19207,12 @@ static void nsvcd__write_distance(const nsvcd__proof *p, nsvcd_verdict verdict,
 
 // Why not all is answered; `why` unless there is a better reason. Neither work nor finer triangles
 // would tell what is in an open solid.
-static nsvcd_why nsvcd__why_of(const nsvcd__proof *p, nsvcd_why why, int is_wide,
+static nsvcd_why nsvcd__why_of(const nsvcd__solver *w, nsvcd_why why, int is_wide,
                                nsvcd_verdict verdict, const nsvcd__search_result *result) {
   const int is_too_near =
-      result->unresolved < NSVCD__NEVER || p->unclear == NSVCD__CANNOT_TELL;
+      result->unresolved < NSVCD__NEVER || w->unclear == NSVCD__CANNOT_TELL;
   if (is_wide || verdict == NSVCD_UNDECIDED) why = NSVCD_WHY_WORK;
-  if (why && p->in_open) return NSVCD_WHY_OPEN;
+  if (why && w->in_open) return NSVCD_WHY_OPEN;
   return why && !is_wide && is_too_near ? NSVCD_WHY_TOO_NEAR : why;
 }
 
@@ -19225,22 +19230,24 @@ static void nsvcd__write_push_out(const nsvcd__motion *motion, nsvcd_answer *ans
 static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   const nsvcd__task *task = &query->task;
   nsvcd__search *search = &query->broad_phase;
-  nsvcd__proof *p = query->proof;
+  nsvcd__solver *w = query->solver;
   const nsvcd__goal goal = nsvcd__proof_begin(query);
-  const nsvcd__given *given = &p->given;
+  const nsvcd__given *given = &w->p.given;
   nsvcd__bracket bracket = {0, HUGE_VAL, 0};
   nsvcd__search_result result;
-  if (given->slop > 0) nsvcd__push_out_motion(p, search, goal);
-  nsvcd__finding finding = nsvcd__prove(p, search, goal, &result);
+  if (given->slop > 0) nsvcd__push_out_motion(w, search, goal);
+  nsvcd__finding finding = nsvcd__prove(w, search, goal, &result);
   if (given->width > 0 && finding != NSVCD__FOUND_INSIDE) {
-    bracket = nsvcd__measure(p, search, goal, finding, &result);
+    bracket = nsvcd__measure(w, search, goal, finding, &result);
     // A distance decides what was left undecided, but says nothing of containment.
     const int meets = result.has_contact && result.found.distance <= given->clearance;
     const int is_beyond = bracket.low > 0 && bracket.low >= given->clearance;
-    const int is_clear = is_beyond && !p->unclear && !p->inside;
+    const int is_clear = is_beyond && !w->unclear && !w->inside;
     if (finding == NSVCD__FOUND_UNDECIDED && (meets || is_clear))
       finding = meets ? NSVCD__FOUND_CONTACT : NSVCD__FOUND_FREE;
   }
+
+  const double until = nsvcd__clear_until(w, &result);
 
   // The answer names the triangles of a contact, or else of an unresolved pair.
   const int is_inside = finding == NSVCD__FOUND_INSIDE;
@@ -19251,7 +19258,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   const nsvcd_verdict verdict = finding == NSVCD__FOUND_FREE ? NSVCD_FREE
                                 : is_inside || is_contact    ? NSVCD_HIT
                                                              : NSVCD_UNDECIDED;
-  if (names) nsvcd__resolve_normal(p, &result);
+  if (names) nsvcd__resolve_normal(&w->p, until, &result);
   nsvcd__answer_begin(task, verdict, answer);
   answer->inside = is_inside;
   if (names || is_inside) nsvcd__write_contact(query, &result.found, &answer->nearest);
@@ -19259,18 +19266,18 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   if (verdict == NSVCD_HIT) answer->time.high = answer->nearest.time;
   if (is_contact) answer->contacts[answer->contact_count++] = answer->nearest;
   if (given->fraction > 0 && verdict != NSVCD_FREE && !is_inside)
-    nsvcd__write_time(p, &result, answer);
-  nsvcd__write_distance(p, verdict, &bracket, names ? &result : NULL, answer);
+    nsvcd__write_time(&w->p, until, answer);
+  nsvcd__write_distance(&w->p, verdict, &bracket, names ? &result : NULL, answer);
   if (is_inside) answer->distance.high = 0;
   // A contact, found or moved to where it is nearer, may have made the bracket narrow enough.
   const double high = names ? result.found.distance : bracket.high;
   const int is_wide = bracket.is_wide && high - bracket.low > given->width;
-  answer->why = nsvcd__why_of(p, answer->why, is_wide, verdict, &result);
+  answer->why = nsvcd__why_of(w, answer->why, is_wide, verdict, &result);
   nsvcd__write_push_out(&task->motion, answer);
   if (task->question->manifold && is_contact)
     nsvcd__write_manifold(query, goal, &result.found, answer);
   nsvcd__write_safe_pose(query, goal, result.starts_free, answer);
-  answer->work = p->work;
+  answer->work = w->p.work;
 }
 #endif  // NSVCD_NO_PROOF
 

@@ -11,7 +11,7 @@ static nsvcd__query *any_query(void) {
   nsvcd__query *query = (nsvcd__query *)(void *)memory;
   (void)nsvcd__query_layout(&needs, memory);
 #ifndef NSVCD_NO_PROOF
-  query->proof->intervals = query->intervals;
+  query->solver->intervals = query->intervals;
 #endif
   return query;
 }

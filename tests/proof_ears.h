@@ -61,15 +61,18 @@ static proof_record *proof_heard(int kind, size_t i, size_t j, size_t a, size_t 
 }
 
 // Where all memory may be lost: between patch pairs, and between parts of one.
-static void proof_may_lose(nsvcd__proof *p) {
+static void proof_may_lose(nsvcd__solver *w) {
   static uint32_t random = 1;
   if (heard.forgetful == 0) return;
   random = random * 1664525u + 1013904223u;
   if ((random >> 8) % heard.forgetful) return;
   heard.forgotten++;
-  p->arcs.arc.ticks = 0;
-  memset(&p->memo, 0, sizeof p->memo);
-  memset(p->arcs.poses, 0, sizeof p->arcs.poses);
+  w->p.arcs.arc.ticks = 0;
+  w->p.separating = nsvcd__d3_of(0, 0, 0);
+  w->p.shared = w->blocks.window = 0;
+  w->blocks.has_block = 0;
+  memset(&w->memo, 0, sizeof w->memo);
+  memset(w->p.arcs.poses, 0, sizeof w->p.arcs.poses);
 }
 
 // The time of a tick, t in [0,1].
@@ -80,12 +83,14 @@ static double proof_time(const nsvcd__proof *p, double tick) {
 static double proof_time_in_arc(const nsvcd__proof *p, double u) {
   return proof_time(p, (double)p->arcs.arc.first + u * (double)p->arcs.arc.ticks);
 }
-#define nsvcd__segment_interval(p, q, s)                                          \
-  (heard.start = proof_time(p, (double)(q)->begin[s]),                            \
-   heard.end = proof_time(p, fmin((double)(q)->begin[(s) + 1u], (p)->known.end)), \
+// A proof is the first of its solver.
+#define proof_solver(p) ((nsvcd__solver *)(p))
+#define nsvcd__segment_interval(p, q, s)                                                          \
+  (heard.start = proof_time(&(p)->p, (double)(q)->begin[s]),                                  \
+   heard.end = proof_time(&(p)->p, fmin((double)(q)->begin[(s) + 1u], (p)->p.known.end)), \
    nsvcd__segment_interval(p, q, s))
 #define nsvcd__interval_of_arc(p, first, u0, u1)                                 \
-  (proof_may_lose(p), (void)nsvcd__arc_at(&(p)->arcs, first),                    \
+  (proof_may_lose(proof_solver(p)), (void)nsvcd__arc_at(&(p)->arcs, first),      \
    heard.start = proof_time_in_arc(p, u0), heard.end = proof_time_in_arc(p, u1), \
    nsvcd__interval_of_arc(p, first, u0, u1))
 #include "../src/separate/slabs.h"
@@ -101,29 +106,30 @@ static void proof_heard_slabs(int kind, const nsvcd__interval *over, size_t i, s
   proof_heard(kind, i, j, 0, 0, nsvcd__d3_widen(fixed))->normals[1] =
       nsvcd__d3_widen(nsvcd__f3_add(start, end));
 }
-static uint32_t proof_slabs_meet(nsvcd__proof *p, const nsvcd__search *q, size_t g, size_t j,
+static uint32_t proof_slabs_meet(nsvcd__solver *w, const nsvcd__search *q, size_t g, size_t j,
                                  size_t s, uint32_t met) {
-  const uint32_t left = nsvcd__slabs_meet(p, q, g, j, s, met);
-  const nsvcd__interval *over = nsvcd__segment_interval(p, q, s);
-  const nsvcd__slab fixed = nsvcd__slab_at(p->fixed.slabs, p->fixed.body->padded, j);
+  const uint32_t left = nsvcd__slabs_meet(w, q, g, j, s, met);
+  const nsvcd__interval *over = nsvcd__segment_interval(w, q, s);
+  const nsvcd__slab fixed = nsvcd__slab_at(w->p.fixed.slabs, w->p.fixed.body->padded, j);
   for (uint32_t apart = met & ~left; apart; apart &= apart - 1) {
     const size_t i = NSVCD__GROUP * g + nsvcd__low_bit(apart);
-    if (i >= p->moving.body->patches) continue;
-    const nsvcd__slab moving = nsvcd__slab_at(p->moving.slabs, p->moving.body->padded, i);
+    if (i >= w->p.moving.body->patches) continue;
+    const nsvcd__slab moving =
+        nsvcd__slab_at(w->p.moving.slabs, w->p.moving.body->padded, i);
     proof_heard_slabs(HEARD_SLABS, over, i, j, moving.normal, fixed.normal);
   }
   return left;
 }
 // All members of two groups are separated in a segment.
-static void proof_heard_groups(nsvcd__proof *p, const nsvcd__search *q, size_t g, size_t h,
+static void proof_heard_groups(nsvcd__solver *w, const nsvcd__search *q, size_t g, size_t h,
                                size_t s) {
-  const nsvcd_body *moving = p->moving.body;
-  const nsvcd_body *fixed = p->fixed.body;
+  const nsvcd_body *moving = w->p.moving.body;
+  const nsvcd_body *fixed = w->p.fixed.body;
   const nsvcd__slab own =
-      nsvcd__slab_at(p->moving.group_slabs, nsvcd__group_slots(moving->padded), g);
+      nsvcd__slab_at(w->p.moving.group_slabs, nsvcd__group_slots(moving->padded), g);
   const nsvcd__slab other =
-      nsvcd__slab_at(p->fixed.group_slabs, nsvcd__group_slots(fixed->padded), h);
-  const nsvcd__interval *over = nsvcd__segment_interval(p, q, s);
+      nsvcd__slab_at(w->p.fixed.group_slabs, nsvcd__group_slots(fixed->padded), h);
+  const nsvcd__interval *over = nsvcd__segment_interval(w, q, s);
   for (size_t k = 0; k < NSVCD__GROUP * NSVCD__GROUP; k++) {
     const size_t i = NSVCD__GROUP * g + k / NSVCD__GROUP;
     const size_t j = NSVCD__GROUP * h + k % NSVCD__GROUP;
@@ -131,26 +137,26 @@ static void proof_heard_groups(nsvcd__proof *p, const nsvcd__search *q, size_t g
       proof_heard_slabs(HEARD_GROUPS, over, i, j, own.normal, other.normal);
   }
 }
-static void proof_separate_groups(nsvcd__proof *p, nsvcd__search *q) {
+static void proof_separate_groups(nsvcd__solver *w, nsvcd__search *q) {
   const size_t next = q->order[q->step];
   const uint64_t *nearby = nsvcd__nearby(q, next);
   uint64_t before[NSVCD__TILE];
   uint32_t waiting = q->waiting;
   memcpy(before, nearby, q->fixed_tile.count * sizeof *before);
-  nsvcd__separate_groups(p, q);
+  nsvcd__separate_groups(&w->p, q);
   for (; waiting; waiting &= waiting - 1) {
     const size_t at = nsvcd__low_bit(waiting);
     for (size_t s = 0; s < q->segments; s++) {
       if ((before[at] & ~nearby[at]) >> s & 1)
-        proof_heard_groups(p, q, q->moving_tile.groups[next], q->fixed_tile.groups[at], s);
+        proof_heard_groups(w, q, q->moving_tile.groups[next], q->fixed_tile.groups[at], s);
     }
   }
 }
 #define nsvcd__slabs_meet proof_slabs_meet
-#define nsvcd__separate_groups proof_separate_groups
+#define nsvcd__separate_groups(p, q) proof_separate_groups(proof_solver(p), q)
 
-static int proof_heard_hulls(int kind, const nsvcd__proof *p, size_t i, size_t j, int apart) {
-  if (apart) proof_heard(kind, i, j, 0, 0, nsvcd__d3_widen(p->memo.held));
+static int proof_heard_hulls(int kind, const nsvcd__solver *w, size_t i, size_t j, int apart) {
+  if (apart) proof_heard(kind, i, j, 0, 0, nsvcd__d3_widen(w->memo.held));
   return apart;
 }
 #define nsvcd__hulls_are_apart(p, i, j, over) \
@@ -160,28 +166,28 @@ static int proof_heard_hulls(int kind, const nsvcd__proof *p, size_t i, size_t j
                                         nsvcd__held_again(p, q, pair)))
 
 // Lanes of the moving block, or lane l of it, and lanes of a fixed one, by a plane with the normal.
-static void proof_heard_lanes(int kind, const nsvcd__proof *p, const nsvcd__block *fixed, size_t l,
+static void proof_heard_lanes(int kind, const nsvcd__solver *w, const nsvcd__block *fixed, size_t l,
                               uint32_t apart, nsvcd__d3 normal) {
-  const nsvcd__block *moving = &p->moving_block;
+  const nsvcd__block *moving = &w->blocks.moving;
   for (; apart; apart &= apart - 1)
     proof_heard(kind, moving->patch, fixed->patch, moving->first + l,
                 fixed->first + nsvcd__low_bit(apart), normal);
 }
-static uint32_t proof_heard_blocks(const nsvcd__proof *p, const nsvcd__block *fixed,
+static uint32_t proof_heard_blocks(const nsvcd__solver *w, const nsvcd__block *fixed,
                                    uint32_t left) {
-  for (size_t l = 0; l < p->moving_block.count; l++) {
+  for (size_t l = 0; l < w->blocks.moving.count; l++) {
     const uint32_t apart = left >> l & 1 ? 0 : nsvcd__block_lanes(fixed);
-    proof_heard_lanes(HEARD_BLOCKS, p, fixed, l, apart, p->memo.separating);
+    proof_heard_lanes(HEARD_BLOCKS, w, fixed, l, apart, w->p.separating);
   }
   return left;
 }
-static uint32_t proof_heard_last(const nsvcd__proof *p, const nsvcd__block *fixed, size_t l,
+static uint32_t proof_heard_last(const nsvcd__solver *w, const nsvcd__block *fixed, size_t l,
                                  uint32_t met, uint32_t left) {
-  proof_heard_lanes(HEARD_LAST, p, fixed, l, met & ~left, p->memo.separating);
+  proof_heard_lanes(HEARD_LAST, w, fixed, l, met & ~left, w->p.separating);
   return left;
 }
 // By the first of the normals whose plane does, or none: by boxes.
-static uint32_t proof_heard_row(nsvcd__proof *p, nsvcd__block *fixed, size_t l, float margin,
+static uint32_t proof_heard_row(nsvcd__solver *w, nsvcd__block *fixed, size_t l, float margin,
                                 uint32_t left) {
   for (uint32_t apart = nsvcd__block_lanes(fixed) & ~left; apart; apart &= apart - 1) {
     const uint32_t one = apart & (~apart + 1);
@@ -189,9 +195,9 @@ static uint32_t proof_heard_row(nsvcd__proof *p, nsvcd__block *fixed, size_t l, 
     const size_t s = n / NSVCD__SLICE * NSVCD__SLICE;
     float normals[3][NSVCD__LANES] = {{0}};
     size_t k = 0;
-    while (k < NSVCD__NORMALS && nsvcd__left_by_normal(p, l, fixed, k, margin, one)) k++;
-    if (k < NSVCD__NORMALS) nsvcd__v3_store(normals, s, nsvcd__normal_to_try(p, l, fixed, s, k));
-    proof_heard_lanes(HEARD_ROWS, p, fixed, l, one, nsvcd__d3_widen(nsvcd__lane_of(normals, n)));
+    while (k < NSVCD__NORMALS && nsvcd__left_by_normal(w, l, fixed, k, margin, one)) k++;
+    if (k < NSVCD__NORMALS) nsvcd__v3_store(normals, s, nsvcd__normal_to_try(w, l, fixed, s, k));
+    proof_heard_lanes(HEARD_ROWS, w, fixed, l, one, nsvcd__d3_widen(nsvcd__lane_of(normals, n)));
   }
   return left;
 }
@@ -206,7 +212,7 @@ static uint32_t proof_heard_row(nsvcd__proof *p, nsvcd__block *fixed, size_t l, 
 static void proof_heard_pair(int kind, const nsvcd__proof *p, const nsvcd__triangle_pair *pair,
                              size_t a, size_t b, double u0, double u1) {
   proof_record *r =
-      proof_heard(kind, pair->moving_patch, pair->fixed_patch, a, b, p->memo.separating);
+      proof_heard(kind, pair->moving_patch, pair->fixed_patch, a, b, p->separating);
   r->start = proof_time_in_arc(p, u0);
   r->end = proof_time_in_arc(p, u1);
 }
@@ -225,7 +231,7 @@ static int proof_heard_patches(const nsvcd__proof *p, const nsvcd__triangle_pair
 // of that, a tenth shorter each time, it separates them.
 static void proof_ask_plane(nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0,
                             double u1) {
-  const nsvcd__d3 before = p->memo.separating;
+  const nsvcd__d3 before = p->separating;
   const double middle = 0.5 * (u0 + u1);
   const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
   double half = 0.5 * (u1 - u0);
@@ -236,7 +242,7 @@ static void proof_ask_plane(nsvcd__proof *p, const nsvcd__triangle_pair *pair, d
   if (half > 1e-3 * (u1 - u0))
     proof_heard_pair(HEARD_PAIRS, p, pair, pair->moving_entry, pair->fixed_entry, middle - half,
                      middle + half);
-  p->memo.separating = before;
+  p->separating = before;
 }
 static nsvcd__outcome proof_resolve_pair(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
                                          double u0, double u1) {

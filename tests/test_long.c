@@ -392,12 +392,12 @@ static void long_open_intervals_stay(void) {
     nsvcd__query *query = nsvcd__query_open(NSVCD__FLAGS, &q, workspace);
     nsvcd__search_result result;
     nsvcd__goal goal = nsvcd__proof_begin(query);
-    nsvcd__proof *p = query->proof;
+    nsvcd__proof *p = &query->solver->p;
     p->given.work = goal.limit = goal.most = units;
     p->given.reserve = units / NSVCD__AFTER_UNRESOLVED;
-    const nsvcd__finding verdict = nsvcd__prove(p, &query->broad_phase, goal, &result);
+    const nsvcd__finding verdict = nsvcd__prove(query->solver, &query->broad_phase, goal, &result);
     CHECK_EQ(verdict, trial / 2 ? NSVCD__FOUND_CONTACT : NSVCD__FOUND_UNDECIDED);
-    CHECK_LE(nsvcd__clear_until(p, &result), 0.2 * (double)goal.motion->ticks);
+    CHECK_LE(nsvcd__clear_until(query->solver, &result), 0.2 * (double)goal.motion->ticks);
     if (trial / 2) CHECK_GE(result.found.tick, 0.99 * (double)goal.motion->ticks);
     CHECK_LE((double)p->work, 64 * 200);
   }

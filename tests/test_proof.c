@@ -1017,46 +1017,48 @@ static void proof_any_motion_of_both(shapes_rng *rng, proof_motion *m) {
 
 // A segment, as the proof has it where nothing has been found.
 static nsvcd__interval proof_segment(nsvcd__motion *motion, const nsvcd__search *work, size_t s) {
-  static nsvcd__proof proof;
+  static nsvcd__solver solver;
   static nsvcd__interval spans[NSVCD__MAX_SEGMENTS];
-  proof.intervals = spans;
-  proof.arcs.motion = motion;
-  proof.known.end = HUGE_VAL;
-  proof.memo.intervals = 0;
-  return *nsvcd__segment_interval(&proof, work, s);
+  solver.intervals = spans;
+  solver.p.arcs.motion = motion;
+  solver.p.known.end = HUGE_VAL;
+  solver.memo.intervals = 0;
+  return *nsvcd__segment_interval(&solver, work, s);
 }
 
 // A segment that is cut off somewhere, as where a first contact ends the motion.
 static nsvcd__interval proof_any_clip(shapes_rng *rng, nsvcd__motion *motion, nsvcd__search *work) {
-  static nsvcd__proof proof;
+  static nsvcd__solver solver;
   static nsvcd__interval spans[NSVCD__MAX_SEGMENTS];
   size_t s = 0;
-  proof.intervals = spans;
-  proof.arcs.motion = motion;
-  proof.arcs.arc.ticks = 0;
-  proof.clipped = proof.memo.intervals = 0;
-  proof.memo.plane = 0;
-  proof.clipped_end = HUGE_VAL;
+  solver.intervals = spans;
+  solver.p.arcs.motion = motion;
+  solver.p.arcs.arc.ticks = 0;
+  solver.clipped = solver.memo.intervals = 0;
+  solver.memo.plane = 0;
+  solver.clipped_end = HUGE_VAL;
   for (int k = 0; k < 3; k++) {  // more than once: what is allowed doubles only once
-    proof.known.end = shapes_uniform(rng, 0, 1) * fmin(proof.clipped_end, (double)motion->ticks);
-    nsvcd__clip_segment(&proof, work);
+    solver.p.known.end =
+        shapes_uniform(rng, 0, 1) * fmin(solver.clipped_end, (double)motion->ticks);
+    nsvcd__clip_segment(&solver, work);
   }
-  while (s + 1 < work->segments && (double)work->begin[s + 1] <= proof.known.end) s++;
-  return *nsvcd__segment_interval(&proof, work, s);
+  while (s + 1 < work->segments && (double)work->begin[s + 1] <= solver.p.known.end) s++;
+  return *nsvcd__segment_interval(&solver, work, s);
 }
 
 // A part of some arc, as the proof halves them.
 static nsvcd__interval proof_any_arc(shapes_rng *rng, nsvcd__motion *motion, float lengths) {
-  static nsvcd__proof proof;
+  static nsvcd__solver solver;
+  nsvcd__proof *proof = &solver.p;
   double u;
-  proof.arcs.motion = motion;
-  proof.given.lengths = lengths;
-  proof.arcs.arc.ticks = 0;
+  proof->arcs.motion = motion;
+  proof->given.lengths = lengths;
+  proof->arcs.arc.ticks = 0;
   const uint32_t first =
       nsvcd__arc_of(motion, shapes_uniform(rng, 0, 1) * (double)motion->ticks, &u);
   const double length = pow(2, -shapes_pick(rng, 12));
   const double start = shapes_uniform(rng, 0, 1 - length);
-  return nsvcd__interval_of_arc(&proof, first, start, start + length);
+  return nsvcd__interval_of_arc(proof, first, start, start + length);
 }
 
 // Part 3 of the theorem, by itself: between the ends of a segment every point is as near to its
@@ -2135,7 +2137,7 @@ static void proof_rays_miss_nothing(void) {
     for (int trial = 0; trial < 6000; trial++) {
       const nsvcd__ray ray = proof_ray_at_edge(&rng, &f, 1e-13);
       int unclear_in_double = 0;
-      const nsvcd__crossings sum = nsvcd__cross_all(query->proof, &f, &ray);
+      const nsvcd__crossings sum = nsvcd__cross_all(query->solver, &f, &ray);
       const int in_double = proof_crossings(&f, &ray, &unclear_in_double);
       clear += !unclear_in_double;
       wrong += sum.unclear != unclear_in_double;

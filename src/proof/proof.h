@@ -157,6 +157,19 @@ typedef struct nsvcd__block {
   size_t patch, first, count;  // entries
 } nsvcd__block;
 
+// The triangles of a patch pair, block by block, with boxes about the fixed blocks.
+typedef struct nsvcd__blocks {
+  nsvcd__block moving, fixed[NSVCD__WINDOW];
+  nsvcd__box bounds[NSVCD__WINDOW];
+  // The moving block's corners at the start and at the end of the interval `over` (corner, axis,
+  // lane); without an interval, NULL, 3 of them at one pose.
+  const nsvcd__interval *over;
+  float corners[6][3][NSVCD__LANES];
+  // Only remembered, as a memo: blocks of a fixed patch in `fixed`; is one in `moving`?
+  size_t corner_count, window;
+  int has_block;
+} nsvcd__blocks;
+
 typedef struct nsvcd__pair_contact {
   double tick;      // when
   double distance;  // of the triangles
@@ -304,8 +317,9 @@ typedef struct nsvcd__search_result {
   int starts_free;
 } nsvcd__search_result;
 
-// What is only remembered. It may be forgotten between patch pairs and between parts of one: what
-// is proven is as true then, and only the work may differ. All zeros: nothing is remembered.
+// What is only remembered of patch pairs. It may be forgotten between patch pairs and between parts
+// of one: what is proven is as true then, and only the work may differ. All zeros: nothing is
+// remembered.
 typedef struct nsvcd__memo {
   // segments that have been made intervals
   uint64_t intervals;
@@ -314,13 +328,6 @@ typedef struct nsvcd__memo {
   nsvcd__f3 held;
   uint32_t plane;
   nsvcd__height heights[NSVCD__HEIGHTS], fixed_heights[NSVCD__FIXED_HEIGHTS];
-  // the unit normal of the plane that separated a triangle pair last
-  nsvcd__d3 separating;
-  // triangle pairs in a row that it has separated since
-  size_t shared;
-  // blocks of a fixed patch in p->fixed_blocks; is one in p->moving_block?
-  size_t window;
-  int has_block;
 } nsvcd__memo;
 
 // With a slop: what the moving body touches at the start, and how that is undone.
@@ -338,27 +345,49 @@ typedef struct nsvcd__push_outs {
   double slop;  // how deep a contact may be that is undone
 } nsvcd__push_outs;
 
+// What two triangles need, and all that the floor `triangles` may write: the bodies and the
+// question, which stay as they are given; the goal of the search now or the last one, and what it
+// has found. Everywhere it is called p.
 typedef struct nsvcd__proof {
-  nsvcd__isa isa;  // whose kernels search
   nsvcd__geometry moving, fixed;
   nsvcd__given given;
-  // of the search now or the last one: its motion, in whose last arc patch pairs and triangle pairs
-  // are resolved; what is asked, and what is known
+  // the goal's motion, in whose last arc patch pairs and triangle pairs are resolved
   nsvcd__arcs arcs;
   nsvcd__goal goal;
   nsvcd__search_result known;
-  nsvcd__memo memo;
   size_t work;
+  // Only remembered, as a memo: the unit normal of the plane that separated a triangle pair last.
+  // shared: the triangle pairs in a row that it has separated since.
+  nsvcd__d3 separating;
+  nsvcd__push_outs push;
+  union {
+    struct {
+      // that no plane separates over their segment
+      nsvcd__patch_pair pairs[NSVCD__PATCH_PAIRS];
+      nsvcd__manifold manifold;
+    } kept;
+    // collected before there are any
+    nsvcd__triangle_contact touches[NSVCD__TOUCHES];
+  } of;
+  // A triangle pair over an arc: the ends of the parts to come, the last one first. parts: how
+  // often the interval's triangle pairs have been halved.
+  double pair_ends[NSVCD__HALVINGS + 2];
+  size_t shared, parts;
+} nsvcd__proof;
+
+// What patches need besides, which the floor `separate` writes. Everywhere it is called w, and its
+// proof w->p.
+typedef struct nsvcd__solver {
+  nsvcd__proof p;
+  nsvcd__isa isa;  // whose kernels search
+  nsvcd__memo memo;
 
   // Containment at the start. inside: a component seems to be inside the other body, but close to
   // its surface; enclosed: a point of it, in the fixed body's frame; unclear: it could not be told,
-  int inside;
+  // in_open: since the other is nearly a solid, but not closed.
+  int inside, in_open;
   nsvcd__d3 enclosed;
   nsvcd__unclear unclear;
-  // since the other is nearly a solid, but not closed
-  int in_open;
-
-  nsvcd__push_outs push;
 
   // Segments as intervals (S), where the memo says so. Those that have been clipped, and the end,
   // ticks, at which the last one was.
@@ -369,41 +398,22 @@ typedef struct nsvcd__proof {
   // segments in which 16 fixed patches are met
   uint64_t met_in[NSVCD__GROUP];
   // Patch pairs: as the search finds them, and those that no plane separates over their segment;
-  // and witnesses that were sought in vain.
-  size_t fresh_count, count, misses;
+  // witnesses that were sought in vain; and how often a plane has been tried on all of both
+  // patches.
+  size_t fresh_count, count, misses, all_tried;
   nsvcd__patch_pair fresh[NSVCD__FRESH];
-  union {
-    struct {
-      nsvcd__patch_pair pairs[NSVCD__PATCH_PAIRS];
-      nsvcd__manifold manifold;
-    } kept;
-    // collected before there are any
-    nsvcd__triangle_contact touches[NSVCD__TOUCHES];
-  } of;
 
-  // A patch pair: its hulls, posed, and its triangles, block by block, with boxes about the fixed
-  // blocks.
+  // a patch pair: its hulls, posed, and its triangles
   float hull_start[3][NSVCD__LANES], hull_end[3][NSVCD__LANES], hull_fixed[3][NSVCD__LANES];
-  nsvcd__block moving_block, fixed_blocks[NSVCD__WINDOW];
-  nsvcd__box bounds[NSVCD__WINDOW];
-  // The moving block's corners at the start and at the end of the interval `over` (corner, axis,
-  // lane); without an interval, NULL, 3 of them at one pose.
-  const nsvcd__interval *over;
-  float corners[6][3][NSVCD__LANES];
-  size_t corner_count;
+  nsvcd__blocks blocks;
 
-  // A patch pair over an arc, and a triangle pair: the ends of the parts to come, the last one
-  // first; and how often the interval's triangle pairs have been halved.
+  // A patch pair over an arc: the part now, and the ends of those to come, the last one first
   nsvcd__interval interval;
   double arc_ends[NSVCD__ARC_PARTS];
-  double pair_ends[NSVCD__HALVINGS + 2];
-  size_t parts;
-  // how often a plane has been tried on all of both patches
-  size_t all_tried;
 
   // triangles that a ray has crossed
   uint32_t crossed[NSVCD__CROSSED];
-} nsvcd__proof;
+} nsvcd__solver;
 
 // The limit that allows so many units more, but never more than the question has left.
 static size_t nsvcd__limit_after(const nsvcd__proof *p, const nsvcd__goal *goal,

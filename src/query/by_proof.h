@@ -63,22 +63,22 @@ static nsvcd__goal nsvcd__proof_begin(nsvcd__query *query) {
   const nsvcd__task *task = &query->task;
   const nsvcd_question *q = task->question;
   const double unit = (double)task->motion.unit;
-  nsvcd__proof *p = query->proof;
-  nsvcd__given *given = &p->given;
+  nsvcd__solver *w = query->solver;
+  nsvcd__given *given = &w->p.given;
   nsvcd__goal goal;
   memset(given, 0, sizeof *given);
   memset(&goal, 0, sizeof goal);
-  p->isa = query->isa;
-  p->intervals = query->intervals;
+  w->isa = query->isa;
+  w->intervals = query->intervals;
   goal.motion = &query->task.motion;
-  nsvcd__restart(p, goal.motion);
-  p->moving = nsvcd__geometry_of(nsvcd__triangles_of(task->moving));
-  p->fixed = nsvcd__geometry_of(nsvcd__triangles_of(task->fixed));
-  given->lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
+  nsvcd__restart(w, goal.motion);
+  w->p.moving = nsvcd__geometry_of(nsvcd__triangles_of(task->moving));
+  w->p.fixed = nsvcd__geometry_of(nsvcd__triangles_of(task->fixed));
+  given->lengths = task->motion.scale * w->p.moving.body->extent + w->p.fixed.body->extent;
   given->lengths += nsvcd__pivot_arms(&task->motion);
   given->tolerance = (double)q->tolerance / unit;
-  const double moving_radius = (double)p->moving.counts->convex_radius * task->motion.ratio;
-  given->radius = moving_radius + (double)p->fixed.counts->convex_radius;
+  const double moving_radius = (double)w->p.moving.counts->convex_radius * task->motion.ratio;
+  given->radius = moving_radius + (double)w->p.fixed.counts->convex_radius;
   given->clearance = (double)q->clearance / unit + given->radius;
   goal.clearance = given->clearance;
   given->slop = (double)q->slop / unit;
@@ -88,21 +88,21 @@ static nsvcd__goal nsvcd__proof_begin(nsvcd__query *query) {
   given->reserve = (q->work ? q->work : NSVCD_DEFAULT_WORK) / NSVCD__AFTER_UNRESOLVED;
   given->grows = q->work == 0;
   given->tells = q->ask != NSVCD_ASK_HIT || given->slop > 0;
-  p->work = p->push.normal_count = 0;
-  p->inside = p->in_open = 0;
-  p->unclear = NSVCD__CLEAR;
+  w->p.work = w->p.push.normal_count = 0;
+  w->inside = w->in_open = 0;
+  w->unclear = NSVCD__CLEAR;
   const double to = nsvcd__to_of(task);
   if (q->ask == NSVCD_ASK_DISTANCE) given->width = to;
   if (q->ask == NSVCD_ASK_FIRST) {
     const int by_time = q->to_time > 0 && !(q->to > 0);
     given->to = q->to > 0 ? to : 0;
-    given->fraction = nsvcd__fraction_of(p, by_time ? 0 : to, (double)q->to_time);
+    given->fraction = nsvcd__fraction_of(&w->p, by_time ? 0 : to, (double)q->to_time);
   }
   goal.end = NSVCD__NEVER;
   goal.high = HUGE_VAL;
   goal.fraction = given->fraction;
   goal.after_unresolved = goal.fraction > 0 ? NSVCD__AFTER_FIRST_UNRESOLVED : given->reserve;
-  p->goal = goal;
+  w->p.goal = goal;
   return goal;
 }
 
@@ -111,7 +111,7 @@ static nsvcd__goal nsvcd__proof_begin(nsvcd__query *query) {
 static NSVCD__NOINLINE void nsvcd__write_contact(const nsvcd__query *query,
                                                  const nsvcd__pair_contact *found,
                                                  nsvcd_contact *out) {
-  const nsvcd__proof *p = query->proof;
+  const nsvcd__proof *p = &query->solver->p;
   const nsvcd__task *task = &query->task;
   const nsvcd__motion *motion = &task->motion;
   const int rests = motion->moving.count == 1 && !motion->fixed_moves;
@@ -174,7 +174,7 @@ static double nsvcd__pose_error(const nsvcd__proof *p, double t) {
 // contact. Returns the push-out left. It is proven to be free, and so is the way down to it.
 static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, nsvcd__goal goal,
                                                  double t) {
-  nsvcd__proof *p = query->proof;
+  nsvcd__solver *w = query->solver;
   const nsvcd__task *task = &query->task;
   nsvcd__motion *whole = goal.motion;
   nsvcd__motion down = *whole;
@@ -184,9 +184,9 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, nsvcd__goa
   const nsvcd__track rests = {fixed, NULL, takes_it ? 1u : 2u, 0, 0, 1, NULL};
   const nsvcd__d3 push_out = nsvcd__d3_widen(whole->push_out);
   // Nearer to each other than stored triangles are known, nothing would be separated.
-  const double epsilons = 4 * nsvcd__epsilon(p) + nsvcd__pose_error(p, t);
-  const double kept = fmax(NSVCD__SET_DOWN * p->push.slop, epsilons);
-  const nsvcd__d3 least = nsvcd__push_out(&p->push, kept, 1);
+  const double epsilons = 4 * nsvcd__epsilon(&w->p) + nsvcd__pose_error(&w->p, t);
+  const double kept = fmax(NSVCD__SET_DOWN * w->p.push.slop, epsilons);
+  const nsvcd__d3 least = nsvcd__push_out(&w->p.push, kept, 1);
   const nsvcd__d3 by = nsvcd__d3_sub(push_out, least);
   const double length = nsvcd__d3_norm(by);
   if (!(nsvcd__d3_dot(by, push_out) > 0) || !(length > kept)) return push_out;
@@ -196,10 +196,10 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, nsvcd__goa
   down.push_out = nsvcd__f3_of(0, 0, 0);
   goal.motion = &down;
   goal.fraction = kept / length;
-  goal.limit = p->work + p->given.reserve;
-  const nsvcd__search_result result = nsvcd__search_anew(p, &query->broad_phase, goal);
-  nsvcd__arcs_begin(&p->arcs, whole);
-  const double until = nsvcd__clear_until(p, &result) / (double)down.ticks;
+  goal.limit = w->p.work + w->p.given.reserve;
+  const nsvcd__search_result result = nsvcd__search_anew(w, &query->broad_phase, goal);
+  nsvcd__arcs_begin(&w->p.arcs, whole);
+  const double until = nsvcd__clear_until(w, &result) / (double)down.ticks;
   // All before an unresolved pair is proven, but a query from close to it might not prove it again.
   const double clear = result.unresolved < result.end ? until - 0.5 * goal.fraction : until;
   return nsvcd__d3_sub(push_out, nsvcd__d3_scale(by, fmin(fmax(clear, 0), 1)));
@@ -236,10 +236,10 @@ static NSVCD__NOINLINE int nsvcd__manifold_normals(nsvcd__proof *p,
   nsvcd__approach_at(p, found, found->tick, &now);
   memset(twist, 0, sizeof *twist);
   if (found->tick > 0) *twist = now.twist;
-  p->of.kept.manifold.normal = normals[0] = found->normal;
-  const nsvcd__facing facing = nsvcd__facing_of(p, &now.pair, now.contact.moving);
+  normals[0] = found->normal;
+  const nsvcd__facing f = nsvcd__facing_of(p, found->normal, &now.pair, now.contact.moving);
   for (int k = 1; k >= 0; k--) {
-    const nsvcd__d3 n = facing.faces[k];
+    const nsvcd__d3 n = f.faces[k];
     const nsvcd__d3 all[2] = {found->normal, found->normal};
     int is_new = nsvcd__d3_dot(n, found->normal) > -0.1;
     is_new &= !nsvcd__is_left(twist, found->point, n, all);
@@ -255,33 +255,33 @@ static NSVCD__NOINLINE int nsvcd__manifold_normals(nsvcd__proof *p,
 static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd__goal goal,
                                                   const nsvcd__pair_contact *found,
                                                   nsvcd_answer *answer) {
-  nsvcd__proof *p = query->proof;
+  nsvcd__solver *w = query->solver;
   const nsvcd__task *task = &query->task;
-  const double epsilon = nsvcd__epsilon(p);
-  const double same = epsilon + 1e-5 * (double)p->given.lengths;
+  const double epsilon = nsvcd__epsilon(&w->p);
+  const double same = epsilon + 1e-5 * (double)w->p.given.lengths;
   const float radius = task->motion.scale * task->moving->radius;
   const double extent = (double)fminf(radius, task->fixed->radius);
-  const nsvcd__manifold *m = &p->of.kept.manifold;
+  nsvcd__manifold *m = &w->p.of.kept.manifold;
   nsvcd__d3 normals[3];
   double widest = -1;
   nsvcd_pose poses[2];
   nsvcd__twist twist;
-  int tries = nsvcd__manifold_normals(p, found, &twist, normals);
+  int tries = nsvcd__manifold_normals(&w->p, found, &twist, normals);
   nsvcd__motion still = nsvcd__rest_at(task, (double)answer->nearest.time, poses);
   nsvcd__motion *whole = goal.motion;
   goal.motion = &still;
   goal.collects = NSVCD__SUPPORTING;
-  goal.clearance = p->given.clearance + fmax(nsvcd__to_of(task), 4 * epsilon);
-  goal.limit = p->work + p->given.reserve;
-  (void)nsvcd__search_anew(p, &query->broad_phase, goal);
+  goal.clearance = w->p.given.clearance + fmax(nsvcd__to_of(task), 4 * epsilon);
+  goal.limit = w->p.work + w->p.given.reserve;
+  (void)nsvcd__search_anew(w, &query->broad_phase, goal);
   for (int k = 0; k < tries; k++) {
     int chosen[NSVCD_MAX_CONTACTS];
     double area;
-    nsvcd__manifold_begin(p, normals[k], &twist, goal.clearance, same);
-    NSVCD__KERNEL(p->isa, seek_positions)(p, 0, NSVCD__AROUND);
+    nsvcd__manifold_begin(m, normals[k], &twist, goal.clearance, same);
+    NSVCD__KERNEL(w->isa, seek_positions)(w, 0, NSVCD__AROUND);
     int count = nsvcd__choose_four(m, chosen, &area);
-    if (nsvcd__seek_across(&p->of.kept.manifold, area)) {
-      NSVCD__KERNEL(p->isa, seek_positions)(p, NSVCD__AROUND, NSVCD__SUPPORTS);
+    if (nsvcd__seek_across(m, area)) {
+      NSVCD__KERNEL(w->isa, seek_positions)(w, NSVCD__AROUND, NSVCD__SUPPORTS);
       count = nsvcd__choose_four(m, chosen, &area);
     }
     if (count == 0 || !(area > 1.001 * widest)) continue;
@@ -296,7 +296,7 @@ static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd__go
       answer->contacts[n].id = m->numbers[chosen[n]] ^ (uint32_t)task->swapped;
     }
   }
-  nsvcd__arcs_begin(&p->arcs, whole);
+  nsvcd__arcs_begin(&w->p.arcs, whole);
 }
 
 // Writes where the bodies may go, which are proven free until answer->time.low, and how deep they
@@ -304,13 +304,13 @@ static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd__go
 static NSVCD__NOINLINE void nsvcd__write_safe_pose(nsvcd__query *query, nsvcd__goal goal,
                                                    int starts_free, nsvcd_answer *answer) {
   const nsvcd__task *task = &query->task;
-  const nsvcd__proof *p = query->proof;
+  const nsvcd__solver *w = query->solver;
   const double t = (double)answer->safe.time;
   nsvcd__d3 push_out = nsvcd__d3_widen(task->motion.push_out);
   const int is_pushed = nsvcd__d3_dot(push_out, push_out) > 0;
-  const int may_go = is_pushed && !p->inside && !p->unclear;
-  if (is_pushed && !p->inside) {
-    const double depth = nsvcd__d3_norm(nsvcd__push_out(&p->push, 0, 1));
+  const int may_go = is_pushed && !w->inside && !w->unclear;
+  if (is_pushed && !w->inside) {
+    const double depth = nsvcd__d3_norm(nsvcd__push_out(&w->p.push, 0, 1));
     answer->depth = (float)(depth * (double)task->motion.unit);
   } else if (!is_pushed && (answer->time.low > 0 || starts_free)) {
     answer->depth = 0;
@@ -322,11 +322,10 @@ static NSVCD__NOINLINE void nsvcd__write_safe_pose(nsvcd__query *query, nsvcd__g
 }
 
 // Writes until when the motion is proven free, and up to which time the bodies may go.
-static void nsvcd__write_time(nsvcd__proof *p, const nsvcd__search_result *result,
-                              nsvcd_answer *answer) {
+static void nsvcd__write_time(nsvcd__proof *p, double clear_until, nsvcd_answer *answer) {
   const nsvcd__motion *motion = p->arcs.motion;
   const double ticks = (double)motion->ticks;
-  const double until = fmin(fmax(nsvcd__clear_until(p, result) / ticks, 0), 1);
+  const double until = fmin(fmax(clear_until / ticks, 0), 1);
   const double late = (double)answer->time.high - until;
   answer->time.low = (float)(until * (1 - 1e-7));
   if (late > p->given.fraction * 1.0001 + 1e-6) answer->why = NSVCD_WHY_WORK;
@@ -356,12 +355,12 @@ static void nsvcd__write_distance(const nsvcd__proof *p, nsvcd_verdict verdict,
 
 // Why not all is answered; `why` unless there is a better reason. Neither work nor finer triangles
 // would tell what is in an open solid.
-static nsvcd_why nsvcd__why_of(const nsvcd__proof *p, nsvcd_why why, int is_wide,
+static nsvcd_why nsvcd__why_of(const nsvcd__solver *w, nsvcd_why why, int is_wide,
                                nsvcd_verdict verdict, const nsvcd__search_result *result) {
   const int is_too_near =
-      result->unresolved < NSVCD__NEVER || p->unclear == NSVCD__CANNOT_TELL;
+      result->unresolved < NSVCD__NEVER || w->unclear == NSVCD__CANNOT_TELL;
   if (is_wide || verdict == NSVCD_UNDECIDED) why = NSVCD_WHY_WORK;
-  if (why && p->in_open) return NSVCD_WHY_OPEN;
+  if (why && w->in_open) return NSVCD_WHY_OPEN;
   return why && !is_wide && is_too_near ? NSVCD_WHY_TOO_NEAR : why;
 }
 
@@ -379,22 +378,24 @@ static void nsvcd__write_push_out(const nsvcd__motion *motion, nsvcd_answer *ans
 static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   const nsvcd__task *task = &query->task;
   nsvcd__search *search = &query->broad_phase;
-  nsvcd__proof *p = query->proof;
+  nsvcd__solver *w = query->solver;
   const nsvcd__goal goal = nsvcd__proof_begin(query);
-  const nsvcd__given *given = &p->given;
+  const nsvcd__given *given = &w->p.given;
   nsvcd__bracket bracket = {0, HUGE_VAL, 0};
   nsvcd__search_result result;
-  if (given->slop > 0) nsvcd__push_out_motion(p, search, goal);
-  nsvcd__finding finding = nsvcd__prove(p, search, goal, &result);
+  if (given->slop > 0) nsvcd__push_out_motion(w, search, goal);
+  nsvcd__finding finding = nsvcd__prove(w, search, goal, &result);
   if (given->width > 0 && finding != NSVCD__FOUND_INSIDE) {
-    bracket = nsvcd__measure(p, search, goal, finding, &result);
+    bracket = nsvcd__measure(w, search, goal, finding, &result);
     // A distance decides what was left undecided, but says nothing of containment.
     const int meets = result.has_contact && result.found.distance <= given->clearance;
     const int is_beyond = bracket.low > 0 && bracket.low >= given->clearance;
-    const int is_clear = is_beyond && !p->unclear && !p->inside;
+    const int is_clear = is_beyond && !w->unclear && !w->inside;
     if (finding == NSVCD__FOUND_UNDECIDED && (meets || is_clear))
       finding = meets ? NSVCD__FOUND_CONTACT : NSVCD__FOUND_FREE;
   }
+
+  const double until = nsvcd__clear_until(w, &result);
 
   // The answer names the triangles of a contact, or else of an unresolved pair.
   const int is_inside = finding == NSVCD__FOUND_INSIDE;
@@ -405,7 +406,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   const nsvcd_verdict verdict = finding == NSVCD__FOUND_FREE ? NSVCD_FREE
                                 : is_inside || is_contact    ? NSVCD_HIT
                                                              : NSVCD_UNDECIDED;
-  if (names) nsvcd__resolve_normal(p, &result);
+  if (names) nsvcd__resolve_normal(&w->p, until, &result);
   nsvcd__answer_begin(task, verdict, answer);
   answer->inside = is_inside;
   if (names || is_inside) nsvcd__write_contact(query, &result.found, &answer->nearest);
@@ -413,17 +414,17 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   if (verdict == NSVCD_HIT) answer->time.high = answer->nearest.time;
   if (is_contact) answer->contacts[answer->contact_count++] = answer->nearest;
   if (given->fraction > 0 && verdict != NSVCD_FREE && !is_inside)
-    nsvcd__write_time(p, &result, answer);
-  nsvcd__write_distance(p, verdict, &bracket, names ? &result : NULL, answer);
+    nsvcd__write_time(&w->p, until, answer);
+  nsvcd__write_distance(&w->p, verdict, &bracket, names ? &result : NULL, answer);
   if (is_inside) answer->distance.high = 0;
   // A contact, found or moved to where it is nearer, may have made the bracket narrow enough.
   const double high = names ? result.found.distance : bracket.high;
   const int is_wide = bracket.is_wide && high - bracket.low > given->width;
-  answer->why = nsvcd__why_of(p, answer->why, is_wide, verdict, &result);
+  answer->why = nsvcd__why_of(w, answer->why, is_wide, verdict, &result);
   nsvcd__write_push_out(&task->motion, answer);
   if (task->question->manifold && is_contact)
     nsvcd__write_manifold(query, goal, &result.found, answer);
   nsvcd__write_safe_pose(query, goal, result.starts_free, answer);
-  answer->work = p->work;
+  answer->work = w->p.work;
 }
 #endif  // NSVCD_NO_PROOF

@@ -37,13 +37,13 @@ static nsvcd__twist nsvcd__twist_at(const nsvcd__arc *arc, double u) {
 
 // The arc of a time in ticks; at a keyframe, the arc that ends there: by that one the body came to
 // the contact.
-static const nsvcd__arc *nsvcd__arc_before(nsvcd__proof *p, double tick, double *u) {
-  uint32_t first = nsvcd__arc_of(p->arcs.motion, tick, u);
-  if (first > 0 && tick - (double)first < 6e-8 * (double)p->arcs.motion->ticks) {
-    first = nsvcd__arc_of(p->arcs.motion, (double)first - 0.5, u);
+static const nsvcd__arc *nsvcd__arc_before(nsvcd__arcs *arcs, double tick, double *u) {
+  uint32_t first = nsvcd__arc_of(arcs->motion, tick, u);
+  if (first > 0 && tick - (double)first < 6e-8 * (double)arcs->motion->ticks) {
+    first = nsvcd__arc_of(arcs->motion, (double)first - 0.5, u);
     *u = 1;
   }
-  return nsvcd__arc_at(&p->arcs, first);
+  return nsvcd__arc_at(arcs, first);
 }
 
 // The triangles of a contact at a time, and how the bodies move then.
@@ -57,7 +57,7 @@ typedef struct nsvcd__approach {
 static NSVCD__NOINLINE void nsvcd__approach_at(nsvcd__proof *p,
                                                const nsvcd__pair_contact *found, double tick,
                                                nsvcd__approach *out) {
-  const nsvcd__arc *arc = nsvcd__arc_before(p, tick, &out->u);
+  const nsvcd__arc *arc = nsvcd__arc_before(&p->arcs, tick, &out->u);
   const nsvcd__dtransform at = nsvcd__dtransform_at(arc, out->u);
   out->pair = nsvcd__pair_of(p, found->moving_patch, found->fixed_patch, found->moving_entry,
                              found->fixed_entry);
@@ -177,10 +177,10 @@ static int nsvcd__has_turned(const nsvcd__proof *p, double since, double until) 
 }
 
 // Gives the known contact its normal.
-static NSVCD__NOINLINE void nsvcd__resolve_normal(nsvcd__proof *p,
+static NSVCD__NOINLINE void nsvcd__resolve_normal(nsvcd__proof *p, double clear_until,
                                                   nsvcd__search_result *result) {
   nsvcd__pair_contact *found = &result->found;
-  const double until = nsvcd__max(nsvcd__min(nsvcd__clear_until(p, result), found->tick), 0);
+  const double until = nsvcd__max(nsvcd__min(clear_until, found->tick), 0);
   const double since = p->given.fraction > 0 ? until : 0;
   const int is_free = since > 0 || (p->given.fraction > 0 && result->starts_free);
   nsvcd__approach now;

@@ -4,9 +4,8 @@
 
 #ifndef NSVCD_NO_PROOF
 // Prepares a manifold of contacts with about this normal, unit, of bodies that move like this.
-static void nsvcd__manifold_begin(nsvcd__proof *p, nsvcd__d3 n, const nsvcd__twist *twist,
+static void nsvcd__manifold_begin(nsvcd__manifold *m, nsvcd__d3 n, const nsvcd__twist *twist,
                                   double tolerance, double same) {
-  nsvcd__manifold *m = &p->of.kept.manifold;
   const int flattest = fabs(n.x) < fabs(n.y) ? 0 : 1;
   const nsvcd__d3 aside = nsvcd__d3_of(flattest == 0, flattest == 1, 0);
   const nsvcd__d3 u = nsvcd__d3_unit(nsvcd__d3_cross(n, aside), nsvcd__d3_of(1, 0, 0));

@@ -46,23 +46,23 @@ static void nsvcd__block_load(const nsvcd__geometry *f, size_t patch, size_t fir
 
 // Poses the corners of the moving block at both ends of an interval, and replaces its boxes by
 // those of the posed corners. Without an interval, NULL: at the pose `at` alone.
-static NSVCD__NOINLINE void nsvcd__block_pose(nsvcd__proof *p, const nsvcd__transform *at,
+static NSVCD__NOINLINE void nsvcd__block_pose(nsvcd__blocks *b, const nsvcd__transform *at,
                                               const nsvcd__interval *over) {
-  p->over = over;
-  p->corner_count = over ? 6 : 3;
+  b->over = over;
+  b->corner_count = over ? 6 : 3;
   NSVCD__EACH_SLICE(l) {
     nsvcd__v3 low = nsvcd__v3_set(nsvcd__f3_of(HUGE_VALF, HUGE_VALF, HUGE_VALF));
     nsvcd__v3 high = nsvcd__v3_negate(low);
-    for (size_t k = 0; k < p->corner_count; k++) {
-      const nsvcd__v3 own = nsvcd__v3_load(p->moving_block.corners[k % 3], l);
+    for (size_t k = 0; k < b->corner_count; k++) {
+      const nsvcd__v3 own = nsvcd__v3_load(b->moving.corners[k % 3], l);
       const nsvcd__transform *pose = !over ? at : k < 3 ? &over->start : &over->end;
       const nsvcd__v3 corner = nsvcd__v3_transform(pose, own);
-      nsvcd__v3_store(p->corners[k], l, corner);
+      nsvcd__v3_store(b->corners[k], l, corner);
       low = nsvcd__v3_min(low, corner);
       high = nsvcd__v3_max(high, corner);
     }
-    nsvcd__v3_store(p->moving_block.low, l, low);
-    nsvcd__v3_store(p->moving_block.high, l, high);
+    nsvcd__v3_store(b->moving.low, l, low);
+    nsvcd__v3_store(b->moving.high, l, high);
   }
 }
 
@@ -101,14 +101,15 @@ static nsvcd__box nsvcd__block_bounds(const nsvcd__block *block) {
 
 // Loads up to NSVCD__WINDOW blocks of fixed patch j, from entry `first` on, and the boxes about
 // them. The same patch is often asked for again.
-static void nsvcd__window_load(nsvcd__proof *p, size_t j, size_t first) {
-  const size_t end = p->fixed.first_triangle[j + 1];
-  if (p->memo.window > 0 && p->fixed_blocks[0].first == first) return;
-  p->memo.window = 0;
-  for (size_t n = first; n < end && p->memo.window < NSVCD__WINDOW; n += NSVCD__LANES) {
-    nsvcd__block *block = &p->fixed_blocks[p->memo.window];
-    nsvcd__block_load(&p->fixed, j, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
-    p->bounds[p->memo.window++] = nsvcd__block_bounds(block);
+static void nsvcd__window_load(nsvcd__blocks *b, const nsvcd__geometry *f, size_t j,
+                               size_t first) {
+  const size_t end = f->first_triangle[j + 1];
+  if (b->window > 0 && b->fixed[0].first == first) return;
+  b->window = 0;
+  for (size_t n = first; n < end && b->window < NSVCD__WINDOW; n += NSVCD__LANES) {
+    nsvcd__block *block = &b->fixed[b->window];
+    nsvcd__block_load(f, j, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
+    b->bounds[b->window++] = nsvcd__block_bounds(block);
   }
 }
 
@@ -143,9 +144,9 @@ NSVCD__INLINE uint32_t nsvcd__lanes_near(const nsvcd__block *block, nsvcd__box b
 
 // Normal k, of any length, for lane l of the moving block and a slice, from s on, of a fixed one. A
 // moving edge without length, of a point or a segment: its corner's travel counts instead.
-NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
+NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__solver *w, size_t l, nsvcd__block *fixed,
                                              size_t s, size_t k) {
-  if (k == NSVCD__LAST_NORMAL) return nsvcd__v3_set(nsvcd__f3_round(p->memo.separating));
+  if (k == NSVCD__LAST_NORMAL) return nsvcd__v3_set(nsvcd__f3_round(w->p.separating));
   if (k == 1) {
     const nsvcd__v3 b = nsvcd__v3_load(fixed->corners[0], s);
     const nsvcd__v3 u = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[1], s), b);
@@ -153,26 +154,26 @@ NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__b
     return nsvcd__v3_cross(u, v);
   }
   if (k == 2) {
-    const nsvcd__f3 a = nsvcd__lane_of(p->corners[0], l);
-    const nsvcd__f3 u = nsvcd__f3_sub(nsvcd__lane_of(p->corners[1], l), a);
-    const nsvcd__f3 v = nsvcd__f3_sub(nsvcd__lane_of(p->corners[2], l), a);
+    const nsvcd__f3 a = nsvcd__lane_of(w->blocks.corners[0], l);
+    const nsvcd__f3 u = nsvcd__f3_sub(nsvcd__lane_of(w->blocks.corners[1], l), a);
+    const nsvcd__f3 v = nsvcd__f3_sub(nsvcd__lane_of(w->blocks.corners[2], l), a);
     return nsvcd__v3_set(nsvcd__f3_cross(u, v));
   }
   const size_t of_moving = k / 3 - 1;
   const size_t of_fixed = k % 3;
   const nsvcd__v3 b = nsvcd__v3_load(fixed->corners[of_fixed], s);
   const nsvcd__v3 b_next = nsvcd__v3_load(fixed->corners[(of_fixed + 1) % 3], s);
-  const nsvcd__f3 a = nsvcd__lane_of(p->corners[of_moving], l);
-  const nsvcd__f3 a_next = nsvcd__lane_of(p->corners[(of_moving + 1) % 3], l);
+  const nsvcd__f3 a = nsvcd__lane_of(w->blocks.corners[of_moving], l);
+  const nsvcd__f3 a_next = nsvcd__lane_of(w->blocks.corners[(of_moving + 1) % 3], l);
   nsvcd__f3 edge = nsvcd__f3_sub(a_next, a);
-  if (p->over && !(nsvcd__f3_dot(edge, edge) > 0))
-    edge = nsvcd__f3_sub(nsvcd__lane_of(p->corners[3 + of_moving], l), a);
+  if (w->blocks.over && !(nsvcd__f3_dot(edge, edge) > 0))
+    edge = nsvcd__f3_sub(nsvcd__lane_of(w->blocks.corners[3 + of_moving], l), a);
   return nsvcd__v3_cross(nsvcd__v3_set(edge), nsvcd__v3_sub(b_next, b));
 }
 
 // Lanes of a slice, from s on, of a fixed block that planes with these normals, of any length,
 // separate from lane l of the moving one, as posed, by more than `margin`.
-NSVCD__INLINE uint32_t nsvcd__normals_separate(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
+NSVCD__INLINE uint32_t nsvcd__normals_separate(nsvcd__blocks *b, size_t l, nsvcd__block *fixed,
                                                size_t s, float margin, nsvcd__v3 n) {
   const nsvcd__v3 b0 = nsvcd__v3_load(fixed->corners[0], s);
   const nsvcd__v3 edge1 = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[1], s), b0);
@@ -184,8 +185,8 @@ NSVCD__INLINE uint32_t nsvcd__normals_separate(nsvcd__proof *p, size_t l, nsvcd_
   const nsvcd__v high = nsvcd__v_max(zero, nsvcd__v_max(height1, height2));
   nsvcd__v lowest = nsvcd__v_set(HUGE_VALF);
   nsvcd__v highest = nsvcd__v_set(-HUGE_VALF);
-  for (size_t k = 0; k < p->corner_count; k++) {
-    const nsvcd__v3 a = nsvcd__v3_set(nsvcd__lane_of(p->corners[k], l));
+  for (size_t k = 0; k < b->corner_count; k++) {
+    const nsvcd__v3 a = nsvcd__v3_set(nsvcd__lane_of(b->corners[k], l));
     const nsvcd__v height = nsvcd__v3_dot(n, nsvcd__v3_sub(a, b0));
     lowest = nsvcd__v_min(lowest, height);
     highest = nsvcd__v_max(highest, height);
@@ -200,12 +201,12 @@ NSVCD__INLINE uint32_t nsvcd__normals_separate(nsvcd__proof *p, size_t l, nsvcd_
 
 // Of these lanes of a fixed block, those that planes with normal k do not separate from lane l of
 // the moving one by more than `margin`.
-NSVCD__INLINE uint32_t nsvcd__left_by_normal(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
+NSVCD__INLINE uint32_t nsvcd__left_by_normal(nsvcd__solver *w, size_t l, nsvcd__block *fixed,
                                              size_t k, float margin, uint32_t met) {
   NSVCD__EACH_SLICE(s) {
     if (!(met >> s & NSVCD__SLICE_MASK)) continue;
-    const nsvcd__v3 normal = nsvcd__normal_to_try(p, l, fixed, s, k);
-    met &= ~(nsvcd__normals_separate(p, l, fixed, s, margin, normal) << s);
+    const nsvcd__v3 normal = nsvcd__normal_to_try(w, l, fixed, s, k);
+    met &= ~(nsvcd__normals_separate(&w->blocks, l, fixed, s, margin, normal) << s);
   }
   return met;
 }
@@ -213,11 +214,12 @@ NSVCD__INLINE uint32_t nsvcd__left_by_normal(nsvcd__proof *p, size_t l, nsvcd__b
 // Of these lanes of the moving block, those that the plane which separated a triangle pair last
 // does not separate from all of a fixed block by more than `margin`. Tried where there is a
 // clearance: then near triangles have their nearest points along nearly the same direction.
-static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, nsvcd__block *fixed,
-                                                          float margin, uint32_t lanes) {
-  const nsvcd__f3 last = nsvcd__f3_round(p->memo.separating);
+static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_last(nsvcd__solver *w,
+                                                          nsvcd__block *fixed, float margin,
+                                                          uint32_t lanes) {
+  const nsvcd__f3 last = nsvcd__f3_round(w->p.separating);
   const nsvcd__v3 normal = nsvcd__v3_set(last);
-  if (!(p->goal.clearance > 0) || !lanes) return lanes;
+  if (!(w->p.goal.clearance > 0) || !lanes) return lanes;
   float highest = -HUGE_VALF;  // of the fixed block
   for (size_t k = 0; k < 3; k++) {
     NSVCD__EACH_SLICE(s) {
@@ -229,8 +231,8 @@ static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, nsvcd
   uint32_t apart = 0;
   NSVCD__EACH_SLICE(s) {
     nsvcd__v height = nsvcd__v_set(HUGE_VALF);
-    for (size_t k = 0; k < p->corner_count; k++) {
-      const nsvcd__v3 corner = nsvcd__v3_load(p->corners[k], s);
+    for (size_t k = 0; k < w->blocks.corner_count; k++) {
+      const nsvcd__v3 corner = nsvcd__v3_load(w->blocks.corners[k], s);
       height = nsvcd__v_min(height, nsvcd__v3_dot(normal, corner));
     }
     apart |= nsvcd__v_lt(limit, height) << s;
@@ -239,15 +241,15 @@ static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, nsvcd
 }
 
 // Lanes of a fixed block that neither boxes nor planes separate from lane l of the moving one.
-static NSVCD__NOINLINE uint32_t nsvcd__row_left(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
-                                                float margin) {
-  nsvcd__block *block = &p->moving_block;
+static NSVCD__NOINLINE uint32_t nsvcd__row_left(nsvcd__solver *w, size_t l,
+                                                nsvcd__block *fixed, float margin) {
+  nsvcd__block *block = &w->blocks.moving;
   const nsvcd__box box = {nsvcd__lane_of(block->low, l), nsvcd__lane_of(block->high, l)};
   uint32_t met = nsvcd__lanes_near(fixed, box, margin);
   // the last plane: see nsvcd__lanes_left_by_last
-  for (size_t k = p->goal.clearance > 0 ? NSVCD__LAST_NORMAL : 1; met && k < NSVCD__NORMALS;
+  for (size_t k = w->p.goal.clearance > 0 ? NSVCD__LAST_NORMAL : 1; met && k < NSVCD__NORMALS;
        k++)
-    met = nsvcd__left_by_normal(p, l, fixed, k, margin, met);
+    met = nsvcd__left_by_normal(w, l, fixed, k, margin, met);
   return met;
 }
 #endif  // NSVCD_NO_PROOF

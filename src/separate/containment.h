@@ -52,12 +52,12 @@ static int nsvcd__ray_crosses(const nsvcd__ray *ray, const nsvcd__d3 *t, double 
 
 // Adds a triangle to the list of those that a ray has crossed. Returns 0 if it is there already.
 // Sets *unclear if there is no room.
-static int nsvcd__is_new(nsvcd__proof *p, size_t *count, uint32_t number, int *unclear) {
+static int nsvcd__is_new(nsvcd__solver *w, size_t *count, uint32_t number, int *unclear) {
   for (size_t k = 0; k < *count; k++) {
-    if (p->crossed[k] == number) return 0;
+    if (w->crossed[k] == number) return 0;
   }
   if (*count == NSVCD__CROSSED) *unclear = 1;
-  if (*count < NSVCD__CROSSED) p->crossed[(*count)++] = number;
+  if (*count < NSVCD__CROSSED) w->crossed[(*count)++] = number;
   return 1;
 }
 
@@ -110,10 +110,10 @@ typedef struct nsvcd__crossings {
 // and so on are no more than 1.155 |a| |b| together) = 12.7 u E. A point on the edge, up to R from
 // the ray's, is off by 3 u R. So the volume is off by 12.7 u E R + 2 E x 3 u R, and by 3 roundings
 // of up to 2 E R: 24.7 u E R, less than 1.5e-6 E R. NSVCD__ROUNDING is more.
-static nsvcd__crossings nsvcd__cross_all(nsvcd__proof *p, const nsvcd__geometry *f,
+static nsvcd__crossings nsvcd__cross_all(nsvcd__solver *w, const nsvcd__geometry *f,
                                          const nsvcd__ray *ray) {
-  nsvcd__block *block = &p->fixed_blocks[0];
-  p->memo.window = 0;
+  nsvcd__block *block = &w->blocks.fixed[0];
+  w->blocks.window = 0;
   const float extent = (float)nsvcd__d3_norm(ray->from) + f->body->extent;
   const float rounding = NSVCD__ROUNDING * extent * f->body->extent;
   nsvcd__crossings sum = {0, 0, 0, 0};
@@ -134,17 +134,17 @@ static nsvcd__crossings nsvcd__cross_all(nsvcd__proof *p, const nsvcd__geometry 
       nsvcd__numbers numbers = nsvcd__numbers_of(f, i);
       for (size_t n = f->first_triangle[i]; n < end; n += NSVCD__LANES) {
         nsvcd__block_load(f, i, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
-        p->work++;
+        w->p.work++;
         uint32_t lanes = nsvcd__lanes_on_ray(block, ray, about, rounding);
         for (; lanes; lanes &= lanes - 1) {
           const size_t entry = n + nsvcd__low_bit(lanes);
           nsvcd__d3 corners[3];
           nsvcd__read_number(&numbers, entry);
           if (numbers.kind == NSVCD__SHEET) continue;
-          p->work++;
+          w->p.work++;
           nsvcd__patch_triangle(f, i, entry, corners);
           const int crossing = nsvcd__ray_crosses(ray, corners, ray->margin, &sum.unclear);
-          if (!crossing || !nsvcd__is_new(p, &count, numbers.number, &sum.unclear)) continue;
+          if (!crossing || !nsvcd__is_new(w, &count, numbers.number, &sum.unclear)) continue;
           if (numbers.kind == NSVCD__CLOSED) sum.winds += crossing;
           sum.either_way += numbers.kind == NSVCD__EITHER_DIRECTION;
           sum.nearly += numbers.kind == NSVCD__NEARLY;
@@ -168,7 +168,7 @@ static uint32_t nsvcd__meets_sphere(const void *what, nsvcd__spheres all) {
 }
 
 // Is a triangle so close to the point that the mesh's own may be on the other side of it?
-static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__geometry *f, nsvcd__d3 point,
+static int nsvcd__surface_is_near(nsvcd__solver *w, const nsvcd__geometry *f, nsvcd__d3 point,
                                   double tolerance) {
   const nsvcd_body *b = f->body;
   const nsvcd__d3 as_triangle[3] = {point, point, point};
@@ -180,10 +180,10 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__geometry *f, nsv
   const double off = (double)nsvcd__off_mesh(f) + NSVCD__SAME_POSITION * (double)extent;
   const double limit = 2 * off + tolerance;
   const nsvcd__sphere here = {rounded, distance};
-  nsvcd__block *block = &p->fixed_blocks[0];
+  nsvcd__block *block = &w->blocks.fixed[0];
   size_t g;
   nsvcd__traversal groups;
-  p->memo.window = 0;
+  w->blocks.window = 0;
   nsvcd__traversal_begin(&groups, b, nsvcd__meets_sphere, &here);
   while (nsvcd__traversal_next(&groups, &g)) {
     const size_t first = NSVCD__GROUP * g;
@@ -194,7 +194,7 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__geometry *f, nsv
       const size_t end = f->first_triangle[i + 1];
       for (size_t n = f->first_triangle[i]; n < end; n += NSVCD__LANES) {
         nsvcd__block_load(f, i, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
-        p->work++;
+        w->p.work++;
         uint32_t lanes = nsvcd__lanes_near(block, at, distance);
         for (; lanes; lanes &= lanes - 1) {
           nsvcd__d3 corners[3];
@@ -213,7 +213,7 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__geometry *f, nsv
 // the majority of the rays tells whether its winding number is more than a half: then the point is
 // not known to be outside. (Difference from Jacobson 2013: rays, not a sum of solid angles.) unit:
 // of the body's frame.
-static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__geometry *f, double unit,
+static int nsvcd__is_enclosed(nsvcd__solver *w, const nsvcd__geometry *f, double unit,
                               nsvcd__d3 point) {
   static const double directions[8][3] = {
       {0.5359, 0.6013, 0.5927},   {-0.5741, 0.6229, 0.5314},  {0.6127, -0.5531, 0.5644},
@@ -226,20 +226,20 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__geometry *f, double 
   const size_t best = (off.x < 0 ? 1u : 0u) + (off.y < 0 ? 2u : 0u) + (off.z < 0 ? 4u : 0u);
   nsvcd__ray ray;
   ray.from = point;
-  ray.margin = NSVCD__SAME_POSITION * (double)p->given.lengths / unit;
+  ray.margin = NSVCD__SAME_POSITION * (double)w->p.given.lengths / unit;
   ray.margin += (double)nsvcd__off_mesh(f) + (double)f->counts->gap;
   ray.rounding = (float)ray.margin + 4 * NSVCD__ROUNDING * f->body->extent;
   int clear = 0;
   int odd = 0;
   for (size_t n = 0; n < 8; n++) {
     const double *d = directions[best ^ n];
-    if (p->work > p->goal.limit) {
-      p->unclear = NSVCD__NOT_ASKED;
+    if (w->p.work > w->p.goal.limit) {
+      w->unclear = NSVCD__NOT_ASKED;
       return 0;
     }
     ray.direction = nsvcd__d3_of(d[0], d[1], d[2]);
     ray.direction = nsvcd__d3_scale(ray.direction, 1 / nsvcd__d3_norm(ray.direction));
-    const nsvcd__crossings sum = nsvcd__cross_all(p, f, &ray);
+    const nsvcd__crossings sum = nsvcd__cross_all(w, f, &ray);
     if (sum.unclear) continue;
     // A hollow of one kind inside the other undoes it.
     if ((sum.winds != 0) != (sum.either_way % 2 != 0)) return 1;
@@ -247,8 +247,8 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__geometry *f, double 
     odd += sum.nearly % 2 != 0 || sum.winds != 0;
     clear++;
   }
-  if (clear == 0 || 2 * odd > clear) p->unclear = NSVCD__CANNOT_TELL;
-  p->in_open |= clear > 0 && 2 * odd > clear;
+  if (clear == 0 || 2 * odd > clear) w->unclear = NSVCD__CANNOT_TELL;
+  w->in_open |= clear > 0 && 2 * odd > clear;
   return 0;
 }
 
@@ -307,36 +307,36 @@ static int nsvcd__seed_is_near(const nsvcd__enclosure *e, const float *seed) {
 }
 
 // Is one of the inner body's components, with seeds first .. end - 1, in the outer body? Then
-// p->inside is set, and p->enclosed is its seed. Returns 1 if that is certain.
-static int nsvcd__contains_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, size_t first,
+// w->inside is set, and w->enclosed is its seed. Returns 1 if that is certain.
+static int nsvcd__contains_seeds(nsvcd__solver *w, const nsvcd__enclosure *e, size_t first,
                                  size_t end) {
   for (size_t n = first; n < end; n++) {
     if (!nsvcd__seed_is_near(e, e->inner->seeds + 3 * n)) continue;
-    if (nsvcd__check_budget(p)) {
-      p->unclear = NSVCD__NOT_ASKED;
+    if (nsvcd__check_budget(&w->p)) {
+      w->unclear = NSVCD__NOT_ASKED;
       return 0;
     }
     const nsvcd__d3 seed = nsvcd__d3_load(e->inner->seeds + 3 * n);
     const nsvcd__d3 seen = nsvcd__d3_transform(&e->start, seed);
-    if (!nsvcd__is_enclosed(p, e->outer, e->unit, seen)) continue;
-    p->enclosed = e->inner == &p->moving ? seen : seed;
-    p->inside = 1;
-    const double room = p->given.tolerance / e->unit + (double)e->outer->counts->gap;
-    if (!nsvcd__surface_is_near(p, e->outer, seen, room)) return 1;
+    if (!nsvcd__is_enclosed(w, e->outer, e->unit, seen)) continue;
+    w->enclosed = e->inner == &w->p.moving ? seen : seed;
+    w->inside = 1;
+    const double room = w->p.given.tolerance / e->unit + (double)e->outer->counts->gap;
+    if (!nsvcd__surface_is_near(w, e->outer, seen, room)) return 1;
   }
   return 0;
 }
 
 // The same of all components. Where there are many, only groups near the outer body are asked for
 // theirs.
-static int nsvcd__contains_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
+static int nsvcd__contains_any(nsvcd__solver *w, const nsvcd__enclosure *e) {
   const nsvcd_body *inner = e->inner->body;
   const nsvcd_body *outer = e->outer->body;
   if (outer->open) return 0;
   const int is_one = e->inner->counts->components == 1 && e->outer->kind_bits == 1;
   if (is_one && nsvcd__sticks_out(e->inner, &e->rounded, e->scale, outer)) return 0;
   if (e->inner->counts->components <= NSVCD__LANES)
-    return nsvcd__contains_seeds(p, e, 0, e->inner->counts->components);
+    return nsvcd__contains_seeds(w, e, 0, e->inner->counts->components);
   const nsvcd__f3 centre =
       nsvcd__f3_round(nsvcd__d3_transform(&e->back, nsvcd__d3_load(outer->centre)));
   const float extent = nsvcd__f3_norm(centre) + inner->extent + outer->extent / e->scale;
@@ -345,27 +345,27 @@ static int nsvcd__contains_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   size_t g;
   nsvcd__traversal groups;
   nsvcd__traversal_begin(&groups, inner, nsvcd__meets_sphere, &here);
-  while (!p->unclear && nsvcd__traversal_next(&groups, &g)) {
-    if (nsvcd__contains_seeds(p, e, e->inner->first_seed[g], e->inner->first_seed[g + 1]))
+  while (!w->unclear && nsvcd__traversal_next(&groups, &g)) {
+    if (nsvcd__contains_seeds(w, e, e->inner->first_seed[g], e->inner->first_seed[g + 1]))
       return 1;
   }
   return 0;
 }
 
-// Is a component of one body inside the other at the start of the motion? Then p->enclosed is its
-// seed. A seed so close to the surface that errors matter returns 0, with p->inside set. If planes
+// Is a component of one body inside the other at the start of the motion? Then w->enclosed is its
+// seed. A seed so close to the surface that errors matter returns 0, with w->inside set. If planes
 // then separate all patches at t = 0, the seed, the surface that was tested and the true one are,
 // patch by patch, on one side of a plane and agree: it is inside.
-static NSVCD__NOINLINE int nsvcd__is_contained_at_start(nsvcd__proof *p) {
-  const float scale = p->arcs.motion->scale;
-  const nsvcd__dtransform start = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, 0), 0);
-  const nsvcd__dtransform back = nsvcd__inverse_dtransform(&start, p->arcs.arc.scale);
-  const nsvcd__enclosure moving = {&p->moving, &p->fixed, start, nsvcd__transform_of(&start),
-                                   back,       scale,     1};
-  if (nsvcd__contains_any(p, &moving)) return 1;
+static NSVCD__NOINLINE int nsvcd__is_contained_at_start(nsvcd__solver *w) {
+  const float scale = w->p.arcs.motion->scale;
+  const nsvcd__dtransform start = nsvcd__dtransform_at(nsvcd__arc_at(&w->p.arcs, 0), 0);
+  const nsvcd__dtransform back = nsvcd__inverse_dtransform(&start, w->p.arcs.arc.scale);
+  const nsvcd__enclosure moving = {
+      &w->p.moving, &w->p.fixed, start, nsvcd__transform_of(&start), back, scale, 1};
+  if (nsvcd__contains_any(w, &moving)) return 1;
   const nsvcd__enclosure fixed = {
-      &p->fixed, &p->moving,       back, nsvcd__transform_of(&back), start,
-      1 / scale, p->arcs.arc.scale};
-  return nsvcd__contains_any(p, &fixed);
+      &w->p.fixed, &w->p.moving,       back, nsvcd__transform_of(&back), start,
+      1 / scale,   w->p.arcs.arc.scale};
+  return nsvcd__contains_any(w, &fixed);
 }
 #endif  // NSVCD_NO_PROOF

@@ -46,7 +46,7 @@ typedef struct nsvcd__support {
   nsvcd__f3 difference;
 } nsvcd__support;
 
-NSVCD__INLINE nsvcd__support nsvcd__support_along(nsvcd__proof *p, nsvcd__f3 normal) {
+NSVCD__INLINE nsvcd__support nsvcd__support_along(nsvcd__solver *w, nsvcd__f3 normal) {
   float moving[NSVCD__LANES], fixed[NSVCD__LANES];  // heights
   float lowest = HUGE_VALF;
   float highest = -HUGE_VALF;
@@ -55,9 +55,9 @@ NSVCD__INLINE nsvcd__support nsvcd__support_along(nsvcd__proof *p, nsvcd__f3 nor
   uint32_t high = 0;
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 n = nsvcd__v3_set(normal);
-    const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_start, l));
-    const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_end, l));
-    const nsvcd__v height = nsvcd__v3_dot(n, nsvcd__v3_load(p->hull_fixed, l));
+    const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_load(w->hull_start, l));
+    const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_load(w->hull_end, l));
+    const nsvcd__v height = nsvcd__v3_dot(n, nsvcd__v3_load(w->hull_fixed, l));
     const nsvcd__v at_either = nsvcd__v_min(at_start, at_end);
     nsvcd__v_store(moving + l, at_either);
     nsvcd__v_store(fixed + l, height);
@@ -73,8 +73,8 @@ NSVCD__INLINE nsvcd__support nsvcd__support_along(nsvcd__proof *p, nsvcd__f3 nor
   const size_t a = nsvcd__low_bit(low | 0x8000);
   const size_t b = nsvcd__low_bit(high | 0x8000);
   const int is_start = (starts >> a & 1) != 0;
-  const nsvcd__f3 vertex = nsvcd__lane_of(is_start ? p->hull_start : p->hull_end, a);
-  const nsvcd__f3 other = nsvcd__lane_of(p->hull_fixed, b);
+  const nsvcd__f3 vertex = nsvcd__lane_of(is_start ? w->hull_start : w->hull_end, a);
+  const nsvcd__f3 other = nsvcd__lane_of(w->hull_fixed, b);
   const nsvcd__support out = {lowest - highest, nsvcd__f3_sub(vertex, other)};
   return out;
 }
@@ -90,40 +90,41 @@ static nsvcd__f3 nsvcd__f3_towards(nsvcd__f3 a, nsvcd__f3 b) {
 // there towards the point nearest to 0 of the difference of the two hulls.
 // Remembers the plane that holds.
 #define NSVCD__GUESSES 4
-static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j,
+static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__solver *w, size_t i, size_t j,
                                                   const nsvcd__interval *over) {
-  const float margins = p->arcs.motion->scale * p->moving.margins[i] + p->fixed.margins[j];
-  const float margin = margins + over->rounding + nsvcd__clearance(&p->goal);
-  const nsvcd__arm arm = nsvcd__patch_arm(&p->moving, i, over);
+  const nsvcd__geometry *f = &w->p.moving;
+  const nsvcd__geometry *g = &w->p.fixed;
+  const float margins = w->p.arcs.motion->scale * f->margins[i] + g->margins[j];
+  const float margin = margins + over->rounding + nsvcd__clearance(&w->p.goal);
+  const nsvcd__arm arm = nsvcd__patch_arm(f, i, over);
   const nsvcd__transform *start = &over->start;
   const nsvcd__transform *end = &over->end;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, i, l);
-    nsvcd__v3_store(p->hull_start, l, nsvcd__v3_transform(start, hull));
-    nsvcd__v3_store(p->hull_end, l, nsvcd__v3_transform(end, hull));
-    nsvcd__v3_store(p->hull_fixed, l, nsvcd__hull_of(&p->fixed, j, l));
+    const nsvcd__v3 hull = nsvcd__hull_of(f, i, l);
+    nsvcd__v3_store(w->hull_start, l, nsvcd__v3_transform(start, hull));
+    nsvcd__v3_store(w->hull_end, l, nsvcd__v3_transform(end, hull));
+    nsvcd__v3_store(w->hull_fixed, l, nsvcd__hull_of(g, j, l));
   }
-  const nsvcd__slab moving = nsvcd__slab_at(p->moving.slabs, p->moving.body->padded, i);
-  const nsvcd__slab fixed = nsvcd__slab_at(p->fixed.slabs, p->fixed.body->padded, j);
-  const nsvcd__f3 centre = nsvcd__patch_centre(&p->moving, i);
+  const nsvcd__slab moving = nsvcd__slab_at(f->slabs, f->body->padded, i);
+  const nsvcd__slab fixed = nsvcd__slab_at(g->slabs, g->body->padded, j);
+  const nsvcd__f3 centre = nsvcd__patch_centre(f, i);
   const nsvcd__f3 both =
       nsvcd__f3_add(nsvcd__f3_transform(start, centre), nsvcd__f3_transform(end, centre));
-  const nsvcd__f3 line =
-      nsvcd__f3_sub(nsvcd__f3_scale(both, 0.5f), nsvcd__patch_centre(&p->fixed, j));
+  const nsvcd__f3 line = nsvcd__f3_sub(nsvcd__f3_scale(both, 0.5f), nsvcd__patch_centre(g, j));
   const nsvcd__f3 turned = nsvcd__mat3_apply(&start->rotation, moving.normal);
-  const nsvcd__f3 guesses[NSVCD__GUESSES] = {p->memo.held,
+  const nsvcd__f3 guesses[NSVCD__GUESSES] = {w->memo.held,
                                              nsvcd__f3_towards(fixed.normal, line),
                                              nsvcd__f3_towards(turned, line), line};
   nsvcd__f3 nearest = {0, 0, 0};
-  p->work++;
+  w->p.work++;
   for (size_t step = 0; step < NSVCD__GUESSES + NSVCD__PLANE_STEPS; step++) {
     const nsvcd__f3 normal = step < NSVCD__GUESSES ? guesses[step] : nearest;
-    const nsvcd__support found = nsvcd__support_along(p, normal);
+    const nsvcd__support found = nsvcd__support_along(w, normal);
     const float length = nsvcd__f3_norm(normal);
     if (found.gap > 0 &&
         found.gap > margin * length + nsvcd__deviation_of(over, normal, arm)) {
-      p->memo.held = normal;
-      p->memo.plane++;
+      w->memo.held = normal;
+      w->memo.plane++;
       return 1;
     }
     if (step + 1 < NSVCD__GUESSES) continue;
@@ -142,14 +143,16 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, siz
 // Does the plane that held last separate a patch pair over its segment, moved along its normal? If
 // it does, the pair's neighbours ask for the same heights: so these are remembered, of a moving
 // patch in a segment the least, less all margins, and of a fixed one the greatest.
-static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *q,
+static int nsvcd__held_again(nsvcd__solver *w, const nsvcd__search *q,
                              const nsvcd__patch_pair *patches) {
   const size_t i = patches->moving;
   const size_t j = patches->fixed;
   const size_t s = patches->segment;
-  nsvcd__memo *memo = &p->memo;
+  const nsvcd__geometry *f = &w->p.moving;
+  const nsvcd__geometry *g = &w->p.fixed;
+  nsvcd__memo *memo = &w->memo;
   if (!memo->plane) return 0;
-  const nsvcd__interval *over = nsvcd__segment_interval(p, q, s);
+  const nsvcd__interval *over = nsvcd__segment_interval(w, q, s);
   const nsvcd__f3 n = memo->held;
   const float length = nsvcd__f3_norm(n);
   const uint32_t key = (uint32_t)(i * NSVCD__MAX_SEGMENTS + s);
@@ -159,29 +162,28 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *q,
   if (above->plane != memo->plane || above->key != key) {
     float lowest = HUGE_VALF;
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, i, l);
+      const nsvcd__v3 hull = nsvcd__hull_of(f, i, l);
       const nsvcd__v3 normal = nsvcd__v3_set(n);
       const nsvcd__v at_start = nsvcd__v3_dot(normal, nsvcd__v3_transform(&over->start, hull));
       const nsvcd__v at_end = nsvcd__v3_dot(normal, nsvcd__v3_transform(&over->end, hull));
       lowest = nsvcd__least_of(lowest, nsvcd__v_min(at_start, at_end));
     }
-    const float margin =
-        (p->arcs.motion->scale * p->moving.margins[i] + over->rounding) * length;
+    const float margin = (w->p.arcs.motion->scale * f->margins[i] + over->rounding) * length;
     above->plane = memo->plane;
     above->key = key;
     above->height =
-        lowest - margin - nsvcd__deviation_of(over, n, nsvcd__patch_arm(&p->moving, i, over));
+        lowest - margin - nsvcd__deviation_of(over, n, nsvcd__patch_arm(f, i, over));
   }
   if (below->plane != memo->plane || below->key != j) {
     float highest = -HUGE_VALF;
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v height = nsvcd__v3_dot(nsvcd__v3_set(n), nsvcd__hull_of(&p->fixed, j, l));
+      const nsvcd__v height = nsvcd__v3_dot(nsvcd__v3_set(n), nsvcd__hull_of(g, j, l));
       highest = nsvcd__greatest_of(highest, height);
     }
     below->plane = memo->plane;
     below->key = (uint32_t)j;
-    below->height = p->fixed.margins[j] * length + highest;
+    below->height = g->margins[j] * length + highest;
   }
-  return above->height > below->height + nsvcd__clearance(&p->goal) * length;
+  return above->height > below->height + nsvcd__clearance(&w->p.goal) * length;
 }
 #endif  // NSVCD_NO_PROOF

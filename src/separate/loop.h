@@ -22,15 +22,15 @@ static uint64_t nsvcd__segments_that_matter(const nsvcd__proof *p, const nsvcd__
 
 // Adds the patch pairs of moving group g and fixed patch j in the segments *left, and clears
 // these, as long as there is room for 16 more.
-static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *q, size_t g, size_t j,
-                                   uint64_t *left) {
-  const nsvcd_body *moving = p->moving.body;
-  const nsvcd_body *fixed = p->fixed.body;
-  const nsvcd__f3 centre = nsvcd__patch_centre(&p->fixed, j);
+static void nsvcd__add_patch_pairs(nsvcd__solver *w, const nsvcd__search *q, size_t g,
+                                   size_t j, uint64_t *left) {
+  const nsvcd_body *moving = w->p.moving.body;
+  const nsvcd_body *fixed = w->p.fixed.body;
+  const nsvcd__f3 centre = nsvcd__patch_centre(&w->p.fixed, j);
   const float radius = nsvcd__body_r(fixed)[j];
   const float *own = nsvcd__body_r(moving) + NSVCD__GROUP * g;
-  *left &= nsvcd__segments_that_matter(p, q);
-  for (; *left && p->fresh_count + NSVCD__GROUP <= NSVCD__FRESH; *left &= *left - 1) {
+  *left &= nsvcd__segments_that_matter(&w->p, q);
+  for (; *left && w->fresh_count + NSVCD__GROUP <= NSVCD__FRESH; *left &= *left - 1) {
     const size_t s = nsvcd__low_bit(*left);
     const nsvcd__chords *c = &q->members[s];
     float squares[NSVCD__LANES];
@@ -48,23 +48,23 @@ static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *q, size
       nsvcd__v_store(fraction + l, tau);
     }
     if (!met) continue;
-    met = nsvcd__slabs_meet(p, q, g, j, s, met);
+    met = nsvcd__slabs_meet(&w->p, nsvcd__segment_interval(w, q, s), q, g, j, s, met);
     for (; met; met &= met - 1) {
       const size_t l = nsvcd__low_bit(met);
       const size_t i = NSVCD__GROUP * g + l;
-      if (p->moving.hull_counts[i] == 0) continue;
+      if (w->p.moving.hull_counts[i] == 0) continue;
       const float radii = q->scale * own[l] + radius;
       const float depth = 1 - sqrtf(squares[l]) / (radii > 1e-30f ? radii : 1e-30f);
       const nsvcd__patch_pair pair = {(uint16_t)i, (uint16_t)j, (uint16_t)s,
                                       0,           depth,       fraction[l]};
-      p->fresh[p->fresh_count++] = pair;
+      w->fresh[w->fresh_count++] = pair;
     }
   }
 }
 
 // Processes the patch pairs that the search has found since.
-static nsvcd__outcome nsvcd__take_patch_pairs(nsvcd__proof *p, nsvcd__search *q) {
-  return p->goal.collects ? nsvcd__collect_contacts(p, q) : nsvcd__sift_patch_pairs(p, q);
+static nsvcd__outcome nsvcd__take_patch_pairs(nsvcd__solver *w, nsvcd__search *q) {
+  return w->p.goal.collects ? nsvcd__collect_contacts(w, q) : nsvcd__sift_patch_pairs(w, q);
 }
 
 // THE LOOP: point 2 of the theorem. Spheres and slabs separate groups of a tile of the moving body
@@ -73,79 +73,82 @@ static nsvcd__outcome nsvcd__take_patch_pairs(nsvcd__proof *p, nsvcd__search *q)
 // patches, in each segment that is wanted and still matters, has been separated, or has given a
 // contact that answers or shrinks the question, or is an unresolved pair, or was resolved by its
 // parts; or EXHAUSTED says that it has not.
-static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_segments(nsvcd__solver *w,
                                                             nsvcd__search *q) {
   nsvcd__outcome outcome;
   for (; q->step < q->steps; q->step++) {
     const size_t next = q->order[q->step];
     const size_t g = q->moving_tile.groups[next];
     nsvcd__search_group(q);
-    nsvcd__separate_groups(p, q);
+    nsvcd__separate_groups(&w->p, q);
     for (; q->waiting; q->waiting &= q->waiting - 1) {
       const size_t at = nsvcd__low_bit(q->waiting);
       const size_t h = q->fixed_tile.groups[at];
-      const uint64_t wanted = nsvcd__nearby(q, next)[at] & nsvcd__segments_that_matter(p, q);
-      uint32_t met = nsvcd__group_against_members(q, h, wanted, p->met_in);
+      const uint64_t wanted =
+          nsvcd__nearby(q, next)[at] & nsvcd__segments_that_matter(&w->p, q);
+      uint32_t met = nsvcd__group_against_members(q, h, wanted, w->met_in);
       for (; met; met &= met - 1) {
         const size_t l = nsvcd__low_bit(met);
-        uint64_t *left = &p->met_in[l];
-        if (p->fixed.hull_counts[NSVCD__GROUP * h + l] == 0) continue;
+        uint64_t *left = &w->met_in[l];
+        if (w->p.fixed.hull_counts[NSVCD__GROUP * h + l] == 0) continue;
         for (;;) {
           nsvcd__pose_members(q, g, *left);
-          nsvcd__add_patch_pairs(p, q, g, NSVCD__GROUP * h + l, left);
+          nsvcd__add_patch_pairs(w, q, g, NSVCD__GROUP * h + l, left);
           if (!*left) break;
-          outcome = nsvcd__take_patch_pairs(p, q);
+          outcome = nsvcd__take_patch_pairs(w, q);
           if (outcome != NSVCD__DONE) return outcome;
         }
       }
-      if (p->fresh_count < NSVCD__ENOUGH_FRESH) continue;
-      outcome = nsvcd__take_patch_pairs(p, q);
+      if (w->fresh_count < NSVCD__ENOUGH_FRESH) continue;
+      outcome = nsvcd__take_patch_pairs(w, q);
       if (outcome != NSVCD__DONE) return outcome;
     }
   }
-  outcome = nsvcd__take_patch_pairs(p, q);
-  if (outcome != NSVCD__DONE || p->goal.collects) return outcome;
-  return nsvcd__resolve_patch_pairs(p, q);
+  outcome = nsvcd__take_patch_pairs(w, q);
+  if (outcome != NSVCD__DONE || w->p.goal.collects) return outcome;
+  return nsvcd__resolve_patch_pairs(w, q);
 }
 
 // The same for all tiles of a motion that has been cut. If the first contact is sought, some
 // segments of a tile at a time, until there is a contact: it is the first of the tile. What is
 // resolved in one tile says nothing of the others.
-static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *q) {
-  const nsvcd_body *moving = p->moving.body;
-  const nsvcd_body *fixed = p->fixed.body;
+static nsvcd__outcome nsvcd__prove_tiles(nsvcd__solver *w, nsvcd__search *q) {
+  const nsvcd_body *moving = w->p.moving.body;
+  const nsvcd_body *fixed = w->p.fixed.body;
   const size_t all = q->segments;
-  const size_t few = p->goal.first > 0 ? NSVCD__IN_ORDER : all;
+  const size_t few = w->p.goal.first > 0 ? NSVCD__IN_ORDER : all;
   nsvcd__outcome outcome = NSVCD__DONE;
   (void)nsvcd__search_begin(moving, fixed, nsvcd__segments_in(0, all), q);
   do {
     for (size_t s = 0; s < all && outcome == NSVCD__DONE; s += few) {
       const size_t next = s + few < all ? s + few : all;
-      if (!nsvcd__matters(p, q, s)) break;
+      if (!nsvcd__matters(&w->p, q, s)) break;
       q->wanted = nsvcd__segments_in(s, next);
       q->step = 0;
       q->waiting = 0;
-      outcome = nsvcd__prove_segments(p, q);
+      outcome = nsvcd__prove_segments(w, q);
       const int one_tile = !nsvcd__is_tiled(moving, fixed);
-      if (outcome == NSVCD__DONE && !p->known.has_contact && one_tile)
-        p->known.proven_until = (double)q->begin[next];
+      if (outcome == NSVCD__DONE && !w->p.known.has_contact && one_tile)
+        w->p.known.proven_until = (double)q->begin[next];
     }
   } while (outcome == NSVCD__DONE && nsvcd__search_next_tile(q));
-  if (outcome == NSVCD__DONE && !p->known.has_contact)
-    p->known.proven_until = (double)q->begin[all];
+  if (outcome == NSVCD__DONE && !w->p.known.has_contact)
+    w->p.known.proven_until = (double)q->begin[all];
   return outcome;
 }
 
 // THE WAIST: until when do the bodies stay apart in the segments that have been chosen, and what do
-// they meet? Cuts the segments, and separates the bodies in them. p->known is the result.
-static NSVCD__NOINLINE void nsvcd__separate(nsvcd__proof *p, nsvcd__search *q,
-                                            const nsvcd__goal *goal) {
-  p->arcs.motion = goal->motion;
-  p->goal = *goal;
-  p->known.end = nsvcd__min(p->known.end, goal->end);
-  nsvcd__cut_segments(p->arcs.motion, p->given.lengths, nsvcd__clearance(&p->goal), q);
-  p->known.outcome = nsvcd__prove_tiles(p, q);
-  p->known.ran_out = p->known.outcome == NSVCD__EXHAUSTED;
-  p->known.clearance = p->goal.clearance;
+// they meet? Cuts the segments, and separates the bodies in them.
+static NSVCD__NOINLINE nsvcd__search_result nsvcd__separate(nsvcd__solver *w, nsvcd__search *q,
+                                                            const nsvcd__goal *goal) {
+  w->p.arcs.motion = goal->motion;
+  w->p.goal = *goal;
+  w->p.goal.first = goal->fraction * (double)goal->motion->ticks;
+  w->p.known.end = nsvcd__min(w->p.known.end, goal->end);
+  nsvcd__cut_segments(goal->motion, w->p.given.lengths, nsvcd__clearance(goal), q);
+  w->p.known.outcome = nsvcd__prove_tiles(w, q);
+  w->p.known.ran_out = w->p.known.outcome == NSVCD__EXHAUSTED;
+  w->p.known.clearance = w->p.goal.clearance;
+  return w->p.known;
 }
 #endif  // NSVCD_NO_PROOF

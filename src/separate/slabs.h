@@ -160,9 +160,9 @@ NSVCD__INLINE uint32_t nsvcd__v_separate_by_moving(const nsvcd__v_approach *a) {
 
 // Of the lanes `met` of moving group g in segment s, those that slabs do not separate from fixed
 // patch j.
-static uint32_t nsvcd__slabs_meet(nsvcd__proof *p, const nsvcd__search *q, size_t g, size_t j,
-                                  size_t s, uint32_t met) {
-  const nsvcd__interval *over = nsvcd__segment_interval(p, q, s);
+static uint32_t nsvcd__slabs_meet(const nsvcd__proof *p, const nsvcd__interval *over,
+                                  const nsvcd__search *q, size_t g, size_t j, size_t s,
+                                  uint32_t met) {
   const nsvcd__chords *c = &q->members[s];
   const nsvcd__slab fixed = nsvcd__slab_at(p->fixed.slabs, p->fixed.body->padded, j);
   const nsvcd__f3 centre = nsvcd__patch_centre(&p->fixed, j);

@@ -8,30 +8,30 @@
 #ifndef NSVCD_NO_PROOF
 // Seeks a contact of the moving block, posed `at`, and block n of the window, at fraction u of the
 // arc.
-static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j, size_t n,
+static nsvcd__outcome nsvcd__find_witness_in(nsvcd__solver *w, size_t i, size_t j, size_t n,
                                              const nsvcd__dtransform *at, double u,
                                              float margin) {
-  nsvcd__block *fixed = &p->fixed_blocks[n];
-  const double clearance = p->goal.clearance;
-  const uint32_t nearby = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
-  uint32_t lanes = nsvcd__lanes_left_by_last(p, fixed, margin, nearby);
+  nsvcd__block *fixed = &w->blocks.fixed[n];
+  const double clearance = w->p.goal.clearance;
+  const uint32_t nearby = nsvcd__lanes_near(&w->blocks.moving, w->blocks.bounds[n], margin);
+  uint32_t lanes = nsvcd__lanes_left_by_last(w, fixed, margin, nearby);
   for (; lanes; lanes &= lanes - 1) {
     const size_t l = nsvcd__low_bit(lanes);
-    p->work++;
-    uint32_t met = nsvcd__row_left(p, l, fixed, margin);
+    w->p.work++;
+    uint32_t met = nsvcd__row_left(w, l, fixed, margin);
     for (; met; met &= met - 1) {
       if (clearance > 0)
-        met = nsvcd__left_by_normal(p, l, fixed, NSVCD__LAST_NORMAL, margin, met);
+        met = nsvcd__left_by_normal(w, l, fixed, NSVCD__LAST_NORMAL, margin, met);
       if (!met) break;
-      const size_t entry = p->moving_block.first + l;
+      const size_t entry = w->blocks.moving.first + l;
       const nsvcd__triangle_pair pair =
-          nsvcd__pair_of(p, i, j, entry, fixed->first + nsvcd__low_bit(met));
+          nsvcd__pair_of(&w->p, i, j, entry, fixed->first + nsvcd__low_bit(met));
       nsvcd__d3 posed[3];
       nsvcd__nearest nearest = {0, {0, 0, 0}, {0, 0, 0}};
       nsvcd__pose_triangle(at, pair.moving, posed);
-      p->work++;
-      if (p->goal.collects == NSVCD__SUPPORTING) {
-        nsvcd__collect_supports(p, &pair, posed);
+      w->p.work++;
+      if (w->p.goal.collects == NSVCD__SUPPORTING) {
+        nsvcd__collect_supports(&w->p, &w->p.of.kept.manifold, &pair, posed);
         continue;
       }
       if (nsvcd__triangles_meet(posed, pair.fixed, &nearest.on_b)) {
@@ -41,18 +41,18 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
         nearest = nsvcd__nearest_of(posed, pair.fixed);
         if (!(nearest.square <= clearance * clearance)) {
           const nsvcd__d3 distance = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
-          p->memo.separating = nsvcd__d3_scale(distance, 1 / sqrt(nearest.square));
+          w->p.separating = nsvcd__d3_scale(distance, 1 / sqrt(nearest.square));
           continue;
         }
       }
-      if (p->goal.collects == NSVCD__TOUCHING) {
-        nsvcd__collect_contact(p, &pair, posed);
+      if (w->p.goal.collects == NSVCD__TOUCHING) {
+        nsvcd__collect_contact(&w->p, &pair, posed);
         continue;
       }
-      const nsvcd__outcome contact = nsvcd__take_contact(p, &pair, u, &nearest);
+      const nsvcd__outcome contact = nsvcd__take_contact(&w->p, &pair, u, &nearest);
       if (contact == NSVCD__ANSWERED) return contact;
       // They may touch sooner, or come closer.
-      const nsvcd__outcome better = nsvcd__resolve_pair(p, &pair, 0, 1);
+      const nsvcd__outcome better = nsvcd__resolve_pair(&w->p, &pair, 0, 1);
       return better == NSVCD__ANSWERED ? better : contact;
     }
   }
@@ -60,35 +60,35 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
 }
 
 // Loads 16 triangles of moving patch i, from entry `first` on. They are often loaded already.
-static void nsvcd__moving_block_load(nsvcd__proof *p, size_t i, size_t first) {
-  const size_t left = p->moving.first_triangle[i + 1] - first;
-  if (p->memo.has_block && p->moving_block.first == first) return;
-  p->memo.has_block = 1;
-  nsvcd__block_load(&p->moving, i, first, left < NSVCD__LANES ? left : NSVCD__LANES,
-                    &p->moving_block);
+static void nsvcd__moving_block_load(nsvcd__blocks *b, const nsvcd__geometry *f, size_t i,
+                                     size_t first) {
+  const size_t left = f->first_triangle[i + 1] - first;
+  if (b->has_block && b->moving.first == first) return;
+  b->has_block = 1;
+  nsvcd__block_load(f, i, first, left < NSVCD__LANES ? left : NSVCD__LANES, &b->moving);
 }
 
 // Seeks a contact of triangles of patches i and j at fraction u of an arc.
-static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, uint32_t first,
+static nsvcd__outcome nsvcd__find_witness(nsvcd__solver *w, size_t i, size_t j, uint32_t first,
                                           double u) {
-  const nsvcd__arc *arc = nsvcd__arc_at(&p->arcs, first);
+  const nsvcd__arc *arc = nsvcd__arc_at(&w->p.arcs, first);
   const nsvcd__dtransform at = nsvcd__dtransform_at(arc, u);
   const nsvcd__transform rounded = nsvcd__transform_of(&at);
-  const float lengths = p->given.lengths + nsvcd__f3_norm(rounded.position);
+  const float lengths = w->p.given.lengths + nsvcd__f3_norm(rounded.position);
   const float margin =
-      NSVCD__ROUNDING * lengths + nsvcd__clearance(&p->goal) + nsvcd__errors_of(p, i, j);
-  const size_t moving_end = p->moving.first_triangle[i + 1];
-  const size_t fixed_end = p->fixed.first_triangle[j + 1];
-  for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
+      NSVCD__ROUNDING * lengths + nsvcd__clearance(&w->p.goal) + nsvcd__errors_of(&w->p, i, j);
+  const size_t moving_end = w->p.moving.first_triangle[i + 1];
+  const size_t fixed_end = w->p.fixed.first_triangle[j + 1];
+  for (size_t b = w->p.fixed.first_triangle[j]; b < fixed_end;
        b += NSVCD__WINDOW * NSVCD__LANES) {
-    nsvcd__window_load(p, j, b);
-    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
-      nsvcd__moving_block_load(p, i, a);
-      nsvcd__block_pose(p, &rounded, NULL);
-      for (size_t n = 0; n < p->memo.window; n++) {
-        p->work++;
-        if (nsvcd__check_budget(p)) return NSVCD__NOTHING;
-        const nsvcd__outcome found = nsvcd__find_witness_in(p, i, j, n, &at, u, margin);
+    nsvcd__window_load(&w->blocks, &w->p.fixed, j, b);
+    for (size_t a = w->p.moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
+      nsvcd__moving_block_load(&w->blocks, &w->p.moving, i, a);
+      nsvcd__block_pose(&w->blocks, &rounded, NULL);
+      for (size_t n = 0; n < w->blocks.window; n++) {
+        w->p.work++;
+        if (nsvcd__check_budget(&w->p)) return NSVCD__NOTHING;
+        const nsvcd__outcome found = nsvcd__find_witness_in(w, i, j, n, &at, u, margin);
         if (found != NSVCD__NOTHING) return found;
       }
     }
@@ -109,15 +109,15 @@ static uint32_t nsvcd__arc_of(const nsvcd__motion *m, double time, double *fract
 }
 
 // Seeks a contact of a patch pair when its spheres are nearest, if that still matters.
-static nsvcd__outcome nsvcd__seek_in_patch_pair(nsvcd__proof *p, const nsvcd__search *q,
+static nsvcd__outcome nsvcd__seek_in_patch_pair(nsvcd__solver *w, const nsvcd__search *q,
                                                 nsvcd__patch_pair *pair) {
   const double start = (double)q->begin[pair->segment];
-  const double end = nsvcd__min((double)q->begin[pair->segment + 1u], p->clipped_end);
+  const double end = nsvcd__min((double)q->begin[pair->segment + 1u], w->clipped_end);
   const double tick = start + (double)pair->fraction * (end - start);
   double u;
   pair->sought = 1;
-  if (!(tick < p->known.end)) return NSVCD__NOTHING;
-  const uint32_t first = nsvcd__arc_of(p->arcs.motion, tick, &u);
-  return nsvcd__find_witness(p, pair->moving, pair->fixed, first, u);
+  if (!(tick < w->p.known.end)) return NSVCD__NOTHING;
+  const uint32_t first = nsvcd__arc_of(w->p.arcs.motion, tick, &u);
+  return nsvcd__find_witness(w, pair->moving, pair->fixed, first, u);
 }
 #endif  // NSVCD_NO_PROOF

@@ -148,7 +148,7 @@ typedef struct nsvcd__query {
   nsvcd__candidate *kept;  // (shortlist)
 #endif
 #ifndef NSVCD_NO_PROOF
-  nsvcd__proof *proof;
+  nsvcd__solver *solver;
   nsvcd__interval *intervals;  // (S)
 #endif
 } nsvcd__query;
@@ -162,7 +162,7 @@ typedef char nsvcd__constants_hold[NSVCD__MUST_HOLD(
     sizeof(nsvcd__cut) <= 16 * 512 && NSVCD__TILE_SLOTS == 32 &&
     NSVCD_ALIGNMENT == sizeof(uint64_t))];
 #ifndef NSVCD_NO_PROOF
-typedef char nsvcd__proof_constants_hold[NSVCD__MUST_HOLD(sizeof(nsvcd__proof) <= 24832 &&
+typedef char nsvcd__proof_constants_hold[NSVCD__MUST_HOLD(sizeof(nsvcd__solver) <= 24832 &&
                                                           sizeof(nsvcd__interval) <= 168)];
 #endif
 #ifndef NSVCD_NO_NETWORK
@@ -191,7 +191,7 @@ static size_t nsvcd__query_layout(const nsvcd__needs *needs, char *base) {
 #ifndef NSVCD_NO_PROOF
   const size_t proofs = needs->proof != 0;
   const size_t intervals = proofs * needs->segments;
-  query->proof = NSVCD__TAKE_ROWS(nsvcd__proof, proofs, base, &used);
+  query->solver = NSVCD__TAKE_ROWS(nsvcd__solver, proofs, base, &used);
   query->intervals = NSVCD__TAKE_ROWS(nsvcd__interval, intervals, base, &used);
 #endif
   return (size_t)(used > end ? used : end);

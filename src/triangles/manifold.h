@@ -20,9 +20,9 @@ typedef struct nsvcd__facing {
   int is_open;  // one is of an open surface
 } nsvcd__facing;
 
-static nsvcd__facing nsvcd__facing_of(const nsvcd__proof *p, const nsvcd__triangle_pair *pair,
+static nsvcd__facing nsvcd__facing_of(const nsvcd__proof *p, nsvcd__d3 n,
+                                      const nsvcd__triangle_pair *pair,
                                       const nsvcd__d3 *posed) {
-  const nsvcd__d3 n = p->of.kept.manifold.normal;
   const int closed[2] = {nsvcd__moving_closed(p, pair), nsvcd__fixed_closed(p, pair)};
   nsvcd__facing out = {pair, posed, {{0, 0, 0}, {0, 0, 0}}, !closed[0] || !closed[1]};
   out.faces[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
@@ -49,10 +49,10 @@ static int nsvcd__is_left(const nsvcd__twist *twist, nsvcd__d3 x, nsvcd__d3 norm
 
 // Keeps a point where a triangle pair touches, if it is farther out than those kept. normal: of a
 // face, or across two edges, of either sign.
-static NSVCD__NOINLINE void nsvcd__keep_support(nsvcd__proof *p, const nsvcd__facing *f,
-                                                nsvcd__d3 on_moving, nsvcd__d3 on_fixed,
-                                                nsvcd__d3 normal, uint32_t number) {
-  nsvcd__manifold *m = &p->of.kept.manifold;
+static NSVCD__NOINLINE void nsvcd__keep_support(const nsvcd__proof *p, nsvcd__manifold *m,
+                                                const nsvcd__facing *f, nsvcd__d3 on_moving,
+                                                nsvcd__d3 on_fixed, nsvcd__d3 normal,
+                                                uint32_t number) {
   const double side = nsvcd__d3_dot(normal, m->normal) < 0 ? -1 : 1;
   const nsvcd__d3 offset = nsvcd__d3_sub(on_moving, on_fixed);
   const double gap = side * nsvcd__d3_dot(offset, normal);
@@ -82,10 +82,9 @@ static NSVCD__NOINLINE void nsvcd__keep_support(nsvcd__proof *p, const nsvcd__fa
 
 // Keeps all points where a triangle pair touches, within the tolerance. posed: the moving triangle.
 // Corner k of entry e has the number 4 (3 e + k), and 1 more if it is of the fixed body.
-static NSVCD__NOINLINE void nsvcd__collect_supports(nsvcd__proof *p,
+static NSVCD__NOINLINE void nsvcd__collect_supports(const nsvcd__proof *p, nsvcd__manifold *m,
                                                     const nsvcd__triangle_pair *pair,
                                                     const nsvcd__d3 *posed) {
-  const nsvcd__manifold *m = &p->of.kept.manifold;
   const nsvcd__d3 *fixed = pair->fixed;
   nsvcd__d3 foot;
   int farther = 0;
@@ -96,7 +95,7 @@ static NSVCD__NOINLINE void nsvcd__collect_supports(nsvcd__proof *p,
   }
   if (!farther) return;
   // Faces must be about normal to the contact's.
-  const nsvcd__facing facing = nsvcd__facing_of(p, pair, posed);
+  const nsvcd__facing facing = nsvcd__facing_of(p, m->normal, pair, posed);
   const int moving_faces = nsvcd__d3_dot(facing.faces[0], m->normal) >= 0.8;
   const int fixed_faces = nsvcd__d3_dot(facing.faces[1], m->normal) >= 0.8;
   for (size_t k = 0; k < 3; k++) {
@@ -104,10 +103,10 @@ static NSVCD__NOINLINE void nsvcd__collect_supports(nsvcd__proof *p,
     const uint32_t fixed_id = (uint32_t)(3 * pair->fixed_entry + k) << 2 | 1;
     if (fixed_faces && nsvcd__foot_within(posed[k], fixed, &foot) &&
         nsvcd__d3_distance2(posed[k], foot) <= m->tolerance * m->tolerance)
-      nsvcd__keep_support(p, &facing, posed[k], foot, facing.faces[1], moving_id);
+      nsvcd__keep_support(p, m, &facing, posed[k], foot, facing.faces[1], moving_id);
     if (moving_faces && nsvcd__foot_within(fixed[k], posed, &foot) &&
         nsvcd__d3_distance2(fixed[k], foot) <= m->tolerance * m->tolerance)
-      nsvcd__keep_support(p, &facing, foot, fixed[k], facing.faces[0], fixed_id);
+      nsvcd__keep_support(p, m, &facing, foot, fixed[k], facing.faces[0], fixed_id);
     for (size_t i = 0; i < 3; i++) {
       const nsvcd__d3 a = posed[(k + 1) % 3];
       const nsvcd__d3 b = fixed[(i + 1) % 3];
@@ -123,7 +122,7 @@ static NSVCD__NOINLINE void nsvcd__collect_supports(nsvcd__proof *p,
       nsvcd__edges_nearest(posed[k], a, fixed[i], b, &nearest);
       if (!(nearest.square <= m->tolerance * m->tolerance)) continue;
       const uint32_t number = moving_id * 3 + fixed_id * 5 + (uint32_t)(1 + i) * 0x9e3779b9u;
-      nsvcd__keep_support(p, &facing, nearest.on_a, nearest.on_b,
+      nsvcd__keep_support(p, m, &facing, nearest.on_a, nearest.on_b,
                           nsvcd__d3_unit(across, facing.faces[1]), number | 2);
     }
   }

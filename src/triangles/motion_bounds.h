@@ -6,13 +6,13 @@
 
 #ifndef NSVCD_NO_PROOF
 // A segment, up to the end of what matters; kept once it has been made.
-static const nsvcd__interval *nsvcd__segment_interval(nsvcd__proof *p, const nsvcd__search *q,
+static const nsvcd__interval *nsvcd__segment_interval(nsvcd__solver *w, const nsvcd__search *q,
                                                       size_t s) {
   nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
   const size_t l = s % NSVCD__LANES;
-  nsvcd__interval *out = &p->intervals[s];
-  if (p->memo.intervals >> s & 1) return out;
-  p->memo.intervals |= (uint64_t)1 << s;
+  nsvcd__interval *out = &w->intervals[s];
+  if (w->memo.intervals >> s & 1) return out;
+  w->memo.intervals |= (uint64_t)1 << s;
   const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, l);
   out->start.rotation = nsvcd__mat3_lane(block->rotation, l);
   out->end.rotation = nsvcd__mat3_mix(1, &out->start.rotation, 1, &turned);

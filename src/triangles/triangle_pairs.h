@@ -75,10 +75,10 @@ static int nsvcd__fixed_closed(const nsvcd__proof *p, const nsvcd__triangle_pair
 }
 
 // The nearest points of a triangle pair at fraction u of the arc.
-static nsvcd__nearest nsvcd__pair_nearest(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
+static nsvcd__nearest nsvcd__pair_nearest(nsvcd__arcs *arcs, const nsvcd__triangle_pair *pair,
                                           double u) {
   nsvcd__d3 moving[3];
-  nsvcd__pose_triangle(nsvcd__arc_pose(&p->arcs, u), pair->moving, moving);
+  nsvcd__pose_triangle(nsvcd__arc_pose(arcs, u), pair->moving, moving);
   return nsvcd__nearest_of(moving, pair->fixed);
 }
 
@@ -134,7 +134,7 @@ static NSVCD__NOINLINE void nsvcd__keep_unresolved(nsvcd__proof *p,
   const int is_first = !(p->known.unresolved < NSVCD__NEVER) && !p->goal.is_brief;
   if (is_first && p->work + left < p->goal.limit) p->goal.limit = p->work + left;
   if (!(tick < p->known.unresolved)) return;
-  const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
+  const nsvcd__nearest nearest = nsvcd__pair_nearest(&p->arcs, pair, middle);
   p->known.unresolved_pair = nsvcd__contact_at(p, pair, middle, &nearest);
   p->known.unresolved = tick;
   if (p->goal.unresolved_ends) p->known.end = nsvcd__min(p->known.end, tick);
@@ -160,7 +160,7 @@ static double nsvcd__off_chord_along(const nsvcd__arc *arc, const nsvcd__triangl
 // Does the plane that separated a triangle pair last separate this one from u0 to u1 of the arc?
 static int nsvcd__plane_separates(nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0,
                                   double u1) {
-  const nsvcd__d3 normal = p->memo.separating;
+  const nsvcd__d3 normal = p->separating;
   const nsvcd__dtransform *start = nsvcd__arc_pose(&p->arcs, u0);
   const nsvcd__dtransform *end = nsvcd__arc_pose(&p->arcs, u1);
   double lowest = HUGE_VAL;
@@ -242,14 +242,14 @@ static int nsvcd__edges_pass(const nsvcd__d3 *const *moving, size_t k, const nsv
 // Has a triangle pair met between u0 and u1 of the arc: has a corner passed through the other
 // triangle, or an edge through an edge? Faces that are parallel when they meet do so at
 // one time only, and rounded numbers show it at none.
-static int nsvcd__pair_passes(nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0,
+static int nsvcd__pair_passes(nsvcd__arcs *arcs, const nsvcd__triangle_pair *pair, double u0,
                               double u1) {
   const double margin = pair->rounding;
   const double travel = pair->speed * (u1 - u0);
   const double times[3] = {u0, 0.5 * (u0 + u1), u1};
   nsvcd__d3 corners[3][3];
   for (size_t n = 0; n < 3; n++)
-    nsvcd__pose_triangle(nsvcd__arc_pose(&p->arcs, times[n]), pair->moving, corners[n]);
+    nsvcd__pose_triangle(nsvcd__arc_pose(arcs, times[n]), pair->moving, corners[n]);
   const nsvcd__d3 *moving[3] = {corners[0], corners[1], corners[2]};
   const nsvcd__d3 *fixed[3] = {pair->fixed, pair->fixed, pair->fixed};
   for (size_t k = 0; k < 3; k++) {
@@ -298,7 +298,7 @@ static NSVCD__NOINLINE double nsvcd__aim_plane(nsvcd__proof *p,
                                                const nsvcd__triangle_pair *pair, double u,
                                                const nsvcd__nearest *nearest) {
   const double distance = sqrt(nearest->square);
-  nsvcd__d3 *plane = &p->memo.separating;
+  nsvcd__d3 *plane = &p->separating;
   *plane = nsvcd__d3_scale(nsvcd__d3_sub(nearest->on_a, nearest->on_b), 1 / distance);
   const nsvcd__d3 *fixed = pair->fixed;
   const nsvcd__d3 guess = *plane;
@@ -331,7 +331,7 @@ static nsvcd__outcome nsvcd__resolve_too_near(nsvcd__proof *p,
     nsvcd__keep_unresolved(p, pair, u0, u1);
     return NSVCD__DONE;
   }
-  const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, when);
+  const nsvcd__nearest nearest = nsvcd__pair_nearest(&p->arcs, pair, when);
   const double distance = sqrt(nearest.square);
   if (distance < p->goal.high) (void)nsvcd__take_contact(p, pair, when, &nearest);
   const double separated = distance - 2 * pair->close;
@@ -343,20 +343,20 @@ static nsvcd__outcome nsvcd__resolve_too_near(nsvcd__proof *p,
 // is narrowed down to rounding, and is the contact's. If not, it is unresolved.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_short_interval(
     nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0, double u1) {
-  if (!nsvcd__pair_passes(p, pair, u0, u1))
+  if (!nsvcd__pair_passes(&p->arcs, pair, u0, u1))
     return nsvcd__resolve_too_near(p, pair, u0, u1, 0.5 * (u0 + u1));
   for (size_t n = 0; n < NSVCD__HALVINGS; n++) {
     const double middle = 0.5 * (u0 + u1);
     p->work++;
-    if (nsvcd__pair_passes(p, pair, u0, middle))
+    if (nsvcd__pair_passes(&p->arcs, pair, u0, middle))
       u1 = middle;
-    else if (nsvcd__pair_passes(p, pair, middle, u1))
+    else if (nsvcd__pair_passes(&p->arcs, pair, middle, u1))
       u0 = middle;
     else
       break;
   }
   const double when = 0.5 * (u0 + u1);
-  nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, when);
+  nsvcd__nearest nearest = nsvcd__pair_nearest(&p->arcs, pair, when);
   nearest.square = 0;
   return nsvcd__take_contact(p, pair, when, &nearest);
 }
@@ -368,7 +368,7 @@ static nsvcd__outcome nsvcd__take_nearest(nsvcd__proof *p, const nsvcd__triangle
                                           double u0, double u1, nsvcd__d3 moved) {
   for (size_t n = 0; n < NSVCD__HALVINGS / 2; n++) {
     const double middle = 0.5 * (u0 + u1);
-    const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
+    const nsvcd__nearest nearest = nsvcd__pair_nearest(&p->arcs, pair, middle);
     const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
     p->work++;
     if (sqrt(nearest.square) < p->goal.high &&
@@ -409,7 +409,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
     at = nsvcd__min(at, end);
     p->work++;
     if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
-    const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, at);
+    const nsvcd__nearest nearest = nsvcd__pair_nearest(&p->arcs, pair, at);
     const double distance = sqrt(nearest.square);
     const double above = distance - p->goal.clearance;
     if (above <= pair->rounding) {
@@ -423,7 +423,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
       continue;
     }
     const double beyond = nsvcd__aim_plane(p, pair, at, &nearest);
-    const double fall = -nsvcd__d3_dot(p->memo.separating, moved);
+    const double fall = -nsvcd__d3_dot(p->separating, moved);
     const double room = beyond - p->goal.clearance - pair->margin - pair->rounding;
     const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;
     if (u < until && nsvcd__plane_separates(p, pair, u, until)) u = until;
@@ -461,7 +461,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
     if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
     int apart = nsvcd__plane_separates(p, pair, u, end);
     if (!apart) {
-      const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
+      const nsvcd__nearest nearest = nsvcd__pair_nearest(&p->arcs, pair, middle);
       const double distance = sqrt(nearest.square);
       if (distance <= p->goal.clearance + pair->rounding) {
         if (nsvcd__take_contact(p, pair, middle, &nearest) == NSVCD__ANSWERED)
