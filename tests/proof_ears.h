@@ -85,10 +85,10 @@ static double proof_time_in_arc(const nsvcd__proof *p, double u) {
 }
 // A proof is the first of its solver.
 #define proof_solver(p) ((nsvcd__solver *)(p))
-#define nsvcd__segment_interval(p, q, s)                                                          \
-  (heard.start = proof_time(&(p)->p, (double)(q)->begin[s]),                                  \
-   heard.end = proof_time(&(p)->p, fmin((double)(q)->begin[(s) + 1u], (p)->p.known.end)), \
-   nsvcd__segment_interval(p, q, s))
+#define nsvcd__segment_interval(w, q, s)                                                  \
+  (heard.start = proof_time(&(w)->p, (double)(q)->begin[s]),                              \
+   heard.end = proof_time(&(w)->p, fmin((double)(q)->begin[(s) + 1u], (w)->p.known.end)), \
+   nsvcd__segment_interval(w, q, s))
 #define nsvcd__interval_of_arc(p, first, u0, u1)                                 \
   (proof_may_lose(proof_solver(p)), (void)nsvcd__arc_at(&(p)->arcs, first),      \
    heard.start = proof_time_in_arc(p, u0), heard.end = proof_time_in_arc(p, u1), \
@@ -106,16 +106,15 @@ static void proof_heard_slabs(int kind, const nsvcd__interval *over, size_t i, s
   proof_heard(kind, i, j, 0, 0, nsvcd__d3_widen(fixed))->normals[1] =
       nsvcd__d3_widen(nsvcd__f3_add(start, end));
 }
-static uint32_t proof_slabs_meet(nsvcd__solver *w, const nsvcd__search *q, size_t g, size_t j,
-                                 size_t s, uint32_t met) {
-  const uint32_t left = nsvcd__slabs_meet(w, q, g, j, s, met);
-  const nsvcd__interval *over = nsvcd__segment_interval(w, q, s);
-  const nsvcd__slab fixed = nsvcd__slab_at(w->p.fixed.slabs, w->p.fixed.body->padded, j);
+static uint32_t proof_slabs_meet(const nsvcd__proof *p, const nsvcd__interval *over,
+                                 const nsvcd__search *q, size_t g, size_t j, size_t s,
+                                 uint32_t met) {
+  const uint32_t left = nsvcd__slabs_meet(p, over, q, g, j, s, met);
+  const nsvcd__slab fixed = nsvcd__slab_at(p->fixed.slabs, p->fixed.body->padded, j);
   for (uint32_t apart = met & ~left; apart; apart &= apart - 1) {
     const size_t i = NSVCD__GROUP * g + nsvcd__low_bit(apart);
-    if (i >= w->p.moving.body->patches) continue;
-    const nsvcd__slab moving =
-        nsvcd__slab_at(w->p.moving.slabs, w->p.moving.body->padded, i);
+    if (i >= p->moving.body->patches) continue;
+    const nsvcd__slab moving = nsvcd__slab_at(p->moving.slabs, p->moving.body->padded, i);
     proof_heard_slabs(HEARD_SLABS, over, i, j, moving.normal, fixed.normal);
   }
   return left;
@@ -211,8 +210,7 @@ static uint32_t proof_heard_row(nsvcd__solver *w, nsvcd__block *fixed, size_t l,
 // From u0 to u1 of the arc.
 static void proof_heard_pair(int kind, const nsvcd__proof *p, const nsvcd__triangle_pair *pair,
                              size_t a, size_t b, double u0, double u1) {
-  proof_record *r =
-      proof_heard(kind, pair->moving_patch, pair->fixed_patch, a, b, p->separating);
+  proof_record *r = proof_heard(kind, pair->moving_patch, pair->fixed_patch, a, b, p->separating);
   r->start = proof_time_in_arc(p, u0);
   r->end = proof_time_in_arc(p, u1);
 }
@@ -233,7 +231,7 @@ static void proof_ask_plane(nsvcd__proof *p, const nsvcd__triangle_pair *pair, d
                             double u1) {
   const nsvcd__d3 before = p->separating;
   const double middle = 0.5 * (u0 + u1);
-  const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
+  const nsvcd__nearest nearest = nsvcd__pair_nearest(&p->arcs, pair, middle);
   double half = 0.5 * (u1 - u0);
   if (!(nearest.square > 0)) return;
   (void)nsvcd__aim_plane(p, pair, middle, &nearest);
