@@ -9826,12 +9826,12 @@ typedef struct nsvcd__twist {
 } nsvcd__twist;
 
 // Two triangles that touch at the start, in the fixed body's frame.
-typedef struct nsvcd__triangle_contact {
+typedef struct nsvcd__touch {
   nsvcd__d3 moving[3], fixed[3];
   // Directions that may undo it, unit: the moving one's normal, reversed; the fixed one's normal;
   // and from the fixed one's nearest point to the moving one's, 0 if they meet.
   nsvcd__d3 directions[3];
-} nsvcd__triangle_contact;
+} nsvcd__touch;
 
 // Where the bodies touch at a contact: triangles/manifold.
 typedef struct nsvcd__manifold {
@@ -10006,7 +10006,7 @@ typedef struct nsvcd__proof {
       nsvcd__manifold manifold;
     } kept;
     // collected before there are any
-    nsvcd__triangle_contact touches[NSVCD__TOUCHES];
+    nsvcd__touch touches[NSVCD__TOUCHES];
   } of;
   // A triangle pair over an arc: the ends of the parts to come, the last one first. parts: how
   // often the interval's triangle pairs have been halved.
@@ -13200,13 +13200,13 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
 #ifndef NSVCD_NO_PROOF
 // How deep a touch is along n: how far the moving triangle must go to be beyond the other; negative
 // if it is beyond it already.
-static double nsvcd__depth_along(nsvcd__d3 n, const nsvcd__triangle_contact *t) {
+static double nsvcd__depth_along(nsvcd__d3 n, const nsvcd__touch *t) {
   return -nsvcd__beyond(n, t->moving, t->fixed);
 }
 
 // Is a touch too deep for the slop in every direction? Those to try are the separating axes: a
 // normal of either triangle, or across an edge of each.
-static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__triangle_contact *t) {
+static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__touch *t) {
   const nsvcd__d3 push_out = nsvcd__d3_widen(p->arcs.motion->push_out);
   const double most = p->push.slop - p->given.clearance;
   for (size_t k = 0; k < 12; k++) {
@@ -13224,8 +13224,7 @@ static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__triangle_contact *
 // Does a push-out along n, by what is left of the slop in that direction, undo a touch? If it has
 // to push, it must not go through both faces. Going through one is harmless: a cone's side, which
 // rises from the rim that the cone stands on, looks up, and so does the floor under it.
-static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n,
-                         const nsvcd__triangle_contact *t) {
+static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n, const nsvcd__touch *t) {
   const double more = nsvcd__depth_along(n, t);
   const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->arcs.motion->push_out), n);
   if (!(nsvcd__d3_dot(n, n) > 0.5)) return 0;
@@ -13236,8 +13235,7 @@ static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n,
 }
 
 // The squared distance of two triangles after the moving one has gone so far along n.
-static double nsvcd__gap_after(const nsvcd__triangle_contact *t, nsvcd__d3 n,
-                               double distance) {
+static double nsvcd__gap_after(const nsvcd__touch *t, nsvcd__d3 n, double distance) {
   nsvcd__d3 moved[3];
   for (int k = 0; k < 3; k++)
     moved[k] = nsvcd__d3_add(t->moving[k], nsvcd__d3_scale(n, distance));
@@ -13247,7 +13245,7 @@ static double nsvcd__gap_after(const nsvcd__triangle_contact *t, nsvcd__d3 n,
 // How far along n the moving triangle of a touch must go until it is beyond the clearance for good,
 // which it is after `most`; -HUGE_VAL if it never is within it. The distance is convex: thirds find
 // where it is least, and halves where it is the clearance. epsilon: of depths, in double.
-static NSVCD__NOINLINE double nsvcd__exit_depth(const nsvcd__triangle_contact *t, nsvcd__d3 n,
+static NSVCD__NOINLINE double nsvcd__exit_depth(const nsvcd__touch *t, nsvcd__d3 n,
                                                 double clearance, double most,
                                                 double epsilon) {
   // Parallel faces meet at one time only.
@@ -13278,7 +13276,7 @@ static NSVCD__NOINLINE double nsvcd__exit_depth(const nsvcd__triangle_contact *t
 }
 
 // Notes how deep a touch is along normal k.
-static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__triangle_contact *t) {
+static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__touch *t) {
   const nsvcd__d3 n = p->push.normals[k];
   const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->arcs.motion->push_out), n);
   const double most = nsvcd__depth_along(n, t) + p->given.clearance;
@@ -13290,7 +13288,7 @@ static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__triangle_c
 }
 
 // Does normal k undo a touch? Then its depth is noted.
-static int nsvcd__undone_by(nsvcd__proof *p, size_t k, const nsvcd__triangle_contact *t) {
+static int nsvcd__undone_by(nsvcd__proof *p, size_t k, const nsvcd__touch *t) {
   if (!nsvcd__undoes(p, p->push.normals[k], t)) return 0;
   nsvcd__note_depth(p, k, t);
   return 1;
@@ -13300,7 +13298,7 @@ static int nsvcd__undone_by(nsvcd__proof *p, size_t k, const nsvcd__triangle_con
 // that.
 static void nsvcd__collect_contact(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
                                    const nsvcd__d3 *posed) {
-  nsvcd__triangle_contact contact;
+  nsvcd__touch contact;
   memcpy(contact.moving, posed, sizeof contact.moving);
   memcpy(contact.fixed, pair->fixed, sizeof contact.fixed);
   const nsvcd__nearest nearest = nsvcd__nearest_of(posed, pair->fixed);
@@ -13789,10 +13787,11 @@ static nsvcd__f3 nsvcd__f3_towards(nsvcd__f3 a, nsvcd__f3 b) {
 #define NSVCD__GUESSES 4
 static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__solver *w, size_t i, size_t j,
                                                   const nsvcd__interval *over) {
-  const nsvcd__geometry *f = &w->p.moving;
-  const nsvcd__geometry *g = &w->p.fixed;
-  const float margins = w->p.arcs.motion->scale * f->margins[i] + g->margins[j];
-  const float margin = margins + over->rounding + nsvcd__clearance(&w->p.goal);
+  nsvcd__proof *p = &w->p;
+  const nsvcd__geometry *f = &p->moving;
+  const nsvcd__geometry *g = &p->fixed;
+  const float margins = p->arcs.motion->scale * f->margins[i] + g->margins[j];
+  const float margin = margins + over->rounding + nsvcd__clearance(&p->goal);
   const nsvcd__arm arm = nsvcd__patch_arm(f, i, over);
   const nsvcd__transform *start = &over->start;
   const nsvcd__transform *end = &over->end;
@@ -13813,7 +13812,7 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__solver *w, size_t i, si
                                              nsvcd__f3_towards(fixed.normal, line),
                                              nsvcd__f3_towards(turned, line), line};
   nsvcd__f3 nearest = {0, 0, 0};
-  w->p.work++;
+  p->work++;
   for (size_t step = 0; step < NSVCD__GUESSES + NSVCD__PLANE_STEPS; step++) {
     const nsvcd__f3 normal = step < NSVCD__GUESSES ? guesses[step] : nearest;
     const nsvcd__support found = nsvcd__support_along(w, normal);
@@ -13842,11 +13841,12 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__solver *w, size_t i, si
 // patch in a segment the least, less all margins, and of a fixed one the greatest.
 static int nsvcd__held_again(nsvcd__solver *w, const nsvcd__search *q,
                              const nsvcd__patch_pair *patches) {
+  nsvcd__proof *p = &w->p;
   const size_t i = patches->moving;
   const size_t j = patches->fixed;
   const size_t s = patches->segment;
-  const nsvcd__geometry *f = &w->p.moving;
-  const nsvcd__geometry *g = &w->p.fixed;
+  const nsvcd__geometry *f = &p->moving;
+  const nsvcd__geometry *g = &p->fixed;
   nsvcd__memo *memo = &w->memo;
   if (!memo->plane) return 0;
   const nsvcd__interval *over = nsvcd__segment_interval(w, q, s);
@@ -13865,7 +13865,7 @@ static int nsvcd__held_again(nsvcd__solver *w, const nsvcd__search *q,
       const nsvcd__v at_end = nsvcd__v3_dot(normal, nsvcd__v3_transform(&over->end, hull));
       lowest = nsvcd__least_of(lowest, nsvcd__v_min(at_start, at_end));
     }
-    const float margin = (w->p.arcs.motion->scale * f->margins[i] + over->rounding) * length;
+    const float margin = (p->arcs.motion->scale * f->margins[i] + over->rounding) * length;
     above->plane = memo->plane;
     above->key = key;
     above->height =
@@ -13881,7 +13881,7 @@ static int nsvcd__held_again(nsvcd__solver *w, const nsvcd__search *q,
     below->key = (uint32_t)j;
     below->height = g->margins[j] * length + highest;
   }
-  return above->height > below->height + nsvcd__clearance(&w->p.goal) * length;
+  return above->height > below->height + nsvcd__clearance(&p->goal) * length;
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -14150,13 +14150,14 @@ static NSVCD__NOINLINE uint32_t nsvcd__row_left(nsvcd__solver *w, size_t l,
 static nsvcd__outcome nsvcd__find_witness_in(nsvcd__solver *w, size_t i, size_t j, size_t n,
                                              const nsvcd__dtransform *at, double u,
                                              float margin) {
+  nsvcd__proof *p = &w->p;
   nsvcd__block *fixed = &w->blocks.fixed[n];
-  const double clearance = w->p.goal.clearance;
+  const double clearance = p->goal.clearance;
   const uint32_t nearby = nsvcd__lanes_near(&w->blocks.moving, w->blocks.bounds[n], margin);
   uint32_t lanes = nsvcd__lanes_left_by_last(w, fixed, margin, nearby);
   for (; lanes; lanes &= lanes - 1) {
     const size_t l = nsvcd__low_bit(lanes);
-    w->p.work++;
+    p->work++;
     uint32_t met = nsvcd__row_left(w, l, fixed, margin);
     for (; met; met &= met - 1) {
       if (clearance > 0)
@@ -14164,13 +14165,13 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__solver *w, size_t i, size_t 
       if (!met) break;
       const size_t entry = w->blocks.moving.first + l;
       const nsvcd__triangle_pair pair =
-          nsvcd__pair_of(&w->p, i, j, entry, fixed->first + nsvcd__low_bit(met));
+          nsvcd__pair_of(p, i, j, entry, fixed->first + nsvcd__low_bit(met));
       nsvcd__d3 posed[3];
       nsvcd__nearest nearest = {0, {0, 0, 0}, {0, 0, 0}};
       nsvcd__pose_triangle(at, pair.moving, posed);
-      w->p.work++;
-      if (w->p.goal.collects == NSVCD__SUPPORTING) {
-        nsvcd__collect_supports(&w->p, &w->p.of.kept.manifold, &pair, posed);
+      p->work++;
+      if (p->goal.collects == NSVCD__SUPPORTING) {
+        nsvcd__collect_supports(p, &p->of.kept.manifold, &pair, posed);
         continue;
       }
       if (nsvcd__triangles_meet(posed, pair.fixed, &nearest.on_b)) {
@@ -14180,18 +14181,18 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__solver *w, size_t i, size_t 
         nearest = nsvcd__nearest_of(posed, pair.fixed);
         if (!(nearest.square <= clearance * clearance)) {
           const nsvcd__d3 distance = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
-          w->p.separating = nsvcd__d3_scale(distance, 1 / sqrt(nearest.square));
+          p->separating = nsvcd__d3_scale(distance, 1 / sqrt(nearest.square));
           continue;
         }
       }
-      if (w->p.goal.collects == NSVCD__TOUCHING) {
-        nsvcd__collect_contact(&w->p, &pair, posed);
+      if (p->goal.collects == NSVCD__TOUCHING) {
+        nsvcd__collect_contact(p, &pair, posed);
         continue;
       }
-      const nsvcd__outcome contact = nsvcd__take_contact(&w->p, &pair, u, &nearest);
+      const nsvcd__outcome contact = nsvcd__take_contact(p, &pair, u, &nearest);
       if (contact == NSVCD__ANSWERED) return contact;
       // They may touch sooner, or come closer.
-      const nsvcd__outcome better = nsvcd__resolve_pair(&w->p, &pair, 0, 1);
+      const nsvcd__outcome better = nsvcd__resolve_pair(p, &pair, 0, 1);
       return better == NSVCD__ANSWERED ? better : contact;
     }
   }
@@ -14210,23 +14211,24 @@ static void nsvcd__moving_block_load(nsvcd__blocks *b, const nsvcd__geometry *f,
 // Seeks a contact of triangles of patches i and j at fraction u of an arc.
 static nsvcd__outcome nsvcd__find_witness(nsvcd__solver *w, size_t i, size_t j, uint32_t first,
                                           double u) {
-  const nsvcd__arc *arc = nsvcd__arc_at(&w->p.arcs, first);
+  nsvcd__proof *p = &w->p;
+  const nsvcd__arc *arc = nsvcd__arc_at(&p->arcs, first);
   const nsvcd__dtransform at = nsvcd__dtransform_at(arc, u);
   const nsvcd__transform rounded = nsvcd__transform_of(&at);
-  const float lengths = w->p.given.lengths + nsvcd__f3_norm(rounded.position);
+  const float lengths = p->given.lengths + nsvcd__f3_norm(rounded.position);
   const float margin =
-      NSVCD__ROUNDING * lengths + nsvcd__clearance(&w->p.goal) + nsvcd__errors_of(&w->p, i, j);
-  const size_t moving_end = w->p.moving.first_triangle[i + 1];
-  const size_t fixed_end = w->p.fixed.first_triangle[j + 1];
-  for (size_t b = w->p.fixed.first_triangle[j]; b < fixed_end;
+      NSVCD__ROUNDING * lengths + nsvcd__clearance(&p->goal) + nsvcd__errors_of(p, i, j);
+  const size_t moving_end = p->moving.first_triangle[i + 1];
+  const size_t fixed_end = p->fixed.first_triangle[j + 1];
+  for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
        b += NSVCD__WINDOW * NSVCD__LANES) {
-    nsvcd__window_load(&w->blocks, &w->p.fixed, j, b);
-    for (size_t a = w->p.moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
-      nsvcd__moving_block_load(&w->blocks, &w->p.moving, i, a);
+    nsvcd__window_load(&w->blocks, &p->fixed, j, b);
+    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
+      nsvcd__moving_block_load(&w->blocks, &p->moving, i, a);
       nsvcd__block_pose(&w->blocks, &rounded, NULL);
       for (size_t n = 0; n < w->blocks.window; n++) {
-        w->p.work++;
-        if (nsvcd__check_budget(&w->p)) return NSVCD__NOTHING;
+        p->work++;
+        if (nsvcd__check_budget(p)) return NSVCD__NOTHING;
         const nsvcd__outcome found = nsvcd__find_witness_in(w, i, j, n, &at, u, margin);
         if (found != NSVCD__NOTHING) return found;
       }
@@ -14302,31 +14304,32 @@ static NSVCD__NOINLINE int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_
 static nsvcd__outcome nsvcd__resolve_row(nsvcd__solver *w, size_t l, nsvcd__block *fixed,
                                          nsvcd__arm arm, float margin, double u0, double u1,
                                          size_t patience) {
+  nsvcd__proof *p = &w->p;
   const nsvcd__interval *over = w->blocks.over;
   const size_t i = w->blocks.moving.patch;
   const size_t j = fixed->patch;
-  const float errors = nsvcd__errors_of(&w->p, i, j);
-  w->p.work++;
+  const float errors = nsvcd__errors_of(p, i, j);
+  p->work++;
   uint32_t met = nsvcd__row_left(w, l, fixed, margin);
   for (; met; met &= met - 1) {
-    const nsvcd__d3 before = w->p.separating;
+    const nsvcd__d3 before = p->separating;
     const nsvcd__f3 last = nsvcd__f3_round(before);
-    const float along = errors + over->rounding + nsvcd__clearance(&w->p.goal) +
+    const float along = errors + over->rounding + nsvcd__clearance(&p->goal) +
                         nsvcd__deviation_of(over, last, arm);
     met = nsvcd__left_by_normal(w, l, fixed, NSVCD__LAST_NORMAL, along, met);
     if (!met) break;
     if (patience == 0) return NSVCD__TOO_LONG;
-    if (w->p.shared > NSVCD__SHARED * w->all_tried) {
+    if (p->shared > NSVCD__SHARED * w->all_tried) {
       w->all_tried++;
-      if (nsvcd__patches_apart(&w->p, i, j, u0, u1)) return NSVCD__ALL_DONE;
+      if (nsvcd__patches_apart(p, i, j, u0, u1)) return NSVCD__ALL_DONE;
     }
     const size_t a = w->blocks.moving.first + l;
     const size_t b = fixed->first + nsvcd__low_bit(met);
-    const nsvcd__triangle_pair pair = nsvcd__pair_of(&w->p, i, j, a, b);
-    const nsvcd__outcome one = nsvcd__resolve_pair(&w->p, &pair, u0, u1);
+    const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, b);
+    const nsvcd__outcome one = nsvcd__resolve_pair(p, &pair, u0, u1);
     if (one != NSVCD__DONE) return one;
-    if (w->p.parts > patience) return NSVCD__TOO_LONG;
-    w->p.shared = nsvcd__d3_distance2(w->p.separating, before) > 0 ? 0 : w->p.shared + 1;
+    if (p->parts > patience) return NSVCD__TOO_LONG;
+    p->shared = nsvcd__d3_distance2(p->separating, before) > 0 ? 0 : p->shared + 1;
   }
   return NSVCD__DONE;
 }
@@ -14337,23 +14340,24 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__solver *w,
                                                                const nsvcd__interval *over,
                                                                double u0, double u1,
                                                                size_t patience) {
-  const size_t moving_end = w->p.moving.first_triangle[i + 1];
-  const size_t fixed_end = w->p.fixed.first_triangle[j + 1];
+  nsvcd__proof *p = &w->p;
+  const size_t moving_end = p->moving.first_triangle[i + 1];
+  const size_t fixed_end = p->fixed.first_triangle[j + 1];
   const nsvcd__f3 axis = nsvcd__own_axis(over);
-  const float stays = nsvcd__errors_of(&w->p, i, j) + (over->rounding + over->origin_bend) +
-                      nsvcd__clearance(&w->p.goal);
-  const float error = w->p.moving.errors[i];
-  const float extent = w->p.moving.body->extent + error;
+  const float stays = nsvcd__errors_of(p, i, j) + (over->rounding + over->origin_bend) +
+                      nsvcd__clearance(&p->goal);
+  const float error = p->moving.errors[i];
+  const float extent = p->moving.body->extent + error;
   const nsvcd__arm all = {extent, extent};
   // else arms of blocks gain little
   const int bends = over->bend * extent > 0.25f * stays;
-  w->p.parts = 0;
+  p->parts = 0;
   w->all_tried = 0;
-  for (size_t b = w->p.fixed.first_triangle[j]; b < fixed_end;
+  for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
        b += NSVCD__WINDOW * NSVCD__LANES) {
-    nsvcd__window_load(&w->blocks, &w->p.fixed, j, b);
-    for (size_t a = w->p.moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
-      nsvcd__moving_block_load(&w->blocks, &w->p.moving, i, a);
+    nsvcd__window_load(&w->blocks, &p->fixed, j, b);
+    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
+      nsvcd__moving_block_load(&w->blocks, &p->moving, i, a);
       const nsvcd__arm arm = bends ? nsvcd__block_arm(&w->blocks.moving, axis, error) : all;
       const float margin = stays + nsvcd__bend_of(over, arm);
       nsvcd__block_pose(&w->blocks, NULL, over);
@@ -14362,8 +14366,8 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__solver *w,
         const uint32_t nearby =
             nsvcd__lanes_near(&w->blocks.moving, w->blocks.bounds[n], margin);
         uint32_t lanes = nsvcd__lanes_left_by_last(w, fixed, margin, nearby);
-        w->p.work++;
-        if (nsvcd__check_budget(&w->p)) return NSVCD__EXHAUSTED;
+        p->work++;
+        if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
         for (; lanes; lanes &= lanes - 1) {
           const nsvcd__outcome row = nsvcd__resolve_row(w, nsvcd__low_bit(lanes), fixed, arm,
                                                         margin, u0, u1, patience);
@@ -14380,13 +14384,14 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__solver *w,
 // until each part is resolved by a plane between the hulls, or by the triangles.
 static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__solver *w, const nsvcd__search *q,
                                                 const nsvcd__patch_pair *patches) {
-  const nsvcd__motion *m = w->p.arcs.motion;
+  nsvcd__proof *p = &w->p;
+  const nsvcd__motion *m = p->arcs.motion;
   const size_t i = patches->moving;
   const size_t j = patches->fixed;
   const uint32_t last = q->begin[patches->segment + 1u];
   double *ends = w->arc_ends;
   int is_tried = 1;  // is it all of the segment?
-  for (uint32_t at = q->begin[patches->segment]; at < last && (double)at < w->p.known.end;) {
+  for (uint32_t at = q->begin[patches->segment]; at < last && (double)at < p->known.end;) {
     double u;
     const uint32_t first = nsvcd__arc_of(m, (double)at, &u);
     const uint32_t keyframe = nsvcd__next_keyframe(m, first);
@@ -14394,10 +14399,10 @@ static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__solver *w, const nsvcd__s
     is_tried = is_tried && at == last;
     ends[0] = (double)(at - first) / (double)(keyframe - first);
     for (size_t left = 1; left > 0;) {
-      nsvcd__arc_at(&w->p.arcs, first);
-      const double end = nsvcd__min(ends[left - 1], nsvcd__arc_limit(&w->p));
+      nsvcd__arc_at(&p->arcs, first);
+      const double end = nsvcd__min(ends[left - 1], nsvcd__arc_limit(p));
       if (!(u < end)) break;
-      w->interval = nsvcd__interval_of_arc(&w->p, first, u, end);
+      w->interval = nsvcd__interval_of_arc(p, first, u, end);
       const int apart = !is_tried && nsvcd__hulls_are_apart(w, i, j, &w->interval);
       is_tried = 0;
       if (!apart) {
@@ -14451,16 +14456,17 @@ static int nsvcd__matters(const nsvcd__proof *p, const nsvcd__search *q, size_t 
 // Clips the segment in which the end of what matters lies. What leaves a chord by some length
 // leaves that of a part of the time by no more than twice that, along any direction.
 static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__solver *w, nsvcd__search *q) {
+  nsvcd__proof *p = &w->p;
   size_t s = 0;
   double u;
-  if (!(w->p.known.end < w->clipped_end)) return;
-  w->clipped_end = w->p.known.end;
-  while (s < q->segments && !((double)q->begin[s + 1] > w->p.known.end)) s++;
-  if (s == q->segments || !((double)q->begin[s] < w->p.known.end)) return;
+  if (!(p->known.end < w->clipped_end)) return;
+  w->clipped_end = p->known.end;
+  while (s < q->segments && !((double)q->begin[s + 1] > p->known.end)) s++;
+  if (s == q->segments || !((double)q->begin[s] < p->known.end)) return;
   nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
   const size_t l = s % NSVCD__LANES;
-  const uint32_t first = nsvcd__arc_of(w->p.arcs.motion, w->p.known.end, &u);
-  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&w->p.arcs, first), u);
+  const uint32_t first = nsvcd__arc_of(p->arcs.motion, p->known.end, &u);
+  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, first), u);
   const nsvcd__transform end = nsvcd__transform_of(&at);
   const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, l);
   const nsvcd__mat3 turned = nsvcd__mat3_mix(1, &end.rotation, -1, &start);
@@ -14487,19 +14493,20 @@ static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__solver *w, nsvcd__search 
 // Resolves the patch pairs that no plane separates.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_patch_pairs(nsvcd__solver *w,
                                                                  nsvcd__search *q) {
-  nsvcd__sort_patch_pairs(&w->p, w->p.of.kept.pairs, w->count);
+  nsvcd__proof *p = &w->p;
+  nsvcd__sort_patch_pairs(p, p->of.kept.pairs, w->count);
   for (size_t n = 0; n < w->count; n++) {
-    const nsvcd__patch_pair *patches = &w->p.of.kept.pairs[n];
-    if (nsvcd__check_budget(&w->p)) return NSVCD__EXHAUSTED;
+    const nsvcd__patch_pair *patches = &p->of.kept.pairs[n];
+    if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
     nsvcd__clip_segment(w, q);
-    if (!nsvcd__matters(&w->p, q, patches->segment)) continue;
+    if (!nsvcd__matters(p, q, patches->segment)) continue;
     const int is_clipped = (w->clipped >> patches->segment & 1) != 0;
     if (is_clipped && nsvcd__is_separated(w, q, patches)) continue;
     const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(w, q, patches);
     if (outcome != NSVCD__DONE) return outcome;
   }
   w->count = 0;
-  return nsvcd__check_budget(&w->p) ? NSVCD__EXHAUSTED : NSVCD__DONE;
+  return nsvcd__check_budget(p) ? NSVCD__EXHAUSTED : NSVCD__DONE;
 }
 
 // Sifts fresh patch pairs: drops those that planes separate, seeks a witness in the others, and
@@ -14507,7 +14514,8 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_patch_pairs(nsvcd__solver *
 // neighbours.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__solver *w,
                                                               nsvcd__search *q) {
-  const int tells_more = w->p.goal.measure > 0 || w->p.goal.first > 0;
+  nsvcd__proof *p = &w->p;
+  const int tells_more = p->goal.measure > 0 || p->goal.first > 0;
   size_t count = 0;
   nsvcd__clip_segment(w, q);
   for (size_t n = 0; n < w->fresh_count; n++) {
@@ -14515,22 +14523,22 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__solver *w,
     w->fresh[count++] = w->fresh[n];
   }
   w->fresh_count = 0;
-  nsvcd__sort_patch_pairs(&w->p, w->fresh, count);
+  nsvcd__sort_patch_pairs(p, w->fresh, count);
   if (count > 0 && w->fresh[0].depth > NSVCD__DEEP &&
       nsvcd__seek_in_patch_pair(w, q, &w->fresh[0]) == NSVCD__ANSWERED)
     return NSVCD__ANSWERED;
 
   for (size_t n = 0; n < count; n++) {
     nsvcd__patch_pair *patches = &w->fresh[n];
-    if (nsvcd__check_budget(&w->p)) return NSVCD__EXHAUSTED;
+    if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
     nsvcd__clip_segment(w, q);
-    if (!nsvcd__matters(&w->p, q, patches->segment)) continue;
+    if (!nsvcd__matters(p, q, patches->segment)) continue;
     if (nsvcd__held_again(w, q, patches)) continue;
     if (nsvcd__is_separated(w, q, patches)) continue;
     double u;
-    const uint32_t first = nsvcd__arc_of(w->p.arcs.motion, q->begin[patches->segment], &u);
-    if ((w->p.goal.first > 0 || w->p.shared > 0) &&
-        nsvcd__is_straight(nsvcd__arc_at(&w->p.arcs, first))) {
+    const uint32_t first = nsvcd__arc_of(p->arcs.motion, q->begin[patches->segment], &u);
+    if ((p->goal.first > 0 || p->shared > 0) &&
+        nsvcd__is_straight(nsvcd__arc_at(&p->arcs, first))) {
       const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(w, q, patches);
       if (outcome != NSVCD__DONE) return outcome;
       continue;
@@ -14550,7 +14558,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__solver *w,
       const nsvcd__outcome outcome = nsvcd__resolve_patch_pairs(w, q);
       if (outcome != NSVCD__DONE) return outcome;
     }
-    w->p.of.kept.pairs[w->count++] = *patches;
+    p->of.kept.pairs[w->count++] = *patches;
   }
   return NSVCD__DONE;
 }
@@ -14563,23 +14571,24 @@ static int nsvcd__collects_on(const nsvcd__proof *p) {
 // Collects the contacts of fresh patch pairs at the start, or the patch pairs where contact points
 // may be. EXHAUSTED: there is no room for more, or no budget.
 static nsvcd__outcome nsvcd__collect_contacts(nsvcd__solver *w, const nsvcd__search *q) {
-  for (size_t n = 0; n < w->fresh_count && nsvcd__collects_on(&w->p); n++) {
+  nsvcd__proof *p = &w->p;
+  for (size_t n = 0; n < w->fresh_count && nsvcd__collects_on(p); n++) {
     const nsvcd__patch_pair *patches = &w->fresh[n];
     if (nsvcd__held_again(w, q, patches)) continue;
     if (nsvcd__is_separated(w, q, patches)) continue;
-    if (w->p.goal.collects == NSVCD__TOUCHING) {
-      if (w->p.push.normal_count > 0) {
+    if (p->goal.collects == NSVCD__TOUCHING) {
+      if (p->push.normal_count > 0) {
         // just pushed out: farther than the clearance by less than floats can tell
-        (void)nsvcd__arc_at(&w->p.arcs, 0);
-        if (nsvcd__patches_apart(&w->p, patches->moving, patches->fixed, 0, 0)) continue;
+        (void)nsvcd__arc_at(&p->arcs, 0);
+        if (nsvcd__patches_apart(p, patches->moving, patches->fixed, 0, 0)) continue;
       }
       (void)nsvcd__find_witness(w, patches->moving, patches->fixed, 0, 0);
     } else if (w->count < NSVCD__PATCH_PAIRS) {
-      w->p.of.kept.pairs[w->count++] = *patches;
+      p->of.kept.pairs[w->count++] = *patches;
     }
   }
   w->fresh_count = 0;
-  const int goes_on = nsvcd__collects_on(&w->p) && w->p.work <= w->p.goal.limit;
+  const int goes_on = nsvcd__collects_on(p) && p->work <= p->goal.limit;
   return goes_on ? NSVCD__DONE : NSVCD__EXHAUSTED;
 }
 
@@ -14612,9 +14621,10 @@ static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
 // are deep in each other there are many, with few points that are like a contact: so only so many
 // are tried.
 static NSVCD__NOINLINE void nsvcd__seek_positions(nsvcd__solver *w, int first, int last) {
-  nsvcd__manifold *m = &w->p.of.kept.manifold;
-  nsvcd__patch_pair *pairs = w->p.of.kept.pairs;
-  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&w->p.arcs, 0), 0);
+  nsvcd__proof *p = &w->p;
+  nsvcd__manifold *m = &p->of.kept.manifold;
+  nsvcd__patch_pair *pairs = p->of.kept.pairs;
+  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, 0), 0);
   const nsvcd__transform pose = nsvcd__transform_of(&at);
   size_t tries = 0;
   float farthest[NSVCD__SUPPORTS];
@@ -14623,7 +14633,7 @@ static NSVCD__NOINLINE void nsvcd__seek_positions(nsvcd__solver *w, int first, i
   for (int k = first; k < last; k++) farthest[k] = -HUGE_VALF;
   for (size_t n = 0; n < w->count; n++) {
     pairs[n].sought = 0;
-    nsvcd__bound_of(&w->p, &pose, &pairs[n], first, last, most);
+    nsvcd__bound_of(p, &pose, &pairs[n], first, last, most);
     for (int k = first; k < last; k++) {
       if (most[k] > farthest[k]) best[k] = n;
       farthest[k] = fmaxf(farthest[k], most[k]);
@@ -14634,7 +14644,7 @@ static NSVCD__NOINLINE void nsvcd__seek_positions(nsvcd__solver *w, int first, i
     const size_t which = n < count ? best[(size_t)first + n] : n - count;
     nsvcd__patch_pair *patches = &pairs[which];
     int matters = 0;
-    nsvcd__bound_of(&w->p, &pose, patches, first, last, most);
+    nsvcd__bound_of(p, &pose, patches, first, last, most);
     for (int k = first; k < last; k++) matters |= (double)most[k] > m->farthest[k] + m->same;
     if (patches->sought || !matters) continue;
     if (tries == NSVCD__CONTACT_PAIRS ||
@@ -14862,6 +14872,7 @@ static int nsvcd__surface_is_near(nsvcd__solver *w, const nsvcd__geometry *f, ns
 // of the body's frame.
 static int nsvcd__is_enclosed(nsvcd__solver *w, const nsvcd__geometry *f, double unit,
                               nsvcd__d3 point) {
+  nsvcd__proof *p = &w->p;
   static const double directions[8][3] = {
       {0.5359, 0.6013, 0.5927},   {-0.5741, 0.6229, 0.5314},  {0.6127, -0.5531, 0.5644},
       {-0.5477, -0.5923, 0.5909}, {0.6311, 0.5573, -0.5396},  {-0.6053, 0.5297, -0.5941},
@@ -14873,14 +14884,14 @@ static int nsvcd__is_enclosed(nsvcd__solver *w, const nsvcd__geometry *f, double
   const size_t best = (off.x < 0 ? 1u : 0u) + (off.y < 0 ? 2u : 0u) + (off.z < 0 ? 4u : 0u);
   nsvcd__ray ray;
   ray.from = point;
-  ray.margin = NSVCD__SAME_POSITION * (double)w->p.given.lengths / unit;
+  ray.margin = NSVCD__SAME_POSITION * (double)p->given.lengths / unit;
   ray.margin += (double)nsvcd__off_mesh(f) + (double)f->counts->gap;
   ray.rounding = (float)ray.margin + 4 * NSVCD__ROUNDING * f->body->extent;
   int clear = 0;
   int odd = 0;
   for (size_t n = 0; n < 8; n++) {
     const double *d = directions[best ^ n];
-    if (w->p.work > w->p.goal.limit) {
+    if (p->work > p->goal.limit) {
       w->unclear = NSVCD__NOT_ASKED;
       return 0;
     }
@@ -14957,18 +14968,19 @@ static int nsvcd__seed_is_near(const nsvcd__enclosure *e, const float *seed) {
 // w->inside is set, and w->enclosed is its seed. Returns 1 if that is certain.
 static int nsvcd__contains_seeds(nsvcd__solver *w, const nsvcd__enclosure *e, size_t first,
                                  size_t end) {
+  nsvcd__proof *p = &w->p;
   for (size_t n = first; n < end; n++) {
     if (!nsvcd__seed_is_near(e, e->inner->seeds + 3 * n)) continue;
-    if (nsvcd__check_budget(&w->p)) {
+    if (nsvcd__check_budget(p)) {
       w->unclear = NSVCD__NOT_ASKED;
       return 0;
     }
     const nsvcd__d3 seed = nsvcd__d3_load(e->inner->seeds + 3 * n);
     const nsvcd__d3 seen = nsvcd__d3_transform(&e->start, seed);
     if (!nsvcd__is_enclosed(w, e->outer, e->unit, seen)) continue;
-    w->enclosed = e->inner == &w->p.moving ? seen : seed;
+    w->enclosed = e->inner == &p->moving ? seen : seed;
     w->inside = 1;
-    const double room = w->p.given.tolerance / e->unit + (double)e->outer->counts->gap;
+    const double room = p->given.tolerance / e->unit + (double)e->outer->counts->gap;
     if (!nsvcd__surface_is_near(w, e->outer, seen, room)) return 1;
   }
   return 0;
@@ -15004,15 +15016,16 @@ static int nsvcd__contains_any(nsvcd__solver *w, const nsvcd__enclosure *e) {
 // then separate all patches at t = 0, the seed, the surface that was tested and the true one are,
 // patch by patch, on one side of a plane and agree: it is inside.
 static NSVCD__NOINLINE int nsvcd__is_contained_at_start(nsvcd__solver *w) {
-  const float scale = w->p.arcs.motion->scale;
-  const nsvcd__dtransform start = nsvcd__dtransform_at(nsvcd__arc_at(&w->p.arcs, 0), 0);
-  const nsvcd__dtransform back = nsvcd__inverse_dtransform(&start, w->p.arcs.arc.scale);
-  const nsvcd__enclosure moving = {
-      &w->p.moving, &w->p.fixed, start, nsvcd__transform_of(&start), back, scale, 1};
+  nsvcd__proof *p = &w->p;
+  const float scale = p->arcs.motion->scale;
+  const nsvcd__dtransform start = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, 0), 0);
+  const nsvcd__dtransform back = nsvcd__inverse_dtransform(&start, p->arcs.arc.scale);
+  const nsvcd__enclosure moving = {&p->moving, &p->fixed, start, nsvcd__transform_of(&start),
+                                   back,       scale,     1};
   if (nsvcd__contains_any(w, &moving)) return 1;
   const nsvcd__enclosure fixed = {
-      &w->p.fixed, &w->p.moving,       back, nsvcd__transform_of(&back), start,
-      1 / scale,   w->p.arcs.arc.scale};
+      &p->fixed, &p->moving,       back, nsvcd__transform_of(&back), start,
+      1 / scale, p->arcs.arc.scale};
   return nsvcd__contains_any(w, &fixed);
 }
 #endif  // NSVCD_NO_PROOF
@@ -15040,12 +15053,13 @@ static uint64_t nsvcd__segments_that_matter(const nsvcd__proof *p, const nsvcd__
 // these, as long as there is room for 16 more.
 static void nsvcd__add_patch_pairs(nsvcd__solver *w, const nsvcd__search *q, size_t g,
                                    size_t j, uint64_t *left) {
-  const nsvcd_body *moving = w->p.moving.body;
-  const nsvcd_body *fixed = w->p.fixed.body;
-  const nsvcd__f3 centre = nsvcd__patch_centre(&w->p.fixed, j);
+  nsvcd__proof *p = &w->p;
+  const nsvcd_body *moving = p->moving.body;
+  const nsvcd_body *fixed = p->fixed.body;
+  const nsvcd__f3 centre = nsvcd__patch_centre(&p->fixed, j);
   const float radius = nsvcd__body_r(fixed)[j];
   const float *own = nsvcd__body_r(moving) + NSVCD__GROUP * g;
-  *left &= nsvcd__segments_that_matter(&w->p, q);
+  *left &= nsvcd__segments_that_matter(p, q);
   for (; *left && w->fresh_count + NSVCD__GROUP <= NSVCD__FRESH; *left &= *left - 1) {
     const size_t s = nsvcd__low_bit(*left);
     const nsvcd__chords *c = &q->members[s];
@@ -15064,11 +15078,11 @@ static void nsvcd__add_patch_pairs(nsvcd__solver *w, const nsvcd__search *q, siz
       nsvcd__v_store(fraction + l, tau);
     }
     if (!met) continue;
-    met = nsvcd__slabs_meet(&w->p, nsvcd__segment_interval(w, q, s), q, g, j, s, met);
+    met = nsvcd__slabs_meet(p, nsvcd__segment_interval(w, q, s), q, g, j, s, met);
     for (; met; met &= met - 1) {
       const size_t l = nsvcd__low_bit(met);
       const size_t i = NSVCD__GROUP * g + l;
-      if (w->p.moving.hull_counts[i] == 0) continue;
+      if (p->moving.hull_counts[i] == 0) continue;
       const float radii = q->scale * own[l] + radius;
       const float depth = 1 - sqrtf(squares[l]) / (radii > 1e-30f ? radii : 1e-30f);
       const nsvcd__patch_pair pair = {(uint16_t)i, (uint16_t)j, (uint16_t)s,
@@ -15091,22 +15105,22 @@ static nsvcd__outcome nsvcd__take_patch_pairs(nsvcd__solver *w, nsvcd__search *q
 // parts; or EXHAUSTED says that it has not.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_segments(nsvcd__solver *w,
                                                             nsvcd__search *q) {
+  nsvcd__proof *p = &w->p;
   nsvcd__outcome outcome;
   for (; q->step < q->steps; q->step++) {
     const size_t next = q->order[q->step];
     const size_t g = q->moving_tile.groups[next];
     nsvcd__search_group(q);
-    nsvcd__separate_groups(&w->p, q);
+    nsvcd__separate_groups(p, q);
     for (; q->waiting; q->waiting &= q->waiting - 1) {
       const size_t at = nsvcd__low_bit(q->waiting);
       const size_t h = q->fixed_tile.groups[at];
-      const uint64_t wanted =
-          nsvcd__nearby(q, next)[at] & nsvcd__segments_that_matter(&w->p, q);
+      const uint64_t wanted = nsvcd__nearby(q, next)[at] & nsvcd__segments_that_matter(p, q);
       uint32_t met = nsvcd__group_against_members(q, h, wanted, w->met_in);
       for (; met; met &= met - 1) {
         const size_t l = nsvcd__low_bit(met);
         uint64_t *left = &w->met_in[l];
-        if (w->p.fixed.hull_counts[NSVCD__GROUP * h + l] == 0) continue;
+        if (p->fixed.hull_counts[NSVCD__GROUP * h + l] == 0) continue;
         for (;;) {
           nsvcd__pose_members(q, g, *left);
           nsvcd__add_patch_pairs(w, q, g, NSVCD__GROUP * h + l, left);
@@ -15121,7 +15135,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_segments(nsvcd__solver *w,
     }
   }
   outcome = nsvcd__take_patch_pairs(w, q);
-  if (outcome != NSVCD__DONE || w->p.goal.collects) return outcome;
+  if (outcome != NSVCD__DONE || p->goal.collects) return outcome;
   return nsvcd__resolve_patch_pairs(w, q);
 }
 
@@ -15129,27 +15143,28 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_segments(nsvcd__solver *w,
 // segments of a tile at a time, until there is a contact: it is the first of the tile. What is
 // resolved in one tile says nothing of the others.
 static nsvcd__outcome nsvcd__prove_tiles(nsvcd__solver *w, nsvcd__search *q) {
-  const nsvcd_body *moving = w->p.moving.body;
-  const nsvcd_body *fixed = w->p.fixed.body;
+  nsvcd__proof *p = &w->p;
+  const nsvcd_body *moving = p->moving.body;
+  const nsvcd_body *fixed = p->fixed.body;
   const size_t all = q->segments;
-  const size_t few = w->p.goal.first > 0 ? NSVCD__IN_ORDER : all;
+  const size_t few = p->goal.first > 0 ? NSVCD__IN_ORDER : all;
   nsvcd__outcome outcome = NSVCD__DONE;
   (void)nsvcd__search_begin(moving, fixed, nsvcd__segments_in(0, all), q);
   do {
     for (size_t s = 0; s < all && outcome == NSVCD__DONE; s += few) {
       const size_t next = s + few < all ? s + few : all;
-      if (!nsvcd__matters(&w->p, q, s)) break;
+      if (!nsvcd__matters(p, q, s)) break;
       q->wanted = nsvcd__segments_in(s, next);
       q->step = 0;
       q->waiting = 0;
       outcome = nsvcd__prove_segments(w, q);
       const int one_tile = !nsvcd__is_tiled(moving, fixed);
-      if (outcome == NSVCD__DONE && !w->p.known.has_contact && one_tile)
-        w->p.known.proven_until = (double)q->begin[next];
+      if (outcome == NSVCD__DONE && !p->known.has_contact && one_tile)
+        p->known.proven_until = (double)q->begin[next];
     }
   } while (outcome == NSVCD__DONE && nsvcd__search_next_tile(q));
-  if (outcome == NSVCD__DONE && !w->p.known.has_contact)
-    w->p.known.proven_until = (double)q->begin[all];
+  if (outcome == NSVCD__DONE && !p->known.has_contact)
+    p->known.proven_until = (double)q->begin[all];
   return outcome;
 }
 
@@ -15157,15 +15172,16 @@ static nsvcd__outcome nsvcd__prove_tiles(nsvcd__solver *w, nsvcd__search *q) {
 // they meet? Cuts the segments, and separates the bodies in them.
 static NSVCD__NOINLINE nsvcd__search_result nsvcd__separate(nsvcd__solver *w, nsvcd__search *q,
                                                             const nsvcd__goal *goal) {
-  w->p.arcs.motion = goal->motion;
-  w->p.goal = *goal;
-  w->p.goal.first = goal->fraction * (double)goal->motion->ticks;
-  w->p.known.end = nsvcd__min(w->p.known.end, goal->end);
-  nsvcd__cut_segments(goal->motion, w->p.given.lengths, nsvcd__clearance(goal), q);
-  w->p.known.outcome = nsvcd__prove_tiles(w, q);
-  w->p.known.ran_out = w->p.known.outcome == NSVCD__EXHAUSTED;
-  w->p.known.clearance = w->p.goal.clearance;
-  return w->p.known;
+  nsvcd__proof *p = &w->p;
+  p->arcs.motion = goal->motion;
+  p->goal = *goal;
+  p->goal.first = goal->fraction * (double)goal->motion->ticks;
+  p->known.end = nsvcd__min(p->known.end, goal->end);
+  nsvcd__cut_segments(goal->motion, p->given.lengths, nsvcd__clearance(goal), q);
+  p->known.outcome = nsvcd__prove_tiles(w, q);
+  p->known.ran_out = p->known.outcome == NSVCD__EXHAUSTED;
+  p->known.clearance = p->goal.clearance;
+  return p->known;
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -15299,6 +15315,7 @@ static double nsvcd__vertex_distance(const nsvcd__proof *p, const nsvcd__transfo
 // in turns. If the bound is within the clearance, triangles of these patches are a contact, which
 // is sought there.
 static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__solver *w, nsvcd__search *q) {
+  nsvcd__proof *p = &w->p;
   nsvcd__sphere moving, fixed;
   double tick = 0;
   double least = HUGE_VAL;
@@ -15306,30 +15323,30 @@ static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__solver *w, nsvcd__sea
   uint32_t from = 0;
   size_t nearest[2] = {0, 0};
   // Bodies that never come near have been told apart without segments.
-  nsvcd__cut_segments(w->p.arcs.motion, w->p.given.lengths, 0, q);
-  nsvcd__nearest_groups(&w->p, q, &moving, &fixed);
+  nsvcd__cut_segments(p->arcs.motion, p->given.lengths, 0, q);
+  nsvcd__nearest_groups(p, q, &moving, &fixed);
   for (size_t turn = 0; turn < NSVCD__TURNS; turn++) {
     float gap = HUGE_VALF;
     double u;
     nsvcd__chords_in_all(q, moving);
     (void)nsvcd__nearest_tick(q, fixed, &gap, &tick);
-    const uint32_t first = nsvcd__arc_of(w->p.arcs.motion, tick, &u);
-    const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&w->p.arcs, first), u);
+    const uint32_t first = nsvcd__arc_of(p->arcs.motion, tick, &u);
+    const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, first), u);
     const nsvcd__transform pose = nsvcd__transform_of(&at);
-    const nsvcd__dtransform back = nsvcd__inverse_dtransform(&at, w->p.arcs.arc.scale);
+    const nsvcd__dtransform back = nsvcd__inverse_dtransform(&at, p->arcs.arc.scale);
     size_t i = 0;
     size_t j = 0;
     for (size_t round = 0; round < 2; round++) {
       const nsvcd__d3 seen = nsvcd__d3_transform(&back, nsvcd__d3_widen(fixed.centre));
-      i = nsvcd__patch_near(&w->p.moving, nsvcd__f3_round(seen));
-      moving = nsvcd__sphere_of(nsvcd__body_patches(w->p.moving.body), i);
-      j = nsvcd__patch_near(&w->p.fixed, nsvcd__f3_transform(&pose, moving.centre));
-      fixed = nsvcd__sphere_of(nsvcd__body_patches(w->p.fixed.body), j);
+      i = nsvcd__patch_near(&p->moving, nsvcd__f3_round(seen));
+      moving = nsvcd__sphere_of(nsvcd__body_patches(p->moving.body), i);
+      j = nsvcd__patch_near(&p->fixed, nsvcd__f3_transform(&pose, moving.centre));
+      fixed = nsvcd__sphere_of(nsvcd__body_patches(p->fixed.body), j);
     }
-    const float lengths = w->p.given.lengths + nsvcd__f3_norm(pose.position);
+    const float lengths = p->given.lengths + nsvcd__f3_norm(pose.position);
     const double rounding =
-        (double)(4 * NSVCD__ROUNDING * lengths + 2 * nsvcd__errors_of(&w->p, i, j));
-    const double apart = 1.0001 * nsvcd__vertex_distance(&w->p, &pose, i, j) + rounding;
+        (double)(4 * NSVCD__ROUNDING * lengths + 2 * nsvcd__errors_of(p, i, j));
+    const double apart = 1.0001 * nsvcd__vertex_distance(p, &pose, i, j) + rounding;
     if (!(apart < least)) continue;
     least = apart;
     fraction = u;
@@ -15337,12 +15354,12 @@ static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__solver *w, nsvcd__sea
     nearest[0] = i;
     nearest[1] = j;
   }
-  w->p.known.has_contact = 0;
-  if (!(least <= w->p.given.clearance)) return least;
-  w->p.goal.clearance = least;
-  w->p.goal.limit = w->p.work + NSVCD__END_BUDGET;
+  p->known.has_contact = 0;
+  if (!(least <= p->given.clearance)) return least;
+  p->goal.clearance = least;
+  p->goal.limit = p->work + NSVCD__END_BUDGET;
   (void)nsvcd__find_witness(w, nearest[0], nearest[1], from, fraction);
-  return w->p.known.has_contact ? w->p.known.found.distance : least;
+  return p->known.has_contact ? p->known.found.distance : least;
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -17906,15 +17923,16 @@ static int nsvcd__has_pair(const nsvcd__search_result *r) {
 
 // Forgets all that was known of a motion, or of an interval, before another one is searched.
 static void nsvcd__restart(nsvcd__solver *w, nsvcd__motion *motion) {
-  memset(&w->p.known, 0, sizeof w->p.known);
-  nsvcd__arcs_begin(&w->p.arcs, motion);
-  w->p.known.proven_until = (double)motion->from;
-  w->p.known.end = w->clipped_end = w->p.known.unresolved = NSVCD__NEVER;
+  nsvcd__proof *p = &w->p;
+  memset(&p->known, 0, sizeof p->known);
+  nsvcd__arcs_begin(&p->arcs, motion);
+  p->known.proven_until = (double)motion->from;
+  p->known.end = w->clipped_end = p->known.unresolved = NSVCD__NEVER;
   w->clipped = 0;
-  w->count = w->fresh_count = w->misses = w->p.push.contact_count = 0;
-  w->p.shared = w->blocks.window = 0;
-  w->p.push.too_deep = w->blocks.has_block = 0;
-  w->p.separating = nsvcd__d3_of(0, 0, 0);
+  w->count = w->fresh_count = w->misses = p->push.contact_count = 0;
+  p->shared = w->blocks.window = 0;
+  p->push.too_deep = w->blocks.has_block = 0;
+  p->separating = nsvcd__d3_of(0, 0, 0);
   memset(&w->memo, 0, sizeof w->memo);
 }
 
@@ -18016,6 +18034,7 @@ static void nsvcd__search_part(nsvcd__solver *w, nsvcd__search *q, nsvcd__goal g
 static NSVCD__NOINLINE void nsvcd__search_by_time(nsvcd__solver *w, nsvcd__search *q,
                                                   nsvcd__goal goal,
                                                   nsvcd__search_result *known) {
+  nsvcd__proof *p = &w->p;
   const size_t limit = goal.most;
   const double ticks = (double)goal.motion->ticks;
   const double all = (double)q->segments;
@@ -18028,8 +18047,8 @@ static NSVCD__NOINLINE void nsvcd__search_by_time(nsvcd__solver *w, nsvcd__searc
   for (;;) {
     const double until = nsvcd__min(ticks, nsvcd__min(known->end, known->unresolved));
     known->ran_out = known->proven_until < until;
-    if (!known->ran_out || w->p.work >= limit) break;
-    const size_t before = w->p.work;
+    if (!known->ran_out || p->work >= limit) break;
+    const size_t before = p->work;
     const double whole = floor(from + length);
     const double to = whole > from ? nsvcd__min(whole, all) : from + length;
     goal.limit = limit - before > units ? before + units : limit;
@@ -18040,7 +18059,7 @@ static NSVCD__NOINLINE void nsvcd__search_by_time(nsvcd__solver *w, nsvcd__searc
     } else {
       from = to;
       length *= grows;
-      units = 8 * (w->p.work - before) + NSVCD__PART_BUDGET;
+      units = 8 * (p->work - before) + NSVCD__PART_BUDGET;
     }
   }
   nsvcd__restart(w, goal.motion);
@@ -18050,7 +18069,8 @@ static NSVCD__NOINLINE void nsvcd__search_by_time(nsvcd__solver *w, nsvcd__searc
 // When do they meet first? What is proven of that stays proven when the budget ends.
 static nsvcd__search_result nsvcd__search_first(nsvcd__solver *w, nsvcd__search *q,
                                                 nsvcd__goal goal) {
-  goal.limit = nsvcd__limit_of_first(&w->p.given, &goal);
+  nsvcd__proof *p = &w->p;
+  goal.limit = nsvcd__limit_of_first(&p->given, &goal);
   nsvcd__search_result result = nsvcd__search_whole(w, q, goal);
   // An interval is short, and all before it is known.
   if (result.ran_out && !goal.motion->arcs) nsvcd__search_by_time(w, q, goal, &result);
@@ -18059,8 +18079,8 @@ static nsvcd__search_result nsvcd__search_first(nsvcd__solver *w, nsvcd__search 
     result.starts_free = 1;
   } else if (nsvcd__clear_until(w, &result) <= 0 && result.found.tick > 0) {
     // The contact is so early that they may meet at the start already.
-    if (nsvcd__meets_at(w, q, goal, 0, w->p.given.work, &result)) return result;
-    result.starts_free = !w->p.known.ran_out && !(w->p.known.unresolved < NSVCD__NEVER);
+    if (nsvcd__meets_at(w, q, goal, 0, p->given.work, &result)) return result;
+    result.starts_free = !p->known.ran_out && !(p->known.unresolved < NSVCD__NEVER);
   }
   return result;
 }
@@ -18170,10 +18190,11 @@ static float nsvcd__surface_gap(const nsvcd__proof *p, const nsvcd__motion *m,
 static NSVCD__NOINLINE nsvcd__search_result nsvcd__search_intervals(nsvcd__solver *w,
                                                                     nsvcd__search *q,
                                                                     nsvcd__goal goal) {
+  nsvcd__proof *p = &w->p;
   nsvcd__motion *m = goal.motion;
   double fraction = goal.fraction;  // 0: any contact will do
-  const nsvcd__given *given = &w->p.given;
-  nsvcd__search_result result = w->p.known;
+  const nsvcd__given *given = &p->given;
+  nsvcd__search_result result = p->known;
   nsvcd__search_result open = result;
   int is_open = 0;
   const size_t units = given->reserve < NSVCD__END_BUDGET ? given->reserve : NSVCD__END_BUDGET;
@@ -18185,16 +18206,16 @@ static NSVCD__NOINLINE nsvcd__search_result nsvcd__search_intervals(nsvcd__solve
   while (m->from < m->ticks) {
     const uint32_t until = q->begin[q->segments];
     const int is_try = m->arcs > 1;
-    const size_t before = w->p.work;
-    if (given->grows) goal.most = w->p.work + given->work;
+    const size_t before = p->work;
+    if (given->grows) goal.most = p->work + given->work;
     nsvcd__restart(w, m);
-    result = w->p.known;
+    result = p->known;
     const float gap = nsvcd__interval_gap(m, m->from, until);
-    if (!(nsvcd__surface_gap(&w->p, m, gap) > nsvcd__clearance(&goal))) {
+    if (!(nsvcd__surface_gap(p, m, gap) > nsvcd__clearance(&goal))) {
       goal.is_brief = is_try;
       goal.fraction = is_try ? 0 : fraction;
       goal.after_unresolved = fraction > 0 ? NSVCD__AFTER_FIRST_UNRESOLVED : given->reserve;
-      goal.limit = is_try ? nsvcd__limit_after(&w->p, &goal, NSVCD__TRY) : goal.most;
+      goal.limit = is_try ? nsvcd__limit_after(p, &goal, NSVCD__TRY) : goal.most;
       result = goal.fraction > 0 ? nsvcd__search_first(w, q, goal)
                                  : NSVCD__KERNEL(w->isa, separate)(w, q, &goal);
     }
@@ -18211,8 +18232,8 @@ static NSVCD__NOINLINE nsvcd__search_result nsvcd__search_intervals(nsvcd__solve
       is_open = 1;
       fraction = 0;
     }
-    if (has_contact || (is_open && !given->grows && w->p.work > goal.most)) break;
-    nsvcd__next_interval(m, q, until, is_resolved || !is_try, w->p.work - before, &pace);
+    if (has_contact || (is_open && !given->grows && p->work > goal.most)) break;
+    nsvcd__next_interval(m, q, until, is_resolved || !is_try, p->work - before, &pace);
   }
   return is_open ? open : result;
 }
@@ -18230,16 +18251,17 @@ static nsvcd__finding nsvcd__found_inside(const nsvcd__solver *w,
 // Do the bodies meet, and when? goal: of all of the motion. *result: what is known of it.
 static nsvcd__finding nsvcd__prove(nsvcd__solver *w, nsvcd__search *q, nsvcd__goal goal,
                                    nsvcd__search_result *result) {
+  nsvcd__proof *p = &w->p;
   nsvcd__motion *m = goal.motion;
   const int in_order = goal.fraction > 0;
-  const float gap = nsvcd__surface_gap(&w->p, m, nsvcd__motion_gap(m));
-  *result = w->p.known;
+  const float gap = nsvcd__surface_gap(p, m, nsvcd__motion_gap(m));
+  *result = p->known;
   if (gap > nsvcd__clearance(&goal)) return NSVCD__FOUND_FREE;
   const int is_long = nsvcd__is_long(m, q);
   if (NSVCD__KERNEL(w->isa, is_contained_at_start)(w)) {
     // It is a hit. A question that asks for more gets triangles, if some meet as well.
     const size_t units = NSVCD__INSIDE_BUDGET;
-    const int meets = w->p.given.tells && nsvcd__meets_at(w, q, goal, 0, units, result);
+    const int meets = p->given.tells && nsvcd__meets_at(w, q, goal, 0, units, result);
     return meets ? NSVCD__FOUND_CONTACT : nsvcd__found_inside(w, result);
   }
   *result = is_long    ? nsvcd__search_intervals(w, q, goal)
@@ -18261,30 +18283,31 @@ static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__solver *w, nsvcd__sea
                                                     nsvcd__goal goal, double finest,
                                                     nsvcd__bracket *bracket,
                                                     nsvcd__search_result *known) {
+  nsvcd__proof *p = &w->p;
   nsvcd__motion *m = goal.motion;
   const size_t most = goal.most;
   const double known_low = bracket->low;
-  size_t work = w->p.given.work;
+  size_t work = p->given.work;
   nsvcd__pace pace = {0, 1};
   double low = bracket->high;
   int is_wide = 0;
   while (m->from < m->ticks) {
     const uint32_t until = q->begin[q->segments];
-    const size_t before = w->p.work;
+    const size_t before = p->work;
     int is_resolved = 1;
-    if (!w->p.given.grows) {
+    if (!p->given.grows) {
       const double rest = (double)(until - m->from) / (double)(m->ticks - m->from);
       work = before < most ? (size_t)(rest * (double)(most - before)) : 0;
     }
     goal.most = before + work;
     const float gap = nsvcd__interval_gap(m, m->from, until);
-    bracket->low = nsvcd__max(known_low, (double)nsvcd__surface_gap(&w->p, m, gap));
+    bracket->low = nsvcd__max(known_low, (double)nsvcd__surface_gap(p, m, gap));
     bracket->is_wide = 0;
     const int is_narrow = nsvcd__has_pair(known) && bracket->high - bracket->low <= finest;
     if (bracket->low < bracket->high && !is_narrow) {
       if (m->arcs > 1) {
         goal.measure = finest;
-        goal.limit = nsvcd__limit_after(&w->p, &goal, NSVCD__TRY);
+        goal.limit = nsvcd__limit_after(p, &goal, NSVCD__TRY);
         is_resolved = nsvcd__measure_once(w, q, goal, bracket, known);
       } else {
         nsvcd__narrow(w, q, goal, work, finest, bracket, known);
@@ -18292,7 +18315,7 @@ static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__solver *w, nsvcd__sea
     }
     if (is_resolved) low = nsvcd__min(low, bracket->low);
     is_wide |= bracket->is_wide;
-    nsvcd__next_interval(m, q, until, is_resolved, w->p.work - before, &pace);
+    nsvcd__next_interval(m, q, until, is_resolved, p->work - before, &pace);
   }
   bracket->low = nsvcd__min(low, bracket->high);
   bracket->is_wide = is_wide && bracket->high - bracket->low > finest;
@@ -18303,24 +18326,25 @@ static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__solver *w, nsvcd__sea
 static NSVCD__NOINLINE nsvcd__bracket nsvcd__measure(nsvcd__solver *w, nsvcd__search *q,
                                                      nsvcd__goal goal, nsvcd__finding verdict,
                                                      nsvcd__search_result *known) {
+  nsvcd__proof *p = &w->p;
   nsvcd__motion *m = goal.motion;
-  const double finest = w->p.given.width;
+  const double finest = p->given.width;
   int is_named = nsvcd__has_pair(known);
-  const float gap = nsvcd__surface_gap(&w->p, m, nsvcd__motion_gap(m));
-  const double clear = verdict == NSVCD__FOUND_FREE ? w->p.given.clearance : 0;
+  const float gap = nsvcd__surface_gap(p, m, nsvcd__motion_gap(m));
+  const double clear = verdict == NSVCD__FOUND_FREE ? p->given.clearance : 0;
   nsvcd__bracket bracket = {nsvcd__max(clear, (double)gap), known->found.distance, 0};
   const int is_long = nsvcd__is_long(m, q);
   if (is_long) nsvcd__choose_interval(m, q, 0, NSVCD__ALL_ARCS);
   if (!is_named) {
     bracket.high = NSVCD__KERNEL(w->isa, bound_distance)(w, q);
-    is_named = known->has_contact = w->p.known.has_contact;
-    known->found = w->p.known.found;
+    is_named = known->has_contact = p->known.has_contact;
+    known->found = p->known.found;
   }
   if (is_named && !(bracket.high - bracket.low > finest)) return bracket;
   if (is_long)
     nsvcd__narrow_intervals(w, q, goal, finest, &bracket, known);
   else
-    nsvcd__narrow(w, q, goal, w->p.given.work, finest, &bracket, known);
+    nsvcd__narrow(w, q, goal, p->given.work, finest, &bracket, known);
   return bracket;
 }
 #endif  // NSVCD_NO_PROOF
@@ -18348,7 +18372,7 @@ typedef struct nsvcd__undoing {
 } nsvcd__undoing;
 
 // Does a push-out along n go against all faces of a touch? A triangle without area has none.
-static int nsvcd__is_against(nsvcd__d3 n, const nsvcd__triangle_contact *t) {
+static int nsvcd__is_against(nsvcd__d3 n, const nsvcd__touch *t) {
   int against = 0;
   for (size_t i = 0; i < 2; i++) {
     const int is_face = nsvcd__d3_dot(t->directions[i], t->directions[i]) > 0.5;
@@ -18365,7 +18389,7 @@ static void nsvcd__try_push_out(const nsvcd__proof *p, nsvcd__d3 n, nsvcd__undoi
   nsvcd__undoing by = {n, 0, 0, -HUGE_VAL};
   if (best->count > 0 && nsvcd__d3_dot(n, best->n) > 0.99999) return;
   for (size_t k = 0; k < p->push.contact_count; k++) {
-    const nsvcd__triangle_contact *t = &p->of.touches[k];
+    const nsvcd__touch *t = &p->of.touches[k];
     const size_t left = 2 * (p->push.contact_count - k);
     if (by.count + left < best->count) return;
     if (by.count + left == best->count && by.distance > best->distance + same) return;
@@ -18393,7 +18417,7 @@ static nsvcd__undoing nsvcd__best_push_out(const nsvcd__proof *p) {
   }
   // an edge on an edge
   for (size_t k = 0; k < 9 * p->push.contact_count && best.distance > nsvcd__epsilon(p); k++) {
-    const nsvcd__triangle_contact *t = &p->of.touches[k / 9];
+    const nsvcd__touch *t = &p->of.touches[k / 9];
     const nsvcd__d3 n = nsvcd__across_edges(t->moving, t->fixed, k % 9);
     const nsvcd__d3 out = nsvcd__d3_add(t->directions[0], t->directions[1]);
     const double side = nsvcd__d3_dot(n, out) < 0 ? -1 : 1;
@@ -18450,22 +18474,23 @@ static nsvcd__d3 nsvcd__push_out(const nsvcd__push_outs *push, double least, int
 // tried. If the directions known have no push-out in common, the first one may be wrong, and is
 // forgotten, once. Returns 0 if there is no push-out.
 static int nsvcd__push_out_still(nsvcd__solver *w, nsvcd__search *q, nsvcd__goal goal) {
+  nsvcd__proof *p = &w->p;
   nsvcd__motion *still = goal.motion;
-  nsvcd__push_outs *push = &w->p.push;
+  nsvcd__push_outs *push = &p->push;
   push->normal_count = 0;
   push->needed = 0;
   still->push_out = nsvcd__f3_of(0, 0, 0);
   // Also what is about to touch, or where an earlier motion may have ended, is pushed out of, and
   // may not touch afterwards.
-  const double size = (double)w->p.given.lengths + w->p.given.radius;
+  const double size = (double)p->given.lengths + p->given.radius;
   const double near_by = nsvcd__min(0.05 * push->slop, 0.02 * size);
-  double beside = nsvcd__max(near_by, nsvcd__min(w->p.given.to, 0.5 * push->slop));
+  double beside = nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * push->slop));
   for (int turns = 0;; beside = 0.01 * push->slop) {
-    goal.clearance = w->p.given.clearance + beside + nsvcd__epsilon(&w->p);
+    goal.clearance = p->given.clearance + beside + nsvcd__epsilon(p);
     (void)nsvcd__search_anew(w, q, goal);
     if (push->contact_count == 0) return 1;
     const size_t known = push->normal_count;
-    if (!nsvcd__choose_push_outs(&w->p) || push->normal_count == known) return 0;
+    if (!nsvcd__choose_push_outs(p) || push->normal_count == known) return 0;
     nsvcd__d3 push_out = nsvcd__push_out(push, push->slop, 0);
     if (!(nsvcd__d3_dot(push_out, push_out) > 0) && turns++ == 0) {
       memmove(push->normals, push->normals + 1, --push->normal_count * sizeof *push->normals);
@@ -18483,31 +18508,32 @@ static int nsvcd__push_out_still(nsvcd__solver *w, nsvcd__search *q, nsvcd__goal
 // that follow each other, as on a slope, each come free soon: so the little more doubles as long as
 // depths grow.
 static void nsvcd__deepen(nsvcd__solver *w, nsvcd__search *q, nsvcd__goal goal) {
+  nsvcd__proof *p = &w->p;
   nsvcd__motion *still = goal.motion;
   const nsvcd__f3 push_out = still->push_out;
-  const double least_more = 0.5 * nsvcd__epsilon(&w->p);
+  const double least_more = 0.5 * nsvcd__epsilon(p);
   double more = least_more;
   double before = 0;
-  goal.clearance = w->p.given.clearance;
-  for (size_t k = 0; k < w->p.push.normal_count; k++) before += w->p.push.depths[k];
+  goal.clearance = p->given.clearance;
+  for (size_t k = 0; k < p->push.normal_count; k++) before += p->push.depths[k];
   for (int round = 0; round < NSVCD__DEEPEN; round++) {
     double after = 0;
-    still->push_out = nsvcd__f3_round(nsvcd__push_out(&w->p.push, more, 1));
+    still->push_out = nsvcd__f3_round(nsvcd__push_out(&p->push, more, 1));
     (void)nsvcd__search_anew(w, q, goal);
     // A touch gets out of the way along the normal that undoes it first, even if no plane normal to
     // that separates it.
-    for (size_t n = 0; n < w->p.push.contact_count; n++) {
-      const nsvcd__triangle_contact *t = &w->p.of.touches[n];
+    for (size_t n = 0; n < p->push.contact_count; n++) {
+      const nsvcd__touch *t = &p->of.touches[n];
       size_t best = 0;
       double least = HUGE_VAL;
-      for (size_t k = 0; k < w->p.push.normal_count; k++) {
-        const double distance = nsvcd__depth_along(w->p.push.normals[k], t);
+      for (size_t k = 0; k < p->push.normal_count; k++) {
+        const double distance = nsvcd__depth_along(p->push.normals[k], t);
         if (distance < least) best = k;
         least = nsvcd__min(least, distance);
       }
-      nsvcd__note_depth(&w->p, best, t);
+      nsvcd__note_depth(p, best, t);
     }
-    for (size_t k = 0; k < w->p.push.normal_count; k++) after += w->p.push.depths[k];
+    for (size_t k = 0; k < p->push.normal_count; k++) after += p->push.depths[k];
     const int is_deeper = after > before;
     if (!is_deeper && more <= nsvcd__max(least_more, 0.002 * after)) break;
     more = is_deeper ? 2 * more : nsvcd__max(least_more, 0.125 * more);
@@ -18520,24 +18546,25 @@ static void nsvcd__deepen(nsvcd__solver *w, nsvcd__search *q, nsvcd__goal goal) 
 // way of that and nothing is too deep, by what is needed.
 static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__solver *w, nsvcd__search *q,
                                                    nsvcd__goal goal) {
+  nsvcd__proof *p = &w->p;
   nsvcd__motion *whole = goal.motion;
   nsvcd__motion start = nsvcd__end_of(whole, 0);
   goal.motion = &start;
   goal.collects = NSVCD__TOUCHING;
-  w->p.push.slop = w->p.given.slop;
-  w->p.push.by_faces = 0;
+  p->push.slop = p->given.slop;
+  p->push.by_faces = 0;
   int is_free = nsvcd__push_out_still(w, q, goal);
-  if (!is_free && !w->p.push.too_deep) {
+  if (!is_free && !p->push.too_deep) {
     // The shortest push-outs may not go together.
-    w->p.push.by_faces = 1;
+    p->push.by_faces = 1;
     is_free = nsvcd__push_out_still(w, q, goal);
   }
-  const double least = 1.1 * w->p.push.needed + 4 * nsvcd__epsilon(&w->p);
-  if (!is_free && w->p.push.contact_count == 0 && least < 0.9 * w->p.given.slop) {
-    w->p.push.slop = least;
+  const double least = 1.1 * p->push.needed + 4 * nsvcd__epsilon(p);
+  if (!is_free && p->push.contact_count == 0 && least < 0.9 * p->given.slop) {
+    p->push.slop = least;
     is_free = nsvcd__push_out_still(w, q, goal);
   }
-  if (is_free && w->p.push.normal_count > 0) nsvcd__deepen(w, q, goal);
+  if (is_free && p->push.normal_count > 0) nsvcd__deepen(w, q, goal);
   whole->push_out = is_free ? start.push_out : nsvcd__f3_of(0, 0, 0);
   nsvcd__restart(w, whole);
 }
@@ -18593,7 +18620,7 @@ static const nsvcd__arc *nsvcd__arc_before(nsvcd__arcs *arcs, double tick, doubl
 // The triangles of a contact at a time, and how the bodies move then.
 typedef struct nsvcd__approach {
   nsvcd__triangle_pair pair;
-  nsvcd__triangle_contact contact;
+  nsvcd__touch contact;
   nsvcd__twist twist;
   double u;
 } nsvcd__approach;
@@ -18641,7 +18668,7 @@ static NSVCD__NOINLINE void nsvcd__move_back(nsvcd__proof *p, nsvcd__pair_contac
 // The separating axes of two triangles that touch: two normals and nine products of edges, both
 // ways. 0: edges are parallel.
 enum { NSVCD__AXES = 22 };
-static nsvcd__d3 nsvcd__axis_apart(const nsvcd__triangle_contact *t, size_t k) {
+static nsvcd__d3 nsvcd__axis_apart(const nsvcd__touch *t, size_t k) {
   const nsvcd__d3 n =
       k < 4 ? t->directions[1 - k / 2] : nsvcd__across_edges(t->moving, t->fixed, k / 2 - 2);
   return nsvcd__d3_scale(n, k % 2 ? -1 : 1);
@@ -18652,7 +18679,7 @@ static nsvcd__d3 nsvcd__axis_apart(const nsvcd__triangle_contact *t, size_t k) {
 // which of them a corner met: so it is the normal a little before.
 static NSVCD__NOINLINE int nsvcd__met_along(const nsvcd__proof *p, const nsvcd__approach *a,
                                             nsvcd__d3 travel, double most, nsvcd__d3 *normal) {
-  const nsvcd__triangle_contact *t = &a->contact;
+  const nsvcd__touch *t = &a->contact;
   const double close = 16 * nsvcd__epsilon(p) / nsvcd__d3_norm(travel);
   double back = HUGE_VAL;  // where they met, as a fraction of `travel`
   double before = 0;
@@ -18683,7 +18710,7 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p,
                                                    nsvcd__d3 travel) {
   const int moving_closed = nsvcd__moving_closed(p, &a->pair);
   const int fixed_closed = nsvcd__fixed_closed(p, &a->pair);
-  const nsvcd__triangle_contact *t = &a->contact;
+  const nsvcd__touch *t = &a->contact;
   const double same = 1e4 * a->pair.rounding;
   nsvcd__d3 best = t->directions[1];
   double least = HUGE_VAL;

@@ -120,7 +120,7 @@ a start that is not asked|nsvcd__clear_until(w, \&result) <= 0 \&\& result.found
 a doubt taken for free|nsvcd__min(nsvcd__min(r->end, r->unresolved), r->ran_out|nsvcd__min(r->end, r->ran_out
 half the first distance|const double apart = 1.0001 * nsvcd__vertex_distance(|const double apart = 0.5 * nsvcd__vertex_distance(
 distance without tolerance|p->goal.clearance = nsvcd__max(p->goal.low, p->goal.high - p->goal.measure);|p->goal.clearance = nsvcd__max(p->goal.low, p->goal.high * 1.01);
-exact poses not lifted|at.position = nsvcd__d3_add(at.position, arc->push_out);|at.position = nsvcd__d3_add(at.position, nsvcd__d3_scale(arc->push_out, 0));
+exact poses not lifted|arc->added = nsvcd__d3_add(fixed_pivot, nsvcd__d3_widen(m->push_out));|arc->added = nsvcd__d3_add(fixed_pivot, nsvcd__d3_scale(nsvcd__d3_widen(m->push_out), 0));
 lift the wrong way|if (lacks > 0)\n        push_out = nsvcd__d3_add(|if (lacks > 0)\n        push_out = nsvcd__d3_sub(
 a window of another patch|b->window > 0 \&\& b->fixed[0].first == first|b->window > 0
 tile: every other group|nsvcd__traversal_next(traversal, \&g)) {\n    const nsvcd__sphere group|nsvcd__traversal_next(traversal, \&g) \&\& nsvcd__traversal_next(traversal, \&g)) {\n    const nsvcd__sphere group

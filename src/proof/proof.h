@@ -187,12 +187,12 @@ typedef struct nsvcd__twist {
 } nsvcd__twist;
 
 // Two triangles that touch at the start, in the fixed body's frame.
-typedef struct nsvcd__triangle_contact {
+typedef struct nsvcd__touch {
   nsvcd__d3 moving[3], fixed[3];
   // Directions that may undo it, unit: the moving one's normal, reversed; the fixed one's normal;
   // and from the fixed one's nearest point to the moving one's, 0 if they meet.
   nsvcd__d3 directions[3];
-} nsvcd__triangle_contact;
+} nsvcd__touch;
 
 // Where the bodies touch at a contact: triangles/manifold.
 typedef struct nsvcd__manifold {
@@ -367,7 +367,7 @@ typedef struct nsvcd__proof {
       nsvcd__manifold manifold;
     } kept;
     // collected before there are any
-    nsvcd__triangle_contact touches[NSVCD__TOUCHES];
+    nsvcd__touch touches[NSVCD__TOUCHES];
   } of;
   // A triangle pair over an arc: the ends of the parts to come, the last one first. parts: how
   // often the interval's triangle pairs have been halved.

@@ -22,7 +22,7 @@ typedef struct nsvcd__undoing {
 } nsvcd__undoing;
 
 // Does a push-out along n go against all faces of a touch? A triangle without area has none.
-static int nsvcd__is_against(nsvcd__d3 n, const nsvcd__triangle_contact *t) {
+static int nsvcd__is_against(nsvcd__d3 n, const nsvcd__touch *t) {
   int against = 0;
   for (size_t i = 0; i < 2; i++) {
     const int is_face = nsvcd__d3_dot(t->directions[i], t->directions[i]) > 0.5;
@@ -39,7 +39,7 @@ static void nsvcd__try_push_out(const nsvcd__proof *p, nsvcd__d3 n, nsvcd__undoi
   nsvcd__undoing by = {n, 0, 0, -HUGE_VAL};
   if (best->count > 0 && nsvcd__d3_dot(n, best->n) > 0.99999) return;
   for (size_t k = 0; k < p->push.contact_count; k++) {
-    const nsvcd__triangle_contact *t = &p->of.touches[k];
+    const nsvcd__touch *t = &p->of.touches[k];
     const size_t left = 2 * (p->push.contact_count - k);
     if (by.count + left < best->count) return;
     if (by.count + left == best->count && by.distance > best->distance + same) return;
@@ -67,7 +67,7 @@ static nsvcd__undoing nsvcd__best_push_out(const nsvcd__proof *p) {
   }
   // an edge on an edge
   for (size_t k = 0; k < 9 * p->push.contact_count && best.distance > nsvcd__epsilon(p); k++) {
-    const nsvcd__triangle_contact *t = &p->of.touches[k / 9];
+    const nsvcd__touch *t = &p->of.touches[k / 9];
     const nsvcd__d3 n = nsvcd__across_edges(t->moving, t->fixed, k % 9);
     const nsvcd__d3 out = nsvcd__d3_add(t->directions[0], t->directions[1]);
     const double side = nsvcd__d3_dot(n, out) < 0 ? -1 : 1;
@@ -124,22 +124,23 @@ static nsvcd__d3 nsvcd__push_out(const nsvcd__push_outs *push, double least, int
 // tried. If the directions known have no push-out in common, the first one may be wrong, and is
 // forgotten, once. Returns 0 if there is no push-out.
 static int nsvcd__push_out_still(nsvcd__solver *w, nsvcd__search *q, nsvcd__goal goal) {
+  nsvcd__proof *p = &w->p;
   nsvcd__motion *still = goal.motion;
-  nsvcd__push_outs *push = &w->p.push;
+  nsvcd__push_outs *push = &p->push;
   push->normal_count = 0;
   push->needed = 0;
   still->push_out = nsvcd__f3_of(0, 0, 0);
   // Also what is about to touch, or where an earlier motion may have ended, is pushed out of, and
   // may not touch afterwards.
-  const double size = (double)w->p.given.lengths + w->p.given.radius;
+  const double size = (double)p->given.lengths + p->given.radius;
   const double near_by = nsvcd__min(0.05 * push->slop, 0.02 * size);
-  double beside = nsvcd__max(near_by, nsvcd__min(w->p.given.to, 0.5 * push->slop));
+  double beside = nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * push->slop));
   for (int turns = 0;; beside = 0.01 * push->slop) {
-    goal.clearance = w->p.given.clearance + beside + nsvcd__epsilon(&w->p);
+    goal.clearance = p->given.clearance + beside + nsvcd__epsilon(p);
     (void)nsvcd__search_anew(w, q, goal);
     if (push->contact_count == 0) return 1;
     const size_t known = push->normal_count;
-    if (!nsvcd__choose_push_outs(&w->p) || push->normal_count == known) return 0;
+    if (!nsvcd__choose_push_outs(p) || push->normal_count == known) return 0;
     nsvcd__d3 push_out = nsvcd__push_out(push, push->slop, 0);
     if (!(nsvcd__d3_dot(push_out, push_out) > 0) && turns++ == 0) {
       memmove(push->normals, push->normals + 1, --push->normal_count * sizeof *push->normals);
@@ -157,31 +158,32 @@ static int nsvcd__push_out_still(nsvcd__solver *w, nsvcd__search *q, nsvcd__goal
 // that follow each other, as on a slope, each come free soon: so the little more doubles as long as
 // depths grow.
 static void nsvcd__deepen(nsvcd__solver *w, nsvcd__search *q, nsvcd__goal goal) {
+  nsvcd__proof *p = &w->p;
   nsvcd__motion *still = goal.motion;
   const nsvcd__f3 push_out = still->push_out;
-  const double least_more = 0.5 * nsvcd__epsilon(&w->p);
+  const double least_more = 0.5 * nsvcd__epsilon(p);
   double more = least_more;
   double before = 0;
-  goal.clearance = w->p.given.clearance;
-  for (size_t k = 0; k < w->p.push.normal_count; k++) before += w->p.push.depths[k];
+  goal.clearance = p->given.clearance;
+  for (size_t k = 0; k < p->push.normal_count; k++) before += p->push.depths[k];
   for (int round = 0; round < NSVCD__DEEPEN; round++) {
     double after = 0;
-    still->push_out = nsvcd__f3_round(nsvcd__push_out(&w->p.push, more, 1));
+    still->push_out = nsvcd__f3_round(nsvcd__push_out(&p->push, more, 1));
     (void)nsvcd__search_anew(w, q, goal);
     // A touch gets out of the way along the normal that undoes it first, even if no plane normal to
     // that separates it.
-    for (size_t n = 0; n < w->p.push.contact_count; n++) {
-      const nsvcd__triangle_contact *t = &w->p.of.touches[n];
+    for (size_t n = 0; n < p->push.contact_count; n++) {
+      const nsvcd__touch *t = &p->of.touches[n];
       size_t best = 0;
       double least = HUGE_VAL;
-      for (size_t k = 0; k < w->p.push.normal_count; k++) {
-        const double distance = nsvcd__depth_along(w->p.push.normals[k], t);
+      for (size_t k = 0; k < p->push.normal_count; k++) {
+        const double distance = nsvcd__depth_along(p->push.normals[k], t);
         if (distance < least) best = k;
         least = nsvcd__min(least, distance);
       }
-      nsvcd__note_depth(&w->p, best, t);
+      nsvcd__note_depth(p, best, t);
     }
-    for (size_t k = 0; k < w->p.push.normal_count; k++) after += w->p.push.depths[k];
+    for (size_t k = 0; k < p->push.normal_count; k++) after += p->push.depths[k];
     const int is_deeper = after > before;
     if (!is_deeper && more <= nsvcd__max(least_more, 0.002 * after)) break;
     more = is_deeper ? 2 * more : nsvcd__max(least_more, 0.125 * more);
@@ -194,24 +196,25 @@ static void nsvcd__deepen(nsvcd__solver *w, nsvcd__search *q, nsvcd__goal goal) 
 // way of that and nothing is too deep, by what is needed.
 static NSVCD__NOINLINE void nsvcd__push_out_motion(nsvcd__solver *w, nsvcd__search *q,
                                                    nsvcd__goal goal) {
+  nsvcd__proof *p = &w->p;
   nsvcd__motion *whole = goal.motion;
   nsvcd__motion start = nsvcd__end_of(whole, 0);
   goal.motion = &start;
   goal.collects = NSVCD__TOUCHING;
-  w->p.push.slop = w->p.given.slop;
-  w->p.push.by_faces = 0;
+  p->push.slop = p->given.slop;
+  p->push.by_faces = 0;
   int is_free = nsvcd__push_out_still(w, q, goal);
-  if (!is_free && !w->p.push.too_deep) {
+  if (!is_free && !p->push.too_deep) {
     // The shortest push-outs may not go together.
-    w->p.push.by_faces = 1;
+    p->push.by_faces = 1;
     is_free = nsvcd__push_out_still(w, q, goal);
   }
-  const double least = 1.1 * w->p.push.needed + 4 * nsvcd__epsilon(&w->p);
-  if (!is_free && w->p.push.contact_count == 0 && least < 0.9 * w->p.given.slop) {
-    w->p.push.slop = least;
+  const double least = 1.1 * p->push.needed + 4 * nsvcd__epsilon(p);
+  if (!is_free && p->push.contact_count == 0 && least < 0.9 * p->given.slop) {
+    p->push.slop = least;
     is_free = nsvcd__push_out_still(w, q, goal);
   }
-  if (is_free && w->p.push.normal_count > 0) nsvcd__deepen(w, q, goal);
+  if (is_free && p->push.normal_count > 0) nsvcd__deepen(w, q, goal);
   whole->push_out = is_free ? start.push_out : nsvcd__f3_of(0, 0, 0);
   nsvcd__restart(w, whole);
 }

@@ -57,10 +57,11 @@ static float nsvcd__surface_gap(const nsvcd__proof *p, const nsvcd__motion *m,
 static NSVCD__NOINLINE nsvcd__search_result nsvcd__search_intervals(nsvcd__solver *w,
                                                                     nsvcd__search *q,
                                                                     nsvcd__goal goal) {
+  nsvcd__proof *p = &w->p;
   nsvcd__motion *m = goal.motion;
   double fraction = goal.fraction;  // 0: any contact will do
-  const nsvcd__given *given = &w->p.given;
-  nsvcd__search_result result = w->p.known;
+  const nsvcd__given *given = &p->given;
+  nsvcd__search_result result = p->known;
   nsvcd__search_result open = result;
   int is_open = 0;
   const size_t units = given->reserve < NSVCD__END_BUDGET ? given->reserve : NSVCD__END_BUDGET;
@@ -72,16 +73,16 @@ static NSVCD__NOINLINE nsvcd__search_result nsvcd__search_intervals(nsvcd__solve
   while (m->from < m->ticks) {
     const uint32_t until = q->begin[q->segments];
     const int is_try = m->arcs > 1;
-    const size_t before = w->p.work;
-    if (given->grows) goal.most = w->p.work + given->work;
+    const size_t before = p->work;
+    if (given->grows) goal.most = p->work + given->work;
     nsvcd__restart(w, m);
-    result = w->p.known;
+    result = p->known;
     const float gap = nsvcd__interval_gap(m, m->from, until);
-    if (!(nsvcd__surface_gap(&w->p, m, gap) > nsvcd__clearance(&goal))) {
+    if (!(nsvcd__surface_gap(p, m, gap) > nsvcd__clearance(&goal))) {
       goal.is_brief = is_try;
       goal.fraction = is_try ? 0 : fraction;
       goal.after_unresolved = fraction > 0 ? NSVCD__AFTER_FIRST_UNRESOLVED : given->reserve;
-      goal.limit = is_try ? nsvcd__limit_after(&w->p, &goal, NSVCD__TRY) : goal.most;
+      goal.limit = is_try ? nsvcd__limit_after(p, &goal, NSVCD__TRY) : goal.most;
       result = goal.fraction > 0 ? nsvcd__search_first(w, q, goal)
                                  : NSVCD__KERNEL(w->isa, separate)(w, q, &goal);
     }
@@ -98,8 +99,8 @@ static NSVCD__NOINLINE nsvcd__search_result nsvcd__search_intervals(nsvcd__solve
       is_open = 1;
       fraction = 0;
     }
-    if (has_contact || (is_open && !given->grows && w->p.work > goal.most)) break;
-    nsvcd__next_interval(m, q, until, is_resolved || !is_try, w->p.work - before, &pace);
+    if (has_contact || (is_open && !given->grows && p->work > goal.most)) break;
+    nsvcd__next_interval(m, q, until, is_resolved || !is_try, p->work - before, &pace);
   }
   return is_open ? open : result;
 }
@@ -117,16 +118,17 @@ static nsvcd__finding nsvcd__found_inside(const nsvcd__solver *w,
 // Do the bodies meet, and when? goal: of all of the motion. *result: what is known of it.
 static nsvcd__finding nsvcd__prove(nsvcd__solver *w, nsvcd__search *q, nsvcd__goal goal,
                                    nsvcd__search_result *result) {
+  nsvcd__proof *p = &w->p;
   nsvcd__motion *m = goal.motion;
   const int in_order = goal.fraction > 0;
-  const float gap = nsvcd__surface_gap(&w->p, m, nsvcd__motion_gap(m));
-  *result = w->p.known;
+  const float gap = nsvcd__surface_gap(p, m, nsvcd__motion_gap(m));
+  *result = p->known;
   if (gap > nsvcd__clearance(&goal)) return NSVCD__FOUND_FREE;
   const int is_long = nsvcd__is_long(m, q);
   if (NSVCD__KERNEL(w->isa, is_contained_at_start)(w)) {
     // It is a hit. A question that asks for more gets triangles, if some meet as well.
     const size_t units = NSVCD__INSIDE_BUDGET;
-    const int meets = w->p.given.tells && nsvcd__meets_at(w, q, goal, 0, units, result);
+    const int meets = p->given.tells && nsvcd__meets_at(w, q, goal, 0, units, result);
     return meets ? NSVCD__FOUND_CONTACT : nsvcd__found_inside(w, result);
   }
   *result = is_long    ? nsvcd__search_intervals(w, q, goal)
@@ -148,30 +150,31 @@ static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__solver *w, nsvcd__sea
                                                     nsvcd__goal goal, double finest,
                                                     nsvcd__bracket *bracket,
                                                     nsvcd__search_result *known) {
+  nsvcd__proof *p = &w->p;
   nsvcd__motion *m = goal.motion;
   const size_t most = goal.most;
   const double known_low = bracket->low;
-  size_t work = w->p.given.work;
+  size_t work = p->given.work;
   nsvcd__pace pace = {0, 1};
   double low = bracket->high;
   int is_wide = 0;
   while (m->from < m->ticks) {
     const uint32_t until = q->begin[q->segments];
-    const size_t before = w->p.work;
+    const size_t before = p->work;
     int is_resolved = 1;
-    if (!w->p.given.grows) {
+    if (!p->given.grows) {
       const double rest = (double)(until - m->from) / (double)(m->ticks - m->from);
       work = before < most ? (size_t)(rest * (double)(most - before)) : 0;
     }
     goal.most = before + work;
     const float gap = nsvcd__interval_gap(m, m->from, until);
-    bracket->low = nsvcd__max(known_low, (double)nsvcd__surface_gap(&w->p, m, gap));
+    bracket->low = nsvcd__max(known_low, (double)nsvcd__surface_gap(p, m, gap));
     bracket->is_wide = 0;
     const int is_narrow = nsvcd__has_pair(known) && bracket->high - bracket->low <= finest;
     if (bracket->low < bracket->high && !is_narrow) {
       if (m->arcs > 1) {
         goal.measure = finest;
-        goal.limit = nsvcd__limit_after(&w->p, &goal, NSVCD__TRY);
+        goal.limit = nsvcd__limit_after(p, &goal, NSVCD__TRY);
         is_resolved = nsvcd__measure_once(w, q, goal, bracket, known);
       } else {
         nsvcd__narrow(w, q, goal, work, finest, bracket, known);
@@ -179,7 +182,7 @@ static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__solver *w, nsvcd__sea
     }
     if (is_resolved) low = nsvcd__min(low, bracket->low);
     is_wide |= bracket->is_wide;
-    nsvcd__next_interval(m, q, until, is_resolved, w->p.work - before, &pace);
+    nsvcd__next_interval(m, q, until, is_resolved, p->work - before, &pace);
   }
   bracket->low = nsvcd__min(low, bracket->high);
   bracket->is_wide = is_wide && bracket->high - bracket->low > finest;
@@ -190,24 +193,25 @@ static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__solver *w, nsvcd__sea
 static NSVCD__NOINLINE nsvcd__bracket nsvcd__measure(nsvcd__solver *w, nsvcd__search *q,
                                                      nsvcd__goal goal, nsvcd__finding verdict,
                                                      nsvcd__search_result *known) {
+  nsvcd__proof *p = &w->p;
   nsvcd__motion *m = goal.motion;
-  const double finest = w->p.given.width;
+  const double finest = p->given.width;
   int is_named = nsvcd__has_pair(known);
-  const float gap = nsvcd__surface_gap(&w->p, m, nsvcd__motion_gap(m));
-  const double clear = verdict == NSVCD__FOUND_FREE ? w->p.given.clearance : 0;
+  const float gap = nsvcd__surface_gap(p, m, nsvcd__motion_gap(m));
+  const double clear = verdict == NSVCD__FOUND_FREE ? p->given.clearance : 0;
   nsvcd__bracket bracket = {nsvcd__max(clear, (double)gap), known->found.distance, 0};
   const int is_long = nsvcd__is_long(m, q);
   if (is_long) nsvcd__choose_interval(m, q, 0, NSVCD__ALL_ARCS);
   if (!is_named) {
     bracket.high = NSVCD__KERNEL(w->isa, bound_distance)(w, q);
-    is_named = known->has_contact = w->p.known.has_contact;
-    known->found = w->p.known.found;
+    is_named = known->has_contact = p->known.has_contact;
+    known->found = p->known.found;
   }
   if (is_named && !(bracket.high - bracket.low > finest)) return bracket;
   if (is_long)
     nsvcd__narrow_intervals(w, q, goal, finest, &bracket, known);
   else
-    nsvcd__narrow(w, q, goal, w->p.given.work, finest, &bracket, known);
+    nsvcd__narrow(w, q, goal, p->given.work, finest, &bracket, known);
   return bracket;
 }
 #endif  // NSVCD_NO_PROOF

@@ -49,7 +49,7 @@ static const nsvcd__arc *nsvcd__arc_before(nsvcd__arcs *arcs, double tick, doubl
 // The triangles of a contact at a time, and how the bodies move then.
 typedef struct nsvcd__approach {
   nsvcd__triangle_pair pair;
-  nsvcd__triangle_contact contact;
+  nsvcd__touch contact;
   nsvcd__twist twist;
   double u;
 } nsvcd__approach;
@@ -97,7 +97,7 @@ static NSVCD__NOINLINE void nsvcd__move_back(nsvcd__proof *p, nsvcd__pair_contac
 // The separating axes of two triangles that touch: two normals and nine products of edges, both
 // ways. 0: edges are parallel.
 enum { NSVCD__AXES = 22 };
-static nsvcd__d3 nsvcd__axis_apart(const nsvcd__triangle_contact *t, size_t k) {
+static nsvcd__d3 nsvcd__axis_apart(const nsvcd__touch *t, size_t k) {
   const nsvcd__d3 n =
       k < 4 ? t->directions[1 - k / 2] : nsvcd__across_edges(t->moving, t->fixed, k / 2 - 2);
   return nsvcd__d3_scale(n, k % 2 ? -1 : 1);
@@ -108,7 +108,7 @@ static nsvcd__d3 nsvcd__axis_apart(const nsvcd__triangle_contact *t, size_t k) {
 // which of them a corner met: so it is the normal a little before.
 static NSVCD__NOINLINE int nsvcd__met_along(const nsvcd__proof *p, const nsvcd__approach *a,
                                             nsvcd__d3 travel, double most, nsvcd__d3 *normal) {
-  const nsvcd__triangle_contact *t = &a->contact;
+  const nsvcd__touch *t = &a->contact;
   const double close = 16 * nsvcd__epsilon(p) / nsvcd__d3_norm(travel);
   double back = HUGE_VAL;  // where they met, as a fraction of `travel`
   double before = 0;
@@ -139,7 +139,7 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p,
                                                    nsvcd__d3 travel) {
   const int moving_closed = nsvcd__moving_closed(p, &a->pair);
   const int fixed_closed = nsvcd__fixed_closed(p, &a->pair);
-  const nsvcd__triangle_contact *t = &a->contact;
+  const nsvcd__touch *t = &a->contact;
   const double same = 1e4 * a->pair.rounding;
   nsvcd__d3 best = t->directions[1];
   double least = HUGE_VAL;

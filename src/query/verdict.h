@@ -22,15 +22,16 @@ static int nsvcd__has_pair(const nsvcd__search_result *r) {
 
 // Forgets all that was known of a motion, or of an interval, before another one is searched.
 static void nsvcd__restart(nsvcd__solver *w, nsvcd__motion *motion) {
-  memset(&w->p.known, 0, sizeof w->p.known);
-  nsvcd__arcs_begin(&w->p.arcs, motion);
-  w->p.known.proven_until = (double)motion->from;
-  w->p.known.end = w->clipped_end = w->p.known.unresolved = NSVCD__NEVER;
+  nsvcd__proof *p = &w->p;
+  memset(&p->known, 0, sizeof p->known);
+  nsvcd__arcs_begin(&p->arcs, motion);
+  p->known.proven_until = (double)motion->from;
+  p->known.end = w->clipped_end = p->known.unresolved = NSVCD__NEVER;
   w->clipped = 0;
-  w->count = w->fresh_count = w->misses = w->p.push.contact_count = 0;
-  w->p.shared = w->blocks.window = 0;
-  w->p.push.too_deep = w->blocks.has_block = 0;
-  w->p.separating = nsvcd__d3_of(0, 0, 0);
+  w->count = w->fresh_count = w->misses = p->push.contact_count = 0;
+  p->shared = w->blocks.window = 0;
+  p->push.too_deep = w->blocks.has_block = 0;
+  p->separating = nsvcd__d3_of(0, 0, 0);
   memset(&w->memo, 0, sizeof w->memo);
 }
 
@@ -132,6 +133,7 @@ static void nsvcd__search_part(nsvcd__solver *w, nsvcd__search *q, nsvcd__goal g
 static NSVCD__NOINLINE void nsvcd__search_by_time(nsvcd__solver *w, nsvcd__search *q,
                                                   nsvcd__goal goal,
                                                   nsvcd__search_result *known) {
+  nsvcd__proof *p = &w->p;
   const size_t limit = goal.most;
   const double ticks = (double)goal.motion->ticks;
   const double all = (double)q->segments;
@@ -144,8 +146,8 @@ static NSVCD__NOINLINE void nsvcd__search_by_time(nsvcd__solver *w, nsvcd__searc
   for (;;) {
     const double until = nsvcd__min(ticks, nsvcd__min(known->end, known->unresolved));
     known->ran_out = known->proven_until < until;
-    if (!known->ran_out || w->p.work >= limit) break;
-    const size_t before = w->p.work;
+    if (!known->ran_out || p->work >= limit) break;
+    const size_t before = p->work;
     const double whole = floor(from + length);
     const double to = whole > from ? nsvcd__min(whole, all) : from + length;
     goal.limit = limit - before > units ? before + units : limit;
@@ -156,7 +158,7 @@ static NSVCD__NOINLINE void nsvcd__search_by_time(nsvcd__solver *w, nsvcd__searc
     } else {
       from = to;
       length *= grows;
-      units = 8 * (w->p.work - before) + NSVCD__PART_BUDGET;
+      units = 8 * (p->work - before) + NSVCD__PART_BUDGET;
     }
   }
   nsvcd__restart(w, goal.motion);
@@ -166,7 +168,8 @@ static NSVCD__NOINLINE void nsvcd__search_by_time(nsvcd__solver *w, nsvcd__searc
 // When do they meet first? What is proven of that stays proven when the budget ends.
 static nsvcd__search_result nsvcd__search_first(nsvcd__solver *w, nsvcd__search *q,
                                                 nsvcd__goal goal) {
-  goal.limit = nsvcd__limit_of_first(&w->p.given, &goal);
+  nsvcd__proof *p = &w->p;
+  goal.limit = nsvcd__limit_of_first(&p->given, &goal);
   nsvcd__search_result result = nsvcd__search_whole(w, q, goal);
   // An interval is short, and all before it is known.
   if (result.ran_out && !goal.motion->arcs) nsvcd__search_by_time(w, q, goal, &result);
@@ -175,8 +178,8 @@ static nsvcd__search_result nsvcd__search_first(nsvcd__solver *w, nsvcd__search 
     result.starts_free = 1;
   } else if (nsvcd__clear_until(w, &result) <= 0 && result.found.tick > 0) {
     // The contact is so early that they may meet at the start already.
-    if (nsvcd__meets_at(w, q, goal, 0, w->p.given.work, &result)) return result;
-    result.starts_free = !w->p.known.ran_out && !(w->p.known.unresolved < NSVCD__NEVER);
+    if (nsvcd__meets_at(w, q, goal, 0, p->given.work, &result)) return result;
+    result.starts_free = !p->known.ran_out && !(p->known.unresolved < NSVCD__NEVER);
   }
   return result;
 }

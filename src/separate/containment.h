@@ -215,6 +215,7 @@ static int nsvcd__surface_is_near(nsvcd__solver *w, const nsvcd__geometry *f, ns
 // of the body's frame.
 static int nsvcd__is_enclosed(nsvcd__solver *w, const nsvcd__geometry *f, double unit,
                               nsvcd__d3 point) {
+  nsvcd__proof *p = &w->p;
   static const double directions[8][3] = {
       {0.5359, 0.6013, 0.5927},   {-0.5741, 0.6229, 0.5314},  {0.6127, -0.5531, 0.5644},
       {-0.5477, -0.5923, 0.5909}, {0.6311, 0.5573, -0.5396},  {-0.6053, 0.5297, -0.5941},
@@ -226,14 +227,14 @@ static int nsvcd__is_enclosed(nsvcd__solver *w, const nsvcd__geometry *f, double
   const size_t best = (off.x < 0 ? 1u : 0u) + (off.y < 0 ? 2u : 0u) + (off.z < 0 ? 4u : 0u);
   nsvcd__ray ray;
   ray.from = point;
-  ray.margin = NSVCD__SAME_POSITION * (double)w->p.given.lengths / unit;
+  ray.margin = NSVCD__SAME_POSITION * (double)p->given.lengths / unit;
   ray.margin += (double)nsvcd__off_mesh(f) + (double)f->counts->gap;
   ray.rounding = (float)ray.margin + 4 * NSVCD__ROUNDING * f->body->extent;
   int clear = 0;
   int odd = 0;
   for (size_t n = 0; n < 8; n++) {
     const double *d = directions[best ^ n];
-    if (w->p.work > w->p.goal.limit) {
+    if (p->work > p->goal.limit) {
       w->unclear = NSVCD__NOT_ASKED;
       return 0;
     }
@@ -310,18 +311,19 @@ static int nsvcd__seed_is_near(const nsvcd__enclosure *e, const float *seed) {
 // w->inside is set, and w->enclosed is its seed. Returns 1 if that is certain.
 static int nsvcd__contains_seeds(nsvcd__solver *w, const nsvcd__enclosure *e, size_t first,
                                  size_t end) {
+  nsvcd__proof *p = &w->p;
   for (size_t n = first; n < end; n++) {
     if (!nsvcd__seed_is_near(e, e->inner->seeds + 3 * n)) continue;
-    if (nsvcd__check_budget(&w->p)) {
+    if (nsvcd__check_budget(p)) {
       w->unclear = NSVCD__NOT_ASKED;
       return 0;
     }
     const nsvcd__d3 seed = nsvcd__d3_load(e->inner->seeds + 3 * n);
     const nsvcd__d3 seen = nsvcd__d3_transform(&e->start, seed);
     if (!nsvcd__is_enclosed(w, e->outer, e->unit, seen)) continue;
-    w->enclosed = e->inner == &w->p.moving ? seen : seed;
+    w->enclosed = e->inner == &p->moving ? seen : seed;
     w->inside = 1;
-    const double room = w->p.given.tolerance / e->unit + (double)e->outer->counts->gap;
+    const double room = p->given.tolerance / e->unit + (double)e->outer->counts->gap;
     if (!nsvcd__surface_is_near(w, e->outer, seen, room)) return 1;
   }
   return 0;
@@ -357,15 +359,16 @@ static int nsvcd__contains_any(nsvcd__solver *w, const nsvcd__enclosure *e) {
 // then separate all patches at t = 0, the seed, the surface that was tested and the true one are,
 // patch by patch, on one side of a plane and agree: it is inside.
 static NSVCD__NOINLINE int nsvcd__is_contained_at_start(nsvcd__solver *w) {
-  const float scale = w->p.arcs.motion->scale;
-  const nsvcd__dtransform start = nsvcd__dtransform_at(nsvcd__arc_at(&w->p.arcs, 0), 0);
-  const nsvcd__dtransform back = nsvcd__inverse_dtransform(&start, w->p.arcs.arc.scale);
-  const nsvcd__enclosure moving = {
-      &w->p.moving, &w->p.fixed, start, nsvcd__transform_of(&start), back, scale, 1};
+  nsvcd__proof *p = &w->p;
+  const float scale = p->arcs.motion->scale;
+  const nsvcd__dtransform start = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, 0), 0);
+  const nsvcd__dtransform back = nsvcd__inverse_dtransform(&start, p->arcs.arc.scale);
+  const nsvcd__enclosure moving = {&p->moving, &p->fixed, start, nsvcd__transform_of(&start),
+                                   back,       scale,     1};
   if (nsvcd__contains_any(w, &moving)) return 1;
   const nsvcd__enclosure fixed = {
-      &w->p.fixed, &w->p.moving,       back, nsvcd__transform_of(&back), start,
-      1 / scale,   w->p.arcs.arc.scale};
+      &p->fixed, &p->moving,       back, nsvcd__transform_of(&back), start,
+      1 / scale, p->arcs.arc.scale};
   return nsvcd__contains_any(w, &fixed);
 }
 #endif  // NSVCD_NO_PROOF

@@ -130,6 +130,7 @@ static double nsvcd__vertex_distance(const nsvcd__proof *p, const nsvcd__transfo
 // in turns. If the bound is within the clearance, triangles of these patches are a contact, which
 // is sought there.
 static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__solver *w, nsvcd__search *q) {
+  nsvcd__proof *p = &w->p;
   nsvcd__sphere moving, fixed;
   double tick = 0;
   double least = HUGE_VAL;
@@ -137,30 +138,30 @@ static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__solver *w, nsvcd__sea
   uint32_t from = 0;
   size_t nearest[2] = {0, 0};
   // Bodies that never come near have been told apart without segments.
-  nsvcd__cut_segments(w->p.arcs.motion, w->p.given.lengths, 0, q);
-  nsvcd__nearest_groups(&w->p, q, &moving, &fixed);
+  nsvcd__cut_segments(p->arcs.motion, p->given.lengths, 0, q);
+  nsvcd__nearest_groups(p, q, &moving, &fixed);
   for (size_t turn = 0; turn < NSVCD__TURNS; turn++) {
     float gap = HUGE_VALF;
     double u;
     nsvcd__chords_in_all(q, moving);
     (void)nsvcd__nearest_tick(q, fixed, &gap, &tick);
-    const uint32_t first = nsvcd__arc_of(w->p.arcs.motion, tick, &u);
-    const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&w->p.arcs, first), u);
+    const uint32_t first = nsvcd__arc_of(p->arcs.motion, tick, &u);
+    const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, first), u);
     const nsvcd__transform pose = nsvcd__transform_of(&at);
-    const nsvcd__dtransform back = nsvcd__inverse_dtransform(&at, w->p.arcs.arc.scale);
+    const nsvcd__dtransform back = nsvcd__inverse_dtransform(&at, p->arcs.arc.scale);
     size_t i = 0;
     size_t j = 0;
     for (size_t round = 0; round < 2; round++) {
       const nsvcd__d3 seen = nsvcd__d3_transform(&back, nsvcd__d3_widen(fixed.centre));
-      i = nsvcd__patch_near(&w->p.moving, nsvcd__f3_round(seen));
-      moving = nsvcd__sphere_of(nsvcd__body_patches(w->p.moving.body), i);
-      j = nsvcd__patch_near(&w->p.fixed, nsvcd__f3_transform(&pose, moving.centre));
-      fixed = nsvcd__sphere_of(nsvcd__body_patches(w->p.fixed.body), j);
+      i = nsvcd__patch_near(&p->moving, nsvcd__f3_round(seen));
+      moving = nsvcd__sphere_of(nsvcd__body_patches(p->moving.body), i);
+      j = nsvcd__patch_near(&p->fixed, nsvcd__f3_transform(&pose, moving.centre));
+      fixed = nsvcd__sphere_of(nsvcd__body_patches(p->fixed.body), j);
     }
-    const float lengths = w->p.given.lengths + nsvcd__f3_norm(pose.position);
+    const float lengths = p->given.lengths + nsvcd__f3_norm(pose.position);
     const double rounding =
-        (double)(4 * NSVCD__ROUNDING * lengths + 2 * nsvcd__errors_of(&w->p, i, j));
-    const double apart = 1.0001 * nsvcd__vertex_distance(&w->p, &pose, i, j) + rounding;
+        (double)(4 * NSVCD__ROUNDING * lengths + 2 * nsvcd__errors_of(p, i, j));
+    const double apart = 1.0001 * nsvcd__vertex_distance(p, &pose, i, j) + rounding;
     if (!(apart < least)) continue;
     least = apart;
     fraction = u;
@@ -168,11 +169,11 @@ static NSVCD__NOINLINE double nsvcd__bound_distance(nsvcd__solver *w, nsvcd__sea
     nearest[0] = i;
     nearest[1] = j;
   }
-  w->p.known.has_contact = 0;
-  if (!(least <= w->p.given.clearance)) return least;
-  w->p.goal.clearance = least;
-  w->p.goal.limit = w->p.work + NSVCD__END_BUDGET;
+  p->known.has_contact = 0;
+  if (!(least <= p->given.clearance)) return least;
+  p->goal.clearance = least;
+  p->goal.limit = p->work + NSVCD__END_BUDGET;
   (void)nsvcd__find_witness(w, nearest[0], nearest[1], from, fraction);
-  return w->p.known.has_contact ? w->p.known.found.distance : least;
+  return p->known.has_contact ? p->known.found.distance : least;
 }
 #endif  // NSVCD_NO_PROOF

@@ -92,10 +92,11 @@ static nsvcd__f3 nsvcd__f3_towards(nsvcd__f3 a, nsvcd__f3 b) {
 #define NSVCD__GUESSES 4
 static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__solver *w, size_t i, size_t j,
                                                   const nsvcd__interval *over) {
-  const nsvcd__geometry *f = &w->p.moving;
-  const nsvcd__geometry *g = &w->p.fixed;
-  const float margins = w->p.arcs.motion->scale * f->margins[i] + g->margins[j];
-  const float margin = margins + over->rounding + nsvcd__clearance(&w->p.goal);
+  nsvcd__proof *p = &w->p;
+  const nsvcd__geometry *f = &p->moving;
+  const nsvcd__geometry *g = &p->fixed;
+  const float margins = p->arcs.motion->scale * f->margins[i] + g->margins[j];
+  const float margin = margins + over->rounding + nsvcd__clearance(&p->goal);
   const nsvcd__arm arm = nsvcd__patch_arm(f, i, over);
   const nsvcd__transform *start = &over->start;
   const nsvcd__transform *end = &over->end;
@@ -116,7 +117,7 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__solver *w, size_t i, si
                                              nsvcd__f3_towards(fixed.normal, line),
                                              nsvcd__f3_towards(turned, line), line};
   nsvcd__f3 nearest = {0, 0, 0};
-  w->p.work++;
+  p->work++;
   for (size_t step = 0; step < NSVCD__GUESSES + NSVCD__PLANE_STEPS; step++) {
     const nsvcd__f3 normal = step < NSVCD__GUESSES ? guesses[step] : nearest;
     const nsvcd__support found = nsvcd__support_along(w, normal);
@@ -145,11 +146,12 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__solver *w, size_t i, si
 // patch in a segment the least, less all margins, and of a fixed one the greatest.
 static int nsvcd__held_again(nsvcd__solver *w, const nsvcd__search *q,
                              const nsvcd__patch_pair *patches) {
+  nsvcd__proof *p = &w->p;
   const size_t i = patches->moving;
   const size_t j = patches->fixed;
   const size_t s = patches->segment;
-  const nsvcd__geometry *f = &w->p.moving;
-  const nsvcd__geometry *g = &w->p.fixed;
+  const nsvcd__geometry *f = &p->moving;
+  const nsvcd__geometry *g = &p->fixed;
   nsvcd__memo *memo = &w->memo;
   if (!memo->plane) return 0;
   const nsvcd__interval *over = nsvcd__segment_interval(w, q, s);
@@ -168,7 +170,7 @@ static int nsvcd__held_again(nsvcd__solver *w, const nsvcd__search *q,
       const nsvcd__v at_end = nsvcd__v3_dot(normal, nsvcd__v3_transform(&over->end, hull));
       lowest = nsvcd__least_of(lowest, nsvcd__v_min(at_start, at_end));
     }
-    const float margin = (w->p.arcs.motion->scale * f->margins[i] + over->rounding) * length;
+    const float margin = (p->arcs.motion->scale * f->margins[i] + over->rounding) * length;
     above->plane = memo->plane;
     above->key = key;
     above->height =
@@ -184,6 +186,6 @@ static int nsvcd__held_again(nsvcd__solver *w, const nsvcd__search *q,
     below->key = (uint32_t)j;
     below->height = g->margins[j] * length + highest;
   }
-  return above->height > below->height + nsvcd__clearance(&w->p.goal) * length;
+  return above->height > below->height + nsvcd__clearance(&p->goal) * length;
 }
 #endif  // NSVCD_NO_PROOF

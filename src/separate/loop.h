@@ -24,12 +24,13 @@ static uint64_t nsvcd__segments_that_matter(const nsvcd__proof *p, const nsvcd__
 // these, as long as there is room for 16 more.
 static void nsvcd__add_patch_pairs(nsvcd__solver *w, const nsvcd__search *q, size_t g,
                                    size_t j, uint64_t *left) {
-  const nsvcd_body *moving = w->p.moving.body;
-  const nsvcd_body *fixed = w->p.fixed.body;
-  const nsvcd__f3 centre = nsvcd__patch_centre(&w->p.fixed, j);
+  nsvcd__proof *p = &w->p;
+  const nsvcd_body *moving = p->moving.body;
+  const nsvcd_body *fixed = p->fixed.body;
+  const nsvcd__f3 centre = nsvcd__patch_centre(&p->fixed, j);
   const float radius = nsvcd__body_r(fixed)[j];
   const float *own = nsvcd__body_r(moving) + NSVCD__GROUP * g;
-  *left &= nsvcd__segments_that_matter(&w->p, q);
+  *left &= nsvcd__segments_that_matter(p, q);
   for (; *left && w->fresh_count + NSVCD__GROUP <= NSVCD__FRESH; *left &= *left - 1) {
     const size_t s = nsvcd__low_bit(*left);
     const nsvcd__chords *c = &q->members[s];
@@ -48,11 +49,11 @@ static void nsvcd__add_patch_pairs(nsvcd__solver *w, const nsvcd__search *q, siz
       nsvcd__v_store(fraction + l, tau);
     }
     if (!met) continue;
-    met = nsvcd__slabs_meet(&w->p, nsvcd__segment_interval(w, q, s), q, g, j, s, met);
+    met = nsvcd__slabs_meet(p, nsvcd__segment_interval(w, q, s), q, g, j, s, met);
     for (; met; met &= met - 1) {
       const size_t l = nsvcd__low_bit(met);
       const size_t i = NSVCD__GROUP * g + l;
-      if (w->p.moving.hull_counts[i] == 0) continue;
+      if (p->moving.hull_counts[i] == 0) continue;
       const float radii = q->scale * own[l] + radius;
       const float depth = 1 - sqrtf(squares[l]) / (radii > 1e-30f ? radii : 1e-30f);
       const nsvcd__patch_pair pair = {(uint16_t)i, (uint16_t)j, (uint16_t)s,
@@ -75,22 +76,22 @@ static nsvcd__outcome nsvcd__take_patch_pairs(nsvcd__solver *w, nsvcd__search *q
 // parts; or EXHAUSTED says that it has not.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_segments(nsvcd__solver *w,
                                                             nsvcd__search *q) {
+  nsvcd__proof *p = &w->p;
   nsvcd__outcome outcome;
   for (; q->step < q->steps; q->step++) {
     const size_t next = q->order[q->step];
     const size_t g = q->moving_tile.groups[next];
     nsvcd__search_group(q);
-    nsvcd__separate_groups(&w->p, q);
+    nsvcd__separate_groups(p, q);
     for (; q->waiting; q->waiting &= q->waiting - 1) {
       const size_t at = nsvcd__low_bit(q->waiting);
       const size_t h = q->fixed_tile.groups[at];
-      const uint64_t wanted =
-          nsvcd__nearby(q, next)[at] & nsvcd__segments_that_matter(&w->p, q);
+      const uint64_t wanted = nsvcd__nearby(q, next)[at] & nsvcd__segments_that_matter(p, q);
       uint32_t met = nsvcd__group_against_members(q, h, wanted, w->met_in);
       for (; met; met &= met - 1) {
         const size_t l = nsvcd__low_bit(met);
         uint64_t *left = &w->met_in[l];
-        if (w->p.fixed.hull_counts[NSVCD__GROUP * h + l] == 0) continue;
+        if (p->fixed.hull_counts[NSVCD__GROUP * h + l] == 0) continue;
         for (;;) {
           nsvcd__pose_members(q, g, *left);
           nsvcd__add_patch_pairs(w, q, g, NSVCD__GROUP * h + l, left);
@@ -105,7 +106,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_segments(nsvcd__solver *w,
     }
   }
   outcome = nsvcd__take_patch_pairs(w, q);
-  if (outcome != NSVCD__DONE || w->p.goal.collects) return outcome;
+  if (outcome != NSVCD__DONE || p->goal.collects) return outcome;
   return nsvcd__resolve_patch_pairs(w, q);
 }
 
@@ -113,27 +114,28 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_segments(nsvcd__solver *w,
 // segments of a tile at a time, until there is a contact: it is the first of the tile. What is
 // resolved in one tile says nothing of the others.
 static nsvcd__outcome nsvcd__prove_tiles(nsvcd__solver *w, nsvcd__search *q) {
-  const nsvcd_body *moving = w->p.moving.body;
-  const nsvcd_body *fixed = w->p.fixed.body;
+  nsvcd__proof *p = &w->p;
+  const nsvcd_body *moving = p->moving.body;
+  const nsvcd_body *fixed = p->fixed.body;
   const size_t all = q->segments;
-  const size_t few = w->p.goal.first > 0 ? NSVCD__IN_ORDER : all;
+  const size_t few = p->goal.first > 0 ? NSVCD__IN_ORDER : all;
   nsvcd__outcome outcome = NSVCD__DONE;
   (void)nsvcd__search_begin(moving, fixed, nsvcd__segments_in(0, all), q);
   do {
     for (size_t s = 0; s < all && outcome == NSVCD__DONE; s += few) {
       const size_t next = s + few < all ? s + few : all;
-      if (!nsvcd__matters(&w->p, q, s)) break;
+      if (!nsvcd__matters(p, q, s)) break;
       q->wanted = nsvcd__segments_in(s, next);
       q->step = 0;
       q->waiting = 0;
       outcome = nsvcd__prove_segments(w, q);
       const int one_tile = !nsvcd__is_tiled(moving, fixed);
-      if (outcome == NSVCD__DONE && !w->p.known.has_contact && one_tile)
-        w->p.known.proven_until = (double)q->begin[next];
+      if (outcome == NSVCD__DONE && !p->known.has_contact && one_tile)
+        p->known.proven_until = (double)q->begin[next];
     }
   } while (outcome == NSVCD__DONE && nsvcd__search_next_tile(q));
-  if (outcome == NSVCD__DONE && !w->p.known.has_contact)
-    w->p.known.proven_until = (double)q->begin[all];
+  if (outcome == NSVCD__DONE && !p->known.has_contact)
+    p->known.proven_until = (double)q->begin[all];
   return outcome;
 }
 
@@ -141,14 +143,15 @@ static nsvcd__outcome nsvcd__prove_tiles(nsvcd__solver *w, nsvcd__search *q) {
 // they meet? Cuts the segments, and separates the bodies in them.
 static NSVCD__NOINLINE nsvcd__search_result nsvcd__separate(nsvcd__solver *w, nsvcd__search *q,
                                                             const nsvcd__goal *goal) {
-  w->p.arcs.motion = goal->motion;
-  w->p.goal = *goal;
-  w->p.goal.first = goal->fraction * (double)goal->motion->ticks;
-  w->p.known.end = nsvcd__min(w->p.known.end, goal->end);
-  nsvcd__cut_segments(goal->motion, w->p.given.lengths, nsvcd__clearance(goal), q);
-  w->p.known.outcome = nsvcd__prove_tiles(w, q);
-  w->p.known.ran_out = w->p.known.outcome == NSVCD__EXHAUSTED;
-  w->p.known.clearance = w->p.goal.clearance;
-  return w->p.known;
+  nsvcd__proof *p = &w->p;
+  p->arcs.motion = goal->motion;
+  p->goal = *goal;
+  p->goal.first = goal->fraction * (double)goal->motion->ticks;
+  p->known.end = nsvcd__min(p->known.end, goal->end);
+  nsvcd__cut_segments(goal->motion, p->given.lengths, nsvcd__clearance(goal), q);
+  p->known.outcome = nsvcd__prove_tiles(w, q);
+  p->known.ran_out = p->known.outcome == NSVCD__EXHAUSTED;
+  p->known.clearance = p->goal.clearance;
+  return p->known;
 }
 #endif  // NSVCD_NO_PROOF

@@ -42,31 +42,32 @@ static NSVCD__NOINLINE int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_
 static nsvcd__outcome nsvcd__resolve_row(nsvcd__solver *w, size_t l, nsvcd__block *fixed,
                                          nsvcd__arm arm, float margin, double u0, double u1,
                                          size_t patience) {
+  nsvcd__proof *p = &w->p;
   const nsvcd__interval *over = w->blocks.over;
   const size_t i = w->blocks.moving.patch;
   const size_t j = fixed->patch;
-  const float errors = nsvcd__errors_of(&w->p, i, j);
-  w->p.work++;
+  const float errors = nsvcd__errors_of(p, i, j);
+  p->work++;
   uint32_t met = nsvcd__row_left(w, l, fixed, margin);
   for (; met; met &= met - 1) {
-    const nsvcd__d3 before = w->p.separating;
+    const nsvcd__d3 before = p->separating;
     const nsvcd__f3 last = nsvcd__f3_round(before);
-    const float along = errors + over->rounding + nsvcd__clearance(&w->p.goal) +
+    const float along = errors + over->rounding + nsvcd__clearance(&p->goal) +
                         nsvcd__deviation_of(over, last, arm);
     met = nsvcd__left_by_normal(w, l, fixed, NSVCD__LAST_NORMAL, along, met);
     if (!met) break;
     if (patience == 0) return NSVCD__TOO_LONG;
-    if (w->p.shared > NSVCD__SHARED * w->all_tried) {
+    if (p->shared > NSVCD__SHARED * w->all_tried) {
       w->all_tried++;
-      if (nsvcd__patches_apart(&w->p, i, j, u0, u1)) return NSVCD__ALL_DONE;
+      if (nsvcd__patches_apart(p, i, j, u0, u1)) return NSVCD__ALL_DONE;
     }
     const size_t a = w->blocks.moving.first + l;
     const size_t b = fixed->first + nsvcd__low_bit(met);
-    const nsvcd__triangle_pair pair = nsvcd__pair_of(&w->p, i, j, a, b);
-    const nsvcd__outcome one = nsvcd__resolve_pair(&w->p, &pair, u0, u1);
+    const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, b);
+    const nsvcd__outcome one = nsvcd__resolve_pair(p, &pair, u0, u1);
     if (one != NSVCD__DONE) return one;
-    if (w->p.parts > patience) return NSVCD__TOO_LONG;
-    w->p.shared = nsvcd__d3_distance2(w->p.separating, before) > 0 ? 0 : w->p.shared + 1;
+    if (p->parts > patience) return NSVCD__TOO_LONG;
+    p->shared = nsvcd__d3_distance2(p->separating, before) > 0 ? 0 : p->shared + 1;
   }
   return NSVCD__DONE;
 }
@@ -77,23 +78,24 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__solver *w,
                                                                const nsvcd__interval *over,
                                                                double u0, double u1,
                                                                size_t patience) {
-  const size_t moving_end = w->p.moving.first_triangle[i + 1];
-  const size_t fixed_end = w->p.fixed.first_triangle[j + 1];
+  nsvcd__proof *p = &w->p;
+  const size_t moving_end = p->moving.first_triangle[i + 1];
+  const size_t fixed_end = p->fixed.first_triangle[j + 1];
   const nsvcd__f3 axis = nsvcd__own_axis(over);
-  const float stays = nsvcd__errors_of(&w->p, i, j) + (over->rounding + over->origin_bend) +
-                      nsvcd__clearance(&w->p.goal);
-  const float error = w->p.moving.errors[i];
-  const float extent = w->p.moving.body->extent + error;
+  const float stays = nsvcd__errors_of(p, i, j) + (over->rounding + over->origin_bend) +
+                      nsvcd__clearance(&p->goal);
+  const float error = p->moving.errors[i];
+  const float extent = p->moving.body->extent + error;
   const nsvcd__arm all = {extent, extent};
   // else arms of blocks gain little
   const int bends = over->bend * extent > 0.25f * stays;
-  w->p.parts = 0;
+  p->parts = 0;
   w->all_tried = 0;
-  for (size_t b = w->p.fixed.first_triangle[j]; b < fixed_end;
+  for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
        b += NSVCD__WINDOW * NSVCD__LANES) {
-    nsvcd__window_load(&w->blocks, &w->p.fixed, j, b);
-    for (size_t a = w->p.moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
-      nsvcd__moving_block_load(&w->blocks, &w->p.moving, i, a);
+    nsvcd__window_load(&w->blocks, &p->fixed, j, b);
+    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
+      nsvcd__moving_block_load(&w->blocks, &p->moving, i, a);
       const nsvcd__arm arm = bends ? nsvcd__block_arm(&w->blocks.moving, axis, error) : all;
       const float margin = stays + nsvcd__bend_of(over, arm);
       nsvcd__block_pose(&w->blocks, NULL, over);
@@ -102,8 +104,8 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__solver *w,
         const uint32_t nearby =
             nsvcd__lanes_near(&w->blocks.moving, w->blocks.bounds[n], margin);
         uint32_t lanes = nsvcd__lanes_left_by_last(w, fixed, margin, nearby);
-        w->p.work++;
-        if (nsvcd__check_budget(&w->p)) return NSVCD__EXHAUSTED;
+        p->work++;
+        if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
         for (; lanes; lanes &= lanes - 1) {
           const nsvcd__outcome row = nsvcd__resolve_row(w, nsvcd__low_bit(lanes), fixed, arm,
                                                         margin, u0, u1, patience);
@@ -120,13 +122,14 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__solver *w,
 // until each part is resolved by a plane between the hulls, or by the triangles.
 static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__solver *w, const nsvcd__search *q,
                                                 const nsvcd__patch_pair *patches) {
-  const nsvcd__motion *m = w->p.arcs.motion;
+  nsvcd__proof *p = &w->p;
+  const nsvcd__motion *m = p->arcs.motion;
   const size_t i = patches->moving;
   const size_t j = patches->fixed;
   const uint32_t last = q->begin[patches->segment + 1u];
   double *ends = w->arc_ends;
   int is_tried = 1;  // is it all of the segment?
-  for (uint32_t at = q->begin[patches->segment]; at < last && (double)at < w->p.known.end;) {
+  for (uint32_t at = q->begin[patches->segment]; at < last && (double)at < p->known.end;) {
     double u;
     const uint32_t first = nsvcd__arc_of(m, (double)at, &u);
     const uint32_t keyframe = nsvcd__next_keyframe(m, first);
@@ -134,10 +137,10 @@ static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__solver *w, const nsvcd__s
     is_tried = is_tried && at == last;
     ends[0] = (double)(at - first) / (double)(keyframe - first);
     for (size_t left = 1; left > 0;) {
-      nsvcd__arc_at(&w->p.arcs, first);
-      const double end = nsvcd__min(ends[left - 1], nsvcd__arc_limit(&w->p));
+      nsvcd__arc_at(&p->arcs, first);
+      const double end = nsvcd__min(ends[left - 1], nsvcd__arc_limit(p));
       if (!(u < end)) break;
-      w->interval = nsvcd__interval_of_arc(&w->p, first, u, end);
+      w->interval = nsvcd__interval_of_arc(p, first, u, end);
       const int apart = !is_tried && nsvcd__hulls_are_apart(w, i, j, &w->interval);
       is_tried = 0;
       if (!apart) {
@@ -191,16 +194,17 @@ static int nsvcd__matters(const nsvcd__proof *p, const nsvcd__search *q, size_t 
 // Clips the segment in which the end of what matters lies. What leaves a chord by some length
 // leaves that of a part of the time by no more than twice that, along any direction.
 static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__solver *w, nsvcd__search *q) {
+  nsvcd__proof *p = &w->p;
   size_t s = 0;
   double u;
-  if (!(w->p.known.end < w->clipped_end)) return;
-  w->clipped_end = w->p.known.end;
-  while (s < q->segments && !((double)q->begin[s + 1] > w->p.known.end)) s++;
-  if (s == q->segments || !((double)q->begin[s] < w->p.known.end)) return;
+  if (!(p->known.end < w->clipped_end)) return;
+  w->clipped_end = p->known.end;
+  while (s < q->segments && !((double)q->begin[s + 1] > p->known.end)) s++;
+  if (s == q->segments || !((double)q->begin[s] < p->known.end)) return;
   nsvcd__segments *block = &q->blocks[s / NSVCD__LANES];
   const size_t l = s % NSVCD__LANES;
-  const uint32_t first = nsvcd__arc_of(w->p.arcs.motion, w->p.known.end, &u);
-  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&w->p.arcs, first), u);
+  const uint32_t first = nsvcd__arc_of(p->arcs.motion, p->known.end, &u);
+  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, first), u);
   const nsvcd__transform end = nsvcd__transform_of(&at);
   const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, l);
   const nsvcd__mat3 turned = nsvcd__mat3_mix(1, &end.rotation, -1, &start);
@@ -227,19 +231,20 @@ static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__solver *w, nsvcd__search 
 // Resolves the patch pairs that no plane separates.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_patch_pairs(nsvcd__solver *w,
                                                                  nsvcd__search *q) {
-  nsvcd__sort_patch_pairs(&w->p, w->p.of.kept.pairs, w->count);
+  nsvcd__proof *p = &w->p;
+  nsvcd__sort_patch_pairs(p, p->of.kept.pairs, w->count);
   for (size_t n = 0; n < w->count; n++) {
-    const nsvcd__patch_pair *patches = &w->p.of.kept.pairs[n];
-    if (nsvcd__check_budget(&w->p)) return NSVCD__EXHAUSTED;
+    const nsvcd__patch_pair *patches = &p->of.kept.pairs[n];
+    if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
     nsvcd__clip_segment(w, q);
-    if (!nsvcd__matters(&w->p, q, patches->segment)) continue;
+    if (!nsvcd__matters(p, q, patches->segment)) continue;
     const int is_clipped = (w->clipped >> patches->segment & 1) != 0;
     if (is_clipped && nsvcd__is_separated(w, q, patches)) continue;
     const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(w, q, patches);
     if (outcome != NSVCD__DONE) return outcome;
   }
   w->count = 0;
-  return nsvcd__check_budget(&w->p) ? NSVCD__EXHAUSTED : NSVCD__DONE;
+  return nsvcd__check_budget(p) ? NSVCD__EXHAUSTED : NSVCD__DONE;
 }
 
 // Sifts fresh patch pairs: drops those that planes separate, seeks a witness in the others, and
@@ -247,7 +252,8 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_patch_pairs(nsvcd__solver *
 // neighbours.
 static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__solver *w,
                                                               nsvcd__search *q) {
-  const int tells_more = w->p.goal.measure > 0 || w->p.goal.first > 0;
+  nsvcd__proof *p = &w->p;
+  const int tells_more = p->goal.measure > 0 || p->goal.first > 0;
   size_t count = 0;
   nsvcd__clip_segment(w, q);
   for (size_t n = 0; n < w->fresh_count; n++) {
@@ -255,22 +261,22 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__solver *w,
     w->fresh[count++] = w->fresh[n];
   }
   w->fresh_count = 0;
-  nsvcd__sort_patch_pairs(&w->p, w->fresh, count);
+  nsvcd__sort_patch_pairs(p, w->fresh, count);
   if (count > 0 && w->fresh[0].depth > NSVCD__DEEP &&
       nsvcd__seek_in_patch_pair(w, q, &w->fresh[0]) == NSVCD__ANSWERED)
     return NSVCD__ANSWERED;
 
   for (size_t n = 0; n < count; n++) {
     nsvcd__patch_pair *patches = &w->fresh[n];
-    if (nsvcd__check_budget(&w->p)) return NSVCD__EXHAUSTED;
+    if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
     nsvcd__clip_segment(w, q);
-    if (!nsvcd__matters(&w->p, q, patches->segment)) continue;
+    if (!nsvcd__matters(p, q, patches->segment)) continue;
     if (nsvcd__held_again(w, q, patches)) continue;
     if (nsvcd__is_separated(w, q, patches)) continue;
     double u;
-    const uint32_t first = nsvcd__arc_of(w->p.arcs.motion, q->begin[patches->segment], &u);
-    if ((w->p.goal.first > 0 || w->p.shared > 0) &&
-        nsvcd__is_straight(nsvcd__arc_at(&w->p.arcs, first))) {
+    const uint32_t first = nsvcd__arc_of(p->arcs.motion, q->begin[patches->segment], &u);
+    if ((p->goal.first > 0 || p->shared > 0) &&
+        nsvcd__is_straight(nsvcd__arc_at(&p->arcs, first))) {
       const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(w, q, patches);
       if (outcome != NSVCD__DONE) return outcome;
       continue;
@@ -290,7 +296,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__solver *w,
       const nsvcd__outcome outcome = nsvcd__resolve_patch_pairs(w, q);
       if (outcome != NSVCD__DONE) return outcome;
     }
-    w->p.of.kept.pairs[w->count++] = *patches;
+    p->of.kept.pairs[w->count++] = *patches;
   }
   return NSVCD__DONE;
 }
@@ -303,23 +309,24 @@ static int nsvcd__collects_on(const nsvcd__proof *p) {
 // Collects the contacts of fresh patch pairs at the start, or the patch pairs where contact points
 // may be. EXHAUSTED: there is no room for more, or no budget.
 static nsvcd__outcome nsvcd__collect_contacts(nsvcd__solver *w, const nsvcd__search *q) {
-  for (size_t n = 0; n < w->fresh_count && nsvcd__collects_on(&w->p); n++) {
+  nsvcd__proof *p = &w->p;
+  for (size_t n = 0; n < w->fresh_count && nsvcd__collects_on(p); n++) {
     const nsvcd__patch_pair *patches = &w->fresh[n];
     if (nsvcd__held_again(w, q, patches)) continue;
     if (nsvcd__is_separated(w, q, patches)) continue;
-    if (w->p.goal.collects == NSVCD__TOUCHING) {
-      if (w->p.push.normal_count > 0) {
+    if (p->goal.collects == NSVCD__TOUCHING) {
+      if (p->push.normal_count > 0) {
         // just pushed out: farther than the clearance by less than floats can tell
-        (void)nsvcd__arc_at(&w->p.arcs, 0);
-        if (nsvcd__patches_apart(&w->p, patches->moving, patches->fixed, 0, 0)) continue;
+        (void)nsvcd__arc_at(&p->arcs, 0);
+        if (nsvcd__patches_apart(p, patches->moving, patches->fixed, 0, 0)) continue;
       }
       (void)nsvcd__find_witness(w, patches->moving, patches->fixed, 0, 0);
     } else if (w->count < NSVCD__PATCH_PAIRS) {
-      w->p.of.kept.pairs[w->count++] = *patches;
+      p->of.kept.pairs[w->count++] = *patches;
     }
   }
   w->fresh_count = 0;
-  const int goes_on = nsvcd__collects_on(&w->p) && w->p.work <= w->p.goal.limit;
+  const int goes_on = nsvcd__collects_on(p) && p->work <= p->goal.limit;
   return goes_on ? NSVCD__DONE : NSVCD__EXHAUSTED;
 }
 
@@ -352,9 +359,10 @@ static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
 // are deep in each other there are many, with few points that are like a contact: so only so many
 // are tried.
 static NSVCD__NOINLINE void nsvcd__seek_positions(nsvcd__solver *w, int first, int last) {
-  nsvcd__manifold *m = &w->p.of.kept.manifold;
-  nsvcd__patch_pair *pairs = w->p.of.kept.pairs;
-  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&w->p.arcs, 0), 0);
+  nsvcd__proof *p = &w->p;
+  nsvcd__manifold *m = &p->of.kept.manifold;
+  nsvcd__patch_pair *pairs = p->of.kept.pairs;
+  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, 0), 0);
   const nsvcd__transform pose = nsvcd__transform_of(&at);
   size_t tries = 0;
   float farthest[NSVCD__SUPPORTS];
@@ -363,7 +371,7 @@ static NSVCD__NOINLINE void nsvcd__seek_positions(nsvcd__solver *w, int first, i
   for (int k = first; k < last; k++) farthest[k] = -HUGE_VALF;
   for (size_t n = 0; n < w->count; n++) {
     pairs[n].sought = 0;
-    nsvcd__bound_of(&w->p, &pose, &pairs[n], first, last, most);
+    nsvcd__bound_of(p, &pose, &pairs[n], first, last, most);
     for (int k = first; k < last; k++) {
       if (most[k] > farthest[k]) best[k] = n;
       farthest[k] = fmaxf(farthest[k], most[k]);
@@ -374,7 +382,7 @@ static NSVCD__NOINLINE void nsvcd__seek_positions(nsvcd__solver *w, int first, i
     const size_t which = n < count ? best[(size_t)first + n] : n - count;
     nsvcd__patch_pair *patches = &pairs[which];
     int matters = 0;
-    nsvcd__bound_of(&w->p, &pose, patches, first, last, most);
+    nsvcd__bound_of(p, &pose, patches, first, last, most);
     for (int k = first; k < last; k++) matters |= (double)most[k] > m->farthest[k] + m->same;
     if (patches->sought || !matters) continue;
     if (tries == NSVCD__CONTACT_PAIRS ||

@@ -11,13 +11,14 @@
 static nsvcd__outcome nsvcd__find_witness_in(nsvcd__solver *w, size_t i, size_t j, size_t n,
                                              const nsvcd__dtransform *at, double u,
                                              float margin) {
+  nsvcd__proof *p = &w->p;
   nsvcd__block *fixed = &w->blocks.fixed[n];
-  const double clearance = w->p.goal.clearance;
+  const double clearance = p->goal.clearance;
   const uint32_t nearby = nsvcd__lanes_near(&w->blocks.moving, w->blocks.bounds[n], margin);
   uint32_t lanes = nsvcd__lanes_left_by_last(w, fixed, margin, nearby);
   for (; lanes; lanes &= lanes - 1) {
     const size_t l = nsvcd__low_bit(lanes);
-    w->p.work++;
+    p->work++;
     uint32_t met = nsvcd__row_left(w, l, fixed, margin);
     for (; met; met &= met - 1) {
       if (clearance > 0)
@@ -25,13 +26,13 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__solver *w, size_t i, size_t 
       if (!met) break;
       const size_t entry = w->blocks.moving.first + l;
       const nsvcd__triangle_pair pair =
-          nsvcd__pair_of(&w->p, i, j, entry, fixed->first + nsvcd__low_bit(met));
+          nsvcd__pair_of(p, i, j, entry, fixed->first + nsvcd__low_bit(met));
       nsvcd__d3 posed[3];
       nsvcd__nearest nearest = {0, {0, 0, 0}, {0, 0, 0}};
       nsvcd__pose_triangle(at, pair.moving, posed);
-      w->p.work++;
-      if (w->p.goal.collects == NSVCD__SUPPORTING) {
-        nsvcd__collect_supports(&w->p, &w->p.of.kept.manifold, &pair, posed);
+      p->work++;
+      if (p->goal.collects == NSVCD__SUPPORTING) {
+        nsvcd__collect_supports(p, &p->of.kept.manifold, &pair, posed);
         continue;
       }
       if (nsvcd__triangles_meet(posed, pair.fixed, &nearest.on_b)) {
@@ -41,18 +42,18 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__solver *w, size_t i, size_t 
         nearest = nsvcd__nearest_of(posed, pair.fixed);
         if (!(nearest.square <= clearance * clearance)) {
           const nsvcd__d3 distance = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
-          w->p.separating = nsvcd__d3_scale(distance, 1 / sqrt(nearest.square));
+          p->separating = nsvcd__d3_scale(distance, 1 / sqrt(nearest.square));
           continue;
         }
       }
-      if (w->p.goal.collects == NSVCD__TOUCHING) {
-        nsvcd__collect_contact(&w->p, &pair, posed);
+      if (p->goal.collects == NSVCD__TOUCHING) {
+        nsvcd__collect_contact(p, &pair, posed);
         continue;
       }
-      const nsvcd__outcome contact = nsvcd__take_contact(&w->p, &pair, u, &nearest);
+      const nsvcd__outcome contact = nsvcd__take_contact(p, &pair, u, &nearest);
       if (contact == NSVCD__ANSWERED) return contact;
       // They may touch sooner, or come closer.
-      const nsvcd__outcome better = nsvcd__resolve_pair(&w->p, &pair, 0, 1);
+      const nsvcd__outcome better = nsvcd__resolve_pair(p, &pair, 0, 1);
       return better == NSVCD__ANSWERED ? better : contact;
     }
   }
@@ -71,23 +72,24 @@ static void nsvcd__moving_block_load(nsvcd__blocks *b, const nsvcd__geometry *f,
 // Seeks a contact of triangles of patches i and j at fraction u of an arc.
 static nsvcd__outcome nsvcd__find_witness(nsvcd__solver *w, size_t i, size_t j, uint32_t first,
                                           double u) {
-  const nsvcd__arc *arc = nsvcd__arc_at(&w->p.arcs, first);
+  nsvcd__proof *p = &w->p;
+  const nsvcd__arc *arc = nsvcd__arc_at(&p->arcs, first);
   const nsvcd__dtransform at = nsvcd__dtransform_at(arc, u);
   const nsvcd__transform rounded = nsvcd__transform_of(&at);
-  const float lengths = w->p.given.lengths + nsvcd__f3_norm(rounded.position);
+  const float lengths = p->given.lengths + nsvcd__f3_norm(rounded.position);
   const float margin =
-      NSVCD__ROUNDING * lengths + nsvcd__clearance(&w->p.goal) + nsvcd__errors_of(&w->p, i, j);
-  const size_t moving_end = w->p.moving.first_triangle[i + 1];
-  const size_t fixed_end = w->p.fixed.first_triangle[j + 1];
-  for (size_t b = w->p.fixed.first_triangle[j]; b < fixed_end;
+      NSVCD__ROUNDING * lengths + nsvcd__clearance(&p->goal) + nsvcd__errors_of(p, i, j);
+  const size_t moving_end = p->moving.first_triangle[i + 1];
+  const size_t fixed_end = p->fixed.first_triangle[j + 1];
+  for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
        b += NSVCD__WINDOW * NSVCD__LANES) {
-    nsvcd__window_load(&w->blocks, &w->p.fixed, j, b);
-    for (size_t a = w->p.moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
-      nsvcd__moving_block_load(&w->blocks, &w->p.moving, i, a);
+    nsvcd__window_load(&w->blocks, &p->fixed, j, b);
+    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
+      nsvcd__moving_block_load(&w->blocks, &p->moving, i, a);
       nsvcd__block_pose(&w->blocks, &rounded, NULL);
       for (size_t n = 0; n < w->blocks.window; n++) {
-        w->p.work++;
-        if (nsvcd__check_budget(&w->p)) return NSVCD__NOTHING;
+        p->work++;
+        if (nsvcd__check_budget(p)) return NSVCD__NOTHING;
         const nsvcd__outcome found = nsvcd__find_witness_in(w, i, j, n, &at, u, margin);
         if (found != NSVCD__NOTHING) return found;
       }

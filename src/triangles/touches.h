@@ -6,13 +6,13 @@
 #ifndef NSVCD_NO_PROOF
 // How deep a touch is along n: how far the moving triangle must go to be beyond the other; negative
 // if it is beyond it already.
-static double nsvcd__depth_along(nsvcd__d3 n, const nsvcd__triangle_contact *t) {
+static double nsvcd__depth_along(nsvcd__d3 n, const nsvcd__touch *t) {
   return -nsvcd__beyond(n, t->moving, t->fixed);
 }
 
 // Is a touch too deep for the slop in every direction? Those to try are the separating axes: a
 // normal of either triangle, or across an edge of each.
-static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__triangle_contact *t) {
+static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__touch *t) {
   const nsvcd__d3 push_out = nsvcd__d3_widen(p->arcs.motion->push_out);
   const double most = p->push.slop - p->given.clearance;
   for (size_t k = 0; k < 12; k++) {
@@ -30,8 +30,7 @@ static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__triangle_contact *
 // Does a push-out along n, by what is left of the slop in that direction, undo a touch? If it has
 // to push, it must not go through both faces. Going through one is harmless: a cone's side, which
 // rises from the rim that the cone stands on, looks up, and so does the floor under it.
-static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n,
-                         const nsvcd__triangle_contact *t) {
+static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n, const nsvcd__touch *t) {
   const double more = nsvcd__depth_along(n, t);
   const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->arcs.motion->push_out), n);
   if (!(nsvcd__d3_dot(n, n) > 0.5)) return 0;
@@ -42,8 +41,7 @@ static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n,
 }
 
 // The squared distance of two triangles after the moving one has gone so far along n.
-static double nsvcd__gap_after(const nsvcd__triangle_contact *t, nsvcd__d3 n,
-                               double distance) {
+static double nsvcd__gap_after(const nsvcd__touch *t, nsvcd__d3 n, double distance) {
   nsvcd__d3 moved[3];
   for (int k = 0; k < 3; k++)
     moved[k] = nsvcd__d3_add(t->moving[k], nsvcd__d3_scale(n, distance));
@@ -53,7 +51,7 @@ static double nsvcd__gap_after(const nsvcd__triangle_contact *t, nsvcd__d3 n,
 // How far along n the moving triangle of a touch must go until it is beyond the clearance for good,
 // which it is after `most`; -HUGE_VAL if it never is within it. The distance is convex: thirds find
 // where it is least, and halves where it is the clearance. epsilon: of depths, in double.
-static NSVCD__NOINLINE double nsvcd__exit_depth(const nsvcd__triangle_contact *t, nsvcd__d3 n,
+static NSVCD__NOINLINE double nsvcd__exit_depth(const nsvcd__touch *t, nsvcd__d3 n,
                                                 double clearance, double most,
                                                 double epsilon) {
   // Parallel faces meet at one time only.
@@ -84,7 +82,7 @@ static NSVCD__NOINLINE double nsvcd__exit_depth(const nsvcd__triangle_contact *t
 }
 
 // Notes how deep a touch is along normal k.
-static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__triangle_contact *t) {
+static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__touch *t) {
   const nsvcd__d3 n = p->push.normals[k];
   const double pushed_out = nsvcd__d3_dot(nsvcd__d3_widen(p->arcs.motion->push_out), n);
   const double most = nsvcd__depth_along(n, t) + p->given.clearance;
@@ -96,7 +94,7 @@ static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__triangle_c
 }
 
 // Does normal k undo a touch? Then its depth is noted.
-static int nsvcd__undone_by(nsvcd__proof *p, size_t k, const nsvcd__triangle_contact *t) {
+static int nsvcd__undone_by(nsvcd__proof *p, size_t k, const nsvcd__touch *t) {
   if (!nsvcd__undoes(p, p->push.normals[k], t)) return 0;
   nsvcd__note_depth(p, k, t);
   return 1;
@@ -106,7 +104,7 @@ static int nsvcd__undone_by(nsvcd__proof *p, size_t k, const nsvcd__triangle_con
 // that.
 static void nsvcd__collect_contact(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
                                    const nsvcd__d3 *posed) {
-  nsvcd__triangle_contact contact;
+  nsvcd__touch contact;
   memcpy(contact.moving, posed, sizeof contact.moving);
   memcpy(contact.fixed, pair->fixed, sizeof contact.fixed);
   const nsvcd__nearest nearest = nsvcd__nearest_of(posed, pair->fixed);
