@@ -21,9 +21,9 @@ cp examples/scenery/*.h $work/examples/scenery/
 cat >$work/list <<'LIST'
 none|||
 hull without deviation|margin * length + nsvcd__deviation_of(over, normal, arm)|margin * length
-hull without slack|const float margin = margins + over->rounding + nsvcd__clearance(&w->p.goal);|const float margin = 0 * margins + over->rounding + nsvcd__clearance(&w->p.goal);
-hull without the slack's scale|w->p.arcs.motion->scale * f->margins[i] + g->margins[j];|0.1f * f->margins[i] + g->margins[j];
-hull without clearance|margins + over->rounding + nsvcd__clearance(&w->p.goal);|margins + over->rounding;
+hull without slack|const float margin = margins + over->rounding + nsvcd__clearance(&p->goal);|const float margin = 0 * margins + over->rounding + nsvcd__clearance(&p->goal);
+hull without the slack's scale|p->arcs.motion->scale * f->margins[i] + g->margins[j];|0.1f * f->margins[i] + g->margins[j];
+hull without clearance|margins + over->rounding + nsvcd__clearance(&p->goal);|margins + over->rounding;
 hull at the start only|const nsvcd__v at_either = nsvcd__v_min(at_start, at_end);|const nsvcd__v at_either = at_start;
 deviation without drift|return origin_bend + turn + across|return 0 * origin_bend + turn + across
 deviation without bulge|+ across * nsvcd__bend_of(over, arm);|;
@@ -50,7 +50,7 @@ round: tangents from the other side|const double fall = -nsvcd__d3_dot(p->separa
 round: tangents a little too far|const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;|const double until = fall > 0 ? nsvcd__min(end, at + above / fall) : end;
 doubts forgotten|    nsvcd__keep_unresolved(p, pair, u0, u1);\n    return NSVCD__DONE;|    return NSVCD__DONE;
 round: edges without length by another pose|if (w->blocks.over \&\& !(nsvcd__f3_dot(edge, edge) > 0))|if (!(nsvcd__f3_dot(edge, edge) > 0))
-a block of the question before|w->p.push.too_deep = w->blocks.has_block = 0;|w->p.push.too_deep = 0;
+a block of the question before|p->push.too_deep = w->blocks.has_block = 0;|p->push.too_deep = 0;
 round: segments as points|nsvcd__d3_distance2(t[0], t[1]) > 0 ? 2 : 1;|nsvcd__d3_distance2(t[0], t[1]) > 0 ? 1 : 1;
 pivot without its bend|nsvcd__v_set(nsvcd__pivot_arm(m, &m->moving));|nsvcd__v_set(0 * nsvcd__pivot_arm(m, &m->moving));
 pivot of an arc without its bend|arc->origin_bend += 0.1250001 * arm|arc->origin_bend += 0 * arm
@@ -61,35 +61,35 @@ doubt goes on|p->goal.limit = p->work + left;|p->goal.limit = p->goal.limit;
 doubt raises the limit|p->work + left < p->goal.limit|p->work > 0
 pair without clearance|return lowest - highest > p->goal.clearance + pair->margin + deviation;|return lowest - highest > pair->margin + deviation;
 pair at the start only|lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_end));|(void)at_end;
-block without quanta|nsvcd__errors_of(&w->p, i, j) + (over->rounding + over->origin_bend) + nsvcd__clearance(&w->p.goal);|(over->rounding + over->origin_bend) + nsvcd__clearance(&w->p.goal);
-block without clearance|(over->rounding + over->origin_bend) + nsvcd__clearance(&w->p.goal);|(over->rounding + over->origin_bend);
+block without quanta|nsvcd__errors_of(p, i, j) + (over->rounding + over->origin_bend) + nsvcd__clearance(&p->goal);|(over->rounding + over->origin_bend) + nsvcd__clearance(&p->goal);
+block without clearance|(over->rounding + over->origin_bend) + nsvcd__clearance(&p->goal);|(over->rounding + over->origin_bend);
 block without bulge|stays + nsvcd__bend_of(over, arm)|stays
 block at the start only|for (size_t k = 0; k < b->corner_count; k++) {\n    const nsvcd__v3 a =|for (size_t k = 0; k < 3; k++) {\n    const nsvcd__v3 a =
 lanes parted at the start only|for (size_t k = 0; k < w->blocks.corner_count; k++) {\n      const nsvcd__v3 corner = nsvcd__v3_load(w->blocks.corners[k], s);|for (size_t k = 0; k < 3; k++) {\n      const nsvcd__v3 corner = nsvcd__v3_load(w->blocks.corners[k], s);
 lanes parted without the clearance|nsvcd__v_set(margin * nsvcd__f3_norm(last) + highest);|nsvcd__v_set(highest);
 rows parted by half the margin|met = nsvcd__left_by_normal(w, l, fixed, k, margin, met);|met = nsvcd__left_by_normal(w, l, fixed, k, k > 0 ? margin : 0.5f * margin, met);
-parting plane without deviation|errors + over->rounding + nsvcd__clearance(&w->p.goal) + nsvcd__deviation_of(over, last, arm);|errors + over->rounding + nsvcd__clearance(&w->p.goal);
-parting plane without quanta|errors + over->rounding + nsvcd__clearance(&w->p.goal) + nsvcd__deviation_of(over, last, arm);|0 * errors + over->rounding + nsvcd__clearance(&w->p.goal) + nsvcd__deviation_of(over, last, arm);
+parting plane without deviation|errors + over->rounding + nsvcd__clearance(&p->goal) + nsvcd__deviation_of(over, last, arm);|errors + over->rounding + nsvcd__clearance(&p->goal);
+parting plane without quanta|errors + over->rounding + nsvcd__clearance(&p->goal) + nsvcd__deviation_of(over, last, arm);|0 * errors + over->rounding + nsvcd__clearance(&p->goal) + nsvcd__deviation_of(over, last, arm);
 pose of another arc|known->arc == arc->first \&\& known->ticks == arc->ticks \&\& known->u == u|known->ticks == arc->ticks \&\& known->u == u
 first half only|if (part == NSVCD__TOO_LONG) ends[left++] = 0.5 * (u + end);|if (part == NSVCD__TOO_LONG) ends[left - 1] = 0.5 * (u + end);
-a window forgotten|b += NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(\&w->blocks, \&w->p.fixed, j, b);\n    for (size_t a = w->p.moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(\&w->blocks, \&w->p.moving, i, a);\n      const|b += 2 * NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(\&w->blocks, \&w->p.fixed, j, b);\n    for (size_t a = w->p.moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(\&w->blocks, \&w->p.moving, i, a);\n      const
+a window forgotten|b += NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(\&w->blocks, \&p->fixed, j, b);\n    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(\&w->blocks, \&p->moving, i, a);\n      const|b += 2 * NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(\&w->blocks, \&p->fixed, j, b);\n    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(\&w->blocks, \&p->moving, i, a);\n      const
 bounds of half a window's block|b->bounds[b->window++] = nsvcd__block_bounds(block);|nsvcd__box half = nsvcd__block_bounds(block);\n    half.low = nsvcd__f3_scale(nsvcd__f3_add(half.low, half.high), 0.5f);\n    b->bounds[b->window++] = half;
 half of the box|nsvcd__f3_add(nsvcd__f3_load(e->outer->box + 3), margin);|nsvcd__f3_scale(nsvcd__f3_add(nsvcd__f3_load(e->outer->box + 3), nsvcd__f3_load(e->outer->box)), 0.5f);
 rays without rounding|const float rounding = NSVCD__ROUNDING * extent * f->body->extent;|const float rounding = 0 * NSVCD__ROUNDING * extent * f->body->extent;
 rays past half the groups|while (!sum.unclear \&\& nsvcd__traversal_next(\&groups, \&g)) {|while (!sum.unclear \&\& nsvcd__traversal_next(\&groups, \&g)) {\n    if (g % 2) continue;
 block's boxes at the start only|low = nsvcd__v3_min(low, corner);\n      high = nsvcd__v3_max(high, corner);|if (k >= 3) continue;\n      low = nsvcd__v3_min(low, corner);\n      high = nsvcd__v3_max(high, corner);
-last triangle skipped|size_t patience) {\n  const size_t moving_end = w->p.moving.first_triangle[i + 1];|size_t patience) {\n  const size_t moving_end = w->p.moving.first_triangle[i + 1] - 1;
-containment one way|if (outer->open) return 0;\n  const int is_one|if (outer->open + (e->inner != \&p->moving)) return 0;\n  const int is_one
+last triangle skipped|size_t patience) {\n  nsvcd__proof *p = \&w->p;\n  const size_t moving_end = p->moving.first_triangle[i + 1];|size_t patience) {\n  nsvcd__proof *p = \&w->p;\n  const size_t moving_end = p->moving.first_triangle[i + 1] - 1;
+containment one way|if (outer->open) return 0;\n  const int is_one|if (outer->open + (e->inner != \&w->p.moving)) return 0;\n  const int is_one
 long: an interval passed over|if (is_resolved) m->from = until;|if (is_resolved) m->from = until;\n  if (is_resolved \&\& arcs == 1 \&\& until < m->ticks) m->from = nsvcd__next_keyframe(m, until);
-long: a try in vain is believed|is_resolved \|\| !is_try, w->p.work - before|1, w->p.work - before
+long: a try in vain is believed|is_resolved \|\| !is_try, p->work - before|1, p->work - before
 long: gaps by the first pose|part.count = nsvcd__pose_before(track, until - 1) + 2 - first;|part.count = 1;
 long: doubts of one interval forgotten|return is_open ? open : result;|return result;
 long: distance of the last interval|if (is_resolved) low = nsvcd__min(low, bracket->low);|low = bracket->low;
 long: ends not looked at|at_end < 2 \&\& !(fraction > 0)|0
 long: contacts of a try are the first|result.has_contact \&\& !(is_try \&\& fraction > 0);|result.has_contact;
 long: poses for work|given->grows = q->work == 0;|given->grows = 1;
-long: an interval settled from the start|w->p.known.proven_until = (double)motion->from;|w->p.known.proven_until = 0;
-first arc only|at < last \&\& (double)at < w->p.known.end;) {|at < last \&\& at == q->begin[patches->segment];) {
+long: an interval settled from the start|p->known.proven_until = (double)motion->from;|p->known.proven_until = 0;
+first arc only|at < last \&\& (double)at < p->known.end;) {|at < last \&\& at == q->begin[patches->segment];) {
 a segment dropped|uint32_t met = nsvcd__group_against_members(q, h, wanted, w->met_in);|uint32_t met = nsvcd__group_against_members(q, h, wanted, w->met_in);\n      for (size_t l = 0; l < NSVCD__GROUP; l++) {\n        if (w->met_in[l] \& (w->met_in[l] - 1)) w->met_in[l] \&= w->met_in[l] - 1;\n      }
 a full buffer forgotten|if (!*left) break;|break;
 passing not seen|if (!nsvcd__pair_passes(\&p->arcs, pair, u0, u1))|if (u0 <= u1)
@@ -108,8 +108,8 @@ discs without scale|nsvcd__v_mul(a->scale, nsvcd__v3_dot(w, w)); const nsvcd__v 
 disc without clearance|a.clearance = nsvcd__clearance(&p->goal);\n  a.radius = q->extent;|a.clearance = 0;\n  a.radius = q->extent;
 moving disc without clearance|nsvcd__v_plus(a->over.rounding, a->clearance);|a->over.rounding;
 groups without clearance|a.clearance = nsvcd__clearance(&p->goal); a.radius = nsvcd__group_extent|a.clearance = 0; a.radius = nsvcd__group_extent
-held plane without clearance|below->height + nsvcd__clearance(&w->p.goal) * length|below->height
-held plane not tried again|return above->height > below->height + nsvcd__clearance(&w->p.goal) * length;|return 1;
+held plane without clearance|below->height + nsvcd__clearance(&p->goal) * length|below->height
+held plane not tried again|return above->height > below->height + nsvcd__clearance(&p->goal) * length;|return 1;
 span of before it was clipped|w->memo.intervals \&= ~((uint64_t)1 << s);|
 search without clearance|block->margin[l] += clearance;|block->margin[l] += 0 * clearance;
 clipped without twice the bulge|    block->bend[l] *= 2;\n    block->origin_bend[l] *= 2;\n|    block->bend[l] *= 0.1f;\n
@@ -125,7 +125,7 @@ lift the wrong way|if (lacks > 0)\n        push_out = nsvcd__d3_add(|if (lacks >
 a window of another patch|b->window > 0 \&\& b->fixed[0].first == first|b->window > 0
 tile: every other group|nsvcd__traversal_next(traversal, \&g)) {\n    const nsvcd__sphere group|nsvcd__traversal_next(traversal, \&g) \&\& nsvcd__traversal_next(traversal, \&g)) {\n    const nsvcd__sphere group
 tile: the first only|outcome == NSVCD__DONE \&\& nsvcd__search_next_tile(q));|0);
-tile: skins of the first only|nsvcd__collects_on(\&w->p) \&\& w->p.work <= w->p.goal.limit;|nsvcd__collects_on(\&w->p) \&\& w->p.work < 0;
+tile: skins of the first only|nsvcd__collects_on(p) \&\& p->work <= p->goal.limit;|nsvcd__collects_on(p) \&\& p->work < 0;
 tile: way without reach|nsvcd__f3_sub(nsvcd__f3_min(start, end), around);\n    const nsvcd__f3 high|nsvcd__f3_min(start, end);\n    const nsvcd__f3 high
 tile: approached in the first segment|wanted \&\& nearby \& ~met; wanted \&= wanted - 1) {|wanted \&\& nearby \& ~met; wanted = 0) {
 level: near groups as dipoles|#define NSVCD__DIPOLE 3.0f|#define NSVCD__DIPOLE 0.8f
@@ -166,8 +166,8 @@ asks: what no part settled|    }\n  }\n  nsvcd__restart(w, goal.motion);\n  nsvc
 long: gaps by other poses|part.poses += first;|
 long: gaps without the lift|return origin_gap - p->given.lengths - 1.0001f * nsvcd__f3_norm(m->push_out);|return origin_gap - p->given.lengths - 0 * nsvcd__f3_norm(m->push_out);
 long: a try that found nothing ends what is proven|!is_open \&\& !is_try \&\& !is_resolved|!is_open \&\& !is_resolved
-long: an interval that forgets nothing|nsvcd__restart(w, m);\n    result = w->p.known;|result = w->p.known;
-long: work of the first interval for all|if (given->grows) goal.most = w->p.work + given->work;|
+long: an interval that forgets nothing|nsvcd__restart(w, m);\n    result = p->known;|result = p->known;
+long: work of the first interval for all|if (given->grows) goal.most = p->work + given->work;|
 solids: corners that are not joined|const double widest = nsvcd__join_corners(m, arena->allocator);|const double widest = 0;
 solids: corners joined from afar|#define NSVCD__JOINED 1e-4|#define NSVCD__JOINED 1e-3
 solids: gaps that are not remembered|out->gap = nsvcd__max(out->gap, sqrt(square));|
@@ -195,13 +195,13 @@ asks: the start only|if (nsvcd__meets_at(w, q, goal, at_end, NSVCD__END_BUDGET, 
 asks: a bracket lost|if (pass.outcome == NSVCD__EXHAUSTED) return 0;|if (pass.outcome == NSVCD__EXHAUSTED) bracket->low = 0;\n  if (pass.outcome == NSVCD__EXHAUSTED) return 0;
 asks: a gap lost|{nsvcd__max(clear, (double)gap), known->found.distance, 0};|{0 * (clear + (double)gap), known->found.distance, 0};
 asks: a bracket as wide as may be|while (!bracket->is_wide \&\& goal.measure > finest) {|while (0 \&\& !bracket->is_wide) {
-asks: triangles not named|w->p.given.tells \&\& nsvcd__meets_at(|0 \&\& nsvcd__meets_at(
+asks: triangles not named|p->given.tells \&\& nsvcd__meets_at(|0 \&\& nsvcd__meets_at(
 asks: metres without the way|return arc->speed + arc->turn|return arc->turn
 asks: metres without the turn|return arc->speed + arc->turn|return arc->speed + 0 * arc->turn
-asks: too deep for the manifold too|w->p.push.too_deep = w->blocks.has_block = 0;|w->blocks.has_block = 0;
+asks: too deep for the manifold too|p->push.too_deep = w->blocks.has_block = 0;|w->blocks.has_block = 0;
 asks: depth across edges forgotten|for (size_t k = 0; k < 12; k++) {\n    nsvcd__d3 n = k < 3|for (size_t k = 0; k < 3; k++) {\n    nsvcd__d3 n = k < 3
 asks: deep in one direction|for (int side = 0; side < 2; side++) {\n      const double pushed_out|for (int side = 0; side < 1; side++) {\n      const double pushed_out
-asks: metres of the arc before|  nsvcd__arcs_begin(\&w->p.arcs, motion);|  w->p.arcs.motion = motion;
+asks: metres of the arc before|  nsvcd__arcs_begin(\&p->arcs, motion);|  p->arcs.motion = motion;
 asks: a safe place not lifted|n == moving_takes_it ? 0 : n ? -unit : unit|0
 asks: a safe place on the other side|n == moving_takes_it ? 0 : n ? -unit : unit|n == moving_takes_it ? 0 : n ? unit : -unit
 asks: a safe place too late|const double t = (double)answer->safe.time;|const double t = fmin(1, 1.05 * (double)answer->safe.time + 0.01);
@@ -211,9 +211,9 @@ asks: set down through contacts|return nsvcd__d3_sub(push_out, nsvcd__d3_scale(b
 a depth of planes alone|if (nsvcd__gap_after(t, n, 0.998 * most) <= square) return most;|return most;
 asks: half of a depth|p->push.depths[k] = nsvcd__max(p->push.depths[k], depth);|p->push.depths[k] = fmax(p->push.depths[k], 0.5 * depth);
 asks: one depth for all normals|const double along = least + (by_depth ? push->depths[k] : 0);|const double along = least + (by_depth ? push->depths[0] : 0);
-no look on the way off|if (is_free \&\& w->p.push.normal_count > 0) nsvcd__deepen(w, q, goal);|
-asks: no lift under a ceiling|least < 0.9 * w->p.given.slop|least < 0
-asks: a floor that is near by|nsvcd__max(near_by, nsvcd__min(w->p.given.to, 0.5 * push->slop))|near_by
+no look on the way off|if (is_free \&\& p->push.normal_count > 0) nsvcd__deepen(w, q, goal);|
+asks: no lift under a ceiling|least < 0.9 * p->given.slop|least < 0
+asks: a floor that is near by|nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * push->slop))|near_by
 asks: contacts out of reach|nsvcd__d3_distance2(posed[k], foot) <= m->tolerance * m->tolerance|1
 asks: contacts past an edge|if (aside > 0.01 * m->same * m->same) return;|
 asks: contacts of any normal|if (along * along < 0.64 * square) continue;|
