@@ -1890,8 +1890,8 @@ static nsvcd_result nsvcd__poses_check(const nsvcd_pose *poses, size_t count) {
 // Do times rise from 0 to 1, if there are any?
 static int nsvcd__times_are_valid(const float *times, size_t count) {
   if (!times || count == 1) return 1;
-  int rise =
-      !(times[0] < 0) && !(times[0] > 0) && times[count - 1] <= 1 && times[count - 1] >= 1;
+  const float last = times[count - 1];
+  int rise = !(times[0] < 0) && !(times[0] > 0) && last <= 1 && last >= 1;
   for (size_t k = 1; k < count; k++)  // NaN does not rise
     rise &= (double)times[k] - (double)times[k - 1] >= 0.99e-7;
   return rise;
@@ -7164,7 +7164,8 @@ static nsvcd__sphere nsvcd__cover_spheres(nsvcd__spheres all, size_t count) {
     low = nsvcd__f3_min(low, nsvcd__f3_sub(centre, r));
     high = nsvcd__f3_max(high, nsvcd__f3_add(centre, r));
   }
-  nsvcd__f3 centre = nsvcd__f3_add(nsvcd__f3_scale(low, 0.5f), nsvcd__f3_scale(high, 0.5f));
+  const nsvcd__f3 half = nsvcd__f3_scale(low, 0.5f);
+  nsvcd__f3 centre = nsvcd__f3_add(half, nsvcd__f3_scale(high, 0.5f));
   nsvcd__sphere best = {centre, HUGE_VALF};
   size_t farthest = 0;
   for (int step = 0; step < 32; step++) {
@@ -7238,7 +7239,8 @@ static nsvcd_result nsvcd__body_build(const nsvcd__latents *all, void *memory) {
     const nsvcd__sphere sphere = {all->centres[n], all->radii[n]};
     nsvcd__sphere_store(sphere, spheres, padded, i);
     nsvcd__f3_put(all->areas[n], areas + i, padded);
-    int8_t *group = extremes + 3 * NSVCD__EXTREMES * (i - i % NSVCD__GROUP) + i % NSVCD__GROUP;
+    const size_t lane = i % NSVCD__GROUP;
+    int8_t *group = extremes + 3 * NSVCD__EXTREMES * (i - lane) + lane;
     for (size_t k = 0; k < 3 * NSVCD__EXTREMES; k++)
       group[NSVCD__GROUP * k] = all->extremes[3 * NSVCD__EXTREMES * n + k];
     memcpy(latents, all->latents + NSVCD__LATENT * n, NSVCD__LATENT);
@@ -7507,7 +7509,8 @@ NSVCD__INLINE nsvcd__patch_points nsvcd__points_of(const nsvcd__geometry *f, siz
   nsvcd__patch_points out;
   out.stored = f->first_vertex[patch + 1] - f->first_vertex[patch];
   out.own = f->first_own[patch + 1] - f->first_own[patch];
-  out.all = out.stored + out.own + f->first_reference[patch + 1] - f->first_reference[patch];
+  const uint32_t *references = f->first_reference + patch;
+  out.all = out.stored + out.own + references[1] - references[0];
   return out;
 }
 
@@ -11152,7 +11155,8 @@ static void nsvcd__cut_arc(const nsvcd__motion *m, const nsvcd__v_poses *at, nsv
     const nsvcd__vquat last_seen = nsvcd__vquat_load(cut->last.seen + l, NSVCD__ENDS);
     const nsvcd__v3 w = nsvcd__v_turn(last_seen, seen);
     const nsvcd__v3 across = nsvcd__v3_cross(nsvcd__v3_load(out->axis, l), w);
-    const nsvcd__v along = nsvcd__v_mul(nsvcd__v_scale(arc, 0.3931f), nsvcd__v3_norm(across));
+    const nsvcd__v most_along = nsvcd__v_scale(arc, 0.3931f);
+    const nsvcd__v along = nsvcd__v_mul(most_along, nsvcd__v3_norm(across));
     nsvcd__v_keep(most->arc_bend + l, nsvcd__v_scale(nsvcd__v_mul(arc, arc), 0.125f));
     nsvcd__v_keep(most->arc_along_axis + l, along);
   }
@@ -11344,7 +11348,8 @@ NSVCD__INLINE nsvcd__v3 nsvcd__chords_travel(const nsvcd__chords *c, size_t l) {
 // Stores a slice of chords. FLT_MIN keeps a chord of no length finite.
 static void nsvcd__chords_store(nsvcd__chords *c, size_t l, nsvcd__v3 start, nsvcd__v3 travel,
                                 nsvcd__v radius) {
-  const nsvcd__v square = nsvcd__v_max(nsvcd__v3_dot(travel, travel), nsvcd__v_set(1.2e-38f));
+  const nsvcd__v least = nsvcd__v_set(1.2e-38f);
+  const nsvcd__v square = nsvcd__v_max(nsvcd__v3_dot(travel, travel), least);
   nsvcd__v3_store(c->start, l, start);
   nsvcd__v3_store(c->travel, l, travel);
   nsvcd__v_store(c->inverse + l, nsvcd__v_div(nsvcd__v_set(-1), square));
@@ -13806,7 +13811,8 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__solver *w, size_t i, si
   const nsvcd__f3 centre = nsvcd__patch_centre(f, i);
   const nsvcd__f3 both =
       nsvcd__f3_add(nsvcd__f3_transform(start, centre), nsvcd__f3_transform(end, centre));
-  const nsvcd__f3 line = nsvcd__f3_sub(nsvcd__f3_scale(both, 0.5f), nsvcd__patch_centre(g, j));
+  const nsvcd__f3 middle = nsvcd__f3_scale(both, 0.5f);
+  const nsvcd__f3 line = nsvcd__f3_sub(middle, nsvcd__patch_centre(g, j));
   const nsvcd__f3 turned = nsvcd__mat3_apply(&start->rotation, moving.normal);
   const nsvcd__f3 guesses[NSVCD__GUESSES] = {w->memo.held,
                                              nsvcd__f3_towards(fixed.normal, line),
@@ -14103,9 +14109,10 @@ NSVCD__INLINE uint32_t nsvcd__left_by_normal(nsvcd__solver *w, size_t l, nsvcd__
 static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_last(nsvcd__solver *w,
                                                           nsvcd__block *fixed, float margin,
                                                           uint32_t lanes) {
-  const nsvcd__f3 last = nsvcd__f3_round(w->p.separating);
+  nsvcd__proof *p = &w->p;
+  const nsvcd__f3 last = nsvcd__f3_round(p->separating);
   const nsvcd__v3 normal = nsvcd__v3_set(last);
-  if (!(w->p.goal.clearance > 0) || !lanes) return lanes;
+  if (!(p->goal.clearance > 0) || !lanes) return lanes;
   float highest = -HUGE_VALF;  // of the fixed block
   for (size_t k = 0; k < 3; k++) {
     NSVCD__EACH_SLICE(s) {
@@ -14252,13 +14259,14 @@ static uint32_t nsvcd__arc_of(const nsvcd__motion *m, double time, double *fract
 // Seeks a contact of a patch pair when its spheres are nearest, if that still matters.
 static nsvcd__outcome nsvcd__seek_in_patch_pair(nsvcd__solver *w, const nsvcd__search *q,
                                                 nsvcd__patch_pair *pair) {
+  nsvcd__proof *p = &w->p;
   const double start = (double)q->begin[pair->segment];
   const double end = nsvcd__min((double)q->begin[pair->segment + 1u], w->clipped_end);
   const double tick = start + (double)pair->fraction * (end - start);
   double u;
   pair->sought = 1;
-  if (!(tick < w->p.known.end)) return NSVCD__NOTHING;
-  const uint32_t first = nsvcd__arc_of(w->p.arcs.motion, tick, &u);
+  if (!(tick < p->known.end)) return NSVCD__NOTHING;
+  const uint32_t first = nsvcd__arc_of(p->arcs.motion, tick, &u);
   return nsvcd__find_witness(w, pair->moving, pair->fixed, first, u);
 }
 #endif  // NSVCD_NO_PROOF
@@ -14769,6 +14777,7 @@ typedef struct nsvcd__crossings {
 // of up to 2 E R: 24.7 u E R, less than 1.5e-6 E R. NSVCD__ROUNDING is more.
 static nsvcd__crossings nsvcd__cross_all(nsvcd__solver *w, const nsvcd__geometry *f,
                                          const nsvcd__ray *ray) {
+  nsvcd__proof *p = &w->p;
   nsvcd__block *block = &w->blocks.fixed[0];
   w->blocks.window = 0;
   const float extent = (float)nsvcd__d3_norm(ray->from) + f->body->extent;
@@ -14791,14 +14800,14 @@ static nsvcd__crossings nsvcd__cross_all(nsvcd__solver *w, const nsvcd__geometry
       nsvcd__numbers numbers = nsvcd__numbers_of(f, i);
       for (size_t n = f->first_triangle[i]; n < end; n += NSVCD__LANES) {
         nsvcd__block_load(f, i, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
-        w->p.work++;
+        p->work++;
         uint32_t lanes = nsvcd__lanes_on_ray(block, ray, about, rounding);
         for (; lanes; lanes &= lanes - 1) {
           const size_t entry = n + nsvcd__low_bit(lanes);
           nsvcd__d3 corners[3];
           nsvcd__read_number(&numbers, entry);
           if (numbers.kind == NSVCD__SHEET) continue;
-          w->p.work++;
+          p->work++;
           nsvcd__patch_triangle(f, i, entry, corners);
           const int crossing = nsvcd__ray_crosses(ray, corners, ray->margin, &sum.unclear);
           if (!crossing || !nsvcd__is_new(w, &count, numbers.number, &sum.unclear)) continue;
@@ -14817,7 +14826,8 @@ static uint32_t nsvcd__meets_sphere(const void *what, nsvcd__spheres all) {
   const nsvcd__sphere *here = (const nsvcd__sphere *)what;
   uint32_t met = 0;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(all, l), nsvcd__v3_set(here->centre));
+    const nsvcd__v3 centre = nsvcd__v3_set(here->centre);
+    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(all, l), centre);
     const nsvcd__v radius = nsvcd__v_plus(nsvcd__v_load(all.r + l), here->radius);
     met |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(radius)) << l;
   }
@@ -15252,7 +15262,8 @@ static int nsvcd__nearest_tick(const nsvcd__search *q, nsvcd__sphere fixed, floa
           nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(fixed.centre));
       const nsvcd__v tau = nsvcd__nearest_at(d, travel, nsvcd__v_load(c->inverse + l));
       const nsvcd__v3 off = nsvcd__v3_fma(tau, travel, d);
-      const nsvcd__v between = nsvcd__v_sub(nsvcd__v3_norm(off), nsvcd__v_load(c->radius + l));
+      const nsvcd__v radius = nsvcd__v_load(c->radius + l);
+      const nsvcd__v between = nsvcd__v_sub(nsvcd__v3_norm(off), radius);
       nearer |= nsvcd__v_lt(between, nsvcd__v_set(*gap + fixed.radius)) << l;
       nsvcd__v_store(gaps + l, between);
       nsvcd__v_store(fraction + l, tau);
@@ -15570,7 +15581,8 @@ static void nsvcd__probes_measure(const nsvcd_body *body, nsvcd__probes *out) {
         const nsvcd__v above2 = nsvcd__v_mul(above, above);
         const nsvcd__v aside2 = nsvcd__v_max(nsvcd__v_sub(square, above2), zero);
         const nsvcd__v radius = nsvcd__v_set(sqrtf(size * 0.3183f));
-        const nsvcd__v off = nsvcd__v_max(nsvcd__v_sub(nsvcd__v_sqrt(aside2), radius), zero);
+        const nsvcd__v aside = nsvcd__v_sqrt(aside2);
+        const nsvcd__v off = nsvcd__v_max(nsvcd__v_sub(aside, radius), zero);
         const nsvcd__v to_disc = nsvcd__v_fma(off, off, above2);
         const int flat = size > NSVCD__FLAT * 3.1416f * own;
         height = nsvcd__v_pick(nearest, to_disc, height, flat ? above : nsvcd__v_abs(above));
@@ -17444,7 +17456,8 @@ static nsvcd__f3 nsvcd__latent_torque(const float *x, const float *by) {
     }
     const float *q = both[0] + 3;
     const float *h = both[1] + 3;
-    const nsvcd__f3 degree1 = nsvcd__f3_cross(nsvcd__f3_load(q - 3), nsvcd__f3_load(h - 3));
+    const nsvcd__f3 vector = nsvcd__f3_load(q - 3);
+    const nsvcd__f3 degree1 = nsvcd__f3_cross(vector, nsvcd__f3_load(h - 3));
     nsvcd__f3 degree2;
     degree2.x = h[3] * q[0] - h[0] * q[3] + r * (h[2] * q[1] - h[1] * q[2]);
     degree2.y = h[0] * q[1] - h[1] * q[0] + r * (h[3] * q[2] - h[2] * q[3]);
@@ -17964,14 +17977,15 @@ static nsvcd__motion nsvcd__end_of(const nsvcd__motion *m, int at_end) {
 static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__solver *w, nsvcd__search *q,
                                            nsvcd__goal goal, int at_end, size_t units,
                                            nsvcd__search_result *out) {
+  nsvcd__proof *p = &w->p;
   nsvcd__motion *whole = goal.motion;
   nsvcd__motion still = nsvcd__end_of(whole, at_end);
   goal.motion = &still;
   goal.fraction = 0;
-  goal.limit = nsvcd__limit_after(&w->p, &goal, units);
+  goal.limit = nsvcd__limit_after(p, &goal, units);
   goal.is_brief = 1;
   const nsvcd__search_result at = nsvcd__search_anew(w, q, goal);
-  nsvcd__arcs_begin(&w->p.arcs, whole);
+  nsvcd__arcs_begin(&p->arcs, whole);
   if (at.outcome != NSVCD__ANSWERED) return 0;
   *out = at;
   out->found.tick = at_end ? (double)whole->ticks : 0;
@@ -17985,10 +17999,11 @@ static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__solver *w, nsvcd__search *q,
 // motion have been tried before its intervals.
 static nsvcd__search_result nsvcd__search_whole(nsvcd__solver *w, nsvcd__search *q,
                                                 nsvcd__goal goal) {
+  nsvcd__proof *p = &w->p;
   const size_t limit = goal.limit;
   const int may_be_brief = !goal.motion->arcs && !(goal.fraction > 0);
-  goal.is_brief = may_be_brief && w->p.work + NSVCD__BRIEF_BUDGET < limit;
-  if (goal.is_brief) goal.limit = w->p.work + NSVCD__BRIEF_BUDGET;
+  goal.is_brief = may_be_brief && p->work + NSVCD__BRIEF_BUDGET < limit;
+  if (goal.is_brief) goal.limit = p->work + NSVCD__BRIEF_BUDGET;
   nsvcd__search_result result = NSVCD__KERNEL(w->isa, separate)(w, q, &goal);
   if (result.outcome != NSVCD__EXHAUSTED || !goal.is_brief) return result;
   // half of what may follow an unresolved pair has been used

@@ -432,8 +432,8 @@ static nsvcd_result nsvcd__poses_check(const nsvcd_pose *poses, size_t count) {
 // Do times rise from 0 to 1, if there are any?
 static int nsvcd__times_are_valid(const float *times, size_t count) {
   if (!times || count == 1) return 1;
-  int rise =
-      !(times[0] < 0) && !(times[0] > 0) && times[count - 1] <= 1 && times[count - 1] >= 1;
+  const float last = times[count - 1];
+  int rise = !(times[0] < 0) && !(times[0] > 0) && last <= 1 && last >= 1;
   for (size_t k = 1; k < count; k++)  // NaN does not rise
     rise &= (double)times[k] - (double)times[k - 1] >= 0.99e-7;
   return rise;
@@ -1593,7 +1593,8 @@ static nsvcd_deviation nsvcd__mover_deviation(const void *motion, double t0, dou
   memset(&out, 0, sizeof out);
   if (mover->count == 1) return out;
   const size_t k = nsvcd__pose_index(mover, 0.5 * (t0 + t1));
-  const double whole = nsvcd__mover_keyframe(mover, k + 1) - nsvcd__mover_keyframe(mover, k);
+  const double begin = nsvcd__mover_keyframe(mover, k);
+  const double whole = nsvcd__mover_keyframe(mover, k + 1) - begin;
   nsvcd__slerp arc = nsvcd__slerp_of(mover->poses + k, mover->poses + k + 1);
   arc.fraction = (t1 - t0) / whole;
   const nsvcd__d3 turn = nsvcd__slerp_turn(&arc);
@@ -2023,8 +2024,10 @@ static int nsvcd__ray_passes(const nsvcd__seen *s, uint32_t triangle, nsvcd__d3 
   nsvcd__d3 p[3], crosses[3];
   int left = 0;
   int right = 0;
-  for (uint32_t k = 0; k < 3; k++)
-    p[k] = nsvcd__d3_sub(nsvcd__d3_load(nsvcd__tree_corner(s->by->tree, triangle, k)), from);
+  for (uint32_t k = 0; k < 3; k++) {
+    const float *corner = nsvcd__tree_corner(s->by->tree, triangle, k);
+    p[k] = nsvcd__d3_sub(nsvcd__d3_load(corner), from);
+  }
   const double ahead =
       nsvcd__max(nsvcd__d3_dot(p[0], along),
                  nsvcd__max(nsvcd__d3_dot(p[1], along), nsvcd__d3_dot(p[2], along)));
@@ -2039,7 +2042,8 @@ static int nsvcd__ray_passes(const nsvcd__seen *s, uint32_t triangle, nsvcd__d3 
   }
   if (left > 0 && right > 0) return 0;
   if (left < 3 && right < 3) return NSVCD__UNCLEAR;
-  const nsvcd__d3 normal = nsvcd__d3_add(crosses[0], nsvcd__d3_add(crosses[1], crosses[2]));
+  const nsvcd__d3 sum = nsvcd__d3_add(crosses[1], crosses[2]);
+  const nsvcd__d3 normal = nsvcd__d3_add(crosses[0], sum);
   const double volume = nsvcd__d3_dot(p[2], crosses[0]);
   const double off = s->margin * nsvcd__d3_norm(normal) + rounding * s->lengths;
   if (!(fabs(volume) > off)) return NSVCD__UNCLEAR;
@@ -2270,7 +2274,9 @@ static int nsvcd__meet_at(nsvcd__certifier *c, double when, uint32_t ta, uint32_
 // The longest side of a node's box.
 static double nsvcd__node_side(const nsvcd__moving *moving, const nsvcd__node *node) {
   const nsvcd__box *box = &moving->tree->boxes[node->box];
-  const nsvcd__d3 sides = nsvcd__d3_sub(nsvcd__d3_widen(box->high), nsvcd__d3_widen(box->low));
+  const nsvcd__d3 low = nsvcd__d3_widen(box->low);
+  const nsvcd__d3 high = nsvcd__d3_widen(box->high);
+  const nsvcd__d3 sides = nsvcd__d3_sub(high, low);
   return nsvcd__stored(moving->model.scale *
                        nsvcd__max(nsvcd__max(sides.x, sides.y), sides.z));
 }
@@ -2497,13 +2503,14 @@ NSVCDDEF nsvcd_result nsvcd_certify_models(
   c.capacity = capacity;
   c.digest = nsvcd__digest(models[0].digest + 31 * models[1].digest, &clearance, 1);
   c.made = &out;
-  if (!(o->answer && nsvcd__meet_as_answered(&c, o->answer))) {
+  const nsvcd_answer *told = o->answer;
+  if (!told || !nsvcd__meet_as_answered(&c, told)) {
     out.verdict = nsvcd__prove_traversal(&c, o->visits ? o->visits : NSVCD_DEFAULT_VISITS);
     if (out.verdict == NSVCD_FREE && !c.separated) out.verdict = nsvcd__cast_all(&c, 0);
     if (out.verdict == NSVCD_FREE && !c.separated) out.verdict = nsvcd__cast_all(&c, 1);
   }
   // of the meshes, of which none is mended: in a certificate an open component contains nothing
-  const int is_inside = o->answer && (o->answer->inside || o->answer->why == NSVCD_WHY_OPEN);
+  const int is_inside = told && (told->inside || told->why == NSVCD_WHY_OPEN);
   const int has_open = nsvcd__has_open(a) || nsvcd__has_open(b);
   if (is_inside && has_open && out.verdict == NSVCD_FREE) {
     out.verdict = NSVCD_UNDECIDED;

@@ -786,8 +786,8 @@ static nsvcd_result nsvcd__poses_check(const nsvcd_pose *poses, size_t count) {
 // Do times rise from 0 to 1, if there are any?
 static int nsvcd__times_are_valid(const float *times, size_t count) {
   if (!times || count == 1) return 1;
-  int rise =
-      !(times[0] < 0) && !(times[0] > 0) && times[count - 1] <= 1 && times[count - 1] >= 1;
+  const float last = times[count - 1];
+  int rise = !(times[0] < 0) && !(times[0] > 0) && last <= 1 && last >= 1;
   for (size_t k = 1; k < count; k++)  // NaN does not rise
     rise &= (double)times[k] - (double)times[k - 1] >= 0.99e-7;
   return rise;
@@ -1845,7 +1845,9 @@ static nsvcd__bounds nsvcd__bounds_of(const nsvcd__member *m, const nsvcd__dpose
 }
 
 static nsvcd__bounds nsvcd__bounds_over(const nsvcd__bounds *a, const nsvcd__bounds *b) {
-  const nsvcd__bounds out = {nsvcd__d3_min(a->low, b->low), nsvcd__d3_max(a->high, b->high)};
+  nsvcd__bounds out;
+  out.low = nsvcd__d3_min(a->low, b->low);
+  out.high = nsvcd__d3_max(a->high, b->high);
   return out;
 }
 

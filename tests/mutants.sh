@@ -190,7 +190,7 @@ solids: faces turned either way wind|if ((sum.winds != 0) != (sum.either_way % 2
 asks: faces without area|length > 1e-9 * longest|length > 0
 asks: pushed through one face only|n, t->directions[0]) > -0.3 \|\| nsvcd__d3_dot(n, t->directions[1]) > -0.3|n, t->directions[0]) > -0.3 \&\& nsvcd__d3_dot(n, t->directions[1]) > -0.3
 asks: a lift that is not tried|    still->push_out = nsvcd__f3_round(push_out);|    return 0;
-asks: ends not looked at|may_be_brief \&\& w->p.work + NSVCD__BRIEF_BUDGET < limit;|0;
+asks: ends not looked at|may_be_brief \&\& p->work + NSVCD__BRIEF_BUDGET < limit;|0;
 asks: the start only|if (nsvcd__meets_at(w, q, goal, at_end, NSVCD__END_BUDGET, \&result))|if (!at_end \&\& nsvcd__meets_at(w, q, goal, at_end, NSVCD__END_BUDGET, \&result))
 asks: a bracket lost|if (pass.outcome == NSVCD__EXHAUSTED) return 0;|if (pass.outcome == NSVCD__EXHAUSTED) bracket->low = 0;\n  if (pass.outcome == NSVCD__EXHAUSTED) return 0;
 asks: a gap lost|{nsvcd__max(clear, (double)gap), known->found.distance, 0};|{0 * (clear + (double)gap), known->found.distance, 0};

@@ -325,7 +325,8 @@ static nsvcd__sphere nsvcd__cover_spheres(nsvcd__spheres all, size_t count) {
     low = nsvcd__f3_min(low, nsvcd__f3_sub(centre, r));
     high = nsvcd__f3_max(high, nsvcd__f3_add(centre, r));
   }
-  nsvcd__f3 centre = nsvcd__f3_add(nsvcd__f3_scale(low, 0.5f), nsvcd__f3_scale(high, 0.5f));
+  const nsvcd__f3 half = nsvcd__f3_scale(low, 0.5f);
+  nsvcd__f3 centre = nsvcd__f3_add(half, nsvcd__f3_scale(high, 0.5f));
   nsvcd__sphere best = {centre, HUGE_VALF};
   size_t farthest = 0;
   for (int step = 0; step < 32; step++) {
@@ -399,7 +400,8 @@ static nsvcd_result nsvcd__body_build(const nsvcd__latents *all, void *memory) {
     const nsvcd__sphere sphere = {all->centres[n], all->radii[n]};
     nsvcd__sphere_store(sphere, spheres, padded, i);
     nsvcd__f3_put(all->areas[n], areas + i, padded);
-    int8_t *group = extremes + 3 * NSVCD__EXTREMES * (i - i % NSVCD__GROUP) + i % NSVCD__GROUP;
+    const size_t lane = i % NSVCD__GROUP;
+    int8_t *group = extremes + 3 * NSVCD__EXTREMES * (i - lane) + lane;
     for (size_t k = 0; k < 3 * NSVCD__EXTREMES; k++)
       group[NSVCD__GROUP * k] = all->extremes[3 * NSVCD__EXTREMES * n + k];
     memcpy(latents, all->latents + NSVCD__LATENT * n, NSVCD__LATENT);

@@ -181,7 +181,8 @@ NSVCD__INLINE nsvcd__patch_points nsvcd__points_of(const nsvcd__geometry *f, siz
   nsvcd__patch_points out;
   out.stored = f->first_vertex[patch + 1] - f->first_vertex[patch];
   out.own = f->first_own[patch + 1] - f->first_own[patch];
-  out.all = out.stored + out.own + f->first_reference[patch + 1] - f->first_reference[patch];
+  const uint32_t *references = f->first_reference + patch;
+  out.all = out.stored + out.own + references[1] - references[0];
   return out;
 }
 

@@ -180,7 +180,9 @@ static int nsvcd__meet_at(nsvcd__certifier *c, double when, uint32_t ta, uint32_
 // The longest side of a node's box.
 static double nsvcd__node_side(const nsvcd__moving *moving, const nsvcd__node *node) {
   const nsvcd__box *box = &moving->tree->boxes[node->box];
-  const nsvcd__d3 sides = nsvcd__d3_sub(nsvcd__d3_widen(box->high), nsvcd__d3_widen(box->low));
+  const nsvcd__d3 low = nsvcd__d3_widen(box->low);
+  const nsvcd__d3 high = nsvcd__d3_widen(box->high);
+  const nsvcd__d3 sides = nsvcd__d3_sub(high, low);
   return nsvcd__stored(moving->model.scale *
                        nsvcd__max(nsvcd__max(sides.x, sides.y), sides.z));
 }
@@ -407,13 +409,14 @@ NSVCDDEF nsvcd_result nsvcd_certify_models(
   c.capacity = capacity;
   c.digest = nsvcd__digest(models[0].digest + 31 * models[1].digest, &clearance, 1);
   c.made = &out;
-  if (!(o->answer && nsvcd__meet_as_answered(&c, o->answer))) {
+  const nsvcd_answer *told = o->answer;
+  if (!told || !nsvcd__meet_as_answered(&c, told)) {
     out.verdict = nsvcd__prove_traversal(&c, o->visits ? o->visits : NSVCD_DEFAULT_VISITS);
     if (out.verdict == NSVCD_FREE && !c.separated) out.verdict = nsvcd__cast_all(&c, 0);
     if (out.verdict == NSVCD_FREE && !c.separated) out.verdict = nsvcd__cast_all(&c, 1);
   }
   // of the meshes, of which none is mended: in a certificate an open component contains nothing
-  const int is_inside = o->answer && (o->answer->inside || o->answer->why == NSVCD_WHY_OPEN);
+  const int is_inside = told && (told->inside || told->why == NSVCD_WHY_OPEN);
   const int has_open = nsvcd__has_open(a) || nsvcd__has_open(b);
   if (is_inside && has_open && out.verdict == NSVCD_FREE) {
     out.verdict = NSVCD_UNDECIDED;

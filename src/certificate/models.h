@@ -67,7 +67,8 @@ static nsvcd_deviation nsvcd__mover_deviation(const void *motion, double t0, dou
   memset(&out, 0, sizeof out);
   if (mover->count == 1) return out;
   const size_t k = nsvcd__pose_index(mover, 0.5 * (t0 + t1));
-  const double whole = nsvcd__mover_keyframe(mover, k + 1) - nsvcd__mover_keyframe(mover, k);
+  const double begin = nsvcd__mover_keyframe(mover, k);
+  const double whole = nsvcd__mover_keyframe(mover, k + 1) - begin;
   nsvcd__slerp arc = nsvcd__slerp_of(mover->poses + k, mover->poses + k + 1);
   arc.fraction = (t1 - t0) / whole;
   const nsvcd__d3 turn = nsvcd__slerp_turn(&arc);

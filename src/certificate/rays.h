@@ -49,8 +49,10 @@ static int nsvcd__ray_passes(const nsvcd__seen *s, uint32_t triangle, nsvcd__d3 
   nsvcd__d3 p[3], crosses[3];
   int left = 0;
   int right = 0;
-  for (uint32_t k = 0; k < 3; k++)
-    p[k] = nsvcd__d3_sub(nsvcd__d3_load(nsvcd__tree_corner(s->by->tree, triangle, k)), from);
+  for (uint32_t k = 0; k < 3; k++) {
+    const float *corner = nsvcd__tree_corner(s->by->tree, triangle, k);
+    p[k] = nsvcd__d3_sub(nsvcd__d3_load(corner), from);
+  }
   const double ahead =
       nsvcd__max(nsvcd__d3_dot(p[0], along),
                  nsvcd__max(nsvcd__d3_dot(p[1], along), nsvcd__d3_dot(p[2], along)));
@@ -65,7 +67,8 @@ static int nsvcd__ray_passes(const nsvcd__seen *s, uint32_t triangle, nsvcd__d3 
   }
   if (left > 0 && right > 0) return 0;
   if (left < 3 && right < 3) return NSVCD__UNCLEAR;
-  const nsvcd__d3 normal = nsvcd__d3_add(crosses[0], nsvcd__d3_add(crosses[1], crosses[2]));
+  const nsvcd__d3 sum = nsvcd__d3_add(crosses[1], crosses[2]);
+  const nsvcd__d3 normal = nsvcd__d3_add(crosses[0], sum);
   const double volume = nsvcd__d3_dot(p[2], crosses[0]);
   const double off = s->margin * nsvcd__d3_norm(normal) + rounding * s->lengths;
   if (!(fabs(volume) > off)) return NSVCD__UNCLEAR;

@@ -64,7 +64,8 @@ static nsvcd__f3 nsvcd__latent_torque(const float *x, const float *by) {
     }
     const float *q = both[0] + 3;
     const float *h = both[1] + 3;
-    const nsvcd__f3 degree1 = nsvcd__f3_cross(nsvcd__f3_load(q - 3), nsvcd__f3_load(h - 3));
+    const nsvcd__f3 vector = nsvcd__f3_load(q - 3);
+    const nsvcd__f3 degree1 = nsvcd__f3_cross(vector, nsvcd__f3_load(h - 3));
     nsvcd__f3 degree2;
     degree2.x = h[3] * q[0] - h[0] * q[3] + r * (h[2] * q[1] - h[1] * q[2]);
     degree2.y = h[0] * q[1] - h[1] * q[0] + r * (h[3] * q[2] - h[2] * q[3]);

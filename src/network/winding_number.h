@@ -108,7 +108,8 @@ static void nsvcd__probes_measure(const nsvcd_body *body, nsvcd__probes *out) {
         const nsvcd__v above2 = nsvcd__v_mul(above, above);
         const nsvcd__v aside2 = nsvcd__v_max(nsvcd__v_sub(square, above2), zero);
         const nsvcd__v radius = nsvcd__v_set(sqrtf(size * 0.3183f));
-        const nsvcd__v off = nsvcd__v_max(nsvcd__v_sub(nsvcd__v_sqrt(aside2), radius), zero);
+        const nsvcd__v aside = nsvcd__v_sqrt(aside2);
+        const nsvcd__v off = nsvcd__v_max(nsvcd__v_sub(aside, radius), zero);
         const nsvcd__v to_disc = nsvcd__v_fma(off, off, above2);
         const int flat = size > NSVCD__FLAT * 3.1416f * own;
         height = nsvcd__v_pick(nearest, to_disc, height, flat ? above : nsvcd__v_abs(above));

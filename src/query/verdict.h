@@ -63,14 +63,15 @@ static nsvcd__motion nsvcd__end_of(const nsvcd__motion *m, int at_end) {
 static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__solver *w, nsvcd__search *q,
                                            nsvcd__goal goal, int at_end, size_t units,
                                            nsvcd__search_result *out) {
+  nsvcd__proof *p = &w->p;
   nsvcd__motion *whole = goal.motion;
   nsvcd__motion still = nsvcd__end_of(whole, at_end);
   goal.motion = &still;
   goal.fraction = 0;
-  goal.limit = nsvcd__limit_after(&w->p, &goal, units);
+  goal.limit = nsvcd__limit_after(p, &goal, units);
   goal.is_brief = 1;
   const nsvcd__search_result at = nsvcd__search_anew(w, q, goal);
-  nsvcd__arcs_begin(&w->p.arcs, whole);
+  nsvcd__arcs_begin(&p->arcs, whole);
   if (at.outcome != NSVCD__ANSWERED) return 0;
   *out = at;
   out->found.tick = at_end ? (double)whole->ticks : 0;
@@ -84,10 +85,11 @@ static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__solver *w, nsvcd__search *q,
 // motion have been tried before its intervals.
 static nsvcd__search_result nsvcd__search_whole(nsvcd__solver *w, nsvcd__search *q,
                                                 nsvcd__goal goal) {
+  nsvcd__proof *p = &w->p;
   const size_t limit = goal.limit;
   const int may_be_brief = !goal.motion->arcs && !(goal.fraction > 0);
-  goal.is_brief = may_be_brief && w->p.work + NSVCD__BRIEF_BUDGET < limit;
-  if (goal.is_brief) goal.limit = w->p.work + NSVCD__BRIEF_BUDGET;
+  goal.is_brief = may_be_brief && p->work + NSVCD__BRIEF_BUDGET < limit;
+  if (goal.is_brief) goal.limit = p->work + NSVCD__BRIEF_BUDGET;
   nsvcd__search_result result = NSVCD__KERNEL(w->isa, separate)(w, q, &goal);
   if (result.outcome != NSVCD__EXHAUSTED || !goal.is_brief) return result;
   // half of what may follow an unresolved pair has been used

@@ -87,7 +87,9 @@ static nsvcd__bounds nsvcd__bounds_of(const nsvcd__member *m, const nsvcd__dpose
 }
 
 static nsvcd__bounds nsvcd__bounds_over(const nsvcd__bounds *a, const nsvcd__bounds *b) {
-  const nsvcd__bounds out = {nsvcd__d3_min(a->low, b->low), nsvcd__d3_max(a->high, b->high)};
+  nsvcd__bounds out;
+  out.low = nsvcd__d3_min(a->low, b->low);
+  out.high = nsvcd__d3_max(a->high, b->high);
   return out;
 }
 

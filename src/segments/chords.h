@@ -17,7 +17,8 @@ NSVCD__INLINE nsvcd__v3 nsvcd__chords_travel(const nsvcd__chords *c, size_t l) {
 // Stores a slice of chords. FLT_MIN keeps a chord of no length finite.
 static void nsvcd__chords_store(nsvcd__chords *c, size_t l, nsvcd__v3 start, nsvcd__v3 travel,
                                 nsvcd__v radius) {
-  const nsvcd__v square = nsvcd__v_max(nsvcd__v3_dot(travel, travel), nsvcd__v_set(1.2e-38f));
+  const nsvcd__v least = nsvcd__v_set(1.2e-38f);
+  const nsvcd__v square = nsvcd__v_max(nsvcd__v3_dot(travel, travel), least);
   nsvcd__v3_store(c->start, l, start);
   nsvcd__v3_store(c->travel, l, travel);
   nsvcd__v_store(c->inverse + l, nsvcd__v_div(nsvcd__v_set(-1), square));

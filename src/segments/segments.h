@@ -219,7 +219,8 @@ static void nsvcd__cut_arc(const nsvcd__motion *m, const nsvcd__v_poses *at, nsv
     const nsvcd__vquat last_seen = nsvcd__vquat_load(cut->last.seen + l, NSVCD__ENDS);
     const nsvcd__v3 w = nsvcd__v_turn(last_seen, seen);
     const nsvcd__v3 across = nsvcd__v3_cross(nsvcd__v3_load(out->axis, l), w);
-    const nsvcd__v along = nsvcd__v_mul(nsvcd__v_scale(arc, 0.3931f), nsvcd__v3_norm(across));
+    const nsvcd__v most_along = nsvcd__v_scale(arc, 0.3931f);
+    const nsvcd__v along = nsvcd__v_mul(most_along, nsvcd__v3_norm(across));
     nsvcd__v_keep(most->arc_bend + l, nsvcd__v_scale(nsvcd__v_mul(arc, arc), 0.125f));
     nsvcd__v_keep(most->arc_along_axis + l, along);
   }

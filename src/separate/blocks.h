@@ -217,9 +217,10 @@ NSVCD__INLINE uint32_t nsvcd__left_by_normal(nsvcd__solver *w, size_t l, nsvcd__
 static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_last(nsvcd__solver *w,
                                                           nsvcd__block *fixed, float margin,
                                                           uint32_t lanes) {
-  const nsvcd__f3 last = nsvcd__f3_round(w->p.separating);
+  nsvcd__proof *p = &w->p;
+  const nsvcd__f3 last = nsvcd__f3_round(p->separating);
   const nsvcd__v3 normal = nsvcd__v3_set(last);
-  if (!(w->p.goal.clearance > 0) || !lanes) return lanes;
+  if (!(p->goal.clearance > 0) || !lanes) return lanes;
   float highest = -HUGE_VALF;  // of the fixed block
   for (size_t k = 0; k < 3; k++) {
     NSVCD__EACH_SLICE(s) {

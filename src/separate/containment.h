@@ -112,6 +112,7 @@ typedef struct nsvcd__crossings {
 // of up to 2 E R: 24.7 u E R, less than 1.5e-6 E R. NSVCD__ROUNDING is more.
 static nsvcd__crossings nsvcd__cross_all(nsvcd__solver *w, const nsvcd__geometry *f,
                                          const nsvcd__ray *ray) {
+  nsvcd__proof *p = &w->p;
   nsvcd__block *block = &w->blocks.fixed[0];
   w->blocks.window = 0;
   const float extent = (float)nsvcd__d3_norm(ray->from) + f->body->extent;
@@ -134,14 +135,14 @@ static nsvcd__crossings nsvcd__cross_all(nsvcd__solver *w, const nsvcd__geometry
       nsvcd__numbers numbers = nsvcd__numbers_of(f, i);
       for (size_t n = f->first_triangle[i]; n < end; n += NSVCD__LANES) {
         nsvcd__block_load(f, i, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
-        w->p.work++;
+        p->work++;
         uint32_t lanes = nsvcd__lanes_on_ray(block, ray, about, rounding);
         for (; lanes; lanes &= lanes - 1) {
           const size_t entry = n + nsvcd__low_bit(lanes);
           nsvcd__d3 corners[3];
           nsvcd__read_number(&numbers, entry);
           if (numbers.kind == NSVCD__SHEET) continue;
-          w->p.work++;
+          p->work++;
           nsvcd__patch_triangle(f, i, entry, corners);
           const int crossing = nsvcd__ray_crosses(ray, corners, ray->margin, &sum.unclear);
           if (!crossing || !nsvcd__is_new(w, &count, numbers.number, &sum.unclear)) continue;
@@ -160,7 +161,8 @@ static uint32_t nsvcd__meets_sphere(const void *what, nsvcd__spheres all) {
   const nsvcd__sphere *here = (const nsvcd__sphere *)what;
   uint32_t met = 0;
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(all, l), nsvcd__v3_set(here->centre));
+    const nsvcd__v3 centre = nsvcd__v3_set(here->centre);
+    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(all, l), centre);
     const nsvcd__v radius = nsvcd__v_plus(nsvcd__v_load(all.r + l), here->radius);
     met |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(radius)) << l;
   }

@@ -67,7 +67,8 @@ static int nsvcd__nearest_tick(const nsvcd__search *q, nsvcd__sphere fixed, floa
           nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(fixed.centre));
       const nsvcd__v tau = nsvcd__nearest_at(d, travel, nsvcd__v_load(c->inverse + l));
       const nsvcd__v3 off = nsvcd__v3_fma(tau, travel, d);
-      const nsvcd__v between = nsvcd__v_sub(nsvcd__v3_norm(off), nsvcd__v_load(c->radius + l));
+      const nsvcd__v radius = nsvcd__v_load(c->radius + l);
+      const nsvcd__v between = nsvcd__v_sub(nsvcd__v3_norm(off), radius);
       nearer |= nsvcd__v_lt(between, nsvcd__v_set(*gap + fixed.radius)) << l;
       nsvcd__v_store(gaps + l, between);
       nsvcd__v_store(fraction + l, tau);

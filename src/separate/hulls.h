@@ -111,7 +111,8 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__solver *w, size_t i, si
   const nsvcd__f3 centre = nsvcd__patch_centre(f, i);
   const nsvcd__f3 both =
       nsvcd__f3_add(nsvcd__f3_transform(start, centre), nsvcd__f3_transform(end, centre));
-  const nsvcd__f3 line = nsvcd__f3_sub(nsvcd__f3_scale(both, 0.5f), nsvcd__patch_centre(g, j));
+  const nsvcd__f3 middle = nsvcd__f3_scale(both, 0.5f);
+  const nsvcd__f3 line = nsvcd__f3_sub(middle, nsvcd__patch_centre(g, j));
   const nsvcd__f3 turned = nsvcd__mat3_apply(&start->rotation, moving.normal);
   const nsvcd__f3 guesses[NSVCD__GUESSES] = {w->memo.held,
                                              nsvcd__f3_towards(fixed.normal, line),

@@ -113,13 +113,14 @@ static uint32_t nsvcd__arc_of(const nsvcd__motion *m, double time, double *fract
 // Seeks a contact of a patch pair when its spheres are nearest, if that still matters.
 static nsvcd__outcome nsvcd__seek_in_patch_pair(nsvcd__solver *w, const nsvcd__search *q,
                                                 nsvcd__patch_pair *pair) {
+  nsvcd__proof *p = &w->p;
   const double start = (double)q->begin[pair->segment];
   const double end = nsvcd__min((double)q->begin[pair->segment + 1u], w->clipped_end);
   const double tick = start + (double)pair->fraction * (end - start);
   double u;
   pair->sought = 1;
-  if (!(tick < w->p.known.end)) return NSVCD__NOTHING;
-  const uint32_t first = nsvcd__arc_of(w->p.arcs.motion, tick, &u);
+  if (!(tick < p->known.end)) return NSVCD__NOTHING;
+  const uint32_t first = nsvcd__arc_of(p->arcs.motion, tick, &u);
   return nsvcd__find_witness(w, pair->moving, pair->fixed, first, u);
 }
 #endif  // NSVCD_NO_PROOF
