@@ -536,7 +536,9 @@ static nsvcd_question question_of(const scene *s, const nsvcd_question *options,
   nsvcd_mover movers[2];
   for (int k = 0; k < 2; k++) {
     const part *p = &s->parts[k];
-    movers[k] = (nsvcd_mover){p->of->body, p->raw, p->count, p->timed ? p->times : NULL, p->scale};
+    movers[k] = (nsvcd_mover){.body = p->of->body, .poses = p->raw, .count = p->count};
+    movers[k].times = p->timed ? p->times : NULL;
+    movers[k].scale = p->scale;
   }
   q.a = movers[swapped];
   q.b = movers[!swapped];
