@@ -57,6 +57,17 @@ static void between_poses_a_motion_is_a_line_and_a_slerp(void) {
   nsvcd_body_free(post, NULL);
 }
 
+// When does a body first meet another one, which stands there? To a tenth of a millimetre.
+static nsvcd_question first_against(const nsvcd_body *moving, const nsvcd_pose *poses, size_t count,
+                                    const nsvcd_body *other, const nsvcd_pose *stands) {
+  nsvcd_question question = question_about(moving, poses, count, other);
+  question.b.poses = stands;
+  question.b.count = 1;
+  question.ask = NSVCD_ASK_FIRST;
+  question.to = 1e-4f;
+  return question;
+}
+
 // A door of two poses, whose origin is in its middle, sweeps a quarter of a circle about its hinge:
 // as one of 200 poses does, whose origin goes round. A post in its way is not where it would pass
 // without a pivot. And a door twice as large hits it sooner.
@@ -70,11 +81,7 @@ static void a_body_turns_about_its_pivot(void) {
     const float angle = quarter * (float)k / (POSES - 1);
     round[k] = turned(cosf(angle), sinf(angle), 0, angle);
   }
-  nsvcd_question question = question_about(door, ends, 2, post);
-  question.b.poses = &stands;
-  question.b.count = 1;
-  question.ask = NSVCD_ASK_FIRST;
-  question.to = 1e-4f;
+  nsvcd_question question = first_against(door, ends, 2, post, &stands);
   CHECK_EQ(verdict_of(&question), NSVCD_FREE);
   question.a.pivot[0] = -1;
   const nsvcd_range time = answer_to(&question).time;
@@ -82,11 +89,7 @@ static void a_body_turns_about_its_pivot(void) {
   question.a = question.b;  // it does not matter which one it is
   question.b = by_pivot;
   CHECK_NEAR(answer_to(&question).time.high, time.high, 1e-4);
-  question = question_about(door, round, POSES, post);
-  question.b.poses = &stands;
-  question.b.count = 1;
-  question.ask = NSVCD_ASK_FIRST;
-  question.to = 1e-4f;
+  question = first_against(door, round, POSES, post, &stands);
   CHECK_NEAR(answer_to(&question).time.high, time.high, 1e-3);
   const nsvcd_pose larger[2] = {at(2, 0, 0), turned(0, 2, 0, quarter)};
   question.a = by_pivot;
@@ -111,11 +114,7 @@ static void a_screw_turns_about_its_axis(void) {
   }
   const nsvcd_pose ends[2] = {helix[0], helix[POSES - 1]};
   const nsvcd_pose stands = at(cosf(1.5f), sinf(1.5f), 0.5f);
-  nsvcd_question question = question_about(thread, ends, 2, pin);
-  question.b.poses = &stands;
-  question.b.count = 1;
-  question.ask = NSVCD_ASK_FIRST;
-  question.to = 1e-4f;
+  nsvcd_question question = first_against(thread, ends, 2, pin, &stands);
   CHECK_EQ(verdict_of(&question), NSVCD_FREE);
   question.a.pivot[0] = -1;
   const nsvcd_range time = answer_to(&question).time;
