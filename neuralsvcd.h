@@ -157,7 +157,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_WORKSPACE,
   // the caller's progress function cancelled
   NSVCD_ERROR_CANCELLED,
-  // a count is 0, or larger than the library takes: of joints, parts, goals, points of a guess
+  // a count is 0, or larger than the library takes: of joints, parts, goals, points of a guess, balls
   NSVCD_ERROR_COUNT,
 
   // ---- files and meshes
@@ -495,6 +495,8 @@ typedef struct nsvcd_body nsvcd_body;
 #define NSVCD_PATCH_TRIANGLES 50
 #define NSVCD_MANY_TRIANGLES 131072
 #define NSVCD_LEVEL_TRIANGLES 12
+// the most balls of a body
+#define NSVCD_MAX_BALLS 1024
 // metres: the largest coordinate of a vertex or a position
 #define NSVCD_MAX_COORDINATE 1e6f
 // metres: the smallest radius of a body's bounding sphere
@@ -535,6 +537,9 @@ typedef struct nsvcd_encode_options {
   // triangles, which are within nsvcd_body_facts.quantization_error of the mesh's own: a HIT says
   // that the mesh comes that near
   int coarse;
+  // The most balls that cover the mesh, for looks (nsvcd_look) and routes, up to NSVCD_MAX_BALLS.
+  // 128 suit a robot's link: they take 2 KB, and about 0.1 s to find. 0: none. A cloud has none
+  size_t balls;
   // called with the fraction done; may be NULL
   nsvcd_progress *progress;
   // passed to `progress`
@@ -563,8 +568,9 @@ NSVCDDEF size_t nsvcd_body_size(size_t patches);
 //              from the allocator; free it with nsvcd_body_free
 //   body       not NULL; set to the body, or left as it was on failure
 //   allocates  working memory, which is freed again, and the body if memory is NULL
-//   errors     ARGUMENT, PATCHES, RADIUS (`convex_radius`), LATENTS, INDEX, NUMBER, EMPTY,
-//              TOO_LARGE, MEMORY, WORKSPACE, CANCELLED
+//   errors     ARGUMENT, PATCHES, RADIUS (`convex_radius`), COUNT (`balls`), TRIANGLES (`balls`
+//              with `no_triangles`), LATENTS, INDEX, NUMBER, EMPTY, TOO_LARGE, MEMORY, WORKSPACE,
+//              CANCELLED
 //   source     the latents: NeuralSVCD, appendix F; the triangles: this library
 NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
                                    const nsvcd_allocator *allocator, void *memory,
@@ -668,6 +674,11 @@ typedef struct nsvcd_body_facts {
   float quantization_error;
   // metres by which the body exceeds its mesh
   float convex_radius;
+  // number of balls that cover the mesh; 0: none are stored
+  size_t balls;
+  // metres: no point of a ball is farther than this from the body: from its surface, or what it
+  // encloses if it is closed
+  float ball_error;
   // 1: the network can answer
   int latents;
   // number of the mesh's components, and of those among them that are open (see CLOSED MESHES);
@@ -1471,6 +1482,8 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     body            balls in groups of 16, and levels of spheres above
 //     traversal       the groups whose spheres pass a test
 //     geometry        what the proof reads: slabs, hulls, triangles
+//     voxels          a mesh as a grid of cells
+//     ball_cover      a few balls that cover a mesh, for looks
 //     trust           is a blob sound? load it, scale it, describe it
 //     write           a surface -> what the proof reads
 //     encode          nsvcd_encode
@@ -6889,7 +6902,7 @@ static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
 #define NSVCD__MAX_LENGTH 1.6e7f
 #define NSVCD__BODY_MAGIC 0x4256534eu  // "NSVB", or "BVSN": the mark of the byte order
 #define NSVCD__OTHER_MAGIC 0x4e535642u
-#define NSVCD__BODY_VERSION 8u
+#define NSVCD__BODY_VERSION 9u
 
 struct nsvcd_body {
   uint32_t magic, version;
@@ -7182,18 +7195,21 @@ static nsvcd__sphere nsvcd__cover_spheres(nsvcd__spheres all, size_t count) {
   return best;
 }
 
-// Fills a level with spheres over 16 of `members` spheres each.
-static void nsvcd__cover_level(nsvcd_body *body, size_t k, nsvcd__spheres below,
-                               size_t members) {
-  const nsvcd__level level = nsvcd__level_of(body->padded, k);
-  float *out = (float *)(body + 1) + level.first;
-  for (size_t g = 0; g < level.slots; g++) {
+// Fills a level, (4, slots), with spheres over 16 of `members` spheres each.
+static void nsvcd__cover_groups(nsvcd__spheres below, size_t members, float *out,
+                                size_t slots) {
+  for (size_t g = 0; g < slots; g++) {
     nsvcd__sphere sphere = {{0, 0, 0}, NSVCD__NOWHERE};
     const size_t i = g * NSVCD__GROUP;
     const size_t count = nsvcd__group_members(members, i);
     if (count) sphere = nsvcd__cover_spheres(nsvcd__spheres_from(below, i), count);
-    nsvcd__sphere_store(sphere, out, level.slots, g);
+    nsvcd__sphere_store(sphere, out, slots, g);
   }
+}
+static void nsvcd__cover_level(nsvcd_body *body, size_t k, nsvcd__spheres below,
+                               size_t members) {
+  const nsvcd__level level = nsvcd__level_of(body->padded, k);
+  nsvcd__cover_groups(below, members, (float *)(body + 1) + level.first, level.slots);
 }
 
 // Fills in the levels above the groups, the bounding sphere and the extent of a blob whose patches
@@ -7336,6 +7352,9 @@ static int nsvcd__traversal_next(nsvcd__traversal *t, size_t *group) {
 //   box             (2, 3)   float: least and greatest coordinates of the surface
 //   widest          (2)      float: the greatest of `errors`; and how far the mesh's vertices are
 //                            off, metres: 0, except in bodies that are scaled or coarse
+//   balls           (4, A)   float: balls that cover the mesh, x, y, z, r, in rows of 16 neighbours;
+//                            A: their count rounded up to 16, padding as above
+//   clusters        (4, A')  float: spheres over 16 balls each; A': as G of A
 //   slabs           (6, P)   float: normal n, low, high, across: points x of a piece have
 //                            low <= n.(x - c) <= high and are within `across` of the line along n
 //                            through c, the centre of the patch's sphere
@@ -7387,13 +7406,18 @@ typedef struct nsvcd__counts {
   uint32_t is_mixed;
   // metres: corners this near count as one in what is closed
   float gap;
+  // balls that cover the mesh; metres: no point of them is farther from the solid
+  uint32_t balls;
+  float ball_error;
+  // 1: the mesh is a box along the axes, solid
+  uint32_t is_box;
 } nsvcd__counts;
 
 // Where everything is in a body of triangles. Only who builds or scales one writes through this.
 typedef struct nsvcd__geometry {
   nsvcd_body *body;
   nsvcd__counts *counts;
-  float *box, *slabs, *group_slabs, *steps, *margins, *errors, *seeds, *positions;
+  float *box, *balls, *slabs, *group_slabs, *steps, *margins, *errors, *seeds, *positions;
   uint32_t *first_vertex, *first_own, *first_reference, *first_triangle, *first_byte;
   uint32_t *first_seed, *cut, *cut_corners;
   unsigned char *references;
@@ -7437,6 +7461,8 @@ static size_t nsvcd__geometry_layout(nsvcd_body *body, size_t patches,
   f->kind_bits = 1 + (counts->is_mixed != 0);
   f->counts = NSVCD__PASS(nsvcd__counts, 1);
   f->box = NSVCD__PASS(float, NSVCD__GEOMETRY_BOX);
+  const size_t balls = nsvcd__round_up(counts->balls, NSVCD__GROUP);
+  f->balls = NSVCD__PASS(float, 4 * (balls + nsvcd__group_slots(balls)));
   f->slabs = NSVCD__PASS(float, 6 * padded);
   f->group_slabs = NSVCD__PASS(float, 6 * nsvcd__group_slots(padded));
   f->steps = NSVCD__PASS(float, padded);
@@ -7468,6 +7494,16 @@ static nsvcd__geometry nsvcd__geometry_of(const nsvcd_body *body) {
   memcpy(&b, &body, sizeof b);
   (void)nsvcd__geometry_layout(b, body->patches, nsvcd__counts_of(body), &f);
   return f;
+}
+
+// The balls that cover the mesh, and the spheres over 16 of them each.
+static nsvcd__spheres nsvcd__balls_of(const nsvcd__geometry *f) {
+  const size_t slots = nsvcd__round_up(f->counts->balls, NSVCD__GROUP);
+  return nsvcd__spheres_of(f->balls, slots);
+}
+static nsvcd__spheres nsvcd__ball_clusters_of(const nsvcd__geometry *f) {
+  const size_t slots = nsvcd__round_up(f->counts->balls, NSVCD__GROUP);
+  return nsvcd__spheres_of(f->balls + 4 * slots, nsvcd__group_slots(slots));
 }
 
 static float nsvcd__widest_error(const nsvcd__geometry *f) {
@@ -7806,6 +7842,566 @@ static float nsvcd__whole_radius(const nsvcd_body *body) {
   return body->radius + (triangles ? nsvcd__counts_of(triangles)->convex_radius : 0);
 }
 
+// ------------------------------------------------------------------------------------- body/voxels
+// In: a mesh. Out: a grid of cells: which of them the surface passes through, which are outside it,
+// and how far each of the others is from there.
+//
+// Lines through the centres, along each axis, mark the cells in which they cross a triangle. So no
+// path from centre to centre of neighbouring cells leads through the surface unmarked, and what
+// such paths reach from the rim of the grid is outside; but not where the six rays from a centre,
+// up and down these lines, say that the surface winds about it. These votes close the holes that
+// meshes of robots have.
+
+#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
+// cells along the longest axis of the mesh's box; cells of the rim; votes for what is inside
+#define NSVCD__VOXELS 96
+#define NSVCD__VOXEL_RIM 2
+#define NSVCD__VOXEL_VOTES 4
+
+enum { NSVCD__VOXEL_HOLLOW, NSVCD__VOXEL_SURFACE, NSVCD__VOXEL_OUTSIDE };
+
+typedef struct nsvcd__voxels {
+  // of the first cell's centre
+  nsvcd__d3 first;
+  // metres
+  double edge;
+  // cells along each axis, and of the whole grid
+  size_t sizes[3], count;
+  // (count), x fastest: HOLLOW: neither outside nor surface
+  uint8_t *kinds;
+  // (count): the sum of six winding numbers, by the rays along the axes
+  int8_t *votes;
+  // (count): by how much the winding number changes, up along an axis, before the centre
+  int8_t *turns;
+  // (count): in cells, from centre to centre of the nearest cell outside
+  float *depths;
+} nsvcd__voxels;
+
+static size_t nsvcd__voxel_stride(const nsvcd__voxels *v, size_t axis) {
+  return axis == 0 ? 1 : axis == 1 ? v->sizes[0] : v->sizes[0] * v->sizes[1];
+}
+
+static nsvcd__d3 nsvcd__voxel_centre(const nsvcd__voxels *v, size_t cell) {
+  const size_t rows = cell / v->sizes[0];
+  const nsvcd__d3 at = {(double)(cell % v->sizes[0]), (double)(rows % v->sizes[1]),
+                        (double)(rows / v->sizes[1])};
+  return nsvcd__d3_fma(v->edge, at, v->first);
+}
+
+// The cell that a point of the mesh is in.
+static size_t nsvcd__voxel_at(const nsvcd__voxels *v, nsvcd__d3 point) {
+  const nsvcd__d3 at = nsvcd__d3_scale(nsvcd__d3_sub(point, v->first), 1 / v->edge);
+  size_t cell = 0;
+  for (size_t k = 0; k < 3; k++) {
+    const size_t i = (size_t)(nsvcd__d3_axis(at, k) + 0.5);
+    cell += (i < v->sizes[k] ? i : v->sizes[k] - 1) * nsvcd__voxel_stride(v, k);
+  }
+  return cell;
+}
+
+static void nsvcd__mesh_triangle(const nsvcd_mesh *mesh, size_t t, nsvcd__d3 *corners) {
+  for (size_t k = 0; k < 3; k++)
+    corners[k] = nsvcd__d3_row(mesh->positions, mesh->indices[3 * t + k]);
+}
+
+// Marks the cells along an edge.
+static void nsvcd__mark_edge(nsvcd__voxels *v, nsvcd__d3 a, nsvcd__d3 b) {
+  const size_t steps = 1 + (size_t)(2 * sqrt(nsvcd__d3_distance2(a, b)) / v->edge);
+  for (size_t n = 0; n <= steps; n++) {
+    const nsvcd__d3 point = nsvcd__d3_mix(a, b, (double)n / (double)steps);
+    v->kinds[nsvcd__voxel_at(v, point)] = NSVCD__VOXEL_SURFACE;
+  }
+}
+
+// Twice the area of a triangle of the plane, with its sign.
+static double nsvcd__area_of(const double *a, const double *b, const double *c) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+// Marks the cells in which lines along an axis cross a triangle, and where the winding number
+// changes: at the first centre above.
+static void nsvcd__mark_crossings(nsvcd__voxels *v, const nsvcd__d3 *corners, size_t axis) {
+  const size_t across[2] = {(axis + 1) % 3, (axis + 2) % 3};
+  const size_t stride = nsvcd__voxel_stride(v, axis);
+  double p[3][2], heights[3], low[2], high[2];
+  for (size_t k = 0; k < 3; k++) {
+    const nsvcd__d3 at = nsvcd__d3_scale(nsvcd__d3_sub(corners[k], v->first), 1 / v->edge);
+    heights[k] = nsvcd__d3_axis(at, axis);
+    for (size_t i = 0; i < 2; i++) {
+      p[k][i] = nsvcd__d3_axis(at, across[i]);
+      low[i] = k ? nsvcd__min(low[i], p[k][i]) : p[k][i];
+      high[i] = k ? nsvcd__max(high[i], p[k][i]) : p[k][i];
+    }
+  }
+  const double whole = nsvcd__area_of(p[0], p[1], p[2]);
+  if (!(fabs(whole) > 0)) return;
+  // Half open, by the order of the corners, so that of two triangles at an edge one is crossed; and
+  // closed, for what is marked.
+  double at[2];
+  for (at[0] = ceil(low[0]); at[0] <= high[0]; at[0]++) {
+    for (at[1] = ceil(low[1]); at[1] <= high[1]; at[1]++) {
+      double height = 0;
+      int is_in = 1;
+      int counts = 1;
+      for (size_t k = 0; k < 3; k++) {
+        const double *a = p[(k + 1) % 3];
+        const double *b = p[(k + 2) % 3];
+        const double part = nsvcd__area_of(at, a, b) * (whole < 0 ? -1 : 1);
+        const int is_left = (a[1] - b[1]) * (whole < 0 ? -1 : 1) > 0 ||
+                            (!(a[1] > b[1]) && !(a[1] < b[1]) && (a[0] < b[0]) == (whole < 0));
+        is_in &= part >= -1e-9 * fabs(whole);
+        counts &= part > 0 || (part >= 0 && is_left);
+        height += heights[k] * part / fabs(whole);
+      }
+      if (!is_in) continue;
+      const size_t column = (size_t)at[0] * nsvcd__voxel_stride(v, across[0]) +
+                            (size_t)at[1] * nsvcd__voxel_stride(v, across[1]);
+      const double clamped = nsvcd__max(0, nsvcd__min(height, (double)v->sizes[axis] - 1));
+      v->kinds[column + (size_t)(clamped + 0.5) * stride] = NSVCD__VOXEL_SURFACE;
+      int8_t *turns = &v->turns[column + (size_t)ceil(clamped) * stride];
+      if (counts) *turns = (int8_t)(*turns + (whole > 0 ? -1 : 1));
+    }
+  }
+}
+
+// Adds the votes of the rays along an axis, from below and from above.
+static void nsvcd__count_votes(nsvcd__voxels *v, size_t axis) {
+  const size_t stride = nsvcd__voxel_stride(v, axis);
+  for (size_t n = 0; n < v->count; n++) {
+    if (n / stride % v->sizes[axis] > 0) continue;
+    int all = 0;
+    int below = 0;
+    for (size_t k = 0; k < v->sizes[axis]; k++) all += v->turns[n + k * stride];
+    for (size_t k = 0; k < v->sizes[axis]; k++) {
+      int8_t *votes = &v->votes[n + k * stride];
+      below += v->turns[n + k * stride];
+      *votes = (int8_t)(*votes + 2 * below - all);
+    }
+  }
+}
+
+static int nsvcd__is_voted_inside(const nsvcd__voxels *v, size_t cell) {
+  return v->votes[cell] >= NSVCD__VOXEL_VOTES || v->votes[cell] <= -NSVCD__VOXEL_VOTES;
+}
+
+// What the rim reaches without crossing the surface is outside, but for what is voted inside.
+// queue: (count).
+static void nsvcd__fill_outside(nsvcd__voxels *v, uint32_t *queue) {
+  size_t left = 1;
+  queue[0] = 0;
+  v->kinds[0] = NSVCD__VOXEL_OUTSIDE;
+  while (left > 0) {
+    const size_t cell = queue[--left];
+    for (size_t axis = 0; axis < 3; axis++) {
+      const size_t stride = nsvcd__voxel_stride(v, axis);
+      const size_t at = cell / stride % v->sizes[axis];
+      const size_t next[2] = {at > 0 ? cell - stride : cell,
+                              at + 1 < v->sizes[axis] ? cell + stride : cell};
+      for (size_t side = 0; side < 2; side++) {
+        if (v->kinds[next[side]] != NSVCD__VOXEL_HOLLOW) continue;
+        v->kinds[next[side]] = NSVCD__VOXEL_OUTSIDE;
+        queue[left++] = (uint32_t)next[side];
+      }
+    }
+  }
+  for (size_t n = 0; n < v->count; n++) {
+    if (v->kinds[n] == NSVCD__VOXEL_OUTSIDE && nsvcd__is_voted_inside(v, n))
+      v->kinds[n] = NSVCD__VOXEL_HOLLOW;
+  }
+}
+
+// One row of a distance transform: of squared distances, the least of x[m] + (n - m)^2 over all m,
+// the lower envelope of parabolas. Source: Felzenszwalb and Huttenlocher (2012).
+static void nsvcd__transform_row(float *x, size_t stride, size_t count) {
+  double value[NSVCD__VOXELS + 2 * NSVCD__VOXEL_RIM + 1];
+  double from[NSVCD__VOXELS + 2 * NSVCD__VOXEL_RIM + 1];
+  size_t lowest[NSVCD__VOXELS + 2 * NSVCD__VOXEL_RIM + 1];
+  size_t last = 0;
+  for (size_t n = 0; n < count; n++) value[n] = (double)x[n * stride];
+  lowest[0] = 0;
+  from[0] = -HUGE_VAL;
+  for (size_t n = 1; n < count; n++) {
+    double meet;
+    for (;;) {
+      const size_t m = lowest[last];
+      const double rise = value[n] + (double)(n * n) - value[m] - (double)(m * m);
+      meet = rise / (2 * (double)(n - m));
+      if (meet > from[last]) break;
+      last--;
+    }
+    lowest[++last] = n;
+    from[last] = meet;
+  }
+  for (size_t n = count; n-- > 0;) {
+    while (from[last] > (double)n) last--;
+    const double offset = (double)n - (double)lowest[last];
+    x[n * stride] = (float)(value[lowest[last]] + offset * offset);
+  }
+}
+
+static void nsvcd__measure_depths(nsvcd__voxels *v) {
+  for (size_t n = 0; n < v->count; n++)
+    v->depths[n] = v->kinds[n] == NSVCD__VOXEL_OUTSIDE ? 0 : 1e6f;
+  for (size_t axis = 0; axis < 3; axis++) {
+    const size_t stride = nsvcd__voxel_stride(v, axis);
+    for (size_t n = 0; n < v->count; n++) {
+      if (n / stride % v->sizes[axis] == 0)
+        nsvcd__transform_row(v->depths + n, stride, v->sizes[axis]);
+    }
+  }
+  for (size_t n = 0; n < v->count; n++) v->depths[n] = sqrtf(v->depths[n]);
+}
+
+// 0 without memory. The mesh is checked, and not a cloud. is_open: nothing is inside it.
+static int nsvcd__voxels_build(const nsvcd_mesh *mesh, int is_open, nsvcd__arena *arena,
+                               nsvcd__voxels *v) {
+  nsvcd__d3 low = nsvcd__d3_row(mesh->positions, mesh->indices[0]);
+  nsvcd__d3 high = low;
+  for (size_t n = 0; n < 3 * mesh->triangle_count; n++) {
+    low = nsvcd__d3_min(low, nsvcd__d3_row(mesh->positions, mesh->indices[n]));
+    high = nsvcd__d3_max(high, nsvcd__d3_row(mesh->positions, mesh->indices[n]));
+  }
+  const nsvcd__d3 size = nsvcd__d3_sub(high, low);
+  const double longest = nsvcd__d3_axis(size, nsvcd__d3_longest(size));
+  const nsvcd__d3 ones = {1, 1, 1};
+  v->edge = longest > 0 ? longest / NSVCD__VOXELS : 1;
+  v->first = nsvcd__d3_fma((0.5 - NSVCD__VOXEL_RIM) * v->edge, ones, low);
+  v->count = 1;
+  for (size_t k = 0; k < 3; k++) {
+    const size_t cells = (size_t)(nsvcd__d3_axis(size, k) / v->edge) + 1;
+    const size_t most = NSVCD__VOXELS + 1;
+    v->sizes[k] = (cells < most ? cells : most) + 2 * NSVCD__VOXEL_RIM - 1;
+    v->count *= v->sizes[k];
+  }
+  v->kinds = NSVCD__TAKE(arena, uint8_t, v->count);
+  v->votes = NSVCD__TAKE(arena, int8_t, v->count);
+  v->turns = NSVCD__TAKE(arena, int8_t, v->count);
+  v->depths = NSVCD__TAKE(arena, float, v->count);
+  uint32_t *queue = NSVCD__TAKE(arena, uint32_t, v->count);
+  if (arena->failed) return 0;
+  for (size_t axis = 0; axis < 3; axis++) {
+    memset(v->turns, 0, v->count);
+    for (size_t t = 0; t < mesh->triangle_count; t++) {
+      nsvcd__d3 corners[3];
+      nsvcd__mesh_triangle(mesh, t, corners);
+      nsvcd__mark_edge(v, corners[axis], corners[(axis + 1) % 3]);
+      nsvcd__mark_crossings(v, corners, axis);
+    }
+    if (!is_open) nsvcd__count_votes(v, axis);
+  }
+  nsvcd__fill_outside(v, queue);
+  nsvcd__measure_depths(v);
+  return 1;
+}
+#endif
+
+// --------------------------------------------------------------------------------- body/ball_cover
+// In: a mesh. Out: a few balls that cover it tightly: for looks.
+//
+// THE COVER. A ball about the centre of a cell reaches the nearest cell outside, and `slack` beyond
+// it. Of such balls those that cover most of what is not yet covered are taken, one after another;
+// the slack is the least, by bisection, with which so many are enough. Then balls grow until each
+// triangle is in their union, and what they stick out of the mesh is measured on its triangles.
+// Source: the greedy cover is Chvatal's (1979); the rest is this library's.
+
+#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
+// points of the surface that the bisection covers, and balls that it chooses from, at most
+#define NSVCD__COVER_POINTS 8192
+#define NSVCD__COVER_CHOICES 2048
+// cells of the first steps from a choice to one that covers more
+#define NSVCD__COVER_CLIMB 4
+// halvings of the logarithm of the slack
+#define NSVCD__COVER_STEPS 9
+// of a cell: triangles with longer edges are divided before a ball grows for them
+#define NSVCD__COVER_FINEST 0.5
+
+typedef struct nsvcd__ball_cover {
+  // (count); of each row of 16, neighbours
+  nsvcd__f3 *centres;
+  float *radii;
+  size_t count;
+  // metres: no point of a ball is farther from the solid
+  float error;
+} nsvcd__ball_cover;
+
+// A cover in the making.
+typedef struct nsvcd__coverer {
+  nsvcd__voxels voxels;
+  // (point_count) cells of the surface; (choice_count) cells that balls can be about
+  uint32_t *points, *choices;
+  size_t point_count, choice_count;
+  // (point_count): where the points are, in cells
+  nsvcd__f3 *places;
+  // (choices, words): which points a ball covers; (words): which are not covered yet; which the
+  // ball covers that was tried last
+  uint64_t *covered, *left, *tried;
+  size_t words;
+  // (choices): the most that a ball can still cover
+  uint32_t *gains;
+  // (most)
+  nsvcd__d3 *centres;
+  double *radii;
+  size_t count, most;
+} nsvcd__coverer;
+
+// Every so many-th cell that is as wanted, `most` at the most.
+static size_t nsvcd__choose_cells(const nsvcd__voxels *v, int surface_only, size_t most,
+                                  uint32_t *out) {
+  size_t all = 0;
+  size_t seen = 0;
+  size_t count = 0;
+  for (size_t pass = 0; pass < 2; pass++) {
+    for (size_t n = 0; n < v->count; n++) {
+      const int is_surface = v->kinds[n] == NSVCD__VOXEL_SURFACE;
+      if (v->kinds[n] == NSVCD__VOXEL_OUTSIDE || (surface_only && !is_surface)) continue;
+      if (pass == 0) {
+        all++;
+      } else if (seen++ * most / all >= count && count < most) {
+        out[count++] = (uint32_t)n;
+      }
+    }
+  }
+  return count;
+}
+
+static nsvcd__f3 nsvcd__cell_place(const nsvcd__voxels *v, size_t cell) {
+  const size_t rows = cell / v->sizes[0];
+  return nsvcd__f3_of((float)(cell % v->sizes[0]), (float)(rows % v->sizes[1]),
+                      (float)(rows / v->sizes[1]));
+}
+
+// Which points does a ball cover? centre, radius: in cells. covered: (words). Returns how many.
+static uint32_t nsvcd__covered_by(const nsvcd__coverer *c, nsvcd__f3 centre, float radius,
+                                  uint64_t *covered) {
+  uint32_t count = 0;
+  for (size_t w = 0; w < c->words; w++) {
+    const size_t first = 64 * w;
+    const size_t end = first + 64 < c->point_count ? first + 64 : c->point_count;
+    covered[w] = 0;
+    // points are in the order of cells: z rises
+    if (first >= end || c->places[first].z > centre.z + radius ||
+        c->places[end - 1].z < centre.z - radius)
+      continue;
+    for (size_t p = first; p < end; p++) {
+      const nsvcd__f3 offset = nsvcd__f3_sub(c->places[p], centre);
+      const uint64_t is_in = nsvcd__f3_dot(offset, offset) <= radius * radius;
+      covered[w] |= is_in << (p - first);
+    }
+    count += (uint32_t)nsvcd__bit_count(covered[w]);
+  }
+  return count;
+}
+
+// How many more points the ball about a cell would cover; they are left in c->tried. slack: metres.
+static uint32_t nsvcd__gain_of(nsvcd__coverer *c, size_t cell, double slack) {
+  const nsvcd__voxels *v = &c->voxels;
+  const float radius = v->depths[cell] + (float)(slack / v->edge);
+  uint32_t gain = 0;
+  (void)nsvcd__covered_by(c, nsvcd__cell_place(v, cell), radius, c->tried);
+  for (size_t w = 0; w < c->words; w++)
+    gain += (uint32_t)nsvcd__bit_count(c->tried[w] & c->left[w]);
+  return gain;
+}
+
+// Goes from a cell to others near by, as long as their balls cover more.
+static size_t nsvcd__climb_from(nsvcd__coverer *c, size_t cell, double slack) {
+  const nsvcd__voxels *v = &c->voxels;
+  uint32_t best = nsvcd__gain_of(c, cell, slack);
+  for (size_t step = NSVCD__COVER_CLIMB; step > 0; step /= 2) {
+    for (size_t n = 0; n < 6; n++) {
+      const size_t stride = nsvcd__voxel_stride(v, n / 2);
+      const size_t at = cell / stride % v->sizes[n / 2];
+      if (n % 2 ? at < step : at + step >= v->sizes[n / 2]) continue;
+      const size_t next = n % 2 ? cell - step * stride : cell + step * stride;
+      if (v->kinds[next] == NSVCD__VOXEL_OUTSIDE) continue;
+      const uint32_t gain = nsvcd__gain_of(c, next, slack);
+      if (gain <= best) continue;
+      best = gain;
+      cell = next;
+    }
+  }
+  return cell;
+}
+
+// The choice that covers most. Gains only become less, so the first that keeps its own when it is
+// counted again is the best. Where none covers anything, it is a point that is left.
+static size_t nsvcd__best_choice(nsvcd__coverer *c) {
+  for (;;) {
+    size_t best = 0;
+    uint32_t gain = 0;
+    for (size_t n = 0; n < c->choice_count; n++) {
+      if (c->gains[n] > c->gains[best]) best = n;
+    }
+    for (size_t w = 0; w < c->words; w++)
+      gain += (uint32_t)nsvcd__bit_count(c->covered[best * c->words + w] & c->left[w]);
+    if (gain > 0 && gain == c->gains[best]) return c->choices[best];
+    if (c->gains[best] == 0) break;
+    c->gains[best] = gain;
+  }
+  size_t w = 0;
+  while (!c->left[w]) w++;
+  return c->points[64 * w + nsvcd__low_bit(c->left[w])];
+}
+
+// Takes the balls of a slack, greedily. Returns 0 where `most` of them are not enough.
+static int nsvcd__cover_with(nsvcd__coverer *c, double slack) {
+  const nsvcd__voxels *v = &c->voxels;
+  memset(c->left, 0, c->words * sizeof *c->left);
+  for (size_t p = 0; p < c->point_count; p++) c->left[p / 64] |= (uint64_t)1 << p % 64;
+  for (size_t n = 0; n < c->choice_count; n++) {
+    const float radius = v->depths[c->choices[n]] + (float)(slack / v->edge);
+    const nsvcd__f3 centre = nsvcd__cell_place(v, c->choices[n]);
+    c->gains[n] = nsvcd__covered_by(c, centre, radius, c->covered + n * c->words);
+  }
+  size_t to_cover = c->point_count;
+  for (c->count = 0; to_cover > 0; c->count++) {
+    if (c->count == c->most) return 0;
+    const size_t cell = nsvcd__climb_from(c, nsvcd__best_choice(c), slack);
+    c->centres[c->count] = nsvcd__voxel_centre(v, cell);
+    c->radii[c->count] = (double)v->depths[cell] * v->edge + slack;
+    to_cover -= nsvcd__gain_of(c, cell, slack);
+    for (size_t w = 0; w < c->words; w++) c->left[w] &= ~c->tried[w];
+  }
+  return 1;
+}
+
+// Grows balls until a triangle is in their union. *last: the ball that was enough before.
+static void nsvcd__grow_over(nsvcd__coverer *c, const nsvcd__d3 *t, size_t *last) {
+  double best = HUGE_VAL;
+  size_t nearest = 0;
+  for (size_t i = 0; i < c->count; i++) {
+    const size_t n = i == 0 ? *last : i == *last ? 0 : i;
+    double farthest = 0;
+    for (size_t k = 0; k < 3; k++)
+      farthest = nsvcd__max(farthest, nsvcd__d3_distance2(t[k], c->centres[n]));
+    const double missing = sqrt(farthest) - c->radii[n];
+    if (missing < best) nearest = n;
+    best = nsvcd__min(best, missing);
+    if (best <= 0) break;
+  }
+  *last = nearest;
+  if (best <= 0) return;
+  size_t longest = 0;
+  double length = 0;
+  for (size_t k = 0; k < 3; k++) {
+    const double edge = nsvcd__d3_distance2(t[k], t[(k + 1) % 3]);
+    if (edge > length) longest = k;
+    length = nsvcd__max(length, edge);
+  }
+  const double finest = NSVCD__COVER_FINEST * c->voxels.edge;
+  if (!(length > finest * finest)) {
+    c->radii[nearest] += best;
+    return;
+  }
+  const nsvcd__d3 a = t[longest];
+  const nsvcd__d3 b = t[(longest + 1) % 3];
+  const nsvcd__d3 opposite = t[(longest + 2) % 3];
+  const nsvcd__d3 middle = nsvcd__d3_mix(a, b, 0.5);
+  const nsvcd__d3 halves[2][3] = {{a, middle, opposite}, {middle, b, opposite}};
+  nsvcd__grow_over(c, halves[0], last);
+  nsvcd__grow_over(c, halves[1], last);
+}
+
+// How far the balls go beyond the solid, at most. A ball about a point inside, at a depth d, has no
+// point farther from it than its radius less d; about one outside, at a height d, its radius plus d.
+// The depth is that of the nearest triangle, or by the cells, where that is more: within a solid of
+// several components there are triangles of the others. depths: (count).
+static double nsvcd__cover_error(const nsvcd__coverer *c, const nsvcd_mesh *mesh,
+                                 double *depths) {
+  for (size_t n = 0; n < c->count; n++) depths[n] = HUGE_VAL;
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    nsvcd__d3 corners[3];
+    nsvcd__mesh_triangle(mesh, t, corners);
+    const double reach = sqrt(nsvcd__max(nsvcd__d3_distance2(corners[0], corners[1]),
+                                         nsvcd__d3_distance2(corners[0], corners[2])));
+    for (size_t n = 0; n < c->count; n++) {
+      const nsvcd__d3 centre[3] = {c->centres[n], c->centres[n], c->centres[n]};
+      const double nearest = depths[n] + reach;
+      if (nsvcd__d3_distance2(centre[0], corners[0]) > nearest * nearest) continue;
+      depths[n] = nsvcd__min(depths[n], sqrt(nsvcd__nearest_of(centre, corners).square));
+    }
+  }
+  double worst = 0;
+  for (size_t n = 0; n < c->count; n++) {
+    const size_t cell = nsvcd__voxel_at(&c->voxels, c->centres[n]);
+    const int is_inside = c->voxels.kinds[cell] == NSVCD__VOXEL_HOLLOW ||
+                          nsvcd__is_voted_inside(&c->voxels, cell);
+    const double by_cells = ((double)c->voxels.depths[cell] - 2) * c->voxels.edge;
+    const double depth = is_inside ? nsvcd__max(depths[n], by_cells) : -depths[n];
+    worst = nsvcd__max(worst, c->radii[n] - depth);
+  }
+  return worst;
+}
+
+// Covers a checked mesh, no cloud, by o->balls balls at the most. 0 without memory. out: taken from
+// the arena.
+static int nsvcd__ball_cover_build(const nsvcd_mesh *mesh, const nsvcd_encode_options *o,
+                                   nsvcd__arena *arena, nsvcd__ball_cover *out) {
+  const size_t most = o->balls;
+  const double convex_radius = (double)o->convex_radius;
+  nsvcd__coverer c;
+  nsvcd__arena spare = nsvcd__arena_of(arena->allocator);
+  memset(&c, 0, sizeof c);
+  c.most = most;
+  c.points = NSVCD__TAKE(&spare, uint32_t, NSVCD__COVER_POINTS);
+  c.choices = NSVCD__TAKE(&spare, uint32_t, NSVCD__COVER_CHOICES);
+  c.words = NSVCD__COVER_POINTS / 64;
+  c.covered = NSVCD__TAKE(&spare, uint64_t, NSVCD__COVER_CHOICES * c.words);
+  c.left = NSVCD__TAKE(&spare, uint64_t, c.words);
+  c.tried = NSVCD__TAKE(&spare, uint64_t, c.words);
+  c.gains = NSVCD__TAKE(&spare, uint32_t, NSVCD__COVER_CHOICES);
+  c.centres = NSVCD__TAKE(&spare, nsvcd__d3, most);
+  c.radii = NSVCD__TAKE(&spare, double, most);
+  c.places = NSVCD__TAKE(&spare, nsvcd__f3, NSVCD__COVER_POINTS);
+  double *depths = NSVCD__TAKE(&spare, double, most);
+  uint16_t *order = NSVCD__TAKE(&spare, uint16_t, 2 * most);
+  nsvcd__f3 *centres = NSVCD__TAKE(&spare, nsvcd__f3, most);
+  out->centres = NSVCD__TAKE(arena, nsvcd__f3, most);
+  out->radii = NSVCD__TAKE(arena, float, most);
+  if (arena->failed || spare.failed ||
+      !nsvcd__voxels_build(mesh, o->open, &spare, &c.voxels)) {
+    nsvcd__arena_free(&spare);
+    return 0;
+  }
+  const nsvcd__voxels *v = &c.voxels;
+  c.point_count = nsvcd__choose_cells(v, 1, NSVCD__COVER_POINTS, c.points);
+  c.choice_count = nsvcd__choose_cells(v, 0, NSVCD__COVER_CHOICES, c.choices);
+  for (size_t p = 0; p < c.point_count; p++) c.places[p] = nsvcd__cell_place(v, c.points[p]);
+  // with the last of these one ball is enough
+  double low = 0.25 * v->edge;
+  double high = 2 * (double)(NSVCD__VOXELS + 2 * NSVCD__VOXEL_RIM) * v->edge;
+  for (int step = 0; step < NSVCD__COVER_STEPS; step++) {
+    const double middle = sqrt(low * high);
+    *(nsvcd__cover_with(&c, middle) ? &high : &low) = middle;
+  }
+  (void)nsvcd__cover_with(&c, high);
+  size_t last = 0;
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    nsvcd__d3 corners[3];
+    nsvcd__mesh_triangle(mesh, t, corners);
+    nsvcd__grow_over(&c, corners, &last);
+  }
+  const double error = nsvcd__cover_error(&c, mesh, depths);
+  for (size_t n = 0; n < c.count; n++) {
+    centres[n] = nsvcd__f3_round(c.centres[n]);
+    order[n] = (uint16_t)n;
+  }
+  nsvcd__body_order(centres, order, order + most, c.count);
+  double rounding = 0;
+  for (size_t n = 0; n < c.count; n++) {
+    const size_t from = order[n];
+    const double length = nsvcd__d3_norm(c.centres[from]) + c.radii[from] + convex_radius;
+    rounding = nsvcd__max(rounding, 1e-6 * length);
+    out->centres[n] = centres[from];
+    out->radii[n] = nsvcd__above(c.radii[from] + convex_radius + 5e-7 * length);
+  }
+  out->count = c.count;
+  out->error = nsvcd__above(error + rounding);
+  nsvcd__arena_free(&spare);
+  return 1;
+}
+#endif
+
 // -------------------------------------------------------------------------------------- body/trust
 // In: bytes of any origin. Out: a body, if nsvcd_encode could have written them.
 
@@ -7990,6 +8586,19 @@ static int nsvcd__are_in_range(const nsvcd__geometry *f) {
   return ok;
 }
 
+// Are the balls spheres, and is each 16 in the sphere over them? Whether they cover the surface is
+// not checked: looks prove nothing.
+static int nsvcd__balls_are_sound(const nsvcd__geometry *f) {
+  const size_t count = f->counts->balls;
+  const size_t slots = nsvcd__round_up(count, NSVCD__GROUP);
+  const nsvcd__spheres balls = nsvcd__balls_of(f);
+  const nsvcd__spheres clusters = nsvcd__ball_clusters_of(f);
+  const float most = NSVCD__MAX_LENGTH;
+  return nsvcd__are_spheres(balls, count, slots, most) &&
+         nsvcd__are_spheres(clusters, slots / NSVCD__GROUP, nsvcd__group_slots(slots), most) &&
+         nsvcd__level_covers(clusters, balls, count);
+}
+
 // Is a body of triangles sound, if its header is? Checks the spheres, the layout (sizes, counts and
 // indices), and that numbers are in range: they may misstate the surface, but nothing computed from
 // them overflows. size: bytes, at most.
@@ -7999,12 +8608,14 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
   nsvcd__geometry f;
   if (b->inner != 0 || b->triangles == 0 || !nsvcd__spheres_are_sound(b)) return 0;
   if (counted > size || n->open_solids > n->solids || n->is_mixed > 1) return 0;
+  if (n->balls > NSVCD_MAX_BALLS || n->is_box > 1 || !nsvcd__is_length(n->ball_error))
+    return 0;
   if (!nsvcd__is_length(n->gap) || !nsvcd__is_length(n->convex_radius)) return 0;
   if (b->radius + n->convex_radius < NSVCD_MIN_RADIUS) return 0;
   const size_t needed = nsvcd__geometry_layout(NULL, b->patches, n, &f);
   if (b->size != needed || b->size > size) return 0;
   f = nsvcd__geometry_of(b);
-  int ok = nsvcd__are_laid_out(&f) && nsvcd__are_in_range(&f);
+  int ok = nsvcd__are_laid_out(&f) && nsvcd__are_in_range(&f) && nsvcd__balls_are_sound(&f);
   for (size_t i = 0; ok && i < b->patches; i++) ok = nsvcd__patch_is_sound(&f, i);
   for (size_t g = 0; ok && g < nsvcd__body_groups(b); g++) {
     nsvcd__hulls hulls;
@@ -8096,6 +8707,27 @@ static void nsvcd__scale_latents(nsvcd_body *b, float scale) {
   b->checksum = nsvcd__body_checksum(b);
 }
 
+// Scales the balls, which become larger by what rounding does to them and to the vertices.
+static void nsvcd__scale_balls(const nsvcd__geometry *f, double by) {
+  const size_t count = f->counts->balls;
+  const size_t slots = nsvcd__round_up(count, NSVCD__GROUP);
+  double rounding = 0;
+  for (size_t n = 0; n < count; n++) {
+    nsvcd__sphere ball = nsvcd__sphere_of(nsvcd__balls_of(f), n);
+    const nsvcd__d3 centre = nsvcd__d3_scale(nsvcd__d3_widen(ball.centre), by);
+    const double radius = (double)ball.radius * by;
+    const double more = 5e-7 * (nsvcd__d3_norm(centre) + radius);
+    rounding = nsvcd__max(rounding, 2 * more);
+    ball.centre = nsvcd__f3_round(centre);
+    ball.radius = nsvcd__above(radius + more);
+    nsvcd__sphere_store(ball, f->balls, slots, n);
+  }
+  if (count > 0)
+    f->counts->ball_error = nsvcd__above((double)f->counts->ball_error * by + rounding);
+  nsvcd__cover_groups(nsvcd__balls_of(f), count, f->balls + 4 * slots,
+                      nsvcd__group_slots(slots));
+}
+
 // Scales a body of triangles. What rounding does to vertices and to the convex radius widens the
 // margins and errors, and is what vertices are off by.
 static void nsvcd__scale_triangles(nsvcd_body *b, float scale) {
@@ -8127,6 +8759,7 @@ static void nsvcd__scale_triangles(nsvcd_body *b, float scale) {
     nsvcd__slab_store(slab, f.slabs, b->padded, i);
   }
   for (size_t i = 0; i < 3 * (size_t)f.counts->components; i++) f.seeds[i] *= scale;
+  nsvcd__scale_balls(&f, by);
   nsvcd__geometry_finish(b, off_mesh > 0 ? nsvcd__above(off_mesh) : 0);
 }
 
@@ -8180,6 +8813,8 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
     memcpy(facts.high, f.box + 3, sizeof facts.high);
     facts.quantization_error = nsvcd__off_mesh(&f);
     facts.convex_radius = f.counts->convex_radius;
+    facts.balls = f.counts->balls;
+    facts.ball_error = f.counts->ball_error;
     facts.components = f.counts->solids;
     facts.open_components = f.counts->open_solids;
     facts.open_edges = f.counts->open_edges;
@@ -8223,6 +8858,7 @@ static size_t nsvcd__numbers_write(const nsvcd__surface *s, size_t i, unsigned c
 typedef struct nsvcd__writer {
   nsvcd__surface *surface;
   const nsvcd_mesh *mesh;
+  nsvcd__ball_cover cover;
   // (vertices of the mesh) their numbers in the body, from 1; 0: none yet
   uint32_t *numbers;
   // (triangles) 1: stored in pieces
@@ -8233,6 +8869,34 @@ typedef struct nsvcd__writer {
 
 static size_t nsvcd__mesh_corner(const nsvcd_mesh *mesh, size_t t, size_t k) {
   return mesh->indices ? mesh->indices[3 * t + k] : t;
+}
+
+// Is a closed mesh a box along the axes: twelve triangles, each of three corners of the box, two to
+// a face?
+static uint32_t nsvcd__is_box(const nsvcd_mesh *mesh) {
+  const nsvcd__d3 ones = {1, 1, 1};
+  nsvcd__d3 low = nsvcd__d3_scale(ones, HUGE_VAL);
+  nsvcd__d3 high = nsvcd__d3_scale(ones, -HUGE_VAL);
+  int faces[6] = {0};
+  if (!mesh->indices || mesh->triangle_count != 12) return 0;
+  for (size_t n = 0; n < 36; n++) {
+    low = nsvcd__d3_min(low, nsvcd__d3_row(mesh->positions, mesh->indices[n]));
+    high = nsvcd__d3_max(high, nsvcd__d3_row(mesh->positions, mesh->indices[n]));
+  }
+  for (size_t t = 0; t < 12; t++) {
+    size_t sides[3] = {0, 0, 0};
+    for (size_t n = 0; n < 9; n++) {
+      const size_t v = mesh->indices[3 * t + n / 3];
+      const double x = (double)mesh->positions[3 * v + n % 3];
+      const int is_high = x >= nsvcd__d3_axis(high, n % 3);
+      if (!is_high && x > nsvcd__d3_axis(low, n % 3)) return 0;
+      sides[n % 3] += (size_t)is_high;
+    }
+    for (size_t k = 0; k < 3; k++) faces[2 * k + (sides[k] == 3)] += sides[k] % 3 == 0;
+  }
+  int is_box = 1;
+  for (size_t k = 0; k < 6; k++) is_box &= faces[k] == 2;
+  return (uint32_t)is_box;
 }
 
 // Fills in the writer: counts what the body of a complete surface will have. 0 without memory.
@@ -8254,6 +8918,8 @@ static int nsvcd__geometry_count(nsvcd__writer *w, nsvcd__arena *arena) {
   counts->open_solids = (uint32_t)solids->open_components;
   counts->open_edges = (uint32_t)solids->open_edges;
   counts->is_mixed = (uint32_t)solids->is_mixed;
+  counts->balls = (uint32_t)w->cover.count;
+  counts->is_box = solids->components == 1 && !solids->open_components && nsvcd__is_box(mesh);
   if (solids->gap > 0) counts->gap = nsvcd__above(solids->gap);
   uint64_t bytes = 0;
   for (size_t i = 0; i < s->count; i++) {
@@ -8405,6 +9071,28 @@ static void nsvcd__seeds_write(const nsvcd__writer *w, const uint16_t *order) {
   memset(numbers, 0, patches * sizeof *numbers);
 }
 
+// Writes the balls, a coarse body's larger by what its surface is off the mesh.
+static void nsvcd__balls_write(nsvcd__writer *w) {
+  const nsvcd__geometry *f = &w->to;
+  const nsvcd__ball_cover *cover = &w->cover;
+  const size_t slots = nsvcd__round_up(cover->count, NSVCD__GROUP);
+  float off = 0;
+  for (size_t i = 0; i < f->body->patches && w->surface->coarse; i++)
+    off = f->errors[i] > off ? f->errors[i] : off;
+  for (size_t n = 0; n < slots; n++) {
+    nsvcd__sphere ball = {{0, 0, 0}, NSVCD__NOWHERE};
+    if (n < cover->count) {
+      ball.centre = cover->centres[n];
+      ball.radius = nsvcd__above((double)cover->radii[n] + (double)off);
+    }
+    nsvcd__sphere_store(ball, f->balls, slots, n);
+  }
+  if (cover->count > 0)
+    f->counts->ball_error = nsvcd__above((double)cover->error + 2 * (double)off);
+  nsvcd__cover_groups(nsvcd__balls_of(f), cover->count, f->balls + 4 * slots,
+                      nsvcd__group_slots(slots));
+}
+
 // Builds a body of triangles of `size` bytes in `memory`, and uses up the writer. order: (N) of the
 // patches. NUMBER if it is too large, EMPTY if it is too small.
 static nsvcd_result nsvcd__geometry_build(nsvcd__writer *w, const uint16_t *order, int open,
@@ -8418,6 +9106,7 @@ static nsvcd_result nsvcd__geometry_build(nsvcd__writer *w, const uint16_t *orde
   nsvcd__seeds_write(w, order);
   for (size_t i = 0; i < s->count; i++) nsvcd__patch_write(w, order[i], i);
   if (!s->coarse) nsvcd__cut_write(w);
+  nsvcd__balls_write(w);
   if (!nsvcd__in_range(nsvcd__body_r(b), b->patches, 4 * NSVCD_MAX_COORDINATE))
     return NSVCD_ERROR_NUMBER;
   nsvcd__geometry_finish(b, 0);
@@ -8600,7 +9289,9 @@ static nsvcd_result nsvcd__draft_build(const nsvcd_mesh *mesh, const nsvcd_encod
     nsvcd__writer *w = &d->writer;
     w->surface = &d->surface;
     w->mesh = mesh;
-    if (!nsvcd__geometry_count(w, &d->arena)) result = NSVCD_ERROR_MEMORY;
+    if (o->balls && mesh->indices && !nsvcd__ball_cover_build(mesh, o, &d->arena, &w->cover))
+      result = NSVCD_ERROR_MEMORY;
+    if (!result && !nsvcd__geometry_count(w, &d->arena)) result = NSVCD_ERROR_MEMORY;
     w->counts.convex_radius = o->convex_radius;
     d->geometry_size = nsvcd__geometry_layout(NULL, d->count, &w->counts, &w->to);
     if (!result && !d->geometry_size) result = NSVCD_ERROR_TOO_LARGE;
@@ -8670,6 +9361,8 @@ static nsvcd_result nsvcd__encode_resolve(const nsvcd_mesh *mesh, nsvcd_encode_o
   if (!nsvcd__is_length(o->convex_radius)) return NSVCD_ERROR_RADIUS;
   if (o->convex_radius > 0 && o->latents) return NSVCD_ERROR_LATENTS;
   if (o->patches > NSVCD_MAX_PATCHES) return NSVCD_ERROR_PATCHES;
+  if (o->balls > NSVCD_MAX_BALLS) return NSVCD_ERROR_COUNT;
+  if (o->balls && o->no_triangles) return NSVCD_ERROR_TRIANGLES;
   const nsvcd_result checked = mesh->indices ? nsvcd__mesh_check(mesh) : NSVCD_OK;
   if (checked) return checked;
   if (o->patches == 0 && o->convex_radius > 0 && nsvcd__has_points(mesh))

@@ -201,6 +201,8 @@ extern "C" {
 #include "body/body.h"       // balls in groups of 16, and levels of spheres above
 #include "body/traversal.h"  // the groups whose spheres pass a test
 #include "body/geometry.h"   // what the proof reads: slabs, hulls, triangles
+#include "body/voxels.h"     // a mesh as a grid of cells
+#include "body/ball_cover.h"  // a few balls that cover a mesh, for looks
 #include "body/trust.h"      // is a blob sound? load it, scale it, describe it
 #include "body/write.h"      // a surface -> what the proof reads
 #include "body/encode.h"     // nsvcd_encode

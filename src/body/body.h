@@ -50,7 +50,7 @@
 #define NSVCD__MAX_LENGTH 1.6e7f
 #define NSVCD__BODY_MAGIC 0x4256534eu  // "NSVB", or "BVSN": the mark of the byte order
 #define NSVCD__OTHER_MAGIC 0x4e535642u
-#define NSVCD__BODY_VERSION 8u
+#define NSVCD__BODY_VERSION 9u
 
 struct nsvcd_body {
   uint32_t magic, version;
@@ -343,18 +343,21 @@ static nsvcd__sphere nsvcd__cover_spheres(nsvcd__spheres all, size_t count) {
   return best;
 }
 
-// Fills a level with spheres over 16 of `members` spheres each.
-static void nsvcd__cover_level(nsvcd_body *body, size_t k, nsvcd__spheres below,
-                               size_t members) {
-  const nsvcd__level level = nsvcd__level_of(body->padded, k);
-  float *out = (float *)(body + 1) + level.first;
-  for (size_t g = 0; g < level.slots; g++) {
+// Fills a level, (4, slots), with spheres over 16 of `members` spheres each.
+static void nsvcd__cover_groups(nsvcd__spheres below, size_t members, float *out,
+                                size_t slots) {
+  for (size_t g = 0; g < slots; g++) {
     nsvcd__sphere sphere = {{0, 0, 0}, NSVCD__NOWHERE};
     const size_t i = g * NSVCD__GROUP;
     const size_t count = nsvcd__group_members(members, i);
     if (count) sphere = nsvcd__cover_spheres(nsvcd__spheres_from(below, i), count);
-    nsvcd__sphere_store(sphere, out, level.slots, g);
+    nsvcd__sphere_store(sphere, out, slots, g);
   }
+}
+static void nsvcd__cover_level(nsvcd_body *body, size_t k, nsvcd__spheres below,
+                               size_t members) {
+  const nsvcd__level level = nsvcd__level_of(body->padded, k);
+  nsvcd__cover_groups(below, members, (float *)(body + 1) + level.first, level.slots);
 }
 
 // Fills in the levels above the groups, the bounding sphere and the extent of a blob whose patches

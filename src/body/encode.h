@@ -177,7 +177,9 @@ static nsvcd_result nsvcd__draft_build(const nsvcd_mesh *mesh, const nsvcd_encod
     nsvcd__writer *w = &d->writer;
     w->surface = &d->surface;
     w->mesh = mesh;
-    if (!nsvcd__geometry_count(w, &d->arena)) result = NSVCD_ERROR_MEMORY;
+    if (o->balls && mesh->indices && !nsvcd__ball_cover_build(mesh, o, &d->arena, &w->cover))
+      result = NSVCD_ERROR_MEMORY;
+    if (!result && !nsvcd__geometry_count(w, &d->arena)) result = NSVCD_ERROR_MEMORY;
     w->counts.convex_radius = o->convex_radius;
     d->geometry_size = nsvcd__geometry_layout(NULL, d->count, &w->counts, &w->to);
     if (!result && !d->geometry_size) result = NSVCD_ERROR_TOO_LARGE;
@@ -247,6 +249,8 @@ static nsvcd_result nsvcd__encode_resolve(const nsvcd_mesh *mesh, nsvcd_encode_o
   if (!nsvcd__is_length(o->convex_radius)) return NSVCD_ERROR_RADIUS;
   if (o->convex_radius > 0 && o->latents) return NSVCD_ERROR_LATENTS;
   if (o->patches > NSVCD_MAX_PATCHES) return NSVCD_ERROR_PATCHES;
+  if (o->balls > NSVCD_MAX_BALLS) return NSVCD_ERROR_COUNT;
+  if (o->balls && o->no_triangles) return NSVCD_ERROR_TRIANGLES;
   const nsvcd_result checked = mesh->indices ? nsvcd__mesh_check(mesh) : NSVCD_OK;
   if (checked) return checked;
   if (o->patches == 0 && o->convex_radius > 0 && nsvcd__has_points(mesh))

@@ -6,6 +6,9 @@
 //   box             (2, 3)   float: least and greatest coordinates of the surface
 //   widest          (2)      float: the greatest of `errors`; and how far the mesh's vertices are
 //                            off, metres: 0, except in bodies that are scaled or coarse
+//   balls           (4, A)   float: balls that cover the mesh, x, y, z, r, in rows of 16 neighbours;
+//                            A: their count rounded up to 16, padding as above
+//   clusters        (4, A')  float: spheres over 16 balls each; A': as G of A
 //   slabs           (6, P)   float: normal n, low, high, across: points x of a piece have
 //                            low <= n.(x - c) <= high and are within `across` of the line along n
 //                            through c, the centre of the patch's sphere
@@ -59,13 +62,18 @@ typedef struct nsvcd__counts {
   uint32_t is_mixed;
   // metres: corners this near count as one in what is closed
   float gap;
+  // balls that cover the mesh; metres: no point of them is farther from the solid
+  uint32_t balls;
+  float ball_error;
+  // 1: the mesh is a box along the axes, solid
+  uint32_t is_box;
 } nsvcd__counts;
 
 // Where everything is in a body of triangles. Only who builds or scales one writes through this.
 typedef struct nsvcd__geometry {
   nsvcd_body *body;
   nsvcd__counts *counts;
-  float *box, *slabs, *group_slabs, *steps, *margins, *errors, *seeds, *positions;
+  float *box, *balls, *slabs, *group_slabs, *steps, *margins, *errors, *seeds, *positions;
   uint32_t *first_vertex, *first_own, *first_reference, *first_triangle, *first_byte;
   uint32_t *first_seed, *cut, *cut_corners;
   unsigned char *references;
@@ -109,6 +117,8 @@ static size_t nsvcd__geometry_layout(nsvcd_body *body, size_t patches,
   f->kind_bits = 1 + (counts->is_mixed != 0);
   f->counts = NSVCD__PASS(nsvcd__counts, 1);
   f->box = NSVCD__PASS(float, NSVCD__GEOMETRY_BOX);
+  const size_t balls = nsvcd__round_up(counts->balls, NSVCD__GROUP);
+  f->balls = NSVCD__PASS(float, 4 * (balls + nsvcd__group_slots(balls)));
   f->slabs = NSVCD__PASS(float, 6 * padded);
   f->group_slabs = NSVCD__PASS(float, 6 * nsvcd__group_slots(padded));
   f->steps = NSVCD__PASS(float, padded);
@@ -140,6 +150,16 @@ static nsvcd__geometry nsvcd__geometry_of(const nsvcd_body *body) {
   memcpy(&b, &body, sizeof b);
   (void)nsvcd__geometry_layout(b, body->patches, nsvcd__counts_of(body), &f);
   return f;
+}
+
+// The balls that cover the mesh, and the spheres over 16 of them each.
+static nsvcd__spheres nsvcd__balls_of(const nsvcd__geometry *f) {
+  const size_t slots = nsvcd__round_up(f->counts->balls, NSVCD__GROUP);
+  return nsvcd__spheres_of(f->balls, slots);
+}
+static nsvcd__spheres nsvcd__ball_clusters_of(const nsvcd__geometry *f) {
+  const size_t slots = nsvcd__round_up(f->counts->balls, NSVCD__GROUP);
+  return nsvcd__spheres_of(f->balls + 4 * slots, nsvcd__group_slots(slots));
 }
 
 static float nsvcd__widest_error(const nsvcd__geometry *f) {

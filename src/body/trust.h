@@ -183,6 +183,19 @@ static int nsvcd__are_in_range(const nsvcd__geometry *f) {
   return ok;
 }
 
+// Are the balls spheres, and is each 16 in the sphere over them? Whether they cover the surface is
+// not checked: looks prove nothing.
+static int nsvcd__balls_are_sound(const nsvcd__geometry *f) {
+  const size_t count = f->counts->balls;
+  const size_t slots = nsvcd__round_up(count, NSVCD__GROUP);
+  const nsvcd__spheres balls = nsvcd__balls_of(f);
+  const nsvcd__spheres clusters = nsvcd__ball_clusters_of(f);
+  const float most = NSVCD__MAX_LENGTH;
+  return nsvcd__are_spheres(balls, count, slots, most) &&
+         nsvcd__are_spheres(clusters, slots / NSVCD__GROUP, nsvcd__group_slots(slots), most) &&
+         nsvcd__level_covers(clusters, balls, count);
+}
+
 // Is a body of triangles sound, if its header is? Checks the spheres, the layout (sizes, counts and
 // indices), and that numbers are in range: they may misstate the surface, but nothing computed from
 // them overflows. size: bytes, at most.
@@ -192,12 +205,14 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
   nsvcd__geometry f;
   if (b->inner != 0 || b->triangles == 0 || !nsvcd__spheres_are_sound(b)) return 0;
   if (counted > size || n->open_solids > n->solids || n->is_mixed > 1) return 0;
+  if (n->balls > NSVCD_MAX_BALLS || n->is_box > 1 || !nsvcd__is_length(n->ball_error))
+    return 0;
   if (!nsvcd__is_length(n->gap) || !nsvcd__is_length(n->convex_radius)) return 0;
   if (b->radius + n->convex_radius < NSVCD_MIN_RADIUS) return 0;
   const size_t needed = nsvcd__geometry_layout(NULL, b->patches, n, &f);
   if (b->size != needed || b->size > size) return 0;
   f = nsvcd__geometry_of(b);
-  int ok = nsvcd__are_laid_out(&f) && nsvcd__are_in_range(&f);
+  int ok = nsvcd__are_laid_out(&f) && nsvcd__are_in_range(&f) && nsvcd__balls_are_sound(&f);
   for (size_t i = 0; ok && i < b->patches; i++) ok = nsvcd__patch_is_sound(&f, i);
   for (size_t g = 0; ok && g < nsvcd__body_groups(b); g++) {
     nsvcd__hulls hulls;
@@ -289,6 +304,27 @@ static void nsvcd__scale_latents(nsvcd_body *b, float scale) {
   b->checksum = nsvcd__body_checksum(b);
 }
 
+// Scales the balls, which become larger by what rounding does to them and to the vertices.
+static void nsvcd__scale_balls(const nsvcd__geometry *f, double by) {
+  const size_t count = f->counts->balls;
+  const size_t slots = nsvcd__round_up(count, NSVCD__GROUP);
+  double rounding = 0;
+  for (size_t n = 0; n < count; n++) {
+    nsvcd__sphere ball = nsvcd__sphere_of(nsvcd__balls_of(f), n);
+    const nsvcd__d3 centre = nsvcd__d3_scale(nsvcd__d3_widen(ball.centre), by);
+    const double radius = (double)ball.radius * by;
+    const double more = 5e-7 * (nsvcd__d3_norm(centre) + radius);
+    rounding = nsvcd__max(rounding, 2 * more);
+    ball.centre = nsvcd__f3_round(centre);
+    ball.radius = nsvcd__above(radius + more);
+    nsvcd__sphere_store(ball, f->balls, slots, n);
+  }
+  if (count > 0)
+    f->counts->ball_error = nsvcd__above((double)f->counts->ball_error * by + rounding);
+  nsvcd__cover_groups(nsvcd__balls_of(f), count, f->balls + 4 * slots,
+                      nsvcd__group_slots(slots));
+}
+
 // Scales a body of triangles. What rounding does to vertices and to the convex radius widens the
 // margins and errors, and is what vertices are off by.
 static void nsvcd__scale_triangles(nsvcd_body *b, float scale) {
@@ -320,6 +356,7 @@ static void nsvcd__scale_triangles(nsvcd_body *b, float scale) {
     nsvcd__slab_store(slab, f.slabs, b->padded, i);
   }
   for (size_t i = 0; i < 3 * (size_t)f.counts->components; i++) f.seeds[i] *= scale;
+  nsvcd__scale_balls(&f, by);
   nsvcd__geometry_finish(b, off_mesh > 0 ? nsvcd__above(off_mesh) : 0);
 }
 
@@ -373,6 +410,8 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
     memcpy(facts.high, f.box + 3, sizeof facts.high);
     facts.quantization_error = nsvcd__off_mesh(&f);
     facts.convex_radius = f.counts->convex_radius;
+    facts.balls = f.counts->balls;
+    facts.ball_error = f.counts->ball_error;
     facts.components = f.counts->solids;
     facts.open_components = f.counts->open_solids;
     facts.open_edges = f.counts->open_edges;

@@ -1,6 +1,7 @@
 // In: a surface, and its mesh. Out: the body of triangles that body/geometry reads.
 #pragma once
 #include "../surface/surface.h"
+#include "ball_cover.h"
 #include "geometry.h"
 
 #ifndef NSVCD_NO_ENCODER
@@ -27,6 +28,7 @@ static size_t nsvcd__numbers_write(const nsvcd__surface *s, size_t i, unsigned c
 typedef struct nsvcd__writer {
   nsvcd__surface *surface;
   const nsvcd_mesh *mesh;
+  nsvcd__ball_cover cover;
   // (vertices of the mesh) their numbers in the body, from 1; 0: none yet
   uint32_t *numbers;
   // (triangles) 1: stored in pieces
@@ -37,6 +39,34 @@ typedef struct nsvcd__writer {
 
 static size_t nsvcd__mesh_corner(const nsvcd_mesh *mesh, size_t t, size_t k) {
   return mesh->indices ? mesh->indices[3 * t + k] : t;
+}
+
+// Is a closed mesh a box along the axes: twelve triangles, each of three corners of the box, two to
+// a face?
+static uint32_t nsvcd__is_box(const nsvcd_mesh *mesh) {
+  const nsvcd__d3 ones = {1, 1, 1};
+  nsvcd__d3 low = nsvcd__d3_scale(ones, HUGE_VAL);
+  nsvcd__d3 high = nsvcd__d3_scale(ones, -HUGE_VAL);
+  int faces[6] = {0};
+  if (!mesh->indices || mesh->triangle_count != 12) return 0;
+  for (size_t n = 0; n < 36; n++) {
+    low = nsvcd__d3_min(low, nsvcd__d3_row(mesh->positions, mesh->indices[n]));
+    high = nsvcd__d3_max(high, nsvcd__d3_row(mesh->positions, mesh->indices[n]));
+  }
+  for (size_t t = 0; t < 12; t++) {
+    size_t sides[3] = {0, 0, 0};
+    for (size_t n = 0; n < 9; n++) {
+      const size_t v = mesh->indices[3 * t + n / 3];
+      const double x = (double)mesh->positions[3 * v + n % 3];
+      const int is_high = x >= nsvcd__d3_axis(high, n % 3);
+      if (!is_high && x > nsvcd__d3_axis(low, n % 3)) return 0;
+      sides[n % 3] += (size_t)is_high;
+    }
+    for (size_t k = 0; k < 3; k++) faces[2 * k + (sides[k] == 3)] += sides[k] % 3 == 0;
+  }
+  int is_box = 1;
+  for (size_t k = 0; k < 6; k++) is_box &= faces[k] == 2;
+  return (uint32_t)is_box;
 }
 
 // Fills in the writer: counts what the body of a complete surface will have. 0 without memory.
@@ -58,6 +88,8 @@ static int nsvcd__geometry_count(nsvcd__writer *w, nsvcd__arena *arena) {
   counts->open_solids = (uint32_t)solids->open_components;
   counts->open_edges = (uint32_t)solids->open_edges;
   counts->is_mixed = (uint32_t)solids->is_mixed;
+  counts->balls = (uint32_t)w->cover.count;
+  counts->is_box = solids->components == 1 && !solids->open_components && nsvcd__is_box(mesh);
   if (solids->gap > 0) counts->gap = nsvcd__above(solids->gap);
   uint64_t bytes = 0;
   for (size_t i = 0; i < s->count; i++) {
@@ -209,6 +241,28 @@ static void nsvcd__seeds_write(const nsvcd__writer *w, const uint16_t *order) {
   memset(numbers, 0, patches * sizeof *numbers);
 }
 
+// Writes the balls, a coarse body's larger by what its surface is off the mesh.
+static void nsvcd__balls_write(nsvcd__writer *w) {
+  const nsvcd__geometry *f = &w->to;
+  const nsvcd__ball_cover *cover = &w->cover;
+  const size_t slots = nsvcd__round_up(cover->count, NSVCD__GROUP);
+  float off = 0;
+  for (size_t i = 0; i < f->body->patches && w->surface->coarse; i++)
+    off = f->errors[i] > off ? f->errors[i] : off;
+  for (size_t n = 0; n < slots; n++) {
+    nsvcd__sphere ball = {{0, 0, 0}, NSVCD__NOWHERE};
+    if (n < cover->count) {
+      ball.centre = cover->centres[n];
+      ball.radius = nsvcd__above((double)cover->radii[n] + (double)off);
+    }
+    nsvcd__sphere_store(ball, f->balls, slots, n);
+  }
+  if (cover->count > 0)
+    f->counts->ball_error = nsvcd__above((double)cover->error + 2 * (double)off);
+  nsvcd__cover_groups(nsvcd__balls_of(f), cover->count, f->balls + 4 * slots,
+                      nsvcd__group_slots(slots));
+}
+
 // Builds a body of triangles of `size` bytes in `memory`, and uses up the writer. order: (N) of the
 // patches. NUMBER if it is too large, EMPTY if it is too small.
 static nsvcd_result nsvcd__geometry_build(nsvcd__writer *w, const uint16_t *order, int open,
@@ -222,6 +276,7 @@ static nsvcd_result nsvcd__geometry_build(nsvcd__writer *w, const uint16_t *orde
   nsvcd__seeds_write(w, order);
   for (size_t i = 0; i < s->count; i++) nsvcd__patch_write(w, order[i], i);
   if (!s->coarse) nsvcd__cut_write(w);
+  nsvcd__balls_write(w);
   if (!nsvcd__in_range(nsvcd__body_r(b), b->patches, 4 * NSVCD_MAX_COORDINATE))
     return NSVCD_ERROR_NUMBER;
   nsvcd__geometry_finish(b, 0);
