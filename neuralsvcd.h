@@ -54,6 +54,7 @@
 //   nsvcd_encode          a mesh -> a body; nsvcd_encode_sphere, _capsule, _box, _cloud: a shape
 //   nsvcd_body_load       bytes -> a body, every byte checked
 //   nsvcd_body_describe   a body -> its size, box, triangles; is it closed?
+//   nsvcd_look            do two bodies meet, in 16 places at once? an opinion, by balls
 //   nsvcd_sweep           a question -> an answer; nsvcd_sweep_batch: many
 //   nsvcd_sweep_gradient  a question -> the network's answer, and its derivatives by the poses
 //   nsvcd_plan            a start and a goal -> a smooth motion of joints that hits nothing
@@ -702,6 +703,63 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body);
 //   radius     not NULL, metres
 NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float centre[3],
                               float *radius);
+
+// --------------------------------------------------------------------------------- interface/looks
+// In: two bodies in 16 places. Out: an opinion on which of these they meet in.
+
+#ifndef NSVCD_NO_PROOF
+// places that are looked at together
+#define NSVCD_LOOKS 16
+
+// Where a body is in 16 places: row-major rotation matrices and positions, a number of all places
+// side by side.
+typedef struct nsvcd_places {
+  float rotation[9][NSVCD_LOOKS];
+  // metres
+  float position[3][NSVCD_LOOKS];
+} nsvcd_places;
+
+// A body as a look sees it.
+typedef struct nsvcd_looked {
+  // with triangles
+  const nsvcd_body *body;
+  // scale of the body about its origin, NSVCD_MIN_SCALE..NSVCD_MAX_SCALE; default 1
+  float scale;
+  // not NULL
+  const nsvcd_places *places;
+} nsvcd_looked;
+
+// What is looked for. Zero means the default.
+typedef struct nsvcd_look_options {
+  // metres: the bodies meet if they come within this distance; below 0: if they are deeper in each
+  // other
+  float margin;
+  // 1: whether they meet anywhere; the look ends at the first place where they do
+  int any;
+} nsvcd_look_options;
+
+// In which of 16 places do two bodies meet? An opinion, not a proof, in about a tenth of a
+// microsecond to a few. Each body is seen as the balls that cover it (nsvcd_encode_options.balls).
+// A body without balls is seen as its patches: their spheres, if the other is too, else their
+// spheres and slabs. A box along the axes is exact if the other body is not a box.
+//
+// It errs on the side that the caller names. With a margin of 0 no place is missed in which the
+// surfaces meet. One body within the other is seen too if that has balls, which leave little of a
+// solid out, or is a box. With minus the sum of both bodies' nsvcd_body_facts.ball_error (0 for a box that is exact),
+// none is invented by balls, as far as what is enclosed by a mesh that is not closed can be told, on a grid of 96
+// cells along its longest side.
+//   a, b       not NULL
+//   options    NULL: the defaults
+//   met        not NULL; set to a bit for each place, the lowest for the first, or left as it was
+//              on failure
+//   allocates  nothing
+//   threads    bodies may be shared
+//   errors     ARGUMENT, BODY, VERSION, TRIANGLES, SCALE, CLEARANCE (`margin`). Places are not
+//              checked: of what is not finite, anything may be said
+//   source     this library
+NSVCDDEF nsvcd_result nsvcd_look(const nsvcd_looked *a, const nsvcd_looked *b,
+                                 const nsvcd_look_options *options, uint32_t *met);
+#endif
 
 // ------------------------------------------------------------------------------- interface/queries
 // In: two movers and options. Out: an answer, and its derivative.
@@ -1434,6 +1492,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     results         result codes, the caller's allocator
 //     meshes          OBJ and STL, faces, parts of a mesh
 //     bodies          encoding, loading, scaling, facts
+//     looks           two bodies in 16 places; nsvcd_look
 //     queries         movers, questions, answers; nsvcd_sweep and its kin
 //     plans           splines, planning problems; nsvcd_plan
 //   ground: numbers and memory
@@ -1501,6 +1560,8 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //   lanes: 16 numbers at a time
 //     lanes           AVX-512, AVX2, SSE2, NEON, SIMD128 or plain C
 //     turns           rotations, lane by lane
+//   look: do two bodies seem to meet? an opinion
+//     look            balls against balls, patches or a box, in 16 places
 //   segments: 16 parts of a motion
 //     segments        chords, and how far a point deviates from them
 //     chords          spheres on chords, and which others they meet
@@ -1538,6 +1599,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     by_pair         by the decoder's inputs, and by the pair
 //     gradient        by the poses, and by the times of contact
 //   query: a question, and its answer
+//     looks           two bodies in 16 places
 //     verdict         of one search: do they meet, when first, how near
 //     long            the same of a motion of any length
 //     leave           pushing out of a contact, and how deep it is
@@ -8064,7 +8126,8 @@ static int nsvcd__voxels_build(const nsvcd_mesh *mesh, int is_open, nsvcd__arena
   const nsvcd__d3 size = nsvcd__d3_sub(high, low);
   const double longest = nsvcd__d3_axis(size, nsvcd__d3_longest(size));
   const nsvcd__d3 ones = {1, 1, 1};
-  v->edge = longest > 0 ? longest / NSVCD__VOXELS : 1;
+  // of a point it is as short as can be told where it is
+  v->edge = nsvcd__max(longest / NSVCD__VOXELS, 1e-9 * (1e-6 + nsvcd__d3_norm(low)));
   v->first = nsvcd__d3_fma((0.5 - NSVCD__VOXEL_RIM) * v->edge, ones, low);
   v->count = 1;
   for (size_t k = 0; k < 3; k++) {
@@ -8105,13 +8168,15 @@ static int nsvcd__voxels_build(const nsvcd_mesh *mesh, int is_open, nsvcd__arena
 // Source: the greedy cover is Chvatal's (1979); the rest is this library's.
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
-// points of the surface that the bisection covers, and balls that it chooses from, at most
+// points that the bisection covers, of the surface and of what it encloses, and balls that it chooses
+// from, at most
 #define NSVCD__COVER_POINTS 8192
+#define NSVCD__COVER_INNER 2048
 #define NSVCD__COVER_CHOICES 2048
 // cells of the first steps from a choice to one that covers more
 #define NSVCD__COVER_CLIMB 4
 // halvings of the logarithm of the slack
-#define NSVCD__COVER_STEPS 9
+#define NSVCD__COVER_STEPS 7
 // of a cell: triangles with longer edges are divided before a ball grows for them
 #define NSVCD__COVER_FINEST 0.5
 
@@ -8127,7 +8192,7 @@ typedef struct nsvcd__ball_cover {
 // A cover in the making.
 typedef struct nsvcd__coverer {
   nsvcd__voxels voxels;
-  // (point_count) cells of the surface; (choice_count) cells that balls can be about
+  // (point_count) cells to be covered; (choice_count) cells that balls can be about
   uint32_t *points, *choices;
   size_t point_count, choice_count;
   // (point_count): where the points are, in cells
@@ -8144,22 +8209,16 @@ typedef struct nsvcd__coverer {
   size_t count, most;
 } nsvcd__coverer;
 
-// Every so many-th cell that is as wanted, `most` at the most.
-static size_t nsvcd__choose_cells(const nsvcd__voxels *v, int surface_only, size_t most,
+// Every so many-th cell of some kinds, a bit for each, `most` at the most.
+static size_t nsvcd__choose_cells(const nsvcd__voxels *v, unsigned kinds, size_t most,
                                   uint32_t *out) {
   size_t all = 0;
   size_t seen = 0;
   size_t count = 0;
-  for (size_t pass = 0; pass < 2; pass++) {
-    for (size_t n = 0; n < v->count; n++) {
-      const int is_surface = v->kinds[n] == NSVCD__VOXEL_SURFACE;
-      if (v->kinds[n] == NSVCD__VOXEL_OUTSIDE || (surface_only && !is_surface)) continue;
-      if (pass == 0) {
-        all++;
-      } else if (seen++ * most / all >= count && count < most) {
-        out[count++] = (uint32_t)n;
-      }
-    }
+  for (size_t n = 0; n < v->count; n++) all += kinds >> v->kinds[n] & 1;
+  for (size_t n = 0; n < v->count; n++) {
+    if (!(kinds >> v->kinds[n] & 1)) continue;
+    if (seen++ * most / all >= count && count < most) out[count++] = (uint32_t)n;
   }
   return count;
 }
@@ -8170,6 +8229,19 @@ static nsvcd__f3 nsvcd__cell_place(const nsvcd__voxels *v, size_t cell) {
                       (float)(rows / v->sizes[1]));
 }
 
+// Chooses the points to cover; in words of 64, of either kind.
+static void nsvcd__choose_points(nsvcd__coverer *c) {
+  const nsvcd__voxels *v = &c->voxels;
+  uint32_t *points = c->points;
+  size_t count =
+      nsvcd__choose_cells(v, 1u << NSVCD__VOXEL_SURFACE, NSVCD__COVER_POINTS, points);
+  for (; count % 64; count++) points[count] = points[count - 1];
+  count +=
+      nsvcd__choose_cells(v, 1u << NSVCD__VOXEL_HOLLOW, NSVCD__COVER_INNER, points + count);
+  c->point_count = count;
+  for (size_t p = 0; p < count; p++) c->places[p] = nsvcd__cell_place(v, points[p]);
+}
+
 // Which points does a ball cover? centre, radius: in cells. covered: (words). Returns how many.
 static uint32_t nsvcd__covered_by(const nsvcd__coverer *c, nsvcd__f3 centre, float radius,
                                   uint64_t *covered) {
@@ -8178,7 +8250,7 @@ static uint32_t nsvcd__covered_by(const nsvcd__coverer *c, nsvcd__f3 centre, flo
     const size_t first = 64 * w;
     const size_t end = first + 64 < c->point_count ? first + 64 : c->point_count;
     covered[w] = 0;
-    // points are in the order of cells: z rises
+    // points of a word are in the order of cells: z rises
     if (first >= end || c->places[first].z > centre.z + radius ||
         c->places[end - 1].z < centre.z - radius)
       continue;
@@ -8343,16 +8415,17 @@ static int nsvcd__ball_cover_build(const nsvcd_mesh *mesh, const nsvcd_encode_op
   nsvcd__arena spare = nsvcd__arena_of(arena->allocator);
   memset(&c, 0, sizeof c);
   c.most = most;
-  c.points = NSVCD__TAKE(&spare, uint32_t, NSVCD__COVER_POINTS);
+  const size_t points = NSVCD__COVER_POINTS + NSVCD__COVER_INNER;
+  c.points = NSVCD__TAKE(&spare, uint32_t, points);
   c.choices = NSVCD__TAKE(&spare, uint32_t, NSVCD__COVER_CHOICES);
-  c.words = NSVCD__COVER_POINTS / 64;
+  c.words = points / 64;
   c.covered = NSVCD__TAKE(&spare, uint64_t, NSVCD__COVER_CHOICES * c.words);
   c.left = NSVCD__TAKE(&spare, uint64_t, c.words);
   c.tried = NSVCD__TAKE(&spare, uint64_t, c.words);
   c.gains = NSVCD__TAKE(&spare, uint32_t, NSVCD__COVER_CHOICES);
   c.centres = NSVCD__TAKE(&spare, nsvcd__d3, most);
   c.radii = NSVCD__TAKE(&spare, double, most);
-  c.places = NSVCD__TAKE(&spare, nsvcd__f3, NSVCD__COVER_POINTS);
+  c.places = NSVCD__TAKE(&spare, nsvcd__f3, points);
   double *depths = NSVCD__TAKE(&spare, double, most);
   uint16_t *order = NSVCD__TAKE(&spare, uint16_t, 2 * most);
   nsvcd__f3 *centres = NSVCD__TAKE(&spare, nsvcd__f3, most);
@@ -8364,9 +8437,9 @@ static int nsvcd__ball_cover_build(const nsvcd_mesh *mesh, const nsvcd_encode_op
     return 0;
   }
   const nsvcd__voxels *v = &c.voxels;
-  c.point_count = nsvcd__choose_cells(v, 1, NSVCD__COVER_POINTS, c.points);
-  c.choice_count = nsvcd__choose_cells(v, 0, NSVCD__COVER_CHOICES, c.choices);
-  for (size_t p = 0; p < c.point_count; p++) c.places[p] = nsvcd__cell_place(v, c.points[p]);
+  const unsigned within = 1u << NSVCD__VOXEL_SURFACE | 1u << NSVCD__VOXEL_HOLLOW;
+  nsvcd__choose_points(&c);
+  c.choice_count = nsvcd__choose_cells(v, within, NSVCD__COVER_CHOICES, c.choices);
   // with the last of these one ball is enough
   double low = 0.25 * v->edge;
   double high = 2 * (double)(NSVCD__VOXELS + 2 * NSVCD__VOXEL_RIM) * v->edge;
@@ -11626,6 +11699,320 @@ static inline nsvcd__vmat3 nsvcd__vmat3_of(nsvcd__vquat q) {
       nsvcd__v3_of(nsvcd__v_sub(x.z, w.y), nsvcd__v_add(yz, w.x),
                    nsvcd__v_sub(one, nsvcd__v_add(x.x, yy))));
 }
+
+// =================================================== look: do two bodies seem to meet? an opinion
+
+// --------------------------------------------------------------------------------------- look/look
+// In: two bodies in 16 places. Out: the places in which they seem to meet.
+//
+// All is computed in the frame of b, and in its lengths: a's balls are moved there, 16 places at a
+// time, while b's stay as they are stored. Balls are kept in clusters of 16. A cluster of a goes
+// down the levels of b's spheres; where it meets a cluster, its balls are tried against that
+// cluster's, and, where these are patches, against their slabs.
+
+#ifndef NSVCD_NO_PROOF
+#define NSVCD__ALL_LOOKS 0xffffu
+
+// A body as balls, in clusters of 16, with levels of spheres over 16 clusters each, and so on.
+typedef struct nsvcd__ball_tree {
+  // balls, clusters, ...
+  nsvcd__spheres levels[1 + NSVCD__LEVELS];
+  // the same, and in the last the number of levels
+  size_t counts[1 + NSVCD__LEVELS], level_count;
+  // over all, `round` included
+  nsvcd__sphere whole;
+  // to be added to each radius
+  float more;
+  // of the patches that the balls are, (6, stride); NULL: balls of a cover
+  const float *slabs;
+  size_t stride;
+  // 1: a box along the axes, and metres that it goes beyond that
+  int is_box;
+  nsvcd__f3 middle, half;
+  float round;
+} nsvcd__ball_tree;
+
+static nsvcd__ball_tree nsvcd__ball_tree_of(const nsvcd_body *body) {
+  const nsvcd_body *triangles = nsvcd__triangles_of(body);
+  const nsvcd__geometry f = nsvcd__geometry_of(triangles);
+  nsvcd__ball_tree out;
+  memset(&out, 0, sizeof out);
+  out.whole = nsvcd__body_sphere(triangles);
+  out.is_box = (int)f.counts->is_box;
+  out.round = f.counts->convex_radius;
+  out.whole.radius += out.round;
+  const nsvcd__f3 low = nsvcd__f3_load(f.box);
+  const nsvcd__f3 high = nsvcd__f3_load(f.box + 3);
+  out.middle = nsvcd__f3_scale(nsvcd__f3_add(low, high), 0.5f);
+  out.half = nsvcd__f3_scale(nsvcd__f3_sub(high, low), 0.5f);
+  if (f.counts->balls > 0) {
+    out.levels[0] = nsvcd__balls_of(&f);
+    out.levels[1] = nsvcd__ball_clusters_of(&f);
+    out.counts[0] = f.counts->balls;
+    out.counts[1] = (f.counts->balls + NSVCD__GROUP - 1) / NSVCD__GROUP;
+    out.level_count = 2;
+    return out;
+  }
+  out.more = out.round;
+  out.levels[0] = nsvcd__body_patches(triangles);
+  out.counts[0] = triangles->patches;
+  out.slabs = f.slabs;
+  out.stride = triangles->padded;
+  out.level_count = 1 + nsvcd__level_count(triangles->padded);
+  for (size_t k = 1; k < out.level_count; k++) {
+    const nsvcd__level level = nsvcd__level_of(triangles->padded, k - 1);
+    out.levels[k] = nsvcd__level_spheres(triangles, level);
+    out.counts[k] = level.count;
+  }
+  return out;
+}
+
+// Points in 16 places: (3, 16) each.
+typedef struct nsvcd__look_point {
+  nsvcd__row at[3];
+} nsvcd__look_point;
+
+typedef struct nsvcd__look_state {
+  nsvcd__ball_tree a, b;
+  // from a's frame to b's: matrices times a's scale over b's, (9, 16); positions, (3, 16)
+  nsvcd__row turn[9], position[3];
+  // of a over that of b
+  float scale;
+  // (16): metres of b's, to be added to sums of radii: the margin, and roundings
+  nsvcd__row room;
+  // places, a bit for each
+  uint32_t met;
+  int any;
+  // balls of the cluster of a that is at hand, (16), once they are placed
+  nsvcd__look_point balls[NSVCD__GROUP];
+  uint32_t placed;
+} nsvcd__look_state;
+
+// Is there nothing left to find?
+static int nsvcd__look_ends(const nsvcd__look_state *s) {
+  return s->any ? s->met != 0 : s->met == NSVCD__ALL_LOOKS;
+}
+
+// A point of a's frame in b's.
+static void nsvcd__look_place(nsvcd__look_state *s, nsvcd__f3 point, nsvcd__look_point *out) {
+  const nsvcd__v3 p = nsvcd__v3_set(point);
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__vmat3 turn = nsvcd__vmat3_load(s->turn, l);
+    const nsvcd__v3 at = nsvcd__v3_load(s->position, l);
+    nsvcd__v3_store(out->at, l, nsvcd__vmat3_apply_add(turn, p, at));
+  }
+}
+
+// In which places is a point within `reach`, and the room, of a sphere of b's?
+static uint32_t nsvcd__look_at_sphere(const nsvcd__look_state *s, nsvcd__look_point *point,
+                                      float reach, nsvcd__f3 centre) {
+  const nsvcd__v3 c = nsvcd__v3_set(centre);
+  uint32_t met = 0;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 offset = nsvcd__v3_sub(nsvcd__v3_load(point->at, l), c);
+    const nsvcd__v sum = nsvcd__v_plus(nsvcd__v_load(s->room + l), reach);
+    met |= nsvcd__v_le(nsvcd__v3_dot(offset, offset), nsvcd__v_signed_square(sum)) << l;
+  }
+  return met;
+}
+
+// The same of b's box.
+static uint32_t nsvcd__look_at_box(const nsvcd__look_state *s, nsvcd__look_point *point,
+                                   float reach) {
+  const nsvcd__v3 middle = nsvcd__v3_set(s->b.middle);
+  const nsvcd__v3 half = nsvcd__v3_set(s->b.half);
+  const nsvcd__v3 zero = nsvcd__v3_set(nsvcd__f3_of(0, 0, 0));
+  uint32_t met = 0;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 offset = nsvcd__v3_sub(nsvcd__v3_load(point->at, l), middle);
+    const nsvcd__v3 size = nsvcd__v3_max(offset, nsvcd__v3_negate(offset));
+    const nsvcd__v3 beyond = nsvcd__v3_max(nsvcd__v3_sub(size, half), zero);
+    const nsvcd__v sum = nsvcd__v_plus(nsvcd__v_load(s->room + l), reach + s->b.round);
+    met |= nsvcd__v_le(nsvcd__v3_dot(beyond, beyond), nsvcd__v_signed_square(sum)) << l;
+  }
+  return met;
+}
+
+// The same of what the slab of a patch of b's leaves: a cylinder.
+static uint32_t nsvcd__look_at_slab(const nsvcd__look_state *s, nsvcd__look_point *point,
+                                    float reach, size_t patch) {
+  const nsvcd__slab slab = nsvcd__slab_at(s->b.slabs, s->b.stride, patch);
+  const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__centre_of(s->b.levels[0], patch));
+  const nsvcd__v3 normal = nsvcd__v3_set(slab.normal);
+  const nsvcd__v zero = nsvcd__v_set(0);
+  uint32_t met = 0;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 offset = nsvcd__v3_sub(nsvcd__v3_load(point->at, l), centre);
+    const nsvcd__v height = nsvcd__v3_dot(offset, normal);
+    const nsvcd__v over = nsvcd__v_plus(height, -slab.high);
+    const nsvcd__v under = nsvcd__v_sub(nsvcd__v_set(slab.low), height);
+    const nsvcd__v along = nsvcd__v_max(nsvcd__v_max(over, under), zero);
+    const nsvcd__v3 flat = nsvcd__v3_fma(nsvcd__v_negate(height), normal, offset);
+    const nsvcd__v across =
+        nsvcd__v_max(nsvcd__v_plus(nsvcd__v3_norm(flat), -slab.across), zero);
+    const nsvcd__v square = nsvcd__v_fma(along, along, nsvcd__v_mul(across, across));
+    const nsvcd__v sum = nsvcd__v_plus(nsvcd__v_load(s->room + l), reach + s->b.more);
+    met |= nsvcd__v_le(square, nsvcd__v_signed_square(sum)) << l;
+  }
+  return met;
+}
+
+// Ball i of a, placed, and its radius.
+static float nsvcd__look_ball(nsvcd__look_state *s, size_t i, nsvcd__look_point **out) {
+  const size_t n = i % NSVCD__GROUP;
+  *out = &s->balls[n];
+  if (!(s->placed >> n & 1)) nsvcd__look_place(s, nsvcd__centre_of(s->a.levels[0], i), *out);
+  s->placed |= (uint32_t)1 << n;
+  return s->scale * (s->a.levels[0].r[i] + s->a.more);
+}
+
+// A cluster of a, point and radius, that meets a cluster of b in the places `open`.
+static void nsvcd__look_into(nsvcd__look_state *s, size_t of_a, size_t of_b,
+                             nsvcd__look_point *point, float radius, uint32_t open) {
+  const nsvcd__spheres balls = s->b.levels[0];
+  const nsvcd__sphere over = nsvcd__sphere_of(s->b.levels[1], of_b);
+  const size_t first = NSVCD__GROUP * of_b;
+  const size_t count = nsvcd__group_members(s->b.counts[0], first);
+  // balls of b that the cluster meets
+  uint32_t near_places[NSVCD__GROUP];
+  for (size_t n = 0; n < count; n++) {
+    const float reach = radius + balls.r[first + n] + s->b.more;
+    const nsvcd__f3 centre = nsvcd__centre_of(balls, first + n);
+    near_places[n] = open & nsvcd__look_at_sphere(s, point, reach, centre);
+  }
+  const size_t begin = NSVCD__GROUP * of_a;
+  const size_t end = begin + nsvcd__group_members(s->a.counts[0], begin);
+  for (size_t i = begin; i < end; i++) {
+    nsvcd__look_point *ball;
+    const float own = nsvcd__look_ball(s, i, &ball);
+    const float to_all = own + over.radius + s->b.more;
+    const uint32_t left = open & ~s->met;
+    if (!(left & nsvcd__look_at_sphere(s, ball, to_all, over.centre))) continue;
+    for (size_t n = 0; n < count; n++) {
+      if (!(near_places[n] & ~s->met)) continue;
+      const float reach = own + balls.r[first + n] + s->b.more;
+      const nsvcd__f3 centre = nsvcd__centre_of(balls, first + n);
+      uint32_t met = near_places[n] & nsvcd__look_at_sphere(s, ball, reach, centre);
+      if (met && s->b.slabs) met &= nsvcd__look_at_slab(s, ball, own, first + n);
+      s->met |= met;
+      if (nsvcd__look_ends(s)) return;
+    }
+  }
+}
+
+// A cluster of a goes down b's levels: sphere n of level k.
+static void nsvcd__look_down(nsvcd__look_state *s, size_t of_a, nsvcd__look_point *point,
+                             float radius, size_t k, size_t n, uint32_t open) {
+  const nsvcd__sphere sphere = nsvcd__sphere_of(s->b.levels[k], n);
+  open &= ~s->met;
+  open &= nsvcd__look_at_sphere(s, point, radius + sphere.radius + s->b.more, sphere.centre);
+  if (!open) return;
+  if (k == 1) {
+    nsvcd__look_into(s, of_a, n, point, radius, open);
+    return;
+  }
+  const size_t first = NSVCD__GROUP * n;
+  const size_t count = nsvcd__group_members(s->b.counts[k - 1], first);
+  for (size_t i = 0; i < count && !nsvcd__look_ends(s); i++)
+    nsvcd__look_down(s, of_a, point, radius, k - 1, first + i, open);
+}
+
+// A cluster of a, against b's box.
+static void nsvcd__look_into_box(nsvcd__look_state *s, size_t of_a) {
+  const size_t begin = NSVCD__GROUP * of_a;
+  const size_t end = begin + nsvcd__group_members(s->a.counts[0], begin);
+  for (size_t i = begin; i < end && !nsvcd__look_ends(s); i++) {
+    nsvcd__look_point *ball;
+    const float own = nsvcd__look_ball(s, i, &ball);
+    s->met |= nsvcd__look_at_box(s, ball, own);
+  }
+}
+
+// Fills in how a is seen from b. room: metres, besides roundings.
+static void nsvcd__look_relate(nsvcd__look_state *s, const nsvcd_places *a,
+                               const nsvcd_places *b, float scale_b, float room) {
+  const float unit = 1 / scale_b;
+  const nsvcd__sphere *whole = &s->a.whole;
+  const float extent_a = s->scale * (nsvcd__f3_norm(whole->centre) + whole->radius);
+  const float extent = extent_a + nsvcd__f3_norm(s->b.whole.centre) + s->b.whole.radius;
+  NSVCD__EACH_SLICE(l) {
+    nsvcd__v3 from[3], to[3];
+    for (size_t k = 0; k < 3; k++) {
+      // columns of b's matrices are its axes
+      from[k] = nsvcd__v3_of(nsvcd__v_load(a->rotation[k] + l),
+                             nsvcd__v_load(a->rotation[3 + k] + l),
+                             nsvcd__v_load(a->rotation[6 + k] + l));
+      to[k] = nsvcd__v3_of(nsvcd__v_load(b->rotation[k] + l),
+                           nsvcd__v_load(b->rotation[3 + k] + l),
+                           nsvcd__v_load(b->rotation[6 + k] + l));
+    }
+    nsvcd__v3 offset;
+    offset.x =
+        nsvcd__v_sub(nsvcd__v_load(a->position[0] + l), nsvcd__v_load(b->position[0] + l));
+    offset.y =
+        nsvcd__v_sub(nsvcd__v_load(a->position[1] + l), nsvcd__v_load(b->position[1] + l));
+    offset.z =
+        nsvcd__v_sub(nsvcd__v_load(a->position[2] + l), nsvcd__v_load(b->position[2] + l));
+    for (size_t i = 0; i < 3; i++) {
+      for (size_t k = 0; k < 3; k++)
+        nsvcd__v_store(s->turn[3 * i + k] + l,
+                       nsvcd__v_scale(nsvcd__v3_dot(to[i], from[k]), s->scale));
+      nsvcd__v_store(s->position[i] + l, nsvcd__v_scale(nsvcd__v3_dot(to[i], offset), unit));
+    }
+    const nsvcd__v far_off = nsvcd__v_scale(nsvcd__v3_norm(offset), 1e-6f * unit);
+    nsvcd__v_store(s->room + l, nsvcd__v_plus(far_off, 1e-6f * extent + room * unit));
+  }
+}
+
+// Which of two bodies should stay as it is stored: a box, else the one of more patches, else one of
+// balls.
+static size_t nsvcd__look_rank(const nsvcd__ball_tree *tree) {
+  if (tree->is_box) return SIZE_MAX;
+  return tree->slabs ? tree->counts[0] : 0;
+}
+
+// nsvcd_look of two bodies in order.
+static uint32_t nsvcd__look_all(const nsvcd_looked *a, const nsvcd_looked *b, float margin,
+                                int any) {
+  nsvcd__look_state s;
+  s.a = nsvcd__ball_tree_of(a->body);
+  s.b = nsvcd__ball_tree_of(b->body);
+  if (nsvcd__look_rank(&s.a) > nsvcd__look_rank(&s.b)) {
+    const nsvcd__ball_tree tree = s.a;
+    const nsvcd_looked *other = a;
+    s.a = s.b;
+    s.b = tree;
+    a = b;
+    b = other;
+  }
+  const float scale_b = b->scale > 0 ? b->scale : 1;
+  s.scale = (a->scale > 0 ? a->scale : 1) / scale_b;
+  s.met = 0;
+  s.any = any;
+  nsvcd__look_relate(&s, a->places, b->places, scale_b, margin);
+  nsvcd__look_point point;
+  const float whole = s.scale * s.a.whole.radius;
+  nsvcd__look_place(&s, s.a.whole.centre, &point);
+  uint32_t open =
+      nsvcd__look_at_sphere(&s, &point, whole + s.b.whole.radius, s.b.whole.centre);
+  if (open && s.b.is_box) open = nsvcd__look_at_box(&s, &point, whole);
+  if (!open) return 0;
+  for (size_t n = 0; n < s.a.counts[1] && !nsvcd__look_ends(&s); n++) {
+    const nsvcd__sphere sphere = nsvcd__sphere_of(s.a.levels[1], n);
+    const float radius = s.scale * (sphere.radius + s.a.more);
+    nsvcd__look_place(&s, sphere.centre, &point);
+    s.placed = 0;
+    if (s.b.is_box) {
+      if (nsvcd__look_at_box(&s, &point, radius) & open & ~s.met) nsvcd__look_into_box(&s, n);
+      continue;
+    }
+    const size_t top = s.b.level_count - 1;
+    for (size_t i = 0; i < s.b.counts[top] && !nsvcd__look_ends(&s); i++)
+      nsvcd__look_down(&s, n, &point, radius, top, i, open);
+  }
+  return s.met;
+}
+#endif
 
 // ================================================================ segments: 16 parts of a motion
 
@@ -17588,8 +17975,8 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 // In: a processor. Out: the kernels for the widest vectors that it has.
 //
 // THE WAIST. A *kernel* is a function that works on vectors and is called from above. There are
-// seven: self_test_lanes, separate, is_contained_at_start, bound_distance, seek_positions,
-// ask_network and record. NSVCD__KERNEL(isa, separate)(...) calls one of them.
+// eight: self_test_lanes, look_all, separate, is_contained_at_start, bound_distance,
+// seek_positions, ask_network and record. NSVCD__KERNEL(isa, separate)(...) calls one of them.
 //
 // If the compiler's flags allow SSE2 only, the default on x86-64, the rooms that use vectors are
 // compiled three times: with SSE2 above, and here with AVX2 and with AVX-512, under other private
@@ -17637,6 +18024,8 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__arm NSVCD__AT(arm)
 #define nsvcd__arm_of NSVCD__AT(arm_of)
 #define nsvcd__ask_network NSVCD__AT(ask_network)
+#define nsvcd__ball_tree NSVCD__AT(ball_tree)
+#define nsvcd__ball_tree_of NSVCD__AT(ball_tree_of)
 #define nsvcd__beam NSVCD__AT(beam)
 #define nsvcd__bend_of NSVCD__AT(bend_of)
 #define nsvcd__beyond NSVCD__AT(beyond)
@@ -17764,6 +18153,20 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__least_lane NSVCD__AT(least_lane)
 #define nsvcd__least_of NSVCD__AT(least_of)
 #define nsvcd__left_by_normal NSVCD__AT(left_by_normal)
+#define nsvcd__look_all NSVCD__AT(look_all)
+#define nsvcd__look_at_box NSVCD__AT(look_at_box)
+#define nsvcd__look_at_slab NSVCD__AT(look_at_slab)
+#define nsvcd__look_at_sphere NSVCD__AT(look_at_sphere)
+#define nsvcd__look_ball NSVCD__AT(look_ball)
+#define nsvcd__look_down NSVCD__AT(look_down)
+#define nsvcd__look_ends NSVCD__AT(look_ends)
+#define nsvcd__look_into NSVCD__AT(look_into)
+#define nsvcd__look_into_box NSVCD__AT(look_into_box)
+#define nsvcd__look_place NSVCD__AT(look_place)
+#define nsvcd__look_point NSVCD__AT(look_point)
+#define nsvcd__look_rank NSVCD__AT(look_rank)
+#define nsvcd__look_relate NSVCD__AT(look_relate)
+#define nsvcd__look_state NSVCD__AT(look_state)
 #define nsvcd__matters NSVCD__AT(matters)
 #define nsvcd__may_be_close NSVCD__AT(may_be_close)
 #define nsvcd__meet NSVCD__AT(meet)
@@ -18605,6 +19008,34 @@ static NSVCD__NOINLINE void nsvcd__gradient(const nsvcd__query *query, float *co
 #endif  // NSVCD_NO_GRADIENT
 
 // =============================================================== query: a question, and its answer
+
+// ------------------------------------------------------------------------------------- query/looks
+// In: two bodies in 16 places. Out: nsvcd_look.
+
+#ifndef NSVCD_NO_PROOF
+static nsvcd_result nsvcd__looked_check(const nsvcd_looked *looked) {
+  const float scale = looked->scale;
+  const nsvcd_result result = nsvcd__body_check(looked->body, SIZE_MAX);
+  if (result) return result;
+  if (!looked->places) return NSVCD_ERROR_ARGUMENT;
+  if (!looked->body->triangles) return NSVCD_ERROR_TRIANGLES;
+  const int fits = scale >= NSVCD_MIN_SCALE && scale <= NSVCD_MAX_SCALE;
+  return fits || (scale <= 0 && scale >= 0) ? NSVCD_OK : NSVCD_ERROR_SCALE;
+}
+
+NSVCDDEF nsvcd_result nsvcd_look(const nsvcd_looked *a, const nsvcd_looked *b,
+                                 const nsvcd_look_options *options, uint32_t *met) {
+  if (!a || !b || !met) return NSVCD_ERROR_ARGUMENT;
+  nsvcd_result result = nsvcd__looked_check(a);
+  if (!result) result = nsvcd__looked_check(b);
+  if (result) return result;
+  const float margin = options ? options->margin : 0;
+  if (!nsvcd__is_length(margin < 0 ? -margin : margin)) return NSVCD_ERROR_CLEARANCE;
+  const nsvcd__isa isa = nsvcd__isa_at_hand();
+  *met = NSVCD__KERNEL(isa, look_all)(a, b, margin, options ? options->any : 0);
+  return NSVCD_OK;
+}
+#endif
 
 // ----------------------------------------------------------------------------------- query/verdict
 // In: a goal, and the segments chosen of a motion or of an interval of it. Out: a result: do the

@@ -54,6 +54,7 @@
 //   nsvcd_encode          a mesh -> a body; nsvcd_encode_sphere, _capsule, _box, _cloud: a shape
 //   nsvcd_body_load       bytes -> a body, every byte checked
 //   nsvcd_body_describe   a body -> its size, box, triangles; is it closed?
+//   nsvcd_look            do two bodies meet, in 16 places at once? an opinion, by balls
 //   nsvcd_sweep           a question -> an answer; nsvcd_sweep_batch: many
 //   nsvcd_sweep_gradient  a question -> the network's answer, and its derivatives by the poses
 //   nsvcd_plan            a start and a goal -> a smooth motion of joints that hits nothing
@@ -105,6 +106,7 @@ extern "C" {
 #include "interface/results.h"  // result codes, the caller's allocator
 #include "interface/meshes.h"   // OBJ and STL, faces, parts of a mesh
 #include "interface/bodies.h"   // encoding, loading, scaling, facts
+#include "interface/looks.h"    // two bodies in 16 places; nsvcd_look
 #include "interface/queries.h"  // movers, questions, answers; nsvcd_sweep and its kin
 #include "interface/plans.h"    // splines, planning problems; nsvcd_plan
 
@@ -227,6 +229,9 @@ extern "C" {
 #include "lanes/lanes.h"  // AVX-512, AVX2, SSE2, NEON, SIMD128 or plain C
 #include "lanes/turns.h"  // rotations, lane by lane
 
+// =================================================== look: do two bodies seem to meet? an opinion
+#include "look/look.h"  // balls against balls, patches or a box, in 16 places
+
 // ================================================================ segments: 16 parts of a motion
 #include "segments/segments.h"   // chords, and how far a point deviates from them
 #include "segments/chords.h"     // spheres on chords, and which others they meet
@@ -272,6 +277,7 @@ extern "C" {
 #include "gradient/gradient.h"  // by the poses, and by the times of contact
 
 // =============================================================== query: a question, and its answer
+#include "query/looks.h"     // two bodies in 16 places
 #include "query/verdict.h"   // of one search: do they meet, when first, how near
 #include "query/long.h"      // the same of a motion of any length
 #include "query/leave.h"     // pushing out of a contact, and how deep it is

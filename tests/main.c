@@ -37,6 +37,7 @@ void test_facets(void);
 void test_motion(void);
 void test_long(void);
 void test_broad_phase(void);
+void test_looks(void);
 void test_proof(void);
 void test_fits(void);
 void test_asks(void);

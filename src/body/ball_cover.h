@@ -11,13 +11,15 @@
 #include "voxels.h"
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
-// points of the surface that the bisection covers, and balls that it chooses from, at most
+// points that the bisection covers, of the surface and of what it encloses, and balls that it chooses
+// from, at most
 #define NSVCD__COVER_POINTS 8192
+#define NSVCD__COVER_INNER 2048
 #define NSVCD__COVER_CHOICES 2048
 // cells of the first steps from a choice to one that covers more
 #define NSVCD__COVER_CLIMB 4
 // halvings of the logarithm of the slack
-#define NSVCD__COVER_STEPS 9
+#define NSVCD__COVER_STEPS 7
 // of a cell: triangles with longer edges are divided before a ball grows for them
 #define NSVCD__COVER_FINEST 0.5
 
@@ -33,7 +35,7 @@ typedef struct nsvcd__ball_cover {
 // A cover in the making.
 typedef struct nsvcd__coverer {
   nsvcd__voxels voxels;
-  // (point_count) cells of the surface; (choice_count) cells that balls can be about
+  // (point_count) cells to be covered; (choice_count) cells that balls can be about
   uint32_t *points, *choices;
   size_t point_count, choice_count;
   // (point_count): where the points are, in cells
@@ -50,22 +52,16 @@ typedef struct nsvcd__coverer {
   size_t count, most;
 } nsvcd__coverer;
 
-// Every so many-th cell that is as wanted, `most` at the most.
-static size_t nsvcd__choose_cells(const nsvcd__voxels *v, int surface_only, size_t most,
+// Every so many-th cell of some kinds, a bit for each, `most` at the most.
+static size_t nsvcd__choose_cells(const nsvcd__voxels *v, unsigned kinds, size_t most,
                                   uint32_t *out) {
   size_t all = 0;
   size_t seen = 0;
   size_t count = 0;
-  for (size_t pass = 0; pass < 2; pass++) {
-    for (size_t n = 0; n < v->count; n++) {
-      const int is_surface = v->kinds[n] == NSVCD__VOXEL_SURFACE;
-      if (v->kinds[n] == NSVCD__VOXEL_OUTSIDE || (surface_only && !is_surface)) continue;
-      if (pass == 0) {
-        all++;
-      } else if (seen++ * most / all >= count && count < most) {
-        out[count++] = (uint32_t)n;
-      }
-    }
+  for (size_t n = 0; n < v->count; n++) all += kinds >> v->kinds[n] & 1;
+  for (size_t n = 0; n < v->count; n++) {
+    if (!(kinds >> v->kinds[n] & 1)) continue;
+    if (seen++ * most / all >= count && count < most) out[count++] = (uint32_t)n;
   }
   return count;
 }
@@ -76,6 +72,19 @@ static nsvcd__f3 nsvcd__cell_place(const nsvcd__voxels *v, size_t cell) {
                       (float)(rows / v->sizes[1]));
 }
 
+// Chooses the points to cover; in words of 64, of either kind.
+static void nsvcd__choose_points(nsvcd__coverer *c) {
+  const nsvcd__voxels *v = &c->voxels;
+  uint32_t *points = c->points;
+  size_t count =
+      nsvcd__choose_cells(v, 1u << NSVCD__VOXEL_SURFACE, NSVCD__COVER_POINTS, points);
+  for (; count % 64; count++) points[count] = points[count - 1];
+  count +=
+      nsvcd__choose_cells(v, 1u << NSVCD__VOXEL_HOLLOW, NSVCD__COVER_INNER, points + count);
+  c->point_count = count;
+  for (size_t p = 0; p < count; p++) c->places[p] = nsvcd__cell_place(v, points[p]);
+}
+
 // Which points does a ball cover? centre, radius: in cells. covered: (words). Returns how many.
 static uint32_t nsvcd__covered_by(const nsvcd__coverer *c, nsvcd__f3 centre, float radius,
                                   uint64_t *covered) {
@@ -84,7 +93,7 @@ static uint32_t nsvcd__covered_by(const nsvcd__coverer *c, nsvcd__f3 centre, flo
     const size_t first = 64 * w;
     const size_t end = first + 64 < c->point_count ? first + 64 : c->point_count;
     covered[w] = 0;
-    // points are in the order of cells: z rises
+    // points of a word are in the order of cells: z rises
     if (first >= end || c->places[first].z > centre.z + radius ||
         c->places[end - 1].z < centre.z - radius)
       continue;
@@ -249,16 +258,17 @@ static int nsvcd__ball_cover_build(const nsvcd_mesh *mesh, const nsvcd_encode_op
   nsvcd__arena spare = nsvcd__arena_of(arena->allocator);
   memset(&c, 0, sizeof c);
   c.most = most;
-  c.points = NSVCD__TAKE(&spare, uint32_t, NSVCD__COVER_POINTS);
+  const size_t points = NSVCD__COVER_POINTS + NSVCD__COVER_INNER;
+  c.points = NSVCD__TAKE(&spare, uint32_t, points);
   c.choices = NSVCD__TAKE(&spare, uint32_t, NSVCD__COVER_CHOICES);
-  c.words = NSVCD__COVER_POINTS / 64;
+  c.words = points / 64;
   c.covered = NSVCD__TAKE(&spare, uint64_t, NSVCD__COVER_CHOICES * c.words);
   c.left = NSVCD__TAKE(&spare, uint64_t, c.words);
   c.tried = NSVCD__TAKE(&spare, uint64_t, c.words);
   c.gains = NSVCD__TAKE(&spare, uint32_t, NSVCD__COVER_CHOICES);
   c.centres = NSVCD__TAKE(&spare, nsvcd__d3, most);
   c.radii = NSVCD__TAKE(&spare, double, most);
-  c.places = NSVCD__TAKE(&spare, nsvcd__f3, NSVCD__COVER_POINTS);
+  c.places = NSVCD__TAKE(&spare, nsvcd__f3, points);
   double *depths = NSVCD__TAKE(&spare, double, most);
   uint16_t *order = NSVCD__TAKE(&spare, uint16_t, 2 * most);
   nsvcd__f3 *centres = NSVCD__TAKE(&spare, nsvcd__f3, most);
@@ -270,9 +280,9 @@ static int nsvcd__ball_cover_build(const nsvcd_mesh *mesh, const nsvcd_encode_op
     return 0;
   }
   const nsvcd__voxels *v = &c.voxels;
-  c.point_count = nsvcd__choose_cells(v, 1, NSVCD__COVER_POINTS, c.points);
-  c.choice_count = nsvcd__choose_cells(v, 0, NSVCD__COVER_CHOICES, c.choices);
-  for (size_t p = 0; p < c.point_count; p++) c.places[p] = nsvcd__cell_place(v, c.points[p]);
+  const unsigned within = 1u << NSVCD__VOXEL_SURFACE | 1u << NSVCD__VOXEL_HOLLOW;
+  nsvcd__choose_points(&c);
+  c.choice_count = nsvcd__choose_cells(v, within, NSVCD__COVER_CHOICES, c.choices);
   // with the last of these one ball is enough
   double low = 0.25 * v->edge;
   double high = 2 * (double)(NSVCD__VOXELS + 2 * NSVCD__VOXEL_RIM) * v->edge;

@@ -222,7 +222,8 @@ static int nsvcd__voxels_build(const nsvcd_mesh *mesh, int is_open, nsvcd__arena
   const nsvcd__d3 size = nsvcd__d3_sub(high, low);
   const double longest = nsvcd__d3_axis(size, nsvcd__d3_longest(size));
   const nsvcd__d3 ones = {1, 1, 1};
-  v->edge = longest > 0 ? longest / NSVCD__VOXELS : 1;
+  // of a point it is as short as can be told where it is
+  v->edge = nsvcd__max(longest / NSVCD__VOXELS, 1e-9 * (1e-6 + nsvcd__d3_norm(low)));
   v->first = nsvcd__d3_fma((0.5 - NSVCD__VOXEL_RIM) * v->edge, ones, low);
   v->count = 1;
   for (size_t k = 0; k < 3; k++) {
