@@ -35,6 +35,7 @@
 //     samples         configurations of a motion, and boxes about the parts in them
 //     local_queries   two parts, in the frame of one of them
 //     check           is a motion of the joints free?
+//     looks           does a motion seem free?
 //     proofs          certificates of pairs
 //     rrt             trees of configurations, and the nearest node
 //     configurations  proximities, the nearest free one, pairs that can meet
@@ -125,6 +126,9 @@ typedef struct nsvcd_scene {
   const nsvcd_body_pair *pairs;
   // P
   size_t pair_count;
+  // (P) metres: the distance that each pair keeps, beside the clearance that a check or a route is
+  // asked for. NULL: 0 for all
+  const float *clearances;
 } nsvcd_scene;
 
 // A motion of the joints, in pieces one after another. A piece is a Bezier curve in time. It begins
@@ -154,8 +158,8 @@ NSVCDDEF void nsvcd_motion_at(const nsvcd_joint_motion *motion, size_t joints, d
 
 // How a motion is checked. Zero means the default.
 typedef struct nsvcd_check_options {
-  // metres: parts that come within this distance of each other are a hit; default 0: only parts
-  // that meet are
+  // metres: parts that come within this distance of each other, and the scene's for their pair, are
+  // a hit; default 0
   float clearance;
   // metres: a step of the motion is not cut further if links deviate from their sweeps by less than
   // this in it; default 10 um
@@ -205,7 +209,7 @@ NSVCDDEF size_t nsvcd_checker_size(const nsvcd_scene *scene);
 //   threads    each needs a checker of its own; scenes may be shared
 //   errors     ARGUMENT (NULL), COUNT, WORKSPACE; of a joint JOINT, AXIS, LIMITS, SPEED; of a part
 //              BODY, VERSION, TRIANGLES, LINK, SCALE; of either POSE, QUATERNION; of a pair PAIR
-//              (also if both parts are on one link)
+//              (also if both parts are on one link), CLEARANCE
 NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory, size_t size,
                                          nsvcd_checker **checker);
 
@@ -421,7 +425,7 @@ typedef struct nsvcd_route_problem {
   const double *guess;
   // W
   size_t guess_count;
-  // called before each proof; may be NULL. If it returns anything but 0, the search ends. A path
+  // called before each proof and each look; may be NULL. If it returns anything but 0, the search ends. A path
   // found by then is still proven as a whole
   int (*stop)(void *user);
   // called before each question about a pair, also in that last proof; may be NULL. If it returns
@@ -439,11 +443,16 @@ typedef struct nsvcd_route_options {
   float clearance;
   // the most nodes of both trees, up to NSVCD_MAX_NODES; default 20,000
   size_t nodes;
-  // the most motions that are checked, free or not; default 4 times `nodes`. Where nothing is free
+  // the most motions that are checked, free or not, without looks; default 4 times `nodes`. Where nothing is free
   // the trees do not grow, so `nodes` alone would not end the search
   size_t tries;
   // radians or metres: the greatest length of an edge; default 1
   double edge;
+  // The most motions that are looked at (nsvcd_look) before edges are proven one by one; default
+  // 60,000. NSVCD_NONE: no looks. If all parts that move have balls, trees, shortcuts and smoothing
+  // go by looks, and what they find is proven as a whole, as ever. Where a proof fails, its pair is
+  // given more room, and the search goes on
+  size_t looks;
   // tries to shorten the path, up to NSVCD_MAX_NODES, default 20; and tries to smooth the motion,
   // default 200. NSVCD_NONE: no tries
   size_t shortcuts, smoothings;
@@ -467,6 +476,8 @@ typedef struct nsvcd_route_answer {
   nsvcd_check_answer check;
   // number of nodes of the trees, of motions checked, and of those among them that were free
   size_t nodes, checks, proven;
+  // number of motions looked at
+  size_t looks;
 } nsvcd_route_answer;
 
 // Bytes that nsvcd_route needs; 0 if the problem or the options are refused.
@@ -1386,6 +1397,7 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
 //   samples          configurations of a motion, and boxes about the parts in them
 //   local_queries    two parts, in the frame of one of them
 //   check            is a motion of the joints free?
+//   looks            does a motion seem free?
 //   proofs           a certificate of a pair, as the joints move it
 //   rrt              trees of configurations, and the nearest node
 //   configurations   one configuration: proximities, the nearest free one; which pairs can meet
@@ -1541,6 +1553,13 @@ typedef struct nsvcd__step {
   // at least 8 |e|, see robot/deviation.h
   double bend[NSVCD_MAX_JOINTS];
 } nsvcd__step;
+
+// Squared: radians and metres alike.
+static double nsvcd__distance2(const double *a, const double *b, size_t joints) {
+  double sum = 0;
+  for (size_t j = 0; j < joints; j++) sum += (a[j] - b[j]) * (a[j] - b[j]);
+  return sum;
+}
 
 // A motion of no pieces is its first point, whatever else it says.
 static nsvcd_joint_motion nsvcd__motion_meant(const nsvcd_joint_motion *motion) {
@@ -1823,6 +1842,8 @@ static nsvcd_result nsvcd__scene_check(const nsvcd_scene *scene) {
     if (pair->a >= parts || pair->b >= parts ||
         scene->parts[pair->a].link == scene->parts[pair->b].link)
       return NSVCD_ERROR_PAIR;
+    if (scene->clearances && !nsvcd__is_length(scene->clearances[k]))
+      return NSVCD_ERROR_CLEARANCE;
   }
   return result;
 }
@@ -2192,6 +2213,13 @@ static nsvcd_verdict nsvcd__ask_local(nsvcd__check_state *s, const nsvcd_body_pa
   return nsvcd__ask_sweep(s->checker, &question, found);
 }
 
+// The distance that a pair is to keep.
+static double nsvcd__clearance_of(const nsvcd__check_state *s, const nsvcd_body_pair *pair) {
+  const nsvcd_scene *scene = s->checker->scene;
+  const float *own = scene->clearances;
+  return (double)s->options->clearance + (own ? (double)own[pair - scene->pairs] : 0);
+}
+
 // Does a pair, on its sweeps between samples, come as near as the clearance? For a proof the errors
 // of these sweeps are added to it. range: the steps that were asked about; the times of *found are
 // fractions of it.
@@ -2200,14 +2228,15 @@ static nsvcd_verdict nsvcd__ask_pair(nsvcd__check_state *s, const nsvcd_body_pai
                                      nsvcd_answer *found) {
   nsvcd_checker *c = s->checker;
   const double error = nsvcd__part_error(c, pair->a) + nsvcd__part_error(c, pair->b);
-  const double room = (double)s->options->clearance + error;
+  const double kept = nsvcd__clearance_of(s, pair);
+  const double room = kept + error;
   if (!nsvcd__steps_near(c, pair, s->steps, room * (1 + 1e-9), range)) return NSVCD_FREE;
   const size_t count = range->steps + 1;
   const nsvcd__dpose *const frames[2] = {nsvcd__frames_at(c, pair->a, range->first),
                                          nsvcd__frames_at(c, pair->b, range->first)};
   const nsvcd__local local = nsvcd__localize(c, pair, frames, count);
   const double errors = is_proof ? error + local.rounding : 0;
-  const double clearance = (double)s->options->clearance + errors;
+  const double clearance = kept + errors;
   const float rounded = clearance > 0 ? nsvcd__above(clearance) : 0;
   return nsvcd__ask_local(s, pair, count, rounded, work, found);
 }
@@ -2217,7 +2246,7 @@ static int nsvcd__is_hit_there(nsvcd__check_state *s, size_t work) {
   nsvcd_checker *c = s->checker;
   nsvcd_check_answer *answer = s->answer;
   const nsvcd_body_pair *pair = &c->scene->pairs[answer->pair];
-  const float clearance = s->options->clearance;
+  const float clearance = (float)nsvcd__clearance_of(s, pair);
   double joints[NSVCD_MAX_JOINTS];
   nsvcd_answer found;
   nsvcd__joints_at(s->motion, c->scene->joint_count, answer->piece, answer->fraction, joints,
@@ -2444,6 +2473,341 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *c, const nsvcd_joint_motion *mo
   }
   *answer = found;
   return NSVCD_OK;
+}
+
+// ------------------------------------------------------------------------------------- robot/looks
+// In: a motion of the joints. Out: does it seem free? An opinion, by nsvcd_look, at places along it.
+//
+// 16 configurations are looked at together, spread over the motion, the first batches far apart.
+// Links are placed in all of them side by side, in float, with each joint's axis along z. A pair is
+// looked at where the boxes about its parts overlap, and the one that met last comes first.
+
+// radians or metres between the places of a motion
+#define NSVCD__LOOK_STEP 0.05
+// metres by which a pair's margin is less at each look, where the ends, proven free, seem to meet
+#define NSVCD__LOOK_CUT 1e-3f
+
+// A frame in that of a link: a matrix, row-major, and an offset.
+typedef struct nsvcd__look_frame {
+  float turn[9], offset[3];
+} nsvcd__look_frame;
+
+// A part, as looks have it.
+typedef struct nsvcd__look_part {
+  nsvcd__look_frame frame;
+  // a sphere about it, in its link
+  float centre[3], radius;
+  // of the places at hand, or of a part that rests
+  float low[3], high[3];
+  // metres: the error of its balls; 0: it has none, or is a box
+  float error;
+  // where its places are, if it moves; are they those of the batch at hand?
+  nsvcd_places *places;
+  int is_placed;
+} nsvcd__look_part;
+
+typedef struct nsvcd__looker {
+  const nsvcd_checker *checker;
+  // (F): each joint in the link that it is on, turned so that axes are along z
+  nsvcd__look_frame joints[NSVCD_MAX_JOINTS];
+  // (F + 1)
+  nsvcd_places *links;
+  // (B)
+  nsvcd__look_part *parts;
+  // (P): metres, as nsvcd_look_options has it; what failed proofs have added to it
+  float *margins, *added;
+  // of a part that rests
+  nsvcd_places resting;
+  // the pair that met last; scene->pair_count: none yet
+  size_t last;
+  // motions that were looked at
+  size_t count;
+} nsvcd__looker;
+
+// ---- where everything is
+
+// A rotation that takes z to an axis.
+static nsvcd__dmat3 nsvcd__look_axes(nsvcd__d3 axis) {
+  const nsvcd__d3 helper = fabs(axis.x) < 0.6 ? nsvcd__d3_of(1, 0, 0) : nsvcd__d3_of(0, 1, 0);
+  const nsvcd__d3 x = nsvcd__d3_unit(nsvcd__d3_cross(helper, axis), helper);
+  const nsvcd__d3 y = nsvcd__d3_cross(axis, x);
+  const nsvcd__dmat3 out = {nsvcd__d3_of(x.x, y.x, axis.x), nsvcd__d3_of(x.y, y.y, axis.y),
+                            nsvcd__d3_of(x.z, y.z, axis.z)};
+  return out;
+}
+
+// A frame of a link as its turned axes see it, with axes of its own. before: of the link.
+static nsvcd__look_frame nsvcd__look_frame_of(const nsvcd__dmat3 *before,
+                                              const nsvcd__dpose *frame,
+                                              const nsvcd__dmat3 *own) {
+  const nsvcd__dmat3 turn = nsvcd__dmat3_of(frame->rotation);
+  const nsvcd__d3 *rows[3] = {&before->x, &before->y, &before->z};
+  const nsvcd__d3 *of_turn[3] = {&turn.x, &turn.y, &turn.z};
+  nsvcd__look_frame out;
+  for (size_t i = 0; i < 3; i++) {
+    // row i of the transpose of `before`, times the matrix
+    nsvcd__d3 row = {0, 0, 0};
+    double offset = 0;
+    for (size_t k = 0; k < 3; k++) {
+      const double factor = nsvcd__d3_axis(*rows[k], i);
+      row = nsvcd__d3_fma(factor, *of_turn[k], row);
+      offset += factor * nsvcd__d3_axis(frame->position, k);
+    }
+    out.offset[i] = (float)offset;
+    for (size_t k = 0; k < 3; k++)
+      out.turn[3 * i + k] =
+          (float)(row.x * nsvcd__d3_axis(own->x, k) + row.y * nsvcd__d3_axis(own->y, k) +
+                  row.z * nsvcd__d3_axis(own->z, k));
+  }
+  return out;
+}
+
+// A frame in 16 places of a link.
+static void nsvcd__look_carry(const nsvcd_places *link, const nsvcd__look_frame *frame,
+                              nsvcd_places *out) {
+  for (size_t i = 0; i < 3; i++) {
+    float(*row)[NSVCD_LOOKS] = out->rotation + 3 * i;
+    const float(*from)[NSVCD_LOOKS] = link->rotation + 3 * i;
+    for (size_t k = 0; k < 3; k++) {
+      const float x = frame->turn[k];
+      const float y = frame->turn[3 + k];
+      const float z = frame->turn[6 + k];
+      for (size_t l = 0; l < NSVCD_LOOKS; l++)
+        row[k][l] = from[0][l] * x + from[1][l] * y + from[2][l] * z;
+    }
+    const float *offset = frame->offset;
+    for (size_t l = 0; l < NSVCD_LOOKS; l++)
+      out->position[i][l] = link->position[i][l] + from[0][l] * offset[0] +
+                            from[1][l] * offset[1] + from[2][l] * offset[2];
+  }
+}
+
+// Sines and cosines of 16 angles, within 1e-6.
+static void nsvcd__look_angles(const double *angles, float *sines, float *cosines) {
+  for (size_t l = 0; l < NSVCD_LOOKS; l++) {
+    const double turns = angles[l] * 0.6366197723675814;
+    const int quarter = (int)(turns < 0 ? turns - 0.5 : turns + 0.5);
+    const float x = (float)(angles[l] - 1.5707963267948966 * quarter);
+    const float y = x * x;
+    const float s = x + x * y * (-1.6666655e-1f + y * (8.3321609e-3f - y * 1.9515296e-4f));
+    const float c =
+        1 - 0.5f * y + y * y * (4.1666646e-2f + y * (-1.3887316e-3f + y * 2.4433157e-5f));
+    const int swaps = quarter & 1;
+    const float sine = swaps ? c : s;
+    const float cosine = swaps ? s : c;
+    sines[l] = quarter & 2 ? -sine : sine;
+    cosines[l] = (quarter + 1) & 2 ? -cosine : cosine;
+  }
+}
+
+// Places the links. joints: (F, 16).
+static void nsvcd__look_place_links(nsvcd__looker *k, double (*joints)[NSVCD_LOOKS]) {
+  const nsvcd_scene *scene = k->checker->scene;
+  for (size_t j = 0; j < scene->joint_count; j++) {
+    nsvcd_places *link = &k->links[j + 1];
+    float sines[NSVCD_LOOKS], cosines[NSVCD_LOOKS];
+    nsvcd__look_carry(&k->links[scene->joints[j].parent], &k->joints[j], link);
+    if (scene->joints[j].kind == NSVCD_JOINT_PRISMATIC) {
+      for (size_t i = 0; i < 3; i++)
+        for (size_t l = 0; l < NSVCD_LOOKS; l++)
+          link->position[i][l] += (float)joints[j][l] * link->rotation[3 * i + 2][l];
+      continue;
+    }
+    nsvcd__look_angles(joints[j], sines, cosines);
+    for (size_t i = 0; i < 3; i++) {
+      float *x = link->rotation[3 * i];
+      float *y = link->rotation[3 * i + 1];
+      for (size_t l = 0; l < NSVCD_LOOKS; l++) {
+        const float turned = cosines[l] * x[l] + sines[l] * y[l];
+        y[l] = cosines[l] * y[l] - sines[l] * x[l];
+        x[l] = turned;
+      }
+    }
+  }
+  for (size_t n = 0; n < scene->part_count; n++) {
+    nsvcd__look_part *part = &k->parts[n];
+    const nsvcd_places *link = &k->links[scene->parts[n].link];
+    if (!part->places) continue;
+    part->is_placed = 0;
+    for (size_t i = 0; i < 3; i++) {
+      const float(*from)[NSVCD_LOOKS] = (const float(*)[NSVCD_LOOKS])(link->rotation + 3 * i);
+      float low = HUGE_VALF;
+      float high = -HUGE_VALF;
+      for (size_t l = 0; l < NSVCD_LOOKS; l++) {
+        const float x = link->position[i][l] + from[0][l] * part->centre[0] +
+                        from[1][l] * part->centre[1] + from[2][l] * part->centre[2];
+        low = x < low ? x : low;
+        high = x > high ? x : high;
+      }
+      part->low[i] = low - part->radius;
+      part->high[i] = high + part->radius;
+    }
+  }
+}
+
+// ---- a looker
+
+// Takes a looker's arrays from a workspace, or only counts them.
+static void nsvcd__looker_take(const nsvcd_scene *scene, char *base, uint64_t *used,
+                               nsvcd__looker *k) {
+  const size_t pairs = scene->pair_count;
+  k->links = NSVCD__TAKE_ROWS(nsvcd_places, scene->joint_count + 1, base, used);
+  k->parts = NSVCD__TAKE_ROWS(nsvcd__look_part, scene->part_count, base, used);
+  k->margins = NSVCD__TAKE_ROWS(float, pairs, base, used);
+  k->added = NSVCD__TAKE_ROWS(float, pairs, base, used);
+  if (base) memset(k->parts, 0, scene->part_count * sizeof *k->parts);
+  if (base) memset(k->added, 0, pairs * sizeof *k->added);
+  for (size_t n = 0; n < scene->part_count; n++) {
+    if (!scene->parts[n].link) continue;
+    nsvcd_places *places = NSVCD__TAKE_ROWS(nsvcd_places, 1, base, used);
+    if (base) k->parts[n].places = places;
+  }
+}
+
+static void nsvcd__identity_places(nsvcd_places *places) {
+  memset(places, 0, sizeof *places);
+  for (size_t l = 0; l < NSVCD_LOOKS; l++)
+    for (size_t i = 0; i < 3; i++) places->rotation[4 * i][l] = 1;
+}
+
+// The axes of a link: those of the joint that carries it; of the world, its own.
+static nsvcd__dmat3 nsvcd__look_axes_of(const nsvcd_checker *c, size_t link) {
+  const nsvcd__dmat3 world = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  return link ? nsvcd__look_axes(c->links[link - 1].axis) : world;
+}
+
+// Fills in a looker whose arrays are taken.
+static void nsvcd__looker_begin(nsvcd_checker *c, nsvcd__looker *k) {
+  const nsvcd_scene *scene = c->scene;
+  const nsvcd__dmat3 ones = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  k->checker = c;
+  k->last = scene->pair_count;
+  nsvcd__identity_places(&k->links[0]);
+  for (size_t j = 0; j < scene->joint_count; j++) {
+    const nsvcd__dmat3 before = nsvcd__look_axes_of(c, scene->joints[j].parent);
+    const nsvcd__dmat3 own = nsvcd__look_axes_of(c, j + 1);
+    k->joints[j] = nsvcd__look_frame_of(&before, &c->links[j].origin, &own);
+  }
+  for (size_t n = 0; n < scene->part_count; n++) {
+    const nsvcd_part *from = &scene->parts[n];
+    const nsvcd__member *m = &c->members[n];
+    nsvcd__look_part *part = &k->parts[n];
+    const nsvcd__dmat3 before = nsvcd__look_axes_of(c, from->link);
+    const nsvcd_body_facts facts = nsvcd_body_describe(from->body);
+    const float scale = from->scale > 0 ? from->scale : 1;
+    const nsvcd__dpose centre = {{0, 0, 0, 1}, m->centre};
+    const nsvcd__look_frame at = nsvcd__look_frame_of(&before, &centre, &ones);
+    part->frame = nsvcd__look_frame_of(&before, &m->frame, &ones);
+    memcpy(part->centre, at.offset, sizeof part->centre);
+    part->radius = 1.00001f * scale * facts.radius;
+    part->error = scale * facts.ball_error;
+    nsvcd__f3_store(nsvcd__f3_round(m->bounds.low), part->low);
+    nsvcd__f3_store(nsvcd__f3_round(m->bounds.high), part->high);
+  }
+}
+
+// Are there balls about all that moves? Else looks would find too little free.
+static int nsvcd__can_look(const nsvcd_scene *scene) {
+  int can = scene->pair_count > 0;
+  for (size_t n = 0; n < scene->part_count; n++)
+    can &= !scene->parts[n].link || nsvcd_body_describe(scene->parts[n].body).balls > 0;
+  return can;
+}
+
+// ---- looks
+
+static nsvcd_looked nsvcd__look_at_part(nsvcd__looker *k, size_t n) {
+  const nsvcd_part *part = &k->checker->scene->parts[n];
+  nsvcd__look_part *seen = &k->parts[n];
+  nsvcd_places *places = seen->places ? seen->places : &k->resting;
+  const nsvcd_looked out = {part->body, part->scale, places};
+  if (!seen->places || !seen->is_placed) {
+    nsvcd__look_carry(&k->links[part->link], &seen->frame, places);
+    seen->is_placed = 1;
+  }
+  return out;
+}
+
+// Does a pair seem to meet in one of the places at hand?
+static int nsvcd__pair_seems_to_meet(nsvcd__looker *k, size_t pair) {
+  const nsvcd_body_pair *parts = &k->checker->scene->pairs[pair];
+  const nsvcd__look_part *a = &k->parts[parts->a];
+  const nsvcd__look_part *b = &k->parts[parts->b];
+  const nsvcd_look_options options = {k->margins[pair], 1};
+  uint32_t met = 0;
+  for (size_t i = 0; i < 3; i++) {
+    if (a->low[i] - options.margin > b->high[i] || b->low[i] - options.margin > a->high[i])
+      return 0;
+  }
+  const nsvcd_looked first = nsvcd__look_at_part(k, parts->a);
+  const nsvcd_looked second = nsvcd__look_at_part(k, parts->b);
+  // what cannot be looked at seems to meet
+  return nsvcd_look(&first, &second, &options, &met) || met;
+}
+
+// Does anything seem to meet in 16 configurations? joints: (F, 16).
+static int nsvcd__seems_to_meet(nsvcd__looker *k, double (*joints)[NSVCD_LOOKS]) {
+  const size_t pairs = k->checker->scene->pair_count;
+  nsvcd__look_place_links(k, joints);
+  if (k->last < pairs && nsvcd__pair_seems_to_meet(k, k->last)) return 1;
+  for (size_t n = 0; n < pairs; n++) {
+    if (n == k->last || !nsvcd__pair_seems_to_meet(k, n)) continue;
+    k->last = n;
+    return 1;
+  }
+  return 0;
+}
+
+// Does a motion seem free? It begins where it is known to be, and is within the limits.
+static int nsvcd__seems_free(nsvcd__looker *k, const nsvcd_joint_motion *m) {
+  const size_t joints = k->checker->scene->joint_count;
+  const size_t rows = m->pieces * m->degree;
+  const double first = nsvcd__piece_start(m, 0);
+  const double whole = nsvcd__piece_start(m, m->pieces) - first;
+  double length = 0;
+  double at[NSVCD_MAX_JOINTS], places[NSVCD_MAX_JOINTS][NSVCD_LOOKS];
+  k->count++;
+  for (size_t n = 0; n < rows; n++) {
+    const double *from = m->points + n * joints;
+    length += sqrt(nsvcd__distance2(from, from + joints, joints));
+  }
+  const double wanted = length / (NSVCD__LOOK_STEP * NSVCD_LOOKS);
+  const size_t batches = wanted < 1 ? 1 : (size_t)nsvcd__min(ceil(wanted), 4096);
+  size_t stride = 1;
+  while (2 * stride <= batches) stride *= 2;
+  // batch n has the places n, n + batches, ... of all; the greater steps first
+  for (; stride > 0; stride /= 2) {
+    for (size_t n = stride; n <= batches; n += 2 * stride) {
+      for (size_t l = 0; l < NSVCD_LOOKS; l++) {
+        const double fraction = (double)(l * batches + n) / (double)(batches * NSVCD_LOOKS);
+        nsvcd__joints_at_time(m, joints, first + whole * fraction, at, NULL);
+        for (size_t j = 0; j < joints; j++) places[j][l] = at[j];
+      }
+      if (nsvcd__seems_to_meet(k, places)) return 0;
+    }
+  }
+  return 1;
+}
+
+// Sets the margins of all pairs. Balls about two parts are taken without their errors, so that no
+// meeting is invented; about one, less by a fraction of them. clearance: beside the scene's.
+static void nsvcd__set_margins(nsvcd__looker *k, float clearance, float fraction) {
+  const nsvcd_scene *scene = k->checker->scene;
+  for (size_t n = 0; n < scene->pair_count; n++) {
+    const float a = k->parts[scene->pairs[n].a].error;
+    const float b = k->parts[scene->pairs[n].b].error;
+    const float kept = clearance + (scene->clearances ? scene->clearances[n] : 0);
+    k->margins[n] = kept + k->added[n] - (a > 0 && b > 0 ? 1 : fraction) * (a + b);
+  }
+}
+
+// Lessens margins until nothing seems to meet in a configuration that is proven free.
+static void nsvcd__look_past(nsvcd__looker *k, const double *at) {
+  double places[NSVCD_MAX_JOINTS][NSVCD_LOOKS];
+  for (size_t j = 0; j < k->checker->scene->joint_count; j++)
+    for (size_t l = 0; l < NSVCD_LOOKS; l++) places[j][l] = at[j];
+  while (nsvcd__seems_to_meet(k, places) && k->margins[k->last] > -1)
+    k->margins[k->last] -= NSVCD__LOOK_CUT;
 }
 
 // ------------------------------------------------------------------------------------ robot/proofs
@@ -2704,12 +3068,6 @@ typedef struct nsvcd__rrt {
 } nsvcd__rrt;
 
 static const nsvcd__cell nsvcd__empty_leaf = {0, NSVCD_MAX_JOINTS, 0, 0};
-
-static double nsvcd__distance2(const double *a, const double *b, size_t joints) {
-  double sum = 0;
-  for (size_t j = 0; j < joints; j++) sum += (a[j] - b[j]) * (a[j] - b[j]);
-  return sum;
-}
 
 static double *nsvcd__node_at(const nsvcd__rrt *t, size_t node) {
   return t->points + node * t->joints;
@@ -3418,6 +3776,10 @@ typedef struct nsvcd__router {
   nsvcd_route_options options;
   nsvcd_check_options check;
   uint64_t random;
+  // motions are looked at, not proven; at most so many
+  int is_looking;
+  size_t looks;
+  nsvcd__looker looker;
   // an error, which stops the search
   nsvcd_result result;
   int is_stopped;
@@ -3427,8 +3789,9 @@ typedef struct nsvcd__router {
   nsvcd__rrt trees[2];
   // (F): the range of their roots
   double low[NSVCD_MAX_JOINTS], high[NSVCD_MAX_JOINTS];
-  // (G): of each root of trees[1], its goal
+  // (G): of each root of trees[1], its goal; how many roots that has
   size_t *goals;
+  size_t root_count;
   // (nodes of both trees + shortcuts, F): corners
   double *path;
   size_t corners;
@@ -3458,13 +3821,25 @@ static int nsvcd__prove_by(nsvcd__router *r, const nsvcd_joint_motion *motion,
   return is_free;
 }
 
-// The same with the search's own options. Once the search is stopped, nothing is free.
+// Does a motion seem free, and is it within the limits?
+static int nsvcd__look_along(nsvcd__router *r, const nsvcd_joint_motion *motion) {
+  const nsvcd_check_options *o = &r->check;
+  if (o->stop && o->stop(o->user)) r->is_stopped = 1;
+  // between two configurations within them, edges are
+  for (size_t p = 0; motion->degree > 1 && p < motion->pieces; p++)
+    if (nsvcd__joint_outside(r->scene, motion, p) != NSVCD_NONE) return 0;
+  return !r->is_stopped && nsvcd__seems_free(&r->looker, motion);
+}
+
+// Is a motion free, by a look or by a proof with the search's own options? Once the search is
+// stopped, nothing is.
 static int nsvcd__ask_motion(nsvcd__router *r, const nsvcd_joint_motion *motion) {
   if (!r->is_stopped && r->problem.stop && r->problem.stop(r->problem.user)) r->is_stopped = 1;
+  if (r->is_looking) return nsvcd__look_along(r, motion);
   return !r->is_stopped && nsvcd__prove_by(r, motion, &r->check);
 }
 
-static int nsvcd__prove_edge(nsvcd__router *r, const double *from, const double *to) {
+static int nsvcd__ask_edge(nsvcd__router *r, const double *from, const double *to) {
   double points[2 * NSVCD_MAX_JOINTS];
   const nsvcd_joint_motion motion = {1, 1, points, NULL};
   memcpy(points, from, r->joints * sizeof *points);
@@ -3609,6 +3984,14 @@ static void nsvcd__smooth(nsvcd__router *r) {
 #define NSVCD__TRIES 4
 #define NSVCD__SHORTCUTS 20
 #define NSVCD__SMOOTHINGS 200
+#define NSVCD__LOOKS 60000
+// of a search by looks: looks of the first, twice as many after each that finds nothing; searches;
+// metres that a pair is given more room where its proof fails
+#define NSVCD__FIRST_LOOKS 4000
+#define NSVCD__LOOK_SEARCHES 16
+#define NSVCD__LOOK_ROOM 2e-3f
+// of the balls' errors, which margins are less by after each search that finds nothing
+#define NSVCD__LOOK_EASE 0.25f
 // turns after which a tree that has not grown tries along single joints
 #define NSVCD__IDLE 100
 // radians or metres: seven configurations in eight are drawn no farther than this from the range of
@@ -3665,6 +4048,8 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
   if (!o->smoothings) o->smoothings = NSVCD__SMOOTHINGS;
   if (o->shortcuts == NSVCD_NONE) o->shortcuts = 0;
   if (o->smoothings == NSVCD_NONE) o->smoothings = 0;
+  o->looks = o->looks ? o->looks : NSVCD__LOOKS;
+  if (o->looks == NSVCD_NONE || !nsvcd__can_look(checker->scene)) o->looks = 0;
   const size_t joints = checker->scene->joint_count;
   // the caller's configurations do not count as nodes
   const size_t nodes = o->nodes + problem->goal_count + problem->guess_count + 1;
@@ -3683,6 +4068,7 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
   nsvcd__trajectory_take(&r->trajectory, base, &used, NSVCD__MOST_PIECES, joints);
   nsvcd__trajectory_take(&r->other, base, &used, NSVCD__MOST_PIECES, joints);
   nsvcd__trajectory_take(&r->blend, base, &used, NSVCD__BLEND_PIECES, joints);
+  if (o->looks) nsvcd__looker_take(checker->scene, base, &used, &r->looker);
   *router = (nsvcd__router *)at;
   return used <= SIZE_MAX ? (size_t)used : 0;
 }
@@ -3726,10 +4112,11 @@ static void nsvcd__draw(nsvcd__router *r, size_t turn, double *out) {
   for (size_t j = 0; j < joints; j++) out[j] = nsvcd__draw_joint(r, j, is_wide);
 }
 
-// Are there as many nodes, or tries, as are allowed?
+// Are there as many nodes, or tries, or looks, as are allowed?
 static int nsvcd__is_at_limit(const nsvcd__router *r) {
+  const size_t tries = r->is_looking ? r->looker.count : r->answer.checks;
   return r->trees[0].count + r->trees[1].count >= r->options.nodes ||
-         r->answer.checks >= r->options.tries;
+         tries >= (r->is_looking ? r->looks : r->options.tries);
 }
 
 // Grows a tree from its node nearest to a configuration: by one edge, or, if `is_greedy`, edge by
@@ -3745,7 +4132,7 @@ static int nsvcd__grow(nsvcd__router *r, nsvcd__rrt *t, const double *to, int is
     if (!(length > 0)) return 1;
     for (size_t j = 0; j < r->joints; j++)
       next[j] = ends ? to[j] : from[j] + r->options.edge / length * (to[j] - from[j]);
-    if (!nsvcd__prove_edge(r, from, next) || nsvcd__is_at_limit(r)) return 0;
+    if (!nsvcd__ask_edge(r, from, next) || nsvcd__is_at_limit(r)) return 0;
     *node = nsvcd__tree_add(t, next, *node);
     if (ends || !is_greedy) return ends;
   }
@@ -3773,7 +4160,7 @@ static void nsvcd__path_through(nsvcd__router *r, size_t from_start, size_t from
 // the path is found.
 static int nsvcd__join(nsvcd__router *r, size_t from_start, size_t from_goal) {
   const double *to = nsvcd__node_at(&r->trees[1], from_goal);
-  if (!nsvcd__prove_edge(r, nsvcd__node_at(&r->trees[0], from_start), to)) return 0;
+  if (!nsvcd__ask_edge(r, nsvcd__node_at(&r->trees[0], from_start), to)) return 0;
   const size_t node = nsvcd__tree_add(&r->trees[0], to, from_start);
   nsvcd__path_through(r, node, from_goal);
   return 1;
@@ -3792,7 +4179,7 @@ static int nsvcd__take_guess(nsvcd__router *r) {
     nsvcd__rrt *t = &r->trees[side];
     while (first < last) {
       const double *to = p->guess + (side ? last - 1 : first) * r->joints;
-      if (!nsvcd__prove_edge(r, nsvcd__node_at(t, nodes[side]), to)) break;
+      if (!nsvcd__ask_edge(r, nsvcd__node_at(t, nodes[side]), to)) break;
       nodes[side] = nsvcd__tree_add(t, to, nodes[side]);
       first += side == 0;
       last -= side == 1;
@@ -3859,7 +4246,7 @@ static void nsvcd__shorten(nsvcd__router *r) {
     const size_t last = nsvcd__path_at(r, nsvcd__max(a, b), at[1]);
     // on one edge nothing is won, and the path would grow by corners
     if (first == last) continue;
-    if (!nsvcd__prove_edge(r, at[0], at[1])) continue;
+    if (!nsvcd__ask_edge(r, at[0], at[1])) continue;
     // corners first + 1 to last make way for two
     const size_t rest = r->corners - (last + 1);
     memmove(nsvcd__corner_at(r, first + 3), nsvcd__corner_at(r, last + 1), rest * bytes);
@@ -3952,7 +4339,8 @@ static void nsvcd__plant(nsvcd__router *r) {
   r->answer.status = r->trees[1].count ? NSVCD_ROUTE_LIMIT : NSVCD_ROUTE_GOAL;
 }
 
-// Makes a motion of the path and proves all of it: smooth, else with a rest at each corner.
+// Makes a motion of the path and proves all of it: smooth, else with a rest at each corner. What
+// looks found is tried smooth only.
 static void nsvcd__time_path(nsvcd__router *r) {
   nsvcd_route_answer *answer = &r->answer;
   const nsvcd__trajectory *t = &r->trajectory;
@@ -3969,7 +4357,7 @@ static void nsvcd__time_path(nsvcd__router *r) {
   whole.stop = r->check.stop;
   whole.user = r->check.user;
   int is_free = 0;
-  for (int rests = 0; rests < 2 && !is_free; rests++) {
+  for (int rests = 0; rests < 2 - r->is_looking && !is_free; rests++) {
     if (!nsvcd__trajectory_along(r)) return;
     if (!rests) nsvcd__smooth(r);
     // also when the caller has stopped the search: what it found by then is proven
@@ -3981,6 +4369,61 @@ static void nsvcd__time_path(nsvcd__router *r) {
   answer->duration = nsvcd__trajectory_end(t);
   for (size_t p = 1; p < t->motion.pieces; p++)
     answer->stops += (size_t)nsvcd__rests_at(t, r->joints, p);
+}
+
+// Seeks a path and makes a motion of it.
+static void nsvcd__find_motion(nsvcd__router *r) {
+  r->corners = 0;
+  nsvcd__seek(r);
+  if (r->corners == 0) return;
+  nsvcd__shorten(r);
+  nsvcd__simplify_path(r);
+  nsvcd__time_path(r);
+}
+
+// Takes the trees back to their roots.
+static void nsvcd__replant(nsvcd__router *r) {
+  const size_t roots[2] = {1, r->root_count};
+  for (size_t k = 0; k < 2; k++) {
+    nsvcd__rrt *t = &r->trees[k];
+    t->count = t->cell_count = 0;
+    for (size_t n = 0; n < roots[k]; n++) {
+      double at[NSVCD_MAX_JOINTS];
+      memcpy(at, nsvcd__node_at(t, n), r->joints * sizeof *at);
+      nsvcd__tree_add(t, at, n);
+    }
+    r->idle[k] = 0;
+  }
+  r->random = r->options.seed;
+}
+
+// Searches by looks until a motion is proven. Where its proof fails, the pair gets more room. Where
+// nothing is found, the next search looks longer, and less strictly.
+static void nsvcd__search_by_looks(nsvcd__router *r) {
+  nsvcd__looker *k = &r->looker;
+  size_t fruitless = 0;
+  nsvcd__looker_begin(r->checker, k);
+  r->is_looking = 1;
+  for (size_t n = 0; n < NSVCD__LOOK_SEARCHES && !r->is_stopped; n++) {
+    const double ease = nsvcd__min(1, (double)NSVCD__LOOK_EASE * (double)fruitless);
+    const size_t most = k->count + ((size_t)NSVCD__FIRST_LOOKS << fruitless);
+    nsvcd__replant(r);
+    nsvcd__set_margins(k, r->options.clearance, (float)ease);
+    for (size_t side = 0; side < 2; side++)
+      for (size_t i = 0; i < r->trees[side].count; i++)
+        nsvcd__look_past(k, nsvcd__node_at(&r->trees[side], i));
+    r->looks = most < r->options.looks ? most : r->options.looks;
+    r->random += n;
+    nsvcd__find_motion(r);
+    if (r->answer.status == NSVCD_ROUTE_FOUND || k->count >= r->options.looks) break;
+    if (r->corners == 0) {
+      fruitless++;
+    } else if (r->answer.check.pair < r->scene->pair_count) {
+      k->added[r->answer.check.pair] += NSVCD__LOOK_ROOM;
+    }
+  }
+  r->is_looking = 0;
+  r->answer.looks = k->count;
 }
 
 NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_problem *problem,
@@ -4007,11 +4450,11 @@ NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_prob
   r->check.stop = problem->abandon;
   r->check.user = problem->user;
   nsvcd__plant(r);
-  if (r->trees[1].count > 0) nsvcd__seek(r);
-  if (r->corners > 0) {
-    nsvcd__shorten(r);
-    nsvcd__simplify_path(r);
-    nsvcd__time_path(r);
+  r->root_count = r->trees[1].count;
+  if (r->root_count > 0 && r->options.looks) nsvcd__search_by_looks(r);
+  if (r->root_count > 0 && r->answer.status != NSVCD_ROUTE_FOUND && !r->is_stopped) {
+    nsvcd__replant(r);
+    nsvcd__find_motion(r);
   }
   if (r->result) return r->result;
   if (r->is_stopped && r->answer.status != NSVCD_ROUTE_FOUND)

@@ -80,6 +80,7 @@ extern "C" {
 #include "robot/samples.h"    // configurations of a motion, and boxes about the parts in them
 #include "robot/local_queries.h"   // two parts, in the frame of one of them
 #include "robot/check.h"           // is a motion of the joints free?
+#include "robot/looks.h"           // does a motion seem free?
 #include "robot/proofs.h"          // certificates of pairs
 #include "robot/rrt.h"             // trees of configurations, and the nearest node
 #include "robot/configurations.h"  // proximities, the nearest free one, pairs that can meet

@@ -98,6 +98,7 @@ static const test_file files[] = {
     OF(facets),
     OF(motion),
     OF(broad_phase),
+    OF(looks),
     OF(proof),
     OF(fits),
     OF(asks),

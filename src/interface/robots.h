@@ -60,6 +60,9 @@ typedef struct nsvcd_scene {
   const nsvcd_body_pair *pairs;
   // P
   size_t pair_count;
+  // (P) metres: the distance that each pair keeps, beside the clearance that a check or a route is
+  // asked for. NULL: 0 for all
+  const float *clearances;
 } nsvcd_scene;
 
 // A motion of the joints, in pieces one after another. A piece is a Bezier curve in time. It begins
@@ -89,8 +92,8 @@ NSVCDDEF void nsvcd_motion_at(const nsvcd_joint_motion *motion, size_t joints, d
 
 // How a motion is checked. Zero means the default.
 typedef struct nsvcd_check_options {
-  // metres: parts that come within this distance of each other are a hit; default 0: only parts
-  // that meet are
+  // metres: parts that come within this distance of each other, and the scene's for their pair, are
+  // a hit; default 0
   float clearance;
   // metres: a step of the motion is not cut further if links deviate from their sweeps by less than
   // this in it; default 10 um
@@ -140,7 +143,7 @@ NSVCDDEF size_t nsvcd_checker_size(const nsvcd_scene *scene);
 //   threads    each needs a checker of its own; scenes may be shared
 //   errors     ARGUMENT (NULL), COUNT, WORKSPACE; of a joint JOINT, AXIS, LIMITS, SPEED; of a part
 //              BODY, VERSION, TRIANGLES, LINK, SCALE; of either POSE, QUATERNION; of a pair PAIR
-//              (also if both parts are on one link)
+//              (also if both parts are on one link), CLEARANCE
 NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory, size_t size,
                                          nsvcd_checker **checker);
 

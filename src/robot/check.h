@@ -47,6 +47,13 @@ static nsvcd_verdict nsvcd__ask_local(nsvcd__check_state *s, const nsvcd_body_pa
   return nsvcd__ask_sweep(s->checker, &question, found);
 }
 
+// The distance that a pair is to keep.
+static double nsvcd__clearance_of(const nsvcd__check_state *s, const nsvcd_body_pair *pair) {
+  const nsvcd_scene *scene = s->checker->scene;
+  const float *own = scene->clearances;
+  return (double)s->options->clearance + (own ? (double)own[pair - scene->pairs] : 0);
+}
+
 // Does a pair, on its sweeps between samples, come as near as the clearance? For a proof the errors
 // of these sweeps are added to it. range: the steps that were asked about; the times of *found are
 // fractions of it.
@@ -55,14 +62,15 @@ static nsvcd_verdict nsvcd__ask_pair(nsvcd__check_state *s, const nsvcd_body_pai
                                      nsvcd_answer *found) {
   nsvcd_checker *c = s->checker;
   const double error = nsvcd__part_error(c, pair->a) + nsvcd__part_error(c, pair->b);
-  const double room = (double)s->options->clearance + error;
+  const double kept = nsvcd__clearance_of(s, pair);
+  const double room = kept + error;
   if (!nsvcd__steps_near(c, pair, s->steps, room * (1 + 1e-9), range)) return NSVCD_FREE;
   const size_t count = range->steps + 1;
   const nsvcd__dpose *const frames[2] = {nsvcd__frames_at(c, pair->a, range->first),
                                          nsvcd__frames_at(c, pair->b, range->first)};
   const nsvcd__local local = nsvcd__localize(c, pair, frames, count);
   const double errors = is_proof ? error + local.rounding : 0;
-  const double clearance = (double)s->options->clearance + errors;
+  const double clearance = kept + errors;
   const float rounded = clearance > 0 ? nsvcd__above(clearance) : 0;
   return nsvcd__ask_local(s, pair, count, rounded, work, found);
 }
@@ -72,7 +80,7 @@ static int nsvcd__is_hit_there(nsvcd__check_state *s, size_t work) {
   nsvcd_checker *c = s->checker;
   nsvcd_check_answer *answer = s->answer;
   const nsvcd_body_pair *pair = &c->scene->pairs[answer->pair];
-  const float clearance = s->options->clearance;
+  const float clearance = (float)nsvcd__clearance_of(s, pair);
   double joints[NSVCD_MAX_JOINTS];
   nsvcd_answer found;
   nsvcd__joints_at(s->motion, c->scene->joint_count, answer->piece, answer->fraction, joints,

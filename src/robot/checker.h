@@ -65,6 +65,8 @@ static nsvcd_result nsvcd__scene_check(const nsvcd_scene *scene) {
     if (pair->a >= parts || pair->b >= parts ||
         scene->parts[pair->a].link == scene->parts[pair->b].link)
       return NSVCD_ERROR_PAIR;
+    if (scene->clearances && !nsvcd__is_length(scene->clearances[k]))
+      return NSVCD_ERROR_CLEARANCE;
   }
   return result;
 }

@@ -7,6 +7,14 @@
 #define NSVCD__TRIES 4
 #define NSVCD__SHORTCUTS 20
 #define NSVCD__SMOOTHINGS 200
+#define NSVCD__LOOKS 60000
+// of a search by looks: looks of the first, twice as many after each that finds nothing; searches;
+// metres that a pair is given more room where its proof fails
+#define NSVCD__FIRST_LOOKS 4000
+#define NSVCD__LOOK_SEARCHES 16
+#define NSVCD__LOOK_ROOM 2e-3f
+// of the balls' errors, which margins are less by after each search that finds nothing
+#define NSVCD__LOOK_EASE 0.25f
 // turns after which a tree that has not grown tries along single joints
 #define NSVCD__IDLE 100
 // radians or metres: seven configurations in eight are drawn no farther than this from the range of
@@ -63,6 +71,8 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
   if (!o->smoothings) o->smoothings = NSVCD__SMOOTHINGS;
   if (o->shortcuts == NSVCD_NONE) o->shortcuts = 0;
   if (o->smoothings == NSVCD_NONE) o->smoothings = 0;
+  o->looks = o->looks ? o->looks : NSVCD__LOOKS;
+  if (o->looks == NSVCD_NONE || !nsvcd__can_look(checker->scene)) o->looks = 0;
   const size_t joints = checker->scene->joint_count;
   // the caller's configurations do not count as nodes
   const size_t nodes = o->nodes + problem->goal_count + problem->guess_count + 1;
@@ -81,6 +91,7 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
   nsvcd__trajectory_take(&r->trajectory, base, &used, NSVCD__MOST_PIECES, joints);
   nsvcd__trajectory_take(&r->other, base, &used, NSVCD__MOST_PIECES, joints);
   nsvcd__trajectory_take(&r->blend, base, &used, NSVCD__BLEND_PIECES, joints);
+  if (o->looks) nsvcd__looker_take(checker->scene, base, &used, &r->looker);
   *router = (nsvcd__router *)at;
   return used <= SIZE_MAX ? (size_t)used : 0;
 }
@@ -124,10 +135,11 @@ static void nsvcd__draw(nsvcd__router *r, size_t turn, double *out) {
   for (size_t j = 0; j < joints; j++) out[j] = nsvcd__draw_joint(r, j, is_wide);
 }
 
-// Are there as many nodes, or tries, as are allowed?
+// Are there as many nodes, or tries, or looks, as are allowed?
 static int nsvcd__is_at_limit(const nsvcd__router *r) {
+  const size_t tries = r->is_looking ? r->looker.count : r->answer.checks;
   return r->trees[0].count + r->trees[1].count >= r->options.nodes ||
-         r->answer.checks >= r->options.tries;
+         tries >= (r->is_looking ? r->looks : r->options.tries);
 }
 
 // Grows a tree from its node nearest to a configuration: by one edge, or, if `is_greedy`, edge by
@@ -143,7 +155,7 @@ static int nsvcd__grow(nsvcd__router *r, nsvcd__rrt *t, const double *to, int is
     if (!(length > 0)) return 1;
     for (size_t j = 0; j < r->joints; j++)
       next[j] = ends ? to[j] : from[j] + r->options.edge / length * (to[j] - from[j]);
-    if (!nsvcd__prove_edge(r, from, next) || nsvcd__is_at_limit(r)) return 0;
+    if (!nsvcd__ask_edge(r, from, next) || nsvcd__is_at_limit(r)) return 0;
     *node = nsvcd__tree_add(t, next, *node);
     if (ends || !is_greedy) return ends;
   }
@@ -171,7 +183,7 @@ static void nsvcd__path_through(nsvcd__router *r, size_t from_start, size_t from
 // the path is found.
 static int nsvcd__join(nsvcd__router *r, size_t from_start, size_t from_goal) {
   const double *to = nsvcd__node_at(&r->trees[1], from_goal);
-  if (!nsvcd__prove_edge(r, nsvcd__node_at(&r->trees[0], from_start), to)) return 0;
+  if (!nsvcd__ask_edge(r, nsvcd__node_at(&r->trees[0], from_start), to)) return 0;
   const size_t node = nsvcd__tree_add(&r->trees[0], to, from_start);
   nsvcd__path_through(r, node, from_goal);
   return 1;
@@ -190,7 +202,7 @@ static int nsvcd__take_guess(nsvcd__router *r) {
     nsvcd__rrt *t = &r->trees[side];
     while (first < last) {
       const double *to = p->guess + (side ? last - 1 : first) * r->joints;
-      if (!nsvcd__prove_edge(r, nsvcd__node_at(t, nodes[side]), to)) break;
+      if (!nsvcd__ask_edge(r, nsvcd__node_at(t, nodes[side]), to)) break;
       nodes[side] = nsvcd__tree_add(t, to, nodes[side]);
       first += side == 0;
       last -= side == 1;
@@ -257,7 +269,7 @@ static void nsvcd__shorten(nsvcd__router *r) {
     const size_t last = nsvcd__path_at(r, nsvcd__max(a, b), at[1]);
     // on one edge nothing is won, and the path would grow by corners
     if (first == last) continue;
-    if (!nsvcd__prove_edge(r, at[0], at[1])) continue;
+    if (!nsvcd__ask_edge(r, at[0], at[1])) continue;
     // corners first + 1 to last make way for two
     const size_t rest = r->corners - (last + 1);
     memmove(nsvcd__corner_at(r, first + 3), nsvcd__corner_at(r, last + 1), rest * bytes);
@@ -350,7 +362,8 @@ static void nsvcd__plant(nsvcd__router *r) {
   r->answer.status = r->trees[1].count ? NSVCD_ROUTE_LIMIT : NSVCD_ROUTE_GOAL;
 }
 
-// Makes a motion of the path and proves all of it: smooth, else with a rest at each corner.
+// Makes a motion of the path and proves all of it: smooth, else with a rest at each corner. What
+// looks found is tried smooth only.
 static void nsvcd__time_path(nsvcd__router *r) {
   nsvcd_route_answer *answer = &r->answer;
   const nsvcd__trajectory *t = &r->trajectory;
@@ -367,7 +380,7 @@ static void nsvcd__time_path(nsvcd__router *r) {
   whole.stop = r->check.stop;
   whole.user = r->check.user;
   int is_free = 0;
-  for (int rests = 0; rests < 2 && !is_free; rests++) {
+  for (int rests = 0; rests < 2 - r->is_looking && !is_free; rests++) {
     if (!nsvcd__trajectory_along(r)) return;
     if (!rests) nsvcd__smooth(r);
     // also when the caller has stopped the search: what it found by then is proven
@@ -379,6 +392,61 @@ static void nsvcd__time_path(nsvcd__router *r) {
   answer->duration = nsvcd__trajectory_end(t);
   for (size_t p = 1; p < t->motion.pieces; p++)
     answer->stops += (size_t)nsvcd__rests_at(t, r->joints, p);
+}
+
+// Seeks a path and makes a motion of it.
+static void nsvcd__find_motion(nsvcd__router *r) {
+  r->corners = 0;
+  nsvcd__seek(r);
+  if (r->corners == 0) return;
+  nsvcd__shorten(r);
+  nsvcd__simplify_path(r);
+  nsvcd__time_path(r);
+}
+
+// Takes the trees back to their roots.
+static void nsvcd__replant(nsvcd__router *r) {
+  const size_t roots[2] = {1, r->root_count};
+  for (size_t k = 0; k < 2; k++) {
+    nsvcd__rrt *t = &r->trees[k];
+    t->count = t->cell_count = 0;
+    for (size_t n = 0; n < roots[k]; n++) {
+      double at[NSVCD_MAX_JOINTS];
+      memcpy(at, nsvcd__node_at(t, n), r->joints * sizeof *at);
+      nsvcd__tree_add(t, at, n);
+    }
+    r->idle[k] = 0;
+  }
+  r->random = r->options.seed;
+}
+
+// Searches by looks until a motion is proven. Where its proof fails, the pair gets more room. Where
+// nothing is found, the next search looks longer, and less strictly.
+static void nsvcd__search_by_looks(nsvcd__router *r) {
+  nsvcd__looker *k = &r->looker;
+  size_t fruitless = 0;
+  nsvcd__looker_begin(r->checker, k);
+  r->is_looking = 1;
+  for (size_t n = 0; n < NSVCD__LOOK_SEARCHES && !r->is_stopped; n++) {
+    const double ease = nsvcd__min(1, (double)NSVCD__LOOK_EASE * (double)fruitless);
+    const size_t most = k->count + ((size_t)NSVCD__FIRST_LOOKS << fruitless);
+    nsvcd__replant(r);
+    nsvcd__set_margins(k, r->options.clearance, (float)ease);
+    for (size_t side = 0; side < 2; side++)
+      for (size_t i = 0; i < r->trees[side].count; i++)
+        nsvcd__look_past(k, nsvcd__node_at(&r->trees[side], i));
+    r->looks = most < r->options.looks ? most : r->options.looks;
+    r->random += n;
+    nsvcd__find_motion(r);
+    if (r->answer.status == NSVCD_ROUTE_FOUND || k->count >= r->options.looks) break;
+    if (r->corners == 0) {
+      fruitless++;
+    } else if (r->answer.check.pair < r->scene->pair_count) {
+      k->added[r->answer.check.pair] += NSVCD__LOOK_ROOM;
+    }
+  }
+  r->is_looking = 0;
+  r->answer.looks = k->count;
 }
 
 NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_problem *problem,
@@ -405,11 +473,11 @@ NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_prob
   r->check.stop = problem->abandon;
   r->check.user = problem->user;
   nsvcd__plant(r);
-  if (r->trees[1].count > 0) nsvcd__seek(r);
-  if (r->corners > 0) {
-    nsvcd__shorten(r);
-    nsvcd__simplify_path(r);
-    nsvcd__time_path(r);
+  r->root_count = r->trees[1].count;
+  if (r->root_count > 0 && r->options.looks) nsvcd__search_by_looks(r);
+  if (r->root_count > 0 && r->answer.status != NSVCD_ROUTE_FOUND && !r->is_stopped) {
+    nsvcd__replant(r);
+    nsvcd__find_motion(r);
   }
   if (r->result) return r->result;
   if (r->is_stopped && r->answer.status != NSVCD_ROUTE_FOUND)

@@ -33,12 +33,6 @@ typedef struct nsvcd__rrt {
 
 static const nsvcd__cell nsvcd__empty_leaf = {0, NSVCD_MAX_JOINTS, 0, 0};
 
-static double nsvcd__distance2(const double *a, const double *b, size_t joints) {
-  double sum = 0;
-  for (size_t j = 0; j < joints; j++) sum += (a[j] - b[j]) * (a[j] - b[j]);
-  return sum;
-}
-
 static double *nsvcd__node_at(const nsvcd__rrt *t, size_t node) {
   return t->points + node * t->joints;
 }

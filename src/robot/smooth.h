@@ -7,7 +7,7 @@
 #pragma once
 #include "../interface/routes.h"
 #include "blends.h"
-#include "check.h"
+#include "looks.h"
 #include "rrt.h"
 
 // of a motion, at most
@@ -35,6 +35,10 @@ typedef struct nsvcd__router {
   nsvcd_route_options options;
   nsvcd_check_options check;
   uint64_t random;
+  // motions are looked at, not proven; at most so many
+  int is_looking;
+  size_t looks;
+  nsvcd__looker looker;
   // an error, which stops the search
   nsvcd_result result;
   int is_stopped;
@@ -44,8 +48,9 @@ typedef struct nsvcd__router {
   nsvcd__rrt trees[2];
   // (F): the range of their roots
   double low[NSVCD_MAX_JOINTS], high[NSVCD_MAX_JOINTS];
-  // (G): of each root of trees[1], its goal
+  // (G): of each root of trees[1], its goal; how many roots that has
   size_t *goals;
+  size_t root_count;
   // (nodes of both trees + shortcuts, F): corners
   double *path;
   size_t corners;
@@ -75,13 +80,25 @@ static int nsvcd__prove_by(nsvcd__router *r, const nsvcd_joint_motion *motion,
   return is_free;
 }
 
-// The same with the search's own options. Once the search is stopped, nothing is free.
+// Does a motion seem free, and is it within the limits?
+static int nsvcd__look_along(nsvcd__router *r, const nsvcd_joint_motion *motion) {
+  const nsvcd_check_options *o = &r->check;
+  if (o->stop && o->stop(o->user)) r->is_stopped = 1;
+  // between two configurations within them, edges are
+  for (size_t p = 0; motion->degree > 1 && p < motion->pieces; p++)
+    if (nsvcd__joint_outside(r->scene, motion, p) != NSVCD_NONE) return 0;
+  return !r->is_stopped && nsvcd__seems_free(&r->looker, motion);
+}
+
+// Is a motion free, by a look or by a proof with the search's own options? Once the search is
+// stopped, nothing is.
 static int nsvcd__ask_motion(nsvcd__router *r, const nsvcd_joint_motion *motion) {
   if (!r->is_stopped && r->problem.stop && r->problem.stop(r->problem.user)) r->is_stopped = 1;
+  if (r->is_looking) return nsvcd__look_along(r, motion);
   return !r->is_stopped && nsvcd__prove_by(r, motion, &r->check);
 }
 
-static int nsvcd__prove_edge(nsvcd__router *r, const double *from, const double *to) {
+static int nsvcd__ask_edge(nsvcd__router *r, const double *from, const double *to) {
   double points[2 * NSVCD_MAX_JOINTS];
   const nsvcd_joint_motion motion = {1, 1, points, NULL};
   memcpy(points, from, r->joints * sizeof *points);

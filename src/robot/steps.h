@@ -12,6 +12,13 @@ typedef struct nsvcd__step {
   double bend[NSVCD_MAX_JOINTS];
 } nsvcd__step;
 
+// Squared: radians and metres alike.
+static double nsvcd__distance2(const double *a, const double *b, size_t joints) {
+  double sum = 0;
+  for (size_t j = 0; j < joints; j++) sum += (a[j] - b[j]) * (a[j] - b[j]);
+  return sum;
+}
+
 // A motion of no pieces is its first point, whatever else it says.
 static nsvcd_joint_motion nsvcd__motion_meant(const nsvcd_joint_motion *motion) {
   const nsvcd_joint_motion still = {0, 0, motion->points, NULL};

@@ -46,7 +46,10 @@ static size_t arm_add(arm_scene *s, shapes_mesh *mesh, uint32_t link, double x, 
   if (n >= ARM_MOST_PARTS) exit(1);
   nsvcd_part *part = &s->parts[n];
   memset(part, 0, sizeof *part);
-  part->body = body_of(mesh, NULL);
+  nsvcd_encode_options options;
+  memset(&options, 0, sizeof options);
+  options.balls = link ? 128 : 0;
+  part->body = body_of(mesh, &options);
   if (!oracle_mesh_init(&s->meshes[n], mesh->positions, mesh->vertices, mesh->indices,
                         mesh->triangles, 1))
     exit(1);
