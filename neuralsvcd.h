@@ -7549,6 +7549,20 @@ static size_t nsvcd__geometry_layout(nsvcd_body *body, size_t patches,
   return at > 0xffffffffu ? 0 : (size_t)at;
 }
 
+// The first four arrays alone: looks, which take no time, need no others.
+static nsvcd__geometry nsvcd__geometry_head(const nsvcd_body *body) {
+  nsvcd__geometry f;
+  memset(&f, 0, sizeof f);
+  const nsvcd__counts *counts = nsvcd__counts_of(body);
+  const size_t balls = nsvcd__round_up(counts->balls, NSVCD__GROUP);
+  // a cast would take away a const
+  memcpy(&f.counts, &counts, sizeof counts);
+  f.box = (float *)(f.counts + 1);
+  f.balls = f.box + NSVCD__GEOMETRY_BOX;
+  f.slabs = f.balls + 4 * (balls + nsvcd__group_slots(balls));
+  return f;
+}
+
 static nsvcd__geometry nsvcd__geometry_of(const nsvcd_body *body) {
   nsvcd__geometry f;
   nsvcd_body *b;
@@ -11734,7 +11748,7 @@ typedef struct nsvcd__ball_tree {
 
 static nsvcd__ball_tree nsvcd__ball_tree_of(const nsvcd_body *body) {
   const nsvcd_body *triangles = nsvcd__triangles_of(body);
-  const nsvcd__geometry f = nsvcd__geometry_of(triangles);
+  const nsvcd__geometry f = nsvcd__geometry_head(triangles);
   nsvcd__ball_tree out;
   memset(&out, 0, sizeof out);
   out.whole = nsvcd__body_sphere(triangles);
@@ -12006,6 +12020,9 @@ static uint32_t nsvcd__look_all(const nsvcd_looked *a, const nsvcd_looked *b, fl
       if (nsvcd__look_at_box(&s, &point, radius) & open & ~s.met) nsvcd__look_into_box(&s, n);
       continue;
     }
+    const float to_all = radius + s.b.whole.radius;
+    if (!(open & ~s.met & nsvcd__look_at_sphere(&s, &point, to_all, s.b.whole.centre)))
+      continue;
     const size_t top = s.b.level_count - 1;
     for (size_t i = 0; i < s.b.counts[top] && !nsvcd__look_ends(&s); i++)
       nsvcd__look_down(&s, n, &point, radius, top, i, open);

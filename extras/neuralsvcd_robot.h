@@ -2562,23 +2562,30 @@ static nsvcd__look_frame nsvcd__look_frame_of(const nsvcd__dmat3 *before,
   return out;
 }
 
+// out = x rows[0] + y rows[1] + z rows[2] + base, of 16 numbers each. In a copy of its own, so that
+// compilers need not ask whether rows overlap, and vectorize it.
+static void nsvcd__look_mix(const float (*rows)[NSVCD_LOOKS], float x, float y, float z,
+                            const float *base, float *out) {
+  float sums[NSVCD_LOOKS];
+  for (size_t l = 0; l < NSVCD_LOOKS; l++)
+    sums[l] = rows[0][l] * x + rows[1][l] * y + rows[2][l] * z + base[l];
+  memcpy(out, sums, sizeof sums);
+}
+
 // A frame in 16 places of a link.
 static void nsvcd__look_carry(const nsvcd_places *link, const nsvcd__look_frame *frame,
                               nsvcd_places *out) {
+  static const float zeros[NSVCD_LOOKS] = {0};
+  const float *turn = frame->turn;
+  const float *offset = frame->offset;
   for (size_t i = 0; i < 3; i++) {
-    float(*row)[NSVCD_LOOKS] = out->rotation + 3 * i;
-    const float(*from)[NSVCD_LOOKS] = link->rotation + 3 * i;
+    const float(*from)[NSVCD_LOOKS] = (const float(*)[NSVCD_LOOKS])(link->rotation + 3 * i);
+    float *at = out->position[i];
     for (size_t k = 0; k < 3; k++) {
-      const float x = frame->turn[k];
-      const float y = frame->turn[3 + k];
-      const float z = frame->turn[6 + k];
-      for (size_t l = 0; l < NSVCD_LOOKS; l++)
-        row[k][l] = from[0][l] * x + from[1][l] * y + from[2][l] * z;
+      float *row = out->rotation[3 * i + k];
+      nsvcd__look_mix(from, turn[k], turn[3 + k], turn[6 + k], zeros, row);
     }
-    const float *offset = frame->offset;
-    for (size_t l = 0; l < NSVCD_LOOKS; l++)
-      out->position[i][l] = link->position[i][l] + from[0][l] * offset[0] +
-                            from[1][l] * offset[1] + from[2][l] * offset[2];
+    nsvcd__look_mix(from, offset[0], offset[1], offset[2], link->position[i], at);
   }
 }
 
@@ -2617,11 +2624,13 @@ static void nsvcd__look_place_links(nsvcd__looker *k, double (*joints)[NSVCD_LOO
     for (size_t i = 0; i < 3; i++) {
       float *x = link->rotation[3 * i];
       float *y = link->rotation[3 * i + 1];
+      float turned[2][NSVCD_LOOKS];
       for (size_t l = 0; l < NSVCD_LOOKS; l++) {
-        const float turned = cosines[l] * x[l] + sines[l] * y[l];
-        y[l] = cosines[l] * y[l] - sines[l] * x[l];
-        x[l] = turned;
+        turned[0][l] = cosines[l] * x[l] + sines[l] * y[l];
+        turned[1][l] = cosines[l] * y[l] - sines[l] * x[l];
       }
+      memcpy(x, turned[0], sizeof turned[0]);
+      memcpy(y, turned[1], sizeof turned[1]);
     }
   }
   for (size_t n = 0; n < scene->part_count; n++) {
@@ -2631,13 +2640,14 @@ static void nsvcd__look_place_links(nsvcd__looker *k, double (*joints)[NSVCD_LOO
     part->is_placed = 0;
     for (size_t i = 0; i < 3; i++) {
       const float(*from)[NSVCD_LOOKS] = (const float(*)[NSVCD_LOOKS])(link->rotation + 3 * i);
-      float low = HUGE_VALF;
-      float high = -HUGE_VALF;
-      for (size_t l = 0; l < NSVCD_LOOKS; l++) {
-        const float x = link->position[i][l] + from[0][l] * part->centre[0] +
-                        from[1][l] * part->centre[1] + from[2][l] * part->centre[2];
-        low = x < low ? x : low;
-        high = x > high ? x : high;
+      const float *centre = part->centre;
+      float x[NSVCD_LOOKS];
+      nsvcd__look_mix(from, centre[0], centre[1], centre[2], link->position[i], x);
+      float low = x[0];
+      float high = x[0];
+      for (size_t l = 1; l < NSVCD_LOOKS; l++) {
+        low = x[l] < low ? x[l] : low;
+        high = x[l] > high ? x[l] : high;
       }
       part->low[i] = low - part->radius;
       part->high[i] = high + part->radius;
@@ -2758,14 +2768,32 @@ static int nsvcd__seems_to_meet(nsvcd__looker *k, double (*joints)[NSVCD_LOOKS])
   return 0;
 }
 
+// Where the joints are in 16 places of a motion: in the fractions (n + l batches) / all of its time.
+static void nsvcd__look_joints(const nsvcd_joint_motion *m, size_t joints, size_t n,
+                               size_t batches, double (*out)[NSVCD_LOOKS]) {
+  const double first = nsvcd__piece_start(m, 0);
+  const double whole = nsvcd__piece_start(m, m->pieces) - first;
+  const double all = (double)(batches * NSVCD_LOOKS);
+  double at[NSVCD_MAX_JOINTS];
+  for (size_t j = 0; j < joints && m->pieces == 1 && m->degree == 1; j++) {
+    const double from = m->points[j];
+    const double step = (m->points[joints + j] - from) / all;
+    for (size_t l = 0; l < NSVCD_LOOKS; l++)
+      out[j][l] = from + step * (double)(int)(n + l * batches);
+  }
+  for (size_t l = 0; l < NSVCD_LOOKS && (m->pieces > 1 || m->degree > 1); l++) {
+    const double time = first + whole * (double)(n + l * batches) / all;
+    nsvcd__joints_at_time(m, joints, time, at, NULL);
+    for (size_t j = 0; j < joints; j++) out[j][l] = at[j];
+  }
+}
+
 // Does a motion seem free? It begins where it is known to be, and is within the limits.
 static int nsvcd__seems_free(nsvcd__looker *k, const nsvcd_joint_motion *m) {
   const size_t joints = k->checker->scene->joint_count;
   const size_t rows = m->pieces * m->degree;
-  const double first = nsvcd__piece_start(m, 0);
-  const double whole = nsvcd__piece_start(m, m->pieces) - first;
   double length = 0;
-  double at[NSVCD_MAX_JOINTS], places[NSVCD_MAX_JOINTS][NSVCD_LOOKS];
+  double places[NSVCD_MAX_JOINTS][NSVCD_LOOKS];
   k->count++;
   for (size_t n = 0; n < rows; n++) {
     const double *from = m->points + n * joints;
@@ -2778,11 +2806,7 @@ static int nsvcd__seems_free(nsvcd__looker *k, const nsvcd_joint_motion *m) {
   // batch n has the places n, n + batches, ... of all; the greater steps first
   for (; stride > 0; stride /= 2) {
     for (size_t n = stride; n <= batches; n += 2 * stride) {
-      for (size_t l = 0; l < NSVCD_LOOKS; l++) {
-        const double fraction = (double)(l * batches + n) / (double)(batches * NSVCD_LOOKS);
-        nsvcd__joints_at_time(m, joints, first + whole * fraction, at, NULL);
-        for (size_t j = 0; j < joints; j++) places[j][l] = at[j];
-      }
+      nsvcd__look_joints(m, joints, n, batches, places);
       if (nsvcd__seems_to_meet(k, places)) return 0;
     }
   }

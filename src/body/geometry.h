@@ -143,6 +143,20 @@ static size_t nsvcd__geometry_layout(nsvcd_body *body, size_t patches,
   return at > 0xffffffffu ? 0 : (size_t)at;
 }
 
+// The first four arrays alone: looks, which take no time, need no others.
+static nsvcd__geometry nsvcd__geometry_head(const nsvcd_body *body) {
+  nsvcd__geometry f;
+  memset(&f, 0, sizeof f);
+  const nsvcd__counts *counts = nsvcd__counts_of(body);
+  const size_t balls = nsvcd__round_up(counts->balls, NSVCD__GROUP);
+  // a cast would take away a const
+  memcpy(&f.counts, &counts, sizeof counts);
+  f.box = (float *)(f.counts + 1);
+  f.balls = f.box + NSVCD__GEOMETRY_BOX;
+  f.slabs = f.balls + 4 * (balls + nsvcd__group_slots(balls));
+  return f;
+}
+
 static nsvcd__geometry nsvcd__geometry_of(const nsvcd_body *body) {
   nsvcd__geometry f;
   nsvcd_body *b;

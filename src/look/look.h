@@ -32,7 +32,7 @@ typedef struct nsvcd__ball_tree {
 
 static nsvcd__ball_tree nsvcd__ball_tree_of(const nsvcd_body *body) {
   const nsvcd_body *triangles = nsvcd__triangles_of(body);
-  const nsvcd__geometry f = nsvcd__geometry_of(triangles);
+  const nsvcd__geometry f = nsvcd__geometry_head(triangles);
   nsvcd__ball_tree out;
   memset(&out, 0, sizeof out);
   out.whole = nsvcd__body_sphere(triangles);
@@ -304,6 +304,9 @@ static uint32_t nsvcd__look_all(const nsvcd_looked *a, const nsvcd_looked *b, fl
       if (nsvcd__look_at_box(&s, &point, radius) & open & ~s.met) nsvcd__look_into_box(&s, n);
       continue;
     }
+    const float to_all = radius + s.b.whole.radius;
+    if (!(open & ~s.met & nsvcd__look_at_sphere(&s, &point, to_all, s.b.whole.centre)))
+      continue;
     const size_t top = s.b.level_count - 1;
     for (size_t i = 0; i < s.b.counts[top] && !nsvcd__look_ends(&s); i++)
       nsvcd__look_down(&s, n, &point, radius, top, i, open);
