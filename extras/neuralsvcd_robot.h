@@ -449,7 +449,7 @@ typedef struct nsvcd_route_options {
   // radians or metres: the greatest length of an edge; default 1
   double edge;
   // The most motions that are looked at (nsvcd_look) before edges are proven one by one; default
-  // 60,000. NSVCD_NONE: no looks. If all parts that move have balls, trees, shortcuts and smoothing
+  // 200,000. NSVCD_NONE: no looks. If all parts that move have balls, trees, shortcuts and smoothing
   // go by looks, and what they find is proven as a whole, as ever. Where a proof fails, its pair is
   // given more room, and the search goes on
   size_t looks;
@@ -4008,14 +4008,14 @@ static void nsvcd__smooth(nsvcd__router *r) {
 #define NSVCD__TRIES 4
 #define NSVCD__SHORTCUTS 20
 #define NSVCD__SMOOTHINGS 200
-#define NSVCD__LOOKS 60000
+#define NSVCD__LOOKS 200000
 // of a search by looks: looks of the first, twice as many after each that finds nothing; searches;
 // metres that a pair is given more room where its proof fails
 #define NSVCD__FIRST_LOOKS 4000
 #define NSVCD__LOOK_SEARCHES 16
 #define NSVCD__LOOK_ROOM 2e-3f
 // of the balls' errors, which margins are less by after each search that finds nothing
-#define NSVCD__LOOK_EASE 0.25f
+#define NSVCD__LOOK_EASE 0.34f
 // turns after which a tree that has not grown tries along single joints
 #define NSVCD__IDLE 100
 // radians or metres: seven configurations in eight are drawn no farther than this from the range of

@@ -11,6 +11,9 @@
 #define FAR_SHAPE 6  // 1 m from its origin
 #define MOST_PARTS 40
 #define SMALL 0.3f  // scale of an arm's small parts
+#ifndef ROBOT_BALLS
+#define ROBOT_BALLS 0  // of each shape
+#endif
 
 // Meshes, as bodies and for the oracle; made once.
 typedef struct robot_shape {
@@ -22,8 +25,11 @@ typedef struct robot_shape {
 
 static robot_shape shape_of(shapes_mesh *mesh) {
   robot_shape out;
+  nsvcd_encode_options options;
   memset(&out, 0, sizeof out);
-  out.body = body_of(mesh, NULL);
+  memset(&options, 0, sizeof options);
+  options.balls = ROBOT_BALLS;
+  out.body = body_of(mesh, &options);
   out.points = mesh->positions;
   out.count = mesh->vertices;
   if (!oracle_mesh_init(&out.exact, out.points, out.count, mesh->indices, mesh->triangles, 1))

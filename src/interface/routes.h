@@ -64,7 +64,7 @@ typedef struct nsvcd_route_options {
   // radians or metres: the greatest length of an edge; default 1
   double edge;
   // The most motions that are looked at (nsvcd_look) before edges are proven one by one; default
-  // 60,000. NSVCD_NONE: no looks. If all parts that move have balls, trees, shortcuts and smoothing
+  // 200,000. NSVCD_NONE: no looks. If all parts that move have balls, trees, shortcuts and smoothing
   // go by looks, and what they find is proven as a whole, as ever. Where a proof fails, its pair is
   // given more room, and the search goes on
   size_t looks;

@@ -5,6 +5,7 @@
 // down the levels of b's spheres; where it meets a cluster, its balls are tried against that
 // cluster's, and, where these are patches, against their slabs.
 #pragma once
+#include "../body/geometry.h"
 #include "../interface/looks.h"
 #include "../lanes/turns.h"
 
