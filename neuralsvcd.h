@@ -158,7 +158,8 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_WORKSPACE,
   // the caller's progress function cancelled
   NSVCD_ERROR_CANCELLED,
-  // a count is 0, or larger than the library takes: of joints, parts, goals, points of a guess, balls
+  // a count is 0, or larger than the library takes: of joints, parts, goals, points of a guess, or
+  // balls
   NSVCD_ERROR_COUNT,
 
   // ---- files and meshes
@@ -738,16 +739,19 @@ typedef struct nsvcd_look_options {
   int any;
 } nsvcd_look_options;
 
-// In which of 16 places do two bodies meet? An opinion, not a proof, in about a tenth of a
-// microsecond to a few. Each body is seen as the balls that cover it (nsvcd_encode_options.balls).
-// A body without balls is seen as its patches: their spheres, if the other is too, else their
-// spheres and slabs. A box along the axes is exact if the other body is not a box.
+// In which of 16 places do two bodies meet? An opinion, not a proof, in a tenth of a microsecond to
+// a few. A body is seen as the balls that cover it (nsvcd_encode_options.balls). One without balls
+// is seen as its patches: as their spheres and slabs, or, if neither has balls, one of the two as
+// spheres only. Of two bodies one may be a box along its axes, which is exact.
 //
-// It errs on the side that the caller names. With a margin of 0 no place is missed in which the
-// surfaces meet. One body within the other is seen too if that has balls, which leave little of a
-// solid out, or is a box. With minus the sum of both bodies' nsvcd_body_facts.ball_error (0 for a box that is exact),
-// none is invented by balls, as far as what is enclosed by a mesh that is not closed can be told, on a grid of 96
-// cells along its longest side.
+// It errs on the side that the caller names:
+//
+//   margin 0          no place is missed in which the surfaces meet. One body within the other is
+//                     seen too, if that is such a box or has balls, which leave little of it out
+//   margin -(e1+e2)   no meeting is invented, of bodies with balls. e: nsvcd_body_facts.ball_error
+//                     of each; 0 for the box. What is enclosed by a mesh that is not closed is
+//                     told on a grid of 96 cells along its longest side
+//
 //   a, b       not NULL
 //   options    NULL: the defaults
 //   met        not NULL; set to a bit for each place, the lowest for the first, or left as it was
@@ -1539,6 +1543,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     encoder         a patch -> its latent
 //   body: the blob
 //     body            balls in groups of 16, and levels of spheres above
+//     covering        what a body of triangles begins with: counts, a box, balls
 //     traversal       the groups whose spheres pass a test
 //     geometry        what the proof reads: slabs, hulls, triangles
 //     voxels          a mesh as a grid of cells
@@ -7346,6 +7351,77 @@ static nsvcd_result nsvcd__body_build(const nsvcd__latents *all, void *memory) {
 }
 #endif
 
+// ----------------------------------------------------------------------------------- body/covering
+// In: a body of triangles. Out: what it begins with: counts, its box, and the balls that cover it,
+// which looks read, and nothing else. body/geometry says where they stand.
+
+#define NSVCD__GEOMETRY_BOX 8  // floats of `box` and `widest`
+
+typedef struct nsvcd__counts {
+  // L, entries of all patches
+  uint32_t listed;
+  // V, stored points
+  uint32_t vertices;
+  uint32_t components;   // C
+  uint32_t entry_bytes;  // B
+  // metres that the body extends beyond its triangles
+  float convex_radius;
+  // W, R, K; all 0: the body is coarse
+  uint32_t positions, references, cut;
+  // as nsvcd_body_facts tells them
+  uint32_t solids, open_solids, open_edges;
+  // 1: entries have kinds of two bits
+  uint32_t is_mixed;
+  // metres: corners this near count as one in what is closed
+  float gap;
+  // balls that cover the mesh; metres: no point of them is farther from the solid
+  uint32_t balls;
+  float ball_error;
+  // 1: the mesh is a box along the axes, solid
+  uint32_t is_box;
+} nsvcd__counts;
+
+// The body of triangles in a body; NULL: there is none, or it may not be read.
+static const nsvcd_body *nsvcd__triangles_of(const nsvcd_body *body) {
+  if (!NSVCD__PROOF || body->triangles == 0) return NULL;
+  return (const nsvcd_body *)(const void *)((const char *)body + body->inner);
+}
+
+static const nsvcd__counts *nsvcd__counts_of(const nsvcd_body *body) {
+  const char *at = (const char *)body + nsvcd__spheres_size(body->padded);
+  return (const nsvcd__counts *)(const void *)at;
+}
+
+// Balls, rounded up to 16, and the spheres over 16 of them each, rounded up again.
+static size_t nsvcd__ball_slots(const nsvcd__counts *counts) {
+  const size_t slots = nsvcd__round_up(counts->balls, NSVCD__GROUP);
+  return slots + nsvcd__group_slots(slots);
+}
+
+typedef struct nsvcd__covering {
+  const nsvcd__counts *counts;
+  // (2, 3), as in the body
+  const float *box;
+  nsvcd__spheres balls, clusters;
+  // slots of these
+  size_t ball_slots, cluster_slots;
+  // (6, P): of the patches
+  const float *slabs;
+} nsvcd__covering;
+
+static nsvcd__covering nsvcd__covering_of(const nsvcd_body *body) {
+  nsvcd__covering out;
+  out.counts = nsvcd__counts_of(body);
+  out.box = (const float *)(out.counts + 1);
+  out.ball_slots = nsvcd__round_up(out.counts->balls, NSVCD__GROUP);
+  out.cluster_slots = nsvcd__group_slots(out.ball_slots);
+  const float *balls = out.box + NSVCD__GEOMETRY_BOX;
+  out.balls = nsvcd__spheres_of(balls, out.ball_slots);
+  out.clusters = nsvcd__spheres_of(balls + 4 * out.ball_slots, out.cluster_slots);
+  out.slabs = balls + 4 * nsvcd__ball_slots(out.counts);
+  return out;
+}
+
 // ---------------------------------------------------------------------------------- body/traversal
 // In: a body and a filter of spheres. Out: the groups whose spheres pass.
 
@@ -7414,8 +7490,8 @@ static int nsvcd__traversal_next(nsvcd__traversal *t, size_t *group) {
 //   box             (2, 3)   float: least and greatest coordinates of the surface
 //   widest          (2)      float: the greatest of `errors`; and how far the mesh's vertices are
 //                            off, metres: 0, except in bodies that are scaled or coarse
-//   balls           (4, A)   float: balls that cover the mesh, x, y, z, r, in rows of 16 neighbours;
-//                            A: their count rounded up to 16, padding as above
+//   balls           (4, A)   float: balls that cover the mesh; A: their count, rounded up to 16,
+//                            padding as above; each 16 are neighbours
 //   clusters        (4, A')  float: spheres over 16 balls each; A': as G of A
 //   slabs           (6, P)   float: normal n, low, high, across: points x of a piece have
 //                            low <= n.(x - c) <= high and are within `across` of the line along n
@@ -7449,32 +7525,6 @@ static int nsvcd__traversal_next(nsvcd__traversal *t, size_t *group) {
 //   hull_counts     (N)      uint8: vertices of the hull, at most 16; 0: the patch has no surface
 
 #define NSVCD__HULLS (NSVCD__GROUP * NSVCD__HULL)  // vertices of a group, at most
-#define NSVCD__GEOMETRY_BOX 8                      // floats of `box` and `widest`
-
-typedef struct nsvcd__counts {
-  // L, entries of all patches
-  uint32_t listed;
-  // V, stored points
-  uint32_t vertices;
-  uint32_t components;   // C
-  uint32_t entry_bytes;  // B
-  // metres that the body extends beyond its triangles
-  float convex_radius;
-  // W, R, K; all 0: the body is coarse
-  uint32_t positions, references, cut;
-  // as nsvcd_body_facts tells them
-  uint32_t solids, open_solids, open_edges;
-  // 1: entries have kinds of two bits
-  uint32_t is_mixed;
-  // metres: corners this near count as one in what is closed
-  float gap;
-  // balls that cover the mesh; metres: no point of them is farther from the solid
-  uint32_t balls;
-  float ball_error;
-  // 1: the mesh is a box along the axes, solid
-  uint32_t is_box;
-} nsvcd__counts;
-
 // Where everything is in a body of triangles. Only who builds or scales one writes through this.
 typedef struct nsvcd__geometry {
   nsvcd_body *body;
@@ -7491,17 +7541,6 @@ typedef struct nsvcd__geometry {
   // of an entry's code: 1 or 2
   unsigned kind_bits;
 } nsvcd__geometry;
-
-// The body of triangles in a body; NULL: there is none, or it may not be read.
-static const nsvcd_body *nsvcd__triangles_of(const nsvcd_body *body) {
-  if (!NSVCD__PROOF || body->triangles == 0) return NULL;
-  return (const nsvcd_body *)(const void *)((const char *)body + body->inner);
-}
-
-static const nsvcd__counts *nsvcd__counts_of(const nsvcd_body *body) {
-  const char *at = (const char *)body + nsvcd__spheres_size(body->padded);
-  return (const nsvcd__counts *)(const void *)at;
-}
 
 // The next `count` numbers in a body; NULL: only counts them.
 #define NSVCD__PASS(type, count) ((type *)nsvcd__pass(body, &at, count, sizeof(type)))
@@ -7523,8 +7562,7 @@ static size_t nsvcd__geometry_layout(nsvcd_body *body, size_t patches,
   f->kind_bits = 1 + (counts->is_mixed != 0);
   f->counts = NSVCD__PASS(nsvcd__counts, 1);
   f->box = NSVCD__PASS(float, NSVCD__GEOMETRY_BOX);
-  const size_t balls = nsvcd__round_up(counts->balls, NSVCD__GROUP);
-  f->balls = NSVCD__PASS(float, 4 * (balls + nsvcd__group_slots(balls)));
+  f->balls = NSVCD__PASS(float, 4 * nsvcd__ball_slots(counts));
   f->slabs = NSVCD__PASS(float, 6 * padded);
   f->group_slabs = NSVCD__PASS(float, 6 * nsvcd__group_slots(padded));
   f->steps = NSVCD__PASS(float, padded);
@@ -7549,20 +7587,6 @@ static size_t nsvcd__geometry_layout(nsvcd_body *body, size_t patches,
   return at > 0xffffffffu ? 0 : (size_t)at;
 }
 
-// The first four arrays alone: looks, which take no time, need no others.
-static nsvcd__geometry nsvcd__geometry_head(const nsvcd_body *body) {
-  nsvcd__geometry f;
-  memset(&f, 0, sizeof f);
-  const nsvcd__counts *counts = nsvcd__counts_of(body);
-  const size_t balls = nsvcd__round_up(counts->balls, NSVCD__GROUP);
-  // a cast would take away a const
-  memcpy(&f.counts, &counts, sizeof counts);
-  f.box = (float *)(f.counts + 1);
-  f.balls = f.box + NSVCD__GEOMETRY_BOX;
-  f.slabs = f.balls + 4 * (balls + nsvcd__group_slots(balls));
-  return f;
-}
-
 static nsvcd__geometry nsvcd__geometry_of(const nsvcd_body *body) {
   nsvcd__geometry f;
   nsvcd_body *b;
@@ -7570,16 +7594,6 @@ static nsvcd__geometry nsvcd__geometry_of(const nsvcd_body *body) {
   memcpy(&b, &body, sizeof b);
   (void)nsvcd__geometry_layout(b, body->patches, nsvcd__counts_of(body), &f);
   return f;
-}
-
-// The balls that cover the mesh, and the spheres over 16 of them each.
-static nsvcd__spheres nsvcd__balls_of(const nsvcd__geometry *f) {
-  const size_t slots = nsvcd__round_up(f->counts->balls, NSVCD__GROUP);
-  return nsvcd__spheres_of(f->balls, slots);
-}
-static nsvcd__spheres nsvcd__ball_clusters_of(const nsvcd__geometry *f) {
-  const size_t slots = nsvcd__round_up(f->counts->balls, NSVCD__GROUP);
-  return nsvcd__spheres_of(f->balls + 4 * slots, nsvcd__group_slots(slots));
 }
 
 static float nsvcd__widest_error(const nsvcd__geometry *f) {
@@ -7868,6 +7882,13 @@ static nsvcd__spheres nsvcd__hull_spheres(const nsvcd__hulls *hulls) {
   return nsvcd__spheres_of(hulls->spheres[0], NSVCD__HULLS);
 }
 
+// Fills in the spheres over 16 balls each.
+static void nsvcd__cover_balls(const nsvcd__geometry *f) {
+  const nsvcd__covering all = nsvcd__covering_of(f->body);
+  float *out = f->balls + 4 * all.ball_slots;
+  nsvcd__cover_groups(all.balls, all.counts->balls, out, all.cluster_slots);
+}
+
 // Completes a body of triangles whose patches are in place: spheres of groups and levels, the box,
 // the greatest error, the groups' slabs. off: of the mesh's vertices, metres.
 static void nsvcd__geometry_finish(nsvcd_body *b, float off) {
@@ -7928,7 +7949,7 @@ static float nsvcd__whole_radius(const nsvcd_body *body) {
 // up and down these lines, say that the surface winds about it. These votes close the holes that
 // meshes of robots have.
 
-#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
+#ifndef NSVCD_NO_ENCODER
 // cells along the longest axis of the mesh's box; cells of the rim; votes for what is inside
 #define NSVCD__VOXELS 96
 #define NSVCD__VOXEL_RIM 2
@@ -8181,9 +8202,9 @@ static int nsvcd__voxels_build(const nsvcd_mesh *mesh, int is_open, nsvcd__arena
 // triangle is in their union, and what they stick out of the mesh is measured on its triangles.
 // Source: the greedy cover is Chvatal's (1979); the rest is this library's.
 
-#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
-// points that the bisection covers, of the surface and of what it encloses, and balls that it chooses
-// from, at most
+#ifndef NSVCD_NO_ENCODER
+// points that the bisection covers, of the surface and of what it encloses; balls that it chooses
+// from; at most
 #define NSVCD__COVER_POINTS 8192
 #define NSVCD__COVER_INNER 2048
 #define NSVCD__COVER_CHOICES 2048
@@ -8388,10 +8409,10 @@ static void nsvcd__grow_over(nsvcd__coverer *c, const nsvcd__d3 *t, size_t *last
   nsvcd__grow_over(c, halves[1], last);
 }
 
-// How far the balls go beyond the solid, at most. A ball about a point inside, at a depth d, has no
-// point farther from it than its radius less d; about one outside, at a height d, its radius plus d.
-// The depth is that of the nearest triangle, or by the cells, where that is more: within a solid of
-// several components there are triangles of the others. depths: (count).
+// How far the balls go beyond the solid, at most. If a centre is inside, at a depth d, no point of
+// its ball is farther from the solid than the radius less d; if it is outside, at a height d, than
+// the radius plus d. The depth is that of the nearest triangle, or by the cells, where that is
+// more: within a solid of several components there are triangles of the others. depths: (count).
 static double nsvcd__cover_error(const nsvcd__coverer *c, const nsvcd_mesh *mesh,
                                  double *depths) {
   for (size_t n = 0; n < c->count; n++) depths[n] = HUGE_VAL;
@@ -8419,73 +8440,80 @@ static double nsvcd__cover_error(const nsvcd__coverer *c, const nsvcd_mesh *mesh
   return worst;
 }
 
+// Takes a cover's memory. 0 without.
+static int nsvcd__coverer_take(nsvcd__coverer *c, size_t most, nsvcd__arena *arena) {
+  const size_t points = NSVCD__COVER_POINTS + NSVCD__COVER_INNER;
+  memset(c, 0, sizeof *c);
+  c->most = most;
+  c->words = points / 64;
+  c->points = NSVCD__TAKE(arena, uint32_t, points);
+  c->places = NSVCD__TAKE(arena, nsvcd__f3, points);
+  c->choices = NSVCD__TAKE(arena, uint32_t, NSVCD__COVER_CHOICES);
+  c->gains = NSVCD__TAKE(arena, uint32_t, NSVCD__COVER_CHOICES);
+  c->covered = NSVCD__TAKE(arena, uint64_t, NSVCD__COVER_CHOICES * c->words);
+  c->left = NSVCD__TAKE(arena, uint64_t, c->words);
+  c->tried = NSVCD__TAKE(arena, uint64_t, c->words);
+  c->centres = NSVCD__TAKE(arena, nsvcd__d3, most);
+  c->radii = NSVCD__TAKE(arena, double, most);
+  return !arena->failed;
+}
+
+// Takes the balls of the least slack with which they are enough, and grows them over all triangles.
+static void nsvcd__cover_mesh(nsvcd__coverer *c, const nsvcd_mesh *mesh) {
+  const unsigned within = 1u << NSVCD__VOXEL_SURFACE | 1u << NSVCD__VOXEL_HOLLOW;
+  nsvcd__choose_points(c);
+  c->choice_count = nsvcd__choose_cells(&c->voxels, within, NSVCD__COVER_CHOICES, c->choices);
+  // with the last of these one ball is enough
+  double low = 0.25 * c->voxels.edge;
+  double high = 2 * (double)(NSVCD__VOXELS + 2 * NSVCD__VOXEL_RIM) * c->voxels.edge;
+  for (int step = 0; step < NSVCD__COVER_STEPS; step++) {
+    const double middle = sqrt(low * high);
+    *(nsvcd__cover_with(c, middle) ? &high : &low) = middle;
+  }
+  (void)nsvcd__cover_with(c, high);
+  size_t last = 0;
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    nsvcd__d3 corners[3];
+    nsvcd__mesh_triangle(mesh, t, corners);
+    nsvcd__grow_over(c, corners, &last);
+  }
+}
+
 // Covers a checked mesh, no cloud, by o->balls balls at the most. 0 without memory. out: taken from
 // the arena.
 static int nsvcd__ball_cover_build(const nsvcd_mesh *mesh, const nsvcd_encode_options *o,
                                    nsvcd__arena *arena, nsvcd__ball_cover *out) {
-  const size_t most = o->balls;
-  const double convex_radius = (double)o->convex_radius;
   nsvcd__coverer c;
   nsvcd__arena spare = nsvcd__arena_of(arena->allocator);
-  memset(&c, 0, sizeof c);
-  c.most = most;
-  const size_t points = NSVCD__COVER_POINTS + NSVCD__COVER_INNER;
-  c.points = NSVCD__TAKE(&spare, uint32_t, points);
-  c.choices = NSVCD__TAKE(&spare, uint32_t, NSVCD__COVER_CHOICES);
-  c.words = points / 64;
-  c.covered = NSVCD__TAKE(&spare, uint64_t, NSVCD__COVER_CHOICES * c.words);
-  c.left = NSVCD__TAKE(&spare, uint64_t, c.words);
-  c.tried = NSVCD__TAKE(&spare, uint64_t, c.words);
-  c.gains = NSVCD__TAKE(&spare, uint32_t, NSVCD__COVER_CHOICES);
-  c.centres = NSVCD__TAKE(&spare, nsvcd__d3, most);
-  c.radii = NSVCD__TAKE(&spare, double, most);
-  c.places = NSVCD__TAKE(&spare, nsvcd__f3, points);
+  const size_t most = o->balls;
+  int ok = nsvcd__coverer_take(&c, most, &spare);
   double *depths = NSVCD__TAKE(&spare, double, most);
   uint16_t *order = NSVCD__TAKE(&spare, uint16_t, 2 * most);
   nsvcd__f3 *centres = NSVCD__TAKE(&spare, nsvcd__f3, most);
   out->centres = NSVCD__TAKE(arena, nsvcd__f3, most);
   out->radii = NSVCD__TAKE(arena, float, most);
-  if (arena->failed || spare.failed ||
-      !nsvcd__voxels_build(mesh, o->open, &spare, &c.voxels)) {
-    nsvcd__arena_free(&spare);
-    return 0;
+  ok = ok && !arena->failed && !spare.failed &&
+       nsvcd__voxels_build(mesh, o->open, &spare, &c.voxels);
+  if (ok) {
+    nsvcd__cover_mesh(&c, mesh);
+    for (size_t n = 0; n < c.count; n++) {
+      centres[n] = nsvcd__f3_round(c.centres[n]);
+      order[n] = (uint16_t)n;
+    }
+    nsvcd__body_order(centres, order, order + most, c.count);
+    double rounding = 0;
+    for (size_t n = 0; n < c.count; n++) {
+      const double radius = c.radii[order[n]] + (double)o->convex_radius;
+      const double length = nsvcd__d3_norm(c.centres[order[n]]) + radius;
+      rounding = nsvcd__max(rounding, 1e-6 * length);
+      out->centres[n] = centres[order[n]];
+      out->radii[n] = nsvcd__above(radius + 5e-7 * length);
+    }
+    out->count = c.count;
+    out->error = nsvcd__above(nsvcd__cover_error(&c, mesh, depths) + rounding);
   }
-  const nsvcd__voxels *v = &c.voxels;
-  const unsigned within = 1u << NSVCD__VOXEL_SURFACE | 1u << NSVCD__VOXEL_HOLLOW;
-  nsvcd__choose_points(&c);
-  c.choice_count = nsvcd__choose_cells(v, within, NSVCD__COVER_CHOICES, c.choices);
-  // with the last of these one ball is enough
-  double low = 0.25 * v->edge;
-  double high = 2 * (double)(NSVCD__VOXELS + 2 * NSVCD__VOXEL_RIM) * v->edge;
-  for (int step = 0; step < NSVCD__COVER_STEPS; step++) {
-    const double middle = sqrt(low * high);
-    *(nsvcd__cover_with(&c, middle) ? &high : &low) = middle;
-  }
-  (void)nsvcd__cover_with(&c, high);
-  size_t last = 0;
-  for (size_t t = 0; t < mesh->triangle_count; t++) {
-    nsvcd__d3 corners[3];
-    nsvcd__mesh_triangle(mesh, t, corners);
-    nsvcd__grow_over(&c, corners, &last);
-  }
-  const double error = nsvcd__cover_error(&c, mesh, depths);
-  for (size_t n = 0; n < c.count; n++) {
-    centres[n] = nsvcd__f3_round(c.centres[n]);
-    order[n] = (uint16_t)n;
-  }
-  nsvcd__body_order(centres, order, order + most, c.count);
-  double rounding = 0;
-  for (size_t n = 0; n < c.count; n++) {
-    const size_t from = order[n];
-    const double length = nsvcd__d3_norm(c.centres[from]) + c.radii[from] + convex_radius;
-    rounding = nsvcd__max(rounding, 1e-6 * length);
-    out->centres[n] = centres[from];
-    out->radii[n] = nsvcd__above(c.radii[from] + convex_radius + 5e-7 * length);
-  }
-  out->count = c.count;
-  out->error = nsvcd__above(error + rounding);
   nsvcd__arena_free(&spare);
-  return 1;
+  return ok;
 }
 #endif
 
@@ -8675,15 +8703,14 @@ static int nsvcd__are_in_range(const nsvcd__geometry *f) {
 
 // Are the balls spheres, and is each 16 in the sphere over them? Whether they cover the surface is
 // not checked: looks prove nothing.
-static int nsvcd__balls_are_sound(const nsvcd__geometry *f) {
-  const size_t count = f->counts->balls;
-  const size_t slots = nsvcd__round_up(count, NSVCD__GROUP);
-  const nsvcd__spheres balls = nsvcd__balls_of(f);
-  const nsvcd__spheres clusters = nsvcd__ball_clusters_of(f);
+static int nsvcd__balls_are_sound(const nsvcd_body *body) {
+  const nsvcd__covering all = nsvcd__covering_of(body);
+  const size_t count = all.counts->balls;
+  const size_t clusters = all.ball_slots / NSVCD__GROUP;
   const float most = NSVCD__MAX_LENGTH;
-  return nsvcd__are_spheres(balls, count, slots, most) &&
-         nsvcd__are_spheres(clusters, slots / NSVCD__GROUP, nsvcd__group_slots(slots), most) &&
-         nsvcd__level_covers(clusters, balls, count);
+  return nsvcd__are_spheres(all.balls, count, all.ball_slots, most) &&
+         nsvcd__are_spheres(all.clusters, clusters, all.cluster_slots, most) &&
+         nsvcd__level_covers(all.clusters, all.balls, count);
 }
 
 // Is a body of triangles sound, if its header is? Checks the spheres, the layout (sizes, counts and
@@ -8702,7 +8729,7 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
   const size_t needed = nsvcd__geometry_layout(NULL, b->patches, n, &f);
   if (b->size != needed || b->size > size) return 0;
   f = nsvcd__geometry_of(b);
-  int ok = nsvcd__are_laid_out(&f) && nsvcd__are_in_range(&f) && nsvcd__balls_are_sound(&f);
+  int ok = nsvcd__are_laid_out(&f) && nsvcd__are_in_range(&f) && nsvcd__balls_are_sound(b);
   for (size_t i = 0; ok && i < b->patches; i++) ok = nsvcd__patch_is_sound(&f, i);
   for (size_t g = 0; ok && g < nsvcd__body_groups(b); g++) {
     nsvcd__hulls hulls;
@@ -8796,23 +8823,21 @@ static void nsvcd__scale_latents(nsvcd_body *b, float scale) {
 
 // Scales the balls, which become larger by what rounding does to them and to the vertices.
 static void nsvcd__scale_balls(const nsvcd__geometry *f, double by) {
-  const size_t count = f->counts->balls;
-  const size_t slots = nsvcd__round_up(count, NSVCD__GROUP);
+  const nsvcd__covering all = nsvcd__covering_of(f->body);
   double rounding = 0;
-  for (size_t n = 0; n < count; n++) {
-    nsvcd__sphere ball = nsvcd__sphere_of(nsvcd__balls_of(f), n);
+  for (size_t n = 0; n < f->counts->balls; n++) {
+    nsvcd__sphere ball = nsvcd__sphere_of(all.balls, n);
     const nsvcd__d3 centre = nsvcd__d3_scale(nsvcd__d3_widen(ball.centre), by);
     const double radius = (double)ball.radius * by;
     const double more = 5e-7 * (nsvcd__d3_norm(centre) + radius);
     rounding = nsvcd__max(rounding, 2 * more);
     ball.centre = nsvcd__f3_round(centre);
     ball.radius = nsvcd__above(radius + more);
-    nsvcd__sphere_store(ball, f->balls, slots, n);
+    nsvcd__sphere_store(ball, f->balls, all.ball_slots, n);
   }
-  if (count > 0)
+  if (f->counts->balls > 0)
     f->counts->ball_error = nsvcd__above((double)f->counts->ball_error * by + rounding);
-  nsvcd__cover_groups(nsvcd__balls_of(f), count, f->balls + 4 * slots,
-                      nsvcd__group_slots(slots));
+  nsvcd__cover_balls(f);
 }
 
 // Scales a body of triangles. What rounding does to vertices and to the convex radius widens the
@@ -9162,10 +9187,10 @@ static void nsvcd__seeds_write(const nsvcd__writer *w, const uint16_t *order) {
 static void nsvcd__balls_write(nsvcd__writer *w) {
   const nsvcd__geometry *f = &w->to;
   const nsvcd__ball_cover *cover = &w->cover;
-  const size_t slots = nsvcd__round_up(cover->count, NSVCD__GROUP);
   float off = 0;
   for (size_t i = 0; i < f->body->patches && w->surface->coarse; i++)
     off = f->errors[i] > off ? f->errors[i] : off;
+  const size_t slots = nsvcd__round_up(cover->count, NSVCD__GROUP);
   for (size_t n = 0; n < slots; n++) {
     nsvcd__sphere ball = {{0, 0, 0}, NSVCD__NOWHERE};
     if (n < cover->count) {
@@ -9176,8 +9201,7 @@ static void nsvcd__balls_write(nsvcd__writer *w) {
   }
   if (cover->count > 0)
     f->counts->ball_error = nsvcd__above((double)cover->error + 2 * (double)off);
-  nsvcd__cover_groups(nsvcd__balls_of(f), cover->count, f->balls + 4 * slots,
-                      nsvcd__group_slots(slots));
+  nsvcd__cover_balls(f);
 }
 
 // Builds a body of triangles of `size` bytes in `memory`, and uses up the writer. order: (N) of the
@@ -11748,7 +11772,7 @@ typedef struct nsvcd__ball_tree {
 
 static nsvcd__ball_tree nsvcd__ball_tree_of(const nsvcd_body *body) {
   const nsvcd_body *triangles = nsvcd__triangles_of(body);
-  const nsvcd__geometry f = nsvcd__geometry_head(triangles);
+  const nsvcd__covering f = nsvcd__covering_of(triangles);
   nsvcd__ball_tree out;
   memset(&out, 0, sizeof out);
   out.whole = nsvcd__body_sphere(triangles);
@@ -11760,8 +11784,8 @@ static nsvcd__ball_tree nsvcd__ball_tree_of(const nsvcd_body *body) {
   out.middle = nsvcd__f3_scale(nsvcd__f3_add(low, high), 0.5f);
   out.half = nsvcd__f3_scale(nsvcd__f3_sub(high, low), 0.5f);
   if (f.counts->balls > 0) {
-    out.levels[0] = nsvcd__balls_of(&f);
-    out.levels[1] = nsvcd__ball_clusters_of(&f);
+    out.levels[0] = f.balls;
+    out.levels[1] = f.clusters;
     out.counts[0] = f.counts->balls;
     out.counts[1] = (f.counts->balls + NSVCD__GROUP - 1) / NSVCD__GROUP;
     out.level_count = 2;

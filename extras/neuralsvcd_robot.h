@@ -425,8 +425,8 @@ typedef struct nsvcd_route_problem {
   const double *guess;
   // W
   size_t guess_count;
-  // called before each proof and each look; may be NULL. If it returns anything but 0, the search ends. A path
-  // found by then is still proven as a whole
+  // called before each proof and each look; may be NULL. If it returns anything but 0, the search
+  // ends. A path found by then is still proven as a whole
   int (*stop)(void *user);
   // called before each question about a pair, also in that last proof; may be NULL. If it returns
   // anything but 0, that proof ends as well: so this bounds the time
@@ -443,15 +443,15 @@ typedef struct nsvcd_route_options {
   float clearance;
   // the most nodes of both trees, up to NSVCD_MAX_NODES; default 20,000
   size_t nodes;
-  // the most motions that are checked, free or not, without looks; default 4 times `nodes`. Where nothing is free
-  // the trees do not grow, so `nodes` alone would not end the search
+  // the most motions that are checked, free or not, without looks; default 4 times `nodes`. Where
+  // nothing is free the trees do not grow, so `nodes` alone would not end the search
   size_t tries;
   // radians or metres: the greatest length of an edge; default 1
   double edge;
   // The most motions that are looked at (nsvcd_look) before edges are proven one by one; default
-  // 200,000. NSVCD_NONE: no looks. If all parts that move have balls, trees, shortcuts and smoothing
-  // go by looks, and what they find is proven as a whole, as ever. Where a proof fails, its pair is
-  // given more room, and the search goes on
+  // 200,000. NSVCD_NONE: no looks. If all parts that move have balls, trees, shortcuts and
+  // smoothing go by looks, and what they find is proven as a whole, as ever. Where that fails, the
+  // pair is given more room, and the search begins anew
   size_t looks;
   // tries to shorten the path, up to NSVCD_MAX_NODES, default 20; and tries to smooth the motion,
   // default 200. NSVCD_NONE: no tries
@@ -2476,7 +2476,7 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *c, const nsvcd_joint_motion *mo
 }
 
 // ------------------------------------------------------------------------------------- robot/looks
-// In: a motion of the joints. Out: does it seem free? An opinion, by nsvcd_look, at places along it.
+// In: a motion of the joints. Out: does it seem free? An opinion, by nsvcd_look, at places on it.
 //
 // 16 configurations are looked at together, spread over the motion, the first batches far apart.
 // Links are placed in all of them side by side, in float, with each joint's axis along z. A pair is
@@ -2768,7 +2768,8 @@ static int nsvcd__seems_to_meet(nsvcd__looker *k, double (*joints)[NSVCD_LOOKS])
   return 0;
 }
 
-// Where the joints are in 16 places of a motion: in the fractions (n + l batches) / all of its time.
+// Where the joints are in 16 places of a motion, at fractions of its time: (n + l batches) / (16
+// batches).
 static void nsvcd__look_joints(const nsvcd_joint_motion *m, size_t joints, size_t n,
                                size_t batches, double (*out)[NSVCD_LOOKS]) {
   const double first = nsvcd__piece_start(m, 0);
@@ -4008,7 +4009,7 @@ static void nsvcd__smooth(nsvcd__router *r) {
 #define NSVCD__TRIES 4
 #define NSVCD__SHORTCUTS 20
 #define NSVCD__SMOOTHINGS 200
-#define NSVCD__LOOKS 200000
+#define NSVCD__MOST_LOOKS 200000
 // of a search by looks: looks of the first, twice as many after each that finds nothing; searches;
 // metres that a pair is given more room where its proof fails
 #define NSVCD__FIRST_LOOKS 4000
@@ -4072,7 +4073,7 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
   if (!o->smoothings) o->smoothings = NSVCD__SMOOTHINGS;
   if (o->shortcuts == NSVCD_NONE) o->shortcuts = 0;
   if (o->smoothings == NSVCD_NONE) o->smoothings = 0;
-  o->looks = o->looks ? o->looks : NSVCD__LOOKS;
+  o->looks = o->looks ? o->looks : NSVCD__MOST_LOOKS;
   if (o->looks == NSVCD_NONE || !nsvcd__can_look(checker->scene)) o->looks = 0;
   const size_t joints = checker->scene->joint_count;
   // the caller's configurations do not count as nodes

@@ -200,15 +200,16 @@ extern "C" {
 #include "encoder/encoder.h"  // a patch -> its latent
 
 // ================================================================================== body: the blob
-#include "body/body.h"       // balls in groups of 16, and levels of spheres above
-#include "body/traversal.h"  // the groups whose spheres pass a test
-#include "body/geometry.h"   // what the proof reads: slabs, hulls, triangles
-#include "body/voxels.h"     // a mesh as a grid of cells
+#include "body/body.h"        // balls in groups of 16, and levels of spheres above
+#include "body/covering.h"    // what a body of triangles begins with: counts, a box, balls
+#include "body/traversal.h"   // the groups whose spheres pass a test
+#include "body/geometry.h"    // what the proof reads: slabs, hulls, triangles
+#include "body/voxels.h"      // a mesh as a grid of cells
 #include "body/ball_cover.h"  // a few balls that cover a mesh, for looks
-#include "body/trust.h"      // is a blob sound? load it, scale it, describe it
-#include "body/write.h"      // a surface -> what the proof reads
-#include "body/encode.h"     // nsvcd_encode
-#include "body/shapes.h"     // spheres, capsules, boxes, clouds
+#include "body/trust.h"       // is a blob sound? load it, scale it, describe it
+#include "body/write.h"       // a surface -> what the proof reads
+#include "body/encode.h"      // nsvcd_encode
+#include "body/shapes.h"      // spheres, capsules, boxes, clouds
 
 // ======================================== motion: where bodies are, and the memory of their search
 #include "motion/motion.h"     // the moving body's poses as the fixed one sees them

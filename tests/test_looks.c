@@ -75,8 +75,7 @@ static void look_free(look_body *b) {
 }
 
 static nsvcd__sphere look_ball(const nsvcd_body *body, size_t n) {
-  const nsvcd__geometry f = nsvcd__geometry_of(nsvcd__triangles_of(body));
-  return nsvcd__sphere_of(nsvcd__balls_of(&f), n);
+  return nsvcd__sphere_of(nsvcd__covering_of(nsvcd__triangles_of(body)).balls, n);
 }
 
 // How far is a point from the solid? 0 inside.

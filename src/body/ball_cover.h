@@ -10,9 +10,9 @@
 #include "body.h"
 #include "voxels.h"
 
-#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
-// points that the bisection covers, of the surface and of what it encloses, and balls that it chooses
-// from, at most
+#ifndef NSVCD_NO_ENCODER
+// points that the bisection covers, of the surface and of what it encloses; balls that it chooses
+// from; at most
 #define NSVCD__COVER_POINTS 8192
 #define NSVCD__COVER_INNER 2048
 #define NSVCD__COVER_CHOICES 2048
@@ -217,10 +217,10 @@ static void nsvcd__grow_over(nsvcd__coverer *c, const nsvcd__d3 *t, size_t *last
   nsvcd__grow_over(c, halves[1], last);
 }
 
-// How far the balls go beyond the solid, at most. A ball about a point inside, at a depth d, has no
-// point farther from it than its radius less d; about one outside, at a height d, its radius plus d.
-// The depth is that of the nearest triangle, or by the cells, where that is more: within a solid of
-// several components there are triangles of the others. depths: (count).
+// How far the balls go beyond the solid, at most. If a centre is inside, at a depth d, no point of
+// its ball is farther from the solid than the radius less d; if it is outside, at a height d, than
+// the radius plus d. The depth is that of the nearest triangle, or by the cells, where that is
+// more: within a solid of several components there are triangles of the others. depths: (count).
 static double nsvcd__cover_error(const nsvcd__coverer *c, const nsvcd_mesh *mesh,
                                  double *depths) {
   for (size_t n = 0; n < c->count; n++) depths[n] = HUGE_VAL;
@@ -248,72 +248,79 @@ static double nsvcd__cover_error(const nsvcd__coverer *c, const nsvcd_mesh *mesh
   return worst;
 }
 
+// Takes a cover's memory. 0 without.
+static int nsvcd__coverer_take(nsvcd__coverer *c, size_t most, nsvcd__arena *arena) {
+  const size_t points = NSVCD__COVER_POINTS + NSVCD__COVER_INNER;
+  memset(c, 0, sizeof *c);
+  c->most = most;
+  c->words = points / 64;
+  c->points = NSVCD__TAKE(arena, uint32_t, points);
+  c->places = NSVCD__TAKE(arena, nsvcd__f3, points);
+  c->choices = NSVCD__TAKE(arena, uint32_t, NSVCD__COVER_CHOICES);
+  c->gains = NSVCD__TAKE(arena, uint32_t, NSVCD__COVER_CHOICES);
+  c->covered = NSVCD__TAKE(arena, uint64_t, NSVCD__COVER_CHOICES * c->words);
+  c->left = NSVCD__TAKE(arena, uint64_t, c->words);
+  c->tried = NSVCD__TAKE(arena, uint64_t, c->words);
+  c->centres = NSVCD__TAKE(arena, nsvcd__d3, most);
+  c->radii = NSVCD__TAKE(arena, double, most);
+  return !arena->failed;
+}
+
+// Takes the balls of the least slack with which they are enough, and grows them over all triangles.
+static void nsvcd__cover_mesh(nsvcd__coverer *c, const nsvcd_mesh *mesh) {
+  const unsigned within = 1u << NSVCD__VOXEL_SURFACE | 1u << NSVCD__VOXEL_HOLLOW;
+  nsvcd__choose_points(c);
+  c->choice_count = nsvcd__choose_cells(&c->voxels, within, NSVCD__COVER_CHOICES, c->choices);
+  // with the last of these one ball is enough
+  double low = 0.25 * c->voxels.edge;
+  double high = 2 * (double)(NSVCD__VOXELS + 2 * NSVCD__VOXEL_RIM) * c->voxels.edge;
+  for (int step = 0; step < NSVCD__COVER_STEPS; step++) {
+    const double middle = sqrt(low * high);
+    *(nsvcd__cover_with(c, middle) ? &high : &low) = middle;
+  }
+  (void)nsvcd__cover_with(c, high);
+  size_t last = 0;
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    nsvcd__d3 corners[3];
+    nsvcd__mesh_triangle(mesh, t, corners);
+    nsvcd__grow_over(c, corners, &last);
+  }
+}
+
 // Covers a checked mesh, no cloud, by o->balls balls at the most. 0 without memory. out: taken from
 // the arena.
 static int nsvcd__ball_cover_build(const nsvcd_mesh *mesh, const nsvcd_encode_options *o,
                                    nsvcd__arena *arena, nsvcd__ball_cover *out) {
-  const size_t most = o->balls;
-  const double convex_radius = (double)o->convex_radius;
   nsvcd__coverer c;
   nsvcd__arena spare = nsvcd__arena_of(arena->allocator);
-  memset(&c, 0, sizeof c);
-  c.most = most;
-  const size_t points = NSVCD__COVER_POINTS + NSVCD__COVER_INNER;
-  c.points = NSVCD__TAKE(&spare, uint32_t, points);
-  c.choices = NSVCD__TAKE(&spare, uint32_t, NSVCD__COVER_CHOICES);
-  c.words = points / 64;
-  c.covered = NSVCD__TAKE(&spare, uint64_t, NSVCD__COVER_CHOICES * c.words);
-  c.left = NSVCD__TAKE(&spare, uint64_t, c.words);
-  c.tried = NSVCD__TAKE(&spare, uint64_t, c.words);
-  c.gains = NSVCD__TAKE(&spare, uint32_t, NSVCD__COVER_CHOICES);
-  c.centres = NSVCD__TAKE(&spare, nsvcd__d3, most);
-  c.radii = NSVCD__TAKE(&spare, double, most);
-  c.places = NSVCD__TAKE(&spare, nsvcd__f3, points);
+  const size_t most = o->balls;
+  int ok = nsvcd__coverer_take(&c, most, &spare);
   double *depths = NSVCD__TAKE(&spare, double, most);
   uint16_t *order = NSVCD__TAKE(&spare, uint16_t, 2 * most);
   nsvcd__f3 *centres = NSVCD__TAKE(&spare, nsvcd__f3, most);
   out->centres = NSVCD__TAKE(arena, nsvcd__f3, most);
   out->radii = NSVCD__TAKE(arena, float, most);
-  if (arena->failed || spare.failed ||
-      !nsvcd__voxels_build(mesh, o->open, &spare, &c.voxels)) {
-    nsvcd__arena_free(&spare);
-    return 0;
+  ok = ok && !arena->failed && !spare.failed &&
+       nsvcd__voxels_build(mesh, o->open, &spare, &c.voxels);
+  if (ok) {
+    nsvcd__cover_mesh(&c, mesh);
+    for (size_t n = 0; n < c.count; n++) {
+      centres[n] = nsvcd__f3_round(c.centres[n]);
+      order[n] = (uint16_t)n;
+    }
+    nsvcd__body_order(centres, order, order + most, c.count);
+    double rounding = 0;
+    for (size_t n = 0; n < c.count; n++) {
+      const double radius = c.radii[order[n]] + (double)o->convex_radius;
+      const double length = nsvcd__d3_norm(c.centres[order[n]]) + radius;
+      rounding = nsvcd__max(rounding, 1e-6 * length);
+      out->centres[n] = centres[order[n]];
+      out->radii[n] = nsvcd__above(radius + 5e-7 * length);
+    }
+    out->count = c.count;
+    out->error = nsvcd__above(nsvcd__cover_error(&c, mesh, depths) + rounding);
   }
-  const nsvcd__voxels *v = &c.voxels;
-  const unsigned within = 1u << NSVCD__VOXEL_SURFACE | 1u << NSVCD__VOXEL_HOLLOW;
-  nsvcd__choose_points(&c);
-  c.choice_count = nsvcd__choose_cells(v, within, NSVCD__COVER_CHOICES, c.choices);
-  // with the last of these one ball is enough
-  double low = 0.25 * v->edge;
-  double high = 2 * (double)(NSVCD__VOXELS + 2 * NSVCD__VOXEL_RIM) * v->edge;
-  for (int step = 0; step < NSVCD__COVER_STEPS; step++) {
-    const double middle = sqrt(low * high);
-    *(nsvcd__cover_with(&c, middle) ? &high : &low) = middle;
-  }
-  (void)nsvcd__cover_with(&c, high);
-  size_t last = 0;
-  for (size_t t = 0; t < mesh->triangle_count; t++) {
-    nsvcd__d3 corners[3];
-    nsvcd__mesh_triangle(mesh, t, corners);
-    nsvcd__grow_over(&c, corners, &last);
-  }
-  const double error = nsvcd__cover_error(&c, mesh, depths);
-  for (size_t n = 0; n < c.count; n++) {
-    centres[n] = nsvcd__f3_round(c.centres[n]);
-    order[n] = (uint16_t)n;
-  }
-  nsvcd__body_order(centres, order, order + most, c.count);
-  double rounding = 0;
-  for (size_t n = 0; n < c.count; n++) {
-    const size_t from = order[n];
-    const double length = nsvcd__d3_norm(c.centres[from]) + c.radii[from] + convex_radius;
-    rounding = nsvcd__max(rounding, 1e-6 * length);
-    out->centres[n] = centres[from];
-    out->radii[n] = nsvcd__above(c.radii[from] + convex_radius + 5e-7 * length);
-  }
-  out->count = c.count;
-  out->error = nsvcd__above(error + rounding);
   nsvcd__arena_free(&spare);
-  return 1;
+  return ok;
 }
 #endif

@@ -6,8 +6,8 @@
 //   box             (2, 3)   float: least and greatest coordinates of the surface
 //   widest          (2)      float: the greatest of `errors`; and how far the mesh's vertices are
 //                            off, metres: 0, except in bodies that are scaled or coarse
-//   balls           (4, A)   float: balls that cover the mesh, x, y, z, r, in rows of 16 neighbours;
-//                            A: their count rounded up to 16, padding as above
+//   balls           (4, A)   float: balls that cover the mesh; A: their count, rounded up to 16,
+//                            padding as above; each 16 are neighbours
 //   clusters        (4, A')  float: spheres over 16 balls each; A': as G of A
 //   slabs           (6, P)   float: normal n, low, high, across: points x of a piece have
 //                            low <= n.(x - c) <= high and are within `across` of the line along n
@@ -40,35 +40,10 @@
 //     numbers       (T)      each in 1 to 5 bytes: see nsvcd__read_code
 //   hull_counts     (N)      uint8: vertices of the hull, at most 16; 0: the patch has no surface
 #pragma once
+#include "covering.h"
 #include "traversal.h"
 
 #define NSVCD__HULLS (NSVCD__GROUP * NSVCD__HULL)  // vertices of a group, at most
-#define NSVCD__GEOMETRY_BOX 8                      // floats of `box` and `widest`
-
-typedef struct nsvcd__counts {
-  // L, entries of all patches
-  uint32_t listed;
-  // V, stored points
-  uint32_t vertices;
-  uint32_t components;   // C
-  uint32_t entry_bytes;  // B
-  // metres that the body extends beyond its triangles
-  float convex_radius;
-  // W, R, K; all 0: the body is coarse
-  uint32_t positions, references, cut;
-  // as nsvcd_body_facts tells them
-  uint32_t solids, open_solids, open_edges;
-  // 1: entries have kinds of two bits
-  uint32_t is_mixed;
-  // metres: corners this near count as one in what is closed
-  float gap;
-  // balls that cover the mesh; metres: no point of them is farther from the solid
-  uint32_t balls;
-  float ball_error;
-  // 1: the mesh is a box along the axes, solid
-  uint32_t is_box;
-} nsvcd__counts;
-
 // Where everything is in a body of triangles. Only who builds or scales one writes through this.
 typedef struct nsvcd__geometry {
   nsvcd_body *body;
@@ -85,17 +60,6 @@ typedef struct nsvcd__geometry {
   // of an entry's code: 1 or 2
   unsigned kind_bits;
 } nsvcd__geometry;
-
-// The body of triangles in a body; NULL: there is none, or it may not be read.
-static const nsvcd_body *nsvcd__triangles_of(const nsvcd_body *body) {
-  if (!NSVCD__PROOF || body->triangles == 0) return NULL;
-  return (const nsvcd_body *)(const void *)((const char *)body + body->inner);
-}
-
-static const nsvcd__counts *nsvcd__counts_of(const nsvcd_body *body) {
-  const char *at = (const char *)body + nsvcd__spheres_size(body->padded);
-  return (const nsvcd__counts *)(const void *)at;
-}
 
 // The next `count` numbers in a body; NULL: only counts them.
 #define NSVCD__PASS(type, count) ((type *)nsvcd__pass(body, &at, count, sizeof(type)))
@@ -117,8 +81,7 @@ static size_t nsvcd__geometry_layout(nsvcd_body *body, size_t patches,
   f->kind_bits = 1 + (counts->is_mixed != 0);
   f->counts = NSVCD__PASS(nsvcd__counts, 1);
   f->box = NSVCD__PASS(float, NSVCD__GEOMETRY_BOX);
-  const size_t balls = nsvcd__round_up(counts->balls, NSVCD__GROUP);
-  f->balls = NSVCD__PASS(float, 4 * (balls + nsvcd__group_slots(balls)));
+  f->balls = NSVCD__PASS(float, 4 * nsvcd__ball_slots(counts));
   f->slabs = NSVCD__PASS(float, 6 * padded);
   f->group_slabs = NSVCD__PASS(float, 6 * nsvcd__group_slots(padded));
   f->steps = NSVCD__PASS(float, padded);
@@ -143,20 +106,6 @@ static size_t nsvcd__geometry_layout(nsvcd_body *body, size_t patches,
   return at > 0xffffffffu ? 0 : (size_t)at;
 }
 
-// The first four arrays alone: looks, which take no time, need no others.
-static nsvcd__geometry nsvcd__geometry_head(const nsvcd_body *body) {
-  nsvcd__geometry f;
-  memset(&f, 0, sizeof f);
-  const nsvcd__counts *counts = nsvcd__counts_of(body);
-  const size_t balls = nsvcd__round_up(counts->balls, NSVCD__GROUP);
-  // a cast would take away a const
-  memcpy(&f.counts, &counts, sizeof counts);
-  f.box = (float *)(f.counts + 1);
-  f.balls = f.box + NSVCD__GEOMETRY_BOX;
-  f.slabs = f.balls + 4 * (balls + nsvcd__group_slots(balls));
-  return f;
-}
-
 static nsvcd__geometry nsvcd__geometry_of(const nsvcd_body *body) {
   nsvcd__geometry f;
   nsvcd_body *b;
@@ -164,16 +113,6 @@ static nsvcd__geometry nsvcd__geometry_of(const nsvcd_body *body) {
   memcpy(&b, &body, sizeof b);
   (void)nsvcd__geometry_layout(b, body->patches, nsvcd__counts_of(body), &f);
   return f;
-}
-
-// The balls that cover the mesh, and the spheres over 16 of them each.
-static nsvcd__spheres nsvcd__balls_of(const nsvcd__geometry *f) {
-  const size_t slots = nsvcd__round_up(f->counts->balls, NSVCD__GROUP);
-  return nsvcd__spheres_of(f->balls, slots);
-}
-static nsvcd__spheres nsvcd__ball_clusters_of(const nsvcd__geometry *f) {
-  const size_t slots = nsvcd__round_up(f->counts->balls, NSVCD__GROUP);
-  return nsvcd__spheres_of(f->balls + 4 * slots, nsvcd__group_slots(slots));
 }
 
 static float nsvcd__widest_error(const nsvcd__geometry *f) {
@@ -460,6 +399,13 @@ static void nsvcd__collect_hulls(const nsvcd__geometry *f, size_t g, nsvcd__hull
 
 static nsvcd__spheres nsvcd__hull_spheres(const nsvcd__hulls *hulls) {
   return nsvcd__spheres_of(hulls->spheres[0], NSVCD__HULLS);
+}
+
+// Fills in the spheres over 16 balls each.
+static void nsvcd__cover_balls(const nsvcd__geometry *f) {
+  const nsvcd__covering all = nsvcd__covering_of(f->body);
+  float *out = f->balls + 4 * all.ball_slots;
+  nsvcd__cover_groups(all.balls, all.counts->balls, out, all.cluster_slots);
 }
 
 // Completes a body of triangles whose patches are in place: spheres of groups and levels, the box,

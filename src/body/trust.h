@@ -185,15 +185,14 @@ static int nsvcd__are_in_range(const nsvcd__geometry *f) {
 
 // Are the balls spheres, and is each 16 in the sphere over them? Whether they cover the surface is
 // not checked: looks prove nothing.
-static int nsvcd__balls_are_sound(const nsvcd__geometry *f) {
-  const size_t count = f->counts->balls;
-  const size_t slots = nsvcd__round_up(count, NSVCD__GROUP);
-  const nsvcd__spheres balls = nsvcd__balls_of(f);
-  const nsvcd__spheres clusters = nsvcd__ball_clusters_of(f);
+static int nsvcd__balls_are_sound(const nsvcd_body *body) {
+  const nsvcd__covering all = nsvcd__covering_of(body);
+  const size_t count = all.counts->balls;
+  const size_t clusters = all.ball_slots / NSVCD__GROUP;
   const float most = NSVCD__MAX_LENGTH;
-  return nsvcd__are_spheres(balls, count, slots, most) &&
-         nsvcd__are_spheres(clusters, slots / NSVCD__GROUP, nsvcd__group_slots(slots), most) &&
-         nsvcd__level_covers(clusters, balls, count);
+  return nsvcd__are_spheres(all.balls, count, all.ball_slots, most) &&
+         nsvcd__are_spheres(all.clusters, clusters, all.cluster_slots, most) &&
+         nsvcd__level_covers(all.clusters, all.balls, count);
 }
 
 // Is a body of triangles sound, if its header is? Checks the spheres, the layout (sizes, counts and
@@ -212,7 +211,7 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
   const size_t needed = nsvcd__geometry_layout(NULL, b->patches, n, &f);
   if (b->size != needed || b->size > size) return 0;
   f = nsvcd__geometry_of(b);
-  int ok = nsvcd__are_laid_out(&f) && nsvcd__are_in_range(&f) && nsvcd__balls_are_sound(&f);
+  int ok = nsvcd__are_laid_out(&f) && nsvcd__are_in_range(&f) && nsvcd__balls_are_sound(b);
   for (size_t i = 0; ok && i < b->patches; i++) ok = nsvcd__patch_is_sound(&f, i);
   for (size_t g = 0; ok && g < nsvcd__body_groups(b); g++) {
     nsvcd__hulls hulls;
@@ -306,23 +305,21 @@ static void nsvcd__scale_latents(nsvcd_body *b, float scale) {
 
 // Scales the balls, which become larger by what rounding does to them and to the vertices.
 static void nsvcd__scale_balls(const nsvcd__geometry *f, double by) {
-  const size_t count = f->counts->balls;
-  const size_t slots = nsvcd__round_up(count, NSVCD__GROUP);
+  const nsvcd__covering all = nsvcd__covering_of(f->body);
   double rounding = 0;
-  for (size_t n = 0; n < count; n++) {
-    nsvcd__sphere ball = nsvcd__sphere_of(nsvcd__balls_of(f), n);
+  for (size_t n = 0; n < f->counts->balls; n++) {
+    nsvcd__sphere ball = nsvcd__sphere_of(all.balls, n);
     const nsvcd__d3 centre = nsvcd__d3_scale(nsvcd__d3_widen(ball.centre), by);
     const double radius = (double)ball.radius * by;
     const double more = 5e-7 * (nsvcd__d3_norm(centre) + radius);
     rounding = nsvcd__max(rounding, 2 * more);
     ball.centre = nsvcd__f3_round(centre);
     ball.radius = nsvcd__above(radius + more);
-    nsvcd__sphere_store(ball, f->balls, slots, n);
+    nsvcd__sphere_store(ball, f->balls, all.ball_slots, n);
   }
-  if (count > 0)
+  if (f->counts->balls > 0)
     f->counts->ball_error = nsvcd__above((double)f->counts->ball_error * by + rounding);
-  nsvcd__cover_groups(nsvcd__balls_of(f), count, f->balls + 4 * slots,
-                      nsvcd__group_slots(slots));
+  nsvcd__cover_balls(f);
 }
 
 // Scales a body of triangles. What rounding does to vertices and to the convex radius widens the

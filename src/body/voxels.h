@@ -10,7 +10,7 @@
 #include "../mesh/mesh.h"
 #include "../ground/memory.h"
 
-#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
+#ifndef NSVCD_NO_ENCODER
 // cells along the longest axis of the mesh's box; cells of the rim; votes for what is inside
 #define NSVCD__VOXELS 96
 #define NSVCD__VOXEL_RIM 2

@@ -245,10 +245,10 @@ static void nsvcd__seeds_write(const nsvcd__writer *w, const uint16_t *order) {
 static void nsvcd__balls_write(nsvcd__writer *w) {
   const nsvcd__geometry *f = &w->to;
   const nsvcd__ball_cover *cover = &w->cover;
-  const size_t slots = nsvcd__round_up(cover->count, NSVCD__GROUP);
   float off = 0;
   for (size_t i = 0; i < f->body->patches && w->surface->coarse; i++)
     off = f->errors[i] > off ? f->errors[i] : off;
+  const size_t slots = nsvcd__round_up(cover->count, NSVCD__GROUP);
   for (size_t n = 0; n < slots; n++) {
     nsvcd__sphere ball = {{0, 0, 0}, NSVCD__NOWHERE};
     if (n < cover->count) {
@@ -259,8 +259,7 @@ static void nsvcd__balls_write(nsvcd__writer *w) {
   }
   if (cover->count > 0)
     f->counts->ball_error = nsvcd__above((double)cover->error + 2 * (double)off);
-  nsvcd__cover_groups(nsvcd__balls_of(f), cover->count, f->balls + 4 * slots,
-                      nsvcd__group_slots(slots));
+  nsvcd__cover_balls(f);
 }
 
 // Builds a body of triangles of `size` bytes in `memory`, and uses up the writer. order: (N) of the

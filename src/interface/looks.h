@@ -33,16 +33,19 @@ typedef struct nsvcd_look_options {
   int any;
 } nsvcd_look_options;
 
-// In which of 16 places do two bodies meet? An opinion, not a proof, in about a tenth of a
-// microsecond to a few. Each body is seen as the balls that cover it (nsvcd_encode_options.balls).
-// A body without balls is seen as its patches: their spheres, if the other is too, else their
-// spheres and slabs. A box along the axes is exact if the other body is not a box.
+// In which of 16 places do two bodies meet? An opinion, not a proof, in a tenth of a microsecond to
+// a few. A body is seen as the balls that cover it (nsvcd_encode_options.balls). One without balls
+// is seen as its patches: as their spheres and slabs, or, if neither has balls, one of the two as
+// spheres only. Of two bodies one may be a box along its axes, which is exact.
 //
-// It errs on the side that the caller names. With a margin of 0 no place is missed in which the
-// surfaces meet. One body within the other is seen too if that has balls, which leave little of a
-// solid out, or is a box. With minus the sum of both bodies' nsvcd_body_facts.ball_error (0 for a box that is exact),
-// none is invented by balls, as far as what is enclosed by a mesh that is not closed can be told, on a grid of 96
-// cells along its longest side.
+// It errs on the side that the caller names:
+//
+//   margin 0          no place is missed in which the surfaces meet. One body within the other is
+//                     seen too, if that is such a box or has balls, which leave little of it out
+//   margin -(e1+e2)   no meeting is invented, of bodies with balls. e: nsvcd_body_facts.ball_error
+//                     of each; 0 for the box. What is enclosed by a mesh that is not closed is
+//                     told on a grid of 96 cells along its longest side
+//
 //   a, b       not NULL
 //   options    NULL: the defaults
 //   met        not NULL; set to a bit for each place, the lowest for the first, or left as it was

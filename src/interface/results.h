@@ -14,7 +14,8 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_WORKSPACE,
   // the caller's progress function cancelled
   NSVCD_ERROR_CANCELLED,
-  // a count is 0, or larger than the library takes: of joints, parts, goals, points of a guess, balls
+  // a count is 0, or larger than the library takes: of joints, parts, goals, points of a guess, or
+  // balls
   NSVCD_ERROR_COUNT,
 
   // ---- files and meshes

@@ -40,8 +40,8 @@ typedef struct nsvcd_route_problem {
   const double *guess;
   // W
   size_t guess_count;
-  // called before each proof and each look; may be NULL. If it returns anything but 0, the search ends. A path
-  // found by then is still proven as a whole
+  // called before each proof and each look; may be NULL. If it returns anything but 0, the search
+  // ends. A path found by then is still proven as a whole
   int (*stop)(void *user);
   // called before each question about a pair, also in that last proof; may be NULL. If it returns
   // anything but 0, that proof ends as well: so this bounds the time
@@ -58,15 +58,15 @@ typedef struct nsvcd_route_options {
   float clearance;
   // the most nodes of both trees, up to NSVCD_MAX_NODES; default 20,000
   size_t nodes;
-  // the most motions that are checked, free or not, without looks; default 4 times `nodes`. Where nothing is free
-  // the trees do not grow, so `nodes` alone would not end the search
+  // the most motions that are checked, free or not, without looks; default 4 times `nodes`. Where
+  // nothing is free the trees do not grow, so `nodes` alone would not end the search
   size_t tries;
   // radians or metres: the greatest length of an edge; default 1
   double edge;
   // The most motions that are looked at (nsvcd_look) before edges are proven one by one; default
-  // 200,000. NSVCD_NONE: no looks. If all parts that move have balls, trees, shortcuts and smoothing
-  // go by looks, and what they find is proven as a whole, as ever. Where a proof fails, its pair is
-  // given more room, and the search goes on
+  // 200,000. NSVCD_NONE: no looks. If all parts that move have balls, trees, shortcuts and
+  // smoothing go by looks, and what they find is proven as a whole, as ever. Where that fails, the
+  // pair is given more room, and the search begins anew
   size_t looks;
   // tries to shorten the path, up to NSVCD_MAX_NODES, default 20; and tries to smooth the motion,
   // default 200. NSVCD_NONE: no tries

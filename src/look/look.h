@@ -5,7 +5,7 @@
 // down the levels of b's spheres; where it meets a cluster, its balls are tried against that
 // cluster's, and, where these are patches, against their slabs.
 #pragma once
-#include "../body/geometry.h"
+#include "../body/covering.h"
 #include "../interface/looks.h"
 #include "../lanes/turns.h"
 
@@ -33,7 +33,7 @@ typedef struct nsvcd__ball_tree {
 
 static nsvcd__ball_tree nsvcd__ball_tree_of(const nsvcd_body *body) {
   const nsvcd_body *triangles = nsvcd__triangles_of(body);
-  const nsvcd__geometry f = nsvcd__geometry_head(triangles);
+  const nsvcd__covering f = nsvcd__covering_of(triangles);
   nsvcd__ball_tree out;
   memset(&out, 0, sizeof out);
   out.whole = nsvcd__body_sphere(triangles);
@@ -45,8 +45,8 @@ static nsvcd__ball_tree nsvcd__ball_tree_of(const nsvcd_body *body) {
   out.middle = nsvcd__f3_scale(nsvcd__f3_add(low, high), 0.5f);
   out.half = nsvcd__f3_scale(nsvcd__f3_sub(high, low), 0.5f);
   if (f.counts->balls > 0) {
-    out.levels[0] = nsvcd__balls_of(&f);
-    out.levels[1] = nsvcd__ball_clusters_of(&f);
+    out.levels[0] = f.balls;
+    out.levels[1] = f.clusters;
     out.counts[0] = f.counts->balls;
     out.counts[1] = (f.counts->balls + NSVCD__GROUP - 1) / NSVCD__GROUP;
     out.level_count = 2;

@@ -1,9 +1,10 @@
-// In: a motion of the joints. Out: does it seem free? An opinion, by nsvcd_look, at places along it.
+// In: a motion of the joints. Out: does it seem free? An opinion, by nsvcd_look, at places on it.
 //
 // 16 configurations are looked at together, spread over the motion, the first batches far apart.
 // Links are placed in all of them side by side, in float, with each joint's axis along z. A pair is
 // looked at where the boxes about its parts overlap, and the one that met last comes first.
 #pragma once
+#include "../interface/looks.h"
 #include "check.h"
 
 // radians or metres between the places of a motion
@@ -292,7 +293,8 @@ static int nsvcd__seems_to_meet(nsvcd__looker *k, double (*joints)[NSVCD_LOOKS])
   return 0;
 }
 
-// Where the joints are in 16 places of a motion: in the fractions (n + l batches) / all of its time.
+// Where the joints are in 16 places of a motion, at fractions of its time: (n + l batches) / (16
+// batches).
 static void nsvcd__look_joints(const nsvcd_joint_motion *m, size_t joints, size_t n,
                                size_t batches, double (*out)[NSVCD_LOOKS]) {
   const double first = nsvcd__piece_start(m, 0);

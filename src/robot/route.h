@@ -7,7 +7,7 @@
 #define NSVCD__TRIES 4
 #define NSVCD__SHORTCUTS 20
 #define NSVCD__SMOOTHINGS 200
-#define NSVCD__LOOKS 200000
+#define NSVCD__MOST_LOOKS 200000
 // of a search by looks: looks of the first, twice as many after each that finds nothing; searches;
 // metres that a pair is given more room where its proof fails
 #define NSVCD__FIRST_LOOKS 4000
@@ -71,7 +71,7 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
   if (!o->smoothings) o->smoothings = NSVCD__SMOOTHINGS;
   if (o->shortcuts == NSVCD_NONE) o->shortcuts = 0;
   if (o->smoothings == NSVCD_NONE) o->smoothings = 0;
-  o->looks = o->looks ? o->looks : NSVCD__LOOKS;
+  o->looks = o->looks ? o->looks : NSVCD__MOST_LOOKS;
   if (o->looks == NSVCD_NONE || !nsvcd__can_look(checker->scene)) o->looks = 0;
   const size_t joints = checker->scene->joint_count;
   // the caller's configurations do not count as nodes
