@@ -56,6 +56,7 @@ void test_cost(void);
 void promises_results(void);
 void promises_meshes(void);
 void promises_bodies(void);
+void promises_looks(void);
 void promises_queries(void);
 void promises_certificates(void);
 void promises_robots(void);
@@ -77,6 +78,7 @@ static const test_file files[] = {
     PROMISES_OF(results),
     PROMISES_OF(meshes),
     PROMISES_OF(bodies),
+    PROMISES_OF(looks),
     PROMISES_OF(queries),
     PROMISES_OF(certificates),
     PROMISES_OF(robots),

@@ -21,6 +21,7 @@ typedef struct robot_mesh {
   size_t line;              // the line that names it first
   const char *kind, *name;  // "body" or "obstacle", and its name, there
   int is_needed;
+  int moves;  // on a link
   const nsvcd_body *body;
   proof_mesh proof;  // made where a certificate is written
 } robot_mesh;
@@ -314,11 +315,15 @@ static int read_robot(const char *path, robot_file *file) {
 static void need_room(robot_file *file, size_t room) {
   const size_t first = room == NSVCD_NONE ? 0 : file->rooms[room].first;
   const size_t count = room == NSVCD_NONE ? 0 : file->rooms[room].count;
-  for (size_t n = 0; n < file->body_count; n++) file->meshes[file->things[n].mesh].is_needed = 1;
+  for (size_t n = 0; n < file->body_count; n++) {
+    file->meshes[file->things[n].mesh].is_needed = 1;
+    if (file->things[n].link) file->meshes[file->things[n].mesh].moves = 1;
+  }
   for (size_t n = first; n < first + count; n++) file->meshes[file->things[n].mesh].is_needed = 1;
 }
 
-// Loads and encodes the meshes that are needed. Returns 0 after a complaint.
+// Loads and encodes the meshes that are needed; balls are for those that move. Returns 0 after a
+// complaint.
 static int encode_robot(robot_file *file, const nsvcd_encode_options *options, size_t *count,
                         double *taken) {
   *count = 0;
@@ -327,10 +332,12 @@ static int encode_robot(robot_file *file, const nsvcd_encode_options *options, s
     robot_mesh *mesh = &file->meshes[i];
     char from[1024];
     double one;
+    nsvcd_encode_options own = *options;
+    if (!mesh->moves) own.balls = 0;
     if (!mesh->is_needed) continue;
     ++*count;
     snprintf(from, sizeof from, "%s:%zu: %s %s: ", file->path, mesh->line, mesh->kind, mesh->name);
-    mesh->body = encode_named(from, file->path, mesh->path, mesh->scale, options, &one);
+    mesh->body = encode_named(from, file->path, mesh->path, mesh->scale, &own, &one);
     if (!mesh->body) return 0;
     *taken += one;
   }

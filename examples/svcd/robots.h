@@ -8,6 +8,8 @@
 #define PLAN_NODES 100000
 // random configurations that `pairs` tries
 #define PAIR_SAMPLES 64
+// about each mesh of a link
+#define LINK_BALLS 128
 
 // Is an ID in a list "a,b"? In NULL all are.
 static int is_listed(const char *list, const char *id) {
@@ -400,6 +402,7 @@ static int robot_command(settings *options, int is_path) {
   int good = read_robot(options->paths[0], &file);
   for (size_t i = 0; i < file.task_count && good; i++)
     if (is_asked(&file.tasks[i], options, is_path)) need_room(&file, file.tasks[i].room);
+  if (!is_path) options->encode.balls = LINK_BALLS;
   good = good && encode_robot(&file, &options->encode, &encoded_count, &taken);
   if (good)
     fprintf(stderr, PROGRAM ": %zu meshes encoded in %.1f ms\n", encoded_count, 1e3 * taken);

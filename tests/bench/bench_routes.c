@@ -89,6 +89,9 @@ static void run_problem(arm_scene *s, arm_kind kind, shapes_rng *rng, size_t loo
     memset(&problem, 0, sizeof problem);
     memset(&options, 0, sizeof options);
     options.nodes = 100000;
+#ifdef ROUTE_PEERS
+    options.looks = NSVCD_NONE;  // it is edges that are compared
+#endif
     options.shortcuts = part > 0 ? 0 : NSVCD_NONE;
     options.smoothings = part > 1 ? 0 : NSVCD_NONE;
     problem.start = start;

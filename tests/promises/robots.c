@@ -59,6 +59,21 @@ static void links_are_where_the_joints_place_them(void) {
   arm_close(&a);
 }
 
+// The forearm passes the post at 0.1 m: too near if that pair is to keep more, whatever the other is.
+static void each_pair_keeps_its_own_clearance(void) {
+  static const double joints[ARM_JOINTS] = {0, 0};
+  static const float wanted[4][ARM_PAIRS] = {{0, 0}, {0.2f, 0}, {0, 0.09f}, {0, 0.11f}};
+  for (int k = 0; k < 4; k++) {
+    arm a;
+    arm_open(&a, at(1.6f, 0.2f, 0));
+    a.scene.clearances = wanted[k];
+    const size_t size = nsvcd_checker_size(&a.scene);
+    CHECK_EQ(nsvcd_checker_open(&a.scene, a.memory, size, &a.checker), NSVCD_OK);
+    CHECK_EQ(verdict_at(&a, joints), k == 3 ? NSVCD_HIT : NSVCD_FREE);
+    arm_close(&a);
+  }
+}
+
 // Two pieces of degree 2, with times: a parabola, then a line.
 static void a_motion_is_bezier_in_time(void) {
   const double points[5] = {0, 0, 1, 2, 3};
@@ -190,6 +205,7 @@ void promises_robots(void) {
   RUN(what_a_joint_sweeps_between_samples_is_seen);
   RUN(a_hit_is_one_in_the_configuration_that_is_named);
   RUN(links_are_where_the_joints_place_them);
+  RUN(each_pair_keeps_its_own_clearance);
   RUN(a_motion_is_bezier_in_time);
   RUN(a_joint_that_leaves_its_limits_is_told);
   RUN(it_does_not_matter_how_far_away_a_robot_stands);

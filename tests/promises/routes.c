@@ -122,10 +122,34 @@ static void a_search_ends_by_its_nodes_and_by_the_caller(void) {
   arm_close(&a);
 }
 
+// Links with balls: looked at on the way, proven in the end; not looked at where that is not wanted.
+static void a_route_by_looks_is_proven(void) {
+  const nsvcd_route_problem problem = {.start = from, .goals = to, .goal_count = 1};
+  const nsvcd_encode_options covered = {.balls = 64};
+  const nsvcd_body *link = body_of(box_mesh(1, 0.1f, 0.1f), &covered);
+  void *memory;
+  arm a;
+  arm_open(&a, at(1.8f, 0, 0));
+  for (int k = 0; k < ARM_JOINTS; k++) a.parts[k].body = link;
+  for (int k = 0; k < 2; k++) {
+    const nsvcd_route_options options = {.clearance = 0.01f, .looks = k ? NSVCD_NONE : 0};
+    const size_t size = nsvcd_checker_size(&a.scene);
+    CHECK_EQ(nsvcd_checker_open(&a.scene, a.memory, size, &a.checker), NSVCD_OK);
+    const nsvcd_route_answer answer = route_of(&a, &problem, &options, &memory);
+    CHECK_EQ(answer.status, NSVCD_ROUTE_FOUND);
+    CHECK_EQ(answer.looks > 0, k == 0);
+    CHECK_EQ(check_of(&a, &answer.motion, 0.01f).verdict, NSVCD_FREE);
+    free(memory);
+  }
+  nsvcd_body_free(link, NULL);
+  arm_close(&a);
+}
+
 void promises_routes(void) {
   RUN(a_route_is_free_from_the_start_to_the_goal);
   RUN(a_route_keeps_to_the_limits_of_speed_and_acceleration);
   RUN(the_same_seed_is_the_same_route);
+  RUN(a_route_by_looks_is_proven);
   RUN(a_start_or_a_goal_that_is_not_free_is_told);
   RUN(a_search_ends_by_its_nodes_and_by_the_caller);
 }
