@@ -1120,6 +1120,30 @@ class Robots(unittest.TestCase):
         self.assertEqual((here.status, here.duration), (nsvcd.RouteStatus.FOUND, 0))
         np.testing.assert_array_equal(here.at([0, 1]), [[0, 3], [0, 3]])
 
+    def test_looks_and_clearances(self) -> None:
+        # a cart along x, a box of 1 m on it, and a post in its way; up is the way round
+        joints = [nsvcd.Joint(0, axis=[1, 0, 0], kind=nsvcd.JointKind.PRISMATIC, low=-9, high=9),
+                  nsvcd.Joint(1, kind=nsvcd.JointKind.PRISMATIC, low=-9, high=9)]
+        box = Body(CUBE, FACES, balls=40)
+        self.assertTrue(0 < box.facts.balls <= 40 and 0 < box.facts.ball_error < box.facts.radius)
+        self.assertEqual(Body(CUBE, FACES).facts.balls, 0)
+        parts = [nsvcd.Part(box, 2), nsvcd.Part(Body(CUBE, FACES), 0)]
+        robot = nsvcd.Robot(joints, parts, [[0, 1]])
+        route = robot.route([-4, 0], [4, 0])
+        self.assertEqual(route.status, nsvcd.RouteStatus.FOUND)
+        self.assertGreater(route.looks, 0)
+        self.assertEqual(robot.check(route.points, degree=2, times=route.times).verdict, "free")
+        self.assertEqual(robot.route([-4, 0], [4, 0], looks=nsvcd.LEAVE_OUT).looks, 0)
+        size = box.facts.high[0] - box.facts.low[0]
+        for clearance, verdict in ((0.4, "free"), (0.6, "hit")):
+            careful = nsvcd.Robot(joints, parts, [[0, 1]], clearances=[clearance])
+            self.assertEqual(careful.check([size + 0.5, 0]).verdict, verdict)
+        with self.assertRaises(Error):
+            nsvcd.Robot(joints, parts, [[0, 1]], clearances=[-1])
+        self.assertRaises(TypeError, nsvcd.Robot, joints, parts, clearances=[0])
+        with self.assertRaises(Error):
+            Body(CUBE, FACES, balls=1025)
+
     def test_ends(self) -> None:
         status = nsvcd.RouteStatus
         stuck = self.robot.route([0, np.pi / 2], [0, 0])

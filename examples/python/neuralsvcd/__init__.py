@@ -224,12 +224,12 @@ def _struct(name: str, /, **kinds: Any) -> Any:
 _Mesh = _struct("nsvcd_mesh", positions=c_void_p, indices=c_void_p, vertex_count=c_size_t, triangle_count=c_size_t)
 _EncodeOptions = _struct(
     "nsvcd_encode_options", patches=c_size_t, patch_radius=c_float, convex_radius=c_float, open=c_int, latents=c_int,
-    no_triangles=c_int, coarse=c_int, progress=_PROGRESS, user=c_void_p)
+    no_triangles=c_int, coarse=c_int, balls=c_size_t, progress=_PROGRESS, user=c_void_p)
 _BodyFacts = _struct(
     "nsvcd_body_facts", size=c_size_t, patches=c_size_t, centre=c_float * 3, radius=c_float, extent=c_float,
     low=c_float * 3, high=c_float * 3, mean_patch_radius=c_float,
-    triangles=c_size_t, stored_triangles=c_size_t, quantization_error=c_float, convex_radius=c_float, latents=c_int,
-    components=c_size_t, open_components=c_size_t, open_edges=c_size_t, open=c_int)
+    triangles=c_size_t, stored_triangles=c_size_t, quantization_error=c_float, convex_radius=c_float, balls=c_size_t,
+    ball_error=c_float, latents=c_int, components=c_size_t, open_components=c_size_t, open_edges=c_size_t, open=c_int)
 _Pose = _struct("nsvcd_pose", position=c_float * 3, rotation=c_float * 4)
 _NetworkOptions = _struct("nsvcd_network_options", pairs=c_size_t, model=c_int, precision=c_int, recall=c_float,
                           inflate=c_float)
@@ -273,7 +273,7 @@ _Joint = _struct("nsvcd_joint", kind=c_int, parent=c_uint32, origin=_Pose, axis=
                  high=c_double, speed=c_double, acceleration=c_double)
 _Part = _struct("nsvcd_part", body=c_void_p, link=c_uint32, pose=_Pose, scale=c_float)
 _Scene = _struct("nsvcd_scene", joints=c_void_p, joint_count=c_size_t, parts=c_void_p, part_count=c_size_t,
-                 pairs=c_void_p, pair_count=c_size_t)
+                 pairs=c_void_p, pair_count=c_size_t, clearances=c_void_p)
 _JointMotion = _struct("nsvcd_joint_motion", pieces=c_size_t, degree=c_size_t, points=c_void_p, times=c_void_p)
 _CheckOptions = _struct("nsvcd_check_options", clearance=c_float, finest=c_float, work=c_size_t, stop=_STOP,
                         user=c_void_p)
@@ -289,10 +289,11 @@ _PairCounts = _struct("nsvcd_pair_counts", asked=c_size_t, adjacent=c_size_t, to
 _RouteProblem = _struct("nsvcd_route_problem", start=c_void_p, goals=c_void_p, goal_count=c_size_t, guess=c_void_p,
                         guess_count=c_size_t, stop=_STOP, abandon=_STOP, user=c_void_p)
 _RouteOptions = _struct("nsvcd_route_options", seed=c_uint64, clearance=c_float, nodes=c_size_t, tries=c_size_t,
-                        edge=c_double, shortcuts=c_size_t, smoothings=c_size_t)
+                        edge=c_double, looks=c_size_t, shortcuts=c_size_t, smoothings=c_size_t)
 _RouteAnswer = _struct(
     "nsvcd_route_answer", status=c_int, goal=c_size_t, motion=_JointMotion, stops=c_size_t, duration=c_double,
-    unhindered=c_double, check=_CheckAnswer, nodes=c_size_t, checks=c_size_t, proven=c_size_t)
+    unhindered=c_double, check=_CheckAnswer, nodes=c_size_t, checks=c_size_t, proven=c_size_t,
+    looks=c_size_t)
 _CertifyOptions = _struct("nsvcd_certify_options", answer=c_void_p, visits=c_size_t)
 _Certificate = _struct(
     "nsvcd_certificate", verdict=c_int, why=c_int, inside=c_int, time=c_double, size=c_size_t, visits=c_size_t)
@@ -646,6 +647,8 @@ class Facts(NamedTuple):
     stored_triangles           triangles and parts of them that are stored
     quantization_error            0: answers are about the mesh's own floats; else triangles are within this of its, metres
     convex_radius              how far it goes beyond its mesh, metres
+    balls              that cover it, for routes; 0: none are stored
+    ball_error         no point of a ball is farther than this from the body, metres
     latents            the network can answer
     components         parts of the surface
     open_components    of these: not closed, once what does no harm is mended; 0: it is a solid
@@ -664,6 +667,8 @@ class Facts(NamedTuple):
     stored_triangles: int
     quantization_error: float
     convex_radius: float
+    balls: int
+    ball_error: float
     latents: bool
     components: int
     open_components: int
@@ -684,6 +689,7 @@ class Body:
     open          the mesh is not closed: nothing counts as inside it
     latents       for the network, the planner and gradients too
     no_triangles  for them alone
+    balls         up to 1024 of them cover the mesh, for routes by looks: 128 suit a robot's link; 0: none
     coarse        in fewer bytes: answers are then about triangles within facts.quantization_error of the mesh's
     progress      called now and then with what is done, in [0, 1]. If it returns something true, Error(CANCELLED);
                   what it raises ends the encoding
@@ -695,7 +701,7 @@ class Body:
 
     def __init__(self, vertices: Union[ArrayLike, os.PathLike[str]], triangles: Optional[ArrayLike] = None, *,
                  scale: float = 1, origin: Optional[ArrayLike] = None, patches: int = 0, patch_radius: float = 0, convex_radius: float = 0, open: bool = False,
-                 latents: bool = False, no_triangles: bool = False, coarse: bool = False,
+                 latents: bool = False, no_triangles: bool = False, coarse: bool = False, balls: int = 0,
                  progress: Optional[Callable[[float], Any]] = None) -> None:
         if isinstance(vertices, (str, os.PathLike)):
             if triangles is not None:
@@ -709,7 +715,7 @@ class Body:
         else:
             mesh = _c_mesh(vertices, triangles)
         options = _filled(_EncodeOptions, patches=patches, patch_radius=patch_radius, convex_radius=convex_radius, open=open,
-                          latents=latents, no_triangles=no_triangles, coarse=coarse)
+                          latents=latents, no_triangles=no_triangles, coarse=coarse, balls=balls)
         caught: list[BaseException] = []
         if progress:
             options.progress = _PROGRESS(functools.partial(_cancels, progress, caught))
@@ -793,7 +799,7 @@ class Body:
         return Facts(facts.size, facts.patches, _vector(facts.centre), facts.radius, facts.extent,
                      _vector(facts.low), _vector(facts.high), facts.mean_patch_radius,
                      facts.triangles, facts.stored_triangles, facts.quantization_error, facts.convex_radius,
-                     bool(facts.latents), facts.components, facts.open_components, facts.open_edges,
+                     facts.balls, facts.ball_error, bool(facts.latents), facts.components, facts.open_components, facts.open_edges,
                      bool(facts.open))
 
     def patch(self, index: int) -> tuple[Vector, float]:
@@ -1617,6 +1623,7 @@ class Route(NamedTuple):
     nodes: int
     checks: int
     proven: int
+    looks: int
 
     def at(self, times: ArrayLike) -> Doubles:
         """The joints at times (n), seconds: (n, F)."""
@@ -1651,9 +1658,14 @@ class Robot:
 
     pairs  (P, 2) of parts, on links that differ; None: all but those that one joint separates, as `find_pairs` says.
            Also those that touch in all samples, which is no proof that they always do
+    clearances  (P) metres that each of these pairs keeps, beside what `check` and `route` are asked for; None: 0
     """
 
-    def __init__(self, joints: Sequence[Joint], parts: Sequence[Part], pairs: Optional[ArrayLike] = None) -> None:
+    def __init__(self, joints: Sequence[Joint], parts: Sequence[Part], pairs: Optional[ArrayLike] = None, *,
+                 clearances: Optional[ArrayLike] = None) -> None:
+        if clearances is not None and pairs is None:
+            raise TypeError("clearances: of which pairs?")
+        self._clearances: Optional[NDArray[np.float32]] = None
         def pose_of(pose: ArrayLike, name: str) -> Any:
             row = _floats(_posed(pose, name), (7,), name).tolist()
             return _Pose((c_float * 3)(*row[:3]), (c_float * 4)(*row[3:]))
@@ -1666,6 +1678,8 @@ class Robot:
         self._parts = (_Part * max(len(parts), 1))(*(
             _Part(part.body._address, _number(c_uint32, part.link, "link"), pose_of(part.pose, "pose"), part.scale)
             for part in parts))
+        if clearances is not None:
+            self._clearances = _floats(clearances, (len(_indices(pairs, 2, "pairs")),), "clearances")
         self._open(np.empty((0, 2), np.uint32) if pairs is None else pairs)
         if pairs is None:
             asked, _, touching = self.find_pairs()
@@ -1674,7 +1688,8 @@ class Robot:
     def _open(self, pairs: ArrayLike) -> None:
         self._pairs = _indices(pairs, 2, "pairs")
         self._scene = _Scene(ctypes.addressof(self._joints), self.joint_count, ctypes.addressof(self._parts),
-                             self.part_count, _address(self._pairs), len(self._pairs))
+                             self.part_count, _address(self._pairs), len(self._pairs),
+                             None if self._clearances is None else _address(self._clearances))
         size = _library.nsvcd_checker_size(byref(self._scene))
         self._memory = _memory(size)
         self._checker = c_void_p()
@@ -1753,13 +1768,14 @@ class Robot:
         return _checked(answer)
 
     def route(self, start: ArrayLike, goals: ArrayLike, *, guess: Optional[ArrayLike] = None, clearance: float = 0,
-              seed: int = 0, nodes: int = 0, tries: int = 0, edge: float = 0, shortcuts: int = 0, smoothings: int = 0,
+              seed: int = 0, nodes: int = 0, tries: int = 0, edge: float = 0, looks: int = 0, shortcuts: int = 0, smoothings: int = 0,
               stop: Optional[Callable[[], Any]] = None) -> Route:
         """A motion from the start (F) to a goal (F), or one of several (G, F), proven free: nsvcd_route.
 
         guess  (n, F) a way that may be free, its ends left out
         tries  motions asked about in search of a way, at most; 0: 4 times the nodes
-        stop   asked before each proof; something true ends the search
+        looks  motions looked at before that, at most, if all that moves has balls; LEAVE_OUT: none
+        stop   asked before each proof and look; something true ends the search
         """
         rows = [_doubles(start, (self.joint_count,), "start"),
                 _doubles(np.atleast_2d(np.asarray(goals)), (None, self.joint_count), "goals")]
@@ -1771,7 +1787,7 @@ class Robot:
         if stop:
             asked = stop
             problem.stop = _STOP(lambda _: _cancels(lambda _: asked(), caught, None, None))
-        options = _filled(_RouteOptions, seed=seed, clearance=clearance, nodes=nodes, tries=tries, shortcuts=shortcuts,
+        options = _filled(_RouteOptions, seed=seed, clearance=clearance, nodes=nodes, tries=tries, looks=looks, shortcuts=shortcuts,
                           smoothings=smoothings)
         options.edge = edge
         size = _library.nsvcd_route_size(self._checker, byref(problem), byref(options))
@@ -1793,4 +1809,4 @@ class Robot:
             times = np.frombuffer((c_double * (count + 1)).from_address(answer.motion.times)).copy()
         return Route(RouteStatus(answer.status), answer.goal if is_found else None, points, times, answer.stops,
                      answer.duration, answer.unhindered, _checked(answer.check), answer.nodes, answer.checks,
-                     answer.proven)
+                     answer.proven, answer.looks)
