@@ -12002,8 +12002,8 @@ static void nsvcd__look_relate(nsvcd__look_state *s, const nsvcd_places *a,
   }
 }
 
-// Which of two bodies should stay as it is stored: a box, of two the one without balls; else the one
-// of more patches; else one of balls.
+// Which of two bodies should stay as it is stored: a box, of two the one without balls; else the
+// one of more patches; else one of balls.
 static size_t nsvcd__look_rank(const nsvcd__ball_tree *tree) {
   if (tree->is_box) return tree->slabs ? SIZE_MAX : SIZE_MAX - 1;
   return tree->slabs ? tree->counts[0] : 0;

@@ -2544,6 +2544,7 @@ static nsvcd__look_frame nsvcd__look_frame_of(const nsvcd__dmat3 *before,
   const nsvcd__d3 *rows[3] = {&before->x, &before->y, &before->z};
   const nsvcd__d3 *of_turn[3] = {&turn.x, &turn.y, &turn.z};
   nsvcd__look_frame out;
+  memset(&out, 0, sizeof out);
   for (size_t i = 0; i < 3; i++) {
     // row i of the transpose of `before`, times the matrix
     nsvcd__d3 row = {0, 0, 0};
