@@ -1,7 +1,7 @@
 #!/bin/sh
 # Are the tests of the proof worth anything? Each mutant is the library with one mistake in it; tests/test_proof.c has to
 # fail on it, or, where its name begins with `level:`, `asks:`, `long:`, `exact:`, `floor:`, `solids:`, `round:`,
-# `robot:` or `postures:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
+# `robot:`, `looks:`, `route_looks:` or `postures:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
 # certificates, examples/verify, and tests/test_certificate.c or tests/test_checker.c has to fail, of `fits:`
 # tests/test_fits.c. Prints a line for each, and exits with 1 if one survives. An argument runs only the mutants whose
 # name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every 16th of them, in a folder of its own.
@@ -12,7 +12,7 @@ cd "$(dirname "$0")/.." || exit 1
 work=${WORK:-build/mutants}
 mkdir -p $work/tests/bench $work/examples/scenery $work/examples/verify
 cp weights.h $work/
-cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_postures.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
+cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_looks.c tests/test_route_looks.c tests/test_postures.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
 cp tests/bench/*.h $work/tests/bench/
 cp examples/scenery/*.h $work/examples/scenery/
 
@@ -241,10 +241,10 @@ robot: speeds that jump|step->bend[j] += 2 * h * jumps;|(void)jumps;
 robot: half the jump of speed|step->bend[j] += 2 * h * jumps;|step->bend[j] += h * jumps;
 robot: the first piece of a step alone|for (size_t piece = first; piece <= last; piece++) {|for (size_t piece = first; piece <= first; piece++) {
 robot: bends by the share of a piece|second[i] = per_piece * per_piece * twice|second[i] = twice
-robot: no strays|const double clearance = (double)s->options->clearance + errors;|const double clearance = (double)s->options->clearance;
-robot: boxes without the clearance|const double room = (double)s->options->clearance + error;|const double room = error;
+robot: no strays|const double clearance = kept + errors;|const double clearance = kept;
+robot: boxes without the clearance|const double room = kept + error;|const double room = error;
 robot: boxes at samples alone|nsvcd__bounds_over(at, at + 1)|*at
-robot: boxes without strays|const double room = (double)s->options->clearance + error;|const double room = (double)s->options->clearance;
+robot: boxes without strays|const double room = kept + error;|const double room = kept;
 robot: the first step of a spell alone|range->steps = last - (steps ? range->first : 0);|range->steps = steps \&\& last > range->first ? 1 : 0;
 robot: the last piece alone|const size_t steps = next - p == 1|if (next < m.pieces) continue;\n    const size_t steps = next - p == 1
 robot: what is free of the first pair|if (nsvcd__ask_pair(s, parts, 1, work, \&range, \&found) == NSVCD_FREE) continue;|if (nsvcd__ask_pair(s, parts, 1, work, \&range, \&found) == NSVCD_FREE) break;
@@ -255,7 +255,7 @@ robot: routes without a clearance|r->check.clearance = r->options.clearance + NS
 robot: ramps beyond the speed|if (fabs(peak) > speed) {|if (fabs(peak) > 2 * speed) {
 robot: ramps with any acceleration|return fabs(a) <= most;|return 1;
 robot: ramps that are slow|const double side = distance >= least ? 1 : -1;|const double side = distance >= 0 ? 1 : -1;
-robot: shortcuts that are not proven|if (!nsvcd__prove_edge(r, at[0], at[1])) continue;|
+robot: shortcuts that are not proven|if (!nsvcd__ask_edge(r, at[0], at[1])) continue;|
 robot: starts by the work of the search|if (n / 2) r->check.work = 0;|
 robot: a last proof that nobody ends|whole.stop = r->check.stop;|
 robot: trees that stay in their holes|if (r->idle[turn % 2] >= NSVCD__IDLE \&\&|if (0 \&\&
@@ -352,6 +352,31 @@ checker: two bases|if (!why \&\& (a->clock != b->clock \|\| a->base != b->base))
 checker: strays that nobody wrote|memset(at, 0, sizeof *at);|
 checker: a normal of 0|if (!(gap > least \&\& last > least \&\& gap < VERIFY__BEYOND)) return 0;|if (!(gap >= least \&\& last >= least \&\& gap < VERIFY__BEYOND)) return 0;
 checker: corners that there are not|\|\| of->mesh->part[out->a] == NSVCD_VERIFY_NONE)|)
+looks: balls as found|c->radii[nearest] += best;|(void)best;
+looks: a cover without its convex radius|const double radius = c.radii[order[n]] + (double)o->convex_radius;|const double radius = c.radii[order[n]];
+looks: errors of balls about points inside alone|: -depths[n];|: depths[n];
+looks: balls that keep their size|ball.radius = nsvcd__above(radius + more);|ball.radius = nsvcd__above(radius / by);
+looks: balls that do not grow by roundings|out->radii[n] = nsvcd__above(radius + 5e-7 * length);|out->radii[n] = (float)(radius - 5e-7 * length);
+looks: clusters of nothing|nsvcd__cover_balls(f);\n}\n\n// Builds|}\n\n// Builds
+looks: damaged balls are taken|nsvcd__balls_are_sound(b);|1;
+looks: a box that is not round|const nsvcd__v sum = nsvcd__v_plus(nsvcd__v_load(s->room + l), reach + s->b.round);|const nsvcd__v sum = nsvcd__v_plus(nsvcd__v_load(s->room + l), reach);
+looks: no margin|nsvcd__v_plus(far_off, 1e-6f * extent + room * unit)|nsvcd__v_plus(far_off, 1e-6f * extent)
+looks: a margin in the other's lengths|1e-6f * extent + room * unit|1e-6f * extent + room
+looks: radii without their scale|return s->scale * (s->a.levels[0].r[i] + s->a.more);|return s->a.levels[0].r[i] + s->a.more;
+looks: turned the other way|nsvcd__v_scale(nsvcd__v3_dot(to[i], from[k]), s->scale)|nsvcd__v_scale(nsvcd__v3_dot(from[i], to[k]), s->scale)
+looks: a slab's height alone|const nsvcd__v square = nsvcd__v_fma(along, along, nsvcd__v_mul(across, across));|const nsvcd__v square = nsvcd__v_mul(nsvcd__v_set(4), nsvcd__v_fma(along, along, nsvcd__v_mul(across, across)));
+looks: balls of the cluster before|    s.placed = 0;\n    if (s.b.is_box)|    if (s.b.is_box)
+looks: the last child of a level is not seen|for (size_t i = 0; i < count \&\& !nsvcd__look_ends(s); i++)\n    nsvcd__look_down|for (size_t i = 0; i + 1 < count \&\& !nsvcd__look_ends(s); i++)\n    nsvcd__look_down
+looks: any box is one|for (size_t k = 0; k < 6; k++) is_box \&= faces[k] == 2;|
+route_looks: the world turned|return link ? nsvcd__look_axes(c->links[link - 1].axis) : world;|(void)world; return nsvcd__look_axes(link ? c->links[link - 1].axis : nsvcd__d3_of(0, 0, 1));
+route_looks: sines of the next quarter|sines[l] = quarter \& 2 ? -sine : sine;|sines[l] = quarter \& 1 ? -sine : sine;
+route_looks: boxes of half the parts|part->low[i] = low - part->radius;|part->low[i] = low + part->radius;
+route_looks: handed out unproven|is_free = !r->result \&\& nsvcd__prove_by(r, \&t->motion, \&whole);|is_free = r->is_looking \|\| (!r->result \&\& nsvcd__prove_by(r, \&t->motion, \&whole));
+route_looks: pairs without their clearance|return (double)s->options->clearance + (own ? (double)own[pair - scene->pairs] : 0);|(void)own; return (double)s->options->clearance;
+route_looks: the first pair's clearance|own[pair - scene->pairs]|own[0]
+route_looks: looks that nobody ends|if (o->stop \&\& o->stop(o->user)) r->is_stopped = 1;\n  // between|// between
+route_looks: no search after looks|if (r->root_count > 0 \&\& r->answer.status != NSVCD_ROUTE_FOUND \&\& !r->is_stopped) {|if (0) {
+route_looks: limits that looks may leave|if (nsvcd__joint_outside(r->scene, motion, p) != NSVCD_NONE) return 0;|
 LIST
 
 if [ -n "${DRY:-}" ]; then python3 tests/make_mutant.py --all $work/list && exit 0 || exit 1; fi
@@ -376,6 +401,8 @@ while IFS= read -r line; do
     solids:*) file=test_solids.c ;;
     round:*) file=test_round.c fused=-ffp-contract=fast ;;
     robot:*) file=test_robot.c ;;
+    looks:*) file=test_looks.c ;;
+    route_looks:*) file=test_route_looks.c ;;
     postures:*) file=test_postures.c ;;
     verify:*) file=test_certificate.c ;;
     checker:*) file=test_checker.c ;;
