@@ -266,8 +266,11 @@ static void looks_miss_nothing_and_invent_nothing(void) {
     look_body bodies[2];
     double error = 0;
     for (int k = 0; k < 2; k++) {
-      const int kind = shapes_pick(&rng, LOOK_KINDS);
-      const double round = shapes_pick(&rng, 4) ? 0 : shapes_uniform(&rng, 0, 0.03);
+      // now and then a round box
+      const int is_round_box = k == 1 && n % 4 == 2;
+      const int kind = is_round_box ? 6 : shapes_pick(&rng, LOOK_KINDS);
+      const int is_round = is_round_box || !shapes_pick(&rng, 4);
+      const double round = is_round ? shapes_uniform(&rng, 0.01, 0.03) : 0;
       const double scale = shapes_pick(&rng, 3) ? 1 : shapes_uniform(&rng, 0.2, 3);
       bodies[k] = look_make(kind, balls[k], round, (double)(float)scale, &rng);
       error += bodies[k].error;
@@ -316,6 +319,34 @@ static void looks_at_levels_miss_nothing(void) {
   }
   CHECK_EQ(counts.missed, 0);
   CHECK_LE(counts.extra, counts.asked / 4);
+  // each point of the surface is seen, by what is no larger
+  const nsvcd_body *point = NULL;
+  CHECK_EQ(nsvcd_encode_sphere(1e-6f, NULL, &point), NSVCD_OK);
+  size_t unseen = 0;
+  for (size_t n = 0; n < check_many(200); n++) {
+    nsvcd_places places[2];
+    oracle_pose pose;
+    uint32_t met = 0;
+    for (size_t lane = 0; lane < NSVCD_LOOKS; lane++) {
+      const size_t t = (size_t)shapes_pick(&rng, (int)level.mesh.triangle_count);
+      const double u = shapes_uniform(&rng, 0, 1);
+      const double v = shapes_uniform(&rng, 0, 1 - u);
+      look_place(&rng, 0, &pose, &places[0], lane);
+      for (int k = 0; k < 9; k++) places[1].rotation[k][lane] = k % 4 == 0;
+      for (int k = 0; k < 3; k++) {
+        const oracle_triangle *at = &level.mesh.triangles[t];
+        const double x = (1 - u - v) * at->v[0][k] + u * at->v[1][k] + v * at->v[2][k];
+        places[0].position[k][lane] = (float)x;
+        places[1].position[k][lane] = 0;
+      }
+    }
+    const nsvcd_looked a = {point, 0, &places[0]};
+    const nsvcd_looked b = {level.body, 0, &places[1]};
+    CHECK_EQ(nsvcd_look(&a, &b, NULL, &met), NSVCD_OK);
+    unseen += met != 0xffff;
+  }
+  CHECK_EQ(unseen, 0);
+  nsvcd_body_free(point, NULL);
   look_free(&level);
 }
 
@@ -380,6 +411,29 @@ static void balls_of_odd_meshes(void) {
   }
 }
 
+// A box along its axes is known as one; eight corners and twelve triangles are not enough: an edge
+// between two faces is turned.
+static void boxes_are_known(void) {
+  static float corners[24];
+  uint32_t faces[36] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                        2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
+  for (size_t n = 0; n < 24; n++) corners[n] = n / 3 >> n % 3 & 1 ? 1 : -1;
+  for (int turned = 0; turned < 2; turned++) {
+    const nsvcd_mesh mesh = {corners, faces, 8, 12};
+    const nsvcd_body *body = NULL;
+    // 0 3 1 and 1 3 7 become 0 3 7 and 0 7 1
+    if (turned) {
+      const uint32_t other[3] = {0, 7, 1};
+      faces[5] = 7;
+      memcpy(faces + 30, other, sizeof other);
+    }
+    CHECK_EQ(nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &body), NSVCD_OK);
+    CHECK_EQ(nsvcd_body_describe(body).open_components, 0);
+    CHECK_EQ(nsvcd__counts_of(nsvcd__triangles_of(body))->is_box, !turned);
+    nsvcd_body_free(body, NULL);
+  }
+}
+
 // Balls are checked as all else is: damaged ones are refused, whatever the checksum says.
 static void damaged_balls_are_refused(void) {
   shapes_rng rng = {1};
@@ -409,6 +463,7 @@ static void damaged_balls_are_refused(void) {
 void test_looks(void) {
   RUN(looks_refuse_bad_input);
   RUN(balls_of_odd_meshes);
+  RUN(boxes_are_known);
   RUN(damaged_balls_are_refused);
   RUN(looks_at_levels_miss_nothing);
   RUN(looks_miss_nothing_and_invent_nothing);

@@ -186,6 +186,7 @@ static void looks_end_when_told(void) {
       stopped += a.answer.status == NSVCD_ROUTE_STOPPED;
       CHECK(a.answer.status == NSVCD_ROUTE_STOPPED || a.answer.status == NSVCD_ROUTE_FOUND);
       CHECK_GE(end.left, -8);
+      CHECK_LE(a.answer.looks, trial % 2 ? 40 : 2000);
     }
     free(a.memory);
     free(r.memory);
