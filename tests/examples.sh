@@ -840,6 +840,27 @@ not_of_a_plan 'not where it may stand' 's/^plan up shelf/plan up hall/'
 not_of_a_plan 'a joint is of no kind' '1,/ revolute /s/ revolute / fixed /'
 not_of_a_plan 'two bodies of one name' 's/^body forearm /body palm /'
 not_of_a_plan 'a path ends early' 's/^path aside shelf 3/path aside shelf 99999999/'
+# a pair keeps its own distance in place of --clearance, and so its certificate says
+own_distance() {  # METRES: two cubes on joints, 10 mm apart, and one in the way of nobody
+  printf 'nsvcd-plans 1\njoint x world 0 0 0 0 0 0 1 1 0 0 prismatic -9 9 1\njoint y x 0 1.01 0 0 0 0 1 0 1 0 prismatic -9 9 1\n'
+  printf 'body a x own.obj\nbody b y own.obj\npair a b %s\nscene s\nobstacle c own.obj 0 -5 0 0 0 0 1\nplan p s -1 0 1 0\n' "$1"
+}
+cube "$dir/own.obj" 0 1 0 6
+for metres in '' 0.005 0.03; do own_distance "$metres" >"$dir/own$metres.txt"; done
+expect 0 '' build/svcd plan "$dir/own.txt"
+expect 0 'a and b are 10.00 mm apart' build/svcd plan "$dir/own.txt" --clearance 0.02
+grep -q '^p	start' "$dir/out" || fail "10 mm are 20: $(cat "$dir/out")"
+expect 0 'a and b are 10.00 mm apart' build/svcd plan "$dir/own0.03.txt"
+expect 0 '' build/svcd plan "$dir/own0.005.txt" --clearance 0.02 --certificates "$dir/certs"
+grep -q '^p	certified' "$dir/out" || fail "a pair of its own clearance: $(cat "$dir/out")"
+expect 0 '' build/verify "$dir/own0.005.txt" "$dir/certs" --clearance 0.02
+expect 1 '' build/verify "$dir/own.txt" "$dir/certs" --clearance 0.02
+expect 1 '' build/verify "$dir/own0.03.txt" "$dir/certs"
+for metres in -1 nan 'x' '0.1 0.1'; do
+  own_distance "$metres" >"$dir/bad_own.txt"
+  expect 1 'bad_own.txt:6: ' build/svcd plan "$dir/bad_own.txt"
+  expect 2 'bad_own.txt: ' build/verify "$dir/bad_own.txt" "$dir/certs"
+done
 mv "$dir/certs/up.cert" "$dir/certs/turned.cert"
 expect 1 '' build/verify "$dir/robot.txt" "$dir/certs"
 grep -q '^turned	refused	its motion has another start or goal' "$dir/out" || fail "another plan's: $(cat "$dir/out")"

@@ -165,8 +165,8 @@ static const proof_mesh *tree_of_part(const robot_in_room *in, size_t part) {
 // Makes the certificate of a pair; *bytes is to be freed. Returns 0 after a complaint, also if there
 // can be none.
 static int make_pair_proof(const robot_in_room *in, const char *id,
-                           const nsvcd_joint_motion *motion, size_t pair, float clearance,
-                           size_t visits, uint8_t **bytes, nsvcd_certificate *made) {
+                           const nsvcd_joint_motion *motion, size_t pair, size_t visits,
+                           uint8_t **bytes, nsvcd_certificate *made) {
   const nsvcd_certify_options options = {NULL, visits};
   const nsvcd_body_pair *parts = &in->scene.pairs[pair];
   const proof_mesh *a = tree_of_part(in, parts->a);
@@ -181,8 +181,8 @@ static int make_pair_proof(const robot_in_room *in, const char *id,
     if (made->size > room) room = made->size;
     free(*bytes);
     *bytes = (uint8_t *)allocate(room);
-    result = nsvcd_certify_pair(in->checker, motion, pair, clearance, a->tree, b->tree, &options,
-                                workspace, size, *bytes, room, made);
+    result = nsvcd_certify_pair(in->checker, motion, pair, in->clearances[pair], a->tree, b->tree,
+                                &options, workspace, size, *bytes, room, made);
   } while (!result && made->size > room);
   free(workspace);
   if (result) return complain("%s: %s", id, reason_of(result));
@@ -199,7 +199,7 @@ static int make_pair_proof(const robot_in_room *in, const char *id,
 // examples/FORMATS.md has it. motion: NULL: there is none. Where there can be no certificate a file
 // that is there goes. Returns 0 after a complaint, also then.
 static int write_motion_proof(const robot_in_room *in, const char *folder, const char *id,
-                              const nsvcd_joint_motion *motion, float clearance, size_t visits) {
+                              const nsvcd_joint_motion *motion, size_t visits) {
   const nsvcd_scene *scene = &in->scene;
   char path[4096];
   const double start = seconds();
@@ -223,7 +223,7 @@ static int write_motion_proof(const robot_in_room *in, const char *folder, const
   for (size_t n = 0; n < scene->pair_count && good; n++) {
     nsvcd_certificate made;
     uint8_t *bytes = NULL;
-    good = make_pair_proof(in, id, motion, n, clearance, visits, &bytes, &made);
+    good = make_pair_proof(in, id, motion, n, visits, &bytes, &made);
     if (good) {
       put_bytes(out, made.size, 4);
       fwrite(bytes, 1, made.size, out);

@@ -4,7 +4,7 @@
 //   nsvcd-plans 1
 //   joint NAME PARENT  x y z qx qy qz qw  ax ay az  KIND LOW HIGH SPEED [ACCELERATION]
 //   body NAME JOINT PATH [pose x y z qx qy qz qw] [scale SX SY SZ]
-//   pair NAME NAME
+//   pair NAME NAME [METRES]
 //   scene NAME
 //   obstacle NAME PATH  x y z qx qy qz qw [scale SX SY SZ]
 //   plan ID SCENE  start...  goal...
@@ -54,13 +54,15 @@ typedef struct robot_file {
   robot_mesh *meshes;
   robot_thing *things;  // the robot's bodies, then obstacles
   nsvcd_body_pair *pairs;
+  float *clearances;  // of each pair, metres; below 0: the one that is asked for
   robot_room *rooms;
   robot_task *tasks;
   double *numbers;
   size_t joint_count, mesh_count, thing_count, body_count, pair_count, room_count, task_count,
       number_count;
-  size_t mesh_capacity, thing_capacity, pair_capacity, room_capacity, task_capacity,
-      number_capacity;
+  size_t clearance_count;
+  size_t mesh_capacity, thing_capacity, pair_capacity, clearance_capacity, room_capacity,
+      task_capacity, number_capacity;
 } robot_file;
 
 // Adds an item to a list, and clears it.
@@ -193,13 +195,19 @@ static int robot_read_body(const reader *r, robot_file *file) {
 
 static int robot_read_pair(const reader *r, robot_file *file) {
   size_t at[2];
-  if (r->field_count != 3) return refuse(r, "expected: pair NAME NAME");
+  double clearance = -1;
+  if (r->field_count != 3 && r->field_count != 4)
+    return refuse(r, "expected: pair NAME NAME [METRES]");
   if (file->room_count > 0) return refuse(r, "a pair after the first scene");
   for (int k = 0; k < 2; k++)
     if (!robot_find(file, 0, r->fields[1 + k], &at[k]))
       return refuse_field(r, "no body of this name above", r->fields[1 + k]);
   if (file->things[at[0]].link == file->things[at[1]].link)
     return refuse(r, "both follow the same joint");
+  if (r->field_count == 4 && !robot_number(r, r->fields[3], &clearance)) return 0;
+  if (r->field_count == 4 && clearance < 0)
+    return refuse_field(r, "a clearance is negative", r->fields[3]);
+  *ROBOT_ADD(file->clearances, file->clearance_count, file->clearance_capacity) = (float)clearance;
   nsvcd_body_pair *pair = ROBOT_ADD(file->pairs, file->pair_count, file->pair_capacity);
   pair->a = (uint32_t)at[0];
   pair->b = (uint32_t)at[1];
@@ -353,6 +361,7 @@ static void free_robot(robot_file *file) {
   free(file->meshes);
   free(file->things);
   free(file->pairs);
+  free(file->clearances);
   free(file->rooms);
   free(file->tasks);
   free(file->numbers);
@@ -364,6 +373,7 @@ typedef struct robot_in_room {
   const robot_room *room;
   nsvcd_part *parts;
   nsvcd_body_pair *pairs;
+  float *clearances;
   nsvcd_scene scene;
   void *memory;
   nsvcd_checker *checker;
@@ -380,13 +390,15 @@ static const char *robot_name(const robot_in_room *in, size_t part) {
 static void leave_room(robot_in_room *in) {
   free(in->parts);
   free(in->pairs);
+  free(in->clearances);
   free(in->memory);
   memset(in, 0, sizeof *in);
 }
 
 // Pairs are those of the file, and each body that moves with each obstacle. room: NSVCD_NONE: there
-// are no obstacles. Returns 0 after a complaint.
-static int enter_room(const robot_file *file, size_t room, robot_in_room *in) {
+// are no obstacles. clearance: metres, of pairs that have none of their own. Returns 0 after a
+// complaint.
+static int enter_room(const robot_file *file, size_t room, float clearance, robot_in_room *in) {
   static const robot_room nowhere = {"", 0, 0};
   const size_t bodies = file->body_count;
   leave_room(in);
@@ -394,8 +406,9 @@ static int enter_room(const robot_file *file, size_t room, robot_in_room *in) {
   in->room = room == NSVCD_NONE ? &nowhere : &file->rooms[room];
   const size_t count = bodies + in->room->count;
   in->parts = (nsvcd_part *)allocate(count * sizeof *in->parts);
-  in->pairs = (nsvcd_body_pair *)allocate((file->pair_count + bodies * in->room->count) *
-                                          sizeof *in->pairs);
+  const size_t most = file->pair_count + bodies * in->room->count;
+  in->pairs = (nsvcd_body_pair *)allocate(most * sizeof *in->pairs);
+  in->clearances = (float *)allocate(most * sizeof *in->clearances);
   memset(in->parts, 0, count * sizeof *in->parts);
   for (size_t n = 0; n < count; n++) {
     const robot_thing *thing = &file->things[n < bodies ? n : in->room->first + n - bodies];
@@ -411,6 +424,11 @@ static int enter_room(const robot_file *file, size_t room, robot_in_room *in) {
   scene->pairs = in->pairs;
   if (file->pair_count) memcpy(in->pairs, file->pairs, file->pair_count * sizeof *in->pairs);
   scene->pair_count = file->pair_count;
+  scene->clearances = in->clearances;
+  for (size_t n = 0; n < most; n++) {
+    const float own = n < file->pair_count ? file->clearances[n] : -1;
+    in->clearances[n] = own >= 0 ? own : clearance;
+  }
   for (size_t a = 0; a < bodies; a++) {
     for (size_t b = bodies; b < count && in->parts[a].link > 0; b++) {
       const nsvcd_body_pair pair = {(uint32_t)a, (uint32_t)b};

@@ -61,7 +61,7 @@ static double route_length(const nsvcd_joint_motion *m, size_t joints) {
 // Prints all pairs that are as near as the clearance, and the nearest free configuration that was
 // found, on standard error.
 static void tell_way_out(const robot_in_room *in, const char *from, const double *joints,
-                         const nsvcd_route_problem *problem, float clearance) {
+                         const nsvcd_route_problem *problem) {
   nsvcd_proximity_options options;
   nsvcd_nearest_free_options nearest;
   size_t count = 0;
@@ -70,9 +70,10 @@ static void tell_way_out(const robot_in_room *in, const char *from, const double
   nsvcd_proximity *gaps = (nsvcd_proximity *)allocate((in->scene.pair_count + 1) * sizeof *gaps);
   memset(&options, 0, sizeof options);
   memset(&nearest, 0, sizeof nearest);
-  options.max_distance = clearance > 0 ? clearance : 1e-6f;
+  options.max_distance = 1e-6f;
+  for (size_t k = 0; k < in->scene.pair_count; k++)
+    if (in->clearances[k] > options.max_distance) options.max_distance = in->clearances[k];
   options.max_depth = 0.1f;
-  nearest.clearance = clearance;
   nearest.stop = problem->abandon;
   nearest.user = problem->user;
   if (nsvcd_proximities(in->checker, joints, &options, gaps, in->scene.pair_count, &count))
@@ -83,6 +84,7 @@ static void tell_way_out(const robot_in_room *in, const char *from, const double
     const char *a = robot_name(in, pair->a);
     const char *b = robot_name(in, pair->b);
     if (gap->verdict == NSVCD_UNDECIDED && gap->why == NSVCD_WHY_OPEN) continue;
+    if (gap->verdict == NSVCD_FREE && gap->distance.low > in->clearances[gap->pair]) continue;
     if (gap->verdict != NSVCD_HIT)
       complain("%s: %s and %s are %.2f mm apart", from, a, b, 1e3 * (double)gap->distance.high);
     else if (gap->depth < HUGE_VALF)
@@ -121,7 +123,7 @@ static void tell_undecided(const robot_in_room *in, const char *from,
 // Says on standard error what is wrong with a start or a goal.
 static void tell_check(const robot_in_room *in, const robot_task *task, const char *where,
                        const double *joints, const nsvcd_check_answer *found,
-                       const nsvcd_route_problem *problem, float clearance) {
+                       const nsvcd_route_problem *problem) {
   char from[1024];
   snprintf(from, sizeof from, "%s:%zu: %s: %s", in->file->path, task->line, task->id, where);
   if (found->joint != NSVCD_NONE) {
@@ -129,7 +131,7 @@ static void tell_check(const robot_in_room *in, const robot_task *task, const ch
   } else if (found->verdict == NSVCD_UNDECIDED && found->pair != NSVCD_NONE) {
     tell_undecided(in, from, found);
   }
-  tell_way_out(in, from, joints, problem, clearance);
+  tell_way_out(in, from, joints, problem);
 }
 
 static const char *plan_word(const nsvcd_route_answer *answer) {
@@ -203,7 +205,6 @@ static int plan_one(const robot_in_room *in, const robot_task *task, const setti
   problem.goals = problem.start + joints;
   problem.goal_count = 1;
   asked.seed = options->seed;
-  asked.clearance = options->sweep.clearance;
   asked.nodes = PLAN_NODES;
   const size_t size = nsvcd_route_size(in->checker, &problem, &asked);
   const double began = seconds();
@@ -222,15 +223,15 @@ static int plan_one(const robot_in_room *in, const robot_task *task, const setti
     const int is_found = answer.status == NSVCD_ROUTE_FOUND;
     print_plan(in, task, options, &answer, taken);
     if (answer.status == NSVCD_ROUTE_START)
-      tell_check(in, task, "the start", problem.start, &answer.check, &problem, asked.clearance);
+      tell_check(in, task, "the start", problem.start, &answer.check, &problem);
     if (answer.status == NSVCD_ROUTE_GOAL)
-      tell_check(in, task, "the goal", problem.goals, &answer.check, &problem, asked.clearance);
+      tell_check(in, task, "the goal", problem.goals, &answer.check, &problem);
     if (is_found && out) write_samples(task, &answer, joints, options->samples, out);
     if (is_found && options->picture) good = robot_draw(options->picture, 0, in, task->id, m);
     if (is_found && options->film) good &= robot_draw(options->film, 1, in, task->id, m);
     if (options->certificates)
       good &= write_motion_proof(in, options->certificates, task->id, is_found ? m : NULL,
-                                 asked.clearance, options->visits);
+                                 options->visits);
   }
   free(memory);
   if (result) complain("%s:%zu: %s: %s", in->file->path, task->line, task->id, reason_of(result));
@@ -243,7 +244,6 @@ static nsvcd_result path_edge(const robot_in_room *in, const nsvcd_joint_motion 
   nsvcd_check_options asked;
   plan_clock limits = {wait->end, wait->end};
   memset(&asked, 0, sizeof asked);
-  asked.clearance = options->sweep.clearance;
   asked.work = options->sweep.work;
   for (;;) {
     const double start = seconds();
@@ -332,7 +332,8 @@ static int robot_tasks(const robot_file *file, const settings *options, int is_p
     const robot_task *task = &file->tasks[i];
     if (!is_asked(task, options, is_path)) continue;
     // a checker remembers what was hit, and a plan must not depend on those before it
-    if ((!is_path || in.room != &file->rooms[task->room]) && !enter_room(file, task->room, &in)) {
+    if ((!is_path || in.room != &file->rooms[task->room]) &&
+        !enter_room(file, task->room, options->sweep.clearance, &in)) {
       good = 0;
       break;
     }
@@ -359,7 +360,7 @@ static int pairs(settings *options) {
   if (good) {
     const size_t most = file.body_count * file.body_count;
     nsvcd_body_pair *found = (nsvcd_body_pair *)allocate(most * sizeof *found);
-    good = enter_room(&file, NSVCD_NONE, &in);
+    good = enter_room(&file, NSVCD_NONE, 0, &in);
     const nsvcd_result result =
         good ? nsvcd_find_pairs(in.checker, PAIR_SAMPLES, options->seed, found, most, &counts)
              : NSVCD_OK;

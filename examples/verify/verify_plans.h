@@ -23,6 +23,8 @@ typedef struct robot {
   list bodies;  // the robot's, then the scene's obstacles, which are read last
   size_t own;   // how many of them are the robot's
   list pairs;   // (2)
+  // (own pairs): metres that the file names; below 0: the clearance that is asked about
+  list clearances;
 } robot;
 
 static uint32_t link_named(const robot *r, const char *name) {
@@ -177,7 +179,8 @@ static const char *check_motion(const robot *r, char *const *words, float cleara
       why = "it ends early";
       break;
     }
-    why = check_pair(r, &m, pair, clearance, bytes + *at, length, &report);
+    const float own = pair < r->clearances.count ? ((const float *)r->clearances.items)[pair] : -1;
+    why = check_pair(r, &m, pair, own >= 0 ? own : clearance, bytes + *at, length, &report);
     *at += why ? report.position : length;
   }
   if (!why && *at != size) why = "something follows its end";
@@ -230,7 +233,10 @@ static int check_plans(const char *path, char *text, request *asked) {
     } else if (strcmp(word, "body") == 0 && n >= 4 && !scene) {
       add_body(&r, words[1], words[3], link_named(&r, words[2]), NULL, words, 4, n);
       r.own = r.bodies.count;
-    } else if (strcmp(word, "pair") == 0 && n == 3 && !scene) {
+    } else if (strcmp(word, "pair") == 0 && (n == 3 || n == 4) && !scene) {
+      float *clearance = (float *)add(&r.clearances, sizeof *clearance);
+      *clearance = n == 4 ? (float)number_of(path, words[3]) : -1;
+      if (n == 4 && *clearance < 0) fail(path, "a clearance is negative");
       add_index(&r.pairs, body_named(&r, words[1]));
       add_index(&r.pairs, body_named(&r, words[2]));
     } else if (strcmp(word, "scene") == 0 && n == 2) {
