@@ -38,7 +38,7 @@ endif
 .PHONY: shared static release install uninstall check-packages
 .PHONY: test check check-release
 .PHONY: bench-one-path python mutants fuzz coverage mutate
-.PHONY: bench bench-certificates bench-asks bench-casts bench-distance bench-flags bench-level bench-routes bench-scale bench-plan race profile instructions sizes
+.PHONY: bench bench-certificates bench-asks bench-casts bench-distance bench-flags bench-level bench-looks bench-routes bench-scale bench-plan race profile instructions sizes
 .DELETE_ON_ERROR:
 
 PLANNERS = build/dish_insertion build/bimanual_insertion build/mining_site

@@ -48,6 +48,8 @@ bench-asks: build/bench_asks build/game $(ASKED)  ## what first contacts, cleara
 	build/game --frames 300 --problems build/motions
 	build/bench_asks build/motions/game.txt 0.002
 	for file in $(ASKED); do build/bench_asks $$file || exit 1; done
+bench-looks: build/bench_looks  ## looks beside proofs of the same places: how long, how often wrong
+	build/bench_looks
 # Of an arm in seven scenes, proven; and by other checks of its edges, which take longer: ROUTES=100 for the tables.
 bench-routes: build/bench_routes build/route_peers  ## an arm's routes, proven; and by other checks of its edges
 	build/bench_routes $(or $(ROUTES),10) 0 1
