@@ -202,7 +202,8 @@ static void give(void *memory, void *user) {
   free(memory);
 }
 
-// A file is read, cut at a box, and becomes a body: a small one, one for the network, one of regions.
+// A file is read, cut at a box, and becomes a body: a small one, one for the network, one of
+// regions, one with balls.
 static nsvcd_result all_of_it(const char *text, const nsvcd_encode_options *options,
                               const nsvcd_allocator *allocator, nsvcd_mesh meshes[2],
                               const nsvcd_body **body) {
@@ -215,10 +216,10 @@ static nsvcd_result all_of_it(const char *text, const nsvcd_encode_options *opti
 }
 static void memory_that_runs_out_is_told_and_nothing_leaks(void) {
   static const char arrow[] = "v 0 0 0\nv 2 1 0\nv 0 2 0\nv 1 1 0\nf 1 2 3 4\n";
-  static const char *const texts[3] = {arrow, cube, corner};
-  static const nsvcd_encode_options kinds[3] = {
-      {.latents = 1}, {.no_triangles = 1}, {.latents = 1, .patches = 513}};
-  for (int kind = 0; kind < 3; kind++) {
+  static const char *const texts[4] = {arrow, cube, corner, cube};
+  static const nsvcd_encode_options kinds[4] = {
+      {.latents = 1}, {.no_triangles = 1}, {.latents = 1, .patches = 513}, {.balls = 20}};
+  for (int kind = 0; kind < 4; kind++) {
     nsvcd_result result = NSVCD_ERROR_MEMORY;
     int many = 0;
     for (; result; many++) {
