@@ -16,11 +16,11 @@
 typedef struct nsvcd__ball_tree {
   // balls, clusters, ...
   nsvcd__spheres levels[1 + NSVCD__LEVELS];
-  // the same, and in the last the number of levels
+  // how many there are of each, and levels in use
   size_t counts[1 + NSVCD__LEVELS], level_count;
   // over all, `round` included
   nsvcd__sphere whole;
-  // to be added to each radius
+  // metres, to be added to each radius
   float more;
   // of the patches that the balls are, (6, stride); NULL: balls of a cover
   const float *slabs;
@@ -156,7 +156,7 @@ static uint32_t nsvcd__look_at_slab(const nsvcd__look_state *s, nsvcd__look_poin
   return met;
 }
 
-// Ball i of a, placed, and its radius.
+// Ball i of a, placed, if it is not yet. Returns its radius.
 static float nsvcd__look_ball(nsvcd__look_state *s, size_t i, nsvcd__look_point **out) {
   const size_t n = i % NSVCD__GROUP;
   *out = &s->balls[n];
