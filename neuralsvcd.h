@@ -2834,6 +2834,15 @@ static int nsvcd__mesh_alloc(nsvcd_mesh *mesh, size_t vertices, size_t triangles
   return mesh->positions && mesh->indices;
 }
 
+// The box of the triangles of a mesh with indices.
+static void nsvcd__mesh_box(const nsvcd_mesh *mesh, nsvcd__d3 *low, nsvcd__d3 *high) {
+  *low = *high = nsvcd__d3_row(mesh->positions, mesh->indices[0]);
+  for (size_t n = 0; n < 3 * mesh->triangle_count; n++) {
+    *low = nsvcd__d3_min(*low, nsvcd__d3_row(mesh->positions, mesh->indices[n]));
+    *high = nsvcd__d3_max(*high, nsvcd__d3_row(mesh->positions, mesh->indices[n]));
+  }
+}
+
 // A triangle cut at the six sides of a box. Each side adds one corner, or two if roundings make the
 // polygon cross it twice.
 typedef struct nsvcd__clipped {
@@ -7978,11 +7987,14 @@ static size_t nsvcd__voxel_stride(const nsvcd__voxels *v, size_t axis) {
   return axis == 0 ? 1 : axis == 1 ? v->sizes[0] : v->sizes[0] * v->sizes[1];
 }
 
-static nsvcd__d3 nsvcd__voxel_centre(const nsvcd__voxels *v, size_t cell) {
+// Where a cell is, in cells.
+static nsvcd__f3 nsvcd__cell_place(const nsvcd__voxels *v, size_t cell) {
   const size_t rows = cell / v->sizes[0];
-  const nsvcd__d3 at = {(double)(cell % v->sizes[0]), (double)(rows % v->sizes[1]),
-                        (double)(rows / v->sizes[1])};
-  return nsvcd__d3_fma(v->edge, at, v->first);
+  return nsvcd__f3_of((float)(cell % v->sizes[0]), (float)(rows % v->sizes[1]),
+                      (float)(rows / v->sizes[1]));
+}
+static nsvcd__d3 nsvcd__voxel_centre(const nsvcd__voxels *v, size_t cell) {
+  return nsvcd__d3_fma(v->edge, nsvcd__d3_widen(nsvcd__cell_place(v, cell)), v->first);
 }
 
 // The cell that a point of the mesh is in.
@@ -8152,12 +8164,8 @@ static void nsvcd__measure_depths(nsvcd__voxels *v) {
 // 0 without memory. The mesh is checked, and not a cloud. is_open: nothing is inside it.
 static int nsvcd__voxels_build(const nsvcd_mesh *mesh, int is_open, nsvcd__arena *arena,
                                nsvcd__voxels *v) {
-  nsvcd__d3 low = nsvcd__d3_row(mesh->positions, mesh->indices[0]);
-  nsvcd__d3 high = low;
-  for (size_t n = 0; n < 3 * mesh->triangle_count; n++) {
-    low = nsvcd__d3_min(low, nsvcd__d3_row(mesh->positions, mesh->indices[n]));
-    high = nsvcd__d3_max(high, nsvcd__d3_row(mesh->positions, mesh->indices[n]));
-  }
+  nsvcd__d3 low, high;
+  nsvcd__mesh_box(mesh, &low, &high);
   const nsvcd__d3 size = nsvcd__d3_sub(high, low);
   const double longest = nsvcd__d3_axis(size, nsvcd__d3_longest(size));
   const nsvcd__d3 ones = {1, 1, 1};
@@ -8258,12 +8266,6 @@ static size_t nsvcd__choose_cells(const nsvcd__voxels *v, unsigned kinds, size_t
   return count;
 }
 
-static nsvcd__f3 nsvcd__cell_place(const nsvcd__voxels *v, size_t cell) {
-  const size_t rows = cell / v->sizes[0];
-  return nsvcd__f3_of((float)(cell % v->sizes[0]), (float)(rows % v->sizes[1]),
-                      (float)(rows / v->sizes[1]));
-}
-
 // Chooses the points to cover; in words of 64, of either kind.
 static void nsvcd__choose_points(nsvcd__coverer *c) {
   const nsvcd__voxels *v = &c->voxels;
@@ -8277,9 +8279,12 @@ static void nsvcd__choose_points(nsvcd__coverer *c) {
   for (size_t p = 0; p < count; p++) c->places[p] = nsvcd__cell_place(v, points[p]);
 }
 
-// Which points does a ball cover? centre, radius: in cells. covered: (words). Returns how many.
-static uint32_t nsvcd__covered_by(const nsvcd__coverer *c, nsvcd__f3 centre, float radius,
+// Which points does the ball about a cell cover? slack: metres. covered: (words). Returns how many.
+static uint32_t nsvcd__covered_by(const nsvcd__coverer *c, size_t cell, double slack,
                                   uint64_t *covered) {
+  // in cells
+  const float radius = c->voxels.depths[cell] + (float)(slack / c->voxels.edge);
+  const nsvcd__f3 centre = nsvcd__cell_place(&c->voxels, cell);
   uint32_t count = 0;
   for (size_t w = 0; w < c->words; w++) {
     const size_t first = 64 * w;
@@ -8299,15 +8304,18 @@ static uint32_t nsvcd__covered_by(const nsvcd__coverer *c, nsvcd__f3 centre, flo
   return count;
 }
 
-// How many more points the ball about a cell would cover; they are left in c->tried. slack: metres.
-static uint32_t nsvcd__gain_of(nsvcd__coverer *c, size_t cell, double slack) {
-  const nsvcd__voxels *v = &c->voxels;
-  const float radius = v->depths[cell] + (float)(slack / v->edge);
+// How many of the points that a ball covers, (words), are left?
+static uint32_t nsvcd__gain_by(const nsvcd__coverer *c, const uint64_t *covered) {
   uint32_t gain = 0;
-  (void)nsvcd__covered_by(c, nsvcd__cell_place(v, cell), radius, c->tried);
   for (size_t w = 0; w < c->words; w++)
-    gain += (uint32_t)nsvcd__bit_count(c->tried[w] & c->left[w]);
+    gain += (uint32_t)nsvcd__bit_count(covered[w] & c->left[w]);
   return gain;
+}
+
+// The same of the ball about a cell; what it covers is left in c->tried.
+static uint32_t nsvcd__gain_of(nsvcd__coverer *c, size_t cell, double slack) {
+  (void)nsvcd__covered_by(c, cell, slack, c->tried);
+  return nsvcd__gain_by(c, c->tried);
 }
 
 // Goes from a cell to others near by, as long as their balls cover more.
@@ -8335,12 +8343,10 @@ static size_t nsvcd__climb_from(nsvcd__coverer *c, size_t cell, double slack) {
 static size_t nsvcd__best_choice(nsvcd__coverer *c) {
   for (;;) {
     size_t best = 0;
-    uint32_t gain = 0;
     for (size_t n = 0; n < c->choice_count; n++) {
       if (c->gains[n] > c->gains[best]) best = n;
     }
-    for (size_t w = 0; w < c->words; w++)
-      gain += (uint32_t)nsvcd__bit_count(c->covered[best * c->words + w] & c->left[w]);
+    const uint32_t gain = nsvcd__gain_by(c, c->covered + best * c->words);
     if (gain > 0 && gain == c->gains[best]) return c->choices[best];
     if (c->gains[best] == 0) break;
     c->gains[best] = gain;
@@ -8355,11 +8361,8 @@ static int nsvcd__cover_with(nsvcd__coverer *c, double slack) {
   const nsvcd__voxels *v = &c->voxels;
   memset(c->left, 0, c->words * sizeof *c->left);
   for (size_t p = 0; p < c->point_count; p++) c->left[p / 64] |= (uint64_t)1 << p % 64;
-  for (size_t n = 0; n < c->choice_count; n++) {
-    const float radius = v->depths[c->choices[n]] + (float)(slack / v->edge);
-    const nsvcd__f3 centre = nsvcd__cell_place(v, c->choices[n]);
-    c->gains[n] = nsvcd__covered_by(c, centre, radius, c->covered + n * c->words);
-  }
+  for (size_t n = 0; n < c->choice_count; n++)
+    c->gains[n] = nsvcd__covered_by(c, c->choices[n], slack, c->covered + n * c->words);
   size_t to_cover = c->point_count;
   for (c->count = 0; to_cover > 0; c->count++) {
     if (c->count == c->most) return 0;
@@ -8986,15 +8989,10 @@ static size_t nsvcd__mesh_corner(const nsvcd_mesh *mesh, size_t t, size_t k) {
 // Is a closed mesh a box along the axes: twelve triangles, each of three corners of the box, two to
 // a face?
 static uint32_t nsvcd__is_box(const nsvcd_mesh *mesh) {
-  const nsvcd__d3 ones = {1, 1, 1};
-  nsvcd__d3 low = nsvcd__d3_scale(ones, HUGE_VAL);
-  nsvcd__d3 high = nsvcd__d3_scale(ones, -HUGE_VAL);
+  nsvcd__d3 low, high;
   int faces[6] = {0};
   if (!mesh->indices || mesh->triangle_count != 12) return 0;
-  for (size_t n = 0; n < 36; n++) {
-    low = nsvcd__d3_min(low, nsvcd__d3_row(mesh->positions, mesh->indices[n]));
-    high = nsvcd__d3_max(high, nsvcd__d3_row(mesh->positions, mesh->indices[n]));
-  }
+  nsvcd__mesh_box(mesh, &low, &high);
   for (size_t t = 0; t < 12; t++) {
     size_t sides[3] = {0, 0, 0};
     for (size_t n = 0; n < 9; n++) {
@@ -11977,20 +11975,11 @@ static void nsvcd__look_relate(nsvcd__look_state *s, const nsvcd_places *a,
     nsvcd__v3 from[3], to[3];
     for (size_t k = 0; k < 3; k++) {
       // columns of b's matrices are its axes
-      from[k] = nsvcd__v3_of(nsvcd__v_load(a->rotation[k] + l),
-                             nsvcd__v_load(a->rotation[3 + k] + l),
-                             nsvcd__v_load(a->rotation[6 + k] + l));
-      to[k] = nsvcd__v3_of(nsvcd__v_load(b->rotation[k] + l),
-                           nsvcd__v_load(b->rotation[3 + k] + l),
-                           nsvcd__v_load(b->rotation[6 + k] + l));
+      from[k] = nsvcd__v3_get(a->rotation[k] + l, 3 * NSVCD__LANES);
+      to[k] = nsvcd__v3_get(b->rotation[k] + l, 3 * NSVCD__LANES);
     }
-    nsvcd__v3 offset;
-    offset.x =
-        nsvcd__v_sub(nsvcd__v_load(a->position[0] + l), nsvcd__v_load(b->position[0] + l));
-    offset.y =
-        nsvcd__v_sub(nsvcd__v_load(a->position[1] + l), nsvcd__v_load(b->position[1] + l));
-    offset.z =
-        nsvcd__v_sub(nsvcd__v_load(a->position[2] + l), nsvcd__v_load(b->position[2] + l));
+    const nsvcd__v3 offset =
+        nsvcd__v3_sub(nsvcd__v3_rows(a->position[0] + l), nsvcd__v3_rows(b->position[0] + l));
     for (size_t i = 0; i < 3; i++) {
       for (size_t k = 0; k < 3; k++)
         nsvcd__v_store(s->turn[3 * i + k] + l,

@@ -1440,6 +1440,9 @@ typedef struct nsvcd__member {
   // a sphere about its triangles, in its link; and no point is farther from its origin
   nsvcd__d3 centre;
   double radius, extent;
+  // metres: what it goes beyond its triangles; the error of its balls, and how many it has
+  double round, ball_error;
+  size_t balls;
   // a box about all of it, in its own axes, scaled
   nsvcd__d3 middle, half;
   // of all samples, or where it rests
@@ -1931,7 +1934,10 @@ static nsvcd__member nsvcd__member_of(const nsvcd_part *part) {
   m.extent = 1.000001 * scale * (double)facts.extent;
   m.middle = nsvcd__d3_scale(nsvcd__d3_add(low, high), 0.5 * scale);
   // a rounded body goes beyond its triangles
-  m.half = nsvcd__d3_fma(scale * (double)facts.convex_radius, ones, half);
+  m.round = scale * (double)facts.convex_radius;
+  m.half = nsvcd__d3_fma(m.round, ones, half);
+  m.ball_error = scale * (double)facts.ball_error;
+  m.balls = facts.balls;
   m.bounds = nsvcd__bounds_of(&m, &m.frame);
   return m;
 }
@@ -2700,28 +2706,25 @@ static void nsvcd__looker_begin(nsvcd_checker *c, nsvcd__looker *k) {
     k->joints[j] = nsvcd__look_frame_of(&before, &c->links[j].origin, &own);
   }
   for (size_t n = 0; n < scene->part_count; n++) {
-    const nsvcd_part *from = &scene->parts[n];
     const nsvcd__member *m = &c->members[n];
     nsvcd__look_part *part = &k->parts[n];
-    const nsvcd__dmat3 before = nsvcd__look_axes_of(c, from->link);
-    const nsvcd_body_facts facts = nsvcd_body_describe(from->body);
-    const float scale = from->scale > 0 ? from->scale : 1;
+    const nsvcd__dmat3 before = nsvcd__look_axes_of(c, scene->parts[n].link);
     const nsvcd__dpose centre = {{0, 0, 0, 1}, m->centre};
     const nsvcd__look_frame at = nsvcd__look_frame_of(&before, &centre, &ones);
     part->frame = nsvcd__look_frame_of(&before, &m->frame, &ones);
     memcpy(part->centre, at.offset, sizeof part->centre);
-    part->radius = 1.00001f * scale * facts.radius;
-    part->error = scale * facts.ball_error;
+    part->radius = 1.00001f * (float)(m->radius + m->round);
+    part->error = (float)m->ball_error;
     nsvcd__f3_store(nsvcd__f3_round(m->bounds.low), part->low);
     nsvcd__f3_store(nsvcd__f3_round(m->bounds.high), part->high);
   }
 }
 
 // Are there balls about all that moves? Else looks would find too little free.
-static int nsvcd__can_look(const nsvcd_scene *scene) {
-  int can = scene->pair_count > 0;
-  for (size_t n = 0; n < scene->part_count; n++)
-    can &= !scene->parts[n].link || nsvcd_body_describe(scene->parts[n].body).balls > 0;
+static int nsvcd__can_look(const nsvcd_checker *c) {
+  int can = c->scene->pair_count > 0;
+  for (size_t n = 0; n < c->scene->part_count; n++)
+    can &= !c->scene->parts[n].link || c->members[n].balls > 0;
   return can;
 }
 
@@ -4075,7 +4078,7 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
   if (o->shortcuts == NSVCD_NONE) o->shortcuts = 0;
   if (o->smoothings == NSVCD_NONE) o->smoothings = 0;
   o->looks = o->looks ? o->looks : NSVCD__MOST_LOOKS;
-  if (o->looks == NSVCD_NONE || !nsvcd__can_look(checker->scene)) o->looks = 0;
+  if (o->looks == NSVCD_NONE || !nsvcd__can_look(checker)) o->looks = 0;
   const size_t joints = checker->scene->joint_count;
   // the caller's configurations do not count as nodes
   const size_t nodes = o->nodes + problem->goal_count + problem->guess_count + 1;
@@ -4371,6 +4374,8 @@ static void nsvcd__time_path(nsvcd__router *r) {
   nsvcd_route_answer *answer = &r->answer;
   const nsvcd__trajectory *t = &r->trajectory;
   const double *last = nsvcd__corner_at(r, r->corners - 1);
+  // a search before this one may have ended at another goal
+  answer->unhindered = 0;
   for (size_t j = 0; j < r->joints; j++) {
     const nsvcd_joint *joint = &r->scene->joints[j];
     const double time = nsvcd__blend_time(r->path[j], 0, last[j], 0, nsvcd__speed_of(joint),

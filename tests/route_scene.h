@@ -54,6 +54,11 @@ static int robot_free_place(robot *r, shapes_rng *rng, float clearance, double *
   return 0;
 }
 
+// Ends a search after so many calls: user is an int.
+static inline int robot_stop(void *user) {
+  return --*(int *)user < 0;
+}
+
 typedef struct asked_route {
   nsvcd_route_problem problem;
   nsvcd_route_options options;

@@ -487,10 +487,6 @@ static void robot_routes_are_free(void) {
   CHECK_GE(led, 3 * guesses / 4);
 }
 
-static int robot_stop(void *user) {
-  return --*(int *)user < 0;
-}
-
 // What ends a search otherwise: a start or all goals that are not free, nodes, the caller. Of several
 // goals one that is free is reached, by a joint without limits the shorter way round.
 static void robot_routes_end(void) {

@@ -162,13 +162,6 @@ static void routes_are_right_whatever_looks_say(void) {
   CHECK_GE(by_looks, 2);
 }
 
-typedef struct route_end {
-  int left;
-} route_end;
-static int route_ends(void *user) {
-  return --((route_end *)user)->left < 0;
-}
-
 // The caller ends a search in the midst of looks, by either function, at once.
 static void looks_end_when_told(void) {
   static robot r;
@@ -178,14 +171,14 @@ static void looks_end_when_told(void) {
   for (int trial = 0; trial < 6; trial++) {
     asked_route a;
     if (route_asked(&r, &rng, 3 * trial + 1, &a)) {
-      route_end end = {40};
-      a.problem.user = &end;
-      *(trial % 2 ? &a.problem.stop : &a.problem.abandon) = route_ends;
-      if (trial % 2 == 0) end.left = 2000;  // the ends are proven first
+      int left = 40;
+      a.problem.user = &left;
+      *(trial % 2 ? &a.problem.stop : &a.problem.abandon) = robot_stop;
+      if (trial % 2 == 0) left = 2000;  // the ends are proven first
       ask_route(&r, &a);
       stopped += a.answer.status == NSVCD_ROUTE_STOPPED;
       CHECK(a.answer.status == NSVCD_ROUTE_STOPPED || a.answer.status == NSVCD_ROUTE_FOUND);
-      CHECK_GE(end.left, -8);
+      CHECK_GE(left, -8);
       CHECK_LE(a.answer.looks, trial % 2 ? 40 : 2000);
     }
     free(a.memory);

@@ -34,6 +34,11 @@ typedef struct robot_thing {
   nsvcd_pose pose;
 } robot_thing;
 
+typedef struct robot_pair {
+  nsvcd_body_pair parts;
+  float clearance;  // metres; below 0: the one that is asked for
+} robot_pair;
+
 typedef struct robot_room {  // a scene
   const char *name;
   size_t first, count;  // its obstacles, among the file's things
@@ -53,16 +58,14 @@ typedef struct robot_file {
   nsvcd_joint joints[NSVCD_MAX_JOINTS];
   robot_mesh *meshes;
   robot_thing *things;  // the robot's bodies, then obstacles
-  nsvcd_body_pair *pairs;
-  float *clearances;  // of each pair, metres; below 0: the one that is asked for
+  robot_pair *pairs;
   robot_room *rooms;
   robot_task *tasks;
   double *numbers;
   size_t joint_count, mesh_count, thing_count, body_count, pair_count, room_count, task_count,
       number_count;
-  size_t clearance_count;
-  size_t mesh_capacity, thing_capacity, pair_capacity, clearance_capacity, room_capacity,
-      task_capacity, number_capacity;
+  size_t mesh_capacity, thing_capacity, pair_capacity, room_capacity, task_capacity,
+      number_capacity;
 } robot_file;
 
 // Adds an item to a list, and clears it.
@@ -207,10 +210,10 @@ static int robot_read_pair(const reader *r, robot_file *file) {
   if (r->field_count == 4 && !robot_number(r, r->fields[3], &clearance)) return 0;
   if (r->field_count == 4 && clearance < 0)
     return refuse_field(r, "a clearance is negative", r->fields[3]);
-  *ROBOT_ADD(file->clearances, file->clearance_count, file->clearance_capacity) = (float)clearance;
-  nsvcd_body_pair *pair = ROBOT_ADD(file->pairs, file->pair_count, file->pair_capacity);
-  pair->a = (uint32_t)at[0];
-  pair->b = (uint32_t)at[1];
+  robot_pair *pair = ROBOT_ADD(file->pairs, file->pair_count, file->pair_capacity);
+  pair->parts.a = (uint32_t)at[0];
+  pair->parts.b = (uint32_t)at[1];
+  pair->clearance = (float)clearance;
   return 1;
 }
 
@@ -361,7 +364,6 @@ static void free_robot(robot_file *file) {
   free(file->meshes);
   free(file->things);
   free(file->pairs);
-  free(file->clearances);
   free(file->rooms);
   free(file->tasks);
   free(file->numbers);
@@ -422,12 +424,12 @@ static int enter_room(const robot_file *file, size_t room, float clearance, robo
   scene->parts = in->parts;
   scene->part_count = count;
   scene->pairs = in->pairs;
-  if (file->pair_count) memcpy(in->pairs, file->pairs, file->pair_count * sizeof *in->pairs);
   scene->pair_count = file->pair_count;
   scene->clearances = in->clearances;
-  for (size_t n = 0; n < most; n++) {
-    const float own = n < file->pair_count ? file->clearances[n] : -1;
-    in->clearances[n] = own >= 0 ? own : clearance;
+  for (size_t n = 0; n < most; n++) in->clearances[n] = clearance;
+  for (size_t n = 0; n < file->pair_count; n++) {
+    in->pairs[n] = file->pairs[n].parts;
+    if (file->pairs[n].clearance >= 0) in->clearances[n] = file->pairs[n].clearance;
   }
   for (size_t a = 0; a < bodies; a++) {
     for (size_t b = bodies; b < count && in->parts[a].link > 0; b++) {

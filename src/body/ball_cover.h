@@ -66,12 +66,6 @@ static size_t nsvcd__choose_cells(const nsvcd__voxels *v, unsigned kinds, size_t
   return count;
 }
 
-static nsvcd__f3 nsvcd__cell_place(const nsvcd__voxels *v, size_t cell) {
-  const size_t rows = cell / v->sizes[0];
-  return nsvcd__f3_of((float)(cell % v->sizes[0]), (float)(rows % v->sizes[1]),
-                      (float)(rows / v->sizes[1]));
-}
-
 // Chooses the points to cover; in words of 64, of either kind.
 static void nsvcd__choose_points(nsvcd__coverer *c) {
   const nsvcd__voxels *v = &c->voxels;
@@ -85,9 +79,12 @@ static void nsvcd__choose_points(nsvcd__coverer *c) {
   for (size_t p = 0; p < count; p++) c->places[p] = nsvcd__cell_place(v, points[p]);
 }
 
-// Which points does a ball cover? centre, radius: in cells. covered: (words). Returns how many.
-static uint32_t nsvcd__covered_by(const nsvcd__coverer *c, nsvcd__f3 centre, float radius,
+// Which points does the ball about a cell cover? slack: metres. covered: (words). Returns how many.
+static uint32_t nsvcd__covered_by(const nsvcd__coverer *c, size_t cell, double slack,
                                   uint64_t *covered) {
+  // in cells
+  const float radius = c->voxels.depths[cell] + (float)(slack / c->voxels.edge);
+  const nsvcd__f3 centre = nsvcd__cell_place(&c->voxels, cell);
   uint32_t count = 0;
   for (size_t w = 0; w < c->words; w++) {
     const size_t first = 64 * w;
@@ -107,15 +104,18 @@ static uint32_t nsvcd__covered_by(const nsvcd__coverer *c, nsvcd__f3 centre, flo
   return count;
 }
 
-// How many more points the ball about a cell would cover; they are left in c->tried. slack: metres.
-static uint32_t nsvcd__gain_of(nsvcd__coverer *c, size_t cell, double slack) {
-  const nsvcd__voxels *v = &c->voxels;
-  const float radius = v->depths[cell] + (float)(slack / v->edge);
+// How many of the points that a ball covers, (words), are left?
+static uint32_t nsvcd__gain_by(const nsvcd__coverer *c, const uint64_t *covered) {
   uint32_t gain = 0;
-  (void)nsvcd__covered_by(c, nsvcd__cell_place(v, cell), radius, c->tried);
   for (size_t w = 0; w < c->words; w++)
-    gain += (uint32_t)nsvcd__bit_count(c->tried[w] & c->left[w]);
+    gain += (uint32_t)nsvcd__bit_count(covered[w] & c->left[w]);
   return gain;
+}
+
+// The same of the ball about a cell; what it covers is left in c->tried.
+static uint32_t nsvcd__gain_of(nsvcd__coverer *c, size_t cell, double slack) {
+  (void)nsvcd__covered_by(c, cell, slack, c->tried);
+  return nsvcd__gain_by(c, c->tried);
 }
 
 // Goes from a cell to others near by, as long as their balls cover more.
@@ -143,12 +143,10 @@ static size_t nsvcd__climb_from(nsvcd__coverer *c, size_t cell, double slack) {
 static size_t nsvcd__best_choice(nsvcd__coverer *c) {
   for (;;) {
     size_t best = 0;
-    uint32_t gain = 0;
     for (size_t n = 0; n < c->choice_count; n++) {
       if (c->gains[n] > c->gains[best]) best = n;
     }
-    for (size_t w = 0; w < c->words; w++)
-      gain += (uint32_t)nsvcd__bit_count(c->covered[best * c->words + w] & c->left[w]);
+    const uint32_t gain = nsvcd__gain_by(c, c->covered + best * c->words);
     if (gain > 0 && gain == c->gains[best]) return c->choices[best];
     if (c->gains[best] == 0) break;
     c->gains[best] = gain;
@@ -163,11 +161,8 @@ static int nsvcd__cover_with(nsvcd__coverer *c, double slack) {
   const nsvcd__voxels *v = &c->voxels;
   memset(c->left, 0, c->words * sizeof *c->left);
   for (size_t p = 0; p < c->point_count; p++) c->left[p / 64] |= (uint64_t)1 << p % 64;
-  for (size_t n = 0; n < c->choice_count; n++) {
-    const float radius = v->depths[c->choices[n]] + (float)(slack / v->edge);
-    const nsvcd__f3 centre = nsvcd__cell_place(v, c->choices[n]);
-    c->gains[n] = nsvcd__covered_by(c, centre, radius, c->covered + n * c->words);
-  }
+  for (size_t n = 0; n < c->choice_count; n++)
+    c->gains[n] = nsvcd__covered_by(c, c->choices[n], slack, c->covered + n * c->words);
   size_t to_cover = c->point_count;
   for (c->count = 0; to_cover > 0; c->count++) {
     if (c->count == c->most) return 0;

@@ -39,11 +39,14 @@ static size_t nsvcd__voxel_stride(const nsvcd__voxels *v, size_t axis) {
   return axis == 0 ? 1 : axis == 1 ? v->sizes[0] : v->sizes[0] * v->sizes[1];
 }
 
-static nsvcd__d3 nsvcd__voxel_centre(const nsvcd__voxels *v, size_t cell) {
+// Where a cell is, in cells.
+static nsvcd__f3 nsvcd__cell_place(const nsvcd__voxels *v, size_t cell) {
   const size_t rows = cell / v->sizes[0];
-  const nsvcd__d3 at = {(double)(cell % v->sizes[0]), (double)(rows % v->sizes[1]),
-                        (double)(rows / v->sizes[1])};
-  return nsvcd__d3_fma(v->edge, at, v->first);
+  return nsvcd__f3_of((float)(cell % v->sizes[0]), (float)(rows % v->sizes[1]),
+                      (float)(rows / v->sizes[1]));
+}
+static nsvcd__d3 nsvcd__voxel_centre(const nsvcd__voxels *v, size_t cell) {
+  return nsvcd__d3_fma(v->edge, nsvcd__d3_widen(nsvcd__cell_place(v, cell)), v->first);
 }
 
 // The cell that a point of the mesh is in.
@@ -213,12 +216,8 @@ static void nsvcd__measure_depths(nsvcd__voxels *v) {
 // 0 without memory. The mesh is checked, and not a cloud. is_open: nothing is inside it.
 static int nsvcd__voxels_build(const nsvcd_mesh *mesh, int is_open, nsvcd__arena *arena,
                                nsvcd__voxels *v) {
-  nsvcd__d3 low = nsvcd__d3_row(mesh->positions, mesh->indices[0]);
-  nsvcd__d3 high = low;
-  for (size_t n = 0; n < 3 * mesh->triangle_count; n++) {
-    low = nsvcd__d3_min(low, nsvcd__d3_row(mesh->positions, mesh->indices[n]));
-    high = nsvcd__d3_max(high, nsvcd__d3_row(mesh->positions, mesh->indices[n]));
-  }
+  nsvcd__d3 low, high;
+  nsvcd__mesh_box(mesh, &low, &high);
   const nsvcd__d3 size = nsvcd__d3_sub(high, low);
   const double longest = nsvcd__d3_axis(size, nsvcd__d3_longest(size));
   const nsvcd__d3 ones = {1, 1, 1};

@@ -44,15 +44,10 @@ static size_t nsvcd__mesh_corner(const nsvcd_mesh *mesh, size_t t, size_t k) {
 // Is a closed mesh a box along the axes: twelve triangles, each of three corners of the box, two to
 // a face?
 static uint32_t nsvcd__is_box(const nsvcd_mesh *mesh) {
-  const nsvcd__d3 ones = {1, 1, 1};
-  nsvcd__d3 low = nsvcd__d3_scale(ones, HUGE_VAL);
-  nsvcd__d3 high = nsvcd__d3_scale(ones, -HUGE_VAL);
+  nsvcd__d3 low, high;
   int faces[6] = {0};
   if (!mesh->indices || mesh->triangle_count != 12) return 0;
-  for (size_t n = 0; n < 36; n++) {
-    low = nsvcd__d3_min(low, nsvcd__d3_row(mesh->positions, mesh->indices[n]));
-    high = nsvcd__d3_max(high, nsvcd__d3_row(mesh->positions, mesh->indices[n]));
-  }
+  nsvcd__mesh_box(mesh, &low, &high);
   for (size_t t = 0; t < 12; t++) {
     size_t sides[3] = {0, 0, 0};
     for (size_t n = 0; n < 9; n++) {

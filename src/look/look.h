@@ -238,20 +238,11 @@ static void nsvcd__look_relate(nsvcd__look_state *s, const nsvcd_places *a,
     nsvcd__v3 from[3], to[3];
     for (size_t k = 0; k < 3; k++) {
       // columns of b's matrices are its axes
-      from[k] = nsvcd__v3_of(nsvcd__v_load(a->rotation[k] + l),
-                             nsvcd__v_load(a->rotation[3 + k] + l),
-                             nsvcd__v_load(a->rotation[6 + k] + l));
-      to[k] = nsvcd__v3_of(nsvcd__v_load(b->rotation[k] + l),
-                           nsvcd__v_load(b->rotation[3 + k] + l),
-                           nsvcd__v_load(b->rotation[6 + k] + l));
+      from[k] = nsvcd__v3_get(a->rotation[k] + l, 3 * NSVCD__LANES);
+      to[k] = nsvcd__v3_get(b->rotation[k] + l, 3 * NSVCD__LANES);
     }
-    nsvcd__v3 offset;
-    offset.x =
-        nsvcd__v_sub(nsvcd__v_load(a->position[0] + l), nsvcd__v_load(b->position[0] + l));
-    offset.y =
-        nsvcd__v_sub(nsvcd__v_load(a->position[1] + l), nsvcd__v_load(b->position[1] + l));
-    offset.z =
-        nsvcd__v_sub(nsvcd__v_load(a->position[2] + l), nsvcd__v_load(b->position[2] + l));
+    const nsvcd__v3 offset =
+        nsvcd__v3_sub(nsvcd__v3_rows(a->position[0] + l), nsvcd__v3_rows(b->position[0] + l));
     for (size_t i = 0; i < 3; i++) {
       for (size_t k = 0; k < 3; k++)
         nsvcd__v_store(s->turn[3 * i + k] + l,

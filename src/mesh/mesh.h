@@ -24,6 +24,15 @@ static int nsvcd__mesh_alloc(nsvcd_mesh *mesh, size_t vertices, size_t triangles
   return mesh->positions && mesh->indices;
 }
 
+// The box of the triangles of a mesh with indices.
+static void nsvcd__mesh_box(const nsvcd_mesh *mesh, nsvcd__d3 *low, nsvcd__d3 *high) {
+  *low = *high = nsvcd__d3_row(mesh->positions, mesh->indices[0]);
+  for (size_t n = 0; n < 3 * mesh->triangle_count; n++) {
+    *low = nsvcd__d3_min(*low, nsvcd__d3_row(mesh->positions, mesh->indices[n]));
+    *high = nsvcd__d3_max(*high, nsvcd__d3_row(mesh->positions, mesh->indices[n]));
+  }
+}
+
 // A triangle cut at the six sides of a box. Each side adds one corner, or two if roundings make the
 // polygon cross it twice.
 typedef struct nsvcd__clipped {

@@ -56,6 +56,9 @@ typedef struct nsvcd__member {
   // a sphere about its triangles, in its link; and no point is farther from its origin
   nsvcd__d3 centre;
   double radius, extent;
+  // metres: what it goes beyond its triangles; the error of its balls, and how many it has
+  double round, ball_error;
+  size_t balls;
   // a box about all of it, in its own axes, scaled
   nsvcd__d3 middle, half;
   // of all samples, or where it rests

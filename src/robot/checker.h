@@ -154,7 +154,10 @@ static nsvcd__member nsvcd__member_of(const nsvcd_part *part) {
   m.extent = 1.000001 * scale * (double)facts.extent;
   m.middle = nsvcd__d3_scale(nsvcd__d3_add(low, high), 0.5 * scale);
   // a rounded body goes beyond its triangles
-  m.half = nsvcd__d3_fma(scale * (double)facts.convex_radius, ones, half);
+  m.round = scale * (double)facts.convex_radius;
+  m.half = nsvcd__d3_fma(m.round, ones, half);
+  m.ball_error = scale * (double)facts.ball_error;
+  m.balls = facts.balls;
   m.bounds = nsvcd__bounds_of(&m, &m.frame);
   return m;
 }

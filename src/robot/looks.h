@@ -225,28 +225,25 @@ static void nsvcd__looker_begin(nsvcd_checker *c, nsvcd__looker *k) {
     k->joints[j] = nsvcd__look_frame_of(&before, &c->links[j].origin, &own);
   }
   for (size_t n = 0; n < scene->part_count; n++) {
-    const nsvcd_part *from = &scene->parts[n];
     const nsvcd__member *m = &c->members[n];
     nsvcd__look_part *part = &k->parts[n];
-    const nsvcd__dmat3 before = nsvcd__look_axes_of(c, from->link);
-    const nsvcd_body_facts facts = nsvcd_body_describe(from->body);
-    const float scale = from->scale > 0 ? from->scale : 1;
+    const nsvcd__dmat3 before = nsvcd__look_axes_of(c, scene->parts[n].link);
     const nsvcd__dpose centre = {{0, 0, 0, 1}, m->centre};
     const nsvcd__look_frame at = nsvcd__look_frame_of(&before, &centre, &ones);
     part->frame = nsvcd__look_frame_of(&before, &m->frame, &ones);
     memcpy(part->centre, at.offset, sizeof part->centre);
-    part->radius = 1.00001f * scale * facts.radius;
-    part->error = scale * facts.ball_error;
+    part->radius = 1.00001f * (float)(m->radius + m->round);
+    part->error = (float)m->ball_error;
     nsvcd__f3_store(nsvcd__f3_round(m->bounds.low), part->low);
     nsvcd__f3_store(nsvcd__f3_round(m->bounds.high), part->high);
   }
 }
 
 // Are there balls about all that moves? Else looks would find too little free.
-static int nsvcd__can_look(const nsvcd_scene *scene) {
-  int can = scene->pair_count > 0;
-  for (size_t n = 0; n < scene->part_count; n++)
-    can &= !scene->parts[n].link || nsvcd_body_describe(scene->parts[n].body).balls > 0;
+static int nsvcd__can_look(const nsvcd_checker *c) {
+  int can = c->scene->pair_count > 0;
+  for (size_t n = 0; n < c->scene->part_count; n++)
+    can &= !c->scene->parts[n].link || c->members[n].balls > 0;
   return can;
 }
 

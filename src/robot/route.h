@@ -72,7 +72,7 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
   if (o->shortcuts == NSVCD_NONE) o->shortcuts = 0;
   if (o->smoothings == NSVCD_NONE) o->smoothings = 0;
   o->looks = o->looks ? o->looks : NSVCD__MOST_LOOKS;
-  if (o->looks == NSVCD_NONE || !nsvcd__can_look(checker->scene)) o->looks = 0;
+  if (o->looks == NSVCD_NONE || !nsvcd__can_look(checker)) o->looks = 0;
   const size_t joints = checker->scene->joint_count;
   // the caller's configurations do not count as nodes
   const size_t nodes = o->nodes + problem->goal_count + problem->guess_count + 1;
@@ -368,6 +368,8 @@ static void nsvcd__time_path(nsvcd__router *r) {
   nsvcd_route_answer *answer = &r->answer;
   const nsvcd__trajectory *t = &r->trajectory;
   const double *last = nsvcd__corner_at(r, r->corners - 1);
+  // a search before this one may have ended at another goal
+  answer->unhindered = 0;
   for (size_t j = 0; j < r->joints; j++) {
     const nsvcd_joint *joint = &r->scene->joints[j];
     const double time = nsvcd__blend_time(r->path[j], 0, last[j], 0, nsvcd__speed_of(joint),
