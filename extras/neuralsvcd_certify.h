@@ -1861,27 +1861,35 @@ static double nsvcd__node_deviation(const nsvcd__moving *body, const nsvcd__node
   return any + d->turn * across * nsvcd__node_axis_radius(body, &pair->nodes[n], own);
 }
 
-// Does a plane of this normal separate two nodes, at all instants and between them?
-static int nsvcd__separates(const nsvcd__tree_interval *s, const nsvcd__node_pair *pair,
-                            nsvcd__d3 along) {
+// How much farther apart two nodes are along a direction than they have to be, times its length:
+// the least at all instants and between them. No less than that if it is more than `enough`.
+static double nsvcd__slack_along(const nsvcd__tree_interval *s, const nsvcd__node_pair *pair,
+                                 nsvcd__d3 along, double enough) {
   const double length = nsvcd__d3_norm(along);
+  double slack = HUGE_VAL;
   double last = HUGE_VAL;
   double last_lengths = 0;
   double deviation = 0;
-  for (size_t i = 0; i < s->count; i++) {
+  for (size_t i = 0; i < s->count && slack > enough; i++) {
     const nsvcd__instant *at = &s->instants[i];
     const double lengths = pair->radii[0] + pair->radii[1] + s->clearance + at->lengths;
     const double distance = nsvcd__distance_along(s, pair, at, along);
     const double margin = NSVCD__CERTIFIED_MARGIN * nsvcd__max(lengths, last_lengths);
     const double least = length * (s->clearance + margin) + deviation;
-    if (!(distance > least && last > least)) return 0;
+    slack = nsvcd__min(slack, nsvcd__min(distance, last) - least);
     last = distance;
     last_lengths = lengths;
     deviation = 0;
     for (size_t n = 0; n < 2; n++)
       deviation += nsvcd__node_deviation(&s->bodies[n], pair, at, n, along);
   }
-  return 1;
+  return slack;
+}
+
+// Does a plane of this normal separate two nodes, at all instants and between them?
+static int nsvcd__separates(const nsvcd__tree_interval *s, const nsvcd__node_pair *pair,
+                            nsvcd__d3 along) {
+  return nsvcd__slack_along(s, pair, along, 0) > 0;
 }
 
 // ---- normals
@@ -1943,12 +1951,11 @@ static nsvcd__best nsvcd__gilbert(const nsvcd__tree_interval *s, const nsvcd__no
   return best;
 }
 
-// Looks for a plane that separates two nodes for the whole interval. last: the direction to begin
-// with.
+// Looks for a plane that separates two nodes for the whole interval. *best: the direction to begin
+// with; it becomes the best one half way.
 static int nsvcd__find_normal(nsvcd__tree_interval *s, const nsvcd__node_pair *pair,
-                              nsvcd__d3 last, nsvcd__coded_normal *normal) {
+                              nsvcd__best *best, nsvcd__coded_normal *normal) {
   nsvcd__instant *at = &s->middle;
-  nsvcd__best best = {last, 0};
   if (at->t < 0) *at = nsvcd__instant_at(s->bodies, 0.5 * (s->t0 + s->t1));
   if (nsvcd__are_leaves(pair)) {
     nsvcd__d3 t[2][3];
@@ -1961,14 +1968,14 @@ static int nsvcd__find_normal(nsvcd__tree_interval *s, const nsvcd__node_pair *p
     }
     for (size_t k = 0; k < 3; k++) t[0][k] = nsvcd__d3_add(t[0][k], nsvcd__offset_at(at));
     const nsvcd__nearest nearest = nsvcd__nearest_of(t[0], t[1]);
-    best.along = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
-    best.distance = sqrt(nearest.square);
+    best->along = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+    best->distance = sqrt(nearest.square);
   } else {
-    best = nsvcd__gilbert(s, pair, at, last);
+    *best = nsvcd__gilbert(s, pair, at, best->along);
   }
-  if (!(best.distance > s->clearance)) return 0;
+  if (!(best->distance > s->clearance)) return 0;
   for (int bits = 8; bits <= 24; bits += 8) {
-    *normal = nsvcd__normal_of(best.along, bits);
+    *normal = nsvcd__normal_of(best->along, bits);
     if (nsvcd__separates(s, pair, normal->along)) return 1;
   }
   return 0;
@@ -2117,7 +2124,7 @@ static int nsvcd__cast(const nsvcd__seen *s, nsvcd__d3 from, nsvcd__d3 along, in
 #define NSVCD__REMEMBERED 8
 // that are tried for a component
 #define NSVCD__RAYS 64
-// of the sum of both nodes' sides: where they move farther, the time is halved
+// of both nodes' sides: where they move farther, the time is halved
 #define NSVCD__LONG_TRAVEL 0.35
 
 enum { NSVCD__PROVES_FREE, NSVCD__PROVES_HIT, NSVCD__PROVES_NEAR, NSVCD__PROVES_INSIDE };
@@ -2304,22 +2311,35 @@ static double nsvcd__relative_travel(const nsvcd__tree_interval *s,
   return travel;
 }
 
+// Is the interval what keeps two nodes from being separated, rather than their size? best: the best
+// direction half way.
+static int nsvcd__is_too_long(const nsvcd__certifier *c, const nsvcd__node_pair *pair,
+                              const nsvcd__best *best) {
+  const double side_a = nsvcd__node_side(&c->bodies[0], &pair->nodes[0]);
+  const double side_b = nsvcd__node_side(&c->bodies[1], &pair->nodes[1]);
+  const double travel = nsvcd__relative_travel(&c->interval, pair);
+  const double apart = best->distance - c->interval.clearance;
+  if (!(apart > 0)) return travel > NSVCD__LONG_TRAVEL * (side_a + side_b);
+  // half way they are separated: smaller nodes are needed only where these hardly move
+  if (travel > 2 * NSVCD__LONG_TRAVEL * nsvcd__min(side_a, side_b)) return 1;
+  const double least = -apart * nsvcd__d3_norm(best->along);
+  return nsvcd__slack_along(&c->interval, pair, best->along, least) > least;
+}
+
 // Replaces a visit by two, in reverse order: to the children of the node whose box is longer, or in
 // both halves of the time. Returns 0 where that is too short to halve.
-static int nsvcd__divide_visit(nsvcd__certifier *c, nsvcd__visit *v) {
+static int nsvcd__divide_visit(nsvcd__certifier *c, nsvcd__visit *v, const nsvcd__best *best) {
   nsvcd__node *nodes = v->pair.nodes;
-  const double side_a = nsvcd__node_side(&c->bodies[0], &nodes[0]);
-  const double side_b = nsvcd__node_side(&c->bodies[1], &nodes[1]);
-  const double most = NSVCD__LONG_TRAVEL * (side_a + side_b);
-  const int halves =
-      nsvcd__are_leaves(&v->pair) || nsvcd__relative_travel(&c->interval, &v->pair) > most;
+  const int halves = nsvcd__are_leaves(&v->pair) || nsvcd__is_too_long(c, &v->pair, best);
   v[1] = *v;
   nsvcd__write_bits(c, halves ? 4 : 0, halves ? 3 : 1);
   if (halves) {
     v[1].t1 = v->t0 = 0.5 * (v->t0 + v->t1);
     return v->t1 - v[1].t0 >= NSVCD__SHORTEST_INTERVAL;
   }
-  const size_t n = nodes[1].count > 1 && (nodes[0].count == 1 || side_a < side_b);
+  const int longer_a =
+      nsvcd__node_side(&c->bodies[0], &nodes[0]) >= nsvcd__node_side(&c->bodies[1], &nodes[1]);
+  const size_t n = nodes[1].count > 1 && (nodes[0].count == 1 || !longer_a);
   nsvcd__children(&nodes[n], &v[1].pair.nodes[n], &nodes[n]);
   return 1;
 }
@@ -2337,6 +2357,7 @@ static nsvcd_verdict nsvcd__prove_traversal(nsvcd__certifier *c, size_t visits) 
   while (height > 0) {
     nsvcd__visit *v = &stack[height - 1];
     nsvcd__node_pair *pair = &v->pair;
+    nsvcd__best best = {c->normals[0], 0};
     nsvcd__coded_normal normal;
     for (size_t n = 0; n < 2; n++)
       pair->radii[n] = nsvcd__node_radius(&c->bodies[n], &pair->nodes[n]);
@@ -2348,8 +2369,7 @@ static nsvcd_verdict nsvcd__prove_traversal(nsvcd__certifier *c, size_t visits) 
     if (!nsvcd__tree_interval_to(&c->interval, v->t0, v->t1)) return NSVCD_UNDECIDED;
     size_t k = 0;
     while (k < NSVCD__REMEMBERED && !nsvcd__separates(&c->interval, pair, c->normals[k])) k++;
-    if (k < NSVCD__REMEMBERED ||
-        nsvcd__find_normal(&c->interval, pair, c->normals[0], &normal)) {
+    if (k < NSVCD__REMEMBERED || nsvcd__find_normal(&c->interval, pair, &best, &normal)) {
       nsvcd__write_bits(c, k > 0 ? 5 : 3, k > 0 ? 3 : 2);
       if (k > 0) nsvcd__write_normal(c, k, &normal);
       if (pair->nodes[0].box == 0 && pair->nodes[1].box == 0) c->separated = 1;
@@ -2362,7 +2382,7 @@ static nsvcd_verdict nsvcd__prove_traversal(nsvcd__certifier *c, size_t visits) 
       if (nsvcd__meet_at(c, 0.5 * (v->t0 + v->t1), ta, tb)) return NSVCD_HIT;
     }
     if (height == NSVCD__TRAVERSAL_STACK) return NSVCD_UNDECIDED;
-    if (nsvcd__divide_visit(c, v)) {
+    if (nsvcd__divide_visit(c, v, &best)) {
       height++;
       continue;
     }

@@ -779,6 +779,50 @@ static void certificates_of_levels(void) {
   CHECK_LE(whole, 3 * local);
 }
 
+// A fine body turns on its way along a large floor, near it: its small nodes move far, however large
+// the floor is.
+static void certificates_of_what_is_fine_over_a_floor(void) {
+  cert_body fine, ground;
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  shapes_ellipsoid(&shape, 0.15, 0.06, 0.04, 80);
+  cert_make(&shape, &fine);
+  CHECK_GE(fine.mesh.triangle_count, 6000);
+  memset(&shape, 0, sizeof shape);
+  shapes_box(&shape, 4, 4, 0.02, 1);
+  cert_make(&shape, &ground);
+  for (int n = 0; n < 4; n++) {
+    static uint8_t bytes[CERT_ROOM];
+    const float lean[4][4] = {{0.3f, 0.1f, 0.2f, 0.9273618f},
+                              {0.1f, -0.4f, 0.3f, 0.8602325f},
+                              {-0.2f, 0.5f, -0.1f, 0.8366600f},
+                              {0, 0.6f, 0.2f, 0.7745967f}};
+    cert_scene s;
+    cert_view view;
+    nsvcd_certificate made;
+    nsvcd_verify_report report;
+    cert_rest(&s, &fine, &ground);
+    s.question.a.count = 2;
+    memset(&made, 0, sizeof made);
+    for (float z = 0.05f; z < 0.2f && made.verdict != NSVCD_FREE; z += 1e-3f) {
+      for (int k = 0; k < 2; k++) {
+        nsvcd_pose *pose = &s.poses[0][k];
+        memcpy(pose->rotation, lean[(n + k) % 4], sizeof pose->rotation);
+        pose->position[0] = k ? 0.6f : -0.7f;
+        pose->position[2] = z;
+      }
+      CHECK_EQ(cert_certify(&s, NULL, bytes, sizeof bytes, &made), NSVCD_OK);
+      if (made.verdict == NSVCD_UNDECIDED) break;
+    }
+    CHECK_EQ(made.verdict, NSVCD_FREE);
+    CHECK_LE(made.visits, 600);
+    cert_look(&s, &view);
+    CHECK(cert_check(&view, 0, bytes, made.size, &report));
+  }
+  cert_free(&fine);
+  cert_free(&ground);
+}
+
 // ------------------------------------------------------------------------------------- from within
 // What follows reads or changes what no program sees.
 
@@ -1078,6 +1122,7 @@ void test_certificate(void) {
   RUN(certificates_know_joints);
   RUN(certificates_of_robots);
   RUN(certificates_of_levels);
+  RUN(certificates_of_what_is_fine_over_a_floor);
   // from within
   RUN(certificates_at_a_hair);
   RUN(certificates_see_a_swing);

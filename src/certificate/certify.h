@@ -23,7 +23,7 @@
 #define NSVCD__REMEMBERED 8
 // that are tried for a component
 #define NSVCD__RAYS 64
-// of the sum of both nodes' sides: where they move farther, the time is halved
+// of both nodes' sides: where they move farther, the time is halved
 #define NSVCD__LONG_TRAVEL 0.35
 
 enum { NSVCD__PROVES_FREE, NSVCD__PROVES_HIT, NSVCD__PROVES_NEAR, NSVCD__PROVES_INSIDE };
@@ -210,22 +210,35 @@ static double nsvcd__relative_travel(const nsvcd__tree_interval *s,
   return travel;
 }
 
+// Is the interval what keeps two nodes from being separated, rather than their size? best: the best
+// direction half way.
+static int nsvcd__is_too_long(const nsvcd__certifier *c, const nsvcd__node_pair *pair,
+                              const nsvcd__best *best) {
+  const double side_a = nsvcd__node_side(&c->bodies[0], &pair->nodes[0]);
+  const double side_b = nsvcd__node_side(&c->bodies[1], &pair->nodes[1]);
+  const double travel = nsvcd__relative_travel(&c->interval, pair);
+  const double apart = best->distance - c->interval.clearance;
+  if (!(apart > 0)) return travel > NSVCD__LONG_TRAVEL * (side_a + side_b);
+  // half way they are separated: smaller nodes are needed only where these hardly move
+  if (travel > 2 * NSVCD__LONG_TRAVEL * nsvcd__min(side_a, side_b)) return 1;
+  const double least = -apart * nsvcd__d3_norm(best->along);
+  return nsvcd__slack_along(&c->interval, pair, best->along, least) > least;
+}
+
 // Replaces a visit by two, in reverse order: to the children of the node whose box is longer, or in
 // both halves of the time. Returns 0 where that is too short to halve.
-static int nsvcd__divide_visit(nsvcd__certifier *c, nsvcd__visit *v) {
+static int nsvcd__divide_visit(nsvcd__certifier *c, nsvcd__visit *v, const nsvcd__best *best) {
   nsvcd__node *nodes = v->pair.nodes;
-  const double side_a = nsvcd__node_side(&c->bodies[0], &nodes[0]);
-  const double side_b = nsvcd__node_side(&c->bodies[1], &nodes[1]);
-  const double most = NSVCD__LONG_TRAVEL * (side_a + side_b);
-  const int halves =
-      nsvcd__are_leaves(&v->pair) || nsvcd__relative_travel(&c->interval, &v->pair) > most;
+  const int halves = nsvcd__are_leaves(&v->pair) || nsvcd__is_too_long(c, &v->pair, best);
   v[1] = *v;
   nsvcd__write_bits(c, halves ? 4 : 0, halves ? 3 : 1);
   if (halves) {
     v[1].t1 = v->t0 = 0.5 * (v->t0 + v->t1);
     return v->t1 - v[1].t0 >= NSVCD__SHORTEST_INTERVAL;
   }
-  const size_t n = nodes[1].count > 1 && (nodes[0].count == 1 || side_a < side_b);
+  const int longer_a =
+      nsvcd__node_side(&c->bodies[0], &nodes[0]) >= nsvcd__node_side(&c->bodies[1], &nodes[1]);
+  const size_t n = nodes[1].count > 1 && (nodes[0].count == 1 || !longer_a);
   nsvcd__children(&nodes[n], &v[1].pair.nodes[n], &nodes[n]);
   return 1;
 }
@@ -243,6 +256,7 @@ static nsvcd_verdict nsvcd__prove_traversal(nsvcd__certifier *c, size_t visits) 
   while (height > 0) {
     nsvcd__visit *v = &stack[height - 1];
     nsvcd__node_pair *pair = &v->pair;
+    nsvcd__best best = {c->normals[0], 0};
     nsvcd__coded_normal normal;
     for (size_t n = 0; n < 2; n++)
       pair->radii[n] = nsvcd__node_radius(&c->bodies[n], &pair->nodes[n]);
@@ -254,8 +268,7 @@ static nsvcd_verdict nsvcd__prove_traversal(nsvcd__certifier *c, size_t visits) 
     if (!nsvcd__tree_interval_to(&c->interval, v->t0, v->t1)) return NSVCD_UNDECIDED;
     size_t k = 0;
     while (k < NSVCD__REMEMBERED && !nsvcd__separates(&c->interval, pair, c->normals[k])) k++;
-    if (k < NSVCD__REMEMBERED ||
-        nsvcd__find_normal(&c->interval, pair, c->normals[0], &normal)) {
+    if (k < NSVCD__REMEMBERED || nsvcd__find_normal(&c->interval, pair, &best, &normal)) {
       nsvcd__write_bits(c, k > 0 ? 5 : 3, k > 0 ? 3 : 2);
       if (k > 0) nsvcd__write_normal(c, k, &normal);
       if (pair->nodes[0].box == 0 && pair->nodes[1].box == 0) c->separated = 1;
@@ -268,7 +281,7 @@ static nsvcd_verdict nsvcd__prove_traversal(nsvcd__certifier *c, size_t visits) 
       if (nsvcd__meet_at(c, 0.5 * (v->t0 + v->t1), ta, tb)) return NSVCD_HIT;
     }
     if (height == NSVCD__TRAVERSAL_STACK) return NSVCD_UNDECIDED;
-    if (nsvcd__divide_visit(c, v)) {
+    if (nsvcd__divide_visit(c, v, &best)) {
       height++;
       continue;
     }

@@ -222,27 +222,35 @@ static double nsvcd__node_deviation(const nsvcd__moving *body, const nsvcd__node
   return any + d->turn * across * nsvcd__node_axis_radius(body, &pair->nodes[n], own);
 }
 
-// Does a plane of this normal separate two nodes, at all instants and between them?
-static int nsvcd__separates(const nsvcd__tree_interval *s, const nsvcd__node_pair *pair,
-                            nsvcd__d3 along) {
+// How much farther apart two nodes are along a direction than they have to be, times its length:
+// the least at all instants and between them. No less than that if it is more than `enough`.
+static double nsvcd__slack_along(const nsvcd__tree_interval *s, const nsvcd__node_pair *pair,
+                                 nsvcd__d3 along, double enough) {
   const double length = nsvcd__d3_norm(along);
+  double slack = HUGE_VAL;
   double last = HUGE_VAL;
   double last_lengths = 0;
   double deviation = 0;
-  for (size_t i = 0; i < s->count; i++) {
+  for (size_t i = 0; i < s->count && slack > enough; i++) {
     const nsvcd__instant *at = &s->instants[i];
     const double lengths = pair->radii[0] + pair->radii[1] + s->clearance + at->lengths;
     const double distance = nsvcd__distance_along(s, pair, at, along);
     const double margin = NSVCD__CERTIFIED_MARGIN * nsvcd__max(lengths, last_lengths);
     const double least = length * (s->clearance + margin) + deviation;
-    if (!(distance > least && last > least)) return 0;
+    slack = nsvcd__min(slack, nsvcd__min(distance, last) - least);
     last = distance;
     last_lengths = lengths;
     deviation = 0;
     for (size_t n = 0; n < 2; n++)
       deviation += nsvcd__node_deviation(&s->bodies[n], pair, at, n, along);
   }
-  return 1;
+  return slack;
+}
+
+// Does a plane of this normal separate two nodes, at all instants and between them?
+static int nsvcd__separates(const nsvcd__tree_interval *s, const nsvcd__node_pair *pair,
+                            nsvcd__d3 along) {
+  return nsvcd__slack_along(s, pair, along, 0) > 0;
 }
 
 // ---- normals
@@ -304,12 +312,11 @@ static nsvcd__best nsvcd__gilbert(const nsvcd__tree_interval *s, const nsvcd__no
   return best;
 }
 
-// Looks for a plane that separates two nodes for the whole interval. last: the direction to begin
-// with.
+// Looks for a plane that separates two nodes for the whole interval. *best: the direction to begin
+// with; it becomes the best one half way.
 static int nsvcd__find_normal(nsvcd__tree_interval *s, const nsvcd__node_pair *pair,
-                              nsvcd__d3 last, nsvcd__coded_normal *normal) {
+                              nsvcd__best *best, nsvcd__coded_normal *normal) {
   nsvcd__instant *at = &s->middle;
-  nsvcd__best best = {last, 0};
   if (at->t < 0) *at = nsvcd__instant_at(s->bodies, 0.5 * (s->t0 + s->t1));
   if (nsvcd__are_leaves(pair)) {
     nsvcd__d3 t[2][3];
@@ -322,14 +329,14 @@ static int nsvcd__find_normal(nsvcd__tree_interval *s, const nsvcd__node_pair *p
     }
     for (size_t k = 0; k < 3; k++) t[0][k] = nsvcd__d3_add(t[0][k], nsvcd__offset_at(at));
     const nsvcd__nearest nearest = nsvcd__nearest_of(t[0], t[1]);
-    best.along = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
-    best.distance = sqrt(nearest.square);
+    best->along = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+    best->distance = sqrt(nearest.square);
   } else {
-    best = nsvcd__gilbert(s, pair, at, last);
+    *best = nsvcd__gilbert(s, pair, at, best->along);
   }
-  if (!(best.distance > s->clearance)) return 0;
+  if (!(best->distance > s->clearance)) return 0;
   for (int bits = 8; bits <= 24; bits += 8) {
-    *normal = nsvcd__normal_of(best.along, bits);
+    *normal = nsvcd__normal_of(best->along, bits);
     if (nsvcd__separates(s, pair, normal->along)) return 1;
   }
   return 0;
