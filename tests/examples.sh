@@ -840,27 +840,67 @@ not_of_a_plan 'not where it may stand' 's/^plan up shelf/plan up hall/'
 not_of_a_plan 'a joint is of no kind' '1,/ revolute /s/ revolute / fixed /'
 not_of_a_plan 'two bodies of one name' 's/^body forearm /body palm /'
 not_of_a_plan 'a path ends early' 's/^path aside shelf 3/path aside shelf 99999999/'
-# a pair keeps its own distance in place of --clearance, and so its certificate says
-own_distance() {  # METRES: two cubes on joints, 10 mm apart, and one in the way of nobody
+# A robot's own pairs keep 0, pairs with obstacles --clearance, or as `clearance` says; and so their certificates say.
+distances() {  # LINE, LINE: two cubes on joints, 10 mm apart, one 20 mm beside them, and one far off; lines for all scenes and for one
   printf 'nsvcd-plans 1\njoint x world 0 0 0 0 0 0 1 1 0 0 prismatic -9 9 1\njoint y x 0 1.01 0 0 0 0 1 0 1 0 prismatic -9 9 1\n'
-  printf 'body a x own.obj\nbody b y own.obj\npair a b %s\nscene s\nobstacle c own.obj 0 -5 0 0 0 0 1\nplan p s -1 0 1 0\n' "$1"
+  printf 'body a x own.obj\nbody b y own.obj\nbody stand world own.obj pose 0 50 0 0 0 0 1\npair a b\n%b' "$1"
+  printf 'scene s\nobstacle c own.obj 0 -1.02 0 0 0 0 1\nobstacle far own.obj 0 -9 0 0 0 0 1\n%bplan p s -1 0 1 0\n' "$2"
+  printf 'scene other\nobstacle c own.obj 0 -1.02 0 0 0 0 1\nplan o other -1 0 1 0\n'
 }
 cube "$dir/own.obj" 0 1 0 6
-for metres in '' 0.005 0.03; do own_distance "$metres" >"$dir/own$metres.txt"; done
-expect 0 '' build/svcd plan "$dir/own.txt"
-expect 0 'a and b are 10.00 mm apart' build/svcd plan "$dir/own.txt" --clearance 0.02
-grep -q '^p	start' "$dir/out" || fail "10 mm are 20: $(cat "$dir/out")"
-expect 0 'a and b are 10.00 mm apart' build/svcd plan "$dir/own0.03.txt"
-expect 0 '' build/svcd plan "$dir/own0.005.txt" --clearance 0.02 --certificates "$dir/certs"
-grep -q '^p	certified' "$dir/out" || fail "a pair of its own clearance: $(cat "$dir/out")"
-expect 0 '' build/verify "$dir/own0.005.txt" "$dir/certs" --clearance 0.02
-expect 1 '' build/verify "$dir/own.txt" "$dir/certs" --clearance 0.02
-expect 1 '' build/verify "$dir/own0.03.txt" "$dir/certs"
-for metres in -1 nan 'x' '0.1 0.1'; do
-  own_distance "$metres" >"$dir/bad_own.txt"
-  expect 1 'bad_own.txt:6: ' build/svcd plan "$dir/bad_own.txt"
+keeps() {  # STATUS OF p, OF o, CLEARANCE, LINE, LINE: so they are planned; a certificate is accepted for that, and for no other distance
+  distances "$4" "$5" >"$dir/own.txt"
+  rm -f "$dir/certs/p.cert" "$dir/certs/o.cert"
+  build/svcd plan "$dir/own.txt" --clearance "$3" --certificates "$dir/certs" >"$dir/out" 2>"$dir/err"
+  test "$(cut -f 1,2 "$dir/out" | tr '\t\n' '  ')" = "p $1 o $2 " || fail "$3, '$4', '$5': $(cat "$dir/out" "$dir/err")"
+  for plan in p o; do
+    ! grep -q "^$plan	certified" "$dir/out" || build/verify "$dir/own.txt" "$dir/certs" --clearance "$3" --only $plan >"$dir/said" || fail "$plan, $3, '$4', '$5': $(cat "$dir/said")"
+  done
+}
+keeps certified certified 0.015 '' ''
+keeps start start 0.03 '' ''
+grep -q 'a and c are 20.00 mm apart' "$dir/err" || fail "20 mm are 30: $(cat "$dir/err")"
+keeps start start 0 'clearance a b 0.02\n' ''
+grep -q 'a and b are 10.00 mm apart' "$dir/err" || fail "10 mm are 20: $(cat "$dir/err")"
+keeps certified certified 0.015 'clearance b a 0.005\n' ''
+keeps start certified 0 '' 'clearance b a 0.02\n'
+keeps certified start 0 'clearance a b 0.02\n' 'clearance a b 0.002\n'
+keeps certified start 0.03 '' 'clearance c a 0.01\n'
+keeps start certified 0.01 '' 'clearance a c 0.03\n'
+keeps certified certified 0.01 '' 'clearance a far 0.03\n'
+keeps start start 0 'clearance obstacles 0.03\n' ''
+keeps certified start 0 'clearance obstacles 0.03\n' 'clearance obstacles 0.01\n'
+keeps start start 0.03 'clearance obstacles 0.01\n' ''
+keeps certified start 0.01 'clearance obstacles 0.03\n' 'clearance a c 0.01\n'
+expect 0 '' build/svcd path "$dir/own.txt"
+distances 'clearance a b 0.005\nclearance obstacles 0.015\n' '' >"$dir/own.txt"
+expect 0 '' build/svcd plan "$dir/own.txt" --certificates "$dir/certs"
+expect 0 '' build/verify "$dir/own.txt" "$dir/certs" --clearance 0.01
+expect 1 '' build/verify "$dir/own.txt" "$dir/certs" --clearance 0.016
+for lines in 'clearance a b 0.006\nclearance obstacles 0.015\n' 'clearance a b 0.005\n' 'clearance a b 0.005\nclearance obstacles 0.02\n'; do
+  distances "$lines" '' >"$dir/own.txt"
+  expect 1 '' build/verify "$dir/own.txt" "$dir/certs"
+done
+{ distances '' '' | sed '/^plan o/d'; printf 'path q other 2\n-1 0\n1 0\npath r s 2\n-1 0\n1 0\n'; } >"$dir/own.txt"
+for clearance in 0.01 0.03; do
+  expect 0 '' build/svcd path "$dir/own.txt" --clearance $clearance
+  test "$(cut -f 1,2 "$dir/out" | sort -u | wc -l) $(cut -f 2 "$dir/out" | sort -u)" = "2 $(test $clearance = 0.01 && echo free || echo hit)" || fail "paths: $(cat "$dir/out")"
+done
+for line in 'a b -1' 'a b nan' 'a b x' 'a b' 'a b 0.1 0.1' 'b 0.1' 'obstacles' 'obstacles -1' 'a none 0.1' 'a c 0.1' 'a stand 0.1'; do
+  distances "clearance $line\n" '' >"$dir/bad_own.txt"
+  expect 1 'bad_own.txt:8: ' build/svcd plan "$dir/bad_own.txt"
   expect 2 'bad_own.txt: ' build/verify "$dir/bad_own.txt" "$dir/certs"
 done
+for line in 'stand c' 'c far' 'a a'; do
+  distances '' "clearance $line 0.1\n" >"$dir/bad_own.txt"
+  expect 1 'bad_own.txt:11: neither a pair above' build/svcd plan "$dir/bad_own.txt"
+  expect 2 'a clearance of two bodies that are no pair' build/verify "$dir/bad_own.txt" "$dir/certs"
+done
+distances 'clearance a b 0.1\nclearance b a 0.1\n' '' >"$dir/bad_own.txt"
+expect 1 'bad_own.txt:9: a second clearance of these' build/svcd plan "$dir/bad_own.txt"
+distances 'pair a b 0.1\n' '' >"$dir/bad_own.txt"
+expect 1 'bad_own.txt:8: expected: pair NAME NAME$' build/svcd plan "$dir/bad_own.txt"
+expect 2 'not where it may stand' build/verify "$dir/bad_own.txt" "$dir/certs"
 mv "$dir/certs/up.cert" "$dir/certs/turned.cert"
 expect 1 '' build/verify "$dir/robot.txt" "$dir/certs"
 grep -q '^turned	refused	its motion has another start or goal' "$dir/out" || fail "another plan's: $(cat "$dir/out")"

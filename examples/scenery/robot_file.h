@@ -4,9 +4,10 @@
 //   nsvcd-plans 1
 //   joint NAME PARENT  x y z qx qy qz qw  ax ay az  KIND LOW HIGH SPEED [ACCELERATION]
 //   body NAME JOINT PATH [pose x y z qx qy qz qw] [scale SX SY SZ]
-//   pair NAME NAME [METRES]
+//   pair NAME NAME
 //   scene NAME
 //   obstacle NAME PATH  x y z qx qy qz qw [scale SX SY SZ]
+//   clearance NAME NAME METRES, or: clearance obstacles METRES
 //   plan ID SCENE  start...  goal...
 //   path ID SCENE COUNT        # COUNT lines of joints follow
 //
@@ -34,10 +35,11 @@ typedef struct robot_thing {
   nsvcd_pose pose;
 } robot_thing;
 
-typedef struct robot_pair {
-  nsvcd_body_pair parts;
-  float clearance;  // metres; below 0: the one that is asked for
-} robot_pair;
+typedef struct robot_clearance {
+  size_t room;   // the scene that it holds in; NSVCD_NONE: all
+  size_t at[2];  // two things; NSVCD_NONE: each pair with an obstacle
+  float metres;
+} robot_clearance;
 
 typedef struct robot_room {  // a scene
   const char *name;
@@ -58,14 +60,15 @@ typedef struct robot_file {
   nsvcd_joint joints[NSVCD_MAX_JOINTS];
   robot_mesh *meshes;
   robot_thing *things;  // the robot's bodies, then obstacles
-  robot_pair *pairs;
+  nsvcd_body_pair *pairs;
+  robot_clearance *clearances;
   robot_room *rooms;
   robot_task *tasks;
   double *numbers;
-  size_t joint_count, mesh_count, thing_count, body_count, pair_count, room_count, task_count,
-      number_count;
-  size_t mesh_capacity, thing_capacity, pair_capacity, room_capacity, task_capacity,
-      number_capacity;
+  size_t joint_count, mesh_count, thing_count, body_count, pair_count, clearance_count, room_count,
+      task_count, number_count;
+  size_t mesh_capacity, thing_capacity, pair_capacity, clearance_capacity, room_capacity,
+      task_capacity, number_capacity;
 } robot_file;
 
 // Adds an item to a list, and clears it.
@@ -198,22 +201,55 @@ static int robot_read_body(const reader *r, robot_file *file) {
 
 static int robot_read_pair(const reader *r, robot_file *file) {
   size_t at[2];
-  double clearance = -1;
-  if (r->field_count != 3 && r->field_count != 4)
-    return refuse(r, "expected: pair NAME NAME [METRES]");
+  if (r->field_count != 3) return refuse(r, "expected: pair NAME NAME");
   if (file->room_count > 0) return refuse(r, "a pair after the first scene");
   for (int k = 0; k < 2; k++)
     if (!robot_find(file, 0, r->fields[1 + k], &at[k]))
       return refuse_field(r, "no body of this name above", r->fields[1 + k]);
   if (file->things[at[0]].link == file->things[at[1]].link)
     return refuse(r, "both follow the same joint");
-  if (r->field_count == 4 && !robot_number(r, r->fields[3], &clearance)) return 0;
-  if (r->field_count == 4 && clearance < 0)
-    return refuse_field(r, "a clearance is negative", r->fields[3]);
-  robot_pair *pair = ROBOT_ADD(file->pairs, file->pair_count, file->pair_capacity);
-  pair->parts.a = (uint32_t)at[0];
-  pair->parts.b = (uint32_t)at[1];
-  pair->clearance = (float)clearance;
+  nsvcd_body_pair *pair = ROBOT_ADD(file->pairs, file->pair_count, file->pair_capacity);
+  pair->a = (uint32_t)at[0];
+  pair->b = (uint32_t)at[1];
+  return 1;
+}
+
+// Are two things, in any order, the ones that a line is about?
+static int robot_is_about(const robot_clearance *line, size_t a, size_t b) {
+  return (line->at[0] == a && line->at[1] == b) || (line->at[0] == b && line->at[1] == a);
+}
+
+// Is there such a pair: by a `pair` line, or of a body that moves and an obstacle?
+static int robot_are_pair(const robot_file *file, const robot_clearance *line) {
+  const size_t low = line->at[0] < line->at[1] ? line->at[0] : line->at[1];
+  const size_t high = low == line->at[0] ? line->at[1] : line->at[0];
+  if (high >= file->body_count) return low < file->body_count && file->things[low].link > 0;
+  for (size_t n = 0; n < file->pair_count; n++)
+    if (robot_is_about(line, file->pairs[n].a, file->pairs[n].b)) return 1;
+  return 0;
+}
+
+static int robot_read_clearance(const reader *r, robot_file *file) {
+  const size_t rooms = file->room_count;
+  robot_clearance line = {rooms ? rooms - 1 : NSVCD_NONE, {NSVCD_NONE, NSVCD_NONE}, 0};
+  double metres;
+  const int is_of_obstacles = r->field_count == 3 && strcmp(r->fields[1], "obstacles") == 0;
+  if (r->field_count != 4 && !is_of_obstacles)
+    return refuse(r, "expected: clearance NAME NAME METRES, or: clearance obstacles METRES");
+  for (int k = 0; k < 2 && !is_of_obstacles; k++)
+    if (!robot_find(file, rooms ? file->rooms[rooms - 1].first : 0, r->fields[1 + k], &line.at[k]))
+      return refuse_field(r, "no body of this name above", r->fields[1 + k]);
+  if (!is_of_obstacles && !robot_are_pair(file, &line))
+    return refuse(r, "neither a pair above, nor a body that moves and an obstacle");
+  for (size_t n = 0; n < file->clearance_count; n++)
+    if (file->clearances[n].room == line.room &&
+        robot_is_about(&file->clearances[n], line.at[0], line.at[1]))
+      return refuse(r, "a second clearance of these");
+  const char *last = r->fields[r->field_count - 1];
+  if (!robot_number(r, last, &metres)) return 0;
+  if (metres < 0) return refuse_field(r, "a clearance is negative", last);
+  line.metres = (float)metres;
+  *ROBOT_ADD(file->clearances, file->clearance_count, file->clearance_capacity) = line;
   return 1;
 }
 
@@ -299,11 +335,10 @@ static int read_robot(const char *path, robot_file *file) {
   static const struct {
     const char *word;
     int (*read)(const reader *r, robot_file *file);
-  } lines[] = {{"joint", robot_read_joint},
-               {"body", robot_read_body},
-               {"pair", robot_read_pair},
-               {"scene", robot_read_scene},
-               {"obstacle", robot_read_obstacle}};
+  } lines[] = {{"joint", robot_read_joint}, {"body", robot_read_body},
+               {"pair", robot_read_pair},   {"clearance", robot_read_clearance},
+               {"scene", robot_read_scene}, {"obstacle", robot_read_obstacle}};
+  const size_t count = sizeof lines / sizeof lines[0];
   reader r;
   memset(file, 0, sizeof *file);
   file->path = shown_name(path);
@@ -311,10 +346,11 @@ static int read_robot(const char *path, robot_file *file) {
   while (next_line(&r)) {
     const int is_task = strcmp(r.fields[0], "plan") == 0 || strcmp(r.fields[0], "path") == 0;
     size_t k = 0;
-    while (k < 5 && strcmp(lines[k].word, r.fields[0]) != 0) k++;
-    if (k == 5 && !is_task)
+    while (k < count && strcmp(lines[k].word, r.fields[0]) != 0) k++;
+    if (k == count && !is_task)
       return refuse_field(&r,
-                          "expected 'joint', 'body', 'pair', 'scene', 'obstacle', 'plan' or 'path'",
+                          "expected 'joint', 'body', 'pair', 'clearance', 'scene', 'obstacle', "
+                          "'plan' or 'path'",
                           r.fields[0]);
     if (r.field_count > MOST_FIELDS) return refuse(&r, "too many fields");
     if (!(is_task ? robot_read_task(&r, file) : lines[k].read(&r, file))) return 0;
@@ -364,6 +400,7 @@ static void free_robot(robot_file *file) {
   free(file->meshes);
   free(file->things);
   free(file->pairs);
+  free(file->clearances);
   free(file->rooms);
   free(file->tasks);
   free(file->numbers);
@@ -397,9 +434,30 @@ static void leave_room(robot_in_room *in) {
   memset(in, 0, sizeof *in);
 }
 
+// Sets the clearance of each pair of a robot in a room. asked: metres, of pairs with obstacles: they
+// keep it, or what the file says, whichever is more. A line of two bodies is stronger than both.
+static void set_clearances(const robot_file *file, size_t room, float asked, robot_in_room *in) {
+  float all = 0;
+  for (int named = 0; named < 2; named++) {
+    for (size_t k = 0; k < file->clearance_count; k++) {
+      const robot_clearance *line = &file->clearances[k];
+      const int is_named = line->at[0] != NSVCD_NONE;
+      if (line->room != NSVCD_NONE && line->room != room) continue;
+      if (!named && !is_named) all = line->metres;
+      for (size_t n = 0; n < in->scene.pair_count && named && is_named; n++) {
+        const nsvcd_body_pair *pair = &in->scene.pairs[n];
+        const size_t a = (size_t)(robot_thing_of(in, pair->a) - file->things);
+        const size_t b = (size_t)(robot_thing_of(in, pair->b) - file->things);
+        if (robot_is_about(line, a, b)) in->clearances[n] = line->metres;
+      }
+    }
+    for (size_t n = 0; n < in->scene.pair_count && !named; n++)
+      in->clearances[n] = n < file->pair_count ? 0 : all > asked ? all : asked;
+  }
+}
+
 // Pairs are those of the file, and each body that moves with each obstacle. room: NSVCD_NONE: there
-// are no obstacles. clearance: metres, of pairs that have none of their own. Returns 0 after a
-// complaint.
+// are no obstacles. clearance: metres, of pairs with obstacles. Returns 0 after a complaint.
 static int enter_room(const robot_file *file, size_t room, float clearance, robot_in_room *in) {
   static const robot_room nowhere = {"", 0, 0};
   const size_t bodies = file->body_count;
@@ -426,17 +484,14 @@ static int enter_room(const robot_file *file, size_t room, float clearance, robo
   scene->pairs = in->pairs;
   scene->pair_count = file->pair_count;
   scene->clearances = in->clearances;
-  for (size_t n = 0; n < most; n++) in->clearances[n] = clearance;
-  for (size_t n = 0; n < file->pair_count; n++) {
-    in->pairs[n] = file->pairs[n].parts;
-    if (file->pairs[n].clearance >= 0) in->clearances[n] = file->pairs[n].clearance;
-  }
+  for (size_t n = 0; n < file->pair_count; n++) in->pairs[n] = file->pairs[n];
   for (size_t a = 0; a < bodies; a++) {
     for (size_t b = bodies; b < count && in->parts[a].link > 0; b++) {
       const nsvcd_body_pair pair = {(uint32_t)a, (uint32_t)b};
       in->pairs[scene->pair_count++] = pair;
     }
   }
+  set_clearances(file, room, clearance, in);
   const size_t size = nsvcd_checker_size(scene);
   in->memory = allocate(size);
   const nsvcd_result result = nsvcd_checker_open(scene, in->memory, size, &in->checker);
