@@ -901,6 +901,23 @@ expect 1 'bad_own.txt:9: a second clearance of these' build/svcd plan "$dir/bad_
 distances 'pair a b 0.1\n' '' >"$dir/bad_own.txt"
 expect 1 'bad_own.txt:8: expected: pair NAME NAME$' build/svcd plan "$dir/bad_own.txt"
 expect 2 'not where it may stand' build/verify "$dir/bad_own.txt" "$dir/certs"
+# A snake of 128 joints, which is as many as there may be.
+snake() {  # JOINTS: cubes along x, one beside the 100th joint, past which it swings
+  awk -v n="$1" 'BEGIN { print "nsvcd-plans 1"
+    for (i = 1; i <= n; i++) print "joint j" i, (i > 1 ? "j" i - 1 : "world"), "1.5 0 0 0 0 0 1", 0, i % 2, 1 - i % 2, "revolute -2 2 1"
+    for (i = 1; i <= n; i++) print "body b" i, "j" i, "own.obj scale 0.5 0.5 0.5"
+    for (i = 3; i <= n; i++) print "pair b1 b" i
+    print "scene s\nobstacle c own.obj 155 9 0 0 0 0 1 scale 2 2 2"; printf "plan p s"
+    for (i = 1; i <= 2 * n; i++) printf " %s", i == 100 ? -0.3 : i == n + 100 ? 1.2 : 0
+    print "" }'
+}
+snake 128 >"$dir/snake.txt"
+expect 0 '' build/svcd plan "$dir/snake.txt" --certificates "$dir/certs"
+grep -q '^p	certified' "$dir/out" || fail "a snake: $(cat "$dir/out")"
+expect 0 '' build/verify "$dir/snake.txt" "$dir/certs"
+snake 129 >"$dir/snake.txt"
+expect 1 'snake.txt:130: more joints than NSVCD_MAX_JOINTS' build/svcd plan "$dir/snake.txt"
+expect 2 'too many joints' build/verify "$dir/snake.txt" "$dir/certs"
 mv "$dir/certs/up.cert" "$dir/certs/turned.cert"
 expect 1 '' build/verify "$dir/robot.txt" "$dir/certs"
 grep -q '^turned	refused	its motion has another start or goal' "$dir/out" || fail "another plan's: $(cat "$dir/out")"

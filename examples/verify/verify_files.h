@@ -11,6 +11,8 @@
 
 #include "nsvcd_verify.h"
 
+#define MOST_WORDS 300  // of a line
+
 // An array that grows.
 typedef struct list {
   void *items;
@@ -280,9 +282,10 @@ static void read_stl(const char *path, char *text, size_t size, list *positions,
       add_float(positions, (double)x);
     }
   } else {
-    char *words[80];
+    char *words[MOST_WORDS];
     no_zero(path, text, size);
-    for (size_t n = next_words(&text, words, 80); n > 0; n = next_words(&text, words, 80)) {
+    for (size_t n = next_words(&text, words, MOST_WORDS); n > 0;
+         n = next_words(&text, words, MOST_WORDS)) {
       const int is_vertex = (words[0][0] | 32) == 'v';
       if (is_vertex && n != 4) fail(path, "a vertex has other than three numbers");
       for (size_t k = 1; k < 4 && is_vertex; k++) add_float(positions, number_of(path, words[k]));

@@ -265,14 +265,15 @@ static void finish_scene(robot *r, float asked) {
 // in it, and perhaps another scene. Returns 1 if all are accepted.
 static int check_plans(const char *path, char *text, request *asked) {
   robot r;
-  char *words[80];
+  char *words[MOST_WORDS];
   const char *scene = NULL;
   size_t own_pairs = 0, own_distances = 0;
   int has_tasks = 0;  // 1: a plan or a path stands above
   int all = 1;
   memset(&r, 0, sizeof r);
   r.path = path;
-  for (size_t n = next_words(&text, words, 80); n > 0; n = next_words(&text, words, 80)) {
+  for (size_t n = next_words(&text, words, MOST_WORDS); n > 0;
+       n = next_words(&text, words, MOST_WORDS)) {
     const char *word = words[0];
     if (strcmp(word, "joint") == 0 && n >= 17 && !scene) {
       add_joint(&r, words);
@@ -301,7 +302,7 @@ static int check_plans(const char *path, char *text, request *asked) {
       has_tasks = 1;
       if (word[1] == 'l' && is_wanted(asked, words[1])) all &= check_plan(&r, words, asked);
       for (size_t k = word[1] == 'l' ? 0 : strtoul(words[3], NULL, 10); k > 0; k--)
-        if (next_words(&text, words, 80) == 0) fail(path, "a path ends early");
+        if (next_words(&text, words, MOST_WORDS) == 0) fail(path, "a path ends early");
     } else {
       fail(path, "a line is not one of a planning file, or not where it may stand");
     }
