@@ -901,6 +901,53 @@ expect 1 'bad_own.txt:9: a second clearance of these' build/svcd plan "$dir/bad_
 distances 'pair a b 0.1\n' '' >"$dir/bad_own.txt"
 expect 1 'bad_own.txt:8: expected: pair NAME NAME$' build/svcd plan "$dir/bad_own.txt"
 expect 2 'not where it may stand' build/verify "$dir/bad_own.txt" "$dir/certs"
+# Shapes without a mesh: how near they come to each other is known, and they have certificates.
+echo '# x y z
+0 0 0 and what follows
+' >"$dir/dust.xyz"
+printf 'ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n' >"$dir/dust.ply"
+passes() {  # SHAPE, POSE, OBSTACLE, GAP: a body that slides past an obstacle on the y axis keeps less than the gap, and not more
+  printf 'nsvcd-plans 1\njoint x world 0 0 0 0 0 0 1 1 0 0 prismatic -9 9 1\nbody a x %s pose %s\nscene s\nobstacle b %s\nplan p s -3 3\npath q s 2\n-0.1\n0.1\n' "$1" "$2" "$3" >"$dir/shape.txt"
+  for off in -1e-5 5e-5; do
+    expect 0 '' build/svcd path "$dir/shape.txt" --clearance "$(awk "BEGIN { print $4 + $off }")"
+    grep -q "^q	$(test $off = 5e-5 && echo hit || echo free)	" "$dir/out" || fail "$1 at $4, $off: $(cat "$dir/out")"
+  done
+  expect 0 '' build/svcd plan "$dir/shape.txt" --clearance "$(awk "BEGIN { print $4 - 2e-4 }")" --certificates "$dir/certs"
+  expect 0 '' build/verify "$dir/shape.txt" "$dir/certs" --clearance "$(awk "BEGIN { print $4 - 2e-4 }")"
+}
+here='0 0 0 0 0 0 1'
+passes 'sphere: 0.1' "$here" 'sphere: 0.2 0 0.5 0 0 0 0 1' 0.2
+passes 'capsule: 0.05 0.4' '0 0 0 0.70710678 0 0 0.70710678' 'box: 1 1 1 0 1 0 0 0 0 1' 0.25
+passes 'cylinder: 0.3 0.2' "$here" 'box: 1 1 1 0 1 0 0 0 0 1' 0.2
+passes 'cylinder: 0.3 0.2' '0 0 0 0.70710678 0 0 0.70710678' 'box: 1 1 1 0 1 0 0 0 0 1' 0.4
+passes 'box: 0.2 0.6 0.2' "$here" 'cloud: dust.xyz 0.1 0 1 0 0 0 0 1' 0.6
+passes 'cloud: dust.xyz 0.1' "$here" 'cylinder: 0.1 1 0 0.5 0 0 0 0 1' 0.3
+# half way between two of its sides a cylinder is no smaller than round
+passes 'sphere: 0.1' "$here" "cylinder: 0.1 1 0 0.5 0 0 0 $(awk 'BEGIN { a = 3.14159265358979 / 64; print sin(a), cos(a) }')" "$(awk 'BEGIN { print 0.4 - 0.1 / cos(3.14159265358979 / 32) }')"
+expect 0 '' build/svcd plan "$dir/shape.txt" --only p --picture "$dir/shape.svg"
+tail -1 "$dir/shape.svg" | grep -q '^</svg>$' || fail "the picture of shapes"
+# a ball in a box, or a box in a ball, is a hit
+for inside in 'sphere: 1 0 0 0 0 0 0 1' 'box: 3 3 3 0 0 0 0 0 0 1'; do
+  printf 'nsvcd-plans 1\njoint x world 0 0 0 0 0 0 1 1 0 0 prismatic -9 9 1\nbody a x sphere: 0.1\nscene s\nobstacle b %s\npath q s 1\n0\n' "$inside" >"$dir/shape.txt"
+  expect 0 '' build/svcd path "$dir/shape.txt"
+  grep -q '^q	hit	' "$dir/out" || fail "a ball in $inside: $(cat "$dir/out")"
+done
+printf 'nsvcd-plans 1\njoint x world 0 0 0 0 0 0 1 1 0 0 prismatic -9 9 1\nbody a x sphere: 0.1\nscene s\nobstacle b cloud: dust.ply 0.1 0 1 0 0 0 0 1\nplan p s -1 1\n' >"$dir/shape.txt"
+expect 1 'dust.ply: a PLY: certificates are of clouds in text' build/svcd plan "$dir/shape.txt" --certificates "$dir/certs"
+grep -q '^p	certified' "$dir/out" || fail "a cloud of a PLY: $(cat "$dir/out")"
+for shape in 'sphere: 0' 'sphere: x' 'sphere:' 'capsule: 1' 'box: 1 2' 'box: 1 -2 3' 'cylinder: 1' 'cloud: 0.1' 'sphere: 0.1 scale 1 1 1' 'sphere: 0.1 0.2' 'cone: 1' 'sphere: 1e7'; do
+  printf 'nsvcd-plans 1\njoint x world 0 0 0 0 0 0 1 1 0 0 prismatic -9 9 1\nbody a x %s\nscene s\nplan p s -1 1\n' "$shape" >"$dir/shape.txt"
+  expect 1 'shape.txt:3: ' build/svcd plan "$dir/shape.txt"
+  expect 2 'shape.txt: ' build/verify "$dir/shape.txt" "$dir/certs"
+  sed "s/^body a x \(.*\)/scene t\nobstacle a \1/" "$dir/shape.txt" >"$dir/shapes.txt"
+  expect 1 'shapes.txt:4: ' build/svcd plan "$dir/shapes.txt"
+done
+for cloud in '' '1 2\n' '1 2 x\n' '1 2 nan\n' '# 1 2 3\n'; do
+  printf "$cloud" >"$dir/bad.xyz"
+  printf 'nsvcd-plans 1\njoint x world 0 0 0 0 0 0 1 1 0 0 prismatic -9 9 1\nbody a x cloud: bad.xyz 0.1\nscene s\nplan p s -1 1\n' >"$dir/shape.txt"
+  expect 1 'shape.txt:3: body a: .*bad.xyz' build/svcd plan "$dir/shape.txt"
+  expect 2 '' build/verify "$dir/shape.txt" "$dir/certs"
+done
 # A snake of 128 joints, which is as many as there may be.
 snake() {  # JOINTS: cubes along x, one beside the 100th joint, past which it swings
   awk -v n="$1" 'BEGIN { print "nsvcd-plans 1"

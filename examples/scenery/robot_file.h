@@ -1,12 +1,13 @@
 // robot_file.h - reads planning files (version 1), with messages that name file, line and reason.
-// Include problem_file.h and load.h first.
+// Include
+// problem_file.h, load.h and robot_shapes.h first.
 //
 //   nsvcd-plans 1
 //   joint NAME PARENT  x y z qx qy qz qw  ax ay az  KIND LOW HIGH SPEED [ACCELERATION]
-//   body NAME JOINT PATH [pose x y z qx qy qz qw] [scale SX SY SZ]
+//   body NAME JOINT SHAPE [pose x y z qx qy qz qw] [scale SX SY SZ]
 //   pair NAME NAME
 //   scene NAME
-//   obstacle NAME PATH  x y z qx qy qz qw [scale SX SY SZ]
+//   obstacle NAME SHAPE  x y z qx qy qz qw [scale SX SY SZ]
 //   clearance NAME NAME METRES, or: clearance obstacles METRES
 //   plan ID SCENE  start...  goal...
 //   path ID SCENE COUNT        # COUNT lines of joints follow
@@ -15,10 +16,9 @@
 #ifndef NSVCD_SCENERY_ROBOT_FILE_H
 #define NSVCD_SCENERY_ROBOT_FILE_H
 
-// A mesh of a file; the same path at the same scale is encoded once.
+// A mesh of a file, or another shape; the same one is encoded once.
 typedef struct robot_mesh {
-  const char *path;
-  double scale[3];
+  robot_shape shape;
   size_t line;              // the line that names it first
   const char *kind, *name;  // "body" or "obstacle", and its name, there
   int is_needed;
@@ -125,15 +125,12 @@ static int robot_read_joint(const reader *r, robot_file *file) {
   return 1;
 }
 
-static size_t robot_find_mesh(robot_file *file, const reader *r, const char *path,
-                              const double scale[3]) {
+// Adds a shape, unless it is there already. Returns which one it is.
+static size_t robot_find_mesh(robot_file *file, const reader *r, const robot_shape *shape) {
   for (size_t i = 0; i < file->mesh_count; i++)
-    if (strcmp(file->meshes[i].path, path) == 0 &&
-        memcmp(file->meshes[i].scale, scale, sizeof file->meshes[i].scale) == 0)
-      return i;
+    if (robot_same_shape(&file->meshes[i].shape, shape)) return i;
   robot_mesh *mesh = ROBOT_ADD(file->meshes, file->mesh_count, file->mesh_capacity);
-  mesh->path = path;
-  memcpy(mesh->scale, scale, sizeof mesh->scale);
+  mesh->shape = *shape;
   mesh->line = r->line;
   mesh->kind = r->fields[0];
   mesh->name = r->fields[1];
@@ -142,8 +139,9 @@ static size_t robot_find_mesh(robot_file *file, const reader *r, const char *pat
 
 // Reads what may follow from a field on: `pose` and `scale`, each once. pose: NULL if the line has
 // one of its own.
-static int robot_read_words(const reader *r, size_t at, nsvcd_pose *pose, double scale[3]) {
-  int has_scale = 0;
+static int robot_read_words(const reader *r, size_t at, nsvcd_pose *pose, robot_shape *shape) {
+  double *scale = shape->scale;
+  int has_scale = shape->kind != ROBOT_MESH;
   scale[0] = scale[1] = scale[2] = 1;
   while (at < r->field_count) {
     char *const *f = r->fields + at;
@@ -159,6 +157,8 @@ static int robot_read_words(const reader *r, size_t at, nsvcd_pose *pose, double
           return refuse_field(r, "a scale, or minus one, is not in 1e-6..1e6", f[1 + k]);
       has_scale = 1;
       at += 4;
+    } else if (shape->kind != ROBOT_MESH && strcmp(f[0], "scale") == 0) {
+      return refuse(r, "a scale is of meshes only");
     } else {
       return refuse_field(r,
                           pose ? "expected 'pose x y z qx qy qz qw' or 'scale SX SY SZ', each once"
@@ -180,16 +180,19 @@ static int robot_find(const robot_file *file, size_t first, const char *name, si
 
 static int robot_read_body(const reader *r, robot_file *file) {
   size_t found;
+  size_t at = 3;
   uint32_t link;
-  double scale[3];
+  robot_shape shape;
   nsvcd_pose pose = {{0, 0, 0}, {0, 0, 0, 1}};
   if (r->field_count < 4)
-    return refuse(r, "expected: body NAME JOINT PATH [pose x y z qx qy qz qw] [scale SX SY SZ]");
+    return refuse(r, "expected: body NAME JOINT SHAPE [pose x y z qx qy qz qw] [scale SX SY SZ]");
   if (file->room_count > 0) return refuse(r, "a body after the first scene");
   if (robot_find(file, 0, r->fields[1], &found))
     return refuse_field(r, "a second body of this name", r->fields[1]);
-  if (!robot_link(r, file, r->fields[2], &link) || !robot_read_words(r, 4, &pose, scale)) return 0;
-  const size_t mesh = robot_find_mesh(file, r, r->fields[3], scale);
+  if (!robot_link(r, file, r->fields[2], &link) || !robot_read_shape(r, &at, &shape) ||
+      !robot_read_words(r, at, &pose, &shape))
+    return 0;
+  const size_t mesh = robot_find_mesh(file, r, &shape);
   robot_thing *thing = ROBOT_ADD(file->things, file->thing_count, file->thing_capacity);
   thing->name = r->fields[1];
   thing->mesh = mesh;
@@ -273,16 +276,19 @@ static int robot_read_scene(const reader *r, robot_file *file) {
 
 static int robot_read_obstacle(const reader *r, robot_file *file) {
   size_t found;
+  size_t at = 2;
   nsvcd_pose pose;
-  double scale[3];
-  if (r->field_count < 10)
-    return refuse(r, "expected: obstacle NAME PATH x y z qx qy qz qw [scale SX SY SZ]");
+  robot_shape shape;
+  static const char form[] = "expected: obstacle NAME SHAPE x y z qx qy qz qw [scale SX SY SZ]";
+  if (r->field_count < 3) return refuse(r, form);
   if (file->room_count == 0) return refuse(r, "no scene above");
   robot_room *room = &file->rooms[file->room_count - 1];
   if (robot_find(file, room->first, r->fields[1], &found))
     return refuse_field(r, "a second body of this name", r->fields[1]);
-  if (!read_pose(r, r->fields + 3, &pose) || !robot_read_words(r, 10, NULL, scale)) return 0;
-  const size_t mesh = robot_find_mesh(file, r, r->fields[2], scale);
+  if (!robot_read_shape(r, &at, &shape)) return 0;
+  if (at + 7 > r->field_count) return refuse(r, form);
+  if (!read_pose(r, r->fields + at, &pose) || !robot_read_words(r, at + 7, NULL, &shape)) return 0;
+  const size_t mesh = robot_find_mesh(file, r, &shape);
   robot_thing *thing = ROBOT_ADD(file->things, file->thing_count, file->thing_capacity);
   thing->name = r->fields[1];
   thing->mesh = mesh;
@@ -358,39 +364,6 @@ static int read_robot(const char *path, robot_file *file) {
   return 1;
 }
 
-// Notes which meshes are needed: those of the robot, and of a room, unless it is NSVCD_NONE.
-static void need_room(robot_file *file, size_t room) {
-  const size_t first = room == NSVCD_NONE ? 0 : file->rooms[room].first;
-  const size_t count = room == NSVCD_NONE ? 0 : file->rooms[room].count;
-  for (size_t n = 0; n < file->body_count; n++) {
-    file->meshes[file->things[n].mesh].is_needed = 1;
-    if (file->things[n].link) file->meshes[file->things[n].mesh].moves = 1;
-  }
-  for (size_t n = first; n < first + count; n++) file->meshes[file->things[n].mesh].is_needed = 1;
-}
-
-// Loads and encodes the meshes that are needed; balls are for those that move. Returns 0 after a
-// complaint.
-static int encode_robot(robot_file *file, const nsvcd_encode_options *options, size_t *count,
-                        double *taken) {
-  *count = 0;
-  *taken = 0;
-  for (size_t i = 0; i < file->mesh_count; i++) {
-    robot_mesh *mesh = &file->meshes[i];
-    char from[1024];
-    double one;
-    nsvcd_encode_options own = *options;
-    if (!mesh->moves) own.balls = 0;
-    if (!mesh->is_needed) continue;
-    ++*count;
-    snprintf(from, sizeof from, "%s:%zu: %s %s: ", file->path, mesh->line, mesh->kind, mesh->name);
-    mesh->body = encode_named(from, file->path, mesh->path, mesh->scale, &own, &one);
-    if (!mesh->body) return 0;
-    *taken += one;
-  }
-  return 1;
-}
-
 static void free_robot(robot_file *file) {
   for (size_t i = 0; i < file->mesh_count; i++) {
     nsvcd_body_free(file->meshes[i].body, NULL);
@@ -404,98 +377,5 @@ static void free_robot(robot_file *file) {
   free(file->rooms);
   free(file->tasks);
   free(file->numbers);
-}
-
-// The robot in a scene, and a checker of it.
-typedef struct robot_in_room {
-  const robot_file *file;
-  const robot_room *room;
-  nsvcd_part *parts;
-  nsvcd_body_pair *pairs;
-  float *clearances;
-  nsvcd_scene scene;
-  void *memory;
-  nsvcd_checker *checker;
-} robot_in_room;
-
-static const robot_thing *robot_thing_of(const robot_in_room *in, size_t part) {
-  const size_t bodies = in->file->body_count;
-  return &in->file->things[part < bodies ? part : in->room->first + part - bodies];
-}
-static const char *robot_name(const robot_in_room *in, size_t part) {
-  return robot_thing_of(in, part)->name;
-}
-
-static void leave_room(robot_in_room *in) {
-  free(in->parts);
-  free(in->pairs);
-  free(in->clearances);
-  free(in->memory);
-  memset(in, 0, sizeof *in);
-}
-
-// Sets the clearance of each pair of a robot in a room. asked: metres, of pairs with obstacles: they
-// keep it, or what the file says, whichever is more. A line of two bodies is stronger than both.
-static void set_clearances(const robot_file *file, size_t room, float asked, robot_in_room *in) {
-  float all = 0;
-  for (int named = 0; named < 2; named++) {
-    for (size_t k = 0; k < file->clearance_count; k++) {
-      const robot_clearance *line = &file->clearances[k];
-      const int is_named = line->at[0] != NSVCD_NONE;
-      if (line->room != NSVCD_NONE && line->room != room) continue;
-      if (!named && !is_named) all = line->metres;
-      for (size_t n = 0; n < in->scene.pair_count && named && is_named; n++) {
-        const nsvcd_body_pair *pair = &in->scene.pairs[n];
-        const size_t a = (size_t)(robot_thing_of(in, pair->a) - file->things);
-        const size_t b = (size_t)(robot_thing_of(in, pair->b) - file->things);
-        if (robot_is_about(line, a, b)) in->clearances[n] = line->metres;
-      }
-    }
-    for (size_t n = 0; n < in->scene.pair_count && !named; n++)
-      in->clearances[n] = n < file->pair_count ? 0 : all > asked ? all : asked;
-  }
-}
-
-// Pairs are those of the file, and each body that moves with each obstacle. room: NSVCD_NONE: there
-// are no obstacles. clearance: metres, of pairs with obstacles. Returns 0 after a complaint.
-static int enter_room(const robot_file *file, size_t room, float clearance, robot_in_room *in) {
-  static const robot_room nowhere = {"", 0, 0};
-  const size_t bodies = file->body_count;
-  leave_room(in);
-  in->file = file;
-  in->room = room == NSVCD_NONE ? &nowhere : &file->rooms[room];
-  const size_t count = bodies + in->room->count;
-  in->parts = (nsvcd_part *)allocate(count * sizeof *in->parts);
-  const size_t most = file->pair_count + bodies * in->room->count;
-  in->pairs = (nsvcd_body_pair *)allocate(most * sizeof *in->pairs);
-  in->clearances = (float *)allocate(most * sizeof *in->clearances);
-  memset(in->parts, 0, count * sizeof *in->parts);
-  for (size_t n = 0; n < count; n++) {
-    const robot_thing *thing = &file->things[n < bodies ? n : in->room->first + n - bodies];
-    in->parts[n].body = file->meshes[thing->mesh].body;
-    in->parts[n].link = thing->link;
-    in->parts[n].pose = thing->pose;
-  }
-  nsvcd_scene *scene = &in->scene;
-  scene->joints = file->joints;
-  scene->joint_count = file->joint_count;
-  scene->parts = in->parts;
-  scene->part_count = count;
-  scene->pairs = in->pairs;
-  scene->pair_count = file->pair_count;
-  scene->clearances = in->clearances;
-  for (size_t n = 0; n < file->pair_count; n++) in->pairs[n] = file->pairs[n];
-  for (size_t a = 0; a < bodies; a++) {
-    for (size_t b = bodies; b < count && in->parts[a].link > 0; b++) {
-      const nsvcd_body_pair pair = {(uint32_t)a, (uint32_t)b};
-      in->pairs[scene->pair_count++] = pair;
-    }
-  }
-  set_clearances(file, room, clearance, in);
-  const size_t size = nsvcd_checker_size(scene);
-  in->memory = allocate(size);
-  const nsvcd_result result = nsvcd_checker_open(scene, in->memory, size, &in->checker);
-  if (result) return complain("%s: scene %s: %s", file->path, in->room->name, reason_of(result));
-  return 1;
 }
 #endif  // NSVCD_SCENERY_ROBOT_FILE_H

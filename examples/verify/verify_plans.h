@@ -5,11 +5,12 @@
 #ifndef NSVCD_VERIFY_PLANS_H
 #define NSVCD_VERIFY_PLANS_H
 #include "nsvcd_verify_robot.h"
-#include "verify_files.h"
+#include "verify_shapes.h"
 
 typedef struct robot_body {
   const char *name;
   const nsvcd_verify_mesh *mesh;
+  double radius;  // metres, about the mesh
   uint32_t link;
   float pose[7];
 } robot_body;
@@ -50,14 +51,18 @@ static uint32_t body_named(const robot *r, const char *name) {
   return 0;
 }
 
-// The words from `at` on may be `pose` and `scale`, each once.
-static void add_body(robot *r, const char *name, const char *mesh, uint32_t link, char *const *pose,
-                     char *const *words, size_t at, size_t count) {
+// body NAME JOINT SHAPE, then `pose` and `scale`, each once; or obstacle NAME SHAPE, a pose, `scale`.
+static void add_body(robot *r, char *const *words, size_t count) {
+  const int rests = words[0][0] == 'o';
+  const size_t shape = rests ? 2 : 3;
+  const size_t after = shape + shape_words(words[shape]);
+  size_t at = after + (rests ? 7 : 0);
+  char *const *pose = rests ? words + after : NULL;
   double scale[3] = {1, 1, 1};
-  int is_scaled = 0;
+  int is_scaled = after > shape + 1;  // only meshes are
+  if (at > count) fail(r->path, "a body lacks a number");
   while (at < count) {
-    const int is_pose = strcmp(words[at], "pose") == 0;
-    if (is_pose && !pose && count - at >= 8) {
+    if (strcmp(words[at], "pose") == 0 && !pose && count - at >= 8) {
       pose = words + at + 1;
       at += 8;
     } else if (strcmp(words[at], "scale") == 0 && !is_scaled && count - at >= 4) {
@@ -72,13 +77,14 @@ static void add_body(robot *r, const char *name, const char *mesh, uint32_t link
     }
   }
   for (size_t i = 0; i < r->bodies.count; i++)
-    if (strcmp(((const robot_body *)r->bodies.items)[i].name, name) == 0)
+    if (strcmp(((const robot_body *)r->bodies.items)[i].name, words[1]) == 0)
       fail(r->path, "two bodies of one name");
+  const uint32_t link = rests ? 0 : link_named(r, words[2]);
   robot_body *body = (robot_body *)add(&r->bodies, sizeof *body);
   memset(body, 0, sizeof *body);
-  body->name = name;
+  body->name = words[1];
   body->link = link;
-  body->mesh = mesh_of_file(r->path, mesh, scale);
+  body->mesh = shape_of_words(r->path, words + shape, scale, &body->radius);
   body->pose[6] = 1;
   if (pose) read_pose(r->path, pose, body->pose);
 }
@@ -147,6 +153,10 @@ static const char *check_pair(const robot *r, const nsvcd_verify_motion *m, size
     why = nsvcd_verify_part_init(bodies[k]->mesh, 1, &parts[k], &movers[k]);
   }
   if (why) return why;
+  // what is round keeps its radius besides: a float, and no less
+  const double sum = (double)clearance + (bodies[0]->radius + bodies[1]->radius);
+  clearance = (float)sum;
+  if ((double)clearance < sum) clearance = nextafterf(clearance, HUGE_VALF);
   void *workspace = allocate(room);
   const int accepted =
       nsvcd_verify(&movers[0], &movers[1], clearance, bytes, size, workspace, room, report);
@@ -278,7 +288,7 @@ static int check_plans(const char *path, char *text, request *asked) {
     if (strcmp(word, "joint") == 0 && n >= 17 && !scene) {
       add_joint(&r, words);
     } else if (strcmp(word, "body") == 0 && n >= 4 && !scene) {
-      add_body(&r, words[1], words[3], link_named(&r, words[2]), NULL, words, 4, n);
+      add_body(&r, words, n);
       r.own = r.bodies.count;
     } else if (strcmp(word, "pair") == 0 && n == 3 && !scene) {
       add_index(&r.pairs, body_named(&r, words[1]));
@@ -293,8 +303,8 @@ static int check_plans(const char *path, char *text, request *asked) {
       r.bodies.count = r.own;
       r.pairs.count = own_pairs;
       r.distances.count = own_distances;
-    } else if (strcmp(word, "obstacle") == 0 && n >= 10 && scene && !has_tasks) {
-      add_body(&r, words[1], words[2], 0, words + 3, words, 10, n);
+    } else if (strcmp(word, "obstacle") == 0 && n >= 3 && scene && !has_tasks) {
+      add_body(&r, words, n);
     } else if ((strcmp(word, "plan") == 0 ? n == 3 + 2 * r.joint_count
                                           : strcmp(word, "path") == 0 && n == 4) &&
                scene && strcmp(words[2], scene) == 0) {
