@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // verify.c - checks a folder of certificates against a problem file. It shares no code with
 // neuralsvcd.h. To be believed are nsvcd_verify.h and its files, and of what is read, which mesh,
-// motion and pair it is, verify_files.h and verify_plans.h.
+// motion and pair it is, verify_files.h, verify_shapes.h and verify_plans.h.
 //
 //   verify FILE.txt FOLDER [--clearance METRES] [--only ID,ID]
 //
