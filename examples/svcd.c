@@ -139,7 +139,8 @@ static const command commands[] = {
      "clearance from obstacles. The exit status is 1 if a certificate could not "
      "be written."},
     {"path", PATH, path, 1, "ROBOT ", "are paths of a robot free, between their points too?",
-     "Is each path of a planning file free, between its points too? One line each, separated by "
+     "Is each path or curve of a planning file free, between its points too? One line each, "
+     "separated by "
      "tabs: ID free|hit|undecided EDGE T NAME NAME MICROSECONDS: the first edge that is not free, "
      "when, and which two bodies; the mean time of an edge."},
     {"pairs", PAIRS, pairs, 1, "ROBOT ", "which bodies of a robot can meet each other?",

@@ -948,6 +948,41 @@ for cloud in '' '1 2\n' '1 2 x\n' '1 2 nan\n' '# 1 2 3\n'; do
   expect 1 'shape.txt:3: body a: .*bad.xyz' build/svcd plan "$dir/shape.txt"
   expect 2 '' build/verify "$dir/shape.txt" "$dir/certs"
 done
+# Curves: past a wall by a detour, which the polyline of their control points cuts; with times, and without.
+curve() {  # WORDS, LINES: a ball on two slides, and a wall
+  printf 'nsvcd-plans 1\njoint x world 0 0 0 0 0 0 1 1 0 0 prismatic -9 9 1\njoint y x 0 0 0 0 0 0 1 0 1 0 prismatic -9 9 1\n'
+  printf 'body a y sphere: 0.1\nscene s\nobstacle b box: 0.2 2 1  0 -0.5 0 0 0 0 1\nplan p s -1 0 1 0\ncurve q s %s\n%bplan late s -1 0 1 0\n' "$1" "$2"
+}
+curved() {  # WORDS, LINES, VERDICT, EDGE
+  curve "$1" "$2" >"$dir/curve.txt"
+  expect 0 '' build/svcd path "$dir/curve.txt"
+  test "$(cut -f 1-3 "$dir/out" | tr '\t' ' ')" = "q $3 $4" || fail "curve $1 $2: $(cat "$dir/out")"
+  expect 0 '' build/svcd plan "$dir/curve.txt" --certificates "$dir/certs"
+  expect 0 '' build/verify "$dir/curve.txt" "$dir/certs"
+  json path "$dir/curve.txt"
+}
+curved '2 3' '-1 0\n0 1.9\n1 0\n' free -1      # it reaches 0.95
+curved '2 3' '-1 0\n0 1.0\n1 0\n' hit 0
+curved '2 5' '-1 0\n-0.5 1.9\n0 1.9\n0.5 1.9\n1 0\n' free -1
+curved '2 5 timed' '0 -1 0\n-0.5 1.9\n1 0 1.9\n0.5 1.9\n5 1 0\n' free -1
+curved '1 3 timed' '0 -1 0\n2 -1 2\n2.5 1 0\n' free -1
+curved '1 3 timed' '0 -1 0\n2 -1 1\n2.5 1 0\n' hit 1
+curved '5 6' '-1 0\n-1 3\n0 3\n0 3\n1 3\n1 0\n' free -1
+curved '2 3 timed' '0 -1 0\n0 1.9\n1e-3 1 0\n' free -1
+curve_refused() {  # LINE, TEXT, WORDS, LINES: a curve that is refused there
+  curve "$3" "$4" >"$dir/curve.txt"
+  expect 1 "curve.txt:$1: $2" build/svcd path "$dir/curve.txt"
+}
+curve_refused 8 'expected: curve ID SCENE DEGREE COUNT' '2' ''
+curve_refused 8 'expected: curve ID SCENE DEGREE COUNT' '2 3 slow' '-1 0\n0 1.9\n1 0\n'
+curve_refused 8 'DEGREE is not in 1..5' '6 7' ''
+curve_refused 8 'DEGREE is not in 1..5' '0 7' ''
+curve_refused 8 'COUNT is not a multiple' '2 4' ''
+curve_refused 8 'COUNT is not a multiple' '2 1' ''
+curve_refused 9 'curve q: its line 0 is not one of 3 numbers' '2 3 timed' '-1 0\n0 1.9\n1 0\n'
+curve_refused 11 'times do not rise' '2 3 timed' '1 -1 0\n0 1.9\n1 1 0\n'
+curve_refused 11 'not a finite number' '2 3 timed' '1 -1 0\n0 1.9\nnan 1 0\n'
+curve_refused 11 'curve q: its line 2 is not one of 2 numbers' '2 3' '-1 0\n0 1.9\n'
 # A snake of 128 joints, which is as many as there may be.
 snake() {  # JOINTS: cubes along x, one beside the 100th joint, past which it swings
   awk -v n="$1" 'BEGIN { print "nsvcd-plans 1"

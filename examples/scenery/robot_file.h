@@ -11,6 +11,7 @@
 //   clearance NAME NAME METRES, or: clearance obstacles METRES
 //   plan ID SCENE  start...  goal...
 //   path ID SCENE COUNT        # COUNT lines of joints follow
+//   curve ID SCENE DEGREE COUNT [timed]   # so do COUNT lines here
 //
 // examples/FORMATS.md says what they mean.
 #ifndef NSVCD_SCENERY_ROBOT_FILE_H
@@ -51,6 +52,8 @@ typedef struct robot_task {
   size_t line, room;
   size_t points;  // 0: a plan, whose start and goal are two rows
   size_t first;   // the first of its numbers
+  size_t degree;  // of a curve, else 0
+  size_t times;   // of a curve: the first of its times; NSVCD_NONE: it has none
 } robot_task;
 
 typedef struct robot_file {
@@ -64,11 +67,11 @@ typedef struct robot_file {
   robot_clearance *clearances;
   robot_room *rooms;
   robot_task *tasks;
-  double *numbers;
+  double *numbers, *times;
   size_t joint_count, mesh_count, thing_count, body_count, pair_count, clearance_count, room_count,
-      task_count, number_count;
+      task_count, number_count, time_count;
   size_t mesh_capacity, thing_capacity, pair_capacity, clearance_capacity, room_capacity,
-      task_capacity, number_capacity;
+      task_capacity, number_capacity, time_capacity;
 } robot_file;
 
 // Adds an item to a list, and clears it.
@@ -337,6 +340,48 @@ static int robot_read_task(reader *r, robot_file *file) {
   return 1;
 }
 
+// Reads a line of a curve, which begins with a time if it is timed.
+static int robot_read_point(const reader *r, robot_file *file, int is_timed) {
+  double time;
+  if (!robot_read_joints(r, file, r->fields + is_timed)) return 0;
+  if (!is_timed) return 1;
+  if (!robot_number(r, r->fields[0], &time)) return 0;
+  *ROBOT_ADD(file->times, file->time_count, file->time_capacity) = time;
+  return 1;
+}
+
+// A curve's lines are Bezier points; where a piece begins or ends they may begin with the time.
+static int robot_read_curve(reader *r, robot_file *file) {
+  robot_task task;
+  char *const *f = r->fields;
+  memset(&task, 0, sizeof task);
+  const int is_timed = r->field_count == 6 && strcmp(f[5], "timed") == 0;
+  if (r->field_count != 5 && !is_timed)
+    return refuse(r, "expected: curve ID SCENE DEGREE COUNT [timed]");
+  task.id = f[1];
+  task.line = r->line;
+  task.first = file->number_count;
+  task.times = is_timed ? file->time_count : NSVCD_NONE;
+  if (!robot_find_room(file, f[2], &task.room))
+    return refuse_field(r, "no scene of this name above", f[2]);
+  if (!parse_count(f[3], 1, NSVCD_MAX_DEGREE, &task.degree))
+    return refuse_field(r, "DEGREE is not in 1..5", f[3]);
+  if (!parse_count(f[4], 2, 10000000, &task.points) || (task.points - 1) % task.degree != 0)
+    return refuse_field(r, "COUNT is not a multiple of DEGREE and 1, up to 10000000", f[4]);
+  for (size_t i = 0; i < task.points; i++) {
+    const int has_time = is_timed && i % task.degree == 0;
+    const size_t needed = file->joint_count + (size_t)has_time;
+    if (!next_line(r) || r->field_count != needed)
+      return complain("%s:%zu: curve %s: its line %zu is not one of %zu numbers", r->path, r->line,
+                      task.id, i, needed);
+    if (!robot_read_point(r, file, has_time)) return 0;
+    const double *last = file->times + file->time_count - 1;
+    if (has_time && i > 0 && !(last[0] > last[-1])) return refuse(r, "times do not rise");
+  }
+  *ROBOT_ADD(file->tasks, file->task_count, file->task_capacity) = task;
+  return 1;
+}
+
 static int read_robot(const char *path, robot_file *file) {
   static const struct {
     const char *word;
@@ -350,16 +395,20 @@ static int read_robot(const char *path, robot_file *file) {
   file->path = shown_name(path);
   if (!open_reader(path, "nsvcd-plans", &file->text, &r)) return 0;
   while (next_line(&r)) {
+    const int is_curve = strcmp(r.fields[0], "curve") == 0;
     const int is_task = strcmp(r.fields[0], "plan") == 0 || strcmp(r.fields[0], "path") == 0;
     size_t k = 0;
     while (k < count && strcmp(lines[k].word, r.fields[0]) != 0) k++;
-    if (k == count && !is_task)
+    if (k == count && !is_task && !is_curve)
       return refuse_field(&r,
                           "expected 'joint', 'body', 'pair', 'clearance', 'scene', 'obstacle', "
-                          "'plan' or 'path'",
+                          "'plan', 'path' or 'curve'",
                           r.fields[0]);
     if (r.field_count > MOST_FIELDS) return refuse(&r, "too many fields");
-    if (!(is_task ? robot_read_task(&r, file) : lines[k].read(&r, file))) return 0;
+    if (!(is_curve  ? robot_read_curve(&r, file)
+          : is_task ? robot_read_task(&r, file)
+                    : lines[k].read(&r, file)))
+      return 0;
   }
   return 1;
 }
@@ -377,5 +426,6 @@ static void free_robot(robot_file *file) {
   free(file->rooms);
   free(file->tasks);
   free(file->numbers);
+  free(file->times);
 }
 #endif  // NSVCD_SCENERY_ROBOT_FILE_H

@@ -313,6 +313,12 @@ static int check_plans(const char *path, char *text, request *asked) {
       if (word[1] == 'l' && is_wanted(asked, words[1])) all &= check_plan(&r, words, asked);
       for (size_t k = word[1] == 'l' ? 0 : strtoul(words[3], NULL, 10); k > 0; k--)
         if (next_words(&text, words, MOST_WORDS) == 0) fail(path, "a path ends early");
+    } else if (strcmp(word, "curve") == 0 && (n == 5 || n == 6) && scene &&
+               strcmp(words[2], scene) == 0) {
+      if (!has_tasks) finish_scene(&r, asked->clearance);
+      has_tasks = 1;
+      for (size_t k = strtoul(words[4], NULL, 10); k > 0; k--)
+        if (next_words(&text, words, MOST_WORDS) == 0) fail(path, "a curve ends early");
     } else {
       fail(path, "a line is not one of a planning file, or not where it may stand");
     }
