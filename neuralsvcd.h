@@ -900,7 +900,7 @@ typedef struct nsvcd_network_options {
 
 // no index
 #define NSVCD_NONE ((size_t)-1)
-#define NSVCD_MAX_JOINTS 32
+#define NSVCD_MAX_JOINTS 128
 
 // Two bodies that can meet, by their indices.
 typedef struct nsvcd_body_pair {

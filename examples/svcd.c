@@ -54,7 +54,8 @@ static const option options[] = {
      "steps that a certificate may take; for plan, that of a pair (" DIGITS(
          NSVCD_DEFAULT_VISITS) ")"},
     {"--clearance", CHECK | SWEEP | PLAN | PATH, OPTION_NUMBER, AT(sweep.clearance), 0, METRES,
-     "NSVCD_MAX_COORDINATE", "METRES", "coming within this distance is a hit (0: only meeting is)"},
+     "NSVCD_MAX_COORDINATE", "METRES",
+     "coming within this distance is a hit (0: only meeting is); for plan and path, of obstacles"},
     {"--measure", SWEEP, OPTION_NUMBER, AT(measure), 1e-9, METRES, "NSVCD_MAX_COORDINATE", "METRES",
      "if they are free: how near do they come? to this precision"},
     {"--skin", CHECK | SWEEP, OPTION_NUMBER, AT(sweep.slop), 0, METRES, "NSVCD_MAX_COORDINATE",
@@ -135,10 +136,11 @@ static const command commands[] = {
     {"plan", PLAN, plan, 1, "ROBOT ", "motions of a robot, found and proven",
      "Finds a motion for each plan of a planning file, and proves it. One line each, separated by "
      "tabs: ID certified|start|goal|limit|undecided SECONDS DURATION LENGTH. The motion keeps the "
-     "clearance from all that it must not touch. The exit status is 1 if a certificate could not "
+     "clearance from obstacles. The exit status is 1 if a certificate could not "
      "be written."},
     {"path", PATH, path, 1, "ROBOT ", "are paths of a robot free, between their points too?",
-     "Is each path of a planning file free, between its points too? One line each, separated by "
+     "Is each path or curve of a planning file free, between its points too? One line each, "
+     "separated by "
      "tabs: ID free|hit|undecided EDGE T NAME NAME MICROSECONDS: the first edge that is not free, "
      "when, and which two bodies; the mean time of an edge."},
     {"pairs", PAIRS, pairs, 1, "ROBOT ", "which bodies of a robot can meet each other?",

@@ -546,7 +546,7 @@ NSVCDDEF size_t nsvcd_certify_pair_workspace_size(const nsvcd_joint_motion *moti
 //   threads    each needs a checker and a workspace of its own; trees may be shared
 //   errors     those of nsvcd_certify and nsvcd_check; PAIR; TURN (there are no pieces, or more
 //              than NSVCD_MAX_POSES; or a piece takes less than 1e-9 of the motion's time; or a
-//              joint is turned to more than 1,000 radians; or it moves as fast as 100,000 radians
+//              joint is turned to more than 250 radians; or it moves as fast as 100,000 radians
 //              or metres in the motion's time)
 //   source     this library
 NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
@@ -1416,8 +1416,6 @@ typedef struct nsvcd__link {
   nsvcd__dpose origin;
   // unit, in the joint's frame
   nsvcd__d3 axis;
-  // joints from the world to this link, its own too: bit i is joint i
-  uint32_t chain;
 } nsvcd__link;
 
 // Where the links are in a configuration, in the world.
@@ -1455,7 +1453,10 @@ typedef struct nsvcd__member {
 
 struct nsvcd_checker {
   const nsvcd_scene *scene;
-  nsvcd__link links[NSVCD_MAX_JOINTS];
+  // (F)
+  nsvcd__link *links;
+  // where the links are: in a configuration, or at both ends of a step
+  nsvcd__links *at, *next;
   // (B)
   nsvcd__member *members;
   // (P): the pairs, as they are asked about: what was hit last first
@@ -1469,7 +1470,6 @@ struct nsvcd_checker {
   nsvcd_pose *local[2];
   // of the samples; and the most that a part deviates in the step after each
   double times[NSVCD__MOST_STEPS + 1], deviations[NSVCD__MOST_STEPS + 1];
-  nsvcd__links at, next;
   void *query;
   size_t query_size;
   // an error of a question, which ends those that follow
@@ -1500,6 +1500,11 @@ static nsvcd__dpose nsvcd__dpose_inverse_mul(const nsvcd__dpose *a, const nsvcd_
   const nsvcd__dpose out = {nsvcd__dquat_mul(back, b->rotation),
                             nsvcd__dquat_rotate(back, offset)};
   return out;
+}
+
+// The link before another one on the way to the world.
+static size_t nsvcd__link_before(const nsvcd_checker *c, size_t link) {
+  return c->scene->joints[link - 1].parent;
 }
 
 static int nsvcd__slides(const nsvcd_checker *c, size_t joint) {
@@ -1740,13 +1745,12 @@ static double nsvcd__angle_between(nsvcd__dquat a, nsvcd__dquat b) {
 static void nsvcd__moment_arms_of(const nsvcd_checker *c, size_t part, const nsvcd__step *step,
                                   const nsvcd__links *from, double *arms) {
   const nsvcd__member *m = &c->members[part];
-  const size_t link = c->scene->parts[part].link;
-  const uint32_t chain = c->links[link - 1].chain;
+  size_t link = c->scene->parts[part].link;
   const nsvcd__d3 centre = nsvcd__dpose_apply(&from->frames[link], m->centre);
   // by joints beyond this one
   double moved = 0;
-  for (size_t j = link; j-- > 0;) {
-    if (!(chain >> j & 1)) continue;
+  for (; link > 0; link = nsvcd__link_before(c, link)) {
+    const size_t j = link - 1;
     arms[j] = 1;
     if (!nsvcd__slides(c, j)) {
       const nsvcd__d3 off = nsvcd__d3_sub(centre, from->frames[j + 1].position);
@@ -1767,14 +1771,15 @@ static double nsvcd__part_deviation(const nsvcd_checker *c, size_t part,
   double arms[NSVCD_MAX_JOINTS];
   double bend = 0;
   double second = 0;
-  double inner = 0;
+  // from the part to the world; the sum over inner joints, as one over outer ones
+  double outer = 0;
   nsvcd__moment_arms_of(c, part, step, from, arms);
-  for (uint32_t chain = c->links[link - 1].chain; chain; chain &= chain - 1) {
-    const size_t j = nsvcd__low_bit(chain);
-    const double own = nsvcd__slides(c, j) ? 0 : step->travel[j];
+  for (size_t at = link; at > 0; at = nsvcd__link_before(c, at)) {
+    const size_t j = at - 1;
+    const double moved = step->travel[j] * arms[j];
     bend += step->bend[j] * arms[j];
-    second += step->travel[j] * arms[j] * (2 * inner + own);
-    inner += own;
+    if (!nsvcd__slides(c, j)) second += step->travel[j] * (2 * outer + moved);
+    outer += moved;
   }
   return (bend + second + w * w * c->members[part].extent) / 8;
 }
@@ -1899,6 +1904,9 @@ static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
   const size_t pairs = scene->pair_count;
   const size_t samples = NSVCD__MOST_STEPS + 1;
   const size_t rows = movers * samples;
+  c->links = NSVCD__TAKE_ROWS(nsvcd__link, scene->joint_count, base, &used);
+  c->at = NSVCD__TAKE_ROWS(nsvcd__links, 1, base, &used);
+  c->next = NSVCD__TAKE_ROWS(nsvcd__links, 1, base, &used);
   c->members = NSVCD__TAKE_ROWS(nsvcd__member, parts, base, &used);
   c->order = NSVCD__TAKE_ROWS(uint32_t, pairs, base, &used);
   c->left = NSVCD__TAKE_ROWS(uint32_t, pairs, base, &used);
@@ -1959,7 +1967,6 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
     nsvcd__link *link = &c->links[i];
     link->origin = nsvcd__unit_dpose(&joint->origin);
     link->axis = nsvcd__d3_unit(nsvcd__d3_load(joint->axis), nsvcd__d3_of(0, 0, 1));
-    link->chain = (uint32_t)1 << i | (joint->parent ? c->links[joint->parent - 1].chain : 0);
   }
   size_t row = 0;
   for (size_t n = 0; n < scene->part_count; n++) {
@@ -1976,12 +1983,15 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
 // In: times of a motion. Out: its samples, where all parts are placed, and how far each part
 // deviates in the steps between them; boxes about parts in a step.
 
-// errors of frames in double, as a fraction of the lengths that they are computed from
+// errors of frames in double, as a fraction of the lengths that they are computed from: of 32
+// joints, and in proportion if there are more
 #define NSVCD__FRAME_ROUNDING 1e-13
 
 // Places the parts that move, in a configuration, as sample k.
 static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__links *at, size_t k) {
   const nsvcd_scene *scene = c->scene;
+  const double rounding =
+      NSVCD__FRAME_ROUNDING * nsvcd__max(1, (double)scene->joint_count / 32);
   double most = 0;
   for (size_t link = 1; link <= scene->joint_count; link++)
     most = nsvcd__max(most, nsvcd__d3_norm(at->frames[link].position));
@@ -1995,7 +2005,7 @@ static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__links *at, size_t
     m->bounds = k ? nsvcd__bounds_over(&m->bounds, &bounds) : bounds;
     // a joint adds some 5e-16 of its moment arm
     const double arm = most + nsvcd__d3_norm(frame.position) + m->extent;
-    m->rounding = nsvcd__max(k ? m->rounding : 0, NSVCD__FRAME_ROUNDING * arm);
+    m->rounding = nsvcd__max(k ? m->rounding : 0, rounding * arm);
   }
 }
 
@@ -2003,8 +2013,8 @@ static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__links *at, size_t
 static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, size_t steps) {
   const nsvcd_scene *scene = c->scene;
   nsvcd__step step;
-  nsvcd__links *from = &c->at;
-  nsvcd__links *to = &c->next;
+  nsvcd__links *from = c->at;
+  nsvcd__links *to = c->next;
   for (size_t n = 0; n < scene->part_count; n++) c->members[n].deviation = 0;
   nsvcd_motion_at(motion, scene->joint_count, c->times[0], step.from);
   nsvcd__place_links(c, step.from, from);
@@ -2128,8 +2138,8 @@ static nsvcd__local nsvcd__localize(nsvcd_checker *c, const nsvcd_body_pair *pai
 
 // The same in the configuration c->at.
 static nsvcd__local nsvcd__localize_at(nsvcd_checker *c, const nsvcd_body_pair *pair) {
-  const nsvcd__dpose a = nsvcd__frame_of_part(c, &c->at, pair->a);
-  const nsvcd__dpose b = nsvcd__frame_of_part(c, &c->at, pair->b);
+  const nsvcd__dpose a = nsvcd__frame_of_part(c, c->at, pair->a);
+  const nsvcd__dpose b = nsvcd__frame_of_part(c, c->at, pair->b);
   const nsvcd__dpose *const frames[2] = {&a, &b};
   return nsvcd__localize(c, pair, frames, 1);
 }
@@ -2257,7 +2267,7 @@ static int nsvcd__is_hit_there(nsvcd__check_state *s, size_t work) {
   nsvcd_answer found;
   nsvcd__joints_at(s->motion, c->scene->joint_count, answer->piece, answer->fraction, joints,
                    NULL);
-  nsvcd__place_links(c, joints, &c->at);
+  nsvcd__place_links(c, joints, c->at);
   answer->placed++;
   const nsvcd__local local = nsvcd__localize_at(c, pair);
   if (nsvcd__ask_local(s, pair, 1, clearance, work, &found) != NSVCD_HIT) return 0;
@@ -2515,7 +2525,9 @@ typedef struct nsvcd__look_part {
 typedef struct nsvcd__looker {
   const nsvcd_checker *checker;
   // (F): each joint in the link that it is on, turned so that axes are along z
-  nsvcd__look_frame joints[NSVCD_MAX_JOINTS];
+  nsvcd__look_frame *joints;
+  // (F, 16): configurations that are looked at
+  double (*places)[NSVCD_LOOKS];
   // (F + 1)
   nsvcd_places *links;
   // (B)
@@ -2668,6 +2680,9 @@ static void nsvcd__look_place_links(nsvcd__looker *k, double (*joints)[NSVCD_LOO
 static void nsvcd__looker_take(const nsvcd_scene *scene, char *base, uint64_t *used,
                                nsvcd__looker *k) {
   const size_t pairs = scene->pair_count;
+  k->joints = NSVCD__TAKE_ROWS(nsvcd__look_frame, scene->joint_count, base, used);
+  k->places = (double(*)[NSVCD_LOOKS])nsvcd__take(base, used, scene->joint_count,
+                                                  NSVCD_LOOKS * sizeof(double));
   k->links = NSVCD__TAKE_ROWS(nsvcd_places, scene->joint_count + 1, base, used);
   k->parts = NSVCD__TAKE_ROWS(nsvcd__look_part, scene->part_count, base, used);
   k->margins = NSVCD__TAKE_ROWS(float, pairs, base, used);
@@ -2798,7 +2813,6 @@ static int nsvcd__seems_free(nsvcd__looker *k, const nsvcd_joint_motion *m) {
   const size_t joints = k->checker->scene->joint_count;
   const size_t rows = m->pieces * m->degree;
   double length = 0;
-  double places[NSVCD_MAX_JOINTS][NSVCD_LOOKS];
   k->count++;
   for (size_t n = 0; n < rows; n++) {
     const double *from = m->points + n * joints;
@@ -2811,8 +2825,8 @@ static int nsvcd__seems_free(nsvcd__looker *k, const nsvcd_joint_motion *m) {
   // batch n has the places n, n + batches, ... of all; the greater steps first
   for (; stride > 0; stride /= 2) {
     for (size_t n = stride; n <= batches; n += 2 * stride) {
-      nsvcd__look_joints(m, joints, n, batches, places);
-      if (nsvcd__seems_to_meet(k, places)) return 0;
+      nsvcd__look_joints(m, joints, n, batches, k->places);
+      if (nsvcd__seems_to_meet(k, k->places)) return 0;
     }
   }
   return 1;
@@ -2832,10 +2846,9 @@ static void nsvcd__set_margins(nsvcd__looker *k, float clearance, float fraction
 
 // Lessens margins until nothing seems to meet in a configuration that is proven free.
 static void nsvcd__look_past(nsvcd__looker *k, const double *at) {
-  double places[NSVCD_MAX_JOINTS][NSVCD_LOOKS];
   for (size_t j = 0; j < k->checker->scene->joint_count; j++)
-    for (size_t l = 0; l < NSVCD_LOOKS; l++) places[j][l] = at[j];
-  while (nsvcd__seems_to_meet(k, places) && k->margins[k->last] > -1)
+    for (size_t l = 0; l < NSVCD_LOOKS; l++) k->places[j][l] = at[j];
+  while (nsvcd__seems_to_meet(k, k->places) && k->margins[k->last] > -1)
     k->margins[k->last] -= NSVCD__LOOK_CUT;
 }
 
@@ -3017,7 +3030,7 @@ static int nsvcd__is_provable(const nsvcd_checker *c, const nsvcd_joint_motion *
     for (size_t j = 0; j < joints; j++) {
       const double *value = &m->points[i * joints + j];
       const double speed = i > 0 ? (double)m->degree * fabs(*value - *(value - joints)) : 0;
-      if (!nsvcd__slides(c, j) && !(fabs(*value) <= 1e3)) return 0;
+      if (!nsvcd__slides(c, j) && !(fabs(*value) <= 250)) return 0;
       if (!(speed <= 0.999e5 * whole)) return 0;
     }
   }
@@ -3229,13 +3242,12 @@ static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, const nsvcd__l
                              nsvcd__d3 at, nsvcd__d3 along, double sign, double *slope) {
   const nsvcd__d3 point = nsvcd__dpose_apply(&local->frame, at);
   const nsvcd__d3 normal = nsvcd__dquat_rotate(local->frame.rotation, along);
-  const uint32_t link = c->scene->parts[part].link;
-  for (uint32_t chain = link ? c->links[link - 1].chain : 0; chain; chain &= chain - 1) {
-    const size_t j = nsvcd__low_bit(chain);
-    const nsvcd__d3 arm = nsvcd__d3_sub(point, c->at.frames[j + 1].position);
-    const nsvcd__d3 speed =
-        nsvcd__slides(c, j) ? c->at.axes[j] : nsvcd__d3_cross(c->at.axes[j], arm);
-    slope[j] += sign * nsvcd__d3_dot(normal, speed);
+  for (size_t link = c->scene->parts[part].link; link > 0;
+       link = nsvcd__link_before(c, link)) {
+    const nsvcd__d3 arm = nsvcd__d3_sub(point, c->at->frames[link].position);
+    const nsvcd__d3 axis = c->at->axes[link - 1];
+    const nsvcd__d3 speed = nsvcd__slides(c, link - 1) ? axis : nsvcd__d3_cross(axis, arm);
+    slope[link - 1] += sign * nsvcd__d3_dot(normal, speed);
   }
 }
 
@@ -3368,8 +3380,8 @@ NSVCDDEF nsvcd_result nsvcd_proximities(nsvcd_checker *c, const double *joints,
   o.max_distance = o.max_distance > 0 ? o.max_distance : NSVCD__MAX_DISTANCE;
   o.to = o.to > 0 ? o.to : NSVCD__DISTANCE_TO;
   o.max_depth = o.max_depth > 0 ? o.max_depth : NSVCD__MAX_DEPTH;
-  nsvcd__place_links(c, joints, &c->at);
-  nsvcd__place_sample(c, &c->at, 0);
+  nsvcd__place_links(c, joints, c->at);
+  nsvcd__place_sample(c, c->at, 0);
   c->result = NSVCD_OK;
   for (size_t n = 0; n < c->scene->pair_count && !c->result; n++) {
     nsvcd_proximity found;
@@ -3486,7 +3498,7 @@ static int nsvcd__touches_in_all(nsvcd_checker *c, const nsvcd_body_pair *pair, 
       const double high = is_endless ? 6.283185307179586 : joint->high;
       joints[j] = low + (high - low) * nsvcd__random(&random);
     }
-    nsvcd__place_links(c, joints, &c->at);
+    nsvcd__place_links(c, joints, c->at);
     (void)nsvcd__localize_at(c, pair);
     const nsvcd_question q = nsvcd__question_of(c, pair, 1, 0);
     if (nsvcd__ask_sweep(c, &q, &found) != NSVCD_HIT) return 0;

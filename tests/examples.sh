@@ -840,27 +840,166 @@ not_of_a_plan 'not where it may stand' 's/^plan up shelf/plan up hall/'
 not_of_a_plan 'a joint is of no kind' '1,/ revolute /s/ revolute / fixed /'
 not_of_a_plan 'two bodies of one name' 's/^body forearm /body palm /'
 not_of_a_plan 'a path ends early' 's/^path aside shelf 3/path aside shelf 99999999/'
-# a pair keeps its own distance in place of --clearance, and so its certificate says
-own_distance() {  # METRES: two cubes on joints, 10 mm apart, and one in the way of nobody
+# A robot's own pairs keep 0, pairs with obstacles --clearance, or as `clearance` says; and so their certificates say.
+distances() {  # LINE, LINE: two cubes on joints, 10 mm apart, one 20 mm beside them, and one far off; lines for all scenes and for one
   printf 'nsvcd-plans 1\njoint x world 0 0 0 0 0 0 1 1 0 0 prismatic -9 9 1\njoint y x 0 1.01 0 0 0 0 1 0 1 0 prismatic -9 9 1\n'
-  printf 'body a x own.obj\nbody b y own.obj\npair a b %s\nscene s\nobstacle c own.obj 0 -5 0 0 0 0 1\nplan p s -1 0 1 0\n' "$1"
+  printf 'body a x own.obj\nbody b y own.obj\nbody stand world own.obj pose 0 50 0 0 0 0 1\npair a b\n%b' "$1"
+  printf 'scene s\nobstacle c own.obj 0 -1.02 0 0 0 0 1\nobstacle far own.obj 0 -9 0 0 0 0 1\n%bplan p s -1 0 1 0\n' "$2"
+  printf 'scene other\nobstacle c own.obj 0 -1.02 0 0 0 0 1\nplan o other -1 0 1 0\n'
 }
 cube "$dir/own.obj" 0 1 0 6
-for metres in '' 0.005 0.03; do own_distance "$metres" >"$dir/own$metres.txt"; done
-expect 0 '' build/svcd plan "$dir/own.txt"
-expect 0 'a and b are 10.00 mm apart' build/svcd plan "$dir/own.txt" --clearance 0.02
-grep -q '^p	start' "$dir/out" || fail "10 mm are 20: $(cat "$dir/out")"
-expect 0 'a and b are 10.00 mm apart' build/svcd plan "$dir/own0.03.txt"
-expect 0 '' build/svcd plan "$dir/own0.005.txt" --clearance 0.02 --certificates "$dir/certs"
-grep -q '^p	certified' "$dir/out" || fail "a pair of its own clearance: $(cat "$dir/out")"
-expect 0 '' build/verify "$dir/own0.005.txt" "$dir/certs" --clearance 0.02
-expect 1 '' build/verify "$dir/own.txt" "$dir/certs" --clearance 0.02
-expect 1 '' build/verify "$dir/own0.03.txt" "$dir/certs"
-for metres in -1 nan 'x' '0.1 0.1'; do
-  own_distance "$metres" >"$dir/bad_own.txt"
-  expect 1 'bad_own.txt:6: ' build/svcd plan "$dir/bad_own.txt"
+keeps() {  # STATUS OF p, OF o, CLEARANCE, LINE, LINE: so they are planned; a certificate is accepted for that, and for no other distance
+  distances "$4" "$5" >"$dir/own.txt"
+  rm -f "$dir/certs/p.cert" "$dir/certs/o.cert"
+  build/svcd plan "$dir/own.txt" --clearance "$3" --certificates "$dir/certs" >"$dir/out" 2>"$dir/err"
+  test "$(cut -f 1,2 "$dir/out" | tr '\t\n' '  ')" = "p $1 o $2 " || fail "$3, '$4', '$5': $(cat "$dir/out" "$dir/err")"
+  for plan in p o; do
+    ! grep -q "^$plan	certified" "$dir/out" || build/verify "$dir/own.txt" "$dir/certs" --clearance "$3" --only $plan >"$dir/said" || fail "$plan, $3, '$4', '$5': $(cat "$dir/said")"
+  done
+}
+keeps certified certified 0.015 '' ''
+keeps start start 0.03 '' ''
+grep -q 'a and c are 20.00 mm apart' "$dir/err" || fail "20 mm are 30: $(cat "$dir/err")"
+keeps start start 0 'clearance a b 0.02\n' ''
+grep -q 'a and b are 10.00 mm apart' "$dir/err" || fail "10 mm are 20: $(cat "$dir/err")"
+keeps certified certified 0.015 'clearance b a 0.005\n' ''
+keeps start certified 0 '' 'clearance b a 0.02\n'
+keeps certified start 0 'clearance a b 0.02\n' 'clearance a b 0.002\n'
+keeps certified start 0.03 '' 'clearance c a 0.01\n'
+keeps start certified 0.01 '' 'clearance a c 0.03\n'
+keeps certified certified 0.01 '' 'clearance a far 0.03\n'
+keeps start start 0 'clearance obstacles 0.03\n' ''
+keeps certified start 0 'clearance obstacles 0.03\n' 'clearance obstacles 0.01\n'
+keeps start start 0.03 'clearance obstacles 0.01\n' ''
+keeps certified start 0.01 'clearance obstacles 0.03\n' 'clearance a c 0.01\n'
+expect 0 '' build/svcd path "$dir/own.txt"
+distances 'clearance a b 0.005\nclearance obstacles 0.015\n' '' >"$dir/own.txt"
+expect 0 '' build/svcd plan "$dir/own.txt" --certificates "$dir/certs"
+expect 0 '' build/verify "$dir/own.txt" "$dir/certs" --clearance 0.01
+expect 1 '' build/verify "$dir/own.txt" "$dir/certs" --clearance 0.016
+for lines in 'clearance a b 0.006\nclearance obstacles 0.015\n' 'clearance a b 0.005\n' 'clearance a b 0.005\nclearance obstacles 0.02\n'; do
+  distances "$lines" '' >"$dir/own.txt"
+  expect 1 '' build/verify "$dir/own.txt" "$dir/certs"
+done
+{ distances '' '' | sed '/^plan o/d'; printf 'path q other 2\n-1 0\n1 0\npath r s 2\n-1 0\n1 0\n'; } >"$dir/own.txt"
+for clearance in 0.01 0.03; do
+  expect 0 '' build/svcd path "$dir/own.txt" --clearance $clearance
+  test "$(cut -f 1,2 "$dir/out" | sort -u | wc -l) $(cut -f 2 "$dir/out" | sort -u)" = "2 $(test $clearance = 0.01 && echo free || echo hit)" || fail "paths: $(cat "$dir/out")"
+done
+for line in 'a b -1' 'a b nan' 'a b x' 'a b' 'a b 0.1 0.1' 'b 0.1' 'obstacles' 'obstacles -1' 'a none 0.1' 'a c 0.1' 'a stand 0.1'; do
+  distances "clearance $line\n" '' >"$dir/bad_own.txt"
+  expect 1 'bad_own.txt:8: ' build/svcd plan "$dir/bad_own.txt"
   expect 2 'bad_own.txt: ' build/verify "$dir/bad_own.txt" "$dir/certs"
 done
+for line in 'stand c' 'c far' 'a a'; do
+  distances '' "clearance $line 0.1\n" >"$dir/bad_own.txt"
+  expect 1 'bad_own.txt:11: neither a pair above' build/svcd plan "$dir/bad_own.txt"
+  expect 2 'a clearance of two bodies that are no pair' build/verify "$dir/bad_own.txt" "$dir/certs"
+done
+distances 'clearance a b 0.1\nclearance b a 0.1\n' '' >"$dir/bad_own.txt"
+expect 1 'bad_own.txt:9: a second clearance of these' build/svcd plan "$dir/bad_own.txt"
+distances 'pair a b 0.1\n' '' >"$dir/bad_own.txt"
+expect 1 'bad_own.txt:8: expected: pair NAME NAME$' build/svcd plan "$dir/bad_own.txt"
+expect 2 'not where it may stand' build/verify "$dir/bad_own.txt" "$dir/certs"
+# Shapes without a mesh: how near they come to each other is known, and they have certificates.
+echo '# x y z
+0 0 0 and what follows
+' >"$dir/dust.xyz"
+printf 'ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n' >"$dir/dust.ply"
+passes() {  # SHAPE, POSE, OBSTACLE, GAP: a body that slides past an obstacle on the y axis keeps the gap, and no more where it is nearest
+  printf 'nsvcd-plans 1\njoint x world 0 0 0 0 0 0 1 1 0 0 prismatic -9 9 1\nbody a x %s pose %s\nscene s\nobstacle b %s\nplan p s -3 3\npath q s 2\n-3\n3\npath r s 1\n0\n' "$1" "$2" "$3" >"$dir/shape.txt"
+  expect 0 '' build/svcd path "$dir/shape.txt" --clearance "$(awk "BEGIN { print $4 - 1e-5 }")" --only q
+  grep -q "^q	free	" "$dir/out" || fail "$1 at $4: $(cat "$dir/out")"
+  expect 0 '' build/svcd path "$dir/shape.txt" --clearance "$(awk "BEGIN { print $4 + 1e-5 }")" --only r
+  grep -q "^r	hit	" "$dir/out" || fail "$1 at $4: $(cat "$dir/out")"
+  expect 0 '' build/svcd plan "$dir/shape.txt" --clearance "$(awk "BEGIN { print $4 - 2e-4 }")" --certificates "$dir/certs"
+  expect 0 '' build/verify "$dir/shape.txt" "$dir/certs" --clearance "$(awk "BEGIN { print $4 - 2e-4 }")"
+}
+here='0 0 0 0 0 0 1'
+passes 'sphere: 0.1' "$here" 'sphere: 0.2 0 0.5 0 0 0 0 1' 0.2
+passes 'capsule: 0.05 0.4' '0 0 0 0.70710678 0 0 0.70710678' 'box: 1 1 1 0 1 0 0 0 0 1' 0.25
+passes 'cylinder: 0.3 0.2' "$here" 'box: 1 1 1 0 1 0 0 0 0 1' 0.2
+passes 'cylinder: 0.3 0.2' '0 0 0 0.70710678 0 0 0.70710678' 'box: 1 1 1 0 1 0 0 0 0 1' 0.4
+passes 'box: 0.2 0.6 0.2' "$here" 'cloud: dust.xyz 0.1 0 1 0 0 0 0 1' 0.6
+passes 'cloud: dust.xyz 0.1' "$here" 'cylinder: 0.1 1 0 0.5 0 0 0 0 1' 0.3
+# half way between two of its sides a cylinder is no smaller than round
+passes 'sphere: 0.1' "$here" "cylinder: 0.1 1 0 0.5 0 0 0 $(awk 'BEGIN { a = 3.14159265358979 / 64; print sin(a), cos(a) }')" "$(awk 'BEGIN { print 0.4 - 0.1 / cos(3.14159265358979 / 32) }')"
+expect 0 '' build/svcd plan "$dir/shape.txt" --only p --picture "$dir/shape.svg"
+tail -1 "$dir/shape.svg" | grep -q '^</svg>$' || fail "the picture of shapes"
+# a ball in a box, or a box in a ball, is a hit
+for inside in 'sphere: 1 0 0 0 0 0 0 1' 'box: 3 3 3 0 0 0 0 0 0 1'; do
+  printf 'nsvcd-plans 1\njoint x world 0 0 0 0 0 0 1 1 0 0 prismatic -9 9 1\nbody a x sphere: 0.1\nscene s\nobstacle b %s\npath q s 1\n0\n' "$inside" >"$dir/shape.txt"
+  expect 0 '' build/svcd path "$dir/shape.txt"
+  grep -q '^q	hit	' "$dir/out" || fail "a ball in $inside: $(cat "$dir/out")"
+done
+printf 'nsvcd-plans 1\njoint x world 0 0 0 0 0 0 1 1 0 0 prismatic -9 9 1\nbody a x sphere: 0.1\nscene s\nobstacle b cloud: dust.ply 0.1 0 1 0 0 0 0 1\nplan p s -1 1\n' >"$dir/shape.txt"
+expect 1 'dust.ply: a PLY: certificates are of clouds in text' build/svcd plan "$dir/shape.txt" --certificates "$dir/certs"
+grep -q '^p	certified' "$dir/out" || fail "a cloud of a PLY: $(cat "$dir/out")"
+for shape in 'sphere: 0' 'sphere: x' 'sphere:' 'capsule: 1' 'box: 1 2' 'box: 1 -2 3' 'cylinder: 1' 'cloud: 0.1' 'sphere: 0.1 scale 1 1 1' 'sphere: 0.1 0.2' 'cone: 1' 'sphere: 1e7'; do
+  printf 'nsvcd-plans 1\njoint x world 0 0 0 0 0 0 1 1 0 0 prismatic -9 9 1\nbody a x %s\nscene s\nplan p s -1 1\n' "$shape" >"$dir/shape.txt"
+  expect 1 'shape.txt:3: ' build/svcd plan "$dir/shape.txt"
+  expect 2 'shape.txt: ' build/verify "$dir/shape.txt" "$dir/certs"
+  sed "s/^body a x \(.*\)/scene t\nobstacle a \1/" "$dir/shape.txt" >"$dir/shapes.txt"
+  expect 1 'shapes.txt:4: ' build/svcd plan "$dir/shapes.txt"
+done
+for cloud in '' '1 2\n' '1 2 x\n' '1 2 nan\n' '# 1 2 3\n'; do
+  printf "$cloud" >"$dir/bad.xyz"
+  printf 'nsvcd-plans 1\njoint x world 0 0 0 0 0 0 1 1 0 0 prismatic -9 9 1\nbody a x cloud: bad.xyz 0.1\nscene s\nplan p s -1 1\n' >"$dir/shape.txt"
+  expect 1 'shape.txt:3: body a: .*bad.xyz' build/svcd plan "$dir/shape.txt"
+  expect 2 '' build/verify "$dir/shape.txt" "$dir/certs"
+done
+# Curves: past a wall by a detour, which the polyline of their control points cuts; with times, and without.
+curve() {  # WORDS, LINES: a ball on two slides, and a wall
+  printf 'nsvcd-plans 1\njoint x world 0 0 0 0 0 0 1 1 0 0 prismatic -9 9 1\njoint y x 0 0 0 0 0 0 1 0 1 0 prismatic -9 9 1\n'
+  printf 'body a y sphere: 0.1\nscene s\nobstacle b box: 0.2 2 1  0 -0.5 0 0 0 0 1\nplan p s -1 0 1 0\ncurve q s %s\n%bplan late s -1 0 1 0\n' "$1" "$2"
+}
+curved() {  # WORDS, LINES, VERDICT, EDGE
+  curve "$1" "$2" >"$dir/curve.txt"
+  expect 0 '' build/svcd path "$dir/curve.txt"
+  test "$(cut -f 1-3 "$dir/out" | tr '\t' ' ')" = "q $3 $4" || fail "curve $1 $2: $(cat "$dir/out")"
+  expect 0 '' build/svcd plan "$dir/curve.txt" --certificates "$dir/certs"
+  expect 0 '' build/verify "$dir/curve.txt" "$dir/certs"
+  json path "$dir/curve.txt"
+}
+curved '2 3' '-1 0\n0 1.9\n1 0\n' free -1      # it reaches 0.95
+curved '2 3' '-1 0\n0 1.0\n1 0\n' hit 0
+curved '2 5' '-1 0\n-0.5 1.9\n0 1.9\n0.5 1.9\n1 0\n' free -1
+curved '2 5 timed' '0 -1 0\n-0.5 1.9\n1 0 1.9\n0.5 1.9\n5 1 0\n' free -1
+curved '1 3 timed' '0 -1 0\n2 -1 2\n2.5 1 0\n' free -1
+curved '1 3 timed' '0 -1 0\n2 -1 1\n2.5 1 0\n' hit 1
+curved '5 6' '-1 0\n-1 3\n0 3\n0 3\n1 3\n1 0\n' free -1
+curved '2 3 timed' '0 -1 0\n0 1.9\n1e-3 1 0\n' free -1
+curve_refused() {  # LINE, TEXT, WORDS, LINES: a curve that is refused there
+  curve "$3" "$4" >"$dir/curve.txt"
+  expect 1 "curve.txt:$1: $2" build/svcd path "$dir/curve.txt"
+}
+curve_refused 8 'expected: curve ID SCENE DEGREE COUNT' '2' ''
+curve_refused 8 'expected: curve ID SCENE DEGREE COUNT' '2 3 slow' '-1 0\n0 1.9\n1 0\n'
+curve_refused 8 'DEGREE is not in 1..5' '6 7' ''
+curve_refused 8 'DEGREE is not in 1..5' '0 7' ''
+curve_refused 8 'COUNT is not a multiple' '2 4' ''
+curve_refused 8 'COUNT is not a multiple' '2 1' ''
+curve_refused 9 'curve q: its line 0 is not one of 3 numbers' '2 3 timed' '-1 0\n0 1.9\n1 0\n'
+curve_refused 11 'times do not rise' '2 3 timed' '1 -1 0\n0 1.9\n1 1 0\n'
+curve_refused 11 'not a finite number' '2 3 timed' '1 -1 0\n0 1.9\nnan 1 0\n'
+curve_refused 11 'curve q: its line 2 is not one of 2 numbers' '2 3' '-1 0\n0 1.9\n'
+# A snake of 128 joints, which is as many as there may be.
+snake() {  # JOINTS: cubes along x, one beside the 100th joint, past which it swings
+  awk -v n="$1" 'BEGIN { print "nsvcd-plans 1"
+    for (i = 1; i <= n; i++) print "joint j" i, (i > 1 ? "j" i - 1 : "world"), "1.5 0 0 0 0 0 1", 0, i % 2, 1 - i % 2, "revolute -2 2 1"
+    for (i = 1; i <= n; i++) print "body b" i, "j" i, "own.obj scale 0.5 0.5 0.5"
+    for (i = 3; i <= n; i++) print "pair b1 b" i
+    print "scene s\nobstacle c own.obj 155 9 0 0 0 0 1 scale 2 2 2"; printf "plan p s"
+    for (i = 1; i <= 2 * n; i++) printf " %s", i == 100 ? -0.3 : i == n + 100 ? 1.2 : 0
+    print "" }'
+}
+snake 128 >"$dir/snake.txt"
+expect 0 '' build/svcd plan "$dir/snake.txt" --certificates "$dir/certs"
+grep -q '^p	certified' "$dir/out" || fail "a snake: $(cat "$dir/out")"
+expect 0 '' build/verify "$dir/snake.txt" "$dir/certs"
+snake 129 >"$dir/snake.txt"
+expect 1 'snake.txt:130: more joints than NSVCD_MAX_JOINTS' build/svcd plan "$dir/snake.txt"
+expect 2 'too many joints' build/verify "$dir/snake.txt" "$dir/certs"
 mv "$dir/certs/up.cert" "$dir/certs/turned.cert"
 expect 1 '' build/verify "$dir/robot.txt" "$dir/certs"
 grep -q '^turned	refused	its motion has another start or goal' "$dir/out" || fail "another plan's: $(cat "$dir/out")"

@@ -18,6 +18,7 @@ void test_round(void);
 void test_exact(void);
 void test_floor(void);
 void test_robot(void);
+void test_many_joints(void);
 void test_route_looks(void);
 void test_postures(void);
 void test_certificate(void);
@@ -112,6 +113,7 @@ static const test_file files[] = {
     OF(exact),
     OF(floor),
     OF(robot),
+    OF(many_joints),
     OF(route_looks),
     OF(postures),
     OF(certificate),

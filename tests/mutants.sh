@@ -224,9 +224,9 @@ asks: nothing between the directions|area > NSVCD__SLIM * square) return 0;|area
 asks: few places looked at|if (tries == NSVCD__CONTACT_PAIRS|if (tries == 3
 robot: joints that do not bend|bend += step->bend[j] * arms[j];|(void)bend;
 robot: half the bend|bend += step->bend[j] * arms[j];|bend += 0.5 * step->bend[j] * arms[j];
-robot: joints that do not turn each other|(2 * inner + own)|(own)
-robot: joints that turn each other once|(2 * inner + own)|(inner + own)
-robot: joints without a square|(2 * inner + own)|(2 * inner)
+robot: joints that do not turn each other|(2 * outer + moved)|(moved)
+robot: joints that turn each other once|(2 * outer + moved)|(outer + moved)
+robot: joints without a square|(2 * outer + moved)|(2 * outer)
 robot: no slerp|w * w * c->members[part].extent) / 8|0 * w * c->members[part].extent) / 8
 robot: a slerp of half the angle|return 2 * nsvcd__dquat_arc(|return nsvcd__dquat_arc(
 robot: levers of the centre|+ m->radius + moved;|+ moved;
@@ -261,7 +261,7 @@ robot: a last proof that nobody ends|whole.stop = r->check.stop;|
 robot: trees that stay in their holes|if (r->idle[turn % 2] >= NSVCD__IDLE \&\&|if (0 \&\&
 robot: limits of joints that a route may leave|return answer->verdict == NSVCD_FREE \&\& answer->joint == NSVCD_NONE;|return answer->verdict == NSVCD_FREE;
 robot: whole turns are gone|at[j] -= full_turn * turns;|at[j] -= 0 * turns;
-postures: slopes by the lever alone|slope[j] += sign * nsvcd__d3_dot(normal, speed);|slope[j] += sign * nsvcd__d3_norm(speed);
+postures: slopes by the lever alone|slope[link - 1] += sign * nsvcd__d3_dot(normal, speed);|slope[link - 1] += sign * nsvcd__d3_norm(speed);
 postures: slopes of a alone|nsvcd__slope_add(c, pair->b, \&local, point, normal, -1, out->slope);|
 postures: depths of a alone|nsvcd__slope_add(c, pair->b, local, point, normal, -1 / rate, out->slope);|
 postures: depths without a rate|nsvcd__slope_add(c, pair->a, local, on_a, normal, 1 / rate, out->slope);|nsvcd__slope_add(c, pair->a, local, on_a, normal, 1, out->slope);

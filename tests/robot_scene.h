@@ -9,7 +9,7 @@
 
 #define SHAPES 7
 #define FAR_SHAPE 6  // 1 m from its origin
-#define MOST_PARTS 40
+#define MOST_PARTS 160
 #define SMALL 0.3f  // scale of an arm's small parts
 #ifndef ROBOT_BALLS
 #define ROBOT_BALLS 0  // of each shape
@@ -106,11 +106,11 @@ static void robot_bare(robot *r, nsvcd_joint_kind kind, uint32_t joints, uint32_
 }
 
 // A tree of joints of all kinds, with a body on each link, anywhere in it.
-static void robot_random(robot *r, shapes_rng *rng) {
+static void robot_random_of(robot *r, shapes_rng *rng, size_t joints) {
   memset(r, 0, sizeof *r);
   r->scene.joints = r->joints;
   r->scene.parts = r->parts;
-  r->scene.joint_count = 1 + (size_t)shapes_pick(rng, 8);
+  r->scene.joint_count = joints;
   r->scene.part_count = r->scene.joint_count;
   const int is_chain = shapes_pick(rng, 2);
   for (size_t i = 0; i < r->scene.joint_count; i++) {
@@ -139,6 +139,10 @@ static void robot_random(robot *r, shapes_rng *rng) {
     oracle_rotate(m, centre, off);
     for (int k = 0; k < 3; k++) r->parts[i].pose.position[k] = (float)-off[k];
   }
+}
+
+static void robot_random(robot *r, shapes_rng *rng) {
+  robot_random_of(r, rng, 1 + (size_t)shapes_pick(rng, 8));
 }
 
 static double scale_of_part(const nsvcd_part *part) {

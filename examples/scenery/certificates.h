@@ -157,9 +157,21 @@ static void put_double(FILE *out, double value) {
 // The tree of a part's mesh, made once for all plans of the file. Returns NULL after a complaint.
 static const proof_mesh *tree_of_part(const robot_in_room *in, size_t part) {
   robot_mesh *mesh = &in->file->meshes[robot_thing_of(in, part)->mesh];
-  const int good =
-      mesh->proof.tree || load_tree(in->file->path, mesh->path, mesh->scale, &mesh->proof);
+  const int good = mesh->proof.tree || load_shape_tree(in->file->path, &mesh->shape, &mesh->proof);
   return good ? &mesh->proof : NULL;
+}
+
+static double radius_of_part(const robot_in_room *in, size_t part) {
+  return shape_radius(&in->file->meshes[robot_thing_of(in, part)->mesh].shape);
+}
+
+// The distance that the skeletons of a pair's shapes keep: a float, and no less.
+static float skeleton_clearance(const robot_in_room *in, size_t pair) {
+  const nsvcd_body_pair *parts = &in->scene.pairs[pair];
+  const double sum =
+      (double)in->clearances[pair] + (radius_of_part(in, parts->a) + radius_of_part(in, parts->b));
+  const float rounded = (float)sum;
+  return (double)rounded < sum ? nextafterf(rounded, HUGE_VALF) : rounded;
 }
 
 // Makes the certificate of a pair; *bytes is to be freed. Returns 0 after a complaint, also if there
@@ -181,8 +193,8 @@ static int make_pair_proof(const robot_in_room *in, const char *id,
     if (made->size > room) room = made->size;
     free(*bytes);
     *bytes = (uint8_t *)allocate(room);
-    result = nsvcd_certify_pair(in->checker, motion, pair, in->clearances[pair], a->tree, b->tree,
-                                &options, workspace, size, *bytes, room, made);
+    result = nsvcd_certify_pair(in->checker, motion, pair, skeleton_clearance(in, pair), a->tree,
+                                b->tree, &options, workspace, size, *bytes, room, made);
   } while (!result && made->size > room);
   free(workspace);
   if (result) return complain("%s: %s", id, reason_of(result));

@@ -149,6 +149,13 @@ typedef struct proof_mesh {
   const nsvcd_tree *tree;
 } proof_mesh;
 
+static int build_tree(const char *path, proof_mesh *out) {
+  const size_t size = nsvcd_tree_size(&out->mesh);
+  out->memory = allocate(size);
+  const nsvcd_result result = nsvcd_tree_build(&out->mesh, out->memory, size, &out->tree);
+  return result ? complain("%s: %s", path, reason_of(result)) : 1;
+}
+
 // Loads a mesh that a file names, scaled (NULL: as it is), and makes its tree. Returns 0 after a
 // complaint.
 static int load_tree(const char *file, const char *name, const double *scale, proof_mesh *out) {
@@ -160,10 +167,7 @@ static int load_tree(const char *file, const char *name, const double *scale, pr
     return complain("%s: a %s: certificates are of OBJ and STL, as build/verify reads no other",
                     path, format);
   if (scale) scale_mesh(&out->mesh, scale);
-  const size_t size = nsvcd_tree_size(&out->mesh);
-  out->memory = allocate(size);
-  const nsvcd_result result = nsvcd_tree_build(&out->mesh, out->memory, size, &out->tree);
-  return result ? complain("%s: %s", path, reason_of(result)) : 1;
+  return build_tree(path, out);
 }
 static void free_tree(proof_mesh *mesh) {
   nsvcd_mesh_free(&mesh->mesh, NULL);

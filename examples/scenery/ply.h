@@ -275,17 +275,13 @@ static inline int ply_has_places(const ply_element *element) {
   return (parts & 7) == 7;
 }
 
-// Returns 1, or 0 with a reason in *fault.
-static inline int ply_parse(const char *data, size_t size, const nsvcd_mesh_options *options,
-                            const nsvcd_allocator *allocator, nsvcd_mesh *mesh, mesh_fault *fault) {
-  mesh_soup soup;
+// Reads vertices and faces. Returns 1, or 0 with a reason in *fault; soup is to be freed in any case.
+static inline int ply_read(const char *data, size_t size, mesh_soup *soup, mesh_fault *fault) {
   ply_reader r;
-  memset(&soup, 0, sizeof soup);
   memset(&r, 0, sizeof r);
   r.at = data;
   r.end = data + size;
-  r.soup = &soup;
-  soup.options = options;
+  r.soup = soup;
   r.fault = fault;
   ply_element *elements = (ply_element *)malloc(PLY_ELEMENTS * sizeof *elements);
   size_t count = elements ? ply_header(&r, elements) : 0;
@@ -296,13 +292,22 @@ static inline int ply_parse(const char *data, size_t size, const nsvcd_mesh_opti
       good = mesh_refuse(fault, "its vertices have no x, y and z");
     good = good && ply_rows(&r, &elements[i]);
   }
-  if (good) r.line = 0;
-  if (good && !soup.faces) good = mesh_refuse(fault, "no faces: a cloud of points?");
-  good = good && mesh_soup_finish(&soup, allocator, mesh, fault);
   if (!elements) mesh_refuse(fault, PLY_NO_MEMORY);
   // a binary file has lines only in its header
   fault->line = good || (count && !r.is_text) ? 0 : r.line;
   free(elements);
+  return good;
+}
+
+// Returns 1, or 0 with a reason in *fault.
+static inline int ply_parse(const char *data, size_t size, const nsvcd_mesh_options *options,
+                            const nsvcd_allocator *allocator, nsvcd_mesh *mesh, mesh_fault *fault) {
+  mesh_soup soup;
+  memset(&soup, 0, sizeof soup);
+  soup.options = options;
+  int good = ply_read(data, size, &soup, fault);
+  if (good && !soup.faces) good = mesh_refuse(fault, "no faces: a cloud of points?");
+  good = good && mesh_soup_finish(&soup, allocator, mesh, fault);
   mesh_soup_free(&soup);
   return good;
 }

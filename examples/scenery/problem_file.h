@@ -89,7 +89,7 @@ typedef struct problem_file {
 
 #define POSE_FIELDS 7
 #define PROBLEM_FIELDS 16
-#define MOST_FIELDS 80  // a line's; a problem may have one more than PROBLEM_FIELDS
+#define MOST_FIELDS 300  // a line's; a plan has two for each joint, and a few more
 
 typedef struct reader {
   const char *path;

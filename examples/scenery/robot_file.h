@@ -1,23 +1,25 @@
 // robot_file.h - reads planning files (version 1), with messages that name file, line and reason.
-// Include problem_file.h and load.h first.
+// Include
+// problem_file.h, load.h and robot_shapes.h first.
 //
 //   nsvcd-plans 1
 //   joint NAME PARENT  x y z qx qy qz qw  ax ay az  KIND LOW HIGH SPEED [ACCELERATION]
-//   body NAME JOINT PATH [pose x y z qx qy qz qw] [scale SX SY SZ]
-//   pair NAME NAME [METRES]
+//   body NAME JOINT SHAPE [pose x y z qx qy qz qw] [scale SX SY SZ]
+//   pair NAME NAME
 //   scene NAME
-//   obstacle NAME PATH  x y z qx qy qz qw [scale SX SY SZ]
+//   obstacle NAME SHAPE  x y z qx qy qz qw [scale SX SY SZ]
+//   clearance NAME NAME METRES, or: clearance obstacles METRES
 //   plan ID SCENE  start...  goal...
 //   path ID SCENE COUNT        # COUNT lines of joints follow
+//   curve ID SCENE DEGREE COUNT [timed]   # so do COUNT lines here
 //
 // examples/FORMATS.md says what they mean.
 #ifndef NSVCD_SCENERY_ROBOT_FILE_H
 #define NSVCD_SCENERY_ROBOT_FILE_H
 
-// A mesh of a file; the same path at the same scale is encoded once.
+// A mesh of a file, or another shape; the same one is encoded once.
 typedef struct robot_mesh {
-  const char *path;
-  double scale[3];
+  robot_shape shape;
   size_t line;              // the line that names it first
   const char *kind, *name;  // "body" or "obstacle", and its name, there
   int is_needed;
@@ -34,10 +36,11 @@ typedef struct robot_thing {
   nsvcd_pose pose;
 } robot_thing;
 
-typedef struct robot_pair {
-  nsvcd_body_pair parts;
-  float clearance;  // metres; below 0: the one that is asked for
-} robot_pair;
+typedef struct robot_clearance {
+  size_t room;   // the scene that it holds in; NSVCD_NONE: all
+  size_t at[2];  // two things; NSVCD_NONE: each pair with an obstacle
+  float metres;
+} robot_clearance;
 
 typedef struct robot_room {  // a scene
   const char *name;
@@ -49,6 +52,8 @@ typedef struct robot_task {
   size_t line, room;
   size_t points;  // 0: a plan, whose start and goal are two rows
   size_t first;   // the first of its numbers
+  size_t degree;  // of a curve, else 0
+  size_t times;   // of a curve: the first of its times; NSVCD_NONE: it has none
 } robot_task;
 
 typedef struct robot_file {
@@ -58,14 +63,15 @@ typedef struct robot_file {
   nsvcd_joint joints[NSVCD_MAX_JOINTS];
   robot_mesh *meshes;
   robot_thing *things;  // the robot's bodies, then obstacles
-  robot_pair *pairs;
+  nsvcd_body_pair *pairs;
+  robot_clearance *clearances;
   robot_room *rooms;
   robot_task *tasks;
-  double *numbers;
-  size_t joint_count, mesh_count, thing_count, body_count, pair_count, room_count, task_count,
-      number_count;
-  size_t mesh_capacity, thing_capacity, pair_capacity, room_capacity, task_capacity,
-      number_capacity;
+  double *numbers, *times;
+  size_t joint_count, mesh_count, thing_count, body_count, pair_count, clearance_count, room_count,
+      task_count, number_count, time_count;
+  size_t mesh_capacity, thing_capacity, pair_capacity, clearance_capacity, room_capacity,
+      task_capacity, number_capacity, time_capacity;
 } robot_file;
 
 // Adds an item to a list, and clears it.
@@ -122,15 +128,12 @@ static int robot_read_joint(const reader *r, robot_file *file) {
   return 1;
 }
 
-static size_t robot_find_mesh(robot_file *file, const reader *r, const char *path,
-                              const double scale[3]) {
+// Adds a shape, unless it is there already. Returns which one it is.
+static size_t robot_find_mesh(robot_file *file, const reader *r, const robot_shape *shape) {
   for (size_t i = 0; i < file->mesh_count; i++)
-    if (strcmp(file->meshes[i].path, path) == 0 &&
-        memcmp(file->meshes[i].scale, scale, sizeof file->meshes[i].scale) == 0)
-      return i;
+    if (robot_same_shape(&file->meshes[i].shape, shape)) return i;
   robot_mesh *mesh = ROBOT_ADD(file->meshes, file->mesh_count, file->mesh_capacity);
-  mesh->path = path;
-  memcpy(mesh->scale, scale, sizeof mesh->scale);
+  mesh->shape = *shape;
   mesh->line = r->line;
   mesh->kind = r->fields[0];
   mesh->name = r->fields[1];
@@ -139,8 +142,9 @@ static size_t robot_find_mesh(robot_file *file, const reader *r, const char *pat
 
 // Reads what may follow from a field on: `pose` and `scale`, each once. pose: NULL if the line has
 // one of its own.
-static int robot_read_words(const reader *r, size_t at, nsvcd_pose *pose, double scale[3]) {
-  int has_scale = 0;
+static int robot_read_words(const reader *r, size_t at, nsvcd_pose *pose, robot_shape *shape) {
+  double *scale = shape->scale;
+  int has_scale = shape->kind != ROBOT_MESH;
   scale[0] = scale[1] = scale[2] = 1;
   while (at < r->field_count) {
     char *const *f = r->fields + at;
@@ -156,6 +160,8 @@ static int robot_read_words(const reader *r, size_t at, nsvcd_pose *pose, double
           return refuse_field(r, "a scale, or minus one, is not in 1e-6..1e6", f[1 + k]);
       has_scale = 1;
       at += 4;
+    } else if (shape->kind != ROBOT_MESH && strcmp(f[0], "scale") == 0) {
+      return refuse(r, "a scale is of meshes only");
     } else {
       return refuse_field(r,
                           pose ? "expected 'pose x y z qx qy qz qw' or 'scale SX SY SZ', each once"
@@ -177,16 +183,19 @@ static int robot_find(const robot_file *file, size_t first, const char *name, si
 
 static int robot_read_body(const reader *r, robot_file *file) {
   size_t found;
+  size_t at = 3;
   uint32_t link;
-  double scale[3];
+  robot_shape shape;
   nsvcd_pose pose = {{0, 0, 0}, {0, 0, 0, 1}};
   if (r->field_count < 4)
-    return refuse(r, "expected: body NAME JOINT PATH [pose x y z qx qy qz qw] [scale SX SY SZ]");
+    return refuse(r, "expected: body NAME JOINT SHAPE [pose x y z qx qy qz qw] [scale SX SY SZ]");
   if (file->room_count > 0) return refuse(r, "a body after the first scene");
   if (robot_find(file, 0, r->fields[1], &found))
     return refuse_field(r, "a second body of this name", r->fields[1]);
-  if (!robot_link(r, file, r->fields[2], &link) || !robot_read_words(r, 4, &pose, scale)) return 0;
-  const size_t mesh = robot_find_mesh(file, r, r->fields[3], scale);
+  if (!robot_link(r, file, r->fields[2], &link) || !robot_read_shape(r, &at, &shape) ||
+      !robot_read_words(r, at, &pose, &shape))
+    return 0;
+  const size_t mesh = robot_find_mesh(file, r, &shape);
   robot_thing *thing = ROBOT_ADD(file->things, file->thing_count, file->thing_capacity);
   thing->name = r->fields[1];
   thing->mesh = mesh;
@@ -198,22 +207,55 @@ static int robot_read_body(const reader *r, robot_file *file) {
 
 static int robot_read_pair(const reader *r, robot_file *file) {
   size_t at[2];
-  double clearance = -1;
-  if (r->field_count != 3 && r->field_count != 4)
-    return refuse(r, "expected: pair NAME NAME [METRES]");
+  if (r->field_count != 3) return refuse(r, "expected: pair NAME NAME");
   if (file->room_count > 0) return refuse(r, "a pair after the first scene");
   for (int k = 0; k < 2; k++)
     if (!robot_find(file, 0, r->fields[1 + k], &at[k]))
       return refuse_field(r, "no body of this name above", r->fields[1 + k]);
   if (file->things[at[0]].link == file->things[at[1]].link)
     return refuse(r, "both follow the same joint");
-  if (r->field_count == 4 && !robot_number(r, r->fields[3], &clearance)) return 0;
-  if (r->field_count == 4 && clearance < 0)
-    return refuse_field(r, "a clearance is negative", r->fields[3]);
-  robot_pair *pair = ROBOT_ADD(file->pairs, file->pair_count, file->pair_capacity);
-  pair->parts.a = (uint32_t)at[0];
-  pair->parts.b = (uint32_t)at[1];
-  pair->clearance = (float)clearance;
+  nsvcd_body_pair *pair = ROBOT_ADD(file->pairs, file->pair_count, file->pair_capacity);
+  pair->a = (uint32_t)at[0];
+  pair->b = (uint32_t)at[1];
+  return 1;
+}
+
+// Are two things, in any order, the ones that a line is about?
+static int robot_is_about(const robot_clearance *line, size_t a, size_t b) {
+  return (line->at[0] == a && line->at[1] == b) || (line->at[0] == b && line->at[1] == a);
+}
+
+// Is there such a pair: by a `pair` line, or of a body that moves and an obstacle?
+static int robot_are_pair(const robot_file *file, const robot_clearance *line) {
+  const size_t low = line->at[0] < line->at[1] ? line->at[0] : line->at[1];
+  const size_t high = low == line->at[0] ? line->at[1] : line->at[0];
+  if (high >= file->body_count) return low < file->body_count && file->things[low].link > 0;
+  for (size_t n = 0; n < file->pair_count; n++)
+    if (robot_is_about(line, file->pairs[n].a, file->pairs[n].b)) return 1;
+  return 0;
+}
+
+static int robot_read_clearance(const reader *r, robot_file *file) {
+  const size_t rooms = file->room_count;
+  robot_clearance line = {rooms ? rooms - 1 : NSVCD_NONE, {NSVCD_NONE, NSVCD_NONE}, 0};
+  double metres;
+  const int is_of_obstacles = r->field_count == 3 && strcmp(r->fields[1], "obstacles") == 0;
+  if (r->field_count != 4 && !is_of_obstacles)
+    return refuse(r, "expected: clearance NAME NAME METRES, or: clearance obstacles METRES");
+  for (int k = 0; k < 2 && !is_of_obstacles; k++)
+    if (!robot_find(file, rooms ? file->rooms[rooms - 1].first : 0, r->fields[1 + k], &line.at[k]))
+      return refuse_field(r, "no body of this name above", r->fields[1 + k]);
+  if (!is_of_obstacles && !robot_are_pair(file, &line))
+    return refuse(r, "neither a pair above, nor a body that moves and an obstacle");
+  for (size_t n = 0; n < file->clearance_count; n++)
+    if (file->clearances[n].room == line.room &&
+        robot_is_about(&file->clearances[n], line.at[0], line.at[1]))
+      return refuse(r, "a second clearance of these");
+  const char *last = r->fields[r->field_count - 1];
+  if (!robot_number(r, last, &metres)) return 0;
+  if (metres < 0) return refuse_field(r, "a clearance is negative", last);
+  line.metres = (float)metres;
+  *ROBOT_ADD(file->clearances, file->clearance_count, file->clearance_capacity) = line;
   return 1;
 }
 
@@ -237,16 +279,19 @@ static int robot_read_scene(const reader *r, robot_file *file) {
 
 static int robot_read_obstacle(const reader *r, robot_file *file) {
   size_t found;
+  size_t at = 2;
   nsvcd_pose pose;
-  double scale[3];
-  if (r->field_count < 10)
-    return refuse(r, "expected: obstacle NAME PATH x y z qx qy qz qw [scale SX SY SZ]");
+  robot_shape shape;
+  static const char form[] = "expected: obstacle NAME SHAPE x y z qx qy qz qw [scale SX SY SZ]";
+  if (r->field_count < 3) return refuse(r, form);
   if (file->room_count == 0) return refuse(r, "no scene above");
   robot_room *room = &file->rooms[file->room_count - 1];
   if (robot_find(file, room->first, r->fields[1], &found))
     return refuse_field(r, "a second body of this name", r->fields[1]);
-  if (!read_pose(r, r->fields + 3, &pose) || !robot_read_words(r, 10, NULL, scale)) return 0;
-  const size_t mesh = robot_find_mesh(file, r, r->fields[2], scale);
+  if (!robot_read_shape(r, &at, &shape)) return 0;
+  if (at + 7 > r->field_count) return refuse(r, form);
+  if (!read_pose(r, r->fields + at, &pose) || !robot_read_words(r, at + 7, NULL, &shape)) return 0;
+  const size_t mesh = robot_find_mesh(file, r, &shape);
   robot_thing *thing = ROBOT_ADD(file->things, file->thing_count, file->thing_capacity);
   thing->name = r->fields[1];
   thing->mesh = mesh;
@@ -295,62 +340,75 @@ static int robot_read_task(reader *r, robot_file *file) {
   return 1;
 }
 
+// Reads a line of a curve, which begins with a time if it is timed.
+static int robot_read_point(const reader *r, robot_file *file, int is_timed) {
+  double time;
+  if (!robot_read_joints(r, file, r->fields + is_timed)) return 0;
+  if (!is_timed) return 1;
+  if (!robot_number(r, r->fields[0], &time)) return 0;
+  *ROBOT_ADD(file->times, file->time_count, file->time_capacity) = time;
+  return 1;
+}
+
+// A curve's lines are Bezier points; where a piece begins or ends they may begin with the time.
+static int robot_read_curve(reader *r, robot_file *file) {
+  robot_task task;
+  char *const *f = r->fields;
+  memset(&task, 0, sizeof task);
+  const int is_timed = r->field_count == 6 && strcmp(f[5], "timed") == 0;
+  if (r->field_count != 5 && !is_timed)
+    return refuse(r, "expected: curve ID SCENE DEGREE COUNT [timed]");
+  task.id = f[1];
+  task.line = r->line;
+  task.first = file->number_count;
+  task.times = is_timed ? file->time_count : NSVCD_NONE;
+  if (!robot_find_room(file, f[2], &task.room))
+    return refuse_field(r, "no scene of this name above", f[2]);
+  if (!parse_count(f[3], 1, NSVCD_MAX_DEGREE, &task.degree))
+    return refuse_field(r, "DEGREE is not in 1..5", f[3]);
+  if (!parse_count(f[4], 2, 10000000, &task.points) || (task.points - 1) % task.degree != 0)
+    return refuse_field(r, "COUNT is not a multiple of DEGREE and 1, up to 10000000", f[4]);
+  for (size_t i = 0; i < task.points; i++) {
+    const int has_time = is_timed && i % task.degree == 0;
+    const size_t needed = file->joint_count + (size_t)has_time;
+    if (!next_line(r) || r->field_count != needed)
+      return complain("%s:%zu: curve %s: its line %zu is not one of %zu numbers", r->path, r->line,
+                      task.id, i, needed);
+    if (!robot_read_point(r, file, has_time)) return 0;
+    const double *last = file->times + file->time_count - 1;
+    if (has_time && i > 0 && !(last[0] > last[-1])) return refuse(r, "times do not rise");
+  }
+  *ROBOT_ADD(file->tasks, file->task_count, file->task_capacity) = task;
+  return 1;
+}
+
 static int read_robot(const char *path, robot_file *file) {
   static const struct {
     const char *word;
     int (*read)(const reader *r, robot_file *file);
-  } lines[] = {{"joint", robot_read_joint},
-               {"body", robot_read_body},
-               {"pair", robot_read_pair},
-               {"scene", robot_read_scene},
-               {"obstacle", robot_read_obstacle}};
+  } lines[] = {{"joint", robot_read_joint}, {"body", robot_read_body},
+               {"pair", robot_read_pair},   {"clearance", robot_read_clearance},
+               {"scene", robot_read_scene}, {"obstacle", robot_read_obstacle}};
+  const size_t count = sizeof lines / sizeof lines[0];
   reader r;
   memset(file, 0, sizeof *file);
   file->path = shown_name(path);
   if (!open_reader(path, "nsvcd-plans", &file->text, &r)) return 0;
   while (next_line(&r)) {
+    const int is_curve = strcmp(r.fields[0], "curve") == 0;
     const int is_task = strcmp(r.fields[0], "plan") == 0 || strcmp(r.fields[0], "path") == 0;
     size_t k = 0;
-    while (k < 5 && strcmp(lines[k].word, r.fields[0]) != 0) k++;
-    if (k == 5 && !is_task)
+    while (k < count && strcmp(lines[k].word, r.fields[0]) != 0) k++;
+    if (k == count && !is_task && !is_curve)
       return refuse_field(&r,
-                          "expected 'joint', 'body', 'pair', 'scene', 'obstacle', 'plan' or 'path'",
+                          "expected 'joint', 'body', 'pair', 'clearance', 'scene', 'obstacle', "
+                          "'plan', 'path' or 'curve'",
                           r.fields[0]);
     if (r.field_count > MOST_FIELDS) return refuse(&r, "too many fields");
-    if (!(is_task ? robot_read_task(&r, file) : lines[k].read(&r, file))) return 0;
-  }
-  return 1;
-}
-
-// Notes which meshes are needed: those of the robot, and of a room, unless it is NSVCD_NONE.
-static void need_room(robot_file *file, size_t room) {
-  const size_t first = room == NSVCD_NONE ? 0 : file->rooms[room].first;
-  const size_t count = room == NSVCD_NONE ? 0 : file->rooms[room].count;
-  for (size_t n = 0; n < file->body_count; n++) {
-    file->meshes[file->things[n].mesh].is_needed = 1;
-    if (file->things[n].link) file->meshes[file->things[n].mesh].moves = 1;
-  }
-  for (size_t n = first; n < first + count; n++) file->meshes[file->things[n].mesh].is_needed = 1;
-}
-
-// Loads and encodes the meshes that are needed; balls are for those that move. Returns 0 after a
-// complaint.
-static int encode_robot(robot_file *file, const nsvcd_encode_options *options, size_t *count,
-                        double *taken) {
-  *count = 0;
-  *taken = 0;
-  for (size_t i = 0; i < file->mesh_count; i++) {
-    robot_mesh *mesh = &file->meshes[i];
-    char from[1024];
-    double one;
-    nsvcd_encode_options own = *options;
-    if (!mesh->moves) own.balls = 0;
-    if (!mesh->is_needed) continue;
-    ++*count;
-    snprintf(from, sizeof from, "%s:%zu: %s %s: ", file->path, mesh->line, mesh->kind, mesh->name);
-    mesh->body = encode_named(from, file->path, mesh->path, mesh->scale, &own, &one);
-    if (!mesh->body) return 0;
-    *taken += one;
+    if (!(is_curve  ? robot_read_curve(&r, file)
+          : is_task ? robot_read_task(&r, file)
+                    : lines[k].read(&r, file)))
+      return 0;
   }
   return 1;
 }
@@ -364,83 +422,10 @@ static void free_robot(robot_file *file) {
   free(file->meshes);
   free(file->things);
   free(file->pairs);
+  free(file->clearances);
   free(file->rooms);
   free(file->tasks);
   free(file->numbers);
-}
-
-// The robot in a scene, and a checker of it.
-typedef struct robot_in_room {
-  const robot_file *file;
-  const robot_room *room;
-  nsvcd_part *parts;
-  nsvcd_body_pair *pairs;
-  float *clearances;
-  nsvcd_scene scene;
-  void *memory;
-  nsvcd_checker *checker;
-} robot_in_room;
-
-static const robot_thing *robot_thing_of(const robot_in_room *in, size_t part) {
-  const size_t bodies = in->file->body_count;
-  return &in->file->things[part < bodies ? part : in->room->first + part - bodies];
-}
-static const char *robot_name(const robot_in_room *in, size_t part) {
-  return robot_thing_of(in, part)->name;
-}
-
-static void leave_room(robot_in_room *in) {
-  free(in->parts);
-  free(in->pairs);
-  free(in->clearances);
-  free(in->memory);
-  memset(in, 0, sizeof *in);
-}
-
-// Pairs are those of the file, and each body that moves with each obstacle. room: NSVCD_NONE: there
-// are no obstacles. clearance: metres, of pairs that have none of their own. Returns 0 after a
-// complaint.
-static int enter_room(const robot_file *file, size_t room, float clearance, robot_in_room *in) {
-  static const robot_room nowhere = {"", 0, 0};
-  const size_t bodies = file->body_count;
-  leave_room(in);
-  in->file = file;
-  in->room = room == NSVCD_NONE ? &nowhere : &file->rooms[room];
-  const size_t count = bodies + in->room->count;
-  in->parts = (nsvcd_part *)allocate(count * sizeof *in->parts);
-  const size_t most = file->pair_count + bodies * in->room->count;
-  in->pairs = (nsvcd_body_pair *)allocate(most * sizeof *in->pairs);
-  in->clearances = (float *)allocate(most * sizeof *in->clearances);
-  memset(in->parts, 0, count * sizeof *in->parts);
-  for (size_t n = 0; n < count; n++) {
-    const robot_thing *thing = &file->things[n < bodies ? n : in->room->first + n - bodies];
-    in->parts[n].body = file->meshes[thing->mesh].body;
-    in->parts[n].link = thing->link;
-    in->parts[n].pose = thing->pose;
-  }
-  nsvcd_scene *scene = &in->scene;
-  scene->joints = file->joints;
-  scene->joint_count = file->joint_count;
-  scene->parts = in->parts;
-  scene->part_count = count;
-  scene->pairs = in->pairs;
-  scene->pair_count = file->pair_count;
-  scene->clearances = in->clearances;
-  for (size_t n = 0; n < most; n++) in->clearances[n] = clearance;
-  for (size_t n = 0; n < file->pair_count; n++) {
-    in->pairs[n] = file->pairs[n].parts;
-    if (file->pairs[n].clearance >= 0) in->clearances[n] = file->pairs[n].clearance;
-  }
-  for (size_t a = 0; a < bodies; a++) {
-    for (size_t b = bodies; b < count && in->parts[a].link > 0; b++) {
-      const nsvcd_body_pair pair = {(uint32_t)a, (uint32_t)b};
-      in->pairs[scene->pair_count++] = pair;
-    }
-  }
-  const size_t size = nsvcd_checker_size(scene);
-  in->memory = allocate(size);
-  const nsvcd_result result = nsvcd_checker_open(scene, in->memory, size, &in->checker);
-  if (result) return complain("%s: scene %s: %s", file->path, in->room->name, reason_of(result));
-  return 1;
+  free(file->times);
 }
 #endif  // NSVCD_SCENERY_ROBOT_FILE_H

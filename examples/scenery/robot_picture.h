@@ -25,10 +25,9 @@ static int robot_picture_open(robot_picture *p, const robot_in_room *in) {
   p->meshes = (oracle_mesh *)allocate(file->mesh_count * sizeof *p->meshes);
   memset(p->meshes, 0, file->mesh_count * sizeof *p->meshes);
   for (size_t i = 0; i < file->mesh_count && good; i++) {
-    char path[4096];
     nsvcd_mesh mesh;
-    path_of(file->path, file->meshes[i].path, path, sizeof path);
-    if (!load_mesh("", path, &mesh)) return 0;
+    if (!file->meshes[i].is_needed) continue;
+    if (!load_shape(file->path, &file->meshes[i].shape, &mesh)) return 0;
     double *points = (double *)allocate(3 * mesh.vertex_count * sizeof *points);
     for (size_t n = 0; n < 3 * mesh.vertex_count; n++) points[n] = (double)mesh.positions[n];
     good = oracle_mesh_init(&p->meshes[i], points, mesh.vertex_count, mesh.indices,

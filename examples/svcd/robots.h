@@ -261,27 +261,38 @@ static nsvcd_result path_edge(const robot_in_room *in, const nsvcd_joint_motion 
   }
 }
 
-// Answers a path, edge by edge.
+// An edge of a path, or all of a curve.
+static nsvcd_joint_motion motion_of_task(const robot_file *file, const robot_task *task,
+                                         size_t edge) {
+  const double *points = file->numbers + task->first;
+  const double *times = task->times == NSVCD_NONE ? NULL : file->times + task->times;
+  const nsvcd_joint_motion path = {task->points > 1, 1, points + edge * file->joint_count, NULL};
+  if (!task->degree) return path;
+  const nsvcd_joint_motion curve = {(task->points - 1) / task->degree, task->degree, points, times};
+  return curve;
+}
+
+// Answers a path, edge by edge, or a curve.
 static int path_one(const robot_in_room *in, const robot_task *task, const settings *options,
                     FILE *out) {
   waiting wait = wait_for(options);
   nsvcd_check_answer answer;
   nsvcd_result result = NSVCD_OK;
-  const size_t joints = in->file->joint_count;
-  const size_t edges = task->points > 1 ? task->points - 1 : 1;
+  const size_t edges = task->points > 1 && !task->degree ? task->points - 1 : 1;
   size_t edge = 0;
   memset(&answer, 0, sizeof answer);
   (void)out;
   const double began = seconds();
   for (size_t k = 0; k < edges && !result; k++) {
-    const double *points = in->file->numbers + task->first + k * joints;
-    const nsvcd_joint_motion motion = {task->points > 1, 1, points, NULL};
+    const nsvcd_joint_motion motion = motion_of_task(in->file, task, k);
     edge = k;
     result = path_edge(in, &motion, options, &wait, &answer);
     if (answer.verdict != NSVCD_FREE) break;
   }
-  const double mean = 1e6 * (seconds() - began) / (double)(edge + 1);
+  const size_t pieces = task->degree ? (task->points - 1) / task->degree : edge + 1;
+  const double mean = 1e6 * (seconds() - began) / (double)pieces;
   wait_no_more(&wait);
+  if (task->degree && answer.piece != NSVCD_NONE) edge = answer.piece;
   if (result)
     return complain("%s:%zu: %s: %s", in->file->path, task->line, task->id, reason_of(result));
   const int is_free = answer.verdict == NSVCD_FREE;

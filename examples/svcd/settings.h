@@ -9,7 +9,9 @@
 #include "../scenery/options.h"
 #include "../scenery/manual.h"
 #include "../scenery/json_write.h"
+#include "../scenery/robot_shapes.h"
 #include "../scenery/robot_file.h"
+#include "../scenery/robot_room.h"
 #include "../scenery/problem_summary.h"
 #include "../scenery/sweep_motion.h"
 // and these of the oracle

@@ -28,7 +28,7 @@
 #define NSVCD_VERIFY_ROBOT_H
 #include "nsvcd_verify.h"
 
-#define NSVCD_VERIFY_JOINTS 32
+#define NSVCD_VERIFY_JOINTS 128
 #define NSVCD_VERIFY_DEGREE 5
 
 typedef struct nsvcd_verify_joint {
@@ -221,7 +221,7 @@ static inline const char *nsvcd_verify_motion_check(const nsvcd_verify_motion *m
     const double whole = verify__piece_end(m, piece + 1) - verify__piece_end(m, piece);
     for (size_t k = 0; k < m->joint_count; k++) {
       const double *value = &m->points[i * m->joint_count + k];
-      if (!verify__within_double(*value, m->joints[k].slides ? 1e6 : 1e3))
+      if (!verify__within_double(*value, m->joints[k].slides ? 1e6 : 250))
         return "a joint is out of range";
       const double step = i > 0 ? (double)m->degree * fabs(*value - *(value - m->joint_count)) : 0;
       if (!(step <= 1e5 * whole)) return "a joint is too fast";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // verify.c - checks a folder of certificates against a problem file. It shares no code with
 // neuralsvcd.h. To be believed are nsvcd_verify.h and its files, and of what is read, which mesh,
-// motion and pair it is, verify_files.h and verify_plans.h.
+// motion and pair it is, verify_files.h, verify_shapes.h and verify_plans.h.
 //
 //   verify FILE.txt FOLDER [--clearance METRES] [--only ID,ID]
 //
@@ -30,12 +30,12 @@ typedef struct side {
 
 // The next line of a problem file, of so many words.
 static char **expect(const char *path, char **text, char **words, size_t least) {
-  if (next_words(text, words, 80) < least) fail(path, "a line has too few words");
+  if (next_words(text, words, MOST_WORDS) < least) fail(path, "a line has too few words");
   return words;
 }
 
 static void read_poses(const char *path, char **text, size_t count, float *poses) {
-  char *words[80];
+  char *words[MOST_WORDS];
   for (size_t k = 0; k < count; k++) read_pose(path, expect(path, text, words, 7), poses + 7 * k);
 }
 
@@ -102,9 +102,10 @@ static int check_problem(const char *path, char **text, char **words, size_t cou
 
 static int check_problems(const char *path, char *text, request *asked) {
   list meshes = {NULL, 0, 0};
-  char *words[80];
+  char *words[MOST_WORDS];
   int all = 1;
-  for (size_t n = next_words(&text, words, 80); n > 0; n = next_words(&text, words, 80)) {
+  for (size_t n = next_words(&text, words, MOST_WORDS); n > 0;
+       n = next_words(&text, words, MOST_WORDS)) {
     if (n == 3 && strcmp(words[0], "mesh") == 0) {
       named *mesh = (named *)add(&meshes, sizeof *mesh);
       mesh->name = words[1];
@@ -132,7 +133,7 @@ int main(int argc, char **argv) {
     return 2;
   }
   const char *path = argv[1];
-  char *words[80];
+  char *words[MOST_WORDS];
   size_t size;
   char *text = read_file(path, &size);
   if (!text) fail(path, strerror(errno));

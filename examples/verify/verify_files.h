@@ -11,6 +11,8 @@
 
 #include "nsvcd_verify.h"
 
+#define MOST_WORDS 300  // of a line
+
 // An array that grows.
 typedef struct list {
   void *items;
@@ -280,9 +282,10 @@ static void read_stl(const char *path, char *text, size_t size, list *positions,
       add_float(positions, (double)x);
     }
   } else {
-    char *words[80];
+    char *words[MOST_WORDS];
     no_zero(path, text, size);
-    for (size_t n = next_words(&text, words, 80); n > 0; n = next_words(&text, words, 80)) {
+    for (size_t n = next_words(&text, words, MOST_WORDS); n > 0;
+         n = next_words(&text, words, MOST_WORDS)) {
       const int is_vertex = (words[0][0] | 32) == 'v';
       if (is_vertex && n != 4) fail(path, "a vertex has other than three numbers");
       for (size_t k = 1; k < 4 && is_vertex; k++) add_float(positions, number_of(path, words[k]));
@@ -304,6 +307,18 @@ static void scale_mesh(list *positions, list *indices, const double *scale) {
   }
 }
 
+// Builds the tree of a mesh; ends the program where that cannot be.
+static void build_mesh(const char *path, const list *positions, const list *indices,
+                       nsvcd_verify_mesh *mesh) {
+  const size_t vertices = positions->count / 3;
+  const size_t triangles = indices->count / 3;
+  void *memory = allocate(NSVCD_VERIFY_MESH_BYTES(vertices, triangles));
+  const char *why =
+      nsvcd_verify_mesh_init((const float *)positions->items, vertices,
+                             (const uint32_t *)indices->items, triangles, memory, mesh);
+  if (why) fail(path, why);
+}
+
 // Reads a mesh, scales it (NULL: leaves it) and builds its tree; ends the program where that cannot be.
 static void read_mesh(const char *path, const double *scale, nsvcd_verify_mesh *mesh) {
   size_t size;
@@ -318,25 +333,24 @@ static void read_mesh(const char *path, const double *scale, nsvcd_verify_mesh *
   if (!is_stl) no_zero(path, text, size);
   if (!is_stl) read_obj(path, begin, &positions, &indices);
   if (scale) scale_mesh(&positions, &indices, scale);
-  const size_t vertices = positions.count / 3;
-  const size_t triangles = indices.count / 3;
-  void *memory = allocate(NSVCD_VERIFY_MESH_BYTES(vertices, triangles));
-  const char *why =
-      nsvcd_verify_mesh_init((const float *)positions.items, vertices,
-                             (const uint32_t *)indices.items, triangles, memory, mesh);
-  if (why) fail(path, why);
+  build_mesh(path, &positions, &indices, mesh);
   free(text);
+}
+
+// The path of a file that another one names, from that one's folder.
+static void path_from(const char *file, const char *name, char *path, size_t size) {
+  const char *slash = strrchr(file, '/');
+  const int folder = name[0] == '/' || !slash ? 0 : (int)(slash + 1 - file);
+  const int length = snprintf(path, size, "%.*s%s", folder, file, name);
+  if (length < 0 || (size_t)length >= size) fail(name, "its path is too long");
 }
 
 // A mesh that a file names, by its path from that file's folder; kept until the program ends.
 static const nsvcd_verify_mesh *mesh_of_file(const char *file, const char *name,
                                              const double *scale) {
   char path[4096];
-  const char *slash = strrchr(file, '/');
-  const int folder = name[0] == '/' || !slash ? 0 : (int)(slash + 1 - file);
   nsvcd_verify_mesh *mesh = (nsvcd_verify_mesh *)allocate(sizeof *mesh);
-  const int length = snprintf(path, sizeof path, "%.*s%s", folder, file, name);
-  if (length < 0 || (size_t)length >= sizeof path) fail(name, "its path is too long");
+  path_from(file, name, path, sizeof path);
   read_mesh(path, scale, mesh);
   return mesh;
 }

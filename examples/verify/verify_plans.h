@@ -5,14 +5,22 @@
 #ifndef NSVCD_VERIFY_PLANS_H
 #define NSVCD_VERIFY_PLANS_H
 #include "nsvcd_verify_robot.h"
-#include "verify_files.h"
+#include "verify_shapes.h"
 
 typedef struct robot_body {
   const char *name;
   const nsvcd_verify_mesh *mesh;
+  double radius;  // metres, about the mesh
   uint32_t link;
   float pose[7];
 } robot_body;
+
+// A line `clearance`: of two bodies, or, if both are EACH, of each pair with an obstacle.
+#define EACH 0xffffffffu
+typedef struct distance {
+  uint32_t a, b;
+  float metres;
+} distance;
 
 typedef struct robot {
   const char *path;
@@ -20,11 +28,11 @@ typedef struct robot {
   int continuous[NSVCD_VERIFY_JOINTS];
   nsvcd_verify_joint joints[NSVCD_VERIFY_JOINTS];
   size_t joint_count;
-  list bodies;  // the robot's, then the scene's obstacles, which are read last
-  size_t own;   // how many of them are the robot's
-  list pairs;   // (2)
-  // (own pairs): metres that the file names; below 0: the clearance that is asked about
-  list clearances;
+  list bodies;     // the robot's, then the scene's obstacles, which are read last
+  size_t own;      // how many of them are the robot's
+  list pairs;      // (2): the robot's, then those with obstacles
+  list kept;       // (pairs): metres
+  list distances;  // those above the first scene, then the scene's
 } robot;
 
 static uint32_t link_named(const robot *r, const char *name) {
@@ -43,14 +51,18 @@ static uint32_t body_named(const robot *r, const char *name) {
   return 0;
 }
 
-// The words from `at` on may be `pose` and `scale`, each once.
-static void add_body(robot *r, const char *name, const char *mesh, uint32_t link, char *const *pose,
-                     char *const *words, size_t at, size_t count) {
+// body NAME JOINT SHAPE, then `pose` and `scale`, each once; or obstacle NAME SHAPE, a pose, `scale`.
+static void add_body(robot *r, char *const *words, size_t count) {
+  const int rests = words[0][0] == 'o';
+  const size_t shape = rests ? 2 : 3;
+  const size_t after = shape + shape_words(words[shape]);
+  size_t at = after + (rests ? 7 : 0);
+  char *const *pose = rests ? words + after : NULL;
   double scale[3] = {1, 1, 1};
-  int is_scaled = 0;
+  int is_scaled = after > shape + 1;  // only meshes are
+  if (at > count) fail(r->path, "a body lacks a number");
   while (at < count) {
-    const int is_pose = strcmp(words[at], "pose") == 0;
-    if (is_pose && !pose && count - at >= 8) {
+    if (strcmp(words[at], "pose") == 0 && !pose && count - at >= 8) {
       pose = words + at + 1;
       at += 8;
     } else if (strcmp(words[at], "scale") == 0 && !is_scaled && count - at >= 4) {
@@ -65,13 +77,14 @@ static void add_body(robot *r, const char *name, const char *mesh, uint32_t link
     }
   }
   for (size_t i = 0; i < r->bodies.count; i++)
-    if (strcmp(((const robot_body *)r->bodies.items)[i].name, name) == 0)
+    if (strcmp(((const robot_body *)r->bodies.items)[i].name, words[1]) == 0)
       fail(r->path, "two bodies of one name");
+  const uint32_t link = rests ? 0 : link_named(r, words[2]);
   robot_body *body = (robot_body *)add(&r->bodies, sizeof *body);
   memset(body, 0, sizeof *body);
-  body->name = name;
+  body->name = words[1];
   body->link = link;
-  body->mesh = mesh_of_file(r->path, mesh, scale);
+  body->mesh = shape_of_words(r->path, words + shape, scale, &body->radius);
   body->pose[6] = 1;
   if (pose) read_pose(r->path, pose, body->pose);
 }
@@ -140,6 +153,10 @@ static const char *check_pair(const robot *r, const nsvcd_verify_motion *m, size
     why = nsvcd_verify_part_init(bodies[k]->mesh, 1, &parts[k], &movers[k]);
   }
   if (why) return why;
+  // what is round keeps its radius besides: a float, and no less
+  const double sum = (double)clearance + (bodies[0]->radius + bodies[1]->radius);
+  clearance = (float)sum;
+  if ((double)clearance < sum) clearance = nextafterf(clearance, HUGE_VALF);
   void *workspace = allocate(room);
   const int accepted =
       nsvcd_verify(&movers[0], &movers[1], clearance, bytes, size, workspace, room, report);
@@ -149,8 +166,8 @@ static const char *check_pair(const robot *r, const nsvcd_verify_motion *m, size
 }
 
 // NULL, or why it is refused. *at: the byte.
-static const char *check_motion(const robot *r, char *const *words, float clearance,
-                                const uint8_t *bytes, size_t size, size_t *at) {
+static const char *check_motion(const robot *r, char *const *words, const uint8_t *bytes,
+                                size_t size, size_t *at) {
   nsvcd_verify_motion m;
   memset(&m, 0, sizeof m);
   *at = 4;
@@ -179,8 +196,8 @@ static const char *check_motion(const robot *r, char *const *words, float cleara
       why = "it ends early";
       break;
     }
-    const float own = pair < r->clearances.count ? ((const float *)r->clearances.items)[pair] : -1;
-    why = check_pair(r, &m, pair, own >= 0 ? own : clearance, bytes + *at, length, &report);
+    const float kept = ((const float *)r->kept.items)[pair];
+    why = check_pair(r, &m, pair, kept, bytes + *at, length, &report);
     *at += why ? report.position : length;
   }
   if (!why && *at != size) why = "something follows its end";
@@ -196,7 +213,7 @@ static int check_plan(const robot *r, char *const *words, request *asked) {
   uint8_t *bytes = (uint8_t *)read_file(path, &size);
   if (!bytes) return printf("%s\trefused\tthere is no certificate\t0\t0\n", words[1]), 0;
   const clock_t start = clock();
-  const char *why = check_motion(r, words, asked->clearance, bytes, size, &at);
+  const char *why = check_motion(r, words, bytes, size, &at);
   const double taken = 1e6 * (double)(clock() - start) / (double)CLOCKS_PER_SEC;
   if (!why) printf("%s\taccepted\tfree\t%zu\t%.1f\n", words[1], size, taken);
   if (why) printf("%s\trefused\t%s, at byte %zu\t%zu\t%.1f\n", words[1], why, at, size, taken);
@@ -204,14 +221,53 @@ static int check_plan(const robot *r, char *const *words, request *asked) {
   return !why;
 }
 
-// Each body that a joint moves, and each obstacle of the scene read last.
-static void pair_with_obstacles(robot *r) {
+static int is_pair(const distance *d, const uint32_t *pair) {
+  return (d->a == pair[0] && d->b == pair[1]) || (d->a == pair[1] && d->b == pair[0]);
+}
+
+// clearance NAME NAME METRES, or clearance obstacles METRES
+static void add_distance(robot *r, char *const *words, size_t count) {
+  distance d = {EACH, EACH, (float)number_of(r->path, words[count - 1])};
+  if (d.metres < 0) fail(r->path, "a clearance is negative");
+  if (count == 4) {
+    const robot_body *bodies = (const robot_body *)r->bodies.items;
+    const uint32_t names[2] = {body_named(r, words[1]), body_named(r, words[2])};
+    const int is_first_own = names[0] < r->own;
+    d.a = names[!is_first_own];
+    d.b = names[is_first_own];
+    int found = d.a < r->own && d.b >= r->own && bodies[d.a].link > 0;
+    for (size_t k = 0; k + 1 < r->pairs.count; k += 2)
+      found |= is_pair(&d, (const uint32_t *)r->pairs.items + k);
+    if (!found) fail(r->path, "a clearance of two bodies that are no pair");
+  } else if (strcmp(words[1], "obstacles") != 0) {
+    fail(r->path, "a clearance of one body");
+  }
+  *(distance *)add(&r->distances, sizeof d) = d;
+}
+
+// Adds each body that a joint moves with each obstacle of the scene read last; then, what each pair
+// keeps: one with an obstacle what is asked for, or what the file says of all, if that is more. What
+// it says of two bodies comes before both.
+static void finish_scene(robot *r, float asked) {
   const robot_body *bodies = (const robot_body *)r->bodies.items;
+  const distance *distances = (const distance *)r->distances.items;
+  const size_t own_pairs = r->pairs.count / 2;
+  float all = 0;
   for (uint32_t a = 0; a < r->own; a++) {
     for (uint32_t b = (uint32_t)r->own; b < r->bodies.count && bodies[a].link > 0; b++) {
       add_index(&r->pairs, a);
       add_index(&r->pairs, b);
     }
+  }
+  for (size_t k = 0; k < r->distances.count; k++)
+    if (distances[k].a == EACH) all = distances[k].metres;
+  r->kept.count = 0;
+  for (size_t n = 0; n < r->pairs.count / 2; n++) {
+    double metres = n < own_pairs ? 0 : all > asked ? (double)all : (double)asked;
+    for (size_t k = 0; k < r->distances.count; k++)
+      if (is_pair(&distances[k], (const uint32_t *)r->pairs.items + 2 * n))
+        metres = (double)distances[k].metres;
+    add_float(&r->kept, metres);
   }
 }
 
@@ -219,42 +275,50 @@ static void pair_with_obstacles(robot *r) {
 // in it, and perhaps another scene. Returns 1 if all are accepted.
 static int check_plans(const char *path, char *text, request *asked) {
   robot r;
-  char *words[80];
+  char *words[MOST_WORDS];
   const char *scene = NULL;
-  size_t own_pairs = 0;
+  size_t own_pairs = 0, own_distances = 0;
   int has_tasks = 0;  // 1: a plan or a path stands above
   int all = 1;
   memset(&r, 0, sizeof r);
   r.path = path;
-  for (size_t n = next_words(&text, words, 80); n > 0; n = next_words(&text, words, 80)) {
+  for (size_t n = next_words(&text, words, MOST_WORDS); n > 0;
+       n = next_words(&text, words, MOST_WORDS)) {
     const char *word = words[0];
     if (strcmp(word, "joint") == 0 && n >= 17 && !scene) {
       add_joint(&r, words);
     } else if (strcmp(word, "body") == 0 && n >= 4 && !scene) {
-      add_body(&r, words[1], words[3], link_named(&r, words[2]), NULL, words, 4, n);
+      add_body(&r, words, n);
       r.own = r.bodies.count;
-    } else if (strcmp(word, "pair") == 0 && (n == 3 || n == 4) && !scene) {
-      float *clearance = (float *)add(&r.clearances, sizeof *clearance);
-      *clearance = n == 4 ? (float)number_of(path, words[3]) : -1;
-      if (n == 4 && *clearance < 0) fail(path, "a clearance is negative");
+    } else if (strcmp(word, "pair") == 0 && n == 3 && !scene) {
       add_index(&r.pairs, body_named(&r, words[1]));
       add_index(&r.pairs, body_named(&r, words[2]));
+    } else if (strcmp(word, "clearance") == 0 && (n == 3 || n == 4) && !has_tasks) {
+      add_distance(&r, words, n);
     } else if (strcmp(word, "scene") == 0 && n == 2) {
       if (!scene) own_pairs = r.pairs.count;
+      if (!scene) own_distances = r.distances.count;
       scene = words[1];
       has_tasks = 0;
       r.bodies.count = r.own;
       r.pairs.count = own_pairs;
-    } else if (strcmp(word, "obstacle") == 0 && n >= 10 && scene && !has_tasks) {
-      add_body(&r, words[1], words[2], 0, words + 3, words, 10, n);
+      r.distances.count = own_distances;
+    } else if (strcmp(word, "obstacle") == 0 && n >= 3 && scene && !has_tasks) {
+      add_body(&r, words, n);
     } else if ((strcmp(word, "plan") == 0 ? n == 3 + 2 * r.joint_count
                                           : strcmp(word, "path") == 0 && n == 4) &&
                scene && strcmp(words[2], scene) == 0) {
-      if (!has_tasks) pair_with_obstacles(&r);
+      if (!has_tasks) finish_scene(&r, asked->clearance);
       has_tasks = 1;
       if (word[1] == 'l' && is_wanted(asked, words[1])) all &= check_plan(&r, words, asked);
       for (size_t k = word[1] == 'l' ? 0 : strtoul(words[3], NULL, 10); k > 0; k--)
-        if (next_words(&text, words, 80) == 0) fail(path, "a path ends early");
+        if (next_words(&text, words, MOST_WORDS) == 0) fail(path, "a path ends early");
+    } else if (strcmp(word, "curve") == 0 && (n == 5 || n == 6) && scene &&
+               strcmp(words[2], scene) == 0) {
+      if (!has_tasks) finish_scene(&r, asked->clearance);
+      has_tasks = 1;
+      for (size_t k = strtoul(words[4], NULL, 10); k > 0; k--)
+        if (next_words(&text, words, MOST_WORDS) == 0) fail(path, "a curve ends early");
     } else {
       fail(path, "a line is not one of a planning file, or not where it may stand");
     }

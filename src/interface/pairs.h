@@ -28,7 +28,7 @@ NSVCDDEF size_t nsvcd_certify_pair_workspace_size(const nsvcd_joint_motion *moti
 //   threads    each needs a checker and a workspace of its own; trees may be shared
 //   errors     those of nsvcd_certify and nsvcd_check; PAIR; TURN (there are no pieces, or more
 //              than NSVCD_MAX_POSES; or a piece takes less than 1e-9 of the motion's time; or a
-//              joint is turned to more than 1,000 radians; or it moves as fast as 100,000 radians
+//              joint is turned to more than 250 radians; or it moves as fast as 100,000 radians
 //              or metres in the motion's time)
 //   source     this library
 NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,

@@ -32,8 +32,6 @@ typedef struct nsvcd__link {
   nsvcd__dpose origin;
   // unit, in the joint's frame
   nsvcd__d3 axis;
-  // joints from the world to this link, its own too: bit i is joint i
-  uint32_t chain;
 } nsvcd__link;
 
 // Where the links are in a configuration, in the world.
@@ -71,7 +69,10 @@ typedef struct nsvcd__member {
 
 struct nsvcd_checker {
   const nsvcd_scene *scene;
-  nsvcd__link links[NSVCD_MAX_JOINTS];
+  // (F)
+  nsvcd__link *links;
+  // where the links are: in a configuration, or at both ends of a step
+  nsvcd__links *at, *next;
   // (B)
   nsvcd__member *members;
   // (P): the pairs, as they are asked about: what was hit last first
@@ -85,7 +86,6 @@ struct nsvcd_checker {
   nsvcd_pose *local[2];
   // of the samples; and the most that a part deviates in the step after each
   double times[NSVCD__MOST_STEPS + 1], deviations[NSVCD__MOST_STEPS + 1];
-  nsvcd__links at, next;
   void *query;
   size_t query_size;
   // an error of a question, which ends those that follow
@@ -116,6 +116,11 @@ static nsvcd__dpose nsvcd__dpose_inverse_mul(const nsvcd__dpose *a, const nsvcd_
   const nsvcd__dpose out = {nsvcd__dquat_mul(back, b->rotation),
                             nsvcd__dquat_rotate(back, offset)};
   return out;
+}
+
+// The link before another one on the way to the world.
+static size_t nsvcd__link_before(const nsvcd_checker *c, size_t link) {
+  return c->scene->joints[link - 1].parent;
 }
 
 static int nsvcd__slides(const nsvcd_checker *c, size_t joint) {

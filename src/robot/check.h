@@ -85,7 +85,7 @@ static int nsvcd__is_hit_there(nsvcd__check_state *s, size_t work) {
   nsvcd_answer found;
   nsvcd__joints_at(s->motion, c->scene->joint_count, answer->piece, answer->fraction, joints,
                    NULL);
-  nsvcd__place_links(c, joints, &c->at);
+  nsvcd__place_links(c, joints, c->at);
   answer->placed++;
   const nsvcd__local local = nsvcd__localize_at(c, pair);
   if (nsvcd__ask_local(s, pair, 1, clearance, work, &found) != NSVCD_HIT) return 0;

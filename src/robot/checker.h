@@ -119,6 +119,9 @@ static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
   const size_t pairs = scene->pair_count;
   const size_t samples = NSVCD__MOST_STEPS + 1;
   const size_t rows = movers * samples;
+  c->links = NSVCD__TAKE_ROWS(nsvcd__link, scene->joint_count, base, &used);
+  c->at = NSVCD__TAKE_ROWS(nsvcd__links, 1, base, &used);
+  c->next = NSVCD__TAKE_ROWS(nsvcd__links, 1, base, &used);
   c->members = NSVCD__TAKE_ROWS(nsvcd__member, parts, base, &used);
   c->order = NSVCD__TAKE_ROWS(uint32_t, pairs, base, &used);
   c->left = NSVCD__TAKE_ROWS(uint32_t, pairs, base, &used);
@@ -179,7 +182,6 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
     nsvcd__link *link = &c->links[i];
     link->origin = nsvcd__unit_dpose(&joint->origin);
     link->axis = nsvcd__d3_unit(nsvcd__d3_load(joint->axis), nsvcd__d3_of(0, 0, 1));
-    link->chain = (uint32_t)1 << i | (joint->parent ? c->links[joint->parent - 1].chain : 0);
   }
   size_t row = 0;
   for (size_t n = 0; n < scene->part_count; n++) {

@@ -42,13 +42,12 @@ static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, const nsvcd__l
                              nsvcd__d3 at, nsvcd__d3 along, double sign, double *slope) {
   const nsvcd__d3 point = nsvcd__dpose_apply(&local->frame, at);
   const nsvcd__d3 normal = nsvcd__dquat_rotate(local->frame.rotation, along);
-  const uint32_t link = c->scene->parts[part].link;
-  for (uint32_t chain = link ? c->links[link - 1].chain : 0; chain; chain &= chain - 1) {
-    const size_t j = nsvcd__low_bit(chain);
-    const nsvcd__d3 arm = nsvcd__d3_sub(point, c->at.frames[j + 1].position);
-    const nsvcd__d3 speed =
-        nsvcd__slides(c, j) ? c->at.axes[j] : nsvcd__d3_cross(c->at.axes[j], arm);
-    slope[j] += sign * nsvcd__d3_dot(normal, speed);
+  for (size_t link = c->scene->parts[part].link; link > 0;
+       link = nsvcd__link_before(c, link)) {
+    const nsvcd__d3 arm = nsvcd__d3_sub(point, c->at->frames[link].position);
+    const nsvcd__d3 axis = c->at->axes[link - 1];
+    const nsvcd__d3 speed = nsvcd__slides(c, link - 1) ? axis : nsvcd__d3_cross(axis, arm);
+    slope[link - 1] += sign * nsvcd__d3_dot(normal, speed);
   }
 }
 
@@ -181,8 +180,8 @@ NSVCDDEF nsvcd_result nsvcd_proximities(nsvcd_checker *c, const double *joints,
   o.max_distance = o.max_distance > 0 ? o.max_distance : NSVCD__MAX_DISTANCE;
   o.to = o.to > 0 ? o.to : NSVCD__DISTANCE_TO;
   o.max_depth = o.max_depth > 0 ? o.max_depth : NSVCD__MAX_DEPTH;
-  nsvcd__place_links(c, joints, &c->at);
-  nsvcd__place_sample(c, &c->at, 0);
+  nsvcd__place_links(c, joints, c->at);
+  nsvcd__place_sample(c, c->at, 0);
   c->result = NSVCD_OK;
   for (size_t n = 0; n < c->scene->pair_count && !c->result; n++) {
     nsvcd_proximity found;
@@ -299,7 +298,7 @@ static int nsvcd__touches_in_all(nsvcd_checker *c, const nsvcd_body_pair *pair, 
       const double high = is_endless ? 6.283185307179586 : joint->high;
       joints[j] = low + (high - low) * nsvcd__random(&random);
     }
-    nsvcd__place_links(c, joints, &c->at);
+    nsvcd__place_links(c, joints, c->at);
     (void)nsvcd__localize_at(c, pair);
     const nsvcd_question q = nsvcd__question_of(c, pair, 1, 0);
     if (nsvcd__ask_sweep(c, &q, &found) != NSVCD_HIT) return 0;

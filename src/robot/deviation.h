@@ -31,13 +31,12 @@ static double nsvcd__angle_between(nsvcd__dquat a, nsvcd__dquat b) {
 static void nsvcd__moment_arms_of(const nsvcd_checker *c, size_t part, const nsvcd__step *step,
                                   const nsvcd__links *from, double *arms) {
   const nsvcd__member *m = &c->members[part];
-  const size_t link = c->scene->parts[part].link;
-  const uint32_t chain = c->links[link - 1].chain;
+  size_t link = c->scene->parts[part].link;
   const nsvcd__d3 centre = nsvcd__dpose_apply(&from->frames[link], m->centre);
   // by joints beyond this one
   double moved = 0;
-  for (size_t j = link; j-- > 0;) {
-    if (!(chain >> j & 1)) continue;
+  for (; link > 0; link = nsvcd__link_before(c, link)) {
+    const size_t j = link - 1;
     arms[j] = 1;
     if (!nsvcd__slides(c, j)) {
       const nsvcd__d3 off = nsvcd__d3_sub(centre, from->frames[j + 1].position);
@@ -58,14 +57,15 @@ static double nsvcd__part_deviation(const nsvcd_checker *c, size_t part,
   double arms[NSVCD_MAX_JOINTS];
   double bend = 0;
   double second = 0;
-  double inner = 0;
+  // from the part to the world; the sum over inner joints, as one over outer ones
+  double outer = 0;
   nsvcd__moment_arms_of(c, part, step, from, arms);
-  for (uint32_t chain = c->links[link - 1].chain; chain; chain &= chain - 1) {
-    const size_t j = nsvcd__low_bit(chain);
-    const double own = nsvcd__slides(c, j) ? 0 : step->travel[j];
+  for (size_t at = link; at > 0; at = nsvcd__link_before(c, at)) {
+    const size_t j = at - 1;
+    const double moved = step->travel[j] * arms[j];
     bend += step->bend[j] * arms[j];
-    second += step->travel[j] * arms[j] * (2 * inner + own);
-    inner += own;
+    if (!nsvcd__slides(c, j)) second += step->travel[j] * (2 * outer + moved);
+    outer += moved;
   }
   return (bend + second + w * w * c->members[part].extent) / 8;
 }

@@ -35,8 +35,8 @@ static nsvcd__local nsvcd__localize(nsvcd_checker *c, const nsvcd_body_pair *pai
 
 // The same in the configuration c->at.
 static nsvcd__local nsvcd__localize_at(nsvcd_checker *c, const nsvcd_body_pair *pair) {
-  const nsvcd__dpose a = nsvcd__frame_of_part(c, &c->at, pair->a);
-  const nsvcd__dpose b = nsvcd__frame_of_part(c, &c->at, pair->b);
+  const nsvcd__dpose a = nsvcd__frame_of_part(c, c->at, pair->a);
+  const nsvcd__dpose b = nsvcd__frame_of_part(c, c->at, pair->b);
   const nsvcd__dpose *const frames[2] = {&a, &b};
   return nsvcd__localize(c, pair, frames, 1);
 }

@@ -34,7 +34,9 @@ typedef struct nsvcd__look_part {
 typedef struct nsvcd__looker {
   const nsvcd_checker *checker;
   // (F): each joint in the link that it is on, turned so that axes are along z
-  nsvcd__look_frame joints[NSVCD_MAX_JOINTS];
+  nsvcd__look_frame *joints;
+  // (F, 16): configurations that are looked at
+  double (*places)[NSVCD_LOOKS];
   // (F + 1)
   nsvcd_places *links;
   // (B)
@@ -187,6 +189,9 @@ static void nsvcd__look_place_links(nsvcd__looker *k, double (*joints)[NSVCD_LOO
 static void nsvcd__looker_take(const nsvcd_scene *scene, char *base, uint64_t *used,
                                nsvcd__looker *k) {
   const size_t pairs = scene->pair_count;
+  k->joints = NSVCD__TAKE_ROWS(nsvcd__look_frame, scene->joint_count, base, used);
+  k->places = (double(*)[NSVCD_LOOKS])nsvcd__take(base, used, scene->joint_count,
+                                                  NSVCD_LOOKS * sizeof(double));
   k->links = NSVCD__TAKE_ROWS(nsvcd_places, scene->joint_count + 1, base, used);
   k->parts = NSVCD__TAKE_ROWS(nsvcd__look_part, scene->part_count, base, used);
   k->margins = NSVCD__TAKE_ROWS(float, pairs, base, used);
@@ -317,7 +322,6 @@ static int nsvcd__seems_free(nsvcd__looker *k, const nsvcd_joint_motion *m) {
   const size_t joints = k->checker->scene->joint_count;
   const size_t rows = m->pieces * m->degree;
   double length = 0;
-  double places[NSVCD_MAX_JOINTS][NSVCD_LOOKS];
   k->count++;
   for (size_t n = 0; n < rows; n++) {
     const double *from = m->points + n * joints;
@@ -330,8 +334,8 @@ static int nsvcd__seems_free(nsvcd__looker *k, const nsvcd_joint_motion *m) {
   // batch n has the places n, n + batches, ... of all; the greater steps first
   for (; stride > 0; stride /= 2) {
     for (size_t n = stride; n <= batches; n += 2 * stride) {
-      nsvcd__look_joints(m, joints, n, batches, places);
-      if (nsvcd__seems_to_meet(k, places)) return 0;
+      nsvcd__look_joints(m, joints, n, batches, k->places);
+      if (nsvcd__seems_to_meet(k, k->places)) return 0;
     }
   }
   return 1;
@@ -351,9 +355,8 @@ static void nsvcd__set_margins(nsvcd__looker *k, float clearance, float fraction
 
 // Lessens margins until nothing seems to meet in a configuration that is proven free.
 static void nsvcd__look_past(nsvcd__looker *k, const double *at) {
-  double places[NSVCD_MAX_JOINTS][NSVCD_LOOKS];
   for (size_t j = 0; j < k->checker->scene->joint_count; j++)
-    for (size_t l = 0; l < NSVCD_LOOKS; l++) places[j][l] = at[j];
-  while (nsvcd__seems_to_meet(k, places) && k->margins[k->last] > -1)
+    for (size_t l = 0; l < NSVCD_LOOKS; l++) k->places[j][l] = at[j];
+  while (nsvcd__seems_to_meet(k, k->places) && k->margins[k->last] > -1)
     k->margins[k->last] -= NSVCD__LOOK_CUT;
 }

@@ -179,7 +179,7 @@ static int nsvcd__is_provable(const nsvcd_checker *c, const nsvcd_joint_motion *
     for (size_t j = 0; j < joints; j++) {
       const double *value = &m->points[i * joints + j];
       const double speed = i > 0 ? (double)m->degree * fabs(*value - *(value - joints)) : 0;
-      if (!nsvcd__slides(c, j) && !(fabs(*value) <= 1e3)) return 0;
+      if (!nsvcd__slides(c, j) && !(fabs(*value) <= 250)) return 0;
       if (!(speed <= 0.999e5 * whole)) return 0;
     }
   }

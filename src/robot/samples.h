@@ -3,12 +3,15 @@
 #pragma once
 #include "checker.h"
 
-// errors of frames in double, as a fraction of the lengths that they are computed from
+// errors of frames in double, as a fraction of the lengths that they are computed from: of 32
+// joints, and in proportion if there are more
 #define NSVCD__FRAME_ROUNDING 1e-13
 
 // Places the parts that move, in a configuration, as sample k.
 static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__links *at, size_t k) {
   const nsvcd_scene *scene = c->scene;
+  const double rounding =
+      NSVCD__FRAME_ROUNDING * nsvcd__max(1, (double)scene->joint_count / 32);
   double most = 0;
   for (size_t link = 1; link <= scene->joint_count; link++)
     most = nsvcd__max(most, nsvcd__d3_norm(at->frames[link].position));
@@ -22,7 +25,7 @@ static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__links *at, size_t
     m->bounds = k ? nsvcd__bounds_over(&m->bounds, &bounds) : bounds;
     // a joint adds some 5e-16 of its moment arm
     const double arm = most + nsvcd__d3_norm(frame.position) + m->extent;
-    m->rounding = nsvcd__max(k ? m->rounding : 0, NSVCD__FRAME_ROUNDING * arm);
+    m->rounding = nsvcd__max(k ? m->rounding : 0, rounding * arm);
   }
 }
 
@@ -30,8 +33,8 @@ static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__links *at, size_t
 static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, size_t steps) {
   const nsvcd_scene *scene = c->scene;
   nsvcd__step step;
-  nsvcd__links *from = &c->at;
-  nsvcd__links *to = &c->next;
+  nsvcd__links *from = c->at;
+  nsvcd__links *to = c->next;
   for (size_t n = 0; n < scene->part_count; n++) c->members[n].deviation = 0;
   nsvcd_motion_at(motion, scene->joint_count, c->times[0], step.from);
   nsvcd__place_links(c, step.from, from);

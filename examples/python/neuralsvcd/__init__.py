@@ -195,7 +195,7 @@ class RouteStatus(enum.IntEnum):
 
 NO_TRIANGLE = 0xffffffff  # in the arrays of sweep_batch
 _MAX_CONTACTS = 4
-_MAX_JOINTS = 32
+_MAX_JOINTS = 128
 _MAX_VIA_POINTS = 32
 LEAVE_OUT = c_size_t(-1).value  # Stage.iterations
 
