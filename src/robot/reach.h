@@ -14,7 +14,7 @@
 #define NSVCD__REACH_STARTS 200
 // steps from a start
 #define NSVCD__REACH_STEPS 100
-// the damping at first, of the squared error; by what it changes from step to step; and the least, of
+// the damping at first, of the squared error, up to 1; by what it changes from step to step; and the least, of
 // the squares of the Jacobian
 #define NSVCD__REACH_DAMPING 0.1
 #define NSVCD__REACH_HARDER 8
@@ -56,6 +56,8 @@ typedef struct nsvcd__reacher {
   nsvcd__links at;
   nsvcd__dpose there;
   nsvcd__miss miss;
+  // the least cost of what does not reach the target
+  double least;
   // (joints of the chain, 6): of the residuals
   double jacobian[NSVCD_MAX_JOINTS][6];
 } nsvcd__reacher;
@@ -223,20 +225,20 @@ static void nsvcd__reach_step(const nsvcd__reacher *r, const double *q, double d
   nsvcd__clamp_to_limits(r->scene, out);
 }
 
-// Goes from q to where the tool is at its target, or as near to that as it comes. Returns 1 if it
-// is there. r->miss: of that place.
-static int nsvcd__descend(nsvcd__reacher *r, double *q) {
+// Goes from q to where the tool is at its target, or as near to that as it comes, until so many
+// steps in a row win little. Returns 1 if it is there. r->miss: of that place.
+static int nsvcd__descend(nsvcd__reacher *r, size_t most_stalls, double *q) {
   double damping = NSVCD__REACH_DAMPING;
   size_t stalls = 0;
   int is_reached = 0;
   nsvcd__reach_place(r, q);
   nsvcd__reach_differentiate(r);
-  for (size_t n = 0; n < NSVCD__REACH_STEPS && stalls < NSVCD__REACH_STALLS; n++) {
+  for (size_t n = 0; n < NSVCD__REACH_STEPS && stalls < most_stalls; n++) {
     double next[NSVCD_MAX_JOINTS];
     double expected;
     const nsvcd__miss was = r->miss;
     is_reached = nsvcd__is_reached(r);
-    nsvcd__reach_step(r, q, damping * was.cost, next, &expected);
+    nsvcd__reach_step(r, q, damping * nsvcd__min(was.cost, 1), next, &expected);
     nsvcd__reach_place(r, next);
     const double gain = was.cost - r->miss.cost;
     if (gain > 0 && (!is_reached || nsvcd__is_reached(r))) {
@@ -343,6 +345,22 @@ static void nsvcd__reach_take(nsvcd__reacher *r, const double *q, double *out,
   if (at == 0) nsvcd__reach_note(r, q, answer);
 }
 
+// Goes from q to the target. What that leads to is taken, or noted.
+static void nsvcd__reach_from(nsvcd__reacher *r, size_t most_stalls, double *q, double *out,
+                              nsvcd_reach_answer *answer) {
+  int is_reached = nsvcd__descend(r, most_stalls, q);
+  nsvcd__reach_unwind(r, q);
+  nsvcd__reach_place(r, q);
+  is_reached = is_reached && nsvcd__is_reached(r);
+  answer->reached += (size_t)is_reached;
+  if (is_reached) {
+    nsvcd__reach_take(r, q, out, answer);
+  } else if (!answer->reached && r->miss.cost < r->least) {
+    r->least = r->miss.cost;
+    nsvcd__reach_note(r, q, answer);
+  }
+}
+
 // ---- the public function
 
 static nsvcd_result nsvcd__reach_check(const nsvcd_checker *c, const nsvcd_reach_problem *p,
@@ -439,25 +457,20 @@ NSVCDDEF nsvcd_result nsvcd_reach(nsvcd_checker *checker, const nsvcd_reach_prob
   if (!nsvcd__reach_chain(&r)) return NSVCD_ERROR_LINK;
   nsvcd__reach_place(&r, r.start);
   nsvcd__reach_note(&r, r.start, &found);
-  double least = r.miss.cost;
+  r.least = r.miss.cost;
   checker->result = NSVCD_OK;
+  double q[NSVCD_MAX_JOINTS];
+  int is_stopped = 0;
   while (found.starts < r.options.starts && found.solutions < capacity && !checker->result) {
-    double q[NSVCD_MAX_JOINTS];
-    if (problem->stop && problem->stop(problem->user)) break;
+    is_stopped = problem->stop && problem->stop(problem->user);
+    if (is_stopped) break;
     memcpy(q, r.start, sizeof q);
     if (found.starts++ > 0) nsvcd__reach_draw(&r, q);
-    int is_reached = nsvcd__descend(&r, q);
-    nsvcd__reach_unwind(&r, q);
-    nsvcd__reach_place(&r, q);
-    is_reached = is_reached && nsvcd__is_reached(&r);
-    found.reached += (size_t)is_reached;
-    if (is_reached) {
-      nsvcd__reach_take(&r, q, out, &found);
-    } else if (!found.reached && r.miss.cost < least) {
-      least = r.miss.cost;
-      nsvcd__reach_note(&r, q, &found);
-    }
+    nsvcd__reach_from(&r, NSVCD__REACH_STALLS, q, out, &found);
   }
+  // by how much it is missed is to be told well
+  memcpy(q, found.best, sizeof q);
+  if (!found.reached && !is_stopped) nsvcd__reach_from(&r, NSVCD__REACH_STEPS, q, out, &found);
   if (!checker->result) *answer = found;
   return checker->result;
 }
