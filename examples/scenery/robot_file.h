@@ -7,7 +7,9 @@
 //   pair NAME NAME [METRES]
 //   scene NAME
 //   obstacle NAME PATH  x y z qx qy qz qw [scale SX SY SZ]
-//   plan ID SCENE  start...  goal...
+//   plan ID SCENE  start...  [goal...]
+//   goal ID joints...
+//   goal ID pose x y z qx qy qz qw NAME [free x|y|z] [box HX HY HZ]
 //   path ID SCENE COUNT        # COUNT lines of joints follow
 //
 // examples/FORMATS.md says what they mean.
@@ -47,9 +49,19 @@ typedef struct robot_room {  // a scene
 typedef struct robot_task {
   const char *id;
   size_t line, room;
-  size_t points;  // 0: a plan, whose start and goal are two rows
-  size_t first;   // the first of its numbers
+  size_t points;      // 0: a plan, whose numbers are its start
+  size_t first;       // the first of its numbers
+  size_t goal_count;  // of a plan
 } robot_task;
+
+// A goal of a plan: joints, or where a body is to be.
+typedef struct robot_goal {
+  size_t task, line;
+  size_t first;  // the first of its numbers
+  size_t thing;  // a body, of the robot's; NSVCD_NONE: it is joints
+  nsvcd_pose pose;
+  float free_axis[3], half[3];  // as nsvcd_reach_problem has them
+} robot_goal;
 
 typedef struct robot_file {
   const char *path;
@@ -61,10 +73,11 @@ typedef struct robot_file {
   robot_pair *pairs;
   robot_room *rooms;
   robot_task *tasks;
+  robot_goal *goals;
   double *numbers;
   size_t joint_count, mesh_count, thing_count, body_count, pair_count, room_count, task_count,
-      number_count;
-  size_t mesh_capacity, thing_capacity, pair_capacity, room_capacity, task_capacity,
+      goal_count, number_count;
+  size_t mesh_capacity, thing_capacity, pair_capacity, room_capacity, task_capacity, goal_capacity,
       number_capacity;
 } robot_file;
 
@@ -264,25 +277,36 @@ static int robot_read_joints(const reader *r, robot_file *file, char *const *fie
   return 1;
 }
 
+// Adds a goal to a plan.
+static robot_goal *robot_add_goal(const reader *r, robot_file *file, size_t task) {
+  robot_goal *goal = ROBOT_ADD(file->goals, file->goal_count, file->goal_capacity);
+  goal->task = task;
+  goal->line = r->line;
+  goal->first = file->number_count;
+  goal->thing = NSVCD_NONE;
+  file->tasks[task].goal_count++;
+  return goal;
+}
+
 static int robot_read_task(reader *r, robot_file *file) {
   robot_task task;
   const size_t joints = file->joint_count;
   char *const *f = r->fields;
   const int is_path = strcmp(f[0], "path") == 0;
+  const int has_goal = r->field_count == 3 + 2 * joints;
   memset(&task, 0, sizeof task);
-  if (r->field_count != (is_path ? 4 : 3 + 2 * joints)) {
+  if (is_path ? r->field_count != 4 : r->field_count != 3 + joints && !has_goal) {
     if (is_path) return refuse(r, "expected: path ID SCENE COUNT");
-    return complain("%s:%zu: expected: plan ID SCENE, then %zu joints of the start and of the goal",
-                    r->path, r->line, joints);
+    return complain(
+        "%s:%zu: expected: plan ID SCENE, then %zu joints of the start, and perhaps of a goal",
+        r->path, r->line, joints);
   }
   task.id = f[1];
   task.line = r->line;
   task.first = file->number_count;
   if (!robot_find_room(file, f[2], &task.room))
     return refuse_field(r, "no scene of this name above", f[2]);
-  if (!is_path &&
-      !(robot_read_joints(r, file, f + 3) && robot_read_joints(r, file, f + 3 + joints)))
-    return 0;
+  if (!is_path && !robot_read_joints(r, file, f + 3)) return 0;
   if (is_path && !parse_count(f[3], 1, 10000000, &task.points))
     return refuse_field(r, "COUNT is not in 1..10000000", f[3]);
   for (size_t i = 0; i < task.points; i++) {
@@ -292,18 +316,65 @@ static int robot_read_task(reader *r, robot_file *file) {
     if (!robot_read_joints(r, file, r->fields)) return 0;
   }
   *ROBOT_ADD(file->tasks, file->task_count, file->task_capacity) = task;
+  if (is_path || !has_goal) return 1;
+  robot_add_goal(r, file, file->task_count - 1);
+  return robot_read_joints(r, file, f + 3 + joints);
+}
+
+// Reads what may follow the NAME of a goal.
+static int robot_read_region(const reader *r, robot_goal *goal) {
+  int has_free = 0;
+  int has_box = 0;
+  for (size_t at = 11; at < r->field_count;) {
+    char *const *f = r->fields + at;
+    const size_t left = r->field_count - at;
+    if (!has_free && left >= 2 && strcmp(f[0], "free") == 0 && f[1][0] >= 'x' && f[1][0] <= 'z' &&
+        !f[1][1]) {
+      goal->free_axis[f[1][0] - 'x'] = 1;
+      has_free = 1;
+      at += 2;
+    } else if (!has_box && left >= 4 && strcmp(f[0], "box") == 0) {
+      for (size_t k = 0; k < 3; k++)
+        if (!parse_float(f[1 + k], &goal->half[k]) || !(goal->half[k] >= 0) ||
+            !(goal->half[k] <= NSVCD_MAX_COORDINATE))
+          return refuse_field(r, "half a side is negative, or too large", f[1 + k]);
+      has_box = 1;
+      at += 4;
+    } else {
+      return refuse_field(r, "expected 'free x|y|z' or 'box HX HY HZ', each once", f[0]);
+    }
+  }
   return 1;
+}
+
+static int robot_read_goal(const reader *r, robot_file *file) {
+  char *const *f = r->fields;
+  const int is_pose = r->field_count >= 11 && strcmp(f[2], "pose") == 0;
+  if (!is_pose && r->field_count != 2 + file->joint_count)
+    return complain(
+        "%s:%zu: expected: goal ID pose x y z qx qy qz qw NAME [free x|y|z] [box HX HY HZ], "
+        "or goal ID and %zu joints",
+        r->path, r->line, file->joint_count);
+  size_t task = file->task_count;
+  while (task > 0 && (file->tasks[task - 1].points || strcmp(file->tasks[task - 1].id, f[1]) != 0))
+    task--;
+  if (!task) return refuse_field(r, "no plan of this ID above", f[1]);
+  robot_goal *goal = robot_add_goal(r, file, task - 1);
+  if (!is_pose) return robot_read_joints(r, file, f + 2);
+  if (!robot_find(file, file->thing_count, f[10], &goal->thing))
+    return refuse_field(r, "no body of this name", f[10]);
+  if (!file->things[goal->thing].link) return refuse_field(r, "this body follows no joint", f[10]);
+  return read_pose(r, f + 3, &goal->pose) && robot_read_region(r, goal);
 }
 
 static int read_robot(const char *path, robot_file *file) {
   static const struct {
     const char *word;
     int (*read)(const reader *r, robot_file *file);
-  } lines[] = {{"joint", robot_read_joint},
-               {"body", robot_read_body},
-               {"pair", robot_read_pair},
-               {"scene", robot_read_scene},
-               {"obstacle", robot_read_obstacle}};
+  } lines[] = {{"joint", robot_read_joint},       {"body", robot_read_body},
+               {"pair", robot_read_pair},         {"scene", robot_read_scene},
+               {"obstacle", robot_read_obstacle}, {"goal", robot_read_goal}};
+  const size_t words = sizeof lines / sizeof lines[0];
   reader r;
   memset(file, 0, sizeof *file);
   file->path = shown_name(path);
@@ -311,13 +382,19 @@ static int read_robot(const char *path, robot_file *file) {
   while (next_line(&r)) {
     const int is_task = strcmp(r.fields[0], "plan") == 0 || strcmp(r.fields[0], "path") == 0;
     size_t k = 0;
-    while (k < 5 && strcmp(lines[k].word, r.fields[0]) != 0) k++;
-    if (k == 5 && !is_task)
-      return refuse_field(&r,
-                          "expected 'joint', 'body', 'pair', 'scene', 'obstacle', 'plan' or 'path'",
-                          r.fields[0]);
+    while (k < words && strcmp(lines[k].word, r.fields[0]) != 0) k++;
+    if (k == words && !is_task)
+      return refuse_field(
+          &r, "expected 'joint', 'body', 'pair', 'scene', 'obstacle', 'plan', 'goal' or 'path'",
+          r.fields[0]);
     if (r.field_count > MOST_FIELDS) return refuse(&r, "too many fields");
     if (!(is_task ? robot_read_task(&r, file) : lines[k].read(&r, file))) return 0;
+  }
+  for (size_t i = 0; i < file->task_count; i++) {
+    const robot_task *task = &file->tasks[i];
+    if (!task->points && !task->goal_count)
+      return complain("%s:%zu: plan %s has no goal, here or on lines 'goal %s ...' below",
+                      file->path, task->line, task->id, task->id);
   }
   return 1;
 }
@@ -366,6 +443,7 @@ static void free_robot(robot_file *file) {
   free(file->pairs);
   free(file->rooms);
   free(file->tasks);
+  free(file->goals);
   free(file->numbers);
 }
 
