@@ -391,7 +391,7 @@ NSVCDDEF nsvcd_result nsvcd_reparent(const nsvcd_checker *checker, const double 
 // In: a robot, a frame on one of its links, and where that is to be. Out: configurations that have
 // it there: goals of a route, say.
 
-// What is sought. A pose is a frame; the target's is the frame of the tool where there.
+// What is sought.
 typedef struct nsvcd_reach_problem {
   // (F) radians or metres: where the search begins, and what solutions are near to. Joints that do
   // not move the tool against the target keep these values
@@ -402,13 +402,13 @@ typedef struct nsvcd_reach_problem {
   // the target: a frame on another link; on 0: in the world
   uint32_t target_link;
   nsvcd_pose target;
-  // metres: the tool's origin may be anywhere in a box about the target's origin. Half of its sides,
-  // along the target's axes; default 0
+  // metres: the tool's origin may be anywhere in a box about the target's origin. These are half of
+  // its sides, along the target's axes; default 0
   float half[3];
   // the tool may turn freely about this axis of its own, of any length; default 0, 0, 0: it may not
   float free_axis[3];
-  // called before each start and each question about a pair; may be NULL. If it returns anything but
-  // 0, the search ends with what it has found
+  // called before each start and each question about a pair; may be NULL. If it returns anything
+  // but 0, the search ends with what it has found
   int (*stop)(void *user);
   // passed to `stop`
   void *user;
@@ -450,28 +450,28 @@ typedef struct nsvcd_reach_answer {
 // Finds configurations within the joints' limits that have a tool at a target: several where there
 // are several, such as elbow up and elbow down. By default they are proven free, since that is what
 // a route's goal has to be. Of values that are whole turns apart, the one that is nearest to
-// the start's is given, within the limits. Where the joints are more than the target needs, there
-// are infinitely many solutions; some are found.
+// the start's is given, within the limits. Where there are more joints than the target needs, there
+// are infinitely many solutions, and some of them are found.
 //
-// That nothing is found is no proof that there is nothing. Of arms of 6 or 7 joints that can reach
-// the target, fewer than one in a thousand are missed with the default number of starts
-// (tests/test_reach.c).
+// That nothing is found is no proof that there is nothing. Of targets that an arm of 6 or 7 joints
+// can reach, fewer than one in a thousand are missed with the default starts (tests/test_reach.c).
 //
 //   checker    not NULL
 //   problem    not NULL
 //   options    NULL: the defaults
-//   out        (capacity, F) radians or metres, not NULL; solutions, the nearest to the start first,
-//              Euclidean. Some may be written on failure
+//   out        (capacity, F) radians or metres, not NULL; solutions, the nearest to the start
+//              first, Euclidean. Some may be written on failure
 //   capacity   1 or more. The search ends with as many solutions
 //   answer     not NULL; left as it was on failure
 //   allocates  nothing
 //   threads    each needs a checker of its own
 //   errors     ARGUMENT, COUNT (capacity), VALUE (the start not finite or beyond
 //              NSVCD_MAX_COORDINATE), LINK (not one of the scene's, or no joint moves the tool
-//              against the target), RADIUS (`half`), AXIS, TOLERANCE, DISTANCE (`apart`), CLEARANCE;
-//              POSE, QUATERNION, of the tool or the target; POSE, SCALE, as nsvcd_check
-//   source     Levenberg-Marquardt; the damping of Sugihara (2011). Difference: a joint at its limit
-//              is held there in a step that would have it leave
+//              against the target), RADIUS (`half`), AXIS (`free_axis`), TOLERANCE, DISTANCE
+//              (`apart`), CLEARANCE; POSE, QUATERNION, of the tool or the target; POSE, SCALE, as
+//              nsvcd_check
+//   source     Levenberg-Marquardt, its damping in proportion to the squared error (Sugihara 2011).
+//              Difference: a joint that a step would take beyond a limit is held there in it
 NSVCDDEF nsvcd_result nsvcd_reach(nsvcd_checker *checker, const nsvcd_reach_problem *problem,
                                   const nsvcd_reach_options *options, double *out,
                                   size_t capacity, nsvcd_reach_answer *answer);
@@ -3684,8 +3684,8 @@ NSVCDDEF nsvcd_result nsvcd_reparent(const nsvcd_checker *c, const double *joint
 #define NSVCD__REACH_STARTS 200
 // steps from a start
 #define NSVCD__REACH_STEPS 100
-// the damping at first, of the squared error, up to 1; by what it changes from step to step; and the least, of
-// the squares of the Jacobian
+// the damping at first, of the squared error, up to 1; by what it changes from step to step; and
+// the least, of the squares of the Jacobian
 #define NSVCD__REACH_DAMPING 0.1
 #define NSVCD__REACH_HARDER 8
 #define NSVCD__REACH_EASIER 0.25
@@ -3721,8 +3721,8 @@ typedef struct nsvcd__reacher {
   // metres: the lengths along the chain; and how far joints slide from the start when drawn
   double length, slide;
   uint64_t random;
-  // where the links of the chain are, seen from the link where it forks; and the tool, seen from the
-  // target
+  // where the links of the chain are, seen from the link where it forks; and the tool, seen from
+  // the target
   nsvcd__links at;
   nsvcd__dpose there;
   nsvcd__miss miss;
@@ -3734,8 +3734,8 @@ typedef struct nsvcd__reacher {
 
 // ---- how far the tool is off
 
-// The rotation vector of a turn that takes unit vector a to b. Of opposite ones it is about any axis
-// across.
+// The rotation vector of a turn that takes unit vector a to b. Of opposite ones it is about any
+// axis across.
 static nsvcd__d3 nsvcd__turn_between(nsvcd__d3 a, nsvcd__d3 b) {
   const nsvcd__d3 across = nsvcd__d3_cross(a, b);
   const double sine = nsvcd__d3_norm(across);
@@ -3840,9 +3840,9 @@ static void nsvcd__solve_six(double m[6][6], const double *b, double *x) {
   }
 }
 
-// A damped step from q that keeps the limits: J^T y, where (J J^T + damping) y is what is to be made
-// 0. A joint that would leave its limits goes to the limit and is held there, and the others step
-// anew. *expected: by how much the cost falls, if it is as the Jacobian says.
+// A damped step from q that keeps the limits: J^T y, where (J J^T + damping) y is minus the
+// residuals. A joint that would leave its limits goes to the limit and is held there, and the
+// others step anew. *expected: by how much the cost falls, if it is as the Jacobian says.
 static void nsvcd__reach_step(const nsvcd__reacher *r, const double *q, double damping,
                               double *out, double *expected) {
   double step[NSVCD_MAX_JOINTS];
@@ -3977,8 +3977,8 @@ static int nsvcd__reach_is_free(nsvcd__reacher *r, const double *q,
   return !nsvcd_check(r->checker, &still, &options, found) && nsvcd__proves_free(found);
 }
 
-// Takes a configuration that has the tool at the target among the solutions, unless one beside it is
-// as near to the start.
+// Takes a configuration that has the tool at the target among the solutions, unless one beside it
+// is as near to the start.
 static void nsvcd__reach_take(nsvcd__reacher *r, const double *q, double *out,
                               nsvcd_reach_answer *answer) {
   const size_t joints = r->joints;

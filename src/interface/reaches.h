@@ -3,7 +3,7 @@
 #pragma once
 #include "robots.h"
 
-// What is sought. A pose is a frame; the target's is the frame of the tool where there.
+// What is sought.
 typedef struct nsvcd_reach_problem {
   // (F) radians or metres: where the search begins, and what solutions are near to. Joints that do
   // not move the tool against the target keep these values
@@ -14,13 +14,13 @@ typedef struct nsvcd_reach_problem {
   // the target: a frame on another link; on 0: in the world
   uint32_t target_link;
   nsvcd_pose target;
-  // metres: the tool's origin may be anywhere in a box about the target's origin. Half of its sides,
-  // along the target's axes; default 0
+  // metres: the tool's origin may be anywhere in a box about the target's origin. These are half of
+  // its sides, along the target's axes; default 0
   float half[3];
   // the tool may turn freely about this axis of its own, of any length; default 0, 0, 0: it may not
   float free_axis[3];
-  // called before each start and each question about a pair; may be NULL. If it returns anything but
-  // 0, the search ends with what it has found
+  // called before each start and each question about a pair; may be NULL. If it returns anything
+  // but 0, the search ends with what it has found
   int (*stop)(void *user);
   // passed to `stop`
   void *user;
@@ -62,28 +62,28 @@ typedef struct nsvcd_reach_answer {
 // Finds configurations within the joints' limits that have a tool at a target: several where there
 // are several, such as elbow up and elbow down. By default they are proven free, since that is what
 // a route's goal has to be. Of values that are whole turns apart, the one that is nearest to
-// the start's is given, within the limits. Where the joints are more than the target needs, there
-// are infinitely many solutions; some are found.
+// the start's is given, within the limits. Where there are more joints than the target needs, there
+// are infinitely many solutions, and some of them are found.
 //
-// That nothing is found is no proof that there is nothing. Of arms of 6 or 7 joints that can reach
-// the target, fewer than one in a thousand are missed with the default number of starts
-// (tests/test_reach.c).
+// That nothing is found is no proof that there is nothing. Of targets that an arm of 6 or 7 joints
+// can reach, fewer than one in a thousand are missed with the default starts (tests/test_reach.c).
 //
 //   checker    not NULL
 //   problem    not NULL
 //   options    NULL: the defaults
-//   out        (capacity, F) radians or metres, not NULL; solutions, the nearest to the start first,
-//              Euclidean. Some may be written on failure
+//   out        (capacity, F) radians or metres, not NULL; solutions, the nearest to the start
+//              first, Euclidean. Some may be written on failure
 //   capacity   1 or more. The search ends with as many solutions
 //   answer     not NULL; left as it was on failure
 //   allocates  nothing
 //   threads    each needs a checker of its own
 //   errors     ARGUMENT, COUNT (capacity), VALUE (the start not finite or beyond
 //              NSVCD_MAX_COORDINATE), LINK (not one of the scene's, or no joint moves the tool
-//              against the target), RADIUS (`half`), AXIS, TOLERANCE, DISTANCE (`apart`), CLEARANCE;
-//              POSE, QUATERNION, of the tool or the target; POSE, SCALE, as nsvcd_check
-//   source     Levenberg-Marquardt; the damping of Sugihara (2011). Difference: a joint at its limit
-//              is held there in a step that would have it leave
+//              against the target), RADIUS (`half`), AXIS (`free_axis`), TOLERANCE, DISTANCE
+//              (`apart`), CLEARANCE; POSE, QUATERNION, of the tool or the target; POSE, SCALE, as
+//              nsvcd_check
+//   source     Levenberg-Marquardt, its damping in proportion to the squared error (Sugihara 2011).
+//              Difference: a joint that a step would take beyond a limit is held there in it
 NSVCDDEF nsvcd_result nsvcd_reach(nsvcd_checker *checker, const nsvcd_reach_problem *problem,
                                   const nsvcd_reach_options *options, double *out,
                                   size_t capacity, nsvcd_reach_answer *answer);

@@ -14,8 +14,8 @@
 #define NSVCD__REACH_STARTS 200
 // steps from a start
 #define NSVCD__REACH_STEPS 100
-// the damping at first, of the squared error, up to 1; by what it changes from step to step; and the least, of
-// the squares of the Jacobian
+// the damping at first, of the squared error, up to 1; by what it changes from step to step; and
+// the least, of the squares of the Jacobian
 #define NSVCD__REACH_DAMPING 0.1
 #define NSVCD__REACH_HARDER 8
 #define NSVCD__REACH_EASIER 0.25
@@ -51,8 +51,8 @@ typedef struct nsvcd__reacher {
   // metres: the lengths along the chain; and how far joints slide from the start when drawn
   double length, slide;
   uint64_t random;
-  // where the links of the chain are, seen from the link where it forks; and the tool, seen from the
-  // target
+  // where the links of the chain are, seen from the link where it forks; and the tool, seen from
+  // the target
   nsvcd__links at;
   nsvcd__dpose there;
   nsvcd__miss miss;
@@ -64,8 +64,8 @@ typedef struct nsvcd__reacher {
 
 // ---- how far the tool is off
 
-// The rotation vector of a turn that takes unit vector a to b. Of opposite ones it is about any axis
-// across.
+// The rotation vector of a turn that takes unit vector a to b. Of opposite ones it is about any
+// axis across.
 static nsvcd__d3 nsvcd__turn_between(nsvcd__d3 a, nsvcd__d3 b) {
   const nsvcd__d3 across = nsvcd__d3_cross(a, b);
   const double sine = nsvcd__d3_norm(across);
@@ -170,9 +170,9 @@ static void nsvcd__solve_six(double m[6][6], const double *b, double *x) {
   }
 }
 
-// A damped step from q that keeps the limits: J^T y, where (J J^T + damping) y is what is to be made
-// 0. A joint that would leave its limits goes to the limit and is held there, and the others step
-// anew. *expected: by how much the cost falls, if it is as the Jacobian says.
+// A damped step from q that keeps the limits: J^T y, where (J J^T + damping) y is minus the
+// residuals. A joint that would leave its limits goes to the limit and is held there, and the
+// others step anew. *expected: by how much the cost falls, if it is as the Jacobian says.
 static void nsvcd__reach_step(const nsvcd__reacher *r, const double *q, double damping,
                               double *out, double *expected) {
   double step[NSVCD_MAX_JOINTS];
@@ -307,8 +307,8 @@ static int nsvcd__reach_is_free(nsvcd__reacher *r, const double *q,
   return !nsvcd_check(r->checker, &still, &options, found) && nsvcd__proves_free(found);
 }
 
-// Takes a configuration that has the tool at the target among the solutions, unless one beside it is
-// as near to the start.
+// Takes a configuration that has the tool at the target among the solutions, unless one beside it
+// is as near to the start.
 static void nsvcd__reach_take(nsvcd__reacher *r, const double *q, double *out,
                               nsvcd_reach_answer *answer) {
   const size_t joints = r->joints;
