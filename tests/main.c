@@ -18,6 +18,7 @@ void test_round(void);
 void test_exact(void);
 void test_floor(void);
 void test_robot(void);
+void test_reach(void);
 void test_route_looks(void);
 void test_postures(void);
 void test_certificate(void);
@@ -53,6 +54,7 @@ void test_optimizer(void);
 void test_level(void);
 void test_cost(void);
 
+void promises_reaches(void);
 void promises_results(void);
 void promises_meshes(void);
 void promises_bodies(void);
@@ -75,6 +77,7 @@ typedef struct test_file {
   { "promises_" #name, promises_##name }
 static const test_file files[] = {
     // the public contracts, one after another
+    PROMISES_OF(reaches),
     PROMISES_OF(results),
     PROMISES_OF(meshes),
     PROMISES_OF(bodies),
@@ -112,6 +115,7 @@ static const test_file files[] = {
     OF(exact),
     OF(floor),
     OF(robot),
+    OF(reach),
     OF(route_looks),
     OF(postures),
     OF(certificate),
