@@ -3892,7 +3892,6 @@ static void nsvcd__reach_step(const nsvcd__reacher *r, const double *q, double d
     *expected -= 0.5 * residual * residual;
   }
   for (size_t n = 0; n < r->count; n++) out[r->chain[n]] += r->units[n] * step[n];
-  nsvcd__clamp_to_limits(r->scene, out);
 }
 
 // Goes from q to where the tool is at its target, or as near to that as it comes, until so many
@@ -3941,10 +3940,10 @@ static void nsvcd__reach_draw(nsvcd__reacher *r, double *q) {
     const double high = nsvcd__min(nsvcd__high_of(joint), q[j] + most);
     q[j] = low + (high - low) * nsvcd__random(&r->random);
   }
-  nsvcd__clamp_to_limits(r->scene, q);
 }
 
-// Takes joints that turn as near to the start as whole turns bring them within their limits.
+// Takes joints that turn as near to the start as whole turns bring them within their limits. A step
+// to a limit may be off it by a rounding.
 static void nsvcd__reach_unwind(const nsvcd__reacher *r, double *q) {
   const double full_turn = 6.283185307179586;
   for (size_t n = 0; n < r->count; n++) {
