@@ -283,7 +283,7 @@ postures: the world is adjacent|return a > 0 && b > 0 && (scene->joints[a - 1].p
 postures: never touching|pairs[in_all ? total - ++found.touching : found.asked++] = pair;|pairs[found.asked++] = pair;
 reach: positions that are not looked at|return r->miss.position <= r->options.position_tolerance \&\&|return
 reach: angles that are not looked at|\&\& r->miss.angle <= r->options.angle_tolerance;|;
-reach: limits but for roundings|nsvcd__clamp_to_limits(r->scene, q);|
+reach: steps beyond the limits|if (is_held[n] \|\| (step[n] <= up \&\& step[n] >= down)) continue;|continue;
 reach: a start out of its limits|nsvcd__clamp_to_limits(r->scene, r->start);|
 reach: turns beyond the limits|if (to < nsvcd__low_of(joint) \|\| to > nsvcd__high_of(joint)) turns -= turns > 0 ? 1 : -1;|
 reach: turns that stay|q[j] -= full_turn * turns;|

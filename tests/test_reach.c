@@ -446,8 +446,9 @@ static void reach_tells_by_how_much(void) {
     CHECK(a.answer.reached == 0 && a.answer.starts == 200 && a.answer.touching == 0);
     CHECK_NEAR(a.answer.position_error, 1, 1e-6);
     CHECK_LE(a.answer.angle_error, 1e-3);
-    // one start is enough for that
+    // one start is enough for that, if it is on the right way
     a.options.starts = 1;
+    a.start[0] = angle + 0.4;
     CHECK_EQ(reach_ask(&r, &a), 0);
     CHECK_NEAR(a.answer.position_error, 1, 1e-6);
     a.options.starts = 0;
