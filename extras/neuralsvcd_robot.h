@@ -3769,7 +3769,7 @@ static void nsvcd__reach_place(nsvcd__reacher *r, const double *q) {
     const double angle = 2 * nsvcd__atan2(sine, fabs(unit.w));
     turn = nsvcd__d3_scale(turn, (unit.w < 0 ? -1 : 1) * (sine > 0 ? angle / sine : 2));
   }
-  nsvcd__d3 off;
+  nsvcd__d3 off = {0, 0, 0};
   for (size_t k = 0; k < 3; k++) {
     const double x = nsvcd__d3_axis(r->there.position, k);
     const double half = (double)p->half[k];
