@@ -50,20 +50,20 @@ typedef struct nsvcd_reach_answer {
   // number of starts; of those that came to the target; and of these, of those where the robot was
   // not proven free
   size_t starts, reached, touching;
-  // If there is no solution, the best configuration that was found: one that has the tool at the
-  // target, where `touching` is not 0, else one that has it nearest to the target
+  // (F) the best configuration that was found: the first solution; where there is none, of those
+  // that touch the nearest to the start; else the one that has the tool nearest to the target
   double best[NSVCD_MAX_JOINTS];
   // metres, radians: how far the tool is off its target there
   double position_error, angle_error;
-  // if `touching` is not 0: what is wrong there
+  // if `solutions` is 0 and `touching` is not: what is wrong there
   nsvcd_check_answer check;
 } nsvcd_reach_answer;
 
 // Finds configurations within the joints' limits that have a tool at a target: several where there
 // are several, such as elbow up and elbow down. By default they are proven free, since that is what
-// a route's goal has to be. Of values that are whole turns apart, the one that is nearest to
-// the start's is given, within the limits. Where there are more joints than the target needs, there
-// are infinitely many solutions, and some of them are found.
+// a route's goal has to be. Where a joint's limits allow values that are whole turns apart, the one
+// nearest to the start's is given. Where there are more joints than the target needs, there are
+// infinitely many solutions, and some of them are found.
 //
 // That nothing is found is no proof that there is nothing. Of targets that an arm of 6 or 7 joints
 // can reach, fewer than one in a thousand are missed with the default starts (tests/test_reach.c).
