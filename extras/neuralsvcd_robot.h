@@ -421,7 +421,8 @@ typedef struct nsvcd_reach_options {
   // radians or metres: solutions are at least this far apart, Euclidean, with radians and metres
   // alike; default 0.1
   double apart;
-  // the most starts: problem.start, then random ones; default 200
+  // the most starts: problem.start, then random ones; default 200. After 24 that lead to known
+  // solutions, since the last new one, no more follow
   size_t starts;
   // seed of the random numbers
   uint64_t seed;
@@ -3682,6 +3683,8 @@ NSVCDDEF nsvcd_result nsvcd_reparent(const nsvcd_checker *c, const double *joint
 #define NSVCD__REACH_TOLERANCE 1e-6
 #define NSVCD__REACH_APART 0.1
 #define NSVCD__REACH_STARTS 200
+// the search ends when so many starts have led to known solutions since the last new one
+#define NSVCD__REACH_REPEATS 24
 // steps from a start
 #define NSVCD__REACH_STEPS 100
 // the damping at first, of the squared error, up to 1; by what it changes from step to step; and
@@ -3728,6 +3731,8 @@ typedef struct nsvcd__reacher {
   nsvcd__miss miss;
   // the least cost of what does not reach the target
   double least;
+  // starts that led to known solutions since the last new one
+  size_t repeats;
   // (joints of the chain, 6): of the residuals
   double jacobian[NSVCD_MAX_JOINTS][6];
 } nsvcd__reacher;
@@ -3989,7 +3994,9 @@ static void nsvcd__reach_take(nsvcd__reacher *r, const double *q, double *out,
   for (size_t n = 0; n < answer->solutions; n++) {
     const double *row = out + n * joints;
     const int is_beside = nsvcd__distance2(row, q, joints) < apart2;
-    if (is_beside && nsvcd__distance2(row, r->start, joints) <= distance2) return;
+    if (!is_beside || nsvcd__distance2(row, r->start, joints) > distance2) continue;
+    r->repeats++;
+    return;
   }
   if (!nsvcd__reach_is_free(r, q, &found)) {
     const double best2 = nsvcd__distance2(answer->best, r->start, joints);
@@ -4010,6 +4017,7 @@ static void nsvcd__reach_take(nsvcd__reacher *r, const double *q, double *out,
     at--;
   memmove(out + (at + 1) * joints, out + at * joints, (kept - at) * joints * sizeof *q);
   memcpy(out + at * joints, q, joints * sizeof *q);
+  if (kept == answer->solutions) r->repeats = 0;
   answer->solutions = kept + 1;
   if (at == 0) nsvcd__reach_note(r, q, answer);
 }
@@ -4130,7 +4138,8 @@ NSVCDDEF nsvcd_result nsvcd_reach(nsvcd_checker *checker, const nsvcd_reach_prob
   checker->result = NSVCD_OK;
   double q[NSVCD_MAX_JOINTS];
   int is_stopped = 0;
-  while (found.starts < r.options.starts && found.solutions < capacity && !checker->result) {
+  while (found.starts < r.options.starts && found.solutions < capacity &&
+         r.repeats < NSVCD__REACH_REPEATS && !checker->result) {
     is_stopped = problem->stop && problem->stop(problem->user);
     if (is_stopped) break;
     memcpy(q, r.start, sizeof q);

@@ -291,9 +291,9 @@ reach: taken though not free|if (!nsvcd__reach_is_free(r, q, \&found)) {|if (0) 
 reach: free without the clearance|options = {r->options.clearance, 0, 0, r->problem.stop,|options = {0, 0, 0, r->problem.stop,
 reach: the farthest first|r->start, joints) > distance2) at--;|r->start, joints) < distance2) at--;
 reach: solutions side by side|if (nsvcd__distance2(row, q, joints) < apart2) continue;|
-reach: a nearer one gives way|if (is_beside \&\& nsvcd__distance2(row, r->start, joints) <= distance2) return;|
+reach: a nearer one gives way|if (!is_beside \|\| nsvcd__distance2(row, r->start, joints) > distance2) continue;|continue;
 reach: the first that touches is told|!answer->touching \|\| distance2 < best2;|!answer->touching;
-reach: more than there is room for|\&\& found.solutions < capacity \&\& !checker->result|\&\& !checker->result
+reach: more than there is room for|\&\& found.solutions < capacity \&\&|\&\&
 reach: boxes that are points|x - nsvcd__max(-half, nsvcd__min(half, x))|x
 reach: boxes of twice the size|const double half = (double)p->half[k];|const double half = 2 * (double)p->half[k];
 reach: an axis that is free in the target|nsvcd__turn_between(r->free_axis, nsvcd__dquat_rotate(unit, r->free_axis));|nsvcd__turn_between(r->free_axis, nsvcd__dquat_rotate(unit, r->free_axis)), turn = nsvcd__d3_scale(turn, 0.5);

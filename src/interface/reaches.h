@@ -33,7 +33,8 @@ typedef struct nsvcd_reach_options {
   // radians or metres: solutions are at least this far apart, Euclidean, with radians and metres
   // alike; default 0.1
   double apart;
-  // the most starts: problem.start, then random ones; default 200
+  // the most starts: problem.start, then random ones; default 200. After 24 that lead to known
+  // solutions, since the last new one, no more follow
   size_t starts;
   // seed of the random numbers
   uint64_t seed;

@@ -27,7 +27,7 @@ static void a_tool_is_at_its_target_in_every_way_there_is(void) {
     double out[4][ARM_JOINTS], tip[2];
     nsvcd_reach_answer answer;
     CHECK_EQ(nsvcd_reach(a.checker, &problem, NULL, out[0], 4, &answer), NSVCD_OK);
-    CHECK(answer.solutions == 2 && answer.touching == 0 && answer.starts == 200);
+    CHECK(answer.solutions == 2 && answer.touching == 0 && answer.starts >= 26);
     CHECK(side * out[0][1] > 0.5 && side * out[1][1] < -0.5);
     CHECK_EQ(memcmp(answer.best, out[0], sizeof out[0]), 0);
     for (int n = 0; n < 2; n++) {
