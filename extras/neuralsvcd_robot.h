@@ -3938,11 +3938,12 @@ static void nsvcd__reach_draw(nsvcd__reacher *r, double *q) {
   for (size_t n = 0; n < r->count; n++) {
     const size_t j = r->chain[n];
     const nsvcd_joint *joint = &r->scene->joints[j];
-    const int slides = nsvcd__slides(r->checker, j);
     const int is_bounded = joint->kind == NSVCD_JOINT_REVOLUTE;
-    const double most = is_bounded ? HUGE_VAL : slides ? r->slide : 3.141592653589793;
-    const double low = nsvcd__max(nsvcd__low_of(joint), q[j] - most);
-    const double high = nsvcd__min(nsvcd__high_of(joint), q[j] + most);
+    const double most = nsvcd__slides(r->checker, j) ? r->slide : 3.141592653589793;
+    const double from = is_bounded ? joint->low : q[j] - most;
+    const double to = is_bounded ? joint->high : q[j] + most;
+    const double low = nsvcd__max(nsvcd__low_of(joint), from);
+    const double high = nsvcd__min(nsvcd__high_of(joint), to);
     q[j] = low + (high - low) * nsvcd__random(&r->random);
   }
 }
