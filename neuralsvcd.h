@@ -158,8 +158,8 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_WORKSPACE,
   // the caller's progress function cancelled
   NSVCD_ERROR_CANCELLED,
-  // a count is 0, or larger than the library takes: of joints, parts, goals, points of a guess, or
-  // balls
+  // a count is 0, or larger than the library takes: of joints, parts, goals, points of a guess,
+  // solutions, or balls
   NSVCD_ERROR_COUNT,
 
   // ---- files and meshes
@@ -224,7 +224,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_CLEARANCE,
   // `slop` is negative, not finite or too large; or it is set for a certificate
   NSVCD_ERROR_SLOP,
-  // `tolerance` is negative, not finite or too large
+  // a tolerance is negative, not finite or too large
   NSVCD_ERROR_TOLERANCE,
   // `manifold` is set without FIRST
   NSVCD_ERROR_MANIFOLD,
@@ -244,7 +244,7 @@ typedef enum nsvcd_result {
   // ---- joints
   // a joint's kind is none of its values, or its parent does not come before it
   NSVCD_ERROR_JOINT,
-  // a joint's axis has no length, or is not finite
+  // a joint's axis has no length, or is not finite; or `free_axis` is not
   NSVCD_ERROR_AXIS,
   // a joint's limits are not finite or too large, or low is above high
   NSVCD_ERROR_LIMITS,
@@ -263,7 +263,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_TURN,
   // `finest` is negative or not finite
   NSVCD_ERROR_FINEST,
-  // `max_distance` or `max_depth` is negative, not finite or too large
+  // `max_distance`, `max_depth` or `apart` is negative, not finite or too large
   NSVCD_ERROR_DISTANCE,
   // `farthest` is negative, not finite or too large
   NSVCD_ERROR_FARTHEST,
@@ -1741,7 +1741,7 @@ static const char nsvcd__result_texts[] =
     "the memory given is NULL, misaligned, or too small: its size or capacity\0"
     "cancelled\0"
     "a count is 0, or larger than the library takes: joint_count, joints, part_count, "
-    "body_count, goal_count or guess_count\0"
+    "body_count, goal_count, guess_count or capacity\0"
     "the file is of another format than is read here, or is cut short\0"
     "a line cannot be understood, or a face has fewer than three corners\0"
     "an index is zero or refers to no vertex\0"
@@ -1775,7 +1775,7 @@ static const char nsvcd__result_texts[] =
     "clearance is negative, not finite or too large\0"
     "slop is negative, not finite or too large, or set for a certificate, "
     "which knows none\0"
-    "tolerance is negative, not finite or beyond a million metres\0"
+    "a tolerance is negative, not finite or beyond a million metres\0"
     "manifold is set where FIRST is not asked\0"
     "segments is not a multiple of 16 up to 64\0"
     "network.pairs is more than 256\0"
@@ -1784,7 +1784,7 @@ static const char nsvcd__result_texts[] =
     "network.recall is none of 0, 0.99, 0.999 and 0.9999\0"
     "network.inflate is negative or not finite\0"
     "a joint's kind is none of its values, or its parent does not come before it\0"
-    "a joint's axis has no length, or is not finite\0"
+    "a joint's axis has no length, or is not finite, or free_axis is not\0"
     "a joint's limits are not finite or too large, or low is above high\0"
     "a joint's speed or acceleration is negative, not finite or too large\0"
     "a link is no joint of the scene, or a part none of its parts\0"
@@ -1794,7 +1794,7 @@ static const char nsvcd__result_texts[] =
     "degree is not 1 to 5, or pieces are more than can be counted\0"
     "joints turn too far in a piece of the motion to be certified\0"
     "finest is negative or not finite\0"
-    "max_distance or max_depth is negative, not finite or too large\0"
+    "max_distance, max_depth or apart is negative, not finite or too large\0"
     "farthest is negative, not finite or too large\0"
     "nodes or shortcuts is too large, or edge is negative or no number\0"
     "explore or refine: via_points, segments, iterations, "

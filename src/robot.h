@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: MIT
 //
 // nsvcd_check proves that a motion of the joints is free, as the joints make it; nsvcd_route finds
-// one; nsvcd_proximities tells which parts are near each other in a configuration. It stands on the
-// public functions of neuralsvcd.h. In ONE C or C++ file:
+// one; nsvcd_reach finds configurations that have a tool where it is to be; nsvcd_proximities tells
+// which parts are near each other in a configuration. It stands on the public functions of
+// neuralsvcd.h. In ONE C or C++ file:
 //
 //   #define NEURALSVCD_ROBOT_IMPLEMENTATION
 //   #include "extras/neuralsvcd_robot.h"
@@ -35,7 +36,8 @@ extern "C" {
 #endif
 #include "interface/robots.h"          // joints, parts, checks of motions; nsvcd_check
 #include "interface/configurations.h"  // one configuration: pairs that are near, a way out
-#include "interface/routes.h"          // a start and goals; nsvcd_route
+#include "interface/reaches.h"  // configurations that have a tool at a target; nsvcd_reach
+#include "interface/routes.h"   // a start and goals; nsvcd_route
 #ifdef __cplusplus
 }
 #endif
@@ -84,6 +86,7 @@ extern "C" {
 #include "robot/proofs.h"          // certificates of pairs
 #include "robot/rrt.h"             // trees of configurations, and the nearest node
 #include "robot/configurations.h"  // proximities, the nearest free one, pairs that can meet
+#include "robot/reach.h"           // configurations that have a tool at a target
 #include "robot/blends.h"  // from one state to another, within limits of speed and acceleration
 #include "robot/smooth.h"  // a path, timed, then smooth
 #include "robot/route.h"   // two trees of proven edges, shortcuts

@@ -653,6 +653,31 @@ expect 0 '' build/svcd pairs "$dir/robot.txt"
 grep '^pair' "$dir/out" | grep -v 'wrist_a palm\|base shoulder' | sort >"$dir/found_pairs"
 grep '^pair' "$dir/arm.txt" | sort | cmp -s - "$dir/found_pairs" || fail "svcd pairs says: $(diff "$dir/arm.txt" "$dir/found_pairs")"
 grep -q '^pair base shoulder  # touching in all of 64 samples$' "$dir/out" || fail "svcd pairs says: $(cat "$dir/out")"
+# Goals as poses of a body: the motion is certified, and ends where the body is there, in all the places a region allows,
+# or at a goal by joints. What cannot be reached, or is reached in contact alone, is told.
+start='-2.649 -0.708 -1.763 2.470 1.078 -1.057'
+there=$(python3 tests/place.py "$dir/arm.txt" palm -0.493 0.360 0.877 1.905 1.078 0.076)
+{ cat "$dir/arm.txt"
+  printf "plan posed shelf $start\\ngoal posed pose $there palm\\nplan spun shelf $start\\nplan boxed shelf $start\\n"
+  printf "goal boxed pose $there palm box 0.05 0.05 0\\ngoal spun pose $there palm free z\\n"
+  printf "plan two shelf $start 0.5 1.2 0.3 0 0 0\\ngoal two pose 9 0 0 0 0 0 1 palm\\ngoal two -0.493 0.360 0.878 1.903 1.078 -2.038\\n"
+  printf "plan far shelf $start\\ngoal far pose 5 0 0 0 0 0 1 palm\\nplan low shelf $start\\ngoal low pose 0.5 0 0.05 0 0 0 1 palm\\n"
+} >"$dir/poses.txt"
+expect 0 'far: the goal: out of reach: palm is [0-9.]* mm and [0-9.]* degrees off, at best' build/svcd plan "$dir/poses.txt" --samples 2 --joints "$dir/poses.tsv"
+test "$(cut -f 1,2 "$dir/out" | tr '\t\n' '  ')" = 'posed certified spun certified boxed certified two certified far goal low goal ' || fail "goals by poses: $(cat "$dir/out")"
+grep -q 'low: the goal: palm is there only in configurations that are not free' "$dir/err" || fail "a goal in contact: $(cat "$dir/err")"
+grep -q 'low: the goal: palm and board_1 meet, [0-9.]* mm deep' "$dir/err" || fail "what a goal in contact meets: $(cat "$dir/err")"
+end_of() { # ID: where palm is at the end of its motion, and then where it was to be
+  # shellcheck disable=SC2046
+  python3 tests/place.py "$dir/arm.txt" palm $(awk -v id="$1" '$1 == id && $2 == 1 { for (k = 3; k <= 8; k++) print $k }' "$dir/poses.tsv")
+  echo "$there"
+}
+end_of posed | awk '{ for (k = 1; k <= 7; k++) p[NR, k] = $k }
+  END { s = p[1, 7] * p[2, 7] < 0 ? -1 : 1
+    for (k = 1; k <= 7; k++) { d = p[1, k] - (k > 3 ? s : 1) * p[2, k]; if (d > 1e-6 || d < -1e-6) exit 1 } }' || fail "posed ends at $(end_of posed)"
+end_of spun | awk '{ for (k = 1; k <= 3; k++) p[NR, k] = $k; z[NR, 1] = 2 * ($4 * $6 + $5 * $7); z[NR, 2] = 2 * ($5 * $6 - $4 * $7); z[NR, 3] = 1 - 2 * ($4 * $4 + $5 * $5) }
+  END { for (k = 1; k <= 3; k++) { d = p[1, k] - p[2, k]; e = z[1, k] - z[2, k]; if (d * d > 1e-12 || e * e > 1e-11) exit 1 } }' || fail "spun ends at $(end_of spun)"
+awk '$1 == "two" && $2 == 1 { good = $4 == 0.360 && $8 == -2.038 } END { exit !good }' "$dir/poses.tsv" || fail "a goal by joints: $(cat "$dir/poses.tsv")"
 # A pin on a turning arm, in a ring that has a slot: it separates from the ring there, in a hundredth of its joint's
 # range, which no sample hits. What pairs prints into the file leaves nothing out: the pin in the ring is no goal.
 awk 'function point(a, r, z) { printf "v %.6f %.6f %g\n", r * cos(a), r * sin(a), z }
@@ -699,7 +724,21 @@ robot_refused() {  # TEXT LINE: a planning file that ends in this line is refuse
   expect 1 "bad_robot.txt:$(wc -l <"$dir/bad_robot.txt"): $1" build/svcd plan "$dir/bad_robot.txt"
 }
 robot_refused "no scene of this name" 'plan x nowhere 0 0 0 0 0 0 0 0 0 0 0 0'
-robot_refused "expected: plan ID SCENE, then 6 joints" 'plan x shelf 0 0 0 0 0 0'
+robot_refused "expected: plan ID SCENE, then 6 joints" 'plan x shelf 0 0 0 0 0'
+robot_refused "plan x has no goal" 'plan x shelf 0 0 0 0 0 0'
+robot_refused "no plan of this ID above: 'x'" 'goal x 0 0 0 0 0 0'
+robot_refused "expected: goal ID pose .*, or goal ID and 6 joints" 'goal p 0 0 0 0 0'
+robot_refused "expected: goal ID pose .*, or goal ID and 6 joints" 'goal p pose 0 0 0 0 0 0 1'
+robot_refused "not a finite number" 'goal p 0 0 0 0 0 nan'
+robot_refused "not a finite number" 'goal p pose 0 0 nan 0 0 0 1 palm'
+robot_refused "the quaternion is not of unit length" 'goal p pose 0 0 0 0 0 0 2 palm'
+robot_refused "no body of this name: 'thumb'" 'goal p pose 0 0 0 0 0 0 1 thumb'
+robot_refused "no body of this name: 'board_1'" 'goal p pose 0 0 0 0 0 0 1 board_1'
+robot_refused "this body follows no joint: 'base'" 'goal p pose 0 0 0 0 0 0 1 base'
+robot_refused "expected 'free x|y|z' or 'box HX HY HZ', each once: 'free'" 'goal p pose 0 0 0 0 0 0 1 palm free w'
+robot_refused "expected .*, each once: 'free'" 'goal p pose 0 0 0 0 0 0 1 palm free x free y'
+robot_refused "expected .*, each once: 'box'" 'goal p pose 0 0 0 0 0 0 1 palm box 0 0'
+robot_refused "half a side is negative, or too large: '-1'" 'goal p pose 0 0 0 0 0 0 1 palm box 0 0 -1'
 robot_refused "not a finite number" 'plan x shelf 0 0 0 0 0 0 0 0 0 0 0 nan'
 robot_refused "a second scene of this name" 'scene shelf'
 robot_refused "a joint after the first scene" 'joint x world 0 0 0 0 0 0 1 0 0 1 revolute -1 1 1'
@@ -828,6 +867,21 @@ done
 expect 1 '' build/verify "$dir/robot.txt" "$dir/certs"
 test "$(grep -c '	accepted	free	' "$dir/out")" = 2 || fail "plans: $(cat "$dir/out")"
 grep -q '^stuck	refused	there is no certificate	' "$dir/out" || fail "a plan without one: $(cat "$dir/out")"
+# goals by poses: each motion ends at one of them, to two micrometres
+expect 0 '' build/svcd plan "$dir/poses.txt" --only posed,spun,boxed,two --certificates "$dir/certs"
+expect 0 '' build/verify "$dir/poses.txt" "$dir/certs" --only posed,spun,boxed,two
+test "$(grep -c '	accepted	free	' "$dir/out")" = 4 || fail "goals by poses: $(cat "$dir/out")"
+not_that_goal() {  # ID SED: a planning file of which the motion of this plan ends elsewhere
+  sed "$2" "$dir/poses.txt" >"$dir/other_poses.txt"
+  expect 1 '' build/verify "$dir/other_poses.txt" "$dir/certs" --only "$1"
+  grep -q "^$1	refused	its motion has another start or goal" "$dir/out" || fail "another goal: $2: $(cat "$dir/out")"
+}
+not_that_goal posed "/^goal posed/s/pose [^ ]*/pose 0.50971/"
+not_that_goal posed "/^goal posed/s/[^ ]* palm/-0.02706 palm/"
+not_that_goal posed "s/^goal posed.*/plan posed shelf $start\\n&/"
+not_that_goal spun '/^goal spun/s/free z/free y/'
+not_that_goal boxed '/^goal boxed/s/box .*/box 0 0 0/'
+not_that_goal two '/^goal two/s/ -2.038/ -2.037/'
 not_of_a_plan() {  # TEXT SED: a planning file that verify does not take, whatever certificates there are
   sed "$2" "$dir/robot.txt" >"$dir/other_robot.txt"
   cmp -s "$dir/robot.txt" "$dir/other_robot.txt" && fail "the same planning file: $2"

@@ -19,6 +19,7 @@ void test_exact(void);
 void test_floor(void);
 void test_robot(void);
 void test_many_joints(void);
+void test_reach(void);
 void test_route_looks(void);
 void test_postures(void);
 void test_certificate(void);
@@ -54,6 +55,7 @@ void test_optimizer(void);
 void test_level(void);
 void test_cost(void);
 
+void promises_reaches(void);
 void promises_results(void);
 void promises_meshes(void);
 void promises_bodies(void);
@@ -76,6 +78,7 @@ typedef struct test_file {
   { "promises_" #name, promises_##name }
 static const test_file files[] = {
     // the public contracts, one after another
+    PROMISES_OF(reaches),
     PROMISES_OF(results),
     PROMISES_OF(meshes),
     PROMISES_OF(bodies),
@@ -114,6 +117,7 @@ static const test_file files[] = {
     OF(floor),
     OF(robot),
     OF(many_joints),
+    OF(reach),
     OF(route_looks),
     OF(postures),
     OF(certificate),

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Are the tests of the proof worth anything? Each mutant is the library with one mistake in it; tests/test_proof.c has to
 # fail on it, or, where its name begins with `level:`, `asks:`, `long:`, `exact:`, `floor:`, `solids:`, `round:`,
-# `robot:`, `looks:`, `route_looks:` or `postures:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
+# `robot:`, `looks:`, `route_looks:`, `postures:` or `reach:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
 # certificates, examples/verify, and tests/test_certificate.c or tests/test_checker.c has to fail, of `fits:`
 # tests/test_fits.c. Prints a line for each, and exits with 1 if one survives. An argument runs only the mutants whose
 # name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every 16th of them, in a folder of its own.
@@ -12,7 +12,7 @@ cd "$(dirname "$0")/.." || exit 1
 work=${WORK:-build/mutants}
 mkdir -p $work/tests/bench $work/examples/scenery $work/examples/verify
 cp weights.h $work/
-cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_looks.c tests/test_route_looks.c tests/test_postures.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
+cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_looks.c tests/test_route_looks.c tests/test_postures.c tests/test_reach.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
 cp tests/bench/*.h $work/tests/bench/
 cp examples/scenery/*.h $work/examples/scenery/
 
@@ -278,9 +278,28 @@ postures: escapes to anywhere|sphere * o->farthest;|2 * sphere * o->farthest;
 postures: no way back|memcpy(is_free ? at : blocked, middle, joints * sizeof *at);|memcpy(blocked, middle, joints * sizeof *at);
 postures: the first way out|is_found ? NSVCD__FREE_NEARER * best : sphere|is_found ? o->farthest : sphere
 postures: what touches once touches always|if (nsvcd__ask_sweep(c, &q, &found) != NSVCD_HIT) return 0;|if (n == 0 && nsvcd__ask_sweep(c, &q, &found) != NSVCD_HIT) return 0;
-postures: out of the limits|joints[j] = nsvcd__max(low, nsvcd__min(high, joints[j]));|
+postures: out of the limits|joints[j] = nsvcd__max(nsvcd__low_of(joint), nsvcd__min(nsvcd__high_of(joint), joints[j]));|
 postures: the world is adjacent|return a > 0 && b > 0 && (scene->joints[a - 1].parent == b|return a > 0 && (b == 0 \|\| scene->joints[a - 1].parent == b
 postures: never touching|pairs[in_all ? total - ++found.touching : found.asked++] = pair;|pairs[found.asked++] = pair;
+reach: positions that are not looked at|return r->miss.position <= r->options.position_tolerance \&\&|return
+reach: angles that are not looked at|\&\& r->miss.angle <= r->options.angle_tolerance;|;
+reach: steps beyond the limits|if (is_held[n] \|\| (step[n] <= up \&\& step[n] >= down)) continue;|continue;
+reach: a start out of its limits|nsvcd__clamp_to_limits(r->scene, r->start);|
+reach: turns beyond the limits|if (to < nsvcd__low_of(joint) \|\| to > nsvcd__high_of(joint)) turns -= turns > 0 ? 1 : -1;|
+reach: turns that stay|q[j] -= full_turn * turns;|
+reach: taken though not free|if (!nsvcd__reach_is_free(r, q, \&found)) {|if (0) {
+reach: free without the clearance|options = {r->options.clearance, 0, 0, r->problem.stop,|options = {0, 0, 0, r->problem.stop,
+reach: the farthest first|r->start, joints) > distance2) at--;|r->start, joints) < distance2) at--;
+reach: solutions side by side|if (nsvcd__distance2(row, q, joints) < apart2) continue;|
+reach: a nearer one gives way|if (!is_beside \|\| nsvcd__distance2(row, r->start, joints) > distance2) continue;|continue;
+reach: the first that touches is told|!answer->touching \|\| distance2 < best2;|!answer->touching;
+reach: more than there is room for|\&\& found.solutions < capacity \&\&|\&\&
+reach: boxes that are points|x - nsvcd__max(-half, nsvcd__min(half, x))|x
+reach: boxes of twice the size|const double half = (double)p->half[k];|const double half = 2 * (double)p->half[k];
+reach: an axis that is free in the target|nsvcd__turn_between(r->free_axis, nsvcd__dquat_rotate(unit, r->free_axis));|nsvcd__turn_between(r->free_axis, nsvcd__dquat_rotate(unit, r->free_axis)), turn = nsvcd__d3_scale(turn, 0.5);
+reach: one joint for both sides|l; l = joints[l - 1].parent) sides[l - 1] -= 1;|l; l = joints[l - 1].parent) sides[l - 1] += 1;
+reach: tools at the link|r->tool = nsvcd__unit_dpose(\&problem->tool);|r->tool = nsvcd__unit_dpose(\&nsvcd__at_origin);
+reach: what is missed, as it was found|if (!found.reached \&\& !is_stopped) nsvcd__reach_from|if (0) nsvcd__reach_from
 postures: handed over unturned|const nsvcd__dpose out = {nsvcd__dquat_mul(back, b->rotation),|const nsvcd__dpose out = {b->rotation,
 postures: handed over from the world|const nsvcd__d3 offset = nsvcd__d3_sub(b->position, a->position);|const nsvcd__d3 offset = b->position;
 verify: nothing is needed|if (!(gap > least \&\& last > least \&\& gap < VERIFY__BEYOND)) return 0;|if (!(gap > -1e9)) return 0;
@@ -404,6 +423,7 @@ while IFS= read -r line; do
     looks:*) file=test_looks.c ;;
     route_looks:*) file=test_route_looks.c ;;
     postures:*) file=test_postures.c ;;
+    reach:*) file=test_reach.c ;;
     verify:*) file=test_certificate.c ;;
     checker:*) file=test_checker.c ;;
     fits:*) file=test_fits.c ;;

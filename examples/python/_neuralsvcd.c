@@ -46,6 +46,8 @@ nsvcd_result nsvcd_nearest_free(nsvcd_checker *, const double *, const nsvcd_nea
 nsvcd_result nsvcd_find_pairs(nsvcd_checker *, size_t, uint64_t, nsvcd_body_pair *, size_t,
                               nsvcd_pair_counts *);
 nsvcd_result nsvcd_reparent(const nsvcd_checker *, const double *, size_t, uint32_t, nsvcd_part *);
+nsvcd_result nsvcd_reach(nsvcd_checker *, const nsvcd_reach_problem *, const nsvcd_reach_options *,
+                         double *, size_t, nsvcd_reach_answer *);
 size_t nsvcd_route_size(const nsvcd_checker *, const nsvcd_route_problem *,
                         const nsvcd_route_options *);
 nsvcd_result nsvcd_route(nsvcd_checker *, const nsvcd_route_problem *, const nsvcd_route_options *,
@@ -169,6 +171,17 @@ static const neuralsvcd_layout layouts[] = {
     FIELD(check_answer, pair), FIELD(check_answer, piece), FIELD(check_answer, fraction),
     FIELD(check_answer, contact), FIELD(check_answer, joint), FIELD(check_answer, placed),
     FIELD(check_answer, sweeps),
+    STRUCT(reach_problem), FIELD(reach_problem, start), FIELD(reach_problem, link),
+    FIELD(reach_problem, tool), FIELD(reach_problem, target_link), FIELD(reach_problem, target),
+    FIELD(reach_problem, half), FIELD(reach_problem, free_axis), FIELD(reach_problem, stop),
+    FIELD(reach_problem, user),
+    STRUCT(reach_options), FIELD(reach_options, position_tolerance),
+    FIELD(reach_options, angle_tolerance), FIELD(reach_options, apart), FIELD(reach_options, starts),
+    FIELD(reach_options, seed), FIELD(reach_options, clearance), FIELD(reach_options, may_touch),
+    STRUCT(reach_answer), FIELD(reach_answer, solutions), FIELD(reach_answer, starts),
+    FIELD(reach_answer, reached), FIELD(reach_answer, touching), FIELD(reach_answer, best),
+    FIELD(reach_answer, position_error), FIELD(reach_answer, angle_error),
+    FIELD(reach_answer, check),
     STRUCT(route_problem), FIELD(route_problem, start), FIELD(route_problem, goals),
     FIELD(route_problem, goal_count), FIELD(route_problem, guess),
     FIELD(route_problem, guess_count), FIELD(route_problem, stop), FIELD(route_problem, abandon),

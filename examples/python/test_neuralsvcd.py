@@ -1079,6 +1079,32 @@ class Robots(unittest.TestCase):
         self.assertEqual(self.robot.check(out, clearance=0.01).verdict, "free")
         self.assertIsNone(self.robot.nearest_free([0, np.pi / 2], farthest=0.01))
 
+    def test_reaches(self) -> None:
+        # the tip, half a metre beside where it is with the arm along x: in front, or behind by the other elbow
+        tip = [1, 0, 0, 0, 0, 0, 1]
+        found = self.robot.reach([0, 0], [0.5, -0.6, 0, 0, 0, 0, 1], 2, tip, free_axis=[0, 0, 1])
+        self.assertEqual(found.solutions.shape, (2, 2))
+        for x, turn in found.solutions:
+            self.assertLess(np.hypot(x + np.cos(turn) - 0.5, np.sin(turn) + 0.6), 1e-5)
+            self.assertEqual(self.robot.check([x, turn]).verdict, "free")
+        np.testing.assert_array_equal(found.best, found.solutions[0])
+        self.assertIsNone(found.check)
+        self.assertEqual(len(self.robot.reach([0, 0], [0.5, -0.6, 0, 0, 0, 0, 1], 2, tip, free_axis=[0, 0, 1], most=1).solutions), 1)
+        # the tip in the post; a metre too far along x, or, in a box, half of that
+        found = self.robot.reach([0, 0], [0, 0.8, 0, 0, 0, 0, 1], 2, tip, free_axis=[0, 0, 1])
+        self.assertEqual((len(found.solutions), found.touching), (0, found.reached))
+        assert found.check is not None
+        self.assertEqual((found.check.verdict, found.check.pair), ("hit", 0))
+        self.assertEqual(len(self.robot.reach([0, 0], [0, 0.8, 0, 0, 0, 0, 1], 2, tip, free_axis=[0, 0, 1], may_touch=True).solutions), 2)
+        for half in (0, 0.5):
+            found = self.robot.reach([0, 0], [4, 0, 0, 0, 0, 0, 1], 2, tip, half=[half, 0, 0])
+            self.assertEqual((len(found.solutions), found.reached), (0, 0))
+            self.assertAlmostEqual(found.position_error, 1 - half, delta=1e-6)
+        with self.assertRaises(Error):
+            self.robot.reach([0, 0], tip, 3)
+        with self.assertRaises(ValueError):
+            self.robot.reach([0], tip, 2)
+
     def test_pairs(self) -> None:
         kind = nsvcd.JointKind
         joints = [nsvcd.Joint(0, axis=[1, 0, 0], kind=kind.PRISMATIC, low=-2, high=2), nsvcd.Joint(1), nsvcd.Joint(2)]

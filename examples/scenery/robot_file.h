@@ -1,5 +1,5 @@
 // robot_file.h - reads planning files (version 1), with messages that name file, line and reason.
-// Include
+
 // problem_file.h, load.h and robot_shapes.h first.
 //
 //   nsvcd-plans 1
@@ -9,7 +9,9 @@
 //   scene NAME
 //   obstacle NAME SHAPE  x y z qx qy qz qw [scale SX SY SZ]
 //   clearance NAME NAME METRES, or: clearance obstacles METRES
-//   plan ID SCENE  start...  goal...
+//   plan ID SCENE  start...  [goal...]
+//   goal ID joints...
+//   goal ID pose x y z qx qy qz qw NAME [free x|y|z] [box HX HY HZ]
 //   path ID SCENE COUNT        # COUNT lines of joints follow
 //   curve ID SCENE DEGREE COUNT [timed]   # so do COUNT lines here
 //
@@ -50,11 +52,21 @@ typedef struct robot_room {  // a scene
 typedef struct robot_task {
   const char *id;
   size_t line, room;
-  size_t points;  // 0: a plan, whose start and goal are two rows
-  size_t first;   // the first of its numbers
-  size_t degree;  // of a curve, else 0
-  size_t times;   // of a curve: the first of its times; NSVCD_NONE: it has none
+  size_t points;      // 0: a plan, whose numbers are its start
+  size_t first;       // the first of its numbers
+  size_t goal_count;  // of a plan
+  size_t degree;      // of a curve, else 0
+  size_t times;       // of a curve: the first of its times; NSVCD_NONE: it has none
 } robot_task;
+
+// A goal of a plan: joints, or where a body is to be.
+typedef struct robot_goal {
+  size_t task, line;
+  size_t first;  // the first of its numbers
+  size_t thing;  // a body, of the robot's; NSVCD_NONE: it is joints
+  nsvcd_pose pose;
+  float free_axis[3], half[3];  // as nsvcd_reach_problem has them
+} robot_goal;
 
 typedef struct robot_file {
   const char *path;
@@ -67,11 +79,12 @@ typedef struct robot_file {
   robot_clearance *clearances;
   robot_room *rooms;
   robot_task *tasks;
+  robot_goal *goals;
   double *numbers, *times;
   size_t joint_count, mesh_count, thing_count, body_count, pair_count, clearance_count, room_count,
-      task_count, number_count, time_count;
+      task_count, goal_count, number_count, time_count;
   size_t mesh_capacity, thing_capacity, pair_capacity, clearance_capacity, room_capacity,
-      task_capacity, number_capacity, time_capacity;
+      task_capacity, goal_capacity, number_capacity, time_capacity;
 } robot_file;
 
 // Adds an item to a list, and clears it.
@@ -309,25 +322,36 @@ static int robot_read_joints(const reader *r, robot_file *file, char *const *fie
   return 1;
 }
 
+// Adds a goal to a plan.
+static robot_goal *robot_add_goal(const reader *r, robot_file *file, size_t task) {
+  robot_goal *goal = ROBOT_ADD(file->goals, file->goal_count, file->goal_capacity);
+  goal->task = task;
+  goal->line = r->line;
+  goal->first = file->number_count;
+  goal->thing = NSVCD_NONE;
+  file->tasks[task].goal_count++;
+  return goal;
+}
+
 static int robot_read_task(reader *r, robot_file *file) {
   robot_task task;
   const size_t joints = file->joint_count;
   char *const *f = r->fields;
   const int is_path = strcmp(f[0], "path") == 0;
+  const int has_goal = r->field_count == 3 + 2 * joints;
   memset(&task, 0, sizeof task);
-  if (r->field_count != (is_path ? 4 : 3 + 2 * joints)) {
+  if (is_path ? r->field_count != 4 : r->field_count != 3 + joints && !has_goal) {
     if (is_path) return refuse(r, "expected: path ID SCENE COUNT");
-    return complain("%s:%zu: expected: plan ID SCENE, then %zu joints of the start and of the goal",
-                    r->path, r->line, joints);
+    return complain(
+        "%s:%zu: expected: plan ID SCENE, then %zu joints of the start, and perhaps of a goal",
+        r->path, r->line, joints);
   }
   task.id = f[1];
   task.line = r->line;
   task.first = file->number_count;
   if (!robot_find_room(file, f[2], &task.room))
     return refuse_field(r, "no scene of this name above", f[2]);
-  if (!is_path &&
-      !(robot_read_joints(r, file, f + 3) && robot_read_joints(r, file, f + 3 + joints)))
-    return 0;
+  if (!is_path && !robot_read_joints(r, file, f + 3)) return 0;
   if (is_path && !parse_count(f[3], 1, 10000000, &task.points))
     return refuse_field(r, "COUNT is not in 1..10000000", f[3]);
   for (size_t i = 0; i < task.points; i++) {
@@ -337,6 +361,34 @@ static int robot_read_task(reader *r, robot_file *file) {
     if (!robot_read_joints(r, file, r->fields)) return 0;
   }
   *ROBOT_ADD(file->tasks, file->task_count, file->task_capacity) = task;
+  if (is_path || !has_goal) return 1;
+  robot_add_goal(r, file, file->task_count - 1);
+  return robot_read_joints(r, file, f + 3 + joints);
+}
+
+// Reads what may follow the NAME of a goal.
+static int robot_read_region(const reader *r, robot_goal *goal) {
+  int has_free = 0;
+  int has_box = 0;
+  for (size_t at = 11; at < r->field_count;) {
+    char *const *f = r->fields + at;
+    const size_t left = r->field_count - at;
+    if (!has_free && left >= 2 && strcmp(f[0], "free") == 0 && f[1][0] >= 'x' && f[1][0] <= 'z' &&
+        !f[1][1]) {
+      goal->free_axis[f[1][0] - 'x'] = 1;
+      has_free = 1;
+      at += 2;
+    } else if (!has_box && left >= 4 && strcmp(f[0], "box") == 0) {
+      for (size_t k = 0; k < 3; k++)
+        if (!parse_float(f[1 + k], &goal->half[k]) || !(goal->half[k] >= 0) ||
+            !(goal->half[k] <= NSVCD_MAX_COORDINATE))
+          return refuse_field(r, "half a side is negative, or too large", f[1 + k]);
+      has_box = 1;
+      at += 4;
+    } else {
+      return refuse_field(r, "expected 'free x|y|z' or 'box HX HY HZ', each once", f[0]);
+    }
+  }
   return 1;
 }
 
@@ -382,13 +434,34 @@ static int robot_read_curve(reader *r, robot_file *file) {
   return 1;
 }
 
+static int robot_read_goal(const reader *r, robot_file *file) {
+  char *const *f = r->fields;
+  const int is_pose = r->field_count >= 11 && strcmp(f[2], "pose") == 0;
+  if (!is_pose && r->field_count != 2 + file->joint_count)
+    return complain(
+        "%s:%zu: expected: goal ID pose x y z qx qy qz qw NAME [free x|y|z] [box HX HY HZ], "
+        "or goal ID and %zu joints",
+        r->path, r->line, file->joint_count);
+  size_t task = file->task_count;
+  while (task > 0 && (file->tasks[task - 1].points || strcmp(file->tasks[task - 1].id, f[1]) != 0))
+    task--;
+  if (!task) return refuse_field(r, "no plan of this ID above", f[1]);
+  robot_goal *goal = robot_add_goal(r, file, task - 1);
+  if (!is_pose) return robot_read_joints(r, file, f + 2);
+  if (!robot_find(file, file->thing_count, f[10], &goal->thing))
+    return refuse_field(r, "no body of this name", f[10]);
+  if (!file->things[goal->thing].link) return refuse_field(r, "this body follows no joint", f[10]);
+  return read_pose(r, f + 3, &goal->pose) && robot_read_region(r, goal);
+}
+
 static int read_robot(const char *path, robot_file *file) {
   static const struct {
     const char *word;
     int (*read)(const reader *r, robot_file *file);
   } lines[] = {{"joint", robot_read_joint}, {"body", robot_read_body},
                {"pair", robot_read_pair},   {"clearance", robot_read_clearance},
-               {"scene", robot_read_scene}, {"obstacle", robot_read_obstacle}};
+               {"scene", robot_read_scene}, {"obstacle", robot_read_obstacle},
+               {"goal", robot_read_goal}};
   const size_t count = sizeof lines / sizeof lines[0];
   reader r;
   memset(file, 0, sizeof *file);
@@ -402,13 +475,19 @@ static int read_robot(const char *path, robot_file *file) {
     if (k == count && !is_task && !is_curve)
       return refuse_field(&r,
                           "expected 'joint', 'body', 'pair', 'clearance', 'scene', 'obstacle', "
-                          "'plan', 'path' or 'curve'",
+                          "'plan', 'goal', 'path' or 'curve'",
                           r.fields[0]);
     if (r.field_count > MOST_FIELDS) return refuse(&r, "too many fields");
     if (!(is_curve  ? robot_read_curve(&r, file)
           : is_task ? robot_read_task(&r, file)
                     : lines[k].read(&r, file)))
       return 0;
+  }
+  for (size_t i = 0; i < file->task_count; i++) {
+    const robot_task *task = &file->tasks[i];
+    if (!task->points && !task->goal_count)
+      return complain("%s:%zu: plan %s has no goal, here or on lines 'goal %s ...' below",
+                      file->path, task->line, task->id, task->id);
   }
   return 1;
 }
@@ -425,6 +504,7 @@ static void free_robot(robot_file *file) {
   free(file->clearances);
   free(file->rooms);
   free(file->tasks);
+  free(file->goals);
   free(file->numbers);
   free(file->times);
 }

@@ -3,7 +3,7 @@
 #ifndef NSVCD_SVCD_ROBOTS_H
 #define NSVCD_SVCD_ROBOTS_H
 
-#include "settings.h"
+#include "goals.h"
 
 #define PLAN_NODES 100000
 // random configurations that `pairs` tries
@@ -58,24 +58,16 @@ static double route_length(const nsvcd_joint_motion *m, size_t joints) {
   return length;
 }
 
-// Prints all pairs that are as near as the clearance, and the nearest free configuration that was
-// found, on standard error.
-static void tell_way_out(const robot_in_room *in, const char *from, const double *joints,
-                         const nsvcd_route_problem *problem) {
+// Prints all pairs that are as near as the clearance on standard error.
+static void tell_pairs(const robot_in_room *in, const char *from, const double *joints) {
   nsvcd_proximity_options options;
-  nsvcd_nearest_free_options nearest;
   size_t count = 0;
-  int is_found = 0;
-  double out[NSVCD_MAX_JOINTS];
   nsvcd_proximity *gaps = (nsvcd_proximity *)allocate((in->scene.pair_count + 1) * sizeof *gaps);
   memset(&options, 0, sizeof options);
-  memset(&nearest, 0, sizeof nearest);
   options.max_distance = 1e-6f;
   for (size_t k = 0; k < in->scene.pair_count; k++)
     if (in->clearances[k] > options.max_distance) options.max_distance = in->clearances[k];
   options.max_depth = 0.1f;
-  nearest.stop = problem->abandon;
-  nearest.user = problem->user;
   if (nsvcd_proximities(in->checker, joints, &options, gaps, in->scene.pair_count, &count))
     count = 0;
   for (size_t k = 0; k < count; k++) {
@@ -92,6 +84,18 @@ static void tell_way_out(const robot_in_room *in, const char *from, const double
     else
       complain("%s: %s and %s meet, no push-out of 100 mm separates them", from, a, b);
   }
+  free(gaps);
+}
+
+// Prints the nearest free configuration that was found.
+static void tell_way_out(const robot_in_room *in, const char *from, const double *joints,
+                         const nsvcd_route_problem *problem) {
+  nsvcd_nearest_free_options nearest;
+  int is_found = 0;
+  double out[NSVCD_MAX_JOINTS];
+  memset(&nearest, 0, sizeof nearest);
+  nearest.stop = problem->abandon;
+  nearest.user = problem->user;
   if (!nsvcd_nearest_free(in->checker, joints, &nearest, out, &is_found) && is_found) {
     char list[32 * NSVCD_MAX_JOINTS] = "";
     for (size_t j = 0; j < in->file->joint_count; j++)
@@ -100,7 +104,6 @@ static void tell_way_out(const robot_in_room *in, const char *from, const double
   } else {
     complain("%s: nothing free was found near by", from);
   }
-  free(gaps);
 }
 
 // Says on standard error why it is unknown whether two bodies meet.
@@ -121,17 +124,43 @@ static void tell_undecided(const robot_in_room *in, const char *from,
 }
 
 // Says on standard error what is wrong with a start or a goal.
-static void tell_check(const robot_in_room *in, const robot_task *task, const char *where,
-                       const double *joints, const nsvcd_check_answer *found,
-                       const nsvcd_route_problem *problem) {
-  char from[1024];
-  snprintf(from, sizeof from, "%s:%zu: %s: %s", in->file->path, task->line, task->id, where);
+static void tell_check(const robot_in_room *in, const char *from, const double *joints,
+                       const nsvcd_check_answer *found) {
   if (found->joint != NSVCD_NONE) {
     complain("%s: joint %s is out of its limits", from, in->file->joint_names[found->joint]);
   } else if (found->verdict == NSVCD_UNDECIDED && found->pair != NSVCD_NONE) {
     tell_undecided(in, from, found);
   }
-  tell_way_out(in, from, joints, problem);
+  tell_pairs(in, from, joints);
+}
+
+// Says on standard error what is wrong with each goal of a plan.
+static void tell_goals(const robot_in_room *in, const robot_task *task, const plan_goals *g,
+                       const nsvcd_route_problem *problem) {
+  const robot_file *file = in->file;
+  for (size_t i = 0; i < file->goal_count; i++) {
+    const robot_goal *goal = &file->goals[i];
+    const nsvcd_reach_answer *reached = &g->reached[i];
+    const double *row = file->numbers + goal->first;
+    char from[1024];
+    nsvcd_check_answer found;
+    if (&file->tasks[goal->task] != task) continue;
+    snprintf(from, sizeof from, "%s:%zu: %s: the goal", file->path, goal->line, task->id);
+    if (goal->thing == NSVCD_NONE) {
+      const nsvcd_joint_motion still = {0, 0, row, NULL};
+      if (nsvcd_check(in->checker, &still, NULL, &found)) continue;
+      tell_check(in, from, row, &found);
+      tell_way_out(in, from, row, problem);
+    } else if (reached->reached) {
+      complain("%s: %s is there only in configurations that are not free, the nearest like this",
+               from, file->things[goal->thing].name);
+      tell_check(in, from, reached->best, &reached->check);
+    } else {
+      complain("%s: out of reach: %s is %.3f mm and %.3f degrees off, at best", from,
+               file->things[goal->thing].name, 1e3 * reached->position_error,
+               reached->angle_error * (180 / 3.141592653589793));
+    }
+  }
 }
 
 static const char *plan_word(const nsvcd_route_answer *answer) {
@@ -191,22 +220,38 @@ static void write_samples(const robot_task *task, const nsvcd_route_answer *answ
   fflush(out);
 }
 
+// Says what became of a plan, in all the ways that were asked for. Returns 0 after a complaint.
+static int tell_plan(const robot_in_room *in, const robot_task *task, const settings *options,
+                     const nsvcd_route_answer *answer, double taken, FILE *out) {
+  const nsvcd_joint_motion *m = &answer->motion;
+  const int is_found = answer->status == NSVCD_ROUTE_FOUND;
+  int good = 1;
+  print_plan(in, task, options, answer, taken);
+  if (is_found && out) write_samples(task, answer, in->file->joint_count, options->samples, out);
+  if (is_found && options->picture) good = robot_draw(options->picture, 0, in, task->id, m);
+  if (is_found && options->film) good &= robot_draw(options->film, 1, in, task->id, m);
+  if (options->certificates)
+    good &= write_motion_proof(in, options->certificates, task->id, is_found ? m : NULL,
+                               options->visits);
+  return good;
+}
+
 static int plan_one(const robot_in_room *in, const robot_task *task, const settings *options,
                     FILE *out) {
   nsvcd_route_problem problem;
   nsvcd_route_options asked;
   nsvcd_route_answer answer;
+  plan_goals goals;
   plan_clock limits = {0, 0};
   int good = 1;
-  const size_t joints = in->file->joint_count;
+  void *memory = NULL;
   memset(&problem, 0, sizeof problem);
   memset(&asked, 0, sizeof asked);
+  memset(&answer, 0, sizeof answer);
+  memset(&goals, 0, sizeof goals);
   problem.start = in->file->numbers + task->first;
-  problem.goals = problem.start + joints;
-  problem.goal_count = 1;
   asked.seed = options->seed;
   asked.nodes = PLAN_NODES;
-  const size_t size = nsvcd_route_size(in->checker, &problem, &asked);
   const double began = seconds();
   if (options->seconds > 0) {
     problem.stop = search_is_over;
@@ -215,25 +260,29 @@ static int plan_one(const robot_in_room *in, const robot_task *task, const setti
     limits.search_end = began + SEARCH_SHARE * (double)options->seconds;
     limits.end = began + (double)options->seconds;
   }
-  void *memory = allocate(size);
-  const nsvcd_result result = nsvcd_route(in->checker, &problem, &asked, memory, size, &answer);
-  const double taken = seconds() - began;
+  nsvcd_result result = find_goals(in, task, options, &problem, &goals);
+  problem.goals = goals.rows;
+  problem.goal_count = goals.row_count;
+  answer.status = NSVCD_ROUTE_GOAL;
+  if (!result && goals.row_count > 0) {
+    const size_t size = nsvcd_route_size(in->checker, &problem, &asked);
+    memory = allocate(size);
+    result = nsvcd_route(in->checker, &problem, &asked, memory, size, &answer);
+  } else if (problem.stop && problem.stop(problem.user)) {
+    answer.status = NSVCD_ROUTE_LIMIT;
+  }
   if (!result) {
-    const nsvcd_joint_motion *m = &answer.motion;
-    const int is_found = answer.status == NSVCD_ROUTE_FOUND;
-    print_plan(in, task, options, &answer, taken);
-    if (answer.status == NSVCD_ROUTE_START)
-      tell_check(in, task, "the start", problem.start, &answer.check, &problem);
-    if (answer.status == NSVCD_ROUTE_GOAL)
-      tell_check(in, task, "the goal", problem.goals, &answer.check, &problem);
-    if (is_found && out) write_samples(task, &answer, joints, options->samples, out);
-    if (is_found && options->picture) good = robot_draw(options->picture, 0, in, task->id, m);
-    if (is_found && options->film) good &= robot_draw(options->film, 1, in, task->id, m);
-    if (options->certificates)
-      good &= write_motion_proof(in, options->certificates, task->id, is_found ? m : NULL,
-                                 options->visits);
+    char from[1024];
+    snprintf(from, sizeof from, "%s:%zu: %s: the start", in->file->path, task->line, task->id);
+    good = tell_plan(in, task, options, &answer, seconds() - began, out);
+    if (answer.status == NSVCD_ROUTE_START) {
+      tell_check(in, from, problem.start, &answer.check);
+      tell_way_out(in, from, problem.start, &problem);
+    }
+    if (answer.status == NSVCD_ROUTE_GOAL) tell_goals(in, task, &goals, &problem);
   }
   free(memory);
+  free_goals(&goals);
   if (result) complain("%s:%zu: %s: %s", in->file->path, task->line, task->id, reason_of(result));
   return !result && good;
 }

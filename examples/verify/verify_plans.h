@@ -122,17 +122,77 @@ static double take_double(const uint8_t *bytes, size_t size, size_t *at) {
   return value;
 }
 
-// Does a motion begin at the start and end at the goal? Turns without limits may be whole ones off.
-static int goes(const robot *r, const nsvcd_verify_motion *m, char *const *words) {
-  const size_t last = m->pieces * m->degree * m->joint_count;
-  for (size_t j = 0; j < m->joint_count; j++) {
-    const double start = m->points[j] - number_of(r->path, words[3 + j]);
-    double goal = m->points[last + j] - number_of(r->path, words[3 + m->joint_count + j]);
-    const double turn = 6.283185307179586;
-    if (r->continuous[j]) goal -= turn * floor(goal / turn + 0.5);
-    if (!(fabs(start) < 1e-9) || !(fabs(goal) < 1e-9)) return 0;
+// A line that is a plan or a goal: plans are checked where their scene ends, since goals may follow.
+typedef struct plan_line {
+  char *words[MOST_WORDS];
+  size_t count;
+} plan_line;
+
+// Are the joints at an end of a motion those of a line? Turns without limits may be whole ones off.
+static int is_at(const robot *r, const double *joints, char *const *words) {
+  const double turn = 6.283185307179586;
+  for (size_t j = 0; j < r->joint_count; j++) {
+    double off = joints[j] - number_of(r->path, words[j]);
+    if (r->continuous[j]) off -= turn * floor(off / turn + 0.5);
+    if (!(fabs(off) < 1e-9)) return 0;
   }
   return 1;
+}
+
+// Is a body at its pose when a motion ends? goal ID pose x y z qx qy qz qw NAME ..., see
+// examples/FORMATS.md. What svcd allows is 1e-6 m, and radians.
+static int is_placed(const robot *r, const nsvcd_verify_motion *m, const plan_line *goal) {
+  const double near_enough = 2e-6;
+  char *const *words = goal->words;
+  const robot_body *body = (const robot_body *)r->bodies.items + body_named(r, words[10]);
+  nsvcd_verify_part part = {m, body->link, 0, {0}};
+  nsvcd_verify_place at;
+  float pose[7];
+  double q[4], turn[9];
+  double half[3] = {0, 0, 0};
+  int free_axis = -1;
+  memcpy(part.pose, body->pose, sizeof part.pose);
+  verify__part_place(&part, 1, &at);
+  read_pose(r->path, words + 3, pose);
+  for (int i = 0; i < 4; i++) q[i] = (double)pose[3 + i];
+  verify__matrix(q, turn);
+  for (size_t k = 11; k < goal->count;) {
+    const int is_box = strcmp(words[k], "box") == 0 && goal->count - k >= 4;
+    if (!is_box && (strcmp(words[k], "free") != 0 || goal->count - k < 2))
+      fail(r->path, "something follows a goal");
+    for (size_t i = 0; i < 3 && is_box; i++) half[i] = number_of(r->path, words[k + 1 + i]);
+    if (!is_box) free_axis = words[k + 1][0] - 'x';
+    k += is_box ? 4 : 2;
+  }
+  for (int k = 0; k < 3; k++) {
+    double off = 0;
+    double turned = 0;
+    for (int i = 0; i < 3; i++) {
+      const double by = at.turn[3 * i + k] - turn[3 * i + k];
+      off += turn[3 * i + k] * (at.at[i] - (double)pose[i]);
+      turned += by * by;
+    }
+    if (!(fabs(off) <= half[k] + near_enough)) return 0;
+    if ((free_axis < 0 || k == free_axis) && !(sqrt(turned) <= near_enough)) return 0;
+  }
+  return 1;
+}
+
+// Does a motion begin at the start of a plan, and end at one of its goals? Those are on its line, and
+// on lines below, up to a plan of the same ID.
+static int goes(const robot *r, const nsvcd_verify_motion *m, const plan_line *plan,
+                const plan_line *end) {
+  const size_t joints = m->joint_count;
+  const double *last = m->points + m->pieces * m->degree * joints;
+  if (!is_at(r, m->points, plan->words + 3)) return 0;
+  if (plan->count > 3 + joints && is_at(r, last, plan->words + 3 + joints)) return 1;
+  for (const plan_line *goal = plan + 1; goal < end; goal++) {
+    if (strcmp(goal->words[1], plan->words[1]) != 0) continue;
+    if (strcmp(goal->words[0], "plan") == 0) return 0;
+    const int is_pose = strcmp(goal->words[2], "pose") == 0;
+    if (is_pose ? is_placed(r, m, goal) : is_at(r, last, goal->words + 2)) return 1;
+  }
+  return 0;
 }
 
 static const char *check_pair(const robot *r, const nsvcd_verify_motion *m, size_t pair,
@@ -166,8 +226,8 @@ static const char *check_pair(const robot *r, const nsvcd_verify_motion *m, size
 }
 
 // NULL, or why it is refused. *at: the byte.
-static const char *check_motion(const robot *r, char *const *words, const uint8_t *bytes,
-                                size_t size, size_t *at) {
+static const char *check_motion(const robot *r, const plan_line *plan, const plan_line *end,
+                                const uint8_t *bytes, size_t size, size_t *at) {
   nsvcd_verify_motion m;
   memset(&m, 0, sizeof m);
   *at = 4;
@@ -186,7 +246,7 @@ static const char *check_motion(const robot *r, char *const *words, const uint8_
   m.points = motion + m.pieces + 1;
   const size_t pairs = r->pairs.count / 2;
   const char *why = nsvcd_verify_motion_check(&m);
-  if (!why && !goes(r, &m, words)) why = "its motion has another start or goal";
+  if (!why && !goes(r, &m, plan, end)) why = "its motion has another start or goal";
   if (!why && take(bytes, size, at, 4) != pairs) why = "it is about other pairs";
   for (size_t pair = 0; pair < pairs && !why; pair++) {
     const size_t length = (size_t)take(bytes, size, at, 4);
@@ -205,7 +265,8 @@ static const char *check_motion(const robot *r, char *const *words, const uint8_
   return why;
 }
 
-static int check_plan(const robot *r, char *const *words, request *asked) {
+static int check_plan(const robot *r, const plan_line *plan, const plan_line *end, request *asked) {
+  char *const *words = plan->words;
   char path[4096];
   size_t size;
   size_t at = 0;
@@ -213,7 +274,7 @@ static int check_plan(const robot *r, char *const *words, request *asked) {
   uint8_t *bytes = (uint8_t *)read_file(path, &size);
   if (!bytes) return printf("%s\trefused\tthere is no certificate\t0\t0\n", words[1]), 0;
   const clock_t start = clock();
-  const char *why = check_motion(r, words, bytes, size, &at);
+  const char *why = check_motion(r, plan, end, bytes, size, &at);
   const double taken = 1e6 * (double)(clock() - start) / (double)CLOCKS_PER_SEC;
   if (!why) printf("%s\taccepted\tfree\t%zu\t%.1f\n", words[1], size, taken);
   if (why) printf("%s\trefused\t%s, at byte %zu\t%zu\t%.1f\n", words[1], why, at, size, taken);
@@ -271,11 +332,35 @@ static void finish_scene(robot *r, float asked) {
   }
 }
 
-// Checks all plans of a planning file: the robot, then a scene, its obstacles, and plans and paths
-// in it, and perhaps another scene. Returns 1 if all are accepted.
+// Checks the plans among the lines of a scene, and forgets them. Returns 1 if all are accepted.
+static int check_scene(const robot *r, list *lines, request *asked) {
+  const plan_line *first = (const plan_line *)lines->items;
+  int all = 1;
+  for (size_t k = 0; k < lines->count; k++)
+    if (strcmp(first[k].words[0], "plan") == 0 && is_wanted(asked, first[k].words[1]))
+      all &= check_plan(r, first + k, first + lines->count, asked);
+  lines->count = 0;
+  return all;
+}
+
+// Is a line a plan, a goal, a path or a curve, where it may stand?
+static int is_task(const robot *r, char *const *words, size_t n, const char *scene) {
+  const size_t joints = r->joint_count;
+  if (!scene) return 0;
+  if (strcmp(words[0], "goal") == 0)
+    return n == 2 + joints || (n >= 11 && strcmp(words[2], "pose") == 0);
+  int fits = strcmp(words[0], "path") == 0 && n == 4;
+  if (strcmp(words[0], "curve") == 0) fits = n == 5 || n == 6;
+  if (strcmp(words[0], "plan") == 0) fits = n == 3 + joints || n == 3 + 2 * joints;
+  return fits && strcmp(words[2], scene) == 0;
+}
+
+// Checks all plans of a planning file: the robot, then a scene, its obstacles, and plans, their goals
+// and paths in it, and perhaps another scene. Returns 1 if all are accepted.
 static int check_plans(const char *path, char *text, request *asked) {
   robot r;
   char *words[MOST_WORDS];
+  list lines = {NULL, 0, 0};
   const char *scene = NULL;
   size_t own_pairs = 0, own_distances = 0;
   int has_tasks = 0;  // 1: a plan or a path stands above
@@ -298,6 +383,7 @@ static int check_plans(const char *path, char *text, request *asked) {
     } else if (strcmp(word, "scene") == 0 && n == 2) {
       if (!scene) own_pairs = r.pairs.count;
       if (!scene) own_distances = r.distances.count;
+      all &= check_scene(&r, &lines, asked);
       scene = words[1];
       has_tasks = 0;
       r.bodies.count = r.own;
@@ -305,24 +391,25 @@ static int check_plans(const char *path, char *text, request *asked) {
       r.distances.count = own_distances;
     } else if (strcmp(word, "obstacle") == 0 && n >= 3 && scene && !has_tasks) {
       add_body(&r, words, n);
-    } else if ((strcmp(word, "plan") == 0 ? n == 3 + 2 * r.joint_count
-                                          : strcmp(word, "path") == 0 && n == 4) &&
-               scene && strcmp(words[2], scene) == 0) {
+    } else if (is_task(&r, words, n, scene)) {
+      const int is_path = strcmp(word, "path") == 0;
+      const int is_curve = strcmp(word, "curve") == 0;
       if (!has_tasks) finish_scene(&r, asked->clearance);
       has_tasks = 1;
-      if (word[1] == 'l' && is_wanted(asked, words[1])) all &= check_plan(&r, words, asked);
-      for (size_t k = word[1] == 'l' ? 0 : strtoul(words[3], NULL, 10); k > 0; k--)
-        if (next_words(&text, words, MOST_WORDS) == 0) fail(path, "a path ends early");
-    } else if (strcmp(word, "curve") == 0 && (n == 5 || n == 6) && scene &&
-               strcmp(words[2], scene) == 0) {
-      if (!has_tasks) finish_scene(&r, asked->clearance);
-      has_tasks = 1;
-      for (size_t k = strtoul(words[4], NULL, 10); k > 0; k--)
-        if (next_words(&text, words, MOST_WORDS) == 0) fail(path, "a curve ends early");
+      if (is_path || is_curve) {
+        for (size_t k = strtoul(words[is_path ? 3 : 4], NULL, 10); k > 0; k--)
+          if (next_words(&text, words, MOST_WORDS) == 0) fail(path, "a path or a curve ends early");
+        continue;
+      }
+      plan_line *line = (plan_line *)add(&lines, sizeof *line);
+      memcpy(line->words, words, sizeof line->words);
+      line->count = n;
     } else {
       fail(path, "a line is not one of a planning file, or not where it may stand");
     }
   }
+  all &= check_scene(&r, &lines, asked);
+  free(lines.items);
   return all;
 }
 #endif  // NSVCD_VERIFY_PLANS_H

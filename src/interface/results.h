@@ -14,8 +14,8 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_WORKSPACE,
   // the caller's progress function cancelled
   NSVCD_ERROR_CANCELLED,
-  // a count is 0, or larger than the library takes: of joints, parts, goals, points of a guess, or
-  // balls
+  // a count is 0, or larger than the library takes: of joints, parts, goals, points of a guess,
+  // solutions, or balls
   NSVCD_ERROR_COUNT,
 
   // ---- files and meshes
@@ -80,7 +80,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_CLEARANCE,
   // `slop` is negative, not finite or too large; or it is set for a certificate
   NSVCD_ERROR_SLOP,
-  // `tolerance` is negative, not finite or too large
+  // a tolerance is negative, not finite or too large
   NSVCD_ERROR_TOLERANCE,
   // `manifold` is set without FIRST
   NSVCD_ERROR_MANIFOLD,
@@ -100,7 +100,7 @@ typedef enum nsvcd_result {
   // ---- joints
   // a joint's kind is none of its values, or its parent does not come before it
   NSVCD_ERROR_JOINT,
-  // a joint's axis has no length, or is not finite
+  // a joint's axis has no length, or is not finite; or `free_axis` is not
   NSVCD_ERROR_AXIS,
   // a joint's limits are not finite or too large, or low is above high
   NSVCD_ERROR_LIMITS,
@@ -119,7 +119,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_TURN,
   // `finest` is negative or not finite
   NSVCD_ERROR_FINEST,
-  // `max_distance` or `max_depth` is negative, not finite or too large
+  // `max_distance`, `max_depth` or `apart` is negative, not finite or too large
   NSVCD_ERROR_DISTANCE,
   // `farthest` is negative, not finite or too large
   NSVCD_ERROR_FARTHEST,

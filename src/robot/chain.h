@@ -12,6 +12,7 @@
 //   proofs           a certificate of a pair, as the joints move it
 //   rrt              trees of configurations, and the nearest node
 //   configurations   one configuration: proximities, the nearest free one; which pairs can meet
+//   reach            configurations that have a tool at a target
 //   blends           from one state to another, within limits of speed and acceleration
 //   smooth           a path, timed, then smooth
 //   route            a start and goals: two trees of proven edges, shortcuts

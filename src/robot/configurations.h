@@ -195,13 +195,20 @@ NSVCDDEF nsvcd_result nsvcd_proximities(nsvcd_checker *c, const double *joints,
 
 // ---- the nearest free configuration
 
+// A joint's limits; of one that turns without, as far as values may go.
+static double nsvcd__low_of(const nsvcd_joint *joint) {
+  const int is_endless = joint->kind == NSVCD_JOINT_CONTINUOUS;
+  return is_endless ? -(double)NSVCD_MAX_COORDINATE : joint->low;
+}
+static double nsvcd__high_of(const nsvcd_joint *joint) {
+  const int is_endless = joint->kind == NSVCD_JOINT_CONTINUOUS;
+  return is_endless ? (double)NSVCD_MAX_COORDINATE : joint->high;
+}
+
 static void nsvcd__clamp_to_limits(const nsvcd_scene *scene, double *joints) {
   for (size_t j = 0; j < scene->joint_count; j++) {
     const nsvcd_joint *joint = &scene->joints[j];
-    const int is_endless = joint->kind == NSVCD_JOINT_CONTINUOUS;
-    const double low = is_endless ? -(double)NSVCD_MAX_COORDINATE : joint->low;
-    const double high = is_endless ? (double)NSVCD_MAX_COORDINATE : joint->high;
-    joints[j] = nsvcd__max(low, nsvcd__min(high, joints[j]));
+    joints[j] = nsvcd__max(nsvcd__low_of(joint), nsvcd__min(nsvcd__high_of(joint), joints[j]));
   }
 }
 

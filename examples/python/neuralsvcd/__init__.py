@@ -39,7 +39,7 @@ from numpy.typing import ArrayLike, NDArray
 __all__ = [
     "Answer", "Ask", "Body", "By", "Certificate", "Checked", "Code", "Contact", "Error", "Facts", "Gradient", "Joint",
     "JointKind", "LEAVE_OUT", "Mesh", "Method", "Model", "NO_TRIANGLE", "Opinion", "Options", "Part", "Plan",
-    "PlanOptions", "PlanStatus", "Precision", "Progress", "Range", "Robot", "Route", "RouteStatus", "SafePlace",
+    "PlanOptions", "PlanStatus", "Precision", "Progress", "Range", "Reached", "Robot", "Route", "RouteStatus", "SafePlace",
     "Stage", "Tree", "Verdict", "Why", "certify", "cut_mesh", "load_mesh", "load_obj", "load_stl",
     "parse_mesh", "parse_obj", "parse_stl", "plan", "poses_from_matrices", "spline", "sweep", "sweep_batch", "sweep_gradient",
 ]
@@ -286,6 +286,14 @@ _ProximityOptions = _struct("nsvcd_proximity_options", max_distance=c_float, to=
 _NearestFreeOptions = _struct("nsvcd_nearest_free_options", clearance=c_float, farthest=c_double, seed=c_uint64, stop=_STOP,
                          user=c_void_p)
 _PairCounts = _struct("nsvcd_pair_counts", asked=c_size_t, adjacent=c_size_t, touching=c_size_t)
+_ReachProblem = _struct(
+    "nsvcd_reach_problem", start=c_void_p, link=c_uint32, tool=_Pose, target_link=c_uint32, target=_Pose, half=c_float * 3,
+    free_axis=c_float * 3, stop=_STOP, user=c_void_p)
+_ReachOptions = _struct("nsvcd_reach_options", position_tolerance=c_double, angle_tolerance=c_double, apart=c_double, starts=c_size_t,
+                        seed=c_uint64, clearance=c_float, may_touch=c_int)
+_ReachAnswer = _struct(
+    "nsvcd_reach_answer", solutions=c_size_t, starts=c_size_t, reached=c_size_t, touching=c_size_t, best=c_double * _MAX_JOINTS,
+    position_error=c_double, angle_error=c_double, check=_CheckAnswer)
 _RouteProblem = _struct("nsvcd_route_problem", start=c_void_p, goals=c_void_p, goal_count=c_size_t, guess=c_void_p,
                         guess_count=c_size_t, stop=_STOP, abandon=_STOP, user=c_void_p)
 _RouteOptions = _struct("nsvcd_route_options", seed=c_uint64, clearance=c_float, nodes=c_size_t, tries=c_size_t,
@@ -298,7 +306,7 @@ _CertifyOptions = _struct("nsvcd_certify_options", answer=c_void_p, visits=c_siz
 _Certificate = _struct(
     "nsvcd_certificate", verdict=c_int, why=c_int, inside=c_int, time=c_double, size=c_size_t, visits=c_size_t)
 _STRUCTS = (_CertifyOptions, _Certificate, _Joint, _Part, _Scene, _JointMotion, _CheckOptions, _CheckAnswer, _Proximity, _ProximityOptions, _NearestFreeOptions,
-            _PairCounts, _RouteProblem, _RouteOptions, _RouteAnswer, _Mesh, _EncodeOptions, _BodyFacts, _Pose, _NetworkOptions, _Mover, _Question, _Range, _Contact,
+            _PairCounts, _ReachProblem, _ReachOptions, _ReachAnswer, _RouteProblem, _RouteOptions, _RouteAnswer, _Mesh, _EncodeOptions, _BodyFacts, _Pose, _NetworkOptions, _Mover, _Question, _Range, _Contact,
             _SafePlace, _Opinion, _Answer, _BodyPair, _PlanProgress, _PlanProblem, _PlanStage, _PlanOptions, _PlanAnswer)
 _Layout = _struct("neuralsvcd_layout", name=c_char_p, place=c_size_t, size=c_size_t)
 
@@ -329,6 +337,7 @@ _PROTOTYPES = {
     "nsvcd_nearest_free": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p),
     "nsvcd_find_pairs": (c_int, c_void_p, c_size_t, c_uint64, c_void_p, c_size_t, c_void_p),
     "nsvcd_reparent": (c_int, c_void_p, c_void_p, c_size_t, c_uint32, c_void_p),
+    "nsvcd_reach": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p),
     "nsvcd_route_size": (c_size_t, c_void_p, c_void_p, c_void_p),
     "nsvcd_route": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p),
     "nsvcd_tree_size": (c_size_t, c_void_p),
@@ -1607,6 +1616,25 @@ class Proximity(NamedTuple):
     slope: Doubles
 
 
+class Reached(NamedTuple):
+    """nsvcd_reach_answer.
+
+    solutions  (n, F): configurations that have the tool at its target, the nearest to the start first
+    starts, reached, touching  how many starts there were, came to the target, and were not proven free there
+    best       (F): the first solution; else one that touches; else the one nearest to the target
+    position_error, angle_error  metres, radians: how far the tool is off its target there
+    check      what is wrong with the best if it touches, else None
+    """
+    solutions: Doubles
+    starts: int
+    reached: int
+    touching: int
+    best: Doubles
+    position_error: float
+    angle_error: float
+    check: Optional[Checked]
+
+
 class Route(NamedTuple):
     """nsvcd_route_answer.
 
@@ -1653,6 +1681,11 @@ def _doubles(value: ArrayLike, shape: tuple[Optional[int], ...], name: str) -> D
     return np.array(_numeric(value, shape, name), np.float64, order="C")
 
 
+def _pose_of(pose: ArrayLike, name: str) -> Any:
+    row = _floats(_posed(pose, name), (7,), name).tolist()
+    return _Pose((c_float * 3)(*row[:3]), (c_float * 4)(*row[3:]))
+
+
 class Robot:
     """Joints, parts on their links, and which parts can meet: nsvcd_scene and its checker. One thread at a time.
 
@@ -1666,17 +1699,14 @@ class Robot:
         if clearances is not None and pairs is None:
             raise TypeError("clearances: of which pairs?")
         self._clearances: Optional[NDArray[np.float32]] = None
-        def pose_of(pose: ArrayLike, name: str) -> Any:
-            row = _floats(_posed(pose, name), (7,), name).tolist()
-            return _Pose((c_float * 3)(*row[:3]), (c_float * 4)(*row[3:]))
         self.joint_count, self.part_count = len(joints), len(parts)
         self._joints = (_Joint * max(len(joints), 1))(*(
-            _Joint(_number_of(JointKind(j.kind)), _number(c_uint32, j.parent, "parent"), pose_of(j.origin, "origin"),
+            _Joint(_number_of(JointKind(j.kind)), _number(c_uint32, j.parent, "parent"), _pose_of(j.origin, "origin"),
                    (c_float * 3)(*_floats(j.axis, (3,), "axis").tolist()), j.low, j.high, j.speed, j.acceleration)
             for j in joints))
         self._bodies = [part.body for part in parts]
         self._parts = (_Part * max(len(parts), 1))(*(
-            _Part(part.body._address, _number(c_uint32, part.link, "link"), pose_of(part.pose, "pose"), part.scale)
+            _Part(part.body._address, _number(c_uint32, part.link, "link"), _pose_of(part.pose, "pose"), part.scale)
             for part in parts))
         if clearances is not None:
             self._clearances = _floats(clearances, (len(_indices(pairs, 2, "pairs")),), "clearances")
@@ -1729,6 +1759,26 @@ class Robot:
         options.farthest = farthest
         _check(_library.nsvcd_nearest_free(self._checker, _address(row), byref(options), _address(out), byref(is_found)))
         return out if is_found.value else None
+
+    def reach(self, start: ArrayLike, target: ArrayLike, link: int, tool: ArrayLike = _IDENTITY, *, target_link: int = 0,
+              half: ArrayLike = (0, 0, 0), free_axis: ArrayLike = (0, 0, 0), most: int = 16, position_tolerance: float = 0,
+              angle_tolerance: float = 0, apart: float = 0, starts: int = 0, seed: int = 0, clearance: float = 0,
+              may_touch: bool = False) -> Reached:
+        """Configurations, at most `most`, that have a tool, a pose on a link, at a target: nsvcd_reach."""
+        row = _doubles(start, (self.joint_count,), "start")
+        out = np.empty((most, self.joint_count))
+        problem, answer = _ReachProblem(start=_address(row)), _ReachAnswer()
+        problem.link, problem.target_link = _number(c_uint32, link, "link"), _number(c_uint32, target_link, "target_link")
+        problem.tool, problem.target = _pose_of(tool, "tool"), _pose_of(target, "target")
+        problem.half[:] = _floats(half, (3,), "half").tolist()
+        problem.free_axis[:] = _floats(free_axis, (3,), "free_axis").tolist()
+        options = _filled(_ReachOptions, starts=starts, seed=seed, clearance=clearance, may_touch=int(may_touch))
+        options.position_tolerance, options.angle_tolerance, options.apart = position_tolerance, angle_tolerance, apart
+        _check(_library.nsvcd_reach(self._checker, byref(problem), byref(options), _address(out), most, byref(answer)))
+        touches = not answer.solutions and answer.touching > 0
+        return Reached(out[:answer.solutions].copy(), answer.starts, answer.reached, answer.touching,
+                       np.array(answer.best[:self.joint_count]), answer.position_error, answer.angle_error,
+                       _checked(answer.check) if touches else None)
 
     def handed_over(self, joints: ArrayLike, part: int, link: int) -> Part:
         """A part as another link would carry it from where it is, for a Robot to come: nsvcd_reparent."""
