@@ -1,6 +1,5 @@
 // robot_file.h - reads planning files (version 1), with messages that name file, line and reason.
-
-// problem_file.h, load.h and robot_shapes.h first.
+// Include problem_file.h, load.h and robot_shapes.h first.
 //
 //   nsvcd-plans 1
 //   joint NAME PARENT  x y z qx qy qz qw  ax ay az  KIND LOW HIGH SPEED [ACCELERATION]

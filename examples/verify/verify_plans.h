@@ -398,7 +398,8 @@ static int check_plans(const char *path, char *text, request *asked) {
       has_tasks = 1;
       if (is_path || is_curve) {
         for (size_t k = strtoul(words[is_path ? 3 : 4], NULL, 10); k > 0; k--)
-          if (next_words(&text, words, MOST_WORDS) == 0) fail(path, "a path or a curve ends early");
+          if (next_words(&text, words, MOST_WORDS) == 0)
+            fail(path, is_path ? "a path ends early" : "a curve ends early");
         continue;
       }
       plan_line *line = (plan_line *)add(&lines, sizeof *line);
