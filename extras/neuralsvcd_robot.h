@@ -32,6 +32,7 @@
 //   robot: is a motion of joints free?
 //     chain           links, joints and frames: where everything is
 //     steps           what the joints do between two times
+//     allowances      when a pair may touch
 //     deviation       how far a part leaves its sweep between two samples
 //     checker         the checker of a scene
 //     samples         configurations of a motion, and boxes about the parts in them
@@ -115,6 +116,21 @@ typedef struct nsvcd_part {
   float scale;
 } nsvcd_part;
 
+// Contact that is allowed near a configuration: of what stands on a table with the table, before a
+// robot takes it, or of a gripper's jaws with what they hold. The link sees both parts that carries
+// both. There, no point of either part is farther from where it is in that configuration than the
+// distance, by a bound: each joint's way, times how far from its axis the part can ever be, summed.
+// Joints that carry both, or none, do not count, so what the jaws hold may touch them for good, as
+// long as they do not open.
+typedef struct nsvcd_allowance {
+  // the pair, an index of the scene's
+  size_t pair;
+  // (F) the configuration, radians or metres
+  const double *joints;
+  // metres
+  double distance;
+} nsvcd_allowance;
+
 // A robot and its obstacles. Only the pairs named here are checked.
 typedef struct nsvcd_scene {
   // (F) joints of the robot
@@ -132,6 +148,10 @@ typedef struct nsvcd_scene {
   // (P) metres: the distance that each pair keeps, beside the clearance that a check or a route is
   // asked for. NULL: 0 for all
   const float *clearances;
+  // (W) where pairs may touch, or be inside of each other
+  const nsvcd_allowance *allowances;
+  // W
+  size_t allowance_count;
 } nsvcd_scene;
 
 // A motion of the joints, in pieces one after another. A piece is a Bezier curve in time. It begins
@@ -179,7 +199,8 @@ typedef struct nsvcd_check_options {
 // What is known of a motion.
 typedef struct nsvcd_check_answer {
   // FREE: at no time of the motion do the parts of a pair come within the clearance, or is one
-  // inside the other. HIT: in the configuration that is named, those of a pair do, or one is
+  // inside the other, but where the scene allows it. HIT: in the configuration that is named, those
+  // of a pair do, or one is
   nsvcd_verdict verdict;
   // the reason if the verdict is UNDECIDED
   nsvcd_why why;
@@ -212,7 +233,8 @@ NSVCDDEF size_t nsvcd_checker_size(const nsvcd_scene *scene);
 //   threads    each needs a checker of its own; scenes may be shared
 //   errors     ARGUMENT (NULL), COUNT, WORKSPACE; of a joint JOINT, AXIS, LIMITS, SPEED; of a part
 //              BODY, VERSION, TRIANGLES, LINK, SCALE; of either POSE, QUATERNION; of a pair PAIR
-//              (also if both parts are on one link), CLEARANCE
+//              (also if both parts are on one link), CLEARANCE; of an allowance PAIR, ARGUMENT
+//              (NULL), VALUE, DISTANCE
 NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory, size_t size,
                                          nsvcd_checker **checker);
 
@@ -1564,6 +1586,8 @@ struct nsvcd_checker {
   nsvcd_pose *local[2];
   // of the samples; and the most that a part deviates in the step after each
   double times[NSVCD__MOST_STEPS + 1], deviations[NSVCD__MOST_STEPS + 1];
+  // (W, 2): when a motion leaves what is allowed at its start, and enters what is at its end
+  double *cuts;
   void *query;
   size_t query_size;
   // an error of a question, which ends those that follow
@@ -1807,6 +1831,133 @@ static void nsvcd__step_of(const nsvcd_joint_motion *m, size_t joints, double t0
   }
 }
 
+// -------------------------------------------------------------------------------- robot/allowances
+// In: a motion, and contact that a scene allows near some configurations. Out: when a pair is
+// allowed to touch.
+//
+// Each joint's values over a time are bounded by their control points, and from these how far the
+// parts are from where they are in the configuration.
+
+// by how much less than an allowance's distance is sought when a motion leaves it, for rounding
+#define NSVCD__ALLOWANCE_ROUNDING 1e-9
+#define NSVCD__ALLOWANCE_HALVINGS 40
+
+// The last link that carries two others.
+static size_t nsvcd__common_link(const nsvcd_scene *scene, size_t a, size_t b) {
+  while (a != b) {
+    size_t *later = a > b ? &a : &b;
+    *later = scene->joints[*later - 1].parent;
+  }
+  return a;
+}
+
+// Are both parts of an allowance's pair within its distance, and `more` metres, of where they are in
+// its configuration, for all joint values from `low` to `high`?
+static int nsvcd__allows(const nsvcd_checker *c, const nsvcd_allowance *allowance,
+                         const double *low, const double *high, double more) {
+  const double full_turn = 6.283185307179586;
+  const nsvcd_body_pair *pair = &c->scene->pairs[allowance->pair];
+  const size_t parts[2] = {pair->a, pair->b};
+  const size_t base = nsvcd__common_link(c->scene, c->scene->parts[pair->a].link,
+                                         c->scene->parts[pair->b].link);
+  for (size_t n = 0; n < 2; n++) {
+    const nsvcd__member *m = &c->members[parts[n]];
+    double reach = nsvcd__d3_norm(m->frame.position) + m->extent + m->round;
+    double moved = 0;
+    for (size_t link = c->scene->parts[parts[n]].link; link != base;
+         link = nsvcd__link_before(c, link)) {
+      const size_t j = link - 1;
+      const int is_endless = c->scene->joints[j].kind == NSVCD_JOINT_CONTINUOUS;
+      const double off = 0.5 * (low[j] + high[j]) - allowance->joints[j];
+      const double turns = is_endless ? floor(off / full_turn + 0.5) : 0;
+      const double at = allowance->joints[j] + full_turn * turns;
+      const double most = nsvcd__max(fabs(at), nsvcd__max(fabs(low[j]), fabs(high[j])));
+      const double way = nsvcd__max(fabs(low[j] - at), fabs(high[j] - at));
+      moved += nsvcd__slides(c, j) ? way : way * reach;
+      reach += nsvcd__d3_norm(c->links[j].origin.position);
+      if (nsvcd__slides(c, j)) reach += most;
+    }
+    if (!(moved <= allowance->distance + more)) return 0;
+  }
+  return 1;
+}
+
+// Bounds of the joints' values from time t0 to t1.
+static void nsvcd__joint_ranges(const nsvcd_joint_motion *m, size_t joints, double t0,
+                                double t1, double *low, double *high) {
+  const size_t first = nsvcd__piece_at(m, t0);
+  for (size_t j = 0; j < joints; j++) {
+    low[j] = HUGE_VAL;
+    high[j] = -HUGE_VAL;
+    for (size_t piece = first;; piece++) {
+      double p[NSVCD_MAX_DEGREE + 1];
+      nsvcd__joint_points(m, piece, joints, j, p);
+      if (m->degree > 0)
+        nsvcd__cut_curve(p, m->degree, nsvcd__fraction_at(m, piece, t0),
+                         nsvcd__fraction_at(m, piece, t1));
+      for (size_t i = 0; i <= m->degree; i++) {
+        low[j] = nsvcd__min(low[j], p[i]);
+        high[j] = nsvcd__max(high[j], p[i]);
+      }
+      if (piece + 1 >= m->pieces || !(nsvcd__piece_start(m, piece + 1) < t1)) break;
+    }
+  }
+}
+
+// Is contact allowed all the while from time t0 to t1?
+static int nsvcd__allows_from_to(const nsvcd_checker *c, const nsvcd_allowance *allowance,
+                                 const nsvcd_joint_motion *m, double t0, double t1,
+                                 double more) {
+  double low[NSVCD_MAX_JOINTS], high[NSVCD_MAX_JOINTS];
+  nsvcd__joint_ranges(m, c->scene->joint_count, t0, t1, low, high);
+  return nsvcd__allows(c, allowance, low, high, more);
+}
+
+static int nsvcd__pair_is_allowed(const nsvcd_checker *c, size_t pair,
+                                  const nsvcd_joint_motion *m, double t0, double t1) {
+  for (size_t n = 0; n < c->scene->allowance_count; n++) {
+    const nsvcd_allowance *allowance = &c->scene->allowances[n];
+    if (allowance->pair == pair && nsvcd__allows_from_to(c, allowance, m, t0, t1, 0)) return 1;
+  }
+  return 0;
+}
+
+// Until when contact is allowed from one end of a motion on. Returns that end where it is not.
+static double nsvcd__allowed_until(const nsvcd_checker *c, const nsvcd_allowance *allowance,
+                                   const nsvcd_joint_motion *m, double end, double other) {
+  const double less = -NSVCD__ALLOWANCE_ROUNDING * allowance->distance;
+  double allowed = end;
+  double not_allowed = other;
+  if (!nsvcd__allows_from_to(c, allowance, m, end, end, less)) return end;
+  for (size_t n = 0; n < NSVCD__ALLOWANCE_HALVINGS; n++) {
+    const double t = n ? 0.5 * (allowed + not_allowed) : other;
+    const int is_allowed =
+        nsvcd__allows_from_to(c, allowance, m, nsvcd__min(end, t), nsvcd__max(end, t), less);
+    *(is_allowed ? &allowed : &not_allowed) = t;
+    if (is_allowed && n == 0) break;
+  }
+  return allowed;
+}
+
+// Notes when a motion leaves what is allowed at its start, and enters what is allowed at its end.
+static void nsvcd__note_cuts(nsvcd_checker *c, const nsvcd_joint_motion *m) {
+  const double t0 = nsvcd__piece_start(m, 0);
+  const double t1 = nsvcd__piece_start(m, m->pieces);
+  for (size_t n = 0; n < c->scene->allowance_count; n++) {
+    c->cuts[2 * n] = nsvcd__allowed_until(c, &c->scene->allowances[n], m, t0, t1);
+    c->cuts[2 * n + 1] = nsvcd__allowed_until(c, &c->scene->allowances[n], m, t1, t0);
+  }
+}
+
+// The first of these times after one, or `end`.
+static double nsvcd__next_cut(const nsvcd_checker *c, double time, double end) {
+  double next = end;
+  for (size_t n = 0; n < 2 * c->scene->allowance_count; n++) {
+    if (c->cuts[n] > time && c->cuts[n] < next) next = c->cuts[n];
+  }
+  return next;
+}
+
 // --------------------------------------------------------------------------------- robot/deviation
 // In: a part, and a step of the joints between two samples. Out: by how much it leaves, at most,
 // the line and the slerp between them.
@@ -1947,6 +2098,15 @@ static nsvcd_result nsvcd__scene_check(const nsvcd_scene *scene) {
     if (scene->clearances && !nsvcd__is_length(scene->clearances[k]))
       return NSVCD_ERROR_CLEARANCE;
   }
+  if (scene->allowance_count > 0 && !scene->allowances) return NSVCD_ERROR_ARGUMENT;
+  for (size_t n = 0; n < scene->allowance_count && !result; n++) {
+    const nsvcd_allowance *allowance = &scene->allowances[n];
+    if (allowance->pair >= scene->pair_count) return NSVCD_ERROR_PAIR;
+    if (!allowance->joints) return NSVCD_ERROR_ARGUMENT;
+    if (!nsvcd__are_numbers(allowance->joints, scene->joint_count)) return NSVCD_ERROR_VALUE;
+    if (!nsvcd__are_numbers(&allowance->distance, 1) || allowance->distance < 0)
+      return NSVCD_ERROR_DISTANCE;
+  }
   return result;
 }
 
@@ -2008,6 +2168,7 @@ static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
   c->bounds = NSVCD__TAKE_ROWS(nsvcd__bounds, rows, base, &used);
   for (size_t n = 0; n < 2; n++)
     c->local[n] = NSVCD__TAKE_ROWS(nsvcd_pose, samples, base, &used);
+  c->cuts = NSVCD__TAKE_ROWS(double, 2 * scene->allowance_count, base, &used);
   c->query_size = nsvcd_sweep_workspace_size(NULL);
   c->query = nsvcd__take(base, &used, 1, c->query_size);
   *checker = (nsvcd_checker *)at;
@@ -2443,11 +2604,14 @@ static void nsvcd__check_interval(nsvcd__check_state *s, double t0, double t1, s
   nsvcd_checker *c = s->checker;
   nsvcd_check_answer *answer = s->answer;
   const double finest = (double)s->options->finest;
-  size_t left = c->scene->pair_count;
+  size_t left = 0;
   answer->verdict = NSVCD_UNDECIDED;
   answer->piece = nsvcd__piece_at(s->motion, t0);
   answer->fraction = nsvcd__fraction_at(s->motion, answer->piece, t0);
-  memcpy(c->left, c->order, left * sizeof *c->left);
+  for (size_t n = 0; n < c->scene->pair_count; n++) {
+    const size_t pair = c->order[n];
+    if (!nsvcd__pair_is_allowed(c, pair, s->motion, t0, t1)) c->left[left++] = (uint32_t)pair;
+  }
   for (size_t k = 0; k <= steps; k++)
     c->times[k] = k < steps ? t0 + (t1 - t0) * (double)k / (double)steps : t1;
   nsvcd__take_samples(s, steps);
@@ -2566,13 +2730,19 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *c, const nsvcd_joint_motion *mo
   nsvcd__check_state s = {c, &m, &o, &found, 0};
   c->result = NSVCD_OK;
   if (m.pieces == 0) nsvcd__check_interval(&s, 0, 0, 0, 0);
+  if (m.pieces > 0) nsvcd__note_cuts(c, &m);
   // from corner to corner
   for (size_t p = 0, next; p < m.pieces; p = next) {
     next = p + 1;
     while (next < m.pieces && !nsvcd__is_corner(&m, joints, next)) next++;
     const size_t steps = next - p == 1 && m.degree == 1 ? 1 : NSVCD__FIRST_STEPS;
     const double end = nsvcd__piece_start(&m, next);
-    nsvcd__check_interval(&s, nsvcd__piece_start(&m, p), end, steps, NSVCD__CHECK_HALVINGS);
+    found.verdict = NSVCD_FREE;
+    for (double t0 = nsvcd__piece_start(&m, p), t1; t0 < end; t0 = t1) {
+      t1 = nsvcd__next_cut(c, t0, end);
+      nsvcd__check_interval(&s, t0, t1, steps, NSVCD__CHECK_HALVINGS);
+      if (found.verdict != NSVCD_FREE) break;
+    }
     if (found.verdict != NSVCD_FREE) break;
   }
   if (c->result) return c->result;
@@ -2596,6 +2766,8 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *c, const nsvcd_joint_motion *mo
 #define NSVCD__LOOK_STEP 0.05
 // metres by which a pair's margin is less at each look, where the ends, proven free, seem to meet
 #define NSVCD__LOOK_CUT 1e-3f
+// of the balls' errors: how much farther than an allowance's distance a pair is not looked at
+#define NSVCD__LOOK_ALLOWED 8
 
 // A frame in that of a link: a matrix, row-major, and an offset.
 typedef struct nsvcd__look_frame {
@@ -2851,12 +3023,31 @@ static nsvcd_looked nsvcd__look_at_part(nsvcd__looker *k, size_t n) {
   return out;
 }
 
+// The places at hand, of those in `met`, where a pair is not allowed to touch: neither there, nor
+// where balls cannot yet tell the two apart. places: (F, 16).
+static uint32_t nsvcd__look_not_allowed(const nsvcd__looker *k, size_t pair, uint32_t met) {
+  const nsvcd_scene *scene = k->checker->scene;
+  const nsvcd_body_pair *parts = &scene->pairs[pair];
+  const double more =
+      NSVCD__LOOK_ALLOWED * (double)(k->parts[parts->a].error + k->parts[parts->b].error);
+  for (size_t n = 0; n < scene->allowance_count; n++) {
+    const nsvcd_allowance *allowance = &scene->allowances[n];
+    for (size_t l = 0; l < NSVCD_LOOKS && allowance->pair == pair; l++) {
+      double at[NSVCD_MAX_JOINTS];
+      for (size_t j = 0; j < scene->joint_count; j++) at[j] = k->places[j][l];
+      if (nsvcd__allows(k->checker, allowance, at, at, more)) met &= ~((uint32_t)1 << l);
+    }
+  }
+  return met;
+}
+
 // Does a pair seem to meet in one of the places at hand?
 static int nsvcd__pair_seems_to_meet(nsvcd__looker *k, size_t pair) {
   const nsvcd_body_pair *parts = &k->checker->scene->pairs[pair];
   const nsvcd__look_part *a = &k->parts[parts->a];
   const nsvcd__look_part *b = &k->parts[parts->b];
-  const nsvcd_look_options options = {k->margins[pair], 1};
+  const int is_any = k->checker->scene->allowance_count == 0;
+  const nsvcd_look_options options = {k->margins[pair], is_any};
   uint32_t met = 0;
   for (size_t i = 0; i < 3; i++) {
     if (a->low[i] - options.margin > b->high[i] || b->low[i] - options.margin > a->high[i])
@@ -2865,7 +3056,8 @@ static int nsvcd__pair_seems_to_meet(nsvcd__looker *k, size_t pair) {
   const nsvcd_looked first = nsvcd__look_at_part(k, parts->a);
   const nsvcd_looked second = nsvcd__look_at_part(k, parts->b);
   // what cannot be looked at seems to meet
-  return nsvcd_look(&first, &second, &options, &met) || met;
+  if (nsvcd_look(&first, &second, &options, &met)) return 1;
+  return nsvcd__look_not_allowed(k, pair, met) != 0;
 }
 
 // Does anything seem to meet in 16 configurations? joints: (F, 16).
@@ -3129,15 +3321,6 @@ static int nsvcd__is_provable(const nsvcd_checker *c, const nsvcd_joint_motion *
     }
   }
   return 1;
-}
-
-// The last link that carries two others.
-static size_t nsvcd__common_link(const nsvcd_scene *scene, size_t a, size_t b) {
-  while (a != b) {
-    size_t *later = a > b ? &a : &b;
-    *later = scene->joints[*later - 1].parent;
-  }
-  return a;
 }
 
 NSVCDDEF size_t nsvcd_certify_pair_workspace_size(const nsvcd_joint_motion *motion,

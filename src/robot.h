@@ -77,6 +77,7 @@ extern "C" {
 // ============================================================ robot: is a motion of joints free?
 #include "robot/chain.h"      // links, joints and frames: where everything is
 #include "robot/steps.h"      // what the joints do between two times
+#include "robot/allowances.h"  // when a pair may touch
 #include "robot/deviation.h"  // how far a part leaves its sweep between two samples
 #include "robot/checker.h"    // the checker of a scene
 #include "robot/samples.h"    // configurations of a motion, and boxes about the parts in them

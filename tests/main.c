@@ -20,6 +20,7 @@ void test_floor(void);
 void test_robot(void);
 void test_many_joints(void);
 void test_reach(void);
+void test_allowances(void);
 void test_route_looks(void);
 void test_postures(void);
 void test_certificate(void);
@@ -118,6 +119,7 @@ static const test_file files[] = {
     OF(robot),
     OF(many_joints),
     OF(reach),
+    OF(allowances),
     OF(route_looks),
     OF(postures),
     OF(certificate),

@@ -46,6 +46,21 @@ typedef struct nsvcd_part {
   float scale;
 } nsvcd_part;
 
+// Contact that is allowed near a configuration: of what stands on a table with the table, before a
+// robot takes it, or of a gripper's jaws with what they hold. The link sees both parts that carries
+// both. There, no point of either part is farther from where it is in that configuration than the
+// distance, by a bound: each joint's way, times how far from its axis the part can ever be, summed.
+// Joints that carry both, or none, do not count, so what the jaws hold may touch them for good, as
+// long as they do not open.
+typedef struct nsvcd_allowance {
+  // the pair, an index of the scene's
+  size_t pair;
+  // (F) the configuration, radians or metres
+  const double *joints;
+  // metres
+  double distance;
+} nsvcd_allowance;
+
 // A robot and its obstacles. Only the pairs named here are checked.
 typedef struct nsvcd_scene {
   // (F) joints of the robot
@@ -63,6 +78,10 @@ typedef struct nsvcd_scene {
   // (P) metres: the distance that each pair keeps, beside the clearance that a check or a route is
   // asked for. NULL: 0 for all
   const float *clearances;
+  // (W) where pairs may touch, or be inside of each other
+  const nsvcd_allowance *allowances;
+  // W
+  size_t allowance_count;
 } nsvcd_scene;
 
 // A motion of the joints, in pieces one after another. A piece is a Bezier curve in time. It begins
@@ -110,7 +129,8 @@ typedef struct nsvcd_check_options {
 // What is known of a motion.
 typedef struct nsvcd_check_answer {
   // FREE: at no time of the motion do the parts of a pair come within the clearance, or is one
-  // inside the other. HIT: in the configuration that is named, those of a pair do, or one is
+  // inside the other, but where the scene allows it. HIT: in the configuration that is named, those
+  // of a pair do, or one is
   nsvcd_verdict verdict;
   // the reason if the verdict is UNDECIDED
   nsvcd_why why;
@@ -143,7 +163,8 @@ NSVCDDEF size_t nsvcd_checker_size(const nsvcd_scene *scene);
 //   threads    each needs a checker of its own; scenes may be shared
 //   errors     ARGUMENT (NULL), COUNT, WORKSPACE; of a joint JOINT, AXIS, LIMITS, SPEED; of a part
 //              BODY, VERSION, TRIANGLES, LINK, SCALE; of either POSE, QUATERNION; of a pair PAIR
-//              (also if both parts are on one link), CLEARANCE
+//              (also if both parts are on one link), CLEARANCE; of an allowance PAIR, ARGUMENT
+//              (NULL), VALUE, DISTANCE
 NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory, size_t size,
                                          nsvcd_checker **checker);
 

@@ -87,6 +87,8 @@ struct nsvcd_checker {
   nsvcd_pose *local[2];
   // of the samples; and the most that a part deviates in the step after each
   double times[NSVCD__MOST_STEPS + 1], deviations[NSVCD__MOST_STEPS + 1];
+  // (W, 2): when a motion leaves what is allowed at its start, and enters what is at its end
+  double *cuts;
   void *query;
   size_t query_size;
   // an error of a question, which ends those that follow

@@ -4,6 +4,7 @@
 // deviates by more than is allowed. One sweep asks about a pair in all steps, with the deviations
 // added to the clearance. Pairs that this does not prove are asked about again in finer steps.
 #pragma once
+#include "allowances.h"
 #include "local_queries.h"
 
 // how often an interval that takes more than NSVCD__MOST_STEPS may be halved
@@ -167,11 +168,14 @@ static void nsvcd__check_interval(nsvcd__check_state *s, double t0, double t1, s
   nsvcd_checker *c = s->checker;
   nsvcd_check_answer *answer = s->answer;
   const double finest = (double)s->options->finest;
-  size_t left = c->scene->pair_count;
+  size_t left = 0;
   answer->verdict = NSVCD_UNDECIDED;
   answer->piece = nsvcd__piece_at(s->motion, t0);
   answer->fraction = nsvcd__fraction_at(s->motion, answer->piece, t0);
-  memcpy(c->left, c->order, left * sizeof *c->left);
+  for (size_t n = 0; n < c->scene->pair_count; n++) {
+    const size_t pair = c->order[n];
+    if (!nsvcd__pair_is_allowed(c, pair, s->motion, t0, t1)) c->left[left++] = (uint32_t)pair;
+  }
   for (size_t k = 0; k <= steps; k++)
     c->times[k] = k < steps ? t0 + (t1 - t0) * (double)k / (double)steps : t1;
   nsvcd__take_samples(s, steps);
@@ -290,13 +294,19 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *c, const nsvcd_joint_motion *mo
   nsvcd__check_state s = {c, &m, &o, &found, 0};
   c->result = NSVCD_OK;
   if (m.pieces == 0) nsvcd__check_interval(&s, 0, 0, 0, 0);
+  if (m.pieces > 0) nsvcd__note_cuts(c, &m);
   // from corner to corner
   for (size_t p = 0, next; p < m.pieces; p = next) {
     next = p + 1;
     while (next < m.pieces && !nsvcd__is_corner(&m, joints, next)) next++;
     const size_t steps = next - p == 1 && m.degree == 1 ? 1 : NSVCD__FIRST_STEPS;
     const double end = nsvcd__piece_start(&m, next);
-    nsvcd__check_interval(&s, nsvcd__piece_start(&m, p), end, steps, NSVCD__CHECK_HALVINGS);
+    found.verdict = NSVCD_FREE;
+    for (double t0 = nsvcd__piece_start(&m, p), t1; t0 < end; t0 = t1) {
+      t1 = nsvcd__next_cut(c, t0, end);
+      nsvcd__check_interval(&s, t0, t1, steps, NSVCD__CHECK_HALVINGS);
+      if (found.verdict != NSVCD_FREE) break;
+    }
     if (found.verdict != NSVCD_FREE) break;
   }
   if (c->result) return c->result;

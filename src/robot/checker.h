@@ -68,6 +68,15 @@ static nsvcd_result nsvcd__scene_check(const nsvcd_scene *scene) {
     if (scene->clearances && !nsvcd__is_length(scene->clearances[k]))
       return NSVCD_ERROR_CLEARANCE;
   }
+  if (scene->allowance_count > 0 && !scene->allowances) return NSVCD_ERROR_ARGUMENT;
+  for (size_t n = 0; n < scene->allowance_count && !result; n++) {
+    const nsvcd_allowance *allowance = &scene->allowances[n];
+    if (allowance->pair >= scene->pair_count) return NSVCD_ERROR_PAIR;
+    if (!allowance->joints) return NSVCD_ERROR_ARGUMENT;
+    if (!nsvcd__are_numbers(allowance->joints, scene->joint_count)) return NSVCD_ERROR_VALUE;
+    if (!nsvcd__are_numbers(&allowance->distance, 1) || allowance->distance < 0)
+      return NSVCD_ERROR_DISTANCE;
+  }
   return result;
 }
 
@@ -129,6 +138,7 @@ static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
   c->bounds = NSVCD__TAKE_ROWS(nsvcd__bounds, rows, base, &used);
   for (size_t n = 0; n < 2; n++)
     c->local[n] = NSVCD__TAKE_ROWS(nsvcd_pose, samples, base, &used);
+  c->cuts = NSVCD__TAKE_ROWS(double, 2 * scene->allowance_count, base, &used);
   c->query_size = nsvcd_sweep_workspace_size(NULL);
   c->query = nsvcd__take(base, &used, 1, c->query_size);
   *checker = (nsvcd_checker *)at;

@@ -186,15 +186,6 @@ static int nsvcd__is_provable(const nsvcd_checker *c, const nsvcd_joint_motion *
   return 1;
 }
 
-// The last link that carries two others.
-static size_t nsvcd__common_link(const nsvcd_scene *scene, size_t a, size_t b) {
-  while (a != b) {
-    size_t *later = a > b ? &a : &b;
-    *later = scene->joints[*later - 1].parent;
-  }
-  return a;
-}
-
 NSVCDDEF size_t nsvcd_certify_pair_workspace_size(const nsvcd_joint_motion *motion,
                                                   const nsvcd_tree *a, const nsvcd_tree *b) {
   return motion ? nsvcd_certify_models_workspace_size(motion->pieces + 1, a, b) : 0;
