@@ -9,7 +9,8 @@
 //   scene NAME
 //   obstacle NAME SHAPE  x y z qx qy qz qw [scale SX SY SZ]
 //   clearance NAME NAME METRES, or: clearance obstacles METRES
-//   plan ID SCENE  start...  goal...
+//   group NAME JOINT...
+//   plan ID SCENE  start...  goal...  [group NAME]
 //   path ID SCENE COUNT        # COUNT lines of joints follow
 //   curve ID SCENE DEGREE COUNT [timed]   # so do COUNT lines here
 //
@@ -47,11 +48,17 @@ typedef struct robot_room {  // a scene
   size_t first, count;  // its obstacles, among the file's things
 } robot_room;
 
+typedef struct robot_group {
+  const char *name;
+  uint8_t held[NSVCD_MAX_JOINTS];  // 1: not one of the group's joints
+} robot_group;
+
 typedef struct robot_task {
   const char *id;
   size_t line, room;
   size_t points;  // 0: a plan, whose start and goal are two rows
   size_t first;   // the first of its numbers
+  size_t group;   // NSVCD_NONE: all joints may move
   size_t degree;  // of a curve, else 0
   size_t times;   // of a curve: the first of its times; NSVCD_NONE: it has none
 } robot_task;
@@ -65,13 +72,14 @@ typedef struct robot_file {
   robot_thing *things;  // the robot's bodies, then obstacles
   nsvcd_body_pair *pairs;
   robot_clearance *clearances;
+  robot_group *groups;
   robot_room *rooms;
   robot_task *tasks;
   double *numbers, *times;
-  size_t joint_count, mesh_count, thing_count, body_count, pair_count, clearance_count, room_count,
-      task_count, number_count, time_count;
-  size_t mesh_capacity, thing_capacity, pair_capacity, clearance_capacity, room_capacity,
-      task_capacity, number_capacity, time_capacity;
+  size_t joint_count, mesh_count, thing_count, body_count, pair_count, clearance_count, group_count,
+      room_count, task_count, number_count, time_count;
+  size_t mesh_capacity, thing_capacity, pair_capacity, clearance_capacity, group_capacity,
+      room_capacity, task_capacity, number_capacity, time_capacity;
 } robot_file;
 
 // Adds an item to a list, and clears it.
@@ -259,6 +267,50 @@ static int robot_read_clearance(const reader *r, robot_file *file) {
   return 1;
 }
 
+static int robot_find_group(const robot_file *file, const char *name, size_t *at) {
+  for (*at = 0; *at < file->group_count; ++*at)
+    if (strcmp(file->groups[*at].name, name) == 0) return 1;
+  return 0;
+}
+
+static int robot_read_group(const reader *r, robot_file *file) {
+  size_t found;
+  robot_group group;
+  if (r->field_count < 3) return refuse(r, "expected: group NAME JOINT...");
+  if (file->room_count > 0) return refuse(r, "a group after the first scene");
+  if (robot_find_group(file, r->fields[1], &found))
+    return refuse_field(r, "a second group of this name", r->fields[1]);
+  group.name = r->fields[1];
+  memset(group.held, 1, sizeof group.held);
+  for (size_t k = 2; k < r->field_count; k++) {
+    uint32_t link;
+    if (!robot_link(r, file, r->fields[k], &link)) return 0;
+    if (link == 0) return refuse(r, "the world is no joint");
+    group.held[link - 1] = 0;
+  }
+  *ROBOT_ADD(file->groups, file->group_count, file->group_capacity) = group;
+  return 1;
+}
+
+// Reads what follows the goal of a plan: nothing, or its group. Its start and its goal, which have
+// been read, are to be the same in all other joints.
+static int robot_read_group_of(const reader *r, const robot_file *file, robot_task *task) {
+  const size_t joints = file->joint_count;
+  const size_t at = 3 + 2 * joints;
+  task->group = NSVCD_NONE;
+  if (r->field_count == at) return 1;
+  if (!robot_find_group(file, r->fields[at + 1], &task->group))
+    return refuse_field(r, "no group of this name above", r->fields[at + 1]);
+  const double *start = file->numbers + task->first;
+  for (size_t j = 0; j < joints; j++) {
+    const double off = start[joints + j] - start[j];
+    if (file->groups[task->group].held[j] && (off > 0 || off < 0))
+      return complain("%s:%zu: joint %s is not of group %s, but its goal is not its start", r->path,
+                      r->line, file->joint_names[j], file->groups[task->group].name);
+  }
+  return 1;
+}
+
 static int robot_find_room(const robot_file *file, const char *name, size_t *at) {
   for (*at = 0; *at < file->room_count; ++*at)
     if (strcmp(file->rooms[*at].name, name) == 0) return 1;
@@ -315,10 +367,14 @@ static int robot_read_task(reader *r, robot_file *file) {
   char *const *f = r->fields;
   const int is_path = strcmp(f[0], "path") == 0;
   memset(&task, 0, sizeof task);
-  if (r->field_count != (is_path ? 4 : 3 + 2 * joints)) {
+  const size_t fields = is_path ? 4 : 3 + 2 * joints;
+  const int has_group = !is_path && r->field_count == fields + 2 && strcmp(f[fields], "group") == 0;
+  if (r->field_count != fields && !has_group) {
     if (is_path) return refuse(r, "expected: path ID SCENE COUNT");
-    return complain("%s:%zu: expected: plan ID SCENE, then %zu joints of the start and of the goal",
-                    r->path, r->line, joints);
+    return complain(
+        "%s:%zu: expected: plan ID SCENE, then %zu joints of the start and of the goal, and "
+        "perhaps group NAME",
+        r->path, r->line, joints);
   }
   task.id = f[1];
   task.line = r->line;
@@ -326,7 +382,8 @@ static int robot_read_task(reader *r, robot_file *file) {
   if (!robot_find_room(file, f[2], &task.room))
     return refuse_field(r, "no scene of this name above", f[2]);
   if (!is_path &&
-      !(robot_read_joints(r, file, f + 3) && robot_read_joints(r, file, f + 3 + joints)))
+      !(robot_read_joints(r, file, f + 3) && robot_read_joints(r, file, f + 3 + joints) &&
+        robot_read_group_of(r, file, &task)))
     return 0;
   if (is_path && !parse_count(f[3], 1, 10000000, &task.points))
     return refuse_field(r, "COUNT is not in 1..10000000", f[3]);
@@ -386,9 +443,10 @@ static int read_robot(const char *path, robot_file *file) {
   static const struct {
     const char *word;
     int (*read)(const reader *r, robot_file *file);
-  } lines[] = {{"joint", robot_read_joint}, {"body", robot_read_body},
-               {"pair", robot_read_pair},   {"clearance", robot_read_clearance},
-               {"scene", robot_read_scene}, {"obstacle", robot_read_obstacle}};
+  } lines[] = {{"joint", robot_read_joint},      {"body", robot_read_body},
+               {"pair", robot_read_pair},        {"clearance", robot_read_clearance},
+               {"group", robot_read_group},      {"scene", robot_read_scene},
+               {"obstacle", robot_read_obstacle}};
   const size_t count = sizeof lines / sizeof lines[0];
   reader r;
   memset(file, 0, sizeof *file);
@@ -400,10 +458,11 @@ static int read_robot(const char *path, robot_file *file) {
     size_t k = 0;
     while (k < count && strcmp(lines[k].word, r.fields[0]) != 0) k++;
     if (k == count && !is_task && !is_curve)
-      return refuse_field(&r,
-                          "expected 'joint', 'body', 'pair', 'clearance', 'scene', 'obstacle', "
-                          "'plan', 'path' or 'curve'",
-                          r.fields[0]);
+      return refuse_field(
+          &r,
+          "expected 'joint', 'body', 'pair', 'clearance', 'group', 'scene', 'obstacle', "
+          "'plan', 'path' or 'curve'",
+          r.fields[0]);
     if (r.field_count > MOST_FIELDS) return refuse(&r, "too many fields");
     if (!(is_curve  ? robot_read_curve(&r, file)
           : is_task ? robot_read_task(&r, file)
@@ -423,6 +482,7 @@ static void free_robot(robot_file *file) {
   free(file->things);
   free(file->pairs);
   free(file->clearances);
+  free(file->groups);
   free(file->rooms);
   free(file->tasks);
   free(file->numbers);

@@ -204,6 +204,7 @@ static int plan_one(const robot_in_room *in, const robot_task *task, const setti
   problem.start = in->file->numbers + task->first;
   problem.goals = problem.start + joints;
   problem.goal_count = 1;
+  if (task->group != NSVCD_NONE) problem.held = in->file->groups[task->group].held;
   asked.seed = options->seed;
   asked.nodes = PLAN_NODES;
   const size_t size = nsvcd_route_size(in->checker, &problem, &asked);

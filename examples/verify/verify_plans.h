@@ -22,16 +22,22 @@ typedef struct distance {
   float metres;
 } distance;
 
+typedef struct group {
+  const char *name;
+  uint8_t moves[NSVCD_VERIFY_JOINTS];
+} group;
+
 typedef struct robot {
   const char *path;
   const char *names[NSVCD_VERIFY_JOINTS];
   int continuous[NSVCD_VERIFY_JOINTS];
   nsvcd_verify_joint joints[NSVCD_VERIFY_JOINTS];
   size_t joint_count;
-  list bodies;     // the robot's, then the scene's obstacles, which are read last
-  size_t own;      // how many of them are the robot's
-  list pairs;      // (2): the robot's, then those with obstacles
-  list kept;       // (pairs): metres
+  list bodies;  // the robot's, then the scene's obstacles, which are read last
+  size_t own;   // how many of them are the robot's
+  list pairs;   // (2): the robot's, then those with obstacles
+  list kept;    // (pairs): metres
+  list groups;
   list distances;  // those above the first scene, then the scene's
 } robot;
 
@@ -122,6 +128,15 @@ static double take_double(const uint8_t *bytes, size_t size, size_t *at) {
   return value;
 }
 
+// Do only joints of a group move? NULL: all may.
+static int keeps_to(const group *of, const nsvcd_verify_motion *m) {
+  for (size_t k = m->joint_count; k < (m->pieces * m->degree + 1) * m->joint_count && of; k++) {
+    const double off = m->points[k] - m->points[k % m->joint_count];
+    if (!of->moves[k % m->joint_count] && (off > 0 || off < 0)) return 0;
+  }
+  return 1;
+}
+
 // Does a motion begin at the start and end at the goal? Turns without limits may be whole ones off.
 static int goes(const robot *r, const nsvcd_verify_motion *m, char *const *words) {
   const size_t last = m->pieces * m->degree * m->joint_count;
@@ -166,8 +181,8 @@ static const char *check_pair(const robot *r, const nsvcd_verify_motion *m, size
 }
 
 // NULL, or why it is refused. *at: the byte.
-static const char *check_motion(const robot *r, char *const *words, const uint8_t *bytes,
-                                size_t size, size_t *at) {
+static const char *check_motion(const robot *r, char *const *words, const group *of,
+                                const uint8_t *bytes, size_t size, size_t *at) {
   nsvcd_verify_motion m;
   memset(&m, 0, sizeof m);
   *at = 4;
@@ -187,6 +202,7 @@ static const char *check_motion(const robot *r, char *const *words, const uint8_
   const size_t pairs = r->pairs.count / 2;
   const char *why = nsvcd_verify_motion_check(&m);
   if (!why && !goes(r, &m, words)) why = "its motion has another start or goal";
+  if (!why && !keeps_to(of, &m)) why = "a joint moves that is not of the plan's group";
   if (!why && take(bytes, size, at, 4) != pairs) why = "it is about other pairs";
   for (size_t pair = 0; pair < pairs && !why; pair++) {
     const size_t length = (size_t)take(bytes, size, at, 4);
@@ -205,7 +221,7 @@ static const char *check_motion(const robot *r, char *const *words, const uint8_
   return why;
 }
 
-static int check_plan(const robot *r, char *const *words, request *asked) {
+static int check_plan(const robot *r, char *const *words, const group *of, request *asked) {
   char path[4096];
   size_t size;
   size_t at = 0;
@@ -213,7 +229,7 @@ static int check_plan(const robot *r, char *const *words, request *asked) {
   uint8_t *bytes = (uint8_t *)read_file(path, &size);
   if (!bytes) return printf("%s\trefused\tthere is no certificate\t0\t0\n", words[1]), 0;
   const clock_t start = clock();
-  const char *why = check_motion(r, words, bytes, size, &at);
+  const char *why = check_motion(r, words, of, bytes, size, &at);
   const double taken = 1e6 * (double)(clock() - start) / (double)CLOCKS_PER_SEC;
   if (!why) printf("%s\taccepted\tfree\t%zu\t%.1f\n", words[1], size, taken);
   if (why) printf("%s\trefused\t%s, at byte %zu\t%zu\t%.1f\n", words[1], why, at, size, taken);
@@ -271,6 +287,38 @@ static void finish_scene(robot *r, float asked) {
   }
 }
 
+// group NAME JOINT...
+static void add_group(robot *r, char *const *words, size_t count) {
+  group *of = (group *)add(&r->groups, sizeof *of);
+  memset(of, 0, sizeof *of);
+  of->name = words[1];
+  for (size_t k = 2; k < count; k++) {
+    const uint32_t link = link_named(r, words[k]);
+    if (link == 0) fail(r->path, "the world is no joint");
+    of->moves[link - 1] = 1;
+  }
+}
+
+// The group of a plan of so many words; NULL: it has none.
+static const group *group_of(const robot *r, char *const *words, size_t count) {
+  const group *all = (const group *)r->groups.items;
+  if (count == 3 + 2 * r->joint_count) return NULL;
+  for (size_t k = 0; k < r->groups.count; k++)
+    if (strcmp(all[k].name, words[count - 1]) == 0) return &all[k];
+  fail(r->path, "a group is named that is not above");
+  return NULL;
+}
+
+// Is a line of so many words a plan, a path or a curve? *lines: how many lines go with it.
+static int is_task(const robot *r, char *const *words, size_t count, size_t *lines) {
+  const size_t least = 3 + 2 * r->joint_count;
+  const int is_path = strcmp(words[0], "path") == 0 && count == 4;
+  const int is_curve = strcmp(words[0], "curve") == 0 && (count == 5 || count == 6);
+  *lines = is_path || is_curve ? strtoul(words[is_path ? 3 : 4], NULL, 10) : 0;
+  if (strcmp(words[0], "plan") != 0) return is_path || is_curve;
+  return count == least || (count == least + 2 && strcmp(words[least], "group") == 0);
+}
+
 // Checks all plans of a planning file: the robot, then a scene, its obstacles, and plans and paths
 // in it, and perhaps another scene. Returns 1 if all are accepted.
 static int check_plans(const char *path, char *text, request *asked) {
@@ -280,6 +328,7 @@ static int check_plans(const char *path, char *text, request *asked) {
   size_t own_pairs = 0, own_distances = 0;
   int has_tasks = 0;  // 1: a plan or a path stands above
   int all = 1;
+  size_t lines = 0;
   memset(&r, 0, sizeof r);
   r.path = path;
   for (size_t n = next_words(&text, words, MOST_WORDS); n > 0;
@@ -295,6 +344,8 @@ static int check_plans(const char *path, char *text, request *asked) {
       add_index(&r.pairs, body_named(&r, words[2]));
     } else if (strcmp(word, "clearance") == 0 && (n == 3 || n == 4) && !has_tasks) {
       add_distance(&r, words, n);
+    } else if (strcmp(word, "group") == 0 && n >= 3 && !scene) {
+      add_group(&r, words, n);
     } else if (strcmp(word, "scene") == 0 && n == 2) {
       if (!scene) own_pairs = r.pairs.count;
       if (!scene) own_distances = r.distances.count;
@@ -305,20 +356,13 @@ static int check_plans(const char *path, char *text, request *asked) {
       r.distances.count = own_distances;
     } else if (strcmp(word, "obstacle") == 0 && n >= 3 && scene && !has_tasks) {
       add_body(&r, words, n);
-    } else if ((strcmp(word, "plan") == 0 ? n == 3 + 2 * r.joint_count
-                                          : strcmp(word, "path") == 0 && n == 4) &&
-               scene && strcmp(words[2], scene) == 0) {
+    } else if (scene && is_task(&r, words, n, &lines) && strcmp(words[2], scene) == 0) {
       if (!has_tasks) finish_scene(&r, asked->clearance);
       has_tasks = 1;
-      if (word[1] == 'l' && is_wanted(asked, words[1])) all &= check_plan(&r, words, asked);
-      for (size_t k = word[1] == 'l' ? 0 : strtoul(words[3], NULL, 10); k > 0; k--)
-        if (next_words(&text, words, MOST_WORDS) == 0) fail(path, "a path ends early");
-    } else if (strcmp(word, "curve") == 0 && (n == 5 || n == 6) && scene &&
-               strcmp(words[2], scene) == 0) {
-      if (!has_tasks) finish_scene(&r, asked->clearance);
-      has_tasks = 1;
-      for (size_t k = strtoul(words[4], NULL, 10); k > 0; k--)
-        if (next_words(&text, words, MOST_WORDS) == 0) fail(path, "a curve ends early");
+      if (strcmp(word, "plan") == 0 && is_wanted(asked, words[1]))
+        all &= check_plan(&r, words, group_of(&r, words, n), asked);
+      for (; lines > 0; lines--)
+        if (next_words(&text, words, MOST_WORDS) == 0) fail(path, "a path or a curve ends early");
     } else {
       fail(path, "a line is not one of a planning file, or not where it may stand");
     }
