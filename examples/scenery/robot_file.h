@@ -432,8 +432,9 @@ static int robot_read_curve(reader *r, robot_file *file) {
       return complain("%s:%zu: curve %s: its line %zu is not one of %zu numbers", r->path, r->line,
                       task.id, i, needed);
     if (!robot_read_point(r, file, has_time)) return 0;
-    const double *last = file->times + file->time_count - 1;
-    if (has_time && i > 0 && !(last[0] > last[-1])) return refuse(r, "times do not rise");
+    const size_t times = file->time_count;
+    if (has_time && i > 0 && !(file->times[times - 1] > file->times[times - 2]))
+      return refuse(r, "times do not rise");
   }
   *ROBOT_ADD(file->tasks, file->task_count, file->task_capacity) = task;
   return 1;
