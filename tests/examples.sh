@@ -922,6 +922,13 @@ passes 'cylinder: 0.3 0.2' "$here" 'box: 1 1 1 0 1 0 0 0 0 1' 0.2
 passes 'cylinder: 0.3 0.2' '0 0 0 0.70710678 0 0 0.70710678' 'box: 1 1 1 0 1 0 0 0 0 1' 0.4
 passes 'box: 0.2 0.6 0.2' "$here" 'cloud: dust.xyz 0.1 0 1 0 0 0 0 1' 0.6
 passes 'cloud: dust.xyz 0.1' "$here" 'cylinder: 0.1 1 0 0.5 0 0 0 0 1' 0.3
+# a certificate is of these sizes, and of no others
+passes 'capsule: 0.05 0.4' '0 0 0 0.70710678 0 0 0.70710678' 'cylinder: 0.2 1 0 1 0 0 0 0 1' 0.55
+for change in 's/: 0.05 0.4/: 0.050001 0.4/' 's/: 0.05 0.4/: 0.05 0.400001/' 's/: 0.2 1/: 0.200001 1/' 's/: 0.2 1/: 0.2 1.00001/' 's/capsule: 0.05 0.4/sphere: 0.05/'; do
+  sed "$change" "$dir/shape.txt" >"$dir/other_shape.txt"
+  expect 1 '' build/verify "$dir/other_shape.txt" "$dir/certs" --clearance 0.5498
+  line 'refused	it is about another'
+done
 # half way between two of its sides a cylinder is no smaller than round
 passes 'sphere: 0.1' "$here" "cylinder: 0.1 1 0 0.5 0 0 0 $(awk 'BEGIN { a = 3.14159265358979 / 64; print sin(a), cos(a) }')" "$(awk 'BEGIN { print 0.4 - 0.1 / cos(3.14159265358979 / 32) }')"
 expect 0 '' build/svcd plan "$dir/shape.txt" --only p --picture "$dir/shape.svg"
