@@ -269,6 +269,8 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_FARTHEST,
   // `nodes` or `shortcuts` is too large, or `edge` negative
   NSVCD_ERROR_ROUTE,
+  // a joint that is held has another value in a goal, or in the guess, than in the start
+  NSVCD_ERROR_HELD,
   // a planner's stage is out of range
   NSVCD_ERROR_STAGE,
   // a planner's weight, duration or margin is not finite, or it has too many seeds or checks
@@ -1797,6 +1799,7 @@ static const char nsvcd__result_texts[] =
     "max_distance, max_depth or apart is negative, not finite or too large\0"
     "farthest is negative, not finite or too large\0"
     "nodes or shortcuts is too large, or edge is negative or no number\0"
+    "a joint that is held has another value in a goal or the guess than in the start\0"
     "explore or refine: via_points, segments, iterations, "
     "draws or noise is out of range\0"
     "velocity, acceleration, jerk, collision, duration or margin is not finite, "

@@ -434,6 +434,8 @@ typedef struct nsvcd_reach_problem {
   int (*stop)(void *user);
   // passed to `stop`
   void *user;
+  // (F) 1: the joint stays where the start has it. NULL: all joints may move
+  const uint8_t *held;
 } nsvcd_reach_problem;
 
 // How configurations are sought. Zero means the default.
@@ -548,6 +550,9 @@ typedef struct nsvcd_route_problem {
   int (*abandon)(void *user);
   // passed to both
   void *user;
+  // (F) 1: the joint stays where the start has it, and the goals and the guess have that value too.
+  // NULL: all joints may move
+  const uint8_t *held;
 } nsvcd_route_problem;
 
 // How a route is sought. Zero means the default.
@@ -614,7 +619,7 @@ NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
 //   answer     not NULL; left as it was on failure
 //   allocates  nothing
 //   threads    each needs a checker and memory of its own
-//   errors     ARGUMENT (NULL), COUNT (of goals, of a guess), ROUTE (nodes, shortcuts, edge),
+//   errors     ARGUMENT (NULL), COUNT (of goals, of a guess), ROUTE (nodes, shortcuts, edge), HELD,
 //              VALUE (a configuration not finite or beyond NSVCD_MAX_COORDINATE), CLEARANCE,
 //              WORKSPACE; POSE, SCALE, as nsvcd_check
 //   source     RRT-Connect (Kuffner and LaValle 2000); bounded-acceleration shortcuts (Hauser and
@@ -1851,8 +1856,8 @@ static size_t nsvcd__common_link(const nsvcd_scene *scene, size_t a, size_t b) {
   return a;
 }
 
-// Are both parts of an allowance's pair within its distance, and `more` metres, of where they are in
-// its configuration, for all joint values from `low` to `high`?
+// Are both parts of an allowance's pair within its distance, and `more` metres, of where they are
+// in its configuration, for all joint values from `low` to `high`?
 static int nsvcd__allows(const nsvcd_checker *c, const nsvcd_allowance *allowance,
                          const double *low, const double *high, double more) {
   const double full_turn = 6.283185307179586;
@@ -2193,7 +2198,7 @@ static nsvcd__member nsvcd__member_of(const nsvcd_part *part) {
   m.frame = nsvcd__unit_dpose(&part->pose);
   m.centre = nsvcd__dpose_apply(&m.frame, centre);
   // spheres are computed in float
-  m.radius = 1.000001 * scale * (double)(facts.radius - facts.convex_radius);
+  m.radius = scale * (1.000001 * (double)facts.radius - (double)facts.convex_radius);
   m.extent = 1.000001 * scale * (double)facts.extent;
   m.middle = nsvcd__d3_scale(nsvcd__d3_add(low, high), 0.5 * scale);
   // a rounded body goes beyond its triangles
@@ -4020,6 +4025,11 @@ static void nsvcd__reach_differentiate(nsvcd__reacher *r) {
 
 // ---- a step
 
+// Does the caller hold a joint of the chain?
+static int nsvcd__reach_holds(const nsvcd__reacher *r, size_t n) {
+  return r->problem.held && r->problem.held[r->chain[n]];
+}
+
 // Solves m x = b by Cholesky's factors, of which m keeps the lower one. m is positive definite.
 static void nsvcd__solve_six(double m[6][6], const double *b, double *x) {
   for (size_t i = 0; i < 6; i++) {
@@ -4046,9 +4056,13 @@ static void nsvcd__solve_six(double m[6][6], const double *b, double *x) {
 static void nsvcd__reach_step(const nsvcd__reacher *r, const double *q, double damping,
                               double *out, double *expected) {
   double step[NSVCD_MAX_JOINTS];
-  int is_held[NSVCD_MAX_JOINTS] = {0};
+  int is_held[NSVCD_MAX_JOINTS];
   double left[6], y[6];
   size_t held = 0;
+  for (size_t n = 0; n < r->count; n++) {
+    is_held[n] = nsvcd__reach_holds(r, n);
+    step[n] = 0;
+  }
   for (size_t k = 0; k < 6; k++) left[k] = -r->miss.residuals[k];
   for (;;) {
     const size_t before = held;
@@ -4133,6 +4147,7 @@ static void nsvcd__reach_draw(nsvcd__reacher *r, double *q) {
   for (size_t n = 0; n < r->count; n++) {
     const size_t j = r->chain[n];
     const nsvcd_joint *joint = &r->scene->joints[j];
+    if (nsvcd__reach_holds(r, n)) continue;
     const int is_bounded = joint->kind == NSVCD_JOINT_REVOLUTE;
     const double most = nsvcd__slides(r->checker, j) ? r->slide : 3.141592653589793;
     const double from = is_bounded ? joint->low : q[j] - most;
@@ -4597,6 +4612,8 @@ typedef struct nsvcd__router {
   nsvcd__rrt trees[2];
   // (F): the range of their roots
   double low[NSVCD_MAX_JOINTS], high[NSVCD_MAX_JOINTS];
+  // joints that may move
+  size_t moving[NSVCD_MAX_JOINTS], moving_count;
   // (G): of each root of trees[1], its goal; how many roots that has
   size_t *goals;
   size_t root_count;
@@ -4821,11 +4838,15 @@ static nsvcd_result nsvcd__route_check(const nsvcd_checker *checker,
   if (options && (options->nodes > most || !(options->edge >= 0))) return NSVCD_ERROR_ROUTE;
   if (options && options->shortcuts > most && options->shortcuts != NSVCD_NONE)
     return NSVCD_ERROR_ROUTE;
+  const size_t joints = checker->scene->joint_count;
   const double *rows[3] = {problem->start, problem->goals, problem->guess};
   const size_t counts[3] = {1, problem->goal_count, problem->guess_count};
   for (size_t n = 0; n < 3; n++) {
-    if (!nsvcd__are_numbers(rows[n], counts[n] * checker->scene->joint_count))
-      return NSVCD_ERROR_VALUE;
+    if (!nsvcd__are_numbers(rows[n], counts[n] * joints)) return NSVCD_ERROR_VALUE;
+    for (size_t k = 0; k < counts[n] * joints && problem->held; k++) {
+      const double off = rows[n][k] - problem->start[k % joints];
+      if (problem->held[k % joints] && (off > 0 || off < 0)) return NSVCD_ERROR_HELD;
+    }
   }
   return NSVCD_OK;
 }
@@ -4911,13 +4932,17 @@ static void nsvcd__draw(nsvcd__router *r, size_t turn, double *out) {
   const nsvcd__rrt *t = &r->trees[turn % 2];
   if (r->idle[turn % 2] >= NSVCD__IDLE && turn / 2 % 2) {
     const size_t node = (size_t)(nsvcd__random(&r->random) * (double)t->count);
-    const size_t joint = (size_t)(nsvcd__random(&r->random) * (double)joints);
+    const size_t joint =
+        r->moving[(size_t)(nsvcd__random(&r->random) * (double)r->moving_count)];
     memcpy(out, nsvcd__node_at(t, node), joints * sizeof *out);
     out[joint] = nsvcd__draw_joint(r, joint, 1);
     return;
   }
   const int is_wide = nsvcd__random(&r->random) < 0.125;
-  for (size_t j = 0; j < joints; j++) out[j] = nsvcd__draw_joint(r, j, is_wide);
+  // what is held stays where all roots have it
+  memcpy(out, r->low, joints * sizeof *out);
+  for (size_t k = 0; k < r->moving_count; k++)
+    out[r->moving[k]] = nsvcd__draw_joint(r, r->moving[k], is_wide);
 }
 
 // Are there as many nodes, or tries, or looks, as are allowed?
@@ -5005,7 +5030,7 @@ static void nsvcd__seek(nsvcd__router *r) {
   for (size_t g = 0; g < roots && g < r->problem.goal_count && !r->is_stopped; g++) {
     if (nsvcd__join(r, 0, g)) return;
   }
-  for (size_t turn = 0; !r->is_stopped; turn++) {
+  for (size_t turn = 0; !r->is_stopped && r->moving_count > 0; turn++) {
     nsvcd__rrt *grown = &r->trees[turn % 2];
     nsvcd__rrt *other = &r->trees[1 - turn % 2];
     double drawn[NSVCD_MAX_JOINTS];
@@ -5259,6 +5284,8 @@ NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_prob
   r->check.work = NSVCD__SEARCH_WORK;
   r->check.stop = problem->abandon;
   r->check.user = problem->user;
+  for (size_t j = 0; j < r->joints; j++)
+    if (!problem->held || !problem->held[j]) r->moving[r->moving_count++] = j;
   nsvcd__plant(r);
   r->root_count = r->trees[1].count;
   if (r->root_count > 0 && r->options.looks) nsvcd__search_by_looks(r);

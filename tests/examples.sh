@@ -976,6 +976,13 @@ passes 'cylinder: 0.3 0.2' "$here" 'box: 1 1 1 0 1 0 0 0 0 1' 0.2
 passes 'cylinder: 0.3 0.2' '0 0 0 0.70710678 0 0 0.70710678' 'box: 1 1 1 0 1 0 0 0 0 1' 0.4
 passes 'box: 0.2 0.6 0.2' "$here" 'cloud: dust.xyz 0.1 0 1 0 0 0 0 1' 0.6
 passes 'cloud: dust.xyz 0.1' "$here" 'cylinder: 0.1 1 0 0.5 0 0 0 0 1' 0.3
+# a certificate is of these sizes, and of no others
+passes 'capsule: 0.05 0.4' '0 0 0 0.70710678 0 0 0.70710678' 'cylinder: 0.2 1 0 1 0 0 0 0 1' 0.55
+for change in 's/: 0.05 0.4/: 0.050001 0.4/' 's/: 0.05 0.4/: 0.05 0.400001/' 's/: 0.2 1/: 0.200001 1/' 's/: 0.2 1/: 0.2 1.00001/' 's/capsule: 0.05 0.4/sphere: 0.05/'; do
+  sed "$change" "$dir/shape.txt" >"$dir/other_shape.txt"
+  expect 1 '' build/verify "$dir/other_shape.txt" "$dir/certs" --clearance 0.5498
+  line 'refused	it is about another'
+done
 # half way between two of its sides a cylinder is no smaller than round
 passes 'sphere: 0.1' "$here" "cylinder: 0.1 1 0 0.5 0 0 0 $(awk 'BEGIN { a = 3.14159265358979 / 64; print sin(a), cos(a) }')" "$(awk 'BEGIN { print 0.4 - 0.1 / cos(3.14159265358979 / 32) }')"
 expect 0 '' build/svcd plan "$dir/shape.txt" --only p --picture "$dir/shape.svg"
@@ -1002,6 +1009,42 @@ for cloud in '' '1 2\n' '1 2 x\n' '1 2 nan\n' '# 1 2 3\n'; do
   expect 1 'shape.txt:3: body a: .*bad.xyz' build/svcd plan "$dir/shape.txt"
   expect 2 '' build/verify "$dir/shape.txt" "$dir/certs"
 done
+# Groups: only their joints move; a certificate of a motion in which another one does is refused.
+groups() {  # LINES, LINE: three slides, and a post between the start and the goal
+  printf 'nsvcd-plans 1\njoint x world 0 0 0 0 0 0 1 1 0 0 prismatic -9 9 1\njoint y x 0 0 0 0 0 0 1 0 1 0 prismatic -9 9 1\njoint z y 0 0 0 0 0 0 1 0 0 1 prismatic -9 9 1\n'
+  printf 'body a z sphere: 0.1\n%bscene s\nobstacle b box: 0.2 2 2  0 0 0 0 0 0 1\nplan p s -1 0 0.5 1 0 0.5 %s\n' "$1" "$2"
+}
+grouped() {  # LINES, LINE, STATUS, COLUMNS of joints that stay
+  groups "$1" "$2" >"$dir/group.txt"
+  expect 0 '' build/svcd plan "$dir/group.txt" --seconds 2 --samples 100 --joints "$dir/group.tsv"
+  test "$(cut -f 2 "$dir/out")" = "$3" || fail "group '$1' '$2': $(cat "$dir/out")"
+  for column in $4; do
+    test "$(cut -f "$column" "$dir/group.tsv" | sort -u | wc -l)" = 1 || fail "joint $column is held: $1, $2"
+  done
+}
+grouped 'group flat x y\n' 'group flat' certified 5
+grouped 'group flat x y\ngroup tall z x\n' 'group tall' certified 4
+grouped 'group lone x\n' 'group lone' limit ''
+grouped 'group flat x y\ngroup tall z x\n' 'group tall' certified 4
+expect 0 '' build/svcd plan "$dir/group.txt" --certificates "$dir/certs"
+expect 0 '' build/verify "$dir/group.txt" "$dir/certs"
+sed 's/group tall$/group flat/' "$dir/group.txt" >"$dir/other_group.txt"
+expect 1 '' build/verify "$dir/other_group.txt" "$dir/certs"
+line 'refused	a joint moves that is not of the plan.s group'
+group_refused() {  # TEXT, LINES, LINE
+  groups "$2" "$3" >"$dir/group.txt"
+  expect 1 "$1" build/svcd plan "$dir/group.txt"
+}
+group_refused 'group.txt:6: expected: group NAME JOINT' 'group flat\n' ''
+group_refused "group.txt:6: no joint of this name above, nor world: 'w'" 'group flat x w\n' ''
+group_refused 'group.txt:6: the world is no joint' 'group flat x world\n' ''
+group_refused "group.txt:7: a second group of this name: 'flat'" 'group flat x\ngroup flat y\n' ''
+group_refused "group.txt:9: no group of this name above: 'tall'" 'group flat x\n' 'group tall'
+group_refused 'group.txt:9: expected: plan ID SCENE' 'group flat x\n' 'flat'
+group_refused 'group.txt:9: joint x is not of group flat, but its goal is not its start' 'group flat y\n' 'group flat'
+{ groups '' ''; echo 'group flat x'; } >"$dir/group.txt"
+expect 1 'group.txt:9: a group after the first scene' build/svcd plan "$dir/group.txt"
+expect 2 'not where it may stand' build/verify "$dir/group.txt" "$dir/certs"
 # Curves: past a wall by a detour, which the polyline of their control points cuts; with times, and without.
 curve() {  # WORDS, LINES: a ball on two slides, and a wall
   printf 'nsvcd-plans 1\njoint x world 0 0 0 0 0 0 1 1 0 0 prismatic -9 9 1\njoint y x 0 0 0 0 0 0 1 0 1 0 prismatic -9 9 1\n'

@@ -64,8 +64,9 @@ static double size_apart(const robot *r, const double *q) {
 }
 
 // Plans from a start to a goal whose straight line is not free; what is found is free, at so many
-// times.
-static void is_planned(robot *r, const double *start, const double *goal, int times) {
+// times, and what is held is never elsewhere, if only by a bit.
+static void is_planned(robot *r, const double *start, const double *goal, const uint8_t *held,
+                       size_t looks, int times) {
   nsvcd_route_problem problem;
   nsvcd_route_options options;
   nsvcd_route_answer answer;
@@ -82,7 +83,9 @@ static void is_planned(robot *r, const double *start, const double *goal, int ti
   problem.start = start;
   problem.goals = goal;
   problem.goal_count = 1;
-  options.nodes = 2000;
+  problem.held = held;
+  options.nodes = 20000;
+  options.looks = looks;
   const size_t size = nsvcd_route_size(r->checker, &problem, &options);
   void *memory = calloc(1, size);
   if (!size || !memory) exit(1);
@@ -91,6 +94,8 @@ static void is_planned(robot *r, const double *start, const double *goal, int ti
   if (answer.status == NSVCD_ROUTE_FOUND) {
     const nsvcd_joint_motion *m = &answer.motion;
     robot_motion_is_smooth(r, m, start, goal);
+    for (size_t n = 0; n < (2 * m->pieces + 1) * joints && held; n++)
+      if (held[n % joints]) CHECK_EQ(memcmp(&m->points[n], &start[n % joints], sizeof *start), 0);
     for (int k = 0; k <= times; k++) {
       double q[NSVCD_MAX_JOINTS];
       joints_at_time(m, joints, m->times[m->pieces] * k / times, q);
@@ -114,7 +119,7 @@ static void snakes_are_planned(void) {
   robot_open(&r);
   start[101] = -0.25;
   goal[101] = 0.6;
-  is_planned(&r, start, goal, 20);
+  is_planned(&r, start, goal, NULL, 0, 20);
   // one joint more is too many
   r.scene.joint_count++;
   CHECK_EQ(nsvcd_checker_size(&r.scene), 0);
@@ -149,7 +154,14 @@ static void humanoids_are_planned(void) {
   // an arm swings from one side of it to the other, about z
   start[shoulder + 2] = -0.2;
   goal[shoulder + 2] = -1.5;
-  is_planned(&r, start, goal, 100);
+  is_planned(&r, start, goal, NULL, 0, 100);
+  // by the three joints of the shoulder and the elbow alone, the chest askew
+  uint8_t held[NSVCD_MAX_JOINTS];
+  memset(held, 1, sizeof held);
+  memset(held + shoulder, 0, 4);
+  for (int n = 0; n < 3; n++) start[n] = goal[n] = 0.03 * n;
+  is_planned(&r, start, goal, held, 0, 100);
+  is_planned(&r, start, goal, held, NSVCD_NONE, 100);
   free(r.memory);
 }
 

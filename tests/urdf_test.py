@@ -8,6 +8,7 @@ import contextlib
 import importlib.util
 import io
 import itertools
+import json
 import math
 import os
 import struct
@@ -474,6 +475,66 @@ class Joints(Urdf):
                                                                           joint("j", "base", "arm", "", "continuous")))[1])
 
 
+class Others(Urdf):
+    """What is optional: xacro and pycollada, by programs and modules that stand for them."""
+
+    def test_urdf_runs_xacro(self) -> None:
+        self.file("made.urdf", slider(CUBE))
+        self.file("bin/xacro", '#!/bin/sh\ngrep -q broken "$1" && { echo one >&2; echo "no such macro" >&2; exit 2; }\n'
+                               'grep -q again "$1" && cat "$1" || cat made.urdf\n')
+        os.chmod(os.path.join(self.folder, "bin", "xacro"), 0o755)
+        xacro = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:include filename="%s"/></robot>'
+        with mock.patch.dict(os.environ, {"PATH": os.path.join(self.folder, "bin") + os.pathsep + os.environ["PATH"]}):
+            self.assertEqual([line[0] for line in self.lines(xacro % "x")], ["nsvcd-plans", "joint", "body"])
+            self.refused("r.urdf: xacro: no such macro", xacro % "broken")
+            self.refused("r.urdf: this is xacro, and so is what xacro makes of it", xacro % "again")
+        with mock.patch.dict(os.environ, {"PATH": self.folder}):
+            self.refused("r.urdf: this is xacro, .*pip install xacro", xacro % "x")
+
+    def test_urdf_converts_dae(self) -> None:
+        """A block in millimetres, in two pieces that share corners: welded, scaled, mirrored, where it should be."""
+        triangles = block((100, 200, -100), (400, 300, 200))
+        kinds = {name: type(name, (), {}) for name in ("BoundTriangleSet", "BoundPolylist", "BoundLineSet")}
+
+        def primitive(kind: str, part: list[tuple[tuple[float, ...], ...]]) -> object:
+            made = kinds[kind]()
+            made.vertex = [p for t in part for p in t]
+            made.vertex_index = [(3 * k, 3 * k + 1, 3 * k + 2) for k in range(len(part))]
+            made.triangleset = lambda: primitive("BoundTriangleSet", part)
+            return made
+
+        def collada(axis: str, skins: list[object], *primitives: object) -> mock.Mock:
+            dae = mock.Mock()
+            dae.assetInfo.unitmeter, dae.assetInfo.upaxis = 0.001, axis
+            dae.scene.objects = lambda what: iter(skins if what == "controller" else [mock.Mock(primitives=lambda: iter(primitives))])
+            module = mock.Mock(DaeError=type("DaeError", (Exception,), {}))
+            module.Collada = lambda path: dae
+            return module
+
+        pieces = primitive("BoundTriangleSet", triangles[:5]), primitive("BoundPolylist", triangles[5:]), primitive("BoundLineSet", [])
+        self.file("m.dae", "<COLLADA/>")
+        mesh = shape('<mesh filename="m.dae" scale="-1 1 1"/>', '<origin xyz="0 0 0.5"/>')
+        with mock.patch.dict(sys.modules, {"collada": collada("Z_UP", [], *pieces)}):
+            lines = self.lines(slider(CUBE, mesh))
+            self.assertEqual([line[1:] for line in lines if line[0] == "body"], [["arm", "j", "out_arm.obj"], ["arm.2", "j", "out_arm.2.obj"]])
+            status, said, _ = self.svcd("info", "out_arm.2.obj", "--json")
+            self.assertEqual(status, 0)
+            facts = json.loads(said)
+            self.assertEqual((facts["triangles"], facts["vertices"], facts["components"], facts["closed"], facts["wrong"]), (12, 8, 1, 1, []))
+            for name, expected in (("low", (-0.4, 0.2, 0.4)), ("high", (-0.1, 0.3, 0.7))):
+                for a, b in zip(facts[name], expected):
+                    self.assertAlmostEqual(a, b, places=6)
+            self.assertAlmostEqual(facts["volume"], 0.3 * 0.1 * 0.3, places=7)
+        with mock.patch.dict(sys.modules, {"collada": collada("Y_UP", [], *pieces)}):
+            self.assertIn("m.dae: Y_UP: its axes stay", self.convert(slider(mesh))[1])
+        with mock.patch.dict(sys.modules, {"collada": collada("Z_UP", ["skin"], *pieces)}):
+            self.refused("link arm: m.dae: a DAE with a skin", slider(mesh))
+        with mock.patch.dict(sys.modules, {"collada": collada("Z_UP", [])}):
+            self.refused("link arm: m.dae: no triangles", slider(mesh))
+        with mock.patch.dict(sys.modules, {"collada": None}):
+            self.refused("link arm: m.dae: a DAE: `pip install pycollada`", slider(mesh))
+
+
 class Pairs(Urdf):
     CHAIN = (link("base", CUBE), link("a", CUBE), link("b", CUBE), link("c", CUBE), joint("j1", "base", "a"), joint("j2", "a", "b"),
              joint("j3", "b", "c"))
@@ -508,6 +569,39 @@ class Pairs(Urdf):
         self.assertRegex(self.convert(text, "--srdf", "r.srdf")[1], "(?s)it is of 'other'.*no link x")
         self.file("r.srdf", '<robot name="r"><passive_joint name="y"/></robot>')
         self.assertIn("passive_joint: no joint y", self.convert(text, "--srdf", "r.srdf")[1])
+
+    def test_urdf_groups(self) -> None:
+        """Of joints, links, chains and groups, in the order of the joints; what is held is in none."""
+        text = robot(*self.CHAIN)
+
+        def groups(srdf: str, *options: str) -> dict[str, list[str]]:
+            self.file("r.srdf", f'<robot name="r">{srdf}</robot>')
+            lines = self.lines(text, "--srdf", "r.srdf", *options)
+            return {line[1]: line[2:] for line in lines if line[0] == "group"}
+
+        inner = '<group name="in"><joint name="j3"/><joint name="j1"/></group>'
+        self.assertEqual(groups(inner), {"in": ["j1", "j3"]})
+        self.assertEqual(groups(inner, "--fixed", "j1"), {"in": ["j3"]})
+        self.assertEqual(groups('<group name="g"><link name="b"/><link name="base"/></group>'), {"g": ["j2"]})
+        self.assertEqual(groups('<group name="g"><chain base_link="a" tip_link="c"/></group>'), {"g": ["j2", "j3"]})
+        self.assertEqual(groups('<group name="g"><group name="in"/><link name="b"/></group>' + inner), {"g": ["j1", "j2", "j3"], "in": ["j1", "j3"]})
+        self.assertEqual(groups('<group name="g"><group name="h"/><joint name="j1"/></group><group name="h"><group name="g"/></group>'),
+                         {"g": ["j1"], "h": ["j1"]})
+        for said, srdf in (("group g: no joint x", '<joint name="x"/>'), ("group g: no link x", '<link name="x"/>'),
+                           ("group g: no chain c to a", '<chain base_link="c" tip_link="a"/>'), ("group g: no group x", '<group name="x"/>'),
+                           ("group g: none of its joints moves", "")):
+            self.file("r.srdf", f'<robot name="r"><group name="g">{srdf}</group></robot>')
+            status, message = self.convert(text, "--srdf", "r.srdf")
+            self.assertEqual(status, 0)
+            self.assertIn("warning: r.srdf: " + said, message)
+        self.file("r.srdf", '<robot name="r"><group name="a b"><joint name="j1"/></group></robot>')
+        self.refused("group a b: a name in a planning file has no blanks", text, "--srdf", "r.srdf")
+        # and svcd takes them
+        self.file("r.srdf", f'<robot name="r">{inner}</robot>')
+        self.assertEqual(self.convert(text, "--srdf", "r.srdf")[0], 0)
+        with open(os.path.join(self.folder, "out.txt"), "a", encoding="utf-8") as file:
+            file.write("scene s\nplan p s 0 0 0 0.1 0 0.2 group in\n")
+        self.assertEqual(self.svcd("plan", "out.txt")[0], 0)
 
     def test_urdf_what_is_fixed_beside_a_joint_is_asked(self) -> None:
         """A mast on the base may meet the first link, though one joint parts them; links with nothing on them do not count."""

@@ -3,8 +3,8 @@
     python3 examples/robot/urdf.py ROBOT.urdf [--srdf ROBOT.srdf] [--scene NAME WORLD.urdf]... OUT.txt
 
 Meshes are named as they are: svcd reads them. Boxes, cylinders, spheres and capsules become OBJ files
-beside OUT.txt, in the frame that follows their joint; what is round is inside of its mesh. Fixed joints
-vanish: what is on them is on the link before. A WORLD has no joints but fixed ones: its links are the
+beside OUT.txt, in the frame that follows their joint; what is round is inside of its mesh. So do DAE files
+where Python has pycollada, and xacro is run where it is installed. Fixed joints vanish: what is on them is on the link before. A WORLD has no joints but fixed ones: its links are the
 obstacles of a scene. What is not understood is refused, by file, link or joint: nothing is left out.
 """
 from __future__ import annotations
@@ -14,6 +14,8 @@ import contextlib
 import math
 import os
 import re
+import shutil
+import subprocess
 import sys
 import xml.etree.ElementTree as xml
 from collections.abc import Iterator
@@ -53,15 +55,19 @@ URDF: dict[str, tuple[str | None, str, str]] = {
 }
 PAIR = ("link1 link2 reason", "", "")
 SRDF: dict[str, tuple[str | None, str, str]] = {
-    "robot": (None, "disable_collisions enable_collisions disable_default_collisions passive_joint virtual_joint",
-              "group group_state end_effector link_sphere_approximation joint_property"),
+    "robot": (None, "disable_collisions enable_collisions disable_default_collisions passive_joint virtual_joint group",
+              "group_state end_effector link_sphere_approximation joint_property"),
+    "group": ("name", "joint link chain group", ""),
+    "joint": ("name", "", ""),
+    "link": ("name", "", ""),
+    "chain": ("base_link tip_link", "", ""),
     "disable_collisions": PAIR,
     "enable_collisions": PAIR,
     "disable_default_collisions": ("link reason", "", ""),
     "passive_joint": ("name", "", ""),
     "virtual_joint": ("name type parent_frame child_link", "", ""),
 }
-MANY = set("link joint collision visual".split()) | set(SRDF["robot"][1].split())
+MANY = set("link joint chain collision visual".split()) | set(SRDF["robot"][1].split())
 
 
 class Given(NamedTuple):
@@ -97,11 +103,35 @@ def about(place: str) -> Iterator[None]:
 
 # ---- what a file says
 
+def is_xacro(root: xml.Element) -> bool:
+    for element in root.iter():
+        texts = [element.tag, *element.keys(), *element.attrib.values()]
+        if any("xacro}" in text or "${" in text or "$(" in text for text in texts):
+            return True
+    return False
+
+
+def run_xacro(path: str) -> xml.Element:
+    program = shutil.which("xacro")
+    if program is None:
+        raise ValueError("this is xacro, not yet a URDF: install xacro (`pip install xacro`, or ROS's), or run "
+                         "`xacro IN.xacro -o ROBOT.urdf` first")
+    done = subprocess.run([program, path], capture_output=True, text=True, check=False)
+    lines = done.stderr.strip().splitlines() or [f"it ended with {done.returncode}"]
+    if done.returncode:
+        raise ValueError(f"xacro: {lines[-1]}")
+    root = xml.fromstring(done.stdout)
+    if is_xacro(root):
+        raise ValueError("this is xacro, and so is what xacro makes of it")
+    return root
+
+
 def read(path: str, known: dict[str, tuple[str | None, str, str]], ignored: set[str]) -> xml.Element:
     """The root of a file in which every element is known."""
     with about(path):
         try:
             root = xml.parse(path).getroot()
+            root = run_xacro(path) if is_xacro(root) else root
         except xml.ParseError as error:
             raise ValueError(f"no XML: {error}") from None
         except OSError as error:
@@ -110,9 +140,6 @@ def read(path: str, known: dict[str, tuple[str | None, str, str]], ignored: set[
         for element in root.iter():
             if space and element.tag.startswith(space):
                 element.tag = element.tag[len(space):]
-            texts = [element.tag if "}" in element.tag else "", *element.keys(), *element.attrib.values()]
-            if any("xacro}" in text or "${" in text or "$(" in text for text in texts):
-                raise ValueError("this is xacro, not yet a URDF: run `xacro IN.xacro -o ROBOT.urdf` first")
         if root.tag != "robot":
             raise ValueError(f"begins with <{root.tag}>, not with <robot>")
         check(root, known, ignored)
@@ -367,11 +394,41 @@ def mesh_path(name: str, folder: str, packages: dict[str, str]) -> str:
         raise ValueError(f"{path}: a pointer of Git LFS, not the mesh: git lfs pull")
     if begin[:9].lower().startswith((b"<!doctype", b"<html")):
         raise ValueError(f"{path}: a web page, not a mesh")
-    if not path.lower().endswith((".obj", ".stl", ".ply", ".glb")):
+    if not path.lower().endswith((".obj", ".stl", ".ply", ".glb", ".dae")):
         raise ValueError(f"{path}: svcd reads OBJ, STL, PLY and GLB: convert it")
     if path.lower().endswith(".glb"):
         warn(f"{path}: the y axis of a GLB stays y")
     return path
+
+
+def dae_triangles(path: str, scale: Vector) -> list[Triangle]:
+    """Of a COLLADA file, in metres: axes stay what they are, as ROS has it, and the unit counts."""
+    try:
+        import collada  # optional
+    except ImportError:
+        raise ValueError(f"{path}: a DAE: `pip install pycollada`, and it is converted; or convert it to OBJ") from None
+    try:
+        dae = collada.Collada(path)
+        if next(iter(dae.scene.objects("controller")), None) is not None:
+            raise ValueError(f"{path}: a DAE with a skin or a morph: convert it to OBJ")
+        if dae.assetInfo.upaxis != "Z_UP":
+            warn(f"{path}: {dae.assetInfo.upaxis}: its axes stay what they are")
+        unit = dae.assetInfo.unitmeter or 1
+        out: list[Triangle] = []
+        for geometry in dae.scene.objects("geometry"):
+            for primitive in geometry.primitives():
+                kind = type(primitive).__name__
+                if kind == "BoundLineSet":
+                    continue  # no surface
+                surface = primitive if kind == "BoundTriangleSet" else primitive.triangleset()
+                for corners in surface.vertex_index:
+                    a, b, c = ([float(x) * unit * s for x, s in zip(surface.vertex[k], scale)] for k in corners)
+                    out.append(((a[0], a[1], a[2]), (b[0], b[1], b[2]), (c[0], c[1], c[2])))
+    except (collada.DaeError, AttributeError, IndexError, xml.ParseError) as error:
+        raise ValueError(f"{path}: no DAE that pycollada reads: {error}") from None
+    if not out:
+        raise ValueError(f"{path}: no triangles")
+    return [(a, c, b) for a, b, c in out] if scale[0] * scale[1] * scale[2] < 0 else out
 
 
 # ---- robots
@@ -497,10 +554,16 @@ class Robot:
                 else:
                     triangles = shape(element, self.given.finest)
                     shapes.append([(apply(frame, a), apply(frame, b), apply(frame, c)) for a, b, c in triangles])
-        bodies = [Body(link, shapes)] if shapes else []
-        for path, frame, scale in meshes:
-            bodies.append(Body(f"{link}.{len(bodies) + 1}" if bodies else link, [], path, frame, scale))
-        return bodies
+            bodies = [Body(link, shapes)] if shapes else []
+            for path, frame, scale in meshes:
+                name = f"{link}.{len(bodies) + 1}" if bodies else link
+                if path.lower().endswith(".dae"):
+                    triangles = dae_triangles(path, scale)
+                    own = [[(apply(frame, a), apply(frame, b), apply(frame, c)) for a, b, c in triangles]]
+                    bodies.append(Body(name, own))
+                else:
+                    bodies.append(Body(name, [], path, frame, scale))
+            return bodies
 
     def beside(self, link: str) -> set[str]:
         """Links with bodies that one joint that moves, and no other body, parts from a link."""
@@ -586,6 +649,7 @@ class Semantics:
         self.on: set[frozenset[str]] = set()
         self.silent: set[str] = set()
         self.virtual: set[str] = set()
+        self.groups: dict[str, list[str]] = {}  # joints that move, in their order
         if path is None:
             return
         root = read(path, SRDF, given.ignored)
@@ -600,6 +664,8 @@ class Semantics:
                 elif element.tag == "disable_default_collisions":
                     links = [text_of(element, "link")]
                     self.silent.update(links)
+                elif element.tag == "group":
+                    links = []
                 else:
                     links = []
                     name = text_of(element, "name")
@@ -616,6 +682,52 @@ class Semantics:
                         warn(f"{path}: {element.tag}: no link {link}")
             for both in self.off & self.on:
                 raise ValueError(f"collisions of {' and '.join(sorted(both))} are disabled, and enabled")
+            known = {text_of(element, "name"): element for element in root.findall("group")}
+        for name in known:
+            self.take_group(name, known, robot, f"{path}: group {name}")
+
+    def take_group(self, name: str, known: dict[str, xml.Element], robot: Robot, place: str) -> None:
+        found: set[str] = set()
+        waiting = [name]
+        seen: set[str] = set()
+        while waiting:
+            group = waiting.pop()
+            for element in known[group] if group not in seen else ():
+                with about(place):
+                    joints = self.joints_of(element, robot)
+                inside = element.get("name", "") if element.tag == "group" else ""
+                if inside in known:
+                    waiting.append(inside)
+                elif joints is None:
+                    ends = [element.get(key, "") for key in ("name", "base_link", "tip_link") if key in element.keys()]
+                    warn(f"{place}: no {element.tag} {' to '.join(ends)}")
+                found.update(joints or ())
+            seen.add(group)
+        self.groups[name] = [joint for joint, _, _, _ in robot.joints if joint in found]
+        if not self.groups[name]:
+            warn(f"{place}: none of its joints moves, so it is left out")
+        elif not NAME.fullmatch(name):
+            raise ValueError(f"{place}: a name in a planning file has no blanks and no #")
+
+    def joints_of(self, element: xml.Element, robot: Robot) -> set[str] | None:
+        """Of a line of a group; None: it names what is not there, or another group."""
+        if element.tag == "joint":
+            joint = text_of(element, "name")
+            return {joint} if joint in robot.elements or joint in self.virtual else None
+        if element.tag == "link":
+            link = text_of(element, "name")
+            return {robot.above.get(link, "")} if link in robot.links else None
+        if element.tag == "group":
+            text_of(element, "name")
+            return None
+        base, link = text_of(element, "base_link"), text_of(element, "tip_link")
+        found: set[str] = set()
+        while link != base:
+            if link not in robot.above:
+                return None
+            found.add(robot.above[link])
+            link = robot.parent(link)
+        return found
 
     def asks(self, a: str, b: str) -> bool | None:
         """None: as without an SRDF."""
@@ -696,6 +808,7 @@ def robot_lines(robot: Robot, rules: Semantics, output: Output) -> list[str]:
             asked = rules.asks(a, b)
             if robot.place[a][0] != robot.place[b][0] and (b not in near[a] if asked is None else asked):
                 lines.append(f"pair {first} {second}")
+    lines += [f"group {name} {' '.join(joints)}" for name, joints in rules.groups.items() if joints]
     return lines
 
 

@@ -8,7 +8,8 @@
 //   scene NAME
 //   obstacle NAME SHAPE  x y z qx qy qz qw [scale SX SY SZ]
 //   clearance NAME NAME METRES, or: clearance obstacles METRES
-//   plan ID SCENE  start...  [goal...]
+//   group NAME JOINT...
+//   plan ID SCENE  start...  [goal...]  [group NAME]
 //   goal ID joints...
 //   goal ID pose x y z qx qy qz qw NAME [free x|y|z] [box HX HY HZ]
 //   path ID SCENE COUNT        # COUNT lines of joints follow
@@ -48,12 +49,18 @@ typedef struct robot_room {  // a scene
   size_t first, count;  // its obstacles, among the file's things
 } robot_room;
 
+typedef struct robot_group {
+  const char *name;
+  uint8_t held[NSVCD_MAX_JOINTS];  // 1: not one of the group's joints
+} robot_group;
+
 typedef struct robot_task {
   const char *id;
   size_t line, room;
   size_t points;      // 0: a plan, whose numbers are its start
   size_t first;       // the first of its numbers
   size_t goal_count;  // of a plan
+  size_t group;       // of a plan; NSVCD_NONE: all joints may move
   size_t degree;      // of a curve, else 0
   size_t times;       // of a curve: the first of its times; NSVCD_NONE: it has none
 } robot_task;
@@ -76,14 +83,15 @@ typedef struct robot_file {
   robot_thing *things;  // the robot's bodies, then obstacles
   nsvcd_body_pair *pairs;
   robot_clearance *clearances;
+  robot_group *groups;
   robot_room *rooms;
   robot_task *tasks;
   robot_goal *goals;
   double *numbers, *times;
-  size_t joint_count, mesh_count, thing_count, body_count, pair_count, clearance_count, room_count,
-      task_count, goal_count, number_count, time_count;
-  size_t mesh_capacity, thing_capacity, pair_capacity, clearance_capacity, room_capacity,
-      task_capacity, goal_capacity, number_capacity, time_capacity;
+  size_t joint_count, mesh_count, thing_count, body_count, pair_count, clearance_count, group_count,
+      room_count, task_count, goal_count, number_count, time_count;
+  size_t mesh_capacity, thing_capacity, pair_capacity, clearance_capacity, group_capacity,
+      room_capacity, task_capacity, goal_capacity, number_capacity, time_capacity;
 } robot_file;
 
 // Adds an item to a list, and clears it.
@@ -271,6 +279,31 @@ static int robot_read_clearance(const reader *r, robot_file *file) {
   return 1;
 }
 
+static int robot_find_group(const robot_file *file, const char *name, size_t *at) {
+  for (*at = 0; *at < file->group_count; ++*at)
+    if (strcmp(file->groups[*at].name, name) == 0) return 1;
+  return 0;
+}
+
+static int robot_read_group(const reader *r, robot_file *file) {
+  size_t found;
+  robot_group group;
+  if (r->field_count < 3) return refuse(r, "expected: group NAME JOINT...");
+  if (file->room_count > 0) return refuse(r, "a group after the first scene");
+  if (robot_find_group(file, r->fields[1], &found))
+    return refuse_field(r, "a second group of this name", r->fields[1]);
+  group.name = r->fields[1];
+  memset(group.held, 1, sizeof group.held);
+  for (size_t k = 2; k < r->field_count; k++) {
+    uint32_t link;
+    if (!robot_link(r, file, r->fields[k], &link)) return 0;
+    if (link == 0) return refuse(r, "the world is no joint");
+    group.held[link - 1] = 0;
+  }
+  *ROBOT_ADD(file->groups, file->group_count, file->group_capacity) = group;
+  return 1;
+}
+
 static int robot_find_room(const robot_file *file, const char *name, size_t *at) {
   for (*at = 0; *at < file->room_count; ++*at)
     if (strcmp(file->rooms[*at].name, name) == 0) return 1;
@@ -332,17 +365,37 @@ static robot_goal *robot_add_goal(const reader *r, robot_file *file, size_t task
   return goal;
 }
 
+// Reads a goal that is joints. Those that are not of the plan's group are as the start has them.
+static int robot_read_goal_joints(const reader *r, robot_file *file, size_t task,
+                                  char *const *fields) {
+  const robot_task *plan = &file->tasks[task];
+  const robot_goal *goal = robot_add_goal(r, file, task);
+  if (!robot_read_joints(r, file, fields)) return 0;
+  for (size_t j = 0; j < file->joint_count && plan->group != NSVCD_NONE; j++) {
+    const robot_group *group = &file->groups[plan->group];
+    const double off = file->numbers[goal->first + j] - file->numbers[plan->first + j];
+    if (group->held[j] && (off > 0 || off < 0))
+      return complain("%s:%zu: joint %s is not of group %s, but its goal is not its start", r->path,
+                      r->line, file->joint_names[j], group->name);
+  }
+  return 1;
+}
+
 static int robot_read_task(reader *r, robot_file *file) {
   robot_task task;
   const size_t joints = file->joint_count;
   char *const *f = r->fields;
   const int is_path = strcmp(f[0], "path") == 0;
-  const int has_goal = r->field_count == 3 + 2 * joints;
   memset(&task, 0, sizeof task);
-  if (is_path ? r->field_count != 4 : r->field_count != 3 + joints && !has_goal) {
+  const size_t words = r->field_count;
+  const int has_group = !is_path && words >= 5 + joints && strcmp(f[words - 2], "group") == 0;
+  const size_t fields = words - (has_group ? 2 : 0);
+  const int has_goal = fields == 3 + 2 * joints;
+  if (is_path ? fields != 4 : fields != 3 + joints && !has_goal) {
     if (is_path) return refuse(r, "expected: path ID SCENE COUNT");
     return complain(
-        "%s:%zu: expected: plan ID SCENE, then %zu joints of the start, and perhaps of a goal",
+        "%s:%zu: expected: plan ID SCENE, then %zu joints of the start, and perhaps of a goal, and "
+        "perhaps group NAME",
         r->path, r->line, joints);
   }
   task.id = f[1];
@@ -350,6 +403,9 @@ static int robot_read_task(reader *r, robot_file *file) {
   task.first = file->number_count;
   if (!robot_find_room(file, f[2], &task.room))
     return refuse_field(r, "no scene of this name above", f[2]);
+  task.group = NSVCD_NONE;
+  if (has_group && !robot_find_group(file, f[words - 1], &task.group))
+    return refuse_field(r, "no group of this name above", f[words - 1]);
   if (!is_path && !robot_read_joints(r, file, f + 3)) return 0;
   if (is_path && !parse_count(f[3], 1, 10000000, &task.points))
     return refuse_field(r, "COUNT is not in 1..10000000", f[3]);
@@ -361,8 +417,7 @@ static int robot_read_task(reader *r, robot_file *file) {
   }
   *ROBOT_ADD(file->tasks, file->task_count, file->task_capacity) = task;
   if (is_path || !has_goal) return 1;
-  robot_add_goal(r, file, file->task_count - 1);
-  return robot_read_joints(r, file, f + 3 + joints);
+  return robot_read_goal_joints(r, file, file->task_count - 1, f + 3 + joints);
 }
 
 // Reads what may follow the NAME of a goal.
@@ -426,8 +481,9 @@ static int robot_read_curve(reader *r, robot_file *file) {
       return complain("%s:%zu: curve %s: its line %zu is not one of %zu numbers", r->path, r->line,
                       task.id, i, needed);
     if (!robot_read_point(r, file, has_time)) return 0;
-    const double *last = file->times + file->time_count - 1;
-    if (has_time && i > 0 && !(last[0] > last[-1])) return refuse(r, "times do not rise");
+    const size_t times = file->time_count;
+    if (has_time && i > 0 && !(file->times[times - 1] > file->times[times - 2]))
+      return refuse(r, "times do not rise");
   }
   *ROBOT_ADD(file->tasks, file->task_count, file->task_capacity) = task;
   return 1;
@@ -445,8 +501,8 @@ static int robot_read_goal(const reader *r, robot_file *file) {
   while (task > 0 && (file->tasks[task - 1].points || strcmp(file->tasks[task - 1].id, f[1]) != 0))
     task--;
   if (!task) return refuse_field(r, "no plan of this ID above", f[1]);
+  if (!is_pose) return robot_read_goal_joints(r, file, task - 1, f + 2);
   robot_goal *goal = robot_add_goal(r, file, task - 1);
-  if (!is_pose) return robot_read_joints(r, file, f + 2);
   if (!robot_find(file, file->thing_count, f[10], &goal->thing))
     return refuse_field(r, "no body of this name", f[10]);
   if (!file->things[goal->thing].link) return refuse_field(r, "this body follows no joint", f[10]);
@@ -459,8 +515,8 @@ static int read_robot(const char *path, robot_file *file) {
     int (*read)(const reader *r, robot_file *file);
   } lines[] = {{"joint", robot_read_joint}, {"body", robot_read_body},
                {"pair", robot_read_pair},   {"clearance", robot_read_clearance},
-               {"scene", robot_read_scene}, {"obstacle", robot_read_obstacle},
-               {"goal", robot_read_goal}};
+               {"group", robot_read_group}, {"scene", robot_read_scene},
+               {"goal", robot_read_goal},   {"obstacle", robot_read_obstacle}};
   const size_t count = sizeof lines / sizeof lines[0];
   reader r;
   memset(file, 0, sizeof *file);
@@ -472,10 +528,11 @@ static int read_robot(const char *path, robot_file *file) {
     size_t k = 0;
     while (k < count && strcmp(lines[k].word, r.fields[0]) != 0) k++;
     if (k == count && !is_task && !is_curve)
-      return refuse_field(&r,
-                          "expected 'joint', 'body', 'pair', 'clearance', 'scene', 'obstacle', "
-                          "'plan', 'goal', 'path' or 'curve'",
-                          r.fields[0]);
+      return refuse_field(
+          &r,
+          "expected 'joint', 'body', 'pair', 'clearance', 'group', 'scene', 'obstacle', "
+          "'plan', 'goal', 'path' or 'curve'",
+          r.fields[0]);
     if (r.field_count > MOST_FIELDS) return refuse(&r, "too many fields");
     if (!(is_curve  ? robot_read_curve(&r, file)
           : is_task ? robot_read_task(&r, file)
@@ -501,6 +558,7 @@ static void free_robot(robot_file *file) {
   free(file->things);
   free(file->pairs);
   free(file->clearances);
+  free(file->groups);
   free(file->rooms);
   free(file->tasks);
   free(file->goals);

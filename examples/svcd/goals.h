@@ -51,6 +51,7 @@ static nsvcd_result find_goals(const robot_in_room *in, const robot_task *task,
     memcpy(asked.free_axis, goal->free_axis, sizeof asked.free_axis);
     asked.stop = problem->stop;
     asked.user = problem->user;
+    asked.held = problem->held;
     how.seed = options->seed;
     nsvcd_reach_answer *answer = &g->reached[i];
     result = nsvcd_reach(in->checker, &asked, &how, row, GOAL_ROWS, answer);

@@ -250,6 +250,7 @@ static int plan_one(const robot_in_room *in, const robot_task *task, const setti
   memset(&answer, 0, sizeof answer);
   memset(&goals, 0, sizeof goals);
   problem.start = in->file->numbers + task->first;
+  if (task->group != NSVCD_NONE) problem.held = in->file->groups[task->group].held;
   asked.seed = options->seed;
   asked.nodes = PLAN_NODES;
   const double began = seconds();

@@ -22,16 +22,22 @@ typedef struct distance {
   float metres;
 } distance;
 
+typedef struct group {
+  const char *name;
+  uint8_t moves[NSVCD_VERIFY_JOINTS];
+} group;
+
 typedef struct robot {
   const char *path;
   const char *names[NSVCD_VERIFY_JOINTS];
   int continuous[NSVCD_VERIFY_JOINTS];
   nsvcd_verify_joint joints[NSVCD_VERIFY_JOINTS];
   size_t joint_count;
-  list bodies;     // the robot's, then the scene's obstacles, which are read last
-  size_t own;      // how many of them are the robot's
-  list pairs;      // (2): the robot's, then those with obstacles
-  list kept;       // (pairs): metres
+  list bodies;  // the robot's, then the scene's obstacles, which are read last
+  size_t own;   // how many of them are the robot's
+  list pairs;   // (2): the robot's, then those with obstacles
+  list kept;    // (pairs): metres
+  list groups;
   list distances;  // those above the first scene, then the scene's
 } robot;
 
@@ -126,7 +132,17 @@ static double take_double(const uint8_t *bytes, size_t size, size_t *at) {
 typedef struct plan_line {
   char *words[MOST_WORDS];
   size_t count;
+  const group *of;  // of a plan; NULL: all joints may move
 } plan_line;
+
+// Do only joints of a group move? NULL: all may.
+static int keeps_to(const group *of, const nsvcd_verify_motion *m) {
+  for (size_t k = m->joint_count; k < (m->pieces * m->degree + 1) * m->joint_count && of; k++) {
+    const double off = m->points[k] - m->points[k % m->joint_count];
+    if (!of->moves[k % m->joint_count] && (off > 0 || off < 0)) return 0;
+  }
+  return 1;
+}
 
 // Are the joints at an end of a motion those of a line? Turns without limits may be whole ones off.
 static int is_at(const robot *r, const double *joints, char *const *words) {
@@ -247,6 +263,7 @@ static const char *check_motion(const robot *r, const plan_line *plan, const pla
   const size_t pairs = r->pairs.count / 2;
   const char *why = nsvcd_verify_motion_check(&m);
   if (!why && !goes(r, &m, plan, end)) why = "its motion has another start or goal";
+  if (!why && !keeps_to(plan->of, &m)) why = "a joint moves that is not of the plan's group";
   if (!why && take(bytes, size, at, 4) != pairs) why = "it is about other pairs";
   for (size_t pair = 0; pair < pairs && !why; pair++) {
     const size_t length = (size_t)take(bytes, size, at, 4);
@@ -332,6 +349,28 @@ static void finish_scene(robot *r, float asked) {
   }
 }
 
+// group NAME JOINT...
+static void add_group(robot *r, char *const *words, size_t count) {
+  group *of = (group *)add(&r->groups, sizeof *of);
+  memset(of, 0, sizeof *of);
+  of->name = words[1];
+  for (size_t k = 2; k < count; k++) {
+    const uint32_t link = link_named(r, words[k]);
+    if (link == 0) fail(r->path, "the world is no joint");
+    of->moves[link - 1] = 1;
+  }
+}
+
+// The group of a plan of so many words; NULL: it has none, or it is no plan.
+static const group *group_of(const robot *r, char *const *words, size_t count) {
+  const group *all = (const group *)r->groups.items;
+  if (strcmp(words[0], "plan") != 0 || strcmp(words[count - 2], "group") != 0) return NULL;
+  for (size_t k = 0; k < r->groups.count; k++)
+    if (strcmp(all[k].name, words[count - 1]) == 0) return &all[k];
+  fail(r->path, "a group is named that is not above");
+  return NULL;
+}
+
 // Checks the plans among the lines of a scene, and forgets them. Returns 1 if all are accepted.
 static int check_scene(const robot *r, list *lines, request *asked) {
   const plan_line *first = (const plan_line *)lines->items;
@@ -351,7 +390,10 @@ static int is_task(const robot *r, char *const *words, size_t n, const char *sce
     return n == 2 + joints || (n >= 11 && strcmp(words[2], "pose") == 0);
   int fits = strcmp(words[0], "path") == 0 && n == 4;
   if (strcmp(words[0], "curve") == 0) fits = n == 5 || n == 6;
-  if (strcmp(words[0], "plan") == 0) fits = n == 3 + joints || n == 3 + 2 * joints;
+  if (strcmp(words[0], "plan") == 0) {
+    const size_t numbers = n >= 5 && strcmp(words[n - 2], "group") == 0 ? n - 2 : n;
+    fits = numbers == 3 + joints || numbers == 3 + 2 * joints;
+  }
   return fits && strcmp(words[2], scene) == 0;
 }
 
@@ -380,6 +422,8 @@ static int check_plans(const char *path, char *text, request *asked) {
       add_index(&r.pairs, body_named(&r, words[2]));
     } else if (strcmp(word, "clearance") == 0 && (n == 3 || n == 4) && !has_tasks) {
       add_distance(&r, words, n);
+    } else if (strcmp(word, "group") == 0 && n >= 3 && !scene) {
+      add_group(&r, words, n);
     } else if (strcmp(word, "scene") == 0 && n == 2) {
       if (!scene) own_pairs = r.pairs.count;
       if (!scene) own_distances = r.distances.count;
@@ -404,7 +448,8 @@ static int check_plans(const char *path, char *text, request *asked) {
       }
       plan_line *line = (plan_line *)add(&lines, sizeof *line);
       memcpy(line->words, words, sizeof line->words);
-      line->count = n;
+      line->of = group_of(&r, words, n);
+      line->count = n - (line->of ? 2 : 0);
     } else {
       fail(path, "a line is not one of a planning file, or not where it may stand");
     }

@@ -24,6 +24,8 @@ typedef struct nsvcd_reach_problem {
   int (*stop)(void *user);
   // passed to `stop`
   void *user;
+  // (F) 1: the joint stays where the start has it. NULL: all joints may move
+  const uint8_t *held;
 } nsvcd_reach_problem;
 
 // How configurations are sought. Zero means the default.

@@ -125,6 +125,8 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_FARTHEST,
   // `nodes` or `shortcuts` is too large, or `edge` negative
   NSVCD_ERROR_ROUTE,
+  // a joint that is held has another value in a goal, or in the guess, than in the start
+  NSVCD_ERROR_HELD,
   // a planner's stage is out of range
   NSVCD_ERROR_STAGE,
   // a planner's weight, duration or margin is not finite, or it has too many seeds or checks

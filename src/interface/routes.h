@@ -48,6 +48,9 @@ typedef struct nsvcd_route_problem {
   int (*abandon)(void *user);
   // passed to both
   void *user;
+  // (F) 1: the joint stays where the start has it, and the goals and the guess have that value too.
+  // NULL: all joints may move
+  const uint8_t *held;
 } nsvcd_route_problem;
 
 // How a route is sought. Zero means the default.
@@ -114,7 +117,7 @@ NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
 //   answer     not NULL; left as it was on failure
 //   allocates  nothing
 //   threads    each needs a checker and memory of its own
-//   errors     ARGUMENT (NULL), COUNT (of goals, of a guess), ROUTE (nodes, shortcuts, edge),
+//   errors     ARGUMENT (NULL), COUNT (of goals, of a guess), ROUTE (nodes, shortcuts, edge), HELD,
 //              VALUE (a configuration not finite or beyond NSVCD_MAX_COORDINATE), CLEARANCE,
 //              WORKSPACE; POSE, SCALE, as nsvcd_check
 //   source     RRT-Connect (Kuffner and LaValle 2000); bounded-acceleration shortcuts (Hauser and

@@ -19,8 +19,8 @@ static size_t nsvcd__common_link(const nsvcd_scene *scene, size_t a, size_t b) {
   return a;
 }
 
-// Are both parts of an allowance's pair within its distance, and `more` metres, of where they are in
-// its configuration, for all joint values from `low` to `high`?
+// Are both parts of an allowance's pair within its distance, and `more` metres, of where they are
+// in its configuration, for all joint values from `low` to `high`?
 static int nsvcd__allows(const nsvcd_checker *c, const nsvcd_allowance *allowance,
                          const double *low, const double *high, double more) {
   const double full_turn = 6.283185307179586;

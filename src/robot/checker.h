@@ -163,7 +163,7 @@ static nsvcd__member nsvcd__member_of(const nsvcd_part *part) {
   m.frame = nsvcd__unit_dpose(&part->pose);
   m.centre = nsvcd__dpose_apply(&m.frame, centre);
   // spheres are computed in float
-  m.radius = 1.000001 * scale * (double)(facts.radius - facts.convex_radius);
+  m.radius = scale * (1.000001 * (double)facts.radius - (double)facts.convex_radius);
   m.extent = 1.000001 * scale * (double)facts.extent;
   m.middle = nsvcd__d3_scale(nsvcd__d3_add(low, high), 0.5 * scale);
   // a rounded body goes beyond its triangles

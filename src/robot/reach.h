@@ -154,6 +154,11 @@ static void nsvcd__reach_differentiate(nsvcd__reacher *r) {
 
 // ---- a step
 
+// Does the caller hold a joint of the chain?
+static int nsvcd__reach_holds(const nsvcd__reacher *r, size_t n) {
+  return r->problem.held && r->problem.held[r->chain[n]];
+}
+
 // Solves m x = b by Cholesky's factors, of which m keeps the lower one. m is positive definite.
 static void nsvcd__solve_six(double m[6][6], const double *b, double *x) {
   for (size_t i = 0; i < 6; i++) {
@@ -180,9 +185,13 @@ static void nsvcd__solve_six(double m[6][6], const double *b, double *x) {
 static void nsvcd__reach_step(const nsvcd__reacher *r, const double *q, double damping,
                               double *out, double *expected) {
   double step[NSVCD_MAX_JOINTS];
-  int is_held[NSVCD_MAX_JOINTS] = {0};
+  int is_held[NSVCD_MAX_JOINTS];
   double left[6], y[6];
   size_t held = 0;
+  for (size_t n = 0; n < r->count; n++) {
+    is_held[n] = nsvcd__reach_holds(r, n);
+    step[n] = 0;
+  }
   for (size_t k = 0; k < 6; k++) left[k] = -r->miss.residuals[k];
   for (;;) {
     const size_t before = held;
@@ -267,6 +276,7 @@ static void nsvcd__reach_draw(nsvcd__reacher *r, double *q) {
   for (size_t n = 0; n < r->count; n++) {
     const size_t j = r->chain[n];
     const nsvcd_joint *joint = &r->scene->joints[j];
+    if (nsvcd__reach_holds(r, n)) continue;
     const int is_bounded = joint->kind == NSVCD_JOINT_REVOLUTE;
     const double most = nsvcd__slides(r->checker, j) ? r->slide : 3.141592653589793;
     const double from = is_bounded ? joint->low : q[j] - most;

@@ -36,11 +36,15 @@ static nsvcd_result nsvcd__route_check(const nsvcd_checker *checker,
   if (options && (options->nodes > most || !(options->edge >= 0))) return NSVCD_ERROR_ROUTE;
   if (options && options->shortcuts > most && options->shortcuts != NSVCD_NONE)
     return NSVCD_ERROR_ROUTE;
+  const size_t joints = checker->scene->joint_count;
   const double *rows[3] = {problem->start, problem->goals, problem->guess};
   const size_t counts[3] = {1, problem->goal_count, problem->guess_count};
   for (size_t n = 0; n < 3; n++) {
-    if (!nsvcd__are_numbers(rows[n], counts[n] * checker->scene->joint_count))
-      return NSVCD_ERROR_VALUE;
+    if (!nsvcd__are_numbers(rows[n], counts[n] * joints)) return NSVCD_ERROR_VALUE;
+    for (size_t k = 0; k < counts[n] * joints && problem->held; k++) {
+      const double off = rows[n][k] - problem->start[k % joints];
+      if (problem->held[k % joints] && (off > 0 || off < 0)) return NSVCD_ERROR_HELD;
+    }
   }
   return NSVCD_OK;
 }
@@ -126,13 +130,17 @@ static void nsvcd__draw(nsvcd__router *r, size_t turn, double *out) {
   const nsvcd__rrt *t = &r->trees[turn % 2];
   if (r->idle[turn % 2] >= NSVCD__IDLE && turn / 2 % 2) {
     const size_t node = (size_t)(nsvcd__random(&r->random) * (double)t->count);
-    const size_t joint = (size_t)(nsvcd__random(&r->random) * (double)joints);
+    const size_t joint =
+        r->moving[(size_t)(nsvcd__random(&r->random) * (double)r->moving_count)];
     memcpy(out, nsvcd__node_at(t, node), joints * sizeof *out);
     out[joint] = nsvcd__draw_joint(r, joint, 1);
     return;
   }
   const int is_wide = nsvcd__random(&r->random) < 0.125;
-  for (size_t j = 0; j < joints; j++) out[j] = nsvcd__draw_joint(r, j, is_wide);
+  // what is held stays where all roots have it
+  memcpy(out, r->low, joints * sizeof *out);
+  for (size_t k = 0; k < r->moving_count; k++)
+    out[r->moving[k]] = nsvcd__draw_joint(r, r->moving[k], is_wide);
 }
 
 // Are there as many nodes, or tries, or looks, as are allowed?
@@ -220,7 +228,7 @@ static void nsvcd__seek(nsvcd__router *r) {
   for (size_t g = 0; g < roots && g < r->problem.goal_count && !r->is_stopped; g++) {
     if (nsvcd__join(r, 0, g)) return;
   }
-  for (size_t turn = 0; !r->is_stopped; turn++) {
+  for (size_t turn = 0; !r->is_stopped && r->moving_count > 0; turn++) {
     nsvcd__rrt *grown = &r->trees[turn % 2];
     nsvcd__rrt *other = &r->trees[1 - turn % 2];
     double drawn[NSVCD_MAX_JOINTS];
@@ -474,6 +482,8 @@ NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_prob
   r->check.work = NSVCD__SEARCH_WORK;
   r->check.stop = problem->abandon;
   r->check.user = problem->user;
+  for (size_t j = 0; j < r->joints; j++)
+    if (!problem->held || !problem->held[j]) r->moving[r->moving_count++] = j;
   nsvcd__plant(r);
   r->root_count = r->trees[1].count;
   if (r->root_count > 0 && r->options.looks) nsvcd__search_by_looks(r);

@@ -48,6 +48,8 @@ typedef struct nsvcd__router {
   nsvcd__rrt trees[2];
   // (F): the range of their roots
   double low[NSVCD_MAX_JOINTS], high[NSVCD_MAX_JOINTS];
+  // joints that may move
+  size_t moving[NSVCD_MAX_JOINTS], moving_count;
   // (G): of each root of trees[1], its goal; how many roots that has
   size_t *goals;
   size_t root_count;

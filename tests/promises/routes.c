@@ -63,6 +63,46 @@ static void a_route_keeps_to_the_limits_of_speed_and_acceleration(void) {
   arm_close(&a);
 }
 
+static void a_joint_that_is_held_stays(void) {
+  const uint8_t held[2][ARM_JOINTS] = {{0, 1}, {1, 1}};
+  const double aside[ARM_JOINTS] = {0.6, 0.5}, guess[ARM_JOINTS] = {0, 0.1};
+  nsvcd_route_problem problem = {.start = from, .goals = to, .goal_count = 1, .held = held[0]};
+  const nsvcd_route_options options = {.nodes = 500};
+  double there[ARM_JOINTS];
+  void *memory;
+  arm a;
+  // the way round the post bends the arm
+  arm_open(&a, at(1.8f, 0, 0));
+  CHECK_EQ(route_of(&a, &problem, &options, &memory).status, NSVCD_ROUTE_LIMIT);
+  free(memory);
+  problem.held = held[1];
+  CHECK_EQ(nsvcd_route_size(a.checker, &problem, NULL), 0);
+  problem.goals = from;
+  CHECK_EQ(route_of(&a, &problem, &options, &memory).status, NSVCD_ROUTE_FOUND);
+  free(memory);
+  problem.held = held[0];
+  problem.goals = aside;
+  nsvcd_route_answer answer;
+  CHECK_EQ(nsvcd_route(a.checker, &problem, NULL, NULL, 0, &answer), NSVCD_ERROR_HELD);
+  problem.goals = to;
+  problem.guess = guess;
+  problem.guess_count = 1;
+  CHECK_EQ(nsvcd_route(a.checker, &problem, NULL, NULL, 0, &answer), NSVCD_ERROR_HELD);
+  arm_close(&a);
+  // without the post it moves, and that joint does not
+  problem.guess_count = 0;
+  problem.guess = NULL;
+  arm_open(&a, at(9, 0, 0));
+  answer = route_of(&a, &problem, NULL, &memory);
+  CHECK_EQ(answer.status, NSVCD_ROUTE_FOUND);
+  for (int k = 0; k <= 50; k++) {
+    nsvcd_motion_at(&answer.motion, ARM_JOINTS, answer.duration * k / 50, there);
+    CHECK(!memcmp(&there[1], &from[1], sizeof there[1]));
+  }
+  free(memory);
+  arm_close(&a);
+}
+
 static void the_same_seed_is_the_same_route(void) {
   const nsvcd_route_problem problem = {.start = from, .goals = to, .goal_count = 1};
   const nsvcd_route_options options = {.seed = 7};
@@ -148,6 +188,7 @@ static void a_route_by_looks_is_proven(void) {
 void promises_routes(void) {
   RUN(a_route_is_free_from_the_start_to_the_goal);
   RUN(a_route_keeps_to_the_limits_of_speed_and_acceleration);
+  RUN(a_joint_that_is_held_stays);
   RUN(the_same_seed_is_the_same_route);
   RUN(a_route_by_looks_is_proven);
   RUN(a_start_or_a_goal_that_is_not_free_is_told);

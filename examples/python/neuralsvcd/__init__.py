@@ -108,9 +108,10 @@ class Code(enum.IntEnum):
     DISTANCE = 52
     FARTHEST = 53
     ROUTE = 54
-    STAGE = 55
-    PLAN = 56
-    BUILD = 57
+    HELD = 55
+    STAGE = 56
+    PLAN = 57
+    BUILD = 58
 
 
 class _Word(str, enum.Enum):
@@ -295,7 +296,7 @@ _ReachAnswer = _struct(
     "nsvcd_reach_answer", solutions=c_size_t, starts=c_size_t, reached=c_size_t, touching=c_size_t, best=c_double * _MAX_JOINTS,
     position_error=c_double, angle_error=c_double, check=_CheckAnswer)
 _RouteProblem = _struct("nsvcd_route_problem", start=c_void_p, goals=c_void_p, goal_count=c_size_t, guess=c_void_p,
-                        guess_count=c_size_t, stop=_STOP, abandon=_STOP, user=c_void_p)
+                        guess_count=c_size_t, stop=_STOP, abandon=_STOP, user=c_void_p, held=c_void_p)
 _RouteOptions = _struct("nsvcd_route_options", seed=c_uint64, clearance=c_float, nodes=c_size_t, tries=c_size_t,
                         edge=c_double, looks=c_size_t, shortcuts=c_size_t, smoothings=c_size_t)
 _RouteAnswer = _struct(
@@ -1819,13 +1820,14 @@ class Robot:
 
     def route(self, start: ArrayLike, goals: ArrayLike, *, guess: Optional[ArrayLike] = None, clearance: float = 0,
               seed: int = 0, nodes: int = 0, tries: int = 0, edge: float = 0, looks: int = 0, shortcuts: int = 0, smoothings: int = 0,
-              stop: Optional[Callable[[], Any]] = None) -> Route:
+              stop: Optional[Callable[[], Any]] = None, held: Optional[ArrayLike] = None) -> Route:
         """A motion from the start (F) to a goal (F), or one of several (G, F), proven free: nsvcd_route.
 
         guess  (n, F) a way that may be free, its ends left out
         tries  motions asked about in search of a way, at most; 0: 4 times the nodes
         looks  motions looked at before that, at most, if all that moves has balls; LEAVE_OUT: none
         stop   asked before each proof and look; something true ends the search
+        held   (F) true: the joint stays where the start has it, as the goals do
         """
         rows = [_doubles(start, (self.joint_count,), "start"),
                 _doubles(np.atleast_2d(np.asarray(goals)), (None, self.joint_count), "goals")]
@@ -1833,6 +1835,11 @@ class Robot:
         if guess is not None:
             rows.append(_doubles(guess, (None, self.joint_count), "guess"))
             problem.guess, problem.guess_count = _address(rows[2]), len(rows[2])
+        if held is not None:
+            stays = np.array(held, dtype=np.bool_)
+            if stays.shape != (self.joint_count,):
+                raise ValueError(f"held: expected {self.joint_count} values")
+            problem.held = _address(stays)
         caught: list[BaseException] = []
         if stop:
             asked = stop
