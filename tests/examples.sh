@@ -733,8 +733,36 @@ robot_refused "not a finite number" 'goal p 0 0 0 0 0 nan'
 robot_refused "not a finite number" 'goal p pose 0 0 nan 0 0 0 1 palm'
 robot_refused "the quaternion is not of unit length" 'goal p pose 0 0 0 0 0 0 2 palm'
 robot_refused "no body of this name: 'thumb'" 'goal p pose 0 0 0 0 0 0 1 thumb'
-robot_refused "no body of this name: 'board_1'" 'goal p pose 0 0 0 0 0 0 1 board_1'
+robot_refused "this body follows no joint: 'board_1'" 'goal p pose 0 0 0 0 0 0 1 board_1'
 robot_refused "this body follows no joint: 'base'" 'goal p pose 0 0 0 0 0 0 1 base'
+robot_refused "expected: allow NAME NAME" 'allow palm'
+robot_refused "no body of this name above: 'thumb'" 'allow palm thumb'
+robot_refused "a distance is negative: '-1'" 'allow palm board_1 -1'
+robot_refused "expected: attach NAME JOINT" 'attach board_1'
+robot_refused "no obstacle of this name above: 'palm'" 'attach palm wrist'
+robot_refused "no joint of this name above, nor world: 'thumb'" 'attach board_1 thumb'
+robot_refused "expected: release NAME" 'release'
+
+# A cup is taken from its table, over a rack, and set down: it touches the table there, and nothing on its way.
+expect 0 '' build/svcd plan examples/robot/pick.txt --samples 500 --joints "$dir/pick.tsv"
+test "$(cut -f 1,2 "$dir/out" | tr '\t\n' '  ')" = 'reach certified grip certified carry certified open certified away certified ' ||
+  fail "a cup is taken: $(cat "$dir/out" "$dir/err")"
+awk '$1 == "carry" { above = $5 + 0.515; x = $3 < 0 ? -$3 : $3; y = $4 < 0 ? -$4 : $4
+    if (x < 0.0895 && y < 0.1895 && above < 0.25) bad = bad " in the rack at " $2
+    if (above < -1e-6) bad = bad " in the table at " $2
+    dx = $3 + ($2 < 250 ? 0.3 : -0.3); dy = $4 + ($2 < 250 ? -0.1 : 0.2)
+    if (dx * dx + dy * dy > 0.005 ^ 2 && above <= 0) bad = bad " slides at " $2
+    if ($7 != -0.0007) bad = bad " lets go at " $2
+    end = $3 - 0.3 < 1e-5 && 0.3 - $3 < 1e-5 && above < 1e-5 && above > -1e-5 }
+  END { if (bad || !end) { print bad; exit 1 } }' "$dir/pick.tsv" >"$dir/out" || fail "a cup is carried: $(head -c 300 "$dir/out")"
+sed 's/^allow cup table//' examples/robot/pick.txt >"$dir/no_allow.txt"
+expect 1 'carry: the start: table and cup meet' build/svcd plan "$dir/no_allow.txt"
+expect 1 'open: not asked: it starts where no plan above has ended' build/svcd plan examples/robot/pick.txt --only open
+sed 's/^plan open.*/plan open kitchen 0 0 0 0 0/' examples/robot/pick.txt >"$dir/late.txt"
+expect 1 'what was attached above is not known' build/svcd plan "$dir/late.txt" --only open
+mkdir -p "$dir/pick"
+expect 1 "carry: no certificate: 'verify' does not know what may touch" build/svcd plan examples/robot/pick.txt --certificates "$dir/pick"
+expect 1 '' build/verify examples/robot/pick.txt "$dir/pick"
 robot_refused "expected 'free x|y|z' or 'box HX HY HZ', each once: 'free'" 'goal p pose 0 0 0 0 0 0 1 palm free w'
 robot_refused "expected .*, each once: 'free'" 'goal p pose 0 0 0 0 0 0 1 palm free x free y'
 robot_refused "expected .*, each once: 'box'" 'goal p pose 0 0 0 0 0 0 1 palm box 0 0'

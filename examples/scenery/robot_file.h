@@ -8,8 +8,10 @@
 //   scene NAME
 //   obstacle NAME SHAPE  x y z qx qy qz qw [scale SX SY SZ]
 //   clearance NAME NAME METRES, or: clearance obstacles METRES
+//   allow NAME NAME [METRES]
+//   attach NAME JOINT, or: release NAME
 //   group NAME JOINT...
-//   plan ID SCENE  start...  [goal...]  [group NAME]
+//   plan ID SCENE  [start...  [goal...]]  [group NAME]
 //   goal ID joints...
 //   goal ID pose x y z qx qy qz qw NAME [free x|y|z] [box HX HY HZ]
 //   path ID SCENE COUNT        # COUNT lines of joints follow
@@ -58,12 +60,25 @@ typedef struct robot_task {
   const char *id;
   size_t line, room;
   size_t points;      // 0: a plan, whose numbers are its start
-  size_t first;       // the first of its numbers
+  size_t first;       // the first of its numbers; NSVCD_NONE: it starts where the plan above ended
   size_t goal_count;  // of a plan
   size_t group;       // of a plan; NSVCD_NONE: all joints may move
   size_t degree;      // of a curve, else 0
   size_t times;       // of a curve: the first of its times; NSVCD_NONE: it has none
 } robot_task;
+
+// What a robot takes, or lets go of, before a task.
+typedef struct robot_change {
+  size_t task, line, thing;
+  uint32_t link;  // 0: it rests
+} robot_change;
+
+// Two things that may touch near the start and the goals, from a task on.
+typedef struct robot_allow {
+  size_t task, room, at[2];
+  double metres;
+} robot_allow;
+#define ALLOWED_METRES 0.005
 
 // A goal of a plan: joints, or where a body is to be.
 typedef struct robot_goal {
@@ -87,11 +102,14 @@ typedef struct robot_file {
   robot_room *rooms;
   robot_task *tasks;
   robot_goal *goals;
+  robot_change *changes;
+  robot_allow *allows;
   double *numbers, *times;
   size_t joint_count, mesh_count, thing_count, body_count, pair_count, clearance_count, group_count,
-      room_count, task_count, goal_count, number_count, time_count;
+      room_count, task_count, goal_count, change_count, allow_count, number_count, time_count;
   size_t mesh_capacity, thing_capacity, pair_capacity, clearance_capacity, group_capacity,
-      room_capacity, task_capacity, goal_capacity, number_capacity, time_capacity;
+      room_capacity, task_capacity, goal_capacity, change_capacity, allow_capacity, number_capacity,
+      time_capacity;
 } robot_file;
 
 // Adds an item to a list, and clears it.
@@ -365,13 +383,52 @@ static robot_goal *robot_add_goal(const reader *r, robot_file *file, size_t task
   return goal;
 }
 
+// Two bodies of the scene may touch.
+static int robot_read_allow(const reader *r, robot_file *file) {
+  robot_allow allow;
+  memset(&allow, 0, sizeof allow);
+  allow.metres = ALLOWED_METRES;
+  if (r->field_count != 3 && r->field_count != 4)
+    return refuse(r, "expected: allow NAME NAME [METRES]");
+  if (file->room_count == 0) return refuse(r, "no scene above");
+  allow.task = file->task_count;
+  allow.room = file->room_count - 1;
+  for (int k = 0; k < 2; k++)
+    if (!robot_find(file, file->rooms[allow.room].first, r->fields[1 + k], &allow.at[k]))
+      return refuse_field(r, "no body of this name above", r->fields[1 + k]);
+  if (r->field_count == 4 && !robot_number(r, r->fields[3], &allow.metres)) return 0;
+  if (allow.metres < 0) return refuse_field(r, "a distance is negative", r->fields[3]);
+  *ROBOT_ADD(file->allows, file->allow_count, file->allow_capacity) = allow;
+  return 1;
+}
+
+// An obstacle of the scene moves with a joint from the next task on, or rests again.
+static int robot_read_change(const reader *r, robot_file *file) {
+  robot_change change;
+  const int attaches = r->fields[0][0] == 'a';
+  memset(&change, 0, sizeof change);
+  if (r->field_count != (attaches ? 3 : 2))
+    return refuse(r, attaches ? "expected: attach NAME JOINT" : "expected: release NAME");
+  if (file->room_count == 0) return refuse(r, "no scene above");
+  if (!robot_find(file, file->rooms[file->room_count - 1].first, r->fields[1], &change.thing) ||
+      change.thing < file->body_count)
+    return refuse_field(r, "no obstacle of this name above", r->fields[1]);
+  if (attaches && !robot_link(r, file, r->fields[2], &change.link)) return 0;
+  change.task = file->task_count;
+  change.line = r->line;
+  *ROBOT_ADD(file->changes, file->change_count, file->change_capacity) = change;
+  return 1;
+}
+
 // Reads a goal that is joints. Those that are not of the plan's group are as the start has them.
 static int robot_read_goal_joints(const reader *r, robot_file *file, size_t task,
                                   char *const *fields) {
   const robot_task *plan = &file->tasks[task];
   const robot_goal *goal = robot_add_goal(r, file, task);
   if (!robot_read_joints(r, file, fields)) return 0;
+  // where a plan starts that has no start of its own is not known yet
   for (size_t j = 0; j < file->joint_count && plan->group != NSVCD_NONE; j++) {
+    if (plan->first == NSVCD_NONE) break;
     const robot_group *group = &file->groups[plan->group];
     const double off = file->numbers[goal->first + j] - file->numbers[plan->first + j];
     if (group->held[j] && (off > 0 || off < 0))
@@ -388,14 +445,15 @@ static int robot_read_task(reader *r, robot_file *file) {
   const int is_path = strcmp(f[0], "path") == 0;
   memset(&task, 0, sizeof task);
   const size_t words = r->field_count;
-  const int has_group = !is_path && words >= 5 + joints && strcmp(f[words - 2], "group") == 0;
+  const int has_group = !is_path && words >= 5 && strcmp(f[words - 2], "group") == 0;
   const size_t fields = words - (has_group ? 2 : 0);
   const int has_goal = fields == 3 + 2 * joints;
-  if (is_path ? fields != 4 : fields != 3 + joints && !has_goal) {
+  const int follows = !is_path && fields == 3;
+  if (is_path ? fields != 4 : fields != 3 + joints && !has_goal && !follows) {
     if (is_path) return refuse(r, "expected: path ID SCENE COUNT");
     return complain(
-        "%s:%zu: expected: plan ID SCENE, then %zu joints of the start, and perhaps of a goal, and "
-        "perhaps group NAME",
+        "%s:%zu: expected: plan ID SCENE, then %zu joints of the start, unless it starts where the "
+        "plan above ended, and perhaps of a goal, and perhaps group NAME",
         r->path, r->line, joints);
   }
   task.id = f[1];
@@ -406,7 +464,8 @@ static int robot_read_task(reader *r, robot_file *file) {
   task.group = NSVCD_NONE;
   if (has_group && !robot_find_group(file, f[words - 1], &task.group))
     return refuse_field(r, "no group of this name above", f[words - 1]);
-  if (!is_path && !robot_read_joints(r, file, f + 3)) return 0;
+  if (follows) task.first = NSVCD_NONE;
+  if (!is_path && !follows && !robot_read_joints(r, file, f + 3)) return 0;
   if (is_path && !parse_count(f[3], 1, 10000000, &task.points))
     return refuse_field(r, "COUNT is not in 1..10000000", f[3]);
   for (size_t i = 0; i < task.points; i++) {
@@ -503,9 +562,14 @@ static int robot_read_goal(const reader *r, robot_file *file) {
   if (!task) return refuse_field(r, "no plan of this ID above", f[1]);
   if (!is_pose) return robot_read_goal_joints(r, file, task - 1, f + 2);
   robot_goal *goal = robot_add_goal(r, file, task - 1);
-  if (!robot_find(file, file->thing_count, f[10], &goal->thing))
+  const size_t first = file->rooms[file->tasks[task - 1].room].first;
+  if (!robot_find(file, first, f[10], &goal->thing))
     return refuse_field(r, "no body of this name", f[10]);
-  if (!file->things[goal->thing].link) return refuse_field(r, "this body follows no joint", f[10]);
+  uint32_t link = file->things[goal->thing].link;
+  for (size_t k = 0; k < file->change_count; k++)
+    if (file->changes[k].thing == goal->thing && file->changes[k].task < task)
+      link = file->changes[k].link;
+  if (!link) return refuse_field(r, "this body follows no joint", f[10]);
   return read_pose(r, f + 3, &goal->pose) && robot_read_region(r, goal);
 }
 
@@ -513,10 +577,12 @@ static int read_robot(const char *path, robot_file *file) {
   static const struct {
     const char *word;
     int (*read)(const reader *r, robot_file *file);
-  } lines[] = {{"joint", robot_read_joint}, {"body", robot_read_body},
-               {"pair", robot_read_pair},   {"clearance", robot_read_clearance},
-               {"group", robot_read_group}, {"scene", robot_read_scene},
-               {"goal", robot_read_goal},   {"obstacle", robot_read_obstacle}};
+  } lines[] = {{"joint", robot_read_joint},   {"body", robot_read_body},
+               {"pair", robot_read_pair},     {"clearance", robot_read_clearance},
+               {"group", robot_read_group},   {"scene", robot_read_scene},
+               {"goal", robot_read_goal},     {"obstacle", robot_read_obstacle},
+               {"allow", robot_read_allow},   {"attach", robot_read_change},
+               {"release", robot_read_change}};
   const size_t count = sizeof lines / sizeof lines[0];
   reader r;
   memset(file, 0, sizeof *file);
@@ -530,8 +596,8 @@ static int read_robot(const char *path, robot_file *file) {
     if (k == count && !is_task && !is_curve)
       return refuse_field(
           &r,
-          "expected 'joint', 'body', 'pair', 'clearance', 'group', 'scene', 'obstacle', "
-          "'plan', 'goal', 'path' or 'curve'",
+          "expected 'joint', 'body', 'pair', 'clearance', 'group', 'scene', 'obstacle', 'allow', "
+          "'attach', 'release', 'plan', 'goal', 'path' or 'curve'",
           r.fields[0]);
     if (r.field_count > MOST_FIELDS) return refuse(&r, "too many fields");
     if (!(is_curve  ? robot_read_curve(&r, file)
@@ -562,6 +628,8 @@ static void free_robot(robot_file *file) {
   free(file->rooms);
   free(file->tasks);
   free(file->goals);
+  free(file->changes);
+  free(file->allows);
   free(file->numbers);
   free(file->times);
 }

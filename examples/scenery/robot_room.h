@@ -12,6 +12,8 @@ static void need_room(robot_file *file, size_t room) {
     if (file->things[n].link) file->meshes[file->things[n].mesh].moves = 1;
   }
   for (size_t n = first; n < first + count; n++) file->meshes[file->things[n].mesh].is_needed = 1;
+  for (size_t k = 0; k < file->change_count; k++)
+    if (file->changes[k].link) file->meshes[file->things[file->changes[k].thing].mesh].moves = 1;
 }
 
 // Loads and encodes the meshes that are needed; balls are for those that move. Returns 0 after a
@@ -43,6 +45,7 @@ typedef struct robot_in_room {
   nsvcd_part *parts;
   nsvcd_body_pair *pairs;
   float *clearances;
+  nsvcd_allowance *allowances;
   nsvcd_scene scene;
   void *memory;
   nsvcd_checker *checker;
@@ -60,6 +63,7 @@ static void leave_room(robot_in_room *in) {
   free(in->parts);
   free(in->pairs);
   free(in->clearances);
+  free(in->allowances);
   free(in->memory);
   memset(in, 0, sizeof *in);
 }
@@ -86,6 +90,30 @@ static void set_clearances(const robot_file *file, size_t room, float asked, rob
   }
 }
 
+static int open_room(robot_in_room *in) {
+  const size_t size = nsvcd_checker_size(&in->scene);
+  free(in->memory);
+  in->memory = allocate(size);
+  const nsvcd_result result = nsvcd_checker_open(&in->scene, in->memory, size, &in->checker);
+  if (!result) return 1;
+  return complain("%s: scene %s: %s", in->file->path, in->room->name, reason_of(result));
+}
+
+// Adds each part with each obstacle that is on another link. pairs: NULL: only counts.
+static size_t pair_with_obstacles(const robot_in_room *in, size_t parts, nsvcd_body_pair *pairs) {
+  size_t count = 0;
+  for (size_t a = 0; a < parts; a++) {
+    const size_t after = a + 1 > in->file->body_count ? a + 1 : in->file->body_count;
+    for (size_t b = after; b < parts; b++) {
+      const nsvcd_body_pair pair = {(uint32_t)a, (uint32_t)b};
+      if (in->parts[a].link == in->parts[b].link) continue;
+      if (pairs) pairs[count] = pair;
+      count++;
+    }
+  }
+  return count;
+}
+
 // Pairs are those of the file, and each body that moves with each obstacle. room: NSVCD_NONE: there
 // are no obstacles. clearance: metres, of pairs with obstacles. Returns 0 after a complaint.
 static int enter_room(const robot_file *file, size_t room, float clearance, robot_in_room *in) {
@@ -96,9 +124,6 @@ static int enter_room(const robot_file *file, size_t room, float clearance, robo
   in->room = room == NSVCD_NONE ? &nowhere : &file->rooms[room];
   const size_t count = bodies + in->room->count;
   in->parts = (nsvcd_part *)allocate(count * sizeof *in->parts);
-  const size_t most = file->pair_count + bodies * in->room->count;
-  in->pairs = (nsvcd_body_pair *)allocate(most * sizeof *in->pairs);
-  in->clearances = (float *)allocate(most * sizeof *in->clearances);
   memset(in->parts, 0, count * sizeof *in->parts);
   for (size_t n = 0; n < count; n++) {
     const robot_thing *thing = &file->things[n < bodies ? n : in->room->first + n - bodies];
@@ -106,26 +131,68 @@ static int enter_room(const robot_file *file, size_t room, float clearance, robo
     in->parts[n].link = thing->link;
     in->parts[n].pose = thing->pose;
   }
+  const size_t most = file->pair_count + pair_with_obstacles(in, count, NULL);
+  in->pairs = (nsvcd_body_pair *)allocate(most * sizeof *in->pairs);
+  in->clearances = (float *)allocate(most * sizeof *in->clearances);
   nsvcd_scene *scene = &in->scene;
   scene->joints = file->joints;
   scene->joint_count = file->joint_count;
   scene->parts = in->parts;
   scene->part_count = count;
   scene->pairs = in->pairs;
-  scene->pair_count = file->pair_count;
+  scene->pair_count = most;
   scene->clearances = in->clearances;
   for (size_t n = 0; n < file->pair_count; n++) in->pairs[n] = file->pairs[n];
-  for (size_t a = 0; a < bodies; a++) {
-    for (size_t b = bodies; b < count && in->parts[a].link > 0; b++) {
-      const nsvcd_body_pair pair = {(uint32_t)a, (uint32_t)b};
-      in->pairs[scene->pair_count++] = pair;
+  pair_with_obstacles(in, count, in->pairs + file->pair_count);
+  set_clearances(file, room, clearance, in);
+  return open_room(in);
+}
+
+// Lets what the file allows for a task touch near these configurations. Returns 0 after a complaint.
+static int allow_near(robot_in_room *in, size_t task, const double *start, const double *rows,
+                      size_t row_count) {
+  const robot_file *file = in->file;
+  size_t count = 0;
+  free(in->allowances);
+  in->allowances = (nsvcd_allowance *)allocate((file->allow_count * (row_count + 1) + 1) *
+                                               sizeof *in->allowances);
+  for (size_t k = 0; k < file->allow_count; k++) {
+    const robot_allow *allow = &file->allows[k];
+    if (allow->task > task || &file->rooms[allow->room] != in->room) continue;
+    for (size_t n = 0; n < in->scene.pair_count; n++) {
+      const size_t a = (size_t)(robot_thing_of(in, in->pairs[n].a) - file->things);
+      const size_t b = (size_t)(robot_thing_of(in, in->pairs[n].b) - file->things);
+      if (!(allow->at[0] == a && allow->at[1] == b) && !(allow->at[0] == b && allow->at[1] == a))
+        continue;
+      for (size_t i = 0; i <= row_count; i++) {
+        const double *joints = i ? rows + (i - 1) * file->joint_count : start;
+        const nsvcd_allowance allowance = {n, joints, allow->metres};
+        in->allowances[count++] = allowance;
+      }
     }
   }
-  set_clearances(file, room, clearance, in);
-  const size_t size = nsvcd_checker_size(scene);
-  in->memory = allocate(size);
-  const nsvcd_result result = nsvcd_checker_open(scene, in->memory, size, &in->checker);
-  if (result) return complain("%s: scene %s: %s", file->path, in->room->name, reason_of(result));
+  in->scene.allowances = in->allowances;
+  in->scene.allowance_count = count;
+  return count == 0 || open_room(in);
+}
+
+// Attaches and releases what the file says before a task, where everything is at its start. Returns
+// 0 if that is not known (NULL), or after a complaint.
+static int change_things(robot_file *file, size_t task, const double *start, float clearance,
+                         robot_in_room *in) {
+  for (size_t k = 0; k < file->change_count; k++) {
+    const robot_change *change = &file->changes[k];
+    robot_thing *thing = &file->things[change->thing];
+    nsvcd_part part;
+    if (change->task != task) continue;
+    if (!start) return 0;
+    if (!enter_room(file, file->tasks[task].room, clearance, in)) return 0;
+    const size_t n = file->body_count + change->thing - in->room->first;
+    const nsvcd_result result = nsvcd_reparent(in->checker, start, n, change->link, &part);
+    if (result) return complain("%s:%zu: %s", file->path, change->line, reason_of(result));
+    thing->link = part.link;
+    thing->pose = part.pose;
+  }
   return 1;
 }
 #endif  // NSVCD_SCENERY_ROBOT_ROOM_H

@@ -53,6 +53,8 @@ static nsvcd_result find_goals(const robot_in_room *in, const robot_task *task,
     asked.user = problem->user;
     asked.held = problem->held;
     how.seed = options->seed;
+    // the route says which goals are free, once it is known near which ones something may touch
+    how.may_touch = in->scene.allowance_count > 0;
     nsvcd_reach_answer *answer = &g->reached[i];
     result = nsvcd_reach(in->checker, &asked, &how, row, GOAL_ROWS, answer);
     if (!result && !answer->solutions && answer->reached)

@@ -220,6 +220,19 @@ static void write_samples(const robot_task *task, const nsvcd_route_answer *answ
   fflush(out);
 }
 
+// Has something been attached, released or allowed in the scene of a plan, above it?
+static int has_steps_above(const robot_file *file, const robot_task *task) {
+  const size_t number = (size_t)(task - file->tasks);
+  int has = 0;
+  for (size_t k = 0; k < file->allow_count; k++)
+    has |= file->allows[k].room == task->room && file->allows[k].task <= number;
+  for (size_t k = 0; k < file->change_count; k++) {
+    const size_t at = file->changes[k].task;
+    has |= at <= number && file->tasks[at].room == task->room;
+  }
+  return has;
+}
+
 // Says what became of a plan, in all the ways that were asked for. Returns 0 after a complaint.
 static int tell_plan(const robot_in_room *in, const robot_task *task, const settings *options,
                      const nsvcd_route_answer *answer, double taken, FILE *out) {
@@ -230,14 +243,19 @@ static int tell_plan(const robot_in_room *in, const robot_task *task, const sett
   if (is_found && out) write_samples(task, answer, in->file->joint_count, options->samples, out);
   if (is_found && options->picture) good = robot_draw(options->picture, 0, in, task->id, m);
   if (is_found && options->film) good &= robot_draw(options->film, 1, in, task->id, m);
-  if (options->certificates)
+  if (options->certificates && has_steps_above(in->file, task))
+    good = complain(
+        "%s:%zu: %s: no certificate: 'verify' does not know what may touch, or is attached",
+        in->file->path, task->line, task->id);
+  else if (options->certificates)
     good &= write_motion_proof(in, options->certificates, task->id, is_found ? m : NULL,
                                options->visits);
   return good;
 }
 
-static int plan_one(const robot_in_room *in, const robot_task *task, const settings *options,
-                    FILE *out) {
+// end: where the motion ends, if one is found.
+static int plan_one(robot_in_room *in, const robot_task *task, const double *start,
+                    const settings *options, double *end, int *is_at_end, FILE *out) {
   nsvcd_route_problem problem;
   nsvcd_route_options asked;
   nsvcd_route_answer answer;
@@ -249,7 +267,7 @@ static int plan_one(const robot_in_room *in, const robot_task *task, const setti
   memset(&asked, 0, sizeof asked);
   memset(&answer, 0, sizeof answer);
   memset(&goals, 0, sizeof goals);
-  problem.start = in->file->numbers + task->first;
+  problem.start = start;
   if (task->group != NSVCD_NONE) problem.held = in->file->groups[task->group].held;
   asked.seed = options->seed;
   asked.nodes = PLAN_NODES;
@@ -265,6 +283,13 @@ static int plan_one(const robot_in_room *in, const robot_task *task, const setti
   problem.goals = goals.rows;
   problem.goal_count = goals.row_count;
   answer.status = NSVCD_ROUTE_GOAL;
+  const size_t number = (size_t)(task - in->file->tasks);
+  if (in->scene.allowance_count > 0)
+    good = allow_near(in, number, start, goals.rows, goals.row_count);
+  if (!good) {
+    free_goals(&goals);
+    return 0;
+  }
   if (!result && goals.row_count > 0) {
     const size_t size = nsvcd_route_size(in->checker, &problem, &asked);
     memory = allocate(size);
@@ -276,6 +301,8 @@ static int plan_one(const robot_in_room *in, const robot_task *task, const setti
     char from[1024];
     snprintf(from, sizeof from, "%s:%zu: %s: the start", in->file->path, task->line, task->id);
     good = tell_plan(in, task, options, &answer, seconds() - began, out);
+    *is_at_end = answer.status == NSVCD_ROUTE_FOUND;
+    if (*is_at_end) nsvcd_motion_at(&answer.motion, in->file->joint_count, answer.duration, end);
     if (answer.status == NSVCD_ROUTE_START) {
       tell_check(in, from, problem.start, &answer.check);
       tell_way_out(in, from, problem.start, &problem);
@@ -323,15 +350,13 @@ static nsvcd_joint_motion motion_of_task(const robot_file *file, const robot_tas
 }
 
 // Answers a path, edge by edge, or a curve.
-static int path_one(const robot_in_room *in, const robot_task *task, const settings *options,
-                    FILE *out) {
+static int path_one(const robot_in_room *in, const robot_task *task, const settings *options) {
   waiting wait = wait_for(options);
   nsvcd_check_answer answer;
   nsvcd_result result = NSVCD_OK;
   const size_t edges = task->points > 1 && !task->degree ? task->points - 1 : 1;
   size_t edge = 0;
   memset(&answer, 0, sizeof answer);
-  (void)out;
   const double began = seconds();
   for (size_t k = 0; k < edges && !result; k++) {
     const nsvcd_joint_motion motion = motion_of_task(in->file, task, k);
@@ -383,22 +408,55 @@ static int is_asked(const robot_task *task, const settings *options, int is_path
   return (task->points > 0) == is_path && is_listed(options->only, task->id);
 }
 
+// Is a task asked for in a scene, from one on? Else its bodies need not be there.
+static int is_scene_asked(const robot_file *file, const settings *options, int is_path,
+                          size_t from) {
+  for (size_t i = from; i < file->task_count; i++)
+    if (file->tasks[i].room == file->tasks[from].room &&
+        is_asked(&file->tasks[i], options, is_path))
+      return 1;
+  return 0;
+}
+
 // Answers plans, or paths, one after another; a failure of one does not stop the others. A checker
 // is opened for each plan, and for paths whenever the scene changes.
-static int robot_tasks(const robot_file *file, const settings *options, int is_path, FILE *out) {
+static int robot_tasks(robot_file *file, const settings *options, int is_path, FILE *out) {
   robot_in_room in;
+  double end[NSVCD_MAX_JOINTS];
+  int is_at_end = 0;            // the plan before has ended there
+  size_t unknown = NSVCD_NONE;  // the scene in which it is not known where things are
   int good = 1;
+  const float clearance = options->sweep.clearance;
   memset(&in, 0, sizeof in);
   for (size_t i = 0; i < file->task_count; i++) {
     const robot_task *task = &file->tasks[i];
+    const double *start = task->first == NSVCD_NONE ? NULL : file->numbers + task->first;
+    if (!is_scene_asked(file, options, is_path, i)) continue;
+    if (!start && is_at_end && task->room == file->tasks[i - 1].room) start = end;
+    if (!change_things(file, i, start, clearance, &in)) unknown = task->room;
+    is_at_end = 0;
     if (!is_asked(task, options, is_path)) continue;
+    if (unknown == task->room || !start) {
+      good = complain(
+          "%s:%zu: %s: not asked: it starts where no plan above has ended, or what was "
+          "attached above is not known",
+          file->path, task->line, task->id);
+      continue;
+    }
     // a checker remembers what was hit, and a plan must not depend on those before it
-    if ((!is_path || in.room != &file->rooms[task->room]) &&
-        !enter_room(file, task->room, options->sweep.clearance, &in)) {
+    const int enters =
+        !is_path || has_steps_above(file, task) || in.room != &file->rooms[task->room];
+    const size_t points = task->points ? task->points : 1;
+    const double *last = start + (points - 1) * file->joint_count;
+    if (enters && !(enter_room(file, task->room, clearance, &in) &&
+                    allow_near(&in, i, start, last, (size_t)is_path))) {
       good = 0;
       break;
     }
-    good &= (is_path ? path_one : plan_one)(&in, task, options, out);
+    if (is_path)
+      good &= path_one(&in, task, options);
+    else
+      good &= plan_one(&in, task, start, options, end, &is_at_end, out);
   }
   leave_room(&in);
   return good;
