@@ -194,6 +194,9 @@ typedef struct nsvcd_check_options {
   int (*stop)(void *user);
   // passed to `stop`
   void *user;
+  // seconds, as motion->times has them: of a motion that is not free, also seek until when it is,
+  // to this precision; default 0: that is not sought
+  double to_time;
 } nsvcd_check_options;
 
 // What is known of a motion.
@@ -215,6 +218,10 @@ typedef struct nsvcd_check_answer {
   size_t joint;
   // number of configurations that parts were placed in, and of questions asked
   size_t placed, sweeps;
+  // seconds: the motion is proven free before this time; its end if it is FREE. With
+  // options.to_time a HIT is the first one to that precision, unless something before it is
+  // undecided: then it is later than this by more
+  double free_until;
 } nsvcd_check_answer;
 
 // A scene, prepared for checks, in the caller's memory.
@@ -255,7 +262,7 @@ NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const doubl
 //   allocates  nothing
 //   threads    each needs a checker of its own
 //   errors     ARGUMENT, DEGREE, VALUE (points not finite or beyond NSVCD_MAX_COORDINATE), TIMES,
-//              CLEARANCE, FINEST; POSE, SCALE (a part is, or is carried, beyond
+//              CLEARANCE, FINEST, TO (to_time); POSE, SCALE (a part is, or is carried, beyond
 //              NSVCD_MAX_COORDINATE)
 //   source     this library: robot/deviation.h bounds how far joints deviate from lines and slerps,
 //              by second derivatives
@@ -2641,6 +2648,33 @@ static void nsvcd__check_interval(nsvcd__check_state *s, double t0, double t1, s
   }
   answer->pair = NSVCD_NONE;
   answer->verdict = NSVCD_FREE;
+  answer->free_until = t1;
+}
+
+// Until when is a motion free that is not, and is free until answer->free_until at least? By halves
+// of what is open, up to time `end`. The first hit that is found is the answer's.
+static void nsvcd__seek_first(nsvcd__check_state *s, double end) {
+  nsvcd_check_answer *answer = s->answer;
+  double high = end;
+  while (!s->checker->result) {
+    const nsvcd_check_answer last = *answer;
+    if (last.verdict == NSVCD_HIT) {
+      const double start = nsvcd__piece_start(s->motion, last.piece);
+      const double time = start + last.fraction * nsvcd__piece_time(s->motion, last.piece);
+      high = nsvcd__min(high, time);
+    }
+    const double low = last.free_until;
+    const double middle = low + 0.5 * (high - low);
+    if (!(high - low > s->options->to_time) || !(middle > low && middle < high)) return;
+    nsvcd__check_interval(s, low, middle, NSVCD__FIRST_STEPS, NSVCD__CHECK_HALVINGS);
+    if (answer->verdict == NSVCD_HIT) continue;
+    const nsvcd_check_answer found = *answer;
+    *answer = last;
+    answer->placed = found.placed;
+    answer->sweeps = found.sweeps;
+    answer->free_until = found.free_until;
+    if (found.verdict != NSVCD_FREE) high = middle;
+  }
 }
 
 // Does the motion turn sharply where a piece begins? Then a sample belongs there.
@@ -2727,6 +2761,7 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *c, const nsvcd_joint_motion *mo
   if (options) o = *options;
   if (!nsvcd__is_finite(o.clearance) || o.clearance < 0) return NSVCD_ERROR_CLEARANCE;
   if (!nsvcd__is_finite(o.finest) || o.finest < 0) return NSVCD_ERROR_FINEST;
+  if (!nsvcd__are_numbers(&o.to_time, 1) || o.to_time < 0) return NSVCD_ERROR_TO;
   o.finest = o.finest > 0 ? o.finest : NSVCD__FINEST;
   memset(&found, 0, sizeof found);
   found.joint = found.pair = found.piece = NSVCD_NONE;
@@ -2736,6 +2771,7 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *c, const nsvcd_joint_motion *mo
   c->result = NSVCD_OK;
   if (m.pieces == 0) nsvcd__check_interval(&s, 0, 0, 0, 0);
   if (m.pieces > 0) nsvcd__note_cuts(c, &m);
+  found.free_until = nsvcd__piece_start(&m, 0);
   // from corner to corner
   for (size_t p = 0, next; p < m.pieces; p = next) {
     next = p + 1;
@@ -2746,7 +2782,9 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *c, const nsvcd_joint_motion *mo
     for (double t0 = nsvcd__piece_start(&m, p), t1; t0 < end; t0 = t1) {
       t1 = nsvcd__next_cut(c, t0, end);
       nsvcd__check_interval(&s, t0, t1, steps, NSVCD__CHECK_HALVINGS);
-      if (found.verdict != NSVCD_FREE) break;
+      if (found.verdict == NSVCD_FREE) continue;
+      if (o.to_time > 0) nsvcd__seek_first(&s, t1);
+      break;
     }
     if (found.verdict != NSVCD_FREE) break;
   }
@@ -3698,7 +3736,7 @@ static void nsvcd__clamp_to_limits(const nsvcd_scene *scene, double *joints) {
 static int nsvcd__is_free_at(nsvcd_checker *c, const double *joints,
                              const nsvcd_nearest_free_options *o) {
   const nsvcd_joint_motion still = {0, 0, joints, NULL};
-  const nsvcd_check_options options = {o->clearance, 0, 0, o->stop, o->user};
+  const nsvcd_check_options options = {o->clearance, 0, 0, o->stop, o->user, 0};
   nsvcd_check_answer answer;
   return !nsvcd_check(c, &still, &options, &answer) && nsvcd__proves_free(&answer);
 }
@@ -4187,7 +4225,7 @@ static int nsvcd__reach_is_free(nsvcd__reacher *r, const double *q,
                                 nsvcd_check_answer *found) {
   const nsvcd_joint_motion still = {0, 0, q, NULL};
   const nsvcd_check_options options = {r->options.clearance, 0, 0, r->problem.stop,
-                                       r->problem.user};
+                                       r->problem.user, 0};
   if (r->options.may_touch) return 1;
   return !nsvcd_check(r->checker, &still, &options, found) && nsvcd__proves_free(found);
 }

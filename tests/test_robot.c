@@ -282,6 +282,64 @@ static void robot_verdicts_are_right(void) {
   CHECK_LE(undecided, 4);
 }
 
+// Until when a motion is free that is not: nothing touches before, by points; a hit follows at once.
+static void robot_is_free_until(void) {
+  static robot r;
+  shapes_rng rng = {75};
+  size_t hits = 0;
+  size_t late = 0;
+  for (int trial = 0; trial < 12; trial++) {
+    robot_arm(&r, &rng, 12);
+    for (int n = 0; n < 10; n++) {
+      double points[2 * NSVCD_MAX_DEGREE + 1][6];
+      const double times[3] = {-1, shapes_uniform(&rng, 0, 1), 3};
+      nsvcd_check_answer some, first;
+      nsvcd_check_options options;
+      memset(&options, 0, sizeof options);
+      memset(&some, 0, sizeof some);
+      memset(&first, 0, sizeof first);
+      const size_t degree = 1 + (size_t)shapes_pick(&rng, 3);
+      const size_t pieces = 1 + (size_t)shapes_pick(&rng, 2);
+      const nsvcd_joint_motion motion = {pieces, degree, &points[0][0], times};
+      for (size_t j = 0; j < 6; j++) {
+        double at = shapes_uniform(&rng, -2, 2);
+        for (size_t i = 0; i <= pieces * degree; i++) {
+          points[i][j] = at;
+          at += 0.8 / (double)degree * shapes_normal(&rng);
+        }
+      }
+      CHECK_EQ(nsvcd_check(r.checker, &motion, &options, &some), NSVCD_OK);
+      options.to_time = 1e-4;
+      CHECK_EQ(nsvcd_check(r.checker, &motion, &options, &first), NSVCD_OK);
+      CHECK_EQ(first.verdict, some.verdict);
+      CHECK_LE(some.free_until, first.free_until);
+      CHECK_LE(first.free_until, times[pieces]);
+      if (first.verdict == NSVCD_FREE) CHECK_EQ(first.free_until, times[pieces]);
+      for (int k = 0; k < 100 && first.free_until > times[0]; k++) {
+        double q[6];
+        const double t = times[0] + (first.free_until - times[0]) * k / 100;
+        const size_t piece = pieces > 1 && t >= times[1];
+        const double share = (t - times[piece]) / (times[piece + 1] - times[piece]);
+        joints_of_piece(points[piece * degree], degree, 6, share, q);
+        for (size_t p = 0; p < r.scene.pair_count; p++)
+          CHECK_LE(1e-9, robot_apart(&r, &r.pairs[p], q, 0.1));
+      }
+      if (first.verdict != NSVCD_HIT) continue;
+      double q[6];
+      const double *at = times + first.piece;
+      const double time = at[0] + first.fraction * (at[1] - at[0]);
+      joints_of_piece(points[first.piece * degree], degree, 6, first.fraction, q);
+      CHECK_LE(robot_apart(&r, &r.pairs[first.pair], q, 0.1), 2e-5);
+      CHECK_LE(first.free_until, time);
+      hits++;
+      late += time - first.free_until > 1.0001e-4;
+    }
+    free(r.memory);
+  }
+  CHECK_GE(hits, 40);
+  CHECK_EQ(late, 0);
+}
+
 // Poses are those of the matrices, to float's last digits; limits are looked at between points, and
 // reaching one by rounding is not leaving it; a configuration is a motion of no pieces.
 static void robot_parts_are_where_joints_say(void) {
@@ -977,6 +1035,7 @@ void test_robot(void) {
   RUN(robot_swings_past_a_wall);
   RUN(robot_turns_for_long);
   RUN(robot_verdicts_are_right);
+  RUN(robot_is_free_until);
   RUN(robot_routes_are_free);
   RUN(robot_routes_end);
   RUN(robot_routes_out_of_the_narrow);

@@ -124,6 +124,9 @@ typedef struct nsvcd_check_options {
   int (*stop)(void *user);
   // passed to `stop`
   void *user;
+  // seconds, as motion->times has them: of a motion that is not free, also seek until when it is,
+  // to this precision; default 0: that is not sought
+  double to_time;
 } nsvcd_check_options;
 
 // What is known of a motion.
@@ -145,6 +148,10 @@ typedef struct nsvcd_check_answer {
   size_t joint;
   // number of configurations that parts were placed in, and of questions asked
   size_t placed, sweeps;
+  // seconds: the motion is proven free before this time; its end if it is FREE. With
+  // options.to_time a HIT is the first one to that precision, unless something before it is
+  // undecided: then it is later than this by more
+  double free_until;
 } nsvcd_check_answer;
 
 // A scene, prepared for checks, in the caller's memory.
@@ -185,7 +192,7 @@ NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const doubl
 //   allocates  nothing
 //   threads    each needs a checker of its own
 //   errors     ARGUMENT, DEGREE, VALUE (points not finite or beyond NSVCD_MAX_COORDINATE), TIMES,
-//              CLEARANCE, FINEST; POSE, SCALE (a part is, or is carried, beyond
+//              CLEARANCE, FINEST, TO (to_time); POSE, SCALE (a part is, or is carried, beyond
 //              NSVCD_MAX_COORDINATE)
 //   source     this library: robot/deviation.h bounds how far joints deviate from lines and slerps,
 //              by second derivatives

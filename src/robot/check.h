@@ -200,6 +200,33 @@ static void nsvcd__check_interval(nsvcd__check_state *s, double t0, double t1, s
   }
   answer->pair = NSVCD_NONE;
   answer->verdict = NSVCD_FREE;
+  answer->free_until = t1;
+}
+
+// Until when is a motion free that is not, and is free until answer->free_until at least? By halves
+// of what is open, up to time `end`. The first hit that is found is the answer's.
+static void nsvcd__seek_first(nsvcd__check_state *s, double end) {
+  nsvcd_check_answer *answer = s->answer;
+  double high = end;
+  while (!s->checker->result) {
+    const nsvcd_check_answer last = *answer;
+    if (last.verdict == NSVCD_HIT) {
+      const double start = nsvcd__piece_start(s->motion, last.piece);
+      const double time = start + last.fraction * nsvcd__piece_time(s->motion, last.piece);
+      high = nsvcd__min(high, time);
+    }
+    const double low = last.free_until;
+    const double middle = low + 0.5 * (high - low);
+    if (!(high - low > s->options->to_time) || !(middle > low && middle < high)) return;
+    nsvcd__check_interval(s, low, middle, NSVCD__FIRST_STEPS, NSVCD__CHECK_HALVINGS);
+    if (answer->verdict == NSVCD_HIT) continue;
+    const nsvcd_check_answer found = *answer;
+    *answer = last;
+    answer->placed = found.placed;
+    answer->sweeps = found.sweeps;
+    answer->free_until = found.free_until;
+    if (found.verdict != NSVCD_FREE) high = middle;
+  }
 }
 
 // Does the motion turn sharply where a piece begins? Then a sample belongs there.
@@ -286,6 +313,7 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *c, const nsvcd_joint_motion *mo
   if (options) o = *options;
   if (!nsvcd__is_finite(o.clearance) || o.clearance < 0) return NSVCD_ERROR_CLEARANCE;
   if (!nsvcd__is_finite(o.finest) || o.finest < 0) return NSVCD_ERROR_FINEST;
+  if (!nsvcd__are_numbers(&o.to_time, 1) || o.to_time < 0) return NSVCD_ERROR_TO;
   o.finest = o.finest > 0 ? o.finest : NSVCD__FINEST;
   memset(&found, 0, sizeof found);
   found.joint = found.pair = found.piece = NSVCD_NONE;
@@ -295,6 +323,7 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *c, const nsvcd_joint_motion *mo
   c->result = NSVCD_OK;
   if (m.pieces == 0) nsvcd__check_interval(&s, 0, 0, 0, 0);
   if (m.pieces > 0) nsvcd__note_cuts(c, &m);
+  found.free_until = nsvcd__piece_start(&m, 0);
   // from corner to corner
   for (size_t p = 0, next; p < m.pieces; p = next) {
     next = p + 1;
@@ -305,7 +334,9 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *c, const nsvcd_joint_motion *mo
     for (double t0 = nsvcd__piece_start(&m, p), t1; t0 < end; t0 = t1) {
       t1 = nsvcd__next_cut(c, t0, end);
       nsvcd__check_interval(&s, t0, t1, steps, NSVCD__CHECK_HALVINGS);
-      if (found.verdict != NSVCD_FREE) break;
+      if (found.verdict == NSVCD_FREE) continue;
+      if (o.to_time > 0) nsvcd__seek_first(&s, t1);
+      break;
     }
     if (found.verdict != NSVCD_FREE) break;
   }

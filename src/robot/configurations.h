@@ -216,7 +216,7 @@ static void nsvcd__clamp_to_limits(const nsvcd_scene *scene, double *joints) {
 static int nsvcd__is_free_at(nsvcd_checker *c, const double *joints,
                              const nsvcd_nearest_free_options *o) {
   const nsvcd_joint_motion still = {0, 0, joints, NULL};
-  const nsvcd_check_options options = {o->clearance, 0, 0, o->stop, o->user};
+  const nsvcd_check_options options = {o->clearance, 0, 0, o->stop, o->user, 0};
   nsvcd_check_answer answer;
   return !nsvcd_check(c, &still, &options, &answer) && nsvcd__proves_free(&answer);
 }

@@ -274,13 +274,14 @@ _Joint = _struct("nsvcd_joint", kind=c_int, parent=c_uint32, origin=_Pose, axis=
                  high=c_double, speed=c_double, acceleration=c_double)
 _Part = _struct("nsvcd_part", body=c_void_p, link=c_uint32, pose=_Pose, scale=c_float)
 _Scene = _struct("nsvcd_scene", joints=c_void_p, joint_count=c_size_t, parts=c_void_p, part_count=c_size_t,
-                 pairs=c_void_p, pair_count=c_size_t, clearances=c_void_p)
+                 pairs=c_void_p, pair_count=c_size_t, clearances=c_void_p, allowances=c_void_p, allowance_count=c_size_t)
+_Allowance = _struct("nsvcd_allowance", pair=c_size_t, joints=c_void_p, distance=c_double)
 _JointMotion = _struct("nsvcd_joint_motion", pieces=c_size_t, degree=c_size_t, points=c_void_p, times=c_void_p)
 _CheckOptions = _struct("nsvcd_check_options", clearance=c_float, finest=c_float, work=c_size_t, stop=_STOP,
-                        user=c_void_p)
+                        user=c_void_p, to_time=c_double)
 _CheckAnswer = _struct(
     "nsvcd_check_answer", verdict=c_int, why=c_int, pair=c_size_t, piece=c_size_t, fraction=c_double, contact=_Contact,
-    joint=c_size_t, placed=c_size_t, sweeps=c_size_t)
+    joint=c_size_t, placed=c_size_t, sweeps=c_size_t, free_until=c_double)
 _Proximity = _struct("nsvcd_proximity", pair=c_size_t, verdict=c_int, why=c_int, distance=_Range, depth=c_float, contact=_Contact,
                slope=c_double * _MAX_JOINTS)
 _ProximityOptions = _struct("nsvcd_proximity_options", max_distance=c_float, to=c_float, max_depth=c_float, work=c_size_t)
@@ -289,7 +290,7 @@ _NearestFreeOptions = _struct("nsvcd_nearest_free_options", clearance=c_float, f
 _PairCounts = _struct("nsvcd_pair_counts", asked=c_size_t, adjacent=c_size_t, touching=c_size_t)
 _ReachProblem = _struct(
     "nsvcd_reach_problem", start=c_void_p, link=c_uint32, tool=_Pose, target_link=c_uint32, target=_Pose, half=c_float * 3,
-    free_axis=c_float * 3, stop=_STOP, user=c_void_p)
+    free_axis=c_float * 3, stop=_STOP, user=c_void_p, held=c_void_p)
 _ReachOptions = _struct("nsvcd_reach_options", position_tolerance=c_double, angle_tolerance=c_double, apart=c_double, starts=c_size_t,
                         seed=c_uint64, clearance=c_float, may_touch=c_int)
 _ReachAnswer = _struct(
@@ -306,7 +307,7 @@ _RouteAnswer = _struct(
 _CertifyOptions = _struct("nsvcd_certify_options", answer=c_void_p, visits=c_size_t)
 _Certificate = _struct(
     "nsvcd_certificate", verdict=c_int, why=c_int, inside=c_int, time=c_double, size=c_size_t, visits=c_size_t)
-_STRUCTS = (_CertifyOptions, _Certificate, _Joint, _Part, _Scene, _JointMotion, _CheckOptions, _CheckAnswer, _Proximity, _ProximityOptions, _NearestFreeOptions,
+_STRUCTS = (_CertifyOptions, _Certificate, _Joint, _Part, _Scene, _Allowance, _JointMotion, _CheckOptions, _CheckAnswer, _Proximity, _ProximityOptions, _NearestFreeOptions,
             _PairCounts, _ReachProblem, _ReachOptions, _ReachAnswer, _RouteProblem, _RouteOptions, _RouteAnswer, _Mesh, _EncodeOptions, _BodyFacts, _Pose, _NetworkOptions, _Mover, _Question, _Range, _Contact,
             _SafePlace, _Opinion, _Answer, _BodyPair, _PlanProgress, _PlanProblem, _PlanStage, _PlanOptions, _PlanAnswer)
 _Layout = _struct("neuralsvcd_layout", name=c_char_p, place=c_size_t, size=c_size_t)
@@ -1585,6 +1586,7 @@ class Checked(NamedTuple):
     point, normal of a HIT
     joint         one that leaves its limits, or None
     placed, sweeps  what it took
+    free_until    seconds: free before that; with `to_time` a HIT follows at once
     """
     verdict: Verdict
     why: Why
@@ -1596,6 +1598,7 @@ class Checked(NamedTuple):
     joint: Optional[int]
     placed: int
     sweeps: int
+    free_until: float
 
 
 class Proximity(NamedTuple):
@@ -1675,7 +1678,7 @@ def _checked(c: Any) -> Checked:
     is_hit = _VERDICTS[c.verdict] is Verdict.HIT
     return Checked(_VERDICTS[c.verdict], _WHYS[c.why], _index_or_none(c.pair), _index_or_none(c.piece), c.fraction,
                    _vector(c.contact.point) if is_hit else None, _vector(c.contact.normal) if is_hit else None,
-                   _index_or_none(c.joint), c.placed, c.sweeps)
+                   _index_or_none(c.joint), c.placed, c.sweeps, c.free_until)
 
 
 def _doubles(value: ArrayLike, shape: tuple[Optional[int], ...], name: str) -> Doubles:
@@ -1693,12 +1696,13 @@ class Robot:
     pairs  (P, 2) of parts, on links that differ; None: all but those that one joint separates, as `find_pairs` says.
            Also those that touch in all samples, which is no proof that they always do
     clearances  (P) metres that each of these pairs keeps, beside what `check` and `route` are asked for; None: 0
+    allowances  (pair, joints, metres): where pairs may touch: as near as that to where they are in a configuration
     """
 
     def __init__(self, joints: Sequence[Joint], parts: Sequence[Part], pairs: Optional[ArrayLike] = None, *,
-                 clearances: Optional[ArrayLike] = None) -> None:
-        if clearances is not None and pairs is None:
-            raise TypeError("clearances: of which pairs?")
+                 clearances: Optional[ArrayLike] = None, allowances: Sequence[tuple[int, ArrayLike, float]] = ()) -> None:
+        if (clearances is not None or allowances) and pairs is None:
+            raise TypeError("clearances, allowances: of which pairs?")
         self._clearances: Optional[NDArray[np.float32]] = None
         self.joint_count, self.part_count = len(joints), len(parts)
         self._joints = (_Joint * max(len(joints), 1))(*(
@@ -1711,6 +1715,10 @@ class Robot:
             for part in parts))
         if clearances is not None:
             self._clearances = _floats(clearances, (len(_indices(pairs, 2, "pairs")),), "clearances")
+        self._near = [_doubles(joints, (self.joint_count,), "allowances") for _, joints, _ in allowances]
+        self._allowances = (_Allowance * max(len(allowances), 1))(*(
+            _Allowance(_number(c_size_t, pair, "allowances"), _address(near), metres)
+            for (pair, _, metres), near in zip(allowances, self._near)))
         self._open(np.empty((0, 2), np.uint32) if pairs is None else pairs)
         if pairs is None:
             asked, _, touching = self.find_pairs()
@@ -1720,11 +1728,20 @@ class Robot:
         self._pairs = _indices(pairs, 2, "pairs")
         self._scene = _Scene(ctypes.addressof(self._joints), self.joint_count, ctypes.addressof(self._parts),
                              self.part_count, _address(self._pairs), len(self._pairs),
-                             None if self._clearances is None else _address(self._clearances))
+                             None if self._clearances is None else _address(self._clearances),
+                             ctypes.addressof(self._allowances), len(self._near))
         size = _library.nsvcd_checker_size(byref(self._scene))
         self._memory = _memory(size)
         self._checker = c_void_p()
         _check(_library.nsvcd_checker_open(byref(self._scene), _address(self._memory), size, byref(self._checker)))
+
+    def _held(self, held: Optional[ArrayLike]) -> Optional[NDArray[np.bool_]]:
+        if held is None:
+            return None
+        stays = np.array(held, dtype=np.bool_)
+        if stays.shape != (self.joint_count,):
+            raise ValueError(f"held: expected {self.joint_count} values")
+        return stays
 
     @property
     def pairs(self) -> NDArray[np.uint32]:
@@ -1764,8 +1781,11 @@ class Robot:
     def reach(self, start: ArrayLike, target: ArrayLike, link: int, tool: ArrayLike = _IDENTITY, *, target_link: int = 0,
               half: ArrayLike = (0, 0, 0), free_axis: ArrayLike = (0, 0, 0), most: int = 16, position_tolerance: float = 0,
               angle_tolerance: float = 0, apart: float = 0, starts: int = 0, seed: int = 0, clearance: float = 0,
-              may_touch: bool = False) -> Reached:
-        """Configurations, at most `most`, that have a tool, a pose on a link, at a target: nsvcd_reach."""
+              may_touch: bool = False, held: Optional[ArrayLike] = None) -> Reached:
+        """Configurations, at most `most`, that have a tool, a pose on a link, at a target: nsvcd_reach.
+
+        held    (F) true: the joint stays where the start has it
+        """
         row = _doubles(start, (self.joint_count,), "start")
         out = np.empty((most, self.joint_count))
         problem, answer = _ReachProblem(start=_address(row)), _ReachAnswer()
@@ -1773,6 +1793,8 @@ class Robot:
         problem.tool, problem.target = _pose_of(tool, "tool"), _pose_of(target, "target")
         problem.half[:] = _floats(half, (3,), "half").tolist()
         problem.free_axis[:] = _floats(free_axis, (3,), "free_axis").tolist()
+        stays = self._held(held)
+        problem.held = None if stays is None else _address(stays)
         options = _filled(_ReachOptions, starts=starts, seed=seed, clearance=clearance, may_touch=int(may_touch))
         options.position_tolerance, options.angle_tolerance, options.apart = position_tolerance, angle_tolerance, apart
         _check(_library.nsvcd_reach(self._checker, byref(problem), byref(options), _address(out), most, byref(answer)))
@@ -1797,11 +1819,12 @@ class Robot:
         return poses
 
     def check(self, points: ArrayLike, *, degree: int = 1, times: Optional[ArrayLike] = None, clearance: float = 0,
-              finest: float = 0, work: int = 0) -> Checked:
+              finest: float = 0, work: int = 0, to_time: float = 0) -> Checked:
         """Is a motion free, as the joints make it? nsvcd_check.
 
         points  (F): a configuration; (pieces degree + 1, F): Bezier pieces, a polyline if the degree is 1
         times   (pieces + 1), seconds; None: each piece takes one
+        to_time seconds: of what is not free, also seek until when it is, to this precision; 0: not sought
         """
         rows = np.atleast_2d(np.asarray(points))
         kept = _doubles(rows, (None, self.joint_count), "points")
@@ -1814,6 +1837,7 @@ class Robot:
             kept_times = _doubles(times, (pieces + 1,), "times")
             motion.times = _address(kept_times)
         options = _filled(_CheckOptions, clearance=clearance, finest=finest, work=work)
+        options.to_time = to_time
         answer = _CheckAnswer()
         _check(_library.nsvcd_check(self._checker, byref(motion), byref(options), byref(answer)))
         return _checked(answer)
@@ -1835,11 +1859,8 @@ class Robot:
         if guess is not None:
             rows.append(_doubles(guess, (None, self.joint_count), "guess"))
             problem.guess, problem.guess_count = _address(rows[2]), len(rows[2])
-        if held is not None:
-            stays = np.array(held, dtype=np.bool_)
-            if stays.shape != (self.joint_count,):
-                raise ValueError(f"held: expected {self.joint_count} values")
-            problem.held = _address(stays)
+        stays = self._held(held)
+        problem.held = None if stays is None else _address(stays)
         caught: list[BaseException] = []
         if stop:
             asked = stop
