@@ -20,6 +20,7 @@ void test_floor(void);
 void test_robot(void);
 void test_route_looks(void);
 void test_postures(void);
+void test_ranges(void);
 void test_certificate(void);
 void test_checker(void);
 void test_math(void);
@@ -114,6 +115,7 @@ static const test_file files[] = {
     OF(robot),
     OF(route_looks),
     OF(postures),
+    OF(ranges),
     OF(certificate),
     OF(checker),
     OF(winding_number),
