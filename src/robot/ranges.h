@@ -28,7 +28,7 @@
 // the share of the joint that is swept along, when a box is cut
 #define NSVCD__SWEPT_SHARE 0.25
 // probes that are kept; points on each axis, and others, that are tried for one
-#define NSVCD__PROBES 4
+#define NSVCD__KEPT_PROBES 4
 #define NSVCD__AXIS_POINTS 8
 #define NSVCD__OTHER_POINTS 32
 // units for a question about a probe in one configuration
@@ -45,7 +45,7 @@ typedef struct nsvcd__range {
   // that were given up
   double dropped;
   // best first
-  nsvcd__probe probes[NSVCD__PROBES];
+  nsvcd__probe probes[NSVCD__KEPT_PROBES];
   size_t probe_count;
   // boxes that failed
   size_t failed;
@@ -273,9 +273,10 @@ static void nsvcd__try_probe(nsvcd__range *r, const nsvcd__links *at, size_t sid
   (void)nsvcd__ask_sweep(s->checker, &q, &found);
   nsvcd__arms_of_probe(s, at, side);
   probe.score = (double)found.distance.low / (nsvcd__travel_but(s, NSVCD_NONE) + 1e-6);
-  if (r->probe_count == NSVCD__PROBES && !(probe.score > r->probes[NSVCD__PROBES - 1].score))
+  if (r->probe_count == NSVCD__KEPT_PROBES &&
+      !(probe.score > r->probes[NSVCD__KEPT_PROBES - 1].score))
     return;
-  size_t n = r->probe_count < NSVCD__PROBES ? r->probe_count++ : NSVCD__PROBES - 1;
+  size_t n = r->probe_count < NSVCD__KEPT_PROBES ? r->probe_count++ : NSVCD__KEPT_PROBES - 1;
   for (; n > 0 && r->probes[n - 1].score < probe.score; n--) r->probes[n] = r->probes[n - 1];
   r->probes[n] = probe;
 }
