@@ -3873,8 +3873,8 @@ static void nsvcd__put_probe(nsvcd__span *s, const nsvcd__probe *at) {
 // In: two parts of a robot. Out: do they meet never, always or sometimes, over all values of the
 // joints between them?
 //
-// A few hundred configurations are tried first. If the parts meet in some and not in others, that is
-// the answer. If they meet in none, boxes of values are proven to be free; if in all, to be such
+// Some 64 configurations are tried first. If the parts meet in some and not in others, that is the
+// answer. If they meet in none, boxes of values are proven to be free; if in all, to be such
 // that a point of one part stays inside of the other:
 //
 //   free   a sweep along one joint of the box, with all that the other joints can move a point as a
@@ -3903,7 +3903,7 @@ static void nsvcd__put_probe(nsvcd__span *s, const nsvcd__probe *at) {
 // units for a question about a probe in one configuration
 #define NSVCD__PROBE_WORK 20000
 
-typedef struct nsvcd__range {
+typedef struct nsvcd__ranging {
   nsvcd__span span;
   nsvcd_range_options options;
   nsvcd_range_answer answer;
@@ -3920,11 +3920,11 @@ typedef struct nsvcd__range {
   size_t failed;
   uint64_t random;
   nsvcd_result result;
-} nsvcd__range;
+} nsvcd__ranging;
 
 // ---- configurations
 
-static int nsvcd__range_is_over(nsvcd__range *r) {
+static int nsvcd__range_is_over(nsvcd__ranging *r) {
   const nsvcd_range_options *o = &r->options;
   if (r->result || (r->answer.has_free && r->answer.has_hit)) return 1;
   if (!o->stop || !o->stop(o->user)) return 0;
@@ -3933,7 +3933,7 @@ static int nsvcd__range_is_over(nsvcd__range *r) {
 }
 
 // Asks about the two parts in the configuration span.at, and notes what is known there.
-static nsvcd_verdict nsvcd__note_here(nsvcd__range *r) {
+static nsvcd_verdict nsvcd__note_here(nsvcd__ranging *r) {
   nsvcd_check_answer found;
   nsvcd__span *s = &r->span;
   const size_t bytes = s->scene.joint_count * sizeof *s->at;
@@ -3954,7 +3954,7 @@ static nsvcd_verdict nsvcd__note_here(nsvcd__range *r) {
 
 // From the configuration span.at on, down the slope of the distance until the parts meet (sign -1),
 // or up until they do not (1).
-static void nsvcd__follow_slope(nsvcd__range *r, double sign) {
+static void nsvcd__follow_slope(nsvcd__ranging *r, double sign) {
   nsvcd__span *s = &r->span;
   nsvcd_checker *c = s->checker;
   const nsvcd_proximity_options o = {NSVCD_MAX_COORDINATE / 4, 1e-3f, 0.1f, r->options.work};
@@ -3985,7 +3985,7 @@ static void nsvcd__follow_slope(nsvcd__range *r, double sign) {
 }
 
 // Tries corners of the ranges, and then configurations drawn at random.
-static void nsvcd__try_draws(nsvcd__range *r) {
+static void nsvcd__try_draws(nsvcd__ranging *r) {
   nsvcd__span *s = &r->span;
   const size_t corners = s->joints < 5 ? (size_t)1 << s->joints : 32;
   for (size_t n = 0; n < NSVCD__RANGE_DRAWS && !nsvcd__range_is_over(r); n++) {
@@ -4002,12 +4002,12 @@ static void nsvcd__try_draws(nsvcd__range *r) {
 
 // ---- boxes
 
-static double *nsvcd__box_at(nsvcd__range *r, size_t n) {
+static double *nsvcd__box_at(nsvcd__ranging *r, size_t n) {
   return r->boxes + (r->first + n) % r->capacity * (2 * r->span.joints + 1);
 }
 
 // Cuts the box that was taken. The span's arms say along which joint.
-static void nsvcd__cut_box(nsvcd__range *r, const double *box, size_t along) {
+static void nsvcd__cut_box(nsvcd__ranging *r, const double *box, size_t along) {
   const nsvcd__span *s = &r->span;
   const size_t size = 2 * s->joints + 1;
   const double share = box[size - 1];
@@ -4033,7 +4033,7 @@ static void nsvcd__cut_box(nsvcd__range *r, const double *box, size_t along) {
 }
 
 // Follows the slope from the configuration that a check names, in the first boxes that fail.
-static void nsvcd__try_near(nsvcd__range *r, size_t along, const nsvcd_check_answer *found,
+static void nsvcd__try_near(nsvcd__ranging *r, size_t along, const nsvcd_check_answer *found,
                             double sign) {
   nsvcd__span *s = &r->span;
   double centre[NSVCD_MAX_JOINTS];
@@ -4047,7 +4047,7 @@ static void nsvcd__try_near(nsvcd__range *r, size_t along, const nsvcd_check_ans
 }
 
 // Is the box free, all of it? If not, it is cut.
-static void nsvcd__prove_free(nsvcd__range *r, const double *box) {
+static void nsvcd__prove_free(nsvcd__ranging *r, const double *box) {
   nsvcd__span *s = &r->span;
   nsvcd_check_answer found;
   nsvcd__links at;
@@ -4122,7 +4122,7 @@ static void nsvcd__arms_of_probe(nsvcd__span *s, const nsvcd__links *at, size_t 
 }
 
 // Keeps a probe at a point of the world, if it is in both parts and among the best.
-static void nsvcd__try_probe(nsvcd__range *r, const nsvcd__links *at, size_t side,
+static void nsvcd__try_probe(nsvcd__ranging *r, const nsvcd__links *at, size_t side,
                              nsvcd__d3 point) {
   nsvcd__span *s = &r->span;
   nsvcd__probe probe;
@@ -4152,7 +4152,7 @@ static void nsvcd__try_probe(nsvcd__range *r, const nsvcd__links *at, size_t sid
 
 // Seeks probes in the configuration span.at: on the axes of joints, about which they hardly move,
 // and wherever both parts may be.
-static void nsvcd__seek_probes(nsvcd__range *r, const nsvcd__links *at) {
+static void nsvcd__seek_probes(nsvcd__ranging *r, const nsvcd__links *at) {
   nsvcd__span *s = &r->span;
   const nsvcd__rider a = nsvcd__rider_of(s, at, 0);
   const nsvcd__rider b = nsvcd__rider_of(s, at, 1);
@@ -4186,7 +4186,7 @@ static void nsvcd__seek_probes(nsvcd__range *r, const nsvcd__links *at) {
 
 // Does a probe stay inside of the other part in all of the box? If not, it is asked whether the
 // parts meet where the probe leaves it.
-static int nsvcd__stays_inside(nsvcd__range *r, const nsvcd__links *at,
+static int nsvcd__stays_inside(nsvcd__ranging *r, const nsvcd__links *at,
                                const nsvcd__probe *probe) {
   nsvcd__span *s = &r->span;
   nsvcd_check_answer found;
@@ -4205,7 +4205,7 @@ static int nsvcd__stays_inside(nsvcd__range *r, const nsvcd__links *at,
 }
 
 // Do the parts meet everywhere in the box? If that is not known, it is cut.
-static void nsvcd__prove_hit(nsvcd__range *r, const double *box) {
+static void nsvcd__prove_hit(nsvcd__ranging *r, const double *box) {
   nsvcd__span *s = &r->span;
   nsvcd__links at;
   nsvcd__place_links(s->checker, s->at, &at);
@@ -4223,9 +4223,9 @@ static void nsvcd__prove_hit(nsvcd__range *r, const double *box) {
 
 // ---- the search
 
-// Looks into boxes until all are settled; is_free: proves them to be free, else to be hit. Returns 1
-// if all of them are.
-static int nsvcd__search_boxes(nsvcd__range *r, int is_free) {
+// Looks into boxes until all are settled; is_free: proves them to be free, else to be hit. Returns
+// 1 if all of them are.
+static int nsvcd__search_boxes(nsvcd__ranging *r, int is_free) {
   nsvcd__span *s = &r->span;
   const size_t size = 2 * s->joints + 1;
   double box[2 * NSVCD_MAX_JOINTS + 1];
@@ -4257,7 +4257,7 @@ static int nsvcd__search_boxes(nsvcd__range *r, int is_free) {
   return !r->result && r->count == 0 && !(r->dropped > 0);
 }
 
-static void nsvcd__find_range(nsvcd__range *r) {
+static void nsvcd__find_range(nsvcd__ranging *r) {
   nsvcd_range_answer *a = &r->answer;
   nsvcd__try_draws(r);
   if (!r->result && !a->has_hit && nsvcd__search_boxes(r, 1)) a->meeting = NSVCD_MEETS_NEVER;
@@ -4271,12 +4271,12 @@ static void nsvcd__find_range(nsvcd__range *r) {
 
 // Lays a search out at base; NULL: only counts. r: the span has its parts. Returns the bytes; 0 if
 // they are too many.
-static size_t nsvcd__range_layout(const nsvcd__range *r, char *base, nsvcd__range **laid,
+static size_t nsvcd__range_layout(const nsvcd__ranging *r, char *base, nsvcd__ranging **laid,
                                   void **checker) {
   uint64_t used = 0;
   const size_t row = 2 * r->span.joints + 1;
   const size_t size = nsvcd_checker_size(&r->span.scene);
-  *laid = NSVCD__TAKE_ROWS(nsvcd__range, 1, base, &used);
+  *laid = NSVCD__TAKE_ROWS(nsvcd__ranging, 1, base, &used);
   double *boxes = NSVCD__TAKE_ROWS(double, r->capacity *row, base, &used);
   *checker = nsvcd__take(base, &used, 1, size);
   if (*laid) **laid = *r;
@@ -4285,7 +4285,7 @@ static size_t nsvcd__range_layout(const nsvcd__range *r, char *base, nsvcd__rang
 }
 
 static nsvcd_result nsvcd__range_begin(const nsvcd_checker *c, nsvcd_body_pair pair,
-                                       const nsvcd_range_options *options, nsvcd__range *r) {
+                                       const nsvcd_range_options *options, nsvcd__ranging *r) {
   if (!c) return NSVCD_ERROR_ARGUMENT;
   const nsvcd_scene *scene = c->scene;
   if (pair.a >= scene->part_count || pair.b >= scene->part_count ||
@@ -4312,8 +4312,8 @@ NSVCDDEF const char *nsvcd_meeting_string(nsvcd_meeting meeting) {
 
 NSVCDDEF size_t nsvcd_pair_range_size(const nsvcd_checker *checker, nsvcd_body_pair pair,
                                       const nsvcd_range_options *options) {
-  nsvcd__range r;
-  nsvcd__range *unused;
+  nsvcd__ranging r;
+  nsvcd__ranging *unused;
   void *none;
   if (nsvcd__range_begin(checker, pair, options, &r)) return 0;
   return nsvcd__range_layout(&r, NULL, &unused, &none);
@@ -4322,8 +4322,8 @@ NSVCDDEF size_t nsvcd_pair_range_size(const nsvcd_checker *checker, nsvcd_body_p
 NSVCDDEF nsvcd_result nsvcd_pair_range(const nsvcd_checker *checker, nsvcd_body_pair pair,
                                        const nsvcd_range_options *options, void *memory,
                                        size_t size, nsvcd_range_answer *answer) {
-  nsvcd__range begun;
-  nsvcd__range *r;
+  nsvcd__ranging begun;
+  nsvcd__ranging *r;
   void *own;
   nsvcd_result result = nsvcd__range_begin(checker, pair, options, &begun);
   if (result) return result;
