@@ -983,6 +983,9 @@ typedef struct nsvcd_question {
   // options of the network, if it answers. The network has no FIRST, no clearance and no slop, and
   // does not bracket a DISTANCE: `to` is for proofs
   nsvcd_network_options network;
+  // 1: the question is about the surfaces alone: a body that lies inside the other, off its
+  // surface, is FREE of it, and has a distance. For proofs
+  int surfaces;
 } nsvcd_question;
 
 typedef enum nsvcd_verdict {
@@ -10709,6 +10712,8 @@ typedef struct nsvcd__given {
   double fraction, width;
   // FIRST: the resolution as a distance, so near a contact a motion may have ended; 0: not given
   double to;
+  // of the surfaces alone?
+  int surfaces;
   // is more asked for than yes or no?
   int tells;
   // The budget: of all or, if it grows, of each interval of a long motion; and the part of it for
@@ -19430,7 +19435,7 @@ static nsvcd__finding nsvcd__prove(nsvcd__solver *w, nsvcd__search *q, nsvcd__go
   *result = p->known;
   if (gap > nsvcd__clearance(&goal)) return NSVCD__FOUND_FREE;
   const int is_long = nsvcd__is_long(m, q);
-  if (NSVCD__KERNEL(w->isa, is_contained_at_start)(w)) {
+  if (!p->given.surfaces && NSVCD__KERNEL(w->isa, is_contained_at_start)(w)) {
     // It is a hit. A question that asks for more gets triangles, if some meet as well.
     const size_t units = NSVCD__INSIDE_BUDGET;
     const int meets = p->given.tells && nsvcd__meets_at(w, q, goal, 0, units, result);
@@ -20138,6 +20143,7 @@ static nsvcd__goal nsvcd__proof_begin(nsvcd__query *query) {
   given->work = goal.limit = goal.most = q->work ? q->work : most;
   given->reserve = (q->work ? q->work : NSVCD_DEFAULT_WORK) / NSVCD__AFTER_UNRESOLVED;
   given->grows = q->work == 0;
+  given->surfaces = q->surfaces;
   given->tells = q->ask != NSVCD_ASK_HIT || given->slop > 0;
   w->p.work = w->p.push.normal_count = 0;
   w->inside = w->in_open = 0;
@@ -20530,7 +20536,7 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *q) {
   // The network knows nothing of these.
   const int by_network = q->method == NSVCD_METHOD_NETWORK;
   const int needs_proof = q->clearance > 0 || q->slop > 0 || is_first || q->to > 0 ||
-                          (q->ask == NSVCD_ASK_DISTANCE && !by_network);
+                          q->surfaces || (q->ask == NSVCD_ASK_DISTANCE && !by_network);
   if (needs_proof && by_network) return NSVCD_ERROR_METHOD;
   const nsvcd_method wanted = needs_proof ? NSVCD_METHOD_PROOF : q->method;
   if (nsvcd__method_of(a->body, b->body, wanted) == NSVCD_METHOD_DEFAULT)

@@ -104,6 +104,8 @@ static const option options[] = {
      "asks again, with more work, what is undecided for want of work, for up to S seconds (10)"},
     {"--seconds", PLAN, OPTION_NUMBER, AT(seconds), 1e-3, 1e9, NULL, "S",
      "ends each plan within S seconds, with the best motion proven by then, or with 'limit'"},
+    {"--seconds", PAIRS, OPTION_NUMBER, AT(seconds), 1e-3, 1e9, NULL, "S",
+     "ends within S seconds, whatever is unknown by then (10)"},
     {"--samples", PLAN, OPTION_COUNT, AT(samples), 2, 10000000, NULL, "N",
      "with --joints: the number of times at which the joints are written"},
     {"--joints", PLAN, OPTION_TEXT, AT(joints), 0, 0, NULL, "OUT.tsv",
@@ -145,9 +147,9 @@ static const command commands[] = {
      "when, and which two bodies; the mean time of an edge."},
     {"pairs", PAIRS, pairs, 1, "ROBOT ", "which bodies of a robot can meet each other?",
      "Which bodies of a planning file's robot can meet each other? Prints a line 'pair NAME NAME' "
-     "for each two, to put into the file, and comments for those that one joint separates. Two "
-     "that touch in all of 64 random samples are among the pairs, and their lines say so: samples "
-     "do not prove that they always touch. Delete such a line only if you know that they do."},
+     "for each two that do sometimes, with a configuration of each kind, or of which it is not "
+     "known. Those that never or always meet, whatever the joints do within their limits, are "
+     "comments: that is proven, of neighbours too."},
 };
 static const manual svcd = {
     "svcd",

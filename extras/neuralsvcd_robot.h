@@ -15,6 +15,7 @@
 //   interface: what a program sees
 //     robots          joints, parts, checks of motions; nsvcd_check
 //     configurations  one configuration: pairs that are near, a way out
+//     ranges          do two parts ever meet, or always? nsvcd_pair_range
 //     reaches         configurations that have a tool at a target; nsvcd_reach
 //     routes          a start and goals; nsvcd_route
 //     pairs           a certificate of a pair of parts; nsvcd_certify_pair
@@ -43,6 +44,8 @@
 //     rrt             trees of configurations, and the nearest node
 //     configurations  proximities, the nearest free one, pairs that can meet
 //     reach           configurations that have a tool at a target
+//     spans           two parts, and the joints between them
+//     ranges          do two parts meet never, always or sometimes?
 //     blends          from one state to another, within limits of speed and acceleration
 //     smooth          a path, timed, then smooth
 //     route           two trees of proven edges, shortcuts
@@ -415,6 +418,94 @@ NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t draws, uin
 //              from the link)
 NSVCDDEF nsvcd_result nsvcd_reparent(const nsvcd_checker *checker, const double *joints,
                                      size_t part, uint32_t link, nsvcd_part *out);
+
+// -------------------------------------------------------------------------------- interface/ranges
+// In: a robot, and two of its parts. Out: do these ever meet, whatever the joints between them do?
+//
+// What setup assistants tell from random configurations is proven here, over all values of the
+// joints within their limits. Values are cut into boxes. In a box the two parts are apart if a
+// sweep along one of its joints is free, with how far the other joints can move a point as a
+// clearance. They meet everywhere in a box if a point of both stays inside of both.
+
+// Do two parts meet, or come within the clearance?
+typedef enum nsvcd_meeting {
+  // it is not known; nsvcd_range_answer.why has the reason
+  NSVCD_MEETS_UNKNOWN = 0,
+  // they never do, proven
+  NSVCD_MEETS_NEVER,
+  // they always do, proven
+  NSVCD_MEETS_ALWAYS,
+  // they do in one configuration, and in another they do not
+  NSVCD_MEETS_SOMETIMES
+} nsvcd_meeting;
+
+// The answer in one word; never NULL.
+NSVCDDEF const char *nsvcd_meeting_string(nsvcd_meeting meeting);
+
+// How it is decided. Zero means the default.
+typedef struct nsvcd_range_options {
+  // metres: coming within this distance of each other is meeting; default 0
+  float clearance;
+  // units for each proof of a sweep or a configuration; default NSVCD_DEFAULT_WORK
+  size_t work;
+  // the most boxes that are looked into, up to NSVCD_MAX_BOXES; default 2,000
+  size_t boxes;
+  // seed of the random numbers
+  uint64_t seed;
+  // called before each question; may be NULL. If it returns anything but 0, the search ends with
+  // what it has found
+  int (*stop)(void *user);
+  // passed to `stop`
+  void *user;
+} nsvcd_range_options;
+
+#define NSVCD_MAX_BOXES 10000000
+
+// What is known of two parts.
+typedef struct nsvcd_range_answer {
+  nsvcd_meeting meeting;
+  // the reason if it is UNKNOWN. TOO_NEAR: somewhere they are too near each other to tell, or they
+  // meet but no point was found that stays inside of both. WORK: boxes or units of work were not
+  // enough, or the search was stopped. OPEN: as nsvcd_why has it
+  nsvcd_why why;
+  // number of joints between the two parts; the others do not matter
+  size_t joints;
+  // 1: a configuration is known in which they do not meet, or in which they do
+  int has_free, has_hit;
+  // (F) radians or metres: that configuration. A hit is one as nsvcd_check has it
+  double free[NSVCD_MAX_JOINTS], hit[NSVCD_MAX_JOINTS];
+  // number of boxes looked into; and the fraction of all values that is not settled, 0 if it is
+  // known that they never do, or always
+  size_t boxes;
+  double open;
+} nsvcd_range_answer;
+
+// Bytes that nsvcd_pair_range needs; 0 if the pair or the options are refused.
+//   checker    may be NULL
+//   options    NULL: the defaults
+NSVCDDEF size_t nsvcd_pair_range_size(const nsvcd_checker *checker, nsvcd_body_pair pair,
+                                      const nsvcd_range_options *options);
+
+// Do two parts of a scene ever meet, over all values of the joints between them that are within
+// their limits? Joints that are continuous take a full turn.
+//   checker    not NULL; made of the parts and joints, whatever pairs its scene has
+//   pair       two parts on links that differ
+//   options    NULL: the defaults
+//   memory     (size) bytes, nsvcd_pair_range_size(checker, pair, options) or more, not NULL,
+//              aligned to NSVCD_ALIGNMENT
+//   answer     not NULL; left as it was on failure
+//   allocates  nothing
+//   threads    each needs memory of its own; the checker may be shared
+//   errors     ARGUMENT, PAIR, CLEARANCE, COUNT (boxes), WORKSPACE; POSE, SCALE, as nsvcd_check
+//   source     branch and bound, by a Lipschitz bound; difference: along one joint the motion
+//              itself is proven
+//
+// One joint between the parts takes one proof, two some ten to a thousand, as near as the parts
+// come. With more joints SOMETIMES is found soon where it is so, by configurations drawn at random
+// and by going down the slope of the distance.
+NSVCDDEF nsvcd_result nsvcd_pair_range(const nsvcd_checker *checker, nsvcd_body_pair pair,
+                                       const nsvcd_range_options *options, void *memory,
+                                       size_t size, nsvcd_range_answer *answer);
 
 // ------------------------------------------------------------------------------- interface/reaches
 // In: a robot, a frame on one of its links, and where that is to be. Out: configurations that have
@@ -1529,6 +1620,8 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
 //   rrt              trees of configurations, and the nearest node
 //   configurations   one configuration: proximities, the nearest free one; which pairs can meet
 //   reach            configurations that have a tool at a target
+//   spans            two parts, and how far the joints between them move a point
+//   ranges           do two parts meet never, always or sometimes?
 //   blends           from one state to another, within limits of speed and acceleration
 //   smooth           a path, timed, then smooth
 //   route            a start and goals: two trees of proven edges, shortcuts
@@ -1602,6 +1695,8 @@ struct nsvcd_checker {
   double *cuts;
   void *query;
   size_t query_size;
+  // questions are about surfaces alone
+  int surfaces;
   // an error of a question, which ends those that follow
   nsvcd_result result;
 };
@@ -2228,6 +2323,7 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
   if (!needed || size < needed) return NSVCD_ERROR_WORKSPACE;
   (void)nsvcd__checker_layout(scene, (char *)memory, &c);
   c->scene = scene;
+  c->surfaces = 0;
   c->result = NSVCD_OK;
   for (size_t i = 0; i < scene->joint_count; i++) {
     const nsvcd_joint *joint = &scene->joints[i];
@@ -2436,6 +2532,7 @@ static nsvcd_question nsvcd__question_of(const nsvcd_checker *c, const nsvcd_bod
     mover->count = part->link ? count : 1;
   }
   q.method = NSVCD_METHOD_PROOF;
+  q.surfaces = c->surfaces;
   q.work = work ? work : NSVCD_DEFAULT_WORK;
   return q;
 }
@@ -4400,6 +4497,683 @@ NSVCDDEF nsvcd_result nsvcd_reach(nsvcd_checker *checker, const nsvcd_reach_prob
   if (!found.reached && !is_stopped) nsvcd__reach_from(&r, NSVCD__REACH_STEPS, q, out, &found);
   if (!checker->result) *answer = found;
   return checker->result;
+}
+
+// ------------------------------------------------------------------------------------- robot/spans
+// In: two parts of a scene. Out: the joints between them, how far these move a point of one part as
+// the other sees it, and a checker of these two parts alone.
+//
+// THE BOUND. Let d(q) be the distance of two parts. If one joint turns by w, and the others stay,
+// d changes by no more than w r: r is the farthest that a point of one part is from that joint's
+// axis. That holds of either part, since turning one is turning the other back: so r is the lesser
+// of both. Where a joint slides, r is 1. In a box of joint values, which reach h_k to either side
+// of its centre, joints may change one after another. So from the centre d changes by no more than
+//   sum over joints k of h_k r_k
+// r_k: of all configurations of the box. It is that of the centre, and what the joints between the
+// part and k add: the chord 2 r sin(h / 2) of each, h up to pi, or h if it slides.
+// Source: this library.
+
+// metres, about: the extent of a probe
+#define NSVCD__PROBE 1e-6
+// of a clearance: how far a part may deviate at last
+#define NSVCD__SPAN_FINEST 0.05
+
+// A point that rides on one of the two parts: some body, shrunk, is put there as a third part.
+typedef struct nsvcd__probe {
+  // on which: 0 or 1
+  int side;
+  // in that part's link
+  float position[3];
+  // its depth in the other part, over how far it moves in a box
+  double score;
+} nsvcd__probe;
+
+// Two parts, and the joints between them.
+typedef struct nsvcd__span {
+  nsvcd_scene scene;
+  // the two, and the probe
+  nsvcd_part parts[3];
+  // the two; then the probe and one of them
+  nsvcd_body_pair pairs[2];
+  // of this scene
+  nsvcd_checker *checker;
+  // joints from the first part to the second, through the link that carries both
+  size_t path[NSVCD_MAX_JOINTS];
+  size_t joints;
+  // what joints off the path are held at, and, of the path, the centre of a box
+  double at[NSVCD_MAX_JOINTS];
+  // of the path: the box, half its widths, and r of the banner
+  double low[NSVCD_MAX_JOINTS], high[NSVCD_MAX_JOINTS];
+  double half[NSVCD_MAX_JOINTS], arms[NSVCD_MAX_JOINTS];
+  // metres: no point of a probe is farther from its position
+  double probe_extent;
+} nsvcd__span;
+
+// The joints from link a to link b, in order. A link's parent has a lower number than the link.
+static size_t nsvcd__path_between(const nsvcd_scene *scene, uint32_t a, uint32_t b,
+                                  size_t *path) {
+  size_t down[NSVCD_MAX_JOINTS];
+  size_t count = 0;
+  size_t down_count = 0;
+  while (a != b) {
+    uint32_t *outer = a > b ? &a : &b;
+    *(outer == &a ? &path[count++] : &down[down_count++]) = *outer - 1;
+    *outer = scene->joints[*outer - 1].parent;
+  }
+  while (down_count > 0) path[count++] = down[--down_count];
+  return count;
+}
+
+// The least and the greatest value of a joint. A full turn is a little more than one.
+static void nsvcd__values_of(const nsvcd_joint *joint, double *low, double *high) {
+  const int is_endless = joint->kind == NSVCD_JOINT_CONTINUOUS;
+  *low = is_endless ? 0 : joint->low;
+  *high = is_endless ? 6.28318530717960 : joint->high;
+}
+
+// A sphere about a part, or a probe, in the world.
+typedef struct nsvcd__rider {
+  nsvcd__d3 centre;
+  double radius;
+} nsvcd__rider;
+
+static nsvcd__rider nsvcd__rider_of(const nsvcd__span *s, const nsvcd__links *at,
+                                    size_t part) {
+  const nsvcd__member *m = &s->checker->members[part];
+  const nsvcd__rider out = {nsvcd__dpose_apply(&at->frames[s->parts[part].link], m->centre),
+                            m->radius};
+  return out;
+}
+
+// Fills in s->arms for two balls, which ride on the two parts' links.
+static void nsvcd__arms_between(nsvcd__span *s, const nsvcd__links *at,
+                                const nsvcd__rider *balls) {
+  for (size_t side = 0; side < 2; side++) {
+    double moved = 0;
+    for (size_t n = 0; n < s->joints; n++) {
+      const size_t k = side ? s->joints - 1 - n : n;
+      const size_t j = s->path[k];
+      const nsvcd__d3 off = nsvcd__d3_sub(balls[side].centre, at->frames[j + 1].position);
+      const double across = nsvcd__d3_norm(nsvcd__d3_cross(at->axes[j], off));
+      const int slides = nsvcd__slides(s->checker, j);
+      const double arm = slides ? 1 : across + balls[side].radius + moved;
+      const double half = nsvcd__min(s->half[k], 3.141592653589793);
+      moved += slides ? s->half[k] : 2 * arm * sin(0.5 * half);
+      s->arms[k] = side ? nsvcd__min(s->arms[k], arm) : arm;
+    }
+  }
+}
+
+// The bound of the banner, without one joint of the path, or NSVCD_NONE.
+static double nsvcd__travel_but(const nsvcd__span *s, size_t without) {
+  double sum = 0;
+  for (size_t k = 0; k < s->joints; k++) sum += k == without ? 0 : s->half[k] * s->arms[k];
+  return sum * (1 + 1e-9);
+}
+
+// The joint of the path that moves points farthest.
+static size_t nsvcd__farthest_joint(const nsvcd__span *s) {
+  size_t out = 0;
+  for (size_t k = 1; k < s->joints; k++) {
+    if (s->half[k] * s->arms[k] > s->half[out] * s->arms[out]) out = k;
+  }
+  return out;
+}
+
+// Asks about the two parts, or about the probe and the surface of the part that it does not ride
+// on, in the configuration s->at, or along a joint of the path through all of the box.
+static nsvcd_result nsvcd__ask_span(nsvcd__span *s, int is_probe, size_t along,
+                                    double clearance, const nsvcd_range_options *o,
+                                    nsvcd_check_answer *answer) {
+  const size_t joints = s->scene.joint_count;
+  double points[2 * NSVCD_MAX_JOINTS];
+  const nsvcd_joint_motion motion = {along != NSVCD_NONE, 1, points, NULL};
+  nsvcd_check_options options = {0, 0, o->work, o->stop, o->user, 0};
+  if (clearance > 0) options.clearance = nsvcd__above(clearance);
+  options.finest = (float)nsvcd__max((double)NSVCD__FINEST, clearance * NSVCD__SPAN_FINEST);
+  memcpy(points, s->at, joints * sizeof *points);
+  memcpy(points + joints, s->at, joints * sizeof *points);
+  if (along != NSVCD_NONE) {
+    points[s->path[along]] = s->low[along];
+    points[joints + s->path[along]] = s->high[along];
+  }
+  s->scene.pairs = &s->pairs[is_probe];
+  s->checker->surfaces = is_probe;
+  return nsvcd_check(s->checker, &motion, &options, answer);
+}
+
+// Takes a box about whose centre s->at is then: (2, joints) of the path, low and high.
+static void nsvcd__take_box(nsvcd__span *s, const double *box) {
+  for (size_t k = 0; k < s->joints; k++) {
+    s->low[k] = box[k];
+    s->high[k] = box[s->joints + k];
+    const double middle = 0.5 * (s->low[k] + s->high[k]);
+    s->at[s->path[k]] = middle;
+    s->half[k] = nsvcd__max(s->high[k] - middle, middle - s->low[k]) * (1 + 1e-15);
+  }
+}
+
+// The parts and joints of a span, without its checker.
+static void nsvcd__span_begin(const nsvcd_scene *scene, nsvcd_body_pair pair, nsvcd__span *s) {
+  memset(s, 0, sizeof *s);
+  s->scene = *scene;
+  s->scene.parts = s->parts;
+  s->scene.pairs = s->pairs;
+  s->scene.part_count = 3;
+  s->scene.pair_count = 1;
+  s->scene.clearances = NULL;
+  s->scene.allowances = NULL;
+  s->scene.allowance_count = 0;
+  s->parts[0] = scene->parts[pair.a];
+  s->parts[1] = scene->parts[pair.b];
+  s->pairs[0].b = 1;
+  s->joints = nsvcd__path_between(scene, s->parts[0].link, s->parts[1].link, s->path);
+  for (size_t j = 0; j < scene->joint_count; j++) {
+    double low, high;
+    nsvcd__values_of(&scene->joints[j], &low, &high);
+    s->at[j] = 0.5 * (low + high);
+  }
+  // of all bodies the one with the fewest triangles
+  nsvcd_part *probe = &s->parts[2];
+  size_t fewest = SIZE_MAX;
+  for (size_t n = 0; n < scene->part_count; n++) {
+    const nsvcd_body_facts facts = nsvcd_body_describe(scene->parts[n].body);
+    if (facts.triangles >= fewest) continue;
+    fewest = facts.triangles;
+    const float extent = facts.extent + facts.convex_radius;
+    probe->body = scene->parts[n].body;
+    probe->scale = (float)nsvcd__max(nsvcd__min(NSVCD__PROBE / (double)extent, 1),
+                                     (double)NSVCD_MIN_SCALE);
+    s->probe_extent = 1.00001 * (double)(extent * probe->scale);
+  }
+  probe->pose.rotation[3] = 1;
+  // it has a row of samples if it is on a link that moves
+  probe->link = s->parts[0].link ? s->parts[0].link : s->parts[1].link;
+}
+
+// Puts the probe at a point of the link of one of the parts.
+static void nsvcd__put_probe(nsvcd__span *s, const nsvcd__probe *at) {
+  nsvcd__member *m = &s->checker->members[2];
+  const size_t row = m->row;
+  s->parts[2].link = s->parts[at->side].link;
+  memcpy(s->parts[2].pose.position, at->position, sizeof at->position);
+  s->pairs[1].a = 2;
+  s->pairs[1].b = at->side ? 0 : 1;
+  *m = nsvcd__member_of(&s->parts[2]);
+  m->row = row;
+}
+
+// ------------------------------------------------------------------------------------ robot/ranges
+// In: two parts of a robot. Out: do they meet never, always or sometimes, over all values of the
+// joints between them?
+//
+// Some 64 configurations are tried first. If the parts meet in some and not in others, that is the
+// answer. If they meet in none, boxes of values are proven to be free; if in all, to be such
+// that a point of one part stays inside of the other:
+//
+//   free   a sweep along one joint of the box, with all that the other joints can move a point as a
+//          clearance (robot/spans.h)
+//   hit    a point inside of both parts rides on one of them. Along the same sweep, with the same
+//          clearance, it does not meet the surface of the other part: so it stays inside of it. Two
+//          solids that have a point in common meet: either their surfaces do, or a component of one
+//          is inside of the other
+//
+// A box that is neither is cut in two along the joint that moves points farthest.
+
+// defaults, and numbers of configurations
+#define NSVCD__RANGE_BOXES 2000
+#define NSVCD__RANGE_DRAWS 64
+// boxes that fail before the slope is followed, and how far it is
+#define NSVCD__RANGE_SLOPES 24
+#define NSVCD__SLOPE_STEPS 12
+// metres: a box in which points move by less is not cut
+#define NSVCD__LEAST_TRAVEL 2e-5
+// the share of the joint that is swept along, when a box is cut
+#define NSVCD__SWEPT_SHARE 0.25
+// probes that are kept; points on each axis, and others, that are tried for one
+#define NSVCD__KEPT_PROBES 4
+#define NSVCD__AXIS_POINTS 8
+#define NSVCD__OTHER_POINTS 32
+// units for a question about a probe in one configuration
+#define NSVCD__PROBE_WORK 20000
+
+typedef struct nsvcd__ranging {
+  nsvcd__span span;
+  nsvcd_range_options options;
+  nsvcd_range_answer answer;
+  // (capacity, 2 joints + 1): boxes that are left, and the fraction that each is of all values; a
+  // ring
+  double *boxes;
+  size_t capacity, first, count;
+  // that were given up
+  double dropped;
+  // best first
+  nsvcd__probe probes[NSVCD__KEPT_PROBES];
+  size_t probe_count;
+  // boxes that failed
+  size_t failed;
+  uint64_t random;
+  nsvcd_result result;
+} nsvcd__ranging;
+
+// ---- configurations
+
+static int nsvcd__range_is_over(nsvcd__ranging *r) {
+  const nsvcd_range_options *o = &r->options;
+  if (r->result || (r->answer.has_free && r->answer.has_hit)) return 1;
+  if (!o->stop || !o->stop(o->user)) return 0;
+  r->answer.why = NSVCD_WHY_WORK;
+  return 1;
+}
+
+// Asks about the two parts in the configuration span.at, and notes what is known there.
+static nsvcd_verdict nsvcd__note_here(nsvcd__ranging *r) {
+  nsvcd_check_answer found;
+  nsvcd__span *s = &r->span;
+  const size_t bytes = s->scene.joint_count * sizeof *s->at;
+  const double clearance = (double)r->options.clearance;
+  r->result = nsvcd__ask_span(s, 0, NSVCD_NONE, clearance, &r->options, &found);
+  if (r->result) return NSVCD_UNDECIDED;
+  if (found.verdict == NSVCD_FREE && !r->answer.has_free) {
+    memcpy(r->answer.free, s->at, bytes);
+    r->answer.has_free = 1;
+  }
+  if (found.verdict == NSVCD_HIT && !r->answer.has_hit) {
+    memcpy(r->answer.hit, s->at, bytes);
+    r->answer.has_hit = 1;
+  }
+  if (found.verdict == NSVCD_UNDECIDED) r->answer.why = found.why;
+  return found.verdict;
+}
+
+// From the configuration span.at on, down the slope of the distance until the parts meet (sign -1),
+// or up until they do not (1).
+static void nsvcd__follow_slope(nsvcd__ranging *r, double sign) {
+  nsvcd__span *s = &r->span;
+  nsvcd_checker *c = s->checker;
+  const nsvcd_proximity_options o = {NSVCD_MAX_COORDINATE / 4, 1e-3f, 0.1f, r->options.work};
+  const double clearance = (double)r->options.clearance;
+  for (size_t n = 0; n < NSVCD__SLOPE_STEPS && !nsvcd__range_is_over(r); n++) {
+    nsvcd_proximity near;
+    double square = 0;
+    s->scene.pairs = s->pairs;
+    c->surfaces = 0;
+    c->result = NSVCD_OK;
+    nsvcd__place_links(c, s->at, c->at);
+    nsvcd__place_sample(c, c->at, 0);
+    if (!nsvcd__proximity_of(c, 0, &o, &near)) return;
+    const double apart = near.verdict == NSVCD_HIT ? -(double)near.depth : near.distance.low;
+    for (size_t k = 0; k < s->joints; k++)
+      square += near.slope[s->path[k]] * near.slope[s->path[k]];
+    if (!(square > 0)) return;
+    const double step = fabs(apart - clearance) + 1e-3;
+    for (size_t k = 0; k < s->joints; k++) {
+      double low, high;
+      const size_t j = s->path[k];
+      nsvcd__values_of(&s->scene.joints[j], &low, &high);
+      const double to = s->at[j] + sign * step / square * near.slope[j];
+      s->at[j] = nsvcd__max(low, nsvcd__min(high, to));
+    }
+    (void)nsvcd__note_here(r);
+  }
+}
+
+// Tries corners of the ranges, and then configurations drawn at random.
+static void nsvcd__try_draws(nsvcd__ranging *r) {
+  nsvcd__span *s = &r->span;
+  const size_t corners = s->joints < 5 ? (size_t)1 << s->joints : 32;
+  for (size_t n = 0; n < NSVCD__RANGE_DRAWS && !nsvcd__range_is_over(r); n++) {
+    for (size_t k = 0; k < s->joints; k++) {
+      double low, high;
+      nsvcd__values_of(&s->scene.joints[s->path[k]], &low, &high);
+      const double random = nsvcd__random(&r->random);
+      const double end = s->joints < 5 ? (double)(n >> k & 1) : random < 0.5;
+      s->at[s->path[k]] = low + (n < corners ? end : random) * (high - low);
+    }
+    (void)nsvcd__note_here(r);
+  }
+}
+
+// ---- boxes
+
+static double *nsvcd__box_at(nsvcd__ranging *r, size_t n) {
+  return r->boxes + (r->first + n) % r->capacity * (2 * r->span.joints + 1);
+}
+
+// Cuts the box that was taken. The span's arms say along which joint.
+static void nsvcd__cut_box(nsvcd__ranging *r, const double *box, size_t along) {
+  const nsvcd__span *s = &r->span;
+  const size_t size = 2 * s->joints + 1;
+  const double share = box[size - 1];
+  size_t joint = along;
+  double most = along == NSVCD_NONE ? 0 : NSVCD__SWEPT_SHARE * s->half[along] * s->arms[along];
+  for (size_t k = 0; k < s->joints; k++) {
+    const double moved = s->half[k] * s->arms[k];
+    if (k == along || !(moved > most)) continue;
+    most = moved;
+    joint = k;
+  }
+  if (!(nsvcd__travel_but(s, NSVCD_NONE) > NSVCD__LEAST_TRAVEL)) {
+    if (!r->answer.why) r->answer.why = NSVCD_WHY_TOO_NEAR;
+    r->dropped += share;
+    return;
+  }
+  for (size_t n = 0; n < 2; n++) {
+    double *half = nsvcd__box_at(r, r->count++);
+    memcpy(half, box, size * sizeof *half);
+    half[n ? joint : s->joints + joint] = s->at[s->path[joint]];
+    half[size - 1] = 0.5 * share;
+  }
+}
+
+// Follows the slope from the configuration that a check names, in the first boxes that fail.
+static void nsvcd__try_near(nsvcd__ranging *r, size_t along, const nsvcd_check_answer *found,
+                            double sign) {
+  nsvcd__span *s = &r->span;
+  double centre[NSVCD_MAX_JOINTS];
+  const size_t bytes = s->scene.joint_count * sizeof *centre;
+  memcpy(centre, s->at, bytes);
+  if (along != NSVCD_NONE)
+    s->at[s->path[along]] = s->low[along] + found->fraction * (s->high[along] - s->low[along]);
+  (void)nsvcd__note_here(r);
+  if (r->failed++ < NSVCD__RANGE_SLOPES) nsvcd__follow_slope(r, sign);
+  memcpy(s->at, centre, bytes);
+}
+
+// Is the box free, all of it? If not, it is cut.
+static void nsvcd__prove_free(nsvcd__ranging *r, const double *box) {
+  nsvcd__span *s = &r->span;
+  nsvcd_check_answer found;
+  nsvcd__links at;
+  nsvcd__place_links(s->checker, s->at, &at);
+  const nsvcd__rider balls[2] = {nsvcd__rider_of(s, &at, 0), nsvcd__rider_of(s, &at, 1)};
+  nsvcd__arms_between(s, &at, balls);
+  const size_t along = nsvcd__farthest_joint(s);
+  const double travel = nsvcd__travel_but(s, along);
+  const double clearance = (double)r->options.clearance + travel;
+  if (nsvcd__note_here(r) == NSVCD_HIT || r->result) return;
+  r->result = nsvcd__ask_span(s, 0, along, clearance, &r->options, &found);
+  if (r->result || found.verdict == NSVCD_FREE) return;
+  if (found.verdict == NSVCD_HIT) nsvcd__try_near(r, along, &found, -1);
+  if (travel > 0) {
+    nsvcd__cut_box(r, box, along);
+    return;
+  }
+  // no more can be told of it
+  r->answer.why = found.why;
+  r->dropped += box[2 * s->joints];
+}
+
+// ---- probes
+
+// Is a probe inside a part, for certain, and farther from its surface than `room`?
+static int nsvcd__is_enclosed_by(nsvcd__span *s, nsvcd_question q, double room) {
+  nsvcd_checker *c = s->checker;
+  nsvcd_answer found;
+  q.surfaces = 0;
+  if (nsvcd__ask_sweep(c, &q, &found) != NSVCD_HIT || !found.inside) return 0;
+  q.surfaces = 1;
+  q.clearance = nsvcd__above(room);
+  return nsvcd__ask_sweep(c, &q, &found) == NSVCD_FREE;
+}
+
+// Is the probe inside the part that it rides on? Both are in that part's link, in poses that are
+// not rounded.
+static int nsvcd__is_own_point(nsvcd__span *s, const nsvcd__probe *probe) {
+  const nsvcd_part *parts[2] = {&s->parts[2], &s->parts[probe->side]};
+  nsvcd_question q;
+  memset(&q, 0, sizeof q);
+  for (size_t n = 0; n < 2; n++) {
+    nsvcd_mover *mover = n ? &q.b : &q.a;
+    mover->body = parts[n]->body;
+    mover->scale = parts[n]->scale;
+    mover->poses = &parts[n]->pose;
+    mover->count = 1;
+  }
+  q.method = NSVCD_METHOD_PROOF;
+  q.work = NSVCD__PROBE_WORK;
+  return nsvcd__is_enclosed_by(s, q, 2 * s->probe_extent);
+}
+
+// Is the probe inside the other part, in a configuration? *room: metres, at least as far is the
+// surface to be, so that what is said of the rounded poses holds of the exact ones.
+static int nsvcd__is_common_point(nsvcd__span *s, const nsvcd__links *at, double *room) {
+  nsvcd_checker *c = s->checker;
+  *c->at = *at;
+  const nsvcd__local local = nsvcd__localize_at(c, &s->pairs[1]);
+  const nsvcd_question q = nsvcd__question_of(c, &s->pairs[1], 1, NSVCD__PROBE_WORK);
+  *room = 2 * (s->probe_extent + local.rounding);
+  return nsvcd__is_enclosed_by(s, q, *room);
+}
+
+// The span's arms for a probe, which has been put in its place.
+static void nsvcd__arms_of_probe(nsvcd__span *s, const nsvcd__links *at, size_t side) {
+  nsvcd__rider balls[2];
+  balls[side] = nsvcd__rider_of(s, at, 2);
+  balls[side].radius = 2 * s->probe_extent;
+  balls[!side] = nsvcd__rider_of(s, at, !side);
+  nsvcd__arms_between(s, at, balls);
+}
+
+// Keeps a probe at a point of the world, if it is in both parts and among the best.
+static void nsvcd__try_probe(nsvcd__ranging *r, const nsvcd__links *at, size_t side,
+                             nsvcd__d3 point) {
+  nsvcd__span *s = &r->span;
+  nsvcd__probe probe;
+  nsvcd_answer found;
+  double room;
+  const nsvcd__dpose *link = &at->frames[s->parts[side].link];
+  const nsvcd__d3 off = nsvcd__d3_sub(point, link->position);
+  const nsvcd__d3 in = nsvcd__dquat_rotate(nsvcd__dquat_inverse(link->rotation), off);
+  probe.side = (int)side;
+  nsvcd__f3_store(nsvcd__f3_round(in), probe.position);
+  nsvcd__put_probe(s, &probe);
+  s->checker->result = NSVCD_OK;
+  if (!nsvcd__is_own_point(s, &probe) || !nsvcd__is_common_point(s, at, &room)) return;
+  nsvcd_question q = nsvcd__question_of(s->checker, &s->pairs[1], 1, NSVCD__PROBE_WORK);
+  q.surfaces = 1;
+  q.ask = NSVCD_ASK_DISTANCE;
+  (void)nsvcd__ask_sweep(s->checker, &q, &found);
+  nsvcd__arms_of_probe(s, at, side);
+  probe.score = (double)found.distance.low / (nsvcd__travel_but(s, NSVCD_NONE) + 1e-6);
+  if (r->probe_count == NSVCD__KEPT_PROBES &&
+      !(probe.score > r->probes[NSVCD__KEPT_PROBES - 1].score))
+    return;
+  size_t n = r->probe_count < NSVCD__KEPT_PROBES ? r->probe_count++ : NSVCD__KEPT_PROBES - 1;
+  for (; n > 0 && r->probes[n - 1].score < probe.score; n--) r->probes[n] = r->probes[n - 1];
+  r->probes[n] = probe;
+}
+
+// Seeks probes in the configuration span.at: on the axes of joints, about which they hardly move,
+// and wherever both parts may be.
+static void nsvcd__seek_probes(nsvcd__ranging *r, const nsvcd__links *at) {
+  nsvcd__span *s = &r->span;
+  const nsvcd__rider a = nsvcd__rider_of(s, at, 0);
+  const nsvcd__rider b = nsvcd__rider_of(s, at, 1);
+  const nsvcd__rider *small = a.radius < b.radius ? &a : &b;
+  const size_t on_axes = NSVCD__AXIS_POINTS * s->joints;
+  nsvcd__bounds bounds[2];
+  for (size_t n = 0; n < 2; n++) {
+    const nsvcd__dpose frame = nsvcd__frame_of_part(s->checker, at, n);
+    bounds[n] = nsvcd__bounds_of(&s->checker->members[n], &frame);
+  }
+  const nsvcd__d3 low = nsvcd__d3_max(bounds[0].low, bounds[1].low);
+  const nsvcd__d3 high = nsvcd__d3_min(bounds[0].high, bounds[1].high);
+  r->probe_count = 0;
+  for (size_t n = 0; n < on_axes + NSVCD__OTHER_POINTS && !nsvcd__range_is_over(r); n++) {
+    nsvcd__d3 point = low;
+    for (size_t k = 0; k < 3; k++) {
+      const double to = nsvcd__d3_axis(high, k);
+      const double from = nsvcd__d3_axis(low, k);
+      nsvcd__d3_set_axis(&point, k, from + nsvcd__random(&r->random) * (to - from));
+    }
+    if (n < on_axes) {
+      const size_t j = s->path[n / NSVCD__AXIS_POINTS];
+      const nsvcd__d3 foot = at->frames[j + 1].position;
+      const double along = nsvcd__d3_dot(nsvcd__d3_sub(small->centre, foot), at->axes[j]);
+      const double shift = (2 * nsvcd__random(&r->random) - 1) * small->radius;
+      point = nsvcd__d3_fma(along + shift, at->axes[j], foot);
+    }
+    for (size_t side = 0; side < 2; side++) nsvcd__try_probe(r, at, side, point);
+  }
+}
+
+// Does a probe stay inside of the other part in all of the box? If not, it is asked whether the
+// parts meet where the probe leaves it.
+static int nsvcd__stays_inside(nsvcd__ranging *r, const nsvcd__links *at,
+                               const nsvcd__probe *probe) {
+  nsvcd__span *s = &r->span;
+  nsvcd_check_answer found;
+  double room;
+  nsvcd__put_probe(s, probe);
+  s->checker->result = NSVCD_OK;
+  if (!nsvcd__is_common_point(s, at, &room)) return 0;
+  nsvcd__arms_of_probe(s, at, (size_t)probe->side);
+  const size_t along = nsvcd__farthest_joint(s);
+  const double travel = nsvcd__travel_but(s, along);
+  r->result = nsvcd__ask_span(s, 1, along, travel + room, &r->options, &found);
+  if (r->result || found.verdict == NSVCD_FREE) return !r->result;
+  if (found.verdict == NSVCD_HIT && !nsvcd__range_is_over(r))
+    nsvcd__try_near(r, along, &found, 1);
+  return 0;
+}
+
+// Do the parts meet everywhere in the box? If that is not known, it is cut.
+static void nsvcd__prove_hit(nsvcd__ranging *r, const double *box) {
+  nsvcd__span *s = &r->span;
+  nsvcd__links at;
+  nsvcd__place_links(s->checker, s->at, &at);
+  if (nsvcd__note_here(r) == NSVCD_FREE || r->result) return;
+  for (size_t attempt = 0; attempt < 2; attempt++) {
+    if (attempt) nsvcd__seek_probes(r, &at);
+    for (size_t n = 0; n < r->probe_count; n++) {
+      if (nsvcd__stays_inside(r, &at, &r->probes[n]) || nsvcd__range_is_over(r)) return;
+    }
+  }
+  const nsvcd__rider balls[2] = {nsvcd__rider_of(s, &at, 0), nsvcd__rider_of(s, &at, 1)};
+  if (!r->probe_count) nsvcd__arms_between(s, &at, balls);
+  nsvcd__cut_box(r, box, NSVCD_NONE);
+}
+
+// ---- the search
+
+// Looks into boxes until all are settled; is_free: proves them to be free, else to be hit. Returns
+// 1 if all of them are.
+static int nsvcd__search_boxes(nsvcd__ranging *r, int is_free) {
+  nsvcd__span *s = &r->span;
+  const size_t size = 2 * s->joints + 1;
+  double box[2 * NSVCD_MAX_JOINTS + 1];
+  for (size_t k = 0; k < s->joints; k++)
+    nsvcd__values_of(&s->scene.joints[s->path[k]], &r->boxes[k], &r->boxes[s->joints + k]);
+  r->boxes[size - 1] = 1;
+  r->first = 0;
+  r->count = 1;
+  r->dropped = 0;
+  r->failed = 0;
+  r->answer.open = 1;
+  r->answer.why = NSVCD_WHY_NOTHING;
+  while (r->count > 0 && !nsvcd__range_is_over(r)) {
+    if (r->answer.boxes == r->options.boxes) {
+      r->answer.why = NSVCD_WHY_WORK;
+      break;
+    }
+    memcpy(box, nsvcd__box_at(r, 0), size * sizeof *box);
+    r->first = (r->first + 1) % r->capacity;
+    r->count--;
+    r->answer.boxes++;
+    nsvcd__take_box(s, box);
+    (is_free ? nsvcd__prove_free : nsvcd__prove_hit)(r, box);
+    // it may have been found that this search is in vain
+    if (is_free ? r->answer.has_hit : r->answer.has_free) return 0;
+  }
+  r->answer.open = r->dropped;
+  for (size_t n = 0; n < r->count; n++) r->answer.open += nsvcd__box_at(r, n)[size - 1];
+  return !r->result && r->count == 0 && !(r->dropped > 0);
+}
+
+static void nsvcd__find_range(nsvcd__ranging *r) {
+  nsvcd_range_answer *a = &r->answer;
+  nsvcd__try_draws(r);
+  if (!r->result && !a->has_hit && nsvcd__search_boxes(r, 1)) a->meeting = NSVCD_MEETS_NEVER;
+  if (!r->result && a->has_hit && !a->has_free && nsvcd__search_boxes(r, 0))
+    a->meeting = NSVCD_MEETS_ALWAYS;
+  if (a->has_free && a->has_hit) a->meeting = NSVCD_MEETS_SOMETIMES;
+  if (a->meeting == NSVCD_MEETS_UNKNOWN) return;
+  a->why = NSVCD_WHY_NOTHING;
+  a->open = 0;
+}
+
+// Lays a search out at base; NULL: only counts. r: the span has its parts. Returns the bytes; 0 if
+// they are too many.
+static size_t nsvcd__range_layout(const nsvcd__ranging *r, char *base, nsvcd__ranging **laid,
+                                  void **checker) {
+  uint64_t used = 0;
+  const size_t row = 2 * r->span.joints + 1;
+  const size_t size = nsvcd_checker_size(&r->span.scene);
+  *laid = NSVCD__TAKE_ROWS(nsvcd__ranging, 1, base, &used);
+  double *boxes = NSVCD__TAKE_ROWS(double, r->capacity *row, base, &used);
+  *checker = nsvcd__take(base, &used, 1, size);
+  if (*laid) **laid = *r;
+  if (*laid) (*laid)->boxes = boxes;
+  return size && used <= SIZE_MAX ? (size_t)used : 0;
+}
+
+static nsvcd_result nsvcd__range_begin(const nsvcd_checker *c, nsvcd_body_pair pair,
+                                       const nsvcd_range_options *options, nsvcd__ranging *r) {
+  if (!c) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_scene *scene = c->scene;
+  if (pair.a >= scene->part_count || pair.b >= scene->part_count ||
+      scene->parts[pair.a].link == scene->parts[pair.b].link)
+    return NSVCD_ERROR_PAIR;
+  memset(r, 0, sizeof *r);
+  if (options) r->options = *options;
+  nsvcd_range_options *o = &r->options;
+  if (!nsvcd__is_length(o->clearance)) return NSVCD_ERROR_CLEARANCE;
+  if (o->boxes > NSVCD_MAX_BOXES) return NSVCD_ERROR_COUNT;
+  o->boxes = o->boxes ? o->boxes : NSVCD__RANGE_BOXES;
+  r->capacity = o->boxes + 1;
+  r->random = o->seed;
+  nsvcd__span_begin(scene, pair, &r->span);
+  r->answer.joints = r->span.joints;
+  return NSVCD_OK;
+}
+
+NSVCDDEF const char *nsvcd_meeting_string(nsvcd_meeting meeting) {
+  static const char texts[][12] = {"unknown", "never", "always", "sometimes"};
+  const size_t count = sizeof texts / sizeof texts[0];
+  return (size_t)meeting < count ? texts[meeting] : "no meeting";
+}
+
+NSVCDDEF size_t nsvcd_pair_range_size(const nsvcd_checker *checker, nsvcd_body_pair pair,
+                                      const nsvcd_range_options *options) {
+  nsvcd__ranging r;
+  nsvcd__ranging *unused;
+  void *none;
+  if (nsvcd__range_begin(checker, pair, options, &r)) return 0;
+  return nsvcd__range_layout(&r, NULL, &unused, &none);
+}
+
+NSVCDDEF nsvcd_result nsvcd_pair_range(const nsvcd_checker *checker, nsvcd_body_pair pair,
+                                       const nsvcd_range_options *options, void *memory,
+                                       size_t size, nsvcd_range_answer *answer) {
+  nsvcd__ranging begun;
+  nsvcd__ranging *r;
+  void *own;
+  nsvcd_result result = nsvcd__range_begin(checker, pair, options, &begun);
+  if (result) return result;
+  if (!answer) return NSVCD_ERROR_ARGUMENT;
+  if (!memory || !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
+  const size_t needed = nsvcd__range_layout(&begun, NULL, &r, &own);
+  if (!needed || size < needed) return NSVCD_ERROR_WORKSPACE;
+  (void)nsvcd__range_layout(&begun, (char *)memory, &r, &own);
+  // its scene points into itself
+  nsvcd__span_begin(checker->scene, pair, &r->span);
+  const size_t own_size = nsvcd_checker_size(&r->span.scene);
+  result = nsvcd_checker_open(&r->span.scene, own, own_size, &r->span.checker);
+  if (result) return result;
+  nsvcd__find_range(r);
+  if (!r->result) *answer = r->answer;
+  return r->result;
 }
 
 // ------------------------------------------------------------------------------------ robot/blends

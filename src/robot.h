@@ -36,6 +36,7 @@ extern "C" {
 #endif
 #include "interface/robots.h"          // joints, parts, checks of motions; nsvcd_check
 #include "interface/configurations.h"  // one configuration: pairs that are near, a way out
+#include "interface/ranges.h"   // do two parts ever meet, or always? nsvcd_pair_range
 #include "interface/reaches.h"  // configurations that have a tool at a target; nsvcd_reach
 #include "interface/routes.h"   // a start and goals; nsvcd_route
 #ifdef __cplusplus
@@ -88,6 +89,8 @@ extern "C" {
 #include "robot/rrt.h"             // trees of configurations, and the nearest node
 #include "robot/configurations.h"  // proximities, the nearest free one, pairs that can meet
 #include "robot/reach.h"           // configurations that have a tool at a target
+#include "robot/spans.h"           // two parts, and the joints between them
+#include "robot/ranges.h"          // do two parts meet never, always or sometimes?
 #include "robot/blends.h"  // from one state to another, within limits of speed and acceleration
 #include "robot/smooth.h"  // a path, timed, then smooth
 #include "robot/route.h"   // two trees of proven edges, shortcuts

@@ -648,11 +648,12 @@ expect 0 'stuck: the start: forearm and left_side meet, 7.3[0-9] mm deep' build/
 { cat "$dir/arm.txt"; sed -n 's/.*free near by:/plan out shelf/p' "$dir/err" | tr '\n' ' '; echo '-0.493 0.360 0.878 1.903 1.078 -2.038'; } >"$dir/way_out.txt"
 expect 0 '' build/svcd plan "$dir/way_out.txt"
 grep -q '^out	certified' "$dir/out" || fail "the way out: $(cat "$dir/out")"
-# those of the URDF but what its SRDF takes to meet never, or always, which are asked
+# all are settled: those that meet sometimes are asked, and the others proven
 expect 0 '' build/svcd pairs "$dir/robot.txt"
-grep '^pair' "$dir/out" | grep -v 'wrist_a palm\|base shoulder' | sort >"$dir/found_pairs"
-grep '^pair' "$dir/arm.txt" | sort | cmp -s - "$dir/found_pairs" || fail "svcd pairs says: $(diff "$dir/arm.txt" "$dir/found_pairs")"
-grep -q '^pair base shoulder  # touching in all of 64 samples$' "$dir/out" || fail "svcd pairs says: $(cat "$dir/out")"
+grep -q unknown "$dir/out" && fail "svcd pairs leaves open: $(cat "$dir/out")"
+for line in '# always base shoulder: proven' '# never base upper_arm: proven' 'pair base forearm  # sometimes free at .* hit at .*'; do
+  grep -qx "$line" "$dir/out" || fail "svcd pairs does not say $line: $(cat "$dir/out")"
+done
 # Goals as poses of a body: the motion is certified, and ends where the body is there, in all the places a region allows,
 # or at a goal by joints. What cannot be reached, or is reached in contact alone, is told.
 start='-2.649 -0.708 -1.763 2.470 1.078 -1.057'
@@ -692,7 +693,7 @@ awk 'function point(a, r, z) { printf "v %.6f %.6f %g\n", r * cos(a), r * sin(a)
 turned='joint j world 0 0 0 0 0 0 1 0 0 1 revolute -3.1 3.1 1\nbody ring world ring.obj\nbody pin j pin.obj'
 printf "nsvcd-plans 1\n$turned\n" >"$dir/slot.txt"
 expect 0 '' build/svcd pairs "$dir/slot.txt"
-grep -qx 'pair ring pin  # touching in all of 64 samples' "$dir/out" || fail "svcd pairs of the slot: $(cat "$dir/out")"
+grep -q '^pair ring pin  # sometimes free at .* hit at ' "$dir/out" || fail "svcd pairs of the slot: $(cat "$dir/out")"
 { cat "$dir/slot.txt" "$dir/out"; printf 'scene s\nplan in s -0.005 0.005\nplan out s 0 1.5\n'; } >"$dir/slot_plan.txt"
 expect 0 'out: the goal: ring and pin meet' build/svcd plan "$dir/slot_plan.txt"
 test "$(cut -f 1,2 "$dir/out" | tr '\t\n' '  ')" = 'in certified out goal ' || fail "plans by pairs: $(cat "$dir/out")"

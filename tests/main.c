@@ -23,6 +23,7 @@ void test_reach(void);
 void test_allowances(void);
 void test_route_looks(void);
 void test_postures(void);
+void test_ranges(void);
 void test_certificate(void);
 void test_checker(void);
 void test_math(void);
@@ -57,6 +58,7 @@ void test_level(void);
 void test_cost(void);
 
 void promises_reaches(void);
+void promises_ranges(void);
 void promises_results(void);
 void promises_meshes(void);
 void promises_bodies(void);
@@ -80,6 +82,7 @@ typedef struct test_file {
 static const test_file files[] = {
     // the public contracts, one after another
     PROMISES_OF(reaches),
+    PROMISES_OF(ranges),
     PROMISES_OF(results),
     PROMISES_OF(meshes),
     PROMISES_OF(bodies),
@@ -122,6 +125,7 @@ static const test_file files[] = {
     OF(allowances),
     OF(route_looks),
     OF(postures),
+    OF(ranges),
     OF(certificate),
     OF(checker),
     OF(winding_number),

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Are the tests of the proof worth anything? Each mutant is the library with one mistake in it; tests/test_proof.c has to
 # fail on it, or, where its name begins with `level:`, `asks:`, `long:`, `exact:`, `floor:`, `solids:`, `round:`,
-# `robot:`, `looks:`, `route_looks:`, `many_joints:`, `postures:`, `reach:` or `allowances:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
+# `robot:`, `looks:`, `route_looks:`, `many_joints:`, `postures:`, `reach:`, `ranges:` or `allowances:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
 # certificates, examples/verify, and tests/test_certificate.c or tests/test_checker.c has to fail, of `fits:`
 # tests/test_fits.c. Prints a line for each, and exits with 1 if one survives. An argument runs only the mutants whose
 # name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every 16th of them, in a folder of its own.
@@ -12,7 +12,7 @@ cd "$(dirname "$0")/.." || exit 1
 work=${WORK:-build/mutants}
 mkdir -p $work/tests/bench $work/examples/scenery $work/examples/verify
 cp weights.h $work/
-cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_looks.c tests/test_route_looks.c tests/test_many_joints.c tests/test_postures.c tests/test_reach.c tests/test_allowances.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
+cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_looks.c tests/test_route_looks.c tests/test_many_joints.c tests/test_postures.c tests/test_reach.c tests/test_ranges.c tests/test_allowances.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
 cp tests/bench/*.h $work/tests/bench/
 cp examples/scenery/*.h $work/examples/scenery/
 
@@ -222,6 +222,11 @@ asks: contacts of one normal|int tries = nsvcd__manifold_normals(\&w->p, found, 
 asks: all of a short way|fmax(0.25 * whole,|fmax(whole,
 asks: nothing between the directions|area > NSVCD__SLIM * square) return 0;|area >= 0) return 0;
 asks: few places looked at|if (tries == NSVCD__CONTACT_PAIRS|if (tries == 3
+ranges: a box without a joint|for (size_t k = 0; k < s->joints; k++) sum += k == without|for (size_t k = 1; k < s->joints; k++) sum += k == without
+ranges: a quarter of the width|s->half[k] = nsvcd__max(|s->half[k] = 0.25 * nsvcd__max(
+ranges: always without the travel|nsvcd__ask_span(s, 1, along, travel + room|nsvcd__ask_span(s, 1, along, 0 * travel + room
+ranges: never without the travel|const double clearance = (double)r->options.clearance + travel;|const double clearance = (double)r->options.clearance;
+ranges: arms that nothing lengthens|across + balls[side].radius + moved;|across + balls[side].radius;
 robot: joints that do not bend|bend += step->bend[j] * arms[j];|(void)bend;
 robot: half the bend|bend += step->bend[j] * arms[j];|bend += 0.5 * step->bend[j] * arms[j];
 robot: joints that do not turn each other|(2 * outer + moved)|(moved)
@@ -273,7 +278,7 @@ postures: a depth of half|out->depth = nsvcd__above(high * length);|out->depth =
 postures: a depth of all the lift|*(is_apart ? &high : &low) = middle;|low = middle;
 postures: brackets without rounding|out->distance.high = nsvcd__above((double)found.distance.high + error);|out->distance.high = found.distance.high;
 postures: more than there is room for|if (written < capacity) out[written] = found;|out[written] = found;
-postures: escapes without the clearance|{o->clearance, 0, 0, o->stop, o->user};|{0, 0, 0, o->stop, o->user};
+postures: escapes without the clearance|{o->clearance, 0, 0, o->stop, o->user, 0};|{0, 0, 0, o->stop, o->user, 0};
 postures: escapes to anywhere|sphere * o->farthest;|2 * sphere * o->farthest;
 postures: no way back|memcpy(is_free ? at : blocked, middle, joints * sizeof *at);|memcpy(blocked, middle, joints * sizeof *at);
 postures: the first way out|is_found ? NSVCD__FREE_NEARER * best : sphere|is_found ? o->farthest : sphere
@@ -434,6 +439,7 @@ while IFS= read -r line; do
     looks:*) file=test_looks.c ;;
     route_looks:*) file=test_route_looks.c ;;
     many_joints:*) file=test_many_joints.c ;;
+    ranges:*) file=test_ranges.c ;;
     postures:*) file=test_postures.c ;;
     reach:*) file=test_reach.c ;;
     allowances:*) file=test_allowances.c ;;

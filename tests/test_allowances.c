@@ -1,5 +1,7 @@
 // test_allowances.c - contact that is allowed near a configuration: a box on a table that is taken away, and
 // put down; jaws that hold it; and, of random robots, that nothing touches farther from there.
+#define NSVCD_NO_NETWORK
+#define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
 #define NEURALSVCD_ROBOT_IMPLEMENTATION
 #include "../neuralsvcd.h"
@@ -11,6 +13,8 @@
 #include "check.h"
 #define ROBOT_BALLS 64
 #include "route_scene.h"
+
+void test_allowances(void);
 
 #define HELD 5e-3  // metres, that an allowance gives
 

@@ -1172,9 +1172,9 @@ class Robots(unittest.TestCase):
         # until when it is free; and contact where it starts
         checked = robot.check([[-size - 1, 0], [0, 0]], to_time=1e-6)
         self.assertAlmostEqual(checked.free_until, 1 / (size + 1), delta=1e-5)
-        self.assertEqual(robot.check([[-size, 0], [-size - 1, 0]]).verdict == "free", False)
-        near = nsvcd.Robot(joints, parts, [[0, 1]], allowances=[(0, [-size, 0], 1e-3)])
-        self.assertEqual(near.check([[-size, 0], [-size - 1, 0]]).verdict, "free")
+        self.assertEqual(robot.check([[0.001 - size, 0], [-size - 1, 0]]).verdict, "hit")
+        near = nsvcd.Robot(joints, parts, [[0, 1]], allowances=[(0, [-size, 0], 2e-3)])
+        self.assertEqual(near.check([[0.001 - size, 0], [-size - 1, 0]]).verdict, "free")
         with self.assertRaises(Error):
             nsvcd.Robot(joints, parts, [[0, 1]], allowances=[(1, [0, 0], 1e-3)])
 

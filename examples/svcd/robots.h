@@ -6,8 +6,8 @@
 #include "goals.h"
 
 #define PLAN_NODES 100000
-// random configurations that `pairs` tries
-#define PAIR_SAMPLES 64
+// that `pairs` takes, at most
+#define PAIRS_SECONDS 10.0
 // about each mesh of a link
 #define LINK_BALLS 128
 
@@ -462,11 +462,78 @@ static int robot_tasks(robot_file *file, const settings *options, int is_path, F
   return good;
 }
 
+// A configuration, as text or as an array.
+static void tell_joints(json_out *j, const char *name, const double *q, size_t joints) {
+  if (j) json_open(j, name, '[');
+  if (!j) printf(" %s at", name);
+  for (size_t k = 0; k < joints; k++) j ? json_float(j, NULL, q[k]) : (void)printf(" %.9g", q[k]);
+  if (j) json_close(j, ']');
+}
+
+static void print_pair(const robot_in_room *in, const nsvcd_body_pair *pair, int is_json,
+                       const nsvcd_range_answer *found) {
+  const char *a = robot_name(in, pair->a);
+  const char *b = robot_name(in, pair->b);
+  const size_t joints = in->file->joint_count;
+  const char *word = nsvcd_meeting_string(found->meeting);
+  const int is_left_out =
+      found->meeting == NSVCD_MEETS_NEVER || found->meeting == NSVCD_MEETS_ALWAYS;
+  json_out j = {stdout, 0};
+  if (is_json) {
+    json_open(&j, NULL, '{');
+    json_text(&j, "kind", word);
+    json_text(&j, "a", a);
+    json_text(&j, "b", b);
+    if (found->has_free) tell_joints(&j, "free", found->free, joints);
+    if (found->has_hit) tell_joints(&j, "hit", found->hit, joints);
+    json_digits(&j, "open", found->open, 3);
+    json_end_line(&j);
+    return;
+  }
+  if (is_left_out) {
+    printf("# %s %s %s: proven\n", word, a, b);
+    return;
+  }
+  printf("pair %s %s  # %s", a, b, word);
+  if (found->has_free) tell_joints(NULL, "free", found->free, joints);
+  if (found->has_hit) tell_joints(NULL, "hit", found->hit, joints);
+  if (found->meeting == NSVCD_MEETS_UNKNOWN) printf(" open %.3g", found->open);
+  printf("\n");
+}
+
+// Asks about all pairs with ever more boxes, until all are settled or time is up.
+static int settle_pairs(const robot_in_room *in, const settings *options, size_t count,
+                        const nsvcd_body_pair *asked, nsvcd_range_answer *found) {
+  nsvcd_range_options o;
+  plan_clock limits = {0, 0};
+  size_t left = count;
+  memset(&o, 0, sizeof o);
+  limits.search_end = limits.end =
+      seconds() + (options->seconds > 0 ? (double)options->seconds : PAIRS_SECONDS);
+  o.seed = options->seed;
+  o.stop = time_is_over;
+  o.user = &limits;
+  for (o.boxes = 200; left > 0 && o.boxes <= 2000000; o.boxes *= 10) {
+    left = 0;
+    for (size_t n = 0; n < count; n++) {
+      if (found[n].meeting != NSVCD_MEETS_UNKNOWN) continue;
+      if (o.boxes > 200 && time_is_over(&limits)) break;
+      const size_t size = nsvcd_pair_range_size(in->checker, asked[n], &o);
+      void *memory = allocate(size);
+      const nsvcd_result result =
+          nsvcd_pair_range(in->checker, asked[n], &o, memory, size, &found[n]);
+      free(memory);
+      if (result) return complain("%s: %s", in->file->path, reason_of(result));
+      left += found[n].meeting == NSVCD_MEETS_UNKNOWN;
+    }
+  }
+  return 1;
+}
+
 // Which bodies of a robot can meet each other: lines for its planning file.
 static int pairs(settings *options) {
   robot_file file;
   robot_in_room in;
-  nsvcd_pair_counts counts;
   size_t encoded_count;
   double taken;
   const int status = plan_options(options, "pairs");
@@ -478,33 +545,20 @@ static int pairs(settings *options) {
   good = good && encode_robot(&file, &options->encode, &encoded_count, &taken);
   if (good) {
     const size_t most = file.body_count * file.body_count;
-    nsvcd_body_pair *found = (nsvcd_body_pair *)allocate(most * sizeof *found);
+    size_t count = 0;
+    nsvcd_body_pair *asked = (nsvcd_body_pair *)allocate(most * sizeof *asked);
+    nsvcd_range_answer *found = (nsvcd_range_answer *)allocate(most * sizeof *found);
+    memset(found, 0, most * sizeof *found);
     good = enter_room(&file, NSVCD_NONE, 0, &in);
-    const nsvcd_result result =
-        good ? nsvcd_find_pairs(in.checker, PAIR_SAMPLES, options->seed, found, most, &counts)
-             : NSVCD_OK;
-    if (result) good = complain("%s: %s", file.path, reason_of(result));
-    const size_t total = good ? counts.asked + counts.adjacent + counts.touching : 0;
-    for (size_t n = 0; n < total; n++) {
-      static const char *const words[2][3] = {{"pair", "# adjacent:", "pair"},
-                                              {"pair", "adjacent", "touching"}};
-      const int kind = n < counts.asked ? 0 : n < counts.asked + counts.adjacent ? 1 : 2;
-      const char *a = robot_name(&in, found[n].a);
-      const char *b = robot_name(&in, found[n].b);
-      json_out j = {stdout, 0};
-      if (!options->json) {
-        printf("%s %s %s", words[0][kind], a, b);
-        // samples prove nothing: the pair is checked until its line is deleted
-        if (kind == 2) printf("  # touching in all of %d samples", PAIR_SAMPLES);
-        printf("\n");
-        continue;
+    for (uint32_t a = 0; a < file.body_count; a++) {
+      for (uint32_t b = a + 1; b < file.body_count; b++) {
+        const nsvcd_body_pair pair = {a, b};
+        if (file.things[a].link != file.things[b].link) asked[count++] = pair;
       }
-      json_open(&j, NULL, '{');
-      json_text(&j, "kind", words[1][kind]);
-      json_text(&j, "a", a);
-      json_text(&j, "b", b);
-      json_end_line(&j);
     }
+    good = good && settle_pairs(&in, options, count, asked, found);
+    for (size_t n = 0; n < count && good; n++) print_pair(&in, &asked[n], options->json, &found[n]);
+    free(asked);
     free(found);
   }
   leave_room(&in);

@@ -215,6 +215,9 @@ typedef struct nsvcd_question {
   // options of the network, if it answers. The network has no FIRST, no clearance and no slop, and
   // does not bracket a DISTANCE: `to` is for proofs
   nsvcd_network_options network;
+  // 1: the question is about the surfaces alone: a body that lies inside the other, off its
+  // surface, is FREE of it, and has a distance. For proofs
+  int surfaces;
 } nsvcd_question;
 
 typedef enum nsvcd_verdict {

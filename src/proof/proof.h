@@ -262,6 +262,8 @@ typedef struct nsvcd__given {
   double fraction, width;
   // FIRST: the resolution as a distance, so near a contact a motion may have ended; 0: not given
   double to;
+  // of the surfaces alone?
+  int surfaces;
   // is more asked for than yes or no?
   int tells;
   // The budget: of all or, if it grows, of each interval of a long motion; and the part of it for

@@ -87,6 +87,7 @@ static nsvcd__goal nsvcd__proof_begin(nsvcd__query *query) {
   given->work = goal.limit = goal.most = q->work ? q->work : most;
   given->reserve = (q->work ? q->work : NSVCD_DEFAULT_WORK) / NSVCD__AFTER_UNRESOLVED;
   given->grows = q->work == 0;
+  given->surfaces = q->surfaces;
   given->tells = q->ask != NSVCD_ASK_HIT || given->slop > 0;
   w->p.work = w->p.push.normal_count = 0;
   w->inside = w->in_open = 0;

@@ -125,7 +125,7 @@ static nsvcd__finding nsvcd__prove(nsvcd__solver *w, nsvcd__search *q, nsvcd__go
   *result = p->known;
   if (gap > nsvcd__clearance(&goal)) return NSVCD__FOUND_FREE;
   const int is_long = nsvcd__is_long(m, q);
-  if (NSVCD__KERNEL(w->isa, is_contained_at_start)(w)) {
+  if (!p->given.surfaces && NSVCD__KERNEL(w->isa, is_contained_at_start)(w)) {
     // It is a hit. A question that asks for more gets triangles, if some meet as well.
     const size_t units = NSVCD__INSIDE_BUDGET;
     const int meets = p->given.tells && nsvcd__meets_at(w, q, goal, 0, units, result);

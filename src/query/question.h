@@ -50,7 +50,7 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *q) {
   // The network knows nothing of these.
   const int by_network = q->method == NSVCD_METHOD_NETWORK;
   const int needs_proof = q->clearance > 0 || q->slop > 0 || is_first || q->to > 0 ||
-                          (q->ask == NSVCD_ASK_DISTANCE && !by_network);
+                          q->surfaces || (q->ask == NSVCD_ASK_DISTANCE && !by_network);
   if (needs_proof && by_network) return NSVCD_ERROR_METHOD;
   const nsvcd_method wanted = needs_proof ? NSVCD_METHOD_PROOF : q->method;
   if (nsvcd__method_of(a->body, b->body, wanted) == NSVCD_METHOD_DEFAULT)

@@ -13,6 +13,8 @@
 //   rrt              trees of configurations, and the nearest node
 //   configurations   one configuration: proximities, the nearest free one; which pairs can meet
 //   reach            configurations that have a tool at a target
+//   spans            two parts, and how far the joints between them move a point
+//   ranges           do two parts meet never, always or sometimes?
 //   blends           from one state to another, within limits of speed and acceleration
 //   smooth           a path, timed, then smooth
 //   route            a start and goals: two trees of proven edges, shortcuts
@@ -91,6 +93,8 @@ struct nsvcd_checker {
   double *cuts;
   void *query;
   size_t query_size;
+  // questions are about surfaces alone
+  int surfaces;
   // an error of a question, which ends those that follow
   nsvcd_result result;
 };

@@ -66,6 +66,7 @@ static nsvcd_question nsvcd__question_of(const nsvcd_checker *c, const nsvcd_bod
     mover->count = part->link ? count : 1;
   }
   q.method = NSVCD_METHOD_PROOF;
+  q.surfaces = c->surfaces;
   q.work = work ? work : NSVCD_DEFAULT_WORK;
   return q;
 }

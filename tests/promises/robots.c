@@ -201,7 +201,53 @@ static void a_certificate_of_a_pair_is_accepted_by_the_checker(void) {
   arm_close(&a);
 }
 
+// The upper arm begins in the post. It may go out of it, and back to where it was; not on through it.
+static void contact_is_allowed_near_a_configuration(void) {
+  const double in[4] = {0.1, 0, 0.6, 0};
+  const double through[4] = {0.1, 0, -0.6, 0};
+  const nsvcd_joint_motion out = line_of(in);
+  const nsvcd_joint_motion on = line_of(through);
+  const nsvcd_allowance allowance = {0, in, 0.2};
+  nsvcd_checker *checker;
+  arm a;
+  arm_open(&a, at(0.7f, 0, 0));
+  CHECK_EQ(verdict_at(&a, in), NSVCD_HIT);
+  free(a.memory);
+  a.scene.allowances = &allowance;
+  a.scene.allowance_count = 1;
+  const size_t size = nsvcd_checker_size(&a.scene);
+  a.memory = malloc(size);
+  CHECK_EQ(nsvcd_checker_open(&a.scene, a.memory, size, &checker), NSVCD_OK);
+  a.checker = checker;
+  CHECK_EQ(verdict_at(&a, in), NSVCD_FREE);
+  CHECK_EQ(check_of(&a, &out, 0).verdict, NSVCD_FREE);
+  CHECK_EQ(check_of(&a, &on, 0).verdict, NSVCD_HIT);
+  arm_close(&a);
+}
+
+// Half a turn a second, into the post.
+static void a_motion_is_free_until_it_is_not(void) {
+  const double points[4] = {1.5, 0, -1.5, 0};
+  const double times[2] = {10, 16};
+  const nsvcd_joint_motion motion = {1, 1, points, times};
+  const nsvcd_check_options options = {.to_time = 1e-5};
+  nsvcd_check_answer answer;
+  arm a;
+  arm_open(&a, at(0.7f, 0, 0));
+  CHECK_EQ(nsvcd_check(a.checker, &motion, &options, &answer), NSVCD_OK);
+  CHECK_EQ(answer.verdict, NSVCD_HIT);
+  CHECK(answer.free_until > 10 && answer.free_until < 13);
+  CHECK_NEAR(10 + 6 * answer.fraction, answer.free_until, 2e-5);
+  const double before[2] = {1.5 - 0.5 * (answer.free_until - 10), 0};
+  const double after[2] = {before[0] - 1e-4, 0};
+  CHECK(verdict_at(&a, before) != NSVCD_HIT);
+  CHECK_EQ(verdict_at(&a, after), NSVCD_HIT);
+  arm_close(&a);
+}
+
 void promises_robots(void) {
+  RUN(contact_is_allowed_near_a_configuration);
+  RUN(a_motion_is_free_until_it_is_not);
   RUN(what_a_joint_sweeps_between_samples_is_seen);
   RUN(a_hit_is_one_in_the_configuration_that_is_named);
   RUN(links_are_where_the_joints_place_them);

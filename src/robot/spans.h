@@ -1,0 +1,205 @@
+// In: two parts of a scene. Out: the joints between them, how far these move a point of one part as
+// the other sees it, and a checker of these two parts alone.
+//
+// THE BOUND. Let d(q) be the distance of two parts. If one joint turns by w, and the others stay,
+// d changes by no more than w r: r is the farthest that a point of one part is from that joint's
+// axis. That holds of either part, since turning one is turning the other back: so r is the lesser
+// of both. Where a joint slides, r is 1. In a box of joint values, which reach h_k to either side
+// of its centre, joints may change one after another. So from the centre d changes by no more than
+//   sum over joints k of h_k r_k
+// r_k: of all configurations of the box. It is that of the centre, and what the joints between the
+// part and k add: the chord 2 r sin(h / 2) of each, h up to pi, or h if it slides.
+// Source: this library.
+#pragma once
+#include "../interface/ranges.h"
+#include "check.h"
+
+// metres, about: the extent of a probe
+#define NSVCD__PROBE 1e-6
+// of a clearance: how far a part may deviate at last
+#define NSVCD__SPAN_FINEST 0.05
+
+// A point that rides on one of the two parts: some body, shrunk, is put there as a third part.
+typedef struct nsvcd__probe {
+  // on which: 0 or 1
+  int side;
+  // in that part's link
+  float position[3];
+  // its depth in the other part, over how far it moves in a box
+  double score;
+} nsvcd__probe;
+
+// Two parts, and the joints between them.
+typedef struct nsvcd__span {
+  nsvcd_scene scene;
+  // the two, and the probe
+  nsvcd_part parts[3];
+  // the two; then the probe and one of them
+  nsvcd_body_pair pairs[2];
+  // of this scene
+  nsvcd_checker *checker;
+  // joints from the first part to the second, through the link that carries both
+  size_t path[NSVCD_MAX_JOINTS];
+  size_t joints;
+  // what joints off the path are held at, and, of the path, the centre of a box
+  double at[NSVCD_MAX_JOINTS];
+  // of the path: the box, half its widths, and r of the banner
+  double low[NSVCD_MAX_JOINTS], high[NSVCD_MAX_JOINTS];
+  double half[NSVCD_MAX_JOINTS], arms[NSVCD_MAX_JOINTS];
+  // metres: no point of a probe is farther from its position
+  double probe_extent;
+} nsvcd__span;
+
+// The joints from link a to link b, in order. A link's parent has a lower number than the link.
+static size_t nsvcd__path_between(const nsvcd_scene *scene, uint32_t a, uint32_t b,
+                                  size_t *path) {
+  size_t down[NSVCD_MAX_JOINTS];
+  size_t count = 0;
+  size_t down_count = 0;
+  while (a != b) {
+    uint32_t *outer = a > b ? &a : &b;
+    *(outer == &a ? &path[count++] : &down[down_count++]) = *outer - 1;
+    *outer = scene->joints[*outer - 1].parent;
+  }
+  while (down_count > 0) path[count++] = down[--down_count];
+  return count;
+}
+
+// The least and the greatest value of a joint. A full turn is a little more than one.
+static void nsvcd__values_of(const nsvcd_joint *joint, double *low, double *high) {
+  const int is_endless = joint->kind == NSVCD_JOINT_CONTINUOUS;
+  *low = is_endless ? 0 : joint->low;
+  *high = is_endless ? 6.28318530717960 : joint->high;
+}
+
+// A sphere about a part, or a probe, in the world.
+typedef struct nsvcd__rider {
+  nsvcd__d3 centre;
+  double radius;
+} nsvcd__rider;
+
+static nsvcd__rider nsvcd__rider_of(const nsvcd__span *s, const nsvcd__links *at,
+                                    size_t part) {
+  const nsvcd__member *m = &s->checker->members[part];
+  const nsvcd__rider out = {nsvcd__dpose_apply(&at->frames[s->parts[part].link], m->centre),
+                            m->radius};
+  return out;
+}
+
+// Fills in s->arms for two balls, which ride on the two parts' links.
+static void nsvcd__arms_between(nsvcd__span *s, const nsvcd__links *at,
+                                const nsvcd__rider *balls) {
+  for (size_t side = 0; side < 2; side++) {
+    double moved = 0;
+    for (size_t n = 0; n < s->joints; n++) {
+      const size_t k = side ? s->joints - 1 - n : n;
+      const size_t j = s->path[k];
+      const nsvcd__d3 off = nsvcd__d3_sub(balls[side].centre, at->frames[j + 1].position);
+      const double across = nsvcd__d3_norm(nsvcd__d3_cross(at->axes[j], off));
+      const int slides = nsvcd__slides(s->checker, j);
+      const double arm = slides ? 1 : across + balls[side].radius + moved;
+      const double half = nsvcd__min(s->half[k], 3.141592653589793);
+      moved += slides ? s->half[k] : 2 * arm * sin(0.5 * half);
+      s->arms[k] = side ? nsvcd__min(s->arms[k], arm) : arm;
+    }
+  }
+}
+
+// The bound of the banner, without one joint of the path, or NSVCD_NONE.
+static double nsvcd__travel_but(const nsvcd__span *s, size_t without) {
+  double sum = 0;
+  for (size_t k = 0; k < s->joints; k++) sum += k == without ? 0 : s->half[k] * s->arms[k];
+  return sum * (1 + 1e-9);
+}
+
+// The joint of the path that moves points farthest.
+static size_t nsvcd__farthest_joint(const nsvcd__span *s) {
+  size_t out = 0;
+  for (size_t k = 1; k < s->joints; k++) {
+    if (s->half[k] * s->arms[k] > s->half[out] * s->arms[out]) out = k;
+  }
+  return out;
+}
+
+// Asks about the two parts, or about the probe and the surface of the part that it does not ride
+// on, in the configuration s->at, or along a joint of the path through all of the box.
+static nsvcd_result nsvcd__ask_span(nsvcd__span *s, int is_probe, size_t along,
+                                    double clearance, const nsvcd_range_options *o,
+                                    nsvcd_check_answer *answer) {
+  const size_t joints = s->scene.joint_count;
+  double points[2 * NSVCD_MAX_JOINTS];
+  const nsvcd_joint_motion motion = {along != NSVCD_NONE, 1, points, NULL};
+  nsvcd_check_options options = {0, 0, o->work, o->stop, o->user, 0};
+  if (clearance > 0) options.clearance = nsvcd__above(clearance);
+  options.finest = (float)nsvcd__max((double)NSVCD__FINEST, clearance * NSVCD__SPAN_FINEST);
+  memcpy(points, s->at, joints * sizeof *points);
+  memcpy(points + joints, s->at, joints * sizeof *points);
+  if (along != NSVCD_NONE) {
+    points[s->path[along]] = s->low[along];
+    points[joints + s->path[along]] = s->high[along];
+  }
+  s->scene.pairs = &s->pairs[is_probe];
+  s->checker->surfaces = is_probe;
+  return nsvcd_check(s->checker, &motion, &options, answer);
+}
+
+// Takes a box about whose centre s->at is then: (2, joints) of the path, low and high.
+static void nsvcd__take_box(nsvcd__span *s, const double *box) {
+  for (size_t k = 0; k < s->joints; k++) {
+    s->low[k] = box[k];
+    s->high[k] = box[s->joints + k];
+    const double middle = 0.5 * (s->low[k] + s->high[k]);
+    s->at[s->path[k]] = middle;
+    s->half[k] = nsvcd__max(s->high[k] - middle, middle - s->low[k]) * (1 + 1e-15);
+  }
+}
+
+// The parts and joints of a span, without its checker.
+static void nsvcd__span_begin(const nsvcd_scene *scene, nsvcd_body_pair pair, nsvcd__span *s) {
+  memset(s, 0, sizeof *s);
+  s->scene = *scene;
+  s->scene.parts = s->parts;
+  s->scene.pairs = s->pairs;
+  s->scene.part_count = 3;
+  s->scene.pair_count = 1;
+  s->scene.clearances = NULL;
+  s->scene.allowances = NULL;
+  s->scene.allowance_count = 0;
+  s->parts[0] = scene->parts[pair.a];
+  s->parts[1] = scene->parts[pair.b];
+  s->pairs[0].b = 1;
+  s->joints = nsvcd__path_between(scene, s->parts[0].link, s->parts[1].link, s->path);
+  for (size_t j = 0; j < scene->joint_count; j++) {
+    double low, high;
+    nsvcd__values_of(&scene->joints[j], &low, &high);
+    s->at[j] = 0.5 * (low + high);
+  }
+  // of all bodies the one with the fewest triangles
+  nsvcd_part *probe = &s->parts[2];
+  size_t fewest = SIZE_MAX;
+  for (size_t n = 0; n < scene->part_count; n++) {
+    const nsvcd_body_facts facts = nsvcd_body_describe(scene->parts[n].body);
+    if (facts.triangles >= fewest) continue;
+    fewest = facts.triangles;
+    const float extent = facts.extent + facts.convex_radius;
+    probe->body = scene->parts[n].body;
+    probe->scale = (float)nsvcd__max(nsvcd__min(NSVCD__PROBE / (double)extent, 1),
+                                     (double)NSVCD_MIN_SCALE);
+    s->probe_extent = 1.00001 * (double)(extent * probe->scale);
+  }
+  probe->pose.rotation[3] = 1;
+  // it has a row of samples if it is on a link that moves
+  probe->link = s->parts[0].link ? s->parts[0].link : s->parts[1].link;
+}
+
+// Puts the probe at a point of the link of one of the parts.
+static void nsvcd__put_probe(nsvcd__span *s, const nsvcd__probe *at) {
+  nsvcd__member *m = &s->checker->members[2];
+  const size_t row = m->row;
+  s->parts[2].link = s->parts[at->side].link;
+  memcpy(s->parts[2].pose.position, at->position, sizeof at->position);
+  s->pairs[1].a = 2;
+  s->pairs[1].b = at->side ? 0 : 1;
+  *m = nsvcd__member_of(&s->parts[2]);
+  m->row = row;
+}

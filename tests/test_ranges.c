@@ -1,0 +1,282 @@
+// Over all values of the joints between two parts: what is said of all of them against dense samples
+// and an oracle in double; narrow ranges; joints of all kinds; bad input.
+#define NSVCD_NO_NETWORK
+#define NSVCD_STATIC
+#define NEURALSVCD_IMPLEMENTATION
+#define NEURALSVCD_ROBOT_IMPLEMENTATION
+#include "../neuralsvcd.h"
+#include "../extras/neuralsvcd_robot.h"
+
+#include "../examples/scenery/shapes.h"
+#include "../examples/scenery/oracle.h"
+#include "../examples/scenery/poses.h"
+#include "check.h"
+#include "robot_scene.h"
+
+void test_ranges(void);
+
+static nsvcd_range_answer range_of(const robot *r, nsvcd_body_pair pair, float clearance,
+                                   size_t boxes) {
+  nsvcd_range_options o;
+  nsvcd_range_answer out;
+  memset(&o, 0, sizeof o);
+  memset(&out, 0, sizeof out);
+  o.clearance = clearance;
+  o.boxes = boxes;
+  const size_t size = nsvcd_pair_range_size(r->checker, pair, &o);
+  void *memory = malloc(size);
+  CHECK(size > 0);
+  CHECK_EQ(nsvcd_pair_range(r->checker, pair, &o, memory, size, &out), NSVCD_OK);
+  free(memory);
+  return out;
+}
+
+// A tree of joints about as long as its parts, which often overlap, turned by up to `limit`.
+static void short_robot(robot *r, shapes_rng *rng, float reach, double limit) {
+  do robot_random(r, rng);
+  while (r->scene.joint_count < 2);
+  for (size_t i = 0; i < r->scene.joint_count; i++) {
+    r->joints[i].low = -limit;
+    r->joints[i].high = shapes_pick(rng, 8) ? limit : -limit;
+    r->parts[i].scale = 0;
+    for (int k = 0; k < 3; k++) {
+      r->joints[i].origin.position[k] *= reach;
+      if (r->shape[i] != FAR_SHAPE) r->parts[i].pose.position[k] *= reach;
+    }
+  }
+  robot_open(r);
+}
+
+// Whatever is said of all configurations holds in those that are drawn; and those named are as they
+// are said to be.
+static void ranges_are_right(void) {
+  static robot r;
+  shapes_rng rng = {17};
+  size_t count[4] = {0, 0, 0, 0};
+  for (size_t trial = 0; trial < check_many(60); trial++) {
+    short_robot(&r, &rng, trial % 2 ? 1 : 0.1f, trial % 4 < 2 ? 3 : 0.3);
+    const float clearance = trial % 3 ? 0 : 0.01f;
+    for (uint32_t b = 1; b < r.scene.part_count && b < 4; b++) {
+      const nsvcd_body_pair pair = {b - 1 - (b > 1 && trial % 5 == 0), b};
+      const nsvcd_range_answer a = range_of(&r, pair, clearance, 300);
+      const double kept = (double)clearance;
+      count[a.meeting]++;
+      if (a.has_free) CHECK(robot_apart(&r, &pair, a.free, 0.1) > kept - 1e-9);
+      if (a.has_hit) CHECK(robot_apart(&r, &pair, a.hit, 0.1) < kept + 1e-6);
+      CHECK_EQ(a.meeting == NSVCD_MEETS_SOMETIMES, a.has_free && a.has_hit);
+      if (a.meeting != NSVCD_MEETS_NEVER && a.meeting != NSVCD_MEETS_ALWAYS) continue;
+      CHECK(!(a.open > 0));
+      for (int n = 0; n < 400; n++) {
+        double q[NSVCD_MAX_JOINTS];
+        for (size_t j = 0; j < r.scene.joint_count; j++) {
+          const int is_endless = r.joints[j].kind == NSVCD_JOINT_CONTINUOUS;
+          const double low = is_endless ? -4 : r.joints[j].low;
+          q[j] = shapes_uniform(&rng, low, is_endless ? 4 : r.joints[j].high);
+        }
+        const double apart = robot_apart(&r, &pair, q, 0.1);
+        CHECK(a.meeting == NSVCD_MEETS_NEVER ? apart > kept : apart <= kept + 1e-9);
+      }
+    }
+    free(r.memory);
+  }
+  for (int n = 1; n < 4; n++) CHECK(count[n] > 5);
+}
+
+// How near two parts come in a random walk that only goes nearer, from one of the joints' values.
+static double nearest_of(const robot *r, const nsvcd_body_pair *pair, shapes_rng *rng, double *q) {
+  double nearest = robot_apart(r, pair, q, 10);
+  double step = 0.3;
+  for (int n = 0; n < 160; n++) {
+    double next[NSVCD_MAX_JOINTS];
+    for (size_t j = 0; j < r->scene.joint_count; j++) {
+      const double to = q[j] + step * shapes_uniform(rng, -1, 1);
+      next[j] = fmax(r->joints[j].low, fmin(r->joints[j].high, to));
+    }
+    const double apart = robot_apart(r, pair, next, 10);
+    step *= apart < nearest ? 1.2 : 0.95;
+    if (!(apart < nearest)) continue;
+    nearest = apart;
+    memcpy(q, next, sizeof next);
+  }
+  return nearest;
+}
+
+// With a clearance a little above the least distance that a descent finds, never is not the answer.
+static void ranges_see_the_nearest(void) {
+  static robot r;
+  shapes_rng rng = {41};
+  size_t asked = 0;
+  size_t never = 0;
+  for (size_t trial = 0; trial < check_many(60); trial++) {
+    robot_random_of(&r, &rng, 2 + (size_t)shapes_pick(&rng, 3));
+    const uint32_t last = (uint32_t)r.scene.joint_count - 1;
+    for (size_t i = 0; i <= last; i++) {
+      const double middle = shapes_uniform(&rng, -2, 2);
+      const double half = shapes_uniform(&rng, 0.1, 1.3);
+      r.joints[i].kind = NSVCD_JOINT_REVOLUTE;
+      r.joints[i].parent = (uint32_t)i;
+      r.joints[i].low = middle - half;
+      r.joints[i].high = middle + half;
+      r.parts[i].scale = 0;
+    }
+    const nsvcd_body_pair pair = {0, last};
+    robot_open(&r);
+    double least = 10;
+    for (int n = 0; n < 12; n++) {
+      double q[NSVCD_MAX_JOINTS];
+      for (size_t j = 0; j <= last; j++)
+        q[j] = shapes_uniform(&rng, r.joints[j].low, r.joints[j].high);
+      least = fmin(least, nearest_of(&r, &pair, &rng, q));
+    }
+    if (least > 0.02) {
+      asked++;
+      CHECK(range_of(&r, pair, (float)(1.002 * least + 1e-5), 400).meeting != NSVCD_MEETS_NEVER);
+      never += range_of(&r, pair, (float)(0.5 * least), 400).meeting == NSVCD_MEETS_NEVER;
+    }
+    free(r.memory);
+  }
+  CHECK_GE(asked, 10);
+  CHECK_GE(2 * never, asked);
+}
+
+// The elbow is bent in the middle of its range. The tip touches the post where the arm is straight,
+// and turned the other way.
+static void ranges_see_an_arm_straightened(void) {
+  static robot r;
+  const nsvcd_body_pair pair = {0, 1};
+  robot_bare(&r, NSVCD_JOINT_REVOLUTE, 2, 2, 0.2);
+  for (int j = 0; j < 2; j++) r.joints[j].axis[2] = 1;
+  r.joints[1].origin.position[0] = 1;
+  r.joints[1].low = 0;
+  r.joints[1].high = 3.1;
+  for (int n = 0; n < 2; n++) r.parts[n].body = robot_shapes()[0].body;
+  for (int n = 0; n < 2; n++) r.parts[n].scale = 0.1f;
+  r.parts[1].link = 2;
+  r.parts[1].pose.position[0] = 1;
+  r.parts[0].pose.position[0] = (float)(2 * cos(0.19));
+  r.parts[0].pose.position[1] = (float)(-2 * sin(0.19));
+  robot_open(&r);
+  CHECK(range_of(&r, pair, 0, 2000).meeting != NSVCD_MEETS_NEVER);
+  free(r.memory);
+  r.parts[0].pose.position[0] *= 1.02f;
+  r.parts[0].pose.position[1] *= 1.02f;
+  robot_open(&r);
+  CHECK_EQ(range_of(&r, pair, 0, 2000).meeting, NSVCD_MEETS_NEVER);
+  free(r.memory);
+}
+
+// A cube in a plate, which it leaves in a small hole alone: that is not always.
+static void ranges_see_a_hole(void) {
+  static robot r;
+  const nsvcd_body_pair pair = {0, 1};
+  const double holes[3][2] = {{0.3, 0.25}, {-0.21, 0.33}, {0.11, -0.37}};
+  for (int n = 0; n < 3; n++) {
+    const double x = holes[n][0];
+    const double y = holes[n][1];
+    const double half = 0.065;  // of the hole; the cube's is 0.05
+    shapes_mesh plate;
+    memset(&plate, 0, sizeof plate);
+    shapes_box_at(&plate, (x - half - 1) / 2, 0, 0, x - half + 1, 2, 0.2);
+    shapes_box_at(&plate, (x + half + 1) / 2, 0, 0, 1 - x - half, 2, 0.2);
+    shapes_box_at(&plate, 0, (y - half - 1) / 2, 0, 2, y - half + 1, 0.2);
+    shapes_box_at(&plate, 0, (y + half + 1) / 2, 0, 2, 1 - y - half, 0.2);
+    robot_bare(&r, NSVCD_JOINT_PRISMATIC, 2, 2, 0.45);
+    r.joints[0].axis[0] = r.joints[1].axis[1] = 1;
+    r.parts[0].body = body_of(&plate, NULL);
+    r.parts[1].body = robot_shapes()[0].body;
+    r.parts[1].link = 2;
+    robot_open(&r);
+    CHECK(range_of(&r, pair, 0, 3000).meeting != NSVCD_MEETS_ALWAYS);
+    free(r.memory);
+    // where the hole is not
+    r.joints[0].high = x - 2 * half;
+    r.joints[0].low = x - 0.4;
+    robot_open(&r);
+    CHECK_EQ(range_of(&r, pair, 0, 3000).meeting, NSVCD_MEETS_ALWAYS);
+    free(r.memory);
+    nsvcd_body_free(r.parts[0].body, NULL);
+    shapes_free(&plate);
+  }
+}
+
+// A box that a joint slides past another one, which it meets in a narrow range of its values.
+static void ranges_narrow(void) {
+  static robot r;
+  const nsvcd_body_pair pair = {0, 1};
+  for (int parts = 0; parts < 2; parts++) {
+    robot_bare(&r, NSVCD_JOINT_PRISMATIC, 1, 2, 1);
+    r.joints[0].axis[0] = 1;
+    for (int n = 0; n < 2; n++) r.parts[n].body = robot_shapes()[0].body;
+    r.parts[1].link = 1;
+    // they meet from -0.1 to 0.1, the lengths of both boxes
+    r.joints[0].low = parts ? -0.1 + 1e-4 : -100.0987;
+    r.joints[0].high = parts ? 0.1 + 1e-4 : -0.0987;
+    robot_open(&r);
+    const nsvcd_range_answer a = range_of(&r, pair, 0, 0);
+    CHECK_EQ(a.joints, 1);
+    CHECK_EQ(a.meeting, NSVCD_MEETS_SOMETIMES);
+    free(r.memory);
+    r.joints[0].low = parts ? -0.0999 : -100;
+    r.joints[0].high = parts ? 0.0999 : -0.1001;
+    robot_open(&r);
+    CHECK_EQ(range_of(&r, pair, 0, 0).meeting, parts ? NSVCD_MEETS_ALWAYS : NSVCD_MEETS_NEVER);
+    CHECK_EQ(range_of(&r, pair, 2e-4f, 0).meeting,
+             parts ? NSVCD_MEETS_ALWAYS : NSVCD_MEETS_SOMETIMES);
+    free(r.memory);
+  }
+}
+
+static int stop_at_once(void *user) {
+  (void)user;
+  return 1;
+}
+
+static void ranges_refuse(void) {
+  static robot r;
+  static nsvcd_range_answer out;
+  nsvcd_range_options o;
+  const nsvcd_body_pair pair = {0, 1};
+  const nsvcd_body_pair odd[3] = {{0, 0}, {0, 2}, {2, 0}};
+  memset(&o, 0, sizeof o);
+  robot_bare(&r, NSVCD_JOINT_REVOLUTE, 1, 2, 1);
+  r.joints[0].axis[2] = 1;
+  for (int n = 0; n < 2; n++) r.parts[n].body = robot_shapes()[0].body;
+  r.parts[1].link = 1;
+  robot_open(&r);
+  const size_t size = nsvcd_pair_range_size(r.checker, pair, NULL);
+  void *memory = malloc(size);
+  for (int n = 0; n < 3; n++) {
+    CHECK_EQ(nsvcd_pair_range_size(r.checker, odd[n], NULL), 0);
+    CHECK_EQ(nsvcd_pair_range(r.checker, odd[n], NULL, memory, size, &out), NSVCD_ERROR_PAIR);
+  }
+  CHECK_EQ(nsvcd_pair_range_size(NULL, pair, NULL), 0);
+  CHECK_EQ(nsvcd_pair_range(NULL, pair, NULL, memory, size, &out), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_pair_range(r.checker, pair, NULL, memory, size, NULL), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_pair_range(r.checker, pair, NULL, NULL, size, &out), NSVCD_ERROR_WORKSPACE);
+  CHECK_EQ(nsvcd_pair_range(r.checker, pair, NULL, memory, size - 1, &out), NSVCD_ERROR_WORKSPACE);
+  o.clearance = -1;
+  CHECK_EQ(nsvcd_pair_range(r.checker, pair, &o, memory, size, &out), NSVCD_ERROR_CLEARANCE);
+  o.clearance = 0;
+  o.boxes = NSVCD_MAX_BOXES + 1;
+  CHECK_EQ(nsvcd_pair_range(r.checker, pair, &o, memory, size, &out), NSVCD_ERROR_COUNT);
+  o.boxes = 0;
+  o.stop = stop_at_once;
+  CHECK_EQ(nsvcd_pair_range(r.checker, pair, &o, memory, size, &out), NSVCD_OK);
+  CHECK_EQ(out.meeting, NSVCD_MEETS_UNKNOWN);
+  CHECK_EQ(out.why, NSVCD_WHY_WORK);
+  // about the centre of both they turn in each other
+  CHECK_EQ(nsvcd_pair_range(r.checker, pair, NULL, memory, size, &out), NSVCD_OK);
+  CHECK_EQ(out.meeting, NSVCD_MEETS_ALWAYS);
+  free(memory);
+  free(r.memory);
+}
+
+void test_ranges(void) {
+  RUN(ranges_are_right);
+  RUN(ranges_see_the_nearest);
+  RUN(ranges_see_an_arm_straightened);
+  RUN(ranges_see_a_hole);
+  RUN(ranges_narrow);
+  RUN(ranges_refuse);
+}
+CHECK_ALONE(test_ranges)
