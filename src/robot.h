@@ -36,7 +36,7 @@ extern "C" {
 #endif
 #include "interface/robots.h"          // joints, parts, checks of motions; nsvcd_check
 #include "interface/configurations.h"  // one configuration: pairs that are near, a way out
-#include "interface/ranges.h"   // do two parts ever meet, or always? nsvcd_pair_range
+#include "interface/ranges.h"          // do two parts ever meet, or always? nsvcd_pair_range
 #include "interface/reaches.h"  // configurations that have a tool at a target; nsvcd_reach
 #include "interface/routes.h"   // a start and goals; nsvcd_route
 #ifdef __cplusplus
@@ -76,12 +76,12 @@ extern "C" {
 #include "ground/memory.h"     // the allocator; the rows of a workspace
 
 // ============================================================ robot: is a motion of joints free?
-#include "robot/chain.h"      // links, joints and frames: where everything is
-#include "robot/steps.h"      // what the joints do between two times
+#include "robot/chain.h"       // links, joints and frames: where everything is
+#include "robot/steps.h"       // what the joints do between two times
 #include "robot/allowances.h"  // when a pair may touch
-#include "robot/deviation.h"  // how far a part leaves its sweep between two samples
-#include "robot/checker.h"    // the checker of a scene
-#include "robot/samples.h"    // configurations of a motion, and boxes about the parts in them
+#include "robot/deviation.h"   // how far a part leaves its sweep between two samples
+#include "robot/checker.h"     // the checker of a scene
+#include "robot/samples.h"     // configurations of a motion, and boxes about the parts in them
 #include "robot/local_queries.h"   // two parts, in the frame of one of them
 #include "robot/check.h"           // is a motion of the joints free?
 #include "robot/looks.h"           // does a motion seem free?

@@ -316,7 +316,7 @@ static int nsvcd__reach_is_free(nsvcd__reacher *r, const double *q,
                                 nsvcd_check_answer *found) {
   const nsvcd_joint_motion still = {0, 0, q, NULL};
   const nsvcd_check_options options = {r->options.clearance, 0, 0, r->problem.stop,
-                                       r->problem.user, 0};
+                                       r->problem.user,      0};
   if (r->options.may_touch) return 1;
   return !nsvcd_check(r->checker, &still, &options, found) && nsvcd__proves_free(found);
 }
