@@ -91,24 +91,25 @@ static void nsvcd__follow_slope(nsvcd__ranging *r, double sign) {
   const nsvcd_proximity_options o = {NSVCD_MAX_COORDINATE / 4, 1e-3f, 0.1f, r->options.work};
   const double clearance = (double)r->options.clearance;
   for (size_t n = 0; n < NSVCD__SLOPE_STEPS && !nsvcd__range_is_over(r); n++) {
-    nsvcd_proximity near;
+    nsvcd_proximity nearest;
     double square = 0;
     s->scene.pairs = s->pairs;
     c->surfaces = 0;
     c->result = NSVCD_OK;
     nsvcd__place_links(c, s->at, c->at);
     nsvcd__place_sample(c, c->at, 0);
-    if (!nsvcd__proximity_of(c, 0, &o, &near)) return;
-    const double apart = near.verdict == NSVCD_HIT ? -(double)near.depth : near.distance.low;
+    if (!nsvcd__proximity_of(c, 0, &o, &nearest)) return;
+    const double apart =
+        nearest.verdict == NSVCD_HIT ? -(double)nearest.depth : (double)nearest.distance.low;
     for (size_t k = 0; k < s->joints; k++)
-      square += near.slope[s->path[k]] * near.slope[s->path[k]];
+      square += nearest.slope[s->path[k]] * nearest.slope[s->path[k]];
     if (!(square > 0)) return;
     const double step = fabs(apart - clearance) + 1e-3;
     for (size_t k = 0; k < s->joints; k++) {
       double low, high;
       const size_t j = s->path[k];
       nsvcd__values_of(&s->scene.joints[j], &low, &high);
-      const double to = s->at[j] + sign * step / square * near.slope[j];
+      const double to = s->at[j] + sign * step / square * nearest.slope[j];
       s->at[j] = nsvcd__max(low, nsvcd__min(high, to));
     }
     (void)nsvcd__note_here(r);
