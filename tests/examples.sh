@@ -761,6 +761,11 @@ expect 1 'carry: the start: table and cup meet' build/svcd plan "$dir/no_allow.t
 expect 1 'open: not asked: it starts where no plan above has ended' build/svcd plan examples/robot/pick.txt --only open
 sed 's/^plan open.*/plan open kitchen 0 0 0 0 0/' examples/robot/pick.txt >"$dir/late.txt"
 expect 1 'what was attached above is not known' build/svcd plan "$dir/late.txt" --only open
+# a jaw that reaches into the palm: allowed above the scenes it is so in all, and without that line no start is free
+sed 's/^scene/pair palm left_jaw\nallow palm left_jaw 0.1\nscene/; s/^body left_jaw.*/body left_jaw jaw box: 0.02 0.01 0.03  pose 0 0 0.0325 0 0 0 1/' examples/robot/pick.txt >"$dir/jaw.txt"
+expect 0 '' build/svcd plan "$dir/jaw.txt" --only reach
+sed 's/^allow palm.*//' "$dir/jaw.txt" >"$dir/no_jaw.txt"
+expect 0 'reach: the start: palm and left_jaw meet' build/svcd plan "$dir/no_jaw.txt" --only reach
 mkdir -p "$dir/pick"
 expect 1 "carry: no certificate: 'verify' does not know what may touch" build/svcd plan examples/robot/pick.txt --certificates "$dir/pick"
 expect 1 '' build/verify examples/robot/pick.txt "$dir/pick"

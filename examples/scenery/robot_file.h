@@ -75,9 +75,15 @@ typedef struct robot_change {
 
 // Two things that may touch near the start and the goals, from a task on.
 typedef struct robot_allow {
-  size_t task, room, at[2];
+  size_t task, at[2];
+  size_t room;  // the scene; NSVCD_NONE: all
   double metres;
 } robot_allow;
+
+// Does it hold for a task of a scene?
+static int robot_is_allowed(const robot_allow *allow, size_t task, size_t room) {
+  return allow->task <= task && (allow->room == room || allow->room == NSVCD_NONE);
+}
 #define ALLOWED_METRES 0.005
 
 // A goal of a plan: joints, or where a body is to be.
@@ -390,11 +396,11 @@ static int robot_read_allow(const reader *r, robot_file *file) {
   allow.metres = ALLOWED_METRES;
   if (r->field_count != 3 && r->field_count != 4)
     return refuse(r, "expected: allow NAME NAME [METRES]");
-  if (file->room_count == 0) return refuse(r, "no scene above");
+  const size_t rooms = file->room_count;
   allow.task = file->task_count;
-  allow.room = file->room_count - 1;
+  allow.room = rooms ? rooms - 1 : NSVCD_NONE;
   for (int k = 0; k < 2; k++)
-    if (!robot_find(file, file->rooms[allow.room].first, r->fields[1 + k], &allow.at[k]))
+    if (!robot_find(file, rooms ? file->rooms[rooms - 1].first : 0, r->fields[1 + k], &allow.at[k]))
       return refuse_field(r, "no body of this name above", r->fields[1 + k]);
   if (r->field_count == 4 && !robot_number(r, r->fields[3], &allow.metres)) return 0;
   if (allow.metres < 0) return refuse_field(r, "a distance is negative", r->fields[3]);

@@ -158,7 +158,7 @@ static int allow_near(robot_in_room *in, size_t task, const double *start, const
                                                sizeof *in->allowances);
   for (size_t k = 0; k < file->allow_count; k++) {
     const robot_allow *allow = &file->allows[k];
-    if (allow->task > task || &file->rooms[allow->room] != in->room) continue;
+    if (!robot_is_allowed(allow, task, file->tasks[task].room)) continue;
     for (size_t n = 0; n < in->scene.pair_count; n++) {
       const size_t a = (size_t)(robot_thing_of(in, in->pairs[n].a) - file->things);
       const size_t b = (size_t)(robot_thing_of(in, in->pairs[n].b) - file->things);

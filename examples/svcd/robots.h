@@ -225,7 +225,7 @@ static int has_steps_above(const robot_file *file, const robot_task *task) {
   const size_t number = (size_t)(task - file->tasks);
   int has = 0;
   for (size_t k = 0; k < file->allow_count; k++)
-    has |= file->allows[k].room == task->room && file->allows[k].task <= number;
+    has |= robot_is_allowed(&file->allows[k], number, task->room);
   for (size_t k = 0; k < file->change_count; k++) {
     const size_t at = file->changes[k].task;
     has |= at <= number && file->tasks[at].room == task->room;

@@ -412,6 +412,7 @@ static int check_plans(const char *path, char *text, request *asked) {
   list lines = {NULL, 0, 0};
   const char *scene = NULL;
   const char *barred = NULL;
+  const char *always_barred = NULL;
   size_t own_pairs = 0, own_distances = 0;
   int has_tasks = 0;  // 1: a plan or a path stands above
   int all = 1;
@@ -436,7 +437,7 @@ static int check_plans(const char *path, char *text, request *asked) {
       if (!scene) own_pairs = r.pairs.count;
       if (!scene) own_distances = r.distances.count;
       all &= check_scene(&r, &lines, asked);
-      barred = NULL;
+      barred = always_barred;
       scene = words[1];
       has_tasks = 0;
       r.bodies.count = r.own;
@@ -462,8 +463,9 @@ static int check_plans(const char *path, char *text, request *asked) {
       line->barred = barred;
       if (strcmp(word, "plan") == 0 && line->count == 3)
         line->barred = "it has no start of its own";
-    } else if (scene && is_step(words, n)) {
+    } else if (is_step(words, n)) {
       barred = "what may touch, or is attached, is not known to this checker";
+      if (!scene) always_barred = barred;
     } else {
       fail(path, "a line is not one of a planning file, or not where it may stand");
     }
