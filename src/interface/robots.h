@@ -46,12 +46,12 @@ typedef struct nsvcd_part {
   float scale;
 } nsvcd_part;
 
-// Contact that is allowed near a configuration: of what stands on a table with the table, before a
-// robot takes it, or of a gripper's jaws with what they hold. The link sees both parts that carries
-// both. There, no point of either part is farther from where it is in that configuration than the
-// distance, by a bound: each joint's way, times how far from its axis the part can ever be, summed.
-// Joints that carry both, or none, do not count, so what the jaws hold may touch them for good, as
-// long as they do not open.
+// Contact that is allowed near a configuration: a thing may touch the table that it stands on,
+// before a robot takes it, and jaws what they hold. It is allowed while neither part is farther
+// than `distance` from where it is in that configuration, as seen from the last link that carries
+// both. What counts is a bound of that: over the joints that carry the part alone, how far each is
+// from its value there, times how far from its axis the part can ever be, summed. So jaws may touch
+// what they hold for good, as long as they do not open.
 typedef struct nsvcd_allowance {
   // the pair, an index of the scene's
   size_t pair;
