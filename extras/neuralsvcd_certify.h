@@ -1862,7 +1862,7 @@ static double nsvcd__node_deviation(const nsvcd__moving *body, const nsvcd__node
 }
 
 // How much farther apart two nodes are along a direction than they have to be, times its length:
-// the least at all instants and between them. No less than that if it is more than `enough`.
+// the least at all instants and between them. Ends as soon as it is no more than `enough`.
 static double nsvcd__slack_along(const nsvcd__tree_interval *s, const nsvcd__node_pair *pair,
                                  nsvcd__d3 along, double enough) {
   const double length = nsvcd__d3_norm(along);
@@ -2311,17 +2311,15 @@ static double nsvcd__relative_travel(const nsvcd__tree_interval *s,
   return travel;
 }
 
-// Is the interval what keeps two nodes from being separated, rather than their size? best: the best
-// direction half way.
+// Is the interval what keeps two nodes from being separated, rather than their size? sides: (2) of
+// the nodes. best: the best direction half way.
 static int nsvcd__is_too_long(const nsvcd__certifier *c, const nsvcd__node_pair *pair,
-                              const nsvcd__best *best) {
-  const double side_a = nsvcd__node_side(&c->bodies[0], &pair->nodes[0]);
-  const double side_b = nsvcd__node_side(&c->bodies[1], &pair->nodes[1]);
+                              const double *sides, const nsvcd__best *best) {
   const double travel = nsvcd__relative_travel(&c->interval, pair);
   const double apart = best->distance - c->interval.clearance;
-  if (!(apart > 0)) return travel > NSVCD__LONG_TRAVEL * (side_a + side_b);
+  if (!(apart > 0)) return travel > NSVCD__LONG_TRAVEL * (sides[0] + sides[1]);
   // half way they are separated: smaller nodes are needed only where these hardly move
-  if (travel > 2 * NSVCD__LONG_TRAVEL * nsvcd__min(side_a, side_b)) return 1;
+  if (travel > 2 * NSVCD__LONG_TRAVEL * nsvcd__min(sides[0], sides[1])) return 1;
   const double least = -apart * nsvcd__d3_norm(best->along);
   return nsvcd__slack_along(&c->interval, pair, best->along, least) > least;
 }
@@ -2330,16 +2328,17 @@ static int nsvcd__is_too_long(const nsvcd__certifier *c, const nsvcd__node_pair 
 // both halves of the time. Returns 0 where that is too short to halve.
 static int nsvcd__divide_visit(nsvcd__certifier *c, nsvcd__visit *v, const nsvcd__best *best) {
   nsvcd__node *nodes = v->pair.nodes;
-  const int halves = nsvcd__are_leaves(&v->pair) || nsvcd__is_too_long(c, &v->pair, best);
+  const double sides[2] = {nsvcd__node_side(&c->bodies[0], &nodes[0]),
+                           nsvcd__node_side(&c->bodies[1], &nodes[1])};
+  const int halves =
+      nsvcd__are_leaves(&v->pair) || nsvcd__is_too_long(c, &v->pair, sides, best);
   v[1] = *v;
   nsvcd__write_bits(c, halves ? 4 : 0, halves ? 3 : 1);
   if (halves) {
     v[1].t1 = v->t0 = 0.5 * (v->t0 + v->t1);
     return v->t1 - v[1].t0 >= NSVCD__SHORTEST_INTERVAL;
   }
-  const int longer_a =
-      nsvcd__node_side(&c->bodies[0], &nodes[0]) >= nsvcd__node_side(&c->bodies[1], &nodes[1]);
-  const size_t n = nodes[1].count > 1 && (nodes[0].count == 1 || !longer_a);
+  const size_t n = nodes[1].count > 1 && (nodes[0].count == 1 || sides[0] < sides[1]);
   nsvcd__children(&nodes[n], &v[1].pair.nodes[n], &nodes[n]);
   return 1;
 }

@@ -474,7 +474,7 @@ typedef struct nsvcd_range_answer {
   int has_free, has_hit;
   // (F) radians or metres: that configuration. A hit is one as nsvcd_check has it
   double free[NSVCD_MAX_JOINTS], hit[NSVCD_MAX_JOINTS];
-  // number of boxes looked into; and the fraction of all values that is not settled, 0 if it is
+  // number of boxes looked into; and the fraction of all values that is not decided, 0 if it is
   // known that they never do, or always
   size_t boxes;
   double open;
@@ -5058,7 +5058,7 @@ static void nsvcd__prove_hit(nsvcd__ranging *r, const double *box) {
 
 // ---- the search
 
-// Looks into boxes until all are settled; is_free: proves them to be free, else to be hit. Returns
+// Looks into boxes until all are decided; is_free: proves them to be free, else to be hit. Returns
 // 1 if all of them are.
 static int nsvcd__search_boxes(nsvcd__ranging *r, int is_free) {
   nsvcd__span *s = &r->span;

@@ -648,7 +648,7 @@ expect 0 'stuck: the start: forearm and left_side meet, 7.3[0-9] mm deep' build/
 { cat "$dir/arm.txt"; sed -n 's/.*free near by:/plan out shelf/p' "$dir/err" | tr '\n' ' '; echo '-0.493 0.360 0.878 1.903 1.078 -2.038'; } >"$dir/way_out.txt"
 expect 0 '' build/svcd plan "$dir/way_out.txt"
 grep -q '^out	certified' "$dir/out" || fail "the way out: $(cat "$dir/out")"
-# all are settled: those that meet sometimes are asked, and the others proven
+# all are decided: those that meet sometimes are asked, and the others proven
 expect 0 '' build/svcd pairs "$dir/robot.txt"
 grep -q unknown "$dir/out" && fail "svcd pairs leaves open: $(cat "$dir/out")"
 for line in '# always base shoulder: proven' '# never base upper_arm: proven' 'pair base forearm  # sometimes free at .* hit at .*'; do

@@ -265,8 +265,8 @@ static int robot_read_pair(const reader *r, robot_file *file) {
 }
 
 // Are two things, in any order, the ones that a line is about?
-static int robot_is_about(const robot_clearance *line, size_t a, size_t b) {
-  return (line->at[0] == a && line->at[1] == b) || (line->at[0] == b && line->at[1] == a);
+static int robot_is_about(const size_t *at, size_t a, size_t b) {
+  return (at[0] == a && at[1] == b) || (at[0] == b && at[1] == a);
 }
 
 // Is there such a pair: by a `pair` line, or of a body that moves and an obstacle?
@@ -275,7 +275,7 @@ static int robot_are_pair(const robot_file *file, const robot_clearance *line) {
   const size_t high = low == line->at[0] ? line->at[1] : line->at[0];
   if (high >= file->body_count) return low < file->body_count && file->things[low].link > 0;
   for (size_t n = 0; n < file->pair_count; n++)
-    if (robot_is_about(line, file->pairs[n].a, file->pairs[n].b)) return 1;
+    if (robot_is_about(line->at, file->pairs[n].a, file->pairs[n].b)) return 1;
   return 0;
 }
 
@@ -293,7 +293,7 @@ static int robot_read_clearance(const reader *r, robot_file *file) {
     return refuse(r, "neither a pair above, nor a body that moves and an obstacle");
   for (size_t n = 0; n < file->clearance_count; n++)
     if (file->clearances[n].room == line.room &&
-        robot_is_about(&file->clearances[n], line.at[0], line.at[1]))
+        robot_is_about(file->clearances[n].at, line.at[0], line.at[1]))
       return refuse(r, "a second clearance of these");
   const char *last = r->fields[r->field_count - 1];
   if (!robot_number(r, last, &metres)) return 0;

@@ -59,6 +59,14 @@ static const char *robot_name(const robot_in_room *in, size_t part) {
   return robot_thing_of(in, part)->name;
 }
 
+// Is a pair of the scene the one that a line is about?
+static int robot_is_about_pair(const robot_in_room *in, const size_t *at, size_t pair) {
+  const robot_thing *things = in->file->things;
+  const size_t a = (size_t)(robot_thing_of(in, in->pairs[pair].a) - things);
+  const size_t b = (size_t)(robot_thing_of(in, in->pairs[pair].b) - things);
+  return robot_is_about(at, a, b);
+}
+
 static void leave_room(robot_in_room *in) {
   free(in->parts);
   free(in->pairs);
@@ -79,10 +87,7 @@ static void set_clearances(const robot_file *file, size_t room, float asked, rob
       if (line->room != NSVCD_NONE && line->room != room) continue;
       if (!named && !is_named) all = line->metres;
       for (size_t n = 0; n < in->scene.pair_count && named && is_named; n++) {
-        const nsvcd_body_pair *pair = &in->scene.pairs[n];
-        const size_t a = (size_t)(robot_thing_of(in, pair->a) - file->things);
-        const size_t b = (size_t)(robot_thing_of(in, pair->b) - file->things);
-        if (robot_is_about(line, a, b)) in->clearances[n] = line->metres;
+        if (robot_is_about_pair(in, line->at, n)) in->clearances[n] = line->metres;
       }
     }
     for (size_t n = 0; n < in->scene.pair_count && !named; n++)
@@ -153,21 +158,18 @@ static int allow_near(robot_in_room *in, size_t task, const double *start, const
                       size_t row_count) {
   const robot_file *file = in->file;
   size_t count = 0;
+  size_t capacity = 0;
   free(in->allowances);
-  in->allowances = (nsvcd_allowance *)allocate((file->allow_count * (row_count + 1) + 1) *
-                                               sizeof *in->allowances);
+  in->allowances = NULL;
   for (size_t k = 0; k < file->allow_count; k++) {
     const robot_allow *allow = &file->allows[k];
     if (!robot_is_allowed(allow, task, file->tasks[task].room)) continue;
     for (size_t n = 0; n < in->scene.pair_count; n++) {
-      const size_t a = (size_t)(robot_thing_of(in, in->pairs[n].a) - file->things);
-      const size_t b = (size_t)(robot_thing_of(in, in->pairs[n].b) - file->things);
-      if (!(allow->at[0] == a && allow->at[1] == b) && !(allow->at[0] == b && allow->at[1] == a))
-        continue;
+      if (!robot_is_about_pair(in, allow->at, n)) continue;
       for (size_t i = 0; i <= row_count; i++) {
         const double *joints = i ? rows + (i - 1) * file->joint_count : start;
         const nsvcd_allowance allowance = {n, joints, allow->metres};
-        in->allowances[count++] = allowance;
+        *ROBOT_ADD(in->allowances, count, capacity) = allowance;
       }
     }
   }

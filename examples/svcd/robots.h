@@ -501,8 +501,8 @@ static void print_pair(const robot_in_room *in, const nsvcd_body_pair *pair, int
   printf("\n");
 }
 
-// Asks about all pairs with ever more boxes, until all are settled or time is up.
-static int settle_pairs(const robot_in_room *in, const settings *options, size_t count,
+// Asks about all pairs with ever more boxes, until all are decided or time is up.
+static int decide_pairs(const robot_in_room *in, const settings *options, size_t count,
                         const nsvcd_body_pair *asked, nsvcd_range_answer *found) {
   nsvcd_range_options o;
   plan_clock limits = {0, 0};
@@ -556,7 +556,7 @@ static int pairs(settings *options) {
         if (file.things[a].link != file.things[b].link) asked[count++] = pair;
       }
     }
-    good = good && settle_pairs(&in, options, count, asked, found);
+    good = good && decide_pairs(&in, options, count, asked, found);
     for (size_t n = 0; n < count && good; n++) print_pair(&in, &asked[n], options->json, &found[n]);
     free(asked);
     free(found);

@@ -223,7 +223,7 @@ static double nsvcd__node_deviation(const nsvcd__moving *body, const nsvcd__node
 }
 
 // How much farther apart two nodes are along a direction than they have to be, times its length:
-// the least at all instants and between them. No less than that if it is more than `enough`.
+// the least at all instants and between them. Ends as soon as it is no more than `enough`.
 static double nsvcd__slack_along(const nsvcd__tree_interval *s, const nsvcd__node_pair *pair,
                                  nsvcd__d3 along, double enough) {
   const double length = nsvcd__d3_norm(along);

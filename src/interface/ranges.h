@@ -54,7 +54,7 @@ typedef struct nsvcd_range_answer {
   int has_free, has_hit;
   // (F) radians or metres: that configuration. A hit is one as nsvcd_check has it
   double free[NSVCD_MAX_JOINTS], hit[NSVCD_MAX_JOINTS];
-  // number of boxes looked into; and the fraction of all values that is not settled, 0 if it is
+  // number of boxes looked into; and the fraction of all values that is not decided, 0 if it is
   // known that they never do, or always
   size_t boxes;
   double open;

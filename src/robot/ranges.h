@@ -355,7 +355,7 @@ static void nsvcd__prove_hit(nsvcd__ranging *r, const double *box) {
 
 // ---- the search
 
-// Looks into boxes until all are settled; is_free: proves them to be free, else to be hit. Returns
+// Looks into boxes until all are decided; is_free: proves them to be free, else to be hit. Returns
 // 1 if all of them are.
 static int nsvcd__search_boxes(nsvcd__ranging *r, int is_free) {
   nsvcd__span *s = &r->span;
