@@ -48,7 +48,8 @@
 //     ranges          do two parts meet never, always or sometimes?
 //     blends          from one state to another, within limits of speed and acceleration
 //     smooth          a path, timed, then smooth
-//     route           two trees of proven edges, shortcuts
+//     trees           two trees of edges, until they meet
+//     route           a path, shortened, as a motion that is proven
 //
 // GLOSSARY
 //   part, link    a body of a scene; what a joint carries
@@ -669,7 +670,8 @@ typedef struct nsvcd_route_options {
   // The most motions that are looked at (nsvcd_look) before edges are proven one by one; default
   // 200,000. NSVCD_NONE: no looks. If all parts that move have balls, trees, shortcuts and
   // smoothing go by looks, and what they find is proven as a whole, as ever. Where that fails, the
-  // pair is given more room, and the search begins anew
+  // path's edges are proven one by one; what hangs on one that is not free is cut off, and the
+  // search goes on
   size_t looks;
   // tries to shorten the path, up to NSVCD_MAX_NODES, default 20; and tries to smooth the motion,
   // default 200. NSVCD_NONE: no tries
@@ -721,7 +723,8 @@ NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
 //              VALUE (a configuration not finite or beyond NSVCD_MAX_COORDINATE), CLEARANCE,
 //              WORKSPACE; POSE, SCALE, as nsvcd_check
 //   source     RRT-Connect (Kuffner and LaValle 2000); bounded-acceleration shortcuts (Hauser and
-//              Ng-Thow-Hing 2010). Difference: edges and shortcuts are proven, not sampled
+//              Ng-Thow-Hing 2010); paths of edges that are proven last (Bohlin and Kavraki 2000).
+//              Difference: edges and shortcuts are proven, not sampled
 NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_problem *problem,
                                   const nsvcd_route_options *options, void *memory,
                                   size_t size, nsvcd_route_answer *answer);
@@ -2938,8 +2941,8 @@ typedef struct nsvcd__looker {
   nsvcd_places *links;
   // (B)
   nsvcd__look_part *parts;
-  // (P): metres, as nsvcd_look_options has it; what failed proofs have added to it
-  float *margins, *added;
+  // (P): metres, as nsvcd_look_options has it
+  float *margins;
   // of a part that rests
   nsvcd_places resting;
   // the pair that met last; scene->pair_count: none yet
@@ -3092,9 +3095,7 @@ static void nsvcd__looker_take(const nsvcd_scene *scene, char *base, uint64_t *u
   k->links = NSVCD__TAKE_ROWS(nsvcd_places, scene->joint_count + 1, base, used);
   k->parts = NSVCD__TAKE_ROWS(nsvcd__look_part, scene->part_count, base, used);
   k->margins = NSVCD__TAKE_ROWS(float, pairs, base, used);
-  k->added = NSVCD__TAKE_ROWS(float, pairs, base, used);
   if (base) memset(k->parts, 0, scene->part_count * sizeof *k->parts);
-  if (base) memset(k->added, 0, pairs * sizeof *k->added);
   for (size_t n = 0; n < scene->part_count; n++) {
     if (!scene->parts[n].link) continue;
     nsvcd_places *places = NSVCD__TAKE_ROWS(nsvcd_places, 1, base, used);
@@ -3266,7 +3267,7 @@ static void nsvcd__set_margins(nsvcd__looker *k, float clearance, float fraction
     const float a = k->parts[scene->pairs[n].a].error;
     const float b = k->parts[scene->pairs[n].b].error;
     const float kept = clearance + (scene->clearances ? scene->clearances[n] : 0);
-    k->margins[n] = kept + k->added[n] - (a > 0 && b > 0 ? 1 : fraction) * (a + b);
+    k->margins[n] = kept - (a > 0 && b > 0 ? 1 : fraction) * (a + b);
   }
 }
 
@@ -3514,12 +3515,17 @@ typedef struct nsvcd__cell {
   uint32_t first, count;
 } nsvcd__cell;
 
+// What is known of the edge to a node from its parent.
+enum { NSVCD__EDGE_SEEMS_FREE = 0, NSVCD__EDGE_PROVEN, NSVCD__EDGE_CUT };
+
 typedef struct nsvcd__rrt {
   size_t joints, count, cell_count;
   // (nodes, F)
   double *points;
   // (nodes): of a root, itself
   uint32_t *parents;
+  // (nodes): NSVCD__EDGE_*; a node that is cut off is not in the tree any more
+  uint8_t *edges;
   // (nodes): in a leaf
   uint32_t *next;
   // (2 nodes)
@@ -3575,6 +3581,7 @@ static size_t nsvcd__tree_add(nsvcd__rrt *t, const double *at, size_t parent) {
   size_t index = 0;
   memcpy(nsvcd__node_at(t, node), at, t->joints * sizeof *at);
   t->parents[node] = (uint32_t)parent;
+  t->edges[node] = NSVCD__EDGE_SEEMS_FREE;
   if (t->cell_count == 0) t->cells[t->cell_count++] = nsvcd__empty_leaf;
   while (t->cells[index].joint < NSVCD_MAX_JOINTS)
     index = t->cells[index].first + (at[t->cells[index].joint] > t->cells[index].at);
@@ -3582,6 +3589,13 @@ static size_t nsvcd__tree_add(nsvcd__rrt *t, const double *at, size_t parent) {
   t->cells[index].first = (uint32_t)node;
   if (++t->cells[index].count > NSVCD__LEAF) nsvcd__cut_leaf(t, index);
   return node;
+}
+
+// Cuts off a node, and all that hangs on it. A parent comes before its children.
+static void nsvcd__tree_cut(nsvcd__rrt *t, size_t node) {
+  t->edges[node] = NSVCD__EDGE_CUT;
+  for (size_t n = node + 1; n < t->count; n++)
+    if (t->edges[t->parents[n]] == NSVCD__EDGE_CUT) t->edges[n] = NSVCD__EDGE_CUT;
 }
 
 // Looks in a cell for a node nearer than *best, a squared distance. off: from the point to the
@@ -3594,7 +3608,7 @@ static void nsvcd__nearest_in(const nsvcd__rrt *t, size_t index, const double *a
     uint32_t node = cell->first;
     for (uint32_t n = 0; n < cell->count; n++, node = t->next[node]) {
       const double distance2 = nsvcd__distance2(nsvcd__node_at(t, node), at, t->joints);
-      if (!(distance2 < *best)) continue;
+      if (!(distance2 < *best) || t->edges[node] == NSVCD__EDGE_CUT) continue;
       *best = distance2;
       *nearest = node;
     }
@@ -5419,8 +5433,8 @@ typedef struct nsvcd__router {
   // an error, which stops the search
   nsvcd_result result;
   int is_stopped;
-  // turns since each tree has grown
-  size_t idle[2];
+  // turns that the trees have had; since each has grown
+  size_t turn, idle[2];
   // from the start, from the goals
   nsvcd__rrt trees[2];
   // (F): the range of their roots
@@ -5430,6 +5444,8 @@ typedef struct nsvcd__router {
   // (G): of each root of trees[1], its goal; how many roots that has
   size_t *goals;
   size_t root_count;
+  // the nodes where the trees have met
+  size_t met[2];
   // (nodes of both trees + shortcuts, F): corners
   double *path;
   size_t corners;
@@ -5614,6 +5630,186 @@ static void nsvcd__smooth(nsvcd__router *r) {
   }
 }
 
+// ------------------------------------------------------------------------------------- robot/trees
+// In: a router whose trees have their roots. Out: a path from the start to a goal, through both.
+//
+// The smaller tree grows, and the other towards it. By looks, edges only seem to be free: those of
+// a path can be proven afterwards. What hangs on one that is not free is cut off; the rest stays.
+// Source: RRT-Connect (Kuffner and LaValle 2000), with edges that are proven, not sampled; of paths
+// by looks, Bohlin and Kavraki (2000).
+
+// turns after which a tree that has not grown tries along single joints
+#define NSVCD__IDLE 100
+// radians or metres: seven configurations in eight are drawn no farther than this from the range of
+// the start and the goals
+#define NSVCD__BESIDE 3.2
+
+// A value of a joint in its limits, near the start and the goals or anywhere.
+static double nsvcd__draw_joint(nsvcd__router *r, size_t j, int is_wide) {
+  const nsvcd_joint *joint = &r->scene->joints[j];
+  double low = r->low[j] - NSVCD__BESIDE;
+  double high = r->high[j] + NSVCD__BESIDE;
+  if (joint->kind != NSVCD_JOINT_CONTINUOUS) {
+    low = is_wide ? joint->low : nsvcd__max(low, joint->low);
+    high = is_wide ? joint->high : nsvcd__min(high, joint->high);
+  }
+  return low + (high - low) * nsvcd__random(&r->random);
+}
+
+// A configuration towards which a tree is to grow: any; where it has not grown for long, every
+// other time, one of its own nodes with one joint moved. Out of a hole the only free edges are
+// often those along one joint.
+static void nsvcd__draw(nsvcd__router *r, size_t side, double *out) {
+  const size_t joints = r->joints;
+  const nsvcd__rrt *t = &r->trees[side];
+  if (r->idle[side] >= NSVCD__IDLE && r->turn / 2 % 2) {
+    const size_t node = (size_t)(nsvcd__random(&r->random) * (double)t->count);
+    const size_t joint =
+        r->moving[(size_t)(nsvcd__random(&r->random) * (double)r->moving_count)];
+    memcpy(out, nsvcd__node_at(t, node), joints * sizeof *out);
+    out[joint] = nsvcd__draw_joint(r, joint, 1);
+    return;
+  }
+  const int is_wide = nsvcd__random(&r->random) < 0.125;
+  // what is held stays where all roots have it
+  memcpy(out, r->low, joints * sizeof *out);
+  for (size_t k = 0; k < r->moving_count; k++)
+    out[r->moving[k]] = nsvcd__draw_joint(r, r->moving[k], is_wide);
+}
+
+// Are there as many nodes, or tries, or looks, as are allowed?
+static int nsvcd__is_at_limit(const nsvcd__router *r) {
+  return r->trees[0].count + r->trees[1].count >= r->options.nodes ||
+         r->answer.checks >= r->options.tries ||
+         (r->is_looking && r->looker.count >= r->looks);
+}
+
+// Grows a tree from its node nearest to a configuration: by one edge, or, if `is_greedy`, edge by
+// edge. *node: the last new node, or the nearest one. Returns 1 if that is the configuration.
+static int nsvcd__grow(nsvcd__router *r, nsvcd__rrt *t, const double *to, int is_greedy,
+                       size_t *node) {
+  *node = nsvcd__tree_nearest(t, to);
+  for (;;) {
+    double next[NSVCD_MAX_JOINTS];
+    const double *from = nsvcd__node_at(t, *node);
+    const double length = nsvcd__edge_length(r, from, to);
+    const int ends = length <= r->options.edge;
+    if (!(length > 0)) return 1;
+    for (size_t j = 0; j < r->joints; j++)
+      next[j] = ends ? to[j] : from[j] + r->options.edge / length * (to[j] - from[j]);
+    if (!nsvcd__ask_edge(r, from, next) || nsvcd__is_at_limit(r)) return 0;
+    *node = nsvcd__tree_add(t, next, *node);
+    if (ends || !is_greedy) return ends;
+  }
+}
+
+// Writes the path through the two nodes where the trees have met, the same configuration.
+static void nsvcd__take_path(nsvcd__router *r) {
+  const size_t bytes = r->joints * sizeof(double);
+  const size_t from_start = r->met[0];
+  const size_t from_goal = r->met[1];
+  const nsvcd__rrt *start = &r->trees[0];
+  const nsvcd__rrt *goal = &r->trees[1];
+  size_t count = 1;
+  for (size_t n = from_start; start->parents[n] != n; n = start->parents[n]) count++;
+  r->corners = count;
+  for (size_t n = from_start; count-- > 0; n = start->parents[n])
+    memcpy(nsvcd__corner_at(r, count), nsvcd__node_at(start, n), bytes);
+  size_t n = from_goal;
+  while (goal->parents[n] != n) {
+    n = goal->parents[n];
+    memcpy(nsvcd__corner_at(r, r->corners++), nsvcd__node_at(goal, n), bytes);
+  }
+  r->answer.goal = r->goals[n];
+}
+
+// Tries an edge from a node of the first tree to one of the second. Returns 1 if it is free: then
+// the path is found.
+static int nsvcd__join(nsvcd__router *r, size_t from_start, size_t from_goal) {
+  const double *to = nsvcd__node_at(&r->trees[1], from_goal);
+  if (!nsvcd__ask_edge(r, nsvcd__node_at(&r->trees[0], from_start), to)) return 0;
+  r->met[0] = nsvcd__tree_add(&r->trees[0], to, from_start);
+  r->met[1] = from_goal;
+  return 1;
+}
+
+// The trees take what is free of the caller's guess, from both ends. Returns 1 if that is a path.
+static int nsvcd__take_guess(nsvcd__router *r) {
+  const nsvcd_route_problem *p = &r->problem;
+  size_t first = 0;
+  size_t last = p->guess_count;
+  size_t nodes[2] = {0, 0};
+  // which goal it leads to
+  if (last > 0)
+    nodes[1] = nsvcd__tree_nearest(&r->trees[1], p->guess + (last - 1) * r->joints);
+  for (int side = 0; side < 2; side++) {
+    nsvcd__rrt *t = &r->trees[side];
+    while (first < last) {
+      const double *to = p->guess + (side ? last - 1 : first) * r->joints;
+      if (!nsvcd__ask_edge(r, nsvcd__node_at(t, nodes[side]), to)) break;
+      nodes[side] = nsvcd__tree_add(t, to, nodes[side]);
+      first += side == 0;
+      last -= side == 1;
+    }
+  }
+  return first == last && nsvcd__join(r, nodes[0], nodes[1]);
+}
+
+// Grows the trees until they meet, after the guess and the straight lines. Returns 0 at a limit.
+static int nsvcd__seek(nsvcd__router *r) {
+  if (r->turn == 0) {
+    r->turn = 2;
+    if (nsvcd__take_guess(r)) return 1;
+    // straight lines to the goals
+    const size_t roots = r->trees[1].count;
+    for (size_t g = 0; g < roots && g < r->problem.goal_count && !r->is_stopped; g++)
+      if (nsvcd__join(r, 0, g)) return 1;
+  }
+  while (!r->is_stopped && r->moving_count > 0) {
+    const size_t side = r->trees[1].count < r->trees[0].count;
+    r->turn++;
+    nsvcd__rrt *grown = &r->trees[side];
+    double drawn[NSVCD_MAX_JOINTS];
+    nsvcd__draw(r, side, drawn);
+    const size_t before = grown->count;
+    (void)nsvcd__grow(r, grown, drawn, 0, &r->met[side]);
+    if (nsvcd__is_at_limit(r)) return 0;
+    r->idle[side] = grown->count == before ? r->idle[side] + 1 : 0;
+    if (grown->count == before) continue;
+    const double *to = nsvcd__node_at(grown, r->met[side]);
+    if (nsvcd__grow(r, &r->trees[1 - side], to, 1, &r->met[1 - side])) return 1;
+  }
+  return 0;
+}
+
+// ---- paths by looks
+
+// Proves the edges from a root to a node, until one is not free: that is cut off.
+static int nsvcd__prove_branch(nsvcd__router *r, nsvcd__rrt *t, size_t node) {
+  for (;;) {
+    size_t next = t->count;
+    for (size_t n = node; t->parents[n] != n; n = t->parents[n])
+      if (t->edges[n] != NSVCD__EDGE_PROVEN) next = n;
+    if (next == t->count) return 1;
+    const double *from = nsvcd__node_at(t, t->parents[next]);
+    if (!nsvcd__ask_edge(r, from, nsvcd__node_at(t, next))) {
+      if (!r->is_stopped) nsvcd__tree_cut(t, next);
+      return 0;
+    }
+    t->edges[next] = NSVCD__EDGE_PROVEN;
+  }
+}
+
+// Proves the path where the trees have met; where it is not free, they are apart again.
+static int nsvcd__prove_path(nsvcd__router *r) {
+  const int was = r->is_looking;
+  r->is_looking = 0;
+  const int to_start = nsvcd__prove_branch(r, &r->trees[0], r->met[0]);
+  const int to_goal = nsvcd__prove_branch(r, &r->trees[1], r->met[1]);
+  r->is_looking = was;
+  return to_start && to_goal;
+}
+
 // ------------------------------------------------------------------------------------- robot/route
 // In: a start and goals. Out: a motion that is proven free, in the caller's memory.
 
@@ -5623,18 +5819,11 @@ static void nsvcd__smooth(nsvcd__router *r) {
 #define NSVCD__SHORTCUTS 20
 #define NSVCD__SMOOTHINGS 200
 #define NSVCD__MOST_LOOKS 200000
-// of a search by looks: looks of the first, twice as many after each that finds nothing; searches;
-// metres that a pair is given more room where its proof fails
+// of a search by looks: looks of the first, twice as many after each that finds nothing; searches
 #define NSVCD__FIRST_LOOKS 4000
 #define NSVCD__LOOK_SEARCHES 16
-#define NSVCD__LOOK_ROOM 2e-3f
 // of the balls' errors, which margins are less by after each search that finds nothing
 #define NSVCD__LOOK_EASE 0.34f
-// turns after which a tree that has not grown tries along single joints
-#define NSVCD__IDLE 100
-// radians or metres: seven configurations in eight are drawn no farther than this from the range of
-// the start and the goals
-#define NSVCD__BESIDE 3.2
 // radians or metres: corners of a path that are no farther apart are one
 #define NSVCD__SAME_CORNER 1e-9
 
@@ -5701,6 +5890,7 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
     t->points = NSVCD__TAKE_ROWS(double, (nodes * joints), base, &used);
     t->parents = NSVCD__TAKE_ROWS(uint32_t, nodes, base, &used);
     t->next = NSVCD__TAKE_ROWS(uint32_t, nodes, base, &used);
+    t->edges = NSVCD__TAKE_ROWS(uint8_t, nodes, base, &used);
     t->cells = NSVCD__TAKE_ROWS(nsvcd__cell, 2 * nodes, base, &used);
   }
   r->goals = NSVCD__TAKE_ROWS(size_t, problem->goal_count, base, &used);
@@ -5721,143 +5911,6 @@ NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
   nsvcd__router *unused;
   if (nsvcd__route_check(checker, problem, options)) return 0;
   return nsvcd__router_layout(checker, problem, options, NULL, &unused);
-}
-
-// ---- trees
-
-// A value of a joint in its limits, near the start and the goals or anywhere.
-static double nsvcd__draw_joint(nsvcd__router *r, size_t j, int is_wide) {
-  const nsvcd_joint *joint = &r->scene->joints[j];
-  double low = r->low[j] - NSVCD__BESIDE;
-  double high = r->high[j] + NSVCD__BESIDE;
-  if (joint->kind != NSVCD_JOINT_CONTINUOUS) {
-    low = is_wide ? joint->low : nsvcd__max(low, joint->low);
-    high = is_wide ? joint->high : nsvcd__min(high, joint->high);
-  }
-  return low + (high - low) * nsvcd__random(&r->random);
-}
-
-// A configuration towards which a tree is to grow: any; where it has not grown for long, every
-// other time, one of its own nodes with one joint moved. Out of a hole the only free edges are
-// often those along one joint.
-static void nsvcd__draw(nsvcd__router *r, size_t turn, double *out) {
-  const size_t joints = r->joints;
-  const nsvcd__rrt *t = &r->trees[turn % 2];
-  if (r->idle[turn % 2] >= NSVCD__IDLE && turn / 2 % 2) {
-    const size_t node = (size_t)(nsvcd__random(&r->random) * (double)t->count);
-    const size_t joint =
-        r->moving[(size_t)(nsvcd__random(&r->random) * (double)r->moving_count)];
-    memcpy(out, nsvcd__node_at(t, node), joints * sizeof *out);
-    out[joint] = nsvcd__draw_joint(r, joint, 1);
-    return;
-  }
-  const int is_wide = nsvcd__random(&r->random) < 0.125;
-  // what is held stays where all roots have it
-  memcpy(out, r->low, joints * sizeof *out);
-  for (size_t k = 0; k < r->moving_count; k++)
-    out[r->moving[k]] = nsvcd__draw_joint(r, r->moving[k], is_wide);
-}
-
-// Are there as many nodes, or tries, or looks, as are allowed?
-static int nsvcd__is_at_limit(const nsvcd__router *r) {
-  const size_t tries = r->is_looking ? r->looker.count : r->answer.checks;
-  return r->trees[0].count + r->trees[1].count >= r->options.nodes ||
-         tries >= (r->is_looking ? r->looks : r->options.tries);
-}
-
-// Grows a tree from its node nearest to a configuration: by one edge, or, if `is_greedy`, edge by
-// edge. *node: the last new node, or the nearest one. Returns 1 if that is the configuration.
-static int nsvcd__grow(nsvcd__router *r, nsvcd__rrt *t, const double *to, int is_greedy,
-                       size_t *node) {
-  *node = nsvcd__tree_nearest(t, to);
-  for (;;) {
-    double next[NSVCD_MAX_JOINTS];
-    const double *from = nsvcd__node_at(t, *node);
-    const double length = nsvcd__edge_length(r, from, to);
-    const int ends = length <= r->options.edge;
-    if (!(length > 0)) return 1;
-    for (size_t j = 0; j < r->joints; j++)
-      next[j] = ends ? to[j] : from[j] + r->options.edge / length * (to[j] - from[j]);
-    if (!nsvcd__ask_edge(r, from, next) || nsvcd__is_at_limit(r)) return 0;
-    *node = nsvcd__tree_add(t, next, *node);
-    if (ends || !is_greedy) return ends;
-  }
-}
-
-// Writes the path through nodes of both trees that are the same configuration.
-static void nsvcd__path_through(nsvcd__router *r, size_t from_start, size_t from_goal) {
-  const size_t bytes = r->joints * sizeof(double);
-  const nsvcd__rrt *start = &r->trees[0];
-  const nsvcd__rrt *goal = &r->trees[1];
-  size_t count = 1;
-  for (size_t n = from_start; start->parents[n] != n; n = start->parents[n]) count++;
-  r->corners = count;
-  for (size_t n = from_start; count-- > 0; n = start->parents[n])
-    memcpy(nsvcd__corner_at(r, count), nsvcd__node_at(start, n), bytes);
-  size_t n = from_goal;
-  while (goal->parents[n] != n) {
-    n = goal->parents[n];
-    memcpy(nsvcd__corner_at(r, r->corners++), nsvcd__node_at(goal, n), bytes);
-  }
-  r->answer.goal = r->goals[n];
-}
-
-// Tries an edge from a node of the first tree to one of the second. Returns 1 if it is free: then
-// the path is found.
-static int nsvcd__join(nsvcd__router *r, size_t from_start, size_t from_goal) {
-  const double *to = nsvcd__node_at(&r->trees[1], from_goal);
-  if (!nsvcd__ask_edge(r, nsvcd__node_at(&r->trees[0], from_start), to)) return 0;
-  const size_t node = nsvcd__tree_add(&r->trees[0], to, from_start);
-  nsvcd__path_through(r, node, from_goal);
-  return 1;
-}
-
-// The trees take what is free of the caller's guess, from both ends. Returns 1 if that is a path.
-static int nsvcd__take_guess(nsvcd__router *r) {
-  const nsvcd_route_problem *p = &r->problem;
-  size_t first = 0;
-  size_t last = p->guess_count;
-  size_t nodes[2] = {0, 0};
-  // which goal it leads to
-  if (last > 0)
-    nodes[1] = nsvcd__tree_nearest(&r->trees[1], p->guess + (last - 1) * r->joints);
-  for (int side = 0; side < 2; side++) {
-    nsvcd__rrt *t = &r->trees[side];
-    while (first < last) {
-      const double *to = p->guess + (side ? last - 1 : first) * r->joints;
-      if (!nsvcd__ask_edge(r, nsvcd__node_at(t, nodes[side]), to)) break;
-      nodes[side] = nsvcd__tree_add(t, to, nodes[side]);
-      first += side == 0;
-      last -= side == 1;
-    }
-  }
-  return first == last && nsvcd__join(r, nodes[0], nodes[1]);
-}
-
-// RRT-Connect (Kuffner and LaValle 2000), after the guess and the straight lines. Difference: an
-// edge is proven, not sampled.
-static void nsvcd__seek(nsvcd__router *r) {
-  if (nsvcd__take_guess(r)) return;
-  // straight lines to the goals
-  const size_t roots = r->trees[1].count;
-  for (size_t g = 0; g < roots && g < r->problem.goal_count && !r->is_stopped; g++) {
-    if (nsvcd__join(r, 0, g)) return;
-  }
-  for (size_t turn = 0; !r->is_stopped && r->moving_count > 0; turn++) {
-    nsvcd__rrt *grown = &r->trees[turn % 2];
-    nsvcd__rrt *other = &r->trees[1 - turn % 2];
-    double drawn[NSVCD_MAX_JOINTS];
-    size_t node, met;
-    nsvcd__draw(r, turn, drawn);
-    const size_t before = grown->count;
-    (void)nsvcd__grow(r, grown, drawn, 0, &node);
-    if (nsvcd__is_at_limit(r)) return;
-    r->idle[turn % 2] = grown->count == before ? r->idle[turn % 2] + 1 : 0;
-    if (grown->count == before) continue;
-    if (!nsvcd__grow(r, other, nsvcd__node_at(grown, node), 1, &met)) continue;
-    nsvcd__path_through(r, turn % 2 ? met : node, turn % 2 ? node : met);
-    return;
-  }
 }
 
 // ---- shortcuts
@@ -6019,14 +6072,30 @@ static void nsvcd__time_path(nsvcd__router *r) {
     answer->stops += (size_t)nsvcd__rests_at(t, r->joints, p);
 }
 
-// Seeks a path and makes a motion of it.
-static void nsvcd__find_motion(nsvcd__router *r) {
-  r->corners = 0;
-  nsvcd__seek(r);
-  if (r->corners == 0) return;
+// Makes a motion of the path where the trees have met.
+static void nsvcd__make_motion(nsvcd__router *r) {
+  nsvcd__take_path(r);
   nsvcd__shorten(r);
   nsvcd__simplify_path(r);
   nsvcd__time_path(r);
+}
+
+// Seeks a path and makes a motion of it. Looks are believed until one is refuted: from then on
+// paths are proven first.
+static void nsvcd__find_motion(nsvcd__router *r) {
+  const int is_looking = r->is_looking;
+  int is_believed = 1;
+  while (nsvcd__seek(r)) {
+    if (!is_believed && !nsvcd__prove_path(r)) continue;
+    nsvcd__make_motion(r);
+    if (!is_looking || r->answer.status == NSVCD_ROUTE_FOUND) return;
+    is_believed = 0;
+    if (!nsvcd__prove_path(r)) continue;
+    r->is_looking = 0;
+    nsvcd__make_motion(r);
+    r->is_looking = is_looking;
+    return;
+  }
 }
 
 // Takes the trees back to their roots.
@@ -6042,19 +6111,19 @@ static void nsvcd__replant(nsvcd__router *r) {
     }
     r->idle[k] = 0;
   }
+  r->turn = 0;
   r->random = r->options.seed;
 }
 
-// Searches by looks until a motion is proven. Where its proof fails, the pair gets more room. Where
-// nothing is found, the next search looks longer, and less strictly.
+// Searches by looks until a motion is proven. Where nothing is found, the next search looks longer,
+// and less strictly.
 static void nsvcd__search_by_looks(nsvcd__router *r) {
   nsvcd__looker *k = &r->looker;
-  size_t fruitless = 0;
   nsvcd__looker_begin(r->checker, k);
   r->is_looking = 1;
   for (size_t n = 0; n < NSVCD__LOOK_SEARCHES && !r->is_stopped; n++) {
-    const double ease = nsvcd__min(1, (double)NSVCD__LOOK_EASE * (double)fruitless);
-    const size_t most = k->count + ((size_t)NSVCD__FIRST_LOOKS << fruitless);
+    const double ease = nsvcd__min(1, (double)NSVCD__LOOK_EASE * (double)n);
+    const size_t most = k->count + ((size_t)NSVCD__FIRST_LOOKS << n);
     nsvcd__replant(r);
     nsvcd__set_margins(k, r->options.clearance, (float)ease);
     for (size_t side = 0; side < 2; side++)
@@ -6064,11 +6133,6 @@ static void nsvcd__search_by_looks(nsvcd__router *r) {
     r->random += n;
     nsvcd__find_motion(r);
     if (r->answer.status == NSVCD_ROUTE_FOUND || k->count >= r->options.looks) break;
-    if (r->corners == 0) {
-      fruitless++;
-    } else if (r->answer.check.pair < r->scene->pair_count) {
-      k->added[r->answer.check.pair] += NSVCD__LOOK_ROOM;
-    }
   }
   r->is_looking = 0;
   r->answer.looks = k->count;

@@ -93,7 +93,8 @@ extern "C" {
 #include "robot/ranges.h"          // do two parts meet never, always or sometimes?
 #include "robot/blends.h"  // from one state to another, within limits of speed and acceleration
 #include "robot/smooth.h"  // a path, timed, then smooth
-#include "robot/route.h"   // two trees of proven edges, shortcuts
+#include "robot/trees.h"   // two trees of edges, until they meet
+#include "robot/route.h"   // a path, shortened, as a motion that is proven
 
 #if defined(__GNUC__) || defined(__clang__)
 #pragma GCC diagnostic pop

@@ -400,6 +400,8 @@ route_looks: pairs without their clearance|return (double)s->options->clearance 
 route_looks: the first pair's clearance|own[pair - scene->pairs]|own[0]
 route_looks: looks that nobody ends|if (o->stop \&\& o->stop(o->user)) r->is_stopped = 1;\n  // between|// between
 route_looks: no search after looks|if (r->root_count > 0 \&\& r->answer.status != NSVCD_ROUTE_FOUND \&\& !r->is_stopped) {|if (0) {
+robot: nodes that are cut off found|\|\| t->edges[node] == NSVCD__EDGE_CUT) continue;|) continue;
+robot: what hangs on a node that is cut off stays|if (t->edges[t->parents[n]] == NSVCD__EDGE_CUT) t->edges[n] = NSVCD__EDGE_CUT;|break;
 route_looks: limits that looks may leave|if (nsvcd__joint_outside(r->scene, motion, p) != NSVCD_NONE) return 0;|
 robot: free until the end of what is not|if (answer->verdict == NSVCD_HIT) continue; const nsvcd_check_answer found|if (answer->verdict == NSVCD_HIT) { answer->free_until = middle; continue; } const nsvcd_check_answer found
 allowances: half of an arm|moved += nsvcd__slides(c, j) ? way : way * reach;|moved += nsvcd__slides(c, j) ? way : way * 0.3 * reach;

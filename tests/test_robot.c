@@ -971,31 +971,54 @@ static void robot_levers_reach(void) {
   CHECK_GE(most, 0.9);
 }
 
-// The nearest node is the nearest one, whatever was added in which order, more than once as well.
+// Is a node, or one that it hangs on, among those that were cut off?
+static int robot_is_cut(const uint32_t *parents, const uint8_t *cut, size_t node) {
+  while (!cut[node] && parents[node] != node) node = parents[node];
+  return cut[node];
+}
+
+// The nearest node is the nearest one, whatever was added in which order, more than once as well, and
+// whatever was cut off.
 static void robot_trees_find_the_nearest(void) {
   enum { NODES = 3000 };
   static double points[NODES][NSVCD_MAX_JOINTS];
   static uint32_t parents[NODES], next[NODES];
+  static uint8_t edges[NODES], cut[NODES];
   static nsvcd__cell cells[2 * NODES];
   shapes_rng rng = {81};
+  size_t gone = 0;
   for (size_t joints = 1; joints <= 7; joints += 3) {
-    nsvcd__rrt tree = {joints, 0, 0, &points[0][0], parents, next, cells};
+    nsvcd__rrt tree = {joints, 0, 0, &points[0][0], parents, edges, next, cells};
+    memset(cut, 0, sizeof cut);
     for (size_t n = 0; n < NODES; n++) {
       double at[NSVCD_MAX_JOINTS];
       for (size_t j = 0; j < joints; j++) {
         at[j] = n % 7 ? shapes_uniform(&rng, -3, 3) : floor(shapes_uniform(&rng, -2, 2));
         if (n % 11 == 0) at[j] = 0.5;
       }
+      if (n % 100 == 99) {
+        const size_t node = 1 + shapes_pick(&rng, (int)n - 1);
+        cut[node] = 1;
+        nsvcd__tree_cut(&tree, node);
+      }
       if (n > 0) {
         double best = HUGE_VAL;
-        for (size_t k = 0; k < n; k++)
-          best = fmin(best, nsvcd__distance2(tree.points + k * joints, at, joints));
+        for (size_t k = 0; k < n; k++) {
+          const double distance2 = nsvcd__distance2(tree.points + k * joints, at, joints);
+          const int is_cut = robot_is_cut(parents, cut, k);
+          gone += n == NODES - 1 && is_cut;
+          best = is_cut ? best : fmin(best, distance2);
+        }
         const size_t nearest = nsvcd__tree_nearest(&tree, at);
+        CHECK(!robot_is_cut(parents, cut, nearest));
         CHECK_EQ(nsvcd__distance2(tree.points + nearest * joints, at, joints), best);
       }
-      CHECK_EQ(nsvcd__tree_add(&tree, at, n), n);
+      CHECK_EQ(nsvcd__tree_add(&tree, at, n > 0 ? nsvcd__tree_nearest(&tree, at) : 0), n);
     }
   }
+  printf("  %zu nodes cut off\n", gone);
+  CHECK_GE(gone, 100);
+  CHECK_LE(gone, 8000);
 }
 
 // A ramp ends where it is to, within the limits, is as quick as its slowest joint can be, and goes

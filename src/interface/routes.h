@@ -69,7 +69,8 @@ typedef struct nsvcd_route_options {
   // The most motions that are looked at (nsvcd_look) before edges are proven one by one; default
   // 200,000. NSVCD_NONE: no looks. If all parts that move have balls, trees, shortcuts and
   // smoothing go by looks, and what they find is proven as a whole, as ever. Where that fails, the
-  // pair is given more room, and the search begins anew
+  // path's edges are proven one by one; what hangs on one that is not free is cut off, and the
+  // search goes on
   size_t looks;
   // tries to shorten the path, up to NSVCD_MAX_NODES, default 20; and tries to smooth the motion,
   // default 200. NSVCD_NONE: no tries
@@ -121,7 +122,8 @@ NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
 //              VALUE (a configuration not finite or beyond NSVCD_MAX_COORDINATE), CLEARANCE,
 //              WORKSPACE; POSE, SCALE, as nsvcd_check
 //   source     RRT-Connect (Kuffner and LaValle 2000); bounded-acceleration shortcuts (Hauser and
-//              Ng-Thow-Hing 2010). Difference: edges and shortcuts are proven, not sampled
+//              Ng-Thow-Hing 2010); paths of edges that are proven last (Bohlin and Kavraki 2000).
+//              Difference: edges and shortcuts are proven, not sampled
 NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_problem *problem,
                                   const nsvcd_route_options *options, void *memory,
                                   size_t size, nsvcd_route_answer *answer);

@@ -43,8 +43,8 @@ typedef struct nsvcd__looker {
   nsvcd_places *links;
   // (B)
   nsvcd__look_part *parts;
-  // (P): metres, as nsvcd_look_options has it; what failed proofs have added to it
-  float *margins, *added;
+  // (P): metres, as nsvcd_look_options has it
+  float *margins;
   // of a part that rests
   nsvcd_places resting;
   // the pair that met last; scene->pair_count: none yet
@@ -197,9 +197,7 @@ static void nsvcd__looker_take(const nsvcd_scene *scene, char *base, uint64_t *u
   k->links = NSVCD__TAKE_ROWS(nsvcd_places, scene->joint_count + 1, base, used);
   k->parts = NSVCD__TAKE_ROWS(nsvcd__look_part, scene->part_count, base, used);
   k->margins = NSVCD__TAKE_ROWS(float, pairs, base, used);
-  k->added = NSVCD__TAKE_ROWS(float, pairs, base, used);
   if (base) memset(k->parts, 0, scene->part_count * sizeof *k->parts);
-  if (base) memset(k->added, 0, pairs * sizeof *k->added);
   for (size_t n = 0; n < scene->part_count; n++) {
     if (!scene->parts[n].link) continue;
     nsvcd_places *places = NSVCD__TAKE_ROWS(nsvcd_places, 1, base, used);
@@ -371,7 +369,7 @@ static void nsvcd__set_margins(nsvcd__looker *k, float clearance, float fraction
     const float a = k->parts[scene->pairs[n].a].error;
     const float b = k->parts[scene->pairs[n].b].error;
     const float kept = clearance + (scene->clearances ? scene->clearances[n] : 0);
-    k->margins[n] = kept + k->added[n] - (a > 0 && b > 0 ? 1 : fraction) * (a + b);
+    k->margins[n] = kept - (a > 0 && b > 0 ? 1 : fraction) * (a + b);
   }
 }
 

@@ -1,6 +1,7 @@
 // In: a start and goals. Out: a motion that is proven free, in the caller's memory.
 #pragma once
 #include "smooth.h"
+#include "trees.h"
 
 // defaults; tries: for each node
 #define NSVCD__NODES 20000
@@ -8,18 +9,11 @@
 #define NSVCD__SHORTCUTS 20
 #define NSVCD__SMOOTHINGS 200
 #define NSVCD__MOST_LOOKS 200000
-// of a search by looks: looks of the first, twice as many after each that finds nothing; searches;
-// metres that a pair is given more room where its proof fails
+// of a search by looks: looks of the first, twice as many after each that finds nothing; searches
 #define NSVCD__FIRST_LOOKS 4000
 #define NSVCD__LOOK_SEARCHES 16
-#define NSVCD__LOOK_ROOM 2e-3f
 // of the balls' errors, which margins are less by after each search that finds nothing
 #define NSVCD__LOOK_EASE 0.34f
-// turns after which a tree that has not grown tries along single joints
-#define NSVCD__IDLE 100
-// radians or metres: seven configurations in eight are drawn no farther than this from the range of
-// the start and the goals
-#define NSVCD__BESIDE 3.2
 // radians or metres: corners of a path that are no farther apart are one
 #define NSVCD__SAME_CORNER 1e-9
 
@@ -86,6 +80,7 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
     t->points = NSVCD__TAKE_ROWS(double, (nodes * joints), base, &used);
     t->parents = NSVCD__TAKE_ROWS(uint32_t, nodes, base, &used);
     t->next = NSVCD__TAKE_ROWS(uint32_t, nodes, base, &used);
+    t->edges = NSVCD__TAKE_ROWS(uint8_t, nodes, base, &used);
     t->cells = NSVCD__TAKE_ROWS(nsvcd__cell, 2 * nodes, base, &used);
   }
   r->goals = NSVCD__TAKE_ROWS(size_t, problem->goal_count, base, &used);
@@ -106,143 +101,6 @@ NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
   nsvcd__router *unused;
   if (nsvcd__route_check(checker, problem, options)) return 0;
   return nsvcd__router_layout(checker, problem, options, NULL, &unused);
-}
-
-// ---- trees
-
-// A value of a joint in its limits, near the start and the goals or anywhere.
-static double nsvcd__draw_joint(nsvcd__router *r, size_t j, int is_wide) {
-  const nsvcd_joint *joint = &r->scene->joints[j];
-  double low = r->low[j] - NSVCD__BESIDE;
-  double high = r->high[j] + NSVCD__BESIDE;
-  if (joint->kind != NSVCD_JOINT_CONTINUOUS) {
-    low = is_wide ? joint->low : nsvcd__max(low, joint->low);
-    high = is_wide ? joint->high : nsvcd__min(high, joint->high);
-  }
-  return low + (high - low) * nsvcd__random(&r->random);
-}
-
-// A configuration towards which a tree is to grow: any; where it has not grown for long, every
-// other time, one of its own nodes with one joint moved. Out of a hole the only free edges are
-// often those along one joint.
-static void nsvcd__draw(nsvcd__router *r, size_t turn, double *out) {
-  const size_t joints = r->joints;
-  const nsvcd__rrt *t = &r->trees[turn % 2];
-  if (r->idle[turn % 2] >= NSVCD__IDLE && turn / 2 % 2) {
-    const size_t node = (size_t)(nsvcd__random(&r->random) * (double)t->count);
-    const size_t joint =
-        r->moving[(size_t)(nsvcd__random(&r->random) * (double)r->moving_count)];
-    memcpy(out, nsvcd__node_at(t, node), joints * sizeof *out);
-    out[joint] = nsvcd__draw_joint(r, joint, 1);
-    return;
-  }
-  const int is_wide = nsvcd__random(&r->random) < 0.125;
-  // what is held stays where all roots have it
-  memcpy(out, r->low, joints * sizeof *out);
-  for (size_t k = 0; k < r->moving_count; k++)
-    out[r->moving[k]] = nsvcd__draw_joint(r, r->moving[k], is_wide);
-}
-
-// Are there as many nodes, or tries, or looks, as are allowed?
-static int nsvcd__is_at_limit(const nsvcd__router *r) {
-  const size_t tries = r->is_looking ? r->looker.count : r->answer.checks;
-  return r->trees[0].count + r->trees[1].count >= r->options.nodes ||
-         tries >= (r->is_looking ? r->looks : r->options.tries);
-}
-
-// Grows a tree from its node nearest to a configuration: by one edge, or, if `is_greedy`, edge by
-// edge. *node: the last new node, or the nearest one. Returns 1 if that is the configuration.
-static int nsvcd__grow(nsvcd__router *r, nsvcd__rrt *t, const double *to, int is_greedy,
-                       size_t *node) {
-  *node = nsvcd__tree_nearest(t, to);
-  for (;;) {
-    double next[NSVCD_MAX_JOINTS];
-    const double *from = nsvcd__node_at(t, *node);
-    const double length = nsvcd__edge_length(r, from, to);
-    const int ends = length <= r->options.edge;
-    if (!(length > 0)) return 1;
-    for (size_t j = 0; j < r->joints; j++)
-      next[j] = ends ? to[j] : from[j] + r->options.edge / length * (to[j] - from[j]);
-    if (!nsvcd__ask_edge(r, from, next) || nsvcd__is_at_limit(r)) return 0;
-    *node = nsvcd__tree_add(t, next, *node);
-    if (ends || !is_greedy) return ends;
-  }
-}
-
-// Writes the path through nodes of both trees that are the same configuration.
-static void nsvcd__path_through(nsvcd__router *r, size_t from_start, size_t from_goal) {
-  const size_t bytes = r->joints * sizeof(double);
-  const nsvcd__rrt *start = &r->trees[0];
-  const nsvcd__rrt *goal = &r->trees[1];
-  size_t count = 1;
-  for (size_t n = from_start; start->parents[n] != n; n = start->parents[n]) count++;
-  r->corners = count;
-  for (size_t n = from_start; count-- > 0; n = start->parents[n])
-    memcpy(nsvcd__corner_at(r, count), nsvcd__node_at(start, n), bytes);
-  size_t n = from_goal;
-  while (goal->parents[n] != n) {
-    n = goal->parents[n];
-    memcpy(nsvcd__corner_at(r, r->corners++), nsvcd__node_at(goal, n), bytes);
-  }
-  r->answer.goal = r->goals[n];
-}
-
-// Tries an edge from a node of the first tree to one of the second. Returns 1 if it is free: then
-// the path is found.
-static int nsvcd__join(nsvcd__router *r, size_t from_start, size_t from_goal) {
-  const double *to = nsvcd__node_at(&r->trees[1], from_goal);
-  if (!nsvcd__ask_edge(r, nsvcd__node_at(&r->trees[0], from_start), to)) return 0;
-  const size_t node = nsvcd__tree_add(&r->trees[0], to, from_start);
-  nsvcd__path_through(r, node, from_goal);
-  return 1;
-}
-
-// The trees take what is free of the caller's guess, from both ends. Returns 1 if that is a path.
-static int nsvcd__take_guess(nsvcd__router *r) {
-  const nsvcd_route_problem *p = &r->problem;
-  size_t first = 0;
-  size_t last = p->guess_count;
-  size_t nodes[2] = {0, 0};
-  // which goal it leads to
-  if (last > 0)
-    nodes[1] = nsvcd__tree_nearest(&r->trees[1], p->guess + (last - 1) * r->joints);
-  for (int side = 0; side < 2; side++) {
-    nsvcd__rrt *t = &r->trees[side];
-    while (first < last) {
-      const double *to = p->guess + (side ? last - 1 : first) * r->joints;
-      if (!nsvcd__ask_edge(r, nsvcd__node_at(t, nodes[side]), to)) break;
-      nodes[side] = nsvcd__tree_add(t, to, nodes[side]);
-      first += side == 0;
-      last -= side == 1;
-    }
-  }
-  return first == last && nsvcd__join(r, nodes[0], nodes[1]);
-}
-
-// RRT-Connect (Kuffner and LaValle 2000), after the guess and the straight lines. Difference: an
-// edge is proven, not sampled.
-static void nsvcd__seek(nsvcd__router *r) {
-  if (nsvcd__take_guess(r)) return;
-  // straight lines to the goals
-  const size_t roots = r->trees[1].count;
-  for (size_t g = 0; g < roots && g < r->problem.goal_count && !r->is_stopped; g++) {
-    if (nsvcd__join(r, 0, g)) return;
-  }
-  for (size_t turn = 0; !r->is_stopped && r->moving_count > 0; turn++) {
-    nsvcd__rrt *grown = &r->trees[turn % 2];
-    nsvcd__rrt *other = &r->trees[1 - turn % 2];
-    double drawn[NSVCD_MAX_JOINTS];
-    size_t node, met;
-    nsvcd__draw(r, turn, drawn);
-    const size_t before = grown->count;
-    (void)nsvcd__grow(r, grown, drawn, 0, &node);
-    if (nsvcd__is_at_limit(r)) return;
-    r->idle[turn % 2] = grown->count == before ? r->idle[turn % 2] + 1 : 0;
-    if (grown->count == before) continue;
-    if (!nsvcd__grow(r, other, nsvcd__node_at(grown, node), 1, &met)) continue;
-    nsvcd__path_through(r, turn % 2 ? met : node, turn % 2 ? node : met);
-    return;
-  }
 }
 
 // ---- shortcuts
@@ -404,14 +262,30 @@ static void nsvcd__time_path(nsvcd__router *r) {
     answer->stops += (size_t)nsvcd__rests_at(t, r->joints, p);
 }
 
-// Seeks a path and makes a motion of it.
-static void nsvcd__find_motion(nsvcd__router *r) {
-  r->corners = 0;
-  nsvcd__seek(r);
-  if (r->corners == 0) return;
+// Makes a motion of the path where the trees have met.
+static void nsvcd__make_motion(nsvcd__router *r) {
+  nsvcd__take_path(r);
   nsvcd__shorten(r);
   nsvcd__simplify_path(r);
   nsvcd__time_path(r);
+}
+
+// Seeks a path and makes a motion of it. Looks are believed until one is refuted: from then on
+// paths are proven first.
+static void nsvcd__find_motion(nsvcd__router *r) {
+  const int is_looking = r->is_looking;
+  int is_believed = 1;
+  while (nsvcd__seek(r)) {
+    if (!is_believed && !nsvcd__prove_path(r)) continue;
+    nsvcd__make_motion(r);
+    if (!is_looking || r->answer.status == NSVCD_ROUTE_FOUND) return;
+    is_believed = 0;
+    if (!nsvcd__prove_path(r)) continue;
+    r->is_looking = 0;
+    nsvcd__make_motion(r);
+    r->is_looking = is_looking;
+    return;
+  }
 }
 
 // Takes the trees back to their roots.
@@ -427,19 +301,19 @@ static void nsvcd__replant(nsvcd__router *r) {
     }
     r->idle[k] = 0;
   }
+  r->turn = 0;
   r->random = r->options.seed;
 }
 
-// Searches by looks until a motion is proven. Where its proof fails, the pair gets more room. Where
-// nothing is found, the next search looks longer, and less strictly.
+// Searches by looks until a motion is proven. Where nothing is found, the next search looks longer,
+// and less strictly.
 static void nsvcd__search_by_looks(nsvcd__router *r) {
   nsvcd__looker *k = &r->looker;
-  size_t fruitless = 0;
   nsvcd__looker_begin(r->checker, k);
   r->is_looking = 1;
   for (size_t n = 0; n < NSVCD__LOOK_SEARCHES && !r->is_stopped; n++) {
-    const double ease = nsvcd__min(1, (double)NSVCD__LOOK_EASE * (double)fruitless);
-    const size_t most = k->count + ((size_t)NSVCD__FIRST_LOOKS << fruitless);
+    const double ease = nsvcd__min(1, (double)NSVCD__LOOK_EASE * (double)n);
+    const size_t most = k->count + ((size_t)NSVCD__FIRST_LOOKS << n);
     nsvcd__replant(r);
     nsvcd__set_margins(k, r->options.clearance, (float)ease);
     for (size_t side = 0; side < 2; side++)
@@ -449,11 +323,6 @@ static void nsvcd__search_by_looks(nsvcd__router *r) {
     r->random += n;
     nsvcd__find_motion(r);
     if (r->answer.status == NSVCD_ROUTE_FOUND || k->count >= r->options.looks) break;
-    if (r->corners == 0) {
-      fruitless++;
-    } else if (r->answer.check.pair < r->scene->pair_count) {
-      k->added[r->answer.check.pair] += NSVCD__LOOK_ROOM;
-    }
   }
   r->is_looking = 0;
   r->answer.looks = k->count;

@@ -42,8 +42,8 @@ typedef struct nsvcd__router {
   // an error, which stops the search
   nsvcd_result result;
   int is_stopped;
-  // turns since each tree has grown
-  size_t idle[2];
+  // turns that the trees have had; since each has grown
+  size_t turn, idle[2];
   // from the start, from the goals
   nsvcd__rrt trees[2];
   // (F): the range of their roots
@@ -53,6 +53,8 @@ typedef struct nsvcd__router {
   // (G): of each root of trees[1], its goal; how many roots that has
   size_t *goals;
   size_t root_count;
+  // the nodes where the trees have met
+  size_t met[2];
   // (nodes of both trees + shortcuts, F): corners
   double *path;
   size_t corners;
