@@ -1673,6 +1673,8 @@ typedef struct nsvcd__member {
   size_t row;
   // metres, at most: how far it leaves the sweep between its samples; errors of frames in double
   double deviation, rounding;
+  // moves, but is in none of the pairs that are asked about: not placed
+  int is_skipped;
 } nsvcd__member;
 
 struct nsvcd_checker {
@@ -1683,17 +1685,22 @@ struct nsvcd_checker {
   nsvcd__links *at, *next;
   // (B)
   nsvcd__member *members;
+  // the parts that move
+  uint32_t *movers;
+  size_t mover_count;
   // (P): the pairs, as they are asked about: what was hit last first
   uint32_t *order;
   // (P): those of an interval that are not proven yet
   uint32_t *left;
-  // (moving parts, NSVCD__MOST_STEPS + 1): samples, in the world
+  // (moving parts, NSVCD__MOST_STEPS + 1): samples, in the world; metres that a part deviates in
+  // the step after each, at most
   nsvcd__dpose *frames;
   nsvcd__bounds *bounds;
+  double *deviations;
   // (NSVCD__MOST_STEPS + 1): of both parts of a pair, see local_queries
   nsvcd_pose *local[2];
-  // of the samples; and the most that a part deviates in the step after each
-  double times[NSVCD__MOST_STEPS + 1], deviations[NSVCD__MOST_STEPS + 1];
+  // of the samples; and the most, in the step after each, that parts deviate which are near there
+  double times[NSVCD__MOST_STEPS + 1], coarse[NSVCD__MOST_STEPS + 1];
   // (W, 2): when a motion leaves what is allowed at its start, and enters what is at its end
   double *cuts;
   void *query;
@@ -2272,10 +2279,12 @@ static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
   c->at = NSVCD__TAKE_ROWS(nsvcd__links, 1, base, &used);
   c->next = NSVCD__TAKE_ROWS(nsvcd__links, 1, base, &used);
   c->members = NSVCD__TAKE_ROWS(nsvcd__member, parts, base, &used);
+  c->movers = NSVCD__TAKE_ROWS(uint32_t, movers, base, &used);
   c->order = NSVCD__TAKE_ROWS(uint32_t, pairs, base, &used);
   c->left = NSVCD__TAKE_ROWS(uint32_t, pairs, base, &used);
   c->frames = NSVCD__TAKE_ROWS(nsvcd__dpose, rows, base, &used);
   c->bounds = NSVCD__TAKE_ROWS(nsvcd__bounds, rows, base, &used);
+  c->deviations = NSVCD__TAKE_ROWS(double, rows, base, &used);
   for (size_t n = 0; n < 2; n++)
     c->local[n] = NSVCD__TAKE_ROWS(nsvcd_pose, samples, base, &used);
   c->cuts = NSVCD__TAKE_ROWS(double, 2 * scene->allowance_count, base, &used);
@@ -2334,11 +2343,11 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
     link->origin = nsvcd__unit_dpose(&joint->origin);
     link->axis = nsvcd__d3_unit(nsvcd__d3_load(joint->axis), nsvcd__d3_of(0, 0, 1));
   }
-  size_t row = 0;
+  c->mover_count = 0;
   for (size_t n = 0; n < scene->part_count; n++) {
     c->members[n] = nsvcd__member_of(&scene->parts[n]);
-    c->members[n].row = row;
-    row += scene->parts[n].link ? NSVCD__MOST_STEPS + 1 : 0;
+    c->members[n].row = c->mover_count * (NSVCD__MOST_STEPS + 1);
+    if (scene->parts[n].link) c->movers[c->mover_count++] = (uint32_t)n;
   }
   for (size_t k = 0; k < scene->pair_count; k++) c->order[k] = (uint32_t)k;
   *checker = c;
@@ -2361,10 +2370,10 @@ static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__links *at, size_t
   double most = 0;
   for (size_t link = 1; link <= scene->joint_count; link++)
     most = nsvcd__max(most, nsvcd__d3_norm(at->frames[link].position));
-  for (size_t n = 0; n < scene->part_count; n++) {
-    nsvcd__member *m = &c->members[n];
-    if (!scene->parts[n].link) continue;
-    const nsvcd__dpose frame = nsvcd__frame_of_part(c, at, n);
+  for (size_t n = 0; n < c->mover_count; n++) {
+    nsvcd__member *m = &c->members[c->movers[n]];
+    if (m->is_skipped) continue;
+    const nsvcd__dpose frame = nsvcd__frame_of_part(c, at, c->movers[n]);
     const nsvcd__bounds bounds = nsvcd__bounds_of(m, &frame);
     c->frames[m->row + k] = frame;
     c->bounds[m->row + k] = bounds;
@@ -2377,25 +2386,25 @@ static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__links *at, size_t
 
 // Places the parts that move at c->times, one more than steps, and computes how far they deviate.
 static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, size_t steps) {
-  const nsvcd_scene *scene = c->scene;
+  const size_t joints = c->scene->joint_count;
   nsvcd__step step;
   nsvcd__links *from = c->at;
   nsvcd__links *to = c->next;
-  for (size_t n = 0; n < scene->part_count; n++) c->members[n].deviation = 0;
-  nsvcd_motion_at(motion, scene->joint_count, c->times[0], step.from);
+  for (size_t n = 0; n < c->mover_count; n++) c->members[c->movers[n]].deviation = 0;
+  nsvcd_motion_at(motion, joints, c->times[0], step.from);
   nsvcd__place_links(c, step.from, from);
   nsvcd__place_sample(c, from, 0);
   for (size_t k = 0; k < steps; k++) {
-    nsvcd__step_of(motion, scene->joint_count, c->times[k], c->times[k + 1], &step);
+    nsvcd__step_of(motion, joints, c->times[k], c->times[k + 1], &step);
     nsvcd__place_links(c, step.to, to);
     nsvcd__place_sample(c, to, k + 1);
-    c->deviations[k] = 0;
-    for (size_t n = 0; n < scene->part_count; n++) {
-      nsvcd__member *m = &c->members[n];
-      if (!scene->parts[n].link) continue;
-      const double deviation = nsvcd__part_deviation(c, n, &step, from, to) * (1 + 1e-9);
-      c->deviations[k] = nsvcd__max(c->deviations[k], deviation);
-      m->deviation = nsvcd__max(m->deviation, deviation);
+    for (size_t n = 0; n < c->mover_count; n++) {
+      const size_t part = c->movers[n];
+      nsvcd__member *m = &c->members[part];
+      if (m->is_skipped) continue;
+      const double most = nsvcd__part_deviation(c, part, &step, from, to) * (1 + 1e-9);
+      c->deviations[m->row + k] = most;
+      m->deviation = nsvcd__max(m->deviation, most);
     }
     nsvcd__links *other = from;
     from = to;
@@ -2403,13 +2412,13 @@ static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, si
   }
 }
 
-// Cuts steps so that no part deviates by more than is allowed, as far as can be foreseen: the
-// deviation goes with the square of a step. Returns how many steps there are then; where they are
+// Cuts steps so that no part deviates by more than is allowed where it is near another, as far as
+// can be foreseen: the deviation goes with the square of a step. Returns how many steps there are then; where they are
 // more than NSVCD__MOST_STEPS, the times stay as they were.
 static size_t nsvcd__refine_steps(nsvcd_checker *c, size_t steps, double allowed) {
   size_t total = 0;
   for (size_t k = 0; k < steps; k++) {
-    const double cuts = ceil(sqrt(c->deviations[k] / allowed));
+    const double cuts = ceil(sqrt(c->coarse[k] / allowed));
     if (!(cuts <= NSVCD__MOST_STEPS)) return NSVCD__MOST_STEPS + 1;
     total += cuts > 1 ? (size_t)cuts : 1;
   }
@@ -2417,7 +2426,7 @@ static size_t nsvcd__refine_steps(nsvcd_checker *c, size_t steps, double allowed
   size_t at = total;
   c->times[total] = c->times[steps];
   for (size_t k = steps; k-- > 0;) {
-    const double cuts = nsvcd__max(ceil(sqrt(c->deviations[k] / allowed)), 1);
+    const double cuts = nsvcd__max(ceil(sqrt(c->coarse[k] / allowed)), 1);
     const double from = c->times[k];
     const double duration = c->times[at] - from;
     for (size_t i = (size_t)cuts; i-- > 0;)
@@ -2433,32 +2442,44 @@ static nsvcd__bounds nsvcd__bounds_in(const nsvcd_checker *c, size_t part, size_
   return c->scene->parts[part].link ? nsvcd__bounds_over(at, at + 1) : m->bounds;
 }
 
-// The steps outside of which the boxes of a pair stay apart; none for a single configuration.
+static double nsvcd__deviation_in(const nsvcd_checker *c, size_t part, size_t step) {
+  return c->scene->parts[part].link ? c->deviations[c->members[part].row + step] : 0;
+}
+
+// The steps outside of which the boxes of a pair stay apart; none for a single configuration. And
+// by how much the two can be off their sweeps in them, together, in the frames of the samples.
 typedef struct nsvcd__step_range {
   size_t first, steps;
+  double error;
 } nsvcd__step_range;
 
-// Where does a pair come as near as `room`, by its boxes? Returns 0 if nowhere.
+// Where does a pair come as near as `kept`, by its boxes? Returns 0 if nowhere.
 static int nsvcd__steps_near(const nsvcd_checker *c, const nsvcd_body_pair *pair, size_t steps,
-                             double room, nsvcd__step_range *range) {
+                             double kept, nsvcd__step_range *range) {
+  const nsvcd__member *a = &c->members[pair->a];
+  const nsvcd__member *b = &c->members[pair->b];
+  const double rounding = 2 * (a->rounding + b->rounding);
+  const double room = (kept + rounding) * (1 + 1e-9);
+  const double most = (a->deviation + b->deviation) * (1 + 1e-9);
   size_t last = 0;
-  if (nsvcd__bounds_apart(&c->members[pair->a].bounds, &c->members[pair->b].bounds, room))
-    return 0;
+  if (nsvcd__bounds_apart(&a->bounds, &b->bounds, room + most)) return 0;
   range->first = steps;
   for (size_t k = 0; k < steps; k++) {
-    const nsvcd__bounds a = nsvcd__bounds_in(c, pair->a, k);
-    const nsvcd__bounds b = nsvcd__bounds_in(c, pair->b, k);
-    if (nsvcd__bounds_apart(&a, &b, room)) continue;
+    const nsvcd__bounds at_a = nsvcd__bounds_in(c, pair->a, k);
+    const nsvcd__bounds at_b = nsvcd__bounds_in(c, pair->b, k);
+    const double off = nsvcd__deviation_in(c, pair->a, k) + nsvcd__deviation_in(c, pair->b, k);
+    if (nsvcd__bounds_apart(&at_a, &at_b, room + off * (1 + 1e-9))) continue;
     if (range->first == steps) range->first = k;
     last = k + 1;
   }
+  range->error = 0;
+  for (size_t k = range->first; k < last; k++) {
+    const double off = nsvcd__deviation_in(c, pair->a, k) + nsvcd__deviation_in(c, pair->b, k);
+    range->error = nsvcd__max(range->error, off);
+  }
+  range->error += rounding;
   range->steps = last - (steps ? range->first : 0);
   return steps == 0 || last > 0;
-}
-
-// By how much a part can be off its sweep between samples, in the frames of these.
-static double nsvcd__part_error(const nsvcd_checker *c, size_t part) {
-  return c->members[part].deviation + 2 * c->members[part].rounding;
 }
 
 // The frames of a part from a sample on; of one that rests there is only one.
@@ -2610,15 +2631,13 @@ static nsvcd_verdict nsvcd__ask_pair(nsvcd__check_state *s, const nsvcd_body_pai
                                      int is_proof, size_t work, nsvcd__step_range *range,
                                      nsvcd_answer *found) {
   nsvcd_checker *c = s->checker;
-  const double error = nsvcd__part_error(c, pair->a) + nsvcd__part_error(c, pair->b);
   const double kept = nsvcd__clearance_of(s, pair);
-  const double room = kept + error;
-  if (!nsvcd__steps_near(c, pair, s->steps, room * (1 + 1e-9), range)) return NSVCD_FREE;
+  if (!nsvcd__steps_near(c, pair, s->steps, kept, range)) return NSVCD_FREE;
   const size_t count = range->steps + 1;
   const nsvcd__dpose *const frames[2] = {nsvcd__frames_at(c, pair->a, range->first),
                                          nsvcd__frames_at(c, pair->b, range->first)};
   const nsvcd__local local = nsvcd__localize(c, pair, frames, count);
-  const double errors = is_proof ? error + local.rounding : 0;
+  const double errors = is_proof ? range->error + local.rounding : 0;
   const double clearance = kept + errors;
   const float rounded = clearance > 0 ? nsvcd__above(clearance) : 0;
   return nsvcd__ask_local(s, pair, count, rounded, work, found);
@@ -2703,10 +2722,34 @@ static size_t nsvcd__ask_pairs(nsvcd__check_state *s, int is_last, size_t left) 
 
 // ---- intervals
 
-static void nsvcd__take_samples(nsvcd__check_state *s, size_t steps) {
+// Samples the parts of the first `left` pairs of c->left.
+static void nsvcd__take_samples(nsvcd__check_state *s, size_t steps, size_t left) {
+  nsvcd_checker *c = s->checker;
+  for (size_t n = 0; n < c->mover_count; n++) c->members[c->movers[n]].is_skipped = 1;
+  for (size_t n = 0; n < left; n++) {
+    const nsvcd_body_pair *pair = &c->scene->pairs[c->left[n]];
+    c->members[pair->a].is_skipped = c->members[pair->b].is_skipped = 0;
+  }
   s->steps = steps;
-  nsvcd__sample(s->checker, s->motion, steps);
+  nsvcd__sample(c, s->motion, steps);
   s->answer->placed += steps + 1;
+}
+
+// Notes how far parts deviate at most in each step, of the first `left` pairs of c->left where these
+// are near.
+static void nsvcd__note_coarse(nsvcd__check_state *s, size_t left) {
+  nsvcd_checker *c = s->checker;
+  memset(c->coarse, 0, s->steps * sizeof *c->coarse);
+  for (size_t n = 0; n < left; n++) {
+    const nsvcd_body_pair *pair = &c->scene->pairs[c->left[n]];
+    nsvcd__step_range range;
+    if (!nsvcd__steps_near(c, pair, s->steps, nsvcd__clearance_of(s, pair), &range)) continue;
+    for (size_t k = range.first; k < range.first + range.steps; k++) {
+      const double a = nsvcd__deviation_in(c, pair->a, k);
+      const double b = nsvcd__deviation_in(c, pair->b, k);
+      c->coarse[k] = nsvcd__max(c->coarse[k], nsvcd__max(a, b));
+    }
+  }
 }
 
 // From time t0 to t1, in so many steps at first; with none it is one configuration. An interval
@@ -2726,9 +2769,10 @@ static void nsvcd__check_interval(nsvcd__check_state *s, double t0, double t1, s
   }
   for (size_t k = 0; k <= steps; k++)
     c->times[k] = k < steps ? t0 + (t1 - t0) * (double)k / (double)steps : t1;
-  nsvcd__take_samples(s, steps);
+  nsvcd__take_samples(s, steps, left);
   double allowed = NSVCD__COARSE;
   while (left > 0) {
+    nsvcd__note_coarse(s, left);
     const size_t finer = nsvcd__refine_steps(c, s->steps, allowed);
     if (finer > NSVCD__MOST_STEPS) {
       const double middle = 0.5 * (t0 + t1);
@@ -2740,7 +2784,7 @@ static void nsvcd__check_interval(nsvcd__check_state *s, double t0, double t1, s
         nsvcd__check_interval(s, middle, t1, coarse, halvings - 1);
       return;
     }
-    if (finer > s->steps) nsvcd__take_samples(s, finer);
+    if (finer > s->steps) nsvcd__take_samples(s, finer, left);
     const int is_last = s->steps == 0 || allowed <= finest;
     left = nsvcd__ask_pairs(s, is_last, left);
     if (c->result || answer->verdict == NSVCD_HIT || (is_last && left > 0)) return;
@@ -2888,6 +2932,7 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *c, const nsvcd_joint_motion *mo
     }
     if (found.verdict != NSVCD_FREE) break;
   }
+  for (size_t n = 0; n < c->mover_count; n++) c->members[c->movers[n]].is_skipped = 0;
   if (c->result) return c->result;
   if (found.verdict == NSVCD_FREE) {
     found.piece = NSVCD_NONE;

@@ -892,7 +892,7 @@ static void robot_strays_no_farther(void) {
             off = fmin(off, fmin(at_u, at_v));
           }
           // the search for the nearest place ends there
-          CHECK_LE(off, nsvcd__part_error(r.checker, part) + 1e-11);
+          CHECK_LE(off, nsvcd__deviation_in(r.checker, part, k) + 2 * m->rounding + 1e-11);
           farthest = fmax(farthest, off);
         }
       }

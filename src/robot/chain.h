@@ -68,6 +68,8 @@ typedef struct nsvcd__member {
   size_t row;
   // metres, at most: how far it leaves the sweep between its samples; errors of frames in double
   double deviation, rounding;
+  // moves, but is in none of the pairs that are asked about: not placed
+  int is_skipped;
 } nsvcd__member;
 
 struct nsvcd_checker {
@@ -78,17 +80,22 @@ struct nsvcd_checker {
   nsvcd__links *at, *next;
   // (B)
   nsvcd__member *members;
+  // the parts that move
+  uint32_t *movers;
+  size_t mover_count;
   // (P): the pairs, as they are asked about: what was hit last first
   uint32_t *order;
   // (P): those of an interval that are not proven yet
   uint32_t *left;
-  // (moving parts, NSVCD__MOST_STEPS + 1): samples, in the world
+  // (moving parts, NSVCD__MOST_STEPS + 1): samples, in the world; metres that a part deviates in
+  // the step after each, at most
   nsvcd__dpose *frames;
   nsvcd__bounds *bounds;
+  double *deviations;
   // (NSVCD__MOST_STEPS + 1): of both parts of a pair, see local_queries
   nsvcd_pose *local[2];
-  // of the samples; and the most that a part deviates in the step after each
-  double times[NSVCD__MOST_STEPS + 1], deviations[NSVCD__MOST_STEPS + 1];
+  // of the samples; and the most, in the step after each, that parts deviate which are near there
+  double times[NSVCD__MOST_STEPS + 1], coarse[NSVCD__MOST_STEPS + 1];
   // (W, 2): when a motion leaves what is allowed at its start, and enters what is at its end
   double *cuts;
   void *query;

@@ -62,15 +62,13 @@ static nsvcd_verdict nsvcd__ask_pair(nsvcd__check_state *s, const nsvcd_body_pai
                                      int is_proof, size_t work, nsvcd__step_range *range,
                                      nsvcd_answer *found) {
   nsvcd_checker *c = s->checker;
-  const double error = nsvcd__part_error(c, pair->a) + nsvcd__part_error(c, pair->b);
   const double kept = nsvcd__clearance_of(s, pair);
-  const double room = kept + error;
-  if (!nsvcd__steps_near(c, pair, s->steps, room * (1 + 1e-9), range)) return NSVCD_FREE;
+  if (!nsvcd__steps_near(c, pair, s->steps, kept, range)) return NSVCD_FREE;
   const size_t count = range->steps + 1;
   const nsvcd__dpose *const frames[2] = {nsvcd__frames_at(c, pair->a, range->first),
                                          nsvcd__frames_at(c, pair->b, range->first)};
   const nsvcd__local local = nsvcd__localize(c, pair, frames, count);
-  const double errors = is_proof ? error + local.rounding : 0;
+  const double errors = is_proof ? range->error + local.rounding : 0;
   const double clearance = kept + errors;
   const float rounded = clearance > 0 ? nsvcd__above(clearance) : 0;
   return nsvcd__ask_local(s, pair, count, rounded, work, found);
@@ -155,10 +153,34 @@ static size_t nsvcd__ask_pairs(nsvcd__check_state *s, int is_last, size_t left) 
 
 // ---- intervals
 
-static void nsvcd__take_samples(nsvcd__check_state *s, size_t steps) {
+// Samples the parts of the first `left` pairs of c->left.
+static void nsvcd__take_samples(nsvcd__check_state *s, size_t steps, size_t left) {
+  nsvcd_checker *c = s->checker;
+  for (size_t n = 0; n < c->mover_count; n++) c->members[c->movers[n]].is_skipped = 1;
+  for (size_t n = 0; n < left; n++) {
+    const nsvcd_body_pair *pair = &c->scene->pairs[c->left[n]];
+    c->members[pair->a].is_skipped = c->members[pair->b].is_skipped = 0;
+  }
   s->steps = steps;
-  nsvcd__sample(s->checker, s->motion, steps);
+  nsvcd__sample(c, s->motion, steps);
   s->answer->placed += steps + 1;
+}
+
+// Notes how far parts deviate at most in each step, of the first `left` pairs of c->left where these
+// are near.
+static void nsvcd__note_coarse(nsvcd__check_state *s, size_t left) {
+  nsvcd_checker *c = s->checker;
+  memset(c->coarse, 0, s->steps * sizeof *c->coarse);
+  for (size_t n = 0; n < left; n++) {
+    const nsvcd_body_pair *pair = &c->scene->pairs[c->left[n]];
+    nsvcd__step_range range;
+    if (!nsvcd__steps_near(c, pair, s->steps, nsvcd__clearance_of(s, pair), &range)) continue;
+    for (size_t k = range.first; k < range.first + range.steps; k++) {
+      const double a = nsvcd__deviation_in(c, pair->a, k);
+      const double b = nsvcd__deviation_in(c, pair->b, k);
+      c->coarse[k] = nsvcd__max(c->coarse[k], nsvcd__max(a, b));
+    }
+  }
 }
 
 // From time t0 to t1, in so many steps at first; with none it is one configuration. An interval
@@ -178,9 +200,10 @@ static void nsvcd__check_interval(nsvcd__check_state *s, double t0, double t1, s
   }
   for (size_t k = 0; k <= steps; k++)
     c->times[k] = k < steps ? t0 + (t1 - t0) * (double)k / (double)steps : t1;
-  nsvcd__take_samples(s, steps);
+  nsvcd__take_samples(s, steps, left);
   double allowed = NSVCD__COARSE;
   while (left > 0) {
+    nsvcd__note_coarse(s, left);
     const size_t finer = nsvcd__refine_steps(c, s->steps, allowed);
     if (finer > NSVCD__MOST_STEPS) {
       const double middle = 0.5 * (t0 + t1);
@@ -192,7 +215,7 @@ static void nsvcd__check_interval(nsvcd__check_state *s, double t0, double t1, s
         nsvcd__check_interval(s, middle, t1, coarse, halvings - 1);
       return;
     }
-    if (finer > s->steps) nsvcd__take_samples(s, finer);
+    if (finer > s->steps) nsvcd__take_samples(s, finer, left);
     const int is_last = s->steps == 0 || allowed <= finest;
     left = nsvcd__ask_pairs(s, is_last, left);
     if (c->result || answer->verdict == NSVCD_HIT || (is_last && left > 0)) return;
@@ -340,6 +363,7 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *c, const nsvcd_joint_motion *mo
     }
     if (found.verdict != NSVCD_FREE) break;
   }
+  for (size_t n = 0; n < c->mover_count; n++) c->members[c->movers[n]].is_skipped = 0;
   if (c->result) return c->result;
   if (found.verdict == NSVCD_FREE) {
     found.piece = NSVCD_NONE;

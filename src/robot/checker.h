@@ -132,10 +132,12 @@ static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
   c->at = NSVCD__TAKE_ROWS(nsvcd__links, 1, base, &used);
   c->next = NSVCD__TAKE_ROWS(nsvcd__links, 1, base, &used);
   c->members = NSVCD__TAKE_ROWS(nsvcd__member, parts, base, &used);
+  c->movers = NSVCD__TAKE_ROWS(uint32_t, movers, base, &used);
   c->order = NSVCD__TAKE_ROWS(uint32_t, pairs, base, &used);
   c->left = NSVCD__TAKE_ROWS(uint32_t, pairs, base, &used);
   c->frames = NSVCD__TAKE_ROWS(nsvcd__dpose, rows, base, &used);
   c->bounds = NSVCD__TAKE_ROWS(nsvcd__bounds, rows, base, &used);
+  c->deviations = NSVCD__TAKE_ROWS(double, rows, base, &used);
   for (size_t n = 0; n < 2; n++)
     c->local[n] = NSVCD__TAKE_ROWS(nsvcd_pose, samples, base, &used);
   c->cuts = NSVCD__TAKE_ROWS(double, 2 * scene->allowance_count, base, &used);
@@ -194,11 +196,11 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
     link->origin = nsvcd__unit_dpose(&joint->origin);
     link->axis = nsvcd__d3_unit(nsvcd__d3_load(joint->axis), nsvcd__d3_of(0, 0, 1));
   }
-  size_t row = 0;
+  c->mover_count = 0;
   for (size_t n = 0; n < scene->part_count; n++) {
     c->members[n] = nsvcd__member_of(&scene->parts[n]);
-    c->members[n].row = row;
-    row += scene->parts[n].link ? NSVCD__MOST_STEPS + 1 : 0;
+    c->members[n].row = c->mover_count * (NSVCD__MOST_STEPS + 1);
+    if (scene->parts[n].link) c->movers[c->mover_count++] = (uint32_t)n;
   }
   for (size_t k = 0; k < scene->pair_count; k++) c->order[k] = (uint32_t)k;
   *checker = c;
