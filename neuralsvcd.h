@@ -271,6 +271,10 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_ROUTE,
   // a joint that is held has another value in a goal, or in the guess, than in the start
   NSVCD_ERROR_HELD,
+  // a joint mimics none of the scene's, or one that mimics; its multiplier is no number from 1e-6
+  // up or minus that, or, where both turn without limits, no whole number; or its value in a
+  // configuration or a motion is not what its leader makes it
+  NSVCD_ERROR_MIMIC,
   // a planner's stage is out of range
   NSVCD_ERROR_STAGE,
   // a planner's weight, duration or margin is not finite, or it has too many seeds or checks
@@ -1803,6 +1807,8 @@ static const char nsvcd__result_texts[] =
     "farthest is negative, not finite or too large\0"
     "nodes or shortcuts is too large, or edge is negative or no number\0"
     "a joint that is held has another value in a goal or the guess than in the start\0"
+    "mimic: a joint follows none, or one that follows another, its multiplier or offset is "
+    "out of range, or its value is not what the joint that it mimics makes it\0"
     "explore or refine: via_points, segments, iterations, "
     "draws or noise is out of range\0"
     "velocity, acceleration, jerk, collision, duration or margin is not finite, "

@@ -75,6 +75,8 @@ static const char nsvcd__result_texts[] =
     "farthest is negative, not finite or too large\0"
     "nodes or shortcuts is too large, or edge is negative or no number\0"
     "a joint that is held has another value in a goal or the guess than in the start\0"
+    "mimic: a joint follows none, or one that follows another, its multiplier or offset is "
+    "out of range, or its value is not what the joint that it mimics makes it\0"
     "explore or refine: via_points, segments, iterations, "
     "draws or noise is out of range\0"
     "velocity, acceleration, jerk, collision, duration or margin is not finite, "
