@@ -590,8 +590,8 @@ typedef struct nsvcd_reach_answer {
 // Finds configurations within the joints' limits that have a tool at a target: several where there
 // are several, such as elbow up and elbow down. By default they are proven free, since that is what
 // a route's goal has to be. Where a joint's limits allow values that are whole turns apart, the one
-// nearest to the start's is given, but for joints that others mimic. Where there are more joints than the target needs, there are
-// infinitely many solutions, and some of them are found.
+// nearest to the start's is given, but for joints that others mimic. Where there are more joints
+// than the target needs, there are infinitely many solutions, and some of them are found.
 //
 // That nothing is found is no proof that there is nothing. Of targets that an arm of 6 or 7 joints
 // can reach, fewer than one in a thousand are missed with the default starts (tests/test_reach.c).
@@ -606,8 +606,8 @@ typedef struct nsvcd_reach_answer {
 //   allocates  nothing
 //   threads    each needs a checker of its own
 //   errors     ARGUMENT, COUNT (capacity), VALUE (the start not finite or beyond
-//              NSVCD_MAX_COORDINATE), MIMIC, LINK (not one of the scene's, or no joint moves the tool
-//              against the target), RADIUS (`half`), AXIS (`free_axis`), TOLERANCE, DISTANCE
+//              NSVCD_MAX_COORDINATE), MIMIC, LINK (not one of the scene's, or no joint moves the
+//              tool against the target), RADIUS (`half`), AXIS (`free_axis`), TOLERANCE, DISTANCE
 //              (`apart`), CLEARANCE; POSE, QUATERNION, of the tool or the target; POSE, SCALE, as
 //              nsvcd_check
 //   source     Levenberg-Marquardt, its damping in proportion to the squared error (Sugihara 2011).
@@ -4294,8 +4294,8 @@ static int nsvcd__is_reached(const nsvcd__reacher *r) {
          r->miss.angle <= r->options.angle_tolerance;
 }
 
-// Adds to how the residuals change with a joint what those that it drives do. All leaders are in the
-// chain.
+// Adds what the joints that mimic one do to how the residuals change with it. All leaders are in
+// the chain.
 static void nsvcd__reach_add_driven(nsvcd__reacher *r) {
   for (size_t n = 0; n < r->count; n++) {
     const size_t driver = nsvcd__driver(r->scene, r->chain[n]);

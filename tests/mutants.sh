@@ -418,12 +418,12 @@ mimics: without the offset|return j->mimic ? j->multiplier * at[j->mimic - 1] + 
 mimics: a leader within its own limits alone|c->joints[i] = nsvcd__narrowed(scene, i);|c->joints[i] = *joint;
 mimics: blends at the leader's pace|nsvcd__driven(scene, j, from->x), rate * b->v0,|nsvcd__driven(scene, j, from->x), b->v0,
 mimics: routes that drift|nsvcd__follow(r->scene, 2 * t->motion.pieces + 1, t->points);|
-mimics: a box of the leader's width|fabs(nsvcd__rate(\&s->scene, j)) * s->half[s->drivers[k]];|0.1 * s->half[s->drivers[k]];
+mimics: a box of the leader's width|s->arms[s->drivers[k]] += fabs(nsvcd__rate(\&s->scene, s->way[k])) * arms[k];|s->arms[s->drivers[k]] += arms[k];
 mimics: a box without what is driven|s->arms[s->drivers[k]] += fabs(nsvcd__rate(\&s->scene, s->way[k])) * arms[k];|s->arms[s->drivers[k]] = arms[k];
 mimics: a sweep of the leader alone|nsvcd__follow(\&s->scene, 1 + (along != NSVCD_NONE), points);|
 mimics: a slope of the leader alone|slope[nsvcd__driver(c->scene, link - 1)] +=|slope[link - 1] +=
 mimics: turns of a fraction|return is_endless \&\& rate > floor(rate) ? NSVCD_ERROR_MIMIC : NSVCD_OK;|return NSVCD_OK;
-mimics: steps of the leader alone|r->jacobian[i][k] += rate * r->jacobian[n][k];|
+mimics: steps of the leader alone|r->jacobian[i][k] += rate * r->jacobian[n][k];|r->jacobian[i][k] += 0;
 LIST
 
 if [ -n "${DRY:-}" ]; then python3 tests/make_mutant.py --all $work/list && exit 0 || exit 1; fi

@@ -125,8 +125,8 @@ static int nsvcd__is_reached(const nsvcd__reacher *r) {
          r->miss.angle <= r->options.angle_tolerance;
 }
 
-// Adds to how the residuals change with a joint what those that it drives do. All leaders are in the
-// chain.
+// Adds what the joints that mimic one do to how the residuals change with it. All leaders are in
+// the chain.
 static void nsvcd__reach_add_driven(nsvcd__reacher *r) {
   for (size_t n = 0; n < r->count; n++) {
     const size_t driver = nsvcd__driver(r->scene, r->chain[n]);
