@@ -584,6 +584,32 @@ class Pairs(Urdf):
         self.file("r.srdf", '<robot name="r"><passive_joint name="y"/></robot>')
         self.assertIn("passive_joint: no joint y", self.convert(text, "--srdf", "r.srdf")[1])
 
+    def test_urdf_srdf_of_svcd_pairs(self) -> None:
+        """With what `svcd pairs --srdf` writes, just those pairs are asked that it does not prove: of the example, and of
+        links of several bodies, of which one alone meets what is beside it."""
+        with open(os.path.join(ROOT, "examples", "robot", "arm.urdf"), encoding="utf-8") as file:
+            arm = file.read()
+        self.file("far.obj", obj(block((0.9, -0.05, -0.05), (1.0, 0.05, 0.05))))
+        self.file("near.obj", obj(block((0.3, -0.05, -0.05), (0.4, 0.05, 0.05))))
+        both = shape('<mesh filename="far.obj"/>') + shape('<mesh filename="near.obj"/>')
+        names = robot(link("base"), link("post&amp;co", box("0.1 0.1 0.1", "0.95 0 0")), link("arm", CUBE, both), link("tip", both),
+                      joint("j", "base", "arm"), joint("k", "arm", "tip", '<origin xyz="0 0 0.5"/>' + LIMIT),
+                      joint("f", "base", "post&amp;co", "", "fixed"))
+        for text in (arm, names):
+            self.pairs(text)
+            status, out, said = self.svcd("pairs", "out.txt", "--srdf", "r.srdf", "--json")
+            self.assertEqual((status, said), (0, ""))
+            proven: dict[frozenset[str], bool] = {}
+            for answer in map(json.loads, out.splitlines()):
+                links = frozenset(answer[key].removesuffix(".2").removesuffix(".3") for key in "ab")
+                proven[links] = proven.get(links, True) and answer["kind"] in ("never", "always")
+            self.assertGreater(sum(proven.values()), 0)
+            found = {frozenset(name.removesuffix(".2").removesuffix(".3") for name in pair)
+                     for pair in self.pairs(text, None, "--srdf", "r.srdf")}
+            self.assertEqual(found, {links for links, is_proven in proven.items() if not is_proven})
+        self.assertIn(frozenset(("arm", "post&co")), found)
+        self.assertNotIn(frozenset(("arm", "tip")), found)
+
     def test_urdf_groups(self) -> None:
         """Of joints, links, chains and groups, in the order of the joints; what is held is in none."""
         text = robot(*self.CHAIN)
