@@ -129,7 +129,11 @@ static void tell_undecided(const robot_in_room *in, const char *from,
 static void tell_check(const robot_in_room *in, const char *from, const double *joints,
                        const nsvcd_check_answer *found) {
   if (found->joint != NSVCD_NONE) {
-    complain("%s: joint %s is out of its limits", from, in->file->joint_names[found->joint]);
+    int leads = 0;
+    for (size_t j = 0; j < in->file->joint_count; j++)
+      leads |= in->file->joints[j].mimic == found->joint + 1;
+    complain("%s: joint %s is out of its limits%s", from, in->file->joint_names[found->joint],
+             leads ? ", or one that mimics it" : "");
   } else if (found->verdict == NSVCD_UNDECIDED && found->pair != NSVCD_NONE) {
     tell_undecided(in, from, found);
   }
