@@ -1072,7 +1072,7 @@ class Robots(unittest.TestCase):
         with self.assertRaisesRegex(nsvcd.Error, "mimic"):
             robot.check([[-1, -1.5], [1, 2.4]])
         self.assertEqual(robot.check([1.3, 3.1]).joint, 0)
-        at = robot.route([-1, -1.5], [1, 2.5]).motion.points
+        at = robot.route([-1, -1.5], [1, 2.5]).points
         np.testing.assert_array_equal(at[:, 1], 2 * at[:, 0] + 0.5)
         with self.assertRaisesRegex(nsvcd.Error, "mimic"):
             nsvcd.Robot([joints[0], joints[1]._replace(mimic=1)], [])
