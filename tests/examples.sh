@@ -790,7 +790,7 @@ for words in 'pose 0 0 0 0 0 0' 'scale 1 1 1 scale 1 1 1' 'pose 0 0 0 0 0 0 1 po
   expect 1 'words.txt:2: ' build/svcd plan "$dir/words.txt"
   expect 2 'words.txt: ' build/verify "$dir/words.txt" "$dir"
 done
-robot_refused "expected 'joint', 'body'" 'link x'
+robot_refused "expected 'joint', 'mimic', 'body'" 'link x'
 { cat "$dir/arm.txt"; printf 'path x shelf 2\n0 0 0 0 0 0\n1 1\n'; } >"$dir/bad_robot.txt"
 expect 1 "path x has 1 of its 2 lines of 6 joints" build/svcd path "$dir/bad_robot.txt"
 printf 'nsvcd-plans 1\njoint a a 0 0 0 0 0 0 1 0 0 1 revolute -1 1 1\n' >"$dir/cycle.txt"
