@@ -271,6 +271,10 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_ROUTE,
   // a joint that is held has another value in a goal, or in the guess, than in the start
   NSVCD_ERROR_HELD,
+  // a joint mimics none of the scene's, or one that mimics; its multiplier is no number from 1e-6
+  // up or minus that, or, where both turn without limits, no whole number; or its value in a
+  // configuration or a motion is not what its leader makes it
+  NSVCD_ERROR_MIMIC,
   // a planner's stage is out of range
   NSVCD_ERROR_STAGE,
   // a planner's weight, duration or margin is not finite, or it has too many seeds or checks
@@ -1790,7 +1794,8 @@ static const char nsvcd__result_texts[] =
     "network.inflate is negative or not finite\0"
     "a joint's kind is none of its values, or its parent does not come before it\0"
     "a joint's axis has no length, or is not finite, or free_axis is not\0"
-    "a joint's limits are not finite or too large, or low is above high\0"
+    "a joint's limits are not finite or too large, or low is above high, or they exclude "
+    "those of a joint that mimics it\0"
     "a joint's speed or acceleration is negative, not finite or too large\0"
     "a link is no joint of the scene, or a part none of its parts\0"
     "a pair is not there, or names a part that is not there, one twice, "
@@ -1803,6 +1808,8 @@ static const char nsvcd__result_texts[] =
     "farthest is negative, not finite or too large\0"
     "nodes or shortcuts is too large, or edge is negative or no number\0"
     "a joint that is held has another value in a goal or the guess than in the start\0"
+    "mimic: a joint follows none, or one that follows another, its multiplier or offset is "
+    "out of range, or its value is not what the joint that it mimics makes it\0"
     "explore or refine: via_points, segments, iterations, "
     "draws or noise is out of range\0"
     "velocity, acceleration, jerk, collision, duration or margin is not finite, "

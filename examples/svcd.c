@@ -106,6 +106,8 @@ static const option options[] = {
      "ends each plan within S seconds, with the best motion proven by then, or with 'limit'"},
     {"--seconds", PAIRS, OPTION_NUMBER, AT(seconds), 1e-3, 1e9, NULL, "S",
      "ends within S seconds, whatever is unknown by then (10)"},
+    {"--srdf", PAIRS, OPTION_TEXT, AT(srdf), 0, 0, NULL, "OUT.srdf",
+     "writes which links need not be checked, as it is proven of all their bodies"},
     {"--samples", PLAN, OPTION_COUNT, AT(samples), 2, 10000000, NULL, "N",
      "with --joints: the number of times at which the joints are written"},
     {"--joints", PLAN, OPTION_TEXT, AT(joints), 0, 0, NULL, "OUT.tsv",
@@ -149,7 +151,8 @@ static const command commands[] = {
      "Which bodies of a planning file's robot can meet each other? Prints a line 'pair NAME NAME' "
      "for each two that do sometimes, with a configuration of each kind, or of which it is not "
      "known. Those that never or always meet, whatever the joints do within their limits, are "
-     "comments: that is proven, of neighbours too."},
+     "comments: that is proven, of neighbours too. --srdf writes the same of links, for MoveIt and "
+     "others."},
 };
 static const manual svcd = {
     "svcd",

@@ -32,6 +32,7 @@
 //     memory          the allocator; the rows of a workspace
 //   robot: is a motion of joints free?
 //     chain           links, joints and frames: where everything is
+//     mimics          joints that others drive
 //     steps           what the joints do between two times
 //     allowances      when a pair may touch
 //     deviation       how far a part leaves its sweep between two samples
@@ -43,6 +44,7 @@
 //     proofs          certificates of pairs
 //     rrt             trees of configurations, and the nearest node
 //     configurations  proximities, the nearest free one, pairs that can meet
+//     cholesky        six linear equations
 //     reach           configurations that have a tool at a target
 //     spans           two parts, and the joints between them
 //     ranges          do two parts meet never, always or sometimes?
@@ -93,6 +95,12 @@ typedef enum nsvcd_joint_kind {
 } nsvcd_joint_kind;
 
 // A joint of a robot. Joint i carries link i + 1. Link 0 is the world.
+//
+// A joint that mimics another has a value of its own in each configuration, as all joints have. To
+// 1e-9 of 1 and what it is made of, it must be what its leader makes it: else all functions that
+// take a configuration refuse it, but for nsvcd_forward_kinematics. What is given back keeps to it.
+// The limits of a leader are those within which its followers keep theirs, of speed and
+// acceleration as well.
 typedef struct nsvcd_joint {
   nsvcd_joint_kind kind;
   // the link that the joint is on: 0..i
@@ -106,6 +114,12 @@ typedef struct nsvcd_joint {
   // limits of its speed and acceleration, radians or metres per s and per s^2; default 1. Only
   // routes have to keep them
   double speed, acceleration;
+  // 1 + the number of the joint that this one mimics, its leader; 0: none. Its value is always
+  // multiplier * that of its leader + offset: fingers of a gripper, say. The leader mimics none
+  uint32_t mimic;
+  // 1e-6 to NSVCD_MAX_COORDINATE, or minus that; a whole number where both joints are CONTINUOUS.
+  // Radians or metres
+  double multiplier, offset;
 } nsvcd_joint;
 
 // A body on a link. A part of link 0 rests.
@@ -242,10 +256,10 @@ NSVCDDEF size_t nsvcd_checker_size(const nsvcd_scene *scene);
 //   checker    not NULL; set to the checker, or left as it was on failure
 //   allocates  nothing
 //   threads    each needs a checker of its own; scenes may be shared
-//   errors     ARGUMENT (NULL), COUNT, WORKSPACE; of a joint JOINT, AXIS, LIMITS, SPEED; of a part
-//              BODY, VERSION, TRIANGLES, LINK, SCALE; of either POSE, QUATERNION; of a pair PAIR
-//              (also if both parts are on one link), CLEARANCE; of an allowance PAIR, ARGUMENT
-//              (NULL), VALUE, DISTANCE
+//   errors     ARGUMENT (NULL), COUNT, WORKSPACE; of a joint JOINT, AXIS, LIMITS (also if a
+//              leader's exclude its followers'), SPEED, MIMIC; of a part BODY, VERSION, TRIANGLES,
+//              LINK, SCALE; of either POSE, QUATERNION; of a pair PAIR (also if both parts are on
+//              one link), CLEARANCE; of an allowance PAIR, ARGUMENT (NULL), VALUE, DISTANCE
 NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory, size_t size,
                                          nsvcd_checker **checker);
 
@@ -265,9 +279,9 @@ NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const doubl
 //   answer     not NULL; left as it was on failure
 //   allocates  nothing
 //   threads    each needs a checker of its own
-//   errors     ARGUMENT, DEGREE, VALUE (points not finite or beyond NSVCD_MAX_COORDINATE), TIMES,
-//              CLEARANCE, FINEST, TO (to_time); POSE, SCALE (a part is, or is carried, beyond
-//              NSVCD_MAX_COORDINATE)
+//   errors     ARGUMENT, DEGREE, VALUE (points not finite or beyond NSVCD_MAX_COORDINATE), MIMIC
+//              (of points), TIMES, CLEARANCE, FINEST, TO (to_time); POSE, SCALE (a part is, or is
+//              carried, beyond NSVCD_MAX_COORDINATE)
 //   source     this library: robot/deviation.h bounds how far joints deviate from lines and slerps,
 //              by second derivatives
 //
@@ -304,7 +318,8 @@ typedef struct nsvcd_proximity {
   nsvcd_contact contact;
   // (F) metres per radian or metre: how the distance between the two points of the contact grows
   // with each joint, or, of a HIT, how the depth along its normal shrinks. Where several points are
-  // as near, or as deep, the slope is that of one of them. 0: there is no normal
+  // as near, or as deep, the slope is that of one of them. 0: there is no normal. A joint moves
+  // those that mimic it, whose own slope is 0
   double slope[NSVCD_MAX_JOINTS];
 } nsvcd_proximity;
 
@@ -334,8 +349,8 @@ typedef struct nsvcd_proximity_options {
 //              as it was on failure
 //   allocates  nothing
 //   threads    each needs a checker of its own
-//   errors     ARGUMENT, VALUE (joints not finite or beyond NSVCD_MAX_COORDINATE), DISTANCE, TO;
-//              POSE, SCALE (a part is, or is carried, beyond NSVCD_MAX_COORDINATE)
+//   errors     ARGUMENT, VALUE (joints not finite or beyond NSVCD_MAX_COORDINATE), MIMIC,
+//              DISTANCE, TO; POSE, SCALE (a part is, or is carried, beyond NSVCD_MAX_COORDINATE)
 //   source     this library; slopes as any Jacobian's, by the product of axis and moment arm
 NSVCDDEF nsvcd_result nsvcd_proximities(nsvcd_checker *checker, const double *joints,
                                         const nsvcd_proximity_options *options,
@@ -369,7 +384,7 @@ typedef struct nsvcd_nearest_free_options {
 //   is_found   not NULL; 1 if a free configuration is found, else 0. Left as it was on failure
 //   allocates  nothing
 //   threads    each needs a checker of its own
-//   errors     ARGUMENT, VALUE, CLEARANCE, FARTHEST; POSE, SCALE, as nsvcd_proximities
+//   errors     ARGUMENT, VALUE, MIMIC, CLEARANCE, FARTHEST; POSE, SCALE, as nsvcd_proximities
 //   source     this library
 NSVCDDEF nsvcd_result nsvcd_nearest_free(nsvcd_checker *checker, const double *joints,
                                          const nsvcd_nearest_free_options *options,
@@ -415,8 +430,8 @@ NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t draws, uin
 //   out        not NULL; left as it was on failure. Its pose is rounded to float: 1e-7 of its
 //              distance from the link
 //   allocates  nothing
-//   errors     ARGUMENT, VALUE, LINK (or no such part), POSE (farther than NSVCD_MAX_COORDINATE
-//              from the link)
+//   errors     ARGUMENT, VALUE, MIMIC, LINK (or no such part), POSE (farther than
+//              NSVCD_MAX_COORDINATE from the link)
 NSVCDDEF nsvcd_result nsvcd_reparent(const nsvcd_checker *checker, const double *joints,
                                      size_t part, uint32_t link, nsvcd_part *out);
 
@@ -469,7 +484,8 @@ typedef struct nsvcd_range_answer {
   // meet but no point was found that stays inside of both. WORK: boxes or units of work were not
   // enough, or the search was stopped. OPEN: as nsvcd_why has it
   nsvcd_why why;
-  // number of joints between the two parts; the others do not matter
+  // number of joints between the two parts, each leader counted once with those that mimic it; the
+  // others do not matter
   size_t joints;
   // 1: a configuration is known in which they do not meet, or in which they do
   int has_free, has_hit;
@@ -533,7 +549,8 @@ typedef struct nsvcd_reach_problem {
   int (*stop)(void *user);
   // passed to `stop`
   void *user;
-  // (F) 1: the joint stays where the start has it. NULL: all joints may move
+  // (F) 1: the joint stays where the start has it, and so do those that mimic it, whose own entries
+  // do not count. NULL: all joints may move
   const uint8_t *held;
 } nsvcd_reach_problem;
 
@@ -574,8 +591,8 @@ typedef struct nsvcd_reach_answer {
 // Finds configurations within the joints' limits that have a tool at a target: several where there
 // are several, such as elbow up and elbow down. By default they are proven free, since that is what
 // a route's goal has to be. Where a joint's limits allow values that are whole turns apart, the one
-// nearest to the start's is given. Where there are more joints than the target needs, there are
-// infinitely many solutions, and some of them are found.
+// nearest to the start's is given, but for joints that others mimic. Where there are more joints
+// than the target needs, there are infinitely many solutions, and some of them are found.
 //
 // That nothing is found is no proof that there is nothing. Of targets that an arm of 6 or 7 joints
 // can reach, fewer than one in a thousand are missed with the default starts (tests/test_reach.c).
@@ -590,8 +607,8 @@ typedef struct nsvcd_reach_answer {
 //   allocates  nothing
 //   threads    each needs a checker of its own
 //   errors     ARGUMENT, COUNT (capacity), VALUE (the start not finite or beyond
-//              NSVCD_MAX_COORDINATE), LINK (not one of the scene's, or no joint moves the tool
-//              against the target), RADIUS (`half`), AXIS (`free_axis`), TOLERANCE, DISTANCE
+//              NSVCD_MAX_COORDINATE), MIMIC, LINK (not one of the scene's, or no joint moves the
+//              tool against the target), RADIUS (`half`), AXIS (`free_axis`), TOLERANCE, DISTANCE
 //              (`apart`), CLEARANCE; POSE, QUATERNION, of the tool or the target; POSE, SCALE, as
 //              nsvcd_check
 //   source     Levenberg-Marquardt, its damping in proportion to the squared error (Sugihara 2011).
@@ -650,7 +667,7 @@ typedef struct nsvcd_route_problem {
   // passed to both
   void *user;
   // (F) 1: the joint stays where the start has it, and the goals and the guess have that value too.
-  // NULL: all joints may move
+  // So do joints that mimic it, whose own entries do not count. NULL: all joints may move
   const uint8_t *held;
 } nsvcd_route_problem;
 
@@ -720,7 +737,7 @@ NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
 //   allocates  nothing
 //   threads    each needs a checker and memory of its own
 //   errors     ARGUMENT (NULL), COUNT (of goals, of a guess), ROUTE (nodes, shortcuts, edge), HELD,
-//              VALUE (a configuration not finite or beyond NSVCD_MAX_COORDINATE), CLEARANCE,
+//              VALUE (a configuration not finite or beyond NSVCD_MAX_COORDINATE), MIMIC, CLEARANCE,
 //              WORKSPACE; POSE, SCALE, as nsvcd_check
 //   source     RRT-Connect (Kuffner and LaValle 2000); bounded-acceleration shortcuts (Hauser and
 //              Ng-Thow-Hing 2010); paths of edges that are proven last (Bohlin and Kavraki 2000).
@@ -1612,6 +1629,7 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
 // floor, top to bottom:
 //
 //   chain            links, joints and frames: forward kinematics
+//   mimics           joints that others drive
 //   steps            what the joints do between two times
 //   deviation        how far points of a part can be from an axis; how far a part leaves its sweep
 //   checker          the checker of a scene
@@ -1622,6 +1640,7 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
 //   proofs           a certificate of a pair, as the joints move it
 //   rrt              trees of configurations, and the nearest node
 //   configurations   one configuration: proximities, the nearest free one; which pairs can meet
+//   cholesky         six linear equations
 //   reach            configurations that have a tool at a target
 //   spans            two parts, and how far the joints between them move a point
 //   ranges           do two parts meet never, always or sometimes?
@@ -1678,8 +1697,11 @@ typedef struct nsvcd__member {
 } nsvcd__member;
 
 struct nsvcd_checker {
+  // the caller's; or, where joints mimic others, that with joints of its own
   const nsvcd_scene *scene;
+  nsvcd_scene own;
   // (F)
+  nsvcd_joint *joints;
   nsvcd__link *links;
   // where the links are: in a configuration, or at both ends of a step
   nsvcd__links *at, *next;
@@ -1782,6 +1804,90 @@ NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const doubl
     const nsvcd__dpose frame = nsvcd__frame_of_part(checker, &at, n);
     poses[n] = nsvcd__dpose_round(&frame);
   }
+}
+
+// ------------------------------------------------------------------------------------ robot/mimics
+// In: a scene. Out: which joints drive others, and configurations in which these follow.
+//
+// A joint that mimics has a value in each configuration, as all joints have, so all that is proven
+// of a motion is proven of it as well. A line or a curve keeps the relation between its control
+// points. Where values are drawn, clamped or turned, those that mimic are computed anew.
+
+// of 1 and the numbers that its leader makes it of: by how much a joint's value may be another
+#define NSVCD__MIMIC_ERROR 1e-9
+// the least multiplier
+#define NSVCD__LEAST_MULTIPLIER 1e-6
+
+// The joint that drives one: its leader, or itself.
+static size_t nsvcd__driver(const nsvcd_scene *scene, size_t joint) {
+  const uint32_t mimic = scene->joints[joint].mimic;
+  return mimic ? mimic - 1 : joint;
+}
+
+// How far a joint goes as its driver goes by 1.
+static double nsvcd__rate(const nsvcd_scene *scene, size_t joint) {
+  return scene->joints[joint].mimic ? scene->joints[joint].multiplier : 1;
+}
+
+// The value that a joint's driver gives it in a configuration.
+static double nsvcd__driven(const nsvcd_scene *scene, size_t joint, const double *at) {
+  const nsvcd_joint *j = &scene->joints[joint];
+  return j->mimic ? j->multiplier * at[j->mimic - 1] + j->offset : at[joint];
+}
+
+// Does a joint drive others?
+static int nsvcd__leads(const nsvcd_scene *scene, size_t joint) {
+  for (size_t k = 0; k < scene->joint_count; k++)
+    if (scene->joints[k].mimic == joint + 1) return 1;
+  return 0;
+}
+
+// Puts the joints that mimic where their leaders have them, in so many configurations.
+static void nsvcd__follow(const nsvcd_scene *scene, size_t count, double *rows) {
+  for (double *at = rows; count > 0; count--, at += scene->joint_count)
+    for (size_t j = 0; j < scene->joint_count; j++) at[j] = nsvcd__driven(scene, j, at);
+}
+
+// Are they there, but for rounding?
+static int nsvcd__follows(const nsvcd_scene *scene, size_t count, const double *rows) {
+  for (const double *at = rows; count > 0; count--, at += scene->joint_count) {
+    for (size_t j = 0; j < scene->joint_count; j++) {
+      if (!scene->joints[j].mimic) continue;
+      const double value = nsvcd__driven(scene, j, at);
+      const double offset = scene->joints[j].offset;
+      const double most = 1 + fabs(offset) + fabs(value - offset);
+      if (!(fabs(at[j] - value) <= NSVCD__MIMIC_ERROR * most)) return 0;
+    }
+  }
+  return 1;
+}
+
+static double nsvcd__speed_of(const nsvcd_joint *joint) {
+  return joint->speed > 0 ? joint->speed : 1;
+}
+static double nsvcd__acceleration_of(const nsvcd_joint *joint) {
+  return joint->acceleration > 0 ? joint->acceleration : 1;
+}
+
+// A joint of a scene, with limits that those which mimic it keep theirs in.
+static nsvcd_joint nsvcd__narrowed(const nsvcd_scene *scene, size_t joint) {
+  nsvcd_joint out = scene->joints[joint];
+  for (size_t k = 0; k < scene->joint_count; k++) {
+    const nsvcd_joint *other = &scene->joints[k];
+    if (other->mimic != joint + 1) continue;
+    const double rate = fabs(other->multiplier);
+    out.speed = nsvcd__min(nsvcd__speed_of(&out), nsvcd__speed_of(other) / rate);
+    out.acceleration =
+        nsvcd__min(nsvcd__acceleration_of(&out), nsvcd__acceleration_of(other) / rate);
+    if (other->kind == NSVCD_JOINT_CONTINUOUS) continue;
+    const double a = (other->low - other->offset) / other->multiplier;
+    const double b = (other->high - other->offset) / other->multiplier;
+    const int is_endless = out.kind == NSVCD_JOINT_CONTINUOUS;
+    out.low = is_endless ? nsvcd__min(a, b) : nsvcd__max(out.low, nsvcd__min(a, b));
+    out.high = is_endless ? nsvcd__max(a, b) : nsvcd__min(out.high, nsvcd__max(a, b));
+    if (is_endless) out.kind = NSVCD_JOINT_REVOLUTE;
+  }
+  return out;
 }
 
 // ------------------------------------------------------------------------------------- robot/steps
@@ -2181,6 +2287,22 @@ static nsvcd_result nsvcd__joint_check(const nsvcd_joint *joint, size_t i) {
   return fits ? NSVCD_OK : NSVCD_ERROR_LIMITS;
 }
 
+// Is a joint that mimics another in order? A full turn of a leader without limits has to bring back
+// what follows it.
+static nsvcd_result nsvcd__mimic_check(const nsvcd_scene *scene, const nsvcd_joint *joint) {
+  const double numbers[2] = {joint->multiplier, joint->offset};
+  if (!joint->mimic) return NSVCD_OK;
+  if (joint->mimic > scene->joint_count || !nsvcd__are_numbers(numbers, 2))
+    return NSVCD_ERROR_MIMIC;
+  const nsvcd_joint *leader = &scene->joints[joint->mimic - 1];
+  const double rate = fabs(joint->multiplier);
+  const int is_endless =
+      joint->kind == NSVCD_JOINT_CONTINUOUS && leader->kind == NSVCD_JOINT_CONTINUOUS;
+  // so it is not itself either
+  if (leader->mimic || !(rate >= NSVCD__LEAST_MULTIPLIER)) return NSVCD_ERROR_MIMIC;
+  return is_endless && rate > floor(rate) ? NSVCD_ERROR_MIMIC : NSVCD_OK;
+}
+
 static nsvcd_result nsvcd__part_check(const nsvcd_scene *scene, const nsvcd_part *part) {
   const nsvcd_body *body = NULL;
   const nsvcd_result result = nsvcd_body_trust(part->body, SIZE_MAX, &body);
@@ -2205,6 +2327,12 @@ static nsvcd_result nsvcd__scene_check(const nsvcd_scene *scene) {
     return NSVCD_ERROR_ARGUMENT;
   for (size_t i = 0; i < scene->joint_count && !result; i++)
     result = nsvcd__joint_check(&scene->joints[i], i);
+  for (size_t i = 0; i < scene->joint_count && !result; i++)
+    result = nsvcd__mimic_check(scene, &scene->joints[i]);
+  for (size_t i = 0; i < scene->joint_count && !result; i++) {
+    const nsvcd_joint joint = nsvcd__narrowed(scene, i);
+    result = nsvcd__joint_check(&joint, i);
+  }
   for (size_t n = 0; n < parts && !result; n++)
     result = nsvcd__part_check(scene, &scene->parts[n]);
   for (size_t k = 0; k < scene->pair_count && !result; k++) {
@@ -2275,6 +2403,7 @@ static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
   const size_t pairs = scene->pair_count;
   const size_t samples = NSVCD__MOST_STEPS + 1;
   const size_t rows = movers * samples;
+  c->joints = NSVCD__TAKE_ROWS(nsvcd_joint, scene->joint_count, base, &used);
   c->links = NSVCD__TAKE_ROWS(nsvcd__link, scene->joint_count, base, &used);
   c->at = NSVCD__TAKE_ROWS(nsvcd__links, 1, base, &used);
   c->next = NSVCD__TAKE_ROWS(nsvcd__links, 1, base, &used);
@@ -2334,11 +2463,15 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
   const size_t needed = nsvcd__checker_layout(scene, NULL, &c);
   if (!needed || size < needed) return NSVCD_ERROR_WORKSPACE;
   (void)nsvcd__checker_layout(scene, (char *)memory, &c);
+  c->own = *scene;
+  c->own.joints = c->joints;
   c->scene = scene;
   c->surfaces = 0;
   c->result = NSVCD_OK;
   for (size_t i = 0; i < scene->joint_count; i++) {
     const nsvcd_joint *joint = &scene->joints[i];
+    c->joints[i] = nsvcd__narrowed(scene, i);
+    if (joint->mimic) c->scene = &c->own;
     nsvcd__link *link = &c->links[i];
     link->origin = nsvcd__unit_dpose(&joint->origin);
     link->axis = nsvcd__d3_unit(nsvcd__d3_load(joint->axis), nsvcd__d3_of(0, 0, 1));
@@ -2873,7 +3006,9 @@ static size_t nsvcd__joint_outside(const nsvcd_scene *scene, const nsvcd_joint_m
 // ---- a check
 
 // Is a motion in order? Of no pieces it must be as nsvcd__motion_meant has it.
-static nsvcd_result nsvcd__motion_check(const nsvcd_joint_motion *m, size_t joints) {
+static nsvcd_result nsvcd__motion_check(const nsvcd_scene *scene,
+                                        const nsvcd_joint_motion *m) {
+  const size_t joints = scene->joint_count;
   if (m->pieces && (m->degree < 1 || m->degree > NSVCD_MAX_DEGREE)) return NSVCD_ERROR_DEGREE;
   if (m->pieces > SIZE_MAX / sizeof(double) / (NSVCD_MAX_DEGREE + 1) / joints)
     return NSVCD_ERROR_DEGREE;
@@ -2883,7 +3018,8 @@ static nsvcd_result nsvcd__motion_check(const nsvcd_joint_motion *m, size_t join
   for (size_t p = 0; p < m->pieces && m->times; p++) {
     if (!(m->times[p + 1] > m->times[p])) return NSVCD_ERROR_TIMES;
   }
-  return NSVCD_OK;
+  const int follows = nsvcd__follows(scene, m->pieces * m->degree + 1, m->points);
+  return follows ? NSVCD_OK : NSVCD_ERROR_MIMIC;
 }
 
 // Is it free, and within the limits?
@@ -2899,7 +3035,7 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *c, const nsvcd_joint_motion *mo
   if (!c || !motion || !answer || !motion->points) return NSVCD_ERROR_ARGUMENT;
   const size_t joints = c->scene->joint_count;
   const nsvcd_joint_motion m = nsvcd__motion_meant(motion);
-  const nsvcd_result result = nsvcd__motion_check(&m, joints);
+  const nsvcd_result result = nsvcd__motion_check(c->scene, &m);
   if (result) return result;
   memset(&o, 0, sizeof o);
   if (options) o = *options;
@@ -3525,7 +3661,7 @@ NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
     return NSVCD_ERROR_ARGUMENT;
   const nsvcd_scene *scene = checker->scene;
   if (!motion->points) return NSVCD_ERROR_ARGUMENT;
-  const nsvcd_result result = nsvcd__motion_check(motion, scene->joint_count);
+  const nsvcd_result result = nsvcd__motion_check(scene, motion);
   if (result) return result;
   if (pair >= scene->pair_count) return NSVCD_ERROR_PAIR;
   if (!nsvcd__is_provable(checker, motion)) return NSVCD_ERROR_TURN;
@@ -3706,14 +3842,14 @@ static size_t nsvcd__tree_nearest(const nsvcd__rrt *t, const double *at) {
 
 static nsvcd_result nsvcd__check_joints(const nsvcd_checker *c, const double *joints) {
   if (!c || !joints) return NSVCD_ERROR_ARGUMENT;
-  const int are_numbers = nsvcd__are_numbers(joints, c->scene->joint_count);
-  return are_numbers ? NSVCD_OK : NSVCD_ERROR_VALUE;
+  if (!nsvcd__are_numbers(joints, c->scene->joint_count)) return NSVCD_ERROR_VALUE;
+  return nsvcd__follows(c->scene, 1, joints) ? NSVCD_OK : NSVCD_ERROR_MIMIC;
 }
 
 // ---- proximities
 
-// Adds to the slope how fast a point of a part moves along a direction by each joint, times `sign`.
-// The point and the direction are in the local frame.
+// Adds to the slope how fast a point of a part moves along a direction by each joint and those that
+// it drives, times `sign`. The point and the direction are in the local frame.
 static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, const nsvcd__local *local,
                              nsvcd__d3 at, nsvcd__d3 along, double sign, double *slope) {
   const nsvcd__d3 point = nsvcd__dpose_apply(&local->frame, at);
@@ -3723,7 +3859,8 @@ static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, const nsvcd__l
     const nsvcd__d3 arm = nsvcd__d3_sub(point, c->at->frames[link].position);
     const nsvcd__d3 axis = c->at->axes[link - 1];
     const nsvcd__d3 speed = nsvcd__slides(c, link - 1) ? axis : nsvcd__d3_cross(axis, arm);
-    slope[link - 1] += sign * nsvcd__d3_dot(normal, speed);
+    slope[nsvcd__driver(c->scene, link - 1)] +=
+        sign * nsvcd__rate(c->scene, link - 1) * nsvcd__d3_dot(normal, speed);
   }
 }
 
@@ -3886,6 +4023,7 @@ static void nsvcd__clamp_to_limits(const nsvcd_scene *scene, double *joints) {
     const nsvcd_joint *joint = &scene->joints[j];
     joints[j] = nsvcd__max(nsvcd__low_of(joint), nsvcd__min(nsvcd__high_of(joint), joints[j]));
   }
+  nsvcd__follow(scene, 1, joints);
 }
 
 // Is a configuration free? An error is in c->result.
@@ -3905,6 +4043,7 @@ static void nsvcd__draw_back(nsvcd_checker *c, const double *from,
   memcpy(blocked, from, joints * sizeof *at);
   for (size_t n = 0; n < NSVCD__FREE_HALVINGS && !c->result; n++) {
     for (size_t j = 0; j < joints; j++) middle[j] = 0.5 * (blocked[j] + at[j]);
+    nsvcd__follow(c->scene, 1, middle);
     const int is_free = nsvcd__is_free_at(c, middle, o);
     memcpy(is_free ? at : blocked, middle, joints * sizeof *at);
   }
@@ -3924,8 +4063,9 @@ static int nsvcd__seek_nearest_free(nsvcd_checker *c, const double *from,
     double at[NSVCD_MAX_JOINTS];
     double square = 0;
     if (o->stop && o->stop(o->user)) break;
+    for (size_t j = 0; j < joints; j++) at[j] = 2 * nsvcd__random(&random) - 1;
     for (size_t j = 0; j < joints; j++) {
-      at[j] = 2 * nsvcd__random(&random) - 1;
+      at[j] = nsvcd__rate(c->scene, j) * at[nsvcd__driver(c->scene, j)];
       square += at[j] * at[j];
     }
     for (size_t j = 0; j < joints; j++) at[j] = from[j] + radius / sqrt(square) * at[j];
@@ -3981,6 +4121,7 @@ static int nsvcd__touches_in_all(nsvcd_checker *c, const nsvcd_body_pair *pair, 
       const double high = is_endless ? 6.283185307179586 : joint->high;
       joints[j] = low + (high - low) * nsvcd__random(&random);
     }
+    nsvcd__follow(c->scene, 1, joints);
     nsvcd__place_links(c, joints, c->at);
     (void)nsvcd__localize_at(c, pair);
     const nsvcd_question q = nsvcd__question_of(c, pair, 1, 0);
@@ -4065,6 +4206,29 @@ NSVCDDEF nsvcd_result nsvcd_reparent(const nsvcd_checker *c, const double *joint
   return result;
 }
 
+// ---------------------------------------------------------------------------------- robot/cholesky
+// In: six linear equations whose matrix is positive definite. Out: their solution.
+
+// Solves m x = b by Cholesky's factors, of which m keeps the lower one. m is positive definite.
+static void nsvcd__solve_six(double m[6][6], const double *b, double *x) {
+  for (size_t i = 0; i < 6; i++) {
+    for (size_t k = 0; k <= i; k++) {
+      double sum = m[i][k];
+      for (size_t l = 0; l < k; l++) sum -= m[i][l] * m[k][l];
+      m[i][k] = i == k ? sqrt(nsvcd__max(sum, 1e-300)) : sum / m[k][k];
+    }
+  }
+  for (size_t i = 0; i < 6; i++) {
+    x[i] = b[i];
+    for (size_t k = 0; k < i; k++) x[i] -= m[i][k] * x[k];
+    x[i] /= m[i][i];
+  }
+  for (size_t i = 6; i-- > 0;) {
+    for (size_t k = i + 1; k < 6; k++) x[i] -= m[k][i] * x[k];
+    x[i] /= m[i][i];
+  }
+}
+
 // ------------------------------------------------------------------------------------- robot/reach
 // In: a robot, a frame on one of its links, and where that is to be. Out: configurations that have
 // it there.
@@ -4109,7 +4273,7 @@ typedef struct nsvcd__reacher {
   // the start, within the limits
   double start[NSVCD_MAX_JOINTS];
   // joints that move the tool against the target, the lower first: on the way to the tool, 1, or to
-  // the target's link, -1
+  // the target's link, -1; and leaders of such joints that are on neither, 0
   size_t chain[NSVCD_MAX_JOINTS];
   double sides[NSVCD_MAX_JOINTS];
   // of a step of each: radians, or lengths of the chain
@@ -4152,6 +4316,7 @@ static void nsvcd__reach_place(nsvcd__reacher *r, const double *q) {
   nsvcd__links *at = &r->at;
   for (size_t n = 0; n < r->count; n++) {
     const size_t j = r->chain[n];
+    if (!(fabs(r->sides[n]) > 0)) continue;
     const nsvcd__dpose link = nsvcd__joint_frame(r->checker, j, q[j]);
     at->frames[j + 1] = nsvcd__dpose_mul(&at->frames[r->scene->joints[j].parent], &link);
     at->axes[j] = nsvcd__dquat_rotate(at->frames[j + 1].rotation, r->checker->links[j].axis);
@@ -4188,6 +4353,19 @@ static int nsvcd__is_reached(const nsvcd__reacher *r) {
          r->miss.angle <= r->options.angle_tolerance;
 }
 
+// Adds what the joints that mimic one do to how the residuals change with it. All leaders are in
+// the chain.
+static void nsvcd__reach_add_driven(nsvcd__reacher *r) {
+  for (size_t n = 0; n < r->count; n++) {
+    const size_t driver = nsvcd__driver(r->scene, r->chain[n]);
+    for (size_t i = 0; i < r->count && driver != r->chain[n]; i++) {
+      const double rate = nsvcd__rate(r->scene, r->chain[n]) * r->units[i] / r->units[n];
+      for (size_t k = 0; k < 6 && r->chain[i] == driver; k++)
+        r->jacobian[i][k] += rate * r->jacobian[n][k];
+    }
+  }
+}
+
 // How the residuals change with each joint, which slides by lengths of the chain. Of a rotation
 // vector that is exact as far as its own direction goes, which makes the gradient exact.
 static void nsvcd__reach_differentiate(nsvcd__reacher *r) {
@@ -4215,33 +4393,15 @@ static void nsvcd__reach_differentiate(nsvcd__reacher *r) {
       r->jacobian[n][3 + k] = nsvcd__d3_axis(turns, k);
     }
   }
+  nsvcd__reach_add_driven(r);
 }
 
 // ---- a step
 
-// Does the caller hold a joint of the chain?
+// Does the caller hold a joint of the chain, or another joint drive it?
 static int nsvcd__reach_holds(const nsvcd__reacher *r, size_t n) {
-  return r->problem.held && r->problem.held[r->chain[n]];
-}
-
-// Solves m x = b by Cholesky's factors, of which m keeps the lower one. m is positive definite.
-static void nsvcd__solve_six(double m[6][6], const double *b, double *x) {
-  for (size_t i = 0; i < 6; i++) {
-    for (size_t k = 0; k <= i; k++) {
-      double sum = m[i][k];
-      for (size_t l = 0; l < k; l++) sum -= m[i][l] * m[k][l];
-      m[i][k] = i == k ? sqrt(nsvcd__max(sum, 1e-300)) : sum / m[k][k];
-    }
-  }
-  for (size_t i = 0; i < 6; i++) {
-    x[i] = b[i];
-    for (size_t k = 0; k < i; k++) x[i] -= m[i][k] * x[k];
-    x[i] /= m[i][i];
-  }
-  for (size_t i = 6; i-- > 0;) {
-    for (size_t k = i + 1; k < 6; k++) x[i] -= m[k][i] * x[k];
-    x[i] /= m[i][i];
-  }
+  const size_t j = r->chain[n];
+  return r->scene->joints[j].mimic || (r->problem.held && r->problem.held[j]);
 }
 
 // A damped step from q that keeps the limits: J^T y, where (J J^T + damping) y is minus the
@@ -4300,6 +4460,7 @@ static void nsvcd__reach_step(const nsvcd__reacher *r, const double *q, double d
     *expected -= 0.5 * residual * residual;
   }
   for (size_t n = 0; n < r->count; n++) out[r->chain[n]] += r->units[n] * step[n];
+  nsvcd__follow(r->scene, 1, out);
 }
 
 // Goes from q to where the tool is at its target, or as near to that as it comes, until so many
@@ -4350,6 +4511,7 @@ static void nsvcd__reach_draw(nsvcd__reacher *r, double *q) {
     const double high = nsvcd__min(nsvcd__high_of(joint), to);
     q[j] = low + (high - low) * nsvcd__random(&r->random);
   }
+  nsvcd__follow(r->scene, 1, q);
 }
 
 // Takes joints that turn as near to the start as whole turns bring them within their limits. A step
@@ -4360,7 +4522,7 @@ static void nsvcd__reach_unwind(const nsvcd__reacher *r, double *q) {
     const size_t j = r->chain[n];
     const nsvcd_joint *joint = &r->scene->joints[j];
     double turns = floor((q[j] - r->start[j]) / full_turn + 0.5);
-    if (nsvcd__slides(r->checker, j)) continue;
+    if (nsvcd__slides(r->checker, j) || nsvcd__leads(r->scene, j)) continue;
     const double to = q[j] - full_turn * turns;
     // the next one is between the start and q
     if (to < nsvcd__low_of(joint) || to > nsvcd__high_of(joint)) turns -= turns > 0 ? 1 : -1;
@@ -4473,6 +4635,7 @@ static size_t nsvcd__reach_chain(nsvcd__reacher *r) {
   const nsvcd_reach_problem *p = &r->problem;
   const nsvcd__dpose origin = {{0, 0, 0, 1}, {0, 0, 0}};
   double sides[NSVCD_MAX_JOINTS] = {0};
+  int moves[NSVCD_MAX_JOINTS] = {0};
   uint32_t fork = p->link;
   for (uint32_t l = p->link; l; l = joints[l - 1].parent) sides[l - 1] += 1;
   for (uint32_t l = p->target_link; l; l = joints[l - 1].parent) sides[l - 1] -= 1;
@@ -4480,9 +4643,12 @@ static size_t nsvcd__reach_chain(nsvcd__reacher *r) {
   r->at.frames[fork] = origin;
   if (p->link != fork) r->length += nsvcd__d3_norm(r->tool.position);
   if (p->target_link != fork) r->length += nsvcd__d3_norm(r->target.position);
+  for (size_t j = 0; j < r->joints; j++)
+    moves[nsvcd__driver(r->scene, j)] |= fabs(sides[j]) > 0;
   for (size_t j = 0; j < r->joints; j++) {
-    if (!(fabs(sides[j]) > 0)) continue;
-    if (joints[j].parent != fork)
+    const int is_between = fabs(sides[j]) > 0;
+    if (!is_between && !moves[j]) continue;
+    if (is_between && joints[j].parent != fork)
       r->length += nsvcd__d3_norm(r->checker->links[j].origin.position);
     r->sides[r->count] = sides[j];
     r->chain[r->count++] = j;
@@ -4568,6 +4734,7 @@ NSVCDDEF nsvcd_result nsvcd_reach(nsvcd_checker *checker, const nsvcd_reach_prob
 // of both. Where a joint slides, r is 1. In a box of joint values, which reach h_k to either side
 // of its centre, joints may change one after another. So from the centre d changes by no more than
 //   sum over joints k of h_k r_k
+// A joint that mimics another reaches its multiplier times as far.
 // r_k: of all configurations of the box. It is that of the centre, and what the joints between the
 // part and k add: the chord 2 r sin(h / 2) of each, h up to pi, or h if it slides.
 // Source: this library.
@@ -4596,10 +4763,14 @@ typedef struct nsvcd__span {
   nsvcd_body_pair pairs[2];
   // of this scene
   nsvcd_checker *checker;
-  // joints from the first part to the second, through the link that carries both
+  // joints from the first part to the second, through the link that carries both; and which of
+  // `path` drives each
+  size_t way[NSVCD_MAX_JOINTS], drivers[NSVCD_MAX_JOINTS];
+  size_t way_count;
+  // those that drive them
   size_t path[NSVCD_MAX_JOINTS];
   size_t joints;
-  // what joints off the path are held at, and, of the path, the centre of a box
+  // what joints off the path are at, and, of the path, the centre of a box
   double at[NSVCD_MAX_JOINTS];
   // of the path: the box, half its widths, and r of the banner
   double low[NSVCD_MAX_JOINTS], high[NSVCD_MAX_JOINTS];
@@ -4647,20 +4818,26 @@ static nsvcd__rider nsvcd__rider_of(const nsvcd__span *s, const nsvcd__links *at
 // Fills in s->arms for two balls, which ride on the two parts' links.
 static void nsvcd__arms_between(nsvcd__span *s, const nsvcd__links *at,
                                 const nsvcd__rider *balls) {
+  double arms[NSVCD_MAX_JOINTS];
   for (size_t side = 0; side < 2; side++) {
     double moved = 0;
-    for (size_t n = 0; n < s->joints; n++) {
-      const size_t k = side ? s->joints - 1 - n : n;
-      const size_t j = s->path[k];
+    for (size_t n = 0; n < s->way_count; n++) {
+      const size_t k = side ? s->way_count - 1 - n : n;
+      const size_t j = s->way[k];
+      const double reach = fabs(nsvcd__rate(&s->scene, j)) * s->half[s->drivers[k]];
       const nsvcd__d3 off = nsvcd__d3_sub(balls[side].centre, at->frames[j + 1].position);
       const double across = nsvcd__d3_norm(nsvcd__d3_cross(at->axes[j], off));
       const int slides = nsvcd__slides(s->checker, j);
       const double arm = slides ? 1 : across + balls[side].radius + moved;
-      const double half = nsvcd__min(s->half[k], 3.141592653589793);
-      moved += slides ? s->half[k] : 2 * arm * sin(0.5 * half);
-      s->arms[k] = side ? nsvcd__min(s->arms[k], arm) : arm;
+      const double half = nsvcd__min(reach, 3.141592653589793);
+      moved += slides ? reach : 2 * arm * sin(0.5 * half);
+      arms[k] = side ? nsvcd__min(arms[k], arm) : arm;
     }
   }
+  // of a joint of the path, with all that it drives
+  for (size_t k = 0; k < s->joints; k++) s->arms[k] = 0;
+  for (size_t k = 0; k < s->way_count; k++)
+    s->arms[s->drivers[k]] += fabs(nsvcd__rate(&s->scene, s->way[k])) * arms[k];
 }
 
 // The bound of the banner, without one joint of the path, or NSVCD_NONE.
@@ -4696,7 +4873,8 @@ static nsvcd_result nsvcd__ask_span(nsvcd__span *s, int is_probe, size_t along,
     points[s->path[along]] = s->low[along];
     points[joints + s->path[along]] = s->high[along];
   }
-  s->scene.pairs = &s->pairs[is_probe];
+  nsvcd__follow(&s->scene, 1 + (along != NSVCD_NONE), points);
+  s->scene.pairs = s->checker->own.pairs = &s->pairs[is_probe];
   s->checker->surfaces = is_probe;
   return nsvcd_check(s->checker, &motion, &options, answer);
 }
@@ -4710,6 +4888,7 @@ static void nsvcd__take_box(nsvcd__span *s, const double *box) {
     s->at[s->path[k]] = middle;
     s->half[k] = nsvcd__max(s->high[k] - middle, middle - s->low[k]) * (1 + 1e-15);
   }
+  nsvcd__follow(&s->scene, 1, s->at);
 }
 
 // The parts and joints of a span, without its checker.
@@ -4726,12 +4905,20 @@ static void nsvcd__span_begin(const nsvcd_scene *scene, nsvcd_body_pair pair, ns
   s->parts[0] = scene->parts[pair.a];
   s->parts[1] = scene->parts[pair.b];
   s->pairs[0].b = 1;
-  s->joints = nsvcd__path_between(scene, s->parts[0].link, s->parts[1].link, s->path);
+  s->way_count = nsvcd__path_between(scene, s->parts[0].link, s->parts[1].link, s->way);
+  for (size_t n = 0; n < s->way_count; n++) {
+    const size_t driver = nsvcd__driver(scene, s->way[n]);
+    size_t k = 0;
+    while (k < s->joints && s->path[k] != driver) k++;
+    if (k == s->joints) s->path[s->joints++] = driver;
+    s->drivers[n] = k;
+  }
   for (size_t j = 0; j < scene->joint_count; j++) {
     double low, high;
     nsvcd__values_of(&scene->joints[j], &low, &high);
     s->at[j] = 0.5 * (low + high);
   }
+  nsvcd__follow(scene, 1, s->at);
   // of all bodies the one with the fewest triangles
   nsvcd_part *probe = &s->parts[2];
   size_t fewest = SIZE_MAX;
@@ -4829,6 +5016,7 @@ static int nsvcd__range_is_over(nsvcd__ranging *r) {
 static nsvcd_verdict nsvcd__note_here(nsvcd__ranging *r) {
   nsvcd_check_answer found;
   nsvcd__span *s = &r->span;
+  nsvcd__follow(&s->scene, 1, s->at);
   const size_t bytes = s->scene.joint_count * sizeof *s->at;
   const double clearance = (double)r->options.clearance;
   r->result = nsvcd__ask_span(s, 0, NSVCD_NONE, clearance, &r->options, &found);
@@ -4855,7 +5043,8 @@ static void nsvcd__follow_slope(nsvcd__ranging *r, double sign) {
   for (size_t n = 0; n < NSVCD__SLOPE_STEPS && !nsvcd__range_is_over(r); n++) {
     nsvcd_proximity nearest;
     double square = 0;
-    s->scene.pairs = s->pairs;
+    s->scene.pairs = c->own.pairs = s->pairs;
+    nsvcd__follow(&s->scene, 1, s->at);
     c->surfaces = 0;
     c->result = NSVCD_OK;
     nsvcd__place_links(c, s->at, c->at);
@@ -5051,7 +5240,7 @@ static void nsvcd__seek_probes(nsvcd__ranging *r, const nsvcd__links *at) {
   const nsvcd__rider a = nsvcd__rider_of(s, at, 0);
   const nsvcd__rider b = nsvcd__rider_of(s, at, 1);
   const nsvcd__rider *small = a.radius < b.radius ? &a : &b;
-  const size_t on_axes = NSVCD__AXIS_POINTS * s->joints;
+  const size_t on_axes = NSVCD__AXIS_POINTS * s->way_count;
   nsvcd__bounds bounds[2];
   for (size_t n = 0; n < 2; n++) {
     const nsvcd__dpose frame = nsvcd__frame_of_part(s->checker, at, n);
@@ -5068,7 +5257,7 @@ static void nsvcd__seek_probes(nsvcd__ranging *r, const nsvcd__links *at) {
       nsvcd__d3_set_axis(&point, k, from + nsvcd__random(&r->random) * (to - from));
     }
     if (n < on_axes) {
-      const size_t j = s->path[n / NSVCD__AXIS_POINTS];
+      const size_t j = s->way[n / NSVCD__AXIS_POINTS];
       const nsvcd__d3 foot = at->frames[j + 1].position;
       const double along = nsvcd__d3_dot(nsvcd__d3_sub(small->centre, foot), at->axes[j]);
       const double shift = (2 * nsvcd__random(&r->random) - 1) * small->radius;
@@ -5284,13 +5473,6 @@ static void nsvcd__trajectory_add(nsvcd__trajectory *t, size_t joints, const dou
   t->times[++t->motion.pieces] = time;
 }
 
-static double nsvcd__speed_of(const nsvcd_joint *joint) {
-  return joint->speed > 0 ? joint->speed : 1;
-}
-static double nsvcd__acceleration_of(const nsvcd_joint *joint) {
-  return joint->acceleration > 0 ? joint->acceleration : 1;
-}
-
 // A joint in a blend: from position x0 at speed v0, acceleration a until t1, none until t2, -a
 // after that.
 typedef struct nsvcd__blend_joint {
@@ -5393,10 +5575,18 @@ static double nsvcd__blend_joints(const nsvcd_scene *scene, const nsvcd__state *
     const nsvcd_joint *joint = &scene->joints[j];
     const double speed = NSVCD__BLEND_FRACTION * nsvcd__speed_of(joint);
     const double most = NSVCD__BLEND_MOST * nsvcd__acceleration_of(joint);
+    if (joint->mimic) continue;
     if (!nsvcd__blend_solve(from->x[j], from->v[j], to->x[j], to->v[j], speed, most, time,
                             &out[j]) ||
         nsvcd__blend_leaves(joint, &out[j], time))
       return 0;
+  }
+  for (size_t j = 0; j < scene->joint_count; j++) {
+    const double rate = nsvcd__rate(scene, j);
+    const nsvcd__blend_joint *b = &out[nsvcd__driver(scene, j)];
+    const nsvcd__blend_joint driven = {nsvcd__driven(scene, j, from->x), rate * b->v0,
+                                       rate * b->a, b->t1, b->t2};
+    if (scene->joints[j].mimic) out[j] = driven;
   }
   return time;
 }
@@ -5459,6 +5649,8 @@ static int nsvcd__blend_write(const nsvcd_scene *scene, const nsvcd__state *from
 #define NSVCD__WORTHY_GAIN 0.02
 // metres that the search adds to the clearance, so that the proof of the whole succeeds
 #define NSVCD__SPARE 1e-4f
+// radians or metres: corners of a path that are no farther apart are one
+#define NSVCD__SAME_CORNER 1e-9
 // check_options.finest and .work of the search
 #define NSVCD__SEARCH_FINEST 5e-4f
 #define NSVCD__SEARCH_WORK 1000
@@ -5547,6 +5739,23 @@ static int nsvcd__ask_edge(nsvcd__router *r, const double *from, const double *t
 }
 
 // ---- from rest to rest
+
+// Drops corners that are nearly at the one before: of so short an edge rounding would say what its
+// acceleration is. The timed motion is proven as a whole.
+static void nsvcd__simplify_path(nsvcd__router *r) {
+  const size_t bytes = r->joints * sizeof(double);
+  const double least2 = NSVCD__SAME_CORNER * NSVCD__SAME_CORNER;
+  const double *last = nsvcd__corner_at(r, r->corners - 1);
+  size_t kept = 1;
+  for (size_t k = 1; k < r->corners; k++) {
+    const double *at = nsvcd__corner_at(r, k);
+    if (nsvcd__distance2(nsvcd__corner_at(r, kept - 1), at, r->joints) < least2) continue;
+    memmove(nsvcd__corner_at(r, kept++), at, bytes);
+  }
+  // the end stays where it is
+  memmove(nsvcd__corner_at(r, kept - 1), last, bytes);
+  r->corners = kept;
+}
 
 // Adds pieces along an edge: speeds up, goes on, slows down, all joints in proportion.
 static void nsvcd__add_edge(nsvcd__router *r, const double *from, const double *to) {
@@ -5816,6 +6025,7 @@ static int nsvcd__seek(nsvcd__router *r) {
     nsvcd__rrt *grown = &r->trees[side];
     double drawn[NSVCD_MAX_JOINTS];
     nsvcd__draw(r, side, drawn);
+    nsvcd__follow(r->scene, 1, drawn);
     const size_t before = grown->count;
     (void)nsvcd__grow(r, grown, drawn, 0, &r->met[side]);
     if (nsvcd__is_at_limit(r)) return 0;
@@ -5869,8 +6079,6 @@ static int nsvcd__prove_path(nsvcd__router *r) {
 #define NSVCD__LOOK_SEARCHES 16
 // of the balls' errors, which margins are less by after each search that finds nothing
 #define NSVCD__LOOK_EASE 0.34f
-// radians or metres: corners of a path that are no farther apart are one
-#define NSVCD__SAME_CORNER 1e-9
 
 // ---- memory
 
@@ -5890,8 +6098,10 @@ static nsvcd_result nsvcd__route_check(const nsvcd_checker *checker,
   const size_t counts[3] = {1, problem->goal_count, problem->guess_count};
   for (size_t n = 0; n < 3; n++) {
     if (!nsvcd__are_numbers(rows[n], counts[n] * joints)) return NSVCD_ERROR_VALUE;
+    if (!nsvcd__follows(checker->scene, counts[n], rows[n])) return NSVCD_ERROR_MIMIC;
     for (size_t k = 0; k < counts[n] * joints && problem->held; k++) {
       const double off = rows[n][k] - problem->start[k % joints];
+      if (checker->scene->joints[k % joints].mimic) continue;
       if (problem->held[k % joints] && (off > 0 || off < 0)) return NSVCD_ERROR_HELD;
     }
   }
@@ -6000,23 +6210,6 @@ static void nsvcd__shorten(nsvcd__router *r) {
   }
 }
 
-// Drops corners that are nearly at the one before: of so short an edge rounding would say what its
-// acceleration is. The timed motion is proven as a whole.
-static void nsvcd__simplify_path(nsvcd__router *r) {
-  const size_t bytes = r->joints * sizeof(double);
-  const double least2 = NSVCD__SAME_CORNER * NSVCD__SAME_CORNER;
-  const double *last = nsvcd__corner_at(r, r->corners - 1);
-  size_t kept = 1;
-  for (size_t k = 1; k < r->corners; k++) {
-    const double *at = nsvcd__corner_at(r, k);
-    if (nsvcd__distance2(nsvcd__corner_at(r, kept - 1), at, r->joints) < least2) continue;
-    memmove(nsvcd__corner_at(r, kept++), at, bytes);
-  }
-  // the end stays where it is
-  memmove(nsvcd__corner_at(r, kept - 1), last, bytes);
-  r->corners = kept;
-}
-
 // ---- a route
 
 NSVCDDEF const char *nsvcd_route_status_string(nsvcd_route_status status) {
@@ -6039,6 +6232,7 @@ static int nsvcd__take_in(nsvcd__router *r, const double *at, double *out) {
     if (at[j] < joint->low && at[j] >= joint->low - error) out[j] = joint->low;
     if (at[j] > joint->high && at[j] <= joint->high + error) out[j] = joint->high;
   }
+  nsvcd__follow(r->scene, 1, out);
   const nsvcd_check_options was = r->check;
   for (size_t n = 0; n < 4; n++) {
     r->check = was;
@@ -6077,6 +6271,7 @@ static void nsvcd__plant(nsvcd__router *r) {
       const double turns = floor((at[j] - r->trees[0].points[j]) / full_turn + 0.5);
       if (r->scene->joints[j].kind == NSVCD_JOINT_CONTINUOUS) at[j] -= full_turn * turns;
     }
+    nsvcd__follow(r->scene, 1, at);
     r->goals[r->trees[1].count] = g;
     nsvcd__plant_root(r, &r->trees[1], at);
   }
@@ -6106,6 +6301,7 @@ static void nsvcd__time_path(nsvcd__router *r) {
   for (int rests = 0; rests < 2 - r->is_looking && !is_free; rests++) {
     if (!nsvcd__trajectory_along(r)) return;
     if (!rests) nsvcd__smooth(r);
+    nsvcd__follow(r->scene, 2 * t->motion.pieces + 1, t->points);
     // also when the caller has stopped the search: what it found by then is proven
     is_free = !r->result && nsvcd__prove_by(r, &t->motion, &whole);
   }
@@ -6207,7 +6403,8 @@ NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_prob
   r->check.stop = problem->abandon;
   r->check.user = problem->user;
   for (size_t j = 0; j < r->joints; j++)
-    if (!problem->held || !problem->held[j]) r->moving[r->moving_count++] = j;
+    if (!r->scene->joints[j].mimic && !(problem->held && problem->held[j]))
+      r->moving[r->moving_count++] = j;
   nsvcd__plant(r);
   r->root_count = r->trees[1].count;
   if (r->root_count > 0 && r->options.looks) nsvcd__search_by_looks(r);

@@ -77,6 +77,7 @@ extern "C" {
 
 // ============================================================ robot: is a motion of joints free?
 #include "robot/chain.h"       // links, joints and frames: where everything is
+#include "robot/mimics.h"      // joints that others drive
 #include "robot/steps.h"       // what the joints do between two times
 #include "robot/allowances.h"  // when a pair may touch
 #include "robot/deviation.h"   // how far a part leaves its sweep between two samples
@@ -88,6 +89,7 @@ extern "C" {
 #include "robot/proofs.h"          // certificates of pairs
 #include "robot/rrt.h"             // trees of configurations, and the nearest node
 #include "robot/configurations.h"  // proximities, the nearest free one, pairs that can meet
+#include "robot/cholesky.h"        // six linear equations
 #include "robot/reach.h"           // configurations that have a tool at a target
 #include "robot/spans.h"           // two parts, and the joints between them
 #include "robot/ranges.h"          // do two parts meet never, always or sometimes?

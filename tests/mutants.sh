@@ -1,7 +1,7 @@
 #!/bin/sh
 # Are the tests of the proof worth anything? Each mutant is the library with one mistake in it; tests/test_proof.c has to
 # fail on it, or, where its name begins with `level:`, `asks:`, `long:`, `exact:`, `floor:`, `solids:`, `round:`,
-# `robot:`, `looks:`, `route_looks:`, `many_joints:`, `postures:`, `reach:`, `ranges:` or `allowances:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
+# `robot:`, `looks:`, `route_looks:`, `many_joints:`, `postures:`, `reach:`, `ranges:`, `allowances:` or `mimics:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
 # certificates, examples/verify, and tests/test_certificate.c or tests/test_checker.c has to fail, of `fits:`
 # tests/test_fits.c. Prints a line for each, and exits with 1 if one survives. An argument runs only the mutants whose
 # name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every 16th of them, in a folder of its own.
@@ -12,7 +12,7 @@ cd "$(dirname "$0")/.." || exit 1
 work=${WORK:-build/mutants}
 mkdir -p $work/tests/bench $work/examples/scenery $work/examples/verify
 cp weights.h $work/
-cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_looks.c tests/test_route_looks.c tests/test_many_joints.c tests/test_postures.c tests/test_reach.c tests/test_ranges.c tests/test_allowances.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
+cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_looks.c tests/test_route_looks.c tests/test_many_joints.c tests/test_postures.c tests/test_reach.c tests/test_ranges.c tests/test_allowances.c tests/test_mimics.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
 cp tests/bench/*.h $work/tests/bench/
 cp examples/scenery/*.h $work/examples/scenery/
 
@@ -266,7 +266,7 @@ robot: a last proof that nobody ends|whole.stop = r->check.stop;|
 robot: trees that stay in their holes|if (r->idle[turn % 2] >= NSVCD__IDLE \&\&|if (0 \&\&
 robot: limits of joints that a route may leave|return answer->verdict == NSVCD_FREE \&\& answer->joint == NSVCD_NONE;|return answer->verdict == NSVCD_FREE;
 robot: whole turns are gone|at[j] -= full_turn * turns;|at[j] -= 0 * turns;
-postures: slopes by the lever alone|slope[link - 1] += sign * nsvcd__d3_dot(normal, speed);|slope[link - 1] += sign * nsvcd__d3_norm(speed);
+postures: slopes by the lever alone|sign * nsvcd__rate(c->scene, link - 1) * nsvcd__d3_dot(normal, speed);|sign * nsvcd__rate(c->scene, link - 1) * nsvcd__d3_norm(speed);
 postures: slopes of a alone|nsvcd__slope_add(c, pair->b, \&local, point, normal, -1, out->slope);|
 postures: depths of a alone|nsvcd__slope_add(c, pair->b, local, point, normal, -1 / rate, out->slope);|
 postures: depths without a rate|nsvcd__slope_add(c, pair->a, local, on_a, normal, 1 / rate, out->slope);|nsvcd__slope_add(c, pair->a, local, on_a, normal, 1, out->slope);
@@ -413,7 +413,19 @@ allowances: one part alone|for (size_t n = 0; n < 2; n++) { const nsvcd__member 
 allowances: no end|c->cuts[2 * n + 1] = nsvcd__allowed_until(c, \&c->scene->allowances[n], m, t1, t0);|c->cuts[2 * n + 1] = t1;
 allowances: looks that see all|return nsvcd__look_not_allowed(k, pair, met) != 0;|return met != 0;
 many_joints: held ones that are drawn|out[r->moving[k]] = nsvcd__draw_joint(r, r->moving[k], is_wide);|out[r->moving[k]] = nsvcd__draw_joint(r, r->moving[k], is_wide);\n  for (size_t j = 0; j < joints; j++) out[j] = nsvcd__draw_joint(r, j, is_wide);
-many_joints: held ones that move alone|if (!problem->held \|\| !problem->held[j]) r->moving|r->moving
+many_joints: held ones that move alone|if (!r->scene->joints[j].mimic \&\& !(problem->held \&\& problem->held[j])) r->moving|r->moving
+mimics: any motion is one|return follows ? NSVCD_OK : NSVCD_ERROR_MIMIC;|return NSVCD_OK;
+mimics: a motion by its first point|nsvcd__follows(scene, m->pieces * m->degree + 1, m->points);|nsvcd__follows(scene, 1, m->points);
+mimics: without the offset|return j->mimic ? j->multiplier * at[j->mimic - 1] + j->offset : at[joint];|return j->mimic ? j->multiplier * at[j->mimic - 1] : at[joint];
+mimics: a leader within its own limits alone|c->joints[i] = nsvcd__narrowed(scene, i);|c->joints[i] = *joint;
+mimics: blends at the leader's pace|nsvcd__driven(scene, j, from->x), rate * b->v0,|nsvcd__driven(scene, j, from->x), b->v0,
+mimics: routes that drift|nsvcd__follow(r->scene, 2 * t->motion.pieces + 1, t->points);|
+mimics: a box of the leader's width|s->arms[s->drivers[k]] += fabs(nsvcd__rate(\&s->scene, s->way[k])) * arms[k];|s->arms[s->drivers[k]] += arms[k];
+mimics: a box without what is driven|s->arms[s->drivers[k]] += fabs(nsvcd__rate(\&s->scene, s->way[k])) * arms[k];|s->arms[s->drivers[k]] = arms[k];
+mimics: a sweep of the leader alone|nsvcd__follow(\&s->scene, 1 + (along != NSVCD_NONE), points);|
+mimics: a slope of the leader alone|slope[nsvcd__driver(c->scene, link - 1)] +=|slope[link - 1] +=
+mimics: turns of a fraction|return is_endless \&\& rate > floor(rate) ? NSVCD_ERROR_MIMIC : NSVCD_OK;|return NSVCD_OK;
+mimics: steps of the leader alone|r->jacobian[i][k] += rate * r->jacobian[n][k];|r->jacobian[i][k] += 0;
 LIST
 
 if [ -n "${DRY:-}" ]; then python3 tests/make_mutant.py --all $work/list && exit 0 || exit 1; fi
@@ -445,6 +457,7 @@ while IFS= read -r line; do
     postures:*) file=test_postures.c ;;
     reach:*) file=test_reach.c ;;
     allowances:*) file=test_allowances.c ;;
+    mimics:*) file=test_mimics.c ;;
     verify:*) file=test_certificate.c ;;
     checker:*) file=test_checker.c ;;
     fits:*) file=test_fits.c ;;

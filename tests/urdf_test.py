@@ -430,7 +430,7 @@ class Refusals(Urdf):
 
 
 class Joints(Urdf):
-    def test_urdf_mimic_is_refused_or_held(self) -> None:
+    def test_urdf_mimic_follows_or_is_held(self) -> None:
         """Fingers that close together: held half way they leave 2 cm between them."""
         finger = box("0.02 0.02 0.1", "0 0 0.55")
         limit = '<limit lower="0" upper="0.06" velocity="1" effort="1"/>'
@@ -438,7 +438,21 @@ class Joints(Urdf):
                      joint("jl", "hand", "l", '<origin xyz="0.05 0 0"/>' + limit, "prismatic", "-1 0 0"),
                      joint("jr", "hand", "r", '<origin xyz="-0.05 0 0"/>' + limit + '<mimic joint="jl" multiplier="1.5" offset="-0.015"/>',
                            "prismatic", "2 0 0"))
-        self.refused("joint jr: it mimics jl, which moves.*--fixed jl=VALUE", text)
+        lines = [" ".join(line) for line in self.lines(text)]
+        self.assertIn("mimic jr jl 1.5 -0.015", lines)
+        # chains come down to the one that moves; what is no factor is a joint that stands
+        chain = text.replace('mimic joint="jl" multiplier="1.5"', 'mimic joint="jk" multiplier="3"').replace(
+            "</robot>", link("k", finger) + joint("jk", "hand", "k", LIMIT + '<mimic joint="jl" multiplier="0.5" offset="0.1"/>', "prismatic")
+            + "</robot>")
+        lines = [" ".join(line) for line in self.lines(chain)]
+        self.assertIn("mimic jk jl 0.5 0.1", lines)
+        self.assertIn(f"mimic jr jl 1.5 {repr(3 * 0.1 - 0.015)}", lines)
+        self.assertNotIn("jr", sum(self.lines(text.replace('"1.5" offset="-0.015"', '"0" offset="0.02"')), []))
+        self.refused("joint jr: it mimics jl, 1e-09 times", text.replace("1.5", "1e-9"))
+        turning = robot(link("base"), link("a", CUBE), link("b", CUBE), joint("ja", "base", "a", "", "continuous"),
+                        joint("jb", "base", "b", '<mimic joint="ja" multiplier="-2"/>', "continuous"))
+        self.assertIn(["mimic", "jb", "ja", "-2", "0"], self.lines(turning, "--velocity", "1"))
+        self.refused("joint jb: it mimics ja, which is continuous like it, 2.5 times", turning.replace("-2", "2.5"), "--velocity", "1")
         held = ("--fixed", "jl=0.03")
         probes = [(x, 0, 0.55) for x in (0.012, 0.028, 0.032, 0.008, -0.008, -0.012, -0.028, -0.032)]
         self.assertEqual(self.hits(text, probes, held), [True, True, False, False, False, True, True, False])
@@ -569,6 +583,32 @@ class Pairs(Urdf):
         self.assertRegex(self.convert(text, "--srdf", "r.srdf")[1], "(?s)it is of 'other'.*no link x")
         self.file("r.srdf", '<robot name="r"><passive_joint name="y"/></robot>')
         self.assertIn("passive_joint: no joint y", self.convert(text, "--srdf", "r.srdf")[1])
+
+    def test_urdf_srdf_of_svcd_pairs(self) -> None:
+        """With what `svcd pairs --srdf` writes, just those pairs are asked that it does not prove: of the example, and of
+        links of several bodies, of which one alone meets what is beside it."""
+        with open(os.path.join(ROOT, "examples", "robot", "arm.urdf"), encoding="utf-8") as file:
+            arm = file.read()
+        self.file("far.obj", obj(block((0.9, -0.05, -0.05), (1.0, 0.05, 0.05))))
+        self.file("near.obj", obj(block((0.3, -0.05, -0.05), (0.4, 0.05, 0.05))))
+        both = shape('<mesh filename="far.obj"/>') + shape('<mesh filename="near.obj"/>')
+        names = robot(link("base"), link("post&amp;co", box("0.1 0.1 0.1", "0.95 0 0")), link("arm", CUBE, both), link("tip", both),
+                      joint("j", "base", "arm"), joint("k", "arm", "tip", '<origin xyz="0 0 0.5"/>' + LIMIT),
+                      joint("f", "base", "post&amp;co", "", "fixed"))
+        for text in (arm, names):
+            self.pairs(text)
+            status, out, said = self.svcd("pairs", "out.txt", "--srdf", "r.srdf", "--json")
+            self.assertEqual((status, said), (0, ""))
+            proven: dict[frozenset[str], bool] = {}
+            for answer in map(json.loads, out.splitlines()):
+                links = frozenset(answer[key].removesuffix(".2").removesuffix(".3") for key in "ab")
+                proven[links] = proven.get(links, True) and answer["kind"] in ("never", "always")
+            self.assertGreater(sum(proven.values()), 0)
+            found = {frozenset(name.removesuffix(".2").removesuffix(".3") for name in pair)
+                     for pair in self.pairs(text, None, "--srdf", "r.srdf")}
+            self.assertEqual(found, {links for links, is_proven in proven.items() if not is_proven})
+        self.assertIn(frozenset(("arm", "post&co")), found)
+        self.assertNotIn(frozenset(("arm", "tip")), found)
 
     def test_urdf_groups(self) -> None:
         """Of joints, links, chains and groups, in the order of the joints; what is held is in none."""

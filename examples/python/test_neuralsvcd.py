@@ -1061,6 +1061,22 @@ class Robots(unittest.TestCase):
         turned = [1, 0, 0, 0, 0, 0.5 ** 0.5, 0.5 ** 0.5]
         self.assertLess(np.abs(self.robot.forward_kinematics([1, np.pi / 2])[0] - turned).max(), 1e-6)
 
+    def test_mimics(self) -> None:
+        """The arm turns as it slides, and in no other way."""
+        kind = nsvcd.JointKind
+        joints = [nsvcd.Joint(0, axis=[1, 0, 0], kind=kind.PRISMATIC, low=-2, high=2),
+                  nsvcd.Joint(1, low=-3, high=3, mimic=0, multiplier=2, offset=0.5)]
+        arm = Body.capsule([0, 0, 0], [1, 0, 0], 0.05)
+        robot = nsvcd.Robot(joints, [nsvcd.Part(arm, 2), nsvcd.Part(Body.sphere(0.2), 0, [0, 3, 0, 0, 0, 0, 1])], [[0, 1]])
+        self.assertEqual(robot.check([[-1, -1.5], [1, 2.5]]).verdict, "free")
+        with self.assertRaisesRegex(nsvcd.Error, "mimic"):
+            robot.check([[-1, -1.5], [1, 2.4]])
+        self.assertEqual(robot.check([1.3, 3.1]).joint, 0)
+        at = robot.route([-1, -1.5], [1, 2.5]).points
+        np.testing.assert_array_equal(at[:, 1], 2 * at[:, 0] + 0.5)
+        with self.assertRaisesRegex(nsvcd.Error, "mimic"):
+            nsvcd.Robot([joints[0], joints[1]._replace(mimic=1)], [])
+
     def test_postures(self) -> None:
         self.assertEqual(self.robot.proximities([0, 0]), [])
         # the arm along y = 0.5 x: how near the post is, and how that changes

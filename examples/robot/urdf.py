@@ -521,10 +521,9 @@ class Robot:
             if leader not in self.elements or leader in (*followers, name):
                 raise ValueError(f"it mimics {leader}, which is no joint, or mimics it")
             stands = self.held(leader, (*followers, name))
-            if stands is None:
-                raise ValueError(f"it mimics {leader}, which moves: a planning file has no coupled joints; "
-                                 f"--fixed {leader}=VALUE holds {leader} and what mimics it")
-            value = number(mimic, "multiplier", 1) * stands + number(mimic, "offset", 0)
+            multiplier = number(mimic, "multiplier", 1)
+            if stands is not None or multiplier == 0:
+                value = multiplier * (stands or 0) + number(mimic, "offset", 0)
         if value is not None and kind in ("revolute", "prismatic") and has_limits(joint):
             low, high = limits(joint)
             if not low - 1e-9 <= value <= high + 1e-9:
@@ -532,6 +531,29 @@ class Robot:
         if value and kind not in MOVES:
             raise ValueError(f"it is '{kind}', and stands where it is: --fixed {name}, without a value")
         return value
+
+    def driver(self, name: str) -> tuple[str, float, float]:
+        """The joint that drives one that moves, or itself; multiplier and offset, over joints between."""
+        mimic = self.elements[name].find("mimic")
+        if mimic is None:
+            return name, 1.0, 0.0
+        leader, multiplier, offset = self.driver(text_of(mimic, "joint"))
+        factor = number(mimic, "multiplier", 1)
+        return leader, factor * multiplier, factor * offset + number(mimic, "offset", 0)
+
+    def mimic_line(self, name: str) -> str:
+        """Empty: it mimics none."""
+        leader, multiplier, offset = self.driver(name)
+        if leader == name:
+            return ""
+        with about(f"joint {name}"):
+            if not 1e-6 <= abs(multiplier) <= MOST or abs(offset) > MOST:
+                raise ValueError(f"it mimics {leader}, {multiplier:g} times that and {offset:g}: too little, or too much")
+            is_endless = all(self.elements[joint].get("type") == "continuous" for joint in (name, leader))
+            if is_endless and multiplier != round(multiplier):
+                raise ValueError(f"it mimics {leader}, which is continuous like it, {multiplier:g} times: no whole number, "
+                                 f"so a turn of {leader} does not bring both back; limits of one would do")
+        return f"mimic {name} {leader} {words_of(multiplier, offset)}"
 
     def collisions(self, link: str) -> list[Body]:
         """The first has the link's name; simple shapes are one body."""
@@ -653,7 +675,7 @@ class Semantics:
         if path is None:
             return
         root = read(path, SRDF, given.ignored)
-        moves = {name for name, _, _, _ in robot.joints}
+        moves = {name for name, _, _, _ in robot.joints if robot.driver(name)[0] == name}
         if root.get("name", "") != robot.name:
             warn(f"{path}: it is of '{root.get('name', '')}', the URDF of '{robot.name}'")
         with about(path):
@@ -788,6 +810,7 @@ def robot_lines(robot: Robot, rules: Semantics, output: Output) -> list[str]:
     if not robot.links:
         raise ValueError("no link; xacro files are to be run through xacro first")
     lines = [joint_line(*joint, robot.given.velocity) for joint in robot.joints]
+    lines += filter(None, (robot.mimic_line(name) for name, _, _, _ in robot.joints))
     owners = {body.name: link for link, bodies in robot.bodies.items() for body in bodies}
     if not lines:
         raise ValueError("no joint that moves")

@@ -3,6 +3,7 @@
 //
 //   nsvcd-plans 1
 //   joint NAME PARENT  x y z qx qy qz qw  ax ay az  KIND LOW HIGH SPEED [ACCELERATION]
+//   mimic NAME LEADER MULTIPLIER OFFSET
 //   body NAME JOINT SHAPE [pose x y z qx qy qz qw] [scale SX SY SZ]
 //   pair NAME NAME
 //   scene NAME
@@ -169,6 +170,32 @@ static int robot_read_joint(const reader *r, robot_file *file) {
   if (!(joint->speed > 0) || joint->acceleration < 0)
     return refuse(r, "SPEED or ACCELERATION is not positive");
   file->joint_names[file->joint_count++] = f[1];
+  return 1;
+}
+
+// A joint's value is always that of another, its leader, times a multiplier, and an offset.
+static int robot_read_mimic(const reader *r, robot_file *file) {
+  uint32_t links[2];
+  if (r->field_count != 5) return refuse(r, "expected: mimic NAME LEADER MULTIPLIER OFFSET");
+  if (file->room_count > 0) return refuse(r, "a mimic after the first scene");
+  for (int k = 0; k < 2; k++) {
+    if (!robot_link(r, file, r->fields[1 + k], &links[k])) return 0;
+    if (links[k] == 0) return refuse(r, "the world is no joint");
+  }
+  nsvcd_joint *joint = &file->joints[links[0] - 1];
+  const nsvcd_joint *leader = &file->joints[links[1] - 1];
+  if (joint->mimic || joint == leader) return refuse_field(r, "it mimics a joint", r->fields[1]);
+  if (leader->mimic) return refuse_field(r, "it mimics a joint", r->fields[2]);
+  for (size_t k = 0; k < file->joint_count; k++)
+    if (file->joints[k].mimic == links[0]) return refuse_field(r, "a leader", r->fields[1]);
+  if (!robot_number(r, r->fields[3], &joint->multiplier) ||
+      !robot_number(r, r->fields[4], &joint->offset))
+    return 0;
+  const double rate = fabs(joint->multiplier);
+  if (rate < 1e-6) return refuse_field(r, "MULTIPLIER is 0, or nearly", r->fields[3]);
+  if (joint->kind == NSVCD_JOINT_CONTINUOUS && leader->kind == joint->kind && rate > floor(rate))
+    return refuse_field(r, "not a whole number, where both are continuous", r->fields[3]);
+  joint->mimic = links[1];
   return 1;
 }
 
@@ -375,6 +402,18 @@ static int robot_read_joints(const reader *r, robot_file *file, char *const *fie
     if (!robot_number(r, fields[j], &number)) return 0;
     *ROBOT_ADD(file->numbers, file->number_count, file->number_capacity) = number;
   }
+  const double *at = file->numbers + file->number_count - file->joint_count;
+  for (size_t j = 0; j < file->joint_count; j++) {
+    const nsvcd_joint *joint = &file->joints[j];
+    if (!joint->mimic) continue;
+    const double driven = joint->multiplier * at[joint->mimic - 1];
+    const double value = driven + joint->offset;
+    // as nsvcd_joint has it
+    if (!(fabs(at[j] - value) <= 1e-9 * (1 + fabs(joint->offset) + fabs(driven))))
+      return complain("%s:%zu: joint %s is %.12g, and by %s, which it mimics, %.12g", r->path,
+                      r->line, file->joint_names[j], at[j], file->joint_names[joint->mimic - 1],
+                      value);
+  }
   return 1;
 }
 
@@ -437,7 +476,7 @@ static int robot_read_goal_joints(const reader *r, robot_file *file, size_t task
     if (plan->first == NSVCD_NONE) break;
     const robot_group *group = &file->groups[plan->group];
     const double off = file->numbers[goal->first + j] - file->numbers[plan->first + j];
-    if (group->held[j] && (off > 0 || off < 0))
+    if (group->held[j] && !file->joints[j].mimic && (off > 0 || off < 0))
       return complain("%s:%zu: joint %s is not of group %s, but its goal is not its start", r->path,
                       r->line, file->joint_names[j], group->name);
   }
@@ -583,12 +622,12 @@ static int read_robot(const char *path, robot_file *file) {
   static const struct {
     const char *word;
     int (*read)(const reader *r, robot_file *file);
-  } lines[] = {{"joint", robot_read_joint},   {"body", robot_read_body},
-               {"pair", robot_read_pair},     {"clearance", robot_read_clearance},
-               {"group", robot_read_group},   {"scene", robot_read_scene},
-               {"goal", robot_read_goal},     {"obstacle", robot_read_obstacle},
-               {"allow", robot_read_allow},   {"attach", robot_read_change},
-               {"release", robot_read_change}};
+  } lines[] = {{"joint", robot_read_joint},         {"mimic", robot_read_mimic},
+               {"body", robot_read_body},           {"pair", robot_read_pair},
+               {"clearance", robot_read_clearance}, {"group", robot_read_group},
+               {"scene", robot_read_scene},         {"goal", robot_read_goal},
+               {"obstacle", robot_read_obstacle},   {"allow", robot_read_allow},
+               {"attach", robot_read_change},       {"release", robot_read_change}};
   const size_t count = sizeof lines / sizeof lines[0];
   reader r;
   memset(file, 0, sizeof *file);
@@ -600,11 +639,11 @@ static int read_robot(const char *path, robot_file *file) {
     size_t k = 0;
     while (k < count && strcmp(lines[k].word, r.fields[0]) != 0) k++;
     if (k == count && !is_task && !is_curve)
-      return refuse_field(
-          &r,
-          "expected 'joint', 'body', 'pair', 'clearance', 'group', 'scene', 'obstacle', 'allow', "
-          "'attach', 'release', 'plan', 'goal', 'path' or 'curve'",
-          r.fields[0]);
+      return refuse_field(&r,
+                          "expected 'joint', 'mimic', 'body', 'pair', 'clearance', 'group', "
+                          "'scene', 'obstacle', 'allow', "
+                          "'attach', 'release', 'plan', 'goal', 'path' or 'curve'",
+                          r.fields[0]);
     if (r.field_count > MOST_FIELDS) return refuse(&r, "too many fields");
     if (!(is_curve  ? robot_read_curve(&r, file)
           : is_task ? robot_read_task(&r, file)

@@ -3,7 +3,7 @@
 #ifndef NSVCD_SVCD_ROBOTS_H
 #define NSVCD_SVCD_ROBOTS_H
 
-#include "goals.h"
+#include "srdf.h"
 
 #define PLAN_NODES 100000
 // that `pairs` takes, at most
@@ -29,6 +29,8 @@ static int plan_options(const settings *options, const char *command) {
     return usage_error("--samples", "together with --joints OUT.tsv");
   if (options->joints && !ends_with(options->joints, ".tsv"))
     return usage_error("--joints", "expected a file that ends in .tsv");
+  if (options->srdf && !ends_with(options->srdf, ".srdf"))
+    return usage_error("--srdf", "expected a file that ends in .srdf");
   const char *pictures[2] = {options->picture, options->film};
   for (size_t k = 0; k < 2; k++) {
     const char *name = k ? "--film" : "--picture";
@@ -127,7 +129,11 @@ static void tell_undecided(const robot_in_room *in, const char *from,
 static void tell_check(const robot_in_room *in, const char *from, const double *joints,
                        const nsvcd_check_answer *found) {
   if (found->joint != NSVCD_NONE) {
-    complain("%s: joint %s is out of its limits", from, in->file->joint_names[found->joint]);
+    int leads = 0;
+    for (size_t j = 0; j < in->file->joint_count; j++)
+      leads |= in->file->joints[j].mimic == found->joint + 1;
+    complain("%s: joint %s is out of its limits%s", from, in->file->joint_names[found->joint],
+             leads ? ", or one that mimics it" : "");
   } else if (found->verdict == NSVCD_UNDECIDED && found->pair != NSVCD_NONE) {
     tell_undecided(in, from, found);
   }
@@ -470,14 +476,18 @@ static void tell_joints(json_out *j, const char *name, const double *q, size_t j
   if (j) json_close(j, ']');
 }
 
+static const char *unknown_reason(nsvcd_why why) {
+  return why == NSVCD_WHY_WORK   ? "for want of time"
+         : why == NSVCD_WHY_OPEN ? "since a mesh is not closed"
+                                 : "too near to tell";
+}
+
 static void print_pair(const robot_in_room *in, const nsvcd_body_pair *pair, int is_json,
                        const nsvcd_range_answer *found) {
   const char *a = robot_name(in, pair->a);
   const char *b = robot_name(in, pair->b);
   const size_t joints = in->file->joint_count;
   const char *word = nsvcd_meeting_string(found->meeting);
-  const int is_left_out =
-      found->meeting == NSVCD_MEETS_NEVER || found->meeting == NSVCD_MEETS_ALWAYS;
   json_out j = {stdout, 0};
   if (is_json) {
     json_open(&j, NULL, '{');
@@ -487,17 +497,19 @@ static void print_pair(const robot_in_room *in, const nsvcd_body_pair *pair, int
     if (found->has_free) tell_joints(&j, "free", found->free, joints);
     if (found->has_hit) tell_joints(&j, "hit", found->hit, joints);
     json_digits(&j, "open", found->open, 3);
+    if (found->meeting == NSVCD_MEETS_UNKNOWN) json_text(&j, "why", unknown_reason(found->why));
     json_end_line(&j);
     return;
   }
-  if (is_left_out) {
+  if (is_left_out(in->file, pair, found)) {
     printf("# %s %s %s: proven\n", word, a, b);
     return;
   }
   printf("pair %s %s  # %s", a, b, word);
   if (found->has_free) tell_joints(NULL, "free", found->free, joints);
   if (found->has_hit) tell_joints(NULL, "hit", found->hit, joints);
-  if (found->meeting == NSVCD_MEETS_UNKNOWN) printf(" open %.3g", found->open);
+  if (found->meeting == NSVCD_MEETS_UNKNOWN)
+    printf(" open %.3g, %s", found->open, unknown_reason(found->why));
   printf("\n");
 }
 
@@ -518,6 +530,7 @@ static int decide_pairs(const robot_in_room *in, const settings *options, size_t
     for (size_t n = 0; n < count; n++) {
       if (found[n].meeting != NSVCD_MEETS_UNKNOWN) continue;
       if (o.boxes > 200 && time_is_over(&limits)) break;
+      o.clearance = clearance_above(in->file, &asked[n]);
       const size_t size = nsvcd_pair_range_size(in->checker, asked[n], &o);
       void *memory = allocate(size);
       const nsvcd_result result =
@@ -558,6 +571,7 @@ static int pairs(settings *options) {
     }
     good = good && decide_pairs(&in, options, count, asked, found);
     for (size_t n = 0; n < count && good; n++) print_pair(&in, &asked[n], options->json, &found[n]);
+    if (options->srdf && good) good = write_srdf(options->srdf, &file, count, asked, found);
     free(asked);
     free(found);
   }

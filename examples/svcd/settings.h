@@ -29,7 +29,7 @@ struct settings {
   size_t visits;         // the most for a certificate; 0: the library's default
   size_t repeat;         // 0: the command's default
   const char *from, *to, *rotate, *scale, *picture, *film, *details, *only, *joints;
-  const char *certificate, *certificates;
+  const char *certificate, *certificates, *srdf;
   size_t seed, samples;
   int int8, help, json, is_first_given, recentre;
   int exit_code;  // 1: the exit status is to be

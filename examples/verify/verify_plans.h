@@ -31,6 +31,9 @@ typedef struct robot {
   const char *path;
   const char *names[NSVCD_VERIFY_JOINTS];
   int continuous[NSVCD_VERIFY_JOINTS];
+  // of a joint that mimics another: 1 + that; multiplier and offset
+  uint32_t leaders[NSVCD_VERIFY_JOINTS];
+  double driven[NSVCD_VERIFY_JOINTS][2];
   nsvcd_verify_joint joints[NSVCD_VERIFY_JOINTS];
   size_t joint_count;
   list bodies;  // the robot's, then the scene's obstacles, which are read last
@@ -113,6 +116,30 @@ static void add_joint(robot *r, char *const *words) {
   r->names[r->joint_count++] = words[1];
 }
 
+// mimic NAME LEADER MULTIPLIER OFFSET
+static void add_mimic(robot *r, char *const *words) {
+  const uint32_t joint = link_named(r, words[1]);
+  const uint32_t leader = link_named(r, words[2]);
+  if (joint == 0 || leader == 0) fail(r->path, "the world is no joint");
+  int is_plain = joint != leader && !r->leaders[joint - 1] && !r->leaders[leader - 1];
+  for (size_t k = 0; k < r->joint_count; k++) is_plain &= r->leaders[k] != joint;
+  if (!is_plain) fail(r->path, "a joint mimics itself, two, or one that mimics");
+  r->leaders[joint - 1] = leader;
+  for (int k = 0; k < 2; k++) r->driven[joint - 1][k] = number_of(r->path, words[3 + k]);
+}
+
+// Are all joints that mimic others where these drive them? A curve is if its points are.
+static int mimics(const robot *r, const nsvcd_verify_motion *m) {
+  for (size_t k = 0; k < (m->pieces * m->degree + 1) * m->joint_count; k++) {
+    const size_t joint = k % m->joint_count;
+    if (!r->leaders[joint]) continue;
+    const double driven = r->driven[joint][0] * m->points[k - joint + r->leaders[joint] - 1];
+    const double off = m->points[k] - (driven + r->driven[joint][1]);
+    if (!(fabs(off) <= 1e-12 * (1 + fabs(driven) + fabs(r->driven[joint][1])))) return 0;
+  }
+  return 1;
+}
+
 // ---- the certificate
 
 static uint64_t take(const uint8_t *bytes, size_t size, size_t *at, size_t count) {
@@ -136,20 +163,23 @@ typedef struct plan_line {
   const char *barred;  // of a plan: why it cannot be checked; NULL: it can
 } plan_line;
 
-// Do only joints of a group move? NULL: all may.
-static int keeps_to(const group *of, const nsvcd_verify_motion *m) {
+// Do only joints of a group move, and those that mimic them? NULL: all may.
+static int keeps_to(const robot *r, const group *of, const nsvcd_verify_motion *m) {
   for (size_t k = m->joint_count; k < (m->pieces * m->degree + 1) * m->joint_count && of; k++) {
     const double off = m->points[k] - m->points[k % m->joint_count];
+    if (r->leaders[k % m->joint_count]) continue;
     if (!of->moves[k % m->joint_count] && (off > 0 || off < 0)) return 0;
   }
   return 1;
 }
 
-// Are the joints at an end of a motion those of a line? Turns without limits may be whole ones off.
+// Are the joints at an end of a motion those of a line? Turns without limits may be whole ones off;
+// what mimics another joint is where that one drives it.
 static int is_at(const robot *r, const double *joints, char *const *words) {
   const double turn = 6.283185307179586;
   for (size_t j = 0; j < r->joint_count; j++) {
     double off = joints[j] - number_of(r->path, words[j]);
+    if (r->leaders[j]) continue;
     if (r->continuous[j]) off -= turn * floor(off / turn + 0.5);
     if (!(fabs(off) < 1e-9)) return 0;
   }
@@ -264,7 +294,8 @@ static const char *check_motion(const robot *r, const plan_line *plan, const pla
   const size_t pairs = r->pairs.count / 2;
   const char *why = nsvcd_verify_motion_check(&m);
   if (!why && !goes(r, &m, plan, end)) why = "its motion has another start or goal";
-  if (!why && !keeps_to(plan->of, &m)) why = "a joint moves that is not of the plan's group";
+  if (!why && !mimics(r, &m)) why = "a joint is not where the one that it mimics drives it";
+  if (!why && !keeps_to(r, plan->of, &m)) why = "a joint moves that is not of the plan's group";
   if (!why && take(bytes, size, at, 4) != pairs) why = "it is about other pairs";
   for (size_t pair = 0; pair < pairs && !why; pair++) {
     const size_t length = (size_t)take(bytes, size, at, 4);
@@ -423,6 +454,8 @@ static int check_plans(const char *path, char *text, request *asked) {
     const char *word = words[0];
     if (strcmp(word, "joint") == 0 && n >= 17 && !scene) {
       add_joint(&r, words);
+    } else if (strcmp(word, "mimic") == 0 && n == 5 && !scene) {
+      add_mimic(&r, words);
     } else if (strcmp(word, "body") == 0 && n >= 4 && !scene) {
       add_body(&r, words, n);
       r.own = r.bodies.count;

@@ -21,7 +21,8 @@ nsvcd_result EXPORT(arm_joint)(nsvcd_joint_kind kind, uint32_t parent, float x, 
                                float qx, float qy, float qz, float qw, float ax, float ay, float az,
                                double low, double high, double speed, double acceleration) {
   const nsvcd_joint joint = {
-      kind, parent, {{x, y, z}, {qx, qy, qz, qw}}, {ax, ay, az}, low, high, speed, acceleration};
+      kind, parent, {{x, y, z}, {qx, qy, qz, qw}}, {ax, ay, az}, low, high, speed, acceleration, 0,
+      0,    0};
   if (arm_scene.joint_count == NSVCD_MAX_JOINTS) return NSVCD_ERROR_TOO_LARGE;
   arm_joints[arm_scene.joint_count++] = joint;
   return NSVCD_OK;

@@ -24,7 +24,8 @@ typedef struct nsvcd_proximity {
   nsvcd_contact contact;
   // (F) metres per radian or metre: how the distance between the two points of the contact grows
   // with each joint, or, of a HIT, how the depth along its normal shrinks. Where several points are
-  // as near, or as deep, the slope is that of one of them. 0: there is no normal
+  // as near, or as deep, the slope is that of one of them. 0: there is no normal. A joint moves
+  // those that mimic it, whose own slope is 0
   double slope[NSVCD_MAX_JOINTS];
 } nsvcd_proximity;
 
@@ -54,8 +55,8 @@ typedef struct nsvcd_proximity_options {
 //              as it was on failure
 //   allocates  nothing
 //   threads    each needs a checker of its own
-//   errors     ARGUMENT, VALUE (joints not finite or beyond NSVCD_MAX_COORDINATE), DISTANCE, TO;
-//              POSE, SCALE (a part is, or is carried, beyond NSVCD_MAX_COORDINATE)
+//   errors     ARGUMENT, VALUE (joints not finite or beyond NSVCD_MAX_COORDINATE), MIMIC,
+//              DISTANCE, TO; POSE, SCALE (a part is, or is carried, beyond NSVCD_MAX_COORDINATE)
 //   source     this library; slopes as any Jacobian's, by the product of axis and moment arm
 NSVCDDEF nsvcd_result nsvcd_proximities(nsvcd_checker *checker, const double *joints,
                                         const nsvcd_proximity_options *options,
@@ -89,7 +90,7 @@ typedef struct nsvcd_nearest_free_options {
 //   is_found   not NULL; 1 if a free configuration is found, else 0. Left as it was on failure
 //   allocates  nothing
 //   threads    each needs a checker of its own
-//   errors     ARGUMENT, VALUE, CLEARANCE, FARTHEST; POSE, SCALE, as nsvcd_proximities
+//   errors     ARGUMENT, VALUE, MIMIC, CLEARANCE, FARTHEST; POSE, SCALE, as nsvcd_proximities
 //   source     this library
 NSVCDDEF nsvcd_result nsvcd_nearest_free(nsvcd_checker *checker, const double *joints,
                                          const nsvcd_nearest_free_options *options,
@@ -135,7 +136,7 @@ NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t draws, uin
 //   out        not NULL; left as it was on failure. Its pose is rounded to float: 1e-7 of its
 //              distance from the link
 //   allocates  nothing
-//   errors     ARGUMENT, VALUE, LINK (or no such part), POSE (farther than NSVCD_MAX_COORDINATE
-//              from the link)
+//   errors     ARGUMENT, VALUE, MIMIC, LINK (or no such part), POSE (farther than
+//              NSVCD_MAX_COORDINATE from the link)
 NSVCDDEF nsvcd_result nsvcd_reparent(const nsvcd_checker *checker, const double *joints,
                                      size_t part, uint32_t link, nsvcd_part *out);

@@ -48,7 +48,8 @@ typedef struct nsvcd_range_answer {
   // meet but no point was found that stays inside of both. WORK: boxes or units of work were not
   // enough, or the search was stopped. OPEN: as nsvcd_why has it
   nsvcd_why why;
-  // number of joints between the two parts; the others do not matter
+  // number of joints between the two parts, each leader counted once with those that mimic it; the
+  // others do not matter
   size_t joints;
   // 1: a configuration is known in which they do not meet, or in which they do
   int has_free, has_hit;

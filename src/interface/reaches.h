@@ -24,7 +24,8 @@ typedef struct nsvcd_reach_problem {
   int (*stop)(void *user);
   // passed to `stop`
   void *user;
-  // (F) 1: the joint stays where the start has it. NULL: all joints may move
+  // (F) 1: the joint stays where the start has it, and so do those that mimic it, whose own entries
+  // do not count. NULL: all joints may move
   const uint8_t *held;
 } nsvcd_reach_problem;
 
@@ -65,8 +66,8 @@ typedef struct nsvcd_reach_answer {
 // Finds configurations within the joints' limits that have a tool at a target: several where there
 // are several, such as elbow up and elbow down. By default they are proven free, since that is what
 // a route's goal has to be. Where a joint's limits allow values that are whole turns apart, the one
-// nearest to the start's is given. Where there are more joints than the target needs, there are
-// infinitely many solutions, and some of them are found.
+// nearest to the start's is given, but for joints that others mimic. Where there are more joints
+// than the target needs, there are infinitely many solutions, and some of them are found.
 //
 // That nothing is found is no proof that there is nothing. Of targets that an arm of 6 or 7 joints
 // can reach, fewer than one in a thousand are missed with the default starts (tests/test_reach.c).
@@ -81,8 +82,8 @@ typedef struct nsvcd_reach_answer {
 //   allocates  nothing
 //   threads    each needs a checker of its own
 //   errors     ARGUMENT, COUNT (capacity), VALUE (the start not finite or beyond
-//              NSVCD_MAX_COORDINATE), LINK (not one of the scene's, or no joint moves the tool
-//              against the target), RADIUS (`half`), AXIS (`free_axis`), TOLERANCE, DISTANCE
+//              NSVCD_MAX_COORDINATE), MIMIC, LINK (not one of the scene's, or no joint moves the
+//              tool against the target), RADIUS (`half`), AXIS (`free_axis`), TOLERANCE, DISTANCE
 //              (`apart`), CLEARANCE; POSE, QUATERNION, of the tool or the target; POSE, SCALE, as
 //              nsvcd_check
 //   source     Levenberg-Marquardt, its damping in proportion to the squared error (Sugihara 2011).

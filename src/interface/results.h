@@ -127,6 +127,10 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_ROUTE,
   // a joint that is held has another value in a goal, or in the guess, than in the start
   NSVCD_ERROR_HELD,
+  // a joint mimics none of the scene's, or one that mimics; its multiplier is no number from 1e-6
+  // up or minus that, or, where both turn without limits, no whole number; or its value in a
+  // configuration or a motion is not what its leader makes it
+  NSVCD_ERROR_MIMIC,
   // a planner's stage is out of range
   NSVCD_ERROR_STAGE,
   // a planner's weight, duration or margin is not finite, or it has too many seeds or checks

@@ -19,6 +19,12 @@ typedef enum nsvcd_joint_kind {
 } nsvcd_joint_kind;
 
 // A joint of a robot. Joint i carries link i + 1. Link 0 is the world.
+//
+// A joint that mimics another has a value of its own in each configuration, as all joints have. To
+// 1e-9 of 1 and what it is made of, it must be what its leader makes it: else all functions that
+// take a configuration refuse it, but for nsvcd_forward_kinematics. What is given back keeps to it.
+// The limits of a leader are those within which its followers keep theirs, of speed and
+// acceleration as well.
 typedef struct nsvcd_joint {
   nsvcd_joint_kind kind;
   // the link that the joint is on: 0..i
@@ -32,6 +38,12 @@ typedef struct nsvcd_joint {
   // limits of its speed and acceleration, radians or metres per s and per s^2; default 1. Only
   // routes have to keep them
   double speed, acceleration;
+  // 1 + the number of the joint that this one mimics, its leader; 0: none. Its value is always
+  // multiplier * that of its leader + offset: fingers of a gripper, say. The leader mimics none
+  uint32_t mimic;
+  // 1e-6 to NSVCD_MAX_COORDINATE, or minus that; a whole number where both joints are CONTINUOUS.
+  // Radians or metres
+  double multiplier, offset;
 } nsvcd_joint;
 
 // A body on a link. A part of link 0 rests.
@@ -168,10 +180,10 @@ NSVCDDEF size_t nsvcd_checker_size(const nsvcd_scene *scene);
 //   checker    not NULL; set to the checker, or left as it was on failure
 //   allocates  nothing
 //   threads    each needs a checker of its own; scenes may be shared
-//   errors     ARGUMENT (NULL), COUNT, WORKSPACE; of a joint JOINT, AXIS, LIMITS, SPEED; of a part
-//              BODY, VERSION, TRIANGLES, LINK, SCALE; of either POSE, QUATERNION; of a pair PAIR
-//              (also if both parts are on one link), CLEARANCE; of an allowance PAIR, ARGUMENT
-//              (NULL), VALUE, DISTANCE
+//   errors     ARGUMENT (NULL), COUNT, WORKSPACE; of a joint JOINT, AXIS, LIMITS (also if a
+//              leader's exclude its followers'), SPEED, MIMIC; of a part BODY, VERSION, TRIANGLES,
+//              LINK, SCALE; of either POSE, QUATERNION; of a pair PAIR (also if both parts are on
+//              one link), CLEARANCE; of an allowance PAIR, ARGUMENT (NULL), VALUE, DISTANCE
 NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory, size_t size,
                                          nsvcd_checker **checker);
 
@@ -191,9 +203,9 @@ NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const doubl
 //   answer     not NULL; left as it was on failure
 //   allocates  nothing
 //   threads    each needs a checker of its own
-//   errors     ARGUMENT, DEGREE, VALUE (points not finite or beyond NSVCD_MAX_COORDINATE), TIMES,
-//              CLEARANCE, FINEST, TO (to_time); POSE, SCALE (a part is, or is carried, beyond
-//              NSVCD_MAX_COORDINATE)
+//   errors     ARGUMENT, DEGREE, VALUE (points not finite or beyond NSVCD_MAX_COORDINATE), MIMIC
+//              (of points), TIMES, CLEARANCE, FINEST, TO (to_time); POSE, SCALE (a part is, or is
+//              carried, beyond NSVCD_MAX_COORDINATE)
 //   source     this library: robot/deviation.h bounds how far joints deviate from lines and slerps,
 //              by second derivatives
 //

@@ -49,7 +49,7 @@ typedef struct nsvcd_route_problem {
   // passed to both
   void *user;
   // (F) 1: the joint stays where the start has it, and the goals and the guess have that value too.
-  // NULL: all joints may move
+  // So do joints that mimic it, whose own entries do not count. NULL: all joints may move
   const uint8_t *held;
 } nsvcd_route_problem;
 
@@ -119,7 +119,7 @@ NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
 //   allocates  nothing
 //   threads    each needs a checker and memory of its own
 //   errors     ARGUMENT (NULL), COUNT (of goals, of a guess), ROUTE (nodes, shortcuts, edge), HELD,
-//              VALUE (a configuration not finite or beyond NSVCD_MAX_COORDINATE), CLEARANCE,
+//              VALUE (a configuration not finite or beyond NSVCD_MAX_COORDINATE), MIMIC, CLEARANCE,
 //              WORKSPACE; POSE, SCALE, as nsvcd_check
 //   source     RRT-Connect (Kuffner and LaValle 2000); bounded-acceleration shortcuts (Hauser and
 //              Ng-Thow-Hing 2010); paths of edges that are proven last (Bohlin and Kavraki 2000).

@@ -47,13 +47,6 @@ static void nsvcd__trajectory_add(nsvcd__trajectory *t, size_t joints, const dou
   t->times[++t->motion.pieces] = time;
 }
 
-static double nsvcd__speed_of(const nsvcd_joint *joint) {
-  return joint->speed > 0 ? joint->speed : 1;
-}
-static double nsvcd__acceleration_of(const nsvcd_joint *joint) {
-  return joint->acceleration > 0 ? joint->acceleration : 1;
-}
-
 // A joint in a blend: from position x0 at speed v0, acceleration a until t1, none until t2, -a
 // after that.
 typedef struct nsvcd__blend_joint {
@@ -156,10 +149,18 @@ static double nsvcd__blend_joints(const nsvcd_scene *scene, const nsvcd__state *
     const nsvcd_joint *joint = &scene->joints[j];
     const double speed = NSVCD__BLEND_FRACTION * nsvcd__speed_of(joint);
     const double most = NSVCD__BLEND_MOST * nsvcd__acceleration_of(joint);
+    if (joint->mimic) continue;
     if (!nsvcd__blend_solve(from->x[j], from->v[j], to->x[j], to->v[j], speed, most, time,
                             &out[j]) ||
         nsvcd__blend_leaves(joint, &out[j], time))
       return 0;
+  }
+  for (size_t j = 0; j < scene->joint_count; j++) {
+    const double rate = nsvcd__rate(scene, j);
+    const nsvcd__blend_joint *b = &out[nsvcd__driver(scene, j)];
+    const nsvcd__blend_joint driven = {nsvcd__driven(scene, j, from->x), rate * b->v0,
+                                       rate * b->a, b->t1, b->t2};
+    if (scene->joints[j].mimic) out[j] = driven;
   }
   return time;
 }

@@ -2,6 +2,7 @@
 // floor, top to bottom:
 //
 //   chain            links, joints and frames: forward kinematics
+//   mimics           joints that others drive
 //   steps            what the joints do between two times
 //   deviation        how far points of a part can be from an axis; how far a part leaves its sweep
 //   checker          the checker of a scene
@@ -12,6 +13,7 @@
 //   proofs           a certificate of a pair, as the joints move it
 //   rrt              trees of configurations, and the nearest node
 //   configurations   one configuration: proximities, the nearest free one; which pairs can meet
+//   cholesky         six linear equations
 //   reach            configurations that have a tool at a target
 //   spans            two parts, and how far the joints between them move a point
 //   ranges           do two parts meet never, always or sometimes?
@@ -73,8 +75,11 @@ typedef struct nsvcd__member {
 } nsvcd__member;
 
 struct nsvcd_checker {
+  // the caller's; or, where joints mimic others, that with joints of its own
   const nsvcd_scene *scene;
+  nsvcd_scene own;
   // (F)
+  nsvcd_joint *joints;
   nsvcd__link *links;
   // where the links are: in a configuration, or at both ends of a step
   nsvcd__links *at, *next;

@@ -304,7 +304,9 @@ static size_t nsvcd__joint_outside(const nsvcd_scene *scene, const nsvcd_joint_m
 // ---- a check
 
 // Is a motion in order? Of no pieces it must be as nsvcd__motion_meant has it.
-static nsvcd_result nsvcd__motion_check(const nsvcd_joint_motion *m, size_t joints) {
+static nsvcd_result nsvcd__motion_check(const nsvcd_scene *scene,
+                                        const nsvcd_joint_motion *m) {
+  const size_t joints = scene->joint_count;
   if (m->pieces && (m->degree < 1 || m->degree > NSVCD_MAX_DEGREE)) return NSVCD_ERROR_DEGREE;
   if (m->pieces > SIZE_MAX / sizeof(double) / (NSVCD_MAX_DEGREE + 1) / joints)
     return NSVCD_ERROR_DEGREE;
@@ -314,7 +316,8 @@ static nsvcd_result nsvcd__motion_check(const nsvcd_joint_motion *m, size_t join
   for (size_t p = 0; p < m->pieces && m->times; p++) {
     if (!(m->times[p + 1] > m->times[p])) return NSVCD_ERROR_TIMES;
   }
-  return NSVCD_OK;
+  const int follows = nsvcd__follows(scene, m->pieces * m->degree + 1, m->points);
+  return follows ? NSVCD_OK : NSVCD_ERROR_MIMIC;
 }
 
 // Is it free, and within the limits?
@@ -330,7 +333,7 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *c, const nsvcd_joint_motion *mo
   if (!c || !motion || !answer || !motion->points) return NSVCD_ERROR_ARGUMENT;
   const size_t joints = c->scene->joint_count;
   const nsvcd_joint_motion m = nsvcd__motion_meant(motion);
-  const nsvcd_result result = nsvcd__motion_check(&m, joints);
+  const nsvcd_result result = nsvcd__motion_check(c->scene, &m);
   if (result) return result;
   memset(&o, 0, sizeof o);
   if (options) o = *options;

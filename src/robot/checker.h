@@ -34,6 +34,22 @@ static nsvcd_result nsvcd__joint_check(const nsvcd_joint *joint, size_t i) {
   return fits ? NSVCD_OK : NSVCD_ERROR_LIMITS;
 }
 
+// Is a joint that mimics another in order? A full turn of a leader without limits has to bring back
+// what follows it.
+static nsvcd_result nsvcd__mimic_check(const nsvcd_scene *scene, const nsvcd_joint *joint) {
+  const double numbers[2] = {joint->multiplier, joint->offset};
+  if (!joint->mimic) return NSVCD_OK;
+  if (joint->mimic > scene->joint_count || !nsvcd__are_numbers(numbers, 2))
+    return NSVCD_ERROR_MIMIC;
+  const nsvcd_joint *leader = &scene->joints[joint->mimic - 1];
+  const double rate = fabs(joint->multiplier);
+  const int is_endless =
+      joint->kind == NSVCD_JOINT_CONTINUOUS && leader->kind == NSVCD_JOINT_CONTINUOUS;
+  // so it is not itself either
+  if (leader->mimic || !(rate >= NSVCD__LEAST_MULTIPLIER)) return NSVCD_ERROR_MIMIC;
+  return is_endless && rate > floor(rate) ? NSVCD_ERROR_MIMIC : NSVCD_OK;
+}
+
 static nsvcd_result nsvcd__part_check(const nsvcd_scene *scene, const nsvcd_part *part) {
   const nsvcd_body *body = NULL;
   const nsvcd_result result = nsvcd_body_trust(part->body, SIZE_MAX, &body);
@@ -58,6 +74,12 @@ static nsvcd_result nsvcd__scene_check(const nsvcd_scene *scene) {
     return NSVCD_ERROR_ARGUMENT;
   for (size_t i = 0; i < scene->joint_count && !result; i++)
     result = nsvcd__joint_check(&scene->joints[i], i);
+  for (size_t i = 0; i < scene->joint_count && !result; i++)
+    result = nsvcd__mimic_check(scene, &scene->joints[i]);
+  for (size_t i = 0; i < scene->joint_count && !result; i++) {
+    const nsvcd_joint joint = nsvcd__narrowed(scene, i);
+    result = nsvcd__joint_check(&joint, i);
+  }
   for (size_t n = 0; n < parts && !result; n++)
     result = nsvcd__part_check(scene, &scene->parts[n]);
   for (size_t k = 0; k < scene->pair_count && !result; k++) {
@@ -128,6 +150,7 @@ static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
   const size_t pairs = scene->pair_count;
   const size_t samples = NSVCD__MOST_STEPS + 1;
   const size_t rows = movers * samples;
+  c->joints = NSVCD__TAKE_ROWS(nsvcd_joint, scene->joint_count, base, &used);
   c->links = NSVCD__TAKE_ROWS(nsvcd__link, scene->joint_count, base, &used);
   c->at = NSVCD__TAKE_ROWS(nsvcd__links, 1, base, &used);
   c->next = NSVCD__TAKE_ROWS(nsvcd__links, 1, base, &used);
@@ -187,11 +210,15 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
   const size_t needed = nsvcd__checker_layout(scene, NULL, &c);
   if (!needed || size < needed) return NSVCD_ERROR_WORKSPACE;
   (void)nsvcd__checker_layout(scene, (char *)memory, &c);
+  c->own = *scene;
+  c->own.joints = c->joints;
   c->scene = scene;
   c->surfaces = 0;
   c->result = NSVCD_OK;
   for (size_t i = 0; i < scene->joint_count; i++) {
     const nsvcd_joint *joint = &scene->joints[i];
+    c->joints[i] = nsvcd__narrowed(scene, i);
+    if (joint->mimic) c->scene = &c->own;
     nsvcd__link *link = &c->links[i];
     link->origin = nsvcd__unit_dpose(&joint->origin);
     link->axis = nsvcd__d3_unit(nsvcd__d3_load(joint->axis), nsvcd__d3_of(0, 0, 1));

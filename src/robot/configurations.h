@@ -30,14 +30,14 @@
 
 static nsvcd_result nsvcd__check_joints(const nsvcd_checker *c, const double *joints) {
   if (!c || !joints) return NSVCD_ERROR_ARGUMENT;
-  const int are_numbers = nsvcd__are_numbers(joints, c->scene->joint_count);
-  return are_numbers ? NSVCD_OK : NSVCD_ERROR_VALUE;
+  if (!nsvcd__are_numbers(joints, c->scene->joint_count)) return NSVCD_ERROR_VALUE;
+  return nsvcd__follows(c->scene, 1, joints) ? NSVCD_OK : NSVCD_ERROR_MIMIC;
 }
 
 // ---- proximities
 
-// Adds to the slope how fast a point of a part moves along a direction by each joint, times `sign`.
-// The point and the direction are in the local frame.
+// Adds to the slope how fast a point of a part moves along a direction by each joint and those that
+// it drives, times `sign`. The point and the direction are in the local frame.
 static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, const nsvcd__local *local,
                              nsvcd__d3 at, nsvcd__d3 along, double sign, double *slope) {
   const nsvcd__d3 point = nsvcd__dpose_apply(&local->frame, at);
@@ -47,7 +47,8 @@ static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, const nsvcd__l
     const nsvcd__d3 arm = nsvcd__d3_sub(point, c->at->frames[link].position);
     const nsvcd__d3 axis = c->at->axes[link - 1];
     const nsvcd__d3 speed = nsvcd__slides(c, link - 1) ? axis : nsvcd__d3_cross(axis, arm);
-    slope[link - 1] += sign * nsvcd__d3_dot(normal, speed);
+    slope[nsvcd__driver(c->scene, link - 1)] +=
+        sign * nsvcd__rate(c->scene, link - 1) * nsvcd__d3_dot(normal, speed);
   }
 }
 
@@ -210,6 +211,7 @@ static void nsvcd__clamp_to_limits(const nsvcd_scene *scene, double *joints) {
     const nsvcd_joint *joint = &scene->joints[j];
     joints[j] = nsvcd__max(nsvcd__low_of(joint), nsvcd__min(nsvcd__high_of(joint), joints[j]));
   }
+  nsvcd__follow(scene, 1, joints);
 }
 
 // Is a configuration free? An error is in c->result.
@@ -229,6 +231,7 @@ static void nsvcd__draw_back(nsvcd_checker *c, const double *from,
   memcpy(blocked, from, joints * sizeof *at);
   for (size_t n = 0; n < NSVCD__FREE_HALVINGS && !c->result; n++) {
     for (size_t j = 0; j < joints; j++) middle[j] = 0.5 * (blocked[j] + at[j]);
+    nsvcd__follow(c->scene, 1, middle);
     const int is_free = nsvcd__is_free_at(c, middle, o);
     memcpy(is_free ? at : blocked, middle, joints * sizeof *at);
   }
@@ -248,8 +251,9 @@ static int nsvcd__seek_nearest_free(nsvcd_checker *c, const double *from,
     double at[NSVCD_MAX_JOINTS];
     double square = 0;
     if (o->stop && o->stop(o->user)) break;
+    for (size_t j = 0; j < joints; j++) at[j] = 2 * nsvcd__random(&random) - 1;
     for (size_t j = 0; j < joints; j++) {
-      at[j] = 2 * nsvcd__random(&random) - 1;
+      at[j] = nsvcd__rate(c->scene, j) * at[nsvcd__driver(c->scene, j)];
       square += at[j] * at[j];
     }
     for (size_t j = 0; j < joints; j++) at[j] = from[j] + radius / sqrt(square) * at[j];
@@ -305,6 +309,7 @@ static int nsvcd__touches_in_all(nsvcd_checker *c, const nsvcd_body_pair *pair, 
       const double high = is_endless ? 6.283185307179586 : joint->high;
       joints[j] = low + (high - low) * nsvcd__random(&random);
     }
+    nsvcd__follow(c->scene, 1, joints);
     nsvcd__place_links(c, joints, c->at);
     (void)nsvcd__localize_at(c, pair);
     const nsvcd_question q = nsvcd__question_of(c, pair, 1, 0);

@@ -202,7 +202,7 @@ NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
     return NSVCD_ERROR_ARGUMENT;
   const nsvcd_scene *scene = checker->scene;
   if (!motion->points) return NSVCD_ERROR_ARGUMENT;
-  const nsvcd_result result = nsvcd__motion_check(motion, scene->joint_count);
+  const nsvcd_result result = nsvcd__motion_check(scene, motion);
   if (result) return result;
   if (pair >= scene->pair_count) return NSVCD_ERROR_PAIR;
   if (!nsvcd__is_provable(checker, motion)) return NSVCD_ERROR_TURN;

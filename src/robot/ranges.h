@@ -67,6 +67,7 @@ static int nsvcd__range_is_over(nsvcd__ranging *r) {
 static nsvcd_verdict nsvcd__note_here(nsvcd__ranging *r) {
   nsvcd_check_answer found;
   nsvcd__span *s = &r->span;
+  nsvcd__follow(&s->scene, 1, s->at);
   const size_t bytes = s->scene.joint_count * sizeof *s->at;
   const double clearance = (double)r->options.clearance;
   r->result = nsvcd__ask_span(s, 0, NSVCD_NONE, clearance, &r->options, &found);
@@ -93,7 +94,8 @@ static void nsvcd__follow_slope(nsvcd__ranging *r, double sign) {
   for (size_t n = 0; n < NSVCD__SLOPE_STEPS && !nsvcd__range_is_over(r); n++) {
     nsvcd_proximity nearest;
     double square = 0;
-    s->scene.pairs = s->pairs;
+    s->scene.pairs = c->own.pairs = s->pairs;
+    nsvcd__follow(&s->scene, 1, s->at);
     c->surfaces = 0;
     c->result = NSVCD_OK;
     nsvcd__place_links(c, s->at, c->at);
@@ -289,7 +291,7 @@ static void nsvcd__seek_probes(nsvcd__ranging *r, const nsvcd__links *at) {
   const nsvcd__rider a = nsvcd__rider_of(s, at, 0);
   const nsvcd__rider b = nsvcd__rider_of(s, at, 1);
   const nsvcd__rider *small = a.radius < b.radius ? &a : &b;
-  const size_t on_axes = NSVCD__AXIS_POINTS * s->joints;
+  const size_t on_axes = NSVCD__AXIS_POINTS * s->way_count;
   nsvcd__bounds bounds[2];
   for (size_t n = 0; n < 2; n++) {
     const nsvcd__dpose frame = nsvcd__frame_of_part(s->checker, at, n);
@@ -306,7 +308,7 @@ static void nsvcd__seek_probes(nsvcd__ranging *r, const nsvcd__links *at) {
       nsvcd__d3_set_axis(&point, k, from + nsvcd__random(&r->random) * (to - from));
     }
     if (n < on_axes) {
-      const size_t j = s->path[n / NSVCD__AXIS_POINTS];
+      const size_t j = s->way[n / NSVCD__AXIS_POINTS];
       const nsvcd__d3 foot = at->frames[j + 1].position;
       const double along = nsvcd__d3_dot(nsvcd__d3_sub(small->centre, foot), at->axes[j]);
       const double shift = (2 * nsvcd__random(&r->random) - 1) * small->radius;

@@ -6,6 +6,7 @@
 // target leaves free counts as 0.
 #pragma once
 #include "../interface/reaches.h"
+#include "cholesky.h"
 #include "configurations.h"
 
 // defaults
@@ -44,7 +45,7 @@ typedef struct nsvcd__reacher {
   // the start, within the limits
   double start[NSVCD_MAX_JOINTS];
   // joints that move the tool against the target, the lower first: on the way to the tool, 1, or to
-  // the target's link, -1
+  // the target's link, -1; and leaders of such joints that are on neither, 0
   size_t chain[NSVCD_MAX_JOINTS];
   double sides[NSVCD_MAX_JOINTS];
   // of a step of each: radians, or lengths of the chain
@@ -87,6 +88,7 @@ static void nsvcd__reach_place(nsvcd__reacher *r, const double *q) {
   nsvcd__links *at = &r->at;
   for (size_t n = 0; n < r->count; n++) {
     const size_t j = r->chain[n];
+    if (!(fabs(r->sides[n]) > 0)) continue;
     const nsvcd__dpose link = nsvcd__joint_frame(r->checker, j, q[j]);
     at->frames[j + 1] = nsvcd__dpose_mul(&at->frames[r->scene->joints[j].parent], &link);
     at->axes[j] = nsvcd__dquat_rotate(at->frames[j + 1].rotation, r->checker->links[j].axis);
@@ -123,6 +125,19 @@ static int nsvcd__is_reached(const nsvcd__reacher *r) {
          r->miss.angle <= r->options.angle_tolerance;
 }
 
+// Adds what the joints that mimic one do to how the residuals change with it. All leaders are in
+// the chain.
+static void nsvcd__reach_add_driven(nsvcd__reacher *r) {
+  for (size_t n = 0; n < r->count; n++) {
+    const size_t driver = nsvcd__driver(r->scene, r->chain[n]);
+    for (size_t i = 0; i < r->count && driver != r->chain[n]; i++) {
+      const double rate = nsvcd__rate(r->scene, r->chain[n]) * r->units[i] / r->units[n];
+      for (size_t k = 0; k < 6 && r->chain[i] == driver; k++)
+        r->jacobian[i][k] += rate * r->jacobian[n][k];
+    }
+  }
+}
+
 // How the residuals change with each joint, which slides by lengths of the chain. Of a rotation
 // vector that is exact as far as its own direction goes, which makes the gradient exact.
 static void nsvcd__reach_differentiate(nsvcd__reacher *r) {
@@ -150,33 +165,15 @@ static void nsvcd__reach_differentiate(nsvcd__reacher *r) {
       r->jacobian[n][3 + k] = nsvcd__d3_axis(turns, k);
     }
   }
+  nsvcd__reach_add_driven(r);
 }
 
 // ---- a step
 
-// Does the caller hold a joint of the chain?
+// Does the caller hold a joint of the chain, or another joint drive it?
 static int nsvcd__reach_holds(const nsvcd__reacher *r, size_t n) {
-  return r->problem.held && r->problem.held[r->chain[n]];
-}
-
-// Solves m x = b by Cholesky's factors, of which m keeps the lower one. m is positive definite.
-static void nsvcd__solve_six(double m[6][6], const double *b, double *x) {
-  for (size_t i = 0; i < 6; i++) {
-    for (size_t k = 0; k <= i; k++) {
-      double sum = m[i][k];
-      for (size_t l = 0; l < k; l++) sum -= m[i][l] * m[k][l];
-      m[i][k] = i == k ? sqrt(nsvcd__max(sum, 1e-300)) : sum / m[k][k];
-    }
-  }
-  for (size_t i = 0; i < 6; i++) {
-    x[i] = b[i];
-    for (size_t k = 0; k < i; k++) x[i] -= m[i][k] * x[k];
-    x[i] /= m[i][i];
-  }
-  for (size_t i = 6; i-- > 0;) {
-    for (size_t k = i + 1; k < 6; k++) x[i] -= m[k][i] * x[k];
-    x[i] /= m[i][i];
-  }
+  const size_t j = r->chain[n];
+  return r->scene->joints[j].mimic || (r->problem.held && r->problem.held[j]);
 }
 
 // A damped step from q that keeps the limits: J^T y, where (J J^T + damping) y is minus the
@@ -235,6 +232,7 @@ static void nsvcd__reach_step(const nsvcd__reacher *r, const double *q, double d
     *expected -= 0.5 * residual * residual;
   }
   for (size_t n = 0; n < r->count; n++) out[r->chain[n]] += r->units[n] * step[n];
+  nsvcd__follow(r->scene, 1, out);
 }
 
 // Goes from q to where the tool is at its target, or as near to that as it comes, until so many
@@ -285,6 +283,7 @@ static void nsvcd__reach_draw(nsvcd__reacher *r, double *q) {
     const double high = nsvcd__min(nsvcd__high_of(joint), to);
     q[j] = low + (high - low) * nsvcd__random(&r->random);
   }
+  nsvcd__follow(r->scene, 1, q);
 }
 
 // Takes joints that turn as near to the start as whole turns bring them within their limits. A step
@@ -295,7 +294,7 @@ static void nsvcd__reach_unwind(const nsvcd__reacher *r, double *q) {
     const size_t j = r->chain[n];
     const nsvcd_joint *joint = &r->scene->joints[j];
     double turns = floor((q[j] - r->start[j]) / full_turn + 0.5);
-    if (nsvcd__slides(r->checker, j)) continue;
+    if (nsvcd__slides(r->checker, j) || nsvcd__leads(r->scene, j)) continue;
     const double to = q[j] - full_turn * turns;
     // the next one is between the start and q
     if (to < nsvcd__low_of(joint) || to > nsvcd__high_of(joint)) turns -= turns > 0 ? 1 : -1;
@@ -408,6 +407,7 @@ static size_t nsvcd__reach_chain(nsvcd__reacher *r) {
   const nsvcd_reach_problem *p = &r->problem;
   const nsvcd__dpose origin = {{0, 0, 0, 1}, {0, 0, 0}};
   double sides[NSVCD_MAX_JOINTS] = {0};
+  int moves[NSVCD_MAX_JOINTS] = {0};
   uint32_t fork = p->link;
   for (uint32_t l = p->link; l; l = joints[l - 1].parent) sides[l - 1] += 1;
   for (uint32_t l = p->target_link; l; l = joints[l - 1].parent) sides[l - 1] -= 1;
@@ -415,9 +415,12 @@ static size_t nsvcd__reach_chain(nsvcd__reacher *r) {
   r->at.frames[fork] = origin;
   if (p->link != fork) r->length += nsvcd__d3_norm(r->tool.position);
   if (p->target_link != fork) r->length += nsvcd__d3_norm(r->target.position);
+  for (size_t j = 0; j < r->joints; j++)
+    moves[nsvcd__driver(r->scene, j)] |= fabs(sides[j]) > 0;
   for (size_t j = 0; j < r->joints; j++) {
-    if (!(fabs(sides[j]) > 0)) continue;
-    if (joints[j].parent != fork)
+    const int is_between = fabs(sides[j]) > 0;
+    if (!is_between && !moves[j]) continue;
+    if (is_between && joints[j].parent != fork)
       r->length += nsvcd__d3_norm(r->checker->links[j].origin.position);
     r->sides[r->count] = sides[j];
     r->chain[r->count++] = j;

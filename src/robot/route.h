@@ -14,8 +14,6 @@
 #define NSVCD__LOOK_SEARCHES 16
 // of the balls' errors, which margins are less by after each search that finds nothing
 #define NSVCD__LOOK_EASE 0.34f
-// radians or metres: corners of a path that are no farther apart are one
-#define NSVCD__SAME_CORNER 1e-9
 
 // ---- memory
 
@@ -35,8 +33,10 @@ static nsvcd_result nsvcd__route_check(const nsvcd_checker *checker,
   const size_t counts[3] = {1, problem->goal_count, problem->guess_count};
   for (size_t n = 0; n < 3; n++) {
     if (!nsvcd__are_numbers(rows[n], counts[n] * joints)) return NSVCD_ERROR_VALUE;
+    if (!nsvcd__follows(checker->scene, counts[n], rows[n])) return NSVCD_ERROR_MIMIC;
     for (size_t k = 0; k < counts[n] * joints && problem->held; k++) {
       const double off = rows[n][k] - problem->start[k % joints];
+      if (checker->scene->joints[k % joints].mimic) continue;
       if (problem->held[k % joints] && (off > 0 || off < 0)) return NSVCD_ERROR_HELD;
     }
   }
@@ -145,23 +145,6 @@ static void nsvcd__shorten(nsvcd__router *r) {
   }
 }
 
-// Drops corners that are nearly at the one before: of so short an edge rounding would say what its
-// acceleration is. The timed motion is proven as a whole.
-static void nsvcd__simplify_path(nsvcd__router *r) {
-  const size_t bytes = r->joints * sizeof(double);
-  const double least2 = NSVCD__SAME_CORNER * NSVCD__SAME_CORNER;
-  const double *last = nsvcd__corner_at(r, r->corners - 1);
-  size_t kept = 1;
-  for (size_t k = 1; k < r->corners; k++) {
-    const double *at = nsvcd__corner_at(r, k);
-    if (nsvcd__distance2(nsvcd__corner_at(r, kept - 1), at, r->joints) < least2) continue;
-    memmove(nsvcd__corner_at(r, kept++), at, bytes);
-  }
-  // the end stays where it is
-  memmove(nsvcd__corner_at(r, kept - 1), last, bytes);
-  r->corners = kept;
-}
-
 // ---- a route
 
 NSVCDDEF const char *nsvcd_route_status_string(nsvcd_route_status status) {
@@ -184,6 +167,7 @@ static int nsvcd__take_in(nsvcd__router *r, const double *at, double *out) {
     if (at[j] < joint->low && at[j] >= joint->low - error) out[j] = joint->low;
     if (at[j] > joint->high && at[j] <= joint->high + error) out[j] = joint->high;
   }
+  nsvcd__follow(r->scene, 1, out);
   const nsvcd_check_options was = r->check;
   for (size_t n = 0; n < 4; n++) {
     r->check = was;
@@ -222,6 +206,7 @@ static void nsvcd__plant(nsvcd__router *r) {
       const double turns = floor((at[j] - r->trees[0].points[j]) / full_turn + 0.5);
       if (r->scene->joints[j].kind == NSVCD_JOINT_CONTINUOUS) at[j] -= full_turn * turns;
     }
+    nsvcd__follow(r->scene, 1, at);
     r->goals[r->trees[1].count] = g;
     nsvcd__plant_root(r, &r->trees[1], at);
   }
@@ -251,6 +236,7 @@ static void nsvcd__time_path(nsvcd__router *r) {
   for (int rests = 0; rests < 2 - r->is_looking && !is_free; rests++) {
     if (!nsvcd__trajectory_along(r)) return;
     if (!rests) nsvcd__smooth(r);
+    nsvcd__follow(r->scene, 2 * t->motion.pieces + 1, t->points);
     // also when the caller has stopped the search: what it found by then is proven
     is_free = !r->result && nsvcd__prove_by(r, &t->motion, &whole);
   }
@@ -352,7 +338,8 @@ NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_prob
   r->check.stop = problem->abandon;
   r->check.user = problem->user;
   for (size_t j = 0; j < r->joints; j++)
-    if (!problem->held || !problem->held[j]) r->moving[r->moving_count++] = j;
+    if (!r->scene->joints[j].mimic && !(problem->held && problem->held[j]))
+      r->moving[r->moving_count++] = j;
   nsvcd__plant(r);
   r->root_count = r->trees[1].count;
   if (r->root_count > 0 && r->options.looks) nsvcd__search_by_looks(r);

@@ -7,6 +7,7 @@
 // of both. Where a joint slides, r is 1. In a box of joint values, which reach h_k to either side
 // of its centre, joints may change one after another. So from the centre d changes by no more than
 //   sum over joints k of h_k r_k
+// A joint that mimics another reaches its multiplier times as far.
 // r_k: of all configurations of the box. It is that of the centre, and what the joints between the
 // part and k add: the chord 2 r sin(h / 2) of each, h up to pi, or h if it slides.
 // Source: this library.
@@ -38,10 +39,14 @@ typedef struct nsvcd__span {
   nsvcd_body_pair pairs[2];
   // of this scene
   nsvcd_checker *checker;
-  // joints from the first part to the second, through the link that carries both
+  // joints from the first part to the second, through the link that carries both; and which of
+  // `path` drives each
+  size_t way[NSVCD_MAX_JOINTS], drivers[NSVCD_MAX_JOINTS];
+  size_t way_count;
+  // those that drive them
   size_t path[NSVCD_MAX_JOINTS];
   size_t joints;
-  // what joints off the path are held at, and, of the path, the centre of a box
+  // what joints off the path are at, and, of the path, the centre of a box
   double at[NSVCD_MAX_JOINTS];
   // of the path: the box, half its widths, and r of the banner
   double low[NSVCD_MAX_JOINTS], high[NSVCD_MAX_JOINTS];
@@ -89,20 +94,26 @@ static nsvcd__rider nsvcd__rider_of(const nsvcd__span *s, const nsvcd__links *at
 // Fills in s->arms for two balls, which ride on the two parts' links.
 static void nsvcd__arms_between(nsvcd__span *s, const nsvcd__links *at,
                                 const nsvcd__rider *balls) {
+  double arms[NSVCD_MAX_JOINTS];
   for (size_t side = 0; side < 2; side++) {
     double moved = 0;
-    for (size_t n = 0; n < s->joints; n++) {
-      const size_t k = side ? s->joints - 1 - n : n;
-      const size_t j = s->path[k];
+    for (size_t n = 0; n < s->way_count; n++) {
+      const size_t k = side ? s->way_count - 1 - n : n;
+      const size_t j = s->way[k];
+      const double reach = fabs(nsvcd__rate(&s->scene, j)) * s->half[s->drivers[k]];
       const nsvcd__d3 off = nsvcd__d3_sub(balls[side].centre, at->frames[j + 1].position);
       const double across = nsvcd__d3_norm(nsvcd__d3_cross(at->axes[j], off));
       const int slides = nsvcd__slides(s->checker, j);
       const double arm = slides ? 1 : across + balls[side].radius + moved;
-      const double half = nsvcd__min(s->half[k], 3.141592653589793);
-      moved += slides ? s->half[k] : 2 * arm * sin(0.5 * half);
-      s->arms[k] = side ? nsvcd__min(s->arms[k], arm) : arm;
+      const double half = nsvcd__min(reach, 3.141592653589793);
+      moved += slides ? reach : 2 * arm * sin(0.5 * half);
+      arms[k] = side ? nsvcd__min(arms[k], arm) : arm;
     }
   }
+  // of a joint of the path, with all that it drives
+  for (size_t k = 0; k < s->joints; k++) s->arms[k] = 0;
+  for (size_t k = 0; k < s->way_count; k++)
+    s->arms[s->drivers[k]] += fabs(nsvcd__rate(&s->scene, s->way[k])) * arms[k];
 }
 
 // The bound of the banner, without one joint of the path, or NSVCD_NONE.
@@ -138,7 +149,8 @@ static nsvcd_result nsvcd__ask_span(nsvcd__span *s, int is_probe, size_t along,
     points[s->path[along]] = s->low[along];
     points[joints + s->path[along]] = s->high[along];
   }
-  s->scene.pairs = &s->pairs[is_probe];
+  nsvcd__follow(&s->scene, 1 + (along != NSVCD_NONE), points);
+  s->scene.pairs = s->checker->own.pairs = &s->pairs[is_probe];
   s->checker->surfaces = is_probe;
   return nsvcd_check(s->checker, &motion, &options, answer);
 }
@@ -152,6 +164,7 @@ static void nsvcd__take_box(nsvcd__span *s, const double *box) {
     s->at[s->path[k]] = middle;
     s->half[k] = nsvcd__max(s->high[k] - middle, middle - s->low[k]) * (1 + 1e-15);
   }
+  nsvcd__follow(&s->scene, 1, s->at);
 }
 
 // The parts and joints of a span, without its checker.
@@ -168,12 +181,20 @@ static void nsvcd__span_begin(const nsvcd_scene *scene, nsvcd_body_pair pair, ns
   s->parts[0] = scene->parts[pair.a];
   s->parts[1] = scene->parts[pair.b];
   s->pairs[0].b = 1;
-  s->joints = nsvcd__path_between(scene, s->parts[0].link, s->parts[1].link, s->path);
+  s->way_count = nsvcd__path_between(scene, s->parts[0].link, s->parts[1].link, s->way);
+  for (size_t n = 0; n < s->way_count; n++) {
+    const size_t driver = nsvcd__driver(scene, s->way[n]);
+    size_t k = 0;
+    while (k < s->joints && s->path[k] != driver) k++;
+    if (k == s->joints) s->path[s->joints++] = driver;
+    s->drivers[n] = k;
+  }
   for (size_t j = 0; j < scene->joint_count; j++) {
     double low, high;
     nsvcd__values_of(&scene->joints[j], &low, &high);
     s->at[j] = 0.5 * (low + high);
   }
+  nsvcd__follow(scene, 1, s->at);
   // of all bodies the one with the fewest triangles
   nsvcd_part *probe = &s->parts[2];
   size_t fewest = SIZE_MAX;

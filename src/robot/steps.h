@@ -1,6 +1,6 @@
 // In: a motion of the joints, and two times. Out: what the joints do between them.
 #pragma once
-#include "chain.h"
+#include "mimics.h"
 
 // A step of a motion: from one time to another, h later.
 typedef struct nsvcd__step {

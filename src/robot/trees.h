@@ -140,6 +140,7 @@ static int nsvcd__seek(nsvcd__router *r) {
     nsvcd__rrt *grown = &r->trees[side];
     double drawn[NSVCD_MAX_JOINTS];
     nsvcd__draw(r, side, drawn);
+    nsvcd__follow(r->scene, 1, drawn);
     const size_t before = grown->count;
     (void)nsvcd__grow(r, grown, drawn, 0, &r->met[side]);
     if (nsvcd__is_at_limit(r)) return 0;

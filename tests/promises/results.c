@@ -68,6 +68,7 @@ static void a_text_names_the_field_at_fault(void) {
       {NSVCD_ERROR_FARTHEST, {"farthest"}},
       {NSVCD_ERROR_ROUTE, {"nodes", "shortcuts", "edge"}},
       {NSVCD_ERROR_HELD, {"held", "goal", "start"}},
+      {NSVCD_ERROR_MIMIC, {"mimic", "multiplier", "offset"}},
       {NSVCD_ERROR_STAGE, {"explore", "refine"}},
       {NSVCD_ERROR_PLAN, {"duration", "margin", "seeds"}},
       {NSVCD_ERROR_BUILD, {"this build"}},

@@ -63,6 +63,36 @@ static void a_route_keeps_to_the_limits_of_speed_and_acceleration(void) {
   arm_close(&a);
 }
 
+// The fore arm turns back by twice as much, and its limits are the upper arm's too.
+static void a_joint_follows_the_one_that_it_mimics(void) {
+  const double start[ARM_JOINTS] = {-0.6, 1.3}, goal[ARM_JOINTS] = {0.6, -1.1};
+  const double broken[ARM_JOINTS] = {0.6, -1.1 + 1e-6};
+  nsvcd_route_problem problem = {.start = start, .goals = goal, .goal_count = 1};
+  nsvcd_route_answer answer;
+  void *memory;
+  arm a;
+  arm_open(&a, at(9, 0, 0));
+  a.joints[FORE].mimic = UPPER + 1;
+  a.joints[FORE].multiplier = -2;
+  a.joints[FORE].offset = 0.1;
+  CHECK_EQ(nsvcd_checker_open(&a.scene, a.memory, nsvcd_checker_size(&a.scene), &a.checker),
+           NSVCD_OK);
+  answer = route_of(&a, &problem, NULL, &memory);
+  CHECK_EQ(answer.status, NSVCD_ROUTE_FOUND);
+  CHECK_GE(answer.duration, 2 * sqrt(2.4) * (1 - 1e-9));
+  for (int k = 0; k <= 100; k++) {
+    double there[ARM_JOINTS];
+    nsvcd_motion_at(&answer.motion, ARM_JOINTS, answer.duration * k / 100, there);
+    CHECK_NEAR(there[FORE], -2 * there[UPPER] + 0.1, 1e-12);
+  }
+  free(memory);
+  problem.goals = broken;
+  CHECK_EQ(nsvcd_route(a.checker, &problem, NULL, NULL, 0, &answer), NSVCD_ERROR_MIMIC);
+  a.joints[FORE].multiplier = 0;
+  CHECK_EQ(nsvcd_checker_open(&a.scene, a.memory, 1, &a.checker), NSVCD_ERROR_MIMIC);
+  arm_close(&a);
+}
+
 static void a_joint_that_is_held_stays(void) {
   const uint8_t held[2][ARM_JOINTS] = {{0, 1}, {1, 1}};
   const double aside[ARM_JOINTS] = {0.6, 0.5}, guess[ARM_JOINTS] = {0, 0.1};
@@ -189,6 +219,7 @@ void promises_routes(void) {
   RUN(a_route_is_free_from_the_start_to_the_goal);
   RUN(a_route_keeps_to_the_limits_of_speed_and_acceleration);
   RUN(a_joint_that_is_held_stays);
+  RUN(a_joint_follows_the_one_that_it_mimics);
   RUN(the_same_seed_is_the_same_route);
   RUN(a_route_by_looks_is_proven);
   RUN(a_start_or_a_goal_that_is_not_free_is_told);

@@ -109,9 +109,10 @@ class Code(enum.IntEnum):
     FARTHEST = 53
     ROUTE = 54
     HELD = 55
-    STAGE = 56
-    PLAN = 57
-    BUILD = 58
+    MIMIC = 56
+    STAGE = 57
+    PLAN = 58
+    BUILD = 59
 
 
 class _Word(str, enum.Enum):
@@ -272,7 +273,7 @@ _PlanAnswer = _struct(
     sweeps=c_size_t)
 _STOP = ctypes.CFUNCTYPE(c_int, c_void_p)
 _Joint = _struct("nsvcd_joint", kind=c_int, parent=c_uint32, origin=_Pose, axis=c_float * 3, low=c_double,
-                 high=c_double, speed=c_double, acceleration=c_double)
+                 high=c_double, speed=c_double, acceleration=c_double, mimic=c_uint32, multiplier=c_double, offset=c_double)
 _Part = _struct("nsvcd_part", body=c_void_p, link=c_uint32, pose=_Pose, scale=c_float)
 _Scene = _struct("nsvcd_scene", joints=c_void_p, joint_count=c_size_t, parts=c_void_p, part_count=c_size_t,
                  pairs=c_void_p, pair_count=c_size_t, clearances=c_void_p, allowances=c_void_p, allowance_count=c_size_t)
@@ -1558,6 +1559,7 @@ class Joint(NamedTuple):
     origin, axis   where it is in that link, a pose (7); any length but 0
     low, high      limits, radians or metres; not read of CONTINUOUS
     speed, acceleration  what a route keeps to; 0: 1
+    mimic          the index of the joint that this one mimics; its value is always multiplier * that of the other + offset
     """
     parent: int
     origin: ArrayLike = _IDENTITY
@@ -1567,6 +1569,9 @@ class Joint(NamedTuple):
     high: float = math.pi
     speed: float = 0
     acceleration: float = 0
+    mimic: Optional[int] = None
+    multiplier: float = 1
+    offset: float = 0
 
 
 class Part(NamedTuple):
@@ -1708,7 +1713,8 @@ class Robot:
         self.joint_count, self.part_count = len(joints), len(parts)
         self._joints = (_Joint * max(len(joints), 1))(*(
             _Joint(_number_of(JointKind(j.kind)), _number(c_uint32, j.parent, "parent"), _pose_of(j.origin, "origin"),
-                   (c_float * 3)(*_floats(j.axis, (3,), "axis").tolist()), j.low, j.high, j.speed, j.acceleration)
+                   (c_float * 3)(*_floats(j.axis, (3,), "axis").tolist()), j.low, j.high, j.speed, j.acceleration,
+                   0 if j.mimic is None else _number(c_uint32, j.mimic + 1, "mimic"), j.multiplier, j.offset)
             for j in joints))
         self._bodies = [part.body for part in parts]
         self._parts = (_Part * max(len(parts), 1))(*(
