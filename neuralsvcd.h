@@ -242,7 +242,8 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_INFLATE,
 
   // ---- joints
-  // a joint's kind is none of its values, or its parent does not come before it
+  // a joint's kind is none of its values, or its parent does not come before it; of motions that
+  // are merged, an index is not one of the joints', or two of them move one joint
   NSVCD_ERROR_JOINT,
   // a joint's axis has no length, or is not finite; or `free_axis` is not
   NSVCD_ERROR_AXIS,
@@ -1788,7 +1789,9 @@ static const char nsvcd__result_texts[] =
     "network.precision is none of its values, or not compiled in\0"
     "network.recall is none of 0, 0.99, 0.999 and 0.9999\0"
     "network.inflate is negative or not finite\0"
-    "a joint's kind is none of its values, or its parent does not come before it\0"
+    "a joint's kind is none of its values, its parent does not come before it, two motions "
+    "move "
+    "it, or it is not one of the scene's\0"
     "a joint's axis has no length, or is not finite, or free_axis is not\0"
     "a joint's limits are not finite or too large, or low is above high\0"
     "a joint's speed or acceleration is negative, not finite or too large\0"
