@@ -25,6 +25,7 @@ struct settings {
   nsvcd_question sweep;  // without bodies
   float first[2];        // a fraction of the motion, or metres; 0: not asked for
   float measure;         // metres
+  float first_to;        // seconds: the first hit of a curve, to this; 0: the default
   float seconds;         // 0: for a plan as long as it takes, for a question DECIDE_SECONDS
   size_t visits;         // the most for a certificate; 0: the library's default
   size_t repeat;         // 0: the command's default
