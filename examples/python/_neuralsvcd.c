@@ -158,6 +158,8 @@ static const neuralsvcd_layout layouts[] = {
     STRUCT(allowance), FIELD(allowance, pair), FIELD(allowance, joints), FIELD(allowance, distance),
     STRUCT(joint_motion), FIELD(joint_motion, pieces), FIELD(joint_motion, degree),
     FIELD(joint_motion, points), FIELD(joint_motion, times),
+    STRUCT(partial_motion), FIELD(partial_motion, motion), FIELD(partial_motion, joints),
+    FIELD(partial_motion, joint_count), FIELD(partial_motion, delay),
     STRUCT(proximity), FIELD(proximity, pair), FIELD(proximity, verdict), FIELD(proximity, why), FIELD(proximity, distance), FIELD(proximity, depth), FIELD(proximity, contact),
     FIELD(proximity, slope),
     STRUCT(proximity_options), FIELD(proximity_options, max_distance), FIELD(proximity_options, to),
