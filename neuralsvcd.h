@@ -987,6 +987,11 @@ typedef struct nsvcd_question {
   // 1: the question is about the surfaces alone: a body that lies inside the other, off its
   // surface, is FREE of it, and has a distance. For proofs
   int surfaces;
+  // called about every 1,000 units of a proof's work; may be NULL. If it returns anything but 0,
+  // the proof ends as if there were no more units
+  int (*stop)(void *user);
+  // passed to `stop`
+  void *user;
 } nsvcd_question;
 
 typedef enum nsvcd_verdict {
@@ -10403,6 +10408,8 @@ static float nsvcd__interval_gap(const nsvcd__motion *m, uint32_t from, uint32_t
 // looks for later contacts with so many units.
 #define NSVCD__AFTER_UNRESOLVED 8
 #define NSVCD__AFTER_FIRST_UNRESOLVED 3000
+// Units from one call of question.stop to the next.
+#define NSVCD__STOP_UNITS 1000
 
 // What else a question asks.
 // The budget of the first attempt, before the two ends of the motion are tried by themselves.
@@ -10724,6 +10731,9 @@ typedef struct nsvcd__given {
   // what is beside the question, above all what follows an unresolved pair.
   size_t work, reserve;
   int grows;
+  // the caller's
+  int (*stop)(void *user);
+  void *user;
 } nsvcd__given;
 
 // What one search is asked. A value: the search narrows a copy of its own, and only ever shrinks
@@ -10812,6 +10822,8 @@ typedef struct nsvcd__proof {
   nsvcd__goal goal;
   nsvcd__search_result known;
   size_t work;
+  // the work at which the caller is asked again whether to stop; and at which that was said, 0: not
+  size_t ask_at, stopped_at;
   // Only remembered, as a memo: the unit normal of the plane that separated a triangle pair last.
   // shared: the triangle pairs in a row that it has separated since.
   nsvcd__d3 separating;
@@ -10883,11 +10895,24 @@ static size_t nsvcd__limit_of_first(const nsvcd__given *given, const nsvcd__goal
   return goal->most - given->reserve;
 }
 
+// Asks the caller whether to stop. If so, more work has been done than any budget allows.
+static NSVCD__NOINLINE void nsvcd__ask_to_stop(nsvcd__proof *p) {
+  nsvcd__given *given = &p->given;
+  p->ask_at = p->work + NSVCD__STOP_UNITS;
+  if (!given->stop(given->user)) return;
+  p->stopped_at = p->work;
+  p->ask_at = SIZE_MAX;
+  p->work = SIZE_MAX / 2;
+  given->work = given->reserve = 0;
+  given->grows = 0;
+}
+
 // Is the budget exhausted? FIRST looks for contacts after its first unresolved pair with a small
 // budget. When that is exhausted, the pair becomes the end of the motion, here, and the search goes
 // on with the rest of the budget for what lies before the pair.
 static int nsvcd__check_budget(nsvcd__proof *p) {
   nsvcd__goal *goal = &p->goal;
+  if (p->work >= p->ask_at) nsvcd__ask_to_stop(p);
   if (p->work > goal->limit && goal->first > 0 && !goal->is_brief && !goal->unresolved_ends &&
       p->known.unresolved < NSVCD__NEVER) {
     goal->unresolved_ends = 1;
@@ -20149,7 +20174,10 @@ static nsvcd__goal nsvcd__proof_begin(nsvcd__query *query) {
   given->grows = q->work == 0;
   given->surfaces = q->surfaces;
   given->tells = q->ask != NSVCD_ASK_HIT || given->slop > 0;
-  w->p.work = w->p.push.normal_count = 0;
+  given->stop = q->stop;
+  given->user = q->user;
+  w->p.ask_at = q->stop ? NSVCD__STOP_UNITS : SIZE_MAX;
+  w->p.work = w->p.stopped_at = w->p.push.normal_count = 0;
   w->inside = w->in_open = 0;
   w->unclear = NSVCD__CLEAR;
   const double to = nsvcd__to_of(task);
@@ -20486,7 +20514,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   if (task->question->manifold && is_contact)
     nsvcd__write_manifold(query, goal, &result.found, answer);
   nsvcd__write_safe_pose(query, goal, result.starts_free, answer);
-  answer->work = w->p.work;
+  answer->work = w->p.stopped_at ? w->p.stopped_at : w->p.work;
 }
 #endif  // NSVCD_NO_PROOF
 

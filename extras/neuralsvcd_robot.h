@@ -194,8 +194,10 @@ typedef struct nsvcd_check_options {
   float finest;
   // units for each proof of a pair; default NSVCD_DEFAULT_WORK
   size_t work;
-  // called before each question about a pair; may be NULL. If it returns anything but 0, the check
-  // ends UNDECIDED, with NSVCD_WHY_WORK
+  // called before each question about a pair, about every 1,000 units of its work, and while parts
+  // are placed; may be NULL. If it returns anything but 0, the check ends UNDECIDED, with
+  // NSVCD_WHY_WORK, or with a hit that it has found: within a millisecond or two (`make
+  // build/bench_stops`). It is not called again
   int (*stop)(void *user);
   // passed to `stop`
   void *user;
@@ -396,7 +398,7 @@ typedef struct nsvcd_nearest_free_options {
   double farthest;
   // seed of the random numbers
   uint64_t seed;
-  // called before each question and each draw; may be NULL. If it returns anything but 0, the
+  // called before each draw, and as nsvcd_check_options.stop is; may be NULL. If it returns anything but 0, the
   // search ends with what it has found
   int (*stop)(void *user);
   // passed to `stop`
@@ -499,8 +501,8 @@ typedef struct nsvcd_range_options {
   size_t boxes;
   // seed of the random numbers
   uint64_t seed;
-  // called before each question; may be NULL. If it returns anything but 0, the search ends with
-  // what it has found
+  // called as nsvcd_check_options.stop is; may be NULL. If it returns anything but 0, the search
+  // ends with what it has found
   int (*stop)(void *user);
   // passed to `stop`
   void *user;
@@ -574,8 +576,8 @@ typedef struct nsvcd_reach_problem {
   float half[3];
   // the tool may turn freely about this axis of its own, of any length; default 0, 0, 0: it may not
   float free_axis[3];
-  // called before each start and each question about a pair; may be NULL. If it returns anything
-  // but 0, the search ends with what it has found
+  // called before each start, and as nsvcd_check_options.stop is; may be NULL. If it returns
+  // anything but 0, the search ends with what it has found
   int (*stop)(void *user);
   // passed to `stop`
   void *user;
@@ -690,8 +692,8 @@ typedef struct nsvcd_route_problem {
   // called before each proof and each look; may be NULL. If it returns anything but 0, the search
   // ends. A path found by then is still proven as a whole
   int (*stop)(void *user);
-  // called before each question about a pair, also in that last proof; may be NULL. If it returns
-  // anything but 0, that proof ends as well: so this bounds the time
+  // called as nsvcd_check_options.stop is, also in that last proof, and between looks; may be NULL.
+  // If it returns anything but 0, that proof ends as well: so this bounds the time, as there
   int (*abandon)(void *user);
   // passed to both
   void *user;
@@ -1745,6 +1747,9 @@ struct nsvcd_checker {
   size_t query_size;
   // questions are about surfaces alone
   int surfaces;
+  // ends questions; NULL: nothing does
+  int (*stop)(void *user);
+  void *user;
   // an error of a question, which ends those that follow
   nsvcd_result result;
 };
@@ -2372,6 +2377,7 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
   (void)nsvcd__checker_layout(scene, (char *)memory, &c);
   c->scene = scene;
   c->surfaces = 0;
+  c->stop = NULL;
   c->result = NSVCD_OK;
   for (size_t i = 0; i < scene->joint_count; i++) {
     const nsvcd_joint *joint = &scene->joints[i];
@@ -2397,6 +2403,8 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
 // errors of frames in double, as a fraction of the lengths that they are computed from: of 32
 // joints, and in proportion if there are more
 #define NSVCD__FRAME_ROUNDING 1e-13
+// from one call of a check's `stop` to the next
+#define NSVCD__STOP_SAMPLES 8
 
 // Places the parts that move, in a configuration, as sample k.
 static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__links *at, size_t k) {
@@ -2421,6 +2429,7 @@ static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__links *at, size_t
 }
 
 // Places the parts that move at c->times, one more than steps, and computes how far they deviate.
+// If the caller says stop, not all of that is done.
 static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, size_t steps) {
   const nsvcd_scene *scene = c->scene;
   nsvcd__step step;
@@ -2431,6 +2440,8 @@ static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, si
   nsvcd__place_links(c, step.from, from);
   nsvcd__place_sample(c, from, 0);
   for (size_t k = 0; k < steps; k++) {
+    if (k % NSVCD__STOP_SAMPLES + 1 == NSVCD__STOP_SAMPLES && c->stop && c->stop(c->user))
+      return;
     nsvcd__step_of(motion, scene->joint_count, c->times[k], c->times[k + 1], &step);
     nsvcd__place_links(c, step.to, to);
     nsvcd__place_sample(c, to, k + 1);
@@ -2589,7 +2600,10 @@ static nsvcd_question nsvcd__question_of(const nsvcd_checker *c, const nsvcd_bod
 static nsvcd_verdict nsvcd__ask_sweep(nsvcd_checker *c, const nsvcd_question *q,
                                       nsvcd_answer *found) {
   memset(found, 0, sizeof *found);
-  if (!c->result) c->result = nsvcd_sweep(q, c->query, c->query_size, found);
+  nsvcd_question asked = *q;
+  asked.stop = c->stop;
+  asked.user = c->user;
+  if (!c->result) c->result = nsvcd_sweep(&asked, c->query, c->query_size, found);
   return found->verdict;
 }
 
@@ -2621,7 +2635,16 @@ typedef struct nsvcd__check_state {
   nsvcd_check_answer *answer;
   // between samples; 0: one configuration
   size_t steps;
+  int is_stopped;
 } nsvcd__check_state;
+
+// Has the caller said stop? Once that is so, it is not asked again. user: the state.
+static int nsvcd__check_stops(void *user) {
+  nsvcd__check_state *s = (nsvcd__check_state *)user;
+  const nsvcd_check_options *o = s->options;
+  if (!s->is_stopped && o->stop && o->stop(o->user)) s->is_stopped = 1;
+  return s->is_stopped;
+}
 
 // ---- pairs
 
@@ -2629,10 +2652,9 @@ typedef struct nsvcd__check_state {
 static nsvcd_verdict nsvcd__ask_local(nsvcd__check_state *s, const nsvcd_body_pair *pair,
                                       size_t count, float clearance, size_t work,
                                       nsvcd_answer *found) {
-  const nsvcd_check_options *o = s->options;
   nsvcd_question question = nsvcd__question_of(s->checker, pair, count, work);
   question.clearance = clearance;
-  if (o->stop && o->stop(o->user)) {
+  if (nsvcd__check_stops(s)) {
     memset(found, 0, sizeof *found);
     found->why = NSVCD_WHY_WORK;
     return NSVCD_UNDECIDED;
@@ -2709,7 +2731,7 @@ static int nsvcd__seek_hit(nsvcd__check_state *s, size_t pair, nsvcd__step_range
       answer->fraction = nsvcd__fraction_at(s->motion, answer->piece, time);
     }
     if (nsvcd__is_hit_there(s, work)) return 1;
-    if (attempt == 0 &&
+    if (attempt == 0 && !s->is_stopped &&
         nsvcd__ask_pair(s, &c->scene->pairs[pair], 0, work, range, found) == NSVCD_FREE)
       return 0;
   }
@@ -2731,7 +2753,7 @@ static size_t nsvcd__ask_pairs(nsvcd__check_state *s, int is_last, size_t left) 
   const size_t work = s->options->work;
   const size_t brief = work && work < NSVCD__HIT_TRY ? work : NSVCD__HIT_TRY;
   size_t kept = 0;
-  for (size_t n = 0; n < left && !c->result; n++) {
+  for (size_t n = 0; n < left && !c->result && !s->is_stopped; n++) {
     const size_t pair = c->left[n];
     const nsvcd_body_pair *parts = &c->scene->pairs[pair];
     nsvcd__step_range range;
@@ -2787,8 +2809,10 @@ static void nsvcd__check_interval(nsvcd__check_state *s, double t0, double t1, s
     }
     if (finer > s->steps) nsvcd__take_samples(s, finer);
     const int is_last = s->steps == 0 || allowed <= finest;
-    left = nsvcd__ask_pairs(s, is_last, left);
-    if (c->result || answer->verdict == NSVCD_HIT || (is_last && left > 0)) return;
+    if (!s->is_stopped) left = nsvcd__ask_pairs(s, is_last, left);
+    if (s->is_stopped && answer->verdict != NSVCD_HIT) answer->why = NSVCD_WHY_WORK;
+    if (c->result || answer->verdict == NSVCD_HIT || s->is_stopped || (is_last && left > 0))
+      return;
     allowed = nsvcd__max(allowed / NSVCD__CHECK_FINER, finest);
   }
   answer->pair = NSVCD_NONE;
@@ -2801,7 +2825,7 @@ static void nsvcd__check_interval(nsvcd__check_state *s, double t0, double t1, s
 static void nsvcd__seek_first(nsvcd__check_state *s, double end) {
   nsvcd_check_answer *answer = s->answer;
   double high = end;
-  while (!s->checker->result) {
+  while (!s->checker->result && !s->is_stopped) {
     const nsvcd_check_answer last = *answer;
     if (last.verdict == NSVCD_HIT) {
       const double start = nsvcd__piece_start(s->motion, last.piece);
@@ -2910,9 +2934,13 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *c, const nsvcd_joint_motion *mo
   o.finest = o.finest > 0 ? o.finest : NSVCD__FINEST;
   memset(&found, 0, sizeof found);
   found.joint = found.pair = found.piece = NSVCD_NONE;
+  nsvcd__check_state s = {c, &m, &o, &found, 0, 0};
+  int (*const stop)(void *user) = c->stop;
+  void *const user = c->user;
+  c->stop = o.stop ? nsvcd__check_stops : NULL;
+  c->user = &s;
   for (size_t p = 0; p < m.pieces + !m.pieces && found.joint == NSVCD_NONE; p++)
     found.joint = nsvcd__joint_outside(c->scene, &m, p);
-  nsvcd__check_state s = {c, &m, &o, &found, 0};
   c->result = NSVCD_OK;
   if (m.pieces == 0) nsvcd__check_interval(&s, 0, 0, 0, 0);
   if (m.pieces > 0) nsvcd__note_cuts(c, &m);
@@ -2933,6 +2961,8 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *c, const nsvcd_joint_motion *mo
     }
     if (found.verdict != NSVCD_FREE) break;
   }
+  c->stop = stop;
+  c->user = user;
   if (c->result) return c->result;
   if (found.verdict == NSVCD_FREE) {
     found.piece = NSVCD_NONE;
@@ -3151,6 +3181,8 @@ typedef struct nsvcd__look_part {
 
 typedef struct nsvcd__looker {
   const nsvcd_checker *checker;
+  // whose `stop` ends looks
+  const nsvcd_check_options *options;
   // (F): each joint in the link that it is on, turned so that axes are along z
   nsvcd__look_frame *joints;
   // (F, 16): configurations that are looked at
@@ -3336,10 +3368,12 @@ static nsvcd__dmat3 nsvcd__look_axes_of(const nsvcd_checker *c, size_t link) {
 }
 
 // Fills in a looker whose arrays are taken.
-static void nsvcd__looker_begin(nsvcd_checker *c, nsvcd__looker *k) {
+static void nsvcd__looker_begin(nsvcd_checker *c, const nsvcd_check_options *options,
+                                nsvcd__looker *k) {
   const nsvcd_scene *scene = c->scene;
   const nsvcd__dmat3 ones = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   k->checker = c;
+  k->options = options;
   k->last = scene->pair_count;
   nsvcd__identity_places(&k->links[0]);
   for (size_t j = 0; j < scene->joint_count; j++) {
@@ -3455,6 +3489,10 @@ static void nsvcd__look_joints(const nsvcd_joint_motion *m, size_t joints, size_
   }
 }
 
+static int nsvcd__looks_end(const nsvcd__looker *k) {
+  return k->options->stop && k->options->stop(k->options->user);
+}
+
 // Does a motion seem free? It begins where it is known to be, and is within the limits.
 static int nsvcd__seems_free(nsvcd__looker *k, const nsvcd_joint_motion *m) {
   const size_t joints = k->checker->scene->joint_count;
@@ -3472,6 +3510,7 @@ static int nsvcd__seems_free(nsvcd__looker *k, const nsvcd_joint_motion *m) {
   // batch n has the places n, n + batches, ... of all; the greater steps first
   for (; stride > 0; stride /= 2) {
     for (size_t n = stride; n <= batches; n += 2 * stride) {
+      if (nsvcd__looks_end(k)) return 0;
       nsvcd__look_joints(m, joints, n, batches, k->places);
       if (nsvcd__seems_to_meet(k, k->places)) return 0;
     }
@@ -3495,7 +3534,8 @@ static void nsvcd__set_margins(nsvcd__looker *k, float clearance, float fraction
 static void nsvcd__look_past(nsvcd__looker *k, const double *at) {
   for (size_t j = 0; j < k->checker->scene->joint_count; j++)
     for (size_t l = 0; l < NSVCD_LOOKS; l++) k->places[j][l] = at[j];
-  while (nsvcd__seems_to_meet(k, k->places) && k->margins[k->last] > -1)
+  while (!nsvcd__looks_end(k) && nsvcd__seems_to_meet(k, k->places) &&
+         k->margins[k->last] > -1)
     k->margins[k->last] -= NSVCD__LOOK_CUT;
 }
 
@@ -5393,6 +5433,8 @@ NSVCDDEF nsvcd_result nsvcd_pair_range(const nsvcd_checker *checker, nsvcd_body_
   const size_t own_size = nsvcd_checker_size(&r->span.scene);
   result = nsvcd_checker_open(&r->span.scene, own, own_size, &r->span.checker);
   if (result) return result;
+  r->span.checker->stop = r->options.stop;
+  r->span.checker->user = r->options.user;
   nsvcd__find_range(r);
   if (!r->result) *answer = r->answer;
   return r->result;
@@ -6271,7 +6313,7 @@ static void nsvcd__replant(nsvcd__router *r) {
 static void nsvcd__search_by_looks(nsvcd__router *r) {
   nsvcd__looker *k = &r->looker;
   size_t fruitless = 0;
-  nsvcd__looker_begin(r->checker, k);
+  nsvcd__looker_begin(r->checker, &r->check, k);
   r->is_looking = 1;
   for (size_t n = 0; n < NSVCD__LOOK_SEARCHES && !r->is_stopped; n++) {
     const double ease = nsvcd__min(1, (double)NSVCD__LOOK_EASE * (double)fruitless);

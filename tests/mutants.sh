@@ -401,6 +401,9 @@ route_looks: the first pair's clearance|own[pair - scene->pairs]|own[0]
 route_looks: looks that nobody ends|if (o->stop \&\& o->stop(o->user)) r->is_stopped = 1;\n  // between|// between
 route_looks: no search after looks|if (r->root_count > 0 \&\& r->answer.status != NSVCD_ROUTE_FOUND \&\& !r->is_stopped) {|if (0) {
 route_looks: limits that looks may leave|if (nsvcd__joint_outside(r->scene, motion, p) != NSVCD_NONE) return 0;|
+robot: questions that nobody stops|asked.stop = c->stop;|asked.stop = NULL;
+robot: asks again once it is stopped|if (!s->is_stopped \&\& o->stop \&\& o->stop(o->user)) s->is_stopped = 1;|if (o->stop \&\& o->stop(o->user)) s->is_stopped = 1;
+robot: stopped is free|if (!s->is_stopped) left = nsvcd__ask_pairs(s, is_last, left);|left = s->is_stopped ? 0 : nsvcd__ask_pairs(s, is_last, left); if (!left) s->is_stopped = 0;
 robot: free until the end of what is not|if (answer->verdict == NSVCD_HIT) continue; const nsvcd_check_answer found|if (answer->verdict == NSVCD_HIT) { answer->free_until = middle; continue; } const nsvcd_check_answer found
 allowances: half of an arm|moved += nsvcd__slides(c, j) ? way : way * reach;|moved += nsvcd__slides(c, j) ? way : way * 0.3 * reach;
 allowances: no offsets in an arm|reach += nsvcd__d3_norm(c->links[j].origin.position);|

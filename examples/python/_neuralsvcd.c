@@ -111,6 +111,7 @@ static const neuralsvcd_layout layouts[] = {
     FIELD(question, slop), FIELD(question, tolerance), FIELD(question, manifold),
     FIELD(question, method), FIELD(question, work), FIELD(question, segments),
     FIELD(question, network), FIELD(question, surfaces),
+    FIELD(question, stop), FIELD(question, user),
     STRUCT(range), FIELD(range, low), FIELD(range, high),
     STRUCT(contact), FIELD(contact, point), FIELD(contact, normal), FIELD(contact, gap),
     FIELD(contact, time), FIELD(contact, triangle_a), FIELD(contact, triangle_b),

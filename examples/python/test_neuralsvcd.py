@@ -1436,7 +1436,7 @@ class Layouts(unittest.TestCase):
         for old, new, name in (
                 ("verdict=c_int, by=c_int", "by=c_int, verdict=c_int", "nsvcd_answer.by"),
                 ("opinion=_Opinion, work=c_size_t", "opinion=_Opinion", "nsvcd_answer.work"),
-                ("surfaces=c_int)", "surfaces=c_int, next=c_size_t)", "nsvcd_question.next"),
+                ("surfaces=c_int, stop", "surfaces=c_int, next=c_size_t, stop", "nsvcd_question.next"),
                 ("limited=c_int", "limited=c_uint64", "nsvcd_opinion.limited"),
                 ("count=c_size_t, times=c_void_p", "count=c_uint32, times=c_void_p", "nsvcd_mover.count"),
                 ("discrete=c_int", "apart=c_int", "nsvcd_plan_options.apart"),

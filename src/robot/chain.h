@@ -96,6 +96,9 @@ struct nsvcd_checker {
   size_t query_size;
   // questions are about surfaces alone
   int surfaces;
+  // ends questions; NULL: nothing does
+  int (*stop)(void *user);
+  void *user;
   // an error of a question, which ends those that follow
   nsvcd_result result;
 };

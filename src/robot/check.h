@@ -28,7 +28,16 @@ typedef struct nsvcd__check_state {
   nsvcd_check_answer *answer;
   // between samples; 0: one configuration
   size_t steps;
+  int is_stopped;
 } nsvcd__check_state;
+
+// Has the caller said stop? Once that is so, it is not asked again. user: the state.
+static int nsvcd__check_stops(void *user) {
+  nsvcd__check_state *s = (nsvcd__check_state *)user;
+  const nsvcd_check_options *o = s->options;
+  if (!s->is_stopped && o->stop && o->stop(o->user)) s->is_stopped = 1;
+  return s->is_stopped;
+}
 
 // ---- pairs
 
@@ -36,10 +45,9 @@ typedef struct nsvcd__check_state {
 static nsvcd_verdict nsvcd__ask_local(nsvcd__check_state *s, const nsvcd_body_pair *pair,
                                       size_t count, float clearance, size_t work,
                                       nsvcd_answer *found) {
-  const nsvcd_check_options *o = s->options;
   nsvcd_question question = nsvcd__question_of(s->checker, pair, count, work);
   question.clearance = clearance;
-  if (o->stop && o->stop(o->user)) {
+  if (nsvcd__check_stops(s)) {
     memset(found, 0, sizeof *found);
     found->why = NSVCD_WHY_WORK;
     return NSVCD_UNDECIDED;
@@ -116,7 +124,7 @@ static int nsvcd__seek_hit(nsvcd__check_state *s, size_t pair, nsvcd__step_range
       answer->fraction = nsvcd__fraction_at(s->motion, answer->piece, time);
     }
     if (nsvcd__is_hit_there(s, work)) return 1;
-    if (attempt == 0 &&
+    if (attempt == 0 && !s->is_stopped &&
         nsvcd__ask_pair(s, &c->scene->pairs[pair], 0, work, range, found) == NSVCD_FREE)
       return 0;
   }
@@ -138,7 +146,7 @@ static size_t nsvcd__ask_pairs(nsvcd__check_state *s, int is_last, size_t left) 
   const size_t work = s->options->work;
   const size_t brief = work && work < NSVCD__HIT_TRY ? work : NSVCD__HIT_TRY;
   size_t kept = 0;
-  for (size_t n = 0; n < left && !c->result; n++) {
+  for (size_t n = 0; n < left && !c->result && !s->is_stopped; n++) {
     const size_t pair = c->left[n];
     const nsvcd_body_pair *parts = &c->scene->pairs[pair];
     nsvcd__step_range range;
@@ -194,8 +202,10 @@ static void nsvcd__check_interval(nsvcd__check_state *s, double t0, double t1, s
     }
     if (finer > s->steps) nsvcd__take_samples(s, finer);
     const int is_last = s->steps == 0 || allowed <= finest;
-    left = nsvcd__ask_pairs(s, is_last, left);
-    if (c->result || answer->verdict == NSVCD_HIT || (is_last && left > 0)) return;
+    if (!s->is_stopped) left = nsvcd__ask_pairs(s, is_last, left);
+    if (s->is_stopped && answer->verdict != NSVCD_HIT) answer->why = NSVCD_WHY_WORK;
+    if (c->result || answer->verdict == NSVCD_HIT || s->is_stopped || (is_last && left > 0))
+      return;
     allowed = nsvcd__max(allowed / NSVCD__CHECK_FINER, finest);
   }
   answer->pair = NSVCD_NONE;
@@ -208,7 +218,7 @@ static void nsvcd__check_interval(nsvcd__check_state *s, double t0, double t1, s
 static void nsvcd__seek_first(nsvcd__check_state *s, double end) {
   nsvcd_check_answer *answer = s->answer;
   double high = end;
-  while (!s->checker->result) {
+  while (!s->checker->result && !s->is_stopped) {
     const nsvcd_check_answer last = *answer;
     if (last.verdict == NSVCD_HIT) {
       const double start = nsvcd__piece_start(s->motion, last.piece);
@@ -317,9 +327,13 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *c, const nsvcd_joint_motion *mo
   o.finest = o.finest > 0 ? o.finest : NSVCD__FINEST;
   memset(&found, 0, sizeof found);
   found.joint = found.pair = found.piece = NSVCD_NONE;
+  nsvcd__check_state s = {c, &m, &o, &found, 0, 0};
+  int (*const stop)(void *user) = c->stop;
+  void *const user = c->user;
+  c->stop = o.stop ? nsvcd__check_stops : NULL;
+  c->user = &s;
   for (size_t p = 0; p < m.pieces + !m.pieces && found.joint == NSVCD_NONE; p++)
     found.joint = nsvcd__joint_outside(c->scene, &m, p);
-  nsvcd__check_state s = {c, &m, &o, &found, 0};
   c->result = NSVCD_OK;
   if (m.pieces == 0) nsvcd__check_interval(&s, 0, 0, 0, 0);
   if (m.pieces > 0) nsvcd__note_cuts(c, &m);
@@ -340,6 +354,8 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *c, const nsvcd_joint_motion *mo
     }
     if (found.verdict != NSVCD_FREE) break;
   }
+  c->stop = stop;
+  c->user = user;
   if (c->result) return c->result;
   if (found.verdict == NSVCD_FREE) {
     found.piece = NSVCD_NONE;

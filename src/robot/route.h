@@ -435,7 +435,7 @@ static void nsvcd__replant(nsvcd__router *r) {
 static void nsvcd__search_by_looks(nsvcd__router *r) {
   nsvcd__looker *k = &r->looker;
   size_t fruitless = 0;
-  nsvcd__looker_begin(r->checker, k);
+  nsvcd__looker_begin(r->checker, &r->check, k);
   r->is_looking = 1;
   for (size_t n = 0; n < NSVCD__LOOK_SEARCHES && !r->is_stopped; n++) {
     const double ease = nsvcd__min(1, (double)NSVCD__LOOK_EASE * (double)fruitless);

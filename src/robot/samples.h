@@ -6,6 +6,8 @@
 // errors of frames in double, as a fraction of the lengths that they are computed from: of 32
 // joints, and in proportion if there are more
 #define NSVCD__FRAME_ROUNDING 1e-13
+// from one call of a check's `stop` to the next
+#define NSVCD__STOP_SAMPLES 8
 
 // Places the parts that move, in a configuration, as sample k.
 static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__links *at, size_t k) {
@@ -30,6 +32,7 @@ static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__links *at, size_t
 }
 
 // Places the parts that move at c->times, one more than steps, and computes how far they deviate.
+// If the caller says stop, not all of that is done.
 static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, size_t steps) {
   const nsvcd_scene *scene = c->scene;
   nsvcd__step step;
@@ -40,6 +43,8 @@ static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, si
   nsvcd__place_links(c, step.from, from);
   nsvcd__place_sample(c, from, 0);
   for (size_t k = 0; k < steps; k++) {
+    if (k % NSVCD__STOP_SAMPLES + 1 == NSVCD__STOP_SAMPLES && c->stop && c->stop(c->user))
+      return;
     nsvcd__step_of(motion, scene->joint_count, c->times[k], c->times[k + 1], &step);
     nsvcd__place_links(c, step.to, to);
     nsvcd__place_sample(c, to, k + 1);

@@ -239,7 +239,7 @@ _Mover = _struct("nsvcd_mover", body=c_void_p, poses=c_void_p, count=c_size_t, t
 _Question = _struct(
     "nsvcd_question", a=_Mover, b=_Mover, ask=c_int, to=c_float, to_time=c_float, clearance=c_float, slop=c_float,
     tolerance=c_float, manifold=c_int, method=c_int, work=c_size_t, segments=c_size_t, network=_NetworkOptions,
-    surfaces=c_int)
+    surfaces=c_int, stop=c_void_p, user=c_void_p)
 _Range = _struct("nsvcd_range", low=c_float, high=c_float)
 _Contact = _struct(
     "nsvcd_contact", point=c_float * 3, normal=c_float * 3, gap=c_float, time=c_float, triangle_a=c_uint32,
