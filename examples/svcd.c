@@ -103,6 +103,9 @@ static const option options[] = {
     {"--only", PLAN | PATH, OPTION_TEXT, AT(only), 0, 0, NULL, "ID,ID", "only these"},
     {"--seed", PLAN | PAIRS, OPTION_COUNT, AT(seed), 0, 1000000000, NULL, "S",
      "of the random numbers (0)"},
+    {"--threads", PLAN, OPTION_COUNT, AT(threads), 1, 256, NULL, "N",
+     "N seeds at once, from --seed on, a thread for each: the motion that takes the least time "
+     "(1)"},
     {"--seconds", SWEEP | PATH, OPTION_NUMBER, AT(seconds), 1e-3, 1e9, NULL, "S",
      "asks again, with more work, what is undecided for want of work, for up to S seconds (10)"},
     {"--seconds", PLAN, OPTION_NUMBER, AT(seconds), 1e-3, 1e9, NULL, "S",

@@ -4,6 +4,7 @@
 #define NSVCD_SVCD_ROBOTS_H
 
 #include "goals.h"
+#include "seeds.h"
 
 #define PLAN_NODES 100000
 // seconds: to which the first conflict of motions together is sought
@@ -293,9 +294,8 @@ static int plan_one(robot_in_room *in, const robot_task *task, const double *sta
     return 0;
   }
   if (!result && goals.row_count > 0) {
-    const size_t size = nsvcd_route_size(in->checker, &problem, &asked);
-    memory = allocate(size);
-    result = nsvcd_route(in->checker, &problem, &asked, memory, size, &answer);
+    const size_t seeds = options->threads ? options->threads : 1;
+    result = route_by_seeds(&in->scene, in->checker, &problem, &asked, seeds, &answer, &memory);
   } else if (problem.stop && problem.stop(problem.user)) {
     answer.status = NSVCD_ROUTE_LIMIT;
   }

@@ -32,6 +32,7 @@ struct settings {
   const char *from, *to, *rotate, *scale, *picture, *film, *details, *only, *joints;
   const char *certificate, *certificates;
   size_t seed, samples;
+  size_t threads;  // 0: 1
   int int8, help, json, is_first_given, recentre;
   int exit_code;  // 1: the exit status is to be
   int answer;     // ... this: 0 free, 1 hit, 3 undecided
