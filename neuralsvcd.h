@@ -242,7 +242,8 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_INFLATE,
 
   // ---- joints
-  // a joint's kind is none of its values, or its parent does not come before it
+  // a joint's kind is none of its values, or its parent does not come before it; of motions that
+  // are merged, an index is not one of the joints', or two of them move one joint
   NSVCD_ERROR_JOINT,
   // a joint's axis has no length, or is not finite; or `free_axis` is not
   NSVCD_ERROR_AXIS,
@@ -990,6 +991,11 @@ typedef struct nsvcd_question {
   // 1: the question is about the surfaces alone: a body that lies inside the other, off its
   // surface, is FREE of it, and has a distance. For proofs
   int surfaces;
+  // called about every 1,000 units of a proof's work; may be NULL. If it returns anything but 0,
+  // the proof ends as if there were no more units
+  int (*stop)(void *user);
+  // passed to `stop`
+  void *user;
 } nsvcd_question;
 
 typedef enum nsvcd_verdict {
@@ -1768,7 +1774,8 @@ static const char nsvcd__result_texts[] =
     "a body holds no latents, which the network needs: encode it with latents, "
     "and without convex_radius\0"
     "poses and count do not agree: count is 0 where poses is NULL, else 1 to 65536\0"
-    "times do not rise, or, of poses, not from 0 to 1 by 1e-7 or more\0"
+    "times do not rise, or, of poses, not from 0 to 1 by 1e-7 or more, or not by 1e-12 of the "
+    "whole where motions are merged\0"
     "the position of a pose is not finite, or beyond a million metres\0"
     "a quaternion (x y z w) is not of unit length, to 1e-4\0"
     "a scale is not finite, negative or out of range, "
@@ -1792,7 +1799,9 @@ static const char nsvcd__result_texts[] =
     "network.precision is none of its values, or not compiled in\0"
     "network.recall is none of 0, 0.99, 0.999 and 0.9999\0"
     "network.inflate is negative or not finite\0"
-    "a joint's kind is none of its values, or its parent does not come before it\0"
+    "a joint's kind is none of its values, its parent does not come before it, two motions "
+    "move "
+    "it, or it is not one of the scene's\0"
     "a joint's axis has no length, or is not finite, or free_axis is not\0"
     "a joint's limits are not finite or too large, or low is above high, or they exclude "
     "those of a joint that mimics it\0"
@@ -10406,6 +10415,8 @@ static float nsvcd__interval_gap(const nsvcd__motion *m, uint32_t from, uint32_t
 // looks for later contacts with so many units.
 #define NSVCD__AFTER_UNRESOLVED 8
 #define NSVCD__AFTER_FIRST_UNRESOLVED 3000
+// Units from one call of question.stop to the next.
+#define NSVCD__STOP_UNITS 1000
 
 // What else a question asks.
 // The budget of the first attempt, before the two ends of the motion are tried by themselves.
@@ -10727,6 +10738,9 @@ typedef struct nsvcd__given {
   // what is beside the question, above all what follows an unresolved pair.
   size_t work, reserve;
   int grows;
+  // the caller's
+  int (*stop)(void *user);
+  void *user;
 } nsvcd__given;
 
 // What one search is asked. A value: the search narrows a copy of its own, and only ever shrinks
@@ -10815,6 +10829,8 @@ typedef struct nsvcd__proof {
   nsvcd__goal goal;
   nsvcd__search_result known;
   size_t work;
+  // the work at which the caller is asked again whether to stop; and at which that was said, 0: not
+  size_t ask_at, stopped_at;
   // Only remembered, as a memo: the unit normal of the plane that separated a triangle pair last.
   // shared: the triangle pairs in a row that it has separated since.
   nsvcd__d3 separating;
@@ -10886,11 +10902,24 @@ static size_t nsvcd__limit_of_first(const nsvcd__given *given, const nsvcd__goal
   return goal->most - given->reserve;
 }
 
+// Asks the caller whether to stop. If so, more work has been done than any budget allows.
+static NSVCD__NOINLINE void nsvcd__ask_to_stop(nsvcd__proof *p) {
+  nsvcd__given *given = &p->given;
+  p->ask_at = p->work + NSVCD__STOP_UNITS;
+  if (!given->stop(given->user)) return;
+  p->stopped_at = p->work;
+  p->ask_at = SIZE_MAX;
+  p->work = SIZE_MAX / 2;
+  given->work = given->reserve = 0;
+  given->grows = 0;
+}
+
 // Is the budget exhausted? FIRST looks for contacts after its first unresolved pair with a small
 // budget. When that is exhausted, the pair becomes the end of the motion, here, and the search goes
 // on with the rest of the budget for what lies before the pair.
 static int nsvcd__check_budget(nsvcd__proof *p) {
   nsvcd__goal *goal = &p->goal;
+  if (p->work >= p->ask_at) nsvcd__ask_to_stop(p);
   if (p->work > goal->limit && goal->first > 0 && !goal->is_brief && !goal->unresolved_ends &&
       p->known.unresolved < NSVCD__NEVER) {
     goal->unresolved_ends = 1;
@@ -20152,7 +20181,10 @@ static nsvcd__goal nsvcd__proof_begin(nsvcd__query *query) {
   given->grows = q->work == 0;
   given->surfaces = q->surfaces;
   given->tells = q->ask != NSVCD_ASK_HIT || given->slop > 0;
-  w->p.work = w->p.push.normal_count = 0;
+  given->stop = q->stop;
+  given->user = q->user;
+  w->p.ask_at = q->stop ? NSVCD__STOP_UNITS : SIZE_MAX;
+  w->p.work = w->p.stopped_at = w->p.push.normal_count = 0;
   w->inside = w->in_open = 0;
   w->unclear = NSVCD__CLEAR;
   const double to = nsvcd__to_of(task);
@@ -20489,7 +20521,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   if (task->question->manifold && is_contact)
     nsvcd__write_manifold(query, goal, &result.found, answer);
   nsvcd__write_safe_pose(query, goal, result.starts_free, answer);
-  answer->work = w->p.work;
+  answer->work = w->p.stopped_at ? w->p.stopped_at : w->p.work;
 }
 #endif  // NSVCD_NO_PROOF
 

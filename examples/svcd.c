@@ -66,6 +66,9 @@ static const option options[] = {
     {"--first", SWEEP, OPTION_LENGTH, AT(first), 0, 1, "or metres: 0.001m", "T|METRESm",
      "finds the first contact, to this fraction of the motion, or to metres: 0.001m (0.001; 0: any "
      "contact)"},
+    {"--first", PATH, OPTION_NUMBER, AT(first_to), 1e-9, 1e6, NULL, "S",
+     "finds the first hit of a curve, or of motions together, to so many seconds (curves: any hit; "
+     "together: 0.001)"},
     {"--method", CHECK | SWEEP, OPTION_WORD, AT(sweep.method), NSVCD_METHOD_PROOF, 0,
      "proof|network", NULL, "a witness or a certificate; or an opinion (proof)"},
     {"--points", CHECK | ENCODE | SWEEP, OPTION_COUNT, AT(encode.patches), 1, POINTS,
@@ -100,6 +103,9 @@ static const option options[] = {
     {"--only", PLAN | PATH, OPTION_TEXT, AT(only), 0, 0, NULL, "ID,ID", "only these"},
     {"--seed", PLAN | PAIRS, OPTION_COUNT, AT(seed), 0, 1000000000, NULL, "S",
      "of the random numbers (0)"},
+    {"--threads", PLAN, OPTION_COUNT, AT(threads), 1, 256, NULL, "N",
+     "N seeds at once, from --seed on, a thread for each: the motion that takes the least time "
+     "(1)"},
     {"--seconds", SWEEP | PATH, OPTION_NUMBER, AT(seconds), 1e-3, 1e9, NULL, "S",
      "asks again, with more work, what is undecided for want of work, for up to S seconds (10)"},
     {"--seconds", PLAN, OPTION_NUMBER, AT(seconds), 1e-3, 1e9, NULL, "S",
@@ -142,11 +148,11 @@ static const command commands[] = {
      "tabs: ID certified|start|goal|limit|undecided SECONDS DURATION LENGTH. The motion keeps the "
      "clearance from obstacles. The exit status is 1 if a certificate could not "
      "be written."},
-    {"path", PATH, path, 1, "ROBOT ", "are paths of a robot free, between their points too?",
-     "Is each path or curve of a planning file free, between its points too? One line each, "
-     "separated by "
-     "tabs: ID free|hit|undecided EDGE T NAME NAME MICROSECONDS: the first edge that is not free, "
-     "when, and which two bodies; the mean time of an edge."},
+    {"path", PATH, path, 1, "ROBOT ", "are paths of robots free, between their points too?",
+     "Is each path, curve or 'together' of a planning file free, between its points too? One line "
+     "each, separated by tabs: ID free|hit|undecided EDGE T NAME NAME MICROSECONDS: the first edge "
+     "that is not free, when, and which two bodies; the mean time of an edge. Of motions together, "
+     "each on a clock of its own, EDGE is 0 and T is the time of the first conflict, seconds."},
     {"pairs", PAIRS, pairs, 1, "ROBOT ", "which bodies of a robot can meet each other?",
      "Which bodies of a planning file's robot can meet each other? Prints a line 'pair NAME NAME' "
      "for each two that do sometimes, with a configuration of each kind, or of which it is not "

@@ -14,6 +14,7 @@
 // CONTENTS: a room's name ends a line of dashes. Each uses only those above it.
 //   interface: what a program sees
 //     robots          joints, parts, checks of motions; nsvcd_check
+//     merges          motions on clocks of their own, as one; nsvcd_merge_motions
 //     configurations  one configuration: pairs that are near, a way out
 //     ranges          do two parts ever meet, or always? nsvcd_pair_range
 //     reaches         configurations that have a tool at a target; nsvcd_reach
@@ -40,6 +41,7 @@
 //     samples         configurations of a motion, and boxes about the parts in them
 //     local_queries   two parts, in the frame of one of them
 //     check           is a motion of the joints free?
+//     merge           motions on clocks of their own, as one
 //     looks           does a motion seem free?
 //     proofs          certificates of pairs
 //     rrt             trees of configurations, and the nearest node
@@ -207,8 +209,10 @@ typedef struct nsvcd_check_options {
   float finest;
   // units for each proof of a pair; default NSVCD_DEFAULT_WORK
   size_t work;
-  // called before each question about a pair; may be NULL. If it returns anything but 0, the check
-  // ends UNDECIDED, with NSVCD_WHY_WORK
+  // called before each question about a pair, about every 1,000 units of its work, and while parts
+  // are placed; may be NULL. If it returns anything but 0, the check ends UNDECIDED, with
+  // NSVCD_WHY_WORK, or with a hit that it has found: within a millisecond or two (`make
+  // build/bench_stops`). It is not called again
   int (*stop)(void *user);
   // passed to `stop`
   void *user;
@@ -293,6 +297,51 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
                                   const nsvcd_check_options *options,
                                   nsvcd_check_answer *answer);
 
+// -------------------------------------------------------------------------------- interface/merges
+// In: motions of some of the joints, each on a clock of its own: two arms, vehicles, a belt. Out:
+// one motion of all joints, for nsvcd_check, which finds the first conflict with options.to_time.
+
+// A motion of some of the joints. Before it begins and after it has ended these rest.
+typedef struct nsvcd_partial_motion {
+  // (pieces * degree + 1, joint_count) points of these joints; else as nsvcd_check takes it
+  nsvcd_joint_motion motion;
+  // (joint_count) the joints' indices, in the order of the points' columns
+  const uint32_t *joints;
+  // 1 or more
+  size_t joint_count;
+  // seconds, added to its times
+  double delay;
+} nsvcd_partial_motion;
+
+// Bytes that nsvcd_merge_motions needs; 0 if a motion is refused.
+//   motions    (count), not NULL unless that is 0
+//   joints     F, the number of joints of the scene
+NSVCDDEF size_t nsvcd_merge_motions_size(const nsvcd_partial_motion *motions, size_t count,
+                                         size_t joints);
+
+// Merges motions of different joints into one. Its pieces begin and end wherever those of a motion
+// do, and its degree is the greatest. A moving obstacle is a part on joints that a motion of its
+// own moves.
+//   motions    (count), not NULL unless that is 0
+//   joints     F, the number of joints of the scene, up to NSVCD_MAX_JOINTS
+//   rest       (F) radians or metres: where joints are that none of the motions moves. May be NULL
+//              if each is moved
+//   memory     (size) bytes, nsvcd_merge_motions_size(motions, count, joints) or more, not NULL,
+//              aligned to NSVCD_ALIGNMENT; the merged motion's arrays are in it
+//   merged     not NULL; left as it was on failure. Without pieces if no motion has any
+//   allocates  nothing
+//   errors     ARGUMENT, COUNT (joints, joint_count), JOINT (an index is not below F, or two
+//              motions move one joint), DEGREE, VALUE (of points or of rest), TIMES (they do not
+//              rise, or a piece takes less than 1e-12 of the whole), WORKSPACE
+//   source     de Casteljau's algorithm
+//
+// What a check proves is proven of the merged motion. From the motions it deviates by rounding: a
+// joint's values by less than 1e-14 of its greatest, and times by no more than 1e-12 of the whole,
+// since pieces that end so close to each other end together.
+NSVCDDEF nsvcd_result nsvcd_merge_motions(const nsvcd_partial_motion *motions, size_t count,
+                                          size_t joints, const double *rest, void *memory,
+                                          size_t size, nsvcd_joint_motion *merged);
+
 // ------------------------------------------------------------------------ interface/configurations
 // In: a robot in one configuration. Out: which parts are near each other, and how that changes with
 // the joints; the nearest free configuration; which pairs can meet; a part on another link.
@@ -365,8 +414,8 @@ typedef struct nsvcd_nearest_free_options {
   double farthest;
   // seed of the random numbers
   uint64_t seed;
-  // called before each question and each draw; may be NULL. If it returns anything but 0, the
-  // search ends with what it has found
+  // called before each draw, and as nsvcd_check_options.stop is; may be NULL. If it returns
+  // anything but 0, the search ends with what it has found
   int (*stop)(void *user);
   // passed to `stop`
   void *user;
@@ -468,8 +517,8 @@ typedef struct nsvcd_range_options {
   size_t boxes;
   // seed of the random numbers
   uint64_t seed;
-  // called before each question; may be NULL. If it returns anything but 0, the search ends with
-  // what it has found
+  // called as nsvcd_check_options.stop is; may be NULL. If it returns anything but 0, the search
+  // ends with what it has found
   int (*stop)(void *user);
   // passed to `stop`
   void *user;
@@ -544,8 +593,8 @@ typedef struct nsvcd_reach_problem {
   float half[3];
   // the tool may turn freely about this axis of its own, of any length; default 0, 0, 0: it may not
   float free_axis[3];
-  // called before each start and each question about a pair; may be NULL. If it returns anything
-  // but 0, the search ends with what it has found
+  // called before each start, and as nsvcd_check_options.stop is; may be NULL. If it returns
+  // anything but 0, the search ends with what it has found
   int (*stop)(void *user);
   // passed to `stop`
   void *user;
@@ -661,8 +710,8 @@ typedef struct nsvcd_route_problem {
   // called before each proof and each look; may be NULL. If it returns anything but 0, the search
   // ends. A path found by then is still proven as a whole
   int (*stop)(void *user);
-  // called before each question about a pair, also in that last proof; may be NULL. If it returns
-  // anything but 0, that proof ends as well: so this bounds the time
+  // called as nsvcd_check_options.stop is, also in that last proof, and between looks; may be NULL.
+  // If it returns anything but 0, that proof ends as well: so this bounds the time, as there
   int (*abandon)(void *user);
   // passed to both
   void *user;
@@ -1636,6 +1685,7 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
 //   samples          configurations of a motion, and boxes about the parts in them
 //   local_queries    two parts, in the frame of one of them
 //   check            is a motion of the joints free?
+//   merge            motions on clocks of their own, as one
 //   looks            does a motion seem free?
 //   proofs           a certificate of a pair, as the joints move it
 //   rrt              trees of configurations, and the nearest node
@@ -1729,6 +1779,9 @@ struct nsvcd_checker {
   size_t query_size;
   // questions are about surfaces alone
   int surfaces;
+  // ends questions; NULL: nothing does
+  int (*stop)(void *user);
+  void *user;
   // an error of a question, which ends those that follow
   nsvcd_result result;
 };
@@ -2467,6 +2520,7 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
   c->own.joints = c->joints;
   c->scene = scene;
   c->surfaces = 0;
+  c->stop = NULL;
   c->result = NSVCD_OK;
   for (size_t i = 0; i < scene->joint_count; i++) {
     const nsvcd_joint *joint = &scene->joints[i];
@@ -2494,6 +2548,8 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
 // errors of frames in double, as a fraction of the lengths that they are computed from: of 32
 // joints, and in proportion if there are more
 #define NSVCD__FRAME_ROUNDING 1e-13
+// from one call of a check's `stop` to the next
+#define NSVCD__STOP_SAMPLES 8
 
 // Places the parts that move, in a configuration, as sample k.
 static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__links *at, size_t k) {
@@ -2518,6 +2574,7 @@ static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__links *at, size_t
 }
 
 // Places the parts that move at c->times, one more than steps, and computes how far they deviate.
+// If the caller says stop, not all of that is done.
 static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, size_t steps) {
   const size_t joints = c->scene->joint_count;
   nsvcd__step step;
@@ -2528,6 +2585,8 @@ static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, si
   nsvcd__place_links(c, step.from, from);
   nsvcd__place_sample(c, from, 0);
   for (size_t k = 0; k < steps; k++) {
+    if (k % NSVCD__STOP_SAMPLES + 1 == NSVCD__STOP_SAMPLES && c->stop && c->stop(c->user))
+      return;
     nsvcd__step_of(motion, joints, c->times[k], c->times[k + 1], &step);
     nsvcd__place_links(c, step.to, to);
     nsvcd__place_sample(c, to, k + 1);
@@ -2546,8 +2605,8 @@ static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, si
 }
 
 // Cuts steps so that no part deviates by more than is allowed where it is near another, as far as
-// can be foreseen: the deviation goes with the square of a step. Returns how many steps there are then; where they are
-// more than NSVCD__MOST_STEPS, the times stay as they were.
+// can be foreseen: the deviation goes with the square of a step. Returns how many steps there are
+// then; where they are more than NSVCD__MOST_STEPS, the times stay as they were.
 static size_t nsvcd__refine_steps(nsvcd_checker *c, size_t steps, double allowed) {
   size_t total = 0;
   for (size_t k = 0; k < steps; k++) {
@@ -2698,7 +2757,10 @@ static nsvcd_question nsvcd__question_of(const nsvcd_checker *c, const nsvcd_bod
 static nsvcd_verdict nsvcd__ask_sweep(nsvcd_checker *c, const nsvcd_question *q,
                                       nsvcd_answer *found) {
   memset(found, 0, sizeof *found);
-  if (!c->result) c->result = nsvcd_sweep(q, c->query, c->query_size, found);
+  nsvcd_question asked = *q;
+  asked.stop = c->stop;
+  asked.user = c->user;
+  if (!c->result) c->result = nsvcd_sweep(&asked, c->query, c->query_size, found);
   return found->verdict;
 }
 
@@ -2730,7 +2792,16 @@ typedef struct nsvcd__check_state {
   nsvcd_check_answer *answer;
   // between samples; 0: one configuration
   size_t steps;
+  int is_stopped;
 } nsvcd__check_state;
+
+// Has the caller said stop? Once that is so, it is not asked again. user: the state.
+static int nsvcd__check_stops(void *user) {
+  nsvcd__check_state *s = (nsvcd__check_state *)user;
+  const nsvcd_check_options *o = s->options;
+  if (!s->is_stopped && o->stop && o->stop(o->user)) s->is_stopped = 1;
+  return s->is_stopped;
+}
 
 // ---- pairs
 
@@ -2738,10 +2809,9 @@ typedef struct nsvcd__check_state {
 static nsvcd_verdict nsvcd__ask_local(nsvcd__check_state *s, const nsvcd_body_pair *pair,
                                       size_t count, float clearance, size_t work,
                                       nsvcd_answer *found) {
-  const nsvcd_check_options *o = s->options;
   nsvcd_question question = nsvcd__question_of(s->checker, pair, count, work);
   question.clearance = clearance;
-  if (o->stop && o->stop(o->user)) {
+  if (nsvcd__check_stops(s)) {
     memset(found, 0, sizeof *found);
     found->why = NSVCD_WHY_WORK;
     return NSVCD_UNDECIDED;
@@ -2816,7 +2886,7 @@ static int nsvcd__seek_hit(nsvcd__check_state *s, size_t pair, nsvcd__step_range
       answer->fraction = nsvcd__fraction_at(s->motion, answer->piece, time);
     }
     if (nsvcd__is_hit_there(s, work)) return 1;
-    if (attempt == 0 &&
+    if (attempt == 0 && !s->is_stopped &&
         nsvcd__ask_pair(s, &c->scene->pairs[pair], 0, work, range, found) == NSVCD_FREE)
       return 0;
   }
@@ -2838,7 +2908,7 @@ static size_t nsvcd__ask_pairs(nsvcd__check_state *s, int is_last, size_t left) 
   const size_t work = s->options->work;
   const size_t brief = work && work < NSVCD__HIT_TRY ? work : NSVCD__HIT_TRY;
   size_t kept = 0;
-  for (size_t n = 0; n < left && !c->result; n++) {
+  for (size_t n = 0; n < left && !c->result && !s->is_stopped; n++) {
     const size_t pair = c->left[n];
     const nsvcd_body_pair *parts = &c->scene->pairs[pair];
     nsvcd__step_range range;
@@ -2868,8 +2938,8 @@ static void nsvcd__take_samples(nsvcd__check_state *s, size_t steps, size_t left
   s->answer->placed += steps + 1;
 }
 
-// Notes how far parts deviate at most in each step, of the first `left` pairs of c->left where these
-// are near.
+// Notes how far parts deviate at most in each step, of the first `left` pairs of c->left where
+// these are near.
 static void nsvcd__note_coarse(nsvcd__check_state *s, size_t left) {
   nsvcd_checker *c = s->checker;
   memset(c->coarse, 0, s->steps * sizeof *c->coarse);
@@ -2905,12 +2975,14 @@ static void nsvcd__check_interval(nsvcd__check_state *s, double t0, double t1, s
   nsvcd__take_samples(s, steps, left);
   double allowed = NSVCD__COARSE;
   while (left > 0) {
+    answer->why = NSVCD_WHY_WORK;
+    // not all is sampled
+    if (s->is_stopped) return;
     nsvcd__note_coarse(s, left);
     const size_t finer = nsvcd__refine_steps(c, s->steps, allowed);
     if (finer > NSVCD__MOST_STEPS) {
       const double middle = 0.5 * (t0 + t1);
       const size_t coarse = s->steps;
-      answer->why = NSVCD_WHY_WORK;
       if (halvings == 0 || !(middle > t0 && middle < t1)) return;
       nsvcd__check_interval(s, t0, middle, coarse, halvings - 1);
       if (answer->verdict == NSVCD_FREE)
@@ -2919,8 +2991,10 @@ static void nsvcd__check_interval(nsvcd__check_state *s, double t0, double t1, s
     }
     if (finer > s->steps) nsvcd__take_samples(s, finer, left);
     const int is_last = s->steps == 0 || allowed <= finest;
-    left = nsvcd__ask_pairs(s, is_last, left);
-    if (c->result || answer->verdict == NSVCD_HIT || (is_last && left > 0)) return;
+    if (!s->is_stopped) left = nsvcd__ask_pairs(s, is_last, left);
+    if (s->is_stopped && answer->verdict != NSVCD_HIT) answer->why = NSVCD_WHY_WORK;
+    if (c->result || answer->verdict == NSVCD_HIT || s->is_stopped || (is_last && left > 0))
+      return;
     allowed = nsvcd__max(allowed / NSVCD__CHECK_FINER, finest);
   }
   answer->pair = NSVCD_NONE;
@@ -2933,7 +3007,7 @@ static void nsvcd__check_interval(nsvcd__check_state *s, double t0, double t1, s
 static void nsvcd__seek_first(nsvcd__check_state *s, double end) {
   nsvcd_check_answer *answer = s->answer;
   double high = end;
-  while (!s->checker->result) {
+  while (!s->checker->result && !s->is_stopped) {
     const nsvcd_check_answer last = *answer;
     if (last.verdict == NSVCD_HIT) {
       const double start = nsvcd__piece_start(s->motion, last.piece);
@@ -3005,10 +3079,8 @@ static size_t nsvcd__joint_outside(const nsvcd_scene *scene, const nsvcd_joint_m
 
 // ---- a check
 
-// Is a motion in order? Of no pieces it must be as nsvcd__motion_meant has it.
-static nsvcd_result nsvcd__motion_check(const nsvcd_scene *scene,
-                                        const nsvcd_joint_motion *m) {
-  const size_t joints = scene->joint_count;
+// Are a motion's pieces in order? Of no pieces it must be as nsvcd__motion_meant has it.
+static nsvcd_result nsvcd__pieces_check(const nsvcd_joint_motion *m, size_t joints) {
   if (m->pieces && (m->degree < 1 || m->degree > NSVCD_MAX_DEGREE)) return NSVCD_ERROR_DEGREE;
   if (m->pieces > SIZE_MAX / sizeof(double) / (NSVCD_MAX_DEGREE + 1) / joints)
     return NSVCD_ERROR_DEGREE;
@@ -3018,6 +3090,14 @@ static nsvcd_result nsvcd__motion_check(const nsvcd_scene *scene,
   for (size_t p = 0; p < m->pieces && m->times; p++) {
     if (!(m->times[p + 1] > m->times[p])) return NSVCD_ERROR_TIMES;
   }
+  return NSVCD_OK;
+}
+
+// Is it a motion of the scene's joints?
+static nsvcd_result nsvcd__motion_check(const nsvcd_scene *scene,
+                                        const nsvcd_joint_motion *m) {
+  const nsvcd_result result = nsvcd__pieces_check(m, scene->joint_count);
+  if (result) return result;
   const int follows = nsvcd__follows(scene, m->pieces * m->degree + 1, m->points);
   return follows ? NSVCD_OK : NSVCD_ERROR_MIMIC;
 }
@@ -3045,9 +3125,13 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *c, const nsvcd_joint_motion *mo
   o.finest = o.finest > 0 ? o.finest : NSVCD__FINEST;
   memset(&found, 0, sizeof found);
   found.joint = found.pair = found.piece = NSVCD_NONE;
+  nsvcd__check_state s = {c, &m, &o, &found, 0, 0};
+  int (*const stop)(void *user) = c->stop;
+  void *const user = c->user;
+  c->stop = o.stop ? nsvcd__check_stops : NULL;
+  c->user = &s;
   for (size_t p = 0; p < m.pieces + !m.pieces && found.joint == NSVCD_NONE; p++)
     found.joint = nsvcd__joint_outside(c->scene, &m, p);
-  nsvcd__check_state s = {c, &m, &o, &found, 0};
   c->result = NSVCD_OK;
   if (m.pieces == 0) nsvcd__check_interval(&s, 0, 0, 0, 0);
   if (m.pieces > 0) nsvcd__note_cuts(c, &m);
@@ -3069,6 +3153,8 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *c, const nsvcd_joint_motion *mo
     if (found.verdict != NSVCD_FREE) break;
   }
   for (size_t n = 0; n < c->mover_count; n++) c->members[c->movers[n]].is_skipped = 0;
+  c->stop = stop;
+  c->user = user;
   if (c->result) return c->result;
   if (found.verdict == NSVCD_FREE) {
     found.piece = NSVCD_NONE;
@@ -3076,6 +3162,179 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *c, const nsvcd_joint_motion *mo
     found.why = NSVCD_WHY_NOTHING;
   }
   *answer = found;
+  return NSVCD_OK;
+}
+
+// ------------------------------------------------------------------------------------- robot/merge
+// In: motions of some of the joints, each on a clock of its own. Out: one motion of all joints.
+
+// of the time of the whole: times that are no farther apart are one
+#define NSVCD__ONE_TIME 1e-12
+
+// What motions have in common.
+typedef struct nsvcd__merge {
+  size_t joints;
+  // that a merged motion can have, at most; its degree
+  size_t pieces, degree;
+  // seconds: times that are no farther apart are one
+  double same;
+  // joints that some motion moves
+  uint8_t moved[NSVCD_MAX_JOINTS];
+} nsvcd__merge;
+
+// When a piece begins, or the last one ends, on the clock of all.
+static double nsvcd__knot_at(const nsvcd_partial_motion *m, size_t piece) {
+  return m->delay + nsvcd__piece_start(&m->motion, piece);
+}
+
+// Are the motions in order? Fills in *all.
+static nsvcd_result nsvcd__merge_check(const nsvcd_partial_motion *motions, size_t count,
+                                       size_t joints, nsvcd__merge *all) {
+  double first = 0;
+  double last = 0;
+  memset(all, 0, sizeof *all);
+  all->joints = joints;
+  all->degree = 1;
+  if (joints < 1 || joints > NSVCD_MAX_JOINTS) return NSVCD_ERROR_COUNT;
+  if (count > 0 && !motions) return NSVCD_ERROR_ARGUMENT;
+  const size_t most = SIZE_MAX / sizeof(double) / (NSVCD_MAX_DEGREE + 1) / joints / 2;
+  for (size_t n = 0; n < count; n++) {
+    const nsvcd_partial_motion *m = &motions[n];
+    const nsvcd_joint_motion meant = nsvcd__motion_meant(&m->motion);
+    if (!m->joints || !meant.points) return NSVCD_ERROR_ARGUMENT;
+    if (m->joint_count < 1 || m->joint_count > joints) return NSVCD_ERROR_COUNT;
+    for (size_t k = 0; k < m->joint_count; k++) {
+      if (m->joints[k] >= joints || all->moved[m->joints[k]]++) return NSVCD_ERROR_JOINT;
+    }
+    const nsvcd_result result = nsvcd__pieces_check(&meant, m->joint_count);
+    if (result) return result;
+    if (!nsvcd__are_numbers(&m->delay, 1)) return NSVCD_ERROR_TIMES;
+    if (meant.pieces == 0) continue;
+    if (meant.pieces >= most - all->pieces) return NSVCD_ERROR_DEGREE;
+    const double begin = nsvcd__knot_at(m, 0);
+    const double end = nsvcd__knot_at(m, meant.pieces);
+    first = all->pieces ? nsvcd__min(first, begin) : begin;
+    last = all->pieces ? nsvcd__max(last, end) : end;
+    all->pieces += meant.pieces + 1;
+    if (meant.degree > all->degree) all->degree = meant.degree;
+  }
+  all->same = NSVCD__ONE_TIME * (last - first);
+  for (size_t n = 0; n < count; n++) {
+    const nsvcd_partial_motion *m = &motions[n];
+    for (size_t p = 0; p < m->motion.pieces; p++)
+      if (!(nsvcd__knot_at(m, p + 1) - nsvcd__knot_at(m, p) > all->same))
+        return NSVCD_ERROR_TIMES;
+  }
+  return NSVCD_OK;
+}
+
+// Writes the times at which pieces of any motion begin or end, rising. Returns how many they are.
+static size_t nsvcd__merge_times(const nsvcd_partial_motion *motions, size_t count,
+                                 double same, double *times) {
+  size_t next[NSVCD_MAX_JOINTS] = {0};
+  for (size_t written = 0;; written++) {
+    int is_over = 1;
+    for (size_t n = 0; n < count; n++) {
+      if (motions[n].motion.pieces == 0 || next[n] > motions[n].motion.pieces) continue;
+      const double time = nsvcd__knot_at(&motions[n], next[n]);
+      if (is_over || time < times[written]) times[written] = time;
+      is_over = 0;
+    }
+    if (is_over) return written;
+    for (size_t n = 0; n < count; n++) {
+      if (motions[n].motion.pieces == 0 || next[n] > motions[n].motion.pieces) continue;
+      next[n] += nsvcd__knot_at(&motions[n], next[n]) <= times[written] + same;
+    }
+  }
+}
+
+// Raises the degree of a curve. Points that are the same stay so, and so do the ends.
+static void nsvcd__raise_degree(double *p, size_t degree, size_t to) {
+  for (; degree < to; degree++) {
+    const double whole = (double)(degree + 1);
+    p[degree + 1] = p[degree];
+    for (size_t i = degree; i > 0; i--) p[i] += (double)i / whole * (p[i - 1] - p[i]);
+  }
+}
+
+// Writes one joint of a motion, its column k, into the merged one, whose times are known. A piece
+// goes from one of these to another, and is cut at those in between.
+static void nsvcd__merge_joint(const nsvcd_partial_motion *m, size_t k,
+                               const nsvcd__merge *all, const nsvcd_joint_motion *merged,
+                               double *points) {
+  const size_t own = m->motion.pieces;
+  const size_t degree = all->degree;
+  double *column = points + m->joints[k];
+  size_t row = 0;
+  size_t at = 0;
+  while (own > 0 && nsvcd__knot_at(m, 0) > merged->times[at] + all->same) at++;
+  for (; row <= at * degree; row++) column[row * all->joints] = m->motion.points[k];
+  for (size_t piece = 0; piece < own; piece++) {
+    size_t end = at + 1;
+    while (nsvcd__knot_at(m, piece + 1) > merged->times[end] + all->same) end++;
+    const double start = merged->times[at];
+    const double whole = merged->times[end] - start;
+    for (; at < end; at++) {
+      double p[NSVCD_MAX_DEGREE + 1];
+      const double to = at + 1 < end ? (merged->times[at + 1] - start) / whole : 1;
+      nsvcd__joint_points(&m->motion, piece, m->joint_count, k, p);
+      nsvcd__cut_curve(p, m->motion.degree, (merged->times[at] - start) / whole, to);
+      nsvcd__raise_degree(p, m->motion.degree, degree);
+      for (size_t i = 0; i <= degree; i++) column[(at * degree + i) * all->joints] = p[i];
+    }
+    row = at * degree + 1;
+  }
+  for (; row <= merged->pieces * degree; row++)
+    column[row * all->joints] = column[(row - 1) * all->joints];
+}
+
+// Lays a merged motion out at base, which is aligned, or, where that is NULL, only counts. Returns
+// the bytes; 0 if they are more than can be counted.
+static size_t nsvcd__merge_layout(const nsvcd__merge *all, char *base, double **points,
+                                  double **times) {
+  uint64_t used = 0;
+  const size_t rows = all->pieces * all->degree + 1;
+  *points = NSVCD__TAKE_ROWS(double, (rows * all->joints), base, &used);
+  *times = NSVCD__TAKE_ROWS(double, all->pieces + 1, base, &used);
+  return used <= SIZE_MAX ? (size_t)used : 0;
+}
+
+NSVCDDEF size_t nsvcd_merge_motions_size(const nsvcd_partial_motion *motions, size_t count,
+                                         size_t joints) {
+  nsvcd__merge all;
+  double *unused[2];
+  if (nsvcd__merge_check(motions, count, joints, &all)) return 0;
+  return nsvcd__merge_layout(&all, NULL, &unused[0], &unused[1]);
+}
+
+NSVCDDEF nsvcd_result nsvcd_merge_motions(const nsvcd_partial_motion *motions, size_t count,
+                                          size_t joints, const double *rest, void *memory,
+                                          size_t size, nsvcd_joint_motion *merged) {
+  nsvcd__merge all;
+  double *points, *times;
+  const nsvcd_result result = nsvcd__merge_check(motions, count, joints, &all);
+  if (result) return result;
+  if (!merged) return NSVCD_ERROR_ARGUMENT;
+  for (size_t j = 0; j < joints; j++) {
+    if (all.moved[j]) continue;
+    if (!rest) return NSVCD_ERROR_ARGUMENT;
+    if (!nsvcd__are_numbers(&rest[j], 1)) return NSVCD_ERROR_VALUE;
+  }
+  const size_t needed = nsvcd__merge_layout(&all, NULL, &points, &times);
+  if (!memory || !nsvcd__is_aligned(memory) || !needed || size < needed)
+    return NSVCD_ERROR_WORKSPACE;
+  (void)nsvcd__merge_layout(&all, (char *)memory, &points, &times);
+  const size_t knots = nsvcd__merge_times(motions, count, all.same, times);
+  const nsvcd_joint_motion out = {knots ? knots - 1 : 0, all.degree, points, times};
+  for (size_t row = 0; row <= out.pieces * out.degree; row++) {
+    for (size_t j = 0; j < joints; j++)
+      if (!all.moved[j]) points[row * joints + j] = rest[j];
+  }
+  for (size_t n = 0; n < count; n++) {
+    for (size_t k = 0; k < motions[n].joint_count; k++)
+      nsvcd__merge_joint(&motions[n], k, &all, &out, points);
+  }
+  *merged = out;
   return NSVCD_OK;
 }
 
@@ -3114,6 +3373,8 @@ typedef struct nsvcd__look_part {
 
 typedef struct nsvcd__looker {
   const nsvcd_checker *checker;
+  // whose `stop` ends looks
+  const nsvcd_check_options *options;
   // (F): each joint in the link that it is on, turned so that axes are along z
   nsvcd__look_frame *joints;
   // (F, 16): configurations that are looked at
@@ -3297,10 +3558,12 @@ static nsvcd__dmat3 nsvcd__look_axes_of(const nsvcd_checker *c, size_t link) {
 }
 
 // Fills in a looker whose arrays are taken.
-static void nsvcd__looker_begin(nsvcd_checker *c, nsvcd__looker *k) {
+static void nsvcd__looker_begin(nsvcd_checker *c, const nsvcd_check_options *options,
+                                nsvcd__looker *k) {
   const nsvcd_scene *scene = c->scene;
   const nsvcd__dmat3 ones = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   k->checker = c;
+  k->options = options;
   k->last = scene->pair_count;
   nsvcd__identity_places(&k->links[0]);
   for (size_t j = 0; j < scene->joint_count; j++) {
@@ -3416,6 +3679,10 @@ static void nsvcd__look_joints(const nsvcd_joint_motion *m, size_t joints, size_
   }
 }
 
+static int nsvcd__looks_end(const nsvcd__looker *k) {
+  return k->options->stop && k->options->stop(k->options->user);
+}
+
 // Does a motion seem free? It begins where it is known to be, and is within the limits.
 static int nsvcd__seems_free(nsvcd__looker *k, const nsvcd_joint_motion *m) {
   const size_t joints = k->checker->scene->joint_count;
@@ -3433,6 +3700,7 @@ static int nsvcd__seems_free(nsvcd__looker *k, const nsvcd_joint_motion *m) {
   // batch n has the places n, n + batches, ... of all; the greater steps first
   for (; stride > 0; stride /= 2) {
     for (size_t n = stride; n <= batches; n += 2 * stride) {
+      if (nsvcd__looks_end(k)) return 0;
       nsvcd__look_joints(m, joints, n, batches, k->places);
       if (nsvcd__seems_to_meet(k, k->places)) return 0;
     }
@@ -3456,7 +3724,8 @@ static void nsvcd__set_margins(nsvcd__looker *k, float clearance, float fraction
 static void nsvcd__look_past(nsvcd__looker *k, const double *at) {
   for (size_t j = 0; j < k->checker->scene->joint_count; j++)
     for (size_t l = 0; l < NSVCD_LOOKS; l++) k->places[j][l] = at[j];
-  while (nsvcd__seems_to_meet(k, k->places) && k->margins[k->last] > -1)
+  while (!nsvcd__looks_end(k) && nsvcd__seems_to_meet(k, k->places) &&
+         k->margins[k->last] > -1)
     k->margins[k->last] -= NSVCD__LOOK_CUT;
 }
 
@@ -5420,6 +5689,8 @@ NSVCDDEF nsvcd_result nsvcd_pair_range(const nsvcd_checker *checker, nsvcd_body_
   const size_t own_size = nsvcd_checker_size(&r->span.scene);
   result = nsvcd_checker_open(&r->span.scene, own, own_size, &r->span.checker);
   if (result) return result;
+  r->span.checker->stop = r->options.stop;
+  r->span.checker->user = r->options.user;
   nsvcd__find_range(r);
   if (!r->result) *answer = r->answer;
   return r->result;
@@ -6360,7 +6631,7 @@ static void nsvcd__replant(nsvcd__router *r) {
 // and less strictly.
 static void nsvcd__search_by_looks(nsvcd__router *r) {
   nsvcd__looker *k = &r->looker;
-  nsvcd__looker_begin(r->checker, k);
+  nsvcd__looker_begin(r->checker, &r->check, k);
   r->is_looking = 1;
   for (size_t n = 0; n < NSVCD__LOOK_SEARCHES && !r->is_stopped; n++) {
     const double ease = nsvcd__min(1, (double)NSVCD__LOOK_EASE * (double)n);

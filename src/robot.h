@@ -34,7 +34,8 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-#include "interface/robots.h"          // joints, parts, checks of motions; nsvcd_check
+#include "interface/robots.h"  // joints, parts, checks of motions; nsvcd_check
+#include "interface/merges.h"  // motions on clocks of their own, as one; nsvcd_merge_motions
 #include "interface/configurations.h"  // one configuration: pairs that are near, a way out
 #include "interface/ranges.h"          // do two parts ever meet, or always? nsvcd_pair_range
 #include "interface/reaches.h"  // configurations that have a tool at a target; nsvcd_reach
@@ -85,6 +86,7 @@ extern "C" {
 #include "robot/samples.h"     // configurations of a motion, and boxes about the parts in them
 #include "robot/local_queries.h"   // two parts, in the frame of one of them
 #include "robot/check.h"           // is a motion of the joints free?
+#include "robot/merge.h"           // motions on clocks of their own, as one
 #include "robot/looks.h"           // does a motion seem free?
 #include "robot/proofs.h"          // certificates of pairs
 #include "robot/rrt.h"             // trees of configurations, and the nearest node

@@ -628,6 +628,18 @@ awk -F '\t' 'NF != 5 || ($1 == "stuck" ? $2 != "start" : $2 != "certified" || !(
 awk -F '\t' 'NF != 8 { exit 1 } END { exit NR != 100 }' "$dir/joints.tsv" || fail "joints.tsv"
 awk '$1 == "up" && $2 == 0 { good += $3 == -2.649 && $8 == -1.057 } $1 == "up" && $2 == 49 { good += $3 == -0.493 && $8 == 0.076 }
   END { exit good != 2 }' "$dir/joints.tsv" || fail "the ends of joints.tsv"
+# --threads: of three seeds the motion that takes the least time, to the last digit, whichever thread is first
+for seed in 0 1 2; do
+  expect 0 '' build/svcd plan "$dir/robot.txt" --seed $seed --only up,turned
+  cut -f 1,2,4,5 "$dir/out" >"$dir/seed_$seed"
+done
+cat "$dir"/seed_[012] | sort -k1,1 -k3,3g -s | awk '!seen[$1]++' >"$dir/best"
+for k in 1 2; do
+  expect 0 '' build/svcd plan "$dir/robot.txt" --threads 3 --only up,turned
+  cut -f 1,2,4,5 "$dir/out" | sort -k1,1 | cmp -s - "$dir/best" || fail "plans by threads: $(cat "$dir/out" "$dir/best")"
+done
+expect 0 '' build/svcd plan "$dir/robot.txt" --threads 2 --seconds 0.001 --only stuck
+expect 2 '' build/svcd plan "$dir/robot.txt" --threads 0
 { cat "$dir/arm.txt"; echo "path given shelf 50"; awk -F '\t' '$1 == "up" { print $3, $4, $5, $6, $7, $8 }' "$dir/joints.tsv"; } >"$dir/given.txt"
 expect 0 '' build/svcd path "$dir/given.txt"
 grep -q '^given	free	-1	nan	-	-	' "$dir/out" || fail "the motion as a path: $(cat "$dir/out")"
@@ -1173,6 +1185,47 @@ curve_refused 9 'curve q: its line 0 is not one of 3 numbers' '2 3 timed' '-1 0\
 curve_refused 11 'times do not rise' '2 3 timed' '1 -1 0\n0 1.9\n1 1 0\n'
 curve_refused 11 'not a finite number' '2 3 timed' '1 -1 0\n0 1.9\nnan 1 0\n'
 curve_refused 11 'curve q: its line 2 is not one of 2 numbers' '2 3' '-1 0\n0 1.9\n'
+# Motions on clocks of their own: two balls on slides that cross, and one that a belt carries, taken along from an obstacle.
+together() {  # LINES
+  printf 'nsvcd-plans 1\njoint x world 0 0 0 0 0 0 1 1 0 0 prismatic -9 9 1\njoint y world 0 0 0 0 0 0 1 0 1 0 prismatic -9 9 1\n'
+  printf 'body a x sphere: 0.1\nbody b y sphere: 0.1\npair a b\ngroup left x\ngroup right y\nscene s\nplan p s -1 -1 1 -1\n%b' "$1" >"$dir/in"
+  cat "$dir/in"
+}
+ways='curve l s 1 2 timed group left\n0 -1\n2 1\npath r s 3 group right\n-1\n0\n1\npath rest s 1 group right\n0\n'
+met() {  # LINE, VERDICT, T, NAMES [--first]: T to 1 ms
+  together "$ways$1\nplan late s -1 -1 1 -1\n" >"$dir/together.txt"
+  expect 0 '' build/svcd path "$dir/together.txt" ${5:+--first "$5"}
+  awk -F '\t' -v v="$2" -v t="$3" -v n="$4" 'NR > 1 || $2 != v || $5 " " $6 != n || (v == "free" ? $3 != -1 : $3 != 0 || $4 < t - 1e-6 || $4 > t + 1.1e-3) { exit 1 }' "$dir/out" || fail "together $1: $(cat "$dir/out")"
+  json path "$dir/together.txt"
+}
+met 'together q s l r' hit 0.858579 'a b'
+met 'together q s l r' hit 0.858579 'a b' 1e-6
+met 'together q s l at -0.2 r at 0' hit 0.8 'a b'
+met 'together q s l r at 0.3' free - '- -'
+met 'together q s r at 100 l' free - '- -'
+met 'together q s l at 50 rest' hit 50.8 'a b'
+expect 0 '' build/svcd plan "$dir/together.txt" --certificates "$dir/certs"
+expect 0 '' build/verify "$dir/together.txt" "$dir/certs"
+met 'obstacle c sphere: 0.1 0 0.5 0 0 0 0 1\npath up s 2 group right\n0\n-1\nattach c y\ntogether q s l up at 0.5' hit 0.858579 'a c'
+# the example of FORMATS.md
+{ echo 'nsvcd-plans 1'; sed -n '/^    joint belt world/,/^    together late/p' examples/FORMATS.md; } >"$dir/together.txt"
+expect 0 '' build/svcd path "$dir/together.txt"
+line '^soon	hit	0	1.60[0-9]*	palm	box	'
+line '^late	free	'
+together_refused() {  # LINE, TEXT, LINES
+  together "$ways$3\n" >"$dir/together.txt"
+  expect 1 "together.txt:$1: $2" build/svcd path "$dir/together.txt"
+}
+together_refused 20 'expected: together ID SCENE  ID' 'together q s'
+together_refused 20 "no scene of this name above: 't'" 'together q t l r'
+together_refused 20 "no path or curve of a group above, in this scene: 'k'" 'together q s l k'
+together_refused 20 "no path or curve of a group above, in this scene: 'at'" 'together q s l r at'
+together_refused 20 "not a finite number" 'together q s l at soon r'
+together_refused 20 "two of these move one joint: 'y'" 'together q s l r rest'
+together_refused 20 "none of these moves a joint; where it rests, a path of one line says: 'y'" 'together q s l'
+together_refused 20 "no group of this name above: 'both'" 'path o s 1 group both'
+together_refused 20 'path o has 0 of its 1 lines of 1 joints' 'path o s 1 group left\n0 0'
+together_refused 23 'times do not rise, .* or not by 1e-12 of the whole' 'curve o s 1 2 timed group left\n0 0\n1e-13 1\ntogether q s o r'
 # A snake of 128 joints, which is as many as there may be.
 snake() {  # JOINTS: cubes along x, one beside the 100th joint, past which it swings
   awk -v n="$1" 'BEGIN { print "nsvcd-plans 1"

@@ -22,6 +22,7 @@ void test_many_joints(void);
 void test_reach(void);
 void test_allowances(void);
 void test_mimics(void);
+void test_merge(void);
 void test_route_looks(void);
 void test_postures(void);
 void test_ranges(void);
@@ -125,6 +126,7 @@ static const test_file files[] = {
     OF(reach),
     OF(allowances),
     OF(mimics),
+    OF(merge),
     OF(route_looks),
     OF(postures),
     OF(ranges),

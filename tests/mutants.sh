@@ -1,7 +1,7 @@
 #!/bin/sh
 # Are the tests of the proof worth anything? Each mutant is the library with one mistake in it; tests/test_proof.c has to
 # fail on it, or, where its name begins with `level:`, `asks:`, `long:`, `exact:`, `floor:`, `solids:`, `round:`,
-# `robot:`, `looks:`, `route_looks:`, `many_joints:`, `postures:`, `reach:`, `ranges:`, `allowances:` or `mimics:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
+# `robot:`, `looks:`, `route_looks:`, `many_joints:`, `postures:`, `reach:`, `ranges:`, `allowances:`, `mimics:` or `merge:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
 # certificates, examples/verify, and tests/test_certificate.c or tests/test_checker.c has to fail, of `fits:`
 # tests/test_fits.c. Prints a line for each, and exits with 1 if one survives. An argument runs only the mutants whose
 # name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every 16th of them, in a folder of its own.
@@ -12,7 +12,7 @@ cd "$(dirname "$0")/.." || exit 1
 work=${WORK:-build/mutants}
 mkdir -p $work/tests/bench $work/examples/scenery $work/examples/verify
 cp weights.h $work/
-cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_looks.c tests/test_route_looks.c tests/test_many_joints.c tests/test_postures.c tests/test_reach.c tests/test_ranges.c tests/test_allowances.c tests/test_mimics.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
+cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_looks.c tests/test_route_looks.c tests/test_many_joints.c tests/test_postures.c tests/test_reach.c tests/test_ranges.c tests/test_allowances.c tests/test_mimics.c tests/test_merge.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
 cp tests/bench/*.h $work/tests/bench/
 cp examples/scenery/*.h $work/examples/scenery/
 
@@ -403,6 +403,9 @@ route_looks: no search after looks|if (r->root_count > 0 \&\& r->answer.status !
 robot: nodes that are cut off found|\|\| t->edges[node] == NSVCD__EDGE_CUT) continue;|) continue;
 robot: what hangs on a node that is cut off stays|if (t->edges[t->parents[n]] == NSVCD__EDGE_CUT) t->edges[n] = NSVCD__EDGE_CUT;|break;
 route_looks: limits that looks may leave|if (nsvcd__joint_outside(r->scene, motion, p) != NSVCD_NONE) return 0;|
+robot: questions that nobody stops|asked.stop = c->stop;|asked.stop = NULL;
+robot: asks again once it is stopped|if (!s->is_stopped \&\& o->stop \&\& o->stop(o->user)) s->is_stopped = 1;|if (o->stop \&\& o->stop(o->user)) s->is_stopped = 1;
+robot: stopped is free|if (!s->is_stopped) left = nsvcd__ask_pairs(s, is_last, left);|left = s->is_stopped ? 0 : nsvcd__ask_pairs(s, is_last, left); if (!left) s->is_stopped = 0;
 robot: free until the end of what is not|if (answer->verdict == NSVCD_HIT) continue; const nsvcd_check_answer found|if (answer->verdict == NSVCD_HIT) { answer->free_until = middle; continue; } const nsvcd_check_answer found
 allowances: half of an arm|moved += nsvcd__slides(c, j) ? way : way * reach;|moved += nsvcd__slides(c, j) ? way : way * 0.3 * reach;
 allowances: no offsets in an arm|reach += nsvcd__d3_norm(c->links[j].origin.position);|
@@ -412,6 +415,14 @@ allowances: of any pair|if (allowance->pair == pair \&\& nsvcd__allows_from_to|i
 allowances: one part alone|for (size_t n = 0; n < 2; n++) { const nsvcd__member *m = \&c->members[parts[n]];|for (size_t n = 0; n < 1; n++) { const nsvcd__member *m = \&c->members[parts[n]];
 allowances: no end|c->cuts[2 * n + 1] = nsvcd__allowed_until(c, \&c->scene->allowances[n], m, t1, t0);|c->cuts[2 * n + 1] = t1;
 allowances: looks that see all|return nsvcd__look_not_allowed(k, pair, met) != 0;|return met != 0;
+merge: without delays|return m->delay + nsvcd__piece_start(\&m->motion, piece);|return nsvcd__piece_start(\&m->motion, piece);
+merge: no rest before|while (own > 0 \&\& nsvcd__knot_at(m, 0) > merged->times[at] + all->same) at++;|
+merge: pieces that are not cut|nsvcd__cut_curve(p, m->motion.degree, (merged->times[at] - start) / whole, to);|
+merge: fractions of all pieces from the start|const double start = merged->times[at];\n    const double whole|const double start = merged->times[0];\n    const double whole
+merge: points that stay in another degree|for (size_t i = degree; i > 0; i--) p[i] += (double)i / whole * (p[i - 1] - p[i]);|
+merge: who rests where it began|column[row * all->joints] = column[(row - 1) * all->joints];|column[row * all->joints] = m->motion.points[k];
+merge: one joint of two motions|all->moved[m->joints[k]]++) return|(all->moved[m->joints[k]]++ \&\& 0)) return
+merge: times of the first alone|if (is_over \|\| time < times[written]) times[written] = time;|if (is_over) times[written] = time;
 many_joints: held ones that are drawn|out[r->moving[k]] = nsvcd__draw_joint(r, r->moving[k], is_wide);|out[r->moving[k]] = nsvcd__draw_joint(r, r->moving[k], is_wide);\n  for (size_t j = 0; j < joints; j++) out[j] = nsvcd__draw_joint(r, j, is_wide);
 many_joints: held ones that move alone|if (!r->scene->joints[j].mimic \&\& !(problem->held \&\& problem->held[j])) r->moving|r->moving
 mimics: any motion is one|return follows ? NSVCD_OK : NSVCD_ERROR_MIMIC;|return NSVCD_OK;
@@ -458,6 +469,7 @@ while IFS= read -r line; do
     reach:*) file=test_reach.c ;;
     allowances:*) file=test_allowances.c ;;
     mimics:*) file=test_mimics.c ;;
+    merge:*) file=test_merge.c ;;
     verify:*) file=test_certificate.c ;;
     checker:*) file=test_checker.c ;;
     fits:*) file=test_fits.c ;;

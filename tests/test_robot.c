@@ -1050,7 +1050,65 @@ static void robot_ramps_are_quickest(void) {
   CHECK_GE(blends, 19000);
 }
 
+static size_t stops_left, stop_calls;
+static int stop_counted(void *user) {
+  (void)user;
+  stop_calls++;
+  return stops_left-- <= 1;
+}
+
+// A ring in a hollow ring, 0.5 mm off it all around: one question takes many units. Once it is told to
+// stop, a check asks nothing any more.
+static void robot_stops_at_once(void) {
+  static robot r;
+  shapes_mesh mesh;
+  double points[2] = {0, 1.5};
+  const nsvcd_joint_motion motion = {1, 1, points, NULL};
+  nsvcd_check_options options;
+  nsvcd_check_answer answer;
+  robot_bare(&r, NSVCD_JOINT_REVOLUTE, 1, 2, 2);
+  r.joints[0].axis[2] = 1;
+  memset(&mesh, 0, sizeof mesh);
+  shapes_torus(&mesh, 0.12, 0.0305, 60, 40);
+  for (size_t n = 0; n < mesh.triangles; n++) {  // its inner wall faces inwards
+    const uint32_t was = mesh.indices[3 * n];
+    mesh.indices[3 * n] = mesh.indices[3 * n + 1];
+    mesh.indices[3 * n + 1] = was;
+  }
+  shapes_torus(&mesh, 0.12, 0.035, 60, 40);
+  r.parts[0].body = body_of(&mesh, NULL);
+  shapes_free(&mesh);
+  shapes_torus(&mesh, 0.12, 0.03, 60, 40);
+  r.parts[1].body = body_of(&mesh, NULL);
+  r.parts[1].link = 1;
+  shapes_free(&mesh);
+  robot_open(&r);
+  memset(&options, 0, sizeof options);
+  options.stop = stop_counted;
+  options.work = 10000000;
+  stops_left = SIZE_MAX;
+  stop_calls = 0;
+  CHECK_EQ(nsvcd_check(r.checker, &motion, &options, &answer), NSVCD_OK);
+  const nsvcd_verdict whole = answer.verdict;
+  const size_t all = stop_calls;
+  CHECK(all > 30);
+  for (size_t n = 1; n <= all + 1; n += 1 + n / 8) {
+    stops_left = n;
+    stop_calls = 0;
+    CHECK_EQ(nsvcd_check(r.checker, &motion, &options, &answer), NSVCD_OK);
+    CHECK_EQ(stop_calls, n < all ? n : all);
+    CHECK(n > all ? answer.verdict == whole : answer.verdict != NSVCD_FREE || n == all);
+    if (answer.verdict == NSVCD_UNDECIDED && n < all) CHECK_EQ(answer.why, NSVCD_WHY_WORK);
+    // and the next check is not stopped
+    CHECK_EQ(r.checker->stop == NULL, 1);
+  }
+  nsvcd_body_free(r.parts[0].body, NULL);
+  nsvcd_body_free(r.parts[1].body, NULL);
+  free(r.memory);
+}
+
 void test_robot(void) {
+  RUN(robot_stops_at_once);
   RUN(robot_parts_are_where_joints_say);
   RUN(robot_limits_are_kept);
   RUN(robot_refuses_bad_input);

@@ -50,7 +50,7 @@ static void looks_have_parts_where_joints_say(void) {
     if (!memory) exit(1);
     used = 0;
     nsvcd__looker_take(&r.scene, memory, &used, &looker);
-    nsvcd__looker_begin(r.checker, &looker);
+    nsvcd__looker_begin(r.checker, NULL, &looker);
     double places[NSVCD_MAX_JOINTS][NSVCD_LOOKS];
     const double turns = trial % 4 ? 3 : 1000;
     for (size_t j = 0; j < r.scene.joint_count; j++)

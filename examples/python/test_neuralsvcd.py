@@ -1194,6 +1194,30 @@ class Robots(unittest.TestCase):
         with self.assertRaises(Error):
             nsvcd.Robot(joints, parts, [[0, 1]], allowances=[(1, [0, 0], 1e-3)])
 
+    def test_merge(self) -> None:
+        joints = [nsvcd.Joint(0, axis=axis, kind="prismatic", low=-9, high=9) for axis in ((1, 0, 0), (0, 1, 0))]
+        box = Body(CUBE, FACES)
+        side = box.facts.high[0] - box.facts.low[0]
+        robot = nsvcd.Robot(joints, [nsvcd.Part(box, 1), nsvcd.Part(box, 2)], [[0, 1]])
+        moves = [nsvcd.Motion([0], [[-2 * side], [2 * side]], times=[0, 4]),
+                 nsvcd.Motion([1], [[-2 * side], [0], [2 * side]], degree=2, times=[0, 4])]
+
+        def conflict(delay: float) -> nsvcd.Checked:
+            merged = robot.merge([moves[0], moves[1]._replace(delay=delay)])
+            return robot.check(merged.points, degree=merged.degree, times=merged.times, to_time=1e-3)
+        self.assertEqual(conflict(0).verdict, "hit")
+        self.assertAlmostEqual(conflict(0).free_until, 1, delta=2e-3)
+        self.assertAlmostEqual(conflict(1.99).free_until, 2.99, delta=2e-3)
+        self.assertEqual(conflict(2.01).verdict, "free")
+        still = robot.merge([moves[0]], rest=[0, 3 * side])
+        self.assertEqual(still.points.tolist(), [[-2 * side, 3 * side], [2 * side, 3 * side]])
+        self.assertIsNone(robot.merge([], rest=[1, 2]).times)
+        for wrong, code in (([moves[0], moves[0]], Code.JOINT), ([moves[0]._replace(times=[1, 1])], Code.TIMES)):
+            with self.assertRaises(Error) as raised:
+                robot.merge(wrong, rest=[0, 0])
+            self.assertEqual(raised.exception.code, code)
+        self.assertRaises(ValueError, robot.merge, [moves[0]], [0])
+
     def test_ends(self) -> None:
         status = nsvcd.RouteStatus
         stuck = self.robot.route([0, np.pi / 2], [0, 0])
@@ -1428,7 +1452,7 @@ class Layouts(unittest.TestCase):
         for old, new, name in (
                 ("verdict=c_int, by=c_int", "by=c_int, verdict=c_int", "nsvcd_answer.by"),
                 ("opinion=_Opinion, work=c_size_t", "opinion=_Opinion", "nsvcd_answer.work"),
-                ("surfaces=c_int)", "surfaces=c_int, next=c_size_t)", "nsvcd_question.next"),
+                ("surfaces=c_int, stop", "surfaces=c_int, next=c_size_t, stop", "nsvcd_question.next"),
                 ("limited=c_int", "limited=c_uint64", "nsvcd_opinion.limited"),
                 ("count=c_size_t, times=c_void_p", "count=c_uint32, times=c_void_p", "nsvcd_mover.count"),
                 ("discrete=c_int", "apart=c_int", "nsvcd_plan_options.apart"),

@@ -15,8 +15,9 @@
 //   plan ID SCENE  [start...  [goal...]]  [group NAME]
 //   goal ID joints...
 //   goal ID pose x y z qx qy qz qw NAME [free x|y|z] [box HX HY HZ]
-//   path ID SCENE COUNT        # COUNT lines of joints follow
-//   curve ID SCENE DEGREE COUNT [timed]   # so do COUNT lines here
+//   path ID SCENE COUNT [group NAME]      # COUNT lines of joints follow
+//   curve ID SCENE DEGREE COUNT [timed] [group NAME]   # so do COUNT lines here
+//   together ID SCENE  ID [at SECONDS]...
 //
 // examples/FORMATS.md says what they mean.
 #ifndef NSVCD_SCENERY_ROBOT_FILE_H
@@ -55,6 +56,8 @@ typedef struct robot_room {  // a scene
 typedef struct robot_group {
   const char *name;
   uint8_t held[NSVCD_MAX_JOINTS];  // 1: not one of the group's joints
+  uint32_t joints[NSVCD_MAX_JOINTS];
+  size_t joint_count;
 } robot_group;
 
 typedef struct robot_task {
@@ -63,9 +66,10 @@ typedef struct robot_task {
   size_t points;      // 0: a plan, whose numbers are its start
   size_t first;       // the first of its numbers; NSVCD_NONE: it starts where the plan above ended
   size_t goal_count;  // of a plan
-  size_t group;       // of a plan; NSVCD_NONE: all joints may move
+  size_t group;       // of whose joints it is; NSVCD_NONE: of all
   size_t degree;      // of a curve, else 0
   size_t times;       // of a curve: the first of its times; NSVCD_NONE: it has none
+  int is_together;    // a curve that was merged of several
 } robot_task;
 
 // What a robot takes, or lets go of, before a task.
@@ -108,15 +112,17 @@ typedef struct robot_file {
   robot_group *groups;
   robot_room *rooms;
   robot_task *tasks;
+  robot_task *moves;  // paths and curves of groups
   robot_goal *goals;
   robot_change *changes;
   robot_allow *allows;
   double *numbers, *times;
   size_t joint_count, mesh_count, thing_count, body_count, pair_count, clearance_count, group_count,
-      room_count, task_count, goal_count, change_count, allow_count, number_count, time_count;
+      room_count, task_count, move_count, goal_count, change_count, allow_count, number_count,
+      time_count;
   size_t mesh_capacity, thing_capacity, pair_capacity, clearance_capacity, group_capacity,
-      room_capacity, task_capacity, goal_capacity, change_capacity, allow_capacity, number_capacity,
-      time_capacity;
+      room_capacity, task_capacity, move_capacity, goal_capacity, change_capacity, allow_capacity,
+      number_capacity, time_capacity;
 } robot_file;
 
 // Adds an item to a list, and clears it.
@@ -178,6 +184,7 @@ static int robot_read_mimic(const reader *r, robot_file *file) {
   uint32_t links[2];
   if (r->field_count != 5) return refuse(r, "expected: mimic NAME LEADER MULTIPLIER OFFSET");
   if (file->room_count > 0) return refuse(r, "a mimic after the first scene");
+  if (file->group_count > 0) return refuse(r, "a mimic after a group");
   for (int k = 0; k < 2; k++) {
     if (!robot_link(r, file, r->fields[1 + k], &links[k])) return 0;
     if (links[k] == 0) return refuse(r, "the world is no joint");
@@ -343,12 +350,16 @@ static int robot_read_group(const reader *r, robot_file *file) {
   if (file->room_count > 0) return refuse(r, "a group after the first scene");
   if (robot_find_group(file, r->fields[1], &found))
     return refuse_field(r, "a second group of this name", r->fields[1]);
+  memset(&group, 0, sizeof group);
   group.name = r->fields[1];
   memset(group.held, 1, sizeof group.held);
   for (size_t k = 2; k < r->field_count; k++) {
     uint32_t link;
     if (!robot_link(r, file, r->fields[k], &link)) return 0;
     if (link == 0) return refuse(r, "the world is no joint");
+    // its paths and curves have no number for what mimics
+    if (group.held[link - 1] && !file->joints[link - 1].mimic)
+      group.joints[group.joint_count++] = link - 1;
     group.held[link - 1] = 0;
   }
   *ROBOT_ADD(file->groups, file->group_count, file->group_capacity) = group;
@@ -396,14 +407,15 @@ static int robot_read_obstacle(const reader *r, robot_file *file) {
   return 1;
 }
 
-static int robot_read_joints(const reader *r, robot_file *file, char *const *fields) {
-  for (size_t j = 0; j < file->joint_count; j++) {
+// Of all joints, or of those that a group's lines have.
+static int robot_read_joints(const reader *r, robot_file *file, size_t count, char *const *fields) {
+  for (size_t j = 0; j < count; j++) {
     double number;
     if (!robot_number(r, fields[j], &number)) return 0;
     *ROBOT_ADD(file->numbers, file->number_count, file->number_capacity) = number;
   }
-  const double *at = file->numbers + file->number_count - file->joint_count;
-  for (size_t j = 0; j < file->joint_count; j++) {
+  const double *at = file->numbers + file->number_count - count;
+  for (size_t j = 0; j < file->joint_count && count == file->joint_count; j++) {
     const nsvcd_joint *joint = &file->joints[j];
     if (!joint->mimic) continue;
     const double driven = joint->multiplier * at[joint->mimic - 1];
@@ -470,7 +482,7 @@ static int robot_read_goal_joints(const reader *r, robot_file *file, size_t task
                                   char *const *fields) {
   const robot_task *plan = &file->tasks[task];
   const robot_goal *goal = robot_add_goal(r, file, task);
-  if (!robot_read_joints(r, file, fields)) return 0;
+  if (!robot_read_joints(r, file, file->joint_count, fields)) return 0;
   // where a plan starts that has no start of its own is not known yet
   for (size_t j = 0; j < file->joint_count && plan->group != NSVCD_NONE; j++) {
     if (plan->first == NSVCD_NONE) break;
@@ -483,45 +495,78 @@ static int robot_read_goal_joints(const reader *r, robot_file *file, size_t task
   return 1;
 }
 
-static int robot_read_task(reader *r, robot_file *file) {
-  robot_task task;
-  const size_t joints = file->joint_count;
-  char *const *f = r->fields;
-  const int is_path = strcmp(f[0], "path") == 0;
-  memset(&task, 0, sizeof task);
+// Reads `group NAME` at the end of a line, if it is there. Returns how many fields there are before
+// it; 0 after a complaint.
+static size_t robot_read_group_of(const reader *r, const robot_file *file, robot_task *task) {
   const size_t words = r->field_count;
-  const int has_group = !is_path && words >= 5 && strcmp(f[words - 2], "group") == 0;
-  const size_t fields = words - (has_group ? 2 : 0);
-  const int has_goal = fields == 3 + 2 * joints;
-  const int follows = !is_path && fields == 3;
-  if (is_path ? fields != 4 : fields != 3 + joints && !has_goal && !follows) {
-    if (is_path) return refuse(r, "expected: path ID SCENE COUNT");
-    return complain(
-        "%s:%zu: expected: plan ID SCENE, then %zu joints of the start, unless it starts where the "
-        "plan above ended, and perhaps of a goal, and perhaps group NAME",
-        r->path, r->line, joints);
-  }
+  task->group = NSVCD_NONE;
+  if (words < 5 || strcmp(r->fields[words - 2], "group") != 0) return words;
+  if (robot_find_group(file, r->fields[words - 1], &task->group)) return words - 2;
+  refuse_field(r, "no group of this name above", r->fields[words - 1]);
+  return 0;
+}
+
+// How many joints the lines of a path or a curve have.
+static size_t robot_width(const robot_file *file, const robot_task *task) {
+  return task->group == NSVCD_NONE ? file->joint_count : file->groups[task->group].joint_count;
+}
+
+// Those of a group are asked about together with others only.
+static void robot_add_motion(robot_file *file, const robot_task *task) {
+  if (task->group == NSVCD_NONE)
+    *ROBOT_ADD(file->tasks, file->task_count, file->task_capacity) = *task;
+  else
+    *ROBOT_ADD(file->moves, file->move_count, file->move_capacity) = *task;
+}
+
+static int robot_read_path(reader *r, robot_file *file) {
+  robot_task task;
+  char *const *f = r->fields;
+  memset(&task, 0, sizeof task);
+  const size_t fields = robot_read_group_of(r, file, &task);
+  if (!fields) return 0;
+  if (fields != 4) return refuse(r, "expected: path ID SCENE COUNT [group NAME]");
   task.id = f[1];
   task.line = r->line;
   task.first = file->number_count;
+  task.times = NSVCD_NONE;
+  const size_t joints = robot_width(file, &task);
   if (!robot_find_room(file, f[2], &task.room))
     return refuse_field(r, "no scene of this name above", f[2]);
-  task.group = NSVCD_NONE;
-  if (has_group && !robot_find_group(file, f[words - 1], &task.group))
-    return refuse_field(r, "no group of this name above", f[words - 1]);
-  if (follows) task.first = NSVCD_NONE;
-  if (!is_path && !follows && !robot_read_joints(r, file, f + 3)) return 0;
-  if (is_path && !parse_count(f[3], 1, 10000000, &task.points))
+  if (!parse_count(f[3], 1, 10000000, &task.points))
     return refuse_field(r, "COUNT is not in 1..10000000", f[3]);
   for (size_t i = 0; i < task.points; i++) {
     if (!next_line(r) || r->field_count != joints)
       return complain("%s:%zu: path %s has %zu of its %zu lines of %zu joints", r->path, task.line,
                       task.id, i, task.points, joints);
-    if (!robot_read_joints(r, file, r->fields)) return 0;
+    if (!robot_read_joints(r, file, joints, r->fields)) return 0;
   }
+  robot_add_motion(file, &task);
+  return 1;
+}
+
+static int robot_read_plan(reader *r, robot_file *file) {
+  robot_task task;
+  const size_t joints = file->joint_count;
+  char *const *f = r->fields;
+  memset(&task, 0, sizeof task);
+  const size_t fields = robot_read_group_of(r, file, &task);
+  if (!fields) return 0;
+  const int has_goal = fields == 3 + 2 * joints;
+  const int follows = fields == 3;
+  if (fields != 3 + joints && !has_goal && !follows)
+    return complain(
+        "%s:%zu: expected: plan ID SCENE, then %zu joints of the start, unless it starts where the "
+        "plan above ended, and perhaps of a goal, and perhaps group NAME",
+        r->path, r->line, joints);
+  task.id = f[1];
+  task.line = r->line;
+  task.first = follows ? NSVCD_NONE : file->number_count;
+  if (!robot_find_room(file, f[2], &task.room))
+    return refuse_field(r, "no scene of this name above", f[2]);
+  if (!follows && !robot_read_joints(r, file, joints, f + 3)) return 0;
   *ROBOT_ADD(file->tasks, file->task_count, file->task_capacity) = task;
-  if (is_path || !has_goal) return 1;
-  return robot_read_goal_joints(r, file, file->task_count - 1, f + 3 + joints);
+  return !has_goal || robot_read_goal_joints(r, file, file->task_count - 1, f + 3 + joints);
 }
 
 // Reads what may follow the NAME of a goal.
@@ -551,9 +596,9 @@ static int robot_read_region(const reader *r, robot_goal *goal) {
 }
 
 // Reads a line of a curve, which begins with a time if it is timed.
-static int robot_read_point(const reader *r, robot_file *file, int is_timed) {
+static int robot_read_point(const reader *r, robot_file *file, size_t joints, int is_timed) {
   double time;
-  if (!robot_read_joints(r, file, r->fields + is_timed)) return 0;
+  if (!robot_read_joints(r, file, joints, r->fields + is_timed)) return 0;
   if (!is_timed) return 1;
   if (!robot_number(r, r->fields[0], &time)) return 0;
   *ROBOT_ADD(file->times, file->time_count, file->time_capacity) = time;
@@ -565,9 +610,12 @@ static int robot_read_curve(reader *r, robot_file *file) {
   robot_task task;
   char *const *f = r->fields;
   memset(&task, 0, sizeof task);
-  const int is_timed = r->field_count == 6 && strcmp(f[5], "timed") == 0;
-  if (r->field_count != 5 && !is_timed)
-    return refuse(r, "expected: curve ID SCENE DEGREE COUNT [timed]");
+  const size_t fields = robot_read_group_of(r, file, &task);
+  if (!fields) return 0;
+  const int is_timed = fields == 6 && strcmp(f[5], "timed") == 0;
+  if (fields != 5 && !is_timed)
+    return refuse(r, "expected: curve ID SCENE DEGREE COUNT [timed] [group NAME]");
+  const size_t joints = robot_width(file, &task);
   task.id = f[1];
   task.line = r->line;
   task.first = file->number_count;
@@ -580,17 +628,96 @@ static int robot_read_curve(reader *r, robot_file *file) {
     return refuse_field(r, "COUNT is not a multiple of DEGREE and 1, up to 10000000", f[4]);
   for (size_t i = 0; i < task.points; i++) {
     const int has_time = is_timed && i % task.degree == 0;
-    const size_t needed = file->joint_count + (size_t)has_time;
+    const size_t needed = joints + (size_t)has_time;
     if (!next_line(r) || r->field_count != needed)
       return complain("%s:%zu: curve %s: its line %zu is not one of %zu numbers", r->path, r->line,
                       task.id, i, needed);
-    if (!robot_read_point(r, file, has_time)) return 0;
+    if (!robot_read_point(r, file, joints, has_time)) return 0;
     const size_t times = file->time_count;
     if (has_time && i > 0 && !(file->times[times - 1] > file->times[times - 2]))
       return refuse(r, "times do not rise");
   }
-  *ROBOT_ADD(file->tasks, file->task_count, file->task_capacity) = task;
+  robot_add_motion(file, &task);
   return 1;
+}
+
+// The motion of a path or a curve of a group.
+static nsvcd_partial_motion robot_motion_of(const robot_file *file, const robot_task *move) {
+  const robot_group *group = &file->groups[move->group];
+  const size_t degree = move->degree ? move->degree : 1;
+  const nsvcd_joint_motion motion = {(move->points - 1) / degree, degree,
+                                     file->numbers + move->first,
+                                     move->times == NSVCD_NONE ? NULL : file->times + move->times};
+  const nsvcd_partial_motion out = {motion, group->joints, group->joint_count, 0};
+  return out;
+}
+
+// Reads the paths and curves of groups that a line names, and when they begin. Each joint is moved by
+// one of them. Returns 0 after a complaint.
+static int robot_read_motions(const reader *r, const robot_file *file, size_t room,
+                              nsvcd_partial_motion *motions, size_t *count) {
+  uint8_t moved[NSVCD_MAX_JOINTS] = {0};
+  char *const *f = r->fields;
+  for (size_t at = 3; at < r->field_count; at++) {
+    size_t n = file->move_count;
+    while (n > 0 && (file->moves[n - 1].room != room || strcmp(file->moves[n - 1].id, f[at]) != 0))
+      n--;
+    if (!n) return refuse_field(r, "no path or curve of a group above, in this scene", f[at]);
+    nsvcd_partial_motion one = robot_motion_of(file, &file->moves[n - 1]);
+    for (size_t k = 0; k < one.joint_count; k++)
+      if (moved[one.joints[k]]++)
+        return refuse_field(r, "two of these move one joint", file->joint_names[one.joints[k]]);
+    if (at + 2 < r->field_count && strcmp(f[at + 1], "at") == 0) {
+      if (!robot_number(r, f[at + 2], &one.delay)) return 0;
+      at += 2;
+    }
+    motions[(*count)++] = one;
+  }
+  for (size_t j = 0; j < file->joint_count; j++)
+    if (!moved[j] && !file->joints[j].mimic)
+      return refuse_field(r, "none of these moves a joint; where it rests, a path of one line says",
+                          file->joint_names[j]);
+  return 1;
+}
+
+// Motions on clocks of their own become one curve.
+static int robot_read_together(reader *r, robot_file *file) {
+  robot_task task;
+  nsvcd_partial_motion motions[NSVCD_MAX_JOINTS];
+  nsvcd_joint_motion merged;
+  size_t count = 0;
+  const size_t joints = file->joint_count;
+  memset(&task, 0, sizeof task);
+  if (r->field_count < 4) return refuse(r, "expected: together ID SCENE  ID [at SECONDS]...");
+  task.id = r->fields[1];
+  task.line = r->line;
+  task.first = file->number_count;
+  task.group = NSVCD_NONE;
+  task.is_together = 1;
+  if (!robot_find_room(file, r->fields[2], &task.room))
+    return refuse_field(r, "no scene of this name above", r->fields[2]);
+  if (!robot_read_motions(r, file, task.room, motions, &count)) return 0;
+  const size_t size = nsvcd_merge_motions_size(motions, count, joints);
+  void *memory = allocate(size);
+  const nsvcd_result result =
+      nsvcd_merge_motions(motions, count, joints, NULL, memory, size, &merged);
+  if (!result) {
+    task.degree = merged.pieces ? merged.degree : 0;
+    task.points = merged.pieces * merged.degree + 1;
+    task.times = merged.pieces ? file->time_count : NSVCD_NONE;
+    for (size_t i = 0; i < task.points * joints; i++) {
+      const nsvcd_joint *joint = &file->joints[i % joints];
+      const double *at = merged.points + (i - i % joints);
+      const double value = joint->mimic ? joint->multiplier * at[joint->mimic - 1] + joint->offset
+                                        : merged.points[i];
+      *ROBOT_ADD(file->numbers, file->number_count, file->number_capacity) = value;
+    }
+    for (size_t i = 0; merged.pieces && i <= merged.pieces; i++)
+      *ROBOT_ADD(file->times, file->time_count, file->time_capacity) = merged.times[i];
+    robot_add_motion(file, &task);
+  }
+  free(memory);
+  return result ? refuse(r, nsvcd_result_string(result)) : 1;
 }
 
 static int robot_read_goal(const reader *r, robot_file *file) {
@@ -628,27 +755,32 @@ static int read_robot(const char *path, robot_file *file) {
                {"scene", robot_read_scene},         {"goal", robot_read_goal},
                {"obstacle", robot_read_obstacle},   {"allow", robot_read_allow},
                {"attach", robot_read_change},       {"release", robot_read_change}};
+  static const struct {
+    const char *word;
+    int (*read)(reader *r, robot_file *file);
+  } tasks[] = {{"plan", robot_read_plan},
+               {"path", robot_read_path},
+               {"curve", robot_read_curve},
+               {"together", robot_read_together}};
   const size_t count = sizeof lines / sizeof lines[0];
+  const size_t kinds = sizeof tasks / sizeof tasks[0];
   reader r;
   memset(file, 0, sizeof *file);
   file->path = shown_name(path);
   if (!open_reader(path, "nsvcd-plans", &file->text, &r)) return 0;
   while (next_line(&r)) {
-    const int is_curve = strcmp(r.fields[0], "curve") == 0;
-    const int is_task = strcmp(r.fields[0], "plan") == 0 || strcmp(r.fields[0], "path") == 0;
     size_t k = 0;
+    size_t kind = 0;
     while (k < count && strcmp(lines[k].word, r.fields[0]) != 0) k++;
-    if (k == count && !is_task && !is_curve)
+    while (kind < kinds && strcmp(tasks[kind].word, r.fields[0]) != 0) kind++;
+    if (k == count && kind == kinds)
       return refuse_field(&r,
                           "expected 'joint', 'mimic', 'body', 'pair', 'clearance', 'group', "
-                          "'scene', 'obstacle', 'allow', "
-                          "'attach', 'release', 'plan', 'goal', 'path' or 'curve'",
+                          "'scene', 'obstacle', 'allow', 'attach', 'release', 'plan', 'goal', "
+                          "'path', 'curve' or 'together'",
                           r.fields[0]);
     if (r.field_count > MOST_FIELDS) return refuse(&r, "too many fields");
-    if (!(is_curve  ? robot_read_curve(&r, file)
-          : is_task ? robot_read_task(&r, file)
-                    : lines[k].read(&r, file)))
-      return 0;
+    if (!(kind < kinds ? tasks[kind].read(&r, file) : lines[k].read(&r, file))) return 0;
   }
   for (size_t i = 0; i < file->task_count; i++) {
     const robot_task *task = &file->tasks[i];
@@ -672,6 +804,7 @@ static void free_robot(robot_file *file) {
   free(file->groups);
   free(file->rooms);
   free(file->tasks);
+  free(file->moves);
   free(file->goals);
   free(file->changes);
   free(file->allows);

@@ -3,9 +3,12 @@
 #ifndef NSVCD_SVCD_ROBOTS_H
 #define NSVCD_SVCD_ROBOTS_H
 
+#include "seeds.h"
 #include "srdf.h"
 
 #define PLAN_NODES 100000
+// seconds: to which the first conflict of motions together is sought
+#define FIRST_CONFLICT 1e-3
 // that `pairs` takes, at most
 #define PAIRS_SECONDS 10.0
 // about each mesh of a link
@@ -297,9 +300,8 @@ static int plan_one(robot_in_room *in, const robot_task *task, const double *sta
     return 0;
   }
   if (!result && goals.row_count > 0) {
-    const size_t size = nsvcd_route_size(in->checker, &problem, &asked);
-    memory = allocate(size);
-    result = nsvcd_route(in->checker, &problem, &asked, memory, size, &answer);
+    const size_t seeds = options->threads ? options->threads : 1;
+    result = route_by_seeds(&in->scene, in->checker, &problem, &asked, seeds, &answer, &memory);
   } else if (problem.stop && problem.stop(problem.user)) {
     answer.status = NSVCD_ROUTE_LIMIT;
   }
@@ -321,13 +323,16 @@ static int plan_one(robot_in_room *in, const robot_task *task, const double *sta
   return !result && good;
 }
 
-// Asks about an edge until it is decided or time is up.
+// Asks about an edge until it is decided or time is up. to_time: of what is hit the first hit, to so
+// many seconds; 0: any.
 static nsvcd_result path_edge(const robot_in_room *in, const nsvcd_joint_motion *motion,
-                              const settings *options, waiting *wait, nsvcd_check_answer *answer) {
+                              double to_time, const settings *options, waiting *wait,
+                              nsvcd_check_answer *answer) {
   nsvcd_check_options asked;
   plan_clock limits = {wait->end, wait->end};
   memset(&asked, 0, sizeof asked);
   asked.work = options->sweep.work;
+  asked.to_time = to_time;
   for (;;) {
     const double start = seconds();
     nsvcd_check_answer last;
@@ -355,19 +360,54 @@ static nsvcd_joint_motion motion_of_task(const robot_file *file, const robot_tas
   return curve;
 }
 
+static void print_path(const robot_in_room *in, const robot_task *task, const settings *options,
+                       const nsvcd_check_answer *answer, size_t edge, double when, double mean) {
+  const int is_free = answer->verdict == NSVCD_FREE;
+  const nsvcd_body_pair *pair =
+      is_free || answer->pair == NSVCD_NONE ? NULL : &in->scene.pairs[answer->pair];
+  const char *names[2] = {pair ? robot_name(in, pair->a) : "-",
+                          pair ? robot_name(in, pair->b) : "-"};
+  if (options->json) {
+    json_out j = {stdout, 0};
+    json_open(&j, NULL, '{');
+    json_text(&j, "id", task->id);
+    json_text(&j, "verdict", nsvcd_verdict_string(answer->verdict));
+    if (!is_free) json_count(&j, "edge", edge);
+    if (!is_free) json_float(&j, "time", when);
+    if (!is_free && task->degree) json_float(&j, "free_until", answer->free_until);
+    if (pair) json_text(&j, "a", names[0]);
+    if (pair) json_text(&j, "b", names[1]);
+    json_digits(&j, "microseconds", mean, 4);
+    json_end_line(&j);
+    fflush(stdout);
+    return;
+  }
+  printf("%s\t%s\t", task->id, nsvcd_verdict_string(answer->verdict));
+  if (is_free)
+    printf("-1\tnan");
+  else
+    printf("%zu\t%.9g", edge, when);
+  printf("\t%s\t%s\t%.2f\n", names[0], names[1], mean);
+  fflush(stdout);
+}
+
 // Answers a path, edge by edge, or a curve.
 static int path_one(const robot_in_room *in, const robot_task *task, const settings *options) {
   waiting wait = wait_for(options);
   nsvcd_check_answer answer;
+  nsvcd_joint_motion motion;
   nsvcd_result result = NSVCD_OK;
   const size_t edges = task->points > 1 && !task->degree ? task->points - 1 : 1;
+  const double least = task->is_together ? FIRST_CONFLICT : 0;
+  const double to_time = options->first_to > 0 ? (double)options->first_to : least;
   size_t edge = 0;
+  char from[1024];
   memset(&answer, 0, sizeof answer);
   const double began = seconds();
   for (size_t k = 0; k < edges && !result; k++) {
-    const nsvcd_joint_motion motion = motion_of_task(in->file, task, k);
+    motion = motion_of_task(in->file, task, k);
     edge = k;
-    result = path_edge(in, &motion, options, &wait, &answer);
+    result = path_edge(in, &motion, task->degree ? to_time : 0, options, &wait, &answer);
     if (answer.verdict != NSVCD_FREE) break;
   }
   const size_t pieces = task->degree ? (task->points - 1) / task->degree : edge + 1;
@@ -376,37 +416,17 @@ static int path_one(const robot_in_room *in, const robot_task *task, const setti
   if (task->degree && answer.piece != NSVCD_NONE) edge = answer.piece;
   if (result)
     return complain("%s:%zu: %s: %s", in->file->path, task->line, task->id, reason_of(result));
-  const int is_free = answer.verdict == NSVCD_FREE;
-  const nsvcd_body_pair *pair =
-      is_free || answer.pair == NSVCD_NONE ? NULL : &in->scene.pairs[answer.pair];
-  if (pair && answer.verdict == NSVCD_UNDECIDED) {
-    char from[1024];
-    snprintf(from, sizeof from, "%s:%zu: %s", in->file->path, task->line, task->id);
+  snprintf(from, sizeof from, "%s:%zu: %s", in->file->path, task->line, task->id);
+  if (answer.verdict == NSVCD_UNDECIDED && answer.pair != NSVCD_NONE)
     tell_undecided(in, from, &answer);
-  }
-  const char *names[2] = {pair ? robot_name(in, pair->a) : "-",
-                          pair ? robot_name(in, pair->b) : "-"};
-  if (options->json) {
-    json_out j = {stdout, 0};
-    json_open(&j, NULL, '{');
-    json_text(&j, "id", task->id);
-    json_text(&j, "verdict", nsvcd_verdict_string(answer.verdict));
-    if (!is_free) json_count(&j, "edge", edge);
-    if (!is_free) json_float(&j, "time", answer.fraction);
-    if (pair) json_text(&j, "a", names[0]);
-    if (pair) json_text(&j, "b", names[1]);
-    json_digits(&j, "microseconds", mean, 4);
-    json_end_line(&j);
-    fflush(stdout);
-    return 1;
-  }
-  printf("%s\t%s\t", task->id, nsvcd_verdict_string(answer.verdict));
-  if (is_free)
-    printf("-1\tnan");
-  else
-    printf("%zu\t%.9g", edge, answer.fraction);
-  printf("\t%s\t%s\t%.2f\n", names[0], names[1], mean);
-  fflush(stdout);
+  double when = answer.fraction;
+  if (task->is_together && task->degree && edge < pieces)
+    when = motion.times[edge] + when * (motion.times[edge + 1] - motion.times[edge]);
+  if (task->is_together) edge = 0;
+  if (task->is_together && answer.verdict == NSVCD_HIT &&
+      when - answer.free_until > 1.001 * to_time)
+    complain("%s: not known to be the first: proven free until %.9g s", from, answer.free_until);
+  print_path(in, task, options, &answer, edge, when, mean);
   return 1;
 }
 

@@ -25,12 +25,14 @@ struct settings {
   nsvcd_question sweep;  // without bodies
   float first[2];        // a fraction of the motion, or metres; 0: not asked for
   float measure;         // metres
+  float first_to;        // seconds: the first hit of a curve, to this; 0: the default
   float seconds;         // 0: for a plan as long as it takes, for a question DECIDE_SECONDS
   size_t visits;         // the most for a certificate; 0: the library's default
   size_t repeat;         // 0: the command's default
   const char *from, *to, *rotate, *scale, *picture, *film, *details, *only, *joints;
   const char *certificate, *certificates, *srdf;
   size_t seed, samples;
+  size_t threads;  // 0: 1
   int int8, help, json, is_first_given, recentre;
   int exit_code;  // 1: the exit status is to be
   int answer;     // ... this: 0 free, 1 hit, 3 undecided

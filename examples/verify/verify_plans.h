@@ -420,18 +420,18 @@ static int is_step(char *const *words, size_t n) {
   return strcmp(words[0], "attach") == 0 ? n == 3 : strcmp(words[0], "release") == 0 && n == 2;
 }
 
-// Is a line a plan, a goal, a path or a curve, where it may stand?
+// Is a line a plan, a goal, a path, a curve or several together, where it may stand?
 static int is_task(const robot *r, char *const *words, size_t n, const char *scene) {
   const size_t joints = r->joint_count;
   if (!scene) return 0;
   if (strcmp(words[0], "goal") == 0)
     return n == 2 + joints || (n >= 11 && strcmp(words[2], "pose") == 0);
-  int fits = strcmp(words[0], "path") == 0 && n == 4;
-  if (strcmp(words[0], "curve") == 0) fits = n == 5 || n == 6;
-  if (strcmp(words[0], "plan") == 0) {
-    const size_t numbers = n >= 5 && strcmp(words[n - 2], "group") == 0 ? n - 2 : n;
-    fits = numbers == 3 || numbers == 3 + joints || numbers == 3 + 2 * joints;
-  }
+  const size_t fields = n >= 5 && strcmp(words[n - 2], "group") == 0 ? n - 2 : n;
+  int fits = strcmp(words[0], "path") == 0 && fields == 4;
+  if (strcmp(words[0], "curve") == 0) fits = fields == 5 || fields == 6;
+  if (strcmp(words[0], "together") == 0) fits = n >= 4;
+  if (strcmp(words[0], "plan") == 0)
+    fits = fields == 3 || fields == 3 + joints || fields == 3 + 2 * joints;
   return fits && strcmp(words[2], scene) == 0;
 }
 

@@ -71,8 +71,8 @@ typedef struct nsvcd_nearest_free_options {
   double farthest;
   // seed of the random numbers
   uint64_t seed;
-  // called before each question and each draw; may be NULL. If it returns anything but 0, the
-  // search ends with what it has found
+  // called before each draw, and as nsvcd_check_options.stop is; may be NULL. If it returns
+  // anything but 0, the search ends with what it has found
   int (*stop)(void *user);
   // passed to `stop`
   void *user;

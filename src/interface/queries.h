@@ -218,6 +218,11 @@ typedef struct nsvcd_question {
   // 1: the question is about the surfaces alone: a body that lies inside the other, off its
   // surface, is FREE of it, and has a distance. For proofs
   int surfaces;
+  // called about every 1,000 units of a proof's work; may be NULL. If it returns anything but 0,
+  // the proof ends as if there were no more units
+  int (*stop)(void *user);
+  // passed to `stop`
+  void *user;
 } nsvcd_question;
 
 typedef enum nsvcd_verdict {

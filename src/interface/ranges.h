@@ -32,8 +32,8 @@ typedef struct nsvcd_range_options {
   size_t boxes;
   // seed of the random numbers
   uint64_t seed;
-  // called before each question; may be NULL. If it returns anything but 0, the search ends with
-  // what it has found
+  // called as nsvcd_check_options.stop is; may be NULL. If it returns anything but 0, the search
+  // ends with what it has found
   int (*stop)(void *user);
   // passed to `stop`
   void *user;

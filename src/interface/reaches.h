@@ -19,8 +19,8 @@ typedef struct nsvcd_reach_problem {
   float half[3];
   // the tool may turn freely about this axis of its own, of any length; default 0, 0, 0: it may not
   float free_axis[3];
-  // called before each start and each question about a pair; may be NULL. If it returns anything
-  // but 0, the search ends with what it has found
+  // called before each start, and as nsvcd_check_options.stop is; may be NULL. If it returns
+  // anything but 0, the search ends with what it has found
   int (*stop)(void *user);
   // passed to `stop`
   void *user;

@@ -98,7 +98,8 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_INFLATE,
 
   // ---- joints
-  // a joint's kind is none of its values, or its parent does not come before it
+  // a joint's kind is none of its values, or its parent does not come before it; of motions that
+  // are merged, an index is not one of the joints', or two of them move one joint
   NSVCD_ERROR_JOINT,
   // a joint's axis has no length, or is not finite; or `free_axis` is not
   NSVCD_ERROR_AXIS,

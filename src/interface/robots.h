@@ -131,8 +131,10 @@ typedef struct nsvcd_check_options {
   float finest;
   // units for each proof of a pair; default NSVCD_DEFAULT_WORK
   size_t work;
-  // called before each question about a pair; may be NULL. If it returns anything but 0, the check
-  // ends UNDECIDED, with NSVCD_WHY_WORK
+  // called before each question about a pair, about every 1,000 units of its work, and while parts
+  // are placed; may be NULL. If it returns anything but 0, the check ends UNDECIDED, with
+  // NSVCD_WHY_WORK, or with a hit that it has found: within a millisecond or two (`make
+  // build/bench_stops`). It is not called again
   int (*stop)(void *user);
   // passed to `stop`
   void *user;

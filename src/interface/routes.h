@@ -43,8 +43,8 @@ typedef struct nsvcd_route_problem {
   // called before each proof and each look; may be NULL. If it returns anything but 0, the search
   // ends. A path found by then is still proven as a whole
   int (*stop)(void *user);
-  // called before each question about a pair, also in that last proof; may be NULL. If it returns
-  // anything but 0, that proof ends as well: so this bounds the time
+  // called as nsvcd_check_options.stop is, also in that last proof, and between looks; may be NULL.
+  // If it returns anything but 0, that proof ends as well: so this bounds the time, as there
   int (*abandon)(void *user);
   // passed to both
   void *user;

@@ -270,6 +270,9 @@ typedef struct nsvcd__given {
   // what is beside the question, above all what follows an unresolved pair.
   size_t work, reserve;
   int grows;
+  // the caller's
+  int (*stop)(void *user);
+  void *user;
 } nsvcd__given;
 
 // What one search is asked. A value: the search narrows a copy of its own, and only ever shrinks
@@ -358,6 +361,8 @@ typedef struct nsvcd__proof {
   nsvcd__goal goal;
   nsvcd__search_result known;
   size_t work;
+  // the work at which the caller is asked again whether to stop; and at which that was said, 0: not
+  size_t ask_at, stopped_at;
   // Only remembered, as a memo: the unit normal of the plane that separated a triangle pair last.
   // shared: the triangle pairs in a row that it has separated since.
   nsvcd__d3 separating;
@@ -429,11 +434,24 @@ static size_t nsvcd__limit_of_first(const nsvcd__given *given, const nsvcd__goal
   return goal->most - given->reserve;
 }
 
+// Asks the caller whether to stop. If so, more work has been done than any budget allows.
+static NSVCD__NOINLINE void nsvcd__ask_to_stop(nsvcd__proof *p) {
+  nsvcd__given *given = &p->given;
+  p->ask_at = p->work + NSVCD__STOP_UNITS;
+  if (!given->stop(given->user)) return;
+  p->stopped_at = p->work;
+  p->ask_at = SIZE_MAX;
+  p->work = SIZE_MAX / 2;
+  given->work = given->reserve = 0;
+  given->grows = 0;
+}
+
 // Is the budget exhausted? FIRST looks for contacts after its first unresolved pair with a small
 // budget. When that is exhausted, the pair becomes the end of the motion, here, and the search goes
 // on with the rest of the budget for what lies before the pair.
 static int nsvcd__check_budget(nsvcd__proof *p) {
   nsvcd__goal *goal = &p->goal;
+  if (p->work >= p->ask_at) nsvcd__ask_to_stop(p);
   if (p->work > goal->limit && goal->first > 0 && !goal->is_brief && !goal->unresolved_ends &&
       p->known.unresolved < NSVCD__NEVER) {
     goal->unresolved_ends = 1;

@@ -46,6 +46,8 @@
 // looks for later contacts with so many units.
 #define NSVCD__AFTER_UNRESOLVED 8
 #define NSVCD__AFTER_FIRST_UNRESOLVED 3000
+// Units from one call of question.stop to the next.
+#define NSVCD__STOP_UNITS 1000
 
 // What else a question asks.
 // The budget of the first attempt, before the two ends of the motion are tried by themselves.

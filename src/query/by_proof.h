@@ -89,7 +89,10 @@ static nsvcd__goal nsvcd__proof_begin(nsvcd__query *query) {
   given->grows = q->work == 0;
   given->surfaces = q->surfaces;
   given->tells = q->ask != NSVCD_ASK_HIT || given->slop > 0;
-  w->p.work = w->p.push.normal_count = 0;
+  given->stop = q->stop;
+  given->user = q->user;
+  w->p.ask_at = q->stop ? NSVCD__STOP_UNITS : SIZE_MAX;
+  w->p.work = w->p.stopped_at = w->p.push.normal_count = 0;
   w->inside = w->in_open = 0;
   w->unclear = NSVCD__CLEAR;
   const double to = nsvcd__to_of(task);
@@ -426,6 +429,6 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   if (task->question->manifold && is_contact)
     nsvcd__write_manifold(query, goal, &result.found, answer);
   nsvcd__write_safe_pose(query, goal, result.starts_free, answer);
-  answer->work = w->p.work;
+  answer->work = w->p.stopped_at ? w->p.stopped_at : w->p.work;
 }
 #endif  // NSVCD_NO_PROOF

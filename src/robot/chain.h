@@ -9,6 +9,7 @@
 //   samples          configurations of a motion, and boxes about the parts in them
 //   local_queries    two parts, in the frame of one of them
 //   check            is a motion of the joints free?
+//   merge            motions on clocks of their own, as one
 //   looks            does a motion seem free?
 //   proofs           a certificate of a pair, as the joints move it
 //   rrt              trees of configurations, and the nearest node
@@ -107,6 +108,9 @@ struct nsvcd_checker {
   size_t query_size;
   // questions are about surfaces alone
   int surfaces;
+  // ends questions; NULL: nothing does
+  int (*stop)(void *user);
+  void *user;
   // an error of a question, which ends those that follow
   nsvcd_result result;
 };

@@ -28,7 +28,16 @@ typedef struct nsvcd__check_state {
   nsvcd_check_answer *answer;
   // between samples; 0: one configuration
   size_t steps;
+  int is_stopped;
 } nsvcd__check_state;
+
+// Has the caller said stop? Once that is so, it is not asked again. user: the state.
+static int nsvcd__check_stops(void *user) {
+  nsvcd__check_state *s = (nsvcd__check_state *)user;
+  const nsvcd_check_options *o = s->options;
+  if (!s->is_stopped && o->stop && o->stop(o->user)) s->is_stopped = 1;
+  return s->is_stopped;
+}
 
 // ---- pairs
 
@@ -36,10 +45,9 @@ typedef struct nsvcd__check_state {
 static nsvcd_verdict nsvcd__ask_local(nsvcd__check_state *s, const nsvcd_body_pair *pair,
                                       size_t count, float clearance, size_t work,
                                       nsvcd_answer *found) {
-  const nsvcd_check_options *o = s->options;
   nsvcd_question question = nsvcd__question_of(s->checker, pair, count, work);
   question.clearance = clearance;
-  if (o->stop && o->stop(o->user)) {
+  if (nsvcd__check_stops(s)) {
     memset(found, 0, sizeof *found);
     found->why = NSVCD_WHY_WORK;
     return NSVCD_UNDECIDED;
@@ -114,7 +122,7 @@ static int nsvcd__seek_hit(nsvcd__check_state *s, size_t pair, nsvcd__step_range
       answer->fraction = nsvcd__fraction_at(s->motion, answer->piece, time);
     }
     if (nsvcd__is_hit_there(s, work)) return 1;
-    if (attempt == 0 &&
+    if (attempt == 0 && !s->is_stopped &&
         nsvcd__ask_pair(s, &c->scene->pairs[pair], 0, work, range, found) == NSVCD_FREE)
       return 0;
   }
@@ -136,7 +144,7 @@ static size_t nsvcd__ask_pairs(nsvcd__check_state *s, int is_last, size_t left) 
   const size_t work = s->options->work;
   const size_t brief = work && work < NSVCD__HIT_TRY ? work : NSVCD__HIT_TRY;
   size_t kept = 0;
-  for (size_t n = 0; n < left && !c->result; n++) {
+  for (size_t n = 0; n < left && !c->result && !s->is_stopped; n++) {
     const size_t pair = c->left[n];
     const nsvcd_body_pair *parts = &c->scene->pairs[pair];
     nsvcd__step_range range;
@@ -166,8 +174,8 @@ static void nsvcd__take_samples(nsvcd__check_state *s, size_t steps, size_t left
   s->answer->placed += steps + 1;
 }
 
-// Notes how far parts deviate at most in each step, of the first `left` pairs of c->left where these
-// are near.
+// Notes how far parts deviate at most in each step, of the first `left` pairs of c->left where
+// these are near.
 static void nsvcd__note_coarse(nsvcd__check_state *s, size_t left) {
   nsvcd_checker *c = s->checker;
   memset(c->coarse, 0, s->steps * sizeof *c->coarse);
@@ -203,12 +211,14 @@ static void nsvcd__check_interval(nsvcd__check_state *s, double t0, double t1, s
   nsvcd__take_samples(s, steps, left);
   double allowed = NSVCD__COARSE;
   while (left > 0) {
+    answer->why = NSVCD_WHY_WORK;
+    // not all is sampled
+    if (s->is_stopped) return;
     nsvcd__note_coarse(s, left);
     const size_t finer = nsvcd__refine_steps(c, s->steps, allowed);
     if (finer > NSVCD__MOST_STEPS) {
       const double middle = 0.5 * (t0 + t1);
       const size_t coarse = s->steps;
-      answer->why = NSVCD_WHY_WORK;
       if (halvings == 0 || !(middle > t0 && middle < t1)) return;
       nsvcd__check_interval(s, t0, middle, coarse, halvings - 1);
       if (answer->verdict == NSVCD_FREE)
@@ -217,8 +227,10 @@ static void nsvcd__check_interval(nsvcd__check_state *s, double t0, double t1, s
     }
     if (finer > s->steps) nsvcd__take_samples(s, finer, left);
     const int is_last = s->steps == 0 || allowed <= finest;
-    left = nsvcd__ask_pairs(s, is_last, left);
-    if (c->result || answer->verdict == NSVCD_HIT || (is_last && left > 0)) return;
+    if (!s->is_stopped) left = nsvcd__ask_pairs(s, is_last, left);
+    if (s->is_stopped && answer->verdict != NSVCD_HIT) answer->why = NSVCD_WHY_WORK;
+    if (c->result || answer->verdict == NSVCD_HIT || s->is_stopped || (is_last && left > 0))
+      return;
     allowed = nsvcd__max(allowed / NSVCD__CHECK_FINER, finest);
   }
   answer->pair = NSVCD_NONE;
@@ -231,7 +243,7 @@ static void nsvcd__check_interval(nsvcd__check_state *s, double t0, double t1, s
 static void nsvcd__seek_first(nsvcd__check_state *s, double end) {
   nsvcd_check_answer *answer = s->answer;
   double high = end;
-  while (!s->checker->result) {
+  while (!s->checker->result && !s->is_stopped) {
     const nsvcd_check_answer last = *answer;
     if (last.verdict == NSVCD_HIT) {
       const double start = nsvcd__piece_start(s->motion, last.piece);
@@ -303,10 +315,8 @@ static size_t nsvcd__joint_outside(const nsvcd_scene *scene, const nsvcd_joint_m
 
 // ---- a check
 
-// Is a motion in order? Of no pieces it must be as nsvcd__motion_meant has it.
-static nsvcd_result nsvcd__motion_check(const nsvcd_scene *scene,
-                                        const nsvcd_joint_motion *m) {
-  const size_t joints = scene->joint_count;
+// Are a motion's pieces in order? Of no pieces it must be as nsvcd__motion_meant has it.
+static nsvcd_result nsvcd__pieces_check(const nsvcd_joint_motion *m, size_t joints) {
   if (m->pieces && (m->degree < 1 || m->degree > NSVCD_MAX_DEGREE)) return NSVCD_ERROR_DEGREE;
   if (m->pieces > SIZE_MAX / sizeof(double) / (NSVCD_MAX_DEGREE + 1) / joints)
     return NSVCD_ERROR_DEGREE;
@@ -316,6 +326,14 @@ static nsvcd_result nsvcd__motion_check(const nsvcd_scene *scene,
   for (size_t p = 0; p < m->pieces && m->times; p++) {
     if (!(m->times[p + 1] > m->times[p])) return NSVCD_ERROR_TIMES;
   }
+  return NSVCD_OK;
+}
+
+// Is it a motion of the scene's joints?
+static nsvcd_result nsvcd__motion_check(const nsvcd_scene *scene,
+                                        const nsvcd_joint_motion *m) {
+  const nsvcd_result result = nsvcd__pieces_check(m, scene->joint_count);
+  if (result) return result;
   const int follows = nsvcd__follows(scene, m->pieces * m->degree + 1, m->points);
   return follows ? NSVCD_OK : NSVCD_ERROR_MIMIC;
 }
@@ -343,9 +361,13 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *c, const nsvcd_joint_motion *mo
   o.finest = o.finest > 0 ? o.finest : NSVCD__FINEST;
   memset(&found, 0, sizeof found);
   found.joint = found.pair = found.piece = NSVCD_NONE;
+  nsvcd__check_state s = {c, &m, &o, &found, 0, 0};
+  int (*const stop)(void *user) = c->stop;
+  void *const user = c->user;
+  c->stop = o.stop ? nsvcd__check_stops : NULL;
+  c->user = &s;
   for (size_t p = 0; p < m.pieces + !m.pieces && found.joint == NSVCD_NONE; p++)
     found.joint = nsvcd__joint_outside(c->scene, &m, p);
-  nsvcd__check_state s = {c, &m, &o, &found, 0};
   c->result = NSVCD_OK;
   if (m.pieces == 0) nsvcd__check_interval(&s, 0, 0, 0, 0);
   if (m.pieces > 0) nsvcd__note_cuts(c, &m);
@@ -367,6 +389,8 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *c, const nsvcd_joint_motion *mo
     if (found.verdict != NSVCD_FREE) break;
   }
   for (size_t n = 0; n < c->mover_count; n++) c->members[c->movers[n]].is_skipped = 0;
+  c->stop = stop;
+  c->user = user;
   if (c->result) return c->result;
   if (found.verdict == NSVCD_FREE) {
     found.piece = NSVCD_NONE;

@@ -75,6 +75,9 @@ static nsvcd_question nsvcd__question_of(const nsvcd_checker *c, const nsvcd_bod
 static nsvcd_verdict nsvcd__ask_sweep(nsvcd_checker *c, const nsvcd_question *q,
                                       nsvcd_answer *found) {
   memset(found, 0, sizeof *found);
-  if (!c->result) c->result = nsvcd_sweep(q, c->query, c->query_size, found);
+  nsvcd_question asked = *q;
+  asked.stop = c->stop;
+  asked.user = c->user;
+  if (!c->result) c->result = nsvcd_sweep(&asked, c->query, c->query_size, found);
   return found->verdict;
 }

@@ -35,6 +35,8 @@ typedef struct nsvcd__look_part {
 
 typedef struct nsvcd__looker {
   const nsvcd_checker *checker;
+  // whose `stop` ends looks
+  const nsvcd_check_options *options;
   // (F): each joint in the link that it is on, turned so that axes are along z
   nsvcd__look_frame *joints;
   // (F, 16): configurations that are looked at
@@ -218,10 +220,12 @@ static nsvcd__dmat3 nsvcd__look_axes_of(const nsvcd_checker *c, size_t link) {
 }
 
 // Fills in a looker whose arrays are taken.
-static void nsvcd__looker_begin(nsvcd_checker *c, nsvcd__looker *k) {
+static void nsvcd__looker_begin(nsvcd_checker *c, const nsvcd_check_options *options,
+                                nsvcd__looker *k) {
   const nsvcd_scene *scene = c->scene;
   const nsvcd__dmat3 ones = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   k->checker = c;
+  k->options = options;
   k->last = scene->pair_count;
   nsvcd__identity_places(&k->links[0]);
   for (size_t j = 0; j < scene->joint_count; j++) {
@@ -337,6 +341,10 @@ static void nsvcd__look_joints(const nsvcd_joint_motion *m, size_t joints, size_
   }
 }
 
+static int nsvcd__looks_end(const nsvcd__looker *k) {
+  return k->options->stop && k->options->stop(k->options->user);
+}
+
 // Does a motion seem free? It begins where it is known to be, and is within the limits.
 static int nsvcd__seems_free(nsvcd__looker *k, const nsvcd_joint_motion *m) {
   const size_t joints = k->checker->scene->joint_count;
@@ -354,6 +362,7 @@ static int nsvcd__seems_free(nsvcd__looker *k, const nsvcd_joint_motion *m) {
   // batch n has the places n, n + batches, ... of all; the greater steps first
   for (; stride > 0; stride /= 2) {
     for (size_t n = stride; n <= batches; n += 2 * stride) {
+      if (nsvcd__looks_end(k)) return 0;
       nsvcd__look_joints(m, joints, n, batches, k->places);
       if (nsvcd__seems_to_meet(k, k->places)) return 0;
     }
@@ -377,6 +386,7 @@ static void nsvcd__set_margins(nsvcd__looker *k, float clearance, float fraction
 static void nsvcd__look_past(nsvcd__looker *k, const double *at) {
   for (size_t j = 0; j < k->checker->scene->joint_count; j++)
     for (size_t l = 0; l < NSVCD_LOOKS; l++) k->places[j][l] = at[j];
-  while (nsvcd__seems_to_meet(k, k->places) && k->margins[k->last] > -1)
+  while (!nsvcd__looks_end(k) && nsvcd__seems_to_meet(k, k->places) &&
+         k->margins[k->last] > -1)
     k->margins[k->last] -= NSVCD__LOOK_CUT;
 }

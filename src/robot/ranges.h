@@ -471,6 +471,8 @@ NSVCDDEF nsvcd_result nsvcd_pair_range(const nsvcd_checker *checker, nsvcd_body_
   const size_t own_size = nsvcd_checker_size(&r->span.scene);
   result = nsvcd_checker_open(&r->span.scene, own, own_size, &r->span.checker);
   if (result) return result;
+  r->span.checker->stop = r->options.stop;
+  r->span.checker->user = r->options.user;
   nsvcd__find_range(r);
   if (!r->result) *answer = r->answer;
   return r->result;

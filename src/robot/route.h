@@ -295,7 +295,7 @@ static void nsvcd__replant(nsvcd__router *r) {
 // and less strictly.
 static void nsvcd__search_by_looks(nsvcd__router *r) {
   nsvcd__looker *k = &r->looker;
-  nsvcd__looker_begin(r->checker, k);
+  nsvcd__looker_begin(r->checker, &r->check, k);
   r->is_looking = 1;
   for (size_t n = 0; n < NSVCD__LOOK_SEARCHES && !r->is_stopped; n++) {
     const double ease = nsvcd__min(1, (double)NSVCD__LOOK_EASE * (double)n);

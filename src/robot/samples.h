@@ -6,6 +6,8 @@
 // errors of frames in double, as a fraction of the lengths that they are computed from: of 32
 // joints, and in proportion if there are more
 #define NSVCD__FRAME_ROUNDING 1e-13
+// from one call of a check's `stop` to the next
+#define NSVCD__STOP_SAMPLES 8
 
 // Places the parts that move, in a configuration, as sample k.
 static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__links *at, size_t k) {
@@ -30,6 +32,7 @@ static void nsvcd__place_sample(nsvcd_checker *c, const nsvcd__links *at, size_t
 }
 
 // Places the parts that move at c->times, one more than steps, and computes how far they deviate.
+// If the caller says stop, not all of that is done.
 static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, size_t steps) {
   const size_t joints = c->scene->joint_count;
   nsvcd__step step;
@@ -40,6 +43,8 @@ static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, si
   nsvcd__place_links(c, step.from, from);
   nsvcd__place_sample(c, from, 0);
   for (size_t k = 0; k < steps; k++) {
+    if (k % NSVCD__STOP_SAMPLES + 1 == NSVCD__STOP_SAMPLES && c->stop && c->stop(c->user))
+      return;
     nsvcd__step_of(motion, joints, c->times[k], c->times[k + 1], &step);
     nsvcd__place_links(c, step.to, to);
     nsvcd__place_sample(c, to, k + 1);
@@ -58,8 +63,8 @@ static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, si
 }
 
 // Cuts steps so that no part deviates by more than is allowed where it is near another, as far as
-// can be foreseen: the deviation goes with the square of a step. Returns how many steps there are then; where they are
-// more than NSVCD__MOST_STEPS, the times stay as they were.
+// can be foreseen: the deviation goes with the square of a step. Returns how many steps there are
+// then; where they are more than NSVCD__MOST_STEPS, the times stay as they were.
 static size_t nsvcd__refine_steps(nsvcd_checker *c, size_t steps, double allowed) {
   size_t total = 0;
   for (size_t k = 0; k < steps; k++) {

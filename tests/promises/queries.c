@@ -568,6 +568,34 @@ static void work_that_ends_is_told_and_more_decides(void) {
   nsvcd_body_free(books, NULL);
 }
 
+static int stops_at_zero(void *user) {
+  int *calls = (int *)user;
+  return --*calls <= 0;
+}
+
+// The tip of a sheet scratches another sheet. What is known when it is told to stop is told.
+static void a_proof_ends_when_it_is_told(void) {
+  const nsvcd_body *sheet = body_of(sheet_mesh(40, 0.02f), NULL);
+  const nsvcd_pose poses[2] = {turned(0, 0, 0.05f, 0.8f), turned(0, 0, 0.0005f, -0.8f)};
+  nsvcd_question question = question_about(sheet, poses, 2, sheet);
+  question.ask = NSVCD_ASK_FIRST;
+  question.to = 1e-7f;
+  const nsvcd_answer whole = answer_to(&question);
+  int calls = 1;
+  question.stop = stops_at_zero;
+  question.user = &calls;
+  const nsvcd_answer part = answer_to(&question);
+  CHECK(whole.verdict == NSVCD_HIT && whole.why == NSVCD_WHY_NOTHING && whole.work > 1100);
+  CHECK(part.why != NSVCD_WHY_NOTHING && part.work < 1100);
+  CHECK(part.time.low <= whole.time.low && part.time.high >= whole.time.high);
+  CHECK_EQ(calls, 0);  // and is not asked again
+  calls = 1000;
+  const nsvcd_answer same = answer_to(&question);
+  CHECK_EQ(memcmp(&same, &whole, sizeof same), 0);
+  CHECK(calls < 1000);
+  nsvcd_body_free(sheet, NULL);
+}
+
 // A crate over a coarse table, nearer than its triangles are stored to: between which two it cannot
 // be told, when, and how near these come.
 static void what_is_too_near_to_tell_is_named(void) {
@@ -934,6 +962,7 @@ void promises_queries(void) {
   RUN(a_batch_is_refused_as_a_whole);
   RUN(the_workspace_that_is_asked_for_suffices);
   RUN(work_that_ends_is_told_and_more_decides);
+  RUN(a_proof_ends_when_it_is_told);
   RUN(what_is_too_near_to_tell_is_named);
   RUN(whoever_asks_for_more_knows_no_less);
   RUN(fewer_segments_take_less_memory_and_answer_the_same);

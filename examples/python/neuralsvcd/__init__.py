@@ -38,7 +38,7 @@ from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
     "Answer", "Ask", "Body", "By", "Certificate", "Checked", "Code", "Contact", "Error", "Facts", "Gradient", "Joint",
-    "JointKind", "LEAVE_OUT", "Mesh", "Method", "Model", "NO_TRIANGLE", "Opinion", "Options", "Part", "Plan",
+    "JointKind", "LEAVE_OUT", "Mesh", "Method", "Model", "Motion", "NO_TRIANGLE", "Opinion", "Options", "Part", "Plan",
     "PlanOptions", "PlanStatus", "Precision", "Progress", "Range", "Reached", "Robot", "Route", "RouteStatus", "SafePlace",
     "Stage", "Tree", "Verdict", "Why", "certify", "cut_mesh", "load_mesh", "load_obj", "load_stl",
     "parse_mesh", "parse_obj", "parse_stl", "plan", "poses_from_matrices", "spline", "sweep", "sweep_batch", "sweep_gradient",
@@ -240,7 +240,7 @@ _Mover = _struct("nsvcd_mover", body=c_void_p, poses=c_void_p, count=c_size_t, t
 _Question = _struct(
     "nsvcd_question", a=_Mover, b=_Mover, ask=c_int, to=c_float, to_time=c_float, clearance=c_float, slop=c_float,
     tolerance=c_float, manifold=c_int, method=c_int, work=c_size_t, segments=c_size_t, network=_NetworkOptions,
-    surfaces=c_int)
+    surfaces=c_int, stop=c_void_p, user=c_void_p)
 _Range = _struct("nsvcd_range", low=c_float, high=c_float)
 _Contact = _struct(
     "nsvcd_contact", point=c_float * 3, normal=c_float * 3, gap=c_float, time=c_float, triangle_a=c_uint32,
@@ -279,6 +279,7 @@ _Scene = _struct("nsvcd_scene", joints=c_void_p, joint_count=c_size_t, parts=c_v
                  pairs=c_void_p, pair_count=c_size_t, clearances=c_void_p, allowances=c_void_p, allowance_count=c_size_t)
 _Allowance = _struct("nsvcd_allowance", pair=c_size_t, joints=c_void_p, distance=c_double)
 _JointMotion = _struct("nsvcd_joint_motion", pieces=c_size_t, degree=c_size_t, points=c_void_p, times=c_void_p)
+_PartialMotion = _struct("nsvcd_partial_motion", motion=_JointMotion, joints=c_void_p, joint_count=c_size_t, delay=c_double)
 _CheckOptions = _struct("nsvcd_check_options", clearance=c_float, finest=c_float, work=c_size_t, stop=_STOP,
                         user=c_void_p, to_time=c_double)
 _CheckAnswer = _struct(
@@ -309,7 +310,7 @@ _RouteAnswer = _struct(
 _CertifyOptions = _struct("nsvcd_certify_options", answer=c_void_p, visits=c_size_t)
 _Certificate = _struct(
     "nsvcd_certificate", verdict=c_int, why=c_int, inside=c_int, time=c_double, size=c_size_t, visits=c_size_t)
-_STRUCTS = (_CertifyOptions, _Certificate, _Joint, _Part, _Scene, _Allowance, _JointMotion, _CheckOptions, _CheckAnswer, _Proximity, _ProximityOptions, _NearestFreeOptions,
+_STRUCTS = (_CertifyOptions, _Certificate, _Joint, _Part, _Scene, _Allowance, _JointMotion, _PartialMotion, _CheckOptions, _CheckAnswer, _Proximity, _ProximityOptions, _NearestFreeOptions,
             _PairCounts, _ReachProblem, _ReachOptions, _ReachAnswer, _RouteProblem, _RouteOptions, _RouteAnswer, _Mesh, _EncodeOptions, _BodyFacts, _Pose, _NetworkOptions, _Mover, _Question, _Range, _Contact,
             _SafePlace, _Opinion, _Answer, _BodyPair, _PlanProgress, _PlanProblem, _PlanStage, _PlanOptions, _PlanAnswer)
 _Layout = _struct("neuralsvcd_layout", name=c_char_p, place=c_size_t, size=c_size_t)
@@ -337,6 +338,8 @@ _PROTOTYPES = {
     "nsvcd_checker_open": (c_int, c_void_p, c_void_p, c_size_t, c_void_p),
     "nsvcd_forward_kinematics": (None, c_void_p, c_void_p, c_void_p),
     "nsvcd_check": (c_int, c_void_p, c_void_p, c_void_p, c_void_p),
+    "nsvcd_merge_motions_size": (c_size_t, c_void_p, c_size_t, c_size_t),
+    "nsvcd_merge_motions": (c_int, c_void_p, c_size_t, c_size_t, c_void_p, c_void_p, c_size_t, c_void_p),
     "nsvcd_proximities": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p),
     "nsvcd_nearest_free": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p),
     "nsvcd_find_pairs": (c_int, c_void_p, c_size_t, c_uint64, c_void_p, c_size_t, c_void_p),
@@ -1582,6 +1585,20 @@ class Part(NamedTuple):
     scale: float = 0
 
 
+class Motion(NamedTuple):
+    """nsvcd_partial_motion: a motion of some of a robot's joints, on a clock of its own.
+
+    joints         their indices, in the order of the points' columns
+    points, degree, times  as `Robot.check` takes them
+    delay          seconds, added to its times
+    """
+    joints: ArrayLike
+    points: ArrayLike
+    degree: int = 1
+    times: Optional[ArrayLike] = None
+    delay: float = 0
+
+
 class Checked(NamedTuple):
     """nsvcd_check_answer.
 
@@ -1694,6 +1711,21 @@ def _doubles(value: ArrayLike, shape: tuple[Optional[int], ...], name: str) -> D
 def _pose_of(pose: ArrayLike, name: str) -> Any:
     row = _floats(_posed(pose, name), (7,), name).tolist()
     return _Pose((c_float * 3)(*row[:3]), (c_float * 4)(*row[3:]))
+
+
+def _motion_of(points: ArrayLike, joints: int, degree: int, times: Optional[ArrayLike], kept: list[Any]) -> Any:
+    """A motion of so many joints; what it points to is kept."""
+    rows = _doubles(np.atleast_2d(np.asarray(points)), (None, joints), "points")
+    degree = _number(c_size_t, degree, "degree")
+    if degree < 1 or (len(rows) - 1) % degree:
+        raise ValueError(f"points: pieces of degree {degree} have a multiple of that, and 1, not {len(rows)}")
+    pieces = (len(rows) - 1) // degree
+    kept.append(rows)
+    motion = _JointMotion(pieces, degree, _address(rows))
+    if times is not None and pieces:
+        kept.append(_doubles(times, (pieces + 1,), "times"))
+        motion.times = _address(kept[-1])
+    return motion
 
 
 class Robot:
@@ -1825,6 +1857,33 @@ class Robot:
         _library.nsvcd_forward_kinematics(self._checker, _address(row), _address(poses))
         return poses
 
+    def merge(self, motions: Sequence[Motion], rest: Optional[ArrayLike] = None) -> Motion:
+        """Motions of different joints, each on a clock of its own, as one of all joints: nsvcd_merge_motions.
+
+        rest  (F) where joints are that none of them moves
+        `check(m.points, degree=m.degree, times=m.times, to_time=0.001)` of the result m finds the first conflict.
+        """
+        kept: list[Any] = []
+        rows = (_PartialMotion * max(len(motions), 1))()
+        for row, motion in zip(rows, motions):
+            joints = np.asarray(motion.joints, np.uint32).reshape(-1)
+            kept.append(joints)
+            row.motion = _motion_of(motion.points, len(joints), motion.degree, motion.times, kept)
+            row.joints, row.joint_count = _address(joints), len(joints)
+            row.delay = motion.delay
+        resting = None if rest is None else _doubles(rest, (self.joint_count,), "rest")
+        size = _library.nsvcd_merge_motions_size(rows, len(motions), self.joint_count)
+        memory = _memory(size)
+        merged = _JointMotion()
+        _check(_library.nsvcd_merge_motions(rows, len(motions), self.joint_count,
+                                            None if resting is None else _address(resting), _address(memory), size,
+                                            byref(merged)))
+        count = merged.pieces * merged.degree + 1
+        points = np.frombuffer((c_double * (count * self.joint_count)).from_address(merged.points)).copy()
+        times = np.frombuffer((c_double * (merged.pieces + 1)).from_address(merged.times)).copy()
+        return Motion(np.arange(self.joint_count), points.reshape(count, self.joint_count), merged.degree,
+                      times if merged.pieces else None)
+
     def check(self, points: ArrayLike, *, degree: int = 1, times: Optional[ArrayLike] = None, clearance: float = 0,
               finest: float = 0, work: int = 0, to_time: float = 0) -> Checked:
         """Is a motion free, as the joints make it? nsvcd_check.
@@ -1833,16 +1892,8 @@ class Robot:
         times   (pieces + 1), seconds; None: each piece takes one
         to_time seconds: of what is not free, also seek until when it is, to this precision; 0: not sought
         """
-        rows = np.atleast_2d(np.asarray(points))
-        kept = _doubles(rows, (None, self.joint_count), "points")
-        degree = _number(c_size_t, degree, "degree")
-        if degree < 1 or (len(kept) - 1) % degree:
-            raise ValueError(f"points: pieces of degree {degree} have a multiple of that, and 1, not {len(kept)}")
-        pieces = (len(kept) - 1) // degree
-        motion = _JointMotion(pieces, degree, _address(kept))
-        if times is not None and pieces:
-            kept_times = _doubles(times, (pieces + 1,), "times")
-            motion.times = _address(kept_times)
+        kept: list[Any] = []
+        motion = _motion_of(points, self.joint_count, degree, times, kept)
         options = _filled(_CheckOptions, clearance=clearance, finest=finest, work=work)
         options.to_time = to_time
         answer = _CheckAnswer()
