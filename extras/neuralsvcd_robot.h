@@ -278,6 +278,23 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
                                   const nsvcd_check_options *options,
                                   nsvcd_check_answer *answer);
 
+// Until when does a motion keep to an allowance, from its start on, or back from its end? For who
+// proves the rest of the motion by nsvcd_certify_pair.
+//   checker    not NULL
+//   allowance  not NULL; it need not be one of the scene's
+//   motion     not NULL, as nsvcd_check takes it
+//   back       0: from the start on; else back from the end
+//   time       not NULL; seconds, as motion->times has them. Not even at its end: that end's time
+//   allocates  nothing
+//   threads    may share the checker
+//   errors     ARGUMENT; PAIR, VALUE, DISTANCE, as nsvcd_checker_open; DEGREE, VALUE, TIMES, as
+//              nsvcd_check
+//   source     this library: each joint's way times its moment arm, summed
+NSVCDDEF nsvcd_result nsvcd_allowed_until(const nsvcd_checker *checker,
+                                          const nsvcd_allowance *allowance,
+                                          const nsvcd_joint_motion *motion, int back,
+                                          double *time);
+
 // ------------------------------------------------------------------------ interface/configurations
 // In: a robot in one configuration. Out: which parts are near each other, and how that changes with
 // the joints; the nearest free configuration; which pairs can meet; a part on another link.
@@ -2171,6 +2188,16 @@ static nsvcd_result nsvcd__joint_check(const nsvcd_joint *joint, size_t i) {
   return fits ? NSVCD_OK : NSVCD_ERROR_LIMITS;
 }
 
+static nsvcd_result nsvcd__allowance_check(const nsvcd_scene *scene,
+                                           const nsvcd_allowance *allowance) {
+  if (allowance->pair >= scene->pair_count) return NSVCD_ERROR_PAIR;
+  if (!allowance->joints) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__are_numbers(allowance->joints, scene->joint_count)) return NSVCD_ERROR_VALUE;
+  if (!nsvcd__are_numbers(&allowance->distance, 1) || allowance->distance < 0)
+    return NSVCD_ERROR_DISTANCE;
+  return NSVCD_OK;
+}
+
 static nsvcd_result nsvcd__part_check(const nsvcd_scene *scene, const nsvcd_part *part) {
   const nsvcd_body *body = NULL;
   const nsvcd_result result = nsvcd_body_trust(part->body, SIZE_MAX, &body);
@@ -2206,14 +2233,8 @@ static nsvcd_result nsvcd__scene_check(const nsvcd_scene *scene) {
       return NSVCD_ERROR_CLEARANCE;
   }
   if (scene->allowance_count > 0 && !scene->allowances) return NSVCD_ERROR_ARGUMENT;
-  for (size_t n = 0; n < scene->allowance_count && !result; n++) {
-    const nsvcd_allowance *allowance = &scene->allowances[n];
-    if (allowance->pair >= scene->pair_count) return NSVCD_ERROR_PAIR;
-    if (!allowance->joints) return NSVCD_ERROR_ARGUMENT;
-    if (!nsvcd__are_numbers(allowance->joints, scene->joint_count)) return NSVCD_ERROR_VALUE;
-    if (!nsvcd__are_numbers(&allowance->distance, 1) || allowance->distance < 0)
-      return NSVCD_ERROR_DISTANCE;
-  }
+  for (size_t n = 0; n < scene->allowance_count && !result; n++)
+    result = nsvcd__allowance_check(scene, &scene->allowances[n]);
   return result;
 }
 
@@ -2836,6 +2857,20 @@ static nsvcd_result nsvcd__motion_check(const nsvcd_joint_motion *m, size_t join
   for (size_t p = 0; p < m->pieces && m->times; p++) {
     if (!(m->times[p + 1] > m->times[p])) return NSVCD_ERROR_TIMES;
   }
+  return NSVCD_OK;
+}
+
+NSVCDDEF nsvcd_result nsvcd_allowed_until(const nsvcd_checker *c,
+                                          const nsvcd_allowance *allowance,
+                                          const nsvcd_joint_motion *motion, int back,
+                                          double *time) {
+  if (!c || !allowance || !motion || !motion->points || !time) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_joint_motion m = nsvcd__motion_meant(motion);
+  nsvcd_result result = nsvcd__allowance_check(c->scene, allowance);
+  if (!result) result = nsvcd__motion_check(&m, c->scene->joint_count);
+  if (result) return result;
+  const double ends[2] = {nsvcd__piece_start(&m, 0), nsvcd__piece_start(&m, m.pieces)};
+  *time = nsvcd__allowed_until(c, allowance, &m, ends[back != 0], ends[back == 0]);
   return NSVCD_OK;
 }
 

@@ -154,6 +154,15 @@ static void put_double(FILE *out, double value) {
   put_bytes(out, bits, 8);
 }
 
+static void put_pose(FILE *out, const nsvcd_pose *pose) {
+  for (size_t k = 0; k < 7; k++) {
+    const float number = k < 3 ? pose->position[k] : pose->rotation[k - 3];
+    uint32_t bits;
+    memcpy(&bits, &number, sizeof bits);
+    put_bytes(out, bits, 4);
+  }
+}
+
 // The tree of a part's mesh, made once for all plans of the file. Returns NULL after a complaint.
 static const proof_mesh *tree_of_part(const robot_in_room *in, size_t part) {
   robot_mesh *mesh = &in->file->meshes[robot_thing_of(in, part)->mesh];
@@ -172,6 +181,78 @@ static float skeleton_clearance(const robot_in_room *in, size_t pair) {
       (double)in->clearances[pair] + (radius_of_part(in, parts->a) + radius_of_part(in, parts->b));
   const float rounded = (float)sum;
   return (double)rounded < sum ? nextafterf(rounded, HUGE_VALF) : rounded;
+}
+
+// A motion with room for more pieces.
+typedef struct cut_motion {
+  double *points, *times;
+  nsvcd_joint_motion motion;
+} cut_motion;
+
+// Cuts a piece in two at a time, unless one would be too short for a proof (de Casteljau).
+static void cut_piece(cut_motion *m, size_t joints, double time) {
+  const size_t degree = m->motion.degree;
+  const size_t pieces = m->motion.pieces;
+  const double least = 1e-8 * (m->times[pieces] - m->times[0]);
+  size_t piece = 0;
+  while (piece + 1 < pieces && m->times[piece + 1] <= time) piece++;
+  double *times = m->times + piece;
+  double *rows = m->points + piece * degree * joints;
+  const double share = (time - times[0]) / (times[1] - times[0]);
+  if (!(time - times[0] > least && times[1] - time > least)) return;
+  const size_t after = (pieces - piece - 1) * degree + 1;
+  memmove(rows + 2 * degree * joints, rows + degree * joints, after * joints * sizeof *rows);
+  for (size_t j = 0; j < joints; j++) {
+    double p[NSVCD_MAX_DEGREE + 1];
+    for (size_t i = 0; i <= degree; i++) p[i] = rows[i * joints + j];
+    for (size_t level = 0; level <= degree; level++) {
+      rows[level * joints + j] = p[0];
+      rows[(2 * degree - level) * joints + j] = p[degree - level];
+      for (size_t i = 0; i + level < degree; i++) p[i] += share * (p[i + 1] - p[i]);
+    }
+  }
+  memmove(times + 2, times + 1, (pieces - piece) * sizeof *times);
+  times[1] = time;
+  m->motion.pieces++;
+}
+
+// Until when a pair may touch from the start of a motion on, and from when on up to its end. Returns
+// 0 if it may not at all, or after a complaint.
+static int allowed_times(const robot_in_room *in, const nsvcd_joint_motion *motion, size_t pair,
+                         double *until, double *from) {
+  nsvcd_allowance near_end = {pair, motion->points, -1};
+  for (size_t k = 0; k < in->scene.allowance_count; k++) {
+    const nsvcd_allowance *one = &in->allowances[k];
+    if (one->pair == pair && one->distance > near_end.distance) near_end.distance = one->distance;
+  }
+  if (near_end.distance < 0) return 0;
+  nsvcd_result result = nsvcd_allowed_until(in->checker, &near_end, motion, 0, until);
+  near_end.joints += motion->pieces * motion->degree * in->scene.joint_count;
+  if (!result) result = nsvcd_allowed_until(in->checker, &near_end, motion, 1, from);
+  return result ? complain("%s: %s", in->file->path, reason_of(result)) : 1;
+}
+
+// The same motion, cut where pairs may touch no more, and where they may again.
+static cut_motion cut_where_allowed(const robot_in_room *in, const nsvcd_joint_motion *motion) {
+  const size_t joints = in->scene.joint_count;
+  const size_t pieces = motion->pieces + 2 * in->scene.pair_count;
+  cut_motion out;
+  out.points = (double *)allocate((pieces * motion->degree + 1) * joints * sizeof(double));
+  out.times = (double *)allocate((pieces + 1) * sizeof(double));
+  out.motion = *motion;
+  out.motion.points = out.points;
+  out.motion.times = out.times;
+  memcpy(out.points, motion->points,
+         (motion->pieces * motion->degree + 1) * joints * sizeof(double));
+  for (size_t p = 0; p <= motion->pieces; p++)
+    out.times[p] = motion->times ? motion->times[p] : (double)p;
+  for (size_t n = 0; n < in->scene.pair_count; n++) {
+    double until, from;
+    if (!allowed_times(in, motion, n, &until, &from)) continue;
+    cut_piece(&out, joints, until);
+    cut_piece(&out, joints, from);
+  }
+  return out;
 }
 
 // Makes the certificate of a pair; *bytes is to be freed. Returns 0 after a complaint, also if there
@@ -207,12 +288,44 @@ static int make_pair_proof(const robot_in_room *in, const char *id,
                                                     : "");
 }
 
+// Writes the certificate of a pair, after the pieces, if it may touch in some, between which it is
+// one. cut: the motion, cut where pairs may touch. Returns 0 after a complaint.
+static int write_pair_proof(const robot_in_room *in, const char *id,
+                            const nsvcd_joint_motion *motion, const nsvcd_joint_motion *cut,
+                            size_t pair, size_t visits, FILE *out) {
+  nsvcd_joint_motion rest = *cut;
+  nsvcd_certificate made;
+  uint8_t *bytes = NULL;
+  double until, from;
+  made.size = 0;
+  if (allowed_times(in, motion, pair, &until, &from)) {
+    size_t first = 0;
+    size_t end = cut->pieces;
+    while (first < end && cut->times[first + 1] <= until) first++;
+    while (end > first && cut->times[end - 1] >= from) end--;
+    put_bytes(out, first, 4);
+    put_bytes(out, end, 4);
+    rest.times += first;
+    rest.points += first * cut->degree * in->scene.joint_count;
+    rest.pieces = end - first;
+  }
+  const int good = rest.pieces == 0 || make_pair_proof(in, id, &rest, pair, visits, &bytes, &made);
+  if (good) {
+    put_bytes(out, made.size, 4);
+    if (made.size > 0) fwrite(bytes, 1, made.size, out);
+  }
+  free(bytes);
+  return good;
+}
+
 // Writes FOLDER/ID.cert: the motion, and a certificate for each pair of the scene, as
 // examples/FORMATS.md has it. motion: NULL: there is none. Where there can be no certificate a file
 // that is there goes. Returns 0 after a complaint, also then.
-static int write_motion_proof(const robot_in_room *in, const char *folder, const char *id,
+static int write_motion_proof(const robot_in_room *in, const char *folder, size_t task,
                               const nsvcd_joint_motion *motion, size_t visits) {
   const nsvcd_scene *scene = &in->scene;
+  const robot_file *file = in->file;
+  const char *id = file->tasks[task].id;
   char path[4096];
   const double start = seconds();
   snprintf(path, sizeof path, "%s/%s.cert", folder, id);
@@ -220,28 +333,25 @@ static int write_motion_proof(const robot_in_room *in, const char *folder, const
     remove(path);
     return complain("%s: not written: no motion is certified", path);
   }
-  const size_t numbers = (motion->pieces * motion->degree + 1) * scene->joint_count;
   FILE *out = open_file(path, "wb");
   if (!out) return complain("%s: %s", path, strerror(errno));
+  cut_motion cut = cut_where_allowed(in, motion);
+  const nsvcd_joint_motion *m = &cut.motion;
+  const size_t numbers = (m->pieces * m->degree + 1) * scene->joint_count;
   fputs("NSVM", out);
-  put_bytes(out, motion->pieces, 4);
-  put_bytes(out, motion->degree, 4);
+  put_bytes(out, m->pieces, 4);
+  put_bytes(out, m->degree, 4);
   put_bytes(out, scene->joint_count, 4);
-  for (size_t p = 0; p <= motion->pieces; p++)
-    put_double(out, motion->times ? motion->times[p] : (double)p);
-  for (size_t k = 0; k < numbers; k++) put_double(out, motion->points[k]);
+  for (size_t p = 0; p <= m->pieces; p++) put_double(out, m->times[p]);
+  for (size_t k = 0; k < numbers; k++) put_double(out, m->points[k]);
+  for (size_t k = 0; k < file->change_count; k++)
+    if (file->changes[k].task == task) put_pose(out, &file->changes[k].pose);
   put_bytes(out, scene->pair_count, 4);
   int good = 1;
-  for (size_t n = 0; n < scene->pair_count && good; n++) {
-    nsvcd_certificate made;
-    uint8_t *bytes = NULL;
-    good = make_pair_proof(in, id, motion, n, visits, &bytes, &made);
-    if (good) {
-      put_bytes(out, made.size, 4);
-      fwrite(bytes, 1, made.size, out);
-    }
-    free(bytes);
-  }
+  for (size_t n = 0; n < scene->pair_count && good; n++)
+    good = write_pair_proof(in, id, motion, m, n, visits, out);
+  free(cut.points);
+  free(cut.times);
   const long size = ftell(out);
   const int is_proven = good;
   good = close_written(out, path) && good;

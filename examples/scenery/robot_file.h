@@ -70,7 +70,8 @@ typedef struct robot_task {
 // What a robot takes, or lets go of, before a task.
 typedef struct robot_change {
   size_t task, line, thing;
-  uint32_t link;  // 0: it rests
+  uint32_t link;    // 0: it rests
+  nsvcd_pose pose;  // where it stood, in that link: once the task's start is known
 } robot_change;
 
 // Two things that may touch near the start and the goals, from a task on.

@@ -243,13 +243,9 @@ static int tell_plan(const robot_in_room *in, const robot_task *task, const sett
   if (is_found && out) write_samples(task, answer, in->file->joint_count, options->samples, out);
   if (is_found && options->picture) good = robot_draw(options->picture, 0, in, task->id, m);
   if (is_found && options->film) good &= robot_draw(options->film, 1, in, task->id, m);
-  if (options->certificates && has_steps_above(in->file, task))
-    good = complain(
-        "%s:%zu: %s: no certificate: 'verify' does not know what may touch, or is attached",
-        in->file->path, task->line, task->id);
-  else if (options->certificates)
-    good &= write_motion_proof(in, options->certificates, task->id, is_found ? m : NULL,
-                               options->visits);
+  if (options->certificates)
+    good &= write_motion_proof(in, options->certificates, (size_t)(task - in->file->tasks),
+                               is_found ? m : NULL, options->visits);
   return good;
 }
 

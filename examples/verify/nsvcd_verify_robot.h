@@ -185,6 +185,42 @@ static inline uint32_t nsvcd_verify_common(const nsvcd_verify_motion *m, uint32_
   return a;
 }
 
+// No point of a mesh that is in a triangle is farther from its origin.
+static inline double nsvcd_verify_radius(const nsvcd_verify_mesh *mesh) {
+  double most = 0;
+  for (size_t i = 0; i < 3 * mesh->triangles; i++) {
+    const float *x = verify__corner(mesh, i / 3, i % 3);
+    most = verify__max(most, verify__offset(x));
+  }
+  return most;
+}
+
+// Is no point of a part, none of which is farther than a radius from its origin, farther than
+// `metres` from where it is where piece `there` begins, as the base sees it, in all pieces from
+// `from` to before `to`? there: from or to. All values lie within the points of their curves. Along
+// the straight way from those there, which lies within them too, a point moves by no more than the
+// sum of each joint's way times L_j, as above. That is off by a few roundings for each joint: less
+// than 1e-12 of it.
+static inline int nsvcd_verify_stays(const nsvcd_verify_part *part, double radius, size_t from,
+                                     size_t to, size_t there, double metres) {
+  const nsvcd_verify_motion *m = part->motion;
+  double reach = verify__offset(part->pose) + radius;
+  double moved = 0;
+  for (uint32_t link = part->link; link != part->base; link = m->joints[link - 1].parent) {
+    const nsvcd_verify_joint *joint = &m->joints[link - 1];
+    const double *values = m->points + link - 1;
+    double most = 0, way = 0;
+    for (size_t i = from * m->degree; i <= to * m->degree; i++) {
+      const double value = values[i * m->joint_count];
+      most = verify__max(most, fabs(value));
+      way = verify__max(way, fabs(value - values[there * m->degree * m->joint_count]));
+    }
+    moved += joint->slides ? way : way * reach;
+    reach += verify__offset(joint->origin) + (joint->slides ? most : 0);
+  }
+  return moved * (1 + 1e-12) <= metres;
+}
+
 static inline int verify__is_pose(const float *pose) {
   double square = 0;
   for (int i = 0; i < 7; i++) {
