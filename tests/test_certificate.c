@@ -626,6 +626,52 @@ static void certificates_know_joints(void) {
   CHECK_GE(tightest, 0.5);
 }
 
+// What may move within a part's bound does so at all times, seen from the world and from links that
+// carry it; of points as far from the part's origin as is said.
+static void certificates_know_what_stays(void) {
+  static robot r;
+  shapes_rng rng = {16};
+  double tightest = 0;
+  for (int trial = 0; trial < 1500; trial++) {
+    cert_motion m;
+    nsvcd_verify_part part;
+    nsvcd_verify_place was, is;
+    robot_random(&r, &rng);
+    cert_random_motion(&r, &rng, trial % 2 ? 0.5 : 0.05, &m);
+    const size_t n = (size_t)shapes_pick(&rng, (int)r.scene.part_count);
+    uint32_t base = r.parts[n].link;
+    for (int up = shapes_pick(&rng, 4); up >= 0 && base > 0; up--) base = r.joints[base - 1].parent;
+    cert_part(&r, &m, n, base, &part);
+    const size_t from = (size_t)shapes_pick(&rng, (int)m.motion.pieces);
+    const size_t to = from + 1 + (size_t)shapes_pick(&rng, (int)(m.motion.pieces - from));
+    const size_t there = trial % 3 ? from : to;
+    const double whole = m.times[m.motion.pieces] - m.times[0];
+    const double ends[2] = {(m.times[from] - m.times[0]) / whole,
+                            (m.times[to] - m.times[0]) / whole};
+    const double radius = trial % 5 ? shapes_uniform(&rng, 0, 0.5) : 0;
+    double moved = 0;
+    verify__part_place(&part, ends[there == to], &was);
+    for (int k = 0; k <= 40; k++) {
+      double x[3], off[3];
+      verify__part_place(&part, ends[0] + (ends[1] - ends[0]) * k / 40, &is);
+      shapes_direction(&rng, x);
+      for (int i = 0; i < 3; i++) {
+        off[i] = is.at[i] - was.at[i];
+        for (int j = 0; j < 3; j++)
+          off[i] += radius * x[j] * (is.turn[3 * i + j] - was.turn[3 * i + j]);
+      }
+      moved = fmax(moved, oracle_length(off));
+    }
+    // more than it moves it is said to stay within, and not much more, where it is one joint that moves
+    if (moved > 1e-9)
+      CHECK(!nsvcd_verify_stays(&part, radius, from, to, there, moved * (1 - 1e-9)));
+    CHECK(nsvcd_verify_stays(&part, radius, from, to, there, 1e9));
+    for (double f = 1; f > tightest; f *= 0.98)
+      if (nsvcd_verify_stays(&part, radius, from, to, there, moved / f)) tightest = f;
+  }
+  CHECK_GE(tightest, 0.9);
+}
+
 // Trees of the robots' shapes, as cert_bodies has them.
 static cert_body *cert_robot_shapes(void) {
   static cert_body made[SHAPES];
@@ -1120,6 +1166,7 @@ void test_certificate(void) {
   RUN(certificates_refuse);
   RUN(certificates_know_paths);
   RUN(certificates_know_joints);
+  RUN(certificates_know_what_stays);
   RUN(certificates_of_robots);
   RUN(certificates_of_levels);
   RUN(certificates_of_what_is_fine_over_a_floor);

@@ -18,7 +18,7 @@ typedef struct robot_body {
 // A line `clearance`: of two bodies, or, if both are EACH, of each pair with an obstacle.
 #define EACH 0xffffffffu
 typedef struct distance {
-  uint32_t a, b;
+  uint32_t pair[2];
   float metres;
 } distance;
 
@@ -48,6 +48,11 @@ typedef struct robot {
   list distances;  // those above the first scene, then the scene's
   list allows;     // so, too
 } robot;
+
+// Is a pair of bodies this one, in either order?
+static int is_of(const uint32_t *pair, const uint32_t *who) {
+  return (pair[0] == who[0] && pair[1] == who[1]) || (pair[0] == who[1] && pair[1] == who[0]);
+}
 
 static uint32_t link_named(const robot *r, const char *name) {
   if (strcmp(name, "world") == 0) return 0;
@@ -278,11 +283,8 @@ static const char *take_changes(const step *s, const nsvcd_verify_motion *m, con
 static double may_touch(const robot *r, const uint32_t *who) {
   const allowed *allows = (const allowed *)r->allows.items;
   double metres = -1;
-  for (size_t k = 0; k < r->allows.count; k++) {
-    const uint32_t *pair = allows[k].pair;
-    if ((pair[0] == who[0] && pair[1] == who[1]) || (pair[0] == who[1] && pair[1] == who[0]))
-      metres = verify__max(metres, allows[k].metres);
-  }
+  for (size_t k = 0; k < r->allows.count; k++)
+    if (is_of(allows[k].pair, who)) metres = verify__max(metres, allows[k].metres);
   return metres;
 }
 
@@ -350,10 +352,6 @@ static const char *check_pair(const robot *r, const nsvcd_verify_motion *m, size
   return report.kind == NSVCD_VERIFY_FREE ? NULL : "a pair is not proven free";
 }
 
-static int is_pair(const distance *d, const uint32_t *pair) {
-  return (d->a == pair[0] && d->b == pair[1]) || (d->a == pair[1] && d->b == pair[0]);
-}
-
 // Adds each body with each obstacle that is on another link; then, what each pair keeps: one with an
 // obstacle what is asked for, or what the file says of all, if that is more. What it says of two
 // bodies comes before both.
@@ -370,12 +368,12 @@ static void pair_up(robot *r, float asked) {
     }
   }
   for (size_t k = 0; k < r->distances.count; k++)
-    if (distances[k].a == EACH) all = distances[k].metres;
+    if (distances[k].pair[0] == EACH) all = distances[k].metres;
   r->kept.count = 0;
   for (size_t n = 0; n < r->pairs.count / 2; n++) {
     double metres = 2 * n < r->own_pairs ? 0 : all > asked ? (double)all : (double)asked;
     for (size_t k = 0; k < r->distances.count; k++)
-      if (is_pair(&distances[k], (const uint32_t *)r->pairs.items + 2 * n))
+      if (is_of(distances[k].pair, (const uint32_t *)r->pairs.items + 2 * n))
         metres = (double)distances[k].metres;
     add_float(&r->kept, metres);
   }
@@ -437,17 +435,17 @@ static int check_plan(step *s) {
 
 // clearance NAME NAME METRES, or clearance obstacles METRES
 static void add_distance(robot *r, char *const *words, size_t count) {
-  distance d = {EACH, EACH, (float)number_of(r->path, words[count - 1])};
+  distance d = {{EACH, EACH}, (float)number_of(r->path, words[count - 1])};
   if (d.metres < 0) fail(r->path, "a clearance is negative");
   if (count == 4) {
     const robot_body *bodies = (const robot_body *)r->bodies.items;
     const uint32_t names[2] = {body_named(r, words[1]), body_named(r, words[2])};
     const int is_first_own = names[0] < r->own;
-    d.a = names[!is_first_own];
-    d.b = names[is_first_own];
-    int found = d.a < r->own && d.b >= r->own && bodies[d.a].link > 0;
+    d.pair[0] = names[!is_first_own];
+    d.pair[1] = names[is_first_own];
+    int found = d.pair[0] < r->own && d.pair[1] >= r->own && bodies[d.pair[0]].link > 0;
     for (size_t k = 0; k + 1 < r->pairs.count; k += 2)
-      found |= is_pair(&d, (const uint32_t *)r->pairs.items + k);
+      found |= is_of(d.pair, (const uint32_t *)r->pairs.items + k);
     if (!found) fail(r->path, "a clearance of two bodies that are no pair");
   } else if (strcmp(words[1], "obstacles") != 0) {
     fail(r->path, "a clearance of one body");

@@ -1,0 +1,248 @@
+"""Tries to pass off certificates of examples/robot/pick.txt, where things are attached and may touch, for what they are not.
+
+    python3 tests/forge.py    # from the repository's root; needs build/svcd, and build/verify or, named by VERIFY, another one
+"""
+
+import math
+import os
+import random
+import re
+import struct
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass, field
+from pathlib import Path
+
+FILE = Path("examples/robot/pick.txt").read_text()
+PLANS = ("reach", "grip", "carry", "open", "away")
+CUP_AND_JAW, CUP_AND_TABLE = (2, 5), (3, 5)  # parts, as the file has them: those that may touch
+VERIFY = os.environ.get("VERIFY", "build/verify")
+FAR = "two are farther from where they may touch than is allowed"
+STANDS = "what is attached, or released, does not stand where it stood"
+
+
+@dataclass
+class Proof:
+    """The bytes of a certificate, taken apart."""
+
+    pieces: int = 0
+    degree: int = 0
+    joints: int = 0
+    times: list[float] = field(default_factory=list)
+    points: list[float] = field(default_factory=list)
+    poses: list[list[float]] = field(default_factory=list)
+    pairs: list[tuple[tuple[int, int] | None, bytes]] = field(default_factory=list)
+    rest: bytes = b""
+
+    def bytes(self) -> bytes:
+        out = b"NSVM" + struct.pack("<3I", self.pieces, self.degree, self.joints)
+        out += struct.pack(f"<{len(self.times)}d{len(self.points)}d", *self.times, *self.points)
+        for pose in self.poses:
+            out += struct.pack("<7f", *pose)
+        out += struct.pack("<I", len(self.pairs))
+        for pieces, proof in self.pairs:
+            out += (struct.pack("<2I", *pieces) if pieces else b"") + struct.pack("<I", len(proof)) + proof
+        return out + self.rest
+
+
+def pairs_of(plan: str) -> list[tuple[int, int]]:
+    """Palm, right_jaw, left_jaw, table, rack, cup; in `carry` the cup is on the palm's link."""
+    links = [1, 1, 2, 0, 0, 1 if plan == "carry" else 0]
+    return [(a, b) for a in range(6) for b in range(max(a + 1, 3), 6) if links[a] != links[b]]
+
+
+def parse(data: bytes, plan: str) -> Proof:
+    p, at = Proof(), 16
+    p.pieces, p.degree, p.joints = struct.unpack_from("<3I", data, 4)
+
+    def take(kind: str) -> list[float]:
+        nonlocal at
+        out = list(struct.unpack_from("<" + kind, data, at))
+        at += struct.calcsize("<" + kind)
+        return out
+
+    p.times = take(f"{p.pieces + 1}d")
+    p.points = take(f"{(p.pieces * p.degree + 1) * p.joints}d")
+    p.poses = [take("7f") for _ in range(plan in ("carry", "open"))]
+    (count,) = struct.unpack_from("<I", data, at)
+    at += 4
+    for pair in pairs_of(plan)[:count]:
+        pieces = None
+        if pair in (CUP_AND_JAW, CUP_AND_TABLE):
+            pieces = struct.unpack_from("<2I", data, at)
+            at += 8
+        (size,) = struct.unpack_from("<I", data, at)
+        p.pairs.append((pieces, data[at + 4 : at + 4 + size]))
+        at += 4 + size
+    p.rest = data[at:]
+    return p
+
+
+class Forger:
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.tried = 0
+        self.failed = 0
+        self.good = self.made(FILE)
+
+    def made(self, text: str) -> dict[str, bytes]:
+        """The certificates that svcd makes of a planning file."""
+        (self.folder / "made.txt").write_text(text)
+        subprocess.run(["build/svcd", "plan", self.folder / "made.txt", "--certificates", self.folder], check=True, capture_output=True)
+        return {plan: (self.folder / f"{plan}.cert").read_bytes() for plan in PLANS}
+
+    def said(self, text: str, proofs: dict[str, bytes], *options: str) -> dict[str, str]:
+        """What is said of each plan: accepted, or why not."""
+        (self.folder / "asked.txt").write_text(text)
+        for plan in PLANS:
+            (self.folder / f"{plan}.cert").unlink(missing_ok=True)
+            if plan in proofs:
+                (self.folder / f"{plan}.cert").write_bytes(proofs[plan])
+        run = subprocess.run([VERIFY, self.folder / "asked.txt", self.folder, *options], capture_output=True, text=True, check=False)
+        if run.returncode not in (0, 1):
+            return {plan: f"exit status {run.returncode}: {run.stderr}" for plan in PLANS}
+        lines = [line.split("\t") for line in run.stdout.splitlines()]
+        return {line[0]: line[1] if line[1] == "accepted" else line[2] for line in lines}
+
+    def expect(self, what: str, said: dict[str, str], **wanted: str) -> None:
+        self.tried += 1
+        for plan, text in wanted.items():
+            if not re.match(text, said.get(plan, "nothing")):
+                print(f"FAILED {what}: {plan}: {said.get(plan)}, not {text}")
+                self.failed += 1
+
+    def forged(self, what: str, plan: str, proof: Proof | bytes, text: str) -> None:
+        data = proof.bytes() if isinstance(proof, Proof) else proof
+        self.expect(what, self.said(FILE, {**self.good, plan: data}), **{plan: text})
+
+
+def is_near(p: Proof, first: int, last: int, there: int, pair: tuple[int, int], metres: float) -> bool:
+    """May a pair touch in these pieces? By the joints' own values, at many times, and a lever of its own."""
+    for piece in range(first, last):
+        for k in range(9):
+            rows = [p.points[(piece * p.degree + i) * p.joints : (piece * p.degree + i + 1) * p.joints] for i in range(p.degree + 1)]
+            while len(rows) > 1:
+                rows = [[x + (y - x) * k / 8 for x, y in zip(a, b)] for a, b in zip(rows, rows[1:])]
+            off = [abs(x - y) for x, y in zip(rows[0], p.points[there * p.degree * p.joints :])]
+            # the jaw slides on what carries the cup; the cup is round, and turns about its middle, in which the table sees it
+            moved = off[4] if p.poses and pair == CUP_AND_JAW else math.hypot(*off[:3]) + (off[4] if pair == CUP_AND_JAW else 0)
+            if moved > metres * 1.000001:
+                return False
+    return True
+
+
+def of_claims(f: Forger) -> None:
+    """Pieces in which two may touch, and poses of what is attached."""
+    for plan in PLANS:
+        proof = parse(f.good[plan], plan)
+        if proof.bytes() != f.good[plan] or proof.rest:
+            raise SystemExit(f"{plan}: it is not taken apart rightly")
+        for n, (pieces, data) in enumerate(proof.pairs):
+            if not pieces or pieces[0] == pieces[1]:
+                continue
+            until, since = pieces
+            for claim in ((until + 1, since), (until, since - 1), (proof.pieces, proof.pieces), (0, 0)):
+                changed = parse(f.good[plan], plan)
+                changed.pairs[n] = claim, b"" if claim[0] == claim[1] else data
+                f.forged(f"{plan}: pair {n} may touch but from {claim[0]} to {claim[1]}", plan, changed, FAR)
+            changed = parse(f.good[plan], plan)
+            changed.pairs[n] = (since, until) if since > until else (until, proof.pieces + 1), data
+            f.forged(f"{plan}: pair {n} from {since} back to {until}", plan, changed, "two may touch in pieces that are none")
+            changed.pairs[n] = (until, since), b""
+            f.forged(f"{plan}: pair {n} without a proof", plan, changed, "it is|it ends")
+        for k in range(7 * len(proof.poses)):
+            for off in (2e-6, -2e-6, math.nan, math.inf):
+                changed = parse(f.good[plan], plan)
+                changed.poses[0][k] += off
+                # a longer quaternion turns as far, but is another one
+                text = STANDS + ("|it is about another motion" if k == 6 else "")
+                f.forged(f"{plan}: a pose {off} off in {k}", plan, changed, text if math.isfinite(off) else "what is attached is at no pose")
+    touching = parse(f.good["carry"], "carry")
+    n = pairs_of("carry").index(CUP_AND_JAW)
+    touching.pairs[n] = touching.pairs[n][0], b"\x00"
+    f.forged("a proof where none is due", "carry", touching, "a pair that may touch all the time has a proof")
+    longer = f.made(re.sub("^allow cup table", r"\g<0> 0.5", FILE, flags=re.MULTILINE))
+    f.expect("more metres than the file has", f.said(FILE, longer), carry=FAR, open=FAR + "|it begins|what was")
+    f.expect("... and a file that has them", f.said(FILE.replace("cup table", "cup table 0.5"), longer), carry="accepted", away="accepted")
+
+
+def of_sequences(f: Forger) -> None:
+    """Other planning files than that of which the certificates are."""
+    lost = "what was attached or released above is not known|it begins where no plan above is accepted"
+    none = "it begins where no plan above is accepted"
+    moved = "its motion has another start or goal"
+    other = {
+        "another joint": (("attach cup turn", "attach cup z"), {"grip": "accepted", "carry": STANDS + "|it is about", "open": lost}),
+        "the jaw": (("attach cup turn", "attach cup jaw"), {"grip": "accepted", "carry": STANDS, "open": lost}),
+        "another cup": (("-0.3 0.1 0.05", "-0.3 0.10001 0.05"), {"grip": "(?!accepted)", "carry": lost, "away": none}),
+        "nothing attached": (("attach cup turn\n", ""), {"carry": "(?!accepted)"}),
+        "nothing released": (("release cup\n", ""), {"carry": "accepted", "open": "(?!accepted)", "away": none}),
+        "attached before": (("plan grip", "attach cup turn\nplan grip"), {"grip": "(?!accepted)", "carry": lost}),
+        "another start": (("kitchen  0.3 0 0", "kitchen  0.3 0 0.001"), {"reach": moved, "grip": "accepted", "away": "accepted"}),
+        "another goal": (("goal carry pose 0.3", "goal carry pose 0.30001"), {"carry": moved, "open": lost, "away": none}),
+        "no plan above": ((re.search("plan grip.*\n", FILE)[0], ""), {"reach": "accepted", "carry": moved, "open": lost}),  # type: ignore[index]
+        "nothing allowed": (("allow cup table\n", ""), {"grip": "accepted", "carry": "(?!accepted)", "open": lost}),
+        "less allowed": (("cup table\n", "cup table 0.001\n"), {"carry": FAR, "open": lost}),
+        "allowed late": (("allow cup left_jaw\n", ""), {"grip": "(?!accepted)", "carry": lost}),
+        "a path above": (("plan carry", "path p kitchen 1\n-0.3 0.1 -0.515 0 -0.0007\nplan carry"), {"grip": "accepted", "carry": lost}),
+        "the palm": (("attach cup", "attach palm"), {plan: "exit status 2" for plan in PLANS}),
+    }
+    for what, ((old, new), wanted) in other.items():
+        if FILE.count(old) != 1:
+            raise SystemExit(f"{what}: {old} is there {FILE.count(old)} times")
+        f.expect(what, f.said(FILE.replace(old, new), f.good), **wanted)
+    for n, plan in enumerate(PLANS):
+        rest = {one: data for one, data in f.good.items() if one != plan}
+        wanted = {one: lost for one in PLANS[max(n + 1, 2) :]}
+        f.expect(f"no certificate of {plan}", f.said(FILE, rest), **(wanted if plan != "reach" else {"grip": "accepted", "away": "accepted"}))
+    f.expect("one alone", f.said(FILE, f.good, "--only", "carry"), carry=none)
+    f.expect("one with those above", f.said(FILE, f.good, "--only", "grip,carry"), carry="accepted")
+    twice = FILE.replace("release cup\n", "release cup\nattach cup jaw\nrelease cup\n")
+    f.expect("taken and released at once", f.said(twice, f.made(twice)), **{plan: "accepted" for plan in PLANS})
+
+
+def of_bytes(f: Forger, count: int) -> None:
+    """Bytes at random: what is accepted of them moves as before, and claims what is so."""
+    rng = random.Random(1)
+    accepted = 0
+    for n in range(count):
+        plan = rng.choice(PLANS)
+        data = bytearray(f.good[plan])
+        for _ in range(rng.choice((1, 1, 2, 4))):
+            at = rng.randrange(len(data))
+            if rng.random() < 0.7:
+                data[at] ^= 1 << rng.randrange(8)
+            elif rng.random() < 0.5:
+                data[at] = rng.choice((0, 1, 127, 128, 255))
+            else:
+                del data[at : at + rng.randrange(1, 9)]
+        said = f.said(FILE, {**f.good, plan: bytes(data)}).get(plan, "nothing")
+        f.expect(f"{n}: bytes of {plan}", {plan: said}, **{plan: "(?!exit|nothing)"})
+        if said != "accepted":
+            continue
+        accepted += 1
+        was, now = parse(f.good[plan], plan), parse(bytes(data), plan)
+        same = (was.points, was.times, len(was.pairs)) == (now.points, now.times, len(now.pairs))
+        for pair, (pieces, _) in zip(pairs_of(plan), now.pairs):
+            if pieces:
+                same = same and is_near(now, 0, pieces[0], 0, pair, 0.005) and is_near(now, pieces[1], now.pieces, now.pieces, pair, 0.005)
+        for a, b in zip(was.poses, now.poses):
+            same = same and max(abs(x - y) for x, y in zip(a, b)) < 3e-7
+        f.expect(f"{n}: accepted bytes of {plan}", {plan: str(same)}, **{plan: "True"})
+    print(f"{count} changes of bytes, {accepted} of which leave a proof")
+
+
+def main() -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        f = Forger(Path(folder))
+        f.expect("as they are", f.said(FILE, f.good), **{plan: "accepted" for plan in PLANS})
+        of_claims(f)
+        of_sequences(f)
+        of_bytes(f, int(os.environ.get("TEST_MANY", "1")) * 300)
+        print(f"{f.tried} attempts, {f.failed} of which are not refused as they should be")
+        sys.exit(f.failed > 0)
+
+
+if __name__ == "__main__":
+    main()
