@@ -198,6 +198,9 @@ def of_sequences(f: Forger) -> None:
         f.expect(f"no certificate of {plan}", f.said(FILE, rest), **(wanted if plan != "reach" else {"grip": "accepted", "away": "accepted"}))
     f.expect("one alone", f.said(FILE, f.good, "--only", "carry"), carry=none)
     f.expect("one with those above", f.said(FILE, f.good, "--only", "grip,carry"), carry="accepted")
+    own = FILE.replace("plan away kitchen", "plan away kitchen 0.3 -0.2 -0.515 0 0.02")
+    f.expect("its own start, and lost things", f.said(own, {"away": f.good["away"]}), away="what was attached or released above")
+    f.expect("... that are not lost", f.said(own, f.good), away="accepted")
     twice = FILE.replace("release cup\n", "release cup\nattach cup jaw\nrelease cup\n")
     f.expect("taken and released at once", f.said(twice, f.made(twice)), **{plan: "accepted" for plan in PLANS})
 

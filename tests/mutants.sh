@@ -437,7 +437,7 @@ allowances: no size in an arm|double reach = nsvcd__d3_norm(m->frame.position) +
 allowances: a curve by its ends|for (size_t i = 0; i <= m->degree; i++) { low[j]|for (size_t i = 0; i <= m->degree; i += m->degree ? m->degree : 1) { low[j]
 allowances: of any pair|if (allowance->pair == pair \&\& nsvcd__allows_from_to|if (nsvcd__allows_from_to
 allowances: one part alone|for (size_t n = 0; n < 2; n++) { const nsvcd__member *m = \&c->members[parts[n]];|for (size_t n = 0; n < 1; n++) { const nsvcd__member *m = \&c->members[parts[n]];
-allowances: no end|c->cuts[2 * n + 1] = nsvcd__allowed_until(c, \&c->scene->allowances[n], m, t1, t0);|c->cuts[2 * n + 1] = t1;
+allowances: no end|c->cuts[2 * n + 1] = nsvcd__allowed_up_to(c, \&c->scene->allowances[n], m, t1, t0);|c->cuts[2 * n + 1] = t1;
 allowances: looks that see all|return nsvcd__look_not_allowed(k, pair, met) != 0;|return met != 0;
 many_joints: held ones that are drawn|out[r->moving[k]] = nsvcd__draw_joint(r, r->moving[k], is_wide);|out[r->moving[k]] = nsvcd__draw_joint(r, r->moving[k], is_wide);\n  for (size_t j = 0; j < joints; j++) out[j] = nsvcd__draw_joint(r, j, is_wide);
 many_joints: held ones that move alone|if (!problem->held \|\| !problem->held[j]) r->moving|r->moving

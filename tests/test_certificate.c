@@ -632,6 +632,15 @@ static void certificates_know_what_stays(void) {
   static robot r;
   shapes_rng rng = {16};
   double tightest = 0;
+  for (int k = 0; k < 3; k++) {  // the farthest corner, whichever it is
+    const uint32_t corners[3] = {0, 1, 2};
+    float at[9] = {0.1f, 0, 0, 0, 0.1f, 0, 0, 0, 0.1f};
+    uint32_t memory[NSVCD_VERIFY_MESH_BYTES(3, 1) / 4 + 1];
+    nsvcd_verify_mesh mesh;
+    at[4 * k] = -2;
+    CHECK(!nsvcd_verify_mesh_init(at, 3, corners, 1, memory, &mesh));
+    CHECK_NEAR(nsvcd_verify_radius(&mesh), 2, 1e-12);
+  }
   for (int trial = 0; trial < 1500; trial++) {
     cert_motion m;
     nsvcd_verify_part part;

@@ -247,7 +247,7 @@ static int goes(const step *s, const nsvcd_verify_motion *m) {
 
 // Attaches and releases what the lines above a plan say, where the motion begins. A certificate has
 // the pose, in floats, of each: it is the one at which the thing stands as it stood, up to their
-// rounding, which is 6e-8 of each number, and 2.4e-7 of a turn's matrix.
+// rounding, by 6e-8 of each number, so by 1.2e-7 in a turn's matrix.
 static const char *take_changes(const step *s, const nsvcd_verify_motion *m, const uint8_t *bytes,
                                 size_t size, size_t *at) {
   robot *r = s->r;

@@ -304,7 +304,7 @@ NSVCDDEF nsvcd_result nsvcd_allowed_until(const nsvcd_checker *c,
   if (!result) result = nsvcd__motion_check(&m, c->scene->joint_count);
   if (result) return result;
   const double ends[2] = {nsvcd__piece_start(&m, 0), nsvcd__piece_start(&m, m.pieces)};
-  *time = nsvcd__allowed_until(c, allowance, &m, ends[back != 0], ends[back == 0]);
+  *time = nsvcd__allowed_up_to(c, allowance, &m, ends[back != 0], ends[back == 0]);
   return NSVCD_OK;
 }
 
