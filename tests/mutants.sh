@@ -387,8 +387,8 @@ plans: proofs where none are due|if (rest.pieces == 0) return length ?|if (rest.
 plans: things that stand elsewhere|if (!(sqrt(off) <= 1e-9 + 1e-7 * verify__offset(part.pose) \&\& turned <= 3e-7))|if (!(turned <= 3e-7))
 plans: things that are turned|\&\& turned <= 3e-7))|))
 plans: things at no pose|if (!verify__is_pose(body->pose)) return|if (0) return
-plans: things on the world|body->link = attaches ? link_named(r, line->words[2]) : 0;|body->link = attaches ? 1 : 0;
-plans: bodies of the robot are taken|if (number < r->own) fail(|if (0) fail(
+plans: things on the world|body->link = line->link;|body->link = line->link > 0;
+plans: bodies of the robot are taken|if (moves \&\& line->thing < r.own) fail(|if (0) fail(
 plans: things that are lost|s.is_lost \|= s.change_count > 0 \&\& !s.has_ended;|
 plans: ends of what is refused|s.has_ended = wanted \&\& check_plan(\&s);|s.has_ended = wanted \&\& (check_plan(\&s) \|\| 1);
 plans: changes of all plans above|s.changes = line + 1;|

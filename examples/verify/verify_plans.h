@@ -146,7 +146,8 @@ static double take_double(const uint8_t *bytes, size_t size, size_t *at) {
 typedef struct plan_line {
   char *words[MOST_WORDS];
   size_t count;
-  const group *of;  // of a plan; NULL: all joints may move
+  const group *of;       // of a plan; NULL: all joints may move
+  uint32_t thing, link;  // of `attach` and `release`: a body, and what it is on from now on
 } plan_line;
 
 static int is_line(const plan_line *line, const char *word) {
@@ -252,17 +253,14 @@ static const char *take_changes(const step *s, const nsvcd_verify_motion *m, con
                                 size_t size, size_t *at) {
   robot *r = s->r;
   for (const plan_line *line = s->changes; line < s->plan; line++) {
-    const int attaches = is_line(line, "attach");
-    if (!attaches && !is_line(line, "release")) continue;
-    const uint32_t number = body_named(r, line->words[1]);
-    if (number < r->own) fail(r->path, "no obstacle is attached");
-    robot_body *body = (robot_body *)r->bodies.items + number;
+    if (!is_line(line, "attach") && !is_line(line, "release")) continue;
+    robot_body *body = (robot_body *)r->bodies.items + line->thing;
     nsvcd_verify_part part = {m, body->link, 0, {0}};
     nsvcd_verify_place was, is;
     double off = 0, turned = 0;
     memcpy(part.pose, body->pose, sizeof part.pose);
     verify__part_place(&part, 0, &was);
-    body->link = attaches ? link_named(r, line->words[2]) : 0;
+    body->link = line->link;
     for (int k = 0; k < 7; k++) {
       const uint32_t bits = (uint32_t)take(bytes, size, at, 4);
       memcpy(&body->pose[k], &bits, sizeof bits);
@@ -583,6 +581,11 @@ static int check_plans(const char *path, char *text, request *asked) {
       memcpy(line->words, words, sizeof line->words);
       line->of = group_of(&r, words, n);
       line->count = n - (line->of ? 2 : 0);
+      const int attaches = is_line(line, "attach");
+      const int moves = attaches || is_line(line, "release");
+      line->thing = moves ? body_named(&r, words[1]) : 0;
+      line->link = attaches ? link_named(&r, words[2]) : 0;
+      if (moves && line->thing < r.own) fail(path, "no obstacle is attached");
       has_tasks |= !is_step(words, n, scene);
       if (is_path || is_curve) {
         for (size_t k = strtoul(words[is_path ? 3 : 4], NULL, 10); k > 0; k--)
