@@ -255,11 +255,9 @@ static cut_motion cut_where_allowed(const robot_in_room *in, const nsvcd_joint_m
   return out;
 }
 
-// Makes the certificate of a pair; *bytes is to be freed. Returns 0 after a complaint, also if there
-// can be none.
-static int make_pair_proof(const robot_in_room *in, const char *id,
-                           const nsvcd_joint_motion *motion, size_t pair, size_t visits,
-                           uint8_t **bytes, nsvcd_certificate *made) {
+// Tries to make the certificate of a pair; *bytes is to be freed. Returns 0 after a complaint.
+static int try_pair_proof(const robot_in_room *in, const char *id, const nsvcd_joint_motion *motion,
+                          size_t pair, size_t visits, uint8_t **bytes, nsvcd_certificate *made) {
   const nsvcd_certify_options options = {NULL, visits};
   const nsvcd_body_pair *parts = &in->scene.pairs[pair];
   const proof_mesh *a = tree_of_part(in, parts->a);
@@ -278,7 +276,15 @@ static int make_pair_proof(const robot_in_room *in, const char *id,
                                 b->tree, &options, workspace, size, *bytes, room, made);
   } while (!result && made->size > room);
   free(workspace);
-  if (result) return complain("%s: %s", id, reason_of(result));
+  return result ? complain("%s: %s", id, reason_of(result)) : 1;
+}
+
+// Makes it; 0 also if there can be none.
+static int make_pair_proof(const robot_in_room *in, const char *id,
+                           const nsvcd_joint_motion *motion, size_t pair, size_t visits,
+                           uint8_t **bytes, nsvcd_certificate *made) {
+  const nsvcd_body_pair *parts = &in->scene.pairs[pair];
+  if (!try_pair_proof(in, id, motion, pair, visits, bytes, made)) return 0;
   if (made->verdict == NSVCD_FREE) return 1;
   return complain("%s: no certificate for %s and %s: %s%s", id, robot_name(in, parts->a),
                   robot_name(in, parts->b), nsvcd_verdict_string(made->verdict),
@@ -360,6 +366,111 @@ static int write_motion_proof(const robot_in_room *in, const char *folder, size_
   if (good)
     fprintf(stderr, PROGRAM ": %s: certificates of %zu pairs, %ld bytes, in %.0f ms\n", path,
             scene->pair_count, size, 1e3 * (seconds() - start));
+  return good;
+}
+
+// ---- of two bodies that never meet
+
+#define NEVER_BOXES 100000  // that are tried
+#define NEVER_DEPTH 128     // of cuts
+#define NEVER_VISITS 20000  // for each box, unless --visits says otherwise
+#define NEVER_SWEPT 0.25    // the share of the joint that is swept along, when a box is cut
+#define NEVER_TRAVEL 2e-5   // metres: a box in which points move by less is not cut
+
+// Writes the proof of a box (2, joints) of values, of a pair of the scene, if there is one. *cut: else,
+// the joint to cut it along; NSVCD_NONE: none is left. Returns 0 after a complaint.
+static int write_box(const robot_in_room *in, const char *id, const double *box, size_t pair,
+                     size_t visits, size_t *cut, FILE *out) {
+  const size_t joints = in->scene.joint_count;
+  double moved[NSVCD_MAX_JOINTS], points[2 * NSVCD_MAX_JOINTS];
+  const nsvcd_joint_motion sweep = {1, 1, points, NULL};
+  nsvcd_certificate made;
+  uint8_t *bytes = NULL;
+  size_t swept = 0;
+  double travel = 0;
+  const nsvcd_result result =
+      nsvcd_pair_travel(in->checker, in->scene.pairs[pair], box, box + joints, moved);
+  if (result) return complain("%s: %s", id, reason_of(result));
+  for (size_t j = 0; j < joints; j++) {
+    points[j] = points[joints + j] = 0.5 * (box[j] + box[joints + j]);
+    if (moved[j] > moved[swept]) swept = j;
+    travel += moved[j];
+  }
+  points[swept] = box[swept];
+  points[joints + swept] = box[joints + swept];
+  const double others = travel - moved[swept];
+  const size_t most = visits || others <= NEVER_TRAVEL ? visits : NEVER_VISITS;
+  in->clearances[pair] = (float)(others * (1 + 1e-6));
+  if (!try_pair_proof(in, id, &sweep, pair, most, &bytes, &made)) {
+    free(bytes);
+    return 0;
+  }
+  const int is_free = made.verdict == NSVCD_FREE;
+  *cut = NSVCD_NONE;
+  moved[swept] *= NEVER_SWEPT;
+  for (size_t j = 0; j < joints && !is_free && others > NEVER_TRAVEL; j++)
+    if (moved[j] > (*cut == NSVCD_NONE ? 0 : moved[*cut])) *cut = j;
+  if (is_free || *cut != NSVCD_NONE) put_bytes(out, is_free ? swept : 128 + *cut, 1);
+  if (is_free) {
+    uint32_t bits;
+    memcpy(&bits, &in->clearances[pair], sizeof bits);
+    put_bytes(out, bits, 4);
+    put_bytes(out, made.size, 4);
+    fwrite(bytes, 1, made.size, out);
+  }
+  free(bytes);
+  *cut = is_free ? joints : *cut;
+  return 1;
+}
+
+// Writes FOLDER/A-B.cert, of a pair of the scene that never meets: boxes of values of the joints, cut
+// until each has a proof. Returns 0 after a complaint.
+static int write_never_proof(const robot_in_room *in, const char *folder, size_t pair,
+                             size_t visits) {
+  const size_t joints = in->scene.joint_count;
+  const char *names[2] = {robot_name(in, in->scene.pairs[pair].a),
+                          robot_name(in, in->scene.pairs[pair].b)};
+  char path[4096];
+  size_t height = 1;
+  size_t boxes = 0;
+  size_t cut = 0;
+  const double start = seconds();
+  snprintf(path, sizeof path, "%s/%s-%s.cert", folder, names[0], names[1]);
+  FILE *out = open_file(path, "wb");
+  if (!out) return complain("%s: %s", path, strerror(errno));
+  double *stack = (double *)allocate(NEVER_DEPTH * 2 * joints * sizeof *stack);
+  for (size_t j = 0; j < joints; j++) {
+    const nsvcd_joint *joint = &in->scene.joints[j];
+    const int is_endless = joint->kind == NSVCD_JOINT_CONTINUOUS;
+    stack[j] = is_endless ? 0 : joint->low;
+    stack[joints + j] = is_endless ? 6.28318530717960 : joint->high;
+  }
+  fputs("NSVN", out);
+  int good = 1;
+  while (height > 0 && good && cut != NSVCD_NONE) {
+    double *box = stack + (height - 1) * 2 * joints;
+    good = write_box(in, path, box, pair, visits, &cut, out);
+    if (++boxes == NEVER_BOXES || height == NEVER_DEPTH) cut = NSVCD_NONE;
+    if (!good || cut == NSVCD_NONE) break;
+    height--;
+    if (cut == joints) continue;
+    const double middle = 0.5 * (box[cut] + box[joints + cut]);
+    memcpy(box + 2 * joints, box, 2 * joints * sizeof *box);
+    box[cut] = box[3 * joints + cut] = middle;
+    height += 2;
+  }
+  free(stack);
+  const long size = ftell(out);
+  good = close_written(out, path) && good;
+  if (good && cut == NSVCD_NONE)
+    good = complain(
+        "%s: not written: too near, or more boxes than "
+        "are tried",
+        path);
+  if (!good) remove(path);
+  if (good)
+    fprintf(stderr, PROGRAM ": %s: %zu boxes, %ld bytes, in %.0f ms\n", path, boxes, size,
+            1e3 * (seconds() - start));
   return good;
 }
 #endif  // NSVCD_SCENERY_CERTIFICATES_H

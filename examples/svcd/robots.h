@@ -526,6 +526,22 @@ static int decide_pairs(const robot_in_room *in, const settings *options, size_t
   return 1;
 }
 
+// Writes a proof of each two bodies that never meet. pairs: kept. Returns 0 after a complaint.
+static int prove_pairs(robot_in_room *in, const settings *options, size_t count,
+                       const nsvcd_body_pair *pairs, const nsvcd_range_answer *found) {
+  int good = 1;
+  free(in->clearances);
+  in->clearances = (float *)allocate(count * sizeof *in->clearances);
+  in->scene.pairs = pairs;
+  in->scene.pair_count = count;
+  in->scene.clearances = NULL;
+  if (!open_room(in)) return 0;
+  for (size_t n = 0; n < count; n++)
+    if (found[n].meeting == NSVCD_MEETS_NEVER)
+      good &= write_never_proof(in, options->certificates, n, options->visits);
+  return good;
+}
+
 // Which bodies of a robot can meet each other: lines for its planning file.
 static int pairs(settings *options) {
   robot_file file;
@@ -554,6 +570,7 @@ static int pairs(settings *options) {
     }
     good = good && decide_pairs(&in, options, count, asked, found);
     for (size_t n = 0; n < count && good; n++) print_pair(&in, &asked[n], options->json, &found[n]);
+    if (good && options->certificates) good = prove_pairs(&in, options, count, asked, found);
     free(asked);
     free(found);
   }

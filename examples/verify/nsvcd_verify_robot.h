@@ -221,6 +221,78 @@ static inline int nsvcd_verify_stays(const nsvcd_verify_part *part, double radiu
   return moved * (1 + 1e-12) <= metres;
 }
 
+// No point of a part of a mesh is farther than that from the axis of the joint that carries a link, as
+// its base sees both at half the time.
+static inline double verify__from_axis(const nsvcd_verify_part *part, const nsvcd_verify_mesh *mesh,
+                                       uint32_t link) {
+  const float *own = part->motion->joints[link - 1].axis;
+  const nsvcd_verify_part carried = {part->motion, link, part->base, {0, 0, 0, 0, 0, 0, 1}};
+  nsvcd_verify_place joint, at;
+  double axis[3], most = 0, square = 0;
+  verify__part_place(&carried, 0.5, &joint);
+  verify__part_place(part, 0.5, &at);
+  for (int i = 0; i < 3; i++) {
+    const double *row = joint.turn + 3 * i;
+    axis[i] = row[0] * (double)own[0] + row[1] * (double)own[1] + row[2] * (double)own[2];
+    square += axis[i] * axis[i];
+  }
+  for (size_t n = 0; n < 3 * mesh->triangles; n++) {
+    const float *x = verify__corner(mesh, n / 3, n % 3);
+    double off[3], cross[3];
+    for (int i = 0; i < 3; i++) {
+      const double *row = at.turn + 3 * i;
+      off[i] = at.at[i] - joint.at[i] + row[0] * (double)x[0] + row[1] * (double)x[1] +
+               row[2] * (double)x[2];
+    }
+    for (int i = 0; i < 3; i++) {
+      const int j = (i + 1) % 3;
+      const int k = (i + 2) % 3;
+      cross[i] = axis[j] * off[k] - axis[k] * off[j];
+    }
+    most = verify__max(most, verify__dot(cross, cross));
+  }
+  return sqrt(most / square);
+}
+
+// How far two parts may come nearer to each other, from where they are at half the time, if each
+// joint between them, but the one that carries link `but`, goes as far to either side as `half` says,
+// and that one, too. If one joint turns by w and others stay, their distance changes by w r at most: r
+// is the distance of the farthest point of either part from its axis, of either, since to turn one is
+// to turn the other back; where it slides, r is 1. Joints may change one after another. r is that at
+// half the time, and what the joints between that part and the axis add: the chord 2 r sin(h / 2) of
+// each that turns by h, and h of one that slides.
+static inline double nsvcd_verify_travel(const nsvcd_verify_part *parts,
+                                         const nsvcd_verify_mesh *const *meshes, const double *half,
+                                         uint32_t but) {
+  const nsvcd_verify_joint *joints = parts[0].motion->joints;
+  uint32_t path[2 * NSVCD_VERIFY_JOINTS];
+  double arms[2 * NSVCD_VERIFY_JOINTS];
+  size_t count = 0;
+  double sum = 0;
+  for (uint32_t a = parts[0].link; a != parts[0].base; a = joints[a - 1].parent) path[count++] = a;
+  const size_t turning = count;
+  for (uint32_t b = parts[1].link; b != parts[1].base; b = joints[b - 1].parent) path[count++] = b;
+  for (size_t i = turning, j = count; i + 1 < j; i++) {
+    const uint32_t outer = path[i];
+    path[i] = path[--j];
+    path[j] = outer;
+  }
+  for (int side = 0; side < 2; side++) {
+    double moved = 0;
+    for (size_t n = 0; n < count; n++) {
+      const size_t k = side ? count - 1 - n : n;
+      const double h = half[path[k] - 1];
+      const int slides = joints[path[k] - 1].slides != 0;
+      double arm = 1;
+      if (!slides) arm = verify__from_axis(&parts[side], meshes[side], path[k]) + moved;
+      moved += slides ? h : 2 * arm * sin(0.5 * verify__min(h, 3.141592653589793));
+      arms[k] = side ? verify__min(arms[k], arm) : arm;
+    }
+  }
+  for (size_t k = 0; k < count; k++) sum += path[k] == but ? 0 : half[path[k] - 1] * arms[k];
+  return sum * (1 + 1e-10);
+}
+
 static inline int verify__is_pose(const float *pose) {
   double square = 0;
   for (int i = 0; i < 7; i++) {

@@ -37,6 +37,7 @@ typedef struct robot {
   const char *path;
   const char *names[NSVCD_VERIFY_JOINTS];
   int continuous[NSVCD_VERIFY_JOINTS];
+  double low[NSVCD_VERIFY_JOINTS], high[NSVCD_VERIFY_JOINTS];
   nsvcd_verify_joint joints[NSVCD_VERIFY_JOINTS];
   size_t joint_count;
   list bodies;  // the robot's, then the scene's obstacles, which are read last
@@ -122,7 +123,13 @@ static void add_joint(robot *r, char *const *words) {
   joint->slides = strcmp(words[13], "prismatic") == 0;
   read_pose(r->path, words + 3, joint->origin);
   for (size_t k = 0; k < 3; k++) joint->axis[k] = (float)number_of(r->path, words[10 + k]);
-  r->continuous[r->joint_count] = strcmp(words[13], "continuous") == 0;
+  const int is_endless = strcmp(words[13], "continuous") == 0;
+  double *low = &r->low[r->joint_count];
+  double *high = &r->high[r->joint_count];
+  r->continuous[r->joint_count] = is_endless;
+  *low = is_endless ? 0 : number_of(r->path, words[14]);
+  *high = is_endless ? 6.28318530717960 : number_of(r->path, words[15]);
+  if (*low > *high) fail(r->path, "LOW is above HIGH");
   r->names[r->joint_count++] = words[1];
 }
 
@@ -305,6 +312,30 @@ static const char *cut_allowed(const nsvcd_verify_part *parts, const double *rad
   return rest->pieces ? nsvcd_verify_motion_check(rest) : NULL;
 }
 
+// Is it proven that two parts keep a distance?
+static const char *check_free(const robot_body *const *bodies, const nsvcd_verify_part *parts,
+                              float clearance, const uint8_t *bytes, size_t length, size_t *at) {
+  const size_t room = NSVCD_VERIFY_WORKSPACE_BYTES(parts->motion->pieces + 3);
+  nsvcd_verify_mover movers[2];
+  nsvcd_verify_report report;
+  memset(&report, 0, sizeof report);
+  for (int k = 0; k < 2; k++) {
+    const char *why = nsvcd_verify_part_init(bodies[k]->mesh, 1, &parts[k], &movers[k]);
+    if (why) return why;
+  }
+  // what is round keeps its radius besides: a float, and no less
+  const double sum = (double)clearance + (bodies[0]->radius + bodies[1]->radius);
+  clearance = (float)sum;
+  if ((double)clearance < sum) clearance = nextafterf(clearance, HUGE_VALF);
+  void *workspace = allocate(room);
+  const int accepted = nsvcd_verify(&movers[0], &movers[1], clearance, bytes + *at, length,
+                                    workspace, room, &report);
+  free(workspace);
+  *at += accepted ? length : report.position;
+  if (!accepted) return report.reason;
+  return report.kind == NSVCD_VERIFY_FREE ? NULL : "a pair is not proven free";
+}
+
 static const char *check_pair(const robot *r, const nsvcd_verify_motion *m, size_t pair,
                               const uint8_t *bytes, size_t size, size_t *at) {
   const uint32_t *who = (const uint32_t *)r->pairs.items + 2 * pair;
@@ -313,11 +344,8 @@ static const char *check_pair(const robot *r, const nsvcd_verify_motion *m, size
   const double metres = may_touch(r, who);
   nsvcd_verify_motion rest = *m;
   nsvcd_verify_part parts[2];
-  nsvcd_verify_mover movers[2];
-  nsvcd_verify_report report;
   double radii[2];
   const char *why = NULL;
-  memset(&report, 0, sizeof report);
   for (int k = 0; k < 2; k++) {
     parts[k].motion = m;
     parts[k].link = bodies[k]->link;
@@ -330,24 +358,8 @@ static const char *check_pair(const robot *r, const nsvcd_verify_motion *m, size
   const size_t length = (size_t)take(bytes, size, at, 4);
   if (*at > size || length > size - *at) return "it ends early";
   if (rest.pieces == 0) return length ? "a pair that may touch all the time has a proof" : NULL;
-  for (int k = 0; k < 2 && !why; k++) {
-    parts[k].motion = &rest;
-    why = nsvcd_verify_part_init(bodies[k]->mesh, 1, &parts[k], &movers[k]);
-  }
-  if (why) return why;
-  const size_t room = NSVCD_VERIFY_WORKSPACE_BYTES(rest.pieces + 3);
-  float clearance = ((const float *)r->kept.items)[pair];
-  // what is round keeps its radius besides: a float, and no less
-  const double sum = (double)clearance + (bodies[0]->radius + bodies[1]->radius);
-  clearance = (float)sum;
-  if ((double)clearance < sum) clearance = nextafterf(clearance, HUGE_VALF);
-  void *workspace = allocate(room);
-  const int accepted = nsvcd_verify(&movers[0], &movers[1], clearance, bytes + *at, length,
-                                    workspace, room, &report);
-  free(workspace);
-  *at += accepted ? length : report.position;
-  if (!accepted) return report.reason;
-  return report.kind == NSVCD_VERIFY_FREE ? NULL : "a pair is not proven free";
+  for (int k = 0; k < 2; k++) parts[k].motion = &rest;
+  return check_free(bodies, parts, ((const float *)r->kept.items)[pair], bytes, length, at);
 }
 
 // Adds each body with each obstacle that is on another link; then, what each pair keeps: one with an
@@ -411,6 +423,14 @@ static const char *check_motion(step *s, const uint8_t *bytes, size_t size, size
   return why;
 }
 
+static void print_line(const char *id, const char *why, const char *proven, size_t size, size_t at,
+                       double taken) {
+  if (!why) printf("%s\taccepted\t%s\t%zu\t%.1f\n", id, proven, size, taken);
+  if (why && !size) printf("%s\trefused\t%s\t0\t0\n", id, why);
+  if (why && size)
+    printf("%s\trefused\t%s, at byte %zu\t%zu\t%.1f\n", id, why, at, size, taken);
+}
+
 static int check_plan(step *s) {
   char *const *words = s->plan->words;
   char path[4096];
@@ -418,15 +438,14 @@ static int check_plan(step *s) {
   size_t at = 0;
   snprintf(path, sizeof path, "%s/%s.cert", s->asked->folder, words[1]);
   uint8_t *bytes = (uint8_t *)read_file(path, &size);
-  if (!bytes) return printf("%s\trefused\tthere is no certificate\t0\t0\n", words[1]), 0;
   const clock_t start = clock();
   const char *why = NULL;
   if (s->is_lost) why = "what was attached or released above is not known";
   if (s->plan->count == 3 && !s->has_ended) why = "it begins where no plan above is accepted";
+  if (!bytes) why = "there is no certificate";
   if (!why) why = check_motion(s, bytes, size, &at);
   const double taken = 1e6 * (double)(clock() - start) / (double)CLOCKS_PER_SEC;
-  if (!why) printf("%s\taccepted\tfree\t%zu\t%.1f\n", words[1], size, taken);
-  if (why) printf("%s\trefused\t%s, at byte %zu\t%zu\t%.1f\n", words[1], why, at, size, taken);
+  print_line(words[1], why, "free", bytes ? size : 0, at, taken);
   free(bytes);
   return !why;
 }
@@ -499,7 +518,7 @@ static int check_scene(robot *r, list *lines, request *asked) {
     s.change_count += is_line(line, "attach") || is_line(line, "release");
     const int is_plan = is_line(line, "plan");
     if (!is_plan && !is_line(line, "path") && !is_line(line, "curve")) continue;
-    const int wanted = is_plan && is_wanted(asked, line->words[1]);
+    const int wanted = is_plan && !asked->pairs && is_wanted(asked, line->words[1]);
     s.has_ended = wanted && check_plan(&s);
     all &= !wanted || s.has_ended;
     s.is_lost |= s.change_count > 0 && !s.has_ended;
@@ -534,7 +553,7 @@ static int is_task(const robot *r, char *const *words, size_t n, const char *sce
 
 // Checks all plans of a planning file: the robot, then a scene, its obstacles, and plans, their goals
 // and paths in it, and perhaps another scene. Returns 1 if all are accepted.
-static int check_plans(const char *path, char *text, request *asked) {
+static int check_plans(const char *path, char *text, request *asked, robot *out) {
   robot r;
   char *words[MOST_WORDS];
   list lines = {NULL, 0, 0};
@@ -596,8 +615,10 @@ static int check_plans(const char *path, char *text, request *asked) {
       fail(path, "a line is not one of a planning file, or not where it may stand");
     }
   }
+  if (!scene) r.own_pairs = r.pairs.count;
   all &= check_scene(&r, &lines, asked);
   free(lines.items);
+  *out = r;
   return all;
 }
 #endif  // NSVCD_VERIFY_PLANS_H

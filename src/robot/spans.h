@@ -112,6 +112,43 @@ static double nsvcd__travel_but(const nsvcd__span *s, size_t without) {
   return sum * (1 + 1e-9);
 }
 
+NSVCDDEF nsvcd_result nsvcd_pair_travel(const nsvcd_checker *c, nsvcd_body_pair pair,
+                                        const double *low, const double *high, double *moved) {
+  nsvcd__span s;
+  nsvcd__links at;
+  nsvcd__rider balls[2];
+  if (!c || !low || !high || !moved) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_scene *scene = c->scene;
+  if (pair.a >= scene->part_count || pair.b >= scene->part_count ||
+      scene->parts[pair.a].link == scene->parts[pair.b].link)
+    return NSVCD_ERROR_PAIR;
+  memset(&s, 0, sizeof s);
+  // only what the arms need
+  s.checker = (nsvcd_checker *)c;
+  s.joints =
+      nsvcd__path_between(scene, scene->parts[pair.a].link, scene->parts[pair.b].link, s.path);
+  for (size_t k = 0; k < s.joints; k++) {
+    const size_t j = s.path[k];
+    const double middle = 0.5 * (low[j] + high[j]);
+    if (!nsvcd__are_numbers(&low[j], 1) || !nsvcd__are_numbers(&high[j], 1) ||
+        low[j] > high[j])
+      return NSVCD_ERROR_VALUE;
+    s.at[j] = middle;
+    s.half[k] = nsvcd__max(high[j] - middle, middle - low[j]) * (1 + 1e-15);
+  }
+  nsvcd__place_links(c, s.at, &at);
+  for (size_t n = 0; n < 2; n++) {
+    const size_t part = n ? pair.b : pair.a;
+    const nsvcd__member *m = &c->members[part];
+    balls[n].centre = nsvcd__dpose_apply(&at.frames[scene->parts[part].link], m->centre);
+    balls[n].radius = m->radius;
+  }
+  nsvcd__arms_between(&s, &at, balls);
+  for (size_t j = 0; j < scene->joint_count; j++) moved[j] = 0;
+  for (size_t k = 0; k < s.joints; k++) moved[s.path[k]] = s.half[k] * s.arms[k] * (1 + 1e-9);
+  return NSVCD_OK;
+}
+
 // The joint of the path that moves points farthest.
 static size_t nsvcd__farthest_joint(const nsvcd__span *s) {
   size_t out = 0;
