@@ -1,4 +1,5 @@
-"""Tries to pass off certificates of examples/robot/pick.txt, where things are attached and may touch, for what they are not.
+"""Tries to pass off certificates of examples/robot/pick.txt, where things are attached and may touch, for what they are not; and
+certificates that two bodies never meet.
 
     python3 tests/forge.py    # from the repository's root; needs build/svcd, and build/verify or, named by VERIFY, another one
 """
@@ -205,6 +206,93 @@ def of_sequences(f: Forger) -> None:
     f.expect("taken and released at once", f.said(twice, f.made(twice)), **{plan: "accepted" for plan in PLANS})
 
 
+NEVER = """nsvcd-plans 1
+joint lift world  0 0 0  0 0 0 1  0 1 0 revolute -1 1 1
+joint aside world  0 0.25 0  0 0 0 1  0 0 1 prismatic -0.1 0.1 1
+joint bend lift  0 0 0.5  0 0 0 1  0 1 0 revolute -0.5 0.5 1
+body post aside box: 0.1 0.2 1
+body hand bend capsule: 0.05 0.3  pose 0 0 0.2  0 0 0 1
+"""
+Box = tuple[int, float, bytes]  # a code, and, of one that has a proof, its clearance and that
+
+
+def boxes_of(data: bytes) -> list[Box]:
+    out, at = [], 4
+    while at < len(data):
+        code, at = data[at], at + 1
+        clearance, proof = 0.0, b""
+        if code < 128:
+            clearance, size = struct.unpack_from("<fI", data, at)
+            proof = data[at + 8 : at + 8 + size]
+            at += 8 + size
+        out.append((code, clearance, proof))
+    return out
+
+
+def bytes_of(boxes: list[Box]) -> bytes:
+    return b"NSVN" + b"".join(bytes([c]) + (b"" if c > 127 else struct.pack("<fI", m, len(p)) + p) for c, m, p in boxes)
+
+
+def of_never(f: Forger, count: int) -> None:
+    """A proof that a hand never meets a post: parts of it left out, and what is not of this robot."""
+    (f.folder / "made.txt").write_text(NEVER)
+    subprocess.run(["build/svcd", "pairs", f.folder / "made.txt", "--certificates", f.folder], check=True, capture_output=True)
+    path = f.folder / "post-hand.cert"
+    good = path.read_bytes()
+    boxes = boxes_of(good)
+    if bytes_of(boxes) != good or len(boxes) < 9:
+        raise SystemExit(f"it is not taken apart rightly, or has only {len(boxes)} boxes")
+
+    def said(text: str, data: bytes) -> str:
+        (f.folder / "asked.txt").write_text(text)
+        path.write_bytes(data)
+        run = subprocess.run([VERIFY, "--pairs", f.folder / "asked.txt", f.folder], capture_output=True, text=True, check=False)
+        words = run.stdout.split("\t")
+        return words[1] if words[1:2] == ["accepted"] else (words + [run.stderr] * 3)[2]
+
+    def expect(what: str, text: str, data: bytes, wanted: str) -> None:
+        f.expect(what, {"never": said(text, data)}, never=wanted)
+
+    expect("as it is", NEVER, good, "accepted")
+    refused = "(?!accepted)"
+    for old, new in (("revolute -1 1", "revolute -1 1.001"), ("revolute -1 1", "revolute -1.001 1"), ("-0.5 0.5 1", "-0.5 0.51 1"),
+                     ("-0.1 0.1", "-0.1 0.11"), ("0.25 0", "0.249 0"), ("0 0 0.2", "0 0.01 0.2"), ("capsule: 0.05", "capsule: 0.051"),
+                     ("box: 0.1", "box: 0.11"), ("revolute -1 1", "continuous -1 1"), ("0 0 0.5", "0 0 0.51")):
+        expect(f"{new} for {old}", NEVER.replace(old, new, 1), good, refused)
+    expect("limits that are none", NEVER.replace("-0.5 0.5", "0.5 -0.5"), good, ".*LOW is above HIGH")
+    leaves = [n for n, box in enumerate(boxes) if box[0] < 128]
+    for n in leaves[:20]:
+        code, metres, proof = boxes[n]
+        less = "joints of a box move a point farther than its clearance"
+        for change in ((code, metres * 0.9, proof), (code, 0.0, proof), (code, math.nan, proof)):
+            expect(f"a clearance of {change[1]}", NEVER, bytes_of(boxes[:n] + [change] + boxes[n + 1 :]), less)
+        expect("more clearance", NEVER, bytes_of(boxes[:n] + [(code, metres * 1.1, proof)] + boxes[n + 1 :]), "it is about another motion")
+        expect("a box twice", NEVER, bytes_of(boxes[: n + 1] + boxes[n:]), refused)
+        expect("no box", NEVER, bytes_of(boxes[:n] + boxes[n + 1 :]), refused)
+        expect("along another joint", NEVER, bytes_of(boxes[:n] + [((code + 1) % 3, metres, proof)] + boxes[n + 1 :]), refused)
+        expect("along none", NEVER, bytes_of(boxes[:n] + [(3, metres, proof)] + boxes[n + 1 :]), "a joint is not between the two")
+    for n in range(len(boxes)):
+        if boxes[n][0] > 127 and n < 20:
+            expect("not cut", NEVER, bytes_of(boxes[:n] + boxes[n + 1 :]), refused)
+            expect("cut along another joint", NEVER, bytes_of(boxes[:n] + [(128 + (boxes[n][0] - 127) % 3, 0, b"")] + boxes[n + 1 :]), refused)
+    expect("all of it", NEVER, bytes_of([(0, 1e-3, b"")]), refused)
+    expect("cut for ever", NEVER, bytes_of([(128, 0, b"")] * 1000), "it is too deep")
+    expect("more of it", NEVER, good + b"\0", "something follows its end")
+    expect("less of it", NEVER, good[:-1], "it ends early")
+    expect("nothing", NEVER, b"", "it is no certificate of two bodies")
+    rng = random.Random(2)
+    for n in range(count):
+        data = bytearray(good)
+        at = rng.randrange(len(data))
+        data[at] ^= 1 << rng.randrange(8)
+        if said(NEVER, bytes(data)) == "accepted":
+            changed = boxes_of(bytes(data))
+            # a clearance is rounded once the hand's radius is added
+            same = [box[0] for box in changed] == [box[0] for box in boxes]
+            same = same and all(abs(a[1] - b[1]) < 1e-7 for a, b in zip(changed, boxes))
+            f.expect(f"{n}: accepted bytes", {"never": str(same)}, never="True")
+
+
 def of_bytes(f: Forger, count: int) -> None:
     """Bytes at random: what is accepted of them moves as before, and claims what is so."""
     rng = random.Random(1)
@@ -242,6 +330,7 @@ def main() -> None:
         f.expect("as they are", f.said(FILE, f.good), **{plan: "accepted" for plan in PLANS})
         of_claims(f)
         of_sequences(f)
+        of_never(f, int(os.environ.get("TEST_MANY", "1")) * 100)
         of_bytes(f, int(os.environ.get("TEST_MANY", "1")) * 300)
         print(f"{f.tried} attempts, {f.failed} of which are not refused as they should be")
         sys.exit(f.failed > 0)

@@ -376,6 +376,22 @@ verify: what stays without slides|reach += verify__offset(joint->origin) + (join
 verify: what stays but slides|moved += joint->slides ? way : way * reach;|moved += joint->slides ? 0 : way * reach;
 verify: what stays by the last joint|moved += joint->slides ? way : way * reach;|moved = joint->slides ? way : way * reach;
 verify: sizes by one corner|for (size_t i = 0; i < 3 * mesh->triangles; i++) {\n    const float *x = verify__corner(mesh, i / 3, i % 3);\n    most|for (size_t i = 0; i < 3 * mesh->triangles; i += 3) {\n    const float *x = verify__corner(mesh, i / 3, i % 3);\n    most
+verify: boxes without the lesser arm|arms[k] = side ? verify__min(arms[k], arm) : arm;|arms[k] = side ? 0.5 * verify__min(arms[k], arm) : arm;
+verify: boxes whose joints do not move each other's|path[k]) + moved;|path[k]);
+verify: boxes by one corner|for (size_t n = 0; n < 3 * mesh->triangles; n++) {\n    const float *x|for (size_t n = 0; n < 3 * mesh->triangles; n += 3) {\n    const float *x
+verify: boxes about the base's axes|const double *row = joint.turn + 3 * i;|const double *row = at.turn + 3 * i; (void)joint;
+verify: boxes about axes through the base|off[i] = at.at[i] - joint.at[i] + row[0]|off[i] = at.at[i] + row[0]
+verify: boxes without slides|if (!slides) arm =|if (slides) arm = 0; else arm =
+verify: boxes without the first joint|for (size_t k = 0; k < count; k++) sum +=|for (size_t k = 1; k < count; k++) sum +=
+verify: boxes without what is not swept|sum += path[k] == but ? 0 :|sum += path[k] != but ? 0 :
+plans: boxes of any clearance|if (!((double)clearance >= nsvcd_verify_travel(parts, meshes, half, swept)))|if (0)
+plans: boxes of half their width|half[j] = (1 + 1e-15) * verify__max(|half[j] = 0.5 * verify__max(
+plans: boxes swept half|points[joints + swept - 1] = high[swept - 1];|
+plans: half of the boxes|box[joint] = box[3 * joints + joint] = middle;\n      height++;|box[joint] = middle;
+plans: joints that are not between|} else if (joint >= joints \|\| !is_between[joint]) {|} else if (joint >= joints) {
+plans: limits of one turn|*high = is_endless ? 6.28318530717960|*high = is_endless ? 1
+plans: boxes that are too deep|} else if (height == MOST_BOXES) {|} else if (height == 100 * MOST_BOXES) {
+plans: what follows the boxes|return !why \&\& *at != size ? "something follows its end" : why;|return why;
 plans: pieces that are none|if (until > from \|\| from > pieces)|if (0)
 plans: what may touch at the start|if ((until > 0 \&\& !nsvcd_verify_stays(|if ((0 \&\& !nsvcd_verify_stays(
 plans: what may touch at the end|(from < pieces \&\& !nsvcd_verify_stays(|(0 \&\& !nsvcd_verify_stays(
