@@ -388,8 +388,6 @@ plans: boxes of any clearance|if (!((double)clearance >= nsvcd_verify_travel(par
 plans: boxes of half their width|half[j] = (1 + 1e-15) * verify__max(|half[j] = 0.5 * verify__max(
 plans: boxes swept half|points[joints + swept - 1] = high[swept - 1];|
 plans: half of the boxes|box[joint] = box[3 * joints + joint] = middle;\n      height++;|box[joint] = middle;
-plans: joints that are not between|} else if (joint >= joints \|\| !is_between[joint]) {|} else if (joint >= joints) {
-plans: limits of one turn|*high = is_endless ? 6.28318530717960|*high = is_endless ? 1
 plans: boxes that are too deep|} else if (height == MOST_BOXES) {|} else if (height == 100 * MOST_BOXES) {
 plans: what follows the boxes|return !why \&\& *at != size ? "something follows its end" : why;|return why;
 plans: pieces that are none|if (until > from \|\| from > pieces)|if (0)

@@ -747,7 +747,7 @@ static void certificates_know_boxes(void) {
                 nsvcd_verify_common(&m.checked, r.parts[pair->a].link, r.parts[pair->b].link),
                 &parts[n]);
       meshes[n] = &shapes[r.shape[part]].checked;
-      corners[n] = exact->triangles[shapes_pick(&rng, (int)exact->triangle_count)].v[0];
+      corners[n] = exact->triangles[shapes_pick(&rng, (int)exact->triangle_count)].v[trial % 3];
     }
     const double travel = nsvcd_verify_travel(parts, meshes, half, but);
     double told = 0;

@@ -87,8 +87,8 @@ NSVCDDEF nsvcd_result nsvcd_pair_range(const nsvcd_checker *checker, nsvcd_body_
                                        const nsvcd_range_options *options, void *memory,
                                        size_t size, nsvcd_range_answer *answer);
 
-// How far can each joint between two parts move a point of one, as the other sees it, while all of
-// them go about in a box of values? From the centre of the box the distance of the two changes by no
+// How far can each joint between two parts move a point of one, as the other sees it, while all
+// go about in a box of values? From the centre of the box the distance of the two changes by no
 // more than the sum; so they are apart in all of the box if a sweep along one of its joints is free
 // with the sum of the others as a clearance. That is what a proof of NSVCD_MEETS_NEVER is made of.
 //   checker    not NULL
