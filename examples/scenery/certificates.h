@@ -463,10 +463,7 @@ static int write_never_proof(const robot_in_room *in, const char *folder, size_t
   const long size = ftell(out);
   good = close_written(out, path) && good;
   if (good && cut == NSVCD_NONE)
-    good = complain(
-        "%s: not written: too near, or more boxes than "
-        "are tried",
-        path);
+    good = complain("%s: not written: too near, or for want of --visits or of boxes", path);
   if (!good) remove(path);
   if (good)
     fprintf(stderr, PROGRAM ": %s: %zu boxes, %ld bytes, in %.0f ms\n", path, boxes, size,
