@@ -50,7 +50,10 @@ static const option options[] = {
     {"--certificates", CHECK | PLAN, OPTION_TEXT, AT(certificates), 0, 0, NULL, "FOLDER",
      "writes a proof of each answer, ID.cert, into an existing folder; svcd-verify FILE FOLDER "
      "checks them"},
-    {"--visits", CHECK | SWEEP | PLAN, OPTION_COUNT, AT(visits), 1, 1000000000, NULL, "N",
+    {"--certificates", PAIRS, OPTION_TEXT, AT(certificates), 0, 0, NULL, "FOLDER",
+     "writes a proof of each two bodies that never meet, A-B.cert, into an existing folder; "
+     "svcd-verify --pairs FILE FOLDER checks them"},
+    {"--visits", CHECK | SWEEP | PLAN | PAIRS, OPTION_COUNT, AT(visits), 1, 1000000000, NULL, "N",
      "steps that a certificate may take; for plan, that of a pair (" DIGITS(
          NSVCD_DEFAULT_VISITS) ")"},
     {"--clearance", CHECK | SWEEP | PLAN | PATH, OPTION_NUMBER, AT(sweep.clearance), 0, METRES,
@@ -174,11 +177,12 @@ static const manual svcd = {
     options,
     sizeof options / sizeof options[0],
     "svcd-verify",
-    "FILE.txt FOLDER [--clearance METRES] [--only ID,ID]",
+    "[--pairs] FILE.txt FOLDER [--clearance METRES] [--only ID,ID]",
     "Checks certificates without the library: FILE.txt is a problem file or a planning file, "
     "FOLDER holds ID.cert for each of its problems or plans. Prints one line each, separated by "
     "tabs: ID accepted|refused REASON BYTES MICROSECONDS. --clearance: that of svcd; --only: only "
-    "these. Exit status: 0 each proves what its line says, which may be a hit; 1 one is refused or "
+    "these. --pairs: A-B.cert, that two bodies of a robot never meet. Exit status: 0 each proves "
+    "what its line says, which may be a hit; 1 one is refused or "
     "missing; 2 a file cannot be read, or usage. In the repository it is build/verify."};
 
 // -------------------------------------------------------------------------------------------- main

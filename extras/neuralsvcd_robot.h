@@ -297,6 +297,23 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
                                   const nsvcd_check_options *options,
                                   nsvcd_check_answer *answer);
 
+// Until when does a motion keep to an allowance, from its start on, or back from its end? For who
+// proves the rest of the motion by nsvcd_certify_pair.
+//   checker    not NULL
+//   allowance  not NULL; it need not be one of the scene's
+//   motion     not NULL, as nsvcd_check takes it
+//   back       0: from the start on; else back from the end
+//   time       not NULL; seconds, as motion->times has them. Not even at its end: that end's time
+//   allocates  nothing
+//   threads    may share the checker
+//   errors     ARGUMENT; PAIR, VALUE, DISTANCE, as nsvcd_checker_open; DEGREE, VALUE, TIMES, as
+//              nsvcd_check
+//   source     this library: each joint's way times its moment arm, summed
+NSVCDDEF nsvcd_result nsvcd_allowed_until(const nsvcd_checker *checker,
+                                          const nsvcd_allowance *allowance,
+                                          const nsvcd_joint_motion *motion, int back,
+                                          double *time);
+
 // -------------------------------------------------------------------------------- interface/merges
 // In: motions of some of the joints, each on a clock of its own: two arms, vehicles, a belt. Out:
 // one motion of all joints, for nsvcd_check, which finds the first conflict with options.to_time.
@@ -572,6 +589,22 @@ NSVCDDEF size_t nsvcd_pair_range_size(const nsvcd_checker *checker, nsvcd_body_p
 NSVCDDEF nsvcd_result nsvcd_pair_range(const nsvcd_checker *checker, nsvcd_body_pair pair,
                                        const nsvcd_range_options *options, void *memory,
                                        size_t size, nsvcd_range_answer *answer);
+
+// How far can each joint between two parts move a point of one, as the other sees it, while all
+// go about in a box of values? From the centre of the box the distance of the two changes by no
+// more than the sum; so they are apart in all of the box if a sweep along one of its joints is free
+// with the sum of the others as a clearance. That is what a proof of NSVCD_MEETS_NEVER is made of.
+//   checker    not NULL
+//   pair       two parts on links that differ
+//   low, high  (F) the box, radians or metres, not NULL; joints that are not between the two do not
+//              matter. A joint that mimics another counts as one of its own
+//   moved      (F) metres, not NULL; 0 for joints that are not between the two
+//   allocates  nothing
+//   threads    may share the checker
+//   errors     ARGUMENT, PAIR; VALUE (not finite, or low above high)
+//   source     this library: robot/spans.h
+NSVCDDEF nsvcd_result nsvcd_pair_travel(const nsvcd_checker *checker, nsvcd_body_pair pair,
+                                        const double *low, const double *high, double *moved);
 
 // ------------------------------------------------------------------------------- interface/reaches
 // In: a robot, a frame on one of its links, and where that is to be. Out: configurations that have
@@ -2199,7 +2232,7 @@ static int nsvcd__pair_is_allowed(const nsvcd_checker *c, size_t pair,
 }
 
 // Until when contact is allowed from one end of a motion on. Returns that end where it is not.
-static double nsvcd__allowed_until(const nsvcd_checker *c, const nsvcd_allowance *allowance,
+static double nsvcd__allowed_up_to(const nsvcd_checker *c, const nsvcd_allowance *allowance,
                                    const nsvcd_joint_motion *m, double end, double other) {
   const double less = -NSVCD__ALLOWANCE_ROUNDING * allowance->distance;
   double allowed = end;
@@ -2220,8 +2253,8 @@ static void nsvcd__note_cuts(nsvcd_checker *c, const nsvcd_joint_motion *m) {
   const double t0 = nsvcd__piece_start(m, 0);
   const double t1 = nsvcd__piece_start(m, m->pieces);
   for (size_t n = 0; n < c->scene->allowance_count; n++) {
-    c->cuts[2 * n] = nsvcd__allowed_until(c, &c->scene->allowances[n], m, t0, t1);
-    c->cuts[2 * n + 1] = nsvcd__allowed_until(c, &c->scene->allowances[n], m, t1, t0);
+    c->cuts[2 * n] = nsvcd__allowed_up_to(c, &c->scene->allowances[n], m, t0, t1);
+    c->cuts[2 * n + 1] = nsvcd__allowed_up_to(c, &c->scene->allowances[n], m, t1, t0);
   }
 }
 
@@ -2356,6 +2389,16 @@ static nsvcd_result nsvcd__mimic_check(const nsvcd_scene *scene, const nsvcd_joi
   return is_endless && rate > floor(rate) ? NSVCD_ERROR_MIMIC : NSVCD_OK;
 }
 
+static nsvcd_result nsvcd__allowance_check(const nsvcd_scene *scene,
+                                           const nsvcd_allowance *allowance) {
+  if (allowance->pair >= scene->pair_count) return NSVCD_ERROR_PAIR;
+  if (!allowance->joints) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__are_numbers(allowance->joints, scene->joint_count)) return NSVCD_ERROR_VALUE;
+  if (!nsvcd__are_numbers(&allowance->distance, 1) || allowance->distance < 0)
+    return NSVCD_ERROR_DISTANCE;
+  return NSVCD_OK;
+}
+
 static nsvcd_result nsvcd__part_check(const nsvcd_scene *scene, const nsvcd_part *part) {
   const nsvcd_body *body = NULL;
   const nsvcd_result result = nsvcd_body_trust(part->body, SIZE_MAX, &body);
@@ -2397,14 +2440,8 @@ static nsvcd_result nsvcd__scene_check(const nsvcd_scene *scene) {
       return NSVCD_ERROR_CLEARANCE;
   }
   if (scene->allowance_count > 0 && !scene->allowances) return NSVCD_ERROR_ARGUMENT;
-  for (size_t n = 0; n < scene->allowance_count && !result; n++) {
-    const nsvcd_allowance *allowance = &scene->allowances[n];
-    if (allowance->pair >= scene->pair_count) return NSVCD_ERROR_PAIR;
-    if (!allowance->joints) return NSVCD_ERROR_ARGUMENT;
-    if (!nsvcd__are_numbers(allowance->joints, scene->joint_count)) return NSVCD_ERROR_VALUE;
-    if (!nsvcd__are_numbers(&allowance->distance, 1) || allowance->distance < 0)
-      return NSVCD_ERROR_DISTANCE;
-  }
+  for (size_t n = 0; n < scene->allowance_count && !result; n++)
+    result = nsvcd__allowance_check(scene, &scene->allowances[n]);
   return result;
 }
 
@@ -3100,6 +3137,20 @@ static nsvcd_result nsvcd__motion_check(const nsvcd_scene *scene,
   if (result) return result;
   const int follows = nsvcd__follows(scene, m->pieces * m->degree + 1, m->points);
   return follows ? NSVCD_OK : NSVCD_ERROR_MIMIC;
+}
+
+NSVCDDEF nsvcd_result nsvcd_allowed_until(const nsvcd_checker *c,
+                                          const nsvcd_allowance *allowance,
+                                          const nsvcd_joint_motion *motion, int back,
+                                          double *time) {
+  if (!c || !allowance || !motion || !motion->points || !time) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_joint_motion m = nsvcd__motion_meant(motion);
+  nsvcd_result result = nsvcd__allowance_check(c->scene, allowance);
+  if (!result) result = nsvcd__motion_check(c->scene, &m);
+  if (result) return result;
+  const double ends[2] = {nsvcd__piece_start(&m, 0), nsvcd__piece_start(&m, m.pieces)};
+  *time = nsvcd__allowed_up_to(c, allowance, &m, ends[back != 0], ends[back == 0]);
+  return NSVCD_OK;
 }
 
 // Is it free, and within the limits?
@@ -5084,29 +5135,39 @@ static nsvcd__rider nsvcd__rider_of(const nsvcd__span *s, const nsvcd__links *at
   return out;
 }
 
-// Fills in s->arms for two balls, which ride on the two parts' links.
-static void nsvcd__arms_between(nsvcd__span *s, const nsvcd__links *at,
-                                const nsvcd__rider *balls) {
-  double arms[NSVCD_MAX_JOINTS];
+// r of the banner, of the joints of a way from one part to the other, which reach so far to either
+// side. balls: each rides on the link of one part.
+static void nsvcd__arms_along(const nsvcd_checker *c, const size_t *way, size_t count,
+                              const double *reach, const nsvcd__links *at,
+                              const nsvcd__rider *balls, double *arms) {
   for (size_t side = 0; side < 2; side++) {
     double moved = 0;
-    for (size_t n = 0; n < s->way_count; n++) {
-      const size_t k = side ? s->way_count - 1 - n : n;
-      const size_t j = s->way[k];
-      const double reach = fabs(nsvcd__rate(&s->scene, j)) * s->half[s->drivers[k]];
+    for (size_t n = 0; n < count; n++) {
+      const size_t k = side ? count - 1 - n : n;
+      const size_t j = way[k];
       const nsvcd__d3 off = nsvcd__d3_sub(balls[side].centre, at->frames[j + 1].position);
       const double across = nsvcd__d3_norm(nsvcd__d3_cross(at->axes[j], off));
-      const int slides = nsvcd__slides(s->checker, j);
+      const int slides = nsvcd__slides(c, j);
       const double arm = slides ? 1 : across + balls[side].radius + moved;
-      const double half = nsvcd__min(reach, 3.141592653589793);
-      moved += slides ? reach : 2 * arm * sin(0.5 * half);
+      const double half = nsvcd__min(reach[k], 3.141592653589793);
+      moved += slides ? reach[k] : 2 * arm * sin(0.5 * half);
       arms[k] = side ? nsvcd__min(arms[k], arm) : arm;
     }
   }
-  // of a joint of the path, with all that it drives
+}
+
+// Those of the joints of a span's path, each with all that it drives.
+static void nsvcd__arms_between(nsvcd__span *s, const nsvcd__links *at,
+                                const nsvcd__rider *balls) {
+  double rates[NSVCD_MAX_JOINTS], arms[NSVCD_MAX_JOINTS];
+  double reach[NSVCD_MAX_JOINTS] = {0};
+  for (size_t k = 0; k < s->way_count; k++) {
+    rates[k] = fabs(nsvcd__rate(&s->scene, s->way[k]));
+    reach[k] = rates[k] * s->half[s->drivers[k]];
+  }
+  nsvcd__arms_along(s->checker, s->way, s->way_count, reach, at, balls, arms);
   for (size_t k = 0; k < s->joints; k++) s->arms[k] = 0;
-  for (size_t k = 0; k < s->way_count; k++)
-    s->arms[s->drivers[k]] += fabs(nsvcd__rate(&s->scene, s->way[k])) * arms[k];
+  for (size_t k = 0; k < s->way_count; k++) s->arms[s->drivers[k]] += rates[k] * arms[k];
 }
 
 // The bound of the banner, without one joint of the path, or NSVCD_NONE.
@@ -5114,6 +5175,43 @@ static double nsvcd__travel_but(const nsvcd__span *s, size_t without) {
   double sum = 0;
   for (size_t k = 0; k < s->joints; k++) sum += k == without ? 0 : s->half[k] * s->arms[k];
   return sum * (1 + 1e-9);
+}
+
+NSVCDDEF nsvcd_result nsvcd_pair_travel(const nsvcd_checker *c, nsvcd_body_pair pair,
+                                        const double *low, const double *high, double *moved) {
+  double middles[NSVCD_MAX_JOINTS] = {0};
+  double half[NSVCD_MAX_JOINTS] = {0};
+  double arms[NSVCD_MAX_JOINTS];
+  size_t way[NSVCD_MAX_JOINTS];
+  nsvcd__links at;
+  nsvcd__rider balls[2];
+  if (!c || !low || !high || !moved) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_scene *scene = c->scene;
+  if (pair.a >= scene->part_count || pair.b >= scene->part_count ||
+      scene->parts[pair.a].link == scene->parts[pair.b].link)
+    return NSVCD_ERROR_PAIR;
+  const size_t count =
+      nsvcd__path_between(scene, scene->parts[pair.a].link, scene->parts[pair.b].link, way);
+  for (size_t k = 0; k < count; k++) {
+    const size_t j = way[k];
+    if (!nsvcd__are_numbers(&low[j], 1) || !nsvcd__are_numbers(&high[j], 1) ||
+        low[j] > high[j])
+      return NSVCD_ERROR_VALUE;
+    const double middle = 0.5 * (low[j] + high[j]);
+    middles[j] = middle;
+    half[k] = nsvcd__max(high[j] - middle, middle - low[j]) * (1 + 1e-15);
+  }
+  nsvcd__place_links(c, middles, &at);
+  for (size_t n = 0; n < 2; n++) {
+    const size_t part = n ? pair.b : pair.a;
+    const nsvcd__member *m = &c->members[part];
+    balls[n].centre = nsvcd__dpose_apply(&at.frames[scene->parts[part].link], m->centre);
+    balls[n].radius = m->radius;
+  }
+  nsvcd__arms_along(c, way, count, half, &at, balls, arms);
+  for (size_t j = 0; j < scene->joint_count; j++) moved[j] = 0;
+  for (size_t k = 0; k < count; k++) moved[way[k]] = half[k] * arms[k] * (1 + 1e-9);
+  return NSVCD_OK;
 }
 
 // The joint of the path that moves points farthest.

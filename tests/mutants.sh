@@ -3,7 +3,7 @@
 # fail on it, or, where its name begins with `level:`, `asks:`, `long:`, `exact:`, `floor:`, `solids:`, `round:`,
 # `robot:`, `looks:`, `route_looks:`, `many_joints:`, `postures:`, `reach:`, `ranges:`, `allowances:`, `mimics:` or `merge:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
 # certificates, examples/verify, and tests/test_certificate.c or tests/test_checker.c has to fail, of `fits:`
-# tests/test_fits.c. Prints a line for each, and exits with 1 if one survives. An argument runs only the mutants whose
+# tests/test_fits.c, of `plans:` tests/forge.py, which needs build/svcd. Prints a line for each, and exits with 1 if one survives. An argument runs only the mutants whose
 # name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every 16th of them, in a folder of its own.
 # DRY=1 only sees to it that each can still be made.
 set -u
@@ -15,6 +15,7 @@ cp weights.h $work/
 cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_looks.c tests/test_route_looks.c tests/test_many_joints.c tests/test_postures.c tests/test_reach.c tests/test_ranges.c tests/test_allowances.c tests/test_mimics.c tests/test_merge.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
 cp tests/bench/*.h $work/tests/bench/
 cp examples/scenery/*.h $work/examples/scenery/
+cp examples/verify/verify.c $work/examples/verify/
 
 # name | text (occurs once, however its lines are broken) | what it becomes. Not here: axis_turn left out of bend_along_axis. The theorem needs it, but no
 # motion was found that uses it: what strays most does so at samples, and there axis_bulge is exact.
@@ -366,6 +367,48 @@ verify: coordinates that are none|if (!verify__within(positions[i], 1e6f)) retur
 verify: indices out of range|if (indices[i] >= vertices) return|if (0) return
 verify: quaternions of any length|if (!(fabs(square - 1) < 2.1e-4)) return|if (0) return
 verify: times that fall|if (timed \&\& k > 0 \&\& !(|if (0 \&\& !(
+verify: what stays by a curve's first points|for (size_t i = from * m->degree; i <= to * m->degree; i++) { const double value|for (size_t i = from * m->degree; i < to * m->degree; i++) { const double value
+verify: what stays at the other end|values[there * m->degree * m->joint_count]|values[from * m->degree * m->joint_count]
+verify: what stays without its size|double reach = verify__offset(part->pose) + radius;|double reach = verify__offset(part->pose);
+verify: what stays without its pose|double reach = verify__offset(part->pose) + radius;|double reach = radius;
+verify: what stays without offsets|reach += verify__offset(joint->origin) + (joint->slides ? most : 0);\n  }\n  return moved|reach += (joint->slides ? most : 0);\n  }\n  return moved
+verify: what stays without slides|reach += verify__offset(joint->origin) + (joint->slides ? most : 0);\n  }\n  return moved|reach += verify__offset(joint->origin);\n  }\n  return moved
+verify: what stays but slides|moved += joint->slides ? way : way * reach;|moved += joint->slides ? 0 : way * reach;
+verify: what stays by the last joint|moved += joint->slides ? way : way * reach;|moved = joint->slides ? way : way * reach;
+verify: sizes by one corner|for (size_t i = 0; i < 3 * mesh->triangles; i++) {\n    const float *x = verify__corner(mesh, i / 3, i % 3);\n    most|for (size_t i = 0; i < 3 * mesh->triangles; i += 3) {\n    const float *x = verify__corner(mesh, i / 3, i % 3);\n    most
+verify: boxes without the lesser arm|arms[k] = side ? verify__min(arms[k], arm) : arm;|arms[k] = side ? 0.5 * verify__min(arms[k], arm) : arm;
+verify: boxes whose joints do not move each other's|path[k]) + moved;|path[k]);
+verify: boxes by one corner|for (size_t n = 0; n < 3 * mesh->triangles; n++) {\n    const float *x|for (size_t n = 0; n < 3 * mesh->triangles; n += 3) {\n    const float *x
+verify: boxes about the base's axes|const double *row = joint.turn + 3 * i;|const double *row = at.turn + 3 * i; (void)joint;
+verify: boxes about axes through the base|off[i] = at.at[i] - joint.at[i] + row[0]|off[i] = at.at[i] + row[0]
+verify: boxes without slides|if (!slides) arm =|if (slides) arm = 0; else arm =
+verify: boxes without the first joint|for (size_t k = 0; k < count; k++) sum +=|for (size_t k = 1; k < count; k++) sum +=
+verify: boxes without what is not swept|sum += path[k] == but ? 0 :|sum += path[k] != but ? 0 :
+plans: boxes of any clearance|if (!((double)clearance >= nsvcd_verify_travel(parts, meshes, half, swept)))|if (0)
+plans: boxes of half their width|half[j] = (1 + 1e-15) * verify__max(|half[j] = 0.5 * verify__max(
+plans: boxes swept half|points[joints + swept - 1] = high[swept - 1];|
+plans: half of the boxes|box[joint] = box[3 * joints + joint] = middle;\n      height++;|box[joint] = middle;
+plans: boxes that are too deep|} else if (height == MOST_BOXES) {|} else if (height == 100 * MOST_BOXES) {
+plans: what follows the boxes|return !why \&\& *at != size ? "something follows its end" : why;|return why;
+plans: pieces that are none|if (until > from \|\| from > pieces)|if (0)
+plans: what may touch at the start|if ((until > 0 \&\& !nsvcd_verify_stays(|if ((0 \&\& !nsvcd_verify_stays(
+plans: what may touch at the end|(from < pieces \&\& !nsvcd_verify_stays(|(0 \&\& !nsvcd_verify_stays(
+plans: one part that may touch|for (int k = 0; k < 2; k++)\n    if ((until > 0|for (int k = 0; k < 1; k++)\n    if ((until > 0
+plans: the rest from the start|rest->points += until * rest->degree * rest->joint_count;|
+plans: all of the rest's pieces|rest->pieces = from - until;|rest->pieces = from - until > 1 ? from - until - 1 : 0;
+plans: any two may touch|if (is_of(allows[k].pair, who)) metres|if (who) metres
+plans: proofs where none are due|if (rest.pieces == 0) return length ?|if (rest.pieces == 0) return 0 ?
+plans: things that stand elsewhere|if (!(sqrt(off) <= 1e-9 + 1e-7 * verify__offset(part.pose) \&\& turned <= 3e-7))|if (!(turned <= 3e-7))
+plans: things that are turned|\&\& turned <= 3e-7))|))
+plans: things at no pose|if (!verify__is_pose(body->pose)) return|if (0) return
+plans: things on the world|body->link = line->link;|body->link = line->link > 0;
+plans: bodies of the robot are taken|if (moves \&\& line->thing < r.own) fail(|if (0) fail(
+plans: things that are lost|s.is_lost \|= s.change_count > 0 \&\& !s.has_ended;|
+plans: ends of what is refused|s.has_ended = wanted \&\& check_plan(\&s);|s.has_ended = wanted \&\& (check_plan(\&s) \|\| 1);
+plans: changes of all plans above|s.changes = line + 1;|
+plans: pairs on one link|if (bodies[a].link == bodies[b].link) continue;|if (bodies[a].link == bodies[b].link \&\& bodies[a].link == 0) continue;
+plans: pairs of own bodies alone|for (uint32_t a = 0; a < r->bodies.count; a++) {\n    for (uint32_t b|for (uint32_t a = 0; a < r->own; a++) {\n    for (uint32_t b
+plans: what a path attaches|if (!is_plan \&\& !is_line(line, "path") \&\& !is_line(line, "curve")) continue;|if (!is_plan) continue;
 checker: arithmetic of any kind|const char *why = verify__arithmetic();|const char *why = NULL;
 checker: meshes by arithmetic of any kind|if (unfit) return unfit;|
 checker: rounded anyhow|if (sums[0] > one \|\| !(sums[1] > one)) return|if (0) return
@@ -413,7 +456,7 @@ allowances: no size in an arm|double reach = nsvcd__d3_norm(m->frame.position) +
 allowances: a curve by its ends|for (size_t i = 0; i <= m->degree; i++) { low[j]|for (size_t i = 0; i <= m->degree; i += m->degree ? m->degree : 1) { low[j]
 allowances: of any pair|if (allowance->pair == pair \&\& nsvcd__allows_from_to|if (nsvcd__allows_from_to
 allowances: one part alone|for (size_t n = 0; n < 2; n++) { const nsvcd__member *m = \&c->members[parts[n]];|for (size_t n = 0; n < 1; n++) { const nsvcd__member *m = \&c->members[parts[n]];
-allowances: no end|c->cuts[2 * n + 1] = nsvcd__allowed_until(c, \&c->scene->allowances[n], m, t1, t0);|c->cuts[2 * n + 1] = t1;
+allowances: no end|c->cuts[2 * n + 1] = nsvcd__allowed_up_to(c, \&c->scene->allowances[n], m, t1, t0);|c->cuts[2 * n + 1] = t1;
 allowances: looks that see all|return nsvcd__look_not_allowed(k, pair, met) != 0;|return met != 0;
 merge: without delays|return m->delay + nsvcd__piece_start(\&m->motion, piece);|return nsvcd__piece_start(\&m->motion, piece);
 merge: no rest before|while (own > 0 \&\& nsvcd__knot_at(m, 0) > merged->times[at] + all->same) at++;|
@@ -473,9 +516,14 @@ while IFS= read -r line; do
     verify:*) file=test_certificate.c ;;
     checker:*) file=test_checker.c ;;
     fits:*) file=test_fits.c ;;
+    plans:*) file=forge.py ;;
   esac
-  $CC -O2 -march=native -std=c99 -w -I"$work" -DNSVCD_NO_DISPATCH $tile $fused -DTEST_ALONE -DCHECK_ENDS_EARLY -o $work/test $work/tests/$file -lm || exit 1
-  (ulimit -t "${LIMIT:-400}"; TEST_MANY=$many exec $work/test) >$work/out.txt 2>&1
+  source=$work/tests/$file
+  test "$file" = forge.py && source=$work/examples/verify/verify.c
+  $CC -O2 -march=native -std=c99 -w -I"$work" -DNSVCD_NO_DISPATCH $tile $fused -DTEST_ALONE -DCHECK_ENDS_EARLY -o $work/test $source -lm || exit 1
+  run=$work/test
+  test "$file" = forge.py && run="python3 tests/forge.py"
+  (ulimit -t "${LIMIT:-400}"; TEST_MANY=$many VERIFY=$work/test exec $run) >$work/out.txt 2>&1
   code=$?
   if [ $code = 137 ] || [ $code = 152 ]; then echo "NO END    $name: raise LIMIT, CPU seconds"; survived=1; continue; fi
   if [ $code = 0 ]; then

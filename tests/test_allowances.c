@@ -244,6 +244,45 @@ static void routes_take_and_put_down(void) {
   }
 }
 
+// A slide of 0.3 m in 2 s, then a turn: until when a box of it may touch, from either end; errors.
+static void allowed_until_it_is_too_far(void) {
+  static robot r;
+  const double points[15] = {0, 0, 0, 0, 0, 0.3, 0, 0, 0, 0, 0.3, 0, 0, 1, 0};
+  const double times[3] = {10, 12, 13}, falling[3] = {10, 12, 11};
+  const nsvcd_joint_motion motion = {2, 1, points, times};
+  nsvcd_joint_motion other = motion;
+  nsvcd_allowance allowance = {0, points, HELD};
+  double time = 0;
+  taker_make(&r);
+  robot_open(&r);
+  CHECK_EQ(nsvcd_allowed_until(r.checker, &allowance, &motion, 0, &time), NSVCD_OK);
+  CHECK_NEAR(time, 10 + HELD / 0.15, 1e-8);
+  CHECK_LE(time, 10 + HELD / 0.15);
+  allowance.joints = points + 10;
+  CHECK_EQ(nsvcd_allowed_until(r.checker, &allowance, &motion, 1, &time), NSVCD_OK);
+  // a radian a second: the corner that is farthest from the turn's axis goes no farther than is allowed
+  CHECK_GE(time, 13 - HELD / (0.05 * sqrt(2)));
+  CHECK_LE(time, 13 - HELD / 0.3);
+  CHECK_EQ(nsvcd_allowed_until(r.checker, &allowance, &motion, 0, &time), NSVCD_OK);
+  CHECK_NEAR(time, 10, 0);
+  // the jaw does not slide
+  allowance.pair = 1;
+  allowance.distance = 0;
+  CHECK_EQ(nsvcd_allowed_until(r.checker, &allowance, &motion, 0, &time), NSVCD_OK);
+  CHECK_NEAR(time, 13, 0);
+  CHECK_EQ(nsvcd_allowed_until(r.checker, &allowance, &motion, 1, NULL), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_allowed_until(NULL, &allowance, &motion, 1, &time), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_allowed_until(r.checker, NULL, &motion, 1, &time), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_allowed_until(r.checker, &allowance, NULL, 1, &time), NSVCD_ERROR_ARGUMENT);
+  other.times = falling;
+  CHECK_EQ(nsvcd_allowed_until(r.checker, &allowance, &other, 1, &time), NSVCD_ERROR_TIMES);
+  allowance.distance = -1;
+  CHECK_EQ(nsvcd_allowed_until(r.checker, &allowance, &motion, 1, &time), NSVCD_ERROR_DISTANCE);
+  allowance.pair = r.scene.pair_count;
+  CHECK_EQ(nsvcd_allowed_until(r.checker, &allowance, &motion, 1, &time), NSVCD_ERROR_PAIR);
+  free(r.memory);
+}
+
 static void allowances_are_checked(void) {
   static robot r;
   const double start[5] = {0, 0, 0, 0, 0};
@@ -274,6 +313,7 @@ void test_allowances(void) {
   RUN(a_box_is_taken_from_a_table);
   RUN(nothing_touches_farther_away);
   RUN(routes_take_and_put_down);
+  RUN(allowed_until_it_is_too_far);
   RUN(allowances_are_checked);
 }
 

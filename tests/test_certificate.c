@@ -626,6 +626,61 @@ static void certificates_know_joints(void) {
   CHECK_GE(tightest, 0.5);
 }
 
+// What may move within a part's bound does so at all times, seen from the world and from links that
+// carry it; of points as far from the part's origin as is said.
+static void certificates_know_what_stays(void) {
+  static robot r;
+  shapes_rng rng = {16};
+  double tightest = 0;
+  for (int k = 0; k < 3; k++) {  // the farthest corner, whichever it is
+    const uint32_t corners[3] = {0, 1, 2};
+    float at[9] = {0.1f, 0, 0, 0, 0.1f, 0, 0, 0, 0.1f};
+    uint32_t memory[NSVCD_VERIFY_MESH_BYTES(3, 1) / 4 + 1];
+    nsvcd_verify_mesh mesh;
+    at[4 * k] = -2;
+    CHECK(!nsvcd_verify_mesh_init(at, 3, corners, 1, memory, &mesh));
+    CHECK_NEAR(nsvcd_verify_radius(&mesh), 2, 1e-12);
+  }
+  for (int trial = 0; trial < 1500; trial++) {
+    cert_motion m;
+    nsvcd_verify_part part;
+    nsvcd_verify_place was, is;
+    robot_random(&r, &rng);
+    cert_random_motion(&r, &rng, trial % 2 ? 0.5 : 0.05, &m);
+    const size_t n = (size_t)shapes_pick(&rng, (int)r.scene.part_count);
+    uint32_t base = r.parts[n].link;
+    for (int up = shapes_pick(&rng, 4); up >= 0 && base > 0; up--) base = r.joints[base - 1].parent;
+    cert_part(&r, &m, n, base, &part);
+    const size_t from = (size_t)shapes_pick(&rng, (int)m.motion.pieces);
+    const size_t to = from + 1 + (size_t)shapes_pick(&rng, (int)(m.motion.pieces - from));
+    const size_t there = trial % 3 ? from : to;
+    const double whole = m.times[m.motion.pieces] - m.times[0];
+    const double ends[2] = {(m.times[from] - m.times[0]) / whole,
+                            (m.times[to] - m.times[0]) / whole};
+    const double radius = trial % 5 ? shapes_uniform(&rng, 0, 0.5) : 0;
+    double moved = 0;
+    verify__part_place(&part, ends[there == to], &was);
+    for (int k = 0; k <= 40; k++) {
+      double x[3], off[3];
+      verify__part_place(&part, ends[0] + (ends[1] - ends[0]) * k / 40, &is);
+      shapes_direction(&rng, x);
+      for (int i = 0; i < 3; i++) {
+        off[i] = is.at[i] - was.at[i];
+        for (int j = 0; j < 3; j++)
+          off[i] += radius * x[j] * (is.turn[3 * i + j] - was.turn[3 * i + j]);
+      }
+      moved = fmax(moved, oracle_length(off));
+    }
+    // more than it moves it is said to stay within, and not much more, where it is one joint that moves
+    if (moved > 1e-9)
+      CHECK(!nsvcd_verify_stays(&part, radius, from, to, there, moved * (1 - 1e-9)));
+    CHECK(nsvcd_verify_stays(&part, radius, from, to, there, 1e9));
+    for (double f = 1; f > tightest; f *= 0.98)
+      if (nsvcd_verify_stays(&part, radius, from, to, there, moved / f)) tightest = f;
+  }
+  CHECK_GE(tightest, 0.9);
+}
+
 // Trees of the robots' shapes, as cert_bodies has them.
 static cert_body *cert_robot_shapes(void) {
   static cert_body made[SHAPES];
@@ -645,6 +700,83 @@ static cert_body *cert_robot_shapes(void) {
     cert_make(&m, &made[n]);
   }
   return made;
+}
+
+// Two corners of two parts come nearer to each other, in a box of joint values and from its middle, by
+// no more than is said of the parts; and what the checker says of them the library, whose certificates
+// it is for, says as well, or more.
+static void certificates_know_boxes(void) {
+  static robot r;
+  shapes_rng rng = {18};
+  cert_body *shapes = cert_robot_shapes();
+  double tightest = 0;
+  for (int trial = 0; trial < 3000; trial++) {
+    cert_motion m;
+    nsvcd_verify_part parts[2];
+    const nsvcd_verify_mesh *meshes[2];
+    const double *corners[2];
+    double low[NSVCD_MAX_JOINTS], high[NSVCD_MAX_JOINTS], half[NSVCD_MAX_JOINTS];
+    double moved[NSVCD_MAX_JOINTS], points[2 * NSVCD_MAX_JOINTS];
+    do robot_random(&r, &rng);
+    while (r.scene.part_count < 2);
+    const size_t joints = r.scene.joint_count;
+    for (size_t n = 0; n < r.scene.part_count; n++) r.parts[n].scale = 0;
+    const int last = (int)r.scene.part_count - 1;
+    nsvcd_body_pair two = {(uint32_t)shapes_pick(&rng, last), (uint32_t)last};
+    const nsvcd_body_pair *pair = &two;
+    robot_open(&r);
+    cert_random_motion(&r, &rng, 0.1, &m);
+    const double wide = trial % 3 ? 1.5 : 0.2;
+    for (size_t j = 0; j < joints; j++) {
+      const double middle = shapes_uniform(&rng, -2, 2);
+      half[j] = shapes_pick(&rng, 3) ? shapes_uniform(&rng, 0, wide) : 0;
+      low[j] = points[j] = points[joints + j] = middle;
+      low[j] -= half[j];
+      high[j] = middle + half[j];
+      half[j] *= 1 + 1e-12;
+    }
+    const uint32_t but = trial % 2 ? 1 + (uint32_t)shapes_pick(&rng, (int)joints) : 0;
+    if (but) points[but - 1] = low[but - 1];
+    if (but) points[joints + but - 1] = high[but - 1];
+    m.checked.pieces = m.checked.degree = 1;
+    m.checked.points = points;
+    for (int n = 0; n < 2; n++) {
+      const size_t part = n ? pair->b : pair->a;
+      const oracle_mesh *exact = &robot_shapes()[r.shape[part]].exact;
+      cert_part(&r, &m, part,
+                nsvcd_verify_common(&m.checked, r.parts[pair->a].link, r.parts[pair->b].link),
+                &parts[n]);
+      meshes[n] = &shapes[r.shape[part]].checked;
+      corners[n] = exact->triangles[shapes_pick(&rng, (int)exact->triangle_count)].v[trial % 3];
+    }
+    const double travel = nsvcd_verify_travel(parts, meshes, half, but);
+    double told = 0;
+    CHECK_EQ(nsvcd_pair_travel(r.checker, *pair, low, high, moved), NSVCD_OK);
+    for (size_t j = 0; j < joints; j++) told += j + 1 == but ? 0 : moved[j];
+    CHECK_LE(travel, told * (1 + 1e-9) + 1e-12);
+    for (int k = 0; k < 60; k++) {
+      double q[2][NSVCD_MAX_JOINTS], off[2][3], x[2][3];
+      for (size_t j = 0; j < joints; j++) {
+        q[0][j] = 0.5 * (low[j] + high[j]);
+        q[1][j] = k % 4                  ? shapes_uniform(&rng, low[j], high[j])
+                  : shapes_pick(&rng, 2) ? low[j]
+                                         : high[j];
+        if (j + 1 == but) q[0][j] = q[1][j];
+      }
+      for (int at = 0; at < 2; at++) {
+        for (int n = 0; n < 2; n++) {
+          const placed where = placed_part(&r.scene, n ? pair->b : pair->a, q[at]);
+          placed_point(&where, 1, corners[n], x[n]);
+        }
+        oracle_sub(x[0], x[1], off[at]);
+      }
+      const double nearer = fabs(oracle_length(off[0]) - oracle_length(off[1]));
+      CHECK_LE(nearer, travel + 1e-12);
+      if (travel > 1e-6) tightest = fmax(tightest, nearer / travel);
+    }
+    free(r.memory);
+  }
+  CHECK_GE(tightest, 0.95);
 }
 
 // A robot that is open, a motion of it, and its pairs, certified and checked: what is certified
@@ -1120,6 +1252,8 @@ void test_certificate(void) {
   RUN(certificates_refuse);
   RUN(certificates_know_paths);
   RUN(certificates_know_joints);
+  RUN(certificates_know_what_stays);
+  RUN(certificates_know_boxes);
   RUN(certificates_of_robots);
   RUN(certificates_of_levels);
   RUN(certificates_of_what_is_fine_over_a_floor);

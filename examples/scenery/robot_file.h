@@ -75,7 +75,8 @@ typedef struct robot_task {
 // What a robot takes, or lets go of, before a task.
 typedef struct robot_change {
   size_t task, line, thing;
-  uint32_t link;  // 0: it rests
+  uint32_t link;    // 0: it rests
+  nsvcd_pose pose;  // where it stood, in that link: once the task's start is known
 } robot_change;
 
 // Two things that may touch near the start and the goals, from a task on.
@@ -683,6 +684,7 @@ static int robot_read_motions(const reader *r, const robot_file *file, size_t ro
 // Motions on clocks of their own become one curve.
 static int robot_read_together(reader *r, robot_file *file) {
   robot_task task;
+  static const double zeros[NSVCD_MAX_JOINTS];  // of joints that mimic, until they follow
   nsvcd_partial_motion motions[NSVCD_MAX_JOINTS];
   nsvcd_joint_motion merged;
   size_t count = 0;
@@ -700,7 +702,7 @@ static int robot_read_together(reader *r, robot_file *file) {
   const size_t size = nsvcd_merge_motions_size(motions, count, joints);
   void *memory = allocate(size);
   const nsvcd_result result =
-      nsvcd_merge_motions(motions, count, joints, NULL, memory, size, &merged);
+      nsvcd_merge_motions(motions, count, joints, zeros, memory, size, &merged);
   if (!result) {
     task.degree = merged.pieces ? merged.degree : 0;
     task.points = merged.pieces * merged.degree + 1;

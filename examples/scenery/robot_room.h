@@ -183,7 +183,7 @@ static int allow_near(robot_in_room *in, size_t task, const double *start, const
 static int change_things(robot_file *file, size_t task, const double *start, float clearance,
                          robot_in_room *in) {
   for (size_t k = 0; k < file->change_count; k++) {
-    const robot_change *change = &file->changes[k];
+    robot_change *change = &file->changes[k];
     robot_thing *thing = &file->things[change->thing];
     nsvcd_part part;
     if (change->task != task) continue;
@@ -193,7 +193,7 @@ static int change_things(robot_file *file, size_t task, const double *start, flo
     const nsvcd_result result = nsvcd_reparent(in->checker, start, n, change->link, &part);
     if (result) return complain("%s:%zu: %s", file->path, change->line, reason_of(result));
     thing->link = part.link;
-    thing->pose = part.pose;
+    thing->pose = change->pose = part.pose;
   }
   return 1;
 }

@@ -252,13 +252,9 @@ static int tell_plan(const robot_in_room *in, const robot_task *task, const sett
   if (is_found && out) write_samples(task, answer, in->file->joint_count, options->samples, out);
   if (is_found && options->picture) good = robot_draw(options->picture, 0, in, task->id, m);
   if (is_found && options->film) good &= robot_draw(options->film, 1, in, task->id, m);
-  if (options->certificates && has_steps_above(in->file, task))
-    good = complain(
-        "%s:%zu: %s: no certificate: 'verify' does not know what may touch, or is attached",
-        in->file->path, task->line, task->id);
-  else if (options->certificates)
-    good &= write_motion_proof(in, options->certificates, task->id, is_found ? m : NULL,
-                               options->visits);
+  if (options->certificates)
+    good &= write_motion_proof(in, options->certificates, (size_t)(task - in->file->tasks),
+                               is_found ? m : NULL, options->visits);
   return good;
 }
 
@@ -563,6 +559,28 @@ static int decide_pairs(const robot_in_room *in, const settings *options, size_t
   return 1;
 }
 
+// Writes a proof of each two bodies that never meet. pairs: kept. Returns 0 after a complaint.
+static int prove_pairs(robot_in_room *in, const settings *options, size_t count,
+                       const nsvcd_body_pair *pairs, const nsvcd_range_answer *found) {
+  nsvcd_joint joints[NSVCD_MAX_JOINTS];
+  int good = 1;
+  free(in->clearances);
+  in->clearances = (float *)allocate(count * sizeof *in->clearances);
+  // a box has values of each joint
+  memcpy(joints, in->scene.joints, in->scene.joint_count * sizeof *joints);
+  for (size_t j = 0; j < in->scene.joint_count; j++) joints[j].mimic = 0;
+  in->scene.joints = joints;
+  in->scene.pairs = pairs;
+  in->scene.pair_count = count;
+  in->scene.clearances = NULL;
+  if (!open_room(in)) return 0;
+  for (size_t n = 0; n < count; n++)
+    if (found[n].meeting == NSVCD_MEETS_NEVER)
+      good &= write_never_proof(in, options->certificates, n, options->visits);
+  in->scene.joints = NULL;
+  return good;
+}
+
 // Which bodies of a robot can meet each other: lines for its planning file.
 static int pairs(settings *options) {
   robot_file file;
@@ -592,6 +610,7 @@ static int pairs(settings *options) {
     good = good && decide_pairs(&in, options, count, asked, found);
     for (size_t n = 0; n < count && good; n++) print_pair(&in, &asked[n], options->json, &found[n]);
     if (options->srdf && good) good = write_srdf(options->srdf, &file, count, asked, found);
+    if (good && options->certificates) good = prove_pairs(&in, options, count, asked, found);
     free(asked);
     free(found);
   }

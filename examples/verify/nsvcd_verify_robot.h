@@ -185,6 +185,114 @@ static inline uint32_t nsvcd_verify_common(const nsvcd_verify_motion *m, uint32_
   return a;
 }
 
+// No point of a mesh that is in a triangle is farther from its origin.
+static inline double nsvcd_verify_radius(const nsvcd_verify_mesh *mesh) {
+  double most = 0;
+  for (size_t i = 0; i < 3 * mesh->triangles; i++) {
+    const float *x = verify__corner(mesh, i / 3, i % 3);
+    most = verify__max(most, verify__offset(x));
+  }
+  return most;
+}
+
+// Is no point of a part, none of which is farther than a radius from its origin, farther than
+// `metres` from where it is where piece `there` begins, as the base sees it, in all pieces from
+// `from` to before `to`? there: from or to. All values lie within the points of their curves. Along
+// the straight way from those there, which lies within them too, a point moves by no more than the
+// sum of each joint's way times L_j, as above. That is off by a few roundings for each joint: less
+// than 1e-12 of it.
+static inline int nsvcd_verify_stays(const nsvcd_verify_part *part, double radius, size_t from,
+                                     size_t to, size_t there, double metres) {
+  const nsvcd_verify_motion *m = part->motion;
+  double reach = verify__offset(part->pose) + radius;
+  double moved = 0;
+  for (uint32_t link = part->link; link != part->base; link = m->joints[link - 1].parent) {
+    const nsvcd_verify_joint *joint = &m->joints[link - 1];
+    const double *values = m->points + link - 1;
+    double most = 0, way = 0;
+    for (size_t i = from * m->degree; i <= to * m->degree; i++) {
+      const double value = values[i * m->joint_count];
+      most = verify__max(most, fabs(value));
+      way = verify__max(way, fabs(value - values[there * m->degree * m->joint_count]));
+    }
+    moved += joint->slides ? way : way * reach;
+    reach += verify__offset(joint->origin) + (joint->slides ? most : 0);
+  }
+  return moved * (1 + 1e-12) <= metres;
+}
+
+// No point of a part of a mesh is farther than that from the axis of the joint that carries a link, as
+// its base sees both at half the time.
+static inline double verify__from_axis(const nsvcd_verify_part *part, const nsvcd_verify_mesh *mesh,
+                                       uint32_t link) {
+  const float *own = part->motion->joints[link - 1].axis;
+  const nsvcd_verify_part carried = {part->motion, link, part->base, {0, 0, 0, 0, 0, 0, 1}};
+  nsvcd_verify_place joint, at;
+  double axis[3], most = 0, square = 0;
+  verify__part_place(&carried, 0.5, &joint);
+  verify__part_place(part, 0.5, &at);
+  for (int i = 0; i < 3; i++) {
+    const double *row = joint.turn + 3 * i;
+    axis[i] = row[0] * (double)own[0] + row[1] * (double)own[1] + row[2] * (double)own[2];
+    square += axis[i] * axis[i];
+  }
+  for (size_t n = 0; n < 3 * mesh->triangles; n++) {
+    const float *x = verify__corner(mesh, n / 3, n % 3);
+    double off[3], cross[3];
+    for (int i = 0; i < 3; i++) {
+      const double *row = at.turn + 3 * i;
+      off[i] = at.at[i] - joint.at[i] + row[0] * (double)x[0] + row[1] * (double)x[1] +
+               row[2] * (double)x[2];
+    }
+    for (int i = 0; i < 3; i++) {
+      const int j = (i + 1) % 3;
+      const int k = (i + 2) % 3;
+      cross[i] = axis[j] * off[k] - axis[k] * off[j];
+    }
+    most = verify__max(most, verify__dot(cross, cross));
+  }
+  return sqrt(most / square);
+}
+
+// How far two parts may come nearer to each other, from where they are at half the time, if each
+// joint between them, but the one that carries link `but`, goes as far to either side as `half` says,
+// and that one, too. If one joint turns by w and others stay, their distance changes by w r at most: r
+// is the distance of the farthest point of either part from its axis, of either, since to turn one is
+// to turn the other back; where it slides, r is 1. Joints may change one after another. r is that at
+// half the time, and what the joints between that part and the axis add: the chord 2 r sin(h / 2) of
+// each that turns by h, and h of one that slides.
+static inline double nsvcd_verify_travel(const nsvcd_verify_part *parts,
+                                         const nsvcd_verify_mesh *const *meshes, const double *half,
+                                         uint32_t but) {
+  const nsvcd_verify_joint *joints = parts[0].motion->joints;
+  uint32_t path[2 * NSVCD_VERIFY_JOINTS];
+  double arms[2 * NSVCD_VERIFY_JOINTS];
+  size_t count = 0;
+  double sum = 0;
+  for (uint32_t a = parts[0].link; a != parts[0].base; a = joints[a - 1].parent) path[count++] = a;
+  const size_t turning = count;
+  for (uint32_t b = parts[1].link; b != parts[1].base; b = joints[b - 1].parent) path[count++] = b;
+  for (size_t i = turning, j = count; i + 1 < j; i++) {
+    const uint32_t outer = path[i];
+    path[i] = path[--j];
+    path[j] = outer;
+  }
+  for (int side = 0; side < 2; side++) {
+    double moved = 0;
+    for (size_t n = 0; n < count; n++) {
+      const size_t k = side ? count - 1 - n : n;
+      const double h = half[path[k] - 1];
+      const int slides = joints[path[k] - 1].slides != 0;
+      double arm = 1;
+      if (!slides) arm = verify__from_axis(&parts[side], meshes[side], path[k]) + moved;
+      moved += slides ? h : 2 * arm * sin(0.5 * verify__min(h, 3.141592653589793));
+      arms[k] = side ? verify__min(arms[k], arm) : arm;
+    }
+  }
+  for (size_t k = 0; k < count; k++) sum += path[k] == but ? 0 : half[path[k] - 1] * arms[k];
+  return sum * (1 + 1e-10);
+}
+
 static inline int verify__is_pose(const float *pose) {
   double square = 0;
   for (int i = 0; i < 7; i++) {

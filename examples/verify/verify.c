@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: MIT
 // verify.c - checks a folder of certificates against a problem file. It shares no code with
 // neuralsvcd.h. To be believed are nsvcd_verify.h and its files, and of what is read, which mesh,
-// motion and pair it is, verify_files.h, verify_shapes.h and verify_plans.h.
+// motion and pair it is, verify_files.h, verify_shapes.h, verify_plans.h and
+// verify_pairs.h.
 //
 //   verify FILE.txt FOLDER [--clearance METRES] [--only ID,ID]
+//   verify --pairs FILE.txt FOLDER [--only A-B,A-B]
 //
 // FILE.txt is a problem file or a planning file (examples/FORMATS.md); FOLDER holds a certificate
 // ID.cert for each problem or plan, as `svcd check --certificates FOLDER` and `svcd plan
 // --certificates FOLDER` write them. A line each, separated by tabs:
 //   ID accepted|refused REASON BYTES MICROSECONDS
 // REASON: what is proven (free, hit, near, inside), or why it is refused and at which byte.
+// With --pairs A-B.cert of each two bodies of a robot that no line `pair` names, as `svcd pairs
+// --certificates FOLDER` writes them: what is proven is that they never meet.
 // MICROSECONDS: of one check; meshes are read, and their trees built, before. Exit status: 0 each
 // proves what its line says, which may be a hit; 1 one is refused; 2 a file cannot be read, or usage.
 #include <time.h>
 
-#include "verify_plans.h"
+#include "verify_pairs.h"
 
 #define REPEAT 20  // checks, by a clock that may know no less than a microsecond
 
@@ -120,7 +124,11 @@ static int check_problems(const char *path, char *text, request *asked) {
 }
 
 int main(int argc, char **argv) {
-  request asked = {argc > 2 ? argv[2] : NULL, NULL, 0, 0};
+  const int pairs = argc > 1 && strcmp(argv[1], "--pairs") == 0;
+  argc -= pairs;
+  argv += pairs;
+  request asked = {argc > 2 ? argv[2] : NULL, NULL, 0, 0, pairs};
+  robot r;
   int known = argc > 2 && argc % 2 == 1;
   for (int i = 3; i < argc && known; i += 2) {
     const int is_only = strcmp(argv[i], "--only") == 0;
@@ -129,7 +137,7 @@ int main(int argc, char **argv) {
     if (known && !is_only) asked.clearance = (float)number_of("--clearance", argv[i + 1]);
   }
   if (!known) {
-    fprintf(stderr, "verify FILE.txt FOLDER [--clearance METRES] [--only ID,ID]\n");
+    fprintf(stderr, "verify [--pairs] FILE.txt FOLDER [--clearance METRES] [--only ID,ID]\n");
     return 2;
   }
   const char *path = argv[1];
@@ -141,9 +149,12 @@ int main(int argc, char **argv) {
   char *next = text;
   expect(path, &next, words, 2);
   const int is_plans = strcmp(words[0], "nsvcd-plans") == 0;
-  if (!is_plans && strcmp(words[0], "nsvcd-problems") != 0)
-    fail(path, "its first line is not nsvcd-problems 1");
-  const int all = (is_plans ? check_plans : check_problems)(path, next, &asked);
+  if (!is_plans && (pairs || strcmp(words[0], "nsvcd-problems") != 0))
+    fail(path, pairs ? "it is no planning file" : "its first line is not nsvcd-problems 1");
+  int all = 0;
+  if (is_plans) all = check_plans(path, next, &asked, &r);
+  if (!is_plans) all = check_problems(path, next, &asked);
+  if (pairs) all = check_pairs(&r, &asked);
   if (asked.only && !asked.found) fail("--only", "the file has none of these");
   return all ? 0 : 1;
 }

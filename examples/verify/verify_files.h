@@ -360,6 +360,7 @@ typedef struct request {
   const char *only;  // ID,ID: these alone; NULL: all
   float clearance;
   size_t found;  // how many of those there were
+  int pairs;     // 1: of a robot's bodies, in place of plans
 } request;
 
 static int is_wanted(request *asked, const char *id) {

@@ -18,9 +18,15 @@ typedef struct robot_body {
 // A line `clearance`: of two bodies, or, if both are EACH, of each pair with an obstacle.
 #define EACH 0xffffffffu
 typedef struct distance {
-  uint32_t a, b;
+  uint32_t pair[2];
   float metres;
 } distance;
+
+// Two bodies that may touch: a line `allow`.
+typedef struct allowed {
+  uint32_t pair[2];
+  double metres;
+} allowed;
 
 typedef struct group {
   const char *name;
@@ -34,15 +40,23 @@ typedef struct robot {
   // of a joint that mimics another: 1 + that; multiplier and offset
   uint32_t leaders[NSVCD_VERIFY_JOINTS];
   double driven[NSVCD_VERIFY_JOINTS][2];
+  double low[NSVCD_VERIFY_JOINTS], high[NSVCD_VERIFY_JOINTS];
   nsvcd_verify_joint joints[NSVCD_VERIFY_JOINTS];
   size_t joint_count;
   list bodies;  // the robot's, then the scene's obstacles, which are read last
   size_t own;   // how many of them are the robot's
-  list pairs;   // (2): the robot's, then those with obstacles
-  list kept;    // (pairs): metres
+  size_t own_pairs;
+  list pairs;  // (2): the robot's, then, of a plan, those with obstacles
+  list kept;   // (pairs): metres
   list groups;
   list distances;  // those above the first scene, then the scene's
+  list allows;     // so, too
 } robot;
+
+// Is a pair of bodies this one, in either order?
+static int is_of(const uint32_t *pair, const uint32_t *who) {
+  return (pair[0] == who[0] && pair[1] == who[1]) || (pair[0] == who[1] && pair[1] == who[0]);
+}
 
 static uint32_t link_named(const robot *r, const char *name) {
   if (strcmp(name, "world") == 0) return 0;
@@ -112,7 +126,13 @@ static void add_joint(robot *r, char *const *words) {
   joint->slides = strcmp(words[13], "prismatic") == 0;
   read_pose(r->path, words + 3, joint->origin);
   for (size_t k = 0; k < 3; k++) joint->axis[k] = (float)number_of(r->path, words[10 + k]);
-  r->continuous[r->joint_count] = strcmp(words[13], "continuous") == 0;
+  const int is_endless = strcmp(words[13], "continuous") == 0;
+  double *low = &r->low[r->joint_count];
+  double *high = &r->high[r->joint_count];
+  r->continuous[r->joint_count] = is_endless;
+  *low = is_endless ? 0 : number_of(r->path, words[14]);
+  *high = is_endless ? 6.28318530717960 : number_of(r->path, words[15]);
+  if (*low > *high) fail(r->path, "LOW is above HIGH");
   r->names[r->joint_count++] = words[1];
 }
 
@@ -155,13 +175,30 @@ static double take_double(const uint8_t *bytes, size_t size, size_t *at) {
   return value;
 }
 
-// A line that is a plan or a goal: plans are checked where their scene ends, since goals may follow.
+// A line of a scene from its first plan on. Plans are checked where the scene ends, since goals may
+// follow.
 typedef struct plan_line {
   char *words[MOST_WORDS];
   size_t count;
-  const group *of;     // of a plan; NULL: all joints may move
-  const char *barred;  // of a plan: why it cannot be checked; NULL: it can
+  const group *of;       // of a plan; NULL: all joints may move
+  uint32_t thing, link;  // of `attach` and `release`: a body, and what it is on from now on
 } plan_line;
+
+static int is_line(const plan_line *line, const char *word) {
+  return strcmp(line->words[0], word) == 0;
+}
+
+// A plan, and what the lines above it have come to.
+typedef struct step {
+  robot *r;  // things are where the plans above have left them
+  request *asked;
+  const plan_line *plan, *end;  // end: of the scene's lines
+  const plan_line *changes;     // from there on `attach` and `release` lines are the plan's
+  size_t change_count;
+  int is_lost;    // 1: it is not known where things are
+  int has_ended;  // 1: the plan above ends at these values
+  double ended[NSVCD_VERIFY_JOINTS];
+} step;
 
 // Do only joints of a group move, and those that mimic them? NULL: all may.
 static int keeps_to(const robot *r, const group *of, const nsvcd_verify_motion *m) {
@@ -173,12 +210,12 @@ static int keeps_to(const robot *r, const group *of, const nsvcd_verify_motion *
   return 1;
 }
 
-// Are the joints at an end of a motion those of a line? Turns without limits may be whole ones off;
-// what mimics another joint is where that one drives it.
-static int is_at(const robot *r, const double *joints, char *const *words) {
+// Are the joints at an end of a motion those of a line, or, without words, those of another motion?
+// Turns without limits may be whole ones off; what mimics another joint is where that drives it.
+static int is_at(const robot *r, const double *joints, char *const *words, const double *other) {
   const double turn = 6.283185307179586;
   for (size_t j = 0; j < r->joint_count; j++) {
-    double off = joints[j] - number_of(r->path, words[j]);
+    double off = joints[j] - (words ? number_of(r->path, words[j]) : other[j]);
     if (r->leaders[j]) continue;
     if (r->continuous[j]) off -= turn * floor(off / turn + 0.5);
     if (!(fabs(off) < 1e-9)) return 0;
@@ -227,54 +264,163 @@ static int is_placed(const robot *r, const nsvcd_verify_motion *m, const plan_li
 
 // Does a motion begin at the start of a plan, and end at one of its goals? Those are on its line, and
 // on lines below, up to a plan of the same ID.
-static int goes(const robot *r, const nsvcd_verify_motion *m, const plan_line *plan,
-                const plan_line *end) {
+static int goes(const step *s, const nsvcd_verify_motion *m) {
+  const robot *r = s->r;
+  const plan_line *plan = s->plan;
   const size_t joints = m->joint_count;
   const double *last = m->points + m->pieces * m->degree * joints;
-  if (!is_at(r, m->points, plan->words + 3)) return 0;
-  if (plan->count > 3 + joints && is_at(r, last, plan->words + 3 + joints)) return 1;
-  for (const plan_line *goal = plan + 1; goal < end; goal++) {
-    if (strcmp(goal->words[1], plan->words[1]) != 0) continue;
-    if (strcmp(goal->words[0], "plan") == 0) return 0;
+  if (!is_at(r, m->points, plan->count > 3 ? plan->words + 3 : NULL, s->ended)) return 0;
+  if (plan->count > 3 + joints && is_at(r, last, plan->words + 3 + joints, NULL)) return 1;
+  for (const plan_line *goal = plan + 1; goal < s->end; goal++) {
+    const int is_goal = is_line(goal, "goal");
+    if ((!is_goal && !is_line(goal, "plan")) || strcmp(goal->words[1], plan->words[1]) != 0)
+      continue;
+    if (!is_goal) return 0;
     const int is_pose = strcmp(goal->words[2], "pose") == 0;
-    if (is_pose ? is_placed(r, m, goal) : is_at(r, last, goal->words + 2)) return 1;
+    if (is_pose ? is_placed(r, m, goal) : is_at(r, last, goal->words + 2, NULL)) return 1;
   }
   return 0;
 }
 
-static const char *check_pair(const robot *r, const nsvcd_verify_motion *m, size_t pair,
-                              float clearance, const uint8_t *bytes, size_t size,
-                              nsvcd_verify_report *report) {
-  const uint32_t *who = (const uint32_t *)r->pairs.items + 2 * pair;
-  const robot_body *bodies[2] = {(const robot_body *)r->bodies.items + who[0],
-                                 (const robot_body *)r->bodies.items + who[1]};
-  nsvcd_verify_part parts[2];
-  nsvcd_verify_mover movers[2];
-  const size_t room = NSVCD_VERIFY_WORKSPACE_BYTES(m->pieces + 3);
-  const char *why = NULL;
-  for (int k = 0; k < 2 && !why; k++) {
-    parts[k].motion = m;
-    parts[k].link = bodies[k]->link;
-    parts[k].base = nsvcd_verify_common(m, bodies[0]->link, bodies[1]->link);
-    memcpy(parts[k].pose, bodies[k]->pose, sizeof parts[k].pose);
-    why = nsvcd_verify_part_init(bodies[k]->mesh, 1, &parts[k], &movers[k]);
+// Attaches and releases what the lines above a plan say, where the motion begins. A certificate has
+// the pose, in floats, of each: it is the one at which the thing stands as it stood, up to their
+// rounding, by 6e-8 of each number, so by 1.2e-7 in a turn's matrix.
+static const char *take_changes(const step *s, const nsvcd_verify_motion *m, const uint8_t *bytes,
+                                size_t size, size_t *at) {
+  robot *r = s->r;
+  for (const plan_line *line = s->changes; line < s->plan; line++) {
+    if (!is_line(line, "attach") && !is_line(line, "release")) continue;
+    robot_body *body = (robot_body *)r->bodies.items + line->thing;
+    nsvcd_verify_part part = {m, body->link, 0, {0}};
+    nsvcd_verify_place was, is;
+    double off = 0, turned = 0;
+    memcpy(part.pose, body->pose, sizeof part.pose);
+    verify__part_place(&part, 0, &was);
+    body->link = line->link;
+    for (int k = 0; k < 7; k++) {
+      const uint32_t bits = (uint32_t)take(bytes, size, at, 4);
+      memcpy(&body->pose[k], &bits, sizeof bits);
+    }
+    if (!verify__is_pose(body->pose)) return "what is attached is at no pose";
+    part.link = body->link;
+    memcpy(part.pose, body->pose, sizeof part.pose);
+    verify__part_place(&part, 0, &is);
+    for (int k = 0; k < 9; k++) turned = verify__max(turned, fabs(is.turn[k] - was.turn[k]));
+    for (int k = 0; k < 3; k++) off += (is.at[k] - was.at[k]) * (is.at[k] - was.at[k]);
+    if (!(sqrt(off) <= 1e-9 + 1e-7 * verify__offset(part.pose) && turned <= 3e-7))
+      return "what is attached, or released, does not stand where it stood";
   }
-  if (why) return why;
+  return NULL;
+}
+
+// How far two bodies may be from where they touch, metres; -1: they may not touch.
+static double may_touch(const robot *r, const uint32_t *who) {
+  const allowed *allows = (const allowed *)r->allows.items;
+  double metres = -1;
+  for (size_t k = 0; k < r->allows.count; k++)
+    if (is_of(allows[k].pair, who)) metres = verify__max(metres, allows[k].metres);
+  return metres;
+}
+
+// Takes from a motion's start and end the pieces in which a pair may touch, as the certificate says.
+static const char *cut_allowed(const nsvcd_verify_part *parts, const double *radii, double metres,
+                               const uint8_t *bytes, size_t size, size_t *at,
+                               nsvcd_verify_motion *rest) {
+  const size_t pieces = rest->pieces;
+  const size_t until = (size_t)take(bytes, size, at, 4);
+  const size_t from = (size_t)take(bytes, size, at, 4);
+  if (*at > size) return "it ends early";
+  if (until > from || from > pieces) return "two may touch in pieces that are none";
+  for (int k = 0; k < 2; k++)
+    if ((until > 0 && !nsvcd_verify_stays(&parts[k], radii[k], 0, until, 0, metres)) ||
+        (from < pieces && !nsvcd_verify_stays(&parts[k], radii[k], from, pieces, pieces, metres)))
+      return "two are farther from where they may touch than is allowed";
+  rest->times += until;
+  rest->points += until * rest->degree * rest->joint_count;
+  rest->pieces = from - until;
+  return rest->pieces ? nsvcd_verify_motion_check(rest) : NULL;
+}
+
+// Is it proven that two parts keep a distance?
+static const char *check_free(const robot_body *const *bodies, const nsvcd_verify_part *parts,
+                              float clearance, const uint8_t *bytes, size_t length, size_t *at) {
+  const size_t room = NSVCD_VERIFY_WORKSPACE_BYTES(parts->motion->pieces + 3);
+  nsvcd_verify_mover movers[2];
+  nsvcd_verify_report report;
+  memset(&report, 0, sizeof report);
+  for (int k = 0; k < 2; k++) {
+    const char *why = nsvcd_verify_part_init(bodies[k]->mesh, 1, &parts[k], &movers[k]);
+    if (why) return why;
+  }
   // what is round keeps its radius besides: a float, and no less
   const double sum = (double)clearance + (bodies[0]->radius + bodies[1]->radius);
   clearance = (float)sum;
   if ((double)clearance < sum) clearance = nextafterf(clearance, HUGE_VALF);
   void *workspace = allocate(room);
-  const int accepted =
-      nsvcd_verify(&movers[0], &movers[1], clearance, bytes, size, workspace, room, report);
+  const int accepted = nsvcd_verify(&movers[0], &movers[1], clearance, bytes + *at, length,
+                                    workspace, room, &report);
   free(workspace);
-  if (!accepted) return report->reason;
-  return report->kind == NSVCD_VERIFY_FREE ? NULL : "a pair is not proven free";
+  *at += accepted ? length : report.position;
+  if (!accepted) return report.reason;
+  return report.kind == NSVCD_VERIFY_FREE ? NULL : "a pair is not proven free";
 }
 
-// NULL, or why it is refused. *at: the byte.
-static const char *check_motion(const robot *r, const plan_line *plan, const plan_line *end,
-                                const uint8_t *bytes, size_t size, size_t *at) {
+static const char *check_pair(const robot *r, const nsvcd_verify_motion *m, size_t pair,
+                              const uint8_t *bytes, size_t size, size_t *at) {
+  const uint32_t *who = (const uint32_t *)r->pairs.items + 2 * pair;
+  const robot_body *bodies[2] = {(const robot_body *)r->bodies.items + who[0],
+                                 (const robot_body *)r->bodies.items + who[1]};
+  const double metres = may_touch(r, who);
+  nsvcd_verify_motion rest = *m;
+  nsvcd_verify_part parts[2];
+  double radii[2];
+  const char *why = NULL;
+  for (int k = 0; k < 2; k++) {
+    parts[k].motion = m;
+    parts[k].link = bodies[k]->link;
+    parts[k].base = nsvcd_verify_common(m, bodies[0]->link, bodies[1]->link);
+    memcpy(parts[k].pose, bodies[k]->pose, sizeof parts[k].pose);
+    radii[k] = metres >= 0 ? nsvcd_verify_radius(bodies[k]->mesh) + bodies[k]->radius : 0;
+  }
+  if (metres >= 0) why = cut_allowed(parts, radii, metres, bytes, size, at, &rest);
+  if (why) return why;
+  const size_t length = (size_t)take(bytes, size, at, 4);
+  if (*at > size || length > size - *at) return "it ends early";
+  if (rest.pieces == 0) return length ? "a pair that may touch all the time has a proof" : NULL;
+  for (int k = 0; k < 2; k++) parts[k].motion = &rest;
+  return check_free(bodies, parts, ((const float *)r->kept.items)[pair], bytes, length, at);
+}
+
+// Adds each body with each obstacle that is on another link; then, what each pair keeps: one with an
+// obstacle what is asked for, or what the file says of all, if that is more. What it says of two
+// bodies comes before both.
+static void pair_up(robot *r, float asked) {
+  const robot_body *bodies = (const robot_body *)r->bodies.items;
+  const distance *distances = (const distance *)r->distances.items;
+  float all = 0;
+  r->pairs.count = r->own_pairs;
+  for (uint32_t a = 0; a < r->bodies.count; a++) {
+    for (uint32_t b = a < r->own ? (uint32_t)r->own : a + 1; b < r->bodies.count; b++) {
+      if (bodies[a].link == bodies[b].link) continue;
+      add_index(&r->pairs, a);
+      add_index(&r->pairs, b);
+    }
+  }
+  for (size_t k = 0; k < r->distances.count; k++)
+    if (distances[k].pair[0] == EACH) all = distances[k].metres;
+  r->kept.count = 0;
+  for (size_t n = 0; n < r->pairs.count / 2; n++) {
+    double metres = 2 * n < r->own_pairs ? 0 : all > asked ? (double)all : (double)asked;
+    for (size_t k = 0; k < r->distances.count; k++)
+      if (is_of(distances[k].pair, (const uint32_t *)r->pairs.items + 2 * n))
+        metres = (double)distances[k].metres;
+    add_float(&r->kept, metres);
+  }
+}
+
+// NULL, or why it is refused. *at: the byte. Notes where the motion ends.
+static const char *check_motion(step *s, const uint8_t *bytes, size_t size, size_t *at) {
+  robot *r = s->r;
   nsvcd_verify_motion m;
   memset(&m, 0, sizeof m);
   *at = 4;
@@ -291,94 +437,66 @@ static const char *check_motion(const robot *r, const plan_line *plan, const pla
   for (size_t k = 0; k < numbers + m.pieces + 1; k++) motion[k] = take_double(bytes, size, at);
   m.times = motion;
   m.points = motion + m.pieces + 1;
-  const size_t pairs = r->pairs.count / 2;
   const char *why = nsvcd_verify_motion_check(&m);
-  if (!why && !goes(r, &m, plan, end)) why = "its motion has another start or goal";
+  if (!why) why = take_changes(s, &m, bytes, size, at);
+  if (!why && !goes(s, &m)) why = "its motion has another start or goal";
   if (!why && !mimics(r, &m)) why = "a joint is not where the one that it mimics drives it";
-  if (!why && !keeps_to(r, plan->of, &m)) why = "a joint moves that is not of the plan's group";
-  if (!why && take(bytes, size, at, 4) != pairs) why = "it is about other pairs";
-  for (size_t pair = 0; pair < pairs && !why; pair++) {
-    const size_t length = (size_t)take(bytes, size, at, 4);
-    nsvcd_verify_report report;
-    memset(&report, 0, sizeof report);
-    if (*at > size || length > size - *at) {
-      why = "it ends early";
-      break;
-    }
-    const float kept = ((const float *)r->kept.items)[pair];
-    why = check_pair(r, &m, pair, kept, bytes + *at, length, &report);
-    *at += why ? report.position : length;
-  }
+  if (!why && !keeps_to(r, s->plan->of, &m)) why = "a joint moves that is not of the plan's group";
+  if (!why) pair_up(r, s->asked->clearance);
+  if (!why && take(bytes, size, at, 4) != r->pairs.count / 2) why = "it is about other pairs";
+  for (size_t pair = 0; pair < r->pairs.count / 2 && !why; pair++)
+    why = check_pair(r, &m, pair, bytes, size, at);
   if (!why && *at != size) why = "something follows its end";
+  memcpy(s->ended, m.points + m.pieces * m.degree * m.joint_count,
+         m.joint_count * sizeof *s->ended);
   free(motion);
   return why;
 }
 
-static int check_plan(const robot *r, const plan_line *plan, const plan_line *end, request *asked) {
-  char *const *words = plan->words;
+static void print_line(const char *id, const char *why, const char *proven, size_t size, size_t at,
+                       double taken) {
+  if (!why) printf("%s\taccepted\t%s\t%zu\t%.1f\n", id, proven, size, taken);
+  if (why && !size) printf("%s\trefused\t%s\t0\t0\n", id, why);
+  if (why && size) printf("%s\trefused\t%s, at byte %zu\t%zu\t%.1f\n", id, why, at, size, taken);
+}
+
+static int check_plan(step *s) {
+  char *const *words = s->plan->words;
   char path[4096];
   size_t size;
   size_t at = 0;
-  snprintf(path, sizeof path, "%s/%s.cert", asked->folder, words[1]);
+  snprintf(path, sizeof path, "%s/%s.cert", s->asked->folder, words[1]);
   uint8_t *bytes = (uint8_t *)read_file(path, &size);
-  if (!bytes) return printf("%s\trefused\tthere is no certificate\t0\t0\n", words[1]), 0;
   const clock_t start = clock();
-  const char *why = plan->barred ? plan->barred : check_motion(r, plan, end, bytes, size, &at);
+  const char *why = NULL;
+  if (s->is_lost) why = "what was attached or released above is not known";
+  if (s->plan->count == 3 && !s->has_ended) why = "it begins where no plan above is accepted";
+  if (!bytes) why = "there is no certificate";
+  if (!why) why = check_motion(s, bytes, size, &at);
   const double taken = 1e6 * (double)(clock() - start) / (double)CLOCKS_PER_SEC;
-  if (!why) printf("%s\taccepted\tfree\t%zu\t%.1f\n", words[1], size, taken);
-  if (why) printf("%s\trefused\t%s, at byte %zu\t%zu\t%.1f\n", words[1], why, at, size, taken);
+  print_line(words[1], why, "free", bytes ? size : 0, at, taken);
   free(bytes);
   return !why;
 }
 
-static int is_pair(const distance *d, const uint32_t *pair) {
-  return (d->a == pair[0] && d->b == pair[1]) || (d->a == pair[1] && d->b == pair[0]);
-}
-
 // clearance NAME NAME METRES, or clearance obstacles METRES
 static void add_distance(robot *r, char *const *words, size_t count) {
-  distance d = {EACH, EACH, (float)number_of(r->path, words[count - 1])};
+  distance d = {{EACH, EACH}, (float)number_of(r->path, words[count - 1])};
   if (d.metres < 0) fail(r->path, "a clearance is negative");
   if (count == 4) {
     const robot_body *bodies = (const robot_body *)r->bodies.items;
     const uint32_t names[2] = {body_named(r, words[1]), body_named(r, words[2])};
     const int is_first_own = names[0] < r->own;
-    d.a = names[!is_first_own];
-    d.b = names[is_first_own];
-    int found = d.a < r->own && d.b >= r->own && bodies[d.a].link > 0;
+    d.pair[0] = names[!is_first_own];
+    d.pair[1] = names[is_first_own];
+    int found = d.pair[0] < r->own && d.pair[1] >= r->own && bodies[d.pair[0]].link > 0;
     for (size_t k = 0; k + 1 < r->pairs.count; k += 2)
-      found |= is_pair(&d, (const uint32_t *)r->pairs.items + k);
+      found |= is_of(d.pair, (const uint32_t *)r->pairs.items + k);
     if (!found) fail(r->path, "a clearance of two bodies that are no pair");
   } else if (strcmp(words[1], "obstacles") != 0) {
     fail(r->path, "a clearance of one body");
   }
   *(distance *)add(&r->distances, sizeof d) = d;
-}
-
-// Adds each body that a joint moves with each obstacle of the scene read last; then, what each pair
-// keeps: one with an obstacle what is asked for, or what the file says of all, if that is more. What
-// it says of two bodies comes before both.
-static void finish_scene(robot *r, float asked) {
-  const robot_body *bodies = (const robot_body *)r->bodies.items;
-  const distance *distances = (const distance *)r->distances.items;
-  const size_t own_pairs = r->pairs.count / 2;
-  float all = 0;
-  for (uint32_t a = 0; a < r->own; a++) {
-    for (uint32_t b = (uint32_t)r->own; b < r->bodies.count && bodies[a].link > 0; b++) {
-      add_index(&r->pairs, a);
-      add_index(&r->pairs, b);
-    }
-  }
-  for (size_t k = 0; k < r->distances.count; k++)
-    if (distances[k].a == EACH) all = distances[k].metres;
-  r->kept.count = 0;
-  for (size_t n = 0; n < r->pairs.count / 2; n++) {
-    double metres = n < own_pairs ? 0 : all > asked ? (double)all : (double)asked;
-    for (size_t k = 0; k < r->distances.count; k++)
-      if (is_pair(&distances[k], (const uint32_t *)r->pairs.items + 2 * n))
-        metres = (double)distances[k].metres;
-    add_float(&r->kept, metres);
-  }
 }
 
 // group NAME JOINT...
@@ -403,20 +521,47 @@ static const group *group_of(const robot *r, char *const *words, size_t count) {
   return NULL;
 }
 
-// Checks the plans among the lines of a scene, and forgets them. Returns 1 if all are accepted.
-static int check_scene(const robot *r, list *lines, request *asked) {
+// allow NAME NAME [METRES]
+static void add_allowed(robot *r, char *const *words, size_t count) {
+  allowed a = {{body_named(r, words[1]), body_named(r, words[2])}, 0.005};
+  if (count == 4) a.metres = number_of(r->path, words[3]);
+  if (!(a.metres >= 0)) fail(r->path, "a distance is negative");
+  *(allowed *)add(&r->allows, sizeof a) = a;
+}
+
+// Checks the plans among the lines of a scene, one after another, and forgets them. Only what a plan
+// that is accepted comes to is relied on later: where it ends, and where it leaves what is attached.
+// Returns 1 if all are accepted.
+static int check_scene(robot *r, list *lines, request *asked) {
   const plan_line *first = (const plan_line *)lines->items;
+  step s;
   int all = 1;
-  for (size_t k = 0; k < lines->count; k++)
-    if (strcmp(first[k].words[0], "plan") == 0 && is_wanted(asked, first[k].words[1]))
-      all &= check_plan(r, first + k, first + lines->count, asked);
+  memset(&s, 0, sizeof s);
+  s.r = r;
+  s.asked = asked;
+  s.changes = first;
+  s.end = first + lines->count;
+  for (s.plan = first; s.plan < s.end; s.plan++) {
+    const plan_line *line = s.plan;
+    if (is_line(line, "allow")) add_allowed(r, line->words, line->count);
+    s.change_count += is_line(line, "attach") || is_line(line, "release");
+    const int is_plan = is_line(line, "plan");
+    if (!is_plan && !is_line(line, "path") && !is_line(line, "curve")) continue;
+    const int wanted = is_plan && !asked->pairs && is_wanted(asked, line->words[1]);
+    s.has_ended = wanted && check_plan(&s);
+    all &= !wanted || s.has_ended;
+    s.is_lost |= s.change_count > 0 && !s.has_ended;
+    s.change_count = 0;
+    s.changes = line + 1;
+  }
   lines->count = 0;
   return all;
 }
 
-// allow NAME NAME [METRES], attach NAME JOINT, release NAME: what follows in the scene is not known here.
-static int is_step(char *const *words, size_t n) {
+// allow NAME NAME [METRES], attach NAME JOINT, release NAME
+static int is_step(char *const *words, size_t n, const char *scene) {
   if (strcmp(words[0], "allow") == 0) return n == 3 || n == 4;
+  if (!scene) return 0;
   return strcmp(words[0], "attach") == 0 ? n == 3 : strcmp(words[0], "release") == 0 && n == 2;
 }
 
@@ -437,14 +582,12 @@ static int is_task(const robot *r, char *const *words, size_t n, const char *sce
 
 // Checks all plans of a planning file: the robot, then a scene, its obstacles, and plans, their goals
 // and paths in it, and perhaps another scene. Returns 1 if all are accepted.
-static int check_plans(const char *path, char *text, request *asked) {
+static int check_plans(const char *path, char *text, request *asked, robot *out) {
   robot r;
   char *words[MOST_WORDS];
   list lines = {NULL, 0, 0};
   const char *scene = NULL;
-  const char *barred = NULL;
-  const char *always_barred = NULL;
-  size_t own_pairs = 0, own_distances = 0;
+  size_t own_distances = 0, own_allows = 0;
   int has_tasks = 0;  // 1: a plan or a path stands above
   int all = 1;
   memset(&r, 0, sizeof r);
@@ -467,44 +610,46 @@ static int check_plans(const char *path, char *text, request *asked) {
     } else if (strcmp(word, "group") == 0 && n >= 3 && !scene) {
       add_group(&r, words, n);
     } else if (strcmp(word, "scene") == 0 && n == 2) {
-      if (!scene) own_pairs = r.pairs.count;
+      if (!scene) r.own_pairs = r.pairs.count;
       if (!scene) own_distances = r.distances.count;
+      if (!scene) own_allows = r.allows.count;
       all &= check_scene(&r, &lines, asked);
-      barred = always_barred;
       scene = words[1];
       has_tasks = 0;
       r.bodies.count = r.own;
-      r.pairs.count = own_pairs;
+      r.pairs.count = r.own_pairs;
       r.distances.count = own_distances;
+      r.allows.count = own_allows;
     } else if (strcmp(word, "obstacle") == 0 && n >= 3 && scene && !has_tasks) {
       add_body(&r, words, n);
-    } else if (is_task(&r, words, n, scene)) {
+    } else if (strcmp(word, "allow") == 0 && is_step(words, n, scene) && !scene) {
+      add_allowed(&r, words, n);
+    } else if (is_task(&r, words, n, scene) || is_step(words, n, scene)) {
       const int is_path = strcmp(word, "path") == 0;
       const int is_curve = strcmp(word, "curve") == 0;
-      if (!has_tasks) finish_scene(&r, asked->clearance);
-      has_tasks = 1;
-      if (is_path || is_curve) {
-        for (size_t k = strtoul(words[is_path ? 3 : 4], NULL, 10); k > 0; k--)
-          if (next_words(&text, words, MOST_WORDS) == 0)
-            fail(path, is_path ? "a path ends early" : "a curve ends early");
-        continue;
-      }
       plan_line *line = (plan_line *)add(&lines, sizeof *line);
       memcpy(line->words, words, sizeof line->words);
       line->of = group_of(&r, words, n);
       line->count = n - (line->of ? 2 : 0);
-      line->barred = barred;
-      if (strcmp(word, "plan") == 0 && line->count == 3)
-        line->barred = "it has no start of its own";
-    } else if (is_step(words, n)) {
-      barred = "what may touch, or is attached, is not known to this checker";
-      if (!scene) always_barred = barred;
+      const int attaches = is_line(line, "attach");
+      const int moves = attaches || is_line(line, "release");
+      line->thing = moves ? body_named(&r, words[1]) : 0;
+      line->link = attaches ? link_named(&r, words[2]) : 0;
+      if (moves && line->thing < r.own) fail(path, "no obstacle is attached");
+      has_tasks |= !is_step(words, n, scene);
+      if (is_path || is_curve) {
+        for (size_t k = strtoul(words[is_path ? 3 : 4], NULL, 10); k > 0; k--)
+          if (next_words(&text, words, MOST_WORDS) == 0)
+            fail(path, is_path ? "a path ends early" : "a curve ends early");
+      }
     } else {
       fail(path, "a line is not one of a planning file, or not where it may stand");
     }
   }
+  if (!scene) r.own_pairs = r.pairs.count;
   all &= check_scene(&r, &lines, asked);
   free(lines.items);
+  *out = r;
   return all;
 }
 #endif  // NSVCD_VERIFY_PLANS_H

@@ -87,3 +87,19 @@ NSVCDDEF size_t nsvcd_pair_range_size(const nsvcd_checker *checker, nsvcd_body_p
 NSVCDDEF nsvcd_result nsvcd_pair_range(const nsvcd_checker *checker, nsvcd_body_pair pair,
                                        const nsvcd_range_options *options, void *memory,
                                        size_t size, nsvcd_range_answer *answer);
+
+// How far can each joint between two parts move a point of one, as the other sees it, while all
+// go about in a box of values? From the centre of the box the distance of the two changes by no
+// more than the sum; so they are apart in all of the box if a sweep along one of its joints is free
+// with the sum of the others as a clearance. That is what a proof of NSVCD_MEETS_NEVER is made of.
+//   checker    not NULL
+//   pair       two parts on links that differ
+//   low, high  (F) the box, radians or metres, not NULL; joints that are not between the two do not
+//              matter. A joint that mimics another counts as one of its own
+//   moved      (F) metres, not NULL; 0 for joints that are not between the two
+//   allocates  nothing
+//   threads    may share the checker
+//   errors     ARGUMENT, PAIR; VALUE (not finite, or low above high)
+//   source     this library: robot/spans.h
+NSVCDDEF nsvcd_result nsvcd_pair_travel(const nsvcd_checker *checker, nsvcd_body_pair pair,
+                                        const double *low, const double *high, double *moved);

@@ -218,3 +218,20 @@ NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const doubl
 NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,
                                   const nsvcd_check_options *options,
                                   nsvcd_check_answer *answer);
+
+// Until when does a motion keep to an allowance, from its start on, or back from its end? For who
+// proves the rest of the motion by nsvcd_certify_pair.
+//   checker    not NULL
+//   allowance  not NULL; it need not be one of the scene's
+//   motion     not NULL, as nsvcd_check takes it
+//   back       0: from the start on; else back from the end
+//   time       not NULL; seconds, as motion->times has them. Not even at its end: that end's time
+//   allocates  nothing
+//   threads    may share the checker
+//   errors     ARGUMENT; PAIR, VALUE, DISTANCE, as nsvcd_checker_open; DEGREE, VALUE, TIMES, as
+//              nsvcd_check
+//   source     this library: each joint's way times its moment arm, summed
+NSVCDDEF nsvcd_result nsvcd_allowed_until(const nsvcd_checker *checker,
+                                          const nsvcd_allowance *allowance,
+                                          const nsvcd_joint_motion *motion, int back,
+                                          double *time);

@@ -91,7 +91,7 @@ static int nsvcd__pair_is_allowed(const nsvcd_checker *c, size_t pair,
 }
 
 // Until when contact is allowed from one end of a motion on. Returns that end where it is not.
-static double nsvcd__allowed_until(const nsvcd_checker *c, const nsvcd_allowance *allowance,
+static double nsvcd__allowed_up_to(const nsvcd_checker *c, const nsvcd_allowance *allowance,
                                    const nsvcd_joint_motion *m, double end, double other) {
   const double less = -NSVCD__ALLOWANCE_ROUNDING * allowance->distance;
   double allowed = end;
@@ -112,8 +112,8 @@ static void nsvcd__note_cuts(nsvcd_checker *c, const nsvcd_joint_motion *m) {
   const double t0 = nsvcd__piece_start(m, 0);
   const double t1 = nsvcd__piece_start(m, m->pieces);
   for (size_t n = 0; n < c->scene->allowance_count; n++) {
-    c->cuts[2 * n] = nsvcd__allowed_until(c, &c->scene->allowances[n], m, t0, t1);
-    c->cuts[2 * n + 1] = nsvcd__allowed_until(c, &c->scene->allowances[n], m, t1, t0);
+    c->cuts[2 * n] = nsvcd__allowed_up_to(c, &c->scene->allowances[n], m, t0, t1);
+    c->cuts[2 * n + 1] = nsvcd__allowed_up_to(c, &c->scene->allowances[n], m, t1, t0);
   }
 }
 

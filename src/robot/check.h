@@ -338,6 +338,20 @@ static nsvcd_result nsvcd__motion_check(const nsvcd_scene *scene,
   return follows ? NSVCD_OK : NSVCD_ERROR_MIMIC;
 }
 
+NSVCDDEF nsvcd_result nsvcd_allowed_until(const nsvcd_checker *c,
+                                          const nsvcd_allowance *allowance,
+                                          const nsvcd_joint_motion *motion, int back,
+                                          double *time) {
+  if (!c || !allowance || !motion || !motion->points || !time) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_joint_motion m = nsvcd__motion_meant(motion);
+  nsvcd_result result = nsvcd__allowance_check(c->scene, allowance);
+  if (!result) result = nsvcd__motion_check(c->scene, &m);
+  if (result) return result;
+  const double ends[2] = {nsvcd__piece_start(&m, 0), nsvcd__piece_start(&m, m.pieces)};
+  *time = nsvcd__allowed_up_to(c, allowance, &m, ends[back != 0], ends[back == 0]);
+  return NSVCD_OK;
+}
+
 // Is it free, and within the limits?
 static int nsvcd__proves_free(const nsvcd_check_answer *answer) {
   return answer->verdict == NSVCD_FREE && answer->joint == NSVCD_NONE;

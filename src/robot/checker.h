@@ -50,6 +50,16 @@ static nsvcd_result nsvcd__mimic_check(const nsvcd_scene *scene, const nsvcd_joi
   return is_endless && rate > floor(rate) ? NSVCD_ERROR_MIMIC : NSVCD_OK;
 }
 
+static nsvcd_result nsvcd__allowance_check(const nsvcd_scene *scene,
+                                           const nsvcd_allowance *allowance) {
+  if (allowance->pair >= scene->pair_count) return NSVCD_ERROR_PAIR;
+  if (!allowance->joints) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__are_numbers(allowance->joints, scene->joint_count)) return NSVCD_ERROR_VALUE;
+  if (!nsvcd__are_numbers(&allowance->distance, 1) || allowance->distance < 0)
+    return NSVCD_ERROR_DISTANCE;
+  return NSVCD_OK;
+}
+
 static nsvcd_result nsvcd__part_check(const nsvcd_scene *scene, const nsvcd_part *part) {
   const nsvcd_body *body = NULL;
   const nsvcd_result result = nsvcd_body_trust(part->body, SIZE_MAX, &body);
@@ -91,14 +101,8 @@ static nsvcd_result nsvcd__scene_check(const nsvcd_scene *scene) {
       return NSVCD_ERROR_CLEARANCE;
   }
   if (scene->allowance_count > 0 && !scene->allowances) return NSVCD_ERROR_ARGUMENT;
-  for (size_t n = 0; n < scene->allowance_count && !result; n++) {
-    const nsvcd_allowance *allowance = &scene->allowances[n];
-    if (allowance->pair >= scene->pair_count) return NSVCD_ERROR_PAIR;
-    if (!allowance->joints) return NSVCD_ERROR_ARGUMENT;
-    if (!nsvcd__are_numbers(allowance->joints, scene->joint_count)) return NSVCD_ERROR_VALUE;
-    if (!nsvcd__are_numbers(&allowance->distance, 1) || allowance->distance < 0)
-      return NSVCD_ERROR_DISTANCE;
-  }
+  for (size_t n = 0; n < scene->allowance_count && !result; n++)
+    result = nsvcd__allowance_check(scene, &scene->allowances[n]);
   return result;
 }
 

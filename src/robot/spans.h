@@ -91,29 +91,39 @@ static nsvcd__rider nsvcd__rider_of(const nsvcd__span *s, const nsvcd__links *at
   return out;
 }
 
-// Fills in s->arms for two balls, which ride on the two parts' links.
-static void nsvcd__arms_between(nsvcd__span *s, const nsvcd__links *at,
-                                const nsvcd__rider *balls) {
-  double arms[NSVCD_MAX_JOINTS];
+// r of the banner, of the joints of a way from one part to the other, which reach so far to either
+// side. balls: each rides on the link of one part.
+static void nsvcd__arms_along(const nsvcd_checker *c, const size_t *way, size_t count,
+                              const double *reach, const nsvcd__links *at,
+                              const nsvcd__rider *balls, double *arms) {
   for (size_t side = 0; side < 2; side++) {
     double moved = 0;
-    for (size_t n = 0; n < s->way_count; n++) {
-      const size_t k = side ? s->way_count - 1 - n : n;
-      const size_t j = s->way[k];
-      const double reach = fabs(nsvcd__rate(&s->scene, j)) * s->half[s->drivers[k]];
+    for (size_t n = 0; n < count; n++) {
+      const size_t k = side ? count - 1 - n : n;
+      const size_t j = way[k];
       const nsvcd__d3 off = nsvcd__d3_sub(balls[side].centre, at->frames[j + 1].position);
       const double across = nsvcd__d3_norm(nsvcd__d3_cross(at->axes[j], off));
-      const int slides = nsvcd__slides(s->checker, j);
+      const int slides = nsvcd__slides(c, j);
       const double arm = slides ? 1 : across + balls[side].radius + moved;
-      const double half = nsvcd__min(reach, 3.141592653589793);
-      moved += slides ? reach : 2 * arm * sin(0.5 * half);
+      const double half = nsvcd__min(reach[k], 3.141592653589793);
+      moved += slides ? reach[k] : 2 * arm * sin(0.5 * half);
       arms[k] = side ? nsvcd__min(arms[k], arm) : arm;
     }
   }
-  // of a joint of the path, with all that it drives
+}
+
+// Those of the joints of a span's path, each with all that it drives.
+static void nsvcd__arms_between(nsvcd__span *s, const nsvcd__links *at,
+                                const nsvcd__rider *balls) {
+  double rates[NSVCD_MAX_JOINTS], arms[NSVCD_MAX_JOINTS];
+  double reach[NSVCD_MAX_JOINTS] = {0};
+  for (size_t k = 0; k < s->way_count; k++) {
+    rates[k] = fabs(nsvcd__rate(&s->scene, s->way[k]));
+    reach[k] = rates[k] * s->half[s->drivers[k]];
+  }
+  nsvcd__arms_along(s->checker, s->way, s->way_count, reach, at, balls, arms);
   for (size_t k = 0; k < s->joints; k++) s->arms[k] = 0;
-  for (size_t k = 0; k < s->way_count; k++)
-    s->arms[s->drivers[k]] += fabs(nsvcd__rate(&s->scene, s->way[k])) * arms[k];
+  for (size_t k = 0; k < s->way_count; k++) s->arms[s->drivers[k]] += rates[k] * arms[k];
 }
 
 // The bound of the banner, without one joint of the path, or NSVCD_NONE.
@@ -121,6 +131,43 @@ static double nsvcd__travel_but(const nsvcd__span *s, size_t without) {
   double sum = 0;
   for (size_t k = 0; k < s->joints; k++) sum += k == without ? 0 : s->half[k] * s->arms[k];
   return sum * (1 + 1e-9);
+}
+
+NSVCDDEF nsvcd_result nsvcd_pair_travel(const nsvcd_checker *c, nsvcd_body_pair pair,
+                                        const double *low, const double *high, double *moved) {
+  double middles[NSVCD_MAX_JOINTS] = {0};
+  double half[NSVCD_MAX_JOINTS] = {0};
+  double arms[NSVCD_MAX_JOINTS];
+  size_t way[NSVCD_MAX_JOINTS];
+  nsvcd__links at;
+  nsvcd__rider balls[2];
+  if (!c || !low || !high || !moved) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_scene *scene = c->scene;
+  if (pair.a >= scene->part_count || pair.b >= scene->part_count ||
+      scene->parts[pair.a].link == scene->parts[pair.b].link)
+    return NSVCD_ERROR_PAIR;
+  const size_t count =
+      nsvcd__path_between(scene, scene->parts[pair.a].link, scene->parts[pair.b].link, way);
+  for (size_t k = 0; k < count; k++) {
+    const size_t j = way[k];
+    if (!nsvcd__are_numbers(&low[j], 1) || !nsvcd__are_numbers(&high[j], 1) ||
+        low[j] > high[j])
+      return NSVCD_ERROR_VALUE;
+    const double middle = 0.5 * (low[j] + high[j]);
+    middles[j] = middle;
+    half[k] = nsvcd__max(high[j] - middle, middle - low[j]) * (1 + 1e-15);
+  }
+  nsvcd__place_links(c, middles, &at);
+  for (size_t n = 0; n < 2; n++) {
+    const size_t part = n ? pair.b : pair.a;
+    const nsvcd__member *m = &c->members[part];
+    balls[n].centre = nsvcd__dpose_apply(&at.frames[scene->parts[part].link], m->centre);
+    balls[n].radius = m->radius;
+  }
+  nsvcd__arms_along(c, way, count, half, &at, balls, arms);
+  for (size_t j = 0; j < scene->joint_count; j++) moved[j] = 0;
+  for (size_t k = 0; k < count; k++) moved[way[k]] = half[k] * arms[k] * (1 + 1e-9);
+  return NSVCD_OK;
 }
 
 // The joint of the path that moves points farthest.

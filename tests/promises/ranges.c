@@ -51,6 +51,35 @@ static void parts_meet_never_sometimes_or_always(void) {
   arm_close(&a);
 }
 
+// In a box about a configuration, and from it, a post and the forearm come nearer to each other by no
+// more than the joints are said to move points.
+static void joints_of_a_box_move_points_no_farther(void) {
+  const double low[2] = {-0.2, 0.7}, high[2] = {0.2, 0.9};
+  const double ends[2] = {high[0], low[1]}, middle[2] = {0, 0.8};
+  const nsvcd_body_pair pair = {FORE, POST};
+  double moved[2];
+  arm a;
+  arm_open(&a, at(2.3f, 0, 0));
+  CHECK_EQ(nsvcd_pair_travel(a.checker, pair, low, high, moved), NSVCD_OK);
+  // the upper arm is 1 m long, and so is the forearm
+  CHECK(moved[0] > 0.2 && moved[0] < 0.2 * 2.5);
+  CHECK(moved[1] > 0.1 && moved[1] < 0.1 * 1.5);
+  nsvcd_pose poses[2][ARM_PARTS];
+  nsvcd_forward_kinematics(a.checker, middle, poses[0]);
+  nsvcd_forward_kinematics(a.checker, ends, poses[1]);
+  double square = 0;
+  for (int k = 0; k < 3; k++) {
+    const double off = (double)poses[0][FORE].position[k] - (double)poses[1][FORE].position[k];
+    square += off * off;
+  }
+  CHECK(sqrt(square) <= moved[0] + moved[1]);
+  CHECK_EQ(nsvcd_pair_travel(a.checker, pair, high, low, moved), NSVCD_ERROR_VALUE);
+  CHECK_EQ(nsvcd_pair_travel(a.checker, pair, low, NULL, moved), NSVCD_ERROR_ARGUMENT);
+  const nsvcd_body_pair same = {FORE, FORE};
+  CHECK_EQ(nsvcd_pair_travel(a.checker, same, low, high, moved), NSVCD_ERROR_PAIR);
+  arm_close(&a);
+}
+
 // A post just out of reach comes within a clearance; and what allows contact allows none here.
 static void a_clearance_is_kept_over_all_values(void) {
   const nsvcd_range_options wide = {.clearance = 0.2f};
@@ -92,6 +121,7 @@ static void a_range_is_refused_by_name(void) {
 
 void promises_ranges(void) {
   RUN(parts_meet_never_sometimes_or_always);
+  RUN(joints_of_a_box_move_points_no_farther);
   RUN(a_clearance_is_kept_over_all_values);
   RUN(a_range_is_refused_by_name);
 }

@@ -222,6 +222,10 @@ static void contact_is_allowed_near_a_configuration(void) {
   CHECK_EQ(verdict_at(&a, in), NSVCD_FREE);
   CHECK_EQ(check_of(&a, &out, 0).verdict, NSVCD_FREE);
   CHECK_EQ(check_of(&a, &on, 0).verdict, NSVCD_HIT);
+  // 0.5 radians, of which it may go 0.2 m on the way back to where it may touch
+  double time = 0;
+  CHECK_EQ(nsvcd_allowed_until(a.checker, &allowance, &out, 0, &time), NSVCD_OK);
+  CHECK(time > 0.2 && time < 0.9);
   arm_close(&a);
 }
 
