@@ -81,6 +81,7 @@ extern "C" {
 #include "robot/allowances.h"  // when a pair may touch
 #include "robot/deviation.h"   // how far a part leaves its sweep between two samples
 #include "robot/checker.h"     // the checker of a scene
+#include "robot/cones.h"       // does an axis stay within its cone?
 #include "robot/samples.h"     // configurations of a motion, and boxes about the parts in them
 #include "robot/local_queries.h"   // two parts, in the frame of one of them
 #include "robot/check.h"           // is a motion of the joints free?
@@ -93,6 +94,7 @@ extern "C" {
 #include "robot/ranges.h"          // do two parts meet never, always or sometimes?
 #include "robot/blends.h"  // from one state to another, within limits of speed and acceleration
 #include "robot/smooth.h"  // a path, timed, then smooth
+#include "robot/grow.h"    // where a tree grows, and edge by edge, in the cones
 #include "robot/route.h"   // two trees of proven edges, shortcuts
 
 #if defined(__GNUC__) || defined(__clang__)

@@ -5,6 +5,7 @@
 //   steps            what the joints do between two times
 //   deviation        how far points of a part can be from an axis; how far a part leaves its sweep
 //   checker          the checker of a scene
+//   cones            does an axis stay within its cone? a configuration near by in which it does
 //   samples          configurations of a motion, and boxes about the parts in them
 //   local_queries    two parts, in the frame of one of them
 //   check            is a motion of the joints free?
@@ -17,6 +18,7 @@
 //   ranges           do two parts meet never, always or sometimes?
 //   blends           from one state to another, within limits of speed and acceleration
 //   smooth           a path, timed, then smooth
+//   grow             where a tree grows, and edge by edge, in the cones
 //   route            a start and goals: two trees of proven edges, shortcuts
 //
 // All questions about bodies are asked by nsvcd_sweep, as any program asks them.
@@ -70,6 +72,14 @@ typedef struct nsvcd__member {
   double deviation, rounding;
 } nsvcd__member;
 
+// A cone, as the checker has it.
+typedef struct nsvcd__cone {
+  uint32_t link;
+  // unit, in the link and in the world
+  nsvcd__d3 axis, direction;
+  double angle;
+} nsvcd__cone;
+
 struct nsvcd_checker {
   const nsvcd_scene *scene;
   // (F)
@@ -78,6 +88,8 @@ struct nsvcd_checker {
   nsvcd__links *at, *next;
   // (B)
   nsvcd__member *members;
+  // (C)
+  nsvcd__cone *cones;
   // (P): the pairs, as they are asked about: what was hit last first
   uint32_t *order;
   // (P): those of an interval that are not proven yet

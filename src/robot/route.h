@@ -1,6 +1,6 @@
 // In: a start and goals. Out: a motion that is proven free, in the caller's memory.
 #pragma once
-#include "smooth.h"
+#include "grow.h"
 
 // defaults; tries: for each node
 #define NSVCD__NODES 20000
@@ -15,11 +15,8 @@
 #define NSVCD__LOOK_ROOM 2e-3f
 // of the balls' errors, which margins are less by after each search that finds nothing
 #define NSVCD__LOOK_EASE 0.34f
-// turns after which a tree that has not grown tries along single joints
-#define NSVCD__IDLE 100
-// radians or metres: seven configurations in eight are drawn no farther than this from the range of
-// the start and the goals
-#define NSVCD__BESIDE 3.2
+// of the path between its ends: how long a way of several edges in its place may be
+#define NSVCD__SHORTER 0.95
 // radians or metres: corners of a path that are no farther apart are one
 #define NSVCD__SAME_CORNER 1e-9
 
@@ -89,9 +86,11 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
     t->cells = NSVCD__TAKE_ROWS(nsvcd__cell, 2 * nodes, base, &used);
   }
   r->goals = NSVCD__TAKE_ROWS(size_t, problem->goal_count, base, &used);
-  // a shortcut from an edge to the next adds a corner
-  const size_t rows = 2 * nodes + o->shortcuts;
+  // a shortcut from an edge to the next adds a corner, or those of a way in the cones
+  const size_t most = checker->scene->cone_count ? NSVCD__MOST_WAY : 1;
+  const size_t rows = 2 * nodes + most * o->shortcuts;
   r->path = (double *)nsvcd__take(base, &used, rows, joints * sizeof(double));
+  r->way = NSVCD__TAKE_ROWS(double, (NSVCD__MOST_WAY * joints), base, &used);
   nsvcd__trajectory_take(&r->trajectory, base, &used, NSVCD__MOST_PIECES, joints);
   nsvcd__trajectory_take(&r->other, base, &used, NSVCD__MOST_PIECES, joints);
   nsvcd__trajectory_take(&r->blend, base, &used, NSVCD__BLEND_PIECES, joints);
@@ -109,65 +108,6 @@ NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
 }
 
 // ---- trees
-
-// A value of a joint in its limits, near the start and the goals or anywhere.
-static double nsvcd__draw_joint(nsvcd__router *r, size_t j, int is_wide) {
-  const nsvcd_joint *joint = &r->scene->joints[j];
-  double low = r->low[j] - NSVCD__BESIDE;
-  double high = r->high[j] + NSVCD__BESIDE;
-  if (joint->kind != NSVCD_JOINT_CONTINUOUS) {
-    low = is_wide ? joint->low : nsvcd__max(low, joint->low);
-    high = is_wide ? joint->high : nsvcd__min(high, joint->high);
-  }
-  return low + (high - low) * nsvcd__random(&r->random);
-}
-
-// A configuration towards which a tree is to grow: any; where it has not grown for long, every
-// other time, one of its own nodes with one joint moved. Out of a hole the only free edges are
-// often those along one joint.
-static void nsvcd__draw(nsvcd__router *r, size_t turn, double *out) {
-  const size_t joints = r->joints;
-  const nsvcd__rrt *t = &r->trees[turn % 2];
-  if (r->idle[turn % 2] >= NSVCD__IDLE && turn / 2 % 2) {
-    const size_t node = (size_t)(nsvcd__random(&r->random) * (double)t->count);
-    const size_t joint =
-        r->moving[(size_t)(nsvcd__random(&r->random) * (double)r->moving_count)];
-    memcpy(out, nsvcd__node_at(t, node), joints * sizeof *out);
-    out[joint] = nsvcd__draw_joint(r, joint, 1);
-    return;
-  }
-  const int is_wide = nsvcd__random(&r->random) < 0.125;
-  // what is held stays where all roots have it
-  memcpy(out, r->low, joints * sizeof *out);
-  for (size_t k = 0; k < r->moving_count; k++)
-    out[r->moving[k]] = nsvcd__draw_joint(r, r->moving[k], is_wide);
-}
-
-// Are there as many nodes, or tries, or looks, as are allowed?
-static int nsvcd__is_at_limit(const nsvcd__router *r) {
-  const size_t tries = r->is_looking ? r->looker.count : r->answer.checks;
-  return r->trees[0].count + r->trees[1].count >= r->options.nodes ||
-         tries >= (r->is_looking ? r->looks : r->options.tries);
-}
-
-// Grows a tree from its node nearest to a configuration: by one edge, or, if `is_greedy`, edge by
-// edge. *node: the last new node, or the nearest one. Returns 1 if that is the configuration.
-static int nsvcd__grow(nsvcd__router *r, nsvcd__rrt *t, const double *to, int is_greedy,
-                       size_t *node) {
-  *node = nsvcd__tree_nearest(t, to);
-  for (;;) {
-    double next[NSVCD_MAX_JOINTS];
-    const double *from = nsvcd__node_at(t, *node);
-    const double length = nsvcd__edge_length(r, from, to);
-    const int ends = length <= r->options.edge;
-    if (!(length > 0)) return 1;
-    for (size_t j = 0; j < r->joints; j++)
-      next[j] = ends ? to[j] : from[j] + r->options.edge / length * (to[j] - from[j]);
-    if (!nsvcd__ask_edge(r, from, next) || nsvcd__is_at_limit(r)) return 0;
-    *node = nsvcd__tree_add(t, next, *node);
-    if (ends || !is_greedy) return ends;
-  }
-}
 
 // Writes the path through nodes of both trees that are the same configuration.
 static void nsvcd__path_through(nsvcd__router *r, size_t from_start, size_t from_goal) {
@@ -233,9 +173,12 @@ static void nsvcd__seek(nsvcd__router *r) {
     nsvcd__rrt *other = &r->trees[1 - turn % 2];
     double drawn[NSVCD_MAX_JOINTS];
     size_t node, met;
-    nsvcd__draw(r, turn, drawn);
     const size_t before = grown->count;
-    (void)nsvcd__grow(r, grown, drawn, 0, &node);
+    nsvcd__draw(r, turn, drawn);
+    if (nsvcd__into_cones(r->checker, r->problem.held, NSVCD__GROW_CONE, drawn))
+      (void)nsvcd__grow(r, grown, drawn, 0, &node);
+    else
+      nsvcd__count_refused(r);
     if (nsvcd__is_at_limit(r)) return;
     r->idle[turn % 2] = grown->count == before ? r->idle[turn % 2] + 1 : 0;
     if (grown->count == before) continue;
@@ -277,13 +220,15 @@ static void nsvcd__shorten(nsvcd__router *r) {
     const size_t last = nsvcd__path_at(r, nsvcd__max(a, b), at[1]);
     // on one edge nothing is won, and the path would grow by corners
     if (first == last) continue;
-    if (!nsvcd__ask_edge(r, at[0], at[1])) continue;
-    // corners first + 1 to last make way for two
+    const double longest = NSVCD__SHORTER * fabs(b - a);
+    const size_t count = nsvcd__way_between(r, at[0], at[1], longest, r->way);
+    if (!count) continue;
+    // corners first + 1 to last make way for these
     const size_t rest = r->corners - (last + 1);
-    memmove(nsvcd__corner_at(r, first + 3), nsvcd__corner_at(r, last + 1), rest * bytes);
-    memcpy(nsvcd__corner_at(r, first + 1), at[0], bytes);
-    memcpy(nsvcd__corner_at(r, first + 2), at[1], bytes);
-    r->corners = first + 3 + rest;
+    const size_t next = first + 1 + count;
+    memmove(nsvcd__corner_at(r, next), nsvcd__corner_at(r, last + 1), rest * bytes);
+    memcpy(nsvcd__corner_at(r, first + 1), r->way, count * bytes);
+    r->corners = next + rest;
   }
 }
 
