@@ -379,10 +379,10 @@ typedef struct nsvcd_nearest_free_options {
   void *user;
 } nsvcd_nearest_free_options;
 
-// Seeks a configuration that is proven free and within the limits, as near as possible to one that
-// is not, such as a start or a goal in contact. Some hundred configurations are drawn at random,
-// nearer and nearer; each free one is moved back towards the joints as far as it stays free. What
-// lies in between need not be free.
+// Seeks a configuration that is proven free, within the limits and in the scene's cones, as near as
+// possible to one that is not, such as a start or a goal in contact. Some hundred configurations
+// are drawn at random, nearer and nearer; each free one is moved back towards the joints as far as
+// it stays free. What lies in between need not be free.
 //   checker    not NULL
 //   joints     (F) radians or metres, not NULL; clamped to the limits first
 //   options    NULL: the defaults
@@ -412,7 +412,7 @@ typedef struct nsvcd_pair_counts {
 // ones, which joints are made to keep apart, or to overlap. Pairs that touch in all random
 // configurations are listed by themselves, since two that separate only in a narrow range of a
 // joint may be among them. To leave one out is the caller's decision. Pairs that seem never to meet
-// are not left out, since they cost little.
+// are not left out, since they cost little. Cones of the scene do not count.
 //   checker    not NULL; made of the parts and joints, whatever pairs its scene has
 //   draws      the most random configurations, within the limits, in which a pair is asked about;
 //              default 64
@@ -523,6 +523,8 @@ NSVCDDEF size_t nsvcd_pair_range_size(const nsvcd_checker *checker, nsvcd_body_p
 //   source     branch and bound, by a Lipschitz bound; difference: along one joint the motion
 //              itself is proven
 //
+// Allowances and cones of the scene do not count.
+//
 // One joint between the parts takes one proof, two some ten to a thousand, as near as the parts
 // come. With more joints SOMETIMES is found soon where it is so, by configurations drawn at random
 // and by going down the slope of the distance.
@@ -573,7 +575,7 @@ typedef struct nsvcd_reach_options {
   uint64_t seed;
   // metres: the distance that the parts of a pair keep; default 0
   float clearance;
-  // 1: solutions need not be free. They are not checked
+  // 1: solutions need not be free, and are not checked; they are in the scene's cones all the same
   int may_touch;
 } nsvcd_reach_options;
 
@@ -581,11 +583,12 @@ typedef struct nsvcd_reach_options {
 typedef struct nsvcd_reach_answer {
   // number of solutions
   size_t solutions;
-  // number of starts; of those that came to the target; and of these, of those where the robot was
-  // not proven free
+  // number of starts; of those that came to the target, in the scene's cones; and of these, of
+  // those where the robot was not proven free
   size_t starts, reached, touching;
   // (F) the best configuration that was found: the first solution; where there is none, of those
-  // that touch the nearest to the start; else the one that has the tool nearest to the target
+  // that touch the nearest to the start; else the one that has the tool nearest to the target, and
+  // axes to their cones
   double best[NSVCD_MAX_JOINTS];
   // metres, radians: how far the tool is off its target there
   double position_error, angle_error;
@@ -593,11 +596,11 @@ typedef struct nsvcd_reach_answer {
   nsvcd_check_answer check;
 } nsvcd_reach_answer;
 
-// Finds configurations within the joints' limits that have a tool at a target: several where there
-// are several, such as elbow up and elbow down. By default they are proven free, since that is what
-// a route's goal has to be. Where a joint's limits allow values that are whole turns apart, the one
-// nearest to the start's is given. Where there are more joints than the target needs, there are
-// infinitely many solutions, and some of them are found.
+// Finds configurations within the joints' limits, and in the scene's cones, that have a tool at a
+// target: several where there are several, such as elbow up and elbow down. By default they are
+// proven free, since that is what a route's goal has to be. Where a joint's limits allow values
+// that are whole turns apart, the one nearest to the start's is given. Where there are more joints
+// than the target needs, there are infinitely many solutions, and some of them are found.
 //
 // That nothing is found is no proof that there is nothing. Of targets that an arm of 6 or 7 joints
 // can reach, fewer than one in a thousand are missed with the default starts (tests/test_reach.c).
@@ -628,7 +631,8 @@ NSVCDDEF nsvcd_result nsvcd_reach(nsvcd_checker *checker, const nsvcd_reach_prob
 //
 // A straight line is tried first. If it is not free, two trees grow, from the start and from the
 // goals, whose edges are proven free. The path that joins them is made shorter, timed, and smoothed
-// within the limits of speed and acceleration. In the end the motion is proven as a whole.
+// within the limits of speed and acceleration. In the end the motion is proven as a whole. All of
+// it stays in the scene's cones.
 
 // the most nodes of both trees
 #define NSVCD_MAX_NODES 10000000
@@ -685,7 +689,8 @@ typedef struct nsvcd_route_options {
   // the most nodes of both trees, up to NSVCD_MAX_NODES; default 20,000
   size_t nodes;
   // the most motions that are checked, free or not, without looks; default 4 times `nodes`. Where
-  // nothing is free the trees do not grow, so `nodes` alone would not end the search
+  // nothing is free the trees do not grow, so `nodes` alone would not end the search. What cones
+  // refuse counts too, also among looks
   size_t tries;
   // radians or metres: the greatest length of an edge; default 1
   double edge;
@@ -694,8 +699,8 @@ typedef struct nsvcd_route_options {
   // smoothing go by looks, and what they find is proven as a whole, as ever. Where that fails, the
   // pair is given more room, and the search begins anew
   size_t looks;
-  // tries to shorten the path, up to NSVCD_MAX_NODES, default 20; and tries to smooth the motion,
-  // default 200. NSVCD_NONE: no tries
+  // tries to shorten the path, up to NSVCD_MAX_NODES, default 20, with cones 60; and tries to
+  // smooth the motion, default 200. NSVCD_NONE: no tries
   size_t shortcuts, smoothings;
 } nsvcd_route_options;
 
@@ -744,7 +749,8 @@ NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
 //              VALUE (a configuration not finite or beyond NSVCD_MAX_COORDINATE), CLEARANCE,
 //              WORKSPACE; POSE, SCALE, as nsvcd_check
 //   source     RRT-Connect (Kuffner and LaValle 2000); bounded-acceleration shortcuts (Hauser and
-//              Ng-Thow-Hing 2010). Difference: edges and shortcuts are proven, not sampled
+//              Ng-Thow-Hing 2010); with cones CBiRRT (Berenson et al. 2009). Difference: edges and
+//              shortcuts are proven, not sampled
 NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_problem *problem,
                                   const nsvcd_route_options *options, void *memory,
                                   size_t size, nsvcd_route_answer *answer);
@@ -1698,12 +1704,12 @@ typedef struct nsvcd__member {
 } nsvcd__member;
 
 // A cone, as the checker has it.
-typedef struct nsvcd__cone {
+typedef struct nsvcd__kept_axis {
   uint32_t link;
   // unit, in the link and in the world
   nsvcd__d3 axis, direction;
   double angle;
-} nsvcd__cone;
+} nsvcd__kept_axis;
 
 struct nsvcd_checker {
   const nsvcd_scene *scene;
@@ -1714,7 +1720,7 @@ struct nsvcd_checker {
   // (B)
   nsvcd__member *members;
   // (C)
-  nsvcd__cone *cones;
+  nsvcd__kept_axis *cones;
   // (P): the pairs, as they are asked about: what was hit last first
   uint32_t *order;
   // (P): those of an interval that are not proven yet
@@ -2323,7 +2329,7 @@ static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
   c->at = NSVCD__TAKE_ROWS(nsvcd__links, 1, base, &used);
   c->next = NSVCD__TAKE_ROWS(nsvcd__links, 1, base, &used);
   c->members = NSVCD__TAKE_ROWS(nsvcd__member, parts, base, &used);
-  c->cones = NSVCD__TAKE_ROWS(nsvcd__cone, scene->cone_count, base, &used);
+  c->cones = NSVCD__TAKE_ROWS(nsvcd__kept_axis, scene->cone_count, base, &used);
   c->order = NSVCD__TAKE_ROWS(uint32_t, pairs, base, &used);
   c->left = NSVCD__TAKE_ROWS(uint32_t, pairs, base, &used);
   c->frames = NSVCD__TAKE_ROWS(nsvcd__dpose, rows, base, &used);
@@ -2432,7 +2438,7 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
 
 // By how much the product of an axis with its direction is above the cosine of its cone's angle; if
 // it is between -*error and *error, that is not known.
-static double nsvcd__cone_margin(const nsvcd_checker *c, const nsvcd__cone *cone,
+static double nsvcd__cone_margin(const nsvcd_checker *c, const nsvcd__kept_axis *cone,
                                  const double *q, double *error) {
   nsvcd__d3 axis = cone->axis;
   *error = NSVCD__CONE_ROUNDING * nsvcd__max(1, (double)c->scene->joint_count / 32);
@@ -2445,7 +2451,7 @@ static double nsvcd__cone_margin(const nsvcd_checker *c, const nsvcd__cone *cone
 }
 
 // The bound of the banner.
-static double nsvcd__axis_deviation(const nsvcd_checker *c, const nsvcd__cone *cone,
+static double nsvcd__axis_deviation(const nsvcd_checker *c, const nsvcd__kept_axis *cone,
                                     const nsvcd__step *step) {
   double bend = 0;
   double turned = 0;
@@ -2459,7 +2465,7 @@ static double nsvcd__axis_deviation(const nsvcd_checker *c, const nsvcd__cone *c
 
 // Does an axis stay in its cone from time t0 to t1, of which the steps are as long as can be?
 // Returns FREE; HIT at *at, where it does not; or UNDECIDED from there on.
-static nsvcd_verdict nsvcd__ask_cone(const nsvcd_checker *c, const nsvcd__cone *cone,
+static nsvcd_verdict nsvcd__ask_cone(const nsvcd_checker *c, const nsvcd__kept_axis *cone,
                                      const nsvcd_joint_motion *m, double t0, double t1,
                                      double *at) {
   const size_t joints = c->scene->joint_count;
@@ -2546,8 +2552,8 @@ static nsvcd__d3 nsvcd__turn_between(nsvcd__d3 a, nsvcd__d3 b) {
 }
 
 // How far axes are out of their cones, each narrowed to this share of its angle: radians, the root
-// of the sum of their squares. slope: (F) by each joint. *is_in: is each in its cone, and half way to
-// the narrowed one?
+// of the sum of their squares. slope: (F) by each joint. *is_in: is each in its cone, and half way
+// to the narrowed one?
 static double nsvcd__cones_excess(nsvcd_checker *c, const double *q, double share,
                                   double *slope, int *is_in) {
   const size_t joints = c->scene->joint_count;
@@ -2556,7 +2562,7 @@ static double nsvcd__cones_excess(nsvcd_checker *c, const double *q, double shar
   *is_in = 1;
   if (c->scene->cone_count > 0) nsvcd__place_links(c, q, c->at);
   for (size_t n = 0; n < c->scene->cone_count; n++) {
-    const nsvcd__cone *cone = &c->cones[n];
+    const nsvcd__kept_axis *cone = &c->cones[n];
     const nsvcd__dpose *frame = &c->at->frames[cone->link];
     const nsvcd__d3 axis = nsvcd__dquat_rotate(frame->rotation, cone->axis);
     const nsvcd__d3 turn = nsvcd__turn_between(cone->direction, axis);
@@ -5897,7 +5903,7 @@ static void nsvcd__smooth(nsvcd__router *r) {
 #define NSVCD__BESIDE 3.2
 // the share of a cone's angle that configurations are moved to; how often a step may be halved; and
 // the least share of a step by which it leads nearer
-#define NSVCD__GROW_CONE 0.8
+#define NSVCD__GROW_CONE 0.6
 #define NSVCD__GROW_HALVINGS 6
 #define NSVCD__GROW_NEARER 0.25
 // corners of a way that makes a path shorter, at most
@@ -5988,9 +5994,9 @@ static int nsvcd__grow(nsvcd__router *r, nsvcd__rrt *t, const double *to, int is
   }
 }
 
-// A way between two configurations: an edge, or, where there are cones, some that are no longer than
-// `longest` together. corners: (NSVCD__MOST_WAY, F), both ends among them. Returns how many; 0 if
-// none is found.
+// A way between two configurations: an edge, or, where there are cones, some that are no longer
+// than `longest` together. corners: (NSVCD__MOST_WAY, F), both ends among them. Returns how many; 0
+// if none is found.
 static size_t nsvcd__way_between(nsvcd__router *r, const double *from, const double *to,
                                  double longest, double *corners) {
   const size_t bytes = r->joints * sizeof *corners;
@@ -6016,6 +6022,7 @@ static size_t nsvcd__way_between(nsvcd__router *r, const double *from, const dou
 #define NSVCD__NODES 20000
 #define NSVCD__TRIES 4
 #define NSVCD__SHORTCUTS 20
+#define NSVCD__CONE_SHORTCUTS 60
 #define NSVCD__SMOOTHINGS 200
 #define NSVCD__MOST_LOOKS 200000
 // of a search by looks: looks of the first, twice as many after each that finds nothing; searches;
@@ -6078,7 +6085,8 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
   o->nodes = o->nodes ? o->nodes : NSVCD__NODES;
   o->tries = o->tries ? o->tries : NSVCD__TRIES * o->nodes;
   o->edge = o->edge > 0 ? o->edge : 1;
-  if (!o->shortcuts) o->shortcuts = NSVCD__SHORTCUTS;
+  if (!o->shortcuts)
+    o->shortcuts = checker->scene->cone_count ? NSVCD__CONE_SHORTCUTS : NSVCD__SHORTCUTS;
   if (!o->smoothings) o->smoothings = NSVCD__SMOOTHINGS;
   if (o->shortcuts == NSVCD_NONE) o->shortcuts = 0;
   if (o->smoothings == NSVCD_NONE) o->smoothings = 0;

@@ -73,12 +73,12 @@ typedef struct nsvcd__member {
 } nsvcd__member;
 
 // A cone, as the checker has it.
-typedef struct nsvcd__cone {
+typedef struct nsvcd__kept_axis {
   uint32_t link;
   // unit, in the link and in the world
   nsvcd__d3 axis, direction;
   double angle;
-} nsvcd__cone;
+} nsvcd__kept_axis;
 
 struct nsvcd_checker {
   const nsvcd_scene *scene;
@@ -89,7 +89,7 @@ struct nsvcd_checker {
   // (B)
   nsvcd__member *members;
   // (C)
-  nsvcd__cone *cones;
+  nsvcd__kept_axis *cones;
   // (P): the pairs, as they are asked about: what was hit last first
   uint32_t *order;
   // (P): those of an interval that are not proven yet

@@ -151,7 +151,7 @@ static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
   c->at = NSVCD__TAKE_ROWS(nsvcd__links, 1, base, &used);
   c->next = NSVCD__TAKE_ROWS(nsvcd__links, 1, base, &used);
   c->members = NSVCD__TAKE_ROWS(nsvcd__member, parts, base, &used);
-  c->cones = NSVCD__TAKE_ROWS(nsvcd__cone, scene->cone_count, base, &used);
+  c->cones = NSVCD__TAKE_ROWS(nsvcd__kept_axis, scene->cone_count, base, &used);
   c->order = NSVCD__TAKE_ROWS(uint32_t, pairs, base, &used);
   c->left = NSVCD__TAKE_ROWS(uint32_t, pairs, base, &used);
   c->frames = NSVCD__TAKE_ROWS(nsvcd__dpose, rows, base, &used);

@@ -25,7 +25,7 @@
 
 // By how much the product of an axis with its direction is above the cosine of its cone's angle; if
 // it is between -*error and *error, that is not known.
-static double nsvcd__cone_margin(const nsvcd_checker *c, const nsvcd__cone *cone,
+static double nsvcd__cone_margin(const nsvcd_checker *c, const nsvcd__kept_axis *cone,
                                  const double *q, double *error) {
   nsvcd__d3 axis = cone->axis;
   *error = NSVCD__CONE_ROUNDING * nsvcd__max(1, (double)c->scene->joint_count / 32);
@@ -38,7 +38,7 @@ static double nsvcd__cone_margin(const nsvcd_checker *c, const nsvcd__cone *cone
 }
 
 // The bound of the banner.
-static double nsvcd__axis_deviation(const nsvcd_checker *c, const nsvcd__cone *cone,
+static double nsvcd__axis_deviation(const nsvcd_checker *c, const nsvcd__kept_axis *cone,
                                     const nsvcd__step *step) {
   double bend = 0;
   double turned = 0;
@@ -52,7 +52,7 @@ static double nsvcd__axis_deviation(const nsvcd_checker *c, const nsvcd__cone *c
 
 // Does an axis stay in its cone from time t0 to t1, of which the steps are as long as can be?
 // Returns FREE; HIT at *at, where it does not; or UNDECIDED from there on.
-static nsvcd_verdict nsvcd__ask_cone(const nsvcd_checker *c, const nsvcd__cone *cone,
+static nsvcd_verdict nsvcd__ask_cone(const nsvcd_checker *c, const nsvcd__kept_axis *cone,
                                      const nsvcd_joint_motion *m, double t0, double t1,
                                      double *at) {
   const size_t joints = c->scene->joint_count;
@@ -139,8 +139,8 @@ static nsvcd__d3 nsvcd__turn_between(nsvcd__d3 a, nsvcd__d3 b) {
 }
 
 // How far axes are out of their cones, each narrowed to this share of its angle: radians, the root
-// of the sum of their squares. slope: (F) by each joint. *is_in: is each in its cone, and half way to
-// the narrowed one?
+// of the sum of their squares. slope: (F) by each joint. *is_in: is each in its cone, and half way
+// to the narrowed one?
 static double nsvcd__cones_excess(nsvcd_checker *c, const double *q, double share,
                                   double *slope, int *is_in) {
   const size_t joints = c->scene->joint_count;
@@ -149,7 +149,7 @@ static double nsvcd__cones_excess(nsvcd_checker *c, const double *q, double shar
   *is_in = 1;
   if (c->scene->cone_count > 0) nsvcd__place_links(c, q, c->at);
   for (size_t n = 0; n < c->scene->cone_count; n++) {
-    const nsvcd__cone *cone = &c->cones[n];
+    const nsvcd__kept_axis *cone = &c->cones[n];
     const nsvcd__dpose *frame = &c->at->frames[cone->link];
     const nsvcd__d3 axis = nsvcd__dquat_rotate(frame->rotation, cone->axis);
     const nsvcd__d3 turn = nsvcd__turn_between(cone->direction, axis);

@@ -15,7 +15,7 @@
 #define NSVCD__BESIDE 3.2
 // the share of a cone's angle that configurations are moved to; how often a step may be halved; and
 // the least share of a step by which it leads nearer
-#define NSVCD__GROW_CONE 0.8
+#define NSVCD__GROW_CONE 0.6
 #define NSVCD__GROW_HALVINGS 6
 #define NSVCD__GROW_NEARER 0.25
 // corners of a way that makes a path shorter, at most
@@ -106,9 +106,9 @@ static int nsvcd__grow(nsvcd__router *r, nsvcd__rrt *t, const double *to, int is
   }
 }
 
-// A way between two configurations: an edge, or, where there are cones, some that are no longer than
-// `longest` together. corners: (NSVCD__MOST_WAY, F), both ends among them. Returns how many; 0 if
-// none is found.
+// A way between two configurations: an edge, or, where there are cones, some that are no longer
+// than `longest` together. corners: (NSVCD__MOST_WAY, F), both ends among them. Returns how many; 0
+// if none is found.
 static size_t nsvcd__way_between(nsvcd__router *r, const double *from, const double *to,
                                  double longest, double *corners) {
   const size_t bytes = r->joints * sizeof *corners;

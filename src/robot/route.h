@@ -6,6 +6,7 @@
 #define NSVCD__NODES 20000
 #define NSVCD__TRIES 4
 #define NSVCD__SHORTCUTS 20
+#define NSVCD__CONE_SHORTCUTS 60
 #define NSVCD__SMOOTHINGS 200
 #define NSVCD__MOST_LOOKS 200000
 // of a search by looks: looks of the first, twice as many after each that finds nothing; searches;
@@ -68,7 +69,8 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
   o->nodes = o->nodes ? o->nodes : NSVCD__NODES;
   o->tries = o->tries ? o->tries : NSVCD__TRIES * o->nodes;
   o->edge = o->edge > 0 ? o->edge : 1;
-  if (!o->shortcuts) o->shortcuts = NSVCD__SHORTCUTS;
+  if (!o->shortcuts)
+    o->shortcuts = checker->scene->cone_count ? NSVCD__CONE_SHORTCUTS : NSVCD__SHORTCUTS;
   if (!o->smoothings) o->smoothings = NSVCD__SMOOTHINGS;
   if (o->shortcuts == NSVCD_NONE) o->shortcuts = 0;
   if (o->smoothings == NSVCD_NONE) o->smoothings = 0;
