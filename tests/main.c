@@ -21,6 +21,7 @@ void test_robot(void);
 void test_many_joints(void);
 void test_reach(void);
 void test_allowances(void);
+void test_cones(void);
 void test_route_looks(void);
 void test_postures(void);
 void test_ranges(void);
@@ -123,6 +124,7 @@ static const test_file files[] = {
     OF(many_joints),
     OF(reach),
     OF(allowances),
+    OF(cones),
     OF(route_looks),
     OF(postures),
     OF(ranges),

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Are the tests of the proof worth anything? Each mutant is the library with one mistake in it; tests/test_proof.c has to
 # fail on it, or, where its name begins with `level:`, `asks:`, `long:`, `exact:`, `floor:`, `solids:`, `round:`,
-# `robot:`, `looks:`, `route_looks:`, `many_joints:`, `postures:`, `reach:`, `ranges:` or `allowances:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
+# `robot:`, `looks:`, `route_looks:`, `many_joints:`, `postures:`, `reach:`, `ranges:`, `allowances:` or `cones:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
 # certificates, examples/verify, and tests/test_certificate.c or tests/test_checker.c has to fail, of `fits:`
 # tests/test_fits.c. Prints a line for each, and exits with 1 if one survives. An argument runs only the mutants whose
 # name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every 16th of them, in a folder of its own.
@@ -12,7 +12,7 @@ cd "$(dirname "$0")/.." || exit 1
 work=${WORK:-build/mutants}
 mkdir -p $work/tests/bench $work/examples/scenery $work/examples/verify
 cp weights.h $work/
-cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_looks.c tests/test_route_looks.c tests/test_many_joints.c tests/test_postures.c tests/test_reach.c tests/test_ranges.c tests/test_allowances.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
+cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_looks.c tests/test_route_looks.c tests/test_many_joints.c tests/test_postures.c tests/test_reach.c tests/test_ranges.c tests/test_allowances.c tests/test_cones.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
 cp tests/bench/*.h $work/tests/bench/
 cp examples/scenery/*.h $work/examples/scenery/
 
@@ -410,6 +410,20 @@ allowances: of any pair|if (allowance->pair == pair \&\& nsvcd__allows_from_to|i
 allowances: one part alone|for (size_t n = 0; n < 2; n++) { const nsvcd__member *m = \&c->members[parts[n]];|for (size_t n = 0; n < 1; n++) { const nsvcd__member *m = \&c->members[parts[n]];
 allowances: no end|c->cuts[2 * n + 1] = nsvcd__allowed_until(c, \&c->scene->allowances[n], m, t1, t0);|c->cuts[2 * n + 1] = t1;
 allowances: looks that see all|return nsvcd__look_not_allowed(k, pair, met) != 0;|return met != 0;
+cones: bends alone|return (bend + turned * turned) / 8 * (1 + 1e-9);|return bend / 8;
+cones: turns alone|return (bend + turned * turned) / 8 * (1 + 1e-9);|return turned * turned / 8;
+cones: a sixteenth|return (bend + turned * turned) / 8 * (1 + 1e-9);|return (bend + turned * turned) / 16;
+cones: ends alone|if (least >= deviation) {|if (least >= 0) {
+cones: one end alone|const double least = nsvcd__min(last - last_error, next - error);|const double least = next - error;
+cones: of the first cone only|answer->verdict = nsvcd__ask_cone(c, \&c->cones[n], m, t0, t1, \&at);|answer->verdict = nsvcd__ask_cone(c, \&c->cones[0], m, t0, t1, \&at);
+cones: what slides turns|if (nsvcd__slides(c, link - 1)) continue; bend += step->bend[link - 1];|bend += step->bend[link - 1];
+cones: a start anywhere|if (last < last_error) return last < -last_error ? NSVCD_HIT : NSVCD_UNDECIDED;|
+cones: the pair's own axis|c->cones[n].axis = nsvcd__dquat_rotate(c->members[cone->part].frame.rotation, axis);|c->cones[n].axis = axis;
+cones: ranges ask about them|s->scene.cone_count = 0;|
+cones: goals do not aim at them|r->jacobian[n][6] = r->slope[j];|r->jacobian[n][6] = 0;
+cones: goals anywhere|r->miss.angle <= r->options.angle_tolerance \&\& r->miss.is_in;|r->miss.angle <= r->options.angle_tolerance;
+cones: nothing drawn into them|if (!nsvcd__into_cones(c, NULL, NSVCD__FREE_CONE, at)) continue;|
+cones: looks do not see them|return !r->is_stopped \&\& nsvcd__motion_keeps_cones(r, motion) \&\&|return !r->is_stopped \&\&
 many_joints: held ones that are drawn|out[r->moving[k]] = nsvcd__draw_joint(r, r->moving[k], is_wide);|out[r->moving[k]] = nsvcd__draw_joint(r, r->moving[k], is_wide);\n  for (size_t j = 0; j < joints; j++) out[j] = nsvcd__draw_joint(r, j, is_wide);
 many_joints: held ones that move alone|if (!problem->held \|\| !problem->held[j]) r->moving|r->moving
 LIST
@@ -443,6 +457,7 @@ while IFS= read -r line; do
     postures:*) file=test_postures.c ;;
     reach:*) file=test_reach.c ;;
     allowances:*) file=test_allowances.c ;;
+    cones:*) file=test_cones.c ;;
     verify:*) file=test_certificate.c ;;
     checker:*) file=test_checker.c ;;
     fits:*) file=test_fits.c ;;

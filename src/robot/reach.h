@@ -198,7 +198,7 @@ static void nsvcd__reach_step(const nsvcd__reacher *r, const double *q, double d
     double squares = 0;
     for (size_t n = 0; n < r->count; n++) {
       const double *column = r->jacobian[n];
-      for (size_t i = 0; i < 6 && !is_held[n]; i++) {
+      for (size_t i = 0; i < rows && !is_held[n]; i++) {
         for (size_t k = 0; k <= i; k++) m[i][k] += column[i] * column[k];
       }
     }
