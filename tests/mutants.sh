@@ -260,7 +260,7 @@ robot: routes without a clearance|r->check.clearance = r->options.clearance + NS
 robot: ramps beyond the speed|if (fabs(peak) > speed) {|if (fabs(peak) > 2 * speed) {
 robot: ramps with any acceleration|return fabs(a) <= most;|return 1;
 robot: ramps that are slow|const double side = distance >= least ? 1 : -1;|const double side = distance >= 0 ? 1 : -1;
-robot: shortcuts that are not proven|if (!nsvcd__ask_edge(r, at[0], at[1])) continue;|
+robot: shortcuts that are not proven|if (nsvcd__edge_keeps_cones(r, from, to)) return nsvcd__ask_edge(r, from, to) ? 2 : 0;|return 2;
 robot: starts by the work of the search|if (n / 2) r->check.work = 0;|
 robot: a last proof that nobody ends|whole.stop = r->check.stop;|
 robot: trees that stay in their holes|if (r->idle[turn % 2] >= NSVCD__IDLE \&\&|if (0 \&\&

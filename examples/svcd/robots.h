@@ -106,9 +106,14 @@ static void tell_way_out(const robot_in_room *in, const char *from, const double
   }
 }
 
-// Says on standard error why it is unknown whether two bodies meet.
+// Says on standard error why it is unknown whether two bodies meet, or an axis is kept.
 static void tell_undecided(const robot_in_room *in, const char *from,
                            const nsvcd_check_answer *found) {
+  if (found->cone != NSVCD_NONE) {
+    const char *name = robot_name(in, in->scene.cones[found->cone].part);
+    complain("%s: %s is too near the edge of what it is to keep to tell", from, name);
+    return;
+  }
   const nsvcd_body_pair *pair = &in->scene.pairs[found->pair];
   const char *a = robot_name(in, pair->a);
   const char *b = robot_name(in, pair->b);
@@ -123,6 +128,31 @@ static void tell_undecided(const robot_in_room *in, const char *from,
     complain("%s: %s and %s are too near each other to tell", from, a, b);
 }
 
+// Says on standard error which axis is not kept, or may not be, and by how much it is off.
+static void tell_cone(const robot_in_room *in, const char *from, const double *joints, size_t n) {
+  const nsvcd_cone *cone = &in->scene.cones[n];
+  const size_t parts = in->scene.part_count;
+  nsvcd_pose *poses = (nsvcd_pose *)allocate(parts * sizeof *poses);
+  nsvcd_forward_kinematics(in->checker, joints, poses);
+  const float *q = poses[cone->part].rotation;
+  const float *d = cone->direction;
+  const float *a = cone->axis;
+  double along = 0;
+  double twice[3];
+  for (int k = 0, l = 1, m = 2; k < 3; k++, l = (l + 1) % 3, m = (m + 1) % 3)
+    twice[k] = 2 * ((double)q[l] * (double)a[m] - (double)q[m] * (double)a[l]);
+  for (int k = 0, l = 1, m = 2; k < 3; k++, l = (l + 1) % 3, m = (m + 1) % 3)
+    along += (double)d[k] * ((double)a[k] + (double)q[3] * twice[k] + (double)q[l] * twice[m] -
+                             (double)q[m] * twice[l]);
+  const double length =
+      sqrt((double)d[0] * (double)d[0] + (double)d[1] * (double)d[1] + (double)d[2] * (double)d[2]);
+  const double degrees = 180 / 3.141592653589793;
+  const double off = acos(fmax(-1, fmin(1, along / length)));
+  free(poses);
+  complain("%s: %s is %.6g degrees off, and is to keep within %.6g", from,
+           robot_name(in, cone->part), degrees * off, degrees * cone->angle);
+}
+
 // Says on standard error what is wrong with a start or a goal.
 static void tell_check(const robot_in_room *in, const char *from, const double *joints,
                        const nsvcd_check_answer *found) {
@@ -131,6 +161,7 @@ static void tell_check(const robot_in_room *in, const char *from, const double *
   } else if (found->verdict == NSVCD_UNDECIDED && found->pair != NSVCD_NONE) {
     tell_undecided(in, from, found);
   }
+  if (found->cone != NSVCD_NONE) tell_cone(in, from, joints, found->cone);
   tell_pairs(in, from, joints);
 }
 
@@ -156,9 +187,10 @@ static void tell_goals(const robot_in_room *in, const robot_task *task, const pl
                from, file->things[goal->thing].name);
       tell_check(in, from, reached->best, &reached->check);
     } else {
-      complain("%s: out of reach: %s is %.3f mm and %.3f degrees off, at best", from,
+      complain("%s: out of reach: %s is %.3f mm and %.3f degrees off, at best%s", from,
                file->things[goal->thing].name, 1e3 * reached->position_error,
-               reached->angle_error * (180 / 3.141592653589793));
+               reached->angle_error * (180 / 3.141592653589793),
+               in->scene.cone_count ? ", where axes are kept" : "");
     }
   }
 }
@@ -373,13 +405,18 @@ static int path_one(const robot_in_room *in, const robot_task *task, const setti
   const int is_free = answer.verdict == NSVCD_FREE;
   const nsvcd_body_pair *pair =
       is_free || answer.pair == NSVCD_NONE ? NULL : &in->scene.pairs[answer.pair];
-  if (pair && answer.verdict == NSVCD_UNDECIDED) {
+  if ((pair || answer.cone != NSVCD_NONE) && answer.verdict == NSVCD_UNDECIDED) {
     char from[1024];
     snprintf(from, sizeof from, "%s:%zu: %s", in->file->path, task->line, task->id);
     tell_undecided(in, from, &answer);
   }
+  const int is_left = answer.cone != NSVCD_NONE;
   const char *names[2] = {pair ? robot_name(in, pair->a) : "-",
                           pair ? robot_name(in, pair->b) : "-"};
+  if (is_left) {
+    names[0] = robot_name(in, in->scene.cones[answer.cone].part);
+    names[1] = "keep";
+  }
   if (options->json) {
     json_out j = {stdout, 0};
     json_open(&j, NULL, '{');
@@ -387,8 +424,8 @@ static int path_one(const robot_in_room *in, const robot_task *task, const setti
     json_text(&j, "verdict", nsvcd_verdict_string(answer.verdict));
     if (!is_free) json_count(&j, "edge", edge);
     if (!is_free) json_float(&j, "time", answer.fraction);
-    if (pair) json_text(&j, "a", names[0]);
-    if (pair) json_text(&j, "b", names[1]);
+    if (pair || is_left) json_text(&j, "a", names[0]);
+    if (pair || is_left) json_text(&j, "b", names[1]);
     json_digits(&j, "microseconds", mean, 4);
     json_end_line(&j);
     fflush(stdout);
@@ -444,11 +481,11 @@ static int robot_tasks(robot_file *file, const settings *options, int is_path, F
       continue;
     }
     // a checker remembers what was hit, and a plan must not depend on those before it
-    const int enters =
-        !is_path || has_steps_above(file, task) || in.room != &file->rooms[task->room];
+    const int enters = !is_path || file->keep_count > 0 || has_steps_above(file, task) ||
+                       in.room != &file->rooms[task->room];
     const size_t points = task->points ? task->points : 1;
     const double *last = start + (points - 1) * file->joint_count;
-    if (enters && !(enter_room(file, task->room, clearance, &in) &&
+    if (enters && !(enter_room(file, task->room, clearance, &in) && keep_axes(&in, i) &&
                     allow_near(&in, i, start, last, (size_t)is_path))) {
       good = 0;
       break;
