@@ -287,7 +287,7 @@ postures: out of the limits|joints[j] = nsvcd__max(nsvcd__low_of(joint), nsvcd__
 postures: the world is adjacent|return a > 0 && b > 0 && (scene->joints[a - 1].parent == b|return a > 0 && (b == 0 \|\| scene->joints[a - 1].parent == b
 postures: never touching|pairs[in_all ? total - ++found.touching : found.asked++] = pair;|pairs[found.asked++] = pair;
 reach: positions that are not looked at|return r->miss.position <= r->options.position_tolerance \&\&|return
-reach: angles that are not looked at|\&\& r->miss.angle <= r->options.angle_tolerance;|;
+reach: angles that are not looked at|\&\& r->miss.angle <= r->options.angle_tolerance \&\& r->miss.is_in;|;
 reach: steps beyond the limits|if (is_held[n] \|\| (step[n] <= up \&\& step[n] >= down)) continue;|continue;
 reach: a start out of its limits|nsvcd__clamp_to_limits(r->scene, r->start);|
 reach: turns beyond the limits|if (to < nsvcd__low_of(joint) \|\| to > nsvcd__high_of(joint)) turns -= turns > 0 ? 1 : -1;|

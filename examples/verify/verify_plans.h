@@ -27,6 +27,12 @@ typedef struct group {
   uint8_t moves[NSVCD_VERIFY_JOINTS];
 } group;
 
+// A line `keep`: the axis of a body stays within an angle of a direction, while a joint moves it.
+typedef struct keep {
+  uint32_t body;
+  double axis[3], direction[3], angle;
+} keep;
+
 typedef struct robot {
   const char *path;
   const char *names[NSVCD_VERIFY_JOINTS];
@@ -39,6 +45,7 @@ typedef struct robot {
   list kept;    // (pairs): metres
   list groups;
   list distances;  // those above the first scene, then the scene's
+  list keeps;      // so too
 } robot;
 
 static uint32_t link_named(const robot *r, const char *name) {
@@ -133,6 +140,7 @@ typedef struct plan_line {
   char *words[MOST_WORDS];
   size_t count;
   const group *of;     // of a plan; NULL: all joints may move
+  size_t keeps;        // of a plan: how many lines `keep` stand above
   const char *barred;  // of a plan: why it cannot be checked; NULL: it can
 } plan_line;
 
@@ -141,6 +149,19 @@ static int keeps_to(const group *of, const nsvcd_verify_motion *m) {
   for (size_t k = m->joint_count; k < (m->pieces * m->degree + 1) * m->joint_count && of; k++) {
     const double off = m->points[k] - m->points[k % m->joint_count];
     if (!of->moves[k % m->joint_count] && (off > 0 || off < 0)) return 0;
+  }
+  return 1;
+}
+
+// Are all axes kept in a motion? What rests has nothing to keep.
+static int keeps_axes(const robot *r, const nsvcd_verify_motion *m, size_t count) {
+  for (size_t k = 0; k < count; k++) {
+    const keep *line = (const keep *)r->keeps.items + k;
+    const robot_body *body = (const robot_body *)r->bodies.items + line->body;
+    nsvcd_verify_part part = {m, body->link, 0, {0}};
+    memcpy(part.pose, body->pose, sizeof part.pose);
+    if (body->link && !nsvcd_verify_keeps(&part, line->axis, line->direction, line->angle))
+      return 0;
   }
   return 1;
 }
@@ -265,6 +286,7 @@ static const char *check_motion(const robot *r, const plan_line *plan, const pla
   const char *why = nsvcd_verify_motion_check(&m);
   if (!why && !goes(r, &m, plan, end)) why = "its motion has another start or goal";
   if (!why && !keeps_to(plan->of, &m)) why = "a joint moves that is not of the plan's group";
+  if (!why && !keeps_axes(r, &m, plan->keeps)) why = "an axis leaves what it is to keep";
   if (!why && take(bytes, size, at, 4) != pairs) why = "it is about other pairs";
   for (size_t pair = 0; pair < pairs && !why; pair++) {
     const size_t length = (size_t)take(bytes, size, at, 4);
@@ -322,6 +344,27 @@ static void add_distance(robot *r, char *const *words, size_t count) {
     fail(r->path, "a clearance of one body");
   }
   *(distance *)add(&r->distances, sizeof d) = d;
+}
+
+// keep NAME x|y|z X Y Z DEGREES
+static void add_keep(robot *r, char *const *words) {
+  keep line;
+  double square = 0;
+  memset(&line, 0, sizeof line);
+  line.body = body_named(r, words[1]);
+  if (words[2][0] < 'x' || words[2][0] > 'z' || words[2][1])
+    fail(r->path, "an axis is kept that is none");
+  line.axis[words[2][0] - 'x'] = 1;
+  for (size_t k = 0; k < 3; k++) {
+    line.direction[k] = (double)(float)number_of(r->path, words[3 + k]);
+    square += line.direction[k] * line.direction[k];
+  }
+  line.angle = number_of(r->path, words[6]) * (3.141592653589793 / 180);
+  if (!(square > 1e-12 && square < 1e13))
+    fail(r->path, "a direction has no length, or is too long");
+  if (!(line.angle > 0 && line.angle < 3.1415926)) fail(r->path, "an axis is kept to no angle");
+  for (size_t k = 0; k < 3; k++) line.direction[k] /= sqrt(square);
+  *(keep *)add(&r->keeps, sizeof line) = line;
 }
 
 // Adds each body that a joint moves with each obstacle of the scene read last; then, what each pair
@@ -413,7 +456,7 @@ static int check_plans(const char *path, char *text, request *asked) {
   const char *scene = NULL;
   const char *barred = NULL;
   const char *always_barred = NULL;
-  size_t own_pairs = 0, own_distances = 0;
+  size_t own_pairs = 0, own_distances = 0, own_keeps = 0;
   int has_tasks = 0;  // 1: a plan or a path stands above
   int all = 1;
   memset(&r, 0, sizeof r);
@@ -436,6 +479,7 @@ static int check_plans(const char *path, char *text, request *asked) {
     } else if (strcmp(word, "scene") == 0 && n == 2) {
       if (!scene) own_pairs = r.pairs.count;
       if (!scene) own_distances = r.distances.count;
+      if (!scene) own_keeps = r.keeps.count;
       all &= check_scene(&r, &lines, asked);
       barred = always_barred;
       scene = words[1];
@@ -443,6 +487,7 @@ static int check_plans(const char *path, char *text, request *asked) {
       r.bodies.count = r.own;
       r.pairs.count = own_pairs;
       r.distances.count = own_distances;
+      r.keeps.count = own_keeps;
     } else if (strcmp(word, "obstacle") == 0 && n >= 3 && scene && !has_tasks) {
       add_body(&r, words, n);
     } else if (is_task(&r, words, n, scene)) {
@@ -461,8 +506,11 @@ static int check_plans(const char *path, char *text, request *asked) {
       line->of = group_of(&r, words, n);
       line->count = n - (line->of ? 2 : 0);
       line->barred = barred;
+      line->keeps = r.keeps.count;
       if (strcmp(word, "plan") == 0 && line->count == 3)
         line->barred = "it has no start of its own";
+    } else if (strcmp(word, "keep") == 0 && n == 7) {
+      add_keep(&r, words);
     } else if (is_step(words, n)) {
       barred = "what may touch, or is attached, is not known to this checker";
       if (!scene) always_barred = barred;
