@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // verify_plans.h - of verify.c: planning files (examples/FORMATS.md), and the certificates of their
-// plans: a motion, and a proof for each pair of bodies that must not meet. Not looked at are limits
-// of joints, of speeds and accelerations, and pairs that the file does not name.
+// plans: a motion, which keeps the axes that it is to keep, and a proof for each pair of bodies that
+// must not meet. Not looked at are limits of joints, of speeds and accelerations, and pairs that the
+// file does not name.
 #ifndef NSVCD_VERIFY_PLANS_H
 #define NSVCD_VERIFY_PLANS_H
 #include "nsvcd_verify_robot.h"
