@@ -295,8 +295,9 @@ NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const doubl
 // nsvcd_sweep has them. A HIT is in the configuration named, up to the rounding of a pose to float:
 // 1e-7 of the distance between the two parts' origins and of the bodies' extents. Each pair is
 // asked about in the frame of one of its parts, so the robot may be far from the world's origin.
-// Cones are tested before pairs, in double, without questions; an axis that comes within 1e-10 of
-// the cosine of its cone's angle may be UNDECIDED.
+// Cones are tested before pairs, in double, without questions. Where the cosine of what an axis is
+// off comes within 1e-10 of that of its cone's angle, it may be UNDECIDED: an angle below 2e-5 is
+// too narrow for a motion.
 NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,
                                   const nsvcd_check_options *options,
                                   nsvcd_check_answer *answer);
@@ -699,8 +700,8 @@ typedef struct nsvcd_route_options {
   // smoothing go by looks, and what they find is proven as a whole, as ever. Where that fails, the
   // pair is given more room, and the search begins anew
   size_t looks;
-  // tries to shorten the path, up to NSVCD_MAX_NODES, default 20, with cones 60; and tries to
-  // smooth the motion, default 200. NSVCD_NONE: no tries
+  // tries to shorten the path, up to NSVCD_MAX_NODES, default 20; and tries to smooth the motion,
+  // default 200; with cones three times as many. NSVCD_NONE: no tries
   size_t shortcuts, smoothings;
 } nsvcd_route_options;
 
@@ -6022,8 +6023,9 @@ static size_t nsvcd__way_between(nsvcd__router *r, const double *from, const dou
 #define NSVCD__NODES 20000
 #define NSVCD__TRIES 4
 #define NSVCD__SHORTCUTS 20
-#define NSVCD__CONE_SHORTCUTS 60
 #define NSVCD__SMOOTHINGS 200
+// times as many of both where there are cones
+#define NSVCD__CONE_TRIES 3
 #define NSVCD__MOST_LOOKS 200000
 // of a search by looks: looks of the first, twice as many after each that finds nothing; searches;
 // metres that a pair is given more room where its proof fails
@@ -6085,9 +6087,9 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
   o->nodes = o->nodes ? o->nodes : NSVCD__NODES;
   o->tries = o->tries ? o->tries : NSVCD__TRIES * o->nodes;
   o->edge = o->edge > 0 ? o->edge : 1;
-  if (!o->shortcuts)
-    o->shortcuts = checker->scene->cone_count ? NSVCD__CONE_SHORTCUTS : NSVCD__SHORTCUTS;
-  if (!o->smoothings) o->smoothings = NSVCD__SMOOTHINGS;
+  const size_t more = checker->scene->cone_count ? NSVCD__CONE_TRIES : 1;
+  if (!o->shortcuts) o->shortcuts = more * NSVCD__SHORTCUTS;
+  if (!o->smoothings) o->smoothings = more * NSVCD__SMOOTHINGS;
   if (o->shortcuts == NSVCD_NONE) o->shortcuts = 0;
   if (o->smoothings == NSVCD_NONE) o->smoothings = 0;
   o->looks = o->looks ? o->looks : NSVCD__MOST_LOOKS;

@@ -416,7 +416,7 @@ cones: a sixteenth|return (bend + turned * turned) / 8 * (1 + 1e-9);|return (ben
 cones: ends alone|if (least >= deviation) {|if (least >= 0) {
 cones: one end alone|const double least = nsvcd__min(last - last_error, next - error);|const double least = next - error;
 cones: of the first cone only|answer->verdict = nsvcd__ask_cone(c, \&c->cones[n], m, t0, t1, \&at);|answer->verdict = nsvcd__ask_cone(c, \&c->cones[0], m, t0, t1, \&at);
-cones: what slides turns|if (nsvcd__slides(c, link - 1)) continue; bend += step->bend[link - 1];|bend += step->bend[link - 1];
+cones: what turns slides|if (nsvcd__slides(c, link - 1)) continue; bend += step->bend[link - 1];|if (!nsvcd__slides(c, link - 1)) continue; bend += step->bend[link - 1];
 cones: a start anywhere|if (last < last_error) return last < -last_error ? NSVCD_HIT : NSVCD_UNDECIDED;|
 cones: the pair's own axis|c->cones[n].axis = nsvcd__dquat_rotate(c->members[cone->part].frame.rotation, axis);|c->cones[n].axis = axis;
 cones: ranges ask about them|s->scene.cone_count = 0;|

@@ -134,18 +134,18 @@ static void tell_cone(const robot_in_room *in, const char *from, const double *j
   const size_t parts = in->scene.part_count;
   nsvcd_pose *poses = (nsvcd_pose *)allocate(parts * sizeof *poses);
   nsvcd_forward_kinematics(in->checker, joints, poses);
-  const float *q = poses[cone->part].rotation;
-  const float *d = cone->direction;
-  const float *a = cone->axis;
-  double along = 0;
-  double twice[3];
-  for (int k = 0, l = 1, m = 2; k < 3; k++, l = (l + 1) % 3, m = (m + 1) % 3)
-    twice[k] = 2 * ((double)q[l] * (double)a[m] - (double)q[m] * (double)a[l]);
-  for (int k = 0, l = 1, m = 2; k < 3; k++, l = (l + 1) % 3, m = (m + 1) % 3)
-    along += (double)d[k] * ((double)a[k] + (double)q[3] * twice[k] + (double)q[l] * twice[m] -
-                             (double)q[m] * twice[l]);
-  const double length =
-      sqrt((double)d[0] * (double)d[0] + (double)d[1] * (double)d[1] + (double)d[2] * (double)d[2]);
+  const float *r = poses[cone->part].rotation;
+  const double q[4] = {(double)r[0], (double)r[1], (double)r[2], (double)r[3]};
+  const double d[3] = {(double)cone->direction[0], (double)cone->direction[1],
+                       (double)cone->direction[2]};
+  // a column of its matrix: the axis is x, y or z
+  const int k = cone->axis[1] > 0 ? 1 : cone->axis[2] > 0 ? 2 : 0;
+  const int l = (k + 1) % 3;
+  const int m = (k + 2) % 3;
+  const double along = d[k] * (1 - 2 * (q[l] * q[l] + q[m] * q[m])) +
+                       2 * d[l] * (q[k] * q[l] + q[3] * q[m]) +
+                       2 * d[m] * (q[k] * q[m] - q[3] * q[l]);
+  const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
   const double degrees = 180 / 3.141592653589793;
   const double off = acos(fmax(-1, fmin(1, along / length)));
   free(poses);

@@ -220,8 +220,9 @@ NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const doubl
 // nsvcd_sweep has them. A HIT is in the configuration named, up to the rounding of a pose to float:
 // 1e-7 of the distance between the two parts' origins and of the bodies' extents. Each pair is
 // asked about in the frame of one of its parts, so the robot may be far from the world's origin.
-// Cones are tested before pairs, in double, without questions; an axis that comes within 1e-10 of
-// the cosine of its cone's angle may be UNDECIDED.
+// Cones are tested before pairs, in double, without questions. Where the cosine of what an axis is
+// off comes within 1e-10 of that of its cone's angle, it may be UNDECIDED: an angle below 2e-5 is
+// too narrow for a motion.
 NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,
                                   const nsvcd_check_options *options,
                                   nsvcd_check_answer *answer);

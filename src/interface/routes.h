@@ -73,8 +73,8 @@ typedef struct nsvcd_route_options {
   // smoothing go by looks, and what they find is proven as a whole, as ever. Where that fails, the
   // pair is given more room, and the search begins anew
   size_t looks;
-  // tries to shorten the path, up to NSVCD_MAX_NODES, default 20, with cones 60; and tries to
-  // smooth the motion, default 200. NSVCD_NONE: no tries
+  // tries to shorten the path, up to NSVCD_MAX_NODES, default 20; and tries to smooth the motion,
+  // default 200; with cones three times as many. NSVCD_NONE: no tries
   size_t shortcuts, smoothings;
 } nsvcd_route_options;
 

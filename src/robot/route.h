@@ -6,8 +6,9 @@
 #define NSVCD__NODES 20000
 #define NSVCD__TRIES 4
 #define NSVCD__SHORTCUTS 20
-#define NSVCD__CONE_SHORTCUTS 60
 #define NSVCD__SMOOTHINGS 200
+// times as many of both where there are cones
+#define NSVCD__CONE_TRIES 3
 #define NSVCD__MOST_LOOKS 200000
 // of a search by looks: looks of the first, twice as many after each that finds nothing; searches;
 // metres that a pair is given more room where its proof fails
@@ -69,9 +70,9 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
   o->nodes = o->nodes ? o->nodes : NSVCD__NODES;
   o->tries = o->tries ? o->tries : NSVCD__TRIES * o->nodes;
   o->edge = o->edge > 0 ? o->edge : 1;
-  if (!o->shortcuts)
-    o->shortcuts = checker->scene->cone_count ? NSVCD__CONE_SHORTCUTS : NSVCD__SHORTCUTS;
-  if (!o->smoothings) o->smoothings = NSVCD__SMOOTHINGS;
+  const size_t more = checker->scene->cone_count ? NSVCD__CONE_TRIES : 1;
+  if (!o->shortcuts) o->shortcuts = more * NSVCD__SHORTCUTS;
+  if (!o->smoothings) o->smoothings = more * NSVCD__SMOOTHINGS;
   if (o->shortcuts == NSVCD_NONE) o->shortcuts = 0;
   if (o->smoothings == NSVCD_NONE) o->smoothings = 0;
   o->looks = o->looks ? o->looks : NSVCD__MOST_LOOKS;
