@@ -423,7 +423,6 @@ cones: ranges ask about them|s->scene.cone_count = 0;|
 cones: goals do not aim at them|r->jacobian[n][6] = r->slope[j];|r->jacobian[n][6] = 0;
 cones: goals anywhere|r->miss.angle <= r->options.angle_tolerance \&\& r->miss.is_in;|r->miss.angle <= r->options.angle_tolerance;
 cones: nothing drawn into them|if (!nsvcd__into_cones(c, NULL, NSVCD__FREE_CONE, at)) continue;|
-cones: looks do not see them|return !r->is_stopped \&\& nsvcd__motion_keeps_cones(r, motion) \&\&|return !r->is_stopped \&\&
 many_joints: held ones that are drawn|out[r->moving[k]] = nsvcd__draw_joint(r, r->moving[k], is_wide);|out[r->moving[k]] = nsvcd__draw_joint(r, r->moving[k], is_wide);\n  for (size_t j = 0; j < joints; j++) out[j] = nsvcd__draw_joint(r, j, is_wide);
 many_joints: held ones that move alone|if (!problem->held \|\| !problem->held[j]) r->moving|r->moving
 LIST
