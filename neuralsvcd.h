@@ -245,7 +245,8 @@ typedef enum nsvcd_result {
   // a joint's kind is none of its values, or its parent does not come before it; of motions that
   // are merged, an index is not one of the joints', or two of them move one joint
   NSVCD_ERROR_JOINT,
-  // a joint's axis has no length, or is not finite; or `free_axis` is not
+  // the axis of a joint or a cone, or a cone's direction, has no length, or is not finite; or
+  // `free_axis` is not finite
   NSVCD_ERROR_AXIS,
   // a joint's limits are not finite or too large, or low is above high
   NSVCD_ERROR_LIMITS,
@@ -256,6 +257,8 @@ typedef enum nsvcd_result {
   // a pair is not one of the scene's; or it names a part that is not, one part twice, or two parts
   // on one link
   NSVCD_ERROR_PAIR,
+  // a cone's angle is not more than 0 and less than pi
+  NSVCD_ERROR_CONE,
   // a joint's value in a start, a goal or a motion is not finite or too large
   NSVCD_ERROR_VALUE,
   // `degree` is not 1 to NSVCD_MAX_DEGREE, or there are more pieces than can be counted
@@ -1802,13 +1805,15 @@ static const char nsvcd__result_texts[] =
     "a joint's kind is none of its values, its parent does not come before it, two motions "
     "move "
     "it, or it is not one of the scene's\0"
-    "a joint's axis has no length, or is not finite, or free_axis is not\0"
+    "the axis of a joint or a cone, or a cone's direction, has no length, "
+    "or is not finite, or free_axis is not\0"
     "a joint's limits are not finite or too large, or low is above high, or they exclude "
     "those of a joint that mimics it\0"
     "a joint's speed or acceleration is negative, not finite or too large\0"
     "a link is no joint of the scene, or a part none of its parts\0"
     "a pair is not there, or names a part that is not there, one twice, "
     "or two of one link\0"
+    "a cone's angle is not more than 0 and less than pi\0"
     "a joint's value (start, goal, guess, points) is not finite or too large\0"
     "degree is not 1 to 5, or pieces are more than can be counted\0"
     "joints turn too far in a piece of the motion to be certified\0"

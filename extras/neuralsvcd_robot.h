@@ -38,6 +38,7 @@
 //     allowances      when a pair may touch
 //     deviation       how far a part leaves its sweep between two samples
 //     checker         the checker of a scene
+//     cones           does an axis stay within its cone?
 //     samples         configurations of a motion, and boxes about the parts in them
 //     local_queries   two parts, in the frame of one of them
 //     check           is a motion of the joints free?
@@ -46,12 +47,13 @@
 //     proofs          certificates of pairs
 //     rrt             trees of configurations, and the nearest node
 //     configurations  proximities, the nearest free one, pairs that can meet
-//     cholesky        six linear equations
+//     cholesky        linear equations
 //     reach           configurations that have a tool at a target
 //     spans           two parts, and the joints between them
 //     ranges          do two parts meet never, always or sometimes?
 //     blends          from one state to another, within limits of speed and acceleration
 //     smooth          a path, timed, then smooth
+//     grow            where a tree grows, and edge by edge, in the cones
 //     trees           two trees of edges, until they meet
 //     route           a path, shortened, as a motion that is proven
 //
@@ -151,6 +153,16 @@ typedef struct nsvcd_allowance {
   double distance;
 } nsvcd_allowance;
 
+// An axis of a part that is kept within a cone, as a cup is that is carried upright.
+typedef struct nsvcd_cone {
+  // an index of the scene's parts
+  uint32_t part;
+  // the axis, in the part's frame, and where it is to point, in the world; of any length but 0
+  float axis[3], direction[3];
+  // radians, more than 0 and less than pi: the most that the axis may be off the direction
+  double angle;
+} nsvcd_cone;
+
 // A robot and its obstacles. Only the pairs named here are checked.
 typedef struct nsvcd_scene {
   // (F) joints of the robot
@@ -172,6 +184,10 @@ typedef struct nsvcd_scene {
   const nsvcd_allowance *allowances;
   // W
   size_t allowance_count;
+  // (C) cones that axes of parts stay within, in all checks, routes and reaches
+  const nsvcd_cone *cones;
+  // C
+  size_t cone_count;
 } nsvcd_scene;
 
 // A motion of the joints, in pieces one after another. A piece is a Bezier curve in time. It begins
@@ -224,17 +240,18 @@ typedef struct nsvcd_check_options {
 // What is known of a motion.
 typedef struct nsvcd_check_answer {
   // FREE: at no time of the motion do the parts of a pair come within the clearance, or is one
-  // inside the other, but where the scene allows it. HIT: in the configuration that is named, those
-  // of a pair do, or one is
+  // inside the other, but where the scene allows it, and all axes stay in their cones. HIT: in the
+  // configuration that is named, those of a pair do, or one is, or an axis is out of its cone
   nsvcd_verdict verdict;
   // the reason if the verdict is UNDECIDED
   nsvcd_why why;
   // the pair that is hit or undecided, an index of the scene's, and the piece of the motion where
-  // it is. A HIT need not be the motion's first. NSVCD_NONE: there is none
+  // it is, or where an axis leaves its cone. A HIT need not be the motion's first. NSVCD_NONE:
+  // there is none
   size_t pair, piece;
   // fraction of that piece, in [0,1]
   double fraction;
-  // the contact of a HIT, as nsvcd_answer.nearest has it; its time is 0
+  // the contact of a HIT of a pair, as nsvcd_answer.nearest has it; its time is 0
   nsvcd_contact contact;
   // a joint that leaves its limits somewhere, whatever the verdict; NSVCD_NONE: none does
   size_t joint;
@@ -244,6 +261,9 @@ typedef struct nsvcd_check_answer {
   // options.to_time a HIT is the first one to that precision, unless something before it is
   // undecided: then it is later than this by more
   double free_until;
+  // the cone that an axis leaves, or may leave if the verdict is UNDECIDED, an index of the
+  // scene's; `pair` is NSVCD_NONE then. NSVCD_NONE: there is none
+  size_t cone;
 } nsvcd_check_answer;
 
 // A scene, prepared for checks, in the caller's memory.
@@ -263,7 +283,8 @@ NSVCDDEF size_t nsvcd_checker_size(const nsvcd_scene *scene);
 //   errors     ARGUMENT (NULL), COUNT, WORKSPACE; of a joint JOINT, AXIS, LIMITS (also if a
 //              leader's exclude its followers'), SPEED, MIMIC; of a part BODY, VERSION, TRIANGLES,
 //              LINK, SCALE; of either POSE, QUATERNION; of a pair PAIR (also if both parts are on
-//              one link), CLEARANCE; of an allowance PAIR, ARGUMENT (NULL), VALUE, DISTANCE
+//              one link), CLEARANCE; of an allowance PAIR, ARGUMENT (NULL), VALUE, DISTANCE; of a
+//              cone LINK (no such part), AXIS (or its direction), CONE
 NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory, size_t size,
                                          nsvcd_checker **checker);
 
@@ -293,6 +314,9 @@ NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const doubl
 // nsvcd_sweep has them. A HIT is in the configuration named, up to the rounding of a pose to float:
 // 1e-7 of the distance between the two parts' origins and of the bodies' extents. Each pair is
 // asked about in the frame of one of its parts, so the robot may be far from the world's origin.
+// Cones are tested before pairs, in double, without questions. Where the cosine of what an axis is
+// off comes within 1e-10 of that of its cone's angle, it may be UNDECIDED: an angle below 2e-5 is
+// too narrow for a motion.
 NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,
                                   const nsvcd_check_options *options,
                                   nsvcd_check_answer *answer);
@@ -438,10 +462,10 @@ typedef struct nsvcd_nearest_free_options {
   void *user;
 } nsvcd_nearest_free_options;
 
-// Seeks a configuration that is proven free and within the limits, as near as possible to one that
-// is not, such as a start or a goal in contact. Some hundred configurations are drawn at random,
-// nearer and nearer; each free one is moved back towards the joints as far as it stays free. What
-// lies in between need not be free.
+// Seeks a configuration that is proven free, within the limits and in the scene's cones, as near as
+// possible to one that is not, such as a start or a goal in contact. Some hundred configurations
+// are drawn at random, nearer and nearer; each free one is moved back towards the joints as far as
+// it stays free. What lies in between need not be free.
 //   checker    not NULL
 //   joints     (F) radians or metres, not NULL; clamped to the limits first
 //   options    NULL: the defaults
@@ -471,7 +495,7 @@ typedef struct nsvcd_pair_counts {
 // ones, which joints are made to keep apart, or to overlap. Pairs that touch in all random
 // configurations are listed by themselves, since two that separate only in a narrow range of a
 // joint may be among them. To leave one out is the caller's decision. Pairs that seem never to meet
-// are not left out, since they cost little.
+// are not left out, since they cost little. Cones of the scene do not count.
 //   checker    not NULL; made of the parts and joints, whatever pairs its scene has
 //   draws      the most random configurations, within the limits, in which a pair is asked about;
 //              default 64
@@ -583,6 +607,8 @@ NSVCDDEF size_t nsvcd_pair_range_size(const nsvcd_checker *checker, nsvcd_body_p
 //   source     branch and bound, by a Lipschitz bound; difference: along one joint the motion
 //              itself is proven
 //
+// Allowances and cones of the scene do not count.
+//
 // One joint between the parts takes one proof, two some ten to a thousand, as near as the parts
 // come. With more joints SOMETIMES is found soon where it is so, by configurations drawn at random
 // and by going down the slope of the distance.
@@ -650,7 +676,7 @@ typedef struct nsvcd_reach_options {
   uint64_t seed;
   // metres: the distance that the parts of a pair keep; default 0
   float clearance;
-  // 1: solutions need not be free. They are not checked
+  // 1: solutions need not be free, and are not checked; they are in the scene's cones all the same
   int may_touch;
 } nsvcd_reach_options;
 
@@ -658,11 +684,12 @@ typedef struct nsvcd_reach_options {
 typedef struct nsvcd_reach_answer {
   // number of solutions
   size_t solutions;
-  // number of starts; of those that came to the target; and of these, of those where the robot was
-  // not proven free
+  // number of starts; of those that came to the target, in the scene's cones; and of these, of
+  // those where the robot was not proven free
   size_t starts, reached, touching;
   // (F) the best configuration that was found: the first solution; where there is none, of those
-  // that touch the nearest to the start; else the one that has the tool nearest to the target
+  // that touch the nearest to the start; else the one that has the tool nearest to the target, and
+  // axes to their cones
   double best[NSVCD_MAX_JOINTS];
   // metres, radians: how far the tool is off its target there
   double position_error, angle_error;
@@ -670,10 +697,11 @@ typedef struct nsvcd_reach_answer {
   nsvcd_check_answer check;
 } nsvcd_reach_answer;
 
-// Finds configurations within the joints' limits that have a tool at a target: several where there
-// are several, such as elbow up and elbow down. By default they are proven free, since that is what
-// a route's goal has to be. Where a joint's limits allow values that are whole turns apart, the one
-// nearest to the start's is given, but for joints that others mimic. Where there are more joints
+// Finds configurations within the joints' limits, and in the scene's cones, that have a tool at a
+// target: several where there are several, such as elbow up and elbow down. By default they are
+// proven free, since that is what a route's goal has to be. Where a joint's limits allow values
+// that are whole turns apart, the one nearest to the start's is given, but for joints that others
+// mimic. Where there are more joints
 // than the target needs, there are infinitely many solutions, and some of them are found.
 //
 // That nothing is found is no proof that there is nothing. Of targets that an arm of 6 or 7 joints
@@ -705,7 +733,8 @@ NSVCDDEF nsvcd_result nsvcd_reach(nsvcd_checker *checker, const nsvcd_reach_prob
 //
 // A straight line is tried first. If it is not free, two trees grow, from the start and from the
 // goals, whose edges are proven free. The path that joins them is made shorter, timed, and smoothed
-// within the limits of speed and acceleration. In the end the motion is proven as a whole.
+// within the limits of speed and acceleration. In the end the motion is proven as a whole. All of
+// it stays in the scene's cones.
 
 // the most nodes of both trees
 #define NSVCD_MAX_NODES 10000000
@@ -762,7 +791,8 @@ typedef struct nsvcd_route_options {
   // the most nodes of both trees, up to NSVCD_MAX_NODES; default 20,000
   size_t nodes;
   // the most motions that are checked, free or not, without looks; default 4 times `nodes`. Where
-  // nothing is free the trees do not grow, so `nodes` alone would not end the search
+  // nothing is free the trees do not grow, so `nodes` alone would not end the search. What cones
+  // refuse counts too, also among looks
   size_t tries;
   // radians or metres: the greatest length of an edge; default 1
   double edge;
@@ -773,7 +803,7 @@ typedef struct nsvcd_route_options {
   // search goes on
   size_t looks;
   // tries to shorten the path, up to NSVCD_MAX_NODES, default 20; and tries to smooth the motion,
-  // default 200. NSVCD_NONE: no tries
+  // default 200; with cones three times as many. NSVCD_NONE: no tries
   size_t shortcuts, smoothings;
 } nsvcd_route_options;
 
@@ -822,8 +852,9 @@ NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
 //              VALUE (a configuration not finite or beyond NSVCD_MAX_COORDINATE), MIMIC, CLEARANCE,
 //              WORKSPACE; POSE, SCALE, as nsvcd_check
 //   source     RRT-Connect (Kuffner and LaValle 2000); bounded-acceleration shortcuts (Hauser and
-//              Ng-Thow-Hing 2010); paths of edges that are proven last (Bohlin and Kavraki 2000).
-//              Difference: edges and shortcuts are proven, not sampled
+//              Ng-Thow-Hing 2010); paths of edges that are proven last (Bohlin and Kavraki 2000);
+//              with cones CBiRRT (Berenson et al. 2009). Difference: edges and shortcuts are
+//              proven, not sampled
 NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_problem *problem,
                                   const nsvcd_route_options *options, void *memory,
                                   size_t size, nsvcd_route_answer *answer);
@@ -1715,6 +1746,7 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
 //   steps            what the joints do between two times
 //   deviation        how far points of a part can be from an axis; how far a part leaves its sweep
 //   checker          the checker of a scene
+//   cones            does an axis stay within its cone? a configuration near by in which it does
 //   samples          configurations of a motion, and boxes about the parts in them
 //   local_queries    two parts, in the frame of one of them
 //   check            is a motion of the joints free?
@@ -1723,13 +1755,15 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
 //   proofs           a certificate of a pair, as the joints move it
 //   rrt              trees of configurations, and the nearest node
 //   configurations   one configuration: proximities, the nearest free one; which pairs can meet
-//   cholesky         six linear equations
+//   cholesky         linear equations
 //   reach            configurations that have a tool at a target
 //   spans            two parts, and how far the joints between them move a point
 //   ranges           do two parts meet never, always or sometimes?
 //   blends           from one state to another, within limits of speed and acceleration
 //   smooth           a path, timed, then smooth
-//   route            a start and goals: two trees of proven edges, shortcuts
+//   grow             where a tree grows, and edge by edge, in the cones
+//   trees            two trees, from the start and the goals, until they meet
+//   route            a start and goals: a path, shortened, as a motion that is proven
 //
 // All questions about bodies are asked by nsvcd_sweep, as any program asks them.
 
@@ -1779,6 +1813,14 @@ typedef struct nsvcd__member {
   int is_skipped;
 } nsvcd__member;
 
+// A cone, as the checker has it.
+typedef struct nsvcd__kept_axis {
+  uint32_t link;
+  // unit, in the link and in the world
+  nsvcd__d3 axis, direction;
+  double angle;
+} nsvcd__kept_axis;
+
 struct nsvcd_checker {
   // the caller's; or, where joints mimic others, that with joints of its own
   const nsvcd_scene *scene;
@@ -1793,6 +1835,8 @@ struct nsvcd_checker {
   // the parts that move
   uint32_t *movers;
   size_t mover_count;
+  // (C)
+  nsvcd__kept_axis *cones;
   // (P): the pairs, as they are asked about: what was hit last first
   uint32_t *order;
   // (P): those of an interval that are not proven yet
@@ -2356,13 +2400,17 @@ static int nsvcd__are_numbers(const double *x, size_t count) {
   return 1;
 }
 
+// Is a direction finite, and of some length?
+static int nsvcd__is_direction(const float *x) {
+  double most = 0;
+  for (size_t k = 0; k < 3; k++) most = nsvcd__max(most, fabs((double)x[k]));
+  return nsvcd__in_range(x, 3, 1e15f) && most > 1e-15;
+}
+
 static nsvcd_result nsvcd__joint_check(const nsvcd_joint *joint, size_t i) {
-  double axis = 0;
   if (joint->parent > i || (unsigned)joint->kind > NSVCD_JOINT_PRISMATIC)
     return NSVCD_ERROR_JOINT;
-  if (!nsvcd__in_range(joint->axis, 3, 1e15f)) return NSVCD_ERROR_AXIS;
-  for (size_t k = 0; k < 3; k++) axis = nsvcd__max(axis, fabs((double)joint->axis[k]));
-  if (!(axis > 1e-15)) return NSVCD_ERROR_AXIS;
+  if (!nsvcd__is_direction(joint->axis)) return NSVCD_ERROR_AXIS;
   const nsvcd_result result = nsvcd__poses_check(&joint->origin, 1);
   if (result) return result;
   const double rates[2] = {joint->speed, joint->acceleration};
@@ -2411,6 +2459,26 @@ static nsvcd_result nsvcd__part_check(const nsvcd_scene *scene, const nsvcd_part
   return nsvcd__poses_check(&part->pose, 1);
 }
 
+// Are the allowances and the cones of a scene in order, of which all else is?
+static nsvcd_result nsvcd__extras_check(const nsvcd_scene *scene) {
+  if (scene->allowance_count > 0 && !scene->allowances) return NSVCD_ERROR_ARGUMENT;
+  for (size_t n = 0; n < scene->allowance_count; n++) {
+    const nsvcd_result result = nsvcd__allowance_check(scene, &scene->allowances[n]);
+    if (result) return result;
+  }
+  if (scene->cone_count > 0 && !scene->cones) return NSVCD_ERROR_ARGUMENT;
+  for (size_t n = 0; n < scene->cone_count; n++) {
+    const nsvcd_cone *cone = &scene->cones[n];
+    if (cone->part >= scene->part_count) return NSVCD_ERROR_LINK;
+    if (!nsvcd__is_direction(cone->axis) || !nsvcd__is_direction(cone->direction))
+      return NSVCD_ERROR_AXIS;
+    if (!nsvcd__are_numbers(&cone->angle, 1) ||
+        !(cone->angle > 0 && cone->angle < 3.141592653589793))
+      return NSVCD_ERROR_CONE;
+  }
+  return NSVCD_OK;
+}
+
 static nsvcd_result nsvcd__scene_check(const nsvcd_scene *scene) {
   nsvcd_result result = NSVCD_OK;
   if (!scene) return NSVCD_ERROR_ARGUMENT;
@@ -2439,10 +2507,7 @@ static nsvcd_result nsvcd__scene_check(const nsvcd_scene *scene) {
     if (scene->clearances && !nsvcd__is_length(scene->clearances[k]))
       return NSVCD_ERROR_CLEARANCE;
   }
-  if (scene->allowance_count > 0 && !scene->allowances) return NSVCD_ERROR_ARGUMENT;
-  for (size_t n = 0; n < scene->allowance_count && !result; n++)
-    result = nsvcd__allowance_check(scene, &scene->allowances[n]);
-  return result;
+  return result ? result : nsvcd__extras_check(scene);
 }
 
 // ---- boxes
@@ -2499,6 +2564,7 @@ static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
   c->next = NSVCD__TAKE_ROWS(nsvcd__links, 1, base, &used);
   c->members = NSVCD__TAKE_ROWS(nsvcd__member, parts, base, &used);
   c->movers = NSVCD__TAKE_ROWS(uint32_t, movers, base, &used);
+  c->cones = NSVCD__TAKE_ROWS(nsvcd__kept_axis, scene->cone_count, base, &used);
   c->order = NSVCD__TAKE_ROWS(uint32_t, pairs, base, &used);
   c->left = NSVCD__TAKE_ROWS(uint32_t, pairs, base, &used);
   c->frames = NSVCD__TAKE_ROWS(nsvcd__dpose, rows, base, &used);
@@ -2573,9 +2639,210 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
     c->members[n].row = c->mover_count * (NSVCD__MOST_STEPS + 1);
     if (scene->parts[n].link) c->movers[c->mover_count++] = (uint32_t)n;
   }
+  for (size_t n = 0; n < scene->cone_count; n++) {
+    const nsvcd_cone *cone = &scene->cones[n];
+    const nsvcd__d3 up = nsvcd__d3_of(0, 0, 1);
+    const nsvcd__d3 axis = nsvcd__d3_unit(nsvcd__d3_load(cone->axis), up);
+    c->cones[n].link = scene->parts[cone->part].link;
+    c->cones[n].axis = nsvcd__dquat_rotate(c->members[cone->part].frame.rotation, axis);
+    c->cones[n].direction = nsvcd__d3_unit(nsvcd__d3_load(cone->direction), up);
+    c->cones[n].angle = cone->angle;
+  }
   for (size_t k = 0; k < scene->pair_count; k++) c->order[k] = (uint32_t)k;
   *checker = c;
   return NSVCD_OK;
+}
+
+// ------------------------------------------------------------------------------------- robot/cones
+// In: a scene's cones, and a motion, or a configuration. Out: does each axis stay in its cone? A
+// configuration near by in which all do.
+//
+// THE BOUND. An axis is off a direction by no more than an angle where its product with it is no
+// less than the angle's cosine: in a half space. In a step of the joints, if both its ends are in
+// the half space, so is the chord between them, and how far it leaves that chord is what
+// robot/deviation.h says of a point of which r_j is 1 for joints that turn, 0 for those that slide:
+//   (sum_j max |e''_j| + (sum_j |d_j|)^2) / 8
+
+// of the product of two directions: rounding, of 32 joints and in proportion if there are more; by
+// radian that a joint has turned; and what a step is not cut further for
+#define NSVCD__CONE_ROUNDING 1e-13
+#define NSVCD__CONE_TURNED 1e-15
+#define NSVCD__CONE_FINEST 1e-10
+// steps of a projection; by how much farther each goes, in all, and in proportion; and the least
+// square of a slope that leads anywhere
+#define NSVCD__CONE_STEPS 20
+#define NSVCD__CONE_BEYOND 1e-6
+#define NSVCD__CONE_FARTHER 1.01
+#define NSVCD__CONE_SLOPE 1e-6
+
+// ---- motions
+
+// By how much the product of an axis with its direction is above the cosine of its cone's angle; if
+// it is between -*error and *error, that is not known.
+static double nsvcd__cone_margin(const nsvcd_checker *c, const nsvcd__kept_axis *cone,
+                                 const double *q, double *error) {
+  nsvcd__d3 axis = cone->axis;
+  *error = NSVCD__CONE_ROUNDING * nsvcd__max(1, (double)c->scene->joint_count / 32);
+  for (size_t link = cone->link; link > 0; link = nsvcd__link_before(c, link)) {
+    const nsvcd__dpose frame = nsvcd__joint_frame(c, link - 1, q[link - 1]);
+    axis = nsvcd__dquat_rotate(frame.rotation, axis);
+    if (!nsvcd__slides(c, link - 1)) *error += NSVCD__CONE_TURNED * fabs(q[link - 1]);
+  }
+  return nsvcd__d3_dot(axis, cone->direction) - cos(cone->angle);
+}
+
+// The bound of the banner.
+static double nsvcd__axis_deviation(const nsvcd_checker *c, const nsvcd__kept_axis *cone,
+                                    const nsvcd__step *step) {
+  double bend = 0;
+  double turned = 0;
+  for (size_t link = cone->link; link > 0; link = nsvcd__link_before(c, link)) {
+    if (nsvcd__slides(c, link - 1)) continue;
+    bend += step->bend[link - 1];
+    turned += step->travel[link - 1];
+  }
+  return (bend + turned * turned) / 8 * (1 + 1e-9);
+}
+
+// Does an axis stay in its cone from time t0 to t1, of which the steps are as long as can be?
+// Returns FREE; HIT at *at, where it does not; or UNDECIDED from there on.
+static nsvcd_verdict nsvcd__ask_cone(const nsvcd_checker *c, const nsvcd__kept_axis *cone,
+                                     const nsvcd_joint_motion *m, double t0, double t1,
+                                     double *at) {
+  const size_t joints = c->scene->joint_count;
+  double length = t1 - t0;
+  nsvcd__step step;
+  double error, last_error;
+  *at = t0;
+  nsvcd__joints_at_time(m, joints, t0, step.from, NULL);
+  double last = nsvcd__cone_margin(c, cone, step.from, &last_error);
+  if (last < last_error) return last < -last_error ? NSVCD_HIT : NSVCD_UNDECIDED;
+  while (*at < t1) {
+    const double to = *at + length < t1 ? *at + length : t1;
+    nsvcd__step_of(m, joints, *at, to, &step);
+    const double next = nsvcd__cone_margin(c, cone, step.to, &error);
+    const double deviation = nsvcd__axis_deviation(c, cone, &step);
+    const double least = nsvcd__min(last - last_error, next - error);
+    if (least >= deviation) {
+      *at = to;
+      last = next;
+      last_error = error;
+      length *= 2;
+      continue;
+    }
+    length = 0.5 * (to - *at);
+    if (next < -error) {
+      *at = to;
+      return NSVCD_HIT;
+    }
+    if (deviation <= NSVCD__CONE_FINEST || !(*at + length > *at && *at + length < to))
+      return NSVCD_UNDECIDED;
+  }
+  return NSVCD_FREE;
+}
+
+// Do all axes stay in their cones from time t0 to t1? Else the answer says which one does not.
+static int nsvcd__keeps_cones(const nsvcd_checker *c, const nsvcd_joint_motion *m, double t0,
+                              double t1, nsvcd_check_answer *answer) {
+  answer->cone = NSVCD_NONE;
+  for (size_t n = 0; n < c->scene->cone_count; n++) {
+    double at;
+    answer->verdict = nsvcd__ask_cone(c, &c->cones[n], m, t0, t1, &at);
+    if (answer->verdict == NSVCD_FREE) continue;
+    memset(&answer->contact, 0, sizeof answer->contact);
+    answer->cone = n;
+    answer->pair = NSVCD_NONE;
+    answer->why = answer->verdict == NSVCD_HIT ? NSVCD_WHY_NOTHING : NSVCD_WHY_TOO_NEAR;
+    answer->piece = nsvcd__piece_at(m, at);
+    answer->fraction = nsvcd__fraction_at(m, answer->piece, at);
+    return 0;
+  }
+  return 1;
+}
+
+// ---- configurations
+
+// A joint's limits; of one that turns without, as far as values may go.
+static double nsvcd__low_of(const nsvcd_joint *joint) {
+  const int is_endless = joint->kind == NSVCD_JOINT_CONTINUOUS;
+  return is_endless ? -(double)NSVCD_MAX_COORDINATE : joint->low;
+}
+static double nsvcd__high_of(const nsvcd_joint *joint) {
+  const int is_endless = joint->kind == NSVCD_JOINT_CONTINUOUS;
+  return is_endless ? (double)NSVCD_MAX_COORDINATE : joint->high;
+}
+
+static void nsvcd__clamp_to_limits(const nsvcd_scene *scene, double *joints) {
+  for (size_t j = 0; j < scene->joint_count; j++) {
+    const nsvcd_joint *joint = &scene->joints[j];
+    joints[j] = nsvcd__max(nsvcd__low_of(joint), nsvcd__min(nsvcd__high_of(joint), joints[j]));
+  }
+  nsvcd__follow(scene, 1, joints);
+}
+
+// The rotation vector of a turn that takes unit vector a to b. Of opposite ones it is about any
+// axis across.
+static nsvcd__d3 nsvcd__turn_between(nsvcd__d3 a, nsvcd__d3 b) {
+  const nsvcd__d3 across = nsvcd__d3_cross(a, b);
+  const double sine = nsvcd__d3_norm(across);
+  const double cosine = nsvcd__d3_dot(a, b);
+  if (sine > 1e-12) return nsvcd__d3_scale(across, nsvcd__atan2(sine, cosine) / sine);
+  if (cosine > 0) return across;
+  const nsvcd__d3 other = nsvcd__d3_of(fabs(a.x) < 0.6, fabs(a.x) >= 0.6, 0);
+  const nsvcd__d3 axis = nsvcd__d3_cross(a, other);
+  return nsvcd__d3_scale(axis, 3.141592653589793 / nsvcd__d3_norm(axis));
+}
+
+// How far axes are out of their cones, each narrowed to this share of its angle: radians, the root
+// of the sum of their squares. slope: (F) by each joint, with those that it drives. *is_in: is each
+// in its cone, and half way to the narrowed one?
+static double nsvcd__cones_excess(nsvcd_checker *c, const double *q, double share,
+                                  double *slope, int *is_in) {
+  const size_t joints = c->scene->joint_count;
+  double squares = 0;
+  memset(slope, 0, joints * sizeof *slope);
+  *is_in = 1;
+  if (c->scene->cone_count > 0) nsvcd__place_links(c, q, c->at);
+  for (size_t n = 0; n < c->scene->cone_count; n++) {
+    const nsvcd__kept_axis *cone = &c->cones[n];
+    const nsvcd__dpose *frame = &c->at->frames[cone->link];
+    const nsvcd__d3 axis = nsvcd__dquat_rotate(frame->rotation, cone->axis);
+    const nsvcd__d3 turn = nsvcd__turn_between(cone->direction, axis);
+    const double angle = nsvcd__d3_norm(turn);
+    const double excess = angle - share * cone->angle;
+    if (!(excess > 0)) continue;
+    *is_in &= angle <= 0.5 * (1 + share) * cone->angle;
+    squares += excess * excess;
+    for (size_t link = cone->link; link > 0; link = nsvcd__link_before(c, link)) {
+      const double by = nsvcd__d3_dot(turn, c->at->axes[link - 1]) / angle;
+      const size_t driver = nsvcd__driver(c->scene, link - 1);
+      if (!nsvcd__slides(c, link - 1))
+        slope[driver] += excess * by * nsvcd__rate(c->scene, link - 1);
+    }
+  }
+  const double out = sqrt(squares);
+  for (size_t j = 0; j < joints && out > 0; j++) slope[j] /= out;
+  return out;
+}
+
+// Moves a configuration until all axes are in their cones, each narrowed to this share: Newton's
+// method, by the least change of the joints that are not held. Returns 0 if that leads nowhere.
+static int nsvcd__into_cones(nsvcd_checker *c, const uint8_t *held, double share, double *q) {
+  double slope[NSVCD_MAX_JOINTS];
+  int is_in;
+  for (size_t n = 0; n < NSVCD__CONE_STEPS; n++) {
+    const double excess = nsvcd__cones_excess(c, q, share, slope, &is_in);
+    double squares = 0;
+    if (is_in) return 1;
+    for (size_t j = 0; j < c->scene->joint_count; j++)
+      squares += held && held[j] ? 0 : slope[j] * slope[j];
+    if (!(squares > NSVCD__CONE_SLOPE)) return 0;
+    const double step = (NSVCD__CONE_FARTHER * excess + NSVCD__CONE_BEYOND) / squares;
+    for (size_t j = 0; j < c->scene->joint_count; j++)
+      q[j] -= held && held[j] ? 0 : step * slope[j];
+    nsvcd__clamp_to_limits(c->scene, q);
+  }
+  return 0;
 }
 
 // ----------------------------------------------------------------------------------- robot/samples
@@ -3000,6 +3267,7 @@ static void nsvcd__check_interval(nsvcd__check_state *s, double t0, double t1, s
   nsvcd_check_answer *answer = s->answer;
   const double finest = (double)s->options->finest;
   size_t left = 0;
+  if (!nsvcd__keeps_cones(c, s->motion, t0, t1, answer)) return;
   answer->verdict = NSVCD_UNDECIDED;
   answer->piece = nsvcd__piece_at(s->motion, t0);
   answer->fraction = nsvcd__fraction_at(s->motion, answer->piece, t0);
@@ -3175,7 +3443,7 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *c, const nsvcd_joint_motion *mo
   if (!nsvcd__are_numbers(&o.to_time, 1) || o.to_time < 0) return NSVCD_ERROR_TO;
   o.finest = o.finest > 0 ? o.finest : NSVCD__FINEST;
   memset(&found, 0, sizeof found);
-  found.joint = found.pair = found.piece = NSVCD_NONE;
+  found.joint = found.pair = found.piece = found.cone = NSVCD_NONE;
   nsvcd__check_state s = {c, &m, &o, &found, 0, 0};
   int (*const stop)(void *user) = c->stop;
   void *const user = c->user;
@@ -4153,6 +4421,8 @@ static size_t nsvcd__tree_nearest(const nsvcd__rrt *t, const double *at) {
 // metres that the nearest free configuration has beside the clearance, so that a route can begin
 // there
 #define NSVCD__FREE_ROOM 5e-4f
+// and the share of a cone's angle that it keeps to
+#define NSVCD__FREE_CONE 0.95
 // spheres about the joints on which configurations are drawn, and how many on each
 #define NSVCD__FREE_SPHERES 8
 #define NSVCD__FREE_DRAWS 64
@@ -4328,24 +4598,6 @@ NSVCDDEF nsvcd_result nsvcd_proximities(nsvcd_checker *c, const double *joints,
 
 // ---- the nearest free configuration
 
-// A joint's limits; of one that turns without, as far as values may go.
-static double nsvcd__low_of(const nsvcd_joint *joint) {
-  const int is_endless = joint->kind == NSVCD_JOINT_CONTINUOUS;
-  return is_endless ? -(double)NSVCD_MAX_COORDINATE : joint->low;
-}
-static double nsvcd__high_of(const nsvcd_joint *joint) {
-  const int is_endless = joint->kind == NSVCD_JOINT_CONTINUOUS;
-  return is_endless ? (double)NSVCD_MAX_COORDINATE : joint->high;
-}
-
-static void nsvcd__clamp_to_limits(const nsvcd_scene *scene, double *joints) {
-  for (size_t j = 0; j < scene->joint_count; j++) {
-    const nsvcd_joint *joint = &scene->joints[j];
-    joints[j] = nsvcd__max(nsvcd__low_of(joint), nsvcd__min(nsvcd__high_of(joint), joints[j]));
-  }
-  nsvcd__follow(scene, 1, joints);
-}
-
 // Is a configuration free? An error is in c->result.
 static int nsvcd__is_free_at(nsvcd_checker *c, const double *joints,
                              const nsvcd_nearest_free_options *o) {
@@ -4390,6 +4642,9 @@ static int nsvcd__seek_nearest_free(nsvcd_checker *c, const double *from,
     }
     for (size_t j = 0; j < joints; j++) at[j] = from[j] + radius / sqrt(square) * at[j];
     nsvcd__clamp_to_limits(c->scene, at);
+    if (!nsvcd__into_cones(c, NULL, NSVCD__FREE_CONE, at)) continue;
+    // which may have led away
+    if (nsvcd__distance2(at, from, joints) > best * best * (1 + 1e-9)) continue;
     if (!nsvcd__is_free_at(c, at, o)) continue;
     nsvcd__draw_back(c, from, o, at);
     is_found = 1;
@@ -4527,24 +4782,28 @@ NSVCDDEF nsvcd_result nsvcd_reparent(const nsvcd_checker *c, const double *joint
 }
 
 // ---------------------------------------------------------------------------------- robot/cholesky
-// In: six linear equations whose matrix is positive definite. Out: their solution.
+// In: linear equations whose matrix is positive definite. Out: their solution.
 
-// Solves m x = b by Cholesky's factors, of which m keeps the lower one. m is positive definite.
-static void nsvcd__solve_six(double m[6][6], const double *b, double *x) {
-  for (size_t i = 0; i < 6; i++) {
+// rows of a matrix, at most
+#define NSVCD__MOST_ROWS 7
+
+// Solves m x = b, of so many rows, by Cholesky's factors, of which m keeps the lower one.
+static void nsvcd__solve_rows(double m[NSVCD__MOST_ROWS][NSVCD__MOST_ROWS], const double *b,
+                              size_t rows, double *x) {
+  for (size_t i = 0; i < rows; i++) {
     for (size_t k = 0; k <= i; k++) {
       double sum = m[i][k];
       for (size_t l = 0; l < k; l++) sum -= m[i][l] * m[k][l];
       m[i][k] = i == k ? sqrt(nsvcd__max(sum, 1e-300)) : sum / m[k][k];
     }
   }
-  for (size_t i = 0; i < 6; i++) {
+  for (size_t i = 0; i < rows; i++) {
     x[i] = b[i];
     for (size_t k = 0; k < i; k++) x[i] -= m[i][k] * x[k];
     x[i] /= m[i][i];
   }
-  for (size_t i = 6; i-- > 0;) {
-    for (size_t k = i + 1; k < 6; k++) x[i] -= m[k][i] * x[k];
+  for (size_t i = rows; i-- > 0;) {
+    for (size_t k = i + 1; k < rows; k++) x[i] -= m[k][i] * x[k];
     x[i] /= m[i][i];
   }
 }
@@ -4554,8 +4813,8 @@ static void nsvcd__solve_six(double m[6][6], const double *b, double *x) {
 // it there.
 //
 // Levenberg-Marquardt, from many starts. What is made 0 is how far the tool is off its target: an
-// offset, in lengths of the chain, and a rotation vector, both in the target's frame. What the
-// target leaves free counts as 0.
+// offset, in lengths of the chain, and a rotation vector, both in the target's frame; and how far
+// axes are out of their cones. What the target or a cone leaves free counts as 0.
 
 // defaults
 #define NSVCD__REACH_TOLERANCE 1e-6
@@ -4574,11 +4833,16 @@ static void nsvcd__solve_six(double m[6][6], const double *b, double *x) {
 // a start is given up after so many steps that each lessen the squared error by less than this
 #define NSVCD__REACH_STALLS 6
 #define NSVCD__REACH_GAIN 0.01
+// the share of a cone's angle that is aimed at
+#define NSVCD__REACH_CONE 0.999
 
-// How far the tool is off its target: what is made 0, and half of its square; metres and radians.
+// How far the tool is off its target: what is made 0 (three of the offset, three of the rotation,
+// one of cones), and half of its square; metres and radians.
 typedef struct nsvcd__miss {
-  double residuals[6];
+  double residuals[NSVCD__MOST_ROWS];
   double cost, position, angle;
+  // are all axes in their cones?
+  int is_in;
 } nsvcd__miss;
 
 typedef struct nsvcd__reacher {
@@ -4611,24 +4875,13 @@ typedef struct nsvcd__reacher {
   double least;
   // starts that led to known solutions since the last new one
   size_t repeats;
-  // (joints of the chain, 6): of the residuals
-  double jacobian[NSVCD_MAX_JOINTS][6];
+  // of the Jacobian: one fewer where there are no cones
+  size_t rows;
+  // (joints of the chain): of the residuals; (F): of the last one
+  double jacobian[NSVCD_MAX_JOINTS][NSVCD__MOST_ROWS], slope[NSVCD_MAX_JOINTS];
 } nsvcd__reacher;
 
 // ---- how far the tool is off
-
-// The rotation vector of a turn that takes unit vector a to b. Of opposite ones it is about any
-// axis across.
-static nsvcd__d3 nsvcd__turn_between(nsvcd__d3 a, nsvcd__d3 b) {
-  const nsvcd__d3 across = nsvcd__d3_cross(a, b);
-  const double sine = nsvcd__d3_norm(across);
-  const double cosine = nsvcd__d3_dot(a, b);
-  if (sine > 1e-12) return nsvcd__d3_scale(across, nsvcd__atan2(sine, cosine) / sine);
-  if (cosine > 0) return across;
-  const nsvcd__d3 other = nsvcd__d3_of(fabs(a.x) < 0.6, fabs(a.x) >= 0.6, 0);
-  const nsvcd__d3 axis = nsvcd__d3_cross(a, other);
-  return nsvcd__d3_scale(axis, 3.141592653589793 / nsvcd__d3_norm(axis));
-}
 
 // Places the chain, and says how far off the tool is.
 static void nsvcd__reach_place(nsvcd__reacher *r, const double *q) {
@@ -4663,14 +4916,16 @@ static void nsvcd__reach_place(nsvcd__reacher *r, const double *q) {
   }
   r->miss.position = nsvcd__d3_norm(off);
   r->miss.angle = nsvcd__d3_norm(turn);
+  r->miss.residuals[6] =
+      nsvcd__cones_excess(r->checker, q, NSVCD__REACH_CONE, r->slope, &r->miss.is_in);
   r->miss.cost = 0;
-  for (size_t k = 0; k < 6; k++)
+  for (size_t k = 0; k < NSVCD__MOST_ROWS; k++)
     r->miss.cost += 0.5 * r->miss.residuals[k] * r->miss.residuals[k];
 }
 
 static int nsvcd__is_reached(const nsvcd__reacher *r) {
   return r->miss.position <= r->options.position_tolerance &&
-         r->miss.angle <= r->options.angle_tolerance;
+         r->miss.angle <= r->options.angle_tolerance && r->miss.is_in;
 }
 
 // Adds what the joints that mimic one do to how the residuals change with it. All leaders are in
@@ -4712,6 +4967,7 @@ static void nsvcd__reach_differentiate(nsvcd__reacher *r) {
       r->jacobian[n][k] = is_free ? 0 : nsvcd__d3_axis(moves, k);
       r->jacobian[n][3 + k] = nsvcd__d3_axis(turns, k);
     }
+    r->jacobian[n][6] = r->units[n] * r->slope[j];
   }
   nsvcd__reach_add_driven(r);
 }
@@ -4731,32 +4987,33 @@ static void nsvcd__reach_step(const nsvcd__reacher *r, const double *q, double d
                               double *out, double *expected) {
   double step[NSVCD_MAX_JOINTS];
   int is_held[NSVCD_MAX_JOINTS];
-  double left[6], y[6];
+  double left[NSVCD__MOST_ROWS], y[NSVCD__MOST_ROWS];
+  const size_t rows = r->rows;
   size_t held = 0;
   for (size_t n = 0; n < r->count; n++) {
     is_held[n] = nsvcd__reach_holds(r, n);
     step[n] = 0;
   }
-  for (size_t k = 0; k < 6; k++) left[k] = -r->miss.residuals[k];
+  for (size_t k = 0; k < rows; k++) left[k] = -r->miss.residuals[k];
   for (;;) {
     const size_t before = held;
-    double m[6][6] = {{0}};
+    double m[NSVCD__MOST_ROWS][NSVCD__MOST_ROWS] = {{0}};
     double squares = 0;
     for (size_t n = 0; n < r->count; n++) {
       const double *column = r->jacobian[n];
-      for (size_t i = 0; i < 6 && !is_held[n]; i++) {
+      for (size_t i = 0; i < rows && !is_held[n]; i++) {
         for (size_t k = 0; k <= i; k++) m[i][k] += column[i] * column[k];
       }
     }
-    for (size_t i = 0; i < 6; i++) squares += m[i][i];
-    for (size_t i = 0; i < 6; i++)
+    for (size_t i = 0; i < rows; i++) squares += m[i][i];
+    for (size_t i = 0; i < rows; i++)
       m[i][i] += damping + NSVCD__REACH_FLOOR * nsvcd__max(squares, 1e-30);
-    nsvcd__solve_six(m, left, y);
+    nsvcd__solve_rows(m, left, rows, y);
     for (size_t n = 0; n < r->count; n++) {
       const double *column = r->jacobian[n];
       double sum = 0;
       if (is_held[n]) continue;
-      for (size_t k = 0; k < 6; k++) sum += column[k] * y[k];
+      for (size_t k = 0; k < rows; k++) sum += column[k] * y[k];
       step[n] = sum;
     }
     for (size_t n = 0; n < r->count; n++) {
@@ -4768,13 +5025,13 @@ static void nsvcd__reach_step(const nsvcd__reacher *r, const double *q, double d
       step[n] = step[n] > up ? up : down;
       is_held[n] = 1;
       held++;
-      for (size_t k = 0; k < 6; k++) left[k] -= r->jacobian[n][k] * step[n];
+      for (size_t k = 0; k < rows; k++) left[k] -= r->jacobian[n][k] * step[n];
     }
     if (held == before) break;
   }
   memcpy(out, q, r->joints * sizeof *out);
   *expected = r->miss.cost;
-  for (size_t k = 0; k < 6; k++) {
+  for (size_t k = 0; k < rows; k++) {
     double residual = r->miss.residuals[k];
     for (size_t n = 0; n < r->count; n++) residual += r->jacobian[n][k] * step[n];
     *expected -= 0.5 * residual * residual;
@@ -5000,6 +5257,7 @@ static void nsvcd__reach_begin(nsvcd__reacher *r, nsvcd_checker *c,
   if (!(o->apart > 0)) o->apart = NSVCD__REACH_APART;
   if (!o->starts) o->starts = NSVCD__REACH_STARTS;
   r->random = o->seed;
+  r->rows = NSVCD__MOST_ROWS - (r->scene->cone_count == 0);
   r->tool = nsvcd__unit_dpose(&problem->tool);
   r->target = nsvcd__unit_dpose(&problem->target);
   r->free_axis = nsvcd__d3_unit(nsvcd__d3_load(problem->free_axis), none);
@@ -5269,6 +5527,7 @@ static void nsvcd__span_begin(const nsvcd_scene *scene, nsvcd_body_pair pair, ns
   s->scene.clearances = NULL;
   s->scene.allowances = NULL;
   s->scene.allowance_count = 0;
+  s->scene.cone_count = 0;
   s->parts[0] = scene->parts[pair.a];
   s->parts[1] = scene->parts[pair.b];
   s->pairs[0].b = 1;
@@ -6055,6 +6314,8 @@ typedef struct nsvcd__router {
   // (nodes of both trees + shortcuts, F): corners
   double *path;
   size_t corners;
+  // (NSVCD__MOST_WAY, F)
+  double *way;
   nsvcd__trajectory trajectory, other, blend;
   nsvcd_route_answer answer;
 } nsvcd__router;
@@ -6081,14 +6342,22 @@ static int nsvcd__prove_by(nsvcd__router *r, const nsvcd_joint_motion *motion,
   return is_free;
 }
 
-// Does a motion seem free, and is it within the limits?
+// Do the axes of all cones stay in them?
+static int nsvcd__motion_keeps_cones(const nsvcd__router *r, const nsvcd_joint_motion *m) {
+  nsvcd_check_answer unused;
+  const double start = nsvcd__piece_start(m, 0);
+  return nsvcd__keeps_cones(r->checker, m, start, nsvcd__piece_start(m, m->pieces), &unused);
+}
+
+// Does a motion seem free, and is it within the limits and the cones?
 static int nsvcd__look_along(nsvcd__router *r, const nsvcd_joint_motion *motion) {
   const nsvcd_check_options *o = &r->check;
   if (o->stop && o->stop(o->user)) r->is_stopped = 1;
   // between two configurations within them, edges are
   for (size_t p = 0; motion->degree > 1 && p < motion->pieces; p++)
     if (nsvcd__joint_outside(r->scene, motion, p) != NSVCD_NONE) return 0;
-  return !r->is_stopped && nsvcd__seems_free(&r->looker, motion);
+  return !r->is_stopped && nsvcd__motion_keeps_cones(r, motion) &&
+         nsvcd__seems_free(&r->looker, motion);
 }
 
 // Is a motion free, by a look or by a proof with the search's own options? Once the search is
@@ -6099,12 +6368,26 @@ static int nsvcd__ask_motion(nsvcd__router *r, const nsvcd_joint_motion *motion)
   return !r->is_stopped && nsvcd__prove_by(r, motion, &r->check);
 }
 
-static int nsvcd__ask_edge(nsvcd__router *r, const double *from, const double *to) {
-  double points[2 * NSVCD_MAX_JOINTS];
+// Writes an edge. points: room for two configurations.
+static nsvcd_joint_motion nsvcd__edge_motion(const nsvcd__router *r, const double *from,
+                                             const double *to, double *points) {
   const nsvcd_joint_motion motion = {1, 1, points, NULL};
   memcpy(points, from, r->joints * sizeof *points);
   memcpy(points + r->joints, to, r->joints * sizeof *points);
+  return motion;
+}
+
+static int nsvcd__ask_edge(nsvcd__router *r, const double *from, const double *to) {
+  double points[2 * NSVCD_MAX_JOINTS];
+  const nsvcd_joint_motion motion = nsvcd__edge_motion(r, from, to, points);
   return nsvcd__ask_motion(r, &motion);
+}
+
+static int nsvcd__edge_keeps_cones(const nsvcd__router *r, const double *from,
+                                   const double *to) {
+  double points[2 * NSVCD_MAX_JOINTS];
+  const nsvcd_joint_motion motion = nsvcd__edge_motion(r, from, to, points);
+  return nsvcd__motion_keeps_cones(r, &motion);
 }
 
 // ---- from rest to rest
@@ -6253,19 +6536,27 @@ static void nsvcd__smooth(nsvcd__router *r) {
   }
 }
 
-// ------------------------------------------------------------------------------------- robot/trees
-// In: a router whose trees have their roots. Out: a path from the start to a goal, through both.
+// -------------------------------------------------------------------------------------- robot/grow
+// In: a tree of a route, and where it is to grow. Out: new nodes, by edges that are free, in the
+// scene's cones.
 //
-// The smaller tree grows, and the other towards it. By looks, edges only seem to be free: those of
-// a path can be proven afterwards. What hangs on one that is not free is cut off; the rest stays.
-// Source: RRT-Connect (Kuffner and LaValle 2000), with edges that are proven, not sampled; of paths
-// by looks, Bohlin and Kavraki (2000).
+// Where there are cones, a configuration that is drawn is moved into them, and a tree goes on in
+// steps, each moved into them anew: as far as the straight edge to it stays in them, and as long as
+// that leads nearer.
+// Source: CBiRRT (Berenson et al. 2009). Difference: an edge is proven to stay in the cones.
 
 // turns after which a tree that has not grown tries along single joints
 #define NSVCD__IDLE 100
 // radians or metres: seven configurations in eight are drawn no farther than this from the range of
 // the start and the goals
 #define NSVCD__BESIDE 3.2
+// the share of a cone's angle that configurations are moved to; how often a step may be halved; and
+// the least share of a step by which it leads nearer
+#define NSVCD__GROW_CONE 0.6
+#define NSVCD__GROW_HALVINGS 6
+#define NSVCD__GROW_NEARER 0.25
+// corners of a way that makes a path shorter, at most
+#define NSVCD__MOST_WAY 16
 
 // A value of a joint in its limits, near the start and the goals or anywhere.
 static double nsvcd__draw_joint(nsvcd__router *r, size_t j, int is_wide) {
@@ -6279,7 +6570,7 @@ static double nsvcd__draw_joint(nsvcd__router *r, size_t j, int is_wide) {
   return low + (high - low) * nsvcd__random(&r->random);
 }
 
-// A configuration towards which a tree is to grow: any; where it has not grown for long, every
+// A configuration towards which a tree may grow: any; where it has not grown for long, every
 // other time, one of its own nodes with one joint moved. Out of a hole the only free edges are
 // often those along one joint.
 static void nsvcd__draw(nsvcd__router *r, size_t side, double *out) {
@@ -6307,6 +6598,35 @@ static int nsvcd__is_at_limit(const nsvcd__router *r) {
          (r->is_looking && r->looker.count >= r->looks);
 }
 
+// A motion that the cones refuse is asked about, too: else a search might not end.
+static void nsvcd__count_refused(nsvcd__router *r) {
+  ++*(r->is_looking ? &r->looker.count : &r->answer.checks);
+  if (r->problem.stop && r->problem.stop(r->problem.user)) r->is_stopped = 1;
+}
+
+// One edge on the way from a configuration to another: no longer than options.edge, in the cones,
+// free. Returns 0 if there is none, 2 if it ends there, else 1.
+static int nsvcd__step_towards(nsvcd__router *r, const double *from, const double *to,
+                               double *next) {
+  const double length = nsvcd__edge_length(r, from, to);
+  double step = nsvcd__min(length, r->options.edge);
+  const size_t halvings = r->scene->cone_count ? NSVCD__GROW_HALVINGS : 0;
+  for (size_t n = 0; n <= halvings; n++, step *= 0.5) {
+    const int ends = step >= length;
+    for (size_t j = 0; j < r->joints; j++)
+      next[j] = ends ? to[j] : from[j] + step / length * (to[j] - from[j]);
+    if (halvings > 0 && !ends) {
+      if (!nsvcd__into_cones(r->checker, r->problem.held, NSVCD__GROW_CONE, next)) continue;
+      const double left = nsvcd__edge_length(r, next, to);
+      if (!(left <= length - NSVCD__GROW_NEARER * step)) continue;
+    }
+    if (halvings && !nsvcd__edge_keeps_cones(r, from, next)) continue;
+    return nsvcd__ask_edge(r, from, next) ? 1 + ends : 0;
+  }
+  nsvcd__count_refused(r);
+  return 0;
+}
+
 // Grows a tree from its node nearest to a configuration: by one edge, or, if `is_greedy`, edge by
 // edge. *node: the last new node, or the nearest one. Returns 1 if that is the configuration.
 static int nsvcd__grow(nsvcd__router *r, nsvcd__rrt *t, const double *to, int is_greedy,
@@ -6315,16 +6635,42 @@ static int nsvcd__grow(nsvcd__router *r, nsvcd__rrt *t, const double *to, int is
   for (;;) {
     double next[NSVCD_MAX_JOINTS];
     const double *from = nsvcd__node_at(t, *node);
-    const double length = nsvcd__edge_length(r, from, to);
-    const int ends = length <= r->options.edge;
-    if (!(length > 0)) return 1;
-    for (size_t j = 0; j < r->joints; j++)
-      next[j] = ends ? to[j] : from[j] + r->options.edge / length * (to[j] - from[j]);
-    if (!nsvcd__ask_edge(r, from, next) || nsvcd__is_at_limit(r)) return 0;
+    if (!(nsvcd__distance2(from, to, r->joints) > 0)) return 1;
+    const int ends = nsvcd__step_towards(r, from, to, next);
+    if (!ends || nsvcd__is_at_limit(r)) return 0;
     *node = nsvcd__tree_add(t, next, *node);
-    if (ends || !is_greedy) return ends;
+    if (ends == 2 || !is_greedy) return ends == 2;
   }
 }
+
+// A way between two configurations: an edge, or, where there are cones, some that are no longer
+// than `longest` together. corners: (NSVCD__MOST_WAY, F), both ends among them. Returns how many; 0
+// if none is found.
+static size_t nsvcd__way_between(nsvcd__router *r, const double *from, const double *to,
+                                 double longest, double *corners) {
+  const size_t bytes = r->joints * sizeof *corners;
+  double length = 0;
+  memcpy(corners, from, bytes);
+  memcpy(corners + r->joints, to, bytes);
+  if (nsvcd__edge_keeps_cones(r, from, to)) return nsvcd__ask_edge(r, from, to) ? 2 : 0;
+  for (size_t n = 1; n < NSVCD__MOST_WAY; n++) {
+    const double *last = corners + (n - 1) * r->joints;
+    double *next = corners + n * r->joints;
+    const int ends = nsvcd__step_towards(r, last, to, next);
+    length += nsvcd__edge_length(r, last, next);
+    if (!ends || length > longest) return 0;
+    if (ends == 2) return n + 1;
+  }
+  return 0;
+}
+
+// ------------------------------------------------------------------------------------- robot/trees
+// In: a router whose trees have their roots. Out: a path from the start to a goal, through both.
+//
+// The smaller tree grows, and the other towards it. By looks, edges only seem to be free: those of
+// a path can be proven afterwards. What hangs on one that is not free is cut off; the rest stays.
+// Source: RRT-Connect (Kuffner and LaValle 2000), with edges that are proven, not sampled; of paths
+// by looks, Bohlin and Kavraki (2000).
 
 // Writes the path through the two nodes where the trees have met, the same configuration.
 static void nsvcd__take_path(nsvcd__router *r) {
@@ -6396,7 +6742,10 @@ static int nsvcd__seek(nsvcd__router *r) {
     nsvcd__draw(r, side, drawn);
     nsvcd__follow(r->scene, 1, drawn);
     const size_t before = grown->count;
-    (void)nsvcd__grow(r, grown, drawn, 0, &r->met[side]);
+    if (nsvcd__into_cones(r->checker, r->problem.held, NSVCD__GROW_CONE, drawn))
+      (void)nsvcd__grow(r, grown, drawn, 0, &r->met[side]);
+    else
+      nsvcd__count_refused(r);
     if (nsvcd__is_at_limit(r)) return 0;
     r->idle[side] = grown->count == before ? r->idle[side] + 1 : 0;
     if (grown->count == before) continue;
@@ -6442,12 +6791,16 @@ static int nsvcd__prove_path(nsvcd__router *r) {
 #define NSVCD__TRIES 4
 #define NSVCD__SHORTCUTS 20
 #define NSVCD__SMOOTHINGS 200
+// times as many of both where there are cones
+#define NSVCD__CONE_TRIES 3
 #define NSVCD__MOST_LOOKS 200000
 // of a search by looks: looks of the first, twice as many after each that finds nothing; searches
 #define NSVCD__FIRST_LOOKS 4000
 #define NSVCD__LOOK_SEARCHES 16
 // of the balls' errors, which margins are less by after each search that finds nothing
 #define NSVCD__LOOK_EASE 0.34f
+// of the path between its ends: how long a way of several edges in its place may be
+#define NSVCD__SHORTER 0.95
 
 // ---- memory
 
@@ -6499,8 +6852,9 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
   o->nodes = o->nodes ? o->nodes : NSVCD__NODES;
   o->tries = o->tries ? o->tries : NSVCD__TRIES * o->nodes;
   o->edge = o->edge > 0 ? o->edge : 1;
-  if (!o->shortcuts) o->shortcuts = NSVCD__SHORTCUTS;
-  if (!o->smoothings) o->smoothings = NSVCD__SMOOTHINGS;
+  const size_t more = checker->scene->cone_count ? NSVCD__CONE_TRIES : 1;
+  if (!o->shortcuts) o->shortcuts = more * NSVCD__SHORTCUTS;
+  if (!o->smoothings) o->smoothings = more * NSVCD__SMOOTHINGS;
   if (o->shortcuts == NSVCD_NONE) o->shortcuts = 0;
   if (o->smoothings == NSVCD_NONE) o->smoothings = 0;
   o->looks = o->looks ? o->looks : NSVCD__MOST_LOOKS;
@@ -6518,9 +6872,11 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
     t->cells = NSVCD__TAKE_ROWS(nsvcd__cell, 2 * nodes, base, &used);
   }
   r->goals = NSVCD__TAKE_ROWS(size_t, problem->goal_count, base, &used);
-  // a shortcut from an edge to the next adds a corner
-  const size_t rows = 2 * nodes + o->shortcuts;
+  // a shortcut from an edge to the next adds a corner, or those of a way in the cones
+  const size_t most = checker->scene->cone_count ? NSVCD__MOST_WAY : 1;
+  const size_t rows = 2 * nodes + most * o->shortcuts;
   r->path = (double *)nsvcd__take(base, &used, rows, joints * sizeof(double));
+  r->way = NSVCD__TAKE_ROWS(double, (NSVCD__MOST_WAY * joints), base, &used);
   nsvcd__trajectory_take(&r->trajectory, base, &used, NSVCD__MOST_PIECES, joints);
   nsvcd__trajectory_take(&r->other, base, &used, NSVCD__MOST_PIECES, joints);
   nsvcd__trajectory_take(&r->blend, base, &used, NSVCD__BLEND_PIECES, joints);
@@ -6569,13 +6925,15 @@ static void nsvcd__shorten(nsvcd__router *r) {
     const size_t last = nsvcd__path_at(r, nsvcd__max(a, b), at[1]);
     // on one edge nothing is won, and the path would grow by corners
     if (first == last) continue;
-    if (!nsvcd__ask_edge(r, at[0], at[1])) continue;
-    // corners first + 1 to last make way for two
+    const double longest = NSVCD__SHORTER * fabs(b - a);
+    const size_t count = nsvcd__way_between(r, at[0], at[1], longest, r->way);
+    if (!count) continue;
+    // corners first + 1 to last make way for these
     const size_t rest = r->corners - (last + 1);
-    memmove(nsvcd__corner_at(r, first + 3), nsvcd__corner_at(r, last + 1), rest * bytes);
-    memcpy(nsvcd__corner_at(r, first + 1), at[0], bytes);
-    memcpy(nsvcd__corner_at(r, first + 2), at[1], bytes);
-    r->corners = first + 3 + rest;
+    const size_t next = first + 1 + count;
+    memmove(nsvcd__corner_at(r, next), nsvcd__corner_at(r, last + 1), rest * bytes);
+    memcpy(nsvcd__corner_at(r, first + 1), r->way, count * bytes);
+    r->corners = next + rest;
   }
 }
 

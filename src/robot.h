@@ -83,6 +83,7 @@ extern "C" {
 #include "robot/allowances.h"  // when a pair may touch
 #include "robot/deviation.h"   // how far a part leaves its sweep between two samples
 #include "robot/checker.h"     // the checker of a scene
+#include "robot/cones.h"       // does an axis stay within its cone?
 #include "robot/samples.h"     // configurations of a motion, and boxes about the parts in them
 #include "robot/local_queries.h"   // two parts, in the frame of one of them
 #include "robot/check.h"           // is a motion of the joints free?
@@ -91,12 +92,13 @@ extern "C" {
 #include "robot/proofs.h"          // certificates of pairs
 #include "robot/rrt.h"             // trees of configurations, and the nearest node
 #include "robot/configurations.h"  // proximities, the nearest free one, pairs that can meet
-#include "robot/cholesky.h"        // six linear equations
+#include "robot/cholesky.h"        // linear equations
 #include "robot/reach.h"           // configurations that have a tool at a target
 #include "robot/spans.h"           // two parts, and the joints between them
 #include "robot/ranges.h"          // do two parts meet never, always or sometimes?
 #include "robot/blends.h"  // from one state to another, within limits of speed and acceleration
 #include "robot/smooth.h"  // a path, timed, then smooth
+#include "robot/grow.h"    // where a tree grows, and edge by edge, in the cones
 #include "robot/trees.h"   // two trees of edges, until they meet
 #include "robot/route.h"   // a path, shortened, as a motion that is proven
 

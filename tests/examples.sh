@@ -755,6 +755,15 @@ robot_refused "expected: attach NAME JOINT" 'attach board_1'
 robot_refused "no obstacle of this name above: 'palm'" 'attach palm wrist'
 robot_refused "no joint of this name above, nor world: 'thumb'" 'attach board_1 thumb'
 robot_refused "expected: release NAME" 'release'
+robot_refused "expected: keep NAME x|y|z X Y Z DEGREES" 'keep palm z 0 0 1'
+robot_refused "expected: keep NAME x|y|z X Y Z DEGREES" 'keep palm up 0 0 1 5'
+robot_refused "no body of this name above: 'thumb'" 'keep thumb z 0 0 1 5'
+robot_refused "this body follows no joint: 'base'" 'keep base z 0 0 1 5'
+robot_refused "not a finite number, or beyond NSVCD_MAX_COORDINATE: 'nan'" 'keep palm z 0 0 nan 5'
+robot_refused "the direction has no length" 'keep palm z 0 0 0 5'
+for degrees in 0 -1 180 nan; do
+  robot_refused "DEGREES are not 0.01 or more, and less than 180: '$degrees'" "keep palm z 0 0 1 $degrees"
+done
 
 # A cup is taken from its table, over a rack, and set down: it touches the table there, and nothing on its way.
 expect 0 '' build/svcd plan examples/robot/pick.txt --samples 500 --joints "$dir/pick.tsv"
@@ -786,6 +795,42 @@ for words in 'allow cup' 'allow cup table -1' 'allow cup thumb' 'attach cup' 'at
 done
 sed 's/^scene kitchen/release cup\n&/' examples/robot/pick.txt >"$dir/bad_step.txt"
 expect 2 'not where it may stand' build/verify "$dir/bad_step.txt" "$dir"
+# An arm of three joints in a plane, whose hand tilts by their sum, about a ball that stands in the straight way: what is kept
+# is, also of a cup that is attached, until it is released; so a certificate says, of the hand, and of no smaller angle.
+tilts() {  # LINES above the scene, LINES in it
+  printf 'nsvcd-plans 1\njoint a world 0 0 0.3 0 0 0 1 0 1 0 revolute -2 2 1\njoint b a 0 0 0.4 0 0 0 1 0 1 0 revolute -2.5 2.5 1\n'
+  printf 'joint c b 0 0 0.4 0 0 0 1 0 1 0 revolute -2.5 2.5 1\nbody upper a box: 0.05 0.05 0.3 pose 0 0 0.2 0 0 0 1\n'
+  printf 'body fore b box: 0.04 0.04 0.3 pose 0 0 0.2 0 0 0 1\nbody hand c box: 0.04 0.04 0.04 pose 0 0 0.03 0 0 0 1\n%b' "$1"
+  printf 'scene s\nobstacle ball sphere: 0.1  0 0 1.1 0 0 0 1\nobstacle cup cylinder: 0.03 0.1  -0.5284 0 0.987 0 0 0 1\n%b' "$2"
+}
+way='-1 0.5 0.5  1 -0.5 -0.5\n'
+dip='path dip s 3\n-1 0.5 0.5\n-1.1 0.5 0.6\n-1.1 0.5 0.9\n'
+tilts '' "keep cup z 0 0 2 10\nattach cup c\nplan carry s $way${dip}plan tilted s -1 0.5 0.75 1 -0.5 -0.5\ngoal tilted 1 -0.5 -0.25\nrelease cup\nplan empty s -1 0.5 0.75 1 -0.5 -0.2\n" >"$dir/tilt.txt"
+expect 0 'tilted: the start: cup is 14.3[0-9]* degrees off, and is to keep within 10' build/svcd plan "$dir/tilt.txt" --samples 500 --joints "$dir/tilt.tsv"
+grep -q 'tilted: the start: free near by' "$dir/err" || fail "no way out of a tilt: $(cat "$dir/err")"
+test "$(cut -f 1,2 "$dir/out" | tr '\t\n' '  ')" = 'carry certified tilted start empty certified ' || fail "a cup is kept upright: $(cat "$dir/out")"
+awk '$1 == "carry" { tilt = $3 + $4 + $5; if (tilt * tilt > 0.174533 ^ 2) bad = bad " " $2 } END { if (bad) print bad; exit bad != "" }' "$dir/tilt.tsv" ||
+  fail "the cup tilts: $(tail -1 "$dir/tilt.tsv")"
+expect 0 '' build/svcd path "$dir/tilt.txt"
+cut -f 2,3,5,6 "$dir/out" | grep -qx 'hit	1	cup	keep' || fail "the cup dips: $(cat "$dir/out")"
+expect 0 '' build/svcd path "$dir/tilt.txt" --json
+line '"verdict": "hit", "edge": 1, .*"a": "cup", "b": "keep"'
+for place in above in; do
+  kept='keep hand z 0 0 1 8\n'
+  test $place = in || { tilts "$kept" "plan go s $way" && printf 'scene other\nplan far other -1 0.5 0.5 -1 0.5 0.9\n'; } >"$dir/tilt.txt"
+  test $place = above || { tilts '' "plan free s -1 0.5 0.9 -1 0.5 1.2\n${kept}plan go s $way" && printf 'scene other\nplan far other -1 0.5 0.5 -1 0.5 0.9\n'; } >"$dir/tilt.txt"
+  rm -rf "$dir/tilt"
+  mkdir "$dir/tilt"
+  build/svcd plan "$dir/tilt.txt" --certificates "$dir/tilt" >"$dir/out" 2>"$dir/err"
+  test $place = above && expected='go certified far goal ' || expected='free certified go certified far certified '
+  test "$(cut -f 1,2 "$dir/out" | tr '\t\n' '  ')" = "$expected" || fail "keep $place the scene: $(cat "$dir/out" "$dir/err")"
+  expect 0 '' build/verify "$dir/tilt.txt" "$dir/tilt" --only go,free$(test $place = above || echo ,far)
+  for other in 'z 0 0 1 0.05' 'z 0 0 -1 179.95' 'x 0 0 1 8' 'z 0.2 0 1 8'; do
+    sed "s/^keep hand.*/keep hand $other/" "$dir/tilt.txt" >"$dir/other_tilt.txt"
+    expect 1 '' build/verify "$dir/other_tilt.txt" "$dir/tilt" --only go
+    line 'refused	an axis leaves what it is to keep'
+  done
+done
 robot_refused "expected 'free x|y|z' or 'box HX HY HZ', each once: 'free'" 'goal p pose 0 0 0 0 0 0 1 palm free w'
 robot_refused "expected .*, each once: 'free'" 'goal p pose 0 0 0 0 0 0 1 palm free x free y'
 robot_refused "expected .*, each once: 'box'" 'goal p pose 0 0 0 0 0 0 1 palm box 0 0'

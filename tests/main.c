@@ -23,6 +23,7 @@ void test_reach(void);
 void test_allowances(void);
 void test_mimics(void);
 void test_merge(void);
+void test_cones(void);
 void test_route_looks(void);
 void test_postures(void);
 void test_ranges(void);
@@ -127,6 +128,7 @@ static const test_file files[] = {
     OF(allowances),
     OF(mimics),
     OF(merge),
+    OF(cones),
     OF(route_looks),
     OF(postures),
     OF(ranges),

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Are the tests of the proof worth anything? Each mutant is the library with one mistake in it; tests/test_proof.c has to
 # fail on it, or, where its name begins with `level:`, `asks:`, `long:`, `exact:`, `floor:`, `solids:`, `round:`,
-# `robot:`, `looks:`, `route_looks:`, `many_joints:`, `postures:`, `reach:`, `ranges:`, `allowances:`, `mimics:` or `merge:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
+# `robot:`, `looks:`, `route_looks:`, `many_joints:`, `postures:`, `reach:`, `ranges:`, `allowances:`, `mimics:`, `merge:` or `cones:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
 # certificates, examples/verify, and tests/test_certificate.c or tests/test_checker.c has to fail, of `fits:`
 # tests/test_fits.c, of `plans:` tests/forge.py, which needs build/svcd. Prints a line for each, and exits with 1 if one survives. An argument runs only the mutants whose
 # name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every 16th of them, in a folder of its own.
@@ -12,7 +12,7 @@ cd "$(dirname "$0")/.." || exit 1
 work=${WORK:-build/mutants}
 mkdir -p $work/tests/bench $work/examples/scenery $work/examples/verify
 cp weights.h $work/
-cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_looks.c tests/test_route_looks.c tests/test_many_joints.c tests/test_postures.c tests/test_reach.c tests/test_ranges.c tests/test_allowances.c tests/test_mimics.c tests/test_merge.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
+cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_looks.c tests/test_route_looks.c tests/test_many_joints.c tests/test_postures.c tests/test_reach.c tests/test_ranges.c tests/test_allowances.c tests/test_mimics.c tests/test_merge.c tests/test_cones.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
 cp tests/bench/*.h $work/tests/bench/
 cp examples/scenery/*.h $work/examples/scenery/
 cp examples/verify/verify.c $work/examples/verify/
@@ -261,7 +261,7 @@ robot: routes without a clearance|r->check.clearance = r->options.clearance + NS
 robot: ramps beyond the speed|if (fabs(peak) > speed) {|if (fabs(peak) > 2 * speed) {
 robot: ramps with any acceleration|return fabs(a) <= most;|return 1;
 robot: ramps that are slow|const double side = distance >= least ? 1 : -1;|const double side = distance >= 0 ? 1 : -1;
-robot: shortcuts that are not proven|if (!nsvcd__ask_edge(r, at[0], at[1])) continue;|
+robot: shortcuts that are not proven|if (nsvcd__edge_keeps_cones(r, from, to)) return nsvcd__ask_edge(r, from, to) ? 2 : 0;|return 2;
 robot: starts by the work of the search|if (n / 2) r->check.work = 0;|
 robot: a last proof that nobody ends|whole.stop = r->check.stop;|
 robot: trees that stay in their holes|if (r->idle[turn % 2] >= NSVCD__IDLE \&\&|if (0 \&\&
@@ -288,7 +288,7 @@ postures: out of the limits|joints[j] = nsvcd__max(nsvcd__low_of(joint), nsvcd__
 postures: the world is adjacent|return a > 0 && b > 0 && (scene->joints[a - 1].parent == b|return a > 0 && (b == 0 \|\| scene->joints[a - 1].parent == b
 postures: never touching|pairs[in_all ? total - ++found.touching : found.asked++] = pair;|pairs[found.asked++] = pair;
 reach: positions that are not looked at|return r->miss.position <= r->options.position_tolerance \&\&|return
-reach: angles that are not looked at|\&\& r->miss.angle <= r->options.angle_tolerance;|;
+reach: angles that are not looked at|\&\& r->miss.angle <= r->options.angle_tolerance \&\& r->miss.is_in;|;
 reach: steps beyond the limits|if (is_held[n] \|\| (step[n] <= up \&\& step[n] >= down)) continue;|continue;
 reach: a start out of its limits|nsvcd__clamp_to_limits(r->scene, r->start);|
 reach: turns beyond the limits|if (to < nsvcd__low_of(joint) \|\| to > nsvcd__high_of(joint)) turns -= turns > 0 ? 1 : -1;|
@@ -466,6 +466,19 @@ merge: points that stay in another degree|for (size_t i = degree; i > 0; i--) p[
 merge: who rests where it began|column[row * all->joints] = column[(row - 1) * all->joints];|column[row * all->joints] = m->motion.points[k];
 merge: one joint of two motions|all->moved[m->joints[k]]++) return|(all->moved[m->joints[k]]++ \&\& 0)) return
 merge: times of the first alone|if (is_over \|\| time < times[written]) times[written] = time;|if (is_over) times[written] = time;
+cones: bends alone|return (bend + turned * turned) / 8 * (1 + 1e-9);|return bend / 8;
+cones: turns alone|return (bend + turned * turned) / 8 * (1 + 1e-9);|return turned * turned / 8;
+cones: a sixteenth|return (bend + turned * turned) / 8 * (1 + 1e-9);|return (bend + turned * turned) / 16;
+cones: ends alone|if (least >= deviation) {|if (least >= 0) {
+cones: one end alone|const double least = nsvcd__min(last - last_error, next - error);|const double least = next - error;
+cones: of the first cone only|answer->verdict = nsvcd__ask_cone(c, \&c->cones[n], m, t0, t1, \&at);|answer->verdict = nsvcd__ask_cone(c, \&c->cones[0], m, t0, t1, \&at);
+cones: what turns slides|if (nsvcd__slides(c, link - 1)) continue; bend += step->bend[link - 1];|if (!nsvcd__slides(c, link - 1)) continue; bend += step->bend[link - 1];
+cones: a start anywhere|if (last < last_error) return last < -last_error ? NSVCD_HIT : NSVCD_UNDECIDED;|
+cones: the pair's own axis|c->cones[n].axis = nsvcd__dquat_rotate(c->members[cone->part].frame.rotation, axis);|c->cones[n].axis = axis;
+cones: ranges ask about them|s->scene.cone_count = 0;|
+cones: goals do not aim at them|r->jacobian[n][6] = r->slope[j];|r->jacobian[n][6] = 0;
+cones: goals anywhere|r->miss.angle <= r->options.angle_tolerance \&\& r->miss.is_in;|r->miss.angle <= r->options.angle_tolerance;
+cones: nothing drawn into them|if (!nsvcd__into_cones(c, NULL, NSVCD__FREE_CONE, at)) continue;|
 many_joints: held ones that are drawn|out[r->moving[k]] = nsvcd__draw_joint(r, r->moving[k], is_wide);|out[r->moving[k]] = nsvcd__draw_joint(r, r->moving[k], is_wide);\n  for (size_t j = 0; j < joints; j++) out[j] = nsvcd__draw_joint(r, j, is_wide);
 many_joints: held ones that move alone|if (!r->scene->joints[j].mimic \&\& !(problem->held \&\& problem->held[j])) r->moving|r->moving
 mimics: any motion is one|return follows ? NSVCD_OK : NSVCD_ERROR_MIMIC;|return NSVCD_OK;
@@ -513,6 +526,7 @@ while IFS= read -r line; do
     allowances:*) file=test_allowances.c ;;
     mimics:*) file=test_mimics.c ;;
     merge:*) file=test_merge.c ;;
+    cones:*) file=test_cones.c ;;
     verify:*) file=test_certificate.c ;;
     checker:*) file=test_checker.c ;;
     fits:*) file=test_fits.c ;;

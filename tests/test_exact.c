@@ -424,7 +424,7 @@ static void exact_configurations_far_away(void) {
       parts[n].link = 1 + n;
       parts[n].pose.rotation[3] = 1;
     }
-    const nsvcd_scene scene = {joints, 2, parts, 2, &pair, 1, NULL, NULL, 0};
+    const nsvcd_scene scene = {joints, 2, parts, 2, &pair, 1, NULL, NULL, 0, NULL, 0};
     void *memory = malloc(nsvcd_checker_size(&scene));
     CHECK_EQ(nsvcd_checker_open(&scene, memory, nsvcd_checker_size(&scene), &checker), NSVCD_OK);
     CHECK_EQ(nsvcd_check(checker, &still, NULL, &answer), NSVCD_OK);

@@ -1218,6 +1218,25 @@ class Robots(unittest.TestCase):
             self.assertEqual(raised.exception.code, code)
         self.assertRaises(ValueError, robot.merge, [moves[0]], [0])
 
+    def test_cones(self) -> None:
+        # two joints about y: the box tilts by their sum
+        joints = [nsvcd.Joint(k, axis=[0, 1, 0], low=-3, high=3) for k in range(2)]
+        parts = [nsvcd.Part(Body(CUBE, FACES, balls=40), 2)]
+        robot = nsvcd.Robot(joints, parts, cones=[(0, [0, 0, 2], [0, 0, 1], 0.2)])
+        self.assertEqual(robot.check([[0, 0], [1, -1.1]])[:3], ("free", "nothing", None))
+        tilted = robot.check([[0, 0], [1, -0.5]], to_time=1e-6)
+        self.assertEqual((tilted.verdict, tilted.cone, tilted.pair, tilted.point), ("hit", 0, None, None))
+        self.assertAlmostEqual(tilted.free_until, 0.4, delta=1e-5)
+        route = robot.route([2, -2], [-2, 2.1])
+        self.assertEqual((route.status, route.check.cone), (nsvcd.RouteStatus.FOUND, None))
+        self.assertLessEqual(np.abs(route.at(np.linspace(0, route.duration, 500)).sum(axis=1)).max(), 0.2)
+        self.assertEqual(robot.route([0, 0.3], [0, 0]).check.cone, 0)
+        for cone, code in (((1, [0, 0, 1], [0, 0, 1], 1), Code.LINK), ((0, [0, 0, 0], [0, 0, 1], 1), Code.AXIS),
+                           ((0, [0, 0, 1], [0, 0, 1], 4), Code.CONE)):
+            with self.assertRaises(Error) as raised:
+                nsvcd.Robot(joints, parts, cones=[cone])
+            self.assertEqual(raised.exception.code, code)
+
     def test_ends(self) -> None:
         status = nsvcd.RouteStatus
         stuck = self.robot.route([0, np.pi / 2], [0, 0])

@@ -10,6 +10,7 @@
 //   obstacle NAME SHAPE  x y z qx qy qz qw [scale SX SY SZ]
 //   clearance NAME NAME METRES, or: clearance obstacles METRES
 //   allow NAME NAME [METRES]
+//   keep NAME x|y|z X Y Z DEGREES
 //   attach NAME JOINT, or: release NAME
 //   group NAME JOINT...
 //   plan ID SCENE  [start...  [goal...]]  [group NAME]
@@ -86,6 +87,16 @@ typedef struct robot_allow {
   double metres;
 } robot_allow;
 
+// An axis of a thing that is kept upright, or otherwise, from a task on, while a joint moves it.
+typedef struct robot_keep {
+  size_t task, thing;
+  size_t room;  // the scene; NSVCD_NONE: all
+  nsvcd_cone cone;
+} robot_keep;
+static int robot_is_kept(const robot_keep *keep, size_t task, size_t room) {
+  return keep->task <= task && (keep->room == room || keep->room == NSVCD_NONE);
+}
+
 // Does it hold for a task of a scene?
 static int robot_is_allowed(const robot_allow *allow, size_t task, size_t room) {
   return allow->task <= task && (allow->room == room || allow->room == NSVCD_NONE);
@@ -117,13 +128,14 @@ typedef struct robot_file {
   robot_goal *goals;
   robot_change *changes;
   robot_allow *allows;
+  robot_keep *keeps;
   double *numbers, *times;
   size_t joint_count, mesh_count, thing_count, body_count, pair_count, clearance_count, group_count,
-      room_count, task_count, move_count, goal_count, change_count, allow_count, number_count,
-      time_count;
+      room_count, task_count, move_count, goal_count, change_count, allow_count, keep_count,
+      number_count, time_count;
   size_t mesh_capacity, thing_capacity, pair_capacity, clearance_capacity, group_capacity,
       room_capacity, task_capacity, move_capacity, goal_capacity, change_capacity, allow_capacity,
-      number_capacity, time_capacity;
+      keep_capacity, number_capacity, time_capacity;
 } robot_file;
 
 // Adds an item to a list, and clears it.
@@ -460,6 +472,35 @@ static int robot_read_allow(const reader *r, robot_file *file) {
   return 1;
 }
 
+// An axis of a body of the robot, or of an obstacle that is attached, stays near a direction.
+static int robot_read_keep(const reader *r, robot_file *file) {
+  char *const *f = r->fields;
+  robot_keep keep;
+  double degrees;
+  float *to = keep.cone.direction;
+  memset(&keep, 0, sizeof keep);
+  if (r->field_count != 7 || f[2][0] < 'x' || f[2][0] > 'z' || f[2][1])
+    return refuse(r, "expected: keep NAME x|y|z X Y Z DEGREES");
+  const size_t rooms = file->room_count;
+  keep.task = file->task_count;
+  keep.room = rooms ? rooms - 1 : NSVCD_NONE;
+  if (!robot_find(file, rooms ? file->rooms[rooms - 1].first : 0, f[1], &keep.thing))
+    return refuse_field(r, "no body of this name above", f[1]);
+  if (keep.thing < file->body_count && !file->things[keep.thing].link)
+    return refuse_field(r, "this body follows no joint", f[1]);
+  keep.cone.axis[f[2][0] - 'x'] = 1;
+  for (size_t k = 0; k < 3; k++)
+    if (!parse_float(f[3 + k], &to[k]) || !(fabsf(to[k]) <= NSVCD_MAX_COORDINATE))
+      return refuse_field(r, "not a finite number, or beyond NSVCD_MAX_COORDINATE", f[3 + k]);
+  if (!(fabsf(to[0]) + fabsf(to[1]) + fabsf(to[2]) > 1e-6f))
+    return refuse(r, "the direction has no length");
+  if (!parse_number(f[6], &degrees) || !(degrees >= 0.01 && degrees < 180))
+    return refuse_field(r, "DEGREES are not 0.01 or more, and less than 180", f[6]);
+  keep.cone.angle = degrees * (3.141592653589793 / 180);
+  *ROBOT_ADD(file->keeps, file->keep_count, file->keep_capacity) = keep;
+  return 1;
+}
+
 // An obstacle of the scene moves with a joint from the next task on, or rests again.
 static int robot_read_change(const reader *r, robot_file *file) {
   robot_change change;
@@ -756,7 +797,8 @@ static int read_robot(const char *path, robot_file *file) {
                {"clearance", robot_read_clearance}, {"group", robot_read_group},
                {"scene", robot_read_scene},         {"goal", robot_read_goal},
                {"obstacle", robot_read_obstacle},   {"allow", robot_read_allow},
-               {"attach", robot_read_change},       {"release", robot_read_change}};
+               {"keep", robot_read_keep},           {"attach", robot_read_change},
+               {"release", robot_read_change}};
   static const struct {
     const char *word;
     int (*read)(reader *r, robot_file *file);
@@ -778,8 +820,8 @@ static int read_robot(const char *path, robot_file *file) {
     if (k == count && kind == kinds)
       return refuse_field(&r,
                           "expected 'joint', 'mimic', 'body', 'pair', 'clearance', 'group', "
-                          "'scene', 'obstacle', 'allow', 'attach', 'release', 'plan', 'goal', "
-                          "'path', 'curve' or 'together'",
+                          "'scene', 'obstacle', 'allow', 'keep', 'attach', 'release', 'plan', "
+                          "'goal', 'path', 'curve' or 'together'",
                           r.fields[0]);
     if (r.field_count > MOST_FIELDS) return refuse(&r, "too many fields");
     if (!(kind < kinds ? tasks[kind].read(&r, file) : lines[k].read(&r, file))) return 0;
@@ -810,6 +852,7 @@ static void free_robot(robot_file *file) {
   free(file->goals);
   free(file->changes);
   free(file->allows);
+  free(file->keeps);
   free(file->numbers);
   free(file->times);
 }

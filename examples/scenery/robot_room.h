@@ -46,6 +46,7 @@ typedef struct robot_in_room {
   nsvcd_body_pair *pairs;
   float *clearances;
   nsvcd_allowance *allowances;
+  nsvcd_cone *cones;
   nsvcd_scene scene;
   void *memory;
   nsvcd_checker *checker;
@@ -72,6 +73,7 @@ static void leave_room(robot_in_room *in) {
   free(in->pairs);
   free(in->clearances);
   free(in->allowances);
+  free(in->cones);
   free(in->memory);
   memset(in, 0, sizeof *in);
 }
@@ -176,6 +178,27 @@ static int allow_near(robot_in_room *in, size_t task, const double *start, const
   in->scene.allowances = in->allowances;
   in->scene.allowance_count = count;
   return count == 0 || open_room(in);
+}
+
+// Takes the cones that the file says for a task, of what a joint moves. Returns 0 after a complaint.
+static int keep_axes(robot_in_room *in, size_t task) {
+  const robot_file *file = in->file;
+  size_t capacity = 0;
+  nsvcd_scene *scene = &in->scene;
+  free(in->cones);
+  in->cones = NULL;
+  scene->cone_count = 0;
+  for (size_t k = 0; k < file->keep_count; k++) {
+    const robot_keep *keep = &file->keeps[k];
+    const size_t thing = keep->thing;
+    if (!robot_is_kept(keep, task, file->tasks[task].room) || !file->things[thing].link) continue;
+    nsvcd_cone *cone = ROBOT_ADD(in->cones, scene->cone_count, capacity);
+    *cone = keep->cone;
+    cone->part =
+        (uint32_t)(thing < file->body_count ? thing : file->body_count + thing - in->room->first);
+  }
+  scene->cones = in->cones;
+  return scene->cone_count == 0 || open_room(in);
 }
 
 // Attaches and releases what the file says before a task, where everything is at its start. Returns

@@ -111,9 +111,14 @@ static void tell_way_out(const robot_in_room *in, const char *from, const double
   }
 }
 
-// Says on standard error why it is unknown whether two bodies meet.
+// Says on standard error why it is unknown whether two bodies meet, or an axis is kept.
 static void tell_undecided(const robot_in_room *in, const char *from,
                            const nsvcd_check_answer *found) {
+  if (found->cone != NSVCD_NONE) {
+    const char *name = robot_name(in, in->scene.cones[found->cone].part);
+    complain("%s: %s is too near the edge of what it is to keep to tell", from, name);
+    return;
+  }
   const nsvcd_body_pair *pair = &in->scene.pairs[found->pair];
   const char *a = robot_name(in, pair->a);
   const char *b = robot_name(in, pair->b);
@@ -128,6 +133,31 @@ static void tell_undecided(const robot_in_room *in, const char *from,
     complain("%s: %s and %s are too near each other to tell", from, a, b);
 }
 
+// Says on standard error which axis is not kept, or may not be, and by how much it is off.
+static void tell_cone(const robot_in_room *in, const char *from, const double *joints, size_t n) {
+  const nsvcd_cone *cone = &in->scene.cones[n];
+  const size_t parts = in->scene.part_count;
+  nsvcd_pose *poses = (nsvcd_pose *)allocate(parts * sizeof *poses);
+  nsvcd_forward_kinematics(in->checker, joints, poses);
+  const float *r = poses[cone->part].rotation;
+  const double q[4] = {(double)r[0], (double)r[1], (double)r[2], (double)r[3]};
+  const double d[3] = {(double)cone->direction[0], (double)cone->direction[1],
+                       (double)cone->direction[2]};
+  // a column of its matrix: the axis is x, y or z
+  const int k = cone->axis[1] > 0 ? 1 : cone->axis[2] > 0 ? 2 : 0;
+  const int l = (k + 1) % 3;
+  const int m = (k + 2) % 3;
+  const double along = d[k] * (1 - 2 * (q[l] * q[l] + q[m] * q[m])) +
+                       2 * d[l] * (q[k] * q[l] + q[3] * q[m]) +
+                       2 * d[m] * (q[k] * q[m] - q[3] * q[l]);
+  const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  const double degrees = 180 / 3.141592653589793;
+  const double off = acos(fmax(-1, fmin(1, along / length)));
+  free(poses);
+  complain("%s: %s is %.6g degrees off, and is to keep within %.6g", from,
+           robot_name(in, cone->part), degrees * off, degrees * cone->angle);
+}
+
 // Says on standard error what is wrong with a start or a goal.
 static void tell_check(const robot_in_room *in, const char *from, const double *joints,
                        const nsvcd_check_answer *found) {
@@ -140,6 +170,7 @@ static void tell_check(const robot_in_room *in, const char *from, const double *
   } else if (found->verdict == NSVCD_UNDECIDED && found->pair != NSVCD_NONE) {
     tell_undecided(in, from, found);
   }
+  if (found->cone != NSVCD_NONE) tell_cone(in, from, joints, found->cone);
   tell_pairs(in, from, joints);
 }
 
@@ -165,9 +196,10 @@ static void tell_goals(const robot_in_room *in, const robot_task *task, const pl
                from, file->things[goal->thing].name);
       tell_check(in, from, reached->best, &reached->check);
     } else {
-      complain("%s: out of reach: %s is %.3f mm and %.3f degrees off, at best", from,
+      complain("%s: out of reach: %s is %.3f mm and %.3f degrees off, at best%s", from,
                file->things[goal->thing].name, 1e3 * reached->position_error,
-               reached->angle_error * (180 / 3.141592653589793));
+               reached->angle_error * (180 / 3.141592653589793),
+               in->scene.cone_count ? ", where axes are kept" : "");
     }
   }
 }
@@ -361,8 +393,13 @@ static void print_path(const robot_in_room *in, const robot_task *task, const se
   const int is_free = answer->verdict == NSVCD_FREE;
   const nsvcd_body_pair *pair =
       is_free || answer->pair == NSVCD_NONE ? NULL : &in->scene.pairs[answer->pair];
+  const int is_left = answer->cone != NSVCD_NONE;
   const char *names[2] = {pair ? robot_name(in, pair->a) : "-",
                           pair ? robot_name(in, pair->b) : "-"};
+  if (is_left) {
+    names[0] = robot_name(in, in->scene.cones[answer->cone].part);
+    names[1] = "keep";
+  }
   if (options->json) {
     json_out j = {stdout, 0};
     json_open(&j, NULL, '{');
@@ -371,8 +408,8 @@ static void print_path(const robot_in_room *in, const robot_task *task, const se
     if (!is_free) json_count(&j, "edge", edge);
     if (!is_free) json_float(&j, "time", when);
     if (!is_free && task->degree) json_float(&j, "free_until", answer->free_until);
-    if (pair) json_text(&j, "a", names[0]);
-    if (pair) json_text(&j, "b", names[1]);
+    if (pair || is_left) json_text(&j, "a", names[0]);
+    if (pair || is_left) json_text(&j, "b", names[1]);
     json_digits(&j, "microseconds", mean, 4);
     json_end_line(&j);
     fflush(stdout);
@@ -413,8 +450,8 @@ static int path_one(const robot_in_room *in, const robot_task *task, const setti
   if (result)
     return complain("%s:%zu: %s: %s", in->file->path, task->line, task->id, reason_of(result));
   snprintf(from, sizeof from, "%s:%zu: %s", in->file->path, task->line, task->id);
-  if (answer.verdict == NSVCD_UNDECIDED && answer.pair != NSVCD_NONE)
-    tell_undecided(in, from, &answer);
+  const int is_told = answer.pair != NSVCD_NONE || answer.cone != NSVCD_NONE;
+  if (answer.verdict == NSVCD_UNDECIDED && is_told) tell_undecided(in, from, &answer);
   double when = answer.fraction;
   if (task->is_together && task->degree && edge < pieces)
     when = motion.times[edge] + when * (motion.times[edge + 1] - motion.times[edge]);
@@ -466,11 +503,11 @@ static int robot_tasks(robot_file *file, const settings *options, int is_path, F
       continue;
     }
     // a checker remembers what was hit, and a plan must not depend on those before it
-    const int enters =
-        !is_path || has_steps_above(file, task) || in.room != &file->rooms[task->room];
+    const int enters = !is_path || file->keep_count > 0 || has_steps_above(file, task) ||
+                       in.room != &file->rooms[task->room];
     const size_t points = task->points ? task->points : 1;
     const double *last = start + (points - 1) * file->joint_count;
-    if (enters && !(enter_room(file, task->room, clearance, &in) &&
+    if (enters && !(enter_room(file, task->room, clearance, &in) && keep_axes(&in, i) &&
                     allow_near(&in, i, start, last, (size_t)is_path))) {
       good = 0;
       break;

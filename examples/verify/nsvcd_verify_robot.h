@@ -293,6 +293,40 @@ static inline double nsvcd_verify_travel(const nsvcd_verify_part *parts,
   return sum * (1 + 1e-10);
 }
 
+// The product of a direction with an axis of a part at a time.
+static inline double verify__along(const nsvcd_verify_part *part, const double *axis,
+                                   const double *direction, double t) {
+  nsvcd_verify_place at;
+  double sum = 0;
+  verify__part_place(part, t, &at);
+  for (int i = 0; i < 3; i++) sum += direction[i] * verify__dot(at.turn + 3 * i, axis);
+  return sum;
+}
+
+// Does an axis of a part, seen from the world, stay within an angle of a direction, both of length
+// 1? Where it does, its product with the direction is no less than the angle's cosine. If both ends
+// of a stretch are so, the chord between them is, and the axis leaves that as a point at a distance
+// of 1 does that only turns: by stray[1]. The stretches are as long as that allows. Returns 1 if all
+// are so by VERIFY__MARGIN, and 0 also where that takes stretches shorter than 1e-12.
+static inline int nsvcd_verify_keeps(const nsvcd_verify_part *part, const double *axis,
+                                     const double *direction, double angle) {
+  const double least = cos(angle) + VERIFY__MARGIN;
+  double last = verify__along(part, axis, direction, 0);
+  double stretch = 1;
+  for (double t = 0; t < 1;) {
+    const double end = verify__min(t + stretch, verify__part_next(part, t));
+    const double next = verify__along(part, axis, direction, end);
+    double stray[2];
+    verify__part_stray(part, t, end, stray);
+    const int keeps = verify__min(last, next) - stray[1] >= least;
+    stretch = (end - t) * (keeps ? 2 : 0.5);
+    if (!keeps && !(stretch > 1e-12)) return 0;
+    if (keeps) t = end;
+    if (keeps) last = next;
+  }
+  return 1;
+}
+
 static inline int verify__is_pose(const float *pose) {
   double square = 0;
   for (int i = 0; i < 7; i++) {

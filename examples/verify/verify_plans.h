@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // verify_plans.h - of verify.c: planning files (examples/FORMATS.md), and the certificates of their
-// plans: a motion, and a proof for each pair of bodies that must not meet. Not looked at are limits
-// of joints, of speeds and accelerations, and pairs that the file does not name.
+// plans: a motion, which keeps the axes that it is to keep, and a proof for each pair of bodies that
+// must not meet. Not looked at are limits of joints, of speeds and accelerations, and pairs that the
+// file does not name.
 #ifndef NSVCD_VERIFY_PLANS_H
 #define NSVCD_VERIFY_PLANS_H
 #include "nsvcd_verify_robot.h"
@@ -33,6 +34,12 @@ typedef struct group {
   uint8_t moves[NSVCD_VERIFY_JOINTS];
 } group;
 
+// A line `keep`: the axis of a body stays within an angle of a direction, while a joint moves it.
+typedef struct keep {
+  uint32_t body;
+  double axis[3], direction[3], angle;
+} keep;
+
 typedef struct robot {
   const char *path;
   const char *names[NSVCD_VERIFY_JOINTS];
@@ -51,6 +58,7 @@ typedef struct robot {
   list groups;
   list distances;  // those above the first scene, then the scene's
   list allows;     // so, too
+  list keeps;      // so too
 } robot;
 
 // Is a pair of bodies this one, in either order?
@@ -182,6 +190,7 @@ typedef struct plan_line {
   size_t count;
   const group *of;       // of a plan; NULL: all joints may move
   uint32_t thing, link;  // of `attach` and `release`: a body, and what it is on from now on
+  size_t keeps;          // of a plan: how many lines `keep` stand above
 } plan_line;
 
 static int is_line(const plan_line *line, const char *word) {
@@ -206,6 +215,19 @@ static int keeps_to(const robot *r, const group *of, const nsvcd_verify_motion *
     const double off = m->points[k] - m->points[k % m->joint_count];
     if (r->leaders[k % m->joint_count]) continue;
     if (!of->moves[k % m->joint_count] && (off > 0 || off < 0)) return 0;
+  }
+  return 1;
+}
+
+// Are all axes kept in a motion? What rests has nothing to keep.
+static int keeps_axes(const robot *r, const nsvcd_verify_motion *m, size_t count) {
+  for (size_t k = 0; k < count; k++) {
+    const keep *line = (const keep *)r->keeps.items + k;
+    const robot_body *body = (const robot_body *)r->bodies.items + line->body;
+    nsvcd_verify_part part = {m, body->link, 0, {0}};
+    memcpy(part.pose, body->pose, sizeof part.pose);
+    if (body->link && !nsvcd_verify_keeps(&part, line->axis, line->direction, line->angle))
+      return 0;
   }
   return 1;
 }
@@ -442,6 +464,7 @@ static const char *check_motion(step *s, const uint8_t *bytes, size_t size, size
   if (!why && !goes(s, &m)) why = "its motion has another start or goal";
   if (!why && !mimics(r, &m)) why = "a joint is not where the one that it mimics drives it";
   if (!why && !keeps_to(r, s->plan->of, &m)) why = "a joint moves that is not of the plan's group";
+  if (!why && !keeps_axes(r, &m, s->plan->keeps)) why = "an axis leaves what it is to keep";
   if (!why) pair_up(r, s->asked->clearance);
   if (!why && take(bytes, size, at, 4) != r->pairs.count / 2) why = "it is about other pairs";
   for (size_t pair = 0; pair < r->pairs.count / 2 && !why; pair++)
@@ -497,6 +520,27 @@ static void add_distance(robot *r, char *const *words, size_t count) {
     fail(r->path, "a clearance of one body");
   }
   *(distance *)add(&r->distances, sizeof d) = d;
+}
+
+// keep NAME x|y|z X Y Z DEGREES
+static void add_keep(robot *r, char *const *words) {
+  keep line;
+  double square = 0;
+  memset(&line, 0, sizeof line);
+  line.body = body_named(r, words[1]);
+  if (words[2][0] < 'x' || words[2][0] > 'z' || words[2][1])
+    fail(r->path, "an axis is kept that is none");
+  line.axis[words[2][0] - 'x'] = 1;
+  for (size_t k = 0; k < 3; k++) {
+    line.direction[k] = (double)(float)number_of(r->path, words[3 + k]);
+    square += line.direction[k] * line.direction[k];
+  }
+  line.angle = number_of(r->path, words[6]) * (3.141592653589793 / 180);
+  if (!(square > 1e-12 && square < 1e13))
+    fail(r->path, "a direction has no length, or is too long");
+  if (!(line.angle > 0 && line.angle < 3.1415926)) fail(r->path, "an axis is kept to no angle");
+  for (size_t k = 0; k < 3; k++) line.direction[k] /= sqrt(square);
+  *(keep *)add(&r->keeps, sizeof line) = line;
 }
 
 // group NAME JOINT...
@@ -587,7 +631,7 @@ static int check_plans(const char *path, char *text, request *asked, robot *out)
   char *words[MOST_WORDS];
   list lines = {NULL, 0, 0};
   const char *scene = NULL;
-  size_t own_distances = 0, own_allows = 0;
+  size_t own_distances = 0, own_allows = 0, own_keeps = 0;
   int has_tasks = 0;  // 1: a plan or a path stands above
   int all = 1;
   memset(&r, 0, sizeof r);
@@ -613,6 +657,7 @@ static int check_plans(const char *path, char *text, request *asked, robot *out)
       if (!scene) r.own_pairs = r.pairs.count;
       if (!scene) own_distances = r.distances.count;
       if (!scene) own_allows = r.allows.count;
+      if (!scene) own_keeps = r.keeps.count;
       all &= check_scene(&r, &lines, asked);
       scene = words[1];
       has_tasks = 0;
@@ -620,6 +665,7 @@ static int check_plans(const char *path, char *text, request *asked, robot *out)
       r.pairs.count = r.own_pairs;
       r.distances.count = own_distances;
       r.allows.count = own_allows;
+      r.keeps.count = own_keeps;
     } else if (strcmp(word, "obstacle") == 0 && n >= 3 && scene && !has_tasks) {
       add_body(&r, words, n);
     } else if (strcmp(word, "allow") == 0 && is_step(words, n, scene) && !scene) {
@@ -636,12 +682,15 @@ static int check_plans(const char *path, char *text, request *asked, robot *out)
       line->thing = moves ? body_named(&r, words[1]) : 0;
       line->link = attaches ? link_named(&r, words[2]) : 0;
       if (moves && line->thing < r.own) fail(path, "no obstacle is attached");
+      line->keeps = r.keeps.count;
       has_tasks |= !is_step(words, n, scene);
       if (is_path || is_curve) {
         for (size_t k = strtoul(words[is_path ? 3 : 4], NULL, 10); k > 0; k--)
           if (next_words(&text, words, MOST_WORDS) == 0)
             fail(path, is_path ? "a path ends early" : "a curve ends early");
       }
+    } else if (strcmp(word, "keep") == 0 && n == 7) {
+      add_keep(&r, words);
     } else {
       fail(path, "a line is not one of a planning file, or not where it may stand");
     }

@@ -9,7 +9,7 @@ static nsvcd_part arm_parts[ARM_PARTS];
 static nsvcd_mesh arm_meshes[ARM_PARTS];
 static const nsvcd_tree *arm_trees[ARM_PARTS];
 static nsvcd_body_pair arm_pairs[ARM_PAIRS];
-static nsvcd_scene arm_scene = {arm_joints, 0, arm_parts, 0, arm_pairs, 0, NULL, NULL, 0};
+static nsvcd_scene arm_scene = {arm_joints, 0, arm_parts, 0, arm_pairs, 0, NULL, NULL, 0, NULL, 0};
 static nsvcd_checker *arm_checker;
 static nsvcd_route_answer arm_route;
 static double arm_ends[2][NSVCD_MAX_JOINTS];  // start and goal

@@ -78,10 +78,10 @@ typedef struct nsvcd_nearest_free_options {
   void *user;
 } nsvcd_nearest_free_options;
 
-// Seeks a configuration that is proven free and within the limits, as near as possible to one that
-// is not, such as a start or a goal in contact. Some hundred configurations are drawn at random,
-// nearer and nearer; each free one is moved back towards the joints as far as it stays free. What
-// lies in between need not be free.
+// Seeks a configuration that is proven free, within the limits and in the scene's cones, as near as
+// possible to one that is not, such as a start or a goal in contact. Some hundred configurations
+// are drawn at random, nearer and nearer; each free one is moved back towards the joints as far as
+// it stays free. What lies in between need not be free.
 //   checker    not NULL
 //   joints     (F) radians or metres, not NULL; clamped to the limits first
 //   options    NULL: the defaults
@@ -111,7 +111,7 @@ typedef struct nsvcd_pair_counts {
 // ones, which joints are made to keep apart, or to overlap. Pairs that touch in all random
 // configurations are listed by themselves, since two that separate only in a narrow range of a
 // joint may be among them. To leave one out is the caller's decision. Pairs that seem never to meet
-// are not left out, since they cost little.
+// are not left out, since they cost little. Cones of the scene do not count.
 //   checker    not NULL; made of the parts and joints, whatever pairs its scene has
 //   draws      the most random configurations, within the limits, in which a pair is asked about;
 //              default 64

@@ -81,6 +81,8 @@ NSVCDDEF size_t nsvcd_pair_range_size(const nsvcd_checker *checker, nsvcd_body_p
 //   source     branch and bound, by a Lipschitz bound; difference: along one joint the motion
 //              itself is proven
 //
+// Allowances and cones of the scene do not count.
+//
 // One joint between the parts takes one proof, two some ten to a thousand, as near as the parts
 // come. With more joints SOMETIMES is found soon where it is so, by configurations drawn at random
 // and by going down the slope of the distance.

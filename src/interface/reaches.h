@@ -43,7 +43,7 @@ typedef struct nsvcd_reach_options {
   uint64_t seed;
   // metres: the distance that the parts of a pair keep; default 0
   float clearance;
-  // 1: solutions need not be free. They are not checked
+  // 1: solutions need not be free, and are not checked; they are in the scene's cones all the same
   int may_touch;
 } nsvcd_reach_options;
 
@@ -51,11 +51,12 @@ typedef struct nsvcd_reach_options {
 typedef struct nsvcd_reach_answer {
   // number of solutions
   size_t solutions;
-  // number of starts; of those that came to the target; and of these, of those where the robot was
-  // not proven free
+  // number of starts; of those that came to the target, in the scene's cones; and of these, of
+  // those where the robot was not proven free
   size_t starts, reached, touching;
   // (F) the best configuration that was found: the first solution; where there is none, of those
-  // that touch the nearest to the start; else the one that has the tool nearest to the target
+  // that touch the nearest to the start; else the one that has the tool nearest to the target, and
+  // axes to their cones
   double best[NSVCD_MAX_JOINTS];
   // metres, radians: how far the tool is off its target there
   double position_error, angle_error;
@@ -63,10 +64,11 @@ typedef struct nsvcd_reach_answer {
   nsvcd_check_answer check;
 } nsvcd_reach_answer;
 
-// Finds configurations within the joints' limits that have a tool at a target: several where there
-// are several, such as elbow up and elbow down. By default they are proven free, since that is what
-// a route's goal has to be. Where a joint's limits allow values that are whole turns apart, the one
-// nearest to the start's is given, but for joints that others mimic. Where there are more joints
+// Finds configurations within the joints' limits, and in the scene's cones, that have a tool at a
+// target: several where there are several, such as elbow up and elbow down. By default they are
+// proven free, since that is what a route's goal has to be. Where a joint's limits allow values
+// that are whole turns apart, the one nearest to the start's is given, but for joints that others
+// mimic. Where there are more joints
 // than the target needs, there are infinitely many solutions, and some of them are found.
 //
 // That nothing is found is no proof that there is nothing. Of targets that an arm of 6 or 7 joints

@@ -73,6 +73,16 @@ typedef struct nsvcd_allowance {
   double distance;
 } nsvcd_allowance;
 
+// An axis of a part that is kept within a cone, as a cup is that is carried upright.
+typedef struct nsvcd_cone {
+  // an index of the scene's parts
+  uint32_t part;
+  // the axis, in the part's frame, and where it is to point, in the world; of any length but 0
+  float axis[3], direction[3];
+  // radians, more than 0 and less than pi: the most that the axis may be off the direction
+  double angle;
+} nsvcd_cone;
+
 // A robot and its obstacles. Only the pairs named here are checked.
 typedef struct nsvcd_scene {
   // (F) joints of the robot
@@ -94,6 +104,10 @@ typedef struct nsvcd_scene {
   const nsvcd_allowance *allowances;
   // W
   size_t allowance_count;
+  // (C) cones that axes of parts stay within, in all checks, routes and reaches
+  const nsvcd_cone *cones;
+  // C
+  size_t cone_count;
 } nsvcd_scene;
 
 // A motion of the joints, in pieces one after another. A piece is a Bezier curve in time. It begins
@@ -146,17 +160,18 @@ typedef struct nsvcd_check_options {
 // What is known of a motion.
 typedef struct nsvcd_check_answer {
   // FREE: at no time of the motion do the parts of a pair come within the clearance, or is one
-  // inside the other, but where the scene allows it. HIT: in the configuration that is named, those
-  // of a pair do, or one is
+  // inside the other, but where the scene allows it, and all axes stay in their cones. HIT: in the
+  // configuration that is named, those of a pair do, or one is, or an axis is out of its cone
   nsvcd_verdict verdict;
   // the reason if the verdict is UNDECIDED
   nsvcd_why why;
   // the pair that is hit or undecided, an index of the scene's, and the piece of the motion where
-  // it is. A HIT need not be the motion's first. NSVCD_NONE: there is none
+  // it is, or where an axis leaves its cone. A HIT need not be the motion's first. NSVCD_NONE:
+  // there is none
   size_t pair, piece;
   // fraction of that piece, in [0,1]
   double fraction;
-  // the contact of a HIT, as nsvcd_answer.nearest has it; its time is 0
+  // the contact of a HIT of a pair, as nsvcd_answer.nearest has it; its time is 0
   nsvcd_contact contact;
   // a joint that leaves its limits somewhere, whatever the verdict; NSVCD_NONE: none does
   size_t joint;
@@ -166,6 +181,9 @@ typedef struct nsvcd_check_answer {
   // options.to_time a HIT is the first one to that precision, unless something before it is
   // undecided: then it is later than this by more
   double free_until;
+  // the cone that an axis leaves, or may leave if the verdict is UNDECIDED, an index of the
+  // scene's; `pair` is NSVCD_NONE then. NSVCD_NONE: there is none
+  size_t cone;
 } nsvcd_check_answer;
 
 // A scene, prepared for checks, in the caller's memory.
@@ -185,7 +203,8 @@ NSVCDDEF size_t nsvcd_checker_size(const nsvcd_scene *scene);
 //   errors     ARGUMENT (NULL), COUNT, WORKSPACE; of a joint JOINT, AXIS, LIMITS (also if a
 //              leader's exclude its followers'), SPEED, MIMIC; of a part BODY, VERSION, TRIANGLES,
 //              LINK, SCALE; of either POSE, QUATERNION; of a pair PAIR (also if both parts are on
-//              one link), CLEARANCE; of an allowance PAIR, ARGUMENT (NULL), VALUE, DISTANCE
+//              one link), CLEARANCE; of an allowance PAIR, ARGUMENT (NULL), VALUE, DISTANCE; of a
+//              cone LINK (no such part), AXIS (or its direction), CONE
 NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory, size_t size,
                                          nsvcd_checker **checker);
 
@@ -215,6 +234,9 @@ NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const doubl
 // nsvcd_sweep has them. A HIT is in the configuration named, up to the rounding of a pose to float:
 // 1e-7 of the distance between the two parts' origins and of the bodies' extents. Each pair is
 // asked about in the frame of one of its parts, so the robot may be far from the world's origin.
+// Cones are tested before pairs, in double, without questions. Where the cosine of what an axis is
+// off comes within 1e-10 of that of its cone's angle, it may be UNDECIDED: an angle below 2e-5 is
+// too narrow for a motion.
 NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,
                                   const nsvcd_check_options *options,
                                   nsvcd_check_answer *answer);

@@ -3,7 +3,8 @@
 //
 // A straight line is tried first. If it is not free, two trees grow, from the start and from the
 // goals, whose edges are proven free. The path that joins them is made shorter, timed, and smoothed
-// within the limits of speed and acceleration. In the end the motion is proven as a whole.
+// within the limits of speed and acceleration. In the end the motion is proven as a whole. All of
+// it stays in the scene's cones.
 #pragma once
 #include "robots.h"
 
@@ -62,7 +63,8 @@ typedef struct nsvcd_route_options {
   // the most nodes of both trees, up to NSVCD_MAX_NODES; default 20,000
   size_t nodes;
   // the most motions that are checked, free or not, without looks; default 4 times `nodes`. Where
-  // nothing is free the trees do not grow, so `nodes` alone would not end the search
+  // nothing is free the trees do not grow, so `nodes` alone would not end the search. What cones
+  // refuse counts too, also among looks
   size_t tries;
   // radians or metres: the greatest length of an edge; default 1
   double edge;
@@ -73,7 +75,7 @@ typedef struct nsvcd_route_options {
   // search goes on
   size_t looks;
   // tries to shorten the path, up to NSVCD_MAX_NODES, default 20; and tries to smooth the motion,
-  // default 200. NSVCD_NONE: no tries
+  // default 200; with cones three times as many. NSVCD_NONE: no tries
   size_t shortcuts, smoothings;
 } nsvcd_route_options;
 
@@ -122,8 +124,9 @@ NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
 //              VALUE (a configuration not finite or beyond NSVCD_MAX_COORDINATE), MIMIC, CLEARANCE,
 //              WORKSPACE; POSE, SCALE, as nsvcd_check
 //   source     RRT-Connect (Kuffner and LaValle 2000); bounded-acceleration shortcuts (Hauser and
-//              Ng-Thow-Hing 2010); paths of edges that are proven last (Bohlin and Kavraki 2000).
-//              Difference: edges and shortcuts are proven, not sampled
+//              Ng-Thow-Hing 2010); paths of edges that are proven last (Bohlin and Kavraki 2000);
+//              with cones CBiRRT (Berenson et al. 2009). Difference: edges and shortcuts are
+//              proven, not sampled
 NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_problem *problem,
                                   const nsvcd_route_options *options, void *memory,
                                   size_t size, nsvcd_route_answer *answer);

@@ -6,6 +6,7 @@
 //   steps            what the joints do between two times
 //   deviation        how far points of a part can be from an axis; how far a part leaves its sweep
 //   checker          the checker of a scene
+//   cones            does an axis stay within its cone? a configuration near by in which it does
 //   samples          configurations of a motion, and boxes about the parts in them
 //   local_queries    two parts, in the frame of one of them
 //   check            is a motion of the joints free?
@@ -14,13 +15,15 @@
 //   proofs           a certificate of a pair, as the joints move it
 //   rrt              trees of configurations, and the nearest node
 //   configurations   one configuration: proximities, the nearest free one; which pairs can meet
-//   cholesky         six linear equations
+//   cholesky         linear equations
 //   reach            configurations that have a tool at a target
 //   spans            two parts, and how far the joints between them move a point
 //   ranges           do two parts meet never, always or sometimes?
 //   blends           from one state to another, within limits of speed and acceleration
 //   smooth           a path, timed, then smooth
-//   route            a start and goals: two trees of proven edges, shortcuts
+//   grow             where a tree grows, and edge by edge, in the cones
+//   trees            two trees, from the start and the goals, until they meet
+//   route            a start and goals: a path, shortened, as a motion that is proven
 //
 // All questions about bodies are asked by nsvcd_sweep, as any program asks them.
 #pragma once
@@ -75,6 +78,14 @@ typedef struct nsvcd__member {
   int is_skipped;
 } nsvcd__member;
 
+// A cone, as the checker has it.
+typedef struct nsvcd__kept_axis {
+  uint32_t link;
+  // unit, in the link and in the world
+  nsvcd__d3 axis, direction;
+  double angle;
+} nsvcd__kept_axis;
+
 struct nsvcd_checker {
   // the caller's; or, where joints mimic others, that with joints of its own
   const nsvcd_scene *scene;
@@ -89,6 +100,8 @@ struct nsvcd_checker {
   // the parts that move
   uint32_t *movers;
   size_t mover_count;
+  // (C)
+  nsvcd__kept_axis *cones;
   // (P): the pairs, as they are asked about: what was hit last first
   uint32_t *order;
   // (P): those of an interval that are not proven yet

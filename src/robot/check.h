@@ -5,6 +5,7 @@
 // added to the clearance. Pairs that this does not prove are asked about again in finer steps.
 #pragma once
 #include "allowances.h"
+#include "cones.h"
 #include "local_queries.h"
 
 // how often an interval that takes more than NSVCD__MOST_STEPS may be halved
@@ -199,6 +200,7 @@ static void nsvcd__check_interval(nsvcd__check_state *s, double t0, double t1, s
   nsvcd_check_answer *answer = s->answer;
   const double finest = (double)s->options->finest;
   size_t left = 0;
+  if (!nsvcd__keeps_cones(c, s->motion, t0, t1, answer)) return;
   answer->verdict = NSVCD_UNDECIDED;
   answer->piece = nsvcd__piece_at(s->motion, t0);
   answer->fraction = nsvcd__fraction_at(s->motion, answer->piece, t0);
@@ -374,7 +376,7 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *c, const nsvcd_joint_motion *mo
   if (!nsvcd__are_numbers(&o.to_time, 1) || o.to_time < 0) return NSVCD_ERROR_TO;
   o.finest = o.finest > 0 ? o.finest : NSVCD__FINEST;
   memset(&found, 0, sizeof found);
-  found.joint = found.pair = found.piece = NSVCD_NONE;
+  found.joint = found.pair = found.piece = found.cone = NSVCD_NONE;
   nsvcd__check_state s = {c, &m, &o, &found, 0, 0};
   int (*const stop)(void *user) = c->stop;
   void *const user = c->user;

@@ -17,13 +17,17 @@ static int nsvcd__are_numbers(const double *x, size_t count) {
   return 1;
 }
 
+// Is a direction finite, and of some length?
+static int nsvcd__is_direction(const float *x) {
+  double most = 0;
+  for (size_t k = 0; k < 3; k++) most = nsvcd__max(most, fabs((double)x[k]));
+  return nsvcd__in_range(x, 3, 1e15f) && most > 1e-15;
+}
+
 static nsvcd_result nsvcd__joint_check(const nsvcd_joint *joint, size_t i) {
-  double axis = 0;
   if (joint->parent > i || (unsigned)joint->kind > NSVCD_JOINT_PRISMATIC)
     return NSVCD_ERROR_JOINT;
-  if (!nsvcd__in_range(joint->axis, 3, 1e15f)) return NSVCD_ERROR_AXIS;
-  for (size_t k = 0; k < 3; k++) axis = nsvcd__max(axis, fabs((double)joint->axis[k]));
-  if (!(axis > 1e-15)) return NSVCD_ERROR_AXIS;
+  if (!nsvcd__is_direction(joint->axis)) return NSVCD_ERROR_AXIS;
   const nsvcd_result result = nsvcd__poses_check(&joint->origin, 1);
   if (result) return result;
   const double rates[2] = {joint->speed, joint->acceleration};
@@ -72,6 +76,26 @@ static nsvcd_result nsvcd__part_check(const nsvcd_scene *scene, const nsvcd_part
   return nsvcd__poses_check(&part->pose, 1);
 }
 
+// Are the allowances and the cones of a scene in order, of which all else is?
+static nsvcd_result nsvcd__extras_check(const nsvcd_scene *scene) {
+  if (scene->allowance_count > 0 && !scene->allowances) return NSVCD_ERROR_ARGUMENT;
+  for (size_t n = 0; n < scene->allowance_count; n++) {
+    const nsvcd_result result = nsvcd__allowance_check(scene, &scene->allowances[n]);
+    if (result) return result;
+  }
+  if (scene->cone_count > 0 && !scene->cones) return NSVCD_ERROR_ARGUMENT;
+  for (size_t n = 0; n < scene->cone_count; n++) {
+    const nsvcd_cone *cone = &scene->cones[n];
+    if (cone->part >= scene->part_count) return NSVCD_ERROR_LINK;
+    if (!nsvcd__is_direction(cone->axis) || !nsvcd__is_direction(cone->direction))
+      return NSVCD_ERROR_AXIS;
+    if (!nsvcd__are_numbers(&cone->angle, 1) ||
+        !(cone->angle > 0 && cone->angle < 3.141592653589793))
+      return NSVCD_ERROR_CONE;
+  }
+  return NSVCD_OK;
+}
+
 static nsvcd_result nsvcd__scene_check(const nsvcd_scene *scene) {
   nsvcd_result result = NSVCD_OK;
   if (!scene) return NSVCD_ERROR_ARGUMENT;
@@ -100,10 +124,7 @@ static nsvcd_result nsvcd__scene_check(const nsvcd_scene *scene) {
     if (scene->clearances && !nsvcd__is_length(scene->clearances[k]))
       return NSVCD_ERROR_CLEARANCE;
   }
-  if (scene->allowance_count > 0 && !scene->allowances) return NSVCD_ERROR_ARGUMENT;
-  for (size_t n = 0; n < scene->allowance_count && !result; n++)
-    result = nsvcd__allowance_check(scene, &scene->allowances[n]);
-  return result;
+  return result ? result : nsvcd__extras_check(scene);
 }
 
 // ---- boxes
@@ -160,6 +181,7 @@ static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
   c->next = NSVCD__TAKE_ROWS(nsvcd__links, 1, base, &used);
   c->members = NSVCD__TAKE_ROWS(nsvcd__member, parts, base, &used);
   c->movers = NSVCD__TAKE_ROWS(uint32_t, movers, base, &used);
+  c->cones = NSVCD__TAKE_ROWS(nsvcd__kept_axis, scene->cone_count, base, &used);
   c->order = NSVCD__TAKE_ROWS(uint32_t, pairs, base, &used);
   c->left = NSVCD__TAKE_ROWS(uint32_t, pairs, base, &used);
   c->frames = NSVCD__TAKE_ROWS(nsvcd__dpose, rows, base, &used);
@@ -233,6 +255,15 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
     c->members[n] = nsvcd__member_of(&scene->parts[n]);
     c->members[n].row = c->mover_count * (NSVCD__MOST_STEPS + 1);
     if (scene->parts[n].link) c->movers[c->mover_count++] = (uint32_t)n;
+  }
+  for (size_t n = 0; n < scene->cone_count; n++) {
+    const nsvcd_cone *cone = &scene->cones[n];
+    const nsvcd__d3 up = nsvcd__d3_of(0, 0, 1);
+    const nsvcd__d3 axis = nsvcd__d3_unit(nsvcd__d3_load(cone->axis), up);
+    c->cones[n].link = scene->parts[cone->part].link;
+    c->cones[n].axis = nsvcd__dquat_rotate(c->members[cone->part].frame.rotation, axis);
+    c->cones[n].direction = nsvcd__d3_unit(nsvcd__d3_load(cone->direction), up);
+    c->cones[n].angle = cone->angle;
   }
   for (size_t k = 0; k < scene->pair_count; k++) c->order[k] = (uint32_t)k;
   *checker = c;

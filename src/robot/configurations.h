@@ -21,6 +21,8 @@
 // metres that the nearest free configuration has beside the clearance, so that a route can begin
 // there
 #define NSVCD__FREE_ROOM 5e-4f
+// and the share of a cone's angle that it keeps to
+#define NSVCD__FREE_CONE 0.95
 // spheres about the joints on which configurations are drawn, and how many on each
 #define NSVCD__FREE_SPHERES 8
 #define NSVCD__FREE_DRAWS 64
@@ -196,24 +198,6 @@ NSVCDDEF nsvcd_result nsvcd_proximities(nsvcd_checker *c, const double *joints,
 
 // ---- the nearest free configuration
 
-// A joint's limits; of one that turns without, as far as values may go.
-static double nsvcd__low_of(const nsvcd_joint *joint) {
-  const int is_endless = joint->kind == NSVCD_JOINT_CONTINUOUS;
-  return is_endless ? -(double)NSVCD_MAX_COORDINATE : joint->low;
-}
-static double nsvcd__high_of(const nsvcd_joint *joint) {
-  const int is_endless = joint->kind == NSVCD_JOINT_CONTINUOUS;
-  return is_endless ? (double)NSVCD_MAX_COORDINATE : joint->high;
-}
-
-static void nsvcd__clamp_to_limits(const nsvcd_scene *scene, double *joints) {
-  for (size_t j = 0; j < scene->joint_count; j++) {
-    const nsvcd_joint *joint = &scene->joints[j];
-    joints[j] = nsvcd__max(nsvcd__low_of(joint), nsvcd__min(nsvcd__high_of(joint), joints[j]));
-  }
-  nsvcd__follow(scene, 1, joints);
-}
-
 // Is a configuration free? An error is in c->result.
 static int nsvcd__is_free_at(nsvcd_checker *c, const double *joints,
                              const nsvcd_nearest_free_options *o) {
@@ -258,6 +242,9 @@ static int nsvcd__seek_nearest_free(nsvcd_checker *c, const double *from,
     }
     for (size_t j = 0; j < joints; j++) at[j] = from[j] + radius / sqrt(square) * at[j];
     nsvcd__clamp_to_limits(c->scene, at);
+    if (!nsvcd__into_cones(c, NULL, NSVCD__FREE_CONE, at)) continue;
+    // which may have led away
+    if (nsvcd__distance2(at, from, joints) > best * best * (1 + 1e-9)) continue;
     if (!nsvcd__is_free_at(c, at, o)) continue;
     nsvcd__draw_back(c, from, o, at);
     is_found = 1;

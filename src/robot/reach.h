@@ -2,8 +2,8 @@
 // it there.
 //
 // Levenberg-Marquardt, from many starts. What is made 0 is how far the tool is off its target: an
-// offset, in lengths of the chain, and a rotation vector, both in the target's frame. What the
-// target leaves free counts as 0.
+// offset, in lengths of the chain, and a rotation vector, both in the target's frame; and how far
+// axes are out of their cones. What the target or a cone leaves free counts as 0.
 #pragma once
 #include "../interface/reaches.h"
 #include "cholesky.h"
@@ -26,11 +26,16 @@
 // a start is given up after so many steps that each lessen the squared error by less than this
 #define NSVCD__REACH_STALLS 6
 #define NSVCD__REACH_GAIN 0.01
+// the share of a cone's angle that is aimed at
+#define NSVCD__REACH_CONE 0.999
 
-// How far the tool is off its target: what is made 0, and half of its square; metres and radians.
+// How far the tool is off its target: what is made 0 (three of the offset, three of the rotation,
+// one of cones), and half of its square; metres and radians.
 typedef struct nsvcd__miss {
-  double residuals[6];
+  double residuals[NSVCD__MOST_ROWS];
   double cost, position, angle;
+  // are all axes in their cones?
+  int is_in;
 } nsvcd__miss;
 
 typedef struct nsvcd__reacher {
@@ -63,24 +68,13 @@ typedef struct nsvcd__reacher {
   double least;
   // starts that led to known solutions since the last new one
   size_t repeats;
-  // (joints of the chain, 6): of the residuals
-  double jacobian[NSVCD_MAX_JOINTS][6];
+  // of the Jacobian: one fewer where there are no cones
+  size_t rows;
+  // (joints of the chain): of the residuals; (F): of the last one
+  double jacobian[NSVCD_MAX_JOINTS][NSVCD__MOST_ROWS], slope[NSVCD_MAX_JOINTS];
 } nsvcd__reacher;
 
 // ---- how far the tool is off
-
-// The rotation vector of a turn that takes unit vector a to b. Of opposite ones it is about any
-// axis across.
-static nsvcd__d3 nsvcd__turn_between(nsvcd__d3 a, nsvcd__d3 b) {
-  const nsvcd__d3 across = nsvcd__d3_cross(a, b);
-  const double sine = nsvcd__d3_norm(across);
-  const double cosine = nsvcd__d3_dot(a, b);
-  if (sine > 1e-12) return nsvcd__d3_scale(across, nsvcd__atan2(sine, cosine) / sine);
-  if (cosine > 0) return across;
-  const nsvcd__d3 other = nsvcd__d3_of(fabs(a.x) < 0.6, fabs(a.x) >= 0.6, 0);
-  const nsvcd__d3 axis = nsvcd__d3_cross(a, other);
-  return nsvcd__d3_scale(axis, 3.141592653589793 / nsvcd__d3_norm(axis));
-}
 
 // Places the chain, and says how far off the tool is.
 static void nsvcd__reach_place(nsvcd__reacher *r, const double *q) {
@@ -115,14 +109,16 @@ static void nsvcd__reach_place(nsvcd__reacher *r, const double *q) {
   }
   r->miss.position = nsvcd__d3_norm(off);
   r->miss.angle = nsvcd__d3_norm(turn);
+  r->miss.residuals[6] =
+      nsvcd__cones_excess(r->checker, q, NSVCD__REACH_CONE, r->slope, &r->miss.is_in);
   r->miss.cost = 0;
-  for (size_t k = 0; k < 6; k++)
+  for (size_t k = 0; k < NSVCD__MOST_ROWS; k++)
     r->miss.cost += 0.5 * r->miss.residuals[k] * r->miss.residuals[k];
 }
 
 static int nsvcd__is_reached(const nsvcd__reacher *r) {
   return r->miss.position <= r->options.position_tolerance &&
-         r->miss.angle <= r->options.angle_tolerance;
+         r->miss.angle <= r->options.angle_tolerance && r->miss.is_in;
 }
 
 // Adds what the joints that mimic one do to how the residuals change with it. All leaders are in
@@ -164,6 +160,7 @@ static void nsvcd__reach_differentiate(nsvcd__reacher *r) {
       r->jacobian[n][k] = is_free ? 0 : nsvcd__d3_axis(moves, k);
       r->jacobian[n][3 + k] = nsvcd__d3_axis(turns, k);
     }
+    r->jacobian[n][6] = r->units[n] * r->slope[j];
   }
   nsvcd__reach_add_driven(r);
 }
@@ -183,32 +180,33 @@ static void nsvcd__reach_step(const nsvcd__reacher *r, const double *q, double d
                               double *out, double *expected) {
   double step[NSVCD_MAX_JOINTS];
   int is_held[NSVCD_MAX_JOINTS];
-  double left[6], y[6];
+  double left[NSVCD__MOST_ROWS], y[NSVCD__MOST_ROWS];
+  const size_t rows = r->rows;
   size_t held = 0;
   for (size_t n = 0; n < r->count; n++) {
     is_held[n] = nsvcd__reach_holds(r, n);
     step[n] = 0;
   }
-  for (size_t k = 0; k < 6; k++) left[k] = -r->miss.residuals[k];
+  for (size_t k = 0; k < rows; k++) left[k] = -r->miss.residuals[k];
   for (;;) {
     const size_t before = held;
-    double m[6][6] = {{0}};
+    double m[NSVCD__MOST_ROWS][NSVCD__MOST_ROWS] = {{0}};
     double squares = 0;
     for (size_t n = 0; n < r->count; n++) {
       const double *column = r->jacobian[n];
-      for (size_t i = 0; i < 6 && !is_held[n]; i++) {
+      for (size_t i = 0; i < rows && !is_held[n]; i++) {
         for (size_t k = 0; k <= i; k++) m[i][k] += column[i] * column[k];
       }
     }
-    for (size_t i = 0; i < 6; i++) squares += m[i][i];
-    for (size_t i = 0; i < 6; i++)
+    for (size_t i = 0; i < rows; i++) squares += m[i][i];
+    for (size_t i = 0; i < rows; i++)
       m[i][i] += damping + NSVCD__REACH_FLOOR * nsvcd__max(squares, 1e-30);
-    nsvcd__solve_six(m, left, y);
+    nsvcd__solve_rows(m, left, rows, y);
     for (size_t n = 0; n < r->count; n++) {
       const double *column = r->jacobian[n];
       double sum = 0;
       if (is_held[n]) continue;
-      for (size_t k = 0; k < 6; k++) sum += column[k] * y[k];
+      for (size_t k = 0; k < rows; k++) sum += column[k] * y[k];
       step[n] = sum;
     }
     for (size_t n = 0; n < r->count; n++) {
@@ -220,13 +218,13 @@ static void nsvcd__reach_step(const nsvcd__reacher *r, const double *q, double d
       step[n] = step[n] > up ? up : down;
       is_held[n] = 1;
       held++;
-      for (size_t k = 0; k < 6; k++) left[k] -= r->jacobian[n][k] * step[n];
+      for (size_t k = 0; k < rows; k++) left[k] -= r->jacobian[n][k] * step[n];
     }
     if (held == before) break;
   }
   memcpy(out, q, r->joints * sizeof *out);
   *expected = r->miss.cost;
-  for (size_t k = 0; k < 6; k++) {
+  for (size_t k = 0; k < rows; k++) {
     double residual = r->miss.residuals[k];
     for (size_t n = 0; n < r->count; n++) residual += r->jacobian[n][k] * step[n];
     *expected -= 0.5 * residual * residual;
@@ -452,6 +450,7 @@ static void nsvcd__reach_begin(nsvcd__reacher *r, nsvcd_checker *c,
   if (!(o->apart > 0)) o->apart = NSVCD__REACH_APART;
   if (!o->starts) o->starts = NSVCD__REACH_STARTS;
   r->random = o->seed;
+  r->rows = NSVCD__MOST_ROWS - (r->scene->cone_count == 0);
   r->tool = nsvcd__unit_dpose(&problem->tool);
   r->target = nsvcd__unit_dpose(&problem->target);
   r->free_axis = nsvcd__d3_unit(nsvcd__d3_load(problem->free_axis), none);

@@ -1,6 +1,5 @@
 // In: a start and goals. Out: a motion that is proven free, in the caller's memory.
 #pragma once
-#include "smooth.h"
 #include "trees.h"
 
 // defaults; tries: for each node
@@ -8,12 +7,16 @@
 #define NSVCD__TRIES 4
 #define NSVCD__SHORTCUTS 20
 #define NSVCD__SMOOTHINGS 200
+// times as many of both where there are cones
+#define NSVCD__CONE_TRIES 3
 #define NSVCD__MOST_LOOKS 200000
 // of a search by looks: looks of the first, twice as many after each that finds nothing; searches
 #define NSVCD__FIRST_LOOKS 4000
 #define NSVCD__LOOK_SEARCHES 16
 // of the balls' errors, which margins are less by after each search that finds nothing
 #define NSVCD__LOOK_EASE 0.34f
+// of the path between its ends: how long a way of several edges in its place may be
+#define NSVCD__SHORTER 0.95
 
 // ---- memory
 
@@ -65,8 +68,9 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
   o->nodes = o->nodes ? o->nodes : NSVCD__NODES;
   o->tries = o->tries ? o->tries : NSVCD__TRIES * o->nodes;
   o->edge = o->edge > 0 ? o->edge : 1;
-  if (!o->shortcuts) o->shortcuts = NSVCD__SHORTCUTS;
-  if (!o->smoothings) o->smoothings = NSVCD__SMOOTHINGS;
+  const size_t more = checker->scene->cone_count ? NSVCD__CONE_TRIES : 1;
+  if (!o->shortcuts) o->shortcuts = more * NSVCD__SHORTCUTS;
+  if (!o->smoothings) o->smoothings = more * NSVCD__SMOOTHINGS;
   if (o->shortcuts == NSVCD_NONE) o->shortcuts = 0;
   if (o->smoothings == NSVCD_NONE) o->smoothings = 0;
   o->looks = o->looks ? o->looks : NSVCD__MOST_LOOKS;
@@ -84,9 +88,11 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
     t->cells = NSVCD__TAKE_ROWS(nsvcd__cell, 2 * nodes, base, &used);
   }
   r->goals = NSVCD__TAKE_ROWS(size_t, problem->goal_count, base, &used);
-  // a shortcut from an edge to the next adds a corner
-  const size_t rows = 2 * nodes + o->shortcuts;
+  // a shortcut from an edge to the next adds a corner, or those of a way in the cones
+  const size_t most = checker->scene->cone_count ? NSVCD__MOST_WAY : 1;
+  const size_t rows = 2 * nodes + most * o->shortcuts;
   r->path = (double *)nsvcd__take(base, &used, rows, joints * sizeof(double));
+  r->way = NSVCD__TAKE_ROWS(double, (NSVCD__MOST_WAY * joints), base, &used);
   nsvcd__trajectory_take(&r->trajectory, base, &used, NSVCD__MOST_PIECES, joints);
   nsvcd__trajectory_take(&r->other, base, &used, NSVCD__MOST_PIECES, joints);
   nsvcd__trajectory_take(&r->blend, base, &used, NSVCD__BLEND_PIECES, joints);
@@ -135,13 +141,15 @@ static void nsvcd__shorten(nsvcd__router *r) {
     const size_t last = nsvcd__path_at(r, nsvcd__max(a, b), at[1]);
     // on one edge nothing is won, and the path would grow by corners
     if (first == last) continue;
-    if (!nsvcd__ask_edge(r, at[0], at[1])) continue;
-    // corners first + 1 to last make way for two
+    const double longest = NSVCD__SHORTER * fabs(b - a);
+    const size_t count = nsvcd__way_between(r, at[0], at[1], longest, r->way);
+    if (!count) continue;
+    // corners first + 1 to last make way for these
     const size_t rest = r->corners - (last + 1);
-    memmove(nsvcd__corner_at(r, first + 3), nsvcd__corner_at(r, last + 1), rest * bytes);
-    memcpy(nsvcd__corner_at(r, first + 1), at[0], bytes);
-    memcpy(nsvcd__corner_at(r, first + 2), at[1], bytes);
-    r->corners = first + 3 + rest;
+    const size_t next = first + 1 + count;
+    memmove(nsvcd__corner_at(r, next), nsvcd__corner_at(r, last + 1), rest * bytes);
+    memcpy(nsvcd__corner_at(r, first + 1), r->way, count * bytes);
+    r->corners = next + rest;
   }
 }
 

@@ -60,6 +60,8 @@ typedef struct nsvcd__router {
   // (nodes of both trees + shortcuts, F): corners
   double *path;
   size_t corners;
+  // (NSVCD__MOST_WAY, F)
+  double *way;
   nsvcd__trajectory trajectory, other, blend;
   nsvcd_route_answer answer;
 } nsvcd__router;
@@ -86,14 +88,22 @@ static int nsvcd__prove_by(nsvcd__router *r, const nsvcd_joint_motion *motion,
   return is_free;
 }
 
-// Does a motion seem free, and is it within the limits?
+// Do the axes of all cones stay in them?
+static int nsvcd__motion_keeps_cones(const nsvcd__router *r, const nsvcd_joint_motion *m) {
+  nsvcd_check_answer unused;
+  const double start = nsvcd__piece_start(m, 0);
+  return nsvcd__keeps_cones(r->checker, m, start, nsvcd__piece_start(m, m->pieces), &unused);
+}
+
+// Does a motion seem free, and is it within the limits and the cones?
 static int nsvcd__look_along(nsvcd__router *r, const nsvcd_joint_motion *motion) {
   const nsvcd_check_options *o = &r->check;
   if (o->stop && o->stop(o->user)) r->is_stopped = 1;
   // between two configurations within them, edges are
   for (size_t p = 0; motion->degree > 1 && p < motion->pieces; p++)
     if (nsvcd__joint_outside(r->scene, motion, p) != NSVCD_NONE) return 0;
-  return !r->is_stopped && nsvcd__seems_free(&r->looker, motion);
+  return !r->is_stopped && nsvcd__motion_keeps_cones(r, motion) &&
+         nsvcd__seems_free(&r->looker, motion);
 }
 
 // Is a motion free, by a look or by a proof with the search's own options? Once the search is
@@ -104,12 +114,26 @@ static int nsvcd__ask_motion(nsvcd__router *r, const nsvcd_joint_motion *motion)
   return !r->is_stopped && nsvcd__prove_by(r, motion, &r->check);
 }
 
-static int nsvcd__ask_edge(nsvcd__router *r, const double *from, const double *to) {
-  double points[2 * NSVCD_MAX_JOINTS];
+// Writes an edge. points: room for two configurations.
+static nsvcd_joint_motion nsvcd__edge_motion(const nsvcd__router *r, const double *from,
+                                             const double *to, double *points) {
   const nsvcd_joint_motion motion = {1, 1, points, NULL};
   memcpy(points, from, r->joints * sizeof *points);
   memcpy(points + r->joints, to, r->joints * sizeof *points);
+  return motion;
+}
+
+static int nsvcd__ask_edge(nsvcd__router *r, const double *from, const double *to) {
+  double points[2 * NSVCD_MAX_JOINTS];
+  const nsvcd_joint_motion motion = nsvcd__edge_motion(r, from, to, points);
   return nsvcd__ask_motion(r, &motion);
+}
+
+static int nsvcd__edge_keeps_cones(const nsvcd__router *r, const double *from,
+                                   const double *to) {
+  double points[2 * NSVCD_MAX_JOINTS];
+  const nsvcd_joint_motion motion = nsvcd__edge_motion(r, from, to, points);
+  return nsvcd__motion_keeps_cones(r, &motion);
 }
 
 // ---- from rest to rest

@@ -225,6 +225,7 @@ static void nsvcd__span_begin(const nsvcd_scene *scene, nsvcd_body_pair pair, ns
   s->scene.clearances = NULL;
   s->scene.allowances = NULL;
   s->scene.allowance_count = 0;
+  s->scene.cone_count = 0;
   s->parts[0] = scene->parts[pair.a];
   s->parts[1] = scene->parts[pair.b];
   s->pairs[0].b = 1;

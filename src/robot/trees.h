@@ -5,72 +5,7 @@
 // Source: RRT-Connect (Kuffner and LaValle 2000), with edges that are proven, not sampled; of paths
 // by looks, Bohlin and Kavraki (2000).
 #pragma once
-#include "smooth.h"
-
-// turns after which a tree that has not grown tries along single joints
-#define NSVCD__IDLE 100
-// radians or metres: seven configurations in eight are drawn no farther than this from the range of
-// the start and the goals
-#define NSVCD__BESIDE 3.2
-
-// A value of a joint in its limits, near the start and the goals or anywhere.
-static double nsvcd__draw_joint(nsvcd__router *r, size_t j, int is_wide) {
-  const nsvcd_joint *joint = &r->scene->joints[j];
-  double low = r->low[j] - NSVCD__BESIDE;
-  double high = r->high[j] + NSVCD__BESIDE;
-  if (joint->kind != NSVCD_JOINT_CONTINUOUS) {
-    low = is_wide ? joint->low : nsvcd__max(low, joint->low);
-    high = is_wide ? joint->high : nsvcd__min(high, joint->high);
-  }
-  return low + (high - low) * nsvcd__random(&r->random);
-}
-
-// A configuration towards which a tree is to grow: any; where it has not grown for long, every
-// other time, one of its own nodes with one joint moved. Out of a hole the only free edges are
-// often those along one joint.
-static void nsvcd__draw(nsvcd__router *r, size_t side, double *out) {
-  const size_t joints = r->joints;
-  const nsvcd__rrt *t = &r->trees[side];
-  if (r->idle[side] >= NSVCD__IDLE && r->turn / 2 % 2) {
-    const size_t node = (size_t)(nsvcd__random(&r->random) * (double)t->count);
-    const size_t joint =
-        r->moving[(size_t)(nsvcd__random(&r->random) * (double)r->moving_count)];
-    memcpy(out, nsvcd__node_at(t, node), joints * sizeof *out);
-    out[joint] = nsvcd__draw_joint(r, joint, 1);
-    return;
-  }
-  const int is_wide = nsvcd__random(&r->random) < 0.125;
-  // what is held stays where all roots have it
-  memcpy(out, r->low, joints * sizeof *out);
-  for (size_t k = 0; k < r->moving_count; k++)
-    out[r->moving[k]] = nsvcd__draw_joint(r, r->moving[k], is_wide);
-}
-
-// Are there as many nodes, or tries, or looks, as are allowed?
-static int nsvcd__is_at_limit(const nsvcd__router *r) {
-  return r->trees[0].count + r->trees[1].count >= r->options.nodes ||
-         r->answer.checks >= r->options.tries ||
-         (r->is_looking && r->looker.count >= r->looks);
-}
-
-// Grows a tree from its node nearest to a configuration: by one edge, or, if `is_greedy`, edge by
-// edge. *node: the last new node, or the nearest one. Returns 1 if that is the configuration.
-static int nsvcd__grow(nsvcd__router *r, nsvcd__rrt *t, const double *to, int is_greedy,
-                       size_t *node) {
-  *node = nsvcd__tree_nearest(t, to);
-  for (;;) {
-    double next[NSVCD_MAX_JOINTS];
-    const double *from = nsvcd__node_at(t, *node);
-    const double length = nsvcd__edge_length(r, from, to);
-    const int ends = length <= r->options.edge;
-    if (!(length > 0)) return 1;
-    for (size_t j = 0; j < r->joints; j++)
-      next[j] = ends ? to[j] : from[j] + r->options.edge / length * (to[j] - from[j]);
-    if (!nsvcd__ask_edge(r, from, next) || nsvcd__is_at_limit(r)) return 0;
-    *node = nsvcd__tree_add(t, next, *node);
-    if (ends || !is_greedy) return ends;
-  }
-}
+#include "grow.h"
 
 // Writes the path through the two nodes where the trees have met, the same configuration.
 static void nsvcd__take_path(nsvcd__router *r) {
@@ -142,7 +77,10 @@ static int nsvcd__seek(nsvcd__router *r) {
     nsvcd__draw(r, side, drawn);
     nsvcd__follow(r->scene, 1, drawn);
     const size_t before = grown->count;
-    (void)nsvcd__grow(r, grown, drawn, 0, &r->met[side]);
+    if (nsvcd__into_cones(r->checker, r->problem.held, NSVCD__GROW_CONE, drawn))
+      (void)nsvcd__grow(r, grown, drawn, 0, &r->met[side]);
+    else
+      nsvcd__count_refused(r);
     if (nsvcd__is_at_limit(r)) return 0;
     r->idle[side] = grown->count == before ? r->idle[side] + 1 : 0;
     if (grown->count == before) continue;

@@ -30,8 +30,8 @@ static inline void arm_open(arm *a, nsvcd_pose post) {
     a->pairs[i] = (nsvcd_body_pair){i, POST};
   }
   a->parts[POST] = (nsvcd_part){.body = a->post, .link = 0, .pose = post};
-  a->scene =
-      (nsvcd_scene){a->joints, ARM_JOINTS, a->parts, ARM_PARTS, a->pairs, ARM_PAIRS, NULL, NULL, 0};
+  a->scene = (nsvcd_scene){a->joints, ARM_JOINTS, a->parts, ARM_PARTS, a->pairs, ARM_PAIRS,
+                           NULL,      NULL,       0,        NULL,      0};
   const size_t size = nsvcd_checker_size(&a->scene);
   a->memory = malloc(size);
   CHECK_EQ(nsvcd_checker_open(&a->scene, a->memory, size, &a->checker), NSVCD_OK);

@@ -60,6 +60,7 @@ static void a_text_names_the_field_at_fault(void) {
       {NSVCD_ERROR_SPEED, {"speed", "acceleration"}},
       {NSVCD_ERROR_LINK, {"link"}},
       {NSVCD_ERROR_PAIR, {"pair"}},
+      {NSVCD_ERROR_CONE, {"cone", "angle"}},
       {NSVCD_ERROR_VALUE, {"start", "goal", "points"}},
       {NSVCD_ERROR_DEGREE, {"degree", "pieces"}},
       {NSVCD_ERROR_TURN, {"turn"}},

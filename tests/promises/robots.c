@@ -286,6 +286,7 @@ static void robots_on_their_own_clocks_meet_when_they_do(void) {
 }
 
 void promises_robots(void) {
+  RUN(an_axis_stays_in_its_cone);
   RUN(robots_on_their_own_clocks_meet_when_they_do);
   RUN(contact_is_allowed_near_a_configuration);
   RUN(a_motion_is_free_until_it_is_not);

@@ -101,15 +101,16 @@ class Code(enum.IntEnum):
     SPEED = 45
     LINK = 46
     PAIR = 47
-    VALUE = 48
-    DEGREE = 49
-    TURN = 50
-    FINEST = 51
-    DISTANCE = 52
-    FARTHEST = 53
-    ROUTE = 54
-    HELD = 55
-    MIMIC = 56
+    CONE = 48
+    VALUE = 49
+    DEGREE = 50
+    TURN = 51
+    FINEST = 52
+    DISTANCE = 53
+    FARTHEST = 54
+    ROUTE = 55
+    HELD = 56
+    MIMIC = 57
     STAGE = 57
     PLAN = 58
     BUILD = 59
@@ -276,15 +277,17 @@ _Joint = _struct("nsvcd_joint", kind=c_int, parent=c_uint32, origin=_Pose, axis=
                  high=c_double, speed=c_double, acceleration=c_double, mimic=c_uint32, multiplier=c_double, offset=c_double)
 _Part = _struct("nsvcd_part", body=c_void_p, link=c_uint32, pose=_Pose, scale=c_float)
 _Scene = _struct("nsvcd_scene", joints=c_void_p, joint_count=c_size_t, parts=c_void_p, part_count=c_size_t,
-                 pairs=c_void_p, pair_count=c_size_t, clearances=c_void_p, allowances=c_void_p, allowance_count=c_size_t)
+                 pairs=c_void_p, pair_count=c_size_t, clearances=c_void_p, allowances=c_void_p, allowance_count=c_size_t,
+                 cones=c_void_p, cone_count=c_size_t)
 _Allowance = _struct("nsvcd_allowance", pair=c_size_t, joints=c_void_p, distance=c_double)
+_Cone = _struct("nsvcd_cone", part=c_uint32, axis=c_float * 3, direction=c_float * 3, angle=c_double)
 _JointMotion = _struct("nsvcd_joint_motion", pieces=c_size_t, degree=c_size_t, points=c_void_p, times=c_void_p)
 _PartialMotion = _struct("nsvcd_partial_motion", motion=_JointMotion, joints=c_void_p, joint_count=c_size_t, delay=c_double)
 _CheckOptions = _struct("nsvcd_check_options", clearance=c_float, finest=c_float, work=c_size_t, stop=_STOP,
                         user=c_void_p, to_time=c_double)
 _CheckAnswer = _struct(
     "nsvcd_check_answer", verdict=c_int, why=c_int, pair=c_size_t, piece=c_size_t, fraction=c_double, contact=_Contact,
-    joint=c_size_t, placed=c_size_t, sweeps=c_size_t, free_until=c_double)
+    joint=c_size_t, placed=c_size_t, sweeps=c_size_t, free_until=c_double, cone=c_size_t)
 _Proximity = _struct("nsvcd_proximity", pair=c_size_t, verdict=c_int, why=c_int, distance=_Range, depth=c_float, contact=_Contact,
                slope=c_double * _MAX_JOINTS)
 _ProximityOptions = _struct("nsvcd_proximity_options", max_distance=c_float, to=c_float, max_depth=c_float, work=c_size_t)
@@ -310,7 +313,7 @@ _RouteAnswer = _struct(
 _CertifyOptions = _struct("nsvcd_certify_options", answer=c_void_p, visits=c_size_t)
 _Certificate = _struct(
     "nsvcd_certificate", verdict=c_int, why=c_int, inside=c_int, time=c_double, size=c_size_t, visits=c_size_t)
-_STRUCTS = (_CertifyOptions, _Certificate, _Joint, _Part, _Scene, _Allowance, _JointMotion, _PartialMotion, _CheckOptions, _CheckAnswer, _Proximity, _ProximityOptions, _NearestFreeOptions,
+_STRUCTS = (_CertifyOptions, _Certificate, _Joint, _Part, _Scene, _Allowance, _Cone, _JointMotion, _PartialMotion, _CheckOptions, _CheckAnswer, _Proximity, _ProximityOptions, _NearestFreeOptions,
             _PairCounts, _ReachProblem, _ReachOptions, _ReachAnswer, _RouteProblem, _RouteOptions, _RouteAnswer, _Mesh, _EncodeOptions, _BodyFacts, _Pose, _NetworkOptions, _Mover, _Question, _Range, _Contact,
             _SafePlace, _Opinion, _Answer, _BodyPair, _PlanProgress, _PlanProblem, _PlanStage, _PlanOptions, _PlanAnswer)
 _Layout = _struct("neuralsvcd_layout", name=c_char_p, place=c_size_t, size=c_size_t)
@@ -1610,6 +1613,7 @@ class Checked(NamedTuple):
     joint         one that leaves its limits, or None
     placed, sweeps  what it took
     free_until    seconds: free before that; with `to_time` a HIT follows at once
+    cone          that an axis leaves, or may leave: its index, or None; there is no pair then, and no point
     """
     verdict: Verdict
     why: Why
@@ -1622,6 +1626,7 @@ class Checked(NamedTuple):
     placed: int
     sweeps: int
     free_until: float
+    cone: Optional[int]
 
 
 class Proximity(NamedTuple):
@@ -1698,10 +1703,10 @@ def _index_or_none(index: int) -> Optional[int]:
 
 
 def _checked(c: Any) -> Checked:
-    is_hit = _VERDICTS[c.verdict] is Verdict.HIT
+    is_hit = _VERDICTS[c.verdict] is Verdict.HIT and c.pair != LEAVE_OUT
     return Checked(_VERDICTS[c.verdict], _WHYS[c.why], _index_or_none(c.pair), _index_or_none(c.piece), c.fraction,
                    _vector(c.contact.point) if is_hit else None, _vector(c.contact.normal) if is_hit else None,
-                   _index_or_none(c.joint), c.placed, c.sweeps, c.free_until)
+                   _index_or_none(c.joint), c.placed, c.sweeps, c.free_until, _index_or_none(c.cone))
 
 
 def _doubles(value: ArrayLike, shape: tuple[Optional[int], ...], name: str) -> Doubles:
@@ -1735,10 +1740,12 @@ class Robot:
            Also those that touch in all samples, which is no proof that they always do
     clearances  (P) metres that each of these pairs keeps, beside what `check` and `route` are asked for; None: 0
     allowances  (pair, joints, metres): where pairs may touch: as near as that to where they are in a configuration
+    cones  (part, axis, direction, radians): an axis of a part, and where it is to point, in the world, to within that
     """
 
     def __init__(self, joints: Sequence[Joint], parts: Sequence[Part], pairs: Optional[ArrayLike] = None, *,
-                 clearances: Optional[ArrayLike] = None, allowances: Sequence[tuple[int, ArrayLike, float]] = ()) -> None:
+                 clearances: Optional[ArrayLike] = None, allowances: Sequence[tuple[int, ArrayLike, float]] = (),
+                 cones: Sequence[tuple[int, ArrayLike, ArrayLike, float]] = ()) -> None:
         if (clearances is not None or allowances) and pairs is None:
             raise TypeError("clearances, allowances: of which pairs?")
         self._clearances: Optional[NDArray[np.float32]] = None
@@ -1758,6 +1765,10 @@ class Robot:
         self._allowances = (_Allowance * max(len(allowances), 1))(*(
             _Allowance(_number(c_size_t, pair, "allowances"), _address(near), metres)
             for (pair, _, metres), near in zip(allowances, self._near)))
+        self._cones = (_Cone * max(len(cones), 1))(*(
+            _Cone(_number(c_uint32, part, "cones"), *((c_float * 3)(*_floats(x, (3,), "cones").tolist()) for x in (axis, direction)), angle)
+            for part, axis, direction, angle in cones))
+        self._cone_count = len(cones)
         self._open(np.empty((0, 2), np.uint32) if pairs is None else pairs)
         if pairs is None:
             asked, _, touching = self.find_pairs()
@@ -1768,7 +1779,7 @@ class Robot:
         self._scene = _Scene(ctypes.addressof(self._joints), self.joint_count, ctypes.addressof(self._parts),
                              self.part_count, _address(self._pairs), len(self._pairs),
                              None if self._clearances is None else _address(self._clearances),
-                             ctypes.addressof(self._allowances), len(self._near))
+                             ctypes.addressof(self._allowances), len(self._near), ctypes.addressof(self._cones), self._cone_count)
         size = _library.nsvcd_checker_size(byref(self._scene))
         self._memory = _memory(size)
         self._checker = c_void_p()
