@@ -242,15 +242,18 @@ postures: poses without rounding|if (moves[n]) local.rounding += 2|if (0) local.
 postures: poses seen from the world|const nsvcd__dpose in = nsvcd__dpose_inverse_mul(\&local.frame, \&frames[n][k]);|const nsvcd__dpose in = frames[n][k];
 postures: free of each other as floats|if (out->verdict != NSVCD_FREE \|\| out->distance.low > 0) return 1;|return 1;
 postures: depths of floats|q.clearance = nsvcd__above(error + 2e-7 * (double)o->max_depth);|
-robot: strays of one part|nsvcd__part_error(c, pair->a) + nsvcd__part_error(c, pair->b);|nsvcd__part_error(c, pair->a);
+robot: strays of one part|range->error = nsvcd__max(range->error, off);|range->error = nsvcd__max(range->error, nsvcd__deviation_in(c, pair->a, k)); (void)off;
+robot: strays of the first step|range->error = nsvcd__max(range->error, off);|range->error = k == range->first ? off : range->error;
+robot: boxes that stray|if (nsvcd__bounds_apart(\&at_a, \&at_b, room + off * (1 + 1e-9))) continue;|(void)off; if (nsvcd__bounds_apart(\&at_a, \&at_b, room)) continue;
+robot: one part of a pair sampled anew|c->members[pair->a].is_skipped = c->members[pair->b].is_skipped = 0;|c->members[pair->a].is_skipped = 0;
 robot: speeds that jump|step->bend[j] += 2 * h * jumps;|(void)jumps;
 robot: half the jump of speed|step->bend[j] += 2 * h * jumps;|step->bend[j] += h * jumps;
 robot: the first piece of a step alone|for (size_t piece = first; piece <= last; piece++) {|for (size_t piece = first; piece <= first; piece++) {
 robot: bends by the share of a piece|second[i] = per_piece * per_piece * twice|second[i] = twice
 robot: no strays|const double clearance = kept + errors;|const double clearance = kept;
-robot: boxes without the clearance|const double room = kept + error;|const double room = error;
+robot: boxes without the clearance|const double room = (kept + rounding) * (1 + 1e-9);|const double room = rounding;
 robot: boxes at samples alone|nsvcd__bounds_over(at, at + 1)|*at
-robot: boxes without strays|const double room = kept + error;|const double room = kept;
+robot: boxes without strays|\&b->bounds, room + most)) return 0;|\&b->bounds, room)) return 0; (void)most;
 robot: the first step of a spell alone|range->steps = last - (steps ? range->first : 0);|range->steps = steps \&\& last > range->first ? 1 : 0;
 robot: the last piece alone|const size_t steps = next - p == 1|if (next < m.pieces) continue;\n    const size_t steps = next - p == 1
 robot: what is free of the first pair|if (nsvcd__ask_pair(s, parts, 1, work, \&range, \&found) == NSVCD_FREE) continue;|if (nsvcd__ask_pair(s, parts, 1, work, \&range, \&found) == NSVCD_FREE) break;
@@ -264,7 +267,7 @@ robot: ramps that are slow|const double side = distance >= least ? 1 : -1;|const
 robot: shortcuts that are not proven|if (nsvcd__edge_keeps_cones(r, from, to)) return nsvcd__ask_edge(r, from, to) ? 2 : 0;|return 2;
 robot: starts by the work of the search|if (n / 2) r->check.work = 0;|
 robot: a last proof that nobody ends|whole.stop = r->check.stop;|
-robot: trees that stay in their holes|if (r->idle[turn % 2] >= NSVCD__IDLE \&\&|if (0 \&\&
+robot: trees that stay in their holes|if (r->idle[side] >= NSVCD__IDLE|if (r->idle[side] > SIZE_MAX - 1
 robot: limits of joints that a route may leave|return answer->verdict == NSVCD_FREE \&\& answer->joint == NSVCD_NONE;|return answer->verdict == NSVCD_FREE;
 robot: whole turns are gone|at[j] -= full_turn * turns;|at[j] -= 0 * turns;
 postures: slopes by the lever alone|sign * nsvcd__rate(c->scene, link - 1) * nsvcd__d3_dot(normal, speed);|sign * nsvcd__rate(c->scene, link - 1) * nsvcd__d3_norm(speed);
@@ -476,7 +479,7 @@ cones: what turns slides|if (nsvcd__slides(c, link - 1)) continue; bend += step-
 cones: a start anywhere|if (last < last_error) return last < -last_error ? NSVCD_HIT : NSVCD_UNDECIDED;|
 cones: the pair's own axis|c->cones[n].axis = nsvcd__dquat_rotate(c->members[cone->part].frame.rotation, axis);|c->cones[n].axis = axis;
 cones: ranges ask about them|s->scene.cone_count = 0;|
-cones: goals do not aim at them|r->jacobian[n][6] = r->slope[j];|r->jacobian[n][6] = 0;
+cones: goals do not aim at them|r->jacobian[n][6] = r->units[n] * r->slope[j];|r->jacobian[n][6] = 0;
 cones: goals anywhere|r->miss.angle <= r->options.angle_tolerance \&\& r->miss.is_in;|r->miss.angle <= r->options.angle_tolerance;
 cones: nothing drawn into them|if (!nsvcd__into_cones(c, NULL, NSVCD__FREE_CONE, at)) continue;|
 many_joints: held ones that are drawn|out[r->moving[k]] = nsvcd__draw_joint(r, r->moving[k], is_wide);|out[r->moving[k]] = nsvcd__draw_joint(r, r->moving[k], is_wide);\n  for (size_t j = 0; j < joints; j++) out[j] = nsvcd__draw_joint(r, j, is_wide);
@@ -487,8 +490,8 @@ mimics: without the offset|return j->mimic ? j->multiplier * at[j->mimic - 1] + 
 mimics: a leader within its own limits alone|c->joints[i] = nsvcd__narrowed(scene, i);|c->joints[i] = *joint;
 mimics: blends at the leader's pace|nsvcd__driven(scene, j, from->x), rate * b->v0,|nsvcd__driven(scene, j, from->x), b->v0,
 mimics: routes that drift|nsvcd__follow(r->scene, 2 * t->motion.pieces + 1, t->points);|
-mimics: a box of the leader's width|s->arms[s->drivers[k]] += fabs(nsvcd__rate(\&s->scene, s->way[k])) * arms[k];|s->arms[s->drivers[k]] += arms[k];
-mimics: a box without what is driven|s->arms[s->drivers[k]] += fabs(nsvcd__rate(\&s->scene, s->way[k])) * arms[k];|s->arms[s->drivers[k]] = arms[k];
+mimics: a box of the leader's width|s->arms[s->drivers[k]] += rates[k] * arms[k];|s->arms[s->drivers[k]] += arms[k];
+mimics: a box without what is driven|s->arms[s->drivers[k]] += rates[k] * arms[k];|s->arms[s->drivers[k]] = arms[k];
 mimics: a sweep of the leader alone|nsvcd__follow(\&s->scene, 1 + (along != NSVCD_NONE), points);|
 mimics: a slope of the leader alone|slope[nsvcd__driver(c->scene, link - 1)] +=|slope[link - 1] +=
 mimics: turns of a fraction|return is_endless \&\& rate > floor(rate) ? NSVCD_ERROR_MIMIC : NSVCD_OK;|return NSVCD_OK;

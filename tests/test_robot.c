@@ -866,6 +866,15 @@ static void robot_strays_no_farther(void) {
       r.checker->times[k] = times[pieces] * ((double)k + by) / (double)steps;
     }
     nsvcd__sample(r.checker, &motion, steps);
+    // over all steps, two parts stray by no more than their range says
+    const nsvcd_body_pair two = {0, (uint32_t)r.scene.part_count - 1};
+    nsvcd__step_range range;
+    CHECK(nsvcd__steps_near(r.checker, &two, steps, 1e6, &range));
+    CHECK(range.first == 0 && range.steps == steps);
+    for (size_t k = 0; k < steps; k++) {
+      const double off = nsvcd__deviation_in(r.checker, two.a, k);
+      CHECK_GE(range.error, off + nsvcd__deviation_in(r.checker, two.b, k));
+    }
     for (size_t part = 0; part < r.scene.part_count; part += is_long ? 17 : 1) {
       const nsvcd__member *m = &r.checker->members[part];
       double farthest = 0;
