@@ -111,9 +111,9 @@ class Code(enum.IntEnum):
     ROUTE = 55
     HELD = 56
     MIMIC = 57
-    STAGE = 57
-    PLAN = 58
-    BUILD = 59
+    STAGE = 58
+    PLAN = 59
+    BUILD = 60
 
 
 class _Word(str, enum.Enum):
