@@ -1275,7 +1275,7 @@ together_refused 20 "two of these move one joint: 'y'" 'together q s l r rest'
 together_refused 20 "none of these moves a joint; where it rests, a path of one line says: 'y'" 'together q s l'
 together_refused 20 "no group of this name above: 'both'" 'path o s 1 group both'
 together_refused 20 'path o has 0 of its 1 lines of 1 joints' 'path o s 1 group left\n0 0'
-together_refused 23 'times do not rise, .* or not by 1e-12 of the whole' 'curve o s 1 2 timed group left\n0 0\n1e-13 1\ntogether q s o r'
+together_refused 23 'times do not rise, .* of merged motions not by 1e-12 of all' 'curve o s 1 2 timed group left\n0 0\n1e-13 1\ntogether q s o r'
 # A snake of 128 joints, which is as many as there may be.
 snake() {  # JOINTS: cubes along x, one beside the 100th joint, past which it swings
   awk -v n="$1" 'BEGIN { print "nsvcd-plans 1"

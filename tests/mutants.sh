@@ -283,9 +283,9 @@ postures: a depth of all the lift|*(is_apart ? &high : &low) = middle;|low = mid
 postures: brackets without rounding|out->distance.high = nsvcd__above((double)found.distance.high + error);|out->distance.high = found.distance.high;
 postures: more than there is room for|if (written < capacity) out[written] = found;|out[written] = found;
 postures: escapes without the clearance|{o->clearance, 0, 0, o->stop, o->user, 0};|{0, 0, 0, o->stop, o->user, 0};
-postures: escapes to anywhere|sphere * o->farthest;|2 * sphere * o->farthest;
+cones: ways out that lead away|if (nsvcd__distance2(at, from, joints) > best * best * (1 + 1e-9)) continue;|
 postures: no way back|memcpy(is_free ? at : blocked, middle, joints * sizeof *at);|memcpy(blocked, middle, joints * sizeof *at);
-postures: the first way out|is_found ? NSVCD__FREE_NEARER * best : sphere|is_found ? o->farthest : sphere
+postures: the first way out|is_found = 1;\n    best = sqrt(nsvcd__distance2(at, from, joints));|if (is_found) break;\n    is_found = 1;
 postures: what touches once touches always|if (nsvcd__ask_sweep(c, &q, &found) != NSVCD_HIT) return 0;|if (n == 0 && nsvcd__ask_sweep(c, &q, &found) != NSVCD_HIT) return 0;
 postures: out of the limits|joints[j] = nsvcd__max(nsvcd__low_of(joint), nsvcd__min(nsvcd__high_of(joint), joints[j]));|
 postures: the world is adjacent|return a > 0 && b > 0 && (scene->joints[a - 1].parent == b|return a > 0 && (b == 0 \|\| scene->joints[a - 1].parent == b
@@ -460,7 +460,6 @@ allowances: a curve by its ends|for (size_t i = 0; i <= m->degree; i++) { low[j]
 allowances: of any pair|if (allowance->pair == pair \&\& nsvcd__allows_from_to|if (nsvcd__allows_from_to
 allowances: one part alone|for (size_t n = 0; n < 2; n++) { const nsvcd__member *m = \&c->members[parts[n]];|for (size_t n = 0; n < 1; n++) { const nsvcd__member *m = \&c->members[parts[n]];
 allowances: no end|c->cuts[2 * n + 1] = nsvcd__allowed_up_to(c, \&c->scene->allowances[n], m, t1, t0);|c->cuts[2 * n + 1] = t1;
-allowances: looks that see all|return nsvcd__look_not_allowed(k, pair, met) != 0;|return met != 0;
 merge: without delays|return m->delay + nsvcd__piece_start(\&m->motion, piece);|return nsvcd__piece_start(\&m->motion, piece);
 merge: no rest before|while (own > 0 \&\& nsvcd__knot_at(m, 0) > merged->times[at] + all->same) at++;|
 merge: pieces that are not cut|nsvcd__cut_curve(p, m->motion.degree, (merged->times[at] - start) / whole, to);|

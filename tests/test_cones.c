@@ -402,6 +402,16 @@ static void ways_out_lead_into_cones(void) {
     CHECK_LE(cone_off(&r.scene, &cone, out), cone.angle);
     CHECK_LE(sqrt(sum), 0.5);
     if (off <= 0.01) CHECK_EQ(sum, 0);
+    // none is told that is farther than asked for
+    for (int n = 1; n < 10; n++) {
+      nsvcd_nearest_free_options options;
+      memset(&options, 0, sizeof options);
+      options.farthest = 0.1 * n * sqrt(sum) + 1e-3;
+      CHECK_EQ(nsvcd_nearest_free(r.checker, q, &options, out, &is_found), NSVCD_OK);
+      double way = 0;
+      for (int j = 0; j < 6; j++) way += (out[j] - q[j]) * (out[j] - q[j]);
+      if (is_found) CHECK_LE(sqrt(way), options.farthest * (1 + 1e-6));
+    }
     free(r.memory);
   }
 }

@@ -503,10 +503,10 @@ static void postures_escape(void) {
       "  %zu of %zu got out, by %.3f in the mean; %zu by no more than need "
       "be\n",
       found_count, wanted, way / (double)found_count, drawn_back);
-  // 113 of 130, 0.117: which way out is tried first depends on the last digit of a gradient
+  // 113 of 130, 0.117 (the first ones found: 0.136): which way out is tried first depends on the last digit of a gradient
   CHECK_GE(found_count, 3 * wanted / 4);
   CHECK_GE(drawn_back, 3 * found_count / 4);
-  CHECK_LE(way / (double)found_count, 0.15);
+  CHECK_LE(way / (double)found_count, 0.13);
 }
 
 // All pairs of links that differ, once each; what one joint parts is adjacent; what touches always

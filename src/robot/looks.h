@@ -11,8 +11,6 @@
 #define NSVCD__LOOK_STEP 0.05
 // metres by which a pair's margin is less at each look, where the ends, proven free, seem to meet
 #define NSVCD__LOOK_CUT 1e-3f
-// of the balls' errors: how much farther than an allowance's distance a pair is not looked at
-#define NSVCD__LOOK_ALLOWED 8
 
 // A frame in that of a link: a matrix, row-major, and an offset.
 typedef struct nsvcd__look_frame {
@@ -270,31 +268,12 @@ static nsvcd_looked nsvcd__look_at_part(nsvcd__looker *k, size_t n) {
   return out;
 }
 
-// The places at hand, of those in `met`, where a pair is not allowed to touch: neither there, nor
-// where balls cannot yet tell the two apart. places: (F, 16).
-static uint32_t nsvcd__look_not_allowed(const nsvcd__looker *k, size_t pair, uint32_t met) {
-  const nsvcd_scene *scene = k->checker->scene;
-  const nsvcd_body_pair *parts = &scene->pairs[pair];
-  const double more =
-      NSVCD__LOOK_ALLOWED * (double)(k->parts[parts->a].error + k->parts[parts->b].error);
-  for (size_t n = 0; n < scene->allowance_count; n++) {
-    const nsvcd_allowance *allowance = &scene->allowances[n];
-    for (size_t l = 0; l < NSVCD_LOOKS && allowance->pair == pair; l++) {
-      double at[NSVCD_MAX_JOINTS];
-      for (size_t j = 0; j < scene->joint_count; j++) at[j] = k->places[j][l];
-      if (nsvcd__allows(k->checker, allowance, at, at, more)) met &= ~((uint32_t)1 << l);
-    }
-  }
-  return met;
-}
-
 // Does a pair seem to meet in one of the places at hand?
 static int nsvcd__pair_seems_to_meet(nsvcd__looker *k, size_t pair) {
   const nsvcd_body_pair *parts = &k->checker->scene->pairs[pair];
   const nsvcd__look_part *a = &k->parts[parts->a];
   const nsvcd__look_part *b = &k->parts[parts->b];
-  const int is_any = k->checker->scene->allowance_count == 0;
-  const nsvcd_look_options options = {k->margins[pair], is_any};
+  const nsvcd_look_options options = {k->margins[pair], 1};
   uint32_t met = 0;
   for (size_t i = 0; i < 3; i++) {
     if (a->low[i] - options.margin > b->high[i] || b->low[i] - options.margin > a->high[i])
@@ -304,7 +283,7 @@ static int nsvcd__pair_seems_to_meet(nsvcd__looker *k, size_t pair) {
   const nsvcd_looked second = nsvcd__look_at_part(k, parts->b);
   // what cannot be looked at seems to meet
   if (nsvcd_look(&first, &second, &options, &met)) return 1;
-  return nsvcd__look_not_allowed(k, pair, met) != 0;
+  return met != 0;
 }
 
 // Does anything seem to meet in 16 configurations? joints: (F, 16).
