@@ -1115,6 +1115,12 @@ echo '# x y z
 0 0 0 and what follows
 ' >"$dir/dust.xyz"
 printf 'ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n' >"$dir/dust.ply"
+# A ball that may turn by just so much, whose radius is no float; and a plan that starts where its goal is.
+printf 'nsvcd-plans 1\njoint t world 0 0 0 0 0 0 1 0 0 1 revolute -3 3 1\nbody a t sphere: 0.0584116\nscene s\nobstacle b sphere: 0.05 1 0 0 0 0 0 1\n%b' \
+  'allow a b 0.02\nplan p s -1 1\nplan q s 1 1\nplan r s 1\ngoal r pose 0 0 0 0 0 0 1 a free z\n' >"$dir/shape.txt"
+expect 0 '' build/svcd plan "$dir/shape.txt" --certificates "$dir/certs"
+expect 0 '' build/verify "$dir/shape.txt" "$dir/certs"
+test "$(grep -c 'accepted	free' "$dir/out")" = 3 || fail "what may touch, and what rests: $(cat "$dir/out")"
 passes() {  # SHAPE, POSE, OBSTACLE, GAP: a body that slides past an obstacle on the y axis keeps the gap, and no more where it is nearest
   printf 'nsvcd-plans 1\njoint x world 0 0 0 0 0 0 1 1 0 0 prismatic -9 9 1\nbody a x %s pose %s\nscene s\nobstacle b %s\nplan p s -3 3\npath q s 2\n-3\n3\npath r s 1\n0\n' "$1" "$2" "$3" >"$dir/shape.txt"
   expect 0 '' build/svcd path "$dir/shape.txt" --clearance "$(awk "BEGIN { print $4 - 1e-5 }")" --only q
@@ -1257,6 +1263,14 @@ met 'together q s l at 50 rest' hit 50.8 'a b'
 expect 0 '' build/svcd plan "$dir/together.txt" --certificates "$dir/certs"
 expect 0 '' build/verify "$dir/together.txt" "$dir/certs"
 met 'obstacle c sphere: 0.1 0 0.5 0 0 0 0 1\npath up s 2 group right\n0\n-1\nattach c y\ntogether q s l up at 0.5' hit 0.858579 'a c'
+# What is taken along from a `together` on is not known to verify, and a path of a group is nothing by itself: a plan after it
+# goes on from the plan above.
+together 'scene r\nobstacle c sphere: 0.1 0 2 0 0 0 0 1\npath l r 2 group left\n-1\n1\nplan o r -1 -1 1 -1\npath k r 1 group right\n1\nplan u r\ngoal u 2 -1\nattach c y\npath n r 1 group left\n0\nplan w r -1 -1 1 -1\n' >"$dir/group.txt"
+expect 0 '' build/svcd plan "$dir/group.txt" --certificates "$dir/certs"
+expect 0 '' build/verify "$dir/group.txt" "$dir/certs" --only p,o,u,w
+sed 's/^plan w/together q r l k\n&/' "$dir/group.txt" >"$dir/together.txt"
+expect 1 '' build/verify "$dir/together.txt" "$dir/certs" --only w
+line 'w	refused	what was attached or released above is not known'
 # the example of FORMATS.md
 { echo 'nsvcd-plans 1'; sed -n '/^    joint belt world/,/^    together late/p' examples/FORMATS.md; } >"$dir/together.txt"
 expect 0 '' build/svcd path "$dir/together.txt"

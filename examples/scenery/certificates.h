@@ -232,20 +232,25 @@ static int allowed_times(const robot_in_room *in, const nsvcd_joint_motion *moti
   return result ? complain("%s: %s", in->file->path, reason_of(result)) : 1;
 }
 
-// The same motion, cut where pairs may touch no more, and where they may again.
+// The same motion, cut where pairs may touch no more, and where they may again. If it is a single
+// configuration, a piece that stays there.
 static cut_motion cut_where_allowed(const robot_in_room *in, const nsvcd_joint_motion *motion) {
   const size_t joints = in->scene.joint_count;
-  const size_t pieces = motion->pieces + 2 * in->scene.pair_count;
+  const nsvcd_joint_motion still = {1, 1, NULL, NULL};
+  const int is_still = motion->pieces == 0;
+  const nsvcd_joint_motion *shape = is_still ? &still : motion;
+  const size_t pieces = shape->pieces + 2 * in->scene.pair_count;
   cut_motion out;
-  out.points = (double *)allocate((pieces * motion->degree + 1) * joints * sizeof(double));
+  out.points = (double *)allocate((pieces * shape->degree + 1) * joints * sizeof(double));
   out.times = (double *)allocate((pieces + 1) * sizeof(double));
-  out.motion = *motion;
+  out.motion = *shape;
   out.motion.points = out.points;
   out.motion.times = out.times;
-  memcpy(out.points, motion->points,
-         (motion->pieces * motion->degree + 1) * joints * sizeof(double));
-  for (size_t p = 0; p <= motion->pieces; p++)
-    out.times[p] = motion->times ? motion->times[p] : (double)p;
+  for (size_t row = 0; row <= shape->pieces * shape->degree; row++)
+    memcpy(out.points + row * joints, motion->points + (is_still ? 0 : row * joints),
+           joints * sizeof(double));
+  for (size_t p = 0; p <= shape->pieces; p++)
+    out.times[p] = shape->times ? shape->times[p] : (double)p;
   for (size_t n = 0; n < in->scene.pair_count; n++) {
     double until, from;
     if (!allowed_times(in, motion, n, &until, &from)) continue;

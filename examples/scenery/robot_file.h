@@ -102,6 +102,8 @@ static int robot_is_allowed(const robot_allow *allow, size_t task, size_t room) 
   return allow->task <= task && (allow->room == room || allow->room == NSVCD_NONE);
 }
 #define ALLOWED_METRES 0.005
+// of a line's metres, what is asked for: `verify` does not round radii to floats, as bodies do
+#define ALLOWED_SHARE (1 - 1e-7)
 
 // A goal of a plan: joints, or where a body is to be.
 typedef struct robot_goal {

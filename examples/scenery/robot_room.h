@@ -170,7 +170,7 @@ static int allow_near(robot_in_room *in, size_t task, const double *start, const
       if (!robot_is_about_pair(in, allow->at, n)) continue;
       for (size_t i = 0; i <= row_count; i++) {
         const double *joints = i ? rows + (i - 1) * file->joint_count : start;
-        const nsvcd_allowance allowance = {n, joints, allow->metres};
+        const nsvcd_allowance allowance = {n, joints, allow->metres * ALLOWED_SHARE};
         *ROBOT_ADD(in->allowances, count, capacity) = allowance;
       }
     }

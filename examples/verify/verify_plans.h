@@ -573,6 +573,13 @@ static void add_allowed(robot *r, char *const *words, size_t count) {
   *(allowed *)add(&r->allows, sizeof a) = a;
 }
 
+// Does a line move the robot, as a task of its own? A path of a group does so in a `together` only.
+static int is_own_task(const plan_line *line) {
+  const int is_path = is_line(line, "path") || is_line(line, "curve");
+  if (is_path) return line->count < 5 || strcmp(line->words[line->count - 2], "group") != 0;
+  return is_line(line, "plan") || is_line(line, "together");
+}
+
 // Checks the plans among the lines of a scene, one after another, and forgets them. Only what a plan
 // that is accepted comes to is relied on later: where it ends, and where it leaves what is attached.
 // Returns 1 if all are accepted.
@@ -589,9 +596,8 @@ static int check_scene(robot *r, list *lines, request *asked) {
     const plan_line *line = s.plan;
     if (is_line(line, "allow")) add_allowed(r, line->words, line->count);
     s.change_count += is_line(line, "attach") || is_line(line, "release");
-    const int is_plan = is_line(line, "plan");
-    if (!is_plan && !is_line(line, "path") && !is_line(line, "curve")) continue;
-    const int wanted = is_plan && !asked->pairs && is_wanted(asked, line->words[1]);
+    if (!is_own_task(line)) continue;
+    const int wanted = is_line(line, "plan") && !asked->pairs && is_wanted(asked, line->words[1]);
     s.has_ended = wanted && check_plan(&s);
     all &= !wanted || s.has_ended;
     s.is_lost |= s.change_count > 0 && !s.has_ended;
