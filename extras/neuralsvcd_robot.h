@@ -4263,8 +4263,9 @@ typedef struct nsvcd__cell {
   uint32_t first, count;
 } nsvcd__cell;
 
-// What is known of the edge to a node from its parent.
-enum { NSVCD__EDGE_SEEMS_FREE = 0, NSVCD__EDGE_PROVEN, NSVCD__EDGE_CUT };
+// What is known of a node: the edge from its parent is proven; it is not in the tree any more; an
+// edge from here that seemed free was not.
+enum { NSVCD__NODE_PROVEN = 1, NSVCD__NODE_CUT = 2, NSVCD__NODE_DOUBTED = 4 };
 
 typedef struct nsvcd__rrt {
   size_t joints, count, cell_count;
@@ -4272,8 +4273,8 @@ typedef struct nsvcd__rrt {
   double *points;
   // (nodes): of a root, itself
   uint32_t *parents;
-  // (nodes): NSVCD__EDGE_*; a node that is cut off is not in the tree any more
-  uint8_t *edges;
+  // (nodes): NSVCD__NODE_*
+  uint8_t *marks;
   // (nodes): in a leaf
   uint32_t *next;
   // (2 nodes)
@@ -4329,7 +4330,7 @@ static size_t nsvcd__tree_add(nsvcd__rrt *t, const double *at, size_t parent) {
   size_t index = 0;
   memcpy(nsvcd__node_at(t, node), at, t->joints * sizeof *at);
   t->parents[node] = (uint32_t)parent;
-  t->edges[node] = NSVCD__EDGE_SEEMS_FREE;
+  t->marks[node] = 0;
   if (t->cell_count == 0) t->cells[t->cell_count++] = nsvcd__empty_leaf;
   while (t->cells[index].joint < NSVCD_MAX_JOINTS)
     index = t->cells[index].first + (at[t->cells[index].joint] > t->cells[index].at);
@@ -4341,9 +4342,9 @@ static size_t nsvcd__tree_add(nsvcd__rrt *t, const double *at, size_t parent) {
 
 // Cuts off a node, and all that hangs on it. A parent comes before its children.
 static void nsvcd__tree_cut(nsvcd__rrt *t, size_t node) {
-  t->edges[node] = NSVCD__EDGE_CUT;
+  t->marks[node] |= NSVCD__NODE_CUT;
   for (size_t n = node + 1; n < t->count; n++)
-    if (t->edges[t->parents[n]] == NSVCD__EDGE_CUT) t->edges[n] = NSVCD__EDGE_CUT;
+    if (t->marks[t->parents[n]] & NSVCD__NODE_CUT) t->marks[n] |= NSVCD__NODE_CUT;
 }
 
 // Looks in a cell for a node nearer than *best, a squared distance. off: from the point to the
@@ -4356,7 +4357,7 @@ static void nsvcd__nearest_in(const nsvcd__rrt *t, size_t index, const double *a
     uint32_t node = cell->first;
     for (uint32_t n = 0; n < cell->count; n++, node = t->next[node]) {
       const double distance2 = nsvcd__distance2(nsvcd__node_at(t, node), at, t->joints);
-      if (!(distance2 < *best) || t->edges[node] == NSVCD__EDGE_CUT) continue;
+      if (!(distance2 < *best) || t->marks[node] & NSVCD__NODE_CUT) continue;
       *best = distance2;
       *nearest = node;
     }
@@ -6534,6 +6535,8 @@ static void nsvcd__smooth(nsvcd__router *r) {
 #define NSVCD__GROW_CONE 0.6
 #define NSVCD__GROW_HALVINGS 6
 #define NSVCD__GROW_NEARER 0.25
+// looks that a proof takes as long as, about
+#define NSVCD__PROOF_LOOKS 16
 // corners of a way that makes a path shorter, at most
 #define NSVCD__MOST_WAY 16
 
@@ -6570,11 +6573,16 @@ static void nsvcd__draw(nsvcd__router *r, size_t side, double *out) {
     out[r->moving[k]] = nsvcd__draw_joint(r, r->moving[k], is_wide);
 }
 
+// Looks, and proofs as so many.
+static size_t nsvcd__spent(const nsvcd__router *r) {
+  return r->looker.count + NSVCD__PROOF_LOOKS * r->answer.checks;
+}
+
 // Are there as many nodes, or tries, or looks, as are allowed?
 static int nsvcd__is_at_limit(const nsvcd__router *r) {
   return r->trees[0].count + r->trees[1].count >= r->options.nodes ||
          r->answer.checks >= r->options.tries ||
-         (r->is_looking && r->looker.count >= r->looks);
+         (r->is_looking && nsvcd__spent(r) >= r->looks);
 }
 
 // A motion that the cones refuse is asked about, too: else a search might not end.
@@ -6615,9 +6623,14 @@ static int nsvcd__grow(nsvcd__router *r, nsvcd__rrt *t, const double *to, int is
     double next[NSVCD_MAX_JOINTS];
     const double *from = nsvcd__node_at(t, *node);
     if (!(nsvcd__distance2(from, to, r->joints) > 0)) return 1;
+    const int is_doubted = t->marks[*node] & NSVCD__NODE_DOUBTED;
+    const int was = r->is_looking;
+    if (is_doubted) r->is_looking = 0;
     const int ends = nsvcd__step_towards(r, from, to, next);
+    r->is_looking = was;
     if (!ends || nsvcd__is_at_limit(r)) return 0;
     *node = nsvcd__tree_add(t, next, *node);
+    if (is_doubted) t->marks[*node] |= NSVCD__NODE_PROVEN;
     if (ends == 2 || !is_greedy) return ends == 2;
   }
 }
@@ -6647,7 +6660,8 @@ static size_t nsvcd__way_between(nsvcd__router *r, const double *from, const dou
 // In: a router whose trees have their roots. Out: a path from the start to a goal, through both.
 //
 // The smaller tree grows, and the other towards it. By looks, edges only seem to be free: those of
-// a path can be proven afterwards. What hangs on one that is not free is cut off; the rest stays.
+// a path can be proven afterwards. What hangs on one that is not free is cut off; the rest stays,
+// and edges from where it began are proven at once from then on.
 // Source: RRT-Connect (Kuffner and LaValle 2000), with edges that are proven, not sampled; of paths
 // by looks, Bohlin and Kavraki (2000).
 
@@ -6741,14 +6755,16 @@ static int nsvcd__prove_branch(nsvcd__router *r, nsvcd__rrt *t, size_t node) {
   for (;;) {
     size_t next = t->count;
     for (size_t n = node; t->parents[n] != n; n = t->parents[n])
-      if (t->edges[n] != NSVCD__EDGE_PROVEN) next = n;
+      if (!(t->marks[n] & NSVCD__NODE_PROVEN)) next = n;
     if (next == t->count) return 1;
     const double *from = nsvcd__node_at(t, t->parents[next]);
     if (!nsvcd__ask_edge(r, from, nsvcd__node_at(t, next))) {
-      if (!r->is_stopped) nsvcd__tree_cut(t, next);
+      if (r->is_stopped) return 0;
+      t->marks[t->parents[next]] |= NSVCD__NODE_DOUBTED;
+      nsvcd__tree_cut(t, next);
       return 0;
     }
-    t->edges[next] = NSVCD__EDGE_PROVEN;
+    t->marks[next] |= NSVCD__NODE_PROVEN;
   }
 }
 
@@ -6847,7 +6863,7 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
     t->points = NSVCD__TAKE_ROWS(double, (nodes * joints), base, &used);
     t->parents = NSVCD__TAKE_ROWS(uint32_t, nodes, base, &used);
     t->next = NSVCD__TAKE_ROWS(uint32_t, nodes, base, &used);
-    t->edges = NSVCD__TAKE_ROWS(uint8_t, nodes, base, &used);
+    t->marks = NSVCD__TAKE_ROWS(uint8_t, nodes, base, &used);
     t->cells = NSVCD__TAKE_ROWS(nsvcd__cell, 2 * nodes, base, &used);
   }
   r->goals = NSVCD__TAKE_ROWS(size_t, problem->goal_count, base, &used);
@@ -7070,7 +7086,7 @@ static void nsvcd__search_by_looks(nsvcd__router *r) {
   r->is_looking = 1;
   for (size_t n = 0; n < NSVCD__LOOK_SEARCHES && !r->is_stopped; n++) {
     const double ease = nsvcd__min(1, (double)NSVCD__LOOK_EASE * (double)n);
-    const size_t most = k->count + ((size_t)NSVCD__FIRST_LOOKS << n);
+    const size_t most = nsvcd__spent(r) + ((size_t)NSVCD__FIRST_LOOKS << n);
     nsvcd__replant(r);
     nsvcd__set_margins(k, r->options.clearance, (float)ease);
     for (size_t side = 0; side < 2; side++)
@@ -7079,7 +7095,7 @@ static void nsvcd__search_by_looks(nsvcd__router *r) {
     r->looks = most < r->options.looks ? most : r->options.looks;
     r->random += n;
     nsvcd__find_motion(r);
-    if (r->answer.status == NSVCD_ROUTE_FOUND || k->count >= r->options.looks) break;
+    if (r->answer.status == NSVCD_ROUTE_FOUND || nsvcd__spent(r) >= r->options.looks) break;
   }
   r->is_looking = 0;
   r->answer.looks = k->count;

@@ -411,7 +411,7 @@ plans: ends of what is refused|s.has_ended = wanted \&\& check_plan(\&s);|s.has_
 plans: changes of all plans above|s.changes = line + 1;|
 plans: pairs on one link|if (bodies[a].link == bodies[b].link) continue;|if (bodies[a].link == bodies[b].link \&\& bodies[a].link == 0) continue;
 plans: pairs of own bodies alone|for (uint32_t a = 0; a < r->bodies.count; a++) {\n    for (uint32_t b|for (uint32_t a = 0; a < r->own; a++) {\n    for (uint32_t b
-plans: what a path attaches|if (!is_plan \&\& !is_line(line, "path") \&\& !is_line(line, "curve")) continue;|if (!is_plan) continue;
+plans: what a path attaches|return is_line(line, "plan") \|\| is_line(line, "together");|return is_line(line, "plan");
 checker: arithmetic of any kind|const char *why = verify__arithmetic();|const char *why = NULL;
 checker: meshes by arithmetic of any kind|if (unfit) return unfit;|
 checker: rounded anyhow|if (sums[0] > one \|\| !(sums[1] > one)) return|if (0) return
@@ -446,8 +446,8 @@ route_looks: pairs without their clearance|return (double)s->options->clearance 
 route_looks: the first pair's clearance|own[pair - scene->pairs]|own[0]
 route_looks: looks that nobody ends|if (o->stop \&\& o->stop(o->user)) r->is_stopped = 1;\n  // between|// between
 route_looks: no search after looks|if (r->root_count > 0 \&\& r->answer.status != NSVCD_ROUTE_FOUND \&\& !r->is_stopped) {|if (0) {
-robot: nodes that are cut off found|\|\| t->edges[node] == NSVCD__EDGE_CUT) continue;|) continue;
-robot: what hangs on a node that is cut off stays|if (t->edges[t->parents[n]] == NSVCD__EDGE_CUT) t->edges[n] = NSVCD__EDGE_CUT;|break;
+robot: nodes that are cut off found|\|\| t->marks[node] \& NSVCD__NODE_CUT) continue;|) continue;
+robot: what hangs on a node that is cut off stays|if (t->marks[t->parents[n]] \& NSVCD__NODE_CUT) t->marks[n] \|= NSVCD__NODE_CUT;|break;
 route_looks: limits that looks may leave|if (nsvcd__joint_outside(r->scene, motion, p) != NSVCD_NONE) return 0;|
 robot: questions that nobody stops|asked.stop = c->stop;|asked.stop = NULL;
 robot: asks again once it is stopped|if (!s->is_stopped \&\& o->stop \&\& o->stop(o->user)) s->is_stopped = 1;|if (o->stop \&\& o->stop(o->user)) s->is_stopped = 1;

@@ -992,12 +992,12 @@ static void robot_trees_find_the_nearest(void) {
   enum { NODES = 3000 };
   static double points[NODES][NSVCD_MAX_JOINTS];
   static uint32_t parents[NODES], next[NODES];
-  static uint8_t edges[NODES], cut[NODES];
+  static uint8_t marks[NODES], cut[NODES];
   static nsvcd__cell cells[2 * NODES];
   shapes_rng rng = {81};
   size_t gone = 0;
   for (size_t joints = 1; joints <= 7; joints += 3) {
-    nsvcd__rrt tree = {joints, 0, 0, &points[0][0], parents, edges, next, cells};
+    nsvcd__rrt tree = {joints, 0, 0, &points[0][0], parents, marks, next, cells};
     memset(cut, 0, sizeof cut);
     for (size_t n = 0; n < NODES; n++) {
       double at[NSVCD_MAX_JOINTS];

@@ -18,6 +18,8 @@
 #define NSVCD__GROW_CONE 0.6
 #define NSVCD__GROW_HALVINGS 6
 #define NSVCD__GROW_NEARER 0.25
+// looks that a proof takes as long as, about
+#define NSVCD__PROOF_LOOKS 16
 // corners of a way that makes a path shorter, at most
 #define NSVCD__MOST_WAY 16
 
@@ -54,11 +56,16 @@ static void nsvcd__draw(nsvcd__router *r, size_t side, double *out) {
     out[r->moving[k]] = nsvcd__draw_joint(r, r->moving[k], is_wide);
 }
 
+// Looks, and proofs as so many.
+static size_t nsvcd__spent(const nsvcd__router *r) {
+  return r->looker.count + NSVCD__PROOF_LOOKS * r->answer.checks;
+}
+
 // Are there as many nodes, or tries, or looks, as are allowed?
 static int nsvcd__is_at_limit(const nsvcd__router *r) {
   return r->trees[0].count + r->trees[1].count >= r->options.nodes ||
          r->answer.checks >= r->options.tries ||
-         (r->is_looking && r->looker.count >= r->looks);
+         (r->is_looking && nsvcd__spent(r) >= r->looks);
 }
 
 // A motion that the cones refuse is asked about, too: else a search might not end.
@@ -99,9 +106,14 @@ static int nsvcd__grow(nsvcd__router *r, nsvcd__rrt *t, const double *to, int is
     double next[NSVCD_MAX_JOINTS];
     const double *from = nsvcd__node_at(t, *node);
     if (!(nsvcd__distance2(from, to, r->joints) > 0)) return 1;
+    const int is_doubted = t->marks[*node] & NSVCD__NODE_DOUBTED;
+    const int was = r->is_looking;
+    if (is_doubted) r->is_looking = 0;
     const int ends = nsvcd__step_towards(r, from, to, next);
+    r->is_looking = was;
     if (!ends || nsvcd__is_at_limit(r)) return 0;
     *node = nsvcd__tree_add(t, next, *node);
+    if (is_doubted) t->marks[*node] |= NSVCD__NODE_PROVEN;
     if (ends == 2 || !is_greedy) return ends == 2;
   }
 }

@@ -84,7 +84,7 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
     t->points = NSVCD__TAKE_ROWS(double, (nodes * joints), base, &used);
     t->parents = NSVCD__TAKE_ROWS(uint32_t, nodes, base, &used);
     t->next = NSVCD__TAKE_ROWS(uint32_t, nodes, base, &used);
-    t->edges = NSVCD__TAKE_ROWS(uint8_t, nodes, base, &used);
+    t->marks = NSVCD__TAKE_ROWS(uint8_t, nodes, base, &used);
     t->cells = NSVCD__TAKE_ROWS(nsvcd__cell, 2 * nodes, base, &used);
   }
   r->goals = NSVCD__TAKE_ROWS(size_t, problem->goal_count, base, &used);
@@ -307,7 +307,7 @@ static void nsvcd__search_by_looks(nsvcd__router *r) {
   r->is_looking = 1;
   for (size_t n = 0; n < NSVCD__LOOK_SEARCHES && !r->is_stopped; n++) {
     const double ease = nsvcd__min(1, (double)NSVCD__LOOK_EASE * (double)n);
-    const size_t most = k->count + ((size_t)NSVCD__FIRST_LOOKS << n);
+    const size_t most = nsvcd__spent(r) + ((size_t)NSVCD__FIRST_LOOKS << n);
     nsvcd__replant(r);
     nsvcd__set_margins(k, r->options.clearance, (float)ease);
     for (size_t side = 0; side < 2; side++)
@@ -316,7 +316,7 @@ static void nsvcd__search_by_looks(nsvcd__router *r) {
     r->looks = most < r->options.looks ? most : r->options.looks;
     r->random += n;
     nsvcd__find_motion(r);
-    if (r->answer.status == NSVCD_ROUTE_FOUND || k->count >= r->options.looks) break;
+    if (r->answer.status == NSVCD_ROUTE_FOUND || nsvcd__spent(r) >= r->options.looks) break;
   }
   r->is_looking = 0;
   r->answer.looks = k->count;

@@ -19,8 +19,9 @@ typedef struct nsvcd__cell {
   uint32_t first, count;
 } nsvcd__cell;
 
-// What is known of the edge to a node from its parent.
-enum { NSVCD__EDGE_SEEMS_FREE = 0, NSVCD__EDGE_PROVEN, NSVCD__EDGE_CUT };
+// What is known of a node: the edge from its parent is proven; it is not in the tree any more; an
+// edge from here that seemed free was not.
+enum { NSVCD__NODE_PROVEN = 1, NSVCD__NODE_CUT = 2, NSVCD__NODE_DOUBTED = 4 };
 
 typedef struct nsvcd__rrt {
   size_t joints, count, cell_count;
@@ -28,8 +29,8 @@ typedef struct nsvcd__rrt {
   double *points;
   // (nodes): of a root, itself
   uint32_t *parents;
-  // (nodes): NSVCD__EDGE_*; a node that is cut off is not in the tree any more
-  uint8_t *edges;
+  // (nodes): NSVCD__NODE_*
+  uint8_t *marks;
   // (nodes): in a leaf
   uint32_t *next;
   // (2 nodes)
@@ -85,7 +86,7 @@ static size_t nsvcd__tree_add(nsvcd__rrt *t, const double *at, size_t parent) {
   size_t index = 0;
   memcpy(nsvcd__node_at(t, node), at, t->joints * sizeof *at);
   t->parents[node] = (uint32_t)parent;
-  t->edges[node] = NSVCD__EDGE_SEEMS_FREE;
+  t->marks[node] = 0;
   if (t->cell_count == 0) t->cells[t->cell_count++] = nsvcd__empty_leaf;
   while (t->cells[index].joint < NSVCD_MAX_JOINTS)
     index = t->cells[index].first + (at[t->cells[index].joint] > t->cells[index].at);
@@ -97,9 +98,9 @@ static size_t nsvcd__tree_add(nsvcd__rrt *t, const double *at, size_t parent) {
 
 // Cuts off a node, and all that hangs on it. A parent comes before its children.
 static void nsvcd__tree_cut(nsvcd__rrt *t, size_t node) {
-  t->edges[node] = NSVCD__EDGE_CUT;
+  t->marks[node] |= NSVCD__NODE_CUT;
   for (size_t n = node + 1; n < t->count; n++)
-    if (t->edges[t->parents[n]] == NSVCD__EDGE_CUT) t->edges[n] = NSVCD__EDGE_CUT;
+    if (t->marks[t->parents[n]] & NSVCD__NODE_CUT) t->marks[n] |= NSVCD__NODE_CUT;
 }
 
 // Looks in a cell for a node nearer than *best, a squared distance. off: from the point to the
@@ -112,7 +113,7 @@ static void nsvcd__nearest_in(const nsvcd__rrt *t, size_t index, const double *a
     uint32_t node = cell->first;
     for (uint32_t n = 0; n < cell->count; n++, node = t->next[node]) {
       const double distance2 = nsvcd__distance2(nsvcd__node_at(t, node), at, t->joints);
-      if (!(distance2 < *best) || t->edges[node] == NSVCD__EDGE_CUT) continue;
+      if (!(distance2 < *best) || t->marks[node] & NSVCD__NODE_CUT) continue;
       *best = distance2;
       *nearest = node;
     }

@@ -1,7 +1,8 @@
 // In: a router whose trees have their roots. Out: a path from the start to a goal, through both.
 //
 // The smaller tree grows, and the other towards it. By looks, edges only seem to be free: those of
-// a path can be proven afterwards. What hangs on one that is not free is cut off; the rest stays.
+// a path can be proven afterwards. What hangs on one that is not free is cut off; the rest stays,
+// and edges from where it began are proven at once from then on.
 // Source: RRT-Connect (Kuffner and LaValle 2000), with edges that are proven, not sampled; of paths
 // by looks, Bohlin and Kavraki (2000).
 #pragma once
@@ -97,14 +98,16 @@ static int nsvcd__prove_branch(nsvcd__router *r, nsvcd__rrt *t, size_t node) {
   for (;;) {
     size_t next = t->count;
     for (size_t n = node; t->parents[n] != n; n = t->parents[n])
-      if (t->edges[n] != NSVCD__EDGE_PROVEN) next = n;
+      if (!(t->marks[n] & NSVCD__NODE_PROVEN)) next = n;
     if (next == t->count) return 1;
     const double *from = nsvcd__node_at(t, t->parents[next]);
     if (!nsvcd__ask_edge(r, from, nsvcd__node_at(t, next))) {
-      if (!r->is_stopped) nsvcd__tree_cut(t, next);
+      if (r->is_stopped) return 0;
+      t->marks[t->parents[next]] |= NSVCD__NODE_DOUBTED;
+      nsvcd__tree_cut(t, next);
       return 0;
     }
-    t->edges[next] = NSVCD__EDGE_PROVEN;
+    t->marks[next] |= NSVCD__NODE_PROVEN;
   }
 }
 
