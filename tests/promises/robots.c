@@ -285,6 +285,36 @@ static void robots_on_their_own_clocks_meet_when_they_do(void) {
   arm_close(&a);
 }
 
+// The upper arm's x points within 0.5 of the world's x, no farther: also where a motion goes beyond
+// that only between its ends.
+static void an_axis_stays_in_its_cone(void) {
+  const double in[4] = {-0.49, 2, 0.49, -2};
+  const double out[4] = {0, 0, 0.6, 0};
+  const double bent[6] = {0, 0, 1.01, 0, 0, 0};
+  const nsvcd_joint_motion inside = line_of(in);
+  const nsvcd_joint_motion leaves = line_of(out);
+  const nsvcd_joint_motion turns_back = {.pieces = 1, .degree = 2, .points = bent};
+  const nsvcd_cone cone = {UPPER, {1, 0, 0}, {2, 0, 0}, 0.5};
+  arm a;
+  arm_open(&a, at(0, 5, 0));
+  free(a.memory);
+  a.scene.cones = &cone;
+  a.scene.cone_count = 1;
+  const size_t size = nsvcd_checker_size(&a.scene);
+  a.memory = malloc(size);
+  CHECK_EQ(nsvcd_checker_open(&a.scene, a.memory, size, &a.checker), NSVCD_OK);
+  CHECK_EQ(check_of(&a, &inside, 0).verdict, NSVCD_FREE);
+  CHECK_EQ(check_of(&a, &inside, 0).cone, NSVCD_NONE);
+  const nsvcd_check_answer answer = check_of(&a, &leaves, 0);
+  CHECK_EQ(answer.verdict, NSVCD_HIT);
+  CHECK_EQ(answer.cone, 0);
+  CHECK_EQ(answer.pair, NSVCD_NONE);
+  CHECK_GE(0.6 * answer.fraction, 0.5);
+  CHECK_EQ(check_of(&a, &turns_back, 0).cone, 0);
+  CHECK_EQ(verdict_at(&a, out + 2), NSVCD_HIT);
+  arm_close(&a);
+}
+
 void promises_robots(void) {
   RUN(an_axis_stays_in_its_cone);
   RUN(robots_on_their_own_clocks_meet_when_they_do);
