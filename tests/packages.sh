@@ -46,7 +46,7 @@ is_whole() {  # prefix, title
 is_whole "$prefix" "make install"
 if command -v man >/dev/null; then
   for page in svcd svcd-verify; do
-    man -M "$prefix/share/man" "$page" | grep -q 'svcd-verify FILE.txt FOLDER' || fail "man $page has no svcd-verify"
+    man -M "$prefix/share/man" "$page" | grep -q 'svcd-verify \[--pairs\] FILE.txt FOLDER' || fail "man $page has no svcd-verify"
   done
 fi
 test -s "$prefix/share/bash-completion/completions/svcd" && test -x "$prefix/bin/svcd-verify" || fail "make install: no completions, or no svcd-verify"
