@@ -322,7 +322,7 @@ fits: half the distance from the axis|const double turn = stray[2] * verify__asi
 fits: the axis of the body in the world|axis[i] = verify__dot(at->turn + 3 * i, stray + 3);|axis[i] = stray[3 + i] + 0 * at->turn[0];
 verify: no clearance|length * (r->clearance + margin) + stray|length * margin + stray
 verify: margins that are taken away|(r->clearance + margin) + stray;|(r->clearance - 1e4 * margin) + stray;
-verify: places without what they are reckoned from|mover->reach = verify__max(mover->reach, far_off);|(void)far_off;
+verify: places without what they are computed from|mover->reach = verify__max(mover->reach, far_off);|(void)far_off;
 verify: edges that all close|if (balance != 0) m->open|if (0) m->open
 verify: edges one way|? 1 : weld[m->indices[e]] > weld[to] ? -1 : 0;|? 1 : weld[m->indices[e]] > weld[to] ? 1 : 0;
 verify: half the stray|stray[2] = 0.1250001 * h * h;|stray[2] = 0.06 * h * h;

@@ -104,7 +104,7 @@ static void body_malice(void) {
   CHECK_EQ(nsvcd_body_load(copy, size, &loaded), NSVCD_ERROR_VERSION);
 }
 
-// What is looked for in a blob to the bit is a float to the last digit: where constants are reckoned
+// What is looked for in a blob to the bit is a float to the last digit: where constants are computed
 // in double (s390x; x87 as C99), another would not be what was stored.
 #define TEXT_OF(macro) TEXT(macro)
 #define TEXT(text) #text

@@ -1043,7 +1043,7 @@ static void certificates_see_a_swing(void) {
   }
 }
 
-// What is reckoned from lengths that cancel is no better than these: a body of 50 um that goes from
+// What is computed from lengths that cancel is no better than these: a body of 50 um that goes from
 // one end of the world to the other passes another one by 10 um, which nobody can tell, or by 10 mm.
 // And what is tiny is not taken for a point.
 static void certificates_of_lengths_that_cancel(void) {

@@ -145,7 +145,7 @@ static void processor_the_best_answers(void) {
   if (processor_count() > 1) CHECK_GE(different, 1);
 }
 
-// Each reckons rightly; and the public function asks the best.
+// Each computes rightly; and the public function asks the best.
 static void processor_self_tests(void) {
   for (size_t n = 0; n < processor_count(); n++)
     CHECK_EQ(nsvcd__run_self_test(processor_sets[n].isa), NSVCD_OK);

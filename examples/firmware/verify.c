@@ -57,7 +57,7 @@ static void print_tally(const char *name, const tally *t) {
 
 // ------------------------------------------------------------------------------------ certificates
 
-// Is a certificate about a scene accepted? Digests of the motions, too, are reckoned here.
+// Is a certificate about a scene accepted? Digests of the motions, too, are computed here.
 static int check(const scene *s, const uint8_t *bytes, size_t size, nsvcd_verify_report *report) {
   const float *poses = poses_body + 7 * s->poses;
   const nsvcd_verify_path a_path = {poses, NULL, s->a_count};

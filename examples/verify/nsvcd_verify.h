@@ -42,7 +42,7 @@
 // outwards, and passes no edge too near to tell. So these do not wind about that corner, nor about
 // the rest of its component, which does not cross them.
 //
-// ARITHMETIC. All is reckoned in double, from floats. No number in (1) is off by more than 1e-11 of
+// ARITHMETIC. All is computed in double, from floats. No number in (1) is off by more than 1e-11 of
 // all lengths in it, those of poses before and after included: sums of some ten products, roots,
 // and libm's sin and atan2 are good to units of 1e-16, a share of the way between two of 65,536
 // poses to 1e-11. Joints that turn by 250 radians are off by 3.5e-13 radians each, and 128 of them

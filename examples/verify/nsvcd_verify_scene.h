@@ -63,7 +63,7 @@ typedef struct nsvcd_verify_mover {
   double (*next)(const void *motion, double t);
   void (*stray)(const void *motion, double t0, double t1, double *stray);
   const void *motion;
-  double reach;       // metres: what its places are reckoned from is no farther off
+  double reach;       // metres: what its places are computed from is no farther off
   uint32_t digest;    // digest of the scale and the motion
   const void *clock;  // the joints' motion, which both movers share; NULL for paths
   uint32_t base;      // the link from which it is seen, the same for both; 0, the world, for paths
@@ -86,7 +86,7 @@ static inline double verify__max(double a, double b) {
   return a > b ? a : b;
 }
 
-// A double also where registers are wider (x87), for what is compared with itself reckoned again: a
+// A double also where registers are wider (x87), for what is compared with itself computed again: a
 // knot, or it would be the next one after itself; a key to sort by, or nothing would be at its
 // place.
 static inline double verify__stored(double x) {

@@ -34,7 +34,7 @@ static float any(uint32_t *seed) {
   return (float)next(seed) / 8388608.0f - 1;
 }
 
-// Volatile: what this program reckons may not be fused either.
+// Volatile: what this program computes may not be fused either.
 static nsvcd_pose any_pose(uint32_t *seed, float reach) {
   nsvcd_pose pose;
   volatile float square = 0;

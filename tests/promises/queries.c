@@ -776,7 +776,7 @@ static void a_question_is_refused_by_the_field_at_fault(void) {
   nsvcd_body_free(latent, NULL);
 }
 
-static void this_build_reckons_rightly(void) {
+static void this_build_computes_rightly(void) {
   CHECK_EQ(nsvcd_self_test(), NSVCD_OK);
 }
 
@@ -969,7 +969,7 @@ void promises_queries(void) {
   RUN(a_contact_at_an_end_is_found_at_once);
   RUN(threads_may_share_bodies);
   RUN(a_question_is_refused_by_the_field_at_fault);
-  RUN(this_build_reckons_rightly);
+  RUN(this_build_computes_rightly);
   RUN(the_network_has_opinions_and_says_so);
   RUN(the_network_does_not_mind_where_things_are_nor_how_large);
   RUN(int8_follows_float);
