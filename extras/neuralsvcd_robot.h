@@ -796,11 +796,11 @@ typedef struct nsvcd_route_options {
   size_t tries;
   // radians or metres: the greatest length of an edge; default 1
   double edge;
-  // The most motions that are looked at (nsvcd_look) before edges are proven one by one; default
-  // 200,000. NSVCD_NONE: no looks. If all parts that move have balls, trees, shortcuts and
-  // smoothing go by looks, and what they find is proven as a whole, as ever. Where that fails, the
-  // path's edges are proven one by one; what hangs on one that is not free is cut off, and the
-  // search goes on
+  // The most motions that are looked at (nsvcd_look) before edges are proven one by one; what is
+  // proven by then counts as 16. Default 200,000. NSVCD_NONE: no looks. If all parts that move have
+  // balls, trees, shortcuts and smoothing go by looks, and what they find is proven as a whole, as
+  // ever. Where that fails, the path's edges are proven one by one; what hangs on one that is not
+  // free is cut off, and the search goes on
   size_t looks;
   // tries to shorten the path, up to NSVCD_MAX_NODES, default 20; and tries to smooth the motion,
   // default 200; with cones three times as many. NSVCD_NONE: no tries
@@ -5365,11 +5365,11 @@ typedef struct nsvcd__rider {
   double radius;
 } nsvcd__rider;
 
-static nsvcd__rider nsvcd__rider_of(const nsvcd__span *s, const nsvcd__links *at,
+static nsvcd__rider nsvcd__rider_of(const nsvcd_checker *c, const nsvcd__links *at,
                                     size_t part) {
-  const nsvcd__member *m = &s->checker->members[part];
-  const nsvcd__rider out = {nsvcd__dpose_apply(&at->frames[s->parts[part].link], m->centre),
-                            m->radius};
+  const nsvcd__member *m = &c->members[part];
+  const nsvcd__dpose *frame = &at->frames[c->scene->parts[part].link];
+  const nsvcd__rider out = {nsvcd__dpose_apply(frame, m->centre), m->radius};
   return out;
 }
 
@@ -5422,7 +5422,6 @@ NSVCDDEF nsvcd_result nsvcd_pair_travel(const nsvcd_checker *c, nsvcd_body_pair 
   double arms[NSVCD_MAX_JOINTS];
   size_t way[NSVCD_MAX_JOINTS];
   nsvcd__links at;
-  nsvcd__rider balls[2];
   if (!c || !low || !high || !moved) return NSVCD_ERROR_ARGUMENT;
   const nsvcd_scene *scene = c->scene;
   if (pair.a >= scene->part_count || pair.b >= scene->part_count ||
@@ -5440,12 +5439,8 @@ NSVCDDEF nsvcd_result nsvcd_pair_travel(const nsvcd_checker *c, nsvcd_body_pair 
     half[k] = nsvcd__max(high[j] - middle, middle - low[j]) * (1 + 1e-15);
   }
   nsvcd__place_links(c, middles, &at);
-  for (size_t n = 0; n < 2; n++) {
-    const size_t part = n ? pair.b : pair.a;
-    const nsvcd__member *m = &c->members[part];
-    balls[n].centre = nsvcd__dpose_apply(&at.frames[scene->parts[part].link], m->centre);
-    balls[n].radius = m->radius;
-  }
+  const nsvcd__rider balls[2] = {nsvcd__rider_of(c, &at, pair.a),
+                                 nsvcd__rider_of(c, &at, pair.b)};
   nsvcd__arms_along(c, way, count, half, &at, balls, arms);
   for (size_t j = 0; j < scene->joint_count; j++) moved[j] = 0;
   for (size_t k = 0; k < count; k++) moved[way[k]] = half[k] * arms[k] * (1 + 1e-9);
@@ -5741,7 +5736,8 @@ static void nsvcd__prove_free(nsvcd__ranging *r, const double *box) {
   nsvcd_check_answer found;
   nsvcd__links at;
   nsvcd__place_links(s->checker, s->at, &at);
-  const nsvcd__rider balls[2] = {nsvcd__rider_of(s, &at, 0), nsvcd__rider_of(s, &at, 1)};
+  const nsvcd__rider balls[2] = {nsvcd__rider_of(s->checker, &at, 0),
+                                 nsvcd__rider_of(s->checker, &at, 1)};
   nsvcd__arms_between(s, &at, balls);
   const size_t along = nsvcd__farthest_joint(s);
   const double travel = nsvcd__travel_but(s, along);
@@ -5804,9 +5800,9 @@ static int nsvcd__is_common_point(nsvcd__span *s, const nsvcd__links *at, double
 // The span's arms for a probe, which has been put in its place.
 static void nsvcd__arms_of_probe(nsvcd__span *s, const nsvcd__links *at, size_t side) {
   nsvcd__rider balls[2];
-  balls[side] = nsvcd__rider_of(s, at, 2);
+  balls[side] = nsvcd__rider_of(s->checker, at, 2);
   balls[side].radius = 2 * s->probe_extent;
-  balls[!side] = nsvcd__rider_of(s, at, !side);
+  balls[!side] = nsvcd__rider_of(s->checker, at, !side);
   nsvcd__arms_between(s, at, balls);
 }
 
@@ -5843,8 +5839,8 @@ static void nsvcd__try_probe(nsvcd__ranging *r, const nsvcd__links *at, size_t s
 // and wherever both parts may be.
 static void nsvcd__seek_probes(nsvcd__ranging *r, const nsvcd__links *at) {
   nsvcd__span *s = &r->span;
-  const nsvcd__rider a = nsvcd__rider_of(s, at, 0);
-  const nsvcd__rider b = nsvcd__rider_of(s, at, 1);
+  const nsvcd__rider a = nsvcd__rider_of(s->checker, at, 0);
+  const nsvcd__rider b = nsvcd__rider_of(s->checker, at, 1);
   const nsvcd__rider *small = a.radius < b.radius ? &a : &b;
   const size_t on_axes = NSVCD__AXIS_POINTS * s->way_count;
   nsvcd__bounds bounds[2];
@@ -5905,7 +5901,8 @@ static void nsvcd__prove_hit(nsvcd__ranging *r, const double *box) {
       if (nsvcd__stays_inside(r, &at, &r->probes[n]) || nsvcd__range_is_over(r)) return;
     }
   }
-  const nsvcd__rider balls[2] = {nsvcd__rider_of(s, &at, 0), nsvcd__rider_of(s, &at, 1)};
+  const nsvcd__rider balls[2] = {nsvcd__rider_of(s->checker, &at, 0),
+                                 nsvcd__rider_of(s->checker, &at, 1)};
   if (!r->probe_count) nsvcd__arms_between(s, &at, balls);
   nsvcd__cut_box(r, box, NSVCD_NONE);
 }
@@ -6257,8 +6254,6 @@ static int nsvcd__blend_write(const nsvcd_scene *scene, const nsvcd__state *from
 #define NSVCD__WORTHY_GAIN 0.02
 // metres that the search adds to the clearance, so that the proof of the whole succeeds
 #define NSVCD__SPARE 1e-4f
-// radians or metres: corners of a path that are no farther apart are one
-#define NSVCD__SAME_CORNER 1e-9
 // check_options.finest and .work of the search
 #define NSVCD__SEARCH_FINEST 5e-4f
 #define NSVCD__SEARCH_WORK 1000
@@ -6371,23 +6366,6 @@ static int nsvcd__edge_keeps_cones(const nsvcd__router *r, const double *from,
 }
 
 // ---- from rest to rest
-
-// Drops corners that are nearly at the one before: of so short an edge rounding would say what its
-// acceleration is. The timed motion is proven as a whole.
-static void nsvcd__simplify_path(nsvcd__router *r) {
-  const size_t bytes = r->joints * sizeof(double);
-  const double least2 = NSVCD__SAME_CORNER * NSVCD__SAME_CORNER;
-  const double *last = nsvcd__corner_at(r, r->corners - 1);
-  size_t kept = 1;
-  for (size_t k = 1; k < r->corners; k++) {
-    const double *at = nsvcd__corner_at(r, k);
-    if (nsvcd__distance2(nsvcd__corner_at(r, kept - 1), at, r->joints) < least2) continue;
-    memmove(nsvcd__corner_at(r, kept++), at, bytes);
-  }
-  // the end stays where it is
-  memmove(nsvcd__corner_at(r, kept - 1), last, bytes);
-  r->corners = kept;
-}
 
 // Adds pieces along an edge: speeds up, goes on, slows down, all joints in proportion.
 static void nsvcd__add_edge(nsvcd__router *r, const double *from, const double *to) {
@@ -6796,6 +6774,8 @@ static int nsvcd__prove_path(nsvcd__router *r) {
 #define NSVCD__LOOK_EASE 0.34f
 // of the path between its ends: how long a way of several edges in its place may be
 #define NSVCD__SHORTER 0.95
+// radians or metres: corners of a path that are no farther apart are one
+#define NSVCD__SAME_CORNER 1e-9
 
 // ---- memory
 
@@ -6930,6 +6910,23 @@ static void nsvcd__shorten(nsvcd__router *r) {
     memcpy(nsvcd__corner_at(r, first + 1), r->way, count * bytes);
     r->corners = next + rest;
   }
+}
+
+// Drops corners that are nearly at the one before: of so short an edge rounding would say what its
+// acceleration is. The timed motion is proven as a whole.
+static void nsvcd__simplify_path(nsvcd__router *r) {
+  const size_t bytes = r->joints * sizeof(double);
+  const double least2 = NSVCD__SAME_CORNER * NSVCD__SAME_CORNER;
+  const double *last = nsvcd__corner_at(r, r->corners - 1);
+  size_t kept = 1;
+  for (size_t k = 1; k < r->corners; k++) {
+    const double *at = nsvcd__corner_at(r, k);
+    if (nsvcd__distance2(nsvcd__corner_at(r, kept - 1), at, r->joints) < least2) continue;
+    memmove(nsvcd__corner_at(r, kept++), at, bytes);
+  }
+  // the end stays where it is
+  memmove(nsvcd__corner_at(r, kept - 1), last, bytes);
+  r->corners = kept;
 }
 
 // ---- a route

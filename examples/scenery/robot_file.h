@@ -422,6 +422,12 @@ static int robot_read_obstacle(const reader *r, robot_file *file) {
   return 1;
 }
 
+// The value that a joint has in a configuration: its own, or what the one that it mimics makes it.
+static double robot_value(const robot_file *file, size_t joint, const double *at) {
+  const nsvcd_joint *j = &file->joints[joint];
+  return j->mimic ? j->multiplier * at[j->mimic - 1] + j->offset : at[joint];
+}
+
 // Of all joints, or of those that a group's lines have.
 static int robot_read_joints(const reader *r, robot_file *file, size_t count, char *const *fields) {
   for (size_t j = 0; j < count; j++) {
@@ -433,10 +439,10 @@ static int robot_read_joints(const reader *r, robot_file *file, size_t count, ch
   for (size_t j = 0; j < file->joint_count && count == file->joint_count; j++) {
     const nsvcd_joint *joint = &file->joints[j];
     if (!joint->mimic) continue;
-    const double driven = joint->multiplier * at[joint->mimic - 1];
-    const double value = driven + joint->offset;
+    const double value = robot_value(file, j, at);
+    const double most = 1 + fabs(joint->offset) + fabs(value - joint->offset);
     // as nsvcd_joint has it
-    if (!(fabs(at[j] - value) <= 1e-9 * (1 + fabs(joint->offset) + fabs(driven))))
+    if (!(fabs(at[j] - value) <= 1e-9 * most))
       return complain("%s:%zu: joint %s is %.12g, and by %s, which it mimics, %.12g", r->path,
                       r->line, file->joint_names[j], at[j], file->joint_names[joint->mimic - 1],
                       value);
@@ -751,10 +757,7 @@ static int robot_read_together(reader *r, robot_file *file) {
     task.points = merged.pieces * merged.degree + 1;
     task.times = merged.pieces ? file->time_count : NSVCD_NONE;
     for (size_t i = 0; i < task.points * joints; i++) {
-      const nsvcd_joint *joint = &file->joints[i % joints];
-      const double *at = merged.points + (i - i % joints);
-      const double value = joint->mimic ? joint->multiplier * at[joint->mimic - 1] + joint->offset
-                                        : merged.points[i];
+      const double value = robot_value(file, i % joints, merged.points + (i - i % joints));
       *ROBOT_ADD(file->numbers, file->number_count, file->number_capacity) = value;
     }
     for (size_t i = 0; merged.pieces && i <= merged.pieces; i++)

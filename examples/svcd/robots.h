@@ -610,12 +610,12 @@ static int prove_pairs(robot_in_room *in, const settings *options, size_t count,
   in->scene.pairs = pairs;
   in->scene.pair_count = count;
   in->scene.clearances = NULL;
-  if (!open_room(in)) return 0;
-  for (size_t n = 0; n < count; n++)
+  const int is_open = open_room(in);
+  for (size_t n = 0; n < count && is_open; n++)
     if (found[n].meeting == NSVCD_MEETS_NEVER)
       good &= write_never_proof(in, options->certificates, n, options->visits);
   in->scene.joints = NULL;
-  return good;
+  return is_open && good;
 }
 
 // Which bodies of a robot can meet each other: lines for its planning file.

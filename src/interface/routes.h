@@ -68,11 +68,11 @@ typedef struct nsvcd_route_options {
   size_t tries;
   // radians or metres: the greatest length of an edge; default 1
   double edge;
-  // The most motions that are looked at (nsvcd_look) before edges are proven one by one; default
-  // 200,000. NSVCD_NONE: no looks. If all parts that move have balls, trees, shortcuts and
-  // smoothing go by looks, and what they find is proven as a whole, as ever. Where that fails, the
-  // path's edges are proven one by one; what hangs on one that is not free is cut off, and the
-  // search goes on
+  // The most motions that are looked at (nsvcd_look) before edges are proven one by one; what is
+  // proven by then counts as 16. Default 200,000. NSVCD_NONE: no looks. If all parts that move have
+  // balls, trees, shortcuts and smoothing go by looks, and what they find is proven as a whole, as
+  // ever. Where that fails, the path's edges are proven one by one; what hangs on one that is not
+  // free is cut off, and the search goes on
   size_t looks;
   // tries to shorten the path, up to NSVCD_MAX_NODES, default 20; and tries to smooth the motion,
   // default 200; with cones three times as many. NSVCD_NONE: no tries

@@ -186,7 +186,8 @@ static void nsvcd__prove_free(nsvcd__ranging *r, const double *box) {
   nsvcd_check_answer found;
   nsvcd__links at;
   nsvcd__place_links(s->checker, s->at, &at);
-  const nsvcd__rider balls[2] = {nsvcd__rider_of(s, &at, 0), nsvcd__rider_of(s, &at, 1)};
+  const nsvcd__rider balls[2] = {nsvcd__rider_of(s->checker, &at, 0),
+                                 nsvcd__rider_of(s->checker, &at, 1)};
   nsvcd__arms_between(s, &at, balls);
   const size_t along = nsvcd__farthest_joint(s);
   const double travel = nsvcd__travel_but(s, along);
@@ -249,9 +250,9 @@ static int nsvcd__is_common_point(nsvcd__span *s, const nsvcd__links *at, double
 // The span's arms for a probe, which has been put in its place.
 static void nsvcd__arms_of_probe(nsvcd__span *s, const nsvcd__links *at, size_t side) {
   nsvcd__rider balls[2];
-  balls[side] = nsvcd__rider_of(s, at, 2);
+  balls[side] = nsvcd__rider_of(s->checker, at, 2);
   balls[side].radius = 2 * s->probe_extent;
-  balls[!side] = nsvcd__rider_of(s, at, !side);
+  balls[!side] = nsvcd__rider_of(s->checker, at, !side);
   nsvcd__arms_between(s, at, balls);
 }
 
@@ -288,8 +289,8 @@ static void nsvcd__try_probe(nsvcd__ranging *r, const nsvcd__links *at, size_t s
 // and wherever both parts may be.
 static void nsvcd__seek_probes(nsvcd__ranging *r, const nsvcd__links *at) {
   nsvcd__span *s = &r->span;
-  const nsvcd__rider a = nsvcd__rider_of(s, at, 0);
-  const nsvcd__rider b = nsvcd__rider_of(s, at, 1);
+  const nsvcd__rider a = nsvcd__rider_of(s->checker, at, 0);
+  const nsvcd__rider b = nsvcd__rider_of(s->checker, at, 1);
   const nsvcd__rider *small = a.radius < b.radius ? &a : &b;
   const size_t on_axes = NSVCD__AXIS_POINTS * s->way_count;
   nsvcd__bounds bounds[2];
@@ -350,7 +351,8 @@ static void nsvcd__prove_hit(nsvcd__ranging *r, const double *box) {
       if (nsvcd__stays_inside(r, &at, &r->probes[n]) || nsvcd__range_is_over(r)) return;
     }
   }
-  const nsvcd__rider balls[2] = {nsvcd__rider_of(s, &at, 0), nsvcd__rider_of(s, &at, 1)};
+  const nsvcd__rider balls[2] = {nsvcd__rider_of(s->checker, &at, 0),
+                                 nsvcd__rider_of(s->checker, &at, 1)};
   if (!r->probe_count) nsvcd__arms_between(s, &at, balls);
   nsvcd__cut_box(r, box, NSVCD_NONE);
 }

@@ -17,6 +17,8 @@
 #define NSVCD__LOOK_EASE 0.34f
 // of the path between its ends: how long a way of several edges in its place may be
 #define NSVCD__SHORTER 0.95
+// radians or metres: corners of a path that are no farther apart are one
+#define NSVCD__SAME_CORNER 1e-9
 
 // ---- memory
 
@@ -151,6 +153,23 @@ static void nsvcd__shorten(nsvcd__router *r) {
     memcpy(nsvcd__corner_at(r, first + 1), r->way, count * bytes);
     r->corners = next + rest;
   }
+}
+
+// Drops corners that are nearly at the one before: of so short an edge rounding would say what its
+// acceleration is. The timed motion is proven as a whole.
+static void nsvcd__simplify_path(nsvcd__router *r) {
+  const size_t bytes = r->joints * sizeof(double);
+  const double least2 = NSVCD__SAME_CORNER * NSVCD__SAME_CORNER;
+  const double *last = nsvcd__corner_at(r, r->corners - 1);
+  size_t kept = 1;
+  for (size_t k = 1; k < r->corners; k++) {
+    const double *at = nsvcd__corner_at(r, k);
+    if (nsvcd__distance2(nsvcd__corner_at(r, kept - 1), at, r->joints) < least2) continue;
+    memmove(nsvcd__corner_at(r, kept++), at, bytes);
+  }
+  // the end stays where it is
+  memmove(nsvcd__corner_at(r, kept - 1), last, bytes);
+  r->corners = kept;
 }
 
 // ---- a route

@@ -23,8 +23,6 @@
 #define NSVCD__WORTHY_GAIN 0.02
 // metres that the search adds to the clearance, so that the proof of the whole succeeds
 #define NSVCD__SPARE 1e-4f
-// radians or metres: corners of a path that are no farther apart are one
-#define NSVCD__SAME_CORNER 1e-9
 // check_options.finest and .work of the search
 #define NSVCD__SEARCH_FINEST 5e-4f
 #define NSVCD__SEARCH_WORK 1000
@@ -137,23 +135,6 @@ static int nsvcd__edge_keeps_cones(const nsvcd__router *r, const double *from,
 }
 
 // ---- from rest to rest
-
-// Drops corners that are nearly at the one before: of so short an edge rounding would say what its
-// acceleration is. The timed motion is proven as a whole.
-static void nsvcd__simplify_path(nsvcd__router *r) {
-  const size_t bytes = r->joints * sizeof(double);
-  const double least2 = NSVCD__SAME_CORNER * NSVCD__SAME_CORNER;
-  const double *last = nsvcd__corner_at(r, r->corners - 1);
-  size_t kept = 1;
-  for (size_t k = 1; k < r->corners; k++) {
-    const double *at = nsvcd__corner_at(r, k);
-    if (nsvcd__distance2(nsvcd__corner_at(r, kept - 1), at, r->joints) < least2) continue;
-    memmove(nsvcd__corner_at(r, kept++), at, bytes);
-  }
-  // the end stays where it is
-  memmove(nsvcd__corner_at(r, kept - 1), last, bytes);
-  r->corners = kept;
-}
 
 // Adds pieces along an edge: speeds up, goes on, slows down, all joints in proportion.
 static void nsvcd__add_edge(nsvcd__router *r, const double *from, const double *to) {

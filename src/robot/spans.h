@@ -83,11 +83,11 @@ typedef struct nsvcd__rider {
   double radius;
 } nsvcd__rider;
 
-static nsvcd__rider nsvcd__rider_of(const nsvcd__span *s, const nsvcd__links *at,
+static nsvcd__rider nsvcd__rider_of(const nsvcd_checker *c, const nsvcd__links *at,
                                     size_t part) {
-  const nsvcd__member *m = &s->checker->members[part];
-  const nsvcd__rider out = {nsvcd__dpose_apply(&at->frames[s->parts[part].link], m->centre),
-                            m->radius};
+  const nsvcd__member *m = &c->members[part];
+  const nsvcd__dpose *frame = &at->frames[c->scene->parts[part].link];
+  const nsvcd__rider out = {nsvcd__dpose_apply(frame, m->centre), m->radius};
   return out;
 }
 
@@ -140,7 +140,6 @@ NSVCDDEF nsvcd_result nsvcd_pair_travel(const nsvcd_checker *c, nsvcd_body_pair 
   double arms[NSVCD_MAX_JOINTS];
   size_t way[NSVCD_MAX_JOINTS];
   nsvcd__links at;
-  nsvcd__rider balls[2];
   if (!c || !low || !high || !moved) return NSVCD_ERROR_ARGUMENT;
   const nsvcd_scene *scene = c->scene;
   if (pair.a >= scene->part_count || pair.b >= scene->part_count ||
@@ -158,12 +157,8 @@ NSVCDDEF nsvcd_result nsvcd_pair_travel(const nsvcd_checker *c, nsvcd_body_pair 
     half[k] = nsvcd__max(high[j] - middle, middle - low[j]) * (1 + 1e-15);
   }
   nsvcd__place_links(c, middles, &at);
-  for (size_t n = 0; n < 2; n++) {
-    const size_t part = n ? pair.b : pair.a;
-    const nsvcd__member *m = &c->members[part];
-    balls[n].centre = nsvcd__dpose_apply(&at.frames[scene->parts[part].link], m->centre);
-    balls[n].radius = m->radius;
-  }
+  const nsvcd__rider balls[2] = {nsvcd__rider_of(c, &at, pair.a),
+                                 nsvcd__rider_of(c, &at, pair.b)};
   nsvcd__arms_along(c, way, count, half, &at, balls, arms);
   for (size_t j = 0; j < scene->joint_count; j++) moved[j] = 0;
   for (size_t k = 0; k < count; k++) moved[way[k]] = half[k] * arms[k] * (1 + 1e-9);
