@@ -167,7 +167,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_FORMAT,
   // a line cannot be understood, or a face has one or two vertices
   NSVCD_ERROR_SYNTAX,
-  // an index is zero, or refers to no vertex
+  // an index is zero, or refers to no vertex, or no body of the world
   NSVCD_ERROR_INDEX,
   // a coordinate is not finite, or larger than NSVCD_MAX_COORDINATE
   NSVCD_ERROR_NUMBER,
@@ -283,6 +283,10 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_STAGE,
   // a planner's weight, duration or margin is not finite, or it has too many seeds or checks
   NSVCD_ERROR_PLAN,
+
+  // ---- worlds
+  // the world was changed while it was asked or changed, by another thread or a callback
+  NSVCD_ERROR_WORLD,
 
   // ---- this build
   // the compiler or its flags made a program that computes wrongly
@@ -1762,7 +1766,7 @@ static const char nsvcd__result_texts[] =
     "body_count, goal_count, guess_count or capacity\0"
     "the file is of another format than is read here, or is cut short\0"
     "a line cannot be understood, or a face has fewer than three corners\0"
-    "an index is zero or refers to no vertex\0"
+    "an index is zero or refers to no vertex, or no body\0"
     "a coordinate is not finite, or beyond a million metres\0"
     "there is no triangle, or no area, or the mesh is smaller than 1e-12 metres\0"
     "more vertices, triangles or bytes than can be counted\0"
@@ -1779,7 +1783,7 @@ static const char nsvcd__result_texts[] =
     "poses and count do not agree: count is 0 where poses is NULL, else 1 to 65536\0"
     "times do not rise, of poses not from 0 to 1 by 1e-7 or more, of merged motions not by "
     "1e-12 of all\0"
-    "the position of a pose is not finite, or beyond a million metres\0"
+    "a pose's position is not finite or too large\0"
     "a quaternion (x y z w) is not of unit length, to 1e-4\0"
     "a scale is not finite, negative or out of range, "
     "or makes a body too small or too large\0"
@@ -1788,11 +1792,11 @@ static const char nsvcd__result_texts[] =
     "ask is none of its values\0"
     "method is none of its values, or cannot answer this: the network knows no FIRST, to, "
     "clearance or slop; proofs have no gradient\0"
-    "to is negative, not finite or beyond a million metres, or set where HIT is asked\0"
+    "to is negative, not finite or too large, or set where HIT is asked\0"
     "to_time is not in 0 to 1, or set where FIRST is not asked\0"
     "clearance is negative, not finite or too large\0"
     "slop is negative, not finite or too large, or set for a certificate\0"
-    "a tolerance is negative, not finite or beyond a million metres\0"
+    "a tolerance is negative, not finite or too large\0"
     "manifold is set where FIRST is not asked\0"
     "segments is not a multiple of 16 up to 64\0"
     "network.pairs is more than 256\0"
@@ -1824,6 +1828,7 @@ static const char nsvcd__result_texts[] =
     "draws or noise is out of range\0"
     "velocity, acceleration, jerk, collision, duration or margin is not finite, "
     "or seeds or check too large\0"
+    "a world is changed while it is asked or changed\0"
     "this build computes wrongly: see the compiler, and its flags\0"
     "unknown result\0";
 

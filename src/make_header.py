@@ -9,7 +9,7 @@ takes its place in the file under a line with its name. What a room includes of 
 above already: a room that includes what stands below is refused, and so is a macro that is defined twice: compilers take
 that without a word where both are the same, and then whoever changes one changes neither or both.
 
-certify.h and robot.h are the plans of headers that use what neuralsvcd.h shows to programs, its interface, and nothing
+certify.h, robot.h and world.h are the plans of headers that use what neuralsvcd.h shows to programs, its interface, and nothing
 else of it. Rooms that several headers have, as the vectors of ground/, stand in each behind a guard, so that a file that
 implements two of them has these rooms once. Two lists are made here:
 
@@ -23,7 +23,12 @@ import sys
 from pathlib import Path
 
 SRC = Path(__file__).parent
-PLANS = {"header": "neuralsvcd.h", "certify": "extras/neuralsvcd_certify.h", "robot": "extras/neuralsvcd_robot.h"}
+PLANS = {
+    "header": "neuralsvcd.h",
+    "certify": "extras/neuralsvcd_certify.h",
+    "robot": "extras/neuralsvcd_robot.h",
+    "world": "extras/neuralsvcd_world.h",
+}
 WIDTH = 100
 ROOM = re.compile(r'#include "(?P<path>[\w/]+)\.h"  +// (?P<says>.+)')
 FLOOR = re.compile(r"// ={20,} (?P<name>\w+): (?P<says>.+)")

@@ -23,7 +23,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_FORMAT,
   // a line cannot be understood, or a face has one or two vertices
   NSVCD_ERROR_SYNTAX,
-  // an index is zero, or refers to no vertex
+  // an index is zero, or refers to no vertex, or no body of the world
   NSVCD_ERROR_INDEX,
   // a coordinate is not finite, or larger than NSVCD_MAX_COORDINATE
   NSVCD_ERROR_NUMBER,
@@ -139,6 +139,10 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_STAGE,
   // a planner's weight, duration or margin is not finite, or it has too many seeds or checks
   NSVCD_ERROR_PLAN,
+
+  // ---- worlds
+  // the world was changed while it was asked or changed, by another thread or a callback
+  NSVCD_ERROR_WORLD,
 
   // ---- this build
   // the compiler or its flags made a program that computes wrongly

@@ -1,0 +1,2475 @@
+// neuralsvcd_world.h - v0.3.0 - one body against all others: a world for games and simulations
+// SPDX-License-Identifier: MIT
+//
+// nsvcd_world_sweep answers a question about one mover and all that it comes near; and
+// nsvcd_world_slide moves a body for a frame: it goes, loses the speed that points into what it
+// meets, and goes on, and no two bodies ever overlap. It stands on the public functions of
+// neuralsvcd.h. In ONE C or C++ file:
+//
+//   #define NEURALSVCD_WORLD_IMPLEMENTATION
+//   #include "extras/neuralsvcd_world.h"
+//
+// CONTENTS: a room's name ends a line of dashes. Each uses only those above it.
+//   interface: what a program sees
+//     worlds          a world, questions about one body and all others, slides
+//   ground: numbers and memory
+//     compiler        what is asked of the compiler; libc and libm
+//     angles          sines and angles, by libm or computed here
+//     bits            bits and sizes
+//     valid           is what a caller hands over in order?
+//     points          vectors of three, of floats and of doubles
+//     rotations       quaternions and matrices, of floats and of doubles
+//     motions         between two poses: lines and slerps, in double
+//     memory          the allocator; the rows of a workspace
+//   world: one body against all others
+//     boxes           boxes about bodies on their ways
+//     tree            boxes that meet a box
+//     world           bodies at their places; who may meet whom
+//     ask             a mover against all that it comes near
+//     respond         what contacts leave of a speed
+//     slide           a frame of a body
+//
+#ifndef NEURALSVCD_WORLD_H
+#define NEURALSVCD_WORLD_H
+#ifndef NEURALSVCD_H  // include it first where it stands elsewhere
+#include "../neuralsvcd.h"
+#endif
+#ifdef NSVCD_NO_PROOF
+#error "neuralsvcd_world.h: proofs are all it does, and NSVCD_NO_PROOF leaves them out"
+#endif
+
+// ================================================================== interface: what a program sees
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// -------------------------------------------------------------------------------- interface/worlds
+// In: bodies at their places. Out: one answer about one of them and all that is near it, and moves
+// after which nothing overlaps.
+//
+// THE LAW OF A FRAME
+//   Bodies move one after the other, in the caller's order, each over the whole frame, and each is
+// proven against all others where they are then. So after every move no two bodies are within the
+// clearance of each other, whoever moved last, if none were before. No share of time has to be
+// agreed upon, and a pile is not held up by the one contact in it that comes first.
+//   A driven body (nsvcd_world_drive: a lift, a door, a turntable) is the exception: it moves while
+// the others do, over the same frame, and stops for nobody. Others ride on it and get out of its
+// way. What cannot is told as caught: it is free of the driven body up to the time that it reached,
+// and not farther.
+
+// no body: ids begin at 1
+#define NSVCD_NOBODY 0
+// the most contacts of an answer about a world
+#define NSVCD_WORLD_CONTACTS 32
+
+// Bodies in a tree of boxes, in the caller's memory, in which it stays.
+typedef struct nsvcd_world nsvcd_world;
+
+// A body of a world. Zero is the default of everything but `body` and the rotation of `pose`.
+typedef struct nsvcd_world_body {
+  // with triangles; kept
+  const nsvcd_body *body;
+  // where it is
+  nsvcd_pose pose;
+  // as those of nsvcd_mover. The pivot of what moves freely is its centre of mass
+  float scale;
+  float pivot[3];
+  // bits: the groups that it belongs to, default the first; and the groups that it passes through.
+  // Two bodies meet unless one passes through a group of the other's
+  uint32_t groups, passes;
+  // 1: it never moves by itself, like a level: pairs of two such bodies are not listed
+  int fixed;
+  // 1: it stops nothing. nsvcd_world_list tells what is in it
+  int sensor;
+} nsvcd_world_body;
+
+// A contact with a body of the world.
+typedef struct nsvcd_world_contact {
+  // which body; `a` of the contact is the mover, and `b` this body
+  size_t body;
+  nsvcd_contact contact;
+  // newton seconds, along the normal: what a slide took from the mover's momentum there; for a body
+  // without a mass, metres a second
+  float impulse;
+} nsvcd_world_contact;
+
+// A question about a mover and all bodies of a world.
+typedef struct nsvcd_world_question {
+  // the question. Its b stays empty. Its a may have no body: then it is that of `self`
+  nsvcd_question question;
+  // the body of the world that moves, which does not meet itself, and whose groups count; or nobody
+  size_t self;
+  // of a mover that is nobody in the world
+  uint32_t groups, passes;
+} nsvcd_world_question;
+
+// What is known of a mover and all that it comes near. Numbers are as those of nsvcd_answer.
+typedef struct nsvcd_world_answer {
+  // HIT: it hits some body. UNDECIDED: of some body that is not known, and it hits none. FREE: it
+  // is free of all
+  nsvcd_verdict verdict;
+  nsvcd_why why;
+  // the body that is hit first, or else is undecided first
+  size_t body;
+  // it is free of all bodies before `low`, and in contact with one at `high`
+  nsvcd_range time;
+  // FIRST: where the mover may go. This pose, as it is in floats, and the way to it are proven to be
+  // free of all bodies. It is the start if that is not free
+  float safe_time;
+  nsvcd_pose safe;
+  // with a slop: how the mover was pushed out, of all that it touched at once
+  float depth, push_out[3];
+  // FIRST: contacts of all that touch at the safe pose, one with each body, or all with `manifold`
+  size_t contact_count;
+  nsvcd_world_contact contacts[NSVCD_WORLD_CONTACTS];
+  // questions about two bodies, and units that their proofs took
+  size_t questions, work;
+} nsvcd_world_answer;
+
+// Bytes of a world of at most so many bodies, up to 2^31 - 2; 0 if there can be none.
+NSVCDDEF size_t nsvcd_world_size(size_t most);
+
+// Makes a world without bodies.
+//   memory     (size) bytes, nsvcd_world_size(most) or more, not NULL, aligned to NSVCD_ALIGNMENT
+//   world      not NULL; set to the world, or left as it was on failure
+//   errors     ARGUMENT, COUNT (`most`), WORKSPACE
+NSVCDDEF nsvcd_result nsvcd_world_begin(void *memory, size_t size, size_t most,
+                                        nsvcd_world **world);
+
+// Adds a body, moves it elsewhere, takes it out, or tells of it. Nothing is asked: whoever puts a
+// body into another gets a world of bodies that overlap, and what starts so is hit at time 0.
+//   body, pose  not NULL
+//   id          of add: not NULL; set to the body's id, from 1 on, or left as it was on failure.
+//               Ids of removed bodies are used again
+//   threads     one at a time, and none may ask: what is caught of that is NSVCD_ERROR_WORLD
+//   errors      ARGUMENT, BODY, VERSION, TRIANGLES, POSE, QUATERNION, SCALE, PIVOT, COUNT (the world
+//               has room for no more bodies), INDEX (`id` is no body's), WORLD
+NSVCDDEF nsvcd_result nsvcd_world_add(nsvcd_world *world, const nsvcd_world_body *body,
+                                      size_t *id);
+NSVCDDEF nsvcd_result nsvcd_world_move(nsvcd_world *world, size_t id, const nsvcd_pose *pose);
+NSVCDDEF nsvcd_result nsvcd_world_remove(nsvcd_world *world, size_t id);
+NSVCDDEF nsvcd_result nsvcd_world_get(const nsvcd_world *world, size_t id,
+                                      nsvcd_world_body *body);
+
+// Drives a body in this frame, from where it is to a pose: by a line and a slerp, about its pivot.
+// nsvcd_world_arrive ends the frame: all driven bodies are at their ends, and rest.
+//   errors      ARGUMENT, POSE, QUATERNION, INDEX, WORLD
+NSVCDDEF nsvcd_result nsvcd_world_drive(nsvcd_world *world, size_t id, const nsvcd_pose *to);
+NSVCDDEF nsvcd_result nsvcd_world_arrive(nsvcd_world *world);
+
+// Answers a question about a mover and all that it comes near, driven bodies as they move. Sensors
+// are left out. HIT ends at the first body that is hit.
+//   With a slop, a mover that touches several bodies at the start is pushed out of all of them at
+// once, by nearly the shortest push-out that is long enough along each body's own.
+//   workspace  (workspace_size) bytes, nsvcd_sweep_workspace_size(NULL), not NULL, aligned
+//   answer     not NULL; left as it was on failure
+//   allocates  nothing
+//   threads    any number may ask while none changes the world; each needs a workspace of its own
+//   errors     those of nsvcd_sweep; METHOD (the network is asked), INDEX (`self`), ARGUMENT (b is
+//              not empty), WORLD
+NSVCDDEF nsvcd_result nsvcd_world_sweep(const nsvcd_world *world,
+                                        const nsvcd_world_question *question, void *workspace,
+                                        size_t workspace_size, nsvcd_world_answer *answer);
+
+// Lists all bodies that a mover meets on its way, sensors too: those that it passes over, shoots
+// through or stands in. What is undecided counts as met.
+//   question   its question asks HIT
+//   ids        (most); in ascending order
+//   count      not NULL; how many are met, which may be more than `most`
+//   errors     those of nsvcd_world_sweep, ASK
+NSVCDDEF nsvcd_result nsvcd_world_list(const nsvcd_world *world,
+                                       const nsvcd_world_question *question, void *workspace,
+                                       size_t workspace_size, size_t *ids, size_t most,
+                                       size_t *count);
+
+// Lists the pairs of bodies whose boxes, over this frame, come within a distance: who may meet whom.
+//   pairs      (most)
+//   count      not NULL; how many there are, which may be more than `most`
+//   errors     ARGUMENT, DISTANCE (`distance`), WORLD
+NSVCDDEF nsvcd_result nsvcd_world_pairs(const nsvcd_world *world, float distance,
+                                        nsvcd_body_pair *pairs, size_t most, size_t *count);
+
+// How a body slides. Zero means the default.
+typedef struct nsvcd_slide_options {
+  // metres: what it never comes nearer to anything than; default a two-hundredth of its radius. And
+  // how much farther than that it comes to rest; default the same
+  float clearance, margin;
+  // kilograms, and (3) kg m^2, about the axes of its frame through its pivot. Without an inertia it
+  // does not turn by what it meets; without a mass it is a character, whose impulses are speeds
+  float mass, inertia[3];
+  // of what it rubs against; and of what it hits faster than half a metre a second
+  float friction, restitution;
+  // a character: the direction up, unit; (0, 0, 0): it has none. It rides on what it stands on
+  float up[3];
+  // metres: as high a step it climbs; and the least cosine between up and the normal of a ground
+  // that it stands on, default 0.7
+  float step, slope;
+  // how often in a frame it goes on after a contact; default 4
+  size_t rounds;
+  // units of each question, as question.work
+  size_t work;
+} nsvcd_slide_options;
+
+// A body's speed: metres a second of its pivot, and radians a second, in the world.
+typedef struct nsvcd_velocity {
+  float linear[3], angular[3];
+} nsvcd_velocity;
+
+typedef struct nsvcd_slide_answer {
+  // of the frame, that it could make use of
+  float spent;
+  // 1: it rests: it did not move at all, and its speed is 0
+  int rests;
+  // the body that it stands on, and the ground's normal; or nobody
+  size_t ground;
+  float ground_normal[3];
+  // the driven body that it could not get out of the way of; or nobody
+  size_t caught;
+  // where it touches at the end, or within the margin; impulses as they were when it was there
+  size_t contact_count;
+  nsvcd_world_contact contacts[NSVCD_WORLD_CONTACTS];
+  size_t questions, work;
+} nsvcd_slide_answer;
+
+// Moves a body of the world for a frame, at its speed: it goes as far as is proven free, loses the
+// speed that points into what it meets, and goes on with what is left of the frame. Its speed is
+// that which it has at the end. Gravity and other forces are the caller's to add to it before.
+//   world      the body is moved in it
+//   velocity   not NULL
+//   seconds    of the frame
+//   answer     not NULL; on failure it, the velocity and the body are as they were
+//   errors     those of nsvcd_world_sweep; SPEED, TIMES (`seconds`), CLEARANCE (clearance, margin),
+//              VALUE (a mass, an inertia, a friction, a restitution or a slope), AXIS (`up`),
+//              DISTANCE (`step`)
+//   source     sequential impulses (Catto 2006) for the contacts of one body; this library
+//
+// What is proven: where the body is at the end, it is farther than the clearance from every other
+// body, and was so on its way there. What a contact does to its speed is no proof, only physics:
+// impulses are those of a body that meets others that rest or are driven. Whoever wants what is hit
+// to move hands it the impulse.
+NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
+                                        const nsvcd_slide_options *options, float seconds,
+                                        void *workspace, size_t workspace_size,
+                                        nsvcd_velocity *velocity, nsvcd_slide_answer *answer);
+#ifdef __cplusplus
+}
+#endif
+#endif  // NEURALSVCD_WORLD_H
+
+// ================================================================================== IMPLEMENTATION
+#if defined(NEURALSVCD_WORLD_IMPLEMENTATION) && !defined(NEURALSVCD_WORLD_IMPLEMENTED)
+#define NEURALSVCD_WORLD_IMPLEMENTED
+#if defined(__GNUC__) || defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"  // of ground, not all is needed
+#endif
+
+// ====================================================================== ground: numbers and memory
+
+// --------------------------------------------------------------------------------- ground/compiler
+#ifndef NSVCD__HAS_GROUND_COMPILER
+#define NSVCD__HAS_GROUND_COMPILER
+// In: the compiler at hand. Out: libc and libm, and how functions are inlined.
+
+#ifdef __TINYC__  // 0.9.27: if a struct and a float, both returned by calls, are passed together
+#error "neuralsvcd.h: tcc passes arguments wrongly, and certificates would be false"
+#endif
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#ifndef NSVCD_NO_STDIO
+#include <stdio.h>
+#endif
+// NSVCD_ONE_PATH: nothing may be fused or computed more exactly than it is written.
+#ifdef NSVCD_ONE_PATH
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST) || \
+    (FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16)
+#error \
+    "neuralsvcd.h: NSVCD_ONE_PATH: not with -ffast-math, nor where floats are computed in double"
+#endif
+// gcc has a flag for that, and a pragma that slows everything down tenfold.
+#if defined(__clang__)
+#pragma STDC FP_CONTRACT OFF
+#elif defined(_MSC_VER)
+#pragma fp_contract(off)
+#endif
+#endif
+// For functions in which sums and differences of products stand side by side: there gcc 12 fuses
+// whatever it is told (vfmaddsub).
+#if defined(NSVCD_ONE_PATH) && defined(__GNUC__) && !defined(__clang__)
+#define NSVCD__UNFUSED \
+  static __attribute__((noinline, unused, optimize("no-tree-slp-vectorize")))
+#else
+#define NSVCD__UNFUSED static inline
+#endif
+// For functions that take less stack and flash if they are inlined.
+#if defined(__GNUC__) || defined(__clang__)
+#define NSVCD__FORCE_INLINE static inline __attribute__((always_inline))
+#elif defined(_MSC_VER)
+#define NSVCD__FORCE_INLINE static __forceinline
+#else
+#define NSVCD__FORCE_INLINE static inline
+#endif
+// For functions whose loops over constant arguments must be unrolled. Left to itself, gcc may not
+// inline them, and the decoder takes four times as long (tests/bench/PERFORMANCE.md).
+#ifdef __OPTIMIZE_SIZE__
+#define NSVCD__INLINE static inline
+#else
+#define NSVCD__INLINE NSVCD__FORCE_INLINE
+#endif
+// For functions whose stack would add up in a caller.
+#if defined(__GNUC__) || defined(__clang__)
+#define NSVCD__NOINLINE __attribute__((noinline))
+#elif defined(_MSC_VER)
+#define NSVCD__NOINLINE __declspec(noinline)
+#else
+#define NSVCD__NOINLINE
+#endif
+#if defined(__GNUC__) && !defined(__clang__)
+#define NSVCD__UNROLL _Pragma("GCC unroll 8")  // at -O2 too, so that sums stay in registers
+#define NSVCD__O3 __attribute__((optimize("O3")))  // short loops, that -O2 leaves as they are
+#else
+#define NSVCD__UNROLL
+#define NSVCD__O3
+#endif
+#endif  // NSVCD__HAS_GROUND_COMPILER
+
+// ----------------------------------------------------------------------------------- ground/angles
+#ifndef NSVCD__HAS_GROUND_ANGLES
+#define NSVCD__HAS_GROUND_ANGLES
+// In: angles up to a quarter turn, and lengths. Out: sines, and angles. By libm; with
+// NSVCD_ONE_PATH computed here, because libm's last digit differs between machines.
+
+#ifdef NSVCD_ONE_PATH
+// sin x for 0 <= x <= pi / 2, to 1e-15: the rest of the series is below 2e-18.
+static inline double nsvcd__sin(double x) {
+  const double square = x * x;
+  double sum = 1;
+  for (int n = 20; n > 0; n -= 2) sum = 1 - sum * (square / (n * (n + 1)));
+  return x * sum;
+}
+// The angle of a vector (x, y), x, y >= 0, to 1e-15. tan(a / 2) = tan a / (1 + sqrt(1 + tan^2 a))
+// halves it twice, to below 0.2, where the rest of the series is below 1e-18.
+static inline double nsvcd__atan2(double y, double x) {
+  const int steep = y > x;
+  const double slope = steep ? x / y : x > 0 ? y / x : 0;
+  double t = slope;
+  double sum = 0;
+  for (int n = 0; n < 2; n++) t = t / (1 + sqrt(1 + t * t));
+  for (int n = 25; n > 0; n -= 2) sum = 1.0 / n - sum * (t * t);
+  return steep ? 1.57079632679489662 - 4 * t * sum : 4 * t * sum;
+}
+static inline float nsvcd__sinf(float x) {
+  return (float)nsvcd__sin((double)x);
+}
+// For 0 <= x < 1.
+static inline float nsvcd__asinf(float x) {
+  const double sine = (double)x;
+  return (float)nsvcd__atan2(sine, sqrt(1 - sine * sine));
+}
+#else
+#define nsvcd__sin sin
+#define nsvcd__atan2 atan2
+#define nsvcd__sinf sinf
+#define nsvcd__asinf asinf
+#endif
+#endif  // NSVCD__HAS_GROUND_ANGLES
+
+// ------------------------------------------------------------------------------------- ground/bits
+#ifndef NSVCD__HAS_GROUND_BITS
+#define NSVCD__HAS_GROUND_BITS
+// In: whole numbers, and floats. Out: bits that are set, sizes rounded up, floats as bits.
+
+// The index of the lowest bit that is set, of a number that is not 0.
+static size_t nsvcd__low_bit(uint64_t bits) {
+#if defined(__GNUC__) || defined(__clang__)
+  return (size_t)__builtin_ctzll(bits);
+#else
+  size_t n = 0;
+  while (!(bits >> n & 1)) n++;
+  return n;
+#endif
+}
+
+static size_t nsvcd__bit_count(uint64_t bits) {
+#if defined(__GNUC__) || defined(__clang__)
+  return (size_t)__builtin_popcountll(bits);
+#else
+  size_t n = 0;
+  for (; bits; bits &= bits - 1) n++;
+  return n;
+#endif
+}
+
+static size_t nsvcd__round_up(size_t n, size_t multiple) {
+  return (n + multiple - 1) / multiple * multiple;
+}
+
+// |x| as bits, which are ordered as |x| is; infinity and NaN are above all numbers.
+static uint32_t nsvcd__magnitude(float x) {
+  uint32_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  return bits & 0x7fffffffu;
+}
+static inline int nsvcd__is_finite(float x) {
+  return nsvcd__magnitude(x) < 0x7f800000u;
+}
+#endif  // NSVCD__HAS_GROUND_BITS
+
+// ------------------------------------------------------------------------------------ ground/valid
+#ifndef NSVCD__HAS_GROUND_VALID
+#define NSVCD__HAS_GROUND_VALID
+// In: what a caller passes. Out: is it valid?
+
+#define NSVCD__MAX_COUNT 0x7fffffffu  // vertices and triangles: 2^31 - 1
+
+static int nsvcd__is_aligned(const void *memory) {
+  return ((uintptr_t)memory & (NSVCD_ALIGNMENT - 1)) == 0;
+}
+
+// Are numbers finite, and their absolute values at most `most`? By their bits, so that it holds
+// under -ffast-math too.
+static NSVCD__NOINLINE int nsvcd__in_range(const float *values, size_t count, float most) {
+  for (size_t i = 0; i < count; i++) {
+    if (!nsvcd__is_finite(values[i]) || fabsf(values[i]) > most) return 0;
+  }
+  return 1;
+}
+
+// A float that is not less than x >= 0.
+static inline float nsvcd__above(double x) {
+  return (float)(x * (1 + 2e-7)) + 1e-37f;
+}
+
+// Is it a valid length, or 0?
+static int nsvcd__is_length(float x) {
+  return nsvcd__is_finite(x) && x >= 0 && x <= NSVCD_MAX_COORDINATE;
+}
+
+// Are all numbers in range and all quaternions of unit length?
+static nsvcd_result nsvcd__poses_check(const nsvcd_pose *poses, size_t count) {
+  const float *numbers = poses->position;  // 7 to a pose
+  uint32_t most = 0;
+  float shortest = 1;
+  float longest = 1;
+  for (size_t k = 0; k < 7 * count; k++) {
+    const uint32_t bits = nsvcd__magnitude(numbers[k]);
+    most = bits > most ? bits : most;
+  }
+  for (size_t k = 0; k < count; k++) {
+    const float *q = poses[k].rotation;
+    const float square = (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]);
+    shortest = square < shortest ? square : shortest;
+    longest = square > longest ? square : longest;
+  }
+  const int is_unit =
+      shortest >= 1 - 2 * NSVCD_UNIT_TOLERANCE && longest <= 1 + 2 * NSVCD_UNIT_TOLERANCE;
+  if (is_unit && most <= nsvcd__magnitude(NSVCD_MAX_COORDINATE)) return NSVCD_OK;
+  for (size_t k = 0; k < count; k++) {
+    if (!nsvcd__in_range(poses[k].position, 3, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_POSE;
+  }
+  return NSVCD_ERROR_QUATERNION;
+}
+
+// Do times rise from 0 to 1, if there are any?
+static int nsvcd__times_are_valid(const float *times, size_t count) {
+  if (!times || count == 1) return 1;
+  const float last = times[count - 1];
+  int rise = !(times[0] < 0) && !(times[0] > 0) && last <= 1 && last >= 1;
+  for (size_t k = 1; k < count; k++)  // NaN does not rise
+    rise &= (double)times[k] - (double)times[k - 1] >= 0.99e-7;
+  return rise;
+}
+
+// The pose of a mover without poses.
+static const nsvcd_pose nsvcd__at_origin = {{0, 0, 0}, {0, 0, 0, 1}};
+
+// A mover's scale; the default is 1.
+static float nsvcd__scale_of(const nsvcd_mover *mover) {
+  return mover->scale > 0 ? mover->scale : 1;
+}
+
+static size_t nsvcd__pose_count(const nsvcd_mover *mover) {
+  return mover->poses ? mover->count : 1;
+}
+
+static nsvcd_result nsvcd__track_check(const nsvcd_mover *mover) {
+  const float scale = nsvcd__scale_of(mover);
+  const float most = NSVCD_MAX_COORDINATE / (scale > 1 ? scale : 1);
+  if (!nsvcd__in_range(mover->pivot, 3, most)) return NSVCD_ERROR_PIVOT;
+  if (!mover->poses) return mover->count == 0 ? NSVCD_OK : NSVCD_ERROR_POSES;
+  if (mover->count < 1 || mover->count > NSVCD_MAX_POSES) return NSVCD_ERROR_POSES;
+  if (!nsvcd__times_are_valid(mover->times, mover->count)) return NSVCD_ERROR_TIMES;
+  return nsvcd__poses_check(mover->poses, mover->count);
+}
+
+// A mesh may come from anywhere: all that follows relies on these checks.
+static inline nsvcd_result nsvcd__mesh_check(const nsvcd_mesh *mesh) {
+  if (!mesh) return NSVCD_ERROR_ARGUMENT;
+  if (mesh->triangle_count == 0) return NSVCD_ERROR_EMPTY;
+  if (!mesh->positions || !mesh->indices) return NSVCD_ERROR_ARGUMENT;
+  const size_t vertices = mesh->vertex_count;
+  const size_t triangles = mesh->triangle_count;
+  if (vertices > NSVCD__MAX_COUNT || triangles > NSVCD__MAX_COUNT)
+    return NSVCD_ERROR_TOO_LARGE;
+  for (size_t i = 0; i < 3 * triangles; i++) {
+    if (mesh->indices[i] >= vertices) return NSVCD_ERROR_INDEX;
+  }
+  if (!nsvcd__in_range(mesh->positions, 3 * vertices, NSVCD_MAX_COORDINATE))
+    return NSVCD_ERROR_NUMBER;
+  return NSVCD_OK;
+}
+#endif  // NSVCD__HAS_GROUND_VALID
+
+// ----------------------------------------------------------------------------------- ground/points
+#ifndef NSVCD__HAS_GROUND_POINTS
+#define NSVCD__HAS_GROUND_POINTS
+// In, out: vectors of three numbers, as values: f3 of floats, d3 of doubles. A box is two corners.
+
+// The greater, or the lesser, of two; b if one is NaN. fmax and fmin, which handle NaN, are calls
+// with most compilers.
+static inline double nsvcd__max(double a, double b) {
+  return a > b ? a : b;
+}
+static inline double nsvcd__min(double a, double b) {
+  return a < b ? a : b;
+}
+
+// The algebra of f3 and of d3: NSVCD__VECTORS(nsvcd__f3, float, sqrtf) writes nsvcd__f3_add and so
+// on. _load and _row read floats, three to a row; _fma(s, b, a) is s b + a, rounded twice. In
+// double, differences of floats and what is built of a few of them are practically exact.
+#define NSVCD__VECTORS(t, scalar, sqrt) \
+  typedef struct t { \
+    scalar x, y, z; \
+  } t; \
+  static inline t t##_of(scalar x, scalar y, scalar z) { \
+    const t out = {x, y, z}; \
+    return out; \
+  } \
+  static inline t t##_load(const float *p) { \
+    return t##_of((scalar)p[0], (scalar)p[1], (scalar)p[2]); \
+  } \
+  static inline t t##_row(const float *rows, size_t i) { \
+    return t##_load(rows + 3 * i); \
+  } \
+  static inline t t##_add(t a, t b) { \
+    return t##_of(a.x + b.x, a.y + b.y, a.z + b.z); \
+  } \
+  static inline t t##_sub(t a, t b) { \
+    return t##_of(a.x - b.x, a.y - b.y, a.z - b.z); \
+  } \
+  static inline t t##_scale(t a, scalar s) { \
+    return t##_of(s * a.x, s * a.y, s * a.z); \
+  } \
+  static inline t t##_fma(scalar s, t b, t a) { \
+    return t##_of(a.x + s * b.x, a.y + s * b.y, a.z + s * b.z); \
+  } \
+  static inline t t##_min(t a, t b) { \
+    return t##_of(a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z); \
+  } \
+  static inline t t##_max(t a, t b) { \
+    return t##_of(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z); \
+  } \
+  static inline scalar t##_dot(t a, t b) { \
+    return a.x * b.x + a.y * b.y + a.z * b.z; \
+  } \
+  static inline t t##_cross(t a, t b) { \
+    return t##_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x); \
+  } \
+  static inline scalar t##_norm(t a) { \
+    return sqrt(t##_dot(a, a)); \
+  }
+NSVCD__VECTORS(nsvcd__f3, float, sqrtf)
+NSVCD__VECTORS(nsvcd__d3, double, sqrt)
+#undef NSVCD__VECTORS
+
+// ---- floats
+
+// From, and to, rows of x, y and z, `stride` apart.
+static inline nsvcd__f3 nsvcd__f3_get(const float *rows, size_t stride) {
+  return nsvcd__f3_of(rows[0], rows[stride], rows[2 * stride]);
+}
+static inline void nsvcd__f3_put(nsvcd__f3 a, float *rows, size_t stride) {
+  rows[0] = a.x;
+  rows[stride] = a.y;
+  rows[2 * stride] = a.z;
+}
+static inline void nsvcd__f3_store(nsvcd__f3 a, float *p) {
+  nsvcd__f3_put(a, p, 1);
+}
+// Is any component of a greater than b's?
+static inline int nsvcd__f3_exceeds(nsvcd__f3 a, nsvcd__f3 b) {
+  return (a.x > b.x) | (a.y > b.y) | (a.z > b.z);
+}
+
+// A box along the axes.
+typedef struct nsvcd__box {
+  nsvcd__f3 low, high;
+} nsvcd__box;
+
+// Component 0, 1 or 2.
+static inline double nsvcd__d3_axis(nsvcd__d3 a, size_t axis) {
+  return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
+}
+static inline void nsvcd__d3_set_axis(nsvcd__d3 *a, size_t axis, double to) {
+  *(axis == 0 ? &a->x : axis == 1 ? &a->y : &a->z) = to;
+}
+// The axis of the greatest component; of equals the first.
+static inline size_t nsvcd__d3_longest(nsvcd__d3 a) {
+  if (a.y > a.x && a.y >= a.z) return 1;
+  return a.z > a.x ? 2 : 0;
+}
+static inline nsvcd__d3 nsvcd__d3_over(nsvcd__d3 a, double s) {
+  return nsvcd__d3_of(a.x / s, a.y / s, a.z / s);
+}
+static inline nsvcd__f3 nsvcd__d3_narrow(nsvcd__d3 a) {
+  return nsvcd__f3_of((float)a.x, (float)a.y, (float)a.z);
+}
+// a + t (b - a).
+static inline nsvcd__d3 nsvcd__d3_mix(nsvcd__d3 a, nsvcd__d3 b, double t) {
+  return nsvcd__d3_add(a, nsvcd__d3_scale(nsvcd__d3_sub(b, a), t));
+}
+static inline double nsvcd__d3_distance2(nsvcd__d3 a, nsvcd__d3 b) {
+  const nsvcd__d3 offset = nsvcd__d3_sub(a, b);
+  return nsvcd__d3_dot(offset, offset);
+}
+// Of length 1; `otherwise` if a is 0.
+static inline nsvcd__d3 nsvcd__d3_unit(nsvcd__d3 a, nsvcd__d3 otherwise) {
+  const double length = nsvcd__d3_norm(a);
+  return length > 0 ? nsvcd__d3_scale(a, 1 / length) : otherwise;
+}
+// Rounds for certain. gcc 12 at -O2 drops both conversions where two neighbouring doubles become
+// floats and doubles again, and a proof built on the stored floats would not hold. clang 14 for
+// WebAssembly, in turn, reads a volatile number that fills a vector a second time, when it may have
+// been overwritten.
+static inline float nsvcd__to_float(double x) {
+#ifdef __wasm_simd128__
+  return (float)x;
+#else
+  volatile float rounded = (float)x;
+  return rounded;
+#endif
+}
+static inline nsvcd__f3 nsvcd__f3_round(nsvcd__d3 a) {
+  return nsvcd__f3_of(nsvcd__to_float(a.x), nsvcd__to_float(a.y), nsvcd__to_float(a.z));
+}
+static inline nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
+  return nsvcd__d3_of((double)a.x, (double)a.y, (double)a.z);
+}
+// Rounded to double where registers are wider (x87), so that it equals itself computed again.
+static inline double nsvcd__stored(double x) {
+#if FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 1
+  return x;
+#else
+  volatile double rounded = x;
+  return rounded;
+#endif
+}
+static inline nsvcd__d3 nsvcd__d3_stored(nsvcd__d3 a) {
+  return nsvcd__d3_of(nsvcd__stored(a.x), nsvcd__stored(a.y), nsvcd__stored(a.z));
+}
+#endif  // NSVCD__HAS_GROUND_POINTS
+
+// -------------------------------------------------------------------------------- ground/rotations
+#ifndef NSVCD__HAS_GROUND_ROTATIONS
+#define NSVCD__HAS_GROUND_ROTATIONS
+// In, out: rotations, as values: quat and mat3 of floats, dquat and dmat3 of doubles. A matrix is
+// its rows. A transform is a rotation and a position.
+
+// The algebra of both: NSVCD__ROTATIONS writes nsvcd__quat_dot, nsvcd__mat3_apply and so on.
+//   _fma(s, b, a)        s b + a
+//   _axis, _inverse      of a unit quaternion; the axis times the sine of half its angle
+//   _mul(a, b)           the rotation by b, then by a
+//   _turn(a, b)          from a to b, both unit: the axis, times the sine of half the angle
+//   _along(a, b, arc, u) the slerp from a to b, which are that arc apart, at fraction u: of any
+//                        length. Up to the arc `least` a line is as good, to rounding
+//   _of                  the matrix of a unit quaternion
+//   _apply_transpose     the transpose of m, times a
+//   _transform           rotation a + position
+#define NSVCD__ROTATIONS(quat, mat, placed, vec, scalar, sqrt, sin, least) \
+  typedef struct quat { \
+    scalar x, y, z, w; \
+  } quat; \
+  typedef struct mat { \
+    vec x, y, z; \
+  } mat; \
+  typedef struct placed { \
+    mat rotation; \
+    vec position; \
+  } placed; \
+  static inline scalar quat##_dot(quat a, quat b) { \
+    return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w; \
+  } \
+  static inline quat quat##_scale(quat q, scalar s) { \
+    const quat out = {q.x * s, q.y * s, q.z * s, q.w * s}; \
+    return out; \
+  } \
+  static inline quat quat##_fma(scalar s, quat b, quat a) { \
+    const quat out = {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z, a.w + s * b.w}; \
+    return out; \
+  } \
+  NSVCD__FORCE_INLINE quat quat##_unit(quat q) { \
+    return quat##_scale(q, 1 / sqrt(quat##_dot(q, q))); \
+  } \
+  static inline vec quat##_axis(quat q) { \
+    return vec##_of(q.x, q.y, q.z); \
+  } \
+  static inline quat quat##_inverse(quat q) { \
+    const quat out = {-q.x, -q.y, -q.z, q.w}; \
+    return out; \
+  } \
+  static inline quat quat##_mul(quat a, quat b) { \
+    quat out; \
+    out.x = a.w * b.x + a.x * b.w + (a.y * b.z - a.z * b.y); \
+    out.y = a.w * b.y + a.y * b.w + (a.z * b.x - a.x * b.z); \
+    out.z = a.w * b.z + a.z * b.w + (a.x * b.y - a.y * b.x); \
+    out.w = a.w * b.w - (a.x * b.x + a.y * b.y + a.z * b.z); \
+    return out; \
+  } \
+  static inline vec quat##_turn(quat a, quat b) { \
+    return quat##_axis(quat##_mul(b, quat##_inverse(a))); \
+  } \
+  static inline quat quat##_along(quat a, quat b, scalar arc, scalar u) { \
+    const int bends = arc > least; \
+    const scalar before = bends ? sin((1 - u) * arc) : 1 - u; \
+    const scalar after = bends ? sin(u * arc) : u; \
+    return quat##_fma(after, b, quat##_scale(a, before)); \
+  } \
+  NSVCD__UNFUSED mat mat##_of(quat q) { \
+    mat m; \
+    m.x.x = 1 - 2 * (q.y * q.y + q.z * q.z); \
+    m.x.y = 2 * (q.x * q.y - q.z * q.w); \
+    m.x.z = 2 * (q.x * q.z + q.y * q.w); \
+    m.y.x = 2 * (q.x * q.y + q.z * q.w); \
+    m.y.y = 1 - 2 * (q.x * q.x + q.z * q.z); \
+    m.y.z = 2 * (q.y * q.z - q.x * q.w); \
+    m.z.x = 2 * (q.x * q.z - q.y * q.w); \
+    m.z.y = 2 * (q.y * q.z + q.x * q.w); \
+    m.z.z = 1 - 2 * (q.x * q.x + q.y * q.y); \
+    return m; \
+  } \
+  static inline mat mat##_transpose(mat m) { \
+    const mat out = {vec##_of(m.x.x, m.y.x, m.z.x), vec##_of(m.x.y, m.y.y, m.z.y), \
+                     vec##_of(m.x.z, m.y.z, m.z.z)}; \
+    return out; \
+  } \
+  static inline vec mat##_apply(const mat *m, vec a) { \
+    return vec##_of(vec##_dot(m->x, a), vec##_dot(m->y, a), vec##_dot(m->z, a)); \
+  } \
+  static inline vec mat##_apply_transpose(const mat *m, vec a) { \
+    const mat back = mat##_transpose(*m); \
+    return mat##_apply(&back, a); \
+  } \
+  static inline vec vec##_transform(const placed *t, vec a) { \
+    return vec##_add(mat##_apply(&t->rotation, a), t->position); \
+  }
+NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__transform, nsvcd__f3, float, sqrtf,
+                 nsvcd__sinf, 1e-3f)
+NSVCD__ROTATIONS(nsvcd__dquat, nsvcd__dmat3, nsvcd__dtransform, nsvcd__d3, double, sqrt,
+                 nsvcd__sin, 1e-7)
+#undef NSVCD__ROTATIONS
+
+static inline nsvcd__dmat3 nsvcd__dmat3_scale(const nsvcd__dmat3 *m, double s) {
+  const nsvcd__dmat3 out = {nsvcd__d3_scale(m->x, s), nsvcd__d3_scale(m->y, s),
+                            nsvcd__d3_scale(m->z, s)};
+  return out;
+}
+
+// ---- quaternions and matrices of floats
+
+static inline nsvcd__quat nsvcd__quat_of(float x, float y, float z, float w) {
+  const nsvcd__quat out = {x, y, z, w};
+  return out;
+}
+static inline nsvcd__quat nsvcd__quat_load(const float *p) {
+  return nsvcd__quat_of(p[0], p[1], p[2], p[3]);
+}
+// To rows of x, y, z and w, `stride` apart.
+static inline void nsvcd__quat_put(nsvcd__quat q, float *rows, size_t stride) {
+  rows[0] = q.x;
+  rows[stride] = q.y;
+  rows[2 * stride] = q.z;
+  rows[3 * stride] = q.w;
+}
+static inline void nsvcd__quat_store(nsvcd__quat q, float *p) {
+  nsvcd__quat_put(q, p, 1);
+}
+
+// Is the shorter arc from a to b the one to -b? Products of floats are exact in double, so every
+// machine agrees, and so do poses in float and in double, even if both arcs are equally long to
+// rounding.
+static inline int nsvcd__quats_opposed(nsvcd__quat a, nsvcd__quat b) {
+  double dot = (double)a.x * (double)b.x;
+  dot = nsvcd__stored(dot + (double)a.y * (double)b.y);
+  dot = nsvcd__stored(dot + (double)a.z * (double)b.z);
+  dot = nsvcd__stored(dot + (double)a.w * (double)b.w);
+  return dot < 0;
+}
+
+// The length of the arc from a to b in quaternion space: half the angle of rotation, in [0, pi/2]
+// for the shorter arc. From the chord, because acos of a dot product near 1 has no digits left.
+static inline float nsvcd__quat_arc(nsvcd__quat a, nsvcd__quat b) {
+  const nsvcd__quat chord = nsvcd__quat_fma(-1, b, a);
+  return 2 * nsvcd__asinf(0.5f * sqrtf(nsvcd__quat_dot(chord, chord)));
+}
+
+// The same rotation, negated if it is opposed to another quaternion.
+static inline nsvcd__quat nsvcd__quat_beside(nsvcd__quat q, int opposed) {
+  return opposed ? nsvcd__quat_of(-q.x, -q.y, -q.z, -q.w) : q;
+}
+
+// From a at u = 0 to b at u = 1, on the shorter arc. a, b: unit to 1e-4.
+static inline nsvcd__quat nsvcd__quat_slerp(nsvcd__quat a, nsvcd__quat b, float u) {
+  const int opposed = nsvcd__quats_opposed(a, b);
+  const nsvcd__quat start = nsvcd__quat_unit(a);
+  const nsvcd__quat end = nsvcd__quat_beside(nsvcd__quat_unit(b), opposed);
+  const float arc = nsvcd__quat_arc(start, end);
+  return nsvcd__quat_unit(nsvcd__quat_along(start, end, arc, u));
+}
+
+// s (a + t b).
+static inline nsvcd__mat3 nsvcd__mat3_mix(float s, const nsvcd__mat3 *a, float t,
+                                          const nsvcd__mat3 *b) {
+  const nsvcd__mat3 out = {nsvcd__f3_scale(nsvcd__f3_fma(t, b->x, a->x), s),
+                           nsvcd__f3_scale(nsvcd__f3_fma(t, b->y, a->y), s),
+                           nsvcd__f3_scale(nsvcd__f3_fma(t, b->z, a->z), s)};
+  return out;
+}
+#endif  // NSVCD__HAS_GROUND_ROTATIONS
+
+// ---------------------------------------------------------------------------------- ground/motions
+#ifndef NSVCD__HAS_GROUND_MOTIONS
+#define NSVCD__HAS_GROUND_MOTIONS
+// In: poses, as a caller gives them. Out: in double, where a body is between two of them, and how
+// it turns on the way: its rotation is a slerp on the shorter arc, and the position of its pivot
+// linear. With the pivot c of the body's frame, scaled, the pivot of a pose is at position + R c.
+//
+// This is the law of motion, for proofs, certificates and robots. The floor of motions has it again
+// in float, 16 segments at a time: every query cuts its motion, and poses in double alone would
+// take longer than that.
+
+// A pose in double. Its rotation is of any length.
+typedef struct nsvcd__dpose {
+  nsvcd__dquat rotation;
+  nsvcd__d3 position;
+} nsvcd__dpose;
+
+static inline nsvcd__dpose nsvcd__dpose_of(const nsvcd_pose *pose) {
+  const float *q = pose->rotation;
+  const nsvcd__dpose out = {{(double)q[0], (double)q[1], (double)q[2], (double)q[3]},
+                            nsvcd__d3_load(pose->position)};
+  return out;
+}
+
+// With a unit rotation.
+static inline nsvcd__dpose nsvcd__unit_dpose(const nsvcd_pose *pose) {
+  nsvcd__dpose out = nsvcd__dpose_of(pose);
+  out.rotation = nsvcd__dquat_unit(out.rotation);
+  return out;
+}
+
+static inline nsvcd__dtransform nsvcd__dtransform_of(const nsvcd__dpose *pose) {
+  const nsvcd__dtransform out = {nsvcd__dmat3_of(nsvcd__dquat_unit(pose->rotation)),
+                                 pose->position};
+  return out;
+}
+
+static inline nsvcd_pose nsvcd__dpose_round(const nsvcd__dpose *pose) {
+  const nsvcd__dquat turn = nsvcd__dquat_unit(pose->rotation);
+  nsvcd_pose out;
+  nsvcd__f3_store(nsvcd__f3_round(pose->position), out.position);
+  nsvcd__f3_store(nsvcd__f3_round(nsvcd__dquat_axis(turn)), out.rotation);
+  out.rotation[3] = nsvcd__to_float(turn.w);
+  return out;
+}
+
+// Is the shorter arc from a to b the one to -b?
+static inline int nsvcd__poses_opposed(const nsvcd_pose *a, const nsvcd_pose *b) {
+  return nsvcd__quats_opposed(nsvcd__quat_load(a->rotation), nsvcd__quat_load(b->rotation));
+}
+
+// The length of the arc from a to b, both unit, in quaternion space: half the angle of the turn.
+static inline double nsvcd__dquat_arc(nsvcd__dquat a, nsvcd__dquat b) {
+  const nsvcd__dquat difference = nsvcd__dquat_fma(-1, b, a);
+  const nsvcd__dquat sum = nsvcd__dquat_fma(1, b, a);
+  const double apart = sqrt(nsvcd__dquat_dot(difference, difference));
+  return 2 * nsvcd__atan2(apart, sqrt(nsvcd__dquat_dot(sum, sum)));
+}
+
+// How a body turns from a pose to the next, or in a part of that time.
+typedef struct nsvcd__slerp {
+  // at the poses: unit, on the shorter side
+  nsvcd__dquat start, end;
+  double half_angle;  // between them as quaternions: half the angle of the turn
+  // between the poses, 0 to 1: where the part begins, and its length
+  double from, fraction;
+} nsvcd__slerp;
+
+// All of the turn from a to b.
+static inline nsvcd__slerp nsvcd__slerp_of(const nsvcd_pose *a, const nsvcd_pose *b) {
+  const double side = nsvcd__poses_opposed(a, b) ? -1 : 1;
+  const nsvcd__dquat start = nsvcd__unit_dpose(a).rotation;
+  const nsvcd__dquat end = nsvcd__unit_dpose(b).rotation;
+  nsvcd__slerp out = {start, nsvcd__dquat_scale(end, side), 0, 0, 1};
+  out.half_angle = nsvcd__dquat_arc(out.start, out.end);
+  return out;
+}
+
+// The rotation at fraction u of the part, unit.
+static inline nsvcd__dquat nsvcd__slerp_at(const nsvcd__slerp *s, double u) {
+  const double along = s->from + s->fraction * u;
+  return nsvcd__dquat_unit(nsvcd__dquat_along(s->start, s->end, s->half_angle, along));
+}
+
+// The rotation vector of the part. Points bend off their chords by an eighth of its square, per
+// metre from its axis: a turn by h at a constant rate about a moves a point y with a second
+// derivative of h^2 a x (a x y), by the fraction of the turn that has gone by. Along a direction n
+// that is h^2 (n x a).(a x y).
+static inline nsvcd__d3 nsvcd__slerp_turn(const nsvcd__slerp *slerp) {
+  const nsvcd__d3 axis = nsvcd__dquat_turn(slerp->start, slerp->end);
+  const double sine = nsvcd__d3_norm(axis);
+  const double angle = 2 * slerp->half_angle * slerp->fraction;
+  return nsvcd__d3_scale(axis, sine > 0 ? angle / sine : 0);
+}
+
+// From a pose's origin s times to its pivot c.
+static inline nsvcd__d3 nsvcd__to_pivot(const nsvcd__dpose *pose, nsvcd__d3 c, double s) {
+  if (!(nsvcd__d3_dot(c, c) > 0)) return pose->position;
+  const nsvcd__dtransform at = nsvcd__dtransform_of(pose);
+  return nsvcd__d3_transform(&at, nsvcd__d3_scale(c, s));
+}
+
+// The position of a pose's pivot c.
+static inline nsvcd__d3 nsvcd__pivot_of(const nsvcd_pose *pose, nsvcd__d3 c) {
+  const nsvcd__dpose at = nsvcd__dpose_of(pose);
+  return nsvcd__to_pivot(&at, c, 1);
+}
+
+// The pose at fraction u between two, with the pivot c.
+static inline nsvcd__dpose nsvcd__dpose_between(const nsvcd_pose *a, const nsvcd_pose *b,
+                                                nsvcd__d3 c, double u) {
+  const nsvcd__slerp s = nsvcd__slerp_of(a, b);
+  nsvcd__dpose out = {nsvcd__dquat_along(s.start, s.end, s.half_angle, u),
+                      nsvcd__d3_mix(nsvcd__pivot_of(a, c), nsvcd__pivot_of(b, c), u)};
+  out.position = nsvcd__to_pivot(&out, c, -1);
+  return out;
+}
+#endif  // NSVCD__HAS_GROUND_MOTIONS
+
+// ----------------------------------------------------------------------------------- ground/memory
+#ifndef NSVCD__HAS_GROUND_MEMORY
+#define NSVCD__HAS_GROUND_MEMORY
+// In: the caller's allocator, or a workspace. Out: arrays from either.
+
+#ifndef NSVCD_NO_ENCODER
+static void *nsvcd__alloc(const nsvcd_allocator *allocator, size_t size) {
+  return allocator ? allocator->alloc(size, allocator->user) : malloc(size);
+}
+static void nsvcd__free(const nsvcd_allocator *allocator, void *memory) {
+  if (allocator && memory) allocator->free(memory, allocator->user);
+  if (!allocator) free(memory);
+}
+// count * size bytes; NULL also if that overflows.
+static void *nsvcd__alloc_array(const nsvcd_allocator *allocator, size_t count, size_t size) {
+  return count > SIZE_MAX / size ? NULL : nsvcd__alloc(allocator, count * size);
+}
+
+// Arrays that are freed together. `failed` says that there was no memory for one of them: it is
+// checked once, after the last.
+typedef union nsvcd__header {
+  union nsvcd__header *next;
+  double aligned;
+} nsvcd__header;
+typedef struct nsvcd__arena {
+  const nsvcd_allocator *allocator;
+  nsvcd__header *last;  // an array follows each
+  int failed;
+} nsvcd__arena;
+
+static nsvcd__arena nsvcd__arena_of(const nsvcd_allocator *allocator) {
+  const nsvcd__arena out = {allocator, NULL, 0};
+  return out;
+}
+static void nsvcd__arena_free(nsvcd__arena *arena) {
+  while (arena->last) {
+    nsvcd__header *header = arena->last;
+    arena->last = header->next;
+    nsvcd__free(arena->allocator, header);
+  }
+}
+
+// Uninitialized memory for an array; NULL if there is none.
+static void *nsvcd__arena_room(nsvcd__arena *arena, size_t count, size_t size) {
+  nsvcd__header *header = NULL;
+  if (count <= (SIZE_MAX - sizeof *header) / size)
+    header = (nsvcd__header *)nsvcd__alloc(arena->allocator, sizeof *header + count * size);
+  if (!header) {
+    arena->failed = 1;
+    return NULL;
+  }
+  header->next = arena->last;
+  arena->last = header;
+  return header + 1;
+}
+
+// An array of zeros; NULL without memory.
+#define NSVCD__TAKE(arena, type, count) ((type *)nsvcd__arena_take(arena, count, sizeof(type)))
+static void *nsvcd__arena_take(nsvcd__arena *arena, size_t count, size_t size) {
+  void *array = nsvcd__arena_room(arena, count, size);
+  return array ? memset(array, 0, count * size) : NULL;
+}
+
+// Memory in place of an array (NULL: none), whose first `used` bytes it keeps; without memory the
+// array stays.
+static void *nsvcd__arena_grow(nsvcd__arena *arena, void *old, size_t used, size_t count,
+                               size_t size) {
+  nsvcd__header **at = &arena->last;
+  void *larger = nsvcd__arena_room(arena, count, size);
+  if (!larger || !old) return larger;
+  memcpy(larger, old, used);
+  while ((void *)(*at + 1) != old) at = &(*at)->next;
+  nsvcd__header *header = *at;
+  *at = header->next;
+  nsvcd__free(arena->allocator, header);
+  return larger;
+}
+#endif
+
+// The next array of a workspace, or, if base is NULL, only counts its bytes: in 64 bits, because a
+// 32-bit machine may not be able to address them.
+static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_size) {
+  void *at = base ? base + *used : NULL;
+  const uint64_t bytes = (uint64_t)rows * row_size;
+  *used += (bytes + NSVCD_ALIGNMENT - 1) / NSVCD_ALIGNMENT * NSVCD_ALIGNMENT;
+  return at;
+}
+#define NSVCD__TAKE_ROWS(type, rows, base, used) \
+  ((type *)nsvcd__take(base, used, rows, sizeof(type)))
+#endif  // NSVCD__HAS_GROUND_MEMORY
+
+// ============================================================== world: one body against all others
+
+// ------------------------------------------------------------------------------------- world/boxes
+// In: a body, and the poses of its way. Out: a box in the world that holds all of it on that way.
+
+// relative errors of floats, of poses and of boxes
+#define NSVCD__BOX_ROUNDING 1e-6
+
+// A body's box in its frame, and how far its points are from its pivot at most; scaled, with its
+// convex radius.
+typedef struct nsvcd__shape_box {
+  nsvcd__d3 centre, half, pivot;
+  double reach;
+} nsvcd__shape_box;
+
+static nsvcd__shape_box nsvcd__shape_box_of(const nsvcd_mover *mover) {
+  const nsvcd_body_facts facts = nsvcd_body_describe(mover->body);
+  const double scale = mover->scale > 0 ? (double)mover->scale : 1;
+  const nsvcd__d3 low = nsvcd__d3_load(facts.low);
+  const nsvcd__d3 high = nsvcd__d3_load(facts.high);
+  const double more = (double)facts.convex_radius + (double)facts.quantization_error;
+  const nsvcd__d3 around = nsvcd__d3_of(more, more, more);
+  nsvcd__shape_box out;
+  out.centre = nsvcd__d3_scale(nsvcd__d3_add(low, high), 0.5 * scale);
+  out.half = nsvcd__d3_fma(0.5, nsvcd__d3_sub(high, low), around);
+  out.half = nsvcd__d3_scale(out.half, scale);
+  out.pivot = nsvcd__d3_scale(nsvcd__d3_load(mover->pivot), scale);
+  const nsvcd__d3 to_centre = nsvcd__d3_sub(out.centre, out.pivot);
+  const nsvcd__d3 away = nsvcd__d3_of(fabs(to_centre.x), fabs(to_centre.y), fabs(to_centre.z));
+  out.reach = nsvcd__d3_norm(nsvcd__d3_add(away, out.half));
+  return out;
+}
+
+static nsvcd__box nsvcd__box_over(nsvcd__box a, nsvcd__box b) {
+  const nsvcd__box out = {nsvcd__f3_min(a.low, b.low), nsvcd__f3_max(a.high, b.high)};
+  return out;
+}
+
+static int nsvcd__boxes_meet(const nsvcd__box *a, const nsvcd__box *b) {
+  return !nsvcd__f3_exceeds(a->low, b->high) && !nsvcd__f3_exceeds(b->low, a->high);
+}
+
+static nsvcd__box nsvcd__box_around(nsvcd__box box, double by) {
+  const float more = nsvcd__above(by);
+  const nsvcd__f3 around = nsvcd__f3_of(more, more, more);
+  const nsvcd__box out = {nsvcd__f3_sub(box.low, around), nsvcd__f3_add(box.high, around)};
+  return out;
+}
+
+// The box of a pose, larger by `more`.
+static nsvcd__box nsvcd__box_of_pose(const nsvcd__shape_box *shape, const nsvcd_pose *pose,
+                                     double more) {
+  const nsvcd__dpose at = nsvcd__dpose_of(pose);
+  const nsvcd__dtransform place = nsvcd__dtransform_of(&at);
+  const nsvcd__dmat3 *r = &place.rotation;
+  const nsvcd__d3 h = shape->half;
+  const nsvcd__d3 centre = nsvcd__d3_transform(&place, shape->centre);
+  const double size =
+      nsvcd__d3_norm(at.position) + nsvcd__d3_norm(shape->pivot) + shape->reach;
+  more += NSVCD__BOX_ROUNDING * size;
+  const nsvcd__d3 half =
+      nsvcd__d3_of(fabs(r->x.x) * h.x + fabs(r->x.y) * h.y + fabs(r->x.z) * h.z + more,
+                   fabs(r->y.x) * h.x + fabs(r->y.y) * h.y + fabs(r->y.z) * h.z + more,
+                   fabs(r->z.x) * h.x + fabs(r->z.y) * h.y + fabs(r->z.z) * h.z + more);
+  const nsvcd__box out = {nsvcd__d3_narrow(nsvcd__d3_sub(centre, half)),
+                          nsvcd__d3_narrow(nsvcd__d3_add(centre, half))};
+  return out;
+}
+
+// The box of a way. Where it turns by an angle h, a point leaves the chord between two poses by no
+// more than an eighth of h squared, per metre from the pivot.
+static nsvcd__box nsvcd__box_of_way(const nsvcd__shape_box *shape, const nsvcd_pose *poses,
+                                    size_t count, double more) {
+  nsvcd__box out = nsvcd__box_of_pose(shape, &poses[0], more);
+  for (size_t k = 1; k < count; k++) {
+    const double turn = 2 * nsvcd__slerp_of(&poses[k - 1], &poses[k]).half_angle;
+    const double bend = 0.126 * turn * turn * shape->reach;
+    const nsvcd__box from = nsvcd__box_of_pose(shape, &poses[k - 1], more + bend);
+    const nsvcd__box to = nsvcd__box_of_pose(shape, &poses[k], more + bend);
+    out = nsvcd__box_over(out, nsvcd__box_over(from, to));
+  }
+  return out;
+}
+
+// -------------------------------------------------------------------------------------- world/tree
+// In: boxes, each with a number from 1 on. Out: a tree in which those that meet a box are found.
+//
+// A leaf's node has the number of its box. A box is put beside the one where the boxes above grow
+// least (Catto, Dynamic bounding volume hierarchies, 2019), and on the way up from there a node
+// takes over a child of its sibling's where that makes boxes smaller, so that the tree stays good
+// in whatever order boxes come. A box in the tree is larger than what it is about, so that what
+// moves a little stays where it is.
+
+typedef struct nsvcd__branch {
+  nsvcd__box box;
+  // 0: the root has none. The next free node of those that are not used
+  uint32_t parent;
+  // 0: a leaf
+  uint32_t child[2];
+} nsvcd__branch;
+
+typedef struct nsvcd__box_tree {
+  // (2 most): from 1 to most leaves, and from most + 1 on the others
+  nsvcd__branch *nodes;
+  uint32_t most, root, unused;
+} nsvcd__box_tree;
+
+static void nsvcd__tree_begin(nsvcd__box_tree *tree, nsvcd__branch *nodes, uint32_t most) {
+  tree->nodes = nodes;
+  tree->most = most;
+  tree->root = 0;
+  tree->unused = most > 1 ? most + 1 : 0;
+  for (uint32_t n = most + 1; n < 2 * most; n++)
+    nodes[n].parent = n + 1 < 2 * most ? n + 1 : 0;
+}
+
+// The first node after n, and all below it, in the tree's order; 0: there is none.
+static uint32_t nsvcd__tree_skip(const nsvcd__box_tree *tree, uint32_t n) {
+  while (tree->nodes[n].parent) {
+    const nsvcd__branch *parent = &tree->nodes[tree->nodes[n].parent];
+    if (parent->child[0] == n) return parent->child[1];
+    n = tree->nodes[n].parent;
+  }
+  return 0;
+}
+
+// The next leaf, after leaf `at` or, if that is 0, the first, whose box meets another one; 0: there
+// is none. The tree may not change in between.
+static uint32_t nsvcd__tree_next(const nsvcd__box_tree *tree, uint32_t at,
+                                 const nsvcd__box *box) {
+  uint32_t n = at ? nsvcd__tree_skip(tree, at) : tree->root;
+  while (n) {
+    const nsvcd__branch *node = &tree->nodes[n];
+    const int meets = nsvcd__boxes_meet(&node->box, box);
+    if (meets && !node->child[0]) return n;
+    n = meets ? node->child[0] : nsvcd__tree_skip(tree, n);
+  }
+  return 0;
+}
+
+// Half the area of a box.
+static float nsvcd__box_area(nsvcd__box box) {
+  const nsvcd__f3 size = nsvcd__f3_sub(box.high, box.low);
+  return size.x * (size.y + size.z) + size.y * size.z;
+}
+
+static void nsvcd__tree_hang(nsvcd__box_tree *tree, uint32_t parent, int side, uint32_t n) {
+  tree->nodes[n].parent = parent;
+  if (parent) tree->nodes[parent].child[side] = n;
+  if (!parent) tree->root = n;
+}
+
+static nsvcd__box nsvcd__box_of_children(const nsvcd__box_tree *tree,
+                                         const nsvcd__branch *node) {
+  return nsvcd__box_over(tree->nodes[node->child[0]].box, tree->nodes[node->child[1]].box);
+}
+
+// Exchanges a child of node n's with a child of the other one's, if the box of that gets smaller.
+static void nsvcd__tree_rotate(nsvcd__box_tree *tree, uint32_t n) {
+  nsvcd__branch *node = &tree->nodes[n];
+  float most = 0;
+  int best = 0;
+  for (int k = 0; k < 4;
+       k++) {  // child k / 2 goes below the other, in place of its child k % 2
+    const nsvcd__branch *other = &tree->nodes[node->child[1 - k / 2]];
+    if (!other->child[0]) continue;
+    const nsvcd__box stays = tree->nodes[other->child[1 - k % 2]].box;
+    const nsvcd__box comes = tree->nodes[node->child[k / 2]].box;
+    const nsvcd__box box = nsvcd__box_over(stays, comes);
+    const float gained = nsvcd__box_area(other->box) - nsvcd__box_area(box);
+    if (gained > most) best = k;
+    most = fmaxf(most, gained);
+  }
+  if (!(most > 0)) return;
+  const uint32_t low = node->child[best / 2];
+  const uint32_t other = node->child[1 - best / 2];
+  const uint32_t high = tree->nodes[other].child[best % 2];
+  nsvcd__tree_hang(tree, other, best % 2, low);
+  nsvcd__tree_hang(tree, n, best / 2, high);
+  tree->nodes[other].box = nsvcd__box_of_children(tree, &tree->nodes[other]);
+}
+
+// Makes the boxes from node n up to the root what they are to be.
+static void nsvcd__tree_refit(nsvcd__box_tree *tree, uint32_t n) {
+  for (; n; n = tree->nodes[n].parent) {
+    nsvcd__tree_rotate(tree, n);
+    tree->nodes[n].box = nsvcd__box_of_children(tree, &tree->nodes[n]);
+  }
+}
+
+static void nsvcd__tree_insert(nsvcd__box_tree *tree, uint32_t leaf, nsvcd__box box) {
+  nsvcd__branch *nodes = tree->nodes;
+  uint32_t beside = tree->root;
+  nodes[leaf].box = box;
+  nodes[leaf].child[0] = nodes[leaf].child[1] = 0;
+  if (!tree->root) {
+    nsvcd__tree_hang(tree, 0, 0, leaf);
+    return;
+  }
+  // Down, as long as a new node above a child costs less than one here.
+  while (nodes[beside].child[0]) {
+    float costs[2];
+    const float here = nsvcd__box_area(nsvcd__box_over(nodes[beside].box, box));
+    const float grows = here - nsvcd__box_area(nodes[beside].box);
+    for (int k = 0; k < 2; k++) {
+      const nsvcd__branch *child = &nodes[nodes[beside].child[k]];
+      costs[k] = grows + nsvcd__box_area(nsvcd__box_over(child->box, box));
+      if (child->child[0]) costs[k] -= nsvcd__box_area(child->box);
+    }
+    if (here < costs[0] && here < costs[1]) break;
+    beside = nodes[beside].child[costs[1] < costs[0]];
+  }
+  const uint32_t above = tree->unused;
+  const uint32_t parent = nodes[beside].parent;
+  tree->unused = nodes[above].parent;
+  nsvcd__tree_hang(tree, parent, parent && nodes[parent].child[1] == beside, above);
+  nsvcd__tree_hang(tree, above, 0, beside);
+  nsvcd__tree_hang(tree, above, 1, leaf);
+  nsvcd__tree_refit(tree, above);
+}
+
+static void nsvcd__tree_remove(nsvcd__box_tree *tree, uint32_t leaf) {
+  nsvcd__branch *nodes = tree->nodes;
+  const uint32_t above = nodes[leaf].parent;
+  if (!above) {
+    tree->root = 0;
+    return;
+  }
+  const uint32_t parent = nodes[above].parent;
+  const uint32_t sibling = nodes[above].child[nodes[above].child[0] == leaf];
+  nsvcd__tree_hang(tree, parent, parent && nodes[parent].child[1] == above, sibling);
+  nodes[above].parent = tree->unused;
+  tree->unused = above;
+  nsvcd__tree_refit(tree, parent);
+}
+
+// ------------------------------------------------------------------------------------- world/world
+// In: bodies at their places. Out: a world of them; who may meet whom.
+
+// metres, as a fraction of a body's longest half: how much larger its box in the tree is than it
+// need be
+#define NSVCD__LOOSE 0.1
+
+// A body of a world. It has one pose, or, driven, two: where it is, and where it will be.
+typedef struct nsvcd__resident {
+  nsvcd_world_body given;  // without a body: nobody
+  nsvcd_pose to;
+  int is_driven;
+  nsvcd__shape_box shape;
+  // over this frame
+  nsvcd__box box;
+  uint32_t next_free;
+} nsvcd__resident;
+
+struct nsvcd_world {
+  nsvcd__box_tree tree;
+  // (most + 1), from 1 on
+  nsvcd__resident *residents;
+  // free: the first of those that are nobody
+  uint32_t most, count, free;
+  // odd while it is being changed. Volatile, so that who asks at the same time may see that
+  volatile uint32_t changes;
+};
+
+static size_t nsvcd__world_layout(size_t most, char *base, nsvcd_world **world) {
+  uint64_t used = 0;
+  nsvcd_world *w = NSVCD__TAKE_ROWS(nsvcd_world, 1, base, &used);
+  nsvcd__resident *residents = NSVCD__TAKE_ROWS(nsvcd__resident, most + 1, base, &used);
+  nsvcd__branch *nodes = NSVCD__TAKE_ROWS(nsvcd__branch, 2 * most, base, &used);
+  if (w) {
+    memset(w, 0, sizeof *w);
+    w->residents = residents;
+    w->most = (uint32_t)most;
+    nsvcd__tree_begin(&w->tree, nodes, w->most);
+    *world = w;
+  }
+  return used <= SIZE_MAX ? (size_t)used : 0;
+}
+
+NSVCDDEF size_t nsvcd_world_size(size_t most) {
+  if (most < 1 || most > 0x7ffffffe) return 0;
+  return nsvcd__world_layout(most, NULL, NULL);
+}
+
+NSVCDDEF nsvcd_result nsvcd_world_begin(void *memory, size_t size, size_t most,
+                                        nsvcd_world **world) {
+  const size_t needed = nsvcd_world_size(most);
+  if (!world) return NSVCD_ERROR_ARGUMENT;
+  if (needed == 0) return NSVCD_ERROR_COUNT;
+  if (!memory || !nsvcd__is_aligned(memory) || size < needed) return NSVCD_ERROR_WORKSPACE;
+  (void)nsvcd__world_layout(most, (char *)memory, world);
+  return NSVCD_OK;
+}
+
+// The body of an id, or NULL.
+static nsvcd__resident *nsvcd__resident_of(const nsvcd_world *world, size_t id) {
+  nsvcd__resident *r = id > 0 && id <= world->count ? &world->residents[id] : NULL;
+  return r && r->given.body ? r : NULL;
+}
+
+static nsvcd_mover nsvcd__mover_of(const nsvcd__resident *r) {
+  nsvcd_mover out;
+  memset(&out, 0, sizeof out);
+  out.body = r->given.body;
+  out.poses = &r->given.pose;
+  out.count = 1;
+  out.scale = r->given.scale;
+  memcpy(out.pivot, r->given.pivot, sizeof out.pivot);
+  return out;
+}
+
+// Begins a change of the world, if there is none already, or ends it.
+static int nsvcd__world_opens(nsvcd_world *world) {
+  if (world->changes & 1) return 0;
+  world->changes++;
+  return 1;
+}
+static nsvcd_result nsvcd__world_closes(nsvcd_world *world, nsvcd_result result) {
+  world->changes++;
+  return result;
+}
+
+// Puts a body into the tree, or where it is now.
+static void nsvcd__settle(nsvcd_world *world, uint32_t id, int is_new) {
+  nsvcd__resident *r = &world->residents[id];
+  nsvcd__branch *leaf = &world->tree.nodes[id];
+  const nsvcd_pose way[2] = {r->given.pose, r->to};
+  const nsvcd__d3 half = r->shape.half;
+  r->box = nsvcd__box_of_way(&r->shape, way, r->is_driven ? 2 : 1, 0);
+  const nsvcd__box both = nsvcd__box_over(leaf->box, r->box);
+  const int is_within = !nsvcd__f3_exceeds(both.high, leaf->box.high) &&
+                        !nsvcd__f3_exceeds(leaf->box.low, both.low);
+  if (!is_new && is_within) return;
+  if (!is_new) nsvcd__tree_remove(&world->tree, id);
+  const double longest = nsvcd__max(nsvcd__max(half.x, half.y), half.z);
+  const double more = r->given.fixed ? 0 : NSVCD__LOOSE * longest;
+  nsvcd__tree_insert(&world->tree, id, nsvcd__box_around(r->box, more));
+}
+
+static nsvcd_result nsvcd__world_body_check(const nsvcd_world_body *given) {
+  const nsvcd_body *body = NULL;
+  const nsvcd_result result = nsvcd_body_trust(given->body, SIZE_MAX, &body);
+  if (result) return result;
+  const nsvcd_body_facts facts = nsvcd_body_describe(body);
+  const float scale = given->scale;
+  if (!facts.triangles) return NSVCD_ERROR_TRIANGLES;
+  if (!nsvcd__is_finite(scale) || scale < 0) return NSVCD_ERROR_SCALE;
+  const int fits = scale >= NSVCD_MIN_SCALE && scale <= NSVCD_MAX_SCALE &&
+                   scale * facts.radius >= NSVCD_MIN_RADIUS &&
+                   scale * facts.extent <= 2 * NSVCD_MAX_COORDINATE;
+  if (scale > 0 && !fits) return NSVCD_ERROR_SCALE;
+  const float most = NSVCD_MAX_COORDINATE / (scale > 1 ? scale : 1);
+  if (!nsvcd__in_range(given->pivot, 3, most)) return NSVCD_ERROR_PIVOT;
+  return nsvcd__poses_check(&given->pose, 1);
+}
+
+NSVCDDEF nsvcd_result nsvcd_world_add(nsvcd_world *world, const nsvcd_world_body *body,
+                                      size_t *id) {
+  if (!world || !body || !id) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__world_opens(world)) return NSVCD_ERROR_WORLD;
+  const nsvcd_result result = nsvcd__world_body_check(body);
+  const int has_room = world->free || world->count < world->most;
+  if (result || !has_room)
+    return nsvcd__world_closes(world, result ? result : NSVCD_ERROR_COUNT);
+  const uint32_t n = world->free ? world->free : world->count + 1;
+  nsvcd__resident *r = &world->residents[n];
+  if (world->free) world->free = r->next_free;
+  if (n > world->count) world->count = n;
+  memset(r, 0, sizeof *r);
+  r->given = *body;
+  if (!body->groups) r->given.groups = 1;
+  const nsvcd_mover mover = nsvcd__mover_of(r);
+  r->shape = nsvcd__shape_box_of(&mover);
+  nsvcd__settle(world, n, 1);
+  *id = n;
+  return nsvcd__world_closes(world, NSVCD_OK);
+}
+
+NSVCDDEF nsvcd_result nsvcd_world_remove(nsvcd_world *world, size_t id) {
+  if (!world) return NSVCD_ERROR_ARGUMENT;
+  nsvcd__resident *r = nsvcd__resident_of(world, id);
+  if (!r) return NSVCD_ERROR_INDEX;
+  if (!nsvcd__world_opens(world)) return NSVCD_ERROR_WORLD;
+  nsvcd__tree_remove(&world->tree, (uint32_t)id);
+  r->given.body = NULL;
+  r->next_free = world->free;
+  world->free = (uint32_t)id;
+  return nsvcd__world_closes(world, NSVCD_OK);
+}
+
+// Has a body at a pose or, driven, on its way there.
+static nsvcd_result nsvcd__world_place(nsvcd_world *world, size_t id, const nsvcd_pose *pose,
+                                       int is_driven) {
+  if (!world || !pose) return NSVCD_ERROR_ARGUMENT;
+  nsvcd__resident *r = nsvcd__resident_of(world, id);
+  if (!r) return NSVCD_ERROR_INDEX;
+  const nsvcd_result result = nsvcd__poses_check(pose, 1);
+  if (result) return result;
+  if (!nsvcd__world_opens(world)) return NSVCD_ERROR_WORLD;
+  *(is_driven ? &r->to : &r->given.pose) = *pose;
+  r->is_driven = is_driven;
+  nsvcd__settle(world, (uint32_t)id, 0);
+  return nsvcd__world_closes(world, NSVCD_OK);
+}
+
+NSVCDDEF nsvcd_result nsvcd_world_move(nsvcd_world *world, size_t id, const nsvcd_pose *pose) {
+  return nsvcd__world_place(world, id, pose, 0);
+}
+
+NSVCDDEF nsvcd_result nsvcd_world_drive(nsvcd_world *world, size_t id, const nsvcd_pose *to) {
+  return nsvcd__world_place(world, id, to, 1);
+}
+
+NSVCDDEF nsvcd_result nsvcd_world_arrive(nsvcd_world *world) {
+  if (!world) return NSVCD_ERROR_ARGUMENT;
+  for (size_t id = 1; id <= world->count; id++) {
+    const nsvcd__resident *r = nsvcd__resident_of(world, id);
+    if (!r || !r->is_driven) continue;
+    const nsvcd_pose to = r->to;
+    const nsvcd_result result = nsvcd__world_place(world, id, &to, 0);
+    if (result) return result;
+  }
+  return NSVCD_OK;
+}
+
+NSVCDDEF nsvcd_result nsvcd_world_get(const nsvcd_world *world, size_t id,
+                                      nsvcd_world_body *body) {
+  if (!world || !body) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd__resident *r = nsvcd__resident_of(world, id);
+  if (!r) return NSVCD_ERROR_INDEX;
+  *body = r->given;
+  return NSVCD_OK;
+}
+
+static int nsvcd__groups_meet(uint32_t groups, uint32_t passes,
+                              const nsvcd_world_body *other) {
+  return !(groups & other->passes) && !(other->groups & passes);
+}
+
+NSVCDDEF nsvcd_result nsvcd_world_pairs(const nsvcd_world *world, float distance,
+                                        nsvcd_body_pair *pairs, size_t most, size_t *count) {
+  if (!world || !count || (most > 0 && !pairs)) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__is_length(distance)) return NSVCD_ERROR_DISTANCE;
+  const uint32_t changes = world->changes;
+  size_t found = 0;
+  for (uint32_t id = 1; id <= world->count; id++) {
+    const nsvcd__resident *a = nsvcd__resident_of(world, id);
+    if (!a) continue;
+    const nsvcd__box box = nsvcd__box_around(a->box, (double)distance);
+    for (uint32_t n = 0; (n = nsvcd__tree_next(&world->tree, n, &box)) != 0;) {
+      const nsvcd__resident *b = &world->residents[n];
+      if (n <= id || (a->given.fixed && b->given.fixed)) continue;
+      if (!nsvcd__boxes_meet(&box, &b->box)) continue;
+      if (!nsvcd__groups_meet(a->given.groups, a->given.passes, &b->given)) continue;
+      if (found < most) {
+        pairs[found].a = id;
+        pairs[found].b = n;
+      }
+      found++;
+    }
+  }
+  if ((changes & 1) || changes != world->changes) return NSVCD_ERROR_WORLD;
+  *count = found;
+  return NSVCD_OK;
+}
+
+// --------------------------------------------------------------------------------------- world/ask
+// In: a question about a mover and all that it comes near. Out: one answer.
+//
+// Each body that is near is asked about by itself. The earliest of their times is the answer's, and
+// up to there all of them are free. The pose at that time, as it is in floats, may be off the way by
+// a few units of their last place: so it is asked about once more, of the others.
+//
+// With a slop each body's answer has a push-out of its own. One that is as long along each of these
+// as that one is deep satisfies all, and nearly the shortest is found by projections (Agmon 1954).
+// The way displaced by it is then asked about without a slop: what is proven is proven of that way.
+
+// bodies whose push-outs are joined, at most
+#define NSVCD__MOST_TOUCHED 32
+// how often the safe pose moves back, each time twice as far
+#define NSVCD__BACK 8
+
+// Someone who asks: the mover, where it goes, and memory.
+typedef struct nsvcd__asker {
+  const nsvcd_world *world;
+  // whose b is filled in for each body
+  nsvcd_question question;
+  size_t self;
+  uint32_t groups, passes;
+  int with_sensors;
+  nsvcd__shape_box shape;
+  // what its way may come near
+  nsvcd__box box;
+  // driven bodies are asked about from this part of the frame on, as is the mover; or only then
+  double since;
+  int at_once;
+  nsvcd_pose driven[2];
+  void *workspace;
+  size_t workspace_size;
+  size_t questions, work;
+  nsvcd_result result;
+} nsvcd__asker;
+
+// Turns to other poses of the mover.
+static void nsvcd__asker_goes(nsvcd__asker *q, const nsvcd_pose *poses, size_t count) {
+  const double apart = (double)q->question.clearance + (double)q->question.tolerance;
+  q->question.a.poses = poses;
+  q->question.a.count = count;
+  q->box = nsvcd__box_of_way(&q->shape, poses, count, apart + (double)q->question.slop);
+}
+
+// Where a body is in the part of the frame that is asked about: writes its poses and how many.
+static void nsvcd__asker_sees(nsvcd__asker *q, const nsvcd__resident *r, nsvcd_mover *mover) {
+  *mover = nsvcd__mover_of(r);
+  if (!r->is_driven) return;
+  q->driven[0] = r->given.pose;
+  q->driven[1] = r->to;
+  if (q->since > 0) {
+    const nsvcd__dpose at =
+        nsvcd__dpose_between(&r->given.pose, &r->to, r->shape.pivot, q->since);
+    q->driven[0] = nsvcd__dpose_round(&at);
+  }
+  mover->poses = q->driven;
+  mover->count = q->at_once ? 1 : 2;
+}
+
+// The next body that the mover may meet after body `at`, or the first if that is 0; 0: none.
+static uint32_t nsvcd__asker_next(const nsvcd__asker *q, uint32_t at) {
+  const nsvcd_world *world = q->world;
+  while ((at = nsvcd__tree_next(&world->tree, at, &q->box)) != 0) {
+    const nsvcd__resident *r = &world->residents[at];
+    if (at == q->self || (r->given.sensor && !q->with_sensors)) continue;
+    if (!nsvcd__groups_meet(q->groups, q->passes, &r->given)) continue;
+    if (nsvcd__boxes_meet(&q->box, &r->box)) return at;
+  }
+  return 0;
+}
+
+// Asks about one body. 0: it was refused.
+static int nsvcd__ask_about(nsvcd__asker *q, uint32_t id, nsvcd_answer *answer) {
+  nsvcd__asker_sees(q, &q->world->residents[id], &q->question.b);
+  if (!q->result)
+    q->result = nsvcd_sweep(&q->question, q->workspace, q->workspace_size, answer);
+  if (q->result) return 0;
+  q->questions++;
+  q->work += answer->work;
+  return 1;
+}
+
+// Makes a question an asker's. The mover may be without poses: then it is where it is in the world.
+static nsvcd_result nsvcd__asker_begin(const nsvcd_world *world,
+                                       const nsvcd_world_question *asked, void *workspace,
+                                       size_t size, nsvcd__asker *q) {
+  static const nsvcd_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
+  static const nsvcd_pose elsewhere = {{1, 0, 0}, {0, 0, 0, 1}};
+  const nsvcd_question *given = &asked->question;
+  const nsvcd__resident *self = nsvcd__resident_of(world, asked->self);
+  memset(q, 0, sizeof *q);
+  if (asked->self != NSVCD_NOBODY && !self) return NSVCD_ERROR_INDEX;
+  if (given->b.body || given->b.poses || (!self && !given->a.body))
+    return NSVCD_ERROR_ARGUMENT;
+  if (given->method == NSVCD_METHOD_NETWORK) return NSVCD_ERROR_METHOD;
+  q->world = world;
+  q->question = *given;
+  q->question.method = NSVCD_METHOD_PROOF;
+  q->self = asked->self;
+  q->groups = self ? self->given.groups : asked->groups ? asked->groups : 1;
+  q->passes = self ? self->given.passes : asked->passes;
+  q->workspace = workspace;
+  q->workspace_size = size;
+  nsvcd_mover *a = &q->question.a;
+  if (self && !a->body) {
+    const nsvcd_mover mover = nsvcd__mover_of(self);
+    a->body = mover.body;
+    a->scale = mover.scale;
+    memcpy(a->pivot, mover.pivot, sizeof a->pivot);
+  }
+  if (!a->poses && a->count == 0) {
+    a->poses = self ? &self->given.pose : &origin;
+    a->count = 1;
+  }
+  // Is the question in order? Beside any other body it would be answered, with a workspace.
+  nsvcd_question probe = q->question;
+  nsvcd_answer unused;
+  probe.b.body = a->body;
+  probe.b.poses = &elsewhere;
+  probe.b.count = 1;
+  const nsvcd_result result = nsvcd_sweep(&probe, NULL, 0, &unused);
+  if (result != NSVCD_ERROR_WORKSPACE) return result;
+  if (!workspace || size < nsvcd_sweep_workspace_size(NULL)) return result;
+  q->shape = nsvcd__shape_box_of(a);
+  nsvcd__asker_goes(q, a->poses, a->count);
+  return NSVCD_OK;
+}
+
+// ---- what is known of all bodies so far
+
+typedef struct nsvcd__tally {
+  int is_hit, is_undecided;
+  nsvcd_why why;
+  nsvcd_range time;
+  // which is hit, or undecided, first
+  size_t first;
+  // the body whose safe pose is the earliest, and that
+  size_t safe_by;
+  float safe_time;
+  nsvcd_pose safe;
+} nsvcd__tally;
+
+static nsvcd__tally nsvcd__tally_of(const nsvcd__asker *q) {
+  const nsvcd_mover *a = &q->question.a;
+  nsvcd__tally out;
+  memset(&out, 0, sizeof out);
+  out.time.low = out.time.high = out.safe_time = 1;
+  out.safe = a->poses[a->count - 1];
+  return out;
+}
+
+// Is an answer about a contact, or something undecided, that comes before what is known?
+static int nsvcd__comes_first(const nsvcd__tally *t, const nsvcd_answer *answer) {
+  const int is_hit = answer->verdict == NSVCD_HIT;
+  if (is_hit != t->is_hit) return is_hit;
+  return is_hit ? answer->time.high < t->time.high : answer->time.low < t->time.low;
+}
+
+static void nsvcd__tally_add(nsvcd__tally *t, size_t id, const nsvcd_answer *answer) {
+  if (answer->verdict == NSVCD_FREE) return;
+  if (!t->first || nsvcd__comes_first(t, answer)) t->first = id;
+  if (answer->verdict == NSVCD_HIT) {
+    t->time.high = t->is_hit ? fminf(t->time.high, answer->time.high) : answer->time.high;
+    t->is_hit = 1;
+  } else {
+    t->is_undecided = 1;
+    if (!t->is_hit) t->time.high = HUGE_VALF;
+  }
+  if (!t->why) t->why = answer->why;
+  t->time.low = fminf(t->time.low, answer->time.low);
+  if (t->safe_by && answer->safe.time >= t->safe_time) return;
+  t->safe_by = id;
+  t->safe_time = answer->safe.time;
+  t->safe = answer->safe.a;
+}
+
+// Asks about all bodies; HIT only until one is hit.
+static nsvcd__tally nsvcd__ask_all(nsvcd__asker *q) {
+  nsvcd__tally t = nsvcd__tally_of(q);
+  for (uint32_t id = 0; (id = nsvcd__asker_next(q, id)) != 0;) {
+    nsvcd_answer answer;
+    if (!nsvcd__ask_about(q, id, &answer)) return t;
+    nsvcd__tally_add(&t, id, &answer);
+    if (t.is_hit && q->question.ask == NSVCD_ASK_HIT) break;
+  }
+  return t;
+}
+
+// ---- one push-out of all
+
+// Nearly the shortest push-out that is so long along each normal; 0 if none is found.
+static nsvcd__d3 nsvcd__join_push_outs(const nsvcd__d3 *normals, const double *depths,
+                                       size_t count) {
+  nsvcd__d3 out = {0, 0, 0};
+  for (int round = 0; round < 64; round++) {
+    double most = 0;
+    for (size_t k = 0; k < count; k++) {
+      const double lacks = depths[k] - nsvcd__d3_dot(out, normals[k]);
+      if (!(lacks > 0)) continue;
+      most = nsvcd__max(most, lacks / depths[k]);
+      out = nsvcd__d3_fma(lacks, normals[k], out);
+    }
+    if (most <= 0.01) return out;
+  }
+  return nsvcd__d3_of(0, 0, 0);
+}
+
+// The push-out of the mover out of all that it touches at the start, by the question's slop: twice
+// that at most, or 0 if there is none.
+static nsvcd__d3 nsvcd__push_out_of_all(const nsvcd__asker *asked) {
+  nsvcd__asker q = *asked;
+  nsvcd__d3 normals[NSVCD__MOST_TOUCHED];
+  double depths[NSVCD__MOST_TOUCHED];
+  size_t count = 0;
+  const nsvcd__d3 none = {0, 0, 0};
+  const float slop = q.question.slop;
+  q.at_once = 1;
+  q.question.a.times = NULL;
+  nsvcd__asker_goes(&q, q.question.a.poses, 1);
+  for (uint32_t id = 0; (id = nsvcd__asker_next(&q, id)) != 0;) {
+    nsvcd_answer answer;
+    if (!nsvcd__ask_about(&q, id, &answer)) return none;
+    const nsvcd__d3 push_out = nsvcd__d3_load(answer.push_out);
+    const double length = nsvcd__d3_norm(push_out);
+    if (answer.depth > slop || count == NSVCD__MOST_TOUCHED) return none;
+    if (!(length > 0)) continue;
+    normals[count] = nsvcd__d3_scale(push_out, 1 / length);
+    depths[count++] = (double)answer.depth + 0.05 * (double)slop;
+  }
+  const nsvcd__d3 out = nsvcd__join_push_outs(normals, depths, count);
+  return nsvcd__d3_norm(out) <= 2 * (double)slop ? out : none;
+}
+
+// ---- where the mover may go
+
+// The pose of a way at a time in [0,1].
+static nsvcd_pose nsvcd__pose_on_way(const nsvcd_mover *way, const nsvcd__d3 pivot, double t) {
+  const double all = (double)(way->count - 1);
+  size_t k = 1;
+  if (way->count == 1 || !(t > 0)) return way->poses[0];
+  while (k + 1 < way->count && (way->times ? (double)way->times[k] : (double)k / all) < t) k++;
+  const double from = way->times ? (double)way->times[k - 1] : (double)(k - 1) / all;
+  const double to = way->times ? (double)way->times[k] : (double)k / all;
+  const nsvcd__dpose at = nsvcd__dpose_between(&way->poses[k - 1], &way->poses[k], pivot,
+                                               nsvcd__min((t - from) / (to - from), 1));
+  return nsvcd__dpose_round(&at);
+}
+
+// Is the mover free at a pose, at a part of the frame, of all bodies but one?
+static int nsvcd__may_be_at(const nsvcd__asker *asked, const nsvcd_pose *pose, double when,
+                            size_t but) {
+  nsvcd__asker q = *asked;
+  q.since = when;
+  q.at_once = 1;
+  q.question.ask = NSVCD_ASK_HIT;
+  q.question.to = q.question.to_time = q.question.slop = 0;
+  q.question.manifold = 0;
+  q.question.a.times = NULL;
+  nsvcd__asker_goes(&q, pose, 1);
+  for (uint32_t id = 0; (id = nsvcd__asker_next(&q, id)) != 0;) {
+    nsvcd_answer answer;
+    if (id == but) continue;
+    if (!nsvcd__ask_about(&q, id, &answer) || answer.verdict != NSVCD_FREE) return 0;
+  }
+  return 1;
+}
+
+// Moves the safe pose back until it is proven to be free of all as it is in floats.
+static void nsvcd__make_safe(const nsvcd__asker *q, nsvcd__tally *t) {
+  const nsvcd_mover *way = &q->question.a;
+  const nsvcd__f3 size = nsvcd__f3_sub(q->box.high, q->box.low);
+  const nsvcd__f3 most = nsvcd__f3_max(q->box.high, nsvcd__f3_scale(q->box.low, -1));
+  const double ulps = 1e-6 * (double)nsvcd__f3_norm(most);
+  double back = nsvcd__max(1e-6, ulps / (double)nsvcd__f3_norm(size));
+  size_t but = t->safe_by;
+  for (int k = 0; k < NSVCD__BACK && t->safe_time > 0; k++) {
+    const double when = q->since + (double)t->safe_time * (1 - q->since);
+    if (nsvcd__may_be_at(q, &t->safe, when, but)) return;
+    t->safe_time = (float)nsvcd__max((double)t->safe_time - back, 0);
+    t->safe = nsvcd__pose_on_way(way, q->shape.pivot, (double)t->safe_time);
+    back *= 2;
+    but = 0;
+  }
+  t->safe_time = 0;
+  t->safe = way->poses[0];
+}
+
+// Adds the contacts of the mover, at a pose and at a part of the frame, with all bodies that are
+// nearer than `within` metres: those of each, or one. Returns how many there are then.
+static size_t nsvcd__contacts_at(nsvcd__asker *asked, const nsvcd_pose *pose, double when,
+                                 float within, size_t each, nsvcd_world_contact *contacts) {
+  nsvcd__asker q = *asked;
+  size_t count = 0;
+  memset(&q.question, 0, sizeof q.question);
+  q.question.a = asked->question.a;
+  q.question.a.times = NULL;
+  q.question.work = asked->question.work;
+  q.question.clearance = within;
+  q.since = when;
+  q.at_once = 1;
+  nsvcd__asker_goes(&q, pose, 1);
+  for (uint32_t id = 0;
+       (id = nsvcd__asker_next(&q, id)) != 0 && count < NSVCD_WORLD_CONTACTS;) {
+    nsvcd_contact found[NSVCD_WORLD_CONTACTS];
+    size_t n = 0;
+    nsvcd__asker_sees(&q, &q.world->residents[id], &q.question.b);
+    const size_t room = NSVCD_WORLD_CONTACTS - count;
+    if (!q.result)
+      q.result = nsvcd_contacts(&q.question, q.workspace, q.workspace_size, found,
+                                room < each ? room : each, &n, NULL);
+    if (q.result) break;
+    q.questions++;
+    for (size_t k = 0; k < n && k < each && k < room; k++) {
+      nsvcd_world_contact *c = &contacts[count++];
+      memset(c, 0, sizeof *c);
+      c->body = id;
+      c->contact = found[k];
+    }
+  }
+  asked->result = q.result;
+  asked->questions = q.questions;
+  return count;
+}
+
+// ---- the answer
+
+// poses that are displaced by a push-out, at most
+#define NSVCD__DISPLACED 64
+
+static void nsvcd__world_answer(nsvcd__asker *q, const nsvcd__tally *t, int each,
+                                nsvcd_world_answer *out) {
+  const nsvcd_question *asked = &q->question;
+  const double usual = (double)NSVCD_DEFAULT_TO * q->shape.reach;
+  const double to = asked->to > 0 ? (double)asked->to : usual;
+  out->verdict = t->is_hit ? NSVCD_HIT : t->is_undecided ? NSVCD_UNDECIDED : NSVCD_FREE;
+  out->why = t->why;
+  out->body = t->first;
+  out->time = t->time;
+  out->safe_time = t->safe_time;
+  out->safe = t->safe;
+  if (asked->ask == NSVCD_ASK_FIRST && t->is_hit) {
+    const double when = q->since + (double)t->safe_time * (1 - q->since);
+    const float within = asked->clearance + (float)(2 * to);
+    out->contact_count = nsvcd__contacts_at(q, &t->safe, when, within,
+                                            each ? NSVCD_WORLD_CONTACTS : 1, out->contacts);
+  }
+  out->questions = q->questions;
+  out->work = q->work;
+}
+
+NSVCDDEF nsvcd_result nsvcd_world_sweep(const nsvcd_world *world,
+                                        const nsvcd_world_question *question, void *workspace,
+                                        size_t workspace_size, nsvcd_world_answer *answer) {
+  nsvcd__asker q;
+  nsvcd_pose displaced[NSVCD__DISPLACED];
+  nsvcd_world_answer out;
+  if (!world || !question || !answer) return NSVCD_ERROR_ARGUMENT;
+  const uint32_t changes = world->changes;
+  const int manifold = question->question.manifold;
+  nsvcd_result result = nsvcd__asker_begin(world, question, workspace, workspace_size, &q);
+  if (result) return result;
+  if (q.question.ask == NSVCD_ASK_DISTANCE) return NSVCD_ERROR_ASK;
+  memset(&out, 0, sizeof out);
+  q.question.manifold = 0;
+  if (q.question.slop > 0) {
+    const size_t count = q.question.a.count;
+    if (count > NSVCD__DISPLACED) return NSVCD_ERROR_POSES;
+    const nsvcd__d3 by = nsvcd__push_out_of_all(&q);
+    for (size_t k = 0; k < count; k++) {
+      displaced[k] = q.question.a.poses[k];
+      const nsvcd__d3 at = nsvcd__d3_add(nsvcd__d3_load(displaced[k].position), by);
+      nsvcd__f3_store(nsvcd__f3_round(at), displaced[k].position);
+    }
+    nsvcd__f3_store(nsvcd__f3_round(by), out.push_out);
+    out.depth = (float)nsvcd__d3_norm(by);
+    q.question.slop = 0;
+    nsvcd__asker_goes(&q, displaced, count);
+  }
+  nsvcd__tally t = nsvcd__ask_all(&q);
+  if (q.question.ask == NSVCD_ASK_FIRST && t.first) nsvcd__make_safe(&q, &t);
+  nsvcd__world_answer(&q, &t, manifold, &out);
+  if ((changes & 1) || changes != world->changes) return NSVCD_ERROR_WORLD;
+  if (q.result) return q.result;
+  *answer = out;
+  return NSVCD_OK;
+}
+
+NSVCDDEF nsvcd_result nsvcd_world_list(const nsvcd_world *world,
+                                       const nsvcd_world_question *question, void *workspace,
+                                       size_t workspace_size, size_t *ids, size_t most,
+                                       size_t *count) {
+  nsvcd__asker q;
+  size_t found = 0;
+  if (!world || !question || !count || (most > 0 && !ids)) return NSVCD_ERROR_ARGUMENT;
+  const uint32_t changes = world->changes;
+  const nsvcd_result result =
+      nsvcd__asker_begin(world, question, workspace, workspace_size, &q);
+  if (result) return result;
+  if (q.question.ask != NSVCD_ASK_HIT) return NSVCD_ERROR_ASK;
+  q.with_sensors = 1;
+  for (uint32_t id = 0; (id = nsvcd__asker_next(&q, id)) != 0;) {
+    nsvcd_answer answer;
+    if (!nsvcd__ask_about(&q, id, &answer)) return q.result;
+    if (answer.verdict == NSVCD_FREE) continue;
+    size_t at = found < most ? found : most;  // sorted, of those the lowest
+    for (; at > 0 && ids[at - 1] > id; at--)
+      if (at < most) ids[at] = ids[at - 1];
+    if (at < most) ids[at] = id;
+    found++;
+  }
+  if ((changes & 1) || changes != world->changes) return NSVCD_ERROR_WORLD;
+  *count = found;
+  return NSVCD_OK;
+}
+
+// ----------------------------------------------------------------------------------- world/respond
+// In: a body's speed and the contacts that it has. Out: its speed without what points into them.
+//
+// Sequential impulses (Catto, Iterative dynamics with temporal coherence, 2006), of one body against
+// others that rest or are driven: round after round each contact takes the impulse that its own
+// speed asks for, in sum never a pull, and friction up to its share of that. For a body that does
+// not turn and has no friction the limit is the speed nearest to the given one that points into no
+// contact.
+//   A contact that is farther than where the body comes to rest may be approached, as fast as leads
+// there in this frame; one that is nearer is left, by a fifth of what is missing in a frame.
+
+#define NSVCD__IMPULSE_ROUNDS 24
+// metres a second: what comes slower does not bounce
+#define NSVCD__BOUNCES 0.5
+#define NSVCD__LEAVES 0.2
+
+// A contact as the response sees it.
+typedef struct nsvcd__hold {
+  // from the body's pivot to its point there; the normal, away from the other body
+  nsvcd__d3 arm, normal;
+  // the other body's speed there
+  nsvcd__d3 speed;
+  // metres a second, along the normal: at least
+  double least;
+  // so far: along the normal, and across it
+  double pushed;
+  nsvcd__d3 rubbed;
+} nsvcd__hold;
+
+// The body that is moved: its speed, and what an impulse changes.
+typedef struct nsvcd__thing {
+  nsvcd__d3 linear, angular;
+  double inverse_mass;
+  // about its axes; and where these are
+  nsvcd__d3 inverse_inertia;
+  nsvcd__dmat3 axes;
+  double friction;
+} nsvcd__thing;
+
+static nsvcd__d3 nsvcd__spun_by(const nsvcd__thing *thing, nsvcd__d3 moment) {
+  nsvcd__d3 own = nsvcd__dmat3_apply_transpose(&thing->axes, moment);
+  own.x *= thing->inverse_inertia.x;
+  own.y *= thing->inverse_inertia.y;
+  own.z *= thing->inverse_inertia.z;
+  return nsvcd__dmat3_apply(&thing->axes, own);
+}
+
+static nsvcd__d3 nsvcd__speed_at(const nsvcd__thing *thing, nsvcd__d3 arm) {
+  return nsvcd__d3_add(thing->linear, nsvcd__d3_cross(thing->angular, arm));
+}
+
+// The change of speed at an arm, along a direction, by a unit impulse there.
+static double nsvcd__give_of(const nsvcd__thing *thing, nsvcd__d3 arm, nsvcd__d3 along) {
+  const nsvcd__d3 moment = nsvcd__d3_cross(arm, along);
+  return thing->inverse_mass + nsvcd__d3_dot(moment, nsvcd__spun_by(thing, moment));
+}
+
+static void nsvcd__take_impulse(nsvcd__thing *thing, nsvcd__d3 arm, nsvcd__d3 impulse) {
+  const nsvcd__d3 moment = nsvcd__d3_cross(arm, impulse);
+  thing->linear = nsvcd__d3_fma(thing->inverse_mass, impulse, thing->linear);
+  thing->angular = nsvcd__d3_add(thing->angular, nsvcd__spun_by(thing, moment));
+}
+
+static void nsvcd__respond_at(nsvcd__thing *thing, nsvcd__hold *hold) {
+  const nsvcd__d3 speed = nsvcd__d3_sub(nsvcd__speed_at(thing, hold->arm), hold->speed);
+  const double along = nsvcd__d3_dot(speed, hold->normal);
+  const double give = nsvcd__give_of(thing, hold->arm, hold->normal);
+  const double before = hold->pushed;
+  hold->pushed = nsvcd__max(before + (hold->least - along) / give, 0);
+  nsvcd__take_impulse(thing, hold->arm, nsvcd__d3_scale(hold->normal, hold->pushed - before));
+  if (!(thing->friction > 0)) return;
+  const nsvcd__d3 now = nsvcd__d3_sub(nsvcd__speed_at(thing, hold->arm), hold->speed);
+  const nsvcd__d3 aside = nsvcd__d3_fma(-nsvcd__d3_dot(now, hold->normal), hold->normal, now);
+  const double slip = nsvcd__d3_norm(aside);
+  if (!(slip > 1e-12)) return;
+  const nsvcd__d3 u = nsvcd__d3_scale(aside, 1 / slip);
+  const double across = nsvcd__give_of(thing, hold->arm, u);
+  const double most = thing->friction * hold->pushed;
+  nsvcd__d3 rubbed = nsvcd__d3_fma(-slip / across, u, hold->rubbed);
+  const double length = nsvcd__d3_norm(rubbed);
+  if (length > most) rubbed = nsvcd__d3_scale(rubbed, most / length);
+  nsvcd__take_impulse(thing, hold->arm, nsvcd__d3_sub(rubbed, hold->rubbed));
+  hold->rubbed = rubbed;
+}
+
+static void nsvcd__respond(nsvcd__thing *thing, nsvcd__hold *holds, size_t count) {
+  for (int round = 0; round < NSVCD__IMPULSE_ROUNDS; round++)
+    for (size_t k = 0; k < count; k++) nsvcd__respond_at(thing, &holds[k]);
+}
+
+// ------------------------------------------------------------------------------------- world/slide
+// In: a body of a world, its speed and a time. Out: it is elsewhere, by a way that is proven free.
+//
+// THE LOOP. At a pose, all contacts within twice the margin are known: what points into them is
+// taken off the speed before anything is asked. So what rests asks about no way at all, and what
+// slides is not stopped by what it slides on. The way that is left is asked about; where it is
+// stopped, the body goes to the safe pose, and goes on with what is left of the frame from there.
+//
+// It comes to rest a margin farther than the clearance: so a way along what it rests on is not
+// stopped by rounding, nor by the bend of a turn.
+
+// defaults: a fraction of the body's reach; rounds; the least cosine of a ground
+#define NSVCD__USUAL_CLEARANCE 0.005
+#define NSVCD__USUAL_ROUNDS 4
+#define NSVCD__USUAL_SLOPE 0.7
+// of the margin: a way in which no point goes farther is none for what rubs against something
+#define NSVCD__STILL 0.02
+// radians: the most that a body turns in a way
+#define NSVCD__MOST_TURN 2.0
+
+// A slide: what it is told, and what it is about now.
+typedef struct nsvcd__slide {
+  nsvcd__asker ask;
+  const nsvcd_slide_options *given;
+  nsvcd_pose pose;
+  nsvcd__thing thing;
+  // metres; seconds of the frame
+  double clearance, margin, seconds;
+  // of the frame
+  double left;
+  // unit, or 0; the least cosine of a ground
+  nsvcd__d3 up;
+  double slope;
+  // the speed of what it rides on; and how fast it goes back to where it would rest: that is no
+  // speed that it has
+  nsvcd__d3 ridden, leaves;
+  // what its last way met first; or nobody
+  size_t met;
+  // a character's: of its speed, that is left for the rest of the frame
+  double pace;
+  // what pushed in rounds before, and then all that there is at the pose now
+  size_t kept, contact_count;
+  nsvcd_world_contact contacts[NSVCD_WORLD_CONTACTS];
+  nsvcd__hold holds[NSVCD_WORLD_CONTACTS];
+  // a contact on which a character stands; or none
+  const nsvcd_world_contact *ground;
+} nsvcd__slide;
+
+// ---- speeds
+
+static nsvcd__d3 nsvcd__pivot_at(const nsvcd__slide *s) {
+  return nsvcd__pivot_of(&s->pose, s->ask.shape.pivot);
+}
+
+// How fast a driven body moves a point that is there now, and goes with it, on average over what is left
+// of the frame.
+static nsvcd__d3 nsvcd__driven_speed(const nsvcd__slide *s, size_t id, nsvcd__d3 point) {
+  const nsvcd__resident *r = &s->ask.world->residents[id];
+  if (!r->is_driven || !(s->left > 0)) return nsvcd__d3_of(0, 0, 0);
+  const nsvcd__dpose at =
+      nsvcd__dpose_between(&r->given.pose, &r->to, r->shape.pivot, 1 - s->left);
+  const nsvcd__dpose end = nsvcd__dpose_of(&r->to);
+  const nsvcd__dtransform now = nsvcd__dtransform_of(&at);
+  const nsvcd__dtransform then = nsvcd__dtransform_of(&end);
+  const nsvcd__d3 own =
+      nsvcd__dmat3_apply_transpose(&now.rotation, nsvcd__d3_sub(point, now.position));
+  const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__d3_transform(&then, own), point);
+  return nsvcd__d3_scale(moved, 1 / (s->left * s->seconds));
+}
+
+// How fast it is to go so that it comes to rest a margin off what is nearer than that: of speeds,
+// the one that comes nearest to a share of what each contact lacks. Between two walls that are too
+// close for both margins that is half way.
+static nsvcd__d3 nsvcd__leaving_speed(const nsvcd__slide *s) {
+  double rows[3][4] = {{1e-3, 0, 0, 0}, {0, 1e-3, 0, 0}, {0, 0, 1e-3, 0}};
+  for (size_t k = s->kept; k < s->contact_count; k++) {
+    const nsvcd__d3 n = s->holds[k].normal;
+    const double lacks = s->clearance + s->margin - (double)s->contacts[k].contact.gap;
+    for (size_t i = 0; i < 3 && lacks > 0; i++) {
+      const double along = nsvcd__d3_axis(n, i);
+      for (size_t j = 0; j < 3; j++) rows[i][j] += along * nsvcd__d3_axis(n, j);
+      rows[i][3] += along * lacks;
+    }
+  }
+  for (size_t i = 0; i < 3; i++) {  // positive definite: no pivots are needed
+    for (size_t j = 0; j < 3; j++) {
+      const double by = rows[j][i] / rows[i][i];
+      for (size_t k = i; k < 4 && j != i; k++) rows[j][k] -= by * rows[i][k];
+    }
+  }
+  const nsvcd__d3 by =
+      nsvcd__d3_of(rows[0][3] / rows[0][0], rows[1][3] / rows[1][1], rows[2][3] / rows[2][2]);
+  return nsvcd__d3_scale(by, NSVCD__LEAVES / s->seconds);
+}
+
+// Finds all contacts at the pose now, behind those that have pushed, and what they ask for.
+static void nsvcd__slide_look(nsvcd__slide *s) {
+  const nsvcd__d3 pivot = nsvcd__pivot_at(s);
+  const double time = nsvcd__max(s->left, 1e-3) * s->seconds;
+  const float within = (float)(s->clearance + 2 * s->margin);
+  double flattest = s->slope;
+  size_t kept = 0;
+  for (size_t k = 0; k < s->contact_count; k++)
+    if (s->contacts[k].impulse > 0) s->contacts[kept++] = s->contacts[k];
+  s->kept = kept < NSVCD_WORLD_CONTACTS / 2 ? kept : NSVCD_WORLD_CONTACTS / 2;
+  s->contact_count =
+      s->kept + nsvcd__contacts_at(&s->ask, &s->pose, 1 - s->left, within,
+                                   NSVCD_WORLD_CONTACTS - s->kept, s->contacts + s->kept);
+  s->ground = NULL;
+  for (size_t k = s->kept; k < s->contact_count; k++) {
+    const nsvcd_contact *c = &s->contacts[k].contact;
+    nsvcd__hold *h = &s->holds[k];
+    memset(h, 0, sizeof *h);
+    h->normal = nsvcd__d3_load(c->normal);
+    const nsvcd__d3 on_other = nsvcd__d3_load(c->point);
+    h->speed = nsvcd__driven_speed(s, s->contacts[k].body, on_other);
+    h->arm = nsvcd__d3_sub(nsvcd__d3_fma((double)c->gap, h->normal, on_other), pivot);
+    h->least = -nsvcd__max((double)c->gap - s->clearance - s->margin, 0) / time;
+    const double flat = nsvcd__d3_dot(h->normal, s->up);
+    if (flat >= flattest) s->ground = &s->contacts[k];
+    flattest = nsvcd__max(flattest, flat);
+  }
+  s->leaves = nsvcd__leaving_speed(s);
+}
+
+// Takes off the speed what points into contacts; what comes fast bounces.
+static void nsvcd__slide_respond(nsvcd__slide *s) {
+  for (size_t k = s->kept; k < s->contact_count; k++) {
+    nsvcd__hold *h = &s->holds[k];
+    const nsvcd__d3 speed = nsvcd__d3_sub(nsvcd__speed_at(&s->thing, h->arm), h->speed);
+    const double into = -nsvcd__d3_dot(speed, h->normal);
+    if (into > NSVCD__BOUNCES)
+      h->least = nsvcd__max(h->least, (double)s->given->restitution * into);
+  }
+  nsvcd__respond(&s->thing, s->holds + s->kept, s->contact_count - s->kept);
+  for (size_t k = s->kept; k < s->contact_count; k++)
+    s->contacts[k].impulse = (float)s->holds[k].pushed;
+}
+
+// ---- ways
+
+// The pose after some seconds at the speed now.
+static nsvcd_pose nsvcd__aim(const nsvcd__slide *s, double seconds) {
+  const nsvcd__d3 c = s->ask.shape.pivot;
+  const nsvcd__d3 w = s->thing.angular;
+  const double angle = nsvcd__d3_norm(w) * seconds;
+  const double sine = angle > 1e-9 ? nsvcd__sin(0.5 * angle) * seconds / angle : 0.5 * seconds;
+  const nsvcd__d3 u = nsvcd__d3_scale(w, sine);
+  const nsvcd__dquat turn = {u.x, u.y, u.z, sqrt(nsvcd__max(1 - nsvcd__d3_dot(u, u), 0))};
+  nsvcd__dpose out = nsvcd__unit_dpose(&s->pose);
+  const nsvcd__d3 pivot = nsvcd__to_pivot(&out, c, 1);
+  out.rotation = nsvcd__dquat_mul(turn, out.rotation);
+  const nsvcd__d3 speed = nsvcd__d3_add(s->thing.linear, s->leaves);
+  out.position = nsvcd__d3_fma(seconds, speed, pivot);
+  out.position = nsvcd__to_pivot(&out, c, -1);
+  return nsvcd__dpose_round(&out);
+}
+
+// Takes the body towards a pose as far as that is proven free, while the rest of the frame goes by,
+// or at once. Returns how far, as a fraction.
+static double nsvcd__go(nsvcd__slide *s, const nsvcd_pose *to, int at_once) {
+  const nsvcd_pose way[2] = {s->pose, *to};
+  s->ask.since = 1 - s->left;
+  s->ask.at_once = at_once;
+  nsvcd__asker_goes(&s->ask, way, 2);
+  nsvcd__tally t = nsvcd__ask_all(&s->ask);
+  if (t.first && !s->ask.result) nsvcd__make_safe(&s->ask, &t);
+  if (s->ask.result) return 0;
+  s->met = t.first;
+  s->pose = t.safe;
+  if (!at_once) s->left *= 1 - (double)t.safe_time;
+  return (double)t.safe_time;
+}
+
+// At once, straight: how far, as a fraction.
+static double nsvcd__go_by(nsvcd__slide *s, nsvcd__d3 by) {
+  nsvcd_pose to = s->pose;
+  const nsvcd__d3 at = nsvcd__d3_add(nsvcd__d3_load(to.position), by);
+  nsvcd__f3_store(nsvcd__f3_round(at), to.position);
+  return nsvcd__go(s, &to, 1);
+}
+
+// The body cannot go anywhere: it may be within the clearance of something, and then it is pushed
+// out. Returns whether it was.
+static int nsvcd__push_off(nsvcd__slide *s) {
+  nsvcd__asker q = s->ask;
+  nsvcd_pose to = s->pose;
+  q.since = 1 - s->left;
+  q.question.slop = (float)(s->clearance + s->margin);
+  q.question.a.poses = &s->pose;
+  const nsvcd__d3 by = nsvcd__push_out_of_all(&q);
+  const nsvcd__d3 at = nsvcd__d3_add(nsvcd__d3_load(to.position), by);
+  nsvcd__f3_store(nsvcd__f3_round(at), to.position);
+  if (!(nsvcd__d3_dot(by, by) > 0) || !nsvcd__may_be_at(&s->ask, &to, q.since, 0)) return 0;
+  s->pose = to;
+  return 1;
+}
+
+// Could a driven body come to where the body is?
+static int nsvcd__is_driven_near(nsvcd__slide *s) {
+  nsvcd__asker_goes(&s->ask, &s->pose, 1);
+  for (uint32_t id = 0; (id = nsvcd__asker_next(&s->ask, id)) != 0;)
+    if (s->ask.world->residents[id].is_driven) return 1;
+  return 0;
+}
+
+// How far points of the body go in the rest of the frame, at most, metres.
+static double nsvcd__travel_left(const nsvcd__slide *s) {
+  const double speed =
+      nsvcd__d3_norm(s->thing.linear) + nsvcd__d3_norm(s->thing.angular) * s->ask.shape.reach;
+  return speed * s->left * s->seconds;
+}
+
+// ---- a character
+
+static nsvcd__d3 nsvcd__flat_part(const nsvcd__slide *s, nsvcd__d3 a) {
+  return nsvcd__d3_fma(-nsvcd__d3_dot(a, s->up), s->up, a);
+}
+
+// Whoever stands on a ground does not slide down it, and walks up it as fast as on the level; what
+// is too steep to stand on is a wall.
+static void nsvcd__stand(nsvcd__slide *s) {
+  if (!s->ground) return;
+  const nsvcd__d3 n = nsvcd__d3_load(s->ground->contact.normal);
+  const nsvcd__d3 own = nsvcd__d3_sub(s->thing.linear, s->ridden);
+  const int falls = nsvcd__d3_dot(own, s->up) < 0;
+  const double steep = nsvcd__d3_dot(n, s->up);
+  nsvcd__d3 walks = falls ? nsvcd__flat_part(s, own) : own;
+  const double into = -nsvcd__d3_dot(walks, n);
+  if (into > 0) walks = nsvcd__d3_fma(into / steep, s->up, walks);
+  // down to where it rests, if that is lower
+  const double least = falls ? s->holds[s->ground - s->contacts].least / steep : 0;
+  s->thing.linear = nsvcd__d3_add(nsvcd__d3_fma(least, s->up, walks), s->ridden);
+  for (size_t k = s->kept; k < s->contact_count; k++) {
+    nsvcd__hold *h = &s->holds[k];
+    const nsvcd__d3 flat = nsvcd__flat_part(s, h->normal);
+    const double steep = nsvcd__d3_norm(flat);
+    const double rise = nsvcd__d3_dot(h->normal, s->up);
+    if (rise > 0 && rise < s->slope) h->normal = nsvcd__d3_scale(flat, 1 / steep);
+  }
+}
+
+// Onto a step: up, along, and down again. What has been gone of the way is not gone again. Returns
+// whether that led onto ground.
+static int nsvcd__climb(nsvcd__slide *s) {
+  const double step = (double)s->given->step;
+  const nsvcd_pose start = s->pose;
+  const double time = s->left * s->seconds * s->pace;
+  const nsvcd__d3 way = nsvcd__d3_scale(nsvcd__flat_part(s, s->thing.linear), time);
+  const double risen = step * nsvcd__go_by(s, nsvcd__d3_scale(s->up, step));
+  const double gone = nsvcd__go_by(s, way);
+  const double drop = risen + s->margin;
+  const double dropped = drop * nsvcd__go_by(s, nsvcd__d3_scale(s->up, -drop));
+  const int is_higher = dropped < risen - s->margin && gone > 0;
+  if (is_higher) nsvcd__slide_look(s);
+  if (is_higher && s->ground) {
+    s->pace *= 1 - gone;
+    return 1;
+  }
+  s->pose = start;
+  return 0;
+}
+
+// Whoever stood on a ground and walked off it steps down, if there is a ground to step down on.
+static void nsvcd__step_down(nsvcd__slide *s) {
+  const nsvcd_pose above = s->pose;
+  if (nsvcd__go_by(s, nsvcd__d3_scale(s->up, -(double)s->given->step)) < 1) {
+    nsvcd__slide_look(s);
+    if (s->ground) return;
+  }
+  s->pose = above;
+}
+
+// Is there something too steep to stand on in the way of whoever stands?
+static int nsvcd__is_before_step(const nsvcd__slide *s) {
+  const nsvcd__d3 walks = nsvcd__flat_part(s, nsvcd__d3_sub(s->thing.linear, s->ridden));
+  if (!s->ground || !(s->given->step > 0)) return 0;
+  for (size_t k = s->kept; k < s->contact_count; k++) {
+    const nsvcd__d3 n = s->holds[k].normal;
+    const double rise = nsvcd__d3_dot(n, s->up);
+    const double into = -nsvcd__d3_dot(walks, n);
+    if (rise > -0.01 && rise < s->slope && into > 0.05 * nsvcd__d3_norm(walks)) return 1;
+  }
+  return 0;
+}
+
+// ---- a frame
+
+static int nsvcd__is_amount(float x) {
+  return nsvcd__is_finite(x) && x >= 0 && x <= 1e12f;
+}
+
+static nsvcd_result nsvcd__slide_check(const nsvcd_slide_options *o, float seconds,
+                                       const nsvcd_velocity *velocity) {
+  const float *up = o->up;
+  const float square = up[0] * up[0] + up[1] * up[1] + up[2] * up[2];
+  if (!nsvcd__is_length(o->clearance) || !nsvcd__is_length(o->margin))
+    return NSVCD_ERROR_CLEARANCE;
+  if (!nsvcd__is_amount(o->mass) || !nsvcd__is_amount(o->friction)) return NSVCD_ERROR_VALUE;
+  if (!nsvcd__is_amount(o->restitution) || o->restitution > 1) return NSVCD_ERROR_VALUE;
+  if (!nsvcd__is_amount(o->slope) || o->slope > 1) return NSVCD_ERROR_VALUE;
+  for (size_t k = 0; k < 3; k++)
+    if (!nsvcd__is_amount(o->inertia[k])) return NSVCD_ERROR_VALUE;
+  if (!nsvcd__is_finite(square) || (square > 0 && fabsf(square - 1) > 1e-3f))
+    return NSVCD_ERROR_AXIS;
+  if (!nsvcd__is_length(o->step)) return NSVCD_ERROR_DISTANCE;
+  if (!nsvcd__is_finite(seconds) || !(seconds > 0)) return NSVCD_ERROR_TIMES;
+  if (!nsvcd__in_range(velocity->linear, 3, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_SPEED;
+  if (!nsvcd__in_range(velocity->angular, 3, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_SPEED;
+  return NSVCD_OK;
+}
+
+static nsvcd_result nsvcd__slide_begin(const nsvcd_world *world, size_t id,
+                                       const nsvcd_slide_options *given, float seconds,
+                                       void *workspace, size_t size,
+                                       const nsvcd_velocity *velocity, nsvcd__slide *s) {
+  nsvcd_world_question asked;
+  memset(&asked, 0, sizeof asked);
+  memset(s, 0, sizeof *s);
+  asked.self = id;
+  asked.question.ask = NSVCD_ASK_FIRST;
+  asked.question.work = given->work;
+  if (!nsvcd__resident_of(world, id)) return NSVCD_ERROR_INDEX;
+  nsvcd_result result = nsvcd__slide_check(given, seconds, velocity);
+  if (!result) result = nsvcd__asker_begin(world, &asked, workspace, size, &s->ask);
+  if (result) return result;
+  const double usual = NSVCD__USUAL_CLEARANCE * s->ask.shape.reach;
+  s->given = given;
+  s->pose = world->residents[id].given.pose;
+  s->clearance = given->clearance > 0 ? (double)given->clearance : usual;
+  s->margin = given->margin > 0 ? (double)given->margin : s->clearance;
+  s->seconds = (double)seconds;
+  s->left = s->pace = 1;
+  s->up = nsvcd__d3_load(given->up);
+  s->slope = given->slope > 0 ? (double)given->slope : NSVCD__USUAL_SLOPE;
+  s->ask.question.clearance = (float)s->clearance;
+  s->ask.question.to = (float)(0.25 * s->margin);
+  nsvcd__thing *thing = &s->thing;
+  const nsvcd__dpose pose = nsvcd__dpose_of(&s->pose);
+  const float *inertia = given->inertia;
+  thing->linear = nsvcd__d3_load(velocity->linear);
+  thing->angular = nsvcd__d3_load(velocity->angular);
+  thing->inverse_mass = given->mass > 0 ? 1 / (double)given->mass : 1;
+  thing->inverse_inertia = nsvcd__d3_of(inertia[0] > 0 ? 1 / (double)inertia[0] : 0,
+                                        inertia[1] > 0 ? 1 / (double)inertia[1] : 0,
+                                        inertia[2] > 0 ? 1 / (double)inertia[2] : 0);
+  thing->axes = nsvcd__dtransform_of(&pose).rotation;
+  thing->friction = (double)given->friction;
+  return NSVCD_OK;
+}
+
+// Does the body, as it is, need no way at all in this frame?
+static int nsvcd__is_still(nsvcd__slide *s) {
+  const int rubs = s->thing.friction > 0 && s->contact_count > s->kept;
+  const double most = rubs ? NSVCD__STILL * s->margin : NSVCD__BOX_ROUNDING * s->margin;
+  return nsvcd__travel_left(s) <= most && !nsvcd__is_driven_near(s);
+}
+
+// A round: what is in contact, the speed that is left, and the way at that speed. Returns whether
+// there is to be another one.
+static int nsvcd__slide_round(nsvcd__slide *s, int is_first, int *rests) {
+  nsvcd__thing *thing = &s->thing;
+  nsvcd__slide_look(s);
+  if (s->ground) {
+    const nsvcd__d3 before = s->ridden;
+    s->ridden = nsvcd__driven_speed(s, s->ground->body, nsvcd__pivot_at(s));
+    thing->linear = nsvcd__d3_add(thing->linear, nsvcd__d3_sub(s->ridden, before));
+  }
+  if (nsvcd__is_before_step(s)) (void)nsvcd__climb(s);
+  nsvcd__stand(s);
+  nsvcd__slide_respond(s);
+  const double turn = nsvcd__d3_norm(thing->angular) * s->left * s->seconds;
+  if (turn > NSVCD__MOST_TURN)
+    thing->angular = nsvcd__d3_scale(thing->angular, NSVCD__MOST_TURN / turn);
+  if (nsvcd__is_still(s)) {
+    thing->linear = thing->angular = nsvcd__d3_of(0, 0, 0);
+    s->left = 0;
+    *rests = is_first;
+    return 0;
+  }
+  const nsvcd_pose to = nsvcd__aim(s, s->left * s->seconds);
+  const double gone = nsvcd__go(s, &to, 0);
+  if (s->ask.result || gone >= 1) return 0;
+  return gone > 0 || nsvcd__push_off(s);
+}
+
+static void nsvcd__slide_answer(nsvcd__slide *s, nsvcd_velocity *velocity,
+                                nsvcd_slide_answer *out) {
+  const double used = 1 - s->left;
+  const nsvcd__d3 linear =
+      nsvcd__d3_sub(nsvcd__d3_scale(s->thing.linear, used), nsvcd__d3_scale(s->ridden, used));
+  nsvcd__f3_store(nsvcd__f3_round(linear), velocity->linear);
+  nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_scale(s->thing.angular, used)), velocity->angular);
+  out->spent = (float)used;
+  if (s->ground) {
+    out->ground = s->ground->body;
+    memcpy(out->ground_normal, s->ground->contact.normal, sizeof out->ground_normal);
+  }
+  out->contact_count = s->contact_count;
+  memcpy(out->contacts, s->contacts, s->contact_count * sizeof *s->contacts);
+  out->questions = s->ask.questions;
+  out->work = s->ask.work;
+}
+
+NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
+                                        const nsvcd_slide_options *options, float seconds,
+                                        void *workspace, size_t workspace_size,
+                                        nsvcd_velocity *velocity, nsvcd_slide_answer *answer) {
+  static const nsvcd_slide_options usual = {0, 0, 0, {0, 0, 0}, 0, 0, {0, 0, 0}, 0, 0, 0, 0};
+  nsvcd__slide s;
+  nsvcd_slide_answer out;
+  if (!world || !velocity || !answer) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_slide_options *given = options ? options : &usual;
+  nsvcd_result result =
+      nsvcd__slide_begin(world, id, given, seconds, workspace, workspace_size, velocity, &s);
+  if (result) return result;
+  memset(&out, 0, sizeof out);
+  const size_t rounds = given->rounds ? given->rounds : NSVCD__USUAL_ROUNDS;
+  int more = 1;
+  int stood = 0;
+  for (size_t round = 0; round < rounds && more && s.left > 1e-4; round++) {
+    more = nsvcd__slide_round(&s, round == 0, &out.rests);
+    if (round == 0) stood = s.ground != NULL;
+  }
+  if (s.left > 0 && !s.ask.result && nsvcd__is_driven_near(&s)) {
+    // the rest of the frame goes by without it
+    const double left = s.left;
+    const nsvcd_pose stays = s.pose;
+    const double free_until = nsvcd__go(&s, &stays, 0);
+    s.pose = stays;
+    s.left = left;
+    if (free_until < 1) out.caught = s.met;
+  }
+  const double rises = nsvcd__d3_dot(nsvcd__d3_sub(s.thing.linear, s.ridden), s.up);
+  if (nsvcd__d3_dot(s.up, s.up) > 0 && !s.ask.result && !out.rests) {
+    s.left = 0;
+    nsvcd__slide_look(&s);
+    if (stood && !s.ground && given->step > 0 && rises <= 0) nsvcd__step_down(&s);
+  }
+  if (s.ask.result) return s.ask.result;
+  result = nsvcd_world_move(world, id, &s.pose);
+  if (result) return result;
+  nsvcd__slide_answer(&s, velocity, &out);
+  *answer = out;
+  return NSVCD_OK;
+}
+
+#if defined(__GNUC__) || defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
+#endif  // NEURALSVCD_WORLD_IMPLEMENTATION
+
+// Licence: LICENSE, or the end of neuralsvcd.h.

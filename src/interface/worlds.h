@@ -1,0 +1,209 @@
+// In: bodies at their places. Out: one answer about one of them and all that is near it, and moves
+// after which nothing overlaps.
+//
+// THE LAW OF A FRAME
+//   Bodies move one after the other, in the caller's order, each over the whole frame, and each is
+// proven against all others where they are then. So after every move no two bodies are within the
+// clearance of each other, whoever moved last, if none were before. No share of time has to be
+// agreed upon, and a pile is not held up by the one contact in it that comes first.
+//   A driven body (nsvcd_world_drive: a lift, a door, a turntable) is the exception: it moves while
+// the others do, over the same frame, and stops for nobody. Others ride on it and get out of its
+// way. What cannot is told as caught: it is free of the driven body up to the time that it reached,
+// and not farther.
+#pragma once
+#include "queries.h"
+
+// no body: ids begin at 1
+#define NSVCD_NOBODY 0
+// the most contacts of an answer about a world
+#define NSVCD_WORLD_CONTACTS 32
+
+// Bodies in a tree of boxes, in the caller's memory, in which it stays.
+typedef struct nsvcd_world nsvcd_world;
+
+// A body of a world. Zero is the default of everything but `body` and the rotation of `pose`.
+typedef struct nsvcd_world_body {
+  // with triangles; kept
+  const nsvcd_body *body;
+  // where it is
+  nsvcd_pose pose;
+  // as those of nsvcd_mover. The pivot of what moves freely is its centre of mass
+  float scale;
+  float pivot[3];
+  // bits: the groups that it belongs to, default the first; and the groups that it passes through.
+  // Two bodies meet unless one passes through a group of the other's
+  uint32_t groups, passes;
+  // 1: it never moves by itself, like a level: pairs of two such bodies are not listed
+  int fixed;
+  // 1: it stops nothing. nsvcd_world_list tells what is in it
+  int sensor;
+} nsvcd_world_body;
+
+// A contact with a body of the world.
+typedef struct nsvcd_world_contact {
+  // which body; `a` of the contact is the mover, and `b` this body
+  size_t body;
+  nsvcd_contact contact;
+  // newton seconds, along the normal: what a slide took from the mover's momentum there; for a body
+  // without a mass, metres a second
+  float impulse;
+} nsvcd_world_contact;
+
+// A question about a mover and all bodies of a world.
+typedef struct nsvcd_world_question {
+  // the question. Its b stays empty. Its a may have no body: then it is that of `self`
+  nsvcd_question question;
+  // the body of the world that moves, which does not meet itself, and whose groups count; or nobody
+  size_t self;
+  // of a mover that is nobody in the world
+  uint32_t groups, passes;
+} nsvcd_world_question;
+
+// What is known of a mover and all that it comes near. Numbers are as those of nsvcd_answer.
+typedef struct nsvcd_world_answer {
+  // HIT: it hits some body. UNDECIDED: of some body that is not known, and it hits none. FREE: it
+  // is free of all
+  nsvcd_verdict verdict;
+  nsvcd_why why;
+  // the body that is hit first, or else is undecided first
+  size_t body;
+  // it is free of all bodies before `low`, and in contact with one at `high`
+  nsvcd_range time;
+  // FIRST: where the mover may go. This pose, as it is in floats, and the way to it are proven to be
+  // free of all bodies. It is the start if that is not free
+  float safe_time;
+  nsvcd_pose safe;
+  // with a slop: how the mover was pushed out, of all that it touched at once
+  float depth, push_out[3];
+  // FIRST: contacts of all that touch at the safe pose, one with each body, or all with `manifold`
+  size_t contact_count;
+  nsvcd_world_contact contacts[NSVCD_WORLD_CONTACTS];
+  // questions about two bodies, and units that their proofs took
+  size_t questions, work;
+} nsvcd_world_answer;
+
+// Bytes of a world of at most so many bodies, up to 2^31 - 2; 0 if there can be none.
+NSVCDDEF size_t nsvcd_world_size(size_t most);
+
+// Makes a world without bodies.
+//   memory     (size) bytes, nsvcd_world_size(most) or more, not NULL, aligned to NSVCD_ALIGNMENT
+//   world      not NULL; set to the world, or left as it was on failure
+//   errors     ARGUMENT, COUNT (`most`), WORKSPACE
+NSVCDDEF nsvcd_result nsvcd_world_begin(void *memory, size_t size, size_t most,
+                                        nsvcd_world **world);
+
+// Adds a body, moves it elsewhere, takes it out, or tells of it. Nothing is asked: whoever puts a
+// body into another gets a world of bodies that overlap, and what starts so is hit at time 0.
+//   body, pose  not NULL
+//   id          of add: not NULL; set to the body's id, from 1 on, or left as it was on failure.
+//               Ids of removed bodies are used again
+//   threads     one at a time, and none may ask: what is caught of that is NSVCD_ERROR_WORLD
+//   errors      ARGUMENT, BODY, VERSION, TRIANGLES, POSE, QUATERNION, SCALE, PIVOT, COUNT (the world
+//               has room for no more bodies), INDEX (`id` is no body's), WORLD
+NSVCDDEF nsvcd_result nsvcd_world_add(nsvcd_world *world, const nsvcd_world_body *body,
+                                      size_t *id);
+NSVCDDEF nsvcd_result nsvcd_world_move(nsvcd_world *world, size_t id, const nsvcd_pose *pose);
+NSVCDDEF nsvcd_result nsvcd_world_remove(nsvcd_world *world, size_t id);
+NSVCDDEF nsvcd_result nsvcd_world_get(const nsvcd_world *world, size_t id,
+                                      nsvcd_world_body *body);
+
+// Drives a body in this frame, from where it is to a pose: by a line and a slerp, about its pivot.
+// nsvcd_world_arrive ends the frame: all driven bodies are at their ends, and rest.
+//   errors      ARGUMENT, POSE, QUATERNION, INDEX, WORLD
+NSVCDDEF nsvcd_result nsvcd_world_drive(nsvcd_world *world, size_t id, const nsvcd_pose *to);
+NSVCDDEF nsvcd_result nsvcd_world_arrive(nsvcd_world *world);
+
+// Answers a question about a mover and all that it comes near, driven bodies as they move. Sensors
+// are left out. HIT ends at the first body that is hit.
+//   With a slop, a mover that touches several bodies at the start is pushed out of all of them at
+// once, by nearly the shortest push-out that is long enough along each body's own.
+//   workspace  (workspace_size) bytes, nsvcd_sweep_workspace_size(NULL), not NULL, aligned
+//   answer     not NULL; left as it was on failure
+//   allocates  nothing
+//   threads    any number may ask while none changes the world; each needs a workspace of its own
+//   errors     those of nsvcd_sweep; METHOD (the network is asked), INDEX (`self`), ARGUMENT (b is
+//              not empty), WORLD
+NSVCDDEF nsvcd_result nsvcd_world_sweep(const nsvcd_world *world,
+                                        const nsvcd_world_question *question, void *workspace,
+                                        size_t workspace_size, nsvcd_world_answer *answer);
+
+// Lists all bodies that a mover meets on its way, sensors too: those that it passes over, shoots
+// through or stands in. What is undecided counts as met.
+//   question   its question asks HIT
+//   ids        (most); in ascending order
+//   count      not NULL; how many are met, which may be more than `most`
+//   errors     those of nsvcd_world_sweep, ASK
+NSVCDDEF nsvcd_result nsvcd_world_list(const nsvcd_world *world,
+                                       const nsvcd_world_question *question, void *workspace,
+                                       size_t workspace_size, size_t *ids, size_t most,
+                                       size_t *count);
+
+// Lists the pairs of bodies whose boxes, over this frame, come within a distance: who may meet whom.
+//   pairs      (most)
+//   count      not NULL; how many there are, which may be more than `most`
+//   errors     ARGUMENT, DISTANCE (`distance`), WORLD
+NSVCDDEF nsvcd_result nsvcd_world_pairs(const nsvcd_world *world, float distance,
+                                        nsvcd_body_pair *pairs, size_t most, size_t *count);
+
+// How a body slides. Zero means the default.
+typedef struct nsvcd_slide_options {
+  // metres: what it never comes nearer to anything than; default a two-hundredth of its radius. And
+  // how much farther than that it comes to rest; default the same
+  float clearance, margin;
+  // kilograms, and (3) kg m^2, about the axes of its frame through its pivot. Without an inertia it
+  // does not turn by what it meets; without a mass it is a character, whose impulses are speeds
+  float mass, inertia[3];
+  // of what it rubs against; and of what it hits faster than half a metre a second
+  float friction, restitution;
+  // a character: the direction up, unit; (0, 0, 0): it has none. It rides on what it stands on
+  float up[3];
+  // metres: as high a step it climbs; and the least cosine between up and the normal of a ground
+  // that it stands on, default 0.7
+  float step, slope;
+  // how often in a frame it goes on after a contact; default 4
+  size_t rounds;
+  // units of each question, as question.work
+  size_t work;
+} nsvcd_slide_options;
+
+// A body's speed: metres a second of its pivot, and radians a second, in the world.
+typedef struct nsvcd_velocity {
+  float linear[3], angular[3];
+} nsvcd_velocity;
+
+typedef struct nsvcd_slide_answer {
+  // of the frame, that it could make use of
+  float spent;
+  // 1: it rests: it did not move at all, and its speed is 0
+  int rests;
+  // the body that it stands on, and the ground's normal; or nobody
+  size_t ground;
+  float ground_normal[3];
+  // the driven body that it could not get out of the way of; or nobody
+  size_t caught;
+  // where it touches at the end, or within the margin; impulses as they were when it was there
+  size_t contact_count;
+  nsvcd_world_contact contacts[NSVCD_WORLD_CONTACTS];
+  size_t questions, work;
+} nsvcd_slide_answer;
+
+// Moves a body of the world for a frame, at its speed: it goes as far as is proven free, loses the
+// speed that points into what it meets, and goes on with what is left of the frame. Its speed is
+// that which it has at the end. Gravity and other forces are the caller's to add to it before.
+//   world      the body is moved in it
+//   velocity   not NULL
+//   seconds    of the frame
+//   answer     not NULL; on failure it, the velocity and the body are as they were
+//   errors     those of nsvcd_world_sweep; SPEED, TIMES (`seconds`), CLEARANCE (clearance, margin),
+//              VALUE (a mass, an inertia, a friction, a restitution or a slope), AXIS (`up`),
+//              DISTANCE (`step`)
+//   source     sequential impulses (Catto 2006) for the contacts of one body; this library
+//
+// What is proven: where the body is at the end, it is farther than the clearance from every other
+// body, and was so on its way there. What a contact does to its speed is no proof, only physics:
+// impulses are those of a body that meets others that rest or are driven. Whoever wants what is hit
+// to move hands it the impulse.
+NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
+                                        const nsvcd_slide_options *options, float seconds,
+                                        void *workspace, size_t workspace_size,
+                                        nsvcd_velocity *velocity, nsvcd_slide_answer *answer);

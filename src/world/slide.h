@@ -1,0 +1,447 @@
+// In: a body of a world, its speed and a time. Out: it is elsewhere, by a way that is proven free.
+//
+// THE LOOP. At a pose, all contacts within twice the margin are known: what points into them is
+// taken off the speed before anything is asked. So what rests asks about no way at all, and what
+// slides is not stopped by what it slides on. The way that is left is asked about; where it is
+// stopped, the body goes to the safe pose, and goes on with what is left of the frame from there.
+//
+// It comes to rest a margin farther than the clearance: so a way along what it rests on is not
+// stopped by rounding, nor by the bend of a turn.
+#pragma once
+#include "respond.h"
+
+// defaults: a fraction of the body's reach; rounds; the least cosine of a ground
+#define NSVCD__USUAL_CLEARANCE 0.005
+#define NSVCD__USUAL_ROUNDS 4
+#define NSVCD__USUAL_SLOPE 0.7
+// of the margin: a way in which no point goes farther is none for what rubs against something
+#define NSVCD__STILL 0.02
+// radians: the most that a body turns in a way
+#define NSVCD__MOST_TURN 2.0
+
+// A slide: what it is told, and what it is about now.
+typedef struct nsvcd__slide {
+  nsvcd__asker ask;
+  const nsvcd_slide_options *given;
+  nsvcd_pose pose;
+  nsvcd__thing thing;
+  // metres; seconds of the frame
+  double clearance, margin, seconds;
+  // of the frame
+  double left;
+  // unit, or 0; the least cosine of a ground
+  nsvcd__d3 up;
+  double slope;
+  // the speed of what it rides on; and how fast it goes back to where it would rest: that is no
+  // speed that it has
+  nsvcd__d3 ridden, leaves;
+  // what its last way met first; or nobody
+  size_t met;
+  // a character's: of its speed, that is left for the rest of the frame
+  double pace;
+  // what pushed in rounds before, and then all that there is at the pose now
+  size_t kept, contact_count;
+  nsvcd_world_contact contacts[NSVCD_WORLD_CONTACTS];
+  nsvcd__hold holds[NSVCD_WORLD_CONTACTS];
+  // a contact on which a character stands; or none
+  const nsvcd_world_contact *ground;
+} nsvcd__slide;
+
+// ---- speeds
+
+static nsvcd__d3 nsvcd__pivot_at(const nsvcd__slide *s) {
+  return nsvcd__pivot_of(&s->pose, s->ask.shape.pivot);
+}
+
+// How fast a driven body moves a point that is there now, and goes with it, on average over what is left
+// of the frame.
+static nsvcd__d3 nsvcd__driven_speed(const nsvcd__slide *s, size_t id, nsvcd__d3 point) {
+  const nsvcd__resident *r = &s->ask.world->residents[id];
+  if (!r->is_driven || !(s->left > 0)) return nsvcd__d3_of(0, 0, 0);
+  const nsvcd__dpose at =
+      nsvcd__dpose_between(&r->given.pose, &r->to, r->shape.pivot, 1 - s->left);
+  const nsvcd__dpose end = nsvcd__dpose_of(&r->to);
+  const nsvcd__dtransform now = nsvcd__dtransform_of(&at);
+  const nsvcd__dtransform then = nsvcd__dtransform_of(&end);
+  const nsvcd__d3 own =
+      nsvcd__dmat3_apply_transpose(&now.rotation, nsvcd__d3_sub(point, now.position));
+  const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__d3_transform(&then, own), point);
+  return nsvcd__d3_scale(moved, 1 / (s->left * s->seconds));
+}
+
+// How fast it is to go so that it comes to rest a margin off what is nearer than that: of speeds,
+// the one that comes nearest to a share of what each contact lacks. Between two walls that are too
+// close for both margins that is half way.
+static nsvcd__d3 nsvcd__leaving_speed(const nsvcd__slide *s) {
+  double rows[3][4] = {{1e-3, 0, 0, 0}, {0, 1e-3, 0, 0}, {0, 0, 1e-3, 0}};
+  for (size_t k = s->kept; k < s->contact_count; k++) {
+    const nsvcd__d3 n = s->holds[k].normal;
+    const double lacks = s->clearance + s->margin - (double)s->contacts[k].contact.gap;
+    for (size_t i = 0; i < 3 && lacks > 0; i++) {
+      const double along = nsvcd__d3_axis(n, i);
+      for (size_t j = 0; j < 3; j++) rows[i][j] += along * nsvcd__d3_axis(n, j);
+      rows[i][3] += along * lacks;
+    }
+  }
+  for (size_t i = 0; i < 3; i++) {  // positive definite: no pivots are needed
+    for (size_t j = 0; j < 3; j++) {
+      const double by = rows[j][i] / rows[i][i];
+      for (size_t k = i; k < 4 && j != i; k++) rows[j][k] -= by * rows[i][k];
+    }
+  }
+  const nsvcd__d3 by =
+      nsvcd__d3_of(rows[0][3] / rows[0][0], rows[1][3] / rows[1][1], rows[2][3] / rows[2][2]);
+  return nsvcd__d3_scale(by, NSVCD__LEAVES / s->seconds);
+}
+
+// Finds all contacts at the pose now, behind those that have pushed, and what they ask for.
+static void nsvcd__slide_look(nsvcd__slide *s) {
+  const nsvcd__d3 pivot = nsvcd__pivot_at(s);
+  const double time = nsvcd__max(s->left, 1e-3) * s->seconds;
+  const float within = (float)(s->clearance + 2 * s->margin);
+  double flattest = s->slope;
+  size_t kept = 0;
+  for (size_t k = 0; k < s->contact_count; k++)
+    if (s->contacts[k].impulse > 0) s->contacts[kept++] = s->contacts[k];
+  s->kept = kept < NSVCD_WORLD_CONTACTS / 2 ? kept : NSVCD_WORLD_CONTACTS / 2;
+  s->contact_count =
+      s->kept + nsvcd__contacts_at(&s->ask, &s->pose, 1 - s->left, within,
+                                   NSVCD_WORLD_CONTACTS - s->kept, s->contacts + s->kept);
+  s->ground = NULL;
+  for (size_t k = s->kept; k < s->contact_count; k++) {
+    const nsvcd_contact *c = &s->contacts[k].contact;
+    nsvcd__hold *h = &s->holds[k];
+    memset(h, 0, sizeof *h);
+    h->normal = nsvcd__d3_load(c->normal);
+    const nsvcd__d3 on_other = nsvcd__d3_load(c->point);
+    h->speed = nsvcd__driven_speed(s, s->contacts[k].body, on_other);
+    h->arm = nsvcd__d3_sub(nsvcd__d3_fma((double)c->gap, h->normal, on_other), pivot);
+    h->least = -nsvcd__max((double)c->gap - s->clearance - s->margin, 0) / time;
+    const double flat = nsvcd__d3_dot(h->normal, s->up);
+    if (flat >= flattest) s->ground = &s->contacts[k];
+    flattest = nsvcd__max(flattest, flat);
+  }
+  s->leaves = nsvcd__leaving_speed(s);
+}
+
+// Takes off the speed what points into contacts; what comes fast bounces.
+static void nsvcd__slide_respond(nsvcd__slide *s) {
+  for (size_t k = s->kept; k < s->contact_count; k++) {
+    nsvcd__hold *h = &s->holds[k];
+    const nsvcd__d3 speed = nsvcd__d3_sub(nsvcd__speed_at(&s->thing, h->arm), h->speed);
+    const double into = -nsvcd__d3_dot(speed, h->normal);
+    if (into > NSVCD__BOUNCES)
+      h->least = nsvcd__max(h->least, (double)s->given->restitution * into);
+  }
+  nsvcd__respond(&s->thing, s->holds + s->kept, s->contact_count - s->kept);
+  for (size_t k = s->kept; k < s->contact_count; k++)
+    s->contacts[k].impulse = (float)s->holds[k].pushed;
+}
+
+// ---- ways
+
+// The pose after some seconds at the speed now.
+static nsvcd_pose nsvcd__aim(const nsvcd__slide *s, double seconds) {
+  const nsvcd__d3 c = s->ask.shape.pivot;
+  const nsvcd__d3 w = s->thing.angular;
+  const double angle = nsvcd__d3_norm(w) * seconds;
+  const double sine = angle > 1e-9 ? nsvcd__sin(0.5 * angle) * seconds / angle : 0.5 * seconds;
+  const nsvcd__d3 u = nsvcd__d3_scale(w, sine);
+  const nsvcd__dquat turn = {u.x, u.y, u.z, sqrt(nsvcd__max(1 - nsvcd__d3_dot(u, u), 0))};
+  nsvcd__dpose out = nsvcd__unit_dpose(&s->pose);
+  const nsvcd__d3 pivot = nsvcd__to_pivot(&out, c, 1);
+  out.rotation = nsvcd__dquat_mul(turn, out.rotation);
+  const nsvcd__d3 speed = nsvcd__d3_add(s->thing.linear, s->leaves);
+  out.position = nsvcd__d3_fma(seconds, speed, pivot);
+  out.position = nsvcd__to_pivot(&out, c, -1);
+  return nsvcd__dpose_round(&out);
+}
+
+// Takes the body towards a pose as far as that is proven free, while the rest of the frame goes by,
+// or at once. Returns how far, as a fraction.
+static double nsvcd__go(nsvcd__slide *s, const nsvcd_pose *to, int at_once) {
+  const nsvcd_pose way[2] = {s->pose, *to};
+  s->ask.since = 1 - s->left;
+  s->ask.at_once = at_once;
+  nsvcd__asker_goes(&s->ask, way, 2);
+  nsvcd__tally t = nsvcd__ask_all(&s->ask);
+  if (t.first && !s->ask.result) nsvcd__make_safe(&s->ask, &t);
+  if (s->ask.result) return 0;
+  s->met = t.first;
+  s->pose = t.safe;
+  if (!at_once) s->left *= 1 - (double)t.safe_time;
+  return (double)t.safe_time;
+}
+
+// At once, straight: how far, as a fraction.
+static double nsvcd__go_by(nsvcd__slide *s, nsvcd__d3 by) {
+  nsvcd_pose to = s->pose;
+  const nsvcd__d3 at = nsvcd__d3_add(nsvcd__d3_load(to.position), by);
+  nsvcd__f3_store(nsvcd__f3_round(at), to.position);
+  return nsvcd__go(s, &to, 1);
+}
+
+// The body cannot go anywhere: it may be within the clearance of something, and then it is pushed
+// out. Returns whether it was.
+static int nsvcd__push_off(nsvcd__slide *s) {
+  nsvcd__asker q = s->ask;
+  nsvcd_pose to = s->pose;
+  q.since = 1 - s->left;
+  q.question.slop = (float)(s->clearance + s->margin);
+  q.question.a.poses = &s->pose;
+  const nsvcd__d3 by = nsvcd__push_out_of_all(&q);
+  const nsvcd__d3 at = nsvcd__d3_add(nsvcd__d3_load(to.position), by);
+  nsvcd__f3_store(nsvcd__f3_round(at), to.position);
+  if (!(nsvcd__d3_dot(by, by) > 0) || !nsvcd__may_be_at(&s->ask, &to, q.since, 0)) return 0;
+  s->pose = to;
+  return 1;
+}
+
+// Could a driven body come to where the body is?
+static int nsvcd__is_driven_near(nsvcd__slide *s) {
+  nsvcd__asker_goes(&s->ask, &s->pose, 1);
+  for (uint32_t id = 0; (id = nsvcd__asker_next(&s->ask, id)) != 0;)
+    if (s->ask.world->residents[id].is_driven) return 1;
+  return 0;
+}
+
+// How far points of the body go in the rest of the frame, at most, metres.
+static double nsvcd__travel_left(const nsvcd__slide *s) {
+  const double speed =
+      nsvcd__d3_norm(s->thing.linear) + nsvcd__d3_norm(s->thing.angular) * s->ask.shape.reach;
+  return speed * s->left * s->seconds;
+}
+
+// ---- a character
+
+static nsvcd__d3 nsvcd__flat_part(const nsvcd__slide *s, nsvcd__d3 a) {
+  return nsvcd__d3_fma(-nsvcd__d3_dot(a, s->up), s->up, a);
+}
+
+// Whoever stands on a ground does not slide down it, and walks up it as fast as on the level; what
+// is too steep to stand on is a wall.
+static void nsvcd__stand(nsvcd__slide *s) {
+  if (!s->ground) return;
+  const nsvcd__d3 n = nsvcd__d3_load(s->ground->contact.normal);
+  const nsvcd__d3 own = nsvcd__d3_sub(s->thing.linear, s->ridden);
+  const int falls = nsvcd__d3_dot(own, s->up) < 0;
+  const double steep = nsvcd__d3_dot(n, s->up);
+  nsvcd__d3 walks = falls ? nsvcd__flat_part(s, own) : own;
+  const double into = -nsvcd__d3_dot(walks, n);
+  if (into > 0) walks = nsvcd__d3_fma(into / steep, s->up, walks);
+  // down to where it rests, if that is lower
+  const double least = falls ? s->holds[s->ground - s->contacts].least / steep : 0;
+  s->thing.linear = nsvcd__d3_add(nsvcd__d3_fma(least, s->up, walks), s->ridden);
+  for (size_t k = s->kept; k < s->contact_count; k++) {
+    nsvcd__hold *h = &s->holds[k];
+    const nsvcd__d3 flat = nsvcd__flat_part(s, h->normal);
+    const double steep = nsvcd__d3_norm(flat);
+    const double rise = nsvcd__d3_dot(h->normal, s->up);
+    if (rise > 0 && rise < s->slope) h->normal = nsvcd__d3_scale(flat, 1 / steep);
+  }
+}
+
+// Onto a step: up, along, and down again. What has been gone of the way is not gone again. Returns
+// whether that led onto ground.
+static int nsvcd__climb(nsvcd__slide *s) {
+  const double step = (double)s->given->step;
+  const nsvcd_pose start = s->pose;
+  const double time = s->left * s->seconds * s->pace;
+  const nsvcd__d3 way = nsvcd__d3_scale(nsvcd__flat_part(s, s->thing.linear), time);
+  const double risen = step * nsvcd__go_by(s, nsvcd__d3_scale(s->up, step));
+  const double gone = nsvcd__go_by(s, way);
+  const double drop = risen + s->margin;
+  const double dropped = drop * nsvcd__go_by(s, nsvcd__d3_scale(s->up, -drop));
+  const int is_higher = dropped < risen - s->margin && gone > 0;
+  if (is_higher) nsvcd__slide_look(s);
+  if (is_higher && s->ground) {
+    s->pace *= 1 - gone;
+    return 1;
+  }
+  s->pose = start;
+  return 0;
+}
+
+// Whoever stood on a ground and walked off it steps down, if there is a ground to step down on.
+static void nsvcd__step_down(nsvcd__slide *s) {
+  const nsvcd_pose above = s->pose;
+  if (nsvcd__go_by(s, nsvcd__d3_scale(s->up, -(double)s->given->step)) < 1) {
+    nsvcd__slide_look(s);
+    if (s->ground) return;
+  }
+  s->pose = above;
+}
+
+// Is there something too steep to stand on in the way of whoever stands?
+static int nsvcd__is_before_step(const nsvcd__slide *s) {
+  const nsvcd__d3 walks = nsvcd__flat_part(s, nsvcd__d3_sub(s->thing.linear, s->ridden));
+  if (!s->ground || !(s->given->step > 0)) return 0;
+  for (size_t k = s->kept; k < s->contact_count; k++) {
+    const nsvcd__d3 n = s->holds[k].normal;
+    const double rise = nsvcd__d3_dot(n, s->up);
+    const double into = -nsvcd__d3_dot(walks, n);
+    if (rise > -0.01 && rise < s->slope && into > 0.05 * nsvcd__d3_norm(walks)) return 1;
+  }
+  return 0;
+}
+
+// ---- a frame
+
+static int nsvcd__is_amount(float x) {
+  return nsvcd__is_finite(x) && x >= 0 && x <= 1e12f;
+}
+
+static nsvcd_result nsvcd__slide_check(const nsvcd_slide_options *o, float seconds,
+                                       const nsvcd_velocity *velocity) {
+  const float *up = o->up;
+  const float square = up[0] * up[0] + up[1] * up[1] + up[2] * up[2];
+  if (!nsvcd__is_length(o->clearance) || !nsvcd__is_length(o->margin))
+    return NSVCD_ERROR_CLEARANCE;
+  if (!nsvcd__is_amount(o->mass) || !nsvcd__is_amount(o->friction)) return NSVCD_ERROR_VALUE;
+  if (!nsvcd__is_amount(o->restitution) || o->restitution > 1) return NSVCD_ERROR_VALUE;
+  if (!nsvcd__is_amount(o->slope) || o->slope > 1) return NSVCD_ERROR_VALUE;
+  for (size_t k = 0; k < 3; k++)
+    if (!nsvcd__is_amount(o->inertia[k])) return NSVCD_ERROR_VALUE;
+  if (!nsvcd__is_finite(square) || (square > 0 && fabsf(square - 1) > 1e-3f))
+    return NSVCD_ERROR_AXIS;
+  if (!nsvcd__is_length(o->step)) return NSVCD_ERROR_DISTANCE;
+  if (!nsvcd__is_finite(seconds) || !(seconds > 0)) return NSVCD_ERROR_TIMES;
+  if (!nsvcd__in_range(velocity->linear, 3, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_SPEED;
+  if (!nsvcd__in_range(velocity->angular, 3, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_SPEED;
+  return NSVCD_OK;
+}
+
+static nsvcd_result nsvcd__slide_begin(const nsvcd_world *world, size_t id,
+                                       const nsvcd_slide_options *given, float seconds,
+                                       void *workspace, size_t size,
+                                       const nsvcd_velocity *velocity, nsvcd__slide *s) {
+  nsvcd_world_question asked;
+  memset(&asked, 0, sizeof asked);
+  memset(s, 0, sizeof *s);
+  asked.self = id;
+  asked.question.ask = NSVCD_ASK_FIRST;
+  asked.question.work = given->work;
+  if (!nsvcd__resident_of(world, id)) return NSVCD_ERROR_INDEX;
+  nsvcd_result result = nsvcd__slide_check(given, seconds, velocity);
+  if (!result) result = nsvcd__asker_begin(world, &asked, workspace, size, &s->ask);
+  if (result) return result;
+  const double usual = NSVCD__USUAL_CLEARANCE * s->ask.shape.reach;
+  s->given = given;
+  s->pose = world->residents[id].given.pose;
+  s->clearance = given->clearance > 0 ? (double)given->clearance : usual;
+  s->margin = given->margin > 0 ? (double)given->margin : s->clearance;
+  s->seconds = (double)seconds;
+  s->left = s->pace = 1;
+  s->up = nsvcd__d3_load(given->up);
+  s->slope = given->slope > 0 ? (double)given->slope : NSVCD__USUAL_SLOPE;
+  s->ask.question.clearance = (float)s->clearance;
+  s->ask.question.to = (float)(0.25 * s->margin);
+  nsvcd__thing *thing = &s->thing;
+  const nsvcd__dpose pose = nsvcd__dpose_of(&s->pose);
+  const float *inertia = given->inertia;
+  thing->linear = nsvcd__d3_load(velocity->linear);
+  thing->angular = nsvcd__d3_load(velocity->angular);
+  thing->inverse_mass = given->mass > 0 ? 1 / (double)given->mass : 1;
+  thing->inverse_inertia = nsvcd__d3_of(inertia[0] > 0 ? 1 / (double)inertia[0] : 0,
+                                        inertia[1] > 0 ? 1 / (double)inertia[1] : 0,
+                                        inertia[2] > 0 ? 1 / (double)inertia[2] : 0);
+  thing->axes = nsvcd__dtransform_of(&pose).rotation;
+  thing->friction = (double)given->friction;
+  return NSVCD_OK;
+}
+
+// Does the body, as it is, need no way at all in this frame?
+static int nsvcd__is_still(nsvcd__slide *s) {
+  const int rubs = s->thing.friction > 0 && s->contact_count > s->kept;
+  const double most = rubs ? NSVCD__STILL * s->margin : NSVCD__BOX_ROUNDING * s->margin;
+  return nsvcd__travel_left(s) <= most && !nsvcd__is_driven_near(s);
+}
+
+// A round: what is in contact, the speed that is left, and the way at that speed. Returns whether
+// there is to be another one.
+static int nsvcd__slide_round(nsvcd__slide *s, int is_first, int *rests) {
+  nsvcd__thing *thing = &s->thing;
+  nsvcd__slide_look(s);
+  if (s->ground) {
+    const nsvcd__d3 before = s->ridden;
+    s->ridden = nsvcd__driven_speed(s, s->ground->body, nsvcd__pivot_at(s));
+    thing->linear = nsvcd__d3_add(thing->linear, nsvcd__d3_sub(s->ridden, before));
+  }
+  if (nsvcd__is_before_step(s)) (void)nsvcd__climb(s);
+  nsvcd__stand(s);
+  nsvcd__slide_respond(s);
+  const double turn = nsvcd__d3_norm(thing->angular) * s->left * s->seconds;
+  if (turn > NSVCD__MOST_TURN)
+    thing->angular = nsvcd__d3_scale(thing->angular, NSVCD__MOST_TURN / turn);
+  if (nsvcd__is_still(s)) {
+    thing->linear = thing->angular = nsvcd__d3_of(0, 0, 0);
+    s->left = 0;
+    *rests = is_first;
+    return 0;
+  }
+  const nsvcd_pose to = nsvcd__aim(s, s->left * s->seconds);
+  const double gone = nsvcd__go(s, &to, 0);
+  if (s->ask.result || gone >= 1) return 0;
+  return gone > 0 || nsvcd__push_off(s);
+}
+
+static void nsvcd__slide_answer(nsvcd__slide *s, nsvcd_velocity *velocity,
+                                nsvcd_slide_answer *out) {
+  const double used = 1 - s->left;
+  const nsvcd__d3 linear =
+      nsvcd__d3_sub(nsvcd__d3_scale(s->thing.linear, used), nsvcd__d3_scale(s->ridden, used));
+  nsvcd__f3_store(nsvcd__f3_round(linear), velocity->linear);
+  nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_scale(s->thing.angular, used)), velocity->angular);
+  out->spent = (float)used;
+  if (s->ground) {
+    out->ground = s->ground->body;
+    memcpy(out->ground_normal, s->ground->contact.normal, sizeof out->ground_normal);
+  }
+  out->contact_count = s->contact_count;
+  memcpy(out->contacts, s->contacts, s->contact_count * sizeof *s->contacts);
+  out->questions = s->ask.questions;
+  out->work = s->ask.work;
+}
+
+NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
+                                        const nsvcd_slide_options *options, float seconds,
+                                        void *workspace, size_t workspace_size,
+                                        nsvcd_velocity *velocity, nsvcd_slide_answer *answer) {
+  static const nsvcd_slide_options usual = {0, 0, 0, {0, 0, 0}, 0, 0, {0, 0, 0}, 0, 0, 0, 0};
+  nsvcd__slide s;
+  nsvcd_slide_answer out;
+  if (!world || !velocity || !answer) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_slide_options *given = options ? options : &usual;
+  nsvcd_result result =
+      nsvcd__slide_begin(world, id, given, seconds, workspace, workspace_size, velocity, &s);
+  if (result) return result;
+  memset(&out, 0, sizeof out);
+  const size_t rounds = given->rounds ? given->rounds : NSVCD__USUAL_ROUNDS;
+  int more = 1;
+  int stood = 0;
+  for (size_t round = 0; round < rounds && more && s.left > 1e-4; round++) {
+    more = nsvcd__slide_round(&s, round == 0, &out.rests);
+    if (round == 0) stood = s.ground != NULL;
+  }
+  if (s.left > 0 && !s.ask.result && nsvcd__is_driven_near(&s)) {
+    // the rest of the frame goes by without it
+    const double left = s.left;
+    const nsvcd_pose stays = s.pose;
+    const double free_until = nsvcd__go(&s, &stays, 0);
+    s.pose = stays;
+    s.left = left;
+    if (free_until < 1) out.caught = s.met;
+  }
+  const double rises = nsvcd__d3_dot(nsvcd__d3_sub(s.thing.linear, s.ridden), s.up);
+  if (nsvcd__d3_dot(s.up, s.up) > 0 && !s.ask.result && !out.rests) {
+    s.left = 0;
+    nsvcd__slide_look(&s);
+    if (stood && !s.ground && given->step > 0 && rises <= 0) nsvcd__step_down(&s);
+  }
+  if (s.ask.result) return s.ask.result;
+  result = nsvcd_world_move(world, id, &s.pose);
+  if (result) return result;
+  nsvcd__slide_answer(&s, velocity, &out);
+  *answer = out;
+  return NSVCD_OK;
+}
