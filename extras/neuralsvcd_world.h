@@ -1802,10 +1802,11 @@ static void nsvcd__make_safe(const nsvcd__asker *q, nsvcd__tally *t) {
   t->safe = way->poses[0];
 }
 
-// Adds the contacts of the mover, at a pose and at a part of the frame, with all bodies that are
-// nearer than `within` metres: those of each, or one. Returns how many there are then.
+// Finds the contacts of the mover, at a pose and at a part of the frame, with all bodies that are
+// nearer than `within` metres: `each` of every one, and `most` in all. Returns how many.
 static size_t nsvcd__contacts_at(nsvcd__asker *asked, const nsvcd_pose *pose, double when,
-                                 float within, size_t each, nsvcd_world_contact *contacts) {
+                                 float within, size_t each, nsvcd_world_contact *contacts,
+                                 size_t most) {
   nsvcd__asker q = *asked;
   size_t count = 0;
   memset(&q.question, 0, sizeof q.question);
@@ -1816,18 +1817,17 @@ static size_t nsvcd__contacts_at(nsvcd__asker *asked, const nsvcd_pose *pose, do
   q.since = when;
   q.at_once = 1;
   nsvcd__asker_goes(&q, pose, 1);
-  for (uint32_t id = 0;
-       (id = nsvcd__asker_next(&q, id)) != 0 && count < NSVCD_WORLD_CONTACTS;) {
+  for (uint32_t id = 0; count < most && (id = nsvcd__asker_next(&q, id)) != 0;) {
     nsvcd_contact found[NSVCD_WORLD_CONTACTS];
+    const size_t room = most - count < each ? most - count : each;
     size_t n = 0;
     nsvcd__asker_sees(&q, &q.world->residents[id], &q.question.b);
-    const size_t room = NSVCD_WORLD_CONTACTS - count;
     if (!q.result)
-      q.result = nsvcd_contacts(&q.question, q.workspace, q.workspace_size, found,
-                                room < each ? room : each, &n, NULL);
+      q.result =
+          nsvcd_contacts(&q.question, q.workspace, q.workspace_size, found, room, &n, NULL);
     if (q.result) break;
     q.questions++;
-    for (size_t k = 0; k < n && k < each && k < room; k++) {
+    for (size_t k = 0; k < n; k++) {
       nsvcd_world_contact *c = &contacts[count++];
       memset(c, 0, sizeof *c);
       c->body = id;
@@ -1858,8 +1858,9 @@ static void nsvcd__world_answer(nsvcd__asker *q, const nsvcd__tally *t, int each
   if (asked->ask == NSVCD_ASK_FIRST && t->is_hit) {
     const double when = q->since + (double)t->safe_time * (1 - q->since);
     const float within = asked->clearance + (float)(2 * to);
-    out->contact_count = nsvcd__contacts_at(q, &t->safe, when, within,
-                                            each ? NSVCD_WORLD_CONTACTS : 1, out->contacts);
+    out->contact_count =
+        nsvcd__contacts_at(q, &t->safe, when, within, each ? NSVCD_WORLD_CONTACTS : 1,
+                           out->contacts, NSVCD_WORLD_CONTACTS);
   }
   out->questions = q->questions;
   out->work = q->work;
@@ -1941,10 +1942,11 @@ NSVCDDEF nsvcd_result nsvcd_world_list(const nsvcd_world *world,
 //   A contact that is farther than where the body comes to rest may be approached, as fast as leads
 // there in this frame; one that is nearer is left, by a fifth of what is missing in a frame.
 
-#define NSVCD__IMPULSE_ROUNDS 24
+#define NSVCD__IMPULSE_ROUNDS 32
 // metres a second: what comes slower does not bounce
 #define NSVCD__BOUNCES 0.5
 #define NSVCD__LEAVES 0.2
+#define NSVCD__SOFT 0.2
 
 // A contact as the response sees it.
 typedef struct nsvcd__hold {
@@ -1952,6 +1954,8 @@ typedef struct nsvcd__hold {
   nsvcd__d3 arm, normal;
   // the other body's speed there
   nsvcd__d3 speed;
+  // metres: how much nearer it is than where the body comes to rest; below 0: farther
+  double lacks;
   // metres a second, along the normal: at least
   double least;
   // so far: along the normal, and across it
@@ -1993,12 +1997,14 @@ static void nsvcd__take_impulse(nsvcd__thing *thing, nsvcd__d3 arm, nsvcd__d3 im
   thing->angular = nsvcd__d3_add(thing->angular, nsvcd__spun_by(thing, moment));
 }
 
-static void nsvcd__respond_at(nsvcd__thing *thing, nsvcd__hold *hold) {
+// soft: a fraction of what the contact gives way by to a unit impulse, by which it gives way besides
+static void nsvcd__respond_at(nsvcd__thing *thing, nsvcd__hold *hold, double soft) {
   const nsvcd__d3 speed = nsvcd__d3_sub(nsvcd__speed_at(thing, hold->arm), hold->speed);
   const double along = nsvcd__d3_dot(speed, hold->normal);
   const double give = nsvcd__give_of(thing, hold->arm, hold->normal);
   const double before = hold->pushed;
-  hold->pushed = nsvcd__max(before + (hold->least - along) / give, 0);
+  const double lacks = hold->least - along - soft * give * before;
+  hold->pushed = nsvcd__max(before + lacks / (give + soft * give), 0);
   nsvcd__take_impulse(thing, hold->arm, nsvcd__d3_scale(hold->normal, hold->pushed - before));
   if (!(thing->friction > 0)) return;
   const nsvcd__d3 now = nsvcd__d3_sub(nsvcd__speed_at(thing, hold->arm), hold->speed);
@@ -2015,9 +2021,29 @@ static void nsvcd__respond_at(nsvcd__thing *thing, nsvcd__hold *hold) {
   hold->rubbed = rubbed;
 }
 
-static void nsvcd__respond(nsvcd__thing *thing, nsvcd__hold *holds, size_t count) {
+static void nsvcd__respond(nsvcd__thing *thing, nsvcd__hold *holds, size_t count,
+                           double soft) {
   for (int round = 0; round < NSVCD__IMPULSE_ROUNDS; round++)
-    for (size_t k = 0; k < count; k++) nsvcd__respond_at(thing, &holds[k]);
+    for (size_t k = 0; k < count; k++) nsvcd__respond_at(thing, &holds[k], soft);
+}
+
+// How fast a body is to go so that it comes to rest a margin off everything: a share of what each
+// contact lacks, in a frame. That is no speed that it has. Contacts are soft: so between two walls
+// that are too close for both margins it goes half way.
+static nsvcd__thing nsvcd__leaving(const nsvcd__thing *thing, const nsvcd__hold *holds,
+                                   size_t count, double seconds) {
+  nsvcd__thing out = *thing;
+  nsvcd__hold left[NSVCD_WORLD_CONTACTS];
+  out.linear = out.angular = nsvcd__d3_of(0, 0, 0);
+  out.friction = 0;
+  out.inverse_inertia = nsvcd__d3_of(0, 0, 0);
+  for (size_t k = 0; k < count; k++) {
+    left[k] = holds[k];
+    left[k].speed = nsvcd__d3_of(0, 0, 0);
+    left[k].least = NSVCD__LEAVES * nsvcd__max(holds[k].lacks, 0) / seconds;
+  }
+  nsvcd__respond(&out, left, count, NSVCD__SOFT);
+  return out;
 }
 
 // ------------------------------------------------------------------------------------- world/slide
@@ -2053,9 +2079,9 @@ typedef struct nsvcd__slide {
   // unit, or 0; the least cosine of a ground
   nsvcd__d3 up;
   double slope;
-  // the speed of what it rides on; and how fast it goes back to where it would rest: that is no
-  // speed that it has
-  nsvcd__d3 ridden, leaves;
+  // the speed of what it rides on
+  nsvcd__d3 ridden;
+  nsvcd__thing leaves;
   // what its last way met first; or nobody
   size_t met;
   // a character's: of its speed, that is left for the rest of the frame
@@ -2090,31 +2116,6 @@ static nsvcd__d3 nsvcd__driven_speed(const nsvcd__slide *s, size_t id, nsvcd__d3
   return nsvcd__d3_scale(moved, 1 / (s->left * s->seconds));
 }
 
-// How fast it is to go so that it comes to rest a margin off what is nearer than that: of speeds,
-// the one that comes nearest to a share of what each contact lacks. Between two walls that are too
-// close for both margins that is half way.
-static nsvcd__d3 nsvcd__leaving_speed(const nsvcd__slide *s) {
-  double rows[3][4] = {{1e-3, 0, 0, 0}, {0, 1e-3, 0, 0}, {0, 0, 1e-3, 0}};
-  for (size_t k = s->kept; k < s->contact_count; k++) {
-    const nsvcd__d3 n = s->holds[k].normal;
-    const double lacks = s->clearance + s->margin - (double)s->contacts[k].contact.gap;
-    for (size_t i = 0; i < 3 && lacks > 0; i++) {
-      const double along = nsvcd__d3_axis(n, i);
-      for (size_t j = 0; j < 3; j++) rows[i][j] += along * nsvcd__d3_axis(n, j);
-      rows[i][3] += along * lacks;
-    }
-  }
-  for (size_t i = 0; i < 3; i++) {  // positive definite: no pivots are needed
-    for (size_t j = 0; j < 3; j++) {
-      const double by = rows[j][i] / rows[i][i];
-      for (size_t k = i; k < 4 && j != i; k++) rows[j][k] -= by * rows[i][k];
-    }
-  }
-  const nsvcd__d3 by =
-      nsvcd__d3_of(rows[0][3] / rows[0][0], rows[1][3] / rows[1][1], rows[2][3] / rows[2][2]);
-  return nsvcd__d3_scale(by, NSVCD__LEAVES / s->seconds);
-}
-
 // Finds all contacts at the pose now, behind those that have pushed, and what they ask for.
 static void nsvcd__slide_look(nsvcd__slide *s) {
   const nsvcd__d3 pivot = nsvcd__pivot_at(s);
@@ -2125,9 +2126,9 @@ static void nsvcd__slide_look(nsvcd__slide *s) {
   for (size_t k = 0; k < s->contact_count; k++)
     if (s->contacts[k].impulse > 0) s->contacts[kept++] = s->contacts[k];
   s->kept = kept < NSVCD_WORLD_CONTACTS / 2 ? kept : NSVCD_WORLD_CONTACTS / 2;
-  s->contact_count =
-      s->kept + nsvcd__contacts_at(&s->ask, &s->pose, 1 - s->left, within,
-                                   NSVCD_WORLD_CONTACTS - s->kept, s->contacts + s->kept);
+  const size_t room = NSVCD_WORLD_CONTACTS - s->kept;
+  s->contact_count = s->kept + nsvcd__contacts_at(&s->ask, &s->pose, 1 - s->left, within, room,
+                                                  s->contacts + s->kept, room);
   s->ground = NULL;
   for (size_t k = s->kept; k < s->contact_count; k++) {
     const nsvcd_contact *c = &s->contacts[k].contact;
@@ -2137,12 +2138,14 @@ static void nsvcd__slide_look(nsvcd__slide *s) {
     const nsvcd__d3 on_other = nsvcd__d3_load(c->point);
     h->speed = nsvcd__driven_speed(s, s->contacts[k].body, on_other);
     h->arm = nsvcd__d3_sub(nsvcd__d3_fma((double)c->gap, h->normal, on_other), pivot);
-    h->least = -nsvcd__max((double)c->gap - s->clearance - s->margin, 0) / time;
+    h->lacks = s->clearance + 0.5 * s->margin - (double)c->gap;
+    h->least = nsvcd__min(s->clearance + s->margin - (double)c->gap, 0) / time;
     const double flat = nsvcd__d3_dot(h->normal, s->up);
     if (flat >= flattest) s->ground = &s->contacts[k];
     flattest = nsvcd__max(flattest, flat);
   }
-  s->leaves = nsvcd__leaving_speed(s);
+  const size_t count = s->contact_count - s->kept;
+  s->leaves = nsvcd__leaving(&s->thing, s->holds + s->kept, count, s->seconds);
 }
 
 // Takes off the speed what points into contacts; what comes fast bounces.
@@ -2154,7 +2157,7 @@ static void nsvcd__slide_respond(nsvcd__slide *s) {
     if (into > NSVCD__BOUNCES)
       h->least = nsvcd__max(h->least, (double)s->given->restitution * into);
   }
-  nsvcd__respond(&s->thing, s->holds + s->kept, s->contact_count - s->kept);
+  nsvcd__respond(&s->thing, s->holds + s->kept, s->contact_count - s->kept, 0);
   for (size_t k = s->kept; k < s->contact_count; k++)
     s->contacts[k].impulse = (float)s->holds[k].pushed;
 }
@@ -2164,7 +2167,7 @@ static void nsvcd__slide_respond(nsvcd__slide *s) {
 // The pose after some seconds at the speed now.
 static nsvcd_pose nsvcd__aim(const nsvcd__slide *s, double seconds) {
   const nsvcd__d3 c = s->ask.shape.pivot;
-  const nsvcd__d3 w = s->thing.angular;
+  const nsvcd__d3 w = nsvcd__d3_add(s->thing.angular, s->leaves.angular);
   const double angle = nsvcd__d3_norm(w) * seconds;
   const double sine = angle > 1e-9 ? nsvcd__sin(0.5 * angle) * seconds / angle : 0.5 * seconds;
   const nsvcd__d3 u = nsvcd__d3_scale(w, sine);
@@ -2172,7 +2175,7 @@ static nsvcd_pose nsvcd__aim(const nsvcd__slide *s, double seconds) {
   nsvcd__dpose out = nsvcd__unit_dpose(&s->pose);
   const nsvcd__d3 pivot = nsvcd__to_pivot(&out, c, 1);
   out.rotation = nsvcd__dquat_mul(turn, out.rotation);
-  const nsvcd__d3 speed = nsvcd__d3_add(s->thing.linear, s->leaves);
+  const nsvcd__d3 speed = nsvcd__d3_add(s->thing.linear, s->leaves.linear);
   out.position = nsvcd__d3_fma(seconds, speed, pivot);
   out.position = nsvcd__to_pivot(&out, c, -1);
   return nsvcd__dpose_round(&out);
@@ -2228,8 +2231,9 @@ static int nsvcd__is_driven_near(nsvcd__slide *s) {
 
 // How far points of the body go in the rest of the frame, at most, metres.
 static double nsvcd__travel_left(const nsvcd__slide *s) {
-  const double speed =
-      nsvcd__d3_norm(s->thing.linear) + nsvcd__d3_norm(s->thing.angular) * s->ask.shape.reach;
+  const nsvcd__d3 linear = nsvcd__d3_add(s->thing.linear, s->leaves.linear);
+  const nsvcd__d3 angular = nsvcd__d3_add(s->thing.angular, s->leaves.angular);
+  const double speed = nsvcd__d3_norm(linear) + nsvcd__d3_norm(angular) * s->ask.shape.reach;
   return speed * s->left * s->seconds;
 }
 

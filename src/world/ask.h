@@ -287,10 +287,11 @@ static void nsvcd__make_safe(const nsvcd__asker *q, nsvcd__tally *t) {
   t->safe = way->poses[0];
 }
 
-// Adds the contacts of the mover, at a pose and at a part of the frame, with all bodies that are
-// nearer than `within` metres: those of each, or one. Returns how many there are then.
+// Finds the contacts of the mover, at a pose and at a part of the frame, with all bodies that are
+// nearer than `within` metres: `each` of every one, and `most` in all. Returns how many.
 static size_t nsvcd__contacts_at(nsvcd__asker *asked, const nsvcd_pose *pose, double when,
-                                 float within, size_t each, nsvcd_world_contact *contacts) {
+                                 float within, size_t each, nsvcd_world_contact *contacts,
+                                 size_t most) {
   nsvcd__asker q = *asked;
   size_t count = 0;
   memset(&q.question, 0, sizeof q.question);
@@ -301,18 +302,17 @@ static size_t nsvcd__contacts_at(nsvcd__asker *asked, const nsvcd_pose *pose, do
   q.since = when;
   q.at_once = 1;
   nsvcd__asker_goes(&q, pose, 1);
-  for (uint32_t id = 0;
-       (id = nsvcd__asker_next(&q, id)) != 0 && count < NSVCD_WORLD_CONTACTS;) {
+  for (uint32_t id = 0; count < most && (id = nsvcd__asker_next(&q, id)) != 0;) {
     nsvcd_contact found[NSVCD_WORLD_CONTACTS];
+    const size_t room = most - count < each ? most - count : each;
     size_t n = 0;
     nsvcd__asker_sees(&q, &q.world->residents[id], &q.question.b);
-    const size_t room = NSVCD_WORLD_CONTACTS - count;
     if (!q.result)
-      q.result = nsvcd_contacts(&q.question, q.workspace, q.workspace_size, found,
-                                room < each ? room : each, &n, NULL);
+      q.result =
+          nsvcd_contacts(&q.question, q.workspace, q.workspace_size, found, room, &n, NULL);
     if (q.result) break;
     q.questions++;
-    for (size_t k = 0; k < n && k < each && k < room; k++) {
+    for (size_t k = 0; k < n; k++) {
       nsvcd_world_contact *c = &contacts[count++];
       memset(c, 0, sizeof *c);
       c->body = id;
@@ -343,8 +343,9 @@ static void nsvcd__world_answer(nsvcd__asker *q, const nsvcd__tally *t, int each
   if (asked->ask == NSVCD_ASK_FIRST && t->is_hit) {
     const double when = q->since + (double)t->safe_time * (1 - q->since);
     const float within = asked->clearance + (float)(2 * to);
-    out->contact_count = nsvcd__contacts_at(q, &t->safe, when, within,
-                                            each ? NSVCD_WORLD_CONTACTS : 1, out->contacts);
+    out->contact_count =
+        nsvcd__contacts_at(q, &t->safe, when, within, each ? NSVCD_WORLD_CONTACTS : 1,
+                           out->contacts, NSVCD_WORLD_CONTACTS);
   }
   out->questions = q->questions;
   out->work = q->work;

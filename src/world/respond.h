@@ -10,10 +10,13 @@
 #pragma once
 #include "ask.h"
 
-#define NSVCD__IMPULSE_ROUNDS 24
+// rounds, at most; and the change of an impulse, as a fraction of the greatest, that ends them
+#define NSVCD__IMPULSE_ROUNDS 100
+#define NSVCD__IMPULSE_SAME 1e-4
 // metres a second: what comes slower does not bounce
 #define NSVCD__BOUNCES 0.5
 #define NSVCD__LEAVES 0.2
+#define NSVCD__SOFT 0.2
 
 // A contact as the response sees it.
 typedef struct nsvcd__hold {
@@ -21,6 +24,8 @@ typedef struct nsvcd__hold {
   nsvcd__d3 arm, normal;
   // the other body's speed there
   nsvcd__d3 speed;
+  // metres: how much nearer it is than where the body comes to rest; below 0: farther
+  double lacks;
   // metres a second, along the normal: at least
   double least;
   // so far: along the normal, and across it
@@ -62,12 +67,14 @@ static void nsvcd__take_impulse(nsvcd__thing *thing, nsvcd__d3 arm, nsvcd__d3 im
   thing->angular = nsvcd__d3_add(thing->angular, nsvcd__spun_by(thing, moment));
 }
 
-static void nsvcd__respond_at(nsvcd__thing *thing, nsvcd__hold *hold) {
+// soft: a fraction of what the contact gives way by to a unit impulse, by which it gives way besides
+static void nsvcd__respond_at(nsvcd__thing *thing, nsvcd__hold *hold, double soft) {
   const nsvcd__d3 speed = nsvcd__d3_sub(nsvcd__speed_at(thing, hold->arm), hold->speed);
   const double along = nsvcd__d3_dot(speed, hold->normal);
   const double give = nsvcd__give_of(thing, hold->arm, hold->normal);
   const double before = hold->pushed;
-  hold->pushed = nsvcd__max(before + (hold->least - along) / give, 0);
+  const double lacks = hold->least - along - soft * give * before;
+  hold->pushed = nsvcd__max(before + lacks / (give + soft * give), 0);
   nsvcd__take_impulse(thing, hold->arm, nsvcd__d3_scale(hold->normal, hold->pushed - before));
   if (!(thing->friction > 0)) return;
   const nsvcd__d3 now = nsvcd__d3_sub(nsvcd__speed_at(thing, hold->arm), hold->speed);
@@ -84,7 +91,27 @@ static void nsvcd__respond_at(nsvcd__thing *thing, nsvcd__hold *hold) {
   hold->rubbed = rubbed;
 }
 
-static void nsvcd__respond(nsvcd__thing *thing, nsvcd__hold *holds, size_t count) {
+static void nsvcd__respond(nsvcd__thing *thing, nsvcd__hold *holds, size_t count,
+                           double soft) {
   for (int round = 0; round < NSVCD__IMPULSE_ROUNDS; round++)
-    for (size_t k = 0; k < count; k++) nsvcd__respond_at(thing, &holds[k]);
+    for (size_t k = 0; k < count; k++) nsvcd__respond_at(thing, &holds[k], soft);
+}
+
+// How fast a body is to go so that it comes to rest a margin off everything: a share of what each
+// contact lacks, in a frame. That is no speed that it has. Contacts are soft: so between two walls
+// that are too close for both margins it goes half way.
+static nsvcd__thing nsvcd__leaving(const nsvcd__thing *thing, const nsvcd__hold *holds,
+                                   size_t count, double seconds) {
+  nsvcd__thing out = *thing;
+  nsvcd__hold left[NSVCD_WORLD_CONTACTS];
+  out.linear = out.angular = nsvcd__d3_of(0, 0, 0);
+  out.friction = 0;
+  out.inverse_inertia = nsvcd__d3_of(0, 0, 0);
+  for (size_t k = 0; k < count; k++) {
+    left[k] = holds[k];
+    left[k].speed = nsvcd__d3_of(0, 0, 0);
+    left[k].least = NSVCD__LEAVES * nsvcd__max(holds[k].lacks, 0) / seconds;
+  }
+  nsvcd__respond(&out, left, count, NSVCD__SOFT);
+  return out;
 }

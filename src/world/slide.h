@@ -32,9 +32,9 @@ typedef struct nsvcd__slide {
   // unit, or 0; the least cosine of a ground
   nsvcd__d3 up;
   double slope;
-  // the speed of what it rides on; and how fast it goes back to where it would rest: that is no
-  // speed that it has
-  nsvcd__d3 ridden, leaves;
+  // the speed of what it rides on
+  nsvcd__d3 ridden;
+  nsvcd__thing leaves;
   // what its last way met first; or nobody
   size_t met;
   // a character's: of its speed, that is left for the rest of the frame
@@ -69,31 +69,6 @@ static nsvcd__d3 nsvcd__driven_speed(const nsvcd__slide *s, size_t id, nsvcd__d3
   return nsvcd__d3_scale(moved, 1 / (s->left * s->seconds));
 }
 
-// How fast it is to go so that it comes to rest a margin off what is nearer than that: of speeds,
-// the one that comes nearest to a share of what each contact lacks. Between two walls that are too
-// close for both margins that is half way.
-static nsvcd__d3 nsvcd__leaving_speed(const nsvcd__slide *s) {
-  double rows[3][4] = {{1e-3, 0, 0, 0}, {0, 1e-3, 0, 0}, {0, 0, 1e-3, 0}};
-  for (size_t k = s->kept; k < s->contact_count; k++) {
-    const nsvcd__d3 n = s->holds[k].normal;
-    const double lacks = s->clearance + s->margin - (double)s->contacts[k].contact.gap;
-    for (size_t i = 0; i < 3 && lacks > 0; i++) {
-      const double along = nsvcd__d3_axis(n, i);
-      for (size_t j = 0; j < 3; j++) rows[i][j] += along * nsvcd__d3_axis(n, j);
-      rows[i][3] += along * lacks;
-    }
-  }
-  for (size_t i = 0; i < 3; i++) {  // positive definite: no pivots are needed
-    for (size_t j = 0; j < 3; j++) {
-      const double by = rows[j][i] / rows[i][i];
-      for (size_t k = i; k < 4 && j != i; k++) rows[j][k] -= by * rows[i][k];
-    }
-  }
-  const nsvcd__d3 by =
-      nsvcd__d3_of(rows[0][3] / rows[0][0], rows[1][3] / rows[1][1], rows[2][3] / rows[2][2]);
-  return nsvcd__d3_scale(by, NSVCD__LEAVES / s->seconds);
-}
-
 // Finds all contacts at the pose now, behind those that have pushed, and what they ask for.
 static void nsvcd__slide_look(nsvcd__slide *s) {
   const nsvcd__d3 pivot = nsvcd__pivot_at(s);
@@ -104,9 +79,9 @@ static void nsvcd__slide_look(nsvcd__slide *s) {
   for (size_t k = 0; k < s->contact_count; k++)
     if (s->contacts[k].impulse > 0) s->contacts[kept++] = s->contacts[k];
   s->kept = kept < NSVCD_WORLD_CONTACTS / 2 ? kept : NSVCD_WORLD_CONTACTS / 2;
-  s->contact_count =
-      s->kept + nsvcd__contacts_at(&s->ask, &s->pose, 1 - s->left, within,
-                                   NSVCD_WORLD_CONTACTS - s->kept, s->contacts + s->kept);
+  const size_t room = NSVCD_WORLD_CONTACTS - s->kept;
+  s->contact_count = s->kept + nsvcd__contacts_at(&s->ask, &s->pose, 1 - s->left, within, room,
+                                                  s->contacts + s->kept, room);
   s->ground = NULL;
   for (size_t k = s->kept; k < s->contact_count; k++) {
     const nsvcd_contact *c = &s->contacts[k].contact;
@@ -116,12 +91,14 @@ static void nsvcd__slide_look(nsvcd__slide *s) {
     const nsvcd__d3 on_other = nsvcd__d3_load(c->point);
     h->speed = nsvcd__driven_speed(s, s->contacts[k].body, on_other);
     h->arm = nsvcd__d3_sub(nsvcd__d3_fma((double)c->gap, h->normal, on_other), pivot);
-    h->least = -nsvcd__max((double)c->gap - s->clearance - s->margin, 0) / time;
+    h->lacks = s->clearance + 0.5 * s->margin - (double)c->gap;
+    h->least = nsvcd__min(s->clearance + s->margin - (double)c->gap, 0) / time;
     const double flat = nsvcd__d3_dot(h->normal, s->up);
     if (flat >= flattest) s->ground = &s->contacts[k];
     flattest = nsvcd__max(flattest, flat);
   }
-  s->leaves = nsvcd__leaving_speed(s);
+  const size_t count = s->contact_count - s->kept;
+  s->leaves = nsvcd__leaving(&s->thing, s->holds + s->kept, count, s->seconds);
 }
 
 // Takes off the speed what points into contacts; what comes fast bounces.
@@ -133,7 +110,7 @@ static void nsvcd__slide_respond(nsvcd__slide *s) {
     if (into > NSVCD__BOUNCES)
       h->least = nsvcd__max(h->least, (double)s->given->restitution * into);
   }
-  nsvcd__respond(&s->thing, s->holds + s->kept, s->contact_count - s->kept);
+  nsvcd__respond(&s->thing, s->holds + s->kept, s->contact_count - s->kept, 0);
   for (size_t k = s->kept; k < s->contact_count; k++)
     s->contacts[k].impulse = (float)s->holds[k].pushed;
 }
@@ -143,7 +120,7 @@ static void nsvcd__slide_respond(nsvcd__slide *s) {
 // The pose after some seconds at the speed now.
 static nsvcd_pose nsvcd__aim(const nsvcd__slide *s, double seconds) {
   const nsvcd__d3 c = s->ask.shape.pivot;
-  const nsvcd__d3 w = s->thing.angular;
+  const nsvcd__d3 w = nsvcd__d3_add(s->thing.angular, s->leaves.angular);
   const double angle = nsvcd__d3_norm(w) * seconds;
   const double sine = angle > 1e-9 ? nsvcd__sin(0.5 * angle) * seconds / angle : 0.5 * seconds;
   const nsvcd__d3 u = nsvcd__d3_scale(w, sine);
@@ -151,7 +128,7 @@ static nsvcd_pose nsvcd__aim(const nsvcd__slide *s, double seconds) {
   nsvcd__dpose out = nsvcd__unit_dpose(&s->pose);
   const nsvcd__d3 pivot = nsvcd__to_pivot(&out, c, 1);
   out.rotation = nsvcd__dquat_mul(turn, out.rotation);
-  const nsvcd__d3 speed = nsvcd__d3_add(s->thing.linear, s->leaves);
+  const nsvcd__d3 speed = nsvcd__d3_add(s->thing.linear, s->leaves.linear);
   out.position = nsvcd__d3_fma(seconds, speed, pivot);
   out.position = nsvcd__to_pivot(&out, c, -1);
   return nsvcd__dpose_round(&out);
@@ -207,8 +184,9 @@ static int nsvcd__is_driven_near(nsvcd__slide *s) {
 
 // How far points of the body go in the rest of the frame, at most, metres.
 static double nsvcd__travel_left(const nsvcd__slide *s) {
-  const double speed =
-      nsvcd__d3_norm(s->thing.linear) + nsvcd__d3_norm(s->thing.angular) * s->ask.shape.reach;
+  const nsvcd__d3 linear = nsvcd__d3_add(s->thing.linear, s->leaves.linear);
+  const nsvcd__d3 angular = nsvcd__d3_add(s->thing.angular, s->leaves.angular);
+  const double speed = nsvcd__d3_norm(linear) + nsvcd__d3_norm(angular) * s->ask.shape.reach;
   return speed * s->left * s->seconds;
 }
 
