@@ -6537,7 +6537,8 @@ static void nsvcd__draw(nsvcd__router *r, size_t side, double *out) {
   const size_t joints = r->joints;
   const nsvcd__rrt *t = &r->trees[side];
   if (r->idle[side] >= NSVCD__IDLE && r->turn / 2 % 2) {
-    const size_t node = (size_t)(nsvcd__random(&r->random) * (double)t->count);
+    size_t node = (size_t)(nsvcd__random(&r->random) * (double)t->count);
+    while (t->marks[node] & NSVCD__NODE_CUT) node = t->parents[node];
     const size_t joint =
         r->moving[(size_t)(nsvcd__random(&r->random) * (double)r->moving_count)];
     memcpy(out, nsvcd__node_at(t, node), joints * sizeof *out);
@@ -6739,6 +6740,7 @@ static int nsvcd__prove_branch(nsvcd__router *r, nsvcd__rrt *t, size_t node) {
     if (!nsvcd__ask_edge(r, from, nsvcd__node_at(t, next))) {
       if (r->is_stopped) return 0;
       t->marks[t->parents[next]] |= NSVCD__NODE_DOUBTED;
+      r->idle[t == &r->trees[1]] = NSVCD__IDLE;
       nsvcd__tree_cut(t, next);
       return 0;
     }

@@ -42,7 +42,8 @@ static void nsvcd__draw(nsvcd__router *r, size_t side, double *out) {
   const size_t joints = r->joints;
   const nsvcd__rrt *t = &r->trees[side];
   if (r->idle[side] >= NSVCD__IDLE && r->turn / 2 % 2) {
-    const size_t node = (size_t)(nsvcd__random(&r->random) * (double)t->count);
+    size_t node = (size_t)(nsvcd__random(&r->random) * (double)t->count);
+    while (t->marks[node] & NSVCD__NODE_CUT) node = t->parents[node];
     const size_t joint =
         r->moving[(size_t)(nsvcd__random(&r->random) * (double)r->moving_count)];
     memcpy(out, nsvcd__node_at(t, node), joints * sizeof *out);
