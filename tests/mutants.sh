@@ -448,6 +448,9 @@ route_looks: looks that nobody ends|if (o->stop \&\& o->stop(o->user)) r->is_sto
 route_looks: no search after looks|if (r->root_count > 0 \&\& r->answer.status != NSVCD_ROUTE_FOUND \&\& !r->is_stopped) {|if (0) {
 robot: nodes that are cut off found|\|\| t->marks[node] \& NSVCD__NODE_CUT) continue;|) continue;
 robot: what hangs on a node that is cut off stays|if (t->marks[t->parents[n]] \& NSVCD__NODE_CUT) t->marks[n] \|= NSVCD__NODE_CUT;|break;
+route_looks: looks believed where one was wrong|if (is_doubted) r->is_looking = 0;|
+route_looks: single joints late where looks were wrong|r->idle[t == \&r->trees[1]] = NSVCD__IDLE;|
+route_looks: single joints of nodes that are cut off|while (t->marks[node] \& NSVCD__NODE_CUT) node = t->parents[node];|
 route_looks: limits that looks may leave|if (nsvcd__joint_outside(r->scene, motion, p) != NSVCD_NONE) return 0;|
 robot: questions that nobody stops|asked.stop = c->stop;|asked.stop = NULL;
 robot: asks again once it is stopped|if (!s->is_stopped \&\& o->stop \&\& o->stop(o->user)) s->is_stopped = 1;|if (o->stop \&\& o->stop(o->user)) s->is_stopped = 1;
