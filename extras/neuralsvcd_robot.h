@@ -6338,13 +6338,13 @@ static int nsvcd__prove_by(nsvcd__router *r, const nsvcd_joint_motion *motion,
   return is_free;
 }
 
-// Do the axes of all cones stay in them?
+// Do the axes of all cones stay in them? Else answer.check says which one does not.
 static int nsvcd__motion_keeps_cones(nsvcd__router *r, const nsvcd_joint_motion *m) {
-  nsvcd_check_answer answer;
+  nsvcd_check_answer *answer = &r->answer.check;
   const double start = nsvcd__piece_start(m, 0);
   const double end = nsvcd__piece_start(m, m->pieces);
-  const int keeps = nsvcd__keeps_cones(r->checker, m, start, end, &r->check, &answer);
-  if (!keeps && answer.why == NSVCD_WHY_WORK) r->is_stopped = 1;
+  const int keeps = nsvcd__keeps_cones(r->checker, m, start, end, &r->check, answer);
+  if (!keeps && answer->why == NSVCD_WHY_WORK) r->is_stopped = 1;
   return keeps;
 }
 
@@ -6376,16 +6376,11 @@ static nsvcd_joint_motion nsvcd__edge_motion(const nsvcd__router *r, const doubl
   return motion;
 }
 
+// Of an edge that is not free, answer.check.cone says whether it leaves a cone.
 static int nsvcd__ask_edge(nsvcd__router *r, const double *from, const double *to) {
   double points[2 * NSVCD_MAX_JOINTS];
   const nsvcd_joint_motion motion = nsvcd__edge_motion(r, from, to, points);
   return nsvcd__ask_motion(r, &motion);
-}
-
-static int nsvcd__edge_keeps_cones(nsvcd__router *r, const double *from, const double *to) {
-  double points[2 * NSVCD_MAX_JOINTS];
-  const nsvcd_joint_motion motion = nsvcd__edge_motion(r, from, to, points);
-  return nsvcd__motion_keeps_cones(r, &motion);
 }
 
 // ---- from rest to rest
@@ -6609,8 +6604,8 @@ static int nsvcd__step_towards(nsvcd__router *r, const double *from, const doubl
       const double left = nsvcd__edge_length(r, next, to);
       if (!(left <= length - NSVCD__GROW_NEARER * step)) continue;
     }
-    if (halvings && !nsvcd__edge_keeps_cones(r, from, next)) continue;
-    return nsvcd__ask_edge(r, from, next) ? 1 + ends : 0;
+    if (nsvcd__ask_edge(r, from, next)) return 1 + ends;
+    if (r->answer.check.cone == NSVCD_NONE) return 0;
   }
   nsvcd__count_refused(r);
   return 0;
@@ -6646,7 +6641,8 @@ static size_t nsvcd__way_between(nsvcd__router *r, const double *from, const dou
   double length = 0;
   memcpy(corners, from, bytes);
   memcpy(corners + r->joints, to, bytes);
-  if (nsvcd__edge_keeps_cones(r, from, to)) return nsvcd__ask_edge(r, from, to) ? 2 : 0;
+  if (nsvcd__ask_edge(r, from, to)) return 2;
+  if (r->answer.check.cone == NSVCD_NONE) return 0;
   for (size_t n = 1; n < NSVCD__MOST_WAY; n++) {
     const double *last = corners + (n - 1) * r->joints;
     double *next = corners + n * r->joints;
