@@ -57,7 +57,7 @@ static double nsvcd__axis_deviation(const nsvcd_checker *c, const nsvcd__kept_ax
 
 // Does an axis stay in its cone from time t0 to t1, of which the steps are as long as can be?
 // Returns FREE; HIT at *at, where it does not; or UNDECIDED from there on, and why. What leads into
-// a cone from its edge, or out to it, takes steps whose margins grow, or shrink, in proportion: few.
+// a cone from its edge, or out to it, takes few steps: margins grow, or shrink, in proportion.
 static nsvcd_verdict nsvcd__ask_cone(const nsvcd_checker *c, const nsvcd__kept_axis *cone,
                                      const nsvcd_joint_motion *m, double t0, double t1,
                                      const nsvcd_check_options *o, double *at,
