@@ -483,8 +483,8 @@ static void cones_end_when_told(void) {
   nsvcd_cone cone;
   cone_turning(&r, &cone, 0.1);
   a.start[1] = a.goals[0][1] = 0.1 - 1e-8;
-  a.goals[0][0] = 300;
-  const double points[4] = {0, a.start[1], 300, a.start[1]};
+  a.goals[0][0] = 20;
+  const double points[4] = {0, a.start[1], 20, a.start[1]};
   const nsvcd_joint_motion motion = {1, 1, points, NULL};
   for (int n = 0; n < 50; n += 7) {
     nsvcd_check_options options;
