@@ -479,8 +479,6 @@ cones: one end alone|const double least = nsvcd__min(last - last_error, next - e
 cones: edges that nobody leaves|const int stays = deviation <= NSVCD__CONE_FINEST \&\& fabs(next - last) <= least_change;|(void)least_change; const int stays = deviation <= NSVCD__CONE_FINEST;
 cones: steps that nobody ends|if (++polls % NSVCD__CONE_POLL == 0 \&\& o->stop \&\& o->stop(o->user)) {|if (++polls > SIZE_MAX - 1 \&\& o->stop) {
 cones: stops that a check forgets|s->is_stopped \|= answer->why == NSVCD_WHY_WORK;|
-cones: stops that a route forgets|if (!keeps \&\& answer->why == NSVCD_WHY_WORK) r->is_stopped = 1;|
-cones: steps that are not halved|if (r->answer.check.cone == NSVCD_NONE) return 0; }|return 0; }
 cones: of the first cone only|answer->verdict = nsvcd__ask_cone(c, \&c->cones[n], m, t0, t1, o, \&at, \&why);|answer->verdict = nsvcd__ask_cone(c, \&c->cones[0], m, t0, t1, o, \&at, \&why);
 cones: what turns slides|if (nsvcd__slides(c, link - 1)) continue; bend += step->bend[link - 1];|if (!nsvcd__slides(c, link - 1)) continue; bend += step->bend[link - 1];
 cones: a start anywhere|if (last < last_error) return last < -last_error ? NSVCD_HIT : NSVCD_UNDECIDED;|

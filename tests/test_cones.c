@@ -491,7 +491,7 @@ static void cones_end_when_told(void) {
     nsvcd_check_answer answer;
     cone_countdown count = {n, 0};
     memset(&options, 0, sizeof options);
-    options.to_time = n % 2;
+    options.to_time = n % 2 ? 1e-3 : 0;
     options.stop = cone_count_down;
     options.user = &count;
     CHECK_EQ(nsvcd_check(r.checker, &motion, &options, &answer), NSVCD_OK);
