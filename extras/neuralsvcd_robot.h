@@ -225,10 +225,10 @@ typedef struct nsvcd_check_options {
   float finest;
   // units for each proof of a pair; default NSVCD_DEFAULT_WORK
   size_t work;
-  // called before each question about a pair, about every 1,000 units of its work, and while parts
-  // are placed; may be NULL. If it returns anything but 0, the check ends UNDECIDED, with
-  // NSVCD_WHY_WORK, or with a hit that it has found: within a millisecond or two (`make
-  // build/bench_stops`). It is not called again
+  // called before each question about a pair, about every 1,000 units of its work, while parts are
+  // placed, and every 64 steps along a cone; may be NULL. If it returns anything but 0, the check
+  // ends UNDECIDED, with NSVCD_WHY_WORK, or with a hit that it has found: within a millisecond or
+  // two (`make build/bench_stops`). It is not called again
   int (*stop)(void *user);
   // passed to `stop`
   void *user;
@@ -315,8 +315,9 @@ NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const doubl
 // 1e-7 of the distance between the two parts' origins and of the bodies' extents. Each pair is
 // asked about in the frame of one of its parts, so the robot may be far from the world's origin.
 // Cones are tested before pairs, in double, without questions. Where the cosine of what an axis is
-// off comes within 1e-10 of that of its cone's angle, it may be UNDECIDED: an angle below 2e-5 is
-// too narrow for a motion.
+// off stays within 1e-10 of that of its cone's angle, it may be UNDECIDED: an angle below 2e-5 is
+// too narrow for a motion. From the cone's edge inwards, or out to it, a motion is told FREE unless
+// that cosine comes within 2e-13 (of up to 32 joints); within 1e-13 no configuration is.
 NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,
                                   const nsvcd_check_options *options,
                                   nsvcd_check_answer *answer);
@@ -2664,10 +2665,15 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
 //   (sum_j max |e''_j| + (sum_j |d_j|)^2) / 8
 
 // of the product of two directions: rounding, of 32 joints and in proportion if there are more; by
-// radian that a joint has turned; and what a step is not cut further for
+// radian that a joint has turned; and what a step is not cut further for, unless the product
+// changes in it by more than a share of that, and by more than noise
 #define NSVCD__CONE_ROUNDING 1e-13
 #define NSVCD__CONE_TURNED 1e-15
 #define NSVCD__CONE_FINEST 1e-10
+#define NSVCD__CONE_CHANGE 1e-3
+#define NSVCD__CONE_NOISE 1e-15
+// steps between two questions whether to stop
+#define NSVCD__CONE_POLL 64
 // steps of a projection; by how much farther each goes, in all, and in proportion; and the least
 // square of a slope that leads anywhere
 #define NSVCD__CONE_STEPS 20
@@ -2705,19 +2711,27 @@ static double nsvcd__axis_deviation(const nsvcd_checker *c, const nsvcd__kept_ax
 }
 
 // Does an axis stay in its cone from time t0 to t1, of which the steps are as long as can be?
-// Returns FREE; HIT at *at, where it does not; or UNDECIDED from there on.
+// Returns FREE; HIT at *at, where it does not; or UNDECIDED from there on, and why. What leads into
+// a cone from its edge, or out to it, takes few steps: margins grow, or shrink, in proportion.
 static nsvcd_verdict nsvcd__ask_cone(const nsvcd_checker *c, const nsvcd__kept_axis *cone,
                                      const nsvcd_joint_motion *m, double t0, double t1,
-                                     double *at) {
+                                     const nsvcd_check_options *o, double *at,
+                                     nsvcd_why *why) {
   const size_t joints = c->scene->joint_count;
   double length = t1 - t0;
   nsvcd__step step;
   double error, last_error;
+  size_t polls = 0;
+  *why = NSVCD_WHY_TOO_NEAR;
   *at = t0;
   nsvcd__joints_at_time(m, joints, t0, step.from, NULL);
   double last = nsvcd__cone_margin(c, cone, step.from, &last_error);
   if (last < last_error) return last < -last_error ? NSVCD_HIT : NSVCD_UNDECIDED;
   while (*at < t1) {
+    if (++polls % NSVCD__CONE_POLL == 0 && o->stop && o->stop(o->user)) {
+      *why = NSVCD_WHY_WORK;
+      return NSVCD_UNDECIDED;
+    }
     const double to = *at + length < t1 ? *at + length : t1;
     nsvcd__step_of(m, joints, *at, to, &step);
     const double next = nsvcd__cone_margin(c, cone, step.to, &error);
@@ -2735,24 +2749,28 @@ static nsvcd_verdict nsvcd__ask_cone(const nsvcd_checker *c, const nsvcd__kept_a
       *at = to;
       return NSVCD_HIT;
     }
-    if (deviation <= NSVCD__CONE_FINEST || !(*at + length > *at && *at + length < to))
-      return NSVCD_UNDECIDED;
+    const double least_change = nsvcd__max(NSVCD__CONE_CHANGE * deviation, NSVCD__CONE_NOISE);
+    const int stays = deviation <= NSVCD__CONE_FINEST && fabs(next - last) <= least_change;
+    if (stays || !(*at + length > *at && *at + length < to)) return NSVCD_UNDECIDED;
   }
   return NSVCD_FREE;
 }
 
-// Do all axes stay in their cones from time t0 to t1? Else the answer says which one does not.
+// Do all axes stay in their cones from time t0 to t1? Else the answer says which one does not, or
+// that the options' `stop` ended that, by NSVCD_WHY_WORK.
 static int nsvcd__keeps_cones(const nsvcd_checker *c, const nsvcd_joint_motion *m, double t0,
-                              double t1, nsvcd_check_answer *answer) {
+                              double t1, const nsvcd_check_options *o,
+                              nsvcd_check_answer *answer) {
   answer->cone = NSVCD_NONE;
   for (size_t n = 0; n < c->scene->cone_count; n++) {
     double at;
-    answer->verdict = nsvcd__ask_cone(c, &c->cones[n], m, t0, t1, &at);
+    nsvcd_why why;
+    answer->verdict = nsvcd__ask_cone(c, &c->cones[n], m, t0, t1, o, &at, &why);
     if (answer->verdict == NSVCD_FREE) continue;
     memset(&answer->contact, 0, sizeof answer->contact);
     answer->cone = n;
     answer->pair = NSVCD_NONE;
-    answer->why = answer->verdict == NSVCD_HIT ? NSVCD_WHY_NOTHING : NSVCD_WHY_TOO_NEAR;
+    answer->why = answer->verdict == NSVCD_HIT ? NSVCD_WHY_NOTHING : why;
     answer->piece = nsvcd__piece_at(m, at);
     answer->fraction = nsvcd__fraction_at(m, answer->piece, at);
     return 0;
@@ -3267,7 +3285,10 @@ static void nsvcd__check_interval(nsvcd__check_state *s, double t0, double t1, s
   nsvcd_check_answer *answer = s->answer;
   const double finest = (double)s->options->finest;
   size_t left = 0;
-  if (!nsvcd__keeps_cones(c, s->motion, t0, t1, answer)) return;
+  if (!nsvcd__keeps_cones(c, s->motion, t0, t1, s->options, answer)) {
+    s->is_stopped |= answer->why == NSVCD_WHY_WORK;
+    return;
+  }
   answer->verdict = NSVCD_UNDECIDED;
   answer->piece = nsvcd__piece_at(s->motion, t0);
   answer->fraction = nsvcd__fraction_at(s->motion, answer->piece, t0);
@@ -6317,11 +6338,14 @@ static int nsvcd__prove_by(nsvcd__router *r, const nsvcd_joint_motion *motion,
   return is_free;
 }
 
-// Do the axes of all cones stay in them?
-static int nsvcd__motion_keeps_cones(const nsvcd__router *r, const nsvcd_joint_motion *m) {
-  nsvcd_check_answer unused;
+// Do the axes of all cones stay in them? Else answer.check says which one does not.
+static int nsvcd__motion_keeps_cones(nsvcd__router *r, const nsvcd_joint_motion *m) {
+  nsvcd_check_answer *answer = &r->answer.check;
   const double start = nsvcd__piece_start(m, 0);
-  return nsvcd__keeps_cones(r->checker, m, start, nsvcd__piece_start(m, m->pieces), &unused);
+  const double end = nsvcd__piece_start(m, m->pieces);
+  const int keeps = nsvcd__keeps_cones(r->checker, m, start, end, &r->check, answer);
+  if (!keeps && answer->why == NSVCD_WHY_WORK) r->is_stopped = 1;
+  return keeps;
 }
 
 // Does a motion seem free, and is it within the limits and the cones?
@@ -6352,17 +6376,11 @@ static nsvcd_joint_motion nsvcd__edge_motion(const nsvcd__router *r, const doubl
   return motion;
 }
 
+// Of an edge that is not free, answer.check.cone says whether it leaves a cone.
 static int nsvcd__ask_edge(nsvcd__router *r, const double *from, const double *to) {
   double points[2 * NSVCD_MAX_JOINTS];
   const nsvcd_joint_motion motion = nsvcd__edge_motion(r, from, to, points);
   return nsvcd__ask_motion(r, &motion);
-}
-
-static int nsvcd__edge_keeps_cones(const nsvcd__router *r, const double *from,
-                                   const double *to) {
-  double points[2 * NSVCD_MAX_JOINTS];
-  const nsvcd_joint_motion motion = nsvcd__edge_motion(r, from, to, points);
-  return nsvcd__motion_keeps_cones(r, &motion);
 }
 
 // ---- from rest to rest
@@ -6537,7 +6555,8 @@ static void nsvcd__draw(nsvcd__router *r, size_t side, double *out) {
   const size_t joints = r->joints;
   const nsvcd__rrt *t = &r->trees[side];
   if (r->idle[side] >= NSVCD__IDLE && r->turn / 2 % 2) {
-    const size_t node = (size_t)(nsvcd__random(&r->random) * (double)t->count);
+    size_t node = (size_t)(nsvcd__random(&r->random) * (double)t->count);
+    while (t->marks[node] & NSVCD__NODE_CUT) node = t->parents[node];
     const size_t joint =
         r->moving[(size_t)(nsvcd__random(&r->random) * (double)r->moving_count)];
     memcpy(out, nsvcd__node_at(t, node), joints * sizeof *out);
@@ -6585,8 +6604,8 @@ static int nsvcd__step_towards(nsvcd__router *r, const double *from, const doubl
       const double left = nsvcd__edge_length(r, next, to);
       if (!(left <= length - NSVCD__GROW_NEARER * step)) continue;
     }
-    if (halvings && !nsvcd__edge_keeps_cones(r, from, next)) continue;
-    return nsvcd__ask_edge(r, from, next) ? 1 + ends : 0;
+    if (nsvcd__ask_edge(r, from, next)) return 1 + ends;
+    if (r->answer.check.cone == NSVCD_NONE) return 0;
   }
   nsvcd__count_refused(r);
   return 0;
@@ -6622,7 +6641,8 @@ static size_t nsvcd__way_between(nsvcd__router *r, const double *from, const dou
   double length = 0;
   memcpy(corners, from, bytes);
   memcpy(corners + r->joints, to, bytes);
-  if (nsvcd__edge_keeps_cones(r, from, to)) return nsvcd__ask_edge(r, from, to) ? 2 : 0;
+  if (nsvcd__ask_edge(r, from, to)) return 2;
+  if (r->answer.check.cone == NSVCD_NONE) return 0;
   for (size_t n = 1; n < NSVCD__MOST_WAY; n++) {
     const double *last = corners + (n - 1) * r->joints;
     double *next = corners + n * r->joints;
@@ -6739,6 +6759,7 @@ static int nsvcd__prove_branch(nsvcd__router *r, nsvcd__rrt *t, size_t node) {
     if (!nsvcd__ask_edge(r, from, nsvcd__node_at(t, next))) {
       if (r->is_stopped) return 0;
       t->marks[t->parents[next]] |= NSVCD__NODE_DOUBTED;
+      r->idle[t == &r->trees[1]] = NSVCD__IDLE;
       nsvcd__tree_cut(t, next);
       return 0;
     }

@@ -264,7 +264,7 @@ robot: routes without a clearance|r->check.clearance = r->options.clearance + NS
 robot: ramps beyond the speed|if (fabs(peak) > speed) {|if (fabs(peak) > 2 * speed) {
 robot: ramps with any acceleration|return fabs(a) <= most;|return 1;
 robot: ramps that are slow|const double side = distance >= least ? 1 : -1;|const double side = distance >= 0 ? 1 : -1;
-robot: shortcuts that are not proven|if (nsvcd__edge_keeps_cones(r, from, to)) return nsvcd__ask_edge(r, from, to) ? 2 : 0;|return 2;
+robot: shortcuts that are not proven|if (nsvcd__ask_edge(r, from, to)) return 2;|return 2;
 robot: starts by the work of the search|if (n / 2) r->check.work = 0;|
 robot: a last proof that nobody ends|whole.stop = r->check.stop;|
 robot: trees that stay in their holes|if (r->idle[side] >= NSVCD__IDLE|if (r->idle[side] > SIZE_MAX - 1
@@ -448,6 +448,9 @@ route_looks: looks that nobody ends|if (o->stop \&\& o->stop(o->user)) r->is_sto
 route_looks: no search after looks|if (r->root_count > 0 \&\& r->answer.status != NSVCD_ROUTE_FOUND \&\& !r->is_stopped) {|if (0) {
 robot: nodes that are cut off found|\|\| t->marks[node] \& NSVCD__NODE_CUT) continue;|) continue;
 robot: what hangs on a node that is cut off stays|if (t->marks[t->parents[n]] \& NSVCD__NODE_CUT) t->marks[n] \|= NSVCD__NODE_CUT;|break;
+route_looks: looks believed where one was wrong|if (is_doubted) r->is_looking = 0;|
+route_looks: single joints late where looks were wrong|r->idle[t == \&r->trees[1]] = NSVCD__IDLE;|
+route_looks: single joints of nodes that are cut off|while (t->marks[node] \& NSVCD__NODE_CUT) node = t->parents[node];|
 route_looks: limits that looks may leave|if (nsvcd__joint_outside(r->scene, motion, p) != NSVCD_NONE) return 0;|
 robot: questions that nobody stops|asked.stop = c->stop;|asked.stop = NULL;
 robot: asks again once it is stopped|if (!s->is_stopped \&\& o->stop \&\& o->stop(o->user)) s->is_stopped = 1;|if (o->stop \&\& o->stop(o->user)) s->is_stopped = 1;
@@ -473,7 +476,10 @@ cones: turns alone|return (bend + turned * turned) / 8 * (1 + 1e-9);|return turn
 cones: a sixteenth|return (bend + turned * turned) / 8 * (1 + 1e-9);|return (bend + turned * turned) / 16;
 cones: ends alone|if (least >= deviation) {|if (least >= 0) {
 cones: one end alone|const double least = nsvcd__min(last - last_error, next - error);|const double least = next - error;
-cones: of the first cone only|answer->verdict = nsvcd__ask_cone(c, \&c->cones[n], m, t0, t1, \&at);|answer->verdict = nsvcd__ask_cone(c, \&c->cones[0], m, t0, t1, \&at);
+cones: edges that nobody leaves|const int stays = deviation <= NSVCD__CONE_FINEST \&\& fabs(next - last) <= least_change;|(void)least_change; const int stays = deviation <= NSVCD__CONE_FINEST;
+cones: steps that nobody ends|if (++polls % NSVCD__CONE_POLL == 0 \&\& o->stop \&\& o->stop(o->user)) {|if (++polls > SIZE_MAX - 1 \&\& o->stop) {
+cones: stops that a check forgets|s->is_stopped \|= answer->why == NSVCD_WHY_WORK;|
+cones: of the first cone only|answer->verdict = nsvcd__ask_cone(c, \&c->cones[n], m, t0, t1, o, \&at, \&why);|answer->verdict = nsvcd__ask_cone(c, \&c->cones[0], m, t0, t1, o, \&at, \&why);
 cones: what turns slides|if (nsvcd__slides(c, link - 1)) continue; bend += step->bend[link - 1];|if (!nsvcd__slides(c, link - 1)) continue; bend += step->bend[link - 1];
 cones: a start anywhere|if (last < last_error) return last < -last_error ? NSVCD_HIT : NSVCD_UNDECIDED;|
 cones: the pair's own axis|c->cones[n].axis = nsvcd__dquat_rotate(c->members[cone->part].frame.rotation, axis);|c->cones[n].axis = axis;

@@ -38,6 +38,12 @@ static robot_shape shape_of(shapes_mesh *mesh) {
   return out;
 }
 
+static inline void free_shape(robot_shape *shape) {
+  nsvcd_body_free(shape->body, NULL);
+  oracle_mesh_free(&shape->exact);
+  free(shape->points);
+}
+
 static robot_shape *robot_shapes(void) {
   static robot_shape made[SHAPES];
   if (made[0].body) return made;

@@ -416,6 +416,105 @@ static void ways_out_lead_into_cones(void) {
   }
 }
 
+// A part that is held at a tilt while it turns about the vertical, and may tilt.
+static void cone_turning(robot *r, nsvcd_cone *cone, double angle) {
+  cone_bare(r, cone, angle);
+  memset(r->joints[0].axis, 0, sizeof r->joints[0].axis);
+  r->joints[0].axis[2] = 1;
+  r->joints[0].low = -400;
+  r->joints[0].high = 400;
+  r->joints[1].kind = NSVCD_JOINT_REVOLUTE;
+  r->joints[1].axis[1] = 0;
+  r->joints[1].axis[0] = 1;
+  for (int j = 0; j < 2; j++) r->joints[j].speed = r->joints[j].acceleration = 1;
+  r->parts[1].pose.position[1] = 10;
+  robot_open(r);
+}
+
+// A start or a goal as near to the edge of its cone as can be is refused, and the cone is named, or
+// motions into the cone are free.
+static void edges_of_cones_are_left(void) {
+  static robot r;
+  static asked_route a;
+  shapes_rng rng = {15};
+  nsvcd_cone cone;
+  size_t counts[2] = {0, 0};
+  for (int trial = 0; trial < 300; trial++) {
+    const double angle = trial % 3 ? shapes_uniform(&rng, 0.1, 1.5) : 0.01;
+    const double beside = pow(10, shapes_uniform(&rng, -14, -8));
+    cone_turning(&r, &cone, angle);
+    a.options.nodes = 100;
+    a.start[0] = shapes_uniform(&rng, -0.5, 0.5);
+    a.start[1] = angle - beside;
+    a.goals[0][0] = shapes_uniform(&rng, -0.5, 0.5);
+    a.goals[0][1] = (trial % 2 ? -1 : 0.5) * a.start[1];
+    ask_route(&r, &a);
+    const int is_found = a.answer.status == NSVCD_ROUTE_FOUND;
+    CHECK(is_found || a.answer.status == NSVCD_ROUTE_START);
+    if (!is_found) CHECK_EQ(a.answer.check.cone, 0);
+    if (beside * sin(angle) > 2e-13) CHECK(is_found);
+    counts[is_found]++;
+    for (int k = 0; k <= 100 && is_found; k++) {
+      double q[6];
+      joints_at_time(&a.answer.motion, 2, a.answer.duration * k / 100, q);
+      CHECK_LE(cone_off(&r.scene, &cone, q), angle + 1e-12);
+    }
+    free(r.memory);
+  }
+  CHECK_GE(counts[0], 20);
+  CHECK_GE(counts[1], 150);
+  free(a.memory);
+}
+
+typedef struct cone_countdown {
+  int left, after;
+} cone_countdown;
+static int cone_count_down(void *user) {
+  cone_countdown *c = (cone_countdown *)user;
+  if (c->left > 0) c->left--;
+  else c->after++;
+  return c->after > 0;
+}
+
+// Along the edge of a cone steps are short: whoever asks can end them.
+static void cones_end_when_told(void) {
+  static robot r;
+  static asked_route a;
+  nsvcd_cone cone;
+  cone_turning(&r, &cone, 0.1);
+  a.start[1] = a.goals[0][1] = 0.1 - 1e-8;
+  a.goals[0][0] = 20;
+  const double points[4] = {0, a.start[1], 20, a.start[1]};
+  const nsvcd_joint_motion motion = {1, 1, points, NULL};
+  for (int n = 0; n < 50; n += 7) {
+    nsvcd_check_options options;
+    nsvcd_check_answer answer;
+    cone_countdown count = {n, 0};
+    memset(&options, 0, sizeof options);
+    options.to_time = n % 2 ? 1e-3 : 0;
+    options.stop = cone_count_down;
+    options.user = &count;
+    CHECK_EQ(nsvcd_check(r.checker, &motion, &options, &answer), NSVCD_OK);
+    CHECK_EQ(answer.verdict, NSVCD_UNDECIDED);
+    CHECK_EQ(answer.why, NSVCD_WHY_WORK);
+    CHECK_EQ(answer.cone, 0);
+    CHECK_EQ(count.after, 1);
+    if (answer.verdict != NSVCD_UNDECIDED) break;  // a route would take hours
+    // by looks, and by proofs
+    count.left = 20 + n;
+    count.after = 0;
+    a.problem.abandon = cone_count_down;
+    a.problem.user = &count;
+    a.options.tries = 100;
+    a.options.looks = n % 2 ? 100 : NSVCD_NONE;
+    ask_route(&r, &a);
+    CHECK_EQ(a.answer.status, NSVCD_ROUTE_STOPPED);
+    CHECK_LE(count.after, 3);
+  }
+  free(a.memory);
+  free(r.memory);
+}
+
 static void cones_are_checked(void) {
   static robot r;
   static const float odd[3][3] = {{0, 0, 0}, {NAN, 0, 1}, {0, HUGE_VALF, 0}};
@@ -472,6 +571,8 @@ void test_cones(void) {
   RUN(routes_keep_cones);
   RUN(goals_keep_cones);
   RUN(ways_out_lead_into_cones);
+  RUN(edges_of_cones_are_left);
+  RUN(cones_end_when_told);
   RUN(cones_are_checked);
 }
 CHECK_ALONE(test_cones)

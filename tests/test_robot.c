@@ -670,11 +670,6 @@ static robot_shape walls(double x, double y, double z, int has_lid) {
   }
   return shape_of(&mesh);
 }
-static void free_shape(robot_shape *shape) {
-  nsvcd_body_free(shape->body, NULL);
-  oracle_mesh_free(&shape->exact);
-  free(shape->points);
-}
 
 // Where nothing is free tries end the search, whatever the nodes are; a start that is as tight as
 // proofs can tell is one; and a way out of a hole is found, along a joint.

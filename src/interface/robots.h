@@ -145,10 +145,10 @@ typedef struct nsvcd_check_options {
   float finest;
   // units for each proof of a pair; default NSVCD_DEFAULT_WORK
   size_t work;
-  // called before each question about a pair, about every 1,000 units of its work, and while parts
-  // are placed; may be NULL. If it returns anything but 0, the check ends UNDECIDED, with
-  // NSVCD_WHY_WORK, or with a hit that it has found: within a millisecond or two (`make
-  // build/bench_stops`). It is not called again
+  // called before each question about a pair, about every 1,000 units of its work, while parts are
+  // placed, and every 64 steps along a cone; may be NULL. If it returns anything but 0, the check
+  // ends UNDECIDED, with NSVCD_WHY_WORK, or with a hit that it has found: within a millisecond or
+  // two (`make build/bench_stops`). It is not called again
   int (*stop)(void *user);
   // passed to `stop`
   void *user;
@@ -235,8 +235,9 @@ NSVCDDEF void nsvcd_forward_kinematics(const nsvcd_checker *checker, const doubl
 // 1e-7 of the distance between the two parts' origins and of the bodies' extents. Each pair is
 // asked about in the frame of one of its parts, so the robot may be far from the world's origin.
 // Cones are tested before pairs, in double, without questions. Where the cosine of what an axis is
-// off comes within 1e-10 of that of its cone's angle, it may be UNDECIDED: an angle below 2e-5 is
-// too narrow for a motion.
+// off stays within 1e-10 of that of its cone's angle, it may be UNDECIDED: an angle below 2e-5 is
+// too narrow for a motion. From the cone's edge inwards, or out to it, a motion is told FREE unless
+// that cosine comes within 2e-13 (of up to 32 joints); within 1e-13 no configuration is.
 NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,
                                   const nsvcd_check_options *options,
                                   nsvcd_check_answer *answer);

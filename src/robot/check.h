@@ -200,7 +200,10 @@ static void nsvcd__check_interval(nsvcd__check_state *s, double t0, double t1, s
   nsvcd_check_answer *answer = s->answer;
   const double finest = (double)s->options->finest;
   size_t left = 0;
-  if (!nsvcd__keeps_cones(c, s->motion, t0, t1, answer)) return;
+  if (!nsvcd__keeps_cones(c, s->motion, t0, t1, s->options, answer)) {
+    s->is_stopped |= answer->why == NSVCD_WHY_WORK;
+    return;
+  }
   answer->verdict = NSVCD_UNDECIDED;
   answer->piece = nsvcd__piece_at(s->motion, t0);
   answer->fraction = nsvcd__fraction_at(s->motion, answer->piece, t0);

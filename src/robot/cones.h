@@ -10,10 +10,15 @@
 #include "checker.h"
 
 // of the product of two directions: rounding, of 32 joints and in proportion if there are more; by
-// radian that a joint has turned; and what a step is not cut further for
+// radian that a joint has turned; and what a step is not cut further for, unless the product
+// changes in it by more than a share of that, and by more than noise
 #define NSVCD__CONE_ROUNDING 1e-13
 #define NSVCD__CONE_TURNED 1e-15
 #define NSVCD__CONE_FINEST 1e-10
+#define NSVCD__CONE_CHANGE 1e-3
+#define NSVCD__CONE_NOISE 1e-15
+// steps between two questions whether to stop
+#define NSVCD__CONE_POLL 64
 // steps of a projection; by how much farther each goes, in all, and in proportion; and the least
 // square of a slope that leads anywhere
 #define NSVCD__CONE_STEPS 20
@@ -51,19 +56,27 @@ static double nsvcd__axis_deviation(const nsvcd_checker *c, const nsvcd__kept_ax
 }
 
 // Does an axis stay in its cone from time t0 to t1, of which the steps are as long as can be?
-// Returns FREE; HIT at *at, where it does not; or UNDECIDED from there on.
+// Returns FREE; HIT at *at, where it does not; or UNDECIDED from there on, and why. What leads into
+// a cone from its edge, or out to it, takes few steps: margins grow, or shrink, in proportion.
 static nsvcd_verdict nsvcd__ask_cone(const nsvcd_checker *c, const nsvcd__kept_axis *cone,
                                      const nsvcd_joint_motion *m, double t0, double t1,
-                                     double *at) {
+                                     const nsvcd_check_options *o, double *at,
+                                     nsvcd_why *why) {
   const size_t joints = c->scene->joint_count;
   double length = t1 - t0;
   nsvcd__step step;
   double error, last_error;
+  size_t polls = 0;
+  *why = NSVCD_WHY_TOO_NEAR;
   *at = t0;
   nsvcd__joints_at_time(m, joints, t0, step.from, NULL);
   double last = nsvcd__cone_margin(c, cone, step.from, &last_error);
   if (last < last_error) return last < -last_error ? NSVCD_HIT : NSVCD_UNDECIDED;
   while (*at < t1) {
+    if (++polls % NSVCD__CONE_POLL == 0 && o->stop && o->stop(o->user)) {
+      *why = NSVCD_WHY_WORK;
+      return NSVCD_UNDECIDED;
+    }
     const double to = *at + length < t1 ? *at + length : t1;
     nsvcd__step_of(m, joints, *at, to, &step);
     const double next = nsvcd__cone_margin(c, cone, step.to, &error);
@@ -81,24 +94,28 @@ static nsvcd_verdict nsvcd__ask_cone(const nsvcd_checker *c, const nsvcd__kept_a
       *at = to;
       return NSVCD_HIT;
     }
-    if (deviation <= NSVCD__CONE_FINEST || !(*at + length > *at && *at + length < to))
-      return NSVCD_UNDECIDED;
+    const double least_change = nsvcd__max(NSVCD__CONE_CHANGE * deviation, NSVCD__CONE_NOISE);
+    const int stays = deviation <= NSVCD__CONE_FINEST && fabs(next - last) <= least_change;
+    if (stays || !(*at + length > *at && *at + length < to)) return NSVCD_UNDECIDED;
   }
   return NSVCD_FREE;
 }
 
-// Do all axes stay in their cones from time t0 to t1? Else the answer says which one does not.
+// Do all axes stay in their cones from time t0 to t1? Else the answer says which one does not, or
+// that the options' `stop` ended that, by NSVCD_WHY_WORK.
 static int nsvcd__keeps_cones(const nsvcd_checker *c, const nsvcd_joint_motion *m, double t0,
-                              double t1, nsvcd_check_answer *answer) {
+                              double t1, const nsvcd_check_options *o,
+                              nsvcd_check_answer *answer) {
   answer->cone = NSVCD_NONE;
   for (size_t n = 0; n < c->scene->cone_count; n++) {
     double at;
-    answer->verdict = nsvcd__ask_cone(c, &c->cones[n], m, t0, t1, &at);
+    nsvcd_why why;
+    answer->verdict = nsvcd__ask_cone(c, &c->cones[n], m, t0, t1, o, &at, &why);
     if (answer->verdict == NSVCD_FREE) continue;
     memset(&answer->contact, 0, sizeof answer->contact);
     answer->cone = n;
     answer->pair = NSVCD_NONE;
-    answer->why = answer->verdict == NSVCD_HIT ? NSVCD_WHY_NOTHING : NSVCD_WHY_TOO_NEAR;
+    answer->why = answer->verdict == NSVCD_HIT ? NSVCD_WHY_NOTHING : why;
     answer->piece = nsvcd__piece_at(m, at);
     answer->fraction = nsvcd__fraction_at(m, answer->piece, at);
     return 0;

@@ -42,7 +42,8 @@ static void nsvcd__draw(nsvcd__router *r, size_t side, double *out) {
   const size_t joints = r->joints;
   const nsvcd__rrt *t = &r->trees[side];
   if (r->idle[side] >= NSVCD__IDLE && r->turn / 2 % 2) {
-    const size_t node = (size_t)(nsvcd__random(&r->random) * (double)t->count);
+    size_t node = (size_t)(nsvcd__random(&r->random) * (double)t->count);
+    while (t->marks[node] & NSVCD__NODE_CUT) node = t->parents[node];
     const size_t joint =
         r->moving[(size_t)(nsvcd__random(&r->random) * (double)r->moving_count)];
     memcpy(out, nsvcd__node_at(t, node), joints * sizeof *out);
@@ -90,8 +91,8 @@ static int nsvcd__step_towards(nsvcd__router *r, const double *from, const doubl
       const double left = nsvcd__edge_length(r, next, to);
       if (!(left <= length - NSVCD__GROW_NEARER * step)) continue;
     }
-    if (halvings && !nsvcd__edge_keeps_cones(r, from, next)) continue;
-    return nsvcd__ask_edge(r, from, next) ? 1 + ends : 0;
+    if (nsvcd__ask_edge(r, from, next)) return 1 + ends;
+    if (r->answer.check.cone == NSVCD_NONE) return 0;
   }
   nsvcd__count_refused(r);
   return 0;
@@ -127,7 +128,8 @@ static size_t nsvcd__way_between(nsvcd__router *r, const double *from, const dou
   double length = 0;
   memcpy(corners, from, bytes);
   memcpy(corners + r->joints, to, bytes);
-  if (nsvcd__edge_keeps_cones(r, from, to)) return nsvcd__ask_edge(r, from, to) ? 2 : 0;
+  if (nsvcd__ask_edge(r, from, to)) return 2;
+  if (r->answer.check.cone == NSVCD_NONE) return 0;
   for (size_t n = 1; n < NSVCD__MOST_WAY; n++) {
     const double *last = corners + (n - 1) * r->joints;
     double *next = corners + n * r->joints;

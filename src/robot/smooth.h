@@ -86,11 +86,14 @@ static int nsvcd__prove_by(nsvcd__router *r, const nsvcd_joint_motion *motion,
   return is_free;
 }
 
-// Do the axes of all cones stay in them?
-static int nsvcd__motion_keeps_cones(const nsvcd__router *r, const nsvcd_joint_motion *m) {
-  nsvcd_check_answer unused;
+// Do the axes of all cones stay in them? Else answer.check says which one does not.
+static int nsvcd__motion_keeps_cones(nsvcd__router *r, const nsvcd_joint_motion *m) {
+  nsvcd_check_answer *answer = &r->answer.check;
   const double start = nsvcd__piece_start(m, 0);
-  return nsvcd__keeps_cones(r->checker, m, start, nsvcd__piece_start(m, m->pieces), &unused);
+  const double end = nsvcd__piece_start(m, m->pieces);
+  const int keeps = nsvcd__keeps_cones(r->checker, m, start, end, &r->check, answer);
+  if (!keeps && answer->why == NSVCD_WHY_WORK) r->is_stopped = 1;
+  return keeps;
 }
 
 // Does a motion seem free, and is it within the limits and the cones?
@@ -121,17 +124,11 @@ static nsvcd_joint_motion nsvcd__edge_motion(const nsvcd__router *r, const doubl
   return motion;
 }
 
+// Of an edge that is not free, answer.check.cone says whether it leaves a cone.
 static int nsvcd__ask_edge(nsvcd__router *r, const double *from, const double *to) {
   double points[2 * NSVCD_MAX_JOINTS];
   const nsvcd_joint_motion motion = nsvcd__edge_motion(r, from, to, points);
   return nsvcd__ask_motion(r, &motion);
-}
-
-static int nsvcd__edge_keeps_cones(const nsvcd__router *r, const double *from,
-                                   const double *to) {
-  double points[2 * NSVCD_MAX_JOINTS];
-  const nsvcd_joint_motion motion = nsvcd__edge_motion(r, from, to, points);
-  return nsvcd__motion_keeps_cones(r, &motion);
 }
 
 // ---- from rest to rest

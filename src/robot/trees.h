@@ -104,6 +104,7 @@ static int nsvcd__prove_branch(nsvcd__router *r, nsvcd__rrt *t, size_t node) {
     if (!nsvcd__ask_edge(r, from, nsvcd__node_at(t, next))) {
       if (r->is_stopped) return 0;
       t->marks[t->parents[next]] |= NSVCD__NODE_DOUBTED;
+      r->idle[t == &r->trees[1]] = NSVCD__IDLE;
       nsvcd__tree_cut(t, next);
       return 0;
     }
