@@ -1247,6 +1247,42 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
                                         void *workspace, size_t workspace_size,
                                         nsvcd_answer *answers);
 
+// the most sides on which nsvcd_contacts finds contacts, up to NSVCD_MAX_CONTACTS on each
+#define NSVCD_MAX_SIDES 6
+
+// Where are two bodies at rest near each other, on all sides? For a game or a simulation: what a
+// body stands on, what it leans on and what is above it, at about the price of a question. A side
+// is a direction: two of them differ by more than 37 degrees (their cosine is less than 0.8). Each
+// has up to NSVCD_MAX_CONTACTS points, those that span the largest area.
+//   question    not NULL: two bodies with one pose each, or none; ask is HIT. Its `clearance`,
+//               metres, > 0, says how near counts. It has no slop, and its method is not NETWORK
+//   workspace   (workspace_size) bytes, nsvcd_sweep_workspace_size(question) or more, not NULL,
+//               aligned to NSVCD_ALIGNMENT
+//   contacts    (most) the nearest side first, and within a side in the order of ids. normal: from
+//               b to a; gap: metres, at that point; time: 0. The rest as in a manifold
+//   most        room for so many contacts; NSVCD_MAX_SIDES * NSVCD_MAX_CONTACTS are enough. With
+//               less, they are those of the nearest sides
+//   count       number of contacts, not NULL; 0: nothing is so near
+//   is_partial  1: contacts may be missing, since the work ended, or since there are more near
+//               triangle pairs than there is room for: about 12 for each of question.segments. May
+//               be NULL
+//   allocates   nothing
+//   threads     each needs a workspace of its own; bodies may be shared
+//   errors      ARGUMENT; those of nsvcd_sweep; POSES if a body has more than one pose; ASK, SLOP;
+//               CLEARANCE if it is 0
+//   source      this library
+//
+// Contacts are computed, not proven: what must be a fact is for nsvcd_sweep to say. They are of the
+// surfaces alone: a body that is inside of the other and far from its surface has none. Where
+// triangles meet, the gap is 0, and the normal that of one of their faces. The first contact's side
+// has the least gap. A side whose surfaces have no face that is about normal to it, as where a
+// corner is over an edge, has one point, where they are nearest. On other sides the points are
+// where a corner is over a face or where two edges cross, no farther apart than the clearance.
+// Edges within a flat or hollow surface make no side of their own.
+NSVCDDEF nsvcd_result nsvcd_contacts(const nsvcd_question *question, void *workspace,
+                                     size_t workspace_size, nsvcd_contact *contacts,
+                                     size_t most, size_t *count, int *is_partial);
+
 #ifndef NSVCD_NO_GRADIENT
 // Answers a question by the network, with the derivatives of its logit by the poses of a and b. For
 // DISTANCE they are the derivatives of opinion.distance, along which lies the shortest way out.
@@ -1599,6 +1635,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     triangle_pairs  two triangles, in double: separated, or in contact
 //     touches         how deep triangles that touch are, and what undoes it
 //     manifold        contact points, the farthest along directions
+//     near            a list of what is near each other at rest
 //   separate: until when surfaces stay apart
 //     slabs           planes along the slabs of patches and of groups
 //     hulls           planes between hulls
@@ -1630,6 +1667,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     supports        up to four contact points: where to seek them, and which
 //     by_proof        an answer by proof
 //     question        check, choose who moves, lay out the workspace, answer
+//     contacts        where bodies at rest are near each other, on all sides
 //   plan: a motion that hits nothing
 //     spline          quintic Hermite
 //     problem         a planning problem in the caller's workspace
@@ -10678,12 +10716,31 @@ typedef struct nsvcd__manifold {
 } nsvcd__manifold;
 
 // What is done with triangles that come within the clearance: they are contacts or, of a motion at
-// rest, all are collected, as touching or as supports.
+// rest, all are collected, as touching or as supports, or are listed.
 typedef enum nsvcd__collecting {
   NSVCD__CONTACTS,
   NSVCD__TOUCHING,
-  NSVCD__SUPPORTING
+  NSVCD__SUPPORTING,
+  NSVCD__LISTING
 } nsvcd__collecting;
+
+// Two triangles that come within the clearance, of bodies at rest, in the fixed body's frame.
+typedef struct nsvcd__near {
+  float distance;
+  nsvcd__f3 normal;  // unit: out of the fixed body
+  uint32_t moving_entry, fixed_entry;
+  // the caller's
+  uint32_t moving_triangle, fixed_triangle;
+  uint16_t moving_patch, fixed_patch;
+  // 1: it has its side, or is none
+  uint32_t is_settled;
+} nsvcd__near;
+
+// A list of these, in the caller's memory; is_full: there were more.
+typedef struct nsvcd__near_list {
+  nsvcd__near *items;
+  uint32_t count, room, is_full;
+} nsvcd__near_list;
 
 // What a question finds.
 typedef enum nsvcd__finding {
@@ -10836,6 +10893,7 @@ typedef struct nsvcd__proof {
   // shared: the triangle pairs in a row that it has separated since.
   nsvcd__d3 separating;
   nsvcd__push_outs push;
+  nsvcd__near_list near_list;
   union {
     struct {
       // that no plane separates over their segment
@@ -14606,6 +14664,60 @@ static NSVCD__NOINLINE void nsvcd__collect_supports(const nsvcd__proof *p, nsvcd
 
 #endif  // NSVCD_NO_PROOF
 
+// ---------------------------------------------------------------------------------- triangles/near
+// In: triangle pairs of bodies at rest, as a search finds them. Out: those within the clearance, in
+// a list: how near they are, and in which direction.
+
+#ifndef NSVCD_NO_PROOF
+// The direction of a triangle pair: out of the fixed one, from its nearest point. If they meet, the
+// one of the faces' along which they are the least deep.
+static nsvcd__d3 nsvcd__near_direction(const nsvcd__triangle_pair *pair,
+                                       const nsvcd__d3 *posed, const nsvcd__nearest *nearest) {
+  const nsvcd__d3 apart = nsvcd__d3_sub(nearest->on_a, nearest->on_b);
+  if (nearest->square > pair->rounding * pair->rounding)
+    return nsvcd__d3_scale(apart, 1 / sqrt(nearest->square));
+  const nsvcd__d3 own = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
+  const nsvcd__d3 other = nsvcd__face_direction(pair->fixed);
+  const int has_own = nsvcd__d3_dot(own, own) > 0;
+  const int is_own = has_own && nsvcd__beyond(own, posed, pair->fixed) >
+                                    nsvcd__beyond(other, posed, pair->fixed);
+  return is_own || !(nsvcd__d3_dot(other, other) > 0) ? own : other;
+}
+
+// Adds a triangle pair to the list if it comes within the clearance. A triangle that is stored in
+// pieces comes once for each.
+static NSVCD__NOINLINE void nsvcd__list_near(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
+                                             const nsvcd__d3 *posed) {
+  nsvcd__near_list *list = &p->near_list;
+  nsvcd__near item;
+  item.moving_triangle =
+      nsvcd__triangle_number(&p->moving, pair->moving_patch, pair->moving_entry);
+  item.fixed_triangle =
+      nsvcd__triangle_number(&p->fixed, pair->fixed_patch, pair->fixed_entry);
+  for (uint32_t n = list->count; n-- > 0;) {
+    if (list->items[n].moving_triangle == item.moving_triangle &&
+        list->items[n].fixed_triangle == item.fixed_triangle)
+      return;
+  }
+  const nsvcd__nearest nearest = nsvcd__nearest_of(posed, pair->fixed);
+  if (!(nearest.square <= p->goal.clearance * p->goal.clearance)) {
+    const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+    p->separating = nsvcd__d3_scale(apart, 1 / sqrt(nearest.square));
+    return;
+  }
+  list->is_full |= list->count == list->room;
+  if (list->is_full) return;
+  item.distance = (float)sqrt(nearest.square);
+  item.normal = nsvcd__f3_round(nsvcd__near_direction(pair, posed, &nearest));
+  item.moving_entry = (uint32_t)pair->moving_entry;
+  item.fixed_entry = (uint32_t)pair->fixed_entry;
+  item.moving_patch = (uint16_t)pair->moving_patch;
+  item.fixed_patch = (uint16_t)pair->fixed_patch;
+  item.is_settled = 0;
+  list->items[list->count++] = item;
+}
+#endif  // NSVCD_NO_PROOF
+
 // ======================================================== separate: until when surfaces stay apart
 
 // ---------------------------------------------------------------------------------- separate/slabs
@@ -15336,6 +15448,10 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__solver *w, size_t i, size_t 
         nsvcd__collect_supports(p, &p->of.kept.manifold, &pair, posed);
         continue;
       }
+      if (p->goal.collects == NSVCD__LISTING) {
+        nsvcd__list_near(p, &pair, posed);
+        continue;
+      }
       if (nsvcd__triangles_meet(posed, pair.fixed, &nearest.on_b)) {
         nearest.on_a = nearest.on_b;
       } else {
@@ -15745,6 +15861,8 @@ static nsvcd__outcome nsvcd__collect_contacts(nsvcd__solver *w, const nsvcd__sea
         (void)nsvcd__arc_at(&p->arcs, 0);
         if (nsvcd__patches_apart(p, patches->moving, patches->fixed, 0, 0)) continue;
       }
+      (void)nsvcd__find_witness(w, patches->moving, patches->fixed, 0, 0);
+    } else if (p->goal.collects == NSVCD__LISTING) {
       (void)nsvcd__find_witness(w, patches->moving, patches->fixed, 0, 0);
     } else if (w->count < NSVCD__PATCH_PAIRS) {
       p->of.kept.pairs[w->count++] = *patches;
@@ -18228,6 +18346,7 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__least_lane NSVCD__AT(least_lane)
 #define nsvcd__least_of NSVCD__AT(least_of)
 #define nsvcd__left_by_normal NSVCD__AT(left_by_normal)
+#define nsvcd__list_near NSVCD__AT(list_near)
 #define nsvcd__look_all NSVCD__AT(look_all)
 #define nsvcd__look_at_box NSVCD__AT(look_at_box)
 #define nsvcd__look_at_slab NSVCD__AT(look_at_slab)
@@ -18254,6 +18373,7 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__moving_block_load NSVCD__AT(moving_block_load)
 #define nsvcd__moving_closed NSVCD__AT(moving_closed)
 #define nsvcd__moving_range NSVCD__AT(moving_range)
+#define nsvcd__near_direction NSVCD__AT(near_direction)
 #define nsvcd__nearest2 NSVCD__AT(nearest2)
 #define nsvcd__nearest_at NSVCD__AT(nearest_at)
 #define nsvcd__nearest_groups NSVCD__AT(nearest_groups)
@@ -20823,6 +20943,190 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
                              gradient_a, gradient_b);
 }
 #endif
+
+// ---------------------------------------------------------------------------------- query/contacts
+// In: two bodies at rest. Out: where they are near each other, on all sides.
+//
+// One search lists all triangle pairs that are near. The nearest of them gives the first side, with
+// its direction; the nearest of those in other directions the next. A triangle pair is a side only
+// if its nearest points are nearest among all triangles about them: the inner edges of a floor have
+// directions of their own, which lean to where the floor goes on and is nearer.
+
+#ifndef NSVCD_NO_PROOF
+// Cosine of the angle within which directions are of one side.
+#define NSVCD__SAME_SIDE 0.8f
+
+// A near triangle pair as it is posed, and its nearest points.
+typedef struct nsvcd__posed_pair {
+  nsvcd__triangle_pair pair;
+  nsvcd__d3 posed[3];  // the moving triangle
+} nsvcd__posed_pair;
+
+static void nsvcd__posed_pair_of(const nsvcd__proof *p, const nsvcd__dtransform *at,
+                                 const nsvcd__near *near, nsvcd__posed_pair *out) {
+  out->pair = nsvcd__pair_of(p, near->moving_patch, near->fixed_patch, near->moving_entry,
+                             near->fixed_entry);
+  nsvcd__pose_triangle(at, out->pair.moving, out->posed);
+}
+
+// Does a triangle go on from a point of it, or near it, along a direction?
+static int nsvcd__goes_on(const nsvcd__d3 *triangle, nsvcd__d3 from, nsvcd__d3 along,
+                          double same) {
+  const nsvcd__d3 point[3] = {from, from, from};
+  double farthest = 0;
+  for (size_t k = 0; k < 3; k++)
+    farthest = nsvcd__max(farthest, nsvcd__d3_dot(along, nsvcd__d3_sub(triangle[k], from)));
+  return farthest > same && nsvcd__nearest_of(triangle, point).square <= same * same;
+}
+
+// Does either surface go on from the nearest points of a triangle pair to where the other is
+// nearer? The distance of a point to a triangle is convex, so all triangles there are to ask; and
+// those of one body at a time, each with the triangle of the other.
+static int nsvcd__is_nearer_beside(const nsvcd__proof *p, const nsvcd__dtransform *at,
+                                   const nsvcd__near *near, const nsvcd__nearest *points,
+                                   double same) {
+  const nsvcd__near_list *list = &p->near_list;
+  const nsvcd__d3 normal = nsvcd__d3_widen(near->normal);
+  for (uint32_t n = 0; n < list->count; n++) {
+    const nsvcd__near *other = &list->items[n];
+    const int same_moving = other->moving_triangle == near->moving_triangle;
+    const int same_fixed = other->fixed_triangle == near->fixed_triangle;
+    if (same_moving == same_fixed || !(other->distance < near->distance)) continue;
+    nsvcd__posed_pair beside;
+    nsvcd__posed_pair_of(p, at, other, &beside);
+    if (same_moving
+            ? nsvcd__goes_on(beside.pair.fixed, points->on_b, normal, same)
+            : nsvcd__goes_on(beside.posed, points->on_a, nsvcd__d3_scale(normal, -1), same))
+      return 1;
+  }
+  return 0;
+}
+
+// The nearest triangle pair that has no side yet; NULL: there is none.
+static nsvcd__near *nsvcd__next_near(const nsvcd__near_list *list) {
+  nsvcd__near *best = NULL;
+  for (uint32_t n = 0; n < list->count; n++) {
+    nsvcd__near *near = &list->items[n];
+    if (!near->is_settled && (!best || near->distance < best->distance)) best = near;
+  }
+  return best;
+}
+
+// The contacts of the side whose nearest triangle pair this is, up to NSVCD_MAX_CONTACTS. Returns
+// how many.
+static size_t nsvcd__contacts_of_side(nsvcd__query *query, const nsvcd__dtransform *at,
+                                      const nsvcd__near *near, const nsvcd__nearest *points,
+                                      double same, nsvcd_contact *out) {
+  nsvcd__proof *p = &query->solver->p;
+  nsvcd__manifold *m = &p->of.kept.manifold;
+  const nsvcd__twist rests = {{0, 0, 0}, {0, 0, 0}};
+  const uint32_t swapped = (uint32_t)query->task.swapped;
+  nsvcd__posed_pair posed;
+  int chosen[NSVCD_MAX_CONTACTS];
+  int count = 0;
+  double area;
+  nsvcd__manifold_begin(m, nsvcd__d3_widen(near->normal), &rests, p->goal.clearance, same);
+  for (int across = 0; across < 2; across++) {
+    if (across && !nsvcd__seek_across(m, area)) break;
+    for (uint32_t n = 0; n < p->near_list.count; n++) {
+      const nsvcd__near *other = &p->near_list.items[n];
+      if (nsvcd__f3_dot(other->normal, near->normal) < NSVCD__SAME_SIDE) continue;
+      nsvcd__posed_pair_of(p, at, other, &posed);
+      nsvcd__collect_supports(p, m, &posed.pair, posed.posed);
+    }
+    count = nsvcd__choose_four(m, chosen, &area);
+  }
+  for (int n = 0; n < count; n++) {
+    nsvcd__write_contact(query, &m->supports[chosen[n]], &out[n]);
+    out[n].id = m->numbers[chosen[n]] ^ swapped;
+  }
+  if (count > 0) return (size_t)count;
+  // a corner over an edge or a corner: it has no face of the other's above it
+  nsvcd__posed_pair_of(p, at, near, &posed);
+  nsvcd__pair_contact nearest = nsvcd__contact_at(p, &posed.pair, 0, points);
+  nearest.normal = nsvcd__d3_widen(near->normal);
+  nsvcd__write_contact(query, &nearest, out);
+  out->id = (near->moving_entry * 3 + near->fixed_entry * 5) << 2 | 2;
+  return 1;
+}
+
+// Writes the contacts of all sides, the nearest side first. Returns how many.
+static size_t nsvcd__write_contacts(nsvcd__query *query, nsvcd_contact *contacts,
+                                    size_t most) {
+  nsvcd__proof *p = &query->solver->p;
+  const nsvcd__near_list *list = &p->near_list;
+  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, 0), 0);
+  const double epsilon = nsvcd__epsilon(p);
+  const double same = epsilon + 1e-5 * (double)p->given.lengths;
+  size_t written = 0;
+  for (int sides = 0; sides < NSVCD_MAX_SIDES && written < most;) {
+    nsvcd_contact found[NSVCD_MAX_CONTACTS];
+    nsvcd__posed_pair posed;
+    nsvcd__near *near = nsvcd__next_near(list);
+    if (!near) break;
+    near->is_settled = 1;
+    nsvcd__posed_pair_of(p, &at, near, &posed);
+    const nsvcd__nearest points = nsvcd__nearest_of(posed.posed, posed.pair.fixed);
+    if (nsvcd__is_nearer_beside(p, &at, near, &points, epsilon)) continue;
+    const size_t count = nsvcd__contacts_of_side(query, &at, near, &points, same, found);
+    for (size_t n = 0; n < count && written < most; n++) contacts[written++] = found[n];
+    for (uint32_t n = 0; n < list->count; n++) {
+      nsvcd__near *other = &list->items[n];
+      if (nsvcd__f3_dot(other->normal, near->normal) >= NSVCD__SAME_SIDE)
+        other->is_settled = 1;
+    }
+    sides++;
+  }
+  return written;
+}
+
+// Lists the near triangle pairs of a question that has been laid out. At rest there is one segment:
+// so the memory for the chords of the others is free. Returns 0 if some may be missing.
+static int nsvcd__list_all_near(nsvcd__query *query) {
+  nsvcd__solver *w = query->solver;
+  nsvcd__search *q = &query->broad_phase;
+  nsvcd__goal goal = nsvcd__proof_begin(query);
+  nsvcd__near_list *list = &w->p.near_list;
+  nsvcd__chords *free_chords = q->members + 2;  // the second is that of spare boxes
+  list->items = (nsvcd__near *)(void *)free_chords;
+  list->room = (uint32_t)((q->most_segments - 2) * sizeof *free_chords / sizeof *list->items);
+  list->count = list->is_full = 0;
+  goal.collects = NSVCD__LISTING;
+  const nsvcd__search_result result = nsvcd__search_anew(w, q, goal);
+  return !result.ran_out && !list->is_full;
+}
+#endif  // NSVCD_NO_PROOF
+
+static nsvcd_result nsvcd__run_contacts(nsvcd__isa isa, const nsvcd_question *question,
+                                        void *workspace, size_t workspace_size,
+                                        nsvcd_contact *contacts, size_t most, size_t *count,
+                                        int *is_partial) {
+  if (!question || !count || (most > 0 && !contacts)) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_result result = nsvcd__sweep_check(question, workspace, workspace_size);
+  if (result) return result;
+  if (question->a.count > 1 || question->b.count > 1) return NSVCD_ERROR_POSES;
+  if (question->ask != NSVCD_ASK_HIT) return NSVCD_ERROR_ASK;
+  if (question->slop > 0) return NSVCD_ERROR_SLOP;
+  if (!(question->clearance > 0)) return NSVCD_ERROR_CLEARANCE;
+#ifndef NSVCD_NO_PROOF
+  nsvcd__query *query = nsvcd__query_open(isa, question, workspace);
+  const int is_whole = nsvcd__list_all_near(query);
+  *count = nsvcd__write_contacts(query, contacts, most);
+  for (size_t n = 0; n < *count && query->task.swapped; n++) nsvcd__swap_contact(&contacts[n]);
+  if (is_partial) *is_partial = !is_whole;
+#else
+  (void)isa;
+  (void)is_partial;
+#endif
+  return NSVCD_OK;
+}
+
+NSVCDDEF nsvcd_result nsvcd_contacts(const nsvcd_question *question, void *workspace,
+                                     size_t workspace_size, nsvcd_contact *contacts,
+                                     size_t most, size_t *count, int *is_partial) {
+  return nsvcd__run_contacts(nsvcd__isa_at_hand(), question, workspace, workspace_size,
+                             contacts, most, count, is_partial);
+}
 
 // ================================================================ plan: a motion that hits nothing
 

@@ -249,6 +249,7 @@ extern "C" {
 #include "triangles/triangle_pairs.h"  // two triangles, in double: separated, or in contact
 #include "triangles/touches.h"         // how deep triangles that touch are, and what undoes it
 #include "triangles/manifold.h"        // contact points, the farthest along directions
+#include "triangles/near.h"            // a list of what is near each other at rest
 
 // ======================================================== separate: until when surfaces stay apart
 #include "separate/slabs.h"           // planes along the slabs of patches and of groups
@@ -286,6 +287,7 @@ extern "C" {
 #include "query/supports.h"  // up to four contact points: where to seek them, and which
 #include "query/by_proof.h"  // an answer by proof
 #include "query/question.h"  // check, choose who moves, lay out the workspace, answer
+#include "query/contacts.h"  // where bodies at rest are near each other, on all sides
 
 // ================================================================ plan: a motion that hits nothing
 #include "plan/spline.h"   // quintic Hermite

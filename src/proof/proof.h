@@ -209,12 +209,31 @@ typedef struct nsvcd__manifold {
 } nsvcd__manifold;
 
 // What is done with triangles that come within the clearance: they are contacts or, of a motion at
-// rest, all are collected, as touching or as supports.
+// rest, all are collected, as touching or as supports, or are listed.
 typedef enum nsvcd__collecting {
   NSVCD__CONTACTS,
   NSVCD__TOUCHING,
-  NSVCD__SUPPORTING
+  NSVCD__SUPPORTING,
+  NSVCD__LISTING
 } nsvcd__collecting;
+
+// Two triangles that come within the clearance, of bodies at rest, in the fixed body's frame.
+typedef struct nsvcd__near {
+  float distance;
+  nsvcd__f3 normal;  // unit: out of the fixed body
+  uint32_t moving_entry, fixed_entry;
+  // the caller's
+  uint32_t moving_triangle, fixed_triangle;
+  uint16_t moving_patch, fixed_patch;
+  // 1: it has its side, or is none
+  uint32_t is_settled;
+} nsvcd__near;
+
+// A list of these, in the caller's memory; is_full: there were more.
+typedef struct nsvcd__near_list {
+  nsvcd__near *items;
+  uint32_t count, room, is_full;
+} nsvcd__near_list;
 
 // What a question finds.
 typedef enum nsvcd__finding {
@@ -367,6 +386,7 @@ typedef struct nsvcd__proof {
   // shared: the triangle pairs in a row that it has separated since.
   nsvcd__d3 separating;
   nsvcd__push_outs push;
+  nsvcd__near_list near_list;
   union {
     struct {
       // that no plane separates over their segment

@@ -321,6 +321,8 @@ static nsvcd__outcome nsvcd__collect_contacts(nsvcd__solver *w, const nsvcd__sea
         if (nsvcd__patches_apart(p, patches->moving, patches->fixed, 0, 0)) continue;
       }
       (void)nsvcd__find_witness(w, patches->moving, patches->fixed, 0, 0);
+    } else if (p->goal.collects == NSVCD__LISTING) {
+      (void)nsvcd__find_witness(w, patches->moving, patches->fixed, 0, 0);
     } else if (w->count < NSVCD__PATCH_PAIRS) {
       p->of.kept.pairs[w->count++] = *patches;
     }

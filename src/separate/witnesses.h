@@ -2,6 +2,7 @@
 // clearance; with a slop, what touches at the start and which directions undo it.
 #pragma once
 #include "../triangles/manifold.h"
+#include "../triangles/near.h"
 #include "../triangles/touches.h"
 #include "blocks.h"
 
@@ -33,6 +34,10 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__solver *w, size_t i, size_t 
       p->work++;
       if (p->goal.collects == NSVCD__SUPPORTING) {
         nsvcd__collect_supports(p, &p->of.kept.manifold, &pair, posed);
+        continue;
+      }
+      if (p->goal.collects == NSVCD__LISTING) {
+        nsvcd__list_near(p, &pair, posed);
         continue;
       }
       if (nsvcd__triangles_meet(posed, pair.fixed, &nearest.on_b)) {
