@@ -14684,22 +14684,52 @@ static nsvcd__d3 nsvcd__near_direction(const nsvcd__triangle_pair *pair,
   return is_own || !(nsvcd__d3_dot(other, other) > 0) ? own : other;
 }
 
-// Adds a triangle pair to the list if it comes within the clearance. A triangle that is stored in
-// pieces comes once for each.
+// The nearest points of a triangle and a corner of another one, which is wholly above it, if they
+// are where the corner is over the triangle: no point of the other is lower.
+static int nsvcd__lowest_over(const nsvcd__d3 *over, const nsvcd__d3 *under, nsvcd__d3 *corner,
+                              nsvcd__d3 *foot) {
+  const nsvcd__d3 n = nsvcd__face_normal(under);
+  double heights[3];
+  for (size_t k = 0; k < 3; k++)
+    heights[k] = nsvcd__d3_dot(n, nsvcd__d3_sub(over[k], under[0]));
+  const double side = heights[0] < 0 ? -1 : 1;
+  size_t lowest = 0;
+  for (size_t k = 0; k < 3; k++) {
+    if (!(side * heights[k] > 0)) return 0;
+    if (side * heights[k] < side * heights[lowest]) lowest = k;
+  }
+  *corner = over[lowest];
+  return nsvcd__foot_within(*corner, under, foot);
+}
+
+// As nsvcd__nearest_of, which is not asked where a corner is over a face: mostly.
+static nsvcd__nearest nsvcd__near_points(const nsvcd__d3 *moving, const nsvcd__d3 *fixed) {
+  nsvcd__nearest out;
+  if (!nsvcd__lowest_over(moving, fixed, &out.on_a, &out.on_b) &&
+      !nsvcd__lowest_over(fixed, moving, &out.on_b, &out.on_a))
+    return nsvcd__nearest_of(moving, fixed);
+  out.square = nsvcd__d3_distance2(out.on_a, out.on_b);
+  return out;
+}
+
+// Is a triangle pair in the list? A triangle that is stored in pieces comes once for each.
+static int nsvcd__is_listed(const nsvcd__proof *p, size_t i, size_t j, size_t a, size_t b) {
+  const nsvcd__near_list *list = &p->near_list;
+  const uint32_t moving = nsvcd__triangle_number(&p->moving, i, a);
+  const uint32_t fixed = nsvcd__triangle_number(&p->fixed, j, b);
+  for (uint32_t n = list->count; n-- > 0;) {
+    const nsvcd__near *near = &list->items[n];
+    if (near->moving_triangle == moving && near->fixed_triangle == fixed) return 1;
+  }
+  return 0;
+}
+
+// Adds a triangle pair to the list if it comes within the clearance.
 static NSVCD__NOINLINE void nsvcd__list_near(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
                                              const nsvcd__d3 *posed) {
   nsvcd__near_list *list = &p->near_list;
   nsvcd__near item;
-  item.moving_triangle =
-      nsvcd__triangle_number(&p->moving, pair->moving_patch, pair->moving_entry);
-  item.fixed_triangle =
-      nsvcd__triangle_number(&p->fixed, pair->fixed_patch, pair->fixed_entry);
-  for (uint32_t n = list->count; n-- > 0;) {
-    if (list->items[n].moving_triangle == item.moving_triangle &&
-        list->items[n].fixed_triangle == item.fixed_triangle)
-      return;
-  }
-  const nsvcd__nearest nearest = nsvcd__nearest_of(posed, pair->fixed);
+  const nsvcd__nearest nearest = nsvcd__near_points(posed, pair->fixed);
   if (!(nearest.square <= p->goal.clearance * p->goal.clearance)) {
     const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
     p->separating = nsvcd__d3_scale(apart, 1 / sqrt(nearest.square));
@@ -14708,7 +14738,12 @@ static NSVCD__NOINLINE void nsvcd__list_near(nsvcd__proof *p, const nsvcd__trian
   list->is_full |= list->count == list->room;
   if (list->is_full) return;
   item.distance = (float)sqrt(nearest.square);
-  item.normal = nsvcd__f3_round(nsvcd__near_direction(pair, posed, &nearest));
+  p->separating = nsvcd__near_direction(pair, posed, &nearest);
+  item.normal = nsvcd__f3_round(p->separating);
+  item.moving_triangle =
+      nsvcd__triangle_number(&p->moving, pair->moving_patch, pair->moving_entry);
+  item.fixed_triangle =
+      nsvcd__triangle_number(&p->fixed, pair->fixed_patch, pair->fixed_entry);
   item.moving_entry = (uint32_t)pair->moving_entry;
   item.fixed_entry = (uint32_t)pair->fixed_entry;
   item.moving_patch = (uint16_t)pair->moving_patch;
@@ -15086,7 +15121,9 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__solver *w, size_t i, si
                                              nsvcd__f3_towards(turned, line), line};
   nsvcd__f3 nearest = {0, 0, 0};
   p->work++;
-  for (size_t step = 0; step < NSVCD__GUESSES + NSVCD__PLANE_STEPS; step++) {
+  // where all that is near is listed, most hulls are near, and their triangles cost no more
+  const size_t steps = p->goal.collects == NSVCD__LISTING ? 0 : NSVCD__PLANE_STEPS;
+  for (size_t step = 0; step < NSVCD__GUESSES + steps; step++) {
     const nsvcd__f3 normal = step < NSVCD__GUESSES ? guesses[step] : nearest;
     const nsvcd__support found = nsvcd__support_along(w, normal);
     const float length = nsvcd__f3_norm(normal);
@@ -15438,8 +15475,10 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__solver *w, size_t i, size_t 
         met = nsvcd__left_by_normal(w, l, fixed, NSVCD__LAST_NORMAL, margin, met);
       if (!met) break;
       const size_t entry = w->blocks.moving.first + l;
-      const nsvcd__triangle_pair pair =
-          nsvcd__pair_of(p, i, j, entry, fixed->first + nsvcd__low_bit(met));
+      const size_t other = fixed->first + nsvcd__low_bit(met);
+      if (p->goal.collects == NSVCD__LISTING && nsvcd__is_listed(p, i, j, entry, other))
+        continue;
+      const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, entry, other);
       nsvcd__d3 posed[3];
       nsvcd__nearest nearest = {0, {0, 0, 0}, {0, 0, 0}};
       nsvcd__pose_triangle(at, pair.moving, posed);
@@ -15863,7 +15902,12 @@ static nsvcd__outcome nsvcd__collect_contacts(nsvcd__solver *w, const nsvcd__sea
       }
       (void)nsvcd__find_witness(w, patches->moving, patches->fixed, 0, 0);
     } else if (p->goal.collects == NSVCD__LISTING) {
+      const uint32_t before = p->near_list.count;
       (void)nsvcd__find_witness(w, patches->moving, patches->fixed, 0, 0);
+      if (p->near_list.count > before) {
+        w->memo.held = nsvcd__f3_round(p->separating);
+        w->memo.plane++;
+      }
     } else if (w->count < NSVCD__PATCH_PAIRS) {
       p->of.kept.pairs[w->count++] = *patches;
     }
@@ -18319,6 +18363,7 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__is_enclosed NSVCD__AT(is_enclosed)
 #define nsvcd__is_harmless NSVCD__AT(is_harmless)
 #define nsvcd__is_left NSVCD__AT(is_left)
+#define nsvcd__is_listed NSVCD__AT(is_listed)
 #define nsvcd__is_new NSVCD__AT(is_new)
 #define nsvcd__is_on_beam NSVCD__AT(is_on_beam)
 #define nsvcd__is_separated NSVCD__AT(is_separated)
@@ -18361,6 +18406,7 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__look_rank NSVCD__AT(look_rank)
 #define nsvcd__look_relate NSVCD__AT(look_relate)
 #define nsvcd__look_state NSVCD__AT(look_state)
+#define nsvcd__lowest_over NSVCD__AT(lowest_over)
 #define nsvcd__matters NSVCD__AT(matters)
 #define nsvcd__may_be_close NSVCD__AT(may_be_close)
 #define nsvcd__meet NSVCD__AT(meet)
@@ -18374,6 +18420,7 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__moving_closed NSVCD__AT(moving_closed)
 #define nsvcd__moving_range NSVCD__AT(moving_range)
 #define nsvcd__near_direction NSVCD__AT(near_direction)
+#define nsvcd__near_points NSVCD__AT(near_points)
 #define nsvcd__nearest2 NSVCD__AT(nearest2)
 #define nsvcd__nearest_at NSVCD__AT(nearest_at)
 #define nsvcd__nearest_groups NSVCD__AT(nearest_groups)
@@ -21066,7 +21113,7 @@ static size_t nsvcd__write_contacts(nsvcd__query *query, nsvcd_contact *contacts
     if (!near) break;
     near->is_settled = 1;
     nsvcd__posed_pair_of(p, &at, near, &posed);
-    const nsvcd__nearest points = nsvcd__nearest_of(posed.posed, posed.pair.fixed);
+    const nsvcd__nearest points = nsvcd__near_points(posed.posed, posed.pair.fixed);
     if (nsvcd__is_nearer_beside(p, &at, near, &points, epsilon)) continue;
     const size_t count = nsvcd__contacts_of_side(query, &at, near, &points, same, found);
     for (size_t n = 0; n < count && written < most; n++) contacts[written++] = found[n];

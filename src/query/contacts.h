@@ -121,7 +121,7 @@ static size_t nsvcd__write_contacts(nsvcd__query *query, nsvcd_contact *contacts
     if (!near) break;
     near->is_settled = 1;
     nsvcd__posed_pair_of(p, &at, near, &posed);
-    const nsvcd__nearest points = nsvcd__nearest_of(posed.posed, posed.pair.fixed);
+    const nsvcd__nearest points = nsvcd__near_points(posed.posed, posed.pair.fixed);
     if (nsvcd__is_nearer_beside(p, &at, near, &points, epsilon)) continue;
     const size_t count = nsvcd__contacts_of_side(query, &at, near, &points, same, found);
     for (size_t n = 0; n < count && written < most; n++) contacts[written++] = found[n];

@@ -19,22 +19,52 @@ static nsvcd__d3 nsvcd__near_direction(const nsvcd__triangle_pair *pair,
   return is_own || !(nsvcd__d3_dot(other, other) > 0) ? own : other;
 }
 
-// Adds a triangle pair to the list if it comes within the clearance. A triangle that is stored in
-// pieces comes once for each.
+// The nearest points of a triangle and a corner of another one, which is wholly above it, if they
+// are where the corner is over the triangle: no point of the other is lower.
+static int nsvcd__lowest_over(const nsvcd__d3 *over, const nsvcd__d3 *under, nsvcd__d3 *corner,
+                              nsvcd__d3 *foot) {
+  const nsvcd__d3 n = nsvcd__face_normal(under);
+  double heights[3];
+  for (size_t k = 0; k < 3; k++)
+    heights[k] = nsvcd__d3_dot(n, nsvcd__d3_sub(over[k], under[0]));
+  const double side = heights[0] < 0 ? -1 : 1;
+  size_t lowest = 0;
+  for (size_t k = 0; k < 3; k++) {
+    if (!(side * heights[k] > 0)) return 0;
+    if (side * heights[k] < side * heights[lowest]) lowest = k;
+  }
+  *corner = over[lowest];
+  return nsvcd__foot_within(*corner, under, foot);
+}
+
+// As nsvcd__nearest_of, which is not asked where a corner is over a face: mostly.
+static nsvcd__nearest nsvcd__near_points(const nsvcd__d3 *moving, const nsvcd__d3 *fixed) {
+  nsvcd__nearest out;
+  if (!nsvcd__lowest_over(moving, fixed, &out.on_a, &out.on_b) &&
+      !nsvcd__lowest_over(fixed, moving, &out.on_b, &out.on_a))
+    return nsvcd__nearest_of(moving, fixed);
+  out.square = nsvcd__d3_distance2(out.on_a, out.on_b);
+  return out;
+}
+
+// Is a triangle pair in the list? A triangle that is stored in pieces comes once for each.
+static int nsvcd__is_listed(const nsvcd__proof *p, size_t i, size_t j, size_t a, size_t b) {
+  const nsvcd__near_list *list = &p->near_list;
+  const uint32_t moving = nsvcd__triangle_number(&p->moving, i, a);
+  const uint32_t fixed = nsvcd__triangle_number(&p->fixed, j, b);
+  for (uint32_t n = list->count; n-- > 0;) {
+    const nsvcd__near *near = &list->items[n];
+    if (near->moving_triangle == moving && near->fixed_triangle == fixed) return 1;
+  }
+  return 0;
+}
+
+// Adds a triangle pair to the list if it comes within the clearance.
 static NSVCD__NOINLINE void nsvcd__list_near(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
                                              const nsvcd__d3 *posed) {
   nsvcd__near_list *list = &p->near_list;
   nsvcd__near item;
-  item.moving_triangle =
-      nsvcd__triangle_number(&p->moving, pair->moving_patch, pair->moving_entry);
-  item.fixed_triangle =
-      nsvcd__triangle_number(&p->fixed, pair->fixed_patch, pair->fixed_entry);
-  for (uint32_t n = list->count; n-- > 0;) {
-    if (list->items[n].moving_triangle == item.moving_triangle &&
-        list->items[n].fixed_triangle == item.fixed_triangle)
-      return;
-  }
-  const nsvcd__nearest nearest = nsvcd__nearest_of(posed, pair->fixed);
+  const nsvcd__nearest nearest = nsvcd__near_points(posed, pair->fixed);
   if (!(nearest.square <= p->goal.clearance * p->goal.clearance)) {
     const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
     p->separating = nsvcd__d3_scale(apart, 1 / sqrt(nearest.square));
@@ -43,7 +73,12 @@ static NSVCD__NOINLINE void nsvcd__list_near(nsvcd__proof *p, const nsvcd__trian
   list->is_full |= list->count == list->room;
   if (list->is_full) return;
   item.distance = (float)sqrt(nearest.square);
-  item.normal = nsvcd__f3_round(nsvcd__near_direction(pair, posed, &nearest));
+  p->separating = nsvcd__near_direction(pair, posed, &nearest);
+  item.normal = nsvcd__f3_round(p->separating);
+  item.moving_triangle =
+      nsvcd__triangle_number(&p->moving, pair->moving_patch, pair->moving_entry);
+  item.fixed_triangle =
+      nsvcd__triangle_number(&p->fixed, pair->fixed_patch, pair->fixed_entry);
   item.moving_entry = (uint32_t)pair->moving_entry;
   item.fixed_entry = (uint32_t)pair->fixed_entry;
   item.moving_patch = (uint16_t)pair->moving_patch;
