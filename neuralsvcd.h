@@ -1634,8 +1634,8 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     motion_bounds   an interval of time, and how far points deviate in it
 //     triangle_pairs  two triangles, in double: separated, or in contact
 //     touches         how deep triangles that touch are, and what undoes it
-//     manifold        contact points, the farthest along directions
 //     near            a list of what is near each other at rest
+//     manifold        contact points, the farthest along directions
 //   separate: until when surfaces stay apart
 //     slabs           planes along the slabs of patches and of groups
 //     hulls           planes between hulls
@@ -14533,6 +14533,162 @@ static void nsvcd__collect_contact(nsvcd__proof *p, const nsvcd__triangle_pair *
 }
 #endif  // NSVCD_NO_PROOF
 
+// ---------------------------------------------------------------------------------- triangles/near
+// In: triangle pairs of bodies at rest, as a search finds them. Out: those within the clearance, in
+// a list: how near they are, and in which direction.
+
+#ifndef NSVCD_NO_PROOF
+// A surface that leans towards the other by more than this sine goes on to where it is nearer.
+#define NSVCD__STEEP 0.1
+
+// The direction of a triangle pair: out of the fixed one, from its nearest point. If they meet, the
+// one of the faces' along which they are the least deep.
+static nsvcd__d3 nsvcd__near_direction(const nsvcd__triangle_pair *pair,
+                                       const nsvcd__d3 *posed, const nsvcd__nearest *nearest) {
+  const nsvcd__d3 apart = nsvcd__d3_sub(nearest->on_a, nearest->on_b);
+  if (nearest->square > pair->rounding * pair->rounding)
+    return nsvcd__d3_scale(apart, 1 / sqrt(nearest->square));
+  const nsvcd__d3 own = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
+  const nsvcd__d3 other = nsvcd__face_direction(pair->fixed);
+  const int has_own = nsvcd__d3_dot(own, own) > 0;
+  const int is_own = has_own && nsvcd__beyond(own, posed, pair->fixed) >
+                                    nsvcd__beyond(other, posed, pair->fixed);
+  return is_own || !(nsvcd__d3_dot(other, other) > 0) ? own : other;
+}
+
+// The nearest points of a triangle and a corner of another one, which is wholly above it, if they
+// are where the corner is over the triangle: no point of the other is lower.
+static int nsvcd__lowest_over(const nsvcd__d3 *over, const nsvcd__d3 *under, nsvcd__d3 *corner,
+                              nsvcd__d3 *foot) {
+  const nsvcd__d3 n = nsvcd__face_normal(under);
+  double heights[3];
+  for (size_t k = 0; k < 3; k++)
+    heights[k] = nsvcd__d3_dot(n, nsvcd__d3_sub(over[k], under[0]));
+  const double side = heights[0] < 0 ? -1 : 1;
+  size_t lowest = 0;
+  for (size_t k = 0; k < 3; k++) {
+    if (!(side * heights[k] > 0)) return 0;
+    if (side * heights[k] < side * heights[lowest]) lowest = k;
+  }
+  *corner = over[lowest];
+  return nsvcd__foot_within(*corner, under, foot);
+}
+
+// As nsvcd__nearest_of, which is not asked where a corner is over a face: mostly.
+static nsvcd__nearest nsvcd__near_points(const nsvcd__d3 *moving, const nsvcd__d3 *fixed) {
+  nsvcd__nearest out;
+  if (!nsvcd__lowest_over(moving, fixed, &out.on_a, &out.on_b) &&
+      !nsvcd__lowest_over(fixed, moving, &out.on_b, &out.on_a))
+    return nsvcd__nearest_of(moving, fixed);
+  out.square = nsvcd__d3_distance2(out.on_a, out.on_b);
+  return out;
+}
+
+// A near triangle pair as it is posed.
+typedef struct nsvcd__posed_pair {
+  nsvcd__triangle_pair pair;
+  nsvcd__d3 posed[3];  // the moving triangle
+} nsvcd__posed_pair;
+
+static void nsvcd__posed_pair_of(const nsvcd__proof *p, const nsvcd__dtransform *at,
+                                 const nsvcd__near *near, nsvcd__posed_pair *out) {
+  out->pair = nsvcd__pair_of(p, near->moving_patch, near->fixed_patch, near->moving_entry,
+                             near->fixed_entry);
+  nsvcd__pose_triangle(at, out->pair.moving, out->posed);
+}
+
+// Does a triangle go on along a direction from a point of it, or near it?
+static int nsvcd__goes_on(const nsvcd__d3 *triangle, nsvcd__d3 from, nsvcd__d3 along,
+                          double same) {
+  const nsvcd__d3 point[3] = {from, from, from};
+  int goes_on = 0;
+  for (size_t k = 0; k < 3; k++) {
+    const nsvcd__d3 arm = nsvcd__d3_sub(triangle[k], from);
+    const double height = nsvcd__d3_dot(along, arm);
+    goes_on |= height > same && height > NSVCD__STEEP * nsvcd__d3_norm(arm);
+  }
+  return goes_on && nsvcd__nearest_of(triangle, point).square <= same * same;
+}
+
+// Does a surface go on from where two triangles are near each other, with this direction, to where
+// the other is nearer? Then that is no contact. It is enough to ask the triangles of one body at a
+// time, each with the same triangle of the other, and these are in the list as well.
+static NSVCD__NOINLINE int nsvcd__goes_on_beside(const nsvcd__proof *p, uint32_t moving,
+                                                 uint32_t fixed, const nsvcd__nearest *points,
+                                                 nsvcd__d3 normal) {
+  const nsvcd__near_list *list = &p->near_list;
+  const nsvcd__dtransform at = nsvcd__dtransform_at(&p->arcs.arc, 0);
+  const nsvcd__d3 back = nsvcd__d3_scale(normal, -1);
+  const double same = nsvcd__epsilon(p);
+  for (uint32_t n = 0; n < list->count; n++) {
+    const nsvcd__near *near = &list->items[n];
+    const int same_moving = near->moving_triangle == moving;
+    const int same_fixed = near->fixed_triangle == fixed;
+    if (!same_moving && !same_fixed) continue;
+    nsvcd__posed_pair at_it;
+    nsvcd__posed_pair_of(p, &at, near, &at_it);
+    if (same_moving && nsvcd__goes_on(at_it.pair.fixed, points->on_b, normal, same)) return 1;
+    if (same_fixed && nsvcd__goes_on(at_it.posed, points->on_a, back, same)) return 1;
+  }
+  return 0;
+}
+
+// Is a triangle pair in the list? A triangle that is stored in pieces comes once for each.
+static int nsvcd__is_listed(const nsvcd__proof *p, size_t i, size_t j, size_t a, size_t b) {
+  const nsvcd__near_list *list = &p->near_list;
+  const uint32_t moving = nsvcd__triangle_number(&p->moving, i, a);
+  const uint32_t fixed = nsvcd__triangle_number(&p->fixed, j, b);
+  for (uint32_t n = list->count; n-- > 0;) {
+    const nsvcd__near *near = &list->items[n];
+    if (near->moving_triangle == moving && near->fixed_triangle == fixed) return 1;
+  }
+  return 0;
+}
+
+// There is no room for more: keeps those that are nearer than most, and asks for no others.
+static NSVCD__NOINLINE void nsvcd__list_nearer_half(nsvcd__proof *p) {
+  nsvcd__near_list *list = &p->near_list;
+  double sum = 0;
+  uint32_t kept = 0;
+  for (uint32_t n = 0; n < list->count; n++) sum += (double)list->items[n].distance;
+  const double mean = sum / (double)list->count;
+  for (uint32_t n = 0; n < list->count; n++)
+    if ((double)list->items[n].distance < mean) list->items[kept++] = list->items[n];
+  list->is_full = 1;
+  if (kept == 0) return;
+  list->count = kept;
+  p->goal.clearance = mean;
+}
+
+// Adds a triangle pair to the list if it comes within the clearance.
+static NSVCD__NOINLINE void nsvcd__list_near(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
+                                             const nsvcd__d3 *posed) {
+  nsvcd__near_list *list = &p->near_list;
+  nsvcd__near item;
+  const nsvcd__nearest nearest = nsvcd__near_points(posed, pair->fixed);
+  if (!(nearest.square <= p->goal.clearance * p->goal.clearance)) {
+    const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+    p->separating = nsvcd__d3_scale(apart, 1 / sqrt(nearest.square));
+    return;
+  }
+  if (list->count == list->room) nsvcd__list_nearer_half(p);
+  if (list->count == list->room) return;
+  item.distance = (float)sqrt(nearest.square);
+  p->separating = nsvcd__near_direction(pair, posed, &nearest);
+  item.normal = nsvcd__f3_round(p->separating);
+  item.moving_triangle =
+      nsvcd__triangle_number(&p->moving, pair->moving_patch, pair->moving_entry);
+  item.fixed_triangle =
+      nsvcd__triangle_number(&p->fixed, pair->fixed_patch, pair->fixed_entry);
+  item.moving_entry = (uint32_t)pair->moving_entry;
+  item.fixed_entry = (uint32_t)pair->fixed_entry;
+  item.moving_patch = (uint16_t)pair->moving_patch;
+  item.fixed_patch = (uint16_t)pair->fixed_patch;
+  item.is_settled = 0;
+  list->items[list->count++] = item;
+}
+#endif  // NSVCD_NO_PROOF
+
 // ------------------------------------------------------------------------------ triangles/manifold
 // In: triangle pairs that are near each other when a contact is. Out: up to four contact points
 // that hold the body: those that span the largest area, seen along the contact's normal.
@@ -14605,9 +14761,15 @@ static NSVCD__NOINLINE void nsvcd__keep_support(const nsvcd__proof *p, nsvcd__ma
     const double along_it = nsvcd__d3_dot(m->along[k], on_fixed);
     const double more = along_it - m->farthest[k];
     if (!(more > m->same || (more >= -m->same && number < m->numbers[k]))) continue;
-    if (!known) contact = nsvcd__contact_at(p, f->pair, 0, &nearest);
+    if (!known) {
+      contact = nsvcd__contact_at(p, f->pair, 0, &nearest);
+      contact.normal = nsvcd__d3_scale(normal, side);
+      const int may_go_on = p->goal.collects == NSVCD__LISTING && (number & 2);
+      if (may_go_on && nsvcd__goes_on_beside(p, contact.moving_triangle,
+                                             contact.fixed_triangle, &nearest, contact.normal))
+        return;
+    }
     known = 1;
-    contact.normal = nsvcd__d3_scale(normal, side);
     m->supports[k] = contact;
     m->numbers[k] = number;
     m->farthest[k] = along_it;
@@ -14662,95 +14824,6 @@ static NSVCD__NOINLINE void nsvcd__collect_supports(const nsvcd__proof *p, nsvcd
   }
 }
 
-#endif  // NSVCD_NO_PROOF
-
-// ---------------------------------------------------------------------------------- triangles/near
-// In: triangle pairs of bodies at rest, as a search finds them. Out: those within the clearance, in
-// a list: how near they are, and in which direction.
-
-#ifndef NSVCD_NO_PROOF
-// The direction of a triangle pair: out of the fixed one, from its nearest point. If they meet, the
-// one of the faces' along which they are the least deep.
-static nsvcd__d3 nsvcd__near_direction(const nsvcd__triangle_pair *pair,
-                                       const nsvcd__d3 *posed, const nsvcd__nearest *nearest) {
-  const nsvcd__d3 apart = nsvcd__d3_sub(nearest->on_a, nearest->on_b);
-  if (nearest->square > pair->rounding * pair->rounding)
-    return nsvcd__d3_scale(apart, 1 / sqrt(nearest->square));
-  const nsvcd__d3 own = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
-  const nsvcd__d3 other = nsvcd__face_direction(pair->fixed);
-  const int has_own = nsvcd__d3_dot(own, own) > 0;
-  const int is_own = has_own && nsvcd__beyond(own, posed, pair->fixed) >
-                                    nsvcd__beyond(other, posed, pair->fixed);
-  return is_own || !(nsvcd__d3_dot(other, other) > 0) ? own : other;
-}
-
-// The nearest points of a triangle and a corner of another one, which is wholly above it, if they
-// are where the corner is over the triangle: no point of the other is lower.
-static int nsvcd__lowest_over(const nsvcd__d3 *over, const nsvcd__d3 *under, nsvcd__d3 *corner,
-                              nsvcd__d3 *foot) {
-  const nsvcd__d3 n = nsvcd__face_normal(under);
-  double heights[3];
-  for (size_t k = 0; k < 3; k++)
-    heights[k] = nsvcd__d3_dot(n, nsvcd__d3_sub(over[k], under[0]));
-  const double side = heights[0] < 0 ? -1 : 1;
-  size_t lowest = 0;
-  for (size_t k = 0; k < 3; k++) {
-    if (!(side * heights[k] > 0)) return 0;
-    if (side * heights[k] < side * heights[lowest]) lowest = k;
-  }
-  *corner = over[lowest];
-  return nsvcd__foot_within(*corner, under, foot);
-}
-
-// As nsvcd__nearest_of, which is not asked where a corner is over a face: mostly.
-static nsvcd__nearest nsvcd__near_points(const nsvcd__d3 *moving, const nsvcd__d3 *fixed) {
-  nsvcd__nearest out;
-  if (!nsvcd__lowest_over(moving, fixed, &out.on_a, &out.on_b) &&
-      !nsvcd__lowest_over(fixed, moving, &out.on_b, &out.on_a))
-    return nsvcd__nearest_of(moving, fixed);
-  out.square = nsvcd__d3_distance2(out.on_a, out.on_b);
-  return out;
-}
-
-// Is a triangle pair in the list? A triangle that is stored in pieces comes once for each.
-static int nsvcd__is_listed(const nsvcd__proof *p, size_t i, size_t j, size_t a, size_t b) {
-  const nsvcd__near_list *list = &p->near_list;
-  const uint32_t moving = nsvcd__triangle_number(&p->moving, i, a);
-  const uint32_t fixed = nsvcd__triangle_number(&p->fixed, j, b);
-  for (uint32_t n = list->count; n-- > 0;) {
-    const nsvcd__near *near = &list->items[n];
-    if (near->moving_triangle == moving && near->fixed_triangle == fixed) return 1;
-  }
-  return 0;
-}
-
-// Adds a triangle pair to the list if it comes within the clearance.
-static NSVCD__NOINLINE void nsvcd__list_near(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
-                                             const nsvcd__d3 *posed) {
-  nsvcd__near_list *list = &p->near_list;
-  nsvcd__near item;
-  const nsvcd__nearest nearest = nsvcd__near_points(posed, pair->fixed);
-  if (!(nearest.square <= p->goal.clearance * p->goal.clearance)) {
-    const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
-    p->separating = nsvcd__d3_scale(apart, 1 / sqrt(nearest.square));
-    return;
-  }
-  list->is_full |= list->count == list->room;
-  if (list->is_full) return;
-  item.distance = (float)sqrt(nearest.square);
-  p->separating = nsvcd__near_direction(pair, posed, &nearest);
-  item.normal = nsvcd__f3_round(p->separating);
-  item.moving_triangle =
-      nsvcd__triangle_number(&p->moving, pair->moving_patch, pair->moving_entry);
-  item.fixed_triangle =
-      nsvcd__triangle_number(&p->fixed, pair->fixed_patch, pair->fixed_entry);
-  item.moving_entry = (uint32_t)pair->moving_entry;
-  item.fixed_entry = (uint32_t)pair->fixed_entry;
-  item.moving_patch = (uint16_t)pair->moving_patch;
-  item.fixed_patch = (uint16_t)pair->fixed_patch;
-  item.is_settled = 0;
-  list->items[list->count++] = item;
-}
 #endif  // NSVCD_NO_PROOF
 
 // ======================================================== separate: until when surfaces stay apart
@@ -18336,6 +18409,8 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__gap_fact NSVCD__AT(gap_fact)
 #define nsvcd__gap_facts NSVCD__AT(gap_facts)
 #define nsvcd__gaps_at NSVCD__AT(gaps_at)
+#define nsvcd__goes_on NSVCD__AT(goes_on)
+#define nsvcd__goes_on_beside NSVCD__AT(goes_on_beside)
 #define nsvcd__greatest_of NSVCD__AT(greatest_of)
 #define nsvcd__group_against_group NSVCD__AT(group_against_group)
 #define nsvcd__group_against_members NSVCD__AT(group_against_members)
@@ -18392,6 +18467,7 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__least_of NSVCD__AT(least_of)
 #define nsvcd__left_by_normal NSVCD__AT(left_by_normal)
 #define nsvcd__list_near NSVCD__AT(list_near)
+#define nsvcd__list_nearer_half NSVCD__AT(list_nearer_half)
 #define nsvcd__look_all NSVCD__AT(look_all)
 #define nsvcd__look_at_box NSVCD__AT(look_at_box)
 #define nsvcd__look_at_slab NSVCD__AT(look_at_slab)
@@ -18449,6 +18525,8 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__planes_known NSVCD__AT(planes_known)
 #define nsvcd__pose_members NSVCD__AT(pose_members)
 #define nsvcd__pose_triangle NSVCD__AT(pose_triangle)
+#define nsvcd__posed_pair NSVCD__AT(posed_pair)
+#define nsvcd__posed_pair_of NSVCD__AT(posed_pair_of)
 #define nsvcd__probes NSVCD__AT(probes)
 #define nsvcd__probes_measure NSVCD__AT(probes_measure)
 #define nsvcd__prove_segments NSVCD__AT(prove_segments)
@@ -21003,52 +21081,6 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
 // Cosine of the angle within which directions are of one side.
 #define NSVCD__SAME_SIDE 0.8f
 
-// A near triangle pair as it is posed, and its nearest points.
-typedef struct nsvcd__posed_pair {
-  nsvcd__triangle_pair pair;
-  nsvcd__d3 posed[3];  // the moving triangle
-} nsvcd__posed_pair;
-
-static void nsvcd__posed_pair_of(const nsvcd__proof *p, const nsvcd__dtransform *at,
-                                 const nsvcd__near *near, nsvcd__posed_pair *out) {
-  out->pair = nsvcd__pair_of(p, near->moving_patch, near->fixed_patch, near->moving_entry,
-                             near->fixed_entry);
-  nsvcd__pose_triangle(at, out->pair.moving, out->posed);
-}
-
-// Does a triangle go on from a point of it, or near it, along a direction?
-static int nsvcd__goes_on(const nsvcd__d3 *triangle, nsvcd__d3 from, nsvcd__d3 along,
-                          double same) {
-  const nsvcd__d3 point[3] = {from, from, from};
-  double farthest = 0;
-  for (size_t k = 0; k < 3; k++)
-    farthest = nsvcd__max(farthest, nsvcd__d3_dot(along, nsvcd__d3_sub(triangle[k], from)));
-  return farthest > same && nsvcd__nearest_of(triangle, point).square <= same * same;
-}
-
-// Does either surface go on from the nearest points of a triangle pair to where the other is
-// nearer? The distance of a point to a triangle is convex, so all triangles there are to ask; and
-// those of one body at a time, each with the triangle of the other.
-static int nsvcd__is_nearer_beside(const nsvcd__proof *p, const nsvcd__dtransform *at,
-                                   const nsvcd__near *near, const nsvcd__nearest *points,
-                                   double same) {
-  const nsvcd__near_list *list = &p->near_list;
-  const nsvcd__d3 normal = nsvcd__d3_widen(near->normal);
-  for (uint32_t n = 0; n < list->count; n++) {
-    const nsvcd__near *other = &list->items[n];
-    const int same_moving = other->moving_triangle == near->moving_triangle;
-    const int same_fixed = other->fixed_triangle == near->fixed_triangle;
-    if (same_moving == same_fixed || !(other->distance < near->distance)) continue;
-    nsvcd__posed_pair beside;
-    nsvcd__posed_pair_of(p, at, other, &beside);
-    if (same_moving
-            ? nsvcd__goes_on(beside.pair.fixed, points->on_b, normal, same)
-            : nsvcd__goes_on(beside.posed, points->on_a, nsvcd__d3_scale(normal, -1), same))
-      return 1;
-  }
-  return 0;
-}
-
 // The nearest triangle pair that has no side yet; NULL: there is none.
 static nsvcd__near *nsvcd__next_near(const nsvcd__near_list *list) {
   nsvcd__near *best = NULL;
@@ -21059,42 +21091,59 @@ static nsvcd__near *nsvcd__next_near(const nsvcd__near_list *list) {
   return best;
 }
 
-// The contacts of the side whose nearest triangle pair this is, up to NSVCD_MAX_CONTACTS. Returns
-// how many.
-static size_t nsvcd__contacts_of_side(nsvcd__query *query, const nsvcd__dtransform *at,
-                                      const nsvcd__near *near, const nsvcd__nearest *points,
-                                      double same, nsvcd_contact *out) {
-  nsvcd__proof *p = &query->solver->p;
+// The supports of a side with this normal: the indices of up to four in the manifold. Returns how
+// many.
+static int nsvcd__supports_of_side(nsvcd__proof *p, const nsvcd__dtransform *at,
+                                   nsvcd__f3 normal, double same, int *chosen) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   const nsvcd__twist rests = {{0, 0, 0}, {0, 0, 0}};
-  const uint32_t swapped = (uint32_t)query->task.swapped;
   nsvcd__posed_pair posed;
-  int chosen[NSVCD_MAX_CONTACTS];
   int count = 0;
-  double area;
-  nsvcd__manifold_begin(m, nsvcd__d3_widen(near->normal), &rests, p->goal.clearance, same);
+  double area = 0;
+  nsvcd__manifold_begin(m, nsvcd__d3_widen(normal), &rests, p->goal.clearance, same);
   for (int across = 0; across < 2; across++) {
     if (across && !nsvcd__seek_across(m, area)) break;
     for (uint32_t n = 0; n < p->near_list.count; n++) {
-      const nsvcd__near *other = &p->near_list.items[n];
-      if (nsvcd__f3_dot(other->normal, near->normal) < NSVCD__SAME_SIDE) continue;
-      nsvcd__posed_pair_of(p, at, other, &posed);
+      const nsvcd__near *near = &p->near_list.items[n];
+      if (nsvcd__f3_dot(near->normal, normal) < NSVCD__SAME_SIDE) continue;
+      nsvcd__posed_pair_of(p, at, near, &posed);
       nsvcd__collect_supports(p, m, &posed.pair, posed.posed);
     }
     count = nsvcd__choose_four(m, chosen, &area);
   }
+  return count;
+}
+
+// The contacts of the side whose nearest triangle pair this is, with its nearest points: up to
+// NSVCD_MAX_CONTACTS, of which one is as near as these. Returns how many.
+static size_t nsvcd__contacts_of_side(nsvcd__query *query, const nsvcd__dtransform *at,
+                                      const nsvcd__near *near, const nsvcd__posed_pair *posed,
+                                      const nsvcd__nearest *points, double same,
+                                      nsvcd_contact *out) {
+  nsvcd__proof *p = &query->solver->p;
+  const nsvcd__manifold *m = &p->of.kept.manifold;
+  int chosen[NSVCD_MAX_CONTACTS];
+  int count = nsvcd__supports_of_side(p, at, near->normal, same, chosen);
+  int closest = -1;  // to the nearest points
+  int has_nearest = 0;
   for (int n = 0; n < count; n++) {
-    nsvcd__write_contact(query, &m->supports[chosen[n]], &out[n]);
-    out[n].id = m->numbers[chosen[n]] ^ swapped;
+    const nsvcd__pair_contact *support = &m->supports[chosen[n]];
+    nsvcd__write_contact(query, support, &out[n]);
+    out[n].id = m->numbers[chosen[n]] ^ (uint32_t)query->task.swapped;
+    has_nearest |= support->distance <= (double)near->distance + nsvcd__epsilon(p);
+    const double square = nsvcd__d3_distance2(support->point, points->on_b);
+    if (closest < 0 ||
+        square < nsvcd__d3_distance2(m->supports[chosen[closest]].point, points->on_b))
+      closest = n;
   }
-  if (count > 0) return (size_t)count;
-  // a corner over an edge or a corner: it has no face of the other's above it
-  nsvcd__posed_pair_of(p, at, near, &posed);
-  nsvcd__pair_contact nearest = nsvcd__contact_at(p, &posed.pair, 0, points);
+  if (has_nearest) return (size_t)count;
+  // It replaces the one beside it, unless there is room.
+  if (count < NSVCD_MAX_CONTACTS) closest = count++;
+  nsvcd__pair_contact nearest = nsvcd__contact_at(p, &posed->pair, 0, points);
   nearest.normal = nsvcd__d3_widen(near->normal);
-  nsvcd__write_contact(query, &nearest, out);
-  out->id = (near->moving_entry * 3 + near->fixed_entry * 5) << 2 | 2;
-  return 1;
+  nsvcd__write_contact(query, &nearest, &out[closest]);
+  out[closest].id = (near->moving_triangle * 3 + near->fixed_triangle * 5) << 2 | 2;
+  return (size_t)count;
 }
 
 // Writes the contacts of all sides, the nearest side first. Returns how many.
@@ -21103,8 +21152,7 @@ static size_t nsvcd__write_contacts(nsvcd__query *query, nsvcd_contact *contacts
   nsvcd__proof *p = &query->solver->p;
   const nsvcd__near_list *list = &p->near_list;
   const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, 0), 0);
-  const double epsilon = nsvcd__epsilon(p);
-  const double same = epsilon + 1e-5 * (double)p->given.lengths;
+  const double same = nsvcd__epsilon(p) + 1e-5 * (double)p->given.lengths;
   size_t written = 0;
   for (int sides = 0; sides < NSVCD_MAX_SIDES && written < most;) {
     nsvcd_contact found[NSVCD_MAX_CONTACTS];
@@ -21114,8 +21162,11 @@ static size_t nsvcd__write_contacts(nsvcd__query *query, nsvcd_contact *contacts
     near->is_settled = 1;
     nsvcd__posed_pair_of(p, &at, near, &posed);
     const nsvcd__nearest points = nsvcd__near_points(posed.posed, posed.pair.fixed);
-    if (nsvcd__is_nearer_beside(p, &at, near, &points, epsilon)) continue;
-    const size_t count = nsvcd__contacts_of_side(query, &at, near, &points, same, found);
+    if (nsvcd__goes_on_beside(p, near->moving_triangle, near->fixed_triangle, &points,
+                              nsvcd__d3_widen(near->normal)))
+      continue;
+    const size_t count =
+        nsvcd__contacts_of_side(query, &at, near, &posed, &points, same, found);
     for (size_t n = 0; n < count && written < most; n++) contacts[written++] = found[n];
     for (uint32_t n = 0; n < list->count; n++) {
       nsvcd__near *other = &list->items[n];

@@ -248,8 +248,8 @@ extern "C" {
 #include "triangles/motion_bounds.h"   // an interval of time, and how far points deviate in it
 #include "triangles/triangle_pairs.h"  // two triangles, in double: separated, or in contact
 #include "triangles/touches.h"         // how deep triangles that touch are, and what undoes it
-#include "triangles/manifold.h"        // contact points, the farthest along directions
 #include "triangles/near.h"            // a list of what is near each other at rest
+#include "triangles/manifold.h"        // contact points, the farthest along directions
 
 // ======================================================== separate: until when surfaces stay apart
 #include "separate/slabs.h"           // planes along the slabs of patches and of groups

@@ -11,52 +11,6 @@
 // Cosine of the angle within which directions are of one side.
 #define NSVCD__SAME_SIDE 0.8f
 
-// A near triangle pair as it is posed, and its nearest points.
-typedef struct nsvcd__posed_pair {
-  nsvcd__triangle_pair pair;
-  nsvcd__d3 posed[3];  // the moving triangle
-} nsvcd__posed_pair;
-
-static void nsvcd__posed_pair_of(const nsvcd__proof *p, const nsvcd__dtransform *at,
-                                 const nsvcd__near *near, nsvcd__posed_pair *out) {
-  out->pair = nsvcd__pair_of(p, near->moving_patch, near->fixed_patch, near->moving_entry,
-                             near->fixed_entry);
-  nsvcd__pose_triangle(at, out->pair.moving, out->posed);
-}
-
-// Does a triangle go on from a point of it, or near it, along a direction?
-static int nsvcd__goes_on(const nsvcd__d3 *triangle, nsvcd__d3 from, nsvcd__d3 along,
-                          double same) {
-  const nsvcd__d3 point[3] = {from, from, from};
-  double farthest = 0;
-  for (size_t k = 0; k < 3; k++)
-    farthest = nsvcd__max(farthest, nsvcd__d3_dot(along, nsvcd__d3_sub(triangle[k], from)));
-  return farthest > same && nsvcd__nearest_of(triangle, point).square <= same * same;
-}
-
-// Does either surface go on from the nearest points of a triangle pair to where the other is
-// nearer? The distance of a point to a triangle is convex, so all triangles there are to ask; and
-// those of one body at a time, each with the triangle of the other.
-static int nsvcd__is_nearer_beside(const nsvcd__proof *p, const nsvcd__dtransform *at,
-                                   const nsvcd__near *near, const nsvcd__nearest *points,
-                                   double same) {
-  const nsvcd__near_list *list = &p->near_list;
-  const nsvcd__d3 normal = nsvcd__d3_widen(near->normal);
-  for (uint32_t n = 0; n < list->count; n++) {
-    const nsvcd__near *other = &list->items[n];
-    const int same_moving = other->moving_triangle == near->moving_triangle;
-    const int same_fixed = other->fixed_triangle == near->fixed_triangle;
-    if (same_moving == same_fixed || !(other->distance < near->distance)) continue;
-    nsvcd__posed_pair beside;
-    nsvcd__posed_pair_of(p, at, other, &beside);
-    if (same_moving
-            ? nsvcd__goes_on(beside.pair.fixed, points->on_b, normal, same)
-            : nsvcd__goes_on(beside.posed, points->on_a, nsvcd__d3_scale(normal, -1), same))
-      return 1;
-  }
-  return 0;
-}
-
 // The nearest triangle pair that has no side yet; NULL: there is none.
 static nsvcd__near *nsvcd__next_near(const nsvcd__near_list *list) {
   nsvcd__near *best = NULL;
@@ -67,42 +21,59 @@ static nsvcd__near *nsvcd__next_near(const nsvcd__near_list *list) {
   return best;
 }
 
-// The contacts of the side whose nearest triangle pair this is, up to NSVCD_MAX_CONTACTS. Returns
-// how many.
-static size_t nsvcd__contacts_of_side(nsvcd__query *query, const nsvcd__dtransform *at,
-                                      const nsvcd__near *near, const nsvcd__nearest *points,
-                                      double same, nsvcd_contact *out) {
-  nsvcd__proof *p = &query->solver->p;
+// The supports of a side with this normal: the indices of up to four in the manifold. Returns how
+// many.
+static int nsvcd__supports_of_side(nsvcd__proof *p, const nsvcd__dtransform *at,
+                                   nsvcd__f3 normal, double same, int *chosen) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   const nsvcd__twist rests = {{0, 0, 0}, {0, 0, 0}};
-  const uint32_t swapped = (uint32_t)query->task.swapped;
   nsvcd__posed_pair posed;
-  int chosen[NSVCD_MAX_CONTACTS];
   int count = 0;
-  double area;
-  nsvcd__manifold_begin(m, nsvcd__d3_widen(near->normal), &rests, p->goal.clearance, same);
+  double area = 0;
+  nsvcd__manifold_begin(m, nsvcd__d3_widen(normal), &rests, p->goal.clearance, same);
   for (int across = 0; across < 2; across++) {
     if (across && !nsvcd__seek_across(m, area)) break;
     for (uint32_t n = 0; n < p->near_list.count; n++) {
-      const nsvcd__near *other = &p->near_list.items[n];
-      if (nsvcd__f3_dot(other->normal, near->normal) < NSVCD__SAME_SIDE) continue;
-      nsvcd__posed_pair_of(p, at, other, &posed);
+      const nsvcd__near *near = &p->near_list.items[n];
+      if (nsvcd__f3_dot(near->normal, normal) < NSVCD__SAME_SIDE) continue;
+      nsvcd__posed_pair_of(p, at, near, &posed);
       nsvcd__collect_supports(p, m, &posed.pair, posed.posed);
     }
     count = nsvcd__choose_four(m, chosen, &area);
   }
+  return count;
+}
+
+// The contacts of the side whose nearest triangle pair this is, with its nearest points: up to
+// NSVCD_MAX_CONTACTS, of which one is as near as these. Returns how many.
+static size_t nsvcd__contacts_of_side(nsvcd__query *query, const nsvcd__dtransform *at,
+                                      const nsvcd__near *near, const nsvcd__posed_pair *posed,
+                                      const nsvcd__nearest *points, double same,
+                                      nsvcd_contact *out) {
+  nsvcd__proof *p = &query->solver->p;
+  const nsvcd__manifold *m = &p->of.kept.manifold;
+  int chosen[NSVCD_MAX_CONTACTS];
+  int count = nsvcd__supports_of_side(p, at, near->normal, same, chosen);
+  int closest = -1;  // to the nearest points
+  int has_nearest = 0;
   for (int n = 0; n < count; n++) {
-    nsvcd__write_contact(query, &m->supports[chosen[n]], &out[n]);
-    out[n].id = m->numbers[chosen[n]] ^ swapped;
+    const nsvcd__pair_contact *support = &m->supports[chosen[n]];
+    nsvcd__write_contact(query, support, &out[n]);
+    out[n].id = m->numbers[chosen[n]] ^ (uint32_t)query->task.swapped;
+    has_nearest |= support->distance <= (double)near->distance + nsvcd__epsilon(p);
+    const double square = nsvcd__d3_distance2(support->point, points->on_b);
+    if (closest < 0 ||
+        square < nsvcd__d3_distance2(m->supports[chosen[closest]].point, points->on_b))
+      closest = n;
   }
-  if (count > 0) return (size_t)count;
-  // a corner over an edge or a corner: it has no face of the other's above it
-  nsvcd__posed_pair_of(p, at, near, &posed);
-  nsvcd__pair_contact nearest = nsvcd__contact_at(p, &posed.pair, 0, points);
+  if (has_nearest) return (size_t)count;
+  // It replaces the one beside it, unless there is room.
+  if (count < NSVCD_MAX_CONTACTS) closest = count++;
+  nsvcd__pair_contact nearest = nsvcd__contact_at(p, &posed->pair, 0, points);
   nearest.normal = nsvcd__d3_widen(near->normal);
-  nsvcd__write_contact(query, &nearest, out);
-  out->id = (near->moving_entry * 3 + near->fixed_entry * 5) << 2 | 2;
-  return 1;
+  nsvcd__write_contact(query, &nearest, &out[closest]);
+  out[closest].id = (near->moving_triangle * 3 + near->fixed_triangle * 5) << 2 | 2;
+  return (size_t)count;
 }
 
 // Writes the contacts of all sides, the nearest side first. Returns how many.
@@ -111,8 +82,7 @@ static size_t nsvcd__write_contacts(nsvcd__query *query, nsvcd_contact *contacts
   nsvcd__proof *p = &query->solver->p;
   const nsvcd__near_list *list = &p->near_list;
   const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, 0), 0);
-  const double epsilon = nsvcd__epsilon(p);
-  const double same = epsilon + 1e-5 * (double)p->given.lengths;
+  const double same = nsvcd__epsilon(p) + 1e-5 * (double)p->given.lengths;
   size_t written = 0;
   for (int sides = 0; sides < NSVCD_MAX_SIDES && written < most;) {
     nsvcd_contact found[NSVCD_MAX_CONTACTS];
@@ -122,8 +92,11 @@ static size_t nsvcd__write_contacts(nsvcd__query *query, nsvcd_contact *contacts
     near->is_settled = 1;
     nsvcd__posed_pair_of(p, &at, near, &posed);
     const nsvcd__nearest points = nsvcd__near_points(posed.posed, posed.pair.fixed);
-    if (nsvcd__is_nearer_beside(p, &at, near, &points, epsilon)) continue;
-    const size_t count = nsvcd__contacts_of_side(query, &at, near, &points, same, found);
+    if (nsvcd__goes_on_beside(p, near->moving_triangle, near->fixed_triangle, &points,
+                              nsvcd__d3_widen(near->normal)))
+      continue;
+    const size_t count =
+        nsvcd__contacts_of_side(query, &at, near, &posed, &points, same, found);
     for (size_t n = 0; n < count && written < most; n++) contacts[written++] = found[n];
     for (uint32_t n = 0; n < list->count; n++) {
       nsvcd__near *other = &list->items[n];

@@ -2,7 +2,6 @@
 // clearance; with a slop, what touches at the start and which directions undo it.
 #pragma once
 #include "../triangles/manifold.h"
-#include "../triangles/near.h"
 #include "../triangles/touches.h"
 #include "blocks.h"
 

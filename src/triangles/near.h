@@ -4,6 +4,9 @@
 #include "touches.h"
 
 #ifndef NSVCD_NO_PROOF
+// A surface that leans towards the other by more than this sine goes on to where it is nearer.
+#define NSVCD__STEEP 0.1
+
 // The direction of a triangle pair: out of the fixed one, from its nearest point. If they meet, the
 // one of the faces' along which they are the least deep.
 static nsvcd__d3 nsvcd__near_direction(const nsvcd__triangle_pair *pair,
@@ -47,6 +50,55 @@ static nsvcd__nearest nsvcd__near_points(const nsvcd__d3 *moving, const nsvcd__d
   return out;
 }
 
+// A near triangle pair as it is posed.
+typedef struct nsvcd__posed_pair {
+  nsvcd__triangle_pair pair;
+  nsvcd__d3 posed[3];  // the moving triangle
+} nsvcd__posed_pair;
+
+static void nsvcd__posed_pair_of(const nsvcd__proof *p, const nsvcd__dtransform *at,
+                                 const nsvcd__near *near, nsvcd__posed_pair *out) {
+  out->pair = nsvcd__pair_of(p, near->moving_patch, near->fixed_patch, near->moving_entry,
+                             near->fixed_entry);
+  nsvcd__pose_triangle(at, out->pair.moving, out->posed);
+}
+
+// Does a triangle go on along a direction from a point of it, or near it?
+static int nsvcd__goes_on(const nsvcd__d3 *triangle, nsvcd__d3 from, nsvcd__d3 along,
+                          double same) {
+  const nsvcd__d3 point[3] = {from, from, from};
+  int goes_on = 0;
+  for (size_t k = 0; k < 3; k++) {
+    const nsvcd__d3 arm = nsvcd__d3_sub(triangle[k], from);
+    const double height = nsvcd__d3_dot(along, arm);
+    goes_on |= height > same && height > NSVCD__STEEP * nsvcd__d3_norm(arm);
+  }
+  return goes_on && nsvcd__nearest_of(triangle, point).square <= same * same;
+}
+
+// Does a surface go on from where two triangles are near each other, with this direction, to where
+// the other is nearer? Then that is no contact. It is enough to ask the triangles of one body at a
+// time, each with the same triangle of the other, and these are in the list as well.
+static NSVCD__NOINLINE int nsvcd__goes_on_beside(const nsvcd__proof *p, uint32_t moving,
+                                                 uint32_t fixed, const nsvcd__nearest *points,
+                                                 nsvcd__d3 normal) {
+  const nsvcd__near_list *list = &p->near_list;
+  const nsvcd__dtransform at = nsvcd__dtransform_at(&p->arcs.arc, 0);
+  const nsvcd__d3 back = nsvcd__d3_scale(normal, -1);
+  const double same = nsvcd__epsilon(p);
+  for (uint32_t n = 0; n < list->count; n++) {
+    const nsvcd__near *near = &list->items[n];
+    const int same_moving = near->moving_triangle == moving;
+    const int same_fixed = near->fixed_triangle == fixed;
+    if (!same_moving && !same_fixed) continue;
+    nsvcd__posed_pair at_it;
+    nsvcd__posed_pair_of(p, &at, near, &at_it);
+    if (same_moving && nsvcd__goes_on(at_it.pair.fixed, points->on_b, normal, same)) return 1;
+    if (same_fixed && nsvcd__goes_on(at_it.posed, points->on_a, back, same)) return 1;
+  }
+  return 0;
+}
+
 // Is a triangle pair in the list? A triangle that is stored in pieces comes once for each.
 static int nsvcd__is_listed(const nsvcd__proof *p, size_t i, size_t j, size_t a, size_t b) {
   const nsvcd__near_list *list = &p->near_list;
@@ -57,6 +109,21 @@ static int nsvcd__is_listed(const nsvcd__proof *p, size_t i, size_t j, size_t a,
     if (near->moving_triangle == moving && near->fixed_triangle == fixed) return 1;
   }
   return 0;
+}
+
+// There is no room for more: keeps those that are nearer than most, and asks for no others.
+static NSVCD__NOINLINE void nsvcd__list_nearer_half(nsvcd__proof *p) {
+  nsvcd__near_list *list = &p->near_list;
+  double sum = 0;
+  uint32_t kept = 0;
+  for (uint32_t n = 0; n < list->count; n++) sum += (double)list->items[n].distance;
+  const double mean = sum / (double)list->count;
+  for (uint32_t n = 0; n < list->count; n++)
+    if ((double)list->items[n].distance < mean) list->items[kept++] = list->items[n];
+  list->is_full = 1;
+  if (kept == 0) return;
+  list->count = kept;
+  p->goal.clearance = mean;
 }
 
 // Adds a triangle pair to the list if it comes within the clearance.
@@ -70,8 +137,8 @@ static NSVCD__NOINLINE void nsvcd__list_near(nsvcd__proof *p, const nsvcd__trian
     p->separating = nsvcd__d3_scale(apart, 1 / sqrt(nearest.square));
     return;
   }
-  list->is_full |= list->count == list->room;
-  if (list->is_full) return;
+  if (list->count == list->room) nsvcd__list_nearer_half(p);
+  if (list->count == list->room) return;
   item.distance = (float)sqrt(nearest.square);
   p->separating = nsvcd__near_direction(pair, posed, &nearest);
   item.normal = nsvcd__f3_round(p->separating);
