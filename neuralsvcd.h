@@ -56,6 +56,7 @@
 //   nsvcd_body_describe   a body -> its size, box, triangles; is it closed?
 //   nsvcd_look            do two bodies meet, in 16 places at once? an opinion, by balls
 //   nsvcd_sweep           a question -> an answer; nsvcd_sweep_batch: many
+//   nsvcd_contacts        two bodies at rest -> where they are near each other, on all sides
 //   nsvcd_sweep_gradient  a question -> the network's answer, and its derivatives by the poses
 //   nsvcd_plan            a start and a goal -> a smooth motion of joints that hits nothing
 //   extras/neuralsvcd_robot.h    a robot's joints: is their motion free? Find one that is
@@ -1247,42 +1248,6 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
                                         void *workspace, size_t workspace_size,
                                         nsvcd_answer *answers);
 
-// the most sides on which nsvcd_contacts finds contacts, up to NSVCD_MAX_CONTACTS on each
-#define NSVCD_MAX_SIDES 6
-
-// Where are two bodies at rest near each other, on all sides? For a game or a simulation: what a
-// body stands on, what it leans on and what is above it, at about the price of a question. A side
-// is a direction: two of them differ by more than 37 degrees (their cosine is less than 0.8). Each
-// has up to NSVCD_MAX_CONTACTS points, those that span the largest area.
-//   question    not NULL: two bodies with one pose each, or none; ask is HIT. Its `clearance`,
-//               metres, > 0, says how near counts. It has no slop, and its method is not NETWORK
-//   workspace   (workspace_size) bytes, nsvcd_sweep_workspace_size(question) or more, not NULL,
-//               aligned to NSVCD_ALIGNMENT
-//   contacts    (most) the nearest side first, and within a side in the order of ids. normal: from
-//               b to a; gap: metres, at that point; time: 0. The rest as in a manifold
-//   most        room for so many contacts; NSVCD_MAX_SIDES * NSVCD_MAX_CONTACTS are enough. With
-//               less, they are those of the nearest sides
-//   count       number of contacts, not NULL; 0: nothing is so near
-//   is_partial  1: contacts may be missing, since the work ended, or since there are more near
-//               triangle pairs than there is room for: about 12 for each of question.segments. May
-//               be NULL
-//   allocates   nothing
-//   threads     each needs a workspace of its own; bodies may be shared
-//   errors      ARGUMENT; those of nsvcd_sweep; POSES if a body has more than one pose; ASK, SLOP;
-//               CLEARANCE if it is 0
-//   source      this library
-//
-// Contacts are computed, not proven: what must be a fact is for nsvcd_sweep to say. They are of the
-// surfaces alone: a body that is inside of the other and far from its surface has none. Where
-// triangles meet, the gap is 0, and the normal that of one of their faces. The first contact's side
-// has the least gap. A side whose surfaces have no face that is about normal to it, as where a
-// corner is over an edge, has one point, where they are nearest. On other sides the points are
-// where a corner is over a face or where two edges cross, no farther apart than the clearance.
-// Edges within a flat or hollow surface make no side of their own.
-NSVCDDEF nsvcd_result nsvcd_contacts(const nsvcd_question *question, void *workspace,
-                                     size_t workspace_size, nsvcd_contact *contacts,
-                                     size_t most, size_t *count, int *is_partial);
-
 #ifndef NSVCD_NO_GRADIENT
 // Answers a question by the network, with the derivatives of its logit by the poses of a and b. For
 // DISTANCE they are the derivatives of opinion.distance, along which lies the shortest way out.
@@ -1310,6 +1275,44 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
                                            size_t workspace_size, nsvcd_answer *answer,
                                            float *gradient_a, float *gradient_b);
 #endif
+
+// ------------------------------------------------------------------------------ interface/contacts
+// In: two movers at rest. Out: where they are near each other.
+
+// the most sides on which nsvcd_contacts finds contacts, up to NSVCD_MAX_CONTACTS on each
+#define NSVCD_MAX_SIDES 6
+
+// Where are two bodies at rest near each other, on all sides? For a game or a simulation: what a
+// body stands on, what it leans on and what is above it. A side is a direction. Two sides differ by
+// more than 37 degrees (a cosine below 0.8), and each has the points that span the largest area.
+//   question    not NULL: two bodies with one pose each, or none; `ask` is HIT. Its `clearance`, in
+//               metres, is more than 0 and says how near counts
+//   workspace   (workspace_size) bytes, nsvcd_sweep_workspace_size(question) or more, not NULL,
+//               aligned to NSVCD_ALIGNMENT
+//   contacts    (most) the nearest side first. Normals are from b to a, a gap is that at the point,
+//               times are 0; the rest is as in a manifold. NULL if `most` is 0
+//   most        room for so many contacts; NSVCD_MAX_SIDES * NSVCD_MAX_CONTACTS are enough. Less
+//               has those of the nearest sides
+//   count       number of contacts, not NULL; 0: nothing is so near
+//   is_partial  1: contacts may be missing, since question.work ended, or since more triangle pairs
+//               are near than there is room for: 12 for each segment of question.segments but two.
+//               Of these the nearest were kept. May be NULL
+//   allocates   nothing
+//   threads     each needs a workspace of its own; bodies may be shared
+//   errors      ARGUMENT, those of nsvcd_sweep, and POSES if a body has more than one pose; ASK,
+//               SLOP if there is one, CLEARANCE if it is 0; TRIANGLES if a body has none
+//   source      this library
+//
+// Contacts are computed, not proven. What has to be a fact is for nsvcd_sweep to say. They are of
+// the surfaces alone: a body that is inside the other, and far from its surface, has none. Where
+// triangles meet, the gap is 0, and the normal is that of one of their faces.
+//
+// On each side one contact is as near as the bodies come there. The others are where a corner is
+// over a face, or where two edges cross. Edges within a flat floor make no sides of their own: a
+// contact is only where both surfaces lead away from each other.
+NSVCDDEF nsvcd_result nsvcd_contacts(const nsvcd_question *question, void *workspace,
+                                     size_t workspace_size, nsvcd_contact *contacts,
+                                     size_t most, size_t *count, int *is_partial);
 
 // --------------------------------------------------------------------------------- interface/plans
 // In: a planning problem, or control points. Out: control points, or the joints at a time.
@@ -1552,6 +1555,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     bodies          encoding, loading, scaling, facts
 //     looks           two bodies in 16 places; nsvcd_look
 //     queries         movers, questions, answers; nsvcd_sweep and its kin
+//     contacts        what is near at rest; nsvcd_contacts
 //     plans           splines, planning problems; nsvcd_plan
 //   ground: numbers and memory
 //     compiler        what is asked of the compiler; libc and libm
@@ -1612,6 +1616,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     choice          how a motion is cut into segments, a long one into intervals
 //   proof: the theorem, and its state
 //     schedule        what a proof may take, and how much of it
+//     near_list       triangle pairs that are near each other at rest
 //     proof           the theorem; what a proof is asked, knows and remembers
 //   task: a question, and what it needs
 //     facts           what a decoder sees of a pair; the tape of its derivative
@@ -10508,6 +10513,29 @@ static float nsvcd__interval_gap(const nsvcd__motion *m, uint32_t from, uint32_t
 #define NSVCD__NEVER 1e300  // ticks
 #endif                      // NSVCD_NO_PROOF
 
+// --------------------------------------------------------------------------------- proof/near_list
+// In: nothing. Out: a list of triangle pairs that are near each other.
+
+#ifndef NSVCD_NO_PROOF
+// Two triangles that come within the clearance, of bodies at rest, in the fixed body's frame.
+typedef struct nsvcd__near {
+  float distance;
+  nsvcd__f3 normal;  // unit: out of the fixed body
+  uint32_t moving_entry, fixed_entry;
+  // the caller's
+  uint32_t moving_triangle, fixed_triangle;
+  uint16_t moving_patch, fixed_patch;
+  // 1: it has its side, or is none
+  uint32_t is_settled;
+} nsvcd__near;
+
+// A list of these, in the caller's memory; is_full: there were more.
+typedef struct nsvcd__near_list {
+  nsvcd__near *items;
+  uint32_t count, room, is_full;
+} nsvcd__near_list;
+#endif  // NSVCD_NO_PROOF
+
 // ------------------------------------------------------------------------------------- proof/proof
 // In: two bodies of triangles and a motion. Out: a witness (two triangles that meet, and when), a
 // certificate that the surfaces never do, or neither: undecided.
@@ -10723,24 +10751,6 @@ typedef enum nsvcd__collecting {
   NSVCD__SUPPORTING,
   NSVCD__LISTING
 } nsvcd__collecting;
-
-// Two triangles that come within the clearance, of bodies at rest, in the fixed body's frame.
-typedef struct nsvcd__near {
-  float distance;
-  nsvcd__f3 normal;  // unit: out of the fixed body
-  uint32_t moving_entry, fixed_entry;
-  // the caller's
-  uint32_t moving_triangle, fixed_triangle;
-  uint16_t moving_patch, fixed_patch;
-  // 1: it has its side, or is none
-  uint32_t is_settled;
-} nsvcd__near;
-
-// A list of these, in the caller's memory; is_full: there were more.
-typedef struct nsvcd__near_list {
-  nsvcd__near *items;
-  uint32_t count, room, is_full;
-} nsvcd__near_list;
 
 // What a question finds.
 typedef enum nsvcd__finding {

@@ -227,7 +227,8 @@ static int refute(const thing *a, const nsvcd_pose *at_a, const thing *b, const 
     CHECK_GE(gap + tolerance, apart);
   }
   if (found->count > 0) CHECK_NEAR(least, fmax(apart, 0), fmax(1e-5, tolerance));
-  const int places = least_places(near_a, count_a, near_b, count_b, radii, margin, tolerance, found);
+  const int places =
+      least_places(near_a, count_a, near_b, count_b, radii, margin, tolerance, found);
   free(near_a);
   free(near_b);
   return places;
@@ -289,8 +290,8 @@ static void a_box_in_a_corner_has_three_sides(void) {
   shapes_rng rng = {5};
   for (int n = 0; n < 9; n++) {
     thing room = corner_of_a_room(scales[n % 3]);
-    thing box = thing_box(0.2 / scales[n / 3], 0.3 / scales[n / 3], 0.1 / scales[n / 3], 2,
-                          scales[n / 3]);
+    thing box =
+        thing_box(0.2 / scales[n / 3], 0.3 / scales[n / 3], 0.1 / scales[n / 3], 2, scales[n / 3]);
     double q[4] = {0, 0, 0, 1};
     if (n > 0) shapes_quaternion(&rng, q);
     const double far_off = away[n % 3];
@@ -298,17 +299,17 @@ static void a_box_in_a_corner_has_three_sides(void) {
     const nsvcd_pose in = pose_in(&at, 0.1 + gaps[0], 0.15 + gaps[1], 0.05 + gaps[2]);
     const double tolerance = 3e-6 + 3e-7 * far_off + room.off + box.off;
     for (int swapped = 0; swapped < 2; swapped++) {
-      const contacts_of found = swapped ? ask(&room, &at, &box, &in, 1.5e-3)
-                                        : ask(&box, &in, &room, &at, 1.5e-3);
+      const contacts_of found =
+          swapped ? ask(&room, &at, &box, &in, 1.5e-3) : ask(&box, &in, &room, &at, 1.5e-3);
       double m[9];
       const oracle_pose turned = seen(&at);
       oracle_matrix(turned.rotation, m);
       CHECK_EQ(found.count, 12);
       for (int k = 0; k < 3; k++) {
         const double side = swapped ? -1 : 1;
-        CHECK_EQ(count_along(&found, side * m[k], side * m[3 + k], side * m[6 + k], gaps[k],
-                             tolerance),
-                 4);
+        CHECK_EQ(
+            count_along(&found, side * m[k], side * m[3 + k], side * m[6 + k], gaps[k], tolerance),
+            4);
       }
       for (size_t k = 1; k < found.count; k++)
         CHECK_LE(found.at[k - 1].gap, found.at[k].gap + (float)tolerance);
@@ -430,8 +431,7 @@ static void ridges_and_grooves(void) {
   for (int n = 0; n < 4; n++) {
     const double angle = slopes[n] * 3.14159265358979 / 180;
     const double rise = 0.5 * tan(angle);
-    const double groove[5][2] = {
-        {-0.5, rise}, {-0.5, -0.2}, {0.5, -0.2}, {0.5, rise}, {0, 0}};
+    const double groove[5][2] = {{-0.5, rise}, {-0.5, -0.2}, {0.5, -0.2}, {0.5, rise}, {0, 0}};
     thing in = prism_of(groove, 5);
     const nsvcd_pose at = pose_of(0, 0, 0.1005 / cos(angle), NULL);
     const contacts_of both = ask(&ball, &at, &in, NULL, 1e-3);
@@ -490,8 +490,8 @@ static void props_on_a_level_miss_nothing(void) {
       }
     }
     const double margin = shapes_uniform(&rng, 8e-4, 3e-3);
-    const contacts_of found = n % 3 ? ask(prop, path, &level, NULL, margin)
-                                    : ask(&level, NULL, prop, path, margin);
+    const contacts_of found =
+        n % 3 ? ask(prop, path, &level, NULL, margin) : ask(&level, NULL, prop, path, margin);
     places += found.places;
     sides += found.count;
     int differ = 0;
@@ -579,12 +579,12 @@ static void bad_questions_are_refused(void) {
   void *memory = workspace(&size);
   const nsvcd_pose at[2] = {pose_of(0, 0, 0.1, NULL), pose_of(0, 0, 0.2, NULL)};
   const nsvcd_question good = question_of_things(&a, at, &b, NULL, 1e-3);
-#define REFUSED(change, code)                                                              \
-  do {                                                                                     \
-    nsvcd_question q = good;                                                               \
-    change;                                                                                \
-    CHECK_EQ(nsvcd_contacts(&q, memory, size, contacts, MOST, &count, NULL), code);        \
-    CHECK_EQ(count, 99);                                                                   \
+#define REFUSED(change, code)                                                       \
+  do {                                                                              \
+    nsvcd_question q = good;                                                        \
+    change;                                                                         \
+    CHECK_EQ(nsvcd_contacts(&q, memory, size, contacts, MOST, &count, NULL), code); \
+    CHECK_EQ(count, 99);                                                            \
   } while (0)
   REFUSED(q.a.count = 2, NSVCD_ERROR_POSES);
   REFUSED((q.b.poses = at, q.b.count = 2), NSVCD_ERROR_POSES);

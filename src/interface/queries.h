@@ -471,42 +471,6 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
                                         void *workspace, size_t workspace_size,
                                         nsvcd_answer *answers);
 
-// the most sides on which nsvcd_contacts finds contacts, up to NSVCD_MAX_CONTACTS on each
-#define NSVCD_MAX_SIDES 6
-
-// Where are two bodies at rest near each other, on all sides? For a game or a simulation: what a
-// body stands on, what it leans on and what is above it, at about the price of a question. A side
-// is a direction: two of them differ by more than 37 degrees (their cosine is less than 0.8). Each
-// has up to NSVCD_MAX_CONTACTS points, those that span the largest area.
-//   question    not NULL: two bodies with one pose each, or none; ask is HIT. Its `clearance`,
-//               metres, > 0, says how near counts. It has no slop, and its method is not NETWORK
-//   workspace   (workspace_size) bytes, nsvcd_sweep_workspace_size(question) or more, not NULL,
-//               aligned to NSVCD_ALIGNMENT
-//   contacts    (most) the nearest side first, and within a side in the order of ids. normal: from
-//               b to a; gap: metres, at that point; time: 0. The rest as in a manifold
-//   most        room for so many contacts; NSVCD_MAX_SIDES * NSVCD_MAX_CONTACTS are enough. With
-//               less, they are those of the nearest sides
-//   count       number of contacts, not NULL; 0: nothing is so near
-//   is_partial  1: contacts may be missing, since the work ended, or since there are more near
-//               triangle pairs than there is room for: about 12 for each of question.segments. May
-//               be NULL
-//   allocates   nothing
-//   threads     each needs a workspace of its own; bodies may be shared
-//   errors      ARGUMENT; those of nsvcd_sweep; POSES if a body has more than one pose; ASK, SLOP;
-//               CLEARANCE if it is 0
-//   source      this library
-//
-// Contacts are computed, not proven: what must be a fact is for nsvcd_sweep to say. They are of the
-// surfaces alone: a body that is inside of the other and far from its surface has none. Where
-// triangles meet, the gap is 0, and the normal that of one of their faces. The first contact's side
-// has the least gap. A side whose surfaces have no face that is about normal to it, as where a
-// corner is over an edge, has one point, where they are nearest. On other sides the points are
-// where a corner is over a face or where two edges cross, no farther apart than the clearance.
-// Edges within a flat or hollow surface make no side of their own.
-NSVCDDEF nsvcd_result nsvcd_contacts(const nsvcd_question *question, void *workspace,
-                                     size_t workspace_size, nsvcd_contact *contacts,
-                                     size_t most, size_t *count, int *is_partial);
-
 #ifndef NSVCD_NO_GRADIENT
 // Answers a question by the network, with the derivatives of its logit by the poses of a and b. For
 // DISTANCE they are the derivatives of opinion.distance, along which lies the shortest way out.

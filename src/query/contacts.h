@@ -5,6 +5,7 @@
 // if its nearest points are nearest among all triangles about them: the inner edges of a floor have
 // directions of their own, which lean to where the floor goes on and is nearer.
 #pragma once
+#include "../interface/contacts.h"
 #include "question.h"
 
 #ifndef NSVCD_NO_PROOF
