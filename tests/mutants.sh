@@ -429,7 +429,7 @@ contacts: the nearest is left out|if (has_nearest) return (size_t)count;|if (cou
 contacts: a side of all directions|if (nsvcd__f3_dot(other->normal, near->normal) >= NSVCD__SAME_SIDE) other->is_settled = 1;|other->is_settled = 1;
 contacts: corners over a face that is not the nearest|    if (!(side * heights[k] > 0)) return 0;|
 contacts: a full list that is not said|  list->is_full = 1;|  list->is_full = 0;
-contacts: patches of a pair are forgotten|return !result.ran_out \&\& !list->is_full;|return !list->is_full;
+contacts: work that ended is not said|return !result.ran_out \&\& !list->is_full;|return !list->is_full;
 looks: balls as found|c->radii[nearest] += best;|(void)best;
 looks: a cover without its convex radius|const double radius = c.radii[order[n]] + (double)o->convex_radius;|const double radius = c.radii[order[n]];
 looks: errors of balls about points inside alone|: -depths[n];|: depths[n];
