@@ -1942,7 +1942,9 @@ NSVCDDEF nsvcd_result nsvcd_world_list(const nsvcd_world *world,
 //   A contact that is farther than where the body comes to rest may be approached, as fast as leads
 // there in this frame; one that is nearer is left, by a fifth of what is missing in a frame.
 
-#define NSVCD__IMPULSE_ROUNDS 32
+// rounds, at most; and the change of an impulse, as a fraction of the greatest, that ends them
+#define NSVCD__IMPULSE_ROUNDS 100
+#define NSVCD__IMPULSE_SAME 1e-4
 // metres a second: what comes slower does not bounce
 #define NSVCD__BOUNCES 0.5
 #define NSVCD__LEAVES 0.2
