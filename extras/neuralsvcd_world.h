@@ -215,7 +215,11 @@ typedef struct nsvcd_velocity {
   float linear[3], angular[3];
 } nsvcd_velocity;
 
+// What became of a body in a frame. The body's next slide takes it back: what rested then, and is
+// told the same again while nothing near it has moved, rests without a question.
 typedef struct nsvcd_slide_answer {
+  // where the body is
+  nsvcd_pose pose;
   // of the frame, that it could make use of
   float spent;
   // 1: it rests: it did not move at all, and its speed is 0
@@ -229,6 +233,11 @@ typedef struct nsvcd_slide_answer {
   size_t contact_count;
   nsvcd_world_contact contacts[NSVCD_WORLD_CONTACTS];
   size_t questions, work;
+  // what it was told, and when: the library's
+  nsvcd_slide_options told;
+  nsvcd_velocity given;
+  float seconds;
+  uint64_t clock;
 } nsvcd_slide_answer;
 
 // Moves a body of the world for a frame, at its speed: it goes as far as is proven free, loses the
@@ -237,7 +246,8 @@ typedef struct nsvcd_slide_answer {
 //   world      the body is moved in it
 //   velocity   not NULL
 //   seconds    of the frame
-//   answer     not NULL; on failure it, the velocity and the body are as they were
+//   answer     not NULL; zeroed, or the one of the same body's slide before, which only ever saves
+//              time. On failure it, the velocity and the body are as they were
 //   errors     those of nsvcd_world_sweep; SPEED, TIMES (`seconds`), CLEARANCE (clearance, margin),
 //              VALUE (a mass, an inertia, a friction, a restitution or a slope), AXIS (`up`),
 //              DISTANCE (`step`)
@@ -1299,6 +1309,8 @@ typedef struct nsvcd__resident {
   nsvcd__shape_box shape;
   // over this frame
   nsvcd__box box;
+  // when it came to where it is, on the world's clock
+  uint64_t moved;
   uint32_t next_free;
 } nsvcd__resident;
 
@@ -1310,6 +1322,8 @@ struct nsvcd_world {
   uint32_t most, count, free;
   // odd while it is being changed. Volatile, so that who asks at the same time may see that
   volatile uint32_t changes;
+  // of all moves
+  uint64_t clock;
 };
 
 static size_t nsvcd__world_layout(size_t most, char *base, nsvcd_world **world) {
@@ -1377,6 +1391,7 @@ static void nsvcd__settle(nsvcd_world *world, uint32_t id, int is_new) {
   const nsvcd_pose way[2] = {r->given.pose, r->to};
   const nsvcd__d3 half = r->shape.half;
   r->box = nsvcd__box_of_way(&r->shape, way, r->is_driven ? 2 : 1, 0);
+  r->moved = ++world->clock;
   const nsvcd__box both = nsvcd__box_over(leaf->box, r->box);
   const int is_within = !nsvcd__f3_exceeds(both.high, leaf->box.high) &&
                         !nsvcd__f3_exceeds(leaf->box.low, both.low);
@@ -2000,19 +2015,21 @@ static void nsvcd__take_impulse(nsvcd__thing *thing, nsvcd__d3 arm, nsvcd__d3 im
 }
 
 // soft: a fraction of what the contact gives way by to a unit impulse, by which it gives way besides
-static void nsvcd__respond_at(nsvcd__thing *thing, nsvcd__hold *hold, double soft) {
+// Returns by how much the impulse along the normal has changed.
+static double nsvcd__respond_at(nsvcd__thing *thing, nsvcd__hold *hold, double soft) {
   const nsvcd__d3 speed = nsvcd__d3_sub(nsvcd__speed_at(thing, hold->arm), hold->speed);
   const double along = nsvcd__d3_dot(speed, hold->normal);
   const double give = nsvcd__give_of(thing, hold->arm, hold->normal);
   const double before = hold->pushed;
   const double lacks = hold->least - along - soft * give * before;
   hold->pushed = nsvcd__max(before + lacks / (give + soft * give), 0);
-  nsvcd__take_impulse(thing, hold->arm, nsvcd__d3_scale(hold->normal, hold->pushed - before));
-  if (!(thing->friction > 0)) return;
+  const double more = hold->pushed - before;
+  nsvcd__take_impulse(thing, hold->arm, nsvcd__d3_scale(hold->normal, more));
+  if (!(thing->friction > 0)) return fabs(more);
   const nsvcd__d3 now = nsvcd__d3_sub(nsvcd__speed_at(thing, hold->arm), hold->speed);
   const nsvcd__d3 aside = nsvcd__d3_fma(-nsvcd__d3_dot(now, hold->normal), hold->normal, now);
   const double slip = nsvcd__d3_norm(aside);
-  if (!(slip > 1e-12)) return;
+  if (!(slip > 1e-12)) return fabs(more);
   const nsvcd__d3 u = nsvcd__d3_scale(aside, 1 / slip);
   const double across = nsvcd__give_of(thing, hold->arm, u);
   const double most = thing->friction * hold->pushed;
@@ -2021,12 +2038,21 @@ static void nsvcd__respond_at(nsvcd__thing *thing, nsvcd__hold *hold, double sof
   if (length > most) rubbed = nsvcd__d3_scale(rubbed, most / length);
   nsvcd__take_impulse(thing, hold->arm, nsvcd__d3_sub(rubbed, hold->rubbed));
   hold->rubbed = rubbed;
+  return fabs(more);
 }
 
 static void nsvcd__respond(nsvcd__thing *thing, nsvcd__hold *holds, size_t count,
                            double soft) {
-  for (int round = 0; round < NSVCD__IMPULSE_ROUNDS; round++)
-    for (size_t k = 0; k < count; k++) nsvcd__respond_at(thing, &holds[k], soft);
+  double most = 0;
+  double change = 1;
+  for (int round = 0; round < NSVCD__IMPULSE_ROUNDS && change > NSVCD__IMPULSE_SAME * most;
+       round++) {
+    change = 0;
+    for (size_t k = 0; k < count; k++) {
+      change = nsvcd__max(change, nsvcd__respond_at(thing, &holds[k], soft));
+      most = nsvcd__max(most, holds[k].pushed);
+    }
+  }
 }
 
 // How fast a body is to go so that it comes to rest a margin off everything: a share of what each
@@ -2384,6 +2410,30 @@ static int nsvcd__is_still(nsvcd__slide *s) {
   return nsvcd__travel_left(s) <= most && !nsvcd__is_driven_near(s);
 }
 
+// Does it rest as it did in the frame before: is it told the same, and has nothing moved that it
+// was in contact with, or that is near?
+static int nsvcd__rests_again(nsvcd__slide *s, float seconds, const nsvcd_velocity *velocity,
+                              const nsvcd_slide_answer *before) {
+  const nsvcd_world *world = s->ask.world;
+  const int is_same = before->rests && !memcmp(&before->told, s->given, sizeof before->told) &&
+                      !memcmp(&before->given, velocity, sizeof before->given) &&
+                      !memcmp(&before->pose, &s->pose, sizeof before->pose) &&
+                      !memcmp(&before->seconds, &seconds, sizeof seconds);
+  if (!is_same) return 0;
+  for (size_t k = 0; k < before->contact_count && k < NSVCD_WORLD_CONTACTS; k++) {
+    const nsvcd__resident *r = nsvcd__resident_of(world, before->contacts[k].body);
+    if (!r || r->moved > before->clock) return 0;
+  }
+  s->ask.question.tolerance = (float)(2 * s->margin);
+  nsvcd__asker_goes(&s->ask, &s->pose, 1);
+  s->ask.question.tolerance = 0;
+  for (uint32_t id = 0; (id = nsvcd__asker_next(&s->ask, id)) != 0;) {
+    const nsvcd__resident *r = &world->residents[id];
+    if (r->is_driven || r->moved > before->clock) return 0;
+  }
+  return 1;
+}
+
 // A round: what is in contact, the speed that is left, and the way at that speed. Returns whether
 // there is to be another one.
 static int nsvcd__slide_round(nsvcd__slide *s, int is_first, int *rests) {
@@ -2415,6 +2465,7 @@ static int nsvcd__slide_round(nsvcd__slide *s, int is_first, int *rests) {
 static void nsvcd__slide_answer(nsvcd__slide *s, nsvcd_velocity *velocity,
                                 nsvcd_slide_answer *out) {
   const double used = 1 - s->left;
+  out->pose = s->pose;
   const nsvcd__d3 linear =
       nsvcd__d3_sub(nsvcd__d3_scale(s->thing.linear, used), nsvcd__d3_scale(s->ridden, used));
   nsvcd__f3_store(nsvcd__f3_round(linear), velocity->linear);
@@ -2443,6 +2494,14 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
       nsvcd__slide_begin(world, id, given, seconds, workspace, workspace_size, velocity, &s);
   if (result) return result;
   memset(&out, 0, sizeof out);
+  out.told = *given;
+  out.given = *velocity;
+  out.seconds = seconds;
+  if (nsvcd__rests_again(&s, seconds, velocity, answer)) {
+    memset(velocity, 0, sizeof *velocity);
+    answer->questions = answer->work = 0;
+    return NSVCD_OK;
+  }
   const size_t rounds = given->rounds ? given->rounds : NSVCD__USUAL_ROUNDS;
   int more = 1;
   int stood = 0;
@@ -2466,8 +2525,9 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
     if (stood && !s.ground && given->step > 0 && rises <= 0) nsvcd__step_down(&s);
   }
   if (s.ask.result) return s.ask.result;
-  result = nsvcd_world_move(world, id, &s.pose);
+  if (!out.rests) result = nsvcd_world_move(world, id, &s.pose);
   if (result) return result;
+  out.clock = world->clock;
   nsvcd__slide_answer(&s, velocity, &out);
   *answer = out;
   return NSVCD_OK;

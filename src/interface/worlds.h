@@ -171,7 +171,11 @@ typedef struct nsvcd_velocity {
   float linear[3], angular[3];
 } nsvcd_velocity;
 
+// What became of a body in a frame. The body's next slide takes it back: what rested then, and is
+// told the same again while nothing near it has moved, rests without a question.
 typedef struct nsvcd_slide_answer {
+  // where the body is
+  nsvcd_pose pose;
   // of the frame, that it could make use of
   float spent;
   // 1: it rests: it did not move at all, and its speed is 0
@@ -185,6 +189,11 @@ typedef struct nsvcd_slide_answer {
   size_t contact_count;
   nsvcd_world_contact contacts[NSVCD_WORLD_CONTACTS];
   size_t questions, work;
+  // what it was told, and when: the library's
+  nsvcd_slide_options told;
+  nsvcd_velocity given;
+  float seconds;
+  uint64_t clock;
 } nsvcd_slide_answer;
 
 // Moves a body of the world for a frame, at its speed: it goes as far as is proven free, loses the
@@ -193,7 +202,8 @@ typedef struct nsvcd_slide_answer {
 //   world      the body is moved in it
 //   velocity   not NULL
 //   seconds    of the frame
-//   answer     not NULL; on failure it, the velocity and the body are as they were
+//   answer     not NULL; zeroed, or the one of the same body's slide before, which only ever saves
+//              time. On failure it, the velocity and the body are as they were
 //   errors     those of nsvcd_world_sweep; SPEED, TIMES (`seconds`), CLEARANCE (clearance, margin),
 //              VALUE (a mass, an inertia, a friction, a restitution or a slope), AXIS (`up`),
 //              DISTANCE (`step`)

@@ -68,19 +68,21 @@ static void nsvcd__take_impulse(nsvcd__thing *thing, nsvcd__d3 arm, nsvcd__d3 im
 }
 
 // soft: a fraction of what the contact gives way by to a unit impulse, by which it gives way besides
-static void nsvcd__respond_at(nsvcd__thing *thing, nsvcd__hold *hold, double soft) {
+// Returns by how much the impulse along the normal has changed.
+static double nsvcd__respond_at(nsvcd__thing *thing, nsvcd__hold *hold, double soft) {
   const nsvcd__d3 speed = nsvcd__d3_sub(nsvcd__speed_at(thing, hold->arm), hold->speed);
   const double along = nsvcd__d3_dot(speed, hold->normal);
   const double give = nsvcd__give_of(thing, hold->arm, hold->normal);
   const double before = hold->pushed;
   const double lacks = hold->least - along - soft * give * before;
   hold->pushed = nsvcd__max(before + lacks / (give + soft * give), 0);
-  nsvcd__take_impulse(thing, hold->arm, nsvcd__d3_scale(hold->normal, hold->pushed - before));
-  if (!(thing->friction > 0)) return;
+  const double more = hold->pushed - before;
+  nsvcd__take_impulse(thing, hold->arm, nsvcd__d3_scale(hold->normal, more));
+  if (!(thing->friction > 0)) return fabs(more);
   const nsvcd__d3 now = nsvcd__d3_sub(nsvcd__speed_at(thing, hold->arm), hold->speed);
   const nsvcd__d3 aside = nsvcd__d3_fma(-nsvcd__d3_dot(now, hold->normal), hold->normal, now);
   const double slip = nsvcd__d3_norm(aside);
-  if (!(slip > 1e-12)) return;
+  if (!(slip > 1e-12)) return fabs(more);
   const nsvcd__d3 u = nsvcd__d3_scale(aside, 1 / slip);
   const double across = nsvcd__give_of(thing, hold->arm, u);
   const double most = thing->friction * hold->pushed;
@@ -89,12 +91,21 @@ static void nsvcd__respond_at(nsvcd__thing *thing, nsvcd__hold *hold, double sof
   if (length > most) rubbed = nsvcd__d3_scale(rubbed, most / length);
   nsvcd__take_impulse(thing, hold->arm, nsvcd__d3_sub(rubbed, hold->rubbed));
   hold->rubbed = rubbed;
+  return fabs(more);
 }
 
 static void nsvcd__respond(nsvcd__thing *thing, nsvcd__hold *holds, size_t count,
                            double soft) {
-  for (int round = 0; round < NSVCD__IMPULSE_ROUNDS; round++)
-    for (size_t k = 0; k < count; k++) nsvcd__respond_at(thing, &holds[k], soft);
+  double most = 0;
+  double change = 1;
+  for (int round = 0; round < NSVCD__IMPULSE_ROUNDS && change > NSVCD__IMPULSE_SAME * most;
+       round++) {
+    change = 0;
+    for (size_t k = 0; k < count; k++) {
+      change = nsvcd__max(change, nsvcd__respond_at(thing, &holds[k], soft));
+      most = nsvcd__max(most, holds[k].pushed);
+    }
+  }
 }
 
 // How fast a body is to go so that it comes to rest a margin off everything: a share of what each

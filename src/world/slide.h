@@ -335,6 +335,30 @@ static int nsvcd__is_still(nsvcd__slide *s) {
   return nsvcd__travel_left(s) <= most && !nsvcd__is_driven_near(s);
 }
 
+// Does it rest as it did in the frame before: is it told the same, and has nothing moved that it
+// was in contact with, or that is near?
+static int nsvcd__rests_again(nsvcd__slide *s, float seconds, const nsvcd_velocity *velocity,
+                              const nsvcd_slide_answer *before) {
+  const nsvcd_world *world = s->ask.world;
+  const int is_same = before->rests && !memcmp(&before->told, s->given, sizeof before->told) &&
+                      !memcmp(&before->given, velocity, sizeof before->given) &&
+                      !memcmp(&before->pose, &s->pose, sizeof before->pose) &&
+                      !memcmp(&before->seconds, &seconds, sizeof seconds);
+  if (!is_same) return 0;
+  for (size_t k = 0; k < before->contact_count && k < NSVCD_WORLD_CONTACTS; k++) {
+    const nsvcd__resident *r = nsvcd__resident_of(world, before->contacts[k].body);
+    if (!r || r->moved > before->clock) return 0;
+  }
+  s->ask.question.tolerance = (float)(2 * s->margin);
+  nsvcd__asker_goes(&s->ask, &s->pose, 1);
+  s->ask.question.tolerance = 0;
+  for (uint32_t id = 0; (id = nsvcd__asker_next(&s->ask, id)) != 0;) {
+    const nsvcd__resident *r = &world->residents[id];
+    if (r->is_driven || r->moved > before->clock) return 0;
+  }
+  return 1;
+}
+
 // A round: what is in contact, the speed that is left, and the way at that speed. Returns whether
 // there is to be another one.
 static int nsvcd__slide_round(nsvcd__slide *s, int is_first, int *rests) {
@@ -366,6 +390,7 @@ static int nsvcd__slide_round(nsvcd__slide *s, int is_first, int *rests) {
 static void nsvcd__slide_answer(nsvcd__slide *s, nsvcd_velocity *velocity,
                                 nsvcd_slide_answer *out) {
   const double used = 1 - s->left;
+  out->pose = s->pose;
   const nsvcd__d3 linear =
       nsvcd__d3_sub(nsvcd__d3_scale(s->thing.linear, used), nsvcd__d3_scale(s->ridden, used));
   nsvcd__f3_store(nsvcd__f3_round(linear), velocity->linear);
@@ -394,6 +419,14 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
       nsvcd__slide_begin(world, id, given, seconds, workspace, workspace_size, velocity, &s);
   if (result) return result;
   memset(&out, 0, sizeof out);
+  out.told = *given;
+  out.given = *velocity;
+  out.seconds = seconds;
+  if (nsvcd__rests_again(&s, seconds, velocity, answer)) {
+    memset(velocity, 0, sizeof *velocity);
+    answer->questions = answer->work = 0;
+    return NSVCD_OK;
+  }
   const size_t rounds = given->rounds ? given->rounds : NSVCD__USUAL_ROUNDS;
   int more = 1;
   int stood = 0;
@@ -417,8 +450,9 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
     if (stood && !s.ground && given->step > 0 && rises <= 0) nsvcd__step_down(&s);
   }
   if (s.ask.result) return s.ask.result;
-  result = nsvcd_world_move(world, id, &s.pose);
+  if (!out.rests) result = nsvcd_world_move(world, id, &s.pose);
   if (result) return result;
+  out.clock = world->clock;
   nsvcd__slide_answer(&s, velocity, &out);
   *answer = out;
   return NSVCD_OK;

@@ -16,6 +16,8 @@ typedef struct nsvcd__resident {
   nsvcd__shape_box shape;
   // over this frame
   nsvcd__box box;
+  // when it came to where it is, on the world's clock
+  uint64_t moved;
   uint32_t next_free;
 } nsvcd__resident;
 
@@ -27,6 +29,8 @@ struct nsvcd_world {
   uint32_t most, count, free;
   // odd while it is being changed. Volatile, so that who asks at the same time may see that
   volatile uint32_t changes;
+  // of all moves
+  uint64_t clock;
 };
 
 static size_t nsvcd__world_layout(size_t most, char *base, nsvcd_world **world) {
@@ -94,6 +98,7 @@ static void nsvcd__settle(nsvcd_world *world, uint32_t id, int is_new) {
   const nsvcd_pose way[2] = {r->given.pose, r->to};
   const nsvcd__d3 half = r->shape.half;
   r->box = nsvcd__box_of_way(&r->shape, way, r->is_driven ? 2 : 1, 0);
+  r->moved = ++world->clock;
   const nsvcd__box both = nsvcd__box_over(leaf->box, r->box);
   const int is_within = !nsvcd__f3_exceeds(both.high, leaf->box.high) &&
                         !nsvcd__f3_exceeds(leaf->box.low, both.low);
