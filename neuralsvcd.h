@@ -56,6 +56,7 @@
 //   nsvcd_body_describe   a body -> its size, box, triangles; is it closed?
 //   nsvcd_look            do two bodies meet, in 16 places at once? an opinion, by balls
 //   nsvcd_sweep           a question -> an answer; nsvcd_sweep_batch: many
+//   nsvcd_contacts        two bodies at rest -> where they are near each other, on all sides
 //   nsvcd_sweep_gradient  a question -> the network's answer, and its derivatives by the poses
 //   nsvcd_plan            a start and a goal -> a smooth motion of joints that hits nothing
 //   extras/neuralsvcd_robot.h    a robot's joints: is their motion free? Find one that is
@@ -1275,6 +1276,44 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
                                            float *gradient_a, float *gradient_b);
 #endif
 
+// ------------------------------------------------------------------------------ interface/contacts
+// In: two movers at rest. Out: where they are near each other.
+
+// the most sides on which nsvcd_contacts finds contacts, up to NSVCD_MAX_CONTACTS on each
+#define NSVCD_MAX_SIDES 6
+
+// Where are two bodies at rest near each other, on all sides? For a game or a simulation: what a
+// body stands on, what it leans on and what is above it. A side is a direction. Two sides differ by
+// more than 37 degrees (a cosine below 0.8), and each has the points that span the largest area.
+//   question    not NULL: two bodies with one pose each, or none; `ask` is HIT. Its `clearance`, in
+//               metres, is more than 0 and says how near counts
+//   workspace   (workspace_size) bytes, nsvcd_sweep_workspace_size(question) or more, not NULL,
+//               aligned to NSVCD_ALIGNMENT
+//   contacts    (most) the nearest side first. Normals are from b to a, a gap is that at the point,
+//               times are 0; the rest is as in a manifold. NULL if `most` is 0
+//   most        room for so many contacts; NSVCD_MAX_SIDES * NSVCD_MAX_CONTACTS are enough. Less
+//               has those of the nearest sides
+//   count       number of contacts, not NULL; 0: nothing is so near
+//   is_partial  1: contacts may be missing, since question.work ended, or since more triangle pairs
+//               are near than there is room for: 12 for each segment of question.segments but two.
+//               Of these the nearest were kept. May be NULL
+//   allocates   nothing
+//   threads     each needs a workspace of its own; bodies may be shared
+//   errors      ARGUMENT, those of nsvcd_sweep, and POSES if a body has more than one pose; ASK,
+//               SLOP if there is one, CLEARANCE if it is 0; TRIANGLES if a body has none
+//   source      this library
+//
+// Contacts are computed, not proven. What has to be a fact is for nsvcd_sweep to say. They are of
+// the surfaces alone: a body that is inside the other, and far from its surface, has none. Where
+// triangles meet, the gap is 0, and the normal is that of one of their faces.
+//
+// On each side one contact is as near as the bodies come there. The others are where a corner is
+// over a face, or where two edges cross. Edges within a flat floor make no sides of their own: a
+// contact is only where both surfaces lead away from each other.
+NSVCDDEF nsvcd_result nsvcd_contacts(const nsvcd_question *question, void *workspace,
+                                     size_t workspace_size, nsvcd_contact *contacts,
+                                     size_t most, size_t *count, int *is_partial);
+
 // --------------------------------------------------------------------------------- interface/plans
 // In: a planning problem, or control points. Out: control points, or the joints at a time.
 //
@@ -1516,6 +1555,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     bodies          encoding, loading, scaling, facts
 //     looks           two bodies in 16 places; nsvcd_look
 //     queries         movers, questions, answers; nsvcd_sweep and its kin
+//     contacts        what is near at rest; nsvcd_contacts
 //     plans           splines, planning problems; nsvcd_plan
 //   ground: numbers and memory
 //     compiler        what is asked of the compiler; libc and libm
@@ -1576,6 +1616,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     choice          how a motion is cut into segments, a long one into intervals
 //   proof: the theorem, and its state
 //     schedule        what a proof may take, and how much of it
+//     near_list       triangle pairs that are near each other at rest
 //     proof           the theorem; what a proof is asked, knows and remembers
 //   task: a question, and what it needs
 //     facts           what a decoder sees of a pair; the tape of its derivative
@@ -1598,6 +1639,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     motion_bounds   an interval of time, and how far points deviate in it
 //     triangle_pairs  two triangles, in double: separated, or in contact
 //     touches         how deep triangles that touch are, and what undoes it
+//     near            a list of what is near each other at rest
 //     manifold        contact points, the farthest along directions
 //   separate: until when surfaces stay apart
 //     slabs           planes along the slabs of patches and of groups
@@ -1630,6 +1672,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     supports        up to four contact points: where to seek them, and which
 //     by_proof        an answer by proof
 //     question        check, choose who moves, lay out the workspace, answer
+//     contacts        where bodies at rest are near each other, on all sides
 //   plan: a motion that hits nothing
 //     spline          quintic Hermite
 //     problem         a planning problem in the caller's workspace
@@ -10470,6 +10513,29 @@ static float nsvcd__interval_gap(const nsvcd__motion *m, uint32_t from, uint32_t
 #define NSVCD__NEVER 1e300  // ticks
 #endif                      // NSVCD_NO_PROOF
 
+// --------------------------------------------------------------------------------- proof/near_list
+// In: nothing. Out: a list of triangle pairs that are near each other.
+
+#ifndef NSVCD_NO_PROOF
+// Two triangles that come within the clearance, of bodies at rest, in the fixed body's frame.
+typedef struct nsvcd__near {
+  float distance;
+  nsvcd__f3 normal;  // unit: out of the fixed body
+  uint32_t moving_entry, fixed_entry;
+  // the caller's
+  uint32_t moving_triangle, fixed_triangle;
+  uint16_t moving_patch, fixed_patch;
+  // 1: it has its side, or is none
+  uint32_t is_settled;
+} nsvcd__near;
+
+// A list of these, in the caller's memory; is_full: there were more.
+typedef struct nsvcd__near_list {
+  nsvcd__near *items;
+  uint32_t count, room, is_full;
+} nsvcd__near_list;
+#endif  // NSVCD_NO_PROOF
+
 // ------------------------------------------------------------------------------------- proof/proof
 // In: two bodies of triangles and a motion. Out: a witness (two triangles that meet, and when), a
 // certificate that the surfaces never do, or neither: undecided.
@@ -10678,11 +10744,12 @@ typedef struct nsvcd__manifold {
 } nsvcd__manifold;
 
 // What is done with triangles that come within the clearance: they are contacts or, of a motion at
-// rest, all are collected, as touching or as supports.
+// rest, all are collected, as touching or as supports, or are listed.
 typedef enum nsvcd__collecting {
   NSVCD__CONTACTS,
   NSVCD__TOUCHING,
-  NSVCD__SUPPORTING
+  NSVCD__SUPPORTING,
+  NSVCD__LISTING
 } nsvcd__collecting;
 
 // What a question finds.
@@ -10836,6 +10903,7 @@ typedef struct nsvcd__proof {
   // shared: the triangle pairs in a row that it has separated since.
   nsvcd__d3 separating;
   nsvcd__push_outs push;
+  nsvcd__near_list near_list;
   union {
     struct {
       // that no plane separates over their segment
@@ -14475,6 +14543,162 @@ static void nsvcd__collect_contact(nsvcd__proof *p, const nsvcd__triangle_pair *
 }
 #endif  // NSVCD_NO_PROOF
 
+// ---------------------------------------------------------------------------------- triangles/near
+// In: triangle pairs of bodies at rest, as a search finds them. Out: those within the clearance, in
+// a list: how near they are, and in which direction.
+
+#ifndef NSVCD_NO_PROOF
+// A surface that leans towards the other by more than this sine goes on to where it is nearer.
+#define NSVCD__STEEP 0.1
+
+// The direction of a triangle pair: out of the fixed one, from its nearest point. If they meet, the
+// one of the faces' along which they are the least deep.
+static nsvcd__d3 nsvcd__near_direction(const nsvcd__triangle_pair *pair,
+                                       const nsvcd__d3 *posed, const nsvcd__nearest *nearest) {
+  const nsvcd__d3 apart = nsvcd__d3_sub(nearest->on_a, nearest->on_b);
+  if (nearest->square > pair->rounding * pair->rounding)
+    return nsvcd__d3_scale(apart, 1 / sqrt(nearest->square));
+  const nsvcd__d3 own = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
+  const nsvcd__d3 other = nsvcd__face_direction(pair->fixed);
+  const int has_own = nsvcd__d3_dot(own, own) > 0;
+  const int is_own = has_own && nsvcd__beyond(own, posed, pair->fixed) >
+                                    nsvcd__beyond(other, posed, pair->fixed);
+  return is_own || !(nsvcd__d3_dot(other, other) > 0) ? own : other;
+}
+
+// The nearest points of a triangle and a corner of another one, which is wholly above it, if they
+// are where the corner is over the triangle: no point of the other is lower.
+static int nsvcd__lowest_over(const nsvcd__d3 *over, const nsvcd__d3 *under, nsvcd__d3 *corner,
+                              nsvcd__d3 *foot) {
+  const nsvcd__d3 n = nsvcd__face_normal(under);
+  double heights[3];
+  for (size_t k = 0; k < 3; k++)
+    heights[k] = nsvcd__d3_dot(n, nsvcd__d3_sub(over[k], under[0]));
+  const double side = heights[0] < 0 ? -1 : 1;
+  size_t lowest = 0;
+  for (size_t k = 0; k < 3; k++) {
+    if (!(side * heights[k] > 0)) return 0;
+    if (side * heights[k] < side * heights[lowest]) lowest = k;
+  }
+  *corner = over[lowest];
+  return nsvcd__foot_within(*corner, under, foot);
+}
+
+// As nsvcd__nearest_of, which is not asked where a corner is over a face: mostly.
+static nsvcd__nearest nsvcd__near_points(const nsvcd__d3 *moving, const nsvcd__d3 *fixed) {
+  nsvcd__nearest out;
+  if (!nsvcd__lowest_over(moving, fixed, &out.on_a, &out.on_b) &&
+      !nsvcd__lowest_over(fixed, moving, &out.on_b, &out.on_a))
+    return nsvcd__nearest_of(moving, fixed);
+  out.square = nsvcd__d3_distance2(out.on_a, out.on_b);
+  return out;
+}
+
+// A near triangle pair as it is posed.
+typedef struct nsvcd__posed_pair {
+  nsvcd__triangle_pair pair;
+  nsvcd__d3 posed[3];  // the moving triangle
+} nsvcd__posed_pair;
+
+static void nsvcd__posed_pair_of(const nsvcd__proof *p, const nsvcd__dtransform *at,
+                                 const nsvcd__near *near, nsvcd__posed_pair *out) {
+  out->pair = nsvcd__pair_of(p, near->moving_patch, near->fixed_patch, near->moving_entry,
+                             near->fixed_entry);
+  nsvcd__pose_triangle(at, out->pair.moving, out->posed);
+}
+
+// Does a triangle go on along a direction from a point of it, or near it?
+static int nsvcd__goes_on(const nsvcd__d3 *triangle, nsvcd__d3 from, nsvcd__d3 along,
+                          double same) {
+  const nsvcd__d3 point[3] = {from, from, from};
+  int goes_on = 0;
+  for (size_t k = 0; k < 3; k++) {
+    const nsvcd__d3 arm = nsvcd__d3_sub(triangle[k], from);
+    const double height = nsvcd__d3_dot(along, arm);
+    goes_on |= height > same && height > NSVCD__STEEP * nsvcd__d3_norm(arm);
+  }
+  return goes_on && nsvcd__nearest_of(triangle, point).square <= same * same;
+}
+
+// Does a surface go on from where two triangles are near each other, with this direction, to where
+// the other is nearer? Then that is no contact. It is enough to ask the triangles of one body at a
+// time, each with the same triangle of the other, and these are in the list as well.
+static NSVCD__NOINLINE int nsvcd__goes_on_beside(const nsvcd__proof *p, uint32_t moving,
+                                                 uint32_t fixed, const nsvcd__nearest *points,
+                                                 nsvcd__d3 normal) {
+  const nsvcd__near_list *list = &p->near_list;
+  const nsvcd__dtransform at = nsvcd__dtransform_at(&p->arcs.arc, 0);
+  const nsvcd__d3 back = nsvcd__d3_scale(normal, -1);
+  const double same = nsvcd__epsilon(p);
+  for (uint32_t n = 0; n < list->count; n++) {
+    const nsvcd__near *near = &list->items[n];
+    const int same_moving = near->moving_triangle == moving;
+    const int same_fixed = near->fixed_triangle == fixed;
+    if (!same_moving && !same_fixed) continue;
+    nsvcd__posed_pair at_it;
+    nsvcd__posed_pair_of(p, &at, near, &at_it);
+    if (same_moving && nsvcd__goes_on(at_it.pair.fixed, points->on_b, normal, same)) return 1;
+    if (same_fixed && nsvcd__goes_on(at_it.posed, points->on_a, back, same)) return 1;
+  }
+  return 0;
+}
+
+// Is a triangle pair in the list? A triangle that is stored in pieces comes once for each.
+static int nsvcd__is_listed(const nsvcd__proof *p, size_t i, size_t j, size_t a, size_t b) {
+  const nsvcd__near_list *list = &p->near_list;
+  const uint32_t moving = nsvcd__triangle_number(&p->moving, i, a);
+  const uint32_t fixed = nsvcd__triangle_number(&p->fixed, j, b);
+  for (uint32_t n = list->count; n-- > 0;) {
+    const nsvcd__near *near = &list->items[n];
+    if (near->moving_triangle == moving && near->fixed_triangle == fixed) return 1;
+  }
+  return 0;
+}
+
+// There is no room for more: keeps those that are nearer than most, and asks for no others.
+static NSVCD__NOINLINE void nsvcd__list_nearer_half(nsvcd__proof *p) {
+  nsvcd__near_list *list = &p->near_list;
+  double sum = 0;
+  uint32_t kept = 0;
+  for (uint32_t n = 0; n < list->count; n++) sum += (double)list->items[n].distance;
+  const double mean = sum / (double)list->count;
+  for (uint32_t n = 0; n < list->count; n++)
+    if ((double)list->items[n].distance < mean) list->items[kept++] = list->items[n];
+  list->is_full = 1;
+  if (kept == 0) return;
+  list->count = kept;
+  p->goal.clearance = mean;
+}
+
+// Adds a triangle pair to the list if it comes within the clearance.
+static NSVCD__NOINLINE void nsvcd__list_near(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
+                                             const nsvcd__d3 *posed) {
+  nsvcd__near_list *list = &p->near_list;
+  nsvcd__near item;
+  const nsvcd__nearest nearest = nsvcd__near_points(posed, pair->fixed);
+  if (!(nearest.square <= p->goal.clearance * p->goal.clearance)) {
+    const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+    p->separating = nsvcd__d3_scale(apart, 1 / sqrt(nearest.square));
+    return;
+  }
+  if (list->count == list->room) nsvcd__list_nearer_half(p);
+  if (list->count == list->room) return;
+  item.distance = (float)sqrt(nearest.square);
+  p->separating = nsvcd__near_direction(pair, posed, &nearest);
+  item.normal = nsvcd__f3_round(p->separating);
+  item.moving_triangle =
+      nsvcd__triangle_number(&p->moving, pair->moving_patch, pair->moving_entry);
+  item.fixed_triangle =
+      nsvcd__triangle_number(&p->fixed, pair->fixed_patch, pair->fixed_entry);
+  item.moving_entry = (uint32_t)pair->moving_entry;
+  item.fixed_entry = (uint32_t)pair->fixed_entry;
+  item.moving_patch = (uint16_t)pair->moving_patch;
+  item.fixed_patch = (uint16_t)pair->fixed_patch;
+  item.is_settled = 0;
+  list->items[list->count++] = item;
+}
+#endif  // NSVCD_NO_PROOF
+
 // ------------------------------------------------------------------------------ triangles/manifold
 // In: triangle pairs that are near each other when a contact is. Out: up to four contact points
 // that hold the body: those that span the largest area, seen along the contact's normal.
@@ -14547,7 +14771,14 @@ static NSVCD__NOINLINE void nsvcd__keep_support(const nsvcd__proof *p, nsvcd__ma
     const double along_it = nsvcd__d3_dot(m->along[k], on_fixed);
     const double more = along_it - m->farthest[k];
     if (!(more > m->same || (more >= -m->same && number < m->numbers[k]))) continue;
-    if (!known) contact = nsvcd__contact_at(p, f->pair, 0, &nearest);
+    if (!known) {
+      contact = nsvcd__contact_at(p, f->pair, 0, &nearest);
+      const int may_go_on = p->goal.collects == NSVCD__LISTING && (number & 2);
+      if (may_go_on &&
+          nsvcd__goes_on_beside(p, contact.moving_triangle, contact.fixed_triangle, &nearest,
+                                nsvcd__d3_scale(normal, side)))
+        return;
+    }
     known = 1;
     contact.normal = nsvcd__d3_scale(normal, side);
     m->supports[k] = contact;
@@ -14974,7 +15205,9 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__solver *w, size_t i, si
                                              nsvcd__f3_towards(turned, line), line};
   nsvcd__f3 nearest = {0, 0, 0};
   p->work++;
-  for (size_t step = 0; step < NSVCD__GUESSES + NSVCD__PLANE_STEPS; step++) {
+  // where all that is near is listed, most hulls are near, and their triangles cost no more
+  const size_t steps = p->goal.collects == NSVCD__LISTING ? 0 : NSVCD__PLANE_STEPS;
+  for (size_t step = 0; step < NSVCD__GUESSES + steps; step++) {
     const nsvcd__f3 normal = step < NSVCD__GUESSES ? guesses[step] : nearest;
     const nsvcd__support found = nsvcd__support_along(w, normal);
     const float length = nsvcd__f3_norm(normal);
@@ -15326,14 +15559,20 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__solver *w, size_t i, size_t 
         met = nsvcd__left_by_normal(w, l, fixed, NSVCD__LAST_NORMAL, margin, met);
       if (!met) break;
       const size_t entry = w->blocks.moving.first + l;
-      const nsvcd__triangle_pair pair =
-          nsvcd__pair_of(p, i, j, entry, fixed->first + nsvcd__low_bit(met));
+      const size_t other = fixed->first + nsvcd__low_bit(met);
+      if (p->goal.collects == NSVCD__LISTING && nsvcd__is_listed(p, i, j, entry, other))
+        continue;
+      const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, entry, other);
       nsvcd__d3 posed[3];
       nsvcd__nearest nearest = {0, {0, 0, 0}, {0, 0, 0}};
       nsvcd__pose_triangle(at, pair.moving, posed);
       p->work++;
       if (p->goal.collects == NSVCD__SUPPORTING) {
         nsvcd__collect_supports(p, &p->of.kept.manifold, &pair, posed);
+        continue;
+      }
+      if (p->goal.collects == NSVCD__LISTING) {
+        nsvcd__list_near(p, &pair, posed);
         continue;
       }
       if (nsvcd__triangles_meet(posed, pair.fixed, &nearest.on_b)) {
@@ -15746,6 +15985,13 @@ static nsvcd__outcome nsvcd__collect_contacts(nsvcd__solver *w, const nsvcd__sea
         if (nsvcd__patches_apart(p, patches->moving, patches->fixed, 0, 0)) continue;
       }
       (void)nsvcd__find_witness(w, patches->moving, patches->fixed, 0, 0);
+    } else if (p->goal.collects == NSVCD__LISTING) {
+      const uint32_t before = p->near_list.count;
+      (void)nsvcd__find_witness(w, patches->moving, patches->fixed, 0, 0);
+      if (p->near_list.count > before) {
+        w->memo.held = nsvcd__f3_round(p->separating);
+        w->memo.plane++;
+      }
     } else if (w->count < NSVCD__PATCH_PAIRS) {
       p->of.kept.pairs[w->count++] = *patches;
     }
@@ -18174,6 +18420,8 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__gap_fact NSVCD__AT(gap_fact)
 #define nsvcd__gap_facts NSVCD__AT(gap_facts)
 #define nsvcd__gaps_at NSVCD__AT(gaps_at)
+#define nsvcd__goes_on NSVCD__AT(goes_on)
+#define nsvcd__goes_on_beside NSVCD__AT(goes_on_beside)
 #define nsvcd__greatest_of NSVCD__AT(greatest_of)
 #define nsvcd__group_against_group NSVCD__AT(group_against_group)
 #define nsvcd__group_against_members NSVCD__AT(group_against_members)
@@ -18201,6 +18449,7 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__is_enclosed NSVCD__AT(is_enclosed)
 #define nsvcd__is_harmless NSVCD__AT(is_harmless)
 #define nsvcd__is_left NSVCD__AT(is_left)
+#define nsvcd__is_listed NSVCD__AT(is_listed)
 #define nsvcd__is_new NSVCD__AT(is_new)
 #define nsvcd__is_on_beam NSVCD__AT(is_on_beam)
 #define nsvcd__is_separated NSVCD__AT(is_separated)
@@ -18228,6 +18477,8 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__least_lane NSVCD__AT(least_lane)
 #define nsvcd__least_of NSVCD__AT(least_of)
 #define nsvcd__left_by_normal NSVCD__AT(left_by_normal)
+#define nsvcd__list_near NSVCD__AT(list_near)
+#define nsvcd__list_nearer_half NSVCD__AT(list_nearer_half)
 #define nsvcd__look_all NSVCD__AT(look_all)
 #define nsvcd__look_at_box NSVCD__AT(look_at_box)
 #define nsvcd__look_at_slab NSVCD__AT(look_at_slab)
@@ -18242,6 +18493,7 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__look_rank NSVCD__AT(look_rank)
 #define nsvcd__look_relate NSVCD__AT(look_relate)
 #define nsvcd__look_state NSVCD__AT(look_state)
+#define nsvcd__lowest_over NSVCD__AT(lowest_over)
 #define nsvcd__matters NSVCD__AT(matters)
 #define nsvcd__may_be_close NSVCD__AT(may_be_close)
 #define nsvcd__meet NSVCD__AT(meet)
@@ -18254,6 +18506,8 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__moving_block_load NSVCD__AT(moving_block_load)
 #define nsvcd__moving_closed NSVCD__AT(moving_closed)
 #define nsvcd__moving_range NSVCD__AT(moving_range)
+#define nsvcd__near_direction NSVCD__AT(near_direction)
+#define nsvcd__near_points NSVCD__AT(near_points)
 #define nsvcd__nearest2 NSVCD__AT(nearest2)
 #define nsvcd__nearest_at NSVCD__AT(nearest_at)
 #define nsvcd__nearest_groups NSVCD__AT(nearest_groups)
@@ -18282,6 +18536,8 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__planes_known NSVCD__AT(planes_known)
 #define nsvcd__pose_members NSVCD__AT(pose_members)
 #define nsvcd__pose_triangle NSVCD__AT(pose_triangle)
+#define nsvcd__posed_pair NSVCD__AT(posed_pair)
+#define nsvcd__posed_pair_of NSVCD__AT(posed_pair_of)
 #define nsvcd__probes NSVCD__AT(probes)
 #define nsvcd__probes_measure NSVCD__AT(probes_measure)
 #define nsvcd__prove_segments NSVCD__AT(prove_segments)
@@ -20823,6 +21079,163 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
                              gradient_a, gradient_b);
 }
 #endif
+
+// ---------------------------------------------------------------------------------- query/contacts
+// In: two bodies at rest. Out: where they are near each other, on all sides.
+//
+// One search lists all triangle pairs that are near. The nearest of them gives the first side, with
+// its direction; the nearest of those in other directions the next. A triangle pair is a side only
+// if its nearest points are nearest among all triangles about them: the inner edges of a floor have
+// directions of their own, which lean to where the floor goes on and is nearer.
+
+#ifndef NSVCD_NO_PROOF
+// Cosine of the angle within which directions are of one side.
+#define NSVCD__SAME_SIDE 0.8f
+
+// The nearest triangle pair that has no side yet; NULL: there is none.
+static nsvcd__near *nsvcd__next_near(const nsvcd__near_list *list) {
+  nsvcd__near *best = NULL;
+  for (uint32_t n = 0; n < list->count; n++) {
+    nsvcd__near *near = &list->items[n];
+    if (!near->is_settled && (!best || near->distance < best->distance)) best = near;
+  }
+  return best;
+}
+
+// The supports of a side with this normal: the indices of up to four in the manifold. Returns how
+// many.
+static int nsvcd__supports_of_side(nsvcd__proof *p, const nsvcd__dtransform *at,
+                                   nsvcd__f3 normal, double same, int *chosen) {
+  nsvcd__manifold *m = &p->of.kept.manifold;
+  const nsvcd__twist rests = {{0, 0, 0}, {0, 0, 0}};
+  nsvcd__posed_pair posed;
+  int count = 0;
+  double area = 0;
+  nsvcd__manifold_begin(m, nsvcd__d3_widen(normal), &rests, p->goal.clearance, same);
+  for (int across = 0; across < 2; across++) {
+    if (across && !nsvcd__seek_across(m, area)) break;
+    for (uint32_t n = 0; n < p->near_list.count; n++) {
+      const nsvcd__near *near = &p->near_list.items[n];
+      if (nsvcd__f3_dot(near->normal, normal) < NSVCD__SAME_SIDE) continue;
+      nsvcd__posed_pair_of(p, at, near, &posed);
+      nsvcd__collect_supports(p, m, &posed.pair, posed.posed);
+    }
+    count = nsvcd__choose_four(m, chosen, &area);
+  }
+  return count;
+}
+
+// The contacts of the side whose nearest triangle pair this is, with its nearest points: up to
+// NSVCD_MAX_CONTACTS, of which one is as near as these. Returns how many.
+static size_t nsvcd__contacts_of_side(nsvcd__query *query, const nsvcd__dtransform *at,
+                                      const nsvcd__near *near, const nsvcd__posed_pair *posed,
+                                      const nsvcd__nearest *points, double same,
+                                      nsvcd_contact *out) {
+  nsvcd__proof *p = &query->solver->p;
+  const nsvcd__manifold *m = &p->of.kept.manifold;
+  int chosen[NSVCD_MAX_CONTACTS];
+  int count = nsvcd__supports_of_side(p, at, near->normal, same, chosen);
+  int closest = -1;  // to the nearest points
+  int has_nearest = 0;
+  for (int n = 0; n < count; n++) {
+    const nsvcd__pair_contact *support = &m->supports[chosen[n]];
+    nsvcd__write_contact(query, support, &out[n]);
+    out[n].id = m->numbers[chosen[n]] ^ (uint32_t)query->task.swapped;
+    has_nearest |= support->distance <= (double)near->distance + nsvcd__epsilon(p);
+    const double square = nsvcd__d3_distance2(support->point, points->on_b);
+    if (closest < 0 ||
+        square < nsvcd__d3_distance2(m->supports[chosen[closest]].point, points->on_b))
+      closest = n;
+  }
+  if (has_nearest) return (size_t)count;
+  // It replaces the one beside it, unless there is room.
+  if (count < NSVCD_MAX_CONTACTS) closest = count++;
+  nsvcd__pair_contact nearest = nsvcd__contact_at(p, &posed->pair, 0, points);
+  nearest.normal = nsvcd__d3_widen(near->normal);
+  nsvcd__write_contact(query, &nearest, &out[closest]);
+  out[closest].id = (near->moving_triangle * 3 + near->fixed_triangle * 5) << 2 | 2;
+  return (size_t)count;
+}
+
+// Writes the contacts of all sides, the nearest side first. Returns how many.
+static size_t nsvcd__write_contacts(nsvcd__query *query, nsvcd_contact *contacts,
+                                    size_t most) {
+  nsvcd__proof *p = &query->solver->p;
+  const nsvcd__near_list *list = &p->near_list;
+  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, 0), 0);
+  const double same = nsvcd__epsilon(p) + 1e-5 * (double)p->given.lengths;
+  size_t written = 0;
+  for (int sides = 0; sides < NSVCD_MAX_SIDES && written < most;) {
+    nsvcd_contact found[NSVCD_MAX_CONTACTS];
+    nsvcd__posed_pair posed;
+    nsvcd__near *near = nsvcd__next_near(list);
+    if (!near) break;
+    near->is_settled = 1;
+    nsvcd__posed_pair_of(p, &at, near, &posed);
+    const nsvcd__nearest points = nsvcd__near_points(posed.posed, posed.pair.fixed);
+    if (nsvcd__goes_on_beside(p, near->moving_triangle, near->fixed_triangle, &points,
+                              nsvcd__d3_widen(near->normal)))
+      continue;
+    const size_t count =
+        nsvcd__contacts_of_side(query, &at, near, &posed, &points, same, found);
+    for (size_t n = 0; n < count && written < most; n++) contacts[written++] = found[n];
+    for (uint32_t n = 0; n < list->count; n++) {
+      nsvcd__near *other = &list->items[n];
+      if (nsvcd__f3_dot(other->normal, near->normal) >= NSVCD__SAME_SIDE)
+        other->is_settled = 1;
+    }
+    sides++;
+  }
+  return written;
+}
+
+// Lists the near triangle pairs of a question that has been laid out. At rest there is one segment:
+// so the memory for the chords of the others is free. Returns 0 if some may be missing.
+static int nsvcd__list_all_near(nsvcd__query *query) {
+  nsvcd__solver *w = query->solver;
+  nsvcd__search *q = &query->broad_phase;
+  nsvcd__goal goal = nsvcd__proof_begin(query);
+  nsvcd__near_list *list = &w->p.near_list;
+  nsvcd__chords *free_chords = q->members + 2;  // the second is that of spare boxes
+  list->items = (nsvcd__near *)(void *)free_chords;
+  list->room = (uint32_t)((q->most_segments - 2) * sizeof *free_chords / sizeof *list->items);
+  list->count = list->is_full = 0;
+  goal.collects = NSVCD__LISTING;
+  const nsvcd__search_result result = nsvcd__search_anew(w, q, goal);
+  return !result.ran_out && !list->is_full;
+}
+#endif  // NSVCD_NO_PROOF
+
+static nsvcd_result nsvcd__run_contacts(nsvcd__isa isa, const nsvcd_question *question,
+                                        void *workspace, size_t workspace_size,
+                                        nsvcd_contact *contacts, size_t most, size_t *count,
+                                        int *is_partial) {
+  if (!question || !count || (most > 0 && !contacts)) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_result result = nsvcd__sweep_check(question, workspace, workspace_size);
+  if (result) return result;
+  if (question->a.count > 1 || question->b.count > 1) return NSVCD_ERROR_POSES;
+  if (question->ask != NSVCD_ASK_HIT) return NSVCD_ERROR_ASK;
+  if (question->slop > 0) return NSVCD_ERROR_SLOP;
+  if (!(question->clearance > 0)) return NSVCD_ERROR_CLEARANCE;
+#ifndef NSVCD_NO_PROOF
+  nsvcd__query *query = nsvcd__query_open(isa, question, workspace);
+  const int is_whole = nsvcd__list_all_near(query);
+  *count = nsvcd__write_contacts(query, contacts, most);
+  for (size_t n = 0; n < *count && query->task.swapped; n++) nsvcd__swap_contact(&contacts[n]);
+  if (is_partial) *is_partial = !is_whole;
+#else
+  (void)isa;
+  (void)is_partial;
+#endif
+  return NSVCD_OK;
+}
+
+NSVCDDEF nsvcd_result nsvcd_contacts(const nsvcd_question *question, void *workspace,
+                                     size_t workspace_size, nsvcd_contact *contacts,
+                                     size_t most, size_t *count, int *is_partial) {
+  return nsvcd__run_contacts(nsvcd__isa_at_hand(), question, workspace, workspace_size,
+                             contacts, most, count, is_partial);
+}
 
 // ================================================================ plan: a motion that hits nothing
 

@@ -56,6 +56,7 @@
 //   nsvcd_body_describe   a body -> its size, box, triangles; is it closed?
 //   nsvcd_look            do two bodies meet, in 16 places at once? an opinion, by balls
 //   nsvcd_sweep           a question -> an answer; nsvcd_sweep_batch: many
+//   nsvcd_contacts        two bodies at rest -> where they are near each other, on all sides
 //   nsvcd_sweep_gradient  a question -> the network's answer, and its derivatives by the poses
 //   nsvcd_plan            a start and a goal -> a smooth motion of joints that hits nothing
 //   extras/neuralsvcd_robot.h    a robot's joints: is their motion free? Find one that is
@@ -103,12 +104,13 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-#include "interface/results.h"  // result codes, the caller's allocator
-#include "interface/meshes.h"   // OBJ and STL, faces, parts of a mesh
-#include "interface/bodies.h"   // encoding, loading, scaling, facts
-#include "interface/looks.h"    // two bodies in 16 places; nsvcd_look
-#include "interface/queries.h"  // movers, questions, answers; nsvcd_sweep and its kin
-#include "interface/plans.h"    // splines, planning problems; nsvcd_plan
+#include "interface/results.h"   // result codes, the caller's allocator
+#include "interface/meshes.h"    // OBJ and STL, faces, parts of a mesh
+#include "interface/bodies.h"    // encoding, loading, scaling, facts
+#include "interface/looks.h"     // two bodies in 16 places; nsvcd_look
+#include "interface/queries.h"   // movers, questions, answers; nsvcd_sweep and its kin
+#include "interface/contacts.h"  // what is near at rest; nsvcd_contacts
+#include "interface/plans.h"     // splines, planning problems; nsvcd_plan
 
 #ifdef __cplusplus
 }
@@ -217,8 +219,9 @@ extern "C" {
 #include "motion/choice.h"     // how a motion is cut into segments, a long one into intervals
 
 // ============================================================== proof: the theorem, and its state
-#include "proof/schedule.h"  // what a proof may take, and how much of it
-#include "proof/proof.h"     // the theorem; what a proof is asked, knows and remembers
+#include "proof/schedule.h"   // what a proof may take, and how much of it
+#include "proof/near_list.h"  // triangle pairs that are near each other at rest
+#include "proof/proof.h"      // the theorem; what a proof is asked, knows and remembers
 
 // ============================================================= task: a question, and what it needs
 #include "task/facts.h"  // what a decoder sees of a pair; the tape of its derivative
@@ -248,6 +251,7 @@ extern "C" {
 #include "triangles/motion_bounds.h"   // an interval of time, and how far points deviate in it
 #include "triangles/triangle_pairs.h"  // two triangles, in double: separated, or in contact
 #include "triangles/touches.h"         // how deep triangles that touch are, and what undoes it
+#include "triangles/near.h"            // a list of what is near each other at rest
 #include "triangles/manifold.h"        // contact points, the farthest along directions
 
 // ======================================================== separate: until when surfaces stay apart
@@ -286,6 +290,7 @@ extern "C" {
 #include "query/supports.h"  // up to four contact points: where to seek them, and which
 #include "query/by_proof.h"  // an answer by proof
 #include "query/question.h"  // check, choose who moves, lay out the workspace, answer
+#include "query/contacts.h"  // where bodies at rest are near each other, on all sides
 
 // ================================================================ plan: a motion that hits nothing
 #include "plan/spline.h"   // quintic Hermite

@@ -46,6 +46,7 @@ void test_motion(void);
 void test_long(void);
 void test_broad_phase(void);
 void test_looks(void);
+void test_contacts(void);
 void test_proof(void);
 void test_fits(void);
 void test_asks(void);
@@ -113,6 +114,7 @@ static const test_file files[] = {
     OF(motion),
     OF(broad_phase),
     OF(looks),
+    OF(contacts),
     OF(proof),
     OF(fits),
     OF(asks),

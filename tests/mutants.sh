@@ -1,7 +1,7 @@
 #!/bin/sh
 # Are the tests of the proof worth anything? Each mutant is the library with one mistake in it; tests/test_proof.c has to
 # fail on it, or, where its name begins with `level:`, `asks:`, `long:`, `exact:`, `floor:`, `solids:`, `round:`,
-# `robot:`, `looks:`, `route_looks:`, `many_joints:`, `postures:`, `reach:`, `ranges:`, `allowances:`, `mimics:`, `merge:` or `cones:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
+# `robot:`, `looks:`, `contacts:`, `route_looks:`, `many_joints:`, `postures:`, `reach:`, `ranges:`, `allowances:`, `mimics:`, `merge:` or `cones:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
 # certificates, examples/verify, and tests/test_certificate.c or tests/test_checker.c has to fail, of `fits:`
 # tests/test_fits.c, of `plans:` tests/forge.py, which needs build/svcd. Prints a line for each, and exits with 1 if one survives. An argument runs only the mutants whose
 # name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every 16th of them, in a folder of its own.
@@ -12,7 +12,7 @@ cd "$(dirname "$0")/.." || exit 1
 work=${WORK:-build/mutants}
 mkdir -p $work/tests/bench $work/examples/scenery $work/examples/verify
 cp weights.h $work/
-cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_looks.c tests/test_route_looks.c tests/test_many_joints.c tests/test_postures.c tests/test_reach.c tests/test_ranges.c tests/test_allowances.c tests/test_mimics.c tests/test_merge.c tests/test_cones.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
+cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_looks.c tests/test_contacts.c tests/test_route_looks.c tests/test_many_joints.c tests/test_postures.c tests/test_reach.c tests/test_ranges.c tests/test_allowances.c tests/test_mimics.c tests/test_merge.c tests/test_cones.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
 cp tests/bench/*.h $work/tests/bench/
 cp examples/scenery/*.h $work/examples/scenery/
 cp examples/verify/verify.c $work/examples/verify/
@@ -422,6 +422,14 @@ checker: two bases|if (!why \&\& (a->clock != b->clock \|\| a->base != b->base))
 checker: strays that nobody wrote|memset(at, 0, sizeof *at);|
 checker: a normal of 0|if (!(gap > least \&\& last > least \&\& gap < VERIFY__BEYOND)) return 0;|if (!(gap >= least \&\& last >= least \&\& gap < VERIFY__BEYOND)) return 0;
 checker: corners that there are not|\|\| of->mesh->part[out->a] == NSVCD_VERIFY_NONE)|)
+contacts: inner edges are sides|    if (same_moving \&\& nsvcd__goes_on(at_it.pair.fixed, points->on_b, normal, same)) return 1;|
+contacts: edges of the moving body are sides|    if (same_fixed \&\& nsvcd__goes_on(at_it.posed, points->on_a, back, same)) return 1;|
+contacts: ghosts among supports|if (may_go_on \&\& nsvcd__goes_on_beside(|if (0 \&\& nsvcd__goes_on_beside(
+contacts: the nearest is left out|if (has_nearest) return (size_t)count;|if (count > 0) return (size_t)count;
+contacts: a side of all directions|if (nsvcd__f3_dot(other->normal, near->normal) >= NSVCD__SAME_SIDE) other->is_settled = 1;|other->is_settled = 1;
+contacts: corners over a face that is not the nearest|    if (!(side * heights[k] > 0)) return 0;|
+contacts: a full list that is not said|  list->is_full = 1;|  list->is_full = 0;
+contacts: work that ended is not said|return !result.ran_out \&\& !list->is_full;|return !list->is_full;
 looks: balls as found|c->radii[nearest] += best;|(void)best;
 looks: a cover without its convex radius|const double radius = c.radii[order[n]] + (double)o->convex_radius;|const double radius = c.radii[order[n]];
 looks: errors of balls about points inside alone|: -depths[n];|: depths[n];
@@ -526,6 +534,7 @@ while IFS= read -r line; do
     round:*) file=test_round.c fused=-ffp-contract=fast ;;
     robot:*) file=test_robot.c ;;
     looks:*) file=test_looks.c ;;
+    contacts:*) file=test_contacts.c ;;
     route_looks:*) file=test_route_looks.c ;;
     many_joints:*) file=test_many_joints.c ;;
     ranges:*) file=test_ranges.c ;;

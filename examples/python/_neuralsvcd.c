@@ -27,6 +27,8 @@ int nsvcd_body_patch(const nsvcd_body *, uint32_t, float[3], float *);
 size_t nsvcd_sweep_workspace_size(const nsvcd_question *);
 nsvcd_result nsvcd_sweep(const nsvcd_question *, void *, size_t, nsvcd_answer *);
 nsvcd_result nsvcd_sweep_batch(const nsvcd_question *, size_t, void *, size_t, nsvcd_answer *);
+nsvcd_result nsvcd_contacts(const nsvcd_question *, void *, size_t, nsvcd_contact *, size_t,
+                            size_t *, int *);
 nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *, void *, size_t, nsvcd_answer *, float *,
                                   float *);
 void nsvcd_spline(const float *, size_t, size_t, float, size_t, float *);

@@ -203,6 +203,15 @@ class Queries(unittest.TestCase):
         every_pair = nsvcd.sweep(MUG, RACK, LOW, options=Options(method="network", pairs=256))
         self.assertIs(every_pair.opinion.limited, False)
 
+    def test_contacts(self) -> None:
+        found, is_partial = nsvcd.contacts(BOX, BOX, (0, 0, 2.001, 0, 0, 0, 1), clearance=0.01)
+        self.assertEqual((len(found), is_partial), (4, False))
+        for contact in found:
+            self.assertAlmostEqual(contact.normal[2], 1, 5)
+            self.assertAlmostEqual(contact.gap, 0.001, 5)
+        self.assertEqual(nsvcd.contacts(BOX, BOX, (0, 0, 2.1, 0, 0, 0, 1), clearance=0.01), ([], False))
+        self.assertEqual(raised(nsvcd.contacts, BOX, BOX, (0, 0, 3, 0, 0, 0, 1), clearance=0).code, Code.CLEARANCE)
+
     def test_manifold(self) -> None:
         """A box of side 1 is set down flat on one of side 2: it stands on its corners."""
         options = Options(ask="first", to=0.001, manifold=True)

@@ -84,6 +84,7 @@
 #pragma once
 #include "../body/geometry.h"
 #include "../motion/workspace.h"
+#include "near_list.h"
 #include "schedule.h"
 
 #ifndef NSVCD_NO_PROOF
@@ -209,11 +210,12 @@ typedef struct nsvcd__manifold {
 } nsvcd__manifold;
 
 // What is done with triangles that come within the clearance: they are contacts or, of a motion at
-// rest, all are collected, as touching or as supports.
+// rest, all are collected, as touching or as supports, or are listed.
 typedef enum nsvcd__collecting {
   NSVCD__CONTACTS,
   NSVCD__TOUCHING,
-  NSVCD__SUPPORTING
+  NSVCD__SUPPORTING,
+  NSVCD__LISTING
 } nsvcd__collecting;
 
 // What a question finds.
@@ -367,6 +369,7 @@ typedef struct nsvcd__proof {
   // shared: the triangle pairs in a row that it has separated since.
   nsvcd__d3 separating;
   nsvcd__push_outs push;
+  nsvcd__near_list near_list;
   union {
     struct {
       // that no plane separates over their segment

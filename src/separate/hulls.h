@@ -119,7 +119,9 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__solver *w, size_t i, si
                                              nsvcd__f3_towards(turned, line), line};
   nsvcd__f3 nearest = {0, 0, 0};
   p->work++;
-  for (size_t step = 0; step < NSVCD__GUESSES + NSVCD__PLANE_STEPS; step++) {
+  // where all that is near is listed, most hulls are near, and their triangles cost no more
+  const size_t steps = p->goal.collects == NSVCD__LISTING ? 0 : NSVCD__PLANE_STEPS;
+  for (size_t step = 0; step < NSVCD__GUESSES + steps; step++) {
     const nsvcd__f3 normal = step < NSVCD__GUESSES ? guesses[step] : nearest;
     const nsvcd__support found = nsvcd__support_along(w, normal);
     const float length = nsvcd__f3_norm(normal);

@@ -321,6 +321,13 @@ static nsvcd__outcome nsvcd__collect_contacts(nsvcd__solver *w, const nsvcd__sea
         if (nsvcd__patches_apart(p, patches->moving, patches->fixed, 0, 0)) continue;
       }
       (void)nsvcd__find_witness(w, patches->moving, patches->fixed, 0, 0);
+    } else if (p->goal.collects == NSVCD__LISTING) {
+      const uint32_t before = p->near_list.count;
+      (void)nsvcd__find_witness(w, patches->moving, patches->fixed, 0, 0);
+      if (p->near_list.count > before) {
+        w->memo.held = nsvcd__f3_round(p->separating);
+        w->memo.plane++;
+      }
     } else if (w->count < NSVCD__PATCH_PAIRS) {
       p->of.kept.pairs[w->count++] = *patches;
     }

@@ -25,14 +25,20 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__solver *w, size_t i, size_t 
         met = nsvcd__left_by_normal(w, l, fixed, NSVCD__LAST_NORMAL, margin, met);
       if (!met) break;
       const size_t entry = w->blocks.moving.first + l;
-      const nsvcd__triangle_pair pair =
-          nsvcd__pair_of(p, i, j, entry, fixed->first + nsvcd__low_bit(met));
+      const size_t other = fixed->first + nsvcd__low_bit(met);
+      if (p->goal.collects == NSVCD__LISTING && nsvcd__is_listed(p, i, j, entry, other))
+        continue;
+      const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, entry, other);
       nsvcd__d3 posed[3];
       nsvcd__nearest nearest = {0, {0, 0, 0}, {0, 0, 0}};
       nsvcd__pose_triangle(at, pair.moving, posed);
       p->work++;
       if (p->goal.collects == NSVCD__SUPPORTING) {
         nsvcd__collect_supports(p, &p->of.kept.manifold, &pair, posed);
+        continue;
+      }
+      if (p->goal.collects == NSVCD__LISTING) {
+        nsvcd__list_near(p, &pair, posed);
         continue;
       }
       if (nsvcd__triangles_meet(posed, pair.fixed, &nearest.on_b)) {

@@ -8,7 +8,7 @@
 // count: where a side rises from the floor, corners of the floor's triangles are near the side as
 // well, but the body does not stand on it.
 #pragma once
-#include "triangle_pairs.h"
+#include "near.h"
 
 #ifndef NSVCD_NO_PROOF
 // A triangle pair of a manifold.
@@ -71,7 +71,14 @@ static NSVCD__NOINLINE void nsvcd__keep_support(const nsvcd__proof *p, nsvcd__ma
     const double along_it = nsvcd__d3_dot(m->along[k], on_fixed);
     const double more = along_it - m->farthest[k];
     if (!(more > m->same || (more >= -m->same && number < m->numbers[k]))) continue;
-    if (!known) contact = nsvcd__contact_at(p, f->pair, 0, &nearest);
+    if (!known) {
+      contact = nsvcd__contact_at(p, f->pair, 0, &nearest);
+      const int may_go_on = p->goal.collects == NSVCD__LISTING && (number & 2);
+      if (may_go_on &&
+          nsvcd__goes_on_beside(p, contact.moving_triangle, contact.fixed_triangle, &nearest,
+                                nsvcd__d3_scale(normal, side)))
+        return;
+    }
     known = 1;
     contact.normal = nsvcd__d3_scale(normal, side);
     m->supports[k] = contact;

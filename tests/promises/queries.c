@@ -348,6 +348,41 @@ static void a_manifold_holds_a_crate_at_four_corners(void) {
   nsvcd_body_free(table, NULL);
 }
 
+// On a table with a wall: 1 mm off the table and 2 mm off the wall.
+static void what_a_crate_stands_on_and_leans_on_is_told(void) {
+  const nsvcd_body *crate = box(1, 0.8f, 0.5f);
+  const nsvcd_body *room = body_of(stacked(box_mesh(4, 4, 0.1f), box_mesh(0.2f, 4, 2), 1), NULL);
+  const nsvcd_pose pose = at(0.602f, 0, 0.301f);
+  nsvcd_question question = question_about(crate, &pose, 1, room);
+  nsvcd_contact contacts[NSVCD_MAX_SIDES * NSVCD_MAX_CONTACTS];
+  const size_t most = NSVCD_MAX_SIDES * NSVCD_MAX_CONTACTS;
+  question.clearance = 0.005f;
+  const size_t size = nsvcd_sweep_workspace_size(&question);
+  void *workspace = malloc(size);
+  size_t count = 0;
+  int is_partial = 1;
+  CHECK_EQ(nsvcd_contacts(&question, workspace, size, contacts, most, &count, &is_partial),
+           NSVCD_OK);
+  CHECK_EQ(count, 8);
+  CHECK(!is_partial);
+  for (size_t k = 0; k < count; k++) {
+    CHECK_NEAR(contacts[k].normal[k < 4 ? 2 : 0], 1, 1e-6);
+    CHECK_NEAR(contacts[k].gap, k < 4 ? 0.001 : 0.002, 1e-6);
+    CHECK_NEAR(contacts[k].point[k < 4 ? 2 : 0], k < 4 ? 0.05 : 0.1, 1e-6);
+  }
+  CHECK_EQ(nsvcd_contacts(&question, workspace, size, contacts, 2, &count, NULL), NSVCD_OK);
+  CHECK_EQ(count, 2);
+  question.clearance = 0.0005f;
+  CHECK_EQ(nsvcd_contacts(&question, workspace, size, NULL, 0, &count, NULL), NSVCD_OK);
+  CHECK_EQ(count, 0);
+  question.clearance = 0;
+  CHECK_EQ(nsvcd_contacts(&question, workspace, size, contacts, most, &count, NULL),
+           NSVCD_ERROR_CLEARANCE);
+  free(workspace);
+  nsvcd_body_free(crate, NULL);
+  nsvcd_body_free(room, NULL);
+}
+
 // ---- distances
 
 static void a_clearance_is_kept(void) {
@@ -952,6 +987,7 @@ void promises_queries(void) {
   RUN(the_first_contact_is_the_first);
   RUN(at_the_safe_place_they_are_apart);
   RUN(a_manifold_holds_a_crate_at_four_corners);
+  RUN(what_a_crate_stands_on_and_leans_on_is_told);
   RUN(a_clearance_is_kept);
   RUN(a_distance_is_bracketed_as_narrowly_as_is_said);
   RUN(with_a_skin_what_rests_may_slide);

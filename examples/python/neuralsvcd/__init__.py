@@ -40,7 +40,7 @@ __all__ = [
     "Answer", "Ask", "Body", "By", "Certificate", "Checked", "Code", "Contact", "Error", "Facts", "Gradient", "Joint",
     "JointKind", "LEAVE_OUT", "Mesh", "Method", "Model", "Motion", "NO_TRIANGLE", "Opinion", "Options", "Part", "Plan",
     "PlanOptions", "PlanStatus", "Precision", "Progress", "Range", "Reached", "Robot", "Route", "RouteStatus", "SafePlace",
-    "Stage", "Tree", "Verdict", "Why", "certify", "cut_mesh", "load_mesh", "load_obj", "load_stl",
+    "Stage", "Tree", "Verdict", "Why", "certify", "contacts", "cut_mesh", "load_mesh", "load_obj", "load_stl",
     "parse_mesh", "parse_obj", "parse_stl", "plan", "poses_from_matrices", "spline", "sweep", "sweep_batch", "sweep_gradient",
 ]
 
@@ -332,6 +332,7 @@ _PROTOTYPES = {
     "nsvcd_sweep_workspace_size": (c_size_t, c_void_p),
     "nsvcd_sweep": (c_int, c_void_p, c_void_p, c_size_t, c_void_p),
     "nsvcd_sweep_batch": (c_int, c_void_p, c_size_t, c_void_p, c_size_t, c_void_p),
+    "nsvcd_contacts": (c_int, c_void_p, c_void_p, c_size_t, c_void_p, c_size_t, c_void_p, c_void_p),
     "nsvcd_sweep_gradient": (c_int, c_void_p, c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
     "nsvcd_spline": (None, c_void_p, c_size_t, c_size_t, c_float, c_size_t, c_void_p),
     "nsvcd_plan_workspace_size": (c_size_t, c_void_p, c_void_p),
@@ -1140,6 +1141,26 @@ def sweep(a: Body, b: Body, poses_a: Optional[ArrayLike] = None, poses_b: Option
     code = _library.nsvcd_sweep(byref(question), _workspace.address, _workspace.size, byref(answer))
     _check_question(code, question)
     return _answer_of(answer)
+
+
+_MOST_CONTACTS = 6 * _MAX_CONTACTS  # NSVCD_MAX_SIDES
+
+
+def contacts(a: Body, b: Body, pose_a: Optional[ArrayLike] = None, pose_b: Optional[ArrayLike] = None, *, clearance: float,
+             scale_a: float = 1, scale_b: float = 1) -> tuple[list[Contact], bool]:
+    """Where are two bodies at rest near each other, on all sides? Up to four contacts on each of six, those of the nearest side
+    first; and whether some may be missing.
+
+    pose_a, pose_b  (7) x y z in metres, unit quaternion x y z w, or (4, 4); None: it is at the origin
+    clearance       metres: how near counts
+    """
+    poses = [None if pose is None else np.asarray(pose)[None] for pose in (pose_a, pose_b)]
+    question = _question(a, b, poses[0], poses[1], None, None, scale_a, scale_b, Options(clearance=clearance))
+    rows, count, is_partial = (_Contact * _MOST_CONTACTS)(), c_size_t(), c_int()
+    code = _library.nsvcd_contacts(byref(question), _workspace.address, _workspace.size, rows, _MOST_CONTACTS, byref(count),
+                                   byref(is_partial))
+    _check_question(code, question)
+    return [_contact_of(_CONTACT.unpack_from(rows, k * _CONTACT.size)) for k in range(count.value)], bool(is_partial.value)
 
 
 class Gradient(NamedTuple):

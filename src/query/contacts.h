@@ -1,0 +1,158 @@
+// In: two bodies at rest. Out: where they are near each other, on all sides.
+//
+// One search lists all triangle pairs that are near. The nearest of them gives the first side, with
+// its direction; the nearest of those in other directions the next. A triangle pair is a side only
+// if its nearest points are nearest among all triangles about them: the inner edges of a floor have
+// directions of their own, which lean to where the floor goes on and is nearer.
+#pragma once
+#include "../interface/contacts.h"
+#include "question.h"
+
+#ifndef NSVCD_NO_PROOF
+// Cosine of the angle within which directions are of one side.
+#define NSVCD__SAME_SIDE 0.8f
+
+// The nearest triangle pair that has no side yet; NULL: there is none.
+static nsvcd__near *nsvcd__next_near(const nsvcd__near_list *list) {
+  nsvcd__near *best = NULL;
+  for (uint32_t n = 0; n < list->count; n++) {
+    nsvcd__near *near = &list->items[n];
+    if (!near->is_settled && (!best || near->distance < best->distance)) best = near;
+  }
+  return best;
+}
+
+// The supports of a side with this normal: the indices of up to four in the manifold. Returns how
+// many.
+static int nsvcd__supports_of_side(nsvcd__proof *p, const nsvcd__dtransform *at,
+                                   nsvcd__f3 normal, double same, int *chosen) {
+  nsvcd__manifold *m = &p->of.kept.manifold;
+  const nsvcd__twist rests = {{0, 0, 0}, {0, 0, 0}};
+  nsvcd__posed_pair posed;
+  int count = 0;
+  double area = 0;
+  nsvcd__manifold_begin(m, nsvcd__d3_widen(normal), &rests, p->goal.clearance, same);
+  for (int across = 0; across < 2; across++) {
+    if (across && !nsvcd__seek_across(m, area)) break;
+    for (uint32_t n = 0; n < p->near_list.count; n++) {
+      const nsvcd__near *near = &p->near_list.items[n];
+      if (nsvcd__f3_dot(near->normal, normal) < NSVCD__SAME_SIDE) continue;
+      nsvcd__posed_pair_of(p, at, near, &posed);
+      nsvcd__collect_supports(p, m, &posed.pair, posed.posed);
+    }
+    count = nsvcd__choose_four(m, chosen, &area);
+  }
+  return count;
+}
+
+// The contacts of the side whose nearest triangle pair this is, with its nearest points: up to
+// NSVCD_MAX_CONTACTS, of which one is as near as these. Returns how many.
+static size_t nsvcd__contacts_of_side(nsvcd__query *query, const nsvcd__dtransform *at,
+                                      const nsvcd__near *near, const nsvcd__posed_pair *posed,
+                                      const nsvcd__nearest *points, double same,
+                                      nsvcd_contact *out) {
+  nsvcd__proof *p = &query->solver->p;
+  const nsvcd__manifold *m = &p->of.kept.manifold;
+  int chosen[NSVCD_MAX_CONTACTS];
+  int count = nsvcd__supports_of_side(p, at, near->normal, same, chosen);
+  int closest = -1;  // to the nearest points
+  int has_nearest = 0;
+  for (int n = 0; n < count; n++) {
+    const nsvcd__pair_contact *support = &m->supports[chosen[n]];
+    nsvcd__write_contact(query, support, &out[n]);
+    out[n].id = m->numbers[chosen[n]] ^ (uint32_t)query->task.swapped;
+    has_nearest |= support->distance <= (double)near->distance + nsvcd__epsilon(p);
+    const double square = nsvcd__d3_distance2(support->point, points->on_b);
+    if (closest < 0 ||
+        square < nsvcd__d3_distance2(m->supports[chosen[closest]].point, points->on_b))
+      closest = n;
+  }
+  if (has_nearest) return (size_t)count;
+  // It replaces the one beside it, unless there is room.
+  if (count < NSVCD_MAX_CONTACTS) closest = count++;
+  nsvcd__pair_contact nearest = nsvcd__contact_at(p, &posed->pair, 0, points);
+  nearest.normal = nsvcd__d3_widen(near->normal);
+  nsvcd__write_contact(query, &nearest, &out[closest]);
+  out[closest].id = (near->moving_triangle * 3 + near->fixed_triangle * 5) << 2 | 2;
+  return (size_t)count;
+}
+
+// Writes the contacts of all sides, the nearest side first. Returns how many.
+static size_t nsvcd__write_contacts(nsvcd__query *query, nsvcd_contact *contacts,
+                                    size_t most) {
+  nsvcd__proof *p = &query->solver->p;
+  const nsvcd__near_list *list = &p->near_list;
+  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, 0), 0);
+  const double same = nsvcd__epsilon(p) + 1e-5 * (double)p->given.lengths;
+  size_t written = 0;
+  for (int sides = 0; sides < NSVCD_MAX_SIDES && written < most;) {
+    nsvcd_contact found[NSVCD_MAX_CONTACTS];
+    nsvcd__posed_pair posed;
+    nsvcd__near *near = nsvcd__next_near(list);
+    if (!near) break;
+    near->is_settled = 1;
+    nsvcd__posed_pair_of(p, &at, near, &posed);
+    const nsvcd__nearest points = nsvcd__near_points(posed.posed, posed.pair.fixed);
+    if (nsvcd__goes_on_beside(p, near->moving_triangle, near->fixed_triangle, &points,
+                              nsvcd__d3_widen(near->normal)))
+      continue;
+    const size_t count =
+        nsvcd__contacts_of_side(query, &at, near, &posed, &points, same, found);
+    for (size_t n = 0; n < count && written < most; n++) contacts[written++] = found[n];
+    for (uint32_t n = 0; n < list->count; n++) {
+      nsvcd__near *other = &list->items[n];
+      if (nsvcd__f3_dot(other->normal, near->normal) >= NSVCD__SAME_SIDE)
+        other->is_settled = 1;
+    }
+    sides++;
+  }
+  return written;
+}
+
+// Lists the near triangle pairs of a question that has been laid out. At rest there is one segment:
+// so the memory for the chords of the others is free. Returns 0 if some may be missing.
+static int nsvcd__list_all_near(nsvcd__query *query) {
+  nsvcd__solver *w = query->solver;
+  nsvcd__search *q = &query->broad_phase;
+  nsvcd__goal goal = nsvcd__proof_begin(query);
+  nsvcd__near_list *list = &w->p.near_list;
+  nsvcd__chords *free_chords = q->members + 2;  // the second is that of spare boxes
+  list->items = (nsvcd__near *)(void *)free_chords;
+  list->room = (uint32_t)((q->most_segments - 2) * sizeof *free_chords / sizeof *list->items);
+  list->count = list->is_full = 0;
+  goal.collects = NSVCD__LISTING;
+  const nsvcd__search_result result = nsvcd__search_anew(w, q, goal);
+  return !result.ran_out && !list->is_full;
+}
+#endif  // NSVCD_NO_PROOF
+
+static nsvcd_result nsvcd__run_contacts(nsvcd__isa isa, const nsvcd_question *question,
+                                        void *workspace, size_t workspace_size,
+                                        nsvcd_contact *contacts, size_t most, size_t *count,
+                                        int *is_partial) {
+  if (!question || !count || (most > 0 && !contacts)) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_result result = nsvcd__sweep_check(question, workspace, workspace_size);
+  if (result) return result;
+  if (question->a.count > 1 || question->b.count > 1) return NSVCD_ERROR_POSES;
+  if (question->ask != NSVCD_ASK_HIT) return NSVCD_ERROR_ASK;
+  if (question->slop > 0) return NSVCD_ERROR_SLOP;
+  if (!(question->clearance > 0)) return NSVCD_ERROR_CLEARANCE;
+#ifndef NSVCD_NO_PROOF
+  nsvcd__query *query = nsvcd__query_open(isa, question, workspace);
+  const int is_whole = nsvcd__list_all_near(query);
+  *count = nsvcd__write_contacts(query, contacts, most);
+  for (size_t n = 0; n < *count && query->task.swapped; n++) nsvcd__swap_contact(&contacts[n]);
+  if (is_partial) *is_partial = !is_whole;
+#else
+  (void)isa;
+  (void)is_partial;
+#endif
+  return NSVCD_OK;
+}
+
+NSVCDDEF nsvcd_result nsvcd_contacts(const nsvcd_question *question, void *workspace,
+                                     size_t workspace_size, nsvcd_contact *contacts,
+                                     size_t most, size_t *count, int *is_partial) {
+  return nsvcd__run_contacts(nsvcd__isa_at_hand(), question, workspace, workspace_size,
+                             contacts, most, count, is_partial);
+}
