@@ -10523,7 +10523,7 @@ static float nsvcd__interval_gap(const nsvcd__motion *m, uint32_t from, uint32_t
 
 #ifndef NSVCD_NO_PROOF
 // Two triangles that come within the clearance, of bodies at rest, in the fixed body's frame.
-typedef struct nsvcd__near {
+typedef struct nsvcd__near_pair {
   float distance;
   nsvcd__f3 normal;  // unit: out of the fixed body
   uint32_t moving_entry, fixed_entry;
@@ -10532,11 +10532,11 @@ typedef struct nsvcd__near {
   uint16_t moving_patch, fixed_patch;
   // 1: it has its side, or is none
   uint32_t is_settled;
-} nsvcd__near;
+} nsvcd__near_pair;
 
 // A list of these, in the caller's memory; is_full: there were more.
 typedef struct nsvcd__near_list {
-  nsvcd__near *items;
+  nsvcd__near_pair *items;
   uint32_t count, room, is_full;
 } nsvcd__near_list;
 #endif  // NSVCD_NO_PROOF
@@ -14606,9 +14606,9 @@ typedef struct nsvcd__posed_pair {
 } nsvcd__posed_pair;
 
 static void nsvcd__posed_pair_of(const nsvcd__proof *p, const nsvcd__dtransform *at,
-                                 const nsvcd__near *near, nsvcd__posed_pair *out) {
-  out->pair = nsvcd__pair_of(p, near->moving_patch, near->fixed_patch, near->moving_entry,
-                             near->fixed_entry);
+                                 const nsvcd__near_pair *item, nsvcd__posed_pair *out) {
+  out->pair = nsvcd__pair_of(p, item->moving_patch, item->fixed_patch, item->moving_entry,
+                             item->fixed_entry);
   nsvcd__pose_triangle(at, out->pair.moving, out->posed);
 }
 
@@ -14636,12 +14636,12 @@ static NSVCD__NOINLINE int nsvcd__goes_on_beside(const nsvcd__proof *p, uint32_t
   const nsvcd__d3 back = nsvcd__d3_scale(normal, -1);
   const double same = nsvcd__epsilon(p);
   for (uint32_t n = 0; n < list->count; n++) {
-    const nsvcd__near *near = &list->items[n];
-    const int same_moving = near->moving_triangle == moving;
-    const int same_fixed = near->fixed_triangle == fixed;
+    const nsvcd__near_pair *item = &list->items[n];
+    const int same_moving = item->moving_triangle == moving;
+    const int same_fixed = item->fixed_triangle == fixed;
     if (!same_moving && !same_fixed) continue;
     nsvcd__posed_pair at_it;
-    nsvcd__posed_pair_of(p, &at, near, &at_it);
+    nsvcd__posed_pair_of(p, &at, item, &at_it);
     if (same_moving && nsvcd__goes_on(at_it.pair.fixed, points->on_b, normal, same)) return 1;
     if (same_fixed && nsvcd__goes_on(at_it.posed, points->on_a, back, same)) return 1;
   }
@@ -14654,8 +14654,8 @@ static int nsvcd__is_listed(const nsvcd__proof *p, size_t i, size_t j, size_t a,
   const uint32_t moving = nsvcd__triangle_number(&p->moving, i, a);
   const uint32_t fixed = nsvcd__triangle_number(&p->fixed, j, b);
   for (uint32_t n = list->count; n-- > 0;) {
-    const nsvcd__near *near = &list->items[n];
-    if (near->moving_triangle == moving && near->fixed_triangle == fixed) return 1;
+    const nsvcd__near_pair *item = &list->items[n];
+    if (item->moving_triangle == moving && item->fixed_triangle == fixed) return 1;
   }
   return 0;
 }
@@ -14679,7 +14679,7 @@ static NSVCD__NOINLINE void nsvcd__list_nearer_half(nsvcd__proof *p) {
 static NSVCD__NOINLINE void nsvcd__list_near(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
                                              const nsvcd__d3 *posed) {
   nsvcd__near_list *list = &p->near_list;
-  nsvcd__near item;
+  nsvcd__near_pair item;
   const nsvcd__nearest nearest = nsvcd__near_points(posed, pair->fixed);
   if (!(nearest.square <= p->goal.clearance * p->goal.clearance)) {
     const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
@@ -14778,13 +14778,14 @@ static NSVCD__NOINLINE void nsvcd__keep_support(const nsvcd__proof *p, nsvcd__ma
     if (!(more > m->same || (more >= -m->same && number < m->numbers[k]))) continue;
     if (!known) {
       contact = nsvcd__contact_at(p, f->pair, 0, &nearest);
-      contact.normal = nsvcd__d3_scale(normal, side);
       const int may_go_on = p->goal.collects == NSVCD__LISTING && (number & 2);
-      if (may_go_on && nsvcd__goes_on_beside(p, contact.moving_triangle,
-                                             contact.fixed_triangle, &nearest, contact.normal))
+      if (may_go_on &&
+          nsvcd__goes_on_beside(p, contact.moving_triangle, contact.fixed_triangle, &nearest,
+                                nsvcd__d3_scale(normal, side)))
         return;
     }
     known = 1;
+    contact.normal = nsvcd__d3_scale(normal, side);
     m->supports[k] = contact;
     m->numbers[k] = number;
     m->farthest[k] = along_it;
@@ -21097,11 +21098,11 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
 #define NSVCD__SAME_SIDE 0.8f
 
 // The nearest triangle pair that has no side yet; NULL: there is none.
-static nsvcd__near *nsvcd__next_near(const nsvcd__near_list *list) {
-  nsvcd__near *best = NULL;
+static nsvcd__near_pair *nsvcd__next_near(const nsvcd__near_list *list) {
+  nsvcd__near_pair *best = NULL;
   for (uint32_t n = 0; n < list->count; n++) {
-    nsvcd__near *near = &list->items[n];
-    if (!near->is_settled && (!best || near->distance < best->distance)) best = near;
+    nsvcd__near_pair *item = &list->items[n];
+    if (!item->is_settled && (!best || item->distance < best->distance)) best = item;
   }
   return best;
 }
@@ -21119,9 +21120,9 @@ static int nsvcd__supports_of_side(nsvcd__proof *p, const nsvcd__dtransform *at,
   for (int across = 0; across < 2; across++) {
     if (across && !nsvcd__seek_across(m, area)) break;
     for (uint32_t n = 0; n < p->near_list.count; n++) {
-      const nsvcd__near *near = &p->near_list.items[n];
-      if (nsvcd__f3_dot(near->normal, normal) < NSVCD__SAME_SIDE) continue;
-      nsvcd__posed_pair_of(p, at, near, &posed);
+      const nsvcd__near_pair *item = &p->near_list.items[n];
+      if (nsvcd__f3_dot(item->normal, normal) < NSVCD__SAME_SIDE) continue;
+      nsvcd__posed_pair_of(p, at, item, &posed);
       nsvcd__collect_supports(p, m, &posed.pair, posed.posed);
     }
     count = nsvcd__choose_four(m, chosen, &area);
@@ -21132,20 +21133,21 @@ static int nsvcd__supports_of_side(nsvcd__proof *p, const nsvcd__dtransform *at,
 // The contacts of the side whose nearest triangle pair this is, with its nearest points: up to
 // NSVCD_MAX_CONTACTS, of which one is as near as these. Returns how many.
 static size_t nsvcd__contacts_of_side(nsvcd__query *query, const nsvcd__dtransform *at,
-                                      const nsvcd__near *near, const nsvcd__posed_pair *posed,
+                                      const nsvcd__near_pair *item,
+                                      const nsvcd__posed_pair *posed,
                                       const nsvcd__nearest *points, double same,
                                       nsvcd_contact *out) {
   nsvcd__proof *p = &query->solver->p;
   const nsvcd__manifold *m = &p->of.kept.manifold;
   int chosen[NSVCD_MAX_CONTACTS];
-  int count = nsvcd__supports_of_side(p, at, near->normal, same, chosen);
+  int count = nsvcd__supports_of_side(p, at, item->normal, same, chosen);
   int closest = -1;  // to the nearest points
   int has_nearest = 0;
   for (int n = 0; n < count; n++) {
     const nsvcd__pair_contact *support = &m->supports[chosen[n]];
     nsvcd__write_contact(query, support, &out[n]);
     out[n].id = m->numbers[chosen[n]] ^ (uint32_t)query->task.swapped;
-    has_nearest |= support->distance <= (double)near->distance + nsvcd__epsilon(p);
+    has_nearest |= support->distance <= (double)item->distance + nsvcd__epsilon(p);
     const double square = nsvcd__d3_distance2(support->point, points->on_b);
     if (closest < 0 ||
         square < nsvcd__d3_distance2(m->supports[chosen[closest]].point, points->on_b))
@@ -21155,9 +21157,9 @@ static size_t nsvcd__contacts_of_side(nsvcd__query *query, const nsvcd__dtransfo
   // It replaces the one beside it, unless there is room.
   if (count < NSVCD_MAX_CONTACTS) closest = count++;
   nsvcd__pair_contact nearest = nsvcd__contact_at(p, &posed->pair, 0, points);
-  nearest.normal = nsvcd__d3_widen(near->normal);
+  nearest.normal = nsvcd__d3_widen(item->normal);
   nsvcd__write_contact(query, &nearest, &out[closest]);
-  out[closest].id = (near->moving_triangle * 3 + near->fixed_triangle * 5) << 2 | 2;
+  out[closest].id = (item->moving_triangle * 3 + item->fixed_triangle * 5) << 2 | 2;
   return (size_t)count;
 }
 
@@ -21172,20 +21174,20 @@ static size_t nsvcd__write_contacts(nsvcd__query *query, nsvcd_contact *contacts
   for (int sides = 0; sides < NSVCD_MAX_SIDES && written < most;) {
     nsvcd_contact found[NSVCD_MAX_CONTACTS];
     nsvcd__posed_pair posed;
-    nsvcd__near *near = nsvcd__next_near(list);
-    if (!near) break;
-    near->is_settled = 1;
-    nsvcd__posed_pair_of(p, &at, near, &posed);
+    nsvcd__near_pair *item = nsvcd__next_near(list);
+    if (!item) break;
+    item->is_settled = 1;
+    nsvcd__posed_pair_of(p, &at, item, &posed);
     const nsvcd__nearest points = nsvcd__near_points(posed.posed, posed.pair.fixed);
-    if (nsvcd__goes_on_beside(p, near->moving_triangle, near->fixed_triangle, &points,
-                              nsvcd__d3_widen(near->normal)))
+    if (nsvcd__goes_on_beside(p, item->moving_triangle, item->fixed_triangle, &points,
+                              nsvcd__d3_widen(item->normal)))
       continue;
     const size_t count =
-        nsvcd__contacts_of_side(query, &at, near, &posed, &points, same, found);
+        nsvcd__contacts_of_side(query, &at, item, &posed, &points, same, found);
     for (size_t n = 0; n < count && written < most; n++) contacts[written++] = found[n];
     for (uint32_t n = 0; n < list->count; n++) {
-      nsvcd__near *other = &list->items[n];
-      if (nsvcd__f3_dot(other->normal, near->normal) >= NSVCD__SAME_SIDE)
+      nsvcd__near_pair *other = &list->items[n];
+      if (nsvcd__f3_dot(other->normal, item->normal) >= NSVCD__SAME_SIDE)
         other->is_settled = 1;
     }
     sides++;
@@ -21201,7 +21203,7 @@ static int nsvcd__list_all_near(nsvcd__query *query) {
   nsvcd__goal goal = nsvcd__proof_begin(query);
   nsvcd__near_list *list = &w->p.near_list;
   nsvcd__chords *free_chords = q->members + 2;  // the second is that of spare boxes
-  list->items = (nsvcd__near *)(void *)free_chords;
+  list->items = (nsvcd__near_pair *)(void *)free_chords;
   list->room = (uint32_t)((q->most_segments - 2) * sizeof *free_chords / sizeof *list->items);
   list->count = list->is_full = 0;
   goal.collects = NSVCD__LISTING;

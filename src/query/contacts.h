@@ -13,11 +13,11 @@
 #define NSVCD__SAME_SIDE 0.8f
 
 // The nearest triangle pair that has no side yet; NULL: there is none.
-static nsvcd__near *nsvcd__next_near(const nsvcd__near_list *list) {
-  nsvcd__near *best = NULL;
+static nsvcd__near_pair *nsvcd__next_near(const nsvcd__near_list *list) {
+  nsvcd__near_pair *best = NULL;
   for (uint32_t n = 0; n < list->count; n++) {
-    nsvcd__near *near = &list->items[n];
-    if (!near->is_settled && (!best || near->distance < best->distance)) best = near;
+    nsvcd__near_pair *item = &list->items[n];
+    if (!item->is_settled && (!best || item->distance < best->distance)) best = item;
   }
   return best;
 }
@@ -35,9 +35,9 @@ static int nsvcd__supports_of_side(nsvcd__proof *p, const nsvcd__dtransform *at,
   for (int across = 0; across < 2; across++) {
     if (across && !nsvcd__seek_across(m, area)) break;
     for (uint32_t n = 0; n < p->near_list.count; n++) {
-      const nsvcd__near *near = &p->near_list.items[n];
-      if (nsvcd__f3_dot(near->normal, normal) < NSVCD__SAME_SIDE) continue;
-      nsvcd__posed_pair_of(p, at, near, &posed);
+      const nsvcd__near_pair *item = &p->near_list.items[n];
+      if (nsvcd__f3_dot(item->normal, normal) < NSVCD__SAME_SIDE) continue;
+      nsvcd__posed_pair_of(p, at, item, &posed);
       nsvcd__collect_supports(p, m, &posed.pair, posed.posed);
     }
     count = nsvcd__choose_four(m, chosen, &area);
@@ -48,20 +48,21 @@ static int nsvcd__supports_of_side(nsvcd__proof *p, const nsvcd__dtransform *at,
 // The contacts of the side whose nearest triangle pair this is, with its nearest points: up to
 // NSVCD_MAX_CONTACTS, of which one is as near as these. Returns how many.
 static size_t nsvcd__contacts_of_side(nsvcd__query *query, const nsvcd__dtransform *at,
-                                      const nsvcd__near *near, const nsvcd__posed_pair *posed,
+                                      const nsvcd__near_pair *item,
+                                      const nsvcd__posed_pair *posed,
                                       const nsvcd__nearest *points, double same,
                                       nsvcd_contact *out) {
   nsvcd__proof *p = &query->solver->p;
   const nsvcd__manifold *m = &p->of.kept.manifold;
   int chosen[NSVCD_MAX_CONTACTS];
-  int count = nsvcd__supports_of_side(p, at, near->normal, same, chosen);
+  int count = nsvcd__supports_of_side(p, at, item->normal, same, chosen);
   int closest = -1;  // to the nearest points
   int has_nearest = 0;
   for (int n = 0; n < count; n++) {
     const nsvcd__pair_contact *support = &m->supports[chosen[n]];
     nsvcd__write_contact(query, support, &out[n]);
     out[n].id = m->numbers[chosen[n]] ^ (uint32_t)query->task.swapped;
-    has_nearest |= support->distance <= (double)near->distance + nsvcd__epsilon(p);
+    has_nearest |= support->distance <= (double)item->distance + nsvcd__epsilon(p);
     const double square = nsvcd__d3_distance2(support->point, points->on_b);
     if (closest < 0 ||
         square < nsvcd__d3_distance2(m->supports[chosen[closest]].point, points->on_b))
@@ -71,9 +72,9 @@ static size_t nsvcd__contacts_of_side(nsvcd__query *query, const nsvcd__dtransfo
   // It replaces the one beside it, unless there is room.
   if (count < NSVCD_MAX_CONTACTS) closest = count++;
   nsvcd__pair_contact nearest = nsvcd__contact_at(p, &posed->pair, 0, points);
-  nearest.normal = nsvcd__d3_widen(near->normal);
+  nearest.normal = nsvcd__d3_widen(item->normal);
   nsvcd__write_contact(query, &nearest, &out[closest]);
-  out[closest].id = (near->moving_triangle * 3 + near->fixed_triangle * 5) << 2 | 2;
+  out[closest].id = (item->moving_triangle * 3 + item->fixed_triangle * 5) << 2 | 2;
   return (size_t)count;
 }
 
@@ -88,20 +89,20 @@ static size_t nsvcd__write_contacts(nsvcd__query *query, nsvcd_contact *contacts
   for (int sides = 0; sides < NSVCD_MAX_SIDES && written < most;) {
     nsvcd_contact found[NSVCD_MAX_CONTACTS];
     nsvcd__posed_pair posed;
-    nsvcd__near *near = nsvcd__next_near(list);
-    if (!near) break;
-    near->is_settled = 1;
-    nsvcd__posed_pair_of(p, &at, near, &posed);
+    nsvcd__near_pair *item = nsvcd__next_near(list);
+    if (!item) break;
+    item->is_settled = 1;
+    nsvcd__posed_pair_of(p, &at, item, &posed);
     const nsvcd__nearest points = nsvcd__near_points(posed.posed, posed.pair.fixed);
-    if (nsvcd__goes_on_beside(p, near->moving_triangle, near->fixed_triangle, &points,
-                              nsvcd__d3_widen(near->normal)))
+    if (nsvcd__goes_on_beside(p, item->moving_triangle, item->fixed_triangle, &points,
+                              nsvcd__d3_widen(item->normal)))
       continue;
     const size_t count =
-        nsvcd__contacts_of_side(query, &at, near, &posed, &points, same, found);
+        nsvcd__contacts_of_side(query, &at, item, &posed, &points, same, found);
     for (size_t n = 0; n < count && written < most; n++) contacts[written++] = found[n];
     for (uint32_t n = 0; n < list->count; n++) {
-      nsvcd__near *other = &list->items[n];
-      if (nsvcd__f3_dot(other->normal, near->normal) >= NSVCD__SAME_SIDE)
+      nsvcd__near_pair *other = &list->items[n];
+      if (nsvcd__f3_dot(other->normal, item->normal) >= NSVCD__SAME_SIDE)
         other->is_settled = 1;
     }
     sides++;
@@ -117,7 +118,7 @@ static int nsvcd__list_all_near(nsvcd__query *query) {
   nsvcd__goal goal = nsvcd__proof_begin(query);
   nsvcd__near_list *list = &w->p.near_list;
   nsvcd__chords *free_chords = q->members + 2;  // the second is that of spare boxes
-  list->items = (nsvcd__near *)(void *)free_chords;
+  list->items = (nsvcd__near_pair *)(void *)free_chords;
   list->room = (uint32_t)((q->most_segments - 2) * sizeof *free_chords / sizeof *list->items);
   list->count = list->is_full = 0;
   goal.collects = NSVCD__LISTING;

@@ -73,13 +73,14 @@ static NSVCD__NOINLINE void nsvcd__keep_support(const nsvcd__proof *p, nsvcd__ma
     if (!(more > m->same || (more >= -m->same && number < m->numbers[k]))) continue;
     if (!known) {
       contact = nsvcd__contact_at(p, f->pair, 0, &nearest);
-      contact.normal = nsvcd__d3_scale(normal, side);
       const int may_go_on = p->goal.collects == NSVCD__LISTING && (number & 2);
-      if (may_go_on && nsvcd__goes_on_beside(p, contact.moving_triangle,
-                                             contact.fixed_triangle, &nearest, contact.normal))
+      if (may_go_on &&
+          nsvcd__goes_on_beside(p, contact.moving_triangle, contact.fixed_triangle, &nearest,
+                                nsvcd__d3_scale(normal, side)))
         return;
     }
     known = 1;
+    contact.normal = nsvcd__d3_scale(normal, side);
     m->supports[k] = contact;
     m->numbers[k] = number;
     m->farthest[k] = along_it;

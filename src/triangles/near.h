@@ -57,9 +57,9 @@ typedef struct nsvcd__posed_pair {
 } nsvcd__posed_pair;
 
 static void nsvcd__posed_pair_of(const nsvcd__proof *p, const nsvcd__dtransform *at,
-                                 const nsvcd__near *near, nsvcd__posed_pair *out) {
-  out->pair = nsvcd__pair_of(p, near->moving_patch, near->fixed_patch, near->moving_entry,
-                             near->fixed_entry);
+                                 const nsvcd__near_pair *item, nsvcd__posed_pair *out) {
+  out->pair = nsvcd__pair_of(p, item->moving_patch, item->fixed_patch, item->moving_entry,
+                             item->fixed_entry);
   nsvcd__pose_triangle(at, out->pair.moving, out->posed);
 }
 
@@ -87,12 +87,12 @@ static NSVCD__NOINLINE int nsvcd__goes_on_beside(const nsvcd__proof *p, uint32_t
   const nsvcd__d3 back = nsvcd__d3_scale(normal, -1);
   const double same = nsvcd__epsilon(p);
   for (uint32_t n = 0; n < list->count; n++) {
-    const nsvcd__near *near = &list->items[n];
-    const int same_moving = near->moving_triangle == moving;
-    const int same_fixed = near->fixed_triangle == fixed;
+    const nsvcd__near_pair *item = &list->items[n];
+    const int same_moving = item->moving_triangle == moving;
+    const int same_fixed = item->fixed_triangle == fixed;
     if (!same_moving && !same_fixed) continue;
     nsvcd__posed_pair at_it;
-    nsvcd__posed_pair_of(p, &at, near, &at_it);
+    nsvcd__posed_pair_of(p, &at, item, &at_it);
     if (same_moving && nsvcd__goes_on(at_it.pair.fixed, points->on_b, normal, same)) return 1;
     if (same_fixed && nsvcd__goes_on(at_it.posed, points->on_a, back, same)) return 1;
   }
@@ -105,8 +105,8 @@ static int nsvcd__is_listed(const nsvcd__proof *p, size_t i, size_t j, size_t a,
   const uint32_t moving = nsvcd__triangle_number(&p->moving, i, a);
   const uint32_t fixed = nsvcd__triangle_number(&p->fixed, j, b);
   for (uint32_t n = list->count; n-- > 0;) {
-    const nsvcd__near *near = &list->items[n];
-    if (near->moving_triangle == moving && near->fixed_triangle == fixed) return 1;
+    const nsvcd__near_pair *item = &list->items[n];
+    if (item->moving_triangle == moving && item->fixed_triangle == fixed) return 1;
   }
   return 0;
 }
@@ -130,7 +130,7 @@ static NSVCD__NOINLINE void nsvcd__list_nearer_half(nsvcd__proof *p) {
 static NSVCD__NOINLINE void nsvcd__list_near(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
                                              const nsvcd__d3 *posed) {
   nsvcd__near_list *list = &p->near_list;
-  nsvcd__near item;
+  nsvcd__near_pair item;
   const nsvcd__nearest nearest = nsvcd__near_points(posed, pair->fixed);
   if (!(nearest.square <= p->goal.clearance * p->goal.clearance)) {
     const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
