@@ -2102,8 +2102,8 @@ typedef struct nsvcd__slide {
   nsvcd__thing thing;
   // metres; seconds of the frame
   double clearance, margin, seconds;
-  // of the frame
-  double left;
+  // of the frame; and what of it was of no use
+  double left, lost;
   // unit, or 0; the least cosine of a ground
   nsvcd__d3 up;
   double slope;
@@ -2203,8 +2203,9 @@ static nsvcd_pose nsvcd__aim(const nsvcd__slide *s, double seconds) {
   nsvcd__dpose out = nsvcd__unit_dpose(&s->pose);
   const nsvcd__d3 pivot = nsvcd__to_pivot(&out, c, 1);
   out.rotation = nsvcd__dquat_mul(turn, out.rotation);
-  const nsvcd__d3 speed = nsvcd__d3_add(s->thing.linear, s->leaves.linear);
-  out.position = nsvcd__d3_fma(seconds, speed, pivot);
+  const nsvcd__d3 own = nsvcd__d3_sub(s->thing.linear, s->ridden);
+  const nsvcd__d3 rides = nsvcd__d3_add(s->ridden, s->leaves.linear);
+  out.position = nsvcd__d3_fma(seconds, nsvcd__d3_fma(s->pace, own, rides), pivot);
   out.position = nsvcd__to_pivot(&out, c, -1);
   return nsvcd__dpose_round(&out);
 }
@@ -2464,7 +2465,7 @@ static int nsvcd__slide_round(nsvcd__slide *s, int is_first, int *rests) {
 
 static void nsvcd__slide_answer(nsvcd__slide *s, nsvcd_velocity *velocity,
                                 nsvcd_slide_answer *out) {
-  const double used = 1 - s->left;
+  const double used = 1 - s->lost;
   out->pose = s->pose;
   const nsvcd__d3 linear =
       nsvcd__d3_sub(nsvcd__d3_scale(s->thing.linear, used), nsvcd__d3_scale(s->ridden, used));
@@ -2519,6 +2520,7 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
     if (free_until < 1) out.caught = s.met;
   }
   const double rises = nsvcd__d3_dot(nsvcd__d3_sub(s.thing.linear, s.ridden), s.up);
+  s.lost = s.left;
   if (nsvcd__d3_dot(s.up, s.up) > 0 && !s.ask.result && !out.rests) {
     s.left = 0;
     nsvcd__slide_look(&s);
