@@ -37,6 +37,9 @@ typedef struct nsvcd_range_options {
   int (*stop)(void *user);
   // passed to `stop`
   void *user;
+  // units of the whole search, approximately, of which a question takes some beside its proof;
+  // default 1,000,000
+  size_t units;
 } nsvcd_range_options;
 
 #define NSVCD_MAX_BOXES 10000000
