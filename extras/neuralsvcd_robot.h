@@ -51,6 +51,7 @@
 //     reach           configurations that have a tool at a target
 //     spans           two parts, and the joints between them
 //     meetings        configurations in which two parts meet, and do not
+//     partings        does a plane part two parts in a box of values?
 //     ranges          do two parts meet never, always or sometimes?
 //     blends          from one state to another, within limits of speed and acceleration
 //     smooth          a path, timed, then smooth
@@ -5343,6 +5344,10 @@ typedef struct nsvcd__span {
   // of the path: the box, half its widths, and r of the banner
   double low[NSVCD_MAX_JOINTS], high[NSVCD_MAX_JOINTS];
   double half[NSVCD_MAX_JOINTS], arms[NSVCD_MAX_JOINTS];
+  // of the way: half the widths, and the sines of half of these
+  double reach[NSVCD_MAX_JOINTS], sines[NSVCD_MAX_JOINTS];
+  // metres: what both parts go beyond their triangles, and these beyond those of their meshes
+  double beyond;
   // metres: no point of a probe is farther from its position
   double probe_extent;
 } nsvcd__span;
@@ -5436,12 +5441,12 @@ static void nsvcd__arms_along(const nsvcd_checker *c, const size_t *way, size_t 
 static void nsvcd__arms_between(nsvcd__span *s, const nsvcd__links *at,
                                 const nsvcd__rider *riders) {
   double rates[NSVCD_MAX_JOINTS], arms[NSVCD_MAX_JOINTS];
-  double reach[NSVCD_MAX_JOINTS] = {0};
   for (size_t k = 0; k < s->way_count; k++) {
     rates[k] = fabs(nsvcd__rate(&s->scene, s->way[k]));
-    reach[k] = rates[k] * s->half[s->drivers[k]];
+    s->reach[k] = rates[k] * s->half[s->drivers[k]];
+    s->sines[k] = sin(0.5 * nsvcd__min(s->reach[k], 3.141592653589793));
   }
-  nsvcd__arms_along(s->checker, s->way, s->way_count, reach, at, riders, arms);
+  nsvcd__arms_along(s->checker, s->way, s->way_count, s->reach, at, riders, arms);
   for (size_t k = 0; k < s->joints; k++) s->arms[k] = 0;
   for (size_t k = 0; k < s->way_count; k++) s->arms[s->drivers[k]] += rates[k] * arms[k];
 }
@@ -5558,6 +5563,11 @@ static void nsvcd__span_begin(const nsvcd_scene *scene, nsvcd_body_pair pair, ns
     s->at[j] = 0.5 * (low + high);
   }
   nsvcd__follow(scene, 1, s->at);
+  for (size_t n = 0; n < 2; n++) {
+    const nsvcd_body_facts facts = nsvcd_body_describe(s->parts[n].body);
+    const double scale = s->parts[n].scale > 0 ? (double)s->parts[n].scale : 1;
+    s->beyond += scale * ((double)facts.convex_radius + (double)facts.quantization_error);
+  }
   // of all bodies the one with the fewest triangles
   nsvcd_part *probe = &s->parts[2];
   size_t fewest = SIZE_MAX;
@@ -5776,6 +5786,91 @@ static void nsvcd__try_slopes(nsvcd__ranging *r, size_t count, double sign) {
   }
 }
 
+// ---------------------------------------------------------------------------------- robot/partings
+// In: two parts, and a box of values of the joints between them. Out: does a plane part them in all
+// of it?
+//
+// THE BOUND. The plane is fixed in some link between the two: joints up to there move the one part,
+// those beyond it the other. From the centre of the box joints may change one after another, the
+// outer ones first, so that each still has the axis that it has at the centre. A point p that outer
+// joints have displaced by m or less is then turned by w about an axis through f, of direction x.
+// Along the plane's normal n that moves it by no more than
+//   sin |w| |n . (x, p' - f)| + (1 - cos w) r  <=  h (|n . (x, p - f)| + m) + h^2 r / 2
+// where (,) is the vector product, p' the displaced point, r its distance from the axis, and h the
+// most that |w| is; nor by more than the chord 2 r sin(h / 2), h up to pi, which is added to m for
+// joints further in. One that slides moves the point by h |n . x|. For a given configuration n . p
+// is linear in p, so that of all points of a box about a part a corner comes farthest.
+// Source: this library.
+
+// of all lengths: errors of frames in double
+#define NSVCD__PARTING_ROUNDING 1e-9
+
+// The least that points of a part are along a direction, in all of the box: least[n] if the plane is
+// fixed behind n joints, counted from the part.
+static void nsvcd__least_along(const nsvcd__span *s, const nsvcd__links *at,
+                               const nsvcd__rider *rider, size_t side, nsvcd__d3 along,
+                               double *least) {
+  for (size_t corner = 0; corner < 8; corner++) {
+    nsvcd__d3 p = rider->middle;
+    double moved = 0;
+    for (size_t k = 0; k < 3; k++)
+      p = nsvcd__d3_fma(corner >> k & 1 ? 1 : -1, rider->sides[k], p);
+    double value = nsvcd__d3_dot(along, p);
+    for (size_t n = 0; n <= s->way_count; n++) {
+      least[n] = corner ? nsvcd__min(least[n], value) : value;
+      if (n == s->way_count) break;
+      const size_t k = side ? s->way_count - 1 - n : n;
+      const size_t j = s->way[k];
+      const nsvcd__d3 axis = at->axes[j];
+      const double h = s->reach[k];
+      if (nsvcd__slides(s->checker, j)) {
+        value -= h * fabs(nsvcd__d3_dot(along, axis));
+        moved += h;
+        continue;
+      }
+      const nsvcd__d3 off =
+          nsvcd__d3_cross(axis, nsvcd__d3_sub(p, at->frames[j + 1].position));
+      const double r = nsvcd__d3_norm(off) + moved;
+      const double chord = 2 * r * s->sines[k];
+      const double way = h * (fabs(nsvcd__d3_dot(along, off)) + moved + 0.5 * h * r);
+      value -= nsvcd__min(way, chord);
+      moved += chord;
+    }
+  }
+}
+
+// Is a plane of this normal, of length 1 or less, farther from both parts together than the
+// clearance in all of the box?
+static int nsvcd__parts_along(const nsvcd__span *s, const nsvcd__links *at,
+                              const nsvcd__rider *riders, nsvcd__d3 normal, double clearance) {
+  double least[2][NSVCD_MAX_JOINTS + 1];
+  const nsvcd__d3 back = nsvcd__d3_scale(normal, -1);
+  for (size_t side = 0; side < 2; side++)
+    nsvcd__least_along(s, at, &riders[side], side, side ? back : normal, least[side]);
+  const double sizes = 1 + fabs(least[0][0]) + fabs(least[1][0]);
+  for (size_t n = 0; n <= s->way_count; n++) {
+    const double apart = least[0][n] + least[1][s->way_count - n];
+    if (apart > clearance * (1 + 1e-9) + NSVCD__PARTING_ROUNDING * sizes) return 1;
+  }
+  return 0;
+}
+
+// Does a plane part the two in all of the box? Tried are the direction from middle to middle, and
+// those of the sides of both boxes.
+static int nsvcd__are_parted(const nsvcd__span *s, const nsvcd__links *at,
+                             const nsvcd__rider *riders, double clearance) {
+  const nsvcd__d3 between = nsvcd__d3_sub(riders[0].middle, riders[1].middle);
+  for (size_t n = 0; n < 7; n++) {
+    nsvcd__d3 normal = n ? riders[(n - 1) / 3].sides[(n - 1) % 3] : between;
+    const double length = nsvcd__d3_norm(normal) * (1 + 1e-12);
+    if (!(length > 0)) continue;
+    const double sign = nsvcd__d3_dot(normal, between) < 0 ? -1 : 1;
+    normal = nsvcd__d3_scale(normal, sign / length);
+    if (nsvcd__parts_along(s, at, riders, normal, clearance)) return 1;
+  }
+  return 0;
+}
+
 // ------------------------------------------------------------------------------------ robot/ranges
 // In: two parts of a robot. Out: do they meet never, always or sometimes, over all values of the
 // joints between them?
@@ -5800,6 +5895,7 @@ static void nsvcd__try_slopes(nsvcd__ranging *r, size_t count, double sign) {
 #define NSVCD__KEPT_BOXES 4096
 #define NSVCD__QUEUED_BOXES 2048
 // boxes that are given up before the search is
+#define NSVCD__BOX_UNITS 10
 #define NSVCD__MOST_DROPPED 64
 // the first boxes that fail, and every so many later, have the slope followed
 #define NSVCD__FIRST_SLOPES 24
@@ -5885,6 +5981,8 @@ static void nsvcd__prove_free(nsvcd__ranging *r, const double *box) {
   const nsvcd__rider riders[2] = {nsvcd__rider_of(s->checker, &at, 0),
                                   nsvcd__rider_of(s->checker, &at, 1)};
   nsvcd__arms_between(s, &at, riders);
+  r->units += NSVCD__BOX_UNITS;
+  if (nsvcd__are_parted(s, &at, riders, (double)r->options.clearance + s->beyond)) return;
   const size_t along = nsvcd__farthest_joint(s);
   const double travel = nsvcd__travel_but(s, along);
   const double clearance = (double)r->options.clearance + travel;

@@ -15,6 +15,7 @@
 // A box that is neither is cut in two along the joint that moves points farthest.
 #pragma once
 #include "meetings.h"
+#include "partings.h"
 
 // default
 #define NSVCD__RANGE_UNITS 1000000
@@ -23,6 +24,7 @@
 #define NSVCD__KEPT_BOXES 4096
 #define NSVCD__QUEUED_BOXES 2048
 // boxes that are given up before the search is
+#define NSVCD__BOX_UNITS 10
 #define NSVCD__MOST_DROPPED 64
 // the first boxes that fail, and every so many later, have the slope followed
 #define NSVCD__FIRST_SLOPES 24
@@ -108,6 +110,8 @@ static void nsvcd__prove_free(nsvcd__ranging *r, const double *box) {
   const nsvcd__rider riders[2] = {nsvcd__rider_of(s->checker, &at, 0),
                                   nsvcd__rider_of(s->checker, &at, 1)};
   nsvcd__arms_between(s, &at, riders);
+  r->units += NSVCD__BOX_UNITS;
+  if (nsvcd__are_parted(s, &at, riders, (double)r->options.clearance + s->beyond)) return;
   const size_t along = nsvcd__farthest_joint(s);
   const double travel = nsvcd__travel_but(s, along);
   const double clearance = (double)r->options.clearance + travel;

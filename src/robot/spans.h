@@ -52,6 +52,10 @@ typedef struct nsvcd__span {
   // of the path: the box, half its widths, and r of the banner
   double low[NSVCD_MAX_JOINTS], high[NSVCD_MAX_JOINTS];
   double half[NSVCD_MAX_JOINTS], arms[NSVCD_MAX_JOINTS];
+  // of the way: half the widths, and the sines of half of these
+  double reach[NSVCD_MAX_JOINTS], sines[NSVCD_MAX_JOINTS];
+  // metres: what both parts go beyond their triangles, and these beyond those of their meshes
+  double beyond;
   // metres: no point of a probe is farther from its position
   double probe_extent;
 } nsvcd__span;
@@ -145,12 +149,12 @@ static void nsvcd__arms_along(const nsvcd_checker *c, const size_t *way, size_t 
 static void nsvcd__arms_between(nsvcd__span *s, const nsvcd__links *at,
                                 const nsvcd__rider *riders) {
   double rates[NSVCD_MAX_JOINTS], arms[NSVCD_MAX_JOINTS];
-  double reach[NSVCD_MAX_JOINTS] = {0};
   for (size_t k = 0; k < s->way_count; k++) {
     rates[k] = fabs(nsvcd__rate(&s->scene, s->way[k]));
-    reach[k] = rates[k] * s->half[s->drivers[k]];
+    s->reach[k] = rates[k] * s->half[s->drivers[k]];
+    s->sines[k] = sin(0.5 * nsvcd__min(s->reach[k], 3.141592653589793));
   }
-  nsvcd__arms_along(s->checker, s->way, s->way_count, reach, at, riders, arms);
+  nsvcd__arms_along(s->checker, s->way, s->way_count, s->reach, at, riders, arms);
   for (size_t k = 0; k < s->joints; k++) s->arms[k] = 0;
   for (size_t k = 0; k < s->way_count; k++) s->arms[s->drivers[k]] += rates[k] * arms[k];
 }
@@ -267,6 +271,11 @@ static void nsvcd__span_begin(const nsvcd_scene *scene, nsvcd_body_pair pair, ns
     s->at[j] = 0.5 * (low + high);
   }
   nsvcd__follow(scene, 1, s->at);
+  for (size_t n = 0; n < 2; n++) {
+    const nsvcd_body_facts facts = nsvcd_body_describe(s->parts[n].body);
+    const double scale = s->parts[n].scale > 0 ? (double)s->parts[n].scale : 1;
+    s->beyond += scale * ((double)facts.convex_radius + (double)facts.quantization_error);
+  }
   // of all bodies the one with the fewest triangles
   nsvcd_part *probe = &s->parts[2];
   size_t fewest = SIZE_MAX;
