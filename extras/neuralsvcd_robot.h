@@ -5685,7 +5685,7 @@ static nsvcd_verdict nsvcd__note_here(nsvcd__ranging *r) {
 // ---- slopes
 
 // Metres: how far the parts are from coming as near as the clearance, in the configuration span.at;
-// less than 0 if they do. Known to a tenth of `about`. Returns 0 if nothing is known.
+// less than 0 if they do. No more than a tenth of `about` too much. Returns 0 if nothing is known.
 static int nsvcd__room_here(nsvcd__ranging *r, double about, nsvcd_proximity *nearest,
                             double *room) {
   nsvcd__span *s = &r->span;
@@ -5701,7 +5701,7 @@ static int nsvcd__room_here(nsvcd__ranging *r, double about, nsvcd_proximity *ne
   nsvcd__place_sample(c, c->at, 0);
   if (!nsvcd__proximity_of(c, 0, &o, nearest) || c->result) return 0;
   const int is_hit = nearest->verdict == NSVCD_HIT;
-  *room = is_hit ? -(double)nearest->depth : (double)nearest->distance.low;
+  *room = is_hit ? -(double)nearest->depth : (double)nearest->distance.high;
   *room -= (double)r->options.clearance;
   return 1;
 }
@@ -5794,12 +5794,13 @@ static void nsvcd__try_slopes(nsvcd__ranging *r, size_t count, double sign) {
 // those beyond it the other. From the centre of the box joints may change one after another, the
 // outer ones first, so that each still has the axis that it has at the centre. A point p that outer
 // joints have displaced by m or less is then turned by w about an axis through f, of direction x.
-// Along the plane's normal n that moves it by no more than
-//   sin |w| |n . (x, p' - f)| + (1 - cos w) r  <=  h (|n . (x, p - f)| + m) + h^2 r / 2
+// Its way is across x. So along the plane's normal n, of which c is across x, it is no more than
+//   sin |w| |n . (x, p' - f)| + (1 - cos w) c r  <=  h (|n . (x, p - f)| + c m) + h^2 c r / 2
 // where (,) is the vector product, p' the displaced point, r its distance from the axis, and h the
-// most that |w| is; nor by more than the chord 2 r sin(h / 2), h up to pi, which is added to m for
-// joints further in. One that slides moves the point by h |n . x|. For a given configuration n . p
-// is linear in p, so that of all points of a box about a part a corner comes farthest.
+// most that |w| is; nor is it more than c times the chord 2 r sin(h / 2), h up to pi. The chord is
+// added to m for joints further in. One that slides moves the point by h |n . x|. For a given
+// configuration n . p is linear in p, so that of all points of a box about a part a corner comes
+// farthest.
 // Source: this library.
 
 // of all lengths: errors of frames in double
@@ -5832,8 +5833,10 @@ static void nsvcd__least_along(const nsvcd__span *s, const nsvcd__links *at,
           nsvcd__d3_cross(axis, nsvcd__d3_sub(p, at->frames[j + 1].position));
       const double r = nsvcd__d3_norm(off) + moved;
       const double chord = 2 * r * s->sines[k];
-      const double way = h * (fabs(nsvcd__d3_dot(along, off)) + moved + 0.5 * h * r);
-      value -= nsvcd__min(way, chord);
+      const double side_on = nsvcd__d3_norm(nsvcd__d3_cross(along, axis));
+      const double way =
+          h * (fabs(nsvcd__d3_dot(along, off)) + side_on * (moved + 0.5 * h * r));
+      value -= nsvcd__min(way, side_on * chord);
       moved += chord;
     }
   }
@@ -5855,13 +5858,15 @@ static int nsvcd__parts_along(const nsvcd__span *s, const nsvcd__links *at,
   return 0;
 }
 
-// Does a plane part the two in all of the box? Tried are the direction from middle to middle, and
-// those of the sides of both boxes.
+// Does a plane part the two in all of the box? Tried are the direction from middle to middle, those
+// of the sides of both boxes, and those of the joints' axes, along which these move nothing.
 static int nsvcd__are_parted(const nsvcd__span *s, const nsvcd__links *at,
                              const nsvcd__rider *riders, double clearance) {
   const nsvcd__d3 between = nsvcd__d3_sub(riders[0].middle, riders[1].middle);
-  for (size_t n = 0; n < 7; n++) {
-    nsvcd__d3 normal = n ? riders[(n - 1) / 3].sides[(n - 1) % 3] : between;
+  for (size_t n = 0; n < 7 + s->way_count; n++) {
+    nsvcd__d3 normal = between;
+    if (n > 0 && n < 7) normal = riders[(n - 1) / 3].sides[(n - 1) % 3];
+    if (n >= 7) normal = at->axes[s->way[n - 7]];
     const double length = nsvcd__d3_norm(normal) * (1 + 1e-12);
     if (!(length > 0)) continue;
     const double sign = nsvcd__d3_dot(normal, between) < 0 ? -1 : 1;

@@ -87,7 +87,7 @@ static nsvcd_verdict nsvcd__note_here(nsvcd__ranging *r) {
 // ---- slopes
 
 // Metres: how far the parts are from coming as near as the clearance, in the configuration span.at;
-// less than 0 if they do. Known to a tenth of `about`. Returns 0 if nothing is known.
+// less than 0 if they do. No more than a tenth of `about` too much. Returns 0 if nothing is known.
 static int nsvcd__room_here(nsvcd__ranging *r, double about, nsvcd_proximity *nearest,
                             double *room) {
   nsvcd__span *s = &r->span;
@@ -103,7 +103,7 @@ static int nsvcd__room_here(nsvcd__ranging *r, double about, nsvcd_proximity *ne
   nsvcd__place_sample(c, c->at, 0);
   if (!nsvcd__proximity_of(c, 0, &o, nearest) || c->result) return 0;
   const int is_hit = nearest->verdict == NSVCD_HIT;
-  *room = is_hit ? -(double)nearest->depth : (double)nearest->distance.low;
+  *room = is_hit ? -(double)nearest->depth : (double)nearest->distance.high;
   *room -= (double)r->options.clearance;
   return 1;
 }
