@@ -51,19 +51,14 @@ static void nsvcd__drop_box(nsvcd__ranging *r, const double *box) {
   r->dropped_count++;
 }
 
-// Cuts the box that was taken. The span's arms say along which joint.
-static void nsvcd__cut_box(nsvcd__ranging *r, const double *box, size_t along) {
+// Cuts the box that was taken, along the joint of its path that moves most.
+static void nsvcd__cut_box(nsvcd__ranging *r, const double *box, const double *moved) {
   const nsvcd__span *s = &r->span;
   const size_t size = 2 * s->joints + 1;
   const double share = box[size - 1];
-  size_t joint = along;
-  double most = along == NSVCD_NONE ? 0 : NSVCD__SWEPT_SHARE * s->half[along] * s->arms[along];
-  for (size_t k = 0; k < s->joints; k++) {
-    const double moved = s->half[k] * s->arms[k];
-    if (k == along || !(moved > most)) continue;
-    most = moved;
-    joint = k;
-  }
+  size_t joint = 0;
+  for (size_t k = 1; k < s->joints; k++)
+    if (moved[k] > moved[joint]) joint = k;
   if (!(nsvcd__travel_but(s, NSVCD_NONE) > NSVCD__LEAST_TRAVEL)) {
     if (!r->answer.why) r->answer.why = NSVCD_WHY_TOO_NEAR;
     nsvcd__drop_box(r, box);
@@ -106,12 +101,15 @@ static void nsvcd__prove_free(nsvcd__ranging *r, const double *box) {
   nsvcd__span *s = &r->span;
   nsvcd_check_answer found;
   nsvcd__links at;
+  double moved[NSVCD_MAX_JOINTS];
   nsvcd__place_links(s->checker, s->at, &at);
   const nsvcd__rider riders[2] = {nsvcd__rider_of(s->checker, &at, 0),
                                   nsvcd__rider_of(s->checker, &at, 1)};
   nsvcd__arms_between(s, &at, riders);
   r->units += NSVCD__BOX_UNITS;
-  if (nsvcd__are_parted(s, &at, riders, (double)r->options.clearance + s->beyond)) return;
+  const double kept = (double)r->options.clearance + s->beyond;
+  const nsvcd__parting parting = nsvcd__best_parting(s, &at, riders, kept);
+  if (parting.apart > kept) return;
   const size_t along = nsvcd__farthest_joint(s);
   const double travel = nsvcd__travel_but(s, along);
   const double clearance = (double)r->options.clearance + travel;
@@ -123,7 +121,14 @@ static void nsvcd__prove_free(nsvcd__ranging *r, const double *box) {
   if (r->result) return;
   if (found.verdict == NSVCD_HIT) nsvcd__try_near(r, asked, &found, -1);
   if (travel > 0) {
-    nsvcd__cut_box(r, box, along);
+    for (size_t k = 0; k < s->joints; k++) moved[k] = s->half[k] * s->arms[k];
+    moved[along] *= NSVCD__SWEPT_SHARE;
+    // how often either bound is as much as there is room for
+    const double room =
+        nsvcd__max((double)found.contact.gap - (double)r->options.clearance, 0);
+    if ((parting.centre - parting.apart) * room < travel * (parting.centre - kept))
+      nsvcd__losses_of(s, &at, riders, &parting, moved);
+    nsvcd__cut_box(r, box, moved);
     return;
   }
   // no more can be told of it
@@ -274,6 +279,7 @@ static int nsvcd__stays_inside(nsvcd__ranging *r, const nsvcd__links *at,
 // Do the parts meet everywhere in the box? If that is not known, it is cut.
 static void nsvcd__prove_hit(nsvcd__ranging *r, const double *box) {
   nsvcd__span *s = &r->span;
+  double moved[NSVCD_MAX_JOINTS];
   nsvcd__links at;
   nsvcd__place_links(s->checker, s->at, &at);
   if (nsvcd__note_here(r) == NSVCD_FREE || r->result) return;
@@ -286,7 +292,8 @@ static void nsvcd__prove_hit(nsvcd__ranging *r, const double *box) {
   const nsvcd__rider riders[2] = {nsvcd__rider_of(s->checker, &at, 0),
                                   nsvcd__rider_of(s->checker, &at, 1)};
   if (!r->probe_count) nsvcd__arms_between(s, &at, riders);
-  nsvcd__cut_box(r, box, NSVCD_NONE);
+  for (size_t k = 0; k < s->joints; k++) moved[k] = s->half[k] * s->arms[k];
+  nsvcd__cut_box(r, box, moved);
 }
 
 // ---- the search
