@@ -566,7 +566,7 @@ typedef struct nsvcd_range_options {
   // passed to `stop`
   void *user;
   // units of the whole search, approximately, of which a question takes some beside its proof;
-  // default 1,000,000
+  // default 4,000,000
   size_t units;
 } nsvcd_range_options;
 
@@ -5615,6 +5615,8 @@ static void nsvcd__put_probe(nsvcd__span *s, const nsvcd__probe *at) {
 #define NSVCD__SLOPES_UP 2
 #define NSVCD__SLOPE_STEPS 30
 #define NSVCD__LEAST_STEP 0.01
+// units for a question about the distance, of which a depth takes many
+#define NSVCD__ROOM_WORK 2000
 // units that a question takes beside its proof, about: placing parts, and asking
 #define NSVCD__QUESTION_UNITS 40
 
@@ -5691,7 +5693,7 @@ static int nsvcd__room_here(nsvcd__ranging *r, double about, nsvcd_proximity *ne
   nsvcd__span *s = &r->span;
   nsvcd_checker *c = s->checker;
   const float to = (float)nsvcd__max(1e-5, nsvcd__min(1e-3, 0.1 * fabs(about)));
-  const nsvcd_proximity_options o = {NSVCD_MAX_COORDINATE / 4, to, 0.1f, r->options.work};
+  const nsvcd_proximity_options o = {NSVCD_MAX_COORDINATE / 4, to, 0.1f, NSVCD__ROOM_WORK};
   r->units += NSVCD__QUESTION_UNITS;
   s->scene.pairs = c->own.pairs = s->pairs;
   nsvcd__follow(&s->scene, 1, s->at);
@@ -5938,7 +5940,7 @@ static void nsvcd__losses_of(const nsvcd__span *s, const nsvcd__links *at,
 // A box that is neither is cut in two along the joint that moves points farthest.
 
 // default
-#define NSVCD__RANGE_UNITS 1000000
+#define NSVCD__RANGE_UNITS 4000000
 // boxes that are kept; and those that are left when the newest is taken first, so that they are not
 // too many
 #define NSVCD__KEPT_BOXES 4096

@@ -38,7 +38,7 @@ typedef struct nsvcd_range_options {
   // passed to `stop`
   void *user;
   // units of the whole search, approximately, of which a question takes some beside its proof;
-  // default 1,000,000
+  // default 4,000,000
   size_t units;
 } nsvcd_range_options;
 

@@ -17,6 +17,8 @@
 #define NSVCD__SLOPES_UP 2
 #define NSVCD__SLOPE_STEPS 30
 #define NSVCD__LEAST_STEP 0.01
+// units for a question about the distance, of which a depth takes many
+#define NSVCD__ROOM_WORK 2000
 // units that a question takes beside its proof, about: placing parts, and asking
 #define NSVCD__QUESTION_UNITS 40
 
@@ -93,7 +95,7 @@ static int nsvcd__room_here(nsvcd__ranging *r, double about, nsvcd_proximity *ne
   nsvcd__span *s = &r->span;
   nsvcd_checker *c = s->checker;
   const float to = (float)nsvcd__max(1e-5, nsvcd__min(1e-3, 0.1 * fabs(about)));
-  const nsvcd_proximity_options o = {NSVCD_MAX_COORDINATE / 4, to, 0.1f, r->options.work};
+  const nsvcd_proximity_options o = {NSVCD_MAX_COORDINATE / 4, to, 0.1f, NSVCD__ROOM_WORK};
   r->units += NSVCD__QUESTION_UNITS;
   s->scene.pairs = c->own.pairs = s->pairs;
   nsvcd__follow(&s->scene, 1, s->at);

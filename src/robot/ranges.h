@@ -18,7 +18,7 @@
 #include "partings.h"
 
 // default
-#define NSVCD__RANGE_UNITS 1000000
+#define NSVCD__RANGE_UNITS 4000000
 // boxes that are kept; and those that are left when the newest is taken first, so that they are not
 // too many
 #define NSVCD__KEPT_BOXES 4096
