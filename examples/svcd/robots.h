@@ -9,7 +9,7 @@
 #define PLAN_NODES 100000
 // seconds: to which the first conflict of motions together is sought
 #define FIRST_CONFLICT 1e-3
-// that `pairs` takes, at most
+// that `pairs` takes, and the proof of a pair, at most
 #define PAIRS_SECONDS 10.0
 // units of its first search of each pair
 #define PAIRS_UNITS 200000
@@ -604,6 +604,7 @@ static int decide_pairs(const robot_in_room *in, const settings *options, size_t
 static int prove_pairs(robot_in_room *in, const settings *options, size_t count,
                        const nsvcd_body_pair *pairs, const nsvcd_range_answer *found) {
   nsvcd_joint joints[NSVCD_MAX_JOINTS];
+  const double limit = options->seconds > 0 ? (double)options->seconds : PAIRS_SECONDS;
   int good = 1;
   free(in->clearances);
   in->clearances = (float *)allocate(count * sizeof *in->clearances);
@@ -617,7 +618,7 @@ static int prove_pairs(robot_in_room *in, const settings *options, size_t count,
   const int is_open = open_room(in);
   for (size_t n = 0; n < count && is_open; n++)
     if (found[n].meeting == NSVCD_MEETS_NEVER)
-      good &= write_never_proof(in, options->certificates, n, options->visits);
+      good &= write_never_proof(in, options->certificates, n, options->visits, limit);
   in->scene.joints = NULL;
   return is_open && good;
 }
