@@ -225,9 +225,22 @@ asks: nothing between the directions|area > NSVCD__SLIM * square) return 0;|area
 asks: few places looked at|if (tries == NSVCD__CONTACT_PAIRS|if (tries == 3
 ranges: a box without a joint|for (size_t k = 0; k < s->joints; k++) sum += k == without|for (size_t k = 1; k < s->joints; k++) sum += k == without
 ranges: a quarter of the width|s->half[k] = nsvcd__max(|s->half[k] = 0.25 * nsvcd__max(
-ranges: always without the travel|nsvcd__ask_span(s, 1, along, travel + room|nsvcd__ask_span(s, 1, along, 0 * travel + room
+ranges: always without the travel|nsvcd__ask_range(r, 1, along, travel + room|nsvcd__ask_range(r, 1, along, 0 * travel + room
 ranges: never without the travel|const double clearance = (double)r->options.clearance + travel;|const double clearance = (double)r->options.clearance;
-ranges: arms that nothing lengthens|across + balls[side].radius + moved;|across + balls[side].radius;
+ranges: arms that nothing lengthens|slides ? 1 : across + moved;|slides ? 1 : across;
+ranges: arms of half a box|1.000001 * (nsvcd__d3_axis(m->half, k) - m->round)|0.5 * (nsvcd__d3_axis(m->half, k) - m->round)
+ranges: arms to the middle|most = nsvcd__max(most, nsvcd__d3_dot(out, out));|most = nsvcd__d3_dot(middle, middle);
+ranges: planes without what bends|across * (before + 0.5 * h * r));|across * before);
+ranges: planes without what joints beyond displace|across * (before + 0.5 * h * r));|across * 0.5 * h * r);
+ranges: planes that joints displace once|*moved += chord;|*moved += 0 * chord;
+ranges: planes whose chords count less|return nsvcd__min(way, across * chord);|return nsvcd__min(way, across * across * chord);
+ranges: planes without the slope|h * (fabs(nsvcd__d3_dot(along, off)) + across|h * (0 * fabs(nsvcd__d3_dot(along, off)) + across
+ranges: planes that slide for nothing|return h * fabs(nsvcd__d3_dot(along, axis));|return 0;
+ranges: planes fixed twice|least[0][n] + least[1][s->way_count - n];|least[0][n] + least[1][n];
+ranges: planes of triangles alone|const double kept = (double)r->options.clearance + s->beyond;|const double kept = (double)r->options.clearance;
+ranges: planes without the clearance|const double kept = (double)r->options.clearance + s->beyond;|const double kept = s->beyond;
+ranges: boxes given up are proven|r->count == 0 \&\& !(r->dropped > 0)|r->count == 0
+ranges: the newest box taken, the oldest left out|r->first = (r->first + (size_t)is_oldest) % r->capacity;|r->first = (r->first + 1) % r->capacity;
 robot: joints that do not bend|bend += step->bend[j] * arms[j];|(void)bend;
 robot: half the bend|bend += step->bend[j] * arms[j];|bend += 0.5 * step->bend[j] * arms[j];
 robot: joints that do not turn each other|(2 * outer + moved)|(moved)

@@ -226,6 +226,93 @@ static void ranges_narrow(void) {
   }
 }
 
+// In all of a box of values two parts are as far apart as the plane that is said to part them makes
+// them.
+static void planes_part_no_less(void) {
+  static robot r;
+  static nsvcd__span s;
+  shapes_rng rng = {23};
+  size_t told = 0;
+  size_t near = 0;
+  for (size_t trial = 0; trial < check_many(400); trial++) {
+    double box[2 * NSVCD_MAX_JOINTS];
+    nsvcd__links at;
+    robot_random_of(&r, &rng, 2 + (size_t)shapes_pick(&rng, 5));
+    const nsvcd_body_pair pair = {0, (uint32_t)r.scene.joint_count - 1};
+    nsvcd__span_begin(&r.scene, pair, &s);
+    const size_t size = nsvcd_checker_size(&s.scene);
+    void *memory = malloc(size);
+    CHECK_EQ(nsvcd_checker_open(&s.scene, memory, size, &s.checker), NSVCD_OK);
+    const double wide = pow(10, shapes_uniform(&rng, -2, 0.2));
+    for (size_t k = 0; k < s.joints; k++) {
+      const double middle = shapes_uniform(&rng, -1, 1);
+      const double half = wide * shapes_uniform(&rng, 0, 1);
+      box[k] = middle - half;
+      box[s.joints + k] = middle + half;
+    }
+    nsvcd__take_box(&s, box);
+    nsvcd__place_links(s.checker, s.at, &at);
+    const nsvcd__rider riders[2] = {nsvcd__rider_of(s.checker, &at, 0),
+                                    nsvcd__rider_of(s.checker, &at, 1)};
+    nsvcd__arms_between(&s, &at, riders);
+    const nsvcd__parting parting = nsvcd__best_parting(&s, &at, riders, 1e9);
+    double least = 10;
+    for (size_t n = 0; n < 300 && parting.apart > 0; n++) {
+      double q[NSVCD_MAX_JOINTS];
+      memcpy(q, s.at, sizeof q);
+      for (size_t k = 0; k < s.joints; k++) {
+        const double random = shapes_uniform(&rng, 0, 1);
+        const double share = n % 2 ? random : random < 0.5;
+        q[s.path[k]] = s.low[k] + share * (s.high[k] - s.low[k]);
+      }
+      nsvcd__follow(&r.scene, 1, q);
+      least = fmin(least, robot_apart(&r, &pair, q, 10));
+    }
+    CHECK(!(parting.apart > 0) || least >= parting.apart - s.beyond);
+    told += parting.apart > 0;
+    near += parting.apart > 0.7 * least;
+    free(memory);
+  }
+  CHECK_GE(told, check_many(400) / 10);
+  CHECK_GE(near, 5);
+}
+
+// Rounded bodies reach beyond their triangles, and a body with a hole encloses nothing for certain.
+static void ranges_know_bodies(void) {
+  static robot r;
+  const nsvcd_body_pair pair = {0, 1};
+  const float half[3] = {0.05f, 0.05f, 0.05f};
+  shapes_mesh box;
+  robot_bare(&r, NSVCD_JOINT_PRISMATIC, 1, 2, 0.01);
+  r.joints[0].axis[0] = 1;
+  CHECK_EQ(nsvcd_encode_box(half, 0.02f, NULL, &r.parts[0].body), NSVCD_OK);
+  r.parts[1].body = r.parts[0].body;
+  r.parts[1].link = 1;
+  // their triangles are 0.02 m inside of them
+  for (int n = 0; n < 2; n++) {
+    r.parts[1].pose.position[0] = n ? 0.111f : 0.109f;
+    robot_open(&r);
+    CHECK_EQ(range_of(&r, pair, 0, 0).meeting, n ? NSVCD_MEETS_NEVER : NSVCD_MEETS_SOMETIMES);
+    free(r.memory);
+  }
+  nsvcd_body_free(r.parts[0].body, NULL);
+  memset(&box, 0, sizeof box);
+  shapes_box_at(&box, 0, 0, 0, 0.1, 0.1, 0.1);
+  for (int n = 0; n < 2; n++) {
+    box.triangles -= (size_t)n;
+    r.parts[0].body = r.parts[1].body = body_of(&box, NULL);
+    r.parts[1].pose.position[0] = 0.03f;
+    robot_open(&r);
+    const nsvcd_range_answer a = range_of(&r, pair, 0, 0);
+    CHECK_EQ(a.meeting, n ? NSVCD_MEETS_UNKNOWN : NSVCD_MEETS_ALWAYS);
+    CHECK_EQ(a.why, n ? NSVCD_WHY_OPEN : NSVCD_WHY_NOTHING);
+    CHECK(a.has_hit && !a.has_free);
+    nsvcd_body_free(r.parts[0].body, NULL);
+    free(r.memory);
+  }
+  shapes_free(&box);
+}
+
 static int stop_at_once(void *user) {
   (void)user;
   return 1;
@@ -264,6 +351,10 @@ static void ranges_refuse(void) {
   CHECK_EQ(nsvcd_pair_range(r.checker, pair, &o, memory, size, &out), NSVCD_OK);
   CHECK_EQ(out.meeting, NSVCD_MEETS_UNKNOWN);
   CHECK_EQ(out.why, NSVCD_WHY_WORK);
+  o.stop = NULL;
+  o.units = 1;
+  CHECK_EQ(nsvcd_pair_range(r.checker, pair, &o, memory, size, &out), NSVCD_OK);
+  CHECK(out.meeting == NSVCD_MEETS_UNKNOWN && out.why == NSVCD_WHY_WORK);
   // about the centre of both they turn in each other
   CHECK_EQ(nsvcd_pair_range(r.checker, pair, NULL, memory, size, &out), NSVCD_OK);
   CHECK_EQ(out.meeting, NSVCD_MEETS_ALWAYS);
@@ -277,6 +368,8 @@ void test_ranges(void) {
   RUN(ranges_see_an_arm_straightened);
   RUN(ranges_see_a_hole);
   RUN(ranges_narrow);
+  RUN(planes_part_no_less);
+  RUN(ranges_know_bodies);
   RUN(ranges_refuse);
 }
 CHECK_ALONE(test_ranges)
